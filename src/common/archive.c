@@ -1,0 +1,58 @@
+#include "common/archive.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+size_t gg_item_size(gg_item_type type) { return type == GG_ITEM_U8 ? 1 : 8; }
+
+static gg_status grow(gg_archive *a, gg_error *err)
+{
+  if (a->n_items < a->capacity) return GG_OK;
+  size_t capacity = a->capacity ? 2 * a->capacity : 16;
+  gg_item *items = realloc(a->items, capacity * sizeof *items);
+  if (!items) return gg_fail(err, GG_FAILED, "out of memory for a checkpoint of %zu items", capacity);
+  a->items = items;
+  a->capacity = capacity;
+  return GG_OK;
+}
+
+gg_status gg_archive_put(gg_archive *a, const char *name, gg_item_type type, const void *data, size_t count,
+                         gg_error *err)
+{
+  if (gg_archive_find(a, name)) return gg_fail(err, GG_FAILED, "checkpoint item '%s' was put twice", name);
+  GG_TRY(grow(a, err));
+  gg_item item = {.type = type, .count = count};
+  snprintf(item.name, sizeof item.name, "%s", name);
+  item.data = gg_new_array(count, gg_item_size(type), err);
+  if (!item.data) return GG_FAILED;
+  if (count) memcpy(item.data, data, count * gg_item_size(type));
+  a->items[a->n_items++] = item;
+  return GG_OK;
+}
+
+const gg_item *gg_archive_find(const gg_archive *a, const char *name)
+{
+  for (size_t i = 0; i < a->n_items; i++)
+    if (strcmp(a->items[i].name, name) == 0) return &a->items[i];
+  return NULL;
+}
+
+gg_status gg_archive_get(const gg_archive *a, const char *name, gg_item_type type, void *data, size_t count,
+                         gg_error *err)
+{
+  const gg_item *item = gg_archive_find(a, name);
+  if (!item) return gg_fail(err, GG_BAD_FILE, "the checkpoint lacks '%s'", name);
+  if (item->type != type || item->count != count)
+    return gg_fail(err, GG_BAD_FILE, "the checkpoint's '%s' holds %zu items where %zu are needed", name, item->count,
+                   count);
+  if (count) memcpy(data, item->data, count * gg_item_size(type));
+  return GG_OK;
+}
+
+void gg_archive_clear(gg_archive *a)
+{
+  for (size_t i = 0; i < a->n_items; i++) free(a->items[i].data);
+  free(a->items);
+  *a = (gg_archive){0};
+}

@@ -1,0 +1,40 @@
+#include "common/contact_value.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* Z - 1 in powers of x = phi/(1-phi): Kolafa, Labik & Malijevsky, PCCP 6 (2004) 2335, refitted by Pieprzyk, Bannerman,
+ * Branka, Chudak & Heyes, PCCP 21 (2019) 6886. */
+static const struct {
+  int power;
+  double coefficient;
+} kolafa[] = {{1, 4},           {2, 6},           {3, 2.3647684},    {4, -0.8698551},   {5, 1.1062803},   {6, -1.1014221},
+              {7, 0.66605866},  {8, -0.03633431}, {10, -0.20965164}, {14, 0.10555569}, {22, -0.00872380}};
+
+static double kolafa_excess(double phi)
+{
+  double x = phi / (1 - phi), sum = 0;
+  for (size_t i = 0; i < sizeof kolafa / sizeof *kolafa; i++) sum += kolafa[i].coefficient * pow(x, kolafa[i].power);
+  return sum;
+}
+
+double gg_contact_value_of(gg_contact_value kind, double phi)
+{
+  if (phi == 0) return 1;
+  switch (kind) {
+  case GG_LUN_SAVAGE: return pow(1 - phi / 0.64, -2.5 * 0.64);
+  case GG_KOLAFA: return kolafa_excess(phi) / (4 * phi);
+  default: return (1 - phi / 2) / pow(1 - phi, 3);
+  }
+}
+
+double gg_contact_value_mixture(double phi, double phi_hat, double d_red)
+{
+  double y = phi_hat * d_red, f = 1 - phi;
+  return 1 / f + 1.5 * y / (f * f) + 0.5 * y * y / (f * f * f);
+}
+
+double gg_compressibility(gg_contact_value kind, double phi)
+{
+  return 1 + 4 * phi * gg_contact_value_of(kind, phi);
+}

@@ -1,0 +1,84 @@
+/* What an engine is to everyone else. md and dsmc are peers behind this interface; nobody outside asks which one it is.
+ *
+ * Velocities are peculiar, C = c - shear_rate y x_hat, and spins are surface velocities s = (d/2) omega, both in model
+ * units (common/model.h). Positions exist only where the engine has any. */
+#ifndef GG_ENGINE_H
+#define GG_ENGINE_H
+
+#include "common/archive.h"
+#include "common/model.h"
+
+/* Sums over collisions since the tap was last read, by unordered pair of species (GG_11, GG_12, GG_22); a collision
+ * counts once, k from 1 to 2, J the impulse on 2. Kept by the engine's own kernel; nothing of it is computed while the
+ * tap is closed, but for `collisions`. */
+typedef struct gg_transfer {
+  uint64_t collisions[GG_PAIRS];
+  double stress[GG_PAIRS][3][3]; /* sum of sigma k_a J_b; over (volume x time): collisional stress. 0 if Boltzmann */
+  double loss[GG_PAIRS];         /* energy destroyed */
+  double wall_impulse[2][3];     /* impulse on the lower and upper wall */
+  double wall_loss;
+  uint64_t wall_collisions;
+} gg_transfer;
+
+/* How a run goes; counts since creation. */
+typedef struct gg_engine_state {
+  double time;          /* since creation, model units of the present velocity scale */
+  uint64_t collisions;  /* grain-grain */
+  uint64_t events;      /* md: everything taken from the queue; dsmc: candidate pairs */
+  uint64_t treated;     /* md: collisions treated by the contact-time rule */
+  uint64_t overflows;   /* dsmc: candidates whose rate exceeded the majorant */
+  double worst_overlap; /* md: largest overlap seen at a collision, in d; 0 otherwise */
+  double time_step;     /* dsmc: the present step, model units; 0 for md */
+  double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */
+} gg_engine_state;
+
+/* Grains a thousand at a time, in structure-of-arrays scratch that stays in the cache; NULL where the engine has none. */
+enum { GG_CHUNK = 1024 };
+typedef struct gg_chunk {
+  size_t n;
+  const double *r[3]; /* positions in the box, all at the present time; only if asked for */
+  const double *c[3]; /* peculiar velocities */
+  const double *s[3]; /* spins; NULL for smooth grains */
+  const uint8_t *species; /* NULL for one species */
+  const int64_t *id;  /* the grain's number, constant through a run; only if positions are asked for */
+} gg_chunk;
+typedef void gg_visit(void *context, const gg_chunk *chunk);
+
+typedef struct gg_engine gg_engine;
+
+typedef struct gg_engine_ops {
+  const char *name; /* "md" */
+  const char *doc;  /* one line */
+  /* Can it run this model? GG_BAD_INPUT with a message naming the scene key otherwise. */
+  gg_status (*accepts)(const gg_model *model, gg_error *err);
+  /* A new engine at a fresh initial state; it keeps its own copy of the model. */
+  gg_status (*create)(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err);
+  void (*destroy)(gg_engine *engine);
+  /* Go on for `dt`, or until `max_collisions` more have happened, whichever is first; *elapsed is the time gone. dsmc
+   * may end its last step past either limit. Deterministic: cutting a run into advances never changes a trajectory in
+   * md, and in dsmc only through the ends of steps. */
+  gg_status (*advance)(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err);
+  /* Open or close the tap on collisions (closed at creation). */
+  void (*tap)(gg_engine *engine, bool open);
+  /* Hand over the sums since the last read, and start anew. */
+  void (*read_tap)(gg_engine *engine, gg_transfer *transfer);
+  void (*state)(const gg_engine *engine, gg_engine_state *state);
+  /* Show every grain at the present time. */
+  void (*snapshot)(gg_engine *engine, bool positions, gg_visit *visit, void *context);
+  /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades. GG_BAD_INPUT in sheared flows. */
+  gg_status (*rescale)(gg_engine *engine, int power, gg_error *err);
+  /* Everything needed to go on bit for bit. Saving does not disturb the run. */
+  gg_status (*save)(const gg_engine *engine, gg_archive *archive, gg_error *err);
+  gg_status (*restore)(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);
+  /* Lines of what this model switched on and off, for `graingas info`: calls `line` for each. */
+  void (*describe)(const gg_model *model, void (*line)(void *context, const char *text), void *context);
+} gg_engine_ops;
+
+struct gg_engine {
+  const gg_engine_ops *ops; /* first member of every engine */
+};
+
+extern const gg_engine_ops gg_md_ops, gg_dsmc_ops;
+const gg_engine_ops *gg_engine_ops_of(gg_engine_kind kind);
+
+#endif

@@ -1,0 +1,25 @@
+/* Errors are values: every call that can fail returns a status and fills a message a user can act on. */
+#ifndef GG_ERROR_H
+#define GG_ERROR_H
+
+#include "graingas.h"
+
+#define GG_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
+
+/* Write the message (err may be NULL) and return the status, so that a call site reads `return gg_fail(...)`. */
+gg_status gg_fail(gg_error *err, gg_status status, const char *format, ...) GG_PRINTF(3, 4);
+
+/* Put `prefix: ` before a message already there (a file name, a scene key), and pass the status on. */
+gg_status gg_error_prefix(gg_error *err, gg_status status, const char *format, ...) GG_PRINTF(3, 4);
+
+/* Propagate: leave the calling function with the status of a failed call. */
+#define GG_TRY(call)                                                                                                   \
+  do {                                                                                                                 \
+    gg_status gg_try_status = (call);                                                                                  \
+    if (gg_try_status != GG_OK) return gg_try_status;                                                                  \
+  } while (0)
+
+/* calloc with an overflow check; NULL only with the message already written. */
+void *gg_new_array(size_t count, size_t size, gg_error *err);
+
+#endif

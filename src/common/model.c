@@ -1,0 +1,169 @@
+#include "common/model.h"
+
+#include <math.h>
+
+#include "common/contact_value.h"
+
+static void set_composition(gg_model *m, const gg_scene *s)
+{
+  const gg_species *one = &s->species[0];
+  m->n_species = s->n_species;
+  double total = 0;
+  for (int i = 0; i < s->n_species; i++) total += s->species[i].fraction;
+  m->n_of[0] = m->n;
+  if (m->n_species == 2) {
+    m->n_of[0] = llround((double)m->n * one->fraction / total);
+    if (m->n_of[0] < 1) m->n_of[0] = 1;
+    if (m->n_of[0] > m->n - 1) m->n_of[0] = m->n - 1;
+    m->n_of[1] = m->n - m->n_of[0];
+  }
+  for (int i = 0; i < GG_MAX_SPECIES; i++) {
+    const gg_species *sp = &s->species[i < s->n_species ? i : 0];
+    m->diameter[i] = sp->diameter / one->diameter;
+    m->mass[i] = sp->mass / one->mass;
+    m->inertia[i] = sp->inertia;
+  }
+}
+
+/* <x d^p> over the grains there are. */
+static double mean_power(const gg_model *m, int p)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) sum += (double)m->n_of[i] / (double)m->n * pow(m->diameter[i], p);
+  return sum;
+}
+
+static void set_box(gg_model *m, const gg_scene *s)
+{
+  m->phi = s->phi;
+  m->boltzmann = s->phi == 0;
+  m->density = m->boltzmann ? 1 : 6 * s->phi / (M_PI * mean_power(m, 3));
+  m->volume = (double)m->n / m->density;
+  double shape = s->aspect[0] * s->aspect[1] * s->aspect[2];
+  for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * cbrt(m->volume / shape);
+}
+
+static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)
+{
+  if (m->boltzmann) return 1;
+  if (m->n_species == 1) return gg_contact_value_of(s->contact_value, m->phi);
+  double phi_hat = M_PI / 6 * m->density * mean_power(m, 2);
+  double d_red = 2 * m->diameter[i] * m->diameter[j] / (m->diameter[i] + m->diameter[j]);
+  return gg_contact_value_mixture(m->phi, phi_hat, d_red);
+}
+
+static gg_rule later_rule(gg_rule a, gg_rule b) { return a > b ? a : b; }
+
+static void set_pairs(gg_model *m, const gg_scene *s)
+{
+  m->rule = GG_SMOOTH;
+  m->elastic = true;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) {
+      int o = 2 * i + j, p = gg_pair_index(i, j);
+      double e = s->collision.e[p], beta = s->collision.beta[p], mu = s->collision.mu[p];
+      gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
+      m->contact[o] = gg_contact_make(one, two, e, beta, mu);
+      m->treated[o] = gg_contact_make(one, two, 1, beta, mu);
+      m->sigma[o] = (m->diameter[i] + m->diameter[j]) / 2;
+      m->chi[o] = chi_of(m, s, i, j);
+      m->e[o] = e, m->beta[o] = beta, m->mu[o] = mu;
+      gg_rule rule = gg_rule_of(beta, mu);
+      m->rule = later_rule(m->rule, rule);
+      if (e < 1 || rule == GG_FRICTIONAL || (rule == GG_ROUGH && beta < 1)) m->elastic = false;
+    }
+}
+
+static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
+{
+  gg_partner wall = {INFINITY, 1};
+  m->wall_rule = gg_flow_is_walled(s->flow) ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
+  m->rule = later_rule(m->rule, m->wall_rule);
+  for (int i = 0; i < GG_MAX_SPECIES; i++)
+    m->wall[i] = gg_contact_make((gg_partner){m->mass[i], m->inertia[i]}, wall, s->walls.e, s->walls.beta, s->walls.mu);
+  m->wall_speed = s->walls.speed * time_unit / s->species[0].diameter;
+}
+
+/* Steady temperature in units of (d rate)^2 from the balance of dilute viscous heating and dissipation, to start near. */
+static double guess_sheared_temperature(const gg_model *m)
+{
+  double e = m->e[0], rough = m->rule == GG_SMOOTH ? 0 : (1 - m->beta[0] * m->beta[0]) * m->inertia[0];
+  double loss = fmax(1 - e * e + 0.5 * rough, 0.01);
+  double freq = m->density * m->chi[0]; /* n d^2 chi */
+  double dilute = 0.4 / (loss * freq * freq), dense = 0.4 / loss;
+  return m->boltzmann ? dilute : dilute + dense;
+}
+
+/* theta/T where rotational energy neither grows nor decays (Gayen's thesis, eq. 5.13). */
+static double guess_ratio(const gg_model *m)
+{
+  if (m->rule == GG_SMOOTH) return 0;
+  double K = m->inertia[0], beta = m->rule == GG_FRICTIONAL ? fmin(m->beta[0], 0) : m->beta[0];
+  return K * (1 + beta) / (1 + 2 * K - beta);
+}
+
+gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
+{
+  if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
+  *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat};
+  bool sheared = gg_flow_is_sheared(s->flow);
+  m->n = engine == GG_DSMC ? (s->dsmc.particles ? s->dsmc.particles : (s->particles > 20000 ? s->particles : 20000))
+                           : s->particles;
+  set_composition(m, s);
+  set_box(m, s);
+  set_pairs(m, s);
+  m->shear_rate = sheared ? 1 : 0;
+  /* One unit of time in the user's unit: 1/shear_rate, wall shear included; thermal flows have no other clock. */
+  double time_unit = 1;
+  if (sheared) time_unit = 1 / s->shear_rate;
+  if (s->flow == GG_COUETTE) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
+  set_walls(m, s, time_unit);
+  for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
+  m->contact_time = m->elastic ? 0 : s->md.contact_time == GG_AUTO ? 1e-4 : s->md.contact_time;
+  m->time_step = s->dsmc.time_step;
+  m->temperature0 = sheared ? guess_sheared_temperature(m) : 0.5;
+  if (sheared && s->temperature != GG_AUTO) {
+    double speed = s->shear_rate * s->species[0].diameter;
+    m->temperature0 = s->temperature / (speed * speed);
+  }
+  m->ratio0 = guess_ratio(m);
+  m->steady = !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
+  m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
+  return GG_OK;
+}
+
+double gg_model_relaxation(const gg_model *m)
+{
+  double slowest = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    int o = 3 * i;
+    double K = m->inertia[i], eta1 = (1 + m->e[o]) / 2, eta2 = 0;
+    if (gg_rule_of(m->beta[o], m->mu[o]) != GG_SMOOTH) eta2 = (1 + m->beta[o]) * K / (2 * (1 + K));
+    double A = eta1 * (1 - eta1) + eta2 * (1 - eta2), C = eta2 / K * (1 - eta2 / K);
+    if (A > 0 && !m->elastic) slowest = fmax(slowest, 0.75 / A);
+    /* Sliding weakens the exchange with the spins by about mu over the friction that sticking would need. */
+    if (gg_rule_of(m->beta[o], m->mu[o]) == GG_FRICTIONAL) C *= fmin(1, m->mu[o] * eta1 / eta2);
+    if (C > 0) slowest = fmax(slowest, 0.75 / C);
+  }
+  return fmax(slowest, 1);
+}
+
+double gg_model_collision_rate(const gg_model *m, double T)
+{
+  double rate = 0;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) {
+      int o = 2 * i + j;
+      double xi = (double)m->n_of[i] / (double)m->n, nj = m->density * (double)m->n_of[j] / (double)m->n;
+      double spread = T * (1 / m->mass[i] + 1 / m->mass[j]); /* <c12_x^2> */
+      rate += xi * nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
+    }
+  return rate;
+}
+
+double gg_model_nu0(const gg_model *m, double T)
+{
+  if (m->n_species == 1) return 3.2 * sqrt(M_PI) * m->density * sqrt(T);
+  double v0 = sqrt(2 * T * (m->mass[0] + m->mass[1]) / (m->mass[0] * m->mass[1]));
+  return sqrt(M_PI) * m->density * m->sigma[1] * m->sigma[1] * v0;
+}

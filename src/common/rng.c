@@ -1,0 +1,35 @@
+#include "common/rng.h"
+
+#include <Random123/philox.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+
+gg_rng gg_rng_seed(uint64_t seed, uint64_t stream)
+{
+  philox4x64_key_t key = {{seed, 0x677261696e676173u}}; /* "graingas" */
+  philox4x64_ctr_t counter = {{stream, 0, 0, 0}};
+  philox4x64_ctr_t block = philox4x64(counter, key);
+  gg_rng r;
+  for (int i = 0; i < 4; i++) r.s[i] = block.v[i];
+  if (!(r.s[0] | r.s[1] | r.s[2] | r.s[3])) r.s[0] = 1; /* the one state that xoshiro cannot leave */
+  return r;
+}
+
+/* A gsl_rng that draws from our stream, so that GSL's samplers serve every distribution. */
+static unsigned long gsl_get(void *state) { return (unsigned long)(gg_rng_next(state) >> 32); }
+static double gsl_get_double(void *state) { return gg_rng_uniform(state); }
+static void gsl_set(void *state, unsigned long seed) { *(gg_rng *)state = gg_rng_seed(seed, 0); }
+static const gsl_rng_type stream_type = {"xoshiro256++", 0xffffffffu, 0, sizeof(gg_rng), gsl_set, gsl_get,
+                                         gsl_get_double};
+
+double gg_rng_normal(gg_rng *r)
+{
+  gsl_rng adapter = {&stream_type, r};
+  return gsl_ran_gaussian_ziggurat(&adapter, 1.0);
+}
+
+gg_vec gg_rng_normal_vec(gg_rng *r)
+{
+  double x = gg_rng_normal(r), y = gg_rng_normal(r), z = gg_rng_normal(r);
+  return (gg_vec){x, y, z};
+}

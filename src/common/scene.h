@@ -1,0 +1,87 @@
+/* The scene: what the user asked for, in the user's own units. Plain data; the field table of src/io/scene_fields.c
+ * reads, checks, prints and documents every member. */
+#ifndef GG_SCENE_H
+#define GG_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "common/error.h"
+
+typedef enum gg_flow {
+  GG_EQUILIBRIUM,
+  GG_USF,
+  GG_HCS,
+  GG_HSS,
+  GG_COUETTE,
+  GG_POISEUILLE,
+  GG_CHUTE
+} gg_flow;
+typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
+typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE } gg_thermostat;
+typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
+
+enum { GG_MAX_SPECIES = 2 };
+enum { GG_11, GG_12, GG_22, GG_PAIRS }; /* unordered pairs of species */
+
+/* Observable sets that a scene can ask for under `measure`. */
+enum { GG_MEASURE_RHEOLOGY = 1u };
+
+#define GG_AUTO (-1.0) /* a number that the program is to choose */
+
+typedef struct gg_species {
+  double fraction, diameter, mass, inertia; /* mole fraction; user's units; K = 4I/(m d^2) */
+} gg_species;
+
+struct gg_scene {
+  gg_flow flow;
+  gg_engine_kind engine;
+  gg_thermostat thermostat;
+  gg_contact_value contact_value; /* chi of the Monte Carlo engine and of theories */
+  double phi;
+  int64_t particles;
+  double shear_rate;
+  double temperature; /* initial <C.C>/3 in the user's units, or GG_AUTO */
+  double aspect[3];   /* shape of the box, relative edges */
+  struct {
+    double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
+  } collision;
+  int n_species;
+  gg_species species[GG_MAX_SPECIES];
+  struct {
+    double e, beta, mu, speed;
+  } walls;
+  double gravity[3];
+  struct {
+    double relative_error, collisions, time_limit; /* GG_AUTO: not asked for */
+    double warmup;                                 /* collisions per particle, or GG_AUTO */
+    int64_t replicas;
+    uint64_t seed;
+  } run;
+  struct {
+    double contact_time; /* in mean free times, 0: off; or GG_AUTO */
+  } md;
+  struct {
+    double time_step;  /* in mean free times, or GG_AUTO */
+    int64_t particles; /* size of the ensemble, or 0: chosen */
+  } dsmc;
+  unsigned measure; /* GG_MEASURE_... */
+  struct {
+    double checkpoint_every; /* seconds, 0: none */
+    double trajectory_every; /* collisions per particle, 0: none */
+  } output;
+};
+
+/* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */
+gg_scene gg_scene_defaults(void);
+
+/* Index of the unordered pair of species i, j. */
+static inline int gg_pair_index(int i, int j) { return i + j; }
+
+static inline bool gg_flow_is_sheared(gg_flow flow) { return flow == GG_USF; }
+static inline bool gg_flow_is_walled(gg_flow flow)
+{
+  return flow == GG_COUETTE || flow == GG_POISEUILLE || flow == GG_CHUTE;
+}
+
+#endif

@@ -1,0 +1,72 @@
+/* What a run leaves: plain data, made by src/run, written and drawn by src/io and src/cli. */
+#ifndef GG_RESULT_H
+#define GG_RESULT_H
+
+#include "common/engine.h"
+#include "common/quantity.h"
+
+/* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
+typedef struct gg_estimate {
+  double mean, error;      /* error: standard error, correlation in time accounted for; NaN if unknown */
+  double correlation_time; /* integrated autocorrelation time, model units */
+  uint64_t samples;        /* in the averaging window, all replicas */
+  char reason[160];
+} gg_estimate;
+
+typedef enum gg_verdict {
+  GG_STEADY,
+  GG_NOT_STEADY, /* still drifting, or too short to tell */
+  GG_HEATING     /* no steady state exists; followed as what it is */
+} gg_verdict;
+
+/* The quantities followed from the start to the end, one row a sample; the first replica. In a cooling run values are
+ * scaled back to the units of the start. */
+enum { GG_N_SERIES = 8 };
+extern const gg_quantity gg_series_quantities[GG_N_SERIES]; /* T, theta, theta/T, p, P_xy, spin_z, collision rate, a2 */
+typedef struct gg_history {
+  size_t n;
+  double *time;                /* model units */
+  double *value[GG_N_SERIES];  /* NaN where there is none */
+  double window[2];            /* averaging from .. to */
+} gg_history;
+
+/* Grains at one instant; arrays of 3 n (x y z x y z ...), NULL where there are none. */
+typedef struct gg_frame {
+  double time;
+  uint64_t step;               /* collisions since creation */
+  size_t n;
+  double *position, *velocity, *spin; /* velocity: peculiar; spin: omega (Boltzmann limit: (d/2) omega) */
+  uint8_t *species;            /* NULL for one species */
+  int64_t *id;
+} gg_frame;
+gg_status gg_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err);
+void gg_frame_free(gg_frame *frame);
+
+typedef struct gg_effort {
+  uint64_t collisions;
+  double cpu_seconds, wall_seconds;
+} gg_effort;
+
+enum { GG_MAX_WARNINGS = 32 };
+
+struct gg_result {
+  gg_scene scene;  /* as run: overrides and seed included */
+  gg_model model;
+  const char *engine; /* "md", "dsmc" */
+  gg_verdict verdict;
+  char verdict_text[256]; /* which observable decided, and how */
+  gg_estimate value[GG_N_QUANTITIES];
+  gg_history history;
+  gg_frame final; /* the first replica's last state */
+  gg_effort averaging, total;
+  gg_engine_state engine_state; /* counts summed over replicas */
+  char *warnings[GG_MAX_WARNINGS];
+  int n_warnings;
+};
+
+void gg_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);
+
+/* The headline quantities of a flow: what run.relative_error is asked of. Returns how many. */
+int gg_headline(const gg_model *model, gg_quantity headline[GG_N_QUANTITIES]);
+
+#endif

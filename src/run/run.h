@@ -1,0 +1,61 @@
+/* A run: warm-up to the steady state, averaging to the asked error, one result. Engine-blind. */
+#ifndef GG_RUN_H
+#define GG_RUN_H
+
+#include "run/result.h"
+#include "theory/theory.h"
+
+/* Where a run stands, for a progress line. */
+typedef struct gg_progress {
+  const char *engine;
+  const char *phase;      /* "warm-up", "averaging" */
+  double fraction;        /* of this phase, 0..1 */
+  uint64_t collisions;    /* so far, this replica */
+  double rate;            /* collisions per second */
+  double relative_error;  /* worst headline, NaN if not known yet */
+  double time_left;       /* seconds, NaN if not known */
+  int64_t replica, replicas;
+} gg_progress;
+
+/* What the caller wants to hear of while it runs; every member may be NULL. Calls come from the running thread, never
+ * two at once. */
+typedef struct gg_hooks {
+  void *context;
+  void (*progress)(void *context, const gg_progress *progress);
+  bool (*interrupted)(void *context); /* asked between advances; true ends the run with GG_INTERRUPTED */
+  gg_status (*frame)(void *context, const gg_frame *frame, gg_error *err); /* every output.trajectory_every */
+  /* Every output.checkpoint_every seconds, and at an interruption if that was asked for: store it whole. */
+  gg_status (*checkpoint)(void *context, const gg_archive *archive, gg_error *err);
+} gg_hooks;
+
+/* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side
+ * by side, the result not depending on it. GG_FAILED with *result set: ended short of what was asked. The caller frees
+ * *result with gg_result_free. */
+gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
+                       gg_result **result, gg_error *err);
+
+/* Both engines and every theory. */
+typedef struct gg_comparison {
+  gg_scene scene;
+  gg_model model; /* md's */
+  gg_result *by_engine[2]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
+  char refusal[2][256];
+  int n_theories;
+  struct {
+    const gg_theory *theory;
+    bool applies;
+    char reason[256]; /* why not */
+    gg_theory_answer answer;
+  } theory[16];
+} gg_comparison;
+
+gg_status gg_compare_scene(const gg_scene *scene, int threads, const gg_hooks *hooks, gg_comparison *comparison,
+                           gg_error *err);
+/* (a - b) over their combined standard error; NaN where either is missing. */
+double gg_z_score(const gg_estimate *a, const gg_estimate *b);
+void gg_comparison_clear(gg_comparison *comparison);
+
+/* Evaluate the theories for a scene: fills only model and theory[]. */
+void gg_compare_theories(const gg_model *model, gg_comparison *comparison);
+
+#endif
