@@ -107,6 +107,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat};
   bool sheared = gg_flow_is_sheared(s->flow);
+  m->homogeneous = engine == GG_DSMC;
   m->n = engine == GG_DSMC ? (s->dsmc.particles ? s->dsmc.particles : (s->particles > 20000 ? s->particles : 20000))
                            : s->particles;
   set_composition(m, s);

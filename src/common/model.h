@@ -16,6 +16,7 @@ typedef struct gg_model {
   gg_thermostat thermostat;
   gg_rule rule;   /* the most complex rule that any collision of the scene needs */
   bool boltzmann; /* phi = 0 */
+  bool homogeneous; /* no box: an ensemble that stands for one point of the flow (dsmc) */
   bool elastic;   /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
   bool steady;    /* a steady state can exist (scaled, for cooling) */
 

@@ -53,7 +53,7 @@ struct gg_scene {
   } walls;
   double gravity[3];
   struct {
-    double relative_error, collisions, time_limit; /* GG_AUTO: not asked for */
+    double relative_error, collisions, time_limit; /* GG_AUTO: not asked for; neither of the first two: 0.01 */
     double warmup;                                 /* collisions per particle, or GG_AUTO */
     int64_t replicas;
     uint64_t seed;
