@@ -1,8 +1,8 @@
-/* Means and their standard errors, from one place. A quantity is a function f of channel means (a plain mean, a ratio, a
- * difference of stresses); its error comes from the series of its linear response to each row,
- *   y_t = f(a) + sum_i (df/da_i)(a_i,t - a_i),
- * so that correlations between channels and in time are both accounted for: blocks of y much longer than its
- * correlation time, standard error from their scatter (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989) 461). */
+/* Means and their standard errors, from one place. A quantity is a function f of channel means (a plain mean, a ratio,
+ * a difference of stresses); its error comes from the series of its linear response to each row, y_t = f(a) + sum_i
+ * (df/da_i)(a_i,t - a_i), so that correlations between channels and in time are both accounted for: blocks of y much
+ * longer than its correlation time, standard error from their scatter (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989)
+ * 461). */
 #ifndef GG_ESTIMATOR_H
 #define GG_ESTIMATOR_H
 
@@ -13,10 +13,10 @@
 typedef double gg_of_means(const double *mean, const gg_model *model);
 
 typedef struct gg_mean {
-  double mean, error; /* NaN if it cannot be had */
+  double mean, error;      /* NaN if it cannot be had */
   double correlation_rows; /* integrated correlation time, rows */
-  size_t blocks;      /* independent blocks behind the error */
-  bool trusted;       /* at least GG_MIN_BLOCKS blocks of at least 5 correlation times */
+  size_t blocks;           /* independent blocks behind the error */
+  bool trusted;            /* at least GG_MIN_BLOCKS blocks of at least 5 correlation times */
 } gg_mean;
 
 enum { GG_MIN_BLOCKS = 16, GG_MAX_BLOCKS = 64 };

@@ -7,11 +7,17 @@
 #include "measure/by_species.h"
 #include "measure/moments.h"
 
+/* What one sample leaves for the next. */
+typedef struct memory {
+  double last_temperature; /* at the previous sample, engine's scale */
+  double scale;            /* engine's velocities over those of the start */
+} memory;
+
 typedef struct rheology {
   gg_model model;
   int pass;
   gg_moments moments[GG_MAX_SPECIES];
-  double last_temperature; /* at the previous sample; free cooling */
+  memory memory;
   gg_species_scratch scratch;
 } rheology;
 
@@ -23,8 +29,17 @@ static size_t width(const gg_model *m)
 static void *create(const gg_model *model, gg_error *err)
 {
   rheology *r = gg_new_array(1, sizeof *r, err);
-  if (r) r->model = *model;
+  if (!r) return NULL;
+  r->model = *model;
+  r->memory.scale = 1;
   return r;
+}
+
+static void *memory_of(void *self, size_t *bytes)
+{
+  rheology *r = self;
+  *bytes = sizeof r->memory;
+  return &r->memory;
 }
 
 static void begin(void *self, int pass)
@@ -33,7 +48,8 @@ static void begin(void *self, int pass)
   r->pass = pass;
   for (int i = 0; i < r->model.n_species; i++) {
     gg_moments *m = &r->moments[i];
-    if (pass == 0) *m = (gg_moments){0};
+    if (pass == 0)
+      *m = (gg_moments){0};
     else
       for (int a = 0; a < 3; a++) m->mean_spin[a] = m->n > 0 ? m->s[a] / m->n : 0;
   }
@@ -120,9 +136,11 @@ static void finish(void *self, const gg_interval *in, double *row)
 {
   rheology *r = self;
   bool cooling = r->model.flow == GG_HCS;
-  double T = temperature(r), T0 = r->last_temperature * in->velocity_factor * in->velocity_factor;
-  r->last_temperature = T;
+  double T = temperature(r), T0 = r->memory.last_temperature * in->velocity_factor * in->velocity_factor;
+  r->memory.last_temperature = T;
+  r->memory.scale *= in->velocity_factor;
   if (!(in->elapsed > 0)) return;
+  row[CH_LN_T] = log(T) - 2 * log(r->memory.scale);
   haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
   put_rates(r, in, h, row);
   for (int i = 0; i < r->model.n_species; i++)
@@ -137,9 +155,11 @@ const gg_observable gg_rheology = {
     .width = width,
     .create = create,
     .destroy = free,
+    .memory = memory_of,
     .begin = begin,
     .visit = visit,
     .finish = finish,
     .derived = gg_rheology_derived,
+    .history = gg_rheology_history,
     .missing = gg_rheology_missing,
 };

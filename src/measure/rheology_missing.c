@@ -3,17 +3,50 @@
 
 typedef bool condition(const gg_model *m);
 
-static bool smooth(const gg_model *m) { return m->rule == GG_SMOOTH; }
-static bool cooling(const gg_model *m) { return m->flow == GG_HCS; }
-static bool unsheared(const gg_model *m) { return m->shear_rate == 0; }
-static bool sheared(const gg_model *m) { return m->shear_rate != 0; }
-static bool boltzmann(const gg_model *m) { return m->boltzmann; }
-static bool conserving(const gg_model *m) { return m->elastic; }
-static bool homogeneous(const gg_model *m) { return m->homogeneous; }
-static bool one_species(const gg_model *m) { return m->n_species == 1; }
-static bool mixture(const gg_model *m) { return m->n_species > 1; }
-static bool neither_cools(const gg_model *m) { return m->flow != GG_HCS && m->flow != GG_HSS; }
-static bool heated_rough(const gg_model *m) { return m->flow == GG_HSS && m->rule != GG_SMOOTH; }
+static bool smooth(const gg_model *m)
+{
+  return m->rule == GG_SMOOTH;
+}
+static bool cooling(const gg_model *m)
+{
+  return m->flow == GG_HCS;
+}
+static bool unsheared(const gg_model *m)
+{
+  return m->shear_rate == 0;
+}
+static bool sheared(const gg_model *m)
+{
+  return m->shear_rate != 0;
+}
+static bool boltzmann(const gg_model *m)
+{
+  return m->boltzmann;
+}
+static bool conserving(const gg_model *m)
+{
+  return m->elastic;
+}
+static bool homogeneous(const gg_model *m)
+{
+  return m->homogeneous;
+}
+static bool one_species(const gg_model *m)
+{
+  return m->n_species == 1;
+}
+static bool mixture(const gg_model *m)
+{
+  return m->n_species > 1;
+}
+static bool neither_cools(const gg_model *m)
+{
+  return m->flow != GG_HCS && m->flow != GG_HSS;
+}
+static bool heated_rough(const gg_model *m)
+{
+  return m->flow == GG_HSS && m->rule != GG_SMOOTH;
+}
 
 static const struct {
   condition *holds;

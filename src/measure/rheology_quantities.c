@@ -10,7 +10,10 @@ static double of(const double *a, const gg_model *m, int species, int channel)
   return a[CH_SPECIES + (size_t)species * gg_rheology_species_width(m) + (size_t)channel];
 }
 
-static double share(const gg_model *m, int i) { return (double)m->n_of[i] / (double)m->n; }
+static double share(const gg_model *m, int i)
+{
+  return (double)m->n_of[i] / (double)m->n;
+}
 
 /* sum_i x_i w_i (channel of i): w = 1 or the mass. */
 static double mean_over(const double *a, const gg_model *m, int channel, bool by_mass)
@@ -70,7 +73,10 @@ COLLISIONAL(collisional_zz, CH_PC_ZZ)
 COLLISIONAL(collisional_xy, CH_PC_XY)
 COLLISIONAL(collisional_yx, CH_PC_YX)
 #define TOTAL(name, kinetic, collisional)                                                                              \
-  static double name(const double *a, const gg_model *m) { return kinetic(a, m) + collisional(a, m); }
+  static double name(const double *a, const gg_model *m)                                                               \
+  {                                                                                                                    \
+    return kinetic(a, m) + collisional(a, m);                                                                          \
+  }
 TOTAL(total_xx, kinetic_xx, collisional_xx)
 TOTAL(total_yy, kinetic_yy, collisional_yy)
 TOTAL(total_zz, kinetic_zz, collisional_zz)
@@ -85,13 +91,28 @@ static double compressibility(const double *a, const gg_model *m)
 {
   return pressure(a, m) / (m->density * m->stress_unit * temperature(a, m));
 }
-static double shear_viscosity(const double *a, const gg_model *m) { return fabs(total_xy(a, m)) / m->shear_rate; }
-static double N1(const double *a, const gg_model *m) { return (total_xx(a, m) - total_yy(a, m)) / pressure(a, m); }
-static double N2(const double *a, const gg_model *m) { return (total_yy(a, m) - total_zz(a, m)) / pressure(a, m); }
+static double shear_viscosity(const double *a, const gg_model *m)
+{
+  return fabs(total_xy(a, m)) / m->shear_rate;
+}
+static double N1(const double *a, const gg_model *m)
+{
+  return (total_xx(a, m) - total_yy(a, m)) / pressure(a, m);
+}
+static double N2(const double *a, const gg_model *m)
+{
+  return (total_yy(a, m) - total_zz(a, m)) / pressure(a, m);
+}
 
 COLLISIONAL(collision_rate, CH_RATE)
-static double mean_free_path(const double *a, const gg_model *m) { return mean_over(a, m, CH_SPEED, false) / a[CH_RATE]; }
-static double knudsen(const double *a, const gg_model *m) { return mean_free_path(a, m) / cbrt(m->volume); }
+static double mean_free_path(const double *a, const gg_model *m)
+{
+  return mean_over(a, m, CH_SPEED, false) / a[CH_RATE];
+}
+static double knudsen(const double *a, const gg_model *m)
+{
+  return mean_free_path(a, m) / cbrt(m->volume);
+}
 COLLISIONAL(dissipation, CH_LOSS)
 static double energy_balance(const double *a, const gg_model *m)
 {
@@ -105,36 +126,75 @@ static double cooling_rate(const double *a, const gg_model *m)
   return a[CH_LOSS] / (1.5 * m->density * m->stress_unit * T * gg_model_nu0(m, T));
 }
 
-static double cos2_psi(const double *a, const gg_model *m) { return mean_over(a, m, CH_COS2, false); }
+static double cos2_psi(const double *a, const gg_model *m)
+{
+  return mean_over(a, m, CH_COS2, false);
+}
 static double flatness(const double *a, const gg_model *m, int fourth, int second)
 {
   double c2 = mean_over(a, m, second, false);
   return mean_over(a, m, fourth, false) / (c2 * c2);
 }
-static double kurtosis_cx(const double *a, const gg_model *m) { return flatness(a, m, CH_C4X, CH_C2X); }
-static double kurtosis_cy(const double *a, const gg_model *m) { return flatness(a, m, CH_C4Y, CH_C2Y); }
-static double kurtosis_cz(const double *a, const gg_model *m) { return flatness(a, m, CH_C4Z, CH_C2Z); }
-static double kurtosis_wx(const double *a, const gg_model *m) { return flatness(a, m, CH_W4X, CH_W2X); }
-static double kurtosis_wy(const double *a, const gg_model *m) { return flatness(a, m, CH_W4Y, CH_W2Y); }
-static double kurtosis_wz(const double *a, const gg_model *m) { return flatness(a, m, CH_W4Z, CH_W2Z); }
+static double kurtosis_cx(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_C4X, CH_C2X);
+}
+static double kurtosis_cy(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_C4Y, CH_C2Y);
+}
+static double kurtosis_cz(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_C4Z, CH_C2Z);
+}
+static double kurtosis_wx(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_W4X, CH_W2X);
+}
+static double kurtosis_wy(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_W4Y, CH_W2Y);
+}
+static double kurtosis_wz(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_W4Z, CH_W2Z);
+}
 static double skewness_wz(const double *a, const gg_model *m)
 {
   return mean_over(a, m, CH_W3Z, false) / pow(mean_over(a, m, CH_W2Z, false), 1.5);
 }
 
-/* Fourth cumulant of one species. Where N grains share a fixed energy, even Gaussian ones have <c^4>/T^2 lower than 15 by
- * the factor D/(D+2), D = 3(N-1) degrees of freedom: taken out. */
+/* Fourth cumulant of one species. Where N grains share a fixed energy, even Gaussian ones have <c^4>/T^2 lower than 15
+ * by the factor D/(D+2), D = 3(N-1) degrees of freedom: taken out. */
 static double cumulant(const double *a, const gg_model *m, int i)
 {
   double T = partial_temperature(a, m, i) / m->mass[i], D = 3 * ((double)m->n - 1);
   return of(a, m, i, CH_CCCC) / (15 * T * T) * (D + 2) / D - 1;
 }
-static double a2(const double *a, const gg_model *m) { return cumulant(a, m, 0); }
-static double c_1(const double *a, const gg_model *m) { return 2 * cumulant(a, m, 0); }
-static double c_2(const double *a, const gg_model *m) { return 2 * cumulant(a, m, 1); }
-static double temperature_1(const double *a, const gg_model *m) { return partial_temperature(a, m, 0); }
-static double temperature_2(const double *a, const gg_model *m) { return partial_temperature(a, m, 1); }
-static double partial_ratio(const double *a, const gg_model *m) { return temperature_1(a, m) / temperature_2(a, m); }
+static double a2(const double *a, const gg_model *m)
+{
+  return cumulant(a, m, 0);
+}
+static double c_1(const double *a, const gg_model *m)
+{
+  return 2 * cumulant(a, m, 0);
+}
+static double c_2(const double *a, const gg_model *m)
+{
+  return 2 * cumulant(a, m, 1);
+}
+static double temperature_1(const double *a, const gg_model *m)
+{
+  return partial_temperature(a, m, 0);
+}
+static double temperature_2(const double *a, const gg_model *m)
+{
+  return partial_temperature(a, m, 1);
+}
+static double partial_ratio(const double *a, const gg_model *m)
+{
+  return temperature_1(a, m) / temperature_2(a, m);
+}
 
 const gg_derived gg_rheology_derived[] = {
     {GG_Q_TEMPERATURE, temperature},
@@ -182,4 +242,19 @@ const gg_derived gg_rheology_derived[] = {
     {GG_Q_TEMPERATURE_2, temperature_2},
     {GG_Q_PARTIAL_TEMPERATURE_RATIO, partial_ratio},
     {GG_N_QUANTITIES, NULL},
+};
+
+/* History: the temperature of free cooling itself, which as a mean has no meaning. */
+static double history_temperature(const double *a, const gg_model *m)
+{
+  (void)m;
+  return exp(a[CH_LN_T]);
+}
+static double history_rotational(const double *a, const gg_model *m)
+{
+  return history_temperature(a, m) * temperature_ratio(a, m);
+}
+
+gg_of_means *const gg_rheology_history[GG_N_HISTORY] = {
+    history_temperature, history_rotational, temperature_ratio, pressure, total_xy, spin_z, collision_rate, a2,
 };

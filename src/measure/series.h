@@ -27,8 +27,14 @@ void gg_series_add(gg_series *s, double time, const double *sample);
 /* Start the averaging window at the next sample (drops a half-filled row) or at a row. */
 void gg_series_open_window(gg_series *s);
 
-static inline const double *gg_series_row(const gg_series *s, size_t i) { return s->rows + i * s->width; }
-static inline size_t gg_series_window_rows(const gg_series *s) { return s->n > s->window ? s->n - s->window : 0; }
+static inline const double *gg_series_row(const gg_series *s, size_t i)
+{
+  return s->rows + i * s->width;
+}
+static inline size_t gg_series_window_rows(const gg_series *s)
+{
+  return s->n > s->window ? s->n - s->window : 0;
+}
 
 gg_status gg_series_save(const gg_series *s, gg_archive *archive, gg_error *err);
 gg_status gg_series_restore(gg_series *s, const gg_archive *archive, gg_error *err);
