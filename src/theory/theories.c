@@ -4,10 +4,7 @@
 #include "theory/theory_list.h"
 
 const gg_theory *const gg_theories[] = {
-    &gg_lun1991,
-    &gg_sela_goldhirsch1998,
-    &gg_enskog,
-    NULL,
+    &gg_lun1991, &gg_sela_goldhirsch1998, &gg_enskog, &gg_gaussian_closure, NULL,
 };
 
 const gg_theory *gg_theory_find(const char *name)

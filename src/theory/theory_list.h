@@ -7,5 +7,6 @@
 extern const gg_theory gg_lun1991;
 extern const gg_theory gg_sela_goldhirsch1998;
 extern const gg_theory gg_enskog;
+extern const gg_theory gg_gaussian_closure;
 
 #endif
