@@ -29,7 +29,10 @@ void gg_reason_add(json_t *warnings, const char *who, const char *quantity, cons
   json_t *line;
   char *head, *tail;
   if (asprintf(&tail, " null: %s", reason) < 0) return;
-  if (asprintf(&head, "%s%s", who, *who ? ": " : "") < 0) return free(tail);
+  if (asprintf(&head, "%s%s", who, *who ? ": " : "") < 0) {
+    free(tail);
+    return;
+  }
   char *text = NULL;
   json_array_foreach(warnings, i, line)
   {
@@ -55,7 +58,7 @@ static json_t *estimate_json(const gg_result *r, gg_quantity q, json_t *warnings
   if (isnan(e->mean))
     gg_reason_add(warnings, "", name, e->reason);
   else if (isnan(e->error))
-    gg_reason_add(warnings, "", name, e->reason[0] ? e->reason : "too few samples for a standard error (stderr)");
+    gg_reason_add(warnings, "stderr", name, e->reason[0] ? e->reason : "too few samples");
   return json_pack("{s:o, s:o, s:s, s:I, s:o}", "mean", real(e->mean), "stderr", real(e->error), "unit",
                    gg_quantity_unit(q, &r->model), "samples", (json_int_t)e->samples, "correlation_time",
                    real(e->correlation_time));
