@@ -1,0 +1,142 @@
+#include "theory/answer.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+static const char *const flow_names[] = {
+    [GG_EQUILIBRIUM] = "equilibrium without shear",
+    [GG_USF] = "uniform shear",
+    [GG_HCS] = "free cooling",
+    [GG_HSS] = "a homogeneously heated state",
+    [GG_COUETTE] = "shear between walls",
+    [GG_POISEUILLE] = "Poiseuille flow",
+    [GG_CHUTE] = "chute flow",
+};
+
+gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...)
+{
+  char reason[512];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(reason, sizeof reason, format, args);
+  va_end(args);
+  return gg_fail(err, GG_BAD_INPUT, "%s %s", theory, reason);
+}
+
+gg_status gg_require_flow(const gg_model *m, gg_flow flow, const char *theory, gg_error *err)
+{
+  if (m->flow == flow) return GG_OK;
+  return gg_refuse(err, theory, "describes %s; this scene is %s", flow_names[flow], flow_names[m->flow]);
+}
+
+gg_status gg_require_steady_shear(const gg_model *m, const char *theory, gg_error *err)
+{
+  if (m->flow != GG_USF)
+    return gg_refuse(err, theory, "describes steady uniform shear; this scene is %s", flow_names[m->flow]);
+  if (m->thermostat != GG_NO_THERMOSTAT)
+    return gg_refuse(err, theory, "describes shear whose heating only collisions balance; this scene has a thermostat");
+  if (m->elastic)
+    return gg_refuse(err, theory,
+                     "describes steady shear; collisions of this scene lose no energy, so that it heats up for ever");
+  return GG_OK;
+}
+
+gg_status gg_require_one_species(const gg_model *m, const char *theory, gg_error *err)
+{
+  if (m->n_species == 1) return GG_OK;
+  return gg_refuse(err, theory, "describes grains of one species; this scene has %d", m->n_species);
+}
+
+gg_status gg_require_smooth(const gg_model *m, const char *theory, gg_error *err)
+{
+  if (m->rule == GG_SMOOTH) return GG_OK;
+  return gg_refuse(err, theory, "describes smooth grains; grains of this scene are %s",
+                   m->rule == GG_ROUGH ? "rough" : "frictional");
+}
+
+gg_status gg_require_constant_beta(const gg_model *m, const char *theory, gg_error *err)
+{
+  if (m->rule != GG_FRICTIONAL) return GG_OK;
+  return gg_refuse(err, theory, "describes grains of constant beta; with Coulomb friction it has no closed form");
+}
+
+gg_status gg_require_dilute(const gg_model *m, const char *theory, gg_error *err)
+{
+  if (m->phi <= GG_DILUTE_PHI) return GG_OK;
+  return gg_refuse(err, theory, "describes dilute gases (phi up to %g); this scene has phi = %g", GG_DILUTE_PHI,
+                   m->phi);
+}
+
+gg_grain gg_grain_of(const gg_model *m)
+{
+  const gg_contact *c = &m->contact[0]; /* unit masses: m_r (1+e) = eta_1, m_t (1+beta) = eta_2 */
+  return (gg_grain){.eta1 = c->jn, .eta2 = c->jt, .K = m->inertia[0]};
+}
+
+double gg_phi_chi(const gg_model *m)
+{
+  return m->phi * m->chi[0];
+}
+
+double gg_fraction(const gg_model *m, int species)
+{
+  return (double)m->n_of[species] / (double)m->n;
+}
+
+static gg_stress stress_sum(gg_stress a, gg_stress b)
+{
+  return (gg_stress){a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yx + b.yx};
+}
+
+/* The five components stand in this order in the table of quantities. */
+static void set_components(const gg_model *m, gg_quantity first, gg_stress s, gg_theory_answer *a)
+{
+  const double component[] = {s.xx, s.yy, s.zz, s.xy, s.yx};
+  for (int i = 0; i < 5; i++) a->value[(int)first + i] = m->stress_unit * component[i];
+}
+
+void gg_answer_stress(const gg_model *m, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a)
+{
+  gg_stress total = m->boltzmann ? kinetic : stress_sum(kinetic, collisional);
+  double p = (total.xx + total.yy + total.zz) / 3;
+  set_components(m, GG_Q_P_XX, total, a);
+  set_components(m, GG_Q_P_XX_KINETIC, kinetic, a);
+  if (!m->boltzmann) set_components(m, GG_Q_P_XX_COLLISIONAL, collisional, a);
+  a->value[GG_Q_PRESSURE] = m->stress_unit * p;
+  a->value[GG_Q_COMPRESSIBILITY] = p / (m->density * T);
+  a->value[GG_Q_N1] = (total.xx - total.yy) / p;
+  a->value[GG_Q_N2] = (total.yy - total.zz) / p;
+  if (m->shear_rate > 0) a->value[GG_Q_SHEAR_VISCOSITY] = m->stress_unit * fabs(total.xy) / m->shear_rate;
+}
+
+void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_answer *a)
+{
+  a->value[GG_Q_TEMPERATURE] = T;
+  if (m->rule == GG_SMOOTH) return;
+  a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
+  a->value[GG_Q_ROTATIONAL_TEMPERATURE] = ratio * T;
+}
+
+/* nu = sum_ij x_i n_j sigma_ij^2 chi_ij sqrt(8 pi (T_i/m_i + T_j/m_j)), Chapman & Cowling, sect. 5.21 and 16.2. */
+void gg_answer_collisions(const gg_model *m, const double T[GG_MAX_SPECIES], gg_theory_answer *a)
+{
+  double rate = 0, speed = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    speed += gg_fraction(m, i) * sqrt(8 * T[i] / (M_PI * m->mass[i]));
+    for (int j = 0; j < m->n_species; j++) {
+      double nj = m->density * gg_fraction(m, j), sigma = m->sigma[2 * i + j];
+      double spread = T[i] / m->mass[i] + T[j] / m->mass[j];
+      rate += gg_fraction(m, i) * nj * sigma * sigma * m->chi[2 * i + j] * sqrt(8 * M_PI * spread);
+    }
+  }
+  a->value[GG_Q_COLLISION_RATE] = rate;
+  a->value[GG_Q_MEAN_FREE_PATH] = speed / rate;
+  /* The box has no size in the Boltzmann limit. */
+  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / rate / cbrt(m->volume);
+}
+
+void gg_answer_collisions_one(const gg_model *m, double T, gg_theory_answer *a)
+{
+  gg_answer_collisions(m, (const double[GG_MAX_SPECIES]){T, T}, a);
+}

@@ -1,0 +1,50 @@
+/* What every theory needs to speak the shared names: guards that refuse a scene with a reason, and reports of stress,
+ * temperatures and collisions. Theories work per volume with m = d = 1 (model units); the reports convert. */
+#ifndef GG_ANSWER_H
+#define GG_ANSWER_H
+
+#include "theory/theory.h"
+
+/* Solid fraction up to which a dilute (Boltzmann) theory still answers: collisional transfer is some 15 % there. */
+#define GG_DILUTE_PHI 0.05
+
+/* Guards: GG_OK, or GG_BAD_INPUT with "<theory> describes ...; this scene is ...". */
+gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...) GG_PRINTF(3, 4);
+gg_status gg_require_flow(const gg_model *model, gg_flow flow, const char *theory, gg_error *err);
+gg_status gg_require_steady_shear(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_require_one_species(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_require_smooth(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_require_constant_beta(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_require_dilute(const gg_model *model, const char *theory, gg_error *err);
+
+/* The collision rule of one species of unit mass: J = 2 m eta_1 ... in the notation of Lun (1991). */
+typedef struct gg_grain {
+  double eta1; /* (1+e)/2 */
+  double eta2; /* (1+beta)K/(2(1+K)); 0 if smooth */
+  double K;    /* 4I/(m d^2) */
+} gg_grain;
+gg_grain gg_grain_of(const gg_model *model);
+
+/* Enskog's small parameter phi chi, nothing in the Boltzmann limit. */
+double gg_phi_chi(const gg_model *model);
+
+/* Stress per volume; a part that a theory does not know is NaN throughout (GG_STRESS_UNKNOWN). */
+typedef struct gg_stress {
+  double xx, yy, zz, xy, yx;
+} gg_stress;
+#define GG_STRESS_UNKNOWN ((gg_stress){NAN, NAN, NAN, NAN, NAN})
+
+/* Total, kinetic and collisional stress, pressure, Z, N1, N2, and under shear the viscosity. */
+void gg_answer_stress(const gg_model *model, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a);
+
+/* T, and for grains that spin theta = ratio T. */
+void gg_answer_temperature(const gg_model *model, double T, double ratio, gg_theory_answer *a);
+
+/* Collision rate, mean free path and Knudsen number of Maxwellians at T (partial temperatures T_i for a mixture). */
+void gg_answer_collisions(const gg_model *model, const double T[GG_MAX_SPECIES], gg_theory_answer *a);
+void gg_answer_collisions_one(const gg_model *model, double T, gg_theory_answer *a);
+
+/* Mole fraction x_i = n_i/n. */
+double gg_fraction(const gg_model *model, int species);
+
+#endif

@@ -1,0 +1,56 @@
+/* Elastic hard spheres at rest: Enskog's equation (Chapman & Cowling, The Mathematical Theory of Non-Uniform Gases, ch.
+ * 16) at the contact value of the scene.
+ *   Z = p/(nT) = 1 + (2 pi/3) n sum_ij x_i x_j sigma_ij^3 chi_ij        (= 1 + 4 phi chi for one species)
+ *   eta/eta_0 = (1 + 8/5 phi chi)^2/chi + 768/(25 pi) phi^2 chi,   eta_0 = 5/(16 d^2) sqrt(m T/pi)  (first Sonine
+ * order) */
+#include <math.h>
+
+#include "theory/answer.h"
+#include "theory/theory_list.h"
+
+static const char name[] = "enskog";
+
+static double compressibility(const gg_model *m)
+{
+  double sum = 0;
+  if (m->boltzmann) return 1;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++)
+      sum += gg_fraction(m, i) * gg_fraction(m, j) * pow(m->sigma[2 * i + j], 3) * m->chi[2 * i + j];
+  return 1 + 2 * M_PI / 3 * m->density * sum;
+}
+
+static double reduced_viscosity(const gg_model *m)
+{
+  double y = gg_phi_chi(m), kinetic = 1 + 1.6 * y;
+  return kinetic * kinetic / m->chi[0] + 768 / (25 * M_PI) * m->phi * y;
+}
+
+static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  GG_TRY(gg_require_flow(m, GG_EQUILIBRIUM, name, err));
+  if (!m->elastic) return gg_refuse(err, name, "describes elastic grains; collisions of this scene lose energy");
+  double T = m->temperature0, p = m->density * T, pc = p * (compressibility(m) - 1);
+  gg_answer_temperature(m, T, 1, a);
+  gg_answer_stress(m, T, (gg_stress){p, p, p, 0, 0}, (gg_stress){pc, pc, pc, 0, 0}, a);
+  gg_answer_collisions_one(m, T, a);
+  if (m->n_species == 1 && m->rule == GG_SMOOTH) {
+    a->value[GG_Q_VISCOSITY_REDUCED] = reduced_viscosity(m);
+    a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = (1 + 1.6 * gg_phi_chi(m)) / m->chi[0];
+  }
+  a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3;
+  a->value[GG_Q_A2] = 0;
+  return GG_OK;
+}
+
+const gg_theory gg_enskog = {
+    .name = name,
+    .title = "Elastic hard spheres in equilibrium",
+    .citation =
+        "D. Enskog, K. Svenska Vetensk. Akad. Handl. 63 (1922) no. 4; N.F. Carnahan and K.E. Starling, J. Chem. "
+        "Phys. 51 (1969) 635",
+    .assumptions =
+        "Equilibrium of one or two species of elastic spheres, at the contact value of the scene (within 0.3 % "
+        "of simulations up to phi = 0.49 for Carnahan-Starling); viscosity at first Sonine order.",
+    .evaluate = evaluate,
+};

@@ -1,0 +1,39 @@
+/* Collision integrals of Enskog's equation over anisotropic Gaussian distributions of velocity and spin,
+ *   f_i = n_i N(C; 0, M_i) N(s; s_i z, Theta_i),
+ * exact in shear rate, roughness and density: the production terms of the second moments, and the collisional stress.
+ * Spins are surface velocities s = (d/2) omega. Model units, per grain or per volume. */
+#ifndef GG_GAUSSIAN_MOMENTS_H
+#define GG_GAUSSIAN_MOMENTS_H
+
+#include "theory/theory.h"
+
+typedef struct gg_tensor {
+  double at[3][3];
+} gg_tensor;
+
+typedef struct gg_gaussian {
+  gg_tensor M;     /* <C C> */
+  gg_tensor Theta; /* covariance of s */
+  double spin;     /* mean of s_z */
+} gg_gaussian;
+
+typedef struct gg_gaussian_rates {
+  gg_gaussian change[GG_MAX_SPECIES]; /* d/dt of each moment, by collisions alone */
+  gg_tensor Pc;                       /* collisional stress per volume; 0 in the Boltzmann limit */
+  double frequency[GG_MAX_SPECIES];   /* collisions per grain of the species */
+  double speed[GG_MAX_SPECIES];       /* <|C|> */
+} gg_gaussian_rates;
+
+/* Smooth or rough, one or two species (not frictional); shear_rate and sizes from the model. State of a species that
+ * never spins is ignored. */
+void gg_gaussian_rates_at(const gg_model *model, const gg_gaussian state[GG_MAX_SPECIES], gg_gaussian_rates *rates);
+
+/* The steady state of uniform shear: the largest residual left, of changes per mean free time (NaN: no memory). */
+double gg_gaussian_steady(const gg_model *model, gg_gaussian state[GG_MAX_SPECIES]);
+
+double gg_trace(gg_tensor A);
+
+/* Whether any collision of this species changes its spin. */
+bool gg_species_spins(const gg_model *model, int species);
+
+#endif

@@ -1,0 +1,82 @@
+/* Kinetic theory of slightly inelastic, slightly rough (or nearly perfectly rough) spheres: C.K.K. Lun, J. Fluid Mech.
+ * 233 (1991) 539. First Sonine order, first order in gradients, isotropic spins with mean curl(u)/2; the dependence of
+ * the collision integrals on e and beta is kept in full. Steady shear: Gayen & Alam, J. Fluid Mech. 567 (2006) 195.
+ *
+ * With y = phi chi, r = theta/T, per volume, m = d = 1:
+ *   f1  = n (1 + 4 eta_1 y)
+ *   f2  = 5/(16 sqrt(pi) chi) (1 + 8/5 y N)/Dn [1 + 4/5 y (2 eta_1 + 3 eta_2)]
+ *         + 12/(5 pi^3/2) (4 eta_1 + 3 eta_2) phi y
+ *   N   = eta_1 (3 eta_1 - 2) + eta_2 (6 eta_1 - 1 - 2 eta_2)/2 - eta_2^2 r/K
+ *   Dn  = (eta_1 + eta_2)(2 - eta_1 - eta_2) + eta_2^2 r/(6K)
+ *   f2r = 12/pi^3/2 eta_2 phi y,   f3 = 16/pi^3/2 eta_1 phi y
+ *   f5  = 8 sqrt(pi) n^2 chi [eta_1 (1 - eta_1) + eta_2 (1 - eta_2) - eta_2^2 r/K]
+ *   f5r = 8 sqrt(pi) n^2 chi (eta_2/K) [eta_2 - r (1 - eta_2/K)] */
+#include "theory/lun1991.h"
+
+#include <math.h>
+
+#include "theory/theory_list.h"
+
+double gg_lun_ratio(gg_grain g)
+{
+  return g.eta2 == 0 ? 0 : g.eta2 / (1 - g.eta2 / g.K);
+}
+
+gg_lun_functions gg_lun_functions_at(gg_lun_state s)
+{
+  double h1 = s.grain.eta1, h2 = s.grain.eta2, K = s.grain.K, y = s.phi * s.chi, r = s.ratio;
+  double N = h1 * (3 * h1 - 2) + h2 * (6 * h1 - 1 - 2 * h2) / 2 - h2 * h2 * r / K;
+  double Dn = (h1 + h2) * (2 - h1 - h2) + h2 * h2 * r / (6 * K);
+  double loss = 8 * sqrt(M_PI) * s.n * s.n * s.chi, transfer = 12 * s.phi * y / pow(M_PI, 1.5);
+  gg_lun_functions f;
+  f.f1_kinetic = s.n;
+  f.f1 = s.n * (1 + 4 * h1 * y);
+  f.f2_kinetic = 5 / (16 * sqrt(M_PI) * s.chi) * (1 + 1.6 * y * N) / Dn;
+  f.f2 = f.f2_kinetic * (1 + 0.8 * y * (2 * h1 + 3 * h2)) + transfer * (4 * h1 + 3 * h2) / 5;
+  f.f2r = transfer * h2;
+  f.f3 = transfer * 4 / 3 * h1;
+  f.f5 = loss * (h1 * (1 - h1) + h2 * (1 - h2) - h2 * h2 * r / K);
+  f.f5r = loss * h2 / K * (h2 - r * (1 - h2 / K));
+  return f;
+}
+
+/* Viscous heating against dissipation: mu_s rate^2 = D, hence T = rate^2 f2/f5. */
+gg_status gg_lun_shear(const gg_model *m, double chi, const char *theory, gg_theory_answer *a, gg_error *err)
+{
+  GG_TRY(gg_require_one_species(m, theory, err));
+  GG_TRY(gg_require_constant_beta(m, theory, err));
+  GG_TRY(gg_require_steady_shear(m, theory, err));
+  gg_grain grain = gg_grain_of(m);
+  gg_lun_state state = {m->density, m->phi, chi, grain, gg_lun_ratio(grain)};
+  gg_lun_functions f = gg_lun_functions_at(state);
+  double rate = m->shear_rate, T = rate * rate * f.f2 / f.f5;
+  double p = T * f.f1, p_kinetic = T * f.f1_kinetic, shear = -sqrt(T) * f.f2 * rate;
+  double shear_kinetic = -sqrt(T) * f.f2_kinetic * rate;
+  double pc = p - p_kinetic, shear_c = shear - shear_kinetic;
+  gg_answer_temperature(m, T, state.ratio, a);
+  gg_answer_stress(m, T, (gg_stress){p_kinetic, p_kinetic, p_kinetic, shear_kinetic, shear_kinetic},
+                   (gg_stress){pc, pc, pc, shear_c, shear_c}, a);
+  gg_answer_collisions_one(m, T, a);
+  a->value[GG_Q_COLLISION_RATE] *= chi / m->chi[0];
+  a->value[GG_Q_MEAN_FREE_PATH] *= m->chi[0] / chi;
+  a->value[GG_Q_KNUDSEN] *= m->chi[0] / chi;
+  a->value[GG_Q_DISSIPATION] = m->stress_unit * pow(T, 1.5) * f.f5;
+  if (m->rule != GG_SMOOTH && !m->boltzmann) a->value[GG_Q_SPIN_Z] = -0.5;
+  return GG_OK;
+}
+
+static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return gg_lun_shear(m, m->chi[0], "lun1991", a, err);
+}
+
+const gg_theory gg_lun1991 = {
+    .name = "lun1991",
+    .title = "Kinetic theory of slightly inelastic, rough spheres",
+    .citation = "C.K.K. Lun, J. Fluid Mech. 233 (1991) 539",
+    .assumptions =
+        "Steady uniform shear of one species with constant e and beta, at the contact value of the scene; first "
+        "order in the shear rate (so N1 = N2 = 0) and first Sonine order. Good near e = 1 with beta = -1 or 1; "
+        "T is tens of percent off for dissipative or half-rough grains.",
+    .evaluate = evaluate,
+};

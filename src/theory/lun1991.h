@@ -1,0 +1,30 @@
+/* Lun's constitutive functions, for the theory and its tests. */
+#ifndef GG_LUN1991_H
+#define GG_LUN1991_H
+
+#include "theory/answer.h"
+
+/* State of the gas: n d^3 (1 in the Boltzmann limit, where phi = 0), chi, the grains, theta/T. */
+typedef struct gg_lun_state {
+  double n, phi, chi;
+  gg_grain grain;
+  double ratio;
+} gg_lun_state;
+
+/* p = T f1, mu_s = T^1/2 f2, mu_r = T^1/2 f2r, xi = T^1/2 f3, D = T^3/2 f5, rotational gain = T^3/2 f5r: per volume
+ * with m = d = 1; times pi/6 in units of rho_p. */
+typedef struct gg_lun_functions {
+  double f1, f1_kinetic;
+  double f2, f2_kinetic;
+  double f2r, f3, f5, f5r;
+} gg_lun_functions;
+
+gg_lun_functions gg_lun_functions_at(gg_lun_state s);
+
+/* theta/T at which the spins neither gain nor lose energy: eta_2/(1 - eta_2/K) = K(1+beta)/(1+2K-beta). */
+double gg_lun_ratio(gg_grain g);
+
+/* Steady uniform shear with a contact value of the caller's choice. */
+gg_status gg_lun_shear(const gg_model *model, double chi, const char *theory, gg_theory_answer *answer, gg_error *err);
+
+#endif

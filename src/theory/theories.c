@@ -1,0 +1,21 @@
+#include <math.h>
+#include <string.h>
+
+#include "theory/theory_list.h"
+
+const gg_theory *const gg_theories[] = {
+    &gg_lun1991, &gg_sela_goldhirsch1998, &gg_enskog, &gg_gaussian_closure, NULL,
+};
+
+const gg_theory *gg_theory_find(const char *name)
+{
+  for (const gg_theory *const *t = gg_theories; *t; t++)
+    if (strcmp((*t)->name, name) == 0) return *t;
+  return NULL;
+}
+
+gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
+{
+  for (int q = 0; q < GG_N_QUANTITIES; q++) answer->value[q] = NAN;
+  return theory->evaluate(model, answer, err);
+}

@@ -1,0 +1,132 @@
+#include "theory_test.h"
+
+#include "common/contact_value.h"
+
+/* Every theory has a name of its own, a citation and its assumptions, and is found by name. */
+static void list_is_complete(void **state)
+{
+  (void)state;
+  for (const gg_theory *const *t = gg_theories; *t; t++) {
+    assert_ptr_equal(gg_theory_find((*t)->name), *t);
+    assert_true(strlen((*t)->title) > 0 && strlen((*t)->citation) > 0 && strlen((*t)->assumptions) > 0);
+  }
+  assert_null(gg_theory_find("lun"));
+}
+
+/* On every kind of scene each theory answers with finite numbers or no number, or refuses with its own name in front.
+ */
+static void no_number_leaks(void **state)
+{
+  (void)state;
+  const double phis[] = {0, 1e-3, 0.05, 0.3, 0.55}, es[] = {0.3, 0.9, 1}, betas[] = {-1, -0.5, 0, 0.9, 1};
+  const double mus[] = {INFINITY, 0.1};
+  for (int flow = GG_EQUILIBRIUM; flow <= GG_CHUTE; flow++)
+    for (int thermostat = GG_NO_THERMOSTAT; thermostat <= GG_WHITE_NOISE; thermostat++)
+      for (int species = 1; species <= 2; species++)
+        for (int i = 0; i < 5 * 3 * 5 * 2; i++) {
+          gg_scene s = scene_of((gg_flow)flow, phis[i % 5], es[i / 5 % 3], betas[i / 15 % 5]);
+          s.thermostat = (gg_thermostat)thermostat;
+          s.n_species = species;
+          s.species[1] = (gg_species){0.5, 1.5, 4, 0.4};
+          if (flow == GG_COUETTE) s.walls.speed = 1;
+          for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = mus[i / 75];
+          gg_model m = model_of(&s);
+          for (const gg_theory *const *t = gg_theories; *t; t++) {
+            gg_theory_answer a;
+            gg_error err = {0};
+            gg_status status = gg_theory_evaluate(*t, &m, &a, &err);
+            if (status != GG_OK) {
+              assert_int_equal(status, GG_BAD_INPUT);
+              assert_int_equal(strncmp(err.message, (*t)->name, strlen((*t)->name)), 0);
+              continue;
+            }
+            int answers = 0;
+            for (int q = 0; q < GG_N_QUANTITIES; q++) {
+              if (isinf(a.value[q])) fail_msg("%s: %s is infinite", (*t)->name, gg_quantity_name((gg_quantity)q));
+              answers += !isnan(a.value[q]);
+            }
+            if (answers == 0) fail_msg("%s accepts a scene and says nothing", (*t)->name);
+          }
+        }
+}
+
+/* The example printed with the formulas: N1 = 0.24, N2 = -0.0203 at e = 0.9; leading coefficients are those of the
+ * elastic Burnett equations, N1 = w2 x and N2 = (w6/4 - w2) x with x = 5/8 1.016034 eps, w2 = 2.028, w6 = 7.424. */
+static void sela_goldhirsch(void **state)
+{
+  (void)state;
+  gg_model m = model_for(GG_USF, 0.01, 0.9, -1);
+  assert_close(value_of(&gg_sela_goldhirsch1998, &m, GG_Q_N1), 0.24007, 2e-5);
+  assert_close(value_of(&gg_sela_goldhirsch1998, &m, GG_Q_N2), -0.02036, 2.5e-4);
+  m = model_for(GG_USF, 0, 1 - 5e-7, -1);
+  double x = 0.625 * 1.016034 * 1e-6;
+  assert_close(value_of(&gg_sela_goldhirsch1998, &m, GG_Q_N1), 2.028 * x, 2e-4);
+  assert_close(value_of(&gg_sela_goldhirsch1998, &m, GG_Q_N2), (7.424 / 4 - 2.028) * x, 5e-4);
+  m = model_for(GG_USF, 0.3, 0.9, -1);
+  assert_refused(&gg_sela_goldhirsch1998, &m, "dilute");
+  m = model_for(GG_USF, 0.01, 0.9, 0);
+  assert_refused(&gg_sela_goldhirsch1998, &m, "smooth");
+}
+
+/* Carnahan & Starling: Z = (1 + phi + phi^2 - phi^3)/(1-phi)^3; equal species of a mixture are one species. */
+static void enskog_equation_of_state(void **state)
+{
+  (void)state;
+  for (double phi = 0; phi < 0.5; phi += 0.05) {
+    double Z = (1 + phi + phi * phi - phi * phi * phi) / pow(1 - phi, 3);
+    gg_scene s = scene_of(GG_EQUILIBRIUM, phi, 1, -1);
+    gg_model m = model_of(&s);
+    gg_theory_answer one = answer_of(&gg_enskog, &m);
+    assert_close(one.value[GG_Q_COMPRESSIBILITY], Z, 1e-13);
+    assert_close(one.value[GG_Q_PRESSURE], Z * 0.5 * (phi == 0 ? 1 : phi), 1e-13); /* T_0 = 1/2 */
+    s.n_species = 2;
+    s.species[1] = s.species[0];
+    m = model_of(&s);
+    gg_theory_answer two = answer_of(&gg_enskog, &m);
+    assert_close(two.value[GG_Q_COMPRESSIBILITY], Z, 1e-13);
+    assert_close(two.value[GG_Q_COLLISION_RATE], one.value[GG_Q_COLLISION_RATE], 1e-13);
+    assert_close(two.value[GG_Q_MEAN_FREE_PATH], one.value[GG_Q_MEAN_FREE_PATH], 1e-13);
+  }
+}
+
+/* Mean free time 0.1303 of the elastic fluid at n d^3 = 0.5, T = 1 (Lue, J. Chem. Phys. 122 (2005) 044513). */
+static void enskog_mean_free_time(void **state)
+{
+  (void)state;
+  gg_model m = model_for(GG_EQUILIBRIUM, M_PI / 12, 1, -1);
+  double rate = value_of(&gg_enskog, &m, GG_Q_COLLISION_RATE) * sqrt(2); /* from T = 1/2 to T = 1 */
+  assert_close(1 / rate, 0.1303, 0.005);
+}
+
+/* N = 8000, phi = 0.01, chi = 1: l = 11.79 d without chi, 11.49 d with; L = 74.8 d; Kn = 0.1536. */
+static void enskog_knudsen(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_EQUILIBRIUM, 0.01, 1, -1);
+  s.particles = 8000;
+  gg_model m;
+  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_close(value_of(&gg_enskog, &m, GG_Q_MEAN_FREE_PATH), 11.49, 5e-4);
+  assert_close(cbrt(m.volume), 74.8, 1e-3);
+  assert_close(value_of(&gg_enskog, &m, GG_Q_KNUDSEN), 0.1536, 5e-4);
+}
+
+static void enskog_refuses(void **state)
+{
+  (void)state;
+  gg_model m = model_for(GG_EQUILIBRIUM, 0.2, 0.9, -1);
+  assert_refused(&gg_enskog, &m, "elastic");
+  m = model_for(GG_USF, 0.2, 0.9, -1);
+  assert_refused(&gg_enskog, &m, "this scene is uniform shear");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(list_is_complete),      cmocka_unit_test(no_number_leaks),
+      cmocka_unit_test(sela_goldhirsch),       cmocka_unit_test(enskog_equation_of_state),
+      cmocka_unit_test(enskog_mean_free_time), cmocka_unit_test(enskog_knudsen),
+      cmocka_unit_test(enskog_refuses),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
