@@ -25,10 +25,10 @@ extern "C" {
 
 typedef enum gg_status {
   GG_OK = 0,
-  GG_FAILED = 1,        /* the run failed or fell short of what was asked */
-  GG_BAD_INPUT = 2,     /* the scene or an argument is wrong */
-  GG_BAD_FILE = 3,      /* a file could not be read or written */
-  GG_INTERRUPTED = 130  /* stopped by the caller */
+  GG_FAILED = 1,       /* the run failed or fell short of what was asked */
+  GG_BAD_INPUT = 2,    /* the scene or an argument is wrong */
+  GG_BAD_FILE = 3,     /* a file could not be read or written */
+  GG_INTERRUPTED = 130 /* stopped by the caller */
 } gg_status;
 
 typedef struct gg_error {
@@ -49,8 +49,8 @@ GG_API gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **s
 GG_API gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err);
 GG_API void gg_scene_free(gg_scene *scene);
 
-/* Run the scene's engine to the end that the scene asks for. GG_FAILED with *result set: the run ended short of what was
- * asked (no steady state, time limit) and the result says how far it came. */
+/* Run the scene's engine to the end that the scene asks for. GG_FAILED with *result set: the run ended short of what
+ * was asked (no steady state, time limit) and the result says how far it came. */
 GG_API gg_status gg_run(const gg_scene *scene, gg_result **result, gg_error *err);
 
 /* One measured mean and its standard error by its shared name ("temperature", "shear_viscosity", "N1" ...).

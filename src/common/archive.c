@@ -4,7 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-size_t gg_item_size(gg_item_type type) { return type == GG_ITEM_U8 ? 1 : 8; }
+size_t gg_item_size(gg_item_type type)
+{
+  return type == GG_ITEM_U8 ? 1 : 8;
+}
 
 static gg_status grow(gg_archive *a, gg_error *err)
 {
@@ -55,4 +58,27 @@ void gg_archive_clear(gg_archive *a)
   for (size_t i = 0; i < a->n_items; i++) free(a->items[i].data);
   free(a->items);
   *a = (gg_archive){0};
+}
+
+gg_status gg_archive_nest(gg_archive *to, const char *prefix, const gg_archive *from, gg_error *err)
+{
+  for (size_t i = 0; i < from->n_items; i++) {
+    const gg_item *item = &from->items[i];
+    char name[sizeof item->name];
+    if ((size_t)snprintf(name, sizeof name, "%s/%s", prefix, item->name) >= sizeof name)
+      return gg_fail(err, GG_FAILED, "checkpoint item name '%s/%s' is too long", prefix, item->name);
+    GG_TRY(gg_archive_put(to, name, item->type, item->data, item->count, err));
+  }
+  return GG_OK;
+}
+
+gg_status gg_archive_unnest(gg_archive *to, const char *prefix, const gg_archive *from, gg_error *err)
+{
+  size_t length = strlen(prefix);
+  for (size_t i = 0; i < from->n_items; i++) {
+    const gg_item *item = &from->items[i];
+    if (strncmp(item->name, prefix, length) != 0 || item->name[length] != '/') continue;
+    GG_TRY(gg_archive_put(to, item->name + length + 1, item->type, item->data, item->count, err));
+  }
+  return GG_OK;
 }

@@ -31,4 +31,8 @@ gg_status gg_archive_get(const gg_archive *a, const char *name, gg_item_type typ
 const gg_item *gg_archive_find(const gg_archive *a, const char *name);
 void gg_archive_clear(gg_archive *a);
 
+/* Copy every item of `from` into `to` under prefix/name, and back those that stand under a prefix. */
+gg_status gg_archive_nest(gg_archive *to, const char *prefix, const gg_archive *from, gg_error *err);
+gg_status gg_archive_unnest(gg_archive *to, const char *prefix, const gg_archive *from, gg_error *err);
+
 #endif

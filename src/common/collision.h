@@ -28,9 +28,9 @@ typedef enum gg_rule {
 
 /* What two partners of given kinds need at contact; made once by gg_contact_make. Units: mass. */
 typedef struct gg_contact {
-  double jn;  /* m_r (1+e) */
-  double jt;  /* m_t (1+beta); 0 if smooth */
-  double mu;  /* friction coefficient; INFINITY: constant beta */
+  double jn;       /* m_r (1+e) */
+  double jt;       /* m_t (1+beta); 0 if smooth */
+  double mu;       /* friction coefficient; INFINITY: constant beta */
   double im1, im2; /* 1/m_i */
   double ik1, ik2; /* 1/(K_i m_i) */
 } gg_contact;
@@ -45,8 +45,14 @@ gg_contact gg_contact_make(gg_partner one, gg_partner two, double e, double beta
 /* The simplest rule that does for these coefficients. */
 gg_rule gg_rule_of(double beta, double mu);
 
-GG_INLINE double gg_inverse_mr(const gg_contact *c) { return c->im1 + c->im2; }
-GG_INLINE double gg_inverse_mt(const gg_contact *c) { return (c->im1 + c->im2) + (c->ik1 + c->ik2); }
+GG_INLINE double gg_inverse_mr(const gg_contact *c)
+{
+  return c->im1 + c->im2;
+}
+GG_INLINE double gg_inverse_mt(const gg_contact *c)
+{
+  return (c->im1 + c->im2) + (c->ik1 + c->ik2);
+}
 
 /* Relative velocity of the surfaces at contact, g = c12 - k x (s1 + s2). */
 GG_INLINE gg_vec gg_contact_velocity(gg_rule rule, gg_vec k, gg_vec c12, gg_vec s1, gg_vec s2)

@@ -22,25 +22,26 @@ typedef struct gg_transfer {
 
 /* How a run goes; counts since creation. */
 typedef struct gg_engine_state {
-  double time;          /* since creation, model units of the present velocity scale */
-  uint64_t collisions;  /* grain-grain */
-  uint64_t events;      /* md: everything taken from the queue; dsmc: candidate pairs */
-  uint64_t treated;     /* md: collisions treated by the contact-time rule */
-  uint64_t overflows;   /* dsmc: candidates whose rate exceeded the majorant */
-  double worst_overlap; /* md: largest overlap seen at a collision, in d; 0 otherwise */
-  double time_step;     /* dsmc: the present step, model units; 0 for md */
+  double time;           /* since creation, model units of the present velocity scale */
+  uint64_t collisions;   /* grain-grain */
+  uint64_t events;       /* md: everything taken from the queue; dsmc: candidate pairs */
+  uint64_t treated;      /* md: collisions treated by the contact-time rule */
+  uint64_t overflows;    /* dsmc: candidates whose rate exceeded the majorant */
+  double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
+  double time_step;      /* dsmc: the present step, model units; 0 for md */
   double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */
 } gg_engine_state;
 
-/* Grains a thousand at a time, in structure-of-arrays scratch that stays in the cache; NULL where the engine has none. */
+/* Grains a thousand at a time, in structure-of-arrays scratch that stays in the cache; NULL where the engine has none.
+ */
 enum { GG_CHUNK = 1024 };
 typedef struct gg_chunk {
   size_t n;
-  const double *r[3]; /* positions in the box, all at the present time; only if asked for */
-  const double *c[3]; /* peculiar velocities */
-  const double *s[3]; /* spins; NULL for smooth grains */
+  const double *r[3];     /* positions in the box, all at the present time; only if asked for */
+  const double *c[3];     /* peculiar velocities */
+  const double *s[3];     /* spins; NULL for smooth grains */
   const uint8_t *species; /* NULL for one species */
-  const int64_t *id;  /* the grain's number, constant through a run; only if positions are asked for */
+  const int64_t *id;      /* the grain's number, constant through a run; only if positions are asked for */
 } gg_chunk;
 typedef void gg_visit(void *context, const gg_chunk *chunk);
 

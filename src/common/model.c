@@ -52,7 +52,10 @@ static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)
   return gg_contact_value_mixture(m->phi, phi_hat, d_red);
 }
 
-static gg_rule later_rule(gg_rule a, gg_rule b) { return a > b ? a : b; }
+static gg_rule later_rule(gg_rule a, gg_rule b)
+{
+  return a > b ? a : b;
+}
 
 static void set_pairs(gg_model *m, const gg_scene *s)
 {
@@ -84,7 +87,8 @@ static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
   m->wall_speed = s->walls.speed * time_unit / s->species[0].diameter;
 }
 
-/* Steady temperature in units of (d rate)^2 from the balance of dilute viscous heating and dissipation, to start near. */
+/* Steady temperature in units of (d rate)^2 from the balance of dilute viscous heating and dissipation, to start near.
+ */
 static double guess_sheared_temperature(const gg_model *m)
 {
   double e = m->e[0], rough = m->rule == GG_SMOOTH ? 0 : (1 - m->beta[0] * m->beta[0]) * m->inertia[0];
@@ -107,6 +111,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat};
   bool sheared = gg_flow_is_sheared(s->flow);
+  m->homogeneous = engine == GG_DSMC;
   m->n = engine == GG_DSMC ? (s->dsmc.particles ? s->dsmc.particles : (s->particles > 20000 ? s->particles : 20000))
                            : s->particles;
   set_composition(m, s);

@@ -14,42 +14,43 @@
 typedef struct gg_model {
   gg_flow flow;
   gg_thermostat thermostat;
-  gg_rule rule;   /* the most complex rule that any collision of the scene needs */
-  bool boltzmann; /* phi = 0 */
-  bool elastic;   /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
-  bool steady;    /* a steady state can exist (scaled, for cooling) */
+  gg_rule rule;     /* the most complex rule that any collision of the scene needs */
+  bool boltzmann;   /* phi = 0 */
+  bool homogeneous; /* no box: an ensemble that stands for one point of the flow (dsmc) */
+  bool elastic;     /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
+  bool steady;      /* a steady state can exist (scaled, for cooling) */
 
-  int64_t n;                      /* grains (of the engine's kind: `dsmc.particles` may differ from `particles`) */
+  int64_t n; /* grains (of the engine's kind: `dsmc.particles` may differ from `particles`) */
   int n_species;
   int64_t n_of[GG_MAX_SPECIES];
   double diameter[GG_MAX_SPECIES], mass[GG_MAX_SPECIES], inertia[GG_MAX_SPECIES]; /* inertia: K = 4I/(m d^2) */
 
-  double phi, density;    /* density: n d_1^3, 1 in the Boltzmann limit */
-  double box[3], volume;  /* edges, volume = n/density */
-  double shear_rate;      /* 1 if sheared, else 0 */
+  double phi, density;   /* density: n d_1^3, 1 in the Boltzmann limit */
+  double box[3], volume; /* edges, volume = n/density */
+  double shear_rate;     /* 1 if sheared, else 0 */
   double gravity[3];
 
   /* By ordered pair of species, index 2 i + j. */
-  gg_contact contact[4];  /* grain 1 of species i, grain 2 of species j */
-  gg_contact treated[4];  /* the same with e = 1, for the contact-time rule */
-  double sigma[4];        /* (d_i + d_j)/2 */
-  double chi[4];          /* contact value; 1 in the Boltzmann limit */
+  gg_contact contact[4]; /* grain 1 of species i, grain 2 of species j */
+  gg_contact treated[4]; /* the same with e = 1, for the contact-time rule */
+  double sigma[4];       /* (d_i + d_j)/2 */
+  double chi[4];         /* contact value; 1 in the Boltzmann limit */
   double e[4], beta[4], mu[4];
 
   gg_contact wall[GG_MAX_SPECIES]; /* grain (1) against wall (2) */
   gg_rule wall_rule;
   double wall_speed;
 
-  double temperature0;      /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
-  double ratio0;            /* theta/T that a run starts from */
-  double contact_time;      /* of the contact-time rule, in mean free times per grain; 0: off */
-  double time_step;         /* dsmc, in mean free times per grain; GG_AUTO */
+  double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
+  double ratio0;       /* theta/T that a run starts from */
+  double contact_time; /* of the contact-time rule, in mean free times per grain; 0: off */
+  double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
 
-  double stress_unit;       /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
+  double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;
 
-/* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get order-of-
- * magnitude guesses, which a caller may improve before creating an engine. */
+/* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get
+ * order-of- magnitude guesses, which a caller may improve before creating an engine. */
 gg_status gg_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
 
 /* Collisions per grain that the slowest of T, theta, mean spin needs to relax by a factor 1/e, estimated from two-

@@ -2,8 +2,17 @@
 
 #include <string.h>
 
-enum unit { UNIT_NONE, UNIT_TEMPERATURE, UNIT_STRESS, UNIT_VISCOSITY, UNIT_RATE, UNIT_LENGTH, UNIT_SPIN, UNIT_POWER,
-            N_UNITS };
+enum unit {
+  UNIT_NONE,
+  UNIT_TEMPERATURE,
+  UNIT_STRESS,
+  UNIT_VISCOSITY,
+  UNIT_RATE,
+  UNIT_LENGTH,
+  UNIT_SPIN,
+  UNIT_POWER,
+  N_UNITS
+};
 enum scale { SHEARED, SHEARED_BOLTZMANN, THERMAL, THERMAL_BOLTZMANN, N_SCALES };
 
 /* Temperatures are <C.C>/3, velocities squared, with m of species 1 as the unit of mass. */
@@ -25,8 +34,14 @@ static const struct {
 } table[] = {GG_QUANTITIES(GG_QUANTITY_ROW)};
 #undef GG_QUANTITY_ROW
 
-const char *gg_quantity_name(gg_quantity q) { return table[q].name; }
-const char *gg_quantity_doc(gg_quantity q) { return table[q].doc; }
+const char *gg_quantity_name(gg_quantity q)
+{
+  return table[q].name;
+}
+const char *gg_quantity_doc(gg_quantity q)
+{
+  return table[q].doc;
+}
 
 gg_quantity gg_quantity_find(const char *name)
 {
@@ -38,7 +53,7 @@ gg_quantity gg_quantity_find(const char *name)
 const char *gg_quantity_unit(gg_quantity q, const gg_model *model)
 {
   bool sheared = model->shear_rate != 0 || model->flow == GG_COUETTE;
-  int scale = sheared ? (model->boltzmann ? SHEARED_BOLTZMANN : SHEARED)
-                      : (model->boltzmann ? THERMAL_BOLTZMANN : THERMAL);
+  int scale =
+      sheared ? (model->boltzmann ? SHEARED_BOLTZMANN : SHEARED) : (model->boltzmann ? THERMAL_BOLTZMANN : THERMAL);
   return unit_names[scale][table[q].unit];
 }

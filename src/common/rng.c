@@ -16,11 +16,20 @@ gg_rng gg_rng_seed(uint64_t seed, uint64_t stream)
 }
 
 /* A gsl_rng that draws from our stream, so that GSL's samplers serve every distribution. */
-static unsigned long gsl_get(void *state) { return (unsigned long)(gg_rng_next(state) >> 32); }
-static double gsl_get_double(void *state) { return gg_rng_uniform(state); }
-static void gsl_set(void *state, unsigned long seed) { *(gg_rng *)state = gg_rng_seed(seed, 0); }
-static const gsl_rng_type stream_type = {"xoshiro256++", 0xffffffffu, 0, sizeof(gg_rng), gsl_set, gsl_get,
-                                         gsl_get_double};
+static unsigned long gsl_get(void *state)
+{
+  return (unsigned long)(gg_rng_next(state) >> 32);
+}
+static double gsl_get_double(void *state)
+{
+  return gg_rng_uniform(state);
+}
+static void gsl_set(void *state, unsigned long seed)
+{
+  *(gg_rng *)state = gg_rng_seed(seed, 0);
+}
+static const gsl_rng_type stream_type = {"xoshiro256++", 0xffffffffu,   0, sizeof(gg_rng), gsl_set,
+                                         gsl_get,        gsl_get_double};
 
 double gg_rng_normal(gg_rng *r)
 {
@@ -32,4 +41,10 @@ gg_vec gg_rng_normal_vec(gg_rng *r)
 {
   double x = gg_rng_normal(r), y = gg_rng_normal(r), z = gg_rng_normal(r);
   return (gg_vec){x, y, z};
+}
+
+uint64_t gg_rng_poisson(gg_rng *r, double mean)
+{
+  gsl_rng adapter = {&stream_type, r};
+  return gsl_ran_poisson(&adapter, mean);
 }

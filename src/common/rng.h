@@ -17,7 +17,10 @@ enum { GG_STREAM_START = 0, GG_STREAM_ENGINE = 1, GG_STREAM_LANES = 16, GG_STREA
 
 gg_rng gg_rng_seed(uint64_t seed, uint64_t stream);
 
-GG_INLINE uint64_t gg_rotl(uint64_t x, int k) { return (x << k) | (x >> (64 - k)); }
+GG_INLINE uint64_t gg_rotl(uint64_t x, int k)
+{
+  return (x << k) | (x >> (64 - k));
+}
 
 GG_INLINE uint64_t gg_rng_next(gg_rng *r)
 {
@@ -32,7 +35,10 @@ GG_INLINE uint64_t gg_rng_next(gg_rng *r)
 }
 
 /* Uniform in [0, 1), 53 bits. */
-GG_INLINE double gg_rng_uniform(gg_rng *r) { return (double)(gg_rng_next(r) >> 11) * 0x1p-53; }
+GG_INLINE double gg_rng_uniform(gg_rng *r)
+{
+  return (double)(gg_rng_next(r) >> 11) * 0x1p-53;
+}
 
 /* Uniform integer in [0, n), n < 2^32; Lemire's multiplication, bias below n/2^32 removed by rejection. */
 GG_INLINE uint32_t gg_rng_below(gg_rng *r, uint32_t n)
@@ -61,5 +67,7 @@ GG_INLINE gg_vec gg_rng_direction(gg_rng *r)
 /* Standard normal (GSL's ziggurat on this stream). */
 double gg_rng_normal(gg_rng *r);
 gg_vec gg_rng_normal_vec(gg_rng *r);
+/* Poisson count of this mean, up to 2^31 (GSL's). */
+uint64_t gg_rng_poisson(gg_rng *r, double mean);
 
 #endif

@@ -16,7 +16,7 @@ gg_scene gg_scene_defaults(void)
       .n_species = 1,
       .species = {{1, 1, 1, 0.4}, {0, 1, 1, 0.4}},
       .walls = {.e = 0.9, .beta = 1, .mu = INFINITY, .speed = 1},
-      .run = {.relative_error = 0.01,
+      .run = {.relative_error = GG_AUTO,
               .collisions = GG_AUTO,
               .time_limit = GG_AUTO,
               .warmup = GG_AUTO,

@@ -8,15 +8,7 @@
 
 #include "common/error.h"
 
-typedef enum gg_flow {
-  GG_EQUILIBRIUM,
-  GG_USF,
-  GG_HCS,
-  GG_HSS,
-  GG_COUETTE,
-  GG_POISEUILLE,
-  GG_CHUTE
-} gg_flow;
+typedef enum gg_flow { GG_EQUILIBRIUM, GG_USF, GG_HCS, GG_HSS, GG_COUETTE, GG_POISEUILLE, GG_CHUTE } gg_flow;
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
 typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE } gg_thermostat;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
@@ -53,7 +45,7 @@ struct gg_scene {
   } walls;
   double gravity[3];
   struct {
-    double relative_error, collisions, time_limit; /* GG_AUTO: not asked for */
+    double relative_error, collisions, time_limit; /* GG_AUTO: not asked for; neither of the first two: 0.01 */
     double warmup;                                 /* collisions per particle, or GG_AUTO */
     int64_t replicas;
     uint64_t seed;
@@ -76,9 +68,15 @@ struct gg_scene {
 gg_scene gg_scene_defaults(void);
 
 /* Index of the unordered pair of species i, j. */
-static inline int gg_pair_index(int i, int j) { return i + j; }
+static inline int gg_pair_index(int i, int j)
+{
+  return i + j;
+}
 
-static inline bool gg_flow_is_sheared(gg_flow flow) { return flow == GG_USF; }
+static inline bool gg_flow_is_sheared(gg_flow flow)
+{
+  return flow == GG_USF;
+}
 static inline bool gg_flow_is_walled(gg_flow flow)
 {
   return flow == GG_COUETTE || flow == GG_POISEUILLE || flow == GG_CHUTE;

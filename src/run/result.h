@@ -4,6 +4,7 @@
 
 #include "common/engine.h"
 #include "common/quantity.h"
+#include "measure/observable.h"
 
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
 typedef struct gg_estimate {
@@ -19,24 +20,22 @@ typedef enum gg_verdict {
   GG_HEATING     /* no steady state exists; followed as what it is */
 } gg_verdict;
 
-/* The quantities followed from the start to the end, one row a sample; the first replica. In a cooling run values are
+/* gg_history_quantities from the start to the end, one row a sample; the first replica. In a cooling run values are
  * scaled back to the units of the start. */
-enum { GG_N_SERIES = 8 };
-extern const gg_quantity gg_series_quantities[GG_N_SERIES]; /* T, theta, theta/T, p, P_xy, spin_z, collision rate, a2 */
 typedef struct gg_history {
   size_t n;
   double *time;                /* model units */
-  double *value[GG_N_SERIES];  /* NaN where there is none */
+  double *value[GG_N_HISTORY]; /* NaN where there is none */
   double window[2];            /* averaging from .. to */
 } gg_history;
 
 /* Grains at one instant; arrays of 3 n (x y z x y z ...), NULL where there are none. */
 typedef struct gg_frame {
   double time;
-  uint64_t step;               /* collisions since creation */
+  uint64_t step; /* collisions since creation */
   size_t n;
   double *position, *velocity, *spin; /* velocity: peculiar; spin: omega (Boltzmann limit: (d/2) omega) */
-  uint8_t *species;            /* NULL for one species */
+  uint8_t *species;                   /* NULL for one species */
   int64_t *id;
 } gg_frame;
 gg_status gg_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err);
@@ -50,7 +49,7 @@ typedef struct gg_effort {
 enum { GG_MAX_WARNINGS = 32 };
 
 struct gg_result {
-  gg_scene scene;  /* as run: overrides and seed included */
+  gg_scene scene; /* as run: overrides and seed included */
   gg_model model;
   const char *engine; /* "md", "dsmc" */
   gg_verdict verdict;

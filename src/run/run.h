@@ -8,12 +8,12 @@
 /* Where a run stands, for a progress line. */
 typedef struct gg_progress {
   const char *engine;
-  const char *phase;      /* "warm-up", "averaging" */
-  double fraction;        /* of this phase, 0..1 */
-  uint64_t collisions;    /* so far, this replica */
-  double rate;            /* collisions per second */
-  double relative_error;  /* worst headline, NaN if not known yet */
-  double time_left;       /* seconds, NaN if not known */
+  const char *phase;     /* "warm-up", "averaging" */
+  double fraction;       /* of this phase, 0..1 */
+  uint64_t collisions;   /* so far, this replica */
+  double rate;           /* collisions per second */
+  double relative_error; /* worst headline, NaN if not known yet */
+  double time_left;      /* seconds, NaN if not known */
   int64_t replica, replicas;
 } gg_progress;
 
@@ -37,7 +37,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
 /* Both engines and every theory. */
 typedef struct gg_comparison {
   gg_scene scene;
-  gg_model model; /* md's */
+  gg_model model;          /* md's */
   gg_result *by_engine[2]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
   char refusal[2][256];
   int n_theories;

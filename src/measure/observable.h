@@ -1,0 +1,54 @@
+/* An observable: a plug-in that turns what an engine shows (its grains, its sums over collisions) into a row of numbers
+ * a sample, and channel means into named quantities. It knows nothing of engines' insides, files or pictures. A new one
+ * is a file and a line in observables.c. */
+#ifndef GG_OBSERVABLE_H
+#define GG_OBSERVABLE_H
+
+#include "common/engine.h"
+#include "common/quantity.h"
+#include "measure/estimator.h"
+
+/* One sampling interval: sums over its collisions, and how long it lasted (0: the very first look, which makes no row).
+ * velocity_factor: by what all velocities were multiplied when it began (1, but for cooling runs that were rescaled).
+ */
+typedef struct gg_interval {
+  const gg_model *model;
+  const gg_transfer *transfer;
+  double elapsed, velocity_factor;
+} gg_interval;
+
+/* A quantity as a function of this observable's channel means. */
+typedef struct gg_derived {
+  gg_quantity quantity;
+  gg_of_means *of;
+} gg_derived;
+
+typedef struct gg_observable {
+  const char *name; /* the word under `measure` in a scene */
+  const char *doc;
+  unsigned flag; /* GG_MEASURE_... */
+  int passes;    /* times it needs to see the grains at each sample */
+  size_t (*width)(const gg_model *model);
+  void *(*create)(const gg_model *model, gg_error *err);
+  void (*destroy)(void *self);
+  /* Plain bytes that one sample leaves for the next: what a checkpoint keeps. */
+  void *(*memory)(void *self, size_t *bytes);
+  void (*begin)(void *self, int pass);
+  void (*visit)(void *self, const gg_chunk *chunk);
+  void (*finish)(void *self, const gg_interval *interval, double *row);
+  const gg_derived *derived;   /* ends with of = NULL */
+  gg_of_means *const *history; /* the gg_history_quantities of one row, GG_N_HISTORY of them; or NULL */
+  /* Why this model has no such quantity; NULL if it has. */
+  const char *(*missing)(const gg_model *model, gg_quantity quantity);
+} gg_observable;
+
+/* The quantities followed from start to end of a run. */
+enum { GG_N_HISTORY = 8 };
+extern const gg_quantity gg_history_quantities[GG_N_HISTORY];
+
+/* Every observable there is; NULL-terminated. */
+extern const gg_observable *const gg_observables[];
+
+extern const gg_observable gg_rheology;
+
+#endif

@@ -1,0 +1,165 @@
+/* The default set: temperatures, spin, stress, rates, moments. */
+#include "measure/rheology.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "measure/by_species.h"
+#include "measure/moments.h"
+
+/* What one sample leaves for the next. */
+typedef struct memory {
+  double last_temperature; /* at the previous sample, engine's scale */
+  double scale;            /* engine's velocities over those of the start */
+} memory;
+
+typedef struct rheology {
+  gg_model model;
+  int pass;
+  gg_moments moments[GG_MAX_SPECIES];
+  memory memory;
+  gg_species_scratch scratch;
+} rheology;
+
+static size_t width(const gg_model *m)
+{
+  return CH_SPECIES + (size_t)m->n_species * gg_rheology_species_width(m);
+}
+
+static void *create(const gg_model *model, gg_error *err)
+{
+  rheology *r = gg_new_array(1, sizeof *r, err);
+  if (!r) return NULL;
+  r->model = *model;
+  r->memory.scale = 1;
+  return r;
+}
+
+static void *memory_of(void *self, size_t *bytes)
+{
+  rheology *r = self;
+  *bytes = sizeof r->memory;
+  return &r->memory;
+}
+
+static void begin(void *self, int pass)
+{
+  rheology *r = self;
+  r->pass = pass;
+  for (int i = 0; i < r->model.n_species; i++) {
+    gg_moments *m = &r->moments[i];
+    if (pass == 0)
+      *m = (gg_moments){0};
+    else
+      for (int a = 0; a < 3; a++) m->mean_spin[a] = m->n > 0 ? m->s[a] / m->n : 0;
+  }
+}
+
+static void visit(void *self, const gg_chunk *chunk)
+{
+  rheology *r = self;
+  for (int i = 0; i < r->model.n_species; i++) {
+    gg_species_view v = gg_chunk_of_species(chunk, i, &r->scratch);
+    if (r->pass == 0) {
+      gg_moments_translation(&r->moments[i], v.n, v.c);
+      if (v.s[0]) gg_moments_mean_spin(&r->moments[i], v.n, v.s);
+    } else if (v.s[0]) {
+      gg_moments_rotation(&r->moments[i], v.n, v.c, v.s);
+    }
+  }
+}
+
+/* T = sum x_i m_i <C.C>_i/3 of this instant. */
+static double temperature(const rheology *r)
+{
+  double sum = 0;
+  for (int i = 0; i < r->model.n_species; i++) {
+    const gg_moments *m = &r->moments[i];
+    sum += r->model.mass[i] * (m->cc[0] + m->cc[1] + m->cc[2]);
+  }
+  return sum / (3 * (double)r->model.n);
+}
+
+static void put_moments(const rheology *r, int species, double T, double *ch)
+{
+  const gg_moments *m = &r->moments[species];
+  double second = 1 / (m->n * T), fourth = second / T;
+  for (int a = 0; a < 3; a++) {
+    ch[CH_C2X + a] = m->cc[a] * second;
+    ch[CH_C4X + a] = m->c4[a] * fourth;
+  }
+  ch[CH_CXY] = m->cxcy * second;
+  ch[CH_CCCC] = m->cccc * fourth;
+  ch[CH_SPEED] = m->speed / (m->n * sqrt(T));
+  if (r->model.rule == GG_SMOOTH) return;
+  ch[CH_SPIN_Z] = m->mean_spin[2] / sqrt(T);
+  for (int a = 0; a < 3; a++) {
+    ch[CH_W2X + a] = m->ww[a] * second;
+    ch[CH_W4X + a] = m->w4[a] * fourth;
+  }
+  ch[CH_W3Z] = m->w3z * second / sqrt(T);
+  ch[CH_COS2] = m->cos2 / m->n;
+}
+
+/* Integrals of sqrt(T) and T over an interval of free cooling, T^(-1/2) taken as linear in time (Haff's law). */
+typedef struct haff {
+  double root, first, growth; /* int sqrt(T) dt, int T dt, d T^(-1/2)/dt */
+} haff;
+
+static haff haff_integrals(double T0, double T1, double dt)
+{
+  double a0 = 1 / sqrt(T0), a1 = 1 / sqrt(T1), b = (a1 - a0) / dt;
+  if (fabs(a1 - a0) < 1e-9 * a0) return (haff){dt * sqrt(T0), dt * T0, b};
+  return (haff){log(a1 / a0) / b, (1 / a0 - 1 / a1) / b, b};
+}
+
+static void put_rates(const rheology *r, const gg_interval *in, haff h, double *row)
+{
+  const gg_model *m = &r->model;
+  const gg_transfer *t = in->transfer;
+  double collisions = 0, loss = 0, p[3][3] = {{0}};
+  for (int q = 0; q < GG_PAIRS; q++) {
+    collisions += (double)t->collisions[q];
+    loss += t->loss[q];
+    for (int a = 0; a < 3; a++)
+      for (int b = 0; b < 3; b++) p[a][b] += t->stress[q][a][b];
+  }
+  row[CH_RATE] = 2 * collisions / ((double)m->n * h.root);
+  row[CH_LOSS] = loss * m->stress_unit / (m->volume * in->elapsed);
+  row[CH_ZETA] = 2 * h.growth / gg_model_nu0(m, 1);
+  double unit = m->stress_unit / (m->volume * h.first);
+  row[CH_PC_XX] = p[0][0] * unit, row[CH_PC_YY] = p[1][1] * unit, row[CH_PC_ZZ] = p[2][2] * unit;
+  row[CH_PC_XY] = p[0][1] * unit, row[CH_PC_YX] = p[1][0] * unit;
+}
+
+static void finish(void *self, const gg_interval *in, double *row)
+{
+  rheology *r = self;
+  bool cooling = r->model.flow == GG_HCS;
+  double T = temperature(r), T0 = r->memory.last_temperature * in->velocity_factor * in->velocity_factor;
+  r->memory.last_temperature = T;
+  r->memory.scale *= in->velocity_factor;
+  if (!(in->elapsed > 0)) return;
+  row[CH_LN_T] = log(T) - 2 * log(r->memory.scale);
+  haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
+  put_rates(r, in, h, row);
+  for (int i = 0; i < r->model.n_species; i++)
+    put_moments(r, i, cooling ? T : 1, row + CH_SPECIES + (size_t)i * gg_rheology_species_width(&r->model));
+}
+
+const gg_observable gg_rheology = {
+    .name = "rheology",
+    .doc = "temperatures, spin, stress, collision rate, free path, velocity moments",
+    .flag = GG_MEASURE_RHEOLOGY,
+    .passes = 2,
+    .width = width,
+    .create = create,
+    .destroy = free,
+    .memory = memory_of,
+    .begin = begin,
+    .visit = visit,
+    .finish = finish,
+    .derived = gg_rheology_derived,
+    .history = gg_rheology_history,
+    .missing = gg_rheology_missing,
+};

@@ -1,0 +1,53 @@
+/* Channels of a rheology sample. In free cooling everything is scaled by the temperature of the moment (moments) or of
+ * the interval (rates), so that the scaled state is steady; else plain model units. */
+#ifndef GG_RHEOLOGY_H
+#define GG_RHEOLOGY_H
+
+#include "measure/observable.h"
+
+enum {
+  /* of the interval */
+  CH_RATE, /* collisions per grain and time; each counts for both partners */
+  CH_LOSS, /* energy lost per volume and time, in stress units per time */
+  CH_ZETA, /* free cooling: zeta*, from the fall of T over the interval */
+  CH_LN_T, /* ln T of the sample, in units of the start whatever the engine's velocities were multiplied by */
+  CH_PC_XX,
+  CH_PC_YY,
+  CH_PC_ZZ,
+  CH_PC_XY,
+  CH_PC_YX,  /* collisional stress, stress units */
+  CH_SPECIES /* where the moments of species 1 begin; those of species 2 follow */
+};
+enum {
+  CH_C2X,
+  CH_C2Y,
+  CH_C2Z,
+  CH_CXY,
+  CH_C4X,
+  CH_C4Y,
+  CH_C4Z,
+  CH_CCCC,
+  CH_SPEED,
+  CH_SMOOTH_WIDTH, /* what smooth grains have */
+  CH_SPIN_Z = CH_SMOOTH_WIDTH,
+  CH_W2X,
+  CH_W2Y,
+  CH_W2Z,
+  CH_W4X,
+  CH_W4Y,
+  CH_W4Z,
+  CH_W3Z,
+  CH_COS2,
+  CH_ROUGH_WIDTH
+};
+
+static inline size_t gg_rheology_species_width(const gg_model *m)
+{
+  return m->rule == GG_SMOOTH ? CH_SMOOTH_WIDTH : CH_ROUGH_WIDTH;
+}
+
+extern const gg_derived gg_rheology_derived[];
+extern gg_of_means *const gg_rheology_history[]; /* of one row: the quantities of gg_history_quantities */
+const char *gg_rheology_missing(const gg_model *model, gg_quantity quantity);
+
+#endif

@@ -1,0 +1,260 @@
+/* From channel means of rheology to named quantities. Stress by Gayen's thesis eq. 5.15 (per volume), normal stress
+ * differences eqs 5.17-5.18. */
+#include "measure/rheology.h"
+
+#include <math.h>
+
+/* Channel of a species. */
+static double of(const double *a, const gg_model *m, int species, int channel)
+{
+  return a[CH_SPECIES + (size_t)species * gg_rheology_species_width(m) + (size_t)channel];
+}
+
+static double share(const gg_model *m, int i)
+{
+  return (double)m->n_of[i] / (double)m->n;
+}
+
+/* sum_i x_i w_i (channel of i): w = 1 or the mass. */
+static double mean_over(const double *a, const gg_model *m, int channel, bool by_mass)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) sum += share(m, i) * (by_mass ? m->mass[i] : 1) * of(a, m, i, channel);
+  return sum;
+}
+
+static double partial_temperature(const double *a, const gg_model *m, int i)
+{
+  return m->mass[i] * (of(a, m, i, CH_C2X) + of(a, m, i, CH_C2Y) + of(a, m, i, CH_C2Z)) / 3;
+}
+static double temperature(const double *a, const gg_model *m)
+{
+  return (mean_over(a, m, CH_C2X, true) + mean_over(a, m, CH_C2Y, true) + mean_over(a, m, CH_C2Z, true)) / 3;
+}
+/* theta = sum x_i I_i <Omega.Omega>_i/3 with I Omega^2 = K m s^2 for surface velocities s. */
+static double rotational_temperature(const double *a, const gg_model *m)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    double w2 = of(a, m, i, CH_W2X) + of(a, m, i, CH_W2Y) + of(a, m, i, CH_W2Z);
+    sum += share(m, i) * m->inertia[i] * m->mass[i] * w2 / 3;
+  }
+  return sum;
+}
+static double temperature_ratio(const double *a, const gg_model *m)
+{
+  return rotational_temperature(a, m) / temperature(a, m);
+}
+static double spin_z(const double *a, const gg_model *m)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) sum += share(m, i) * of(a, m, i, CH_SPIN_Z) * 2 / m->diameter[i];
+  return sum;
+}
+
+#define KINETIC(name, channel)                                                                                         \
+  static double name(const double *a, const gg_model *m)                                                               \
+  {                                                                                                                    \
+    return m->density * m->stress_unit * mean_over(a, m, channel, true);                                               \
+  }
+KINETIC(kinetic_xx, CH_C2X)
+KINETIC(kinetic_yy, CH_C2Y)
+KINETIC(kinetic_zz, CH_C2Z)
+KINETIC(kinetic_xy, CH_CXY)
+#define COLLISIONAL(name, channel)                                                                                     \
+  static double name(const double *a, const gg_model *m)                                                               \
+  {                                                                                                                    \
+    (void)m;                                                                                                           \
+    return a[channel];                                                                                                 \
+  }
+COLLISIONAL(collisional_xx, CH_PC_XX)
+COLLISIONAL(collisional_yy, CH_PC_YY)
+COLLISIONAL(collisional_zz, CH_PC_ZZ)
+COLLISIONAL(collisional_xy, CH_PC_XY)
+COLLISIONAL(collisional_yx, CH_PC_YX)
+#define TOTAL(name, kinetic, collisional)                                                                              \
+  static double name(const double *a, const gg_model *m)                                                               \
+  {                                                                                                                    \
+    return kinetic(a, m) + collisional(a, m);                                                                          \
+  }
+TOTAL(total_xx, kinetic_xx, collisional_xx)
+TOTAL(total_yy, kinetic_yy, collisional_yy)
+TOTAL(total_zz, kinetic_zz, collisional_zz)
+TOTAL(total_xy, kinetic_xy, collisional_xy)
+TOTAL(total_yx, kinetic_xy, collisional_yx)
+
+static double pressure(const double *a, const gg_model *m)
+{
+  return (total_xx(a, m) + total_yy(a, m) + total_zz(a, m)) / 3;
+}
+static double compressibility(const double *a, const gg_model *m)
+{
+  return pressure(a, m) / (m->density * m->stress_unit * temperature(a, m));
+}
+static double shear_viscosity(const double *a, const gg_model *m)
+{
+  return fabs(total_xy(a, m)) / m->shear_rate;
+}
+static double N1(const double *a, const gg_model *m)
+{
+  return (total_xx(a, m) - total_yy(a, m)) / pressure(a, m);
+}
+static double N2(const double *a, const gg_model *m)
+{
+  return (total_yy(a, m) - total_zz(a, m)) / pressure(a, m);
+}
+
+COLLISIONAL(collision_rate, CH_RATE)
+static double mean_free_path(const double *a, const gg_model *m)
+{
+  return mean_over(a, m, CH_SPEED, false) / a[CH_RATE];
+}
+static double knudsen(const double *a, const gg_model *m)
+{
+  return mean_free_path(a, m) / cbrt(m->volume);
+}
+COLLISIONAL(dissipation, CH_LOSS)
+static double energy_balance(const double *a, const gg_model *m)
+{
+  return -total_xy(a, m) * m->shear_rate / a[CH_LOSS];
+}
+
+static double cooling_rate(const double *a, const gg_model *m)
+{
+  if (m->flow == GG_HCS) return a[CH_ZETA];
+  double T = temperature(a, m); /* heated: -dT/dt by collisions alone, smooth grains */
+  return a[CH_LOSS] / (1.5 * m->density * m->stress_unit * T * gg_model_nu0(m, T));
+}
+
+static double cos2_psi(const double *a, const gg_model *m)
+{
+  return mean_over(a, m, CH_COS2, false);
+}
+static double flatness(const double *a, const gg_model *m, int fourth, int second)
+{
+  double c2 = mean_over(a, m, second, false);
+  return mean_over(a, m, fourth, false) / (c2 * c2);
+}
+static double kurtosis_cx(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_C4X, CH_C2X);
+}
+static double kurtosis_cy(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_C4Y, CH_C2Y);
+}
+static double kurtosis_cz(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_C4Z, CH_C2Z);
+}
+static double kurtosis_wx(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_W4X, CH_W2X);
+}
+static double kurtosis_wy(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_W4Y, CH_W2Y);
+}
+static double kurtosis_wz(const double *a, const gg_model *m)
+{
+  return flatness(a, m, CH_W4Z, CH_W2Z);
+}
+static double skewness_wz(const double *a, const gg_model *m)
+{
+  return mean_over(a, m, CH_W3Z, false) / pow(mean_over(a, m, CH_W2Z, false), 1.5);
+}
+
+/* Fourth cumulant of one species. Where N grains share a fixed energy, even Gaussian ones have <c^4>/T^2 lower than 15
+ * by the factor D/(D+2), D = 3(N-1) degrees of freedom: taken out. */
+static double cumulant(const double *a, const gg_model *m, int i)
+{
+  double T = partial_temperature(a, m, i) / m->mass[i], D = 3 * ((double)m->n - 1);
+  return of(a, m, i, CH_CCCC) / (15 * T * T) * (D + 2) / D - 1;
+}
+static double a2(const double *a, const gg_model *m)
+{
+  return cumulant(a, m, 0);
+}
+static double c_1(const double *a, const gg_model *m)
+{
+  return 2 * cumulant(a, m, 0);
+}
+static double c_2(const double *a, const gg_model *m)
+{
+  return 2 * cumulant(a, m, 1);
+}
+static double temperature_1(const double *a, const gg_model *m)
+{
+  return partial_temperature(a, m, 0);
+}
+static double temperature_2(const double *a, const gg_model *m)
+{
+  return partial_temperature(a, m, 1);
+}
+static double partial_ratio(const double *a, const gg_model *m)
+{
+  return temperature_1(a, m) / temperature_2(a, m);
+}
+
+const gg_derived gg_rheology_derived[] = {
+    {GG_Q_TEMPERATURE, temperature},
+    {GG_Q_ROTATIONAL_TEMPERATURE, rotational_temperature},
+    {GG_Q_TEMPERATURE_RATIO, temperature_ratio},
+    {GG_Q_SPIN_Z, spin_z},
+    {GG_Q_PRESSURE, pressure},
+    {GG_Q_COMPRESSIBILITY, compressibility},
+    {GG_Q_SHEAR_VISCOSITY, shear_viscosity},
+    {GG_Q_N1, N1},
+    {GG_Q_N2, N2},
+    {GG_Q_P_XX, total_xx},
+    {GG_Q_P_YY, total_yy},
+    {GG_Q_P_ZZ, total_zz},
+    {GG_Q_P_XY, total_xy},
+    {GG_Q_P_YX, total_yx},
+    {GG_Q_P_XX_KINETIC, kinetic_xx},
+    {GG_Q_P_YY_KINETIC, kinetic_yy},
+    {GG_Q_P_ZZ_KINETIC, kinetic_zz},
+    {GG_Q_P_XY_KINETIC, kinetic_xy},
+    {GG_Q_P_YX_KINETIC, kinetic_xy},
+    {GG_Q_P_XX_COLLISIONAL, collisional_xx},
+    {GG_Q_P_YY_COLLISIONAL, collisional_yy},
+    {GG_Q_P_ZZ_COLLISIONAL, collisional_zz},
+    {GG_Q_P_XY_COLLISIONAL, collisional_xy},
+    {GG_Q_P_YX_COLLISIONAL, collisional_yx},
+    {GG_Q_COLLISION_RATE, collision_rate},
+    {GG_Q_MEAN_FREE_PATH, mean_free_path},
+    {GG_Q_KNUDSEN, knudsen},
+    {GG_Q_COS2_PSI, cos2_psi},
+    {GG_Q_KURTOSIS_CX, kurtosis_cx},
+    {GG_Q_KURTOSIS_CY, kurtosis_cy},
+    {GG_Q_KURTOSIS_CZ, kurtosis_cz},
+    {GG_Q_KURTOSIS_WX, kurtosis_wx},
+    {GG_Q_KURTOSIS_WY, kurtosis_wy},
+    {GG_Q_KURTOSIS_WZ, kurtosis_wz},
+    {GG_Q_SKEWNESS_WZ, skewness_wz},
+    {GG_Q_DISSIPATION, dissipation},
+    {GG_Q_ENERGY_BALANCE, energy_balance},
+    {GG_Q_COOLING_RATE, cooling_rate},
+    {GG_Q_A2, a2},
+    {GG_Q_C_1, c_1},
+    {GG_Q_C_2, c_2},
+    {GG_Q_TEMPERATURE_1, temperature_1},
+    {GG_Q_TEMPERATURE_2, temperature_2},
+    {GG_Q_PARTIAL_TEMPERATURE_RATIO, partial_ratio},
+    {GG_N_QUANTITIES, NULL},
+};
+
+/* History: the temperature of free cooling itself, which as a mean has no meaning. */
+static double history_temperature(const double *a, const gg_model *m)
+{
+  (void)m;
+  return exp(a[CH_LN_T]);
+}
+static double history_rotational(const double *a, const gg_model *m)
+{
+  return history_temperature(a, m) * temperature_ratio(a, m);
+}
+
+gg_of_means *const gg_rheology_history[GG_N_HISTORY] = {
+    history_temperature, history_rotational, temperature_ratio, pressure, total_xy, spin_z, collision_rate, a2,
+};

@@ -1,0 +1,42 @@
+/* A series of samples, many channels wide: what every mean of a run is taken from. When it is full, neighbouring rows
+ * are averaged in pairs, so that a run of any length stays within a bounded memory and keeps its whole history. */
+#ifndef GG_SERIES_H
+#define GG_SERIES_H
+
+#include "common/archive.h"
+
+enum { GG_SERIES_ROWS = 1 << 14 };
+
+typedef struct gg_series {
+  size_t width;     /* channels */
+  size_t n;         /* complete rows */
+  size_t per_row;   /* samples averaged into each row: a power of two */
+  size_t pending;   /* samples in the row being filled */
+  size_t window;    /* first row of the averaging window */
+  double *rows;     /* GG_SERIES_ROWS x width */
+  double *end_time; /* of each row */
+  double *partial;  /* the row being filled */
+} gg_series;
+
+gg_status gg_series_init(gg_series *s, size_t width, gg_error *err);
+void gg_series_clear(gg_series *s);
+
+/* Append one sample of `width` numbers. */
+void gg_series_add(gg_series *s, double time, const double *sample);
+
+/* Start the averaging window at the next sample (drops a half-filled row) or at a row. */
+void gg_series_open_window(gg_series *s);
+
+static inline const double *gg_series_row(const gg_series *s, size_t i)
+{
+  return s->rows + i * s->width;
+}
+static inline size_t gg_series_window_rows(const gg_series *s)
+{
+  return s->n > s->window ? s->n - s->window : 0;
+}
+
+gg_status gg_series_save(const gg_series *s, gg_archive *archive, gg_error *err);
+gg_status gg_series_restore(gg_series *s, const gg_archive *archive, gg_error *err);
+
+#endif

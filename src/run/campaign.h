@@ -1,0 +1,62 @@
+/* The campaign of one scene: replicas in lockstep through warm-up and averaging, to the end that the scene asks for. */
+#ifndef GG_CAMPAIGN_H
+#define GG_CAMPAIGN_H
+
+#include "run/replica.h"
+
+typedef struct gg_plan {        /* what is asked, settled before the run; in samples a replica */
+  uint64_t warmup, least, most; /* warm-up; shortest window that can be judged; asked length, 0: until the error */
+  double relative_error;        /* 0: not asked */
+  double time_limit;            /* seconds, 0: none */
+  bool find_steady;             /* extend the warm-up while the window drifts */
+} gg_plan;
+
+typedef struct gg_judgement { /* of the present window */
+  double relative_error;      /* of the worst headline quantity; NaN: not known */
+  gg_quantity worst;
+  bool drifting;
+  gg_quantity drifter;
+  double drift_z, drift_relative;
+  double slowest; /* longest correlation time of the watched, in samples */
+  bool trusted;   /* every headline error rests on long enough blocks */
+} gg_judgement;
+
+typedef struct gg_campaign {
+  gg_scene scene;
+  gg_model model;
+  gg_plan plan;
+  int threads, n;
+  gg_replica *replicas;
+  const gg_hooks *hooks;
+  struct gg_campaign_state { /* plain data: saved as bytes */
+    int64_t averaging;       /* 0: warm-up */
+    uint64_t due;            /* samples that every replica is to have taken */
+    uint64_t window_at;      /* samples when the window was opened */
+    uint64_t restarts;       /* windows given up for drift */
+    double wall;             /* seconds used before this process */
+  } state;
+  gg_judgement last;
+  double started, last_checkpoint; /* clock readings */
+} gg_campaign;
+
+gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model);
+
+gg_status gg_campaign_create(gg_campaign *c, const gg_scene *scene, const gg_archive *resume, int threads,
+                             const gg_hooks *hooks, gg_error *err);
+gg_status gg_campaign_execute(gg_campaign *c, gg_error *err);
+void gg_campaign_clear(gg_campaign *c);
+
+gg_status gg_campaign_save(const gg_campaign *c, gg_archive *archive, gg_error *err);
+gg_status gg_campaign_restore(gg_campaign *c, const gg_archive *archive, gg_error *err);
+
+/* Judge the window; with `final`, against everything watched. */
+gg_status gg_campaign_judge(gg_campaign *c, gg_judgement *j, gg_error *err);
+/* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
+gg_status gg_campaign_mean(const gg_campaign *c, gg_quantity q, gg_mean *mean, gg_error *err);
+
+/* The result of where the campaign stands. */
+gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err);
+
+double gg_wall_now(void);
+
+#endif

@@ -1,0 +1,120 @@
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "run/run.h"
+
+double gg_z_score(const gg_estimate *a, const gg_estimate *b)
+{
+  double error = hypot(a->error, b->error);
+  return error > 0 ? (a->mean - b->mean) / error : NAN;
+}
+
+void gg_compare_theories(const gg_model *model, gg_comparison *c)
+{
+  c->model = *model;
+  c->n_theories = 0;
+  size_t room = sizeof c->theory / sizeof *c->theory;
+  for (int i = 0; gg_theories[i] && (size_t)i < room; i++) {
+    gg_error err = {0};
+    c->theory[i].theory = gg_theories[i];
+    c->theory[i].applies = gg_theory_evaluate(gg_theories[i], model, &c->theory[i].answer, &err) == GG_OK;
+    snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", err.message);
+    c->n_theories++;
+  }
+}
+
+/* One engine's part, run beside or after the other's; hooks are called by one thread at a time. */
+typedef struct part {
+  gg_scene scene;
+  gg_engine_kind kind;
+  const gg_hooks *hooks;
+  int threads;
+  gg_comparison *comparison;
+  pthread_mutex_t *lock;
+  gg_status status;
+  gg_error err;
+} part;
+
+static void locked_progress(void *context, const gg_progress *progress)
+{
+  part *p = context;
+  pthread_mutex_lock(p->lock);
+  p->hooks->progress(p->hooks->context, progress);
+  pthread_mutex_unlock(p->lock);
+}
+
+static bool locked_interrupted(void *context)
+{
+  part *p = context;
+  pthread_mutex_lock(p->lock);
+  bool yes = p->hooks->interrupted(p->hooks->context);
+  pthread_mutex_unlock(p->lock);
+  return yes;
+}
+
+static void *run_part(void *argument)
+{
+  part *p = argument;
+  gg_hooks hooks = {.context = p};
+  if (p->hooks && p->hooks->progress) hooks.progress = locked_progress;
+  if (p->hooks && p->hooks->interrupted) hooks.interrupted = locked_interrupted;
+  p->scene.engine = p->kind;
+  p->status = gg_run_scene(&p->scene, NULL, p->threads, &hooks, &p->comparison->by_engine[p->kind], &p->err);
+  return NULL;
+}
+
+/* A scene that an engine cannot run leaves that column empty with the reason; anything else ends the comparison. */
+static gg_status settle(part *p, gg_error *err)
+{
+  gg_comparison *c = p->comparison;
+  gg_result *result = c->by_engine[p->kind];
+  if (p->status == GG_OK || p->status == GG_BAD_INPUT || (p->status == GG_FAILED && result)) {
+    if (p->status == GG_BAD_INPUT) snprintf(c->refusal[p->kind], sizeof c->refusal[0], "%.250s", p->err.message);
+    return GG_OK;
+  }
+  if (err) *err = p->err;
+  return p->status;
+}
+
+gg_status gg_compare_scene(const gg_scene *scene, int threads, const gg_hooks *hooks, gg_comparison *c, gg_error *err)
+{
+  *c = (gg_comparison){.scene = *scene};
+  gg_model model;
+  GG_TRY(gg_model_make(scene, GG_MD, &model, err));
+  gg_compare_theories(&model, c);
+
+  pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+  part parts[2];
+  bool beside = threads > 1;
+  for (int k = 0; k < 2; k++)
+    parts[k] = (part){.scene = *scene,
+                      .kind = (gg_engine_kind)k,
+                      .hooks = hooks,
+                      .comparison = c,
+                      .lock = &lock,
+                      .threads = beside ? (threads + 1) / 2 : 1};
+  pthread_t thread;
+  bool running = beside && pthread_create(&thread, NULL, run_part, &parts[GG_DSMC]) == 0;
+  run_part(&parts[GG_MD]);
+  if (running)
+    pthread_join(thread, NULL);
+  else
+    run_part(&parts[GG_DSMC]);
+  pthread_mutex_destroy(&lock);
+
+  for (int k = 0; k < 2; k++) GG_TRY(settle(&parts[k], err));
+  if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
+    return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
+                   c->refusal[GG_DSMC]);
+  for (int k = 0; k < 2; k++)
+    if (parts[k].status == GG_FAILED) return gg_fail(err, GG_FAILED, "%s", parts[k].err.message);
+  return GG_OK;
+}
+
+void gg_comparison_clear(gg_comparison *c)
+{
+  for (int k = 0; k < 2; k++) gg_result_free(c->by_engine[k]);
+  memset(c, 0, sizeof *c);
+}

@@ -1,0 +1,31 @@
+/* How long to warm up and average: from what is asked and how slowly the slowest quantity relaxes. */
+#include <math.h>
+
+#include "run/campaign.h"
+
+/* Relaxation times of the slowest mode: before averaging, and at least while averaging. A start within a few tens of
+ * per cent of the steady state leaves less than 0.1 % of it after the first. */
+enum { WARMUP_TIMES = 6, WINDOW_TIMES = 15 };
+
+static uint64_t samples_for(double collisions)
+{
+  return (uint64_t)ceil(collisions / GG_SAMPLE_SPACING);
+}
+
+gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
+{
+  gg_plan p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
+  double slowest = gg_model_relaxation(model);
+  double warmup = scene->run.warmup == GG_AUTO ? fmax(40, WARMUP_TIMES * slowest) : scene->run.warmup;
+  p.warmup = samples_for(warmup);
+  p.least = samples_for(fmax(100, WINDOW_TIMES * slowest));
+  bool asked = scene->run.relative_error != GG_AUTO || scene->run.collisions != GG_AUTO;
+  if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
+  p.relative_error = scene->run.relative_error != GG_AUTO ? scene->run.relative_error : asked ? 0 : 0.01;
+  if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
+  if (!model->steady) { /* heating: nothing to wait for; follow it for as long as asked, or for a while */
+    p.relative_error = 0;
+    if (!p.most) p.most = samples_for(1000);
+  }
+  return p;
+}

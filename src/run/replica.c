@@ -1,0 +1,231 @@
+#include "run/replica.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "common/rng.h"
+
+static gg_status attach_observables(gg_replica *r, const gg_scene *scene, gg_error *err)
+{
+  size_t width = 0;
+  for (int i = 0; gg_observables[i]; i++) {
+    const gg_observable *o = gg_observables[i];
+    if (!(scene->measure & o->flag)) continue;
+    int k = r->n_observables;
+    r->observable[k] = o;
+    r->self[k] = o->create(&r->model, err);
+    if (!r->self[k]) return GG_FAILED;
+    r->offset[k] = width;
+    width += o->width(&r->model);
+    r->n_observables++;
+  }
+  r->row = gg_new_array(width, sizeof *r->row, err);
+  if (!r->row) return GG_FAILED;
+  return gg_series_init(&r->series, width, err);
+}
+
+/* The state shown to every observable that wants this pass. */
+typedef struct showing {
+  gg_replica *replica;
+  int pass;
+} showing;
+
+static void show_chunk(void *context, const gg_chunk *chunk)
+{
+  showing *s = context;
+  for (int k = 0; k < s->replica->n_observables; k++)
+    if (s->pass < s->replica->observable[k]->passes) s->replica->observable[k]->visit(s->replica->self[k], chunk);
+}
+
+static void look(gg_replica *r, double elapsed)
+{
+  int passes = 0;
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->passes > passes) passes = r->observable[k]->passes;
+  if (r->model.rule == GG_SMOOTH && passes > 1) passes = 1; /* further passes look at spins */
+  for (int pass = 0; pass < passes; pass++) {
+    for (int k = 0; k < r->n_observables; k++) r->observable[k]->begin(r->self[k], pass);
+    showing s = {r, pass};
+    r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
+  }
+  gg_transfer transfer;
+  r->engine->ops->read_tap(r->engine, &transfer);
+  gg_interval in = {&r->model, &transfer, elapsed, r->clock.velocity_factor};
+  for (int k = 0; k < r->n_observables; k++) r->observable[k]->finish(r->self[k], &in, r->row + r->offset[k]);
+  r->clock.velocity_factor = 1;
+}
+
+gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
+{
+  *r = (gg_replica){.model = *model};
+  r->trajectory_every = index == 0 ? scene->output.trajectory_every : 0;
+  r->clock.velocity_factor = 1;
+  const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
+  uint64_t stream = (uint64_t)index * GG_STREAMS_PER_REPLICA;
+  gg_status status = attach_observables(r, scene, err);
+  if (status == GG_OK) status = ops->create(model, scene->run.seed, stream, &r->engine, err);
+  if (status != GG_OK) {
+    gg_replica_clear(r);
+    return status;
+  }
+  ops->tap(r->engine, true);
+  r->clock.interval = GG_SAMPLE_SPACING / gg_model_collision_rate(model, model->temperature0);
+  look(r, 0);
+  return GG_OK;
+}
+
+void gg_replica_clear(gg_replica *r)
+{
+  for (int k = 0; k < r->n_observables; k++) r->observable[k]->destroy(r->self[k]);
+  if (r->engine) r->engine->ops->destroy(r->engine);
+  gg_series_clear(&r->series);
+  free(r->row);
+  *r = (gg_replica){0};
+}
+
+static uint64_t collisions(const gg_replica *r)
+{
+  gg_engine_state state;
+  r->engine->ops->state(r->engine, &state);
+  return state.collisions;
+}
+
+double gg_replica_collisions_per_grain(const gg_replica *r)
+{
+  return 2 * (double)collisions(r) / (double)r->model.n;
+}
+
+static double cpu_now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Advance by one interval. A stretch in which a grain collides a thousand times more than expected is a collapse that
+ * the contact-time rule was not there to prevent. */
+static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happened, gg_error *err)
+{
+  uint64_t before = collisions(r);
+  uint64_t limit = (uint64_t)(1000 * GG_SAMPLE_SPACING * (double)r->model.n / 2) + 1000000;
+  GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval, limit, elapsed, err));
+  *happened = collisions(r) - before;
+  if (*happened >= limit)
+    return gg_fail(err, GG_FAILED,
+                   "%s: collisions accumulate without end (inelastic collapse) near time %g; "
+                   "give md.contact_time a positive value",
+                   r->engine->ops->name, r->clock.time);
+  return GG_OK;
+}
+
+/* Follow the rate, by at most a factor of four a time. */
+static void adapt_interval(gg_replica *r, double elapsed, uint64_t happened)
+{
+  double seen = 2 * (double)happened / (double)r->model.n;
+  double factor = seen > 0 ? GG_SAMPLE_SPACING / seen : 4;
+  r->clock.interval = elapsed * fmin(fmax(factor, 0.25), 4);
+}
+
+/* Free cooling: bring the velocities back when they have fallen fourfold (T sixteenfold). */
+static gg_status rescale_if_cold(gg_replica *r, gg_error *err)
+{
+  if (r->model.flow != GG_HCS) return GG_OK;
+  double start = gg_model_collision_rate(&r->model, r->model.temperature0);
+  if (r->clock.interval * start < 4 * GG_SAMPLE_SPACING) return GG_OK;
+  GG_TRY(r->engine->ops->rescale(r->engine, 2, err));
+  r->clock.velocity_factor = 4;
+  r->clock.interval /= 4;
+  r->clock.power += 2;
+  return GG_OK;
+}
+
+static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
+{
+  if (!hooks || !hooks->frame || !(r->trajectory_every > 0) || gg_replica_collisions_per_grain(r) < r->clock.next_frame)
+    return GG_OK;
+  gg_frame frame;
+  GG_TRY(gg_frame_take(r->engine, &r->model, &frame, err));
+  frame.time = r->clock.time;
+  gg_status status = hooks->frame(hooks->context, &frame, err);
+  gg_frame_free(&frame);
+  r->clock.next_frame += r->trajectory_every;
+  return status;
+}
+
+static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
+{
+  double start = cpu_now(), elapsed;
+  uint64_t happened;
+  GG_TRY(advance_interval(r, &elapsed, &happened, err));
+  look(r, elapsed);
+  r->clock.time += ldexp(elapsed, (int)r->clock.power);
+  gg_series_add(&r->series, r->clock.time, r->row);
+  r->clock.samples++;
+  if (adapt) adapt_interval(r, elapsed, happened);
+  GG_TRY(rescale_if_cold(r, err));
+  r->clock.cpu += cpu_now() - start;
+  return GG_OK;
+}
+
+gg_status gg_replica_sample(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err)
+{
+  while (r->clock.samples < samples) {
+    if (hooks && hooks->interrupted && hooks->interrupted(hooks->context))
+      return gg_fail(err, GG_INTERRUPTED, "interrupted");
+    GG_TRY(sample_once(r, adapt, err));
+    GG_TRY(emit_frame(r, hooks, err));
+  }
+  return GG_OK;
+}
+
+void gg_replica_open_window(gg_replica *r)
+{
+  gg_series_open_window(&r->series);
+  r->clock.window_collisions = collisions(r);
+  r->clock.window_cpu = r->clock.cpu;
+}
+
+gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
+{
+  GG_TRY(r->engine->ops->save(r->engine, a, err));
+  GG_TRY(gg_series_save(&r->series, a, err));
+  GG_TRY(gg_archive_put(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err));
+  for (int k = 0; k < r->n_observables; k++) {
+    if (!r->observable[k]->memory) continue;
+    size_t bytes;
+    const void *memory = r->observable[k]->memory(r->self[k], &bytes);
+    char name[64];
+    snprintf(name, sizeof name, "observable/%s", r->observable[k]->name);
+    GG_TRY(gg_archive_put(a, name, GG_ITEM_U8, memory, bytes, err));
+  }
+  return GG_OK;
+}
+
+static gg_status restore_observables(gg_replica *r, const gg_archive *a, gg_error *err)
+{
+  for (int k = 0; k < r->n_observables; k++) {
+    if (!r->observable[k]->memory) continue;
+    size_t bytes;
+    void *memory = r->observable[k]->memory(r->self[k], &bytes);
+    char name[64];
+    snprintf(name, sizeof name, "observable/%s", r->observable[k]->name);
+    GG_TRY(gg_archive_get(a, name, GG_ITEM_U8, memory, bytes, err));
+  }
+  return GG_OK;
+}
+
+gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
+                             gg_error *err)
+{
+  *r = (gg_replica){.model = *model, .trajectory_every = scene->output.trajectory_every};
+  gg_status status = attach_observables(r, scene, err);
+  if (status == GG_OK) status = gg_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
+  if (status == GG_OK) status = gg_series_restore(&r->series, a, err);
+  if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
+  if (status == GG_OK) status = restore_observables(r, a, err);
+  if (status != GG_OK) gg_replica_clear(r);
+  return status;
+}

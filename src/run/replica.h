@@ -1,0 +1,51 @@
+/* A replica: one engine, the observables that look at it, and the series they fill. */
+#ifndef GG_REPLICA_H
+#define GG_REPLICA_H
+
+#include "measure/observable.h"
+#include "run/run.h"
+
+enum { GG_MAX_OBSERVABLES = 16 };
+
+typedef struct gg_replica {
+  gg_model model;
+  gg_engine *engine;
+  int n_observables;
+  const gg_observable *observable[GG_MAX_OBSERVABLES];
+  void *self[GG_MAX_OBSERVABLES];
+  size_t offset[GG_MAX_OBSERVABLES]; /* where its channels begin in a row */
+  gg_series series;
+  double *row;
+  double trajectory_every;  /* collisions per grain between frames; 0: none */
+  struct gg_replica_clock { /* plain data: saved as bytes */
+    uint64_t samples;       /* taken so far */
+    double interval;        /* between samples, engine's time */
+    double time;            /* since the start, in units of the start */
+    int64_t power;          /* the engine's velocities are 2^power times those of the start */
+    double velocity_factor; /* of a rescaling not yet told to the observables */
+    double cpu, window_cpu; /* seconds used; at the opening of the window */
+    uint64_t window_collisions;
+    double next_frame; /* collisions per grain */
+  } clock;
+} gg_replica;
+
+/* Samples are this many collisions per grain apart: closer ones cost time and say little new. */
+#define GG_SAMPLE_SPACING 2.0
+
+gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err);
+void gg_replica_clear(gg_replica *r);
+
+/* Go on until `samples` have been taken in all; GG_INTERRUPTED between samples if the hook says so. With `adapt`, the
+ * interval follows the collision rate (warm-up, cooling). */
+gg_status gg_replica_sample(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
+
+/* Averaging begins at the next sample. */
+void gg_replica_open_window(gg_replica *r);
+
+double gg_replica_collisions_per_grain(const gg_replica *r);
+
+gg_status gg_replica_save(const gg_replica *r, gg_archive *archive, gg_error *err);
+gg_status gg_replica_restore(gg_replica *r, const gg_archive *archive, const gg_scene *scene, const gg_model *model,
+                             gg_error *err);
+
+#endif

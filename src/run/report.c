@@ -1,0 +1,166 @@
+/* From where a campaign stands to a result. */
+#include <math.h>
+#include <stdio.h>
+
+#include "run/campaign.h"
+
+/* Why a quantity is not there: the first observable's reason, else that nothing asked for measures it. */
+static const char *why_missing(const gg_campaign *c, gg_quantity q)
+{
+  if (c->replicas[0].n_observables == 0) return "nothing is measured in this scene";
+  const char *reason = c->replicas[0].observable[0]->missing(&c->model, q);
+  return reason ? reason : "not measured in this scene";
+}
+
+/* In a heating gas only what is free of the temperature's scale has a meaning as a mean. */
+static bool scale_free(gg_quantity q)
+{
+  switch (q) {
+  case GG_Q_TEMPERATURE_RATIO:
+  case GG_Q_MEAN_FREE_PATH:
+  case GG_Q_KNUDSEN:
+  case GG_Q_COS2_PSI: return true;
+  default: return false;
+  }
+}
+
+static gg_status report_means(gg_campaign *c, gg_result *result, gg_error *err)
+{
+  const gg_series *s = &c->replicas[0].series;
+  size_t rows = gg_series_window_rows(s);
+  double row_time = rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
+  for (int q = 0; q < GG_N_QUANTITIES; q++) {
+    gg_estimate *e = &result->value[q];
+    *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
+    if (!c->model.steady && !scale_free((gg_quantity)q)) {
+      snprintf(e->reason, sizeof e->reason, "no steady state: the gas heats up; see the history");
+      continue;
+    }
+    gg_mean m;
+    GG_TRY(gg_campaign_mean(c, (gg_quantity)q, &m, err));
+    if (!isfinite(m.mean)) {
+      snprintf(e->reason, sizeof e->reason, "%s", why_missing(c, (gg_quantity)q));
+      continue;
+    }
+    e->mean = m.mean, e->error = m.error;
+    e->correlation_time = m.correlation_rows * row_time;
+    e->samples = rows * s->per_row * (uint64_t)c->n;
+  }
+  return GG_OK;
+}
+
+static gg_status report_history(const gg_campaign *c, gg_result *result, gg_error *err)
+{
+  const gg_replica *r = &c->replicas[0];
+  gg_history *h = &result->history;
+  h->n = r->series.n;
+  h->time = gg_new_array(h->n, sizeof *h->time, err);
+  if (!h->time) return GG_FAILED;
+  for (size_t i = 0; i < h->n; i++) h->time[i] = r->series.end_time[i];
+  h->window[0] = r->series.window > 0 ? h->time[r->series.window - 1] : 0;
+  h->window[1] = h->n ? h->time[h->n - 1] : 0;
+  for (int k = 0; k < GG_N_HISTORY; k++) {
+    h->value[k] = gg_new_array(h->n, sizeof *h->value[k], err);
+    if (!h->value[k]) return GG_FAILED;
+    gg_quantity q = gg_history_quantities[k];
+    const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
+    const char *missing = o ? o->missing(&c->model, q) : "";
+    bool rotational = q == GG_Q_ROTATIONAL_TEMPERATURE && c->model.rule != GG_SMOOTH;
+    bool there = o && o->history && (!missing || q == GG_Q_TEMPERATURE || rotational);
+    for (size_t i = 0; i < h->n; i++)
+      h->value[k][i] = there ? o->history[k](gg_series_row(&r->series, i) + r->offset[0], &c->model) : NAN;
+  }
+  return GG_OK;
+}
+
+static void report_effort(const gg_campaign *c, gg_result *result)
+{
+  result->engine_state = (gg_engine_state){0};
+  gg_engine_state *sum = &result->engine_state;
+  for (int i = 0; i < c->n; i++) {
+    const gg_replica *r = &c->replicas[i];
+    gg_engine_state s;
+    r->engine->ops->state(r->engine, &s);
+    sum->time = s.time, sum->time_step = s.time_step, sum->time_step_bias = s.time_step_bias;
+    sum->collisions += s.collisions, sum->events += s.events;
+    sum->treated += s.treated, sum->overflows += s.overflows;
+    sum->worst_overlap = fmax(sum->worst_overlap, s.worst_overlap);
+    result->averaging.collisions += s.collisions - r->clock.window_collisions;
+    result->averaging.cpu_seconds += r->clock.cpu - r->clock.window_cpu;
+    result->total.cpu_seconds += r->clock.cpu;
+  }
+  result->total.collisions = sum->collisions;
+  result->total.wall_seconds = c->state.wall + gg_wall_now() - c->started;
+  result->averaging.wall_seconds = NAN;
+}
+
+/* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
+enum { LEAST_CORRELATION_TIMES = 20 };
+
+static void report_verdict(const gg_campaign *c, const gg_judgement *j, gg_result *result)
+{
+  uint64_t window = c->state.due - c->state.window_at;
+  char *text = result->verdict_text;
+  size_t size = sizeof result->verdict_text;
+  double grain = (double)window * GG_SAMPLE_SPACING;
+  result->verdict = GG_NOT_STEADY;
+  if (!c->model.steady) {
+    result->verdict = GG_HEATING;
+    snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
+  } else if (!c->state.averaging) {
+    snprintf(text, size, "the run ended in its warm-up");
+  } else if (j->drifting) {
+    snprintf(text, size, "%s still drifts: %+.2g %% from the first to the last third of the averaging, %.1f errors",
+             gg_quantity_name(j->drifter), 100 * j->drift_relative, fabs(j->drift_z));
+  } else if (window < c->plan.least) {
+    snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
+             grain, (double)c->plan.least * GG_SAMPLE_SPACING);
+  } else if ((double)window < LEAST_CORRELATION_TIMES * j->slowest) {
+    snprintf(text, size,
+             "too short to tell: averaged over %.1f correlation times of the slowest quantity, %d are needed",
+             (double)window / j->slowest, LEAST_CORRELATION_TIMES);
+  } else {
+    result->verdict = GG_STEADY;
+    snprintf(text, size, "no drift over %.0f collisions a grain, %.0f correlation times of the slowest quantity", grain,
+             (double)window / j->slowest);
+  }
+}
+
+static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_result *result)
+{
+  const gg_engine_state *s = &result->engine_state;
+  if (result->verdict != GG_STEADY) gg_result_warn(result, "not a steady mean: %s", result->verdict_text);
+  if (result->verdict == GG_STEADY && !j->trusted)
+    gg_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
+                   GG_MIN_BLOCKS);
+  if (s->treated > 0)
+    gg_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
+                   100 * (double)s->treated / (double)s->collisions);
+  if (s->overflows > 1e-3 * (double)s->collisions)
+    gg_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
+                   100 * (double)s->overflows / (double)s->collisions);
+  if (c->plan.relative_error > 0 && s->time_step_bias > c->plan.relative_error / 5)
+    gg_result_warn(result,
+                   "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the asked error",
+                   100 * s->time_step_bias);
+}
+
+gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err)
+{
+  gg_judgement j;
+  result->scene = c->scene;
+  result->model = c->model;
+  result->engine = c->replicas[0].engine->ops->name;
+  GG_TRY(gg_campaign_judge(c, &j, err));
+  GG_TRY(report_means(c, result, err));
+  GG_TRY(report_history(c, result, err));
+  report_effort(c, result);
+  report_verdict(c, &j, result);
+  report_warnings(c, &j, result);
+  GG_TRY(gg_frame_take(c->replicas[0].engine, &c->model, &result->final, err));
+  result->final.time = c->replicas[0].clock.time;
+  if (c->plan.relative_error > 0 && !(j.relative_error <= c->plan.relative_error))
+    return gg_fail(err, GG_FAILED, "%s: the asked relative error %g was not reached: %s has %.3g", result->engine,
+                   c->plan.relative_error, gg_quantity_name(j.worst), j.relative_error);
+  return GG_OK;
+}

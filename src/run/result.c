@@ -1,0 +1,26 @@
+#include "run/result.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+void gg_result_warn(gg_result *result, const char *format, ...)
+{
+  if (result->n_warnings == GG_MAX_WARNINGS) return;
+  char *text = NULL;
+  va_list args;
+  va_start(args, format);
+  int length = vasprintf(&text, format, args);
+  va_end(args);
+  if (length >= 0) result->warnings[result->n_warnings++] = text;
+}
+
+void gg_result_free(gg_result *result)
+{
+  if (!result) return;
+  free(result->history.time);
+  for (int k = 0; k < GG_N_HISTORY; k++) free(result->history.value[k]);
+  gg_frame_free(&result->final);
+  for (int i = 0; i < result->n_warnings; i++) free(result->warnings[i]);
+  free(result);
+}

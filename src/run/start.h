@@ -1,0 +1,10 @@
+/* Where a run starts: close to the steady state that theory expects, so that the warm-up is short. Only the start
+ * depends on it; the warm-up forgets it. */
+#ifndef GG_START_H
+#define GG_START_H
+
+#include "common/model.h"
+
+void gg_start_near_steady(gg_model *model);
+
+#endif

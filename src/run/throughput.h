@@ -1,0 +1,19 @@
+/* How fast an engine is on a scene: collisions per CPU-second, engine alone or with its tap open. */
+#ifndef GG_THROUGHPUT_H
+#define GG_THROUGHPUT_H
+
+#include "common/engine.h"
+
+typedef struct gg_throughput {
+  double rate;             /* collisions per CPU-second: median of the repeats */
+  double slowest, fastest; /* of the repeats */
+  int repeats;
+  uint64_t collisions;     /* timed, in all */
+} gg_throughput;
+
+/* Start the scene near its steady state, let it forget the start for `warmup` collisions per grain, then time `repeats`
+ * stretches of at least `seconds` CPU each. */
+gg_status gg_measure_throughput(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
+                                gg_throughput *out, gg_error *err);
+
+#endif

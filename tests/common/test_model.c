@@ -1,0 +1,154 @@
+/* From scene to model: units, composition, contact values, limits; archives. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "common/archive.h"
+#include "common/contact_value.h"
+#include "common/quantity.h"
+
+static void near(double a, double b, double tolerance)
+{
+  assert_true(fabs(a - b) <= tolerance * fmax(1, fabs(b)));
+}
+
+static gg_model make(const gg_scene *s)
+{
+  gg_model m;
+  gg_error err;
+  assert_int_equal(gg_model_make(s, s->engine, &m, &err), GG_OK);
+  return m;
+}
+
+/* The same physics in other units of length, mass and time is the same model. */
+static void units_drop_out(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.phi = 0.3;
+  gg_model a = make(&s);
+  s.species[0].diameter = 0.002, s.species[0].mass = 1e-5, s.shear_rate = 40;
+  gg_model b = make(&s);
+  near(a.box[0], b.box[0], 1e-14);
+  near(a.contact[0].jn, b.contact[0].jn, 1e-14);
+  near(a.volume, a.n / a.density, 1e-14);
+  near(M_PI / 6 * a.density, 0.3, 1e-14);
+}
+
+/* A mixture: fractions counted in grains, phi met exactly by those, chi_ij reduces to Carnahan-Starling for equal
+ * sizes. */
+static void mixture(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.phi = 0.2, s.n_species = 2, s.particles = 1001;
+  s.species[0] = (gg_species){0.25, 2, 3, 0.4};
+  s.species[1] = (gg_species){0.75, 1, 6, 0.4};
+  gg_model m = make(&s);
+  assert_int_equal(m.n_of[0] + m.n_of[1], 1001);
+  assert_int_equal(m.n_of[0], 250);
+  double solid = M_PI / 6 * (m.n_of[0] * pow(m.diameter[0], 3) + m.n_of[1] * pow(m.diameter[1], 3)) / m.volume;
+  near(solid, 0.2, 1e-13);
+  near(m.mass[1], 2, 1e-15);
+  near(m.sigma[1], 0.75, 1e-15);
+  near(m.chi[1], m.chi[2], 1e-15);
+  assert_true(m.chi[0] > m.chi[3]); /* large grains touch more */
+  s.species[0].diameter = s.species[1].diameter = 1;
+  m = make(&s);
+  near(m.chi[1], gg_contact_value_of(GG_CARNAHAN_STARLING, 0.2), 1e-13);
+}
+
+/* Equations of state: published numbers, and Carnahan-Starling's known distance from them. */
+static void equations_of_state(void **state)
+{
+  (void)state;
+  const double phi[] = {0.1, 0.2, 0.3, 0.4, 0.45}, Z[] = {1.521647, 2.409403, 3.983983, 6.945460, 9.404114};
+  for (int i = 0; i < 5; i++) {
+    near(gg_compressibility(GG_KOLAFA, phi[i]), Z[i], 3e-7);
+    double cs = gg_compressibility(GG_CARNAHAN_STARLING, phi[i]);
+    near(cs, (1 + phi[i] + pow(phi[i], 2) - pow(phi[i], 3)) / pow(1 - phi[i], 3), 1e-13);
+    assert_true(cs < Z[i] && cs > Z[i] * 0.997);
+  }
+  near(gg_contact_value_of(GG_LUN_SAVAGE, 0), 1, 0);
+}
+
+/* Elastic and steady are seen as such; relaxation slows down towards beta = -1 and e = 1. */
+static void kinds(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.phi = 0.1;
+  assert_true(make(&s).steady && !make(&s).elastic);
+  s.collision.e[0] = 1;
+  gg_model m = make(&s);
+  assert_true(m.elastic && !m.steady);
+  s.collision.beta[0] = 1;
+  m = make(&s);
+  assert_true(m.elastic && !m.steady && m.rule == GG_ROUGH);
+  s.collision.mu[0] = 0.1;
+  m = make(&s);
+  assert_true(!m.elastic && m.steady && m.rule == GG_FRICTIONAL);
+  s.collision.mu[0] = INFINITY, s.collision.e[0] = 0.9, s.collision.beta[0] = -0.99;
+  m = make(&s);
+  double slow = gg_model_relaxation(&m);
+  s.collision.beta[0] = 0;
+  m = make(&s);
+  assert_true(slow > 20 * gg_model_relaxation(&m));
+  s.phi = -1;
+  gg_error err;
+  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_non_null(strstr(err.message, "phi"));
+}
+
+/* Rates: 4 n d^2 chi sqrt(pi T), and the unit strings of sheared, thermal and Boltzmann scenes. */
+static void rates_and_units(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.phi = 0.3;
+  gg_model m = make(&s);
+  near(gg_model_collision_rate(&m, 2), 24 * 0.3 * m.chi[0] * sqrt(2 / M_PI), 1e-13);
+  assert_string_equal(gg_quantity_unit(GG_Q_TEMPERATURE, &m), "d^2 gamma^2");
+  s.flow = GG_HCS;
+  m = make(&s);
+  near(m.temperature0, 0.5, 0);
+  assert_string_equal(gg_quantity_unit(GG_Q_PRESSURE, &m), "rho_p v_0^2");
+  s.phi = 0, s.engine = GG_DSMC;
+  m = make(&s);
+  near(gg_model_collision_rate(&m, 1), 4 * sqrt(M_PI), 1e-14);
+  assert_int_equal(gg_quantity_find("N1"), GG_Q_N1);
+  assert_int_equal(gg_quantity_find("N3"), GG_N_QUANTITIES);
+}
+
+/* What is put in comes out; missing, misshapen and double items are refused; nesting keeps names apart. */
+static void archives(void **state)
+{
+  (void)state;
+  gg_archive a = {0}, b = {0}, c = {0};
+  gg_error err;
+  double x[3] = {1, 2, 3}, y[3] = {0};
+  assert_int_equal(gg_archive_put(&a, "x", GG_ITEM_F64, x, 3, &err), GG_OK);
+  assert_int_equal(gg_archive_put(&a, "x", GG_ITEM_F64, x, 3, &err), GG_FAILED);
+  assert_int_equal(gg_archive_get(&a, "x", GG_ITEM_F64, y, 2, &err), GG_BAD_FILE);
+  assert_int_equal(gg_archive_get(&a, "z", GG_ITEM_F64, y, 3, &err), GG_BAD_FILE);
+  assert_int_equal(gg_archive_nest(&b, "one", &a, &err), GG_OK);
+  assert_int_equal(gg_archive_nest(&b, "two", &a, &err), GG_OK);
+  assert_int_equal(b.n_items, 2);
+  assert_int_equal(gg_archive_unnest(&c, "two", &b, &err), GG_OK);
+  assert_int_equal(gg_archive_get(&c, "x", GG_ITEM_F64, y, 3, &err), GG_OK);
+  assert_memory_equal(x, y, sizeof x);
+  gg_archive_clear(&a), gg_archive_clear(&b), gg_archive_clear(&c);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(units_drop_out), cmocka_unit_test(mixture),         cmocka_unit_test(equations_of_state),
+      cmocka_unit_test(kinds),          cmocka_unit_test(rates_and_units), cmocka_unit_test(archives),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,19 @@
+/* An engine whose answer is known: temperature and spin relax exponentially, with noise of known size, towards planted
+ * values. It takes the place of the real ones in tests of the run layer (linked before the library). */
+#ifndef FAKE_ENGINE_H
+#define FAKE_ENGINE_H
+
+#include "common/engine.h"
+
+typedef struct fake_plan {
+  double T, theta;   /* steady values */
+  double start;      /* relative departure of theta at the start */
+  double relaxation; /* of theta, collisions per grain */
+  double noise;      /* relative, of T and theta: autoregressive over 10 collisions per grain */
+  double drift;      /* relative growth of T per collision per grain */
+  double seconds;    /* wall time that an advance takes */
+} fake_plan;
+
+extern fake_plan fake;
+
+#endif

@@ -1,0 +1,233 @@
+/* The run layer over an engine whose answers are planted: right means, honest ends, slow relaxation noticed, replicas
+ * and threads, interruption and bitwise resumption. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "fake_engine.h"
+#include "run/run.h"
+
+static gg_scene scene_of(double beta)
+{
+  fake = (fake_plan){.T = 2, .theta = 0.5, .relaxation = 10, .noise = 0.02};
+  gg_scene s = gg_scene_defaults();
+  s.phi = 0.2, s.particles = 512;
+  s.collision.beta[0] = beta;
+  return s;
+}
+
+static gg_result *run(const gg_scene *s, gg_status expected)
+{
+  gg_result *r = NULL;
+  gg_error err = {0};
+  gg_status status = gg_run_scene(s, NULL, 2, NULL, &r, &err);
+  if (status != expected) print_message("unexpected: %s\n", err.message);
+  assert_int_equal(status, expected);
+  return r;
+}
+
+static void within(const gg_result *r, gg_quantity q, double expected)
+{
+  const gg_estimate *e = &r->value[q];
+  assert_true(e->error > 0);
+  assert_true(fabs(e->mean - expected) < 5 * e->error);
+}
+
+/* The planted means come out within five of their errors, the asked relative error is reached, the state is steady. */
+static void planted_means(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0);
+  s.run.relative_error = 0.002;
+  gg_result *r = run(&s, GG_OK);
+  assert_int_equal(r->verdict, GG_STEADY);
+  within(r, GG_Q_TEMPERATURE, 2);
+  within(r, GG_Q_TEMPERATURE_RATIO, 0.25);
+  within(r, GG_Q_SHEAR_VISCOSITY, M_PI / 6 * 0.5);
+  const gg_quantity headline[] = {GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_SHEAR_VISCOSITY, GG_Q_TEMPERATURE_RATIO};
+  for (int i = 0; i < 4; i++) assert_true(r->value[headline[i]].error <= 0.002 * fabs(r->value[headline[i]].mean));
+  assert_true(r->value[GG_Q_TEMPERATURE].samples > 100);
+  assert_true(isnan(r->value[GG_Q_COOLING_RATE].mean) && r->value[GG_Q_COOLING_RATE].reason[0]);
+  gg_result_free(r);
+}
+
+/* Spins that need ten times longer than the rule says are noticed from the data: averaging starts anew until they
+ * stand. */
+static void slow_relaxation(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0);
+  fake.start = -0.9, fake.relaxation = 400;
+  s.run.relative_error = 0.005;
+  gg_result *r = run(&s, GG_OK);
+  assert_int_equal(r->verdict, GG_STEADY);
+  within(r, GG_Q_TEMPERATURE_RATIO, 0.25);
+  gg_result_free(r);
+  s.run.warmup = 10, s.run.collisions = 400; /* told not to wait: says what it is */
+  s.run.relative_error = GG_AUTO;
+  r = run(&s, GG_OK);
+  assert_int_equal(r->verdict, GG_NOT_STEADY);
+  assert_true(r->n_warnings > 0);
+  gg_result_free(r);
+}
+
+/* beta near -1: the window must be long for the slow spins even before anything can be seen to drift. */
+static void nearly_smooth(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(-0.99);
+  s.run.collisions = 300;
+  gg_result *r = run(&s, GG_OK);
+  assert_int_equal(r->verdict, GG_NOT_STEADY);
+  assert_non_null(strstr(r->verdict_text, "too short"));
+  gg_result_free(r);
+}
+
+/* A temperature that never stops growing is not steady, whatever was asked. */
+static void endless_drift(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(-1);
+  fake.drift = 1e-4, fake.noise = 0.005;
+  s.run.collisions = 2000;
+  gg_result *r = run(&s, GG_OK);
+  assert_int_equal(r->verdict, GG_NOT_STEADY);
+  assert_non_null(strstr(r->verdict_text, "still drifts"));
+  gg_result_free(r);
+}
+
+/* Elastic smooth grains under shear: followed as heating; no mean is made up. */
+static void heating(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(-1);
+  s.collision.e[0] = 1;
+  gg_result *r = run(&s, GG_OK);
+  assert_int_equal(r->verdict, GG_HEATING);
+  assert_true(isnan(r->value[GG_Q_TEMPERATURE].mean));
+  assert_non_null(strstr(r->value[GG_Q_TEMPERATURE].reason, "heats"));
+  assert_true(r->history.n > 100 && r->history.value[0][50] > 0);
+  gg_result_free(r);
+}
+
+/* `collisions` is kept to within a sample; the time limit ends a run that has no other end, short of what was asked. */
+static void ends(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(-1);
+  s.run.collisions = 600;
+  gg_result *r = run(&s, GG_OK);
+  double per_grain = 2.0 * (double)r->averaging.collisions / 512;
+  assert_true(fabs(per_grain - 600) < 30);
+  gg_result_free(r);
+  s = scene_of(-1);
+  s.run.relative_error = 1e-9, s.run.time_limit = 0.3;
+  r = run(&s, GG_FAILED);
+  assert_non_null(r);
+  assert_true(r->total.wall_seconds < 5);
+  gg_result_free(r);
+}
+
+static void same_results(const gg_result *a, const gg_result *b)
+{
+  for (int q = 0; q < GG_N_QUANTITIES; q++) {
+    if (isnan(a->value[q].mean) && isnan(b->value[q].mean)) continue;
+    assert_true(a->value[q].mean == b->value[q].mean && a->value[q].error == b->value[q].error);
+  }
+  assert_int_equal(a->total.collisions, b->total.collisions);
+}
+
+/* Replicas give the same result from one thread or two, and a smaller error than one. */
+static void replicas(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0);
+  s.run.collisions = 1000;
+  gg_result *single = run(&s, GG_OK), *one = NULL, *two = NULL;
+  s.run.replicas = 4;
+  assert_int_equal(gg_run_scene(&s, NULL, 1, NULL, &one, NULL), GG_OK);
+  assert_int_equal(gg_run_scene(&s, NULL, 2, NULL, &two, NULL), GG_OK);
+  same_results(one, two);
+  double gain = single->value[GG_Q_TEMPERATURE].error / one->value[GG_Q_TEMPERATURE].error;
+  assert_true(gain > 1.2 && gain < 3.5);
+  gg_result_free(single), gg_result_free(one), gg_result_free(two);
+}
+
+typedef struct keeper {
+  int asked, stop_at;
+  gg_archive kept;
+} keeper;
+
+static bool stop_after(void *context)
+{
+  keeper *k = context;
+  return ++k->asked > k->stop_at;
+}
+
+static gg_status keep(void *context, const gg_archive *archive, gg_error *err)
+{
+  keeper *k = context;
+  gg_archive_clear(&k->kept);
+  return gg_archive_nest(&k->kept, "x", archive, err);
+}
+
+/* Interrupted anywhere (warm-up, averaging, mid-round) and resumed from its checkpoint, a run ends with the same
+ * numbers to the last bit; a checkpoint of another scene is refused by name. */
+static void resume(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0);
+  s.run.collisions = 800, s.run.replicas = 2;
+  s.output.checkpoint_every = 1e6;
+  gg_result *whole = run(&s, GG_OK);
+  const int stops[] = {3, 25, 301, 640};
+  for (int i = 0; i < 4; i++) {
+    keeper k = {.stop_at = stops[i]};
+    gg_hooks hooks = {.context = &k, .interrupted = stop_after, .checkpoint = keep};
+    gg_result *r = NULL;
+    gg_archive archive = {0};
+    assert_int_equal(gg_run_scene(&s, NULL, 1, &hooks, &r, NULL), GG_INTERRUPTED);
+    assert_null(r);
+    assert_int_equal(gg_archive_unnest(&archive, "x", &k.kept, NULL), GG_OK);
+    assert_int_equal(gg_run_scene(&s, &archive, 1, NULL, &r, NULL), GG_OK);
+    same_results(whole, r);
+    gg_result_free(r);
+    gg_error err;
+    s.phi = 0.21;
+    assert_int_equal(gg_run_scene(&s, &archive, 1, NULL, &r, &err), GG_BAD_INPUT);
+    assert_non_null(strstr(err.message, "phi"));
+    s.phi = 0.2;
+    gg_archive_clear(&archive), gg_archive_clear(&k.kept);
+  }
+  gg_result_free(whole);
+}
+
+/* A comparison puts both columns and the theories side by side; z is the difference over the combined error. */
+static void comparison(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0);
+  s.dsmc.particles = 512; /* one chunk */
+  gg_comparison c;
+  gg_error err;
+  assert_int_equal(gg_compare_scene(&s, 2, NULL, &c, &err), GG_OK);
+  assert_non_null(c.by_engine[GG_MD]);
+  assert_non_null(c.by_engine[GG_DSMC]);
+  gg_estimate a = {.mean = 1, .error = 0.03}, b = {.mean = 1.5, .error = 0.04};
+  assert_true(fabs(gg_z_score(&a, &b) + 10) < 1e-12);
+  gg_comparison_clear(&c);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(planted_means), cmocka_unit_test(slow_relaxation), cmocka_unit_test(nearly_smooth),
+      cmocka_unit_test(endless_drift), cmocka_unit_test(heating),         cmocka_unit_test(ends),
+      cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(comparison),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
