@@ -194,7 +194,7 @@ gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
       open_window(c);
       continue;
     }
-    if (c->plan.most && window >= c->plan.most) break;
+    if ((c->plan.most && window >= c->plan.most) || window >= c->plan.longest << c->state.restarts) break;
     if (c->plan.relative_error > 0 && window >= c->plan.least && j.trusted &&
         j.relative_error <= c->plan.relative_error)
       break;

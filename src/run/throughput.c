@@ -62,8 +62,7 @@ static gg_status time_engine(gg_engine *e, const gg_model *model, bool tap, doub
   e->ops->tap(e, tap);
   GG_TRY(advance_by(e, (uint64_t)(warmup * (double)model->n / 2) + 1, &done, err));
   out->repeats = repeats < MOST_REPEATS ? repeats : MOST_REPEATS;
-  for (int i = 0; i < out->repeats; i++)
-    GG_TRY(time_stretch(e, seconds, &guess, &rates[i], &out->collisions, err));
+  for (int i = 0; i < out->repeats; i++) GG_TRY(time_stretch(e, seconds, &guess, &rates[i], &out->collisions, err));
   gsl_sort(rates, 1, (size_t)out->repeats);
   out->rate = gsl_stats_median_from_sorted_data(rates, 1, (size_t)out->repeats);
   out->slowest = rates[0];
