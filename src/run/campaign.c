@@ -3,16 +3,9 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "run/clock.h"
 #include "run/start.h"
-
-double gg_wall_now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static gg_status create_replicas(gg_campaign *c, gg_error *err)
 {

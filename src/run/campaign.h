@@ -58,6 +58,4 @@ gg_status gg_campaign_mean(const gg_campaign *c, gg_quantity q, gg_mean *mean, g
 /* The result of where the campaign stands. */
 gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err);
 
-double gg_wall_now(void);
-
 #endif

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "run/campaign.h"
+#include "run/clock.h"
 
 /* Why a quantity is not there: the first observable's reason, else that nothing asked for measures it. */
 static const char *why_missing(const gg_campaign *c, gg_quantity q)
