@@ -42,3 +42,9 @@ gg_vec gg_rng_normal_vec(gg_rng *r)
   double x = gg_rng_normal(r), y = gg_rng_normal(r), z = gg_rng_normal(r);
   return (gg_vec){x, y, z};
 }
+
+uint64_t gg_rng_poisson(gg_rng *r, double mean)
+{
+  gsl_rng adapter = {&stream_type, r};
+  return gsl_ran_poisson(&adapter, mean);
+}

@@ -67,5 +67,7 @@ GG_INLINE gg_vec gg_rng_direction(gg_rng *r)
 /* Standard normal (GSL's ziggurat on this stream). */
 double gg_rng_normal(gg_rng *r);
 gg_vec gg_rng_normal_vec(gg_rng *r);
+/* Poisson count of this mean, up to 2^31 (GSL's). */
+uint64_t gg_rng_poisson(gg_rng *r, double mean);
 
 #endif

@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "common/rng.h"
+#include "run/clock.h"
 
 static gg_status attach_observables(gg_replica *r, const gg_scene *scene, gg_error *err)
 {
@@ -98,13 +98,6 @@ double gg_replica_collisions_per_grain(const gg_replica *r)
   return 2 * (double)collisions(r) / (double)r->model.n;
 }
 
-static double cpu_now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* Advance by one interval. A stretch in which a grain collides a thousand times more than expected is a collapse that
  * the contact-time rule was not there to prevent. */
 static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happened, gg_error *err)
@@ -157,7 +150,7 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
 
 static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
 {
-  double start = cpu_now(), elapsed;
+  double start = gg_cpu_now(), elapsed;
   uint64_t happened;
   GG_TRY(advance_interval(r, &elapsed, &happened, err));
   look(r, elapsed);
@@ -166,7 +159,7 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened);
   GG_TRY(rescale_if_cold(r, err));
-  r->clock.cpu += cpu_now() - start;
+  r->clock.cpu += gg_cpu_now() - start;
   return GG_OK;
 }
 

@@ -98,16 +98,24 @@ static void set_components(const gg_model *m, gg_quantity first, gg_stress s, gg
 
 void gg_answer_stress(const gg_model *m, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a)
 {
-  gg_stress total = m->boltzmann ? kinetic : stress_sum(kinetic, collisional);
+  bool transfer = !m->boltzmann && !isnan(collisional.xx);
+  gg_stress total = transfer ? stress_sum(kinetic, collisional) : kinetic;
   double p = (total.xx + total.yy + total.zz) / 3;
   set_components(m, GG_Q_P_XX, total, a);
   set_components(m, GG_Q_P_XX_KINETIC, kinetic, a);
-  if (!m->boltzmann) set_components(m, GG_Q_P_XX_COLLISIONAL, collisional, a);
+  if (transfer) set_components(m, GG_Q_P_XX_COLLISIONAL, collisional, a);
   a->value[GG_Q_PRESSURE] = m->stress_unit * p;
   a->value[GG_Q_COMPRESSIBILITY] = p / (m->density * T);
   a->value[GG_Q_N1] = (total.xx - total.yy) / p;
   a->value[GG_Q_N2] = (total.yy - total.zz) / p;
   if (m->shear_rate > 0) a->value[GG_Q_SHEAR_VISCOSITY] = m->stress_unit * fabs(total.xy) / m->shear_rate;
+}
+
+void gg_answer_pressure(const gg_model *m, double T, double kinetic, double collisional, gg_theory_answer *a)
+{
+  double p = m->boltzmann ? kinetic : kinetic + collisional;
+  a->value[GG_Q_PRESSURE] = m->stress_unit * p;
+  a->value[GG_Q_COMPRESSIBILITY] = p / (m->density * T);
 }
 
 void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_answer *a)

@@ -32,7 +32,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   if (!m->elastic) return gg_refuse(err, name, "describes elastic grains; collisions of this scene lose energy");
   double T = m->temperature0, p = m->density * T, pc = p * (compressibility(m) - 1);
   gg_answer_temperature(m, T, 1, a);
-  gg_answer_stress(m, T, (gg_stress){p, p, p, 0, 0}, (gg_stress){pc, pc, pc, 0, 0}, a);
+  gg_answer_pressure(m, T, p, pc, a);
   gg_answer_collisions_one(m, T, a);
   if (m->n_species == 1 && m->rule == GG_SMOOTH) {
     a->value[GG_Q_VISCOSITY_REDUCED] = reduced_viscosity(m);

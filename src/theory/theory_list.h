@@ -5,8 +5,14 @@
 #include "theory/theory.h"
 
 extern const gg_theory gg_lun1991;
-extern const gg_theory gg_sela_goldhirsch1998;
-extern const gg_theory gg_enskog;
 extern const gg_theory gg_gaussian_closure;
+extern const gg_theory gg_grad;
+extern const gg_theory gg_sela_goldhirsch1998;
+extern const gg_theory gg_huthmann_zippelius1997;
+extern const gg_theory gg_garzo_dufty1999;
+extern const gg_theory gg_montanero_santos2000;
+extern const gg_theory gg_garzo_montanero2003;
+extern const gg_theory gg_garzo_montanero2003_ms;
+extern const gg_theory gg_enskog;
 
 #endif

@@ -1,0 +1,52 @@
+/* Life and storage of the engine: everything that a run needs to go on bit for bit. */
+#include <stdlib.h>
+
+#include "dsmc/dsmc.h"
+#include "dsmc/thermostat.h"
+
+gg_status gg_dsmc_alloc(const gg_model *model, gg_dsmc **d, gg_error *err)
+{
+  gg_dsmc *made = gg_new_array(1, sizeof *made, err);
+  if (!made) return GG_FAILED;
+  made->base.ops = &gg_dsmc_ops;
+  made->model = *model;
+  made->thermostat = gg_thermostat_of(model);
+  made->noise = gg_thermostat_noise(model);
+  gg_status status = gg_ensemble_new(model, &made->ensemble, err);
+  if (status != GG_OK) {
+    free(made);
+    return status;
+  }
+  *d = made;
+  return GG_OK;
+}
+
+void gg_dsmc_destroy(gg_engine *engine)
+{
+  gg_dsmc *d = (gg_dsmc *)engine;
+  if (!d) return;
+  gg_ensemble_free(&d->ensemble);
+  free(d);
+}
+
+gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *err)
+{
+  const gg_dsmc *d = (const gg_dsmc *)engine;
+  GG_TRY(gg_archive_put(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err));
+  return gg_ensemble_save(&d->ensemble, archive, err);
+}
+
+gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
+{
+  GG_TRY(gg_dsmc_accepts(model, err));
+  gg_dsmc *d;
+  GG_TRY(gg_dsmc_alloc(model, &d, err));
+  gg_status status = gg_archive_get(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err);
+  if (status == GG_OK) status = gg_ensemble_restore(&d->ensemble, archive, err);
+  if (status != GG_OK) {
+    gg_dsmc_destroy(&d->base);
+    return status;
+  }
+  *engine = &d->base;
+  return GG_OK;
+}

@@ -1,0 +1,81 @@
+/* The collision half of a step: how many candidates each pair of species gets, under which bound. */
+#include "dsmc/dsmc.h"
+
+static gg_features features_of(const gg_dsmc *d, int i, int j)
+{
+  const gg_model *m = &d->model;
+  gg_features f = {.rule = gg_rule_of(m->beta[2 * i + j], m->mu[2 * i + j]), .same = i == j};
+  if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_SHEARED_DILUTE : GG_SHEARED_DENSE;
+  if (d->thermostat == GG_GAUSSIAN) f.tap = GG_TAP_LOSS;
+  if (d->now.tap) f.tap = m->boltzmann ? GG_TAP_LOSS : GG_TAP_STRESS;
+  return f;
+}
+
+static gg_pairing pairing_of(gg_dsmc *d, int i, int j)
+{
+  const gg_model *m = &d->model;
+  int o = 2 * i + j;
+  return (gg_pairing){.one = &d->ensemble.of[i],
+                      .two = &d->ensemble.of[j],
+                      .contact = m->contact[o],
+                      .sigma = m->sigma[o],
+                      .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
+}
+
+/* Candidates per unit time and unit of bound: pairs of grains x 4 pi sigma^2 chi/V. */
+static double candidate_rate(const gg_dsmc *d, int i, int j)
+{
+  const gg_model *m = &d->model;
+  int o = 2 * i + j;
+  double ni = (double)m->n_of[i], nj = (double)m->n_of[j], pairs = i == j ? 0.5 * ni * (ni - 1) : ni * nj;
+  return pairs * 4 * M_PI * m->sigma[o] * m->sigma[o] * m->chi[o] / m->volume;
+}
+
+static void hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
+{
+  gg_dsmc_state *s = &d->now;
+  s->collisions += p->collisions;
+  s->candidates += p->candidates;
+  s->overflows += p->overflows;
+  s->transfer.collisions[pair] += p->collisions;
+  s->lost += p->loss;
+  if (!s->tap) return;
+  s->transfer.loss[pair] += p->loss;
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += p->stress[a][b];
+}
+
+static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, double span)
+{
+  gg_majorant *majorant = &d->now.majorant[gg_pair_index(i, j)];
+  gg_features f = features_of(d, i, j);
+  double thermal = sqrt(d->now.temperature), rate = candidate_rate(d, i, j) * dt,
+         top = gg_majorant_bound(majorant, thermal);
+  uint64_t window = 1000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 16;
+  /* Candidates of a Poisson process, so that the step leaves no trace in the rate. A layer above the bound is added for
+   * as long as some candidate stood out of it. */
+  for (double floor = 0, bound = top; bound > 0;) {
+    gg_pairing p = pairing_of(d, i, j);
+    p.floor = floor;
+    p.bound = bound;
+    p.candidates = gg_rng_poisson(&d->now.rng, rate * bound);
+    p.drift_step = p.candidates ? span / (double)p.candidates : 0;
+    p.drift = drift + 0.5 * p.drift_step;
+    gg_collide_plain(f, &p, &d->now.rng);
+    hand_over(d, gg_pair_index(i, j), &p);
+    gg_majorant_learn(majorant, p.worst, thermal, p.candidates, window);
+    floor += bound;
+    bound = 1.1 * p.worst - floor;
+    if (p.worst <= floor) break;
+  }
+}
+
+void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards)
+{
+  static const int order[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+  int pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
+  for (int q = 0; q < pairs; q++) {
+    const int *ij = order[backwards ? pairs - 1 - q : q];
+    collide_pair(d, ij[0], ij[1], dt, drift, span);
+  }
+}

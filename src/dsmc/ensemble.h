@@ -1,0 +1,78 @@
+/* The ensemble: the velocities (and spins) that stand for the distribution function, in blocks of eight grains.
+ *
+ * A block holds eight grains as structure of arrays, one cache line a component, so that a kernel takes them lane by
+ * lane; the logical width is eight on every processor. The last block of a species may have empty lanes, always 0.
+ *
+ * Grains of a sheared gas stream as dC_x/dt = -rate C_y. That motion is the same linear map for all grains, so it is
+ * not carried out grain by grain: what is stored is x = C_x + drift C_y, constant while streaming, with drift = rate x
+ * (time since the map was last applied). The kernels undo it for the two grains that collide; gg_ensemble_stream
+ * applies it to all. */
+#ifndef GG_DSMC_ENSEMBLE_H
+#define GG_DSMC_ENSEMBLE_H
+
+#include "common/archive.h"
+#include "common/model.h"
+#include "common/rng.h"
+
+enum { GG_LANES = 8 };
+
+typedef struct gg_block {
+  double x[GG_LANES], y[GG_LANES], z[GG_LANES];
+} __attribute__((aligned(64))) gg_block;
+
+/* The grains of one species. */
+typedef struct gg_population {
+  int64_t n;
+  size_t n_blocks;
+  double mass, inertia; /* m; K = 4I/(m d^2) */
+  gg_block *c, *s;      /* peculiar velocities; surface spins, NULL if smooth */
+} gg_population;
+
+typedef struct gg_ensemble {
+  int n_species;
+  gg_population of[GG_MAX_SPECIES];
+} gg_ensemble;
+
+typedef struct gg_moments {
+  double temperature;             /* sum m C^2/(3N): a velocity squared for one species of mass 1 */
+  double fastest;                 /* largest |C| */
+  double partial[GG_MAX_SPECIES]; /* m_i <C.C>_i/3 */
+} gg_moments;
+
+gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err);
+void gg_ensemble_free(gg_ensemble *e);
+
+/* Maxwellians at the model's temperature0 and ratio0; the mean spin of a sheared dense gas is -rate/2. */
+void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng);
+
+/* C_x -= drift C_y for every grain. */
+void gg_ensemble_stream(gg_ensemble *e, double drift);
+/* Velocities (or spins) times a factor. */
+void gg_blocks_scale(gg_block *blocks, size_t n, double factor);
+/* Every velocity and spin times a factor. */
+void gg_ensemble_scale(gg_ensemble *e, double factor);
+/* Subtract the velocity of the centre of mass: rounding feeds it, and cooling or a thermostat would let it grow
+ * relative to the thermal speed without bound. */
+void gg_ensemble_centre(gg_ensemble *e);
+gg_moments gg_ensemble_moments(const gg_ensemble *e);
+
+gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *err);
+gg_status gg_ensemble_restore(gg_ensemble *e, const gg_archive *archive, gg_error *err);
+
+GG_INLINE gg_vec gg_block_get(const gg_block *b, uint32_t i)
+{
+  b += i / GG_LANES;
+  i %= GG_LANES;
+  return (gg_vec){b->x[i], b->y[i], b->z[i]};
+}
+
+GG_INLINE void gg_block_set(gg_block *b, uint32_t i, gg_vec v)
+{
+  b += i / GG_LANES;
+  i %= GG_LANES;
+  b->x[i] = v.x;
+  b->y[i] = v.y;
+  b->z[i] = v.z;
+}
+
+#endif

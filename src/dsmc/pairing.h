@@ -1,0 +1,55 @@
+/* Collisions between two species (or within one) over a stretch of time: what a kernel is given and what it hands back.
+ *
+ * Bird's null-collision selection carried to the Enskog equation (Montanero & Santos, Phys. Rev. E 54 (1996) 438):
+ * every pair of grains and direction k collides at rate (sigma^2 chi/V) dk max(0, g_n), g_n = k.C12 - sigma rate k_x
+ * k_y (the second term is the shear between the centres: with k from 1 to 2, y_1 - y_2 = -sigma k_y). Candidates come
+ * at the rate of a bound on g_n and are kept with probability g_n/bound.
+ *
+ * Rates are cut into layers: a pass realises that part of g_n which lies between `floor` and `floor + bound`. One pass
+ * from 0 is all there is unless some g_n went over the top; then one more pass over the layer above makes up, exactly,
+ * for what the first could not do. */
+#ifndef GG_DSMC_PAIRING_H
+#define GG_DSMC_PAIRING_H
+
+#include "common/engine.h"
+#include "dsmc/ensemble.h"
+
+typedef enum gg_shear {
+  GG_UNSHEARED,
+  GG_SHEARED_DILUTE, /* streaming alone */
+  GG_SHEARED_DENSE   /* and the difference of flow velocity between the centres */
+} gg_shear;
+
+typedef enum gg_tapped {
+  GG_TAP_CLOSED,
+  GG_TAP_LOSS,  /* Boltzmann: energy loss; there is no collisional stress */
+  GG_TAP_STRESS /* Enskog: and collisional stress */
+} gg_tapped;
+
+/* What the collisions of a pair of species need; chosen once. */
+typedef struct gg_features {
+  gg_rule rule;
+  gg_shear shear;
+  gg_tapped tap;
+  bool same; /* both grains of one species */
+} gg_features;
+
+typedef struct gg_pairing {
+  /* given */
+  gg_population *one, *two;
+  gg_contact contact;
+  double shift;             /* sigma x rate */
+  double sigma;             /* for the stress */
+  double floor, bound;      /* the layer of g_n */
+  double drift, drift_step; /* of the first candidate, and from one to the next: rate x time */
+  uint64_t candidates;
+  /* handed back */
+  uint64_t collisions, overflows;
+  double worst;              /* largest g_n seen */
+  double stress[3][3], loss; /* if tapped */
+} gg_pairing;
+
+/* The plain path, one candidate after another: what every other kernel is measured against. */
+void gg_collide_plain(gg_features f, gg_pairing *p, gg_rng *rng);
+
+#endif

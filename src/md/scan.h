@@ -1,0 +1,163 @@
+/* The search for a grain's next event: the cells around it, image by image, and its own cell's faces.
+ *
+ * Every neighbouring cell is looked at as one definite image, with its shift, so that boxes of one or two cells across
+ * and grains that meet several images of one partner need no special case.
+ *
+ * Rows across a sheared boundary: the image row of cells stands at any offset and slides. The grain looks at all of it
+ * that can come within reach of its cell until a time `valid`, and looks anew then. What makes incremental scans right:
+ * at every scan a grain looks at the whole window of each sliding row, and otherwise neighbourhoods are symmetric. */
+#ifndef GG_MD_SCAN_H
+#define GG_MD_SCAN_H
+
+#include "md/predict.h"
+#include "md/state.h"
+
+/* What a scene's motion needs; constant in every kernel. */
+typedef struct gg_features {
+  bool sheared, mixture;
+} gg_features;
+
+typedef struct gg_search {
+  uint32_t grain;
+  const gg_grain *self; /* at the present time */
+  double collision;     /* earliest so far, and with whom */
+  uint32_t partner;
+  double valid; /* until then the sliding rows have been searched */
+} gg_search;
+
+GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
+{
+  const gg_grain *one = s->self, *two = &e->grain[j];
+  gg_vec dr = gg_add(gg_sub(gg_position(two, e->k.now), one->r), shift);
+  gg_vec dv = gg_sub(two->v, one->v);
+  if (f.sheared) dv.x += slide;
+  double sigma = e->model.sigma[f.mixture ? 2 * gg_species_of(one) + gg_species_of(two) : 0];
+  double t = e->k.now + gg_contact_delay(dr, dv, sigma * sigma);
+  /* Ties go by index, so that the order in a cell's chain never matters. */
+  if (t < s->collision || (t == s->collision && t < INFINITY && j < s->partner)) {
+    s->collision = t;
+    s->partner = j;
+  }
+}
+
+/* Cells from..to (unwrapped) of row (y, z): images shifted by `shift`, sliding by `slide`. */
+GG_INLINE void gg_scan_row(const gg_md *e, gg_features f, gg_search *s, int32_t from, int32_t to, int32_t y, int32_t z,
+                           gg_vec shift, double slide)
+{
+  const gg_cells *c = &e->cells;
+  const uint32_t *row = c->head + gg_cell_index(c, (int32_t[3]){0, y, z});
+  for (int32_t k = from; k <= to; k++) {
+    int32_t x = k;
+    gg_vec here = shift;
+    while (x < 0) x += c->n[0], here.x -= e->box.edge[0];
+    while (x >= c->n[0]) x -= c->n[0], here.x += e->box.edge[0];
+    for (uint32_t j = row[x]; j != GG_NONE; j = e->grain[j].next)
+      if (j != s->grain) gg_try_pair(e, f, s, j, here, slide);
+  }
+}
+
+/* Index of a neighbouring cell along one axis, and the shift of its image. */
+GG_INLINE int32_t gg_image_cell(const gg_md *e, int axis, int32_t k, double *shift)
+{
+  *shift = 0;
+  if (k < 0) {
+    *shift = -e->box.edge[axis];
+    return k + e->cells.n[axis];
+  }
+  if (k >= e->cells.n[axis]) {
+    *shift = e->box.edge[axis];
+    return k - e->cells.n[axis];
+  }
+  return k;
+}
+
+/* Cells from..to (unwrapped) of the row at (y, z), unless it lies across the sheared boundary. */
+GG_INLINE void gg_scan_plain_row(const gg_md *e, gg_features f, gg_search *s, int32_t from, int32_t to, int32_t y,
+                                 int32_t z)
+{
+  gg_vec shift = {0, 0, 0};
+  int32_t iy = gg_image_cell(e, 1, y, &shift.y);
+  if (f.sheared && shift.y != 0) return;
+  int32_t iz = gg_image_cell(e, 2, z, &shift.z);
+  gg_scan_row(e, f, s, from, to, iy, iz, shift, 0);
+}
+
+/* The sliding row above (side = 1) or below (-1): cell k of it now covers x from k w + D to (k+1) w + D. */
+GG_INLINE void gg_scan_sliding(const gg_md *e, gg_features f, gg_search *s, int side)
+{
+  const gg_cells *c = &e->cells;
+  const gg_node *node = &e->node[s->grain];
+  double w = c->width[0], D = side * gg_offset(&e->box, e->k.now);
+  double left = node->cell[0] * w - c->reach, right = (node->cell[0] + 1) * w + c->reach;
+  int32_t from = (int32_t)gg_floor((left - D) / w), to = (int32_t)gg_floor((right - D) / w);
+  if (side > 0)
+    from--; /* it moves right: one cell of store on the left */
+  else
+    to++;
+  double room = side > 0 ? left - (from * w + D) : (to + 1) * w + D - right;
+  double valid = e->k.now + room / e->box.slide;
+  if (valid < s->valid) s->valid = valid;
+  for (int32_t z = node->cell[2] - 1; z <= node->cell[2] + 1; z++) {
+    gg_vec shift = {D, side * e->box.edge[1], 0};
+    int32_t iz = gg_image_cell(e, 2, z, &shift.z);
+    gg_scan_row(e, f, s, from, to, side > 0 ? 0 : c->n[1] - 1, iz, shift, side * e->box.slide);
+  }
+}
+
+GG_INLINE void gg_scan_sliding_rows(const gg_md *e, gg_features f, gg_search *s)
+{
+  s->valid = INFINITY;
+  if (!f.sheared) return;
+  int32_t y = e->node[s->grain].cell[1];
+  if (y == e->cells.n[1] - 1) gg_scan_sliding(e, f, s, 1);
+  if (y == 0) gg_scan_sliding(e, f, s, -1);
+}
+
+/* All 27 cells. */
+GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
+{
+  const int32_t *at = e->node[s->grain].cell;
+  for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
+    for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) gg_scan_plain_row(e, f, s, at[0] - 1, at[0] + 1, y, z);
+  gg_scan_sliding_rows(e, f, s);
+}
+
+/* The nine cells that came within reach by crossing a face. */
+GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int axis, int32_t step)
+{
+  const int32_t *at = e->node[s->grain].cell;
+  int32_t lo[3], hi[3];
+  for (int a = 0; a < 3; a++) {
+    lo[a] = at[a] + (a == axis ? step : -1);
+    hi[a] = at[a] + (a == axis ? step : 1);
+  }
+  for (int32_t z = lo[2]; z <= hi[2]; z++)
+    for (int32_t y = lo[1]; y <= hi[1]; y++) gg_scan_plain_row(e, f, s, lo[0], hi[0], y, z);
+  gg_scan_sliding_rows(e, f, s);
+}
+
+/* Delay until the grain leaves its cell along one axis. Rounding may have left it outside by a digit: then at once. */
+GG_INLINE double gg_exit_delay(double x, double v, int32_t cell, double width)
+{
+  double delay = v > 0 ? ((cell + 1) * width - x) / v : v < 0 ? (cell * width - x) / v : INFINITY;
+  return delay > 0 ? delay : 0;
+}
+
+/* Which face of its cell the grain crosses next, and when. */
+GG_INLINE double gg_next_face(const gg_md *e, const gg_search *s, int32_t *face)
+{
+  const gg_grain *g = s->self;
+  const int32_t *at = e->node[s->grain].cell;
+  double dx = gg_exit_delay(g->r.x, g->v.x, at[0], e->cells.width[0]);
+  double dy = gg_exit_delay(g->r.y, g->v.y, at[1], e->cells.width[1]);
+  double dz = gg_exit_delay(g->r.z, g->v.z, at[2], e->cells.width[2]);
+  double first = dx;
+  *face = g->v.x > 0;
+  if (dy < first) first = dy, *face = 2 + (g->v.y > 0);
+  if (dz < first) first = dz, *face = 4 + (g->v.z > 0);
+  double t = e->k.now + first;
+  if (s->valid < t) t = s->valid, *face = GG_SLIDE;
+  return t;
+}
+
+#endif

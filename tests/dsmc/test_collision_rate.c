@@ -1,0 +1,50 @@
+/* The elastic gas collides as often as kinetic theory says, for ensembles of 2 to 1000 grains. N grains of zero total
+ * momentum at fixed energy are uniform on a sphere in 3(N-1) dimensions, so the mean relative speed of a pair is known
+ * for every N; each of the N(N-1)/2 pairs collides at pi sigma^2 chi <g>/V. */
+#include "lab.h"
+
+/* Collision rate over its limit for many grains, 4 n d^2 chi sqrt(pi T). */
+static double finite_size(double N)
+{
+  /* g/sqrt(2) is a unit vector's projection on 3 of 3(N-1) dimensions times the radius sqrt(3 N T). */
+  double D = 3 * (N - 1), part = exp(lgamma(2) - lgamma(1.5) + lgamma(D / 2) - lgamma((D + 1) / 2));
+  return (N - 1) / N * part * sqrt(6 * N) / (4 / sqrt(M_PI));
+}
+
+static void rate(double phi, int64_t n)
+{
+  gg_scene s = lab_scene(GG_EQUILIBRIUM, phi, 1, -1, n);
+  gg_model m = lab_model(&s);
+  lab_mean rate = {0};
+  for (int r = 0; r < 20; r++) {
+    gg_engine *g = lab_engine(&m, 10 + (uint64_t)r);
+    double time = 0;
+    lab_advance(g, INFINITY, 10 * (uint64_t)n); /* lose the memory of the start */
+    uint64_t target = 20000;
+    gg_transfer t;
+    gg_dsmc_ops.read_tap(g, &t);
+    time = lab_advance(g, target / (0.5 * (double)n * gg_model_collision_rate(&m, 0.5)), UINT64_MAX);
+    gg_dsmc_ops.read_tap(g, &t);
+    lab_add(&rate, 2 * (double)t.collisions[GG_11] / ((double)n * time));
+    gg_dsmc_ops.destroy(g);
+  }
+  char what[64];
+  snprintf(what, sizeof what, "rate, phi %g, N %d", phi, (int)n);
+  lab_expect(what, &rate, 4 * m.density * m.chi[0] * sqrt(M_PI * 0.5) * finite_size((double)n), 0, 0.02);
+}
+
+static void collision_rate(void **state)
+{
+  (void)state;
+  assert_true(fabs(finite_size(1e6) - 1) < 1e-6);
+  for (int64_t n = 2; n <= 1000; n = n == 2 ? 10 : 10 * n) {
+    rate(0, n);
+    rate(0.3, n);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(collision_rate)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

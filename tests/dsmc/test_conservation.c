@@ -1,0 +1,79 @@
+/* What collisions must keep, they keep to rounding: momentum always, energy where e = 1 and beta = +-1; and the
+ * momentum stays at rounding however far the gas cools. */
+#include "lab.h"
+
+static double energy(gg_engine *g, const gg_model *m)
+{
+  lab_view v = lab_snapshot(g);
+  return v.cc[0][0] + v.cc[1][1] + v.cc[2][2] + m->inertia[0] * v.ss;
+}
+
+static double drift(double phi, double beta, double mu, int64_t n)
+{
+  gg_scene s = lab_scene(GG_EQUILIBRIUM, phi, 1, beta, n);
+  s.collision.mu[0] = mu;
+  gg_model m = lab_model(&s);
+  m.ratio0 = 0.3;
+  gg_engine *g = lab_engine(&m, 3);
+  double before = energy(g, &m);
+  lab_advance(g, INFINITY, 50 * (uint64_t)n);
+  double after = energy(g, &m);
+  gg_dsmc_ops.destroy(g);
+  return fabs(after / before - 1);
+}
+
+static void energy_is_kept(void **state)
+{
+  (void)state;
+  const int64_t sizes[] = {2, 9, 1000, 20000};
+  for (int i = 0; i < 4; i++) {
+    double smooth = drift(0.3, -1, INFINITY, sizes[i]), rough = drift(0, 1, INFINITY, sizes[i]);
+    printf("# N %d: energy drifts by %.1e (smooth), %.1e (perfectly rough)\n", (int)sizes[i], smooth, rough);
+    assert_true(smooth < 1e-13);
+    assert_true(rough < 1e-13);
+  }
+  assert_true(drift(0.3, 1, 0.1, 1000) > 1e-3); /* sliding does lose energy: the test can see it */
+}
+
+static void momentum_stays_at_rounding(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0.1, 0.5, -1, 1000);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 5);
+  gg_error err = {0};
+  for (int i = 0; i < 500; i++) {
+    lab_advance(g, INFINITY, 1000);
+    lab_view v = lab_snapshot(g);
+    double T = lab_temperature(&v);
+    for (int a = 0; a < 3; a++) assert_true(fabs(v.momentum[a]) / v.n < 1e-15 * sqrt(T));
+    if (T < 0x1p-40) assert_int_equal(gg_dsmc_ops.rescale(g, 20, &err), GG_OK);
+  }
+  gg_dsmc_ops.destroy(g);
+}
+
+/* Over any stretch the energy lost to collisions, as the tap has it, is what is missing. */
+static void tap_accounts_for_the_loss(void **state)
+{
+  (void)state;
+  for (int rough = 0; rough < 2; rough++) {
+    gg_scene s = lab_scene(GG_HCS, 0.2, 0.7, rough ? 0.3 : -1, 500);
+    if (rough) s.collision.mu[0] = 0.4;
+    gg_model m = lab_model(&s);
+    gg_engine *g = lab_engine(&m, 7);
+    gg_dsmc_ops.tap(g, true);
+    double before = energy(g, &m);
+    lab_advance(g, INFINITY, 5000);
+    gg_transfer t;
+    gg_dsmc_ops.read_tap(g, &t);
+    assert_true(fabs(before - energy(g, &m) - 2 * t.loss[GG_11]) < 1e-12 * before);
+    gg_dsmc_ops.destroy(g);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(energy_is_kept), cmocka_unit_test(momentum_stays_at_rounding),
+                                     cmocka_unit_test(tap_accounts_for_the_loss)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

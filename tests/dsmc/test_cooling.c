@@ -1,0 +1,93 @@
+/* Free cooling: fourth cumulant and cooling rate of smooth grains, and the temperature ratio of rough ones. */
+#include "lab.h"
+
+typedef struct cooling {
+  lab_mean a2, zeta, ratio;
+} cooling;
+
+/* Averages at constant scaled temperature over `blocks` of 20 collisions a grain. */
+static void cool(const gg_model *m, uint64_t seed, int blocks, cooling *c)
+{
+  gg_engine *g = lab_engine(m, seed);
+  gg_error err = {0};
+  gg_dsmc_ops.tap(g, true);
+  for (int b = -3; b < blocks; b++) {
+    double a2 = 0, zeta = 0, ratio = 0;
+    const int samples = 20;
+    for (int i = 0; i < samples; i++) {
+      gg_transfer t;
+      lab_view v = lab_snapshot(g);
+      double T0 = lab_temperature(&v);
+      gg_dsmc_ops.read_tap(g, &t);
+      double time = lab_advance(g, INFINITY, (uint64_t)m->n / 2);
+      gg_dsmc_ops.read_tap(g, &t);
+      v = lab_snapshot(g);
+      double T = lab_temperature(&v), fell = T0 / T;
+      a2 += (v.c4 / v.n / (15 * T * T) - 1) / samples;
+      ratio += m->inertia[0] * v.ss / v.n / 3 / T / samples;
+      /* dT/dt = -zeta T with zeta ~ sqrt(T): 1/sqrt(T) grows linearly. */
+      zeta += 2 * (sqrt(fell) - 1) / (time * gg_model_nu0(m, T0)) / samples;
+      if (T < 0x1p-20) assert_int_equal(gg_dsmc_ops.rescale(g, 10, &err), GG_OK);
+    }
+    if (b < 0) continue;
+    lab_add(&c->a2, a2);
+    lab_add(&c->zeta, zeta);
+    lab_add(&c->ratio, ratio);
+  }
+  gg_dsmc_ops.destroy(g);
+}
+
+static void smooth(void **state)
+{
+  (void)state;
+  const double e[] = {0.8, 0.5}, a2[] = {-0.0145, 0.0474};
+  for (int i = 0; i < 2; i++) {
+    gg_scene s = lab_scene(GG_HCS, i ? 0.3 : 0, e[i], -1, 20000);
+    gg_model m = lab_model(&s);
+    cooling c = {0};
+    cool(&m, 19, 40, &c);
+    lab_expect("a2", &c.a2, a2[i], 3e-4, 0.25);
+    /* Garzo & Dufty, PRE 59 (1999) 5895, with the cumulant measured. */
+    lab_expect("zeta*", &c.zeta, 5. / 12 * m.chi[0] * (1 - e[i] * e[i]) * (1 + 3. / 16 * lab_value(&c.a2)), 0, 0.01);
+  }
+}
+
+static void rough(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0.1, 0.9, 0, 20000);
+  gg_model m = lab_model(&s);
+  cooling c = {0};
+  cool(&m, 23, 12, &c);
+  lab_expect("theta/T at e .9, beta 0", &c.ratio, 0.5455, 5e-4, 0.02);
+}
+
+/* Where friction is too strong to slide, it is roughness, bit for bit; where mu is small, spins stay behind. */
+static void friction(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0.1, 0.9, 0, 2000);
+  gg_model rough = lab_model(&s);
+  s.collision.mu[0] = 1e12;
+  gg_model sticking = lab_model(&s);
+  s.collision.mu[0] = 0.05;
+  gg_model sliding = lab_model(&s);
+  sliding.ratio0 = sticking.ratio0 = rough.ratio0;
+  assert_int_equal(sticking.rule, GG_FRICTIONAL);
+  gg_engine *a = lab_engine(&rough, 29), *b = lab_engine(&sticking, 29), *c = lab_engine(&sliding, 29);
+  lab_advance(a, INFINITY, 20000);
+  lab_advance(b, INFINITY, 20000);
+  lab_advance(c, INFINITY, 20000);
+  lab_view va = lab_snapshot(a), vb = lab_snapshot(b), vc = lab_snapshot(c);
+  assert_memory_equal(&va, &vb, sizeof va);
+  assert_true(lab_temperature(&vc) > 1.05 * lab_temperature(&va));
+  gg_dsmc_ops.destroy(a);
+  gg_dsmc_ops.destroy(b);
+  gg_dsmc_ops.destroy(c);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(friction), cmocka_unit_test(smooth), cmocka_unit_test(rough)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

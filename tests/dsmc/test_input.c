@@ -1,0 +1,50 @@
+/* Scenes that the engine cannot run are refused with the scene key to change. */
+#include "lab.h"
+
+static void refused(const gg_model *m, const char *key)
+{
+  gg_error err = {0};
+  gg_engine *g;
+  assert_int_equal(gg_dsmc_ops.create(m, 1, 0, &g, &err), GG_BAD_INPUT);
+  assert_non_null(strstr(err.message, key));
+}
+
+static void refusals(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_COUETTE, 0.1, 0.9, -1, 100);
+  gg_model m = lab_model(&s);
+  refused(&m, "flow");
+  s.flow = GG_USF;
+  m = lab_model(&s);
+  m.gravity[1] = -1;
+  refused(&m, "gravity");
+  m = lab_model(&s);
+  m.n = m.n_of[0] = 1;
+  refused(&m, "dsmc.particles");
+  m = lab_model(&s);
+  m.time_step = 0;
+  refused(&m, "dsmc.time_step");
+}
+
+static void count_line(void *context, const char *text)
+{
+  assert_non_null(text);
+  ++*(int *)context;
+}
+
+static void describes(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_USF, 0, 0.9, -1, 100);
+  gg_model m = lab_model(&s);
+  int lines = 0;
+  gg_dsmc_ops.describe(&m, count_line, &lines);
+  assert_int_equal(lines, 6);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(refusals), cmocka_unit_test(describes)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

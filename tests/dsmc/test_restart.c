@@ -1,0 +1,80 @@
+/* A restored engine goes on bit for bit; so does one whose velocities were multiplied by a power of two. */
+#include "lab.h"
+
+static void same_archive(gg_engine *a, gg_engine *b)
+{
+  gg_archive one = {0}, two = {0};
+  gg_error err = {0};
+  assert_int_equal(gg_dsmc_ops.save(a, &one, &err), GG_OK);
+  assert_int_equal(gg_dsmc_ops.save(b, &two, &err), GG_OK);
+  assert_int_equal(one.n_items, two.n_items);
+  for (size_t i = 0; i < one.n_items; i++)
+    assert_memory_equal(one.items[i].data, two.items[i].data, one.items[i].count * gg_item_size(one.items[i].type));
+  gg_archive_clear(&one);
+  gg_archive_clear(&two);
+}
+
+static void restart(gg_flow flow, double phi, double beta, int64_t n)
+{
+  gg_scene s = lab_scene(flow, phi, 0.8, beta, n);
+  gg_model m = lab_model(&s);
+  gg_engine *straight = lab_engine(&m, 11), *resumed = NULL;
+  gg_error err = {0};
+  gg_dsmc_ops.tap(straight, true);
+  lab_advance(straight, INFINITY, 3 * (uint64_t)n);
+  gg_archive archive = {0};
+  assert_int_equal(gg_dsmc_ops.save(straight, &archive, &err), GG_OK);
+  assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_OK);
+  lab_advance(straight, INFINITY, 3 * (uint64_t)n);
+  lab_advance(resumed, INFINITY, 3 * (uint64_t)n);
+  same_archive(straight, resumed);
+  gg_dsmc_ops.destroy(straight);
+  gg_dsmc_ops.destroy(resumed);
+
+  /* A checkpoint of another size is refused with a message. */
+  s.dsmc.particles = n + 8;
+  m = lab_model(&s);
+  assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_BAD_FILE);
+  assert_non_null(strstr(err.message, "dsmc/velocity_1"));
+  gg_archive_clear(&archive);
+}
+
+static void restarts_bit_for_bit(void **state)
+{
+  (void)state;
+  restart(GG_USF, 0.3, 0.2, 5000);
+  restart(GG_USF, 0, -1, 11);
+  restart(GG_HCS, 0.1, -1, 3000);
+}
+
+/* Rounding does not depend on the exponent, so neither does a cooling run. */
+static void rescaling_is_exact(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0.1, 0.6, 0.5, 1001);
+  gg_model m = lab_model(&s);
+  gg_engine *plain = lab_engine(&m, 13), *scaled = lab_engine(&m, 13);
+  gg_error err = {0};
+  for (int i = 0; i < 5; i++) {
+    double long_ago = lab_advance(plain, INFINITY, 2000);
+    assert_int_equal(gg_dsmc_ops.rescale(scaled, 7, &err), GG_OK);
+    assert_true(lab_advance(scaled, INFINITY, 2000) == ldexp(long_ago, -7 * (i + 1)));
+  }
+  assert_int_equal(gg_dsmc_ops.rescale(scaled, -35, &err), GG_OK);
+  lab_view a = lab_snapshot(plain), b = lab_snapshot(scaled);
+  assert_memory_equal(&a, &b, sizeof a);
+  gg_dsmc_ops.destroy(plain);
+  gg_dsmc_ops.destroy(scaled);
+
+  s = lab_scene(GG_USF, 0.1, 0.6, -1, 100);
+  m = lab_model(&s);
+  plain = lab_engine(&m, 1);
+  assert_int_equal(gg_dsmc_ops.rescale(plain, 1, &err), GG_BAD_INPUT);
+  gg_dsmc_ops.destroy(plain);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(rescaling_is_exact)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
