@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "io/atomic_file.h"
 #include "io/h5.h"
@@ -84,7 +85,8 @@ gg_status gg_checkpoint_write(const char *path, const gg_archive *a, const gg_sc
   if (status == GG_OK) status = gg_atomic_write(&file, image, size, err);
   free(image);
   free(yaml);
-  if (status == GG_OK && asprintf(&before, "%s.1", path) >= 0) {
+  /* The one before gives way only once this one is safe on the disk. */
+  if (status == GG_OK && fsync(file.fd) == 0 && asprintf(&before, "%s.1", path) >= 0) {
     rename(path, before); /* fails the first time: there is none */
     free(before);
   }
