@@ -33,7 +33,7 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
   if (g->replicas > 1 && !brief)
     used += snprintf(text + used, size - (size_t)used, ", %ld replicas", (long)g->replicas);
   used += snprintf(text + used, size - (size_t)used, ", %s%s, %s/s", collisions, brief ? "" : " collisions", rate);
-  if (isfinite(g->relative_error))
+  if (g->relative_error > 0 && isfinite(g->relative_error))
     used += snprintf(text + used, size - (size_t)used, ", error %.2g %%", 100 * g->relative_error);
   if (isfinite(g->time_left)) {
     gg_format_duration(g->time_left, left, sizeof left);

@@ -130,10 +130,11 @@ static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int *co
 static void put_engines(gg_table *t, int row, const gg_comparison *c, gg_quantity q)
 {
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
-  put_mean(t, row, 2, md, q);
-  put_mean(t, row, 3, dsmc, q);
+  int column = 2;
+  if (md) put_mean(t, row, column++, md, q);
+  if (dsmc) put_mean(t, row, column++, dsmc, q);
   double z = has(md, q) && has(dsmc, q) ? gg_z_score(&md->value[q], &dsmc->value[q]) : NAN;
-  if (isfinite(z)) snprintf(gg_table_cell(t, row, 4), GG_TABLE_CELL, "%+.1f", z);
+  if (isfinite(z)) snprintf(gg_table_cell(t, row, column), GG_TABLE_CELL, "%+.1f", z);
 }
 
 static gg_table *tabulate(const gg_comparison *c, bool engines, bool all, int *n_theories)
@@ -143,11 +144,9 @@ static gg_table *tabulate(const gg_comparison *c, bool engines, bool all, int *n
   if (!t) return NULL;
   gg_table_column(t, "quantity", false);
   gg_table_column(t, "unit", false);
-  if (engines) {
-    gg_table_column(t, "md", true);
-    gg_table_column(t, "dsmc", true);
-    gg_table_column(t, "z", true);
-  }
+  for (int k = 0; engines && k < 2; k++)
+    if (c->by_engine[k]) gg_table_column(t, c->by_engine[k]->engine, true);
+  if (engines && c->by_engine[GG_MD] && c->by_engine[GG_DSMC]) gg_table_column(t, "z", true);
   *n_theories = theory_columns(t, c, all, column);
   for (int i = 0; i < GG_N_QUANTITIES; i++) {
     gg_quantity q = (gg_quantity)i;
@@ -162,10 +161,12 @@ static gg_table *tabulate(const gg_comparison *c, bool engines, bool all, int *n
   return t;
 }
 
-static void print_refusals(const gg_comparison *c)
+static void print_inapplicable(const gg_comparison *c)
 {
+  int n = 0;
   for (int i = 0; i < c->n_theories; i++)
-    if (!c->theory[i].applies) printf("%s does not apply: %s\n", c->theory[i].theory->name, c->theory[i].reason);
+    if (!c->theory[i].applies) printf("%s%s", n++ ? ", " : "\nTheories for other scenes: ", c->theory[i].theory->name);
+  if (n) printf("\n(graingas theory says why)\n");
 }
 
 void gg_print_comparison(const gg_comparison *c, bool all)
@@ -177,14 +178,16 @@ void gg_print_comparison(const gg_comparison *c, bool all)
   gg_table_print(t, stdout, gg_terminal_width(), 1);
   free(t);
   const gg_result *against = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
-  printf("\n(..): standard error of the last digits; z: (md - dsmc) over their combined standard error");
-  if (n_theories && against) printf(";\n%%: deviation of a theory from %s", against->engine);
+  bool both = c->by_engine[GG_MD] && c->by_engine[GG_DSMC];
+  printf("\n(..): standard error of the last digits");
+  if (both) printf("; z: (md - dsmc) over their combined standard error");
+  if (n_theories && against) printf(";%s%%: deviation of a theory from %s", both ? "\n" : " ", against->engine);
   printf("\n\n");
   for (int k = 0; k < 2; k++) {
     if (c->by_engine[k]) print_effort(c->by_engine[k]);
     if (c->refusal[k][0]) printf("%-5s not run: %s\n", gg_engine_ops_of((gg_engine_kind)k)->name, c->refusal[k]);
   }
-  print_refusals(c);
+  print_inapplicable(c);
   for (int k = 0; k < 2; k++)
     if (c->by_engine[k]) print_warnings(c->by_engine[k]);
 }
@@ -202,5 +205,6 @@ void gg_print_theories(const gg_scene *scene, const gg_comparison *c, bool all)
     if (c->theory[i].applies)
       printf("%s: %s (%s)\n  %s\n", c->theory[i].theory->name, c->theory[i].theory->title,
              c->theory[i].theory->citation, c->theory[i].theory->assumptions);
-  print_refusals(c);
+  for (int i = 0; i < c->n_theories; i++)
+    if (!c->theory[i].applies) printf("%s does not apply: %s\n", c->theory[i].theory->name, c->theory[i].reason);
 }

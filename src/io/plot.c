@@ -44,35 +44,35 @@ static void start(FILE *s, bool png, int width, int height)
             width * 3 / 2, height * 3 / 2);
   else
     fprintf(s, "set terminal svg enhanced font 'DejaVu Sans,12' size %d,%d background '#ffffff'\n", width, height);
-  fprintf(s, "set encoding utf8\nset border 3 lc rgb '#444444'\nset tics nomirror out textcolor rgb '#222222'\n"
+  fprintf(s, "set encoding utf8\nset border 3 lc rgb '#444444'\nset errorbars small\nset tics nomirror out textcolor "
+             "rgb '#222222'\n"
              "set grid ytics lc rgb '#e4e4e4' lt 1 lw 0.8\n");
 }
 
-/* The scene's title, from its YAML. */
-static void print_title(FILE *s, const gg_stored_result *stored)
+/* Open the page under the scene's title, from its YAML. */
+static void start_page(FILE *s, const gg_stored_result *stored)
 {
   gg_scene *scene;
   char title[240] = "", safe[300];
   size_t used = 0;
-  if (gg_scene_parse(stored->scene, "scene", &scene, NULL) != GG_OK) return;
-  gg_scene_title(scene, title, sizeof title);
-  gg_scene_free(scene);
+  if (gg_scene_parse(stored->scene, "scene", &scene, NULL) == GG_OK) {
+    gg_scene_title(scene, title, sizeof title);
+    gg_scene_free(scene);
+  }
   for (const char *c = title; *c && used + 3 < sizeof safe; c++) {
     if (*c == '\'') continue;
     safe[used++] = *c;
   }
   safe[used] = '\0';
-  fprintf(s, "set label 1000 '%s' at screen 0.5,0.965 center noenhanced font ',14'\n", safe);
+  fprintf(s, "set multiplot title '%s' noenhanced font ',14'\n", safe);
 }
 
 static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_engine *e, bool png)
 {
   start(s, png, 1000, 440);
-  fprintf(s, "set multiplot\n");
-  gg_plot_place(s, (gg_panel){0.09, 0.49, 0.16, 0.80});
-  print_title(s, stored);
-  gg_plot_relaxation(s, e, (gg_panel){0.09, 0.49, 0.15, 0.80});
-  gg_plot_stresses(s, e, (gg_panel){0.59, 0.98, 0.15, 0.80});
+  start_page(s, stored);
+  gg_plot_relaxation(s, e, (gg_panel){0.085, 0.455, 0.15, 0.80});
+  gg_plot_stresses(s, e, (gg_panel){0.585, 0.94, 0.15, 0.80});
   fprintf(s, "unset multiplot\n");
 }
 
@@ -80,15 +80,13 @@ static void draw_comparison(FILE *s, const gg_stored_result *stored, bool png)
 {
   bool differences = gg_plot_has_differences(stored);
   start(s, png, 1100, 820);
-  fprintf(s, "set multiplot\n");
+  start_page(s, stored);
   gg_panel ratios = {0.075, differences ? 0.64 : 0.98, 0.53, 0.85};
-  gg_plot_place(s, ratios);
-  print_title(s, stored);
   gg_plot_ratios(s, stored, ratios);
   if (differences) gg_plot_differences(s, stored, (gg_panel){0.73, 0.98, 0.53, 0.85});
   const gg_stored_engine *md = &stored->engine[GG_MD], *dsmc = &stored->engine[GG_DSMC];
-  if (md->name) gg_plot_relaxation(s, md, (gg_panel){0.075, dsmc->name ? 0.485 : 0.98, 0.085, 0.38});
-  if (dsmc->name) gg_plot_relaxation(s, dsmc, (gg_panel){md->name ? 0.575 : 0.075, 0.98, 0.085, 0.38});
+  if (md->name) gg_plot_relaxation(s, md, (gg_panel){0.075, dsmc->name ? 0.475 : 0.965, 0.085, 0.38});
+  if (dsmc->name) gg_plot_relaxation(s, dsmc, (gg_panel){md->name ? 0.575 : 0.075, 0.965, 0.085, 0.38});
   fprintf(s, "unset multiplot\n");
 }
 

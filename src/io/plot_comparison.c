@@ -123,14 +123,17 @@ static void print_categories(FILE *s, const int *selected, int n)
 
 static void plot_methods(FILE *s, const method *methods, int n, bool titles)
 {
-  static const int shapes[] = {7, 5, 8, 10, 12, 4, 6, 14, 2, 1};
+  static const int shapes[] = {7, 5, 8, 10, 12, 4, 6, 14, 2, 1}; /* md and dsmc filled, theories open */
+  enum { N_SHAPES = sizeof shapes / sizeof *shapes };
+  int theories = 2;
   fprintf(s, "plot ");
   for (int k = 0; k < n; k++) {
     bool engine = k < 2 && (strcmp(methods[k].name, "md") == 0 || strcmp(methods[k].name, "dsmc") == 0);
-    int shape = shapes[k % (int)(sizeof shapes / sizeof *shapes)];
-    const char *colour = gg_plot_colours[colour_of(&methods[k], k)];
+    int colour_index = colour_of(&methods[k], k);
+    int shape = engine ? shapes[colour_index] : shapes[theories++ % N_SHAPES];
+    const char *colour = gg_plot_colours[colour_index];
     fprintf(s, "%s$method%d using 1:2%s pt %d ps %g lw 1.3 lc rgb '%s' ", k ? ", " : "", k,
-            engine ? ":3 with yerrorbars" : " with points", shape, engine ? 0.75 : 0.95, colour);
+            engine ? ":3 with yerrorbars" : " with points", shape, engine ? 0.6 : 0.9, colour);
     if (titles)
       fprintf(s, "title \"%s\"", methods[k].name);
     else
@@ -146,7 +149,7 @@ static bool draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel p
   int n = n_methods ? select_entries(&methods[0], ratio, selected) : 0;
   if (n == 0) return false;
   gg_plot_place(s, panel);
-  double step = 0.8 / n_methods, first = -0.4 + step / 2, range = 0;
+  double step = fmin(0.8 / n_methods, 0.13), first = -step * (n_methods - 1) / 2, range = 0;
   if (ratio) range = fmin(1.15 * furthest(methods, n_methods, selected, n), 0.75);
   for (int k = 0; k < n_methods; k++) {
     print_points(s, k, &methods[k], &methods[0], ratio, selected, n, first + k * step);
@@ -159,7 +162,7 @@ static bool draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel p
   if (ratio) {
     fprintf(s, "set ylabel 'value / %s' offset 0.5,0\nset yrange [%g:%g]\n", methods[0].name, 1 - range, 1 + range);
     fprintf(s, "set arrow from graph 0,first 1 to graph 1,first 1 nohead back lc rgb '#888888' lw 1\n");
-    fprintf(s, "set key at screen 0.5,0.935 center top horizontal noenhanced samplen 0.6 width 1.5 maxrows 1\n");
+    fprintf(s, "set key at screen 0.5,0.935 center top vertical maxrows 2 noenhanced samplen 0.6 width 1.5\n");
   } else {
     fprintf(s, "set ylabel 'value' offset 0.5,0\n");
     fprintf(s, "set arrow from graph 0,first 0 to graph 1,first 0 nohead back lc rgb '#888888' lw 1\n");
