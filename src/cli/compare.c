@@ -71,6 +71,8 @@ static int compare(const gg_options *o, const gg_scene *scene, const char *outpu
     else if ((code = finish(o, output, &c, &file)) == GG_OK)
       code = (int)status;
   }
+  if (status == GG_BAD_INPUT) gg_error_prefix(&err, status, "%s", o->input);
+  if (status == GG_INTERRUPTED) gg_fail(&err, status, "interrupted; nothing was written");
   if (status != GG_OK) gg_cli_report(&err);
   gg_comparison_clear(&c);
   return code;

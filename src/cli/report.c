@@ -206,5 +206,5 @@ void gg_print_theories(const gg_scene *scene, const gg_comparison *c, bool all)
       printf("%s: %s (%s)\n  %s\n", c->theory[i].theory->name, c->theory[i].theory->title,
              c->theory[i].theory->citation, c->theory[i].theory->assumptions);
   for (int i = 0; i < c->n_theories; i++)
-    if (!c->theory[i].applies) printf("%s does not apply: %s\n", c->theory[i].theory->name, c->theory[i].reason);
+    if (!c->theory[i].applies) printf("%s\n", c->theory[i].reason);
 }

@@ -91,6 +91,7 @@ static int execute(running *r, const gg_archive *resume)
   }
   gg_result_file_abandon(&r->file);
   if (status == GG_INTERRUPTED) tell_interrupted(r, &err);
+  if (status == GG_BAD_INPUT) gg_error_prefix(&err, status, "%s", r->options->input);
   if (status != GG_OK) gg_cli_report(&err);
   gg_result_free(result);
   return code;
