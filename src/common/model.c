@@ -124,7 +124,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   if (s->flow == GG_COUETTE) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
   set_walls(m, s, time_unit);
   for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
-  m->contact_time = m->elastic ? 0 : s->md.contact_time == GG_AUTO ? 1e-4 : s->md.contact_time;
+  m->contact_time = m->elastic ? 0 : s->md.contact_time == GG_AUTO ? 1e-5 : s->md.contact_time;
   m->time_step = s->dsmc.time_step;
   m->temperature0 = sheared ? guess_sheared_temperature(m) : 0.5;
   if (sheared && s->temperature != GG_AUTO) {

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "dsmc/dsmc.h"
+#include "dsmc/thermostat.h"
 
 gg_status gg_dsmc_alloc(const gg_model *model, gg_dsmc **d, gg_error *err)
 {
@@ -9,6 +10,8 @@ gg_status gg_dsmc_alloc(const gg_model *model, gg_dsmc **d, gg_error *err)
   if (!made) return GG_FAILED;
   made->base.ops = &gg_dsmc_ops;
   made->model = *model;
+  made->thermostat = gg_thermostat_of(model);
+  made->noise = gg_thermostat_noise(model);
   gg_status status = gg_ensemble_new(model, &made->ensemble, err);
   if (status != GG_OK) {
     free(made);

@@ -6,6 +6,7 @@ static gg_features features_of(const gg_dsmc *d, int i, int j)
   const gg_model *m = &d->model;
   gg_features f = {.rule = gg_rule_of(m->beta[2 * i + j], m->mu[2 * i + j]), .same = i == j};
   if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_SHEARED_DILUTE : GG_SHEARED_DENSE;
+  if (d->thermostat == GG_GAUSSIAN) f.tap = GG_TAP_LOSS;
   if (d->now.tap) f.tap = m->boltzmann ? GG_TAP_LOSS : GG_TAP_STRESS;
   return f;
 }
@@ -37,6 +38,8 @@ static void hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
   s->candidates += p->candidates;
   s->overflows += p->overflows;
   s->transfer.collisions[pair] += p->collisions;
+  s->lost += p->loss;
+  if (!s->tap) return;
   s->transfer.loss[pair] += p->loss;
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += p->stress[a][b];
@@ -67,16 +70,12 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
   }
 }
 
-void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span)
+void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards)
 {
-  if (d->model.n_species == 1) {
-    collide_pair(d, 0, 0, dt, drift, span);
-    return;
-  }
-  /* Forwards and backwards in turn, so that the order of the pairs of species cancels to second order in the step. */
-  static const int order[3][2] = {{0, 0}, {0, 1}, {1, 1}};
-  for (int q = 0; q < 3; q++) {
-    const int *ij = order[d->now.steps % 2 ? 2 - q : q];
+  static const int order[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+  int pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
+  for (int q = 0; q < pairs; q++) {
+    const int *ij = order[backwards ? pairs - 1 - q : q];
     collide_pair(d, ij[0], ij[1], dt, drift, span);
   }
 }

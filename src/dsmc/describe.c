@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "dsmc/dsmc.h"
+#include "dsmc/thermostat.h"
 
 gg_status gg_dsmc_accepts(const gg_model *m, gg_error *err)
 {
@@ -9,8 +10,8 @@ gg_status gg_dsmc_accepts(const gg_model *m, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT, "flow: walled flows need engine: md (Enskog Monte Carlo here is homogeneous)");
   if (m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0)
     return gg_fail(err, GG_BAD_INPUT, "gravity: must be 0 with engine: dsmc (a homogeneous gas falls freely)");
-  if (m->flow == GG_HSS || m->thermostat != GG_NO_THERMOSTAT)
-    return gg_fail(err, GG_BAD_INPUT, "thermostat: not yet available with engine: dsmc");
+  if (m->thermostat != GG_NO_THERMOSTAT && m->flow != GG_HSS && m->flow != GG_USF)
+    return gg_fail(err, GG_BAD_INPUT, "thermostat: only in flow: hss and usf");
   for (int i = 0; i < m->n_species; i++)
     if (m->n_of[i] < (m->n_species == 1 ? 2 : 1))
       return gg_fail(err, GG_BAD_INPUT, "dsmc.particles: at least 2 are needed, for collisions");
@@ -36,5 +37,8 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
     line(context, "shear: streaming and collisions in turns, symmetric splitting");
   else
     line(context, "shear: streaming followed exactly between collisions");
+  static const char *const thermostats[] = {"no thermostat", "Gaussian thermostat: returns what collisions destroy",
+                                            "white-noise thermostat"};
+  line(context, thermostats[gg_thermostat_of(m)]);
   line(context, m->n_species == 1 ? "one species: one majorant" : "two species: a majorant for each pair");
 }

@@ -14,6 +14,7 @@ typedef struct gg_dsmc_state {
   double time, temperature; /* temperature: at the end of the last step */
   uint64_t collisions, candidates, overflows, steps;
   gg_time_step step;
+  double lost; /* energy destroyed since the Gaussian thermostat last gave it back */
   gg_majorant majorant[GG_PAIRS];
   gg_transfer transfer;
   bool tap;
@@ -23,11 +24,14 @@ typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_ensemble ensemble;
+  gg_thermostat thermostat;
+  double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;
 } gg_dsmc;
 
-/* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). */
-void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span);
+/* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). Pairs
+ * of species take turns: 11, 12, 22, or backwards. */
+void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards);
 
 gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);
 void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "dsmc/dsmc.h"
+#include "dsmc/thermostat.h"
 
 static gg_dsmc *dsmc_of(gg_engine *engine)
 {
@@ -23,15 +24,37 @@ static void settle(gg_dsmc *d, double drift)
   d->now.step = gg_time_step_choose(&d->model, d->now.temperature);
 }
 
+static void heat(gg_dsmc *d, double dt, double drift)
+{
+  if (d->thermostat == GG_GAUSSIAN) {
+    gg_thermostat_return(&d->ensemble, drift, d->now.lost);
+    d->now.lost = 0;
+  } else {
+    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, &d->now.rng);
+  }
+}
+
+static void collide(gg_dsmc *d, double dt, double drift, double span)
+{
+  if (d->thermostat == GG_NO_THERMOSTAT && d->model.n_species == 1) {
+    gg_dsmc_collide(d, dt, drift, span, false);
+    return;
+  }
+  /* The second half mirrors the first, so that turns cancel to second order. */
+  gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, false);
+  if (d->thermostat != GG_NO_THERMOSTAT) heat(d, dt, drift + 0.5 * span);
+  gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, true);
+}
+
 static void step(gg_dsmc *d, double dt)
 {
   double drift = d->model.shear_rate * dt;
   /* Strang (SIAM J. Numer. Anal. 5 (1968) 506): half the streaming, all collisions, the other half. With collisions in
    * stored velocities this is nothing but a constant half drift. */
   if (d->now.step.split)
-    gg_dsmc_collide(d, dt, 0.5 * drift, 0);
+    collide(d, dt, 0.5 * drift, 0);
   else
-    gg_dsmc_collide(d, dt, 0, drift);
+    collide(d, dt, 0, drift);
   d->now.time += dt;
   d->now.steps++;
   settle(d, drift);
@@ -141,6 +164,8 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
+  if (d->thermostat != GG_NO_THERMOSTAT)
+    return gg_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
   if (d->model.shear_rate != 0)
     return gg_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
   if (power < -1000 || power > 1000) return gg_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);

@@ -73,7 +73,7 @@ void gg_ensemble_stream(gg_ensemble *e, double drift)
     }
 }
 
-static void scale_blocks(gg_block *b, size_t n, double factor)
+void gg_blocks_scale(gg_block *b, size_t n, double factor)
 {
   double *v = (double *)b;
   for (size_t i = 0; b && i < n * sizeof(gg_block) / sizeof(double); i++) v[i] *= factor;
@@ -82,8 +82,8 @@ static void scale_blocks(gg_block *b, size_t n, double factor)
 void gg_ensemble_scale(gg_ensemble *e, double factor)
 {
   for (int i = 0; i < e->n_species; i++) {
-    scale_blocks(e->of[i].c, e->of[i].n_blocks, factor);
-    scale_blocks(e->of[i].s, e->of[i].n_blocks, factor);
+    gg_blocks_scale(e->of[i].c, e->of[i].n_blocks, factor);
+    gg_blocks_scale(e->of[i].s, e->of[i].n_blocks, factor);
   }
 }
 

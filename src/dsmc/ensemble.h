@@ -47,6 +47,8 @@ void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng);
 
 /* C_x -= drift C_y for every grain. */
 void gg_ensemble_stream(gg_ensemble *e, double drift);
+/* Velocities (or spins) times a factor. */
+void gg_blocks_scale(gg_block *blocks, size_t n, double factor);
 /* Every velocity and spin times a factor. */
 void gg_ensemble_scale(gg_ensemble *e, double factor);
 /* Subtract the velocity of the centre of mass: rounding feeds it, and cooling or a thermostat would let it grow

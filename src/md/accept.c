@@ -10,11 +10,12 @@ static gg_status check_box(const gg_model *m, gg_error *err)
   for (int a = 0; a < 3; a++) {
     if (m->box[a] >= least) continue;
     double shrink = least / m->box[a], cube = shrink * shrink * shrink;
-    return gg_fail(err, GG_BAD_INPUT,
-                   "particles: with particles = %lld and phi = %g the box edge along %c is %.4g diameters; a grain would "
-                   "meet two images of another below %.4g. Allowed here: particles >= %.0f, or phi <= %.4g",
-                   (long long)m->n, m->phi, "xyz"[a], m->box[a] / m->diameter[0], least / m->diameter[0],
-                   ceil((double)m->n * cube), m->phi / cube);
+    return gg_fail(
+        err, GG_BAD_INPUT,
+        "particles: with particles = %lld and phi = %g the box edge along %c is %.4g diameters; a grain would "
+        "meet two images of another below %.4g. Allowed here: particles >= %.0f, or phi <= %.4g",
+        (long long)m->n, m->phi, "xyz"[a], m -> box[a] / m -> diameter[0], least / m -> diameter[0],
+        ceil((double)m->n * cube), m -> phi / cube);
   }
   return GG_OK;
 }
@@ -30,8 +31,7 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at most %d", (long long)m->n, INT32_MAX / 4);
   if (m->flow != GG_EQUILIBRIUM && m->flow != GG_USF && m->flow != GG_HCS)
     return gg_fail(err, GG_BAD_INPUT, "flow: the md engine does not run this flow yet");
-  if (m->thermostat != GG_NO_THERMOSTAT)
-    return gg_fail(err, GG_BAD_INPUT, "thermostat: the md engine has none yet");
+  if (m->thermostat != GG_NO_THERMOSTAT) return gg_fail(err, GG_BAD_INPUT, "thermostat: the md engine has none yet");
   return check_box(m, err);
 }
 

@@ -15,6 +15,16 @@ typedef struct gg_box {
   double offset0; /* D_0, in [0, L_x): the offset at the epoch's start */
 } gg_box;
 
+/* Component 0, 1 or 2 of a vector. */
+GG_INLINE double *gg_component(gg_vec *v, int axis)
+{
+  return (double *)v + axis;
+}
+GG_INLINE double gg_along(const gg_vec *v, int axis)
+{
+  return ((const double *)v)[axis];
+}
+
 /* Largest integer <= x, without libm; |x| < 2^62. */
 GG_INLINE double gg_floor(double x)
 {
@@ -30,7 +40,10 @@ GG_INLINE double gg_nearest(double x)
 }
 
 /* Into [0, edge), but for rounding at the upper end. */
-GG_INLINE double gg_wrap(double x, double edge, double inverse) { return x - edge * gg_floor(x * inverse); }
+GG_INLINE double gg_wrap(double x, double edge, double inverse)
+{
+  return x - edge * gg_floor(x * inverse);
+}
 
 GG_INLINE double gg_offset(const gg_box *b, double t)
 {

@@ -13,10 +13,10 @@ static double guess_event_rate(const gg_md *e)
   return e->n * fmax(rate, 1e-300);
 }
 
-static gg_status begin(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err)
+/* From places and velocities to a run that can go on. */
+gg_status gg_md_begin(gg_md *e, gg_error *err)
 {
-  GG_TRY(gg_md_start(e, seed, stream, err));
-  GG_TRY(gg_md_make_grid(e, err));
+  if (!e->cells.head) GG_TRY(gg_md_make_grid(e, err));
   gg_md_enter_grid(e);
   gg_md_chain_grid(e);
   e->k.free_time = 1 / fmax(gg_model_collision_rate(&e->model, e->model.temperature0), 1e-300);
@@ -29,14 +29,18 @@ static gg_status begin(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err)
   return GG_OK;
 }
 
-static void destroy(gg_engine *engine) { gg_md_free((gg_md *)engine); }
+static void destroy(gg_engine *engine)
+{
+  gg_md_free((gg_md *)engine);
+}
 
 static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
 {
   gg_md *e;
   GG_TRY(gg_md_accepts(model, err));
   GG_TRY(gg_md_allocate(model, &e, err));
-  gg_status status = begin(e, seed, stream, err);
+  gg_status status = gg_md_start(e, seed, stream, err);
+  if (status == GG_OK) status = gg_md_begin(e, err);
   if (status == GG_OK)
     *engine = &e->base;
   else
@@ -52,8 +56,9 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   e->stop = e->k.now + dt;
   e->collisions_left = max_collisions;
   e->motion(e);
-  if (e->collisions_left && e->stop < INFINITY) e->k.now = e->stop;
-  if (elapsed) *elapsed = (e->k.now - began) + (e->k.epoch_start - epochs);
+  bool whole = e->collisions_left && e->stop < INFINITY;
+  if (whole) e->k.now = e->stop;
+  if (elapsed) *elapsed = whole ? dt : (e->k.now - began) + (e->k.epoch_start - epochs);
   return GG_OK;
 }
 

@@ -26,7 +26,7 @@ void gg_md_enter_grid(gg_md *e)
   for (uint32_t i = 0; i < e->n; i++) {
     gg_vec r = e->grain[i].r;
     for (int a = 0; a < 3; a++) {
-      int32_t k = (int32_t)((&r.x)[a] * e->cells.inverse[a]);
+      int32_t k = (int32_t)(gg_along(&r, a) * e->cells.inverse[a]);
       e->node[i].cell[a] = k < e->cells.n[a] ? k : e->cells.n[a] - 1;
     }
   }

@@ -25,9 +25,8 @@ GG_INLINE bool gg_is_treated(gg_md *e, uint32_t i, uint32_t j)
 
 GG_INLINE void gg_tap_pair(gg_transfer *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
 {
-  const double *kk = &k.x, *JJ = &J.x;
   for (int a = 0; a < 3; a++)
-    for (int b = 0; b < 3; b++) t->stress[pair][a][b] += sigma * kk[a] * JJ[b];
+    for (int b = 0; b < 3; b++) t->stress[pair][a][b] += sigma * gg_along(&k, a) * gg_along(&J, b);
   t->loss[pair] += loss;
 }
 
@@ -40,7 +39,8 @@ GG_INLINE void gg_impact_pair(gg_md *e, gg_impact_features f, uint32_t i, uint32
   double distance = sqrt(gg_dot(dr, dr)), sigma = e->model.sigma[pair];
   if (sigma - distance > e->k.worst_overlap) e->k.worst_overlap = sigma - distance;
   gg_vec k = gg_scale(1 / distance, dr);
-  gg_vec none = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i], *s2 = f.rule == GG_SMOOTH ? &none : &e->spin[j];
+  gg_vec none = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i],
+         *s2 = f.rule == GG_SMOOTH ? &none : &e->spin[j];
   gg_vec g = gg_contact_velocity(f.rule, k, c12, *s1, *s2);
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
   gg_kick(f.rule, contact, k, J, &one->v, s1, &two->v, s2);

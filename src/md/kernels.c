@@ -5,7 +5,10 @@
 #include "md/loop.h"
 
 #define MOTION(name, sheared, mixture)                                                                                 \
-  static void name(gg_md *e) { gg_loop(e, (gg_features){sheared, mixture}); }
+  static void name(gg_md *e)                                                                                           \
+  {                                                                                                                    \
+    gg_loop(e, (gg_features){sheared, mixture});                                                                       \
+  }
 MOTION(periodic, false, false)
 MOTION(periodic_mixture, false, true)
 MOTION(sheared, true, false)
@@ -33,7 +36,15 @@ IMPACTS(GG_FRICTIONAL)
 
 /* By mixture, contact time, tap. */
 #define ROW(rule)                                                                                                      \
-  {{{rule##_000, rule##_001}, {rule##_010, rule##_011}}, {{rule##_100, rule##_101}, {rule##_110, rule##_111}}}
+  {                                                                                                                    \
+    {{rule##_000, rule##_001}, {rule##_010, rule##_011}},                                                              \
+    {                                                                                                                  \
+      {rule##_100, rule##_101},                                                                                        \
+      {                                                                                                                \
+        rule##_110, rule##_111                                                                                         \
+      }                                                                                                                \
+    }                                                                                                                  \
+  }
 static gg_impact *const impacts[3][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
 
 void gg_md_select(gg_md *e)

@@ -3,8 +3,8 @@
  *
  * Each grain has one entry in the calendar: the earliest of the collisions that it saw when it was last predicted and
  * of its next crossing. That no collision is missed: for every pair the one predicted last saw the other as it moves
- * now, so its entry is no later than their contact. A collision whose partner has changed course since (its stamp tells)
- * was merely a bound: the grain is predicted anew when that time comes. */
+ * now, so its entry is no later than their contact. A collision whose partner has changed course since (its stamp
+ * tells) was merely a bound: the grain is predicted anew when that time comes. */
 #ifndef GG_MD_LOOP_H
 #define GG_MD_LOOP_H
 
@@ -82,7 +82,7 @@ GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
   int side = at < 0 ? -1 : at >= n ? 1 : 0;
   node->cell[axis] = at - side * n;
   if (side) {
-    (&g->r.x)[axis] -= side * e->box.edge[axis];
+    *gg_component(&g->r, axis) -= side * e->box.edge[axis];
     if (f.sheared && axis == 1) {
       gg_cross_sheared(e, g, node, side);
       gg_enter_cell(e, i);

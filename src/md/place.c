@@ -1,13 +1,11 @@
 /* Centres that do not overlap, at any solid fraction: random points, sorted along a space-filling curve, pushed apart
  * pair by pair until no two are closer than their contact distance (the overlap-removing relaxation of Jodrey & Tory,
  * Phys. Rev. A 32 (1985) 2347, all pairs a sweep). The result is amorphous: a fluid configuration where a fluid exists.
- * Where that gets stuck, above random close packing in small boxes, a face-centred or hexagonal lattice is tried. */
+ */
 #include <math.h>
 #include <stdlib.h>
 
 #include "md/place.h"
-
-enum { MAX_SWEEPS = 20000 };
 
 /* Spread the low 21 bits of x to every third bit. */
 static uint64_t spread(uint64_t x)
@@ -38,7 +36,7 @@ gg_status gg_place_sort(const gg_box *box, gg_vec *r, uint32_t n, gg_error *err)
   double longest = fmax(box->edge[0], fmax(box->edge[1], box->edge[2])), scale = 0x1p21 / longest;
   for (uint32_t i = 0; i < n; i++) {
     uint64_t key = 0;
-    for (int a = 0; a < 3; a++) key |= spread((uint64_t)((&r[i].x)[a] * scale)) << a;
+    for (int a = 0; a < 3; a++) key |= spread((uint64_t)(gg_along(&r[i], a) * scale)) << a;
     sorted[i] = (keyed){key, r[i]};
   }
   qsort(sorted, n, sizeof *sorted, by_key);
@@ -80,7 +78,7 @@ static void sweep_small(sweep *s)
 static void cell_of(const gg_cells *c, gg_vec r, int32_t at[3])
 {
   for (int a = 0; a < 3; a++) {
-    int32_t k = (int32_t)((&r.x)[a] * c->inverse[a]);
+    int32_t k = (int32_t)(gg_along(&r, a) * c->inverse[a]);
     at[a] = k < c->n[a] ? k : c->n[a] - 1;
   }
 }
@@ -111,8 +109,8 @@ static uint64_t sweep_once(gg_packing *p, double margin, bool pushing)
   for (uint32_t i = 0; i < p->n; i++) {
     gg_vec *r = &p->r[i];
     for (int a = 0; a < 3; a++) {
-      double x = gg_wrap((&r->x)[a], p->box.edge[a], p->box.inverse[a]);
-      (&r->x)[a] = x < p->box.edge[a] ? x : 0;
+      double x = gg_wrap(gg_along(r, a), p->box.edge[a], p->box.inverse[a]);
+      *gg_component(r, a) = x < p->box.edge[a] ? x : 0;
     }
   }
   if (p->cells.head)
@@ -129,10 +127,10 @@ static double margin_for(double phi)
   return fmin(0.02, fmax(0.25 * room, 1e-4));
 }
 
-bool gg_place_relax(gg_packing *p, double phi)
+bool gg_place_relax(gg_packing *p, double phi, int most_sweeps)
 {
   double margin = margin_for(phi);
-  for (int k = 0; k < MAX_SWEEPS; k++)
+  for (int k = 0; k < most_sweeps; k++)
     if (sweep_once(p, margin, true) == 0 && sweep_once(p, margin, false) == 0) return true;
   return false;
 }

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 
+#include "common/rng.h"
 #include "md/cells.h"
 
 /* Centres and diameters in a box, on their way to a state without overlaps. */
@@ -17,7 +18,9 @@ typedef struct gg_packing {
 
 /* Order points along a space-filling curve. */
 gg_status gg_place_sort(const gg_box *box, gg_vec *r, uint32_t n, gg_error *err);
-/* Push overlapping grains apart; false if overlaps remain. Positions end in the box. */
-bool gg_place_relax(gg_packing *p, double phi);
+/* n of the sites of a face-centred lattice that fills the box. */
+void gg_place_lattice(const gg_box *box, uint32_t n, gg_rng *rng, gg_vec *r);
+/* Push overlapping grains apart; false if overlaps remain after so many sweeps. Positions end in the box. */
+bool gg_place_relax(gg_packing *p, double phi, int most_sweeps);
 
 #endif

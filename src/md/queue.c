@@ -40,7 +40,10 @@ static uint32_t bucket_of(const gg_queue *q, double time)
 }
 
 /* Equal times go by the grain's index, so that the order never depends on the history of the calendar. */
-static bool is_before(gg_due a, gg_due b) { return a.time < b.time || (a.time == b.time && a.grain < b.grain); }
+static bool is_before(gg_due a, gg_due b)
+{
+  return a.time < b.time || (a.time == b.time && a.grain < b.grain);
+}
 
 static void insert_due(gg_queue *q, gg_due new)
 {
@@ -86,7 +89,10 @@ void gg_queue_remove(gg_queue *q, gg_node *node, uint32_t grain)
     q->head[b] = later;
 }
 
-static int compare_due(const void *a, const void *b) { return is_before(*(const gg_due *)a, *(const gg_due *)b) ? 1 : -1; }
+static int compare_due(const void *a, const void *b)
+{
+  return is_before(*(const gg_due *)a, *(const gg_due *)b) ? 1 : -1;
+}
 
 bool gg_queue_turn(gg_queue *q, gg_node *node)
 {

@@ -12,8 +12,8 @@
 
 /* A grain's next event and its place in the calendar and the grid: read only by the grain's own events. */
 typedef struct gg_node {
-  double time;      /* of the next event */
-  double collision; /* of the next collision known of, >= time; equal: that is the event */
+  double time;             /* of the next event */
+  double collision;        /* of the next collision known of, >= time; equal: that is the event */
   uint32_t partner, stamp; /* of that collision: with whom, and the partner's stamp when it was predicted */
   uint32_t later, earlier; /* chain of the bucket */
   int32_t cell[3];
@@ -49,6 +49,9 @@ bool gg_queue_turn(gg_queue *q, gg_node *node);
 void gg_queue_rescale(gg_queue *q, double factor);
 
 /* Length of the epoch that the buckets cover. */
-GG_INLINE double gg_queue_span(const gg_queue *q) { return q->width * q->n_buckets; }
+GG_INLINE double gg_queue_span(const gg_queue *q)
+{
+  return q->width * q->n_buckets;
+}
 
 #endif

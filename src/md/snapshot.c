@@ -13,8 +13,8 @@ static void into_box(const gg_md *e, gg_vec *r)
   double layers = gg_floor(r->y * e->box.inverse[1]);
   if (e->box.slide != 0) r->x -= layers * gg_offset(&e->box, e->k.now);
   for (int a = 0; a < 3; a++) {
-    double x = gg_wrap((&r->x)[a], e->box.edge[a], e->box.inverse[a]);
-    (&r->x)[a] = x < e->box.edge[a] ? x : 0;
+    double x = gg_wrap(gg_along(r, a), e->box.edge[a], e->box.inverse[a]);
+    *gg_component(r, a) = x < e->box.edge[a] ? x : 0;
   }
 }
 
@@ -25,9 +25,9 @@ static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, 
   c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
   if (positions) into_box(e, &r);
   for (int a = 0; a < 3; a++) {
-    out->r[a][slot] = (&r.x)[a];
-    out->c[a][slot] = (&c.x)[a];
-    if (e->spin) out->s[a][slot] = (&e->spin[i].x)[a];
+    out->r[a][slot] = gg_along(&r, a);
+    out->c[a][slot] = gg_along(&c, a);
+    if (e->spin) out->s[a][slot] = gg_along(&e->spin[i], a);
   }
   out->species[slot] = (uint8_t)gg_species_of(g);
   out->id[slot] = e->id[i];

@@ -6,17 +6,30 @@
 #include "md/place.h"
 #include "md/state.h"
 
-static gg_status relax(const gg_md *e, gg_packing *p, gg_error *err)
+enum { SWEEPS = 3000 };
+
+static gg_status make_cells(const gg_md *e, gg_packing *p, gg_error *err)
 {
   double widest = fmax(e->model.diameter[0], e->model.diameter[e->model.n_species - 1]) * 1.05;
   int32_t n[3];
   gg_cells_count(&e->box, widest, n);
-  if (n[0] >= 3 && n[1] >= 3 && n[2] >= 3) {
-    GG_TRY(gg_cells_make(&p->cells, &e->box, n, widest, err));
-    if (!(p->next = gg_new_array(e->n, sizeof *p->next, err))) return GG_FAILED;
-  }
-  if (gg_place_relax(p, e->model.phi)) return GG_OK;
-  return gg_fail(err, GG_FAILED, "phi: no start without overlaps was found at phi = %g with %u grains; try a lower phi",
+  if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
+  GG_TRY(gg_cells_make(&p->cells, &e->box, n, widest, err));
+  return (p->next = gg_new_array(e->n, sizeof *p->next, err)) ? GG_OK : GG_FAILED;
+}
+
+/* From random points; where that gets stuck, near random close packing, from a lattice with vacancies, which the run
+ * itself has to melt. */
+static gg_status relax(const gg_md *e, gg_packing *p, gg_rng *rng, gg_error *err)
+{
+  GG_TRY(make_cells(e, p, err));
+  if (gg_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
+  gg_place_lattice(&e->box, e->n, rng, p->r);
+  GG_TRY(gg_place_sort(&e->box, p->r, e->n, err));
+  if (gg_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
+  return gg_fail(err, GG_FAILED,
+                 "phi: no start without overlaps was found at phi = %g with particles = %u; try a lower phi or another "
+                 "number of particles",
                  e->model.phi, e->n);
 }
 
@@ -35,11 +48,11 @@ static void deal_species(gg_md *e, double *diameter, gg_rng *rng)
 static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_error *err)
 {
   for (uint32_t i = 0; i < e->n; i++)
-    for (int a = 0; a < 3; a++) (&r[i].x)[a] = gg_rng_uniform(rng) * e->box.edge[a];
+    for (int a = 0; a < 3; a++) *gg_component(&r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
   GG_TRY(gg_place_sort(&e->box, r, e->n, err));
   deal_species(e, diameter, rng);
   gg_packing p = {.box = e->box, .n = e->n, .r = r, .diameter = diameter};
-  gg_status status = relax(e, &p, err);
+  gg_status status = relax(e, &p, rng, err);
   gg_cells_free(&p.cells);
   free(p.next);
   for (uint32_t i = 0; i < e->n; i++) {

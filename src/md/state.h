@@ -48,15 +48,15 @@ struct gg_md {
   gg_model model;
   gg_grain *grain;
   gg_node *node;
-  gg_vec *spin;  /* surface velocities; NULL for smooth grains */
-  double *last;  /* time of the last collision, for the contact-time rule; NULL if it is off */
-  uint32_t *id;  /* the grain's number to the outside; grains stand in memory along a space-filling curve */
+  gg_vec *spin; /* surface velocities; NULL for smooth grains */
+  double *last; /* time of the last collision, for the contact-time rule; NULL if it is off */
+  uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
   uint32_t n;
   gg_box box;
   gg_cells cells;
   gg_queue queue;
   gg_md_counts k;
-  double stop;             /* end of the present advance, epoch time */
+  double stop;              /* end of the present advance, epoch time */
   uint64_t collisions_left; /* of the present advance */
   gg_motion *motion;
   gg_impact *impact;
@@ -68,6 +68,9 @@ void gg_md_free(gg_md *e);
 
 /* start.c: a fresh initial state: places, velocities, spins. */
 gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err);
+/* engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. */
+gg_status gg_md_begin(gg_md *e, gg_error *err);
+
 /* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
 double gg_md_reach(const gg_model *model);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
@@ -85,9 +88,15 @@ void gg_md_select(gg_md *e);
 /* Predict every grain's next event (after a start). */
 void gg_md_predict_all(gg_md *e);
 
-GG_INLINE int gg_species_of(const gg_grain *g) { return (int)(g->stamp & 1); }
+GG_INLINE int gg_species_of(const gg_grain *g)
+{
+  return (int)(g->stamp & 1);
+}
 
 /* Where the grain is at epoch time t. */
-GG_INLINE gg_vec gg_position(const gg_grain *g, double t) { return gg_axpy(t - g->t, g->v, g->r); }
+GG_INLINE gg_vec gg_position(const gg_grain *g, double t)
+{
+  return gg_axpy(t - g->t, g->v, g->r);
+}
 
 #endif

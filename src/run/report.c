@@ -133,7 +133,7 @@ static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_resu
   if (result->verdict == GG_STEADY && !j->trusted)
     gg_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
                    GG_MIN_BLOCKS);
-  if (s->treated > 0)
+  if ((double)s->treated > 1e-4 * (double)s->collisions)
     gg_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
                    100 * (double)s->treated / (double)s->collisions);
   if (s->overflows > 1e-3 * (double)s->collisions)

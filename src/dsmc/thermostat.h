@@ -1,0 +1,24 @@
+/* The thermostats: they act once in the middle of every step, between two halves of its collisions.
+ *
+ * Gaussian: the force m zeta C/2 that gives back exactly the energy that collisions destroyed (Montanero's review, eqs
+ * 8 and 16), so that an unsheared gas keeps its temperature and a sheared one heats by viscous work alone. White noise:
+ * independent kicks of variance xi^2 dt along each axis, the same for every species (van Noije & Ernst, Granular Matter
+ * 1 (1998) 57); xi is constant, and such that the gas settles near its initial temperature. */
+#ifndef GG_DSMC_THERMOSTAT_H
+#define GG_DSMC_THERMOSTAT_H
+
+#include "common/rng.h"
+#include "dsmc/ensemble.h"
+
+/* The thermostat in force: a heated gas (flow: hss) has the Gaussian one unless the scene says otherwise. */
+gg_thermostat gg_thermostat_of(const gg_model *model);
+
+/* xi^2 at which white noise balances the collisions of Maxwellians at temperature0 and ratio0. */
+double gg_thermostat_noise(const gg_model *model);
+
+/* Give back the energy `lost`. Velocities are stored with `drift`. */
+void gg_thermostat_return(gg_ensemble *e, double drift, double lost);
+/* Kick every grain: `variance` along each axis. */
+void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng *rng);
+
+#endif
