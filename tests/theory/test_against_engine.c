@@ -10,7 +10,7 @@ static gg_result *run(gg_scene s)
   gg_error err = {0};
   s.engine = GG_DSMC;
   s.dsmc.particles = 20000;
-  s.run.relative_error = 0.002;
+  s.run.relative_error = 0.003;
   s.run.seed = 11;
   if (gg_run_scene(&s, NULL, 1, NULL, &result, &err) != GG_OK) fail_msg("%s", err.message);
   return result;
