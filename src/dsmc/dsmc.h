@@ -4,6 +4,7 @@
 
 #include "common/engine.h"
 #include "dsmc/ensemble.h"
+#include "dsmc/kernels.h"
 #include "dsmc/majorant.h"
 #include "dsmc/pairing.h"
 #include "dsmc/timestep.h"
@@ -11,6 +12,7 @@
 /* Everything that changes while running, but for the ensemble: plain data, saved as it is. */
 typedef struct gg_dsmc_state {
   gg_rng rng;
+  gg_rng_lanes lanes;
   double time, temperature; /* temperature: at the end of the last step */
   uint64_t collisions, candidates, overflows, steps;
   gg_time_step step;
@@ -24,11 +26,15 @@ typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_ensemble ensemble;
+  gg_path path;
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;
 } gg_dsmc;
 
+gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j);
+/* Bounds that hold for sure, to start from. */
+void gg_dsmc_bounds(gg_dsmc *d);
 /* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). Pairs
  * of species take turns: 11, 12, 22, or backwards. */
 void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards);

@@ -94,13 +94,12 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   gg_rng start = gg_rng_seed(seed, stream + GG_STREAM_START);
   gg_ensemble_start(model, &d->ensemble, &start);
   d->now.rng = gg_rng_seed(seed, stream + GG_STREAM_ENGINE);
+  for (unsigned l = 0; l < GG_LANES; l++) {
+    gg_rng lane = gg_rng_seed(seed, stream + GG_STREAM_LANES + l);
+    for (int i = 0; i < 4; i++) d->now.lanes.s[i][l] = lane.s[i];
+  }
   settle(d, 0);
-  double fastest = gg_ensemble_moments(&d->ensemble).fastest, thermal = sqrt(d->now.temperature);
-  for (int i = 0; i < model->n_species; i++)
-    for (int j = i; j < model->n_species; j++) {
-      double shift = model->boltzmann ? 0 : 0.5 * model->sigma[2 * i + j] * model->shear_rate; /* |k_x k_y| <= 1/2 */
-      gg_majorant_start(&d->now.majorant[gg_pair_index(i, j)], 2 * fastest + shift, thermal);
-    }
+  gg_dsmc_bounds(d);
   *engine = &d->base;
   return GG_OK;
 }
