@@ -14,7 +14,7 @@ gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j)
 void gg_dsmc_bounds(gg_dsmc *d)
 {
   const gg_model *m = &d->model;
-  double fastest = gg_ensemble_moments(&d->ensemble).fastest, thermal = sqrt(d->now.temperature);
+  double fastest = gg_ensemble_settle(&d->ensemble, 0, (gg_vec){0, 0, 0}).fastest, thermal = sqrt(d->now.temperature);
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       double shift = m->sigma[2 * i + j] * m->shear_rate;
@@ -57,6 +57,16 @@ static void hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
     for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += p->stress[a][b];
 }
 
+/* How many candidates, `mean` on average, without a trace of the step: as a Poisson process has them where they come
+ * one by one; eight at a time their number would vary too much, and fractions are carried over instead. */
+static uint64_t candidates(gg_dsmc *d, int pair, double mean, bool more)
+{
+  if (d->path == GG_PATH_PLAIN || more) return gg_rng_poisson(&d->now.rng, mean);
+  double due = d->now.owed[pair] + mean, whole = floor(due);
+  d->now.owed[pair] = due - whole;
+  return (uint64_t)whole;
+}
+
 static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, double span)
 {
   gg_majorant *majorant = &d->now.majorant[gg_pair_index(i, j)];
@@ -64,21 +74,20 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
   double thermal = sqrt(d->now.temperature), rate = candidate_rate(d, f, i, j) * dt,
          top = gg_majorant_bound(majorant, thermal);
   uint64_t window = 1000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 16;
-  /* Candidates of a Poisson process, so that the step leaves no trace in the rate. A layer above the bound is added for
-   * as long as some candidate stood out of it. */
-  for (double floor = 0, bound = top; bound > 0;) {
+  /* A layer above the bound is added for as long as some candidate stood out of it. */
+  for (double base = 0, bound = top; bound > 0;) {
     gg_pairing p = pairing_of(d, i, j);
-    p.floor = floor;
+    p.floor = base;
     p.bound = bound;
-    p.candidates = gg_rng_poisson(&d->now.rng, rate * bound);
+    p.candidates = candidates(d, gg_pair_index(i, j), rate * bound, base > 0);
     p.drift_step = p.candidates ? span / (double)p.candidates : 0;
     p.drift = drift + 0.5 * p.drift_step;
     gg_collide(d->path, f, &p, &d->now.lanes, &d->now.rng);
     hand_over(d, gg_pair_index(i, j), &p);
     gg_majorant_learn(majorant, p.worst, thermal, p.candidates * gg_grains_a_candidate(d->path), window);
-    floor += bound;
-    bound = 1.1 * p.worst - floor;
-    if (p.worst <= floor) break;
+    base += bound;
+    bound = 1.1 * p.worst - base;
+    if (p.worst <= base) break;
   }
 }
 

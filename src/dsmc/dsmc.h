@@ -13,8 +13,12 @@
 typedef struct gg_dsmc_state {
   gg_rng rng;
   gg_rng_lanes lanes;
-  double time, temperature; /* temperature: at the end of the last step */
-  uint64_t collisions, candidates, overflows, steps;
+  double time, temperature; /* temperature: when the ensemble was last settled */
+  uint64_t collisions, candidates, overflows;
+  double owed[GG_PAIRS]; /* fractions of candidates carried over */
+  double drift;          /* rate x time that stored velocities have still to stream */
+  double unsettled;      /* time since the ensemble was last settled */
+  gg_vec centre;         /* velocity of the centre of mass then */
   gg_time_step step;
   double lost; /* energy destroyed since the Gaussian thermostat last gave it back */
   gg_majorant majorant[GG_PAIRS];
@@ -31,6 +35,11 @@ typedef struct gg_dsmc {
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;
 } gg_dsmc;
+
+/* Bring the stored velocities up to date, look at their temperature and choose the step. */
+void gg_dsmc_settle(gg_dsmc *d);
+/* A step of no more than `left` time and about `wanted` collisions; returns its length. */
+double gg_dsmc_step(gg_dsmc *d, double left, double wanted);
 
 gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j);
 /* Bounds that hold for sure, to start from. */
