@@ -110,7 +110,8 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, gg_block *a, gg_block *b
     gg_store(sb->z + at, f.same ? gg_select(swap, na.z, nb.z) : nb.z);
   }
   if (f.shear != GG_UNSHEARED) J.x += w->drift * J.y; /* as stored velocities have it */
-  gg_vd3 na = gg_vd3_sub(ca, gg_vd3_scale(gg_all(c->im1), J)), nb = gg_vd3_add(cb, gg_vd3_scale(gg_all(c->im2), J));
+  gg_vd3 push_a = gg_vd3_scale(gg_all(c->im1), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(c->im2), J);
+  gg_vd3 na = gg_vd3_sub(ca, push_a), nb = gg_vd3_add(cb, push_b);
   gg_store(a->x + at, f.same ? gg_select(swap, nb.x, na.x) : na.x);
   gg_store(a->y + at, f.same ? gg_select(swap, nb.y, na.y) : na.y);
   gg_store(a->z + at, f.same ? gg_select(swap, nb.z, na.z) : na.z);

@@ -14,7 +14,8 @@ gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j)
 void gg_dsmc_bounds(gg_dsmc *d)
 {
   const gg_model *m = &d->model;
-  double fastest = gg_ensemble_settle(&d->ensemble, 0, (gg_vec){0, 0, 0}).fastest, thermal = sqrt(d->now.temperature);
+  double fastest = gg_ensemble_settle(&d->ensemble, 0, 1, (gg_vec){0, 0, 0}).fastest,
+         thermal = sqrt(d->now.temperature);
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       double shift = m->sigma[2 * i + j] * m->shear_rate;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dsmc/sweep.h"
+
 static gg_block *new_blocks(size_t n, gg_error *err)
 {
   gg_block *b = aligned_alloc(64, n * sizeof(gg_block));
@@ -58,7 +60,7 @@ void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng)
     }
   }
   gg_vec none = {0, 0, 0};
-  gg_moments m = gg_ensemble_settle(e, 0, gg_ensemble_settle(e, 0, none).centre);
+  gg_moments m = gg_ensemble_settle(e, 0, 1, gg_ensemble_settle(e, 0, 1, none).centre);
   double factor = sqrt(model->temperature0 / m.temperature);
   for (int i = 0; i < e->n_species; i++)
     for (uint32_t a = 0; a < e->of[i].n; a++)
@@ -79,51 +81,29 @@ void gg_ensemble_scale(gg_ensemble *e, double factor)
   }
 }
 
-/* Sums over grains, lane by lane so that every processor adds in the same order. */
-typedef struct gg_sums {
-  gg_block c;
-  double c2[GG_LANES], most[GG_LANES];
-} gg_sums;
-
-static void settle_block(gg_block *c, double drift, gg_vec centre, gg_sums *s)
-{
-  for (int l = 0; l < GG_LANES; l++) {
-    double x = c->x[l] - drift * c->y[l] - centre.x, y = c->y[l] - centre.y, z = c->z[l] - centre.z;
-    double c2 = x * x + y * y + z * z;
-    c->x[l] = x;
-    c->y[l] = y;
-    c->z[l] = z;
-    s->c.x[l] += x;
-    s->c.y[l] += y;
-    s->c.z[l] += z;
-    s->c2[l] += c2;
-    s->most[l] = c2 > s->most[l] ? c2 : s->most[l];
-  }
-}
-
 /* The last block alone: its empty lanes stay 0. */
-static void settle_odd_block(gg_population *p, double drift, gg_vec centre, gg_sums *s)
+static void settle_odd_block(gg_population *p, double drift, double scale, gg_vec centre, gg_sums *s)
 {
-  gg_block block = p->c[p->n_blocks - 1];
-  settle_block(&block, drift, centre, &(gg_sums){0});
-  for (int l = (int)(p->n % GG_LANES); l < GG_LANES; l++) block.x[l] = block.y[l] = block.z[l] = 0;
-  settle_block(&block, 0, (gg_vec){0, 0, 0}, s);
-  p->c[p->n_blocks - 1] = block;
+  gg_block *block = &p->c[p->n_blocks - 1];
+  gg_sums ignored = {0};
+  gg_sweep_blocks(block, 1, drift, scale, centre, &ignored);
+  for (int l = (int)(p->n % GG_LANES); l < GG_LANES; l++) block->x[l] = block->y[l] = block->z[l] = 0;
+  gg_sweep_blocks(block, 1, 0, 1, (gg_vec){0, 0, 0}, s);
 }
 
-gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, gg_vec centre)
+gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre)
 {
   double n = 0, mass = 0, energy = 0, most = 0;
   gg_vec momentum = {0, 0, 0};
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
     gg_sums s = {0};
-    for (size_t b = 0; b < (size_t)p->n / GG_LANES; b++) settle_block(&p->c[b], drift, centre, &s);
-    if (p->n % GG_LANES) settle_odd_block(p, drift, centre, &s);
+    gg_sweep_blocks(p->c, (size_t)p->n / GG_LANES, drift, scale, centre, &s);
+    if (p->n % GG_LANES) settle_odd_block(p, drift, scale, centre, &s);
     for (int l = 0; l < GG_LANES; l++) {
       momentum = gg_axpy(p->mass, (gg_vec){s.c.x[l], s.c.y[l], s.c.z[l]}, momentum);
       energy += p->mass * s.c2[l];
-      most = s.most[l] > most ? s.most[l] : most;
+      most = s.fastest[l] > most ? s.fastest[l] : most;
     }
     n += (double)p->n;
     mass += p->mass * (double)p->n;

@@ -45,9 +45,10 @@ void gg_ensemble_free(gg_ensemble *e);
 /* Maxwellians at the model's temperature0 and ratio0; the mean spin of a sheared dense gas is -rate/2. */
 void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng);
 
-/* C_x -= drift C_y for every grain, less the velocity `centre`: rounding feeds the motion of the centre of mass, and
- * cooling or a thermostat would let it grow relative to the thermal speed without bound. Returns what is left. */
-gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, gg_vec centre);
+/* C_x -= drift C_y for every grain, all times `scale`, less the velocity `centre`: rounding feeds the motion of the
+ * centre of mass, and cooling or a thermostat would let it grow relative to the thermal speed without bound. Returns
+ * what is there then. */
+gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre);
 /* Velocities (or spins) times a factor. */
 void gg_blocks_scale(gg_block *blocks, size_t n, double factor);
 /* Every velocity and spin times a factor. */

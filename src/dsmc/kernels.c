@@ -1,6 +1,7 @@
 #include "dsmc/kernels.h"
 
 #include "dsmc/collide_blocks.h"
+#include "dsmc/sweep.h"
 
 static const struct {
   const char *name;
@@ -27,6 +28,16 @@ bool gg_path_runs_here(gg_path path)
   if (path == GG_PATH_AVX512) return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
 #endif
   return true;
+}
+
+void gg_sweep_blocks(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums)
+{
+  gg_sweep *sweep = gg_sweep_baseline;
+#ifdef GG_X86_64
+  if (gg_path_runs_here(GG_PATH_AVX2)) sweep = gg_sweep_avx2;
+  if (gg_path_runs_here(GG_PATH_AVX512)) sweep = gg_sweep_avx512;
+#endif
+  sweep(c, n, drift, scale, centre, sums);
 }
 
 gg_path gg_path_choose(const gg_ensemble *e)
