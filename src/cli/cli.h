@@ -20,6 +20,7 @@ int gg_cli_run_main(const gg_command *command, int argc, char **argv);
 int gg_cli_theory_main(const gg_command *command, int argc, char **argv);
 int gg_cli_plot_main(const gg_command *command, int argc, char **argv);
 int gg_cli_info_main(const gg_command *command, int argc, char **argv);
+int gg_cli_bench_main(const gg_command *command, int argc, char **argv);
 
 /* "graingas: MESSAGE" on standard error; returns the exit code that goes with the error. */
 int gg_cli_report(const gg_error *err);

@@ -19,6 +19,7 @@ const gg_option gg_options_table[] = {
     {GG_OPT_RESUME, "resume", "FILE", "go on from this checkpoint"},
     {GG_OPT_ALL, "all", NULL, "show every quantity, not just the main ones"},
     {GG_OPT_JSON, "json", NULL, "results as one JSON document on standard output, and nothing else there"},
+    {GG_OPT_QUICK, "quick", NULL, "shorter: fewer sizes, fewer repeats"},
     {GG_OPT_QUIET, "quiet", NULL, "no progress"},
     {0},
 };
@@ -108,6 +109,7 @@ static int take(gg_options *o, unsigned flag, const char *value)
   case GG_OPT_RESUME: o->resume = value; break;
   case GG_OPT_ALL: o->all = true; break;
   case GG_OPT_JSON: o->json = true; break;
+  case GG_OPT_QUICK: o->quick = true; break;
   case GG_OPT_QUIET: o->quiet = true; break;
   default: break;
   }
@@ -131,6 +133,7 @@ int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
     int code = take(o, gg_options_table[got - 256].flag, optarg);
     if (code != GG_CLI_GO_ON) return code;
   }
+  if (optind == argc && c->arguments[0] == '[') return GG_CLI_GO_ON;
   if (optind == argc)
     return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
   if (optind + 1 < argc)

@@ -17,6 +17,7 @@ enum {
   GG_OPT_ALL = 1u << 8,
   GG_OPT_FORMAT = 1u << 9,
   GG_OPT_PICTURE = 1u << 10,
+  GG_OPT_QUICK = 1u << 11,
 };
 
 typedef struct gg_option {
@@ -28,9 +29,9 @@ extern const gg_option gg_options_table[]; /* ends with flag 0 */
 enum { GG_MAX_OVERRIDES = 64 };
 
 typedef struct gg_options {
-  const char *input; /* the one argument: a scene or a result */
+  const char *input; /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
   const char *output, *resume, *format, *picture;
-  bool json, quiet, all;
+  bool json, quiet, all, quick;
   int threads;
   int n_overrides;
   const char *override[GG_MAX_OVERRIDES]; /* "key=value" */

@@ -80,11 +80,18 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
 {
   gg_partner wall = {INFINITY, 1};
-  m->wall_rule = gg_flow_is_walled(s->flow) ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
+  m->walled = gg_flow_is_walled(s->flow);
+  m->open_top = m->walled && s->walls.open_top;
+  m->wall_rule = m->walled ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
+  bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
+  if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;
   m->rule = later_rule(m->rule, m->wall_rule);
-  for (int i = 0; i < GG_MAX_SPECIES; i++)
-    m->wall[i] = gg_contact_make((gg_partner){m->mass[i], m->inertia[i]}, wall, s->walls.e, s->walls.beta, s->walls.mu);
-  m->wall_speed = s->walls.speed * time_unit / s->species[0].diameter;
+  for (int i = 0; i < GG_MAX_SPECIES; i++) {
+    gg_partner grain = {m->mass[i], m->inertia[i]};
+    m->wall[i] = gg_contact_make(grain, wall, s->walls.e, s->walls.beta, s->walls.mu);
+    m->wall_treated[i] = gg_contact_make(grain, wall, 1, s->walls.beta, s->walls.mu);
+  }
+  m->wall_speed = s->flow == GG_COUETTE ? s->walls.speed * time_unit / s->species[0].diameter : 0;
 }
 
 /* Steady temperature in units of (d rate)^2 from the balance of dilute viscous heating and dissipation, to start near.
@@ -135,7 +142,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
   m->contact_time = m->elastic ? 0 : s->md.contact_time == GG_AUTO ? 1e-5 : s->md.contact_time;
   m->time_step = s->dsmc.time_step;
-  m->temperature0 = sheared ? guess_sheared_temperature(m) : 0.5;
+  m->temperature0 = sheared || s->flow == GG_COUETTE ? guess_sheared_temperature(m) : 0.5;
   if (sheared && s->temperature != GG_AUTO) {
     double speed = s->shear_rate * s->species[0].diameter;
     m->temperature0 = s->temperature / (speed * speed);

@@ -17,6 +17,7 @@ gg_status gg_dsmc_alloc(const gg_model *model, gg_dsmc **d, gg_error *err)
     free(made);
     return status;
   }
+  made->path = gg_path_choose(&made->ensemble);
   *d = made;
   return GG_OK;
 }

@@ -29,9 +29,14 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
   if (m->n < 2) return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at least 2 are needed", (long long)m->n);
   if (m->n > INT32_MAX / 4)
     return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at most %d", (long long)m->n, INT32_MAX / 4);
-  if (m->flow != GG_EQUILIBRIUM && m->flow != GG_USF && m->flow != GG_HCS)
-    return gg_fail(err, GG_BAD_INPUT, "flow: the md engine does not run this flow yet");
-  if (m->thermostat != GG_NO_THERMOSTAT) return gg_fail(err, GG_BAD_INPUT, "thermostat: the md engine has none yet");
+  if (m->thermostat != GG_NO_THERMOSTAT && m->flow != GG_HSS)
+    return gg_fail(err, GG_BAD_INPUT, "thermostat: with engine: md only in flow: hss");
+  bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
+  if (falls && !m->walled)
+    return gg_fail(err, GG_BAD_INPUT, "gravity: only in flows between walls: couette, poiseuille, chute");
+  if (m->open_top && m->gravity[1] >= 0)
+    return gg_fail(err, GG_BAD_INPUT,
+                   "walls.open_top: needs gravity towards the lower wall: gravity: [gx, gy < 0, gz]");
   return check_box(m, err);
 }
 
@@ -48,7 +53,14 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
                                       "frictional (Coulomb)"};
   char timing[100];
   tell(line, context, "contact", rules[m->rule]);
-  tell(line, context, "box", m->shear_rate != 0 ? "periodic, Lees-Edwards shear" : "periodic, no shear");
+  const char *walls =
+      m->open_top ? "a lower wall, open above, periodic in x and z" : "walls below and above, periodic in x and z";
+  tell(line, context, "box",
+       m->walled            ? walls
+       : m->shear_rate != 0 ? "periodic, Lees-Edwards shear"
+                            : "periodic, no shear");
+  bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
+  tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
   tell(line, context, "species", m->n_species > 1 ? "two: coefficients by pair" : "one: coefficients fixed");
   snprintf(timing, sizeof timing, "on, t_c = %g mean free times", m->contact_time);
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");

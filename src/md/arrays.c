@@ -1,6 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dsmc/thermostat.h"
 #include "md/state.h"
 
 /* Hot records on cache lines; zeroed. */
@@ -39,7 +40,12 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
     e->box.edge[a] = model->box[a];
     e->box.inverse[a] = 1 / model->box[a];
   }
+  if (model->walled) e->box.inverse[1] = 0; /* no image across a wall */
   e->box.slide = model->shear_rate * model->box[1];
+  e->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
+  e->falls = gg_dot(e->gravity, e->gravity) > 0;
+  e->thermostat = gg_thermostat_of(model);
+  e->noise = e->thermostat == GG_WHITE_NOISE ? gg_thermostat_noise(model) : 0;
   gg_status status = allocate(e, err);
   if (status != GG_OK) {
     gg_md_free(e);

@@ -4,6 +4,7 @@
 
 #include "md/accept.h"
 #include "md/checkpoint.h"
+#include "md/thermostat.h"
 
 /* Events expected per time at the start: collisions (each predicted about 1.25 times) and crossings. */
 static double guess_event_rate(const gg_md *e)
@@ -25,7 +26,12 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
   gg_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e)));
   gg_md_select(e);
-  gg_md_predict_all(e);
+  gg_md_thermostat_begin(e);
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->node[i].time = INFINITY;
+    gg_queue_insert(&e->queue, e->node, i);
+  }
+  e->predict_all(e);
   return GG_OK;
 }
 
@@ -48,17 +54,48 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   return status;
 }
 
+/* Outside time since the present advance began. */
+static double outer_now(const gg_md *e)
+{
+  return e->k.outer + (e->k.now - e->k.mark) / e->k.scale;
+}
+
+/* Events with kicks in between: each kick stops the loop at its time. e->stop moves with the epochs, so what the kick
+ * cuts off is kept as a difference. */
+static void go_on_with_kicks(gg_md *e)
+{
+  double beyond = e->stop - e->k.next_kick;
+  while (beyond >= 0) {
+    e->stop = e->k.next_kick;
+    e->motion(e);
+    if (!e->collisions_left) return;
+    e->k.now = e->k.next_kick;
+    gg_md_thermostat_kick(e);
+    beyond -= e->k.next_kick - e->k.now;
+  }
+  e->stop = e->k.next_kick + beyond;
+  e->motion(e);
+}
+
+/* A run stands at the end of the advance, or at the last collision allowed to it. */
 static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
   if (!(dt >= 0)) return gg_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
-  double began = e->k.now, epochs = e->k.epoch_start;
-  e->stop = e->k.now + dt;
+  e->k.outer = 0;
+  e->k.mark = e->k.now;
+  e->outer_stop = dt;
+  e->stop = e->k.now + dt * e->k.scale;
   e->collisions_left = max_collisions;
-  e->motion(e);
+  if (e->thermostat == GG_WHITE_NOISE)
+    go_on_with_kicks(e);
+  else
+    e->motion(e);
   bool whole = e->collisions_left && e->stop < INFINITY;
   if (whole) e->k.now = e->stop;
-  if (elapsed) *elapsed = whole ? dt : (e->k.now - began) + (e->k.epoch_start - epochs);
+  double gone = whole ? dt : outer_now(e);
+  e->k.outer_time += gone;
+  if (elapsed) *elapsed = gone;
   return GG_OK;
 }
 
@@ -79,7 +116,7 @@ static void read_tap(gg_engine *engine, gg_transfer *transfer)
 static void state(const gg_engine *engine, gg_engine_state *s)
 {
   const gg_md *e = (const gg_md *)engine;
-  *s = (gg_engine_state){.time = e->k.epoch_start + e->k.now,
+  *s = (gg_engine_state){.time = e->thermostat == GG_GAUSSIAN ? e->k.outer_time : e->k.epoch_start + e->k.now,
                          .collisions = e->k.collisions,
                          .events = e->k.events,
                          .treated = e->k.treated,
@@ -90,8 +127,8 @@ static void state(const gg_engine *engine, gg_engine_state *s)
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
-  if (e->model.shear_rate != 0)
-    return gg_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a sheared flow: the shear rate sets the clock");
+  if (e->model.shear_rate != 0 || e->model.walled || e->model.flow == GG_HSS)
+    return gg_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
   double v = ldexp(1, power), t = ldexp(1, -power);
   for (uint32_t i = 0; i < e->n; i++) {
     e->grain[i].v = gg_scale(v, e->grain[i].v);
@@ -102,7 +139,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
     if (e->last) e->last[i] *= t;
   }
   gg_queue_rescale(&e->queue, t);
-  double *times[] = {&e->k.now, &e->k.epoch_start, &e->k.contact_time, &e->k.free_time, &e->k.window_time};
+  double *times[] = {&e->k.now, &e->k.epoch_start, &e->k.contact_time, &e->k.free_time, &e->k.window_time, &e->k.mark};
   for (size_t k = 0; k < sizeof times / sizeof *times; k++) *times[k] *= t;
   return GG_OK;
 }

@@ -3,7 +3,7 @@
  * trajectory alone: never of how a caller cuts a run. */
 #include <math.h>
 
-#include "md/state.h"
+#include "md/thermostat.h"
 
 enum { EVENTS_PER_BUCKET = 16, COLLISIONS_TO_MEASURE = 16 };
 
@@ -60,19 +60,27 @@ bool gg_md_next_epoch(gg_md *e)
   measure_free_time(e, span);
   e->box.offset0 = gg_offset(&e->box, span);
   for (uint32_t i = 0; i < e->n; i++) {
-    e->grain[i].r = gg_position(&e->grain[i], span);
-    e->grain[i].t = 0;
+    gg_grain *g = &e->grain[i];
+    g->r = gg_position(e, e->falls, g, span);
+    g->v = gg_velocity(e, e->falls, g, span);
+    g->t = 0;
     e->node[i].time -= span;
     e->node[i].collision -= span;
     if (e->last) e->last[i] -= span;
   }
-  if (e->model.flow == GG_HCS) follow_drift(e);
+  e->k.epoch_start += span;
+  e->k.now -= span;
+  e->k.mark -= span;
+  e->k.next_kick -= span;
+  e->stop -= span;
+  if (e->model.flow == GG_HCS || e->model.flow == GG_HSS) follow_drift(e);
+  if (e->thermostat == GG_GAUSSIAN) {
+    span /= e->k.scale;
+    gg_md_thermostat_fold(e);
+  }
   double events = (double)(e->k.events - e->k.epoch_events);
   gg_queue_reset(&e->queue, gg_md_bucket_width(fmax(events, 1) / span));
   for (uint32_t i = 0; i < e->n; i++) gg_queue_insert(&e->queue, e->node, i);
-  e->k.epoch_start += span;
-  e->k.now -= span;
-  e->stop -= span;
   e->k.epoch_events = e->k.events;
   e->k.epoch_collisions = e->k.collisions;
   return true;

@@ -1,66 +1,100 @@
-/* The instances of the event loop and of the contact, and which of them a scene needs. */
+/* The instances of the event loop and of the contacts, and which of them a scene needs. */
 #include <assert.h>
 
 #include "md/impact.h"
 #include "md/loop.h"
 
-#define MOTION(name, sheared, mixture)                                                                                 \
-  static void name(gg_md *e)                                                                                           \
+typedef struct motion {
+  gg_motion *run;
+  gg_forecast *predict_all;
+} motion;
+
+#define MOTION(name, ...)                                                                                              \
+  static void run_##name(gg_md *e)                                                                                     \
   {                                                                                                                    \
-    gg_loop(e, (gg_features){sheared, mixture});                                                                       \
+    gg_loop(e, (gg_features){__VA_ARGS__});                                                                            \
+  }                                                                                                                    \
+  static void all_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_forecast_all(e, (gg_features){__VA_ARGS__});                                                                    \
   }
-MOTION(periodic, false, false)
-MOTION(periodic_mixture, false, true)
-MOTION(sheared, true, false)
-MOTION(sheared_mixture, true, true)
+#define MOTIONS(name, ...)                                                                                             \
+  MOTION(name, __VA_ARGS__)                                                                                            \
+  MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
+MOTIONS(periodic, .sheared = false)
+MOTIONS(sheared, .sheared = true)
+MOTIONS(walled, .walled = true)
+MOTIONS(falling, .walled = true, .gravity = true)
 
-static gg_motion *const motions[2][2] = {{periodic, periodic_mixture}, {sheared, sheared_mixture}};
-
-#define IMPACT(rule, mixture, contact_time, tap)                                                                       \
-  static void rule##_##mixture##contact_time##tap(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)             \
+#define ROW(name)                                                                                                      \
   {                                                                                                                    \
-    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap}, i, j, dr, c12);                          \
-  }
-#define IMPACTS(rule)                                                                                                  \
-  IMPACT(rule, 0, 0, 0)                                                                                                \
-  IMPACT(rule, 0, 0, 1)                                                                                                \
-  IMPACT(rule, 0, 1, 0)                                                                                                \
-  IMPACT(rule, 0, 1, 1)                                                                                                \
-  IMPACT(rule, 1, 0, 0)                                                                                                \
-  IMPACT(rule, 1, 0, 1)                                                                                                \
-  IMPACT(rule, 1, 1, 0)                                                                                                \
-  IMPACT(rule, 1, 1, 1)
-IMPACTS(GG_SMOOTH)
-IMPACTS(GG_ROUGH)
-IMPACTS(GG_FRICTIONAL)
-
-/* By mixture, contact time, tap. */
-#define ROW(rule)                                                                                                      \
-  {                                                                                                                    \
-    {{rule##_000, rule##_001}, {rule##_010, rule##_011}},                                                              \
+    {run_##name, all_##name},                                                                                          \
     {                                                                                                                  \
-      {rule##_100, rule##_101},                                                                                        \
-      {                                                                                                                \
-        rule##_110, rule##_111                                                                                         \
-      }                                                                                                                \
+      run_##name##_mixture, all_##name##_mixture                                                                       \
     }                                                                                                                  \
   }
-static gg_impact *const impacts[3][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+enum boundary { PERIODIC, SHEARED, WALLED, FALLING };
+static const motion motions[][2] = {
+    [PERIODIC] = ROW(periodic), [SHEARED] = ROW(sheared), [WALLED] = ROW(walled), [FALLING] = ROW(falling)};
+#undef ROW
+
+#define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
+  static void rule##_##mixture##contact_time##tap##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)   \
+  {                                                                                                                    \
+    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap, gaussian}, i, j, dr, c12);                \
+  }
+#define FOUR(rule, mixture, contact_time)                                                                              \
+  IMPACT(rule, mixture, contact_time, 0, 0)                                                                            \
+  IMPACT(rule, mixture, contact_time, 0, 1)                                                                            \
+  IMPACT(rule, mixture, contact_time, 1, 0)                                                                            \
+  IMPACT(rule, mixture, contact_time, 1, 1)
+#define WALL(rule, contact_time, tap)                                                                                  \
+  static void rule##_wall##contact_time##tap(gg_md *e, uint32_t i, int upper)                                          \
+  {                                                                                                                    \
+    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false}, i, upper);                           \
+  }
+#define INSTANCES(rule)                                                                                                \
+  FOUR(rule, 0, 0)                                                                                                     \
+  FOUR(rule, 0, 1) FOUR(rule, 1, 0) FOUR(rule, 1, 1) WALL(rule, 0, 0) WALL(rule, 0, 1) WALL(rule, 1, 0) WALL(rule, 1, 1)
+INSTANCES(GG_SMOOTH)
+INSTANCES(GG_ROUGH)
+INSTANCES(GG_FRICTIONAL)
+
+/* By rule, mixture, contact time, tap, Gaussian thermostat. */
+#define PAIR(x)                                                                                                        \
+  {                                                                                                                    \
+    {x##00, x##01},                                                                                                    \
+    {                                                                                                                  \
+      x##10, x##11                                                                                                     \
+    }                                                                                                                  \
+  }
+#define ROW(rule)                                                                                                      \
+  {                                                                                                                    \
+    {PAIR(rule##_00), PAIR(rule##_01)},                                                                                \
+    {                                                                                                                  \
+      PAIR(rule##_10), PAIR(rule##_11)                                                                                 \
+    }                                                                                                                  \
+  }
+static gg_impact *const impacts[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+#undef ROW
+#define ROW(rule) PAIR(rule##_wall)
+static gg_wall_impact *const wall_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+
+static enum boundary boundary_of(const gg_md *e)
+{
+  if (e->model.shear_rate != 0) return SHEARED;
+  if (e->falls) return FALLING;
+  return e->model.walled ? WALLED : PERIODIC;
+}
 
 void gg_md_select(gg_md *e)
 {
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
-  assert((e->model.rule != GG_SMOOTH) == (e->spin != NULL));
-  e->motion = motions[e->model.shear_rate != 0][mixture];
-  e->impact = impacts[e->model.rule][mixture][timed][tap];
-}
-
-void gg_md_predict_all(gg_md *e)
-{
-  for (uint32_t i = 0; i < e->n; i++) {
-    e->node[i].time = INFINITY;
-    gg_queue_insert(&e->queue, e->node, i);
-  }
-  gg_features f = {e->model.shear_rate != 0, e->model.n_species > 1};
-  for (uint32_t i = 0; i < e->n; i++) gg_predict(e, f, i);
+  gg_rule rule = e->model.rule;
+  assert((rule != GG_SMOOTH) == (e->spin != NULL));
+  const motion *m = &motions[boundary_of(e)][mixture];
+  e->motion = m->run;
+  e->predict_all = m->predict_all;
+  e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
+  e->wall_impact = wall_impacts[rule][timed][tap];
 }

@@ -11,10 +11,11 @@
 #include "md/scan.h"
 
 /* Bring a grain's record to the present time. */
-GG_INLINE gg_grain *gg_settle(gg_md *e, uint32_t i)
+GG_INLINE gg_grain *gg_settle(gg_md *e, gg_features f, uint32_t i)
 {
   gg_grain *g = &e->grain[i];
-  g->r = gg_position(g, e->k.now);
+  g->r = gg_position(e, f.gravity, g, e->k.now);
+  g->v = gg_velocity(e, f.gravity, g, e->k.now);
   g->t = e->k.now;
   return g;
 }
@@ -34,15 +35,16 @@ GG_INLINE void gg_enter_cell(gg_md *e, uint32_t i)
 }
 
 /* The search is over: what it found goes into the calendar. */
-GG_INLINE void gg_schedule(gg_md *e, const gg_search *s)
+GG_INLINE void gg_schedule(gg_md *e, gg_features f, gg_search *s)
 {
   gg_node *node = &e->node[s->grain];
+  if (f.walled) gg_try_walls(e, f, s);
   if (s->partner != node->partner || s->collision != node->collision) {
     node->collision = s->collision;
     node->partner = s->partner;
-    node->stamp = s->partner == GG_NONE ? 0 : e->grain[s->partner].stamp;
+    node->stamp = GG_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].stamp;
   }
-  double exit = gg_next_face(e, s, &node->face);
+  double exit = gg_next_face(e, f, s, &node->face);
   gg_queue_remove(&e->queue, e->node, s->grain);
   node->time = s->collision < exit ? s->collision : exit;
   gg_queue_insert(&e->queue, e->node, s->grain);
@@ -52,9 +54,9 @@ GG_INLINE void gg_predict(gg_md *e, gg_features f, uint32_t i)
 {
   e->node[i].collision = INFINITY;
   e->node[i].partner = GG_NONE;
-  gg_search s = {.grain = i, .self = gg_settle(e, i), .collision = INFINITY, .partner = GG_NONE};
+  gg_search s = {.grain = i, .self = gg_settle(e, f, i), .collision = INFINITY, .partner = GG_NONE};
   gg_scan_around(e, f, &s);
-  gg_schedule(e, &s);
+  gg_schedule(e, f, &s);
 }
 
 /* Through the sheared boundary: the image that takes the grain's place has another velocity and cell. */
@@ -69,10 +71,10 @@ GG_INLINE void gg_cross_sheared(gg_md *e, gg_grain *g, gg_node *node, int side)
 GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
 {
   gg_node *node = &e->node[i];
-  gg_search s = {.grain = i, .self = gg_settle(e, i), .collision = node->collision, .partner = node->partner};
+  gg_search s = {.grain = i, .self = gg_settle(e, f, i), .collision = node->collision, .partner = node->partner};
   if (f.sheared && node->face == GG_SLIDE) {
     gg_scan_sliding_rows(e, f, &s);
-    gg_schedule(e, &s);
+    gg_schedule(e, f, &s);
     return;
   }
   gg_grain *g = &e->grain[i];
@@ -92,12 +94,12 @@ GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
   }
   gg_enter_cell(e, i);
   gg_scan_ahead(e, f, &s, axis, step);
-  gg_schedule(e, &s);
+  gg_schedule(e, f, &s);
 }
 
 GG_INLINE void gg_collide(gg_md *e, gg_features f, uint32_t i, uint32_t j)
 {
-  gg_grain *one = gg_settle(e, i), *two = gg_settle(e, j);
+  gg_grain *one = gg_settle(e, f, i), *two = gg_settle(e, f, j);
   gg_vec dr = gg_sub(two->r, one->r), dv = gg_sub(two->v, one->v);
   gg_nearest_image(&e->box, f.sheared, e->k.now, &dr, &dv);
   e->impact(e, i, j, dr, gg_scale(-1, dv));
@@ -106,6 +108,14 @@ GG_INLINE void gg_collide(gg_md *e, gg_features f, uint32_t i, uint32_t j)
   e->k.collisions++;
   gg_predict(e, f, i);
   gg_predict(e, f, j);
+}
+
+GG_INLINE void gg_hit_wall(gg_md *e, gg_features f, uint32_t i, int upper)
+{
+  gg_grain *g = gg_settle(e, f, i);
+  e->wall_impact(e, i, upper);
+  g->stamp += 2;
+  gg_predict(e, f, i);
 }
 
 /* The next event of all; GG_NONE if there is none before e->stop. */
@@ -119,6 +129,12 @@ GG_INLINE uint32_t gg_next(gg_md *e)
   return due.time <= e->stop ? due.grain : GG_NONE;
 }
 
+/* Every grain anew: at a start, or after kicks to all. */
+GG_INLINE void gg_forecast_all(gg_md *e, gg_features f)
+{
+  for (uint32_t i = 0; i < e->n; i++) gg_predict(e, f, i);
+}
+
 GG_INLINE void gg_loop(gg_md *e, gg_features f)
 {
   uint32_t i;
@@ -129,6 +145,8 @@ GG_INLINE void gg_loop(gg_md *e, gg_features f)
     e->k.events++;
     if (node->time < node->collision)
       gg_cross_face(e, f, i);
+    else if (f.walled && GG_NO_GRAIN(partner))
+      gg_hit_wall(e, f, i, partner == GG_UPPER_WALL);
     else if (e->grain[partner].stamp != node->stamp)
       gg_predict(e, f, i);
     else {

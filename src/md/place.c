@@ -103,16 +103,24 @@ static void sweep_cells(sweep *s)
   }
 }
 
+static void into_box(const gg_packing *p, uint32_t i)
+{
+  for (int a = 0; a < 3; a++) {
+    double *x = gg_component(&p->r[i], a), edge = p->box.edge[a], radius = 0.5 * p->diameter[i];
+    if (p->walled && a == 1) {
+      if (*x < radius) *x = radius;
+      if (*x > edge - radius) *x = edge - radius;
+    } else {
+      *x = gg_wrap(*x, edge, p->box.inverse[a]);
+      if (!(*x < edge)) *x = 0;
+    }
+  }
+}
+
 static uint64_t sweep_once(gg_packing *p, double margin, bool pushing)
 {
   sweep s = {p, margin, pushing, 0};
-  for (uint32_t i = 0; i < p->n; i++) {
-    gg_vec *r = &p->r[i];
-    for (int a = 0; a < 3; a++) {
-      double x = gg_wrap(gg_along(r, a), p->box.edge[a], p->box.inverse[a]);
-      *gg_component(r, a) = x < p->box.edge[a] ? x : 0;
-    }
-  }
+  for (uint32_t i = 0; i < p->n; i++) into_box(p, i);
   if (p->cells.head)
     sweep_cells(&s);
   else

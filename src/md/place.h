@@ -8,7 +8,8 @@
 
 /* Centres and diameters in a box, on their way to a state without overlaps. */
 typedef struct gg_packing {
-  gg_box box;
+  gg_box box;  /* inverse[1] = 0 between walls */
+  bool walled; /* no closer to the ends of y than a radius */
   uint32_t n;
   gg_vec *r;
   const double *diameter;

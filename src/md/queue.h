@@ -23,6 +23,12 @@ typedef struct gg_node {
 /* The neighbouring cells across the sheared boundary have slid: look at them anew. */
 enum { GG_SLIDE = 6 };
 
+/* Partners that are no grains. */
+#define GG_LOWER_WALL (UINT32_MAX - 1)
+#define GG_UPPER_WALL (UINT32_MAX - 2)
+/* Is a partner a wall or nobody? */
+#define GG_NO_GRAIN(partner) ((partner) >= GG_UPPER_WALL)
+
 typedef struct gg_due {
   double time;
   uint32_t grain;

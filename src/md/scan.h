@@ -14,7 +14,7 @@
 
 /* What a scene's motion needs; constant in every kernel. */
 typedef struct gg_features {
-  bool sheared, mixture;
+  bool sheared, walled, gravity, mixture;
 } gg_features;
 
 typedef struct gg_search {
@@ -28,8 +28,8 @@ typedef struct gg_search {
 GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
 {
   const gg_grain *one = s->self, *two = &e->grain[j];
-  gg_vec dr = gg_add(gg_sub(gg_position(two, e->k.now), one->r), shift);
-  gg_vec dv = gg_sub(two->v, one->v);
+  gg_vec dr = gg_add(gg_sub(gg_position(e, f.gravity, two, e->k.now), one->r), shift);
+  gg_vec dv = gg_sub(gg_velocity(e, f.gravity, two, e->k.now), one->v);
   if (f.sheared) dv.x += slide;
   double sigma = e->model.sigma[f.mixture ? 2 * gg_species_of(one) + gg_species_of(two) : 0];
   double t = e->k.now + gg_contact_delay(dr, dv, sigma * sigma);
@@ -76,6 +76,7 @@ GG_INLINE void gg_scan_plain_row(const gg_md *e, gg_features f, gg_search *s, in
                                  int32_t z)
 {
   gg_vec shift = {0, 0, 0};
+  if (f.walled && (y < 0 || y >= e->cells.n[1])) return;
   int32_t iy = gg_image_cell(e, 1, y, &shift.y);
   if (f.sheared && shift.y != 0) return;
   int32_t iz = gg_image_cell(e, 2, z, &shift.z);
@@ -136,27 +137,52 @@ GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int ax
   gg_scan_sliding_rows(e, f, s);
 }
 
-/* Delay until the grain leaves its cell along one axis. Rounding may have left it outside by a digit: then at once. */
-GG_INLINE double gg_exit_delay(double x, double v, int32_t cell, double width)
+/* A wall that the grain meets before anything else so far. Only grains in the cells along a wall can touch it. */
+GG_INLINE void gg_try_walls(const gg_md *e, gg_features f, gg_search *s)
 {
-  double delay = v > 0 ? ((cell + 1) * width - x) / v : v < 0 ? (cell * width - x) / v : INFINITY;
-  return delay > 0 ? delay : 0;
+  const gg_grain *g = s->self;
+  int32_t y = e->node[s->grain].cell[1];
+  double radius = 0.5 * e->model.diameter[f.mixture ? gg_species_of(g) : 0];
+  double lower = INFINITY, upper = INFINITY, fall = f.gravity ? e->gravity.y : 0;
+  if (y == 0) lower = e->k.now + gg_fall_delay(g->r.y - radius, -g->v.y, -fall);
+  if (y == e->cells.n[1] - 1 && !e->model.open_top)
+    upper = e->k.now + gg_fall_delay(e->box.edge[1] - radius - g->r.y, g->v.y, fall);
+  if (lower < s->collision) s->collision = lower, s->partner = GG_LOWER_WALL;
+  if (upper < s->collision) s->collision = upper, s->partner = GG_UPPER_WALL;
+}
+
+/* Delay until the grain leaves its cell along one axis, and through which face. Rounding may have left it outside by a
+ * digit: then at once. */
+GG_INLINE double gg_exit_delay(const gg_md *e, gg_features f, const gg_search *s, int axis, int32_t *face)
+{
+  double x = gg_along(&s->self->r, axis), v = gg_along(&s->self->v, axis), width = e->cells.width[axis];
+  int32_t cell = e->node[s->grain].cell[axis];
+  bool bottom = f.walled && axis == 1 && cell == 0, top = f.walled && axis == 1 && cell == e->cells.n[1] - 1;
+  if (!f.gravity) {
+    bool up = v > 0;
+    *face = 2 * axis + up;
+    if (v == 0 || (up ? top : bottom)) return INFINITY;
+    double delay = ((up ? cell + 1 : cell) * width - x) / v;
+    return delay > 0 ? delay : 0;
+  }
+  double w = gg_along(&e->gravity, axis);
+  double down = bottom ? INFINITY : gg_fall_delay(x - cell * width, -v, -w);
+  double up = top ? INFINITY : gg_fall_delay((cell + 1) * width - x, v, w);
+  *face = 2 * axis + (up < down);
+  return up < down ? up : down;
 }
 
 /* Which face of its cell the grain crosses next, and when. */
-GG_INLINE double gg_next_face(const gg_md *e, const gg_search *s, int32_t *face)
+GG_INLINE double gg_next_face(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
 {
-  const gg_grain *g = s->self;
-  const int32_t *at = e->node[s->grain].cell;
-  double dx = gg_exit_delay(g->r.x, g->v.x, at[0], e->cells.width[0]);
-  double dy = gg_exit_delay(g->r.y, g->v.y, at[1], e->cells.width[1]);
-  double dz = gg_exit_delay(g->r.z, g->v.z, at[2], e->cells.width[2]);
-  double first = dx;
-  *face = g->v.x > 0;
-  if (dy < first) first = dy, *face = 2 + (g->v.y > 0);
-  if (dz < first) first = dz, *face = 4 + (g->v.z > 0);
+  int32_t other;
+  double first = gg_exit_delay(e, f, s, 0, face);
+  for (int axis = 1; axis < 3; axis++) {
+    double delay = gg_exit_delay(e, f, s, axis, &other);
+    if (delay < first) first = delay, *face = other;
+  }
   double t = e->k.now + first;
-  if (s->valid < t) t = s->valid, *face = GG_SLIDE;
+  if (f.sheared && s->valid < t) t = s->valid, *face = GG_SLIDE;
   return t;
 }
 

@@ -21,13 +21,13 @@ static void into_box(const gg_md *e, gg_vec *r)
 static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, scratch *out)
 {
   const gg_grain *g = &e->grain[i];
-  gg_vec r = gg_position(g, e->k.now), c = g->v;
+  gg_vec r = gg_position(e, e->falls, g, e->k.now), c = gg_scale(e->k.scale, gg_velocity(e, e->falls, g, e->k.now));
   c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
   if (positions) into_box(e, &r);
   for (int a = 0; a < 3; a++) {
     out->r[a][slot] = gg_along(&r, a);
     out->c[a][slot] = gg_along(&c, a);
-    if (e->spin) out->s[a][slot] = gg_along(&e->spin[i], a);
+    if (e->spin) out->s[a][slot] = e->k.scale * gg_along(&e->spin[i], a);
   }
   out->species[slot] = (uint8_t)gg_species_of(g);
   out->id[slot] = e->id[i];

@@ -51,7 +51,7 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_er
     for (int a = 0; a < 3; a++) *gg_component(&r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
   GG_TRY(gg_place_sort(&e->box, r, e->n, err));
   deal_species(e, diameter, rng);
-  gg_packing p = {.box = e->box, .n = e->n, .r = r, .diameter = diameter};
+  gg_packing p = {.box = e->box, .walled = e->model.walled, .n = e->n, .r = r, .diameter = diameter};
   gg_status status = relax(e, &p, rng, err);
   gg_cells_free(&p.cells);
   free(p.next);
@@ -82,7 +82,8 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   for (uint32_t i = 0; i < e->n; i++) {
     gg_grain *g = &e->grain[i];
     g->v = gg_scale(scale, g->v);
-    g->v.x += e->model.shear_rate * (g->r.y - 0.5 * e->box.edge[1]);
+    double rate = e->model.shear_rate + 2 * e->model.wall_speed / e->box.edge[1]; /* the laminar profile */
+    g->v.x += rate * (g->r.y - 0.5 * e->box.edge[1]);
   }
 }
 

@@ -26,6 +26,10 @@ typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
 typedef void gg_impact(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12);
+/* What happens to a grain in contact with the lower (0) or upper (1) wall. */
+typedef void gg_wall_impact(gg_md *e, uint32_t i, int upper);
+/* Predict every grain's next event. */
+typedef void gg_forecast(gg_md *e);
 /* Handle events until e->stop or until e->collisions_left is used up. */
 typedef void gg_motion(gg_md *e);
 
@@ -40,6 +44,12 @@ typedef struct gg_md_counts {
   double worst_overlap;
   gg_rng rng;
   gg_transfer transfer;
+  double next_kick; /* white noise: epoch time of the next kick */
+  /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
+   */
+  double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
+  double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
+  double outer_time;               /* outside, up to the present advance */
   uint32_t tap_open, spare;
 } gg_md_counts;
 
@@ -52,14 +62,21 @@ struct gg_md {
   double *last; /* time of the last collision, for the contact-time rule; NULL if it is off */
   uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
   uint32_t n;
+  gg_vec gravity;
+  bool falls; /* gravity is not zero */
   gg_box box;
   gg_cells cells;
   gg_queue queue;
   gg_md_counts k;
   double stop;              /* end of the present advance, epoch time */
+  double outer_stop;        /* the same in outside time since it began; INFINITY: none */
   uint64_t collisions_left; /* of the present advance */
   gg_motion *motion;
+  gg_forecast *predict_all;
   gg_impact *impact;
+  gg_wall_impact *wall_impact;
+  gg_thermostat thermostat;
+  double noise; /* xi^2 of the white-noise thermostat */
 };
 
 /* arrays.c: an engine with its arrays for this model, nothing in them; and its end. */
@@ -85,18 +102,22 @@ double gg_md_bucket_width(double events_per_time);
 
 /* kernels.c: choose the kernels that this model and tap need. */
 void gg_md_select(gg_md *e);
-/* Predict every grain's next event (after a start). */
-void gg_md_predict_all(gg_md *e);
 
 GG_INLINE int gg_species_of(const gg_grain *g)
 {
   return (int)(g->stamp & 1);
 }
 
-/* Where the grain is at epoch time t. */
-GG_INLINE gg_vec gg_position(const gg_grain *g, double t)
+/* Where the grain is at epoch time t, and how it moves there; on a parabola only if the constant `gravity` is true. */
+GG_INLINE gg_vec gg_position(const gg_md *e, bool gravity, const gg_grain *g, double t)
 {
-  return gg_axpy(t - g->t, g->v, g->r);
+  double dt = t - g->t;
+  gg_vec r = gg_axpy(dt, g->v, g->r);
+  return gravity ? gg_axpy(0.5 * dt * dt, e->gravity, r) : r;
+}
+GG_INLINE gg_vec gg_velocity(const gg_md *e, bool gravity, const gg_grain *g, double t)
+{
+  return gravity ? gg_axpy(t - g->t, e->gravity, g->v) : g->v;
 }
 
 #endif

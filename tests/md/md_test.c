@@ -9,6 +9,7 @@ gg_scene md_scene(md_case c)
   s.flow = c.flow;
   s.particles = c.n;
   s.phi = c.phi;
+  s.md.contact_time = 1e-4;
   for (int p = 0; p < GG_PAIRS; p++) {
     s.collision.e[p] = c.e;
     s.collision.beta[p] = c.beta;
@@ -18,13 +19,18 @@ gg_scene md_scene(md_case c)
   return s;
 }
 
+gg_model md_model_of(const gg_scene *s)
+{
+  gg_model m;
+  gg_error err = {0};
+  if (gg_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  return m;
+}
+
 gg_model md_model(md_case c)
 {
   gg_scene s = md_scene(c);
-  gg_model m;
-  gg_error err = {0};
-  if (gg_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
-  return m;
+  return md_model_of(&s);
 }
 
 gg_md *md_create(const gg_model *model, uint64_t seed)
@@ -74,15 +80,24 @@ typedef struct separation {
   long double offset, slide;
 } separation;
 
+/* Where a grain is now, and how it moves. */
+static void place_now(const gg_md *e, const gg_grain *g, long double r[3], long double v[3])
+{
+  long double dt = (long double)e->k.now - g->t;
+  for (int k = 0; k < 3; k++) {
+    long double w = gg_along(&e->gravity, k);
+    r[k] = gg_along(&g->r, k) + gg_along(&g->v, k) * dt + w * dt * dt / 2;
+    v[k] = gg_along(&g->v, k) + w * dt;
+  }
+}
+
 static separation separate(const gg_md *e, uint32_t i, uint32_t j)
 {
-  const gg_grain *a = &e->grain[i], *b = &e->grain[j];
   separation s = {.slide = e->box.slide, .offset = e->box.offset0 + (long double)e->box.slide * e->k.now};
-  for (int k = 0; k < 3; k++) {
-    s.v[k] = (long double)gg_along(&b->v, k) - gg_along(&a->v, k);
-    s.r[k] = ((long double)gg_along(&b->r, k) + gg_along(&b->v, k) * ((long double)e->k.now - b->t)) -
-             ((long double)gg_along(&a->r, k) + gg_along(&a->v, k) * ((long double)e->k.now - a->t));
-  }
+  long double r[3], v[3];
+  place_now(e, &e->grain[i], r, v);
+  place_now(e, &e->grain[j], s.r, s.v);
+  for (int k = 0; k < 3; k++) s.r[k] -= r[k], s.v[k] -= v[k];
   return s;
 }
 
@@ -96,13 +111,14 @@ static long double contact(const long double r[3], const long double v[3], long 
   return t > 0 ? t : 0;
 }
 
-long double md_oracle_pair(const gg_md *e, uint32_t i, uint32_t j, double horizon)
+static long double next_of_pair(const gg_md *e, uint32_t i, uint32_t j, double horizon)
 {
   separation s = separate(e, i, j);
   int o = 2 * gg_species_of(&e->grain[i]) + gg_species_of(&e->grain[j]);
   long double first = INFINITY, sigma = e->model.sigma[o], L[3];
   for (int k = 0; k < 3; k++) L[k] = e->box.edge[k];
   int ny = 2 + (int)(fabsl(s.v[1]) * horizon / L[1]), nz = 2 + (int)(fabsl(s.v[2]) * horizon / L[2]);
+  if (e->model.walled) ny = 0;
   for (int y = -ny; y <= ny; y++)
     for (int z = -nz; z <= nz; z++) {
       long double v[3] = {s.v[0] + y * s.slide, s.v[1], s.v[2]}, x0 = s.r[0] + y * s.offset;
@@ -121,9 +137,36 @@ md_forecast md_oracle(const gg_md *e, double horizon)
   md_forecast f = {.time = INFINITY};
   for (uint32_t i = 0; i < e->n; i++)
     for (uint32_t j = 0; j < i; j++) {
-      long double t = md_oracle_pair(e, i, j, horizon);
+      long double t = next_of_pair(e, i, j, horizon);
       if (t < f.time) f = (md_forecast){t, {j, i}};
     }
+  return f;
+}
+
+/* First t >= 0 with h + v t + w t^2/2 = 0 and h falling; both roots by the textbook. */
+static long double next_touch(long double h, long double v, long double w)
+{
+  long double root[2] = {-h / v, -h / v}, first = INFINITY, q = v * v - 2 * w * h;
+  if (w != 0) {
+    if (q < 0) return INFINITY;
+    root[0] = (-v - sqrtl(q)) / w, root[1] = (-v + sqrtl(q)) / w;
+  }
+  for (int k = 0; k < 2; k++)
+    if (v + w * root[k] < 0 && root[k] > -1e-13L && root[k] < first) first = root[k] > 0 ? root[k] : 0;
+  return first;
+}
+
+md_forecast md_oracle_walls(const gg_md *e)
+{
+  md_forecast f = {.time = INFINITY};
+  for (uint32_t i = 0; e->model.walled && i < e->n; i++) {
+    long double r[3], v[3], w = e->gravity.y, a = e->model.diameter[gg_species_of(&e->grain[i])] / 2;
+    place_now(e, &e->grain[i], r, v);
+    long double lower = next_touch(r[1] - a, v[1], w);
+    long double upper = e->model.open_top ? INFINITY : next_touch(e->box.edge[1] - a - r[1], -v[1], -w);
+    if (lower < f.time) f = (md_forecast){lower, {i, GG_LOWER_WALL}};
+    if (upper < f.time) f = (md_forecast){upper, {i, GG_UPPER_WALL}};
+  }
   return f;
 }
 
@@ -134,7 +177,7 @@ long double md_closest(const gg_md *e)
     for (uint32_t j = 0; j < i; j++) {
       separation s = separate(e, i, j);
       int o = 2 * gg_species_of(&e->grain[i]) + gg_species_of(&e->grain[j]);
-      long double y = rintl(s.r[1] / e->box.edge[1]),
+      long double y = e->model.walled ? 0 : rintl(s.r[1] / e->box.edge[1]),
                   r[3] = {s.r[0] - y * s.offset, s.r[1] - y * e->box.edge[1], s.r[2]};
       r[0] -= e->box.edge[0] * rintl(r[0] / e->box.edge[0]);
       r[2] -= e->box.edge[2] * rintl(r[2] / e->box.edge[2]);
@@ -148,7 +191,7 @@ gg_vec md_momentum(const gg_md *e)
 {
   gg_vec sum = {0, 0, 0};
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec r = gg_position(&e->grain[i], e->k.now), c = e->grain[i].v;
+    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), c = e->grain[i].v;
     c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
     sum = gg_axpy(e->model.mass[gg_species_of(&e->grain[i])], c, sum);
   }

@@ -22,6 +22,7 @@ typedef struct md_case {
 
 gg_scene md_scene(md_case c);
 gg_model md_model(md_case c);
+gg_model md_model_of(const gg_scene *scene);
 gg_md *md_create(const gg_model *model, uint64_t seed);
 void md_destroy(gg_md *e);
 
@@ -37,8 +38,8 @@ typedef struct md_forecast {
   uint32_t pair[2];
 } md_forecast;
 md_forecast md_oracle(const gg_md *e, double horizon);
-/* When this pair collides within the horizon. */
-long double md_oracle_pair(const gg_md *e, uint32_t i, uint32_t j, double horizon);
+/* The same for collisions with walls alone; pair[1] is GG_LOWER_WALL or GG_UPPER_WALL. */
+md_forecast md_oracle_walls(const gg_md *e);
 /* Smallest distance of two centres over their contact distance. */
 long double md_closest(const gg_md *e);
 

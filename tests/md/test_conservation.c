@@ -5,7 +5,7 @@
 static void check_places(const gg_md *e)
 {
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec r = gg_position(&e->grain[i], e->k.now);
+    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now);
     for (int a = 0; a < 3; a++) {
       double x = gg_along(&r, a), w = e->cells.width[a], lower = e->node[i].cell[a] * w;
       assert_true(x > lower - 1e-12 * e->box.edge[a] && x < lower + w + 1e-12 * e->box.edge[a]);
@@ -76,7 +76,7 @@ static void shear_work_balances_loss(void **state)
     gg_md_ops.advance(&e->base, 0.01, UINT64_MAX, &dt, &err);
     time += dt;
     for (uint32_t i = 0; i < e->n; i++) {
-      gg_vec r = gg_position(&e->grain[i], e->k.now), v = e->grain[i].v;
+      gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), v = e->grain[i].v;
       sum += (v.x - m.shear_rate * (r.y - 0.5 * m.box[1])) * v.y;
     }
     kinetic += sum / samples;

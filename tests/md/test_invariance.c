@@ -20,7 +20,7 @@ static gg_md *copy_of(const gg_md *e)
   c->box.offset0 = gg_offset(&e->box, e->k.now);
   for (uint32_t i = 0; i < e->n; i++) {
     c->grain[i] = e->grain[i];
-    c->grain[i].r = gg_position(&e->grain[i], e->k.now);
+    c->grain[i].r = gg_position(e, e->falls, &e->grain[i], e->k.now);
     c->grain[i].t = 0;
     if (e->spin) c->spin[i] = e->spin[i];
     c->id[i] = e->id[i];

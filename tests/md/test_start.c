@@ -40,6 +40,31 @@ static void any_solid_fraction(void **state)
   check_start((md_case){GG_HCS, 2, 0.001, 0.9, 0, INFINITY, {0}});
 }
 
+/* Mixtures and walled boxes: the asked composition, nobody in a wall. */
+static void dense_mixtures_and_walls(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    gg_scene s = md_scene((md_case){k % 2 ? GG_COUETTE : GG_USF, 600, k % 2 ? 0.5 : 0.6, 0.9, 0, INFINITY, {0}});
+    s.n_species = 2;
+    s.species[0].fraction = 0.25, s.species[1].fraction = 0.75;
+    s.species[1].diameter = k < 2 ? 0.5 : 1.6;
+    gg_model m = md_model_of(&s);
+    gg_md *e = md_create(&m, 5);
+    int64_t first = 0;
+    double solid = 0;
+    for (uint32_t i = 0; i < e->n; i++) {
+      double d = m.diameter[gg_species_of(&e->grain[i])], y = e->grain[i].r.y;
+      first += gg_species_of(&e->grain[i]) == 0;
+      solid += M_PI / 6 * d * d * d / m.volume;
+      if (m.walled) assert_true(y >= 0.5 * d && y <= m.box[1] - 0.5 * d);
+    }
+    assert_int_equal(first, 150);
+    assert_true(fabs(solid - s.phi) < 1e-12 && md_closest(e) >= 1);
+    md_destroy(e);
+  }
+}
+
 static void refuse(md_case c, const char *key)
 {
   gg_model m = md_model(c);
@@ -85,7 +110,7 @@ static void collapse_ends(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(any_solid_fraction), cmocka_unit_test(refused),
-                                     cmocka_unit_test(collapse_ends)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(any_solid_fraction), cmocka_unit_test(dense_mixtures_and_walls),
+                                     cmocka_unit_test(refused), cmocka_unit_test(collapse_ends)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
