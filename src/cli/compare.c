@@ -10,16 +10,6 @@
 #include "io/plot.h"
 #include "io/result_file.h"
 
-static int print_json(const gg_comparison *c)
-{
-  json_t *document = gg_comparison_document(c);
-  char *text = document ? gg_document_text(document) : NULL;
-  if (text) puts(text);
-  free(text);
-  json_decref(document);
-  return text && fflush(stdout) == 0 ? GG_OK : gg_cli_fail(GG_BAD_FILE, "standard output cannot be written");
-}
-
 /* A picture that cannot be drawn is no reason to call the comparison failed. */
 static void draw(const gg_options *o, const char *output)
 {
@@ -38,8 +28,7 @@ static int finish(const gg_options *o, const char *output, gg_comparison *c, gg_
 {
   gg_error err;
   if (o->json) {
-    int code = print_json(c);
-    if (code != GG_OK) return code;
+    gg_cli_print_document(gg_comparison_document(c));
   } else {
     gg_print_comparison(c, o->all);
   }
@@ -71,6 +60,8 @@ static int compare(const gg_options *o, const gg_scene *scene, const char *outpu
     else if ((code = finish(o, output, &c, &file)) == GG_OK)
       code = (int)status;
   }
+  if (status == GG_BAD_INPUT) gg_error_prefix(&err, status, "%s", o->input);
+  if (status == GG_INTERRUPTED) gg_fail(&err, status, "interrupted; nothing was written");
   if (status != GG_OK) gg_cli_report(&err);
   gg_comparison_clear(&c);
   return code;

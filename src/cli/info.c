@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/options.h"
+#include "cli/report.h"
 #include "common/engine.h"
 #include "io/result_reader.h"
 #include "io/scene_json.h"
@@ -52,10 +53,7 @@ static int inform_scene(const gg_options *o)
   gg_scene_draft draft;
   if (gg_options_scene(o, &draft, &err) != GG_OK) return gg_cli_report(&err);
   if (o->json) {
-    json_t *scene = gg_scene_json(&draft.scene);
-    json_dumpf(scene, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
-    puts("");
-    json_decref(scene);
+    gg_cli_print_document(gg_scene_json(&draft.scene));
     return GG_OK;
   }
   print_fields(&draft);
@@ -93,8 +91,7 @@ static int inform_result(const gg_options *o)
   gg_stored_result stored;
   if (gg_stored_result_read(&stored, o->input, &err) != GG_OK) return gg_cli_report(&err);
   if (o->json) {
-    json_dumpf(stored.document, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
-    puts("");
+    gg_cli_print_document(json_incref(stored.document));
   } else {
     printf("%s: %s by graingas %s\ncommand: %s\ndate:    %s\nmachine: %s\n\nscene:\n%s", o->input,
            stored.comparison ? "a comparison" : "a run", stored.version, stored.command, stored.date, stored.machine,

@@ -2,6 +2,7 @@
 #include <hdf5.h>
 #include <signal.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,6 +47,13 @@ static int unknown(const char *word)
   return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; see graingas --help", word);
 }
 
+/* What was printed has to have arrived. */
+static int check_output(int code)
+{
+  bool lost = fflush(stdout) != 0 || ferror(stdout);
+  return lost && code == GG_OK ? gg_cli_fail(GG_BAD_FILE, "standard output cannot be written") : code;
+}
+
 int main(int argc, char **argv)
 {
   signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of the write, not the end of the program */
@@ -68,6 +76,6 @@ int main(int argc, char **argv)
     return GG_OK;
   }
   for (const gg_command *c = gg_commands; c->name; c++)
-    if (strcmp(c->name, argv[1]) == 0) return c->run(c, argc - 1, argv + 1);
+    if (strcmp(c->name, argv[1]) == 0) return check_output(c->run(c, argc - 1, argv + 1));
   return unknown(argv[1]);
 }

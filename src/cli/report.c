@@ -8,6 +8,14 @@
 #include "io/document.h"
 #include "io/text.h"
 
+void gg_cli_print_document(json_t *document)
+{
+  char *text = document ? gg_document_text(document) : NULL;
+  if (text) puts(text);
+  free(text);
+  json_decref(document);
+}
+
 /* Left to --all: parts and components that few look at first. */
 static bool is_minor(gg_quantity q)
 {
@@ -163,10 +171,18 @@ static gg_table *tabulate(const gg_comparison *c, bool engines, bool all, int *n
 
 static void print_inapplicable(const gg_comparison *c)
 {
-  int n = 0;
-  for (int i = 0; i < c->n_theories; i++)
-    if (!c->theory[i].applies) printf("%s%s", n++ ? ", " : "\nTheories for other scenes: ", c->theory[i].theory->name);
-  if (n) printf("\n(graingas theory says why)\n");
+  size_t used = 0;
+  for (int i = 0; i < c->n_theories; i++) {
+    const char *name = c->theory[i].theory->name;
+    if (c->theory[i].applies) continue;
+    if (!used)
+      used = (size_t)printf("\nTheories for other scenes (graingas theory says why): %s", name) - 1;
+    else if (used + strlen(name) > 96)
+      used = (size_t)printf(",\n%s", name) - 2;
+    else
+      used += (size_t)printf(", %s", name);
+  }
+  if (used) printf("\n");
 }
 
 void gg_print_comparison(const gg_comparison *c, bool all)
@@ -206,5 +222,5 @@ void gg_print_theories(const gg_scene *scene, const gg_comparison *c, bool all)
       printf("%s: %s (%s)\n  %s\n", c->theory[i].theory->name, c->theory[i].theory->title,
              c->theory[i].theory->citation, c->theory[i].theory->assumptions);
   for (int i = 0; i < c->n_theories; i++)
-    if (!c->theory[i].applies) printf("%s does not apply: %s\n", c->theory[i].theory->name, c->theory[i].reason);
+    if (!c->theory[i].applies) printf("%s\n", c->theory[i].reason);
 }

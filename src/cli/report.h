@@ -2,7 +2,12 @@
 #ifndef GG_CLI_REPORT_H
 #define GG_CLI_REPORT_H
 
+#include <jansson.h>
+
 #include "run/run.h"
+
+/* A JSON document on standard output; takes the reference. */
+void gg_cli_print_document(json_t *document);
 
 /* On standard output; warnings go to standard error. `all`: every quantity, not just the main ones. */
 void gg_print_run(const gg_result *result, bool all);

@@ -38,22 +38,11 @@ static gg_status store_checkpoint(void *context, const gg_archive *archive, gg_e
   return GG_OK;
 }
 
-static int print_json(const gg_result *result)
-{
-  json_t *document = gg_run_document(result);
-  char *text = document ? gg_document_text(document) : NULL;
-  if (text) puts(text);
-  free(text);
-  json_decref(document);
-  return text && fflush(stdout) == 0 ? GG_OK : gg_cli_fail(GG_BAD_FILE, "standard output cannot be written");
-}
-
 static int finish(running *r, const gg_result *result)
 {
   gg_error err;
   if (r->options->json) {
-    int code = print_json(result);
-    if (code != GG_OK) return code;
+    gg_cli_print_document(gg_run_document(result));
   } else {
     gg_print_run(result, r->options->all);
   }
@@ -91,6 +80,7 @@ static int execute(running *r, const gg_archive *resume)
   }
   gg_result_file_abandon(&r->file);
   if (status == GG_INTERRUPTED) tell_interrupted(r, &err);
+  if (status == GG_BAD_INPUT) gg_error_prefix(&err, status, "%s", r->options->input);
   if (status != GG_OK) gg_cli_report(&err);
   gg_result_free(result);
   return code;

@@ -15,16 +15,10 @@ static int evaluate(const gg_options *o, const gg_scene *scene)
   int code = gg_model_make(scene, GG_MD, &model, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
   if (code == GG_OK) {
     gg_compare_theories(&model, c);
-    if (o->json) {
-      json_t *document = gg_theory_document(scene, c);
-      char *text = gg_document_text(document);
-      if (text) puts(text);
-      free(text);
-      json_decref(document);
-    } else {
+    if (o->json)
+      gg_cli_print_document(gg_theory_document(scene, c));
+    else
       gg_print_theories(scene, c, o->all);
-    }
-    if (fflush(stdout) != 0) code = gg_cli_fail(GG_BAD_FILE, "standard output cannot be written");
   }
   free(c);
   return code;

@@ -97,7 +97,7 @@ static void write_series(gg_h5 *h, const char *observables, const gg_result *r, 
   gg_quantity q = gg_history_quantities[k];
   hsize_t n = history->n;
   char group[120], path[160], target[160];
-  snprintf(group, sizeof group, "%s/%s", observables, gg_quantity_name(q));
+  snprintf(group, sizeof group, "%s%s", observables, gg_quantity_name(q));
   snprintf(path, sizeof path, "%s/value", group);
   gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 1, &n, history->value[k]);
   gg_h5_text_attribute(h, path, "unit", gg_quantity_unit(q, &r->model));

@@ -103,7 +103,7 @@ static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const
   gg_plot_unit(unit_of(e, curves[0].name), unit, sizeof unit);
   bool means = false;
   for (int k = 0; k < found; k++) means |= draw_mean(s, e, &curves[k]);
-  fprintf(s, "set label '%s: %s (shaded: averaged over%s)' at graph 0,1.08 left\\n", e->name, what,
+  fprintf(s, "set label '%s: %s (shaded: averaged over%s)' at graph 0,1.08 left\n", e->name, what,
           means ? "; dashed: mean" : "");
   fprintf(s, "set xlabel 'time [%s]'\nset ylabel '%s%s%s [%s]' offset 0.5,0\n", time_unit(e), curves[0].label,
           found > 1 ? ", " : "", found > 1 ? curves[1].label : "", unit);

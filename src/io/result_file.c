@@ -78,7 +78,7 @@ gg_status gg_result_file_finish_run(gg_result_file *f, const gg_result *result, 
   if (!f->streaming) gg_h5_create_in_memory(&f->h, f->file.temporary);
   write_document(f, &result->scene, gg_run_document(result));
   gg_h5_text_attribute(&f->h, "/graingas", "kind", "run");
-  gg_h5_write_engine(&f->h, "/graingas", "/observables", result);
+  gg_h5_write_engine(&f->h, "/graingas", "/observables/", result);
   write_last_frame(f, result);
   gg_c_locale_leave(before);
   return finish(f, err);
@@ -91,8 +91,8 @@ gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_compariso
   if (!f->streaming) gg_h5_create_in_memory(&f->h, f->file.temporary);
   write_document(f, &c->scene, gg_comparison_document(c));
   gg_h5_text_attribute(&f->h, "/graingas", "kind", "compare");
-  if (md) gg_h5_write_engine(&f->h, "/graingas/md", "/observables/md", md);
-  if (dsmc) gg_h5_write_engine(&f->h, "/graingas/dsmc", "/observables/dsmc", dsmc);
+  if (md) gg_h5_write_engine(&f->h, "/graingas/md", "/observables/md_", md);
+  if (dsmc) gg_h5_write_engine(&f->h, "/graingas/dsmc", "/observables/dsmc_", dsmc);
   gg_h5_write_theories(&f->h, c);
   if (md || dsmc) write_last_frame(f, md ? md : dsmc);
   gg_c_locale_leave(before);

@@ -2,7 +2,7 @@
  *
  *   /h5md                            version, author, creator
  *   /particles/grains                box, position, velocity, spin (value, step, time), species, id
- *   /observables/<quantity>          step, time, value from the start of the run; compare: /observables/md/<quantity>
+ *   /observables/<quantity>          step, time, value from the start of the run; compare: /observables/md_<quantity>
  *   /graingas                        version, command, machine, date, seed, scene (YAML), document (JSON), warnings
  *   /graingas/results/<quantity>     mean, stderr, unit, samples, correlation_time; compare: /graingas/md/results/...
  *   /graingas/theory/<name>/<quantity>   mean, unit */
@@ -33,6 +33,7 @@ void gg_result_file_abandon(gg_result_file *f);
 
 /* The inner layouts, for the writers above. */
 void gg_h5_write_header(gg_h5 *h, const char *command, const gg_scene *scene, const char *document);
+/* `observables` is what the names of its series begin with: "/observables/md_". */
 void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, const gg_result *result);
 void gg_h5_write_theories(gg_h5 *h, const gg_comparison *comparison);
 

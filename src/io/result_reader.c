@@ -10,12 +10,12 @@ static void read_series(gg_h5 *h, gg_stored_engine *e, const char *observables, 
   char path[160];
   size_t n_times;
   if (e->n_series == GG_MAX_STORED_SERIES) return;
-  snprintf(path, sizeof path, "%s/%s/value", observables, name);
+  snprintf(path, sizeof path, "%s%s/value", observables, name);
   if (!gg_h5_exists(h, path)) return;
   gg_stored_series *s = &e->series[e->n_series++];
   snprintf(s->name, sizeof s->name, "%s", name);
   s->value = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof(double), &s->n);
-  snprintf(path, sizeof path, "%s/%s/time", observables, name);
+  snprintf(path, sizeof path, "%s%s/time", observables, name);
   s->time = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof(double), &n_times);
   if (n_times < s->n) s->n = n_times;
 }
@@ -36,12 +36,12 @@ static void read_engines(gg_h5 *h, gg_stored_result *s)
   for (int k = 0; k < 2; k++) {
     const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
     gg_stored_engine *e = &s->engine[k];
-    char group[64] = "/graingas", observables[64] = "/observables";
+    char group[64] = "/graingas", observables[64] = "/observables/";
     json_t *document = s->document;
     if (s->comparison) {
       document = json_object_get(s->document, name);
       snprintf(group, sizeof group, "/graingas/%s", name);
-      snprintf(observables, sizeof observables, "/observables/%s", name);
+      snprintf(observables, sizeof observables, "/observables/%s_", name);
     } else {
       const char *engine = json_string_value(json_object_get(document, "engine"));
       if (!engine || strcmp(engine, name) != 0) continue;

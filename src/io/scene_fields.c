@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "io/scene_json.h"
+
 static const gg_word flows[] = {{"equilibrium", GG_EQUILIBRIUM, "elastic gas at rest"},
                                 {"usf", GG_USF, "uniform shear, Lees-Edwards box"},
                                 {"hcs", GG_HCS, "homogeneous cooling"},
@@ -72,7 +74,7 @@ const gg_field gg_scene_fields[] = {
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
      .doc = "step of the Monte Carlo engine"},
     {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
-     .doc = "size of the Monte Carlo ensemble; auto: particles, but at least 20000"},
+     .doc = "size of the Monte Carlo ensemble; auto: particles, but at least 5000"},
     {"measure", GG_FIELD_SET, AT(measure), .words = observables, .doc = "what is measured; only that is paid for"},
     {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
      .doc = "time between checkpoints; 0: none"},
@@ -113,12 +115,15 @@ static void list_words(const gg_word *words, char *text, size_t size)
 
 static void number_allowed(const gg_field *f, const char *what, char *text, size_t size)
 {
+  char min[32], max[32];
+  gg_format_number(f->min, min, sizeof min);
+  gg_format_number(f->max, max, sizeof max);
   if (f->max == INFINITY)
-    snprintf(text, size, "%s of at least %.10g, or inf", what, f->min);
+    snprintf(text, size, "%s of at least %s, or inf", what, min);
   else if (f->above_min)
-    snprintf(text, size, "%s above %.10g, at most %.10g", what, f->min, f->max);
+    snprintf(text, size, "%s above %s, at most %s", what, min, max);
   else
-    snprintf(text, size, "%s from %.10g to %.19g", what, f->min, f->max);
+    snprintf(text, size, "%s from %s to %s", what, min, max);
   size_t used = strlen(text);
   if (f->special && used < size) snprintf(text + used, size - used, ", or %s", f->special);
 }

@@ -28,7 +28,8 @@ static void show(const yaml_node_t *node, char *text, size_t size)
   else if (node->data.scalar.length == 0)
     snprintf(text, size, "nothing");
   else
-    snprintf(text, size, "value '%.40s'", (const char *)node->data.scalar.value);
+    snprintf(text, size, "%s '%.40s'", node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE ? "value" : "text",
+             (const char *)node->data.scalar.value);
 }
 
 static gg_status refuse_value(const gg_scene_reader *r, const gg_field *field, const char *key, const yaml_node_t *node)
