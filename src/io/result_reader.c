@@ -58,6 +58,8 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   gg_h5 h;
   *s = (gg_stored_result){0};
   gg_h5_open(&h, path);
+  if (!h.failed && gg_h5_exists(&h, "/checkpoint"))
+    gg_h5_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
   if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_failed(&h, "it holds no result of graingas");
   char *text = gg_h5_read_text(&h, "/graingas/document");
   s->version = gg_h5_read_text(&h, "/graingas/version");

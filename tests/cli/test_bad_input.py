@@ -126,6 +126,12 @@ def test_flow_of_another_engine():
     refused("flow", 2, scene="flow: couette\nphi: 0.3\n", *("run", "scene.yaml", "--engine", "dsmc"))
 
 
+def test_output_over_the_input():
+    refused("scene.yaml: would be overwritten by its own result", 2, "run", "scene.yaml", "--output", "scene.yaml",
+            scene=GOOD)
+    check(open("scene.yaml").read() == GOOD)
+
+
 def test_results_that_are_none():
     refused("rubbish.h5: cannot be read", 3, "plot", "rubbish.h5", scene="rubbish", name="rubbish.h5")
     refused("none.h5: cannot be read", 3, "plot", "none.h5")
