@@ -85,6 +85,27 @@ static void print_results(const gg_stored_engine *e)
       printf("  warning: %s\n", json_string_value(warning));
 }
 
+/* Series, frames and theories: what there is to plot or to read with other tools. */
+static void print_contents(const gg_stored_result *stored)
+{
+  const char *name;
+  json_t *theory;
+  printf("\nalso in the file:\n");
+  for (int k = 0; k < 2; k++) {
+    const gg_stored_engine *e = &stored->engine[k];
+    if (e->n_series)
+      printf("  %s series of %zu samples, averaged from %g to %g:", e->name, e->series[0].n, e->window[0],
+             e->window[1]);
+    for (int i = 0; i < e->n_series; i++) printf(" %s", e->series[i].name);
+    if (e->n_series) printf("\n");
+  }
+  if (stored->n_frames)
+    printf("  %zu frame%s of %zu grains (/particles/grains)\n", stored->n_frames, stored->n_frames > 1 ? "s" : "",
+           stored->n_grains);
+  json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
+      printf("  theory %s: %zu quantities\n", name, json_object_size(theory));
+}
+
 static int inform_result(const gg_options *o)
 {
   gg_error err;
@@ -98,6 +119,7 @@ static int inform_result(const gg_options *o)
            stored.scene);
     for (int k = 0; k < 2; k++)
       if (stored.engine[k].name) print_results(&stored.engine[k]);
+    print_contents(&stored);
   }
   gg_stored_result_clear(&stored);
   return GG_OK;

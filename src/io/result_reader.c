@@ -53,6 +53,13 @@ static void read_engines(gg_h5 *h, gg_stored_result *s)
   }
 }
 
+static size_t count_numbers(gg_h5 *h, const char *path)
+{
+  size_t n = 0;
+  if (gg_h5_exists(h, path)) free(gg_h5_read_array(h, path, H5T_NATIVE_INT64, sizeof(int64_t), &n));
+  return n;
+}
+
 gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
 {
   gg_h5 h;
@@ -73,6 +80,8 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   if (!h.failed) {
     s->comparison = json_object_get(s->document, "comparison") != NULL;
     read_engines(&h, s);
+    s->n_frames = count_numbers(&h, "/particles/grains/velocity/step");
+    s->n_grains = count_numbers(&h, "/particles/grains/id");
   }
   gg_h5_close(&h);
   gg_status status = gg_h5_status(&h, path, "read", err);
