@@ -13,7 +13,8 @@ void gg_plot_place(FILE *s, gg_panel p)
 {
   fprintf(s,
           "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n"
-          "unset object\nunset label\nunset arrow\nunset logscale\nunset title\nset xtics auto\nset xrange [*:*]\n"
+          "unset object\nunset label\nunset arrow\nunset logscale\nunset title\nunset offsets\nset xtics auto\nset "
+          "xrange [*:*]\n"
           "set yrange [*:*]\nset format x '%%g'\nset format y '%%g'\nset key default\n",
           p.left, p.right, p.bottom, p.top);
 }

@@ -84,29 +84,33 @@ static void print_points(FILE *s, int k, const method *m, const method *referenc
   fprintf(s, "EOD\n");
 }
 
-static double furthest(const method *methods, int n_methods, const int *selected, int n)
+/* How far the axis reaches below and above 1: all that is there, but not to the ends of the world. */
+static void find_reach(const method *methods, int n_methods, const int *selected, int n, double reach[2])
 {
-  double most = 0.02;
+  const double most[2] = {0.75, 0.75};
+  reach[0] = reach[1] = 0.003;
   for (int k = 0; k < n_methods; k++)
     for (int i = 0; i < n; i++) {
       const char *name = entries[selected[i]].name;
-      double reference = number(&methods[0], name, "mean");
-      double off = fabs(number(&methods[k], name, "mean") / reference - 1);
+      double reference = number(&methods[0], name, "mean"), off = number(&methods[k], name, "mean") / reference - 1;
       double error = number(&methods[k], name, "stderr") / fabs(reference);
-      if (isfinite(error)) off += error;
-      if (isfinite(off)) most = fmax(most, off);
+      if (!isfinite(off)) continue;
+      if (!isfinite(error)) error = 0;
+      reach[0] = fmax(reach[0], error - off), reach[1] = fmax(reach[1], error + off);
     }
-  return most;
+  for (int side = 0; side < 2; side++) reach[side] = fmin(reach[side], most[side]);
+  double margin = 0.08 * (reach[0] + reach[1]);
+  for (int side = 0; side < 2; side++) reach[side] = fmin(reach[side] + margin, most[side]);
 }
 
 /* What lies outside the axis is named at its edge. */
 static void label_outliers(FILE *s, const method *m, const method *reference, const int *selected, int n, double offset,
-                           double range, const char *colour)
+                           const double *reach, const char *colour)
 {
   for (int i = 0; i < n; i++) {
     double ratio = number(m, entries[selected[i]].name, "mean") / number(reference, entries[selected[i]].name, "mean");
-    if (!isfinite(ratio) || fabs(ratio - 1) <= range) continue;
     bool above = ratio > 1;
+    if (!isfinite(ratio) || fabs(ratio - 1) <= reach[above]) continue;
     fprintf(s, "set label '%s %.3g' at first %.4f, graph %g rotate by 90 %s tc rgb '%s' font ',9'\n", above ? "→" : "←",
             ratio, i + 1 + offset, above ? 0.99 : 0.01, above ? "right" : "left", colour);
   }
@@ -149,22 +153,23 @@ static bool draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel p
   int n = n_methods ? select_entries(&methods[0], ratio, selected) : 0;
   if (n == 0) return false;
   gg_plot_place(s, panel);
-  double step = fmin(0.8 / n_methods, 0.13), first = -step * (n_methods - 1) / 2, range = 0;
-  if (ratio) range = fmin(1.15 * furthest(methods, n_methods, selected, n), 0.75);
+  double step = fmin(0.8 / n_methods, 0.13), first = -step * (n_methods - 1) / 2, reach[2];
+  if (ratio) find_reach(methods, n_methods, selected, n, reach);
   for (int k = 0; k < n_methods; k++) {
     print_points(s, k, &methods[k], &methods[0], ratio, selected, n, first + k * step);
     if (ratio)
-      label_outliers(s, &methods[k], &methods[0], selected, n, first + k * step, range,
+      label_outliers(s, &methods[k], &methods[0], selected, n, first + k * step, reach,
                      gg_plot_colours[colour_of(&methods[k], k)]);
   }
   print_categories(s, selected, n);
   fprintf(s, "set xlabel ''\n");
   if (ratio) {
-    fprintf(s, "set ylabel 'value / %s' offset 0.5,0\nset yrange [%g:%g]\n", methods[0].name, 1 - range, 1 + range);
+    fprintf(s, "set ylabel 'value / %s' offset 0.5,0\nset yrange [%g:%g]\n", methods[0].name, 1 - reach[0],
+            1 + reach[1]);
     fprintf(s, "set arrow from graph 0,first 1 to graph 1,first 1 nohead back lc rgb '#888888' lw 1\n");
     fprintf(s, "set key at screen 0.5,0.935 center top vertical maxrows 2 noenhanced samplen 0.6 width 1.5\n");
   } else {
-    fprintf(s, "set ylabel 'value' offset 0.5,0\n");
+    fprintf(s, "set ylabel 'value' offset 0.5,0\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n");
     fprintf(s, "set arrow from graph 0,first 0 to graph 1,first 0 nohead back lc rgb '#888888' lw 1\n");
   }
   plot_methods(s, methods, n_methods, ratio);
