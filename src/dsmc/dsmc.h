@@ -13,7 +13,7 @@
 typedef struct gg_dsmc_state {
   gg_rng rng;
   gg_rng_lanes lanes;
-  double time, temperature; /* temperature: when the ensemble was last settled */
+  double time, temperature, fastest; /* temperature and largest speed: when the ensemble was last settled */
   uint64_t collisions, candidates, overflows;
   double owed[GG_PAIRS]; /* fractions of candidates carried over */
   double drift;          /* rate x time that stored velocities have still to stream */

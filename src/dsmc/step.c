@@ -7,6 +7,7 @@ void gg_dsmc_settle(gg_dsmc *d)
   gg_dsmc_state *s = &d->now;
   gg_moments m = gg_ensemble_settle(&d->ensemble, s->drift, 1, s->centre);
   s->temperature = m.temperature;
+  s->fastest = m.fastest;
   s->centre = m.centre;
   s->drift = s->unsettled = 0;
   s->step = gg_time_step_choose(&d->model, s->temperature);
