@@ -20,7 +20,7 @@ typedef struct gg_dsmc_state {
   double unsettled;      /* time since the ensemble was last settled */
   gg_vec centre;         /* velocity of the centre of mass then */
   gg_time_step step;
-  double lost; /* energy destroyed since the Gaussian thermostat last gave it back */
+  double lost; /* energy destroyed that the Gaussian thermostat has not given back */
   gg_majorant majorant[GG_PAIRS];
   gg_transfer transfer;
   bool tap;
