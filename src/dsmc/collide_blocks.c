@@ -8,8 +8,8 @@
  *   probability g_n/(max(0, k.C12) + sigma rate |k_x k_y|).
  * One uniform number t in [-s0, bound - s0) serves for all: t < 0 takes the second law, t < |C12| the first, anything
  * more is no collision; and since what is left of t is uniform again, it decides the last choice, too.
- * Cosine law: with w uniform on the sphere, C12 - |C12| w points along such a k and is 2 (k.C12) long (elastic hard
- * spheres scatter isotropically), so smooth grains without shear need no k at all.
+ * Smooth grains without shear need no k at all: with w uniform on the sphere, C12 - |C12| w points along a k of the
+ * cosine law and is 2 (k.C12) long, since elastic hard spheres scatter isotropically.
  *
  * Fairness. Each lane of one block meets each lane of the other with probability 1/8, and every pair of grains in
  * different blocks comes up equally often. Pairs within one block, and the last block where it is not full, go through
@@ -32,7 +32,7 @@ typedef struct gg_batch {
   uint64_t n_one, n_two; /* blocks */
   gg_contact contact;
   gg_lane_rng rng;
-  gg_directions uniform, sheared;
+  gg_directions near, sheared;     /* about C12, and by the law |k_x k_y| */
   double bound, offset, s0, shift; /* t = bound (1 + u) + offset */
   double brim;                     /* C12^2 at which the bound overflows */
   double drift;
@@ -41,13 +41,28 @@ typedef struct gg_batch {
   gg_vd loss[GG_PARTS], stress[3][3][GG_PARTS];
 } gg_batch;
 
+/* Smooth grains get by without the direction k where nobody asks for it. */
+GG_INLINE bool needs_k(gg_features f)
+{
+  return f.rule != GG_SMOOTH || f.shear == GG_SHEARED_DENSE || f.tap == GG_TAP_STRESS;
+}
+
+/* The direction that lies about v as q lies about the z axis: q mirrored by the Householder vector v +- |v| z. */
+GG_INLINE gg_vd3 about(gg_vd3 v, gg_vd speed, gg_vd3 q)
+{
+  const gg_vu sign = (gg_vu)v.z & (gg_vu)gg_all(-0.0);
+  gg_vd side = (gg_vd)((gg_vu)speed | sign), height = speed + (gg_vd)((gg_vu)v.z ^ sign);
+  gg_vd3 h = {v.x, v.y, v.z + side}, m = {q.x, q.y, (gg_vd)((gg_vu)q.z ^ sign ^ (gg_vu)gg_all(-0.0))};
+  gg_vd f = gg_vd3_dot(h, m) / (speed * height + 1e-300); /* 0/0 only where nothing moves */
+  return gg_vd3_sub(m, gg_vd3_scale(f, h));
+}
+
 /* Part `part` of block a against part `part ^ (r / width)` of block b, its lanes already in order r. */
 GG_INLINE void collide_part(gg_features f, gg_batch *w, gg_block *a, gg_block *b, gg_block *sa, gg_block *sb, int part,
                             gg_vd3 cb, gg_vd3 spin_b)
 {
   const gg_contact *c = &w->contact;
   const bool dense = f.shear == GG_SHEARED_DENSE;
-  const bool needs_k = f.rule != GG_SMOOTH || dense || f.tap == GG_TAP_STRESS;
   const int at = part * GG_WIDTH;
   gg_vd3 ca = {gg_load(a->x + at), gg_load(a->y + at), gg_load(a->z + at)}, v = gg_vd3_sub(ca, cb);
   if (f.shear != GG_UNSHEARED) v.x -= w->drift * v.y;
@@ -60,17 +75,15 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, gg_block *a, gg_block *b
   unsigned over = gg_bits(gg_less(gg_all(w->brim), v2));
   if (__builtin_expect(over != 0, 0)) w->overflows += (unsigned)__builtin_popcount(over);
   if (dense) hit = gg_and_not(hit, special);
-  gg_vd3 d = gg_vd3_sub(v, gg_vd3_scale(speed, gg_directions_take(&w->uniform, hit)));
-  gg_vd3 J, k = d, g = v;
-  gg_vd gn = v2;
-  if (!needs_k) {
-    /* J = jn g_n k, and g_n k = d/2. */
+  gg_vd3 J, q = gg_directions_take(&w->near, hit), k = q, g = v;
+  gg_vd gn, gn2;
+  if (!needs_k(f)) {
+    gg_vd3 d = gg_vd3_sub(v, gg_vd3_scale(speed, q)); /* 2 g_n k */
+    gn = gn2 = 0.25 * gg_vd3_dot(d, d);
     J = gg_vd3_scale(gg_all(0.5 * c->jn), d);
-    if (f.tap != GG_TAP_CLOSED) gn = 0.5 * gg_sqrt(gg_vd3_dot(d, d));
   } else {
-    gg_vd length = gg_sqrt(gg_vd3_dot(d, d));
-    k = gg_vd3_scale(1 / gg_select(gg_less(gg_all(0), length), length, gg_all(1)), d);
-    gn = 0.5 * length;
+    k = about(v, speed, q);
+    gn = speed * q.z;
     if (dense) {
       gg_vd3 other = gg_directions_take(&w->sheared, special);
       k = (gg_vd3){gg_select(special, other.x, k.x), gg_select(special, other.y, k.y),
@@ -83,13 +96,14 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, gg_block *a, gg_block *b
       gg_vd left = gg_select(special, -t, t), range = gg_select(special, gg_all(w->s0), speed);
       hit = gg_and(gg_or(hit, special), gg_less(left * most, range * gn));
     }
+    gn2 = gn * gn;
     if (f.rule != GG_SMOOTH) {
       gg_vd3 spin_a = {gg_load(sa->x + at), gg_load(sa->y + at), gg_load(sa->z + at)};
       g = gg_vd3_sub(g, gg_vd3_cross(k, gg_vd3_add(spin_a, spin_b)));
     }
     J = gg_lane_impulse(f.rule, c, k, g, gn);
   }
-  if (f.tap != GG_TAP_CLOSED) w->loss[part] += gg_where(hit, gg_lane_energy_loss(f.rule, c, g, J, gn));
+  if (f.tap != GG_TAP_CLOSED) w->loss[part] += gg_where(hit, gg_lane_energy_loss(f.rule, c, g, J, gn2));
   J = (gg_vd3){gg_where(hit, J.x), gg_where(hit, J.y), gg_where(hit, J.z)};
   if (f.tap == GG_TAP_STRESS) {
     const gg_vd ka[3] = {k.x, k.y, k.z}, Jb[3] = {J.x, J.y, J.z};
@@ -100,8 +114,8 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, gg_block *a, gg_block *b
   gg_mask swap = gg_low_bit(r);
   if (f.rule != GG_SMOOTH) {
     gg_vd3 spin_a = {gg_load(sa->x + at), gg_load(sa->y + at), gg_load(sa->z + at)}, kJ = gg_vd3_cross(k, J);
-    gg_vd3 na = gg_vd3_sub(spin_a, gg_vd3_scale(gg_all(c->ik1), kJ));
-    gg_vd3 nb = gg_vd3_sub(spin_b, gg_vd3_scale(gg_all(c->ik2), kJ));
+    gg_vd3 turn_a = gg_vd3_scale(gg_all(c->ik1), kJ), turn_b = f.same ? turn_a : gg_vd3_scale(gg_all(c->ik2), kJ);
+    gg_vd3 na = gg_vd3_sub(spin_a, turn_a), nb = gg_vd3_sub(spin_b, turn_b);
     gg_store(sa->x + at, f.same ? gg_select(swap, nb.x, na.x) : na.x);
     gg_store(sa->y + at, f.same ? gg_select(swap, nb.y, na.y) : na.y);
     gg_store(sa->z + at, f.same ? gg_select(swap, nb.z, na.z) : na.z);
@@ -135,8 +149,8 @@ GG_INLINE void collide_blocks(gg_features f, gg_batch *w, uint32_t a, uint32_t b
 {
   const bool spins = f.rule != GG_SMOOTH;
   gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
-  gg_directions_stock(&w->uniform, &w->rng, false);
-  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, true);
+  gg_directions_stock(&w->near, &w->rng, needs_k(f) ? GG_COSINE : GG_UNIFORM);
+  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
   load_in_order(&w->two[b], order, cb);
   if (spins) load_in_order(&w->spin_two[b], order, sb);
   for (int part = 0; part < GG_PARTS; part++)

@@ -5,6 +5,8 @@ gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
   gg_features f = {.rule = gg_rule_of(m->beta[2 * i + j], m->mu[2 * i + j]), .same = i == j};
+  /* Grains that have spins keep them with their velocities, whichever pair of species is smooth. */
+  if (m->rule != GG_SMOOTH && f.rule == GG_SMOOTH) f.rule = GG_ROUGH;
   if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_SHEARED_DILUTE : GG_SHEARED_DENSE;
   if (d->thermostat == GG_GAUSSIAN) f.tap = GG_TAP_LOSS;
   if (d->now.tap) f.tap = m->boltzmann ? GG_TAP_LOSS : GG_TAP_STRESS;
@@ -14,12 +16,11 @@ gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j)
 void gg_dsmc_bounds(gg_dsmc *d)
 {
   const gg_model *m = &d->model;
-  double fastest = gg_ensemble_settle(&d->ensemble, 0, 1, (gg_vec){0, 0, 0}).fastest,
-         thermal = sqrt(d->now.temperature);
+  double thermal = sqrt(d->now.temperature);
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       double shift = m->sigma[2 * i + j] * m->shear_rate;
-      double bound = gg_rate_bound(d->path, gg_dsmc_features(d, i, j), 2 * fastest, shift);
+      double bound = gg_rate_bound(d->path, gg_dsmc_features(d, i, j), 2 * d->now.fastest, shift);
       gg_majorant_start(&d->now.majorant[gg_pair_index(i, j)], bound, thermal);
     }
 }
@@ -87,8 +88,8 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
     hand_over(d, gg_pair_index(i, j), &p);
     gg_majorant_learn(majorant, p.worst, thermal, p.candidates * gg_grains_a_candidate(d->path), window);
     base += bound;
-    bound = 1.1 * p.worst - base;
     if (p.worst <= base) break;
+    bound = fmax(1.1 * p.worst, gg_rate_bound(d->path, f, 2 * d->now.fastest, p.shift)) - base;
   }
 }
 

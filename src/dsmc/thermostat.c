@@ -49,10 +49,14 @@ static double vis_viva(const gg_ensemble *e, double drift)
   return sum;
 }
 
-void gg_thermostat_return(gg_ensemble *e, double drift, double lost)
+double gg_thermostat_return(gg_ensemble *e, double drift, double missing, double half)
 {
-  double factor = sqrt(1 + 2 * lost / vis_viva(e, drift));
+  double energy = 0.5 * vis_viva(e, drift);
+  /* The loss goes as T^(3/2), and the second half is hotter than the first by what it destroyed. */
+  double advance = half * (1 + 1.5 * half / energy);
+  double gain = (missing + advance) / energy, factor = gain > -1 ? sqrt(1 + gain) : 0;
   for (int i = 0; i < e->n_species; i++) gg_blocks_scale(e->of[i].c, e->of[i].n_blocks, factor);
+  return advance;
 }
 
 void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng *rng)

@@ -18,8 +18,12 @@ static double guess_event_rate(const gg_md *e)
 gg_status gg_md_begin(gg_md *e, gg_error *err)
 {
   if (!e->cells.head) GG_TRY(gg_md_make_grid(e, err));
-  gg_md_enter_grid(e);
-  gg_md_chain_grid(e);
+  if (e->shell) {
+    gg_md_build_lists(e);
+  } else {
+    gg_md_enter_grid(e);
+    gg_md_chain_grid(e);
+  }
   e->k.free_time = 1 / fmax(gg_model_collision_rate(&e->model, e->model.temperature0), 1e-300);
   e->k.contact_time = e->model.contact_time * e->k.free_time;
   if (e->last)
@@ -137,6 +141,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
     e->node[i].collision *= t;
     if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
     if (e->last) e->last[i] *= t;
+    if (e->shell) e->shell[i].built *= t;
   }
   gg_queue_rescale(&e->queue, t);
   double *times[] = {&e->k.now, &e->k.epoch_start, &e->k.contact_time, &e->k.free_time, &e->k.window_time, &e->k.mark};

@@ -2,22 +2,12 @@
 #include <assert.h>
 
 #include "md/impact.h"
+#include "md/kernels.h"
 #include "md/loop.h"
 
-typedef struct motion {
-  gg_motion *run;
-  gg_forecast *predict_all;
-} motion;
-
 #define MOTION(name, ...)                                                                                              \
-  static void run_##name(gg_md *e)                                                                                     \
-  {                                                                                                                    \
-    gg_loop(e, (gg_features){__VA_ARGS__});                                                                            \
-  }                                                                                                                    \
-  static void all_##name(gg_md *e)                                                                                     \
-  {                                                                                                                    \
-    gg_forecast_all(e, (gg_features){__VA_ARGS__});                                                                    \
-  }
+  static void run_##name(gg_md *e) { gg_loop(e, (gg_features){__VA_ARGS__}); }                                         \
+  static void all_##name(gg_md *e) { gg_forecast_all(e, (gg_features){__VA_ARGS__}); }
 #define MOTIONS(name, ...)                                                                                             \
   MOTION(name, __VA_ARGS__)                                                                                            \
   MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
@@ -26,15 +16,9 @@ MOTIONS(sheared, .sheared = true)
 MOTIONS(walled, .walled = true)
 MOTIONS(falling, .walled = true, .gravity = true)
 
-#define ROW(name)                                                                                                      \
-  {                                                                                                                    \
-    {run_##name, all_##name},                                                                                          \
-    {                                                                                                                  \
-      run_##name##_mixture, all_##name##_mixture                                                                       \
-    }                                                                                                                  \
-  }
+#define ROW(name) {{run_##name, all_##name}, {run_##name##_mixture, all_##name##_mixture}}
 enum boundary { PERIODIC, SHEARED, WALLED, FALLING };
-static const motion motions[][2] = {
+static const gg_kernel plain[][2] = {
     [PERIODIC] = ROW(periodic), [SHEARED] = ROW(sheared), [WALLED] = ROW(walled), [FALLING] = ROW(falling)};
 #undef ROW
 
@@ -92,9 +76,21 @@ void gg_md_select(gg_md *e)
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  const motion *m = &motions[boundary_of(e)][mixture];
-  e->motion = m->run;
-  e->predict_all = m->predict_all;
+  gg_kernel kernel = plain[boundary_of(e)][mixture];
+  if (e->shell) kernel = gg_md_wide_kernel(e->model.shear_rate != 0, mixture);
+  e->motion = kernel.run;
+  e->predict_all = kernel.predict_all;
   e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
   e->wall_impact = wall_impacts[rule][timed][tap];
+}
+
+gg_kernel gg_md_wide_kernel(bool sheared, bool mixture)
+{
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512bw"))
+    return gg_md_listed_avx512(sheared, mixture);
+  if (__builtin_cpu_supports("avx2")) return gg_md_listed_avx2(sheared, mixture);
+#endif
+  return gg_md_listed_any(sheared, mixture);
 }

@@ -8,17 +8,7 @@
 #ifndef GG_MD_LOOP_H
 #define GG_MD_LOOP_H
 
-#include "md/scan.h"
-
-/* Bring a grain's record to the present time. */
-GG_INLINE gg_grain *gg_settle(gg_md *e, gg_features f, uint32_t i)
-{
-  gg_grain *g = &e->grain[i];
-  g->r = gg_position(e, f.gravity, g, e->k.now);
-  g->v = gg_velocity(e, f.gravity, g, e->k.now);
-  g->t = e->k.now;
-  return g;
-}
+#include "md/lists.h"
 
 GG_INLINE void gg_leave_cell(gg_md *e, uint32_t i)
 {
@@ -44,7 +34,7 @@ GG_INLINE void gg_schedule(gg_md *e, gg_features f, gg_search *s)
     node->partner = s->partner;
     node->stamp = GG_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].stamp;
   }
-  double exit = gg_next_face(e, f, s, &node->face);
+  double exit = f.listed ? gg_shell_exit(e, f, s->grain, s->self) : gg_next_face(e, f, s, &node->face);
   gg_queue_remove(&e->queue, e->node, s->grain);
   node->time = s->collision < exit ? s->collision : exit;
   gg_queue_insert(&e->queue, e->node, s->grain);
@@ -55,7 +45,10 @@ GG_INLINE void gg_predict(gg_md *e, gg_features f, uint32_t i)
   e->node[i].collision = INFINITY;
   e->node[i].partner = GG_NONE;
   gg_search s = {.grain = i, .self = gg_settle(e, f, i), .collision = INFINITY, .partner = GG_NONE};
-  gg_scan_around(e, f, &s);
+  if (f.listed)
+    gg_scan_list(e, f, &s);
+  else
+    gg_scan_around(e, f, &s);
   gg_schedule(e, f, &s);
 }
 
@@ -95,6 +88,22 @@ GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
   gg_enter_cell(e, i);
   gg_scan_ahead(e, f, &s, axis, step);
   gg_schedule(e, f, &s);
+}
+
+/* Out of its shell: a new one, lists mended, and a new prediction. */
+GG_INLINE void gg_leave_shell(gg_md *e, gg_features f, uint32_t i)
+{
+  uint32_t found[GG_LIST + 1];
+  gg_leave_cell(e, i);
+  gg_new_shell(e, f, i);
+  gg_enter_cell(e, i);
+  uint32_t count = gg_search_shell(e, f, i, found);
+  if (gg_mend_lists(e, i, found, count)) {
+    gg_predict(e, f, i);
+    return;
+  }
+  gg_md_build_lists(e);
+  e->predict_all(e);
 }
 
 GG_INLINE void gg_collide(gg_md *e, gg_features f, uint32_t i, uint32_t j)
@@ -143,8 +152,12 @@ GG_INLINE void gg_loop(gg_md *e, gg_features f)
     uint32_t partner = node->partner;
     e->k.now = node->time;
     e->k.events++;
-    if (node->time < node->collision)
-      gg_cross_face(e, f, i);
+    if (node->time < node->collision) {
+      if (f.listed)
+        gg_leave_shell(e, f, i);
+      else
+        gg_cross_face(e, f, i);
+    }
     else if (f.walled && GG_NO_GRAIN(partner))
       gg_hit_wall(e, f, i, partner == GG_UPPER_WALL);
     else if (e->grain[partner].stamp != node->stamp)

@@ -15,6 +15,7 @@
 /* What a scene's motion needs; constant in every kernel. */
 typedef struct gg_features {
   bool sheared, walled, gravity, mixture;
+  bool listed; /* neighbour lists instead of cells */
 } gg_features;
 
 typedef struct gg_search {
@@ -24,6 +25,16 @@ typedef struct gg_search {
   uint32_t partner;
   double valid; /* until then the sliding rows have been searched */
 } gg_search;
+
+/* Bring a grain's record to the present time. */
+GG_INLINE gg_grain *gg_settle(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_grain *g = &e->grain[i];
+  g->r = gg_position(e, f.gravity, g, e->k.now);
+  g->v = gg_velocity(e, f.gravity, g, e->k.now);
+  g->t = e->k.now;
+  return g;
+}
 
 GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
 {

@@ -22,6 +22,13 @@ typedef struct gg_grain {
   uint32_t next;  /* next grain in the same cell */
 } __attribute__((aligned(64))) gg_grain;
 
+/* Of the neighbour lists: where the grain may go before its list must be mended. */
+typedef struct gg_shell {
+  gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
+  double built;
+} gg_shell;
+enum { GG_LIST = 32 }; /* most neighbours in a list */
+
 typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
@@ -61,6 +68,12 @@ struct gg_md {
   gg_vec *spin; /* surface velocities; NULL for smooth grains */
   double *last; /* time of the last collision, for the contact-time rule; NULL if it is off */
   uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
+  /* Neighbour lists: NULL where the cells themselves are searched. */
+  gg_shell *shell;
+  uint32_t *neighbour;      /* GG_LIST a grain */
+  double shell_radius;      /* s */
+  double shrinkage;         /* kappa */
+  double pair_reach[3];     /* sigma + 2 s by unordered pair */
   uint32_t n;
   gg_vec gravity;
   bool falls; /* gravity is not zero */
@@ -81,6 +94,7 @@ struct gg_md {
 
 /* arrays.c: an engine with its arrays for this model, nothing in them; and its end. */
 gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err);
+gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
 void gg_md_free(gg_md *e);
 
 /* start.c: a fresh initial state: places, velocities, spins. */
@@ -93,6 +107,11 @@ double gg_md_reach(const gg_model *model);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 void gg_md_chain_grid(gg_md *e);
+void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);
+
+/* lists.c: every grain's shell and list anew at the present time; the shells get smaller where lists overflow. */
+void gg_md_build_lists(gg_md *e);
+void gg_md_set_shells(gg_md *e, double radius);
 
 /* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
  * False if nothing will ever happen again. */
