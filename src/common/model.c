@@ -80,11 +80,18 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
 {
   gg_partner wall = {INFINITY, 1};
-  m->wall_rule = gg_flow_is_walled(s->flow) ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
+  m->walled = gg_flow_is_walled(s->flow);
+  m->open_top = m->walled && s->walls.open_top;
+  m->wall_rule = m->walled ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
+  bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
+  if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;
   m->rule = later_rule(m->rule, m->wall_rule);
-  for (int i = 0; i < GG_MAX_SPECIES; i++)
-    m->wall[i] = gg_contact_make((gg_partner){m->mass[i], m->inertia[i]}, wall, s->walls.e, s->walls.beta, s->walls.mu);
-  m->wall_speed = s->walls.speed * time_unit / s->species[0].diameter;
+  for (int i = 0; i < GG_MAX_SPECIES; i++) {
+    gg_partner grain = {m->mass[i], m->inertia[i]};
+    m->wall[i] = gg_contact_make(grain, wall, s->walls.e, s->walls.beta, s->walls.mu);
+    m->wall_treated[i] = gg_contact_make(grain, wall, 1, s->walls.beta, s->walls.mu);
+  }
+  m->wall_speed = s->flow == GG_COUETTE ? s->walls.speed * time_unit / s->species[0].diameter : 0;
 }
 
 /* Steady temperature in units of (d rate)^2 from the balance of dilute viscous heating and dissipation, to start near.
@@ -106,14 +113,23 @@ static double guess_ratio(const gg_model *m)
   return K * (1 + beta) / (1 + 2 * K - beta);
 }
 
+/* An ensemble of a few thousand stands for one point of the flow to better than 0.1 %; fewer only if asked for. */
+enum { LEAST_ENSEMBLE = 5000 };
+
+static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
+{
+  if (engine == GG_MD) return s->particles;
+  if (s->dsmc.particles) return s->dsmc.particles;
+  return s->particles > LEAST_ENSEMBLE ? s->particles : LEAST_ENSEMBLE;
+}
+
 gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
 {
   if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat};
   bool sheared = gg_flow_is_sheared(s->flow);
   m->homogeneous = engine == GG_DSMC;
-  m->n = engine == GG_DSMC ? (s->dsmc.particles ? s->dsmc.particles : (s->particles > 20000 ? s->particles : 20000))
-                           : s->particles;
+  m->n = grains_of(s, engine);
   set_composition(m, s);
   set_box(m, s);
   set_pairs(m, s);
@@ -124,9 +140,9 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   if (s->flow == GG_COUETTE) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
   set_walls(m, s, time_unit);
   for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
-  m->contact_time = m->elastic ? 0 : s->md.contact_time == GG_AUTO ? 1e-4 : s->md.contact_time;
+  m->contact_time = m->elastic ? 0 : s->md.contact_time == GG_AUTO ? 1e-5 : s->md.contact_time;
   m->time_step = s->dsmc.time_step;
-  m->temperature0 = sheared ? guess_sheared_temperature(m) : 0.5;
+  m->temperature0 = sheared || s->flow == GG_COUETTE ? guess_sheared_temperature(m) : 0.5;
   if (sheared && s->temperature != GG_AUTO) {
     double speed = s->shear_rate * s->species[0].diameter;
     m->temperature0 = s->temperature / (speed * speed);

@@ -38,8 +38,10 @@ typedef struct gg_model {
   double e[4], beta[4], mu[4];
 
   gg_contact wall[GG_MAX_SPECIES]; /* grain (1) against wall (2) */
+  gg_contact wall_treated[GG_MAX_SPECIES]; /* the same with e = 1 */
   gg_rule wall_rule;
-  double wall_speed;
+  bool walled, open_top; /* walls at both ends of y, or below only */
+  double wall_speed; /* couette: +- this along x; 0 otherwise */
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */

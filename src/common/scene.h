@@ -42,6 +42,7 @@ struct gg_scene {
   gg_species species[GG_MAX_SPECIES];
   struct {
     double e, beta, mu, speed;
+    bool open_top; /* chute: no upper wall */
   } walls;
   double gravity[3];
   struct {

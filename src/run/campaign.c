@@ -3,16 +3,9 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "run/clock.h"
 #include "run/start.h"
-
-double gg_wall_now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static gg_status create_replicas(gg_campaign *c, gg_error *err)
 {
@@ -194,7 +187,7 @@ gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
       open_window(c);
       continue;
     }
-    if (c->plan.most && window >= c->plan.most) break;
+    if ((c->plan.most && window >= c->plan.most) || window >= c->plan.longest << c->state.restarts) break;
     if (c->plan.relative_error > 0 && window >= c->plan.least && j.trusted &&
         j.relative_error <= c->plan.relative_error)
       break;

@@ -6,6 +6,7 @@
 
 typedef struct gg_plan {        /* what is asked, settled before the run; in samples a replica */
   uint64_t warmup, least, most; /* warm-up; shortest window that can be judged; asked length, 0: until the error */
+  uint64_t longest;             /* window after which the asked error counts as out of reach */
   double relative_error;        /* 0: not asked */
   double time_limit;            /* seconds, 0: none */
   bool find_steady;             /* extend the warm-up while the window drifts */
@@ -56,7 +57,5 @@ gg_status gg_campaign_mean(const gg_campaign *c, gg_quantity q, gg_mean *mean, g
 
 /* The result of where the campaign stands. */
 gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err);
-
-double gg_wall_now(void);
 
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "run/campaign.h"
+#include "run/clock.h"
 
 enum { N_FINGERPRINT = 20 };
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "run/campaign.h"
+#include "run/clock.h"
 
 /* Why a quantity is not there: the first observable's reason, else that nothing asked for measures it. */
 static const char *why_missing(const gg_campaign *c, gg_quantity q)
@@ -126,6 +127,24 @@ static void report_verdict(const gg_campaign *c, const gg_judgement *j, gg_resul
   }
 }
 
+/* At rest or cooling, a homogeneous gas has equal normal stresses. Free cooling breaks up into vortices and clusters in
+ * a box that is large enough (Goldhirsch & Zanetti 1993): then means are those of that state. */
+static void warn_if_structured(gg_result *result)
+{
+  const gg_quantity differences[] = {GG_Q_N1, GG_Q_N2};
+  if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow)) return;
+  for (int i = 0; i < 2; i++) {
+    const gg_estimate *e = &result->value[differences[i]];
+    if (!(fabs(e->mean) > 0.02 && fabs(e->mean) > 5 * e->error)) continue;
+    gg_result_warn(
+        result,
+        "the gas is not homogeneous: %s = %.3g +- %.2g where it should vanish (vortices or clusters; a smaller "
+        "box or shorter run stays homogeneous)",
+        gg_quantity_name(differences[i]), e->mean, e->error);
+    return;
+  }
+}
+
 static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_result *result)
 {
   const gg_engine_state *s = &result->engine_state;
@@ -133,9 +152,10 @@ static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_resu
   if (result->verdict == GG_STEADY && !j->trusted)
     gg_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
                    GG_MIN_BLOCKS);
-  if (s->treated > 0)
+  if ((double)s->treated > 1e-4 * (double)s->collisions)
     gg_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
                    100 * (double)s->treated / (double)s->collisions);
+  warn_if_structured(result);
   if (s->overflows > 1e-3 * (double)s->collisions)
     gg_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
                    100 * (double)s->overflows / (double)s->collisions);

@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "theory/collision_rate.h"
+
 static const char *const flow_names[] = {
     [GG_EQUILIBRIUM] = "equilibrium without shear",
     [GG_USF] = "uniform shear",
@@ -98,16 +100,24 @@ static void set_components(const gg_model *m, gg_quantity first, gg_stress s, gg
 
 void gg_answer_stress(const gg_model *m, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a)
 {
-  gg_stress total = m->boltzmann ? kinetic : stress_sum(kinetic, collisional);
+  bool transfer = !m->boltzmann && !isnan(collisional.xx);
+  gg_stress total = transfer ? stress_sum(kinetic, collisional) : kinetic;
   double p = (total.xx + total.yy + total.zz) / 3;
   set_components(m, GG_Q_P_XX, total, a);
   set_components(m, GG_Q_P_XX_KINETIC, kinetic, a);
-  if (!m->boltzmann) set_components(m, GG_Q_P_XX_COLLISIONAL, collisional, a);
+  if (transfer) set_components(m, GG_Q_P_XX_COLLISIONAL, collisional, a);
   a->value[GG_Q_PRESSURE] = m->stress_unit * p;
   a->value[GG_Q_COMPRESSIBILITY] = p / (m->density * T);
   a->value[GG_Q_N1] = (total.xx - total.yy) / p;
   a->value[GG_Q_N2] = (total.yy - total.zz) / p;
   if (m->shear_rate > 0) a->value[GG_Q_SHEAR_VISCOSITY] = m->stress_unit * fabs(total.xy) / m->shear_rate;
+}
+
+void gg_answer_pressure(const gg_model *m, double T, double kinetic, double collisional, gg_theory_answer *a)
+{
+  double p = m->boltzmann ? kinetic : kinetic + collisional;
+  a->value[GG_Q_PRESSURE] = m->stress_unit * p;
+  a->value[GG_Q_COMPRESSIBILITY] = p / (m->density * T);
 }
 
 void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_answer *a)
@@ -118,17 +128,12 @@ void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_
   a->value[GG_Q_ROTATIONAL_TEMPERATURE] = ratio * T;
 }
 
-/* nu = sum_ij x_i n_j sigma_ij^2 chi_ij sqrt(8 pi (T_i/m_i + T_j/m_j)), Chapman & Cowling, sect. 5.21 and 16.2. */
 void gg_answer_collisions(const gg_model *m, const double T[GG_MAX_SPECIES], gg_theory_answer *a)
 {
   double rate = 0, speed = 0;
   for (int i = 0; i < m->n_species; i++) {
-    speed += gg_fraction(m, i) * sqrt(8 * T[i] / (M_PI * m->mass[i]));
-    for (int j = 0; j < m->n_species; j++) {
-      double nj = m->density * gg_fraction(m, j), sigma = m->sigma[2 * i + j];
-      double spread = T[i] / m->mass[i] + T[j] / m->mass[j];
-      rate += gg_fraction(m, i) * nj * sigma * sigma * m->chi[2 * i + j] * sqrt(8 * M_PI * spread);
-    }
+    speed += gg_fraction(m, i) * gg_mean_speed(m, i, T);
+    for (int j = 0; j < m->n_species; j++) rate += gg_fraction(m, i) * gg_pair_collision_rate(m, i, j, T);
   }
   a->value[GG_Q_COLLISION_RATE] = rate;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / rate;

@@ -28,14 +28,17 @@ gg_grain gg_grain_of(const gg_model *model);
 /* Enskog's small parameter phi chi, nothing in the Boltzmann limit. */
 double gg_phi_chi(const gg_model *model);
 
-/* Stress per volume; a part that a theory does not know is NaN throughout (GG_STRESS_UNKNOWN). */
+/* Stress per volume; a collisional part that a dilute theory neglects is NaN throughout. */
 typedef struct gg_stress {
   double xx, yy, zz, xy, yx;
 } gg_stress;
-#define GG_STRESS_UNKNOWN ((gg_stress){NAN, NAN, NAN, NAN, NAN})
+#define GG_STRESS_NEGLECTED ((gg_stress){NAN, NAN, NAN, NAN, NAN})
 
 /* Total, kinetic and collisional stress, pressure, Z, N1, N2, and under shear the viscosity. */
 void gg_answer_stress(const gg_model *model, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a);
+
+/* Pressure and Z of a homogeneous state, from the kinetic and the collisional part per volume. */
+void gg_answer_pressure(const gg_model *model, double T, double kinetic, double collisional, gg_theory_answer *a);
 
 /* T, and for grains that spin theta = ratio T. */
 void gg_answer_temperature(const gg_model *model, double T, double ratio, gg_theory_answer *a);

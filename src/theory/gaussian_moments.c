@@ -168,7 +168,7 @@ static double number_density(const gg_model *m, int i)
   return m->density * (double)m->n_of[i] / (double)m->n;
 }
 
-static void add_pair(const gg_model *m, const gg_gaussian state[], int i, int j, gg_vec k, double w,
+static void add_pair(const gg_model *m, const gg_gaussian *state, int i, int j, gg_vec k, double w,
                      gg_gaussian_rates *r)
 {
   int o = 2 * i + j;
@@ -184,7 +184,7 @@ static void add_pair(const gg_model *m, const gg_gaussian state[], int i, int j,
 }
 
 /* One direction; w: its solid angle. */
-static void add_direction(const gg_model *m, const gg_gaussian state[], gg_vec k, double w, gg_gaussian_rates *r)
+static void add_direction(const gg_model *m, const gg_gaussian *state, gg_vec k, double w, gg_gaussian_rates *r)
 {
   for (int i = 0; i < m->n_species; i++) {
     double spread = gg_dot(k, times(state[i].M, k));
@@ -199,7 +199,7 @@ static void drop_odd(gg_tensor *A)
   A->at[0][2] = A->at[2][0] = A->at[1][2] = A->at[2][1] = 0;
 }
 
-void gg_gaussian_rates_at(const gg_model *m, const gg_gaussian state[GG_MAX_SPECIES], gg_gaussian_rates *r)
+void gg_gaussian_rates_at(const gg_model *m, const gg_gaussian *state, gg_gaussian_rates *r)
 {
   memset(r, 0, sizeof *r);
   gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POLAR);

@@ -24,12 +24,12 @@ typedef struct gg_gaussian_rates {
   double speed[GG_MAX_SPECIES];       /* <|C|> */
 } gg_gaussian_rates;
 
-/* Smooth or rough, one or two species (not frictional); shear_rate and sizes from the model. State of a species that
- * never spins is ignored. */
-void gg_gaussian_rates_at(const gg_model *model, const gg_gaussian state[GG_MAX_SPECIES], gg_gaussian_rates *rates);
+/* Smooth or rough, one or two species (not frictional); shear_rate and sizes from the model. One state a
+ * species; the spins of one that never spins are ignored. */
+void gg_gaussian_rates_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates);
 
 /* The steady state of uniform shear: the largest residual left, of changes per mean free time (NaN: no memory). */
-double gg_gaussian_steady(const gg_model *model, gg_gaussian state[GG_MAX_SPECIES]);
+double gg_gaussian_steady(const gg_model *model, gg_gaussian *state);
 
 double gg_trace(gg_tensor A);
 

@@ -36,7 +36,7 @@ static void pack_tensor(gg_tensor A, double scale, gsl_vector *x, size_t at)
   gsl_vector_set(x, at + 3, 0.5 * log(zz));
 }
 
-static void unpack(const closure *c, const gsl_vector *x, gg_gaussian state[GG_MAX_SPECIES])
+static void unpack(const closure *c, const gsl_vector *x, gg_gaussian *state)
 {
   size_t at = 0;
   for (int i = 0; i < c->model->n_species; i++) {
@@ -50,7 +50,7 @@ static void unpack(const closure *c, const gsl_vector *x, gg_gaussian state[GG_M
   }
 }
 
-static void pack(const closure *c, const gg_gaussian state[GG_MAX_SPECIES], gsl_vector *x)
+static void pack(const closure *c, const gg_gaussian *state, gsl_vector *x)
 {
   size_t at = 0;
   for (int i = 0; i < c->model->n_species; i++) {
@@ -81,7 +81,7 @@ static void scale_tensor(gg_tensor *A, double factor)
 
 /* d/dt of all moments, streaming included, per mean free time or shear time, whichever is shorter (of spins: per time
  * in which collisions change them). */
-static void production(const gg_model *m, const gg_gaussian state[], gg_gaussian change[GG_MAX_SPECIES])
+static void production(const gg_model *m, const gg_gaussian *state, gg_gaussian change[GG_MAX_SPECIES])
 {
   gg_gaussian_rates r;
   gg_gaussian_rates_at(m, state, &r);
@@ -195,7 +195,7 @@ static size_t unknowns(const gg_model *m)
   return n;
 }
 
-double gg_gaussian_steady(const gg_model *model, gg_gaussian state[GG_MAX_SPECIES])
+double gg_gaussian_steady(const gg_model *model, gg_gaussian *state)
 {
   closure c = {.model = model};
   size_t size = unknowns(model);

@@ -46,6 +46,18 @@ static inline gg_model model_for(gg_flow flow, double phi, double e, double beta
   return model_of(&s);
 }
 
+/* Two species: mass ratio m1/m2, diameter ratio d1/d2, n1/n2, one e and beta for all pairs; in units of species 1. */
+static inline gg_model mixture_for(gg_flow flow, double phi, double e, double beta, double mass, double size,
+                                   double number)
+{
+  gg_scene s = scene_of(flow, phi, e, beta);
+  s.n_species = 2;
+  s.species[0] = (gg_species){number / (1 + number), 1, 1, 0.4};
+  s.species[1] = (gg_species){1 / (1 + number), 1 / size, 1 / mass, 0.4};
+  s.dsmc.particles = 600000; /* so that fractions in thirds and halves are exact */
+  return model_of(&s);
+}
+
 static inline gg_theory_answer answer_of(const gg_theory *theory, const gg_model *m)
 {
   gg_theory_answer a;

@@ -1,0 +1,68 @@
+/* Which models the engine runs, and what it switches on for them. */
+#include <math.h>
+#include <stdio.h>
+
+#include "md/accept.h"
+
+static gg_status check_box(const gg_model *m, gg_error *err)
+{
+  double widest = fmax(m->diameter[0], m->n_species > 1 ? m->diameter[1] : 0), least = 2 * widest * (1 + 1e-9);
+  for (int a = 0; a < 3; a++) {
+    if (m->box[a] >= least) continue;
+    double shrink = least / m->box[a], cube = shrink * shrink * shrink;
+    return gg_fail(
+        err, GG_BAD_INPUT,
+        "particles: with particles = %lld and phi = %g the box edge along %c is %.4g diameters; a grain would "
+        "meet two images of another below %.4g. Allowed here: particles >= %.0f, or phi <= %.4g",
+        (long long)m->n, m->phi, "xyz"[a], m -> box[a] / m -> diameter[0], least / m -> diameter[0],
+        ceil((double)m->n * cube), m -> phi / cube);
+  }
+  return GG_OK;
+}
+
+gg_status gg_md_accepts(const gg_model *m, gg_error *err)
+{
+  if (m->boltzmann)
+    return gg_fail(err, GG_BAD_INPUT, "phi: event-driven dynamics needs phi > 0; phi = 0 is for engine: dsmc");
+  if (m->phi > 0.6)
+    return gg_fail(err, GG_BAD_INPUT, "phi: %g is too dense for a start without overlaps; allowed: up to 0.6", m->phi);
+  if (m->n < 2) return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at least 2 are needed", (long long)m->n);
+  if (m->n > INT32_MAX / 4)
+    return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at most %d", (long long)m->n, INT32_MAX / 4);
+  if (m->thermostat != GG_NO_THERMOSTAT && m->flow != GG_HSS)
+    return gg_fail(err, GG_BAD_INPUT, "thermostat: with engine: md only in flow: hss");
+  bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
+  if (falls && !m->walled)
+    return gg_fail(err, GG_BAD_INPUT, "gravity: only in flows between walls: couette, poiseuille, chute");
+  if (m->open_top && m->gravity[1] >= 0)
+    return gg_fail(err, GG_BAD_INPUT,
+                   "walls.open_top: needs gravity towards the lower wall: gravity: [gx, gy < 0, gz]");
+  return check_box(m, err);
+}
+
+static void tell(void (*line)(void *, const char *), void *context, const char *what, const char *how)
+{
+  char text[200];
+  snprintf(text, sizeof text, "%s: %s", what, how);
+  line(context, text);
+}
+
+void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
+{
+  static const char *const rules[] = {"smooth: no spins, no tangential impulse", "rough, constant beta",
+                                      "frictional (Coulomb)"};
+  char timing[100];
+  tell(line, context, "contact", rules[m->rule]);
+  const char *walls =
+      m->open_top ? "a lower wall, open above, periodic in x and z" : "walls below and above, periodic in x and z";
+  tell(line, context, "box",
+       m->walled            ? walls
+       : m->shear_rate != 0 ? "periodic, Lees-Edwards shear"
+                            : "periodic, no shear");
+  bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
+  tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
+  tell(line, context, "species", m->n_species > 1 ? "two: coefficients by pair" : "one: coefficients fixed");
+  snprintf(timing, sizeof timing, "on, t_c = %g mean free times", m->contact_time);
+  tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
+  tell(line, context, "collision tap", "while stresses are measured; else only counts");
+}

@@ -1,0 +1,78 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "dsmc/thermostat.h"
+#include "md/state.h"
+
+/* Hot records on cache lines; zeroed. */
+static void *new_lines(size_t count, size_t size, gg_error *err)
+{
+  size_t bytes = (count * size + 63) / 64 * 64;
+  void *block = aligned_alloc(64, bytes ? bytes : 64);
+  if (!block) {
+    gg_fail(err, GG_FAILED, "out of memory: %zu grains of %zu bytes were asked for", count, size);
+    return NULL;
+  }
+  memset(block, 0, bytes);
+  return block;
+}
+
+static gg_status allocate(gg_md *e, gg_error *err)
+{
+  const gg_model *m = &e->model;
+  e->n = (uint32_t)m->n;
+  e->grain = new_lines(e->n, sizeof *e->grain, err);
+  e->node = new_lines(e->n, sizeof *e->node, err);
+  e->id = gg_new_array(e->n, sizeof *e->id, err);
+  if (!e->grain || !e->node || !e->id) return GG_FAILED;
+  if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
+  if (m->contact_time > 0 && !(e->last = gg_new_array(e->n, sizeof *e->last, err))) return GG_FAILED;
+  return gg_queue_make(&e->queue, e->n, err);
+}
+
+gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
+{
+  e->shell = new_lines(e->n, sizeof *e->shell, err);
+  e->neighbour = new_lines(e->n, GG_LIST * sizeof *e->neighbour, err);
+  return e->shell && e->neighbour ? GG_OK : GG_FAILED;
+}
+
+gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
+{
+  gg_md *e = gg_new_array(1, sizeof *e, err);
+  if (!e) return GG_FAILED;
+  e->base.ops = &gg_md_ops;
+  e->model = *model;
+  for (int a = 0; a < 3; a++) {
+    e->box.edge[a] = model->box[a];
+    e->box.inverse[a] = 1 / model->box[a];
+  }
+  if (model->walled) e->box.inverse[1] = 0; /* no image across a wall */
+  e->box.slide = model->shear_rate * model->box[1];
+  e->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
+  e->falls = gg_dot(e->gravity, e->gravity) > 0;
+  e->thermostat = gg_thermostat_of(model);
+  e->noise = e->thermostat == GG_WHITE_NOISE ? gg_thermostat_noise(model) : 0;
+  gg_status status = allocate(e, err);
+  if (status != GG_OK) {
+    gg_md_free(e);
+    return status;
+  }
+  *engine = e;
+  return GG_OK;
+}
+
+void gg_md_free(gg_md *e)
+{
+  if (!e) return;
+  gg_queue_free(&e->queue);
+  gg_cells_free(&e->cells);
+  free(e->grain);
+  free(e->node);
+  free(e->spin);
+  free(e->last);
+  free(e->shell);
+  free(e->neighbour);
+  free(e->id);
+  free(e);
+}

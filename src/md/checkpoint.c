@@ -1,0 +1,74 @@
+/* Everything needed to go on bit for bit: the records as they are. Chains of cells and calendar are made anew: their
+ * order never matters. */
+#include "md/checkpoint.h"
+
+#include <string.h>
+
+/* What stands beside the arrays, in one plain block. */
+typedef struct block {
+  gg_md_counts counts;
+  double offset0, bucket_width;
+  uint32_t current_bucket;
+  int32_t cells[3];
+} block;
+
+static gg_status put(gg_archive *a, const char *name, const void *data, size_t bytes, gg_error *err)
+{
+  return gg_archive_put(a, name, GG_ITEM_U8, data, bytes, err);
+}
+
+gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
+{
+  const gg_md *e = (const gg_md *)engine;
+  block b;
+  memset(&b, 0, sizeof b);
+  b.counts = e->k;
+  b.offset0 = e->box.offset0;
+  b.bucket_width = e->queue.width;
+  b.current_bucket = e->queue.current;
+  memcpy(b.cells, e->cells.n, sizeof b.cells);
+  GG_TRY(put(a, "md/state", &b, sizeof b, err));
+  GG_TRY(put(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
+  GG_TRY(put(a, "md/events", e->node, e->n * sizeof *e->node, err));
+  GG_TRY(put(a, "md/id", e->id, e->n * sizeof *e->id, err));
+  if (e->spin) GG_TRY(put(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
+  if (e->last) GG_TRY(put(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
+  return GG_OK;
+}
+
+static gg_status get(const gg_archive *a, const char *name, void *data, size_t bytes, gg_error *err)
+{
+  return gg_archive_get(a, name, GG_ITEM_U8, data, bytes, err);
+}
+
+static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
+{
+  block b;
+  GG_TRY(get(a, "md/state", &b, sizeof b, err));
+  GG_TRY(get(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
+  GG_TRY(get(a, "md/events", e->node, e->n * sizeof *e->node, err));
+  GG_TRY(get(a, "md/id", e->id, e->n * sizeof *e->id, err));
+  if (e->spin) GG_TRY(get(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
+  if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
+  e->k = b.counts;
+  e->box.offset0 = b.offset0;
+  GG_TRY(gg_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model), err));
+  gg_md_chain_grid(e);
+  gg_queue_reset(&e->queue, b.bucket_width);
+  e->queue.current = b.current_bucket;
+  for (uint32_t i = 0; i < e->n; i++) gg_queue_insert(&e->queue, e->node, i);
+  gg_md_select(e);
+  return GG_OK;
+}
+
+gg_status gg_md_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
+{
+  gg_md *e;
+  GG_TRY(gg_md_allocate(model, &e, err));
+  gg_status status = load(e, archive, err);
+  if (status == GG_OK)
+    *engine = &e->base;
+  else
+    gg_md_free(e);
+  return status;
+}

@@ -1,0 +1,167 @@
+/* The engine behind the interface that all engines share. */
+#include <math.h>
+#include <string.h>
+
+#include "md/accept.h"
+#include "md/checkpoint.h"
+#include "md/thermostat.h"
+
+/* Events expected per time at the start: collisions (each predicted about 1.25 times) and crossings. */
+static double guess_event_rate(const gg_md *e)
+{
+  double T = e->model.temperature0, rate = 0.625 * gg_model_collision_rate(&e->model, T);
+  for (int a = 0; a < 3; a++) rate += 0.8 * sqrt(T) / e->cells.width[a];
+  return e->n * fmax(rate, 1e-300);
+}
+
+/* From places and velocities to a run that can go on. */
+gg_status gg_md_begin(gg_md *e, gg_error *err)
+{
+  if (!e->cells.head) GG_TRY(gg_md_make_grid(e, err));
+  if (e->shell) {
+    gg_md_build_lists(e);
+  } else {
+    gg_md_enter_grid(e);
+    gg_md_chain_grid(e);
+  }
+  e->k.free_time = 1 / fmax(gg_model_collision_rate(&e->model, e->model.temperature0), 1e-300);
+  e->k.contact_time = e->model.contact_time * e->k.free_time;
+  if (e->last)
+    for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
+  gg_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e)));
+  gg_md_select(e);
+  gg_md_thermostat_begin(e);
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->node[i].time = INFINITY;
+    gg_queue_insert(&e->queue, e->node, i);
+  }
+  e->predict_all(e);
+  return GG_OK;
+}
+
+static void destroy(gg_engine *engine)
+{
+  gg_md_free((gg_md *)engine);
+}
+
+static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
+{
+  gg_md *e;
+  GG_TRY(gg_md_accepts(model, err));
+  GG_TRY(gg_md_allocate(model, &e, err));
+  gg_status status = gg_md_start(e, seed, stream, err);
+  if (status == GG_OK) status = gg_md_begin(e, err);
+  if (status == GG_OK)
+    *engine = &e->base;
+  else
+    gg_md_free(e);
+  return status;
+}
+
+/* Outside time since the present advance began. */
+static double outer_now(const gg_md *e)
+{
+  return e->k.outer + (e->k.now - e->k.mark) / e->k.scale;
+}
+
+/* Events with kicks in between: each kick stops the loop at its time. e->stop moves with the epochs, so what the kick
+ * cuts off is kept as a difference. */
+static void go_on_with_kicks(gg_md *e)
+{
+  double beyond = e->stop - e->k.next_kick;
+  while (beyond >= 0) {
+    e->stop = e->k.next_kick;
+    e->motion(e);
+    if (!e->collisions_left) return;
+    e->k.now = e->k.next_kick;
+    gg_md_thermostat_kick(e);
+    beyond -= e->k.next_kick - e->k.now;
+  }
+  e->stop = e->k.next_kick + beyond;
+  e->motion(e);
+}
+
+/* A run stands at the end of the advance, or at the last collision allowed to it. */
+static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  if (!(dt >= 0)) return gg_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
+  e->k.outer = 0;
+  e->k.mark = e->k.now;
+  e->outer_stop = dt;
+  e->stop = e->k.now + dt * e->k.scale;
+  e->collisions_left = max_collisions;
+  if (e->thermostat == GG_WHITE_NOISE)
+    go_on_with_kicks(e);
+  else
+    e->motion(e);
+  bool whole = e->collisions_left && e->stop < INFINITY;
+  if (whole) e->k.now = e->stop;
+  double gone = whole ? dt : outer_now(e);
+  e->k.outer_time += gone;
+  if (elapsed) *elapsed = gone;
+  return GG_OK;
+}
+
+static void tap(gg_engine *engine, bool open)
+{
+  gg_md *e = (gg_md *)engine;
+  e->k.tap_open = open;
+  gg_md_select(e);
+}
+
+static void read_tap(gg_engine *engine, gg_transfer *transfer)
+{
+  gg_md *e = (gg_md *)engine;
+  *transfer = e->k.transfer;
+  memset(&e->k.transfer, 0, sizeof e->k.transfer);
+}
+
+static void state(const gg_engine *engine, gg_engine_state *s)
+{
+  const gg_md *e = (const gg_md *)engine;
+  *s = (gg_engine_state){.time = e->thermostat == GG_GAUSSIAN ? e->k.outer_time : e->k.epoch_start + e->k.now,
+                         .collisions = e->k.collisions,
+                         .events = e->k.events,
+                         .treated = e->k.treated,
+                         .worst_overlap = e->k.worst_overlap};
+}
+
+/* Everything that has a dimension of time or velocity, by exact powers of two. */
+static gg_status rescale(gg_engine *engine, int power, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  if (e->model.shear_rate != 0 || e->model.walled || e->model.flow == GG_HSS)
+    return gg_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
+  double v = ldexp(1, power), t = ldexp(1, -power);
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->grain[i].v = gg_scale(v, e->grain[i].v);
+    e->grain[i].t *= t;
+    e->node[i].time *= t;
+    e->node[i].collision *= t;
+    if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
+    if (e->last) e->last[i] *= t;
+    if (e->shell) e->shell[i].built *= t;
+  }
+  gg_queue_rescale(&e->queue, t);
+  double *times[] = {&e->k.now, &e->k.epoch_start, &e->k.contact_time, &e->k.free_time, &e->k.window_time, &e->k.mark};
+  for (size_t k = 0; k < sizeof times / sizeof *times; k++) *times[k] *= t;
+  return GG_OK;
+}
+
+const gg_engine_ops gg_md_ops = {
+    .name = "md",
+    .doc = "event-driven molecular dynamics of hard spheres",
+    .accepts = gg_md_accepts,
+    .create = create,
+    .destroy = destroy,
+    .advance = advance,
+    .tap = tap,
+    .read_tap = read_tap,
+    .state = state,
+    .snapshot = gg_md_snapshot,
+    .rescale = rescale,
+    .save = gg_md_save,
+    .restore = gg_md_restore,
+    .describe = gg_md_describe,
+};

@@ -1,0 +1,101 @@
+/* The end of an epoch: every grain is brought to it, all times are re-zeroed there, and what was tuned to the rate of
+ * events (the calendar's buckets, the contact time) is tuned anew. It comes when the calendar runs out, a matter of the
+ * trajectory alone: never of how a caller cuts a run. */
+#include <math.h>
+
+#include "md/thermostat.h"
+
+enum { EVENTS_PER_BUCKET = 16, COLLISIONS_TO_MEASURE = 16 };
+
+/* A power of two, so that spans of whole buckets subtract exactly. */
+double gg_md_bucket_width(double events_per_time)
+{
+  double width = EVENTS_PER_BUCKET / events_per_time;
+  int exponent;
+  frexp(width, &exponent);
+  return ldexp(1, exponent - 1);
+}
+
+/* The present mean free time per grain: each collision counts for both partners. */
+static void measure_free_time(gg_md *e, double span)
+{
+  gg_md_counts *k = &e->k;
+  k->window_time += span;
+  if (k->window_collisions < COLLISIONS_TO_MEASURE) return;
+  double old = k->free_time;
+  k->free_time = k->window_time * e->n / (2.0 * (double)k->window_collisions);
+  k->contact_time *= k->free_time / old;
+  k->window_time = 0;
+  k->window_collisions = 0;
+}
+
+/* A gas that cools forever cools below the rounding of its own mean velocity, which must not take over: the frame
+ * follows it. Relative motion, and so every predicted collision, stays as it is. */
+static void follow_drift(gg_md *e)
+{
+  gg_vec momentum = {0, 0, 0};
+  double mass = 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    double m = e->model.mass[gg_species_of(&e->grain[i])];
+    momentum = gg_axpy(m, e->grain[i].v, momentum);
+    mass += m;
+  }
+  for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
+}
+
+static double earliest_event(const gg_md *e)
+{
+  double t = INFINITY;
+  for (uint32_t i = 0; i < e->n; i++)
+    if (e->node[i].time < t) t = e->node[i].time;
+  return t;
+}
+
+/* Shells under shear are kept by where they stand at the epoch's start. */
+static void move_shells(gg_md *e, double span)
+{
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_vec *c = &e->shell[i].centre;
+    double x = c->x + e->model.shear_rate * (c->y - 0.5 * e->box.edge[1]) * span;
+    c->x = gg_wrap(x, e->box.edge[0], e->box.inverse[0]);
+  }
+  gg_md_enter_grid(e);
+  gg_md_chain_grid(e);
+}
+
+bool gg_md_next_epoch(gg_md *e)
+{
+  double span = gg_queue_span(&e->queue), wait = earliest_event(e);
+  if (!(wait < INFINITY)) return false;
+  while (span < 0.5 * wait) span *= 2; /* nothing happens for long: skip it */
+  e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;
+  measure_free_time(e, span);
+  e->box.offset0 = gg_offset(&e->box, span);
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_grain *g = &e->grain[i];
+    g->r = gg_position(e, e->falls, g, span);
+    g->v = gg_velocity(e, e->falls, g, span);
+    g->t = 0;
+    e->node[i].time -= span;
+    e->node[i].collision -= span;
+    if (e->last) e->last[i] -= span;
+    if (e->shell) e->shell[i].built -= span;
+  }
+  if (e->shell && e->model.shear_rate != 0) move_shells(e, span);
+  e->k.epoch_start += span;
+  e->k.now -= span;
+  e->k.mark -= span;
+  e->k.next_kick -= span;
+  e->stop -= span;
+  if (e->model.flow == GG_HCS || e->model.flow == GG_HSS) follow_drift(e);
+  if (e->thermostat == GG_GAUSSIAN) {
+    span /= e->k.scale;
+    gg_md_thermostat_fold(e);
+  }
+  double events = (double)(e->k.events - e->k.epoch_events);
+  gg_queue_reset(&e->queue, gg_md_bucket_width(fmax(events, 1) / span));
+  for (uint32_t i = 0; i < e->n; i++) gg_queue_insert(&e->queue, e->node, i);
+  e->k.epoch_events = e->k.events;
+  e->k.epoch_collisions = e->k.collisions;
+  return true;
+}

@@ -1,0 +1,108 @@
+/* What a contact does to its grains: the collision rule, the contact-time rule and the tap. One always-inlined body
+ * with constant features; kernels.c makes the instances. */
+#ifndef GG_MD_IMPACT_H
+#define GG_MD_IMPACT_H
+
+#include <math.h>
+
+#include "md/state.h"
+
+typedef struct gg_impact_features {
+  gg_rule rule;
+  bool mixture, contact_time, tap;
+  bool gaussian; /* thermostat: the energy that goes is returned by a slower clock */
+} gg_impact_features;
+
+/* Contact-time rule: a grain that collided less than t_c ago is still "in contact", and collides with e = 1, so that an
+ * inelastic collapse ends in finite time (Luding & McNamara, Granular Matter 1 (1998) 113). */
+GG_INLINE bool gg_is_treated(gg_md *e, uint32_t i, uint32_t j)
+{
+  double now = e->k.now, limit = e->k.contact_time;
+  bool treated = now - e->last[i] < limit || now - e->last[j] < limit;
+  e->last[i] = e->last[j] = now;
+  e->k.treated += treated;
+  return treated;
+}
+
+GG_INLINE void gg_tap_pair(gg_transfer *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
+{
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) t->stress[pair][a][b] += sigma * gg_along(&k, a) * gg_along(&J, b);
+  t->loss[pair] += loss;
+}
+
+/* Gaussian thermostat: outside, the kinetic energy stays what it is: velocities there are larger by a factor that grows
+ * with every loss, and the clock slower by it. */
+GG_INLINE void gg_return_energy(gg_md *e, double lost)
+{
+  gg_md_counts *k = &e->k;
+  k->outer += (k->now - k->mark) / k->scale;
+  k->mark = k->now;
+  k->kinetic -= lost;
+  k->scale = sqrt(k->kinetic0 / k->kinetic);
+  e->stop = k->now + (e->outer_stop - k->outer) * k->scale;
+}
+
+/* Kinetic energy lost, from the changes of velocity. */
+GG_INLINE double gg_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was2, gg_vec is1, gg_vec is2)
+{
+  double one = gg_dot(gg_sub(was1, is1), gg_add(was1, is1)), two = gg_dot(gg_sub(was2, is2), gg_add(was2, is2));
+  return 0.5 * (one / c->im1 + two / c->im2);
+}
+
+GG_INLINE void gg_impact_pair(gg_md *e, gg_impact_features f, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
+{
+  gg_grain *one = &e->grain[i], *two = &e->grain[j];
+  int a = f.mixture ? gg_species_of(one) : 0, b = f.mixture ? gg_species_of(two) : 0, pair = f.mixture ? 2 * a + b : 0;
+  const gg_contact *contact = &e->model.contact[pair];
+  if (f.contact_time && gg_is_treated(e, i, j)) contact = &e->model.treated[pair];
+  double distance = sqrt(gg_dot(dr, dr)), sigma = e->model.sigma[pair];
+  if (sigma - distance > e->k.worst_overlap) e->k.worst_overlap = sigma - distance;
+  gg_vec k = gg_scale(1 / distance, dr);
+  gg_vec none = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i],
+         *s2 = f.rule == GG_SMOOTH ? &none : &e->spin[j];
+  gg_vec g = gg_contact_velocity(f.rule, k, c12, *s1, *s2);
+  gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
+  gg_vec v1 = one->v, v2 = two->v;
+  gg_kick(f.rule, contact, k, J, &one->v, s1, &two->v, s2);
+  double scale = f.gaussian ? e->k.scale : 1;
+  e->k.transfer.collisions[a + b]++;
+  if (f.tap) gg_tap_pair(&e->k.transfer, a + b, sigma * scale, k, J, gg_energy_loss(contact, k, g, J) * scale * scale);
+  if (f.gaussian) gg_return_energy(e, gg_kinetic_loss(contact, v1, v2, one->v, two->v));
+}
+
+/* A grain that rests on a wall by gravity would collide infinitely often in finite time. With the contact-time rule on,
+ * it leaves at least so fast that gravity brings it back no sooner than after t_c. */
+GG_INLINE double gg_least_speed(const gg_md *e, bool contact_time, double towards)
+{
+  return contact_time && towards > 0 ? 0.5 * towards * e->k.contact_time : 0;
+}
+
+/* The same rule with a partner of infinite mass without spin. */
+GG_INLINE void gg_impact_wall(gg_md *e, gg_impact_features f, uint32_t i, int upper)
+{
+  gg_grain *one = &e->grain[i];
+  int a = gg_species_of(one);
+  const gg_contact *contact = &e->model.wall[a];
+  if (f.contact_time && gg_is_treated(e, i, i)) contact = &e->model.wall_treated[a];
+  double side = upper ? 1 : -1, gap = upper ? e->box.edge[1] - one->r.y : one->r.y;
+  double overlap = 0.5 * e->model.diameter[a] - gap;
+  if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
+  gg_vec k = {0, side, 0}, wall = {side * e->model.wall_speed, 0, 0}, none = {0, 0, 0};
+  gg_vec wall_v = wall, still = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i];
+  gg_vec g = gg_contact_velocity(f.rule, k, gg_sub(one->v, wall), *s1, still);
+  gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
+  gg_kick(f.rule, contact, k, J, &one->v, s1, &wall_v, &still);
+  double least = gg_least_speed(e, f.contact_time, side * e->gravity.y);
+  if (-side * one->v.y < least) {
+    J.y += side * (least + side * one->v.y) / contact->im1;
+    one->v.y = -side * least;
+  }
+  gg_transfer *t = &e->k.transfer;
+  t->wall_collisions++;
+  if (!f.tap) return;
+  for (int c = 0; c < 3; c++) t->wall_impulse[upper][c] += gg_along(&J, c);
+  t->wall_loss += gg_energy_loss(contact, k, g, J);
+}
+
+#endif

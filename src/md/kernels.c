@@ -1,0 +1,96 @@
+/* The instances of the event loop and of the contacts, and which of them a scene needs. */
+#include <assert.h>
+
+#include "md/impact.h"
+#include "md/kernels.h"
+#include "md/loop.h"
+
+#define MOTION(name, ...)                                                                                              \
+  static void run_##name(gg_md *e) { gg_loop(e, (gg_features){__VA_ARGS__}); }                                         \
+  static void all_##name(gg_md *e) { gg_forecast_all(e, (gg_features){__VA_ARGS__}); }
+#define MOTIONS(name, ...)                                                                                             \
+  MOTION(name, __VA_ARGS__)                                                                                            \
+  MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
+MOTIONS(periodic, .sheared = false)
+MOTIONS(sheared, .sheared = true)
+MOTIONS(walled, .walled = true)
+MOTIONS(falling, .walled = true, .gravity = true)
+
+#define ROW(name) {{run_##name, all_##name}, {run_##name##_mixture, all_##name##_mixture}}
+enum boundary { PERIODIC, SHEARED, WALLED, FALLING };
+static const gg_kernel plain[][2] = {
+    [PERIODIC] = ROW(periodic), [SHEARED] = ROW(sheared), [WALLED] = ROW(walled), [FALLING] = ROW(falling)};
+#undef ROW
+
+#define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
+  static void rule##_##mixture##contact_time##tap##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)   \
+  {                                                                                                                    \
+    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap, gaussian}, i, j, dr, c12);                \
+  }
+#define FOUR(rule, mixture, contact_time)                                                                              \
+  IMPACT(rule, mixture, contact_time, 0, 0)                                                                            \
+  IMPACT(rule, mixture, contact_time, 0, 1)                                                                            \
+  IMPACT(rule, mixture, contact_time, 1, 0)                                                                            \
+  IMPACT(rule, mixture, contact_time, 1, 1)
+#define WALL(rule, contact_time, tap)                                                                                  \
+  static void rule##_wall##contact_time##tap(gg_md *e, uint32_t i, int upper)                                          \
+  {                                                                                                                    \
+    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false}, i, upper);                           \
+  }
+#define INSTANCES(rule)                                                                                                \
+  FOUR(rule, 0, 0)                                                                                                     \
+  FOUR(rule, 0, 1) FOUR(rule, 1, 0) FOUR(rule, 1, 1) WALL(rule, 0, 0) WALL(rule, 0, 1) WALL(rule, 1, 0) WALL(rule, 1, 1)
+INSTANCES(GG_SMOOTH)
+INSTANCES(GG_ROUGH)
+INSTANCES(GG_FRICTIONAL)
+
+/* By rule, mixture, contact time, tap, Gaussian thermostat. */
+#define PAIR(x)                                                                                                        \
+  {                                                                                                                    \
+    {x##00, x##01},                                                                                                    \
+    {                                                                                                                  \
+      x##10, x##11                                                                                                     \
+    }                                                                                                                  \
+  }
+#define ROW(rule)                                                                                                      \
+  {                                                                                                                    \
+    {PAIR(rule##_00), PAIR(rule##_01)},                                                                                \
+    {                                                                                                                  \
+      PAIR(rule##_10), PAIR(rule##_11)                                                                                 \
+    }                                                                                                                  \
+  }
+static gg_impact *const impacts[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+#undef ROW
+#define ROW(rule) PAIR(rule##_wall)
+static gg_wall_impact *const wall_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+
+static enum boundary boundary_of(const gg_md *e)
+{
+  if (e->model.shear_rate != 0) return SHEARED;
+  if (e->falls) return FALLING;
+  return e->model.walled ? WALLED : PERIODIC;
+}
+
+void gg_md_select(gg_md *e)
+{
+  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
+  gg_rule rule = e->model.rule;
+  assert((rule != GG_SMOOTH) == (e->spin != NULL));
+  gg_kernel kernel = plain[boundary_of(e)][mixture];
+  if (e->shell) kernel = gg_md_wide_kernel(e->model.shear_rate != 0, mixture);
+  e->motion = kernel.run;
+  e->predict_all = kernel.predict_all;
+  e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
+  e->wall_impact = wall_impacts[rule][timed][tap];
+}
+
+gg_kernel gg_md_wide_kernel(bool sheared, bool mixture)
+{
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512bw"))
+    return gg_md_listed_avx512(sheared, mixture);
+  if (__builtin_cpu_supports("avx2")) return gg_md_listed_avx2(sheared, mixture);
+#endif
+  return gg_md_listed_any(sheared, mixture);
+}

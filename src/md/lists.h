@@ -1,0 +1,191 @@
+/* Neighbour lists for dense systems: who can be met before one of both leaves its shell.
+ *
+ * Each grain has a shell of radius s around where it stood when its list was made; the list holds everybody whose
+ * shell centre then lay within rho = sigma + 2 s of its own, and is symmetric. While two grains that are not listed stay
+ * in their shells they cannot touch. A grain that leaves its shell gets a new one, and lists are mended.
+ *
+ * Under shear the centres move with the flow at their height, and shells shrink at the rate kappa = shear_rate rho/4:
+ * two centres at a distance R approach at most at shear_rate R/2, so what holds at the making holds until the exit. A
+ * centre is kept by where it stood at the epoch's start, which does not change: the cells of the centres are at rest.
+ *
+ * Predictions take the whole list, eight at a time. */
+#ifndef GG_MD_LISTS_H
+#define GG_MD_LISTS_H
+
+#include "md/batch.h"
+#include "md/scan.h"
+
+GG_INLINE uint32_t *gg_list(const gg_md *e, uint32_t i) { return e->neighbour + (size_t)i * GG_LIST; }
+
+/* Where shell i's centre is at the present time. */
+GG_INLINE gg_vec gg_centre(const gg_md *e, gg_features f, uint32_t i)
+{
+  gg_vec c = e->shell[i].centre;
+  if (f.sheared) c.x += e->model.shear_rate * (c.y - 0.5 * e->box.edge[1]) * e->k.now;
+  return c;
+}
+
+/* When the grain leaves its shell: |dr + dv t| = s - kappa t, root without cancellation. */
+GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const gg_grain *g)
+{
+  gg_vec centre = gg_centre(e, f, i), dr = gg_sub(g->r, centre), dv = g->v;
+  double radius = e->shell_radius, kappa = f.sheared ? e->shrinkage : 0;
+  if (f.sheared) {
+    dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);
+    radius -= kappa * (e->k.now - e->shell[i].built);
+  }
+  double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
+  double c = gg_dot(dr, dr) - radius * radius;
+  if (!(c < 0) || radius < 0) return e->k.now;
+  double root = sqrt(b * b - a * c);
+  double delay = b > 0 ? -c / (b + root) : a > 0 ? (root - b) / a : INFINITY;
+  return e->k.now + delay;
+}
+
+/* The earliest contact with the grains of the list. */
+GG_INLINE void gg_scan_list(const gg_md *e, gg_features f, gg_search *s)
+{
+  const gg_grain *g = s->self;
+  const uint32_t *list = gg_list(e, s->grain);
+  uint32_t count = e->node[s->grain].neighbours;
+  double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0, now = e->k.now;
+  const double *L = e->box.edge, *inverse = e->box.inverse, *sigma = e->model.sigma;
+  int species = f.mixture ? gg_species_of(g) : 0;
+  gg_v8 first = gg_all(INFINITY);
+  gg_m8 with = (gg_m8){0} - 1;
+  for (uint32_t k = 0; k < count; k += GG_BATCH) {
+    gg_batch b = gg_gather(e->grain, list + k);
+    gg_v8 dt = now - b.t;
+    gg_v8 x = b.x + dt * b.vx - g->r.x, y = b.y + dt * b.vy - g->r.y, z = b.z + dt * b.vz - g->r.z;
+    gg_v8 vx = b.vx - g->v.x, vy = b.vy - g->v.y, vz = b.vz - g->v.z;
+    gg_v8 layers = gg_nearest8(y * inverse[1]);
+    y -= L[1] * layers;
+    if (f.sheared) {
+      x -= layers * offset;
+      vx -= layers * e->box.slide;
+    }
+    x -= L[0] * gg_nearest8(x * inverse[0]);
+    z -= L[2] * gg_nearest8(z * inverse[2]);
+    gg_v8 sigma2 = gg_all(sigma[0] * sigma[0]);
+    if (f.mixture) {
+      gg_m8 second = -((gg_m8)b.tag & 1);
+      double s0 = sigma[2 * species], s1 = sigma[2 * species + 1];
+      sigma2 = gg_choose(second, gg_all(s1 * s1), gg_all(s0 * s0));
+    }
+    gg_v8 t = now + gg_contact_delay8(x, y, z, vx, vy, vz, sigma2);
+    gg_m8 who = __builtin_convertvector(*(const gg_list8 *)(list + k), gg_m8);
+    gg_m8 sooner = (t < first) | ((t == first) & (who < with));
+    first = gg_choose(sooner, t, first);
+    with = (who & sooner) | (with & ~sooner);
+  }
+  for (int l = 0; l < GG_BATCH; l++)
+    if (first[l] < s->collision || (first[l] == s->collision && first[l] < INFINITY && with[l] < s->partner)) {
+      s->collision = first[l];
+      s->partner = (uint32_t)with[l];
+    }
+}
+
+/* Everybody whose centre lies within rho of shell i's: ids into found[], no more than GG_LIST + 1 of them. */
+GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, uint32_t *found)
+{
+  const gg_cells *c = &e->cells;
+  const int32_t *at = e->node[i].cell;
+  gg_vec centre = e->shell[i].centre;
+  double rho = c->reach, strain = f.sheared ? e->model.shear_rate * e->k.now : 0;
+  uint32_t count = 0;
+  for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
+    for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) {
+      gg_vec shift = {0, 0, 0};
+      int32_t iy = gg_image_cell(e, 1, y, &shift.y), iz = gg_image_cell(e, 2, z, &shift.z);
+      if (f.sheared) shift.x = shift.y > 0 ? e->box.offset0 : shift.y < 0 ? -e->box.offset0 : 0;
+      double below = y * c->width[1] - centre.y, above = (y + 1) * c->width[1] - centre.y;
+      if (below < -rho) below = -rho;
+      if (above > rho) above = rho;
+      int32_t from = (int32_t)gg_floor((centre.x - rho - strain * above - shift.x) * c->inverse[0]);
+      int32_t to = (int32_t)gg_floor((centre.x + rho - strain * below - shift.x) * c->inverse[0]);
+      if (to - from >= c->n[0]) to = from + c->n[0] - 1;
+      const uint32_t *row = c->head + gg_cell_index(c, (int32_t[3]){0, iy, iz});
+      for (int32_t k = from; k <= to; k++) {
+        int32_t x = k;
+        while (x < 0) x += c->n[0];
+        while (x >= c->n[0]) x -= c->n[0];
+        for (uint32_t j = row[x]; j != GG_NONE; j = e->grain[j].next) {
+          gg_vec dr = gg_add(gg_sub(e->shell[j].centre, centre), shift);
+          if (f.sheared) dr.x += strain * dr.y;
+          dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]);
+          double reach = e->pair_reach[f.mixture ? gg_species_of(&e->grain[i]) + gg_species_of(&e->grain[j]) : 0];
+          if (gg_dot(dr, dr) < reach * reach && j != i && count <= GG_LIST) found[count++] = j;
+        }
+      }
+    }
+  return count;
+}
+
+/* The shell of grain i anew, around where it now is: image in the box, centre, cell (not yet in the chains). */
+GG_INLINE void gg_new_shell(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_grain *g = gg_settle(e, f, i);
+  gg_node *node = &e->node[i];
+  gg_shell *shell = &e->shell[i];
+  double layers = gg_floor(g->r.y * e->box.inverse[1]);
+  g->r.y -= layers * e->box.edge[1];
+  if (f.sheared && layers != 0) {
+    g->r.x -= layers * gg_offset(&e->box, e->k.now);
+    g->v.x -= layers * e->box.slide;
+  }
+  g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
+  g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
+  gg_vec centre = g->r;
+  if (f.sheared) {
+    centre.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]) * e->k.now;
+    centre.x = gg_wrap(centre.x, e->box.edge[0], e->box.inverse[0]);
+  }
+  *shell = (gg_shell){centre, e->k.now};
+  gg_md_cell_of(&e->cells, centre, node->cell);
+}
+
+GG_INLINE void gg_list_clear(gg_md *e, uint32_t i)
+{
+  uint32_t *list = gg_list(e, i);
+  for (int k = 0; k < GG_LIST; k++) list[k] = i;
+  e->node[i].neighbours = 0;
+}
+
+/* Beyond its end a list holds the grain itself, which it never meets. */
+GG_INLINE bool gg_list_add(gg_md *e, uint32_t i, uint32_t j)
+{
+  if (e->node[i].neighbours == GG_LIST) return false;
+  gg_list(e, i)[e->node[i].neighbours++] = j;
+  return true;
+}
+
+GG_INLINE void gg_list_remove(gg_md *e, uint32_t i, uint32_t j)
+{
+  uint32_t *list = gg_list(e, i), last = --e->node[i].neighbours, k = 0;
+  while (list[k] != j) k++;
+  list[k] = list[last];
+  list[last] = i;
+}
+
+GG_INLINE bool gg_is_among(const uint32_t *list, uint32_t j)
+{
+  bool found = false;
+  for (int k = 0; k < GG_LIST; k++) found |= list[k] == j;
+  return found;
+}
+
+/* Replace i's list by found[], and mend the lists of those who are no longer or newly in it. False: no room. */
+GG_INLINE bool gg_mend_lists(gg_md *e, uint32_t i, const uint32_t *found, uint32_t count)
+{
+  uint32_t old[GG_LIST], *list = gg_list(e, i), n_old = e->node[i].neighbours;
+  if (count > GG_LIST) return false;
+  for (int k = 0; k < GG_LIST; k++) old[k] = list[k], list[k] = (uint32_t)k < count ? found[k] : i;
+  e->node[i].neighbours = count;
+  for (uint32_t k = 0; k < n_old; k++)
+    if (!gg_is_among(list, old[k])) gg_list_remove(e, old[k], i);
+  for (uint32_t k = 0; k < count; k++)
+    if (!gg_is_among(old, found[k]) && !gg_list_add(e, found[k], i)) return false;
+  return true;
+}
+
+#endif

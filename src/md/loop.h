@@ -1,0 +1,172 @@
+/* The event loop: pop, re-check, advance the pair, collide, re-predict. One always-inlined body; kernels.c makes the
+ * instances.
+ *
+ * Each grain has one entry in the calendar: the earliest of the collisions that it saw when it was last predicted and
+ * of its next crossing. That no collision is missed: for every pair the one predicted last saw the other as it moves
+ * now, so its entry is no later than their contact. A collision whose partner has changed course since (its stamp
+ * tells) was merely a bound: the grain is predicted anew when that time comes. */
+#ifndef GG_MD_LOOP_H
+#define GG_MD_LOOP_H
+
+#include "md/lists.h"
+
+GG_INLINE void gg_leave_cell(gg_md *e, uint32_t i)
+{
+  uint32_t *link = &e->cells.head[gg_cell_index(&e->cells, e->node[i].cell)];
+  while (*link != i) link = &e->grain[*link].next;
+  *link = e->grain[i].next;
+}
+
+GG_INLINE void gg_enter_cell(gg_md *e, uint32_t i)
+{
+  uint32_t *head = &e->cells.head[gg_cell_index(&e->cells, e->node[i].cell)];
+  e->grain[i].next = *head;
+  *head = i;
+}
+
+/* The search is over: what it found goes into the calendar. */
+GG_INLINE void gg_schedule(gg_md *e, gg_features f, gg_search *s)
+{
+  gg_node *node = &e->node[s->grain];
+  if (f.walled) gg_try_walls(e, f, s);
+  if (s->partner != node->partner || s->collision != node->collision) {
+    node->collision = s->collision;
+    node->partner = s->partner;
+    node->stamp = GG_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].stamp;
+  }
+  double exit = f.listed ? gg_shell_exit(e, f, s->grain, s->self) : gg_next_face(e, f, s, &node->face);
+  gg_queue_remove(&e->queue, e->node, s->grain);
+  node->time = s->collision < exit ? s->collision : exit;
+  gg_queue_insert(&e->queue, e->node, s->grain);
+}
+
+GG_INLINE void gg_predict(gg_md *e, gg_features f, uint32_t i)
+{
+  e->node[i].collision = INFINITY;
+  e->node[i].partner = GG_NONE;
+  gg_search s = {.grain = i, .self = gg_settle(e, f, i), .collision = INFINITY, .partner = GG_NONE};
+  if (f.listed)
+    gg_scan_list(e, f, &s);
+  else
+    gg_scan_around(e, f, &s);
+  gg_schedule(e, f, &s);
+}
+
+/* Through the sheared boundary: the image that takes the grain's place has another velocity and cell. */
+GG_INLINE void gg_cross_sheared(gg_md *e, gg_grain *g, gg_node *node, int side)
+{
+  g->r.x = gg_wrap(g->r.x - side * gg_offset(&e->box, e->k.now), e->box.edge[0], e->box.inverse[0]);
+  g->v.x -= side * e->box.slide;
+  int32_t x = (int32_t)(g->r.x * e->cells.inverse[0]);
+  node->cell[0] = x < e->cells.n[0] ? x : e->cells.n[0] - 1;
+}
+
+GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_node *node = &e->node[i];
+  gg_search s = {.grain = i, .self = gg_settle(e, f, i), .collision = node->collision, .partner = node->partner};
+  if (f.sheared && node->face == GG_SLIDE) {
+    gg_scan_sliding_rows(e, f, &s);
+    gg_schedule(e, f, &s);
+    return;
+  }
+  gg_grain *g = &e->grain[i];
+  int axis = node->face >> 1, step = node->face & 1 ? 1 : -1;
+  gg_leave_cell(e, i);
+  int32_t at = node->cell[axis] + step, n = e->cells.n[axis];
+  int side = at < 0 ? -1 : at >= n ? 1 : 0;
+  node->cell[axis] = at - side * n;
+  if (side) {
+    *gg_component(&g->r, axis) -= side * e->box.edge[axis];
+    if (f.sheared && axis == 1) {
+      gg_cross_sheared(e, g, node, side);
+      gg_enter_cell(e, i);
+      gg_predict(e, f, i);
+      return;
+    }
+  }
+  gg_enter_cell(e, i);
+  gg_scan_ahead(e, f, &s, axis, step);
+  gg_schedule(e, f, &s);
+}
+
+/* Out of its shell: a new one, lists mended, and a new prediction. */
+GG_INLINE void gg_leave_shell(gg_md *e, gg_features f, uint32_t i)
+{
+  uint32_t found[GG_LIST + 1];
+  gg_leave_cell(e, i);
+  gg_new_shell(e, f, i);
+  gg_enter_cell(e, i);
+  uint32_t count = gg_search_shell(e, f, i, found);
+  if (gg_mend_lists(e, i, found, count)) {
+    gg_predict(e, f, i);
+    return;
+  }
+  gg_md_build_lists(e);
+  e->predict_all(e);
+}
+
+GG_INLINE void gg_collide(gg_md *e, gg_features f, uint32_t i, uint32_t j)
+{
+  gg_grain *one = gg_settle(e, f, i), *two = gg_settle(e, f, j);
+  gg_vec dr = gg_sub(two->r, one->r), dv = gg_sub(two->v, one->v);
+  gg_nearest_image(&e->box, f.sheared, e->k.now, &dr, &dv);
+  e->impact(e, i, j, dr, gg_scale(-1, dv));
+  one->stamp += 2;
+  two->stamp += 2;
+  e->k.collisions++;
+  gg_predict(e, f, i);
+  gg_predict(e, f, j);
+}
+
+GG_INLINE void gg_hit_wall(gg_md *e, gg_features f, uint32_t i, int upper)
+{
+  gg_grain *g = gg_settle(e, f, i);
+  e->wall_impact(e, i, upper);
+  g->stamp += 2;
+  gg_predict(e, f, i);
+}
+
+/* The next event of all; GG_NONE if there is none before e->stop. */
+GG_INLINE uint32_t gg_next(gg_md *e)
+{
+  while (e->queue.n_due == 0)
+    if (!gg_queue_turn(&e->queue, e->node)) {
+      if (gg_queue_span(&e->queue) > e->stop || !gg_md_next_epoch(e)) return GG_NONE;
+    }
+  gg_due due = e->queue.due[e->queue.n_due - 1];
+  return due.time <= e->stop ? due.grain : GG_NONE;
+}
+
+/* Every grain anew: at a start, or after kicks to all. */
+GG_INLINE void gg_forecast_all(gg_md *e, gg_features f)
+{
+  for (uint32_t i = 0; i < e->n; i++) gg_predict(e, f, i);
+}
+
+GG_INLINE void gg_loop(gg_md *e, gg_features f)
+{
+  uint32_t i;
+  while (e->collisions_left && (i = gg_next(e)) != GG_NONE) {
+    const gg_node *node = &e->node[i];
+    uint32_t partner = node->partner;
+    e->k.now = node->time;
+    e->k.events++;
+    if (node->time < node->collision) {
+      if (f.listed)
+        gg_leave_shell(e, f, i);
+      else
+        gg_cross_face(e, f, i);
+    }
+    else if (f.walled && GG_NO_GRAIN(partner))
+      gg_hit_wall(e, f, i, partner == GG_UPPER_WALL);
+    else if (e->grain[partner].stamp != node->stamp)
+      gg_predict(e, f, i);
+    else {
+      gg_collide(e, f, i, partner);
+      e->collisions_left--;
+    }
+  }
+}
+
+#endif

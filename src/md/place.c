@@ -1,0 +1,144 @@
+/* Centres that do not overlap, at any solid fraction: random points, sorted along a space-filling curve, pushed apart
+ * pair by pair until no two are closer than their contact distance (the overlap-removing relaxation of Jodrey & Tory,
+ * Phys. Rev. A 32 (1985) 2347, all pairs a sweep). The result is amorphous: a fluid configuration where a fluid exists.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "md/place.h"
+
+/* Spread the low 21 bits of x to every third bit. */
+static uint64_t spread(uint64_t x)
+{
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffffu;
+  x = (x | x << 16) & 0x1f0000ff0000ffu;
+  x = (x | x << 8) & 0x100f00f00f00f00fu;
+  x = (x | x << 4) & 0x10c30c30c30c30c3u;
+  return (x | x << 2) & 0x1249249249249249u;
+}
+
+typedef struct keyed {
+  uint64_t key;
+  gg_vec r;
+} keyed;
+
+static int by_key(const void *a, const void *b)
+{
+  uint64_t x = ((const keyed *)a)->key, y = ((const keyed *)b)->key;
+  return (x > y) - (x < y);
+}
+
+gg_status gg_place_sort(const gg_box *box, gg_vec *r, uint32_t n, gg_error *err)
+{
+  keyed *sorted = gg_new_array(n, sizeof *sorted, err);
+  if (!sorted) return GG_FAILED;
+  double longest = fmax(box->edge[0], fmax(box->edge[1], box->edge[2])), scale = 0x1p21 / longest;
+  for (uint32_t i = 0; i < n; i++) {
+    uint64_t key = 0;
+    for (int a = 0; a < 3; a++) key |= spread((uint64_t)(gg_along(&r[i], a) * scale)) << a;
+    sorted[i] = (keyed){key, r[i]};
+  }
+  qsort(sorted, n, sizeof *sorted, by_key);
+  for (uint32_t i = 0; i < n; i++) r[i] = sorted[i].r;
+  free(sorted);
+  return GG_OK;
+}
+
+/* A sweep: push apart every pair closer than (1 + margin) contact distances; returns how many overlapped in earnest. */
+typedef struct sweep {
+  gg_packing *p;
+  double margin;
+  bool pushing;
+  uint64_t overlaps;
+} sweep;
+
+static void try_pair(sweep *s, uint32_t i, uint32_t j)
+{
+  gg_packing *p = s->p;
+  gg_vec dr = gg_sub(p->r[j], p->r[i]), unused = {0, 0, 0};
+  gg_nearest_image(&p->box, 0, 0, &dr, &unused);
+  double sigma = 0.5 * (p->diameter[i] + p->diameter[j]), wanted = sigma * (1 + s->margin), r2 = gg_dot(dr, dr);
+  if (r2 >= wanted * wanted) return;
+  double distance = sqrt(r2);
+  if (distance < sigma * (1 + 1e-9)) s->overlaps++;
+  if (!s->pushing) return;
+  if (distance == 0) dr = (gg_vec){1e-3, 0, 0}, distance = 1e-3;
+  double push = 0.5 * (wanted - distance) / distance;
+  p->r[i] = gg_axpy(-push, dr, p->r[i]);
+  p->r[j] = gg_axpy(push, dr, p->r[j]);
+}
+
+static void sweep_small(sweep *s)
+{
+  for (uint32_t i = 0; i < s->p->n; i++)
+    for (uint32_t j = 0; j < i; j++) try_pair(s, i, j);
+}
+
+static void cell_of(const gg_cells *c, gg_vec r, int32_t at[3])
+{
+  for (int a = 0; a < 3; a++) {
+    int32_t k = (int32_t)(gg_along(&r, a) * c->inverse[a]);
+    at[a] = k < c->n[a] ? k : c->n[a] - 1;
+  }
+}
+
+static void sweep_cells(sweep *s)
+{
+  gg_packing *p = s->p;
+  gg_cells *c = &p->cells;
+  size_t total = (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2];
+  for (size_t k = 0; k < total; k++) c->head[k] = GG_NONE;
+  int32_t at[3], to[3];
+  for (uint32_t i = 0; i < p->n; i++) {
+    cell_of(c, p->r[i], at);
+    for (int32_t q = 0; q < 27; q++) {
+      int32_t step[3] = {q % 3 - 1, q / 3 % 3 - 1, q / 9 - 1};
+      for (int a = 0; a < 3; a++) to[a] = (at[a] + step[a] + c->n[a]) % c->n[a];
+      for (uint32_t j = c->head[gg_cell_index(c, to)]; j != GG_NONE; j = p->next[j]) try_pair(s, i, j);
+    }
+    uint32_t *head = &c->head[gg_cell_index(c, at)];
+    p->next[i] = *head;
+    *head = i;
+  }
+}
+
+static void into_box(const gg_packing *p, uint32_t i)
+{
+  for (int a = 0; a < 3; a++) {
+    double *x = gg_component(&p->r[i], a), edge = p->box.edge[a], radius = 0.5 * p->diameter[i];
+    if (p->walled && a == 1) {
+      if (*x < radius) *x = radius;
+      if (*x > edge - radius) *x = edge - radius;
+    } else {
+      *x = gg_wrap(*x, edge, p->box.inverse[a]);
+      if (!(*x < edge)) *x = 0;
+    }
+  }
+}
+
+static uint64_t sweep_once(gg_packing *p, double margin, bool pushing)
+{
+  sweep s = {p, margin, pushing, 0};
+  for (uint32_t i = 0; i < p->n; i++) into_box(p, i);
+  if (p->cells.head)
+    sweep_cells(&s);
+  else
+    sweep_small(&s);
+  return s.overlaps;
+}
+
+/* Denser systems leave less room to aim for than touching. */
+static double margin_for(double phi)
+{
+  double room = cbrt(0.64 / phi) - 1;
+  return fmin(0.02, fmax(0.25 * room, 1e-4));
+}
+
+bool gg_place_relax(gg_packing *p, double phi, int most_sweeps)
+{
+  double margin = margin_for(phi);
+  for (int k = 0; k < most_sweeps; k++)
+    if (sweep_once(p, margin, true) == 0 && sweep_once(p, margin, false) == 0) return true;
+  return false;
+}

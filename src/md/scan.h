@@ -1,0 +1,200 @@
+/* The search for a grain's next event: the cells around it, image by image, and its own cell's faces.
+ *
+ * Every neighbouring cell is looked at as one definite image, with its shift, so that boxes of one or two cells across
+ * and grains that meet several images of one partner need no special case.
+ *
+ * Rows across a sheared boundary: the image row of cells stands at any offset and slides. The grain looks at all of it
+ * that can come within reach of its cell until a time `valid`, and looks anew then. What makes incremental scans right:
+ * at every scan a grain looks at the whole window of each sliding row, and otherwise neighbourhoods are symmetric. */
+#ifndef GG_MD_SCAN_H
+#define GG_MD_SCAN_H
+
+#include "md/predict.h"
+#include "md/state.h"
+
+/* What a scene's motion needs; constant in every kernel. */
+typedef struct gg_features {
+  bool sheared, walled, gravity, mixture;
+  bool listed; /* neighbour lists instead of cells */
+} gg_features;
+
+typedef struct gg_search {
+  uint32_t grain;
+  const gg_grain *self; /* at the present time */
+  double collision;     /* earliest so far, and with whom */
+  uint32_t partner;
+  double valid; /* until then the sliding rows have been searched */
+} gg_search;
+
+/* Bring a grain's record to the present time. */
+GG_INLINE gg_grain *gg_settle(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_grain *g = &e->grain[i];
+  g->r = gg_position(e, f.gravity, g, e->k.now);
+  g->v = gg_velocity(e, f.gravity, g, e->k.now);
+  g->t = e->k.now;
+  return g;
+}
+
+GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
+{
+  const gg_grain *one = s->self, *two = &e->grain[j];
+  gg_vec dr = gg_add(gg_sub(gg_position(e, f.gravity, two, e->k.now), one->r), shift);
+  gg_vec dv = gg_sub(gg_velocity(e, f.gravity, two, e->k.now), one->v);
+  if (f.sheared) dv.x += slide;
+  double sigma = e->model.sigma[f.mixture ? 2 * gg_species_of(one) + gg_species_of(two) : 0];
+  double t = e->k.now + gg_contact_delay(dr, dv, sigma * sigma);
+  /* Ties go by index, so that the order in a cell's chain never matters. */
+  if (t < s->collision || (t == s->collision && t < INFINITY && j < s->partner)) {
+    s->collision = t;
+    s->partner = j;
+  }
+}
+
+/* Cells from..to (unwrapped) of row (y, z): images shifted by `shift`, sliding by `slide`. */
+GG_INLINE void gg_scan_row(const gg_md *e, gg_features f, gg_search *s, int32_t from, int32_t to, int32_t y, int32_t z,
+                           gg_vec shift, double slide)
+{
+  const gg_cells *c = &e->cells;
+  const uint32_t *row = c->head + gg_cell_index(c, (int32_t[3]){0, y, z});
+  for (int32_t k = from; k <= to; k++) {
+    int32_t x = k;
+    gg_vec here = shift;
+    while (x < 0) x += c->n[0], here.x -= e->box.edge[0];
+    while (x >= c->n[0]) x -= c->n[0], here.x += e->box.edge[0];
+    for (uint32_t j = row[x]; j != GG_NONE; j = e->grain[j].next)
+      if (j != s->grain) gg_try_pair(e, f, s, j, here, slide);
+  }
+}
+
+/* Index of a neighbouring cell along one axis, and the shift of its image. */
+GG_INLINE int32_t gg_image_cell(const gg_md *e, int axis, int32_t k, double *shift)
+{
+  *shift = 0;
+  if (k < 0) {
+    *shift = -e->box.edge[axis];
+    return k + e->cells.n[axis];
+  }
+  if (k >= e->cells.n[axis]) {
+    *shift = e->box.edge[axis];
+    return k - e->cells.n[axis];
+  }
+  return k;
+}
+
+/* Cells from..to (unwrapped) of the row at (y, z), unless it lies across the sheared boundary. */
+GG_INLINE void gg_scan_plain_row(const gg_md *e, gg_features f, gg_search *s, int32_t from, int32_t to, int32_t y,
+                                 int32_t z)
+{
+  gg_vec shift = {0, 0, 0};
+  if (f.walled && (y < 0 || y >= e->cells.n[1])) return;
+  int32_t iy = gg_image_cell(e, 1, y, &shift.y);
+  if (f.sheared && shift.y != 0) return;
+  int32_t iz = gg_image_cell(e, 2, z, &shift.z);
+  gg_scan_row(e, f, s, from, to, iy, iz, shift, 0);
+}
+
+/* The sliding row above (side = 1) or below (-1): cell k of it now covers x from k w + D to (k+1) w + D. */
+GG_INLINE void gg_scan_sliding(const gg_md *e, gg_features f, gg_search *s, int side)
+{
+  const gg_cells *c = &e->cells;
+  const gg_node *node = &e->node[s->grain];
+  double w = c->width[0], D = side * gg_offset(&e->box, e->k.now);
+  double left = node->cell[0] * w - c->reach, right = (node->cell[0] + 1) * w + c->reach;
+  int32_t from = (int32_t)gg_floor((left - D) / w), to = (int32_t)gg_floor((right - D) / w);
+  if (side > 0)
+    from--; /* it moves right: one cell of store on the left */
+  else
+    to++;
+  double room = side > 0 ? left - (from * w + D) : (to + 1) * w + D - right;
+  double valid = e->k.now + room / e->box.slide;
+  if (valid < s->valid) s->valid = valid;
+  for (int32_t z = node->cell[2] - 1; z <= node->cell[2] + 1; z++) {
+    gg_vec shift = {D, side * e->box.edge[1], 0};
+    int32_t iz = gg_image_cell(e, 2, z, &shift.z);
+    gg_scan_row(e, f, s, from, to, side > 0 ? 0 : c->n[1] - 1, iz, shift, side * e->box.slide);
+  }
+}
+
+GG_INLINE void gg_scan_sliding_rows(const gg_md *e, gg_features f, gg_search *s)
+{
+  s->valid = INFINITY;
+  if (!f.sheared) return;
+  int32_t y = e->node[s->grain].cell[1];
+  if (y == e->cells.n[1] - 1) gg_scan_sliding(e, f, s, 1);
+  if (y == 0) gg_scan_sliding(e, f, s, -1);
+}
+
+/* All 27 cells. */
+GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
+{
+  const int32_t *at = e->node[s->grain].cell;
+  for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
+    for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) gg_scan_plain_row(e, f, s, at[0] - 1, at[0] + 1, y, z);
+  gg_scan_sliding_rows(e, f, s);
+}
+
+/* The nine cells that came within reach by crossing a face. */
+GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int axis, int32_t step)
+{
+  const int32_t *at = e->node[s->grain].cell;
+  int32_t lo[3], hi[3];
+  for (int a = 0; a < 3; a++) {
+    lo[a] = at[a] + (a == axis ? step : -1);
+    hi[a] = at[a] + (a == axis ? step : 1);
+  }
+  for (int32_t z = lo[2]; z <= hi[2]; z++)
+    for (int32_t y = lo[1]; y <= hi[1]; y++) gg_scan_plain_row(e, f, s, lo[0], hi[0], y, z);
+  gg_scan_sliding_rows(e, f, s);
+}
+
+/* A wall that the grain meets before anything else so far. Only grains in the cells along a wall can touch it. */
+GG_INLINE void gg_try_walls(const gg_md *e, gg_features f, gg_search *s)
+{
+  const gg_grain *g = s->self;
+  int32_t y = e->node[s->grain].cell[1];
+  double radius = 0.5 * e->model.diameter[f.mixture ? gg_species_of(g) : 0];
+  double lower = INFINITY, upper = INFINITY, fall = f.gravity ? e->gravity.y : 0;
+  if (y == 0) lower = e->k.now + gg_fall_delay(g->r.y - radius, -g->v.y, -fall);
+  if (y == e->cells.n[1] - 1 && !e->model.open_top)
+    upper = e->k.now + gg_fall_delay(e->box.edge[1] - radius - g->r.y, g->v.y, fall);
+  if (lower < s->collision) s->collision = lower, s->partner = GG_LOWER_WALL;
+  if (upper < s->collision) s->collision = upper, s->partner = GG_UPPER_WALL;
+}
+
+/* Delay until the grain leaves its cell along one axis, and through which face. Rounding may have left it outside by a
+ * digit: then at once. */
+GG_INLINE double gg_exit_delay(const gg_md *e, gg_features f, const gg_search *s, int axis, int32_t *face)
+{
+  double x = gg_along(&s->self->r, axis), v = gg_along(&s->self->v, axis), width = e->cells.width[axis];
+  int32_t cell = e->node[s->grain].cell[axis];
+  bool bottom = f.walled && axis == 1 && cell == 0, top = f.walled && axis == 1 && cell == e->cells.n[1] - 1;
+  if (!f.gravity) {
+    bool up = v > 0;
+    *face = 2 * axis + up;
+    if (v == 0 || (up ? top : bottom)) return INFINITY;
+    double delay = ((up ? cell + 1 : cell) * width - x) / v;
+    return delay > 0 ? delay : 0;
+  }
+  double w = gg_along(&e->gravity, axis);
+  double down = bottom ? INFINITY : gg_fall_delay(x - cell * width, -v, -w);
+  double up = top ? INFINITY : gg_fall_delay((cell + 1) * width - x, v, w);
+  *face = 2 * axis + (up < down);
+  return up < down ? up : down;
+}
+
+/* Which face of its cell the grain crosses next, and when. */
+GG_INLINE double gg_next_face(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
+{
+  int32_t other;
+  double first = gg_exit_delay(e, f, s, 0, face);
+  for (int axis = 1; axis < 3; axis++) {
+    double delay = gg_exit_delay(e, f, s, axis, &other);
+    if (delay < first) first = delay, *face = other;
+  }
+  double t = e->k.now + first;
+  if (f.sheared && s->valid < t) t = s->valid, *face = GG_SLIDE;
+  return t;
+}
+
+#endif

@@ -1,0 +1,52 @@
+/* The grains shown to the outside: at the present time, peculiar velocities, a thousand at a time. */
+#include "md/checkpoint.h"
+
+typedef struct scratch {
+  double r[3][GG_CHUNK], c[3][GG_CHUNK], s[3][GG_CHUNK];
+  uint8_t species[GG_CHUNK];
+  int64_t id[GG_CHUNK];
+} scratch;
+
+/* The image in the box; under shear the velocity goes with it, so the peculiar one stays. */
+static void into_box(const gg_md *e, gg_vec *r)
+{
+  double layers = gg_floor(r->y * e->box.inverse[1]);
+  if (e->box.slide != 0) r->x -= layers * gg_offset(&e->box, e->k.now);
+  for (int a = 0; a < 3; a++) {
+    double x = gg_wrap(gg_along(r, a), e->box.edge[a], e->box.inverse[a]);
+    *gg_component(r, a) = x < e->box.edge[a] ? x : 0;
+  }
+}
+
+static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, scratch *out)
+{
+  const gg_grain *g = &e->grain[i];
+  gg_vec r = gg_position(e, e->falls, g, e->k.now), c = gg_scale(e->k.scale, gg_velocity(e, e->falls, g, e->k.now));
+  c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
+  if (positions) into_box(e, &r);
+  for (int a = 0; a < 3; a++) {
+    out->r[a][slot] = gg_along(&r, a);
+    out->c[a][slot] = gg_along(&c, a);
+    if (e->spin) out->s[a][slot] = e->k.scale * gg_along(&e->spin[i], a);
+  }
+  out->species[slot] = (uint8_t)gg_species_of(g);
+  out->id[slot] = e->id[i];
+}
+
+void gg_md_snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
+{
+  const gg_md *e = (const gg_md *)engine;
+  scratch out;
+  for (uint32_t begin = 0; begin < e->n; begin += GG_CHUNK) {
+    gg_chunk chunk = {.n = e->n - begin < GG_CHUNK ? e->n - begin : GG_CHUNK};
+    for (size_t k = 0; k < chunk.n; k++) show_grain(e, begin + (uint32_t)k, k, positions, &out);
+    for (int a = 0; a < 3; a++) {
+      chunk.r[a] = positions ? out.r[a] : NULL;
+      chunk.c[a] = out.c[a];
+      chunk.s[a] = e->spin ? out.s[a] : NULL;
+    }
+    chunk.species = e->model.n_species > 1 ? out.species : NULL;
+    chunk.id = positions ? out.id : NULL;
+    visit(context, &chunk);
+  }
+}

@@ -1,0 +1,114 @@
+/* The initial state: random places, Maxwellian velocities at temperature0 (energies equal for all species), spins at
+ * ratio0 x that about minus half the shear rate, total momentum zero, temperatures exact. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "md/place.h"
+#include "md/state.h"
+
+enum { SWEEPS = 3000 };
+
+static gg_status make_cells(const gg_md *e, gg_packing *p, gg_error *err)
+{
+  double widest = fmax(e->model.diameter[0], e->model.diameter[e->model.n_species - 1]) * 1.05;
+  int32_t n[3];
+  gg_cells_count(&e->box, widest, n);
+  if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
+  GG_TRY(gg_cells_make(&p->cells, &e->box, n, widest, err));
+  return (p->next = gg_new_array(e->n, sizeof *p->next, err)) ? GG_OK : GG_FAILED;
+}
+
+/* From random points; where that gets stuck, near random close packing, from a lattice with vacancies, which the run
+ * itself has to melt. */
+static gg_status relax(const gg_md *e, gg_packing *p, gg_rng *rng, gg_error *err)
+{
+  GG_TRY(make_cells(e, p, err));
+  if (gg_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
+  gg_place_lattice(&e->box, e->n, rng, p->r);
+  GG_TRY(gg_place_sort(&e->box, p->r, e->n, err));
+  if (gg_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
+  return gg_fail(err, GG_FAILED,
+                 "phi: no start without overlaps was found at phi = %g with particles = %u; try a lower phi or another "
+                 "number of particles",
+                 e->model.phi, e->n);
+}
+
+/* Each species scattered at random over the places. */
+static void deal_species(gg_md *e, double *diameter, gg_rng *rng)
+{
+  uint32_t left[2] = {(uint32_t)e->model.n_of[0], e->n - (uint32_t)e->model.n_of[0]};
+  for (uint32_t i = 0; i < e->n; i++) {
+    uint32_t s = gg_rng_below(rng, left[0] + left[1]) >= left[0];
+    left[s]--;
+    e->grain[i].stamp = s;
+    diameter[i] = e->model.diameter[s];
+  }
+}
+
+static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_error *err)
+{
+  for (uint32_t i = 0; i < e->n; i++)
+    for (int a = 0; a < 3; a++) *gg_component(&r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
+  GG_TRY(gg_place_sort(&e->box, r, e->n, err));
+  deal_species(e, diameter, rng);
+  gg_packing p = {.box = e->box, .walled = e->model.walled, .n = e->n, .r = r, .diameter = diameter};
+  gg_status status = relax(e, &p, rng, err);
+  gg_cells_free(&p.cells);
+  free(p.next);
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->grain[i].r = r[i];
+    e->id[i] = i;
+  }
+  return status;
+}
+
+/* Gaussian velocities, at rest as a whole, and exactly at temperature T: sum m c^2 = 3 N T. */
+static void set_velocities(gg_md *e, gg_rng *rng, double T)
+{
+  gg_vec momentum = {0, 0, 0};
+  double mass = 0, energy = 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    double m = e->model.mass[gg_species_of(&e->grain[i])];
+    e->grain[i].v = gg_scale(sqrt(T / m), gg_rng_normal_vec(rng));
+    momentum = gg_axpy(m, e->grain[i].v, momentum);
+    mass += m;
+  }
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_vec *v = &e->grain[i].v;
+    *v = gg_axpy(-1 / mass, momentum, *v);
+    energy += e->model.mass[gg_species_of(&e->grain[i])] * gg_dot(*v, *v);
+  }
+  double scale = energy > 0 ? sqrt(3 * e->n * T / energy) : 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_grain *g = &e->grain[i];
+    g->v = gg_scale(scale, g->v);
+    double rate = e->model.shear_rate + 2 * e->model.wall_speed / e->box.edge[1]; /* the laminar profile */
+    g->v.x += rate * (g->r.y - 0.5 * e->box.edge[1]);
+  }
+}
+
+/* theta = K m <s.s>/3; about the spin of the vorticity. */
+static void set_spins(gg_md *e, gg_rng *rng, double theta)
+{
+  if (!e->spin) return;
+  for (uint32_t i = 0; i < e->n; i++) {
+    int k = gg_species_of(&e->grain[i]);
+    e->spin[i] = gg_scale(sqrt(theta / (e->model.inertia[k] * e->model.mass[k])), gg_rng_normal_vec(rng));
+    e->spin[i].z -= 0.25 * e->model.diameter[k] * e->model.shear_rate;
+  }
+}
+
+gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err)
+{
+  gg_rng rng = gg_rng_seed(seed, stream + GG_STREAM_START);
+  e->k.rng = gg_rng_seed(seed, stream + GG_STREAM_ENGINE);
+  gg_vec *r = gg_new_array(e->n, sizeof *r, err);
+  double *diameter = gg_new_array(e->n, sizeof *diameter, err);
+  gg_status status = r && diameter ? place(e, &rng, r, diameter, err) : GG_FAILED;
+  free(r);
+  free(diameter);
+  GG_TRY(status);
+  set_velocities(e, &rng, e->model.temperature0);
+  set_spins(e, &rng, e->model.ratio0 * e->model.temperature0);
+  return GG_OK;
+}

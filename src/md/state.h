@@ -1,0 +1,142 @@
+/* The state of an event-driven run: one 64-byte record a grain for what every prediction reads, one for what only the
+ * grain's own events read, and the box, the cells, the calendar and the sums around them.
+ *
+ * Each grain is kept where it stood at its own time t, its last event; r(t') = r + v (t' - t) wherever it is needed.
+ * Times count from the start of the present epoch: at an epoch's end all of them are re-zeroed (epoch.c), so that the
+ * last digit of a time means the same after 10^10 collisions as after 10^4.
+ *
+ * Velocities are laboratory velocities in the box, v = C + shear_rate (y - L_y/2) x_hat. */
+#ifndef GG_MD_STATE_H
+#define GG_MD_STATE_H
+
+#include "common/engine.h"
+#include "common/rng.h"
+#include "md/box.h"
+#include "md/cells.h"
+#include "md/queue.h"
+
+typedef struct gg_grain {
+  gg_vec r, v;
+  double t;
+  uint32_t stamp; /* 2 x (changes of course so far) + species */
+  uint32_t next;  /* next grain in the same cell */
+} __attribute__((aligned(64))) gg_grain;
+
+/* Of the neighbour lists: where the grain may go before its list must be mended. */
+typedef struct gg_shell {
+  gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
+  double built;
+} gg_shell;
+enum { GG_LIST = 32 }; /* most neighbours in a list */
+
+typedef struct gg_md gg_md;
+
+/* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
+typedef void gg_impact(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12);
+/* What happens to a grain in contact with the lower (0) or upper (1) wall. */
+typedef void gg_wall_impact(gg_md *e, uint32_t i, int upper);
+/* Predict every grain's next event. */
+typedef void gg_forecast(gg_md *e);
+/* Handle events until e->stop or until e->collisions_left is used up. */
+typedef void gg_motion(gg_md *e);
+
+/* Plain data beside the arrays: goes into a checkpoint as it is. */
+typedef struct gg_md_counts {
+  double now, epoch_start; /* present time in the epoch, and the epoch's start in the run's */
+  double contact_time;     /* absolute; 0: off */
+  double free_time;        /* present mean free time per grain */
+  double window_time;      /* since free_time was last measured, with so many collisions */
+  uint64_t window_collisions, epoch_events, epoch_collisions; /* the latter two: counts at the epoch's start */
+  uint64_t collisions, events, treated;
+  double worst_overlap;
+  gg_rng rng;
+  gg_transfer transfer;
+  double next_kick; /* white noise: epoch time of the next kick */
+  /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
+   */
+  double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
+  double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
+  double outer_time;               /* outside, up to the present advance */
+  uint32_t tap_open, spare;
+} gg_md_counts;
+
+struct gg_md {
+  gg_engine base;
+  gg_model model;
+  gg_grain *grain;
+  gg_node *node;
+  gg_vec *spin; /* surface velocities; NULL for smooth grains */
+  double *last; /* time of the last collision, for the contact-time rule; NULL if it is off */
+  uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
+  /* Neighbour lists: NULL where the cells themselves are searched. */
+  gg_shell *shell;
+  uint32_t *neighbour;      /* GG_LIST a grain */
+  double shell_radius;      /* s */
+  double shrinkage;         /* kappa */
+  double pair_reach[3];     /* sigma + 2 s by unordered pair */
+  uint32_t n;
+  gg_vec gravity;
+  bool falls; /* gravity is not zero */
+  gg_box box;
+  gg_cells cells;
+  gg_queue queue;
+  gg_md_counts k;
+  double stop;              /* end of the present advance, epoch time */
+  double outer_stop;        /* the same in outside time since it began; INFINITY: none */
+  uint64_t collisions_left; /* of the present advance */
+  gg_motion *motion;
+  gg_forecast *predict_all;
+  gg_impact *impact;
+  gg_wall_impact *wall_impact;
+  gg_thermostat thermostat;
+  double noise; /* xi^2 of the white-noise thermostat */
+};
+
+/* arrays.c: an engine with its arrays for this model, nothing in them; and its end. */
+gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err);
+gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
+void gg_md_free(gg_md *e);
+
+/* start.c: a fresh initial state: places, velocities, spins. */
+gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err);
+/* engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. */
+gg_status gg_md_begin(gg_md *e, gg_error *err);
+
+/* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
+double gg_md_reach(const gg_model *model);
+gg_status gg_md_make_grid(gg_md *e, gg_error *err);
+void gg_md_enter_grid(gg_md *e);
+void gg_md_chain_grid(gg_md *e);
+void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);
+
+/* lists.c: every grain's shell and list anew at the present time; the shells get smaller where lists overflow. */
+void gg_md_build_lists(gg_md *e);
+void gg_md_set_shells(gg_md *e, double radius);
+
+/* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
+ * False if nothing will ever happen again. */
+bool gg_md_next_epoch(gg_md *e);
+/* Width of a calendar's bucket that suits a rate of events. */
+double gg_md_bucket_width(double events_per_time);
+
+/* kernels.c: choose the kernels that this model and tap need. */
+void gg_md_select(gg_md *e);
+
+GG_INLINE int gg_species_of(const gg_grain *g)
+{
+  return (int)(g->stamp & 1);
+}
+
+/* Where the grain is at epoch time t, and how it moves there; on a parabola only if the constant `gravity` is true. */
+GG_INLINE gg_vec gg_position(const gg_md *e, bool gravity, const gg_grain *g, double t)
+{
+  double dt = t - g->t;
+  gg_vec r = gg_axpy(dt, g->v, g->r);
+  return gravity ? gg_axpy(0.5 * dt * dt, e->gravity, r) : r;
+}
+GG_INLINE gg_vec gg_velocity(const gg_md *e, bool gravity, const gg_grain *g, double t)
+{
+  return gravity ? gg_axpy(t - g->t, e->gravity, g->v) : g->v;
+}
+
+#endif

@@ -1,0 +1,64 @@
+#include "md/thermostat.h"
+
+#include <math.h>
+
+/* Kicks a mean free time. */
+#define KICK_INTERVAL 0.1
+
+static double kinetic_energy(const gg_md *e)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i < e->n; i++)
+    sum += 0.5 * e->model.mass[gg_species_of(&e->grain[i])] * gg_dot(e->grain[i].v, e->grain[i].v);
+  return sum;
+}
+
+static double kick_interval(const gg_md *e)
+{
+  return KICK_INTERVAL / gg_model_collision_rate(&e->model, e->model.temperature0);
+}
+
+void gg_md_thermostat_begin(gg_md *e)
+{
+  e->k.scale = 1;
+  e->k.kinetic = e->k.kinetic0 = kinetic_energy(e);
+  e->k.next_kick = e->thermostat == GG_WHITE_NOISE ? kick_interval(e) : INFINITY;
+}
+
+void gg_md_thermostat_fold(gg_md *e)
+{
+  gg_md_counts *k = &e->k;
+  double v = k->scale, t = 1 / v;
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->grain[i].v = gg_scale(v, e->grain[i].v);
+    e->node[i].time *= t;
+    e->node[i].collision *= t;
+    if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
+    if (e->last) e->last[i] *= t;
+    if (e->shell) e->shell[i].built *= t;
+  }
+  double *times[] = {&k->now, &k->mark, &k->contact_time, &k->free_time, &k->window_time, &k->epoch_start};
+  for (size_t i = 0; i < sizeof times / sizeof *times; i++) *times[i] *= t;
+  k->kinetic = kinetic_energy(e);
+  k->scale = sqrt(k->kinetic0 / k->kinetic);
+  e->stop = k->mark + (e->outer_stop - k->outer) * k->scale;
+}
+
+void gg_md_thermostat_kick(gg_md *e)
+{
+  double size = sqrt(3 * e->noise * kick_interval(e)), mass = 0;
+  gg_vec momentum = {0, 0, 0};
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_grain *g = &e->grain[i];
+    g->r = gg_position(e, false, g, e->k.now);
+    g->t = e->k.now;
+    g->v = gg_axpy(size, gg_rng_direction(&e->k.rng), g->v);
+    g->stamp += 2;
+    double m = e->model.mass[gg_species_of(g)];
+    momentum = gg_axpy(m, g->v, momentum);
+    mass += m;
+  }
+  for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
+  e->predict_all(e);
+  e->k.next_kick += kick_interval(e);
+}

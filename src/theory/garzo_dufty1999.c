@@ -1,0 +1,120 @@
+/* Smooth inelastic spheres, free cooling or heated, at all densities: V. Garzo & J.W. Dufty, Phys. Rev. E 59 (1999)
+ * 5895; heated states V. Garzo & J.M. Montanero, Physica A 313 (2002) 336. With c = 2 a_2, nu_0 = nT/eta_0,
+ * eta_0 = 5/(16 d^2) sqrt(m T/pi), rates and viscosities in units of those:
+ *   zeta  = (5/12) chi (1-e^2)(1 + 3c/32),   nu_eta = chi [1 - (1-e)^2/4](1 - c/64)
+ *   eta_k = [1 - 2/5 (1+e)(1-3e) phi chi]/(nu_eta - s zeta),  s = 1/2 cooling, 1 Gaussian thermostat, 0 white noise
+ *   eta   = eta_k [1 + 4/5 (1+e) phi chi] + 3/5 kappa,   kappa = 128/(5 pi) phi^2 chi (1+e)(1 - c/32)
+ *   p     = nT [1 + 2(1+e) phi chi]
+ * a_2 by T.P.C. van Noije & M.H. Ernst, Granular Matter 1 (1998) 57; collision rate and mean speed of that distribution
+ * are those of a Maxwellian times 1 - a_2/16 and 1 - a_2/8. */
+#include "theory/garzo_dufty1999.h"
+
+#include <math.h>
+
+#include "theory/theory_list.h"
+
+static const char name[] = "garzo_dufty1999";
+
+double gg_a2_van_noije_ernst(double e)
+{
+  return 16 * (1 - e) * (1 - 2 * e * e) / (81 - 17 * e + 30 * e * e * (1 - e));
+}
+
+double gg_a2_montanero_santos(double e)
+{
+  return 16 * (1 - e) * (1 - 2 * e * e) / (97 - 33 * e - 2 * e * e * (1 - e));
+}
+
+double gg_a2_white_noise(double e)
+{
+  return 16 * (1 - e) * (1 - 2 * e * e) / (241 - 177 * e + 30 * e * e * (1 - e));
+}
+
+gg_status gg_require_homogeneous_smooth(const gg_model *m, const char *theory, gg_error *err)
+{
+  GG_TRY(gg_require_smooth(m, theory, err));
+  bool heated_shear = m->flow == GG_USF && m->thermostat == GG_GAUSSIAN;
+  if (m->flow == GG_HCS || m->flow == GG_HSS || heated_shear) return GG_OK;
+  return gg_refuse(err, theory, "describes free cooling and homogeneously heated states; this scene is neither");
+}
+
+double gg_thermostat_share(const gg_model *m)
+{
+  if (m->flow == GG_HCS) return 0.5;
+  return m->thermostat == GG_WHITE_NOISE ? 0 : 1;
+}
+
+static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
+{
+  double e = m->e[0], T = m->temperature0, p = m->density * T, pc = p * 2 * (1 + e) * gg_phi_chi(m);
+  a->value[GG_Q_A2] = a2;
+  a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
+  a->value[GG_Q_COOLING_RATE] = 5. / 12 * m->chi[0] * (1 - e * e) * (1 + 3. / 16 * a2);
+  if (m->flow == GG_USF) return; /* no temperature of its own: it grows */
+  gg_answer_temperature(m, T, NAN, a);
+  gg_answer_pressure(m, T, p, pc, a);
+  gg_answer_collisions_one(m, T, a);
+  double rate = 1 - a2 / 16, speed = 1 - a2 / 8;
+  a->value[GG_Q_COLLISION_RATE] *= rate;
+  a->value[GG_Q_MEAN_FREE_PATH] *= speed / rate;
+  a->value[GG_Q_KNUDSEN] *= speed / rate;
+}
+
+static void answer_viscosity(const gg_model *m, double a2, gg_theory_answer *a)
+{
+  double e = m->e[0], y = gg_phi_chi(m), c = 2 * a2;
+  double nu = m->chi[0] * (1 - (1 - e) * (1 - e) / 4) * (1 - c / 64);
+  double eta_k = (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_thermostat_share(m) * a->value[GG_Q_COOLING_RATE]);
+  double bulk = 128 / (5 * M_PI) * m->phi * y * (1 + e) * (1 - c / 32);
+  a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = eta_k;
+  a->value[GG_Q_VISCOSITY_REDUCED] = eta_k * (1 + 0.8 * (1 + e) * y) + 0.6 * bulk;
+}
+
+static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  GG_TRY(gg_require_one_species(m, name, err));
+  GG_TRY(gg_require_homogeneous_smooth(m, name, err));
+  bool noisy = m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE;
+  double a2 = noisy ? gg_a2_white_noise(m->e[0]) : gg_a2_van_noije_ernst(m->e[0]);
+  answer_sonine(m, a2, a);
+  answer_viscosity(m, a2, a);
+  return GG_OK;
+}
+
+const gg_theory gg_garzo_dufty1999 = {
+    .name = name,
+    .title = "Cooling and viscosity of smooth inelastic spheres",
+    .citation =
+        "V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895; V. Garzo and J.M. Montanero, Physica A 313 (2002) "
+        "336",
+    .assumptions = "Homogeneous cooling or heated state (Gaussian thermostat or white noise) of one species of smooth "
+                   "spheres, any density with molecular chaos; first Sonine order, linear in a2 (van Noije and Ernst "
+                   "1998). Viscosity of small shear rates, counted in eta_0 = n T/nu_0.",
+    .evaluate = evaluate,
+};
+
+static const char name_ms[] = "montanero_santos2000";
+
+static gg_status evaluate_ms(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  GG_TRY(gg_require_one_species(m, name_ms, err));
+  GG_TRY(gg_require_homogeneous_smooth(m, name_ms, err));
+  if (m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE)
+    return gg_refuse(err, name_ms,
+                     "is given here for free cooling and the Gaussian thermostat; this scene is heated by "
+                     "white noise");
+  double a2 = gg_a2_montanero_santos(m->e[0]);
+  answer_sonine(m, a2, a);
+  answer_viscosity(m, a2, a);
+  return GG_OK;
+}
+
+const gg_theory gg_montanero_santos2000 = {
+    .name = name_ms,
+    .title = "Fourth cumulant, the other linearisation",
+    .citation = "J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
+    .assumptions =
+        "As garzo_dufty1999 for the cooling state, its fourth-moment equation divided by 1 + a2 before it is "
+        "linearised: closer to simulations for e below 0.7.",
+    .evaluate = evaluate_ms,
+};

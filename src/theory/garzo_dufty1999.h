@@ -1,0 +1,18 @@
+/* Homogeneous states of smooth spheres, for the theories of one species and of mixtures. */
+#ifndef GG_GARZO_DUFTY1999_H
+#define GG_GARZO_DUFTY1999_H
+
+#include "theory/answer.h"
+
+/* Fourth cumulant a_2 of free cooling in two linearisations, and of a gas heated by white noise. */
+double gg_a2_van_noije_ernst(double e);
+double gg_a2_montanero_santos(double e);
+double gg_a2_white_noise(double e);
+
+/* Free cooling, heated, or sheared with a Gaussian thermostat (the way to the viscosity of the heated state). */
+gg_status gg_require_homogeneous_smooth(const gg_model *model, const char *theory, gg_error *err);
+
+/* s in nu_eta - s zeta: 1/2 for cooling, 1 for a Gaussian thermostat, 0 for white noise. */
+double gg_thermostat_share(const gg_model *model);
+
+#endif

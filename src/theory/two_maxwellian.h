@@ -1,0 +1,22 @@
+/* Rough grains with Maxwellian velocities and Maxwellian spins: exchange between translation and rotation. */
+#ifndef GG_TWO_MAXWELLIAN_H
+#define GG_TWO_MAXWELLIAN_H
+
+#include "theory/answer.h"
+
+/* Change of translational and rotational energy in one collision of two grains, in units of m T: from it
+ * dT/dt = nu dE_tr T/3, dtheta/dt = nu dE_rot T/3. `ratio` is theta/T; mu = INFINITY: constant beta. */
+typedef struct gg_exchange {
+  double translation, rotation;
+} gg_exchange;
+gg_exchange gg_exchange_at(gg_grain grain, double mu, double ratio);
+
+/* Share of collisions that slide. */
+double gg_sliding_share(gg_grain grain, double mu, double ratio);
+
+/* theta/T where rotation neither gains nor loses (translation driven), or where both cool alike (free cooling); NaN if
+ * there is none. */
+double gg_ratio_driven(gg_grain grain, double mu);
+double gg_ratio_cooling(gg_grain grain, double mu);
+
+#endif

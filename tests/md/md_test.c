@@ -1,0 +1,211 @@
+#include "md_test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+gg_scene md_scene(md_case c)
+{
+  gg_scene s = gg_scene_defaults();
+  s.flow = c.flow;
+  s.particles = c.n;
+  s.phi = c.phi;
+  s.md.contact_time = 1e-4;
+  for (int p = 0; p < GG_PAIRS; p++) {
+    s.collision.e[p] = c.e;
+    s.collision.beta[p] = c.beta;
+    s.collision.mu[p] = c.mu;
+  }
+  for (int a = 0; a < 3; a++) s.aspect[a] = c.aspect[a] > 0 ? c.aspect[a] : 1;
+  return s;
+}
+
+gg_model md_model_of(const gg_scene *s)
+{
+  gg_model m;
+  gg_error err = {0};
+  if (gg_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  return m;
+}
+
+gg_model md_model(md_case c)
+{
+  gg_scene s = md_scene(c);
+  return md_model_of(&s);
+}
+
+gg_md *md_create(const gg_model *model, uint64_t seed)
+{
+  gg_engine *engine = NULL;
+  gg_error err = {0};
+  if (gg_md_ops.create(model, seed, 0, &engine, &err) != GG_OK) fail_msg("%s", err.message);
+  return (gg_md *)engine;
+}
+
+void md_destroy(gg_md *e)
+{
+  gg_md_ops.destroy(&e->base);
+}
+
+double md_collide(gg_md *e, uint64_t collisions)
+{
+  double elapsed;
+  gg_error err = {0};
+  if (gg_md_ops.advance(&e->base, INFINITY, collisions, &elapsed, &err) != GG_OK) fail_msg("%s", err.message);
+  return elapsed;
+}
+
+/* FNV-1a. */
+static uint64_t mix(uint64_t h, const void *data, size_t bytes)
+{
+  const uint8_t *p = data;
+  for (size_t k = 0; k < bytes; k++) h = (h ^ p[k]) * 0x100000001b3u;
+  return h;
+}
+
+uint64_t md_hash(const gg_md *e)
+{
+  uint64_t h = 0xcbf29ce484222325u;
+  for (uint32_t i = 0; i < e->n; i++) {
+    const gg_grain *g = &e->grain[i];
+    h = mix(h, &g->r, sizeof g->r + sizeof g->v + sizeof g->t + sizeof g->stamp);
+    h = mix(h, &e->node[i].time, 2 * sizeof(double));
+    if (e->spin) h = mix(h, &e->spin[i], sizeof e->spin[i]);
+  }
+  h = mix(h, &e->k.now, sizeof e->k.now);
+  return mix(h, &e->k.collisions, sizeof e->k.collisions);
+}
+
+typedef struct separation {
+  long double r[3], v[3]; /* of j from i, nearest box, and how images above move */
+  long double offset, slide;
+} separation;
+
+/* Where a grain is now, and how it moves. */
+static void place_now(const gg_md *e, const gg_grain *g, long double r[3], long double v[3])
+{
+  long double dt = (long double)e->k.now - g->t;
+  for (int k = 0; k < 3; k++) {
+    long double w = gg_along(&e->gravity, k);
+    r[k] = gg_along(&g->r, k) + gg_along(&g->v, k) * dt + w * dt * dt / 2;
+    v[k] = gg_along(&g->v, k) + w * dt;
+  }
+}
+
+static separation separate(const gg_md *e, uint32_t i, uint32_t j)
+{
+  separation s = {.slide = e->box.slide, .offset = e->box.offset0 + (long double)e->box.slide * e->k.now};
+  long double r[3], v[3];
+  place_now(e, &e->grain[i], r, v);
+  place_now(e, &e->grain[j], s.r, s.v);
+  for (int k = 0; k < 3; k++) s.r[k] -= r[k], s.v[k] -= v[k];
+  return s;
+}
+
+static long double contact(const long double r[3], const long double v[3], long double sigma)
+{
+  long double a = 0, b = 0, c = -sigma * sigma;
+  for (int k = 0; k < 3; k++) a += v[k] * v[k], b += r[k] * v[k], c += r[k] * r[k];
+  long double q = b * b - a * c;
+  if (b >= 0 || q < 0) return INFINITY;
+  long double t = (-b - sqrtl(q)) / a;
+  return t > 0 ? t : 0;
+}
+
+static long double next_of_pair(const gg_md *e, uint32_t i, uint32_t j, double horizon)
+{
+  separation s = separate(e, i, j);
+  int o = 2 * gg_species_of(&e->grain[i]) + gg_species_of(&e->grain[j]);
+  long double first = INFINITY, sigma = e->model.sigma[o], L[3];
+  for (int k = 0; k < 3; k++) L[k] = e->box.edge[k];
+  int ny = 2 + (int)(fabsl(s.v[1]) * horizon / L[1]), nz = 2 + (int)(fabsl(s.v[2]) * horizon / L[2]);
+  if (e->model.walled) ny = 0;
+  for (int y = -ny; y <= ny; y++)
+    for (int z = -nz; z <= nz; z++) {
+      long double v[3] = {s.v[0] + y * s.slide, s.v[1], s.v[2]}, x0 = s.r[0] + y * s.offset;
+      /* Images along x that pass within reach before the horizon. */
+      long double span = fabsl(v[0]) * horizon + sigma + L[0];
+      for (long long x = (long long)((-span - x0) / L[0]) - 1; x <= (long long)((span - x0) / L[0]) + 1; x++) {
+        long double r[3] = {x0 + x * L[0], s.r[1] + y * L[1], s.r[2] + z * L[2]}, t = contact(r, v, sigma);
+        if (t < first) first = t;
+      }
+    }
+  return first <= horizon ? first : INFINITY;
+}
+
+md_forecast md_oracle(const gg_md *e, double horizon)
+{
+  md_forecast f = {.time = INFINITY};
+  for (uint32_t i = 0; i < e->n; i++)
+    for (uint32_t j = 0; j < i; j++) {
+      long double t = next_of_pair(e, i, j, horizon);
+      if (t < f.time) f = (md_forecast){t, {j, i}};
+    }
+  return f;
+}
+
+/* First t >= 0 with h + v t + w t^2/2 = 0 and h falling; both roots by the textbook. */
+static long double next_touch(long double h, long double v, long double w)
+{
+  long double root[2] = {-h / v, -h / v}, first = INFINITY, q = v * v - 2 * w * h;
+  if (w != 0) {
+    if (q < 0) return INFINITY;
+    root[0] = (-v - sqrtl(q)) / w, root[1] = (-v + sqrtl(q)) / w;
+  }
+  for (int k = 0; k < 2; k++)
+    if (v + w * root[k] < 0 && root[k] > -1e-13L && root[k] < first) first = root[k] > 0 ? root[k] : 0;
+  return first;
+}
+
+md_forecast md_oracle_walls(const gg_md *e)
+{
+  md_forecast f = {.time = INFINITY};
+  for (uint32_t i = 0; e->model.walled && i < e->n; i++) {
+    long double r[3], v[3], w = e->gravity.y, a = e->model.diameter[gg_species_of(&e->grain[i])] / 2;
+    place_now(e, &e->grain[i], r, v);
+    long double lower = next_touch(r[1] - a, v[1], w);
+    long double upper = e->model.open_top ? INFINITY : next_touch(e->box.edge[1] - a - r[1], -v[1], -w);
+    if (lower < f.time) f = (md_forecast){lower, {i, GG_LOWER_WALL}};
+    if (upper < f.time) f = (md_forecast){upper, {i, GG_UPPER_WALL}};
+  }
+  return f;
+}
+
+long double md_closest(const gg_md *e)
+{
+  long double closest = INFINITY;
+  for (uint32_t i = 0; i < e->n; i++)
+    for (uint32_t j = 0; j < i; j++) {
+      separation s = separate(e, i, j);
+      int o = 2 * gg_species_of(&e->grain[i]) + gg_species_of(&e->grain[j]);
+      long double y = e->model.walled ? 0 : rintl(s.r[1] / e->box.edge[1]),
+                  r[3] = {s.r[0] - y * s.offset, s.r[1] - y * e->box.edge[1], s.r[2]};
+      r[0] -= e->box.edge[0] * rintl(r[0] / e->box.edge[0]);
+      r[2] -= e->box.edge[2] * rintl(r[2] / e->box.edge[2]);
+      long double d = sqrtl(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) / e->model.sigma[o];
+      if (d < closest) closest = d;
+    }
+  return closest;
+}
+
+gg_vec md_momentum(const gg_md *e)
+{
+  gg_vec sum = {0, 0, 0};
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), c = e->grain[i].v;
+    c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
+    sum = gg_axpy(e->model.mass[gg_species_of(&e->grain[i])], c, sum);
+  }
+  return sum;
+}
+
+double md_energy(const gg_md *e)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    int s = gg_species_of(&e->grain[i]);
+    double m = e->model.mass[s], K = e->model.inertia[s];
+    sum += 0.5 * m * gg_dot(e->grain[i].v, e->grain[i].v);
+    if (e->spin) sum += 0.5 * K * m * gg_dot(e->spin[i], e->spin[i]);
+  }
+  return sum;
+}

@@ -1,0 +1,50 @@
+/* What the md tests share: models by a few numbers, engines from given states, a plain event finder, a hash. */
+#ifndef GG_MD_TEST_H
+#define GG_MD_TEST_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "common/engine.h"
+#include "md/state.h"
+
+typedef struct md_case {
+  gg_flow flow;
+  int64_t n;
+  double phi, e, beta, mu;
+  double aspect[3]; /* zeros: a cube */
+} md_case;
+
+gg_scene md_scene(md_case c);
+gg_model md_model(md_case c);
+gg_model md_model_of(const gg_scene *scene);
+gg_md *md_create(const gg_model *model, uint64_t seed);
+void md_destroy(gg_md *e);
+
+/* Advance by at most so many collisions; returns the time gone. */
+double md_collide(gg_md *e, uint64_t collisions);
+/* Everything that decides how a run goes on, in 64 bits. */
+uint64_t md_hash(const gg_md *e);
+
+/* The next collision, by trying every image of every pair in long double from the present state, not looking further
+ * than `horizon` ahead. INFINITY if there is none. */
+typedef struct md_forecast {
+  long double time; /* from now */
+  uint32_t pair[2];
+} md_forecast;
+md_forecast md_oracle(const gg_md *e, double horizon);
+/* The same for collisions with walls alone; pair[1] is GG_LOWER_WALL or GG_UPPER_WALL. */
+md_forecast md_oracle_walls(const gg_md *e);
+/* Smallest distance of two centres over their contact distance. */
+long double md_closest(const gg_md *e);
+
+/* sum m C, sum of energies (peculiar). */
+gg_vec md_momentum(const gg_md *e);
+double md_energy(const gg_md *e);
+
+#endif

@@ -1,0 +1,265 @@
+/* Proves, in walled, driven and mixed systems: energy and momentum budgets close (what walls, gravity and collisions
+ * give and take is what the grains have); wall stress equals bulk stress in walled shear; equal temperatures of an
+ * elastic mixture; the Gaussian thermostat is free cooling seen through another clock; white noise keeps the gas warm
+ * near the balance; restarts are bit for bit everywhere. */
+#include <string.h>
+
+#include "md_test.h"
+
+static gg_scene scene(gg_flow flow, int64_t n, double phi, double e, double beta)
+{
+  return md_scene((md_case){flow, n, phi, e, beta, INFINITY, {0}});
+}
+
+static gg_scene mixture(gg_flow flow, int64_t n, double phi, double e, double beta)
+{
+  gg_scene s = scene(flow, n, phi, e, beta);
+  s.n_species = 2;
+  s.species[0].fraction = s.species[1].fraction = 0.5;
+  s.species[1].diameter = 0.7;
+  s.species[1].mass = 0.3;
+  return s;
+}
+
+static double potential(const gg_md *e, double t)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i < e->n; i++)
+    sum -= e->model.mass[gg_species_of(&e->grain[i])] * e->gravity.y * gg_position(e, e->falls, &e->grain[i], t).y;
+  return sum;
+}
+
+static double kinetic(const gg_md *e)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    int k = gg_species_of(&e->grain[i]);
+    gg_vec v = gg_velocity(e, e->falls, &e->grain[i], e->k.now);
+    sum += 0.5 * e->model.mass[k] * gg_dot(v, v);
+    if (e->spin) sum += 0.5 * e->model.inertia[k] * e->model.mass[k] * gg_dot(e->spin[i], e->spin[i]);
+  }
+  return sum;
+}
+
+static gg_vec total_momentum(const gg_md *e)
+{
+  gg_vec sum = {0, 0, 0};
+  for (uint32_t i = 0; i < e->n; i++)
+    sum = gg_axpy(e->model.mass[gg_species_of(&e->grain[i])], gg_velocity(e, e->falls, &e->grain[i], e->k.now), sum);
+  return sum;
+}
+
+static double total_mass(const gg_md *e)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i < e->n; i++) sum += e->model.mass[gg_species_of(&e->grain[i])];
+  return sum;
+}
+
+/* Momentum: gravity in, walls out. Energy: the walls' work and gravity's in, collisions' losses out. */
+static void budgets_close(gg_scene s, uint64_t collisions)
+{
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 3);
+  gg_transfer t;
+  gg_md_ops.tap(&e->base, true);
+  gg_vec p0 = total_momentum(e);
+  double E0 = kinetic(e) + potential(e, e->k.now), time = md_collide(e, collisions);
+  gg_md_ops.read_tap(&e->base, &t);
+  gg_vec p = total_momentum(e);
+  double M = total_mass(e), scale = 0;
+  for (int a = 0; a < 3; a++) scale += fabs(t.wall_impulse[0][a]) + fabs(t.wall_impulse[1][a]) + 1;
+  for (int a = 0; a < 3; a++) {
+    double gained = gg_along(&p, a) - gg_along(&p0, a), wall = t.wall_impulse[0][a] + t.wall_impulse[1][a];
+    double given = M * gg_along(&e->gravity, a) * time;
+    if (!(fabs(gained + wall - given) < 1e-10 * (scale + fabs(given))))
+      fail_msg("flow %d axis %d: gained %g, walls %g, gravity %g", (int)m.flow, a, gained, wall, given);
+  }
+  double work = -m.wall_speed * (t.wall_impulse[1][0] - t.wall_impulse[0][0]);
+  double lost = t.wall_loss + t.loss[0] + t.loss[1] + t.loss[2], E = kinetic(e) + potential(e, e->k.now);
+  if (m.gravity[0] == 0) assert_true(fabs(E - E0 - work + lost) < 1e-9 * (lost + E0));
+  assert_true(t.wall_collisions > 100 && e->k.worst_overlap < 1e-11);
+  md_destroy(e);
+}
+
+static void budgets(void **state)
+{
+  (void)state;
+  for (int two = 0; two < 2; two++)
+    for (int k = 0; k < 3; k++) {
+      gg_scene (*make)(gg_flow, int64_t, double, double, double) = two ? mixture : scene;
+      gg_scene s = make((gg_flow[]){GG_COUETTE, GG_POISEUILLE, GG_CHUTE}[k], 200, 0.2, 0.9, 0.5);
+      if (k == 1) s.gravity[0] = 0.1;
+      if (k == 2) s.gravity[1] = -0.1, s.walls.open_top = two;
+      if (k == 2) s.collision.e[0] = s.collision.e[1] = s.collision.e[2] = 0.99;
+      budgets_close(s, 20000);
+    }
+}
+
+/* sum m v_x y and sum m v_y y: what stands between wall and bulk stress while the flow is not quite steady. */
+static void moments(const gg_md *e, double *xy, double *yy)
+{
+  *xy = *yy = 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    double y = gg_position(e, false, &e->grain[i], e->k.now).y - 0.5 * e->box.edge[1];
+    *xy += e->grain[i].v.x * y;
+    *yy += e->grain[i].v.y * y;
+  }
+}
+
+/* Walled shear: the momentum that the walls take is what the bulk stress carries across every plane:
+ * d/dt sum m v_x y = (kinetic + collisional) - (L_y/2 - d/2)(impulse on the upper - on the lower wall). */
+static void wall_stress_is_bulk_stress(void **state)
+{
+  (void)state;
+  gg_scene s = scene(GG_COUETTE, 400, 0.3, 0.95, -1);
+  s.walls.e = 0.95, s.walls.beta = 0.5, s.walls.mu = INFINITY;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 3);
+  gg_transfer t;
+  md_collide(e, 400 * 300);
+  gg_md_ops.tap(&e->base, true);
+  gg_md_ops.read_tap(&e->base, &t);
+  double time = 0, xy = 0, yy = 0, dt, first[2], last[2], arm = 0.5 * m.box[1] - 0.5;
+  enum { SAMPLES = 6000 };
+  moments(e, &first[0], &first[1]);
+  for (int k = 0; k < SAMPLES; k++) {
+    assert_int_equal(gg_md_ops.advance(&e->base, 0.02, UINT64_MAX, &dt, NULL), GG_OK);
+    time += dt;
+    for (uint32_t i = 0; i < e->n; i++) {
+      xy += e->grain[i].v.x * e->grain[i].v.y / SAMPLES;
+      yy += e->grain[i].v.y * e->grain[i].v.y / SAMPLES;
+    }
+  }
+  gg_md_ops.read_tap(&e->base, &t);
+  moments(e, &last[0], &last[1]);
+  double wall[2] = {arm * (t.wall_impulse[1][0] - t.wall_impulse[0][0]) / time,
+                    arm * (t.wall_impulse[1][1] - t.wall_impulse[0][1]) / time};
+  double bulk[2] = {xy + (t.stress[0][1][0] - last[0] + first[0]) / time,
+                    yy + (t.stress[0][1][1] - last[1] + first[1]) / time};
+  if (!(fabs(wall[0] / bulk[0] - 1) < 0.02) || !(fabs(wall[1] / bulk[1] - 1) < 0.005))
+    fail_msg("walls: xy %g, yy %g; bulk %g, %g", wall[0], wall[1], bulk[0], bulk[1]);
+  md_destroy(e);
+}
+
+static double partial_temperature(const gg_md *e, int species)
+{
+  double sum = 0, n = 0;
+  for (uint32_t i = 0; i < e->n; i++)
+    if (gg_species_of(&e->grain[i]) == species) {
+      sum += e->model.mass[species] * gg_dot(e->grain[i].v, e->grain[i].v) / 3;
+      n++;
+    }
+  return sum / n;
+}
+
+static void equipartition(void **state)
+{
+  (void)state;
+  gg_scene s = mixture(GG_EQUILIBRIUM, 1000, 0.3, 1, -1);
+  s.species[0].fraction = 0.3, s.species[1].fraction = 0.7;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 8);
+  for (uint32_t i = 0; i < e->n; i++) /* far from it at first */
+    if (gg_species_of(&e->grain[i]) == 0) assert_true(e->model.mass[0] == 1);
+  double ratio = 0;
+  md_collide(e, 20000);
+  for (int k = 0; k < 400; k++) {
+    md_collide(e, 1000);
+    ratio += partial_temperature(e, 0) / partial_temperature(e, 1) / 400;
+  }
+  assert_true(fabs(ratio - 1) < 0.02);
+  assert_true(fabs(md_energy(e) / (1.5 * (double)m.n * m.temperature0) - 1) < 1e-11);
+  md_destroy(e);
+}
+
+/* Same places, velocities up to one factor, after the same number of collisions; outside, the temperature is kept. */
+static void gaussian_is_free_cooling(void **state)
+{
+  (void)state;
+  gg_scene free = scene(GG_HCS, 200, 0.2, 0.8, -1), kept = scene(GG_HSS, 200, 0.2, 0.8, -1);
+  free.md.contact_time = kept.md.contact_time = 0;
+  gg_model mf = md_model_of(&free), mk = md_model_of(&kept);
+  gg_md *f = md_create(&mf, 4), *k = md_create(&mk, 4);
+  md_collide(f, 600), md_collide(k, 600);
+  double factor = k->k.scale * k->grain[0].v.x / f->grain[0].v.x;
+  for (uint32_t i = 0; i < f->n; i++) {
+    gg_vec a = gg_position(f, false, &f->grain[i], f->k.now), b = gg_position(k, false, &k->grain[i], k->k.now);
+    gg_vec dr = gg_sub(a, b), dv = gg_axpy(-k->k.scale / factor, k->grain[i].v, f->grain[i].v);
+    assert_true(gg_dot(dr, dr) < 1e-12 && gg_dot(dv, dv) < 1e-12);
+  }
+  for (int part = 0; part < 10; part++) {
+    gg_error err;
+    double gone;
+    md_collide(k, 5000);
+    assert_int_equal(gg_md_ops.advance(&k->base, 0.37, UINT64_MAX, &gone, &err), GG_OK);
+    assert_true(gone == 0.37);
+    double T = 2 * md_energy(k) * k->k.scale * k->k.scale / (3 * 200);
+    assert_true(fabs(T / mk.temperature0 - 1) < 1e-9);
+  }
+  md_destroy(f);
+  md_destroy(k);
+}
+
+static void white_noise_keeps_warm(void **state)
+{
+  (void)state;
+  gg_scene s = scene(GG_HSS, 1000, 0.05, 0.9, -1);
+  s.thermostat = GG_WHITE_NOISE;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 4);
+  md_collide(e, 20000);
+  double T = 0;
+  for (int k = 0; k < 100; k++) {
+    md_collide(e, 500);
+    T += 2 * md_energy(e) / (3 * 1000) / 100;
+  }
+  gg_vec p = total_momentum(e);
+  assert_true(fabs(T / m.temperature0 - 1) < 0.05 && gg_dot(p, p) < 1e-20 * 1000);
+  md_destroy(e);
+}
+
+static void restarts(void **state)
+{
+  (void)state;
+  gg_scene scenes[] = {mixture(GG_USF, 150, 0.2, 0.9, 0), mixture(GG_COUETTE, 150, 0.2, 0.9, 0),
+                       scene(GG_CHUTE, 150, 0.1, 0.9, 0.5), scene(GG_HSS, 150, 0.1, 0.9, -1),
+                       scene(GG_HSS, 150, 0.1, 0.9, -1)};
+  scenes[2].gravity[1] = -0.1, scenes[2].walls.open_top = true;
+  scenes[4].thermostat = GG_WHITE_NOISE;
+  for (int k = 0; k < 5; k++) {
+    gg_model m = md_model_of(&scenes[k]);
+    gg_md *e = md_create(&m, 1), *cut = md_create(&m, 1);
+    gg_engine *back = NULL;
+    gg_archive a = {0};
+    gg_error err;
+    md_collide(e, 5000);
+    while (cut->k.collisions < 5000) {
+      uint64_t left = 5000 - cut->k.collisions;
+      assert_int_equal(gg_md_ops.advance(&cut->base, 0.01, left, NULL, &err), GG_OK);
+    }
+    if (md_hash(e) != md_hash(cut)) fail_msg("scene %d: cutting changes the run", k);
+    assert_int_equal(gg_md_ops.save(&e->base, &a, &err), GG_OK);
+    assert_int_equal(gg_md_ops.restore(&m, &a, &back, &err), GG_OK);
+    gg_archive_clear(&a);
+    md_collide(e, 10000);
+    md_collide((gg_md *)back, 10000);
+    if (md_hash(e) != md_hash((gg_md *)back)) fail_msg("scene %d: not the same after a restart", k);
+    md_destroy(e);
+    md_destroy(cut);
+    md_destroy((gg_md *)back);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(budgets),
+      cmocka_unit_test(wall_stress_is_bulk_stress),
+      cmocka_unit_test(equipartition),
+      cmocka_unit_test(gaussian_is_free_cooling),
+      cmocka_unit_test(white_noise_keeps_warm),
+      cmocka_unit_test(restarts),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

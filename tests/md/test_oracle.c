@@ -1,0 +1,183 @@
+/* Proves: given the engine's own state after each event, a plain search over all images of all pairs, and the walls,
+ * names the same next collision (who, and when to 10^-10 of a mean free time), over hundreds of random small systems:
+ * periodic, sheared, between walls, under gravity; smooth, rough and frictional; one and two species; dilute and dense,
+ * cubic and not. And no two grains ever overlap. */
+#include <string.h>
+
+#include "md_test.h"
+
+enum { MOST = 64 };
+
+typedef struct watch {
+  uint32_t stamp[MOST];
+  int64_t changed[3]; /* who collided since, -1: nobody */
+} watch;
+
+static void look(watch *w, const gg_md *e)
+{
+  for (uint32_t i = 0; i < e->n; i++) w->stamp[i] = e->grain[i].stamp;
+}
+
+static void look_again(watch *w, const gg_md *e)
+{
+  int n = 0;
+  w->changed[0] = w->changed[1] = w->changed[2] = -1;
+  for (uint32_t i = 0; i < e->n && n < 3; i++)
+    if (e->grain[i].stamp != w->stamp[i]) w->changed[n++] = i;
+}
+
+static void advance(gg_md *e, double dt)
+{
+  gg_error err = {0};
+  if (gg_md_ops.advance(&e->base, dt, UINT64_MAX, NULL, &err) != GG_OK) fail_msg("%s", err.message);
+}
+
+/* One forecast of the plain search, and what the engine does around that time. */
+static void check_next(gg_md *e, uint64_t seed)
+{
+  double tolerance = 1e-10 * e->k.free_time, horizon = 30 * e->k.free_time / e->n;
+  md_forecast f = md_oracle(e, horizon), wall = md_oracle_walls(e);
+  if (wall.time < f.time) f = wall;
+  watch w;
+  look(&w, e);
+  if (!(f.time < horizon)) {
+    advance(e, horizon);
+    look_again(&w, e);
+    assert_true(w.changed[0] < 0);
+    return;
+  }
+  if (f.time > tolerance) advance(e, (double)f.time - tolerance);
+  look_again(&w, e);
+  int64_t early = w.changed[0];
+  advance(e, 2 * tolerance);
+  look_again(&w, e);
+  bool by_wall = f.pair[1] >= GG_UPPER_WALL;
+  bool same = w.changed[0] == f.pair[0] && w.changed[1] == (by_wall ? -1 : (int64_t)f.pair[1]) && w.changed[2] == -1;
+  if (early >= 0 || !same)
+    fail_msg("n %u phi %g flow %d seed %d: plain search (%u, %u) after %.17Lg; engine (%d, %d, %d), %s", e->n,
+             e->model.phi, (int)e->model.flow, (int)seed, f.pair[0], f.pair[1], f.time, (int)w.changed[0],
+             (int)w.changed[1], (int)w.changed[2], early >= 0 ? "early" : "then");
+}
+
+static void follow(const gg_scene *s, uint64_t seed, int warm, int events)
+{
+  gg_model m = md_model_of(s);
+  assert_true(m.n <= MOST);
+  gg_md *e = md_create(&m, seed);
+  md_collide(e, (uint64_t)warm);
+  for (int k = 0; k < events; k++) check_next(e, seed);
+  if (!(md_closest(e) > 1 - 1e-12L && e->k.worst_overlap < 1e-12))
+    fail_msg("flow %d seed %d: closest 1 - %Lg, worst overlap %g", (int)m.flow, (int)seed, 1 - md_closest(e),
+             e->k.worst_overlap);
+  md_destroy(e);
+}
+
+static void random_contact(gg_scene *s, gg_rng *rng)
+{
+  static const double betas[] = {-1, 0, 0.5, 1}, mus[] = {INFINITY, INFINITY, 0.1, 0.5};
+  for (int p = 0; p < GG_PAIRS; p++) {
+    s->collision.e[p] = 0.6 + 0.1 * gg_rng_below(rng, 5);
+    s->collision.beta[p] = betas[gg_rng_below(rng, 4)];
+    s->collision.mu[p] = mus[gg_rng_below(rng, 4)];
+  }
+  s->walls.e = 0.6 + 0.1 * gg_rng_below(rng, 5);
+  s->walls.beta = betas[gg_rng_below(rng, 4)];
+  s->walls.mu = mus[gg_rng_below(rng, 4)];
+  s->walls.speed = 3;
+}
+
+/* Not every draw fits: the box may be too small for the number of grains. */
+static bool random_scene(gg_scene *s, gg_rng *rng, gg_flow flow, bool mixture)
+{
+  *s = gg_scene_defaults();
+  s->flow = flow;
+  s->phi = pow(10, -2 + (gg_flow_is_walled(flow) || mixture ? 1.4 : 1.74) * gg_rng_uniform(rng));
+  for (int a = 0; a < 3; a++) s->aspect[a] = 1 + 0.6 * gg_rng_uniform(rng);
+  random_contact(s, rng);
+  if (mixture) {
+    s->n_species = 2;
+    s->species[0].fraction = s->species[1].fraction = 0.5;
+    s->species[1].diameter = 0.6 + 0.8 * gg_rng_uniform(rng);
+    s->species[1].mass = 0.2 + 3 * gg_rng_uniform(rng);
+  }
+  double fewest = 10 * s->phi / (M_PI / 6);
+  s->particles = 3 + (int64_t)fewest + gg_rng_below(rng, 30);
+  if (flow == GG_POISEUILLE) s->gravity[0] = 0.5, s->walls.beta = 0.5, s->walls.mu = INFINITY; /* walls that brake */
+  if (flow == GG_CHUTE) {
+    s->gravity[0] = 0.2, s->gravity[1] = -0.5;
+    s->walls.open_top = gg_rng_below(rng, 2);
+  }
+  gg_model m = md_model_of(s);
+  return s->particles <= MOST && gg_md_ops.accepts(&m, NULL) == GG_OK;
+}
+
+static void many(gg_flow flow, bool mixture, int systems, uint64_t seed)
+{
+  gg_rng rng = gg_rng_seed(seed, 7);
+  gg_scene s;
+  for (int k = 0; k < systems;)
+    if (random_scene(&s, &rng, flow, mixture)) follow(&s, seed + (uint64_t)k++, 60, 40);
+}
+
+static void periodic(void **state)
+{
+  (void)state, many(GG_HCS, false, 90, 100);
+}
+static void sheared(void **state)
+{
+  (void)state, many(GG_USF, false, 90, 300);
+}
+static void mixtures(void **state)
+{
+  (void)state;
+  many(GG_HCS, true, 30, 500);
+  many(GG_USF, true, 40, 600);
+  many(GG_COUETTE, true, 20, 700);
+}
+static void between_walls(void **state)
+{
+  (void)state, many(GG_COUETTE, false, 60, 800);
+}
+static void under_gravity(void **state)
+{
+  (void)state;
+  many(GG_POISEUILLE, false, 40, 900);
+  many(GG_CHUTE, false, 60, 1000);
+  many(GG_CHUTE, true, 20, 1100);
+}
+
+static void one(md_case c, uint64_t seed, int warm, int events)
+{
+  gg_scene s = md_scene(c);
+  follow(&s, seed, warm, events);
+}
+
+static void dense(void **state)
+{
+  (void)state;
+  for (uint64_t seed = 1; seed <= 4; seed++) {
+    one((md_case){GG_EQUILIBRIUM, 40, 0.55, 1, -1, INFINITY, {0}}, seed, 400, 50);
+    one((md_case){GG_USF, 40, 0.52, 0.8, 0, INFINITY, {0}}, seed, 400, 50);
+  }
+}
+
+/* Two to four grains: every image counts. */
+static void few_grains(void **state)
+{
+  (void)state;
+  for (int64_t n = 2; n <= 4; n++)
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+      one((md_case){GG_HCS, n, 0.02 * (double)n, 0.9, 0, INFINITY, {0}}, seed, 3, 60);
+      one((md_case){GG_USF, n, 0.06, 0.9, 0, INFINITY, {0}}, seed, 3, 60);
+    }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(periodic),      cmocka_unit_test(sheared),       cmocka_unit_test(mixtures),
+      cmocka_unit_test(between_walls), cmocka_unit_test(under_gravity), cmocka_unit_test(dense),
+      cmocka_unit_test(few_grains),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

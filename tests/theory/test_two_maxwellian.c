@@ -1,0 +1,122 @@
+#include "theory_test.h"
+
+#include "theory/lun1991.h"
+#include "theory/two_maxwellian.h"
+
+static gg_grain grain(double e, double beta, double K)
+{
+  return (gg_grain){(1 + e) / 2, (1 + beta) * K / (2 * (1 + K)), K};
+}
+
+/* Closed form of the cooling ratio (Huthmann & Zippelius 1997): [(A-C) + sqrt((A-C)^2 + 4B^2)]/(2B). */
+static void cooling_ratio(void **state)
+{
+  (void)state;
+  for (double e = 0.3; e < 0.95; e += 0.2)
+    for (double beta = -0.95; beta <= 1; beta += 0.15) {
+      double K = 0.4;
+      gg_grain g = grain(e, beta, K);
+      double A = g.eta1 * (1 - g.eta1) + g.eta2 * (1 - g.eta2), B = g.eta2 * g.eta2 / K;
+      double C = g.eta2 / K * (1 - g.eta2 / K);
+      assert_close(gg_ratio_cooling(g, INFINITY), (A - C + sqrt((A - C) * (A - C) + 4 * B * B)) / (2 * B), 1e-10);
+      assert_close(gg_ratio_driven(g, INFINITY), gg_lun_ratio(g), 1e-10);
+    }
+  assert_close(gg_ratio_cooling(grain(0.9, 0, 0.4), INFINITY), 0.5738, 1e-4);
+  assert_close(gg_ratio_cooling(grain(0.8, 0.5, 0.4), INFINITY), 1.043, 5e-4);
+}
+
+/* The rates in the form of Santos, Kremer & Garzo 2010, eq. (39): nu' = (16/5) n d^2 chi sqrt(pi T). */
+static void rates_of_santos(void **state)
+{
+  (void)state;
+  for (double beta = -0.9; beta <= 1; beta += 0.3) {
+    double e = 0.8, K = 0.3, r = 0.7;
+    gg_exchange x = gg_exchange_at(grain(e, beta, K), INFINITY, r);
+    double nu = 4, nu1 = 3.2; /* collision rate and nu' in units of n d^2 chi sqrt(pi T) */
+    double tr =
+        5. / 12 * nu1 * (1 - e * e + K / (1 + K) * (1 - beta * beta) + K * pow((1 + beta) / (1 + K), 2) * (1 - r));
+    double rot = 5. / 12 * nu1 * (1 + beta) / (1 + K) * (1 - beta + K * (1 + beta) / (1 + K) * (1 - 1 / r));
+    assert_close(-nu / 3 * x.translation, tr, 1e-13);
+    assert_close(-nu / 3 * x.rotation / r, rot, 1e-12);
+  }
+}
+
+/* Elastic perfectly rough grains share energy equally and lose none. */
+static void equipartition(void **state)
+{
+  (void)state;
+  gg_grain g = grain(1, 1, 0.4);
+  gg_exchange x = gg_exchange_at(g, INFINITY, 1);
+  assert_close(x.translation, 0, 1e-15);
+  assert_close(x.rotation, 0, 1e-15);
+  x = gg_exchange_at(g, INFINITY, 0.3);
+  assert_close(x.translation + x.rotation, 0, 1e-15);
+}
+
+/* Friction without limit is constant beta; friction that vanishes leaves smooth grains. */
+static void friction_limits(void **state)
+{
+  (void)state;
+  for (double beta = -0.8; beta <= 1; beta += 0.3) {
+    gg_grain g = grain(0.9, beta, 0.4);
+    gg_exchange rough = gg_exchange_at(g, INFINITY, 0.5), sticky = gg_exchange_at(g, 1e5, 0.5);
+    gg_exchange slippery = gg_exchange_at(g, 1e-9, 0.5);
+    assert_close(sticky.translation, rough.translation, 1e-7);
+    assert_close(sticky.rotation, rough.rotation, 1e-7);
+    assert_close(slippery.translation, -4 * g.eta1 * (1 - g.eta1), 1e-7);
+    assert_close(slippery.rotation, 0, 1e-7);
+    assert_close(gg_sliding_share(g, 1e5, 0.5), 0, 1e-9);
+    assert_close(gg_sliding_share(g, 1e-9, 0.5), 1, 1e-12);
+  }
+}
+
+/* One integral over the angle of impact instead of the closed form: with c = cot(psi) of the impact, the normal contact
+ * velocity squared is 4T x, x exponential, and V |g_t|^2 likewise. */
+static void friction_by_quadrature(void **state)
+{
+  (void)state;
+  const double mu = 0.2, r = 0.6;
+  gg_grain g = grain(0.9, 0.3, 0.4);
+  double V = 2 * (1 + r / g.K), Jg = 0, JJ = 0, slides = 0;
+  const int n = 1000; /* midpoints in both distribution functions; the kink at the critical angle sets the error */
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < n; j++) {
+      double gn = sqrt(-4 * log((i + 0.5) / n)), gt = sqrt(-2 * V * log((j + 0.5) / n));
+      double stick = g.eta2 * gt, limit = mu * g.eta1 * gn, Jt = fmin(stick, limit);
+      Jg += Jt * gt, JJ += Jt * Jt, slides += stick > limit;
+    }
+  Jg /= (double)n * n, JJ /= (double)n * n, slides /= (double)n * n;
+  gg_exchange x = gg_exchange_at(g, mu, r);
+  assert_close(slides, gg_sliding_share(g, mu, r), 1e-3);
+  assert_close(x.translation, -4 * g.eta1 * (1 - g.eta1) - Jg / (1 + r / g.K) + JJ, 1e-3);
+  assert_close(x.rotation, -r / g.K * Jg / (1 + r / g.K) + JJ / g.K, 2e-3);
+}
+
+/* The theory: same numbers through the shared names, cooling rate with zeta = -(dT/dt)/T. */
+static void theory_answers(void **state)
+{
+  (void)state;
+  gg_model m = model_for(GG_HCS, 0.2, 0.9, 0);
+  gg_theory_answer a = answer_of(&gg_huthmann_zippelius1997, &m);
+  double lambda = a.value[GG_Q_TEMPERATURE_RATIO], K = 0.4, chi = m.chi[0];
+  double tr = 5. / 12 * (1 - 0.81 + K / (1 + K) + K / pow(1 + K, 2) * (1 - lambda)) * chi;
+  assert_close(a.value[GG_Q_COOLING_RATE], tr, 1e-12);
+  assert_close(a.value[GG_Q_TEMPERATURE], 0.5, 0);
+  m = model_for(GG_USF, 0.2, 0.9, 0);
+  assert_close(value_of(&gg_huthmann_zippelius1997, &m, GG_Q_TEMPERATURE_RATIO), 2. / 9, 1e-10);
+  m = model_for(GG_HCS, 0.2, 0.9, -1);
+  assert_refused(&gg_huthmann_zippelius1997, &m, "smooth");
+  gg_scene s = scene_of(GG_HCS, 0.2, 0.5, 0.4);
+  for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = 0.01;
+  m = model_of(&s);
+  assert_refused(&gg_huthmann_zippelius1997, &m, "no steady theta/T");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(cooling_ratio),   cmocka_unit_test(rates_of_santos),        cmocka_unit_test(equipartition),
+      cmocka_unit_test(friction_limits), cmocka_unit_test(friction_by_quadrature), cmocka_unit_test(theory_answers),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
