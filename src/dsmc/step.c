@@ -18,7 +18,7 @@ static void heat(gg_dsmc *d, double dt, double drift, double half)
   if (d->thermostat == GG_GAUSSIAN) {
     d->now.lost = -gg_thermostat_return(&d->ensemble, drift, d->now.lost, half);
   } else {
-    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, &d->now.rng);
+    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, &d->now.lanes);
   }
 }
 

@@ -7,8 +7,7 @@
 #ifndef GG_DSMC_THERMOSTAT_H
 #define GG_DSMC_THERMOSTAT_H
 
-#include "common/rng.h"
-#include "dsmc/ensemble.h"
+#include "dsmc/pairing.h"
 
 /* The thermostat in force: a heated gas (flow: hss) has the Gaussian one unless the scene says otherwise. */
 gg_thermostat gg_thermostat_of(const gg_model *model);
@@ -21,6 +20,6 @@ double gg_thermostat_noise(const gg_model *model);
  * stored with `drift`. */
 double gg_thermostat_return(gg_ensemble *e, double drift, double missing, double half);
 /* Kick every grain: `variance` along each axis. */
-void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng *rng);
+void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng_lanes *lanes);
 
 #endif

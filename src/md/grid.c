@@ -22,7 +22,7 @@ static double shell_radius(const gg_model *m)
 }
 
 /* Cells for shells' centres: only in boxes of at least three cells, no nearest image in doubt, no walls. */
-static gg_status make_lists(gg_md *e, double radius, gg_error *err)
+gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {
   double reach = gg_md_reach(&e->model) + 2 * radius;
   int32_t n[3];
@@ -37,7 +37,7 @@ static gg_status make_lists(gg_md *e, double radius, gg_error *err)
 gg_status gg_md_make_grid(gg_md *e, gg_error *err)
 {
   double radius = e->model.walled ? 0 : shell_radius(&e->model);
-  if (radius > 0) GG_TRY(make_lists(e, radius, err));
+  if (radius > 0) GG_TRY(gg_md_make_lists(e, radius, err));
   if (e->shell) return GG_OK;
   double reach = gg_md_reach(&e->model);
   double width = fmax(reach, cbrt(GRAINS_PER_CELL * e->model.volume / (double)e->model.n));

@@ -6,8 +6,14 @@
 #include "md/loop.h"
 
 #define MOTION(name, ...)                                                                                              \
-  static void run_##name(gg_md *e) { gg_loop(e, (gg_features){__VA_ARGS__}); }                                         \
-  static void all_##name(gg_md *e) { gg_forecast_all(e, (gg_features){__VA_ARGS__}); }
+  static void run_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_loop(e, (gg_features){__VA_ARGS__});                                                                            \
+  }                                                                                                                    \
+  static void all_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_forecast_all(e, (gg_features){__VA_ARGS__});                                                                    \
+  }
 #define MOTIONS(name, ...)                                                                                             \
   MOTION(name, __VA_ARGS__)                                                                                            \
   MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
@@ -16,7 +22,13 @@ MOTIONS(sheared, .sheared = true)
 MOTIONS(walled, .walled = true)
 MOTIONS(falling, .walled = true, .gravity = true)
 
-#define ROW(name) {{run_##name, all_##name}, {run_##name##_mixture, all_##name##_mixture}}
+#define ROW(name)                                                                                                      \
+  {                                                                                                                    \
+    {run_##name, all_##name},                                                                                          \
+    {                                                                                                                  \
+      run_##name##_mixture, all_##name##_mixture                                                                       \
+    }                                                                                                                  \
+  }
 enum boundary { PERIODIC, SHEARED, WALLED, FALLING };
 static const gg_kernel plain[][2] = {
     [PERIODIC] = ROW(periodic), [SHEARED] = ROW(sheared), [WALLED] = ROW(walled), [FALLING] = ROW(falling)};

@@ -9,8 +9,14 @@
 #define JOIN(a, b) JOIN2(a, b)
 
 #define MOTION(name, ...)                                                                                              \
-  static void run_##name(gg_md *e) { gg_loop(e, (gg_features){.listed = true, __VA_ARGS__}); }                         \
-  static void all_##name(gg_md *e) { gg_forecast_all(e, (gg_features){.listed = true, __VA_ARGS__}); }
+  static void run_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_loop(e, (gg_features){.listed = true, __VA_ARGS__});                                                            \
+  }                                                                                                                    \
+  static void all_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_forecast_all(e, (gg_features){.listed = true, __VA_ARGS__});                                                    \
+  }
 MOTION(periodic, .sheared = false)
 MOTION(periodic_mixture, .mixture = true)
 MOTION(sheared, .sheared = true)

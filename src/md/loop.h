@@ -93,7 +93,7 @@ GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
 /* Out of its shell: a new one, lists mended, and a new prediction. */
 GG_INLINE void gg_leave_shell(gg_md *e, gg_features f, uint32_t i)
 {
-  uint32_t found[GG_LIST + 1];
+  uint32_t found[GG_LIST + 2];
   gg_leave_cell(e, i);
   gg_new_shell(e, f, i);
   gg_enter_cell(e, i);
@@ -157,8 +157,7 @@ GG_INLINE void gg_loop(gg_md *e, gg_features f)
         gg_leave_shell(e, f, i);
       else
         gg_cross_face(e, f, i);
-    }
-    else if (f.walled && GG_NO_GRAIN(partner))
+    } else if (f.walled && GG_NO_GRAIN(partner))
       gg_hit_wall(e, f, i, partner == GG_UPPER_WALL);
     else if (e->grain[partner].stamp != node->stamp)
       gg_predict(e, f, i);

@@ -70,10 +70,10 @@ struct gg_md {
   uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
   /* Neighbour lists: NULL where the cells themselves are searched. */
   gg_shell *shell;
-  uint32_t *neighbour;      /* GG_LIST a grain */
-  double shell_radius;      /* s */
-  double shrinkage;         /* kappa */
-  double pair_reach[3];     /* sigma + 2 s by unordered pair */
+  uint32_t *neighbour;  /* GG_LIST a grain */
+  double shell_radius;  /* s */
+  double shrinkage;     /* kappa */
+  double pair_reach[3]; /* sigma + 2 s by unordered pair */
   uint32_t n;
   gg_vec gravity;
   bool falls; /* gravity is not zero */
@@ -105,6 +105,8 @@ gg_status gg_md_begin(gg_md *e, gg_error *err);
 /* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
 double gg_md_reach(const gg_model *model);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
+/* Neighbour lists with shells of this radius, if the box is wide enough for them; else nothing. */
+gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 void gg_md_chain_grid(gg_md *e);
 void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);

@@ -1,6 +1,7 @@
 /* The block kernels against each other, bit for bit, and against the plain path, within its error bars. */
 #include "dsmc/dsmc.h"
 #include "dsmc/lanes_collision.h"
+#include "dsmc/normal.h"
 #include "lab.h"
 
 static gg_engine *on_path(const gg_model *m, gg_path path, uint64_t seed)
@@ -64,17 +65,44 @@ static void same_bits(void **state)
   const double beta[] = {-1, 0.3, 0.3}, mu[] = {INFINITY, INFINITY, 0.2};
   for (int rule = 0; rule < 3; rule++)
     for (int dense = 0; dense < 2; dense++)
-      for (int flow = 0; flow < 3; flow++)
+      for (int flow = 0; flow < 4; flow++)
         for (int species = 1; species <= 2; species++) {
-          const gg_flow flows[] = {GG_HCS, GG_USF, GG_HSS};
+          const gg_flow flows[] = {GG_HCS, GG_USF, GG_HSS, GG_HSS};
           gg_scene s = lab_scene(flows[flow], dense ? 0.3 : 0, 0.8, beta[rule], 1003);
           s.collision.mu[0] = s.collision.mu[1] = mu[rule];
+          if (flow == 3) s.thermostat = GG_WHITE_NOISE;
           s.n_species = species;
           s.species[0] = (gg_species){0.5, 1, 1, 0.4};
           s.species[1] = (gg_species){0.5, 0.7, 2, 0.3};
           gg_model m = lab_model(&s);
           same_bits_on(&m);
         }
+}
+
+/* Normal numbers: the logarithm to rounding, moments 0, 1, 0, 3 of both numbers of a pair, and no correlation. */
+static void normal_numbers(void **state)
+{
+  (void)state;
+  gg_rng rng = gg_rng_seed(6, 0);
+  for (int i = 0; i < 100000; i++) {
+    double u = i < 50 ? ldexp(1, -i) : gg_rng_uniform(&rng) + 0x1p-53;
+    assert_true(fabs(gg_lane_log(gg_all(u))[0] - log(u)) <= 4e-16 * (1 + fabs(log(u))));
+  }
+  gg_rng_lanes lanes;
+  for (unsigned l = 0; l < GG_LANES; l++)
+    for (int i = 0; i < 4; i++) lanes.s[i][l] = gg_rng_seed(6, l + 1).s[i];
+  gg_lane_rng r;
+  gg_lane_rng_load(&r, &lanes);
+  const int n = 1000000;
+  double m[5] = {0}, cross = 0;
+  for (int i = 0; i < n; i++) {
+    gg_vd a, b;
+    gg_lane_normal(&r, i % GG_PARTS, &a, &b);
+    m[1] += a[0], m[2] += b[0] * b[0], m[3] += a[1] * a[1] * a[1], m[4] += pow(b[1], 4), cross += a[0] * b[0];
+  }
+  const double expected[5] = {0, 0, 1, 0, 3}, variance[5] = {0, 1, 2, 15, 96};
+  for (int k = 1; k < 5; k++) assert_true(fabs(m[k] / n - expected[k]) < 4.5 * sqrt(variance[k] / n));
+  assert_true(fabs(cross / n) < 4.5 / sqrt(n));
 }
 
 typedef struct physics {
@@ -154,7 +182,7 @@ static void blocks_and_plain_agree(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_rule), cmocka_unit_test(same_bits),
-                                     cmocka_unit_test(blocks_and_plain_agree)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(same_rule), cmocka_unit_test(normal_numbers),
+                                     cmocka_unit_test(same_bits), cmocka_unit_test(blocks_and_plain_agree)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,10 +70,13 @@ static void heated_viscosity(void **state)
   viscosity(&m, 0.04, 10, &total, &kinetic);
   double c = 2 * 16 * 0.3 * (1 - 0.98) / (81 - 17 * 0.7 + 30 * 0.49 * 0.3), zeta = 5. / 12 * 0.51 * (1 + 3. / 32 * c);
   double nu = (1 - 0.25 * 0.09) * (1 - c / 64);
-  lab_expect("eta/eta_0, phi 0, e .7", &total, 1.016 / (nu - zeta), 0.01, 0.06);
+  lab_expect("eta/eta_0, phi 0, e .7", &total, 1 / (nu - zeta), 0.008, 0.05);
 }
 
-/* Elastic perfectly rough spheres, dilute: Pidduck's viscosity (1922), eta_0 6 (1+K)^2/(6 + 13 K); first order. */
+/* Elastic perfectly rough spheres, dilute: Pidduck's viscosity (1922), eta_0 6 (1+K)^2/(6 + 13 K), supposes isotropic
+ * spins. Shear makes them anisotropic, which adds a factor 1/(1 - r_cs r_sc/(r_cc r_ss)) (Condiff, Lu & Dahler, J.
+ * Chem. Phys. 42 (1965) 3445): 1.0535 at K = 0.4, from a Monte Carlo evaluation of the four relaxation rates of C_x C_y
+ * and s_x s_y over the common collision rule. */
 static void rough_viscosity(void **state)
 {
   (void)state;
@@ -82,7 +85,7 @@ static void rough_viscosity(void **state)
   m.ratio0 = 1;
   viscosity(&m, 0.05, 12, &total, &kinetic);
   double K = m.inertia[0];
-  lab_expect("eta/eta_0, Pidduck", &total, 1.01 * 6 * (1 + K) * (1 + K) / (6 + 13 * K), 0.008, 0.06);
+  lab_expect("eta/eta_0, Pidduck", &total, 1.0535 * 6 * (1 + K) * (1 + K) / (6 + 13 * K), 0.006, 0.04);
 }
 
 /* Ten thousand collisions a grain under a thermostat that amplifies any motion of the centre of mass: it stays at
