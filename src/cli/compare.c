@@ -47,6 +47,8 @@ static int compare(const gg_options *o, const gg_scene *scene, const char *outpu
   gg_result_file file;
   gg_cli_progress progress;
   if (gg_check_writable(output, &err) != GG_OK) return gg_cli_report(&err);
+  if (scene->output.checkpoint_every > 0 || scene->output.trajectory_every > 0)
+    fprintf(stderr, "warning: compare keeps no checkpoints and no trajectory; graingas run does\n");
   gg_cli_progress_start(&progress, o->quiet);
   gg_cli_catch_interrupts();
   gg_hooks hooks = {&progress, gg_cli_progress_show, gg_cli_interrupted, NULL, NULL};
