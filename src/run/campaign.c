@@ -152,13 +152,6 @@ static bool out_of_time(const gg_campaign *c)
   return c->plan.time_limit > 0 && c->state.wall + gg_wall_now() - c->started > c->plan.time_limit;
 }
 
-static void open_window(gg_campaign *c)
-{
-  for (int i = 0; i < c->n; i++) gg_replica_open_window(&c->replicas[i]);
-  c->state.averaging = 1;
-  c->state.window_at = c->state.goal = c->state.due;
-}
-
 /* A window of this length that still drifts is given up, and averaging begins anew after it; but not for ever. */
 enum { MOST_RESTARTS = 6 };
 
@@ -168,6 +161,14 @@ static uint64_t next_length(const gg_campaign *c, uint64_t window)
   uint64_t least = c->plan.least << c->state.restarts;
   uint64_t next = window < least ? least : window + window / 4;
   return c->plan.most && next > c->plan.most ? c->plan.most : next;
+}
+
+static void open_window(gg_campaign *c)
+{
+  for (int i = 0; i < c->n; i++) gg_replica_open_window(&c->replicas[i]);
+  c->state.averaging = 1;
+  c->state.window_at = c->state.due;
+  c->state.goal = c->state.due + next_length(c, 0);
 }
 
 /* Is the window long, steady and exact enough? */
@@ -187,11 +188,9 @@ gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
     if (!out_of_time(c)) open_window(c);
   }
   while (!out_of_time(c)) {
-    uint64_t window = c->state.due - c->state.window_at;
-    if (c->state.due >= c->state.goal) c->state.goal = c->state.window_at + next_length(c, window);
     GG_TRY(go_to(c, c->state.goal, err));
     if (c->state.due < c->state.goal) break; /* out of time on the way */
-    window = c->state.due - c->state.window_at;
+    uint64_t window = c->state.due - c->state.window_at;
     gg_judgement j;
     GG_TRY(gg_campaign_judge(c, &j, err));
     if (j.drifting && c->plan.find_steady && c->state.restarts < MOST_RESTARTS && window >= c->plan.least) {
@@ -199,6 +198,8 @@ gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
       open_window(c);
     } else if (finished(c, &j, window)) {
       return GG_OK;
+    } else {
+      c->state.goal = c->state.window_at + next_length(c, window);
     }
   }
   return checkpoints(c) ? store_checkpoint(c, err) : GG_OK; /* the time limit struck */
