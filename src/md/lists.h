@@ -46,12 +46,10 @@ GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const 
   return e->k.now + delay;
 }
 
-/* The earliest contact with the grains of the list. */
-GG_INLINE void gg_scan_list(const gg_md *e, gg_features f, gg_search *s)
+/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain itself. */
+GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
 {
   const gg_grain *g = s->self;
-  const uint32_t *list = gg_list(e, s->grain);
-  uint32_t count = e->node[s->grain].neighbours;
   double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0, now = e->k.now;
   const double *L = e->box.edge, *inverse = e->box.inverse, *sigma = e->model.sigma;
   int species = f.mixture ? gg_species_of(g) : 0;
@@ -62,6 +60,12 @@ GG_INLINE void gg_scan_list(const gg_md *e, gg_features f, gg_search *s)
     gg_v8 dt = now - b.t;
     gg_v8 x = b.x + dt * b.vx - g->r.x, y = b.y + dt * b.vy - g->r.y, z = b.z + dt * b.vz - g->r.z;
     gg_v8 vx = b.vx - g->v.x, vy = b.vy - g->v.y, vz = b.vz - g->v.z;
+    if (f.gravity) {
+      gg_v8 half = 0.5 * dt * dt;
+      x = (b.x + dt * b.vx + half * e->gravity.x) - g->r.x, vx = (b.vx + dt * e->gravity.x) - g->v.x;
+      y = (b.y + dt * b.vy + half * e->gravity.y) - g->r.y, vy = (b.vy + dt * e->gravity.y) - g->v.y;
+      z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
+    }
     if (f.sheared) {
       gg_v8 layers = gg_nearest8(y * inverse[1]);
       y -= L[1] * layers;
@@ -70,7 +74,7 @@ GG_INLINE void gg_scan_list(const gg_md *e, gg_features f, gg_search *s)
       vx -= layers * e->box.slide;
     } else {
       x = gg_fold8(x, L[0]);
-      y = gg_fold8(y, L[1]);
+      if (!f.walled) y = gg_fold8(y, L[1]);
     }
     z = gg_fold8(z, L[2]);
     gg_v8 sigma2 = gg_all(sigma[0] * sigma[0]);
@@ -87,19 +91,27 @@ GG_INLINE void gg_scan_list(const gg_md *e, gg_features f, gg_search *s)
   }
   int64_t partner;
   double t = gg_earliest8(first, with, &partner);
-  if (t < INFINITY) s->collision = t, s->partner = (uint32_t)partner;
+  if (t < s->collision || (t == s->collision && t < INFINITY && partner < s->partner)) {
+    s->collision = t;
+    s->partner = (uint32_t)partner;
+  }
 }
 
-enum { GG_MOST_NEAR = 1024 };
+/* Those that cells were searched for. */
+GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
+{
+  for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = s->grain;
+  gg_scan_batches(e, f, s, s->near, s->n_near);
+}
 
-/* Ids of everybody in the cells that can hold centres within rho of shell i's; no more than GG_MOST_NEAR. */
-GG_INLINE uint32_t gg_collect_near(const gg_md *e, gg_features f, uint32_t i, uint32_t *near)
+/* Everybody in the cells that can hold centres within rho of shell i's, as far as there is room. */
+GG_INLINE void gg_collect_near(const gg_md *e, gg_features f, uint32_t i, gg_search *s)
 {
   const gg_cells *c = &e->cells;
   const int32_t *at = e->node[i].cell;
   gg_vec centre = e->shell[i].centre;
   double rho = c->reach, strain = f.sheared ? e->model.shear_rate * e->k.now : 0;
-  uint32_t count = 0;
+  s->n_near = 0;
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++) {
     if (z * c->width[2] > centre.z + rho || (z + 1) * c->width[2] < centre.z - rho) continue;
     for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) {
@@ -113,22 +125,23 @@ GG_INLINE uint32_t gg_collect_near(const gg_md *e, gg_features f, uint32_t i, ui
       int32_t from = (int32_t)gg_floor((centre.x - rho - strain * above - shift.x) * c->inverse[0]);
       int32_t to = (int32_t)gg_floor((centre.x + rho - strain * below - shift.x) * c->inverse[0]);
       if (to - from >= c->n[0]) to = from + c->n[0] - 1;
-      const uint32_t *row = c->head + gg_cell_index(c, (int32_t[3]){0, iy, iz});
+      const uint32_t *row = gg_cell_at(c, (int32_t[3]){0, iy, iz});
       for (int32_t k = from; k <= to; k++) {
         int32_t x = k;
         while (x < 0) x += c->n[0];
         while (x >= c->n[0]) x -= c->n[0];
-        for (uint32_t j = row[x]; j != GG_NONE && count < GG_MOST_NEAR; j = e->grain[j].next) near[count++] = j;
+        if (!gg_take_cell(s, row + (size_t)x * c->stride)) s->n_near = GG_MOST_NEAR;
       }
     }
   }
-  return count;
 }
 
 /* Everybody whose centre lies within rho of shell i's: ids into found[], no more than GG_LIST + 1 of them. */
 GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, uint32_t *found)
 {
-  uint32_t near[GG_MOST_NEAR + GG_BATCH], n = gg_collect_near(e, f, i, near), count = 0;
+  gg_search s;
+  gg_collect_near(e, f, i, &s);
+  uint32_t *near = s.near, n = s.n_near, count = 0;
   const gg_vec centre = e->shell[i].centre;
   const double *L = e->box.edge, *inverse = e->box.inverse;
   double strain = f.sheared ? e->model.shear_rate * e->k.now : 0;
