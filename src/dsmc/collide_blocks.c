@@ -158,18 +158,20 @@ GG_INLINE void collide_blocks(gg_features f, gg_batch *w, uint32_t a, uint32_t b
                  cb[part], spins ? sb[part] : cb[part]);
 }
 
-/* Draw the next block pairs and call their memory. */
+/* Draw the next block pairs and call their memory. Each half of a random word gives a block; what is left of the
+ * product after the point is as good as new and gives the order. */
 GG_INLINE void draw(gg_features f, gg_batch *w, gg_draw *next)
 {
-  uint64_t r[GG_LANES] __attribute__((aligned(64))), q[GG_LANES] __attribute__((aligned(64)));
+  uint64_t r[GG_LANES] __attribute__((aligned(64)));
   for (int part = 0; part < GG_PARTS; part++) {
-    *(gg_vu *)&r[part * GG_WIDTH] = gg_lane_next(&w->rng, part);
-    *(gg_vu *)&q[part * GG_WIDTH] = gg_lane_next(&w->rng, part);
+    gg_vu word = gg_lane_next(&w->rng, part);
+    __builtin_memcpy(&r[part * GG_WIDTH], &word, sizeof word);
   }
   for (int i = 0; i < AHEAD; i++) {
-    next->a[i] = (uint32_t)((r[i] >> 32) * w->n_one >> 32);
-    next->b[i] = (uint32_t)((q[i] >> 32) * w->n_two >> 32);
-    next->order[i] = (unsigned)(q[i] & 7);
+    uint64_t a = (r[i] >> 32) * w->n_one, b = (uint32_t)r[i] * w->n_two;
+    next->a[i] = (uint32_t)(a >> 32);
+    next->b[i] = (uint32_t)(b >> 32);
+    next->order[i] = (uint32_t)b >> 29;
     for (int line = 0; line < 3; line++) {
       __builtin_prefetch((const char *)&w->one[next->a[i]] + 64 * line, 1);
       __builtin_prefetch((const char *)&w->two[next->b[i]] + 64 * line, 1);

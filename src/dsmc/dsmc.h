@@ -30,7 +30,7 @@ typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_ensemble ensemble;
-  gg_path path;
+  gg_path path[GG_PAIRS];
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;

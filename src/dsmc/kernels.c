@@ -50,10 +50,9 @@ void gg_kick_blocks(gg_block *c, size_t n, double drift, double size, gg_rng_lan
   kicks(c, n, drift, size, lanes);
 }
 
-gg_path gg_path_choose(const gg_ensemble *e)
+gg_path gg_path_choose(const gg_population *one, const gg_population *two)
 {
-  for (int i = 0; i < e->n_species; i++)
-    if (e->of[i].n_blocks < 100) return GG_PATH_PLAIN;
+  if (one->n_blocks < 100 || two->n_blocks < 100) return GG_PATH_PLAIN;
   gg_path path = GG_PATHS - 1;
   while (!gg_path_runs_here(path)) path--;
   return path;

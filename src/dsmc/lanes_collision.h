@@ -4,19 +4,18 @@
 
 #include "dsmc/lanes.h"
 
-/* Impulse from the contact velocity g and gn = k.g (gg_impulse). */
+/* Impulse from the contact velocity g and gn = k.g (gg_impulse): (jn - jt) g_n k + jt g. */
 GG_INLINE gg_vd3 gg_lane_impulse(gg_rule rule, const gg_contact *c, gg_vd3 k, gg_vd3 g, gg_vd gn)
 {
-  gg_vd jn = c->jn * gn;
-  if (rule == GG_SMOOTH) return gg_vd3_scale(jn, k);
-  gg_vd3 gt = gg_vd3_sub(g, gg_vd3_scale(gn, k));
+  if (rule == GG_SMOOTH) return gg_vd3_scale(c->jn * gn, k);
   gg_vd jt = gg_all(c->jt);
   if (rule == GG_FRICTIONAL) {
-    gg_vd gt2 = gg_vd3_dot(gt, gt), limit = c->mu * jn;
+    gg_vd3 gt = gg_vd3_sub(g, gg_vd3_scale(gn, k));
+    gg_vd gt2 = gg_vd3_dot(gt, gt), limit = c->mu * c->jn * gn;
     gg_mask slides = gg_less(limit * limit, jt * jt * gt2); /* never with gt = 0 */
     jt = gg_select(slides, limit / gg_sqrt(gt2), jt);
   }
-  return gg_vd3_add(gg_vd3_scale(jt, gt), gg_vd3_scale(jn, k));
+  return gg_vd3_add(gg_vd3_scale((c->jn - jt) * gn, k), gg_vd3_scale(jt, g));
 }
 
 /* Energy destroyed, from g_n^2 (gg_energy_loss). */

@@ -8,7 +8,7 @@ static gg_engine *on_path(const gg_model *m, gg_path path, uint64_t seed)
 {
   gg_engine *g = lab_engine(m, seed);
   gg_dsmc *d = (gg_dsmc *)g;
-  d->path = path;
+  for (int p = 0; p < GG_PAIRS; p++) d->path[p] = path;
   gg_dsmc_bounds(d);
   return g;
 }
