@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "fake_engine.h"
-#include "run/run.h"
+#include "run/agreement.h"
 
 static gg_scene scene_of(double beta)
 {
@@ -320,6 +320,30 @@ static void comparison(void **state)
   gg_comparison_clear(&c);
 }
 
+/* Differences are marked only where they exceed four errors and what is expected at that density, and a cause is named.
+ */
+static void agreement(void **state)
+{
+  (void)state;
+  gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
+  gg_comparison c = {.by_engine = {&md, &dsmc}};
+  gg_scene s = scene_of(0);
+  assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+  const struct {
+    double phi, md, error;
+    bool marked;
+  } cases[] = {{0.2, 1.02, 0.001, false}, {0.2, 1.05, 0.001, true},  {0.2, 1.05, 0.02, false},
+               {0.01, 1.02, 0.001, true}, {0.4, 1.05, 0.001, false}, {0.4, 1.2, 0.001, true}};
+  for (int i = 0; i < 6; i++) {
+    const char *cause[8];
+    c.model.phi = cases[i].phi;
+    md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = cases[i].md, .error = cases[i].error};
+    dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 1, .error = 0.001};
+    assert_int_equal(gg_disagree(&c, GG_Q_TEMPERATURE), cases[i].marked);
+    if (cases[i].marked) assert_true(gg_causes_of_disagreement(&c, cause, 8) >= 1);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -327,6 +351,7 @@ int main(void)
       cmocka_unit_test(endless_drift), cmocka_unit_test(heating),         cmocka_unit_test(ends),
       cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(other_scene),
       cmocka_unit_test(trajectory),    cmocka_unit_test(time_limit),      cmocka_unit_test(comparison),
+      cmocka_unit_test(agreement),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
