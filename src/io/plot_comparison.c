@@ -125,33 +125,32 @@ static void print_categories(FILE *s, const int *selected, int n)
     fprintf(s, "set arrow from %g,graph 0 to %g,graph 1 nohead back lc rgb '#eeeeee' lw 0.8\n", i + 0.5, i + 0.5);
 }
 
-static void plot_methods(FILE *s, const method *methods, int n, bool titles)
+/* The legend names every method, also one that has nothing in this panel. */
+static void plot_methods(FILE *s, const method *methods, int n, bool legend)
 {
   static const int shapes[] = {7, 5, 8, 10, 12, 4, 6, 14, 2, 1}; /* md and dsmc filled, theories open */
   enum { N_SHAPES = sizeof shapes / sizeof *shapes };
   int theories = 2;
   fprintf(s, "plot ");
   for (int k = 0; k < n; k++) {
-    bool engine = k < 2 && (strcmp(methods[k].name, "md") == 0 || strcmp(methods[k].name, "dsmc") == 0);
-    int colour_index = colour_of(&methods[k], k);
-    int shape = engine ? shapes[colour_index] : shapes[theories++ % N_SHAPES];
-    const char *colour = gg_plot_colours[colour_index];
-    fprintf(s, "%s$method%d using 1:2%s pt %d ps %g lw 1.3 lc rgb '%s' ", k ? ", " : "", k,
-            engine ? ":3 with yerrorbars" : " with points", shape, engine ? 0.6 : 0.9, colour);
-    if (titles)
-      fprintf(s, "title \"%s\"", methods[k].name);
-    else
-      fprintf(s, "notitle");
+    int colour = colour_of(&methods[k], k);
+    bool engine = colour < 2;
+    char style[80];
+    snprintf(style, sizeof style, "pt %d ps %g lw 1.3 lc rgb '%s'",
+             engine ? shapes[colour] : shapes[theories++ % N_SHAPES], engine ? 0.6 : 0.9, gg_plot_colours[colour]);
+    fprintf(s, "%s$method%d using 1:2%s %s notitle", k ? ", " : "", k, engine ? ":3 with yerrorbars" : " with points",
+            style);
+    if (legend) fprintf(s, ", keyentry with points %s title \"%s\"", style, methods[k].name);
   }
   fprintf(s, "\n");
 }
 
-static bool draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel panel)
+static void draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel panel)
 {
   method methods[MOST_METHODS];
   int selected[N_ENTRIES], n_methods = methods_of(stored, methods);
   int n = n_methods ? select_entries(&methods[0], ratio, selected) : 0;
-  if (n == 0) return false;
+  if (n == 0) return;
   gg_plot_place(s, panel);
   double step = fmin(0.8 / n_methods, 0.13), first = -step * (n_methods - 1) / 2, reach[2];
   if (ratio) find_reach(methods, n_methods, selected, n, reach);
@@ -163,32 +162,31 @@ static bool draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel p
   }
   print_categories(s, selected, n);
   fprintf(s, "set xlabel ''\n");
+  fprintf(s, "set key at screen 0.5,0.935 center top vertical maxrows 2 noenhanced samplen 0.6 width 1.5\n");
   if (ratio) {
     fprintf(s, "set ylabel 'value / %s' offset 0.5,0\nset yrange [%g:%g]\n", methods[0].name, 1 - reach[0],
             1 + reach[1]);
     fprintf(s, "set arrow from graph 0,first 1 to graph 1,first 1 nohead back lc rgb '#888888' lw 1\n");
-    fprintf(s, "set key at screen 0.5,0.935 center top vertical maxrows 2 noenhanced samplen 0.6 width 1.5\n");
   } else {
     fprintf(s, "set ylabel 'value' offset 0.5,0\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n");
     fprintf(s, "set arrow from graph 0,first 0 to graph 1,first 0 nohead back lc rgb '#888888' lw 1\n");
   }
-  plot_methods(s, methods, n_methods, ratio);
-  return true;
+  plot_methods(s, methods, n_methods, ratio || !gg_plot_has(stored, true));
 }
 
-bool gg_plot_ratios(FILE *s, const gg_stored_result *stored, gg_panel panel)
+void gg_plot_ratios(FILE *s, const gg_stored_result *stored, gg_panel panel)
 {
-  return draw(s, stored, true, panel);
+  draw(s, stored, true, panel);
 }
 
-bool gg_plot_differences(FILE *s, const gg_stored_result *stored, gg_panel panel)
+void gg_plot_differences(FILE *s, const gg_stored_result *stored, gg_panel panel)
 {
-  return draw(s, stored, false, panel);
+  draw(s, stored, false, panel);
 }
 
-bool gg_plot_has_differences(const gg_stored_result *stored)
+bool gg_plot_has(const gg_stored_result *stored, bool ratios)
 {
   method methods[MOST_METHODS];
   int selected[N_ENTRIES];
-  return methods_of(stored, methods) > 0 && select_entries(&methods[0], false, selected) > 0;
+  return methods_of(stored, methods) > 0 && select_entries(&methods[0], ratios, selected) > 0;
 }

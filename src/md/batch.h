@@ -20,7 +20,10 @@ typedef struct gg_batch {
   gg_v8 x, y, z, vx, vy, vz, t, tag;
 } gg_batch;
 
-GG_INLINE gg_v8 gg_all(double x) { return (gg_v8){x, x, x, x, x, x, x, x}; }
+GG_INLINE gg_v8 gg_all(double x)
+{
+  return (gg_v8){x, x, x, x, x, x, x, x};
+}
 
 GG_INLINE gg_v8 gg_choose(gg_m8 mask, gg_v8 yes, gg_v8 no)
 {
@@ -39,6 +42,34 @@ GG_INLINE gg_v8 gg_sqrt8(gg_v8 x)
   gg_v8 root;
   for (int l = 0; l < GG_BATCH; l++) root[l] = sqrt(x[l]);
   return root;
+}
+
+/* Into the nearest image, for separations below one and a half edges: as x - edge * gg_nearest(x/edge). */
+GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge)
+{
+  gg_v8 down = (gg_v8)((gg_m8)gg_all(edge) & (x > 0.5 * edge)), up = (gg_v8)((gg_m8)gg_all(edge) & (x < -0.5 * edge));
+  return x - (down - up);
+}
+
+/* The earliest of eight times and with whom; of equal times the smallest index. */
+GG_INLINE double gg_earliest8(gg_v8 t, gg_m8 who, int64_t *partner)
+{
+#define FOLD(v, a, b, c, d, e, f, g, h) __builtin_shufflevector(v, v, a, b, c, d, e, f, g, h)
+#define SOONER(v, w) gg_choose(w < v, w, v)
+  gg_v8 m = SOONER(t, FOLD(t, 4, 5, 6, 7, 0, 1, 2, 3));
+  m = SOONER(m, FOLD(m, 2, 3, 0, 1, 6, 7, 4, 5));
+  m = SOONER(m, FOLD(m, 1, 0, 3, 2, 5, 4, 7, 6));
+  gg_m8 first = who | ~(t == m), swapped; /* -1 where later */
+  first &= INT64_MAX;
+#define SMALLER(v) swapped = (v), first = (first & (first < swapped)) | (swapped & ~(first < swapped))
+  SMALLER(FOLD(first, 4, 5, 6, 7, 0, 1, 2, 3));
+  SMALLER(FOLD(first, 2, 3, 0, 1, 6, 7, 4, 5));
+  SMALLER(FOLD(first, 1, 0, 3, 2, 5, 4, 7, 6));
+#undef FOLD
+#undef SOONER
+#undef SMALLER
+  *partner = first[0];
+  return m[0];
 }
 
 /* Records are one cache line each: load the lines of eight grains and transpose. */

@@ -60,7 +60,7 @@ static void move_shells(gg_md *e, double span)
     c->x = gg_wrap(x, e->box.edge[0], e->box.inverse[0]);
   }
   gg_md_enter_grid(e);
-  gg_md_chain_grid(e);
+  gg_md_fill_grid(e);
 }
 
 bool gg_md_next_epoch(gg_md *e)

@@ -22,7 +22,7 @@ static double shell_radius(const gg_model *m)
 }
 
 /* Cells for shells' centres: only in boxes of at least three cells, no nearest image in doubt, no walls. */
-static gg_status make_lists(gg_md *e, double radius, gg_error *err)
+gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {
   double reach = gg_md_reach(&e->model) + 2 * radius;
   int32_t n[3];
@@ -37,7 +37,7 @@ static gg_status make_lists(gg_md *e, double radius, gg_error *err)
 gg_status gg_md_make_grid(gg_md *e, gg_error *err)
 {
   double radius = e->model.walled ? 0 : shell_radius(&e->model);
-  if (radius > 0) GG_TRY(make_lists(e, radius, err));
+  if (radius > 0) GG_TRY(gg_md_make_lists(e, radius, err));
   if (e->shell) return GG_OK;
   double reach = gg_md_reach(&e->model);
   double width = fmax(reach, cbrt(GRAINS_PER_CELL * e->model.volume / (double)e->model.n));
@@ -60,13 +60,11 @@ void gg_md_enter_grid(gg_md *e)
     gg_md_cell_of(&e->cells, e->shell ? e->shell[i].centre : e->grain[i].r, e->node[i].cell);
 }
 
-void gg_md_chain_grid(gg_md *e)
+bool gg_md_fill_grid(gg_md *e)
 {
-  size_t total = (size_t)e->cells.n[0] * (size_t)e->cells.n[1] * (size_t)e->cells.n[2];
-  for (size_t k = 0; k < total; k++) e->cells.head[k] = GG_NONE;
-  for (uint32_t i = e->n; i-- > 0;) {
-    uint32_t *head = &e->cells.head[gg_cell_index(&e->cells, e->node[i].cell)];
-    e->grain[i].next = *head;
-    *head = i;
-  }
+  gg_cells_clear(&e->cells);
+  for (uint32_t i = 0; i < e->n; i++)
+    while (!gg_cell_add(&e->cells, e->node[i].cell, i))
+      if (!gg_cells_grow(&e->cells)) return false;
+  return true;
 }

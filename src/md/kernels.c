@@ -6,8 +6,14 @@
 #include "md/loop.h"
 
 #define MOTION(name, ...)                                                                                              \
-  static void run_##name(gg_md *e) { gg_loop(e, (gg_features){__VA_ARGS__}); }                                         \
-  static void all_##name(gg_md *e) { gg_forecast_all(e, (gg_features){__VA_ARGS__}); }
+  static void run_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_loop(e, (gg_features){__VA_ARGS__});                                                                            \
+  }                                                                                                                    \
+  static void all_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_forecast_all(e, (gg_features){__VA_ARGS__});                                                                    \
+  }
 #define MOTIONS(name, ...)                                                                                             \
   MOTION(name, __VA_ARGS__)                                                                                            \
   MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
@@ -16,10 +22,15 @@ MOTIONS(sheared, .sheared = true)
 MOTIONS(walled, .walled = true)
 MOTIONS(falling, .walled = true, .gravity = true)
 
-#define ROW(name) {{run_##name, all_##name}, {run_##name##_mixture, all_##name##_mixture}}
-enum boundary { PERIODIC, SHEARED, WALLED, FALLING };
+#define ROW(name)                                                                                                      \
+  {                                                                                                                    \
+    {run_##name, all_##name},                                                                                          \
+    {                                                                                                                  \
+      run_##name##_mixture, all_##name##_mixture                                                                       \
+    }                                                                                                                  \
+  }
 static const gg_kernel plain[][2] = {
-    [PERIODIC] = ROW(periodic), [SHEARED] = ROW(sheared), [WALLED] = ROW(walled), [FALLING] = ROW(falling)};
+    [GG_PERIODIC] = ROW(periodic), [GG_SHEARED] = ROW(sheared), [GG_WALLED] = ROW(walled), [GG_FALLING] = ROW(falling)};
 #undef ROW
 
 #define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
@@ -64,33 +75,41 @@ static gg_impact *const impacts[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH),
 #define ROW(rule) PAIR(rule##_wall)
 static gg_wall_impact *const wall_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
 
-static enum boundary boundary_of(const gg_md *e)
+static enum gg_boundary boundary_of(const gg_md *e)
 {
-  if (e->model.shear_rate != 0) return SHEARED;
-  if (e->falls) return FALLING;
-  return e->model.walled ? WALLED : PERIODIC;
+  if (e->model.shear_rate != 0) return GG_SHEARED;
+  if (e->falls) return GG_FALLING;
+  return e->model.walled ? GG_WALLED : GG_PERIODIC;
 }
 
-void gg_md_select(gg_md *e)
+/* The nearest image of all that the cells around hold must be the one looked at. */
+static bool is_wide_enough(const gg_md *e)
 {
-  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
-  gg_rule rule = e->model.rule;
-  assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  gg_kernel kernel = plain[boundary_of(e)][mixture];
-  if (e->shell) kernel = gg_md_wide_kernel(e->model.shear_rate != 0, mixture);
-  e->motion = kernel.run;
-  e->predict_all = kernel.predict_all;
-  e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
-  e->wall_impact = wall_impacts[rule][timed][tap];
+  bool sheared = e->model.shear_rate != 0;
+  return e->cells.n[0] >= (sheared ? 10 : 4) && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
 }
 
-gg_kernel gg_md_wide_kernel(bool sheared, bool mixture)
+static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, bool listed)
 {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512bw"))
-    return gg_md_listed_avx512(sheared, mixture);
-  if (__builtin_cpu_supports("avx2")) return gg_md_listed_avx2(sheared, mixture);
+    return gg_md_wide_avx512(boundary, mixture, listed);
+  if (__builtin_cpu_supports("avx2")) return gg_md_wide_avx2(boundary, mixture, listed);
 #endif
-  return gg_md_listed_any(sheared, mixture);
+  return gg_md_wide_any(boundary, mixture, listed);
+}
+
+void gg_md_select(gg_md *e)
+{
+  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open, listed = e->shell != NULL;
+  gg_rule rule = e->model.rule;
+  assert((rule != GG_SMOOTH) == (e->spin != NULL));
+  enum gg_boundary boundary = boundary_of(e);
+  gg_kernel kernel = plain[boundary][mixture];
+  if (listed || (is_wide_enough(e) && !e->plain)) kernel = wide_kernel(boundary, mixture, listed);
+  e->motion = kernel.run;
+  e->predict_all = kernel.predict_all;
+  e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
+  e->wall_impact = wall_impacts[rule][timed][tap];
 }

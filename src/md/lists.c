@@ -5,7 +5,7 @@
 /* Lists from cells that are there, all shells being new. False: some list is too long. */
 static bool fill_lists(gg_md *e, gg_features f)
 {
-  uint32_t found[GG_LIST + 1];
+  uint32_t found[GG_LIST + 2];
   for (uint32_t i = 0; i < e->n; i++) {
     uint32_t count = gg_search_shell(e, f, i, found), *list = gg_list(e, i);
     if (count > GG_LIST) return false;
@@ -30,6 +30,6 @@ void gg_md_build_lists(gg_md *e)
 {
   gg_features f = {.sheared = e->model.shear_rate != 0, .mixture = e->model.n_species > 1, .listed = true};
   for (uint32_t i = 0; i < e->n; i++) gg_new_shell(e, f, i);
-  gg_md_chain_grid(e);
+  gg_md_fill_grid(e);
   while (!fill_lists(e, f)) gg_md_set_shells(e, 0.8 * e->shell_radius);
 }

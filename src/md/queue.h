@@ -18,7 +18,7 @@ typedef struct gg_node {
   uint32_t later, earlier; /* chain of the bucket */
   int32_t cell[3];
   uint32_t neighbours; /* in its list */
-  int32_t face; /* of the cell, crossed next: 2 axis + (1 if upwards), GG_SLIDE or GG_SHELL */
+  int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), GG_SLIDE or GG_SHELL */
 } __attribute__((aligned(64))) gg_node;
 
 /* The neighbouring cells across the sheared boundary have slid: look at them anew. The grain leaves its shell. */

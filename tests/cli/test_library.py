@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 
-from tap import Skip, check, main
+from tap import GRAINGAS, Skip, check, main
 
 SOURCE, BUILD = os.environ["SOURCE"], os.environ["BUILD"]
 
@@ -52,6 +52,14 @@ def test_examples_build_against_it():
         env["LD_LIBRARY_PATH"] = os.path.dirname(found("libgraingas.so"))
         out = sh(os.path.abspath(program), env=env, timeout=60)
         check(len(out.splitlines()) >= 1, out)
+
+
+def test_example_scenes():
+    """Every scene that newcomers copy is one."""
+    scenes = glob.glob(os.path.join(SOURCE, "examples", "*.yaml"))
+    check(len(scenes) >= 5)
+    for scene in scenes:
+        sh(GRAINGAS, "info", scene)
 
 
 def test_header_in_other_languages():
