@@ -13,6 +13,13 @@ static gg_engine *on_path(const gg_model *m, gg_path path, uint64_t seed)
   return g;
 }
 
+static gg_path best_path(void)
+{
+  gg_path best = GG_PATHS - 1;
+  while (!gg_path_runs_here(best)) best--;
+  return best;
+}
+
 /* The vector form of the collision rule is the scalar one: same impulse and loss on random contacts. */
 static void same_rule(void **state)
 {
@@ -146,12 +153,12 @@ static void observe(gg_path path, int64_t n, int ensembles, int seed, physics *x
   lab_add(&x->p, p);
 }
 
-static void agree(const char *what, const lab_mean *a, const lab_mean *b, double sight)
+static void agree(const char *what, const lab_mean *a, const lab_mean *b, double sight, double allowed)
 {
   double error = hypot(lab_error(a), lab_error(b)), difference = lab_value(a) - lab_value(b);
   printf("# %-14s plain %.5f, blocks %.5f, difference %.5f +- %.5f\n", what, lab_value(a), lab_value(b), difference,
          error);
-  if (fabs(difference) > 4.5 * error) fail_msg("%s differs", what);
+  if (fabs(difference) > 4.5 * error + allowed * fabs(lab_value(a))) fail_msg("%s differs", what);
   if (error > sight * fabs(lab_value(a))) fail_msg("%s: an error of %g is too large", what, error);
 }
 
@@ -164,25 +171,58 @@ static void blocks_and_plain_agree(void **state)
     int ensembles;
     double sight_a2;
   } sizes[] = {{100000, 1, 0.1}, {1000, 60, 0.15}, {104, 500, 0.2}};
-  gg_path best = GG_PATHS - 1;
-  while (!gg_path_runs_here(best)) best--;
   for (int i = 0; i < 3; i++) {
     physics plain = {0}, blocks = {0};
     for (int seed = 0; seed < 8; seed++) {
       observe(GG_PATH_PLAIN, sizes[i].n, sizes[i].ensembles, seed, &plain);
-      observe(best, sizes[i].n, sizes[i].ensembles * (i ? 2 : 1), seed + 50, &blocks);
+      observe(best_path(), sizes[i].n, sizes[i].ensembles * (i ? 2 : 1), seed + 50, &blocks);
     }
+    /* A hundred grains miss 2 % of the pressure of many, and whole blocks a little less of it: an effect of the size of
+     * 1/N either way, and the engine takes the plain path there. */
+    double allowed = sizes[i].n < 800 ? 0.5 / (double)sizes[i].n : 0;
     printf("# N = %d\n", (int)sizes[i].n);
-    agree("a2", &plain.a2, &blocks.a2, sizes[i].sight_a2);
-    agree("d ln T/ds", &plain.cooling, &blocks.cooling, 0.002);
-    agree("P_xy", &plain.P_xy, &blocks.P_xy, 0.01);
-    agree("p", &plain.p, &blocks.p, 0.01);
+    agree("a2", &plain.a2, &blocks.a2, sizes[i].sight_a2, 0);
+    agree("d ln T/ds", &plain.cooling, &blocks.cooling, 0.002, 0);
+    agree("P_xy", &plain.P_xy, &blocks.P_xy, 0.01, allowed);
+    agree("p", &plain.p, &blocks.p, 0.01, allowed);
   }
+}
+
+/* Rough and frictional grains, one species and two, in dense shear: temperatures, spin, stress and loss. */
+static void every_rule_agrees(void **state)
+{
+  (void)state;
+  for (int friction = 0; friction < 2; friction++)
+    for (int species = 1; species <= 2; species++) {
+      gg_scene s = lab_scene(GG_USF, 0.3, 0.8, 0.3, 5000);
+      if (friction) s.collision.mu[0] = s.collision.mu[1] = 0.2;
+      s.n_species = species;
+      s.species[0] = (gg_species){0.5, 1, 1, 0.4};
+      s.species[1] = (gg_species){0.5, 0.7, 0.5, 0.3};
+      gg_model m = lab_model(&s);
+      lab_flow f[2] = {{.T = {0}}, {.T = {0}}};
+      for (int seed = 0; seed < 10; seed++)
+        for (int fast = 0; fast < 2; fast++) {
+          gg_engine *g = on_path(&m, fast ? best_path() : GG_PATH_PLAIN, (uint64_t)(seed + 100 * fast));
+          lab_average(g, &m, 50, 2, 20, &f[fast]);
+          gg_dsmc_ops.destroy(g);
+        }
+      printf("# friction %d, species %d\n", friction, species);
+      agree("T", &f[0].T, &f[1].T, 0.02, 0);
+      agree("theta", &f[0].theta, &f[1].theta, 0.02, 0);
+      agree("spin", &f[0].spin_z, &f[1].spin_z, 0.02, 0);
+      agree("p", &f[0].p, &f[1].p, 0.02, 0);
+      agree("P_xy", &f[0].P[0][1], &f[1].P[0][1], 0.02, 0);
+      agree("P_yx", &f[0].P[1][0], &f[1].P[1][0], 0.02, 0);
+      agree("loss", &f[0].loss, &f[1].loss, 0.02, 0);
+      agree("rate", &f[0].rate, &f[1].rate, 0.01, 0);
+    }
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(same_rule), cmocka_unit_test(normal_numbers),
-                                     cmocka_unit_test(same_bits), cmocka_unit_test(blocks_and_plain_agree)};
+                                     cmocka_unit_test(same_bits), cmocka_unit_test(every_rule_agrees),
+                                     cmocka_unit_test(blocks_and_plain_agree)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
