@@ -85,7 +85,7 @@ static void report_effort(const gg_campaign *c, gg_result *result)
     r->engine->ops->state(r->engine, &s);
     sum->time = s.time, sum->time_step = s.time_step, sum->time_step_bias = s.time_step_bias;
     sum->collisions += s.collisions, sum->events += s.events;
-    sum->treated += s.treated, sum->overflows += s.overflows;
+    sum->treated += s.treated, sum->wall_treated += s.wall_treated, sum->overflows += s.overflows;
     sum->worst_overlap = fmax(sum->worst_overlap, s.worst_overlap);
     result->averaging.collisions += s.collisions - r->clock.window_collisions;
     result->averaging.cpu_seconds += r->clock.cpu - r->clock.window_cpu;
@@ -156,6 +156,9 @@ static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_resu
   if ((double)s->treated > 1e-4 * (double)s->collisions)
     gg_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
                    100 * (double)s->treated / (double)s->collisions);
+  if (s->wall_treated > s->collisions / 100)
+    gg_result_warn(result, "%.3g contacts with walls fell under the contact-time rule: grains rest on a wall",
+                   (double)s->wall_treated);
   warn_if_structured(result);
   if (s->overflows > 1e-3 * (double)s->collisions)
     gg_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
