@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/checkpointing.h"
 #include "cli/progress.h"
 #include "cli/report.h"
 #include "io/document.h"
@@ -40,32 +40,52 @@ static int finish(const gg_options *o, const char *output, gg_comparison *c, gg_
   return GG_OK;
 }
 
-static int compare(const gg_options *o, const gg_scene *scene, const char *output)
+typedef struct comparing {
+  gg_cli_progress progress;
+  gg_checkpointing checkpoint;
+} comparing;
+
+static void show(void *context, const gg_progress *now)
+{
+  gg_cli_progress_show(&((comparing *)context)->progress, now);
+}
+
+static gg_status store_checkpoint(void *context, const gg_archive *archive, gg_error *err)
+{
+  return gg_checkpointing_store(&((comparing *)context)->checkpoint, archive, err);
+}
+
+static int write_results(const gg_options *o, const char *output, gg_comparison *c)
+{
+  gg_error err;
+  gg_result_file file;
+  if (gg_result_file_open(&file, output, o->command_line, &err) != GG_OK) return gg_cli_report(&err);
+  return finish(o, output, c, &file);
+}
+
+static int compare(const gg_options *o, const gg_scene *scene, const char *output, const gg_archive *resume)
 {
   gg_error err;
   gg_comparison c = {0};
-  gg_result_file file;
-  gg_cli_progress progress;
+  comparing now = {.progress = {.quiet = true}};
   if (gg_check_writable(output, &err) != GG_OK) return gg_cli_report(&err);
-  if (scene->output.checkpoint_every > 0 || scene->output.trajectory_every > 0)
-    fprintf(stderr, "warning: compare keeps no checkpoints and no trajectory; graingas run does\n");
-  gg_cli_progress_start(&progress, o->quiet);
+  if (scene->output.trajectory_every > 0) fprintf(stderr, "warning: compare keeps no trajectory; graingas run does\n");
+  int code = gg_checkpointing_start(&now.checkpoint, o, scene, output);
+  if (code != GG_CLI_GO_ON) return code;
+  gg_cli_progress_start(&now.progress, o->quiet);
   gg_cli_catch_interrupts();
-  gg_hooks hooks = {&progress, gg_cli_progress_show, gg_cli_interrupted, NULL, NULL};
-  gg_status status = gg_compare_scene(scene, o->threads, &hooks, &c, &err);
-  gg_cli_progress_end(&progress);
-  int code = status == GG_OK ? GG_OK : (int)status;
-  bool usable = status == GG_OK || (status == GG_FAILED && (c.by_engine[0] || c.by_engine[1]));
-  if (usable) {
-    gg_error unwritable;
-    if (gg_result_file_open(&file, output, o->command_line, &unwritable) != GG_OK)
-      code = gg_cli_report(&unwritable);
-    else if ((code = finish(o, output, &c, &file)) == GG_OK)
-      code = (int)status;
+  gg_hooks hooks = {&now, show, gg_cli_interrupted, NULL, store_checkpoint};
+  gg_status status = gg_compare_scene(scene, resume, o->threads, &hooks, &c, &err);
+  gg_cli_progress_end(&now.progress);
+  code = (int)status;
+  if (status == GG_OK || (status == GG_FAILED && (c.by_engine[0] || c.by_engine[1]))) {
+    int written = write_results(o, output, &c);
+    if (written != GG_OK) code = written;
   }
   if (status == GG_BAD_INPUT) gg_error_prefix(&err, status, "%s", o->input);
-  if (status == GG_INTERRUPTED) gg_fail(&err, status, "interrupted; nothing was written");
+  if (status == GG_INTERRUPTED) gg_checkpointing_tell_interrupted(&now.checkpoint, &err);
   if (status != GG_OK) gg_cli_report(&err);
+  gg_checkpointing_end(&now.checkpoint);
   gg_comparison_clear(&c);
   return code;
 }
@@ -75,14 +95,15 @@ int gg_cli_compare_main(const gg_command *command, int argc, char **argv)
   gg_options o;
   gg_error err;
   gg_scene_draft draft;
+  gg_archive archive = {0};
   int code = gg_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && o.resume)
-    code =
-        gg_cli_fail(GG_BAD_INPUT, "compare keeps no checkpoints; resume one engine's run with graingas run --resume");
   if (code == GG_CLI_GO_ON && gg_options_scene(&o, &draft, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON) code = gg_checkpointing_read(&o, &archive);
   char *output = code == GG_CLI_GO_ON ? gg_options_output(&o, ".h5", &err) : NULL;
-  if (code == GG_CLI_GO_ON) code = output ? compare(&o, &draft.scene, output) : gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON)
+    code = output ? compare(&o, &draft.scene, output, o.resume ? &archive : NULL) : gg_cli_report(&err);
   free(output);
+  gg_archive_clear(&archive);
   gg_options_clear(&o);
   return code;
 }

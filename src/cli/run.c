@@ -2,10 +2,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cli/options.h"
+#include "cli/checkpointing.h"
 #include "cli/progress.h"
 #include "cli/report.h"
-#include "io/checkpoint_file.h"
 #include "io/document.h"
 #include "io/result_file.h"
 
@@ -13,8 +12,8 @@ typedef struct running {
   const gg_options *options;
   const gg_scene *scene;
   gg_model model;
-  char *output, *checkpoint;
-  bool checkpointed;
+  char *output;
+  gg_checkpointing checkpoint;
   gg_cli_progress progress;
   gg_result_file file;
 } running;
@@ -32,10 +31,7 @@ static gg_status store_frame(void *context, const gg_frame *frame, gg_error *err
 
 static gg_status store_checkpoint(void *context, const gg_archive *archive, gg_error *err)
 {
-  running *r = context;
-  GG_TRY(gg_checkpoint_write(r->checkpoint, archive, r->scene, err));
-  r->checkpointed = true;
-  return GG_OK;
+  return gg_checkpointing_store(&((running *)context)->checkpoint, archive, err);
 }
 
 static int finish(running *r, const gg_result *result)
@@ -50,16 +46,6 @@ static int finish(running *r, const gg_result *result)
   if (gg_result_file_finish_run(&r->file, result, &err) != GG_OK) return gg_cli_report(&err);
   gg_tell_written(r->options, "results", r->output, replaced);
   return GG_OK;
-}
-
-static void tell_interrupted(const running *r, gg_error *err)
-{
-  if (r->checkpointed)
-    gg_fail(err, GG_INTERRUPTED, "interrupted; go on with: graingas run %s --resume %s", r->options->input,
-            r->checkpoint);
-  else
-    gg_fail(err, GG_INTERRUPTED, "interrupted; nothing was written%s",
-            r->scene->output.checkpoint_every > 0 ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)");
 }
 
 static int execute(running *r, const gg_archive *resume)
@@ -79,20 +65,11 @@ static int execute(running *r, const gg_archive *resume)
     if (code == GG_OK) code = (int)status;
   }
   gg_result_file_abandon(&r->file);
-  if (status == GG_INTERRUPTED) tell_interrupted(r, &err);
+  if (status == GG_INTERRUPTED) gg_checkpointing_tell_interrupted(&r->checkpoint, &err);
   if (status == GG_BAD_INPUT) gg_error_prefix(&err, status, "%s", r->options->input);
   if (status != GG_OK) gg_cli_report(&err);
   gg_result_free(result);
   return code;
-}
-
-static int read_checkpoint(const gg_options *o, gg_archive *archive)
-{
-  gg_error err;
-  bool older;
-  if (gg_checkpoint_read(o->resume, archive, &older, &err) != GG_OK) return gg_cli_report(&err);
-  if (older) fprintf(stderr, "warning: %s cannot be read; going on from the one before, %s.1\n", o->resume, o->resume);
-  return GG_CLI_GO_ON;
 }
 
 int gg_cli_run_main(const gg_command *command, int argc, char **argv)
@@ -103,15 +80,14 @@ int gg_cli_run_main(const gg_command *command, int argc, char **argv)
   gg_archive archive = {0};
   int code = gg_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON && gg_options_scene(&o, &draft, &err) != GG_OK) code = gg_cli_report(&err);
-  if (code == GG_CLI_GO_ON && o.resume) code = read_checkpoint(&o, &archive);
-  if (code == GG_CLI_GO_ON) {
-    running r = {.options = &o, .scene = &draft.scene, .output = gg_options_output(&o, ".h5", &err)};
-    r.checkpoint = r.output ? gg_checkpoint_path(r.output) : NULL;
-    if (r.output && !r.checkpoint) gg_fail(&err, GG_FAILED, "out of memory");
-    code = r.checkpoint ? execute(&r, o.resume ? &archive : NULL) : gg_cli_report(&err);
-    free(r.output);
-    free(r.checkpoint);
-  }
+  if (code == GG_CLI_GO_ON) code = gg_checkpointing_read(&o, &archive);
+  char *output = code == GG_CLI_GO_ON ? gg_options_output(&o, ".h5", &err) : NULL;
+  if (code == GG_CLI_GO_ON && !output) code = gg_cli_report(&err);
+  running r = {.options = &o, .scene = &draft.scene, .output = output};
+  if (code == GG_CLI_GO_ON) code = gg_checkpointing_start(&r.checkpoint, &o, &draft.scene, output);
+  if (code == GG_CLI_GO_ON) code = execute(&r, o.resume ? &archive : NULL);
+  gg_checkpointing_end(&r.checkpoint);
+  free(output);
   gg_archive_clear(&archive);
   gg_options_clear(&o);
   return code;

@@ -82,3 +82,11 @@ gg_status gg_archive_unnest(gg_archive *to, const char *prefix, const gg_archive
   }
   return GG_OK;
 }
+
+gg_status gg_archive_append(gg_archive *to, const gg_archive *from, gg_error *err)
+{
+  for (size_t i = 0; i < from->n_items; i++)
+    GG_TRY(
+        gg_archive_put(to, from->items[i].name, from->items[i].type, from->items[i].data, from->items[i].count, err));
+  return GG_OK;
+}

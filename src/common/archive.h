@@ -34,5 +34,7 @@ void gg_archive_clear(gg_archive *a);
 /* Copy every item of `from` into `to` under prefix/name, and back those that stand under a prefix. */
 gg_status gg_archive_nest(gg_archive *to, const char *prefix, const gg_archive *from, gg_error *err);
 gg_status gg_archive_unnest(gg_archive *to, const char *prefix, const gg_archive *from, gg_error *err);
+/* Copy every item of `from` into `to`. */
+gg_status gg_archive_append(gg_archive *to, const gg_archive *from, gg_error *err);
 
 #endif

@@ -33,6 +33,8 @@ typedef struct part {
   int threads;
   gg_comparison *comparison;
   pthread_mutex_t *lock;
+  gg_archive resume;  /* this engine's part of a checkpoint; empty: from the start */
+  gg_archive *latest; /* both engines' last checkpoints, by kind */
   gg_status status;
   gg_error err;
 } part;
@@ -54,14 +56,37 @@ static bool locked_interrupted(void *context)
   return yes;
 }
 
+/* A comparison's checkpoint is both engines' latest ones. */
+static gg_status store_both(part *p, const gg_archive *archive, gg_error *err)
+{
+  gg_archive both = {0};
+  gg_archive_clear(&p->latest[p->kind]);
+  gg_status status = gg_archive_nest(&p->latest[p->kind], gg_engine_ops_of(p->kind)->name, archive, err);
+  for (int k = 0; k < 2 && status == GG_OK; k++) status = gg_archive_append(&both, &p->latest[k], err);
+  if (status == GG_OK) status = p->hooks->checkpoint(p->hooks->context, &both, err);
+  gg_archive_clear(&both);
+  return status;
+}
+
+static gg_status locked_checkpoint(void *context, const gg_archive *archive, gg_error *err)
+{
+  part *p = context;
+  pthread_mutex_lock(p->lock);
+  gg_status status = store_both(p, archive, err);
+  pthread_mutex_unlock(p->lock);
+  return status;
+}
+
 static void *run_part(void *argument)
 {
   part *p = argument;
   gg_hooks hooks = {.context = p};
   if (p->hooks && p->hooks->progress) hooks.progress = locked_progress;
   if (p->hooks && p->hooks->interrupted) hooks.interrupted = locked_interrupted;
+  if (p->hooks && p->hooks->checkpoint) hooks.checkpoint = locked_checkpoint;
   p->scene.engine = p->kind;
-  p->status = gg_run_scene(&p->scene, NULL, p->threads, &hooks, &p->comparison->by_engine[p->kind], &p->err);
+  p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &hooks,
+                           &p->comparison->by_engine[p->kind], &p->err);
   return NULL;
 }
 
@@ -70,31 +95,18 @@ static gg_status settle(part *p, gg_error *err)
 {
   gg_comparison *c = p->comparison;
   gg_result *result = c->by_engine[p->kind];
-  if (p->status == GG_OK || p->status == GG_BAD_INPUT || (p->status == GG_FAILED && result)) {
-    if (p->status == GG_BAD_INPUT) snprintf(c->refusal[p->kind], sizeof c->refusal[0], "%.250s", p->err.message);
+  bool refused = p->status == GG_BAD_INPUT && p->resume.n_items == 0;
+  if (p->status == GG_OK || refused || (p->status == GG_FAILED && result)) {
+    if (refused) snprintf(c->refusal[p->kind], sizeof c->refusal[0], "%.250s", p->err.message);
     return GG_OK;
   }
   if (err) *err = p->err;
   return p->status;
 }
 
-gg_status gg_compare_scene(const gg_scene *scene, int threads, const gg_hooks *hooks, gg_comparison *c, gg_error *err)
+/* Run both parts, side by side or one after the other. */
+static void run_parts(part parts[2], bool beside)
 {
-  *c = (gg_comparison){.scene = *scene};
-  gg_model model;
-  GG_TRY(gg_model_make(scene, GG_MD, &model, err));
-  gg_compare_theories(&model, c);
-
-  pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-  part parts[2];
-  bool beside = threads > 1;
-  for (int k = 0; k < 2; k++)
-    parts[k] = (part){.scene = *scene,
-                      .kind = (gg_engine_kind)k,
-                      .hooks = hooks,
-                      .comparison = c,
-                      .lock = &lock,
-                      .threads = beside ? (threads + 1) / 2 : 1};
   pthread_t thread;
   bool running = beside && pthread_create(&thread, NULL, run_part, &parts[GG_DSMC]) == 0;
   run_part(&parts[GG_MD]);
@@ -102,8 +114,10 @@ gg_status gg_compare_scene(const gg_scene *scene, int threads, const gg_hooks *h
     pthread_join(thread, NULL);
   else
     run_part(&parts[GG_DSMC]);
-  pthread_mutex_destroy(&lock);
+}
 
+static gg_status judge_parts(part parts[2], gg_comparison *c, gg_error *err)
+{
   for (int k = 0; k < 2; k++) GG_TRY(settle(&parts[k], err));
   if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
     return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
@@ -111,6 +125,38 @@ gg_status gg_compare_scene(const gg_scene *scene, int threads, const gg_hooks *h
   for (int k = 0; k < 2; k++)
     if (parts[k].status == GG_FAILED) return gg_fail(err, GG_FAILED, "%s", parts[k].err.message);
   return GG_OK;
+}
+
+gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
+                           gg_comparison *c, gg_error *err)
+{
+  *c = (gg_comparison){.scene = *scene};
+  gg_model model;
+  GG_TRY(gg_model_make(scene, GG_MD, &model, err));
+  gg_compare_theories(&model, c);
+
+  pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+  gg_archive latest[2] = {{0}, {0}};
+  part parts[2];
+  bool beside = threads > 1;
+  gg_status status = GG_OK;
+  for (int k = 0; k < 2; k++) {
+    parts[k] = (part){.scene = *scene, .kind = (gg_engine_kind)k, .hooks = hooks, .comparison = c, .lock = &lock};
+    parts[k].threads = beside ? (threads + 1) / 2 : 1;
+    parts[k].latest = latest;
+    const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
+    if (resume && status == GG_OK) status = gg_archive_unnest(&parts[k].resume, name, resume, err);
+    if (resume && status == GG_OK) status = gg_archive_nest(&latest[k], name, &parts[k].resume, err);
+  }
+  if (status == GG_OK && resume && !parts[0].resume.n_items && !parts[1].resume.n_items)
+    status = gg_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
+  if (status == GG_OK) {
+    run_parts(parts, beside);
+    status = judge_parts(parts, c, err);
+  }
+  for (int k = 0; k < 2; k++) gg_archive_clear(&parts[k].resume), gg_archive_clear(&latest[k]);
+  pthread_mutex_destroy(&lock);
+  return status;
 }
 
 void gg_comparison_clear(gg_comparison *c)

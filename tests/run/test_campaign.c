@@ -312,7 +312,7 @@ static void comparison(void **state)
   s.dsmc.particles = 512; /* one chunk */
   gg_comparison c;
   gg_error err;
-  assert_int_equal(gg_compare_scene(&s, 2, NULL, &c, &err), GG_OK);
+  assert_int_equal(gg_compare_scene(&s, NULL, 2, NULL, &c, &err), GG_OK);
   assert_non_null(c.by_engine[GG_MD]);
   assert_non_null(c.by_engine[GG_DSMC]);
   gg_estimate a = {.mean = 1, .error = 0.03}, b = {.mean = 1.5, .error = 0.04};
