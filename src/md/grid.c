@@ -5,7 +5,7 @@
 #include "md/state.h"
 
 /* Dilute, a cell holds this many grains: fewer crossings against more pairs to try. */
-#define GRAINS_PER_CELL 0.5
+#define GRAINS_PER_CELL (getenv("GPC") ? atof(getenv("GPC")) : 0.5)
 
 double gg_md_reach(const gg_model *m)
 {
