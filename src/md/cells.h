@@ -17,6 +17,7 @@ typedef struct gg_cells {
   double width[3], inverse[3];
   double reach;    /* largest contact distance (of lists: largest distance of centres) */
   uint32_t stride; /* a multiple of 8 */
+  uint32_t *part[3]; /* an index -1 .. n along an axis: its share of the cell's number, wrapped */
   uint32_t *cell;  /* stride words a cell, x fastest: how many grains, then who; room for a word more at the end */
 } gg_cells;
 
