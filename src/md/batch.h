@@ -103,7 +103,7 @@ GG_INLINE bool gg_any8(gg_m8 mask)
 {
   gg_m8 or = mask | __builtin_shufflevector(mask, mask, 4, 5, 6, 7, 0, 1, 2, 3);
   or |= __builtin_shufflevector(or, or, 2, 3, 0, 1, 6, 7, 4, 5);
-  return or[0] | or[1];
+  return or [0] | or [1];
 }
 
 /* gg_contact_delay, eight times, in two steps: who meets at all, and when. */

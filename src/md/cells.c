@@ -34,7 +34,10 @@ gg_status gg_cells_make(gg_cells *c, const gg_box *box, const int32_t n[3], doub
   return c->cell ? GG_OK : GG_FAILED;
 }
 
-static size_t total_of(const gg_cells *c) { return (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2]; }
+static size_t total_of(const gg_cells *c)
+{
+  return (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2];
+}
 
 void gg_cells_clear(gg_cells *c)
 {

@@ -28,7 +28,7 @@ typedef struct gg_search {
   const gg_grain *self; /* at the present time */
   double collision;     /* earliest so far, and with whom */
   uint32_t partner;
-  double valid; /* until then the sliding rows have been searched */
+  double valid;                             /* until then the sliding rows have been searched */
   uint32_t n_near, near[GG_MOST_NEAR + 16]; /* wide: whom to try */
 } gg_search;
 
@@ -180,7 +180,10 @@ GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3]
 }
 
 /* Is there room for so many full cells? */
-GG_INLINE bool gg_has_room(const gg_md *e, int cells) { return (uint32_t)cells * e->cells.stride <= GG_MOST_NEAR; }
+GG_INLINE bool gg_has_room(const gg_md *e, int cells)
+{
+  return (uint32_t)cells * e->cells.stride <= GG_MOST_NEAR;
+}
 
 /* All 27 cells. */
 GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
