@@ -113,14 +113,23 @@ static double guess_ratio(const gg_model *m)
   return K * (1 + beta) / (1 + 2 * K - beta);
 }
 
+/* An ensemble of a few thousand stands for one point of the flow to better than 0.1 %; fewer only if asked for. */
+enum { LEAST_ENSEMBLE = 5000 };
+
+static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
+{
+  if (engine == GG_MD) return s->particles;
+  if (s->dsmc.particles) return s->dsmc.particles;
+  return s->particles > LEAST_ENSEMBLE ? s->particles : LEAST_ENSEMBLE;
+}
+
 gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
 {
   if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat};
   bool sheared = gg_flow_is_sheared(s->flow);
   m->homogeneous = engine == GG_DSMC;
-  m->n = engine == GG_DSMC ? (s->dsmc.particles ? s->dsmc.particles : (s->particles > 20000 ? s->particles : 20000))
-                           : s->particles;
+  m->n = grains_of(s, engine);
   set_composition(m, s);
   set_box(m, s);
   set_pairs(m, s);

@@ -7,19 +7,14 @@ typedef struct gg_pair {
   gg_vec ca, cb, sa, sb;
 } gg_pair;
 
-/* Two different grains, every pair as likely as any other. */
-static gg_pair choose(gg_features f, const gg_pairing *p, gg_rng *rng)
+/* Their velocities at this candidate's time. */
+static void fetch(gg_features f, const gg_pairing *p, gg_pair *q)
 {
-  gg_pair q = {.a = gg_rng_below(rng, (uint32_t)p->one->n)};
-  q.b = gg_rng_below(rng, (uint32_t)p->two->n - f.same);
-  if (f.same && q.b >= q.a) q.b++;
-  q.ca = gg_block_get(p->one->c, q.a);
-  q.cb = gg_block_get(p->two->c, q.b);
-  if (f.shear != GG_UNSHEARED) {
-    q.ca.x -= p->drift * q.ca.y;
-    q.cb.x -= p->drift * q.cb.y;
-  }
-  return q;
+  q->ca = gg_block_get(p->one->c, q->a);
+  q->cb = gg_block_get(p->two->c, q->b);
+  if (f.shear == GG_UNSHEARED) return;
+  q->ca.x -= p->drift * q->ca.y;
+  q->cb.x -= p->drift * q->cb.y;
 }
 
 static void tally(gg_features f, gg_pairing *p, gg_vec k, gg_vec g, gg_vec J)
@@ -52,17 +47,63 @@ static void collide(gg_features f, gg_pairing *p, gg_pair *q, gg_vec k, gg_vec c
   gg_block_set(p->two->s, q->b, q->sb);
 }
 
+/* One candidate: a uniform direction, kept at the rate g_n. */
+static void attempt(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, gg_rng *rng)
+{
+  gg_pair q = {.a = a, .b = b};
+  fetch(f, p, &q);
+  gg_vec k = gg_rng_direction(rng), c12 = gg_sub(q.ca, q.cb);
+  if (f.shear == GG_SHEARED_DENSE) c12.x -= p->shift * k.y;
+  double gn = gg_dot(k, c12), over = gn - p->floor;
+  if (gn > p->worst) p->worst = gn;
+  if (over > p->bound) p->overflows++;
+  if (gg_rng_uniform(rng) * p->bound >= over) return;
+  p->collisions++;
+  collide(f, p, &q, k, c12, gn);
+}
+
 void gg_collide_plain(gg_features f, gg_pairing *p, gg_rng *rng)
 {
   for (uint64_t i = 0; i < p->candidates; i++, p->drift += p->drift_step) {
-    gg_pair q = choose(f, p, rng);
-    gg_vec k = gg_rng_direction(rng), c12 = gg_sub(q.ca, q.cb);
-    if (f.shear == GG_SHEARED_DENSE) c12.x -= p->shift * k.y;
-    double gn = gg_dot(k, c12), over = gn - p->floor;
-    if (gn > p->worst) p->worst = gn;
-    if (over > p->bound) p->overflows++;
-    if (gg_rng_uniform(rng) * p->bound >= over) continue;
-    p->collisions++;
-    collide(f, p, &q, k, c12, gn);
+    /* Two different grains, every pair as likely as any other. */
+    uint32_t a = gg_rng_below(rng, (uint32_t)p->one->n), b = gg_rng_below(rng, (uint32_t)p->two->n - f.same);
+    if (f.same && b >= a) b++;
+    attempt(f, p, a, b, rng);
+  }
+}
+
+/* Four uniform directions under a bound on g_n are as many candidates as one under a bound on its integral over pi. */
+static void attempt_four(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, gg_rng *rng)
+{
+  if (a >= p->one->n || b >= p->two->n) return;
+  for (int i = 0; i < 4; i++) attempt(f, p, a, b, rng);
+}
+
+static void exchange(gg_block *one, gg_block *two, uint32_t a, uint32_t b)
+{
+  gg_vec v = gg_block_get(one, a);
+  gg_block_set(one, a, gg_block_get(two, b));
+  gg_block_set(two, b, v);
+}
+
+void gg_collide_odd_blocks(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, unsigned order, gg_rng *rng)
+{
+  a *= GG_LANES;
+  b *= GG_LANES;
+  if (f.same && a == b) {
+    /* Pairs of different blocks get 2 (either order) x 1/8 a draw; so do the 28 within one if 7 are drawn. */
+    for (int i = 0; i < 7; i++) {
+      uint32_t l = gg_rng_below(rng, GG_LANES), m = gg_rng_below(rng, GG_LANES - 1);
+      attempt_four(f, p, a + l, a + (m >= l ? m + 1 : m), rng);
+    }
+    return;
+  }
+  for (uint32_t l = 0; l < GG_LANES; l++) {
+    uint32_t i = a + l, j = b + (l ^ order);
+    attempt_four(f, p, i, j, rng);
+    bool both = i < p->one->n && j < p->two->n;
+    if (!f.same || !both || gg_rng_below(rng, 2)) continue;
+    exchange(p->one->c, p->two->c, i, j);
+    if (p->one->s) exchange(p->one->s, p->two->s, i, j);
   }
 }

@@ -4,6 +4,7 @@
 
 #include "common/engine.h"
 #include "dsmc/ensemble.h"
+#include "dsmc/kernels.h"
 #include "dsmc/majorant.h"
 #include "dsmc/pairing.h"
 #include "dsmc/timestep.h"
@@ -11,10 +12,15 @@
 /* Everything that changes while running, but for the ensemble: plain data, saved as it is. */
 typedef struct gg_dsmc_state {
   gg_rng rng;
-  double time, temperature; /* temperature: at the end of the last step */
-  uint64_t collisions, candidates, overflows, steps;
+  gg_rng_lanes lanes;
+  double time, temperature, fastest; /* temperature and largest speed: when the ensemble was last settled */
+  uint64_t collisions, candidates, overflows;
+  double owed[GG_PAIRS]; /* fractions of candidates carried over */
+  double drift;          /* rate x time that stored velocities have still to stream */
+  double unsettled;      /* time since the ensemble was last settled */
+  gg_vec centre;         /* velocity of the centre of mass then */
   gg_time_step step;
-  double lost; /* energy destroyed since the Gaussian thermostat last gave it back */
+  double lost; /* energy destroyed that the Gaussian thermostat has not given back */
   gg_majorant majorant[GG_PAIRS];
   gg_transfer transfer;
   bool tap;
@@ -24,11 +30,20 @@ typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_ensemble ensemble;
+  gg_path path[GG_PAIRS];
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;
 } gg_dsmc;
 
+/* Bring the stored velocities up to date, look at their temperature and choose the step. */
+void gg_dsmc_settle(gg_dsmc *d);
+/* A step of no more than `left` time and about `wanted` collisions; returns its length. */
+double gg_dsmc_step(gg_dsmc *d, double left, double wanted);
+
+gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j);
+/* Bounds that hold for sure, to start from. */
+void gg_dsmc_bounds(gg_dsmc *d);
 /* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). Pairs
  * of species take turns: 11, 12, 22, or backwards. */
 void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards);

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "dsmc/dsmc.h"
-#include "dsmc/thermostat.h"
 
 static gg_dsmc *dsmc_of(gg_engine *engine)
 {
@@ -13,60 +12,6 @@ static gg_dsmc *dsmc_of(gg_engine *engine)
 static const gg_dsmc *const_dsmc_of(const gg_engine *engine)
 {
   return (const gg_dsmc *)engine;
-}
-
-/* Bring the stored velocities up to date and look at them: what ends every step. */
-static void settle(gg_dsmc *d, double drift)
-{
-  if (drift != 0) gg_ensemble_stream(&d->ensemble, drift);
-  gg_ensemble_centre(&d->ensemble);
-  d->now.temperature = gg_ensemble_moments(&d->ensemble).temperature;
-  d->now.step = gg_time_step_choose(&d->model, d->now.temperature);
-}
-
-static void heat(gg_dsmc *d, double dt, double drift)
-{
-  if (d->thermostat == GG_GAUSSIAN) {
-    gg_thermostat_return(&d->ensemble, drift, d->now.lost);
-    d->now.lost = 0;
-  } else {
-    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, &d->now.rng);
-  }
-}
-
-static void collide(gg_dsmc *d, double dt, double drift, double span)
-{
-  if (d->thermostat == GG_NO_THERMOSTAT && d->model.n_species == 1) {
-    gg_dsmc_collide(d, dt, drift, span, false);
-    return;
-  }
-  /* The second half mirrors the first, so that turns cancel to second order. */
-  gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, false);
-  if (d->thermostat != GG_NO_THERMOSTAT) heat(d, dt, drift + 0.5 * span);
-  gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, true);
-}
-
-static void step(gg_dsmc *d, double dt)
-{
-  double drift = d->model.shear_rate * dt;
-  /* Strang (SIAM J. Numer. Anal. 5 (1968) 506): half the streaming, all collisions, the other half. With collisions in
-   * stored velocities this is nothing but a constant half drift. */
-  if (d->now.step.split)
-    collide(d, dt, 0.5 * drift, 0);
-  else
-    collide(d, dt, 0, drift);
-  d->now.time += dt;
-  d->now.steps++;
-  settle(d, drift);
-}
-
-/* The step to take with `left` time and `wanted` collisions to go: a step that the scene asked for is taken whole. */
-static double next_step(const gg_dsmc *d, double left, double wanted)
-{
-  double dt = d->now.step.length;
-  if (d->model.time_step > 0) return dt;
-  double rate = 0.5 * (double)d->model.n * gg_model_collision_rate(&d->model, d->now.temperature);
-  return fmin(fmin(dt, left), fmax(wanted / rate, 1e-3 * dt));
 }
 
 static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
@@ -78,9 +23,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
     if (!(d->now.temperature > 0x1p-900) || !(d->now.temperature < 0x1p900))
       return gg_fail(err, GG_FAILED, "the temperature has left the range of numbers (%g) after %.3g collisions a grain",
                      d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
-    double h = next_step(d, dt - gone, (double)(max_collisions - (d->now.collisions - start)));
-    step(d, h);
-    gone += h;
+    gone += gg_dsmc_step(d, dt - gone, (double)(max_collisions - (d->now.collisions - start)));
   }
   if (elapsed) *elapsed = gone;
   return GG_OK;
@@ -94,13 +37,12 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   gg_rng start = gg_rng_seed(seed, stream + GG_STREAM_START);
   gg_ensemble_start(model, &d->ensemble, &start);
   d->now.rng = gg_rng_seed(seed, stream + GG_STREAM_ENGINE);
-  settle(d, 0);
-  double fastest = gg_ensemble_moments(&d->ensemble).fastest, thermal = sqrt(d->now.temperature);
-  for (int i = 0; i < model->n_species; i++)
-    for (int j = i; j < model->n_species; j++) {
-      double shift = model->boltzmann ? 0 : 0.5 * model->sigma[2 * i + j] * model->shear_rate; /* |k_x k_y| <= 1/2 */
-      gg_majorant_start(&d->now.majorant[gg_pair_index(i, j)], 2 * fastest + shift, thermal);
-    }
+  for (unsigned l = 0; l < GG_LANES; l++) {
+    gg_rng lane = gg_rng_seed(seed, stream + GG_STREAM_LANES + l);
+    for (int i = 0; i < 4; i++) d->now.lanes.s[i][l] = lane.s[i];
+  }
+  gg_dsmc_settle(d);
+  gg_dsmc_bounds(d);
   *engine = &d->base;
   return GG_OK;
 }
@@ -128,11 +70,11 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .time_step_bias = s->step.bias};
 }
 
-/* Lay a run of blocks out flat. */
-static void unpack(const gg_block *b, size_t n, double *x, double *y, double *z)
+/* Lay a run of blocks out flat, streamed as far as they have to be. */
+static void unpack(const gg_block *b, size_t n, double drift, double *x, double *y, double *z)
 {
   for (size_t i = 0; i < n; i++) {
-    x[i] = b[i / GG_LANES].x[i % GG_LANES];
+    x[i] = b[i / GG_LANES].x[i % GG_LANES] - drift * b[i / GG_LANES].y[i % GG_LANES];
     y[i] = b[i / GG_LANES].y[i % GG_LANES];
     z[i] = b[i / GG_LANES].z[i % GG_LANES];
   }
@@ -150,9 +92,9 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
     for (size_t first = 0; first < (size_t)p->n; first += GG_CHUNK) {
       size_t left = (size_t)p->n - first;
       gg_chunk chunk = {.n = left < GG_CHUNK ? left : GG_CHUNK, .c = {v[0], v[1], v[2]}};
-      unpack(p->c + first / GG_LANES, chunk.n, v[0], v[1], v[2]);
+      unpack(p->c + first / GG_LANES, chunk.n, d->now.drift, v[0], v[1], v[2]);
       if (p->s) {
-        unpack(p->s + first / GG_LANES, chunk.n, v[3], v[4], v[5]);
+        unpack(p->s + first / GG_LANES, chunk.n, 0, v[3], v[4], v[5]);
         for (int a = 0; a < 3; a++) chunk.s[a] = v[3 + a];
       }
       if (d->ensemble.n_species > 1) chunk.species = kind;
@@ -172,6 +114,9 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   double factor = ldexp(1, power);
   gg_ensemble_scale(&d->ensemble, factor);
   d->now.time /= factor;
+  d->now.unsettled /= factor;
+  d->now.fastest *= factor;
+  d->now.centre = gg_scale(factor, d->now.centre);
   d->now.temperature *= factor * factor;
   d->now.step = gg_time_step_choose(&d->model, d->now.temperature);
   for (int p = 0; p < GG_PAIRS; p++) d->now.transfer.loss[p] *= factor * factor;

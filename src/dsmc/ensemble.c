@@ -3,15 +3,27 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
+#include "dsmc/sweep.h"
+
+/* Random blocks of a large ensemble lie on pages too many to remember; huge pages, where the system has them, spare a
+ * third of the time at a million grains. */
+/* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
+ * them, spare it the walks. */
 static gg_block *new_blocks(size_t n, gg_error *err)
 {
-  gg_block *b = aligned_alloc(64, n * sizeof(gg_block));
+  const size_t huge = (size_t)1 << 21, bytes = n * sizeof(gg_block);
+  size_t unit = bytes >= 2 * huge ? huge : 64, rounded = (bytes + unit - 1) / unit * unit;
+  gg_block *b = aligned_alloc(unit, rounded);
   if (!b) {
     gg_fail(err, GG_FAILED, "out of memory for an ensemble of %zu grains: lower dsmc.particles", n * GG_LANES);
     return NULL;
   }
-  memset(b, 0, n * sizeof(gg_block));
+#ifdef MADV_HUGEPAGE
+  if (unit == huge) (void)madvise(b, rounded, MADV_HUGEPAGE); /* a wish: no harm if it is not granted */
+#endif
+  memset(b, 0, rounded);
   return b;
 }
 
@@ -57,20 +69,12 @@ void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng)
       gg_block_set(p->s, a, s);
     }
   }
-  gg_ensemble_centre(e);
-  double factor = sqrt(model->temperature0 / gg_ensemble_moments(e).temperature);
+  gg_vec none = {0, 0, 0};
+  gg_moments m = gg_ensemble_settle(e, 0, 1, gg_ensemble_settle(e, 0, 1, none).centre);
+  double factor = sqrt(model->temperature0 / m.temperature);
   for (int i = 0; i < e->n_species; i++)
     for (uint32_t a = 0; a < e->of[i].n; a++)
       gg_block_set(e->of[i].c, a, gg_scale(factor, gg_block_get(e->of[i].c, a)));
-}
-
-void gg_ensemble_stream(gg_ensemble *e, double drift)
-{
-  for (int i = 0; i < e->n_species; i++)
-    for (size_t b = 0; b < e->of[i].n_blocks; b++) {
-      gg_block *c = &e->of[i].c[b];
-      for (int l = 0; l < GG_LANES; l++) c->x[l] -= drift * c->y[l];
-    }
 }
 
 void gg_blocks_scale(gg_block *b, size_t n, double factor)
@@ -87,70 +91,34 @@ void gg_ensemble_scale(gg_ensemble *e, double factor)
   }
 }
 
-/* Sum over grains, lane by lane so that every processor adds in the same order. */
-static gg_vec total(const gg_population *p)
+/* The last block alone: its empty lanes stay 0. */
+static void settle_odd_block(gg_population *p, double drift, double scale, gg_vec centre, gg_sums *s)
 {
-  gg_block sum = {{0}, {0}, {0}};
-  for (size_t b = 0; b < p->n_blocks; b++)
-    for (int l = 0; l < GG_LANES; l++) {
-      sum.x[l] += p->c[b].x[l];
-      sum.y[l] += p->c[b].y[l];
-      sum.z[l] += p->c[b].z[l];
-    }
-  gg_vec v = {0, 0, 0};
-  for (int l = 0; l < GG_LANES; l++) v = gg_add(v, (gg_vec){sum.x[l], sum.y[l], sum.z[l]});
-  return v;
+  gg_block *block = &p->c[p->n_blocks - 1];
+  gg_sums ignored = {0};
+  gg_sweep_blocks(block, 1, drift, scale, centre, &ignored);
+  for (int l = (int)(p->n % GG_LANES); l < GG_LANES; l++) block->x[l] = block->y[l] = block->z[l] = 0;
+  gg_sweep_blocks(block, 1, 0, 1, (gg_vec){0, 0, 0}, s);
 }
 
-static void shift_blocks(gg_population *p, gg_vec by)
+gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre)
 {
-  for (size_t b = 0; b < p->n_blocks; b++)
-    for (int l = 0; l < GG_LANES; l++) {
-      p->c[b].x[l] -= by.x;
-      p->c[b].y[l] -= by.y;
-      p->c[b].z[l] -= by.z;
-    }
-  for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++) gg_block_set(p->c, (uint32_t)a, (gg_vec){0, 0, 0});
-}
-
-void gg_ensemble_centre(gg_ensemble *e)
-{
-  double mass = 0;
+  double n = 0, mass = 0, energy = 0, most = 0;
   gg_vec momentum = {0, 0, 0};
   for (int i = 0; i < e->n_species; i++) {
-    mass += e->of[i].mass * (double)e->of[i].n;
-    momentum = gg_axpy(e->of[i].mass, total(&e->of[i]), momentum);
-  }
-  gg_vec centre = gg_scale(1 / mass, momentum);
-  for (int i = 0; i < e->n_species; i++) shift_blocks(&e->of[i], centre);
-}
-
-gg_moments gg_ensemble_moments(const gg_ensemble *e)
-{
-  gg_moments m = {0};
-  double n = 0, energy = 0, largest = 0;
-  for (int i = 0; i < e->n_species; i++) {
-    const gg_population *p = &e->of[i];
-    double sum[GG_LANES] = {0}, most[GG_LANES] = {0}, all = 0;
-    for (size_t b = 0; b < p->n_blocks; b++) {
-      const gg_block *c = &p->c[b];
-      for (int l = 0; l < GG_LANES; l++) {
-        double c2 = c->x[l] * c->x[l] + c->y[l] * c->y[l] + c->z[l] * c->z[l];
-        sum[l] += c2;
-        most[l] = c2 > most[l] ? c2 : most[l];
-      }
-    }
+    gg_population *p = &e->of[i];
+    gg_sums s = {0};
+    gg_sweep_blocks(p->c, (size_t)p->n / GG_LANES, drift, scale, centre, &s);
+    if (p->n % GG_LANES) settle_odd_block(p, drift, scale, centre, &s);
     for (int l = 0; l < GG_LANES; l++) {
-      all += sum[l];
-      largest = most[l] > largest ? most[l] : largest;
+      momentum = gg_axpy(p->mass, (gg_vec){s.c.x[l], s.c.y[l], s.c.z[l]}, momentum);
+      energy += p->mass * s.c2[l];
+      most = s.fastest[l] > most ? s.fastest[l] : most;
     }
     n += (double)p->n;
-    energy += p->mass * all;
-    m.partial[i] = p->mass * all / (3 * (double)p->n);
+    mass += p->mass * (double)p->n;
   }
-  m.temperature = energy / (3 * n);
-  m.fastest = sqrt(largest);
-  return m;
+  return (gg_moments){.temperature = energy / (3 * n), .fastest = sqrt(most), .centre = gg_scale(1 / mass, momentum)};
 }
 
 static const char *const velocity_items[] = {"dsmc/velocity_1", "dsmc/velocity_2"};

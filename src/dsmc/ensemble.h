@@ -34,9 +34,9 @@ typedef struct gg_ensemble {
 } gg_ensemble;
 
 typedef struct gg_moments {
-  double temperature;             /* sum m C^2/(3N): a velocity squared for one species of mass 1 */
-  double fastest;                 /* largest |C| */
-  double partial[GG_MAX_SPECIES]; /* m_i <C.C>_i/3 */
+  double temperature; /* sum m C^2/(3N): a velocity squared for one species of mass 1 */
+  double fastest;     /* largest |C| */
+  gg_vec centre;      /* velocity of the centre of mass */
 } gg_moments;
 
 gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err);
@@ -45,17 +45,14 @@ void gg_ensemble_free(gg_ensemble *e);
 /* Maxwellians at the model's temperature0 and ratio0; the mean spin of a sheared dense gas is -rate/2. */
 void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng);
 
-/* C_x -= drift C_y for every grain. */
-void gg_ensemble_stream(gg_ensemble *e, double drift);
+/* C_x -= drift C_y for every grain, all times `scale`, less the velocity `centre`: rounding feeds the motion of the
+ * centre of mass, and cooling or a thermostat would let it grow relative to the thermal speed without bound. Returns
+ * what is there then. */
+gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre);
 /* Velocities (or spins) times a factor. */
 void gg_blocks_scale(gg_block *blocks, size_t n, double factor);
 /* Every velocity and spin times a factor. */
 void gg_ensemble_scale(gg_ensemble *e, double factor);
-/* Subtract the velocity of the centre of mass: rounding feeds it, and cooling or a thermostat would let it grow
- * relative to the thermal speed without bound. */
-void gg_ensemble_centre(gg_ensemble *e);
-gg_moments gg_ensemble_moments(const gg_ensemble *e);
-
 gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *err);
 gg_status gg_ensemble_restore(gg_ensemble *e, const gg_archive *archive, gg_error *err);
 

@@ -49,7 +49,17 @@ typedef struct gg_pairing {
   double stress[3][3], loss; /* if tapped */
 } gg_pairing;
 
+/* Eight streams side by side, for kernels that work on eight lanes. */
+typedef struct gg_rng_lanes {
+  uint64_t s[4][GG_LANES];
+} gg_rng_lanes;
+
 /* The plain path, one candidate after another: what every other kernel is measured against. */
 void gg_collide_plain(gg_features f, gg_pairing *p, gg_rng *rng);
+
+/* What the block kernels leave to it: blocks a and b are the same one, or one of them is not full. Every pair of grains
+ * gets what it would from a draw of full blocks: lane l of a against lane l ^ order of b, each as one candidate whose
+ * rate, integrated over directions, is bounded by pi `bound`. */
+void gg_collide_odd_blocks(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, unsigned order, gg_rng *rng);
 
 #endif

@@ -6,6 +6,7 @@
 
 typedef struct gg_time_step {
   double length; /* model units */
+  double settle; /* time after which to look at the ensemble again */
   bool split;    /* streaming and collisions taken in turns (Strang), rather than streaming followed exactly */
   double bias;   /* estimated relative bias of the temperature */
 } gg_time_step;

@@ -47,7 +47,7 @@ typedef struct gg_md_counts {
   double free_time;        /* present mean free time per grain */
   double window_time;      /* since free_time was last measured, with so many collisions */
   uint64_t window_collisions, epoch_events, epoch_collisions; /* the latter two: counts at the epoch's start */
-  uint64_t collisions, events, treated;
+  uint64_t collisions, events, treated, wall_treated;
   double worst_overlap;
   gg_rng rng;
   gg_transfer transfer;

@@ -6,6 +6,7 @@
 
 typedef struct gg_plan {        /* what is asked, settled before the run; in samples a replica */
   uint64_t warmup, least, most; /* warm-up; shortest window that can be judged; asked length, 0: until the error */
+  uint64_t longest;             /* window after which the asked error counts as out of reach */
   double relative_error;        /* 0: not asked */
   double time_limit;            /* seconds, 0: none */
   bool find_steady;             /* extend the warm-up while the window drifts */
@@ -32,6 +33,7 @@ typedef struct gg_campaign {
     int64_t averaging;       /* 0: warm-up */
     uint64_t due;            /* samples that every replica is to have taken */
     uint64_t window_at;      /* samples when the window was opened */
+    uint64_t goal;           /* samples at which the window is judged next */
     uint64_t restarts;       /* windows given up for drift */
     double wall;             /* seconds used before this process */
   } state;
@@ -56,7 +58,5 @@ gg_status gg_campaign_mean(const gg_campaign *c, gg_quantity q, gg_mean *mean, g
 
 /* The result of where the campaign stands. */
 gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err);
-
-double gg_wall_now(void);
 
 #endif

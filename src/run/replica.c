@@ -4,9 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "common/rng.h"
+#include "measure/local_frame.h"
+#include "run/clock.h"
 
 static gg_status attach_observables(gg_replica *r, const gg_scene *scene, gg_error *err)
 {
@@ -46,10 +47,15 @@ static void look(gg_replica *r, double elapsed)
   for (int k = 0; k < r->n_observables; k++)
     if (r->observable[k]->passes > passes) passes = r->observable[k]->passes;
   if (r->model.rule == GG_SMOOTH && passes > 1) passes = 1; /* further passes look at spins */
+  gg_local_frame frame;
+  if (r->model.walled) gg_local_frame_take(&frame, &r->model, r->engine);
   for (int pass = 0; pass < passes; pass++) {
     for (int k = 0; k < r->n_observables; k++) r->observable[k]->begin(r->self[k], pass);
     showing s = {r, pass};
-    r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
+    if (r->model.walled)
+      gg_local_frame_snapshot(&frame, r->engine, show_chunk, &s);
+    else
+      r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
   }
   gg_transfer transfer;
   r->engine->ops->read_tap(r->engine, &transfer);
@@ -96,13 +102,6 @@ static uint64_t collisions(const gg_replica *r)
 double gg_replica_collisions_per_grain(const gg_replica *r)
 {
   return 2 * (double)collisions(r) / (double)r->model.n;
-}
-
-static double cpu_now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* Advance by one interval. A stretch in which a grain collides a thousand times more than expected is a collapse that
@@ -157,7 +156,7 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
 
 static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
 {
-  double start = cpu_now(), elapsed;
+  double start = gg_cpu_now(), elapsed;
   uint64_t happened;
   GG_TRY(advance_interval(r, &elapsed, &happened, err));
   look(r, elapsed);
@@ -166,7 +165,7 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened);
   GG_TRY(rescale_if_cold(r, err));
-  r->clock.cpu += cpu_now() - start;
+  r->clock.cpu += gg_cpu_now() - start;
   return GG_OK;
 }
 
@@ -218,9 +217,9 @@ static gg_status restore_observables(gg_replica *r, const gg_archive *a, gg_erro
 }
 
 gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
-                             gg_error *err)
+                             int index, gg_error *err)
 {
-  *r = (gg_replica){.model = *model, .trajectory_every = scene->output.trajectory_every};
+  *r = (gg_replica){.model = *model, .trajectory_every = index == 0 ? scene->output.trajectory_every : 0};
   gg_status status = attach_observables(r, scene, err);
   if (status == GG_OK) status = gg_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
   if (status == GG_OK) status = gg_series_restore(&r->series, a, err);

@@ -35,6 +35,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
                        gg_result **result, gg_error *err);
 
 /* Both engines and every theory. */
+enum { GG_MOST_THEORIES = 32 };
 typedef struct gg_comparison {
   gg_scene scene;
   gg_model model;          /* md's */
@@ -46,7 +47,7 @@ typedef struct gg_comparison {
     bool applies;
     char reason[256]; /* why not */
     gg_theory_answer answer;
-  } theory[16];
+  } theory[GG_MOST_THEORIES];
 } gg_comparison;
 
 gg_status gg_compare_scene(const gg_scene *scene, int threads, const gg_hooks *hooks, gg_comparison *comparison,

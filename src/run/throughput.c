@@ -1,20 +1,12 @@
 #include "run/throughput.h"
 
-#include <time.h>
-
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
+#include "run/clock.h"
 #include "run/start.h"
 
 enum { MOST_REPEATS = 32 };
-
-static double cpu_now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static uint64_t collisions(const gg_engine *e)
 {
@@ -40,13 +32,13 @@ static gg_status advance_by(gg_engine *e, uint64_t count, uint64_t *done, gg_err
 static gg_status time_stretch(gg_engine *e, double seconds, uint64_t *guess, double *rate, uint64_t *total,
                               gg_error *err)
 {
-  double start = cpu_now(), gone;
+  double start = gg_cpu_now(), gone;
   uint64_t sum = 0;
   do {
     uint64_t done;
     GG_TRY(advance_by(e, *guess, &done, err));
     sum += done;
-    gone = cpu_now() - start;
+    gone = gg_cpu_now() - start;
     if (gone < seconds / 4) *guess *= 2;
   } while (gone < seconds);
   *rate = (double)sum / gone;
@@ -62,8 +54,7 @@ static gg_status time_engine(gg_engine *e, const gg_model *model, bool tap, doub
   e->ops->tap(e, tap);
   GG_TRY(advance_by(e, (uint64_t)(warmup * (double)model->n / 2) + 1, &done, err));
   out->repeats = repeats < MOST_REPEATS ? repeats : MOST_REPEATS;
-  for (int i = 0; i < out->repeats; i++)
-    GG_TRY(time_stretch(e, seconds, &guess, &rates[i], &out->collisions, err));
+  for (int i = 0; i < out->repeats; i++) GG_TRY(time_stretch(e, seconds, &guess, &rates[i], &out->collisions, err));
   gsl_sort(rates, 1, (size_t)out->repeats);
   out->rate = gsl_stats_median_from_sorted_data(rates, 1, (size_t)out->repeats);
   out->slowest = rates[0];

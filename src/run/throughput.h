@@ -8,7 +8,7 @@ typedef struct gg_throughput {
   double rate;             /* collisions per CPU-second: median of the repeats */
   double slowest, fastest; /* of the repeats */
   int repeats;
-  uint64_t collisions;     /* timed, in all */
+  uint64_t collisions; /* timed, in all */
 } gg_throughput;
 
 /* Start the scene near its steady state, let it forget the start for `warmup` collisions per grain, then time `repeats`

@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "theory/collision_rate.h"
+
 static const char *const flow_names[] = {
     [GG_EQUILIBRIUM] = "equilibrium without shear",
     [GG_USF] = "uniform shear",
@@ -126,17 +128,12 @@ void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_
   a->value[GG_Q_ROTATIONAL_TEMPERATURE] = ratio * T;
 }
 
-/* nu = sum_ij x_i n_j sigma_ij^2 chi_ij sqrt(8 pi (T_i/m_i + T_j/m_j)), Chapman & Cowling, sect. 5.21 and 16.2. */
 void gg_answer_collisions(const gg_model *m, const double T[GG_MAX_SPECIES], gg_theory_answer *a)
 {
   double rate = 0, speed = 0;
   for (int i = 0; i < m->n_species; i++) {
-    speed += gg_fraction(m, i) * sqrt(8 * T[i] / (M_PI * m->mass[i]));
-    for (int j = 0; j < m->n_species; j++) {
-      double nj = m->density * gg_fraction(m, j), sigma = m->sigma[2 * i + j];
-      double spread = T[i] / m->mass[i] + T[j] / m->mass[j];
-      rate += gg_fraction(m, i) * nj * sigma * sigma * m->chi[2 * i + j] * sqrt(8 * M_PI * spread);
-    }
+    speed += gg_fraction(m, i) * gg_mean_speed(m, i, T);
+    for (int j = 0; j < m->n_species; j++) rate += gg_fraction(m, i) * gg_pair_collision_rate(m, i, j, T);
   }
   a->value[GG_Q_COLLISION_RATE] = rate;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / rate;

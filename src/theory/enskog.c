@@ -1,11 +1,12 @@
 /* Elastic hard spheres at rest: Enskog's equation (Chapman & Cowling, The Mathematical Theory of Non-Uniform Gases, ch.
  * 16) at the contact value of the scene.
  *   Z = p/(nT) = 1 + (2 pi/3) n sum_ij x_i x_j sigma_ij^3 chi_ij        (= 1 + 4 phi chi for one species)
- *   eta/eta_0 = (1 + 8/5 phi chi)^2/chi + 768/(25 pi) phi^2 chi,   eta_0 = 5/(16 d^2) sqrt(m T/pi)  (first Sonine
- * order) */
+ *   eta/eta_0 = (1 + 8/5 phi chi)^2/chi + 768/(25 pi) phi^2 chi,   eta_0 = 5/(16 d^2) sqrt(m T/pi)
+ * (first Sonine order; mixtures: the equations of garzo_montanero2003.c at e = 1). */
 #include <math.h>
 
 #include "theory/answer.h"
+#include "theory/garzo_montanero2003.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "enskog";
@@ -20,10 +21,19 @@ static double compressibility(const gg_model *m)
   return 1 + 2 * M_PI / 3 * m->density * sum;
 }
 
-static double reduced_viscosity(const gg_model *m)
+static void answer_viscosity(const gg_model *m, double T, gg_theory_answer *a)
 {
-  double y = gg_phi_chi(m), kinetic = 1 + 1.6 * y;
-  return kinetic * kinetic / m->chi[0] + 768 / (25 * M_PI) * m->phi * y;
+  if (m->n_species == 1) {
+    double y = gg_phi_chi(m), kinetic = 1 + 1.6 * y;
+    a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = kinetic / m->chi[0];
+    a->value[GG_Q_VISCOSITY_REDUCED] = kinetic * kinetic / m->chi[0] + 768 / (25 * M_PI) * m->phi * y;
+    return;
+  }
+  gg_mixture_state rest = {.a = {T / m->mass[0], T / m->mass[1]}};
+  gg_mixture_viscosity v = gg_mixture_viscosity_of(m, &rest, 0);
+  double unit = gg_model_nu0(m, T) / (m->density * T);
+  a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * unit;
+  a->value[GG_Q_VISCOSITY_REDUCED] = v.total * unit;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
@@ -34,10 +44,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   gg_answer_temperature(m, T, 1, a);
   gg_answer_pressure(m, T, p, pc, a);
   gg_answer_collisions_one(m, T, a);
-  if (m->n_species == 1 && m->rule == GG_SMOOTH) {
-    a->value[GG_Q_VISCOSITY_REDUCED] = reduced_viscosity(m);
-    a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = (1 + 1.6 * gg_phi_chi(m)) / m->chi[0];
-  }
+  if (m->rule == GG_SMOOTH) answer_viscosity(m, T, a);
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3;
   a->value[GG_Q_A2] = 0;
   return GG_OK;

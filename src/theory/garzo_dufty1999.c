@@ -44,7 +44,7 @@ double gg_thermostat_share(const gg_model *m)
   return m->thermostat == GG_WHITE_NOISE ? 0 : 1;
 }
 
-void gg_answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
+static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
 {
   double e = m->e[0], T = m->temperature0, p = m->density * T, pc = p * 2 * (1 + e) * gg_phi_chi(m);
   a->value[GG_Q_A2] = a2;
@@ -60,18 +60,24 @@ void gg_answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
   a->value[GG_Q_KNUDSEN] *= speed / rate;
 }
 
-static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
+static void answer_viscosity(const gg_model *m, double a2, gg_theory_answer *a)
 {
-  GG_TRY(gg_require_one_species(m, name, err));
-  GG_TRY(gg_require_homogeneous_smooth(m, name, err));
-  bool noisy = m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE;
-  double e = m->e[0], y = gg_phi_chi(m), a2 = noisy ? gg_a2_white_noise(e) : gg_a2_van_noije_ernst(e), c = 2 * a2;
-  gg_answer_sonine(m, a2, a);
+  double e = m->e[0], y = gg_phi_chi(m), c = 2 * a2;
   double nu = m->chi[0] * (1 - (1 - e) * (1 - e) / 4) * (1 - c / 64);
   double eta_k = (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_thermostat_share(m) * a->value[GG_Q_COOLING_RATE]);
   double bulk = 128 / (5 * M_PI) * m->phi * y * (1 + e) * (1 - c / 32);
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = eta_k;
   a->value[GG_Q_VISCOSITY_REDUCED] = eta_k * (1 + 0.8 * (1 + e) * y) + 0.6 * bulk;
+}
+
+static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  GG_TRY(gg_require_one_species(m, name, err));
+  GG_TRY(gg_require_homogeneous_smooth(m, name, err));
+  bool noisy = m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE;
+  double a2 = noisy ? gg_a2_white_noise(m->e[0]) : gg_a2_van_noije_ernst(m->e[0]);
+  answer_sonine(m, a2, a);
+  answer_viscosity(m, a2, a);
   return GG_OK;
 }
 
@@ -97,7 +103,9 @@ static gg_status evaluate_ms(const gg_model *m, gg_theory_answer *a, gg_error *e
     return gg_refuse(err, name_ms,
                      "is given here for free cooling and the Gaussian thermostat; this scene is heated by "
                      "white noise");
-  gg_answer_sonine(m, gg_a2_montanero_santos(m->e[0]), a);
+  double a2 = gg_a2_montanero_santos(m->e[0]);
+  answer_sonine(m, a2, a);
+  answer_viscosity(m, a2, a);
   return GG_OK;
 }
 

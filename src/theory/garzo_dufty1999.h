@@ -15,7 +15,4 @@ gg_status gg_require_homogeneous_smooth(const gg_model *model, const char *theor
 /* s in nu_eta - s zeta: 1/2 for cooling, 1 for a Gaussian thermostat, 0 for white noise. */
 double gg_thermostat_share(const gg_model *model);
 
-/* What a homogeneous state with this a_2 says, viscosity aside. */
-void gg_answer_sonine(const gg_model *model, double a2, gg_theory_answer *answer);
-
 #endif

@@ -15,7 +15,11 @@
 
 #include <math.h>
 
+#include "common/contact_value.h"
 #include "theory/theory_list.h"
+
+/* Random close packing in the contact value of Lun & Savage. */
+#define GG_LUN_SAVAGE_PACKING 0.64
 
 double gg_lun_ratio(gg_grain g)
 {
@@ -79,4 +83,27 @@ const gg_theory gg_lun1991 = {
         "order in the shear rate (so N1 = N2 = 0) and first Sonine order. Good near e = 1 with beta = -1 or 1; "
         "T is tens of percent off for dissipative or half-rough grains.",
     .evaluate = evaluate,
+};
+
+static const char name_ls[] = "lun1991_lun_savage";
+
+static gg_status evaluate_lun_savage(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  if (m->boltzmann)
+    return gg_refuse(err, name_ls, "differs from lun1991 only at finite density; this scene has phi = 0");
+  if (m->phi >= GG_LUN_SAVAGE_PACKING)
+    return gg_refuse(err, name_ls, "describes grains below phi = %g; this scene has %g", GG_LUN_SAVAGE_PACKING, m->phi);
+  return gg_lun_shear(m, gg_contact_value_of(GG_LUN_SAVAGE, m->phi), name_ls, a, err);
+}
+
+const gg_theory gg_lun1991_lun_savage = {
+    .name = name_ls,
+    .title = "Lun's theory with the contact value of Lun and Savage",
+    .citation =
+        "C.K.K. Lun, J. Fluid Mech. 233 (1991) 539; contact value C.K.K. Lun and S.B. Savage, J. Appl. Mech. 54 "
+        "(1987) 47",
+    .assumptions =
+        "As lun1991, with chi = (1 - phi/0.64)^-1.6 whatever the scene chose: 11 % above Carnahan-Starling at "
+        "phi = 0.3, 90 % at 0.5.",
+    .evaluate = evaluate_lun_savage,
 };

@@ -5,15 +5,20 @@
 
 const gg_theory *const gg_theories[] = {
     &gg_lun1991,
+    &gg_lun1991_lun_savage,
     &gg_gaussian_closure,
     &gg_grad,
     &gg_sela_goldhirsch1998,
     &gg_huthmann_zippelius1997,
+    &gg_haff1983,
     &gg_garzo_dufty1999,
     &gg_montanero_santos2000,
     &gg_garzo_montanero2003,
     &gg_garzo_montanero2003_ms,
     &gg_enskog,
+    &gg_carnahan_starling1969,
+    &gg_kolafa2004,
+    &gg_pieprzyk2019,
     NULL,
 };
 

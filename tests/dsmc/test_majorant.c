@@ -12,7 +12,7 @@ static void run(double forced, lab_mean *rate, lab_mean *loss, uint64_t *overflo
   gg_transfer t;
   for (int b = 0; b < 20; b++) {
     double time = 0;
-    for (int i = 0; i < 60; i++) {
+    for (int i = 0; i < 150; i++) {
       if (forced > 0) {
         gg_dsmc *d = (gg_dsmc *)g;
         for (int p = 0; p < GG_PAIRS; p++) d->now.majorant[p] = (gg_majorant){.before = forced};

@@ -1,5 +1,6 @@
 #include "theory_test.h"
 
+#include "common/contact_value.h"
 #include "theory/lun1991.h"
 
 static gg_grain grain(double e, double beta, double K)
@@ -149,6 +150,28 @@ static void pressure_minimum(void **state)
   }
 }
 
+/* Both contact values side by side: 11 % apart at phi = 0.3 and 90 % at 0.5; at one contact value, one theory. */
+static void contact_values(void **state)
+{
+  (void)state;
+  gg_model m = model_for(GG_USF, 0.3, 0.9, -1);
+  double cs = gg_contact_value_of(GG_CARNAHAN_STARLING, 0.3), ls = gg_contact_value_of(GG_LUN_SAVAGE, 0.3);
+  assert_close(ls / cs, 1.11, 0.005);
+  assert_close(gg_contact_value_of(GG_LUN_SAVAGE, 0.5) / gg_contact_value_of(GG_CARNAHAN_STARLING, 0.5), 1.9, 0.01);
+  double l = value_of(&gg_lun1991_lun_savage, &m, GG_Q_MEAN_FREE_PATH);
+  assert_close(l, 1 / (6 * sqrt(2) * 0.3 * ls), 1e-12);
+  assert_close(l * value_of(&gg_lun1991_lun_savage, &m, GG_Q_COLLISION_RATE),
+               sqrt(8 / M_PI * value_of(&gg_lun1991_lun_savage, &m, GG_Q_TEMPERATURE)), 1e-12);
+  gg_scene s = scene_of(GG_USF, 0.3, 0.9, -1);
+  s.contact_value = GG_LUN_SAVAGE;
+  gg_model same = model_of(&s);
+  gg_theory_answer a = answer_of(&gg_lun1991, &same), b = answer_of(&gg_lun1991_lun_savage, &m);
+  for (int q = 0; q < GG_N_QUANTITIES; q++)
+    if (!isnan(a.value[q])) assert_close(b.value[q], a.value[q], 1e-12);
+  m = model_for(GG_USF, 0.65, 0.9, -1);
+  assert_refused(&gg_lun1991_lun_savage, &m, "below phi = 0.64");
+}
+
 /* What it does not describe it refuses, and says why. */
 static void refuses_politely(void **state)
 {
@@ -173,10 +196,15 @@ static void refuses_politely(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(smooth_is_lun_1984),         cmocka_unit_test(elastic_is_enskog),
-      cmocka_unit_test(perfectly_rough_is_pidduck), cmocka_unit_test(ratio_makes_rotation_steady),
-      cmocka_unit_test(steady_state_balances),      cmocka_unit_test(boltzmann_is_the_dilute_limit),
-      cmocka_unit_test(boltzmann_by_hand),          cmocka_unit_test(pressure_minimum),
+      cmocka_unit_test(smooth_is_lun_1984),
+      cmocka_unit_test(elastic_is_enskog),
+      cmocka_unit_test(perfectly_rough_is_pidduck),
+      cmocka_unit_test(ratio_makes_rotation_steady),
+      cmocka_unit_test(steady_state_balances),
+      cmocka_unit_test(boltzmann_is_the_dilute_limit),
+      cmocka_unit_test(boltzmann_by_hand),
+      cmocka_unit_test(pressure_minimum),
+      cmocka_unit_test(contact_values),
       cmocka_unit_test(refuses_politely),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,28 @@
+#include "cli/options.h"
+
+/* The subcommands; a new one is a file and an entry here. */
+enum {
+  SIMULATES = GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_JSON | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUIET | GG_OPT_ALL
+};
+const gg_command gg_commands[] = {
+    {"compare", "SCENE.yaml", "Both engines and the theories: one table, with standard errors and z-scores",
+     "Runs event-driven molecular dynamics (md) and Enskog Monte Carlo (dsmc) on the scene, evaluates every theory\n"
+     "that applies, and prints them side by side. Writes an HDF5 result file and a picture.",
+     SIMULATES | GG_OPT_PICTURE | GG_OPT_RESUME, gg_cli_compare_main},
+    {"run", "SCENE.yaml", "One engine: the scene's, or that of --engine",
+     "With output.checkpoint_every above 0 in the scene, a checkpoint is kept beside the result; --resume goes on "
+     "from\n"
+     "it bit for bit.",
+     SIMULATES | GG_OPT_ENGINE | GG_OPT_RESUME, gg_cli_run_main},
+    {"theory", "SCENE.yaml", "The theories alone", NULL, GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL, gg_cli_theory_main},
+    {"plot", "RESULT.h5", "A picture of what a result file holds",
+     "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side\n"
+     "by side.",
+     GG_OPT_OUTPUT | GG_OPT_FORMAT, gg_cli_plot_main},
+    {"info", "FILE", "What a result file holds, or every key of a scene and what it switches on and off", NULL,
+     GG_OPT_SET | GG_OPT_JSON, gg_cli_info_main},
+    {"bench", "[md|dsmc]", "How fast the engines are: collisions per second by kernel, density and size",
+     "Uniform shear at e = 0.9 with the stress measured, one core, the median of repeats. Run it on an idle machine.",
+     GG_OPT_JSON | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
+    {0},
+};

@@ -1,0 +1,88 @@
+/* graingas compare: both engines and the theories on one scene. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/report.h"
+#include "io/document.h"
+#include "io/plot.h"
+#include "io/result_file.h"
+
+/* A picture that cannot be drawn is no reason to call the comparison failed. */
+static void draw(const gg_options *o, const char *output)
+{
+  gg_error err;
+  if (o->picture && strcmp(o->picture, "none") == 0) return;
+  char *picture = o->picture ? strdup(o->picture) : gg_with_suffix(output, ".svg");
+  if (!picture) return;
+  bool replaced = gg_file_exists(picture);
+  if (gg_plot_result(output, picture, NULL, &err) != GG_OK)
+    fprintf(stderr, "warning: no picture: %s\n", err.message);
+  else
+    gg_tell_written(o, "picture", picture, replaced);
+  free(picture);
+}
+
+static int finish(const gg_options *o, const char *output, gg_comparison *c, gg_result_file *file)
+{
+  gg_error err;
+  if (o->json) {
+    gg_cli_print_document(gg_comparison_document(c));
+  } else {
+    gg_print_comparison(c, o->all);
+  }
+  bool replaced = gg_file_exists(output);
+  if (gg_result_file_finish_comparison(file, c, &err) != GG_OK) return gg_cli_report(&err);
+  gg_tell_written(o, "results", output, replaced);
+  draw(o, output);
+  return GG_OK;
+}
+
+static int compare(const gg_options *o, const gg_scene *scene, const char *output)
+{
+  gg_error err;
+  gg_comparison c = {0};
+  gg_result_file file;
+  gg_cli_progress progress;
+  if (gg_check_writable(output, &err) != GG_OK) return gg_cli_report(&err);
+  if (scene->output.checkpoint_every > 0 || scene->output.trajectory_every > 0)
+    fprintf(stderr, "warning: compare keeps no checkpoints and no trajectory; graingas run does\n");
+  gg_cli_progress_start(&progress, o->quiet);
+  gg_cli_catch_interrupts();
+  gg_hooks hooks = {&progress, gg_cli_progress_show, gg_cli_interrupted, NULL, NULL};
+  gg_status status = gg_compare_scene(scene, o->threads, &hooks, &c, &err);
+  gg_cli_progress_end(&progress);
+  int code = status == GG_OK ? GG_OK : (int)status;
+  bool usable = status == GG_OK || (status == GG_FAILED && (c.by_engine[0] || c.by_engine[1]));
+  if (usable) {
+    gg_error unwritable;
+    if (gg_result_file_open(&file, output, o->command_line, &unwritable) != GG_OK)
+      code = gg_cli_report(&unwritable);
+    else if ((code = finish(o, output, &c, &file)) == GG_OK)
+      code = (int)status;
+  }
+  if (status == GG_BAD_INPUT) gg_error_prefix(&err, status, "%s", o->input);
+  if (status == GG_INTERRUPTED) gg_fail(&err, status, "interrupted; nothing was written");
+  if (status != GG_OK) gg_cli_report(&err);
+  gg_comparison_clear(&c);
+  return code;
+}
+
+int gg_cli_compare_main(const gg_command *command, int argc, char **argv)
+{
+  gg_options o;
+  gg_error err;
+  gg_scene_draft draft;
+  int code = gg_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON && o.resume)
+    code =
+        gg_cli_fail(GG_BAD_INPUT, "compare keeps no checkpoints; resume one engine's run with graingas run --resume");
+  if (code == GG_CLI_GO_ON && gg_options_scene(&o, &draft, &err) != GG_OK) code = gg_cli_report(&err);
+  char *output = code == GG_CLI_GO_ON ? gg_options_output(&o, ".h5", &err) : NULL;
+  if (code == GG_CLI_GO_ON) code = output ? compare(&o, &draft.scene, output) : gg_cli_report(&err);
+  free(output);
+  gg_options_clear(&o);
+  return code;
+}

@@ -1,0 +1,25 @@
+#include <signal.h>
+
+#include "cli/progress.h"
+
+/* A signal handler has nowhere else to leave its word. */
+static volatile sig_atomic_t caught;
+
+static void on_signal(int number)
+{
+  caught = 1;
+  signal(number, SIG_DFL);
+}
+
+void gg_cli_catch_interrupts(void)
+{
+  struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+bool gg_cli_interrupted(void *unused)
+{
+  (void)unused;
+  return caught != 0;
+}

@@ -1,0 +1,208 @@
+#include "cli/options.h"
+
+#include <getopt.h>
+#include <sched.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "io/nearest.h"
+
+const gg_option gg_options_table[] = {
+    {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run, instead of the scene's"},
+    {GG_OPT_SET, "set", "KEY=VALUE", "override a key of the scene, e.g. collision.e=0.8; repeatable"},
+    {GG_OPT_SEED, "seed", "N", "seed of the random streams (run.seed)"},
+    {GG_OPT_THREADS, "threads", "N", "threads to use; results do not depend on it (default: all processors)"},
+    {GG_OPT_OUTPUT, "output", "FILE", "file to write (default: the input's name, in the current folder)"},
+    {GG_OPT_PICTURE, "picture", "FILE", "picture to draw, .svg or .png, or none (default: beside the output, .svg)"},
+    {GG_OPT_FORMAT, "format", "svg|png", "kind of picture (default: by the output's name, else svg)"},
+    {GG_OPT_RESUME, "resume", "FILE", "go on from this checkpoint"},
+    {GG_OPT_ALL, "all", NULL, "show every quantity, not just the main ones"},
+    {GG_OPT_JSON, "json", NULL, "results as one JSON document on standard output, and nothing else there"},
+    {GG_OPT_QUICK, "quick", NULL, "shorter: fewer sizes, fewer repeats"},
+    {GG_OPT_QUIET, "quiet", NULL, "no progress"},
+    {0},
+};
+
+void gg_print_command_help(const gg_command *c)
+{
+  printf("Usage: graingas %s %s [OPTION...]\n\n%s.\n", c->name, c->arguments, c->summary);
+  if (c->help) printf("\n%s\n", c->help);
+  printf("\nOptions:\n");
+  for (const gg_option *o = gg_options_table; o->flag; o++) {
+    if (!(c->options & o->flag)) continue;
+    char left[40];
+    snprintf(left, sizeof left, "--%s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
+    printf("  %-18s  %s\n", left, o->doc);
+  }
+  printf("  %-18s  %s\n", "--help", "this text");
+}
+
+static int refuse_option(const gg_command *c, const char *typed)
+{
+  char word[48];
+  snprintf(word, sizeof word, "%.*s", (int)strcspn(typed, "="), typed);
+  gg_nearest nearest = {.word = word};
+  for (const gg_option *o = gg_options_table; o->flag; o++) {
+    char name[24];
+    if (!(c->options & o->flag)) continue;
+    snprintf(name, sizeof name, "--%s", o->name);
+    if (strcmp(name, word) == 0)
+      return gg_cli_fail(GG_BAD_INPUT, o->argument ? "option '%s' needs a value" : "option '%s' takes no value", word);
+    gg_nearest whole = {.word = word};
+    gg_nearest_try(&whole, name);
+    if (whole.best && (!nearest.best || whole.distance < nearest.distance))
+      nearest = (gg_nearest){.word = word, .best = o->name, .distance = whole.distance};
+  }
+  if (nearest.best) return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; did you mean '--%s'?", word, nearest.best);
+  return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; see graingas %s --help", word, c->name);
+}
+
+static int processors(void)
+{
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+/* The command line as it can be typed again. */
+static char *join(int argc, char **argv)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return NULL;
+  fputs("graingas", out);
+  for (int i = 0; i < argc; i++) fprintf(out, strpbrk(argv[i], " \t'\"{}[]*?$&|;<>()") ? " '%s'" : " %s", argv[i]);
+  return fclose(out) == 0 ? text : NULL;
+}
+
+/* "--seed 7" is "--set run.seed=7", "--engine md" is "--set engine=md". */
+static int add_override(gg_options *o, char **owned, const char *key, const char *value)
+{
+  if (o->n_overrides == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d overrides", GG_MAX_OVERRIDES);
+  if (key && asprintf(owned, "%s=%s", key, value) < 0) return gg_cli_fail(GG_FAILED, "out of memory");
+  o->override[o->n_overrides++] = key ? *owned : value;
+  return GG_CLI_GO_ON;
+}
+
+static int take_threads(gg_options *o, const char *value)
+{
+  char *end;
+  long n = strtol(value, &end, 10);
+  if (*end || n < 1 || n > 4096)
+    return gg_cli_fail(GG_BAD_INPUT, "option '--threads': value '%s' is not allowed; allowed: a whole number from 1",
+                       value);
+  o->threads = (int)n;
+  return GG_CLI_GO_ON;
+}
+
+static int take(gg_options *o, unsigned flag, const char *value)
+{
+  switch (flag) {
+  case GG_OPT_SET: return add_override(o, NULL, NULL, value);
+  case GG_OPT_SEED: return add_override(o, &o->owned[0], "run.seed", value);
+  case GG_OPT_ENGINE: return add_override(o, &o->owned[1], "engine", value);
+  case GG_OPT_THREADS: return take_threads(o, value);
+  case GG_OPT_OUTPUT: o->output = value; break;
+  case GG_OPT_PICTURE: o->picture = value; break;
+  case GG_OPT_FORMAT: o->format = value; break;
+  case GG_OPT_RESUME: o->resume = value; break;
+  case GG_OPT_ALL: o->all = true; break;
+  case GG_OPT_JSON: o->json = true; break;
+  case GG_OPT_QUICK: o->quick = true; break;
+  case GG_OPT_QUIET: o->quiet = true; break;
+  default: break;
+  }
+  return GG_CLI_GO_ON;
+}
+
+int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
+{
+  struct option known[sizeof gg_options_table / sizeof *gg_options_table + 1] = {{0}};
+  int n = 0;
+  for (const gg_option *t = gg_options_table; t->flag; t++)
+    if (c->options & t->flag)
+      known[n++] = (struct option){t->name, t->argument ? required_argument : no_argument, NULL,
+                                   256 + (int)(t - gg_options_table)};
+  known[n++] = (struct option){"help", no_argument, NULL, 'h'};
+  *o = (gg_options){.threads = processors(), .command_line = join(argc, argv)};
+  opterr = 0, optind = 0;
+  for (int got; (got = getopt_long(argc, argv, "h", known, NULL)) != -1;) {
+    if (got == 'h') return gg_print_command_help(c), GG_OK;
+    if (got < 256) return refuse_option(c, argv[optind - 1]);
+    int code = take(o, gg_options_table[got - 256].flag, optarg);
+    if (code != GG_CLI_GO_ON) return code;
+  }
+  if (optind == argc && c->arguments[0] == '[') return GG_CLI_GO_ON;
+  if (optind == argc)
+    return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
+  if (optind + 1 < argc)
+    return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, argv[optind + 1]);
+  o->input = argv[optind];
+  return GG_CLI_GO_ON;
+}
+
+void gg_options_clear(gg_options *o)
+{
+  free(o->command_line);
+  free(o->owned[0]);
+  free(o->owned[1]);
+  *o = (gg_options){0};
+}
+
+static gg_status override(gg_scene_draft *draft, const char *typed, gg_error *err)
+{
+  const char *equals = strchr(typed, '=');
+  char key[96];
+  if (!equals || equals == typed)
+    return gg_fail(err, GG_BAD_INPUT, "--set %s: KEY=VALUE is expected, e.g. --set collision.e=0.8", typed);
+  snprintf(key, sizeof key, "%.*s", (int)(equals - typed), typed);
+  gg_status status = gg_scene_draft_set(draft, key, equals + 1, err);
+  return status == GG_OK ? GG_OK : gg_error_prefix(err, status, "--set %.200s", typed);
+}
+
+gg_status gg_options_scene(const gg_options *o, gg_scene_draft *draft, gg_error *err)
+{
+  gg_scene_draft_start(draft);
+  GG_TRY(gg_scene_draft_load(draft, o->input, err));
+  for (int i = 0; i < o->n_overrides; i++) GG_TRY(override(draft, o->override[i], err));
+  return gg_scene_draft_finish(draft, o->input, err);
+}
+
+char *gg_with_suffix(const char *path, const char *suffix)
+{
+  const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+  size_t length = dot && (!slash || dot > slash + 1) && dot != path ? (size_t)(dot - path) : strlen(path);
+  char *result = NULL;
+  return asprintf(&result, "%.*s%s", (int)length, path, suffix) < 0 ? NULL : result;
+}
+
+static bool same_file(const char *a, const char *b)
+{
+  struct stat one, two;
+  return stat(a, &one) == 0 && stat(b, &two) == 0 && one.st_dev == two.st_dev && one.st_ino == two.st_ino;
+}
+
+char *gg_options_output(const gg_options *o, const char *suffix, gg_error *err)
+{
+  const char *slash = strrchr(o->input, '/');
+  char *output = o->output ? strdup(o->output) : gg_with_suffix(slash ? slash + 1 : o->input, suffix);
+  if (!output) gg_fail(err, GG_FAILED, "out of memory");
+  if (!output || !same_file(output, o->input)) return output;
+  gg_fail(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);
+  free(output);
+  return NULL;
+}
+
+bool gg_file_exists(const char *path)
+{
+  struct stat about;
+  return stat(path, &about) == 0;
+}
+
+void gg_tell_written(const gg_options *o, const char *what, const char *path, bool replaced)
+{
+  fflush(stdout);
+  if (!o->quiet) fprintf(stderr, "%s: %s%s\n", what, path, replaced ? " (in place of an older one)" : "");
+}

@@ -1,0 +1,61 @@
+/* The options of every subcommand, from one table: parsing, --help and the manual page. */
+#ifndef GG_CLI_OPTIONS_H
+#define GG_CLI_OPTIONS_H
+
+#include "cli/cli.h"
+#include "io/scene_draft.h"
+
+enum {
+  GG_OPT_SET = 1u << 0,
+  GG_OPT_OUTPUT = 1u << 1,
+  GG_OPT_JSON = 1u << 2,
+  GG_OPT_SEED = 1u << 3,
+  GG_OPT_THREADS = 1u << 4,
+  GG_OPT_QUIET = 1u << 5,
+  GG_OPT_RESUME = 1u << 6,
+  GG_OPT_ENGINE = 1u << 7,
+  GG_OPT_ALL = 1u << 8,
+  GG_OPT_FORMAT = 1u << 9,
+  GG_OPT_PICTURE = 1u << 10,
+  GG_OPT_QUICK = 1u << 11,
+};
+
+typedef struct gg_option {
+  unsigned flag;
+  const char *name, *argument, *doc; /* argument: NULL if it takes none */
+} gg_option;
+extern const gg_option gg_options_table[]; /* ends with flag 0 */
+
+enum { GG_MAX_OVERRIDES = 64 };
+
+typedef struct gg_options {
+  const char *input; /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
+  const char *output, *resume, *format, *picture;
+  bool json, quiet, all, quick;
+  int threads;
+  int n_overrides;
+  const char *override[GG_MAX_OVERRIDES]; /* "key=value" */
+  char *owned[2];                         /* overrides that options stand for */
+  char *command_line;                     /* for the record */
+} gg_options;
+
+enum { GG_CLI_GO_ON = -1 };
+/* GG_CLI_GO_ON, or the exit code to leave with (--help printed, or a mistake reported). */
+int gg_options_parse(const gg_command *command, int argc, char **argv, gg_options *options);
+void gg_options_clear(gg_options *options);
+
+/* The scene of the input, overridden and complete. */
+gg_status gg_options_scene(const gg_options *options, gg_scene_draft *draft, gg_error *err);
+
+/* --output, or the input's base name with `suffix` in the current folder; to be freed. NULL with the message when that
+ * is the input itself. */
+char *gg_options_output(const gg_options *options, const char *suffix, gg_error *err);
+/* "results: usf.h5", and whether an older one was there. */
+void gg_tell_written(const gg_options *options, const char *what, const char *path, bool replaced);
+bool gg_file_exists(const char *path);
+/* `path` with another ending; to be freed. */
+char *gg_with_suffix(const char *path, const char *suffix);
+
+void gg_print_command_help(const gg_command *command);
+
+#endif

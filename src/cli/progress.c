@@ -1,0 +1,86 @@
+#include "cli/progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "io/text.h"
+
+static const double live_every = 0.1, plain_every = 20;
+
+static double now_seconds(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void gg_cli_progress_start(gg_cli_progress *p, bool quiet)
+{
+  *p = (gg_cli_progress){.quiet = quiet, .terminal = isatty(STDERR_FILENO) != 0, .shown = now_seconds()};
+}
+
+/* "md averaging 43 %, 1.2 M collisions, 0.9 M/s, error 1.2 %, 0:20 left" */
+static void describe(const gg_progress *g, bool brief, char *text, size_t size)
+{
+  char collisions[24], rate[24], left[24] = "";
+  gg_format_count((double)g->collisions, collisions, sizeof collisions);
+  gg_format_count(g->rate, rate, sizeof rate);
+  int used = snprintf(text, size, "%s %s %.0f %%", g->engine, g->phase, 100 * g->fraction);
+  if (g->replicas > 1 && !brief)
+    used += snprintf(text + used, size - (size_t)used, ", %ld replicas", (long)g->replicas);
+  used += snprintf(text + used, size - (size_t)used, ", %s%s, %s/s", collisions, brief ? "" : " collisions", rate);
+  if (g->relative_error > 0 && isfinite(g->relative_error))
+    used += snprintf(text + used, size - (size_t)used, ", error %.2g %%", 100 * g->relative_error);
+  if (isfinite(g->time_left)) {
+    gg_format_duration(g->time_left, left, sizeof left);
+    snprintf(text + used, size - (size_t)used, ", %s left", left);
+  }
+}
+
+static void show_live(gg_cli_progress *p)
+{
+  char line[400] = "", part[200];
+  bool both = p->last[0].engine && p->last[1].engine;
+  for (int k = 0; k < 2; k++) {
+    if (!p->last[k].engine) continue;
+    describe(&p->last[k], both, part, sizeof part);
+    size_t used = strlen(line);
+    snprintf(line + used, sizeof line - used, "%s%s", used ? "  |  " : "", part);
+  }
+  struct winsize window = {0};
+  int width = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col ? window.ws_col - 1 : 79;
+  fprintf(stderr, "\r%.*s\x1b[K", width, line);
+  fflush(stderr);
+  p->live = true;
+}
+
+void gg_cli_progress_show(void *context, const gg_progress *g)
+{
+  gg_cli_progress *p = context;
+  if (p->quiet) return;
+  int k = strcmp(g->engine, "dsmc") == 0;
+  bool new_phase = strcmp(p->phase[k], g->phase) != 0;
+  p->last[k] = *g;
+  double now = now_seconds();
+  if (p->terminal) {
+    if (now - p->shown < live_every) return;
+    show_live(p);
+  } else {
+    if (!new_phase && now - p->shown < plain_every) return;
+    char line[200];
+    describe(g, false, line, sizeof line);
+    fprintf(stderr, "%s\n", line);
+    snprintf(p->phase[k], sizeof p->phase[k], "%s", g->phase);
+  }
+  p->shown = now;
+}
+
+void gg_cli_progress_end(gg_cli_progress *p)
+{
+  if (p->live) fputs("\r\x1b[K", stderr);
+  p->live = false;
+}

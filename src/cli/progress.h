@@ -1,0 +1,26 @@
+/* Progress on standard error: one live line on a terminal, now and then a plain line otherwise. */
+#ifndef GG_CLI_PROGRESS_H
+#define GG_CLI_PROGRESS_H
+
+#include "run/run.h"
+
+typedef struct gg_cli_progress {
+  bool quiet, terminal;
+  double shown;        /* clock reading of the last line */
+  bool live;           /* a live line stands on the terminal */
+  gg_progress last[2]; /* of md and dsmc, which may run side by side */
+  char phase[2][24];   /* last phase told in plain lines */
+} gg_cli_progress;
+
+void gg_cli_progress_start(gg_cli_progress *p, bool quiet);
+/* The hook of gg_hooks; context is a gg_cli_progress. */
+void gg_cli_progress_show(void *context, const gg_progress *now);
+/* Take the live line away. */
+void gg_cli_progress_end(gg_cli_progress *p);
+
+/* SIGINT and SIGTERM end a run at the next occasion, with a checkpoint if one was asked for; a second one ends it at
+ * once. */
+void gg_cli_catch_interrupts(void);
+bool gg_cli_interrupted(void *unused);
+
+#endif

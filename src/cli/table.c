@@ -1,0 +1,116 @@
+#include "cli/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+enum { GAP = 2 };
+
+gg_table *gg_table_new(void)
+{
+  return calloc(1, sizeof(gg_table));
+}
+
+int gg_table_column(gg_table *t, const char *head, bool right)
+{
+  int c = t->n_columns < GG_TABLE_COLUMNS ? t->n_columns++ : GG_TABLE_COLUMNS - 1;
+  snprintf(t->head[c], GG_TABLE_CELL, "%s", head);
+  t->right[c] = right;
+  return c;
+}
+
+int gg_table_row(gg_table *t)
+{
+  return t->n_rows < GG_TABLE_ROWS ? t->n_rows++ : GG_TABLE_ROWS - 1;
+}
+
+char *gg_table_cell(gg_table *t, int row, int column)
+{
+  return t->cell[row][column];
+}
+
+static int width_of(const gg_table *t, int c)
+{
+  size_t width = strlen(t->head[c]);
+  for (int r = 0; r < t->n_rows; r++)
+    if (strlen(t->cell[r][c]) > width) width = strlen(t->cell[r][c]);
+  return (int)width;
+}
+
+static void print_cell(const gg_table *t, FILE *out, int c, const char *text, bool last)
+{
+  if (t->right[c])
+    fprintf(out, "%*s", width_of(t, c), text);
+  else if (last)
+    fputs(text, out);
+  else
+    fprintf(out, "%-*s", width_of(t, c), text);
+}
+
+static void print_line(const gg_table *t, FILE *out, const int *columns, int n, int row)
+{
+  for (int i = 0; i < n; i++) {
+    int c = columns[i];
+    if (i) fprintf(out, "%*s", GAP, "");
+    print_cell(t, out, c, row < 0 ? t->head[c] : t->cell[row][c], i == n - 1);
+  }
+  fputc('\n', out);
+}
+
+static bool row_is_empty(const gg_table *t, const int *columns, int n, int keep, int row)
+{
+  for (int i = keep; i < n; i++)
+    if (t->cell[row][columns[i]][0]) return false;
+  return n > keep;
+}
+
+static void print_block(const gg_table *t, FILE *out, const int *columns, int n, int keep)
+{
+  print_line(t, out, columns, n, -1);
+  int total = (n - 1) * GAP;
+  for (int i = 0; i < n; i++) total += width_of(t, columns[i]);
+  for (int i = 0; i < total; i++) fputc('-', out);
+  fputc('\n', out);
+  for (int r = 0; r < t->n_rows; r++)
+    if (!row_is_empty(t, columns, n, keep, r)) print_line(t, out, columns, n, r);
+}
+
+void gg_table_print(const gg_table *t, FILE *out, int width, int keep)
+{
+  int columns[GG_TABLE_COLUMNS], next = keep;
+  do {
+    int n = 0, used = 0;
+    for (; n < keep; n++) columns[n] = n, used += width_of(t, n) + GAP;
+    bool first = true;
+    while (next < t->n_columns && (first || used + width_of(t, next) <= width)) {
+      used += width_of(t, next) + GAP;
+      columns[n++] = next++;
+      first = false;
+    }
+    print_block(t, out, columns, n, keep);
+    if (next < t->n_columns) fputc('\n', out);
+  } while (next < t->n_columns);
+}
+
+int gg_terminal_width(void)
+{
+  struct winsize window = {0};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col >= 40) return window.ws_col;
+  return 100;
+}
+
+void gg_print_wrapped(FILE *out, const char *lead, const char *text, int width)
+{
+  int indent = (int)strlen(lead), used = fprintf(out, "%s", lead);
+  while (*text) {
+    int word = (int)strcspn(text, " ");
+    if (used > indent && used + 1 + word > width) {
+      fprintf(out, "\n%*s", indent, "");
+      used = indent;
+    }
+    used += fprintf(out, "%s%.*s", used > indent ? " " : "", word, text);
+    text += word + (text[word] == ' ');
+  }
+  fputc('\n', out);
+}

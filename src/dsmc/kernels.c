@@ -1,0 +1,89 @@
+#include "dsmc/kernels.h"
+
+#include "dsmc/collide_blocks.h"
+#include "dsmc/sweep.h"
+
+static const struct {
+  const char *name;
+  gg_collide_blocks *(*kernel)(gg_features f);
+} paths[GG_PATHS] = {
+    [GG_PATH_PLAIN] = {"plain", NULL},
+    [GG_PATH_BASELINE] = {"blocks", gg_collide_blocks_baseline},
+#ifdef GG_X86_64
+    [GG_PATH_AVX2] = {"blocks, AVX2", gg_collide_blocks_avx2},
+    [GG_PATH_AVX512] = {"blocks, AVX-512", gg_collide_blocks_avx512},
+#endif
+};
+
+const char *gg_path_name(gg_path path)
+{
+  return paths[path].name;
+}
+
+bool gg_path_runs_here(gg_path path)
+{
+  if (!paths[path].name) return false;
+#ifdef GG_X86_64
+  if (path == GG_PATH_AVX2) return __builtin_cpu_supports("avx2");
+  if (path == GG_PATH_AVX512) return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+#endif
+  return true;
+}
+
+void gg_sweep_blocks(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums)
+{
+  gg_sweep *sweep = gg_sweep_baseline;
+#ifdef GG_X86_64
+  if (gg_path_runs_here(GG_PATH_AVX2)) sweep = gg_sweep_avx2;
+  if (gg_path_runs_here(GG_PATH_AVX512)) sweep = gg_sweep_avx512;
+#endif
+  sweep(c, n, drift, scale, centre, sums);
+}
+
+void gg_kick_blocks(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes)
+{
+  gg_kicks *kicks = gg_kicks_baseline;
+#ifdef GG_X86_64
+  if (gg_path_runs_here(GG_PATH_AVX2)) kicks = gg_kicks_avx2;
+  if (gg_path_runs_here(GG_PATH_AVX512)) kicks = gg_kicks_avx512;
+#endif
+  kicks(c, n, drift, size, lanes);
+}
+
+gg_path gg_path_choose(const gg_population *one, const gg_population *two)
+{
+  if (one->n_blocks < 100 || two->n_blocks < 100) return GG_PATH_PLAIN;
+  gg_path path = GG_PATHS - 1;
+  while (!gg_path_runs_here(path)) path--;
+  return path;
+}
+
+double gg_candidates(gg_path path, gg_features f, const gg_population *one, const gg_population *two)
+{
+  if (path == GG_PATH_PLAIN) {
+    double n = (double)one->n, pairs = f.same ? 0.5 * n * (n - 1) : n * (double)two->n;
+    return 4 * M_PI * pairs;
+  }
+  /* A draw of two blocks gives each of the pairs between them 1/8; within a species they come in either order. */
+  double blocks = (double)one->n_blocks * (double)two->n_blocks;
+  return M_PI * 8 * (f.same ? 0.5 : 1) * blocks;
+}
+
+double gg_rate_bound(gg_path path, gg_features f, double speed, double shift)
+{
+  if (f.shear != GG_SHEARED_DENSE) return speed;
+  return speed + (path == GG_PATH_PLAIN ? 0.5 : GG_SHEAR_SHARE) * shift; /* |k_x k_y| <= 1/2 */
+}
+
+uint64_t gg_grains_a_candidate(gg_path path)
+{
+  return path == GG_PATH_PLAIN ? 1 : GG_LANES;
+}
+
+void gg_collide(gg_path path, gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng)
+{
+  if (path == GG_PATH_PLAIN)
+    gg_collide_plain(f, p, rng);
+  else
+    paths[path].kernel(f)(p, lanes, rng);
+}

@@ -1,0 +1,51 @@
+#include "dsmc/sweep.h"
+
+#include "dsmc/normal.h"
+
+#define NAME_OF(name, instructions) name##_##instructions
+#define NAME(name, instructions) NAME_OF(name, instructions)
+
+void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums)
+{
+  for (int at = 0; at < GG_LANES; at += GG_WIDTH) {
+    gg_vd sx = gg_all(0), sy = sx, sz = sx, s2 = sx, fastest = sx;
+    for (gg_block *b = c; b < c + n; b++) {
+      gg_vd y = gg_load(b->y + at), x = scale * (gg_load(b->x + at) - drift * y) - centre.x;
+      gg_vd z = scale * gg_load(b->z + at) - centre.z;
+      y = scale * y - centre.y;
+      gg_vd c2 = x * x + y * y + z * z;
+      gg_store(b->x + at, x);
+      gg_store(b->y + at, y);
+      gg_store(b->z + at, z);
+      sx += x;
+      sy += y;
+      sz += z;
+      s2 += c2;
+      fastest = gg_larger(fastest, c2);
+    }
+    for (int l = 0; l < GG_WIDTH; l++) {
+      sums->c.x[at + l] += sx[l];
+      sums->c.y[at + l] += sy[l];
+      sums->c.z[at + l] += sz[l];
+      sums->c2[at + l] += s2[l];
+      if (fastest[l] > sums->fastest[at + l]) sums->fastest[at + l] = fastest[l];
+    }
+  }
+}
+
+void NAME(gg_kicks, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes)
+{
+  gg_lane_rng rng;
+  gg_lane_rng_load(&rng, lanes);
+  for (gg_block *b = c; b < c + n; b++)
+    for (int part = 0; part < GG_PARTS; part++) {
+      const int at = part * GG_WIDTH;
+      gg_vd x, y, z, spare;
+      gg_lane_normal(&rng, part, &x, &y);
+      gg_lane_normal(&rng, part, &z, &spare);
+      gg_store(b->x + at, gg_load(b->x + at) + size * (x + drift * y));
+      gg_store(b->y + at, gg_load(b->y + at) + size * y);
+      gg_store(b->z + at, gg_load(b->z + at) + size * z);
+    }
+  gg_lane_rng_save(&rng, lanes);
+}

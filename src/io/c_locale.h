@@ -1,0 +1,11 @@
+/* Numbers are read and written with a decimal point whatever locale the calling program has chosen. */
+#ifndef GG_C_LOCALE_H
+#define GG_C_LOCALE_H
+
+#include <locale.h>
+
+/* Switch this thread to the C locale; hand the returned value to gg_c_locale_leave. */
+locale_t gg_c_locale_enter(void);
+void gg_c_locale_leave(locale_t before);
+
+#endif

@@ -1,0 +1,103 @@
+#include <math.h>
+#include <string.h>
+
+#include "io/document.h"
+#include "io/scene_json.h"
+#include "run/agreement.h"
+
+/* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}; those that do not apply are warnings. */
+static json_t *theories_json(const gg_comparison *c, json_t *warnings)
+{
+  json_t *all = json_object();
+  for (int i = 0; i < c->n_theories; i++) {
+    const char *name = c->theory[i].theory->name;
+    if (!c->theory[i].applies) {
+      json_array_append_new(warnings, json_sprintf("%s does not apply: %s", name, c->theory[i].reason));
+      continue;
+    }
+    json_t *one = json_object();
+    for (int q = 0; q < GG_N_QUANTITIES; q++) {
+      double value = c->theory[i].answer.value[q];
+      if (!isfinite(value)) continue;
+      json_object_set_new(one, gg_quantity_name((gg_quantity)q),
+                          json_pack("{s:f, s:s}", "mean", value, "unit", gg_quantity_unit((gg_quantity)q, &c->model)));
+    }
+    json_object_set_new(all, name, one);
+  }
+  return all;
+}
+
+json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *c)
+{
+  json_t *warnings = json_array(), *theory = theories_json(c, warnings);
+  return json_pack("{s:s, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene), "theory", theory,
+                   "warnings", warnings);
+}
+
+static json_t *deviations_json(const gg_comparison *c, const gg_result *engine, gg_quantity q, json_t *warnings)
+{
+  json_t *all = json_object();
+  bool small = false;
+  for (int i = 0; i < c->n_theories; i++) {
+    double value = c->theory[i].answer.value[q];
+    if (!c->theory[i].applies || !isfinite(value)) continue;
+    double deviation = gg_deviation(&engine->value[q], value);
+    small |= isnan(deviation);
+    json_object_set_new(all, c->theory[i].theory->name, isnan(deviation) ? json_null() : json_real(deviation));
+  }
+  if (small)
+    gg_reason_add(warnings, engine->engine, gg_quantity_name(q),
+                  "the relative deviation of theories, since the mean is within three standard errors of zero");
+  return all;
+}
+
+static bool has(const gg_result *r, gg_quantity q)
+{
+  return r && isfinite(r->value[q].mean);
+}
+
+static json_t *row_json(const gg_comparison *c, gg_quantity q, json_t *warnings)
+{
+  const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
+  json_t *row = json_pack("{s:s, s:s}", "quantity", gg_quantity_name(q), "unit", gg_quantity_unit(q, &c->model));
+  double z = md && dsmc ? gg_z_score(&md->value[q], &dsmc->value[q]) : NAN;
+  json_object_set_new(row, "md_dsmc_z", isfinite(z) ? json_real(z) : json_null());
+  if (!isfinite(z))
+    gg_reason_add(warnings, "md_dsmc_z", gg_quantity_name(q), "the mean or error of an engine is not known");
+  json_object_set_new(row, "beyond_expected", json_boolean(gg_disagree(c, q)));
+  if (has(md, q)) json_object_set_new(row, "md_theory_deviation", deviations_json(c, md, q, warnings));
+  if (has(dsmc, q)) json_object_set_new(row, "dsmc_theory_deviation", deviations_json(c, dsmc, q, warnings));
+  return row;
+}
+
+static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *warnings)
+{
+  const gg_result *r = c->by_engine[kind];
+  if (r) return gg_run_document(r);
+  json_array_append_new(warnings, json_sprintf("%s is null: %s", gg_engine_ops_of(kind)->name, c->refusal[kind]));
+  return json_null();
+}
+
+/* Where the engines differ beyond what is expected: which causes apply. */
+static void warn_causes(const gg_comparison *c, json_t *warnings)
+{
+  const char *cause[8];
+  int marked = 0;
+  for (int q = 0; q < GG_N_QUANTITIES; q++) marked += gg_disagree(c, (gg_quantity)q);
+  int n = marked ? gg_causes_of_disagreement(c, cause, 8) : 0;
+  for (int i = 0; i < n; i++)
+    json_array_append_new(warnings, json_sprintf("md and dsmc differ beyond what is expected: %s", cause[i]));
+}
+
+json_t *gg_comparison_document(const gg_comparison *c)
+{
+  json_t *warnings = json_array(), *rows = json_array();
+  json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
+  json_t *theory = theories_json(c, warnings);
+  for (int q = 0; q < GG_N_QUANTITIES; q++)
+    if (has(c->by_engine[GG_MD], (gg_quantity)q) || has(c->by_engine[GG_DSMC], (gg_quantity)q))
+      json_array_append_new(rows, row_json(c, (gg_quantity)q, warnings));
+  warn_causes(c, warnings);
+  return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(&c->scene),
+                   "md", md, "dsmc", dsmc, "theory", theory, "comparison", rows, "warnings", warnings);
+}

@@ -1,0 +1,27 @@
+/* The JSON documents of `run`, `compare` and `theory`. A number that cannot be had is null, with the reason among the
+ * warnings. The caller owns every returned reference; NULL only if out of memory. */
+#ifndef GG_DOCUMENT_H
+#define GG_DOCUMENT_H
+
+#include <jansson.h>
+
+#include "run/run.h"
+
+json_t *gg_run_document(const gg_result *result);
+json_t *gg_comparison_document(const gg_comparison *comparison);
+json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *theories);
+
+/* Indented text, 17 digits; to be freed. */
+char *gg_document_text(const json_t *document);
+
+/* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN where the simulation cannot be told from
+ * zero (within three standard errors). */
+double gg_deviation(const gg_estimate *simulation, double theory);
+
+/* Is there anything to say about this quantity: a mean, or a reason why there is none? */
+bool gg_is_measured(const gg_estimate *estimate);
+
+/* Add "who: quantity is null: reason" to the warnings; quantities with the same reason share a line. */
+void gg_reason_add(json_t *warnings, const char *who, const char *quantity, const char *reason);
+
+#endif

@@ -1,0 +1,18 @@
+/* The known word nearest to one that was mistyped, for "did you mean". */
+#ifndef GG_NEAREST_H
+#define GG_NEAREST_H
+
+#include <stddef.h>
+
+/* Levenshtein's distance: insertions, deletions and substitutions between two words. */
+size_t gg_edit_distance(const char *a, const char *b);
+
+/* Keeps the best of the candidates shown to it; start with {.word = ...}. */
+typedef struct gg_nearest {
+  const char *word;
+  const char *best; /* NULL: nothing near enough to be worth naming */
+  size_t distance;
+} gg_nearest;
+void gg_nearest_try(gg_nearest *nearest, const char *candidate);
+
+#endif

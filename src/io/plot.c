@@ -1,0 +1,128 @@
+#include "io/plot.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/c_locale.h"
+#include "io/text.h"
+
+const char *const gg_plot_colours[GG_PLOT_COLOURS] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                      "#E69F00", "#56B4E9", "#000000", "#8C6D31"};
+
+void gg_plot_place(FILE *s, gg_panel p)
+{
+  fprintf(s,
+          "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n"
+          "unset object\nunset label\nunset arrow\nunset logscale\nunset title\nunset offsets\nset xtics auto\nset "
+          "xrange [*:*]\n"
+          "set yrange [*:*]\nset format x '%%g'\nset format y '%%g'\nset key default\n",
+          p.left, p.right, p.bottom, p.top);
+}
+
+void gg_plot_unit(const char *unit, char *text, size_t size)
+{
+  size_t used = 0;
+  while (*unit && used + 4 < size) {
+    if (strncmp(unit, "gamma", 5) == 0) {
+      used += (size_t)snprintf(text + used, size - used, "γ");
+      unit += 5;
+    } else if (strncmp(unit, "rho", 3) == 0) {
+      used += (size_t)snprintf(text + used, size - used, "ρ");
+      unit += 3;
+    } else {
+      text[used++] = *unit++;
+    }
+  }
+  text[used] = '\0';
+}
+
+static void start(FILE *s, bool png, int width, int height)
+{
+  if (png)
+    fprintf(s,
+            "set terminal pngcairo enhanced font 'DejaVu Sans,12' size %d,%d fontscale 1.25 linewidth 1.5 "
+            "pointscale 1.4 background '#ffffff'\n",
+            width * 3 / 2, height * 3 / 2);
+  else
+    fprintf(s, "set terminal svg enhanced font 'DejaVu Sans,12' size %d,%d background '#ffffff'\n", width, height);
+  fprintf(s, "set encoding utf8\nset border 3 lc rgb '#444444'\nset errorbars small\nset tics nomirror out textcolor "
+             "rgb '#222222'\n"
+             "set grid ytics lc rgb '#e4e4e4' lt 1 lw 0.8\n");
+}
+
+/* Open the page under the scene's title, from its YAML. */
+static void start_page(FILE *s, const gg_stored_result *stored)
+{
+  gg_scene *scene;
+  char title[240] = "", safe[300];
+  size_t used = 0;
+  if (gg_scene_parse(stored->scene, "scene", &scene, NULL) == GG_OK) {
+    gg_scene_title(scene, title, sizeof title);
+    gg_scene_free(scene);
+  }
+  for (const char *c = title; *c && used + 3 < sizeof safe; c++) {
+    if (*c == '\'') continue;
+    safe[used++] = *c;
+  }
+  safe[used] = '\0';
+  fprintf(s, "set multiplot title '%s' noenhanced font ',14'\n", safe);
+}
+
+static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_engine *e, bool png)
+{
+  start(s, png, 1000, 440);
+  start_page(s, stored);
+  gg_plot_relaxation(s, e, (gg_panel){0.085, 0.455, 0.15, 0.80});
+  gg_plot_stresses(s, e, (gg_panel){0.585, 0.94, 0.15, 0.80});
+  fprintf(s, "unset multiplot\n");
+}
+
+/* The engines' relaxation side by side, between two heights of the page. */
+static void draw_both(FILE *s, const gg_stored_result *stored, double bottom, double top)
+{
+  const gg_stored_engine *md = &stored->engine[GG_MD], *dsmc = &stored->engine[GG_DSMC];
+  if (md->name) gg_plot_relaxation(s, md, (gg_panel){0.075, dsmc->name ? 0.475 : 0.965, bottom, top});
+  if (dsmc->name) gg_plot_relaxation(s, dsmc, (gg_panel){md->name ? 0.575 : 0.075, 0.965, bottom, top});
+}
+
+static void draw_comparison(FILE *s, const gg_stored_result *stored, bool png)
+{
+  bool ratios = gg_plot_has(stored, true), differences = gg_plot_has(stored, false), either = ratios || differences;
+  start(s, png, 1100, either ? 820 : 440);
+  start_page(s, stored);
+  double from = ratios ? 0.73 : 0.075, to = differences ? 0.64 : 0.98;
+  if (ratios) gg_plot_ratios(s, stored, (gg_panel){0.075, to, 0.53, 0.85});
+  if (differences) gg_plot_differences(s, stored, (gg_panel){from, 0.98, 0.53, 0.85});
+  draw_both(s, stored, either ? 0.085 : 0.15, either ? 0.38 : 0.80);
+  fprintf(s, "unset multiplot\n");
+}
+
+static gg_status draw(const gg_stored_result *stored, const char *picture, bool png, gg_error *err)
+{
+  char *script = NULL;
+  size_t size;
+  FILE *s = open_memstream(&script, &size);
+  if (!s) return gg_fail(err, GG_FAILED, "out of memory");
+  locale_t before = gg_c_locale_enter();
+  if (stored->comparison)
+    draw_comparison(s, stored, png);
+  else
+    draw_run(s, stored, &stored->engine[stored->engine[GG_MD].name ? GG_MD : GG_DSMC], png);
+  gg_c_locale_leave(before);
+  gg_status status = GG_OK;
+  if (fclose(s) != 0) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK) status = gg_gnuplot_run(script, picture, err);
+  free(script);
+  return status;
+}
+
+gg_status gg_plot_result(const char *result_path, const char *picture, const char *format, gg_error *err)
+{
+  gg_stored_result stored;
+  size_t length = strlen(picture);
+  bool png = format ? strcmp(format, "png") == 0 : length > 4 && strcmp(picture + length - 4, ".png") == 0;
+  GG_TRY(gg_stored_result_read(&stored, result_path, err));
+  gg_status status = draw(&stored, picture, png, err);
+  gg_stored_result_clear(&stored);
+  return status;
+}

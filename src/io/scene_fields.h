@@ -1,0 +1,48 @@
+/* The one table of what a scene may say. It drives the reader, --set, range checks, `graingas info`, the scene echoed
+ * in results, and the manual. A new key is a member of gg_scene and a line of scene_fields.c. */
+#ifndef GG_SCENE_FIELDS_H
+#define GG_SCENE_FIELDS_H
+
+#include "common/scene.h"
+
+typedef enum gg_field_type {
+  GG_FIELD_NUMBER,  /* double */
+  GG_FIELD_INTEGER, /* int64_t */
+  GG_FIELD_CHOICE,  /* an enum: one of `words` */
+  GG_FIELD_SET,     /* unsigned bits: a list of `words` */
+  GG_FIELD_PAIRS,   /* double[GG_PAIRS]: a number, or {11: , 12: , 22: } */
+  GG_FIELD_VECTOR,  /* double[3] */
+  GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_species_fields */
+} gg_field_type;
+
+typedef struct gg_word {
+  const char *name;
+  int value;
+  const char *doc;
+} gg_word;
+
+typedef struct gg_field {
+  const char *key; /* dotted */
+  gg_field_type type;
+  size_t offset; /* in gg_scene; of the fields of a species: in gg_species */
+  double min, max;
+  bool above_min;      /* min itself is not allowed */
+  const char *special; /* a word that stands for special_value: "auto", "none" */
+  double special_value;
+  const gg_word *words; /* of choices and sets; ends with a NULL name */
+  const char *unit, *doc;
+} gg_field;
+
+enum { GG_MAX_FIELDS = 48 };
+extern const gg_field gg_scene_fields[];   /* ends with a NULL key */
+extern const gg_field gg_species_fields[]; /* likewise */
+
+/* Index in gg_scene_fields, or -1. */
+int gg_scene_field_find(const char *key);
+/* Is it the first part of some dotted key ("collision")? */
+bool gg_scene_is_section(const char *name);
+
+/* What a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
+void gg_field_allowed(const gg_field *field, char *text, size_t size);
+
+#endif

@@ -1,0 +1,110 @@
+#include "io/text.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io/scene_json.h"
+
+/* With `decimals` after the point; the error in units of the last digit where it has no point in it. */
+static void put_estimate(double mean, double error, int decimals, char *text, size_t size)
+{
+  if (decimals <= 0)
+    snprintf(text, size, "%.0f(%.0f)", mean, error);
+  else if (error >= 1)
+    snprintf(text, size, "%.*f(%.*f)", decimals, mean, decimals, error);
+  else
+    snprintf(text, size, "%.*f(%.0f)", decimals, mean, error * pow(10, decimals));
+}
+
+void gg_format_estimate(double mean, double error, char *text, size_t size)
+{
+  if (isnan(mean)) {
+    snprintf(text, size, "-");
+    return;
+  }
+  bool exact = error < 1e-9 * fabs(mean); /* conserved: all its error is rounding */
+  if (!(error > 0) || !isfinite(error) || exact) {
+    snprintf(text, size, "%.6g", mean);
+    return;
+  }
+  double largest = fmax(fabs(mean), error);
+  int exponent = (int)floor(log10(largest));
+  bool scientific = exponent < -3 || exponent > 5;
+  double scale = scientific ? pow(10, exponent) : 1;
+  double e = error / scale;
+  int decimals = 1 - (int)floor(log10(e));
+  if (e * pow(10, decimals) >= 99.5) decimals--; /* 0.0996 is 0.10 */
+  put_estimate(mean / scale, e, decimals, text, size);
+  size_t used = strlen(text);
+  if (scientific && used < size) snprintf(text + used, size - used, "e%+03d", exponent);
+}
+
+void gg_format_count(double count, char *text, size_t size)
+{
+  static const char *const prefixes[] = {"", " k", " M", " G", " T"};
+  int k = 0;
+  while (count >= 999.5 && k < 4) count /= 1000, k++;
+  if (k == 0 && count == floor(count))
+    snprintf(text, size, "%.0f", count);
+  else
+    snprintf(text, size, "%.3g%s", count, prefixes[k]);
+}
+
+void gg_format_duration(double seconds, char *text, size_t size)
+{
+  long whole = lround(seconds);
+  if (seconds < 9.95)
+    snprintf(text, size, "%.1f s", seconds);
+  else if (whole < 60)
+    snprintf(text, size, "%ld s", whole);
+  else if (whole < 3600)
+    snprintf(text, size, "%ld:%02ld min", whole / 60, whole % 60);
+  else
+    snprintf(text, size, "%ld:%02ld:%02ld h", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+static void add(char *text, size_t size, const char *format, ...) GG_PRINTF(3, 4);
+static void add(char *text, size_t size, const char *format, ...)
+{
+  size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  if (used < size) vsnprintf(text + used, size - used, format, args);
+  va_end(args);
+}
+
+static void add_pairs(char *text, size_t size, const char *name, const double *x, int n_species)
+{
+  if (n_species == 1 || (x[GG_11] == x[GG_12] && x[GG_11] == x[GG_22]))
+    add(text, size, ", %s %g", name, x[0]);
+  else
+    add(text, size, ", %s %g/%g/%g", name, x[GG_11], x[GG_12], x[GG_22]);
+}
+
+void gg_scene_title(const gg_scene *s, char *text, size_t size)
+{
+  static const char *const flows[] = {
+      [GG_EQUILIBRIUM] = "Equilibrium", [GG_USF] = "Uniform shear flow", [GG_HCS] = "Homogeneous cooling",
+      [GG_HSS] = "Homogeneous heating", [GG_COUETTE] = "Couette flow",   [GG_POISEUILLE] = "Poiseuille flow",
+      [GG_CHUTE] = "Chute flow"};
+  snprintf(text, size, "%s, phi %g", flows[s->flow], s->phi);
+  add_pairs(text, size, "e", s->collision.e, s->n_species);
+  bool smooth = true, frictional = false;
+  for (int p = 0; p < (s->n_species > 1 ? GG_PAIRS : 1); p++) {
+    smooth &= s->collision.beta[p] == -1 || s->collision.mu[p] == 0;
+    frictional |= isfinite(s->collision.mu[p]);
+  }
+  if (smooth)
+    add(text, size, ", smooth");
+  else
+    add_pairs(text, size, frictional ? "beta_0" : "beta", s->collision.beta, s->n_species);
+  if (!smooth && frictional) add_pairs(text, size, "mu", s->collision.mu, s->n_species);
+  if (s->n_species > 1) {
+    const gg_species *one = &s->species[0], *two = &s->species[1];
+    add(text, size, "; mixture %g:%g", one->fraction, two->fraction);
+    if (one->mass != two->mass) add(text, size, ", m_2/m_1 %g", two->mass / one->mass);
+    if (one->diameter != two->diameter) add(text, size, ", d_2/d_1 %g", two->diameter / one->diameter);
+  }
+}

@@ -1,0 +1,24 @@
+/* S. Chapman & T.G. Cowling, The Mathematical Theory of Non-Uniform Gases, sects 5.21 and 16.2:
+ *   nu_ij = n_j sigma_ij^2 chi_ij sqrt(8 pi (T_i/m_i + T_j/m_j)),   l_i = sqrt(8 T_i/(pi m_i))/sum_j nu_ij
+ * One species: nu = 4 n d^2 chi sqrt(pi T), l = d/(6 sqrt(2) phi chi). */
+#include "theory/collision_rate.h"
+
+#include <math.h>
+
+double gg_pair_collision_rate(const gg_model *m, int i, int j, const double T[GG_MAX_SPECIES])
+{
+  double nj = m->density * (double)m->n_of[j] / (double)m->n, sigma = m->sigma[2 * i + j];
+  return nj * sigma * sigma * m->chi[2 * i + j] * sqrt(8 * M_PI * (T[i] / m->mass[i] + T[j] / m->mass[j]));
+}
+
+double gg_mean_speed(const gg_model *m, int i, const double T[GG_MAX_SPECIES])
+{
+  return sqrt(8 * T[i] / (M_PI * m->mass[i]));
+}
+
+double gg_mean_free_path(const gg_model *m, int i, const double T[GG_MAX_SPECIES])
+{
+  double rate = 0;
+  for (int j = 0; j < m->n_species; j++) rate += gg_pair_collision_rate(m, i, j, T);
+  return gg_mean_speed(m, i, T) / rate;
+}

@@ -1,0 +1,14 @@
+/* Collision rates and free paths of Maxwellian gases, by pairs of species. */
+#ifndef GG_COLLISION_RATE_H
+#define GG_COLLISION_RATE_H
+
+#include "theory/theory.h"
+
+/* Collisions with grains of species j that one grain of species i has per unit time, at partial temperatures T. */
+double gg_pair_collision_rate(const gg_model *model, int i, int j, const double T[GG_MAX_SPECIES]);
+
+/* Mean peculiar speed of species i, and its mean free path. */
+double gg_mean_speed(const gg_model *model, int i, const double T[GG_MAX_SPECIES]);
+double gg_mean_free_path(const gg_model *model, int i, const double T[GG_MAX_SPECIES]);
+
+#endif

@@ -1,0 +1,92 @@
+/* Equations of state of elastic hard spheres of one species, each whatever contact value the scene chose:
+ *   N.F. Carnahan & K.E. Starling, J. Chem. Phys. 51 (1969) 635: Z = (1 + phi + phi^2 - phi^3)/(1 - phi)^3
+ *   J. Kolafa, S. Labik & A. Malijevsky, Phys. Chem. Chem. Phys. 6 (2004) 2335, a series in x = phi/(1-phi)
+ *   S. Pieprzyk, M.N. Bannerman, A.C. Branka, M. Chudak & D.M. Heyes, Phys. Chem. Chem. Phys. 21 (2019) 6886, its refit
+ * Mixtures: enskog.c, by contact values. */
+#include "theory/equation_of_state.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "common/contact_value.h"
+#include "theory/answer.h"
+#include "theory/theory_list.h"
+
+double gg_compressibility_kolafa2004(double phi)
+{
+  static const double low[] = {1, 4, 6, 2.3647684, -0.8698551, 1.1062803, -1.095049, 0.637614};
+  double x = phi / (1 - phi), Z = 0;
+  for (size_t i = sizeof low / sizeof *low; i-- > 0;) Z = Z * x + low[i];
+  return Z - 0.2279397 * pow(x, 10) + 0.1098948 * pow(x, 14) - 0.00906797 * pow(x, 22);
+}
+
+static double carnahan_starling(double phi)
+{
+  return gg_compressibility(GG_CARNAHAN_STARLING, phi);
+}
+static double pieprzyk(double phi)
+{
+  return gg_compressibility(GG_KOLAFA, phi);
+}
+
+/* p = n T Z; the collision rate by chi = (Z - 1)/(4 phi), exact for elastic spheres. */
+static gg_status answer_with(double (*Z_of)(double), const char *name, const gg_model *m, gg_theory_answer *a,
+                             gg_error *err)
+{
+  GG_TRY(gg_require_one_species(m, name, err));
+  GG_TRY(gg_require_flow(m, GG_EQUILIBRIUM, name, err));
+  if (!m->elastic) return gg_refuse(err, name, "describes elastic grains; collisions of this scene lose energy");
+  if (m->boltzmann) return gg_refuse(err, name, "describes dense fluids; this scene has phi = 0");
+  if (m->phi > GG_FREEZING_PHI)
+    return gg_refuse(err, name, "describes the fluid, stable up to phi = %g; this scene has %g", GG_FREEZING_PHI,
+                     m->phi);
+  double T = m->temperature0, p = m->density * T, Z = Z_of(m->phi), chi = (Z - 1) / (4 * m->phi);
+  gg_answer_pressure(m, T, p, p * (Z - 1), a);
+  gg_answer_collisions_one(m, T, a);
+  a->value[GG_Q_COLLISION_RATE] *= chi / m->chi[0];
+  a->value[GG_Q_MEAN_FREE_PATH] *= m->chi[0] / chi;
+  a->value[GG_Q_KNUDSEN] *= m->chi[0] / chi;
+  return GG_OK;
+}
+
+static gg_status evaluate_carnahan_starling(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return answer_with(carnahan_starling, gg_carnahan_starling1969.name, m, a, err);
+}
+
+static gg_status evaluate_kolafa(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return answer_with(gg_compressibility_kolafa2004, gg_kolafa2004.name, m, a, err);
+}
+
+static gg_status evaluate_pieprzyk(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return answer_with(pieprzyk, gg_pieprzyk2019.name, m, a, err);
+}
+
+const gg_theory gg_carnahan_starling1969 = {
+    .name = "carnahan_starling1969",
+    .title = "Equation of state of elastic hard spheres",
+    .citation = "N.F. Carnahan and K.E. Starling, J. Chem. Phys. 51 (1969) 635",
+    .assumptions =
+        "Equilibrium fluid of one species, phi up to 0.494; 0.03 % low at phi = 0.1, 0.25 % at 0.3, 0.16 % at "
+        "0.45.",
+    .evaluate = evaluate_carnahan_starling,
+};
+
+const gg_theory gg_kolafa2004 = {
+    .name = "kolafa2004",
+    .title = "Accurate equation of state of elastic hard spheres",
+    .citation = "J. Kolafa, S. Labik and A. Malijevsky, Phys. Chem. Chem. Phys. 6 (2004) 2335",
+    .assumptions = "Equilibrium fluid of one species, phi up to 0.494.",
+    .evaluate = evaluate_kolafa,
+};
+
+const gg_theory gg_pieprzyk2019 = {
+    .name = "pieprzyk2019",
+    .title = "Accurate equation of state of elastic hard spheres, refitted",
+    .citation = "S. Pieprzyk, M.N. Bannerman, A.C. Branka, M. Chudak and D.M. Heyes, Phys. Chem. Chem. Phys. 21 (2019) "
+                "6886",
+    .assumptions = "Equilibrium fluid of one species, phi up to 0.494.",
+    .evaluate = evaluate_pieprzyk,
+};

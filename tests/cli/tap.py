@@ -1,0 +1,61 @@
+"""A few lines of TAP around functions named test_*, and the graingas command run in a folder of its own."""
+import os
+import subprocess
+import sys
+import tempfile
+import traceback
+
+GRAINGAS = os.path.abspath(os.environ["GRAINGAS"])
+
+
+class Skip(Exception):
+    pass
+
+
+class Done:
+    """What a command left: exit code, texts, and the files that are new."""
+
+    def __init__(self, code, out, err, new):
+        self.code, self.out, self.err, self.new = code, out, err, new
+
+
+def run(*args, scene=None, name="scene.yaml", limit=None, timeout=100):
+    """Run graingas in the current folder; `scene` is written first; `limit`: largest file in bytes, as on a full disk."""
+    if scene is not None:
+        with open(name, "wb") as f:
+            f.write(scene if isinstance(scene, bytes) else scene.encode())
+    before = set(os.listdir("."))
+
+    def limited():
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    done = subprocess.run([GRAINGAS, *args], capture_output=True, timeout=timeout, text=True,
+                          preexec_fn=limited if limit else None)
+    return Done(done.returncode, done.stdout, done.stderr, sorted(set(os.listdir(".")) - before))
+
+
+def check(condition, *what):
+    if not condition:
+        raise AssertionError(" ".join(str(w) for w in what))
+
+
+def main(module):
+    tests = [(n[5:], f) for n, f in vars(module).items() if n.startswith("test_") and callable(f)]
+    print(f"1..{len(tests)}")
+    failed = 0
+    for i, (name, test) in enumerate(tests, 1):
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                test()
+                print(f"ok {i} - {name}")
+            except Skip as why:
+                print(f"ok {i} - {name} # SKIP {why}")
+            except Exception:
+                failed += 1
+                print(f"not ok {i} - {name}")
+                print("\n".join("# " + line for line in traceback.format_exc().splitlines()))
+            os.chdir("/")
+    sys.exit(failed > 0)

@@ -1,0 +1,151 @@
+"""Every mistake a user can make: the message says what is wrong and what to do, the exit code says whose fault it is,
+and no partial file is left."""
+import os
+import sys
+
+from tap import check, main, run
+
+GOOD = "flow: usf\nphi: 0.2\nparticles: 100\nrun: {collisions: 200, warmup: 20}\n"
+
+
+def refused(words, code, *args, **more):
+    done = run(*(args or ("run", "scene.yaml")), **more)
+    check(done.code == code, "exit", done.code, done.err)
+    check(words in done.err, f"'{words}' not in '{done.err}'")
+    check(done.out == "", "on stdout:", done.out)
+    check(not done.new, "left behind:", done.new)
+
+
+def test_unknown_key():
+    refused("scene.yaml:3: key 'colision': no such key; did you mean 'collision'?", 2,
+            scene="flow: usf\nphi: 0.3\ncolision: {e: 0.9}\n")
+
+
+def test_wrong_type():
+    refused("scene.yaml:2: key 'phi': value 'dense' is not allowed; allowed: a number from 0 to 0.6", 2,
+            scene="flow: usf\nphi: dense\n")
+
+
+def test_out_of_range():
+    refused("scene.yaml:3: key 'collision.e': value '1.5' is not allowed; allowed: a number from 0 to 1", 2,
+            scene="flow: usf\nphi: 0.3\ncollision: {e: 1.5}\n")
+
+
+def test_phi_too_high():
+    refused("scene.yaml:2: key 'phi': value '0.7' is not allowed; allowed: a number from 0 to 0.6", 2,
+            scene="flow: usf\nphi: 0.7\n")
+
+
+def test_two_particle_box():
+    refused("particles", 2, scene="flow: usf\nphi: 0.3\nparticles: 2\nengine: md\n")
+    check("phi" in run("run", "scene.yaml").err)
+
+
+def test_missing_phi():
+    refused("phi is missing", 2, scene="flow: usf\n")
+
+
+def test_md_at_phi_0():
+    refused("phi = 0 is for engine: dsmc", 2, scene="flow: usf\nphi: 0\n")
+
+
+def test_empty_file():
+    refused("scene.yaml: is empty", 2, scene="")
+
+
+def test_binary_rubbish():
+    refused("scene.yaml: is not a scene", 2, scene=bytes(range(256)) * 8)
+
+
+def test_unreadable_file():
+    refused("none.yaml: cannot be read: No such file or directory", 3, "run", "none.yaml")
+    refused(".: cannot be read: it is a folder", 3, "compare", ".")
+    if os.geteuid() != 0:
+        run("info", "scene.yaml", scene=GOOD)
+        os.chmod("scene.yaml", 0)
+        refused("scene.yaml: cannot be read: Permission denied", 3)
+
+
+def test_unwritable_file():
+    """Said before the run, not after it: ten thousand collisions a grain would take minutes."""
+    long = GOOD.replace("200", "100000").replace("100\n", "10000\n")
+    for command in "run", "compare":
+        refused("nowhere/r.h5: cannot be written: No such file or directory", 3, command, "scene.yaml", "--output",
+                "nowhere/r.h5", scene=long)
+    os.mkdir("folder.h5")
+    refused("folder.h5: cannot be written: Is a directory", 3, "run", "scene.yaml", "--output", "folder.h5")
+
+
+def test_disk_full():
+    for command in "run", "compare":
+        done = run(command, "scene.yaml", "--quiet", scene=GOOD, limit=8192)
+        check(done.code == 3, "exit", done.code, done.err)
+        check("scene.h5: cannot be written: File too large" in done.err, done.err)
+        check(not done.new, done.new)
+
+
+def test_disk_full_in_picture():
+    """A disk that fills while the picture is drawn: gnuplot does not notice, graingas does."""
+    run("run", "scene.yaml", "--quiet", "--output", "r.h5",
+        scene="flow: usf\nphi: 0.1\nparticles: 200\nrun: {collisions: 100}\n")
+    done = run("plot", "r.h5", "--output", "r.svg", limit=10000)
+    check(done.code == 3 and "whole" in done.err, done.code, done.err)
+    check(not done.new, "left behind:", done.new)
+
+
+def test_disk_full_in_trajectory():
+    done = run("run", "scene.yaml", "--quiet", "--set", "output.trajectory_every=2", scene=GOOD, limit=100000)
+    check(done.code == 3, "exit", done.code, done.err)
+    check("scene.h5: cannot be written" in done.err and "HDF5: infinite loop" not in done.err, done.err)
+    check(not done.new, done.new)
+
+
+def test_full_standard_output():
+    if os.path.exists("/dev/full"):
+        import subprocess
+
+        from tap import GRAINGAS
+
+        run("info", "scene.yaml", scene=GOOD)
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([GRAINGAS, "theory", "scene.yaml", "--json"], stdout=full, stderr=subprocess.PIPE,
+                                  text=True)
+        check(done.returncode == 3 and "standard output cannot be written" in done.stderr, done.returncode, done.stderr)
+
+
+def test_overrides():
+    refused("--set colision.e=1: key 'colision.e': no such key; did you mean 'collision.e'?", 2, "run", "scene.yaml",
+            "--set", "colision.e=1", scene=GOOD)
+    refused("--set collision.e=2: key 'collision.e': value '2' is not allowed; allowed: a number from 0 to 1", 2,
+            "compare", "scene.yaml", "--set", "collision.e=2")
+    refused("KEY=VALUE is expected", 2, "theory", "scene.yaml", "--set", "phi")
+    refused("run.seed", 2, "run", "scene.yaml", "--seed", "seven")
+    refused("--threads", 2, "run", "scene.yaml", "--threads", "0")
+
+
+def test_command_line():
+    refused("unknown command 'comparr'; did you mean 'compare'?", 2, "comparr")
+    refused("unknown option '--outptu'; did you mean '--output'?", 2, "run", "scene.yaml", "--outptu", "x.h5")
+    refused("option '--output' needs a value", 2, "run", "--output")
+    refused("run needs SCENE.yaml", 2, "run")
+    refused("one too many", 2, "run", "a.yaml", "b.yaml")
+
+
+def test_flow_of_another_engine():
+    refused("flow", 2, scene="flow: couette\nphi: 0.3\n", *("run", "scene.yaml", "--engine", "dsmc"))
+
+
+def test_output_over_the_input():
+    refused("scene.yaml: would be overwritten by its own result", 2, "run", "scene.yaml", "--output", "scene.yaml",
+            scene=GOOD)
+    check(open("scene.yaml").read() == GOOD)
+
+
+def test_results_that_are_none():
+    refused("rubbish.h5: cannot be read", 3, "plot", "rubbish.h5", scene="rubbish", name="rubbish.h5")
+    refused("none.h5: cannot be read", 3, "plot", "none.h5")
+    refused("none.h5: cannot be read", 3, "run", "scene.yaml", "--resume", "none.h5", scene=GOOD)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])

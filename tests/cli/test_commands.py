@@ -1,0 +1,133 @@
+"""The commands as interface: what they print, the keys of their JSON, their exit codes."""
+import json
+import os
+import sys
+
+from tap import check, main, run
+
+ROUGH = ("flow: usf\nphi: 0.2\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 1000}\n"
+         "run: {collisions: 200, warmup: 30}\n")
+
+
+def loads(done):
+    check(done.code in (0, 1), done.code, done.err)
+    return json.loads(done.out, parse_constant=lambda word: check(False, word, "in JSON"))
+
+
+def test_help_and_version():
+    check(run("--version").out.startswith("graingas "))
+    top = run("--help")
+    check(top.code == 0)
+    for command in "compare", "run", "theory", "plot", "info":
+        check(command in top.out)
+        done = run(command, "--help")
+        check(done.code == 0 and "Usage: graingas " + command in done.out and not done.err, command)
+
+
+def test_theory():
+    d = loads(run("theory", "scene.yaml", "--json", scene=ROUGH))
+    check(d["theory"]["lun1991"]["temperature"]["unit"] == "d^2 gamma^2")
+    check(d["scene"]["collision"]["beta"] == 0)
+    check(any("sela_goldhirsch1998" in w for w in d["warnings"]))
+    done = run("theory", "scene.yaml")
+    check(done.code == 0 and "lun1991" in done.out and not done.new)
+
+
+def test_run():
+    for engine in "md", "dsmc":
+        done = run("run", "scene.yaml", "--engine", engine, "--json", "--seed", "5", "--output", engine + ".h5",
+                   scene=ROUGH)
+        d = loads(done)
+        check(d["engine"] == engine and d["scene"]["run"]["seed"] == 5)
+        check(isinstance(d["steady"], bool) and d["collisions"] > 1000 and d["cpu_seconds"] > 0)
+        check(d["total"]["collisions"] > d["collisions"] and d["total"]["wall_seconds"] > 0)
+        T = d["results"]["temperature"]
+        check(0.3 < T["mean"] < 1 and 0 < T["stderr"] < 0.2 and T["unit"] == "d^2 gamma^2" and T["samples"] >= 90)
+        for quantity in d["results"].values():
+            check(quantity["mean"] is not None or d["warnings"])
+        check(done.new == [engine + ".h5"], done.new)
+
+
+def test_same_seed_same_numbers():
+    """Also whatever the number of threads."""
+    a, b, c = (loads(run("run", "scene.yaml", "--json", "--set", "run.replicas=2", "--threads", n, "--seed", s,
+                         scene=ROUGH))["results"]["pressure"]["mean"] for n, s in (("1", "7"), ("2", "7"), ("2", "8")))
+    check(a == b and a != c, a, b, c)
+
+
+def test_compare():
+    done = run("compare", "scene.yaml", "--json", scene=ROUGH)
+    d = loads(done)
+    check(done.new == ["scene.h5", "scene.svg"], done.new)
+    check(d["md"]["engine"] == "md" and d["dsmc"]["engine"] == "dsmc")
+    rows = {row["quantity"]: row for row in d["comparison"]}
+    md, dsmc = (d[e]["results"]["temperature"] for e in ("md", "dsmc"))
+    z = (md["mean"] - dsmc["mean"]) / (md["stderr"] ** 2 + dsmc["stderr"] ** 2) ** 0.5
+    check(abs(rows["temperature"]["md_dsmc_z"] - z) < 1e-9)
+    lun = d["theory"]["lun1991"]["temperature"]["mean"]
+    check(abs(rows["temperature"]["md_theory_deviation"]["lun1991"] - (lun / md["mean"] - 1)) < 1e-12)
+    check(open("scene.svg").read().rstrip().endswith("</svg>"))
+
+
+def test_compare_table():
+    done = run("compare", "scene.yaml", "--quiet", "--picture", "none", scene=ROUGH)
+    check(done.code == 0, done.err)
+    lines = done.out.splitlines()
+    check(max(len(line) for line in lines) <= 120, "wide table")
+    head = next(line for line in lines if line.startswith("quantity"))
+    for column in "unit", "md", "dsmc", "z":
+        check(column in head.split(), column)
+    row = next(line for line in lines if line.startswith("temperature "))
+    check("d^2 gamma^2" in row and "(" in row)
+    check(done.new == ["scene.h5"], done.new)
+    check("results:" not in done.err, done.err)
+
+
+def test_compare_at_phi_0():
+    """The Boltzmann limit is for dsmc alone: md's column gives way with the reason."""
+    d = loads(run("compare", "scene.yaml", "--json", "--set", "phi=0", scene=ROUGH))
+    check(d["md"] is None and d["dsmc"]["results"]["temperature"]["mean"] > 0)
+    check(any("md is null" in w for w in d["warnings"]))
+
+
+def test_asked_error_out_of_reach():
+    done = run("run", "scene.yaml", "--json", "--set", "run.relative_error=1e-6", "--set", "run.time_limit=1",
+               scene=ROUGH)
+    check(done.code == 1 and "relative error" in done.err, done.code, done.err)
+    check(json.loads(done.out)["results"]["temperature"]["mean"] > 0 and done.new == ["scene.h5"])
+
+
+def test_info_of_a_scene():
+    done = run("info", "scene.yaml", scene=ROUGH)
+    check(done.code == 0)
+    lines = {line.split()[0]: line.split() for line in done.out.splitlines() if line and not line.startswith(" ")}
+    check(lines["phi"][1:3] == ["0.2", "given"] and lines["collision.mu"][1:3] == ["inf", "default"])
+    check("rough" in done.out and "Lees-Edwards" in done.out)
+    text = json.dumps(json.loads(run("info", "scene.yaml", "--json").out))
+    again = run("info", "again.yaml", "--json", scene=text, name="again.yaml")
+    check(json.dumps(json.loads(again.out)) == text, "a scene written as JSON is a scene")
+
+
+def test_info_and_plot_of_a_result():
+    run("run", "scene.yaml", "--quiet", scene=ROUGH)
+    done = run("info", "scene.h5")
+    check(done.code == 0 and "command: graingas run scene.yaml" in done.out and "temperature" in done.out, done.err)
+    check(json.loads(run("info", "scene.h5", "--json").out)["engine"] == "md")
+    done = run("plot", "scene.h5", "--format", "png")
+    check(done.code == 0 and done.new == ["scene.png"], done.err)
+    check(open("scene.png", "rb").read(4) == b"\x89PNG")
+    check(run("plot", "scene.h5", "--output", "none/x.svg").code == 3)
+
+
+def test_plot_without_gnuplot():
+    """The comparison is not lost for want of a picture."""
+    path, os.environ["PATH"] = os.environ["PATH"], "/nowhere"
+    try:
+        done = run("compare", "scene.yaml", scene=ROUGH)
+    finally:
+        os.environ["PATH"] = path
+    check(done.code == 0 and "gnuplot is not installed" in done.err and done.new == ["scene.h5"], done.code, done.err)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])

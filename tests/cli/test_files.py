@@ -1,0 +1,91 @@
+"""Interruption, checkpoints and resumption from the command line."""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+from tap import GRAINGAS, check, main, run
+
+SCENE = "flow: usf\nphi: 0.2\nparticles: 500\ncollision: {e: 0.9, beta: 0}\nrun: {collisions: %g, warmup: 30}\n"
+
+
+def interrupted(*args, after, sig=signal.SIGINT):
+    child = subprocess.Popen([GRAINGAS, *args], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while not after(deadline) and child.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.05)
+    child.send_signal(sig)
+    out, err = child.communicate(timeout=60)
+    return child.returncode, out, err
+
+
+def a_second(deadline):
+    return time.monotonic() > deadline - 59
+
+
+def test_interrupted_without_checkpoint():
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE % 1e9)
+    for command in ("run", "compare"):
+        code, out, err = interrupted(command, "scene.yaml", "--quiet", after=a_second)
+        check(code == 130, code, err)
+        check("interrupted" in err and os.listdir(".") == ["scene.yaml"], err, os.listdir("."))
+
+
+def test_resumed_run_is_the_same_run():
+    """A run interrupted and resumed gives bit for bit the numbers of one that was left alone."""
+    for engine in "md", "dsmc":
+        with open("scene.yaml", "w") as f:
+            f.write(SCENE % 3000 + "dsmc: {particles: 500}\noutput: {checkpoint_every: 0.2}\n")
+        args = ("run", "scene.yaml", "--engine", engine, "--json")
+        whole = json.loads(run(*args, "--quiet").out)
+        os.remove("scene.h5")
+        for name in "scene.checkpoint.h5", "scene.checkpoint.h5.1":
+            if os.path.exists(name):
+                os.remove(name)
+        code, out, err = interrupted(*args, after=lambda _: os.path.exists("scene.checkpoint.h5"), sig=signal.SIGTERM)
+        if code == 0:
+            continue  # too fast a machine: nothing was left to interrupt
+        check(code == 130 and "--resume scene.checkpoint.h5" in err, code, err)
+        check(not os.path.exists("scene.h5") and not out)
+        done = run(*args, "--resume", "scene.checkpoint.h5")
+        check(done.code == 0, done.err)
+        check(json.loads(done.out)["results"] == whole["results"], engine)
+
+
+def test_checkpoint_of_another_scene():
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE % 1e9 + "output: {checkpoint_every: 0.2}\n")
+    interrupted("run", "scene.yaml", "--quiet", after=lambda _: os.path.exists("scene.checkpoint.h5"))
+    done = run("run", "scene.yaml", "--resume", "scene.checkpoint.h5", "--set", "collision.e=0.8")
+    check(done.code == 2 and "collision.e" in done.err, done.code, done.err)
+
+
+def test_killed_at_any_moment():
+    """Whatever the moment of a kill -9, a whole checkpoint is there to go on from."""
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE % 1e9 + "output: {checkpoint_every: 0.001}\n")
+    for k in range(6):
+        begun = []
+
+        def after(_):
+            if not begun and os.path.exists("scene.checkpoint.h5"):
+                begun.append(time.monotonic())
+            return begun and time.monotonic() > begun[0] + 0.037 * k
+
+        args = ("run", "scene.yaml", "--quiet") + (("--resume", "scene.checkpoint.h5") if k else ())
+        code, _, err = interrupted(*args, after=after, sig=signal.SIGKILL)
+        check(code == -signal.SIGKILL, code, err)
+    code, _, err = interrupted(*args, after=a_second)
+    check(code == 130 and "--resume" in err, code, err)
+
+
+def test_trajectory():
+    done = run("run", "scene.yaml", "--quiet", "--set", "output.trajectory_every=20", scene=SCENE % 100)
+    check(done.code in (0, 1) and done.new == ["scene.h5"], done.err)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])

@@ -1,0 +1,365 @@
+/* Files: results and checkpoints come back as they were written, and a write that fails leaves nothing behind. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <dirent.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/checkpoint_file.h"
+#include "io/h5.h"
+#include "io/result_file.h"
+#include "io/result_reader.h"
+#include "planted.h"
+
+static char folder[] = "/tmp/graingas-files-XXXXXX";
+
+static int enter(void **state)
+{
+  (void)state;
+  signal(SIGXFSZ, SIG_IGN);
+  return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static void remove_all(void)
+{
+  DIR *d = opendir(".");
+  for (struct dirent *e; (e = readdir(d));)
+    if (e->d_name[0] != '.') unlink(e->d_name);
+  closedir(d);
+}
+
+static int leave(void **state)
+{
+  (void)state;
+  remove_all();
+  return chdir("/") == 0 ? rmdir(folder) : -1;
+}
+
+static int count_files(void)
+{
+  int n = 0;
+  DIR *d = opendir(".");
+  for (struct dirent *e; (e = readdir(d));) n += e->d_name[0] != '.';
+  closedir(d);
+  return n;
+}
+
+static double read_number(gg_h5 *h, const char *path)
+{
+  size_t n;
+  double *x = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof *x, &n), value = x ? x[0] : NAN;
+  assert_int_equal(n, 1);
+  free(x);
+  return value;
+}
+
+/* Means, series, scene and document come back to the last bit. */
+static void run_round_trip(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_result *r = planted_result(GG_MD);
+  gg_stored_result s;
+  assert_int_equal(gg_result_write(r, "r.h5", &err), GG_OK);
+  assert_int_equal(gg_stored_result_read(&s, "r.h5", &err), GG_OK);
+  assert_false(s.comparison);
+  assert_string_equal(s.version, gg_version());
+  assert_non_null(s.engine[GG_MD].name);
+  assert_null(s.engine[GG_DSMC].name);
+  assert_true(s.engine[GG_MD].window[0] == 3 && s.engine[GG_MD].window[1] == PLANTED_SAMPLES);
+  assert_int_equal(s.engine[GG_MD].n_series, 6); /* those of NaN alone are not there */
+  const gg_stored_series *T = gg_stored_series_find(&s.engine[GG_MD], "temperature");
+  assert_int_equal(T->n, PLANTED_SAMPLES);
+  assert_memory_equal(T->value, r->history.value[0], PLANTED_SAMPLES * sizeof(double));
+  assert_memory_equal(T->time, r->history.time, PLANTED_SAMPLES * sizeof(double));
+  gg_scene *scene;
+  assert_int_equal(gg_scene_parse(s.scene, "stored", &scene, &err), GG_OK);
+  assert_memory_equal(scene, &r->scene, sizeof *scene);
+  gg_scene_free(scene);
+  gg_stored_result_clear(&s);
+
+  gg_h5 h;
+  gg_h5_open(&h, "r.h5");
+  assert_true(read_number(&h, "/graingas/results/pressure/mean") == 0.1 + 0.2);
+  assert_true(read_number(&h, "/graingas/results/pressure/stderr") == 0.002);
+  assert_true(read_number(&h, "/graingas/seed") == 1);
+  assert_false(gg_h5_exists(&h, "/graingas/results/a2/mean")); /* cannot be had: not there */
+  assert_true(gg_h5_exists(&h, "/graingas/results/a2/unit"));
+  char *unit = gg_h5_read_text(&h, "/graingas/results/pressure/unit");
+  assert_string_equal(unit, "rho_p d^2 gamma^2");
+  free(unit);
+  gg_h5_close(&h);
+  gg_result_free(r);
+  remove_all();
+}
+
+static void comparison_round_trip(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_comparison *c = planted_comparison();
+  gg_result_file f;
+  gg_stored_result s;
+  assert_int_equal(gg_result_file_open(&f, "c.h5", "graingas compare x", &err), GG_OK);
+  assert_int_equal(gg_result_file_finish_comparison(&f, c, &err), GG_OK);
+  assert_int_equal(gg_stored_result_read(&s, "c.h5", &err), GG_OK);
+  assert_true(s.comparison);
+  assert_string_equal(s.command, "graingas compare x");
+  for (int k = 0; k < 2; k++) assert_non_null(gg_stored_series_find(&s.engine[k], "pressure"));
+  gg_stored_result_clear(&s);
+  gg_h5 h;
+  gg_h5_open(&h, "c.h5");
+  assert_true(read_number(&h, "/graingas/dsmc/results/temperature/mean") == 1.0 / 3 - 0.01);
+  double lun = c->theory[0].answer.value[GG_Q_TEMPERATURE];
+  assert_true(read_number(&h, "/graingas/theory/lun1991/temperature/mean") == lun);
+  gg_h5_close(&h);
+  assert_int_equal(count_files(), 1);
+  planted_comparison_free(c);
+  remove_all();
+}
+
+/* Frames stream to the disk; a row is the same grain in every frame, in whatever order the engine shows them. */
+static void trajectory(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_result *r = planted_result(GG_MD);
+  gg_result_file f;
+  size_t n;
+  assert_int_equal(gg_result_file_open(&f, "t.h5", "x", &err), GG_OK);
+  for (uint64_t step = 0; step <= 100; step += 50) {
+    gg_frame frame = planted_frame(step, true);
+    assert_int_equal(gg_result_file_frame(&f, &r->model, &frame, &err), GG_OK);
+    gg_frame_free(&frame);
+  }
+  assert_int_equal(gg_result_file_finish_run(&f, r, &err), GG_OK); /* the last state is frame 100 again: not doubled */
+  gg_h5 h;
+  gg_h5_open(&h, "t.h5");
+  double *x = gg_h5_read_array(&h, "/particles/grains/position/value", H5T_NATIVE_DOUBLE, sizeof *x, &n);
+  assert_int_equal(n, 3 * 3 * PLANTED_GRAINS);
+  for (size_t k = 0; k < 3; k++)
+    for (size_t i = 0; i < PLANTED_GRAINS; i++)
+      assert_true(fabs(x[(k * PLANTED_GRAINS + i) * 3 + 1] - ((double)i + 0.1 + 0.05 * (double)k)) < 1e-12);
+  free(x);
+  double *time = gg_h5_read_array(&h, "/particles/grains/box/edges/time", H5T_NATIVE_DOUBLE, sizeof *time, &n);
+  assert_int_equal(n, 3);
+  assert_true(time[2] == 50);
+  free(time);
+  gg_h5_close(&h);
+  assert_int_equal(count_files(), 1);
+  gg_result_free(r);
+  remove_all();
+}
+
+/* No room, no folder, a folder in the way: the message names file and cause, nothing new is left, the old file stays.
+ */
+static void failing_writes(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_result *r = planted_result(GG_MD);
+  assert_int_equal(gg_result_write(r, "nowhere/r.h5", &err), GG_BAD_FILE);
+  assert_string_equal(err.message, "nowhere/r.h5: cannot be written: No such file or directory");
+  mkdir("folder.h5", 0777);
+  assert_int_equal(gg_result_write(r, "folder.h5", &err), GG_BAD_FILE);
+  assert_non_null(strstr(err.message, "Is a directory"));
+  rmdir("folder.h5");
+  assert_int_equal(gg_result_write(r, "/proc/r.h5", &err), GG_BAD_FILE);
+  assert_int_equal(gg_result_write(r, "old.h5", &err), GG_OK);
+  struct rlimit whole, small;
+  struct stat before, after;
+  stat("old.h5", &before);
+  getrlimit(RLIMIT_FSIZE, &whole);
+  small = whole;
+  small.rlim_cur = 20000;
+  setrlimit(RLIMIT_FSIZE, &small);
+  gg_status status = gg_result_write(r, "old.h5", &err);
+  setrlimit(RLIMIT_FSIZE, &whole);
+  assert_int_equal(status, GG_BAD_FILE);
+  assert_string_equal(err.message, "old.h5: cannot be written: File too large");
+  stat("old.h5", &after);
+  assert_true(before.st_ino == after.st_ino && before.st_size == after.st_size);
+  assert_int_equal(count_files(), 1);
+  gg_result_free(r);
+  remove_all();
+}
+
+/* The same while frames stream: HDF5's own writes fail, and nothing is left. */
+static void failing_trajectory(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_result *r = planted_result(GG_MD);
+  gg_result_file f;
+  struct rlimit whole, small;
+  getrlimit(RLIMIT_FSIZE, &whole);
+  small = whole;
+  small.rlim_cur = 30000;
+  assert_int_equal(gg_result_file_open(&f, "t.h5", "x", &err), GG_OK);
+  setrlimit(RLIMIT_FSIZE, &small);
+  gg_status status = GG_OK;
+  for (uint64_t step = 0; step < 300 && status == GG_OK; step++) {
+    gg_frame frame = planted_frame(step, true);
+    status = gg_result_file_frame(&f, &r->model, &frame, &err);
+    gg_frame_free(&frame);
+  }
+  gg_status end = status == GG_OK ? gg_result_file_finish_run(&f, r, &err) : status;
+  gg_result_file_abandon(&f);
+  setrlimit(RLIMIT_FSIZE, &whole);
+  assert_int_equal(end, GG_BAD_FILE);
+  assert_string_equal(err.message, "t.h5: cannot be written: File too large");
+  assert_int_equal(count_files(), 0);
+  gg_result_free(r);
+}
+
+static void unreadable_results(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_stored_result s;
+  assert_int_equal(gg_stored_result_read(&s, "none.h5", &err), GG_BAD_FILE);
+  FILE *out = fopen("rubbish.h5", "w");
+  fputs("rubbish", out);
+  fclose(out);
+  assert_int_equal(gg_stored_result_read(&s, "rubbish.h5", &err), GG_BAD_FILE);
+  assert_non_null(strstr(err.message, "rubbish.h5: cannot be read: it is not an HDF5 file"));
+  gg_archive a = {0};
+  gg_scene scene = gg_scene_defaults();
+  assert_int_equal(gg_checkpoint_write("c.h5", &a, &scene, &err), GG_OK);
+  assert_int_equal(gg_stored_result_read(&s, "c.h5", &err), GG_BAD_FILE);
+  assert_non_null(strstr(err.message, "it is a checkpoint"));
+  remove_all();
+}
+
+static gg_archive archive(double first)
+{
+  gg_archive a = {0};
+  const double f64[3] = {first, -0.0, 1e-310};
+  const int64_t i64 = INT64_MIN;
+  const uint64_t u64[2] = {UINT64_MAX, 1};
+  gg_archive_put(&a, "z/last name first", GG_ITEM_F64, f64, 3, NULL);
+  gg_archive_put(&a, "replica0/md/grains", GG_ITEM_I64, &i64, 1, NULL);
+  gg_archive_put(&a, "u64", GG_ITEM_U64, u64, 2, NULL);
+  gg_archive_put(&a, "bytes", GG_ITEM_U8, "\0\1\377", 3, NULL);
+  gg_archive_put(&a, "empty", GG_ITEM_F64, NULL, 0, NULL);
+  return a;
+}
+
+static void assert_same(const gg_archive *a, const gg_archive *b)
+{
+  assert_int_equal(a->n_items, b->n_items);
+  for (size_t i = 0; i < a->n_items; i++) {
+    assert_string_equal(a->items[i].name, b->items[i].name);
+    assert_int_equal(a->items[i].type, b->items[i].type);
+    assert_int_equal(a->items[i].count, b->items[i].count);
+    assert_memory_equal(a->items[i].data, b->items[i].data, a->items[i].count * gg_item_size(a->items[i].type));
+  }
+}
+
+/* Bit for bit; the generation before is kept, and taken when the present one is damaged or gone. */
+static void checkpoint_generations(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  bool older;
+  gg_scene scene = gg_scene_defaults();
+  gg_archive one = archive(1), two = archive(2), back = {0};
+  assert_int_equal(gg_checkpoint_write("c.h5", &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_checkpoint_write("c.h5", &two, &scene, &err), GG_OK);
+  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
+  assert_false(older);
+  assert_same(&two, &back);
+  gg_archive_clear(&back);
+
+  /* One flipped bit in the data is found by the checksum. */
+  FILE *f = fopen("c.h5", "r+b");
+  double wanted = 2;
+  char bytes[8];
+  memcpy(bytes, &wanted, 8);
+  char *all = calloc(1, 100000);
+  size_t size = fread(all, 1, 100000, f);
+  char *at = memmem(all, size, bytes, 8);
+  assert_non_null(at);
+  fseek(f, at - all, SEEK_SET);
+  fputc(at[0] ^ 1, f);
+  fclose(f);
+  free(all);
+  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
+  assert_true(older);
+  assert_same(&one, &back);
+  gg_archive_clear(&back);
+  unlink("c.h5");
+  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
+  assert_true(older);
+  gg_archive_clear(&back);
+  unlink("c.h5.1");
+  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
+  assert_string_equal(err.message, "c.h5: cannot be read: No such file or directory");
+  gg_archive_clear(&one);
+  gg_archive_clear(&two);
+  remove_all();
+}
+
+/* A checkpoint that cannot be written leaves both generations as they were. */
+static void checkpoint_without_room(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  bool older;
+  gg_scene scene = gg_scene_defaults();
+  gg_archive one = archive(1), back = {0};
+  assert_int_equal(gg_checkpoint_write("c.h5", &one, &scene, &err), GG_OK);
+  struct rlimit whole, small;
+  getrlimit(RLIMIT_FSIZE, &whole);
+  small = whole;
+  small.rlim_cur = 100;
+  setrlimit(RLIMIT_FSIZE, &small);
+  gg_status status = gg_checkpoint_write("c.h5", &one, &scene, &err);
+  setrlimit(RLIMIT_FSIZE, &whole);
+  assert_int_equal(status, GG_BAD_FILE);
+  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
+  assert_false(older);
+  assert_same(&one, &back);
+  assert_int_equal(count_files(), 1);
+  gg_archive_clear(&one);
+  gg_archive_clear(&back);
+  remove_all();
+}
+
+/* HDF5's own error printing is given back to the program that uses the library. */
+static void hdf5_stays_as_it_was(void **state)
+{
+  (void)state;
+  H5E_auto2_t before, after;
+  void *data;
+  gg_error err;
+  gg_stored_result s;
+  H5Eget_auto2(H5E_DEFAULT, &before, &data);
+  gg_stored_result_read(&s, "none.h5", &err);
+  H5Eget_auto2(H5E_DEFAULT, &after, &data);
+  assert_true(before == after);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(run_round_trip),
+      cmocka_unit_test(comparison_round_trip),
+      cmocka_unit_test(trajectory),
+      cmocka_unit_test(failing_writes),
+      cmocka_unit_test(failing_trajectory),
+      cmocka_unit_test(unreadable_results),
+      cmocka_unit_test(checkpoint_generations),
+      cmocka_unit_test(checkpoint_without_room),
+      cmocka_unit_test(hdf5_stays_as_it_was),
+  };
+  H5dont_atexit();
+  return cmocka_run_group_tests(tests, enter, leave);
+}

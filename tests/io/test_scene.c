@@ -1,0 +1,260 @@
+/* Scenes: what is read, what is refused and with which words, what is written back. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <locale.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/nearest.h"
+#include "io/scene_draft.h"
+#include "io/scene_json.h"
+
+static gg_scene parse(const char *yaml)
+{
+  gg_error err = {0};
+  gg_scene *scene;
+  gg_status status = gg_scene_parse(yaml, "s.yaml", &scene, &err);
+  if (status != GG_OK) print_message("unexpected: %s\n", err.message);
+  assert_int_equal(status, GG_OK);
+  gg_scene copy = *scene;
+  gg_scene_free(scene);
+  return copy;
+}
+
+/* A scene that gives every key comes out with exactly those values. */
+static void reads_every_key(void **state)
+{
+  (void)state;
+  gg_scene s = parse("flow: hss\nengine: dsmc\nthermostat: white_noise\ncontact_value: kolafa\nphi: 0.25\n"
+                     "particles: 1e5\nshear_rate: 2.5\ntemperature: 0.125\naspect: [1, 2, 0.5]\n"
+                     "collision:\n  e: {11: 0.9, 12: 0.8, 22: 0.7}\n  beta: 0.5\n  mu: {11: inf, 12: 0.25, 22: .inf}\n"
+                     "species:\n  - {fraction: 0.25, diameter: 2, mass: 3, inertia: 0.5}\n"
+                     "  - {fraction: 0.75, diameter: 1, mass: 4}\n"
+                     "walls: {e: 0.5, beta: -1, mu: 0.1, speed: 3}\ngravity: [0, 0, 0]\n"
+                     "run: {relative_error: 0.02, collisions: 500, time_limit: 60, warmup: 10, replicas: 3, "
+                     "seed: 9007199254740993}\n"
+                     "md: {contact_time: 0.001}\ndsmc: {time_step: 0.05, particles: 777}\nmeasure: []\n"
+                     "output: {checkpoint_every: 30, trajectory_every: 4}\n");
+  assert_int_equal(s.flow, GG_HSS);
+  assert_int_equal(s.engine, GG_DSMC);
+  assert_int_equal(s.thermostat, GG_WHITE_NOISE);
+  assert_int_equal(s.contact_value, GG_KOLAFA);
+  assert_true(s.phi == 0.25 && s.particles == 100000 && s.shear_rate == 2.5 && s.temperature == 0.125);
+  assert_true(s.aspect[0] == 1 && s.aspect[1] == 2 && s.aspect[2] == 0.5);
+  assert_true(s.collision.e[GG_11] == 0.9 && s.collision.e[GG_12] == 0.8 && s.collision.e[GG_22] == 0.7);
+  assert_true(s.collision.beta[GG_11] == 0.5 && s.collision.beta[GG_22] == 0.5);
+  assert_true(s.collision.mu[GG_11] == INFINITY && s.collision.mu[GG_12] == 0.25 && s.collision.mu[GG_22] == INFINITY);
+  assert_int_equal(s.n_species, 2);
+  assert_true(s.species[0].diameter == 2 && s.species[0].mass == 3 && s.species[0].inertia == 0.5);
+  assert_true(s.species[1].fraction == 0.75 && s.species[1].inertia == 0.4);
+  assert_true(s.walls.e == 0.5 && s.walls.beta == -1 && s.walls.mu == 0.1 && s.walls.speed == 3);
+  assert_true(s.run.relative_error == 0.02 && s.run.collisions == 500 && s.run.time_limit == 60);
+  assert_true(s.run.warmup == 10 && s.run.replicas == 3 && s.run.seed == UINT64_C(9007199254740993));
+  assert_true(s.md.contact_time == 0.001 && s.dsmc.time_step == 0.05 && s.dsmc.particles == 777);
+  assert_true(s.measure == 0 && s.output.checkpoint_every == 30 && s.output.trajectory_every == 4);
+}
+
+/* Everything but flow and phi has its default, and those that follow the flow do. */
+static void defaults(void **state)
+{
+  (void)state;
+  gg_scene s = parse("flow: usf\nphi: 0.3\n"), d = gg_scene_defaults();
+  d.phi = 0.3;
+  assert_memory_equal(&s, &d, sizeof s);
+  assert_true(parse("flow: equilibrium\nphi: 0.3\n").collision.e[GG_12] == 1);
+  assert_int_equal(parse("flow: hss\nphi: 0.3\n").thermostat, GG_GAUSSIAN);
+}
+
+static void assert_refused(const char *yaml, const char *words)
+{
+  gg_error err = {0};
+  gg_scene *scene;
+  assert_int_equal(gg_scene_parse(yaml, "s.yaml", &scene, &err), GG_BAD_INPUT);
+  assert_null(scene);
+  if (!strstr(err.message, words)) print_message("'%s' lacks '%s'\n", err.message, words);
+  assert_non_null(strstr(err.message, words));
+}
+
+/* Each mistake is answered with file, line, key, value and what is allowed. */
+static void refusals(void **state)
+{
+  (void)state;
+  assert_refused("flow: usf\nphi: 0.3\ncollision:\n  e: 1.5\n",
+                 "s.yaml:4: key 'collision.e': value '1.5' is not allowed; allowed: a number from 0 to 1");
+  assert_refused("flow: usf\nphi: 0.7\n",
+                 "s.yaml:2: key 'phi': value '0.7' is not allowed; allowed: a number from 0 to 0.6");
+  assert_refused("flow: usf\nphi: -0.1\n", "s.yaml:2: key 'phi'");
+  assert_refused("flow: usf\nphi: nan\n", "value 'nan'");
+  assert_refused("flow: usf\nphi: 0x1p-2\n", "value '0x1p-2'");
+  assert_refused("flow: usf\nphi: '0.3'\n", "text '0.3' is not allowed; allowed: a number");
+  assert_refused("flow: usf\nphi:\n", "nothing is not allowed");
+  assert_refused("flow: usf\nphi: [0.3]\n", "a list is not allowed");
+  assert_refused("flow: shear\nphi: 0.3\n", "one of equilibrium, usf, hcs, hss, couette, poiseuille, chute");
+  assert_refused("flow: usf\nphi: 0.3\nparticles: 10.5\n", "a whole number from 2");
+  assert_refused("flow: usf\nphi: 0.3\nparticles: 1\n", "a whole number from 2");
+  assert_refused("flow: usf\nphi: 0.3\nrun: {seed: 99999999999999999999}\n", "run.seed");
+  assert_refused("flow: usf\nphi: 0.3\nrun: {seed: 9223372036854775808}\n", "run.seed");
+  assert_refused("flow: usf\nphi: 0.3\nshear_rate: 0\n", "above 0");
+  assert_refused("flow: usf\nphi: 0.3\naspect: [1, 2]\n", "a list of three numbers");
+  assert_refused("flow: usf\nphi: 0.3\nmeasure: [rheologie]\n", "a list of rheology");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: 0.9\n", "s.yaml:3: key 'collision': is a section");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {e: {11: 1, 22: 1}}\n", "all of 11, 12 and 22");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {e: {11: 1, 12: 1, 22: 1, 21: 1}}\n", "11, 12 and 22, each once");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {mu: -1}\n", "at least 0, or inf");
+}
+
+/* A key that does not exist is answered with the one that was meant. */
+static void unknown_keys(void **state)
+{
+  (void)state;
+  assert_refused("flow: usf\nphi: 0.3\ncolision: {e: 0.9}\n",
+                 "s.yaml:3: key 'colision': no such key; did you mean 'collision'?");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {bet: 0}\n", "did you mean 'collision.beta'?");
+  assert_refused("flow: usf\nphi: 0.3\nparticels: 10\n", "did you mean 'particles'?");
+  assert_refused("flow: usf\nphi: 0.3\nseed: 7\n", "did you mean 'run.seed'?");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: [{masss: 1}]\n",
+                 "key 'species.masss': no such key; did you mean 'mass'?");
+  assert_refused("flow: usf\nphi: 0.3\nxyzzyplugh: 1\n", "graingas info");
+}
+
+static void duplicates(void **state)
+{
+  (void)state;
+  assert_refused("flow: usf\nphi: 0.3\nphi: 0.2\n", "s.yaml:3: key 'phi': is given twice, first on line 2");
+  assert_refused("flow: usf\nphi: 0.3\nrun: {seed: 1}\nrun: {seed: 2}\n", "key 'run.seed': is given twice");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: [{mass: 1, mass: 2}]\n", "given twice");
+}
+
+/* What concerns several keys at once. */
+static void combinations(void **state)
+{
+  (void)state;
+  assert_refused("phi: 0.3\n", "flow is missing");
+  assert_refused("flow: usf\n", "phi is missing");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: [{fraction: 0.4}, {fraction: 0.5}]\n",
+                 "sum to 0.9; they must sum to 1");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: [{}, {}, {}]\n", "3 species are given");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: []\n", "0 species");
+  assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {e: 0.9}\n", "lose no energy");
+  assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {beta: 0}\n", "lose no energy");
+  assert_refused("flow: hss\nphi: 0.3\nthermostat: none\n", "hss needs a thermostat");
+  assert_refused("flow: hcs\nphi: 0.3\nthermostat: gaussian\n", "use flow: hss");
+  assert_refused("flow: usf\nphi: 0.3\ngravity: [0, -1, 0]\n", "gravity needs a flow with walls");
+  assert_refused("flow: chute\nphi: 0.3\n", "chute needs gravity");
+}
+
+/* Text that is no scene at all. */
+static void rubbish(void **state)
+{
+  (void)state;
+  assert_refused("", "is empty");
+  assert_refused("# nothing\n", "is empty");
+  assert_refused("\x01\x02\x03", "is not a scene");
+  assert_refused("\x80\x81 rubbish", "s.yaml: is not a scene");
+  assert_refused("flow: [usf\n", "s.yaml:2: is not YAML");
+  assert_refused("- flow\n- usf\n", "lines of 'key: value'");
+  assert_refused("flow: usf\nphi: 0.3\n---\nflow: hcs\n", "more than one document");
+  assert_refused("? [a, b]\n: 1\n", "a key must be a word");
+  assert_refused("&a flow: *a\n", "flow");
+}
+
+/* Overrides: whole keys, single pairs, members of a species; the scene stays as it was when one is refused. */
+static void overrides(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_scene *s;
+  assert_int_equal(gg_scene_parse("flow: usf\nphi: 0.3\nspecies: [{fraction: 0.5}, {fraction: 0.5}]\n", "s", &s, &err),
+                   GG_OK);
+  assert_int_equal(gg_scene_set(s, "collision.e", "0.8", &err), GG_OK);
+  assert_int_equal(gg_scene_set(s, "collision.e.12", "0.7", &err), GG_OK);
+  assert_int_equal(gg_scene_set(s, "species.2.mass", "5", &err), GG_OK);
+  assert_int_equal(gg_scene_set(s, "run", "{seed: 5, warmup: 7}", &err), GG_OK);
+  assert_true(s->collision.e[GG_11] == 0.8 && s->collision.e[GG_12] == 0.7 && s->species[1].mass == 5);
+  assert_true(s->run.seed == 5 && s->run.warmup == 7);
+  gg_scene before = *s;
+  assert_int_equal(gg_scene_set(s, "collision.e", "2", &err), GG_BAD_INPUT);
+  assert_non_null(strstr(err.message, "key 'collision.e': value '2' is not allowed"));
+  assert_int_equal(gg_scene_set(s, "colision.e", "1", &err), GG_BAD_INPUT);
+  assert_non_null(strstr(err.message, "did you mean 'collision.e'?"));
+  assert_int_equal(gg_scene_set(s, "species.3.mass", "1", &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_set(s, "species.1.fraction", "0.1", &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_set(s, "phi", "", &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_set(s, "flow", "hcs", &err), GG_OK);
+  before.flow = GG_HCS;
+  assert_memory_equal(s, &before, sizeof before);
+  gg_scene_free(s);
+}
+
+/* Written as YAML or as JSON and read again, a scene is the same to the last bit. */
+static void round_trip(void **state)
+{
+  (void)state;
+  gg_scene s = parse("flow: hss\nphi: 0.1\nthermostat: white_noise\nparticles: 123\ntemperature: 0.1\n"
+                     "collision: {e: {11: 0.3, 12: 0.7, 22: 0.123456789012345678}, mu: 0.1, beta: 0}\n"
+                     "species: [{fraction: 0.3, mass: 0.1}, {fraction: 0.7, inertia: 0.6666666666666666}]\n"
+                     "run: {seed: 9223372036854775807, warmup: 3.3}\ndsmc: {particles: 50}\n");
+  char *yaml = gg_scene_yaml(&s);
+  gg_scene again = parse(yaml);
+  assert_memory_equal(&s, &again, sizeof s);
+  json_t *json = gg_scene_json(&s);
+  char *text = json_dumps(json, JSON_REAL_PRECISION(17));
+  again = parse(text);
+  assert_memory_equal(&s, &again, sizeof s);
+  json_decref(json);
+  free(text);
+  free(yaml);
+}
+
+/* Fuzz: a scene with any one byte changed is read or refused, never worse (run under a sanitizer to see). */
+static void mutations(void **state)
+{
+  (void)state;
+  const char yaml[] = "flow: usf\nphi: 0.3\ncollision: {e: {11: 0.9, 12: 1, 22: 1}}\nspecies: [{mass: 2}]\n";
+  for (size_t i = 0; i + 1 < sizeof yaml; i++)
+    for (int byte = 1; byte < 256; byte += 5) {
+      char changed[sizeof yaml];
+      gg_scene *scene;
+      gg_error err;
+      memcpy(changed, yaml, sizeof yaml);
+      changed[i] = (char)byte;
+      gg_status status = gg_scene_parse(changed, "s", &scene, &err);
+      assert_true(status == GG_OK || status == GG_BAD_INPUT);
+      gg_scene_free(scene);
+    }
+}
+
+static void edit_distance(void **state)
+{
+  (void)state;
+  assert_int_equal(gg_edit_distance("", "abc"), 3);
+  assert_int_equal(gg_edit_distance("kitten", "sitting"), 3);
+  assert_int_equal(gg_edit_distance("flaw", "lawn"), 2);
+}
+
+/* The table itself: no key twice, defaults inside their ranges, room for all. */
+static void table_is_sound(void **state)
+{
+  (void)state;
+  int n = 0;
+  for (; gg_scene_fields[n].key; n++) {
+    assert_int_equal(gg_scene_field_find(gg_scene_fields[n].key), n);
+    assert_non_null(gg_scene_fields[n].doc);
+  }
+  assert_true(n < GG_MAX_FIELDS);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(reads_every_key), cmocka_unit_test(defaults),      cmocka_unit_test(refusals),
+      cmocka_unit_test(unknown_keys),    cmocka_unit_test(duplicates),    cmocka_unit_test(combinations),
+      cmocka_unit_test(rubbish),         cmocka_unit_test(overrides),     cmocka_unit_test(round_trip),
+      cmocka_unit_test(mutations),       cmocka_unit_test(edit_distance), cmocka_unit_test(table_is_sound),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,83 @@
+/* Theories that claim to solve the Enskog equation against the Monte Carlo engine that does: each within the accuracy
+ * that the theory states, plus four standard errors of the run. */
+#include "theory_test.h"
+
+#include "run/run.h"
+
+static gg_result *run(gg_scene s)
+{
+  gg_result *result = NULL;
+  gg_error err = {0};
+  s.engine = GG_DSMC;
+  s.dsmc.particles = 20000;
+  s.run.relative_error = 0.003;
+  s.run.seed = 11;
+  if (gg_run_scene(&s, NULL, 1, NULL, &result, &err) != GG_OK) fail_msg("%s", err.message);
+  return result;
+}
+
+static void compare(const gg_result *r, const gg_theory *theory, gg_quantity q, double relative, double absolute)
+{
+  double said = value_of(theory, &r->model, q), measured = r->value[q].mean, error = r->value[q].error;
+  double bound = relative * fabs(measured) + absolute + 4 * error;
+  if (!(fabs(said - measured) <= bound))
+    fail_msg("%s: %s = %g, engine %g +- %g", theory->name, gg_quantity_name(q), said, measured, error);
+}
+
+/* Sheared grains: smooth and dilute, rough and dense. */
+static void gaussian_closure(void **state)
+{
+  (void)state;
+  const double phi[] = {0, 0.3}, beta[] = {-1, 1};
+  for (int i = 0; i < 2; i++) {
+    gg_result *r = run(scene_of(GG_USF, phi[i], 0.9, beta[i]));
+    const gg_quantity close[] = {GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_SHEAR_VISCOSITY, GG_Q_COLLISION_RATE};
+    for (int q = 0; q < 4; q++) compare(r, &gg_gaussian_closure, close[q], 0.007, 0);
+    compare(r, &gg_gaussian_closure, GG_Q_N1, 0.02, 0);
+    compare(r, &gg_gaussian_closure, GG_Q_N2, 0, 0.004);
+    if (beta[i] > 0) compare(r, &gg_gaussian_closure, GG_Q_TEMPERATURE_RATIO, 0.005, 0);
+    gg_result_free(r);
+  }
+}
+
+/* Free cooling: one species, and two that differ in mass. */
+static void cooling(void **state)
+{
+  (void)state;
+  gg_result *r = run(scene_of(GG_HCS, 0.2, 0.7, -1));
+  compare(r, &gg_garzo_dufty1999, GG_Q_COOLING_RATE, 0.002, 0);
+  compare(r, &gg_garzo_dufty1999, GG_Q_COMPRESSIBILITY, 0.002, 0);
+  gg_result_free(r);
+  gg_scene s = scene_of(GG_HCS, 0, 0.5, -1);
+  s.n_species = 2;
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4};
+  s.species[1] = (gg_species){0.5, 1, 0.5, 0.4};
+  r = run(s);
+  compare(r, &gg_garzo_montanero2003, GG_Q_PARTIAL_TEMPERATURE_RATIO, 0.003, 0);
+  compare(r, &gg_garzo_montanero2003, GG_Q_COOLING_RATE, 0.003, 0);
+  compare(r, &gg_garzo_montanero2003, GG_Q_C_1, 0.12, 0);
+  compare(r, &gg_garzo_montanero2003_ms, GG_Q_C_1, 0.04, 0);
+  gg_result_free(r);
+}
+
+/* Heated by white noise. */
+static void heated(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_HSS, 0, 0.6, -1);
+  s.thermostat = GG_WHITE_NOISE;
+  gg_result *r = run(s);
+  compare(r, &gg_garzo_dufty1999, GG_Q_COOLING_RATE, 0.003, 0);
+  compare(r, &gg_garzo_dufty1999, GG_Q_A2, 0, 0.001);
+  gg_result_free(r);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(gaussian_closure),
+      cmocka_unit_test(cooling),
+      cmocka_unit_test(heated),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
