@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,10 +22,11 @@ static gg_status allocate(gg_md *e, gg_error *err)
 {
   const gg_model *m = &e->model;
   e->n = (uint32_t)m->n;
-  e->grain = new_lines(e->n, sizeof *e->grain, err);
+  e->grain = new_lines((size_t)e->n + 1, sizeof *e->grain, err);
   e->node = new_lines(e->n, sizeof *e->node, err);
   e->id = gg_new_array(e->n, sizeof *e->id, err);
   if (!e->grain || !e->node || !e->id) return GG_FAILED;
+  e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
   if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
   if (m->contact_time > 0 && !(e->last = gg_new_array(e->n, sizeof *e->last, err))) return GG_FAILED;
   return gg_queue_make(&e->queue, e->n, err);
@@ -32,9 +34,11 @@ static gg_status allocate(gg_md *e, gg_error *err)
 
 gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
 {
-  e->shell = new_lines(e->n, sizeof *e->shell, err);
+  e->shell = new_lines((size_t)e->n + 1, sizeof *e->shell, err);
   e->neighbour = new_lines(e->n, GG_LIST * sizeof *e->neighbour, err);
-  return e->shell && e->neighbour ? GG_OK : GG_FAILED;
+  if (!e->shell || !e->neighbour) return GG_FAILED;
+  e->shell[e->n].centre = (gg_vec){NAN, NAN, NAN};
+  return GG_OK;
 }
 
 gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)

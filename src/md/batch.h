@@ -99,15 +99,31 @@ GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
 #undef HIGH
 }
 
-/* gg_contact_delay, eight times. */
-GG_INLINE gg_v8 gg_contact_delay8(gg_v8 x, gg_v8 y, gg_v8 z, gg_v8 vx, gg_v8 vy, gg_v8 vz, gg_v8 sigma2)
+GG_INLINE bool gg_any8(gg_m8 mask)
+{
+  gg_m8 or = mask | __builtin_shufflevector(mask, mask, 4, 5, 6, 7, 0, 1, 2, 3);
+  or |= __builtin_shufflevector(or, or, 2, 3, 0, 1, 6, 7, 4, 5);
+  return or [0] | or [1];
+}
+
+/* gg_contact_delay, eight times, in two steps: who meets at all, and when. */
+typedef struct gg_quadratic {
+  gg_v8 b, c, discriminant;
+  gg_m8 meets;
+} gg_quadratic;
+
+GG_INLINE gg_quadratic gg_contact_quadratic8(gg_v8 x, gg_v8 y, gg_v8 z, gg_v8 vx, gg_v8 vy, gg_v8 vz, gg_v8 sigma2)
 {
   gg_v8 b = x * vx + y * vy + z * vz, a = vx * vx + vy * vy + vz * vz;
   gg_v8 c = x * x + y * y + z * z - sigma2, discriminant = b * b - a * c;
-  gg_m8 meets = (b < 0) & (discriminant >= 0);
-  gg_v8 delay = c / (gg_sqrt8(discriminant) - b);
+  return (gg_quadratic){b, c, discriminant, (b < 0) & (discriminant >= 0)};
+}
+
+GG_INLINE gg_v8 gg_contact_delay8(gg_quadratic q)
+{
+  gg_v8 delay = q.c / (gg_sqrt8(q.discriminant) - q.b);
   delay = gg_choose(delay > 0, delay, gg_all(0));
-  return gg_choose(meets, delay, gg_all(INFINITY));
+  return gg_choose(q.meets, delay, gg_all(INFINITY));
 }
 
 #endif

@@ -23,12 +23,21 @@ gg_status gg_cells_make(gg_cells *c, const gg_box *box, const int32_t n[3], doub
     c->inverse[a] = n[a] / box->edge[a];
     total *= (size_t)n[a];
   }
+  for (int a = 0, each = 1; a < 3; each *= n[a], a++) {
+    uint32_t *part = gg_new_array((size_t)n[a] + 2, sizeof *part, err);
+    if (!part) return GG_FAILED;
+    for (int32_t k = -1; k <= n[a]; k++) part[k + 1] = (uint32_t)((k + n[a]) % n[a] * each);
+    c->part[a] = part + 1;
+  }
   c->stride = FEWEST_WORDS;
   c->cell = gg_new_array(total * c->stride + FEWEST_WORDS, sizeof *c->cell, err);
   return c->cell ? GG_OK : GG_FAILED;
 }
 
-static size_t total_of(const gg_cells *c) { return (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2]; }
+static size_t total_of(const gg_cells *c)
+{
+  return (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2];
+}
 
 void gg_cells_clear(gg_cells *c)
 {
@@ -51,5 +60,7 @@ bool gg_cells_grow(gg_cells *c)
 void gg_cells_free(gg_cells *c)
 {
   free(c->cell);
+  for (int a = 0; a < 3; a++)
+    if (c->part[a]) free(c->part[a] - 1);
   *c = (gg_cells){0};
 }

@@ -15,9 +15,10 @@
 typedef struct gg_cells {
   int32_t n[3];
   double width[3], inverse[3];
-  double reach;    /* largest contact distance (of lists: largest distance of centres) */
-  uint32_t stride; /* a multiple of 8 */
-  uint32_t *cell;  /* stride words a cell, x fastest: how many grains, then who; room for a word more at the end */
+  double reach;      /* largest contact distance (of lists: largest distance of centres) */
+  uint32_t stride;   /* a multiple of 8 */
+  uint32_t *part[3]; /* an index -1 .. n along an axis: its share of the cell's number, wrapped */
+  uint32_t *cell;    /* stride words a cell, x fastest: how many grains, then who; room for a word more at the end */
 } gg_cells;
 
 /* A grid of n[] cells on the box, empty. */
@@ -34,7 +35,10 @@ GG_INLINE size_t gg_cell_index(const gg_cells *c, const int32_t at[3])
   return ((size_t)at[2] * (size_t)c->n[1] + (size_t)at[1]) * (size_t)c->n[0] + (size_t)at[0];
 }
 
-GG_INLINE uint32_t *gg_cell_at(const gg_cells *c, const int32_t at[3]) { return c->cell + gg_cell_index(c, at) * c->stride; }
+GG_INLINE uint32_t *gg_cell_at(const gg_cells *c, const int32_t at[3])
+{
+  return c->cell + gg_cell_index(c, at) * c->stride;
+}
 
 /* False if the cell is full. */
 GG_INLINE bool gg_cell_add(const gg_cells *c, const int32_t at[3], uint32_t grain)

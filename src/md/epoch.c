@@ -5,7 +5,7 @@
 
 #include "md/thermostat.h"
 
-enum { EVENTS_PER_BUCKET = 16, COLLISIONS_TO_MEASURE = 16 };
+enum { EVENTS_PER_BUCKET = 4, COLLISIONS_TO_MEASURE = 16 };
 
 /* A power of two, so that spans of whole buckets subtract exactly. */
 double gg_md_bucket_width(double events_per_time)

@@ -9,8 +9,14 @@
 #define JOIN(a, b) JOIN2(a, b)
 
 #define MOTION(name, ...)                                                                                              \
-  static void run_##name(gg_md *e) { gg_loop(e, (gg_features){__VA_ARGS__}); }                                         \
-  static void all_##name(gg_md *e) { gg_forecast_all(e, (gg_features){__VA_ARGS__}); }
+  static void run_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_loop(e, (gg_features){__VA_ARGS__});                                                                            \
+  }                                                                                                                    \
+  static void all_##name(gg_md *e)                                                                                     \
+  {                                                                                                                    \
+    gg_forecast_all(e, (gg_features){__VA_ARGS__});                                                                    \
+  }
 #define MOTIONS(name, ...)                                                                                             \
   MOTION(name, __VA_ARGS__)                                                                                            \
   MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
@@ -23,9 +29,17 @@ MOTIONS(sheared_listed, .listed = true, .sheared = true)
 
 gg_kernel JOIN(gg_md_wide_, GG_ISA)(enum gg_boundary boundary, bool mixture, bool listed)
 {
-#define ROW(name) {{run_##name, all_##name}, {run_##name##_mixture, all_##name##_mixture}}
-  static const gg_kernel cells[][2] = {
-      [GG_PERIODIC] = ROW(periodic), [GG_SHEARED] = ROW(sheared), [GG_WALLED] = ROW(walled), [GG_FALLING] = ROW(falling)};
+#define ROW(name)                                                                                                      \
+  {                                                                                                                    \
+    {run_##name, all_##name},                                                                                          \
+    {                                                                                                                  \
+      run_##name##_mixture, all_##name##_mixture                                                                       \
+    }                                                                                                                  \
+  }
+  static const gg_kernel cells[][2] = {[GG_PERIODIC] = ROW(periodic),
+                                       [GG_SHEARED] = ROW(sheared),
+                                       [GG_WALLED] = ROW(walled),
+                                       [GG_FALLING] = ROW(falling)};
   static const gg_kernel lists[][2] = {[GG_PERIODIC] = ROW(periodic_listed), [GG_SHEARED] = ROW(sheared_listed)};
   return listed ? lists[boundary][mixture] : cells[boundary][mixture];
 }

@@ -46,13 +46,14 @@ GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const 
   return e->k.now + delay;
 }
 
-/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain itself. */
+/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place. */
 GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
 {
   const gg_grain *g = s->self;
   double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0, now = e->k.now;
   const double *L = e->box.edge, *inverse = e->box.inverse, *sigma = e->model.sigma;
   int species = f.mixture ? gg_species_of(g) : 0;
+  bool found = false;
   gg_v8 first = gg_all(INFINITY);
   gg_m8 with = (gg_m8){0} - 1;
   for (uint32_t k = 0; k < count; k += GG_BATCH) {
@@ -83,12 +84,16 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
       double s0 = sigma[2 * species], s1 = sigma[2 * species + 1];
       sigma2 = gg_choose(second, gg_all(s1 * s1), gg_all(s0 * s0));
     }
-    gg_v8 t = now + gg_contact_delay8(x, y, z, vx, vy, vz, sigma2);
+    gg_quadratic q = gg_contact_quadratic8(x, y, z, vx, vy, vz, sigma2);
+    if (!f.listed && !gg_any8(q.meets)) continue; /* most cells hold nobody in the way */
+    gg_v8 t = now + gg_contact_delay8(q);
+    found = true;
     gg_m8 who = __builtin_convertvector(*(const gg_list8 *)(list + k), gg_m8);
     gg_m8 sooner = (t < first) | ((t == first) & (who < with));
     first = gg_choose(sooner, t, first);
     with = (who & sooner) | (with & ~sooner);
   }
+  if (!found) return;
   int64_t partner;
   double t = gg_earliest8(first, with, &partner);
   if (t < s->collision || (t == s->collision && t < INFINITY && partner < s->partner)) {
@@ -100,7 +105,7 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
 /* Those that cells were searched for. */
 GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
 {
-  for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = s->grain;
+  for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = e->n;
   gg_scan_batches(e, f, s, s->near, s->n_near);
 }
 
@@ -146,7 +151,7 @@ GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, ui
   const double *L = e->box.edge, *inverse = e->box.inverse;
   double strain = f.sheared ? e->model.shear_rate * e->k.now : 0;
   int species = f.mixture ? gg_species_of(&e->grain[i]) : 0;
-  for (int l = 0; l < GG_BATCH; l++) near[n + (uint32_t)l] = i;
+  for (int l = 0; l < GG_BATCH; l++) near[n + (uint32_t)l] = e->n;
   for (uint32_t k = 0; k < n && count <= GG_LIST; k += GG_BATCH) {
     gg_v8 x, y, z, reach = gg_all(e->pair_reach[0]);
     for (int l = 0; l < GG_BATCH; l++) {
@@ -196,11 +201,11 @@ GG_INLINE void gg_new_shell(gg_md *e, gg_features f, uint32_t i)
 GG_INLINE void gg_list_clear(gg_md *e, uint32_t i)
 {
   uint32_t *list = gg_list(e, i);
-  for (int k = 0; k < GG_LIST; k++) list[k] = i;
+  for (int k = 0; k < GG_LIST; k++) list[k] = e->n;
   e->node[i].neighbours = 0;
 }
 
-/* Beyond its end a list holds the grain itself, which it never meets. */
+/* Beyond its end a list holds the grain at no place. */
 GG_INLINE bool gg_list_add(gg_md *e, uint32_t i, uint32_t j)
 {
   if (e->node[i].neighbours == GG_LIST) return false;
@@ -213,7 +218,7 @@ GG_INLINE void gg_list_remove(gg_md *e, uint32_t i, uint32_t j)
   uint32_t *list = gg_list(e, i), last = --e->node[i].neighbours, k = 0;
   while (list[k] != j) k++;
   list[k] = list[last];
-  list[last] = i;
+  list[last] = e->n;
 }
 
 GG_INLINE bool gg_is_among(const uint32_t *list, uint32_t j)
@@ -228,7 +233,7 @@ GG_INLINE bool gg_mend_lists(gg_md *e, uint32_t i, const uint32_t *found, uint32
 {
   uint32_t old[GG_LIST], *list = gg_list(e, i), n_old = e->node[i].neighbours;
   if (count > GG_LIST) return false;
-  for (int k = 0; k < GG_LIST; k++) old[k] = list[k], list[k] = (uint32_t)k < count ? found[k] : i;
+  for (int k = 0; k < GG_LIST; k++) old[k] = list[k], list[k] = (uint32_t)k < count ? found[k] : e->n;
   e->node[i].neighbours = count;
   for (uint32_t k = 0; k < n_old; k++)
     if (!gg_is_among(list, old[k])) gg_list_remove(e, old[k], i);

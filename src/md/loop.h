@@ -133,13 +133,40 @@ GG_INLINE void gg_hit_wall(gg_md *e, gg_features f, uint32_t i, int upper)
   gg_predict(e, f, i);
 }
 
+/* Bring what the events of a new bucket will read into the cache while the first of them are handled. */
+GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
+{
+  for (uint32_t k = 0; k < e->queue.n_due; k++) {
+    uint32_t i = e->queue.due[k].grain, j = e->node[i].partner;
+    __builtin_prefetch(&e->grain[i]);
+    if (!f.listed || GG_NO_GRAIN(j)) continue;
+    __builtin_prefetch(&e->grain[j]);
+    __builtin_prefetch(&e->node[j]);
+    __builtin_prefetch(gg_list(e, i));
+    __builtin_prefetch(gg_list(e, j));
+  }
+}
+
+/* Two events ahead: the neighbours too. */
+GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
+{
+  if (!f.listed || e->queue.n_due < 2) return;
+  uint32_t i = e->queue.due[e->queue.n_due - 2].grain, j = e->node[i].partner;
+  const uint32_t *mine = gg_list(e, i);
+  for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[mine[k]]);
+  if (GG_NO_GRAIN(j)) return;
+  const uint32_t *others = gg_list(e, j);
+  for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[others[k]]);
+}
+
 /* The next event of all; GG_NONE if there is none before e->stop. */
-GG_INLINE uint32_t gg_next(gg_md *e)
+GG_INLINE uint32_t gg_next(gg_md *e, gg_features f)
 {
   while (e->queue.n_due == 0)
-    if (!gg_queue_turn(&e->queue, e->node)) {
-      if (gg_queue_span(&e->queue) > e->stop || !gg_md_next_epoch(e)) return GG_NONE;
-    }
+    if (gg_queue_turn(&e->queue, e->node))
+      gg_prefetch_due(e, f);
+    else if (gg_queue_span(&e->queue) > e->stop || !gg_md_next_epoch(e))
+      return GG_NONE;
   gg_due due = e->queue.due[e->queue.n_due - 1];
   return due.time <= e->stop ? due.grain : GG_NONE;
 }
@@ -153,7 +180,8 @@ GG_INLINE void gg_forecast_all(gg_md *e, gg_features f)
 GG_INLINE void gg_loop(gg_md *e, gg_features f)
 {
   uint32_t i;
-  while (e->collisions_left && (i = gg_next(e)) != GG_NONE) {
+  while (e->collisions_left && (i = gg_next(e, f)) != GG_NONE) {
+    gg_prefetch_neighbours(e, f);
     const gg_node *node = &e->node[i];
     uint32_t partner = node->partner;
     e->k.now = node->time;

@@ -4,11 +4,11 @@
 
 #include "md/cells.h"
 
-enum { FEWEST_BUCKETS = 64, SMALL = 64 };
+enum { FEWEST_BUCKETS = 64, SMALL = 64, AHEAD = 3 };
 
 gg_status gg_queue_make(gg_queue *q, uint32_t n, gg_error *err)
 {
-  *q = (gg_queue){.n_buckets = n > FEWEST_BUCKETS ? n : FEWEST_BUCKETS};
+  *q = (gg_queue){.n_buckets = n > FEWEST_BUCKETS ? 4 * n : 4 * FEWEST_BUCKETS};
   q->head = gg_new_array((size_t)q->n_buckets + 1, sizeof *q->head, err);
   q->due = gg_new_array((size_t)n + 1, sizeof *q->due, err);
   if (!q->head || !q->due) return GG_FAILED;
@@ -100,7 +100,8 @@ bool gg_queue_turn(gg_queue *q, gg_node *node)
   while (q->n_due == 0) {
     if (++b >= q->n_buckets) return false;
     q->current = b;
-    uint32_t count = 0;
+    uint32_t count = 0, soon = b + AHEAD < q->n_buckets ? q->head[b + AHEAD] : GG_NONE;
+    if (soon != GG_NONE) __builtin_prefetch(&node[soon]);
     for (uint32_t i = q->head[b]; i != GG_NONE; i = node[i].later) q->due[count++] = (gg_due){node[i].time, i};
     q->head[b] = GG_NONE;
     if (count > SMALL)

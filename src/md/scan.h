@@ -28,7 +28,7 @@ typedef struct gg_search {
   const gg_grain *self; /* at the present time */
   double collision;     /* earliest so far, and with whom */
   uint32_t partner;
-  double valid; /* until then the sliding rows have been searched */
+  double valid;                             /* until then the sliding rows have been searched */
   uint32_t n_near, near[GG_MOST_NEAR + 16]; /* wide: whom to try */
 } gg_search;
 
@@ -156,10 +156,46 @@ GG_INLINE void gg_scan_sliding_rows(const gg_md *e, gg_features f, gg_search *s)
   if (y == 0) gg_scan_sliding(e, f, s, -1);
 }
 
+/* The nine neighbours beyond each face: 2 axis + (1 if upwards). */
+static const int8_t gg_beyond[6][9][3] = {
+    {{-1, -1, -1}, {-1, 0, -1}, {-1, 1, -1}, {-1, -1, 0}, {-1, 0, 0}, {-1, 1, 0}, {-1, -1, 1}, {-1, 0, 1}, {-1, 1, 1}},
+    {{1, -1, -1}, {1, 0, -1}, {1, 1, -1}, {1, -1, 0}, {1, 0, 0}, {1, 1, 0}, {1, -1, 1}, {1, 0, 1}, {1, 1, 1}},
+    {{-1, -1, -1}, {0, -1, -1}, {1, -1, -1}, {-1, -1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, -1, 1}, {0, -1, 1}, {1, -1, 1}},
+    {{-1, 1, -1}, {0, 1, -1}, {1, 1, -1}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}, {-1, 1, 1}, {0, 1, 1}, {1, 1, 1}},
+    {{-1, -1, -1}, {0, -1, -1}, {1, -1, -1}, {-1, 0, -1}, {0, 0, -1}, {1, 0, -1}, {-1, 1, -1}, {0, 1, -1}, {1, 1, -1}},
+    {{-1, -1, 1}, {0, -1, 1}, {1, -1, 1}, {-1, 0, 1}, {0, 0, 1}, {1, 0, 1}, {-1, 1, 1}, {0, 1, 1}, {1, 1, 1}},
+};
+
+/* Nothing slides and no wall stands in the rows around: cells follow from their places alone, images from nearness. */
+GG_INLINE bool gg_is_regular(const gg_md *e, gg_features f, const int32_t at[3])
+{
+  return f.wide && (!(f.sheared || f.walled) || (at[1] > 0 && at[1] < e->cells.n[1] - 1));
+}
+
+GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3], int x, int y, int z)
+{
+  const gg_cells *c = &e->cells;
+  size_t index = c->part[0][at[0] + x] + c->part[1][at[1] + y] + c->part[2][at[2] + z];
+  gg_take_cell(s, c->cell + index * c->stride);
+}
+
+/* Is there room for so many full cells? */
+GG_INLINE bool gg_has_room(const gg_md *e, int cells)
+{
+  return (uint32_t)cells * e->cells.stride <= GG_MOST_NEAR;
+}
+
 /* All 27 cells. */
 GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
 {
   const int32_t *at = e->node[s->grain].cell;
+  s->valid = INFINITY;
+  if (gg_is_regular(e, f, at) && gg_has_room(e, 27)) {
+    for (int z = -1; z <= 1; z++)
+      for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++) gg_take_regular(e, s, at, x, y, z);
+    return;
+  }
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
     for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) gg_scan_plain_row(e, f, s, at[0] - 1, at[0] + 1, y, z);
   gg_scan_sliding_rows(e, f, s);
@@ -169,6 +205,12 @@ GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
 GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int axis, int32_t step)
 {
   const int32_t *at = e->node[s->grain].cell;
+  s->valid = INFINITY;
+  if (gg_is_regular(e, f, at) && gg_has_room(e, 9)) {
+    const int8_t(*to)[3] = gg_beyond[2 * axis + (step > 0)];
+    for (int k = 0; k < 9; k++) gg_take_regular(e, s, at, to[k][0], to[k][1], to[k][2]);
+    return;
+  }
   int32_t lo[3], hi[3];
   for (int a = 0; a < 3; a++) {
     lo[a] = at[a] + (a == axis ? step : -1);
@@ -201,10 +243,10 @@ GG_INLINE double gg_exit_delay(const gg_md *e, gg_features f, const gg_search *s
   int32_t cell = e->node[s->grain].cell[axis];
   bool bottom = f.walled && axis == 1 && cell == 0, top = f.walled && axis == 1 && cell == e->cells.n[1] - 1;
   if (!f.gravity) {
-    bool up = v > 0;
+    int up = v > 0;
     *face = 2 * axis + up;
     if (v == 0 || (up ? top : bottom)) return INFINITY;
-    double delay = ((up ? cell + 1 : cell) * width - x) / v;
+    double delay = ((cell + up) * width - x) / v;
     return delay > 0 ? delay : 0;
   }
   double w = gg_along(&e->gravity, axis);
@@ -221,7 +263,8 @@ GG_INLINE double gg_next_face(const gg_md *e, gg_features f, const gg_search *s,
   double first = gg_exit_delay(e, f, s, 0, face);
   for (int axis = 1; axis < 3; axis++) {
     double delay = gg_exit_delay(e, f, s, axis, &other);
-    if (delay < first) first = delay, *face = other;
+    *face = delay < first ? other : *face;
+    first = delay < first ? delay : first;
   }
   double t = e->k.now + first;
   if (f.sheared && s->valid < t) t = s->valid, *face = GG_SLIDE;

@@ -63,7 +63,7 @@ typedef struct gg_md_counts {
 struct gg_md {
   gg_engine base;
   gg_model model;
-  gg_grain *grain;
+  gg_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
   gg_node *node;
   gg_vec *spin; /* surface velocities; NULL for smooth grains */
   double *last; /* time of the last collision, for the contact-time rule; NULL if it is off */

@@ -119,16 +119,19 @@ static long double next_of_pair(const gg_md *e, uint32_t i, uint32_t j, double h
   for (int k = 0; k < 3; k++) L[k] = e->box.edge[k];
   int ny = 2 + (int)(fabsl(s.v[1]) * horizon / L[1]), nz = 2 + (int)(fabsl(s.v[2]) * horizon / L[2]);
   if (e->model.walled) ny = 0;
-  for (int y = -ny; y <= ny; y++)
+  for (int y = -ny; y <= ny; y++) {
+    if (fabsl(s.r[1] + y * L[1]) > fabsl(s.v[1]) * horizon + sigma) continue; /* never within reach */
     for (int z = -nz; z <= nz; z++) {
+      if (fabsl(s.r[2] + z * L[2]) > fabsl(s.v[2]) * horizon + sigma) continue;
       long double v[3] = {s.v[0] + y * s.slide, s.v[1], s.v[2]}, x0 = s.r[0] + y * s.offset;
       /* Images along x that pass within reach before the horizon. */
-      long double span = fabsl(v[0]) * horizon + sigma + L[0];
+      long double span = fabsl(v[0]) * horizon + sigma;
       for (long long x = (long long)((-span - x0) / L[0]) - 1; x <= (long long)((span - x0) / L[0]) + 1; x++) {
         long double r[3] = {x0 + x * L[0], s.r[1] + y * L[1], s.r[2] + z * L[2]}, t = contact(r, v, sigma);
         if (t < first) first = t;
       }
     }
+  }
   return first <= horizon ? first : INFINITY;
 }
 
