@@ -73,6 +73,35 @@ static void heated_viscosity(void **state)
   lab_expect("eta/eta_0, phi 0, e .7", &total, 1 / (nu - zeta), 0.008, 0.05);
 }
 
+/* Shear so slow that the gas cools freely while its reduced rate a* grows towards 0.06: viscosity of the cooling state,
+ * 1/(nu_eta - zeta/2) (Garzo & Dufty 1999), a good tenth below that of the heated one. Least squares of -P_xy/p on a*.
+ */
+static void cooling_viscosity(void **state)
+{
+  (void)state;
+  gg_model m = heated(GG_USF, GG_NO_THERMOSTAT, 0, 0.7, -1, 100000);
+  double nu = gg_model_nu0(&m, 1);
+  lab_mean eta = {0};
+  m.temperature0 = pow(0.004 * nu, -2);
+  for (uint64_t seed = 0; seed < 20; seed++) {
+    gg_engine *g = lab_engine(&m, 300 + seed);
+    double sum = 0, weight = 0, a = 0;
+    while (a < 0.06) {
+      lab_advance(g, INFINITY, (uint64_t)m.n / 4);
+      lab_view v = lab_snapshot(g);
+      double T = lab_temperature(&v);
+      a = 1 / (nu * sqrt(T));
+      if (a < 0.02) continue; /* memory of the start, and nothing but noise */
+      sum += -v.cc[0][1] / v.n / T * a;
+      weight += a * a;
+    }
+    lab_add(&eta, sum / weight);
+    gg_dsmc_ops.destroy(g);
+  }
+  double c = 2 * 16 * 0.3 * (1 - 0.98) / (81 - 17 * 0.7 + 30 * 0.49 * 0.3), zeta = 5. / 12 * 0.51 * (1 + 3. / 32 * c);
+  lab_expect("eta/eta_0, cooling, e .7", &eta, 1 / ((1 - 0.25 * 0.09) * (1 - c / 64) - 0.5 * zeta), 0.008, 0.06);
+}
+
 /* Elastic perfectly rough spheres, dilute: Pidduck's viscosity (1922), eta_0 6 (1+K)^2/(6 + 13 K), supposes isotropic
  * spins. Shear makes them anisotropic, which adds a factor 1/(1 - r_cs r_sc/(r_cc r_ss)) (Condiff, Lu & Dahler, J.
  * Chem. Phys. 42 (1965) 3445): 1.0535 at K = 0.4, from a Monte Carlo evaluation of the four relaxation rates of C_x C_y
@@ -115,8 +144,8 @@ static void stays_put(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian), cmocka_unit_test(white_noise),
-                                     cmocka_unit_test(heated_viscosity), cmocka_unit_test(rough_viscosity),
-                                     cmocka_unit_test(stays_put)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian),         cmocka_unit_test(white_noise),
+                                     cmocka_unit_test(heated_viscosity), cmocka_unit_test(cooling_viscosity),
+                                     cmocka_unit_test(rough_viscosity),  cmocka_unit_test(stays_put)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
