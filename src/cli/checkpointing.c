@@ -40,7 +40,7 @@ void gg_checkpointing_tell_interrupted(const gg_checkpointing *c, gg_error *err)
     gg_fail(err, GG_INTERRUPTED, "interrupted; nothing was written%s",
             c->scene->output.checkpoint_every > 0 ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)");
   else if (c->options->resume)
-    gg_fail(err, GG_INTERRUPTED, "interrupted; the checkpoint is %s", c->path);
+    gg_fail(err, GG_INTERRUPTED, "interrupted; go on with the same command and --resume %s", c->path);
   else
     gg_fail(err, GG_INTERRUPTED, "interrupted; go on with: %.700s --resume %s", c->options->command_line, c->path);
 }

@@ -7,7 +7,9 @@ enum {
 const gg_command gg_commands[] = {
     {"compare", "SCENE.yaml", "Both engines and the theories: one table, with standard errors and z-scores",
      "Runs event-driven molecular dynamics (md) and Enskog Monte Carlo (dsmc) on the scene, evaluates every theory\n"
-     "that applies, and prints them side by side. Writes an HDF5 result file and a picture.",
+     "that applies, and prints them side by side. Writes an HDF5 result file and a picture. Checkpoints and --resume "
+     "as\n"
+     "for run.",
      SIMULATES | GG_OPT_PICTURE | GG_OPT_RESUME, gg_cli_compare_main},
     {"run", "SCENE.yaml", "One engine: the scene's, or that of --engine",
      "With output.checkpoint_every above 0 in the scene, a checkpoint is kept beside the result; --resume goes on "

@@ -55,6 +55,22 @@ def test_resumed_run_is_the_same_run():
         check(json.loads(done.out)["results"] == whole["results"], engine)
 
 
+def test_resumed_comparison_is_the_same():
+    """A comparison goes on from both engines' checkpoints."""
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE % 3000 + "dsmc: {particles: 500}\noutput: {checkpoint_every: 0.2}\n")
+    args = ("compare", "scene.yaml", "--json", "--picture", "none")
+    whole = json.loads(run(*args, "--quiet", "--output", "whole.h5").out)
+    code, out, err = interrupted(*args, after=lambda _: os.path.exists("scene.checkpoint.h5"), sig=signal.SIGTERM)
+    if code == 0:
+        return
+    check(code == 130 and "--resume scene.checkpoint.h5" in err, code, err)
+    done = run(*args, "--resume", "scene.checkpoint.h5")
+    check(done.code == 0, done.err)
+    for engine in "md", "dsmc":
+        check(json.loads(done.out)[engine]["results"] == whole[engine]["results"], engine)
+
+
 def test_checkpoint_of_another_scene():
     with open("scene.yaml", "w") as f:
         f.write(SCENE % 1e9 + "output: {checkpoint_every: 0.2}\n")
