@@ -10,6 +10,12 @@
 #include "io/plot.h"
 #include "io/result_file.h"
 
+static void tell(void *context, const char *picture)
+{
+  const gg_options *o = context;
+  if (!o->quiet) fprintf(stderr, "picture: %s\n", picture);
+}
+
 /* A picture that cannot be drawn is no reason to call the comparison failed. */
 static void draw(const gg_options *o, const char *output)
 {
@@ -17,10 +23,10 @@ static void draw(const gg_options *o, const char *output)
   if (o->picture && strcmp(o->picture, "none") == 0) return;
   char *picture = o->picture ? strdup(o->picture) : gg_with_suffix(output, ".svg");
   if (!picture) return;
-  if (gg_plot_result(output, picture, NULL, &err) != GG_OK)
-    fprintf(stderr, "warning: no picture: %s\n", err.message);
-  else if (!o->quiet)
-    fprintf(stderr, "picture: %s\n", picture);
+  bool drawn = gg_plot_result(output, picture, NULL, &err) == GG_OK;
+  if (drawn) tell((void *)(uintptr_t)o, picture);
+  drawn = drawn && gg_plot_result_curves(output, picture, NULL, tell, (void *)(uintptr_t)o, &err) == GG_OK;
+  if (!drawn) fprintf(stderr, "warning: no picture: %s\n", err.message);
   free(picture);
 }
 

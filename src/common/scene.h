@@ -17,7 +17,10 @@ enum { GG_MAX_SPECIES = 2 };
 enum { GG_11, GG_12, GG_22, GG_PAIRS }; /* unordered pairs of species */
 
 /* Observable sets that a scene can ask for under `measure`. */
-enum { GG_MEASURE_RHEOLOGY = 1u };
+enum {
+  GG_MEASURE_RHEOLOGY = 1u << 0,
+  GG_MEASURE_VELOCITY_DISTRIBUTIONS = 1u << 1,
+};
 
 #define GG_AUTO (-1.0) /* a number that the program is to choose */
 

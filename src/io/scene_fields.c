@@ -25,7 +25,10 @@ static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARL
                                          {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
                                          {"kolafa", GG_KOLAFA, "from the accurate equation of state"},
                                          {0}};
-static const gg_word observables[] = {{"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"}, {0}};
+static const gg_word observables[] = {
+    {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
+    {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
+    {0}};
 
 #define AT(member) offsetof(gg_scene, member)
 #define AUTO .special = "auto", .special_value = GG_AUTO

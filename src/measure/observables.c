@@ -1,6 +1,10 @@
 #include "measure/observable.h"
 
-const gg_observable *const gg_observables[] = {&gg_rheology, NULL};
+const gg_observable *const gg_observables[] = {
+    &gg_rheology,
+    &gg_velocity_distributions,
+    NULL,
+};
 
 const gg_quantity gg_history_quantities[GG_N_HISTORY] = {
     GG_Q_TEMPERATURE,
