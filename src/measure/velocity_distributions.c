@@ -67,12 +67,15 @@ static void look(void *self, const gg_snapshot *s, double *bin)
       for (int a = 0; a < 3; a++, bin += BINS) count(s, vector ? s->s[a] : s->c[a], species, bin);
 }
 
-/* Counts at x = 0 from the bins |x| <= 1/4, whose curvature is taken as Gaussian: many times as many counts. */
+/* Counts at x = 0: counts over a Gaussian's in the bins |x| < 1/2 by least squares as A + B x^2, taken at x = 0. */
 static double height(const double *bin)
 {
-  double counts = 0, weights = 0;
-  for (int k = -2; k <= 2; k++) counts += bin[HALF + k], weights += exp(-0.5 * k * k * WIDTH * WIDTH);
-  return counts / weights;
+  double n = 0, x2 = 0, x4 = 0, y = 0, x2y = 0;
+  for (int k = -4; k <= 4; k++) {
+    double xx = k * k * WIDTH * WIDTH, ratio = bin[HALF + k] * exp(xx / 2);
+    n++, x2 += xx, x4 += xx * xx, y += ratio, x2y += xx * ratio;
+  }
+  return (y * x4 - x2 * x2y) / (n * x4 - x2 * x2);
 }
 
 static void put_tail(gg_curve *c, const double *bin, double samples)
