@@ -28,6 +28,8 @@ static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARL
 static const gg_word observables[] = {
     {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
     {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
+    {"orientation", GG_MEASURE_ORIENTATION, "angle between velocity and spin"},
+    {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)

@@ -59,12 +59,12 @@ typedef struct gg_observable {
 } gg_observable;
 
 /* The quantities followed from start to end of a run. */
-enum { GG_N_HISTORY = 8 };
+enum { GG_N_HISTORY = 9 };
 extern const gg_quantity gg_history_quantities[GG_N_HISTORY];
 
 /* Every observable there is; NULL-terminated. */
 extern const gg_observable *const gg_observables[];
 
-extern const gg_observable gg_rheology, gg_velocity_distributions;
+extern const gg_observable gg_rheology, gg_velocity_distributions, gg_orientation, gg_sonine;
 
 #endif

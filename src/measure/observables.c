@@ -1,9 +1,7 @@
 #include "measure/observable.h"
 
 const gg_observable *const gg_observables[] = {
-    &gg_rheology,
-    &gg_velocity_distributions,
-    NULL,
+    &gg_rheology, &gg_velocity_distributions, &gg_orientation, &gg_sonine, NULL,
 };
 
 const gg_quantity gg_history_quantities[GG_N_HISTORY] = {
@@ -15,4 +13,5 @@ const gg_quantity gg_history_quantities[GG_N_HISTORY] = {
     GG_Q_SPIN_Z,
     GG_Q_COLLISION_RATE,
     GG_Q_A2,
+    GG_Q_COS2_PSI,
 };
