@@ -30,6 +30,8 @@ static const gg_word observables[] = {
     {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
     {"orientation", GG_MEASURE_ORIENTATION, "angle between velocity and spin"},
     {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
+    {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
+    {"velocity_correlations", GG_MEASURE_VELOCITY_CORRELATIONS, "between grains, over their distance"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)

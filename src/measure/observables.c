@@ -1,7 +1,13 @@
 #include "measure/observable.h"
 
 const gg_observable *const gg_observables[] = {
-    &gg_rheology, &gg_velocity_distributions, &gg_orientation, &gg_sonine, NULL,
+    &gg_rheology, /* stays first: it tells when a run is steady */
+    &gg_velocity_distributions,
+    &gg_orientation,
+    &gg_sonine,
+    &gg_pair_correlation,
+    &gg_velocity_correlations,
+    NULL,
 };
 
 const gg_quantity gg_history_quantities[GG_N_HISTORY] = {
