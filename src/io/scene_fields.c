@@ -32,6 +32,7 @@ static const gg_word observables[] = {
     {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
     {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
     {"velocity_correlations", GG_MEASURE_VELOCITY_CORRELATIONS, "between grains, over their distance"},
+    {"structure", GG_MEASURE_STRUCTURE, "structure factor and velocity spectra"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)

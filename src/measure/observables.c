@@ -7,6 +7,7 @@ const gg_observable *const gg_observables[] = {
     &gg_sonine,
     &gg_pair_correlation,
     &gg_velocity_correlations,
+    &gg_structure,
     NULL,
 };
 
