@@ -33,6 +33,7 @@ static const gg_word observables[] = {
     {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
     {"velocity_correlations", GG_MEASURE_VELOCITY_CORRELATIONS, "between grains, over their distance"},
     {"structure", GG_MEASURE_STRUCTURE, "structure factor and velocity spectra"},
+    {"cells", GG_MEASURE_CELLS, "local density, shear rate, temperatures, spin"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)

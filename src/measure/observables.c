@@ -8,6 +8,7 @@ const gg_observable *const gg_observables[] = {
     &gg_pair_correlation,
     &gg_velocity_correlations,
     &gg_structure,
+    &gg_cells,
     NULL,
 };
 
