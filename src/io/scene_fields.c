@@ -34,6 +34,7 @@ static const gg_word observables[] = {
     {"velocity_correlations", GG_MEASURE_VELOCITY_CORRELATIONS, "between grains, over their distance"},
     {"structure", GG_MEASURE_STRUCTURE, "structure factor and velocity spectra"},
     {"cells", GG_MEASURE_CELLS, "local density, shear rate, temperatures, spin"},
+    {"profiles", GG_MEASURE_PROFILES, "across the gap between walls"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)

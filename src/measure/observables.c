@@ -9,6 +9,7 @@ const gg_observable *const gg_observables[] = {
     &gg_velocity_correlations,
     &gg_structure,
     &gg_cells,
+    &gg_profiles,
     NULL,
 };
 
