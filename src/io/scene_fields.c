@@ -35,6 +35,7 @@ static const gg_word observables[] = {
     {"structure", GG_MEASURE_STRUCTURE, "structure factor and velocity spectra"},
     {"cells", GG_MEASURE_CELLS, "local density, shear rate, temperatures, spin"},
     {"profiles", GG_MEASURE_PROFILES, "across the gap between walls"},
+    {"diffusion", GG_MEASURE_DIFFUSION, "velocity autocorrelation, mean-square displacement"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)

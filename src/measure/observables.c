@@ -10,6 +10,7 @@ const gg_observable *const gg_observables[] = {
     &gg_structure,
     &gg_cells,
     &gg_profiles,
+    &gg_diffusion,
     NULL,
 };
 

@@ -42,9 +42,9 @@ static inline gg_curves ct_curves(const gg_observable *o, const gg_model *m, int
   void *self = o->create(m, NULL);
   assert_non_null(self);
   assert_int_equal(gg_snapshot_init(&s, m, o->positions && !m->homogeneous, NULL), GG_OK);
-  for (size_t i = 0; i < s.n; i++) {
-    if (s.species) s.species[i] = (int64_t)i >= m->n_of[0];
-    if (s.id) s.id[i] = (int64_t)i;
+  for (size_t i = 0; i < s.n; i++) { /* species and numbers in no order; 7919 is prime, and no factor of any n here */
+    if (s.species) s.species[i] = (int64_t)(i * 7919 % s.n) >= m->n_of[0];
+    if (s.id) s.id[i] = (int64_t)((i * 7919 + 5) % s.n);
   }
   assert_int_equal(gg_bins_init(&bins, o->bins(self), NULL), GG_OK);
   if (o->restart) o->restart(self);
