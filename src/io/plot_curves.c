@@ -60,7 +60,7 @@ void gg_plot_curves_size(const json_t *document, const char *group, int size[2])
   panel panels[MOST_PANELS];
   int n = panels_of(document, group, panels), columns = n ? columns_for(n) : 1;
   size[0] = columns == 1 ? 640 : 440 * columns;
-  size[1] = 50 + 350 * (n ? (n + columns - 1) / columns : 1);
+  size[1] = 50 + 370 * (n ? (n + columns - 1) / columns : 1);
 }
 
 static double at(const json_t *curve, const char *key, size_t i)
@@ -69,17 +69,27 @@ static double at(const json_t *curve, const char *key, size_t i)
   return json_is_number(x) ? json_number_value(x) : NAN;
 }
 
-/* Points whose error swamps them would only hide the others on a logarithmic axis. */
-static void print_data(FILE *s, int k, const json_t *curve)
+/* The part of a curve between its first and last points other than zero: histograms have empty ends. */
+static void find_ends(const json_t *curve, size_t *from, size_t *to)
+{
+  *from = 0, *to = json_array_size(json_object_get(curve, "x"));
+  while (*from < *to && at(curve, "value", *from) == 0) ++*from;
+  while (*to > *from && at(curve, "value", *to - 1) == 0) --*to;
+}
+
+/* Errors beyond the point itself would only hide other curves on a logarithmic axis. */
+static void print_data(FILE *s, int k, const json_t *curve, double range[2])
 {
   bool log_x = json_is_true(json_object_get(curve, "log_x")), log_y = json_is_true(json_object_get(curve, "log_y"));
-  size_t n = json_array_size(json_object_get(curve, "x"));
+  size_t from, to;
+  find_ends(curve, &from, &to);
   fprintf(s, "$curve%d << EOD\n", k);
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = from; i < to; i++) {
     double x = at(curve, "x", i), y = at(curve, "value", i), e = at(curve, "stderr", i);
     if (!isfinite(y) || (log_x && x <= 0) || (log_y && y <= 0)) continue;
     double band = isfinite(e) ? e : 0, low = y - band;
     if (log_y && low < 0.1 * y) low = 0.1 * y;
+    range[0] = fmin(range[0], low), range[1] = fmax(range[1], y + band);
     fprintf(s, "%.7g %.7g %.7g %.7g\n", x, y, low, y + band);
   }
   fprintf(s, "EOD\n");
@@ -99,13 +109,16 @@ static void draw_panel(FILE *s, const panel *p, gg_panel place)
 {
   const json_t *first = p->curve[0];
   gg_plot_place(s, place);
-  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k]);
+  double range[2] = {INFINITY, -INFINITY};
+  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], range);
+  if (range[0] >= 0 && range[0] < 0.3 * range[1]) fprintf(s, "set yrange [0:*]\n");
   if (json_is_true(json_object_get(first, "log_x"))) fprintf(s, "set logscale x\n");
-  if (json_is_true(json_object_get(first, "log_y"))) fprintf(s, "set logscale y\nset format y '10^{%%T}'\n");
+  if (json_is_true(json_object_get(first, "log_y")))
+    fprintf(s, "set yrange [*:*]\nset logscale y\nset format y '10^{%%T}'\n");
   axis_label(s, 'x', text_of(first, "x_name"), text_of(first, "x_unit"));
   axis_label(s, 'y', text_of(first, "y_name"), text_of(first, "unit"));
-  fprintf(s, "set label '%s' at graph 0,1.06 left\n", p->title);
-  fprintf(s, p->n > 1 ? "set key top right samplen 1 spacing 0.9\n" : "unset key\n");
+  fprintf(s, "set label '%s' at graph 0,1.21 left\n", p->title);
+  fprintf(s, p->n > 1 ? "set key at graph 1.0,1.16 right top horizontal samplen 1\n" : "unset key\n");
   fprintf(s, "plot ");
   for (int k = 0; k < p->n; k++) {
     const char *colour = gg_plot_colours[k % GG_PLOT_COLOURS];
@@ -124,7 +137,7 @@ void gg_plot_curves(FILE *s, const json_t *document, const char *group)
   int size[2], columns = columns_for(n), rows = (n + columns - 1) / columns;
   gg_plot_curves_size(document, group, size);
   double width = 1.0 / columns, head = 50.0 / size[1], height = (1 - head) / rows;
-  double left = columns == 1 ? 90.0 / size[0] : 80.0 / size[0], below = 58.0 / size[1], above = 32.0 / size[1];
+  double left = columns == 1 ? 90.0 / size[0] : 80.0 / size[0], below = 58.0 / size[1], above = 62.0 / size[1];
   for (int i = 0; i < n; i++) {
     double x = (i % columns) * width, y = 1 - head - (i / columns + 1) * height;
     draw_panel(s, &panels[i], (gg_panel){x + left, x + width - 20.0 / size[0], y + below, y + height - above});

@@ -8,7 +8,7 @@
 
 #include "measure/observable.h"
 
-enum { BINS = 70, FOURTH = BINS, SHARE, SET };
+enum { BINS = 60, FOURTH = BINS, SHARE, SET };
 #define WIDTH 0.05
 
 typedef struct sonine {
