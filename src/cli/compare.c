@@ -12,8 +12,7 @@
 
 static void tell(void *context, const char *picture)
 {
-  const gg_options *o = context;
-  if (!o->quiet) fprintf(stderr, "picture: %s\n", picture);
+  gg_tell_written(context, "picture", picture, false);
 }
 
 /* A picture that cannot be drawn is no reason to call the comparison failed. */
@@ -23,8 +22,9 @@ static void draw(const gg_options *o, const char *output)
   if (o->picture && strcmp(o->picture, "none") == 0) return;
   char *picture = o->picture ? strdup(o->picture) : gg_with_suffix(output, ".svg");
   if (!picture) return;
+  bool replaced = gg_file_exists(picture);
   bool drawn = gg_plot_result(output, picture, NULL, &err) == GG_OK;
-  if (drawn) tell((void *)(uintptr_t)o, picture);
+  if (drawn) gg_tell_written(o, "picture", picture, replaced);
   drawn = drawn && gg_plot_result_curves(output, picture, NULL, tell, (void *)(uintptr_t)o, &err) == GG_OK;
   if (!drawn) fprintf(stderr, "warning: no picture: %s\n", err.message);
   free(picture);
@@ -38,9 +38,9 @@ static int finish(const gg_options *o, const char *output, gg_comparison *c, gg_
   } else {
     gg_print_comparison(c, o->all);
   }
+  bool replaced = gg_file_exists(output);
   if (gg_result_file_finish_comparison(file, c, &err) != GG_OK) return gg_cli_report(&err);
-  fflush(stdout);
-  if (!o->quiet) fprintf(stderr, "results: %s\n", output);
+  gg_tell_written(o, "results", output, replaced);
   draw(o, output);
   return GG_OK;
 }
@@ -52,6 +52,8 @@ static int compare(const gg_options *o, const gg_scene *scene, const char *outpu
   gg_result_file file;
   gg_cli_progress progress;
   if (gg_check_writable(output, &err) != GG_OK) return gg_cli_report(&err);
+  if (scene->output.checkpoint_every > 0 || scene->output.trajectory_every > 0)
+    fprintf(stderr, "warning: compare keeps no checkpoints and no trajectory; graingas run does\n");
   gg_cli_progress_start(&progress, o->quiet);
   gg_cli_catch_interrupts();
   gg_hooks hooks = {&progress, gg_cli_progress_show, gg_cli_interrupted, NULL, NULL};
@@ -83,8 +85,8 @@ int gg_cli_compare_main(const gg_command *command, int argc, char **argv)
     code =
         gg_cli_fail(GG_BAD_INPUT, "compare keeps no checkpoints; resume one engine's run with graingas run --resume");
   if (code == GG_CLI_GO_ON && gg_options_scene(&o, &draft, &err) != GG_OK) code = gg_cli_report(&err);
-  char *output = code == GG_CLI_GO_ON ? gg_options_output(&o, ".h5") : NULL;
-  if (code == GG_CLI_GO_ON) code = output ? compare(&o, &draft.scene, output) : gg_cli_fail(GG_FAILED, "out of memory");
+  char *output = code == GG_CLI_GO_ON ? gg_options_output(&o, ".h5", &err) : NULL;
+  if (code == GG_CLI_GO_ON) code = output ? compare(&o, &draft.scene, output) : gg_cli_report(&err);
   free(output);
   gg_options_clear(&o);
   return code;

@@ -1,10 +1,12 @@
 /* graingas info: every key of a scene and what it switches on and off, or what a result file holds. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/options.h"
 #include "cli/report.h"
+#include "cli/table.h"
 #include "common/engine.h"
 #include "io/result_reader.h"
 #include "io/scene_json.h"
@@ -62,27 +64,72 @@ static int inform_scene(const gg_options *o)
   return GG_OK;
 }
 
-static double number(const json_t *object, const char *key)
+static void put_estimate(gg_table *t, int row, int column, const json_t *estimate)
 {
-  return json_number_value(json_object_get(object, key));
+  json_t *mean = json_object_get(estimate, "mean"), *error = json_object_get(estimate, "stderr");
+  if (json_is_number(mean))
+    gg_format_estimate(json_number_value(mean), json_is_number(error) ? json_number_value(error) : NAN,
+                       gg_table_cell(t, row, column), GG_TABLE_CELL);
 }
 
-static void print_results(const gg_stored_engine *e)
+/* The means of both engines side by side; what cannot be had is left out. */
+static void print_means(const gg_stored_result *stored)
 {
-  const char *name, *verdict = json_string_value(json_object_get(e->document, "verdict"));
-  json_t *estimate, *warning;
-  size_t i;
-  printf("\n%s: %s\n", e->name, verdict ? verdict : "");
-  json_object_foreach(json_object_get(e->document, "results"), name, estimate)
-  {
-    char text[64] = "cannot be had";
-    json_t *mean = json_object_get(estimate, "mean");
-    if (json_is_number(mean))
-      gg_format_estimate(json_number_value(mean), number(estimate, "stderr"), text, sizeof text);
-    printf("  %-26s %-22s %s\n", name, text, json_string_value(json_object_get(estimate, "unit")));
+  int column[2] = {-1, -1};
+  gg_table *t = gg_table_new();
+  if (!t) return;
+  gg_table_column(t, "quantity", false);
+  for (int k = 0; k < 2; k++)
+    if (stored->engine[k].name) column[k] = gg_table_column(t, stored->engine[k].name, true);
+  int unit = gg_table_column(t, "unit", false);
+  for (int q = 0; q < GG_N_QUANTITIES; q++) {
+    int row = -1;
+    for (int k = 0; k < 2; k++) {
+      const json_t *results = column[k] < 0 ? NULL : json_object_get(stored->engine[k].document, "results");
+      const json_t *estimate = json_object_get(results, gg_quantity_name((gg_quantity)q));
+      if (!json_is_number(json_object_get(estimate, "mean"))) continue;
+      if (row < 0) row = gg_table_row(t);
+      put_estimate(t, row, column[k], estimate);
+      snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", gg_quantity_name((gg_quantity)q));
+      snprintf(gg_table_cell(t, row, unit), GG_TABLE_CELL, "%s", json_string_value(json_object_get(estimate, "unit")));
+    }
   }
-  json_array_foreach(json_object_get(e->document, "warnings"), i, warning)
-      printf("  warning: %s\n", json_string_value(warning));
+  printf("\n");
+  gg_table_print(t, stdout, 1000, 1);
+  free(t);
+}
+
+static void print_verdict(const gg_stored_engine *e)
+{
+  const char *verdict = json_string_value(json_object_get(e->document, "verdict"));
+  json_t *warning;
+  size_t i;
+  bool steady = json_is_true(json_object_get(e->document, "steady"));
+  printf("\n%s: %s: %s\n", e->name, steady ? "steady" : "not steady", verdict ? verdict : "");
+  json_array_foreach(json_object_get(e->document, "warnings"), i, warning) printf("  %s\n", json_string_value(warning));
+}
+
+/* Series, frames and theories: what there is to plot or to read with other tools. */
+static void print_contents(const gg_stored_result *stored)
+{
+  const char *name;
+  json_t *theory;
+  printf("\nalso in the file:\n");
+  for (int k = 0; k < 2; k++) {
+    const gg_stored_engine *e = &stored->engine[k];
+    if (e->n_series)
+      printf("  %s series of %zu samples, averaged from %g to %g:", e->name, e->series[0].n, e->window[0],
+             e->window[1]);
+    for (int i = 0; i < e->n_series; i++) printf(" %s", e->series[i].name);
+    if (e->n_series) printf("\n");
+  }
+  if (stored->n_frames)
+    printf("  %zu frame%s of %zu grains (/particles/grains)\n", stored->n_frames, stored->n_frames > 1 ? "s" : "",
+           stored->n_grains);
+  int n = 0;
+  json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
+      printf("%s%s", n++ ? ", " : "  theories: ", name);
+  if (n) printf("\n");
 }
 
 static int inform_result(const gg_options *o)
@@ -96,8 +143,10 @@ static int inform_result(const gg_options *o)
     printf("%s: %s by graingas %s\ncommand: %s\ndate:    %s\nmachine: %s\n\nscene:\n%s", o->input,
            stored.comparison ? "a comparison" : "a run", stored.version, stored.command, stored.date, stored.machine,
            stored.scene);
+    print_means(&stored);
     for (int k = 0; k < 2; k++)
-      if (stored.engine[k].name) print_results(&stored.engine[k]);
+      if (stored.engine[k].name) print_verdict(&stored.engine[k]);
+    print_contents(&stored);
   }
   gg_stored_result_clear(&stored);
   return GG_OK;

@@ -67,6 +67,33 @@ static void print_quantities(void)
     item(gg_quantity_name((gg_quantity)q), NULL, gg_quantity_doc((gg_quantity)q));
 }
 
+static void print_files(void)
+{
+  static const struct {
+    const char *name, *argument, *text;
+  } files[] = {
+      {"RESULT.h5", NULL,
+       "HDF5 in the layout of H5MD 1.1, written whole or not at all. A comparison holds both engines: what stands "
+       "under "
+       "/graingas/results in a run is under /graingas/md/results and /graingas/dsmc/results there, and its series are "
+       "called md_... and dsmc_..."},
+      {"/particles/grains", NULL,
+       "box, position, velocity (peculiar), spin, species, id: the last state, or every output.trajectory_every "
+       "collisions per grain. Edges of a sheared box lean with its sliding images."},
+      {"/observables", "QUANTITY", "step, time and value from the start of the run."},
+      {"/graingas/results", "QUANTITY", "mean, stderr, unit, samples, correlation_time."},
+      {"/graingas/theory", "NAME/QUANTITY", "mean and unit."},
+      {"/graingas", NULL,
+       "scene (YAML), document (the JSON of --json), seed, version, command, machine, date, verdict, warnings, window, "
+       "averaging and total effort."},
+      {"RESULT.checkpoint.h5", NULL,
+       "A checkpoint, with a checksum; RESULT.checkpoint.h5.1 is the one before it, and is taken where the first is "
+       "missing or damaged."},
+  };
+  printf(".SH FILES\n");
+  for (size_t i = 0; i < sizeof files / sizeof *files; i++) item(files[i].name, files[i].argument, files[i].text);
+}
+
 void gg_cli_print_manual(void)
 {
   printf(".TH GRAINGAS 1 \"\" \"graingas %s\" \"User Commands\"\n", gg_version());
@@ -105,6 +132,7 @@ void gg_cli_print_manual(void)
              gg_theories[i]->assumptions);
     item(gg_theories[i]->name, NULL, text);
   }
+  print_files();
   printf(".SH EXIT STATUS\n");
   item("0", NULL, "Done.");
   item("1", NULL, "The run failed or fell short of what was asked.");

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "io/nearest.h"
 
@@ -177,9 +178,31 @@ char *gg_with_suffix(const char *path, const char *suffix)
   return asprintf(&result, "%.*s%s", (int)length, path, suffix) < 0 ? NULL : result;
 }
 
-char *gg_options_output(const gg_options *o, const char *suffix)
+static bool same_file(const char *a, const char *b)
 {
-  if (o->output) return strdup(o->output);
+  struct stat one, two;
+  return stat(a, &one) == 0 && stat(b, &two) == 0 && one.st_dev == two.st_dev && one.st_ino == two.st_ino;
+}
+
+char *gg_options_output(const gg_options *o, const char *suffix, gg_error *err)
+{
   const char *slash = strrchr(o->input, '/');
-  return gg_with_suffix(slash ? slash + 1 : o->input, suffix);
+  char *output = o->output ? strdup(o->output) : gg_with_suffix(slash ? slash + 1 : o->input, suffix);
+  if (!output) gg_fail(err, GG_FAILED, "out of memory");
+  if (!output || !same_file(output, o->input)) return output;
+  gg_fail(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);
+  free(output);
+  return NULL;
+}
+
+bool gg_file_exists(const char *path)
+{
+  struct stat about;
+  return stat(path, &about) == 0;
+}
+
+void gg_tell_written(const gg_options *o, const char *what, const char *path, bool replaced)
+{
+  fflush(stdout);
+  if (!o->quiet) fprintf(stderr, "%s: %s%s\n", what, path, replaced ? " (in place of an older one)" : "");
 }

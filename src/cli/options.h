@@ -47,8 +47,12 @@ void gg_options_clear(gg_options *options);
 /* The scene of the input, overridden and complete. */
 gg_status gg_options_scene(const gg_options *options, gg_scene_draft *draft, gg_error *err);
 
-/* --output, or the input's base name with `suffix` in the current folder; to be freed. */
-char *gg_options_output(const gg_options *options, const char *suffix);
+/* --output, or the input's base name with `suffix` in the current folder; to be freed. NULL with the message when that
+ * is the input itself. */
+char *gg_options_output(const gg_options *options, const char *suffix, gg_error *err);
+/* "results: usf.h5", and whether an older one was there. */
+void gg_tell_written(const gg_options *options, const char *what, const char *path, bool replaced);
+bool gg_file_exists(const char *path);
 /* `path` with another ending; to be freed. */
 char *gg_with_suffix(const char *path, const char *suffix);
 

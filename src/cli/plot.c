@@ -18,8 +18,8 @@ static int draw(const gg_options *o)
   gg_error err;
   char suffix[8];
   snprintf(suffix, sizeof suffix, ".%s", o->format ? o->format : "svg");
-  char *picture = o->output ? strdup(o->output) : gg_with_suffix(o->input, suffix);
-  if (!picture) return gg_cli_fail(GG_FAILED, "out of memory");
+  char *picture = gg_options_output(o, suffix, &err);
+  if (!picture) return gg_cli_report(&err);
   int code = gg_plot_result(o->input, picture, o->format, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
   if (code == GG_OK) tell(NULL, picture);
   if (code == GG_OK && gg_plot_result_curves(o->input, picture, o->format, tell, NULL, &err) != GG_OK)

@@ -7,6 +7,7 @@
 #include "cli/table.h"
 #include "io/document.h"
 #include "io/text.h"
+#include "run/agreement.h"
 
 void gg_cli_print_document(json_t *document)
 {
@@ -142,7 +143,7 @@ static void put_engines(gg_table *t, int row, const gg_comparison *c, gg_quantit
   if (md) put_mean(t, row, column++, md, q);
   if (dsmc) put_mean(t, row, column++, dsmc, q);
   double z = has(md, q) && has(dsmc, q) ? gg_z_score(&md->value[q], &dsmc->value[q]) : NAN;
-  if (isfinite(z)) snprintf(gg_table_cell(t, row, column), GG_TABLE_CELL, "%+.1f", z);
+  if (isfinite(z)) snprintf(gg_table_cell(t, row, column), GG_TABLE_CELL, "%+.1f%s", z, gg_disagree(c, q) ? "!" : " ");
 }
 
 static gg_table *tabulate(const gg_comparison *c, bool engines, bool all, int *n_theories)
@@ -167,6 +168,18 @@ static gg_table *tabulate(const gg_comparison *c, bool engines, bool all, int *n
       if (column[k] >= 0) put_theory(t, row, column[k], c, k, q);
   }
   return t;
+}
+
+/* What stands behind the marked z-scores. */
+static void print_causes(const gg_comparison *c, bool all)
+{
+  const char *cause[8];
+  int marked = 0;
+  for (int q = 0; q < GG_N_QUANTITIES; q++) marked += shown(c, (gg_quantity)q, all) && gg_disagree(c, (gg_quantity)q);
+  if (!marked) return;
+  printf("\n!: md and dsmc differ by more than is expected here. Causes that apply to this scene:\n");
+  int n = gg_causes_of_disagreement(c, cause, 8);
+  for (int i = 0; i < n; i++) gg_print_wrapped(stdout, "  - ", cause[i], 98);
 }
 
 static void print_inapplicable(const gg_comparison *c)
@@ -198,7 +211,9 @@ void gg_print_comparison(const gg_comparison *c, bool all)
   printf("\n(..): standard error of the last digits");
   if (both) printf("; z: (md - dsmc) over their combined standard error");
   if (n_theories && against) printf(";%s%%: deviation of a theory from %s", both ? "\n" : " ", against->engine);
-  printf("\n\n");
+  printf("\n");
+  print_causes(c, all);
+  printf("\n");
   for (int k = 0; k < 2; k++) {
     if (c->by_engine[k]) print_effort(c->by_engine[k]);
     if (c->refusal[k][0]) printf("%-5s not run: %s\n", gg_engine_ops_of((gg_engine_kind)k)->name, c->refusal[k]);

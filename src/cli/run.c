@@ -46,9 +46,9 @@ static int finish(running *r, const gg_result *result)
   } else {
     gg_print_run(result, r->options->all);
   }
+  bool replaced = gg_file_exists(r->output);
   if (gg_result_file_finish_run(&r->file, result, &err) != GG_OK) return gg_cli_report(&err);
-  fflush(stdout);
-  if (!r->options->quiet) fprintf(stderr, "results: %s\n", r->output);
+  gg_tell_written(r->options, "results", r->output, replaced);
   return GG_OK;
 }
 
@@ -105,9 +105,10 @@ int gg_cli_run_main(const gg_command *command, int argc, char **argv)
   if (code == GG_CLI_GO_ON && gg_options_scene(&o, &draft, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON && o.resume) code = read_checkpoint(&o, &archive);
   if (code == GG_CLI_GO_ON) {
-    running r = {.options = &o, .scene = &draft.scene, .output = gg_options_output(&o, ".h5")};
+    running r = {.options = &o, .scene = &draft.scene, .output = gg_options_output(&o, ".h5", &err)};
     r.checkpoint = r.output ? gg_checkpoint_path(r.output) : NULL;
-    code = r.checkpoint ? execute(&r, o.resume ? &archive : NULL) : gg_cli_fail(GG_FAILED, "out of memory");
+    if (r.output && !r.checkpoint) gg_fail(&err, GG_FAILED, "out of memory");
+    code = r.checkpoint ? execute(&r, o.resume ? &archive : NULL) : gg_cli_report(&err);
     free(r.output);
     free(r.checkpoint);
   }

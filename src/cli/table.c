@@ -99,3 +99,18 @@ int gg_terminal_width(void)
   if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col >= 40) return window.ws_col;
   return 100;
 }
+
+void gg_print_wrapped(FILE *out, const char *lead, const char *text, int width)
+{
+  int indent = (int)strlen(lead), used = fprintf(out, "%s", lead);
+  while (*text) {
+    int word = (int)strcspn(text, " ");
+    if (used > indent && used + 1 + word > width) {
+      fprintf(out, "\n%*s", indent, "");
+      used = indent;
+    }
+    used += fprintf(out, "%s%.*s", used > indent ? " " : "", word, text);
+    text += word + (text[word] == ' ');
+  }
+  fputc('\n', out);
+}

@@ -17,7 +17,9 @@ gg_status gg_dsmc_alloc(const gg_model *model, gg_dsmc **d, gg_error *err)
     free(made);
     return status;
   }
-  made->path = gg_path_choose(&made->ensemble);
+  for (int i = 0; i < model->n_species; i++)
+    for (int j = i; j < model->n_species; j++)
+      made->path[gg_pair_index(i, j)] = gg_path_choose(&made->ensemble.of[i], &made->ensemble.of[j]);
   *d = made;
   return GG_OK;
 }

@@ -1,23 +1,14 @@
 /* The collision step on blocks: two random blocks, the lanes of one against those of the other in a random order, eight
- * candidates at once. Compiled once for each set of instructions (GG_INSTRUCTIONS names it); all leave the same bits.
- *
- * Selection. A pair's rate integrated over directions is pi sigma^2 chi/V times
- *   without shear between the centres:  |C12|, and then k falls by the cosine law about C12;
- *   with it:  at most |C12| + s0, s0 = (8/3 pi) sigma rate, since g_n <= max(0, k.C12) + sigma rate |k_x k_y|; k falls
- * by the cosine law with the share of the first, by the law |k_x k_y| with that of the second, and is then kept with
- *   probability g_n/(max(0, k.C12) + sigma rate |k_x k_y|).
- * One uniform number t in [-s0, bound - s0) serves for all: t < 0 takes the second law, t < |C12| the first, anything
- * more is no collision; and since what is left of t is uniform again, it decides the last choice, too.
- * Cosine law: with w uniform on the sphere, C12 - |C12| w points along such a k and is 2 (k.C12) long (elastic hard
- * spheres scatter isotropically), so smooth grains without shear need no k at all.
+ * candidates at once (block_contact.h). Compiled once for each set of instructions (GG_INSTRUCTIONS names it); all
+ * leave the same bits.
  *
  * Fairness. Each lane of one block meets each lane of the other with probability 1/8, and every pair of grains in
  * different blocks comes up equally often. Pairs within one block, and the last block where it is not full, go through
  * the plain path at the same rate. Half the lanes, at random, change places between the two blocks, so that no two
  * grains stay together. */
 #include "dsmc/collide_blocks.h"
-#include "dsmc/directions.h"
-#include "dsmc/lanes_collision.h"
+
+#include "dsmc/block_contact.h"
 
 enum { AHEAD = 8 }; /* block pairs drawn and prefetched at a time */
 
@@ -26,98 +17,66 @@ typedef struct gg_draw {
   unsigned order[AHEAD];
 } gg_draw;
 
-/* A batch in progress: constants and sums where the compiler can keep them in registers. */
-typedef struct gg_batch {
-  gg_block *one, *two, *spin_one, *spin_two;
-  uint64_t n_one, n_two; /* blocks */
-  gg_contact contact;
-  gg_lane_rng rng;
-  gg_directions uniform, sheared;
-  double bound, offset, s0, shift; /* t = bound (1 + u) + offset */
-  double brim;                     /* C12^2 at which the bound overflows */
-  double drift;
-  uint64_t collisions, overflows;
-  gg_vd worst; /* largest C12^2 */
-  gg_vd loss[GG_PARTS], stress[3][3][GG_PARTS];
-} gg_batch;
+GG_INLINE gg_vd3 load(const gg_block *b, int at)
+{
+  return (gg_vd3){gg_load(b->x + at), gg_load(b->y + at), gg_load(b->z + at)};
+}
 
-/* Part `part` of block a against part `part ^ (r / width)` of block b, its lanes already in order r. */
-GG_INLINE void collide_part(gg_features f, gg_batch *w, gg_block *a, gg_block *b, gg_block *sa, gg_block *sb, int part,
-                            gg_vd3 cb, gg_vd3 spin_b)
+/* Put a part of both blocks back; grains of one species change places in the lanes of `swap`. */
+GG_INLINE void store(bool exchange, gg_mask swap, gg_block *a, gg_block *b, int at, gg_vd3 va, gg_vd3 vb)
+{
+  gg_store(a->x + at, exchange ? gg_select(swap, vb.x, va.x) : va.x);
+  gg_store(a->y + at, exchange ? gg_select(swap, vb.y, va.y) : va.y);
+  gg_store(a->z + at, exchange ? gg_select(swap, vb.z, va.z) : va.z);
+  gg_store(b->x + at, exchange ? gg_select(swap, va.x, vb.x) : vb.x);
+  gg_store(b->y + at, exchange ? gg_select(swap, va.y, vb.y) : vb.y);
+  gg_store(b->z + at, exchange ? gg_select(swap, va.z, vb.z) : vb.z);
+}
+
+GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e, gg_vd3 g, gg_vd3 J)
+{
+  w->collisions += (unsigned)__builtin_popcount(gg_bits(e->hit));
+  if (f.tap == GG_TAP_CLOSED) return;
+  w->loss[part] += gg_where(e->hit, gg_lane_energy_loss(f.rule, &w->contact, g, J, e->gn2));
+  if (f.tap == GG_TAP_LOSS) return;
+  const gg_vd ka[3] = {e->k.x, e->k.y, e->k.z}, Jb[3] = {J.x, J.y, J.z};
+  for (int i = 0; i < 3; i++)
+    for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) w->stress[i][j][part] += gg_where(e->hit, ka[i] * Jb[j]);
+}
+
+/* What is left to do once the impulse is known: turn the spins, push the grains. */
+GG_INLINE void turn(gg_features f, const gg_contact *c, gg_mask swap, gg_block *a, gg_block *b, int at, gg_vd3 spin_b,
+                    gg_vd3 kJ)
+{
+  gg_vd3 turn_a = gg_vd3_scale(gg_all(c->ik1), kJ), turn_b = f.same ? turn_a : gg_vd3_scale(gg_all(c->ik2), kJ);
+  store(f.same, swap, a, b, at, gg_vd3_sub(load(a, at), turn_a), gg_vd3_sub(spin_b, turn_b));
+}
+
+GG_INLINE void push(gg_features f, const gg_contact *c, gg_mask swap, gg_block *a, gg_block *b, int at, gg_vd3 ca,
+                    gg_vd3 cb, gg_vd3 J)
+{
+  gg_vd3 push_a = gg_vd3_scale(gg_all(c->im1), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(c->im2), J);
+  store(f.same, swap, a, b, at, gg_vd3_sub(ca, push_a), gg_vd3_add(cb, push_b));
+}
+
+/* A part of block a against that part of block b in whose lanes `cb` and `spin_b` are in order. */
+GG_INLINE void collide_part(gg_features f, gg_batch *w, uint32_t a, uint32_t b, int part, gg_vd3 cb, gg_vd3 spin_b)
 {
   const gg_contact *c = &w->contact;
-  const bool dense = f.shear == GG_SHEARED_DENSE;
-  const bool needs_k = f.rule != GG_SMOOTH || dense || f.tap == GG_TAP_STRESS;
   const int at = part * GG_WIDTH;
-  gg_vd3 ca = {gg_load(a->x + at), gg_load(a->y + at), gg_load(a->z + at)}, v = gg_vd3_sub(ca, cb);
+  gg_vd3 ca = load(&w->one[a], at), v = gg_vd3_sub(ca, cb);
   if (f.shear != GG_UNSHEARED) v.x -= w->drift * v.y;
-  gg_vd v2 = gg_vd3_dot(v, v);
   gg_vu r = gg_lane_next(&w->rng, part);
-  gg_vd t = gg_lane_one_to_two(r) * w->bound + w->offset;
-  gg_mask hit = gg_less(t * t, v2), special = gg_less(t, gg_all(0));
-  gg_vd speed = gg_sqrt(v2);
-  w->worst = gg_larger(w->worst, v2);
-  unsigned over = gg_bits(gg_less(gg_all(w->brim), v2));
-  if (__builtin_expect(over != 0, 0)) w->overflows += (unsigned)__builtin_popcount(over);
-  if (dense) hit = gg_and_not(hit, special);
-  gg_vd3 d = gg_vd3_sub(v, gg_vd3_scale(speed, gg_directions_take(&w->uniform, hit)));
-  gg_vd3 J, k = d, g = v;
-  gg_vd gn = v2;
-  if (!needs_k) {
-    /* J = jn g_n k, and g_n k = d/2. */
-    J = gg_vd3_scale(gg_all(0.5 * c->jn), d);
-    if (f.tap != GG_TAP_CLOSED) gn = 0.5 * gg_sqrt(gg_vd3_dot(d, d));
-  } else {
-    gg_vd length = gg_sqrt(gg_vd3_dot(d, d));
-    k = gg_vd3_scale(1 / gg_select(gg_less(gg_all(0), length), length, gg_all(1)), d);
-    gn = 0.5 * length;
-    if (dense) {
-      gg_vd3 other = gg_directions_take(&w->sheared, special);
-      k = (gg_vd3){gg_select(special, other.x, k.x), gg_select(special, other.y, k.y),
-                   gg_select(special, other.z, k.z)};
-      gn = gg_vd3_dot(k, v);
-      gg_vd forward = gg_where(gg_less(gg_all(0), gn), gn), shear = w->shift * k.x * k.y;
-      gn -= shear;
-      g.x -= w->shift * k.y;
-      gg_vd most = forward + gg_larger(shear, -shear);
-      gg_vd left = gg_select(special, -t, t), range = gg_select(special, gg_all(w->s0), speed);
-      hit = gg_and(gg_or(hit, special), gg_less(left * most, range * gn));
-    }
-    if (f.rule != GG_SMOOTH) {
-      gg_vd3 spin_a = {gg_load(sa->x + at), gg_load(sa->y + at), gg_load(sa->z + at)};
-      g = gg_vd3_sub(g, gg_vd3_cross(k, gg_vd3_add(spin_a, spin_b)));
-    }
-    J = gg_lane_impulse(f.rule, c, k, g, gn);
-  }
-  if (f.tap != GG_TAP_CLOSED) w->loss[part] += gg_where(hit, gg_lane_energy_loss(f.rule, c, g, J, gn));
-  J = (gg_vd3){gg_where(hit, J.x), gg_where(hit, J.y), gg_where(hit, J.z)};
-  if (f.tap == GG_TAP_STRESS) {
-    const gg_vd ka[3] = {k.x, k.y, k.z}, Jb[3] = {J.x, J.y, J.z};
-    for (int i = 0; i < 3; i++)
-      for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) w->stress[i][j][part] += ka[i] * Jb[j];
-  }
-  w->collisions += (unsigned)__builtin_popcount(gg_bits(hit));
+  gg_encounter e = gg_encounter_of(f, w, v, r);
+  gg_vd3 g = e.g, J = gg_vd3_scale(gg_all(c->jn), e.gn_k);
+  if (f.rule != GG_SMOOTH) g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[a], at), spin_b)));
+  if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, c, e.k, g, e.gn);
+  tally(f, w, part, &e, g, J);
+  J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
   gg_mask swap = gg_low_bit(r);
-  if (f.rule != GG_SMOOTH) {
-    gg_vd3 spin_a = {gg_load(sa->x + at), gg_load(sa->y + at), gg_load(sa->z + at)}, kJ = gg_vd3_cross(k, J);
-    gg_vd3 na = gg_vd3_sub(spin_a, gg_vd3_scale(gg_all(c->ik1), kJ));
-    gg_vd3 nb = gg_vd3_sub(spin_b, gg_vd3_scale(gg_all(c->ik2), kJ));
-    gg_store(sa->x + at, f.same ? gg_select(swap, nb.x, na.x) : na.x);
-    gg_store(sa->y + at, f.same ? gg_select(swap, nb.y, na.y) : na.y);
-    gg_store(sa->z + at, f.same ? gg_select(swap, nb.z, na.z) : na.z);
-    gg_store(sb->x + at, f.same ? gg_select(swap, na.x, nb.x) : nb.x);
-    gg_store(sb->y + at, f.same ? gg_select(swap, na.y, nb.y) : nb.y);
-    gg_store(sb->z + at, f.same ? gg_select(swap, na.z, nb.z) : nb.z);
-  }
+  if (f.rule != GG_SMOOTH) turn(f, c, swap, &w->spin_one[a], &w->spin_two[b], at, spin_b, gg_vd3_cross(e.k, J));
   if (f.shear != GG_UNSHEARED) J.x += w->drift * J.y; /* as stored velocities have it */
-  gg_vd3 push_a = gg_vd3_scale(gg_all(c->im1), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(c->im2), J);
-  gg_vd3 na = gg_vd3_sub(ca, push_a), nb = gg_vd3_add(cb, push_b);
-  gg_store(a->x + at, f.same ? gg_select(swap, nb.x, na.x) : na.x);
-  gg_store(a->y + at, f.same ? gg_select(swap, nb.y, na.y) : na.y);
-  gg_store(a->z + at, f.same ? gg_select(swap, nb.z, na.z) : na.z);
-  gg_store(b->x + at, f.same ? gg_select(swap, na.x, nb.x) : nb.x);
-  gg_store(b->y + at, f.same ? gg_select(swap, na.y, nb.y) : nb.y);
-  gg_store(b->z + at, f.same ? gg_select(swap, na.z, nb.z) : nb.z);
+  push(f, c, swap, &w->one[a], &w->two[b], at, ca, cb, J);
 }
 
 /* Block b with its lanes in order r, in registers. */
@@ -135,27 +94,27 @@ GG_INLINE void collide_blocks(gg_features f, gg_batch *w, uint32_t a, uint32_t b
 {
   const bool spins = f.rule != GG_SMOOTH;
   gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
-  gg_directions_stock(&w->uniform, &w->rng, false);
-  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, true);
+  gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
+  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
   load_in_order(&w->two[b], order, cb);
   if (spins) load_in_order(&w->spin_two[b], order, sb);
-  for (int part = 0; part < GG_PARTS; part++)
-    collide_part(f, w, &w->one[a], &w->two[b], spins ? &w->spin_one[a] : NULL, spins ? &w->spin_two[b] : NULL, part,
-                 cb[part], spins ? sb[part] : cb[part]);
+  for (int part = 0; part < GG_PARTS; part++) collide_part(f, w, a, b, part, cb[part], spins ? sb[part] : cb[part]);
 }
 
-/* Draw the next block pairs and call their memory. */
+/* Draw the next block pairs and call their memory. Each half of a random word gives a block; what is left of the
+ * product after the point is as good as new and gives the order. */
 GG_INLINE void draw(gg_features f, gg_batch *w, gg_draw *next)
 {
-  uint64_t r[GG_LANES] __attribute__((aligned(64))), q[GG_LANES] __attribute__((aligned(64)));
+  uint64_t r[GG_LANES] __attribute__((aligned(64)));
   for (int part = 0; part < GG_PARTS; part++) {
-    *(gg_vu *)&r[part * GG_WIDTH] = gg_lane_next(&w->rng, part);
-    *(gg_vu *)&q[part * GG_WIDTH] = gg_lane_next(&w->rng, part);
+    gg_vu word = gg_lane_next(&w->rng, part);
+    __builtin_memcpy(&r[part * GG_WIDTH], &word, sizeof word);
   }
   for (int i = 0; i < AHEAD; i++) {
-    next->a[i] = (uint32_t)((r[i] >> 32) * w->n_one >> 32);
-    next->b[i] = (uint32_t)((q[i] >> 32) * w->n_two >> 32);
-    next->order[i] = (unsigned)(q[i] & 7);
+    uint64_t a = (r[i] >> 32) * w->n_one, b = (uint32_t)r[i] * w->n_two;
+    next->a[i] = (uint32_t)(a >> 32);
+    next->b[i] = (uint32_t)(b >> 32);
+    next->order[i] = (uint32_t)b >> 29;
     for (int line = 0; line < 3; line++) {
       __builtin_prefetch((const char *)&w->one[next->a[i]] + 64 * line, 1);
       __builtin_prefetch((const char *)&w->two[next->b[i]] + 64 * line, 1);

@@ -5,6 +5,8 @@ gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
   gg_features f = {.rule = gg_rule_of(m->beta[2 * i + j], m->mu[2 * i + j]), .same = i == j};
+  /* Grains that have spins keep them with their velocities, whichever pair of species is smooth. */
+  if (m->rule != GG_SMOOTH && f.rule == GG_SMOOTH) f.rule = GG_ROUGH;
   if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_SHEARED_DILUTE : GG_SHEARED_DENSE;
   if (d->thermostat == GG_GAUSSIAN) f.tap = GG_TAP_LOSS;
   if (d->now.tap) f.tap = m->boltzmann ? GG_TAP_LOSS : GG_TAP_STRESS;
@@ -14,12 +16,11 @@ gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j)
 void gg_dsmc_bounds(gg_dsmc *d)
 {
   const gg_model *m = &d->model;
-  double fastest = gg_ensemble_settle(&d->ensemble, 0, 1, (gg_vec){0, 0, 0}).fastest,
-         thermal = sqrt(d->now.temperature);
+  double thermal = sqrt(d->now.temperature);
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       double shift = m->sigma[2 * i + j] * m->shear_rate;
-      double bound = gg_rate_bound(d->path, gg_dsmc_features(d, i, j), 2 * fastest, shift);
+      double bound = gg_rate_bound(d->path[gg_pair_index(i, j)], gg_dsmc_features(d, i, j), 2 * d->now.fastest, shift);
       gg_majorant_start(&d->now.majorant[gg_pair_index(i, j)], bound, thermal);
     }
 }
@@ -41,14 +42,14 @@ static double candidate_rate(const gg_dsmc *d, gg_features f, int i, int j)
   const gg_model *m = &d->model;
   int o = 2 * i + j;
   double cross_section = m->sigma[o] * m->sigma[o] * m->chi[o] / m->volume;
-  return gg_candidates(d->path, f, &d->ensemble.of[i], &d->ensemble.of[j]) * cross_section;
+  return gg_candidates(d->path[gg_pair_index(i, j)], f, &d->ensemble.of[i], &d->ensemble.of[j]) * cross_section;
 }
 
 static void hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
 {
   gg_dsmc_state *s = &d->now;
   s->collisions += p->collisions;
-  s->candidates += p->candidates * gg_grains_a_candidate(d->path);
+  s->candidates += p->candidates * gg_grains_a_candidate(d->path[pair]);
   s->overflows += p->overflows;
   s->transfer.collisions[pair] += p->collisions;
   s->lost += p->loss;
@@ -62,7 +63,7 @@ static void hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
  * one by one; eight at a time their number would vary too much, and fractions are carried over instead. */
 static uint64_t candidates(gg_dsmc *d, int pair, double mean, bool more)
 {
-  if (d->path == GG_PATH_PLAIN || more) return gg_rng_poisson(&d->now.rng, mean);
+  if (d->path[pair] == GG_PATH_PLAIN || more) return gg_rng_poisson(&d->now.rng, mean);
   double due = d->now.owed[pair] + mean, whole = floor(due);
   d->now.owed[pair] = due - whole;
   return (uint64_t)whole;
@@ -71,10 +72,11 @@ static uint64_t candidates(gg_dsmc *d, int pair, double mean, bool more)
 static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, double span)
 {
   gg_majorant *majorant = &d->now.majorant[gg_pair_index(i, j)];
+  gg_path path = d->path[gg_pair_index(i, j)];
   gg_features f = gg_dsmc_features(d, i, j);
   double thermal = sqrt(d->now.temperature), rate = candidate_rate(d, f, i, j) * dt,
          top = gg_majorant_bound(majorant, thermal);
-  uint64_t window = 1000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 16;
+  uint64_t window = 20000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 3;
   /* A layer above the bound is added for as long as some candidate stood out of it. */
   for (double base = 0, bound = top; bound > 0;) {
     gg_pairing p = pairing_of(d, i, j);
@@ -83,12 +85,12 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
     p.candidates = candidates(d, gg_pair_index(i, j), rate * bound, base > 0);
     p.drift_step = p.candidates ? span / (double)p.candidates : 0;
     p.drift = drift + 0.5 * p.drift_step;
-    gg_collide(d->path, f, &p, &d->now.lanes, &d->now.rng);
+    gg_collide(path, f, &p, &d->now.lanes, &d->now.rng);
     hand_over(d, gg_pair_index(i, j), &p);
-    gg_majorant_learn(majorant, p.worst, thermal, p.candidates * gg_grains_a_candidate(d->path), window);
+    gg_majorant_learn(majorant, p.worst, thermal, p.candidates * gg_grains_a_candidate(path), window);
     base += bound;
-    bound = 1.1 * p.worst - base;
     if (p.worst <= base) break;
+    bound = fmax(1.1 * p.worst, gg_rate_bound(path, f, 2 * d->now.fastest, p.shift)) - base;
   }
 }
 

@@ -55,6 +55,15 @@ GG_INLINE gg_vd3 gg_lane_uniform(gg_lane_rng *r, int p)
   return w;
 }
 
+/* Cosine law about the z axis: k_z^2 is uniform. */
+GG_INLINE gg_vd3 gg_lane_cosine(gg_lane_rng *r, int p)
+{
+  gg_vd3 w;
+  gg_lane_circle(gg_lane_next(r, p), &w.x, &w.y);
+  gg_vd z2 = gg_lane_one_to_two(gg_lane_next(r, p)) - 1, rho = gg_sqrt(1 - z2);
+  return (gg_vd3){w.x * rho, w.y * rho, gg_sqrt(z2)};
+}
+
 /* Density |k_x k_y| on the sphere: z is the median of three uniform numbers on (-1, 1), density 3/4 (1 - z^2), and the
  * squared sine of the azimuth is uniform. */
 GG_INLINE gg_vd3 gg_lane_sheared(gg_lane_rng *r, int p)
@@ -72,8 +81,19 @@ GG_INLINE gg_vd3 gg_lane_sheared(gg_lane_rng *r, int p)
   return k;
 }
 
-/* At least eight in stock; `sheared` is constant. */
-GG_INLINE void gg_directions_stock(gg_directions *d, gg_lane_rng *r, bool sheared)
+typedef enum gg_law { GG_UNIFORM, GG_COSINE, GG_SHEARED } gg_law;
+
+GG_INLINE gg_vd3 gg_lane_direction(gg_law law, gg_lane_rng *r, int p)
+{
+  switch (law) {
+  case GG_UNIFORM: return gg_lane_uniform(r, p);
+  case GG_COSINE: return gg_lane_cosine(r, p);
+  default: return gg_lane_sheared(r, p);
+  }
+}
+
+/* At least eight in stock; `law` is constant. */
+GG_INLINE void gg_directions_stock(gg_directions *d, gg_lane_rng *r, gg_law law)
 {
   if (__builtin_expect(d->n - d->at >= GG_LANES, 1)) return;
   unsigned left = d->n - d->at;
@@ -84,7 +104,7 @@ GG_INLINE void gg_directions_stock(gg_directions *d, gg_lane_rng *r, bool sheare
   }
   for (unsigned i = left; i < left + GG_DIRECTIONS; i += GG_LANES)
     for (int p = 0; p < GG_PARTS; p++) {
-      gg_vd3 w = sheared ? gg_lane_sheared(r, p) : gg_lane_uniform(r, p);
+      gg_vd3 w = gg_lane_direction(law, r, p);
       __builtin_memcpy(&d->x[i + (unsigned)p * GG_WIDTH], &w.x, sizeof w.x);
       __builtin_memcpy(&d->y[i + (unsigned)p * GG_WIDTH], &w.y, sizeof w.y);
       __builtin_memcpy(&d->z[i + (unsigned)p * GG_WIDTH], &w.z, sizeof w.z);

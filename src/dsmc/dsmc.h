@@ -13,14 +13,14 @@
 typedef struct gg_dsmc_state {
   gg_rng rng;
   gg_rng_lanes lanes;
-  double time, temperature; /* temperature: when the ensemble was last settled */
+  double time, temperature, fastest; /* temperature and largest speed: when the ensemble was last settled */
   uint64_t collisions, candidates, overflows;
   double owed[GG_PAIRS]; /* fractions of candidates carried over */
   double drift;          /* rate x time that stored velocities have still to stream */
   double unsettled;      /* time since the ensemble was last settled */
   gg_vec centre;         /* velocity of the centre of mass then */
   gg_time_step step;
-  double lost; /* energy destroyed since the Gaussian thermostat last gave it back */
+  double lost; /* energy destroyed that the Gaussian thermostat has not given back */
   gg_majorant majorant[GG_PAIRS];
   gg_transfer transfer;
   bool tap;
@@ -30,7 +30,7 @@ typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_ensemble ensemble;
-  gg_path path;
+  gg_path path[GG_PAIRS];
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;

@@ -115,6 +115,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   gg_ensemble_scale(&d->ensemble, factor);
   d->now.time /= factor;
   d->now.unsettled /= factor;
+  d->now.fastest *= factor;
   d->now.centre = gg_scale(factor, d->now.centre);
   d->now.temperature *= factor * factor;
   d->now.step = gg_time_step_choose(&d->model, d->now.temperature);

@@ -40,10 +40,19 @@ void gg_sweep_blocks(gg_block *c, size_t n, double drift, double scale, gg_vec c
   sweep(c, n, drift, scale, centre, sums);
 }
 
-gg_path gg_path_choose(const gg_ensemble *e)
+void gg_kick_blocks(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes)
 {
-  for (int i = 0; i < e->n_species; i++)
-    if (e->of[i].n_blocks < 100) return GG_PATH_PLAIN;
+  gg_kicks *kicks = gg_kicks_baseline;
+#ifdef GG_X86_64
+  if (gg_path_runs_here(GG_PATH_AVX2)) kicks = gg_kicks_avx2;
+  if (gg_path_runs_here(GG_PATH_AVX512)) kicks = gg_kicks_avx512;
+#endif
+  kicks(c, n, drift, size, lanes);
+}
+
+gg_path gg_path_choose(const gg_population *one, const gg_population *two)
+{
+  if (one->n_blocks < 100 || two->n_blocks < 100) return GG_PATH_PLAIN;
   gg_path path = GG_PATHS - 1;
   while (!gg_path_runs_here(path)) path--;
   return path;

@@ -15,8 +15,9 @@ typedef enum gg_path {
 const char *gg_path_name(gg_path path);
 /* Can this processor take it? */
 bool gg_path_runs_here(gg_path path);
-/* The fastest one for an ensemble: plain below a hundred blocks a species, where pairs of blocks repeat too soon. */
-gg_path gg_path_choose(const gg_ensemble *e);
+/* The fastest one for a pair of species: plain where either has fewer than a hundred blocks, which would meet again too
+ * soon. */
+gg_path gg_path_choose(const gg_population *one, const gg_population *two);
 
 /* Candidates (plain) or pairs of blocks (else) for every unit of bound x (chi sigma^2/V) x time. */
 double gg_candidates(gg_path path, gg_features f, const gg_population *one, const gg_population *two);

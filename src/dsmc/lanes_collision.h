@@ -4,28 +4,26 @@
 
 #include "dsmc/lanes.h"
 
-/* Impulse from the contact velocity g and gn = k.g (gg_impulse). */
+/* Impulse from the contact velocity g and gn = k.g (gg_impulse): (jn - jt) g_n k + jt g. */
 GG_INLINE gg_vd3 gg_lane_impulse(gg_rule rule, const gg_contact *c, gg_vd3 k, gg_vd3 g, gg_vd gn)
 {
-  gg_vd jn = c->jn * gn;
-  if (rule == GG_SMOOTH) return gg_vd3_scale(jn, k);
-  gg_vd3 gt = gg_vd3_sub(g, gg_vd3_scale(gn, k));
+  if (rule == GG_SMOOTH) return gg_vd3_scale(c->jn * gn, k);
   gg_vd jt = gg_all(c->jt);
   if (rule == GG_FRICTIONAL) {
-    gg_vd gt2 = gg_vd3_dot(gt, gt), limit = c->mu * jn;
+    gg_vd3 gt = gg_vd3_sub(g, gg_vd3_scale(gn, k));
+    gg_vd gt2 = gg_vd3_dot(gt, gt), limit = c->mu * c->jn * gn;
     gg_mask slides = gg_less(limit * limit, jt * jt * gt2); /* never with gt = 0 */
     jt = gg_select(slides, limit / gg_sqrt(gt2), jt);
   }
-  return gg_vd3_add(gg_vd3_scale(jt, gt), gg_vd3_scale(jn, k));
+  return gg_vd3_add(gg_vd3_scale((c->jn - jt) * gn, k), gg_vd3_scale(jt, g));
 }
 
-/* Energy destroyed (gg_energy_loss). */
-GG_INLINE gg_vd gg_lane_energy_loss(gg_rule rule, const gg_contact *c, gg_vd3 g, gg_vd3 J, gg_vd gn)
+/* Energy destroyed, from g_n^2 (gg_energy_loss). */
+GG_INLINE gg_vd gg_lane_energy_loss(gg_rule rule, const gg_contact *c, gg_vd3 g, gg_vd3 J, gg_vd gn2)
 {
-  gg_vd Jn = c->jn * gn;
-  if (rule == GG_SMOOTH) return Jn * (gn - (0.5 * gg_inverse_mr(c)) * Jn);
-  gg_vd Jt2 = gg_vd3_dot(J, J) - Jn * Jn;
-  return gg_vd3_dot(J, g) - 0.5 * (gg_inverse_mr(c) * Jn * Jn + gg_inverse_mt(c) * Jt2);
+  if (rule == GG_SMOOTH) return (c->jn - 0.5 * gg_inverse_mr(c) * c->jn * c->jn) * gn2;
+  gg_vd Jn2 = c->jn * c->jn * gn2, Jt2 = gg_vd3_dot(J, J) - Jn2;
+  return gg_vd3_dot(J, g) - 0.5 * (gg_inverse_mr(c) * Jn2 + gg_inverse_mt(c) * Jt2);
 }
 
 #endif

@@ -7,18 +7,18 @@ void gg_dsmc_settle(gg_dsmc *d)
   gg_dsmc_state *s = &d->now;
   gg_moments m = gg_ensemble_settle(&d->ensemble, s->drift, 1, s->centre);
   s->temperature = m.temperature;
+  s->fastest = m.fastest;
   s->centre = m.centre;
   s->drift = s->unsettled = 0;
   s->step = gg_time_step_choose(&d->model, s->temperature);
 }
 
-static void heat(gg_dsmc *d, double dt, double drift)
+static void heat(gg_dsmc *d, double dt, double drift, double half)
 {
   if (d->thermostat == GG_GAUSSIAN) {
-    gg_thermostat_return(&d->ensemble, drift, d->now.lost);
-    d->now.lost = 0;
+    d->now.lost = -gg_thermostat_return(&d->ensemble, drift, d->now.lost, half);
   } else {
-    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, &d->now.rng);
+    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, &d->now.lanes);
   }
 }
 
@@ -29,9 +29,10 @@ static void collide(gg_dsmc *d, double dt, double drift, double span)
     gg_dsmc_collide(d, dt, drift, span, false);
     return;
   }
+  double lost = d->now.lost;
   /* The second half mirrors the first, so that turns cancel to second order. */
   gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, false);
-  if (d->thermostat != GG_NO_THERMOSTAT) heat(d, dt, drift + 0.5 * span);
+  if (d->thermostat != GG_NO_THERMOSTAT) heat(d, dt, drift + 0.5 * span, d->now.lost - lost);
   gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, true);
 }
 

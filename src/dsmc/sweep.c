@@ -1,11 +1,11 @@
 #include "dsmc/sweep.h"
 
-#include "dsmc/lanes.h"
+#include "dsmc/normal.h"
 
-#define NAME_OF(instructions) gg_sweep_##instructions
-#define NAME(instructions) NAME_OF(instructions)
+#define NAME_OF(name, instructions) name##_##instructions
+#define NAME(name, instructions) NAME_OF(name, instructions)
 
-void NAME(GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums)
+void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums)
 {
   for (int at = 0; at < GG_LANES; at += GG_WIDTH) {
     gg_vd sx = gg_all(0), sy = sx, sz = sx, s2 = sx, fastest = sx;
@@ -31,4 +31,21 @@ void NAME(GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double scale, gg
       if (fastest[l] > sums->fastest[at + l]) sums->fastest[at + l] = fastest[l];
     }
   }
+}
+
+void NAME(gg_kicks, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes)
+{
+  gg_lane_rng rng;
+  gg_lane_rng_load(&rng, lanes);
+  for (gg_block *b = c; b < c + n; b++)
+    for (int part = 0; part < GG_PARTS; part++) {
+      const int at = part * GG_WIDTH;
+      gg_vd x, y, z, spare;
+      gg_lane_normal(&rng, part, &x, &y);
+      gg_lane_normal(&rng, part, &z, &spare);
+      gg_store(b->x + at, gg_load(b->x + at) + size * (x + drift * y));
+      gg_store(b->y + at, gg_load(b->y + at) + size * y);
+      gg_store(b->z + at, gg_load(b->z + at) + size * z);
+    }
+  gg_lane_rng_save(&rng, lanes);
 }

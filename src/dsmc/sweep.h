@@ -3,7 +3,7 @@
 #ifndef GG_DSMC_SWEEP_H
 #define GG_DSMC_SWEEP_H
 
-#include "dsmc/ensemble.h"
+#include "dsmc/pairing.h"
 
 typedef struct gg_sums {
   gg_block c;                             /* sum of C */
@@ -14,7 +14,12 @@ typedef struct gg_sums {
 typedef void gg_sweep(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums);
 gg_sweep gg_sweep_baseline, gg_sweep_avx2, gg_sweep_avx512;
 
+/* C += size (n_x, n_y, n_z) with normal n, for full blocks stored with `drift`. */
+typedef void gg_kicks(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes);
+gg_kicks gg_kicks_baseline, gg_kicks_avx2, gg_kicks_avx512;
+
 /* By this processor's best. */
 void gg_sweep_blocks(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums);
+void gg_kick_blocks(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes);
 
 #endif

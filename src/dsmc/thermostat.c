@@ -1,5 +1,7 @@
 #include "dsmc/thermostat.h"
 
+#include "dsmc/sweep.h"
+
 gg_thermostat gg_thermostat_of(const gg_model *model)
 {
   return model->flow == GG_HSS && model->thermostat == GG_NO_THERMOSTAT ? GG_GAUSSIAN : model->thermostat;
@@ -49,19 +51,21 @@ static double vis_viva(const gg_ensemble *e, double drift)
   return sum;
 }
 
-void gg_thermostat_return(gg_ensemble *e, double drift, double lost)
+double gg_thermostat_return(gg_ensemble *e, double drift, double missing, double half)
 {
-  double factor = sqrt(1 + 2 * lost / vis_viva(e, drift));
+  double energy = 0.5 * vis_viva(e, drift);
+  /* The loss goes as T^(3/2), and the second half is hotter than the first by what it destroyed. */
+  double advance = half * (1 + 1.5 * half / energy);
+  double gain = (missing + advance) / energy, factor = gain > -1 ? sqrt(1 + gain) : 0;
   for (int i = 0; i < e->n_species; i++) gg_blocks_scale(e->of[i].c, e->of[i].n_blocks, factor);
+  return advance;
 }
 
-void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng *rng)
+void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng_lanes *lanes)
 {
-  double size = sqrt(variance);
-  for (int i = 0; i < e->n_species; i++)
-    for (uint32_t a = 0; a < e->of[i].n; a++) {
-      gg_vec kick = gg_scale(size, gg_rng_normal_vec(rng));
-      kick.x += drift * kick.y;
-      gg_block_set(e->of[i].c, a, gg_add(gg_block_get(e->of[i].c, a), kick));
-    }
+  for (int i = 0; i < e->n_species; i++) {
+    gg_population *p = &e->of[i];
+    gg_kick_blocks(p->c, p->n_blocks, drift, sqrt(variance), lanes);
+    for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++) gg_block_set(p->c, (uint32_t)a, (gg_vec){0, 0, 0});
+  }
 }

@@ -7,8 +7,7 @@
 #ifndef GG_DSMC_THERMOSTAT_H
 #define GG_DSMC_THERMOSTAT_H
 
-#include "common/rng.h"
-#include "dsmc/ensemble.h"
+#include "dsmc/pairing.h"
 
 /* The thermostat in force: a heated gas (flow: hss) has the Gaussian one unless the scene says otherwise. */
 gg_thermostat gg_thermostat_of(const gg_model *model);
@@ -16,9 +15,11 @@ gg_thermostat gg_thermostat_of(const gg_model *model);
 /* xi^2 at which white noise balances the collisions of Maxwellians at temperature0 and ratio0. */
 double gg_thermostat_noise(const gg_model *model);
 
-/* Give back the energy `lost`. Velocities are stored with `drift`. */
-void gg_thermostat_return(gg_ensemble *e, double drift, double lost);
+/* In the middle of a step: give back the energy that is missing and, in advance, what the second half will destroy if
+ * the first destroyed `half`, so that steps begin and end at the kept energy. Returns the advance. Velocities are
+ * stored with `drift`. */
+double gg_thermostat_return(gg_ensemble *e, double drift, double missing, double half);
 /* Kick every grain: `variance` along each axis. */
-void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng *rng);
+void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng_lanes *lanes);
 
 #endif

@@ -1,8 +1,12 @@
 #include "dsmc/timestep.h"
 
-/* Relative bias of the viscosity of a split step of one mean free time, the most affected of the means: .080 at e = .9,
- * .072 at e = .6 in the Boltzmann limit (temperature: .047, .031); it goes with the square of the step. */
-static const double split_bias = 0.08;
+#include "dsmc/thermostat.h"
+
+/* Relative bias of the most affected mean for a step of one mean free time; it goes with the square of the step.
+ * Measured in the Boltzmann limit: streaming and collisions in turns: viscosity .080 at e = .9, .072 at e = .6
+ * (temperature: .047, .031); thermostat, or pairs of species, in turns with collisions: cooling rate .008 at e = .5,
+ * temperature ratio .003. */
+static const double bias_of_splitting = 0.08, bias_of_turns = 0.008;
 
 static double smaller(double a, double b)
 {
@@ -11,13 +15,15 @@ static double smaller(double a, double b)
 
 gg_time_step gg_time_step_choose(const gg_model *model, double T)
 {
+  bool turns = model->n_species > 1 || gg_thermostat_of(model) != GG_NO_THERMOSTAT;
   double free_time = 1 / gg_model_collision_rate(model, T);
-  gg_time_step step = {.settle = free_time, .length = free_time};
+  gg_time_step step = {.settle = free_time, .length = turns ? 0.25 * free_time : free_time};
   if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
   if (model->time_step > 0) {
     step.length = model->time_step * free_time;
     step.split = model->shear_rate > 0;
-    if (step.split) step.bias = split_bias * model->time_step * model->time_step;
   }
+  double h = step.length / free_time;
+  step.bias = step.split ? bias_of_splitting * h * h : turns ? bias_of_turns * h * h : 0;
   return step;
 }

@@ -3,6 +3,7 @@
 
 #include "io/document.h"
 #include "io/scene_json.h"
+#include "run/agreement.h"
 
 /* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}; those that do not apply are warnings. */
 static json_t *theories_json(const gg_comparison *c, json_t *warnings)
@@ -63,6 +64,7 @@ static json_t *row_json(const gg_comparison *c, gg_quantity q, json_t *warnings)
   json_object_set_new(row, "md_dsmc_z", isfinite(z) ? json_real(z) : json_null());
   if (!isfinite(z))
     gg_reason_add(warnings, "md_dsmc_z", gg_quantity_name(q), "the mean or error of an engine is not known");
+  json_object_set_new(row, "beyond_expected", json_boolean(gg_disagree(c, q)));
   if (has(md, q)) json_object_set_new(row, "md_theory_deviation", deviations_json(c, md, q, warnings));
   if (has(dsmc, q)) json_object_set_new(row, "dsmc_theory_deviation", deviations_json(c, dsmc, q, warnings));
   return row;
@@ -76,6 +78,17 @@ static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *
   return json_null();
 }
 
+/* Where the engines differ beyond what is expected: which causes apply. */
+static void warn_causes(const gg_comparison *c, json_t *warnings)
+{
+  const char *cause[8];
+  int marked = 0;
+  for (int q = 0; q < GG_N_QUANTITIES; q++) marked += gg_disagree(c, (gg_quantity)q);
+  int n = marked ? gg_causes_of_disagreement(c, cause, 8) : 0;
+  for (int i = 0; i < n; i++)
+    json_array_append_new(warnings, json_sprintf("md and dsmc differ beyond what is expected: %s", cause[i]));
+}
+
 json_t *gg_comparison_document(const gg_comparison *c)
 {
   json_t *warnings = json_array(), *rows = json_array();
@@ -84,6 +97,7 @@ json_t *gg_comparison_document(const gg_comparison *c)
   for (int q = 0; q < GG_N_QUANTITIES; q++)
     if (has(c->by_engine[GG_MD], (gg_quantity)q) || has(c->by_engine[GG_DSMC], (gg_quantity)q))
       json_array_append_new(rows, row_json(c, (gg_quantity)q, warnings));
+  warn_causes(c, warnings);
   return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(&c->scene),
                    "md", md, "dsmc", dsmc, "theory", theory, "comparison", rows, "warnings", warnings);
 }

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,14 +63,23 @@ static gg_status draw(const char *script, const char *target, gg_error *err)
   return result;
 }
 
+/* gnuplot does not notice a full disk: a whole picture is known by its end. */
+static bool is_whole(int fd)
+{
+  char tail[64];
+  off_t size = lseek(fd, 0, SEEK_END), from = size > (off_t)sizeof tail ? size - (off_t)sizeof tail : 0;
+  ssize_t got = pread(fd, tail, sizeof tail, from);
+  return got > 0 && (memmem(tail, (size_t)got, "</svg>", 6) || memmem(tail, (size_t)got, "IEND", 4));
+}
+
 gg_status gg_gnuplot_run(const char *script, const char *picture, gg_error *err)
 {
   gg_atomic_file file;
   if (strchr(picture, '\'')) return gg_fail(err, GG_BAD_INPUT, "%s: a picture's name must not hold a quote", picture);
   GG_TRY(gg_atomic_open(&file, picture, err));
   gg_status status = draw(script, file.temporary, err);
-  if (status == GG_OK && lseek(file.fd, 0, SEEK_END) <= 0)
-    status = gg_fail(err, GG_BAD_FILE, "%s: cannot be written: gnuplot left it empty", picture);
+  if (status == GG_OK && !is_whole(file.fd))
+    status = gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
   if (status == GG_OK) return gg_atomic_commit(&file, err);
   gg_atomic_abandon(&file);
   return status;

@@ -78,6 +78,13 @@ static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_
   free(species);
 }
 
+/* Under shear the image above has slid by rate L_y t (Lees & Edwards 1972): the second edge leans by as much, counted
+ * from the nearest image, so that periodic images of the stored box are those of the simulation. */
+static double tilt_at(const gg_model *model, double time)
+{
+  return remainder(model->shear_rate * model->box[1] * time, model->box[0]);
+}
+
 static void append_vectors(gg_h5 *h, gg_h5_rows *rows, const double *data, const size_t *order, double *sorted,
                            size_t n)
 {
@@ -95,7 +102,8 @@ void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model,
     gg_h5_failed(h, "out of memory for a frame, or its grains are not numbered from 0 to n-1");
   } else {
     if (!p->started) start(h, p, model, frame, order);
-    const double edges[9] = {model->box[0], 0, 0, 0, model->box[1], 0, 0, 0, model->box[2]};
+    const double tilt = tilt_at(model, frame->time);
+    const double edges[9] = {model->box[0], 0, 0, tilt, model->box[1], 0, 0, 0, model->box[2]};
     gg_h5_rows_append(h, &p->step, &frame->step);
     gg_h5_rows_append(h, &p->time, &frame->time);
     if (p->boxed) gg_h5_rows_append(h, &p->edges, edges);

@@ -13,7 +13,8 @@ void gg_plot_place(FILE *s, gg_panel p)
 {
   fprintf(s,
           "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n"
-          "unset object\nunset label\nunset arrow\nunset logscale\nunset title\nset xtics auto\nset xrange [*:*]\n"
+          "unset object\nunset label\nunset arrow\nunset logscale\nunset title\nunset offsets\nset xtics auto\nset "
+          "xrange [*:*]\n"
           "set yrange [*:*]\nset format x '%%g'\nset format y '%%g'\nset key default\n",
           p.left, p.right, p.bottom, p.top);
 }
@@ -81,16 +82,22 @@ static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_en
   fprintf(s, "unset multiplot\n");
 }
 
+/* The engines' relaxation side by side, between two heights of the page. */
+static void draw_both(FILE *s, const gg_stored_result *stored, double bottom, double top)
+{
+  const gg_stored_engine *md = &stored->engine[GG_MD], *dsmc = &stored->engine[GG_DSMC];
+  if (md->name) gg_plot_relaxation(s, md, (gg_panel){0.075, dsmc->name ? 0.475 : 0.965, bottom, top});
+  if (dsmc->name) gg_plot_relaxation(s, dsmc, (gg_panel){md->name ? 0.575 : 0.075, 0.965, bottom, top});
+}
+
 static void draw_comparison(FILE *s, const gg_stored_result *stored, bool png)
 {
-  bool differences = gg_plot_has_differences(stored);
-  gg_plot_start_page(s, stored, png, 1100, 820);
-  gg_panel ratios = {0.075, differences ? 0.64 : 0.98, 0.53, 0.85};
-  gg_plot_ratios(s, stored, ratios);
-  if (differences) gg_plot_differences(s, stored, (gg_panel){0.73, 0.98, 0.53, 0.85});
-  const gg_stored_engine *md = &stored->engine[GG_MD], *dsmc = &stored->engine[GG_DSMC];
-  if (md->name) gg_plot_relaxation(s, md, (gg_panel){0.075, dsmc->name ? 0.475 : 0.965, 0.085, 0.38});
-  if (dsmc->name) gg_plot_relaxation(s, dsmc, (gg_panel){md->name ? 0.575 : 0.075, 0.965, 0.085, 0.38});
+  bool ratios = gg_plot_has(stored, true), differences = gg_plot_has(stored, false), either = ratios || differences;
+  gg_plot_start_page(s, stored, png, 1100, either ? 820 : 440);
+  double from = ratios ? 0.73 : 0.075, to = differences ? 0.64 : 0.98;
+  if (ratios) gg_plot_ratios(s, stored, (gg_panel){0.075, to, 0.53, 0.85});
+  if (differences) gg_plot_differences(s, stored, (gg_panel){from, 0.98, 0.53, 0.85});
+  draw_both(s, stored, either ? 0.085 : 0.15, either ? 0.38 : 0.80);
   fprintf(s, "unset multiplot\n");
 }
 

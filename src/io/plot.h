@@ -29,11 +29,10 @@ void gg_plot_place(FILE *script, gg_panel panel);
 /* One engine's temperatures (or stresses) from start to end, with the averaging window. */
 void gg_plot_relaxation(FILE *script, const gg_stored_engine *engine, gg_panel panel);
 void gg_plot_stresses(FILE *script, const gg_stored_engine *engine, gg_panel panel);
-/* md, dsmc and the theories: ratios to md, and the numbers that have no scale to be divided by (N1, N2 ...). False:
- * there is none of that kind, and nothing was drawn. */
-bool gg_plot_ratios(FILE *script, const gg_stored_result *stored, gg_panel panel);
-bool gg_plot_differences(FILE *script, const gg_stored_result *stored, gg_panel panel);
-bool gg_plot_has_differences(const gg_stored_result *stored);
+/* md, dsmc and the theories: ratios to md, and the numbers that have no scale to be divided by (N1, N2 ...). */
+bool gg_plot_has(const gg_stored_result *stored, bool ratios);
+void gg_plot_ratios(FILE *script, const gg_stored_result *stored, gg_panel panel);
+void gg_plot_differences(FILE *script, const gg_stored_result *stored, gg_panel panel);
 
 /* A unit as gnuplot's enhanced text: "d^2 gamma^2" becomes "d^2 γ^2". */
 void gg_plot_unit(const char *unit, char *text, size_t size);

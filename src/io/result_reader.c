@@ -53,11 +53,20 @@ static void read_engines(gg_h5 *h, gg_stored_result *s)
   }
 }
 
+static size_t count_numbers(gg_h5 *h, const char *path)
+{
+  size_t n = 0;
+  if (gg_h5_exists(h, path)) free(gg_h5_read_array(h, path, H5T_NATIVE_INT64, sizeof(int64_t), &n));
+  return n;
+}
+
 gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
 {
   gg_h5 h;
   *s = (gg_stored_result){0};
   gg_h5_open(&h, path);
+  if (!h.failed && gg_h5_exists(&h, "/checkpoint"))
+    gg_h5_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
   if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_failed(&h, "it holds no result of graingas");
   char *text = gg_h5_read_text(&h, "/graingas/document");
   s->version = gg_h5_read_text(&h, "/graingas/version");
@@ -71,6 +80,8 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   if (!h.failed) {
     s->comparison = json_object_get(s->document, "comparison") != NULL;
     read_engines(&h, s);
+    s->n_frames = count_numbers(&h, "/particles/grains/velocity/step");
+    s->n_grains = count_numbers(&h, "/particles/grains/id");
   }
   gg_h5_close(&h);
   gg_status status = gg_h5_status(&h, path, "read", err);

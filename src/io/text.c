@@ -24,7 +24,8 @@ void gg_format_estimate(double mean, double error, char *text, size_t size)
     snprintf(text, size, "-");
     return;
   }
-  if (!(error > 0) || !isfinite(error)) {
+  bool exact = error < 1e-9 * fabs(mean); /* conserved: all its error is rounding */
+  if (!(error > 0) || !isfinite(error) || exact) {
     snprintf(text, size, "%.6g", mean);
     return;
   }

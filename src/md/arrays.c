@@ -30,6 +30,13 @@ static gg_status allocate(gg_md *e, gg_error *err)
   return gg_queue_make(&e->queue, e->n, err);
 }
 
+gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
+{
+  e->shell = new_lines(e->n, sizeof *e->shell, err);
+  e->neighbour = new_lines(e->n, GG_LIST * sizeof *e->neighbour, err);
+  return e->shell && e->neighbour ? GG_OK : GG_FAILED;
+}
+
 gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
 {
   gg_md *e = gg_new_array(1, sizeof *e, err);
@@ -64,6 +71,8 @@ void gg_md_free(gg_md *e)
   free(e->node);
   free(e->spin);
   free(e->last);
+  free(e->shell);
+  free(e->neighbour);
   free(e->id);
   free(e);
 }

@@ -1,6 +1,9 @@
 #include "md/cells.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+enum { FEWEST_WORDS = 8 };
 
 void gg_cells_count(const gg_box *box, double width, int32_t n[3])
 {
@@ -20,14 +23,33 @@ gg_status gg_cells_make(gg_cells *c, const gg_box *box, const int32_t n[3], doub
     c->inverse[a] = n[a] / box->edge[a];
     total *= (size_t)n[a];
   }
-  c->head = gg_new_array(total, sizeof *c->head, err);
-  if (!c->head) return GG_FAILED;
-  for (size_t k = 0; k < total; k++) c->head[k] = GG_NONE;
-  return GG_OK;
+  c->stride = FEWEST_WORDS;
+  c->cell = gg_new_array(total * c->stride + FEWEST_WORDS, sizeof *c->cell, err);
+  return c->cell ? GG_OK : GG_FAILED;
+}
+
+static size_t total_of(const gg_cells *c) { return (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2]; }
+
+void gg_cells_clear(gg_cells *c)
+{
+  size_t total = total_of(c);
+  for (size_t k = 0; k < total; k++) c->cell[k * c->stride] = 0;
+}
+
+bool gg_cells_grow(gg_cells *c)
+{
+  size_t total = total_of(c), stride = 2 * c->stride;
+  uint32_t *cell = calloc(total * stride + FEWEST_WORDS, sizeof *cell);
+  if (!cell) return false;
+  for (size_t k = 0; k < total; k++) memcpy(cell + k * stride, c->cell + k * c->stride, c->stride * sizeof *cell);
+  free(c->cell);
+  c->cell = cell;
+  c->stride = (uint32_t)stride;
+  return true;
 }
 
 void gg_cells_free(gg_cells *c)
 {
-  free(c->head);
+  free(c->cell);
   *c = (gg_cells){0};
 }

@@ -1,8 +1,11 @@
 /* Cells: a grid over the box, no edge below the largest contact distance, so that a grain can only touch grains of its
- * own and the 26 cells around. Grains of a cell hang on a chain through their records. A grain's cell is a matter of
- * its crossings, not of its rounded coordinates: it changes only by crossing events. */
+ * own and the 26 cells around. The grains of a cell stand side by side in memory. A grain's cell is a matter of its
+ * crossings, not of its rounded coordinates: it changes only by crossing events. */
 #ifndef GG_MD_CELLS_H
 #define GG_MD_CELLS_H
+
+#include <stdbool.h>
+#include <stddef.h>
 
 #include "common/error.h"
 #include "md/box.h"
@@ -12,19 +15,41 @@
 typedef struct gg_cells {
   int32_t n[3];
   double width[3], inverse[3];
-  double reach;   /* largest contact distance */
-  uint32_t *head; /* by cell: x fastest */
+  double reach;    /* largest contact distance (of lists: largest distance of centres) */
+  uint32_t stride; /* a multiple of 8 */
+  uint32_t *cell;  /* stride words a cell, x fastest: how many grains, then who; room for a word more at the end */
 } gg_cells;
 
-/* A grid of n[] cells on the box. */
+/* A grid of n[] cells on the box, empty. */
 gg_status gg_cells_make(gg_cells *cells, const gg_box *box, const int32_t n[3], double reach, gg_error *err);
 void gg_cells_free(gg_cells *cells);
+void gg_cells_clear(gg_cells *cells);
 /* As many cells as fit with edges of at least `width`. */
 void gg_cells_count(const gg_box *box, double width, int32_t n[3]);
+/* Twice the room in every cell; false if there is no memory for it. */
+bool gg_cells_grow(gg_cells *cells);
 
-GG_INLINE uint32_t gg_cell_index(const gg_cells *c, const int32_t at[3])
+GG_INLINE size_t gg_cell_index(const gg_cells *c, const int32_t at[3])
 {
-  return ((uint32_t)at[2] * (uint32_t)c->n[1] + (uint32_t)at[1]) * (uint32_t)c->n[0] + (uint32_t)at[0];
+  return ((size_t)at[2] * (size_t)c->n[1] + (size_t)at[1]) * (size_t)c->n[0] + (size_t)at[0];
+}
+
+GG_INLINE uint32_t *gg_cell_at(const gg_cells *c, const int32_t at[3]) { return c->cell + gg_cell_index(c, at) * c->stride; }
+
+/* False if the cell is full. */
+GG_INLINE bool gg_cell_add(const gg_cells *c, const int32_t at[3], uint32_t grain)
+{
+  uint32_t *cell = gg_cell_at(c, at);
+  if (cell[0] + 1 == c->stride) return false;
+  cell[++cell[0]] = grain;
+  return true;
+}
+
+GG_INLINE void gg_cell_remove(const gg_cells *c, const int32_t at[3], uint32_t grain)
+{
+  uint32_t *cell = gg_cell_at(c, at), k = 1;
+  while (cell[k] != grain) k++;
+  cell[k] = cell[cell[0]--];
 }
 
 #endif

@@ -7,7 +7,7 @@
 /* What stands beside the arrays, in one plain block. */
 typedef struct block {
   gg_md_counts counts;
-  double offset0, bucket_width;
+  double offset0, bucket_width, shell_radius; /* 0: no lists */
   uint32_t current_bucket;
   int32_t cells[3];
 } block;
@@ -26,6 +26,7 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
   b.offset0 = e->box.offset0;
   b.bucket_width = e->queue.width;
   b.current_bucket = e->queue.current;
+  b.shell_radius = e->shell ? e->shell_radius : 0;
   memcpy(b.cells, e->cells.n, sizeof b.cells);
   GG_TRY(put(a, "md/state", &b, sizeof b, err));
   GG_TRY(put(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
@@ -33,6 +34,8 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
   GG_TRY(put(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(put(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
   if (e->last) GG_TRY(put(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
+  if (e->shell) GG_TRY(put(a, "md/shells", e->shell, e->n * sizeof *e->shell, err));
+  if (e->shell) GG_TRY(put(a, "md/neighbours", e->neighbour, e->n * GG_LIST * sizeof *e->neighbour, err));
   return GG_OK;
 }
 
@@ -50,10 +53,16 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(get(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(get(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
   if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
+  if (b.shell_radius > 0) {
+    GG_TRY(gg_md_allocate_lists(e, err));
+    gg_md_set_shells(e, b.shell_radius);
+    GG_TRY(get(a, "md/shells", e->shell, e->n * sizeof *e->shell, err));
+    GG_TRY(get(a, "md/neighbours", e->neighbour, e->n * GG_LIST * sizeof *e->neighbour, err));
+  }
   e->k = b.counts;
   e->box.offset0 = b.offset0;
-  GG_TRY(gg_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model), err));
-  gg_md_chain_grid(e);
+  GG_TRY(gg_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.shell_radius, err));
+  if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   gg_queue_reset(&e->queue, b.bucket_width);
   e->queue.current = b.current_bucket;
   for (uint32_t i = 0; i < e->n; i++) gg_queue_insert(&e->queue, e->node, i);

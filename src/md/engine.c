@@ -17,9 +17,13 @@ static double guess_event_rate(const gg_md *e)
 /* From places and velocities to a run that can go on. */
 gg_status gg_md_begin(gg_md *e, gg_error *err)
 {
-  if (!e->cells.head) GG_TRY(gg_md_make_grid(e, err));
-  gg_md_enter_grid(e);
-  gg_md_chain_grid(e);
+  if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
+  if (e->shell) {
+    gg_md_build_lists(e);
+  } else {
+    gg_md_enter_grid(e);
+    if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
+  }
   e->k.free_time = 1 / fmax(gg_model_collision_rate(&e->model, e->model.temperature0), 1e-300);
   e->k.contact_time = e->model.contact_time * e->k.free_time;
   if (e->last)
@@ -91,6 +95,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
     go_on_with_kicks(e);
   else
     e->motion(e);
+  if (e->out_of_memory) return gg_fail(err, GG_FAILED, "out of memory: a cell of the grid could not grow");
   bool whole = e->collisions_left && e->stop < INFINITY;
   if (whole) e->k.now = e->stop;
   double gone = whole ? dt : outer_now(e);
@@ -121,6 +126,7 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .events = e->k.events,
                          .treated = e->k.treated,
                          .offset = gg_offset(&e->box, e->k.now),
+                         .wall_treated = e->k.wall_treated,
                          .worst_overlap = e->k.worst_overlap};
 }
 
@@ -138,6 +144,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
     e->node[i].collision *= t;
     if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
     if (e->last) e->last[i] *= t;
+    if (e->shell) e->shell[i].built *= t;
   }
   gg_queue_rescale(&e->queue, t);
   double *times[] = {&e->k.now, &e->k.epoch_start, &e->k.contact_time, &e->k.free_time, &e->k.window_time, &e->k.mark};

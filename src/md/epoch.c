@@ -51,6 +51,18 @@ static double earliest_event(const gg_md *e)
   return t;
 }
 
+/* Shells under shear are kept by where they stand at the epoch's start. */
+static void move_shells(gg_md *e, double span)
+{
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_vec *c = &e->shell[i].centre;
+    double x = c->x + e->model.shear_rate * (c->y - 0.5 * e->box.edge[1]) * span;
+    c->x = gg_wrap(x, e->box.edge[0], e->box.inverse[0]);
+  }
+  gg_md_enter_grid(e);
+  gg_md_fill_grid(e);
+}
+
 bool gg_md_next_epoch(gg_md *e)
 {
   double span = gg_queue_span(&e->queue), wait = earliest_event(e);
@@ -67,7 +79,9 @@ bool gg_md_next_epoch(gg_md *e)
     e->node[i].time -= span;
     e->node[i].collision -= span;
     if (e->last) e->last[i] -= span;
+    if (e->shell) e->shell[i].built -= span;
   }
+  if (e->shell && e->model.shear_rate != 0) move_shells(e, span);
   e->k.epoch_start += span;
   e->k.now -= span;
   e->k.mark -= span;

@@ -20,7 +20,10 @@ GG_INLINE bool gg_is_treated(gg_md *e, uint32_t i, uint32_t j)
   double now = e->k.now, limit = e->k.contact_time;
   bool treated = now - e->last[i] < limit || now - e->last[j] < limit;
   e->last[i] = e->last[j] = now;
-  e->k.treated += treated;
+  if (i != j)
+    e->k.treated += treated;
+  else
+    e->k.wall_treated += treated; /* a grain with itself: at a wall */
   return treated;
 }
 

@@ -2,12 +2,8 @@
 #include <assert.h>
 
 #include "md/impact.h"
+#include "md/kernels.h"
 #include "md/loop.h"
-
-typedef struct motion {
-  gg_motion *run;
-  gg_forecast *predict_all;
-} motion;
 
 #define MOTION(name, ...)                                                                                              \
   static void run_##name(gg_md *e)                                                                                     \
@@ -33,9 +29,8 @@ MOTIONS(falling, .walled = true, .gravity = true)
       run_##name##_mixture, all_##name##_mixture                                                                       \
     }                                                                                                                  \
   }
-enum boundary { PERIODIC, SHEARED, WALLED, FALLING };
-static const motion motions[][2] = {
-    [PERIODIC] = ROW(periodic), [SHEARED] = ROW(sheared), [WALLED] = ROW(walled), [FALLING] = ROW(falling)};
+static const gg_kernel plain[][2] = {
+    [GG_PERIODIC] = ROW(periodic), [GG_SHEARED] = ROW(sheared), [GG_WALLED] = ROW(walled), [GG_FALLING] = ROW(falling)};
 #undef ROW
 
 #define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
@@ -80,21 +75,41 @@ static gg_impact *const impacts[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH),
 #define ROW(rule) PAIR(rule##_wall)
 static gg_wall_impact *const wall_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
 
-static enum boundary boundary_of(const gg_md *e)
+static enum gg_boundary boundary_of(const gg_md *e)
 {
-  if (e->model.shear_rate != 0) return SHEARED;
-  if (e->falls) return FALLING;
-  return e->model.walled ? WALLED : PERIODIC;
+  if (e->model.shear_rate != 0) return GG_SHEARED;
+  if (e->falls) return GG_FALLING;
+  return e->model.walled ? GG_WALLED : GG_PERIODIC;
+}
+
+/* The nearest image of all that the cells around hold must be the one looked at. */
+static bool is_wide_enough(const gg_md *e)
+{
+  bool sheared = e->model.shear_rate != 0;
+  return e->cells.n[0] >= (sheared ? 10 : 4) && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
+}
+
+static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, bool listed)
+{
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512bw"))
+    return gg_md_wide_avx512(boundary, mixture, listed);
+  if (__builtin_cpu_supports("avx2")) return gg_md_wide_avx2(boundary, mixture, listed);
+#endif
+  return gg_md_wide_any(boundary, mixture, listed);
 }
 
 void gg_md_select(gg_md *e)
 {
-  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
+  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open, listed = e->shell != NULL;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  const motion *m = &motions[boundary_of(e)][mixture];
-  e->motion = m->run;
-  e->predict_all = m->predict_all;
+  enum gg_boundary boundary = boundary_of(e);
+  gg_kernel kernel = plain[boundary][mixture];
+  if (listed || (is_wide_enough(e) && !e->plain)) kernel = wide_kernel(boundary, mixture, listed);
+  e->motion = kernel.run;
+  e->predict_all = kernel.predict_all;
   e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
   e->wall_impact = wall_impacts[rule][timed][tap];
 }

@@ -8,30 +8,21 @@
 #ifndef GG_MD_LOOP_H
 #define GG_MD_LOOP_H
 
-#include "md/scan.h"
-
-/* Bring a grain's record to the present time. */
-GG_INLINE gg_grain *gg_settle(gg_md *e, gg_features f, uint32_t i)
-{
-  gg_grain *g = &e->grain[i];
-  g->r = gg_position(e, f.gravity, g, e->k.now);
-  g->v = gg_velocity(e, f.gravity, g, e->k.now);
-  g->t = e->k.now;
-  return g;
-}
+#include "md/lists.h"
 
 GG_INLINE void gg_leave_cell(gg_md *e, uint32_t i)
 {
-  uint32_t *link = &e->cells.head[gg_cell_index(&e->cells, e->node[i].cell)];
-  while (*link != i) link = &e->grain[*link].next;
-  *link = e->grain[i].next;
+  gg_cell_remove(&e->cells, e->node[i].cell, i);
 }
 
 GG_INLINE void gg_enter_cell(gg_md *e, uint32_t i)
 {
-  uint32_t *head = &e->cells.head[gg_cell_index(&e->cells, e->node[i].cell)];
-  e->grain[i].next = *head;
-  *head = i;
+  while (!gg_cell_add(&e->cells, e->node[i].cell, i))
+    if (!gg_cells_grow(&e->cells)) {
+      e->out_of_memory = true;
+      e->collisions_left = 0;
+      return;
+    }
 }
 
 /* The search is over: what it found goes into the calendar. */
@@ -44,7 +35,7 @@ GG_INLINE void gg_schedule(gg_md *e, gg_features f, gg_search *s)
     node->partner = s->partner;
     node->stamp = GG_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].stamp;
   }
-  double exit = gg_next_face(e, f, s, &node->face);
+  double exit = f.listed ? gg_shell_exit(e, f, s->grain, s->self) : gg_next_face(e, f, s, &node->face);
   gg_queue_remove(&e->queue, e->node, s->grain);
   node->time = s->collision < exit ? s->collision : exit;
   gg_queue_insert(&e->queue, e->node, s->grain);
@@ -54,8 +45,13 @@ GG_INLINE void gg_predict(gg_md *e, gg_features f, uint32_t i)
 {
   e->node[i].collision = INFINITY;
   e->node[i].partner = GG_NONE;
-  gg_search s = {.grain = i, .self = gg_settle(e, f, i), .collision = INFINITY, .partner = GG_NONE};
-  gg_scan_around(e, f, &s);
+  gg_search s;
+  gg_begin_search(&s, i, gg_settle(e, f, i), INFINITY, GG_NONE);
+  if (f.listed)
+    gg_scan_batches(e, f, &s, gg_list(e, i), e->node[i].neighbours);
+  else
+    gg_scan_around(e, f, &s);
+  if (f.wide) gg_scan_near(e, f, &s);
   gg_schedule(e, f, &s);
 }
 
@@ -71,9 +67,11 @@ GG_INLINE void gg_cross_sheared(gg_md *e, gg_grain *g, gg_node *node, int side)
 GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
 {
   gg_node *node = &e->node[i];
-  gg_search s = {.grain = i, .self = gg_settle(e, f, i), .collision = node->collision, .partner = node->partner};
+  gg_search s;
+  gg_begin_search(&s, i, gg_settle(e, f, i), node->collision, node->partner);
   if (f.sheared && node->face == GG_SLIDE) {
     gg_scan_sliding_rows(e, f, &s);
+    if (f.wide) gg_scan_near(e, f, &s);
     gg_schedule(e, f, &s);
     return;
   }
@@ -94,7 +92,24 @@ GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
   }
   gg_enter_cell(e, i);
   gg_scan_ahead(e, f, &s, axis, step);
+  if (f.wide) gg_scan_near(e, f, &s);
   gg_schedule(e, f, &s);
+}
+
+/* Out of its shell: a new one, lists mended, and a new prediction. */
+GG_INLINE void gg_leave_shell(gg_md *e, gg_features f, uint32_t i)
+{
+  uint32_t found[GG_LIST + 2];
+  gg_leave_cell(e, i);
+  gg_new_shell(e, f, i);
+  gg_enter_cell(e, i);
+  uint32_t count = gg_search_shell(e, f, i, found);
+  if (gg_mend_lists(e, i, found, count)) {
+    gg_predict(e, f, i);
+    return;
+  }
+  gg_md_build_lists(e);
+  e->predict_all(e);
 }
 
 GG_INLINE void gg_collide(gg_md *e, gg_features f, uint32_t i, uint32_t j)
@@ -143,9 +158,12 @@ GG_INLINE void gg_loop(gg_md *e, gg_features f)
     uint32_t partner = node->partner;
     e->k.now = node->time;
     e->k.events++;
-    if (node->time < node->collision)
-      gg_cross_face(e, f, i);
-    else if (f.walled && GG_NO_GRAIN(partner))
+    if (node->time < node->collision) {
+      if (f.listed)
+        gg_leave_shell(e, f, i);
+      else
+        gg_cross_face(e, f, i);
+    } else if (f.walled && GG_NO_GRAIN(partner))
       gg_hit_wall(e, f, i, partner == GG_UPPER_WALL);
     else if (e->grain[partner].stamp != node->stamp)
       gg_predict(e, f, i);

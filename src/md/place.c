@@ -87,19 +87,24 @@ static void sweep_cells(sweep *s)
 {
   gg_packing *p = s->p;
   gg_cells *c = &p->cells;
-  size_t total = (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2];
-  for (size_t k = 0; k < total; k++) c->head[k] = GG_NONE;
+  gg_cells_clear(c);
   int32_t at[3], to[3];
   for (uint32_t i = 0; i < p->n; i++) {
     cell_of(c, p->r[i], at);
     for (int32_t q = 0; q < 27; q++) {
       int32_t step[3] = {q % 3 - 1, q / 3 % 3 - 1, q / 9 - 1};
-      for (int a = 0; a < 3; a++) to[a] = (at[a] + step[a] + c->n[a]) % c->n[a];
-      for (uint32_t j = c->head[gg_cell_index(c, to)]; j != GG_NONE; j = p->next[j]) try_pair(s, i, j);
+      for (int a = 0; a < 3; a++) {
+        to[a] = at[a] + step[a];
+        to[a] += to[a] < 0 ? c->n[a] : to[a] >= c->n[a] ? -c->n[a] : 0;
+      }
+      const uint32_t *cell = gg_cell_at(c, to);
+      for (uint32_t k = 1; k <= cell[0]; k++) try_pair(s, i, cell[k]);
     }
-    uint32_t *head = &c->head[gg_cell_index(c, at)];
-    p->next[i] = *head;
-    *head = i;
+    while (!gg_cell_add(c, at, i))
+      if (!gg_cells_grow(c)) {
+        s->overlaps++; /* out of memory: never free of overlaps */
+        return;
+      }
   }
 }
 
@@ -121,7 +126,7 @@ static uint64_t sweep_once(gg_packing *p, double margin, bool pushing)
 {
   sweep s = {p, margin, pushing, 0};
   for (uint32_t i = 0; i < p->n; i++) into_box(p, i);
-  if (p->cells.head)
+  if (p->cells.cell)
     sweep_cells(&s);
   else
     sweep_small(&s);

@@ -14,7 +14,6 @@ typedef struct gg_packing {
   gg_vec *r;
   const double *diameter;
   gg_cells cells; /* none in boxes below three cells across: then all pairs are tried */
-  uint32_t *next; /* chains of the cells */
 } gg_packing;
 
 /* Order points along a space-filling curve. */

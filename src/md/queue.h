@@ -17,11 +17,12 @@ typedef struct gg_node {
   uint32_t partner, stamp; /* of that collision: with whom, and the partner's stamp when it was predicted */
   uint32_t later, earlier; /* chain of the bucket */
   int32_t cell[3];
-  int32_t face; /* of the cell, crossed next: 2 axis + (1 if upwards), or GG_SLIDE */
+  uint32_t neighbours; /* in its list */
+  int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), GG_SLIDE or GG_SHELL */
 } __attribute__((aligned(64))) gg_node;
 
-/* The neighbouring cells across the sheared boundary have slid: look at them anew. */
-enum { GG_SLIDE = 6 };
+/* The neighbouring cells across the sheared boundary have slid: look at them anew. The grain leaves its shell. */
+enum { GG_SLIDE = 6, GG_SHELL };
 
 /* Partners that are no grains. */
 #define GG_LOWER_WALL (UINT32_MAX - 1)

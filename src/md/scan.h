@@ -9,13 +9,19 @@
 #ifndef GG_MD_SCAN_H
 #define GG_MD_SCAN_H
 
+#include <string.h>
+
 #include "md/predict.h"
 #include "md/state.h"
 
 /* What a scene's motion needs; constant in every kernel. */
 typedef struct gg_features {
   bool sheared, walled, gravity, mixture;
+  bool listed; /* neighbour lists instead of cells */
+  bool wide;   /* eight pairs at a time; else one by one: the reference for the tests */
 } gg_features;
+
+enum { GG_MOST_NEAR = 2048 };
 
 typedef struct gg_search {
   uint32_t grain;
@@ -23,7 +29,28 @@ typedef struct gg_search {
   double collision;     /* earliest so far, and with whom */
   uint32_t partner;
   double valid; /* until then the sliding rows have been searched */
+  uint32_t n_near, near[GG_MOST_NEAR + 16]; /* wide: whom to try */
 } gg_search;
+
+/* Bring a grain's record to the present time. */
+GG_INLINE gg_grain *gg_settle(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_grain *g = &e->grain[i];
+  g->r = gg_position(e, f.gravity, g, e->k.now);
+  g->v = gg_velocity(e, f.gravity, g, e->k.now);
+  g->t = e->k.now;
+  return g;
+}
+
+/* Only what is read before it is written: `near` stays as it is. */
+GG_INLINE void gg_begin_search(gg_search *s, uint32_t i, const gg_grain *self, double collision, uint32_t partner)
+{
+  s->grain = i;
+  s->self = self;
+  s->collision = collision;
+  s->partner = partner;
+  s->n_near = 0;
+}
 
 GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
 {
@@ -40,19 +67,34 @@ GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t
   }
 }
 
+/* All grains of a cell, eight words at a time: what stands behind its end does not count. False: no more room. */
+GG_INLINE bool gg_take_cell(gg_search *s, const uint32_t *cell)
+{
+  uint32_t count = cell[0], k = 0;
+  if (s->n_near + count > GG_MOST_NEAR) return false;
+  do {
+    memcpy(s->near + s->n_near + k, cell + 1 + k, 8 * sizeof *cell);
+    k += 8;
+  } while (k < count);
+  s->n_near += count;
+  return true;
+}
+
 /* Cells from..to (unwrapped) of row (y, z): images shifted by `shift`, sliding by `slide`. */
 GG_INLINE void gg_scan_row(const gg_md *e, gg_features f, gg_search *s, int32_t from, int32_t to, int32_t y, int32_t z,
                            gg_vec shift, double slide)
 {
   const gg_cells *c = &e->cells;
-  const uint32_t *row = c->head + gg_cell_index(c, (int32_t[3]){0, y, z});
+  const uint32_t *row = gg_cell_at(c, (int32_t[3]){0, y, z});
   for (int32_t k = from; k <= to; k++) {
     int32_t x = k;
     gg_vec here = shift;
     while (x < 0) x += c->n[0], here.x -= e->box.edge[0];
     while (x >= c->n[0]) x -= c->n[0], here.x += e->box.edge[0];
-    for (uint32_t j = row[x]; j != GG_NONE; j = e->grain[j].next)
-      if (j != s->grain) gg_try_pair(e, f, s, j, here, slide);
+    const uint32_t *cell = row + (size_t)x * c->stride;
+    if (f.wide && gg_take_cell(s, cell)) continue;
+    for (uint32_t m = 1; m <= cell[0]; m++)
+      if (cell[m] != s->grain) gg_try_pair(e, f, s, cell[m], here, slide);
   }
 }
 

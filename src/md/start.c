@@ -15,7 +15,7 @@ static gg_status make_cells(const gg_md *e, gg_packing *p, gg_error *err)
   gg_cells_count(&e->box, widest, n);
   if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
   GG_TRY(gg_cells_make(&p->cells, &e->box, n, widest, err));
-  return (p->next = gg_new_array(e->n, sizeof *p->next, err)) ? GG_OK : GG_FAILED;
+  return GG_OK;
 }
 
 /* From random points; where that gets stuck, near random close packing, from a lattice with vacancies, which the run
@@ -54,7 +54,6 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_er
   gg_packing p = {.box = e->box, .walled = e->model.walled, .n = e->n, .r = r, .diameter = diameter};
   gg_status status = relax(e, &p, rng, err);
   gg_cells_free(&p.cells);
-  free(p.next);
   for (uint32_t i = 0; i < e->n; i++) {
     e->grain[i].r = r[i];
     e->id[i] = i;

@@ -19,8 +19,15 @@ typedef struct gg_grain {
   gg_vec r, v;
   double t;
   uint32_t stamp; /* 2 x (changes of course so far) + species */
-  uint32_t next;  /* next grain in the same cell */
+  uint32_t spare;
 } __attribute__((aligned(64))) gg_grain;
+
+/* Of the neighbour lists: where the grain may go before its list must be mended. */
+typedef struct gg_shell {
+  gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
+  double built;
+} gg_shell;
+enum { GG_LIST = 32 }; /* most neighbours in a list */
 
 typedef struct gg_md gg_md;
 
@@ -40,7 +47,7 @@ typedef struct gg_md_counts {
   double free_time;        /* present mean free time per grain */
   double window_time;      /* since free_time was last measured, with so many collisions */
   uint64_t window_collisions, epoch_events, epoch_collisions; /* the latter two: counts at the epoch's start */
-  uint64_t collisions, events, treated;
+  uint64_t collisions, events, treated, wall_treated;
   double worst_overlap;
   gg_rng rng;
   gg_transfer transfer;
@@ -61,6 +68,12 @@ struct gg_md {
   gg_vec *spin; /* surface velocities; NULL for smooth grains */
   double *last; /* time of the last collision, for the contact-time rule; NULL if it is off */
   uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
+  /* Neighbour lists: NULL where the cells themselves are searched. */
+  gg_shell *shell;
+  uint32_t *neighbour;  /* GG_LIST a grain */
+  double shell_radius;  /* s */
+  double shrinkage;     /* kappa */
+  double pair_reach[3]; /* sigma + 2 s by unordered pair */
   uint32_t n;
   gg_vec gravity;
   bool falls; /* gravity is not zero */
@@ -71,6 +84,8 @@ struct gg_md {
   double stop;              /* end of the present advance, epoch time */
   double outer_stop;        /* the same in outside time since it began; INFINITY: none */
   uint64_t collisions_left; /* of the present advance */
+  bool plain;               /* one pair at a time, the reference for the tests */
+  bool out_of_memory;       /* a cell could not grow: the run is over */
   gg_motion *motion;
   gg_forecast *predict_all;
   gg_impact *impact;
@@ -81,6 +96,7 @@ struct gg_md {
 
 /* arrays.c: an engine with its arrays for this model, nothing in them; and its end. */
 gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err);
+gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
 void gg_md_free(gg_md *e);
 
 /* start.c: a fresh initial state: places, velocities, spins. */
@@ -91,8 +107,15 @@ gg_status gg_md_begin(gg_md *e, gg_error *err);
 /* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
 double gg_md_reach(const gg_model *model);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
+/* Neighbour lists with shells of this radius, if the box is wide enough for them; else nothing. */
+gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
-void gg_md_chain_grid(gg_md *e);
+bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
+void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);
+
+/* lists.c: every grain's shell and list anew at the present time; the shells get smaller where lists overflow. */
+void gg_md_build_lists(gg_md *e);
+void gg_md_set_shells(gg_md *e, double radius);
 
 /* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
  * False if nothing will ever happen again. */

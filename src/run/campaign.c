@@ -152,13 +152,6 @@ static bool out_of_time(const gg_campaign *c)
   return c->plan.time_limit > 0 && c->state.wall + gg_wall_now() - c->started > c->plan.time_limit;
 }
 
-static void open_window(gg_campaign *c)
-{
-  for (int i = 0; i < c->n; i++) gg_replica_open_window(&c->replicas[i]);
-  c->state.averaging = 1;
-  c->state.window_at = c->state.due;
-}
-
 /* A window of this length that still drifts is given up, and averaging begins anew after it; but not for ever. */
 enum { MOST_RESTARTS = 6 };
 
@@ -170,27 +163,44 @@ static uint64_t next_length(const gg_campaign *c, uint64_t window)
   return c->plan.most && next > c->plan.most ? c->plan.most : next;
 }
 
+static void open_window(gg_campaign *c)
+{
+  for (int i = 0; i < c->n; i++) gg_replica_open_window(&c->replicas[i]);
+  c->state.averaging = 1;
+  c->state.window_at = c->state.due;
+  c->state.goal = c->state.due + next_length(c, 0);
+}
+
+/* Is the window long, steady and exact enough? */
+static bool finished(const gg_campaign *c, const gg_judgement *j, uint64_t window)
+{
+  if (c->plan.most && window >= c->plan.most) return true;
+  if (window >= c->plan.longest << c->state.restarts) return true;
+  return c->plan.relative_error > 0 && window >= c->plan.least && j->trusted &&
+         j->relative_error <= c->plan.relative_error;
+}
+
+/* The next judging point belongs to the state, so that a resumed run judges where the uninterrupted one does. */
 gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
 {
   if (!c->state.averaging) {
     GG_TRY(go_to(c, c->plan.warmup, err));
-    open_window(c);
+    if (!out_of_time(c)) open_window(c);
   }
   while (!out_of_time(c)) {
+    GG_TRY(go_to(c, c->state.goal, err));
+    if (c->state.due < c->state.goal) break; /* out of time on the way */
     uint64_t window = c->state.due - c->state.window_at;
-    GG_TRY(go_to(c, c->state.window_at + next_length(c, window), err));
-    window = c->state.due - c->state.window_at;
     gg_judgement j;
     GG_TRY(gg_campaign_judge(c, &j, err));
     if (j.drifting && c->plan.find_steady && c->state.restarts < MOST_RESTARTS && window >= c->plan.least) {
       c->state.restarts++;
       open_window(c);
-      continue;
+    } else if (finished(c, &j, window)) {
+      return GG_OK;
+    } else {
+      c->state.goal = c->state.window_at + next_length(c, window);
     }
-    if ((c->plan.most && window >= c->plan.most) || window >= c->plan.longest << c->state.restarts) break;
-    if (c->plan.relative_error > 0 && window >= c->plan.least && j.trusted &&
-        j.relative_error <= c->plan.relative_error)
-      break;
   }
-  return GG_OK;
+  return checkpoints(c) ? store_checkpoint(c, err) : GG_OK; /* the time limit struck */
 }

@@ -33,6 +33,7 @@ typedef struct gg_campaign {
     int64_t averaging;       /* 0: warm-up */
     uint64_t due;            /* samples that every replica is to have taken */
     uint64_t window_at;      /* samples when the window was opened */
+    uint64_t goal;           /* samples at which the window is judged next */
     uint64_t restarts;       /* windows given up for drift */
     double wall;             /* seconds used before this process */
   } state;

@@ -5,63 +5,68 @@
 #include "run/campaign.h"
 #include "run/clock.h"
 
-enum { N_FINGERPRINT = 20 };
+/* Every key that fixes the trajectory or what is averaged; stop rules and output may change between parts of a run. */
+typedef struct gg_fingerprint {
+  const char *name;
+  double value;
+} gg_fingerprint;
 
-/* Numbers that fix the trajectory. */
-static void fingerprint(const gg_campaign *c, double *f)
+enum { MOST_FINGERPRINT = 64 };
+
+static int fingerprint(const gg_scene *s, gg_fingerprint *f)
 {
-  const gg_model *m = &c->model;
-  const double list[N_FINGERPRINT] = {(double)m->flow,
-                                      (double)c->scene.engine,
-                                      (double)m->n,
-                                      m->phi,
-                                      m->e[0],
-                                      m->beta[0],
-                                      m->mu[0],
-                                      m->e[3],
-                                      m->beta[3],
-                                      m->mu[3],
-                                      (double)m->n_species,
-                                      m->inertia[0],
-                                      m->box[0],
-                                      m->box[1],
-                                      m->contact_time,
-                                      m->time_step,
-                                      m->temperature0,
-                                      m->wall_speed,
-                                      (double)c->n,
-                                      (double)c->scene.run.seed};
-  memcpy(f, list, sizeof list);
+  const gg_fingerprint fixed[] = {{"flow", s->flow},
+                                  {"engine", s->engine},
+                                  {"thermostat", s->thermostat},
+                                  {"contact_value", s->contact_value},
+                                  {"phi", s->phi},
+                                  {"particles", (double)s->particles},
+                                  {"shear_rate", s->shear_rate},
+                                  {"temperature", s->temperature},
+                                  {"aspect", s->aspect[0]},
+                                  {"aspect", s->aspect[1]},
+                                  {"aspect", s->aspect[2]},
+                                  {"species", s->n_species},
+                                  {"walls.e", s->walls.e},
+                                  {"walls.beta", s->walls.beta},
+                                  {"walls.mu", s->walls.mu},
+                                  {"walls.speed", s->walls.speed},
+                                  {"walls.open_top", s->walls.open_top},
+                                  {"gravity", s->gravity[0]},
+                                  {"gravity", s->gravity[1]},
+                                  {"gravity", s->gravity[2]},
+                                  {"run.warmup", s->run.warmup},
+                                  {"run.replicas", (double)s->run.replicas},
+                                  {"run.seed", (double)s->run.seed},
+                                  {"md.contact_time", s->md.contact_time},
+                                  {"dsmc.time_step", s->dsmc.time_step},
+                                  {"dsmc.particles", (double)s->dsmc.particles},
+                                  {"measure", s->measure}};
+  int n = sizeof fixed / sizeof *fixed;
+  memcpy(f, fixed, sizeof fixed);
+  for (int p = 0; p < GG_PAIRS; p++) {
+    f[n++] = (gg_fingerprint){"collision.e", s->collision.e[p]};
+    f[n++] = (gg_fingerprint){"collision.beta", s->collision.beta[p]};
+    f[n++] = (gg_fingerprint){"collision.mu", s->collision.mu[p]};
+  }
+  for (int i = 0; i < GG_MAX_SPECIES; i++) {
+    f[n++] = (gg_fingerprint){"species: fraction", s->species[i].fraction};
+    f[n++] = (gg_fingerprint){"species: diameter", s->species[i].diameter};
+    f[n++] = (gg_fingerprint){"species: mass", s->species[i].mass};
+    f[n++] = (gg_fingerprint){"species: inertia", s->species[i].inertia};
+  }
+  return n;
 }
-
-static const char *const fingerprint_names[N_FINGERPRINT] = {"flow",
-                                                             "engine",
-                                                             "particles",
-                                                             "phi",
-                                                             "collision.e",
-                                                             "collision.beta",
-                                                             "collision.mu",
-                                                             "collision.e (22)",
-                                                             "collision.beta (22)",
-                                                             "collision.mu (22)",
-                                                             "species",
-                                                             "inertia",
-                                                             "box",
-                                                             "box",
-                                                             "md.contact_time",
-                                                             "dsmc.time_step",
-                                                             "start temperature",
-                                                             "walls.speed",
-                                                             "run.replicas",
-                                                             "run.seed"};
 
 gg_status gg_campaign_save(const gg_campaign *c, gg_archive *a, gg_error *err)
 {
-  double f[N_FINGERPRINT];
-  fingerprint(c, f);
+  gg_fingerprint f[MOST_FINGERPRINT];
+  double values[MOST_FINGERPRINT];
+  int n = fingerprint(&c->scene, f);
+  for (int i = 0; i < n; i++) values[i] = f[i].value;
   struct gg_campaign_state state = c->state;
   state.wall += gg_wall_now() - c->started;
-  GG_TRY(gg_archive_put(a, "campaign/fingerprint", GG_ITEM_F64, f, N_FINGERPRINT, err));
+  GG_TRY(gg_archive_put(a, "campaign/fingerprint", GG_ITEM_F64, values, (size_t)n, err));
   GG_TRY(gg_archive_put(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
   for (int i = 0; i < c->n; i++) {
     gg_archive one = {0};
@@ -77,13 +82,17 @@ gg_status gg_campaign_save(const gg_campaign *c, gg_archive *a, gg_error *err)
 
 static gg_status same_scene(const gg_campaign *c, const gg_archive *a, gg_error *err)
 {
-  double here[N_FINGERPRINT], there[N_FINGERPRINT];
-  fingerprint(c, here);
-  GG_TRY(gg_archive_get(a, "campaign/fingerprint", GG_ITEM_F64, there, N_FINGERPRINT, err));
-  for (int i = 0; i < N_FINGERPRINT; i++)
-    if (memcmp(&here[i], &there[i], sizeof *here) != 0)
-      return gg_fail(err, GG_BAD_INPUT, "the checkpoint was made by another scene: its %s is %.17g, the scene's %.17g",
-                     fingerprint_names[i], there[i], here[i]);
+  gg_fingerprint here[MOST_FINGERPRINT];
+  double there[MOST_FINGERPRINT];
+  int n = fingerprint(&c->scene, here);
+  GG_TRY(gg_archive_get(a, "campaign/fingerprint", GG_ITEM_F64, there, (size_t)n, err));
+  for (int i = 0; i < n; i++)
+    if (memcmp(&here[i].value, &there[i], sizeof there[i]) != 0)
+      return gg_fail(
+          err, GG_BAD_INPUT,
+          "the checkpoint is of another run: %s differs (there %.15g, here %.15g); only stop rules and output "
+          "may change",
+          here[i].name, there[i], here[i].value);
   return GG_OK;
 }
 
@@ -96,7 +105,7 @@ gg_status gg_campaign_restore(gg_campaign *c, const gg_archive *a, gg_error *err
     char prefix[24];
     snprintf(prefix, sizeof prefix, "replica%d", i);
     gg_status status = gg_archive_unnest(&one, prefix, a, err);
-    if (status == GG_OK) status = gg_replica_restore(&c->replicas[i], &one, &c->scene, &c->model, err);
+    if (status == GG_OK) status = gg_replica_restore(&c->replicas[i], &one, &c->scene, &c->model, i, err);
     gg_archive_clear(&one);
     if (status != GG_OK) return status;
   }

@@ -1,5 +1,6 @@
 /* How a replica is looked at: chunk by chunk for rows at every sample; as whole snapshots for curves, when one is due.
  */
+#include "measure/local_frame.h"
 #include "run/replica.h"
 
 typedef struct showing {
@@ -26,11 +27,16 @@ void gg_replica_look(gg_replica *r, double elapsed)
   for (int k = 0; k < r->n_observables; k++)
     if (r->observable[k]->passes > passes) passes = r->observable[k]->passes;
   if (r->model.rule == GG_SMOOTH && passes > 1) passes = 1; /* further passes look at spins */
+  gg_local_frame frame;
+  if (r->model.walled) gg_local_frame_take(&frame, &r->model, r->engine);
   for (int pass = 0; pass < passes; pass++) {
     for (int k = 0; k < r->n_observables; k++)
       if (wants(r->observable[k], pass)) r->observable[k]->begin(r->self[k], pass);
     showing s = {r, pass};
-    r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
+    if (r->model.walled)
+      gg_local_frame_snapshot(&frame, r->engine, show_chunk, &s);
+    else
+      r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
   }
   gg_transfer transfer;
   r->engine->ops->read_tap(r->engine, &transfer);

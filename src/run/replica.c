@@ -146,9 +146,9 @@ gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
 }
 
 gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
-                             gg_error *err)
+                             int index, gg_error *err)
 {
-  *r = (gg_replica){.model = *model, .trajectory_every = scene->output.trajectory_every};
+  *r = (gg_replica){.model = *model, .trajectory_every = index == 0 ? scene->output.trajectory_every : 0};
   gg_status status = gg_replica_attach(r, scene, err);
   if (status == GG_OK) status = gg_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
   if (status == GG_OK) status = gg_series_restore(&r->series, a, err);

@@ -61,6 +61,6 @@ double gg_replica_collisions_per_grain(const gg_replica *r);
 
 gg_status gg_replica_save(const gg_replica *r, gg_archive *archive, gg_error *err);
 gg_status gg_replica_restore(gg_replica *r, const gg_archive *archive, const gg_scene *scene, const gg_model *model,
-                             gg_error *err);
+                             int index, gg_error *err);
 
 #endif

@@ -8,6 +8,7 @@
 /* Why a quantity is not there: the first observable's reason, else that nothing asked for measures it. */
 static const char *why_missing(const gg_campaign *c, gg_quantity q)
 {
+  if (!c->state.averaging) return "nothing was averaged: the run ended in its warm-up";
   if (c->replicas[0].n_observables == 0) return "nothing is measured in this scene";
   const char *reason = c->replicas[0].observable[0]->missing(&c->model, q);
   return reason ? reason : "not measured in this scene";
@@ -37,8 +38,8 @@ static gg_status report_means(gg_campaign *c, gg_result *result, gg_error *err)
       snprintf(e->reason, sizeof e->reason, "no steady state: the gas heats up; see the history");
       continue;
     }
-    gg_mean m;
-    GG_TRY(gg_campaign_mean(c, (gg_quantity)q, &m, err));
+    gg_mean m = {.mean = NAN};
+    if (c->state.averaging) GG_TRY(gg_campaign_mean(c, (gg_quantity)q, &m, err));
     if (!isfinite(m.mean)) {
       snprintf(e->reason, sizeof e->reason, "%s", why_missing(c, (gg_quantity)q));
       continue;
@@ -84,7 +85,7 @@ static void report_effort(const gg_campaign *c, gg_result *result)
     r->engine->ops->state(r->engine, &s);
     sum->time = s.time, sum->time_step = s.time_step, sum->time_step_bias = s.time_step_bias;
     sum->collisions += s.collisions, sum->events += s.events;
-    sum->treated += s.treated, sum->overflows += s.overflows;
+    sum->treated += s.treated, sum->wall_treated += s.wall_treated, sum->overflows += s.overflows;
     sum->worst_overlap = fmax(sum->worst_overlap, s.worst_overlap);
     result->averaging.collisions += s.collisions - r->clock.window_collisions;
     result->averaging.cpu_seconds += r->clock.cpu - r->clock.window_cpu;
@@ -155,6 +156,9 @@ static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_resu
   if ((double)s->treated > 1e-4 * (double)s->collisions)
     gg_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
                    100 * (double)s->treated / (double)s->collisions);
+  if (s->wall_treated > s->collisions / 100)
+    gg_result_warn(result, "%.3g contacts with walls fell under the contact-time rule: grains rest on a wall",
+                   (double)s->wall_treated);
   warn_if_structured(result);
   if (s->overflows > 1e-3 * (double)s->collisions)
     gg_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
@@ -180,6 +184,11 @@ gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err)
   GG_TRY(gg_campaign_report_curves(c, result, err));
   GG_TRY(gg_frame_take(c->replicas[0].engine, &c->model, &result->final, err));
   result->final.time = c->replicas[0].clock.time;
+  if (!c->state.averaging ||
+      (c->plan.most && c->state.due - c->state.window_at < c->plan.most && !(c->plan.relative_error > 0)))
+    return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", result->engine,
+                   (double)c->state.due * GG_SAMPLE_SPACING,
+                   c->state.averaging ? " and short of run.collisions" : ", in the warm-up");
   if (c->plan.relative_error > 0 && !(j.relative_error <= c->plan.relative_error))
     return gg_fail(err, GG_FAILED, "%s: the asked relative error %g was not reached: %s has %.3g", result->engine,
                    c->plan.relative_error, gg_quantity_name(j.worst), j.relative_error);

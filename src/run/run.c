@@ -16,6 +16,8 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   if (status == GG_OK) {
     result = gg_new_array(1, sizeof *result, err);
     status = result ? gg_campaign_report(&campaign, result, err) : GG_FAILED;
+    if (result && resume && scene->output.trajectory_every > 0)
+      gg_result_warn(result, "the trajectory begins where the run was resumed");
   }
   gg_campaign_clear(&campaign);
   *out = result;

@@ -84,6 +84,15 @@ def test_disk_full():
         check(not done.new, done.new)
 
 
+def test_disk_full_in_picture():
+    """A disk that fills while the picture is drawn: gnuplot does not notice, graingas does."""
+    run("run", "scene.yaml", "--quiet", "--output", "r.h5",
+        scene="flow: usf\nphi: 0.1\nparticles: 200\nrun: {collisions: 100}\n")
+    done = run("plot", "r.h5", "--output", "r.svg", limit=10000)
+    check(done.code == 3 and "whole" in done.err, done.code, done.err)
+    check(not done.new, "left behind:", done.new)
+
+
 def test_disk_full_in_trajectory():
     done = run("run", "scene.yaml", "--quiet", "--set", "output.trajectory_every=2", scene=GOOD, limit=100000)
     check(done.code == 3, "exit", done.code, done.err)
@@ -124,6 +133,12 @@ def test_command_line():
 
 def test_flow_of_another_engine():
     refused("flow", 2, scene="flow: couette\nphi: 0.3\n", *("run", "scene.yaml", "--engine", "dsmc"))
+
+
+def test_output_over_the_input():
+    refused("scene.yaml: would be overwritten by its own result", 2, "run", "scene.yaml", "--output", "scene.yaml",
+            scene=GOOD)
+    check(open("scene.yaml").read() == GOOD)
 
 
 def test_results_that_are_none():

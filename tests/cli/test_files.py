@@ -63,6 +63,25 @@ def test_checkpoint_of_another_scene():
     check(done.code == 2 and "collision.e" in done.err, done.code, done.err)
 
 
+def test_killed_at_any_moment():
+    """Whatever the moment of a kill -9, a whole checkpoint is there to go on from."""
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE % 1e9 + "output: {checkpoint_every: 0.001}\n")
+    for k in range(6):
+        begun = []
+
+        def after(_):
+            if not begun and os.path.exists("scene.checkpoint.h5"):
+                begun.append(time.monotonic())
+            return begun and time.monotonic() > begun[0] + 0.037 * k
+
+        args = ("run", "scene.yaml", "--quiet") + (("--resume", "scene.checkpoint.h5") if k else ())
+        code, _, err = interrupted(*args, after=after, sig=signal.SIGKILL)
+        check(code == -signal.SIGKILL, code, err)
+    code, _, err = interrupted(*args, after=a_second)
+    check(code == 130 and "--resume" in err, code, err)
+
+
 def test_trajectory():
     done = run("run", "scene.yaml", "--quiet", "--set", "output.trajectory_every=20", scene=SCENE % 100)
     check(done.code in (0, 1) and done.new == ["scene.h5"], done.err)

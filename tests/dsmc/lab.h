@@ -52,7 +52,7 @@ static inline double lab_advance(gg_engine *g, double dt, uint64_t collisions)
 /* What a snapshot tells. */
 typedef struct lab_view {
   double n, momentum[3], cc[3][3], c4, ss, s_mean[3];
-  double mass_energy[2], n_of[2], c4_of[2], cc_of[2]; /* by species; sums of C^2, C^4 */
+  double n_of[2], c4_of[2], cc_of[2], xy_of[2]; /* by species; sums of C^4, C^2, C_x C_y */
 } lab_view;
 
 static inline void lab_look(void *context, const gg_chunk *k)
@@ -62,7 +62,7 @@ static inline void lab_look(void *context, const gg_chunk *k)
     double c[3] = {k->c[0][i], k->c[1][i], k->c[2][i]}, c2 = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
     int s = k->species ? k->species[i] : 0;
     v->n++, v->c4 += c2 * c2;
-    v->n_of[s]++, v->cc_of[s] += c2, v->c4_of[s] += c2 * c2;
+    v->n_of[s]++, v->cc_of[s] += c2, v->c4_of[s] += c2 * c2, v->xy_of[s] += c[0] * c[1];
     for (int a = 0; a < 3; a++) {
       v->momentum[a] += c[a];
       for (int b = 0; b < 3; b++) v->cc[a][b] += c[a] * c[b];

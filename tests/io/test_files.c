@@ -234,7 +234,7 @@ static void unreadable_results(void **state)
   gg_scene scene = gg_scene_defaults();
   assert_int_equal(gg_checkpoint_write("c.h5", &a, &scene, &err), GG_OK);
   assert_int_equal(gg_stored_result_read(&s, "c.h5", &err), GG_BAD_FILE);
-  assert_non_null(strstr(err.message, "it holds no result of graingas"));
+  assert_non_null(strstr(err.message, "it is a checkpoint"));
   remove_all();
 }
 

@@ -2,15 +2,36 @@
  * or its cell, over 10^5 collisions; the energy that the tap reports lost is the energy that went. */
 #include "md_test.h"
 
+static void in_cell(const gg_md *e, uint32_t i)
+{
+  gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now);
+  for (int a = 0; a < 3; a++) {
+    double x = gg_along(&r, a), w = e->cells.width[a], lower = e->node[i].cell[a] * w;
+    assert_true(x > lower - 1e-12 * e->box.edge[a] && x < lower + w + 1e-12 * e->box.edge[a]);
+  }
+}
+
+/* Lists: in its shell, and lists are symmetric. */
+static void in_shell(const gg_md *e, uint32_t i)
+{
+  gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), dr = gg_sub(r, e->shell[i].centre);
+  if (e->model.shear_rate == 0) assert_true(gg_dot(dr, dr) < e->shell_radius * e->shell_radius * (1 + 1e-9));
+  const uint32_t *mine = e->neighbour + (size_t)i * GG_LIST;
+  for (uint32_t k = 0; k < e->node[i].neighbours; k++) {
+    const uint32_t *other = e->neighbour + (size_t)mine[k] * GG_LIST;
+    bool back = false;
+    for (uint32_t m = 0; m < e->node[mine[k]].neighbours; m++) back |= other[m] == i;
+    assert_true(back);
+  }
+}
+
 static void check_places(const gg_md *e)
 {
-  for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now);
-    for (int a = 0; a < 3; a++) {
-      double x = gg_along(&r, a), w = e->cells.width[a], lower = e->node[i].cell[a] * w;
-      assert_true(x > lower - 1e-12 * e->box.edge[a] && x < lower + w + 1e-12 * e->box.edge[a]);
-    }
-  }
+  for (uint32_t i = 0; i < e->n; i++)
+    if (e->shell)
+      in_shell(e, i);
+    else
+      in_cell(e, i);
 }
 
 static void run(md_case c, bool conserves)

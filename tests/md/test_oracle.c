@@ -6,7 +6,7 @@
 
 #include "md_test.h"
 
-enum { MOST = 64 };
+enum { MOST = 160 };
 
 typedef struct watch {
   uint32_t stamp[MOST];
@@ -108,7 +108,7 @@ static bool random_scene(gg_scene *s, gg_rng *rng, gg_flow flow, bool mixture)
     s->walls.open_top = gg_rng_below(rng, 2);
   }
   gg_model m = md_model_of(s);
-  return s->particles <= MOST && gg_md_ops.accepts(&m, NULL) == GG_OK;
+  return s->particles <= 64 && gg_md_ops.accepts(&m, NULL) == GG_OK;
 }
 
 static void many(gg_flow flow, bool mixture, int systems, uint64_t seed)
@@ -152,6 +152,21 @@ static void one(md_case c, uint64_t seed, int warm, int events)
   follow(&s, seed, warm, events);
 }
 
+/* Boxes wide enough for neighbour lists. */
+static void listed(void **state)
+{
+  (void)state;
+  for (uint64_t seed = 1; seed <= 3; seed++) {
+    one((md_case){GG_HCS, 110, 0.3, 0.9, 0, INFINITY, {0}}, seed, 900, 30);
+    one((md_case){GG_USF, 110, 0.3, 0.9, 0, INFINITY, {1, 1.1, 1}}, seed, 900, 30);
+    one((md_case){GG_USF, 150, 0.5, 0.8, 0.5, 0.3, {0}}, seed, 1200, 30);
+    one((md_case){GG_USF, 150, 0.55, 0.9, -1, INFINITY, {1.2, 1, 1}}, seed, 1200, 30);
+    gg_scene s = md_scene((md_case){GG_USF, 150, 0.45, 0.9, 0, INFINITY, {0}});
+    s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5, s.species[1].diameter = 0.8;
+    follow(&s, seed, 1200, 30);
+  }
+}
+
 static void dense(void **state)
 {
   (void)state;
@@ -177,7 +192,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(periodic),      cmocka_unit_test(sheared),       cmocka_unit_test(mixtures),
       cmocka_unit_test(between_walls), cmocka_unit_test(under_gravity), cmocka_unit_test(dense),
-      cmocka_unit_test(few_grains),
+      cmocka_unit_test(few_grains),    cmocka_unit_test(listed),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "fake_engine.h"
-#include "run/run.h"
+#include "run/agreement.h"
 
 static gg_scene scene_of(double beta)
 {
@@ -158,7 +158,7 @@ static void replicas(void **state)
 }
 
 typedef struct keeper {
-  int asked, stop_at;
+  int asked, stop_at, frames;
   gg_archive kept;
 } keeper;
 
@@ -175,35 +175,133 @@ static gg_status keep(void *context, const gg_archive *archive, gg_error *err)
   return gg_archive_nest(&k->kept, "x", archive, err);
 }
 
-/* Interrupted anywhere (warm-up, averaging, mid-round) and resumed from its checkpoint, a run ends with the same
- * numbers to the last bit; a checkpoint of another scene is refused by name. */
+static gg_status count_frame(void *context, const gg_frame *frame, gg_error *err)
+{
+  (void)frame, (void)err;
+  ((keeper *)context)->frames++;
+  return GG_OK;
+}
+
+/* A run interrupted when the hook is asked for the `stop`th time, and resumed from its checkpoint. */
+static gg_result *in_two_parts(const gg_scene *s, int stop, gg_archive *archive)
+{
+  keeper k = {.stop_at = stop};
+  gg_hooks hooks = {.context = &k, .interrupted = stop_after, .frame = count_frame, .checkpoint = keep};
+  gg_result *r = NULL;
+  gg_archive_clear(archive);
+  if (gg_run_scene(s, NULL, 1, &hooks, &r, NULL) == GG_INTERRUPTED) {
+    assert_null(r);
+    assert_int_equal(gg_archive_unnest(archive, "x", &k.kept, NULL), GG_OK);
+    assert_int_equal(gg_run_scene(s, archive, 1, NULL, &r, NULL), GG_OK);
+  } else {
+    gg_result_free(r);
+    r = NULL; /* it was over before */
+  }
+  gg_archive_clear(&k.kept);
+  return r;
+}
+
+/* Interrupted anywhere (warm-up, averaging, mid-round, between replicas) and resumed from its checkpoint, a run ends
+ * with the same numbers to the last bit, whatever ends it. */
 static void resume(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(0);
-  s.run.collisions = 800, s.run.replicas = 2;
-  s.output.checkpoint_every = 1e6;
-  gg_result *whole = run(&s, GG_OK);
-  const int stops[] = {3, 25, 301, 640};
-  for (int i = 0; i < 4; i++) {
-    keeper k = {.stop_at = stops[i]};
-    gg_hooks hooks = {.context = &k, .interrupted = stop_after, .checkpoint = keep};
-    gg_result *r = NULL;
+  for (int mode = 0; mode < 2; mode++) {
+    gg_scene s = scene_of(0);
+    fake.start = 0.5, fake.relaxation = 60; /* windows are given up for drift */
+    s.run.replicas = 2, s.run.seed = 3;
+    if (mode == 0)
+      s.run.collisions = 800;
+    else
+      s.run.relative_error = 0.004;
+    s.output.checkpoint_every = 1e6;
+    gg_result *whole = run(&s, GG_OK);
     gg_archive archive = {0};
-    assert_int_equal(gg_run_scene(&s, NULL, 1, &hooks, &r, NULL), GG_INTERRUPTED);
-    assert_null(r);
-    assert_int_equal(gg_archive_unnest(&archive, "x", &k.kept, NULL), GG_OK);
-    assert_int_equal(gg_run_scene(&s, &archive, 1, NULL, &r, NULL), GG_OK);
-    same_results(whole, r);
-    gg_result_free(r);
-    gg_error err;
-    s.phi = 0.21;
-    assert_int_equal(gg_run_scene(&s, &archive, 1, NULL, &r, &err), GG_BAD_INPUT);
-    assert_non_null(strstr(err.message, "phi"));
-    s.phi = 0.2;
-    gg_archive_clear(&archive), gg_archive_clear(&k.kept);
+    int resumed = 0;
+    for (int stop = 1; stop < 1200; stop += 23) {
+      gg_result *r = in_two_parts(&s, stop, &archive);
+      if (!r) break;
+      same_results(whole, r);
+      gg_result_free(r);
+      resumed++;
+    }
+    assert_true(resumed > 20);
+    gg_archive_clear(&archive), gg_result_free(whole);
   }
-  gg_result_free(whole);
+}
+
+/* A checkpoint of other physics is refused, and the key named. */
+static void other_scene(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0);
+  s.run.collisions = 400, s.output.checkpoint_every = 1e6;
+  gg_archive archive = {0};
+  gg_result_free(in_two_parts(&s, 60, &archive));
+  gg_scene other[6] = {s, s, s, s, s, s};
+  other[0].phi = 0.21, other[1].collision.e[1] = 0.5, other[2].species[1].mass = 2, other[3].walls.beta = 0;
+  other[4].gravity[1] = -1, other[5].run.warmup = 100;
+  const char *const names[] = {"phi", "collision.e", "mass", "walls.beta", "gravity", "run.warmup"};
+  for (int i = 0; i < 6; i++) {
+    gg_result *r = NULL;
+    gg_error err;
+    assert_int_equal(gg_run_scene(&other[i], &archive, 1, NULL, &r, &err), GG_BAD_INPUT);
+    assert_non_null(strstr(err.message, names[i]));
+  }
+  s.run.collisions = 800; /* a longer run of the same is welcome */
+  gg_result *r = NULL;
+  assert_int_equal(gg_run_scene(&s, &archive, 1, NULL, &r, NULL), GG_OK);
+  gg_result_free(r), gg_archive_clear(&archive);
+}
+
+typedef struct frames {
+  int n;
+  double last;
+} frames;
+
+static gg_status see_frame(void *context, const gg_frame *frame, gg_error *err)
+{
+  frames *f = context;
+  if (!(frame->time > f->last)) return gg_fail(err, GG_FAILED, "frames out of order");
+  f->last = frame->time;
+  f->n++;
+  return GG_OK;
+}
+
+/* Frames are the first replica's only, in order, in a resumed run too. */
+static void trajectory(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(-1);
+  s.run.collisions = 400, s.run.replicas = 3, s.output.trajectory_every = 20, s.output.checkpoint_every = 1e6;
+  gg_archive archive = {0};
+  frames whole = {0, -1}, rest = {0, -1};
+  gg_hooks hooks = {.context = &whole, .frame = see_frame};
+  gg_result *r = NULL;
+  assert_int_equal(gg_run_scene(&s, NULL, 3, &hooks, &r, NULL), GG_OK);
+  gg_result_free(r);
+  gg_result_free(in_two_parts(&s, 200, &archive));
+  hooks.context = &rest;
+  assert_int_equal(gg_run_scene(&s, &archive, 3, &hooks, &r, NULL), GG_OK);
+  assert_true(rest.n > 3 && rest.n < whole.n && rest.last == whole.last);
+  gg_result_free(r), gg_archive_clear(&archive);
+}
+
+/* The time limit keeps a checkpoint, calls what is short short, and never averages over a warm-up. */
+static void time_limit(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0);
+  fake.seconds = 2e-3;
+  s.run.collisions = 1e5, s.run.warmup = 1e5, s.run.time_limit = 0.1, s.output.checkpoint_every = 1e6;
+  keeper k = {.stop_at = 1 << 30};
+  gg_hooks hooks = {.context = &k, .checkpoint = keep};
+  gg_result *r = NULL;
+  assert_int_equal(gg_run_scene(&s, NULL, 1, &hooks, &r, NULL), GG_FAILED);
+  assert_true(k.kept.n_items > 0);
+  assert_true(isnan(r->value[GG_Q_TEMPERATURE].mean));
+  assert_non_null(strstr(r->value[GG_Q_TEMPERATURE].reason, "warm-up"));
+  gg_result_free(r), gg_archive_clear(&k.kept);
 }
 
 /* A comparison puts both columns and the theories side by side; z is the difference over the combined error. */
@@ -222,12 +320,38 @@ static void comparison(void **state)
   gg_comparison_clear(&c);
 }
 
+/* Differences are marked only where they exceed four errors and what is expected at that density, and a cause is named.
+ */
+static void agreement(void **state)
+{
+  (void)state;
+  gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
+  gg_comparison c = {.by_engine = {&md, &dsmc}};
+  gg_scene s = scene_of(0);
+  assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+  const struct {
+    double phi, md, error;
+    bool marked;
+  } cases[] = {{0.2, 1.02, 0.001, false}, {0.2, 1.05, 0.001, true},  {0.2, 1.05, 0.02, false},
+               {0.01, 1.02, 0.001, true}, {0.4, 1.05, 0.001, false}, {0.4, 1.2, 0.001, true}};
+  for (int i = 0; i < 6; i++) {
+    const char *cause[8];
+    c.model.phi = cases[i].phi;
+    md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = cases[i].md, .error = cases[i].error};
+    dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 1, .error = 0.001};
+    assert_int_equal(gg_disagree(&c, GG_Q_TEMPERATURE), cases[i].marked);
+    if (cases[i].marked) assert_true(gg_causes_of_disagreement(&c, cause, 8) >= 1);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_means), cmocka_unit_test(slow_relaxation), cmocka_unit_test(nearly_smooth),
       cmocka_unit_test(endless_drift), cmocka_unit_test(heating),         cmocka_unit_test(ends),
-      cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(comparison),
+      cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(other_scene),
+      cmocka_unit_test(trajectory),    cmocka_unit_test(time_limit),      cmocka_unit_test(comparison),
+      cmocka_unit_test(agreement),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

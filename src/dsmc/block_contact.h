@@ -1,0 +1,94 @@
+/* One candidate a lane: does it collide, along which k, with what contact velocity?
+ *
+ * A pair's rate integrated over directions is pi sigma^2 chi/V times
+ *   without shear between the centres:  |C12|, and then k falls by the cosine law about C12;
+ *   with it:  at most |C12| + s0, s0 = (8/3 pi) sigma rate, since g_n <= max(0, k.C12) + sigma rate |k_x k_y|; k falls
+ * by the cosine law with the share of the first, by the law |k_x k_y| with that of the second, and is then kept with
+ *   probability g_n/(max(0, k.C12) + sigma rate |k_x k_y|).
+ * One uniform number t in [-s0, bound - s0) serves for all: t < 0 takes the second law, t < |C12| the first, anything
+ * more is no collision; and since what is left of t is uniform again, it decides the last choice, too.
+ *
+ * Smooth grains without shear need no k at all: with w uniform on the sphere, C12 - |C12| w points along a k of the
+ * cosine law and is 2 (k.C12) long, since elastic hard spheres scatter isotropically. */
+#ifndef GG_DSMC_BLOCK_CONTACT_H
+#define GG_DSMC_BLOCK_CONTACT_H
+
+#include "dsmc/directions.h"
+#include "dsmc/lanes_collision.h"
+
+/* A batch in progress: constants and sums where the compiler can keep them in registers. */
+typedef struct gg_batch {
+  gg_block *one, *two, *spin_one, *spin_two;
+  uint64_t n_one, n_two; /* blocks */
+  gg_contact contact;
+  gg_lane_rng rng;
+  gg_directions near, sheared;     /* about C12, and by the law |k_x k_y| */
+  double bound, offset, s0, shift; /* t = bound (1 + u) + offset */
+  double brim;                     /* C12^2 at which the bound overflows */
+  double drift;
+  uint64_t collisions, overflows;
+  gg_vd worst; /* largest C12^2 */
+  gg_vd loss[GG_PARTS], stress[3][3][GG_PARTS];
+} gg_batch;
+
+/* What a candidate comes to; where it does not hit, the rest means nothing (but is finite). */
+typedef struct gg_encounter {
+  gg_mask hit;
+  gg_vd3 k, g; /* k: only if needed; g: contact velocity without spins */
+  gg_vd3 gn_k; /* g_n k */
+  gg_vd gn, gn2;
+} gg_encounter;
+
+GG_INLINE bool gg_needs_k(gg_features f)
+{
+  return f.rule != GG_SMOOTH || f.shear == GG_SHEARED_DENSE || f.tap == GG_TAP_STRESS;
+}
+
+/* The direction that lies about v as q lies about the z axis: q mirrored by the Householder vector v +- |v| z. */
+GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd3 q)
+{
+  const gg_vu sign = (gg_vu)v.z & (gg_vu)gg_all(-0.0);
+  gg_vd side = (gg_vd)((gg_vu)speed | sign), height = speed + (gg_vd)((gg_vu)v.z ^ sign);
+  gg_vd3 h = {v.x, v.y, v.z + side}, m = {q.x, q.y, (gg_vd)((gg_vu)q.z ^ sign ^ (gg_vu)gg_all(-0.0))};
+  gg_vd f = gg_vd3_dot(h, m) / (speed * height + 1e-300); /* 0/0 only where nothing moves */
+  return gg_vd3_sub(m, gg_vd3_scale(f, h));
+}
+
+/* Shear between the centres: lanes in `special` take the second law; then the last choice. */
+GG_INLINE void gg_encounter_shear(gg_batch *w, gg_vd3 v, gg_vd speed, gg_vd t, gg_mask special, gg_encounter *e)
+{
+  gg_vd3 k = e->k, other = gg_directions_take(&w->sheared, special);
+  k = (gg_vd3){gg_select(special, other.x, k.x), gg_select(special, other.y, k.y), gg_select(special, other.z, k.z)};
+  gg_vd gn = gg_vd3_dot(k, v), forward = gg_where(gg_less(gg_all(0), gn), gn), shear = w->shift * k.x * k.y;
+  gg_vd most = forward + gg_larger(shear, -shear);
+  gg_vd left = gg_select(special, -t, t), range = gg_select(special, gg_all(w->s0), speed);
+  e->k = k;
+  e->gn = gn - shear;
+  e->g.x -= w->shift * k.y;
+  e->hit = gg_and(gg_or(e->hit, special), gg_less(left * most, range * e->gn));
+}
+
+/* The candidates with relative velocity v, decided by the random word r. */
+GG_INLINE gg_encounter gg_encounter_of(gg_features f, gg_batch *w, gg_vd3 v, gg_vu r)
+{
+  gg_vd v2 = gg_vd3_dot(v, v), speed = gg_sqrt(v2), t = gg_lane_one_to_two(r) * w->bound + w->offset;
+  gg_mask special = gg_less(t, gg_all(0));
+  gg_encounter e = {.hit = gg_less(t * t, v2), .g = v};
+  if (f.shear == GG_SHEARED_DENSE) e.hit = gg_and_not(e.hit, special);
+  w->worst = gg_larger(w->worst, v2);
+  unsigned over = gg_bits(gg_less(gg_all(w->brim), v2));
+  if (__builtin_expect(over != 0, 0)) w->overflows += (unsigned)__builtin_popcount(over);
+  gg_vd3 q = gg_directions_take(&w->near, e.hit);
+  if (!gg_needs_k(f)) {
+    e.gn_k = gg_vd3_scale(gg_all(0.5), gg_vd3_sub(v, gg_vd3_scale(speed, q)));
+    if (f.tap != GG_TAP_CLOSED) e.gn2 = gg_vd3_dot(e.gn_k, e.gn_k);
+    return e;
+  }
+  e.k = gg_about(v, speed, q);
+  e.gn = speed * q.z;
+  if (f.shear == GG_SHEARED_DENSE) gg_encounter_shear(w, v, speed, t, special, &e);
+  e.gn2 = e.gn * e.gn;
+  return e;
+}
+
+#endif

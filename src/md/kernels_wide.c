@@ -1,0 +1,31 @@
+/* Compiled several times, for one instruction set each: GG_ISA names it. */
+#include "md/kernels.h"
+#include "md/loop.h"
+
+#ifndef GG_ISA
+#define GG_ISA any
+#endif
+#define JOIN2(a, b) a##b
+#define JOIN(a, b) JOIN2(a, b)
+
+#define MOTION(name, ...)                                                                                              \
+  static void run_##name(gg_md *e) { gg_loop(e, (gg_features){__VA_ARGS__}); }                                         \
+  static void all_##name(gg_md *e) { gg_forecast_all(e, (gg_features){__VA_ARGS__}); }
+#define MOTIONS(name, ...)                                                                                             \
+  MOTION(name, __VA_ARGS__)                                                                                            \
+  MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
+MOTIONS(periodic, .wide = true)
+MOTIONS(sheared, .wide = true, .sheared = true)
+MOTIONS(walled, .wide = true, .walled = true)
+MOTIONS(falling, .wide = true, .walled = true, .gravity = true)
+MOTIONS(periodic_listed, .listed = true)
+MOTIONS(sheared_listed, .listed = true, .sheared = true)
+
+gg_kernel JOIN(gg_md_wide_, GG_ISA)(enum gg_boundary boundary, bool mixture, bool listed)
+{
+#define ROW(name) {{run_##name, all_##name}, {run_##name##_mixture, all_##name##_mixture}}
+  static const gg_kernel cells[][2] = {
+      [GG_PERIODIC] = ROW(periodic), [GG_SHEARED] = ROW(sheared), [GG_WALLED] = ROW(walled), [GG_FALLING] = ROW(falling)};
+  static const gg_kernel lists[][2] = {[GG_PERIODIC] = ROW(periodic_listed), [GG_SHEARED] = ROW(sheared_listed)};
+  return listed ? lists[boundary][mixture] : cells[boundary][mixture];
+}

@@ -1,0 +1,240 @@
+/* Neighbour lists for dense systems: who can be met before one of both leaves its shell.
+ *
+ * Each grain has a shell of radius s around where it stood when its list was made; the list holds everybody whose
+ * shell centre then lay within rho = sigma + 2 s of its own, and is symmetric. While two grains that are not listed
+ * stay in their shells they cannot touch. A grain that leaves its shell gets a new one, and lists are mended.
+ *
+ * Under shear the centres move with the flow at their height, and shells shrink at the rate kappa = shear_rate rho/4:
+ * two centres at a distance R approach at most at shear_rate R/2, so what holds at the making holds until the exit. A
+ * centre is kept by where it stood at the epoch's start, which does not change: the cells of the centres are at rest.
+ *
+ * Predictions take the whole list, eight at a time. */
+#ifndef GG_MD_LISTS_H
+#define GG_MD_LISTS_H
+
+#include "md/batch.h"
+#include "md/scan.h"
+
+GG_INLINE uint32_t *gg_list(const gg_md *e, uint32_t i)
+{
+  return e->neighbour + (size_t)i * GG_LIST;
+}
+
+/* Where shell i's centre is at the present time. */
+GG_INLINE gg_vec gg_centre(const gg_md *e, gg_features f, uint32_t i)
+{
+  gg_vec c = e->shell[i].centre;
+  if (f.sheared) c.x += e->model.shear_rate * (c.y - 0.5 * e->box.edge[1]) * e->k.now;
+  return c;
+}
+
+/* When the grain leaves its shell: |dr + dv t| = s - kappa t, root without cancellation. */
+GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const gg_grain *g)
+{
+  gg_vec centre = gg_centre(e, f, i), dr = gg_sub(g->r, centre), dv = g->v;
+  double radius = e->shell_radius, kappa = f.sheared ? e->shrinkage : 0;
+  if (f.sheared) {
+    dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]); /* the centre is kept wrapped */
+    dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);
+    radius -= kappa * (e->k.now - e->shell[i].built);
+  }
+  double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
+  double c = gg_dot(dr, dr) - radius * radius;
+  if (!(c < 0) || radius < 0) return e->k.now;
+  double root = sqrt(b * b - a * c);
+  double delay = b > 0 ? -c / (b + root) : a > 0 ? (root - b) / a : INFINITY;
+  return e->k.now + delay;
+}
+
+/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain itself. */
+GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
+{
+  const gg_grain *g = s->self;
+  double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0, now = e->k.now;
+  const double *L = e->box.edge, *inverse = e->box.inverse, *sigma = e->model.sigma;
+  int species = f.mixture ? gg_species_of(g) : 0;
+  gg_v8 first = gg_all(INFINITY);
+  gg_m8 with = (gg_m8){0} - 1;
+  for (uint32_t k = 0; k < count; k += GG_BATCH) {
+    gg_batch b = gg_gather(e->grain, list + k);
+    gg_v8 dt = now - b.t;
+    gg_v8 x = b.x + dt * b.vx - g->r.x, y = b.y + dt * b.vy - g->r.y, z = b.z + dt * b.vz - g->r.z;
+    gg_v8 vx = b.vx - g->v.x, vy = b.vy - g->v.y, vz = b.vz - g->v.z;
+    if (f.gravity) {
+      gg_v8 half = 0.5 * dt * dt;
+      x = (b.x + dt * b.vx + half * e->gravity.x) - g->r.x, vx = (b.vx + dt * e->gravity.x) - g->v.x;
+      y = (b.y + dt * b.vy + half * e->gravity.y) - g->r.y, vy = (b.vy + dt * e->gravity.y) - g->v.y;
+      z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
+    }
+    if (f.sheared) {
+      gg_v8 layers = gg_nearest8(y * inverse[1]);
+      y -= L[1] * layers;
+      x -= layers * offset;
+      x -= L[0] * gg_nearest8(x * inverse[0]);
+      vx -= layers * e->box.slide;
+    } else {
+      x = gg_fold8(x, L[0]);
+      if (!f.walled) y = gg_fold8(y, L[1]);
+    }
+    z = gg_fold8(z, L[2]);
+    gg_v8 sigma2 = gg_all(sigma[0] * sigma[0]);
+    if (f.mixture) {
+      gg_m8 second = -((gg_m8)b.tag & 1);
+      double s0 = sigma[2 * species], s1 = sigma[2 * species + 1];
+      sigma2 = gg_choose(second, gg_all(s1 * s1), gg_all(s0 * s0));
+    }
+    gg_v8 t = now + gg_contact_delay8(x, y, z, vx, vy, vz, sigma2);
+    gg_m8 who = __builtin_convertvector(*(const gg_list8 *)(list + k), gg_m8);
+    gg_m8 sooner = (t < first) | ((t == first) & (who < with));
+    first = gg_choose(sooner, t, first);
+    with = (who & sooner) | (with & ~sooner);
+  }
+  int64_t partner;
+  double t = gg_earliest8(first, with, &partner);
+  if (t < s->collision || (t == s->collision && t < INFINITY && partner < s->partner)) {
+    s->collision = t;
+    s->partner = (uint32_t)partner;
+  }
+}
+
+/* Those that cells were searched for. */
+GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
+{
+  for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = s->grain;
+  gg_scan_batches(e, f, s, s->near, s->n_near);
+}
+
+/* Everybody in the cells that can hold centres within rho of shell i's, as far as there is room. */
+GG_INLINE void gg_collect_near(const gg_md *e, gg_features f, uint32_t i, gg_search *s)
+{
+  const gg_cells *c = &e->cells;
+  const int32_t *at = e->node[i].cell;
+  gg_vec centre = e->shell[i].centre;
+  double rho = c->reach, strain = f.sheared ? e->model.shear_rate * e->k.now : 0;
+  s->n_near = 0;
+  for (int32_t z = at[2] - 1; z <= at[2] + 1; z++) {
+    if (z * c->width[2] > centre.z + rho || (z + 1) * c->width[2] < centre.z - rho) continue;
+    for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) {
+      gg_vec shift = {0, 0, 0};
+      int32_t iy = gg_image_cell(e, 1, y, &shift.y), iz = gg_image_cell(e, 2, z, &shift.z);
+      if (f.sheared) shift.x = shift.y > 0 ? e->box.offset0 : shift.y < 0 ? -e->box.offset0 : 0;
+      double below = y * c->width[1] - centre.y, above = (y + 1) * c->width[1] - centre.y;
+      if (below > rho || above < -rho) continue;
+      if (below < -rho) below = -rho;
+      if (above > rho) above = rho;
+      int32_t from = (int32_t)gg_floor((centre.x - rho - strain * above - shift.x) * c->inverse[0]);
+      int32_t to = (int32_t)gg_floor((centre.x + rho - strain * below - shift.x) * c->inverse[0]);
+      if (to - from >= c->n[0]) to = from + c->n[0] - 1;
+      const uint32_t *row = gg_cell_at(c, (int32_t[3]){0, iy, iz});
+      for (int32_t k = from; k <= to; k++) {
+        int32_t x = k;
+        while (x < 0) x += c->n[0];
+        while (x >= c->n[0]) x -= c->n[0];
+        if (!gg_take_cell(s, row + (size_t)x * c->stride)) s->n_near = GG_MOST_NEAR;
+      }
+    }
+  }
+}
+
+/* Everybody whose centre lies within rho of shell i's: ids into found[], no more than GG_LIST + 1 of them. */
+GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, uint32_t *found)
+{
+  gg_search s;
+  gg_collect_near(e, f, i, &s);
+  uint32_t *near = s.near, n = s.n_near, count = 0;
+  const gg_vec centre = e->shell[i].centre;
+  const double *L = e->box.edge, *inverse = e->box.inverse;
+  double strain = f.sheared ? e->model.shear_rate * e->k.now : 0;
+  int species = f.mixture ? gg_species_of(&e->grain[i]) : 0;
+  for (int l = 0; l < GG_BATCH; l++) near[n + (uint32_t)l] = i;
+  for (uint32_t k = 0; k < n && count <= GG_LIST; k += GG_BATCH) {
+    gg_v8 x, y, z, reach = gg_all(e->pair_reach[0]);
+    for (int l = 0; l < GG_BATCH; l++) {
+      const gg_vec *c = &e->shell[near[k + (uint32_t)l]].centre;
+      x[l] = c->x, y[l] = c->y, z[l] = c->z;
+      if (f.mixture) reach[l] = e->pair_reach[species + gg_species_of(&e->grain[near[k + (uint32_t)l]])];
+    }
+    x -= centre.x, y -= centre.y, z -= centre.z;
+    gg_v8 layers = gg_nearest8(y * inverse[1]);
+    y -= L[1] * layers;
+    if (f.sheared) x += strain * y - layers * e->box.offset0;
+    x -= L[0] * gg_nearest8(x * inverse[0]);
+    z -= L[2] * gg_nearest8(z * inverse[2]);
+    gg_m8 within = x * x + y * y + z * z < reach * reach;
+    for (int l = 0; l < GG_BATCH; l++) {
+      uint32_t j = near[k + (uint32_t)l];
+      found[count] = j;
+      count += (within[l] != 0) & (j != i) & (count <= GG_LIST);
+    }
+  }
+  return n == GG_MOST_NEAR ? GG_LIST + 1 : count;
+}
+
+/* The shell of grain i anew, around where it now is: image in the box, centre, cell (not yet in the chains). */
+GG_INLINE void gg_new_shell(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_grain *g = gg_settle(e, f, i);
+  gg_node *node = &e->node[i];
+  gg_shell *shell = &e->shell[i];
+  double layers = gg_floor(g->r.y * e->box.inverse[1]);
+  g->r.y -= layers * e->box.edge[1];
+  if (f.sheared && layers != 0) {
+    g->r.x -= layers * gg_offset(&e->box, e->k.now);
+    g->v.x -= layers * e->box.slide;
+  }
+  g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
+  g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
+  gg_vec centre = g->r;
+  if (f.sheared) {
+    centre.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]) * e->k.now;
+    centre.x = gg_wrap(centre.x, e->box.edge[0], e->box.inverse[0]);
+  }
+  *shell = (gg_shell){centre, e->k.now};
+  gg_md_cell_of(&e->cells, centre, node->cell);
+}
+
+GG_INLINE void gg_list_clear(gg_md *e, uint32_t i)
+{
+  uint32_t *list = gg_list(e, i);
+  for (int k = 0; k < GG_LIST; k++) list[k] = i;
+  e->node[i].neighbours = 0;
+}
+
+/* Beyond its end a list holds the grain itself, which it never meets. */
+GG_INLINE bool gg_list_add(gg_md *e, uint32_t i, uint32_t j)
+{
+  if (e->node[i].neighbours == GG_LIST) return false;
+  gg_list(e, i)[e->node[i].neighbours++] = j;
+  return true;
+}
+
+GG_INLINE void gg_list_remove(gg_md *e, uint32_t i, uint32_t j)
+{
+  uint32_t *list = gg_list(e, i), last = --e->node[i].neighbours, k = 0;
+  while (list[k] != j) k++;
+  list[k] = list[last];
+  list[last] = i;
+}
+
+GG_INLINE bool gg_is_among(const uint32_t *list, uint32_t j)
+{
+  uint32_t hits = 0;
+  for (int k = 0; k < GG_LIST; k++) hits += list[k] == j;
+  return hits > 0;
+}
+
+/* Replace i's list by found[], and mend the lists of those who are no longer or newly in it. False: no room. */
+GG_INLINE bool gg_mend_lists(gg_md *e, uint32_t i, const uint32_t *found, uint32_t count)
+{
+  uint32_t old[GG_LIST], *list = gg_list(e, i), n_old = e->node[i].neighbours;
+  if (count > GG_LIST) return false;
+  for (int k = 0; k < GG_LIST; k++) old[k] = list[k], list[k] = (uint32_t)k < count ? found[k] : i;
+  e->node[i].neighbours = count;
+  for (uint32_t k = 0; k < n_old; k++)
+    if (!gg_is_among(list, old[k])) gg_list_remove(e, old[k], i);
+  for (uint32_t k = 0; k < count; k++)
+    if (!gg_is_among(old, found[k]) && !gg_list_add(e, found[k], i)) return false;
+  return true;
+}
+
+#endif

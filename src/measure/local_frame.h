@@ -1,0 +1,23 @@
+/* Peculiar velocities in walled flows, where no profile is imposed: the flow velocity is the mean over slabs across y
+ * of this very instant, and what observables see is c - u(y). Subtracting a slab's own mean takes 1/n_c of the variance
+ * of its n_c grains away; velocities are scaled by sqrt(n_c/(n_c - 1)) to give it back. */
+#ifndef GG_LOCAL_FRAME_H
+#define GG_LOCAL_FRAME_H
+
+#include "common/engine.h"
+
+enum { GG_MAX_SLABS = 128 };
+
+typedef struct gg_local_frame {
+  int n_slabs;
+  double bottom, inverse_width;
+  double count[GG_MAX_SLABS], mean[GG_MAX_SLABS][3], stretch[GG_MAX_SLABS];
+} gg_local_frame;
+
+/* Measure the mean velocity of every slab now. */
+void gg_local_frame_take(gg_local_frame *frame, const gg_model *model, gg_engine *engine);
+
+/* Show every grain with its velocity in the local frame. */
+void gg_local_frame_snapshot(const gg_local_frame *frame, gg_engine *engine, gg_visit *visit, void *context);
+
+#endif

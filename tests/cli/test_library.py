@@ -1,0 +1,92 @@
+"""The library as it is installed: header, pkg-config file, manual page, command; examples/*.c build and run against it;
+every exported name carries the prefix."""
+import glob
+import os
+import shutil
+import subprocess
+import sys
+
+from tap import GRAINGAS, Skip, check, main
+
+SOURCE, BUILD = os.environ["SOURCE"], os.environ["BUILD"]
+
+
+def sh(*command, **more):
+    done = subprocess.run(command, capture_output=True, text=True, **more)
+    check(done.returncode == 0, " ".join(command), done.stdout[-2000:], done.stderr[-2000:])
+    return done.stdout
+
+
+def install():
+    sh("meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", os.path.abspath("root"))
+    def found(name):
+        files = glob.glob(f"root/**/{name}", recursive=True)
+        check(files, name, "is not installed")
+        return os.path.abspath(files[0])
+    return found
+
+
+def test_installed_files():
+    found = install()
+    check("graingas" in sh(found("bin/graingas"), "--version"))
+    check("#ifndef GRAINGAS_H" in open(found("graingas.h")).read())
+    manual = open(found("graingas.1")).read()
+    for word in ".TH GRAINGAS", "collision.e", "shear_viscosity", "lun1991", "\\-\\-resume":
+        check(word in manual, word)
+    if shutil.which("man"):
+        done = subprocess.run(["man", "--warnings", "-l", found("graingas.1")], capture_output=True, text=True,
+                              env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "100"})
+        check(done.returncode == 0 and not done.stderr, done.stderr)
+
+
+def test_examples_build_against_it():
+    found = install()
+    pc = os.path.dirname(found("graingas.pc"))
+    env = {**os.environ, "PKG_CONFIG_PATH": pc, "PKG_CONFIG_SYSROOT_DIR": os.path.abspath("root")}
+    flags = sh("pkg-config", "--cflags", "--libs", "graingas", env=env).split()
+    examples = sorted(glob.glob(os.path.join(SOURCE, "examples", "*.c")))
+    check(examples, "no examples")
+    for example in examples:
+        program = os.path.splitext(os.path.basename(example))[0]
+        sh("cc", "-Wall", "-Wextra", "-Werror", "-std=c11", example, "-o", program, *flags)
+        env["LD_LIBRARY_PATH"] = os.path.dirname(found("libgraingas.so"))
+        out = sh(os.path.abspath(program), env=env, timeout=60)
+        check(len(out.splitlines()) >= 1, out)
+
+
+def test_example_scenes():
+    """Every scene that newcomers copy is one."""
+    scenes = glob.glob(os.path.join(SOURCE, "examples", "*.yaml"))
+    check(len(scenes) >= 5)
+    for scene in scenes:
+        sh(GRAINGAS, "info", scene)
+
+
+def test_header_in_other_languages():
+    """Every C standard since 1999, and C++."""
+    header = os.path.join(SOURCE, "include", "graingas.h")
+    for standard in "c99", "c11", "c17":
+        sh("cc", "-std=" + standard, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-x", "c", header)
+    if not shutil.which("c++"):
+        raise Skip("no C++ compiler")
+    sh("c++", "-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-x", "c++", header)
+
+
+def test_exported_names():
+    """The shared library shows the public header's functions and nothing else; inside, everything global is gg_."""
+    import re
+
+    shared = glob.glob(os.path.join(BUILD, "libgraingas.so"))[0]
+    seen = {line.split()[-1] for line in sh("nm", "-D", "--defined-only", shared).splitlines()}
+    header = open(os.path.join(SOURCE, "include", "graingas.h")).read()
+    public = set(re.findall(r"GG_API [^;]*?(gg_\w+)\(", header))
+    check(seen == public, "differ:", seen ^ public)
+    inside = sh("nm", "-g", "--defined-only", "--quiet", os.path.join(BUILD, "libgraingas-core.a"))
+    for line in inside.splitlines():
+        parts = line.split()
+        if len(parts) == 3:
+            check(parts[2].startswith("gg_"), parts[2], "lacks the prefix")
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])

@@ -1,0 +1,228 @@
+/* The block kernels against each other, bit for bit, and against the plain path, within its error bars. */
+#include "dsmc/dsmc.h"
+#include "dsmc/lanes_collision.h"
+#include "dsmc/normal.h"
+#include "lab.h"
+
+static gg_engine *on_path(const gg_model *m, gg_path path, uint64_t seed)
+{
+  gg_engine *g = lab_engine(m, seed);
+  gg_dsmc *d = (gg_dsmc *)g;
+  for (int p = 0; p < GG_PAIRS; p++) d->path[p] = path;
+  gg_dsmc_bounds(d);
+  return g;
+}
+
+static gg_path best_path(void)
+{
+  gg_path best = GG_PATHS - 1;
+  while (!gg_path_runs_here(best)) best--;
+  return best;
+}
+
+/* The vector form of the collision rule is the scalar one: same impulse and loss on random contacts. */
+static void same_rule(void **state)
+{
+  (void)state;
+  gg_rng rng = gg_rng_seed(5, 0);
+  for (int i = 0; i < 100000; i++) {
+    gg_rule rule = (gg_rule)(i % 3);
+    double beta = 2 * gg_rng_uniform(&rng) - 1, mu = rule == GG_FRICTIONAL ? gg_rng_uniform(&rng) : INFINITY;
+    gg_partner one = {1, 0.4}, two = {0.1 + gg_rng_uniform(&rng), 0.1 + 0.5 * gg_rng_uniform(&rng)};
+    gg_contact c = gg_contact_make(one, two, gg_rng_uniform(&rng), rule == GG_SMOOTH ? -1 : beta, mu);
+    gg_vec k = gg_rng_direction(&rng), g = gg_rng_normal_vec(&rng);
+    double gn = gg_dot(k, g);
+    gg_vec J = gg_impulse(rule, &c, k, g, gn);
+    gg_vd3 vk = {gg_all(k.x), gg_all(k.y), gg_all(k.z)}, vg = {gg_all(g.x), gg_all(g.y), gg_all(g.z)};
+    if (gn < 0) continue;
+    gg_vd3 vJ = gg_lane_impulse(rule, &c, vk, vg, gg_all(gn));
+    double loss = gg_energy_loss(&c, k, g, J), vloss = gg_lane_energy_loss(rule, &c, vg, vJ, gg_all(gn * gn))[1];
+    assert_true(fabs(vJ.x[0] - J.x) + fabs(vJ.y[1] - J.y) + fabs(vJ.z[0] - J.z) < 1e-14);
+    assert_true(fabs(loss - vloss) < 1e-13);
+  }
+}
+
+static void same_bits_on(const gg_model *m)
+{
+  gg_archive first = {0};
+  for (int path = GG_PATH_BASELINE; path < GG_PATHS; path++) {
+    if (!gg_path_runs_here((gg_path)path)) continue;
+    gg_engine *g = on_path(m, (gg_path)path, 3);
+    gg_error err = {0};
+    gg_archive a = {0};
+    gg_dsmc_ops.tap(g, true);
+    lab_advance(g, INFINITY, 5 * (uint64_t)m->n);
+    assert_int_equal(gg_dsmc_ops.save(g, &a, &err), GG_OK);
+    gg_dsmc_ops.destroy(g);
+    if (!first.n_items) {
+      first = a;
+      continue;
+    }
+    for (size_t i = 0; i < first.n_items; i++)
+      assert_memory_equal(first.items[i].data, a.items[i].data, a.items[i].count * gg_item_size(a.items[i].type));
+    gg_archive_clear(&a);
+  }
+  gg_archive_clear(&first);
+}
+
+/* The same seed leaves the same ensemble, sums and counts with AVX-512, AVX2 and neither. */
+static void same_bits(void **state)
+{
+  (void)state;
+  const double beta[] = {-1, 0.3, 0.3}, mu[] = {INFINITY, INFINITY, 0.2};
+  for (int rule = 0; rule < 3; rule++)
+    for (int dense = 0; dense < 2; dense++)
+      for (int flow = 0; flow < 4; flow++)
+        for (int species = 1; species <= 2; species++) {
+          const gg_flow flows[] = {GG_HCS, GG_USF, GG_HSS, GG_HSS};
+          gg_scene s = lab_scene(flows[flow], dense ? 0.3 : 0, 0.8, beta[rule], 1003);
+          s.collision.mu[0] = s.collision.mu[1] = mu[rule];
+          if (flow == 3) s.thermostat = GG_WHITE_NOISE;
+          s.n_species = species;
+          s.species[0] = (gg_species){0.5, 1, 1, 0.4};
+          s.species[1] = (gg_species){0.5, 0.7, 2, 0.3};
+          gg_model m = lab_model(&s);
+          same_bits_on(&m);
+        }
+}
+
+/* Normal numbers: the logarithm to rounding, moments 0, 1, 0, 3 of both numbers of a pair, and no correlation. */
+static void normal_numbers(void **state)
+{
+  (void)state;
+  gg_rng rng = gg_rng_seed(6, 0);
+  for (int i = 0; i < 100000; i++) {
+    double u = i < 50 ? ldexp(1, -i) : gg_rng_uniform(&rng) + 0x1p-53;
+    assert_true(fabs(gg_lane_log(gg_all(u))[0] - log(u)) <= 4e-16 * (1 + fabs(log(u))));
+  }
+  gg_rng_lanes lanes;
+  for (unsigned l = 0; l < GG_LANES; l++)
+    for (int i = 0; i < 4; i++) lanes.s[i][l] = gg_rng_seed(6, l + 1).s[i];
+  gg_lane_rng r;
+  gg_lane_rng_load(&r, &lanes);
+  const int n = 1000000;
+  double m[5] = {0}, cross = 0;
+  for (int i = 0; i < n; i++) {
+    gg_vd a, b;
+    gg_lane_normal(&r, i % GG_PARTS, &a, &b);
+    m[1] += a[0], m[2] += b[0] * b[0], m[3] += a[1] * a[1] * a[1], m[4] += pow(b[1], 4), cross += a[0] * b[0];
+  }
+  const double expected[5] = {0, 0, 1, 0, 3}, variance[5] = {0, 1, 2, 15, 96};
+  for (int k = 1; k < 5; k++) assert_true(fabs(m[k] / n - expected[k]) < 4.5 * sqrt(variance[k] / n));
+  assert_true(fabs(cross / n) < 4.5 / sqrt(n));
+}
+
+typedef struct physics {
+  lab_mean a2, cooling, P_xy, p;
+} physics;
+
+/* From the same Maxwellian start: a2 and d ln T/ds (s: collisions a grain) of a cooling gas, stress of a sheared one.
+ */
+static void observe(gg_path path, int64_t n, int ensembles, int seed, physics *x)
+{
+  gg_scene s = lab_scene(GG_HCS, 0, 0.5, -1, n);
+  gg_model m = lab_model(&s);
+  s = lab_scene(GG_USF, 0.2, 0.7, -1, n);
+  gg_model sheared = lab_model(&s);
+  double a2 = 0, cooling = 0, P = 0, p = 0;
+  for (int i = 0; i < ensembles; i++) {
+    gg_engine *g = on_path(&m, path, (uint64_t)(1000 * seed + i));
+    lab_advance(g, INFINITY, 3 * (uint64_t)n);
+    lab_view v = lab_snapshot(g);
+    gg_engine_state before, after;
+    gg_dsmc_ops.state(g, &before);
+    double T = lab_temperature(&v);
+    a2 += (v.c4 / v.n / (15 * T * T) - 1) / ensembles;
+    lab_advance(g, INFINITY, 2 * (uint64_t)n);
+    v = lab_snapshot(g);
+    gg_dsmc_ops.state(g, &after);
+    cooling +=
+        log(T / lab_temperature(&v)) / (2 * (double)(after.collisions - before.collisions) / (double)n) / ensembles;
+    T = lab_temperature(&v);
+    gg_dsmc_ops.destroy(g);
+    g = on_path(&sheared, path, (uint64_t)(1000 * seed + i));
+    lab_flow f = {0};
+    lab_average(g, &sheared, 6, 1, 4, &f);
+    P += f.P[0][1].sum / ensembles;
+    p += f.p.sum / ensembles;
+    gg_dsmc_ops.destroy(g);
+  }
+  lab_add(&x->a2, a2);
+  lab_add(&x->cooling, cooling);
+  lab_add(&x->P_xy, P);
+  lab_add(&x->p, p);
+}
+
+static void agree(const char *what, const lab_mean *a, const lab_mean *b, double sight, double allowed)
+{
+  double error = hypot(lab_error(a), lab_error(b)), difference = lab_value(a) - lab_value(b);
+  printf("# %-14s plain %.5f, blocks %.5f, difference %.5f +- %.5f\n", what, lab_value(a), lab_value(b), difference,
+         error);
+  if (fabs(difference) > 4.5 * error + allowed * fabs(lab_value(a))) fail_msg("%s differs", what);
+  if (error > sight * fabs(lab_value(a))) fail_msg("%s: an error of %g is too large", what, error);
+}
+
+/* Pairing whole blocks leaves no bias: eight seeds each, large ensembles and small. */
+static void blocks_and_plain_agree(void **state)
+{
+  (void)state;
+  const struct {
+    int64_t n;
+    int ensembles;
+    double sight_a2;
+  } sizes[] = {{100000, 1, 0.1}, {1000, 60, 0.15}, {104, 500, 0.2}};
+  for (int i = 0; i < 3; i++) {
+    physics plain = {0}, blocks = {0};
+    for (int seed = 0; seed < 8; seed++) {
+      observe(GG_PATH_PLAIN, sizes[i].n, sizes[i].ensembles, seed, &plain);
+      observe(best_path(), sizes[i].n, sizes[i].ensembles * (i ? 2 : 1), seed + 50, &blocks);
+    }
+    /* A hundred grains miss 2 % of the pressure of many, and whole blocks a little less of it: an effect of the size of
+     * 1/N either way, and the engine takes the plain path there. */
+    double allowed = sizes[i].n < 800 ? 0.5 / (double)sizes[i].n : 0;
+    printf("# N = %d\n", (int)sizes[i].n);
+    agree("a2", &plain.a2, &blocks.a2, sizes[i].sight_a2, 0);
+    agree("d ln T/ds", &plain.cooling, &blocks.cooling, 0.002, 0);
+    agree("P_xy", &plain.P_xy, &blocks.P_xy, 0.01, allowed);
+    agree("p", &plain.p, &blocks.p, 0.01, allowed);
+  }
+}
+
+/* Rough and frictional grains, one species and two, in dense shear: temperatures, spin, stress and loss. */
+static void every_rule_agrees(void **state)
+{
+  (void)state;
+  for (int friction = 0; friction < 2; friction++)
+    for (int species = 1; species <= 2; species++) {
+      gg_scene s = lab_scene(GG_USF, 0.3, 0.8, 0.3, 5000);
+      if (friction) s.collision.mu[0] = s.collision.mu[1] = 0.2;
+      s.n_species = species;
+      s.species[0] = (gg_species){0.5, 1, 1, 0.4};
+      s.species[1] = (gg_species){0.5, 0.7, 0.5, 0.3};
+      gg_model m = lab_model(&s);
+      lab_flow f[2] = {{.T = {0}}, {.T = {0}}};
+      for (int seed = 0; seed < 10; seed++)
+        for (int fast = 0; fast < 2; fast++) {
+          gg_engine *g = on_path(&m, fast ? best_path() : GG_PATH_PLAIN, (uint64_t)(seed + 100 * fast));
+          lab_average(g, &m, 50, 2, 20, &f[fast]);
+          gg_dsmc_ops.destroy(g);
+        }
+      printf("# friction %d, species %d\n", friction, species);
+      agree("T", &f[0].T, &f[1].T, 0.02, 0);
+      agree("theta", &f[0].theta, &f[1].theta, 0.02, 0);
+      agree("spin", &f[0].spin_z, &f[1].spin_z, 0.02, 0);
+      agree("p", &f[0].p, &f[1].p, 0.02, 0);
+      agree("P_xy", &f[0].P[0][1], &f[1].P[0][1], 0.02, 0);
+      agree("P_yx", &f[0].P[1][0], &f[1].P[1][0], 0.02, 0);
+      agree("loss", &f[0].loss, &f[1].loss, 0.02, 0);
+      agree("rate", &f[0].rate, &f[1].rate, 0.01, 0);
+    }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(same_rule), cmocka_unit_test(normal_numbers),
+                                     cmocka_unit_test(same_bits), cmocka_unit_test(every_rule_agrees),
+                                     cmocka_unit_test(blocks_and_plain_agree)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

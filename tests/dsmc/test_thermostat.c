@@ -1,0 +1,122 @@
+/* Heated gases: what the thermostats keep, and the viscosities that the literature measures with them. */
+#include "lab.h"
+
+static gg_model heated(gg_flow flow, gg_thermostat thermostat, double phi, double e, double beta, int64_t n)
+{
+  gg_scene s = lab_scene(flow, phi, e, beta, n);
+  s.thermostat = thermostat;
+  return lab_model(&s);
+}
+
+/* The Gaussian thermostat keeps the temperature, and the gas is otherwise the freely cooling one: same cumulant and
+ * cooling rate at e = 0.5. */
+static void gaussian(void **state)
+{
+  (void)state;
+  gg_model m = heated(GG_HSS, GG_NO_THERMOSTAT, 0.2, 0.5, -1, 50000);
+  gg_engine *g = lab_engine(&m, 1);
+  lab_flow f = {0};
+  lab_average(g, &m, 20, 15, 20, &f);
+  lab_expect("temperature", &f.T, 0.5, 1e-4, 0.002);
+  lab_expect("a2", &f.a2, 0.0474, 3e-4, 0.05);
+  double zeta = lab_value(&f.loss) / (1.5 * m.density * 0.5) / gg_model_nu0(&m, 0.5);
+  assert_true(fabs(zeta / (5. / 12 * m.chi[0] * 0.75 * (1 + 3. / 16 * 0.0474)) - 1) < 0.003);
+  gg_dsmc_ops.destroy(g);
+}
+
+/* White noise: a2 = 16 (1-e)(1-2e^2)/(241 - 177 e + 30 e^2 (1-e)) to 3 % (van Noije & Ernst 1998, first Sonine order);
+ * the gas settles where noise and collisions balance. */
+static void white_noise(void **state)
+{
+  (void)state;
+  gg_model m = heated(GG_HSS, GG_WHITE_NOISE, 0, 0.5, -1, 20000);
+  gg_engine *g = lab_engine(&m, 2);
+  lab_flow f = {0};
+  lab_average(g, &m, 20, 15, 20, &f);
+  lab_expect("a2, white noise", &f.a2, 4 / 156.25, 0.03 * 4 / 156.25, 0.2);
+  lab_expect("temperature", &f.T, 0.5, 0.002, 0.03);
+  gg_dsmc_ops.destroy(g);
+}
+
+/* -P_xy/rate over eta_0, in slow shear whose temperature does not fall: averages of total and kinetic part. */
+static void viscosity(const gg_model *model, double reduced_rate, int ensembles, lab_mean *total, lab_mean *kinetic)
+{
+  gg_model m = *model;
+  double nu_over_speed = gg_model_nu0(&m, 1);
+  m.temperature0 = 1 / (reduced_rate * reduced_rate * nu_over_speed * nu_over_speed);
+  for (int i = 0; i < ensembles; i++) {
+    gg_engine *g = lab_engine(&m, 100 + (uint64_t)i);
+    lab_flow f = {0};
+    lab_average(g, &m, 10, 1, 40, &f);
+    double eta0 = 5. / 16 * sqrt(lab_value(&f.T) / M_PI);
+    lab_add(total, lab_value(&f.eta) / eta0);
+    lab_add(kinetic, -lab_value(&f.kinetic[0][1]) / eta0);
+    gg_dsmc_ops.destroy(g);
+  }
+}
+
+/* Shear with the Gaussian thermostat: viscosity of the heated state (Garzo & Montanero 2002 and an independent Monte
+ * Carlo solution, e = 0.8, phi = 0.3), which is not that of the cooling state. */
+static void heated_viscosity(void **state)
+{
+  (void)state;
+  gg_model m = heated(GG_USF, GG_GAUSSIAN, 0.3, 0.8, -1, 100000);
+  lab_mean total = {0}, kinetic = {0};
+  viscosity(&m, 0.04, 10, &total, &kinetic);
+  lab_expect("eta/eta_0, phi .3, e .8", &total, 3.700, 0.012, 0.03);
+  lab_expect("kinetic part", &kinetic, 0.8417, 0.004, 0.08);
+  m = heated(GG_USF, GG_GAUSSIAN, 0, 0.7, -1, 100000);
+  total = kinetic = (lab_mean){0};
+  viscosity(&m, 0.04, 10, &total, &kinetic);
+  double c = 2 * 16 * 0.3 * (1 - 0.98) / (81 - 17 * 0.7 + 30 * 0.49 * 0.3), zeta = 5. / 12 * 0.51 * (1 + 3. / 32 * c);
+  double nu = (1 - 0.25 * 0.09) * (1 - c / 64);
+  lab_expect("eta/eta_0, phi 0, e .7", &total, 1 / (nu - zeta), 0.008, 0.05);
+}
+
+/* Elastic perfectly rough spheres, dilute: Pidduck's viscosity (1922), eta_0 6 (1+K)^2/(6 + 13 K), supposes isotropic
+ * spins. Shear makes them anisotropic, which adds a factor 1/(1 - r_cs r_sc/(r_cc r_ss)) (Condiff, Lu & Dahler, J.
+ * Chem. Phys. 42 (1965) 3445): 1.0535 at K = 0.4, from a Monte Carlo evaluation of the four relaxation rates of C_x C_y
+ * and s_x s_y over the common collision rule. */
+static void rough_viscosity(void **state)
+{
+  (void)state;
+  gg_model m = heated(GG_USF, GG_NO_THERMOSTAT, 0, 1, 1, 100000);
+  lab_mean total = {0}, kinetic = {0};
+  m.ratio0 = 1;
+  viscosity(&m, 0.05, 12, &total, &kinetic);
+  double K = m.inertia[0];
+  lab_expect("eta/eta_0, Pidduck", &total, 1.0535 * 6 * (1 + K) * (1 + K) / (6 + 13 * K), 0.006, 0.04);
+}
+
+/* Ten thousand collisions a grain under a thermostat that amplifies any motion of the centre of mass: it stays at
+ * rounding, and nothing else drifts. */
+static void stays_put(void **state)
+{
+  (void)state;
+  gg_model m = heated(GG_HSS, GG_GAUSSIAN, 0, 0.6, -1, 1000);
+  gg_engine *g = lab_engine(&m, 3);
+  lab_mean a2 = {0}, T = {0};
+  for (int b = 0; b < 50; b++) {
+    lab_view v = {0};
+    for (int i = 0; i < 100; i++) {
+      lab_advance(g, INFINITY, 1000);
+      lab_view now = lab_snapshot(g);
+      for (int a = 0; a < 3; a++) assert_true(fabs(now.momentum[a]) < 1e-12 * now.n);
+      v.c4 += now.c4, v.n += now.n;
+      for (int a = 0; a < 3; a++) v.cc[a][a] += now.cc[a][a];
+    }
+    double mean = lab_temperature(&v);
+    if (b) lab_add(&T, mean), lab_add(&a2, v.c4 / v.n / (15 * mean * mean) - 1);
+  }
+  lab_expect("temperature", &T, 0.5, 5e-4, 0.01);
+  lab_expect("a2", &a2, 0.021, 0.003, 0.8); /* Montanero & Santos 2000, less 1/N */
+  gg_dsmc_ops.destroy(g);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian), cmocka_unit_test(white_noise),
+                                     cmocka_unit_test(heated_viscosity), cmocka_unit_test(rough_viscosity),
+                                     cmocka_unit_test(stays_put)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

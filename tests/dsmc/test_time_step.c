@@ -1,0 +1,97 @@
+/* The error of a split step is of second order, and the automatic step has none to speak of. */
+#include "lab.h"
+
+enum { T, P_XY, OBSERVED };
+
+/* Steady shear in the Boltzmann limit at e = 0.6; step in mean free times, GG_AUTO: continuous streaming. */
+static void sheared(double step, int blocks, lab_mean mean[OBSERVED], double *bias)
+{
+  gg_scene s = lab_scene(GG_USF, 0, 0.6, -1, 100000);
+  s.dsmc.time_step = step;
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 11);
+  lab_flow f = {0};
+  lab_average(g, &m, 30, blocks, 20, &f);
+  gg_engine_state state;
+  gg_dsmc_ops.state(g, &state);
+  *bias = state.time_step_bias;
+  mean[T] = f.T;
+  mean[P_XY] = f.eta;
+  gg_dsmc_ops.destroy(g);
+}
+
+/* Order p from errors of steps h and h/2 against the exact value. */
+static void expect_order(const char *what, double full, double half, double error)
+{
+  double order = log2(full / half), uncertainty = error / M_LN2 * hypot(1 / half, 1 / full);
+  printf("# %-6s errors %.6f, %.6f: order %.2f +- %.2f\n", what, full, half, order, uncertainty);
+  if (uncertainty > 0.15 || fabs(order - 2) > 0.3) fail_msg("%s: order %g +- %g", what, order, uncertainty);
+}
+
+static void shear_is_second_order(void **state)
+{
+  (void)state;
+  lab_mean exact[OBSERVED], full[OBSERVED], half[OBSERVED];
+  double bias[3];
+  sheared(GG_AUTO, 90, exact, &bias[0]);
+  sheared(1, 25, full, &bias[1]);
+  sheared(0.5, 90, half, &bias[2]);
+  const char *names[] = {"T", "P_xy"};
+  for (int q = 0; q < OBSERVED; q++) {
+    double e = hypot(lab_error(&exact[q]), lab_error(&half[q]));
+    expect_order(names[q], lab_value(&full[q]) - lab_value(&exact[q]), lab_value(&half[q]) - lab_value(&exact[q]), e);
+  }
+  /* The state's estimate of the bias is the right one, within a third. */
+  assert_true(bias[0] == 0);
+  double relative = lab_value(&full[P_XY]) / lab_value(&exact[P_XY]) - 1;
+  assert_true(fabs(bias[1] / relative - 1) < 0.33);
+  assert_true(fabs(bias[1] / bias[2] - 4) < 1e-9);
+}
+
+/* White noise in turns with collisions at e = 0.1, where it matters most: a2. */
+static lab_mean heated(double step, int blocks)
+{
+  gg_scene s = lab_scene(GG_HSS, 0, 0.1, -1, 100000);
+  s.thermostat = GG_WHITE_NOISE;
+  s.dsmc.time_step = step;
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 13);
+  lab_flow f = {0};
+  lab_average(g, &m, 20, blocks, 15, &f);
+  gg_dsmc_ops.destroy(g);
+  return f.a2;
+}
+
+static void thermostat_is_second_order(void **state)
+{
+  (void)state;
+  lab_mean fine = heated(0.1, 80), full = heated(1.4, 40), half = heated(0.7, 80);
+  double e = hypot(lab_error(&fine), lab_error(&half));
+  expect_order("a2", lab_value(&full) - lab_value(&fine), lab_value(&half) - lab_value(&fine), e);
+}
+
+/* By default the bias is under a fifth of a hundredth, whatever has to take turns. */
+static void automatic_step_is_fine(void **state)
+{
+  (void)state;
+  for (int i = 0; i < 4; i++) {
+    gg_scene s = lab_scene(i < 2 ? GG_USF : GG_HSS, i % 2 ? 0.2 : 0, 0.5, -1, 1000);
+    s.n_species = 1 + i % 2;
+    s.species[1] = (gg_species){1, 1, 3, 0.4};
+    gg_model m = lab_model(&s);
+    gg_engine *g = lab_engine(&m, 1);
+    gg_engine_state state_now;
+    gg_dsmc_ops.state(g, &state_now);
+    assert_true(state_now.time_step_bias < 0.2 * 0.01);
+    assert_true(state_now.time_step > 0);
+    gg_dsmc_ops.destroy(g);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(shear_is_second_order),
+                                     cmocka_unit_test(thermostat_is_second_order),
+                                     cmocka_unit_test(automatic_step_is_fine)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

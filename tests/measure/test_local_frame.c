@@ -1,0 +1,74 @@
+/* The local frame of walled flows: a planted profile u(y) of any shape is taken out, and the variance that is left is
+ * that of the planted noise, few grains a slab or many (the 1/n_c correction). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "common/rng.h"
+#include "measure/local_frame.h"
+
+enum { N = 1000 };
+static double r[3][N], c[3][N];
+
+static void show(gg_engine *engine, bool positions, gg_visit *visit, void *context)
+{
+  (void)engine;
+  gg_chunk chunk = {.n = N, .c = {c[0], c[1], c[2]}};
+  if (positions)
+    for (int a = 0; a < 3; a++) chunk.r[a] = r[a];
+  visit(context, &chunk);
+}
+
+static const gg_engine_ops planted_ops = {.name = "planted", .snapshot = show};
+static gg_engine planted = {&planted_ops};
+
+typedef struct sums {
+  double square[3], mean[3];
+} sums;
+
+static void add(void *context, const gg_chunk *chunk)
+{
+  sums *s = context;
+  for (size_t i = 0; i < chunk->n; i++)
+    for (int a = 0; a < 3; a++) s->square[a] += chunk->c[a][i] * chunk->c[a][i], s->mean[a] += chunk->c[a][i];
+}
+
+/* Slabs with a constant velocity each: noise of unit variance comes out with unit variance within four errors. */
+static void planted_profile(void **state)
+{
+  (void)state;
+  const double heights[] = {10, 33.3}; /* 100 and 30 grains a slab */
+  for (int h = 0; h < 2; h++) {
+    gg_model model = {.n = N, .box = {10, heights[h], 10}, .walled = true};
+    gg_local_frame frame;
+    sums s = {{0}, {0}};
+    int looks = 200;
+    gg_rng rng = gg_rng_seed(21, (uint64_t)h);
+    for (int k = 0; k < looks; k++) {
+      for (int i = 0; i < N; i++) {
+        double y = heights[h] * gg_rng_uniform(&rng), slabs = floor(heights[h]);
+        double u = 50 * sin(floor(y / heights[h] * slabs)); /* constant in each slab */
+        r[0][i] = 0, r[1][i] = y, r[2][i] = 0;
+        c[0][i] = u + gg_rng_normal(&rng), c[1][i] = 3 + gg_rng_normal(&rng), c[2][i] = gg_rng_normal(&rng);
+      }
+      gg_local_frame_take(&frame, &model, &planted);
+      assert_int_equal(frame.n_slabs, (int)floor(heights[h]));
+      gg_local_frame_snapshot(&frame, &planted, add, &s);
+    }
+    double n = (double)N * looks, error = sqrt(2 / n);
+    for (int a = 0; a < 3; a++) {
+      assert_true(fabs(s.square[a] / n - 1) < 4 * error * 1.1);
+      assert_true(fabs(s.mean[a] / n) < 1e-12 * 50);
+    }
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(planted_profile)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
