@@ -10,6 +10,11 @@
 #include "io/plot.h"
 #include "io/result_file.h"
 
+static void tell(void *context, const char *picture)
+{
+  gg_tell_written(context, "picture", picture, false);
+}
+
 /* A picture that cannot be drawn is no reason to call the comparison failed. */
 static void draw(const gg_options *o, const char *output)
 {
@@ -18,10 +23,10 @@ static void draw(const gg_options *o, const char *output)
   char *picture = o->picture ? strdup(o->picture) : gg_with_suffix(output, ".svg");
   if (!picture) return;
   bool replaced = gg_file_exists(picture);
-  if (gg_plot_result(output, picture, NULL, &err) != GG_OK)
-    fprintf(stderr, "warning: no picture: %s\n", err.message);
-  else
-    gg_tell_written(o, "picture", picture, replaced);
+  bool drawn = gg_plot_result(output, picture, NULL, &err) == GG_OK;
+  if (drawn) gg_tell_written(o, "picture", picture, replaced);
+  drawn = drawn && gg_plot_result_curves(output, picture, NULL, tell, (void *)(uintptr_t)o, &err) == GG_OK;
+  if (!drawn) fprintf(stderr, "warning: no picture: %s\n", err.message);
   free(picture);
 }
 

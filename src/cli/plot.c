@@ -7,6 +7,12 @@
 
 #include "cli/options.h"
 
+static void tell(void *context, const char *picture)
+{
+  (void)context;
+  printf("%s\n", picture);
+}
+
 static int draw(const gg_options *o)
 {
   gg_error err;
@@ -15,7 +21,9 @@ static int draw(const gg_options *o)
   char *picture = gg_options_output(o, suffix, &err);
   if (!picture) return gg_cli_report(&err);
   int code = gg_plot_result(o->input, picture, o->format, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
-  if (code == GG_OK) printf("%s\n", picture);
+  if (code == GG_OK) tell(NULL, picture);
+  if (code == GG_OK && gg_plot_result_curves(o->input, picture, o->format, tell, NULL, &err) != GG_OK)
+    code = gg_cli_report(&err);
   free(picture);
   return code;
 }

@@ -28,6 +28,7 @@ typedef struct gg_engine_state {
   uint64_t treated;      /* md: collisions treated by the contact-time rule */
   uint64_t wall_treated; /* md: the same for contacts with walls, which `collisions` does not count */
   uint64_t overflows;    /* dsmc: candidates whose rate exceeded the majorant */
+  double offset;         /* md, sheared: the image of the box above stands so far displaced along x; else 0 */
   double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
   double time_step;      /* dsmc: the present step, model units; 0 for md */
   double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */

@@ -17,7 +17,18 @@ enum { GG_MAX_SPECIES = 2 };
 enum { GG_11, GG_12, GG_22, GG_PAIRS }; /* unordered pairs of species */
 
 /* Observable sets that a scene can ask for under `measure`. */
-enum { GG_MEASURE_RHEOLOGY = 1u };
+enum {
+  GG_MEASURE_RHEOLOGY = 1u << 0,
+  GG_MEASURE_VELOCITY_DISTRIBUTIONS = 1u << 1,
+  GG_MEASURE_ORIENTATION = 1u << 2,
+  GG_MEASURE_SONINE = 1u << 3,
+  GG_MEASURE_PAIR_CORRELATION = 1u << 4,
+  GG_MEASURE_VELOCITY_CORRELATIONS = 1u << 5,
+  GG_MEASURE_STRUCTURE = 1u << 6,
+  GG_MEASURE_CELLS = 1u << 7,
+  GG_MEASURE_DIFFUSION = 1u << 8,
+  GG_MEASURE_PROFILES = 1u << 9,
+};
 
 #define GG_AUTO (-1.0) /* a number that the program is to choose */
 

@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "io/curves.h"
 #include "io/document.h"
 #include "io/result_file.h"
 #include "io/scene_json.h"
@@ -165,6 +166,7 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
   write_warnings(h, group, r);
   for (int k = 0; k < GG_N_HISTORY; k++)
     if (has_values(&r->history, k)) write_series(h, observables, r, k, first, sizeof first);
+  gg_h5_write_curves(h, group, &r->curves);
 }
 
 void gg_h5_write_theories(gg_h5 *h, const gg_comparison *c)

@@ -50,8 +50,8 @@ static void start(FILE *s, bool png, int width, int height)
              "set grid ytics lc rgb '#e4e4e4' lt 1 lw 0.8\n");
 }
 
-/* Open the page under the scene's title, from its YAML. */
-static void start_page(FILE *s, const gg_stored_result *stored)
+/* The scene's title over the page, from its YAML. */
+static void set_title(FILE *s, const gg_stored_result *stored)
 {
   gg_scene *scene;
   char title[240] = "", safe[300];
@@ -68,10 +68,15 @@ static void start_page(FILE *s, const gg_stored_result *stored)
   fprintf(s, "set multiplot title '%s' noenhanced font ',14'\n", safe);
 }
 
+void gg_plot_start_page(FILE *s, const gg_stored_result *stored, bool png, int width, int height)
+{
+  start(s, png, width, height);
+  set_title(s, stored);
+}
+
 static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_engine *e, bool png)
 {
-  start(s, png, 1000, 440);
-  start_page(s, stored);
+  gg_plot_start_page(s, stored, png, 1000, 440);
   gg_plot_relaxation(s, e, (gg_panel){0.085, 0.455, 0.15, 0.80});
   gg_plot_stresses(s, e, (gg_panel){0.585, 0.94, 0.15, 0.80});
   fprintf(s, "unset multiplot\n");
@@ -88,8 +93,7 @@ static void draw_both(FILE *s, const gg_stored_result *stored, double bottom, do
 static void draw_comparison(FILE *s, const gg_stored_result *stored, bool png)
 {
   bool ratios = gg_plot_has(stored, true), differences = gg_plot_has(stored, false), either = ratios || differences;
-  start(s, png, 1100, either ? 820 : 440);
-  start_page(s, stored);
+  gg_plot_start_page(s, stored, png, 1100, either ? 820 : 440);
   double from = ratios ? 0.73 : 0.075, to = differences ? 0.64 : 0.98;
   if (ratios) gg_plot_ratios(s, stored, (gg_panel){0.075, to, 0.53, 0.85});
   if (differences) gg_plot_differences(s, stored, (gg_panel){from, 0.98, 0.53, 0.85});

@@ -9,6 +9,14 @@
 /* Draw a result file to a picture, whole or not at all. format: "svg", "png", or NULL: by the picture's name. */
 gg_status gg_plot_result(const char *result_path, const char *picture, const char *format, gg_error *err);
 
+/* Pictures of its curves, one for each observable that left any: PICTURE_<observable>.svg beside the given name, for
+ * comparisons PICTURE_<engine>_<observable>.svg. `drawn` (may be NULL) is called with the name of each. */
+gg_status gg_plot_result_curves(const char *result_path, const char *picture, const char *format,
+                                void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
+
+/* Open a page of this size under the scene's title; to be ended by `unset multiplot`. */
+void gg_plot_start_page(FILE *script, const gg_stored_result *stored, bool png, int width, int height);
+
 /* Run a gnuplot script, and put what it drew in place. */
 gg_status gg_gnuplot_run(const char *script, const char *picture, gg_error *err);
 

@@ -25,7 +25,18 @@ static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARL
                                          {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
                                          {"kolafa", GG_KOLAFA, "from the accurate equation of state"},
                                          {0}};
-static const gg_word observables[] = {{"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"}, {0}};
+static const gg_word observables[] = {
+    {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
+    {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
+    {"orientation", GG_MEASURE_ORIENTATION, "angle between velocity and spin"},
+    {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
+    {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
+    {"velocity_correlations", GG_MEASURE_VELOCITY_CORRELATIONS, "between grains, over their distance"},
+    {"structure", GG_MEASURE_STRUCTURE, "structure factor and velocity spectra"},
+    {"cells", GG_MEASURE_CELLS, "local density, shear rate, temperatures, spin"},
+    {"profiles", GG_MEASURE_PROFILES, "across the gap between walls"},
+    {"diffusion", GG_MEASURE_DIFFUSION, "velocity autocorrelation, mean-square displacement"},
+    {0}};
 
 #define AT(member) offsetof(gg_scene, member)
 #define AUTO .special = "auto", .special_value = GG_AUTO

@@ -125,6 +125,7 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .collisions = e->k.collisions,
                          .events = e->k.events,
                          .treated = e->k.treated,
+                         .offset = gg_offset(&e->box, e->k.now),
                          .wall_treated = e->k.wall_treated,
                          .worst_overlap = e->k.worst_overlap};
 }

@@ -1,12 +1,10 @@
 #include "measure/autocorrelation.h"
 
 #include <fftw3.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* FFTW plans with one global planner; only execution is free of locks. */
-static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+#include "measure/planner.h"
 
 typedef struct transform {
   size_t length; /* of the padded series: at least 2 n, so that nothing wraps around */
@@ -17,10 +15,10 @@ typedef struct transform {
 
 static void transform_free(transform *f)
 {
-  pthread_mutex_lock(&planner);
+  gg_planner_lock();
   if (f->forward) fftw_destroy_plan(f->forward);
   if (f->backward) fftw_destroy_plan(f->backward);
-  pthread_mutex_unlock(&planner);
+  gg_planner_unlock();
   fftw_free(f->real);
   fftw_free(f->spectrum);
 }
@@ -33,10 +31,10 @@ static gg_status transform_make(transform *f, size_t n, gg_error *err)
   f->real = fftw_alloc_real(length);
   f->spectrum = fftw_alloc_complex(length / 2 + 1);
   if (f->real && f->spectrum) {
-    pthread_mutex_lock(&planner);
+    gg_planner_lock();
     f->forward = fftw_plan_dft_r2c_1d((int)length, f->real, f->spectrum, FFTW_ESTIMATE);
     f->backward = fftw_plan_dft_c2r_1d((int)length, f->spectrum, f->real, FFTW_ESTIMATE);
-    pthread_mutex_unlock(&planner);
+    gg_planner_unlock();
   }
   if (f->forward && f->backward) return GG_OK;
   transform_free(f);

@@ -1,6 +1,18 @@
 #include "measure/observable.h"
 
-const gg_observable *const gg_observables[] = {&gg_rheology, NULL};
+const gg_observable *const gg_observables[] = {
+    &gg_rheology, /* stays first: it tells when a run is steady */
+    &gg_velocity_distributions,
+    &gg_orientation,
+    &gg_sonine,
+    &gg_pair_correlation,
+    &gg_velocity_correlations,
+    &gg_structure,
+    &gg_cells,
+    &gg_profiles,
+    &gg_diffusion,
+    NULL,
+};
 
 const gg_quantity gg_history_quantities[GG_N_HISTORY] = {
     GG_Q_TEMPERATURE,
@@ -11,4 +23,5 @@ const gg_quantity gg_history_quantities[GG_N_HISTORY] = {
     GG_Q_SPIN_Z,
     GG_Q_COLLISION_RATE,
     GG_Q_A2,
+    GG_Q_COS2_PSI,
 };

@@ -256,5 +256,13 @@ static double history_rotational(const double *a, const gg_model *m)
 }
 
 gg_of_means *const gg_rheology_history[GG_N_HISTORY] = {
-    history_temperature, history_rotational, temperature_ratio, pressure, total_xy, spin_z, collision_rate, a2,
+    history_temperature,
+    history_rotational,
+    temperature_ratio,
+    pressure,
+    total_xy,
+    spin_z,
+    collision_rate,
+    a2,
+    cos2_psi,
 };

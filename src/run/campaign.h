@@ -56,6 +56,10 @@ gg_status gg_campaign_judge(gg_campaign *c, gg_judgement *j, gg_error *err);
 /* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
 gg_status gg_campaign_mean(const gg_campaign *c, gg_quantity q, gg_mean *mean, gg_error *err);
 
+/* report_curves.c: the curves of all replicas together, and a warning for each observable that this model cannot have.
+ */
+gg_status gg_campaign_report_curves(const gg_campaign *c, gg_result *result, gg_error *err);
+
 /* The result of where the campaign stands. */
 gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err);
 

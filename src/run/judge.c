@@ -15,7 +15,7 @@ static const gg_derived *find_derived(const gg_campaign *c, gg_quantity q, int *
 {
   for (int k = 0; k < c->replicas[0].n_observables; k++) {
     const gg_observable *o = c->replicas[0].observable[k];
-    if (o->missing(&c->model, q)) continue;
+    if (!o->width || o->missing(&c->model, q)) continue;
     for (const gg_derived *d = o->derived; d->of; d++)
       if (d->quantity == q) return *observable = k, d;
   }

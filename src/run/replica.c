@@ -1,68 +1,10 @@
 #include "run/replica.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "common/rng.h"
-#include "measure/local_frame.h"
 #include "run/clock.h"
-
-static gg_status attach_observables(gg_replica *r, const gg_scene *scene, gg_error *err)
-{
-  size_t width = 0;
-  for (int i = 0; gg_observables[i]; i++) {
-    const gg_observable *o = gg_observables[i];
-    if (!(scene->measure & o->flag)) continue;
-    int k = r->n_observables;
-    r->observable[k] = o;
-    r->self[k] = o->create(&r->model, err);
-    if (!r->self[k]) return GG_FAILED;
-    r->offset[k] = width;
-    width += o->width(&r->model);
-    r->n_observables++;
-  }
-  r->row = gg_new_array(width, sizeof *r->row, err);
-  if (!r->row) return GG_FAILED;
-  return gg_series_init(&r->series, width, err);
-}
-
-/* The state shown to every observable that wants this pass. */
-typedef struct showing {
-  gg_replica *replica;
-  int pass;
-} showing;
-
-static void show_chunk(void *context, const gg_chunk *chunk)
-{
-  showing *s = context;
-  for (int k = 0; k < s->replica->n_observables; k++)
-    if (s->pass < s->replica->observable[k]->passes) s->replica->observable[k]->visit(s->replica->self[k], chunk);
-}
-
-static void look(gg_replica *r, double elapsed)
-{
-  int passes = 0;
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->passes > passes) passes = r->observable[k]->passes;
-  if (r->model.rule == GG_SMOOTH && passes > 1) passes = 1; /* further passes look at spins */
-  gg_local_frame frame;
-  if (r->model.walled) gg_local_frame_take(&frame, &r->model, r->engine);
-  for (int pass = 0; pass < passes; pass++) {
-    for (int k = 0; k < r->n_observables; k++) r->observable[k]->begin(r->self[k], pass);
-    showing s = {r, pass};
-    if (r->model.walled)
-      gg_local_frame_snapshot(&frame, r->engine, show_chunk, &s);
-    else
-      r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
-  }
-  gg_transfer transfer;
-  r->engine->ops->read_tap(r->engine, &transfer);
-  gg_interval in = {&r->model, &transfer, elapsed, r->clock.velocity_factor};
-  for (int k = 0; k < r->n_observables; k++) r->observable[k]->finish(r->self[k], &in, r->row + r->offset[k]);
-  r->clock.velocity_factor = 1;
-}
 
 gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
 {
@@ -71,7 +13,7 @@ gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model
   r->clock.velocity_factor = 1;
   const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
   uint64_t stream = (uint64_t)index * GG_STREAMS_PER_REPLICA;
-  gg_status status = attach_observables(r, scene, err);
+  gg_status status = gg_replica_attach(r, scene, err);
   if (status == GG_OK) status = ops->create(model, scene->run.seed, stream, &r->engine, err);
   if (status != GG_OK) {
     gg_replica_clear(r);
@@ -79,13 +21,13 @@ gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model
   }
   ops->tap(r->engine, true);
   r->clock.interval = GG_SAMPLE_SPACING / gg_model_collision_rate(model, model->temperature0);
-  look(r, 0);
+  gg_replica_look(r, 0);
   return GG_OK;
 }
 
 void gg_replica_clear(gg_replica *r)
 {
-  for (int k = 0; k < r->n_observables; k++) r->observable[k]->destroy(r->self[k]);
+  gg_replica_detach(r);
   if (r->engine) r->engine->ops->destroy(r->engine);
   gg_series_clear(&r->series);
   free(r->row);
@@ -104,13 +46,20 @@ double gg_replica_collisions_per_grain(const gg_replica *r)
   return 2 * (double)collisions(r) / (double)r->model.n;
 }
 
-/* Advance by one interval. A stretch in which a grain collides a thousand times more than expected is a collapse that
- * the contact-time rule was not there to prevent. */
+/* Advance by one interval, in parts if something wants to look in between. A stretch in which a grain collides a
+ * thousand times more than expected is a collapse that the contact-time rule was not there to prevent. */
 static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happened, gg_error *err)
 {
   uint64_t before = collisions(r);
   uint64_t limit = (uint64_t)(1000 * GG_SAMPLE_SPACING * (double)r->model.n / 2) + 1000000;
-  GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval, limit, elapsed, err));
+  int parts = r->clock.averaging ? r->parts : 1;
+  *elapsed = 0;
+  for (int part = 1; part <= parts; part++) {
+    double gone;
+    GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval / parts, limit, &gone, err));
+    *elapsed += gone;
+    if (r->clock.averaging) gg_replica_look_for_curves(r, part, gone);
+  }
   *happened = collisions(r) - before;
   if (*happened >= limit)
     return gg_fail(err, GG_FAILED,
@@ -159,7 +108,7 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   double start = gg_cpu_now(), elapsed;
   uint64_t happened;
   GG_TRY(advance_interval(r, &elapsed, &happened, err));
-  look(r, elapsed);
+  gg_replica_look(r, elapsed);
   r->clock.time += ldexp(elapsed, (int)r->clock.power);
   gg_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
@@ -185,6 +134,7 @@ void gg_replica_open_window(gg_replica *r)
   gg_series_open_window(&r->series);
   r->clock.window_collisions = collisions(r);
   r->clock.window_cpu = r->clock.cpu;
+  gg_replica_restart_curves(r);
 }
 
 gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
@@ -192,39 +142,18 @@ gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
   GG_TRY(r->engine->ops->save(r->engine, a, err));
   GG_TRY(gg_series_save(&r->series, a, err));
   GG_TRY(gg_archive_put(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err));
-  for (int k = 0; k < r->n_observables; k++) {
-    if (!r->observable[k]->memory) continue;
-    size_t bytes;
-    const void *memory = r->observable[k]->memory(r->self[k], &bytes);
-    char name[64];
-    snprintf(name, sizeof name, "observable/%s", r->observable[k]->name);
-    GG_TRY(gg_archive_put(a, name, GG_ITEM_U8, memory, bytes, err));
-  }
-  return GG_OK;
-}
-
-static gg_status restore_observables(gg_replica *r, const gg_archive *a, gg_error *err)
-{
-  for (int k = 0; k < r->n_observables; k++) {
-    if (!r->observable[k]->memory) continue;
-    size_t bytes;
-    void *memory = r->observable[k]->memory(r->self[k], &bytes);
-    char name[64];
-    snprintf(name, sizeof name, "observable/%s", r->observable[k]->name);
-    GG_TRY(gg_archive_get(a, name, GG_ITEM_U8, memory, bytes, err));
-  }
-  return GG_OK;
+  return gg_replica_save_observables(r, a, err);
 }
 
 gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
                              int index, gg_error *err)
 {
   *r = (gg_replica){.model = *model, .trajectory_every = index == 0 ? scene->output.trajectory_every : 0};
-  gg_status status = attach_observables(r, scene, err);
+  gg_status status = gg_replica_attach(r, scene, err);
   if (status == GG_OK) status = gg_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
   if (status == GG_OK) status = gg_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
-  if (status == GG_OK) status = restore_observables(r, a, err);
+  if (status == GG_OK) status = gg_replica_restore_observables(r, a, err);
   if (status != GG_OK) gg_replica_clear(r);
   return status;
 }

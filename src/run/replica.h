@@ -14,6 +14,9 @@ typedef struct gg_replica {
   const gg_observable *observable[GG_MAX_OBSERVABLES];
   void *self[GG_MAX_OBSERVABLES];
   size_t offset[GG_MAX_OBSERVABLES]; /* where its channels begin in a row */
+  gg_bins bins[GG_MAX_OBSERVABLES];  /* of those that leave curves */
+  gg_snapshot snapshot;              /* that they look at; gathered only if one of them is due */
+  int parts;                         /* looks between two samples while averaging */
   gg_series series;
   double *row;
   double trajectory_every;  /* collisions per grain between frames; 0: none */
@@ -25,7 +28,8 @@ typedef struct gg_replica {
     double velocity_factor; /* of a rescaling not yet told to the observables */
     double cpu, window_cpu; /* seconds used; at the opening of the window */
     uint64_t window_collisions;
-    double next_frame; /* collisions per grain */
+    uint64_t averaging, window_samples; /* curves are being taken; samples since */
+    double next_frame;                  /* collisions per grain */
   } clock;
 } gg_replica;
 
@@ -41,6 +45,17 @@ gg_status gg_replica_sample(gg_replica *r, uint64_t samples, bool adapt, const g
 
 /* Averaging begins at the next sample. */
 void gg_replica_open_window(gg_replica *r);
+
+/* attach.c: the observables that the scene asks for, with their bins; and their part of a checkpoint. */
+gg_status gg_replica_attach(gg_replica *r, const gg_scene *scene, gg_error *err);
+void gg_replica_detach(gg_replica *r);
+gg_status gg_replica_save_observables(const gg_replica *r, gg_archive *archive, gg_error *err);
+gg_status gg_replica_restore_observables(gg_replica *r, const gg_archive *archive, gg_error *err);
+
+/* look.c: a row of the series; after each part of an interval, `part` from 1 to r->parts, what curves need. */
+void gg_replica_look(gg_replica *r, double elapsed);
+void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed);
+void gg_replica_restart_curves(gg_replica *r);
 
 double gg_replica_collisions_per_grain(const gg_replica *r);
 

@@ -181,6 +181,7 @@ gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err)
   report_effort(c, result);
   report_verdict(c, &j, result);
   report_warnings(c, &j, result);
+  GG_TRY(gg_campaign_report_curves(c, result, err));
   GG_TRY(gg_frame_take(c->replicas[0].engine, &c->model, &result->final, err));
   result->final.time = c->replicas[0].clock.time;
   if (!c->state.averaging ||

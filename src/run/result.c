@@ -20,6 +20,7 @@ void gg_result_free(gg_result *result)
   if (!result) return;
   free(result->history.time);
   for (int k = 0; k < GG_N_HISTORY; k++) free(result->history.value[k]);
+  gg_curves_clear(&result->curves);
   gg_frame_free(&result->final);
   for (int i = 0; i < result->n_warnings; i++) free(result->warnings[i]);
   free(result);

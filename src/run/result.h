@@ -56,6 +56,7 @@ struct gg_result {
   char verdict_text[256]; /* which observable decided, and how */
   gg_estimate value[GG_N_QUANTITIES];
   gg_history history;
+  gg_curves curves;
   gg_frame final; /* the first replica's last state */
   gg_effort averaging, total;
   gg_engine_state engine_state; /* counts summed over replicas */

@@ -1,0 +1,25 @@
+/* Curves of a result, in documents and files. Pictures are drawn from the document. */
+#ifndef GG_IO_CURVES_H
+#define GG_IO_CURVES_H
+
+#include <jansson.h>
+#include <stdio.h>
+
+#include "io/h5.h"
+#include "measure/curve.h"
+
+/* {"name": {"group", "panel", "label", "x_name", "x_unit", "y_name", "unit", "log_x", "log_y", "samples", "x": [],
+ * "value": [], "stderr": [], "numbers": {"alpha": {"mean", "stderr", "unit"}}}} */
+json_t *gg_curves_json(const gg_curves *curves);
+
+/* GROUP/curves/<name>/ x, value, stderr; numbers/<name>: mean, stderr; units are attributes. */
+void gg_h5_write_curves(gg_h5 *h, const char *group, const gg_curves *curves);
+
+/* How many groups of curves an engine's document holds, and the k-th one's name. */
+int gg_curve_groups(const json_t *document, const char **names, int most);
+
+/* One group of curves (one observable) as a page of panels; `size` is the page's, in pixels. */
+void gg_plot_curves_size(const json_t *document, const char *group, int size[2]);
+void gg_plot_curves(FILE *script, const json_t *document, const char *group);
+
+#endif

@@ -1,0 +1,145 @@
+/* Pictures of curves: one page an observable, one panel for curves that belong together, shaded bands of one standard
+ * error. */
+#include <math.h>
+#include <string.h>
+
+#include "io/curves.h"
+#include "io/plot.h"
+
+enum { MOST_PANELS = 24, MOST_IN_PANEL = 8, COLUMNS = 3 };
+
+typedef struct panel {
+  const char *title;
+  int n;
+  const json_t *curve[MOST_IN_PANEL];
+} panel;
+
+static const char *text_of(const json_t *curve, const char *key)
+{
+  const char *text = json_string_value(json_object_get(curve, key));
+  return text ? text : "";
+}
+
+int gg_curve_groups(const json_t *document, const char **names, int most)
+{
+  int n = 0, k;
+  const char *name;
+  json_t *curve;
+  json_object_foreach(json_object_get(document, "curves"), name, curve)
+  {
+    const char *group = text_of(curve, "group");
+    for (k = 0; k < n && strcmp(names[k], group) != 0; k++) continue;
+    if (k == n && n < most) names[n++] = group;
+  }
+  return n;
+}
+
+static int panels_of(const json_t *document, const char *group, panel *panels)
+{
+  int n = 0, k;
+  const char *name;
+  json_t *curve;
+  json_object_foreach(json_object_get(document, "curves"), name, curve)
+  {
+    const char *title = text_of(curve, "panel");
+    if (strcmp(text_of(curve, "group"), group) != 0) continue;
+    for (k = 0; k < n && strcmp(panels[k].title, title) != 0; k++) continue;
+    if (k == n && n < MOST_PANELS) panels[n++] = (panel){.title = title};
+    if (k < n && panels[k].n < MOST_IN_PANEL) panels[k].curve[panels[k].n++] = curve;
+  }
+  return n;
+}
+
+static int columns_for(int n)
+{
+  return n == 4 ? 2 : n < COLUMNS ? n : COLUMNS;
+}
+
+void gg_plot_curves_size(const json_t *document, const char *group, int size[2])
+{
+  panel panels[MOST_PANELS];
+  int n = panels_of(document, group, panels), columns = n ? columns_for(n) : 1;
+  size[0] = columns == 1 ? 640 : 440 * columns;
+  size[1] = 50 + 370 * (n ? (n + columns - 1) / columns : 1);
+}
+
+static double at(const json_t *curve, const char *key, size_t i)
+{
+  const json_t *x = json_array_get(json_object_get(curve, key), i);
+  return json_is_number(x) ? json_number_value(x) : NAN;
+}
+
+/* The part of a curve between its first and last points other than zero: histograms have empty ends. */
+static void find_ends(const json_t *curve, size_t *from, size_t *to)
+{
+  *from = 0, *to = json_array_size(json_object_get(curve, "x"));
+  while (*from < *to && at(curve, "value", *from) == 0) ++*from;
+  while (*to > *from && at(curve, "value", *to - 1) == 0) --*to;
+}
+
+/* Errors beyond the point itself would only hide other curves on a logarithmic axis. */
+static void print_data(FILE *s, int k, const json_t *curve, double range[2])
+{
+  bool log_x = json_is_true(json_object_get(curve, "log_x")), log_y = json_is_true(json_object_get(curve, "log_y"));
+  size_t from, to;
+  find_ends(curve, &from, &to);
+  fprintf(s, "$curve%d << EOD\n", k);
+  for (size_t i = from; i < to; i++) {
+    double x = at(curve, "x", i), y = at(curve, "value", i), e = at(curve, "stderr", i);
+    if (!isfinite(y) || (log_x && x <= 0) || (log_y && y <= 0)) continue;
+    double band = isfinite(e) ? e : 0, low = y - band;
+    if (log_y && low < 0.1 * y) low = 0.1 * y;
+    range[0] = fmin(range[0], low), range[1] = fmax(range[1], y + band);
+    fprintf(s, "%.7g %.7g %.7g %.7g\n", x, y, low, y + band);
+  }
+  fprintf(s, "EOD\n");
+}
+
+static void axis_label(FILE *s, char axis, const char *name, const char *raw)
+{
+  char unit[96];
+  gg_plot_unit(raw, unit, sizeof unit);
+  if (strcmp(raw, "1") == 0 || !*raw)
+    fprintf(s, "set %clabel '%s'\n", axis, name);
+  else
+    fprintf(s, "set %clabel '%s [%s]'\n", axis, name, unit);
+}
+
+static void draw_panel(FILE *s, const panel *p, gg_panel place)
+{
+  const json_t *first = p->curve[0];
+  gg_plot_place(s, place);
+  double range[2] = {INFINITY, -INFINITY};
+  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], range);
+  if (range[0] >= 0 && range[0] < 0.3 * range[1]) fprintf(s, "set yrange [0:*]\n");
+  if (json_is_true(json_object_get(first, "log_x"))) fprintf(s, "set logscale x\n");
+  if (json_is_true(json_object_get(first, "log_y")))
+    fprintf(s, "set yrange [*:*]\nset logscale y\nset format y '10^{%%T}'\n");
+  axis_label(s, 'x', text_of(first, "x_name"), text_of(first, "x_unit"));
+  axis_label(s, 'y', text_of(first, "y_name"), text_of(first, "unit"));
+  fprintf(s, "set label '%s' at graph 0,1.21 left\n", p->title);
+  fprintf(s, p->n > 1 ? "set key at graph 1.0,1.16 right top horizontal samplen 1\n" : "unset key\n");
+  fprintf(s, "plot ");
+  for (int k = 0; k < p->n; k++) {
+    const char *colour = gg_plot_colours[k % GG_PLOT_COLOURS];
+    fprintf(s, "%s$curve%d using 1:3:4 with filledcurves notitle fc rgb '%s' fs transparent solid 0.25 noborder, ",
+            k ? ", " : "", k, colour);
+    fprintf(s, "$curve%d using 1:2 with lines lw 1.3 lc rgb '%s' title '%s'", k, colour, text_of(p->curve[k], "label"));
+  }
+  fprintf(s, "\n");
+}
+
+void gg_plot_curves(FILE *s, const json_t *document, const char *group)
+{
+  panel panels[MOST_PANELS];
+  int n = panels_of(document, group, panels);
+  if (!n) return;
+  int size[2], columns = columns_for(n), rows = (n + columns - 1) / columns;
+  gg_plot_curves_size(document, group, size);
+  double width = 1.0 / columns, head = 50.0 / size[1], height = (1 - head) / rows;
+  double left = columns == 1 ? 90.0 / size[0] : 80.0 / size[0], below = 58.0 / size[1], above = 62.0 / size[1];
+  for (int i = 0; i < n; i++) {
+    double x = (i % columns) * width, y = 1 - head - (i / columns + 1) * height;
+    draw_panel(s, &panels[i], (gg_panel){x + left, x + width - 20.0 / size[0], y + below, y + height - above});
+  }
+}

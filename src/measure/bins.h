@@ -1,0 +1,35 @@
+/* Sums over samples of an array of bins, kept in blocks of equal numbers of samples: every curve's mean and error comes
+ * from here. The blocks are 16 to 32 whatever the length of the window: when there are 32, neighbours are joined. */
+#ifndef GG_BINS_H
+#define GG_BINS_H
+
+#include "common/archive.h"
+
+enum { GG_BINS_BLOCKS = 32 };
+
+typedef struct gg_bins {
+  size_t width;
+  size_t blocks;    /* complete */
+  size_t per_block; /* samples in each: a power of two */
+  size_t pending;   /* samples in the block being filled */
+  double *sum;      /* (GG_BINS_BLOCKS + 1) x width: the complete blocks, then the one being filled */
+} gg_bins;
+
+gg_status gg_bins_init(gg_bins *b, size_t width, gg_error *err);
+void gg_bins_clear(gg_bins *b);
+/* Forget everything: averaging begins anew. */
+void gg_bins_restart(gg_bins *b);
+
+/* Where the present sample is to be added; then count it. */
+double *gg_bins_sample(gg_bins *b);
+void gg_bins_commit(gg_bins *b);
+
+static inline const double *gg_bins_block(const gg_bins *b, size_t i)
+{
+  return b->sum + i * b->width;
+}
+
+gg_status gg_bins_save(const gg_bins *b, const char *name, gg_archive *archive, gg_error *err);
+gg_status gg_bins_restore(gg_bins *b, const char *name, const gg_archive *archive, gg_error *err);
+
+#endif

@@ -1,0 +1,278 @@
+/* Local state over cells of about eight grains (at least three cells along an edge): density, translational and
+ * rotational temperature about the cell's own mean, spin, shear rate, with their distributions; and what averaging over
+ * cells, slabs across y, or the whole box makes of the temperatures. A mean taken over n_c grains takes the share 1/n_c
+ * out of a temperature: sums over (n_c - 1) instead of n_c put it back. Local shear rate: imposed one plus the central
+ * difference of the mean peculiar velocities of the cells above and below. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "measure/observable.h"
+
+enum { GRAINS_PER_CELL = 8, LEAST_CELLS = 3 };
+enum { DENSITY_BINS = 64, RATIO_BINS = 50, SIGNED_BINS = 80 };
+#define RATIO_WIDTH 0.1
+#define SIGNED_WIDTH 0.1 /* of spins in their rms; of shear rates half of it, in sqrt(T)/height */
+enum {
+  DENSITY = 0,
+  TEMPERATURE = DENSITY + DENSITY_BINS,
+  ROTATIONAL = TEMPERATURE + RATIO_BINS,
+  SPIN = ROTATIONAL + RATIO_BINS,
+  SHEAR = SPIN + SIGNED_BINS,
+  LOOKS = SHEAR + SIGNED_BINS,
+  N_DENSITY, /* cells behind each distribution */
+  N_TEMPERATURE,
+  N_ROTATIONAL,
+  N_SPIN,
+  N_SHEAR,
+  COUNT_SQUARED, /* mean of n_c^2 over cells, less the square of the mean */
+  SHEAR_SUM,
+  ROOT_T, /* sqrt(T) */
+  T_BOX,  /* temperatures: box, slab, slab corrected, cell, cell corrected; then rotational */
+  W_BOX = T_BOX + 5,
+  WIDTH = W_BOX + 5
+};
+
+typedef struct cell {                  /* sums over its grains */
+  double n, mass, momentum[3], energy; /* m, m C, m C^2 */
+  double inertia, spin[3], rotation;   /* K m, K m s, K m s^2; and omega_z */
+  double omega, volume;
+} cell;
+
+typedef struct cells {
+  gg_model model;
+  int n[3];
+  cell *cell;
+} cells;
+
+static const char *refuses(const gg_model *m)
+{
+  return m->homogeneous ? "the Monte Carlo ensemble has no positions" : NULL;
+}
+
+static void destroy(void *self)
+{
+  free(((cells *)self)->cell);
+  free(self);
+}
+
+static int count_of(const cells *d)
+{
+  return d->n[0] * d->n[1] * d->n[2];
+}
+
+static void *create(const gg_model *m, gg_error *err)
+{
+  cells *d = gg_new_array(1, sizeof *d, err);
+  if (!d) return NULL;
+  d->model = *m;
+  double edge = cbrt(GRAINS_PER_CELL * m->volume / (double)m->n);
+  for (int a = 0; a < 3; a++) d->n[a] = (int)fmax(LEAST_CELLS, round(m->box[a] / edge));
+  d->cell = gg_new_array((size_t)count_of(d), sizeof *d->cell, err);
+  if (d->cell) return d;
+  free(d);
+  return NULL;
+}
+
+static size_t bins(const void *self)
+{
+  (void)self;
+  return WIDTH;
+}
+
+static cell *cell_at(const cells *d, int x, int y, int z)
+{
+  return &d->cell[(z * d->n[1] + y) * d->n[0] + x];
+}
+
+static void add_grain(const gg_model *m, const gg_snapshot *s, size_t i, cell *c)
+{
+  int k = gg_snapshot_species(s, i);
+  double mass = m->mass[k], K = m->inertia[k] * mass, diameter = m->diameter[k];
+  c->n++;
+  c->mass += mass;
+  c->volume += M_PI / 6 * diameter * diameter * diameter;
+  for (int a = 0; a < 3; a++) c->momentum[a] += mass * s->c[a][i], c->energy += mass * s->c[a][i] * s->c[a][i];
+  if (!s->s[0]) return;
+  c->inertia += K;
+  for (int a = 0; a < 3; a++) c->spin[a] += K * s->s[a][i], c->rotation += K * s->s[a][i] * s->s[a][i];
+  c->omega += s->s[2][i] * 2 / diameter;
+}
+
+static void sort_grains(cells *d, const gg_snapshot *s)
+{
+  memset(d->cell, 0, (size_t)count_of(d) * sizeof *d->cell);
+  for (size_t i = 0; i < s->n; i++) {
+    int at[3];
+    for (int a = 0; a < 3; a++) {
+      at[a] = (int)(s->r[a][i] / d->model.box[a] * d->n[a]);
+      at[a] = at[a] < 0 ? 0 : at[a] >= d->n[a] ? d->n[a] - 1 : at[a];
+    }
+    add_grain(&d->model, s, i, cell_at(d, at[0], at[1], at[2]));
+  }
+}
+
+static void merge(cell *to, const cell *from)
+{
+  double *t = (double *)to;
+  const double *f = (const double *)from;
+  for (size_t k = 0; k < sizeof *to / sizeof *t; k++) t[k] += f[k];
+}
+
+/* Energies about the cell's own mean, times two. */
+static double thermal(const cell *c)
+{
+  const double *p = c->momentum;
+  return c->mass > 0 ? c->energy - (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / c->mass : 0;
+}
+static double rotational(const cell *c)
+{
+  const double *p = c->spin;
+  return c->inertia > 0 ? c->rotation - (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / c->inertia : 0;
+}
+
+/* Temperatures about the means of these parts: as they come, and with the share 1/n_c put back. */
+static void put_temperatures(const cell *part, int n, double *T, double *W)
+{
+  double energy = 0, spins = 0, grains = 0, free_grains = 0;
+  for (int k = 0; k < n; k++) {
+    energy += thermal(&part[k]), spins += rotational(&part[k]);
+    grains += part[k].n, free_grains += fmax(part[k].n - 1, 0);
+  }
+  T[0] += energy / (3 * grains), W[0] += spins / (3 * grains);
+  if (n > 1) T[1] += energy / (3 * free_grains), W[1] += spins / (3 * free_grains);
+}
+
+static cell add_averages(const cells *d, double *bin)
+{
+  enum { MOST_SLABS = 512 };
+  cell box = {0}, slab[MOST_SLABS];
+  int n = d->n[1] < MOST_SLABS ? d->n[1] : MOST_SLABS;
+  memset(slab, 0, (size_t)n * sizeof *slab);
+  for (int z = 0; z < d->n[2]; z++)
+    for (int y = 0; y < d->n[1]; y++)
+      for (int x = 0; x < d->n[0]; x++) merge(&slab[y * n / d->n[1]], cell_at(d, x, y, z));
+  for (int y = 0; y < n; y++) merge(&box, &slab[y]);
+  put_temperatures(&box, 1, bin + T_BOX, bin + W_BOX);
+  put_temperatures(slab, n, bin + T_BOX + 1, bin + W_BOX + 1);
+  put_temperatures(d->cell, count_of(d), bin + T_BOX + 3, bin + W_BOX + 3);
+  return box;
+}
+
+static void drop(double x, double width, int n, double *bin, double *count)
+{
+  double at = x / width;
+  (*count)++;
+  if (at >= 0 && at < n) bin[(int)at]++;
+}
+
+static double mean_x(const cell *c)
+{
+  return c->mass > 0 ? c->momentum[0] / c->mass : NAN;
+}
+
+/* Of inner rows only where the rows beyond the boundary are walls or slide. */
+static void add_shear_rate(const cells *d, int x, int y, int z, double root_T, double *bin)
+{
+  const gg_model *m = &d->model;
+  bool open = m->shear_rate == 0 && !gg_flow_is_walled(m->flow);
+  if (!open && (y == 0 || y == d->n[1] - 1)) return;
+  double height = m->box[1] / d->n[1];
+  double above = mean_x(cell_at(d, x, (y + 1) % d->n[1], z));
+  double below = mean_x(cell_at(d, x, (y + d->n[1] - 1) % d->n[1], z));
+  double excess = (above - below) / (2 * height);
+  if (!isfinite(excess)) return; /* a cell is empty */
+  bin[SHEAR_SUM] += m->shear_rate + excess;
+  drop(excess * height / root_T + SIGNED_BINS * SIGNED_WIDTH / 4, SIGNED_WIDTH / 2, SIGNED_BINS, bin + SHEAR,
+       &bin[N_SHEAR]);
+}
+
+static void look(void *self, const gg_snapshot *s, double *bin)
+{
+  cells *d = self;
+  const gg_model *m = &d->model;
+  sort_grains(d, s);
+  cell box = add_averages(d, bin);
+  double T = thermal(&box) / (3 * box.n), theta = rotational(&box) / (3 * box.n), squares = 0;
+  double rms = sqrt(box.rotation / (3 * fmax(box.inertia, 1e-300))) * 2 / m->diameter[0]; /* omega of a component */
+  double unit = box.volume / box.n;
+  for (int z = 0; z < d->n[2]; z++)
+    for (int y = 0; y < d->n[1]; y++)
+      for (int x = 0; x < d->n[0]; x++) {
+        const cell *c = cell_at(d, x, y, z);
+        squares += c->n * c->n;
+        drop(c->volume / unit + 0.5, 1, DENSITY_BINS, bin + DENSITY, &bin[N_DENSITY]);
+        add_shear_rate(d, x, y, z, sqrt(T), bin);
+        if (c->n < 2) continue;
+        drop(thermal(c) / (3 * (c->n - 1) * T), RATIO_WIDTH, RATIO_BINS, bin + TEMPERATURE, &bin[N_TEMPERATURE]);
+        if (!s->s[0]) continue;
+        drop(rotational(c) / (3 * (c->n - 1) * theta), RATIO_WIDTH, RATIO_BINS, bin + ROTATIONAL, &bin[N_ROTATIONAL]);
+        drop(c->omega / (c->n * rms) + SIGNED_BINS * SIGNED_WIDTH / 2, SIGNED_WIDTH, SIGNED_BINS, bin + SPIN,
+             &bin[N_SPIN]);
+      }
+  double n = count_of(d), mean = box.n / n;
+  bin[COUNT_SQUARED] += (squares / n - mean * mean) / mean;
+  bin[ROOT_T] += sqrt(T);
+  bin[LOOKS]++;
+}
+
+static gg_curve *put(gg_curves *list, const char *name, const char *title, const char *axis, int n, double first,
+                     double width, const double *bin, double count)
+{
+  gg_curve *c = gg_curve_add(list, (size_t)n, name, title, "cells");
+  gg_curve_axes(c, axis, "1", "P", "1");
+  for (size_t i = 0; i < c->n; i++) {
+    c->x[i] = first + (double)i * width;
+    c->value[i] = bin[i] / (count * width);
+  }
+  return c;
+}
+
+static void put_averages(gg_curve *c, const gg_model *m, const double *T, double looks, bool spins)
+{
+  static const char *const names[2][5] = {{"temperature_box", "temperature_slabs", "temperature_slabs_corrected",
+                                           "temperature_cells", "temperature_cells_corrected"},
+                                          {"rotational_temperature_box", "rotational_temperature_slabs",
+                                           "rotational_temperature_slabs_corrected", "rotational_temperature_cells",
+                                           "rotational_temperature_cells_corrected"}};
+  for (int k = 0; k < 5; k++) gg_curve_put_number(c, names[spins][k], T[k] / looks, gg_curve_unit(m, "temperature"));
+}
+
+static void curves(const void *self, const double *bin, gg_curves *list)
+{
+  const cells *d = self;
+  const gg_model *m = &d->model;
+  double unit = m->phi * count_of(d) / (double)m->n, looks = bin[LOOKS];
+  gg_curve *c =
+      put(list, "cell_density", "local solid fraction", "φ", DENSITY_BINS, 0, unit, bin + DENSITY, bin[N_DENSITY]);
+  gg_curve_put_number(c, "cells", count_of(d), "1");
+  gg_curve_put_number(c, "count_variance_over_mean", bin[COUNT_SQUARED] / looks, "1");
+  c = put(list, "cell_temperature", "local temperature", "T_{cell}/T", RATIO_BINS, RATIO_WIDTH / 2, RATIO_WIDTH,
+          bin + TEMPERATURE, bin[N_TEMPERATURE]);
+  put_averages(c, m, bin + T_BOX, looks, false);
+  c = put(list, "cell_shear_rate", "local shear rate, less the imposed", "h Δγ/√T", SIGNED_BINS,
+          -SIGNED_BINS * SIGNED_WIDTH / 4 + SIGNED_WIDTH / 4, SIGNED_WIDTH / 2, bin + SHEAR, bin[N_SHEAR]);
+  const char *rate = gg_curve_unit(m, "spin");
+  gg_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
+  gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / looks * d->n[1] / m->box[1], rate);
+  if (m->rule == GG_SMOOTH) return;
+  c = put(list, "cell_rotational_temperature", "local rotational temperature", "θ_{cell}/θ", RATIO_BINS,
+          RATIO_WIDTH / 2, RATIO_WIDTH, bin + ROTATIONAL, bin[N_ROTATIONAL]);
+  put_averages(c, m, bin + W_BOX, looks, true);
+  put(list, "cell_spin", "local spin", "ω_z/ω_{rms}", SIGNED_BINS, -SIGNED_BINS * SIGNED_WIDTH / 2 + SIGNED_WIDTH / 2,
+      SIGNED_WIDTH, bin + SPIN, bin[N_SPIN]);
+}
+
+const gg_observable gg_cells = {
+    .name = "cells",
+    .doc = "local density, shear rate, temperatures and spin",
+    .create = create,
+    .destroy = destroy,
+    .flag = GG_MEASURE_CELLS,
+    .refuses = refuses,
+    .bins = bins,
+    .every = 8,
+    .positions = true,
+    .look = look,
+    .curves = curves,
+};

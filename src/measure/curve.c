@@ -1,0 +1,188 @@
+#include "measure/curve.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/quantity.h"
+
+static void clear_curve(gg_curve *c)
+{
+  free(c->x);
+  free(c->value);
+  free(c->error);
+}
+
+void gg_curves_clear(gg_curves *list)
+{
+  for (int i = 0; i < list->n; i++) clear_curve(&list->curve[i]);
+  free(list->curve);
+  *list = (gg_curves){0};
+}
+
+/* The next free place with arrays for n points; NULL if there is no room for it. */
+static gg_curve *new_curve(gg_curves *list, size_t n)
+{
+  if (!list->curve) list->curve = calloc(GG_MOST_CURVES, sizeof *list->curve);
+  if (!list->curve || list->n == GG_MOST_CURVES || list->failed) return NULL;
+  gg_curve *c = &list->curve[list->n];
+  *c = (gg_curve){.group = list->group, .samples = list->samples, .n = n};
+  c->x = calloc(n, sizeof(double));
+  c->value = calloc(n, sizeof(double));
+  c->error = calloc(n, sizeof(double));
+  if (c->x && c->value && c->error) return c;
+  clear_curve(c);
+  return NULL;
+}
+
+gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label)
+{
+  gg_curve *c = new_curve(list, n);
+  if (c) list->n++;
+  if (!c) {
+    list->failed = true;
+    c = &list->spare;
+    *c = (gg_curve){.group = list->group};
+  }
+  snprintf(c->name, sizeof c->name, "%s", name);
+  snprintf(c->panel, sizeof c->panel, "%s", panel);
+  snprintf(c->label, sizeof c->label, "%s", label);
+  return c;
+}
+
+void gg_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit)
+{
+  snprintf(c->x_name, sizeof c->x_name, "%s", x_name);
+  snprintf(c->x_unit, sizeof c->x_unit, "%s", x_unit);
+  snprintf(c->y_name, sizeof c->y_name, "%s", y_name);
+  snprintf(c->unit, sizeof c->unit, "%s", unit);
+}
+
+void gg_curve_put_number(gg_curve *c, const char *name, double value, const char *unit)
+{
+  if (c->n_numbers == GG_CURVE_NUMBERS) return;
+  gg_curve_number *p = &c->number[c->n_numbers++];
+  *p = (gg_curve_number){.value = value, .error = NAN};
+  snprintf(p->name, sizeof p->name, "%s", name);
+  snprintf(p->unit, sizeof p->unit, "%s", unit);
+}
+
+const char *gg_curve_unit(const gg_model *m, const char *what)
+{
+  bool sheared = m->shear_rate != 0 || m->flow == GG_COUETTE;
+  if (strcmp(what, "length") == 0) return gg_quantity_unit(GG_Q_MEAN_FREE_PATH, m);
+  if (strcmp(what, "temperature") == 0) return gg_quantity_unit(GG_Q_TEMPERATURE, m);
+  if (strcmp(what, "spin") == 0) return gg_quantity_unit(GG_Q_SPIN_Z, m);
+  if (strcmp(what, "velocity") == 0) return sheared ? m->boltzmann ? "gamma/(n d^2)" : "d gamma" : "v_0";
+  if (strcmp(what, "time") == 0) return sheared ? "1/gamma" : m->boltzmann ? "1/(n d^2 v_0)" : "d/v_0";
+  return "1";
+}
+
+/* Add every value and number, and their squares, of a list of the same shape to `sums`: two doubles each. */
+static void add_squares(const gg_curves *full, const gg_curves *list, double *sums)
+{
+  for (int k = 0; k < full->n && k < list->n; k++) {
+    const gg_curve *f = &full->curve[k], *c = &list->curve[k];
+    for (size_t i = 0; i < f->n && i < c->n; i++, sums += 2) {
+      double d = c->value[i] - f->value[i];
+      sums[0] += d, sums[1] += d * d;
+    }
+    for (int i = 0; i < f->n_numbers && i < c->n_numbers; i++, sums += 2) {
+      double d = c->number[i].value - f->number[i].value;
+      sums[0] += d, sums[1] += d * d;
+    }
+  }
+}
+
+static double jackknife_error(const double *sums, size_t blocks)
+{
+  double n = (double)blocks, variance = (n - 1) / n * (sums[1] - sums[0] * sums[0] / n);
+  return sqrt(fmax(variance, 0)) + 0 * sums[0]; /* NaN stays NaN */
+}
+
+static void put_errors(gg_curves *full, const double *sums, size_t blocks)
+{
+  for (int k = 0; k < full->n; k++) {
+    gg_curve *c = &full->curve[k];
+    for (size_t i = 0; i < c->n; i++, sums += 2) {
+      c->error[i] = blocks > 1 ? jackknife_error(sums, blocks) : NAN;
+      if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was ever counted: unknown, not exact */
+    }
+    for (int i = 0; i < c->n_numbers; i++, sums += 2)
+      c->number[i].error = blocks > 1 ? jackknife_error(sums, blocks) : NAN;
+  }
+}
+
+static size_t shape(const gg_curves *list)
+{
+  size_t n = 0;
+  for (int k = 0; k < list->n; k++) n += list->curve[k].n + (size_t)list->curve[k].n_numbers;
+  return n;
+}
+
+typedef struct pooled {
+  const gg_bins *const *bins;
+  size_t n_runs, width, blocks, per_block;
+  double *total, *mean;
+} pooled;
+
+static void sum_up(pooled *p)
+{
+  for (size_t r = 0; r < p->n_runs; r++)
+    for (size_t b = 0; b < p->bins[r]->blocks; b++)
+      for (size_t k = 0; k < p->width; k++) p->total[k] += gg_bins_block(p->bins[r], b)[k];
+}
+
+static void evaluate(const pooled *p, const double *without, gg_curves_of *of, const void *self, gg_curves *list)
+{
+  list->samples = (p->blocks - (without != NULL)) * p->per_block;
+  for (size_t k = 0; k < p->width; k++) p->mean[k] = (p->total[k] - (without ? without[k] : 0)) / (double)list->samples;
+  of(self, p->mean, list);
+}
+
+static bool leave_one_out(const pooled *p, gg_curves_of *of, const void *self, gg_curves *full, double *sums)
+{
+  for (size_t r = 0; p->blocks > 1 && r < p->n_runs; r++)
+    for (size_t b = 0; b < p->bins[r]->blocks; b++) {
+      gg_curves part = {.model = full->model, .group = full->group};
+      evaluate(p, gg_bins_block(p->bins[r], b), of, self, &part);
+      bool whole = !part.failed;
+      if (whole) add_squares(full, &part, sums);
+      gg_curves_clear(&part);
+      if (!whole) return false;
+    }
+  put_errors(full, sums, p->blocks);
+  return true;
+}
+
+/* Move the curves of one list to the end of another. */
+static bool append(gg_curves *to, gg_curves *from)
+{
+  if (!to->curve) to->curve = calloc(GG_MOST_CURVES, sizeof *to->curve);
+  if (!to->curve || to->n + from->n > GG_MOST_CURVES) return false;
+  memcpy(to->curve + to->n, from->curve, (size_t)from->n * sizeof *from->curve);
+  to->n += from->n;
+  from->n = 0;
+  return true;
+}
+
+gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curves_of *of, const void *self,
+                             const char *group, gg_curves *list, gg_error *err)
+{
+  pooled p = {.bins = bins, .n_runs = n_runs, .width = bins[0]->width, .per_block = bins[0]->per_block};
+  for (size_t r = 0; r < n_runs; r++) p.blocks += bins[r]->blocks;
+  if (p.blocks == 0) return GG_OK;
+  p.total = gg_new_array(2 * p.width, sizeof(double), err);
+  if (!p.total) return GG_FAILED;
+  p.mean = p.total + p.width;
+  gg_curves full = {.model = list->model, .group = group};
+  sum_up(&p);
+  evaluate(&p, NULL, of, self, &full);
+  double *sums = gg_new_array(2 * shape(&full) + 2, sizeof *sums, err);
+  bool whole = sums && !full.failed && leave_one_out(&p, of, self, &full, sums) && (full.n == 0 || append(list, &full));
+  free(sums);
+  gg_curves_clear(&full);
+  free(p.total);
+  return whole ? GG_OK : gg_fail(err, GG_FAILED, "%s: out of memory for its curves", group);
+}

@@ -1,0 +1,57 @@
+/* Curves: histograms, profiles, correlation functions, spectra, with standard errors, and the numbers read off them. An
+ * observable says how curves follow from the means of its bins; errors come from leaving out one block of samples at a
+ * time (the jackknife: Quenouille 1956, Tukey 1958), so that ratios and fits get honest errors, too. */
+#ifndef GG_CURVE_H
+#define GG_CURVE_H
+
+#include "common/model.h"
+#include "measure/bins.h"
+
+typedef struct gg_curve_number {
+  char name[40], unit[40];
+  double value, error;
+} gg_curve_number;
+
+enum { GG_CURVE_NUMBERS = 16, GG_MOST_CURVES = 64 };
+
+typedef struct gg_curve {
+  char name[48];             /* unique in a result: "velocity_distribution_Cx" */
+  const char *group;         /* the observable: one picture */
+  char panel[48], label[24]; /* curves of one panel are drawn together, under their labels */
+  char x_name[24], x_unit[40], y_name[40], unit[40];
+  bool log_x, log_y; /* how it is best drawn */
+  size_t n;
+  double *x, *value, *error; /* NaN: cannot be had, unknown */
+  uint64_t samples;          /* snapshots behind each point, all replicas */
+  int n_numbers;
+  gg_curve_number number[GG_CURVE_NUMBERS]; /* read off this curve: exponents, contact values, coefficients */
+} gg_curve;
+
+typedef struct gg_curves {
+  const gg_model *model;
+  const char *group;
+  uint64_t samples; /* that the means are over */
+  int n;
+  gg_curve *curve; /* room for GG_MOST_CURVES */
+  bool failed;     /* out of memory or room: everything after is left out */
+  gg_curve spare;  /* what is written after a failure */
+} gg_curves;
+
+void gg_curves_clear(gg_curves *list);
+
+/* A new curve of n points, x and value for the caller to fill in; a curve of no points after a failure. */
+gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label);
+void gg_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit);
+void gg_curve_put_number(gg_curve *c, const char *name, double value, const char *unit);
+
+/* Units of results for curves: "length", "time", "velocity", "temperature", "spin" of this model. */
+const char *gg_curve_unit(const gg_model *model, const char *what);
+
+/* Curves from the mean of the bins over `list->samples` samples. */
+typedef void gg_curves_of(const void *self, const double *mean, gg_curves *list);
+
+/* Pool replicas' bins into curves with errors, appended to the list. */
+gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curves_of *of, const void *self,
+                             const char *group, gg_curves *list, gg_error *err);
+
+#endif

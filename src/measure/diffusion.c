@@ -1,0 +1,243 @@
+/* Velocity autocorrelation and mean-square displacement of a grain, by component and species, from origins spread over
+ * the run, up to 16 collisions a grain; the coefficient of self-diffusion from both, D = int <C(0)C(t)> dt (Green 1952,
+ * Kubo 1957) and half the slope of the displacement (Einstein 1905). Under shear displacements are peculiar: what the
+ * flow has carried along x is taken off, the grain's height between two looks being taken as the mean of both. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "measure/observable.h"
+#include "measure/pairs.h"
+
+/* Looks per sample (two collisions a grain); one origin in each; lags are kept over 8 samples. */
+enum { LOOKS = 16, ORIGINS = 8, LAGS = LOOKS * ORIGINS };
+enum { COUNT, TIME, CC, RR = CC + 3, LAG = RR + 3 };
+
+typedef struct diffusion {
+  gg_model model;
+  size_t n, bytes;
+  struct diffusion_state { /* one block of plain bytes, with all arrays behind it */
+    uint64_t looks;
+    double time;
+    double began[ORIGINS];
+  } * state;
+  uint32_t *place;                /* of each grain by its number: species 1 first */
+  double *r[3], *c[3], *moved[3]; /* at the last look, by place; moved: displacement since the start */
+  double *c0[ORIGINS][3], *moved0[ORIGINS][3];
+} diffusion;
+
+static const char *refuses(const gg_model *m)
+{
+  if (m->homogeneous) return "the grains of the Monte Carlo ensemble have neither positions nor names";
+  if (m->flow == GG_HCS) return "a cooling gas has no stationary velocity correlation";
+  return gg_flow_is_walled(m->flow) ? "between walls the gas is not homogeneous" : NULL;
+}
+
+static void destroy(void *self)
+{
+  free(((diffusion *)self)->state);
+  free(self);
+}
+
+static void *create(const gg_model *m, gg_error *err)
+{
+  diffusion *d = gg_new_array(1, sizeof *d, err);
+  if (!d) return NULL;
+  d->model = *m;
+  d->n = (size_t)m->n;
+  d->bytes = sizeof *d->state + (9 + 6 * ORIGINS) * d->n * sizeof(double) + d->n * sizeof *d->place;
+  d->state = gg_new_array(1, d->bytes, err);
+  if (!d->state) {
+    free(d);
+    return NULL;
+  }
+  double *at = (double *)(d->state + 1);
+  for (int a = 0; a < 3; a++) {
+    double **arrays[] = {&d->r[a], &d->c[a], &d->moved[a]};
+    for (int k = 0; k < 3; k++, at += d->n) *arrays[k] = at;
+    for (int o = 0; o < ORIGINS; o++, at += 2 * d->n) d->c0[o][a] = at, d->moved0[o][a] = at + d->n;
+  }
+  d->place = (uint32_t *)at;
+  return d;
+}
+
+static void *memory(void *self, size_t *bytes)
+{
+  diffusion *d = self;
+  *bytes = d->bytes;
+  return d->state;
+}
+
+static void restart(void *self)
+{
+  diffusion *d = self;
+  d->state->looks = 0;
+  d->state->time = 0;
+}
+
+static size_t bins(const void *self)
+{
+  return (size_t)((const diffusion *)self)->model.n_species * (LAGS + 1) * LAG;
+}
+
+/* What was moved since the look before: of all images of the new place the one that the velocity leads to. */
+static gg_vec displacement(const diffusion *d, const gg_images *b, gg_vec from, gg_vec to, gg_vec c, double dt)
+{
+  double rate = d->model.shear_rate;
+  gg_vec move = gg_sub(to, from);
+  double layers = gg_round_half((move.y - c.y * dt) * b->inverse[1]);
+  move.y -= layers * b->edge[1];
+  move.x -= layers * b->offset + rate * (from.y + 0.5 * move.y - 0.5 * b->edge[1]) * dt;
+  move.x -= b->edge[0] * gg_round_half((move.x - c.x * dt) * b->inverse[0]);
+  move.z -= b->edge[2] * gg_round_half((move.z - c.z * dt) * b->inverse[2]);
+  return move;
+}
+
+static void give_places(diffusion *d, const gg_snapshot *s)
+{
+  uint32_t next[GG_MAX_SPECIES] = {0, (uint32_t)d->model.n_of[0]};
+  for (size_t i = 0; i < s->n; i++) d->place[s->id[i]] = next[gg_snapshot_species(s, i)]++;
+}
+
+static void follow(diffusion *d, const gg_snapshot *s)
+{
+  gg_images b = gg_images_of(s);
+  bool first = d->state->looks == 0;
+  if (first) give_places(d, s);
+  for (size_t i = 0; i < s->n; i++) {
+    size_t g = d->place[s->id[i]];
+    gg_vec to = {s->r[0][i], s->r[1][i], s->r[2][i]}, move = {0, 0, 0};
+    if (!first) {
+      gg_vec mean = {0.5 * (d->c[0][g] + s->c[0][i]), 0.5 * (d->c[1][g] + s->c[1][i]), 0.5 * (d->c[2][g] + s->c[2][i])};
+      move = displacement(d, &b, (gg_vec){d->r[0][g], d->r[1][g], d->r[2][g]}, to, mean, s->elapsed);
+    }
+    const double step[3] = {move.x, move.y, move.z};
+    for (int a = 0; a < 3; a++) {
+      d->r[a][g] = s->r[a][i];
+      d->c[a][g] = s->c[a][i];
+      d->moved[a][g] = first ? 0 : d->moved[a][g] + step[a];
+    }
+  }
+  d->state->time = first ? 0 : d->state->time + s->elapsed;
+}
+
+static void set_origin(diffusion *d, int o)
+{
+  for (int a = 0; a < 3; a++)
+    for (size_t g = 0; g < d->n; g++) d->c0[o][a][g] = d->c[a][g], d->moved0[o][a][g] = d->moved[a][g];
+  d->state->began[o] = d->state->time;
+}
+
+/* Sums over the grains of one species, at places from..to: products with the origin, squares of displacements. */
+static void correlate(const diffusion *d, int o, size_t from, size_t to, double *bin)
+{
+  bin[COUNT] += (double)(to - from);
+  bin[TIME] += (double)(to - from) * (d->state->time - d->state->began[o]);
+  for (int a = 0; a < 3; a++) {
+    const double *c = d->c[a], *c0 = d->c0[o][a], *r = d->moved[a], *r0 = d->moved0[o][a];
+    double cc = 0, rr = 0;
+#pragma omp simd reduction(+ : cc, rr)
+    for (size_t g = from; g < to; g++) {
+      double moved = r[g] - r0[g];
+      cc += c[g] * c0[g];
+      rr += moved * moved;
+    }
+    bin[CC + a] += cc;
+    bin[RR + a] += rr;
+  }
+}
+
+static void look(void *self, const gg_snapshot *s, double *bin)
+{
+  diffusion *d = self;
+  uint64_t now = d->state->looks;
+  follow(d, s);
+  if (now % LOOKS == 0) set_origin(d, (int)(now / LOOKS % ORIGINS));
+  for (uint64_t o = 0; o < ORIGINS; o++) {
+    /* the last look at which this origin was set */
+    uint64_t round = now / LOOKS;
+    if (round < o) continue;
+    uint64_t set = round - (round - o) % ORIGINS, lag = now - set * LOOKS;
+    size_t from = 0;
+    for (int k = 0; k < d->model.n_species; k++) {
+      size_t to = from + (size_t)d->model.n_of[k];
+      correlate(d, (int)o, from, to, bin + ((size_t)k * (LAGS + 1) + lag) * LAG);
+      from = to;
+    }
+  }
+  d->state->looks++;
+}
+
+static double value_at(const double *bin, size_t lag, int channel)
+{
+  const double *at = bin + lag * LAG;
+  return at[COUNT] > 0 ? at[channel] / at[COUNT] : NAN;
+}
+
+/* Trapezoidal integral of the velocity correlation over all lags. */
+static double green_kubo(const double *bin, int a)
+{
+  double sum = 0;
+  for (size_t k = 1; k < LAGS; k++)
+    sum += 0.5 * (value_at(bin, k, CC + a) + value_at(bin, k - 1, CC + a)) *
+           (value_at(bin, k, TIME) - value_at(bin, k - 1, TIME));
+  return sum;
+}
+
+/* Half the slope of the displacement from the middle of the lags to their end. */
+static double einstein(const double *bin, int a)
+{
+  size_t from = LAGS / 2, to = LAGS - 1;
+  double rise = value_at(bin, to, RR + a) - value_at(bin, from, RR + a);
+  return 0.5 * rise / (value_at(bin, to, TIME) - value_at(bin, from, TIME));
+}
+
+static void put_component(const diffusion *d, int species, int a, const double *bin, gg_curves *list)
+{
+  const gg_model *m = &d->model;
+  char name[48], label[24], unit[40], tail[16] = "", subscript[16] = "";
+  const char *time = gg_curve_unit(m, "time");
+  if (m->n_species > 1)
+    snprintf(tail, sizeof tail, "_%d", species + 1), snprintf(subscript, sizeof subscript, ",%d", species + 1);
+  snprintf(name, sizeof name, "velocity_autocorrelation_C%c%s", "xyz"[a], tail);
+  snprintf(label, sizeof label, "C_{%c%s}", "xyz"[a], subscript);
+  gg_curve *c = gg_curve_add(list, LAGS, name, "velocity autocorrelation", label);
+  gg_curve_axes(c, "t", time, "<C(0)C(t)>", gg_curve_unit(m, "temperature"));
+  snprintf(name, sizeof name, "displacement_squared_%c%s", "xyz"[a], tail);
+  snprintf(label, sizeof label, "%c%s", "xyz"[a], *tail ? tail : "");
+  gg_curve *r = gg_curve_add(list, LAGS, name, "mean-square displacement", label);
+  snprintf(unit, sizeof unit, "%.30s^2", gg_curve_unit(m, "length"));
+  gg_curve_axes(r, "t", time, "<(Δr)^2>", unit);
+  for (size_t i = 0; i < c->n && i < r->n; i++) {
+    c->x[i] = r->x[i] = value_at(bin, i, TIME);
+    c->value[i] = value_at(bin, i, CC + a);
+    r->value[i] = value_at(bin, i, RR + a);
+  }
+  snprintf(unit, sizeof unit, "d^2/(%s)", time);
+  gg_curve_put_number(c, "diffusion_green_kubo", green_kubo(bin, a), unit);
+  gg_curve_put_number(r, "diffusion_einstein", einstein(bin, a), unit);
+}
+
+static void curves(const void *self, const double *bin, gg_curves *list)
+{
+  const diffusion *d = self;
+  for (int k = 0; k < d->model.n_species; k++)
+    for (int a = 0; a < 3; a++) put_component(d, k, a, bin + (size_t)k * (LAGS + 1) * LAG, list);
+}
+
+const gg_observable gg_diffusion = {
+    .name = "diffusion",
+    .doc = "velocity autocorrelation and mean-square displacement, self-diffusion",
+    .create = create,
+    .destroy = destroy,
+    .memory = memory,
+    .flag = GG_MEASURE_DIFFUSION,
+    .refuses = refuses,
+    .bins = bins,
+    .every = 1,
+    .looks = LOOKS,
+    .positions = true,
+    .look = look,
+    .restart = restart,
+    .curves = curves,
+};

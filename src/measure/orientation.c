@@ -1,0 +1,115 @@
+/* Orientation of spins to velocities: the angle Psi between C and Omega = omega - <omega> of each grain (Brilliantov,
+ * Poeschel, Kranz & Zippelius, Phys. Rev. Lett. 98 (2007) 128001), its distribution and Lambda = <cos^2 Psi>; and the
+ * same for the instantaneous velocities c and omega. Without correlation Lambda = 1/3, P(cos Psi) = 1/2 and
+ * P(cos^2 Psi) = 1/(2 |cos Psi|). */
+#include <math.h>
+#include <stdlib.h>
+
+#include "measure/observable.h"
+
+enum { BINS = 50, COS = 0, SQUARE = BINS, SUM = 2 * BINS, COUNT, SET };
+
+static const char *refuses(const gg_model *m)
+{
+  return m->rule == GG_SMOOTH ? "smooth grains do not spin" : NULL;
+}
+
+static void *create(const gg_model *m, gg_error *err)
+{
+  (void)m;
+  return gg_new_array(1, 1, err);
+}
+
+static size_t bins(const void *self)
+{
+  (void)self;
+  return 2 * (size_t)SET;
+}
+
+static int bin_of(double x)
+{
+  int k = (int)(x * BINS);
+  return k < 0 ? 0 : k >= BINS ? BINS - 1 : k;
+}
+
+static void count(gg_vec c, gg_vec w, double *bin)
+{
+  double product = gg_dot(c, c) * gg_dot(w, w);
+  if (!(product > 0)) return; /* a grain at rest has no direction */
+  double cosine = gg_dot(c, w) / sqrt(product);
+  bin[COS + bin_of((cosine + 1) / 2)]++;
+  bin[SQUARE + bin_of(cosine * cosine)]++;
+  bin[SUM] += cosine * cosine;
+  bin[COUNT]++;
+}
+
+static gg_vec at(double *const x[3], size_t i)
+{
+  return (gg_vec){x[0][i], x[1][i], x[2][i]};
+}
+
+/* By species: grains of two sizes spin at different mean rates. */
+static gg_vec mean_spin(const gg_snapshot *s, int species)
+{
+  gg_vec sum = {0, 0, 0};
+  double n = 0;
+  for (size_t i = 0; i < s->n; i++)
+    if (gg_snapshot_species(s, i) == species) sum = gg_add(sum, at(s->s, i)), n++;
+  return gg_scale(n > 0 ? 1 / n : 0, sum);
+}
+
+static void look(void *self, const gg_snapshot *s, double *bin)
+{
+  (void)self;
+  gg_vec mean[GG_MAX_SPECIES];
+  double shear = s->r[1] ? s->model->shear_rate : 0, middle = s->model->box[1] / 2;
+  for (int k = 0; k < s->model->n_species; k++) mean[k] = mean_spin(s, k);
+  for (size_t i = 0; i < s->n; i++) {
+    gg_vec c = at(s->c, i), w = at(s->s, i);
+    count(c, gg_sub(w, mean[gg_snapshot_species(s, i)]), bin);
+    if (shear != 0) c.x += shear * (s->r[1][i] - middle);
+    count(c, w, bin + SET);
+  }
+}
+
+static gg_curve *histogram(gg_curves *list, const char *name, const char *panel, const char *label, const double *bin,
+                           double grains, double from, double to)
+{
+  gg_curve *c = gg_curve_add(list, BINS, name, panel, label);
+  double width = (to - from) / BINS;
+  for (size_t i = 0; i < c->n; i++) {
+    c->x[i] = from + ((double)i + 0.5) * width;
+    c->value[i] = bin[i] / (grains * width);
+  }
+  return c;
+}
+
+static void curves(const void *self, const double *bin, gg_curves *list)
+{
+  (void)self;
+  static const char *const names[2][2] = {{"orientation_cos", "orientation_cos2"},
+                                          {"orientation_cos_instantaneous", "orientation_cos2_instantaneous"}};
+  static const char *const labels[] = {"peculiar", "instantaneous"};
+  for (int k = 0; k < 2; k++, bin += SET) {
+    gg_curve *c = histogram(list, names[k][0], "P(cos Ψ)", labels[k], bin + COS, bin[COUNT], -1, 1);
+    gg_curve_axes(c, "cos Ψ", "1", "P", "1");
+    gg_curve_put_number(c, "Lambda", bin[SUM] / bin[COUNT], "1");
+    c = histogram(list, names[k][1], "P(cos^2 Ψ)", labels[k], bin + SQUARE, bin[COUNT], 0, 1);
+    gg_curve_axes(c, "cos^2 Ψ", "1", "P", "1");
+    c->log_y = true;
+  }
+}
+
+const gg_observable gg_orientation = {
+    .name = "orientation",
+    .doc = "angle between peculiar velocity and spin",
+    .create = create,
+    .destroy = free,
+    .flag = GG_MEASURE_ORIENTATION,
+    .refuses = refuses,
+    .bins = bins,
+    .every = 2,
+    .positions = true,
+    .look = look,
+    .curves = curves,
+};

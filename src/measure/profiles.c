@@ -1,0 +1,158 @@
+/* Profiles across the gap between walls: solid fraction (each grain where its centre is), flow velocity, temperatures
+ * about the local mean, mean spin. Means are over the window, so a slab's temperature is about its mean velocity of the
+ * whole window: nothing has to be put back for the few grains of one instant. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "measure/observable.h"
+
+enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
+#define THICKNESS 0.5
+/* Sums over a slab: pi/6 d^3, mass, m C, m C^2, K m, K m s, K m s^2, grains, omega_z */
+enum { VOLUME, MASS, MOMENTUM, ENERGY = MOMENTUM + 3, INERTIA, SPIN, ROTATION = SPIN + 3, GRAINS, OMEGA, SLAB };
+
+typedef struct profiles {
+  gg_model model;
+  int slabs;
+} profiles;
+
+static const char *refuses(const gg_model *m)
+{
+  return gg_flow_is_walled(m->flow) && !m->homogeneous ? NULL : "profiles are of flows between walls";
+}
+
+static void *create(const gg_model *m, gg_error *err)
+{
+  profiles *d = gg_new_array(1, sizeof *d, err);
+  if (d) *d = (profiles){*m, (int)fmin(fmax(round(m->box[1] / THICKNESS), LEAST_SLABS), MOST_SLABS)};
+  return d;
+}
+
+static size_t bins(const void *self)
+{
+  return (size_t)((const profiles *)self)->slabs * SLAB;
+}
+
+static void look(void *self, const gg_snapshot *s, double *bin)
+{
+  const profiles *d = self;
+  const gg_model *m = &d->model;
+  for (size_t i = 0; i < s->n; i++) {
+    int slab = (int)floor(s->r[1][i] / m->box[1] * d->slabs), k = gg_snapshot_species(s, i);
+    if (slab < 0 || slab >= d->slabs) continue; /* above an open top */
+    double *at = bin + slab * SLAB, mass = m->mass[k], K = mass * m->inertia[k], diameter = m->diameter[k];
+    at[VOLUME] += M_PI / 6 * diameter * diameter * diameter;
+    at[MASS] += mass;
+    at[GRAINS]++;
+    for (int a = 0; a < 3; a++) {
+      double c = s->c[a][i];
+      at[MOMENTUM + a] += mass * c, at[ENERGY] += mass * c * c;
+    }
+    if (!s->s[0]) continue;
+    at[INERTIA] += K;
+    at[OMEGA] += s->s[2][i] * 2 / diameter;
+    for (int a = 0; a < 3; a++) {
+      double w = s->s[a][i];
+      at[SPIN + a] += K * w, at[ROTATION] += K * w * w;
+    }
+  }
+}
+
+typedef double of_slab(const double *at, double volume);
+
+static double solid_fraction(const double *at, double volume)
+{
+  return at[VOLUME] / volume;
+}
+static double velocity(const double *at, double volume)
+{
+  (void)volume;
+  return at[MOMENTUM] / at[MASS];
+}
+static double about_mean(const double *sum, const double *first, double weight, double grains)
+{
+  return (sum[0] - (first[0] * first[0] + first[1] * first[1] + first[2] * first[2]) / weight) / (3 * grains);
+}
+static double temperature(const double *at, double volume)
+{
+  (void)volume;
+  return about_mean(at + ENERGY, at + MOMENTUM, at[MASS], at[GRAINS]);
+}
+static double rotational_temperature(const double *at, double volume)
+{
+  (void)volume;
+  return about_mean(at + ROTATION, at + SPIN, at[INERTIA], at[GRAINS]);
+}
+static double temperature_ratio(const double *at, double volume)
+{
+  return rotational_temperature(at, volume) / temperature(at, volume);
+}
+static double spin(const double *at, double volume)
+{
+  (void)volume;
+  return at[OMEGA] / at[GRAINS];
+}
+
+static const struct {
+  const char *name, *panel, *label, *unit;
+  of_slab *of;
+  bool spins;
+} table[] = {
+    {"profile_solid_fraction", "solid fraction", "φ", "1", solid_fraction, false},
+    {"profile_velocity", "flow velocity", "u_x", "velocity", velocity, false},
+    {"profile_temperature", "temperature", "T", "temperature", temperature, false},
+    {"profile_rotational_temperature", "temperature", "θ", "temperature", rotational_temperature, true},
+    {"profile_temperature_ratio", "ratio of temperatures", "θ/T", "1", temperature_ratio, true},
+    {"profile_spin_z", "spin", "ω_z", "spin", spin, true},
+};
+
+/* Velocity of the gas next to a wall (the straight line through its outermost three slabs with grains, at the height
+ * of a grain that touches), over that of the wall. */
+static void put_slip(const gg_model *m, gg_curve *c)
+{
+  for (int upper = 0; upper < 2; upper++) {
+    double touch = upper ? m->box[1] - 0.5 : 0.5, x[3], y[3];
+    int n = 0;
+    for (size_t i = 0; i < c->n && n < 3; i++) {
+      size_t k = upper ? c->n - 1 - i : i;
+      if (isfinite(c->value[k])) x[n] = c->x[k], y[n++] = c->value[k];
+    }
+    if (n < 3) continue;
+    double mx = (x[0] + x[1] + x[2]) / 3, my = (y[0] + y[1] + y[2]) / 3, xx = 0, xy = 0;
+    for (int k = 0; k < 3; k++) xx += (x[k] - mx) * (x[k] - mx), xy += (x[k] - mx) * (y[k] - my);
+    double slip = (upper ? 1 : -1) * m->wall_speed - (my + xy / xx * (touch - mx));
+    gg_curve_put_number(c, upper ? "slip_upper" : "slip_lower", slip, gg_curve_unit(m, "velocity"));
+  }
+}
+
+static void curves(const void *self, const double *bin, gg_curves *list)
+{
+  const profiles *d = self;
+  const gg_model *m = &d->model;
+  double height = m->box[1] / d->slabs, volume = m->box[0] * m->box[2] * height;
+  for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
+    if (table[t].spins && m->rule == GG_SMOOTH) continue;
+    gg_curve *c = gg_curve_add(list, (size_t)d->slabs, table[t].name, table[t].panel, table[t].label);
+    gg_curve_axes(c, "y", gg_curve_unit(m, "length"), table[t].label, gg_curve_unit(m, table[t].unit));
+    for (size_t i = 0; i < c->n; i++) {
+      const double *at = bin + i * SLAB;
+      c->x[i] = ((double)i + 0.5) * height;
+      c->value[i] = at[GRAINS] > 0 || table[t].of == solid_fraction ? table[t].of(at, volume) : NAN;
+    }
+    if (table[t].of == velocity) put_slip(m, c);
+  }
+}
+
+const gg_observable gg_profiles = {
+    .name = "profiles",
+    .doc = "density, flow, temperatures and spin across the gap between walls",
+    .create = create,
+    .destroy = free,
+    .flag = GG_MEASURE_PROFILES,
+    .refuses = refuses,
+    .bins = bins,
+    .every = 2,
+    .positions = true,
+    .look = look,
+    .curves = curves,
+};

@@ -1,0 +1,82 @@
+/* How a replica is looked at: chunk by chunk for rows at every sample; as whole snapshots for curves, when one is due.
+ */
+#include "measure/local_frame.h"
+#include "run/replica.h"
+
+typedef struct showing {
+  gg_replica *replica;
+  int pass;
+} showing;
+
+static bool wants(const gg_observable *o, int pass)
+{
+  return o->width && pass < o->passes;
+}
+
+static void show_chunk(void *context, const gg_chunk *chunk)
+{
+  showing *s = context;
+  gg_replica *r = s->replica;
+  for (int k = 0; k < r->n_observables; k++)
+    if (wants(r->observable[k], s->pass)) r->observable[k]->visit(r->self[k], chunk);
+}
+
+void gg_replica_look(gg_replica *r, double elapsed)
+{
+  int passes = 0;
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->passes > passes) passes = r->observable[k]->passes;
+  if (r->model.rule == GG_SMOOTH && passes > 1) passes = 1; /* further passes look at spins */
+  gg_local_frame frame;
+  if (r->model.walled) gg_local_frame_take(&frame, &r->model, r->engine);
+  for (int pass = 0; pass < passes; pass++) {
+    for (int k = 0; k < r->n_observables; k++)
+      if (wants(r->observable[k], pass)) r->observable[k]->begin(r->self[k], pass);
+    showing s = {r, pass};
+    if (r->model.walled)
+      gg_local_frame_snapshot(&frame, r->engine, show_chunk, &s);
+    else
+      r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
+  }
+  gg_transfer transfer;
+  r->engine->ops->read_tap(r->engine, &transfer);
+  gg_interval in = {&r->model, &transfer, elapsed, r->clock.velocity_factor};
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->width) r->observable[k]->finish(r->self[k], &in, r->row + r->offset[k]);
+  r->clock.velocity_factor = 1;
+}
+
+/* Those that look between samples look at every part; the others at the last part of every so-many-th sample. */
+static bool is_due(const gg_replica *r, int k, int part)
+{
+  const gg_observable *o = r->observable[k];
+  if (!o->bins) return false;
+  return o->looks > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)o->every == 0);
+}
+
+void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed)
+{
+  bool any = false, last = part == r->parts;
+  for (int k = 0; k < r->n_observables; k++) any |= is_due(r, k, part);
+  if (any) {
+    gg_snapshot_take(&r->snapshot, r->engine);
+    r->snapshot.elapsed = part_elapsed;
+    r->snapshot.velocity_factor = part == 1 ? r->clock.velocity_factor : 1;
+  }
+  for (int k = 0; k < r->n_observables; k++) {
+    if (!is_due(r, k, part)) continue;
+    r->observable[k]->look(r->self[k], &r->snapshot, gg_bins_sample(&r->bins[k]));
+    if (last) gg_bins_commit(&r->bins[k]);
+  }
+  if (last) r->clock.window_samples++;
+}
+
+void gg_replica_restart_curves(gg_replica *r)
+{
+  r->clock.averaging = 1;
+  r->clock.window_samples = 0;
+  for (int k = 0; k < r->n_observables; k++) {
+    gg_bins_restart(&r->bins[k]);
+    if (r->observable[k]->restart) r->observable[k]->restart(r->self[k]);
+  }
+}

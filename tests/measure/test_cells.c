@@ -1,0 +1,114 @@
+/* Cells: grains thrown anywhere fall into them binomially; temperatures about cell, slab and box means come out with
+ * and without the 1/n_c share exactly; a planted extra shear shows in the local shear rate and in the box temperature.
+ */
+#include "curve_test.h"
+
+#define EXTRA 0.02
+
+static void thrown(gg_snapshot *s, gg_rng *r, int sample)
+{
+  (void)sample;
+  const double *L = s->model->box;
+  for (size_t i = 0; i < s->n; i++) {
+    int k = gg_snapshot_species(s, i);
+    for (int a = 0; a < 3; a++) {
+      s->r[a][i] = L[a] * gg_rng_uniform(r);
+      s->c[a][i] = gg_rng_normal(r) / sqrt(s->model->mass[k]);
+      if (s->s[a]) s->s[a][i] = 0.5 * gg_rng_normal(r) / sqrt(s->model->mass[k] * s->model->inertia[k]) - 1 * (a == 2);
+    }
+    s->c[0][i] += EXTRA * (s->r[1][i] - L[1] / 2);
+  }
+}
+
+typedef struct binomial {
+  double unit, n, p;
+} binomial;
+
+static double law(double phi, const void *context)
+{
+  const binomial *b = context;
+  double k = round(phi / b->unit);
+  double log_p = lgamma(b->n + 1) - lgamma(k + 1) - lgamma(b->n - k + 1) + k * log(b->p) + (b->n - k) * log1p(-b->p);
+  return exp(log_p) / b->unit;
+}
+
+static void expect_number(const gg_curve *c, const char *name, double expected, double sight)
+{
+  gg_curve_number p = ct_number(c, name);
+  ct_expect(name, p.value, p.error, expected, sight * fabs(expected));
+}
+
+static void planted(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_USF, 0.1, 0, 4000, 1);
+  gg_curves list = ct_curves(&gg_cells, &m, 96, thrown, 81);
+  const gg_curve *density = ct_find(&list, "cell_density"), *T = ct_find(&list, "cell_temperature");
+  double cells = ct_number(density, "cells").value, n = 4000, slabs = round(cbrt(cells));
+  assert_true(cells == 512);
+  binomial b = {m.phi * cells / n, n, 1 / cells};
+  double chi2 = ct_chi2(density, 0, 18, law, &b);
+  assert_true(chi2 > 0.3 && chi2 < 2.3);
+  expect_number(density, "count_variance_over_mean", 1 - 1 / cells, 0.05);
+  /* the extra shear adds rate^2 h^2/36 within a slab or cell of height h (variance h^2/12 of y, of one component) */
+  double h = m.box[1] / slabs, within = pow(EXTRA * h, 2) / 36, whole = pow(EXTRA * m.box[1], 2) / 36;
+  double occupied = cells * (1 - pow(1 - 1 / cells, n));
+  expect_number(T, "temperature_box", (1 + whole) * (1 - 1 / n), 0.02);
+  expect_number(T, "temperature_slabs", (1 + within) * (1 - slabs / n), 0.02);
+  expect_number(T, "temperature_slabs_corrected", 1 + within, 0.02);
+  expect_number(T, "temperature_cells", (1 + within) * (1 - occupied / n), 0.02);
+  expect_number(T, "temperature_cells_corrected", 1 + within, 0.02);
+  const gg_curve *W = ct_find(&list, "cell_rotational_temperature");
+  expect_number(W, "rotational_temperature_cells_corrected", 0.25, 0.02);
+  expect_number(W, "rotational_temperature_cells", 0.25 * (1 - occupied / n), 0.02);
+  gg_curve_number p = ct_number(ct_find(&list, "cell_shear_rate"), "mean_shear_rate");
+  ct_expect("mean local shear rate", p.value, p.error, 1 + EXTRA, 0.01);
+  gg_curves_clear(&list);
+}
+
+/* Unequal masses: the 1/n_c share is that of grains, not of mass. */
+static void mixture(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_HCS, 0.1, 0, 4000, 2);
+  gg_curves list = ct_curves(&gg_cells, &m, 96, thrown, 82);
+  const gg_curve *T = ct_find(&list, "cell_temperature");
+  double raw = ct_number(T, "temperature_cells").value;
+  assert_true(raw < 0.9);
+  gg_curve_number p = ct_number(T, "temperature_cells_corrected");
+  assert_true(fabs(p.value - 1) < 4 * p.error + 0.005 && p.error < 0.004); /* 0.005: the extra shear of heavy grains */
+  gg_curves_clear(&list);
+}
+
+/* Every distribution integrates to one, and an elastic engine's cells have the temperature of the box. */
+static void engine(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 0.1, s.particles = 1000;
+  for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1, s.collision.beta[q] = 1;
+  s.run.collisions = 1500;
+  s.measure |= GG_MEASURE_CELLS;
+  gg_result *r = ct_run(s);
+  for (int k = 0; k < r->curves.n; k++) {
+    const gg_curve *c = &r->curves.curve[k];
+    double sum = 0;
+    for (size_t i = 0; i < c->n; i++) sum += c->value[i] * (c->x[1] - c->x[0]);
+    print_message("# %s: %.5f\n", c->name, sum);
+    assert_true(fabs(sum - 1) < 0.002);
+  }
+  const gg_curve *T = ct_find(&r->curves, "cell_temperature");
+  gg_curve_number p = ct_number(T, "temperature_cells_corrected"), box = ct_number(T, "temperature_box");
+  ct_expect("temperature of cells", p.value, p.error, box.value * 1000 / 999, 0.02 * p.value);
+  gg_result_free(r);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(planted),
+      cmocka_unit_test(mixture),
+      cmocka_unit_test(engine),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

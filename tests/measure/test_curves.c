@@ -1,0 +1,126 @@
+/* The statistics under every curve: blocks joined without loss, jackknife errors that equal the textbook error of a
+ * mean and are honest for a ratio, replicas pooled, and a checkpoint that changes nothing. */
+#include "curve_test.h"
+
+enum { WIDTH = 3 };
+
+static void plain(const void *self, const double *mean, gg_curves *list)
+{
+  (void)self;
+  gg_curve *c = gg_curve_add(list, WIDTH, "mean", "p", "m");
+  for (int i = 0; i < (int)c->n; i++) c->x[i] = i, c->value[i] = mean[i];
+  gg_curve_put_number(c, "ratio", mean[0] / mean[1], "1");
+}
+
+static void add(gg_bins *b, gg_rng *r)
+{
+  double *bin = gg_bins_sample(b), common = 0.3 * gg_rng_normal(r);
+  bin[0] += 6 * (1 + common) + 0.1 * gg_rng_normal(r);
+  bin[1] += 3 * (1 + common);
+  bin[2] += 1;
+  gg_bins_commit(b);
+}
+
+/* Every sample counts once, however often blocks are joined; the number of blocks stays between 16 and 32. */
+static void joined_blocks(void **state)
+{
+  (void)state;
+  gg_bins b;
+  assert_int_equal(gg_bins_init(&b, 1, NULL), GG_OK);
+  for (int k = 0; k < 5000; k++) {
+    *gg_bins_sample(&b) += 1;
+    gg_bins_commit(&b);
+    double sum = 0;
+    for (size_t i = 0; i <= b.blocks; i++) sum += *gg_bins_block(&b, i);
+    assert_true(sum == k + 1);
+    for (size_t i = 0; i < b.blocks; i++) assert_true(*gg_bins_block(&b, i) == (double)b.per_block);
+    if (k >= 16) assert_true(b.blocks >= 16 && b.blocks < 32);
+  }
+  gg_bins_restart(&b);
+  assert_true(b.blocks == 0 && b.pending == 0 && *gg_bins_block(&b, 0) == 0);
+  gg_bins_clear(&b);
+}
+
+/* The jackknife of a mean is the scatter of its blocks over sqrt(n); two replicas pool. */
+static void error_of_a_mean(void **state)
+{
+  (void)state;
+  gg_bins b[2];
+  gg_rng r = gg_rng_seed(5, 0);
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(gg_bins_init(&b[k], WIDTH, NULL), GG_OK);
+    for (int i = 0; i < 20 * 16; i++) add(&b[k], &r);
+  }
+  const gg_bins *list[] = {&b[0], &b[1]};
+  gg_curves curves = {0};
+  assert_int_equal(gg_curves_estimate(list, 2, plain, NULL, "test", &curves, NULL), GG_OK);
+  double sum = 0, squares = 0, n = (double)(2 * b[0].blocks);
+  for (int k = 0; k < 2; k++)
+    for (size_t i = 0; i < b[k].blocks; i++) {
+      double x = gg_bins_block(&b[k], i)[0] / (double)b[k].per_block;
+      sum += x, squares += x * x;
+    }
+  double mean = sum / n, error = sqrt((squares / n - mean * mean) / (n - 1));
+  const gg_curve *c = ct_find(&curves, "mean");
+  assert_true(fabs(c->value[0] - mean) < 1e-12 && fabs(c->error[0] / error - 1) < 1e-9);
+  assert_true(c->value[2] == 1 && c->error[2] == 0);
+  assert_int_equal(c->samples, (uint64_t)n * b[0].per_block);
+  gg_curves_clear(&curves);
+  for (int k = 0; k < 2; k++) gg_bins_clear(&b[k]);
+}
+
+/* A ratio of two bins that fluctuate together: over 300 repeats its deviation in units of its error has the variance of
+ * Student's t (20 blocks: 1.12; scatter 0.1), and the common fluctuation is not in it. */
+static void honest_ratio(void **state)
+{
+  (void)state;
+  gg_rng r = gg_rng_seed(6, 0);
+  double sum = 0;
+  for (int k = 0; k < 300; k++) {
+    gg_bins b;
+    assert_int_equal(gg_bins_init(&b, WIDTH, NULL), GG_OK);
+    for (int i = 0; i < 20 * 8; i++) add(&b, &r);
+    const gg_bins *list[] = {&b};
+    gg_curves curves = {0};
+    assert_int_equal(gg_curves_estimate(list, 1, plain, NULL, "test", &curves, NULL), GG_OK);
+    gg_curve_number ratio = ct_number(&curves.curve[0], "ratio");
+    assert_true(ratio.error < 0.006); /* 0.1/3/sqrt(160) = 0.0026; the common part alone: 0.05 */
+    sum += pow((ratio.value - 2) / ratio.error, 2);
+    gg_curves_clear(&curves);
+    gg_bins_clear(&b);
+  }
+  print_message("# variance of the reduced deviation: %.3f\n", sum / 300);
+  assert_true(sum / 300 > 0.7 && sum / 300 < 1.6);
+}
+
+/* Saved and restored in the middle of a block, bins go on as if nothing had been. */
+static void checkpoint(void **state)
+{
+  (void)state;
+  gg_bins a, b;
+  gg_archive archive = {0};
+  gg_rng r = gg_rng_seed(7, 0), again;
+  assert_int_equal(gg_bins_init(&a, WIDTH, NULL), GG_OK);
+  assert_int_equal(gg_bins_init(&b, WIDTH, NULL), GG_OK);
+  for (int i = 0; i < 77; i++) add(&a, &r);
+  assert_int_equal(gg_bins_save(&a, "x", &archive, NULL), GG_OK);
+  assert_int_equal(gg_bins_restore(&b, "x", &archive, NULL), GG_OK);
+  again = r;
+  for (int i = 0; i < 100; i++) add(&a, &r), add(&b, &again);
+  assert_true(a.blocks == b.blocks && a.pending == b.pending);
+  assert_memory_equal(a.sum, b.sum, (a.blocks + 1) * WIDTH * sizeof(double));
+  gg_archive_clear(&archive);
+  gg_bins_clear(&a);
+  gg_bins_clear(&b);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(joined_blocks),
+      cmocka_unit_test(error_of_a_mean),
+      cmocka_unit_test(honest_ratio),
+      cmocka_unit_test(checkpoint),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,100 @@
+/* Profiles: planted flow, temperature and spin come back slab by slab; a Couette gas is antisymmetric, slips at its
+ * walls, and holds as much as was put in. */
+#include "curve_test.h"
+
+static void planted(gg_snapshot *s, gg_rng *r, int sample)
+{
+  (void)sample;
+  const double *L = s->model->box;
+  for (size_t i = 0; i < s->n; i++) {
+    for (int a = 0; a < 3; a++) s->r[a][i] = L[a] * gg_rng_uniform(r);
+    double y = s->r[1][i] / L[1];
+    for (int a = 0; a < 3; a++) {
+      s->c[a][i] = sqrt(1 + y) * gg_rng_normal(r);
+      s->s[a][i] = sqrt(0.5) * gg_rng_normal(r);
+    }
+    s->c[0][i] += 3 * y - 1;
+    s->s[2][i] += y;
+  }
+}
+
+static double flow(double y, const void *context)
+{
+  return 3 * y / *(const double *)context - 1;
+}
+static double warmth(double y, const void *context)
+{
+  return 1 + y / *(const double *)context;
+}
+static double turning(double y, const void *context)
+{
+  return 2 * y / *(const double *)context;
+}
+static double level(double y, const void *context)
+{
+  (void)y;
+  return *(const double *)context;
+}
+
+static void planted_profiles(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_COUETTE, 0.2, 0, 4000, 1);
+  gg_curves list = ct_curves(&gg_profiles, &m, 64, planted, 91);
+  double L = m.box[1], theta = 0.4 * 0.5, phi = 0.2;
+  const struct {
+    const char *name;
+    double (*f)(double, const void *);
+    const double *context;
+  } cases[] = {{"profile_velocity", flow, &L},
+               {"profile_temperature", warmth, &L},
+               {"profile_spin_z", turning, &L},
+               {"profile_rotational_temperature", level, &theta},
+               {"profile_solid_fraction", level, &phi}};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    const gg_curve *c = ct_find(&list, cases[k].name);
+    double chi2 = ct_chi2(c, 0, c->n, cases[k].f, cases[k].context);
+    assert_true(chi2 > 0.4 && chi2 < 2);
+    assert_true(c->error[5] < 0.02);
+  }
+  gg_curve_number p = ct_number(ct_find(&list, "profile_velocity"), "slip_upper");
+  ct_expect("slip", p.value, p.error, m.wall_speed - (3 * (L - 0.5) / L - 1), 0.1);
+  gg_curves_clear(&list);
+}
+
+static void couette(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.engine = GG_MD, s.flow = GG_COUETTE, s.phi = 0.1, s.particles = 500;
+  for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.95, s.collision.beta[q] = 0;
+  s.run.collisions = 1500, s.run.warmup = 1500;
+  s.measure |= GG_MEASURE_PROFILES;
+  gg_result *r = ct_run(s);
+  const gg_curve *u = ct_find(&r->curves, "profile_velocity"), *phi = ct_find(&r->curves, "profile_solid_fraction");
+  double mean = 0, odd = 0, variance = 0;
+  for (size_t i = 0; i < phi->n; i++) mean += phi->value[i] / (double)phi->n;
+  assert_true(fabs(mean - 0.1) < 1e-12);
+  size_t n = u->n;
+  for (size_t i = 2; i < n / 2; i++) {
+    odd += u->value[i] + u->value[n - 1 - i];
+    variance += pow(u->error[i], 2) + pow(u->error[n - 1 - i], 2);
+  }
+  print_message("# u(y) + u(L - y): %.4f, errors %.4f; u from %.3f to %.3f, walls at +-%.3f\n", odd, sqrt(variance),
+                u->value[2], u->value[n - 3], r->model.wall_speed);
+  assert_true(u->value[n - 3] > 10 * u->error[n - 3] && u->value[2] < -10 * u->error[2]);
+  gg_curve_number lower = ct_number(u, "slip_lower"), upper = ct_number(u, "slip_upper");
+  print_message("# slip %.3f +- %.3f and %.3f +- %.3f\n", lower.value, lower.error, upper.value, upper.error);
+  assert_true(upper.value > 4 * upper.error && lower.value < -4 * lower.error);
+  assert_true(fabs(upper.value + lower.value) < 4 * hypot(upper.error, lower.error));
+  gg_result_free(r);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(planted_profiles),
+      cmocka_unit_test(couette),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,123 @@
+/* Spatial velocity correlations: a planted wave of velocity and spin gives its sine integral back, radially and along
+ * each axis; an elastic gas in equilibrium has only what momentum conservation leaves, -1/(N-1). */
+#include "curve_test.h"
+
+/* C_x = 2 cos(kz + phase) + noise, Omega_z = -cos(kz + phase) + noise/2, everything else noise. */
+static void wave(gg_snapshot *s, gg_rng *r, int sample)
+{
+  (void)sample;
+  double k = 2 * M_PI / s->model->box[2], phase = 2 * M_PI * gg_rng_uniform(r);
+  s->offset = s->model->box[0] * gg_rng_uniform(r);
+  for (size_t i = 0; i < s->n; i++)
+    for (int a = 0; a < 3; a++) {
+      s->r[a][i] = s->model->box[a] * gg_rng_uniform(r);
+      s->c[a][i] = gg_rng_normal(r);
+      s->s[a][i] = 0.5 * gg_rng_normal(r) + 7;
+    }
+  for (size_t i = 0; i < s->n; i++) {
+    double w = cos(k * s->r[2][i] + phase);
+    s->c[0][i] += 2 * w, s->s[2][i] -= w;
+  }
+}
+
+typedef struct wave_form {
+  double amplitude, k;
+  bool along_z;
+} wave_form;
+
+static double radial(double r, const void *context)
+{
+  const wave_form *w = context;
+  return w->amplitude * sin(w->k * r) / (w->k * r);
+}
+static double axial(double r, const void *context)
+{
+  const wave_form *w = context;
+  return w->amplitude * (w->along_z ? cos(w->k * r) : 1);
+}
+
+static void planted_wave(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_USF, 0.05, 0, 1500, 1);
+  gg_curves list = ct_curves(&gg_velocity_correlations, &m, 80, wave, 61);
+  double k = 2 * M_PI / m.box[2];
+  /* <C_x^2> = 2 + 1, <Omega_z^2> = 1/2 + 1/4 */
+  const struct {
+    const char *name;
+    wave_form form;
+    double (*f)(double, const void *);
+  } cases[] = {
+      {"velocity_correlation_Cx", {2.0 / 3, k, false}, radial},
+      {"velocity_correlation_Cy", {0, k, false}, radial},
+      {"velocity_correlation_Wx", {0, k, false}, radial},
+      {"velocity_correlation_Wz", {2.0 / 3, k, false}, radial},
+      {"velocity_correlation_CxWz", {-1 / sqrt(3 * 0.75), k, false}, radial},
+      {"velocity_correlation_Cx_along_x", {2.0 / 3, k, false}, axial},
+      {"velocity_correlation_Cx_along_z", {2.0 / 3, k, true}, axial},
+      {"velocity_correlation_Wz_along_y", {2.0 / 3, k, false}, axial},
+      {"velocity_correlation_CxWz_along_z", {-1 / sqrt(3 * 0.75), k, true}, axial},
+  };
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    double chi2 = ct_chi2(ct_find(&list, cases[i].name), 0, 100, cases[i].f, &cases[i].form);
+    assert_true(chi2 < 2.3);
+  }
+  const gg_curve *c = ct_find(&list, "velocity_correlation_Cx");
+  assert_true(c->error[20] < 0.02);
+  gg_curves_clear(&list);
+}
+
+static double conserved(double x, const void *context)
+{
+  (void)x;
+  return -1 / (*(const double *)context - 1);
+}
+
+static void equilibrium(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 0.2, s.particles = 500;
+  for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1, s.collision.beta[q] = 1;
+  s.run.collisions = 2000;
+  s.measure |= GG_MEASURE_VELOCITY_CORRELATIONS;
+  gg_result *r = ct_run(s);
+  const char *names[] = {"velocity_correlation_Cx", "velocity_correlation_Cz"};
+  double n = 500, mean = 0, error = 0;
+  for (int k = 0; k < 2; k++) {
+    const gg_curve *c = ct_find(&r->curves, names[k]);
+    double chi2 = ct_chi2(c, 0, c->n, conserved, &n);
+    assert_true(chi2 < 2.3);
+    for (size_t i = 4; i < c->n; i++) mean += c->value[i] / (double)(2 * (c->n - 4));
+    error += c->error[c->n - 1] / 2;
+  }
+  print_message("# mean beyond two diameters %.5f, one bin's error %.5f\n", mean, error);
+  assert_true(fabs(mean + 1 / (n - 1)) < error && error < 0.01);
+  gg_result_free(r);
+}
+
+/* Inelastic shear: neighbours move together. */
+static void sheared(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.engine = GG_MD, s.phi = 0.3, s.particles = 500;
+  for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.7;
+  s.run.collisions = 600;
+  s.measure |= GG_MEASURE_VELOCITY_CORRELATIONS;
+  gg_result *r = ct_run(s);
+  const gg_curve *c = ct_find(&r->curves, "velocity_correlation_Cx");
+  print_message("# G_CC^xx next to contact: %.4f +- %.4f\n", c->value[0], c->error[0]);
+  assert_true(c->value[0] > 0.05 && c->value[0] > 4 * c->error[0]);
+  gg_result_free(r);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(planted_wave),
+      cmocka_unit_test(equilibrium),
+      cmocka_unit_test(sheared),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
