@@ -13,6 +13,7 @@ static void into_box(const gg_md *e, gg_vec *r)
   double layers = gg_floor(r->y * e->box.inverse[1]);
   if (e->box.slide != 0) r->x -= layers * gg_offset(&e->box, e->k.now);
   for (int a = 0; a < 3; a++) {
+    if (e->box.inverse[a] == 0) continue; /* between walls, or above an open top: no image */
     double x = gg_wrap(gg_along(r, a), e->box.edge[a], e->box.inverse[a]);
     *gg_component(r, a) = x < e->box.edge[a] ? x : 0;
   }

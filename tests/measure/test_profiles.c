@@ -68,7 +68,7 @@ static void couette(void **state)
   gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_COUETTE, s.phi = 0.1, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.95, s.collision.beta[q] = 0;
-  s.run.collisions = 1500, s.run.warmup = 1500;
+  s.run.collisions = 8000, s.run.warmup = 1500; /* blocks longer than the momentum of the box remembers */
   s.measure |= GG_MEASURE_PROFILES;
   gg_result *r = ct_run(s);
   const gg_curve *u = ct_find(&r->curves, "profile_velocity"), *phi = ct_find(&r->curves, "profile_solid_fraction");
