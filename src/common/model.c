@@ -81,7 +81,7 @@ static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
 {
   gg_partner wall = {INFINITY, 1};
   m->walled = gg_flow_is_walled(s->flow);
-  m->open_top = m->walled && s->walls.open_top;
+  m->open_top = m->walled && s->walls.top == GG_OPEN_TOP;
   m->wall_rule = m->walled ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
   if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;

@@ -11,6 +11,7 @@
 typedef enum gg_flow { GG_EQUILIBRIUM, GG_USF, GG_HCS, GG_HSS, GG_COUETTE, GG_POISEUILLE, GG_CHUTE } gg_flow;
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
 typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE } gg_thermostat;
+typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
 
 enum { GG_MAX_SPECIES = 2 };
@@ -53,7 +54,7 @@ struct gg_scene {
   gg_species species[GG_MAX_SPECIES];
   struct {
     double e, beta, mu, speed;
-    bool open_top; /* chute: no upper wall */
+    gg_top top; /* chute: is there an upper wall? */
   } walls;
   double gravity[3];
   struct {

@@ -1,6 +1,7 @@
 /* Life and storage of the engine: everything that a run needs to go on bit for bit. */
 #include <stdlib.h>
 
+#include "common/thermostat.h"
 #include "dsmc/dsmc.h"
 #include "dsmc/thermostat.h"
 

@@ -1,6 +1,7 @@
 /* Which models the engine takes, and what it makes of them. */
 #include <stdio.h>
 
+#include "common/thermostat.h"
 #include "dsmc/dsmc.h"
 #include "dsmc/thermostat.h"
 

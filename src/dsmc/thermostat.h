@@ -9,12 +9,6 @@
 
 #include "dsmc/pairing.h"
 
-/* The thermostat in force: a heated gas (flow: hss) has the Gaussian one unless the scene says otherwise. */
-gg_thermostat gg_thermostat_of(const gg_model *model);
-
-/* xi^2 at which white noise balances the collisions of Maxwellians at temperature0 and ratio0. */
-double gg_thermostat_noise(const gg_model *model);
-
 /* In the middle of a step: give back the energy that is missing and, in advance, what the second half will destroy if
  * the first destroyed `half`, so that steps begin and end at the kept energy. Returns the advance. Velocities are
  * stored with `drift`. */

@@ -1,4 +1,5 @@
 #include "dsmc/timestep.h"
+#include "common/thermostat.h"
 
 #include "dsmc/thermostat.h"
 

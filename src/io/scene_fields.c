@@ -25,6 +25,9 @@ static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARL
                                          {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
                                          {"kolafa", GG_KOLAFA, "from the accurate equation of state"},
                                          {0}};
+static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one below"},
+                               {"open", GG_OPEN_TOP, "none: grains fall back under gravity"},
+                               {0}};
 static const gg_word observables[] = {
     {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
     {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
@@ -64,6 +67,7 @@ const gg_field gg_scene_fields[] = {
     {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls"},
     {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1, .doc = "tangential restitution at the walls"},
     {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .doc = "friction coefficient at the walls"},
+    {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "chute: the upper end"},
     {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), 0, 1e12, true, .unit = "velocity",
      .doc = "couette: the walls at +-L_y/2 move at +-speed"},
     {"gravity", GG_FIELD_VECTOR, AT(gravity), -1e12, 1e12, .unit = "acceleration",

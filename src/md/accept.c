@@ -36,7 +36,7 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT, "gravity: only in flows between walls: couette, poiseuille, chute");
   if (m->open_top && m->gravity[1] >= 0)
     return gg_fail(err, GG_BAD_INPUT,
-                   "walls.open_top: needs gravity towards the lower wall: gravity: [gx, gy < 0, gz]");
+                   "walls.top: open needs gravity towards the lower wall: gravity: [gx, gy < 0, gz]");
   return check_box(m, err);
 }
 

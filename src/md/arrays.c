@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dsmc/thermostat.h"
+#include "common/thermostat.h"
 #include "md/state.h"
 
 /* Hot records on cache lines; zeroed. */

@@ -31,7 +31,7 @@ static int fingerprint(const gg_scene *s, gg_fingerprint *f)
                                   {"walls.beta", s->walls.beta},
                                   {"walls.mu", s->walls.mu},
                                   {"walls.speed", s->walls.speed},
-                                  {"walls.open_top", s->walls.open_top},
+                                  {"walls.top", s->walls.top},
                                   {"gravity", s->gravity[0]},
                                   {"gravity", s->gravity[1]},
                                   {"gravity", s->gravity[2]},

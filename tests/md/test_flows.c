@@ -90,7 +90,7 @@ static void budgets(void **state)
       gg_scene (*make)(gg_flow, int64_t, double, double, double) = two ? mixture : scene;
       gg_scene s = make((gg_flow[]){GG_COUETTE, GG_POISEUILLE, GG_CHUTE}[k], 200, 0.2, 0.9, 0.5);
       if (k == 1) s.gravity[0] = 0.1;
-      if (k == 2) s.gravity[1] = -0.1, s.walls.open_top = two;
+      if (k == 2) s.gravity[1] = -0.1, s.walls.top = two ? GG_OPEN_TOP : GG_CLOSED_TOP;
       if (k == 2) s.collision.e[0] = s.collision.e[1] = s.collision.e[2] = 0.99;
       budgets_close(s, 20000);
     }
@@ -225,7 +225,7 @@ static void restarts(void **state)
   gg_scene scenes[] = {mixture(GG_USF, 150, 0.2, 0.9, 0), mixture(GG_COUETTE, 150, 0.2, 0.9, 0),
                        scene(GG_CHUTE, 150, 0.1, 0.9, 0.5), scene(GG_HSS, 150, 0.1, 0.9, -1),
                        scene(GG_HSS, 150, 0.1, 0.9, -1)};
-  scenes[2].gravity[1] = -0.1, scenes[2].walls.open_top = true;
+  scenes[2].gravity[1] = -0.1, scenes[2].walls.top = GG_OPEN_TOP;
   scenes[4].thermostat = GG_WHITE_NOISE;
   for (int k = 0; k < 5; k++) {
     gg_model m = md_model_of(&scenes[k]);

@@ -106,7 +106,7 @@ static bool random_scene(gg_scene *s, gg_rng *rng, gg_flow flow, bool mixture)
   if (flow == GG_POISEUILLE) s->gravity[0] = 0.5, s->walls.beta = 0.5, s->walls.mu = INFINITY; /* walls that brake */
   if (flow == GG_CHUTE) {
     s->gravity[0] = 0.2, s->gravity[1] = -0.5;
-    s->walls.open_top = gg_rng_below(rng, 2);
+    s->walls.top = gg_rng_below(rng, 2) ? GG_OPEN_TOP : GG_CLOSED_TOP;
   }
   gg_model m = md_model_of(s);
   return s->particles <= 64 && gg_md_ops.accepts(&m, NULL) == GG_OK;
