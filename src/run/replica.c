@@ -64,8 +64,8 @@ static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happ
   if (*happened >= limit)
     return gg_fail(err, GG_FAILED,
                    "%s: collisions accumulate without end (inelastic collapse) near time %g; "
-                   "give md.contact_time a positive value",
-                   r->engine->ops->name, r->clock.time);
+                   "give md.contact_time a larger value (it is %g mean free times)",
+                   r->engine->ops->name, r->clock.time, r->model.contact_time);
   return GG_OK;
 }
 
