@@ -6,6 +6,7 @@
 #include "cli/checkpointing.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/simulate.h"
 #include "io/document.h"
 #include "io/plot.h"
 #include "io/result_file.h"
@@ -97,18 +98,5 @@ static int compare(const gg_options *o, const gg_scene *scene, const char *outpu
 
 int gg_cli_compare_main(const gg_command *command, int argc, char **argv)
 {
-  gg_options o;
-  gg_error err;
-  gg_scene_draft draft;
-  gg_archive archive = {0};
-  int code = gg_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && gg_options_scene(&o, &draft, &err) != GG_OK) code = gg_cli_report(&err);
-  if (code == GG_CLI_GO_ON) code = gg_checkpointing_read(&o, &archive);
-  char *output = code == GG_CLI_GO_ON ? gg_options_output(&o, ".h5", &err) : NULL;
-  if (code == GG_CLI_GO_ON)
-    code = output ? compare(&o, &draft.scene, output, o.resume ? &archive : NULL) : gg_cli_report(&err);
-  free(output);
-  gg_archive_clear(&archive);
-  gg_options_clear(&o);
-  return code;
+  return gg_simulate_main(command, argc, argv, compare);
 }

@@ -5,6 +5,7 @@
 #include "cli/checkpointing.h"
 #include "cli/progress.h"
 #include "cli/report.h"
+#include "cli/simulate.h"
 #include "io/document.h"
 #include "io/result_file.h"
 
@@ -12,7 +13,7 @@ typedef struct running {
   const gg_options *options;
   const gg_scene *scene;
   gg_model model;
-  char *output;
+  const char *output;
   gg_checkpointing checkpoint;
   gg_cli_progress progress;
   gg_result_file file;
@@ -72,23 +73,16 @@ static int execute(running *r, const gg_archive *resume)
   return code;
 }
 
+static int run(const gg_options *o, const gg_scene *scene, const char *output, const gg_archive *resume)
+{
+  running r = {.options = o, .scene = scene, .output = output};
+  int code = gg_checkpointing_start(&r.checkpoint, o, scene, output);
+  if (code == GG_CLI_GO_ON) code = execute(&r, resume);
+  gg_checkpointing_end(&r.checkpoint);
+  return code;
+}
+
 int gg_cli_run_main(const gg_command *command, int argc, char **argv)
 {
-  gg_options o;
-  gg_error err;
-  gg_scene_draft draft;
-  gg_archive archive = {0};
-  int code = gg_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && gg_options_scene(&o, &draft, &err) != GG_OK) code = gg_cli_report(&err);
-  if (code == GG_CLI_GO_ON) code = gg_checkpointing_read(&o, &archive);
-  char *output = code == GG_CLI_GO_ON ? gg_options_output(&o, ".h5", &err) : NULL;
-  if (code == GG_CLI_GO_ON && !output) code = gg_cli_report(&err);
-  running r = {.options = &o, .scene = &draft.scene, .output = output};
-  if (code == GG_CLI_GO_ON) code = gg_checkpointing_start(&r.checkpoint, &o, &draft.scene, output);
-  if (code == GG_CLI_GO_ON) code = execute(&r, o.resume ? &archive : NULL);
-  gg_checkpointing_end(&r.checkpoint);
-  free(output);
-  gg_archive_clear(&archive);
-  gg_options_clear(&o);
-  return code;
+  return gg_simulate_main(command, argc, argv, run);
 }
