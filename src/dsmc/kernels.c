@@ -15,11 +15,6 @@ static const struct {
 #endif
 };
 
-const char *gg_path_name(gg_path path)
-{
-  return paths[path].name;
-}
-
 bool gg_path_runs_here(gg_path path)
 {
   if (!paths[path].name) return false;

@@ -12,7 +12,6 @@ typedef enum gg_path {
   GG_PATHS
 } gg_path;
 
-const char *gg_path_name(gg_path path);
 /* Can this processor take it? */
 bool gg_path_runs_here(gg_path path);
 /* The fastest one for a pair of species: plain where either has fewer than a hundred blocks, which would meet again too

@@ -85,16 +85,6 @@ void gg_atomic_abandon(gg_atomic_file *f)
   *f = (gg_atomic_file){.fd = -1};
 }
 
-gg_status gg_write_whole(const char *path, const void *data, size_t size, gg_error *err)
-{
-  gg_atomic_file file;
-  GG_TRY(gg_atomic_open(&file, path, err));
-  gg_status status = gg_atomic_write(&file, data, size, err);
-  if (status == GG_OK) return gg_atomic_commit(&file, err);
-  gg_atomic_abandon(&file);
-  return status;
-}
-
 gg_status gg_check_writable(const char *path, gg_error *err)
 {
   gg_atomic_file file;

@@ -19,8 +19,6 @@ gg_status gg_atomic_commit(gg_atomic_file *file, gg_error *err);
 /* Remove the temporary file and free; harmless after a commit. */
 void gg_atomic_abandon(gg_atomic_file *file);
 
-/* All of it at once. */
-gg_status gg_write_whole(const char *path, const void *data, size_t size, gg_error *err);
 /* Could a file be written there? Asked before a long run, so that it does not end in vain. */
 gg_status gg_check_writable(const char *path, gg_error *err);
 

@@ -92,10 +92,14 @@ static bool is_wide_enough(const gg_md *e)
 static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, bool listed)
 {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512bw"))
-    return gg_md_wide_avx512(boundary, mixture, listed);
-  if (__builtin_cpu_supports("avx2")) return gg_md_wide_avx2(boundary, mixture, listed);
+  /* They are compiled for x86-64-v3 and -v4: the compiler may use more of those levels than their registers. */
+  bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+            __builtin_cpu_supports("bmi2");
+  bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+            __builtin_cpu_supports("avx512cd");
+  if (v4) return gg_md_wide_avx512(boundary, mixture, listed);
+  if (v3) return gg_md_wide_avx2(boundary, mixture, listed);
 #endif
   return gg_md_wide_any(boundary, mixture, listed);
 }

@@ -169,6 +169,24 @@ static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_resu
                    100 * s->time_step_bias);
 }
 
+/* Did the run reach what was asked? An error that was asked for counts even where run.collisions ended the run first.
+ */
+static gg_status judge_end(const gg_campaign *c, const gg_judgement *j, gg_error *err)
+{
+  const char *engine = c->replicas[0].engine->ops->name;
+  uint64_t window = c->state.averaging ? c->state.due - c->state.window_at : 0;
+  bool by_error = c->plan.relative_error > 0;
+  if (!c->state.averaging || (!by_error && c->plan.most && window < c->plan.most))
+    return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
+                   (double)c->state.due * GG_SAMPLE_SPACING,
+                   c->state.averaging ? " and short of run.collisions" : ", in the warm-up");
+  if (!by_error || j->relative_error <= c->plan.relative_error) return GG_OK;
+  if (isnan(j->relative_error))
+    return gg_fail(err, GG_FAILED, "%s: too short a run to know the error of %s", engine, gg_quantity_name(j->worst));
+  return gg_fail(err, GG_FAILED, "%s: the asked relative error %g was not reached: %s has %.3g", engine,
+                 c->plan.relative_error, gg_quantity_name(j->worst), j->relative_error);
+}
+
 gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err)
 {
   gg_judgement j;
@@ -184,13 +202,5 @@ gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err)
   GG_TRY(gg_campaign_report_curves(c, result, err));
   GG_TRY(gg_frame_take(c->replicas[0].engine, &c->model, &result->final, err));
   result->final.time = c->replicas[0].clock.time;
-  if (!c->state.averaging ||
-      (c->plan.most && c->state.due - c->state.window_at < c->plan.most && !(c->plan.relative_error > 0)))
-    return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", result->engine,
-                   (double)c->state.due * GG_SAMPLE_SPACING,
-                   c->state.averaging ? " and short of run.collisions" : ", in the warm-up");
-  if (c->plan.relative_error > 0 && !(j.relative_error <= c->plan.relative_error))
-    return gg_fail(err, GG_FAILED, "%s: the asked relative error %g was not reached: %s has %.3g", result->engine,
-                   c->plan.relative_error, gg_quantity_name(j.worst), j.relative_error);
-  return GG_OK;
+  return judge_end(c, &j, err);
 }
