@@ -1,6 +1,6 @@
 /* Proves: the same first hundred collisions (pairs in order, and times to 10^-8 of a mean free time) wherever the
- * sheared boundary lies, under translations, under half a turn about the vorticity, and for any grid of cells or
- * neighbour lists. */
+ * sheared boundary lies, under translations, under half a turn about the vorticity, for images displaced by whole
+ * boxes, and for any grid of cells or neighbour lists; and the same averages of long runs. */
 #include <string.h>
 
 #include "md_test.h"
@@ -110,7 +110,7 @@ static void check(md_case c, uint64_t seed)
   record(copy, &first);
   md_destroy(copy);
   gg_rng rng = gg_rng_seed(seed, 9);
-  for (int k = 0; k < 16; k++) {
+  for (int k = 0; k < 18; k++) {
     gg_error err;
     copy = copy_of(e);
     if (k < 6)
@@ -120,8 +120,10 @@ static void check(md_case c, uint64_t seed)
       turn(copy);
     else if (k < 12)
       set_random_grid(copy, &rng, k == 7);
-    else
+    else if (k < 16)
       assert_int_equal(gg_md_make_lists(copy, 0.05 * (k - 11), &err), GG_OK);
+    else
+      copy->box.offset0 += (k == 16 ? 1 : -2) * copy->box.edge[0];
     begin(copy);
     record(copy, &other);
     same(copy, &first, &other);
@@ -146,8 +148,69 @@ static void sheared(void **state)
   check((md_case){GG_USF, 120, 0.5, 0.7, 0.5, 0.3, {0}}, 4);
 }
 
+/* Means over a long run and their standard errors, from blocks. */
+typedef struct averages {
+  double mean[3], error[3]; /* temperature, collision rate, kinetic P_xy over density */
+} averages;
+enum { BLOCKS = 30, LOOKS = 100 };
+
+static void look(const gg_md *e, double *T, double *xy)
+{
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), c = e->grain[i].v;
+    c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
+    *T += gg_dot(c, c) / (3.0 * e->n * LOOKS);
+    *xy += c.x * c.y / (e->n * (double)LOOKS);
+  }
+}
+
+static averages average(gg_md *e)
+{
+  averages a = {{0}, {0}};
+  double sum2[3] = {0};
+  md_collide(e, 100 * e->n);
+  for (int b = 0; b < BLOCKS; b++) {
+    double x[3] = {0}, time = 0;
+    for (int k = 0; k < LOOKS; k++) {
+      time += md_collide(e, e->n / 2);
+      look(e, &x[0], &x[2]);
+    }
+    x[1] = LOOKS / time;
+    for (int q = 0; q < 3; q++) a.mean[q] += x[q] / BLOCKS, sum2[q] += x[q] * x[q] / BLOCKS;
+  }
+  for (int q = 0; q < 3; q++) a.error[q] = sqrt((sum2[q] - a.mean[q] * a.mean[q]) / (BLOCKS - 1));
+  return a;
+}
+
+static void long_averages(void **state)
+{
+  (void)state;
+  gg_model m = md_model((md_case){GG_USF, 64, 0.3, 0.8, 0, INFINITY, {0}});
+  gg_md *e = md_create(&m, 5);
+  averages first = {{0}, {0}};
+  for (int k = 0; k < 4; k++) { /* as it is; the boundary elsewhere; one cell; lists */
+    gg_md *copy = copy_of(e);
+    gg_error err;
+    gg_rng rng = gg_rng_seed(1, 1);
+    if (k == 1) shift(copy, (gg_vec){1.3, 0.4 * m.box[1], 0.2});
+    if (k == 2) set_random_grid(copy, &rng, true);
+    if (k == 3) assert_int_equal(gg_md_make_lists(copy, 0.15, &err), GG_OK);
+    begin(copy);
+    averages a = average(copy);
+    if (k == 0) first = a;
+    for (int q = 0; q < 3; q++) {
+      double sigma = sqrt(a.error[q] * a.error[q] + first.error[q] * first.error[q]);
+      if (!(fabs(a.mean[q] - first.mean[q]) <= 4 * sigma && sigma < 0.02 * fabs(a.mean[q])))
+        fail_msg("variant %d, mean %d: %g and %g, standard error %g", k, q, a.mean[q], first.mean[q], sigma);
+    }
+    md_destroy(copy);
+  }
+  md_destroy(e);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(periodic), cmocka_unit_test(sheared)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(periodic), cmocka_unit_test(sheared),
+                                     cmocka_unit_test(long_averages)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
 /* Proves: given the engine's own state after each event, a plain search over all images of all pairs, and the walls,
  * names the same next collision (who, and when to 10^-10 of a mean free time), over hundreds of random small systems:
  * periodic, sheared, between walls, under gravity; smooth, rough and frictional; one and two species; dilute and dense,
- * cubic and not. And no two grains ever overlap. */
+ * cubic and not; 10^4 events in a row in small systems; and after a long time. And no two grains ever overlap.
+ */
 #include <string.h>
 
 #include "md_test.h"
@@ -207,12 +208,52 @@ static void few_grains(void **state)
     }
 }
 
+/* 10^4 events one after the other, in small systems of every kind. */
+static void ten_thousand_in_a_row(void **state)
+{
+  (void)state;
+  static const gg_flow flows[] = {GG_EQUILIBRIUM, GG_USF, GG_COUETTE, GG_POISEUILLE, GG_CHUTE};
+  for (int k = 0; k < 10; k++) {
+    gg_scene s = md_scene((md_case){flows[k / 2], 8, 0.1, k < 2 ? 1 : 0.9, k % 2 && k > 1 ? 0 : -1, INFINITY, {0}});
+    s.md.contact_time = 1e-3;
+    s.phi = k % 2 ? 0.2 : 0.05;
+    if (s.flow == GG_POISEUILLE) s.gravity[0] = 0.1;
+    if (s.flow == GG_CHUTE) s.gravity[0] = 0.2, s.gravity[1] = -0.3;
+    if (k % 2) {
+      s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5;
+      s.species[1].diameter = 0.8, s.species[1].mass = 0.4;
+    }
+    follow(&s, 40 + (uint64_t)k, 40, 10000);
+  }
+}
+
+/* The same after a long time: two grains get there in a second; under shear the images have passed 10^6 times. */
+static void late(void **state)
+{
+  (void)state;
+  for (int sheared = 0; sheared < 2; sheared++) {
+    gg_scene s = md_scene(
+        (md_case){sheared ? GG_USF : GG_EQUILIBRIUM, 2, sheared ? 0.1 : 0.01, sheared ? 0.8 : 1, -1, INFINITY, {0}});
+    gg_model m = md_model_of(&s);
+    gg_md *e = md_create(&m, 1);
+    double time = sheared ? 1e6 : 5e6;
+    advance(e, time);
+    assert_true(fabs(e->k.epoch_start + e->k.now - time) < 1e-6);
+    for (int k = 0; k < 200; k++) check_next(e, 1);
+    assert_true(e->k.worst_overlap < 1e-12);
+    md_destroy(e);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(periodic),      cmocka_unit_test(sheared),       cmocka_unit_test(mixtures),
-      cmocka_unit_test(between_walls), cmocka_unit_test(under_gravity), cmocka_unit_test(dense),
-      cmocka_unit_test(few_grains),    cmocka_unit_test(listed),        cmocka_unit_test(wide_cells),
+      cmocka_unit_test(periodic),      cmocka_unit_test(sheared),
+      cmocka_unit_test(mixtures),      cmocka_unit_test(between_walls),
+      cmocka_unit_test(under_gravity), cmocka_unit_test(dense),
+      cmocka_unit_test(few_grains),    cmocka_unit_test(listed),
+      cmocka_unit_test(wide_cells),    cmocka_unit_test(ten_thousand_in_a_row),
+      cmocka_unit_test(late),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

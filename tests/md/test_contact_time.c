@@ -1,0 +1,150 @@
+/* Proves: an inelastic collapse ends in finite time, and the share of treated collisions is told; a cooling gas does
+ * not feel the contact time while it is short; grains at rest on a floor cost a bounded number of collisions. */
+#include "md_test.h"
+
+/* A line of three grains, the outer two closing in on the middle one. */
+static gg_md *line_of_three(double restitution, double contact_time)
+{
+  gg_scene s = md_scene((md_case){GG_HCS, 3, 0.001, restitution, -1, INFINITY, {0}});
+  s.md.contact_time = contact_time;
+  gg_model m = md_model_of(&s);
+  gg_md *e;
+  gg_error err;
+  assert_int_equal(gg_md_allocate(&m, &e, &err), GG_OK);
+  for (int i = 0; i < 3; i++) {
+    e->grain[i].r = (gg_vec){5 + 1.5 * (i - 1), 5, 5};
+    e->grain[i].v = (gg_vec){1 - i, 0, 0};
+    e->id[i] = (uint32_t)i;
+  }
+  assert_int_equal(gg_md_begin(e, &err), GG_OK);
+  return e;
+}
+
+/* Three grains in a line: without the rule, infinitely many collisions for e < 7 - 4 sqrt(3) = 0.0718 (McNamara &
+ * Young, Phys. Fluids A 4 (1992) 496), and a few above. */
+static void three_in_a_line(void **state)
+{
+  (void)state;
+  static const double below[] = {0, 0.03, 0.05, 0.0717}, above[] = {0.073, 0.1, 0.5};
+  for (int k = 0; k < 4; k++) {
+    gg_md *e = line_of_three(below[k], 1e-5);
+    gg_engine_state now;
+    double elapsed;
+    assert_int_equal(gg_md_ops.advance(&e->base, 10, 1000000, &elapsed, NULL), GG_OK);
+    gg_md_ops.state(&e->base, &now);
+    assert_true(elapsed == 10);
+    if (!(now.treated > 0 && now.treated < now.collisions && now.collisions < 1000))
+      fail_msg("e %g: %g treated of %g", below[k], (double)now.treated, (double)now.collisions);
+    md_destroy(e);
+  }
+  for (int k = 0; k < 3; k++) {
+    gg_md *e = line_of_three(above[k], 0);
+    double elapsed;
+    assert_int_equal(gg_md_ops.advance(&e->base, 10, 1000, &elapsed, NULL), GG_OK);
+    assert_true(elapsed == 10 && e->k.collisions < 200);
+    md_destroy(e);
+  }
+}
+
+/* Dense and very inelastic: the gas collapses into clusters within some collisions a grain. */
+static void cooling_cluster(void **state)
+{
+  (void)state;
+  gg_scene s = md_scene((md_case){GG_HCS, 500, 0.5, 0.1, -1, INFINITY, {0}});
+  s.md.contact_time = GG_AUTO;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 6);
+  gg_engine_state now;
+  double energy = md_energy(e);
+  md_collide(e, 500 * 500);
+  gg_md_ops.state(&e->base, &now);
+  print_message("# e = 0.1, phi = 0.5: %.3g of the collisions treated\n", (double)now.treated / (double)now.collisions);
+  assert_int_equal(now.collisions, 250000);
+  assert_true(now.treated > 0 && 2 * now.treated < now.collisions);
+  assert_true(md_energy(e) < 0.01 * energy && now.worst_overlap < 1e-11 && md_misplaced(e) == 0);
+  md_destroy(e);
+}
+
+typedef struct cooling {
+  double mean[2], error[2]; /* decay of ln T a collision and grain; collision rate over sqrt(T) */
+} cooling;
+enum { SEEDS = 16, STRETCHES = 20 };
+
+/* 40 collisions a grain: T falls a hundredfold. */
+static void cool(double contact_time, uint64_t seed, double x[2])
+{
+  gg_scene s = md_scene((md_case){GG_HCS, 1000, 0.2, 0.8, -1, INFINITY, {0}});
+  s.md.contact_time = contact_time;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, seed);
+  double first = md_energy(e);
+  x[1] = 0;
+  for (int k = 0; k < STRETCHES; k++) {
+    double before = md_energy(e), time = md_collide(e, e->n), after = md_energy(e);
+    x[1] += 2 / (time * sqrt(sqrt(before * after) / e->n)) / STRETCHES;
+  }
+  x[0] = log(first / md_energy(e)) / (2 * STRETCHES);
+  md_destroy(e);
+}
+
+static cooling cool_many(double contact_time, uint64_t seed)
+{
+  cooling c = {{0}, {0}};
+  double x[2], sum2[2] = {0};
+  for (int k = 0; k < SEEDS; k++) {
+    cool(contact_time, seed + (uint64_t)k, x);
+    for (int q = 0; q < 2; q++) c.mean[q] += x[q] / SEEDS, sum2[q] += x[q] * x[q] / SEEDS;
+  }
+  for (int q = 0; q < 2; q++) c.error[q] = sqrt((sum2[q] - c.mean[q] * c.mean[q]) / (SEEDS - 1));
+  return c;
+}
+
+static void gas_does_not_feel_it(void **state)
+{
+  (void)state;
+  cooling longer = cool_many(1e-4, 100), middle = cool_many(1e-5, 200), shorter = cool_many(1e-6, 300);
+  const cooling *others[] = {&longer, &shorter};
+  for (int k = 0; k < 2; k++)
+    for (int q = 0; q < 2; q++) {
+      double sigma = hypot(others[k]->error[q], middle.error[q]), difference = others[k]->mean[q] - middle.mean[q];
+      if (!(fabs(difference) < 4 * sigma && sigma < 0.005 * middle.mean[q]))
+        fail_msg("t_c %s, mean %d: %g and %g, standard error %g", k ? "1e-6" : "1e-4", q, others[k]->mean[q],
+                 middle.mean[q], sigma);
+    }
+}
+
+/* A heap comes to rest on a level floor: contacts every t_c = 10^-3 sqrt(d/g), not without end; the heap lies still. */
+static void heap_at_rest(void **state)
+{
+  (void)state;
+  gg_scene s = md_scene((md_case){GG_CHUTE, 40, 0.2, 0.7, 0, INFINITY, {0}});
+  s.md.contact_time = GG_AUTO;
+  s.walls.top = GG_OPEN_TOP, s.walls.e = 0.7, s.walls.beta = 0;
+  s.gravity[1] = -1;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 4);
+  gg_engine_state now, then;
+  double elapsed, speed2 = 0;
+  assert_int_equal(gg_md_ops.advance(&e->base, 30, 10000000, &elapsed, NULL), GG_OK);
+  assert_true(elapsed == 30);
+  gg_md_ops.state(&e->base, &then);
+  assert_int_equal(gg_md_ops.advance(&e->base, 5, 2000000, &elapsed, NULL), GG_OK);
+  gg_md_ops.state(&e->base, &now);
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_vec v = gg_velocity(e, true, &e->grain[i], e->k.now);
+    speed2 += gg_dot(v, v) / e->n;
+  }
+  double collisions = (double)(now.collisions - then.collisions), events = (double)(now.events - then.events);
+  print_message("# heap of 40 at rest: %.3g collisions, %.3g events per sqrt(d/g); mean square speed %.2g\n",
+                collisions / 5, events / 5, speed2);
+  assert_true(elapsed == 5 && events / 5 < 40 * 1e4 && speed2 < 1e-3);
+  assert_true(now.wall_treated > 0 && now.worst_overlap < 1e-11);
+  md_destroy(e);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(three_in_a_line), cmocka_unit_test(cooling_cluster),
+                                     cmocka_unit_test(gas_does_not_feel_it), cmocka_unit_test(heap_at_rest)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
