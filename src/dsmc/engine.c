@@ -115,6 +115,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   gg_ensemble_scale(&d->ensemble, factor);
   d->now.time /= factor;
   d->now.unsettled /= factor;
+  gg_dsmc_rescale_watching(d, factor);
   d->now.fastest *= factor;
   d->now.centre = gg_scale(factor, d->now.centre);
   d->now.temperature *= factor * factor;
@@ -132,6 +133,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .advance = advance,
     .tap = tap,
     .read_tap = read_tap,
+    .watch = gg_dsmc_watch,
     .state = state,
     .snapshot = snapshot,
     .rescale = rescale,

@@ -39,6 +39,7 @@ static const gg_word observables[] = {
     {"cells", GG_MEASURE_CELLS, "local density, shear rate, temperatures, spin"},
     {"profiles", GG_MEASURE_PROFILES, "across the gap between walls"},
     {"diffusion", GG_MEASURE_DIFFUSION, "velocity autocorrelation, mean-square displacement"},
+    {"collisions", GG_MEASURE_COLLISIONS, "free paths and times, angles of contact"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)

@@ -71,6 +71,13 @@ void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed)
   if (last) r->clock.window_samples++;
 }
 
+gg_status gg_replica_watch(gg_replica *r, gg_error *err)
+{
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->watch) GG_TRY(r->engine->ops->watch(r->engine, r->observable[k]->watch, r->self[k], err));
+  return GG_OK;
+}
+
 void gg_replica_restart_curves(gg_replica *r)
 {
   r->clock.averaging = 1;
