@@ -56,6 +56,9 @@ typedef struct gg_observable {
   gg_watch *watch; /* is shown every collision while averaging, and leaves at the next look what it made of them; at
                       most one observable of all has this */
   void (*look)(void *self, const gg_snapshot *snapshot, double *bins);
+  /* Hear of the collisions of every sampling interval, after the look at its end; what follows goes into the bins at
+   * the next look, and has to be among the memory. NULL: none of its business. */
+  void (*hear)(void *self, const gg_interval *interval);
   void (*restart)(void *self); /* averaging begins (anew): forget earlier looks; NULL if there is nothing to forget */
   gg_curves_of *curves;
 } gg_observable;

@@ -8,7 +8,15 @@
 #include "measure/observable.h"
 #include "measure/tail.h"
 
-enum { HALF = 80, BINS = 2 * HALF + 1, LOW = 20 }; /* bin k is centred on k WIDTH, |k| <= HALF; |k| <= LOW: head */
+enum {
+  HALF = 80,
+  BINS = 2 * HALF + 1,
+  GRAINS = BINS,
+  CUBES,
+  FOURTHS,
+  SET,
+  LOW = 20
+}; /* bin k is centred on k WIDTH, |k| <= HALF; |k| <= LOW: head */
 #define WIDTH 0.1
 #define TAIL_FROM 2.0
 enum { LEAST_COUNT = 25 }; /* in the last bin that a tail is fitted to */
@@ -32,7 +40,7 @@ static void *create(const gg_model *m, gg_error *err)
 static size_t bins(const void *self)
 {
   const distributions *d = self;
-  return (size_t)(d->species * d->vectors * 3) * BINS;
+  return (size_t)(d->species * d->vectors * 3) * SET;
 }
 
 typedef struct scale {
@@ -52,11 +60,14 @@ static scale scale_of(const gg_snapshot *s, const double *x, int species)
 static void count(const gg_snapshot *s, const double *x, int species, double *bin)
 {
   scale u = scale_of(s, x, species);
-  double inverse = 1 / (u.sigma * WIDTH);
+  double inverse = 1 / u.sigma, grains = 0, cubes = 0, fourths = 0;
   for (size_t i = 0; i < s->n; i++) {
-    double at = (x[i] - u.mean) * inverse + (HALF + 0.5);
-    if (gg_snapshot_species(s, i) == species && at >= 0 && at < BINS) bin[(int)at]++;
+    double z = (x[i] - u.mean) * inverse, at = z * (1 / WIDTH) + (HALF + 0.5);
+    if (gg_snapshot_species(s, i) != species) continue;
+    grains++, cubes += z * z * z, fourths += z * z * z * z;
+    if (at >= 0 && at < BINS) bin[(int)at]++;
   }
+  bin[GRAINS] += grains, bin[CUBES] += cubes, bin[FOURTHS] += fourths;
 }
 
 static void look(void *self, const gg_snapshot *s, double *bin)
@@ -64,7 +75,7 @@ static void look(void *self, const gg_snapshot *s, double *bin)
   const distributions *d = self;
   for (int species = 0; species < d->species; species++)
     for (int vector = 0; vector < d->vectors; vector++)
-      for (int a = 0; a < 3; a++, bin += BINS) count(s, vector ? s->s[a] : s->c[a], species, bin);
+      for (int a = 0; a < 3; a++, bin += SET) count(s, vector ? s->s[a] : s->c[a], species, bin);
 }
 
 /* Counts at x = 0: counts over a Gaussian's in the bins |x| < 1/2 by least squares as A + B x^2, taken at x = 0. */
@@ -127,6 +138,8 @@ static void put_distribution(gg_curves *list, const naming *n, int vector, const
   c->log_y = true;
   for (int i = 0; i < (int)c->n; i++) c->x[i] = (i - HALF) * WIDTH, c->value[i] = bin[i] / zero;
   put_tail(c, bin, (double)list->samples);
+  gg_curve_put_number(c, "kurtosis", bin[FOURTHS] / bin[GRAINS], "1");
+  gg_curve_put_number(c, "skewness", bin[CUBES] / bin[GRAINS], "1");
 }
 
 static void put_deviation(gg_curves *list, const naming *n, int vector, const double *bin)
@@ -148,7 +161,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   const distributions *d = self;
   for (int species = 0; species < d->species; species++)
     for (int vector = 0; vector < d->vectors; vector++)
-      for (int a = 0; a < 3; a++, bin += BINS) {
+      for (int a = 0; a < 3; a++, bin += SET) {
         naming n = name_of(d, species, vector, a);
         put_distribution(list, &n, vector, bin);
         put_deviation(list, &n, vector, bin);
