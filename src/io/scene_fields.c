@@ -31,6 +31,7 @@ static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one be
 static const gg_word observables[] = {
     {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
     {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
+    {"local_distributions", GG_MEASURE_LOCAL_DISTRIBUTIONS, "velocity distributions by local density"},
     {"orientation", GG_MEASURE_ORIENTATION, "angle between velocity and spin"},
     {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
     {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
