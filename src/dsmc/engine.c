@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/clones.h"
 #include "dsmc/dsmc.h"
 
 static gg_dsmc *dsmc_of(gg_engine *engine)
@@ -70,14 +71,16 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .time_step_bias = s->step.bias};
 }
 
-/* Lay a run of blocks out flat, streamed as far as they have to be. */
-static void unpack(const gg_block *b, size_t n, double drift, double *x, double *y, double *z)
+/* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
+GG_CLONES static void unpack(const gg_block *b, size_t n, double drift, double *restrict x, double *restrict y,
+                             double *restrict z)
 {
-  for (size_t i = 0; i < n; i++) {
-    x[i] = b[i / GG_LANES].x[i % GG_LANES] - drift * b[i / GG_LANES].y[i % GG_LANES];
-    y[i] = b[i / GG_LANES].y[i % GG_LANES];
-    z[i] = b[i / GG_LANES].z[i % GG_LANES];
-  }
+  for (size_t i = 0; i < n; i += GG_LANES, b++)
+    for (size_t l = 0; l < GG_LANES; l++) {
+      x[i + l] = b->x[l] - drift * b->y[l];
+      y[i + l] = b->y[l];
+      z[i + l] = b->z[l];
+    }
 }
 
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
