@@ -52,23 +52,12 @@ GG_CLONES void gg_moments_translation(gg_moments *m, size_t n, const double *con
   m->speed += sum_of(&speed);
 }
 
-GG_CLONES void gg_moments_mean_spin(gg_moments *m, size_t n, const double *const s[3])
-{
-  for (int a = 0; a < 3; a++) {
-    lanes sum = {0}, x = {0};
-    for (size_t i = 0; i < n; i += LANES) {
-      load(&x, s[a] + i, n - i, 0);
-      sum += x;
-    }
-    m->s[a] += sum_of(&sum);
-  }
-}
-
 GG_CLONES void gg_moments_rotation(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
 {
   const double *mean = m->mean_spin;
   const lanes none = {0}, third = none + 1.0 / 3;
-  lanes x2 = none, y2 = none, z2 = none, x4 = none, y4 = none, z4 = none, z3 = none, cos2 = none;
+  lanes x1 = none, y1 = none, z1 = none, x2 = none, y2 = none, z2 = none, x3 = none, y3 = none, z3 = none;
+  lanes x4 = none, y4 = none, z4 = none, cos2 = none;
   for (size_t i = 0; i < n; i += LANES) {
     lanes u = none, v = none, w = none, x = none, y = none, z = none;
     load(&u, c[0] + i, n - i, 0), load(&v, c[1] + i, n - i, 0), load(&w, c[2] + i, n - i, 0);
@@ -76,14 +65,28 @@ GG_CLONES void gg_moments_rotation(gg_moments *m, size_t n, const double *const 
     x -= mean[0], y -= mean[1], z -= mean[2];
     lanes xx = x * x, yy = y * y, zz = z * z, dot = u * x + v * y + w * z;
     lanes product = (u * u + v * v + w * w) * (xx + yy + zz);
+    x1 += x, y1 += y, z1 += z;
     x2 += xx, y2 += yy, z2 += zz;
+    x3 += xx * x, y3 += yy * y, z3 += zz * z;
     x4 += xx * xx, y4 += yy * yy, z4 += zz * zz;
-    z3 += zz * z;
     masks moves = (masks)(product > none); /* a grain at rest has no direction: no correlation */
     cos2 += (lanes)(((masks)(dot * dot / product) & moves) | ((masks)third & ~moves));
   }
+  m->w[0] += sum_of(&x1), m->w[1] += sum_of(&y1), m->w[2] += sum_of(&z1);
   m->ww[0] += sum_of(&x2), m->ww[1] += sum_of(&y2), m->ww[2] += sum_of(&z2);
   m->w4[0] += sum_of(&x4), m->w4[1] += sum_of(&y4), m->w4[2] += sum_of(&z4);
-  m->w3z += sum_of(&z3);
+  m->w3[0] += sum_of(&x3), m->w3[1] += sum_of(&y3), m->w3[2] += sum_of(&z3);
   m->cos2 += sum_of(&cos2) - (double)((LANES - n % LANES) % LANES) / 3; /* lanes beyond the last grain */
+}
+
+void gg_moments_settle(gg_moments *m)
+{
+  for (int a = 0; m->n > 0 && a < 3; a++) {
+    double d = m->w[a] / m->n, dd = d * d;
+    m->mean_spin[a] += d;
+    m->w4[a] += -4 * d * m->w3[a] + 6 * dd * m->ww[a] - 3 * m->n * dd * dd;
+    m->w3[a] += -3 * d * m->ww[a] + 2 * m->n * dd * d;
+    m->ww[a] -= m->n * dd;
+    m->w[a] = 0;
+  }
 }

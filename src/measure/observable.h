@@ -38,9 +38,8 @@ typedef struct gg_observable {
   const char *(*refuses)(const gg_model *model);
 
   /* Rows: quantities. An observable without has width NULL, and none of what follows. */
-  int passes; /* times it needs to see the grains at each sample */
   size_t (*width)(const gg_model *model);
-  void (*begin)(void *self, int pass);
+  void (*begin)(void *self);
   void (*visit)(void *self, const gg_chunk *chunk);
   void (*finish)(void *self, const gg_interval *interval, double *row);
   const gg_derived *derived;   /* ends with of = NULL */

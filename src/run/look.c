@@ -3,40 +3,23 @@
 #include "measure/local_frame.h"
 #include "run/replica.h"
 
-typedef struct showing {
-  gg_replica *replica;
-  int pass;
-} showing;
-
-static bool wants(const gg_observable *o, int pass)
-{
-  return o->width && pass < o->passes;
-}
-
 static void show_chunk(void *context, const gg_chunk *chunk)
 {
-  showing *s = context;
-  gg_replica *r = s->replica;
+  gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (wants(r->observable[k], s->pass)) r->observable[k]->visit(r->self[k], chunk);
+    if (r->observable[k]->width) r->observable[k]->visit(r->self[k], chunk);
 }
 
 void gg_replica_look(gg_replica *r, double elapsed)
 {
-  int passes = 0;
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->passes > passes) passes = r->observable[k]->passes;
-  if (r->model.rule == GG_SMOOTH && passes > 1) passes = 1; /* further passes look at spins */
   gg_local_frame frame;
-  if (r->model.walled) gg_local_frame_take(&frame, &r->model, r->engine);
-  for (int pass = 0; pass < passes; pass++) {
-    for (int k = 0; k < r->n_observables; k++)
-      if (wants(r->observable[k], pass)) r->observable[k]->begin(r->self[k], pass);
-    showing s = {r, pass};
-    if (r->model.walled)
-      gg_local_frame_snapshot(&frame, r->engine, show_chunk, &s);
-    else
-      r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->width) r->observable[k]->begin(r->self[k]);
+  if (r->model.walled) {
+    gg_local_frame_take(&frame, &r->model, r->engine);
+    gg_local_frame_snapshot(&frame, r->engine, show_chunk, r);
+  } else {
+    r->engine->ops->snapshot(r->engine, false, show_chunk, r);
   }
   gg_transfer transfer;
   r->engine->ops->read_tap(r->engine, &transfer);

@@ -26,6 +26,7 @@ static gg_status go_on(contender *c, uint64_t samples, bool adapt, gg_error *err
 {
   gg_replica *r = &c->replica;
   double gone;
+  adapt = adapt || r->model.flow == GG_HCS;
   if (!c->bare) return gg_replica_sample(r, r->clock.samples + samples, adapt, NULL, err);
   for (uint64_t k = 0; k < samples; k++)
     GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval, UINT64_MAX, &gone, err));
