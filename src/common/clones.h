@@ -1,5 +1,6 @@
 /* Functions compiled for wider registers, too: the one for this processor is chosen when the program starts. For plain
- * loops whose result does not depend on how many numbers a register holds. */
+ * loops whose result does not depend on how many numbers a register holds; static ones, for
+ * the choice itself would be seen from outside. */
 #ifndef GG_CLONES_H
 #define GG_CLONES_H
 

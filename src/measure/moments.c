@@ -28,7 +28,7 @@ static double sum_of(const lanes *v)
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
-GG_CLONES void gg_moments_translation(gg_moments *m, size_t n, const double *const c[3])
+GG_CLONES static void translation(gg_moments *m, size_t n, const double *const c[3])
 {
   lanes x1 = {0}, y1 = x1, z1 = x1, x2 = x1, y2 = x1, z2 = x1, xy = x1, x4 = x1, y4 = x1, z4 = x1, c4 = x1, speed = x1;
   for (size_t i = 0; i < n; i += LANES) {
@@ -52,7 +52,7 @@ GG_CLONES void gg_moments_translation(gg_moments *m, size_t n, const double *con
   m->speed += sum_of(&speed);
 }
 
-GG_CLONES void gg_moments_rotation(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
+GG_CLONES static void rotation(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
 {
   const double *mean = m->mean_spin;
   const lanes none = {0}, third = none + 1.0 / 3;
@@ -77,6 +77,16 @@ GG_CLONES void gg_moments_rotation(gg_moments *m, size_t n, const double *const 
   m->w4[0] += sum_of(&x4), m->w4[1] += sum_of(&y4), m->w4[2] += sum_of(&z4);
   m->w3[0] += sum_of(&x3), m->w3[1] += sum_of(&y3), m->w3[2] += sum_of(&z3);
   m->cos2 += sum_of(&cos2) - (double)((LANES - n % LANES) % LANES) / 3; /* lanes beyond the last grain */
+}
+
+void gg_moments_translation(gg_moments *m, size_t n, const double *const c[3])
+{
+  translation(m, n, c);
+}
+
+void gg_moments_rotation(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
+{
+  rotation(m, n, c, s);
 }
 
 void gg_moments_settle(gg_moments *m)
