@@ -13,8 +13,8 @@
 
 #include "measure/observable.h"
 
-/* Bins of flights: sixteen of equal width in every octave of the expected mean, from 2^-12 to 2^8 of it. */
-enum { PARTS = 16, LOWEST = -12, HIGHEST = 8, FLIGHT_BINS = (HIGHEST - LOWEST) * PARTS };
+/* Bins of flights: sixteen of equal width in every octave of the expected mean, from 2^-8 to 2^8 of it. */
+enum { PARTS = 16, LOWEST = -8, HIGHEST = 8, FLIGHT_BINS = (HIGHEST - LOWEST) * PARTS };
 enum { COUNT, SUM, SQUARES, FLIGHT_FIRST, FLIGHT = FLIGHT_FIRST + FLIGHT_BINS }; /* one distribution of flights */
 enum { TIME, PATH, LABORATORY, KINDS };
 enum { COS_BINS = 50, PLANE_BINS = 72 };

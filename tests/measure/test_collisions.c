@@ -152,8 +152,8 @@ static void flights_and_angles(void **state)
   ct_expect("Knudsen number", p.value, p.error, path / cbrt(m.volume), 0.01 * path / cbrt(m.volume));
   p = ct_number(ct_find(&list, "collision_angle"), "fabric_xy");
   ct_expect("fabric", p.value, p.error, -0.125, 0.003); /* int sin cos (1 - sin 2t/2)/pi */
-  assert_true(ct_chi2(ct_find(&list, "free_time"), 100, 260, exponential, &time) < 1.5);
-  assert_true(ct_chi2(ct_find(&list, "free_path"), 100, 260, exponential, &path) < 1.5);
+  assert_true(ct_chi2(ct_find(&list, "free_time"), 40, 200, exponential, &time) < 1.5);
+  assert_true(ct_chi2(ct_find(&list, "free_path"), 40, 200, exponential, &path) < 1.5);
   assert_true(ct_chi2(ct_find(&list, "impact_cos"), 0, 50, twice, NULL) < 2.2);
   assert_true(ct_chi2(ct_find(&list, "collision_angle"), 0, 72, quadrants, NULL) < 1.6);
   gg_curves_clear(&list);
@@ -225,8 +225,8 @@ static void kinetic_theory(void **state)
     p = ct_number(ct_find(&r->curves, "free_time"), "mean_free_time");
     double t = 1 / (4 * n * sqrt(M_PI * T));
     ct_expect("mean free time", p.value, hypot(p.error, slack * t), t, 0.02 * t);
-    assert_true(ct_chi2(ct_find(&r->curves, "free_time"), 110, 270, law, &times) < 1.6);
-    assert_true(ct_chi2(ct_find(&r->curves, "free_path"), 110, 270, law, &paths) < 1.6);
+    assert_true(ct_chi2(ct_find(&r->curves, "free_time"), 50, 210, law, &times) < 1.6);
+    assert_true(ct_chi2(ct_find(&r->curves, "free_path"), 50, 210, law, &paths) < 1.6);
     assert_true(ct_chi2(ct_find(&r->curves, "impact_cos"), 0, 50, twice, NULL) < 2.2);
     gg_result_free(r);
   }
