@@ -11,6 +11,7 @@ const gg_observable *const gg_observables[] = {
     &gg_cells,
     &gg_profiles,
     &gg_diffusion,
+    &gg_viscosity,
     NULL,
 };
 
