@@ -9,7 +9,7 @@ enum { FEWEST_BUCKETS = 64, SMALL = 64, AHEAD = 3 };
 gg_status gg_queue_make(gg_queue *q, uint32_t n, gg_error *err)
 {
   *q = (gg_queue){.n_buckets = n > FEWEST_BUCKETS ? 4 * n : 4 * FEWEST_BUCKETS};
-  q->head = gg_new_array((size_t)q->n_buckets + 1, sizeof *q->head, err);
+  q->head = gg_md_new_lines((size_t)q->n_buckets + 1, sizeof *q->head, err);
   q->due = gg_new_array((size_t)n + 1, sizeof *q->due, err);
   if (!q->head || !q->due) return GG_FAILED;
   gg_queue_reset(q, 1);
