@@ -10,8 +10,6 @@
 #include "common/error.h"
 #include "md/box.h"
 
-#define GG_NONE UINT32_MAX
-
 /* arrays.c: a zeroed array on cache lines, in huge pages if it is large. Released by free(). */
 void *gg_md_new_lines(size_t count, size_t size, gg_error *err);
 
