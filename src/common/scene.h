@@ -30,7 +30,9 @@ enum {
   GG_MEASURE_CELLS = 1u << 7,
   GG_MEASURE_DIFFUSION = 1u << 8,
   GG_MEASURE_PROFILES = 1u << 9,
-  GG_MEASURE_VISCOSITY = 1u << 10,
+  GG_MEASURE_VISCOSITY = 1u << 12,
+  GG_MEASURE_COLLISIONS = 1u << 10,
+  GG_MEASURE_LOCAL_DISTRIBUTIONS = 1u << 11,
 };
 
 #define GG_AUTO (-1.0) /* a number that the program is to choose */

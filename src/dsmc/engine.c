@@ -117,6 +117,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   if (!slow) {
     d->now.time /= factor;
     d->now.unsettled /= factor;
+    gg_dsmc_rescale_watching(d, factor);
   }
   d->now.lost *= factor * factor;
   d->now.fastest *= factor;
@@ -136,6 +137,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .advance = advance,
     .tap = tap,
     .read_tap = read_tap,
+    .watch = gg_dsmc_watch,
     .state = state,
     .snapshot = snapshot,
     .rescale = rescale,

@@ -34,6 +34,13 @@ typedef struct gg_features {
   bool same; /* both grains of one species */
 } gg_features;
 
+/* Whom the plain path shows its collisions to. */
+typedef struct gg_watching {
+  gg_watch *watch;
+  void *context;
+  double *last[GG_MAX_SPECIES]; /* when each grain last collided; -INFINITY: not yet */
+} gg_watching;
+
 typedef struct gg_pairing {
   /* given */
   gg_population *one, *two;
@@ -43,6 +50,9 @@ typedef struct gg_pairing {
   double floor, bound;      /* the layer of g_n */
   double drift, drift_step; /* of the first candidate, and from one to the next: rate x time */
   uint64_t candidates;
+  gg_watching *watching;  /* NULL: nobody looks */
+  int species[2];         /* for the watcher */
+  double time, time_step; /* the same: of the first candidate, and from one to the next */
   /* handed back */
   uint64_t collisions, overflows;
   double worst;              /* largest g_n seen */

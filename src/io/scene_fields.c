@@ -32,6 +32,7 @@ static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one be
 static const gg_word observables[] = {
     {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
     {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
+    {"local_distributions", GG_MEASURE_LOCAL_DISTRIBUTIONS, "velocity distributions by local density"},
     {"orientation", GG_MEASURE_ORIENTATION, "angle between velocity and spin"},
     {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
     {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
@@ -41,6 +42,7 @@ static const gg_word observables[] = {
     {"profiles", GG_MEASURE_PROFILES, "across the gap between walls"},
     {"diffusion", GG_MEASURE_DIFFUSION, "velocity autocorrelation, mean-square displacement"},
     {"viscosity", GG_MEASURE_VISCOSITY, "eta* of cooling and heated gases; comes with small_shear: on"},
+    {"collisions", GG_MEASURE_COLLISIONS, "free paths and times, angles of contact"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)

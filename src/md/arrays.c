@@ -25,6 +25,14 @@ void *gg_md_new_lines(size_t count, size_t size, gg_error *err)
   return block;
 }
 
+gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
+{
+  e->last = gg_new_array(e->n, sizeof *e->last, err);
+  if (!e->last) return GG_FAILED;
+  for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
+  return GG_OK;
+}
+
 static gg_status allocate(gg_md *e, gg_error *err)
 {
   const gg_model *m = &e->model;
@@ -35,7 +43,7 @@ static gg_status allocate(gg_md *e, gg_error *err)
   if (!e->grain || !e->node || !e->id) return GG_FAILED;
   e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
   if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
-  if (m->contact_time > 0 && !(e->last = gg_new_array(e->n, sizeof *e->last, err))) return GG_FAILED;
+  if (m->contact_time > 0) GG_TRY(gg_md_allocate_last(e, err));
   return gg_queue_make(&e->queue, e->n, err);
 }
 

@@ -115,5 +115,7 @@ void gg_md_select(gg_md *e)
   e->motion = kernel.run;
   e->predict_all = kernel.predict_all;
   e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
+  e->watched = e->impact;
+  if (e->watch) e->impact = gg_md_show_impact;
   e->wall_impact = wall_impacts[rule][timed][tap];
 }

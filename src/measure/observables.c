@@ -3,6 +3,7 @@
 const gg_observable *const gg_observables[] = {
     &gg_rheology, /* stays first: it tells when a run is steady */
     &gg_velocity_distributions,
+    &gg_local_distributions,
     &gg_orientation,
     &gg_sonine,
     &gg_pair_correlation,
@@ -12,6 +13,7 @@ const gg_observable *const gg_observables[] = {
     &gg_profiles,
     &gg_diffusion,
     &gg_viscosity,
+    &gg_collisions,
     NULL,
 };
 

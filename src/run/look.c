@@ -41,8 +41,11 @@ void gg_replica_look(gg_replica *r, double elapsed)
   gg_transfer transfer;
   r->engine->ops->read_tap(r->engine, &transfer);
   gg_interval in = {&r->model, &transfer, elapsed, r->clock.velocity_factor};
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width) r->observable[k]->finish(r->self[k], &in, r->row + r->offset[k]);
+  for (int k = 0; k < r->n_observables; k++) {
+    const gg_observable *o = r->observable[k];
+    if (o->width) o->finish(r->self[k], &in, r->row + r->offset[k]);
+    if (o->hear && r->clock.averaging) o->hear(r->self[k], &in);
+  }
   r->clock.velocity_factor = 1;
 }
 
@@ -69,6 +72,13 @@ void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed)
     if (last) gg_bins_commit(&r->bins[k]);
   }
   if (last) r->clock.window_samples++;
+}
+
+gg_status gg_replica_watch(gg_replica *r, gg_error *err)
+{
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->watch) GG_TRY(r->engine->ops->watch(r->engine, r->observable[k]->watch, r->self[k], err));
+  return GG_OK;
 }
 
 void gg_replica_restart_curves(gg_replica *r)

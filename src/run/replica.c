@@ -141,12 +141,13 @@ gg_status gg_replica_sample(gg_replica *r, uint64_t samples, bool adapt, const g
   return GG_OK;
 }
 
-void gg_replica_open_window(gg_replica *r)
+gg_status gg_replica_open_window(gg_replica *r, gg_error *err)
 {
   gg_series_open_window(&r->series);
   r->clock.window_collisions = collisions(r);
   r->clock.window_cpu = r->clock.cpu;
   gg_replica_restart_curves(r);
+  return gg_replica_watch(r, err);
 }
 
 gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
@@ -166,6 +167,7 @@ gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene 
   if (status == GG_OK) status = gg_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
   if (status == GG_OK) status = gg_replica_restore_observables(r, a, err);
+  if (status == GG_OK && r->clock.averaging) status = gg_replica_watch(r, err);
   if (status != GG_OK) gg_replica_clear(r);
   return status;
 }
