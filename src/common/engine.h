@@ -83,7 +83,8 @@ typedef struct gg_engine_ops {
   void (*state)(const gg_engine *engine, gg_engine_state *state);
   /* Show every grain at the present time. */
   void (*snapshot)(gg_engine *engine, bool positions, gg_visit *visit, void *context);
-  /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades. GG_BAD_INPUT in sheared flows. */
+  /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades, and to begin a round of slow shear
+   * again (small_shear.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
   gg_status (*rescale)(gg_engine *engine, int power, gg_error *err);
   /* Everything needed to go on bit for bit. Saving does not disturb the run. */
   gg_status (*save)(const gg_engine *engine, gg_archive *archive, gg_error *err);

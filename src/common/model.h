@@ -18,6 +18,7 @@ typedef struct gg_model {
   bool boltzmann;   /* phi = 0 */
   bool homogeneous; /* no box: an ensemble that stands for one point of the flow (dsmc) */
   bool elastic;     /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
+  bool small_shear; /* slow shear of a cooling or heated gas (small_shear.h) */
   bool steady;      /* a steady state can exist (scaled, for cooling) */
 
   int64_t n; /* grains (of the engine's kind: `dsmc.particles` may differ from `particles`) */
@@ -37,11 +38,11 @@ typedef struct gg_model {
   double chi[4];         /* contact value; 1 in the Boltzmann limit */
   double e[4], beta[4], mu[4];
 
-  gg_contact wall[GG_MAX_SPECIES]; /* grain (1) against wall (2) */
+  gg_contact wall[GG_MAX_SPECIES];         /* grain (1) against wall (2) */
   gg_contact wall_treated[GG_MAX_SPECIES]; /* the same with e = 1 */
   gg_rule wall_rule;
   bool walled, open_top; /* walls at both ends of y, or below only */
-  double wall_speed; /* couette: +- this along x; 0 otherwise */
+  double wall_speed;     /* couette: +- this along x; 0 otherwise */
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */

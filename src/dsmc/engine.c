@@ -109,16 +109,20 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
-  if (d->thermostat != GG_NO_THERMOSTAT)
+  bool slow = d->model.small_shear; /* goes back to the beginning of its round */
+  if (d->thermostat != GG_NO_THERMOSTAT && !slow)
     return gg_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
-  if (d->model.shear_rate != 0)
+  if (d->model.shear_rate != 0 && !slow)
     return gg_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
   if (power < -1000 || power > 1000) return gg_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);
   double factor = ldexp(1, power);
   gg_ensemble_scale(&d->ensemble, factor);
-  d->now.time /= factor;
-  d->now.unsettled /= factor;
-  gg_dsmc_rescale_watching(d, factor);
+  if (!slow) {
+    d->now.time /= factor;
+    d->now.unsettled /= factor;
+    gg_dsmc_rescale_watching(d, factor);
+  }
+  d->now.lost *= factor * factor;
   d->now.fastest *= factor;
   d->now.centre = gg_scale(factor, d->now.centre);
   d->now.temperature *= factor * factor;

@@ -70,6 +70,7 @@ extern const gg_quantity gg_history_quantities[GG_N_HISTORY];
 extern const gg_observable *const gg_observables[];
 
 extern const gg_observable gg_rheology, gg_velocity_distributions, gg_orientation, gg_sonine, gg_pair_correlation,
-    gg_velocity_correlations, gg_structure, gg_cells, gg_profiles, gg_diffusion, gg_collisions, gg_local_distributions;
+    gg_velocity_correlations, gg_structure, gg_cells, gg_profiles, gg_diffusion, gg_collisions, gg_local_distributions,
+    gg_viscosity;
 
 #endif

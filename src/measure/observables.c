@@ -12,6 +12,7 @@ const gg_observable *const gg_observables[] = {
     &gg_cells,
     &gg_profiles,
     &gg_diffusion,
+    &gg_viscosity,
     &gg_collisions,
     NULL,
 };
