@@ -56,10 +56,9 @@ static void *memory_of(void *self, size_t *bytes)
   return &v->memory;
 }
 
-static void begin(void *self, int pass)
+static void begin(void *self)
 {
   viscosity *v = self;
-  (void)pass;
   v->cc = v->cxcy = 0;
 }
 
@@ -151,7 +150,6 @@ const gg_observable gg_viscosity = {
     .name = "viscosity",
     .doc = "eta* of cooling and heated gases in slow shear, extrapolated to none",
     .flag = GG_MEASURE_VISCOSITY,
-    .passes = 1,
     .width = width,
     .create = create,
     .destroy = free,
