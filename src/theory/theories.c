@@ -13,6 +13,7 @@ const gg_theory *const gg_theories[] = {
     &gg_haff1983,
     &gg_garzo_dufty1999,
     &gg_montanero_santos2000,
+    &gg_garzo_santos_montanero2007,
     &gg_garzo_montanero2003,
     &gg_garzo_montanero2003_ms,
     &gg_enskog,

@@ -13,6 +13,7 @@ extern const gg_theory gg_huthmann_zippelius1997;
 extern const gg_theory gg_haff1983;
 extern const gg_theory gg_garzo_dufty1999;
 extern const gg_theory gg_montanero_santos2000;
+extern const gg_theory gg_garzo_santos_montanero2007;
 extern const gg_theory gg_garzo_montanero2003;
 extern const gg_theory gg_garzo_montanero2003_ms;
 extern const gg_theory gg_enskog;
