@@ -11,6 +11,7 @@ const gg_theory *const gg_theories[] = {
     &gg_sela_goldhirsch1998,
     &gg_huthmann_zippelius1997,
     &gg_haff1983,
+    &gg_goldhirsch_zanetti1993,
     &gg_garzo_dufty1999,
     &gg_montanero_santos2000,
     &gg_garzo_santos_montanero2007,

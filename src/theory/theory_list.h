@@ -11,6 +11,7 @@ extern const gg_theory gg_grad;
 extern const gg_theory gg_sela_goldhirsch1998;
 extern const gg_theory gg_huthmann_zippelius1997;
 extern const gg_theory gg_haff1983;
+extern const gg_theory gg_goldhirsch_zanetti1993;
 extern const gg_theory gg_garzo_dufty1999;
 extern const gg_theory gg_montanero_santos2000;
 extern const gg_theory gg_garzo_santos_montanero2007;
