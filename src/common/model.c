@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "common/contact_value.h"
-#include "common/small_shear.h"
 
 static void set_composition(gg_model *m, const gg_scene *s)
 {
@@ -150,10 +149,6 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   }
   m->ratio0 = guess_ratio(m);
   m->small_shear = s->small_shear == GG_ON;
-  if (m->small_shear && s->temperature == GG_AUTO) {
-    double speed = 1 / (gg_small_shear_of(m).start * gg_model_nu0(m, 1));
-    m->temperature0 = speed * speed;
-  }
   m->steady = !m->small_shear && !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;

@@ -43,6 +43,11 @@ static bool neither_cools(const gg_model *m)
 {
   return m->flow != GG_HCS && m->flow != GG_HSS;
 }
+static bool always(const gg_model *m)
+{
+  (void)m;
+  return true;
+}
 static bool not_slow(const gg_model *m)
 {
   return !m->small_shear;
@@ -79,6 +84,7 @@ static const struct {
     {mixture, "see c_1 and c_2 for mixtures", GG_Q_A2, GG_Q_A2},
     {not_slow, "needs slow shear: flow: usf with thermostat: gaussian, or small_shear: on for a cooling gas",
      GG_Q_VISCOSITY_REDUCED, GG_Q_VISCOSITY_REDUCED_KINETIC},
+    {always, "a length of theory, not a mean; see graingas theory", GG_Q_CLUSTERING_LENGTH, GG_Q_CLUSTERING_LENGTH},
     {one_species, "there is one species only", GG_Q_C_1, GG_Q_PARTIAL_TEMPERATURE_RATIO},
 };
 
