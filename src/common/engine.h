@@ -48,15 +48,15 @@ typedef struct gg_chunk {
 typedef void gg_visit(void *context, const gg_chunk *chunk);
 
 /* One collision between two grains as a watcher sees it, before the impulse. */
-typedef struct gg_meeting {
+typedef struct gg_seen_collision {
   int species[2];
   gg_vec k;         /* from 1 to 2 */
   gg_vec c12;       /* c_1 - c_2 of the centres, the flow between them included */
   gg_vec c[2];      /* peculiar velocities */
   double height[2]; /* y over the middle of the box; NaN where there are no positions */
   double since[2];  /* time since the last contact of each, walls included; INFINITY: none since watching began */
-} gg_meeting;
-typedef void gg_watch(void *context, const gg_meeting *meeting);
+} gg_seen_collision;
+typedef void gg_watch(void *context, const gg_seen_collision *meeting);
 
 typedef struct gg_engine gg_engine;
 

@@ -41,7 +41,7 @@ GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e
   if (f.tap == GG_TAP_LOSS) return;
   const gg_vd ka[3] = {e->k.x, e->k.y, e->k.z}, Jb[3] = {J.x, J.y, J.z};
   for (int i = 0; i < 3; i++)
-    for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) w->stress[i][j][part] += ka[i] * Jb[j];
+    for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) w->stress[i][j][part] += gg_where(e->hit, ka[i] * Jb[j]);
 }
 
 /* What is left to do once the impulse is known: turn the spins, push the grains. */
@@ -71,8 +71,8 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, uint32_t a, uint32_t b, 
   gg_vd3 g = e.g, J = gg_vd3_scale(gg_all(c->jn), e.gn_k);
   if (f.rule != GG_SMOOTH) g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[a], at), spin_b)));
   if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, c, e.k, g, e.gn);
-  J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
   tally(f, w, part, &e, g, J);
+  J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
   gg_mask swap = gg_low_bit(r);
   if (f.rule != GG_SMOOTH) turn(f, c, swap, &w->spin_one[a], &w->spin_two[b], at, spin_b, gg_vd3_cross(e.k, J));
   if (f.shear != GG_UNSHEARED) J.x += w->drift * J.y; /* as stored velocities have it */

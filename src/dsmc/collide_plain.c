@@ -19,6 +19,19 @@ static void fetch(gg_features f, const gg_pairing *p, gg_pair *q)
   q->cb.x -= p->drift * q->cb.y;
 }
 
+static void show(gg_pairing *p, const gg_pair *q, gg_vec k, gg_vec c12)
+{
+  double *one = &p->watching->last[p->species[0]][q->a], *two = &p->watching->last[p->species[1]][q->b];
+  gg_seen_collision m = {.species = {p->species[0], p->species[1]},
+                         .k = k,
+                         .c12 = c12,
+                         .c = {q->ca, q->cb},
+                         .height = {NAN, NAN},
+                         .since = {p->time - *one, p->time - *two}};
+  p->watching->watch(p->watching->context, &m);
+  *one = *two = p->time;
+}
+
 static void tally(gg_features f, gg_pairing *p, gg_vec k, gg_vec g, gg_vec J)
 {
   if (f.tap == GG_TAP_CLOSED) return;
@@ -27,19 +40,6 @@ static void tally(gg_features f, gg_pairing *p, gg_vec k, gg_vec g, gg_vec J)
   const double ka[3] = {k.x, k.y, k.z}, Jb[3] = {J.x, J.y, J.z};
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) p->stress[a][b] += p->sigma * ka[a] * Jb[b];
-}
-
-static void show(gg_pairing *p, const gg_pair *q, gg_vec k, gg_vec c12)
-{
-  double *one = &p->watching->last[p->species[0]][q->a], *two = &p->watching->last[p->species[1]][q->b];
-  gg_meeting m = {.species = {p->species[0], p->species[1]},
-                  .k = k,
-                  .c12 = c12,
-                  .c = {q->ca, q->cb},
-                  .height = {NAN, NAN},
-                  .since = {p->time - *one, p->time - *two}};
-  p->watching->watch(p->watching->context, &m);
-  *one = *two = p->time;
 }
 
 static void collide(gg_features f, gg_pairing *p, gg_pair *q, gg_vec k, gg_vec c12, double gn)

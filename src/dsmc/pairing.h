@@ -43,6 +43,9 @@ typedef struct gg_watching {
 
 typedef struct gg_pairing {
   /* given */
+  gg_watching *watching;  /* NULL: nobody looks */
+  int species[2];         /* for the watcher */
+  double time, time_step; /* the same: of the first candidate, and from one to the next */
   gg_population *one, *two;
   gg_contact contact;
   double shift;             /* sigma x rate */
@@ -50,9 +53,6 @@ typedef struct gg_pairing {
   double floor, bound;      /* the layer of g_n */
   double drift, drift_step; /* of the first candidate, and from one to the next: rate x time */
   uint64_t candidates;
-  gg_watching *watching;  /* NULL: nobody looks */
-  int species[2];         /* for the watcher */
-  double time, time_step; /* the same: of the first candidate, and from one to the next */
   /* handed back */
   uint64_t collisions, overflows;
   double worst;              /* largest g_n seen */

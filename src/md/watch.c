@@ -4,7 +4,7 @@
 
 #include "md/state.h"
 
-static void show_grain(const gg_md *e, uint32_t i, int which, gg_meeting *m)
+static void show_grain(const gg_md *e, uint32_t i, int which, gg_seen_collision *m)
 {
   const gg_grain *g = &e->grain[i];
   double height = g->r.y - 0.5 * e->box.edge[1];
@@ -18,7 +18,7 @@ static void show_grain(const gg_md *e, uint32_t i, int which, gg_meeting *m)
 
 void gg_md_show_impact(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
 {
-  gg_meeting m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
+  gg_seen_collision m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
   show_grain(e, i, 0, &m);
   show_grain(e, j, 1, &m);
   e->watch(e->watcher, &m);

@@ -82,7 +82,7 @@ static double peculiar_path(gg_vec c, double rate, double t)
   return sum * t;
 }
 
-static void add_flights(collisions *d, const gg_meeting *m, int which)
+static void add_flights(collisions *d, const gg_seen_collision *m, int which)
 {
   double t = m->since[which], rate = d->model.shear_rate, *to = d->sums + ANGLES + m->species[which] * KINDS * FLIGHT;
   gg_vec c = m->c[which];
@@ -102,7 +102,7 @@ static int plane_bin(gg_vec k)
   return bin < PLANE_BINS ? bin : 0;
 }
 
-static void watch(void *self, const gg_meeting *m)
+static void watch(void *self, const gg_seen_collision *m)
 {
   collisions *d = self;
   gg_vec k = m->k;

@@ -10,7 +10,7 @@ typedef struct sums {
   double flown; /* sum of `since` */
 } sums;
 
-static void add(void *context, const gg_meeting *m)
+static void add(void *context, const gg_seen_collision *m)
 {
   sums *s = context;
   int a = m->species[0], b = m->species[1], pair = gg_pair_index(a, b);
@@ -81,7 +81,7 @@ static void adds_up(void **state)
 }
 
 /* The observable fed by hand. */
-static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make)(gg_meeting *m, gg_rng *r))
+static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make)(gg_seen_collision *m, gg_rng *r))
 {
   gg_bins bins;
   gg_rng r = gg_rng_seed(32, 0);
@@ -89,7 +89,7 @@ static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make
   assert_int_equal(gg_bins_init(&bins, gg_collisions.bins(self), NULL), GG_OK);
   for (int k = 0; k < samples; k++) {
     for (int i = 0; i < per_sample; i++) {
-      gg_meeting meeting = {.height = {NAN, NAN}};
+      gg_seen_collision meeting = {.height = {NAN, NAN}};
       make(&meeting, &r);
       gg_collisions.watch(self, &meeting);
     }
@@ -105,7 +105,7 @@ static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make
 }
 
 enum { RATE = 3 }; /* of flights; density of k in the plane 1 - sin(2 theta)/2; |C| = 2 without shear */
-static void planted(gg_meeting *m, gg_rng *r)
+static void planted(gg_seen_collision *m, gg_rng *r)
 {
   double angle;
   do angle = M_PI * gg_rng_uniform(r);
@@ -159,7 +159,7 @@ static void flights_and_angles(void **state)
   gg_curves_clear(&list);
 }
 
-static void falling_behind(gg_meeting *m, gg_rng *r)
+static void falling_behind(gg_seen_collision *m, gg_rng *r)
 {
   planted(m, r);
   for (int i = 0; i < 2; i++) m->c[i] = (gg_vec){0, 1.5, 0}, m->since[i] = 2;
