@@ -40,13 +40,14 @@ typedef struct gg_model {
 
   gg_contact wall[GG_MAX_SPECIES];         /* grain (1) against wall (2) */
   gg_contact wall_treated[GG_MAX_SPECIES]; /* the same with e = 1 */
-  gg_rule wall_rule;
-  bool walled, open_top; /* walls at both ends of y, or below only */
-  double wall_speed;     /* couette: +- this along x; 0 otherwise */
+  gg_rule wall_rule;                       /* of smooth grains, too, whose spins it leaves alone */
+  bool walled, open_top;                   /* walls at both ends of y, or below only */
+  double wall_speed;                       /* couette: +- this along x; 0 otherwise */
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */
-  double contact_time; /* of the contact-time rule, in mean free times per grain; 0: off */
+  double contact_time; /* of the contact-time rule, in mean free times per grain, or sqrt(d/|g_y|) where there is g_y;
+                        * 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
 
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */

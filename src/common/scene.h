@@ -69,7 +69,7 @@ struct gg_scene {
     uint64_t seed;
   } run;
   struct {
-    double contact_time; /* in mean free times, 0: off; or GG_AUTO */
+    double contact_time; /* in mean free times, or sqrt(d/|g_y|) under gravity; 0: off; or GG_AUTO */
   } md;
   struct {
     double time_step;  /* in mean free times, or GG_AUTO */

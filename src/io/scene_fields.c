@@ -72,7 +72,8 @@ const gg_field gg_scene_fields[] = {
      .doc = "Coulomb friction coefficient; inf: constant beta"},
     {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "one or two kinds of grains"},
     {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls"},
-    {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1, .doc = "tangential restitution at the walls"},
+    {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1,
+     .doc = "tangential restitution at the walls; of smooth grains, which do not spin, that of their centres"},
     {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .doc = "friction coefficient at the walls"},
     {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "chute: the upper end"},
     {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), 0, 1e12, true, .unit = "velocity",
@@ -92,7 +93,9 @@ const gg_field gg_scene_fields[] = {
     {"run.seed", GG_FIELD_INTEGER, AT(run.seed), 0, 9223372036854775807.0,
      .doc = "of the random streams: the same seed gives the same run"},
     {"md.contact_time", GG_FIELD_NUMBER, AT(md.contact_time), 0, 1, false, AUTO, .unit = "mean free times",
-     .doc = "collisions closer in time than this have e = 1 (against inelastic collapse); 0: off"},
+     .doc =
+         "collisions closer in time than this have e = 1 (against inelastic collapse); 0: off. With gravity along y in "
+         "units of sqrt(d/g) instead; auto: 1e-5, with gravity along y 1e-3"},
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
      .doc = "step of the Monte Carlo engine"},
     {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,

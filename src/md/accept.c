@@ -63,7 +63,8 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
   tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
   tell(line, context, "species", m->n_species > 1 ? "two: coefficients by pair" : "one: coefficients fixed");
-  snprintf(timing, sizeof timing, "on, t_c = %g mean free times", m->contact_time);
+  snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time,
+           m->gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
   tell(line, context, "collision tap", "while stresses are measured; else only counts");
 }

@@ -65,8 +65,9 @@ static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happ
   if (*happened >= limit)
     return gg_fail(err, GG_FAILED,
                    "%s: collisions accumulate without end (inelastic collapse) near time %g; "
-                   "give md.contact_time a larger value (it is %g mean free times)",
-                   r->engine->ops->name, r->clock.time, r->model.contact_time);
+                   "give md.contact_time a larger value (it is %g %s)",
+                   r->engine->ops->name, r->clock.time, r->model.contact_time,
+                   r->model.gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
   return GG_OK;
 }
 
