@@ -20,15 +20,15 @@
 typedef struct gg_batch {
   gg_block *one, *two, *spin_one, *spin_two;
   float *top_one, *top_two;
-  uint64_t n_one, n_two; /* blocks */
+  uint64_t n_one, n_two;     /* blocks */
   uint32_t odd_one, odd_two; /* that are not full, or UINT32_MAX */
   gg_contact contact;
   gg_lane_rng rng;
-  gg_directions near, sheared;     /* about C12, and by the law |k_x k_y| */
-  gg_vu word[GG_PARTS];      /* random: a half for each of two visits */
-  double floor, bound;       /* the layer of |C12| */
+  gg_directions near, sheared; /* about C12, and by the law |k_x k_y| */
+  gg_vu word[GG_PARTS];        /* random: a half for each of two visits */
+  double floor, bound;         /* the layer of |C12| */
   double s0, shift;
-  double drift, unit, per_unit; /* of this visit; of the tops */
+  double per_unit;              /* of the tops */
   double next_drift, next_unit; /* of the next draws */
   uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
@@ -39,7 +39,7 @@ typedef struct gg_batch {
 typedef struct gg_encounter {
   gg_mask hit;
   gg_vd3 k, g; /* k: only if needed; g: contact velocity without spins */
-  gg_vd3 gn_k; /* g_n k */
+  gg_vd3 gn_k; /* 2 g_n k, if not */
   gg_vd gn, gn2;
 } gg_encounter;
 
@@ -82,8 +82,8 @@ GG_INLINE gg_encounter gg_encounter_of(gg_features f, gg_batch *w, gg_vd3 v, gg_
   if (f.shear == GG_SHEARED_DENSE) e.hit = gg_and_not(e.hit, special);
   gg_vd3 q = gg_directions_take(&w->near, e.hit);
   if (!gg_needs_k(f)) {
-    e.gn_k = gg_vd3_scale(gg_all(0.5), gg_vd3_sub(v, gg_vd3_scale(speed, q)));
-    if (f.tap != GG_TAP_CLOSED) e.gn2 = gg_vd3_dot(e.gn_k, e.gn_k);
+    e.gn_k = gg_vd3_sub(v, gg_vd3_scale(speed, q));
+    if (f.tap != GG_TAP_CLOSED) e.gn2 = 0.25 * gg_vd3_dot(e.gn_k, e.gn_k);
     return e;
   }
   e.k = gg_about(v, speed, q);

@@ -57,59 +57,67 @@ GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e
 
 /* Two blocks, the lanes of the second in their order of this visit. */
 typedef struct gg_meeting {
-  gg_block *a, *b, *spin_a, *spin_b;
+  uint32_t a, b;
+  bool odd; /* not for this path */
+  double drift;
   gg_vd3 ca[GG_PARTS], cb[GG_PARTS], sb[GG_PARTS];
   gg_vd3 v[GG_PARTS];
   gg_vd v2[GG_PARTS];
-  gg_vd top_a, top_b; /* largest C^2, lane by lane */
 } gg_meeting;
 
+/* Largest C^2 after a visit, lane by lane. */
+typedef struct gg_fastest {
+  gg_vd a, b;
+} gg_fastest;
+
 /* C of a stored velocity. */
-GG_INLINE gg_vd3 streamed(gg_features f, const gg_batch *w, gg_vd3 c)
+GG_INLINE gg_vd3 streamed(gg_features f, double drift, gg_vd3 c)
 {
-  if (f.shear != GG_UNSHEARED) c.x -= w->drift * c.y;
+  if (f.shear != GG_UNSHEARED) c.x -= drift * c.y;
   return c;
 }
 
-GG_INLINE void turn(gg_features f, const gg_contact *c, gg_mask swap, gg_meeting *at, int part, gg_vd3 kJ)
+GG_INLINE void turn(gg_features f, gg_batch *w, gg_mask swap, const gg_meeting *at, int part, gg_vd3 kJ)
 {
+  const gg_contact *c = &w->contact;
   gg_vd3 turn_a = gg_vd3_scale(gg_all(c->ik1), kJ), turn_b = f.same ? turn_a : gg_vd3_scale(gg_all(c->ik2), kJ);
-  gg_vd3 sa = gg_vd3_sub(load(at->spin_a, part * GG_WIDTH), turn_a), sb = gg_vd3_sub(at->sb[part], turn_b);
+  gg_vd3 sa = gg_vd3_sub(load(&w->spin_one[at->a], part * GG_WIDTH), turn_a), sb = gg_vd3_sub(at->sb[part], turn_b);
   if (f.same) exchange(swap, &sa, &sb);
-  store(at->spin_a, part * GG_WIDTH, sa);
-  store(at->spin_b, part * GG_WIDTH, sb);
+  store(&w->spin_one[at->a], part * GG_WIDTH, sa);
+  store(&w->spin_two[at->b], part * GG_WIDTH, sb);
 }
 
 /* Grains of one species change places so that the faster one is in the first block. Returns where. */
-GG_INLINE gg_mask push(gg_features f, gg_batch *w, gg_meeting *at, int part, gg_vd3 J)
+GG_INLINE gg_mask push(gg_features f, gg_batch *w, const gg_meeting *at, int part, gg_vd3 J, gg_fastest *top)
 {
   const gg_contact *c = &w->contact;
-  if (f.shear != GG_UNSHEARED) J.x += w->drift * J.y; /* as stored velocities have it */
+  if (f.shear != GG_UNSHEARED) J.x += at->drift * J.y; /* as stored velocities have it */
   gg_vd3 push_a = gg_vd3_scale(gg_all(c->im1), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(c->im2), J);
   gg_vd3 a = gg_vd3_sub(at->ca[part], push_a), b = gg_vd3_add(at->cb[part], push_b);
-  gg_vd3 Ca = streamed(f, w, a), Cb = streamed(f, w, b);
+  gg_vd3 Ca = streamed(f, at->drift, a), Cb = streamed(f, at->drift, b);
   gg_vd a2 = gg_vd3_dot(Ca, Ca), b2 = gg_vd3_dot(Cb, Cb);
   gg_mask swap = gg_less(a2, b2);
   gg_vd first = f.same ? gg_larger(a2, b2) : a2, second = f.same ? gg_smaller(a2, b2) : b2;
-  at->top_a = part ? gg_larger(at->top_a, first) : first;
-  at->top_b = part ? gg_larger(at->top_b, second) : second;
+  top->a = part ? gg_larger(top->a, first) : first;
+  top->b = part ? gg_larger(top->b, second) : second;
   if (f.same) exchange(swap, &a, &b);
-  store(at->a, part * GG_WIDTH, a);
-  store(at->b, part * GG_WIDTH, b);
+  store(&w->one[at->a], part * GG_WIDTH, a);
+  store(&w->two[at->b], part * GG_WIDTH, b);
   return swap;
 }
 
-GG_INLINE void collide_part(gg_features f, gg_batch *w, gg_meeting *at, int part, double bound, gg_vu r)
+GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, int part, double bound, gg_vu r,
+                            gg_fastest *top)
 {
   gg_encounter e = gg_encounter_of(f, w, at->v[part], at->v2[part], bound, r);
-  gg_vd3 g = e.g, J = gg_vd3_scale(gg_all(w->contact.jn), e.gn_k);
+  gg_vd3 g = e.g, J = gg_vd3_scale(gg_all(0.5 * w->contact.jn), e.gn_k);
   if (f.rule != GG_SMOOTH)
-    g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(at->spin_a, part * GG_WIDTH), at->sb[part])));
+    g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[at->a], part * GG_WIDTH), at->sb[part])));
   if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, &w->contact, e.k, g, e.gn);
   tally(f, w, part, &e, g, J);
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
-  gg_mask swap = push(f, w, at, part, J);
-  if (f.rule != GG_SMOOTH) turn(f, &w->contact, swap, at, part, gg_vd3_cross(e.k, J));
+  gg_mask swap = push(f, w, at, part, J, top);
+  if (f.rule != GG_SMOOTH) turn(f, w, swap, at, part, gg_vd3_cross(e.k, J));
 }
 
 /* Block b with its lanes in order r, in registers. */
@@ -131,43 +139,31 @@ GG_INLINE double square(double bound)
 
 /* Some pair is faster than the sum of tops by which its blocks were drawn: one of them has been visited since, or the
  * gas is faster than the bound of all. The former is made good exactly: the visit goes under the bound of now, and is
- * repeated with such a probability that its mean number is what it should have been. */
-typedef struct gg_second_thoughts {
-  double bound;
-  bool again;
-  unsigned overflows;
-} gg_second_thoughts;
-
-static __attribute__((noinline)) gg_second_thoughts reconsider(gg_meeting at, double drift, double s0, double bound,
-                                                               double most, gg_rng *rng)
+ * repeated with such a probability that its mean number is what it should have been: `again`. Returns the bound. */
+GG_INLINE double reconsider(gg_features f, gg_batch *w, const gg_meeting *at, double bound, gg_rng *rng, bool *again)
 {
-  gg_second_thoughts t = {.bound = bound};
   gg_vd a2 = gg_all(0), b2 = a2;
   for (int part = 0; part < GG_PARTS; part++) {
-    gg_vd3 a = at.ca[part], b = at.cb[part];
-    a.x -= drift * a.y;
-    b.x -= drift * b.y;
+    gg_vd3 a = streamed(f, at->drift, at->ca[part]), b = streamed(f, at->drift, at->cb[part]);
     a2 = gg_larger(a2, gg_vd3_dot(a, a));
     b2 = gg_larger(b2, gg_vd3_dot(b, b));
-    t.overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(square(most)), at.v2[part])));
+    w->overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(square(w->bound)), at->v2[part])));
   }
   gg_v2 peaks = gg_peaks(a2, b2);
-  double now = fmin((sqrt(peaks[0]) + sqrt(peaks[1])) * (1 + 1e-15), most);
-  if (now <= bound) return t;
-  t.bound = now;
-  t.again = gg_rng_uniform(rng) * (bound + s0) < now - bound;
-  return t;
+  double now = fmin((sqrt(peaks[0]) + sqrt(peaks[1])) * (1 + 1e-15), w->bound);
+  if (now <= bound) return bound;
+  *again = gg_rng_uniform(rng) * (bound + w->s0) < now - bound;
+  return now;
 }
 
-GG_INLINE void look(gg_features f, gg_batch *w, gg_meeting *at, unsigned order)
+GG_INLINE void look(gg_features f, const gg_batch *w, gg_meeting *at, unsigned order)
 {
-  load_in_order(at->b, order, at->cb);
-  if (f.rule != GG_SMOOTH) load_in_order(at->spin_b, order, at->sb);
+  load_in_order(&w->two[at->b], order, at->cb);
+  if (f.rule != GG_SMOOTH) load_in_order(&w->spin_two[at->b], order, at->sb);
   for (int part = 0; part < GG_PARTS; part++) {
-    at->ca[part] = load(at->a, part * GG_WIDTH);
-    at->v[part] = streamed(f, w, gg_vd3_sub(at->ca[part], at->cb[part]));
+    at->ca[part] = load(&w->one[at->a], part * GG_WIDTH);
+    at->v[part] = streamed(f, at->drift, gg_vd3_sub(at->ca[part], at->cb[part]));
     at->v2[part] = gg_vd3_dot(at->v[part], at->v[part]);
-    w->worst = gg_larger(w->worst, at->v2[part]);
   }
 }
 
@@ -179,42 +175,32 @@ GG_INLINE bool any_faster(const gg_meeting *at, double bound)
 }
 
 /* `second`: the other half of the last random words will do. */
-GG_INLINE void visit(gg_features f, gg_batch *w, uint32_t a, uint32_t b, unsigned order, double bound, bool second,
-                     gg_rng *rng)
+GG_INLINE void collide(gg_features f, gg_batch *w, const gg_meeting *at, double bound, bool second)
 {
-  gg_meeting at; /* filled below: no time to clear it first */
-  at.a = &w->one[a];
-  at.b = &w->two[b];
-  at.spin_a = f.rule == GG_SMOOTH ? NULL : &w->spin_one[a];
-  at.spin_b = f.rule == GG_SMOOTH ? NULL : &w->spin_two[b];
-  bool again = false;
-  look(f, w, &at, order);
-  if (__builtin_expect(any_faster(&at, bound), 0)) {
-    gg_second_thoughts t = reconsider(at, w->drift, w->s0, bound, w->bound, rng);
-    bound = t.bound;
-    again = t.again;
-    w->overflows += t.overflows;
+  gg_fastest top;
+  gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
+  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
+  for (int part = 0; part < GG_PARTS; part++) {
+    w->word[part] = second ? w->word[part] << 32 : gg_lane_next(&w->rng, part);
+    w->worst = gg_larger(w->worst, at->v2[part]);
+    collide_part(f, w, at, part, bound, w->word[part], &top);
   }
-  for (;;) {
-    gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
-    if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
-    for (int part = 0; part < GG_PARTS; part++) {
-      w->word[part] = second ? w->word[part] << 32 : gg_lane_next(&w->rng, part);
-      collide_part(f, w, &at, part, bound, w->word[part]);
-    }
-    w->visits++;
-    if (__builtin_expect(!again, 1)) break;
-    again = second = false;
-    look(f, w, &at, 0);
-  }
-  gg_v2 peaks = gg_peaks(at.top_a, at.top_b) * w->per_unit;
-  w->top_one[a] = gg_top_of(peaks[0]);
-  w->top_two[b] = gg_top_of(peaks[1]);
+  w->visits++;
+  gg_v2 peaks = gg_peaks(top.a, top.b) * w->per_unit;
+  w->top_one[at->a] = (float)peaks[0];
+  w->top_two[at->b] = (float)peaks[1];
 }
 
-GG_INLINE bool is_odd(gg_features f, const gg_batch *w, uint32_t a, uint32_t b)
+GG_INLINE void visit(gg_features f, gg_batch *w, gg_meeting *at, double bound, bool second, gg_rng *rng)
 {
-  return (f.same & (a == b)) | (a == w->odd_one) | (b == w->odd_two);
+  bool again = false;
+  if (__builtin_expect(any_faster(at, bound), 0)) bound = reconsider(f, w, at, bound, rng, &again);
+  for (;;) {
+    collide(f, w, at, bound, second);
+    if (__builtin_expect(!again, 1)) break;
+    again = second = false;
+    look(f, w, at, 0);
+  }
 }
 
 GG_INLINE uint64_t item(const double *list, unsigned i)
@@ -248,7 +234,7 @@ GG_INLINE void draw_part(gg_features f, gg_batch *w, gg_draw *next, int part, do
 {
   gg_vu r = gg_lane_next(&w->rng, part), more = gg_lane_next(&w->rng, part);
   gg_vu a = gg_mul32(r >> 32, all_bits(w->n_one)) >> 32, b = gg_mul32(r, all_bits(w->n_two)) >> 32;
-  gg_vd bound = (gg_gather(w->top_one, a) + gg_gather(w->top_two, b)) * root;
+  gg_vd bound = (gg_roots_at(w->top_one, a) + gg_roots_at(w->top_two, b)) * root;
   bound = gg_smaller(bound + (w->floor == 0 ? 0 : 1e300), gg_all(w->bound)); /* an upper layer: under one bound */
   gg_vd u = gg_lane_one_to_two(more) - 1;
   gg_vu odd = equal(a, all_bits(w->odd_one)) | equal(b, all_bits(w->odd_two));
@@ -261,7 +247,7 @@ GG_INLINE void draw_part(gg_features f, gg_batch *w, gg_draw *next, int part, do
   gg_mask keep = gg_or(gg_less(u * (w->bound + w->s0), bound + w->s0), gg_low_bit(odd));
   gg_vu nth = lane_numbers(first);
   if (first + GG_WIDTH > n) keep = gg_and(keep, gg_low_bit((gg_vu)(nth < all_bits(n))));
-  gg_pack(next->blocks + next->n, keep, (gg_vd)(a | b << 32));
+  gg_pack(next->blocks + next->n, keep, (gg_vd)(a | b << 32 | odd << 63));
   gg_pack(next->order + next->n, keep, (gg_vd)more);
   gg_pack(next->bound + next->n, keep, bound);
   if (f.shear != GG_UNSHEARED) gg_pack(next->nth + next->n, keep, (gg_vd)nth);
@@ -284,18 +270,17 @@ GG_INLINE void draw(gg_features f, gg_batch *w, gg_draw *next, unsigned n, doubl
   w->next_unit *= gg_top_growth(delta);
   const double root = sqrt(w->next_unit) * (1 + 1e-6);
   for (unsigned first = 0; first < n; first += GG_LANES)
-    for (int part = 0; part < GG_PARTS; part++)
-      draw_part(f, w, next, part, root, first + (unsigned)part * GG_WIDTH, n);
+    for (int part = 0; part < GG_PARTS; part++) draw_part(f, w, next, part, root, first + (unsigned)part * GG_WIDTH, n);
 }
 
 /* Call the memory of a visit to come. */
 GG_INLINE void call(gg_features f, const gg_batch *w, uint64_t blocks)
 {
   prefetch(&w->one[(uint32_t)blocks]);
-  prefetch(&w->two[blocks >> 32]);
+  prefetch(&w->two[blocks >> 32 & 0x7fffffff]);
   if (f.rule == GG_SMOOTH) return;
   prefetch(&w->spin_one[(uint32_t)blocks]);
-  prefetch(&w->spin_two[blocks >> 32]);
+  prefetch(&w->spin_two[blocks >> 32 & 0x7fffffff]);
 }
 
 static double sum_of_lanes(const gg_vd v[GG_PARTS])
@@ -349,24 +334,37 @@ GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *l
     }
 }
 
-GG_INLINE void visit_all(gg_features f, gg_batch *w, const gg_draw *now, const gg_draw *next, gg_pairing *p, gg_rng *rng)
+/* The i-th visit of the list; past its end, some blocks or other. */
+GG_INLINE void meet(gg_features f, const gg_batch *w, const gg_draw *now, unsigned i, double drift_step, gg_meeting *at)
 {
-  w->drift = now->drift;
-  w->unit = now->unit;
-  w->per_unit = 1 / now->unit;
-  for (unsigned i = 0; i < now->n; i++) {
-    uint64_t blocks = item(now->blocks, i);
-    uint32_t a = (uint32_t)blocks, b = (uint32_t)(blocks >> 32);
-    unsigned order = (unsigned)item(now->order, i) % GG_LANES;
+  uint64_t blocks = item(now->blocks, i);
+  at->a = (uint32_t)blocks;
+  at->b = (uint32_t)(blocks >> 32) & 0x7fffffff;
+  at->odd = blocks >> 63;
+  at->drift = f.shear == GG_UNSHEARED ? 0 : now->drift + (double)item(now->nth, i) * drift_step;
+  look(f, w, at, (unsigned)item(now->order, i) % GG_LANES);
+}
+
+/* Each visit is loaded before the one ahead of it is stored: with stores that come late and addresses that agree in
+ * their last bits now and then, a processor would rather wait than let loads pass. */
+GG_INLINE void visit_all(gg_features f, gg_batch *w, const gg_draw *now, const gg_draw *next, gg_pairing *p,
+                         gg_rng *rng)
+{
+  w->per_unit = gg_per_top(now->unit);
+  gg_meeting at, ahead;
+  meet(f, w, now, 0, p->drift_step, &at);
+  for (unsigned i = 0; i < now->n; i++, at = ahead) {
     call(f, w, item(next->blocks, i)); /* about as many; what is past the end is old, and harmless */
-    if (f.shear != GG_UNSHEARED) w->drift = now->drift + (double)item(now->nth, i) * p->drift_step;
-    if (__builtin_expect(is_odd(f, w, a, b), 0)) {
-      p->drift = w->drift;
-      p->top_unit = w->unit;
-      gg_collide_odd_blocks(f, p, a, b, order, rng);
+    meet(f, w, now, i + 1, p->drift_step, &ahead);
+    bool touched = (ahead.a == at.a) | (ahead.a == at.b) | (ahead.b == at.a) | (ahead.b == at.b);
+    if (__builtin_expect(at.odd, 0)) {
+      p->drift = at.drift;
+      p->top_unit = now->unit;
+      gg_collide_odd_blocks(f, p, at.a, at.b, (unsigned)item(now->order, i) % GG_LANES, rng);
     } else {
-      visit(f, w, a, b, order, now->bound[i], i % 2, rng);
+      visit(f, w, &at, now->bound[i], i % 2, rng);
     }
+    if (__builtin_expect(touched, 0)) look(f, w, &ahead, (unsigned)item(now->order, i + 1) % GG_LANES);
   }
 }
 

@@ -29,7 +29,7 @@ static void tally(gg_features f, gg_pairing *p, gg_vec k, gg_vec g, gg_vec J)
 
 static void raise_top(const gg_pairing *p, float *top, gg_vec c)
 {
-  float peak = gg_top_of(gg_dot(c, c) / p->top_unit);
+  float peak = (float)(gg_dot(c, c) * gg_per_top(p->top_unit));
   if (peak > *top) *top = peak;
 }
 

@@ -8,9 +8,9 @@
  * (time since the map was last applied). The kernels undo it for the two grains that collide; gg_ensemble_stream
  * applies it to all.
  *
- * Of every block an upper bound of its speeds is kept, for the kernels to draw pairs of blocks by: |C| <= top x
- * sqrt(top_unit) in all lanes while the drift stays where `top_unit` was set. Streaming over a drift of `delta` stretches speeds by
- * no more than exp(delta/2) (the larger singular value of a shear is exp(asinh(delta/2))), so top_unit may go
+ * Of every block an upper bound of its speeds is kept, for the kernels to draw pairs of blocks by: C^2 <= top x
+ * top_unit in all lanes while the drift stays where `top_unit` was set. Streaming over a drift of `delta` stretches
+ * speeds by no more than exp(delta/2) (the larger singular value of a shear is exp(asinh(delta/2))), so top_unit may go
  * along instead of all tops. */
 #ifndef GG_DSMC_ENSEMBLE_H
 #define GG_DSMC_ENSEMBLE_H
@@ -71,10 +71,10 @@ GG_INLINE double gg_top_growth(double delta)
   return 1 + fabs(delta) + delta * delta;
 }
 
-/* A little more than the root of C^2/top_unit, for a bound that rounding must not break. */
-GG_INLINE float gg_top_of(double c2)
+/* 1/top_unit and a little more, so that rounding to float breaks no bound. */
+GG_INLINE double gg_per_top(double unit)
 {
-  return sqrtf((float)c2) * 1.0000005f;
+  return (1 + 1e-6) / unit;
 }
 
 GG_INLINE gg_vec gg_block_get(const gg_block *b, uint32_t i)

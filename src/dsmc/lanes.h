@@ -55,7 +55,8 @@ GG_INLINE gg_vd3 gg_vd3_cross(gg_vd3 a, gg_vd3 b)
 
 /* gg_mask: one truth a lane. gg_permute_of(r) and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_spread: the
  * next numbers of a list, one for each true lane; gg_pack: the true lanes to the front of a list, then anything up to a
- * width. gg_peaks: the largest lane of a, and of b. gg_mul32: products of the low halves. gg_gather: of a table. */
+ * width. gg_peaks: the largest lane of a, and of b. gg_mul32: products of the low halves. gg_roots_at: square roots
+ * out of a table, rounded to float. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 typedef __mmask8 gg_mask;
 typedef __m512i gg_order;
@@ -123,9 +124,9 @@ GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
 {
   return (gg_vu)_mm512_mul_epu32((__m512i)a, (__m512i)b);
 }
-GG_INLINE gg_vd gg_gather(const float *table, gg_vu at)
+GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
 {
-  return _mm512_cvtps_pd(_mm512_i64gather_ps((__m512i)at, table, 4));
+  return _mm512_cvtps_pd(_mm256_sqrt_ps(_mm512_i64gather_ps((__m512i)at, table, 4)));
 }
 GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
 {
@@ -223,9 +224,9 @@ GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
 {
   return (gg_vu)_mm256_mul_epu32((__m256i)a, (__m256i)b);
 }
-GG_INLINE gg_vd gg_gather(const float *table, gg_vu at)
+GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
 {
-  return _mm256_cvtps_pd(_mm_setr_ps(table[at[0]], table[at[1]], table[at[2]], table[at[3]]));
+  return _mm256_cvtps_pd(_mm_sqrt_ps(_mm_setr_ps(table[at[0]], table[at[1]], table[at[2]], table[at[3]])));
 }
 GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
 {
@@ -300,9 +301,9 @@ GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
 {
   return (a & UINT32_MAX) * (b & UINT32_MAX);
 }
-GG_INLINE gg_vd gg_gather(const float *table, gg_vu at)
+GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
 {
-  return (gg_vd){table[at[0]], table[at[1]]};
+  return (gg_vd){sqrtf(table[at[0]]), sqrtf(table[at[1]])};
 }
 GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
 {

@@ -8,14 +8,14 @@
 /* The top of a block, part by part. */
 GG_INLINE void note_top(float *top, int at, gg_vd c2, double per_unit)
 {
-  float peak = gg_top_of(gg_peaks(c2, c2)[0] * per_unit);
+  float peak = (float)(gg_peaks(c2, c2)[0] * per_unit);
   *top = at && *top > peak ? *top : peak;
 }
 
 void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, float *top, size_t n, double drift, double scale, gg_vec centre,
                                      double unit, gg_sums *sums)
 {
-  const double per_unit = 1 / unit;
+  const double per_unit = gg_per_top(unit);
   for (int at = 0; at < GG_LANES; at += GG_WIDTH) {
     gg_vd sx = gg_all(0), sy = sx, sz = sx, s2 = sx, fastest = sx;
     for (gg_block *b = c; b < c + n; b++) {
@@ -46,7 +46,7 @@ void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, float *top, size_t n, double d
 void NAME(gg_kicks, GG_INSTRUCTIONS)(gg_block *c, float *top, size_t n, double drift, double size, double unit,
                                      gg_rng_lanes *lanes)
 {
-  const double per_unit = 1 / unit;
+  const double per_unit = gg_per_top(unit);
   gg_lane_rng rng;
   gg_lane_rng_load(&rng, lanes);
   for (gg_block *b = c; b < c + n; b++)
