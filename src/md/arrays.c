@@ -47,6 +47,7 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   if (!e) return GG_FAILED;
   e->base.ops = &gg_md_ops;
   e->model = *model;
+  gg_contacts_make(&e->contacts, model);
   for (int a = 0; a < 3; a++) {
     e->box.edge[a] = model->box[a];
     e->box.inverse[a] = 1 / model->box[a];

@@ -13,6 +13,7 @@
 #include "common/rng.h"
 #include "md/box.h"
 #include "md/cells.h"
+#include "md/contacts.h"
 #include "md/queue.h"
 
 typedef struct gg_grain {
@@ -63,6 +64,7 @@ typedef struct gg_md_counts {
 struct gg_md {
   gg_engine base;
   gg_model model;
+  gg_contacts contacts;
   gg_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
   gg_node *node;
   gg_vec *spin; /* surface velocities; NULL for smooth grains */
