@@ -53,7 +53,9 @@ typedef struct gg_pairing {
   double floor, bound;      /* the layer of g_n */
   double drift, drift_step; /* of the first candidate, and from one to the next: rate x time */
   uint64_t candidates;
+  double top_unit; /* of the tops of both at the drift where the stretch begins; in the end, where it ends */
   /* handed back */
+  uint64_t tried; /* pairs of grains looked at */
   uint64_t collisions, overflows;
   double worst;              /* largest g_n seen */
   double stress[3][3], loss; /* if tapped */

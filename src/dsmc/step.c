@@ -5,7 +5,8 @@
 void gg_dsmc_settle(gg_dsmc *d)
 {
   gg_dsmc_state *s = &d->now;
-  gg_moments m = gg_ensemble_settle(&d->ensemble, s->drift, 1, s->centre);
+  double unit = s->temperature > 0 ? s->temperature : d->model.temperature0;
+  gg_moments m = gg_ensemble_settle(&d->ensemble, s->drift, 1, s->centre, unit);
   s->temperature = m.temperature;
   s->fastest = m.fastest;
   s->centre = m.centre;
