@@ -23,7 +23,7 @@ const gg_command gg_commands[] = {
      GG_OPT_OUTPUT | GG_OPT_FORMAT, gg_cli_plot_main},
     {"info", "FILE", "What a result file holds, or every key of a scene and what it switches on and off", NULL,
      GG_OPT_SET | GG_OPT_JSON, gg_cli_info_main},
-    {"bench", "[md|observables]", "How fast the engines are: collisions per second by kernel, density and size",
+    {"bench", "[md|dsmc|observables]", "How fast the engines are: collisions per second by kernel, density and size",
      "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "
      "repeats.\n"
      "md: elastic smooth spheres by size and density, and what roughness, shear, walls, gravity, a second species and\n"

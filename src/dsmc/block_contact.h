@@ -26,7 +26,9 @@ typedef struct gg_batch {
   gg_lane_rng rng;
   gg_directions near, sheared; /* about C12, and by the law |k_x k_y| */
   gg_vu word[GG_PARTS];        /* random: a half for each of two visits */
-  double floor, bound;         /* the layer of |C12| */
+  bool half_left;
+  gg_mask sorts;       /* lanes change places by speed, not at random */
+  double floor, bound; /* the layer of |C12| */
   double s0, shift;
   double per_unit;              /* of the tops */
   double next_drift, next_unit; /* of the next draws */

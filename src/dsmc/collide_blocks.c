@@ -9,13 +9,15 @@
  * Rejection. The bound of all pairs is set by the fastest grains of all. So two blocks that are drawn are visited with
  * probability (sum of their tops)/(that bound) only, and their lanes judged under the sum of their tops, which comes to
  * the same rate for every pair of grains. After a visit the faster grain of each lane lies in the block of lower
- * number: any order would do, as the lanes are, but this one sorts grains by speed, and bounds are tighter yet. Half
- * the candidates collide, against a quarter without. */
+ * number: any order would do, but this one sorts grains by speed, and bounds are tighter yet. Half the candidates
+ * collide, against a quarter without. Below a thousand blocks lanes change places at random instead: eight fast grains
+ * that always act at once would be too large a part of the ensemble. */
 #include "dsmc/collide_blocks.h"
 
 #include "dsmc/block_contact.h"
 
-enum { DRAWS = 32 }; /* block pairs drawn at a time, and those to be visited prefetched */
+enum { SORTED = 999 }; /* blocks, at least, to be sorted by speed */
+enum { DRAWS = 32 };   /* block pairs drawn at a time, and those to be visited prefetched */
 
 /* What is to be visited, in order of time. Lists as gg_pack leaves them: each a double's worth of bits. */
 typedef struct gg_draw {
@@ -88,7 +90,7 @@ GG_INLINE void turn(gg_features f, gg_batch *w, gg_mask swap, const gg_meeting *
 }
 
 /* Grains of one species change places so that the faster one is in the first block. Returns where. */
-GG_INLINE gg_mask push(gg_features f, gg_batch *w, const gg_meeting *at, int part, gg_vd3 J, gg_fastest *top)
+GG_INLINE gg_mask push(gg_features f, gg_batch *w, const gg_meeting *at, int part, gg_vd3 J, gg_vu r, gg_fastest *top)
 {
   const gg_contact *c = &w->contact;
   if (f.shear != GG_UNSHEARED) J.x += at->drift * J.y; /* as stored velocities have it */
@@ -96,8 +98,9 @@ GG_INLINE gg_mask push(gg_features f, gg_batch *w, const gg_meeting *at, int par
   gg_vd3 a = gg_vd3_sub(at->ca[part], push_a), b = gg_vd3_add(at->cb[part], push_b);
   gg_vd3 Ca = streamed(f, at->drift, a), Cb = streamed(f, at->drift, b);
   gg_vd a2 = gg_vd3_dot(Ca, Ca), b2 = gg_vd3_dot(Cb, Cb);
-  gg_mask swap = gg_less(a2, b2);
-  gg_vd first = f.same ? gg_larger(a2, b2) : a2, second = f.same ? gg_smaller(a2, b2) : b2;
+  /* Bit 32 of r decides nothing else but whether the last of 32 bits of a random number is set. */
+  gg_mask swap = gg_or(gg_and(gg_less(a2, b2), w->sorts), gg_and_not(gg_low_bit(r >> 32), w->sorts));
+  gg_vd first = f.same ? gg_select(swap, b2, a2) : a2, second = f.same ? gg_select(swap, a2, b2) : b2;
   top->a = part ? gg_larger(top->a, first) : first;
   top->b = part ? gg_larger(top->b, second) : second;
   if (f.same) exchange(swap, &a, &b);
@@ -116,7 +119,7 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, in
   if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, &w->contact, e.k, g, e.gn);
   tally(f, w, part, &e, g, J);
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
-  gg_mask swap = push(f, w, at, part, J, top);
+  gg_mask swap = push(f, w, at, part, J, r, top);
   if (f.rule != GG_SMOOTH) turn(f, w, swap, at, part, gg_vd3_cross(e.k, J));
 }
 
@@ -174,31 +177,31 @@ GG_INLINE bool any_faster(const gg_meeting *at, double bound)
   return over != 0;
 }
 
-/* `second`: the other half of the last random words will do. */
-GG_INLINE void collide(gg_features f, gg_batch *w, const gg_meeting *at, double bound, bool second)
+GG_INLINE void collide(gg_features f, gg_batch *w, const gg_meeting *at, double bound)
 {
   gg_fastest top;
   gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
   if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
   for (int part = 0; part < GG_PARTS; part++) {
-    w->word[part] = second ? w->word[part] << 32 : gg_lane_next(&w->rng, part);
+    w->word[part] = w->half_left ? w->word[part] << 32 : gg_lane_next(&w->rng, part);
     w->worst = gg_larger(w->worst, at->v2[part]);
     collide_part(f, w, at, part, bound, w->word[part], &top);
   }
+  w->half_left = !w->half_left;
   w->visits++;
   gg_v2 peaks = gg_peaks(top.a, top.b) * w->per_unit;
   w->top_one[at->a] = (float)peaks[0];
   w->top_two[at->b] = (float)peaks[1];
 }
 
-GG_INLINE void visit(gg_features f, gg_batch *w, gg_meeting *at, double bound, bool second, gg_rng *rng)
+GG_INLINE void visit(gg_features f, gg_batch *w, gg_meeting *at, double bound, gg_rng *rng)
 {
   bool again = false;
   if (__builtin_expect(any_faster(at, bound), 0)) bound = reconsider(f, w, at, bound, rng, &again);
   for (;;) {
-    collide(f, w, at, bound, second);
+    collide(f, w, at, bound);
     if (__builtin_expect(!again, 1)) break;
-    again = second = false;
+    again = false;
     look(f, w, at, 0);
   }
 }
@@ -314,6 +317,7 @@ GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_r
                   .next_drift = p->drift,
                   .next_unit = p->top_unit};
   w->bound = p->floor + p->bound - w->s0;
+  w->sorts = gg_less(gg_all(SORTED), gg_all((double)p->one->n_blocks));
   gg_lane_rng_load(&w->rng, lanes);
 }
 
@@ -362,7 +366,7 @@ GG_INLINE void visit_all(gg_features f, gg_batch *w, const gg_draw *now, const g
       p->top_unit = now->unit;
       gg_collide_odd_blocks(f, p, at.a, at.b, (unsigned)item(now->order, i) % GG_LANES, rng);
     } else {
-      visit(f, w, &at, now->bound[i], i % 2, rng);
+      visit(f, w, &at, now->bound[i], rng);
     }
     if (__builtin_expect(touched, 0)) look(f, w, &ahead, (unsigned)item(now->order, i + 1) % GG_LANES);
   }
