@@ -14,6 +14,8 @@ static const struct {
 } subjects[] = {
     {NULL, gg_bench_overview},
     {"md", gg_bench_md},
+    {"dsmc", gg_bench_dsmc},
+    {"observables", gg_bench_observables},
 };
 enum { N_SUBJECTS = sizeof subjects / sizeof *subjects };
 

@@ -155,7 +155,8 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
     m->temperature0 = s->temperature / (speed * speed);
   }
   m->ratio0 = guess_ratio(m);
-  m->steady = !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
+  m->small_shear = s->small_shear == GG_ON;
+  m->steady = !m->small_shear && !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;
 }

@@ -168,6 +168,7 @@ const gg_engine_ops gg_md_ops = {
     .advance = advance,
     .tap = tap,
     .read_tap = read_tap,
+    .watch = gg_md_watch,
     .state = state,
     .snapshot = gg_md_snapshot,
     .rescale = rescale,

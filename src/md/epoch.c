@@ -5,15 +5,14 @@
 
 #include "md/thermostat.h"
 
-enum { EVENTS_PER_BUCKET = 4, COLLISIONS_TO_MEASURE = 16 };
+enum { COLLISIONS_TO_MEASURE = 16 };
 
-/* A power of two, so that spans of whole buckets subtract exactly. */
+/* Few binary digits, so that spans of whole buckets subtract exactly. */
 double gg_md_bucket_width(double events_per_time)
 {
-  double width = EVENTS_PER_BUCKET / events_per_time;
   int exponent;
-  frexp(width, &exponent);
-  return ldexp(1, exponent - 1);
+  double mantissa = frexp(GG_BUCKET_MEAN / events_per_time, &exponent);
+  return ldexp(floor(8 * mantissa), exponent - 3);
 }
 
 /* The present mean free time per grain: each collision counts for both partners. */

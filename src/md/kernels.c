@@ -122,5 +122,7 @@ void gg_md_select(gg_md *e)
   e->motion = kernel.run;
   e->predict_all = kernel.predict_all;
   e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
+  e->watched = e->impact;
+  if (e->watch) e->impact = gg_md_show_impact;
   e->wall_impact = e->spin ? spinning_impacts[rule][timed][tap] : wall_impacts[e->model.wall_rule][timed][tap];
 }
