@@ -27,7 +27,8 @@ const gg_command gg_commands[] = {
      "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "
      "repeats.\n"
      "md: elastic smooth spheres by size and density, and what roughness, shear, walls, gravity, a second species and\n"
-     "an open stress tap cost, scenes timed in turn. Run it on an idle machine.",
+     "an open stress tap cost, scenes timed in turn. Run it on an idle machine.\n"
+     "dsmc: the same for Enskog Monte Carlo, as nanoseconds per accepted collision.",
      GG_OPT_JSON | GG_OPT_SEED | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
     {0},
 };
