@@ -15,6 +15,7 @@ static const struct {
     {NULL, gg_bench_overview},
     {"md", gg_bench_md},
     {"dsmc", gg_bench_dsmc},
+    {"observables", gg_bench_observables},
 };
 enum { N_SUBJECTS = sizeof subjects / sizeof *subjects };
 

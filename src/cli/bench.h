@@ -27,7 +27,7 @@ typedef struct gg_bench {
 
 /* A subject measures and fills sheets. */
 typedef gg_status gg_bench_subject(gg_bench *b, gg_error *err);
-gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc;
+gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc, gg_bench_observables;
 
 /* A new, empty sheet, owned by the frame; NULL with the message if out of memory. Strings must be literals. */
 gg_bench_sheet *gg_bench_new_sheet(gg_bench *b, const char *key, const char *caption, int keep, gg_error *err);

@@ -1,5 +1,7 @@
 /* The collision step as the textbooks have it, one candidate after another: the oracle of the fast kernels, and the
  * path of ensembles too small for blocks. */
+#include <math.h>
+
 #include "dsmc/pairing.h"
 
 typedef struct gg_pair {
@@ -15,6 +17,19 @@ static void fetch(gg_features f, const gg_pairing *p, gg_pair *q)
   if (f.shear == GG_UNSHEARED) return;
   q->ca.x -= p->drift * q->ca.y;
   q->cb.x -= p->drift * q->cb.y;
+}
+
+static void show(gg_pairing *p, const gg_pair *q, gg_vec k, gg_vec c12)
+{
+  double *one = &p->watching->last[p->species[0]][q->a], *two = &p->watching->last[p->species[1]][q->b];
+  gg_seen_collision m = {.species = {p->species[0], p->species[1]},
+                         .k = k,
+                         .c12 = c12,
+                         .c = {q->ca, q->cb},
+                         .height = {NAN, NAN},
+                         .since = {p->time - *one, p->time - *two}};
+  p->watching->watch(p->watching->context, &m);
+  *one = *two = p->time;
 }
 
 static void tally(gg_features f, gg_pairing *p, gg_vec k, gg_vec g, gg_vec J)
@@ -39,6 +54,7 @@ static void collide(gg_features f, gg_pairing *p, gg_pair *q, gg_vec k, gg_vec c
     q->sa = gg_block_get(p->one->s, q->a);
     q->sb = gg_block_get(p->two->s, q->b);
   }
+  if (p->watching) show(p, q, k, c12);
   gg_vec g = gg_contact_velocity(f.rule, k, c12, q->sa, q->sb), J = gg_impulse(f.rule, &p->contact, k, g, gn);
   tally(f, p, k, g, J);
   gg_kick(f.rule, &p->contact, k, J, &q->ca, &q->sa, &q->cb, &q->sb);
@@ -73,7 +89,7 @@ static void attempt(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, gg_rng
 
 void gg_collide_plain(gg_features f, gg_pairing *p, gg_rng *rng)
 {
-  for (uint64_t i = 0; i < p->candidates; i++, p->drift += p->drift_step) {
+  for (uint64_t i = 0; i < p->candidates; i++, p->drift += p->drift_step, p->time += p->time_step) {
     /* Two different grains, every pair as likely as any other. */
     uint32_t a = gg_rng_below(rng, (uint32_t)p->one->n), b = gg_rng_below(rng, (uint32_t)p->two->n - f.same);
     if (f.same && b >= a) b++;

@@ -83,6 +83,7 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
     p.floor = base;
     p.bound = bound;
     p.candidates = candidates(d, gg_pair_index(i, j), rate * bound, base > 0);
+    if (d->watching.watch) gg_dsmc_show_to_watcher(d, i, j, dt, &p);
     p.drift_step = p.candidates ? span / (double)p.candidates : 0;
     p.drift = drift + 0.5 * p.drift_step;
     gg_ensemble_drift_tops(&d->ensemble, drift);

@@ -34,8 +34,18 @@ typedef struct gg_features {
   bool same; /* both grains of one species */
 } gg_features;
 
+/* Whom the plain path shows its collisions to. */
+typedef struct gg_watching {
+  gg_watch *watch;
+  void *context;
+  double *last[GG_MAX_SPECIES]; /* when each grain last collided; -INFINITY: not yet */
+} gg_watching;
+
 typedef struct gg_pairing {
   /* given */
+  gg_watching *watching;  /* NULL: nobody looks */
+  int species[2];         /* for the watcher */
+  double time, time_step; /* the same: of the first candidate, and from one to the next */
   gg_population *one, *two;
   gg_contact contact;
   double shift;             /* sigma x rate */

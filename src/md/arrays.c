@@ -1,41 +1,56 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "common/thermostat.h"
 #include "md/state.h"
 
-/* Hot records on cache lines; zeroed. */
-static void *new_lines(size_t count, size_t size, gg_error *err)
+#define HUGE_PAGE ((size_t)2 << 20)
+
+/* Events jump all over these arrays: with pages of 4 KiB nearly every jump in a large system would miss the TLB, too. */
+void *gg_md_new_lines(size_t count, size_t size, gg_error *err)
 {
-  size_t bytes = (count * size + 63) / 64 * 64;
-  void *block = aligned_alloc(64, bytes ? bytes : 64);
+  size_t bytes = (count * size + 63) / 64 * 64 + 64;
+  bool huge = bytes >= 2 * HUGE_PAGE;
+  void *block = aligned_alloc(huge ? HUGE_PAGE : 64, huge ? (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE : bytes);
   if (!block) {
-    gg_fail(err, GG_FAILED, "out of memory: %zu grains of %zu bytes were asked for", count, size);
+    gg_fail(err, GG_FAILED, "out of memory: %zu items of %zu bytes were asked for", count, size);
     return NULL;
   }
+#ifdef MADV_HUGEPAGE
+  if (huge) madvise(block, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE); /* a wish: no matter if it is not granted */
+#endif
   memset(block, 0, bytes);
   return block;
+}
+
+gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
+{
+  e->last = gg_new_array(e->n, sizeof *e->last, err);
+  if (!e->last) return GG_FAILED;
+  for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
+  return GG_OK;
 }
 
 static gg_status allocate(gg_md *e, gg_error *err)
 {
   const gg_model *m = &e->model;
   e->n = (uint32_t)m->n;
-  e->grain = new_lines((size_t)e->n + 1, sizeof *e->grain, err);
-  e->node = new_lines(e->n, sizeof *e->node, err);
+  e->grain = gg_md_new_lines((size_t)e->n + 1, sizeof *e->grain, err);
+  e->node = gg_md_new_lines(e->n, sizeof *e->node, err);
   e->id = gg_new_array(e->n, sizeof *e->id, err);
   if (!e->grain || !e->node || !e->id) return GG_FAILED;
   e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
   if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
-  if (m->contact_time > 0 && !(e->last = gg_new_array(e->n, sizeof *e->last, err))) return GG_FAILED;
+  if (m->contact_time > 0) GG_TRY(gg_md_allocate_last(e, err));
   return gg_queue_make(&e->queue, e->n, err);
 }
 
 gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
 {
-  e->shell = new_lines((size_t)e->n + 1, sizeof *e->shell, err);
-  e->neighbour = new_lines(e->n, GG_LIST * sizeof *e->neighbour, err);
+  e->shell = gg_md_new_lines((size_t)e->n + 1, sizeof *e->shell, err);
+  e->neighbour = gg_md_new_lines(e->n, GG_LIST * sizeof *e->neighbour, err);
   if (!e->shell || !e->neighbour) return GG_FAILED;
   e->shell[e->n].centre = (gg_vec){NAN, NAN, NAN};
   return GG_OK;

@@ -10,7 +10,8 @@
 #include "common/error.h"
 #include "md/box.h"
 
-#define GG_NONE UINT32_MAX
+/* arrays.c: a zeroed array on cache lines, in huge pages if it is large. Released by free(). */
+void *gg_md_new_lines(size_t count, size_t size, gg_error *err);
 
 typedef struct gg_cells {
   int32_t n[3];

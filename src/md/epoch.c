@@ -5,15 +5,14 @@
 
 #include "md/thermostat.h"
 
-enum { EVENTS_PER_BUCKET = 4, COLLISIONS_TO_MEASURE = 16 };
+enum { COLLISIONS_TO_MEASURE = 16 };
 
-/* A power of two, so that spans of whole buckets subtract exactly. */
+/* Few binary digits, so that spans of whole buckets subtract exactly. */
 double gg_md_bucket_width(double events_per_time)
 {
-  double width = EVENTS_PER_BUCKET / events_per_time;
   int exponent;
-  frexp(width, &exponent);
-  return ldexp(1, exponent - 1);
+  double mantissa = frexp(GG_BUCKET_MEAN / events_per_time, &exponent);
+  return ldexp(floor(8 * mantissa), exponent - 3);
 }
 
 /* The present mean free time per grain: each collision counts for both partners. */
@@ -24,7 +23,7 @@ static void measure_free_time(gg_md *e, double span)
   if (k->window_collisions < COLLISIONS_TO_MEASURE) return;
   double old = k->free_time;
   k->free_time = k->window_time * e->n / (2.0 * (double)k->window_collisions);
-  k->contact_time *= k->free_time / old;
+  if (e->gravity.y == 0) k->contact_time *= k->free_time / old;
   k->window_time = 0;
   k->window_collisions = 0;
 }

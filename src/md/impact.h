@@ -11,6 +11,7 @@ typedef struct gg_impact_features {
   gg_rule rule;
   bool mixture, contact_time, tap;
   bool gaussian; /* thermostat: the energy that goes is returned by a slower clock */
+  bool spins;    /* at walls: else the wall acts on the grain's centre alone */
 } gg_impact_features;
 
 /* Contact-time rule: a grain that collided less than t_c ago is still "in contact", and collides with e = 1, so that an
@@ -96,7 +97,7 @@ GG_INLINE void gg_impact_wall(gg_md *e, gg_impact_features f, uint32_t i, int up
   double overlap = 0.5 * e->model.diameter[a] - gap;
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
   gg_vec k = {0, side, 0}, wall = {side * e->model.wall_speed, 0, 0}, none = {0, 0, 0};
-  gg_vec wall_v = wall, still = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i];
+  gg_vec wall_v = wall, still = {0, 0, 0}, *s1 = f.spins ? &e->spin[i] : &none;
   gg_vec g = gg_contact_velocity(f.rule, k, gg_sub(one->v, wall), *s1, still);
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
   gg_kick(f.rule, contact, k, J, &one->v, s1, &wall_v, &still);

@@ -41,18 +41,34 @@ GG_INLINE void gg_schedule(gg_md *e, gg_features f, gg_search *s)
   gg_queue_insert(&e->queue, e->node, s->grain);
 }
 
-GG_INLINE void gg_predict(gg_md *e, gg_features f, uint32_t i)
+/* All that a grain can meet, from scratch. */
+GG_INLINE void gg_search_all(gg_md *e, gg_features f, gg_search *s, uint32_t i)
 {
   e->node[i].collision = INFINITY;
   e->node[i].partner = GG_NONE;
-  gg_search s;
-  gg_begin_search(&s, i, gg_settle(e, f, i), INFINITY, GG_NONE);
+  gg_begin_search(s, i, gg_settle(e, f, i), INFINITY, GG_NONE);
   if (f.listed)
-    gg_scan_batches(e, f, &s, gg_list(e, i), e->node[i].neighbours);
+    gg_scan_batches(e, f, s, gg_list(e, i), e->node[i].neighbours);
   else
-    gg_scan_around(e, f, &s);
-  if (f.wide) gg_scan_near(e, f, &s);
+    gg_scan_around(e, f, s);
+  if (f.wide) gg_scan_near(e, f, s);
+}
+
+GG_INLINE void gg_predict(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_search s;
+  gg_search_all(e, f, &s, i);
   gg_schedule(e, f, &s);
+}
+
+/* Both searches before either goes into the calendar: the processor works on both at a time. */
+GG_INLINE void gg_predict_two(gg_md *e, gg_features f, uint32_t i, uint32_t j)
+{
+  gg_search one, two;
+  gg_search_all(e, f, &one, i);
+  gg_search_all(e, f, &two, j);
+  gg_schedule(e, f, &one);
+  gg_schedule(e, f, &two);
 }
 
 /* Through the sheared boundary: the image that takes the grain's place has another velocity and cell. */
@@ -121,8 +137,7 @@ GG_INLINE void gg_collide(gg_md *e, gg_features f, uint32_t i, uint32_t j)
   one->stamp += 2;
   two->stamp += 2;
   e->k.collisions++;
-  gg_predict(e, f, i);
-  gg_predict(e, f, j);
+  gg_predict_two(e, f, i, j);
 }
 
 GG_INLINE void gg_hit_wall(gg_md *e, gg_features f, uint32_t i, int upper)

@@ -1,6 +1,8 @@
 /* The calendar of events, one entry a grain: buckets of equal width over the present epoch (a bounded-increment
- * priority queue: Paul, J. Comput. Phys. 221 (2007) 615), doubly linked, filled in any order; only the grains of the
- * present bucket stand sorted. Insertion and removal cost O(1). What lies beyond the epoch waits in one last bucket. */
+ * priority queue: Paul, J. Comput. Phys. 221 (2007) 615), each one cache line of grains in any order; only the grains
+ * of the present bucket stand sorted. Insertion and removal cost O(1), touch one line of a bucket and no other grain's
+ * node, and have no branch that is hard to foresee. What finds its bucket full is chained to it; what lies beyond the
+ * epoch is not kept at all: at the epoch's end everybody is inserted anew. */
 #ifndef GG_MD_QUEUE_H
 #define GG_MD_QUEUE_H
 
@@ -10,12 +12,14 @@
 
 #include "common/vec.h"
 
+#define GG_NONE UINT32_MAX
+
 /* A grain's next event and its place in the calendar and the grid: read only by the grain's own events. */
 typedef struct gg_node {
   double time;             /* of the next event */
   double collision;        /* of the next collision known of, >= time; equal: that is the event */
   uint32_t partner, stamp; /* of that collision: with whom, and the partner's stamp when it was predicted */
-  uint32_t later, earlier; /* chain of the bucket */
+  uint32_t later, earlier; /* chain of a full bucket */
   int32_t cell[3];
   uint32_t neighbours; /* in its list */
   int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), GG_SLIDE or GG_SHELL */
@@ -35,11 +39,16 @@ typedef struct gg_due {
   uint32_t grain;
 } gg_due;
 
+enum { GG_BUCKET = 14, GG_BUCKET_MEAN = 6 };
+typedef struct gg_bucket {
+  uint32_t chain, count, grain[GG_BUCKET]; /* chain: first of those beyond the fourteen, GG_NONE */
+} __attribute__((aligned(64))) gg_bucket;
+
 typedef struct gg_queue {
   double inverse_width, width;
   uint32_t n_buckets, current; /* buckets up to and including `current` stand in `due` */
-  uint32_t *head;              /* n_buckets + 1: the last one is beyond the epoch */
-  gg_due *due;                 /* latest first, so that the next event is the last entry */
+  gg_bucket *bucket;
+  gg_due *due; /* latest first, so that the next event is the last entry */
   uint32_t n_due;
 } gg_queue;
 
@@ -47,18 +56,78 @@ gg_status gg_queue_make(gg_queue *q, uint32_t n_grains, gg_error *err);
 void gg_queue_free(gg_queue *q);
 /* Empty it, at bucket 0, with buckets of this width. */
 void gg_queue_reset(gg_queue *q, double width);
-void gg_queue_insert(gg_queue *q, gg_node *node, uint32_t grain);
-void gg_queue_remove(gg_queue *q, gg_node *node, uint32_t grain);
 /* Bring the next non-empty bucket into `due`; false if the epoch is over. */
 bool gg_queue_turn(gg_queue *q, gg_node *node);
-
 /* All times have been multiplied by this power of two. */
 void gg_queue_rescale(gg_queue *q, double factor);
+/* For buckets that overflow. */
+void gg_queue_chain(gg_bucket *bucket, gg_node *node, uint32_t grain);
+void gg_queue_unchain(gg_bucket *bucket, gg_node *node, uint32_t grain);
 
 /* Length of the epoch that the buckets cover. */
 GG_INLINE double gg_queue_span(const gg_queue *q)
 {
   return q->width * q->n_buckets;
+}
+
+/* The same time always falls into the same bucket: removal finds it again. */
+GG_INLINE uint32_t gg_bucket_of(const gg_queue *q, double time)
+{
+  double b = time * q->inverse_width;
+  return b < q->n_buckets ? (uint32_t)b : q->n_buckets;
+}
+
+/* Equal times go by the grain's index, so that the order never depends on the history of the calendar. */
+GG_INLINE bool gg_is_before(gg_due a, gg_due b)
+{
+  return a.time < b.time || (a.time == b.time && a.grain < b.grain);
+}
+
+GG_INLINE void gg_insert_due(gg_queue *q, gg_due new)
+{
+  uint32_t k = q->n_due++;
+  for (; k > 0 && gg_is_before(q->due[k - 1], new); k--) q->due[k] = q->due[k - 1];
+  q->due[k] = new;
+}
+
+GG_INLINE void gg_remove_due(gg_queue *q, uint32_t grain)
+{
+  uint32_t k = q->n_due - 1;
+  while (q->due[k].grain != grain) k--;
+  q->n_due--;
+  for (; k < q->n_due; k++) q->due[k] = q->due[k + 1];
+}
+
+GG_INLINE void gg_queue_insert(gg_queue *q, gg_node *node, uint32_t grain)
+{
+  uint32_t b = gg_bucket_of(q, node[grain].time);
+  if (b <= q->current) {
+    gg_insert_due(q, (gg_due){node[grain].time, grain});
+    return;
+  }
+  if (b == q->n_buckets) return;
+  gg_bucket *bucket = &q->bucket[b];
+  if (bucket->count < GG_BUCKET)
+    bucket->grain[bucket->count++] = grain;
+  else
+    gg_queue_chain(bucket, node, grain);
+}
+
+GG_INLINE void gg_queue_remove(gg_queue *q, gg_node *node, uint32_t grain)
+{
+  uint32_t b = gg_bucket_of(q, node[grain].time);
+  if (b <= q->current) {
+    gg_remove_due(q, grain);
+    return;
+  }
+  if (b == q->n_buckets) return;
+  gg_bucket *bucket = &q->bucket[b];
+  uint32_t at = GG_BUCKET;
+  for (uint32_t k = 0; k < GG_BUCKET; k++) at = bucket->grain[k] == grain && k < bucket->count ? k : at;
+  if (at < GG_BUCKET)
+    bucket->grain[at] = bucket->grain[--bucket->count];
+  else
+    gg_queue_unchain(bucket, node, grain);
 }
 
 #endif
