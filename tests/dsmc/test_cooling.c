@@ -86,8 +86,43 @@ static void friction(void **state)
   gg_dsmc_ops.destroy(c);
 }
 
+/* Ten thousand collisions a grain at constant scaled temperature: the motion of the centre of mass, which rounding
+ * feeds and cooling would let grow as exp(zeta t/2) relative to the thermal speed, stays at rounding, and the second
+ * half of the run has the fourth cumulant of the first. */
+static void long_cooling(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0, 0.9, -1, 4000);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 77);
+  gg_error err = {0};
+  lab_mean half[2] = {{0}, {0}};
+  double drift = 0;
+  gg_engine_state st;
+  lab_advance(g, INFINITY, 20 * (uint64_t)m.n);
+  for (int b = 0; b < 100; b++) {
+    double a2 = 0;
+    for (int i = 0; i < 50; i++) {
+      lab_advance(g, INFINITY, (uint64_t)m.n);
+      lab_view v = lab_snapshot(g);
+      double T = lab_temperature(&v);
+      a2 += (v.c4 / v.n / (15 * T * T) - 1) / 50;
+      for (int a = 0; a < 3; a++) drift = fmax(drift, fabs(v.momentum[a]) / v.n / sqrt(T));
+      if (T < 0x1p-20) assert_int_equal(gg_dsmc_ops.rescale(g, 10, &err), GG_OK);
+    }
+    lab_add(&half[b / 50], a2);
+  }
+  gg_dsmc_ops.state(g, &st);
+  assert_true(2 * (double)st.collisions / (double)m.n > 1e4);
+  printf("# mean velocity over thermal speed: at most %.1e\n", drift);
+  assert_true(drift < 1e-14);
+  lab_expect("a2, second half of 10^4", &half[1], lab_value(&half[0]), lab_error(&half[0]), 0.3);
+  gg_dsmc_ops.destroy(g);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(friction), cmocka_unit_test(smooth), cmocka_unit_test(rough)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(friction), cmocka_unit_test(long_cooling),
+                                     cmocka_unit_test(smooth), cmocka_unit_test(rough)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@ static void gaussian(void **state)
   gg_model m = heated(GG_HSS, GG_NO_THERMOSTAT, 0.2, 0.5, -1, 50000);
   gg_engine *g = lab_engine(&m, 1);
   lab_flow f = {0};
-  lab_average(g, &m, 20, 15, 20, &f);
+  lab_average(g, &m, 20, 40, 20, &f);
   lab_expect("temperature", &f.T, 0.5, 1e-4, 0.002);
   lab_expect("a2", &f.a2, 0.0474, 3e-4, 0.05);
   double zeta = lab_value(&f.loss) / (1.5 * m.density * 0.5) / gg_model_nu0(&m, 0.5);
