@@ -7,13 +7,16 @@
 
 enum gg_boundary { GG_PERIODIC, GG_SHEARED, GG_WALLED, GG_FALLING };
 
+/* Where partners are looked for. */
+enum gg_search_in { GG_CELLS, GG_LISTS, GG_SHARED_CELLS };
+
 typedef struct gg_kernel {
   gg_motion *run;
   gg_forecast *predict_all;
 } gg_kernel;
 
-gg_kernel gg_md_wide_any(enum gg_boundary boundary, bool mixture, bool listed);
-gg_kernel gg_md_wide_avx2(enum gg_boundary boundary, bool mixture, bool listed);
-gg_kernel gg_md_wide_avx512(enum gg_boundary boundary, bool mixture, bool listed);
+gg_kernel gg_md_wide_any(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
+gg_kernel gg_md_wide_avx2(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
+gg_kernel gg_md_wide_avx512(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
 
 #endif

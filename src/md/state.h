@@ -85,6 +85,7 @@ struct gg_md {
   double outer_stop;        /* the same in outside time since it began; INFINITY: none */
   uint64_t collisions_left; /* of the present advance */
   bool plain;               /* one pair at a time, the reference for the tests */
+  bool shared;              /* the cells overlap (shared.h) */
   bool out_of_memory;       /* a cell could not grow: the run is over */
   gg_motion *motion;
   gg_forecast *predict_all;
@@ -111,6 +112,8 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
+/* Cells that overlap (shared.h), where the gas is dilute and the box wide enough. */
+gg_status gg_md_make_shared(gg_md *e, gg_error *err);
 void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);
 
 /* lists.c: every grain's shell and list anew at the present time; the shells get smaller where lists overflow. */
