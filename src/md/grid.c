@@ -95,7 +95,7 @@ bool gg_md_fill_grid(gg_md *e)
 {
   gg_cells_clear(&e->cells);
   for (uint32_t i = 0; e->shared && i < e->n; i++)
-    if (!gg_shared_enter(e, i)) return false;
+    if (!gg_shared_enter(e, i, -1, 0)) return false;
   if (e->shared) return true;
   for (uint32_t i = 0; i < e->n; i++)
     while (!gg_cell_add(&e->cells, e->node[i].cell, i))

@@ -59,7 +59,7 @@ GG_INLINE void gg_search_all(gg_md *e, gg_features f, gg_search *s, uint32_t i)
   if (f.listed)
     gg_scan_batches(e, f, s, gg_list(e, i), e->node[i].neighbours);
   else if (f.shared)
-    gg_check_memory(e, gg_shared_scan(e, f, s));
+    gg_shared_scan(e, f, s);
   else
     gg_scan_around(e, f, s);
   if (f.wide) gg_scan_near(e, f, s);
@@ -102,7 +102,7 @@ GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
   if (f.sheared && node->face == GG_SLIDE) {
     gg_shared_slides(e, f, &s);
   } else if (gg_is_last(e, f, axis, node->cell[axis] + (up ? (int)(node->neighbours >> axis & 1) : 0), up)) {
-    gg_shared_leave(e, i);
+    gg_shared_leave(e, i, -1, 0);
     int side = up ? 1 : -1;
     g->r.y -= side * e->box.edge[1];
     gg_cross_sheared(e, g, node, side);
@@ -110,7 +110,7 @@ GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
     gg_vec r = g->r;
     r.y = up ? 0 : e->box.edge[1];
     gg_shared_place(e, f, r, node);
-    gg_check_memory(e, gg_shared_enter(e, i));
+    gg_check_memory(e, gg_shared_enter(e, i, -1, 0));
     gg_predict(e, f, i);
     return;
   } else {

@@ -9,13 +9,15 @@
 #ifndef GG_MD_SHARED_H
 #define GG_MD_SHARED_H
 
+#include <math.h>
+
 #include "md/lists.h"
 
 /* From the lower edge of its lower cell to where a grain is, nearest image. */
 GG_INLINE double gg_depth(const gg_md *e, const gg_node *node, int axis, double x)
 {
-  double depth = x - node->cell[axis] * e->cells.width[axis], edge = e->box.edge[axis];
-  return depth > 0.5 * edge ? depth - edge : depth < -0.5 * edge ? depth + edge : depth;
+  double depth = x - node->cell[axis] * e->cells.width[axis];
+  return depth - e->box.edge[axis] * gg_nearest(depth * e->box.inverse[axis]);
 }
 
 /* Is there no cell beyond, upwards or downwards? */
@@ -41,22 +43,28 @@ GG_INLINE uint32_t gg_shared_cells(const gg_md *e, const gg_node *node, int axis
   return count;
 }
 
-GG_INLINE void gg_shared_leave(gg_md *e, uint32_t i)
+/* Out of the cells `only` along `axis`, or of all (axis -1). What stands behind a cell's end may be anybody: the first
+ * place found is the one. No branch depends on where it is. */
+GG_INLINE void gg_shared_leave(gg_md *e, uint32_t i, int axis, int32_t only)
 {
   size_t index[8];
-  uint32_t n = gg_shared_cells(e, &e->node[i], -1, 0, index);
+  uint32_t n = gg_shared_cells(e, &e->node[i], axis, only, index), stride = e->cells.stride;
   for (uint32_t k = 0; k < n; k++) {
-    uint32_t *cell = e->cells.cell + index[k] * e->cells.stride, m = 1;
-    while (cell[m] != i) m++;
-    cell[m] = cell[cell[0]--];
+    uint32_t *cell = e->cells.cell + index[k] * stride, at = UINT32_MAX;
+    for (uint32_t base = 0; at == UINT32_MAX; base += 8)
+      for (uint32_t m = base ? 0 : 1; m < 8; m++) {
+        uint32_t found = cell[base + m] == i ? base + m : UINT32_MAX;
+        at = found < at ? found : at;
+      }
+    cell[at] = cell[cell[0]--];
   }
 }
 
-/* False: out of memory. */
-GG_INLINE bool gg_shared_enter(gg_md *e, uint32_t i)
+/* Into them. False: out of memory. */
+GG_INLINE bool gg_shared_enter(gg_md *e, uint32_t i, int axis, int32_t only)
 {
   size_t index[8];
-  uint32_t n = gg_shared_cells(e, &e->node[i], -1, 0, index);
+  uint32_t n = gg_shared_cells(e, &e->node[i], axis, only, index);
   for (uint32_t k = 0; k < n; k++) {
     uint32_t *cell = e->cells.cell + index[k] * e->cells.stride;
     if (cell[0] + 1 == e->cells.stride) {
@@ -85,15 +93,24 @@ GG_INLINE void gg_shared_place(const gg_md *e, gg_features f, gg_vec r, gg_node 
   }
 }
 
-/* Along one axis: which cells the grain is no longer in. */
-GG_INLINE void gg_shared_trim(const gg_md *e, gg_node *node, int axis, double x)
+GG_INLINE int32_t gg_cell_after(const gg_md *e, int axis, int32_t cell)
 {
-  double half = 0.5 * e->cells.reach, width = e->cells.width[axis], depth = gg_depth(e, node, axis, x);
+  return cell + 1 == e->cells.n[axis] ? 0 : cell + 1;
+}
+
+/* Out of the cells along one axis that the grain is beyond by now. */
+GG_INLINE void gg_shared_trim(gg_md *e, uint32_t i, int axis, double x)
+{
+  gg_node *node = &e->node[i];
+  double half = 0.5 * e->cells.reach, width = e->cells.width[axis];
   if (!(node->neighbours >> axis & 1)) return;
+  double depth = gg_depth(e, node, axis, x);
   if (depth > width + half) {
+    gg_shared_leave(e, i, axis, node->cell[axis]);
     node->neighbours &= ~(1u << axis);
-    node->cell[axis] = node->cell[axis] + 1 == e->cells.n[axis] ? 0 : node->cell[axis] + 1;
+    node->cell[axis] = gg_cell_after(e, axis, node->cell[axis]);
   } else if (depth < width - half) {
+    gg_shared_leave(e, i, axis, node->cell[axis] + 1);
     node->neighbours &= ~(1u << axis);
   }
 }
@@ -108,10 +125,13 @@ GG_INLINE double gg_shared_next(const gg_md *e, gg_features f, const gg_search *
     double v = gg_along(&s->self->v, a), width = e->cells.width[a];
     double depth = gg_depth(e, node, a, gg_along(&s->self->r, a));
     int up = v > 0, both = node->neighbours >> a & 1;
-    double beyond = gg_is_last(e, f, a, node->cell[a] + (up ? both : 0), up) ? 0 : half; /* or through the boundary */
-    double way = up ? (both + 1) * width - beyond - depth : depth - beyond, speed = up ? v : -v;
-    double delay = speed > 0 ? way / speed : INFINITY;
-    delay = delay > 0 ? delay : 0;
+    double way[2] = {depth - half, (both + 1) * width - half - depth};
+    if (f.sheared && a == 1) { /* or through the boundary */
+      if (gg_is_last(e, f, a, node->cell[a] + (up ? both : 0), up)) way[up] += half;
+    }
+    double delay = way[up] / fabs(v);
+    delay = delay > 0 ? delay : 0; /* at rest: NAN or infinite */
+    delay = v != 0 ? delay : INFINITY;
     *face = delay < first ? 2 * a + up : *face;
     first = delay < first ? delay : first;
   }
@@ -162,17 +182,11 @@ GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, int a
 }
 
 /* All who share a cell with the grain, after it has been taken out of cells that it has left. */
-GG_INLINE bool gg_shared_scan(gg_md *e, gg_features f, gg_search *s)
+GG_INLINE void gg_shared_scan(gg_md *e, gg_features f, gg_search *s)
 {
-  gg_node *node = &e->node[s->grain];
-  bool good = true;
-  if (node->neighbours) {
-    gg_shared_leave(e, s->grain);
-    for (int a = 0; a < 3; a++) gg_shared_trim(e, node, a, gg_along(&s->self->r, a));
-    good = gg_shared_enter(e, s->grain);
-  }
+  if (e->node[s->grain].neighbours)
+    for (int a = 0; a < 3; a++) gg_shared_trim(e, s->grain, a, gg_along(&s->self->r, a));
   gg_shared_take(e, f, s, -1, 0);
-  return good;
 }
 
 /* Into the next cell along an axis: those who are there. */
@@ -181,19 +195,20 @@ GG_INLINE bool gg_shared_cross(gg_md *e, gg_features f, gg_search *s, int axis, 
   gg_node *node = &e->node[s->grain];
   gg_grain *g = &e->grain[s->grain];
   int32_t n = e->cells.n[axis], *cell = &node->cell[axis];
-  gg_shared_leave(e, s->grain);
-  for (int a = 0; a < 3; a++)
-    if (a != axis) gg_shared_trim(e, node, a, gg_along(&g->r, a));
+  if (node->neighbours & ~(1u << axis))
+    for (int a = 0; a < 3; a++)
+      if (a != axis) gg_shared_trim(e, s->grain, a, gg_along(&g->r, a));
+  if (node->neighbours >> axis & 1) gg_shared_leave(e, s->grain, axis, up ? *cell : *cell + 1);
   if (!up)
     *cell = *cell ? *cell - 1 : n - 1;
   else if (node->neighbours >> axis & 1)
-    *cell = *cell + 1 == n ? 0 : *cell + 1;
+    *cell = gg_cell_after(e, axis, *cell);
   node->neighbours |= 1u << axis;
   if (!(f.sheared && axis == 1)) {
     double *x = gg_component(&g->r, axis);
     *x = gg_wrap(*x, e->box.edge[axis], e->box.inverse[axis]);
   }
-  bool good = gg_shared_enter(e, s->grain);
+  bool good = gg_shared_enter(e, s->grain, axis, *cell + up);
   gg_shared_take(e, f, s, axis, *cell + up);
   return good;
 }
