@@ -35,8 +35,8 @@ GG_INLINE gg_v8 gg_all(double x)
   return (gg_v8){x, x, x, x, x, x, x, x};
 }
 
-/* Comparisons, choices and bounds by lane. Written out for registers of 512 bits, whose masks the compiler does not find
- * by itself. */
+/* Comparisons, choices and bounds by lane. Written out for registers of 512 bits, whose masks the compiler does not
+ * find by itself. */
 #if defined(__AVX512F__)
 #define GG_COMPARE8(name, predicate)                                                                                   \
   GG_INLINE gg_k8 name(gg_v8 x, gg_v8 y)                                                                               \

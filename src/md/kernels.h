@@ -7,9 +7,6 @@
 
 enum gg_boundary { GG_PERIODIC, GG_SHEARED, GG_WALLED, GG_FALLING };
 
-/* Where partners are looked for. */
-enum gg_search_in { GG_CELLS, GG_LISTS, GG_SHARED_CELLS };
-
 typedef struct gg_kernel {
   gg_motion *run;
   gg_forecast *predict_all;

@@ -188,12 +188,38 @@ GG_INLINE void gg_hit_wall(gg_md *e, gg_features f, uint32_t i, int upper)
   gg_predict(e, f, i);
 }
 
+/* Of a grain that will come into another cell: that cell, or the grains in it. Else the partner. */
+GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
+{
+  const gg_node *node = &e->node[i];
+  const gg_cells *c = &e->cells;
+  if (!(node->time < node->collision)) {
+    if (GG_NO_GRAIN(node->partner) || members) return;
+    __builtin_prefetch(&e->grain[node->partner]);
+    __builtin_prefetch(&e->node[node->partner]);
+    return;
+  }
+  if (node->face == GG_SLIDE) return;
+  int axis = node->face >> 1, up = node->face & 1;
+  int32_t at[3] = {node->cell[0], node->cell[1], node->cell[2]};
+  if (!up)
+    at[axis]--;
+  else
+    at[axis] = (node->neighbours >> axis & 1 ? gg_cell_after(e, axis, at[axis]) : at[axis]) + 1;
+  const uint32_t *cell = c->cell + (size_t)(c->part[0][at[0]] + c->part[1][at[1]] + c->part[2][at[2]]) * c->stride;
+  if (!members)
+    __builtin_prefetch(cell);
+  else
+    for (uint32_t m = 1; m <= 8; m++) __builtin_prefetch(&e->grain[m <= cell[0] ? cell[m] : i]);
+}
+
 /* Bring what the events of a new bucket will read into the cache while the first of them are handled. */
 GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
 {
   for (uint32_t k = 0; k < e->queue.n_due; k++) {
     uint32_t i = e->queue.due[k].grain, j = e->node[i].partner;
     __builtin_prefetch(&e->grain[i]);
+    if (f.shared) gg_prefetch_shared(e, i, false);
     if (!f.listed || GG_NO_GRAIN(j)) continue;
     __builtin_prefetch(&e->grain[j]);
     __builtin_prefetch(&e->node[j]);
@@ -212,6 +238,14 @@ GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
   if (GG_NO_GRAIN(j)) return;
   const uint32_t *others = gg_list(e, j);
   for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[others[k]]);
+}
+
+/* While one event is handled, what the next ones will read is on its way. */
+GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
+{
+  uint32_t n = e->queue.n_due;
+  if (f.listed) gg_prefetch_neighbours(e, f);
+  if (f.shared && n >= 2) gg_prefetch_shared(e, e->queue.due[n - 2].grain, true);
 }
 
 /* The next event of all; GG_NONE if there is none before e->stop. */
@@ -236,7 +270,7 @@ GG_INLINE void gg_loop(gg_md *e, gg_features f)
 {
   uint32_t i;
   while (e->collisions_left && (i = gg_next(e, f)) != GG_NONE) {
-    gg_prefetch_neighbours(e, f);
+    gg_prefetch_next(e, f);
     const gg_node *node = &e->node[i];
     uint32_t partner = node->partner;
     e->k.now = node->time;

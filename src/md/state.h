@@ -27,7 +27,7 @@ typedef struct gg_shell {
   gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
   double built;
 } gg_shell;
-enum { GG_LIST = 32 }; /* most neighbours in a list */
+enum { GG_LIST = 24 }; /* most neighbours in a list */
 
 typedef struct gg_md gg_md;
 
@@ -107,13 +107,15 @@ gg_status gg_md_begin(gg_md *e, gg_error *err);
 
 /* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
 double gg_md_reach(const gg_model *model);
+/* Where partners are best looked for: plain cells, neighbour lists (lists.h; *radius: of their shells) or cells that
+ * overlap (shared.h); and how many cells. */
+enum gg_search_in { GG_CELLS, GG_LISTS, GG_SHARED_CELLS };
+enum gg_search_in gg_md_plan(const gg_model *model, double *radius, int32_t n[3]);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 /* Neighbour lists with shells of this radius, if the box is wide enough for them; else nothing. */
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
-/* Cells that overlap (shared.h), where the gas is dilute and the box wide enough. */
-gg_status gg_md_make_shared(gg_md *e, gg_error *err);
 void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);
 
 /* lists.c: every grain's shell and list anew at the present time; the shells get smaller where lists overflow. */
