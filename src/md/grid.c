@@ -69,9 +69,12 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {
   int32_t n[3];
   if (!fit_lists(&e->model, radius, n)) return GG_OK;
+  /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
+  GG_TRY(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
+  if (!gg_cells_grow(&e->cells)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_shells(e, radius);
-  return gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err);
+  return GG_OK;
 }
 
 gg_status gg_md_make_grid(gg_md *e, gg_error *err)
