@@ -1,125 +1,128 @@
-/* graingas bench: throughput of the engines, by kernel, size and density. */
-#include <math.h>
+/* graingas bench: how fast things are. The frame: which subject, and what it measured printed. */
+#include "cli/bench.h"
+
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/options.h"
-#include "cli/table.h"
-#include "common/model.h"
 #include "io/document.h"
-#include "run/throughput.h"
 
-/* What is timed: sheared at e = 0.9, the tap open as in a measuring run. */
 static const struct {
-  const char *name;
-  double beta, mu;
-} kernels[] = {{"smooth", -1, INFINITY}, {"rough", 0, INFINITY}, {"frictional", 0.4, 0.123}};
-enum { N_KERNELS = sizeof kernels / sizeof *kernels };
+  const char *name; /* the word typed; NULL: none */
+  gg_bench_subject *run;
+} subjects[] = {
+    {NULL, gg_bench_overview},
+    {"md", gg_bench_md},
+    {"dsmc", gg_bench_dsmc},
+    {"observables", gg_bench_observables},
+};
+enum { N_SUBJECTS = sizeof subjects / sizeof *subjects };
 
-static const double densities[] = {0.01, 0.3};
-static const int64_t sizes[] = {1000, 10000, 100000};
-enum { N_DENSITIES = 2, N_SIZES = 3 };
+gg_bench_sheet *gg_bench_new_sheet(gg_bench *b, const char *key, const char *caption, int keep, gg_error *err)
+{
+  gg_bench_sheet *s = b->n_sheets < GG_BENCH_SHEETS ? &b->sheet[b->n_sheets++] : NULL;
+  if (s) *s = (gg_bench_sheet){key, caption, keep, gg_table_new(), json_array()};
+  if (s && s->table && s->rows) return s;
+  gg_fail(err, GG_FAILED, "out of memory");
+  return NULL;
+}
 
-typedef struct bench {
-  const gg_options *options;
-  gg_table *table;
-  json_t *rows;
-} bench;
+void gg_bench_cell(gg_bench_sheet *sheet, int row, int column, const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  vsnprintf(gg_table_cell(sheet->table, row, column), GG_TABLE_CELL, format, list);
+  va_end(list);
+}
 
-static gg_scene scene_of(gg_engine_kind engine, int kernel, double phi, int64_t n)
+void gg_bench_tell(const gg_bench *b, const char *format, ...)
+{
+  if (b->options->quiet) return;
+  va_list list;
+  va_start(list, format);
+  vfprintf(stderr, format, list);
+  va_end(list);
+  fputc('\n', stderr);
+}
+
+gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, int64_t n)
 {
   gg_scene s = gg_scene_defaults();
   s.engine = engine;
   s.phi = phi;
   s.particles = s.dsmc.particles = n;
-  s.collision.beta[0] = kernels[kernel].beta;
-  s.collision.mu[0] = kernels[kernel].mu;
+  s.run.seed = b->seed;
   return s;
 }
 
-static void note(bench *b, const char *engine, double phi, int64_t n, const gg_throughput t[N_KERNELS])
+/* The overrides that options stand for (--seed), checked as a scene's are. */
+static gg_status take_seed(gg_bench *b, gg_error *err)
 {
-  int row = gg_table_row(b->table);
-  snprintf(gg_table_cell(b->table, row, 0), GG_TABLE_CELL, "%s", engine);
-  snprintf(gg_table_cell(b->table, row, 1), GG_TABLE_CELL, "%g", phi);
-  snprintf(gg_table_cell(b->table, row, 2), GG_TABLE_CELL, "%lld", (long long)n);
-  for (int k = 0; k < N_KERNELS; k++) {
-    snprintf(gg_table_cell(b->table, row, 3 + k), GG_TABLE_CELL, "%.3g M/s (%.0f ns)", t[k].rate * 1e-6,
-             1e9 / t[k].rate);
-    json_array_append_new(b->rows,
-                          json_pack("{s:s, s:f, s:I, s:s, s:f, s:f, s:f, s:s}", "engine", engine, "phi", phi,
-                                    "particles", (json_int_t)n, "kernel", kernels[k].name, "mean", t[k].rate, "slowest",
-                                    t[k].slowest, "fastest", t[k].fastest, "unit", "collisions per CPU-second"));
+  gg_scene_draft draft;
+  gg_scene_draft_start(&draft);
+  for (int i = 0; i < b->options->n_overrides; i++) {
+    const char *equals = strchr(b->options->override[i], '=');
+    char key[96];
+    snprintf(key, sizeof key, "%.*s", (int)(equals - b->options->override[i]), b->options->override[i]);
+    GG_TRY(gg_scene_draft_set(&draft, key, equals + 1, err));
   }
-  if (!b->options->quiet) fprintf(stderr, "%s phi %g N %lld done\n", engine, phi, (long long)n);
-}
-
-static gg_status measure(bench *b, gg_engine_kind engine, gg_error *err)
-{
-  bool quick = b->options->quick;
-  for (int d = 0; d < N_DENSITIES; d++)
-    for (int i = 0; i < (quick ? N_SIZES - 1 : N_SIZES); i++) {
-      gg_throughput t[N_KERNELS];
-      for (int k = 0; k < N_KERNELS; k++) {
-        gg_scene s = scene_of(engine, k, densities[d], sizes[i]);
-        GG_TRY(gg_measure_throughput(&s, true, 20, quick ? 3 : 5, quick ? 0.2 : 0.6, &t[k], err));
-      }
-      note(b, gg_engine_ops_of(engine)->name, densities[d], sizes[i], t);
-    }
+  b->seed = draft.scene.run.seed;
   return GG_OK;
 }
 
-static void start_table(bench *b)
+static void print_json(const gg_bench *b)
 {
-  gg_table_column(b->table, "engine", false);
-  gg_table_column(b->table, "phi", true);
-  gg_table_column(b->table, "N", true);
-  for (int k = 0; k < N_KERNELS; k++) gg_table_column(b->table, kernels[k].name, true);
+  json_t *document = json_pack("{s:s}", "graingas", gg_version());
+  for (int i = 0; i < b->n_sheets; i++) json_object_set(document, b->sheet[i].key, b->sheet[i].rows);
+  char *text = gg_document_text(document);
+  if (text) puts(text);
+  free(text);
+  json_decref(document);
 }
 
-static int print(const bench *b)
+static int print(const gg_bench *b)
 {
-  if (b->options->json) {
-    json_t *document = json_pack("{s:s, s:O}", "graingas", gg_version(), "throughput", b->rows);
-    char *text = gg_document_text(document);
-    if (text) puts(text);
-    free(text);
-    json_decref(document);
-  } else {
-    printf("Collisions per CPU-second, one core; uniform shear, e = 0.9, stress measured; median of repeats\n\n");
-    gg_table_print(b->table, stdout, gg_terminal_width(), 3);
+  if (b->options->json) print_json(b);
+  for (int i = 0; i < b->n_sheets && !b->options->json; i++) {
+    if (i) putchar('\n');
+    gg_print_wrapped(stdout, "", b->sheet[i].caption, gg_terminal_width());
+    putchar('\n');
+    gg_table_print(b->sheet[i].table, stdout, gg_terminal_width(), b->sheet[i].keep);
   }
   return fflush(stdout) == 0 ? GG_OK : gg_cli_fail(GG_BAD_FILE, "standard output cannot be written");
 }
 
-static int run(bench *b, const char *which)
+static int run(const gg_options *o, gg_bench_subject *subject)
 {
+  gg_bench b = {.options = o};
   gg_error err;
-  for (int k = GG_MD; k <= GG_DSMC; k++) {
-    if (which && strcmp(which, gg_engine_ops_of((gg_engine_kind)k)->name) != 0) continue;
-    if (measure(b, (gg_engine_kind)k, &err) != GG_OK) return gg_cli_report(&err);
+  gg_status status = take_seed(&b, &err);
+  if (status == GG_OK) status = subject(&b, &err);
+  int code = status == GG_OK ? print(&b) : gg_cli_report(&err);
+  for (int i = 0; i < b.n_sheets; i++) {
+    free(b.sheet[i].table);
+    json_decref(b.sheet[i].rows);
   }
-  return print(b);
+  return code;
+}
+
+static int refuse(const char *word)
+{
+  char allowed[64] = "";
+  for (int i = 0; i < N_SUBJECTS; i++)
+    if (subjects[i].name)
+      snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed), "%s%s", *allowed ? ", " : "",
+               subjects[i].name);
+  return gg_cli_fail(GG_BAD_INPUT, "bench: '%s' is not known; allowed: %s, or nothing for an overview", word, allowed);
 }
 
 int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
-  int code = gg_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && o.input && strcmp(o.input, "md") != 0 && strcmp(o.input, "dsmc") != 0)
-    code = gg_cli_fail(GG_BAD_INPUT, "bench: '%s' is not an engine; allowed: md, dsmc", o.input);
-  if (code == GG_CLI_GO_ON) {
-    bench b = {.options = &o, .table = gg_table_new(), .rows = json_array()};
-    if (b.table && b.rows) {
-      start_table(&b);
-      code = run(&b, o.input);
-    } else {
-      code = gg_cli_fail(GG_FAILED, "out of memory");
-    }
-    free(b.table);
-    json_decref(b.rows);
-  }
+  int code = gg_options_parse(command, argc, argv, &o), i = 0;
+  while (i < N_SUBJECTS && (o.input ? !subjects[i].name || strcmp(o.input, subjects[i].name) != 0 : i > 0)) i++;
+  if (code == GG_CLI_GO_ON) code = i < N_SUBJECTS ? run(&o, subjects[i].run) : refuse(o.input);
   gg_options_clear(&o);
   return code;
 }

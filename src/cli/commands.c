@@ -19,12 +19,16 @@ const gg_command gg_commands[] = {
     {"theory", "SCENE.yaml", "The theories alone", NULL, GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL, gg_cli_theory_main},
     {"plot", "RESULT.h5", "A picture of what a result file holds",
      "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side\n"
-     "by side.",
+     "by side. Beside it a snapshot, if there are positions, and a page for each observable that left curves.",
      GG_OPT_OUTPUT | GG_OPT_FORMAT, gg_cli_plot_main},
     {"info", "FILE", "What a result file holds, or every key of a scene and what it switches on and off", NULL,
      GG_OPT_SET | GG_OPT_JSON, gg_cli_info_main},
-    {"bench", "[md|dsmc]", "How fast the engines are: collisions per second by kernel, density and size",
-     "Uniform shear at e = 0.9 with the stress measured, one core, the median of repeats. Run it on an idle machine.",
-     GG_OPT_JSON | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
+    {"bench", "[md|dsmc|observables]", "How fast the engines are: collisions per second by kernel, density and size",
+     "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "
+     "repeats.\n"
+     "md: elastic smooth spheres by size and density, and what roughness, shear, walls, gravity, a second species and\n"
+     "an open stress tap cost, scenes timed in turn.\n"
+     "observables: the share of a run's time that each observable takes, both engines. Run it on an idle machine.",
+     GG_OPT_JSON | GG_OPT_SEED | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
     {0},
 };

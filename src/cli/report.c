@@ -87,6 +87,7 @@ void gg_print_run(const gg_result *r, bool all)
   print_head(&r->scene);
   gg_table_print(t, stdout, gg_terminal_width(), 1);
   free(t);
+  gg_print_numbers(r, NULL, all);
   printf("\n");
   print_effort(r);
   print_warnings(r);
@@ -213,6 +214,7 @@ void gg_print_comparison(const gg_comparison *c, bool all)
   if (n_theories && against) printf(";%s%%: deviation of a theory from %s", both ? "\n" : " ", against->engine);
   printf("\n");
   print_causes(c, all);
+  gg_print_numbers(c->by_engine[GG_MD], c->by_engine[GG_DSMC], all);
   printf("\n");
   for (int k = 0; k < 2; k++) {
     if (c->by_engine[k]) print_effort(c->by_engine[k]);

@@ -47,6 +47,17 @@ typedef struct gg_chunk {
 } gg_chunk;
 typedef void gg_visit(void *context, const gg_chunk *chunk);
 
+/* One collision between two grains as a watcher sees it, before the impulse. */
+typedef struct gg_seen_collision {
+  int species[2];
+  gg_vec k;         /* from 1 to 2 */
+  gg_vec c12;       /* c_1 - c_2 of the centres, the flow between them included */
+  gg_vec c[2];      /* peculiar velocities */
+  double height[2]; /* y over the middle of the box; NaN where there are no positions */
+  double since[2];  /* time since the last contact of each, walls included; INFINITY: none since watching began */
+} gg_seen_collision;
+typedef void gg_watch(void *context, const gg_seen_collision *meeting);
+
 typedef struct gg_engine gg_engine;
 
 typedef struct gg_engine_ops {
@@ -65,10 +76,15 @@ typedef struct gg_engine_ops {
   void (*tap)(gg_engine *engine, bool open);
   /* Hand over the sums since the last read, and start anew. */
   void (*read_tap)(gg_engine *engine, gg_transfer *transfer);
+  /* Show every collision between grains to `watch` from now on. What is shown costs time; a dsmc engine also leaves its
+   * block kernels, in which grains change places. An engine restored from a checkpoint has to be told again, and then
+   * goes on bit for bit. */
+  gg_status (*watch)(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
   void (*state)(const gg_engine *engine, gg_engine_state *state);
   /* Show every grain at the present time. */
   void (*snapshot)(gg_engine *engine, bool positions, gg_visit *visit, void *context);
-  /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades. GG_BAD_INPUT in sheared flows. */
+  /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades, and to begin a round of slow shear
+   * again (small_shear.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
   gg_status (*rescale)(gg_engine *engine, int power, gg_error *err);
   /* Everything needed to go on bit for bit. Saving does not disturb the run. */
   gg_status (*save)(const gg_engine *engine, gg_archive *archive, gg_error *err);

@@ -77,6 +77,9 @@ static void set_pairs(gg_model *m, const gg_scene *s)
     }
 }
 
+/* Smooth grains have no spin to take up what a rough wall gives: it acts on their centres (with beta_w = 0 the flat
+ * wall of type A of Campbell, J. Fluid Mech. 247 (1993) 111). With spins that nothing else changes, the torques of both
+ * walls would have to cancel in a steady state, and with them the shear stress. */
 static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
 {
   gg_partner wall = {INFINITY, 1};
@@ -85,9 +88,10 @@ static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
   m->wall_rule = m->walled ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
   if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;
-  m->rule = later_rule(m->rule, m->wall_rule);
+  bool spinless = m->rule == GG_SMOOTH;
+  if (!spinless) m->rule = later_rule(m->rule, m->wall_rule);
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
-    gg_partner grain = {m->mass[i], m->inertia[i]};
+    gg_partner grain = {m->mass[i], spinless ? INFINITY : m->inertia[i]};
     m->wall[i] = gg_contact_make(grain, wall, s->walls.e, s->walls.beta, s->walls.mu);
     m->wall_treated[i] = gg_contact_make(grain, wall, 1, s->walls.beta, s->walls.mu);
   }
@@ -140,7 +144,10 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   if (s->flow == GG_COUETTE) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
   set_walls(m, s, time_unit);
   for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
-  m->contact_time = m->elastic ? 0 : s->md.contact_time == GG_AUTO ? 1e-5 : s->md.contact_time;
+  m->contact_time = m->elastic                      ? 0
+                    : s->md.contact_time != GG_AUTO ? s->md.contact_time
+                    : m->gravity[1] != 0            ? 1e-3
+                                                    : 1e-5;
   m->time_step = s->dsmc.time_step;
   m->temperature0 = sheared || s->flow == GG_COUETTE ? guess_sheared_temperature(m) : 0.5;
   if (sheared && s->temperature != GG_AUTO) {
@@ -148,7 +155,8 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
     m->temperature0 = s->temperature / (speed * speed);
   }
   m->ratio0 = guess_ratio(m);
-  m->steady = !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
+  m->small_shear = s->small_shear == GG_ON;
+  m->steady = !m->small_shear && !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;
 }

@@ -18,6 +18,7 @@ typedef struct gg_model {
   bool boltzmann;   /* phi = 0 */
   bool homogeneous; /* no box: an ensemble that stands for one point of the flow (dsmc) */
   bool elastic;     /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
+  bool small_shear; /* slow shear of a cooling or heated gas (small_shear.h) */
   bool steady;      /* a steady state can exist (scaled, for cooling) */
 
   int64_t n; /* grains (of the engine's kind: `dsmc.particles` may differ from `particles`) */
@@ -37,15 +38,16 @@ typedef struct gg_model {
   double chi[4];         /* contact value; 1 in the Boltzmann limit */
   double e[4], beta[4], mu[4];
 
-  gg_contact wall[GG_MAX_SPECIES]; /* grain (1) against wall (2) */
+  gg_contact wall[GG_MAX_SPECIES];         /* grain (1) against wall (2) */
   gg_contact wall_treated[GG_MAX_SPECIES]; /* the same with e = 1 */
-  gg_rule wall_rule;
-  bool walled, open_top; /* walls at both ends of y, or below only */
-  double wall_speed; /* couette: +- this along x; 0 otherwise */
+  gg_rule wall_rule;                       /* of smooth grains, too, whose spins it leaves alone */
+  bool walled, open_top;                   /* walls at both ends of y, or below only */
+  double wall_speed;                       /* couette: +- this along x; 0 otherwise */
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */
-  double contact_time; /* of the contact-time rule, in mean free times per grain; 0: off */
+  double contact_time; /* of the contact-time rule, in mean free times per grain, or sqrt(d/|g_y|) where there is g_y;
+                        * 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
 
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */

@@ -51,7 +51,9 @@
   X(TEMPERATURE_2, "temperature_2", UNIT_TEMPERATURE, "partial temperature m_2<C.C>_2/3")                              \
   X(PARTIAL_TEMPERATURE_RATIO, "partial_temperature_ratio", UNIT_NONE, "T_1/T_2")                                      \
   X(VISCOSITY_REDUCED, "viscosity_reduced", UNIT_NONE, "eta* = nu eta/(n T)")                                          \
-  X(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", UNIT_NONE, "kinetic part of eta*")
+  X(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", UNIT_NONE, "kinetic part of eta*")                         \
+  X(CLUSTERING_LENGTH, "clustering_length", UNIT_LENGTH,                                                               \
+    "box length above which a cooling gas forms vortices and clusters")
 
 #define GG_QUANTITY_ENUM(id, name, unit, doc) GG_Q_##id,
 typedef enum gg_quantity { GG_QUANTITIES(GG_QUANTITY_ENUM) GG_N_QUANTITIES } gg_quantity;

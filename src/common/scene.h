@@ -11,6 +11,7 @@
 typedef enum gg_flow { GG_EQUILIBRIUM, GG_USF, GG_HCS, GG_HSS, GG_COUETTE, GG_POISEUILLE, GG_CHUTE } gg_flow;
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
 typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE } gg_thermostat;
+typedef enum gg_switch { GG_OFF, GG_ON } gg_switch;
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
 
@@ -29,6 +30,9 @@ enum {
   GG_MEASURE_CELLS = 1u << 7,
   GG_MEASURE_DIFFUSION = 1u << 8,
   GG_MEASURE_PROFILES = 1u << 9,
+  GG_MEASURE_VISCOSITY = 1u << 12,
+  GG_MEASURE_COLLISIONS = 1u << 10,
+  GG_MEASURE_LOCAL_DISTRIBUTIONS = 1u << 11,
 };
 
 #define GG_AUTO (-1.0) /* a number that the program is to choose */
@@ -45,6 +49,7 @@ struct gg_scene {
   double phi;
   int64_t particles;
   double shear_rate;
+  gg_switch small_shear; /* usf: towards a* = 0, for viscosities (common/small_shear.h) */
   double temperature; /* initial <C.C>/3 in the user's units, or GG_AUTO */
   double aspect[3];   /* shape of the box, relative edges */
   struct {
@@ -64,7 +69,7 @@ struct gg_scene {
     uint64_t seed;
   } run;
   struct {
-    double contact_time; /* in mean free times, 0: off; or GG_AUTO */
+    double contact_time; /* in mean free times, or sqrt(d/|g_y|) under gravity; 0: off; or GG_AUTO */
   } md;
   struct {
     double time_step;  /* in mean free times, or GG_AUTO */

@@ -5,7 +5,7 @@
  *   with it:  at most |C12| + s0, s0 = (8/3 pi) sigma rate, since g_n <= max(0, k.C12) + sigma rate |k_x k_y|; k falls
  * by the cosine law with the share of the first, by the law |k_x k_y| with that of the second, and is then kept with
  *   probability g_n/(max(0, k.C12) + sigma rate |k_x k_y|).
- * One uniform number t in [-s0, bound - s0) serves for all: t < 0 takes the second law, t < |C12| the first, anything
+ * One uniform number t in [-s0, bound) serves for all: t < 0 takes the second law, t < |C12| the first, anything
  * more is no collision; and since what is left of t is uniform again, it decides the last choice, too.
  *
  * Smooth grains without shear need no k at all: with w uniform on the sphere, C12 - |C12| w points along a k of the
@@ -19,14 +19,20 @@
 /* A batch in progress: constants and sums where the compiler can keep them in registers. */
 typedef struct gg_batch {
   gg_block *one, *two, *spin_one, *spin_two;
-  uint64_t n_one, n_two; /* blocks */
+  float *top_one, *top_two;
+  uint64_t n_one, n_two;     /* blocks */
+  uint32_t odd_one, odd_two; /* that are not full, or UINT32_MAX */
   gg_contact contact;
   gg_lane_rng rng;
-  gg_directions near, sheared;     /* about C12, and by the law |k_x k_y| */
-  double bound, offset, s0, shift; /* t = bound (1 + u) + offset */
-  double brim;                     /* C12^2 at which the bound overflows */
-  double drift;
-  uint64_t collisions, overflows;
+  gg_directions near, sheared; /* about C12, and by the law |k_x k_y| */
+  gg_vu word[GG_PARTS];        /* random: a half for each of two visits */
+  bool half_left;
+  gg_mask sorts;       /* lanes change places by speed, not at random */
+  double floor, bound; /* the layer of |C12| */
+  double s0, shift;
+  double per_unit;              /* of the tops */
+  double next_drift, next_unit; /* of the next draws */
+  uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
   gg_vd loss[GG_PARTS], stress[3][3][GG_PARTS];
 } gg_batch;
@@ -35,7 +41,7 @@ typedef struct gg_batch {
 typedef struct gg_encounter {
   gg_mask hit;
   gg_vd3 k, g; /* k: only if needed; g: contact velocity without spins */
-  gg_vd3 gn_k; /* g_n k */
+  gg_vd3 gn_k; /* 2 g_n k, if not */
   gg_vd gn, gn2;
 } gg_encounter;
 
@@ -68,20 +74,18 @@ GG_INLINE void gg_encounter_shear(gg_batch *w, gg_vd3 v, gg_vd speed, gg_vd t, g
   e->hit = gg_and(gg_or(e->hit, special), gg_less(left * most, range * e->gn));
 }
 
-/* The candidates with relative velocity v, decided by the random word r. */
-GG_INLINE gg_encounter gg_encounter_of(gg_features f, gg_batch *w, gg_vd3 v, gg_vu r)
+/* The candidates with relative velocity v, decided by the random word r; none is faster than `bound`. */
+GG_INLINE gg_encounter gg_encounter_of(gg_features f, gg_batch *w, gg_vd3 v, gg_vd v2, double bound, gg_vu r)
 {
-  gg_vd v2 = gg_vd3_dot(v, v), speed = gg_sqrt(v2), t = gg_lane_one_to_two(r) * w->bound + w->offset;
+  const double span = bound - w->floor + w->s0, offset = w->floor - w->s0 - span;
+  gg_vd speed = gg_sqrt(v2), t = gg_lane_one_to_two(r) * span + offset;
   gg_mask special = gg_less(t, gg_all(0));
-  gg_encounter e = {.hit = gg_less(t * t, v2), .g = v};
+  gg_encounter e = {.hit = gg_less(t, speed), .g = v};
   if (f.shear == GG_SHEARED_DENSE) e.hit = gg_and_not(e.hit, special);
-  w->worst = gg_larger(w->worst, v2);
-  unsigned over = gg_bits(gg_less(gg_all(w->brim), v2));
-  if (__builtin_expect(over != 0, 0)) w->overflows += (unsigned)__builtin_popcount(over);
   gg_vd3 q = gg_directions_take(&w->near, e.hit);
   if (!gg_needs_k(f)) {
-    e.gn_k = gg_vd3_scale(gg_all(0.5), gg_vd3_sub(v, gg_vd3_scale(speed, q)));
-    if (f.tap != GG_TAP_CLOSED) e.gn2 = gg_vd3_dot(e.gn_k, e.gn_k);
+    e.gn_k = gg_vd3_sub(v, gg_vd3_scale(speed, q));
+    if (f.tap != GG_TAP_CLOSED) e.gn2 = 0.25 * gg_vd3_dot(e.gn_k, e.gn_k);
     return e;
   }
   e.k = gg_about(v, speed, q);

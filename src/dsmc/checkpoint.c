@@ -30,6 +30,7 @@ void gg_dsmc_destroy(gg_engine *engine)
   gg_dsmc *d = (gg_dsmc *)engine;
   if (!d) return;
   gg_ensemble_free(&d->ensemble);
+  for (int i = 0; i < GG_MAX_SPECIES; i++) free(d->watching.last[i]);
   free(d);
 }
 
@@ -37,7 +38,8 @@ gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *e
 {
   const gg_dsmc *d = (const gg_dsmc *)engine;
   GG_TRY(gg_archive_put(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err));
-  return gg_ensemble_save(&d->ensemble, archive, err);
+  GG_TRY(gg_ensemble_save(&d->ensemble, archive, err));
+  return gg_dsmc_save_watching(d, archive, err);
 }
 
 gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
@@ -47,6 +49,7 @@ gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_e
   GG_TRY(gg_dsmc_alloc(model, &d, err));
   gg_status status = gg_archive_get(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err);
   if (status == GG_OK) status = gg_ensemble_restore(&d->ensemble, archive, err);
+  if (status == GG_OK) status = gg_dsmc_restore_watching(d, archive, err);
   if (status != GG_OK) {
     gg_dsmc_destroy(&d->base);
     return status;

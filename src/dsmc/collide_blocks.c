@@ -4,17 +4,26 @@
  *
  * Fairness. Each lane of one block meets each lane of the other with probability 1/8, and every pair of grains in
  * different blocks comes up equally often. Pairs within one block, and the last block where it is not full, go through
- * the plain path at the same rate. Half the lanes, at random, change places between the two blocks, so that no two
- * grains stay together. */
+ * the plain path at the same rate.
+ *
+ * Rejection. The bound of all pairs is set by the fastest grains of all. So two blocks that are drawn are visited with
+ * probability (sum of their tops)/(that bound) only, and their lanes judged under the sum of their tops, which comes to
+ * the same rate for every pair of grains. After a visit the faster grain of each lane lies in the block of lower
+ * number: any order would do, but this one sorts grains by speed, and bounds are tighter yet. Half the candidates
+ * collide, against a quarter without. Below a thousand blocks lanes change places at random instead: eight fast grains
+ * that always act at once would be too large a part of the ensemble. */
 #include "dsmc/collide_blocks.h"
 
 #include "dsmc/block_contact.h"
 
-enum { AHEAD = 8 }; /* block pairs drawn and prefetched at a time */
+enum { SORTED = 999 }; /* blocks, at least, to be sorted by speed */
+enum { DRAWS = 32 };   /* block pairs drawn at a time, and those to be visited prefetched */
 
+/* What is to be visited, in order of time. Lists as gg_pack leaves them: each a double's worth of bits. */
 typedef struct gg_draw {
-  uint32_t a[AHEAD], b[AHEAD];
-  unsigned order[AHEAD];
+  unsigned n;
+  double drift, unit; /* where these draws begin */
+  double blocks[DRAWS + GG_LANES], order[DRAWS + GG_LANES], bound[DRAWS + GG_LANES], nth[DRAWS + GG_LANES];
 } gg_draw;
 
 GG_INLINE gg_vd3 load(const gg_block *b, int at)
@@ -22,15 +31,19 @@ GG_INLINE gg_vd3 load(const gg_block *b, int at)
   return (gg_vd3){gg_load(b->x + at), gg_load(b->y + at), gg_load(b->z + at)};
 }
 
-/* Put a part of both blocks back; grains of one species change places in the lanes of `swap`. */
-GG_INLINE void store(bool exchange, gg_mask swap, gg_block *a, gg_block *b, int at, gg_vd3 va, gg_vd3 vb)
+GG_INLINE void store(gg_block *b, int at, gg_vd3 v)
 {
-  gg_store(a->x + at, exchange ? gg_select(swap, vb.x, va.x) : va.x);
-  gg_store(a->y + at, exchange ? gg_select(swap, vb.y, va.y) : va.y);
-  gg_store(a->z + at, exchange ? gg_select(swap, vb.z, va.z) : va.z);
-  gg_store(b->x + at, exchange ? gg_select(swap, va.x, vb.x) : vb.x);
-  gg_store(b->y + at, exchange ? gg_select(swap, va.y, vb.y) : vb.y);
-  gg_store(b->z + at, exchange ? gg_select(swap, va.z, vb.z) : vb.z);
+  gg_store(b->x + at, v.x);
+  gg_store(b->y + at, v.y);
+  gg_store(b->z + at, v.z);
+}
+
+/* Lanes of `swap` change places. */
+GG_INLINE void exchange(gg_mask swap, gg_vd3 *a, gg_vd3 *b)
+{
+  gg_vd3 old = *a;
+  *a = (gg_vd3){gg_select(swap, b->x, a->x), gg_select(swap, b->y, a->y), gg_select(swap, b->z, a->z)};
+  *b = (gg_vd3){gg_select(swap, old.x, b->x), gg_select(swap, old.y, b->y), gg_select(swap, old.z, b->z)};
 }
 
 GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e, gg_vd3 g, gg_vd3 J)
@@ -44,39 +57,70 @@ GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e
     for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) w->stress[i][j][part] += gg_where(e->hit, ka[i] * Jb[j]);
 }
 
-/* What is left to do once the impulse is known: turn the spins, push the grains. */
-GG_INLINE void turn(gg_features f, const gg_contact *c, gg_mask swap, gg_block *a, gg_block *b, int at, gg_vd3 spin_b,
-                    gg_vd3 kJ)
+/* Two blocks, the lanes of the second in their order of this visit. */
+typedef struct gg_meeting {
+  uint32_t a, b;
+  bool odd; /* not for this path */
+  double drift;
+  gg_vd3 ca[GG_PARTS], cb[GG_PARTS], sb[GG_PARTS];
+  gg_vd3 v[GG_PARTS];
+  gg_vd v2[GG_PARTS];
+} gg_meeting;
+
+/* Largest C^2 after a visit, lane by lane. */
+typedef struct gg_fastest {
+  gg_vd a, b;
+} gg_fastest;
+
+/* C of a stored velocity. */
+GG_INLINE gg_vd3 streamed(gg_features f, double drift, gg_vd3 c)
 {
-  gg_vd3 turn_a = gg_vd3_scale(gg_all(c->ik1), kJ), turn_b = f.same ? turn_a : gg_vd3_scale(gg_all(c->ik2), kJ);
-  store(f.same, swap, a, b, at, gg_vd3_sub(load(a, at), turn_a), gg_vd3_sub(spin_b, turn_b));
+  if (f.shear != GG_UNSHEARED) c.x -= drift * c.y;
+  return c;
 }
 
-GG_INLINE void push(gg_features f, const gg_contact *c, gg_mask swap, gg_block *a, gg_block *b, int at, gg_vd3 ca,
-                    gg_vd3 cb, gg_vd3 J)
-{
-  gg_vd3 push_a = gg_vd3_scale(gg_all(c->im1), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(c->im2), J);
-  store(f.same, swap, a, b, at, gg_vd3_sub(ca, push_a), gg_vd3_add(cb, push_b));
-}
-
-/* A part of block a against that part of block b in whose lanes `cb` and `spin_b` are in order. */
-GG_INLINE void collide_part(gg_features f, gg_batch *w, uint32_t a, uint32_t b, int part, gg_vd3 cb, gg_vd3 spin_b)
+GG_INLINE void turn(gg_features f, gg_batch *w, gg_mask swap, const gg_meeting *at, int part, gg_vd3 kJ)
 {
   const gg_contact *c = &w->contact;
-  const int at = part * GG_WIDTH;
-  gg_vd3 ca = load(&w->one[a], at), v = gg_vd3_sub(ca, cb);
-  if (f.shear != GG_UNSHEARED) v.x -= w->drift * v.y;
-  gg_vu r = gg_lane_next(&w->rng, part);
-  gg_encounter e = gg_encounter_of(f, w, v, r);
-  gg_vd3 g = e.g, J = gg_vd3_scale(gg_all(c->jn), e.gn_k);
-  if (f.rule != GG_SMOOTH) g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[a], at), spin_b)));
-  if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, c, e.k, g, e.gn);
+  gg_vd3 turn_a = gg_vd3_scale(gg_all(c->ik1), kJ), turn_b = f.same ? turn_a : gg_vd3_scale(gg_all(c->ik2), kJ);
+  gg_vd3 sa = gg_vd3_sub(load(&w->spin_one[at->a], part * GG_WIDTH), turn_a), sb = gg_vd3_sub(at->sb[part], turn_b);
+  if (f.same) exchange(swap, &sa, &sb);
+  store(&w->spin_one[at->a], part * GG_WIDTH, sa);
+  store(&w->spin_two[at->b], part * GG_WIDTH, sb);
+}
+
+/* Grains of one species change places so that the faster one is in the first block. Returns where. */
+GG_INLINE gg_mask push(gg_features f, gg_batch *w, const gg_meeting *at, int part, gg_vd3 J, gg_vu r, gg_fastest *top)
+{
+  const gg_contact *c = &w->contact;
+  if (f.shear != GG_UNSHEARED) J.x += at->drift * J.y; /* as stored velocities have it */
+  gg_vd3 push_a = gg_vd3_scale(gg_all(c->im1), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(c->im2), J);
+  gg_vd3 a = gg_vd3_sub(at->ca[part], push_a), b = gg_vd3_add(at->cb[part], push_b);
+  gg_vd3 Ca = streamed(f, at->drift, a), Cb = streamed(f, at->drift, b);
+  gg_vd a2 = gg_vd3_dot(Ca, Ca), b2 = gg_vd3_dot(Cb, Cb);
+  /* Bit 32 of r decides nothing else but whether the last of 32 bits of a random number is set. */
+  gg_mask swap = gg_or(gg_and(gg_less(a2, b2), w->sorts), gg_and_not(gg_low_bit(r >> 32), w->sorts));
+  gg_vd first = f.same ? gg_select(swap, b2, a2) : a2, second = f.same ? gg_select(swap, a2, b2) : b2;
+  top->a = part ? gg_larger(top->a, first) : first;
+  top->b = part ? gg_larger(top->b, second) : second;
+  if (f.same) exchange(swap, &a, &b);
+  store(&w->one[at->a], part * GG_WIDTH, a);
+  store(&w->two[at->b], part * GG_WIDTH, b);
+  return swap;
+}
+
+GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, int part, double bound, gg_vu r,
+                            gg_fastest *top)
+{
+  gg_encounter e = gg_encounter_of(f, w, at->v[part], at->v2[part], bound, r);
+  gg_vd3 g = e.g, J = gg_vd3_scale(gg_all(0.5 * w->contact.jn), e.gn_k);
+  if (f.rule != GG_SMOOTH)
+    g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[at->a], part * GG_WIDTH), at->sb[part])));
+  if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, &w->contact, e.k, g, e.gn);
   tally(f, w, part, &e, g, J);
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
-  gg_mask swap = gg_low_bit(r);
-  if (f.rule != GG_SMOOTH) turn(f, c, swap, &w->spin_one[a], &w->spin_two[b], at, spin_b, gg_vd3_cross(e.k, J));
-  if (f.shear != GG_UNSHEARED) J.x += w->drift * J.y; /* as stored velocities have it */
-  push(f, c, swap, &w->one[a], &w->two[b], at, ca, cb, J);
+  gg_mask swap = push(f, w, at, part, J, r, top);
+  if (f.rule != GG_SMOOTH) turn(f, w, swap, at, part, gg_vd3_cross(e.k, J));
 }
 
 /* Block b with its lanes in order r, in registers. */
@@ -90,39 +134,156 @@ GG_INLINE void load_in_order(const gg_block *b, unsigned r, gg_vd3 c[GG_PARTS])
   }
 }
 
-GG_INLINE void collide_blocks(gg_features f, gg_batch *w, uint32_t a, uint32_t b, unsigned order)
+/* Of a bound: 0 if even pairs at rest are over it. */
+GG_INLINE double square(double bound)
 {
-  const bool spins = f.rule != GG_SMOOTH;
-  gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
-  gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
-  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
-  load_in_order(&w->two[b], order, cb);
-  if (spins) load_in_order(&w->spin_two[b], order, sb);
-  for (int part = 0; part < GG_PARTS; part++) collide_part(f, w, a, b, part, cb[part], spins ? sb[part] : cb[part]);
+  return bound > 0 ? bound * bound : 0;
 }
 
-/* Draw the next block pairs and call their memory. Each half of a random word gives a block; what is left of the
- * product after the point is as good as new and gives the order. */
-GG_INLINE void draw(gg_features f, gg_batch *w, gg_draw *next)
+/* Some pair is faster than the sum of tops by which its blocks were drawn: one of them has been visited since, or the
+ * gas is faster than the bound of all. The former is made good exactly: the visit goes under the bound of now, and is
+ * repeated with such a probability that its mean number is what it should have been: `again`. Returns the bound. */
+GG_INLINE double reconsider(gg_features f, gg_batch *w, const gg_meeting *at, double bound, gg_rng *rng, bool *again)
 {
-  uint64_t r[GG_LANES] __attribute__((aligned(64)));
+  gg_vd a2 = gg_all(0), b2 = a2;
   for (int part = 0; part < GG_PARTS; part++) {
-    gg_vu word = gg_lane_next(&w->rng, part);
-    __builtin_memcpy(&r[part * GG_WIDTH], &word, sizeof word);
+    gg_vd3 a = streamed(f, at->drift, at->ca[part]), b = streamed(f, at->drift, at->cb[part]);
+    a2 = gg_larger(a2, gg_vd3_dot(a, a));
+    b2 = gg_larger(b2, gg_vd3_dot(b, b));
+    w->overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(square(w->bound)), at->v2[part])));
   }
-  for (int i = 0; i < AHEAD; i++) {
-    uint64_t a = (r[i] >> 32) * w->n_one, b = (uint32_t)r[i] * w->n_two;
-    next->a[i] = (uint32_t)(a >> 32);
-    next->b[i] = (uint32_t)(b >> 32);
-    next->order[i] = (uint32_t)b >> 29;
-    for (int line = 0; line < 3; line++) {
-      __builtin_prefetch((const char *)&w->one[next->a[i]] + 64 * line, 1);
-      __builtin_prefetch((const char *)&w->two[next->b[i]] + 64 * line, 1);
-      if (f.rule == GG_SMOOTH) continue;
-      __builtin_prefetch((const char *)&w->spin_one[next->a[i]] + 64 * line, 1);
-      __builtin_prefetch((const char *)&w->spin_two[next->b[i]] + 64 * line, 1);
-    }
+  gg_v2 peaks = gg_peaks(a2, b2);
+  double now = fmin((sqrt(peaks[0]) + sqrt(peaks[1])) * (1 + 1e-15), w->bound);
+  if (now <= bound) return bound;
+  *again = gg_rng_uniform(rng) * (bound + w->s0) < now - bound;
+  return now;
+}
+
+GG_INLINE void look(gg_features f, const gg_batch *w, gg_meeting *at, unsigned order)
+{
+  load_in_order(&w->two[at->b], order, at->cb);
+  if (f.rule != GG_SMOOTH) load_in_order(&w->spin_two[at->b], order, at->sb);
+  for (int part = 0; part < GG_PARTS; part++) {
+    at->ca[part] = load(&w->one[at->a], part * GG_WIDTH);
+    at->v[part] = streamed(f, at->drift, gg_vd3_sub(at->ca[part], at->cb[part]));
+    at->v2[part] = gg_vd3_dot(at->v[part], at->v[part]);
   }
+}
+
+GG_INLINE bool any_faster(const gg_meeting *at, double bound)
+{
+  unsigned over = 0;
+  for (int part = 0; part < GG_PARTS; part++) over |= gg_bits(gg_less(gg_all(square(bound)), at->v2[part]));
+  return over != 0;
+}
+
+GG_INLINE void collide(gg_features f, gg_batch *w, const gg_meeting *at, double bound)
+{
+  gg_fastest top;
+  gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
+  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
+  for (int part = 0; part < GG_PARTS; part++) {
+    w->word[part] = w->half_left ? w->word[part] << 32 : gg_lane_next(&w->rng, part);
+    w->worst = gg_larger(w->worst, at->v2[part]);
+    collide_part(f, w, at, part, bound, w->word[part], &top);
+  }
+  w->half_left = !w->half_left;
+  w->visits++;
+  gg_v2 peaks = gg_peaks(top.a, top.b) * w->per_unit;
+  w->top_one[at->a] = (float)peaks[0];
+  w->top_two[at->b] = (float)peaks[1];
+}
+
+GG_INLINE void visit(gg_features f, gg_batch *w, gg_meeting *at, double bound, gg_rng *rng)
+{
+  bool again = false;
+  if (__builtin_expect(any_faster(at, bound), 0)) bound = reconsider(f, w, at, bound, rng, &again);
+  for (;;) {
+    collide(f, w, at, bound);
+    if (__builtin_expect(!again, 1)) break;
+    again = false;
+    look(f, w, at, 0);
+  }
+}
+
+GG_INLINE uint64_t item(const double *list, unsigned i)
+{
+  uint64_t bits;
+  __builtin_memcpy(&bits, &list[i], sizeof bits);
+  return bits;
+}
+
+GG_INLINE gg_vu lane_numbers(uint64_t first)
+{
+  gg_vu n;
+  for (unsigned l = 0; l < GG_WIDTH; l++) n[l] = first + l;
+  return n;
+}
+
+/* All bits of the lanes where a == b. */
+GG_INLINE gg_vu equal(gg_vu a, gg_vu b)
+{
+  return (gg_vu)(a == b);
+}
+
+GG_INLINE gg_vu all_bits(uint64_t x)
+{
+  return x - (gg_vu){0};
+}
+
+/* One draw a lane: which blocks, and under which bound of |C12|. Each half of a random word gives a block; a second
+ * one the order, and whether to visit. */
+GG_INLINE void draw_part(gg_features f, gg_batch *w, gg_draw *next, int part, double root, unsigned first, unsigned n)
+{
+  gg_vu r = gg_lane_next(&w->rng, part), more = gg_lane_next(&w->rng, part);
+  gg_vu a = gg_mul32(r >> 32, all_bits(w->n_one)) >> 32, b = gg_mul32(r, all_bits(w->n_two)) >> 32;
+  gg_vd bound = (gg_roots_at(w->top_one, a) + gg_roots_at(w->top_two, b)) * root;
+  bound = gg_smaller(bound + (w->floor == 0 ? 0 : 1e300), gg_all(w->bound)); /* an upper layer: under one bound */
+  gg_vd u = gg_lane_one_to_two(more) - 1;
+  gg_vu odd = equal(a, all_bits(w->odd_one)) | equal(b, all_bits(w->odd_two));
+  if (f.same) {
+    gg_vu swap = (a ^ b) & (gg_vu)(b < a);
+    odd |= equal(a, b);
+    a ^= swap;
+    b ^= swap;
+  }
+  gg_mask keep = gg_or(gg_less(u * (w->bound + w->s0), bound + w->s0), gg_low_bit(odd));
+  gg_vu nth = lane_numbers(first);
+  if (first + GG_WIDTH > n) keep = gg_and(keep, gg_low_bit((gg_vu)(nth < all_bits(n))));
+  gg_pack(next->blocks + next->n, keep, (gg_vd)(a | b << 32 | odd << 63));
+  gg_pack(next->order + next->n, keep, (gg_vd)more);
+  gg_pack(next->bound + next->n, keep, bound);
+  if (f.shear != GG_UNSHEARED) gg_pack(next->nth + next->n, keep, (gg_vd)nth);
+  next->n += (unsigned)__builtin_popcount(gg_bits(keep));
+}
+
+GG_INLINE void prefetch(const gg_block *b)
+{
+  for (int line = 0; line < 3; line++) __builtin_prefetch((const char *)b + 64 * line, 1);
+}
+
+/* Draw `n` block pairs and keep those to be visited. */
+GG_INLINE void draw(gg_features f, gg_batch *w, gg_draw *next, unsigned n, double drift_step)
+{
+  const double delta = n * drift_step;
+  next->drift = w->next_drift;
+  next->unit = w->next_unit;
+  next->n = 0;
+  w->next_drift += delta;
+  w->next_unit *= gg_top_growth(delta);
+  const double root = sqrt(w->next_unit) * (1 + 1e-6);
+  for (unsigned first = 0; first < n; first += GG_LANES)
+    for (int part = 0; part < GG_PARTS; part++) draw_part(f, w, next, part, root, first + (unsigned)part * GG_WIDTH, n);
+}
+
+/* Call the memory of a visit to come. */
+GG_INLINE void call(gg_features f, const gg_batch *w, uint64_t blocks)
+{
+  prefetch(&w->one[(uint32_t)blocks]);
+  prefetch(&w->two[blocks >> 32 & 0x7fffffff]);
+  if (f.rule == GG_SMOOTH) return;
+  prefetch(&w->spin_one[(uint32_t)blocks]);
+  prefetch(&w->spin_two[blocks >> 32 & 0x7fffffff]);
 }
 
 static double sum_of_lanes(const gg_vd v[GG_PARTS])
@@ -132,28 +293,38 @@ static double sum_of_lanes(const gg_vd v[GG_PARTS])
   return sum;
 }
 
+GG_INLINE uint32_t odd_block(const gg_population *p)
+{
+  return p->n % GG_LANES ? (uint32_t)p->n_blocks - 1 : UINT32_MAX;
+}
+
 GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_rng_lanes *lanes)
 {
   *w = (gg_batch){.one = p->one->c,
                   .two = p->two->c,
                   .spin_one = p->one->s,
                   .spin_two = p->two->s,
+                  .top_one = p->one->top,
+                  .top_two = p->two->top,
                   .n_one = p->one->n_blocks,
                   .n_two = p->two->n_blocks,
+                  .odd_one = odd_block(p->one),
+                  .odd_two = odd_block(p->two),
                   .contact = p->contact,
-                  .bound = p->bound,
+                  .floor = p->floor,
                   .shift = p->shift,
                   .s0 = f.shear == GG_SHEARED_DENSE ? GG_SHEAR_SHARE * p->shift : 0,
-                  .drift = p->drift};
-  double top = p->floor + p->bound - w->s0;
-  w->offset = p->floor - w->s0 - p->bound;
-  w->brim = top > 0 ? top * top : 0;
+                  .next_drift = p->drift,
+                  .next_unit = p->top_unit};
+  w->bound = p->floor + p->bound - w->s0;
+  w->sorts = gg_less(gg_all(SORTED), gg_all((double)p->one->n_blocks));
   gg_lane_rng_load(&w->rng, lanes);
 }
 
 GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *lanes)
 {
   gg_lane_rng_save(&w->rng, lanes);
+  p->tried += w->visits * GG_LANES;
   p->collisions += w->collisions;
   p->overflows += w->overflows;
   for (int l = 0; l < GG_WIDTH; l++) p->worst = fmax(p->worst, w->s0 + sqrt(w->worst[l]));
@@ -167,30 +338,58 @@ GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *l
     }
 }
 
+/* The i-th visit of the list; past its end, some blocks or other. */
+GG_INLINE void meet(gg_features f, const gg_batch *w, const gg_draw *now, unsigned i, double drift_step, gg_meeting *at)
+{
+  uint64_t blocks = item(now->blocks, i);
+  at->a = (uint32_t)blocks;
+  at->b = (uint32_t)(blocks >> 32) & 0x7fffffff;
+  at->odd = blocks >> 63;
+  at->drift = f.shear == GG_UNSHEARED ? 0 : now->drift + (double)item(now->nth, i) * drift_step;
+  look(f, w, at, (unsigned)item(now->order, i) % GG_LANES);
+}
+
+/* Each visit is loaded before the one ahead of it is stored: with stores that come late and addresses that agree in
+ * their last bits now and then, a processor would rather wait than let loads pass. */
+GG_INLINE void visit_all(gg_features f, gg_batch *w, const gg_draw *now, const gg_draw *next, gg_pairing *p,
+                         gg_rng *rng)
+{
+  w->per_unit = gg_per_top(now->unit);
+  gg_meeting at, ahead;
+  meet(f, w, now, 0, p->drift_step, &at);
+  for (unsigned i = 0; i < now->n; i++, at = ahead) {
+    call(f, w, item(next->blocks, i)); /* about as many; what is past the end is old, and harmless */
+    meet(f, w, now, i + 1, p->drift_step, &ahead);
+    bool touched = (ahead.a == at.a) | (ahead.a == at.b) | (ahead.b == at.a) | (ahead.b == at.b);
+    if (__builtin_expect(at.odd, 0)) {
+      p->drift = at.drift;
+      p->top_unit = now->unit;
+      gg_collide_odd_blocks(f, p, at.a, at.b, (unsigned)item(now->order, i) % GG_LANES, rng);
+    } else {
+      visit(f, w, &at, now->bound[i], rng);
+    }
+    if (__builtin_expect(touched, 0)) look(f, w, &ahead, (unsigned)item(now->order, i + 1) % GG_LANES);
+  }
+}
+
 /* Everything of a batch. `f` is a constant: each instance holds only what it needs. */
 GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng)
 {
   gg_batch w;
+  double near[3][GG_DIRECTIONS_ROOM], sheared[3][GG_DIRECTIONS_ROOM];
+  gg_draw queue[2] = {{0}, {0}};
   start(f, &w, p, lanes);
-  /* Blocks that are not full, if any. */
-  uint32_t odd_a = p->one->n % GG_LANES ? (uint32_t)p->one->n_blocks - 1 : UINT32_MAX;
-  uint32_t odd_b = p->two->n % GG_LANES ? (uint32_t)p->two->n_blocks - 1 : UINT32_MAX;
-  gg_draw now, next;
-  draw(f, &w, &next);
-  for (uint64_t done = 0; done < p->candidates; done += AHEAD) {
-    uint64_t left = p->candidates - done;
-    now = next;
-    draw(f, &w, &next);
-    for (unsigned i = 0; i < AHEAD && i < left; i++, w.drift += p->drift_step) {
-      uint32_t a = now.a[i], b = now.b[i];
-      if (__builtin_expect((f.same && a == b) || a == odd_a || b == odd_b, 0)) {
-        p->drift = w.drift;
-        gg_collide_odd_blocks(f, p, a, b, now.order[i], rng);
-      } else {
-        collide_blocks(f, &w, a, b, now.order[i]);
-      }
-    }
+  w.near = (gg_directions){.x = near[0], .y = near[1], .z = near[2]};
+  w.sheared = (gg_directions){.x = sheared[0], .y = sheared[1], .z = sheared[2]};
+  unsigned n = p->candidates < DRAWS ? (unsigned)p->candidates : DRAWS;
+  draw(f, &w, &queue[0], n, p->drift_step);
+  for (uint64_t left = p->candidates - n, turn = 0; n; turn ^= 1) {
+    n = left < DRAWS ? (unsigned)left : DRAWS;
+    left -= n;
+    draw(f, &w, &queue[turn ^ 1], n, p->drift_step);
+    visit_all(f, &w, &queue[turn], &queue[turn ^ 1], p, rng);
   }
+  p->top_unit = w.next_unit;
   finish(f, &w, p, lanes);
 }
 

@@ -1,5 +1,7 @@
 /* The collision step as the textbooks have it, one candidate after another: the oracle of the fast kernels, and the
  * path of ensembles too small for blocks. */
+#include <math.h>
+
 #include "dsmc/pairing.h"
 
 typedef struct gg_pair {
@@ -17,6 +19,19 @@ static void fetch(gg_features f, const gg_pairing *p, gg_pair *q)
   q->cb.x -= p->drift * q->cb.y;
 }
 
+static void show(gg_pairing *p, const gg_pair *q, gg_vec k, gg_vec c12)
+{
+  double *one = &p->watching->last[p->species[0]][q->a], *two = &p->watching->last[p->species[1]][q->b];
+  gg_seen_collision m = {.species = {p->species[0], p->species[1]},
+                         .k = k,
+                         .c12 = c12,
+                         .c = {q->ca, q->cb},
+                         .height = {NAN, NAN},
+                         .since = {p->time - *one, p->time - *two}};
+  p->watching->watch(p->watching->context, &m);
+  *one = *two = p->time;
+}
+
 static void tally(gg_features f, gg_pairing *p, gg_vec k, gg_vec g, gg_vec J)
 {
   if (f.tap == GG_TAP_CLOSED) return;
@@ -27,15 +42,24 @@ static void tally(gg_features f, gg_pairing *p, gg_vec k, gg_vec g, gg_vec J)
     for (int b = 0; b < 3; b++) p->stress[a][b] += p->sigma * ka[a] * Jb[b];
 }
 
+static void raise_top(const gg_pairing *p, float *top, gg_vec c)
+{
+  float peak = (float)(gg_dot(c, c) * gg_per_top(p->top_unit));
+  if (peak > *top) *top = peak;
+}
+
 static void collide(gg_features f, gg_pairing *p, gg_pair *q, gg_vec k, gg_vec c12, double gn)
 {
   if (f.rule != GG_SMOOTH) {
     q->sa = gg_block_get(p->one->s, q->a);
     q->sb = gg_block_get(p->two->s, q->b);
   }
+  if (p->watching) show(p, q, k, c12);
   gg_vec g = gg_contact_velocity(f.rule, k, c12, q->sa, q->sb), J = gg_impulse(f.rule, &p->contact, k, g, gn);
   tally(f, p, k, g, J);
   gg_kick(f.rule, &p->contact, k, J, &q->ca, &q->sa, &q->cb, &q->sb);
+  raise_top(p, &p->one->top[q->a / GG_LANES], q->ca);
+  raise_top(p, &p->two->top[q->b / GG_LANES], q->cb);
   if (f.shear != GG_UNSHEARED) {
     q->ca.x += p->drift * q->ca.y;
     q->cb.x += p->drift * q->cb.y;
@@ -55,6 +79,7 @@ static void attempt(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, gg_rng
   gg_vec k = gg_rng_direction(rng), c12 = gg_sub(q.ca, q.cb);
   if (f.shear == GG_SHEARED_DENSE) c12.x -= p->shift * k.y;
   double gn = gg_dot(k, c12), over = gn - p->floor;
+  p->tried++;
   if (gn > p->worst) p->worst = gn;
   if (over > p->bound) p->overflows++;
   if (gg_rng_uniform(rng) * p->bound >= over) return;
@@ -64,12 +89,13 @@ static void attempt(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, gg_rng
 
 void gg_collide_plain(gg_features f, gg_pairing *p, gg_rng *rng)
 {
-  for (uint64_t i = 0; i < p->candidates; i++, p->drift += p->drift_step) {
+  for (uint64_t i = 0; i < p->candidates; i++, p->drift += p->drift_step, p->time += p->time_step) {
     /* Two different grains, every pair as likely as any other. */
     uint32_t a = gg_rng_below(rng, (uint32_t)p->one->n), b = gg_rng_below(rng, (uint32_t)p->two->n - f.same);
     if (f.same && b >= a) b++;
     attempt(f, p, a, b, rng);
   }
+  p->top_unit *= gg_top_growth((double)p->candidates * p->drift_step);
 }
 
 /* Four uniform directions under a bound on g_n are as many candidates as one under a bound on its integral over pi. */
@@ -105,5 +131,7 @@ void gg_collide_odd_blocks(gg_features f, gg_pairing *p, uint32_t a, uint32_t b,
     if (!f.same || !both || gg_rng_below(rng, 2)) continue;
     exchange(p->one->c, p->two->c, i, j);
     if (p->one->s) exchange(p->one->s, p->two->s, i, j);
+    float *x = &p->one->top[i / GG_LANES], *y = &p->two->top[j / GG_LANES];
+    *x = *y = *x > *y ? *x : *y;
   }
 }

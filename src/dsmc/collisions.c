@@ -49,7 +49,7 @@ static void hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
 {
   gg_dsmc_state *s = &d->now;
   s->collisions += p->collisions;
-  s->candidates += p->candidates * gg_grains_a_candidate(d->path[pair]);
+  s->candidates += p->tried;
   s->overflows += p->overflows;
   s->transfer.collisions[pair] += p->collisions;
   s->lost += p->loss;
@@ -83,11 +83,16 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
     p.floor = base;
     p.bound = bound;
     p.candidates = candidates(d, gg_pair_index(i, j), rate * bound, base > 0);
+    if (d->watching.watch) gg_dsmc_show_to_watcher(d, i, j, dt, &p);
     p.drift_step = p.candidates ? span / (double)p.candidates : 0;
     p.drift = drift + 0.5 * p.drift_step;
+    gg_ensemble_drift_tops(&d->ensemble, drift);
+    p.top_unit = d->ensemble.top_unit;
     gg_collide(path, f, &p, &d->now.lanes, &d->now.rng);
+    d->ensemble.top_unit = p.top_unit;
+    d->ensemble.top_drift = drift + span;
     hand_over(d, gg_pair_index(i, j), &p);
-    gg_majorant_learn(majorant, p.worst, thermal, p.candidates * gg_grains_a_candidate(path), window);
+    gg_majorant_learn(majorant, p.worst, thermal, p.tried, window);
     base += bound;
     if (p.worst <= base) break;
     bound = fmax(1.1 * p.worst, gg_rate_bound(path, f, 2 * d->now.fastest, p.shift)) - base;

@@ -1,15 +1,15 @@
-/* Random directions made eight at a time and handed out to the lanes that collide, about a quarter of them: a list that
- * is filled by vectors and read by gg_spread. */
+/* Random directions made eight at a time and handed out to the lanes that collide, about half of them: a list that is
+ * filled by gg_pack and read by gg_spread. */
 #ifndef GG_DSMC_DIRECTIONS_H
 #define GG_DSMC_DIRECTIONS_H
 
 #include "dsmc/lanes.h"
 
-enum { GG_DIRECTIONS = 64 };
+enum { GG_DIRECTIONS = 128, GG_DIRECTIONS_ROOM = GG_DIRECTIONS + 3 * GG_LANES };
 
 typedef struct gg_directions {
-  double x[GG_DIRECTIONS + 2 * GG_LANES], y[GG_DIRECTIONS + 2 * GG_LANES], z[GG_DIRECTIONS + 2 * GG_LANES];
-  unsigned at, n; /* used, made */
+  double *x, *y, *z; /* room for each: a buffer of its own, so that the rest can stay in registers */
+  unsigned at, n;    /* used, made */
 } gg_directions;
 
 /* sin and cos on [-pi/4, pi/4], Taylor's series to rounding: no libm, so that every processor has the same bits. */
@@ -43,52 +43,59 @@ GG_INLINE void gg_lane_circle(gg_vu r, gg_vd *x, gg_vd *y)
   *y = gg_select(other, c, s);
 }
 
-/* Uniform on the sphere. */
-GG_INLINE gg_vd3 gg_lane_uniform(gg_lane_rng *r, int p)
+/* A point (u, v) uniform in the unit disc, s = u^2 + v^2, in the lanes of the mask: each coordinate from half of a
+ * random word. Directions follow without trigonometry (Marsaglia, Ann. Math. Stat. 43 (1972) 645). */
+GG_INLINE gg_mask gg_lane_disc(gg_lane_rng *r, int p, gg_vd *u, gg_vd *v, gg_vd *s)
 {
-  gg_vd3 w;
-  gg_lane_circle(gg_lane_next(r, p), &w.x, &w.y);
-  w.z = 2 * gg_lane_one_to_two(gg_lane_next(r, p)) - 3;
-  gg_vd rho = gg_sqrt(1 - w.z * w.z);
-  w.x *= rho;
-  w.y *= rho;
-  return w;
+  gg_vu bits = gg_lane_next(r, p);
+  *u = 2 * gg_lane_one_to_two(bits) - 3;
+  *v = 2 * gg_lane_one_to_two(bits << 32) - 3;
+  *s = *u * *u + *v * *v;
+  return gg_less(*s, gg_all(1));
 }
 
-/* Cosine law about the z axis: k_z^2 is uniform. */
-GG_INLINE gg_vd3 gg_lane_cosine(gg_lane_rng *r, int p)
+/* Uniform on the sphere. */
+GG_INLINE gg_mask gg_lane_uniform(gg_lane_rng *r, int p, gg_vd3 *w)
 {
-  gg_vd3 w;
-  gg_lane_circle(gg_lane_next(r, p), &w.x, &w.y);
-  gg_vd z2 = gg_lane_one_to_two(gg_lane_next(r, p)) - 1, rho = gg_sqrt(1 - z2);
-  return (gg_vd3){w.x * rho, w.y * rho, gg_sqrt(z2)};
+  gg_vd u, v, s;
+  gg_mask in = gg_lane_disc(r, p, &u, &v, &s);
+  gg_vd f = 2 * gg_sqrt(gg_where(in, 1 - s));
+  *w = (gg_vd3){u * f, v * f, 1 - 2 * s};
+  return in;
+}
+
+/* Cosine law about the z axis: its projection on the plane is uniform in the disc. */
+GG_INLINE gg_mask gg_lane_cosine(gg_lane_rng *r, int p, gg_vd3 *w)
+{
+  gg_vd s;
+  gg_mask in = gg_lane_disc(r, p, &w->x, &w->y, &s);
+  w->z = gg_sqrt(gg_where(in, 1 - s));
+  return in;
 }
 
 /* Density |k_x k_y| on the sphere: z is the median of three uniform numbers on (-1, 1), density 3/4 (1 - z^2), and the
  * squared sine of the azimuth is uniform. */
-GG_INLINE gg_vd3 gg_lane_sheared(gg_lane_rng *r, int p)
+GG_INLINE gg_mask gg_lane_sheared(gg_lane_rng *r, int p, gg_vd3 *k)
 {
-  gg_vu bits = gg_lane_next(r, p);
-  gg_vd a = gg_lane_one_to_two(gg_lane_next(r, p)), b = gg_lane_one_to_two(gg_lane_next(r, p));
-  gg_vd c = gg_lane_one_to_two(gg_lane_next(r, p)), q = gg_lane_one_to_two(bits) - 1;
-  gg_mask swap = gg_less(b, a);
-  gg_vd low = gg_select(swap, b, a), high = gg_select(swap, a, b);
-  gg_vd median = gg_select(gg_less(c, low), low, gg_select(gg_less(high, c), high, c));
-  gg_vd3 k = {.z = 2 * median - 3};
-  gg_vd rho2 = 1 - k.z * k.z;
-  k.x = (gg_vd)((gg_vu)gg_sqrt(rho2 * q) ^ (bits << 63));
-  k.y = (gg_vd)((gg_vu)gg_sqrt(rho2 * (1 - q)) ^ (bits >> 1 << 63));
-  return k;
+  gg_vu ab = gg_lane_next(r, p), cq = gg_lane_next(r, p);
+  gg_vd a = gg_lane_one_to_two(ab), b = gg_lane_one_to_two(ab << 32);
+  gg_vd c = gg_lane_one_to_two(cq), q = gg_lane_one_to_two(cq << 32) - 1;
+  gg_vd median = gg_larger(gg_smaller(a, b), gg_smaller(gg_larger(a, b), c));
+  k->z = 2 * median - 3;
+  gg_vd rho2 = 1 - k->z * k->z;
+  k->x = (gg_vd)((gg_vu)gg_sqrt(rho2 * q) ^ (cq << 63));
+  k->y = (gg_vd)((gg_vu)gg_sqrt(rho2 * (1 - q)) ^ (cq >> 1 << 63));
+  return gg_less(gg_all(0), gg_all(1));
 }
 
 typedef enum gg_law { GG_UNIFORM, GG_COSINE, GG_SHEARED } gg_law;
 
-GG_INLINE gg_vd3 gg_lane_direction(gg_law law, gg_lane_rng *r, int p)
+GG_INLINE gg_mask gg_lane_direction(gg_law law, gg_lane_rng *r, int p, gg_vd3 *w)
 {
   switch (law) {
-  case GG_UNIFORM: return gg_lane_uniform(r, p);
-  case GG_COSINE: return gg_lane_cosine(r, p);
-  default: return gg_lane_sheared(r, p);
+  case GG_UNIFORM: return gg_lane_uniform(r, p, w);
+  case GG_COSINE: return gg_lane_cosine(r, p, w);
+  default: return gg_lane_sheared(r, p, w);
   }
 }
 
@@ -102,15 +109,16 @@ GG_INLINE void gg_directions_stock(gg_directions *d, gg_lane_rng *r, gg_law law)
     d->y[i] = d->y[d->at + i];
     d->z[i] = d->z[d->at + i];
   }
-  for (unsigned i = left; i < left + GG_DIRECTIONS; i += GG_LANES)
-    for (int p = 0; p < GG_PARTS; p++) {
-      gg_vd3 w = gg_lane_direction(law, r, p);
-      __builtin_memcpy(&d->x[i + (unsigned)p * GG_WIDTH], &w.x, sizeof w.x);
-      __builtin_memcpy(&d->y[i + (unsigned)p * GG_WIDTH], &w.y, sizeof w.y);
-      __builtin_memcpy(&d->z[i + (unsigned)p * GG_WIDTH], &w.z, sizeof w.z);
-    }
   d->at = 0;
-  d->n = left + GG_DIRECTIONS;
+  for (d->n = left; d->n < GG_DIRECTIONS;)
+    for (int p = 0; p < GG_PARTS; p++) {
+      gg_vd3 w;
+      gg_mask made = gg_lane_direction(law, r, p, &w);
+      gg_pack(d->x + d->n, made, w.x);
+      gg_pack(d->y + d->n, made, w.y);
+      gg_pack(d->z + d->n, made, w.z);
+      d->n += (unsigned)__builtin_popcount(gg_bits(made));
+    }
 }
 
 /* One for each lane of the mask; the others hold anything finite. */

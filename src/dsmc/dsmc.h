@@ -34,6 +34,8 @@ typedef struct gg_dsmc {
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;
+  gg_watching watching; /* watch NULL: nobody looks */
+  double stretch;       /* time at which the present collisions begin; only for a watcher */
 } gg_dsmc;
 
 /* Bring the stored velocities up to date, look at their temperature and choose the step. */
@@ -52,6 +54,14 @@ gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);
 void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);
 gg_status gg_dsmc_alloc(const gg_model *model, gg_dsmc **d, gg_error *err);
 void gg_dsmc_destroy(gg_engine *engine);
+/* watch.c: the watch operation; where it keeps when each grain last collided. */
+gg_status gg_dsmc_watch(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
+/* These candidates, over `dt` from d->stretch, are to be shown. */
+void gg_dsmc_show_to_watcher(gg_dsmc *d, int i, int j, double dt, gg_pairing *pairing);
+gg_status gg_dsmc_save_watching(const gg_dsmc *d, gg_archive *archive, gg_error *err);
+gg_status gg_dsmc_restore_watching(gg_dsmc *d, const gg_archive *archive, gg_error *err);
+void gg_dsmc_rescale_watching(gg_dsmc *d, double factor);
+
 gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *err);
 gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/clones.h"
 #include "dsmc/dsmc.h"
 
 static gg_dsmc *dsmc_of(gg_engine *engine)
@@ -70,14 +71,16 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .time_step_bias = s->step.bias};
 }
 
-/* Lay a run of blocks out flat, streamed as far as they have to be. */
-static void unpack(const gg_block *b, size_t n, double drift, double *x, double *y, double *z)
+/* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
+GG_CLONES static void unpack(const gg_block *b, size_t n, double drift, double *restrict x, double *restrict y,
+                             double *restrict z)
 {
-  for (size_t i = 0; i < n; i++) {
-    x[i] = b[i / GG_LANES].x[i % GG_LANES] - drift * b[i / GG_LANES].y[i % GG_LANES];
-    y[i] = b[i / GG_LANES].y[i % GG_LANES];
-    z[i] = b[i / GG_LANES].z[i % GG_LANES];
-  }
+  for (size_t i = 0; i < n; i += GG_LANES, b++)
+    for (size_t l = 0; l < GG_LANES; l++) {
+      x[i + l] = b->x[l] - drift * b->y[l];
+      y[i + l] = b->y[l];
+      z[i + l] = b->z[l];
+    }
 }
 
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
@@ -106,15 +109,20 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
-  if (d->thermostat != GG_NO_THERMOSTAT)
+  bool slow = d->model.small_shear; /* goes back to the beginning of its round */
+  if (d->thermostat != GG_NO_THERMOSTAT && !slow)
     return gg_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
-  if (d->model.shear_rate != 0)
+  if (d->model.shear_rate != 0 && !slow)
     return gg_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
   if (power < -1000 || power > 1000) return gg_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);
   double factor = ldexp(1, power);
   gg_ensemble_scale(&d->ensemble, factor);
-  d->now.time /= factor;
-  d->now.unsettled /= factor;
+  if (!slow) {
+    d->now.time /= factor;
+    d->now.unsettled /= factor;
+    gg_dsmc_rescale_watching(d, factor);
+  }
+  d->now.lost *= factor * factor;
   d->now.fastest *= factor;
   d->now.centre = gg_scale(factor, d->now.centre);
   d->now.temperature *= factor * factor;
@@ -132,6 +140,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .advance = advance,
     .tap = tap,
     .read_tap = read_tap,
+    .watch = gg_dsmc_watch,
     .state = state,
     .snapshot = snapshot,
     .rescale = rescale,

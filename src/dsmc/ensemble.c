@@ -7,8 +7,6 @@
 
 #include "dsmc/sweep.h"
 
-/* Random blocks of a large ensemble lie on pages too many to remember; huge pages, where the system has them, spare a
- * third of the time at a million grains. */
 /* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
  * them, spare it the walks. */
 static gg_block *new_blocks(size_t n, gg_error *err)
@@ -38,7 +36,8 @@ gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err)
     p->inertia = model->inertia[i];
     p->c = new_blocks(p->n_blocks, err);
     if (p->c && model->rule != GG_SMOOTH) p->s = new_blocks(p->n_blocks, err);
-    if (!p->c || (model->rule != GG_SMOOTH && !p->s)) {
+    p->top = gg_new_array(p->n_blocks, sizeof *p->top, err);
+    if (!p->c || !p->top || (model->rule != GG_SMOOTH && !p->s)) {
       gg_ensemble_free(e);
       return GG_FAILED;
     }
@@ -51,6 +50,7 @@ void gg_ensemble_free(gg_ensemble *e)
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     free(e->of[i].c);
     free(e->of[i].s);
+    free(e->of[i].top);
   }
   *e = (gg_ensemble){0};
 }
@@ -70,46 +70,53 @@ void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng)
     }
   }
   gg_vec none = {0, 0, 0};
-  gg_moments m = gg_ensemble_settle(e, 0, 1, gg_ensemble_settle(e, 0, 1, none).centre);
+  gg_moments m = gg_ensemble_settle(e, 0, 1, gg_ensemble_settle(e, 0, 1, none, 1).centre, 1);
   double factor = sqrt(model->temperature0 / m.temperature);
   for (int i = 0; i < e->n_species; i++)
     for (uint32_t a = 0; a < e->of[i].n; a++)
       gg_block_set(e->of[i].c, a, gg_scale(factor, gg_block_get(e->of[i].c, a)));
 }
 
-void gg_blocks_scale(gg_block *b, size_t n, double factor)
+static void scale_blocks(gg_block *b, size_t n, double factor)
 {
   double *v = (double *)b;
   for (size_t i = 0; b && i < n * sizeof(gg_block) / sizeof(double); i++) v[i] *= factor;
 }
 
+void gg_ensemble_heat(gg_ensemble *e, double factor)
+{
+  for (int i = 0; i < e->n_species; i++) scale_blocks(e->of[i].c, e->of[i].n_blocks, factor);
+  e->top_unit *= factor * factor * (1 + 1e-15);
+}
+
 void gg_ensemble_scale(gg_ensemble *e, double factor)
 {
+  gg_ensemble_heat(e, factor);
   for (int i = 0; i < e->n_species; i++) {
-    gg_blocks_scale(e->of[i].c, e->of[i].n_blocks, factor);
-    gg_blocks_scale(e->of[i].s, e->of[i].n_blocks, factor);
+    scale_blocks(e->of[i].s, e->of[i].n_blocks, factor);
   }
 }
 
 /* The last block alone: its empty lanes stay 0. */
-static void settle_odd_block(gg_population *p, double drift, double scale, gg_vec centre, gg_sums *s)
+static void settle_odd_block(gg_population *p, double drift, double scale, gg_vec centre, double unit, gg_sums *s)
 {
   gg_block *block = &p->c[p->n_blocks - 1];
   gg_sums ignored = {0};
-  gg_sweep_blocks(block, 1, drift, scale, centre, &ignored);
+  float *top = &p->top[p->n_blocks - 1];
+  gg_sweep_blocks(block, top, 1, drift, scale, centre, unit, &ignored);
   for (int l = (int)(p->n % GG_LANES); l < GG_LANES; l++) block->x[l] = block->y[l] = block->z[l] = 0;
-  gg_sweep_blocks(block, 1, 0, 1, (gg_vec){0, 0, 0}, s);
+  gg_sweep_blocks(block, top, 1, 0, 1, (gg_vec){0, 0, 0}, unit, s);
 }
 
-gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre)
+gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre, double unit)
 {
   double n = 0, mass = 0, energy = 0, most = 0;
   gg_vec momentum = {0, 0, 0};
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
     gg_sums s = {0};
-    gg_sweep_blocks(p->c, (size_t)p->n / GG_LANES, drift, scale, centre, &s);
-    if (p->n % GG_LANES) settle_odd_block(p, drift, scale, centre, &s);
+    gg_sweep_blocks(p->c, p->top, (size_t)p->n / GG_LANES, drift, scale, centre, unit, &s);
+    if (p->n % GG_LANES) settle_odd_block(p, drift, scale, centre, unit, &s);
     for (int l = 0; l < GG_LANES; l++) {
       momentum = gg_axpy(p->mass, (gg_vec){s.c.x[l], s.c.y[l], s.c.z[l]}, momentum);
       energy += p->mass * s.c2[l];
@@ -118,11 +125,23 @@ gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec
     n += (double)p->n;
     mass += p->mass * (double)p->n;
   }
+  e->top_unit = unit;
+  e->top_drift = 0;
   return (gg_moments){.temperature = energy / (3 * n), .fastest = sqrt(most), .centre = gg_scale(1 / mass, momentum)};
+}
+
+void gg_ensemble_drift_tops(gg_ensemble *e, double drift)
+{
+  double delta = drift - e->top_drift, part = gg_top_growth(delta / 8); /* drifts by a few units at most */
+  for (int twice = 0; twice < 3; twice++) part *= part;
+  e->top_unit *= part;
+  e->top_drift = drift;
 }
 
 static const char *const velocity_items[] = {"dsmc/velocity_1", "dsmc/velocity_2"};
 static const char *const spin_items[] = {"dsmc/spin_1", "dsmc/spin_2"};
+static const char *const top_items[] = {"dsmc/top_1", "dsmc/top_2"};
+static const char top_unit_item[] = "dsmc/top_unit";
 
 gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *err)
 {
@@ -131,8 +150,10 @@ gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *
     size_t n = p->n_blocks * sizeof(gg_block) / sizeof(double);
     GG_TRY(gg_archive_put(archive, velocity_items[i], GG_ITEM_F64, p->c, n, err));
     if (p->s) GG_TRY(gg_archive_put(archive, spin_items[i], GG_ITEM_F64, p->s, n, err));
+    GG_TRY(gg_archive_put(archive, top_items[i], GG_ITEM_U8, p->top, p->n_blocks * sizeof *p->top, err));
   }
-  return GG_OK;
+  double tops[] = {e->top_unit, e->top_drift};
+  return gg_archive_put(archive, top_unit_item, GG_ITEM_F64, tops, 2, err);
 }
 
 gg_status gg_ensemble_restore(gg_ensemble *e, const gg_archive *archive, gg_error *err)
@@ -142,6 +163,11 @@ gg_status gg_ensemble_restore(gg_ensemble *e, const gg_archive *archive, gg_erro
     size_t n = p->n_blocks * sizeof(gg_block) / sizeof(double);
     GG_TRY(gg_archive_get(archive, velocity_items[i], GG_ITEM_F64, p->c, n, err));
     if (p->s) GG_TRY(gg_archive_get(archive, spin_items[i], GG_ITEM_F64, p->s, n, err));
+    GG_TRY(gg_archive_get(archive, top_items[i], GG_ITEM_U8, p->top, p->n_blocks * sizeof *p->top, err));
   }
+  double tops[2];
+  GG_TRY(gg_archive_get(archive, top_unit_item, GG_ITEM_F64, tops, 2, err));
+  e->top_unit = tops[0];
+  e->top_drift = tops[1];
   return GG_OK;
 }

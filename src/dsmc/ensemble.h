@@ -6,7 +6,12 @@
  * Grains of a sheared gas stream as dC_x/dt = -rate C_y. That motion is the same linear map for all grains, so it is
  * not carried out grain by grain: what is stored is x = C_x + drift C_y, constant while streaming, with drift = rate x
  * (time since the map was last applied). The kernels undo it for the two grains that collide; gg_ensemble_stream
- * applies it to all. */
+ * applies it to all.
+ *
+ * Of every block an upper bound of its speeds is kept, for the kernels to draw pairs of blocks by: C^2 <= top x
+ * top_unit in all lanes while the drift stays where `top_unit` was set. Streaming over a drift of `delta` stretches
+ * speeds by no more than exp(delta/2) (the larger singular value of a shear is exp(asinh(delta/2))), so top_unit may go
+ * along instead of all tops. */
 #ifndef GG_DSMC_ENSEMBLE_H
 #define GG_DSMC_ENSEMBLE_H
 
@@ -26,11 +31,13 @@ typedef struct gg_population {
   size_t n_blocks;
   double mass, inertia; /* m; K = 4I/(m d^2) */
   gg_block *c, *s;      /* peculiar velocities; surface spins, NULL if smooth */
+  float *top;           /* of each block */
 } gg_population;
 
 typedef struct gg_ensemble {
   int n_species;
   gg_population of[GG_MAX_SPECIES];
+  double top_unit, top_drift; /* drift at which it holds */
 } gg_ensemble;
 
 typedef struct gg_moments {
@@ -47,14 +54,28 @@ void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng);
 
 /* C_x -= drift C_y for every grain, all times `scale`, less the velocity `centre`: rounding feeds the motion of the
  * centre of mass, and cooling or a thermostat would let it grow relative to the thermal speed without bound. Returns
- * what is there then. */
-gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre);
-/* Velocities (or spins) times a factor. */
-void gg_blocks_scale(gg_block *blocks, size_t n, double factor);
+ * what is there then. `unit` (a velocity squared of the order of the temperature) becomes that of the tops. */
+gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre, double unit);
+/* Let the tops hold at another drift. */
+void gg_ensemble_drift_tops(gg_ensemble *e, double drift);
+/* Every velocity times a factor. */
+void gg_ensemble_heat(gg_ensemble *e, double factor);
 /* Every velocity and spin times a factor. */
 void gg_ensemble_scale(gg_ensemble *e, double factor);
 gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *err);
 gg_status gg_ensemble_restore(gg_ensemble *e, const gg_archive *archive, gg_error *err);
+
+/* At least exp(|delta|), up to |delta| = 1. */
+GG_INLINE double gg_top_growth(double delta)
+{
+  return 1 + fabs(delta) + delta * delta;
+}
+
+/* 1/top_unit and a little more, so that rounding to float breaks no bound. */
+GG_INLINE double gg_per_top(double unit)
+{
+  return (1 + 1e-6) / unit;
+}
 
 GG_INLINE gg_vec gg_block_get(const gg_block *b, uint32_t i)
 {

@@ -25,24 +25,25 @@ bool gg_path_runs_here(gg_path path)
   return true;
 }
 
-void gg_sweep_blocks(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums)
+void gg_sweep_blocks(gg_block *c, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
+                     gg_sums *sums)
 {
   gg_sweep *sweep = gg_sweep_baseline;
 #ifdef GG_X86_64
   if (gg_path_runs_here(GG_PATH_AVX2)) sweep = gg_sweep_avx2;
   if (gg_path_runs_here(GG_PATH_AVX512)) sweep = gg_sweep_avx512;
 #endif
-  sweep(c, n, drift, scale, centre, sums);
+  sweep(c, top, n, drift, scale, centre, unit, sums);
 }
 
-void gg_kick_blocks(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes)
+void gg_kick_blocks(gg_block *c, float *top, size_t n, double drift, double size, double unit, gg_rng_lanes *lanes)
 {
   gg_kicks *kicks = gg_kicks_baseline;
 #ifdef GG_X86_64
   if (gg_path_runs_here(GG_PATH_AVX2)) kicks = gg_kicks_avx2;
   if (gg_path_runs_here(GG_PATH_AVX512)) kicks = gg_kicks_avx512;
 #endif
-  kicks(c, n, drift, size, lanes);
+  kicks(c, top, n, drift, size, unit, lanes);
 }
 
 gg_path gg_path_choose(const gg_population *one, const gg_population *two)
@@ -68,11 +69,6 @@ double gg_rate_bound(gg_path path, gg_features f, double speed, double shift)
 {
   if (f.shear != GG_SHEARED_DENSE) return speed;
   return speed + (path == GG_PATH_PLAIN ? 0.5 : GG_SHEAR_SHARE) * shift; /* |k_x k_y| <= 1/2 */
-}
-
-uint64_t gg_grains_a_candidate(gg_path path)
-{
-  return path == GG_PATH_PLAIN ? 1 : GG_LANES;
 }
 
 void gg_collide(gg_path path, gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng)

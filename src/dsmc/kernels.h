@@ -22,8 +22,6 @@ gg_path gg_path_choose(const gg_population *one, const gg_population *two);
 double gg_candidates(gg_path path, gg_features f, const gg_population *one, const gg_population *two);
 /* Largest rate, in the path's measure, of a pair whose relative speed is `speed`. */
 double gg_rate_bound(gg_path path, gg_features f, double speed, double shift);
-/* Pairs of grains a candidate stands for. */
-uint64_t gg_grains_a_candidate(gg_path path);
 
 void gg_collide(gg_path path, gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng);
 

@@ -21,6 +21,8 @@ typedef double gg_vd __attribute__((vector_size(8 * GG_WIDTH)));
 typedef int64_t gg_vi __attribute__((vector_size(8 * GG_WIDTH)));
 typedef uint64_t gg_vu __attribute__((vector_size(8 * GG_WIDTH)));
 
+typedef double gg_v2 __attribute__((vector_size(16)));
+
 /* Lane-wise vectors in space. */
 typedef struct gg_vd3 {
   gg_vd x, y, z;
@@ -52,7 +54,9 @@ GG_INLINE gg_vd3 gg_vd3_cross(gg_vd3 a, gg_vd3 b)
 }
 
 /* gg_mask: one truth a lane. gg_permute_of(r) and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_spread: the
- * next numbers of a list, one for each true lane. */
+ * next numbers of a list, one for each true lane; gg_pack: the true lanes to the front of a list, then anything up to a
+ * width. gg_peaks: the largest lane of a, and of b. gg_mul32: products of the low halves. gg_roots_at: square roots
+ * out of a table, rounded to float. */
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 typedef __mmask8 gg_mask;
 typedef __m512i gg_order;
@@ -103,6 +107,32 @@ GG_INLINE gg_vd gg_permute(gg_vd v, gg_order o)
 GG_INLINE gg_vd gg_spread(gg_mask m, const double *list)
 {
   return _mm512_maskz_expand_pd(m, _mm512_loadu_pd(list));
+}
+GG_INLINE void gg_pack(double *list, gg_mask m, gg_vd v)
+{
+  _mm512_storeu_pd(list, _mm512_maskz_compress_pd(m, v));
+}
+GG_INLINE gg_vd gg_larger(gg_vd a, gg_vd b)
+{
+  return _mm512_max_pd(a, b);
+}
+GG_INLINE gg_vd gg_smaller(gg_vd a, gg_vd b)
+{
+  return _mm512_min_pd(a, b);
+}
+GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
+{
+  return (gg_vu)_mm512_mul_epu32((__m512i)a, (__m512i)b);
+}
+GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
+{
+  return _mm512_cvtps_pd(_mm256_sqrt_ps(_mm512_i64gather_ps((__m512i)at, table, 4)));
+}
+GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
+{
+  __m512d pairs = _mm512_max_pd(_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+  __m256d half = _mm256_max_pd(_mm512_castpd512_pd256(pairs), _mm512_extractf64x4_pd(pairs, 1));
+  return _mm_max_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
 }
 #elif defined(__AVX2__)
 typedef gg_vi gg_mask;
@@ -166,6 +196,43 @@ GG_INLINE gg_vd gg_spread(gg_mask m, const double *list)
 {
   return gg_permute(_mm256_loadu_pd(list), *(const __m256i *)gg_spread_order[gg_bits(m)]);
 }
+static const int gg_pack_order[16][8] __attribute__((aligned(32))) = {
+#define R(i) 2 * (i), 2 * (i) + 1
+#define ROW(a, b, c, d)                                                                                                \
+  {                                                                                                                    \
+    R(a), R(b), R(c), R(d)                                                                                             \
+  }
+    ROW(0, 0, 0, 0), ROW(0, 0, 0, 0), ROW(1, 0, 0, 0), ROW(0, 1, 0, 0), ROW(2, 0, 0, 0), ROW(0, 2, 0, 0),
+    ROW(1, 2, 0, 0), ROW(0, 1, 2, 0), ROW(3, 0, 0, 0), ROW(0, 3, 0, 0), ROW(1, 3, 0, 0), ROW(0, 1, 3, 0),
+    ROW(2, 3, 0, 0), ROW(0, 2, 3, 0), ROW(1, 2, 3, 0), ROW(0, 1, 2, 3),
+#undef ROW
+#undef R
+};
+GG_INLINE void gg_pack(double *list, gg_mask m, gg_vd v)
+{
+  _mm256_storeu_pd(list, gg_permute(v, *(const __m256i *)gg_pack_order[gg_bits(m)]));
+}
+GG_INLINE gg_vd gg_larger(gg_vd a, gg_vd b)
+{
+  return _mm256_max_pd(a, b);
+}
+GG_INLINE gg_vd gg_smaller(gg_vd a, gg_vd b)
+{
+  return _mm256_min_pd(a, b);
+}
+GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
+{
+  return (gg_vu)_mm256_mul_epu32((__m256i)a, (__m256i)b);
+}
+GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
+{
+  return _mm256_cvtps_pd(_mm_sqrt_ps(_mm_setr_ps(table[at[0]], table[at[1]], table[at[2]], table[at[3]])));
+}
+GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
+{
+  __m256d pairs = _mm256_max_pd(_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+  return _mm_max_pd(_mm256_castpd256_pd128(pairs), _mm256_extractf128_pd(pairs, 1));
+}
 #else
 typedef gg_vi gg_mask;
 typedef gg_vi gg_order;
@@ -217,12 +284,32 @@ GG_INLINE gg_vd gg_spread(gg_mask m, const double *list)
 {
   return (gg_vd){list[0], list[m[0] & 1]};
 }
-#endif
-
+GG_INLINE void gg_pack(double *list, gg_mask m, gg_vd v)
+{
+  list[0] = m[0] ? v[0] : v[1];
+  list[1] = v[1];
+}
 GG_INLINE gg_vd gg_larger(gg_vd a, gg_vd b)
 {
-  return gg_select(gg_less(a, b), b, a);
+  return gg_select(gg_less(b, a), a, b);
 }
+GG_INLINE gg_vd gg_smaller(gg_vd a, gg_vd b)
+{
+  return gg_select(gg_less(a, b), a, b);
+}
+GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
+{
+  return (a & UINT32_MAX) * (b & UINT32_MAX);
+}
+GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
+{
+  return (gg_vd){sqrtf(table[at[0]]), sqrtf(table[at[1]])};
+}
+GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
+{
+  return gg_larger((gg_v2){a[0], b[0]}, (gg_v2){a[1], b[1]});
+}
+#endif
 
 GG_INLINE gg_vd gg_load(const double *p)
 {

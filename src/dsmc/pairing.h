@@ -34,8 +34,18 @@ typedef struct gg_features {
   bool same; /* both grains of one species */
 } gg_features;
 
+/* Whom the plain path shows its collisions to. */
+typedef struct gg_watching {
+  gg_watch *watch;
+  void *context;
+  double *last[GG_MAX_SPECIES]; /* when each grain last collided; -INFINITY: not yet */
+} gg_watching;
+
 typedef struct gg_pairing {
   /* given */
+  gg_watching *watching;  /* NULL: nobody looks */
+  int species[2];         /* for the watcher */
+  double time, time_step; /* the same: of the first candidate, and from one to the next */
   gg_population *one, *two;
   gg_contact contact;
   double shift;             /* sigma x rate */
@@ -43,7 +53,9 @@ typedef struct gg_pairing {
   double floor, bound;      /* the layer of g_n */
   double drift, drift_step; /* of the first candidate, and from one to the next: rate x time */
   uint64_t candidates;
+  double top_unit; /* of the tops of both at the drift where the stretch begins; in the end, where it ends */
   /* handed back */
+  uint64_t tried; /* pairs of grains looked at */
   uint64_t collisions, overflows;
   double worst;              /* largest g_n seen */
   double stress[3][3], loss; /* if tapped */

@@ -5,7 +5,8 @@
 void gg_dsmc_settle(gg_dsmc *d)
 {
   gg_dsmc_state *s = &d->now;
-  gg_moments m = gg_ensemble_settle(&d->ensemble, s->drift, 1, s->centre);
+  double unit = s->temperature > 0 ? s->temperature : d->model.temperature0;
+  gg_moments m = gg_ensemble_settle(&d->ensemble, s->drift, 1, s->centre, unit);
   s->temperature = m.temperature;
   s->fastest = m.fastest;
   s->centre = m.centre;
@@ -25,6 +26,7 @@ static void heat(gg_dsmc *d, double dt, double drift, double half)
 /* Collisions and thermostat over `dt`, while the drift goes from `drift` to `drift + span`. */
 static void collide(gg_dsmc *d, double dt, double drift, double span)
 {
+  d->stretch = d->now.time;
   if (d->thermostat == GG_NO_THERMOSTAT && d->model.n_species == 1) {
     gg_dsmc_collide(d, dt, drift, span, false);
     return;
@@ -33,6 +35,7 @@ static void collide(gg_dsmc *d, double dt, double drift, double span)
   /* The second half mirrors the first, so that turns cancel to second order. */
   gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, false);
   if (d->thermostat != GG_NO_THERMOSTAT) heat(d, dt, drift + 0.5 * span, d->now.lost - lost);
+  d->stretch += 0.5 * dt;
   gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, true);
 }
 

@@ -5,8 +5,17 @@
 #define NAME_OF(name, instructions) name##_##instructions
 #define NAME(name, instructions) NAME_OF(name, instructions)
 
-void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums)
+/* The top of a block, part by part. */
+GG_INLINE void note_top(float *top, int at, gg_vd c2, double per_unit)
 {
+  float peak = (float)(gg_peaks(c2, c2)[0] * per_unit);
+  *top = at && *top > peak ? *top : peak;
+}
+
+void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, float *top, size_t n, double drift, double scale, gg_vec centre,
+                                     double unit, gg_sums *sums)
+{
+  const double per_unit = gg_per_top(unit);
   for (int at = 0; at < GG_LANES; at += GG_WIDTH) {
     gg_vd sx = gg_all(0), sy = sx, sz = sx, s2 = sx, fastest = sx;
     for (gg_block *b = c; b < c + n; b++) {
@@ -22,6 +31,7 @@ void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double
       sz += z;
       s2 += c2;
       fastest = gg_larger(fastest, c2);
+      note_top(&top[b - c], at, c2, per_unit);
     }
     for (int l = 0; l < GG_WIDTH; l++) {
       sums->c.x[at + l] += sx[l];
@@ -33,8 +43,10 @@ void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double
   }
 }
 
-void NAME(gg_kicks, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes)
+void NAME(gg_kicks, GG_INSTRUCTIONS)(gg_block *c, float *top, size_t n, double drift, double size, double unit,
+                                     gg_rng_lanes *lanes)
 {
+  const double per_unit = gg_per_top(unit);
   gg_lane_rng rng;
   gg_lane_rng_load(&rng, lanes);
   for (gg_block *b = c; b < c + n; b++)
@@ -43,9 +55,14 @@ void NAME(gg_kicks, GG_INSTRUCTIONS)(gg_block *c, size_t n, double drift, double
       gg_vd x, y, z, spare;
       gg_lane_normal(&rng, part, &x, &y);
       gg_lane_normal(&rng, part, &z, &spare);
-      gg_store(b->x + at, gg_load(b->x + at) + size * (x + drift * y));
-      gg_store(b->y + at, gg_load(b->y + at) + size * y);
-      gg_store(b->z + at, gg_load(b->z + at) + size * z);
+      x = gg_load(b->x + at) + size * (x + drift * y);
+      y = gg_load(b->y + at) + size * y;
+      z = gg_load(b->z + at) + size * z;
+      gg_store(b->x + at, x);
+      gg_store(b->y + at, y);
+      gg_store(b->z + at, z);
+      x -= drift * y;
+      note_top(&top[b - c], at, x * x + y * y + z * z, per_unit);
     }
   gg_lane_rng_save(&rng, lanes);
 }

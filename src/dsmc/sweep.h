@@ -10,16 +10,17 @@ typedef struct gg_sums {
   double c2[GG_LANES], fastest[GG_LANES]; /* sum and largest of C^2 */
 } gg_sums;
 
-/* C = scale (x - drift y, y, z) - centre for full blocks, summing as it goes. */
-typedef void gg_sweep(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums);
+/* C = scale (x - drift y, y, z) - centre for full blocks, summing as it goes; tops in `unit`. */
+typedef void gg_sweep(gg_block *c, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
+                      gg_sums *sums);
 gg_sweep gg_sweep_baseline, gg_sweep_avx2, gg_sweep_avx512;
 
-/* C += size (n_x, n_y, n_z) with normal n, for full blocks stored with `drift`. */
-typedef void gg_kicks(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes);
+/* C += size (n_x, n_y, n_z) with normal n, for full blocks stored with `drift`; tops in `unit`. */
+typedef void gg_kicks(gg_block *c, float *top, size_t n, double drift, double size, double unit, gg_rng_lanes *lanes);
 gg_kicks gg_kicks_baseline, gg_kicks_avx2, gg_kicks_avx512;
 
 /* By this processor's best. */
-void gg_sweep_blocks(gg_block *c, size_t n, double drift, double scale, gg_vec centre, gg_sums *sums);
-void gg_kick_blocks(gg_block *c, size_t n, double drift, double size, gg_rng_lanes *lanes);
+gg_sweep gg_sweep_blocks;
+gg_kicks gg_kick_blocks;
 
 #endif

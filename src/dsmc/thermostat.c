@@ -27,7 +27,7 @@ double gg_thermostat_return(gg_ensemble *e, double drift, double missing, double
   /* The loss goes as T^(3/2), and the second half is hotter than the first by what it destroyed. */
   double advance = half * (1 + 1.5 * half / energy);
   double gain = (missing + advance) / energy, factor = gain > -1 ? sqrt(1 + gain) : 0;
-  for (int i = 0; i < e->n_species; i++) gg_blocks_scale(e->of[i].c, e->of[i].n_blocks, factor);
+  gg_ensemble_heat(e, factor);
   return advance;
 }
 
@@ -35,7 +35,8 @@ void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng_la
 {
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
-    gg_kick_blocks(p->c, p->n_blocks, drift, sqrt(variance), lanes);
+    gg_kick_blocks(p->c, p->top, p->n_blocks, drift, sqrt(variance), e->top_unit, lanes);
     for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++) gg_block_set(p->c, (uint32_t)a, (gg_vec){0, 0, 0});
   }
+  e->top_drift = drift;
 }

@@ -19,6 +19,8 @@ gg_time_step gg_time_step_choose(const gg_model *model, double T)
   bool turns = model->n_species > 1 || gg_thermostat_of(model) != GG_NO_THERMOSTAT;
   double free_time = 1 / gg_model_collision_rate(model, T);
   gg_time_step step = {.settle = free_time, .length = turns ? 0.25 * free_time : free_time};
+  /* Nothing but collisions: the kernel needs no step at all. */
+  if (!turns && model->shear_rate == 0) step.settle = step.length = 3 * free_time;
   if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
   if (model->time_step > 0) {
     step.length = model->time_step * free_time;

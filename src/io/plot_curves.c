@@ -77,8 +77,8 @@ static void find_ends(const json_t *curve, size_t *from, size_t *to)
   while (*to > *from && at(curve, "value", *to - 1) == 0) --*to;
 }
 
-/* Errors beyond the point itself would only hide other curves on a logarithmic axis. */
-static void print_data(FILE *s, int k, const json_t *curve, double range[2])
+/* On a logarithmic axis a point that is not known within two thirds of itself says little, and hides other curves. */
+static void print_data(FILE *s, int k, const json_t *curve, double range[2], double *least)
 {
   bool log_x = json_is_true(json_object_get(curve, "log_x")), log_y = json_is_true(json_object_get(curve, "log_y"));
   size_t from, to;
@@ -86,9 +86,9 @@ static void print_data(FILE *s, int k, const json_t *curve, double range[2])
   fprintf(s, "$curve%d << EOD\n", k);
   for (size_t i = from; i < to; i++) {
     double x = at(curve, "x", i), y = at(curve, "value", i), e = at(curve, "stderr", i);
-    if (!isfinite(y) || (log_x && x <= 0) || (log_y && y <= 0)) continue;
+    if (!isfinite(y) || (log_x && x <= 0) || (log_y && (y <= 0 || e > 0.67 * y))) continue;
     double band = isfinite(e) ? e : 0, low = y - band;
-    if (log_y && low < 0.1 * y) low = 0.1 * y;
+    *least = fmin(*least, y);
     range[0] = fmin(range[0], low), range[1] = fmax(range[1], y + band);
     fprintf(s, "%.7g %.7g %.7g %.7g\n", x, y, low, y + band);
   }
@@ -109,9 +109,9 @@ static void draw_panel(FILE *s, const panel *p, gg_panel place)
 {
   const json_t *first = p->curve[0];
   gg_plot_place(s, place);
-  double range[2] = {INFINITY, -INFINITY};
-  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], range);
-  if (range[0] >= 0 && range[0] < 0.3 * range[1]) fprintf(s, "set yrange [0:*]\n");
+  double range[2] = {INFINITY, -INFINITY}, least = INFINITY;
+  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], range, &least);
+  if (least >= 0 && range[0] < 0.3 * range[1]) fprintf(s, "set yrange [0:*]\n");
   if (json_is_true(json_object_get(first, "log_x"))) fprintf(s, "set logscale x\n");
   if (json_is_true(json_object_get(first, "log_y")))
     fprintf(s, "set yrange [*:*]\nset logscale y\nset format y '10^{%%T}'\n");

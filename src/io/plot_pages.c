@@ -39,6 +39,18 @@ static char *page_name(const char *picture, const char *engine, const char *grou
   return written < 0 ? NULL : name;
 }
 
+static gg_status draw_snapshot(const gg_stored_result *stored, const char *path, const char *picture, bool png,
+                               void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
+{
+  bool there;
+  char *name = page_name(picture, "", "snapshot", png);
+  if (!name) return gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = gg_plot_snapshot(stored, path, name, png, &there, err);
+  if (status == GG_OK && there && drawn) drawn(context, name);
+  free(name);
+  return status;
+}
+
 gg_status gg_plot_result_curves(const char *result_path, const char *picture, const char *format,
                                 void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
 {
@@ -46,7 +58,7 @@ gg_status gg_plot_result_curves(const char *result_path, const char *picture, co
   size_t length = strlen(picture);
   bool png = format ? strcmp(format, "png") == 0 : length > 4 && strcmp(picture + length - 4, ".png") == 0;
   GG_TRY(gg_stored_result_read(&stored, result_path, err));
-  gg_status status = GG_OK;
+  gg_status status = draw_snapshot(&stored, result_path, picture, png, drawn, context, err);
   for (int k = 0; k < 2; k++) {
     const gg_stored_engine *e = &stored.engine[k];
     const char *groups[MOST_GROUPS];

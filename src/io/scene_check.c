@@ -18,6 +18,8 @@ static void follow_flow(gg_scene_draft *d)
     for (int p = 0; p < GG_PAIRS; p++) s->collision.e[p] = e;
   }
   if (!given(d, "thermostat")) s->thermostat = s->flow == GG_HSS ? GG_GAUSSIAN : GG_NO_THERMOSTAT;
+  if (!given(d, "small_shear")) s->small_shear = s->flow == GG_USF && s->thermostat == GG_GAUSSIAN ? GG_ON : GG_OFF;
+  if (s->small_shear == GG_ON) s->measure |= GG_MEASURE_VISCOSITY;
 }
 
 static bool loses_energy(const gg_scene *s)
@@ -44,6 +46,8 @@ static gg_status check_flow(const gg_scene *s, const char *name, gg_error *err)
   if ((s->flow == GG_HCS || s->flow == GG_EQUILIBRIUM) && s->thermostat != GG_NO_THERMOSTAT)
     return gg_fail(err, GG_BAD_INPUT, "%s: a thermostat does not go with flow: %s; use flow: hss", name,
                    s->flow == GG_HCS ? "hcs" : "equilibrium");
+  if (s->small_shear == GG_ON && (s->flow != GG_USF || s->thermostat == GG_WHITE_NOISE))
+    return gg_fail(err, GG_BAD_INPUT, "%s: small_shear: on needs flow: usf, and thermostat: none or gaussian", name);
   double g = fabs(s->gravity[0]) + fabs(s->gravity[1]) + fabs(s->gravity[2]);
   if (g > 0 && !gg_flow_is_walled(s->flow))
     return gg_fail(err, GG_BAD_INPUT, "%s: gravity needs a flow with walls: couette, poiseuille or chute", name);

@@ -25,12 +25,14 @@ static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARL
                                          {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
                                          {"kolafa", GG_KOLAFA, "from the accurate equation of state"},
                                          {0}};
+static const gg_word switches[] = {{"off", GG_OFF, ""}, {"on", GG_ON, ""}, {0}};
 static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one below"},
                                {"open", GG_OPEN_TOP, "none: grains fall back under gravity"},
                                {0}};
 static const gg_word observables[] = {
     {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
     {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
+    {"local_distributions", GG_MEASURE_LOCAL_DISTRIBUTIONS, "velocity distributions by local density"},
     {"orientation", GG_MEASURE_ORIENTATION, "angle between velocity and spin"},
     {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
     {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
@@ -39,6 +41,8 @@ static const gg_word observables[] = {
     {"cells", GG_MEASURE_CELLS, "local density, shear rate, temperatures, spin"},
     {"profiles", GG_MEASURE_PROFILES, "across the gap between walls"},
     {"diffusion", GG_MEASURE_DIFFUSION, "velocity autocorrelation, mean-square displacement"},
+    {"viscosity", GG_MEASURE_VISCOSITY, "eta* of cooling and heated gases; comes with small_shear: on"},
+    {"collisions", GG_MEASURE_COLLISIONS, "free paths and times, angles of contact"},
     {0}};
 
 #define AT(member) offsetof(gg_scene, member)
@@ -55,6 +59,9 @@ const gg_field gg_scene_fields[] = {
      .doc = "solid fraction; must be given; 0 is the Boltzmann limit (dsmc only)"},
     {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box"},
     {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), 0, 1e12, true, .unit = "1/time", .doc = "shear rate of usf"},
+    {"small_shear", GG_FIELD_CHOICE, AT(small_shear), .words = switches,
+     .doc = "usf: shear so slow that the viscosity can be extrapolated to none: of the heated gas with "
+            "thermostat: gaussian (where it is on unless switched off), of the cooling one without"},
     {"temperature", GG_FIELD_NUMBER, AT(temperature), 0, 1e300, true, AUTO, .unit = "velocity^2",
      .doc = "<C.C>/3 to start from; auto: near the steady state"},
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges"},
@@ -65,7 +72,8 @@ const gg_field gg_scene_fields[] = {
      .doc = "Coulomb friction coefficient; inf: constant beta"},
     {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "one or two kinds of grains"},
     {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls"},
-    {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1, .doc = "tangential restitution at the walls"},
+    {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1,
+     .doc = "tangential restitution at the walls; of smooth grains, which do not spin, that of their centres"},
     {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .doc = "friction coefficient at the walls"},
     {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "chute: the upper end"},
     {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), 0, 1e12, true, .unit = "velocity",
@@ -85,7 +93,9 @@ const gg_field gg_scene_fields[] = {
     {"run.seed", GG_FIELD_INTEGER, AT(run.seed), 0, 9223372036854775807.0,
      .doc = "of the random streams: the same seed gives the same run"},
     {"md.contact_time", GG_FIELD_NUMBER, AT(md.contact_time), 0, 1, false, AUTO, .unit = "mean free times",
-     .doc = "collisions closer in time than this have e = 1 (against inelastic collapse); 0: off"},
+     .doc =
+         "collisions closer in time than this have e = 1 (against inelastic collapse); 0: off. With gravity along y in "
+         "units of sqrt(d/g) instead; auto: 1e-5, with gravity along y 1e-3"},
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
      .doc = "step of the Monte Carlo engine"},
     {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,

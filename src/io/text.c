@@ -89,7 +89,9 @@ void gg_scene_title(const gg_scene *s, char *text, size_t size)
       [GG_EQUILIBRIUM] = "Equilibrium", [GG_USF] = "Uniform shear flow", [GG_HCS] = "Homogeneous cooling",
       [GG_HSS] = "Homogeneous heating", [GG_COUETTE] = "Couette flow",   [GG_POISEUILLE] = "Poiseuille flow",
       [GG_CHUTE] = "Chute flow"};
-  snprintf(text, size, "%s, phi %g", flows[s->flow], s->phi);
+  const char *flow = flows[s->flow];
+  if (s->small_shear == GG_ON) flow = s->thermostat == GG_GAUSSIAN ? "Slow shear, heated" : "Slow shear, cooling";
+  snprintf(text, size, "%s, phi %g", flow, s->phi);
   add_pairs(text, size, "e", s->collision.e, s->n_species);
   bool smooth = true, frictional = false;
   for (int p = 0; p < (s->n_species > 1 ? GG_PAIRS : 1); p++) {

@@ -30,6 +30,7 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
   if (m->n < 2) return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at least 2 are needed", (long long)m->n);
   if (m->n > INT32_MAX / 4)
     return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at most %d", (long long)m->n, INT32_MAX / 4);
+  if (m->small_shear) return gg_fail(err, GG_BAD_INPUT, "small_shear: on needs engine: dsmc");
   if (m->thermostat != GG_NO_THERMOSTAT && m->flow != GG_HSS)
     return gg_fail(err, GG_BAD_INPUT, "thermostat: with engine: md only in flow: hss");
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
@@ -83,7 +84,8 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
   tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
   tell(line, context, "species", m->n_species > 1 ? "two: coefficients by pair" : "one: coefficients fixed");
-  snprintf(timing, sizeof timing, "on, t_c = %g mean free times", m->contact_time);
+  snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time,
+           m->gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
   tell_search(m, line, context);
   tell(line, context, "collision tap", "while stresses are measured; else only counts");

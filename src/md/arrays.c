@@ -26,6 +26,14 @@ void *gg_md_new_lines(size_t count, size_t size, gg_error *err)
   return block;
 }
 
+gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
+{
+  e->last = gg_new_array(e->n, sizeof *e->last, err);
+  if (!e->last) return GG_FAILED;
+  for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
+  return GG_OK;
+}
+
 static gg_status allocate(gg_md *e, gg_error *err)
 {
   const gg_model *m = &e->model;
@@ -36,7 +44,7 @@ static gg_status allocate(gg_md *e, gg_error *err)
   if (!e->grain || !e->node || !e->id) return GG_FAILED;
   e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
   if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
-  if (m->contact_time > 0 && !(e->last = gg_new_array(e->n, sizeof *e->last, err))) return GG_FAILED;
+  if (m->contact_time > 0) GG_TRY(gg_md_allocate_last(e, err));
   return gg_queue_make(&e->queue, e->n, err);
 }
 
@@ -55,6 +63,7 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   if (!e) return GG_FAILED;
   e->base.ops = &gg_md_ops;
   e->model = *model;
+  gg_contacts_make(&e->contacts, model);
   for (int a = 0; a < 3; a++) {
     e->box.edge[a] = model->box[a];
     e->box.inverse[a] = 1 / model->box[a];

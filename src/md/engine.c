@@ -14,6 +14,13 @@ static double guess_event_rate(const gg_md *e)
   return e->n * fmax(rate, 1e-300);
 }
 
+/* Grains come to rest on a wall and on each other, where the mean free time shrinks to t_c itself: t_c is set by how
+ * long it takes to fall a diameter instead. */
+static bool falls_across(const gg_md *e)
+{
+  return e->gravity.y != 0;
+}
+
 /* From places and velocities to a run that can go on. */
 gg_status gg_md_begin(gg_md *e, gg_error *err)
 {
@@ -25,7 +32,7 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   }
   e->k.free_time = 1 / fmax(gg_model_collision_rate(&e->model, e->model.temperature0), 1e-300);
-  e->k.contact_time = e->model.contact_time * e->k.free_time;
+  e->k.contact_time = e->model.contact_time * (falls_across(e) ? 1 / sqrt(fabs(e->gravity.y)) : e->k.free_time);
   if (e->last)
     for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
   gg_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e)));
@@ -161,6 +168,7 @@ const gg_engine_ops gg_md_ops = {
     .advance = advance,
     .tap = tap,
     .read_tap = read_tap,
+    .watch = gg_md_watch,
     .state = state,
     .snapshot = gg_md_snapshot,
     .rescale = rescale,

@@ -23,7 +23,7 @@ static void measure_free_time(gg_md *e, double span)
   if (k->window_collisions < COLLISIONS_TO_MEASURE) return;
   double old = k->free_time;
   k->free_time = k->window_time * e->n / (2.0 * (double)k->window_collisions);
-  k->contact_time *= k->free_time / old;
+  if (e->gravity.y == 0) k->contact_time *= k->free_time / old;
   k->window_time = 0;
   k->window_collisions = 0;
 }

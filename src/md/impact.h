@@ -11,6 +11,7 @@ typedef struct gg_impact_features {
   gg_rule rule;
   bool mixture, contact_time, tap;
   bool gaussian; /* thermostat: the energy that goes is returned by a slower clock */
+  bool spins;    /* at walls: else the wall acts on the grain's centre alone */
 } gg_impact_features;
 
 /* Contact-time rule: a grain that collided less than t_c ago is still "in contact", and collides with e = 1, so that an
@@ -57,11 +58,13 @@ GG_INLINE void gg_impact_pair(gg_md *e, gg_impact_features f, uint32_t i, uint32
 {
   gg_grain *one = &e->grain[i], *two = &e->grain[j];
   int a = f.mixture ? gg_species_of(one) : 0, b = f.mixture ? gg_species_of(two) : 0, pair = f.mixture ? 2 * a + b : 0;
-  const gg_contact *contact = &e->model.contact[pair];
-  if (f.contact_time && gg_is_treated(e, i, j)) contact = &e->model.treated[pair];
-  double distance = sqrt(gg_dot(dr, dr)), sigma = e->model.sigma[pair];
-  if (sigma - distance > e->k.worst_overlap) e->k.worst_overlap = sigma - distance;
-  gg_vec k = gg_scale(1 / distance, dr);
+  const gg_contacts *contacts = &e->contacts;
+  uint64_t turn = e->k.collisions & contacts->turns;
+  const gg_contact *contact = &contacts->contact[turn][pair];
+  if (f.contact_time && gg_is_treated(e, i, j)) contact = &contacts->treated[turn][pair];
+  double r2 = gg_dot(dr, dr), overlap = 0.5 * (contacts->sigma2[pair] - r2) * contacts->inverse[pair];
+  if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
+  gg_vec k = gg_contact_normal(contacts, pair, dr, r2, e->k.collisions);
   gg_vec none = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i],
          *s2 = f.rule == GG_SMOOTH ? &none : &e->spin[j];
   gg_vec g = gg_contact_velocity(f.rule, k, c12, *s1, *s2);
@@ -70,7 +73,9 @@ GG_INLINE void gg_impact_pair(gg_md *e, gg_impact_features f, uint32_t i, uint32
   gg_kick(f.rule, contact, k, J, &one->v, s1, &two->v, s2);
   double scale = f.gaussian ? e->k.scale : 1;
   e->k.transfer.collisions[a + b]++;
-  if (f.tap) gg_tap_pair(&e->k.transfer, a + b, sigma * scale, k, J, gg_energy_loss(contact, k, g, J) * scale * scale);
+  if (f.tap)
+    gg_tap_pair(&e->k.transfer, a + b, e->model.sigma[pair] * scale, k, J,
+                gg_energy_loss(contact, k, g, J) * scale * scale);
   if (f.gaussian) gg_return_energy(e, gg_kinetic_loss(contact, v1, v2, one->v, two->v));
 }
 
@@ -92,7 +97,7 @@ GG_INLINE void gg_impact_wall(gg_md *e, gg_impact_features f, uint32_t i, int up
   double overlap = 0.5 * e->model.diameter[a] - gap;
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
   gg_vec k = {0, side, 0}, wall = {side * e->model.wall_speed, 0, 0}, none = {0, 0, 0};
-  gg_vec wall_v = wall, still = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i];
+  gg_vec wall_v = wall, still = {0, 0, 0}, *s1 = f.spins ? &e->spin[i] : &none;
   gg_vec g = gg_contact_velocity(f.rule, k, gg_sub(one->v, wall), *s1, still);
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
   gg_kick(f.rule, contact, k, J, &one->v, s1, &wall_v, &still);

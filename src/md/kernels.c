@@ -36,7 +36,7 @@ static const gg_kernel plain[][2] = {
 #define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
   static void rule##_##mixture##contact_time##tap##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)   \
   {                                                                                                                    \
-    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap, gaussian}, i, j, dr, c12);                \
+    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap, gaussian, false}, i, j, dr, c12);         \
   }
 #define FOUR(rule, mixture, contact_time)                                                                              \
   IMPACT(rule, mixture, contact_time, 0, 0)                                                                            \
@@ -46,7 +46,11 @@ static const gg_kernel plain[][2] = {
 #define WALL(rule, contact_time, tap)                                                                                  \
   static void rule##_wall##contact_time##tap(gg_md *e, uint32_t i, int upper)                                          \
   {                                                                                                                    \
-    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false}, i, upper);                           \
+    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, false}, i, upper);                    \
+  }                                                                                                                    \
+  static void rule##_spinning##contact_time##tap(gg_md *e, uint32_t i, int upper)                                      \
+  {                                                                                                                    \
+    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, rule != GG_SMOOTH}, i, upper);        \
   }
 #define INSTANCES(rule)                                                                                                \
   FOUR(rule, 0, 0)                                                                                                     \
@@ -74,6 +78,9 @@ static gg_impact *const impacts[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH),
 #undef ROW
 #define ROW(rule) PAIR(rule##_wall)
 static gg_wall_impact *const wall_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+#undef ROW
+#define ROW(rule) PAIR(rule##_spinning)
+static gg_wall_impact *const spinning_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
 
 static enum gg_boundary boundary_of(const gg_md *e)
 {
@@ -116,5 +123,7 @@ void gg_md_select(gg_md *e)
   e->motion = kernel.run;
   e->predict_all = kernel.predict_all;
   e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
-  e->wall_impact = wall_impacts[rule][timed][tap];
+  e->watched = e->impact;
+  if (e->watch) e->impact = gg_md_show_impact;
+  e->wall_impact = e->spin ? spinning_impacts[rule][timed][tap] : wall_impacts[e->model.wall_rule][timed][tap];
 }

@@ -13,6 +13,7 @@
 #include "common/rng.h"
 #include "md/box.h"
 #include "md/cells.h"
+#include "md/contacts.h"
 #include "md/queue.h"
 
 typedef struct gg_grain {
@@ -63,10 +64,11 @@ typedef struct gg_md_counts {
 struct gg_md {
   gg_engine base;
   gg_model model;
+  gg_contacts contacts;
   gg_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
   gg_node *node;
   gg_vec *spin; /* surface velocities; NULL for smooth grains */
-  double *last; /* time of the last collision, for the contact-time rule; NULL if it is off */
+  double *last; /* time of the last collision, for the contact-time rule or a watcher; NULL without either */
   uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
   /* Neighbour lists: NULL where the cells themselves are searched. */
   gg_shell *shell;
@@ -91,6 +93,9 @@ struct gg_md {
   gg_forecast *predict_all;
   gg_impact *impact;
   gg_wall_impact *wall_impact;
+  gg_watch *watch; /* sees every collision; NULL: nobody does, and `impact` is not wrapped */
+  void *watcher;
+  gg_impact *watched;
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white-noise thermostat */
 };
@@ -98,6 +103,7 @@ struct gg_md {
 /* arrays.c: an engine with its arrays for this model, nothing in them; and its end. */
 gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err);
 gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
+gg_status gg_md_allocate_last(gg_md *e, gg_error *err);
 void gg_md_free(gg_md *e);
 
 /* start.c: a fresh initial state: places, velocities, spins. */
@@ -127,6 +133,10 @@ void gg_md_set_shells(gg_md *e, double radius);
 bool gg_md_next_epoch(gg_md *e);
 /* Width of a calendar's bucket that suits a rate of events. */
 double gg_md_bucket_width(double events_per_time);
+
+/* watch.c: an impact that shows itself to the watcher, then goes on to e->watched; and the engine's watch operation. */
+gg_impact gg_md_show_impact;
+gg_status gg_md_watch(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
 
 /* kernels.c: choose the kernels that this model and tap need. */
 void gg_md_select(gg_md *e);

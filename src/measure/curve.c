@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/quantity.h"
+#include "measure/jackknife.h"
 
 static void clear_curve(gg_curve *c)
 {
@@ -79,46 +80,23 @@ const char *gg_curve_unit(const gg_model *m, const char *what)
   return "1";
 }
 
-/* Add every value and number, and their squares, of a list of the same shape to `sums`: two doubles each. */
-static void add_squares(const gg_curves *full, const gg_curves *list, double *sums)
-{
-  for (int k = 0; k < full->n && k < list->n; k++) {
-    const gg_curve *f = &full->curve[k], *c = &list->curve[k];
-    for (size_t i = 0; i < f->n && i < c->n; i++, sums += 2) {
-      double d = c->value[i] - f->value[i];
-      sums[0] += d, sums[1] += d * d;
-    }
-    for (int i = 0; i < f->n_numbers && i < c->n_numbers; i++, sums += 2) {
-      double d = c->number[i].value - f->number[i].value;
-      sums[0] += d, sums[1] += d * d;
-    }
-  }
-}
-
-static double jackknife_error(const double *sums, size_t blocks)
-{
-  double n = (double)blocks, variance = (n - 1) / n * (sums[1] - sums[0] * sums[0] / n);
-  return sqrt(fmax(variance, 0)) + 0 * sums[0]; /* NaN stays NaN */
-}
-
-static void put_errors(gg_curves *full, const double *sums, size_t blocks)
-{
-  for (int k = 0; k < full->n; k++) {
-    gg_curve *c = &full->curve[k];
-    for (size_t i = 0; i < c->n; i++, sums += 2) {
-      c->error[i] = blocks > 1 ? jackknife_error(sums, blocks) : NAN;
-      if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was ever counted: unknown, not exact */
-    }
-    for (int i = 0; i < c->n_numbers; i++, sums += 2)
-      c->number[i].error = blocks > 1 ? jackknife_error(sums, blocks) : NAN;
-  }
-}
-
 static size_t shape(const gg_curves *list)
 {
   size_t n = 0;
   for (int k = 0; k < list->n; k++) n += list->curve[k].n + (size_t)list->curve[k].n_numbers;
   return n;
+}
+
+/* What leaving out a block changes in every value and number; 0 where the part has no such thing. */
+static void differences(const gg_curves *full, const gg_curves *part, double *d)
+{
+  for (int k = 0; k < full->n; k++) {
+    const gg_curve *f = &full->curve[k], *c = &part->curve[k];
+    bool there = k < part->n;
+    for (size_t i = 0; i < f->n; i++) *d++ = there && i < c->n ? c->value[i] - f->value[i] : 0;
+    for (int i = 0; i < f->n_numbers; i++)
+      *d++ = there && i < c->n_numbers ? c->number[i].value - f->number[i].value : 0;
+  }
 }
 
 typedef struct pooled {
@@ -141,19 +119,37 @@ static void evaluate(const pooled *p, const double *without, gg_curves_of *of, c
   of(self, p->mean, list);
 }
 
-static bool leave_one_out(const pooled *p, gg_curves_of *of, const void *self, gg_curves *full, double *sums)
+/* Every block left out in turn; blocks of a run are neighbours in time, those of different runs are not. */
+static bool leave_one_out(const pooled *p, gg_curves_of *of, const void *self, const gg_curves *full, gg_jackknife *j)
 {
-  for (size_t r = 0; p->blocks > 1 && r < p->n_runs; r++)
+  for (size_t r = 0; r < p->n_runs; r++) {
+    gg_jackknife_cut(j);
     for (size_t b = 0; b < p->bins[r]->blocks; b++) {
       gg_curves part = {.model = full->model, .group = full->group};
       evaluate(p, gg_bins_block(p->bins[r], b), of, self, &part);
       bool whole = !part.failed;
-      if (whole) add_squares(full, &part, sums);
+      if (whole) {
+        differences(full, &part, gg_jackknife_next(j));
+        gg_jackknife_add(j);
+      }
       gg_curves_clear(&part);
       if (!whole) return false;
     }
-  put_errors(full, sums, p->blocks);
+  }
   return true;
+}
+
+static void put_errors(gg_curves *full, const gg_jackknife *j)
+{
+  size_t at = 0;
+  for (int k = 0; k < full->n; k++) {
+    gg_curve *c = &full->curve[k];
+    c->block_correlation = gg_jackknife_errors(j, at, c->n, c->error);
+    for (size_t i = 0; i < c->n; i++)
+      if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was ever counted: unknown, not exact */
+    at += c->n;
+    for (int i = 0; i < c->n_numbers; i++, at++) gg_jackknife_errors(j, at, 1, &c->number[i].error);
+  }
 }
 
 /* Move the curves of one list to the end of another. */
@@ -179,9 +175,12 @@ gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curve
   gg_curves full = {.model = list->model, .group = group};
   sum_up(&p);
   evaluate(&p, NULL, of, self, &full);
-  double *sums = gg_new_array(2 * shape(&full) + 2, sizeof *sums, err);
-  bool whole = sums && !full.failed && leave_one_out(&p, of, self, &full, sums) && (full.n == 0 || append(list, &full));
-  free(sums);
+  gg_jackknife j;
+  bool whole =
+      gg_jackknife_init(&j, shape(&full), err) == GG_OK && !full.failed && leave_one_out(&p, of, self, &full, &j);
+  if (whole) put_errors(&full, &j);
+  whole = whole && (full.n == 0 || append(list, &full));
+  gg_jackknife_clear(&j);
   gg_curves_clear(&full);
   free(p.total);
   return whole ? GG_OK : gg_fail(err, GG_FAILED, "%s: out of memory for its curves", group);

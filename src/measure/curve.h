@@ -1,6 +1,6 @@
 /* Curves: histograms, profiles, correlation functions, spectra, with standard errors, and the numbers read off them. An
  * observable says how curves follow from the means of its bins; errors come from leaving out one block of samples at a
- * time (the jackknife: Quenouille 1956, Tukey 1958), so that ratios and fits get honest errors, too. */
+ * time (jackknife.h), so that ratios and fits get honest errors, too. */
 #ifndef GG_CURVE_H
 #define GG_CURVE_H
 
@@ -12,7 +12,7 @@ typedef struct gg_curve_number {
   double value, error;
 } gg_curve_number;
 
-enum { GG_CURVE_NUMBERS = 16, GG_MOST_CURVES = 64 };
+enum { GG_CURVE_NUMBERS = 16, GG_MOST_CURVES = 160 };
 
 typedef struct gg_curve {
   char name[48];             /* unique in a result: "velocity_distribution_Cx" */
@@ -22,6 +22,7 @@ typedef struct gg_curve {
   bool log_x, log_y; /* how it is best drawn */
   size_t n;
   double *x, *value, *error; /* NaN: cannot be had, unknown */
+  double block_correlation;  /* between neighbouring blocks, on average over the points: errors allow for it */
   uint64_t samples;          /* snapshots behind each point, all replicas */
   int n_numbers;
   gg_curve_number number[GG_CURVE_NUMBERS]; /* read off this curve: exponents, contact values, coefficients */

@@ -213,7 +213,8 @@ static void put_component(const diffusion *d, int species, int a, const double *
     c->value[i] = value_at(bin, i, CC + a);
     r->value[i] = value_at(bin, i, RR + a);
   }
-  snprintf(unit, sizeof unit, "d^2/(%s)", time);
+  bool sheared = m->shear_rate != 0;
+  snprintf(unit, sizeof unit, sheared ? "d^2 gamma" : "d v_0");
   gg_curve_put_number(c, "diffusion_green_kubo", green_kubo(bin, a), unit);
   gg_curve_put_number(r, "diffusion_einstein", einstein(bin, a), unit);
 }

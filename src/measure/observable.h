@@ -38,9 +38,8 @@ typedef struct gg_observable {
   const char *(*refuses)(const gg_model *model);
 
   /* Rows: quantities. An observable without has width NULL, and none of what follows. */
-  int passes; /* times it needs to see the grains at each sample */
   size_t (*width)(const gg_model *model);
-  void (*begin)(void *self, int pass);
+  void (*begin)(void *self);
   void (*visit)(void *self, const gg_chunk *chunk);
   void (*finish)(void *self, const gg_interval *interval, double *row);
   const gg_derived *derived;   /* ends with of = NULL */
@@ -51,9 +50,14 @@ typedef struct gg_observable {
   /* Curves: once averaging has begun, add to bins at every `every`-th sample. An observable without has bins NULL. */
   size_t (*bins)(const void *self);
   int every;
-  int looks;      /* looks between two samples, evenly spaced, instead of one at each: for correlations in time */
-  bool positions; /* wants them, where the engine has any */
+  int looks;       /* looks between two samples, evenly spaced, instead of one at each: for correlations in time */
+  bool positions;  /* wants them, where the engine has any */
+  gg_watch *watch; /* is shown every collision while averaging, and leaves at the next look what it made of them; at
+                      most one observable of all has this */
   void (*look)(void *self, const gg_snapshot *snapshot, double *bins);
+  /* Hear of the collisions of every sampling interval, after the look at its end; what follows goes into the bins at
+   * the next look, and has to be among the memory. NULL: none of its business. */
+  void (*hear)(void *self, const gg_interval *interval);
   void (*restart)(void *self); /* averaging begins (anew): forget earlier looks; NULL if there is nothing to forget */
   gg_curves_of *curves;
 } gg_observable;
@@ -66,6 +70,7 @@ extern const gg_quantity gg_history_quantities[GG_N_HISTORY];
 extern const gg_observable *const gg_observables[];
 
 extern const gg_observable gg_rheology, gg_velocity_distributions, gg_orientation, gg_sonine, gg_pair_correlation,
-    gg_velocity_correlations, gg_structure, gg_cells, gg_profiles, gg_diffusion;
+    gg_velocity_correlations, gg_structure, gg_cells, gg_profiles, gg_diffusion, gg_collisions, gg_local_distributions,
+    gg_viscosity;
 
 #endif

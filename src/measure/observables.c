@@ -3,6 +3,7 @@
 const gg_observable *const gg_observables[] = {
     &gg_rheology, /* stays first: it tells when a run is steady */
     &gg_velocity_distributions,
+    &gg_local_distributions,
     &gg_orientation,
     &gg_sonine,
     &gg_pair_correlation,
@@ -11,6 +12,8 @@ const gg_observable *const gg_observables[] = {
     &gg_cells,
     &gg_profiles,
     &gg_diffusion,
+    &gg_viscosity,
+    &gg_collisions,
     NULL,
 };
 

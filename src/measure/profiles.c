@@ -3,6 +3,7 @@
  * whole window: nothing has to be put back for the few grains of one instant. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "measure/observable.h"
 
@@ -11,9 +12,13 @@ enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
 /* Sums over a slab: pi/6 d^3, mass, m C, m C^2, K m, K m s, K m s^2, grains, omega_z */
 enum { VOLUME, MASS, MOMENTUM, ENERGY = MOMENTUM + 3, INERTIA, SPIN, ROTATION = SPIN + 3, GRAINS, OMEGA, SLAB };
 
+/* Behind the slabs: time, and the impulses on the lower and the upper wall. */
+enum { TIME, LOWER, UPPER = LOWER + 3, WALLS = UPPER + 3 };
+
 typedef struct profiles {
   gg_model model;
   int slabs;
+  double walls[WALLS]; /* since the last look */
 } profiles;
 
 static const char *refuses(const gg_model *m)
@@ -24,19 +29,43 @@ static const char *refuses(const gg_model *m)
 static void *create(const gg_model *m, gg_error *err)
 {
   profiles *d = gg_new_array(1, sizeof *d, err);
-  if (d) *d = (profiles){*m, (int)fmin(fmax(round(m->box[1] / THICKNESS), LEAST_SLABS), MOST_SLABS)};
+  if (d) *d = (profiles){.model = *m, .slabs = (int)fmin(fmax(round(m->box[1] / THICKNESS), LEAST_SLABS), MOST_SLABS)};
   return d;
 }
 
 static size_t bins(const void *self)
 {
-  return (size_t)((const profiles *)self)->slabs * SLAB;
+  return (size_t)((const profiles *)self)->slabs * SLAB + WALLS;
+}
+
+static void *memory(void *self, size_t *bytes)
+{
+  profiles *d = self;
+  *bytes = sizeof d->walls;
+  return d->walls;
+}
+
+static void restart(void *self)
+{
+  memset(((profiles *)self)->walls, 0, sizeof((profiles *)self)->walls);
+}
+
+static void hear(void *self, const gg_interval *in)
+{
+  profiles *d = self;
+  d->walls[TIME] += in->elapsed;
+  for (int a = 0; a < 3; a++) {
+    d->walls[LOWER + a] += in->transfer->wall_impulse[0][a];
+    d->walls[UPPER + a] += in->transfer->wall_impulse[1][a];
+  }
 }
 
 static void look(void *self, const gg_snapshot *s, double *bin)
 {
-  const profiles *d = self;
+  profiles *d = self;
   const gg_model *m = &d->model;
+  for (int k = 0; k < WALLS; k++) bin[d->slabs * SLAB + k] += d->walls[k];
+  restart(d);
   for (size_t i = 0; i < s->n; i++) {
     int slab = (int)floor(s->r[1][i] / m->box[1] * d->slabs), k = gg_snapshot_species(s, i);
     if (slab < 0 || slab >= d->slabs) continue; /* above an open top */
@@ -125,6 +154,20 @@ static void put_slip(const gg_model *m, gg_curve *c)
   }
 }
 
+/* What the walls feel is the flux of momentum through them: it equals the stress of the gas, which is the same at every
+ * height (but for gravity's share). */
+static void put_wall_stress(const gg_model *m, const double *walls, gg_curve *c)
+{
+  if (!(walls[TIME] > 0)) return;
+  double unit = m->stress_unit / (m->box[0] * m->box[2] * walls[TIME]);
+  const char *name = gg_quantity_unit(GG_Q_PRESSURE, m);
+  gg_curve_put_number(c, "wall_P_yy_lower", -unit * walls[LOWER + 1], name);
+  gg_curve_put_number(c, "wall_P_yx_lower", -unit * walls[LOWER], name);
+  if (m->open_top) return;
+  gg_curve_put_number(c, "wall_P_yy_upper", unit * walls[UPPER + 1], name);
+  gg_curve_put_number(c, "wall_P_yx_upper", unit * walls[UPPER], name);
+}
+
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const profiles *d = self;
@@ -139,7 +182,9 @@ static void curves(const void *self, const double *bin, gg_curves *list)
       c->x[i] = ((double)i + 0.5) * height;
       c->value[i] = at[GRAINS] > 0 || table[t].of == solid_fraction ? table[t].of(at, volume) : NAN;
     }
-    if (table[t].of == velocity) put_slip(m, c);
+    if (table[t].of != velocity) continue;
+    put_slip(m, c);
+    put_wall_stress(m, bin + d->slabs * SLAB, c);
   }
 }
 
@@ -151,8 +196,11 @@ const gg_observable gg_profiles = {
     .flag = GG_MEASURE_PROFILES,
     .refuses = refuses,
     .bins = bins,
+    .memory = memory,
     .every = 2,
     .positions = true,
     .look = look,
+    .hear = hear,
+    .restart = restart,
     .curves = curves,
 };

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "measure/by_species.h"
 #include "measure/moments.h"
@@ -11,11 +12,11 @@
 typedef struct memory {
   double last_temperature; /* at the previous sample, engine's scale */
   double scale;            /* engine's velocities over those of the start */
+  double mean_spin[GG_MAX_SPECIES][3];
 } memory;
 
 typedef struct rheology {
   gg_model model;
-  int pass;
   gg_moments moments[GG_MAX_SPECIES];
   memory memory;
   gg_species_scratch scratch;
@@ -42,16 +43,15 @@ static void *memory_of(void *self, size_t *bytes)
   return &r->memory;
 }
 
-static void begin(void *self, int pass)
+/* Spins are looked at about their mean of the sample before, so that one look at the grains is enough: moments are put
+ * right afterwards (gg_moments_settle); the angles to C feel the shift to second order, as they do that of any mean
+ * over N grains. */
+static void begin(void *self)
 {
   rheology *r = self;
-  r->pass = pass;
   for (int i = 0; i < r->model.n_species; i++) {
-    gg_moments *m = &r->moments[i];
-    if (pass == 0)
-      *m = (gg_moments){0};
-    else
-      for (int a = 0; a < 3; a++) m->mean_spin[a] = m->n > 0 ? m->s[a] / m->n : 0;
+    r->moments[i] = (gg_moments){0};
+    memcpy(r->moments[i].mean_spin, r->memory.mean_spin[i], sizeof r->memory.mean_spin[i]);
   }
 }
 
@@ -60,12 +60,8 @@ static void visit(void *self, const gg_chunk *chunk)
   rheology *r = self;
   for (int i = 0; i < r->model.n_species; i++) {
     gg_species_view v = gg_chunk_of_species(chunk, i, &r->scratch);
-    if (r->pass == 0) {
-      gg_moments_translation(&r->moments[i], v.n, v.c);
-      if (v.s[0]) gg_moments_mean_spin(&r->moments[i], v.n, v.s);
-    } else if (v.s[0]) {
-      gg_moments_rotation(&r->moments[i], v.n, v.c, v.s);
-    }
+    gg_moments_translation(&r->moments[i], v.n, v.c);
+    if (v.s[0]) gg_moments_rotation(&r->moments[i], v.n, v.c, v.s);
   }
 }
 
@@ -97,7 +93,7 @@ static void put_moments(const rheology *r, int species, double T, double *ch)
     ch[CH_W2X + a] = m->ww[a] * second;
     ch[CH_W4X + a] = m->w4[a] * fourth;
   }
-  ch[CH_W3Z] = m->w3z * second / sqrt(T);
+  ch[CH_W3Z] = m->w3[2] * second / sqrt(T);
   ch[CH_COS2] = m->cos2 / m->n;
 }
 
@@ -136,6 +132,10 @@ static void finish(void *self, const gg_interval *in, double *row)
 {
   rheology *r = self;
   bool cooling = r->model.flow == GG_HCS;
+  for (int i = 0; i < r->model.n_species; i++) {
+    gg_moments_settle(&r->moments[i]);
+    memcpy(r->memory.mean_spin[i], r->moments[i].mean_spin, sizeof r->memory.mean_spin[i]);
+  }
   double T = temperature(r), T0 = r->memory.last_temperature * in->velocity_factor * in->velocity_factor;
   r->memory.last_temperature = T;
   r->memory.scale *= in->velocity_factor;
@@ -151,7 +151,6 @@ const gg_observable gg_rheology = {
     .name = "rheology",
     .doc = "temperatures, spin, stress, collision rate, free path, velocity moments",
     .flag = GG_MEASURE_RHEOLOGY,
-    .passes = 2,
     .width = width,
     .create = create,
     .destroy = free,

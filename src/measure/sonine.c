@@ -1,14 +1,16 @@
 /* Deviation of the distribution of speeds from a Maxwellian: Phi_i/Phi_iM = 1 + (c_i/2) Delta_i(v*), with v* = v/v_0,
  * v_0^2 = 2T (m_1 + m_2)/(m_1 m_2) for mixtures and 2T/m for one species; in the first Sonine approximation Delta_i =
  * x^4/2 - 5 x^2/2 + 15/8, x^2 = m_i v^2/(2 T_i) (Montanero & Garzo, Granular Matter 4 (2002) 17). c_i = 2 a_2 is
- * measured along with it: c_i = (8/15)(<x^4> - 15/4). Velocities are scaled by T_i at each instant. */
+ * measured along with it: c_i = (8/15)(<x^4> - 15/4), and the third Sonine
+ * coefficient a_3 = 1 + 3 a_2 - (8/105) <x^6> (Brilliantov & Poschel, Europhys. Lett. 74 (2006) 424). Velocities are
+ * scaled by T_i at each instant. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "measure/observable.h"
 
-enum { BINS = 60, FOURTH = BINS, SHARE, SET };
+enum { BINS = 60, FOURTH = BINS, SIXTH, SHARE, SET };
 #define WIDTH 0.05
 
 typedef struct sonine {
@@ -49,6 +51,7 @@ static void look(void *self, const gg_snapshot *s, double *bin)
     double xx = square(s, i) / (2 * T[k]), at = sqrt(xx) / WIDTH;
     if (at < BINS) bin[k * SET + (int)at]++;
     bin[k * SET + FOURTH] += xx * xx;
+    bin[k * SET + SIXTH] += xx * xx * xx;
   }
   for (int k = 0; k < m->n_species; k++) bin[k * SET + SHARE] += m->mass[k] * T[k] * (double)m->n / total;
 }
@@ -77,6 +80,7 @@ static void put_species(const gg_model *m, int k, const double *bin, gg_curves *
   double n = (double)m->n_of[k], unit = reduced(m, k, bin);
   /* A fixed total energy lowers <x^4> of Gaussian grains by D/(D+2), D = 3(N-1). */
   double D = 3 * ((double)m->n - 1), fourth = bin[FOURTH] / n * (D + 2) / D, cumulant = 8.0 / 15 * (fourth - 15.0 / 4);
+  double sixth = bin[SIXTH] / n * (D + 2) * (D + 4) / (D * D), a3 = 1 + 1.5 * cumulant - 8.0 / 105 * sixth;
   gg_curve *excess = gg_curve_add(list, BINS, name[0], "excess over a Maxwellian", label);
   gg_curve *delta = gg_curve_add(list, BINS, name[1], "Δ(v*)", label);
   gg_curve *series = gg_curve_add(list, BINS, name[2], "Δ(v*)", theory);
@@ -84,6 +88,7 @@ static void put_species(const gg_model *m, int k, const double *bin, gg_curves *
   gg_curve_axes(delta, "v*", "1", "Δ", "1");
   gg_curve_axes(series, "v*", "1", "Δ", "1");
   gg_curve_put_number(excess, "c", cumulant, "1");
+  gg_curve_put_number(excess, "a3", a3, "1");
   for (size_t i = 0; i < excess->n && i < delta->n && i < series->n; i++) {
     double from = (double)i * WIDTH, x = from + WIDTH / 2, xx = x * x;
     double expected = n * (maxwellian_below(from + WIDTH) - maxwellian_below(from));

@@ -5,13 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "measure/histogram.h"
 #include "measure/observable.h"
-#include "measure/tail.h"
 
-enum { HALF = 80, BINS = 2 * HALF + 1, LOW = 20 }; /* bin k is centred on k WIDTH, |k| <= HALF; |k| <= LOW: head */
-#define WIDTH 0.1
-#define TAIL_FROM 2.0
-enum { LEAST_COUNT = 25 }; /* in the last bin that a tail is fitted to */
+enum { LOW = 20 }; /* bins |k| <= LOW about 0: the head */
 
 typedef struct distributions {
   int species, vectors; /* vectors: C, and Omega if there are spins */
@@ -32,7 +29,7 @@ static void *create(const gg_model *m, gg_error *err)
 static size_t bins(const void *self)
 {
   const distributions *d = self;
-  return (size_t)(d->species * d->vectors * 3) * BINS;
+  return (size_t)(d->species * d->vectors * 3) * GG_HISTOGRAM;
 }
 
 typedef struct scale {
@@ -52,11 +49,9 @@ static scale scale_of(const gg_snapshot *s, const double *x, int species)
 static void count(const gg_snapshot *s, const double *x, int species, double *bin)
 {
   scale u = scale_of(s, x, species);
-  double inverse = 1 / (u.sigma * WIDTH);
-  for (size_t i = 0; i < s->n; i++) {
-    double at = (x[i] - u.mean) * inverse + (HALF + 0.5);
-    if (gg_snapshot_species(s, i) == species && at >= 0 && at < BINS) bin[(int)at]++;
-  }
+  double inverse = 1 / u.sigma;
+  for (size_t i = 0; i < s->n; i++)
+    if (gg_snapshot_species(s, i) == species) gg_histogram_add(bin, (x[i] - u.mean) * inverse);
 }
 
 static void look(void *self, const gg_snapshot *s, double *bin)
@@ -64,37 +59,7 @@ static void look(void *self, const gg_snapshot *s, double *bin)
   const distributions *d = self;
   for (int species = 0; species < d->species; species++)
     for (int vector = 0; vector < d->vectors; vector++)
-      for (int a = 0; a < 3; a++, bin += BINS) count(s, vector ? s->s[a] : s->c[a], species, bin);
-}
-
-/* Counts at x = 0: counts over a Gaussian's in the bins |x| < 1/2 by least squares as A + B x^2, taken at x = 0. */
-static double height(const double *bin)
-{
-  double n = 0, x2 = 0, x4 = 0, y = 0, x2y = 0;
-  for (int k = -4; k <= 4; k++) {
-    double xx = k * k * WIDTH * WIDTH, ratio = bin[HALF + k] * exp(xx / 2);
-    n++, x2 += xx, x4 += xx * xx, y += ratio, x2y += xx * ratio;
-  }
-  return (y * x4 - x2 * x2y) / (n * x4 - x2 * x2);
-}
-
-static void put_tail(gg_curve *c, const double *bin, double samples)
-{
-  double folded[HALF];
-  const int from = (int)(TAIL_FROM / WIDTH);
-  int n = 0;
-  for (; from + n < HALF; n++) {
-    folded[n] = (bin[HALF - from - n] + bin[HALF + from + n]) * samples;
-    if (folded[n] < LEAST_COUNT) break;
-  }
-  gg_tail_data data = {folded, (size_t)n, TAIL_FROM - WIDTH / 2, WIDTH, 2 * height(bin) * samples};
-  gg_tail least = gg_tail_double_log(&data), likely = gg_tail_likelihood(&data);
-  gg_curve_put_number(c, "alpha", least.alpha, "1");
-  gg_curve_put_number(c, "gamma", least.gamma, "1");
-  gg_curve_put_number(c, "alpha_likelihood", likely.alpha, "1");
-  gg_curve_put_number(c, "gamma_likelihood", likely.gamma, "1");
-  gg_curve_put_number(c, "fit_from", data.first, "1");
-  gg_curve_put_number(c, "fit_to", data.first + n * WIDTH, "1");
+      for (int a = 0; a < 3; a++, bin += GG_HISTOGRAM) count(s, vector ? s->s[a] : s->c[a], species, bin);
 }
 
 /* "C_x", "C_{x,2}": how gnuplot writes it; and "Cx", "Cx_2" for names. */
@@ -120,26 +85,23 @@ static naming name_of(const distributions *d, int species, int vector, int a)
 static void put_distribution(gg_curves *list, const naming *n, int vector, const double *bin)
 {
   char name[48];
-  double zero = height(bin);
   snprintf(name, sizeof name, "velocity_distribution_%s", n->plain);
-  gg_curve *c = gg_curve_add(list, BINS, name, vector ? "distribution of Ω" : "distribution of C", n->label);
+  gg_curve *c = gg_histogram_put(list, name, vector ? "distribution of Ω" : "distribution of C", n->label, bin, 1,
+                                 (double)list->samples);
   gg_curve_axes(c, n->argument, "1", "P/P(0)", "1");
-  c->log_y = true;
-  for (int i = 0; i < (int)c->n; i++) c->x[i] = (i - HALF) * WIDTH, c->value[i] = bin[i] / zero;
-  put_tail(c, bin, (double)list->samples);
 }
 
 static void put_deviation(gg_curves *list, const naming *n, int vector, const double *bin)
 {
   char name[48];
-  double zero = height(bin);
+  double zero = gg_histogram_height(bin, 1);
   snprintf(name, sizeof name, "velocity_deviation_%s", n->plain);
   gg_curve *c = gg_curve_add(list, 2 * LOW + 1, name,
                              vector ? "Ω: deviation from a Gaussian" : "C: deviation from a Gaussian", n->label);
   gg_curve_axes(c, n->argument, "1", "P/P(0) - exp(-x^2/2)", "1");
   for (int i = 0; i < (int)c->n; i++) {
-    double x = (i - LOW) * WIDTH;
-    c->x[i] = x, c->value[i] = bin[HALF - LOW + i] / zero - exp(-x * x / 2);
+    double x = (i - LOW) * GG_HISTOGRAM_WIDTH;
+    c->x[i] = x, c->value[i] = bin[GG_HISTOGRAM_HALF - LOW + i] / zero - exp(-x * x / 2);
   }
 }
 
@@ -148,7 +110,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   const distributions *d = self;
   for (int species = 0; species < d->species; species++)
     for (int vector = 0; vector < d->vectors; vector++)
-      for (int a = 0; a < 3; a++, bin += BINS) {
+      for (int a = 0; a < 3; a++, bin += GG_HISTOGRAM) {
         naming n = name_of(d, species, vector, a);
         put_distribution(list, &n, vector, bin);
         put_deviation(list, &n, vector, bin);

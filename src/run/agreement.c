@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "theory/haff1983.h"
+#include "theory/goldhirsch_zanetti1993.h"
 
 static bool is_difference(gg_quantity q)
 {

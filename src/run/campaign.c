@@ -163,12 +163,13 @@ static uint64_t next_length(const gg_campaign *c, uint64_t window)
   return c->plan.most && next > c->plan.most ? c->plan.most : next;
 }
 
-static void open_window(gg_campaign *c)
+static gg_status open_window(gg_campaign *c, gg_error *err)
 {
-  for (int i = 0; i < c->n; i++) gg_replica_open_window(&c->replicas[i]);
+  for (int i = 0; i < c->n; i++) GG_TRY(gg_replica_open_window(&c->replicas[i], err));
   c->state.averaging = 1;
   c->state.window_at = c->state.due;
   c->state.goal = c->state.due + next_length(c, 0);
+  return GG_OK;
 }
 
 /* Is the window long, steady and exact enough? */
@@ -185,7 +186,7 @@ gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
 {
   if (!c->state.averaging) {
     GG_TRY(go_to(c, c->plan.warmup, err));
-    if (!out_of_time(c)) open_window(c);
+    if (!out_of_time(c)) GG_TRY(open_window(c, err));
   }
   while (!out_of_time(c)) {
     GG_TRY(go_to(c, c->state.goal, err));
@@ -195,7 +196,7 @@ gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
     GG_TRY(gg_campaign_judge(c, &j, err));
     if (j.drifting && c->plan.find_steady && c->state.restarts < MOST_RESTARTS && window >= c->plan.least) {
       c->state.restarts++;
-      open_window(c);
+      GG_TRY(open_window(c, err));
     } else if (finished(c, &j, window)) {
       return GG_OK;
     } else {

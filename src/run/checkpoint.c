@@ -23,6 +23,7 @@ static int fingerprint(const gg_scene *s, gg_fingerprint *f)
                                   {"particles", (double)s->particles},
                                   {"shear_rate", s->shear_rate},
                                   {"temperature", s->temperature},
+                                  {"small_shear", s->small_shear},
                                   {"aspect", s->aspect[0]},
                                   {"aspect", s->aspect[1]},
                                   {"aspect", s->aspect[2]},

@@ -4,6 +4,10 @@ int gg_headline(const gg_model *m, gg_quantity list[GG_N_QUANTITIES])
 {
   int n = 0;
   bool rough = m->rule != GG_SMOOTH;
+  if (m->small_shear) {
+    list[n++] = GG_Q_VISCOSITY_REDUCED;
+    return n;
+  }
   switch (m->flow) {
   case GG_EQUILIBRIUM:
     list[n++] = GG_Q_PRESSURE;

@@ -3,46 +3,32 @@
 #include "measure/local_frame.h"
 #include "run/replica.h"
 
-typedef struct showing {
-  gg_replica *replica;
-  int pass;
-} showing;
-
-static bool wants(const gg_observable *o, int pass)
-{
-  return o->width && pass < o->passes;
-}
-
 static void show_chunk(void *context, const gg_chunk *chunk)
 {
-  showing *s = context;
-  gg_replica *r = s->replica;
+  gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (wants(r->observable[k], s->pass)) r->observable[k]->visit(r->self[k], chunk);
+    if (r->observable[k]->width) r->observable[k]->visit(r->self[k], chunk);
 }
 
 void gg_replica_look(gg_replica *r, double elapsed)
 {
-  int passes = 0;
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->passes > passes) passes = r->observable[k]->passes;
-  if (r->model.rule == GG_SMOOTH && passes > 1) passes = 1; /* further passes look at spins */
   gg_local_frame frame;
-  if (r->model.walled) gg_local_frame_take(&frame, &r->model, r->engine);
-  for (int pass = 0; pass < passes; pass++) {
-    for (int k = 0; k < r->n_observables; k++)
-      if (wants(r->observable[k], pass)) r->observable[k]->begin(r->self[k], pass);
-    showing s = {r, pass};
-    if (r->model.walled)
-      gg_local_frame_snapshot(&frame, r->engine, show_chunk, &s);
-    else
-      r->engine->ops->snapshot(r->engine, false, show_chunk, &s);
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->width) r->observable[k]->begin(r->self[k]);
+  if (r->model.walled) {
+    gg_local_frame_take(&frame, &r->model, r->engine);
+    gg_local_frame_snapshot(&frame, r->engine, show_chunk, r);
+  } else {
+    r->engine->ops->snapshot(r->engine, false, show_chunk, r);
   }
   gg_transfer transfer;
   r->engine->ops->read_tap(r->engine, &transfer);
   gg_interval in = {&r->model, &transfer, elapsed, r->clock.velocity_factor};
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width) r->observable[k]->finish(r->self[k], &in, r->row + r->offset[k]);
+  for (int k = 0; k < r->n_observables; k++) {
+    const gg_observable *o = r->observable[k];
+    if (o->width) o->finish(r->self[k], &in, r->row + r->offset[k]);
+    if (o->hear && r->clock.averaging) o->hear(r->self[k], &in);
+  }
   r->clock.velocity_factor = 1;
 }
 
@@ -69,6 +55,13 @@ void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed)
     if (last) gg_bins_commit(&r->bins[k]);
   }
   if (last) r->clock.window_samples++;
+}
+
+gg_status gg_replica_watch(gg_replica *r, gg_error *err)
+{
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->watch) GG_TRY(r->engine->ops->watch(r->engine, r->observable[k]->watch, r->self[k], err));
+  return GG_OK;
 }
 
 void gg_replica_restart_curves(gg_replica *r)

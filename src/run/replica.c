@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "common/rng.h"
+#include "common/small_shear.h"
 #include "run/clock.h"
 
 gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
@@ -64,8 +65,9 @@ static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happ
   if (*happened >= limit)
     return gg_fail(err, GG_FAILED,
                    "%s: collisions accumulate without end (inelastic collapse) near time %g; "
-                   "give md.contact_time a larger value (it is %g mean free times)",
-                   r->engine->ops->name, r->clock.time, r->model.contact_time);
+                   "give md.contact_time a larger value (it is %g %s)",
+                   r->engine->ops->name, r->clock.time, r->model.contact_time,
+                   r->model.gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
   return GG_OK;
 }
 
@@ -77,17 +79,28 @@ static void adapt_interval(gg_replica *r, double elapsed, uint64_t happened)
   r->clock.interval = elapsed * fmin(fmax(factor, 0.25), 4);
 }
 
-/* Free cooling: bring the velocities back when they have fallen fourfold (T sixteenfold). */
-static gg_status rescale_if_cold(gg_replica *r, gg_error *err)
+static gg_status rescale(gg_replica *r, int power, gg_error *err)
 {
-  if (r->model.flow != GG_HCS) return GG_OK;
-  double start = gg_model_collision_rate(&r->model, r->model.temperature0);
-  if (r->clock.interval * start < 4 * GG_SAMPLE_SPACING) return GG_OK;
-  GG_TRY(r->engine->ops->rescale(r->engine, 2, err));
-  r->clock.velocity_factor = 4;
-  r->clock.interval /= 4;
-  r->clock.power += 2;
+  GG_TRY(r->engine->ops->rescale(r->engine, power, err));
+  r->clock.velocity_factor = ldexp(1, power);
+  r->clock.interval = ldexp(r->clock.interval, -power);
   return GG_OK;
+}
+
+/* Free cooling: bring the velocities back when they have fallen fourfold (T sixteenfold), the clock with them. Slow
+ * shear: at the end of a round, judged by the collision rate, back to its beginning. */
+static gg_status rescale_if_due(gg_replica *r, gg_error *err)
+{
+  if (r->model.flow != GG_HCS && !r->model.small_shear) return GG_OK;
+  double T0 = r->model.temperature0, slowdown = r->clock.interval * gg_model_collision_rate(&r->model, T0);
+  slowdown /= GG_SAMPLE_SPACING;
+  if (r->model.small_shear) {
+    bool over = gg_small_shear_ends(&r->model, T0 / (slowdown * slowdown));
+    return over ? rescale(r, gg_small_shear_of(&r->model).power, err) : GG_OK;
+  }
+  if (slowdown < 4) return GG_OK;
+  r->clock.power += 2;
+  return rescale(r, 2, err);
 }
 
 static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
@@ -113,7 +126,7 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   gg_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened);
-  GG_TRY(rescale_if_cold(r, err));
+  GG_TRY(rescale_if_due(r, err));
   r->clock.cpu += gg_cpu_now() - start;
   return GG_OK;
 }
@@ -129,12 +142,13 @@ gg_status gg_replica_sample(gg_replica *r, uint64_t samples, bool adapt, const g
   return GG_OK;
 }
 
-void gg_replica_open_window(gg_replica *r)
+gg_status gg_replica_open_window(gg_replica *r, gg_error *err)
 {
   gg_series_open_window(&r->series);
   r->clock.window_collisions = collisions(r);
   r->clock.window_cpu = r->clock.cpu;
   gg_replica_restart_curves(r);
+  return gg_replica_watch(r, err);
 }
 
 gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
@@ -154,6 +168,7 @@ gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene 
   if (status == GG_OK) status = gg_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
   if (status == GG_OK) status = gg_replica_restore_observables(r, a, err);
+  if (status == GG_OK && r->clock.averaging) status = gg_replica_watch(r, err);
   if (status != GG_OK) gg_replica_clear(r);
   return status;
 }

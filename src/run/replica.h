@@ -44,7 +44,7 @@ void gg_replica_clear(gg_replica *r);
 gg_status gg_replica_sample(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
 
 /* Averaging begins at the next sample. */
-void gg_replica_open_window(gg_replica *r);
+gg_status gg_replica_open_window(gg_replica *r, gg_error *err);
 
 /* attach.c: the observables that the scene asks for, with their bins; and their part of a checkpoint. */
 gg_status gg_replica_attach(gg_replica *r, const gg_scene *scene, gg_error *err);
@@ -56,6 +56,8 @@ gg_status gg_replica_restore_observables(gg_replica *r, const gg_archive *archiv
 void gg_replica_look(gg_replica *r, double elapsed);
 void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed);
 void gg_replica_restart_curves(gg_replica *r);
+/* Collisions are shown to whom wants to see them, from now on. */
+gg_status gg_replica_watch(gg_replica *r, gg_error *err);
 
 double gg_replica_collisions_per_grain(const gg_replica *r);
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "common/small_shear.h"
 #include "run/campaign.h"
 #include "run/clock.h"
 
@@ -21,7 +22,9 @@ static bool scale_free(gg_quantity q)
   case GG_Q_TEMPERATURE_RATIO:
   case GG_Q_MEAN_FREE_PATH:
   case GG_Q_KNUDSEN:
-  case GG_Q_COS2_PSI: return true;
+  case GG_Q_COS2_PSI:
+  case GG_Q_VISCOSITY_REDUCED:
+  case GG_Q_VISCOSITY_REDUCED_KINETIC: return true;
   default: return false;
   }
 }
@@ -35,7 +38,9 @@ static gg_status report_means(gg_campaign *c, gg_result *result, gg_error *err)
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
     if (!c->model.steady && !scale_free((gg_quantity)q)) {
-      snprintf(e->reason, sizeof e->reason, "no steady state: the gas heats up; see the history");
+      snprintf(e->reason, sizeof e->reason,
+               c->model.small_shear ? "its temperature goes up and down"
+                                    : "no steady state: the gas heats up; see the history");
       continue;
     }
     gg_mean m = {.mean = NAN};
@@ -106,7 +111,7 @@ static void report_verdict(const gg_campaign *c, const gg_judgement *j, gg_resul
   size_t size = sizeof result->verdict_text;
   double grain = (double)window * GG_SAMPLE_SPACING;
   result->verdict = GG_NOT_STEADY;
-  if (!c->model.steady) {
+  if (!c->model.steady && !c->model.small_shear) {
     result->verdict = GG_HEATING;
     snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
   } else if (!c->state.averaging) {
@@ -117,6 +122,12 @@ static void report_verdict(const gg_campaign *c, const gg_judgement *j, gg_resul
   } else if (window < c->plan.least) {
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
              grain, (double)c->plan.least * GG_SAMPLE_SPACING);
+  } else if (c->model.small_shear) {
+    result->verdict = GG_STEADY;
+    gg_small_shear s = gg_small_shear_of(&c->model);
+    snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",
+             s.cools ? "slow shear of the cooling gas" : "slow shear of the heated gas", s.cools ? s.low : s.high,
+             s.cools ? s.high : s.low);
   } else if ((double)window < LEAST_CORRELATION_TIMES * j->slowest) {
     snprintf(text, size,
              "too short to tell: averaged over %.1f correlation times of the slowest quantity, %d are needed",

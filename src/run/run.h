@@ -51,8 +51,8 @@ typedef struct gg_comparison {
 } gg_comparison;
 
 /* `resume` (may be NULL): an archive that the checkpoint hook stored; each engine goes on from its part. */
-gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks, gg_comparison *comparison,
-                           gg_error *err);
+gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
+                           gg_comparison *comparison, gg_error *err);
 /* (a - b) over their combined standard error; NaN where either is missing. */
 double gg_z_score(const gg_estimate *a, const gg_estimate *b);
 void gg_comparison_clear(gg_comparison *comparison);

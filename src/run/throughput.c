@@ -8,6 +8,14 @@
 
 enum { MOST_REPEATS = 32 };
 
+/* A scene being timed. */
+typedef struct runner {
+  gg_engine *engine;
+  uint64_t guess; /* collisions that are worth looking at the clock for */
+  uint64_t timed;
+  double rate[MOST_REPEATS];
+} runner;
+
 static uint64_t collisions(const gg_engine *e)
 {
   gg_engine_state s;
@@ -29,51 +37,90 @@ static gg_status advance_by(gg_engine *e, uint64_t count, uint64_t *done, gg_err
 }
 
 /* One timed stretch, grown until it is long enough to time. */
-static gg_status time_stretch(gg_engine *e, double seconds, uint64_t *guess, double *rate, uint64_t *total,
-                              gg_error *err)
+static gg_status time_stretch(runner *r, double seconds, double *rate, gg_error *err)
 {
   double start = gg_cpu_now(), gone;
   uint64_t sum = 0;
   do {
     uint64_t done;
-    GG_TRY(advance_by(e, *guess, &done, err));
+    GG_TRY(advance_by(r->engine, r->guess, &done, err));
     sum += done;
     gone = gg_cpu_now() - start;
-    if (gone < seconds / 4) *guess *= 2;
+    if (gone < seconds / 4) r->guess *= 2;
   } while (gone < seconds);
   *rate = (double)sum / gone;
-  *total += sum;
+  r->timed += sum;
   return GG_OK;
 }
 
-static gg_status time_engine(gg_engine *e, const gg_model *model, bool tap, double warmup, int repeats, double seconds,
-                             gg_throughput *out, gg_error *err)
+static gg_status start(const gg_scene *scene, bool tap, double warmup, runner *r, gg_error *err)
 {
-  uint64_t done, guess = (uint64_t)model->n / 4 + 1000;
-  double rates[MOST_REPEATS];
-  e->ops->tap(e, tap);
-  GG_TRY(advance_by(e, (uint64_t)(warmup * (double)model->n / 2) + 1, &done, err));
-  out->repeats = repeats < MOST_REPEATS ? repeats : MOST_REPEATS;
-  for (int i = 0; i < out->repeats; i++) GG_TRY(time_stretch(e, seconds, &guess, &rates[i], &out->collisions, err));
-  gsl_sort(rates, 1, (size_t)out->repeats);
-  out->rate = gsl_stats_median_from_sorted_data(rates, 1, (size_t)out->repeats);
-  out->slowest = rates[0];
-  out->fastest = rates[out->repeats - 1];
+  gg_model model;
+  uint64_t done;
+  GG_TRY(gg_model_make(scene, scene->engine, &model, err));
+  const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
+  GG_TRY(ops->accepts(&model, err));
+  gg_start_near_steady(&model);
+  GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
+  ops->tap(r->engine, tap);
+  r->guess = (uint64_t)model.n / 4 + 1000;
+  return advance_by(r->engine, (uint64_t)(warmup * (double)model.n / 2) + 1, &done, err);
+}
+
+static double median(double *values, int n)
+{
+  gsl_sort(values, 1, (size_t)n);
+  return gsl_stats_median_from_sorted_data(values, 1, (size_t)n);
+}
+
+static gg_throughput summary(const runner *r, int repeats)
+{
+  double rate[MOST_REPEATS];
+  for (int i = 0; i < repeats; i++) rate[i] = r->rate[i];
+  double middle = median(rate, repeats);
+  return (gg_throughput){middle, rate[0], rate[repeats - 1], repeats, r->timed};
+}
+
+static void compare(const runner *r, const runner *other, int repeats, gg_race *out)
+{
+  double ratio[MOST_REPEATS];
+  for (int i = 0; i < repeats; i++) ratio[i] = r->rate[i] / other->rate[i];
+  out->own = summary(r, repeats);
+  out->ratio = median(ratio, repeats);
+  out->lowest = ratio[0];
+  out->highest = ratio[repeats - 1];
+}
+
+static gg_status race(const gg_contender *c, int n, double warmup, int repeats, double seconds, runner *r,
+                      gg_error *err)
+{
+  for (int k = 0; k < n; k++) GG_TRY(start(&c[k].scene, c[k].tap, warmup, &r[k], err));
+  for (int i = 0; i < repeats; i++)
+    for (int k = 0; k < n; k++) GG_TRY(time_stretch(&r[k], seconds, &r[k].rate[i], err));
   return GG_OK;
+}
+
+gg_status gg_measure_race(const gg_contender *c, int n, double warmup, int repeats, double seconds, gg_race *out,
+                          gg_error *err)
+{
+  runner r[GG_MOST_CONTENDERS] = {0};
+  if (n > GG_MOST_CONTENDERS) return gg_fail(err, GG_FAILED, "%d scenes at once; at most %d", n, GG_MOST_CONTENDERS);
+  if (repeats > MOST_REPEATS) repeats = MOST_REPEATS;
+  gg_status status = race(c, n, warmup, repeats, seconds, r, err);
+  for (int k = 0; k < n; k++) {
+    if (status == GG_OK) compare(&r[k], &r[c[k].against], repeats, &out[k]);
+    if (r[k].engine) r[k].engine->ops->destroy(r[k].engine);
+  }
+  return status;
 }
 
 gg_status gg_measure_throughput(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
                                 gg_throughput *out, gg_error *err)
 {
-  gg_model model;
-  gg_engine *engine;
+  gg_contender only = {.scene = *scene, .tap = tap, .against = 0};
+  gg_race result;
   *out = (gg_throughput){0};
-  GG_TRY(gg_model_make(scene, scene->engine, &model, err));
-  const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
-  GG_TRY(ops->accepts(&model, err));
-  gg_start_near_steady(&model);
-  GG_TRY(ops->create(&model, scene->run.seed, 0, &engine, err));
-  gg_status status = time_engine(engine, &model, tap, warmup, repeats, seconds, out, err);
-  ops->destroy(engine);
-  return status;
+  GG_TRY(gg_measure_race(&only, 1, warmup, repeats, seconds, &result, err));
+  *out = result.own;
+  return GG_OK;
 }

@@ -16,4 +16,20 @@ typedef struct gg_throughput {
 gg_status gg_measure_throughput(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
                                 gg_throughput *out, gg_error *err);
 
+/* Several scenes side by side. A repeat times a stretch of each in turn, so that what else the machine does meets all
+ * alike: the ratios within a repeat mean more than the rates. */
+enum { GG_MOST_CONTENDERS = 16 };
+typedef struct gg_contender {
+  gg_scene scene;
+  bool tap;
+  int against; /* index of the contender that it is compared with */
+} gg_contender;
+typedef struct gg_race {
+  gg_throughput own;
+  double ratio, lowest, highest; /* own rate over that of `against`: median, least and largest of the repeats */
+} gg_race;
+
+gg_status gg_measure_race(const gg_contender *contenders, int n, double warmup, int repeats, double seconds,
+                          gg_race *out, gg_error *err);
+
 #endif

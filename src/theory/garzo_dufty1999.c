@@ -6,7 +6,10 @@
  *   eta   = eta_k [1 + 4/5 (1+e) phi chi] + 3/5 kappa,   kappa = 128/(5 pi) phi^2 chi (1+e)(1 - c/32)
  *   p     = nT [1 + 2(1+e) phi chi]
  * a_2 by T.P.C. van Noije & M.H. Ernst, Granular Matter 1 (1998) 57; collision rate and mean speed of that distribution
- * are those of a Maxwellian times 1 - a_2/16 and 1 - a_2/8. */
+ * are those of a Maxwellian times 1 - a_2/16 and 1 - a_2/8.
+ * Modified first Sonine: the weight of the expansion is the distribution of the cooling state itself, which makes
+ * nu_eta = chi [1 - (1-e)^2/4](1 + 7c/32), with the a_2 of Montanero & Santos: V. Garzo, A. Santos & J.M. Montanero,
+ * Physica A 376 (2007) 94. */
 #include "theory/garzo_dufty1999.h"
 
 #include <math.h>
@@ -34,13 +37,13 @@ gg_status gg_require_homogeneous_smooth(const gg_model *m, const char *theory, g
 {
   GG_TRY(gg_require_smooth(m, theory, err));
   bool heated_shear = m->flow == GG_USF && m->thermostat == GG_GAUSSIAN;
-  if (m->flow == GG_HCS || m->flow == GG_HSS || heated_shear) return GG_OK;
+  if (m->flow == GG_HCS || m->flow == GG_HSS || heated_shear || m->small_shear) return GG_OK;
   return gg_refuse(err, theory, "describes free cooling and homogeneously heated states; this scene is neither");
 }
 
 double gg_thermostat_share(const gg_model *m)
 {
-  if (m->flow == GG_HCS) return 0.5;
+  if (m->flow == GG_HCS || (m->flow == GG_USF && m->thermostat == GG_NO_THERMOSTAT)) return 0.5;
   return m->thermostat == GG_WHITE_NOISE ? 0 : 1;
 }
 
@@ -60,15 +63,18 @@ static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
   a->value[GG_Q_KNUDSEN] *= speed / rate;
 }
 
-static void answer_viscosity(const gg_model *m, double a2, gg_theory_answer *a)
+/* `weight`: nu_eta is Maxwellians' times 1 + weight a_2. */
+static void answer_viscosity(const gg_model *m, double a2, double weight, gg_theory_answer *a)
 {
   double e = m->e[0], y = gg_phi_chi(m), c = 2 * a2;
-  double nu = m->chi[0] * (1 - (1 - e) * (1 - e) / 4) * (1 - c / 64);
+  double nu = m->chi[0] * (1 - (1 - e) * (1 - e) / 4) * (1 + weight * a2);
   double eta_k = (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_thermostat_share(m) * a->value[GG_Q_COOLING_RATE]);
   double bulk = 128 / (5 * M_PI) * m->phi * y * (1 + e) * (1 - c / 32);
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = eta_k;
   a->value[GG_Q_VISCOSITY_REDUCED] = eta_k * (1 + 0.8 * (1 + e) * y) + 0.6 * bulk;
 }
+
+static const double standard = -1. / 32, modified = 7. / 16;
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -77,7 +83,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   bool noisy = m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE;
   double a2 = noisy ? gg_a2_white_noise(m->e[0]) : gg_a2_van_noije_ernst(m->e[0]);
   answer_sonine(m, a2, a);
-  answer_viscosity(m, a2, a);
+  answer_viscosity(m, a2, standard, a);
   return GG_OK;
 }
 
@@ -95,18 +101,30 @@ const gg_theory gg_garzo_dufty1999 = {
 
 static const char name_ms[] = "montanero_santos2000";
 
-static gg_status evaluate_ms(const gg_model *m, gg_theory_answer *a, gg_error *err)
+static gg_status with_other_a2(const gg_model *m, const char *theory, double weight, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, name_ms, err));
-  GG_TRY(gg_require_homogeneous_smooth(m, name_ms, err));
+  GG_TRY(gg_require_one_species(m, theory, err));
+  GG_TRY(gg_require_homogeneous_smooth(m, theory, err));
   if (m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE)
-    return gg_refuse(err, name_ms,
+    return gg_refuse(err, theory,
                      "is given here for free cooling and the Gaussian thermostat; this scene is heated by "
                      "white noise");
   double a2 = gg_a2_montanero_santos(m->e[0]);
   answer_sonine(m, a2, a);
-  answer_viscosity(m, a2, a);
+  answer_viscosity(m, a2, weight, a);
   return GG_OK;
+}
+
+static gg_status evaluate_ms(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return with_other_a2(m, name_ms, standard, a, err);
+}
+
+static const char name_modified[] = "garzo_santos_montanero2007";
+
+static gg_status evaluate_modified(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return with_other_a2(m, name_modified, modified, a, err);
 }
 
 const gg_theory gg_montanero_santos2000 = {
@@ -117,4 +135,15 @@ const gg_theory gg_montanero_santos2000 = {
         "As garzo_dufty1999 for the cooling state, its fourth-moment equation divided by 1 + a2 before it is "
         "linearised: closer to simulations for e below 0.7.",
     .evaluate = evaluate_ms,
+};
+
+const gg_theory gg_garzo_santos_montanero2007 = {
+    .name = name_modified,
+    .title = "Viscosity about the cooling state's own distribution",
+    .citation = "V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94",
+    .assumptions =
+        "As montanero_santos2000, but the first Sonine term multiplies the distribution of the cooling state "
+        "instead of a Maxwellian: closer to simulations below e = 0.7. That of one species, carried over to "
+        "the heated state.",
+    .evaluate = evaluate_modified,
 };

@@ -11,9 +11,4 @@ double gg_haff_temperature(double T0, double zeta0, double t);
 /* Collisions per grain until then, the initial collision rate being nu0. */
 double gg_haff_collisions(double nu0, double zeta0, double t);
 
-/* Box length above which free cooling at this density breaks up into vortices and clusters, in d of species 1 (in
- * 1/(n d^2) in the Boltzmann limit): INFINITY for elastic grains, NaN for mixtures and friction, where it is not known.
- */
-double gg_clustering_length(const gg_model *model);
-
 #endif

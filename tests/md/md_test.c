@@ -190,6 +190,48 @@ long double md_closest(const gg_md *e)
   return closest;
 }
 
+static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
+{
+  for (int a = 0; a < 3; a++) {
+    double x = gg_along(&r, a), w = e->cells.width[a], lower = e->node[i].cell[a] * w;
+    bool above = e->model.open_top && a == 1 && e->node[i].cell[a] == e->cells.n[a] - 1;
+    if (x < lower - 1e-12 * e->box.edge[a] || (x > lower + w + 1e-12 * e->box.edge[a] && !above)) return false;
+  }
+  return true;
+}
+
+/* Under shear shells shrink and move: their exits are tested by what they are for, contacts. */
+static bool is_in_shell(const gg_md *e, uint32_t i, gg_vec r)
+{
+  gg_vec dr = gg_sub(r, e->shell[i].centre);
+  if (e->model.shear_rate == 0 && gg_dot(dr, dr) > e->shell_radius * e->shell_radius * (1 + 1e-9)) return false;
+  const uint32_t *mine = e->neighbour + (size_t)i * GG_LIST;
+  for (uint32_t k = 0; k < e->node[i].neighbours; k++) {
+    const uint32_t *other = e->neighbour + (size_t)mine[k] * GG_LIST;
+    bool back = false;
+    for (uint32_t m = 0; m < e->node[mine[k]].neighbours; m++) back |= other[m] == i;
+    if (!back) return false;
+  }
+  return true;
+}
+
+static bool is_between_walls(const gg_md *e, uint32_t i, gg_vec r)
+{
+  double radius = 0.5 * e->model.diameter[gg_species_of(&e->grain[i])], room = 1e-11;
+  if (!e->model.walled) return true;
+  return r.y > radius - room && (e->model.open_top || r.y < e->box.edge[1] - radius + room);
+}
+
+uint32_t md_misplaced(const gg_md *e)
+{
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now);
+    count += !(e->shell ? is_in_shell(e, i, r) : is_in_cell(e, i, r)) || !is_between_walls(e, i, r);
+  }
+  return count;
+}
+
 gg_vec md_momentum(const gg_md *e)
 {
   gg_vec sum = {0, 0, 0};

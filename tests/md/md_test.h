@@ -43,6 +43,10 @@ md_forecast md_oracle_walls(const gg_md *e);
 /* Smallest distance of two centres over their contact distance. */
 long double md_closest(const gg_md *e);
 
+/* How many grains are outside their cell or, with lists, outside their shell or missing in a neighbour's list; or in a
+ * wall. */
+uint32_t md_misplaced(const gg_md *e);
+
 /* sum m C, sum of energies (peculiar). */
 gg_vec md_momentum(const gg_md *e);
 double md_energy(const gg_md *e);

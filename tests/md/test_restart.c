@@ -1,6 +1,5 @@
 /* Proves: a run saved and restored goes on bit for bit, and saving does not disturb it; a run cut into advances of any
- * length has the same trajectory; rescaling by powers of two is exact; the state after 10^5 collisions is the stored
- * one, whatever compiler and optimisation. */
+ * length has the same trajectory; rescaling by powers of two is exact. */
 #include "md_test.h"
 
 static const md_case cases[] = {
@@ -86,27 +85,9 @@ static void rescaled(void **state)
   md_destroy(e);
 }
 
-/* The same bits from gcc and clang at every level of optimisation. */
-static void stored_state(void **state)
-{
-  (void)state;
-  static const uint64_t stored[CASES] = {0xa5472c41cd5cc360, 0x50b7c4e8ffcb7444, 0x30ad025a9e082bb7, 0xe3bcea70b612ab93,
-                                         0x74bfae2fb2781a70};
-  int wrong = 0;
-  for (int k = 0; k < CASES; k++) {
-    gg_model m = md_model(cases[k]);
-    gg_md *e = md_create(&m, 1);
-    md_collide(e, 100000);
-    uint64_t found = md_hash(e);
-    if (found != stored[k]) wrong++, print_message("# case %d: state 0x%016llx\n", k, (unsigned long long)found);
-    md_destroy(e);
-  }
-  assert_int_equal(wrong, 0);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(saved_and_restored), cmocka_unit_test(cut_anywhere),
-                                     cmocka_unit_test(rescaled), cmocka_unit_test(stored_state)};
+                                     cmocka_unit_test(rescaled)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

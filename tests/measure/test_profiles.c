@@ -1,5 +1,7 @@
 /* Profiles: planted flow, temperature and spin come back slab by slab; a Couette gas is antisymmetric, slips at its
- * walls, and holds as much as was put in. */
+ * walls, presses and pulls them as its own stress says, and holds as much as was put in. */
+#include <stdio.h>
+
 #include "curve_test.h"
 
 static void planted(gg_snapshot *s, gg_rng *r, int sample)
@@ -87,6 +89,18 @@ static void couette(void **state)
   print_message("# slip %.3f +- %.3f and %.3f +- %.3f\n", lower.value, lower.error, upper.value, upper.error);
   assert_true(upper.value > 4 * upper.error && lower.value < -4 * lower.error);
   assert_true(fabs(upper.value + lower.value) < 4 * hypot(upper.error, lower.error));
+  /* The stress of the gas averages to that of the walls, but for the layer d/2 at each wall that only contacts with it
+   * cross: P_bulk = P_wall (1 - d/L_y). P_yx is the flux along y of momentum along x; rough grains next to a wall turn,
+   * and P_xy is not the same. */
+  static const char *const side[] = {"lower", "upper"};
+  for (int k = 0; k < 4; k++) {
+    char name[32];
+    snprintf(name, sizeof name, "wall_P_%s_%s", k / 2 ? "yx" : "yy", side[k % 2]);
+    gg_curve_number p = ct_number(u, name);
+    const gg_estimate *bulk = &r->value[k / 2 ? GG_Q_P_YX : GG_Q_P_YY];
+    double share = 1 - 1 / r->model.box[1];
+    ct_expect(name, p.value * share, hypot(p.error * share, bulk->error), bulk->mean, 0.1 * fabs(bulk->mean));
+  }
   gg_result_free(r);
 }
 

@@ -40,10 +40,34 @@ static void planted_form(void **state)
   const gg_curve *c = ct_find(&list, "sonine_excess");
   gg_curve_number p = ct_number(c, "c");
   ct_expect("c", p.value, p.error, C_PLANTED, 0.01);
+  p = ct_number(c, "a3"); /* the forms are orthogonal */
+  ct_expect("a3", p.value, p.error, 0, 0.01);
   double value = C_PLANTED, chi2 = ct_chi2(c, 4, 50, excess, &value);
   assert_true(chi2 > 0.3 && chi2 < 2.2);
   chi2 = ct_chi2(ct_find(&list, "sonine_deviation"), 4, 50, polynomial, NULL);
   assert_true(chi2 > 0.2 && chi2 < 2.2);
+  gg_curves_clear(&list);
+}
+
+/* A fifth of the grains at T = 2, the others at T = 3/4: <T^2> = 1.25, <T^3> = 1.9375, so c = 0.5, a_3 = -0.1875. */
+static void hot_and_cold(gg_snapshot *s, gg_rng *r, int sample)
+{
+  (void)sample;
+  for (size_t i = 0; i < s->n; i++) {
+    gg_vec v = gg_scale(sqrt(i % 5 ? 0.75 : 2), gg_rng_normal_vec(r));
+    s->c[0][i] = v.x, s->c[1][i] = v.y, s->c[2][i] = v.z;
+  }
+}
+
+static void planted_moments(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_HCS, 0.1, -1, 20000, 1);
+  gg_curves list = ct_curves(&gg_sonine, &m, 64, hot_and_cold, 43);
+  gg_curve_number c = ct_number(ct_find(&list, "sonine_excess"), "c");
+  gg_curve_number a3 = ct_number(ct_find(&list, "sonine_excess"), "a3");
+  ct_expect("c", c.value, c.error, 0.5, 0.02);
+  ct_expect("a3", a3.value, a3.error, -0.1875, 0.03);
   gg_curves_clear(&list);
 }
 
@@ -78,6 +102,9 @@ static void cooling(void **state)
   const gg_curve *c = ct_find(&r->curves, "sonine_excess");
   gg_curve_number p = ct_number(c, "c");
   ct_expect("c in free cooling", p.value, hypot(p.error, 0.0006), 0.0948, 0.012);
+  gg_curve_number a3 = ct_number(c, "a3");
+  print_message("# a3 in free cooling %.5f +- %.5f\n", a3.value, a3.error);
+  assert_true(a3.value < -4 * a3.error && a3.value > -0.03); /* negative below e = 0.7, and smaller than a_2 */
   assert_true(fabs(p.value / 2 - r->value[GG_Q_A2].mean) < 4 * hypot(p.error / 2, r->value[GG_Q_A2].error));
   for (int i = 4; i < 8; i++) assert_true(c->value[i] > 0.5 * excess(c->x[i], &p.value));
   for (int i = 26; i < 30; i++) assert_true(c->value[i] < 0.5 * excess(c->x[i], &p.value));
@@ -88,6 +115,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_form),
+      cmocka_unit_test(planted_moments),
       cmocka_unit_test(mixture),
       cmocka_unit_test(cooling),
   };

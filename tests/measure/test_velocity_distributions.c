@@ -86,7 +86,7 @@ static void stretched_grains(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 20000, 2);
-  gg_curves list = ct_curves(&gg_velocity_distributions, &m, 64, stretched, 22);
+  gg_curves list = ct_curves(&gg_velocity_distributions, &m, 128, stretched, 22);
   const gg_curve *y1 = ct_find(&list, "velocity_distribution_Cy_1"), *y2 = ct_find(&list, "velocity_distribution_Cy_2");
   gg_curve_number p = ct_number(y1, "alpha_likelihood");
   ct_expect("alpha of species 1", p.value, p.error, 2.5, 0.1);

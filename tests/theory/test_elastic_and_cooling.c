@@ -4,6 +4,7 @@
 #include "common/contact_value.h"
 #include "theory/collision_rate.h"
 #include "theory/equation_of_state.h"
+#include "theory/goldhirsch_zanetti1993.h"
 #include "theory/haff1983.h"
 
 /* Pieprzyk et al. 2019 at phi = 0.1 .. 0.45, and how far the others are from it. */

@@ -1,0 +1,41 @@
+/* What the subjects of `graingas bench` share: sheets, each a table and the same rows as JSON, filled by the subject
+ * and printed by the frame. A subject is a file of its own and a line in bench.c's table. */
+#ifndef GG_CLI_BENCH_H
+#define GG_CLI_BENCH_H
+
+#include <jansson.h>
+
+#include "cli/options.h"
+#include "cli/table.h"
+#include "run/throughput.h"
+
+typedef struct gg_bench_sheet {
+  const char *key;     /* of the rows in the JSON document */
+  const char *caption; /* above the table: what was measured, and how */
+  int keep;            /* columns that are repeated where the table is too wide */
+  gg_table *table;
+  json_t *rows;
+} gg_bench_sheet;
+
+enum { GG_BENCH_SHEETS = 8 };
+typedef struct gg_bench {
+  const gg_options *options;
+  uint64_t seed;
+  int n_sheets;
+  gg_bench_sheet sheet[GG_BENCH_SHEETS];
+} gg_bench;
+
+/* A subject measures and fills sheets. */
+typedef gg_status gg_bench_subject(gg_bench *b, gg_error *err);
+gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc, gg_bench_observables;
+
+/* A new, empty sheet, owned by the frame; NULL with the message if out of memory. Strings must be literals. */
+gg_bench_sheet *gg_bench_new_sheet(gg_bench *b, const char *key, const char *caption, int keep, gg_error *err);
+/* Write into a cell of the sheet's table. */
+void gg_bench_cell(gg_bench_sheet *sheet, int row, int column, const char *format, ...) GG_PRINTF(4, 5);
+/* Progress on standard error, a line each, unless --quiet. */
+void gg_bench_tell(const gg_bench *b, const char *format, ...) GG_PRINTF(2, 3);
+/* The defaults with this bench's seed. */
+gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, int64_t n);
+
+#endif

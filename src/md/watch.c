@@ -1,0 +1,36 @@
+/* Collisions shown one by one. A watched engine's impact is wrapped by one that shows it first: one that is not watched
+ * knows nothing of it. */
+#include <math.h>
+
+#include "md/state.h"
+
+static void show_grain(const gg_md *e, uint32_t i, int which, gg_seen_collision *m)
+{
+  const gg_grain *g = &e->grain[i];
+  double height = g->r.y - 0.5 * e->box.edge[1];
+  gg_vec c = g->v;
+  c.x -= e->model.shear_rate * height;
+  m->species[which] = gg_species_of(g);
+  m->c[which] = gg_scale(e->k.scale, c);
+  m->height[which] = height;
+  m->since[which] = (e->k.now - e->last[i]) / e->k.scale; /* of a Gaussian thermostat's clock: at its present pace */
+}
+
+void gg_md_show_impact(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
+{
+  gg_seen_collision m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
+  show_grain(e, i, 0, &m);
+  show_grain(e, j, 1, &m);
+  e->watch(e->watcher, &m);
+  e->watched(e, i, j, dr, c12);
+}
+
+gg_status gg_md_watch(gg_engine *engine, gg_watch *watch, void *context, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  if (watch && !e->last) GG_TRY(gg_md_allocate_last(e, err));
+  e->watch = watch;
+  e->watcher = context;
+  gg_md_select(e);
+  return GG_OK;
+}

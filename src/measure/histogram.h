@@ -1,0 +1,36 @@
+/* Histograms of a velocity component x, in bins of a tenth of a given unit about 0: scaled to P(0) = 1, with the tail
+ * as a stretched exponential, kurtosis and skewness. */
+#ifndef GG_HISTOGRAM_H
+#define GG_HISTOGRAM_H
+
+#include "measure/curve.h"
+
+enum {
+  GG_HISTOGRAM_HALF = 80, /* bin k is centred on (k - HALF) widths */
+  GG_HISTOGRAM_BINS = 2 * GG_HISTOGRAM_HALF + 1,
+  GG_HISTOGRAM_GRAINS = GG_HISTOGRAM_BINS, /* behind the bins: sums of 1, x^2, x^3, x^4 */
+  GG_HISTOGRAM_SQUARES,
+  GG_HISTOGRAM_CUBES,
+  GG_HISTOGRAM_FOURTHS,
+  GG_HISTOGRAM
+};
+#define GG_HISTOGRAM_WIDTH 0.1
+
+GG_INLINE void gg_histogram_add(double *bin, double x)
+{
+  double at = x * (1 / GG_HISTOGRAM_WIDTH) + (GG_HISTOGRAM_HALF + 0.5), xx = x * x;
+  bin[GG_HISTOGRAM_GRAINS]++;
+  bin[GG_HISTOGRAM_SQUARES] += xx;
+  bin[GG_HISTOGRAM_CUBES] += xx * x;
+  bin[GG_HISTOGRAM_FOURTHS] += xx * xx;
+  if (at >= 0 && at < GG_HISTOGRAM_BINS) bin[(int)at]++;
+}
+
+/* Standard deviation, in the unit of x; the counts that a bin at x = 0 has. */
+double gg_histogram_sigma(const double *bin);
+double gg_histogram_height(const double *bin, double sigma);
+/* P(x/sigma)/P(0), and the numbers: tail, kurtosis, skewness. `samples`: those that the bins are the mean over. */
+gg_curve *gg_histogram_put(gg_curves *list, const char *name, const char *panel, const char *label, const double *bin,
+                           double sigma, double samples);
+
+#endif

@@ -1,0 +1,32 @@
+/* Standard errors of anything that follows from blocks of samples: leave out one block at a time (the jackknife:
+ * Quenouille 1956, Tukey 1958). Blocks that are not much longer than a correlation time depend on their neighbours in
+ * time; from the correlation r of neighbouring blocks the variance is taken larger by (1 + r)/(1 - r), as it is for a
+ * chain in which correlation fades by the factor r from block to block. */
+#ifndef GG_JACKKNIFE_H
+#define GG_JACKKNIFE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "common/error.h"
+
+typedef struct gg_jackknife {
+  size_t width, blocks, pairs;
+  bool first; /* the next block has no neighbour before it */
+  double *now, *before;
+  double *sum, *squares, *products, *ends; /* of d, d^2, d d', d + d' over neighbours d, d' */
+} gg_jackknife;
+
+gg_status gg_jackknife_init(gg_jackknife *j, size_t width, gg_error *err);
+void gg_jackknife_clear(gg_jackknife *j);
+/* Another run begins: what comes is no neighbour of what came. */
+void gg_jackknife_cut(gg_jackknife *j);
+/* Where to put what leaving out the next block changes in each of `width` numbers; then count it. */
+double *gg_jackknife_next(gg_jackknife *j);
+void gg_jackknife_add(gg_jackknife *j);
+
+/* Errors of n numbers from `from` on, points of one curve: correlations are averaged over nine neighbours, for each by
+ * itself is uncertain by 1/sqrt(blocks). NaN with fewer than two blocks. Returns the mean correlation. */
+double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double *error);
+
+#endif

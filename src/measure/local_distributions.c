@@ -1,0 +1,180 @@
+/* Distributions of C_x and Omega_z where the gas is thin and where it is dense: of the grains in cells whose density
+ * lies within a tenth of a chosen one (Gayen's thesis, section 4.1). Cells hold about eight grains. Velocities are
+ * about the mean of the cell; with the share m_i/M_c that a mean over few grains takes out of a variance put back they
+ * are, for Gaussian grains, Gaussian again. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "measure/histogram.h"
+#include "measure/observable.h"
+
+enum { GRAINS_PER_CELL = 8, LEAST_CELLS = 3, CLASSES = 5, VECTORS = 2 };
+static const double centre[CLASSES] = {0.5, 0.75, 1, 1.25, 1.5}; /* of the mean solid fraction */
+#define TOLERANCE 0.1
+
+typedef struct cell {
+  double volume, weight[VECTORS], sum[VECTORS]; /* of grains; m, m C_x; K m, K m s_z */
+} cell;
+
+typedef struct local {
+  gg_model model;
+  int n[3], vectors;
+  cell *cell;
+  uint32_t *at;           /* the cell of each grain */
+  double *value[VECTORS]; /* of each grain, about its cell's mean */
+} local;
+
+static const char *refuses(const gg_model *m)
+{
+  if (m->homogeneous) return "the Monte Carlo ensemble has no positions";
+  return gg_flow_is_walled(m->flow) ? "between walls velocities depend on the place; measure profiles" : NULL;
+}
+
+static void destroy(void *self)
+{
+  local *d = self;
+  for (int v = 0; v < VECTORS; v++) free(d->value[v]);
+  free(d->at);
+  free(d->cell);
+  free(d);
+}
+
+static size_t cells_of(const local *d)
+{
+  return (size_t)d->n[0] * (size_t)d->n[1] * (size_t)d->n[2];
+}
+
+static void *create(const gg_model *m, gg_error *err)
+{
+  local *d = gg_new_array(1, sizeof *d, err);
+  if (!d) return NULL;
+  d->model = *m;
+  d->vectors = m->rule == GG_SMOOTH ? 1 : VECTORS;
+  double edge = cbrt(GRAINS_PER_CELL * m->volume / (double)m->n);
+  for (int a = 0; a < 3; a++) d->n[a] = (int)fmax(LEAST_CELLS, round(m->box[a] / edge));
+  d->cell = gg_new_array(cells_of(d), sizeof *d->cell, err);
+  d->at = gg_new_array((size_t)m->n, sizeof *d->at, err);
+  bool whole = d->cell && d->at;
+  for (int v = 0; v < d->vectors; v++)
+    if (!(d->value[v] = gg_new_array((size_t)m->n, sizeof(double), err))) whole = false;
+  if (whole) return d;
+  destroy(d);
+  return NULL;
+}
+
+static size_t bins(const void *self)
+{
+  const local *d = self;
+  return (size_t)(d->model.n_species * d->vectors * CLASSES) * GG_HISTOGRAM;
+}
+
+static double *histogram_of(const local *d, double *bin, int species, int vector, int class)
+{
+  return bin + ((species * d->vectors + vector) * CLASSES + class) * GG_HISTOGRAM;
+}
+
+static double weight_of(const gg_model *m, int species, int vector)
+{
+  return vector ? m->inertia[species] * m->mass[species] : m->mass[species];
+}
+
+static double seen(const gg_snapshot *s, int vector, size_t i)
+{
+  return vector ? s->s[2][i] : s->c[0][i];
+}
+
+static void sort_grains(local *d, const gg_snapshot *s)
+{
+  const gg_model *m = &d->model;
+  memset(d->cell, 0, cells_of(d) * sizeof *d->cell);
+  for (size_t i = 0; i < s->n; i++) {
+    int at[3], k = gg_snapshot_species(s, i);
+    for (int a = 0; a < 3; a++) {
+      at[a] = (int)(s->r[a][i] / m->box[a] * d->n[a]);
+      at[a] = at[a] < 0 ? 0 : at[a] >= d->n[a] ? d->n[a] - 1 : at[a];
+    }
+    d->at[i] = (uint32_t)((at[2] * d->n[1] + at[1]) * d->n[0] + at[0]);
+    cell *c = &d->cell[d->at[i]];
+    c->volume += m->diameter[k] * m->diameter[k] * m->diameter[k];
+    for (int v = 0; v < d->vectors; v++) {
+      double w = weight_of(m, k, v);
+      c->weight[v] += w, c->sum[v] += w * seen(s, v, i);
+    }
+  }
+}
+
+/* Values about the cells' means, and their standard deviation over the whole box, by species. A grain alone in its cell
+ * has none: NaN. */
+static void centre_values(local *d, const gg_snapshot *s, int v, double sigma[GG_MAX_SPECIES])
+{
+  double squares[GG_MAX_SPECIES] = {0}, n[GG_MAX_SPECIES] = {0};
+  for (size_t i = 0; i < s->n; i++) {
+    int k = gg_snapshot_species(s, i);
+    const cell *c = &d->cell[d->at[i]];
+    double w = weight_of(&d->model, k, v), left = c->weight[v] - w;
+    double x = left > 1e-9 * w ? (seen(s, v, i) - c->sum[v] / c->weight[v]) * sqrt(c->weight[v] / left) : NAN;
+    d->value[v][i] = x;
+    if (isfinite(x)) squares[k] += x * x, n[k]++;
+  }
+  for (int k = 0; k < GG_MAX_SPECIES; k++) sigma[k] = sqrt(squares[k] / n[k]);
+}
+
+static void look(void *self, const gg_snapshot *s, double *bin)
+{
+  local *d = self;
+  const gg_model *m = &d->model;
+  double mean = 6 / M_PI * m->phi * m->volume / (double)cells_of(d); /* sum of d^3 in a cell */
+  sort_grains(d, s);
+  for (int v = 0; v < d->vectors; v++) {
+    double sigma[GG_MAX_SPECIES];
+    centre_values(d, s, v, sigma);
+    for (size_t i = 0; i < s->n; i++) {
+      double density = d->cell[d->at[i]].volume / mean;
+      int k = gg_snapshot_species(s, i);
+      if (!isfinite(d->value[v][i])) continue;
+      for (int j = 0; j < CLASSES; j++)
+        if (fabs(density / centre[j] - 1) <= TOLERANCE + 1e-9)
+          gg_histogram_add(histogram_of(d, bin, k, v, j), d->value[v][i] / sigma[k]);
+    }
+  }
+}
+
+static void put(const local *d, gg_curves *list, int species, int vector, int j, const double *bin)
+{
+  static const char *const plain[] = {"Cx", "Wz"}, *const written[] = {"C_x", "Ω_z"};
+  char name[48], panel[48], label[24], argument[24], tail[16] = "";
+  if (d->model.n_species > 1) snprintf(tail, sizeof tail, "_%d", species + 1);
+  snprintf(name, sizeof name, "local_distribution_%s%s_%g", plain[vector], tail, centre[j]);
+  snprintf(panel, sizeof panel, "%s%s, by local density", written[vector], tail);
+  snprintf(label, sizeof label, "φ %.3g", centre[j] * d->model.phi);
+  snprintf(argument, sizeof argument, "%s/σ", written[vector]);
+  double sigma = gg_histogram_sigma(bin); /* NaN where no cell was ever of this density */
+  gg_curve *c = gg_histogram_put(list, name, panel, label, bin, sigma, (double)list->samples);
+  gg_curve_axes(c, argument, "1", "P/P(0)", "1");
+  gg_curve_put_number(c, "temperature_over_mean", sigma * sigma, "1");
+  gg_curve_put_number(c, "solid_fraction", centre[j] * d->model.phi, "1");
+}
+
+static void curves(const void *self, const double *bin, gg_curves *list)
+{
+  const local *d = self;
+  for (int k = 0; k < d->model.n_species; k++)
+    for (int v = 0; v < d->vectors; v++)
+      for (int j = 0; j < CLASSES; j++, bin += GG_HISTOGRAM) put(d, list, k, v, j, bin);
+}
+
+const gg_observable gg_local_distributions = {
+    .name = "local_distributions",
+    .doc = "distributions of C_x and Omega_z by the local density",
+    .create = create,
+    .destroy = destroy,
+    .flag = GG_MEASURE_LOCAL_DISTRIBUTIONS,
+    .refuses = refuses,
+    .bins = bins,
+    .every = 4,
+    .positions = true,
+    .look = look,
+    .curves = curves,
+};

@@ -1,0 +1,163 @@
+/* eta* = nu_0 eta/(n T) of cooling and heated gases: the limit a* -> 0 of -P_xy/(n T a*) in slow shear
+ * (common/small_shear.h). The noise of P_xy/(nT) is the same at every a*, so least squares of -P_xy/(n T) on
+ * eta* a* + B a*^3, over everything seen while a* went up and down its range; its sums are the channels, so that the
+ * estimator's error of eta* contains that of the extrapolation.
+ *
+ * The kinetic stress belongs to the instant of the look. The collisional one is a mean over the interval before it, in
+ * which it goes as sqrt(T): it belongs to the temperature at which sqrt(T) has its mean. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "common/small_shear.h"
+#include "measure/by_species.h"
+#include "measure/observable.h"
+
+/* Sums of one regression: a*^2, a*^4, a*^6, and the stress times a*, a*^3. */
+enum { A2, A4, A6, SA, SA3, SUMS };
+enum { KINETIC, COLLISIONAL = SUMS, CHANNELS = 2 * SUMS };
+
+/* Rows, of two collisions a grain each, that a heated gas needs to forget its rescaling. */
+enum { SETTLING = 5 };
+
+typedef struct memory { /* what one sample leaves for the next */
+  double last_temperature;
+  double settled; /* rows since the last rescaling */
+} memory;
+
+typedef struct viscosity {
+  gg_model model;
+  double cc, cxcy; /* mass-weighted sums over the grains */
+  memory memory;
+  gg_species_scratch scratch;
+} viscosity;
+
+static const char *refuses(const gg_model *m)
+{
+  return m->small_shear ? NULL : "needs small_shear: on (flow: usf)";
+}
+
+static size_t width(const gg_model *m)
+{
+  (void)m;
+  return CHANNELS;
+}
+
+static void *create(const gg_model *model, gg_error *err)
+{
+  viscosity *v = gg_new_array(1, sizeof *v, err);
+  if (v) v->model = *model;
+  return v;
+}
+
+static void *memory_of(void *self, size_t *bytes)
+{
+  viscosity *v = self;
+  *bytes = sizeof v->memory;
+  return &v->memory;
+}
+
+static void begin(void *self)
+{
+  viscosity *v = self;
+  v->cc = v->cxcy = 0;
+}
+
+static void visit(void *self, const gg_chunk *chunk)
+{
+  viscosity *v = self;
+  for (int i = 0; i < v->model.n_species; i++) {
+    gg_species_view g = gg_chunk_of_species(chunk, i, &v->scratch);
+    double cc = 0, cxcy = 0;
+    for (size_t k = 0; k < g.n; k++) {
+      double x = g.c[0][k], y = g.c[1][k], z = g.c[2][k];
+      cc += x * x + y * y + z * z;
+      cxcy += x * y;
+    }
+    v->cc += v->model.mass[i] * cc;
+    v->cxcy += v->model.mass[i] * cxcy;
+  }
+}
+
+/* Both in units of the high end of a*, so that no sum is tiny. */
+static void put(const gg_small_shear *range, double a, double stress, double *sums)
+{
+  double u = a / range->high, u2 = u * u, y = stress / range->high;
+  sums[A2] = u2, sums[A4] = u2 * u2, sums[A6] = u2 * u2 * u2;
+  sums[SA] = y * u, sums[SA3] = y * u * u2;
+}
+
+/* Mean of sqrt(T) over an interval in which T^(-1/2) is linear in time. */
+static double mean_root(double T0, double T1)
+{
+  double a0 = 1 / sqrt(T0), a1 = 1 / sqrt(T1), b = a1 - a0;
+  return fabs(b) < 1e-9 * a0 ? sqrt(T0) : log(a1 / a0) / b;
+}
+
+static bool counts(const viscosity *v, const gg_small_shear *range, double a)
+{
+  return range->cools ? a >= range->low : v->memory.settled > SETTLING;
+}
+
+static void finish(void *self, const gg_interval *in, double *row)
+{
+  viscosity *v = self;
+  const gg_model *m = &v->model;
+  double T = v->cc / (3 * (double)m->n), T0 = v->memory.last_temperature * in->velocity_factor * in->velocity_factor;
+  v->memory.last_temperature = T;
+  v->memory.settled = in->velocity_factor == 1 ? v->memory.settled + 1 : 0;
+  for (int k = 0; k < CHANNELS; k++) row[k] = 0;
+  gg_small_shear range = gg_small_shear_of(m);
+  double a = gg_reduced_shear_rate(m, T);
+  if (!(in->elapsed > 0) || !counts(v, &range, a)) return;
+  put(&range, a, -v->cxcy / ((double)m->n * T), row + KINETIC);
+  if (m->boltzmann) return;
+  double impulse = 0, root = mean_root(T0, T), mean_T = root * root;
+  for (int q = 0; q < GG_PAIRS; q++) impulse += in->transfer->stress[q][0][1];
+  double stress = impulse / (m->volume * in->elapsed * m->density * mean_T);
+  put(&range, gg_reduced_shear_rate(m, mean_T), -stress, row + COLLISIONAL);
+}
+
+static double fit(const double *s)
+{
+  return (s[SA] * s[A6] - s[SA3] * s[A4]) / (s[A2] * s[A6] - s[A4] * s[A4]);
+}
+
+static double kinetic(const double *mean, const gg_model *m)
+{
+  (void)m;
+  return fit(mean + KINETIC);
+}
+
+static double total(const double *mean, const gg_model *m)
+{
+  return kinetic(mean, m) + (m->boltzmann ? 0 : fit(mean + COLLISIONAL));
+}
+
+static const gg_derived derived[] = {
+    {GG_Q_VISCOSITY_REDUCED, total},
+    {GG_Q_VISCOSITY_REDUCED_KINETIC, kinetic},
+    {GG_N_QUANTITIES, NULL},
+};
+
+static const char *missing(const gg_model *m, gg_quantity q)
+{
+  (void)m;
+  bool mine = q == GG_Q_VISCOSITY_REDUCED || q == GG_Q_VISCOSITY_REDUCED_KINETIC;
+  return mine ? NULL : "not a viscosity";
+}
+
+const gg_observable gg_viscosity = {
+    .name = "viscosity",
+    .doc = "eta* of cooling and heated gases in slow shear, extrapolated to none",
+    .flag = GG_MEASURE_VISCOSITY,
+    .width = width,
+    .create = create,
+    .destroy = free,
+    .memory = memory_of,
+    .begin = begin,
+    .visit = visit,
+    .finish = finish,
+    .derived = derived,
+    .missing = missing,
+    .refuses = refuses,
+};

@@ -1,0 +1,60 @@
+/* The length from which on shear modes outgrow the thermal speed of a cooling gas, so that it breaks up into vortices
+ * and then clusters: I. Goldhirsch & G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey, J.W. Dufty, C.S. Kim & A.
+ * Santos, Phys. Rev. E 58 (1998) 4638:
+ *   L_c = 2 pi sqrt(2 eta/(n m zeta)) = 2 pi 5/(16 sqrt(pi) n d^2) sqrt(2 H/Z),  H = eta/eta_0, Z = zeta/nu_0 */
+#include "theory/goldhirsch_zanetti1993.h"
+
+#include <math.h>
+
+#include "theory/answer.h"
+#include "theory/lun1991.h"
+#include "theory/theory_list.h"
+
+static const char name[] = "goldhirsch_zanetti1993";
+
+/* eta/(n m) over zeta in the cooling state, from the theories that know them. */
+static double viscous_length2(gg_model m)
+{
+  gg_theory_answer a;
+  m.flow = GG_HCS;
+  m.thermostat = GG_NO_THERMOSTAT;
+  m.shear_rate = 0;
+  m.temperature0 = 1;
+  double unit = 1 / gg_model_nu0(&m, 1); /* eta_0/(n m) over nu_0 is unit^2 */
+  if (m.rule == GG_SMOOTH) {
+    if (gg_theory_evaluate(&gg_garzo_dufty1999, &m, &a, NULL) != GG_OK) return NAN;
+    return unit * unit * a.value[GG_Q_VISCOSITY_REDUCED] / a.value[GG_Q_COOLING_RATE];
+  }
+  if (gg_theory_evaluate(&gg_huthmann_zippelius1997, &m, &a, NULL) != GG_OK) return NAN;
+  gg_lun_state state = {m.density, m.phi, m.chi[0], gg_grain_of(&m), a.value[GG_Q_TEMPERATURE_RATIO]};
+  return gg_lun_functions_at(state).f2 / m.density * unit / a.value[GG_Q_COOLING_RATE];
+}
+
+double gg_clustering_length(const gg_model *m)
+{
+  if (m->elastic) return INFINITY;
+  if (m->n_species > 1 || m->rule == GG_FRICTIONAL) return NAN;
+  return 2 * M_PI * sqrt(2 * viscous_length2(*m));
+}
+
+static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  GG_TRY(gg_require_one_species(m, name, err));
+  GG_TRY(gg_require_constant_beta(m, name, err));
+  if (m->flow != GG_HCS && m->flow != GG_USF)
+    return gg_refuse(err, name, "describes free cooling, and as a scale sheared gases; this scene is neither");
+  if (m->elastic) return gg_refuse(err, name, "describes gases that lose energy; collisions of this scene do not");
+  a->value[GG_Q_CLUSTERING_LENGTH] = gg_clustering_length(m);
+  return GG_OK;
+}
+
+const gg_theory gg_goldhirsch_zanetti1993 = {
+    .name = name,
+    .title = "Size above which cooling gases form vortices and clusters",
+    .citation =
+        "I. Goldhirsch and G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey et al., Phys. Rev. E 58 (1998) 4638",
+    .assumptions = "Linear stability of the shear mode in homogeneous free cooling: periodic boxes with an edge above "
+                   "clustering_length break up. In uniform shear it is a scale: boxes larger than about three of it "
+                   "cluster at moderate density.",
+    .evaluate = evaluate,
+};

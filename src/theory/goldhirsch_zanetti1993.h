@@ -1,0 +1,12 @@
+/* The size above which a dissipative gas does not stay homogeneous. */
+#ifndef GG_GOLDHIRSCH_ZANETTI1993_H
+#define GG_GOLDHIRSCH_ZANETTI1993_H
+
+#include "theory/theory.h"
+
+/* Box length above which free cooling at this density breaks up into vortices and clusters, in d of species 1 (in
+ * 1/(n d^2) in the Boltzmann limit): INFINITY for elastic grains, NaN for mixtures and friction, where it is not known.
+ */
+double gg_clustering_length(const gg_model *model);
+
+#endif

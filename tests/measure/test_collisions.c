@@ -1,0 +1,263 @@
+/* The tap on single collisions: what it shows adds up to what the engine's own sums say, and changes no trajectory.
+ * Free flights and angles planted with known laws come back; an elastic gas has the free times and paths of the kinetic
+ * theory of gases, point by point; sheared gases meet head-on in the compressing quadrants, alike in both engines. */
+#include "curve_test.h"
+
+typedef struct sums {
+  gg_transfer by_hand;
+  const gg_model *model;
+  uint64_t flights;
+  double flown; /* sum of `since` */
+} sums;
+
+static void add(void *context, const gg_seen_collision *m)
+{
+  sums *s = context;
+  int a = m->species[0], b = m->species[1], pair = gg_pair_index(a, b);
+  double mr = 1 / (1 / s->model->mass[a] + 1 / s->model->mass[b]), gn = gg_dot(m->k, m->c12);
+  const double k[3] = {m->k.x, m->k.y, m->k.z};
+  assert_true(gn > 0 && fabs(gg_dot(m->k, m->k) - 1) < 1e-12);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      s->by_hand.stress[pair][i][j] += s->model->sigma[2 * a + b] * k[i] * k[j] * mr * 1.9 * gn;
+  s->by_hand.loss[pair] += 0.5 * mr * (1 - 0.81) * gn * gn;
+  s->by_hand.collisions[pair]++;
+  for (int i = 0; i < 2; i++)
+    if (m->since[i] < INFINITY) s->flights++, s->flown += m->since[i];
+}
+
+static gg_scene sheared(gg_engine_kind engine, int species, double phi)
+{
+  gg_scene s = gg_scene_defaults();
+  s.engine = engine, s.phi = phi, s.n_species = species;
+  s.particles = 500, s.dsmc.particles = 2000;
+  if (species == 2) s.species[0] = (gg_species){0.6, 1, 1, 0.4}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.4};
+  return s;
+}
+
+static void whole_velocity(void *context, const gg_chunk *c)
+{
+  double *sum = context;
+  for (size_t i = 0; i < c->n; i++) *sum += c->c[0][i] * (double)(i + 1) + c->c[1][i];
+}
+
+/* Smooth grains, e = 0.9: impulse and loss by hand from each meeting equal the tap's sums; every meeting ends two
+ * flights; md moves to the last bit as when nobody watches. */
+static void adds_up(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 4; kind++) {
+    gg_engine_kind which = kind / 2 ? GG_DSMC : GG_MD;
+    gg_scene s = sheared(which, 1 + kind % 2, 0.2);
+    gg_model m;
+    gg_engine *e[2];
+    gg_transfer t;
+    double gone, velocity[2] = {0, 0};
+    assert_int_equal(gg_model_make(&s, which, &m, NULL), GG_OK);
+    sums seen = {.model = &m};
+    const gg_engine_ops *ops = gg_engine_ops_of(which);
+    for (int k = 0; k < 2; k++) {
+      assert_int_equal(ops->create(&m, 5, 0, &e[k], NULL), GG_OK);
+      ops->tap(e[k], true);
+      if (k) assert_int_equal(ops->watch(e[k], add, &seen, NULL), GG_OK);
+      for (int i = 0; i < 7; i++) assert_int_equal(ops->advance(e[k], 1.0, UINT64_MAX, &gone, NULL), GG_OK);
+      ops->read_tap(e[k], &t);
+      ops->snapshot(e[k], false, whole_velocity, &velocity[k]);
+    }
+    if (which == GG_MD) assert_true(velocity[0] == velocity[1]);
+    for (int p = 0; p < (kind % 2 ? GG_PAIRS : 1); p++) {
+      const gg_transfer *h = &seen.by_hand;
+      assert_int_equal(h->collisions[p], t.collisions[p]);
+      assert_true(fabs(h->loss[p] / t.loss[p] - 1) < 1e-9);
+      for (int a = 0; a < 9; a++)
+        assert_true(fabs(h->stress[p][a / 3][a % 3] - t.stress[p][a / 3][a % 3]) < 1e-9 * t.stress[p][0][0]);
+    }
+    uint64_t met = 0; /* every meeting ends a flight of both, but for each grain's first */
+    for (int p = 0; p < GG_PAIRS; p++) met += 2 * t.collisions[p];
+    assert_int_equal(seen.flights, met - (uint64_t)m.n);
+    assert_true(seen.flown > 0 && seen.flown < 7 * (double)m.n);
+    for (int k = 0; k < 2; k++) ops->destroy(e[k]);
+  }
+}
+
+/* The observable fed by hand. */
+static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make)(gg_seen_collision *m, gg_rng *r))
+{
+  gg_bins bins;
+  gg_rng r = gg_rng_seed(32, 0);
+  void *self = gg_collisions.create(m, NULL);
+  assert_int_equal(gg_bins_init(&bins, gg_collisions.bins(self), NULL), GG_OK);
+  for (int k = 0; k < samples; k++) {
+    for (int i = 0; i < per_sample; i++) {
+      gg_seen_collision meeting = {.height = {NAN, NAN}};
+      make(&meeting, &r);
+      gg_collisions.watch(self, &meeting);
+    }
+    gg_collisions.look(self, NULL, gg_bins_sample(&bins));
+    gg_bins_commit(&bins);
+  }
+  const gg_bins *list[] = {&bins};
+  gg_curves curves = {.model = m};
+  assert_int_equal(gg_curves_estimate(list, 1, gg_collisions.curves, self, "collisions", &curves, NULL), GG_OK);
+  gg_bins_clear(&bins);
+  gg_collisions.destroy(self);
+  return curves;
+}
+
+enum { RATE = 3 }; /* of flights; density of k in the plane 1 - sin(2 theta)/2; |C| = 2 without shear */
+static void planted(gg_seen_collision *m, gg_rng *r)
+{
+  double angle;
+  do angle = M_PI * gg_rng_uniform(r);
+  while (1.5 * gg_rng_uniform(r) > 1 - 0.5 * sin(2 * angle));
+  if (gg_rng_uniform(r) < 0.5) angle += M_PI;
+  m->k = (gg_vec){cos(angle), sin(angle), 0};
+  m->c12 = gg_axpy(sqrt(1 / gg_rng_uniform(r) - 1), (gg_vec){0, 0, 1}, m->k); /* cos^2 uniform */
+  for (int i = 0; i < 2; i++) {
+    m->c[i] = gg_scale(2, gg_rng_direction(r));
+    m->since[i] = -log(1 - gg_rng_uniform(r)) / RATE;
+    m->height[i] = 2;
+  }
+}
+
+static double exponential(double x, const void *context)
+{
+  double mean = *(const double *)context;
+  return exp(-x / mean) / mean;
+}
+static double twice(double x, const void *context)
+{
+  (void)context;
+  return 2 * x;
+}
+static double quadrants(double x, const void *context)
+{
+  (void)context;
+  return 1 - 0.5 * sin(2 * M_PI * x) * sin(M_PI / 72) / (M_PI / 72);
+}
+
+static void flights_and_angles(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, -1, 1000, 1);
+  gg_curves list = fed(&m, 64, 20000, planted);
+  double time = 1.0 / RATE, path = 2 * time;
+  gg_curve_number p = ct_number(ct_find(&list, "free_time"), "mean_free_time");
+  ct_expect("mean free time", p.value, p.error, time, 0.01 * time);
+  p = ct_number(ct_find(&list, "free_time"), "second_moment_over_mean_squared");
+  ct_expect("dispersion", p.value, p.error, 2, 0.03);
+  p = ct_number(ct_find(&list, "free_path"), "mean_free_path");
+  ct_expect("mean free path", p.value, p.error, path, 0.01 * path);
+  p = ct_number(ct_find(&list, "free_path"), "knudsen");
+  ct_expect("Knudsen number", p.value, p.error, path / cbrt(m.volume), 0.01 * path / cbrt(m.volume));
+  p = ct_number(ct_find(&list, "collision_angle"), "fabric_xy");
+  ct_expect("fabric", p.value, p.error, -0.125, 0.003); /* int sin cos (1 - sin 2t/2)/pi */
+  assert_true(ct_chi2(ct_find(&list, "free_time"), 40, 200, exponential, &time) < 1.5);
+  assert_true(ct_chi2(ct_find(&list, "free_path"), 40, 200, exponential, &path) < 1.5);
+  assert_true(ct_chi2(ct_find(&list, "impact_cos"), 0, 50, twice, NULL) < 2.2);
+  assert_true(ct_chi2(ct_find(&list, "collision_angle"), 0, 72, quadrants, NULL) < 1.6);
+  gg_curves_clear(&list);
+}
+
+static void falling_behind(gg_seen_collision *m, gg_rng *r)
+{
+  planted(m, r);
+  for (int i = 0; i < 2; i++) m->c[i] = (gg_vec){0, 1.5, 0}, m->since[i] = 2;
+}
+
+/* Under shear, rate 0.7, of C = (0, 1.5, 0) at the collision: the peculiar path of 2 units of time is the integral of
+ * 1.5 sqrt(1 + (0.7 s)^2), the laboratory's 2 sqrt(1.5^2 + (0.7 height)^2). */
+static void sheared_paths(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_USF, 0.1, -1, 1000, 1);
+  m.shear_rate = 0.7;
+  gg_curves list = fed(&m, 16, 10, falling_behind);
+  double end = 0.7 * 2, path = 1.5 / 0.7 * 0.5 * (end * sqrt(1 + end * end) + asinh(end));
+  double found = ct_number(ct_find(&list, "free_path"), "mean_free_path").value;
+  assert_true(fabs(found / path - 1) < 1e-5);
+  found = ct_number(ct_find(&list, "free_path_laboratory"), "mean_free_path_laboratory").value;
+  assert_true(fabs(found / (2 * hypot(1.5, 0.7 * 2)) - 1) < 1e-12);
+  gg_curves_clear(&list);
+}
+
+/* Collision rate of a grain of speed x sqrt(2T) among Maxwellian ones (Chapman & Cowling, 5.4), over n d^2 sqrt(2 pi
+ * T).
+ */
+static double rate_at(double x)
+{
+  return x < 1e-6 ? 2 : exp(-x * x) + (2 * x + 1 / x) * 0.5 * sqrt(M_PI) * erf(x);
+}
+
+typedef struct gas {
+  double scale; /* n d^2 chi sqrt(2 pi T) */
+  double speed; /* sqrt(2T); 0: times */
+} gas;
+
+/* Free times, or paths, between collisions: grains of speed v collide nu(v) f(v) times, after exp(-nu t). */
+static double law(double at, const void *context)
+{
+  const gas *g = context;
+  double unit = g->speed > 0 ? g->speed / g->scale : 1 / g->scale, step = 0.01, top = 0, all = 0;
+  for (double x = step / 2; x < 6; x += step) {
+    double f = x * x * exp(-x * x) * rate_at(x), fall = (g->speed > 0 ? rate_at(x) / x : rate_at(x)) / unit;
+    all += f;
+    top += f * fall * exp(-fall * at);
+  }
+  return top / all;
+}
+
+static void kinetic_theory(void **state)
+{
+  (void)state;
+  for (int kind = GG_MD; kind <= GG_DSMC; kind++) {
+    gg_scene s = sheared((gg_engine_kind)kind, 1, kind == GG_MD ? 0.005 : 0.1);
+    s.flow = GG_EQUILIBRIUM, s.collision.e[0] = 1;
+    s.run.collisions = kind == GG_MD ? 1000 : 800, s.run.warmup = 20;
+    s.measure |= GG_MEASURE_COLLISIONS;
+    gg_result *r = ct_run(s);
+    double T = 0.5, n = r->model.density * r->model.chi[0];
+    const gas times = {n * sqrt(2 * M_PI * T), 0}, paths = {n * sqrt(2 * M_PI * T), sqrt(2 * T)};
+    gg_curve_number p = ct_number(ct_find(&r->curves, "free_path"), "mean_free_path");
+    /* a finite gas of fixed energy: (1 + 1/N) or so */
+    double l = 1 / (M_SQRT2 * M_PI * n), slack = 2.0 / (double)r->model.n;
+    ct_expect("mean free path", p.value, hypot(p.error, slack * l), l, 0.02 * l);
+    p = ct_number(ct_find(&r->curves, "free_time"), "mean_free_time");
+    double t = 1 / (4 * n * sqrt(M_PI * T));
+    ct_expect("mean free time", p.value, hypot(p.error, slack * t), t, 0.02 * t);
+    assert_true(ct_chi2(ct_find(&r->curves, "free_time"), 50, 210, law, &times) < 1.6);
+    assert_true(ct_chi2(ct_find(&r->curves, "free_path"), 50, 210, law, &paths) < 1.6);
+    assert_true(ct_chi2(ct_find(&r->curves, "impact_cos"), 0, 50, twice, NULL) < 2.2);
+    gg_result_free(r);
+  }
+}
+
+/* Sheared, phi = 0.01, e = 0.8: grains meet where the flow presses them together (k_x k_y < 0), equally often in both
+ * engines, and mean free time times collision rate is one. */
+static void sheared_engines(void **state)
+{
+  (void)state;
+  gg_curve_number xy[2];
+  for (int kind = GG_MD; kind <= GG_DSMC; kind++) {
+    gg_scene s = sheared((gg_engine_kind)kind, 1, 0.01);
+    s.collision.e[0] = 0.8, s.run.collisions = 600, s.measure |= GG_MEASURE_COLLISIONS;
+    gg_result *r = ct_run(s);
+    xy[kind] = ct_number(ct_find(&r->curves, "collision_angle"), "fabric_xy");
+    gg_curve_number t = ct_number(ct_find(&r->curves, "free_time"), "mean_free_time");
+    double product = t.value * r->value[GG_Q_COLLISION_RATE].mean;
+    ct_expect("mean free time x collision rate", product, 0.001, 1, 0.01);
+    gg_result_free(r);
+  }
+  double error = hypot(xy[0].error, xy[1].error);
+  ct_expect("fabric, md - dsmc", xy[0].value - xy[1].value, error, 0, 0.01);
+  assert_true(xy[0].value < -0.03);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(adds_up),        cmocka_unit_test(flights_and_angles), cmocka_unit_test(sheared_paths),
+      cmocka_unit_test(kinetic_theory), cmocka_unit_test(sheared_engines),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,102 @@
+/* Viscosities of heated and cooling gases by slow shear in rounds, through the run layer: the elastic one to the exact
+ * 1.016 of first Sonine order, the inelastic ones to independent Monte Carlo solutions (Garzo & Montanero 2002), which
+ * lie 14 % apart at e = 0.7 (a wrong thermostat fails), a dense mixture to first Sonine order within the 1.5 % that
+ * Montanero's review reports. Each within four of its own standard errors and what the reference is worth. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+
+#include "run/run.h"
+
+static gg_scene slow(double e, double phi, gg_thermostat thermostat)
+{
+  gg_scene s = gg_scene_defaults();
+  s.engine = GG_DSMC, s.thermostat = thermostat, s.small_shear = GG_ON;
+  s.measure |= GG_MEASURE_VISCOSITY;
+  s.phi = phi, s.collision.e[0] = s.collision.e[1] = s.collision.e[2] = e;
+  s.dsmc.particles = 20000;
+  s.run.relative_error = 0.006;
+  return s;
+}
+
+static gg_result *run(const gg_scene *s)
+{
+  gg_result *r = NULL;
+  gg_error err = {0};
+  gg_status status = gg_run_scene(s, NULL, 1, NULL, &r, &err);
+  if (status != GG_OK) print_message("%s\n", err.message);
+  assert_int_equal(status, GG_OK);
+  assert_int_equal(r->verdict, GG_STEADY);
+  return r;
+}
+
+static void expect(const gg_result *r, gg_quantity q, double value, double uncertainty)
+{
+  const gg_estimate *e = &r->value[q];
+  print_message("# %s: %.4f +- %.4f, expected %.4f +- %.4f\n", gg_quantity_name(q), e->mean, e->error, value,
+                uncertainty);
+  assert_true(e->error > 0 && e->error < 0.02 * value);
+  assert_true(fabs(e->mean - value) < 4 * e->error + uncertainty);
+}
+
+static void elastic(void **state)
+{
+  (void)state;
+  gg_scene s = slow(1, 0, GG_GAUSSIAN);
+  gg_result *r = run(&s);
+  expect(r, GG_Q_VISCOSITY_REDUCED, 1.016034, 0);
+  assert_true(isnan(r->value[GG_Q_TEMPERATURE].mean)); /* goes up and down */
+  gg_result_free(r);
+}
+
+static void heated_and_cooling(void **state)
+{
+  (void)state;
+  gg_scene s = slow(0.7, 0, GG_GAUSSIAN);
+  gg_result *heated = run(&s);
+  s.thermostat = GG_NO_THERMOSTAT;
+  gg_result *cooling = run(&s);
+  gg_theory_answer theory;
+  const gg_theory *t = gg_theory_find("garzo_dufty1999");
+  assert_int_equal(gg_theory_evaluate(t, &heated->model, &theory, NULL), GG_OK);
+  expect(heated, GG_Q_VISCOSITY_REDUCED, theory.value[GG_Q_VISCOSITY_REDUCED], 0.015 * 1.3);
+  assert_int_equal(gg_theory_evaluate(t, &cooling->model, &theory, NULL), GG_OK);
+  expect(cooling, GG_Q_VISCOSITY_REDUCED, theory.value[GG_Q_VISCOSITY_REDUCED], 0.015 * 1.15);
+  gg_result_free(heated), gg_result_free(cooling);
+}
+
+static void dense(void **state)
+{
+  (void)state;
+  gg_scene s = slow(0.8, 0.3, GG_GAUSSIAN);
+  gg_result *r = run(&s);
+  expect(r, GG_Q_VISCOSITY_REDUCED, 3.700, 0.012);
+  expect(r, GG_Q_VISCOSITY_REDUCED_KINETIC, 0.8417, 0.004);
+  gg_result_free(r);
+}
+
+static void mixture(void **state)
+{
+  (void)state;
+  gg_scene s = slow(0.8, 0.2, GG_GAUSSIAN);
+  s.n_species = 2;
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4};
+  s.species[1] = (gg_species){0.5, 1, 0.25, 0.4};
+  gg_result *r = run(&s);
+  gg_theory_answer theory;
+  assert_int_equal(gg_theory_evaluate(gg_theory_find("garzo_montanero2003"), &r->model, &theory, NULL), GG_OK);
+  double eta = theory.value[GG_Q_VISCOSITY_REDUCED], kinetic = theory.value[GG_Q_VISCOSITY_REDUCED_KINETIC];
+  expect(r, GG_Q_VISCOSITY_REDUCED, eta, 0.015 * eta);
+  expect(r, GG_Q_VISCOSITY_REDUCED_KINETIC, kinetic, 0.015 * kinetic);
+  gg_result_free(r);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(heated_and_cooling),
+                                     cmocka_unit_test(dense), cmocka_unit_test(mixture)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
