@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "md/accept.h"
+#include "md/state.h"
 
 static gg_status check_box(const gg_model *m, gg_error *err)
 {
@@ -48,6 +49,26 @@ static void tell(void (*line)(void *, const char *), void *context, const char *
   line(context, text);
 }
 
+/* Where partners are looked for, and why there. */
+static void tell_search(const gg_model *m, void (*line)(void *, const char *), void *context)
+{
+  double radius;
+  int32_t n[3];
+  char text[160];
+  enum gg_search_in where = gg_md_plan(m, &radius, n);
+  const char *const why[] = {
+      [GG_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
+      [GG_LISTS] = "as dense: lists are seldom mended",
+      [GG_SHARED_CELLS] = "as dilute: few crossings, each into one cell",
+  };
+  const char *const what[] = {
+      [GG_CELLS] = "cells", [GG_LISTS] = "neighbour lists", [GG_SHARED_CELLS] = "overlapping cells"};
+  int used = snprintf(text, sizeof text, "%s, %d x %d x %d cells, ", what[where], n[0], n[1], n[2]);
+  if (where == GG_LISTS) used += snprintf(text + used, sizeof text - (size_t)used, "shells of %.2g d, ", radius);
+  snprintf(text + used, sizeof text - (size_t)used, "%s", why[where]);
+  tell(line, context, "search", text);
+}
+
 void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
 {
   static const char *const rules[] = {"smooth: no spins, no tangential impulse", "rough, constant beta",
@@ -66,5 +87,6 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time,
            m->gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
+  tell_search(m, line, context);
   tell(line, context, "collision tap", "while stresses are measured; else only counts");
 }

@@ -8,7 +8,8 @@
 
 #define HUGE_PAGE ((size_t)2 << 20)
 
-/* Events jump all over these arrays: with pages of 4 KiB nearly every jump in a large system would miss the TLB, too. */
+/* Events jump all over these arrays: with pages of 4 KiB nearly every jump in a large system would miss the TLB, too.
+ */
 void *gg_md_new_lines(size_t count, size_t size, gg_error *err)
 {
   size_t bytes = (count * size + 63) / 64 * 64 + 64;

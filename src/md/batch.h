@@ -6,10 +6,20 @@
 
 #include <math.h>
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 #include "md/state.h"
 
 typedef double gg_v8 __attribute__((vector_size(64)));
 typedef int64_t gg_m8 __attribute__((vector_size(64)));
+typedef uint64_t gg_u8 __attribute__((vector_size(64)));
+#if defined(__AVX512F__)
+typedef __mmask8 gg_k8; /* which of eight lanes */
+#else
+typedef gg_m8 gg_k8;
+#endif
 typedef double gg_line __attribute__((vector_size(64), may_alias));
 
 enum { GG_BATCH = 8 };
@@ -25,10 +35,87 @@ GG_INLINE gg_v8 gg_all(double x)
   return (gg_v8){x, x, x, x, x, x, x, x};
 }
 
-GG_INLINE gg_v8 gg_choose(gg_m8 mask, gg_v8 yes, gg_v8 no)
+/* Comparisons, choices and bounds by lane. Written out for registers of 512 bits, whose masks the compiler does not
+ * find by itself. */
+#if defined(__AVX512F__)
+#define GG_COMPARE8(name, predicate)                                                                                   \
+  GG_INLINE gg_k8 name(gg_v8 x, gg_v8 y)                                                                               \
+  {                                                                                                                    \
+    return _mm512_cmp_pd_mask((__m512d)x, (__m512d)y, predicate);                                                      \
+  }
+GG_COMPARE8(gg_less8, _CMP_LT_OQ)
+GG_COMPARE8(gg_not_above8, _CMP_LE_OQ)
+GG_INLINE gg_v8 gg_choose(gg_k8 mask, gg_v8 yes, gg_v8 no)
+{
+  return (gg_v8)_mm512_mask_mov_pd((__m512d)no, mask, (__m512d)yes);
+}
+GG_INLINE gg_m8 gg_choose_who(gg_k8 mask, gg_m8 yes, gg_m8 no)
+{
+  return (gg_m8)_mm512_mask_mov_epi64((__m512i)no, mask, (__m512i)yes);
+}
+GG_INLINE gg_k8 gg_odd8(gg_v8 bits)
+{
+  return _mm512_test_epi64_mask((__m512i)bits, _mm512_set1_epi64(1));
+}
+GG_INLINE gg_v8 gg_smaller8(gg_v8 x, gg_v8 y)
+{
+  return (gg_v8)_mm512_min_pd((__m512d)x, (__m512d)y);
+}
+/* Add y where the mask is set. */
+GG_INLINE gg_v8 gg_add_where(gg_k8 mask, gg_v8 x, gg_v8 y)
+{
+  return (gg_v8)_mm512_mask_add_pd((__m512d)x, mask, (__m512d)x, (__m512d)y);
+}
+GG_INLINE bool gg_any8(gg_k8 mask)
+{
+  return mask != 0;
+}
+GG_INLINE gg_v8 gg_sqrt8(gg_v8 x)
+{
+  return (gg_v8)_mm512_sqrt_pd((__m512d)x);
+}
+#else
+GG_INLINE gg_k8 gg_less8(gg_v8 x, gg_v8 y)
+{
+  return x < y;
+}
+GG_INLINE gg_k8 gg_not_above8(gg_v8 x, gg_v8 y)
+{
+  return x <= y;
+}
+GG_INLINE gg_v8 gg_choose(gg_k8 mask, gg_v8 yes, gg_v8 no)
 {
   return (gg_v8)(((gg_m8)yes & mask) | ((gg_m8)no & ~mask));
 }
+GG_INLINE gg_m8 gg_choose_who(gg_k8 mask, gg_m8 yes, gg_m8 no)
+{
+  return (yes & mask) | (no & ~mask);
+}
+GG_INLINE gg_k8 gg_odd8(gg_v8 bits)
+{
+  return -((gg_m8)bits & 1);
+}
+GG_INLINE gg_v8 gg_smaller8(gg_v8 x, gg_v8 y)
+{
+  return gg_choose(x < y, x, y);
+}
+GG_INLINE gg_v8 gg_add_where(gg_k8 mask, gg_v8 x, gg_v8 y)
+{
+  return gg_choose(mask, x + y, x);
+}
+GG_INLINE bool gg_any8(gg_k8 mask)
+{
+  gg_m8 or = mask | __builtin_shufflevector(mask, mask, 4, 5, 6, 7, 0, 1, 2, 3);
+  or |= __builtin_shufflevector(or, or, 2, 3, 0, 1, 6, 7, 4, 5);
+  return or [0] | or [1];
+}
+GG_INLINE gg_v8 gg_sqrt8(gg_v8 x)
+{
+  gg_v8 root;
+  for (int l = 0; l < GG_BATCH; l++) root[l] = sqrt(x[l]);
+  return root;
+}
+#endif
 
 /* Nearest integers, ties to even: as gg_nearest. */
 GG_INLINE gg_v8 gg_nearest8(gg_v8 x)
@@ -37,38 +124,28 @@ GG_INLINE gg_v8 gg_nearest8(gg_v8 x)
   return (x + shift) - shift;
 }
 
-GG_INLINE gg_v8 gg_sqrt8(gg_v8 x)
-{
-  gg_v8 root;
-  for (int l = 0; l < GG_BATCH; l++) root[l] = sqrt(x[l]);
-  return root;
-}
-
 /* Into the nearest image, for separations below one and a half edges: as x - edge * gg_nearest(x/edge). */
 GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge)
 {
-  gg_v8 down = (gg_v8)((gg_m8)gg_all(edge) & (x > 0.5 * edge)), up = (gg_v8)((gg_m8)gg_all(edge) & (x < -0.5 * edge));
-  return x - (down - up);
+  gg_k8 above = gg_less8(gg_all(0.5 * edge), x), below = gg_less8(x, gg_all(-0.5 * edge));
+  return gg_add_where(below, gg_add_where(above, x, gg_all(-edge)), gg_all(edge));
 }
 
 /* The earliest of eight times and with whom; of equal times the smallest index. */
 GG_INLINE double gg_earliest8(gg_v8 t, gg_m8 who, int64_t *partner)
 {
 #define FOLD(v, a, b, c, d, e, f, g, h) __builtin_shufflevector(v, v, a, b, c, d, e, f, g, h)
-#define SOONER(v, w) gg_choose(w < v, w, v)
-  gg_v8 m = SOONER(t, FOLD(t, 4, 5, 6, 7, 0, 1, 2, 3));
-  m = SOONER(m, FOLD(m, 2, 3, 0, 1, 6, 7, 4, 5));
-  m = SOONER(m, FOLD(m, 1, 0, 3, 2, 5, 4, 7, 6));
-  gg_m8 first = who | ~(t == m), swapped; /* -1 where later */
-  first &= INT64_MAX;
-#define SMALLER(v) swapped = (v), first = (first & (first < swapped)) | (swapped & ~(first < swapped))
-  SMALLER(FOLD(first, 4, 5, 6, 7, 0, 1, 2, 3));
-  SMALLER(FOLD(first, 2, 3, 0, 1, 6, 7, 4, 5));
-  SMALLER(FOLD(first, 1, 0, 3, 2, 5, 4, 7, 6));
+  gg_v8 m = gg_smaller8(t, FOLD(t, 4, 5, 6, 7, 0, 1, 2, 3));
+  m = gg_smaller8(m, FOLD(m, 2, 3, 0, 1, 6, 7, 4, 5));
+  m = gg_smaller8(m, FOLD(m, 1, 0, 3, 2, 5, 4, 7, 6));
 #undef FOLD
-#undef SOONER
-#undef SMALLER
-  *partner = first[0];
+#if defined(__AVX512F__)
+  *partner = _mm512_mask_reduce_min_epi64(gg_not_above8(t, m), (__m512i)who);
+#else
+  int64_t first = INT64_MAX;
+  for (int l = 0; l < GG_BATCH; l++) first = t[l] == m[0] && who[l] < first ? who[l] : first;
+  *partner = first;
+#endif
   return m[0];
 }
 
@@ -99,31 +176,63 @@ GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
 #undef HIGH
 }
 
-GG_INLINE bool gg_any8(gg_m8 mask)
-{
-  gg_m8 or = mask | __builtin_shufflevector(mask, mask, 4, 5, 6, 7, 0, 1, 2, 3);
-  or |= __builtin_shufflevector(or, or, 2, 3, 0, 1, 6, 7, 4, 5);
-  return or [0] | or [1];
-}
+/* gg_contact_delay, eight times, in two steps. First about when, to GG_ABOUT of the delay (NAN: never): without the
+ * square root and the division, which take longer than all the rest. Then exactly, for the earliest in each lane. */
+#define GG_ABOUT 0x1p-9
 
-/* gg_contact_delay, eight times, in two steps: who meets at all, and when. */
 typedef struct gg_quadratic {
   gg_v8 b, c, discriminant;
-  gg_m8 meets;
 } gg_quadratic;
 
 GG_INLINE gg_quadratic gg_contact_quadratic8(gg_v8 x, gg_v8 y, gg_v8 z, gg_v8 vx, gg_v8 vy, gg_v8 vz, gg_v8 sigma2)
 {
   gg_v8 b = x * vx + y * vy + z * vz, a = vx * vx + vy * vy + vz * vz;
-  gg_v8 c = x * x + y * y + z * z - sigma2, discriminant = b * b - a * c;
-  return (gg_quadratic){b, c, discriminant, (b < 0) & (discriminant >= 0)};
+  gg_v8 c = x * x + y * y + z * z - sigma2;
+  return (gg_quadratic){b, c, b * b - a * c};
+}
+
+/* About 1/sqrt(x) and 1/x, for x > 0, by instructions made for it or from the bits of the exponent. Only the choice of
+ * what is worked out exactly depends on them, no result. */
+GG_INLINE gg_v8 gg_about_inverse_root8(gg_v8 x)
+{
+#if defined(__AVX512F__)
+  return (gg_v8)_mm512_rsqrt14_pd((__m512d)x);
+#else
+  gg_v8 y = (gg_v8)(0x5fe6eb50c7b537a9 - (gg_m8)((gg_u8)x >> 1));
+  y *= 1.5 - 0.5 * x * y * y;
+  return y * (1.5 - 0.5 * x * y * y);
+#endif
+}
+GG_INLINE gg_v8 gg_about_inverse8(gg_v8 x)
+{
+#if defined(__AVX512F__)
+  return (gg_v8)_mm512_rcp14_pd((__m512d)x);
+#else
+  gg_v8 y = (gg_v8)(0x7fde623822fc16e6 - (gg_m8)x);
+  y *= 2 - x * y;
+  y *= 2 - x * y;
+  return y * (2 - x * y);
+#endif
+}
+
+/* Who meets at all: those who approach and whose discriminant is not negative. */
+GG_INLINE gg_k8 gg_meets8(gg_quadratic q)
+{
+  return gg_less8(q.b, gg_all(0)) & gg_not_above8(gg_all(0), q.discriminant);
+}
+
+GG_INLINE gg_v8 gg_about8(gg_quadratic q)
+{
+  gg_v8 d = q.discriminant, least = gg_all(0x1p-1000);
+  gg_v8 t = q.c * gg_about_inverse8(d * gg_about_inverse_root8(gg_choose(gg_less8(d, least), least, d)) - q.b);
+  return gg_choose(gg_meets8(q), t, gg_all(NAN));
 }
 
 GG_INLINE gg_v8 gg_contact_delay8(gg_quadratic q)
 {
   gg_v8 delay = q.c / (gg_sqrt8(q.discriminant) - q.b);
-  delay = gg_choose(delay > 0, delay, gg_all(0));
-  return gg_choose(q.meets, delay, gg_all(INFINITY));
+  delay = gg_choose(gg_less8(gg_all(0), delay), delay, gg_all(0));
+  return gg_choose(gg_meets8(q), delay, gg_all(INFINITY));
 }
 
 #endif

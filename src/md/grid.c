@@ -1,9 +1,14 @@
 /* The grid that suits a model, and the grains' places in it. */
 #include <math.h>
 
-#include "md/state.h"
+#include "md/shared.h"
 
-/* Dilute, a cell holds this many grains: fewer crossings against more pairs to try. */
+/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists;
+ * in between plain cells of a contact distance, which dilute hold this many grains: fewer crossings against more pairs
+ * to try. */
+#define SHARED_BELOW 0.05
+#define GRAINS_PER_SHARED_CELL 6.0
+#define LISTED_FROM 0.4
 #define GRAINS_PER_CELL 0.7
 
 double gg_md_reach(const gg_model *m)
@@ -12,39 +17,74 @@ double gg_md_reach(const gg_model *m)
   return widest * (1 + 1e-9);
 }
 
-/* Neighbour lists or cells, and how wide the shells: the least time per collision as measured for elastic grains over
- * phi. Wide shells are left seldom, but make long lists; below phi = 0.4 mending lists costs more than they save. Lists
- * of grains of very unequal size would be too long. */
+/* How wide the shells: wide ones are left seldom, but make long lists. Lists of grains of very unequal size would be
+ * too long; 0: none. */
 static double shell_radius(const gg_model *m)
 {
   double ratio = m->n_species > 1 ? fmax(m->diameter[0], m->diameter[1]) / fmin(m->diameter[0], m->diameter[1]) : 1;
-  if (m->walled || m->phi < 0.4 || ratio > 1.3) return 0;
+  if (m->walled || m->phi < LISTED_FROM || ratio > 1.3) return 0;
   return fmin(0.34, 0.3 + 0.8 * (0.5 - m->phi));
 }
 
-/* Cells for shells' centres: only in boxes of at least three cells, no nearest image in doubt, no walls. */
+static void count_cells(const gg_model *m, double width, int32_t n[3])
+{
+  gg_cells_count(&(gg_box){.edge = {m->box[0], m->box[1], m->box[2]}}, width, n);
+}
+
+/* Cells for shells' centres: only in boxes of at least three cells, no nearest image in doubt. */
+static bool fit_lists(const gg_model *m, double radius, int32_t n[3])
+{
+  double reach = gg_md_reach(m) + 2 * radius;
+  count_cells(m, reach, n);
+  for (int a = 0; a < 3; a++)
+    if (n[a] < 3 || m->box[a] < 2 * reach + 4 * radius) return false;
+  return true;
+}
+
+/* Pairs in a cell, and under shear those in a window of five cells along x, must have one nearest image. */
+static bool fit_shared(const gg_model *m, int32_t n[3])
+{
+  double narrowest = 3 * gg_md_reach(m);
+  if (m->walled || m->phi >= SHARED_BELOW) return false;
+  count_cells(m, fmax(narrowest, cbrt(GRAINS_PER_SHARED_CELL * m->volume / (double)m->n)), n);
+  for (int a = 0; a < 3; a++) {
+    int32_t least = m->shear_rate != 0 && a == 0 ? 14 : 6;
+    if (n[a] < least) n[a] = least;
+    if (m->box[a] < narrowest * n[a]) return false;
+  }
+  return true;
+}
+
+enum gg_search_in gg_md_plan(const gg_model *m, double *radius, int32_t n[3])
+{
+  *radius = shell_radius(m);
+  if (*radius > 0 && fit_lists(m, *radius, n)) return GG_LISTS;
+  *radius = 0;
+  if (fit_shared(m, n)) return GG_SHARED_CELLS;
+  count_cells(m, fmax(gg_md_reach(m), cbrt(GRAINS_PER_CELL * m->volume / (double)m->n)), n);
+  return GG_CELLS;
+}
+
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {
-  double reach = gg_md_reach(&e->model) + 2 * radius;
   int32_t n[3];
-  gg_cells_count(&e->box, reach, n);
-  for (int a = 0; a < 3; a++)
-    if (n[a] < 3 || e->box.edge[a] < 2 * reach + 4 * radius) return GG_OK;
+  if (!fit_lists(&e->model, radius, n)) return GG_OK;
+  /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
+  GG_TRY(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
+  if (!gg_cells_grow(&e->cells)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_shells(e, radius);
-  return gg_cells_make(&e->cells, &e->box, n, reach, err);
+  return GG_OK;
 }
 
 gg_status gg_md_make_grid(gg_md *e, gg_error *err)
 {
-  double radius = shell_radius(&e->model);
-  if (radius > 0) GG_TRY(gg_md_make_lists(e, radius, err));
-  if (e->shell) return GG_OK;
-  double reach = gg_md_reach(&e->model);
-  double width = fmax(reach, cbrt(GRAINS_PER_CELL * e->model.volume / (double)e->model.n));
+  double radius;
   int32_t n[3];
-  gg_cells_count(&e->box, width, n);
-  return gg_cells_make(&e->cells, &e->box, n, reach, err);
+  enum gg_search_in where = gg_md_plan(&e->model, &radius, n);
+  if (where == GG_LISTS) return gg_md_make_lists(e, radius, err);
+  e->shared = where == GG_SHARED_CELLS;
+  return gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err);
 }
 
 void gg_md_cell_of(const gg_cells *c, gg_vec r, int32_t cell[3])
@@ -57,13 +97,20 @@ void gg_md_cell_of(const gg_cells *c, gg_vec r, int32_t cell[3])
 
 void gg_md_enter_grid(gg_md *e)
 {
+  gg_features f = {.sheared = e->box.slide != 0};
   for (uint32_t i = 0; i < e->n; i++)
-    gg_md_cell_of(&e->cells, e->shell ? e->shell[i].centre : e->grain[i].r, e->node[i].cell);
+    if (e->shared)
+      gg_shared_place(e, f, e->grain[i].r, &e->node[i]);
+    else
+      gg_md_cell_of(&e->cells, e->shell ? e->shell[i].centre : e->grain[i].r, e->node[i].cell);
 }
 
 bool gg_md_fill_grid(gg_md *e)
 {
   gg_cells_clear(&e->cells);
+  for (uint32_t i = 0; e->shared && i < e->n; i++)
+    if (!gg_shared_enter(e, i, -1, 0)) return false;
+  if (e->shared) return true;
   for (uint32_t i = 0; i < e->n; i++)
     while (!gg_cell_add(&e->cells, e->node[i].cell, i))
       if (!gg_cells_grow(&e->cells)) return false;

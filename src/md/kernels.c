@@ -96,7 +96,7 @@ static bool is_wide_enough(const gg_md *e)
   return e->cells.n[0] >= (sheared ? 10 : 4) && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
 }
 
-static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, bool listed)
+static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, enum gg_search_in where)
 {
 #if defined(__x86_64__)
   /* They are compiled for x86-64-v3 and -v4: the compiler may use more of those levels than their registers. */
@@ -105,20 +105,21 @@ static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, bool liste
   bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
             __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
             __builtin_cpu_supports("avx512cd");
-  if (v4) return gg_md_wide_avx512(boundary, mixture, listed);
-  if (v3) return gg_md_wide_avx2(boundary, mixture, listed);
+  if (v4) return gg_md_wide_avx512(boundary, mixture, where);
+  if (v3) return gg_md_wide_avx2(boundary, mixture, where);
 #endif
-  return gg_md_wide_any(boundary, mixture, listed);
+  return gg_md_wide_any(boundary, mixture, where);
 }
 
 void gg_md_select(gg_md *e)
 {
-  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open, listed = e->shell != NULL;
+  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
+  enum gg_search_in where = e->shell ? GG_LISTS : e->shared ? GG_SHARED_CELLS : GG_CELLS;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
   enum gg_boundary boundary = boundary_of(e);
   gg_kernel kernel = plain[boundary][mixture];
-  if (listed || (is_wide_enough(e) && !e->plain)) kernel = wide_kernel(boundary, mixture, listed);
+  if (where != GG_CELLS || (is_wide_enough(e) && !e->plain)) kernel = wide_kernel(boundary, mixture, where);
   e->motion = kernel.run;
   e->predict_all = kernel.predict_all;
   e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];

@@ -12,8 +12,8 @@ typedef struct gg_kernel {
   gg_forecast *predict_all;
 } gg_kernel;
 
-gg_kernel gg_md_wide_any(enum gg_boundary boundary, bool mixture, bool listed);
-gg_kernel gg_md_wide_avx2(enum gg_boundary boundary, bool mixture, bool listed);
-gg_kernel gg_md_wide_avx512(enum gg_boundary boundary, bool mixture, bool listed);
+gg_kernel gg_md_wide_any(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
+gg_kernel gg_md_wide_avx2(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
+gg_kernel gg_md_wide_avx512(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
 
 #endif

@@ -24,10 +24,12 @@ MOTIONS(periodic, .wide = true)
 MOTIONS(sheared, .wide = true, .sheared = true)
 MOTIONS(walled, .wide = true, .walled = true)
 MOTIONS(falling, .wide = true, .walled = true, .gravity = true)
+MOTIONS(periodic_shared, .wide = true, .shared = true)
+MOTIONS(sheared_shared, .wide = true, .shared = true, .sheared = true)
 MOTIONS(periodic_listed, .listed = true)
 MOTIONS(sheared_listed, .listed = true, .sheared = true)
 
-gg_kernel JOIN(gg_md_wide_, GG_ISA)(enum gg_boundary boundary, bool mixture, bool listed)
+gg_kernel JOIN(gg_md_wide_, GG_ISA)(enum gg_boundary boundary, bool mixture, enum gg_search_in where)
 {
 #define ROW(name)                                                                                                      \
   {                                                                                                                    \
@@ -41,5 +43,7 @@ gg_kernel JOIN(gg_md_wide_, GG_ISA)(enum gg_boundary boundary, bool mixture, boo
                                        [GG_WALLED] = ROW(walled),
                                        [GG_FALLING] = ROW(falling)};
   static const gg_kernel lists[][2] = {[GG_PERIODIC] = ROW(periodic_listed), [GG_SHEARED] = ROW(sheared_listed)};
-  return listed ? lists[boundary][mixture] : cells[boundary][mixture];
+  static const gg_kernel shared[][2] = {[GG_PERIODIC] = ROW(periodic_shared), [GG_SHEARED] = ROW(sheared_shared)};
+  if (where == GG_SHARED_CELLS) return shared[boundary][mixture];
+  return where == GG_LISTS ? lists[boundary][mixture] : cells[boundary][mixture];
 }

@@ -31,5 +31,5 @@ void gg_md_build_lists(gg_md *e)
   gg_features f = {.sheared = e->model.shear_rate != 0, .mixture = e->model.n_species > 1, .listed = true};
   for (uint32_t i = 0; i < e->n; i++) gg_new_shell(e, f, i);
   gg_md_fill_grid(e);
-  while (!fill_lists(e, f)) gg_md_set_shells(e, 0.8 * e->shell_radius);
+  while (!fill_lists(e, f)) gg_md_set_shells(e, 0.95 * e->shell_radius);
 }

@@ -46,60 +46,86 @@ GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const 
   return e->k.now + delay;
 }
 
-/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place. */
-GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
+/* Eight grains of a list against s->self, images accounted for. */
+GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_search *s, const uint32_t *list,
+                                    double offset)
 {
   const gg_grain *g = s->self;
-  double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0, now = e->k.now;
   const double *L = e->box.edge, *inverse = e->box.inverse, *sigma = e->model.sigma;
-  int species = f.mixture ? gg_species_of(g) : 0;
-  bool found = false;
-  gg_v8 first = gg_all(INFINITY);
-  gg_m8 with = (gg_m8){0} - 1;
-  for (uint32_t k = 0; k < count; k += GG_BATCH) {
-    gg_batch b = gg_gather(e->grain, list + k);
-    gg_v8 dt = now - b.t;
-    gg_v8 x = b.x + dt * b.vx - g->r.x, y = b.y + dt * b.vy - g->r.y, z = b.z + dt * b.vz - g->r.z;
-    gg_v8 vx = b.vx - g->v.x, vy = b.vy - g->v.y, vz = b.vz - g->v.z;
-    if (f.gravity) {
-      gg_v8 half = 0.5 * dt * dt;
-      x = (b.x + dt * b.vx + half * e->gravity.x) - g->r.x, vx = (b.vx + dt * e->gravity.x) - g->v.x;
-      y = (b.y + dt * b.vy + half * e->gravity.y) - g->r.y, vy = (b.vy + dt * e->gravity.y) - g->v.y;
-      z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
-    }
-    if (f.sheared) {
-      gg_v8 layers = gg_nearest8(y * inverse[1]);
-      y -= L[1] * layers;
-      x -= layers * offset;
-      x -= L[0] * gg_nearest8(x * inverse[0]);
-      vx -= layers * e->box.slide;
-    } else {
-      x = gg_fold8(x, L[0]);
-      if (!f.walled) y = gg_fold8(y, L[1]);
-    }
-    z = gg_fold8(z, L[2]);
-    gg_v8 sigma2 = gg_all(sigma[0] * sigma[0]);
-    if (f.mixture) {
-      gg_m8 second = -((gg_m8)b.tag & 1);
-      double s0 = sigma[2 * species], s1 = sigma[2 * species + 1];
-      sigma2 = gg_choose(second, gg_all(s1 * s1), gg_all(s0 * s0));
-    }
-    gg_quadratic q = gg_contact_quadratic8(x, y, z, vx, vy, vz, sigma2);
-    if (!f.listed && !gg_any8(q.meets)) continue; /* most cells hold nobody in the way */
-    gg_v8 t = now + gg_contact_delay8(q);
-    found = true;
-    gg_m8 who = __builtin_convertvector(*(const gg_list8 *)(list + k), gg_m8);
-    gg_m8 sooner = (t < first) | ((t == first) & (who < with));
-    first = gg_choose(sooner, t, first);
-    with = (who & sooner) | (with & ~sooner);
+  gg_batch b = gg_gather(e->grain, list);
+  gg_v8 dt = e->k.now - b.t;
+  gg_v8 x = b.x + dt * b.vx - g->r.x, y = b.y + dt * b.vy - g->r.y, z = b.z + dt * b.vz - g->r.z;
+  gg_v8 vx = b.vx - g->v.x, vy = b.vy - g->v.y, vz = b.vz - g->v.z;
+  if (f.gravity) {
+    gg_v8 half = 0.5 * dt * dt;
+    x = (b.x + dt * b.vx + half * e->gravity.x) - g->r.x, vx = (b.vx + dt * e->gravity.x) - g->v.x;
+    y = (b.y + dt * b.vy + half * e->gravity.y) - g->r.y, vy = (b.vy + dt * e->gravity.y) - g->v.y;
+    z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
   }
-  if (!found) return;
+  if (f.sheared) {
+    gg_v8 layers = gg_nearest8(y * inverse[1]);
+    y -= L[1] * layers;
+    x -= layers * offset;
+    x -= L[0] * gg_nearest8(x * inverse[0]);
+    vx -= layers * e->box.slide;
+  } else {
+    x = gg_fold8(x, L[0]);
+    if (!f.walled) y = gg_fold8(y, L[1]);
+  }
+  z = gg_fold8(z, L[2]);
+  gg_v8 sigma2 = gg_all(sigma[0] * sigma[0]);
+  if (f.mixture) {
+    int species = gg_species_of(g);
+    double s0 = sigma[2 * species], s1 = sigma[2 * species + 1];
+    sigma2 = gg_choose(gg_odd8(b.tag), gg_all(s1 * s1), gg_all(s0 * s0));
+  }
+  return gg_contact_quadratic8(x, y, z, vx, vy, vz, sigma2);
+}
+
+/* Exact times of a batch against the earliest known. */
+GG_INLINE void gg_take_batch(const gg_md *e, gg_search *s, gg_quadratic q, gg_m8 who)
+{
   int64_t partner;
-  double t = gg_earliest8(first, with, &partner);
+  double t = gg_earliest8(e->k.now + gg_contact_delay8(q), who, &partner);
   if (t < s->collision || (t == s->collision && t < INFINITY && partner < s->partner)) {
     s->collision = t;
     s->partner = (uint32_t)partner;
   }
+}
+
+GG_INLINE gg_m8 gg_who8(const uint32_t *list)
+{
+  return __builtin_convertvector(*(const gg_list8 *)list, gg_m8);
+}
+
+/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place. In
+ * each lane the earliest is found from about when the contacts are; where that leaves doubt, all are worked out. */
+GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
+{
+  double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0;
+  gg_v8 soonest = gg_all(INFINITY), none = gg_all(INFINITY);
+  gg_quadratic best = {none, none, none}; /* never */
+  gg_m8 with = {0};
+  gg_k8 doubt = (gg_k8){0};
+  bool found = f.listed;
+  for (uint32_t k = 0; k < count; k += GG_BATCH) {
+    gg_quadratic q = gg_try_batch(e, f, s, list + k, offset);
+    if (!f.listed && !gg_any8(gg_meets8(q))) continue; /* most cells hold nobody in the way */
+    found = true;
+    gg_v8 about = gg_about8(q);
+    gg_k8 sooner = gg_less8(about, soonest);
+    doubt |= gg_not_above8(about, (1 + 4 * GG_ABOUT) * soonest) & gg_not_above8(soonest, (1 + 4 * GG_ABOUT) * about);
+    soonest = gg_choose(sooner, about, soonest);
+    best.b = gg_choose(sooner, q.b, best.b);
+    best.c = gg_choose(sooner, q.c, best.c);
+    best.discriminant = gg_choose(sooner, q.discriminant, best.discriminant);
+    with = gg_choose_who(sooner, gg_who8(list + k), with);
+  }
+  if (!found) return;
+  gg_take_batch(e, s, best, with);
+  if (!gg_any8(doubt)) return;
+  for (uint32_t k = 0; k < count; k += GG_BATCH)
+    gg_take_batch(e, s, gg_try_batch(e, f, s, list + k, offset), gg_who8(list + k));
 }
 
 /* Those that cells were searched for. */

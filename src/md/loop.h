@@ -8,7 +8,7 @@
 #ifndef GG_MD_LOOP_H
 #define GG_MD_LOOP_H
 
-#include "md/lists.h"
+#include "md/shared.h"
 
 GG_INLINE void gg_leave_cell(gg_md *e, uint32_t i)
 {
@@ -25,6 +25,13 @@ GG_INLINE void gg_enter_cell(gg_md *e, uint32_t i)
     }
 }
 
+GG_INLINE void gg_check_memory(gg_md *e, bool good)
+{
+  if (good) return;
+  e->out_of_memory = true;
+  e->collisions_left = 0;
+}
+
 /* The search is over: what it found goes into the calendar. */
 GG_INLINE void gg_schedule(gg_md *e, gg_features f, gg_search *s)
 {
@@ -35,7 +42,9 @@ GG_INLINE void gg_schedule(gg_md *e, gg_features f, gg_search *s)
     node->partner = s->partner;
     node->stamp = GG_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].stamp;
   }
-  double exit = f.listed ? gg_shell_exit(e, f, s->grain, s->self) : gg_next_face(e, f, s, &node->face);
+  double exit = f.listed   ? gg_shell_exit(e, f, s->grain, s->self)
+                : f.shared ? gg_shared_next(e, f, s, &node->face)
+                           : gg_next_face(e, f, s, &node->face);
   gg_queue_remove(&e->queue, e->node, s->grain);
   node->time = s->collision < exit ? s->collision : exit;
   gg_queue_insert(&e->queue, e->node, s->grain);
@@ -49,6 +58,8 @@ GG_INLINE void gg_search_all(gg_md *e, gg_features f, gg_search *s, uint32_t i)
   gg_begin_search(s, i, gg_settle(e, f, i), INFINITY, GG_NONE);
   if (f.listed)
     gg_scan_batches(e, f, s, gg_list(e, i), e->node[i].neighbours);
+  else if (f.shared)
+    gg_shared_scan(e, f, s);
   else
     gg_scan_around(e, f, s);
   if (f.wide) gg_scan_near(e, f, s);
@@ -78,6 +89,35 @@ GG_INLINE void gg_cross_sheared(gg_md *e, gg_grain *g, gg_node *node, int side)
   g->v.x -= side * e->box.slide;
   int32_t x = (int32_t)(g->r.x * e->cells.inverse[0]);
   node->cell[0] = x < e->cells.n[0] ? x : e->cells.n[0] - 1;
+}
+
+/* Into another cell that overlaps with those that the grain is in. */
+GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_node *node = &e->node[i];
+  gg_search s;
+  gg_begin_search(&s, i, gg_settle(e, f, i), node->collision, node->partner);
+  gg_grain *g = &e->grain[i];
+  int axis = node->face >> 1, up = node->face & 1;
+  if (f.sheared && node->face == GG_SLIDE) {
+    gg_shared_slides(e, f, &s);
+  } else if (gg_is_last(e, f, axis, node->cell[axis] + (up ? (int)(node->neighbours >> axis & 1) : 0), up)) {
+    gg_shared_leave(e, i, -1, 0);
+    int side = up ? 1 : -1;
+    g->r.y -= side * e->box.edge[1];
+    gg_cross_sheared(e, g, node, side);
+    g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
+    gg_vec r = g->r;
+    r.y = up ? 0 : e->box.edge[1];
+    gg_shared_place(e, f, r, node);
+    gg_check_memory(e, gg_shared_enter(e, i, -1, 0));
+    gg_predict(e, f, i);
+    return;
+  } else {
+    gg_check_memory(e, gg_shared_cross(e, f, &s, axis, up));
+  }
+  gg_scan_near(e, f, &s);
+  gg_schedule(e, f, &s);
 }
 
 GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
@@ -148,12 +188,38 @@ GG_INLINE void gg_hit_wall(gg_md *e, gg_features f, uint32_t i, int upper)
   gg_predict(e, f, i);
 }
 
+/* Of a grain that will come into another cell: that cell, or the grains in it. Else the partner. */
+GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
+{
+  const gg_node *node = &e->node[i];
+  const gg_cells *c = &e->cells;
+  if (!(node->time < node->collision)) {
+    if (GG_NO_GRAIN(node->partner) || members) return;
+    __builtin_prefetch(&e->grain[node->partner]);
+    __builtin_prefetch(&e->node[node->partner]);
+    return;
+  }
+  if (node->face == GG_SLIDE) return;
+  int axis = node->face >> 1, up = node->face & 1;
+  int32_t at[3] = {node->cell[0], node->cell[1], node->cell[2]};
+  if (!up)
+    at[axis]--;
+  else
+    at[axis] = (node->neighbours >> axis & 1 ? gg_cell_after(e, axis, at[axis]) : at[axis]) + 1;
+  const uint32_t *cell = c->cell + (size_t)(c->part[0][at[0]] + c->part[1][at[1]] + c->part[2][at[2]]) * c->stride;
+  if (!members)
+    __builtin_prefetch(cell);
+  else
+    for (uint32_t m = 1; m <= 8; m++) __builtin_prefetch(&e->grain[m <= cell[0] ? cell[m] : i]);
+}
+
 /* Bring what the events of a new bucket will read into the cache while the first of them are handled. */
 GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
 {
   for (uint32_t k = 0; k < e->queue.n_due; k++) {
     uint32_t i = e->queue.due[k].grain, j = e->node[i].partner;
     __builtin_prefetch(&e->grain[i]);
+    if (f.shared) gg_prefetch_shared(e, i, false);
     if (!f.listed || GG_NO_GRAIN(j)) continue;
     __builtin_prefetch(&e->grain[j]);
     __builtin_prefetch(&e->node[j]);
@@ -172,6 +238,14 @@ GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
   if (GG_NO_GRAIN(j)) return;
   const uint32_t *others = gg_list(e, j);
   for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[others[k]]);
+}
+
+/* While one event is handled, what the next ones will read is on its way. */
+GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
+{
+  uint32_t n = e->queue.n_due;
+  if (f.listed) gg_prefetch_neighbours(e, f);
+  if (f.shared && n >= 2) gg_prefetch_shared(e, e->queue.due[n - 2].grain, true);
 }
 
 /* The next event of all; GG_NONE if there is none before e->stop. */
@@ -196,7 +270,7 @@ GG_INLINE void gg_loop(gg_md *e, gg_features f)
 {
   uint32_t i;
   while (e->collisions_left && (i = gg_next(e, f)) != GG_NONE) {
-    gg_prefetch_neighbours(e, f);
+    gg_prefetch_next(e, f);
     const gg_node *node = &e->node[i];
     uint32_t partner = node->partner;
     e->k.now = node->time;
@@ -204,6 +278,8 @@ GG_INLINE void gg_loop(gg_md *e, gg_features f)
     if (node->time < node->collision) {
       if (f.listed)
         gg_leave_shell(e, f, i);
+      else if (f.shared)
+        gg_come_into_cell(e, f, i);
       else
         gg_cross_face(e, f, i);
     } else if (f.walled && GG_NO_GRAIN(partner))

@@ -6,10 +6,10 @@
 
 enum { FEWEST_BUCKETS = 64, SMALL = 64 };
 
-/* So many that a grain has two or three events an epoch. */
+/* So many that a grain has one or two events an epoch: 16 bytes a grain. */
 gg_status gg_queue_make(gg_queue *q, uint32_t n, gg_error *err)
 {
-  *q = (gg_queue){.n_buckets = n > 3 * FEWEST_BUCKETS ? n / 3 : FEWEST_BUCKETS};
+  *q = (gg_queue){.n_buckets = n > 4 * FEWEST_BUCKETS ? n / 4 : FEWEST_BUCKETS};
   q->bucket = gg_md_new_lines(q->n_buckets, sizeof *q->bucket, err);
   q->due = gg_new_array((size_t)n + GG_BUCKET, sizeof *q->due, err);
   if (!q->bucket || !q->due) return GG_FAILED;

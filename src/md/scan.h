@@ -18,6 +18,7 @@
 typedef struct gg_features {
   bool sheared, walled, gravity, mixture;
   bool listed; /* neighbour lists instead of cells */
+  bool shared; /* cells that overlap; wide, too */
   bool wide;   /* eight pairs at a time; else one by one: the reference for the tests */
 } gg_features;
 

@@ -12,7 +12,7 @@ static gg_status make_cells(const gg_md *e, gg_packing *p, gg_error *err)
 {
   double widest = fmax(e->model.diameter[0], e->model.diameter[e->model.n_species - 1]) * 1.05;
   int32_t n[3];
-  gg_cells_count(&e->box, fmax(widest, cbrt(0.5 * e->model.volume / e->n)), n); /* dilute: not all empty */
+  gg_cells_count(&e->box, fmax(widest, cbrt(e->model.volume / e->n)), n); /* not most of them empty */
   if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
   GG_TRY(gg_cells_make(&p->cells, &e->box, n, widest, err));
   return GG_OK;

@@ -28,7 +28,7 @@ typedef struct gg_shell {
   gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
   double built;
 } gg_shell;
-enum { GG_LIST = 32 }; /* most neighbours in a list */
+enum { GG_LIST = 24 }; /* most neighbours in a list */
 
 typedef struct gg_md gg_md;
 
@@ -87,6 +87,7 @@ struct gg_md {
   double outer_stop;        /* the same in outside time since it began; INFINITY: none */
   uint64_t collisions_left; /* of the present advance */
   bool plain;               /* one pair at a time, the reference for the tests */
+  bool shared;              /* the cells overlap (shared.h) */
   bool out_of_memory;       /* a cell could not grow: the run is over */
   gg_motion *motion;
   gg_forecast *predict_all;
@@ -112,6 +113,10 @@ gg_status gg_md_begin(gg_md *e, gg_error *err);
 
 /* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
 double gg_md_reach(const gg_model *model);
+/* Where partners are best looked for: plain cells, neighbour lists (lists.h; *radius: of their shells) or cells that
+ * overlap (shared.h); and how many cells. */
+enum gg_search_in { GG_CELLS, GG_LISTS, GG_SHARED_CELLS };
+enum gg_search_in gg_md_plan(const gg_model *model, double *radius, int32_t n[3]);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 /* Neighbour lists with shells of this radius, if the box is wide enough for them; else nothing. */
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);

@@ -173,6 +173,28 @@ static void wide_cells(void **state)
   }
 }
 
+/* Dilute, in boxes wide enough for cells that overlap. */
+static void shared_cells(void **state)
+{
+  (void)state;
+  md_case still = {GG_HCS, 150, 0.01, 0.9, 0, INFINITY, {0}},
+          sheared = {GG_USF, 150, 0.004, 0.8, 0, INFINITY, {3, 1, 1}};
+  md_case wider = {GG_USF, 160, 0.004, 0.9, -1, INFINITY, {3, 1.1, 1.05}};
+  gg_model m = md_model(still), n = md_model(sheared);
+  gg_md *one_of = md_create(&m, 1), *other = md_create(&n, 1);
+  assert_true(one_of->shared && other->shared);
+  md_destroy(one_of);
+  md_destroy(other);
+  for (uint64_t seed = 1; seed <= 4; seed++) {
+    one(still, seed, 900, 40);
+    one(sheared, seed, 900, 40);
+    one(wider, seed, 900, 40);
+    gg_scene s = md_scene(sheared);
+    s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5, s.species[1].diameter = 0.8;
+    follow(&s, seed, 900, 40);
+  }
+}
+
 /* Boxes wide enough for neighbour lists. */
 static void listed(void **state)
 {
@@ -248,11 +270,17 @@ static void late(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(periodic),      cmocka_unit_test(sheared),
-      cmocka_unit_test(mixtures),      cmocka_unit_test(between_walls),
-      cmocka_unit_test(under_gravity), cmocka_unit_test(dense),
-      cmocka_unit_test(few_grains),    cmocka_unit_test(listed),
-      cmocka_unit_test(wide_cells),    cmocka_unit_test(ten_thousand_in_a_row),
+      cmocka_unit_test(periodic),
+      cmocka_unit_test(sheared),
+      cmocka_unit_test(mixtures),
+      cmocka_unit_test(between_walls),
+      cmocka_unit_test(under_gravity),
+      cmocka_unit_test(dense),
+      cmocka_unit_test(few_grains),
+      cmocka_unit_test(listed),
+      cmocka_unit_test(wide_cells),
+      cmocka_unit_test(shared_cells),
+      cmocka_unit_test(ten_thousand_in_a_row),
       cmocka_unit_test(late),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,9 +3,10 @@
 #include "md_test.h"
 
 static const md_case cases[] = {
-    {GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}},    {GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}},
-    {GG_HCS, 200, 0.5, 0.9, -1, INFINITY, {0}},   {GG_EQUILIBRIUM, 200, 0.1, 1, -1, INFINITY, {0}},
-    {GG_HCS, 200, 0.2, 0.95, 0.8, INFINITY, {0}},
+    {GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}},        {GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}},
+    {GG_HCS, 200, 0.5, 0.9, -1, INFINITY, {0}},       {GG_EQUILIBRIUM, 200, 0.1, 1, -1, INFINITY, {0}},
+    {GG_HCS, 200, 0.2, 0.95, 0.8, INFINITY, {0}},     {GG_HCS, 400, 0.01, 0.9, -1, INFINITY, {0}},
+    {GG_USF, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
