@@ -27,10 +27,8 @@ const gg_command gg_commands[] = {
      "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "
      "repeats.\n"
      "md: elastic smooth spheres by size and density, and what roughness, shear, walls, gravity, a second species and\n"
-     "an open stress tap cost, scenes timed in turn.
-"
-     "dsmc: the same for Enskog Monte Carlo, as nanoseconds per accepted collision.
-"
+     "an open stress tap cost, scenes timed in turn.\n"
+     "dsmc: the same for Enskog Monte Carlo, as nanoseconds per accepted collision.\n"
      "observables: the share of a run's time that each observable takes, both engines. Run it on an idle machine.",
      GG_OPT_JSON | GG_OPT_SEED | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
     {0},
