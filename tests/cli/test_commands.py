@@ -58,7 +58,7 @@ def test_same_seed_same_numbers():
 def test_compare():
     done = run("compare", "scene.yaml", "--json", scene=ROUGH)
     d = loads(done)
-    check(done.new == ["scene.h5", "scene.svg"], done.new)
+    check(done.new == ["scene.h5", "scene.svg", "scene_snapshot.svg"], done.new)
     check(d["md"]["engine"] == "md" and d["dsmc"]["engine"] == "dsmc")
     rows = {row["quantity"]: row for row in d["comparison"]}
     md, dsmc = (d[e]["results"]["temperature"] for e in ("md", "dsmc"))
@@ -114,7 +114,7 @@ def test_info_and_plot_of_a_result():
     check(done.code == 0 and "command: graingas run scene.yaml" in done.out and "temperature" in done.out, done.err)
     check(json.loads(run("info", "scene.h5", "--json").out)["engine"] == "md")
     done = run("plot", "scene.h5", "--format", "png")
-    check(done.code == 0 and done.new == ["scene.png"], done.err)
+    check(done.code == 0 and done.new == ["scene.png", "scene_snapshot.png"], done.err)
     check(open("scene.png", "rb").read(4) == b"\x89PNG")
     check(run("plot", "scene.h5", "--output", "none/x.svg").code == 3)
 

@@ -200,6 +200,23 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
   return true;
 }
 
+/* Overlapping cells: in one or two along each axis, and not yet in a third, whose region begins half a contact distance
+ * before it. At the sheared boundary there is none beyond, only the boundary. */
+static bool is_in_shared_cells(const gg_md *e, uint32_t i, gg_vec r)
+{
+  double half = 0.5 * e->cells.reach;
+  for (int a = 0; a < 3; a++) {
+    int32_t cell = e->node[i].cell[a], both = e->node[i].neighbours >> a & 1;
+    bool bounded = a == 1 && e->model.shear_rate != 0;
+    double w = e->cells.width[a], L = e->box.edge[a], room = 1e-12 * L, depth = gg_along(&r, a) - cell * w;
+    depth -= L * rint((depth - w) / L);
+    double least = bounded && cell == 0 ? 0 : half;
+    double most = (both + 1) * w - (bounded && cell + both == e->cells.n[a] - 1 ? 0 : half);
+    if (depth < least - room || depth > most + room) return false;
+  }
+  return true;
+}
+
 /* Under shear shells shrink and move: their exits are tested by what they are for, contacts. */
 static bool is_in_shell(const gg_md *e, uint32_t i, gg_vec r)
 {
@@ -227,7 +244,8 @@ uint32_t md_misplaced(const gg_md *e)
   uint32_t count = 0;
   for (uint32_t i = 0; i < e->n; i++) {
     gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now);
-    count += !(e->shell ? is_in_shell(e, i, r) : is_in_cell(e, i, r)) || !is_between_walls(e, i, r);
+    bool in = e->shell ? is_in_shell(e, i, r) : e->shared ? is_in_shared_cells(e, i, r) : is_in_cell(e, i, r);
+    count += !in || !is_between_walls(e, i, r);
   }
   return count;
 }

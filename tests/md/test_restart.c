@@ -65,8 +65,9 @@ static void cut_anywhere(void **state)
 static void rescaled(void **state)
 {
   (void)state;
-  for (int k = 2; k < CASES; k++) {
+  for (int k = 0; k < CASES; k++) {
     gg_model m = md_model(cases[k]);
+    if (m.shear_rate != 0) continue;
     gg_md *plain = md_create(&m, 2), *scaled = md_create(&m, 2);
     gg_error err;
     md_collide(plain, 20000);
