@@ -5,7 +5,7 @@
  * Leaving a cell is no event: it is done at the grain's next one.
  *
  * node->cell is the lower cell along each axis; bit a of node->neighbours tells whether the grain is in the next one
- * along axis a, too. Nobody is in cells across a sheared boundary: there, rows are searched as in scan.h. */
+ * along axis a, too. Nobody is in cells across a sheared boundary: who is near it searches a window beyond it. */
 #ifndef GG_MD_SHARED_H
 #define GG_MD_SHARED_H
 
