@@ -3,11 +3,12 @@
 
 #include "md/shared.h"
 
-/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists;
- * in between plain cells of a contact distance, which dilute hold this many grains: fewer crossings against more pairs
- * to try. */
+/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains, of eight under shear; from
+ * 0.4 on neighbour lists; in between plain cells of a contact distance, which dilute hold this many grains: fewer
+ * crossings against more pairs to try. */
 #define SHARED_BELOW 0.05
 #define GRAINS_PER_SHARED_CELL 6.0
+#define GRAINS_PER_SHEARED_CELL 8.0
 #define LISTED_FROM 0.4
 #define GRAINS_PER_CELL 0.7
 
@@ -41,15 +42,32 @@ static bool fit_lists(const gg_model *m, double radius, int32_t n[3])
   return true;
 }
 
-/* Pairs in a cell, and under shear those in a window of five cells along x, must have one nearest image. */
+/* How much faster grains move along x than across, where the flow carries them: u_x is uniform within half the slide.
+ */
+static double mean_speed_ratio(const gg_model *m)
+{
+  double flow = 0.25 * m->shear_rate * m->box[1];
+  return sqrt(1 + 0.5 * M_PI * flow * flow / m->temperature0);
+}
+
+/* Pairs in a cell, and under shear those in a window of three cells along x, in one more each by now, must have one
+ * nearest image. Under shear, cells are long: as often left along x as across. */
 static bool fit_shared(const gg_model *m, int32_t n[3])
 {
-  double narrowest = 3 * gg_md_reach(m);
+  bool sheared = m->shear_rate != 0;
+  int32_t x[3], least[3] = {sheared ? 8 : 6, 6, 6};
   if (m->walled || m->phi >= SHARED_BELOW) return false;
-  count_cells(m, fmax(narrowest, cbrt(GRAINS_PER_SHARED_CELL * m->volume / (double)m->n)), n);
+  double grains = sheared ? GRAINS_PER_SHEARED_CELL : GRAINS_PER_SHARED_CELL, narrowest = 3 * gg_md_reach(m);
+  double room = grains * m->volume / (double)m->n, across = cbrt(room), along = across;
+  if (sheared) {
+    along = fmin(along * pow(mean_speed_ratio(m), 2.0 / 3), m->box[0] / least[0]);
+    across = sqrt(room / along);
+  }
+  count_cells(m, fmax(narrowest, along), x);
+  count_cells(m, fmax(narrowest, across), n);
+  n[0] = x[0];
   for (int a = 0; a < 3; a++) {
-    int32_t least = m->shear_rate != 0 && a == 0 ? 14 : 6;
-    if (n[a] < least) n[a] = least;
+    if (n[a] < least[a]) n[a] = least[a];
     if (m->box[a] < narrowest * n[a]) return false;
   }
   return true;

@@ -5,7 +5,7 @@
  * Leaving a cell is no event: it is done at the grain's next one.
  *
  * node->cell is the lower cell along each axis; bit a of node->neighbours tells whether the grain is in the next one
- * along axis a, too. Nobody is in cells across a sheared boundary: there, rows are searched as in scan.h. */
+ * along axis a, too. Nobody is in cells across a sheared boundary: who is near it searches a window beyond it. */
 #ifndef GG_MD_SHARED_H
 #define GG_MD_SHARED_H
 
@@ -140,27 +140,40 @@ GG_INLINE double gg_shared_next(const gg_md *e, gg_features f, const gg_search *
   return t;
 }
 
-/* The row across the sheared boundary, for all of x that the grain can be at while it stays in its cells. */
+/* The row across the sheared boundary, searched around where the grain is in it: what it can touch until a time
+ * `valid`, with a cell of store in the direction in which it moves along the row. */
 GG_INLINE void gg_shared_slide(const gg_md *e, gg_features f, gg_search *s, int side)
 {
   const gg_cells *c = &e->cells;
   const gg_node *node = &e->node[s->grain];
-  double w = c->width[0], D = side * gg_offset(&e->box, e->k.now);
-  int both = node->neighbours & 1, deep = node->neighbours >> 2 & 1;
-  double left = node->cell[0] * w - 2 * c->reach, right = (node->cell[0] + both + 1) * w + 2 * c->reach;
-  int32_t from = (int32_t)gg_floor((left - D) / w), to = (int32_t)gg_floor((right - D) / w);
-  if (side > 0)
-    from--; /* it moves right: one cell of store on the left */
+  double w = c->width[0], reach = 1.5 * c->reach, speed = s->self->v.x - side * e->box.slide;
+  double x = s->self->r.x - side * gg_offset(&e->box, e->k.now);
+  int32_t from = (int32_t)gg_floor((x - reach) / w), to = (int32_t)gg_floor((x + reach) / w);
+  if (speed < 0)
+    from--;
   else
     to++;
-  double room = side > 0 ? left - (from * w + D) : (to + 1) * w + D - right;
-  double valid = e->k.now + room / e->box.slide;
+  double room = speed < 0 ? x - c->reach - from * w : (to + 1) * w - x - c->reach;
+  double valid = e->k.now + room / fabs(speed); /* at rest in the row: never */
   if (valid < s->valid) s->valid = valid;
-  if (to - from >= c->n[0]) to = from + c->n[0] - 1;
+  int deep = node->neighbours >> 2 & 1;
   for (int32_t z = node->cell[2]; z <= node->cell[2] + deep; z++) {
     gg_vec shift = {0, 0, 0};
     int32_t iz = gg_image_cell(e, 2, z, &shift.z);
     gg_scan_row(e, f, s, from, to, side > 0 ? 0 : c->n[1] - 1, iz, shift, 0);
+  }
+}
+
+/* Two grains touch across the sheared boundary only where both are within reach of it. Who is not so far, at this
+ * height above or below it, looks across when it comes there: whoever of the two has the last event sees the other. */
+GG_INLINE void gg_shared_approach(const gg_md *e, gg_features f, gg_search *s, int side, double height)
+{
+  double reach = e->cells.reach, speed = side * s->self->v.y;
+  if (height < 1.25 * reach) {
+    gg_shared_slide(e, f, s, side);
+  } else if (speed > 0) {
+    double valid = e->k.now + (height - reach) / speed;
+    if (valid < s->valid) s->valid = valid;
   }
 }
 
@@ -169,8 +182,10 @@ GG_INLINE void gg_shared_slides(const gg_md *e, gg_features f, gg_search *s)
   s->valid = INFINITY;
   if (!f.sheared) return;
   const gg_node *node = &e->node[s->grain];
-  if (node->cell[1] + (int32_t)(node->neighbours >> 1 & 1) == e->cells.n[1] - 1) gg_shared_slide(e, f, s, 1);
-  if (node->cell[1] == 0) gg_shared_slide(e, f, s, -1);
+  double y = s->self->r.y;
+  int top = node->cell[1] + (int)(node->neighbours >> 1 & 1) == e->cells.n[1] - 1;
+  if (top) gg_shared_approach(e, f, s, 1, e->box.edge[1] - y);
+  if (node->cell[1] == 0) gg_shared_approach(e, f, s, -1, y);
 }
 
 GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, int axis, int32_t only)

@@ -180,15 +180,20 @@ static void shared_cells(void **state)
   md_case still = {GG_HCS, 150, 0.01, 0.9, 0, INFINITY, {0}},
           sheared = {GG_USF, 150, 0.004, 0.8, 0, INFINITY, {3, 1, 1}};
   md_case wider = {GG_USF, 160, 0.004, 0.9, -1, INFINITY, {3, 1.1, 1.05}};
-  gg_model m = md_model(still), n = md_model(sheared);
-  gg_md *one_of = md_create(&m, 1), *other = md_create(&n, 1);
-  assert_true(one_of->shared && other->shared);
-  md_destroy(one_of);
-  md_destroy(other);
+  md_case fewest = {GG_USF, 150, 0.004, 0.9, 0, INFINITY, {0}}; /* cells along x */
+  const md_case all[] = {still, sheared, wider, fewest};
+  for (int k = 0; k < 4; k++) {
+    gg_model m = md_model(all[k]);
+    gg_md *e = md_create(&m, 1);
+    assert_true(e->shared);
+    if (k == 3) assert_int_equal(e->cells.n[0], 8);
+    md_destroy(e);
+  }
   for (uint64_t seed = 1; seed <= 4; seed++) {
     one(still, seed, 900, 40);
     one(sheared, seed, 900, 40);
     one(wider, seed, 900, 40);
+    one(fewest, seed, 900, 40);
     gg_scene s = md_scene(sheared);
     s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5, s.species[1].diameter = 0.8;
     follow(&s, seed, 900, 40);
