@@ -6,8 +6,8 @@
  * at the rate of a bound on g_n and are kept with probability g_n/bound.
  *
  * Rates are cut into layers: a pass realises that part of g_n which lies between `floor` and `floor + bound`. One pass
- * from 0 is all there is unless some g_n went over the top; then one more pass over the layer above makes up,
- * for what the first could not do. */
+ * from 0 is all there is unless some g_n went over the top; then one more pass over the layer above makes up
+ * for what the first could not do, wherever a candidate noticed. */
 #ifndef GG_DSMC_PAIRING_H
 #define GG_DSMC_PAIRING_H
 

@@ -33,6 +33,14 @@ typedef struct method {
   const json_t *results;
 } method;
 
+/* Does it say anything about what is drawn? */
+static bool has_entries(const json_t *results)
+{
+  for (int i = 0; i < N_ENTRIES; i++)
+    if (json_object_get(results, entries[i].name)) return true;
+  return false;
+}
+
 static int methods_of(const gg_stored_result *stored, method *methods)
 {
   int n = 0;
@@ -41,8 +49,10 @@ static int methods_of(const gg_stored_result *stored, method *methods)
   for (int k = 0; k < 2; k++)
     if (stored->engine[k].name)
       methods[n++] = (method){stored->engine[k].name, json_object_get(stored->engine[k].document, "results")};
-  json_object_foreach(json_object_get(stored->document, "theory"), name, theory) if (n < MOST_METHODS) methods[n++] =
-      (method){name, theory};
+  json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
+  {
+    if (n < MOST_METHODS && has_entries(theory)) methods[n++] = (method){name, theory};
+  }
   return n;
 }
 
