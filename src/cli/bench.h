@@ -33,6 +33,17 @@ gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc, gg_bench_observa
 gg_bench_sheet *gg_bench_new_sheet(gg_bench *b, const char *key, const char *caption, int keep, gg_error *err);
 /* Write into a cell of the sheet's table. */
 void gg_bench_cell(gg_bench_sheet *sheet, int row, int column, const char *format, ...) GG_PRINTF(4, 5);
+/* A new column "phi ...". */
+int gg_bench_density_column(gg_bench_sheet *sheet, double phi);
+/* What a feature costs: a scene that has it, timed against the one (by index) that lacks it; the first against itself.
+ */
+typedef struct gg_bench_feature {
+  const char *name;
+  int against;
+} gg_bench_feature;
+/* A sheet "ratios" with a row for each. */
+gg_bench_sheet *gg_bench_start_ratios(gg_bench *b, const char *caption, const gg_bench_feature *features, int n,
+                                      gg_error *err);
 /* Progress on standard error, a line each, unless --quiet. */
 void gg_bench_tell(const gg_bench *b, const char *format, ...) GG_PRINTF(2, 3);
 /* The defaults with this bench's seed. */

@@ -30,10 +30,7 @@ enum {
   SHEARED_FRICTIONAL,
   SHEARED_TWO
 };
-static const struct {
-  const char *name;
-  int against;
-} scenes[] = {
+static const gg_bench_feature scenes[] = {
     [SMOOTH] = {"smooth", SMOOTH},
     [ROUGH] = {"rough", SMOOTH},
     [FRICTIONAL] = {"frictional", ROUGH},
@@ -74,20 +71,13 @@ static double warmup_of(bool quick)
   return quick ? 10 : 20;
 }
 
-static int density_column(gg_bench_sheet *sheet, double phi)
-{
-  char head[24];
-  snprintf(head, sizeof head, "phi %.4g", phi);
-  return gg_table_column(sheet->table, head, true);
-}
-
 static gg_status times(gg_bench *b, gg_error *err)
 {
   bool quick = b->options->quick;
   gg_bench_sheet *sheet = gg_bench_new_sheet(b, "times", times_caption, 1, err);
   if (!sheet) return GG_FAILED;
   gg_table_column(sheet->table, "N", true);
-  for (int d = 0; d < N_DENSITIES; d++) density_column(sheet, densities[d]);
+  for (int d = 0; d < N_DENSITIES; d++) gg_bench_density_column(sheet, densities[d]);
   for (int i = 0; i < (quick ? QUICK_SIZES : N_SIZES); i++) {
     int row = gg_table_row(sheet->table);
     gg_bench_cell(sheet, row, 0, "%lld", (long long)sizes[i]);
@@ -119,28 +109,14 @@ static void note_ratio(gg_bench_sheet *sheet, int column, double phi, int64_t n,
                                                "largest", largest, "mean", ns, "unit", "ns per collision"));
 }
 
-static gg_bench_sheet *start_ratios(gg_bench *b, gg_error *err)
-{
-  gg_bench_sheet *sheet = gg_bench_new_sheet(b, "ratios", ratios_caption, 2, err);
-  if (!sheet) return NULL;
-  gg_table_column(sheet->table, "scene", false);
-  gg_table_column(sheet->table, "against", false);
-  for (int k = 0; k < N_SCENES; k++) {
-    int row = gg_table_row(sheet->table);
-    gg_bench_cell(sheet, row, 0, "%s", scenes[k].name);
-    if (scenes[k].against != k) gg_bench_cell(sheet, row, 1, "%s", scenes[scenes[k].against].name);
-  }
-  return sheet;
-}
-
 static gg_status ratios(gg_bench *b, gg_error *err)
 {
   bool quick = b->options->quick;
   const int64_t n = quick ? 10000 : 100000;
-  gg_bench_sheet *sheet = start_ratios(b, err);
+  gg_bench_sheet *sheet = gg_bench_start_ratios(b, ratios_caption, scenes, N_SCENES, err);
   if (!sheet) return GG_FAILED;
   for (int d = 0; d < N_DENSITIES; d++) {
-    int column = density_column(sheet, densities[d]);
+    int column = gg_bench_density_column(sheet, densities[d]);
     gg_contender c[N_SCENES];
     gg_race r[N_SCENES];
     for (int k = 0; k < N_SCENES; k++) c[k] = contender(b, k, densities[d], n);
