@@ -1,6 +1,6 @@
 /* The figures of Montanero's review, simulated anew by Enskog Monte Carlo and set beside kinetic theory, with error
- * bars: review_figures [--error E] [--seed N] [FIGURE...] prints a table a figure; without a number, all of them (some
- * twenty minutes at the default relative error of 0.003). Exit code 0, or as the command's (docs/conventions.md) where
+ * bars: review_figures [--error E] [--seed N] [FIGURE...] prints a table a figure; without a number, all of them (tens
+ * of minutes at the default relative error of 0.003). Exit code 0, or as the command's (docs/conventions.md) where
  * a run fails. */
 #include <getopt.h>
 #include <math.h>
