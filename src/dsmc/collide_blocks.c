@@ -236,13 +236,16 @@ GG_INLINE gg_vu all_bits(uint64_t x)
 GG_INLINE void draw_part(gg_features f, gg_batch *w, gg_draw *next, int part, double root, unsigned first, unsigned n)
 {
   gg_vu r = gg_lane_next(&w->rng, part), more = gg_lane_next(&w->rng, part);
-  gg_vu a = gg_mul32(r >> 32, all_bits(w->n_one)) >> 32, b = gg_mul32(r, all_bits(w->n_two)) >> 32;
+  gg_vu a = gg_mul32(r >> 32, all_bits(w->blocks_one.n)) >> 32, b = gg_mul32(r, all_bits(w->blocks_two.n)) >> 32;
+  const gg_vu backwards = (gg_vu)(b < a); /* by their places in their ranges: each range is sorted by speed */
+  a += w->blocks_one.first;
+  b += w->blocks_two.first;
   gg_vd bound = (gg_roots_at(w->top_one, a) + gg_roots_at(w->top_two, b)) * root;
   bound = gg_smaller(bound + (w->floor == 0 ? 0 : 1e300), gg_all(w->bound)); /* an upper layer: under one bound */
   gg_vd u = gg_lane_one_to_two(more) - 1;
   gg_vu odd = equal(a, all_bits(w->odd_one)) | equal(b, all_bits(w->odd_two));
   if (f.same) {
-    gg_vu swap = (a ^ b) & (gg_vu)(b < a);
+    gg_vu swap = (a ^ b) & backwards;
     odd |= equal(a, b);
     a ^= swap;
     b ^= swap;
@@ -306,8 +309,8 @@ GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_r
                   .spin_two = p->two->s,
                   .top_one = p->one->top,
                   .top_two = p->two->top,
-                  .n_one = p->one->n_blocks,
-                  .n_two = p->two->n_blocks,
+                  .blocks_one = p->blocks[0],
+                  .blocks_two = p->blocks[1],
                   .odd_one = odd_block(p->one),
                   .odd_two = odd_block(p->two),
                   .contact = p->contact,

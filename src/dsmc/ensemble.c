@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "dsmc/segments.h"
 #include "dsmc/sweep.h"
 
 /* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
@@ -28,10 +29,12 @@ static gg_block *new_blocks(size_t n, gg_error *err)
 gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err)
 {
   *e = (gg_ensemble){.n_species = model->n_species};
+  size_t blocks = 0;
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
     p->n = model->n_of[i];
     p->n_blocks = ((size_t)p->n + GG_LANES - 1) / GG_LANES;
+    blocks += p->n_blocks;
     p->mass = model->mass[i];
     p->inertia = model->inertia[i];
     p->c = new_blocks(p->n_blocks, err);
@@ -42,6 +45,7 @@ gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err)
       return GG_FAILED;
     }
   }
+  e->segments = gg_segments_of(blocks);
   return GG_OK;
 }
 
@@ -52,6 +56,7 @@ void gg_ensemble_free(gg_ensemble *e)
     free(e->of[i].s);
     free(e->of[i].top);
   }
+  gg_crew_free(e->crew);
   *e = (gg_ensemble){0};
 }
 
@@ -83,9 +88,24 @@ static void scale_blocks(gg_block *b, size_t n, double factor)
   for (size_t i = 0; b && i < n * sizeof(gg_block) / sizeof(double); i++) v[i] *= factor;
 }
 
+typedef struct scaling {
+  gg_ensemble *e;
+  double factor;
+} scaling;
+
+static void heat_segment(void *context, int segment)
+{
+  const scaling *w = context;
+  for (int i = 0; i < w->e->n_species; i++) {
+    const gg_population *p = &w->e->of[i];
+    gg_range r = gg_segment(p, w->e->segments, segment);
+    scale_blocks(p->c + r.first, r.n, w->factor);
+  }
+}
+
 void gg_ensemble_heat(gg_ensemble *e, double factor)
 {
-  for (int i = 0; i < e->n_species; i++) scale_blocks(e->of[i].c, e->of[i].n_blocks, factor);
+  gg_crew_share(e->crew, e->segments, heat_segment, &(scaling){e, factor});
   e->top_unit *= factor * factor * (1 + 1e-15);
 }
 
@@ -108,20 +128,42 @@ static void settle_odd_block(gg_population *p, double drift, double scale, gg_ve
   gg_sweep_blocks(block, top, 1, 0, 1, (gg_vec){0, 0, 0}, unit, s);
 }
 
+typedef struct settling {
+  gg_ensemble *e;
+  double drift, scale, unit;
+  gg_vec centre;
+  gg_sums of[GG_MOST_SEGMENTS][GG_MAX_SPECIES];
+} settling;
+
+static void settle_segment(void *context, int segment)
+{
+  settling *w = context;
+  for (int i = 0; i < w->e->n_species; i++) {
+    gg_population *p = &w->e->of[i];
+    gg_range r = gg_segment(p, w->e->segments, segment);
+    bool odd = p->n % GG_LANES && segment == w->e->segments - 1;
+    gg_sums s = {0};
+    gg_sweep_blocks(p->c + r.first, p->top + r.first, r.n - odd, w->drift, w->scale, w->centre, w->unit, &s);
+    if (odd) settle_odd_block(p, w->drift, w->scale, w->centre, w->unit, &s);
+    w->of[segment][i] = s;
+  }
+}
+
 gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre, double unit)
 {
   double n = 0, mass = 0, energy = 0, most = 0;
   gg_vec momentum = {0, 0, 0};
+  settling w = {.e = e, .drift = drift, .scale = scale, .unit = unit, .centre = centre};
+  gg_crew_share(e->crew, e->segments, settle_segment, &w);
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
-    gg_sums s = {0};
-    gg_sweep_blocks(p->c, p->top, (size_t)p->n / GG_LANES, drift, scale, centre, unit, &s);
-    if (p->n % GG_LANES) settle_odd_block(p, drift, scale, centre, unit, &s);
-    for (int l = 0; l < GG_LANES; l++) {
-      momentum = gg_axpy(p->mass, (gg_vec){s.c.x[l], s.c.y[l], s.c.z[l]}, momentum);
-      energy += p->mass * s.c2[l];
-      most = s.fastest[l] > most ? s.fastest[l] : most;
-    }
+    for (int segment = 0; segment < e->segments; segment++)
+      for (int l = 0; l < GG_LANES; l++) {
+        const gg_sums *s = &w.of[segment][i];
+        momentum = gg_axpy(p->mass, (gg_vec){s->c.x[l], s->c.y[l], s->c.z[l]}, momentum);
+        energy += p->mass * s->c2[l];
+        most = s->fastest[l] > most ? s->fastest[l] : most;
+      }
     n += (double)p->n;
     mass += p->mass * (double)p->n;
   }

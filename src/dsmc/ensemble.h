@@ -38,6 +38,8 @@ typedef struct gg_ensemble {
   int n_species;
   gg_population of[GG_MAX_SPECIES];
   double top_unit, top_drift; /* drift at which it holds */
+  int segments;               /* that each species is cut into (segments.h): by size alone, 1 if small */
+  struct gg_crew *crew;       /* that shares them; NULL: one thread does all */
 } gg_ensemble;
 
 typedef struct gg_moments {

@@ -19,7 +19,8 @@ static void heat(gg_dsmc *d, double dt, double drift, double half)
   if (d->thermostat == GG_GAUSSIAN) {
     d->now.lost = -gg_thermostat_return(&d->ensemble, drift, d->now.lost, half);
   } else {
-    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, &d->now.lanes);
+    gg_rng_lanes *lanes = d->tournament ? d->tournament->lanes : &d->now.lanes;
+    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, lanes);
   }
 }
 

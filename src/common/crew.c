@@ -1,0 +1,164 @@
+#include "common/crew.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { MOST_THREADS = 64 };
+/* Looks at an empty list before a thread sleeps, some tens of microseconds in all; after the first ones it lets others
+ * have the processor in between, so that nobody waits for it where cores are fewer than threads. */
+enum { EAGER = 200, LOOKS = 400 };
+
+struct gg_crew {
+  /* Number of the job in the upper half, parts that nobody has taken in the lower one. A part is taken by counting it
+   * down: whoever succeeds may read the job, which stays until all its parts are done. */
+  _Alignas(64) _Atomic uint64_t open;
+  _Alignas(64) _Atomic int undone;
+  _Alignas(64) gg_part *part;
+  void *context;
+  _Atomic int asleep, quit;
+  _Atomic int waiting; /* the caller sleeps until all is done */
+  pthread_mutex_t mutex;
+  pthread_cond_t work, done;
+  int n;
+  pthread_t thread[MOST_THREADS];
+};
+
+static void relax(void)
+{
+#ifdef GG_X86_64
+  __builtin_ia32_pause();
+#endif
+}
+
+/* Something may have come: look again. False: it is time to sleep. */
+static bool patient(int looks)
+{
+  if (looks < EAGER)
+    relax();
+  else
+    sched_yield();
+  return looks < LOOKS;
+}
+
+static bool take(gg_crew *c, int *part)
+{
+  uint64_t seen = atomic_load(&c->open);
+  while ((uint32_t)seen)
+    if (atomic_compare_exchange_weak(&c->open, &seen, seen - 1)) {
+      *part = (int)(uint32_t)seen - 1;
+      return true;
+    }
+  return false;
+}
+
+static void work_off(gg_crew *c)
+{
+  for (int part; take(c, &part);) {
+    c->part(c->context, part);
+    if (atomic_fetch_sub(&c->undone, 1) > 1 || !atomic_load(&c->waiting)) continue;
+    pthread_mutex_lock(&c->mutex);
+    pthread_cond_signal(&c->done);
+    pthread_mutex_unlock(&c->mutex);
+  }
+}
+
+static bool idle(gg_crew *c)
+{
+  return !(uint32_t)atomic_load(&c->open) && !atomic_load(&c->quit);
+}
+
+static void *live(void *argument)
+{
+  gg_crew *c = argument;
+  while (!atomic_load(&c->quit)) {
+    work_off(c);
+    for (int looks = 0; idle(c); looks++) {
+      if (patient(looks)) continue;
+      pthread_mutex_lock(&c->mutex);
+      atomic_fetch_add(&c->asleep, 1);
+      while (idle(c)) pthread_cond_wait(&c->work, &c->mutex);
+      atomic_fetch_sub(&c->asleep, 1);
+      pthread_mutex_unlock(&c->mutex);
+    }
+  }
+  return NULL;
+}
+
+gg_crew *gg_crew_new(int threads)
+{
+  if (threads < 2) return NULL;
+  gg_crew *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
+  if (!c) return NULL;
+  *c = (gg_crew){.n = 0};
+  pthread_mutex_init(&c->mutex, NULL);
+  pthread_cond_init(&c->work, NULL);
+  pthread_cond_init(&c->done, NULL);
+  while (c->n < threads - 1 && c->n < MOST_THREADS && pthread_create(&c->thread[c->n], NULL, live, c) == 0) c->n++;
+  if (c->n) return c;
+  gg_crew_free(c);
+  return NULL;
+}
+
+static void wake(gg_crew *c)
+{
+  pthread_mutex_lock(&c->mutex);
+  pthread_cond_broadcast(&c->work);
+  pthread_mutex_unlock(&c->mutex);
+}
+
+void gg_crew_free(gg_crew *c)
+{
+  if (!c) return;
+  atomic_store(&c->quit, 1);
+  wake(c);
+  for (int i = 0; i < c->n; i++) pthread_join(c->thread[i], NULL);
+  pthread_mutex_destroy(&c->mutex);
+  pthread_cond_destroy(&c->work);
+  pthread_cond_destroy(&c->done);
+  free(c);
+}
+
+static void wait_for_all(gg_crew *c)
+{
+  for (int looks = 0; atomic_load(&c->undone) > 0; looks++) {
+    if (patient(looks)) continue;
+    pthread_mutex_lock(&c->mutex);
+    atomic_store(&c->waiting, 1);
+    while (atomic_load(&c->undone) > 0) pthread_cond_wait(&c->done, &c->mutex);
+    atomic_store(&c->waiting, 0);
+    pthread_mutex_unlock(&c->mutex);
+  }
+}
+
+void gg_crew_share(gg_crew *c, int parts, gg_part *part, void *context)
+{
+  if (!c || parts < 2) {
+    for (int i = 0; i < parts; i++) part(context, i);
+    return;
+  }
+  c->part = part;
+  c->context = context;
+  atomic_store(&c->undone, parts);
+  uint64_t job = (atomic_load(&c->open) >> 32) + 1;
+  atomic_store(&c->open, job << 32 | (uint32_t)parts);
+  if (atomic_load(&c->asleep)) wake(c);
+  work_off(c);
+  wait_for_all(c);
+}
+
+double gg_crew_cpu(const gg_crew *c)
+{
+  double sum = 0;
+  for (int i = 0; c && i < c->n; i++) {
+    clockid_t clock;
+    struct timespec t;
+    if (pthread_getcpuclockid(c->thread[i], &clock) != 0 || clock_gettime(clock, &t) != 0) continue;
+    sum += (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+  }
+  return sum;
+}
