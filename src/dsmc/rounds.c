@@ -2,7 +2,7 @@
 #include "dsmc/dsmc.h"
 
 /* Candidates that a meeting should have, on average: enough that what it costs to begin one is no matter. */
-static const double worth_a_meeting = 300;
+static const double worth_a_meeting = 600;
 /* Candidates that others are called for. */
 static const double worth_calling = 400;
 
