@@ -277,6 +277,10 @@ GG_INLINE void draw(gg_features f, gg_batch *w, gg_draw *next, unsigned n, doubl
   const double root = sqrt(w->next_unit) * (1 + 1e-6);
   for (unsigned first = 0; first < n; first += GG_LANES)
     for (int part = 0; part < GG_PARTS; part++) draw_part(f, w, next, part, root, first + (unsigned)part * GG_WIDTH, n);
+  /* What follows the last is looked at, though never visited: let it take part, for others may be at work on the rest.
+   */
+  const uint64_t any = w->blocks_one.first | (uint64_t)w->blocks_two.first << 32;
+  __builtin_memcpy(&next->blocks[next->n], &any, sizeof any);
 }
 
 /* Call the memory of a visit to come. */
@@ -375,15 +379,6 @@ GG_INLINE void visit_all(gg_features f, gg_batch *w, const gg_draw *now, const g
   }
 }
 
-/* What is past the end of a list is looked at, though never visited: let it be some block that takes part, for others
- * may be at work on the rest. */
-GG_INLINE void start_lists(const gg_batch *w, gg_draw queue[2])
-{
-  const uint64_t any = w->blocks_one.first | (uint64_t)w->blocks_two.first << 32;
-  for (int q = 0; q < 2; q++)
-    for (int i = 0; i < DRAWS + GG_LANES; i++) __builtin_memcpy(&queue[q].blocks[i], &any, sizeof any);
-}
-
 /* Everything of a batch. `f` is a constant: each instance holds only what it needs. */
 GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng)
 {
@@ -391,7 +386,6 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   double near[3][GG_DIRECTIONS_ROOM], sheared[3][GG_DIRECTIONS_ROOM];
   gg_draw queue[2] = {{0}, {0}};
   start(f, &w, p, lanes);
-  start_lists(&w, queue);
   w.near = (gg_directions){.x = near[0], .y = near[1], .z = near[2]};
   w.sheared = (gg_directions){.x = sheared[0], .y = sheared[1], .z = sheared[2]};
   unsigned n = p->candidates < DRAWS ? (unsigned)p->candidates : DRAWS;
