@@ -9,9 +9,10 @@
 #include <time.h>
 
 enum { MOST_THREADS = 64 };
-/* Looks at an empty list before a thread sleeps, some tens of microseconds in all; after the first ones it lets others
- * have the processor in between, so that nobody waits for it where cores are fewer than threads. */
-enum { EAGER = 200, LOOKS = 400 };
+/* Looks at an empty list before a thread sleeps, a hundred microseconds or two in all: longer than others need to
+ * finish what they are at, or than the caller needs between two jobs. Where processors are fewer than threads nobody
+ * looks twice: whom he waits for may wait for his processor. */
+enum { LOOKS = 10000 };
 
 struct gg_crew {
   /* Number of the job in the upper half, parts that nobody has taken in the lower one. A part is taken by counting it
@@ -24,7 +25,7 @@ struct gg_crew {
   _Atomic int waiting; /* the caller sleeps until all is done */
   pthread_mutex_t mutex;
   pthread_cond_t work, done;
-  int n;
+  int n, looks;
   pthread_t thread[MOST_THREADS];
 };
 
@@ -36,13 +37,16 @@ static void relax(void)
 }
 
 /* Something may have come: look again. False: it is time to sleep. */
-static bool patient(int looks)
+static bool patient(const gg_crew *c, int looks)
 {
-  if (looks < EAGER)
-    relax();
-  else
-    sched_yield();
-  return looks < LOOKS;
+  relax();
+  return looks < c->looks;
+}
+
+static int processors(void)
+{
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
 }
 
 static bool take(gg_crew *c, int *part)
@@ -78,7 +82,7 @@ static void *live(void *argument)
   while (!atomic_load(&c->quit)) {
     work_off(c);
     for (int looks = 0; idle(c); looks++) {
-      if (patient(looks)) continue;
+      if (patient(c, looks)) continue;
       pthread_mutex_lock(&c->mutex);
       atomic_fetch_add(&c->asleep, 1);
       while (idle(c)) pthread_cond_wait(&c->work, &c->mutex);
@@ -94,7 +98,7 @@ gg_crew *gg_crew_new(int threads)
   if (threads < 2) return NULL;
   gg_crew *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
   if (!c) return NULL;
-  *c = (gg_crew){.n = 0};
+  *c = (gg_crew){.looks = processors() < threads ? 0 : LOOKS};
   pthread_mutex_init(&c->mutex, NULL);
   pthread_cond_init(&c->work, NULL);
   pthread_cond_init(&c->done, NULL);
@@ -126,7 +130,7 @@ void gg_crew_free(gg_crew *c)
 static void wait_for_all(gg_crew *c)
 {
   for (int looks = 0; atomic_load(&c->undone) > 0; looks++) {
-    if (patient(looks)) continue;
+    if (patient(c, looks)) continue;
     pthread_mutex_lock(&c->mutex);
     atomic_store(&c->waiting, 1);
     while (atomic_load(&c->undone) > 0) pthread_cond_wait(&c->done, &c->mutex);

@@ -110,23 +110,35 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
   }
 }
 
-/* In segments, and both of blocks enough that a segment of either has a hundred. */
-static bool in_rounds(const gg_dsmc *d, int i, int j)
+/* In segments, and of blocks enough that a segment of each species has a hundred. */
+static bool in_rounds(const gg_dsmc *d)
 {
-  const size_t least = 100 * (size_t)d->ensemble.segments;
-  return d->tournament && d->path[gg_pair_index(i, j)] != GG_PATH_PLAIN && d->ensemble.of[i].n_blocks >= least &&
-         d->ensemble.of[j].n_blocks >= least;
+  if (!d->tournament) return false;
+  for (int i = 0; i < d->model.n_species; i++)
+    for (int j = i; j < d->model.n_species; j++)
+      if (d->path[gg_pair_index(i, j)] == GG_PATH_PLAIN) return false;
+  for (int i = 0; i < d->model.n_species; i++)
+    if (d->ensemble.of[i].n_blocks < 100 * (size_t)d->ensemble.segments) return false;
+  return true;
 }
 
-void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards)
+const int gg_turns[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+
+void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order)
 {
-  static const int order[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+  if (in_rounds(d)) {
+    gg_dsmc_collide_in_rounds(d, dt, drift, span, order);
+    return;
+  }
+  if (order == GG_TURNS_THERE_AND_BACK) {
+    gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, GG_TURNS_THERE);
+    d->stretch += 0.5 * dt;
+    gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, GG_TURNS_BACK);
+    return;
+  }
   int pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
   for (int q = 0; q < pairs; q++) {
-    const int *ij = order[backwards ? pairs - 1 - q : q];
-    if (in_rounds(d, ij[0], ij[1]))
-      gg_dsmc_collide_in_rounds(d, ij[0], ij[1], dt, drift, span);
-    else
-      collide_pair(d, ij[0], ij[1], dt, drift, span);
+    const int *ij = gg_turns[order == GG_TURNS_BACK ? pairs - 1 - q : q];
+    collide_pair(d, ij[0], ij[1], dt, drift, span);
   }
 }

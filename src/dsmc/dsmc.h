@@ -56,12 +56,14 @@ uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
 void gg_dsmc_hand_over(gg_dsmc *d, int pair, const gg_pairing *p);
 /* Bounds that hold for sure, to start from. */
 void gg_dsmc_bounds(gg_dsmc *d);
-/* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). Pairs
- * of species take turns: 11, 12, 22, or backwards. */
-void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards);
+/* Pairs of species take turns: 11, 12, 22; or backwards; or each half of the stretch in its order. */
+typedef enum gg_order_of_turns { GG_TURNS_THERE, GG_TURNS_BACK, GG_TURNS_THERE_AND_BACK } gg_order_of_turns;
+extern const int gg_turns[GG_PAIRS][2];
+/* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). */
+void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order);
 
-/* rounds.c: those of two species, if their ensemble is in segments. */
-void gg_dsmc_collide_in_rounds(gg_dsmc *d, int i, int j, double dt, double drift, double span);
+/* rounds.c: the same for an ensemble in segments. */
+void gg_dsmc_collide_in_rounds(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order);
 
 gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);
 void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);

@@ -23,22 +23,17 @@ gg_range gg_segment(const gg_population *p, int segments, int segment)
   return (gg_range){first, beginning(p, segments, segment + 1) - first};
 }
 
-int gg_meetings(int segments, bool same, int round)
+int gg_meetings(int segments, int round)
 {
-  return same && round > 0 ? segments / 2 : segments;
+  return round ? segments / 2 : segments;
 }
 
-/* Of one species: the round robin of the circle, where the last one stands still and the others go round. */
-void gg_meeting_of(int segments, bool same, int round, int meeting, int *one, int *two)
+/* The round robin of the circle: the last one stands still and the others go round. */
+void gg_meeting_of(int segments, int round, int meeting, int *one, int *two)
 {
   const int circle = segments - 1;
-  if (!same || round == 0) {
-    *one = meeting;
-    *two = (meeting + round) % segments;
-  } else {
-    *one = (round + meeting) % circle;
-    *two = meeting == 0 ? circle : (round - meeting + circle) % circle;
-  }
+  *one = round ? (round + meeting) % circle : meeting;
+  *two = round == 0 ? meeting : meeting == 0 ? circle : (round - meeting + circle) % circle;
 }
 
 void gg_tournament_start(gg_tournament *t, uint64_t seed, uint64_t stream)
@@ -52,17 +47,15 @@ void gg_tournament_start(gg_tournament *t, uint64_t seed, uint64_t stream)
   }
 }
 
-int gg_next_round(gg_tournament *t, int segments, int pair)
+int gg_next_round(gg_tournament *t, int segments)
 {
-  uint8_t *order = t->of[pair].order;
-  uint32_t *next = &t->of[pair].next;
-  if (*next % (uint32_t)segments == 0) {
-    *next = 0;
+  if (t->next % (uint64_t)segments == 0) {
+    t->next = 0;
     for (int i = 0; i < segments; i++) { /* Fisher & Yates' shuffle */
       uint32_t j = gg_rng_below(&t->rng, (uint32_t)i + 1);
-      order[i] = order[j];
-      order[j] = (uint8_t)i;
+      t->order[i] = t->order[j];
+      t->order[j] = (uint8_t)i;
     }
   }
-  return order[(*next)++];
+  return t->order[t->next++];
 }

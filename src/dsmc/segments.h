@@ -25,26 +25,23 @@ gg_range gg_all_blocks(const gg_population *p);
 /* Blocks of a segment; segments begin on cache lines of the tops. */
 gg_range gg_segment(const gg_population *p, int segments, int segment);
 
-/* Meetings of a round, 0 to segments - 1. */
-int gg_meetings(int segments, bool same, int round);
-/* Which segments meet: of one species (round 0: each meets itself) or of two. */
-void gg_meeting_of(int segments, bool same, int round, int meeting, int *one, int *two);
+/* Meetings of a round, 0 to segments - 1; in round 0 each meets itself. */
+int gg_meetings(int segments, int round);
+void gg_meeting_of(int segments, int round, int meeting, int *one, int *two);
 
 /* What the tournaments of an ensemble need: plain data, saved as it is. */
 typedef struct gg_tournament {
-  gg_rng rng; /* of the order */
-  struct {
-    uint32_t next; /* round to play, in its order */
-    uint8_t order[GG_MOST_SEGMENTS];
-    double owed[GG_MOST_SEGMENTS][GG_MOST_SEGMENTS]; /* fractions of candidates, by round and meeting */
-  } of[GG_PAIRS];
-  gg_rng draws[GG_MOST_SEGMENTS]; /* by meeting of a round, or by segment */
+  gg_rng rng;    /* of the order */
+  uint64_t next; /* round to play, in its order */
+  uint8_t order[GG_MOST_SEGMENTS];
+  double owed[GG_PAIRS][GG_MOST_SEGMENTS][GG_MOST_SEGMENTS]; /* fractions of candidates */
+  gg_rng draws[GG_MOST_SEGMENTS];                            /* by meeting of a round, or by segment */
   gg_rng_lanes lanes[GG_MOST_SEGMENTS];
 } gg_tournament;
 
 /* From streams of their own of this seed. */
 void gg_tournament_start(gg_tournament *t, uint64_t seed, uint64_t stream);
-/* The next round of this pair of species. */
-int gg_next_round(gg_tournament *t, int segments, int pair);
+/* The next round. */
+int gg_next_round(gg_tournament *t, int segments);
 
 #endif
