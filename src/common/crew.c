@@ -14,19 +14,25 @@ enum { MOST_THREADS = 64 };
  * looks twice: whom he waits for may wait for his processor. */
 enum { LOOKS = 10000 };
 
+typedef struct gg_member {
+  gg_crew *crew;
+  int self;
+  pthread_t thread;
+} gg_member;
+
 struct gg_crew {
-  /* Number of the job in the upper half, parts that nobody has taken in the lower one. A part is taken by counting it
-   * down: whoever succeeds may read the job, which stays until all its parts are done. */
+  /* Number of the job in the upper half; in the lower one a bit for each part that nobody has taken. Whoever succeeds
+   * in clearing a bit may read the job, which stays until all its parts are done. */
   _Alignas(64) _Atomic uint64_t open;
   _Alignas(64) _Atomic int undone;
   _Alignas(64) gg_part *part;
   void *context;
-  _Atomic int asleep, quit;
+  _Atomic int parts, asleep, quit;
   _Atomic int waiting; /* the caller sleeps until all is done */
   pthread_mutex_t mutex;
   pthread_cond_t work, done;
   int n, looks;
-  pthread_t thread[MOST_THREADS];
+  gg_member member[MOST_THREADS];
 };
 
 static void relax(void)
@@ -49,20 +55,27 @@ static int processors(void)
   return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
 }
 
-static bool take(gg_crew *c, int *part)
+/* The parts that thread `self` takes first, so that it has what it had in the job before: its caches know. */
+static uint32_t home(const gg_crew *c, int self)
+{
+  const int parts = atomic_load_explicit(&c->parts, memory_order_relaxed), n = c->n + 1;
+  return (uint32_t)((UINT64_C(1) << (self + 1) * parts / n) - (UINT64_C(1) << self * parts / n));
+}
+
+static bool take(gg_crew *c, int self, int *part)
 {
   uint64_t seen = atomic_load(&c->open);
-  while ((uint32_t)seen)
-    if (atomic_compare_exchange_weak(&c->open, &seen, seen - 1)) {
-      *part = (int)(uint32_t)seen - 1;
-      return true;
-    }
+  while ((uint32_t)seen) {
+    uint32_t open = (uint32_t)seen, own = open & home(c, self);
+    *part = own ? __builtin_ctz(own) : 31 - __builtin_clz(open);
+    if (atomic_compare_exchange_weak(&c->open, &seen, seen & ~(UINT64_C(1) << *part))) return true;
+  }
   return false;
 }
 
-static void work_off(gg_crew *c)
+static void work_off(gg_crew *c, int self)
 {
-  for (int part; take(c, &part);) {
+  for (int part; take(c, self, &part);) {
     c->part(c->context, part);
     if (atomic_fetch_sub(&c->undone, 1) > 1 || !atomic_load(&c->waiting)) continue;
     pthread_mutex_lock(&c->mutex);
@@ -78,9 +91,10 @@ static bool idle(gg_crew *c)
 
 static void *live(void *argument)
 {
-  gg_crew *c = argument;
+  const gg_member *me = argument;
+  gg_crew *c = me->crew;
   while (!atomic_load(&c->quit)) {
-    work_off(c);
+    work_off(c, me->self);
     for (int looks = 0; idle(c); looks++) {
       if (patient(c, looks)) continue;
       pthread_mutex_lock(&c->mutex);
@@ -102,8 +116,15 @@ gg_crew *gg_crew_new(int threads)
   pthread_mutex_init(&c->mutex, NULL);
   pthread_cond_init(&c->work, NULL);
   pthread_cond_init(&c->done, NULL);
-  while (c->n < threads - 1 && c->n < MOST_THREADS && pthread_create(&c->thread[c->n], NULL, live, c) == 0) c->n++;
-  if (c->n) return c;
+  int made = 0;
+  c->n = threads - 1 < MOST_THREADS ? threads - 1 : MOST_THREADS;
+  for (; made < c->n; made++) {
+    gg_member *m = &c->member[made];
+    *m = (gg_member){.crew = c, .self = made + 1};
+    if (pthread_create(&m->thread, NULL, live, m) != 0) break;
+  }
+  if (made == c->n) return c;
+  c->n = made;
   gg_crew_free(c);
   return NULL;
 }
@@ -120,7 +141,7 @@ void gg_crew_free(gg_crew *c)
   if (!c) return;
   atomic_store(&c->quit, 1);
   wake(c);
-  for (int i = 0; i < c->n; i++) pthread_join(c->thread[i], NULL);
+  for (int i = 0; i < c->n; i++) pthread_join(c->member[i].thread, NULL);
   pthread_mutex_destroy(&c->mutex);
   pthread_cond_destroy(&c->work);
   pthread_cond_destroy(&c->done);
@@ -141,17 +162,18 @@ static void wait_for_all(gg_crew *c)
 
 void gg_crew_share(gg_crew *c, int parts, gg_part *part, void *context)
 {
-  if (!c || parts < 2) {
+  if (!c || parts < 2 || parts > GG_MOST_PARTS) {
     for (int i = 0; i < parts; i++) part(context, i);
     return;
   }
   c->part = part;
   c->context = context;
   atomic_store(&c->undone, parts);
+  atomic_store_explicit(&c->parts, parts, memory_order_relaxed);
   uint64_t job = (atomic_load(&c->open) >> 32) + 1;
-  atomic_store(&c->open, job << 32 | (uint32_t)parts);
+  atomic_store(&c->open, job << 32 | ((UINT64_C(1) << parts) - 1));
   if (atomic_load(&c->asleep)) wake(c);
-  work_off(c);
+  work_off(c, 0);
   wait_for_all(c);
 }
 
@@ -161,7 +183,7 @@ double gg_crew_cpu(const gg_crew *c)
   for (int i = 0; c && i < c->n; i++) {
     clockid_t clock;
     struct timespec t;
-    if (pthread_getcpuclockid(c->thread[i], &clock) != 0 || clock_gettime(clock, &t) != 0) continue;
+    if (pthread_getcpuclockid(c->member[i].thread, &clock) != 0 || clock_gettime(clock, &t) != 0) continue;
     sum += (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
   }
   return sum;

@@ -1,12 +1,15 @@
 /* A crew of threads that share the parts of a job. Made once, asleep while there is nothing to do; a job costs about a
- * microsecond as long as they come one after another. Who takes which part is left to chance: parts must not depend on
- * it. */
+ * microsecond as long as they come one after another. Each thread takes a run of parts first, the same in each job of
+ * as many, and then what others have left: who does what is not known, and parts must not depend on it. */
 #ifndef GG_CREW_H
 #define GG_CREW_H
 
 #include "common/error.h"
 
 typedef struct gg_crew gg_crew;
+
+/* More parts than these are not shared. */
+enum { GG_MOST_PARTS = 32 };
 
 /* Part number `part` of a job. */
 typedef void gg_part(void *context, int part);

@@ -28,12 +28,27 @@ int gg_meetings(int segments, int round)
   return round ? segments / 2 : segments;
 }
 
-/* The round robin of the circle: the last one stands still and the others go round. */
+/* Segment i of quarter q meets i ^ k of quarter q ^ c in round (c, k). The first half of the meetings has quarters 0
+ * and c (or 1, if each quarter is for itself), the second half the others: whoever plays the same half keeps them near.
+ */
 void gg_meeting_of(int segments, int round, int meeting, int *one, int *two)
 {
-  const int circle = segments - 1;
-  *one = round ? (round + meeting) % circle : meeting;
-  *two = round == 0 ? meeting : meeting == 0 ? circle : (round - meeting + circle) % circle;
+  const int quarter = segments / 4, c = round / quarter, k = round % quarter;
+  int q, i;
+  if (c == 0) {
+    const int each = k ? quarter / 2 : quarter, nth = meeting % each;
+    q = meeting / each;
+    /* The nth i that is the smaller one of i and i ^ k: without the highest bit of k. */
+    int high = 1;
+    while (2 * high <= k) high *= 2;
+    i = k ? nth % high + nth / high * 2 * high : nth;
+  } else {
+    static const int second[] = {0, 2, 1, 1}; /* the smaller one of the two that are left */
+    q = meeting < quarter ? 0 : second[c];
+    i = meeting % quarter;
+  }
+  *one = q * quarter + i;
+  *two = (q ^ c) * quarter + (i ^ k);
 }
 
 void gg_tournament_start(gg_tournament *t, uint64_t seed, uint64_t stream)
@@ -47,15 +62,32 @@ void gg_tournament_start(gg_tournament *t, uint64_t seed, uint64_t stream)
   }
 }
 
+/* Numbers 0 to n - 1 in random order (Fisher & Yates). */
+static void shuffle(gg_rng *rng, int n, uint8_t *list)
+{
+  for (int i = 0; i < n; i++) {
+    uint32_t j = gg_rng_below(rng, (uint32_t)i + 1);
+    list[i] = list[j];
+    list[j] = (uint8_t)i;
+  }
+}
+
+static void new_order(gg_tournament *t, int segments)
+{
+  const int quarter = segments / 4;
+  uint8_t c[4], k[GG_MOST_SEGMENTS];
+  shuffle(&t->rng, 4, c);
+  for (int n = 0; n < 4; n++) {
+    shuffle(&t->rng, quarter, k);
+    for (int i = 0; i < quarter; i++) t->order[n * quarter + i] = (uint8_t)(c[n] * quarter + k[i]);
+  }
+}
+
 int gg_next_round(gg_tournament *t, int segments)
 {
   if (t->next % (uint64_t)segments == 0) {
     t->next = 0;
-    for (int i = 0; i < segments; i++) { /* Fisher & Yates' shuffle */
-      uint32_t j = gg_rng_below(&t->rng, (uint32_t)i + 1);
-      t->order[i] = t->order[j];
-      t->order[j] = (uint8_t)i;
-    }
+    new_order(t, segments);
   }
   return t->order[t->next++];
 }

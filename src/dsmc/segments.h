@@ -9,7 +9,8 @@
  * collision rate of any pair over a whole tournament is what it should be, and that of a grain at any time, because all
  * segments are alike: grains come into them at random, sorting by speed goes on in each of them in the same way, and
  * they exchange grains whenever they meet. So rounds are no splitting of the step: nothing is advanced by more than its
- * part of the time. Every tournament has its rounds in a random order. */
+ * part of the time. Every tournament has its rounds in a random order, those together in which the same quarters meet,
+ * so that segments change hands, and caches, three times a tournament. */
 #ifndef GG_DSMC_SEGMENTS_H
 #define GG_DSMC_SEGMENTS_H
 
@@ -18,7 +19,7 @@
 
 enum { GG_MOST_SEGMENTS = 16 };
 
-/* How many an ensemble of so many blocks is cut into: 1 below 8000, else an even number. */
+/* How many an ensemble of so many blocks is cut into: 1 below 8000, else 8 or 16. */
 int gg_segments_of(size_t blocks);
 
 gg_range gg_all_blocks(const gg_population *p);
