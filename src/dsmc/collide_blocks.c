@@ -46,15 +46,20 @@ GG_INLINE void exchange(gg_mask swap, gg_vd3 *a, gg_vd3 *b)
   *b = (gg_vd3){gg_select(swap, old.x, b->x), gg_select(swap, old.y, b->y), gg_select(swap, old.z, b->z)};
 }
 
+/* J is 0 where nothing hits. */
 GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e, gg_vd3 g, gg_vd3 J)
 {
   w->collisions += (unsigned)__builtin_popcount(gg_bits(e->hit));
   if (f.tap == GG_TAP_CLOSED) return;
-  w->loss[part] += gg_where(e->hit, gg_lane_energy_loss(f.rule, &w->contact, g, J, e->gn2));
+  w->gn2[part] += gg_where(e->hit, e->gn2);
+  if (f.rule != GG_SMOOTH) w->Jg[part] += gg_vd3_dot(J, g);
+  if (f.rule == GG_FRICTIONAL) w->J2[part] += gg_vd3_dot(J, J);
   if (f.tap == GG_TAP_LOSS) return;
-  const gg_vd ka[3] = {e->k.x, e->k.y, e->k.z}, Jb[3] = {J.x, J.y, J.z};
-  for (int i = 0; i < 3; i++)
-    for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) w->stress[i][j][part] += gg_where(e->hit, ka[i] * Jb[j]);
+  w->xx[part] += e->k.x * J.x;
+  w->yy[part] += e->k.y * J.y;
+  w->zz[part] += e->k.z * J.z;
+  w->xy[part] += e->k.x * J.y;
+  if (f.rule != GG_SMOOTH) w->yx[part] += e->k.y * J.x;
 }
 
 /* Two blocks, the lanes of the second in their order of this visit. */
@@ -117,8 +122,8 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, in
   if (f.rule != GG_SMOOTH)
     g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[at->a], part * GG_WIDTH), at->sb[part])));
   if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, &w->contact, e.k, g, e.gn);
-  tally(f, w, part, &e, g, J);
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
+  tally(f, w, part, &e, g, J);
   gg_mask swap = push(f, w, at, part, J, r, top);
   if (f.rule != GG_SMOOTH) turn(f, w, swap, at, part, gg_vd3_cross(e.k, J));
 }
@@ -329,13 +334,15 @@ GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *l
   p->overflows += w->overflows;
   for (int l = 0; l < GG_WIDTH; l++) p->worst = fmax(p->worst, w->s0 + sqrt(w->worst[l]));
   if (f.tap == GG_TAP_CLOSED) return;
-  p->loss += sum_of_lanes(w->loss);
+  p->loss +=
+      gg_loss_of(f.rule, &w->contact,
+                 (gg_loss_terms){.gn2 = sum_of_lanes(w->gn2), .Jg = sum_of_lanes(w->Jg), .J2 = sum_of_lanes(w->J2)});
   if (f.tap == GG_TAP_LOSS) return;
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) {
-      bool mirrored = f.rule == GG_SMOOTH && j < i;
-      p->stress[i][j] += p->sigma * sum_of_lanes(mirrored ? w->stress[j][i] : w->stress[i][j]);
-    }
+  p->stress[0][0] += p->sigma * sum_of_lanes(w->xx);
+  p->stress[1][1] += p->sigma * sum_of_lanes(w->yy);
+  p->stress[2][2] += p->sigma * sum_of_lanes(w->zz);
+  p->stress[0][1] += p->sigma * sum_of_lanes(w->xy);
+  p->stress[1][0] += p->sigma * sum_of_lanes(f.rule == GG_SMOOTH ? w->xy : w->yx);
 }
 
 /* The i-th visit of the list; past its end, some blocks or other. */
