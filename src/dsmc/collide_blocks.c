@@ -46,22 +46,6 @@ GG_INLINE void exchange(gg_mask swap, gg_vd3 *a, gg_vd3 *b)
   *b = (gg_vd3){gg_select(swap, old.x, b->x), gg_select(swap, old.y, b->y), gg_select(swap, old.z, b->z)};
 }
 
-/* J is 0 where nothing hits. */
-GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e, gg_vd3 g, gg_vd3 J)
-{
-  w->collisions += (unsigned)__builtin_popcount(gg_bits(e->hit));
-  if (f.tap == GG_TAP_CLOSED) return;
-  w->gn2[part] += gg_where(e->hit, e->gn2);
-  if (f.rule != GG_SMOOTH) w->Jg[part] += gg_vd3_dot(J, g);
-  if (f.rule == GG_FRICTIONAL) w->J2[part] += gg_vd3_dot(J, J);
-  if (f.tap == GG_TAP_LOSS) return;
-  w->xx[part] += e->k.x * J.x;
-  w->yy[part] += e->k.y * J.y;
-  w->zz[part] += e->k.z * J.z;
-  w->xy[part] += e->k.x * J.y;
-  if (f.rule != GG_SMOOTH) w->yx[part] += e->k.y * J.x;
-}
-
 /* Two blocks, the lanes of the second in their order of this visit. */
 typedef struct gg_meeting {
   uint32_t a, b;
@@ -123,7 +107,8 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, in
     g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[at->a], part * GG_WIDTH), at->sb[part])));
   if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, &w->contact, e.k, g, e.gn);
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
-  tally(f, w, part, &e, g, J);
+  w->collisions += (unsigned)__builtin_popcount(gg_bits(e.hit));
+  gg_tally_note(f, &w->tally, part, e.k, g, J);
   gg_mask swap = push(f, w, at, part, J, r, top);
   if (f.rule != GG_SMOOTH) turn(f, w, swap, at, part, gg_vd3_cross(e.k, J));
 }
@@ -192,6 +177,7 @@ GG_INLINE void collide(gg_features f, gg_batch *w, const gg_meeting *at, double 
     w->worst = gg_larger(w->worst, at->v2[part]);
     collide_part(f, w, at, part, bound, w->word[part], &top);
   }
+  gg_tally_turn(f, &w->tally);
   w->half_left = !w->half_left;
   w->visits++;
   gg_v2 peaks = gg_peaks(top.a, top.b) * w->per_unit;
@@ -291,13 +277,6 @@ GG_INLINE void call(gg_features f, const gg_batch *w, uint64_t blocks)
   prefetch(&w->spin_two[blocks >> 32 & 0x7fffffff]);
 }
 
-static double sum_of_lanes(const gg_vd v[GG_PARTS])
-{
-  double sum = 0;
-  for (int l = 0; l < GG_LANES; l++) sum += v[l / GG_WIDTH][l % GG_WIDTH];
-  return sum;
-}
-
 GG_INLINE uint32_t odd_block(const gg_population *p)
 {
   return p->n % GG_LANES ? (uint32_t)p->n_blocks - 1 : UINT32_MAX;
@@ -333,16 +312,7 @@ GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *l
   p->collisions += w->collisions;
   p->overflows += w->overflows;
   for (int l = 0; l < GG_WIDTH; l++) p->worst = fmax(p->worst, w->s0 + sqrt(w->worst[l]));
-  if (f.tap == GG_TAP_CLOSED) return;
-  p->loss +=
-      gg_loss_of(f.rule, &w->contact,
-                 (gg_loss_terms){.gn2 = sum_of_lanes(w->gn2), .Jg = sum_of_lanes(w->Jg), .J2 = sum_of_lanes(w->J2)});
-  if (f.tap == GG_TAP_LOSS) return;
-  p->stress[0][0] += p->sigma * sum_of_lanes(w->xx);
-  p->stress[1][1] += p->sigma * sum_of_lanes(w->yy);
-  p->stress[2][2] += p->sigma * sum_of_lanes(w->zz);
-  p->stress[0][1] += p->sigma * sum_of_lanes(w->xy);
-  p->stress[1][0] += p->sigma * sum_of_lanes(f.rule == GG_SMOOTH ? w->xy : w->yx);
+  gg_tally_finish(f, &w->tally, p);
 }
 
 /* The i-th visit of the list; past its end, some blocks or other. */
