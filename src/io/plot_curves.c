@@ -78,7 +78,11 @@ static void find_ends(const json_t *curve, size_t *from, size_t *to)
 }
 
 /* On a logarithmic axis a point that is not known within two thirds of itself says little, and hides other curves. */
-static void print_data(FILE *s, int k, const json_t *curve, double range[2], double *least)
+typedef struct extent {
+  double range[2], least, x[2]; /* of values with their errors, of values, of x */
+} extent;
+
+static void print_data(FILE *s, int k, const json_t *curve, extent *all)
 {
   bool log_x = json_is_true(json_object_get(curve, "log_x")), log_y = json_is_true(json_object_get(curve, "log_y"));
   size_t from, to;
@@ -88,24 +92,25 @@ static void print_data(FILE *s, int k, const json_t *curve, double range[2], dou
     double x = at(curve, "x", i), y = at(curve, "value", i), e = at(curve, "stderr", i);
     if (!isfinite(y) || (log_x && x <= 0) || (log_y && (y <= 0 || e > 0.67 * y))) continue;
     double band = isfinite(e) ? e : 0, low = y - band;
-    *least = fmin(*least, y);
-    range[0] = fmin(range[0], low), range[1] = fmax(range[1], y + band);
+    all->least = fmin(all->least, y);
+    all->range[0] = fmin(all->range[0], low), all->range[1] = fmax(all->range[1], y + band);
+    all->x[0] = fmin(all->x[0], x), all->x[1] = fmax(all->x[1], x);
     fprintf(s, "%.7g %.7g %.7g %.7g\n", x, y, low, y + band);
   }
   fprintf(s, "EOD\n");
 }
 
-/* The law beside a curve, as far as the curve is drawn. False if there is none, or it is that of the curve before. */
-static bool print_reference(FILE *s, int k, const json_t *curve, const json_t *before)
+/* The law beside a curve, as far as curves are drawn. False if there is none, or it is that of the curve before. */
+static bool print_reference(FILE *s, int k, const json_t *curve, const json_t *before, const extent *all)
 {
   const json_t *law = json_object_get(curve, "reference");
-  size_t from, to;
+  bool logarithmic = json_is_true(json_object_get(curve, "log_y"));
   if (!law || (before && json_equal(law, json_object_get(before, "reference")))) return false;
-  find_ends(curve, &from, &to);
   fprintf(s, "$law%d << EOD\n", k);
-  for (size_t i = from; i < to; i++) {
+  for (size_t i = 0; i < json_array_size(json_object_get(curve, "x")); i++) {
     double x = at(curve, "x", i), y = at(law, "value", i);
-    if (isfinite(y) && isfinite(at(curve, "value", i))) fprintf(s, "%.7g %.7g\n", x, y);
+    bool shown = x >= all->x[0] && x <= all->x[1] && (!logarithmic || y >= 0.3 * all->range[0]);
+    if (isfinite(y) && shown) fprintf(s, "%.7g %.7g\n", x, y);
   }
   fprintf(s, "EOD\n");
   return true;
@@ -138,11 +143,11 @@ static void draw_panel(FILE *s, const panel *p, gg_panel place)
 {
   const json_t *first = p->curve[0];
   gg_plot_place(s, place);
-  double range[2] = {INFINITY, -INFINITY}, least = INFINITY;
-  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], range, &least);
+  extent all = {{INFINITY, -INFINITY}, INFINITY, {INFINITY, -INFINITY}};
+  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], &all);
   bool law[MOST_IN_PANEL], any = false;
-  for (int k = 0; k < p->n; k++) any |= law[k] = print_reference(s, k, p->curve[k], k ? p->curve[k - 1] : NULL);
-  if (least >= 0 && range[0] < 0.3 * range[1]) fprintf(s, "set yrange [0:*]\n");
+  for (int k = 0; k < p->n; k++) any |= law[k] = print_reference(s, k, p->curve[k], k ? p->curve[k - 1] : NULL, &all);
+  if (all.least >= 0 && all.range[0] < 0.3 * all.range[1]) fprintf(s, "set yrange [0:*]\n");
   if (json_is_true(json_object_get(first, "log_x"))) fprintf(s, "set logscale x\n");
   if (json_is_true(json_object_get(first, "log_y")))
     fprintf(s, "set yrange [*:*]\nset logscale y\nset format y '10^{%%T}'\n");

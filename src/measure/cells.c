@@ -254,7 +254,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   double unit = m->phi * count_of(d) / (double)m->n, looks = bin[LOOKS];
   gg_curve *c =
       put(list, "cell_density", "local solid fraction", "φ", DENSITY_BINS, 0, unit, bin + DENSITY, bin[N_DENSITY]);
-  gg_curve_beside(c, "ideal gas", thrown, (const double[]){(double)m->n, 1 / count_of(d), unit});
+  gg_curve_beside(c, "ideal gas", thrown, (const double[]){(double)m->n, 1.0 / count_of(d), unit});
   gg_curve_put_number(c, "cells", count_of(d), "1");
   gg_curve_put_number(c, "count_variance_over_mean", bin[COUNT_SQUARED] / looks, "1");
   c = put(list, "cell_temperature", "local temperature", "T_{cell}/T", RATIO_BINS, RATIO_WIDTH / 2, RATIO_WIDTH,
