@@ -14,7 +14,7 @@
 #define GG_DSMC_BLOCK_CONTACT_H
 
 #include "dsmc/directions.h"
-#include "dsmc/lanes_collision.h"
+#include "dsmc/tally.h"
 
 /* A batch in progress: constants and sums where the compiler can keep them in registers. */
 typedef struct gg_batch {
@@ -34,7 +34,7 @@ typedef struct gg_batch {
   double next_drift, next_unit; /* of the next draws */
   uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
-  gg_vd loss[GG_PARTS], stress[3][3][GG_PARTS];
+  gg_tally tally;
 } gg_batch;
 
 /* What a candidate comes to; where it does not hit, the rest means nothing (but is finite). */
@@ -42,7 +42,7 @@ typedef struct gg_encounter {
   gg_mask hit;
   gg_vd3 k, g; /* k: only if needed; g: contact velocity without spins */
   gg_vd3 gn_k; /* 2 g_n k, if not */
-  gg_vd gn, gn2;
+  gg_vd gn;
 } gg_encounter;
 
 GG_INLINE bool gg_needs_k(gg_features f)
@@ -85,13 +85,11 @@ GG_INLINE gg_encounter gg_encounter_of(gg_features f, gg_batch *w, gg_vd3 v, gg_
   gg_vd3 q = gg_directions_take(&w->near, e.hit);
   if (!gg_needs_k(f)) {
     e.gn_k = gg_vd3_sub(v, gg_vd3_scale(speed, q));
-    if (f.tap != GG_TAP_CLOSED) e.gn2 = 0.25 * gg_vd3_dot(e.gn_k, e.gn_k);
     return e;
   }
   e.k = gg_about(v, speed, q);
   e.gn = speed * q.z;
   if (f.shear == GG_SHEARED_DENSE) gg_encounter_shear(w, v, speed, t, special, &e);
-  e.gn2 = e.gn * e.gn;
   return e;
 }
 

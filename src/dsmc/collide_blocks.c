@@ -46,17 +46,6 @@ GG_INLINE void exchange(gg_mask swap, gg_vd3 *a, gg_vd3 *b)
   *b = (gg_vd3){gg_select(swap, old.x, b->x), gg_select(swap, old.y, b->y), gg_select(swap, old.z, b->z)};
 }
 
-GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e, gg_vd3 g, gg_vd3 J)
-{
-  w->collisions += (unsigned)__builtin_popcount(gg_bits(e->hit));
-  if (f.tap == GG_TAP_CLOSED) return;
-  w->loss[part] += gg_where(e->hit, gg_lane_energy_loss(f.rule, &w->contact, g, J, e->gn2));
-  if (f.tap == GG_TAP_LOSS) return;
-  const gg_vd ka[3] = {e->k.x, e->k.y, e->k.z}, Jb[3] = {J.x, J.y, J.z};
-  for (int i = 0; i < 3; i++)
-    for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) w->stress[i][j][part] += gg_where(e->hit, ka[i] * Jb[j]);
-}
-
 /* Two blocks, the lanes of the second in their order of this visit. */
 typedef struct gg_meeting {
   uint32_t a, b;
@@ -117,8 +106,9 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, in
   if (f.rule != GG_SMOOTH)
     g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[at->a], part * GG_WIDTH), at->sb[part])));
   if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, &w->contact, e.k, g, e.gn);
-  tally(f, w, part, &e, g, J);
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
+  w->collisions += (unsigned)__builtin_popcount(gg_bits(e.hit));
+  gg_tally_note(f, &w->tally, part, e.k, g, J);
   gg_mask swap = push(f, w, at, part, J, r, top);
   if (f.rule != GG_SMOOTH) turn(f, w, swap, at, part, gg_vd3_cross(e.k, J));
 }
@@ -187,6 +177,7 @@ GG_INLINE void collide(gg_features f, gg_batch *w, const gg_meeting *at, double 
     w->worst = gg_larger(w->worst, at->v2[part]);
     collide_part(f, w, at, part, bound, w->word[part], &top);
   }
+  gg_tally_turn(f, &w->tally);
   w->half_left = !w->half_left;
   w->visits++;
   gg_v2 peaks = gg_peaks(top.a, top.b) * w->per_unit;
@@ -293,13 +284,6 @@ GG_INLINE void call(gg_features f, const gg_batch *w, uint64_t blocks)
   prefetch(&w->spin_two[blocks >> 32 & 0x7fffffff]);
 }
 
-static double sum_of_lanes(const gg_vd v[GG_PARTS])
-{
-  double sum = 0;
-  for (int l = 0; l < GG_LANES; l++) sum += v[l / GG_WIDTH][l % GG_WIDTH];
-  return sum;
-}
-
 GG_INLINE uint32_t odd_block(const gg_population *p)
 {
   return p->n % GG_LANES ? (uint32_t)p->n_blocks - 1 : UINT32_MAX;
@@ -335,14 +319,7 @@ GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *l
   p->collisions += w->collisions;
   p->overflows += w->overflows;
   for (int l = 0; l < GG_WIDTH; l++) p->worst = fmax(p->worst, w->s0 + sqrt(w->worst[l]));
-  if (f.tap == GG_TAP_CLOSED) return;
-  p->loss += sum_of_lanes(w->loss);
-  if (f.tap == GG_TAP_LOSS) return;
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) {
-      bool mirrored = f.rule == GG_SMOOTH && j < i;
-      p->stress[i][j] += p->sigma * sum_of_lanes(mirrored ? w->stress[j][i] : w->stress[i][j]);
-    }
+  gg_tally_finish(f, &w->tally, p);
 }
 
 /* The i-th visit of the list; past its end, some blocks or other. */

@@ -90,18 +90,20 @@ GG_CLONES static void unpack(const gg_block *b, size_t n, double drift, double *
     }
 }
 
+enum { SHOWN = 256 }; /* grains at a time: so few stay in the first cache until they have been looked at */
+
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
 {
   (void)positions; /* a homogeneous gas has none */
   gg_dsmc *d = dsmc_of(engine);
-  double v[6][GG_CHUNK];
-  uint8_t kind[GG_CHUNK];
+  double v[6][SHOWN];
+  uint8_t kind[SHOWN];
   for (int i = 0; i < d->ensemble.n_species; i++) {
     const gg_population *p = &d->ensemble.of[i];
     memset(kind, i, sizeof kind);
-    for (size_t first = 0; first < (size_t)p->n; first += GG_CHUNK) {
+    for (size_t first = 0; first < (size_t)p->n; first += SHOWN) {
       size_t left = (size_t)p->n - first;
-      gg_chunk chunk = {.n = left < GG_CHUNK ? left : GG_CHUNK, .c = {v[0], v[1], v[2]}};
+      gg_chunk chunk = {.n = left < SHOWN ? left : SHOWN, .c = {v[0], v[1], v[2]}};
       unpack(p->c + first / GG_LANES, chunk.n, d->now.drift, v[0], v[1], v[2]);
       if (p->s) {
         unpack(p->s + first / GG_LANES, chunk.n, 0, v[3], v[4], v[5]);
