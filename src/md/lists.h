@@ -82,15 +82,28 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_sear
   return gg_contact_quadratic8(x, y, z, vx, vy, vz, sigma2);
 }
 
-/* Exact times of a batch against the earliest known. */
-GG_INLINE void gg_take_batch(const gg_md *e, gg_search *s, gg_quadratic q, gg_m8 who)
+/* A contact against the earliest known. */
+GG_INLINE void gg_take_contact(gg_search *s, double t, int64_t partner)
 {
-  int64_t partner;
-  double t = gg_earliest8(e->k.now + gg_contact_delay8(q), who, &partner);
   if (t < s->collision || (t == s->collision && t < INFINITY && partner < s->partner)) {
     s->collision = t;
     s->partner = (uint32_t)partner;
   }
+}
+
+/* Exact times of a batch. */
+GG_INLINE void gg_take_batch(const gg_md *e, gg_search *s, gg_quadratic q, gg_m8 who)
+{
+  int64_t partner;
+  double t = gg_earliest8(e->k.now + gg_contact_delay8(q), who, &partner);
+  gg_take_contact(s, t, partner);
+}
+
+/* The exact time of one lane. */
+GG_INLINE void gg_take_lane(const gg_md *e, gg_search *s, const gg_quadratic *q, const gg_m8 *who, uint32_t lane)
+{
+  double delay = q->c[lane] / (sqrt(q->discriminant[lane]) - q->b[lane]);
+  gg_take_contact(s, e->k.now + (delay > 0 ? delay : 0), (*who)[lane]);
 }
 
 GG_INLINE gg_m8 gg_who8(const uint32_t *list)
@@ -98,8 +111,8 @@ GG_INLINE gg_m8 gg_who8(const uint32_t *list)
   return __builtin_convertvector(*(const gg_list8 *)list, gg_m8);
 }
 
-/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place. In
- * each lane the earliest is found from about when the contacts are; where that leaves doubt, all are worked out. */
+/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place.
+ * Which it is, is seen from about when the contacts are; where that leaves doubt, all are worked out. */
 GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
 {
   double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0;
@@ -107,10 +120,10 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
   gg_quadratic best = {none, none, none}; /* never */
   gg_m8 with = {0};
   gg_k8 doubt = (gg_k8){0};
-  bool found = f.listed;
+  bool found = !f.shared;
   for (uint32_t k = 0; k < count; k += GG_BATCH) {
     gg_quadratic q = gg_try_batch(e, f, s, list + k, offset);
-    if (!f.listed && !gg_any8(gg_meets8(q))) continue; /* most cells hold nobody in the way */
+    if (f.shared && !gg_any8(gg_meets8(q))) continue; /* few are in the way */
     found = true;
     gg_v8 about = gg_about8(q);
     gg_k8 sooner = gg_less8(about, soonest);
@@ -122,8 +135,17 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
     with = gg_choose_who(sooner, gg_who8(list + k), with);
   }
   if (!found) return;
-  gg_take_batch(e, s, best, with);
-  if (!gg_any8(doubt)) return;
+  gg_v8 first = gg_least8(soonest);
+  if (!(first[0] < INFINITY)) return;
+  gg_k8 foremost = gg_not_above8(soonest, (1 + 4 * GG_ABOUT) * first);
+  uint32_t lanes = gg_lanes8(foremost);
+  if (__builtin_expect(!gg_any8(doubt & foremost), 1)) {
+    if (lanes & (lanes - 1))
+      gg_take_batch(e, s, best, with);
+    else
+      gg_take_lane(e, s, &best, &with, (uint32_t)__builtin_ctz(lanes));
+    return;
+  }
   for (uint32_t k = 0; k < count; k += GG_BATCH)
     gg_take_batch(e, s, gg_try_batch(e, f, s, list + k, offset), gg_who8(list + k));
 }
