@@ -166,6 +166,24 @@ GG_INLINE double gg_earliest8(gg_v8 t, gg_m8 who, int64_t *partner)
   return m[0];
 }
 
+/* Those of eight words that the mask names, but not `but`, side by side; eight are written. Returns how many. */
+GG_INLINE uint32_t gg_pick8(uint32_t *to, const uint32_t *from, uint32_t but, gg_k8 mask)
+{
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  __m256i all = _mm256_loadu_si256((const __m256i *)from);
+  mask &= _mm256_cmpneq_epi32_mask(all, _mm256_set1_epi32((int)but));
+  _mm256_storeu_si256((__m256i *)to, _mm256_maskz_compress_epi32(mask, all));
+  return (uint32_t)__builtin_popcount(mask);
+#else
+  uint32_t count = 0;
+  for (int l = 0; l < GG_BATCH; l++) {
+    to[count] = from[l];
+    count += (gg_lanes8(mask) >> l & 1) & (from[l] != but);
+  }
+  return count;
+#endif
+}
+
 /* Records are one cache line each: load the lines of eight grains and transpose. */
 GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
 {

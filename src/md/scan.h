@@ -74,7 +74,7 @@ GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *ce
 {
   uint32_t count = cell[0];
   memcpy(near + n, cell + 1, 8 * sizeof *cell);
-  for (uint32_t k = 8; __builtin_expect(k < count, 0); k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
+  for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
   return n + count;
 }
 
