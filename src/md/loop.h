@@ -189,7 +189,10 @@ GG_INLINE void gg_hit_wall(gg_md *e, gg_features f, uint32_t i, int upper)
 }
 
 /* So many grains are in the cache anyway. */
-enum { GG_CACHED = 6000 };
+GG_INLINE bool gg_is_cached(const gg_md *e, gg_features f)
+{
+  return e->n <= (f.shared ? 20000 : 6000);
+}
 
 /* Of a grain that will come into another cell: that cell, or the grains in it. Else the partner. */
 GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
@@ -219,7 +222,7 @@ GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
 /* Bring what the events of a new bucket will read into the cache while the first of them are handled. */
 GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
 {
-  if (e->n <= GG_CACHED) return;
+  if (gg_is_cached(e, f)) return;
   for (uint32_t k = 0; k < e->queue.n_due; k++) {
     uint32_t i = e->queue.due[k].grain, j = e->node[i].partner;
     __builtin_prefetch(&e->grain[i]);
@@ -248,7 +251,7 @@ GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
 GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
 {
   uint32_t n = e->queue.n_due;
-  if (e->n <= GG_CACHED) return;
+  if (gg_is_cached(e, f)) return;
   if (f.listed) gg_prefetch_neighbours(e, f);
   if (f.shared && n >= 2) gg_prefetch_shared(e, e->queue.due[n - 2].grain, true);
 }
