@@ -70,6 +70,10 @@ GG_INLINE bool gg_any8(gg_k8 mask)
 {
   return mask != 0;
 }
+GG_INLINE uint32_t gg_lanes8(gg_k8 mask)
+{
+  return mask;
+}
 GG_INLINE gg_v8 gg_sqrt8(gg_v8 x)
 {
   return (gg_v8)_mm512_sqrt_pd((__m512d)x);
@@ -109,6 +113,13 @@ GG_INLINE bool gg_any8(gg_k8 mask)
   or |= __builtin_shufflevector(or, or, 2, 3, 0, 1, 6, 7, 4, 5);
   return or [0] | or [1];
 }
+/* One bit a lane. */
+GG_INLINE uint32_t gg_lanes8(gg_k8 mask)
+{
+  uint32_t lanes = 0;
+  for (int l = 0; l < GG_BATCH; l++) lanes |= (uint32_t)(mask[l] & 1) << l;
+  return lanes;
+}
 GG_INLINE gg_v8 gg_sqrt8(gg_v8 x)
 {
   gg_v8 root;
@@ -131,14 +142,20 @@ GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge)
   return gg_add_where(below, gg_add_where(above, x, gg_all(-edge)), gg_all(edge));
 }
 
+/* The least of eight, in all lanes. */
+GG_INLINE gg_v8 gg_least8(gg_v8 x)
+{
+#define FOLD(v, a, b, c, d, e, f, g, h) __builtin_shufflevector(v, v, a, b, c, d, e, f, g, h)
+  x = gg_smaller8(x, FOLD(x, 4, 5, 6, 7, 0, 1, 2, 3));
+  x = gg_smaller8(x, FOLD(x, 2, 3, 0, 1, 6, 7, 4, 5));
+  return gg_smaller8(x, FOLD(x, 1, 0, 3, 2, 5, 4, 7, 6));
+#undef FOLD
+}
+
 /* The earliest of eight times and with whom; of equal times the smallest index. */
 GG_INLINE double gg_earliest8(gg_v8 t, gg_m8 who, int64_t *partner)
 {
-#define FOLD(v, a, b, c, d, e, f, g, h) __builtin_shufflevector(v, v, a, b, c, d, e, f, g, h)
-  gg_v8 m = gg_smaller8(t, FOLD(t, 4, 5, 6, 7, 0, 1, 2, 3));
-  m = gg_smaller8(m, FOLD(m, 2, 3, 0, 1, 6, 7, 4, 5));
-  m = gg_smaller8(m, FOLD(m, 1, 0, 3, 2, 5, 4, 7, 6));
-#undef FOLD
+  gg_v8 m = gg_least8(t);
 #if defined(__AVX512F__)
   *partner = _mm512_mask_reduce_min_epi64(gg_not_above8(t, m), (__m512i)who);
 #else
@@ -147,6 +164,24 @@ GG_INLINE double gg_earliest8(gg_v8 t, gg_m8 who, int64_t *partner)
   *partner = first;
 #endif
   return m[0];
+}
+
+/* Those of eight words that the mask names, but not `but`, side by side; eight are written. Returns how many. */
+GG_INLINE uint32_t gg_pick8(uint32_t *to, const uint32_t *from, uint32_t but, gg_k8 mask)
+{
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  __m256i all = _mm256_loadu_si256((const __m256i *)from);
+  mask &= _mm256_cmpneq_epi32_mask(all, _mm256_set1_epi32((int)but));
+  _mm256_storeu_si256((__m256i *)to, _mm256_maskz_compress_epi32(mask, all));
+  return (uint32_t)__builtin_popcount(mask);
+#else
+  uint32_t count = 0;
+  for (int l = 0; l < GG_BATCH; l++) {
+    to[count] = from[l];
+    count += (gg_lanes8(mask) >> l & 1) & (from[l] != but);
+  }
+  return count;
+#endif
 }
 
 /* Records are one cache line each: load the lines of eight grains and transpose. */
@@ -177,7 +212,7 @@ GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
 }
 
 /* gg_contact_delay, eight times, in two steps. First about when, to GG_ABOUT of the delay (NAN: never): without the
- * square root and the division, which take longer than all the rest. Then exactly, for the earliest in each lane. */
+ * square root and the division, which take longer than all the rest. Then exactly, for the earliest. */
 #define GG_ABOUT 0x1p-9
 
 typedef struct gg_quadratic {
@@ -225,7 +260,7 @@ GG_INLINE gg_v8 gg_about8(gg_quadratic q)
 {
   gg_v8 d = q.discriminant, least = gg_all(0x1p-1000);
   gg_v8 t = q.c * gg_about_inverse8(d * gg_about_inverse_root8(gg_choose(gg_less8(d, least), least, d)) - q.b);
-  return gg_choose(gg_meets8(q), t, gg_all(NAN));
+  return gg_choose(gg_meets8(q), gg_choose(gg_less8(gg_all(0), t), t, gg_all(0)), gg_all(NAN));
 }
 
 GG_INLINE gg_v8 gg_contact_delay8(gg_quadratic q)

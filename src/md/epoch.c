@@ -47,10 +47,11 @@ static void follow_drift(gg_md *e)
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
 }
 
-static double earliest_event(const gg_md *e)
+/* When something happens next, or any time before `soon` at which something does. */
+static double earliest_event(const gg_md *e, double soon)
 {
   double t = INFINITY;
-  for (uint32_t i = 0; i < e->n; i++)
+  for (uint32_t i = 0; i < e->n && !(t < soon); i++)
     if (e->node[i].time < t) t = e->node[i].time;
   return t;
 }
@@ -69,7 +70,7 @@ static void move_shells(gg_md *e, double span)
 
 bool gg_md_next_epoch(gg_md *e)
 {
-  double span = gg_queue_span(&e->queue), wait = earliest_event(e);
+  double span = gg_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
   if (!(wait < INFINITY)) return false;
   while (span < 0.5 * wait) span *= 2; /* nothing happens for long: skip it */
   e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;

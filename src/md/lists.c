@@ -5,7 +5,7 @@
 /* Lists from cells that are there, all shells being new. False: some list is too long. */
 static bool fill_lists(gg_md *e, gg_features f)
 {
-  uint32_t found[GG_LIST + 2];
+  uint32_t found[GG_FOUND];
   for (uint32_t i = 0; i < e->n; i++) {
     uint32_t count = gg_search_shell(e, f, i, found), *list = gg_list(e, i);
     if (count > GG_LIST) return false;

@@ -82,15 +82,28 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_sear
   return gg_contact_quadratic8(x, y, z, vx, vy, vz, sigma2);
 }
 
-/* Exact times of a batch against the earliest known. */
-GG_INLINE void gg_take_batch(const gg_md *e, gg_search *s, gg_quadratic q, gg_m8 who)
+/* A contact against the earliest known. */
+GG_INLINE void gg_take_contact(gg_search *s, double t, int64_t partner)
 {
-  int64_t partner;
-  double t = gg_earliest8(e->k.now + gg_contact_delay8(q), who, &partner);
   if (t < s->collision || (t == s->collision && t < INFINITY && partner < s->partner)) {
     s->collision = t;
     s->partner = (uint32_t)partner;
   }
+}
+
+/* Exact times of a batch. */
+GG_INLINE void gg_take_batch(const gg_md *e, gg_search *s, gg_quadratic q, gg_m8 who)
+{
+  int64_t partner;
+  double t = gg_earliest8(e->k.now + gg_contact_delay8(q), who, &partner);
+  gg_take_contact(s, t, partner);
+}
+
+/* The exact time of one lane. */
+GG_INLINE void gg_take_lane(const gg_md *e, gg_search *s, const gg_quadratic *q, const gg_m8 *who, uint32_t lane)
+{
+  double delay = q->c[lane] / (sqrt(q->discriminant[lane]) - q->b[lane]);
+  gg_take_contact(s, e->k.now + (delay > 0 ? delay : 0), (*who)[lane]);
 }
 
 GG_INLINE gg_m8 gg_who8(const uint32_t *list)
@@ -98,8 +111,8 @@ GG_INLINE gg_m8 gg_who8(const uint32_t *list)
   return __builtin_convertvector(*(const gg_list8 *)list, gg_m8);
 }
 
-/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place. In
- * each lane the earliest is found from about when the contacts are; where that leaves doubt, all are worked out. */
+/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place.
+ * Which it is, is seen from about when the contacts are; where that leaves doubt, all are worked out. */
 GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
 {
   double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0;
@@ -107,10 +120,10 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
   gg_quadratic best = {none, none, none}; /* never */
   gg_m8 with = {0};
   gg_k8 doubt = (gg_k8){0};
-  bool found = f.listed;
+  bool found = !f.shared;
   for (uint32_t k = 0; k < count; k += GG_BATCH) {
     gg_quadratic q = gg_try_batch(e, f, s, list + k, offset);
-    if (!f.listed && !gg_any8(gg_meets8(q))) continue; /* most cells hold nobody in the way */
+    if (f.shared && !gg_any8(gg_meets8(q))) continue; /* few are in the way */
     found = true;
     gg_v8 about = gg_about8(q);
     gg_k8 sooner = gg_less8(about, soonest);
@@ -122,8 +135,17 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
     with = gg_choose_who(sooner, gg_who8(list + k), with);
   }
   if (!found) return;
-  gg_take_batch(e, s, best, with);
-  if (!gg_any8(doubt)) return;
+  gg_v8 first = gg_least8(soonest);
+  if (!(first[0] < INFINITY)) return;
+  gg_k8 foremost = gg_not_above8(soonest, (1 + 4 * GG_ABOUT) * first);
+  uint32_t lanes = gg_lanes8(foremost);
+  if (__builtin_expect(!gg_any8(doubt & foremost), 1)) {
+    if (lanes & (lanes - 1))
+      gg_take_batch(e, s, best, with);
+    else
+      gg_take_lane(e, s, &best, &with, (uint32_t)__builtin_ctz(lanes));
+    return;
+  }
   for (uint32_t k = 0; k < count; k += GG_BATCH)
     gg_take_batch(e, s, gg_try_batch(e, f, s, list + k, offset), gg_who8(list + k));
 }
@@ -135,20 +157,20 @@ GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
   gg_scan_batches(e, f, s, s->near, s->n_near);
 }
 
-/* Everybody in the cells that can hold centres within rho of shell i's, as far as there is room. */
-GG_INLINE void gg_collect_near(const gg_md *e, gg_features f, uint32_t i, gg_search *s)
+/* Everybody in the cells that can hold centres within rho of shell i's, under shear, as far as there is room. */
+GG_INLINE void gg_collect_sheared(const gg_md *e, uint32_t i, gg_search *s)
 {
   const gg_cells *c = &e->cells;
   const int32_t *at = e->node[i].cell;
   gg_vec centre = e->shell[i].centre;
-  double rho = c->reach, strain = f.sheared ? e->model.shear_rate * e->k.now : 0;
+  double rho = c->reach, strain = e->model.shear_rate * e->k.now;
   s->n_near = 0;
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++) {
     if (z * c->width[2] > centre.z + rho || (z + 1) * c->width[2] < centre.z - rho) continue;
     for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) {
       gg_vec shift = {0, 0, 0};
       int32_t iy = gg_image_cell(e, 1, y, &shift.y), iz = gg_image_cell(e, 2, z, &shift.z);
-      if (f.sheared) shift.x = shift.y > 0 ? e->box.offset0 : shift.y < 0 ? -e->box.offset0 : 0;
+      shift.x = shift.y > 0 ? e->box.offset0 : shift.y < 0 ? -e->box.offset0 : 0;
       double below = y * c->width[1] - centre.y, above = (y + 1) * c->width[1] - centre.y;
       if (below > rho || above < -rho) continue;
       if (below < -rho) below = -rho;
@@ -167,11 +189,60 @@ GG_INLINE void gg_collect_near(const gg_md *e, gg_features f, uint32_t i, gg_sea
   }
 }
 
-/* Everybody whose centre lies within rho of shell i's: ids into found[], no more than GG_LIST + 1 of them. */
+/* The same where nothing slides: of the 27 cells around, those that the sphere of radius rho reaches into. */
+GG_INLINE void gg_collect_near(const gg_md *e, uint32_t i, gg_search *s)
+{
+  const gg_cells *c = &e->cells;
+  const int32_t *at = e->node[i].cell;
+  gg_vec centre = e->shell[i].centre;
+  double far[3][3]; /* squared distance to the cells below, here and above along each axis */
+  for (int a = 0; a < 3; a++) {
+    double below = gg_along(&centre, a) - at[a] * c->width[a], above = c->width[a] - below;
+    far[a][0] = below * below;
+    far[a][1] = 0;
+    far[a][2] = above * above;
+  }
+  s->n_near = 0;
+  for (int m = 0; m < 3; m++)
+    for (int l = 0; l < 3; l++) {
+      double left = c->reach * c->reach - far[2][m] - far[1][l];
+      uint32_t row = c->part[2][at[2] + m - 1] + c->part[1][at[1] + l - 1];
+      for (int k = 0; k < 3; k++)
+        if (far[0][k] < left && !gg_take_cell(s, c->cell + (size_t)(row + c->part[0][at[0] + k - 1]) * c->stride))
+          s->n_near = GG_MOST_NEAR;
+    }
+}
+
+typedef double gg_centre4 __attribute__((vector_size(32), may_alias, aligned(8)));
+
+/* The centres of eight shells as columns. */
+GG_INLINE void gg_gather_centres(const gg_shell *shell, const uint32_t *index, gg_v8 *x, gg_v8 *y, gg_v8 *z)
+{
+#define TWO(k, m)                                                                                                      \
+  __builtin_shufflevector(*(const gg_centre4 *)&shell[index[k]].centre, *(const gg_centre4 *)&shell[index[m]].centre,  \
+                          0, 1, 2, 3, 4, 5, 6, 7)
+  gg_v8 a = TWO(0, 4), b = TWO(1, 5), c = TWO(2, 6), d = TWO(3, 7);
+#undef TWO
+  gg_v8 ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+  gg_v8 cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+  *x = __builtin_shufflevector(ab0, cd0, 0, 1, 8, 9, 4, 5, 12, 13);
+  *z = __builtin_shufflevector(ab0, cd0, 2, 3, 10, 11, 6, 7, 14, 15);
+  gg_v8 ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  gg_v8 cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  *y = __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13);
+}
+
+/* Room for a full list, and for eight more that are written before they are counted. */
+enum { GG_FOUND = GG_LIST + 1 + GG_BATCH };
+
+/* Everybody whose centre lies within rho of shell i's: ids into found[GG_FOUND]; more than GG_LIST: too many. */
 GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, uint32_t *found)
 {
   gg_search s;
-  gg_collect_near(e, f, i, &s);
+  if (f.sheared)
+    gg_collect_sheared(e, i, &s);
+  else
+    gg_collect_near(e, i, &s);
   uint32_t *near = s.near, n = s.n_near, count = 0;
   const gg_vec centre = e->shell[i].centre;
   const double *L = e->box.edge, *inverse = e->box.inverse;
@@ -180,23 +251,16 @@ GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, ui
   for (int l = 0; l < GG_BATCH; l++) near[n + (uint32_t)l] = e->n;
   for (uint32_t k = 0; k < n && count <= GG_LIST; k += GG_BATCH) {
     gg_v8 x, y, z, reach = gg_all(e->pair_reach[0]);
-    for (int l = 0; l < GG_BATCH; l++) {
-      const gg_vec *c = &e->shell[near[k + (uint32_t)l]].centre;
-      x[l] = c->x, y[l] = c->y, z[l] = c->z;
-      if (f.mixture) reach[l] = e->pair_reach[species + gg_species_of(&e->grain[near[k + (uint32_t)l]])];
-    }
+    gg_gather_centres(e->shell, near + k, &x, &y, &z);
+    for (int l = 0; f.mixture && l < GG_BATCH; l++)
+      reach[l] = e->pair_reach[species + gg_species_of(&e->grain[near[k + (uint32_t)l]])];
     x -= centre.x, y -= centre.y, z -= centre.z;
     gg_v8 layers = gg_nearest8(y * inverse[1]);
     y -= L[1] * layers;
     if (f.sheared) x += strain * y - layers * e->box.offset0;
     x -= L[0] * gg_nearest8(x * inverse[0]);
     z -= L[2] * gg_nearest8(z * inverse[2]);
-    gg_m8 within = x * x + y * y + z * z < reach * reach;
-    for (int l = 0; l < GG_BATCH; l++) {
-      uint32_t j = near[k + (uint32_t)l];
-      found[count] = j;
-      count += (within[l] != 0) & (j != i) & (count <= GG_LIST);
-    }
+    count += gg_pick8(found + count, near + k, i, gg_less8(x * x + y * y + z * z, reach * reach));
   }
   return n == GG_MOST_NEAR ? GG_LIST + 1 : count;
 }
@@ -250,9 +314,12 @@ GG_INLINE void gg_list_remove(gg_md *e, uint32_t i, uint32_t j)
 
 GG_INLINE bool gg_is_among(const uint32_t *list, uint32_t j)
 {
-  uint32_t hits = 0;
-  for (int k = 0; k < GG_LIST; k++) hits += list[k] == j;
-  return hits > 0;
+  typedef int32_t words __attribute__((vector_size(32)));
+  typedef int64_t halves __attribute__((vector_size(32)));
+  words hits = {0};
+  for (int k = 0; k < GG_LIST; k += GG_BATCH) hits |= *(const gg_list8 *)(list + k) == j;
+  halves h = (halves)hits;
+  return (h[0] | h[1] | h[2] | h[3]) != 0;
 }
 
 /* Replace i's list by found[], and mend the lists of those who are no longer or newly in it. False: no room. */

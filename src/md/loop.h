@@ -155,7 +155,7 @@ GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
 /* Out of its shell: a new one, lists mended, and a new prediction. */
 GG_INLINE void gg_leave_shell(gg_md *e, gg_features f, uint32_t i)
 {
-  uint32_t found[GG_LIST + 2];
+  uint32_t found[GG_FOUND];
   gg_leave_cell(e, i);
   gg_new_shell(e, f, i);
   gg_enter_cell(e, i);
@@ -188,6 +188,12 @@ GG_INLINE void gg_hit_wall(gg_md *e, gg_features f, uint32_t i, int upper)
   gg_predict(e, f, i);
 }
 
+/* So many grains are in the cache anyway. */
+GG_INLINE bool gg_is_cached(const gg_md *e, gg_features f)
+{
+  return e->n <= (f.shared ? 20000 : 6000);
+}
+
 /* Of a grain that will come into another cell: that cell, or the grains in it. Else the partner. */
 GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
 {
@@ -216,6 +222,7 @@ GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
 /* Bring what the events of a new bucket will read into the cache while the first of them are handled. */
 GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
 {
+  if (gg_is_cached(e, f)) return;
   for (uint32_t k = 0; k < e->queue.n_due; k++) {
     uint32_t i = e->queue.due[k].grain, j = e->node[i].partner;
     __builtin_prefetch(&e->grain[i]);
@@ -244,6 +251,7 @@ GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
 GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
 {
   uint32_t n = e->queue.n_due;
+  if (gg_is_cached(e, f)) return;
   if (f.listed) gg_prefetch_neighbours(e, f);
   if (f.shared && n >= 2) gg_prefetch_shared(e, e->queue.due[n - 2].grain, true);
 }

@@ -1,10 +1,11 @@
 #include "md/queue.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "md/cells.h"
 
-enum { FEWEST_BUCKETS = 64, SMALL = 64 };
+enum { FEWEST_BUCKETS = 64 };
 
 /* So many that a grain has one or two events an epoch: 16 bytes a grain. */
 gg_status gg_queue_make(gg_queue *q, uint32_t n, gg_error *err)
@@ -60,17 +61,31 @@ static int compare_due(const void *a, const void *b)
   return gg_is_before(*(const gg_due *)a, *(const gg_due *)b) ? 1 : -1;
 }
 
+/* Latest first. A bucket's few: everyone's place is how many are later, without a branch on who is. */
+static void sort_few(gg_due *due, uint32_t count)
+{
+  gg_due all[GG_BUCKET];
+  uint32_t place[GG_BUCKET];
+  for (uint32_t k = 0; k < count; k++) {
+    uint32_t later = 0;
+    for (uint32_t m = 0; m < k; m++) {
+      uint32_t before = gg_is_before(due[k], due[m]);
+      later += before;
+      place[m] += 1 - before;
+    }
+    place[k] = later;
+  }
+  memcpy(all, due, count * sizeof *due);
+  for (uint32_t k = 0; k < count; k++) due[place[k]] = all[k];
+}
+
 static void sort_due(gg_queue *q, uint32_t count)
 {
-  if (count > SMALL) {
+  if (count <= GG_BUCKET)
+    sort_few(q->due, count);
+  else
     qsort(q->due, count, sizeof *q->due, compare_due);
-    q->n_due = count;
-    return;
-  }
-  for (uint32_t k = 0; k < count; k++) {
-    q->n_due = k;
-    gg_insert_due(q, q->due[k]);
-  }
+  q->n_due = count;
 }
 
 bool gg_queue_turn(gg_queue *q, gg_node *node)

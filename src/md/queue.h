@@ -81,7 +81,7 @@ GG_INLINE uint32_t gg_bucket_of(const gg_queue *q, double time)
 /* Equal times go by the grain's index, so that the order never depends on the history of the calendar. */
 GG_INLINE bool gg_is_before(gg_due a, gg_due b)
 {
-  return a.time < b.time || (a.time == b.time && a.grain < b.grain);
+  return (a.time < b.time) | ((a.time == b.time) & (a.grain < b.grain));
 }
 
 GG_INLINE void gg_insert_due(gg_queue *q, gg_due new)

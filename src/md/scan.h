@@ -68,16 +68,21 @@ GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t
   }
 }
 
-/* All grains of a cell, eight words at a time: what stands behind its end does not count. False: no more room. */
+/* All grains of a cell behind the n that there are, eight words at a time: what stands behind its end does not count.
+ */
+GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *cell)
+{
+  uint32_t count = cell[0];
+  memcpy(near + n, cell + 1, 8 * sizeof *cell);
+  for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
+  return n + count;
+}
+
+/* False: no more room. */
 GG_INLINE bool gg_take_cell(gg_search *s, const uint32_t *cell)
 {
-  uint32_t count = cell[0], k = 0;
-  if (s->n_near + count > GG_MOST_NEAR) return false;
-  do {
-    memcpy(s->near + s->n_near + k, cell + 1 + k, 8 * sizeof *cell);
-    k += 8;
-  } while (k < count);
-  s->n_near += count;
+  if (s->n_near + cell[0] > GG_MOST_NEAR) return false;
+  s->n_near = gg_append_cell(s->near, s->n_near, cell);
   return true;
 }
 
@@ -157,27 +162,10 @@ GG_INLINE void gg_scan_sliding_rows(const gg_md *e, gg_features f, gg_search *s)
   if (y == 0) gg_scan_sliding(e, f, s, -1);
 }
 
-/* The nine neighbours beyond each face: 2 axis + (1 if upwards). */
-static const int8_t gg_beyond[6][9][3] = {
-    {{-1, -1, -1}, {-1, 0, -1}, {-1, 1, -1}, {-1, -1, 0}, {-1, 0, 0}, {-1, 1, 0}, {-1, -1, 1}, {-1, 0, 1}, {-1, 1, 1}},
-    {{1, -1, -1}, {1, 0, -1}, {1, 1, -1}, {1, -1, 0}, {1, 0, 0}, {1, 1, 0}, {1, -1, 1}, {1, 0, 1}, {1, 1, 1}},
-    {{-1, -1, -1}, {0, -1, -1}, {1, -1, -1}, {-1, -1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, -1, 1}, {0, -1, 1}, {1, -1, 1}},
-    {{-1, 1, -1}, {0, 1, -1}, {1, 1, -1}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}, {-1, 1, 1}, {0, 1, 1}, {1, 1, 1}},
-    {{-1, -1, -1}, {0, -1, -1}, {1, -1, -1}, {-1, 0, -1}, {0, 0, -1}, {1, 0, -1}, {-1, 1, -1}, {0, 1, -1}, {1, 1, -1}},
-    {{-1, -1, 1}, {0, -1, 1}, {1, -1, 1}, {-1, 0, 1}, {0, 0, 1}, {1, 0, 1}, {-1, 1, 1}, {0, 1, 1}, {1, 1, 1}},
-};
-
 /* Nothing slides and no wall stands in the rows around: cells follow from their places alone, images from nearness. */
 GG_INLINE bool gg_is_regular(const gg_md *e, gg_features f, const int32_t at[3])
 {
   return f.wide && (!(f.sheared || f.walled) || (at[1] > 0 && at[1] < e->cells.n[1] - 1));
-}
-
-GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3], int x, int y, int z)
-{
-  const gg_cells *c = &e->cells;
-  size_t index = c->part[0][at[0] + x] + c->part[1][at[1] + y] + c->part[2][at[2] + z];
-  gg_take_cell(s, c->cell + index * c->stride);
 }
 
 /* Is there room for so many full cells? */
@@ -186,15 +174,31 @@ GG_INLINE bool gg_has_room(const gg_md *e, int cells)
   return (uint32_t)cells * e->cells.stride <= GG_MOST_NEAR;
 }
 
+/* The cells from `from` to `to` relative to `at`, where nothing slides and no wall stands. All that does not change is
+ * in local variables: to the compiler, what goes into `near` might overwrite the rest. */
+GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3])
+{
+  const gg_cells *c = &e->cells;
+  const uint32_t *x = c->part[0] + at[0], *y = c->part[1] + at[1], *z = c->part[2] + at[2];
+  const uint32_t *row[3][3];
+  size_t stride = c->stride, step[3];
+  for (int k = from[0]; k <= to[0]; k++) step[k + 1] = x[k] * stride;
+  for (int m = from[2]; m <= to[2]; m++)
+    for (int l = from[1]; l <= to[1]; l++) row[m + 1][l + 1] = c->cell + (size_t)(z[m] + y[l]) * stride;
+  uint32_t n = s->n_near;
+  for (int m = from[2]; m <= to[2]; m++)
+    for (int l = from[1]; l <= to[1]; l++)
+      for (int k = from[0]; k <= to[0]; k++) n = gg_append_cell(s->near, n, row[m + 1][l + 1] + step[k + 1]);
+  s->n_near = n;
+}
+
 /* All 27 cells. */
 GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
 {
   const int32_t *at = e->node[s->grain].cell;
   s->valid = INFINITY;
   if (gg_is_regular(e, f, at) && gg_has_room(e, 27)) {
-    for (int z = -1; z <= 1; z++)
-      for (int y = -1; y <= 1; y++)
-        for (int x = -1; x <= 1; x++) gg_take_regular(e, s, at, x, y, z);
+    gg_take_regular(e, s, at, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
     return;
   }
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
@@ -207,18 +211,15 @@ GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int ax
 {
   const int32_t *at = e->node[s->grain].cell;
   s->valid = INFINITY;
+  int from[3] = {-1, -1, -1}, to[3] = {1, 1, 1};
+  from[axis] = to[axis] = step;
   if (gg_is_regular(e, f, at) && gg_has_room(e, 9)) {
-    const int8_t(*to)[3] = gg_beyond[2 * axis + (step > 0)];
-    for (int k = 0; k < 9; k++) gg_take_regular(e, s, at, to[k][0], to[k][1], to[k][2]);
+    gg_take_regular(e, s, at, from, to);
     return;
   }
-  int32_t lo[3], hi[3];
-  for (int a = 0; a < 3; a++) {
-    lo[a] = at[a] + (a == axis ? step : -1);
-    hi[a] = at[a] + (a == axis ? step : 1);
-  }
-  for (int32_t z = lo[2]; z <= hi[2]; z++)
-    for (int32_t y = lo[1]; y <= hi[1]; y++) gg_scan_plain_row(e, f, s, lo[0], hi[0], y, z);
+  for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
+    for (int32_t y = at[1] + from[1]; y <= at[1] + to[1]; y++)
+      gg_scan_plain_row(e, f, s, at[0] + from[0], at[0] + to[0], y, z);
   gg_scan_sliding_rows(e, f, s);
 }
 

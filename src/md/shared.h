@@ -192,7 +192,16 @@ GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, int a
 {
   size_t index[8];
   uint32_t n = gg_shared_cells(e, &e->node[s->grain], axis, only, index);
-  for (uint32_t k = 0; k < n; k++) gg_take_cell(s, e->cells.cell + index[k] * e->cells.stride);
+  const uint32_t *cell = e->cells.cell;
+  size_t stride = e->cells.stride;
+  for (uint32_t k = 0; k < n; k++) index[k] *= stride;
+  if (gg_has_room(e, 8)) {
+    uint32_t n_near = s->n_near;
+    for (uint32_t k = 0; k < n; k++) n_near = gg_append_cell(s->near, n_near, cell + index[k]);
+    s->n_near = n_near;
+  } else {
+    for (uint32_t k = 0; k < n; k++) gg_take_cell(s, cell + index[k]);
+  }
   gg_shared_slides(e, f, s);
 }
 
