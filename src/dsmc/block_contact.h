@@ -18,19 +18,19 @@
 
 /* A batch in progress: constants and sums where the compiler can keep them in registers. */
 typedef struct gg_batch {
-  gg_block *one, *two, *spin_one, *spin_two;
+  gg_real_block *one, *two, *spin_one, *spin_two;
   float *top_one, *top_two;
-  uint64_t n_one, n_two;     /* blocks */
+  uint32_t n_one, n_two;     /* blocks */
   uint32_t odd_one, odd_two; /* that are not full, or UINT32_MAX */
-  gg_contact contact;
+  gg_lane_contact contact;
   gg_lane_rng rng;
   gg_directions near, sheared; /* about C12, and by the law |k_x k_y| */
-  gg_vu word[GG_PARTS];        /* random: a half for each of two visits */
-  bool half_left;
+  gg_vu word[2][GG_PARTS];     /* random: one for each of two visits */
+  int words_left;
   gg_mask sorts;       /* lanes change places by speed, not at random */
-  double floor, bound; /* the layer of |C12| */
-  double s0, shift;
-  double per_unit;              /* of the tops */
+  gg_real floor, bound; /* the layer of |C12| */
+  gg_real s0, shift;
+  gg_real per_unit;             /* of the tops */
   double next_drift, next_unit; /* of the next draws */
   uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
@@ -56,7 +56,7 @@ GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd3 q)
   const gg_vu sign = (gg_vu)v.z & (gg_vu)gg_all(-0.0);
   gg_vd side = (gg_vd)((gg_vu)speed | sign), height = speed + (gg_vd)((gg_vu)v.z ^ sign);
   gg_vd3 h = {v.x, v.y, v.z + side}, m = {q.x, q.y, (gg_vd)((gg_vu)q.z ^ sign ^ (gg_vu)gg_all(-0.0))};
-  gg_vd f = gg_vd3_dot(h, m) / (speed * height + 1e-300); /* 0/0 only where nothing moves */
+  gg_vd f = gg_vd3_dot(h, m) / (speed * height + GG_TINY); /* 0/0 only where nothing moves */
   return gg_vd3_sub(m, gg_vd3_scale(f, h));
 }
 
@@ -75,9 +75,9 @@ GG_INLINE void gg_encounter_shear(gg_batch *w, gg_vd3 v, gg_vd speed, gg_vd t, g
 }
 
 /* The candidates with relative velocity v, decided by the random word r; none is faster than `bound`. */
-GG_INLINE gg_encounter gg_encounter_of(gg_features f, gg_batch *w, gg_vd3 v, gg_vd v2, double bound, gg_vu r)
+GG_INLINE gg_encounter gg_encounter_of(gg_features f, gg_batch *w, gg_vd3 v, gg_vd v2, gg_real bound, gg_vu r)
 {
-  const double span = bound - w->floor + w->s0, offset = w->floor - w->s0 - span;
+  const gg_real span = bound - w->floor + w->s0, offset = w->floor - w->s0 - span;
   gg_vd speed = gg_sqrt(v2), t = gg_lane_one_to_two(r) * span + offset;
   gg_mask special = gg_less(t, gg_all(0));
   gg_encounter e = {.hit = gg_less(t, speed), .g = v};

@@ -1,6 +1,6 @@
 /* The collision step on blocks: two random blocks, the lanes of one against those of the other in a random order, eight
- * candidates at once (block_contact.h). Compiled once for each set of instructions (GG_INSTRUCTIONS names it); all
- * leave the same bits.
+ * candidates at once (block_contact.h). Compiled once for each set of instructions (GG_INSTRUCTIONS names it), and for
+ * either precision (GG_SINGLE_LANES); all sets leave the same bits.
  *
  * Fairness. Each lane of one block meets each lane of the other with probability 1/8, and every pair of grains in
  * different blocks comes up equally often. Pairs within one block, and the last block where it is not full, go through
@@ -17,21 +17,29 @@
 #include "dsmc/block_contact.h"
 
 enum { SORTED = 999 }; /* blocks, at least, to be sorted by speed */
+#define ODD (UINT32_C(1) << 31)
 enum { DRAWS = 32 };   /* block pairs drawn at a time, and those to be visited prefetched */
 
-/* What is to be visited, in order of time. Lists as gg_pack leaves them: each a double's worth of bits. */
+/* What is to be visited, in order of time. Lists as gg_pack leaves them: each a number's worth of bits. The top one of 32
+ * in `two` says that the visit is none for this path. */
 typedef struct gg_draw {
   unsigned n;
   double drift, unit; /* where these draws begin */
-  double blocks[DRAWS + GG_LANES], order[DRAWS + GG_LANES], bound[DRAWS + GG_LANES], nth[DRAWS + GG_LANES];
+  gg_real one[DRAWS + GG_LANES], two[DRAWS + GG_LANES], order[DRAWS + GG_LANES], bound[DRAWS + GG_LANES],
+      nth[DRAWS + GG_LANES];
 } gg_draw;
 
-GG_INLINE gg_vd3 load(const gg_block *b, int at)
+/* What the tap has seen, lane by lane. */
+typedef struct gg_folded {
+  double loss[GG_LANES], stress[3][3][GG_LANES];
+} gg_folded;
+
+GG_INLINE gg_vd3 load(const gg_real_block *b, int at)
 {
   return (gg_vd3){gg_load(b->x + at), gg_load(b->y + at), gg_load(b->z + at)};
 }
 
-GG_INLINE void store(gg_block *b, int at, gg_vd3 v)
+GG_INLINE void store(gg_real_block *b, int at, gg_vd3 v)
 {
   gg_store(b->x + at, v.x);
   gg_store(b->y + at, v.y);
@@ -61,7 +69,7 @@ GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e
 typedef struct gg_meeting {
   uint32_t a, b;
   bool odd; /* not for this path */
-  double drift;
+  gg_real drift;
   gg_vd3 ca[GG_PARTS], cb[GG_PARTS], sb[GG_PARTS];
   gg_vd3 v[GG_PARTS];
   gg_vd v2[GG_PARTS];
@@ -73,7 +81,7 @@ typedef struct gg_fastest {
 } gg_fastest;
 
 /* C of a stored velocity. */
-GG_INLINE gg_vd3 streamed(gg_features f, double drift, gg_vd3 c)
+GG_INLINE gg_vd3 streamed(gg_features f, gg_real drift, gg_vd3 c)
 {
   if (f.shear != GG_UNSHEARED) c.x -= drift * c.y;
   return c;
@@ -81,7 +89,7 @@ GG_INLINE gg_vd3 streamed(gg_features f, double drift, gg_vd3 c)
 
 GG_INLINE void turn(gg_features f, gg_batch *w, gg_mask swap, const gg_meeting *at, int part, gg_vd3 kJ)
 {
-  const gg_contact *c = &w->contact;
+  const gg_lane_contact *c = &w->contact;
   gg_vd3 turn_a = gg_vd3_scale(gg_all(c->ik1), kJ), turn_b = f.same ? turn_a : gg_vd3_scale(gg_all(c->ik2), kJ);
   gg_vd3 sa = gg_vd3_sub(load(&w->spin_one[at->a], part * GG_WIDTH), turn_a), sb = gg_vd3_sub(at->sb[part], turn_b);
   if (f.same) exchange(swap, &sa, &sb);
@@ -92,14 +100,13 @@ GG_INLINE void turn(gg_features f, gg_batch *w, gg_mask swap, const gg_meeting *
 /* Grains of one species change places so that the faster one is in the first block. Returns where. */
 GG_INLINE gg_mask push(gg_features f, gg_batch *w, const gg_meeting *at, int part, gg_vd3 J, gg_vu r, gg_fastest *top)
 {
-  const gg_contact *c = &w->contact;
+  const gg_lane_contact *c = &w->contact;
   if (f.shear != GG_UNSHEARED) J.x += at->drift * J.y; /* as stored velocities have it */
   gg_vd3 push_a = gg_vd3_scale(gg_all(c->im1), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(c->im2), J);
   gg_vd3 a = gg_vd3_sub(at->ca[part], push_a), b = gg_vd3_add(at->cb[part], push_b);
   gg_vd3 Ca = streamed(f, at->drift, a), Cb = streamed(f, at->drift, b);
   gg_vd a2 = gg_vd3_dot(Ca, Ca), b2 = gg_vd3_dot(Cb, Cb);
-  /* Bit 32 of r decides nothing else but whether the last of 32 bits of a random number is set. */
-  gg_mask swap = gg_or(gg_and(gg_less(a2, b2), w->sorts), gg_and_not(gg_low_bit(r >> 32), w->sorts));
+  gg_mask swap = gg_or(gg_and(gg_less(a2, b2), w->sorts), gg_and_not(gg_low_bit(r >> GG_SPARE_BIT), w->sorts));
   gg_vd first = f.same ? gg_select(swap, b2, a2) : a2, second = f.same ? gg_select(swap, a2, b2) : b2;
   top->a = part ? gg_larger(top->a, first) : first;
   top->b = part ? gg_larger(top->b, second) : second;
@@ -109,7 +116,7 @@ GG_INLINE gg_mask push(gg_features f, gg_batch *w, const gg_meeting *at, int par
   return swap;
 }
 
-GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, int part, double bound, gg_vu r,
+GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, int part, gg_real bound, gg_vu r,
                             gg_fastest *top)
 {
   gg_encounter e = gg_encounter_of(f, w, at->v[part], at->v2[part], bound, r);
@@ -124,7 +131,7 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, in
 }
 
 /* Block b with its lanes in order r, in registers. */
-GG_INLINE void load_in_order(const gg_block *b, unsigned r, gg_vd3 c[GG_PARTS])
+GG_INLINE void load_in_order(const gg_real_block *b, unsigned r, gg_vd3 c[GG_PARTS])
 {
   gg_order order = gg_order_of(r % GG_WIDTH);
   for (int part = 0; part < GG_PARTS; part++) {
@@ -135,7 +142,7 @@ GG_INLINE void load_in_order(const gg_block *b, unsigned r, gg_vd3 c[GG_PARTS])
 }
 
 /* Of a bound: 0 if even pairs at rest are over it. */
-GG_INLINE double square(double bound)
+GG_INLINE gg_real square(gg_real bound)
 {
   return bound > 0 ? bound * bound : 0;
 }
@@ -143,7 +150,7 @@ GG_INLINE double square(double bound)
 /* Some pair is faster than the sum of tops by which its blocks were drawn: one of them has been visited since, or the
  * gas is faster than the bound of all. The former is made good exactly: the visit goes under the bound of now, and is
  * repeated with such a probability that its mean number is what it should have been: `again`. Returns the bound. */
-GG_INLINE double reconsider(gg_features f, gg_batch *w, const gg_meeting *at, double bound, gg_rng *rng, bool *again)
+GG_INLINE gg_real reconsider(gg_features f, gg_batch *w, const gg_meeting *at, gg_real bound, gg_rng *rng, bool *again)
 {
   gg_vd a2 = gg_all(0), b2 = a2;
   for (int part = 0; part < GG_PARTS; part++) {
@@ -153,7 +160,7 @@ GG_INLINE double reconsider(gg_features f, gg_batch *w, const gg_meeting *at, do
     w->overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(square(w->bound)), at->v2[part])));
   }
   gg_v2 peaks = gg_peaks(a2, b2);
-  double now = fmin((sqrt(peaks[0]) + sqrt(peaks[1])) * (1 + 1e-15), w->bound);
+  gg_real now = (gg_real)fmin((sqrt(peaks[0]) + sqrt(peaks[1])) * (1 + 1e-15), w->bound);
   if (now <= bound) return bound;
   *again = gg_rng_uniform(rng) * (bound + w->s0) < now - bound;
   return now;
@@ -170,31 +177,31 @@ GG_INLINE void look(gg_features f, const gg_batch *w, gg_meeting *at, unsigned o
   }
 }
 
-GG_INLINE bool any_faster(const gg_meeting *at, double bound)
+GG_INLINE bool any_faster(const gg_meeting *at, gg_real bound)
 {
   unsigned over = 0;
   for (int part = 0; part < GG_PARTS; part++) over |= gg_bits(gg_less(gg_all(square(bound)), at->v2[part]));
   return over != 0;
 }
 
-GG_INLINE void collide(gg_features f, gg_batch *w, const gg_meeting *at, double bound)
+GG_INLINE void collide(gg_features f, gg_batch *w, const gg_meeting *at, gg_real bound)
 {
   gg_fastest top;
   gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
   if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
   for (int part = 0; part < GG_PARTS; part++) {
-    w->word[part] = w->half_left ? w->word[part] << 32 : gg_lane_next(&w->rng, part);
+    if (!w->words_left) gg_lane_two(&w->rng, part, &w->word[1][part], &w->word[0][part]);
     w->worst = gg_larger(w->worst, at->v2[part]);
-    collide_part(f, w, at, part, bound, w->word[part], &top);
+    collide_part(f, w, at, part, bound, w->word[!w->words_left][part], &top);
   }
-  w->half_left = !w->half_left;
+  w->words_left = !w->words_left;
   w->visits++;
   gg_v2 peaks = gg_peaks(top.a, top.b) * w->per_unit;
   w->top_one[at->a] = (float)peaks[0];
   w->top_two[at->b] = (float)peaks[1];
 }
 
-GG_INLINE void visit(gg_features f, gg_batch *w, gg_meeting *at, double bound, gg_rng *rng)
+GG_INLINE void visit(gg_features f, gg_batch *w, gg_meeting *at, gg_real bound, gg_rng *rng)
 {
   bool again = false;
   if (__builtin_expect(any_faster(at, bound), 0)) bound = reconsider(f, w, at, bound, rng, &again);
@@ -206,14 +213,14 @@ GG_INLINE void visit(gg_features f, gg_batch *w, gg_meeting *at, double bound, g
   }
 }
 
-GG_INLINE uint64_t item(const double *list, unsigned i)
+GG_INLINE uint32_t item(const gg_real *list, unsigned i)
 {
-  uint64_t bits;
+  gg_word bits;
   __builtin_memcpy(&bits, &list[i], sizeof bits);
-  return bits;
+  return (uint32_t)bits;
 }
 
-GG_INLINE gg_vu lane_numbers(uint64_t first)
+GG_INLINE gg_vu lane_numbers(unsigned first)
 {
   gg_vu n;
   for (unsigned l = 0; l < GG_WIDTH; l++) n[l] = first + l;
@@ -226,19 +233,20 @@ GG_INLINE gg_vu equal(gg_vu a, gg_vu b)
   return (gg_vu)(a == b);
 }
 
-GG_INLINE gg_vu all_bits(uint64_t x)
+GG_INLINE gg_vu all_bits(gg_word x)
 {
   return x - (gg_vu){0};
 }
 
-/* One draw a lane: which blocks, and under which bound of |C12|. Each half of a random word gives a block; a second
- * one the order, and whether to visit. */
-GG_INLINE void draw_part(gg_features f, gg_batch *w, gg_draw *next, int part, double root, unsigned first, unsigned n)
+/* One draw a lane: which blocks, and under which bound of |C12|; another random word gives the order, and whether to
+ * visit. */
+GG_INLINE void draw_part(gg_features f, gg_batch *w, gg_draw *next, int part, gg_real root, unsigned first, unsigned n)
 {
-  gg_vu r = gg_lane_next(&w->rng, part), more = gg_lane_next(&w->rng, part);
-  gg_vu a = gg_mul32(r >> 32, all_bits(w->n_one)) >> 32, b = gg_mul32(r, all_bits(w->n_two)) >> 32;
+  gg_vu a, b, more, spare;
+  gg_lane_two_below(&w->rng, part, w->n_one, w->n_two, &a, &b);
+  gg_lane_two(&w->rng, part, &more, &spare);
   gg_vd bound = (gg_roots_at(w->top_one, a) + gg_roots_at(w->top_two, b)) * root;
-  bound = gg_smaller(bound + (w->floor == 0 ? 0 : 1e300), gg_all(w->bound)); /* an upper layer: under one bound */
+  bound = gg_smaller(bound + (w->floor == 0 ? 0 : (gg_real)INFINITY), gg_all(w->bound)); /* an upper layer: under one bound */
   gg_vd u = gg_lane_one_to_two(more) - 1;
   gg_vu odd = equal(a, all_bits(w->odd_one)) | equal(b, all_bits(w->odd_two));
   if (f.same) {
@@ -250,16 +258,17 @@ GG_INLINE void draw_part(gg_features f, gg_batch *w, gg_draw *next, int part, do
   gg_mask keep = gg_or(gg_less(u * (w->bound + w->s0), bound + w->s0), gg_low_bit(odd));
   gg_vu nth = lane_numbers(first);
   if (first + GG_WIDTH > n) keep = gg_and(keep, gg_low_bit((gg_vu)(nth < all_bits(n))));
-  gg_pack(next->blocks + next->n, keep, (gg_vd)(a | b << 32 | odd << 63));
+  gg_pack(next->one + next->n, keep, (gg_vd)a);
+  gg_pack(next->two + next->n, keep, (gg_vd)(b | (odd & all_bits(ODD))));
   gg_pack(next->order + next->n, keep, (gg_vd)more);
   gg_pack(next->bound + next->n, keep, bound);
   if (f.shear != GG_UNSHEARED) gg_pack(next->nth + next->n, keep, (gg_vd)nth);
   next->n += (unsigned)__builtin_popcount(gg_bits(keep));
 }
 
-GG_INLINE void prefetch(const gg_block *b)
+GG_INLINE void prefetch(const gg_real_block *b)
 {
-  for (int line = 0; line < 3; line++) __builtin_prefetch((const char *)b + 64 * line, 1);
+  for (size_t line = 0; line < (sizeof *b + 63) / 64; line++) __builtin_prefetch((const char *)b + 64 * line, 1);
 }
 
 /* Draw `n` block pairs and keep those to be visited. */
@@ -271,25 +280,41 @@ GG_INLINE void draw(gg_features f, gg_batch *w, gg_draw *next, unsigned n, doubl
   next->n = 0;
   w->next_drift += delta;
   w->next_unit *= gg_top_growth(delta);
-  const double root = sqrt(w->next_unit) * (1 + 1e-6);
+  const gg_real root = (gg_real)(sqrt(w->next_unit) * (1 + 1e-6));
   for (unsigned first = 0; first < n; first += GG_LANES)
     for (int part = 0; part < GG_PARTS; part++) draw_part(f, w, next, part, root, first + (unsigned)part * GG_WIDTH, n);
 }
 
 /* Call the memory of a visit to come. */
-GG_INLINE void call(gg_features f, const gg_batch *w, uint64_t blocks)
+GG_INLINE void call(gg_features f, const gg_batch *w, uint32_t a, uint32_t b)
 {
-  prefetch(&w->one[(uint32_t)blocks]);
-  prefetch(&w->two[blocks >> 32 & 0x7fffffff]);
+  prefetch(&w->one[a]);
+  prefetch(&w->two[b]);
   if (f.rule == GG_SMOOTH) return;
-  prefetch(&w->spin_one[(uint32_t)blocks]);
-  prefetch(&w->spin_two[blocks >> 32 & 0x7fffffff]);
+  prefetch(&w->spin_one[a]);
+  prefetch(&w->spin_two[b]);
 }
 
-static double sum_of_lanes(const gg_vd v[GG_PARTS])
+/* Sums in single precision are good for a few visits: then they go into double ones. */
+GG_INLINE void fold(gg_vd v[GG_PARTS], double folded[GG_LANES])
+{
+  for (int l = 0; l < GG_LANES; l++) folded[l] += v[l / GG_WIDTH][l % GG_WIDTH];
+  for (int part = 0; part < GG_PARTS; part++) v[part] = gg_all(0);
+}
+
+GG_INLINE void fold_tally(gg_features f, gg_batch *w, gg_folded *to)
+{
+  if (f.tap == GG_TAP_CLOSED) return;
+  fold(w->loss, to->loss);
+  if (f.tap == GG_TAP_LOSS) return;
+  for (int i = 0; i < 3; i++)
+    for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) fold(w->stress[i][j], to->stress[i][j]);
+}
+
+static double sum_of_lanes(const double v[GG_LANES])
 {
   double sum = 0;
-  for (int l = 0; l < GG_LANES; l++) sum += v[l / GG_WIDTH][l % GG_WIDTH];
+  for (int l = 0; l < GG_LANES; l++) sum += v[l];
   return sum;
 }
 
@@ -306,47 +331,48 @@ GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_r
                   .spin_two = p->two->s,
                   .top_one = p->one->top,
                   .top_two = p->two->top,
-                  .n_one = p->one->n_blocks,
-                  .n_two = p->two->n_blocks,
+                  .n_one = (uint32_t)p->one->n_blocks,
+                  .n_two = (uint32_t)p->two->n_blocks,
                   .odd_one = odd_block(p->one),
                   .odd_two = odd_block(p->two),
-                  .contact = p->contact,
-                  .floor = p->floor,
-                  .shift = p->shift,
-                  .s0 = f.shear == GG_SHEARED_DENSE ? GG_SHEAR_SHARE * p->shift : 0,
+                  .contact = gg_lane_contact_of(&p->contact),
+                  .floor = (gg_real)p->floor,
+                  .shift = (gg_real)p->shift,
+                  .s0 = f.shear == GG_SHEARED_DENSE ? (gg_real)(GG_SHEAR_SHARE * p->shift) : 0,
                   .next_drift = p->drift,
                   .next_unit = p->top_unit};
-  w->bound = p->floor + p->bound - w->s0;
-  w->sorts = gg_less(gg_all(SORTED), gg_all((double)p->one->n_blocks));
+  w->bound = (gg_real)(p->floor + p->bound - w->s0);
+  w->sorts = gg_less(gg_all(SORTED), gg_all((gg_real)p->one->n_blocks));
   gg_lane_rng_load(&w->rng, lanes);
 }
 
-GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *lanes)
+GG_INLINE void finish(gg_features f, gg_batch *w, gg_folded *sums, gg_pairing *p, gg_rng_lanes *lanes)
 {
+  fold_tally(f, w, sums);
   gg_lane_rng_save(&w->rng, lanes);
   p->tried += w->visits * GG_LANES;
   p->collisions += w->collisions;
   p->overflows += w->overflows;
   for (int l = 0; l < GG_WIDTH; l++) p->worst = fmax(p->worst, w->s0 + sqrt(w->worst[l]));
   if (f.tap == GG_TAP_CLOSED) return;
-  p->loss += sum_of_lanes(w->loss);
+  p->loss += sum_of_lanes(sums->loss);
   if (f.tap == GG_TAP_LOSS) return;
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
       bool mirrored = f.rule == GG_SMOOTH && j < i;
-      p->stress[i][j] += p->sigma * sum_of_lanes(mirrored ? w->stress[j][i] : w->stress[i][j]);
+      p->stress[i][j] += p->sigma * sum_of_lanes(mirrored ? sums->stress[j][i] : sums->stress[i][j]);
     }
 }
 
 /* The i-th visit of the list; past its end, some blocks or other. */
 GG_INLINE void meet(gg_features f, const gg_batch *w, const gg_draw *now, unsigned i, double drift_step, gg_meeting *at)
 {
-  uint64_t blocks = item(now->blocks, i);
-  at->a = (uint32_t)blocks;
-  at->b = (uint32_t)(blocks >> 32) & 0x7fffffff;
-  at->odd = blocks >> 63;
-  at->drift = f.shear == GG_UNSHEARED ? 0 : now->drift + (double)item(now->nth, i) * drift_step;
-  look(f, w, at, (unsigned)item(now->order, i) % GG_LANES);
+  const uint32_t two = item(now->two, i);
+  at->a = item(now->one, i);
+  at->b = two & ~ODD;
+  at->odd = two & ODD;
+  at->drift = f.shear == GG_UNSHEARED ? 0 : (gg_real)(now->drift + item(now->nth, i) * drift_step);
+  look(f, w, at, item(now->order, i) % GG_LANES);
 }
 
 /* Each visit is loaded before the one ahead of it is stored: with stores that come late and addresses that agree in
@@ -354,21 +380,21 @@ GG_INLINE void meet(gg_features f, const gg_batch *w, const gg_draw *now, unsign
 GG_INLINE void visit_all(gg_features f, gg_batch *w, const gg_draw *now, const gg_draw *next, gg_pairing *p,
                          gg_rng *rng)
 {
-  w->per_unit = gg_per_top(now->unit);
+  w->per_unit = (gg_real)gg_per_top(now->unit);
   gg_meeting at, ahead;
   meet(f, w, now, 0, p->drift_step, &at);
   for (unsigned i = 0; i < now->n; i++, at = ahead) {
-    call(f, w, item(next->blocks, i)); /* about as many; what is past the end is old, and harmless */
+    call(f, w, item(next->one, i), item(next->two, i) & ~ODD); /* about as many; what is past the end is old, and harmless */
     meet(f, w, now, i + 1, p->drift_step, &ahead);
     bool touched = (ahead.a == at.a) | (ahead.a == at.b) | (ahead.b == at.a) | (ahead.b == at.b);
     if (__builtin_expect(at.odd, 0)) {
       p->drift = at.drift;
       p->top_unit = now->unit;
-      gg_collide_odd_blocks(f, p, at.a, at.b, (unsigned)item(now->order, i) % GG_LANES, rng);
+      gg_collide_odd_blocks(f, p, at.a, at.b, item(now->order, i) % GG_LANES, rng);
     } else {
       visit(f, w, &at, now->bound[i], rng);
     }
-    if (__builtin_expect(touched, 0)) look(f, w, &ahead, (unsigned)item(now->order, i + 1) % GG_LANES);
+    if (__builtin_expect(touched, 0)) look(f, w, &ahead, item(now->order, i + 1) % GG_LANES);
   }
 }
 
@@ -376,8 +402,9 @@ GG_INLINE void visit_all(gg_features f, gg_batch *w, const gg_draw *now, const g
 GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng)
 {
   gg_batch w;
-  double near[3][GG_DIRECTIONS_ROOM], sheared[3][GG_DIRECTIONS_ROOM];
+  gg_real near[3][GG_DIRECTIONS_ROOM], sheared[3][GG_DIRECTIONS_ROOM];
   gg_draw queue[2] = {{0}, {0}};
+  gg_folded sums = {{0}, {{{0}}}};
   start(f, &w, p, lanes);
   w.near = (gg_directions){.x = near[0], .y = near[1], .z = near[2]};
   w.sheared = (gg_directions){.x = sheared[0], .y = sheared[1], .z = sheared[2]};
@@ -388,9 +415,10 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
     left -= n;
     draw(f, &w, &queue[turn ^ 1], n, p->drift_step);
     visit_all(f, &w, &queue[turn], &queue[turn ^ 1], p, rng);
+    if (sizeof(gg_real) < sizeof(double)) fold_tally(f, &w, &sums);
   }
   p->top_unit = w.next_unit;
-  finish(f, &w, p, lanes);
+  finish(f, &w, &sums, p, lanes);
 }
 
 /* The table of instances: rule x shear and tap x one or two species. */
@@ -413,7 +441,11 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   }
 EACH(INSTANCE)
 
+#ifdef GG_SINGLE_LANES
+#define NAME_OF(instructions) gg_collide_blocks_single_##instructions
+#else
 #define NAME_OF(instructions) gg_collide_blocks_##instructions
+#endif
 #define NAME(instructions) NAME_OF(instructions)
 
 gg_collide_blocks *NAME(GG_INSTRUCTIONS)(gg_features f)

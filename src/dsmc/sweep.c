@@ -12,26 +12,48 @@ GG_INLINE void note_top(float *top, int at, gg_vd c2, double per_unit)
   *top = at && *top > peak ? *top : peak;
 }
 
-void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, float *top, size_t n, double drift, double scale, gg_vec centre,
-                                     double unit, gg_sums *sums)
+/* Lanes from `at` on of block b; `single` is constant. */
+GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
+{
+  if (single) {
+    const gg_block_single *c = (const gg_block_single *)blocks + b;
+    return (gg_vd3){gg_load_single(c->x + at), gg_load_single(c->y + at), gg_load_single(c->z + at)};
+  }
+  const gg_block *c = (const gg_block *)blocks + b;
+  return (gg_vd3){gg_load(c->x + at), gg_load(c->y + at), gg_load(c->z + at)};
+}
+
+/* Returns what is there now. */
+GG_INLINE gg_vd3 store(void *blocks, bool single, size_t b, int at, gg_vd3 v)
+{
+  if (single) {
+    gg_block_single *c = (gg_block_single *)blocks + b;
+    return (gg_vd3){gg_store_single(c->x + at, v.x), gg_store_single(c->y + at, v.y), gg_store_single(c->z + at, v.z)};
+  }
+  gg_block *c = (gg_block *)blocks + b;
+  gg_store(c->x + at, v.x);
+  gg_store(c->y + at, v.y);
+  gg_store(c->z + at, v.z);
+  return v;
+}
+
+GG_INLINE void sweep(void *c, bool single, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
+                     gg_sums *sums)
 {
   const double per_unit = gg_per_top(unit);
   for (int at = 0; at < GG_LANES; at += GG_WIDTH) {
     gg_vd sx = gg_all(0), sy = sx, sz = sx, s2 = sx, fastest = sx;
-    for (gg_block *b = c; b < c + n; b++) {
-      gg_vd y = gg_load(b->y + at), x = scale * (gg_load(b->x + at) - drift * y) - centre.x;
-      gg_vd z = scale * gg_load(b->z + at) - centre.z;
-      y = scale * y - centre.y;
-      gg_vd c2 = x * x + y * y + z * z;
-      gg_store(b->x + at, x);
-      gg_store(b->y + at, y);
-      gg_store(b->z + at, z);
-      sx += x;
-      sy += y;
-      sz += z;
+    for (size_t b = 0; b < n; b++) {
+      gg_vd3 v = load(c, single, b, at);
+      gg_vd x = scale * (v.x - drift * v.y) - centre.x, z = scale * v.z - centre.z, y = scale * v.y - centre.y;
+      v = store(c, single, b, at, (gg_vd3){x, y, z});
+      gg_vd c2 = gg_vd3_dot(v, v);
+      sx += v.x;
+      sy += v.y;
+      sz += v.z;
       s2 += c2;
       fastest = gg_larger(fastest, c2);
-      note_top(&top[b - c], at, c2, per_unit);
+      note_top(&top[b], at, c2, per_unit);
     }
     for (int l = 0; l < GG_WIDTH; l++) {
       sums->c.x[at + l] += sx[l];
@@ -43,26 +65,40 @@ void NAME(gg_sweep, GG_INSTRUCTIONS)(gg_block *c, float *top, size_t n, double d
   }
 }
 
-void NAME(gg_kicks, GG_INSTRUCTIONS)(gg_block *c, float *top, size_t n, double drift, double size, double unit,
-                                     gg_rng_lanes *lanes)
+void NAME(gg_sweep, GG_INSTRUCTIONS)(void *c, bool single, float *top, size_t n, double drift, double scale,
+                                     gg_vec centre, double unit, gg_sums *sums)
+{
+  if (single)
+    sweep(c, true, top, n, drift, scale, centre, unit, sums);
+  else
+    sweep(c, false, top, n, drift, scale, centre, unit, sums);
+}
+
+GG_INLINE void kick(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
+                    gg_rng_lanes *lanes)
 {
   const double per_unit = gg_per_top(unit);
   gg_lane_rng rng;
   gg_lane_rng_load(&rng, lanes);
-  for (gg_block *b = c; b < c + n; b++)
+  for (size_t b = 0; b < n; b++)
     for (int part = 0; part < GG_PARTS; part++) {
       const int at = part * GG_WIDTH;
       gg_vd x, y, z, spare;
       gg_lane_normal(&rng, part, &x, &y);
       gg_lane_normal(&rng, part, &z, &spare);
-      x = gg_load(b->x + at) + size * (x + drift * y);
-      y = gg_load(b->y + at) + size * y;
-      z = gg_load(b->z + at) + size * z;
-      gg_store(b->x + at, x);
-      gg_store(b->y + at, y);
-      gg_store(b->z + at, z);
-      x -= drift * y;
-      note_top(&top[b - c], at, x * x + y * y + z * z, per_unit);
+      gg_vd3 v = load(c, single, b, at);
+      v = store(c, single, b, at, (gg_vd3){v.x + size * (x + drift * y), v.y + size * y, v.z + size * z});
+      v.x -= drift * v.y;
+      note_top(&top[b], at, gg_vd3_dot(v, v), per_unit);
     }
   gg_lane_rng_save(&rng, lanes);
+}
+
+void NAME(gg_kicks, GG_INSTRUCTIONS)(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
+                                     gg_rng_lanes *lanes)
+{
+  if (single)
+    kick(c, true, top, n, drift, size, unit, lanes);
+  else
+    kick(c, false, top, n, drift, size, unit, lanes);
 }
