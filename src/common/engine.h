@@ -13,7 +13,7 @@
  * tap is closed, but for `collisions`. */
 typedef struct gg_transfer {
   uint64_t collisions[GG_PAIRS];
-  double stress[GG_PAIRS][3][3]; /* sum of sigma k_a J_b; over (volume x time): collisional stress. 0 if Boltzmann */
+  double stress[GG_PAIRS][3][3]; /* sigma k_a J_b of ab = xx, yy, zz, xy, yx (else 0); stress x volume x time */
   double loss[GG_PAIRS];         /* energy destroyed */
   double wall_impulse[2][3];     /* impulse on the lower and upper wall */
   double wall_loss;

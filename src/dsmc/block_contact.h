@@ -34,7 +34,9 @@ typedef struct gg_batch {
   double next_drift, next_unit; /* of the next draws */
   uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
-  gg_vd loss[GG_PARTS], stress[3][3][GG_PARTS];
+  /* Sums while the tap is open, stress as gg_transfer has it; but for g_n^2 all contain J, which is 0 without a hit. */
+  gg_vd gn2[GG_PARTS], Jg[GG_PARTS], J2[GG_PARTS];
+  gg_vd xx[GG_PARTS], yy[GG_PARTS], zz[GG_PARTS], xy[GG_PARTS], yx[GG_PARTS];
 } gg_batch;
 
 /* What a candidate comes to; where it does not hit, the rest means nothing (but is finite). */

@@ -31,7 +31,8 @@ typedef struct gg_draw {
 
 /* What the tap has seen, lane by lane. */
 typedef struct gg_folded {
-  double loss[GG_LANES], stress[3][3][GG_LANES];
+  double gn2[GG_LANES], Jg[GG_LANES], J2[GG_LANES];
+  double xx[GG_LANES], yy[GG_LANES], zz[GG_LANES], xy[GG_LANES], yx[GG_LANES];
 } gg_folded;
 
 GG_INLINE gg_vd3 load(const gg_real_block *b, int at)
@@ -54,15 +55,20 @@ GG_INLINE void exchange(gg_mask swap, gg_vd3 *a, gg_vd3 *b)
   *b = (gg_vd3){gg_select(swap, old.x, b->x), gg_select(swap, old.y, b->y), gg_select(swap, old.z, b->z)};
 }
 
+/* J is 0 where nothing hits. */
 GG_INLINE void tally(gg_features f, gg_batch *w, int part, const gg_encounter *e, gg_vd3 g, gg_vd3 J)
 {
   w->collisions += (unsigned)__builtin_popcount(gg_bits(e->hit));
   if (f.tap == GG_TAP_CLOSED) return;
-  w->loss[part] += gg_where(e->hit, gg_lane_energy_loss(f.rule, &w->contact, g, J, e->gn2));
+  w->gn2[part] += gg_where(e->hit, e->gn2);
+  if (f.rule != GG_SMOOTH) w->Jg[part] += gg_vd3_dot(J, g);
+  if (f.rule == GG_FRICTIONAL) w->J2[part] += gg_vd3_dot(J, J);
   if (f.tap == GG_TAP_LOSS) return;
-  const gg_vd ka[3] = {e->k.x, e->k.y, e->k.z}, Jb[3] = {J.x, J.y, J.z};
-  for (int i = 0; i < 3; i++)
-    for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) w->stress[i][j][part] += gg_where(e->hit, ka[i] * Jb[j]);
+  w->xx[part] += e->k.x * J.x;
+  w->yy[part] += e->k.y * J.y;
+  w->zz[part] += e->k.z * J.z;
+  w->xy[part] += e->k.x * J.y;
+  if (f.rule != GG_SMOOTH) w->yx[part] += e->k.y * J.x;
 }
 
 /* Two blocks, the lanes of the second in their order of this visit. */
@@ -124,8 +130,8 @@ GG_INLINE void collide_part(gg_features f, gg_batch *w, const gg_meeting *at, in
   if (f.rule != GG_SMOOTH)
     g = gg_vd3_sub(g, gg_vd3_cross(e.k, gg_vd3_add(load(&w->spin_one[at->a], part * GG_WIDTH), at->sb[part])));
   if (gg_needs_k(f)) J = gg_lane_impulse(f.rule, &w->contact, e.k, g, e.gn);
-  tally(f, w, part, &e, g, J);
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
+  tally(f, w, part, &e, g, J);
   gg_mask swap = push(f, w, at, part, J, r, top);
   if (f.rule != GG_SMOOTH) turn(f, w, swap, at, part, gg_vd3_cross(e.k, J));
 }
@@ -305,10 +311,15 @@ GG_INLINE void fold(gg_vd v[GG_PARTS], double folded[GG_LANES])
 GG_INLINE void fold_tally(gg_features f, gg_batch *w, gg_folded *to)
 {
   if (f.tap == GG_TAP_CLOSED) return;
-  fold(w->loss, to->loss);
+  fold(w->gn2, to->gn2);
+  fold(w->Jg, to->Jg);
+  fold(w->J2, to->J2);
   if (f.tap == GG_TAP_LOSS) return;
-  for (int i = 0; i < 3; i++)
-    for (int j = f.rule == GG_SMOOTH ? i : 0; j < 3; j++) fold(w->stress[i][j], to->stress[i][j]);
+  fold(w->xx, to->xx);
+  fold(w->yy, to->yy);
+  fold(w->zz, to->zz);
+  fold(w->xy, to->xy);
+  fold(w->yx, to->yx);
 }
 
 static double sum_of_lanes(const double v[GG_LANES])
@@ -355,13 +366,14 @@ GG_INLINE void finish(gg_features f, gg_batch *w, gg_folded *sums, gg_pairing *p
   p->overflows += w->overflows;
   for (int l = 0; l < GG_WIDTH; l++) p->worst = fmax(p->worst, w->s0 + sqrt(w->worst[l]));
   if (f.tap == GG_TAP_CLOSED) return;
-  p->loss += sum_of_lanes(sums->loss);
+  p->loss += gg_loss_of(f.rule, &p->contact,
+                        (gg_loss_terms){sum_of_lanes(sums->gn2), sum_of_lanes(sums->Jg), sum_of_lanes(sums->J2)});
   if (f.tap == GG_TAP_LOSS) return;
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) {
-      bool mirrored = f.rule == GG_SMOOTH && j < i;
-      p->stress[i][j] += p->sigma * sum_of_lanes(mirrored ? sums->stress[j][i] : sums->stress[i][j]);
-    }
+  p->stress[0][0] += p->sigma * sum_of_lanes(sums->xx);
+  p->stress[1][1] += p->sigma * sum_of_lanes(sums->yy);
+  p->stress[2][2] += p->sigma * sum_of_lanes(sums->zz);
+  p->stress[0][1] += p->sigma * sum_of_lanes(sums->xy);
+  p->stress[1][0] += p->sigma * sum_of_lanes(f.rule == GG_SMOOTH ? sums->xy : sums->yx);
 }
 
 /* The i-th visit of the list; past its end, some blocks or other. */
@@ -404,7 +416,7 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   gg_batch w;
   gg_real near[3][GG_DIRECTIONS_ROOM], sheared[3][GG_DIRECTIONS_ROOM];
   gg_draw queue[2] = {{0}, {0}};
-  gg_folded sums = {{0}, {{{0}}}};
+  gg_folded sums = {{0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}};
   start(f, &w, p, lanes);
   w.near = (gg_directions){.x = near[0], .y = near[1], .z = near[2]};
   w.sheared = (gg_directions){.x = sheared[0], .y = sheared[1], .z = sheared[2]};

@@ -37,9 +37,11 @@ static void tally(gg_features f, gg_pairing *p, gg_vec k, gg_vec g, gg_vec J)
   if (f.tap == GG_TAP_CLOSED) return;
   p->loss += gg_energy_loss(&p->contact, k, g, J);
   if (f.tap == GG_TAP_LOSS) return;
-  const double ka[3] = {k.x, k.y, k.z}, Jb[3] = {J.x, J.y, J.z};
-  for (int a = 0; a < 3; a++)
-    for (int b = 0; b < 3; b++) p->stress[a][b] += p->sigma * ka[a] * Jb[b];
+  p->stress[0][0] += p->sigma * k.x * J.x;
+  p->stress[1][1] += p->sigma * k.y * J.y;
+  p->stress[2][2] += p->sigma * k.z * J.z;
+  p->stress[0][1] += p->sigma * k.x * J.y;
+  p->stress[1][0] += p->sigma * k.y * J.x;
 }
 
 static void raise_top(const gg_pairing *p, float *top, gg_vec c)

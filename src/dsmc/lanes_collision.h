@@ -7,8 +7,6 @@
 /* A gg_contact in the lanes' precision. */
 typedef struct gg_lane_contact {
   gg_real jn, jt, mu, im1, im2, ik1, ik2;
-  gg_real inverse_mr, inverse_mt;
-  gg_real normal_loss; /* energy destroyed for g_n^2 = 1, but for what the tangential impulse destroys */
 } gg_lane_contact;
 
 GG_INLINE gg_lane_contact gg_lane_contact_of(const gg_contact *c)
@@ -19,10 +17,7 @@ GG_INLINE gg_lane_contact gg_lane_contact_of(const gg_contact *c)
                            .im1 = (gg_real)c->im1,
                            .im2 = (gg_real)c->im2,
                            .ik1 = (gg_real)c->ik1,
-                           .ik2 = (gg_real)c->ik2,
-                           .inverse_mr = (gg_real)gg_inverse_mr(c),
-                           .inverse_mt = (gg_real)gg_inverse_mt(c),
-                           .normal_loss = (gg_real)(c->jn - 0.5 * gg_inverse_mr(c) * c->jn * c->jn)};
+                           .ik2 = (gg_real)c->ik2};
 }
 
 /* Impulse from the contact velocity g and gn = k.g (gg_impulse): (jn - jt) g_n k + jt g. */
@@ -39,12 +34,18 @@ GG_INLINE gg_vd3 gg_lane_impulse(gg_rule rule, const gg_lane_contact *c, gg_vd3 
   return gg_vd3_add(gg_vd3_scale((c->jn - jt) * gn, k), gg_vd3_scale(jt, g));
 }
 
-/* Energy destroyed, from g_n^2 (gg_energy_loss). */
-GG_INLINE gg_vd gg_lane_energy_loss(gg_rule rule, const gg_lane_contact *c, gg_vd3 g, gg_vd3 J, gg_vd gn2)
+/* What the energy that collisions destroy (gg_energy_loss) follows from, in the lanes or their sum: it is linear in
+ * g_n^2, J.g and J.J, and smooth grains need the first alone, rough ones the first two. */
+typedef struct gg_loss_terms {
+  double gn2, Jg, J2;
+} gg_loss_terms;
+
+GG_INLINE double gg_loss_of(gg_rule rule, const gg_contact *c, gg_loss_terms sum)
 {
-  if (rule == GG_SMOOTH) return c->normal_loss * gn2;
-  gg_vd Jn2 = c->jn * c->jn * gn2, Jt2 = gg_vd3_dot(J, J) - Jn2;
-  return gg_vd3_dot(J, g) - 0.5 * (c->inverse_mr * Jn2 + c->inverse_mt * Jt2);
+  double Jn2 = c->jn * c->jn * sum.gn2;
+  if (rule == GG_SMOOTH) return (c->jn - 0.5 * gg_inverse_mr(c) * c->jn * c->jn) * sum.gn2;
+  double Jt2 = rule == GG_ROUGH ? c->jt * (sum.Jg - c->jn * sum.gn2) : sum.J2 - Jn2;
+  return sum.Jg - 0.5 * (gg_inverse_mr(c) * Jn2 + gg_inverse_mt(c) * Jt2);
 }
 
 #endif

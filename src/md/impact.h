@@ -30,8 +30,12 @@ GG_INLINE bool gg_is_treated(gg_md *e, uint32_t i, uint32_t j)
 
 GG_INLINE void gg_tap_pair(gg_transfer *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
 {
-  for (int a = 0; a < 3; a++)
-    for (int b = 0; b < 3; b++) t->stress[pair][a][b] += sigma * gg_along(&k, a) * gg_along(&J, b);
+  double(*stress)[3] = t->stress[pair];
+  stress[0][0] += sigma * k.x * J.x;
+  stress[1][1] += sigma * k.y * J.y;
+  stress[2][2] += sigma * k.z * J.z;
+  stress[0][1] += sigma * k.x * J.y;
+  stress[1][0] += sigma * k.y * J.x;
   t->loss[pair] += loss;
 }
 

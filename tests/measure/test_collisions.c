@@ -69,8 +69,11 @@ static void adds_up(void **state)
       const gg_transfer *h = &seen.by_hand;
       assert_int_equal(h->collisions[p], t.collisions[p]);
       assert_true(fabs(h->loss[p] / t.loss[p] - 1) < 1e-9);
-      for (int a = 0; a < 9; a++)
-        assert_true(fabs(h->stress[p][a / 3][a % 3] - t.stress[p][a / 3][a % 3]) < 1e-9 * t.stress[p][0][0]);
+      for (int a = 0; a < 9; a++) { /* what the flow gives no reason to be there is not summed */
+        bool there = a / 3 == a % 3 || a == 1 || a == 3;
+        double by_hand = there ? h->stress[p][a / 3][a % 3] : 0;
+        assert_true(fabs(by_hand - t.stress[p][a / 3][a % 3]) < 1e-9 * t.stress[p][0][0]);
+      }
     }
     uint64_t met = 0; /* every meeting ends a flight of both, but for each grain's first */
     for (int p = 0; p < GG_PAIRS; p++) met += 2 * t.collisions[p];
