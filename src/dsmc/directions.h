@@ -9,7 +9,7 @@ enum { GG_DIRECTIONS = 128, GG_DIRECTIONS_ROOM = GG_DIRECTIONS + 3 * GG_LANES };
 
 typedef struct gg_directions {
   gg_real *x, *y, *z; /* room for each: a buffer of its own, so that the rest can stay in registers */
-  unsigned at, n;    /* used, made */
+  unsigned at, n;     /* used, made */
 } gg_directions;
 
 /* A point (u, v) uniform in the unit disc, s = u^2 + v^2, in the lanes of the mask: each coordinate from a word

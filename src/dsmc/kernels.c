@@ -38,7 +38,8 @@ void gg_sweep_blocks(void *c, bool single, float *top, size_t n, double drift, d
   sweep(c, single, top, n, drift, scale, centre, unit, sums);
 }
 
-void gg_kick_blocks(void *c, bool single, float *top, size_t n, double drift, double size, double unit, gg_rng_lanes *lanes)
+void gg_kick_blocks(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
+                    gg_rng_lanes *lanes)
 {
   gg_kicks *kicks = gg_kicks_baseline;
 #ifdef GG_X86_64

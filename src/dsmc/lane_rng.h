@@ -8,7 +8,11 @@
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define GG_HAS_AVX512
 #include <immintrin.h>
+#ifdef GG_SINGLE_LANES
+enum { GG_QUADS = 4 }; /* as wide as the rest: a wider register now and then would slow down all others */
+#else
 enum { GG_QUADS = 8 };
+#endif
 #elif defined(__AVX2__)
 #define GG_HAS_AVX2
 #include <immintrin.h>
@@ -45,7 +49,8 @@ GG_INLINE gg_vq gg_lane_next(gg_lane_rng *r, int part)
 GG_INLINE void gg_lane_rng_load(gg_lane_rng *r, const gg_rng_lanes *from)
 {
   for (int i = 0; i < 4; i++)
-    for (int p = 0; p < GG_LANES / GG_QUADS; p++) __builtin_memcpy(&r->s[i][p], &from->s[i][p * GG_QUADS], sizeof(gg_vq));
+    for (int p = 0; p < GG_LANES / GG_QUADS; p++)
+      __builtin_memcpy(&r->s[i][p], &from->s[i][p * GG_QUADS], sizeof(gg_vq));
 }
 
 GG_INLINE void gg_lane_rng_save(const gg_lane_rng *r, gg_rng_lanes *to)

@@ -1,14 +1,15 @@
 /* Eight lanes on whatever registers there are, in parts of GG_WIDTH: numbers `gg_real` are double, or float if
- * GG_SINGLE_LANES is defined. Every operation is lane by lane, exact or correctly rounded, and nothing is contracted, so
- * that all processors leave the same bits. Included only by files that are compiled once for each set of instructions.
+ * GG_SINGLE_LANES is defined. Every operation is lane by lane, exact or correctly rounded, and nothing is contracted,
+ * so that all processors leave the same bits. Included only by files that are compiled once for each set of
+ * instructions.
  *
  * From lanes_double.h or lanes_single.h:
  * gg_vd, gg_vi, gg_vu: numbers, whole numbers, and random words as wide. gg_mask: one truth a lane. gg_permute_of(r)
  * and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_spread: the next numbers of a list, one for each true lane;
  * gg_pack: the true lanes to the front of a list, then anything up to a width. gg_peaks: the largest lane of a, and
- * of b. gg_roots_at: square roots out of a table, rounded to float. gg_lane_two: two random words a lane, from whose high
- * bits gg_lane_one_to_two makes a number; bit GG_SPARE_BIT hardly matters to it. gg_lane_two_below: two random whole
- * numbers. */
+ * of b. gg_roots_at: square roots out of a table, rounded to float. gg_lane_two: two random words a lane, from whose
+ * high bits gg_lane_one_to_two makes a number; bit GG_SPARE_BIT hardly matters to it. gg_lane_two_below: two random
+ * whole numbers. */
 #ifndef GG_DSMC_LANES_H
 #define GG_DSMC_LANES_H
 

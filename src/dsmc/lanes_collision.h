@@ -7,6 +7,7 @@
 /* A gg_contact in the lanes' precision. */
 typedef struct gg_lane_contact {
   gg_real jn, jt, mu, im1, im2, ik1, ik2;
+  gg_real push1, push2; /* velocity changes from 2 g_n k */
 } gg_lane_contact;
 
 GG_INLINE gg_lane_contact gg_lane_contact_of(const gg_contact *c)
@@ -17,7 +18,9 @@ GG_INLINE gg_lane_contact gg_lane_contact_of(const gg_contact *c)
                            .im1 = (gg_real)c->im1,
                            .im2 = (gg_real)c->im2,
                            .ik1 = (gg_real)c->ik1,
-                           .ik2 = (gg_real)c->ik2};
+                           .ik2 = (gg_real)c->ik2,
+                           .push1 = (gg_real)(0.5 * c->jn * c->im1),
+                           .push2 = (gg_real)(0.5 * c->jn * c->im2)};
 }
 
 /* Impulse from the contact velocity g and gn = k.g (gg_impulse): (jn - jt) g_n k + jt g. */

@@ -54,7 +54,7 @@ GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
   return _mm512_maskz_mov_pd(m, x);
 }
-GG_INLINE gg_order gg_order_of(unsigned r)
+GG_INLINE gg_order gg_order_of(gg_word r)
 {
   return _mm512_xor_epi64(_mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0), _mm512_set1_epi64((long long)r));
 }
@@ -131,9 +131,9 @@ GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
   return (gg_vd)(m & (gg_mask)x);
 }
-GG_INLINE gg_order gg_order_of(unsigned r)
+GG_INLINE gg_order gg_order_of(gg_word r)
 {
-  return _mm256_xor_si256(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32((int)(2 * r)));
+  return _mm256_xor_si256(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32((int)(2 * (r % GG_WIDTH))));
 }
 GG_INLINE gg_vd gg_permute(gg_vd v, gg_order o)
 {
@@ -230,9 +230,9 @@ GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
   return (gg_vd)(m & (gg_mask)x);
 }
-GG_INLINE gg_order gg_order_of(unsigned r)
+GG_INLINE gg_order gg_order_of(gg_word r)
 {
-  return -(gg_order){r & 1, r & 1};
+  return -(gg_order){(int64_t)(r & 1), (int64_t)(r & 1)};
 }
 GG_INLINE gg_vd gg_permute(gg_vd v, gg_order o)
 {

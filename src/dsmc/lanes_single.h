@@ -186,7 +186,7 @@ GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
   return (gg_vd)(m & (gg_mask)x);
 }
-GG_INLINE gg_order gg_order_of(unsigned r)
+GG_INLINE gg_order gg_order_of(gg_word r)
 {
   const int pairs = (int)(r & 1), halves = (int)(r >> 1 & 1);
   return (gg_order){-(gg_mask){pairs, pairs, pairs, pairs}, -(gg_mask){halves, halves, halves, halves}};
@@ -232,15 +232,10 @@ GG_INLINE gg_vu gg_below(gg_vu r, uint32_t n)
   for (int l = 0; l < GG_WIDTH; l++) high[l] = (uint32_t)((uint64_t)r[l] * n >> 32);
   return high;
 }
-GG_INLINE void gg_lane_two(gg_lane_rng *r, int part, gg_vu *a, gg_vu *b)
-{
-  *a = (gg_vu)gg_lane_next(r, part);
-  *b = (gg_vu)gg_lane_next(r, part + GG_PARTS);
-}
 #endif
 
 #if defined(GG_HAS_AVX512) || defined(GG_HAS_AVX2)
-GG_INLINE gg_order gg_order_of(unsigned r)
+GG_INLINE gg_order gg_order_of(gg_word r)
 {
   return _mm256_xor_si256(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32((int)r));
 }
@@ -266,22 +261,18 @@ GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
 GG_INLINE gg_vu gg_below(gg_vu r, uint32_t n)
 {
   const __m256i factor = _mm256_set1_epi32((int)n);
-  __m256i even = _mm256_mul_epu32((__m256i)r, factor), odd = _mm256_mul_epu32(_mm256_srli_epi64((__m256i)r, 32), factor);
+  __m256i even = _mm256_mul_epu32((__m256i)r, factor),
+          odd = _mm256_mul_epu32(_mm256_srli_epi64((__m256i)r, 32), factor);
   return (gg_vu)_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
 }
-/* Two random words a lane: the first four numbers, and the other four. */
+#endif
+
+/* Two random words a lane: of the first four numbers, and the other four. */
 GG_INLINE void gg_lane_two(gg_lane_rng *r, int part, gg_vu *a, gg_vu *b)
 {
-#ifdef GG_HAS_AVX512
-  const __m512i bits = (__m512i)gg_lane_next(r, part);
-  *a = (gg_vu)_mm512_castsi512_si256(bits);
-  *b = (gg_vu)_mm512_extracti64x4_epi64(bits, 1);
-#else
   *a = (gg_vu)gg_lane_next(r, part);
   *b = (gg_vu)gg_lane_next(r, part + GG_PARTS);
-#endif
 }
-#endif
 
 /* Uniform in [1, 2), 23 bits: the low 9 are left for other uses. */
 GG_INLINE gg_vd gg_lane_one_to_two(gg_vu r)

@@ -46,7 +46,8 @@ void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng_la
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
     gg_kick_blocks(p->c, p->single, p->top, p->n_blocks, drift, sqrt(variance), e->top_unit, lanes);
-    for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++) gg_block_set(p, p->c, (uint32_t)a, (gg_vec){0, 0, 0});
+    for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++)
+      gg_block_set(p, p->c, (uint32_t)a, (gg_vec){0, 0, 0});
   }
   e->top_drift = drift;
 }
