@@ -30,12 +30,12 @@ bool gg_path_runs_here(gg_path path)
 void gg_sweep_blocks(void *c, bool single, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
                      gg_sums *sums)
 {
-  gg_sweep *sweep = gg_sweep_baseline;
+  gg_sweep *sweep = single ? gg_sweep_single_baseline : gg_sweep_baseline;
 #ifdef GG_X86_64
-  if (gg_path_runs_here(GG_PATH_AVX2)) sweep = gg_sweep_avx2;
-  if (gg_path_runs_here(GG_PATH_AVX512)) sweep = gg_sweep_avx512;
+  if (gg_path_runs_here(GG_PATH_AVX2)) sweep = single ? gg_sweep_single_avx2 : gg_sweep_avx2;
+  if (gg_path_runs_here(GG_PATH_AVX512)) sweep = single ? gg_sweep_single_avx512 : gg_sweep_avx512;
 #endif
-  sweep(c, single, top, n, drift, scale, centre, unit, sums);
+  sweep(c, top, n, drift, scale, centre, unit, sums);
 }
 
 void gg_kick_blocks(void *c, bool single, float *top, size_t n, double drift, double size, double unit,

@@ -1,104 +1,65 @@
 #include "dsmc/sweep.h"
 
-#include "dsmc/normal.h"
+#include "dsmc/lanes.h"
 
-#define NAME_OF(name, instructions) name##_##instructions
-#define NAME(name, instructions) NAME_OF(name, instructions)
+#ifdef GG_SINGLE_LANES
+#define NAME_OF(instructions) gg_sweep_single_##instructions
+enum { RUN = 16 }; /* blocks summed in single precision before they go into double sums */
+#else
+#define NAME_OF(instructions) gg_sweep_##instructions
+#define RUN SIZE_MAX
+#endif
+#define NAME(instructions) NAME_OF(instructions)
+
+/* The map, in the lanes' precision. */
+typedef struct gg_map {
+  gg_real drift, scale, x, y, z, per_unit;
+} gg_map;
 
 /* The top of a block, part by part. */
-GG_INLINE void note_top(float *top, int at, gg_vd c2, double per_unit)
+GG_INLINE void note_top(float *top, int at, gg_vd c2, gg_real per_unit)
 {
   float peak = (float)(gg_peaks(c2, c2)[0] * per_unit);
   *top = at && *top > peak ? *top : peak;
 }
 
-/* Lanes from `at` on of block b; `single` is constant. */
-GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
+/* Lanes from `at` on of n blocks. */
+GG_INLINE void sweep(gg_real_block *c, float *top, size_t n, int at, gg_map m, gg_sums *sums)
 {
-  if (single) {
-    const gg_block_single *c = (const gg_block_single *)blocks + b;
-    return (gg_vd3){gg_load_single(c->x + at), gg_load_single(c->y + at), gg_load_single(c->z + at)};
+  gg_vd sx = gg_all(0), sy = sx, sz = sx, s2 = sx, fastest = sx;
+  for (gg_real_block *b = c; b < c + n; b++) {
+    gg_vd y = gg_load(b->y + at), x = m.scale * (gg_load(b->x + at) - m.drift * y) - m.x;
+    gg_vd z = m.scale * gg_load(b->z + at) - m.z;
+    y = m.scale * y - m.y;
+    gg_vd c2 = x * x + y * y + z * z;
+    gg_store(b->x + at, x);
+    gg_store(b->y + at, y);
+    gg_store(b->z + at, z);
+    sx += x;
+    sy += y;
+    sz += z;
+    s2 += c2;
+    fastest = gg_larger(fastest, c2);
+    note_top(&top[b - c], at, c2, m.per_unit);
   }
-  const gg_block *c = (const gg_block *)blocks + b;
-  return (gg_vd3){gg_load(c->x + at), gg_load(c->y + at), gg_load(c->z + at)};
-}
-
-/* Returns what is there now. */
-GG_INLINE gg_vd3 store(void *blocks, bool single, size_t b, int at, gg_vd3 v)
-{
-  if (single) {
-    gg_block_single *c = (gg_block_single *)blocks + b;
-    return (gg_vd3){gg_store_single(c->x + at, v.x), gg_store_single(c->y + at, v.y), gg_store_single(c->z + at, v.z)};
-  }
-  gg_block *c = (gg_block *)blocks + b;
-  gg_store(c->x + at, v.x);
-  gg_store(c->y + at, v.y);
-  gg_store(c->z + at, v.z);
-  return v;
-}
-
-GG_INLINE void sweep(void *c, bool single, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
-                     gg_sums *sums)
-{
-  const double per_unit = gg_per_top(unit);
-  for (int at = 0; at < GG_LANES; at += GG_WIDTH) {
-    gg_vd sx = gg_all(0), sy = sx, sz = sx, s2 = sx, fastest = sx;
-    for (size_t b = 0; b < n; b++) {
-      gg_vd3 v = load(c, single, b, at);
-      gg_vd x = scale * (v.x - drift * v.y) - centre.x, z = scale * v.z - centre.z, y = scale * v.y - centre.y;
-      v = store(c, single, b, at, (gg_vd3){x, y, z});
-      gg_vd c2 = gg_vd3_dot(v, v);
-      sx += v.x;
-      sy += v.y;
-      sz += v.z;
-      s2 += c2;
-      fastest = gg_larger(fastest, c2);
-      note_top(&top[b], at, c2, per_unit);
-    }
-    for (int l = 0; l < GG_WIDTH; l++) {
-      sums->c.x[at + l] += sx[l];
-      sums->c.y[at + l] += sy[l];
-      sums->c.z[at + l] += sz[l];
-      sums->c2[at + l] += s2[l];
-      if (fastest[l] > sums->fastest[at + l]) sums->fastest[at + l] = fastest[l];
-    }
+  for (int l = 0; l < GG_WIDTH; l++) {
+    sums->c.x[at + l] += sx[l];
+    sums->c.y[at + l] += sy[l];
+    sums->c.z[at + l] += sz[l];
+    sums->c2[at + l] += s2[l];
+    if (fastest[l] > sums->fastest[at + l]) sums->fastest[at + l] = fastest[l];
   }
 }
 
-void NAME(gg_sweep, GG_INSTRUCTIONS)(void *c, bool single, float *top, size_t n, double drift, double scale,
-                                     gg_vec centre, double unit, gg_sums *sums)
+void NAME(GG_INSTRUCTIONS)(void *blocks, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
+                           gg_sums *sums)
 {
-  if (single)
-    sweep(c, true, top, n, drift, scale, centre, unit, sums);
-  else
-    sweep(c, false, top, n, drift, scale, centre, unit, sums);
-}
-
-GG_INLINE void kick(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
-                    gg_rng_lanes *lanes)
-{
-  const double per_unit = gg_per_top(unit);
-  gg_lane_rng rng;
-  gg_lane_rng_load(&rng, lanes);
-  for (size_t b = 0; b < n; b++)
-    for (int part = 0; part < GG_PARTS; part++) {
-      const int at = part * GG_WIDTH;
-      gg_vd x, y, z, spare;
-      gg_lane_normal(&rng, part, &x, &y);
-      gg_lane_normal(&rng, part, &z, &spare);
-      gg_vd3 v = load(c, single, b, at);
-      v = store(c, single, b, at, (gg_vd3){v.x + size * (x + drift * y), v.y + size * y, v.z + size * z});
-      v.x -= drift * v.y;
-      note_top(&top[b], at, gg_vd3_dot(v, v), per_unit);
+  gg_real_block *c = blocks;
+  const gg_map m = {(gg_real)drift,    (gg_real)scale,    (gg_real)centre.x,
+                    (gg_real)centre.y, (gg_real)centre.z, (gg_real)gg_per_top(unit)};
+  for (int at = 0; at < GG_LANES; at += GG_WIDTH)
+    for (size_t first = 0; first < n; first += RUN) {
+      sweep(c + first, top + first, n - first < RUN ? n - first : RUN, at, m, sums);
+      if (n - first <= RUN) break;
     }
-  gg_lane_rng_save(&rng, lanes);
-}
-
-void NAME(gg_kicks, GG_INSTRUCTIONS)(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
-                                     gg_rng_lanes *lanes)
-{
-  if (single)
-    kick(c, true, top, n, drift, size, unit, lanes);
-  else
-    kick(c, false, top, n, drift, size, unit, lanes);
 }
