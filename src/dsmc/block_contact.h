@@ -14,7 +14,7 @@
 #define GG_DSMC_BLOCK_CONTACT_H
 
 #include "dsmc/directions.h"
-#include "dsmc/lanes_collision.h"
+#include "dsmc/tally.h"
 
 /* A batch in progress: constants and sums where the compiler can keep them in registers. */
 typedef struct gg_batch {
@@ -32,9 +32,7 @@ typedef struct gg_batch {
   double next_drift, next_unit; /* of the next draws */
   uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
-  /* Sums while the tap is open, stress as gg_transfer has it; but for g_n^2 all contain J, which is 0 without a hit. */
-  gg_vd gn2[GG_PARTS], Jg[GG_PARTS], J2[GG_PARTS];
-  gg_vd xx[GG_PARTS], yy[GG_PARTS], zz[GG_PARTS], xy[GG_PARTS], yx[GG_PARTS];
+  gg_tally tally;
 } gg_batch;
 
 /* What a candidate comes to; where it does not hit, the rest means nothing (but is finite). */
@@ -44,7 +42,7 @@ typedef struct gg_encounter {
   gg_vd3 q;    /* of the law about the z axis, or uniform */
   gg_vd3 k, g; /* k: only if needed; g: contact velocity without spins */
   gg_vd3 gn_k; /* 2 g_n k, if not */
-  gg_vd gn, gn2;
+  gg_vd gn;
 } gg_encounter;
 
 GG_INLINE bool gg_needs_k(gg_features f)
@@ -96,13 +94,11 @@ GG_INLINE void gg_encounter_aim(gg_features f, gg_batch *w, gg_vd3 v, gg_encount
   e->g = v;
   if (!gg_needs_k(f)) {
     e->gn_k = gg_vd3_sub(v, gg_vd3_scale(e->speed, e->q));
-    if (f.tap != GG_TAP_CLOSED) e->gn2 = 0.25 * gg_vd3_dot(e->gn_k, e->gn_k);
     return;
   }
   e->k = gg_about(v, e->speed, e->q);
   e->gn = e->speed * e->q.z;
   if (f.shear == GG_SHEARED_DENSE) gg_encounter_shear(w, v, e);
-  e->gn2 = e->gn * e->gn;
 }
 
 #endif

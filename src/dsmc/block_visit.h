@@ -24,22 +24,6 @@ GG_INLINE void gg_lanes_exchange(gg_mask swap, gg_vd3 *a, gg_vd3 *b)
   *b = (gg_vd3){gg_select(swap, old.x, b->x), gg_select(swap, old.y, b->y), gg_select(swap, old.z, b->z)};
 }
 
-/* J is 0 where nothing hits. */
-GG_INLINE void gg_tally(gg_features f, gg_batch *w, int part, const gg_encounter *e, gg_vd3 J)
-{
-  w->collisions += (unsigned)__builtin_popcount(gg_bits(e->hit));
-  if (f.tap == GG_TAP_CLOSED) return;
-  w->gn2[part] += gg_where(e->hit, e->gn2);
-  if (f.rule != GG_SMOOTH) w->Jg[part] += gg_vd3_dot(J, e->g);
-  if (f.rule == GG_FRICTIONAL) w->J2[part] += gg_vd3_dot(J, J);
-  if (f.tap == GG_TAP_LOSS) return;
-  w->xx[part] += e->k.x * J.x;
-  w->yy[part] += e->k.y * J.y;
-  w->zz[part] += e->k.z * J.z;
-  w->xy[part] += e->k.x * J.y;
-  if (f.rule != GG_SMOOTH) w->yx[part] += e->k.y * J.x;
-}
-
 /* Two blocks, the lanes of the second in their order of this visit, and what is to come of it. */
 typedef struct gg_meeting {
   uint32_t a, b;
@@ -104,10 +88,13 @@ GG_INLINE void gg_carry_out(gg_features f, gg_batch *w, const gg_meeting *at)
   gg_fastest top;
   for (int part = 0; part < GG_PARTS; part++) {
     w->worst = gg_larger(w->worst, at->v2[part]);
-    gg_tally(f, w, part, &at->e[part], at->J[part]);
+    w->collisions += (unsigned)__builtin_popcount(gg_bits(at->e[part].hit));
+    gg_vd3 J = gg_needs_k(f) ? at->J[part] : gg_vd3_scale(gg_all(0.5 * w->contact.jn), at->J[part]);
+    gg_tally_note(f, &w->tally, part, at->e[part].k, at->e[part].g, J);
     gg_mask swap = gg_push(f, w, at, part, &top);
     if (f.rule != GG_SMOOTH) gg_turn(f, w, swap, at, part);
   }
+  gg_tally_turn(f, &w->tally);
   w->visits++;
   gg_v2 peaks = gg_peaks(top.a, top.b) * w->per_unit;
   w->top_one[at->a] = (float)peaks[0];

@@ -18,12 +18,6 @@
 
 enum { SORTED = 999 }; /* blocks, at least, to be sorted by speed */
 
-/* What the tap has seen, lane by lane. */
-typedef struct gg_folded {
-  double gn2[GG_LANES], Jg[GG_LANES], J2[GG_LANES];
-  double xx[GG_LANES], yy[GG_LANES], zz[GG_LANES], xy[GG_LANES], yx[GG_LANES];
-} gg_folded;
-
 GG_INLINE void prefetch(const gg_real_block *b)
 {
   for (size_t line = 0; line < (sizeof *b + 63) / 64; line++) __builtin_prefetch((const char *)b + 64 * line, 1);
@@ -37,34 +31,6 @@ GG_INLINE void call(gg_features f, const gg_batch *w, uint32_t a, uint32_t b)
   if (f.rule == GG_SMOOTH) return;
   prefetch(&w->spin_one[a]);
   prefetch(&w->spin_two[b]);
-}
-
-/* Sums in single precision are good for a few visits: then they go into double ones. */
-GG_INLINE void fold(gg_vd v[GG_PARTS], double folded[GG_LANES])
-{
-  for (int l = 0; l < GG_LANES; l++) folded[l] += v[l / GG_WIDTH][l % GG_WIDTH];
-  for (int part = 0; part < GG_PARTS; part++) v[part] = gg_all(0);
-}
-
-GG_INLINE void fold_tally(gg_features f, gg_batch *w, gg_folded *to)
-{
-  if (f.tap == GG_TAP_CLOSED) return;
-  fold(w->gn2, to->gn2);
-  fold(w->Jg, to->Jg);
-  fold(w->J2, to->J2);
-  if (f.tap == GG_TAP_LOSS) return;
-  fold(w->xx, to->xx);
-  fold(w->yy, to->yy);
-  fold(w->zz, to->zz);
-  fold(w->xy, to->xy);
-  fold(w->yx, to->yx);
-}
-
-static double sum_of_lanes(const double v[GG_LANES])
-{
-  double sum = 0;
-  for (int l = 0; l < GG_LANES; l++) sum += v[l];
-  return sum;
 }
 
 GG_INLINE uint32_t odd_block(const gg_population *p)
@@ -95,23 +61,14 @@ GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_r
   gg_lane_rng_load(&w->rng, lanes);
 }
 
-GG_INLINE void finish(gg_features f, gg_batch *w, gg_folded *sums, gg_pairing *p, gg_rng_lanes *lanes)
+GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *lanes)
 {
-  fold_tally(f, w, sums);
   gg_lane_rng_save(&w->rng, lanes);
   p->tried += w->visits * GG_LANES;
   p->collisions += w->collisions;
   p->overflows += w->overflows;
   for (int l = 0; l < GG_WIDTH; l++) p->worst = fmax(p->worst, w->s0 + sqrt(w->worst[l]));
-  if (f.tap == GG_TAP_CLOSED) return;
-  p->loss += gg_loss_of(f.rule, &p->contact,
-                        (gg_loss_terms){sum_of_lanes(sums->gn2), sum_of_lanes(sums->Jg), sum_of_lanes(sums->J2)});
-  if (f.tap == GG_TAP_LOSS) return;
-  p->stress[0][0] += p->sigma * sum_of_lanes(sums->xx);
-  p->stress[1][1] += p->sigma * sum_of_lanes(sums->yy);
-  p->stress[2][2] += p->sigma * sum_of_lanes(sums->zz);
-  p->stress[0][1] += p->sigma * sum_of_lanes(sums->xy);
-  p->stress[1][0] += p->sigma * sum_of_lanes(f.rule == GG_SMOOTH ? sums->xy : sums->yx);
+  gg_tally_finish(f, &w->tally, p);
 }
 
 /* What is not an ordinary visit. Returns whether the i-th is to be made once more. */
@@ -167,7 +124,6 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   gg_batch w;
   gg_real near[3][GG_DIRECTIONS_ROOM], sheared[3][GG_DIRECTIONS_ROOM];
   gg_draw queue[2] = {{0}, {0}};
-  gg_folded sums = {{0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}};
   start(f, &w, p, lanes);
   w.near = (gg_directions){.x = near[0], .y = near[1], .z = near[2]};
   w.sheared = (gg_directions){.x = sheared[0], .y = sheared[1], .z = sheared[2]};
@@ -178,10 +134,9 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
     left -= n;
     gg_draw_visits(f, &w, &queue[turn ^ 1], n, p->drift_step);
     visit_all(f, &w, &queue[turn], &queue[turn ^ 1], p, rng);
-    if (sizeof(gg_real) < sizeof(double)) fold_tally(f, &w, &sums);
   }
   p->top_unit = w.next_unit;
-  finish(f, &w, &sums, p, lanes);
+  finish(f, &w, p, lanes);
 }
 
 /* The table of instances: rule x shear and tap x one or two species. */

@@ -84,11 +84,13 @@ GG_CLONES static void unpack(const gg_block *b, size_t n, double drift, double *
     }
 }
 
+enum { SHOWN = 256 }; /* grains at a time: so few stay in the first cache until they have been looked at */
+
 /* `n` grains from `first` on, a multiple of eight; of p->c or p->s. */
 static void lay_out(const gg_population *p, const void *blocks, size_t first, size_t n, double drift,
-                    double v[3][GG_CHUNK])
+                    double v[3][SHOWN])
 {
-  gg_block room[GG_CHUNK / GG_LANES];
+  gg_block room[SHOWN / GG_LANES];
   const gg_block *b = gg_blocks_in_double(p, blocks, first / GG_LANES, (n + GG_LANES - 1) / GG_LANES, room);
   unpack(b, n, drift, v[0], v[1], v[2]);
 }
@@ -97,14 +99,14 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
 {
   (void)positions; /* a homogeneous gas has none */
   gg_dsmc *d = dsmc_of(engine);
-  double v[6][GG_CHUNK];
-  uint8_t kind[GG_CHUNK];
+  double v[6][SHOWN];
+  uint8_t kind[SHOWN];
   for (int i = 0; i < d->ensemble.n_species; i++) {
     const gg_population *p = &d->ensemble.of[i];
     memset(kind, i, sizeof kind);
-    for (size_t first = 0; first < (size_t)p->n; first += GG_CHUNK) {
+    for (size_t first = 0; first < (size_t)p->n; first += SHOWN) {
       size_t left = (size_t)p->n - first;
-      gg_chunk chunk = {.n = left < GG_CHUNK ? left : GG_CHUNK, .c = {v[0], v[1], v[2]}};
+      gg_chunk chunk = {.n = left < SHOWN ? left : SHOWN, .c = {v[0], v[1], v[2]}};
       lay_out(p, p->c, first, chunk.n, d->now.drift, v);
       if (p->s) {
         lay_out(p, p->s, first, chunk.n, 0, v + 3);

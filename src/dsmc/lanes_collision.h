@@ -37,18 +37,18 @@ GG_INLINE gg_vd3 gg_lane_impulse(gg_rule rule, const gg_lane_contact *c, gg_vd3 
   return gg_vd3_add(gg_vd3_scale((c->jn - jt) * gn, k), gg_vd3_scale(jt, g));
 }
 
-/* What the energy that collisions destroy (gg_energy_loss) follows from, in the lanes or their sum: it is linear in
- * g_n^2, J.g and J.J, and smooth grains need the first alone, rough ones the first two. */
+/* What the energy that collisions destroy (gg_energy_loss) follows from, one or their sum: it is linear in J.g, J_n^2
+ * and J.J, and smooth grains need the first alone (J.g = m_r (1+e) g_n^2), rough ones two (J_t^2 = m_t (1+beta) J_t.g).
+ */
 typedef struct gg_loss_terms {
-  double gn2, Jg, J2;
+  double Jg, Jn2, J2;
 } gg_loss_terms;
 
 GG_INLINE double gg_loss_of(gg_rule rule, const gg_contact *c, gg_loss_terms sum)
 {
-  double Jn2 = c->jn * c->jn * sum.gn2;
-  if (rule == GG_SMOOTH) return (c->jn - 0.5 * gg_inverse_mr(c) * c->jn * c->jn) * sum.gn2;
-  double Jt2 = rule == GG_ROUGH ? c->jt * (sum.Jg - c->jn * sum.gn2) : sum.J2 - Jn2;
-  return sum.Jg - 0.5 * (gg_inverse_mr(c) * Jn2 + gg_inverse_mt(c) * Jt2);
+  if (rule == GG_SMOOTH) return (1 - 0.5 * gg_inverse_mr(c) * c->jn) * sum.Jg;
+  double Jt2 = rule == GG_ROUGH ? c->jt * (sum.Jg - sum.Jn2 / c->jn) : sum.J2 - sum.Jn2;
+  return sum.Jg - 0.5 * (gg_inverse_mr(c) * sum.Jn2 + gg_inverse_mt(c) * Jt2);
 }
 
 #endif

@@ -1,10 +1,12 @@
-/* The grains shown to the outside: at the present time, peculiar velocities, a thousand at a time. */
+/* The grains shown to the outside: at the present time, peculiar velocities, a few hundred at a time. */
 #include "md/checkpoint.h"
 
+enum { SHOWN = 256 }; /* at a time: so few stay in the first cache until they have been looked at */
+
 typedef struct scratch {
-  double r[3][GG_CHUNK], c[3][GG_CHUNK], s[3][GG_CHUNK];
-  uint8_t species[GG_CHUNK];
-  int64_t id[GG_CHUNK];
+  double r[3][SHOWN], c[3][SHOWN], s[3][SHOWN];
+  uint8_t species[SHOWN];
+  int64_t id[SHOWN];
 } scratch;
 
 /* The image in the box; under shear the velocity goes with it, so the peculiar one stays. */
@@ -38,8 +40,8 @@ void gg_md_snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *co
 {
   const gg_md *e = (const gg_md *)engine;
   scratch out;
-  for (uint32_t begin = 0; begin < e->n; begin += GG_CHUNK) {
-    gg_chunk chunk = {.n = e->n - begin < GG_CHUNK ? e->n - begin : GG_CHUNK};
+  for (uint32_t begin = 0; begin < e->n; begin += SHOWN) {
+    gg_chunk chunk = {.n = e->n - begin < SHOWN ? e->n - begin : SHOWN};
     for (size_t k = 0; k < chunk.n; k++) show_grain(e, begin + (uint32_t)k, k, positions, &out);
     for (int a = 0; a < 3; a++) {
       chunk.r[a] = positions ? out.r[a] : NULL;

@@ -51,32 +51,62 @@ static void add_power(transform *f, const double *x, size_t n, double *power)
     power[k] += f->spectrum[k][0] * f->spectrum[k][0] + f->spectrum[k][1] * f->spectrum[k][1];
 }
 
-/* Sum rho up to Sokal's window; covariances at lag t are over n - t pairs. */
-static double sum_to_window(const double *covariance, size_t n)
+/* rho from covariances, its sum and where that ends. Anticorrelated series: do not claim less than independent samples
+ * have. */
+static void sum_to_window(const double *covariance, size_t n, double shift, gg_correlation *c)
 {
-  double tau = 0.5, variance = covariance[0] / (double)n;
-  if (!(variance > 0)) return 0.5;
-  for (size_t t = 1; t < n; t++) {
-    tau += covariance[t] / (double)(n - t) / variance;
-    if ((double)t > 5 * tau) break;
+  c->time = 0.5;
+  c->window = 0;
+  c->rho[0] = 1;
+  if (!(covariance[0] + shift > 0)) return;
+  for (size_t t = 1; t < n && (double)c->window <= 5 * c->time; t++) {
+    c->rho[t] = (covariance[t] + shift) / (covariance[0] + shift);
+    c->time += c->rho[t];
+    c->window = t;
   }
-  return tau > 0.5 ? tau : 0.5; /* anticorrelated series: do not claim less than independent samples have */
+  if (c->time < 0.5) *c = (gg_correlation){.time = 0.5, .rho = c->rho};
 }
 
-gg_status gg_correlation_time(const double *x, size_t n, size_t n_runs, double *tau, gg_error *err)
+static gg_status correlate(transform *f, const double *x, size_t n, size_t n_runs, gg_correlation *c, gg_error *err)
 {
-  *tau = 0.5;
+  double *power = gg_new_array(f->length / 2 + 1, sizeof *power, err);
+  if (!power) return GG_FAILED;
+  for (size_t r = 0; r < n_runs; r++) add_power(f, x + r * n, n, power);
+  for (size_t k = 0; k <= f->length / 2; k++) f->spectrum[k][0] = power[k], f->spectrum[k][1] = 0;
+  free(power);
+  fftw_execute(f->backward);
+  for (size_t t = 0; t < n; t++) f->real[t] /= (double)(n - t); /* pairs at a lag t */
+  sum_to_window(f->real, n, 0, c);
+  sum_to_window(f->real, n, 2 * c->time * f->real[0] / (double)(n * n_runs), c);
+  return GG_OK;
+}
+
+gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, gg_correlation *c, gg_error *err)
+{
+  *c = (gg_correlation){.time = 0.5};
+  c->rho = gg_new_array(n ? n : 1, sizeof *c->rho, err);
+  if (!c->rho) return GG_FAILED;
+  c->rho[0] = 1;
   if (n < 4) return GG_OK;
   transform f;
-  GG_TRY(transform_make(&f, n, err));
-  double *power = gg_new_array(f.length / 2 + 1, sizeof *power, err);
-  if (power) {
-    for (size_t r = 0; r < n_runs; r++) add_power(&f, x + r * n, n, power);
-    for (size_t k = 0; k <= f.length / 2; k++) f.spectrum[k][0] = power[k], f.spectrum[k][1] = 0;
-    fftw_execute(f.backward);
-    *tau = sum_to_window(f.real, n);
+  gg_status status = transform_make(&f, n, err);
+  if (status == GG_OK) {
+    status = correlate(&f, x, n, n_runs, c, err);
+    transform_free(&f);
   }
-  free(power);
-  transform_free(&f);
-  return power ? GG_OK : GG_FAILED;
+  if (status != GG_OK) gg_correlation_clear(c);
+  return status;
+}
+
+void gg_correlation_clear(gg_correlation *c)
+{
+  free(c->rho);
+  c->rho = NULL;
+}
+
+double gg_correlation_inflation(const gg_correlation *c, size_t length)
+{
+  double sum = 1;
+  for (size_t t = 1; t <= c->window && t < length; t++) sum += 2 * (1 - (double)t / (double)length) * c->rho[t];
+  return sum;
 }

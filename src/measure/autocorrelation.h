@@ -4,10 +4,21 @@
 
 #include "common/error.h"
 
-/* Integrated autocorrelation time tau = 1/2 + sum_{t>=1} rho(t), in rows (1/2: uncorrelated), of `n_runs` independent
- * stretches of `n` rows each, laid end to end in x, about their common mean 0. The sum stops at the first t > 5 tau(t)
- * (Sokal's window; Madras & Sokal, J. Stat. Phys. 50 (1988) 109). Variance of the mean: 2 tau var/(n n_runs).
- * A series too short for its tau gives an underestimate: ask for n > 50 tau. */
-gg_status gg_correlation_time(const double *x, size_t n, size_t n_runs, double *tau, gg_error *err);
+/* Of `n_runs` independent stretches of `n` rows each, laid end to end, about their common mean 0. */
+typedef struct gg_correlation {
+  double time;   /* integrated: 1/2 + sum_{t>=1} rho(t), in rows (1/2: uncorrelated); variance of the mean: 2 time
+                    var/rows */
+  size_t window; /* the sum goes so far: to the first t > 5 tau(t) (Madras & Sokal, J. Stat. Phys. 50 (1988) 109) */
+  double *rho;   /* 0 .. window */
+} gg_correlation;
+
+/* That the mean is itself taken from the series makes every covariance too small by the variance of the mean: it is put
+ * back (Wolff, Comput. Phys. Commun. 156 (2004) 143, eq. 49). Still, a series too short for its time gives too little:
+ * ask for 50 times as many rows. */
+gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, gg_correlation *c, gg_error *err);
+void gg_correlation_clear(gg_correlation *c);
+
+/* Variance of the mean of `length` successive rows, over that of as many independent ones. */
+double gg_correlation_inflation(const gg_correlation *c, size_t length);
 
 #endif

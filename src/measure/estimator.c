@@ -27,9 +27,17 @@ static size_t block_length(size_t n, size_t n_runs, double tau)
   return length < 1 ? 1 : length > (double)n ? n : (size_t)length;
 }
 
+/* Blocks that are not much longer than the correlation time depend on their neighbours, and scatter less than their
+ * mean is uncertain: by how much follows from the correlation function itself. */
+static double neighbours(const gg_correlation *c, size_t n, size_t length)
+{
+  double whole = gg_correlation_inflation(c, n), block = gg_correlation_inflation(c, length);
+  return whole > block && block > 0 ? sqrt(whole / block) : 1;
+}
+
 gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err)
 {
-  *out = (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = 0.5};
+  *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
   size_t total = n * n_runs;
   if (total == 0) return GG_OK;
   out->mean = gsl_stats_mean(y, 1, total);
@@ -37,12 +45,16 @@ gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *
   double *work = gg_new_array(total, sizeof *work, err);
   if (!work) return GG_FAILED;
   for (size_t i = 0; i < total; i++) work[i] = y[i] - out->mean;
-  gg_status status = gg_correlation_time(work, n, n_runs, &out->correlation_rows, err);
+  gg_correlation c;
+  gg_status status = gg_correlation_of(work, n, n_runs, &c, err);
   if (status == GG_OK) {
-    size_t length = block_length(n, n_runs, out->correlation_rows);
+    size_t length = block_length(n, n_runs, c.time);
+    out->correlation_rows = c.time;
     out->blocks = block_means(y, n, n_runs, length, work);
-    if (out->blocks >= 2) out->error = gsl_stats_sd(work, 1, out->blocks) / sqrt((double)out->blocks);
-    out->trusted = out->blocks >= GG_MIN_BLOCKS && (double)length >= 5 * out->correlation_rows;
+    if (out->blocks >= 2) out->scatter = gsl_stats_sd(work, 1, out->blocks) / sqrt((double)out->blocks);
+    out->error = out->scatter * neighbours(&c, n, length);
+    out->trusted = out->blocks >= GG_MIN_BLOCKS && (double)length >= 5 * c.time;
+    gg_correlation_clear(&c);
   }
   free(work);
   return status;
@@ -73,7 +85,7 @@ static double slope(gg_of_means *f, const gg_model *model, double *mean, size_t 
 gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
                            size_t channels, gg_of_means *f, const gg_model *model, gg_mean *out, gg_error *err)
 {
-  *out = (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = 0.5};
+  *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
   if (end <= begin) return GG_OK;
   size_t n = end - begin, total = n * n_runs;
   double *work = gg_new_array(total + 2 * channels, sizeof *work, err);

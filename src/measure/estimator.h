@@ -2,7 +2,7 @@
  * a difference of stresses); its error comes from the series of its linear response to each row, y_t = f(a) + sum_i
  * (df/da_i)(a_i,t - a_i), so that correlations between channels and in time are both accounted for: blocks of y much
  * longer than its correlation time, standard error from their scatter (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989)
- * 461). */
+ * 461), enlarged by what neighbouring blocks have in common: a few per cent, in short windows a quarter. */
 #ifndef GG_ESTIMATOR_H
 #define GG_ESTIMATOR_H
 
@@ -14,6 +14,7 @@ typedef double gg_of_means(const double *mean, const gg_model *model);
 
 typedef struct gg_mean {
   double mean, error;      /* NaN if it cannot be had */
+  double scatter;          /* the error if blocks did not depend on their neighbours */
   double correlation_rows; /* integrated correlation time, rows */
   size_t blocks;           /* independent blocks behind the error */
   bool trusted;            /* at least GG_MIN_BLOCKS blocks of at least 5 correlation times */

@@ -1,11 +1,10 @@
-/* Sums in eight lanes whatever the processor's registers hold, so that every processor has the same bits. */
 #include "measure/moments.h"
 
 #include <string.h>
 
 #include "common/clones.h"
 
-enum { LANES = 8 };
+enum { LANES = GG_MOMENT_LANES };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
 typedef int64_t masks __attribute__((vector_size(LANES * sizeof(int64_t))));
@@ -22,81 +21,93 @@ GG_INLINE void load(lanes *to, const double *from, size_t n, double fill)
   memcpy(to, part, sizeof *to);
 }
 
-static double sum_of(const lanes *v)
+static double sum_of(const gg_moment_lanes *v)
 {
   const double *x = (const double *)v;
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
-GG_CLONES static void translation(gg_moments *m, size_t n, const double *const c[3])
+/* Eight grains; returns C.C. */
+GG_INLINE lanes translation(gg_moment_sums *a, const lanes c[3])
 {
-  lanes x1 = {0}, y1 = x1, z1 = x1, x2 = x1, y2 = x1, z2 = x1, xy = x1, x4 = x1, y4 = x1, z4 = x1, c4 = x1, speed = x1;
+  lanes square[3], root, all;
+  for (int k = 0; k < 3; k++) square[k] = c[k] * c[k];
+  all = square[0] + square[1] + square[2];
+  for (int l = 0; l < LANES; l++) root[l] = __builtin_sqrt(all[l]);
+  for (int k = 0; k < 3; k++) {
+    a->cc[k] += square[k];
+    a->c4[k] += square[k] * square[k];
+  }
+  a->cxcy += c[0] * c[1];
+  a->cccc += all * all;
+  a->speed += root;
+  return all;
+}
+
+/* c2: C.C */
+GG_INLINE void rotation(gg_moment_sums *a, const lanes c[3], lanes c2, const lanes w[3])
+{
+  const lanes none = {0}, third = none + 1.0 / 3;
+  lanes square[3], dot = c[0] * w[0] + c[1] * w[1] + c[2] * w[2];
+  for (int k = 0; k < 3; k++) {
+    square[k] = w[k] * w[k];
+    a->w[k] += w[k];
+    a->ww[k] += square[k];
+    a->w3[k] += square[k] * w[k];
+    a->w4[k] += square[k] * square[k];
+  }
+  lanes product = c2 * (square[0] + square[1] + square[2]);
+  masks moves = (masks)(product > none); /* a grain at rest has no direction: no correlation */
+  a->cos2 += (lanes)(((masks)(dot * dot / product) & moves) | ((masks)third & ~moves));
+}
+
+/* One pass for everything; the sums stay in registers as far as these go. */
+GG_INLINE void add(gg_moments *m, size_t n, const double *const c[3], const double *const s[3], bool spins)
+{
+  gg_moment_sums a = m->sums;
+  const double mean[3] = {m->mean_spin[0], m->mean_spin[1], m->mean_spin[2]};
   for (size_t i = 0; i < n; i += LANES) {
-    lanes x = {0}, y = x, z = x, root = x;
-    load(&x, c[0] + i, n - i, 0), load(&y, c[1] + i, n - i, 0), load(&z, c[2] + i, n - i, 0);
-    lanes xx = x * x, yy = y * y, zz = z * z, square = xx + yy + zz;
-    for (int l = 0; l < LANES; l++) root[l] = __builtin_sqrt(square[l]);
-    x1 += x, y1 += y, z1 += z;
-    x2 += xx, y2 += yy, z2 += zz;
-    xy += x * y;
-    x4 += xx * xx, y4 += yy * yy, z4 += zz * zz;
-    c4 += square * square;
-    speed += root;
+    lanes v[3], w[3], c2;
+    for (int k = 0; k < 3; k++) load(&v[k], c[k] + i, n - i, 0);
+    c2 = translation(&a, v);
+    if (!spins) continue;
+    for (int k = 0; k < 3; k++) load(&w[k], s[k] + i, n - i, mean[k]), w[k] -= mean[k];
+    rotation(&a, v, c2, w);
   }
   m->n += (double)n;
-  m->c[0] += sum_of(&x1), m->c[1] += sum_of(&y1), m->c[2] += sum_of(&z1);
-  m->cc[0] += sum_of(&x2), m->cc[1] += sum_of(&y2), m->cc[2] += sum_of(&z2);
-  m->cxcy += sum_of(&xy);
-  m->c4[0] += sum_of(&x4), m->c4[1] += sum_of(&y4), m->c4[2] += sum_of(&z4);
-  m->cccc += sum_of(&c4);
-  m->speed += sum_of(&speed);
+  m->sums = a;
+  if (spins) m->cos2 -= (double)((LANES - n % LANES) % LANES) / 3; /* lanes beyond the last grain */
 }
 
-GG_CLONES static void rotation(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
+GG_CLONES static void add_smooth(gg_moments *m, size_t n, const double *const c[3])
 {
-  const double *mean = m->mean_spin;
-  const lanes none = {0}, third = none + 1.0 / 3;
-  lanes x1 = none, y1 = none, z1 = none, x2 = none, y2 = none, z2 = none, x3 = none, y3 = none, z3 = none;
-  lanes x4 = none, y4 = none, z4 = none, cos2 = none;
-  for (size_t i = 0; i < n; i += LANES) {
-    lanes u = none, v = none, w = none, x = none, y = none, z = none;
-    load(&u, c[0] + i, n - i, 0), load(&v, c[1] + i, n - i, 0), load(&w, c[2] + i, n - i, 0);
-    load(&x, s[0] + i, n - i, mean[0]), load(&y, s[1] + i, n - i, mean[1]), load(&z, s[2] + i, n - i, mean[2]);
-    x -= mean[0], y -= mean[1], z -= mean[2];
-    lanes xx = x * x, yy = y * y, zz = z * z, dot = u * x + v * y + w * z;
-    lanes product = (u * u + v * v + w * w) * (xx + yy + zz);
-    x1 += x, y1 += y, z1 += z;
-    x2 += xx, y2 += yy, z2 += zz;
-    x3 += xx * x, y3 += yy * y, z3 += zz * z;
-    x4 += xx * xx, y4 += yy * yy, z4 += zz * zz;
-    masks moves = (masks)(product > none); /* a grain at rest has no direction: no correlation */
-    cos2 += (lanes)(((masks)(dot * dot / product) & moves) | ((masks)third & ~moves));
-  }
-  m->w[0] += sum_of(&x1), m->w[1] += sum_of(&y1), m->w[2] += sum_of(&z1);
-  m->ww[0] += sum_of(&x2), m->ww[1] += sum_of(&y2), m->ww[2] += sum_of(&z2);
-  m->w4[0] += sum_of(&x4), m->w4[1] += sum_of(&y4), m->w4[2] += sum_of(&z4);
-  m->w3[0] += sum_of(&x3), m->w3[1] += sum_of(&y3), m->w3[2] += sum_of(&z3);
-  m->cos2 += sum_of(&cos2) - (double)((LANES - n % LANES) % LANES) / 3; /* lanes beyond the last grain */
+  add(m, n, c, c, false);
 }
 
-void gg_moments_translation(gg_moments *m, size_t n, const double *const c[3])
+GG_CLONES static void add_rough(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
 {
-  translation(m, n, c);
+  add(m, n, c, s, true);
 }
 
-void gg_moments_rotation(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
+void gg_moments_add(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
 {
-  rotation(m, n, c, s);
+  if (s[0])
+    add_rough(m, n, c, s);
+  else
+    add_smooth(m, n, c);
 }
 
 void gg_moments_settle(gg_moments *m)
 {
+  const gg_moment_sums *s = &m->sums;
+  m->cxcy = sum_of(&s->cxcy), m->cccc = sum_of(&s->cccc), m->speed = sum_of(&s->speed);
+  m->cos2 += sum_of(&s->cos2);
   for (int a = 0; m->n > 0 && a < 3; a++) {
-    double d = m->w[a] / m->n, dd = d * d;
+    m->cc[a] = sum_of(&s->cc[a]), m->c4[a] = sum_of(&s->c4[a]);
+    double ww = sum_of(&s->ww[a]), w3 = sum_of(&s->w3[a]), d = sum_of(&s->w[a]) / m->n, dd = d * d;
     m->mean_spin[a] += d;
-    m->w4[a] += -4 * d * m->w3[a] + 6 * dd * m->ww[a] - 3 * m->n * dd * dd;
-    m->w3[a] += -3 * d * m->ww[a] + 2 * m->n * dd * d;
-    m->ww[a] -= m->n * dd;
-    m->w[a] = 0;
+    m->w4[a] = sum_of(&s->w4[a]) - 4 * d * w3 + 6 * dd * ww - 3 * m->n * dd * dd;
+    m->w3[a] = w3 - 3 * d * ww + 2 * m->n * dd * d;
+    m->ww[a] = ww - m->n * dd;
   }
 }

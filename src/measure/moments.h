@@ -4,24 +4,30 @@
 
 #include "common/engine.h"
 
-/* Sums over grains of one species; spins about `mean_spin`. */
+/* Sums while grains are added: eight lanes each, whatever the processor's registers hold, so that every processor has
+ * the same bits. */
+enum { GG_MOMENT_LANES = 8 };
+typedef double gg_moment_lanes __attribute__((vector_size(GG_MOMENT_LANES * sizeof(double)), aligned(8), may_alias));
+typedef struct gg_moment_sums {
+  gg_moment_lanes cc[3], cxcy, c4[3], cccc, speed;
+  gg_moment_lanes w[3], ww[3], w3[3], w4[3], cos2;
+} gg_moment_sums;
+
+/* Sums over grains of one species; spins about `mean_spin`. Once settled: */
 typedef struct gg_moments {
   double n;
-  double c[3];         /* C_a */
-  double cc[3], cxcy;  /* C_a^2, C_x C_y */
-  double c4[3];        /* C_a^4 */
-  double cccc;         /* (C.C)^2 */
-  double speed;        /* |C| */
-  double mean_spin[3]; /* about which spins are taken; <s_a> once settled */
-  double w[3];         /* sums of powers of Omega_a = s_a - mean_spin, surface velocities */
-  double ww[3], w3[3], w4[3];
-  double cos2; /* (C.Omega)^2/(C^2 Omega^2) */
+  double cc[3], cxcy;         /* C_a^2, C_x C_y */
+  double c4[3];               /* C_a^4 */
+  double cccc;                /* (C.C)^2 */
+  double speed;               /* |C| */
+  double mean_spin[3];        /* about which spins are taken: a guess before, <s_a> then */
+  double ww[3], w3[3], w4[3]; /* sums of powers of Omega_a = s_a - mean_spin, surface velocities */
+  double cos2;                /* (C.Omega)^2/(C^2 Omega^2), of the guess */
+  gg_moment_sums sums;
 } gg_moments;
 
-/* Add the moments of n grains. */
-void gg_moments_translation(gg_moments *m, size_t n, const double *const c[3]);
-/* Of spins about m->mean_spin, any guess of their mean. */
-void gg_moments_rotation(gg_moments *m, size_t n, const double *const c[3], const double *const s[3]);
+/* Add n grains; s[0] NULL: without spins. Spins are taken about m->mean_spin, any guess of their mean. */
+void gg_moments_add(gg_moments *m, size_t n, const double *const c[3], const double *const s[3]);
 /* All grains are in: mean_spin becomes their mean, and the powers of Omega are about it. */
 void gg_moments_settle(gg_moments *m);
 

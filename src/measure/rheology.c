@@ -60,8 +60,7 @@ static void visit(void *self, const gg_chunk *chunk)
   rheology *r = self;
   for (int i = 0; i < r->model.n_species; i++) {
     gg_species_view v = gg_chunk_of_species(chunk, i, &r->scratch);
-    gg_moments_translation(&r->moments[i], v.n, v.c);
-    if (v.s[0]) gg_moments_rotation(&r->moments[i], v.n, v.c, v.s);
+    gg_moments_add(&r->moments[i], v.n, v.c, v.s);
   }
 }
 

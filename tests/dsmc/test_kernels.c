@@ -37,8 +37,8 @@ static void same_rule(void **state)
     if (gn < 0) continue;
     gg_vd3 vJ = gg_lane_impulse(rule, &c, vk, vg, gg_all(gn));
     /* what smooth and rough grains do not need must not matter */
-    gg_loss_terms terms = {.gn2 = gn * gn, .Jg = NAN, .J2 = NAN};
-    if (rule != GG_SMOOTH) terms.Jg = gg_dot(J, g);
+    gg_loss_terms terms = {.Jg = gg_dot(J, g), .Jn2 = NAN, .J2 = NAN};
+    if (rule != GG_SMOOTH) terms.Jn2 = gg_dot(k, J) * gg_dot(k, J);
     if (rule == GG_FRICTIONAL) terms.J2 = gg_dot(J, J);
     double loss = gg_energy_loss(&c, k, g, J), vloss = gg_loss_of(rule, &c, terms);
     assert_true(fabs(vJ.x[0] - J.x) + fabs(vJ.y[1] - J.y) + fabs(vJ.z[0] - J.z) < 1e-14);

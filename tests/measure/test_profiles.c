@@ -1,5 +1,6 @@
-/* Profiles: planted flow, temperature and spin come back slab by slab; a Couette gas is antisymmetric, slips at its
- * walls, presses and pulls them as its own stress says, and holds as much as was put in. */
+/* Profiles: planted flow, temperature and spin come back slab by slab, planted impulses as the stress on the walls; a
+ * Couette gas is antisymmetric, slips at its walls, presses and pulls them as its own stress says, and holds as much as
+ * was put in. */
 #include <stdio.h>
 
 #include "curve_test.h"
@@ -64,6 +65,64 @@ static void planted_profiles(void **state)
   gg_curves_clear(&list);
 }
 
+/* Walls that take up known impulses in known times: the stress is their sum over area and time, whatever the lengths of
+ * the intervals; what came before averaging began is forgotten, and two intervals may go into one look. `noise`:
+ * relative scatter of the impulses of an interval. */
+static gg_curves pushed(const gg_model *m, int samples, double noise)
+{
+  static const double P[2][3] = {{0.3, -0.7, 0.1}, {-0.3, 0.7, 0.2}}; /* force on each wall over its area */
+  gg_rng r = gg_rng_seed(92, 0);
+  gg_snapshot s;
+  gg_bins bins;
+  void *self = gg_profiles.create(m, NULL);
+  assert_int_equal(gg_snapshot_init(&s, m, true, NULL), GG_OK);
+  assert_int_equal(gg_bins_init(&bins, gg_profiles.bins(self), NULL), GG_OK);
+  gg_transfer t = {.wall_impulse = {{1e6, 1e6, 1e6}, {1e6, 1e6, 1e6}}};
+  gg_profiles.hear(self, &(gg_interval){m, &t, 1e3, 1});
+  gg_profiles.restart(self);
+  for (int k = 0; k < 2 * samples; k++) {
+    double time = 0.5 + 0.1 * (k % 7);
+    for (int wall = 0; wall < 2; wall++)
+      for (int a = 0; a < 3; a++)
+        t.wall_impulse[wall][a] = P[wall][a] * m->box[0] * m->box[2] * time * (1 + noise * gg_rng_normal(&r));
+    gg_profiles.hear(self, &(gg_interval){m, &t, time, 1});
+    if (k % 2 == 0) continue;
+    gg_profiles.look(self, &s, gg_bins_sample(&bins));
+    gg_bins_commit(&bins);
+  }
+  const gg_bins *list[] = {&bins};
+  gg_curves curves = {.model = m};
+  assert_int_equal(gg_curves_estimate(list, 1, gg_profiles.curves, self, "profiles", &curves, NULL), GG_OK);
+  gg_bins_clear(&bins);
+  gg_snapshot_clear(&s);
+  gg_profiles.destroy(self);
+  return curves;
+}
+
+static void wall_stress(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_COUETTE, 0.2, 0, 200, 1);
+  static const struct {
+    const char *name;
+    double P;
+  } walls[] = {
+      {"wall_P_yy_lower", 0.7}, {"wall_P_yx_lower", -0.3}, {"wall_P_yy_upper", 0.7}, {"wall_P_yx_upper", -0.3}};
+  for (int noisy = 0; noisy < 2; noisy++) {
+    gg_curves list = pushed(&m, noisy ? 3200 : 48, noisy ? 0.5 : 0);
+    for (int k = 0; k < 4; k++) {
+      gg_curve_number n = ct_number(ct_find(&list, "profile_velocity"), walls[k].name);
+      double P = m.stress_unit * walls[k].P;
+      if (!noisy) assert_true(fabs(n.value - P) < 1e-12 && n.error < 1e-12);
+      if (!noisy) continue;
+      ct_expect(walls[k].name, n.value, n.error, P, 0.03 * fabs(P));
+      double scatter = 0.5 * fabs(P) / sqrt(6400) * sqrt(1.06); /* unequal intervals: <t^2>/<t>^2 */
+      assert_true(fabs(n.error / scatter - 1) < 0.5);           /* 16 to 32 blocks, and what they correlate by chance */
+    }
+    gg_curves_clear(&list);
+  }
+}
+
 static void couette(void **state)
 {
   (void)state;
@@ -108,6 +167,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_profiles),
+      cmocka_unit_test(wall_stress),
       cmocka_unit_test(couette),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,203 @@
+/* The snapshot page: a few grains at known places are drawn there, in both projections, to scale and in the colour of
+ * their species; of a gas below an open top the page shows what it fills; a result without positions has none. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "io/plot.h"
+#include "planted.h"
+
+enum { GRAINS = 5, MOST = 64 };
+
+static char folder[] = "/tmp/graingas-snapshot-XXXXXX";
+
+static int enter(void **state)
+{
+  (void)state;
+  return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave(void **state)
+{
+  (void)state;
+  unlink("r.h5");
+  unlink("r.svg");
+  return chdir("/") == 0 ? rmdir(folder) : -1;
+}
+
+/* A disc or a frame of the page: its sides in pixels, y downwards. */
+typedef struct shape {
+  double left, right, top, bottom;
+  int points, colour; /* red, 0 to 255 */
+} shape;
+
+typedef struct page {
+  shape disc[MOST], frame[MOST];
+  int discs, frames;
+} page;
+
+static shape shape_of(const char *points, char end)
+{
+  shape s = {.left = INFINITY, .right = -INFINITY, .top = INFINITY, .bottom = -INFINITY};
+  double x, y;
+  int used;
+  while (*points != end && sscanf(points, " %*[ML]%n", &used) >= 0) {
+    if (sscanf(points, " %lf,%lf%n", &x, &y, &used) != 2 && sscanf(points, " %*1[ML]%lf,%lf%n", &x, &y, &used) != 2)
+      break;
+    s.left = fmin(s.left, x), s.right = fmax(s.right, x);
+    s.top = fmin(s.top, y), s.bottom = fmax(s.bottom, y);
+    s.points++;
+    points += used;
+  }
+  return s;
+}
+
+static char *read_text(const char *path)
+{
+  FILE *f = fopen(path, "r");
+  assert_non_null(f);
+  static char text[1 << 22];
+  text[fread(text, 1, sizeof text - 1, f)] = 0;
+  fclose(f);
+  return text;
+}
+
+/* Discs are filled polygons; frames, closed paths of five points. */
+static void read_page(page *p)
+{
+  *p = (page){.discs = 0};
+  const char *text = read_text("r.svg");
+  for (const char *at = text; (at = strstr(at, "<polygon fill = 'rgb(")); at++) {
+    assert_true(p->discs < MOST);
+    shape *s = &p->disc[p->discs++];
+    *s = shape_of(strstr(at, "points = '") + 10, '\'');
+    sscanf(at, "<polygon fill = 'rgb(%d", &s->colour);
+  }
+  for (const char *at = text; (at = strstr(at, "d='M")); at++) {
+    shape s = shape_of(at + 3, '\'');
+    if (s.points == 5 && s.right - s.left > 50 && s.bottom - s.top > 50 && p->frames < MOST) p->frame[p->frames++] = s;
+  }
+}
+
+static gg_result *result_with(gg_flow flow, const double place[GRAINS][3])
+{
+  gg_result *r = planted_result(GG_MD);
+  gg_scene *s = &r->scene;
+  s->flow = flow, s->phi = 0.02, s->particles = GRAINS, s->n_species = 2;
+  s->species[0] = (gg_species){0.6, 1, 1, 0.4}, s->species[1] = (gg_species){0.4, 1.5, 2, 0.4};
+  s->aspect[0] = 1, s->aspect[1] = 2, s->aspect[2] = 1.5;
+  if (flow == GG_CHUTE) s->walls.top = GG_OPEN_TOP, s->gravity[1] = -1;
+  gg_error err = {0};
+  if (gg_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
+  gg_frame *f = &r->final;
+  f->n = GRAINS;
+  f->species = calloc(GRAINS, 1);
+  for (size_t i = 0; i < GRAINS; i++) {
+    f->id[i] = (int64_t)i;
+    f->species[i] = i % 2; /* in no order */
+    for (int a = 0; a < 3; a++) f->position[3 * i + (size_t)a] = place[i][a];
+  }
+  return r;
+}
+
+static bool draw(gg_result *r)
+{
+  gg_error err = {0};
+  gg_stored_result stored;
+  bool drawn = false;
+  if (gg_result_write(r, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_stored_result_read(&stored, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_plot_snapshot(&stored, "r.h5", "r.svg", false, &drawn, &err) != GG_OK) fail_msg("%s", err.message);
+  gg_stored_result_clear(&stored);
+  return drawn;
+}
+
+/* Every grain's disc in the panel whose frame is `f` and whose horizontal axis is `along`. */
+static void expect_grains(const page *p, shape f, const double place[GRAINS][3], int along, double edge, double top)
+{
+  double scale = (f.right - f.left) / edge;
+  assert_true(fabs((f.bottom - f.top) / top / scale - 1) < 0.01); /* circles stay circles */
+  for (int i = 0; i < GRAINS; i++) {
+    double x = f.left + scale * place[i][along], y = f.bottom - scale * place[i][1], radius = i % 2 ? 0.75 : 0.5;
+    int found = 0;
+    for (int k = 0; k < p->discs; k++) {
+      const shape *d = &p->disc[k];
+      found += fabs(0.5 * (d->left + d->right) - x) < 0.01 * scale &&
+               fabs(0.5 * (d->top + d->bottom) - y) < 0.01 * scale &&
+               fabs(d->right - d->left - 2 * radius * scale) < 0.02 * scale &&
+               fabs(d->bottom - d->top - 2 * radius * scale) < 0.02 * scale && d->colour == (i % 2 ? 213 : 0);
+    }
+    if (found != 1) fail_msg("grain %d: %d discs at (%.1f, %.1f)", i, found, x, y);
+  }
+}
+
+/* The leftmost and rightmost of the frames, which may be drawn more than once. */
+static void panels(const page *p, shape *left, shape *right)
+{
+  assert_true(p->frames >= 2);
+  *left = *right = p->frame[0];
+  for (int k = 0; k < p->frames; k++) {
+    if (p->frame[k].left < left->left) *left = p->frame[k];
+    if (p->frame[k].left > right->left) *right = p->frame[k];
+  }
+  assert_true(left->right < right->left);
+}
+
+static void grains_where_they_are(void **state)
+{
+  (void)state;
+  const double place[GRAINS][3] = {{1, 2, 1.5}, {3, 1.2, 2}, {2.2, 5, 4.1}, {1.3, 6.5, 3}, {3.1, 7.9, 5}};
+  gg_result *r = result_with(GG_USF, place);
+  const double *L = r->model.box;
+  assert_true(L[0] > 4 && L[1] > 8.1 && L[2] > 6);
+  assert_true(draw(r));
+  page p;
+  shape left, right;
+  read_page(&p);
+  panels(&p, &left, &right);
+  assert_int_equal(p.discs, 2 * GRAINS);
+  expect_grains(&p, left, place, 0, L[0], L[1]);
+  expect_grains(&p, right, place, 2, L[2], L[1]);
+  gg_result_free(r);
+}
+
+/* What lies on a floor is shown up to a diameter above the highest grain, not in the midst of an empty sky. */
+static void below_an_open_top(void **state)
+{
+  (void)state;
+  const double place[GRAINS][3] = {{1, 0.5, 1.5}, {3, 0.75, 2}, {2.2, 0.5, 4.1}, {1.3, 0.75, 3}, {3.1, 2, 5}};
+  gg_result *r = result_with(GG_CHUTE, place);
+  const double *L = r->model.box;
+  assert_true(L[1] > 6);
+  assert_true(draw(r));
+  page p;
+  shape left, right;
+  read_page(&p);
+  panels(&p, &left, &right);
+  expect_grains(&p, left, place, 0, L[0], 3);
+  expect_grains(&p, right, place, 2, L[2], 3);
+  gg_result_free(r);
+}
+
+static void no_positions(void **state)
+{
+  (void)state;
+  gg_result *r = planted_result(GG_DSMC);
+  assert_false(draw(r));
+  gg_result_free(r);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(grains_where_they_are),
+      cmocka_unit_test(below_an_open_top),
+      cmocka_unit_test(no_positions),
+  };
+  return cmocka_run_group_tests(tests, enter, leave);
+}
