@@ -1,7 +1,7 @@
 /* graingas bench dsmc: the Enskog Monte Carlo engine by size, and what each feature of a scene costs. */
 #include <math.h>
 
-#include "cli/bench.h"
+#include "cli/bench_dsmc.h"
 
 static const char times_caption[] =
     "Elastic smooth spheres (the kernel of free cooling), no tap: nanoseconds per accepted collision, CPU time of one "
@@ -17,49 +17,36 @@ static const double densities[] = {0, 0.3};
 static const int64_t sizes[] = {10000, 100000, 1000000};
 enum { N_DENSITIES = 2, N_SIZES = 3, QUICK_SIZES = 2 };
 
-enum {
-  SMOOTH,
-  ROUGH,
-  FRICTIONAL,
-  TWO,
-  TWO_ROUGH,
-  TAPPED,
-  SHEARED,
-  SHEARED_TAPPED,
-  SHEARED_ROUGH,
-  SHEARED_FRICTIONAL,
-  SHEARED_TWO
+const gg_bench_feature gg_dsmc_features_timed[GG_DSMC_KINDS] = {
+    [GG_DSMC_SMOOTH] = {"smooth", GG_DSMC_SMOOTH},
+    [GG_DSMC_ROUGH] = {"rough", GG_DSMC_SMOOTH},
+    [GG_DSMC_FRICTIONAL] = {"frictional", GG_DSMC_ROUGH},
+    [GG_DSMC_TWO] = {"two species", GG_DSMC_SMOOTH},
+    [GG_DSMC_TWO_ROUGH] = {"two species, rough", GG_DSMC_ROUGH},
+    [GG_DSMC_TAPPED] = {"smooth, tap open", GG_DSMC_SMOOTH},
+    [GG_DSMC_SHEARED] = {"sheared smooth", GG_DSMC_SMOOTH},
+    [GG_DSMC_SHEARED_TAPPED] = {"sheared smooth, tap open", GG_DSMC_SHEARED},
+    [GG_DSMC_SHEARED_ROUGH] = {"sheared rough, tap open", GG_DSMC_SHEARED_TAPPED},
+    [GG_DSMC_SHEARED_FRICTIONAL] = {"sheared frictional, tap open", GG_DSMC_SHEARED_ROUGH},
+    [GG_DSMC_SHEARED_TWO] = {"sheared, two species, tap open", GG_DSMC_SHEARED_TAPPED},
 };
-static const gg_bench_feature scenes[] = {
-    [SMOOTH] = {"smooth", SMOOTH},
-    [ROUGH] = {"rough", SMOOTH},
-    [FRICTIONAL] = {"frictional", ROUGH},
-    [TWO] = {"two species", SMOOTH},
-    [TWO_ROUGH] = {"two species, rough", ROUGH},
-    [TAPPED] = {"smooth, tap open", SMOOTH},
-    [SHEARED] = {"sheared smooth", SMOOTH},
-    [SHEARED_TAPPED] = {"sheared smooth, tap open", SHEARED},
-    [SHEARED_ROUGH] = {"sheared rough, tap open", SHEARED_TAPPED},
-    [SHEARED_FRICTIONAL] = {"sheared frictional, tap open", SHEARED_ROUGH},
-    [SHEARED_TWO] = {"sheared, two species, tap open", SHEARED_TAPPED},
-};
-enum { N_SCENES = sizeof scenes / sizeof *scenes };
 
-static gg_contender contender(const gg_bench *b, int kind, double phi, int64_t n)
+gg_contender gg_bench_dsmc_contender(const gg_bench *b, gg_dsmc_kind kind, double phi, int64_t n)
 {
-  const bool sheared = kind >= SHEARED;
-  gg_contender c = {.scene = gg_bench_scene(b, GG_DSMC, phi, n), .tap = kind == TAPPED || kind > SHEARED};
+  const bool sheared = kind >= GG_DSMC_SHEARED;
+  gg_contender c = {.scene = gg_bench_scene(b, GG_DSMC, phi, n),
+                    .tap = kind == GG_DSMC_TAPPED || kind > GG_DSMC_SHEARED};
   gg_scene *s = &c.scene;
-  c.against = scenes[kind].against;
+  c.against = gg_dsmc_features_timed[kind].against;
   s->flow = sheared ? GG_USF : GG_EQUILIBRIUM;
-  const bool rough = kind == ROUGH || kind == TWO_ROUGH || kind == SHEARED_ROUGH;
-  const bool frictional = kind == FRICTIONAL || kind == SHEARED_FRICTIONAL;
+  const bool rough = kind == GG_DSMC_ROUGH || kind == GG_DSMC_TWO_ROUGH || kind == GG_DSMC_SHEARED_ROUGH;
+  const bool frictional = kind == GG_DSMC_FRICTIONAL || kind == GG_DSMC_SHEARED_FRICTIONAL;
   for (int p = 0; p < GG_PAIRS; p++) {
     s->collision.e[p] = sheared ? 0.9 : 1;
     s->collision.beta[p] = rough ? sheared ? 0 : 1 : frictional ? 0.4 : -1;
     s->collision.mu[p] = frictional ? 0.123 : INFINITY;
   }
-  if (kind != TWO && kind != TWO_ROUGH && kind != SHEARED_TWO) return c;
+  if (kind != GG_DSMC_TWO && kind != GG_DSMC_TWO_ROUGH && kind != GG_DSMC_SHEARED_TWO) return c;
   s->n_species = 2;
   s->species[0].fraction = 0.5;
   s->species[1] = (gg_species){0.5, 1, 4, 0.4};
@@ -83,7 +70,7 @@ static gg_status times(gg_bench *b, gg_error *err)
     gg_bench_cell(sheet, row, 0, "%lld", (long long)sizes[i]);
     for (int d = 0; d < N_DENSITIES; d++) {
       gg_throughput t;
-      gg_scene s = contender(b, SMOOTH, densities[d], sizes[i]).scene;
+      gg_scene s = gg_bench_dsmc_contender(b, GG_DSMC_SMOOTH, densities[d], sizes[i]).scene;
       GG_TRY(gg_measure_throughput(&s, false, warmup_of(quick), quick ? 3 : 7, quick ? 0.3 : 1, &t, err));
       gg_bench_cell(sheet, row, 1 + d, "%.2f (%.2f - %.2f)", 1e9 / t.rate, 1e9 / t.fastest, 1e9 / t.slowest);
       json_array_append_new(sheet->rows, json_pack("{s:f, s:I, s:f, s:f, s:f, s:s}", "phi", densities[d], "particles",
@@ -99,29 +86,30 @@ static gg_status times(gg_bench *b, gg_error *err)
 static void note_ratio(gg_bench_sheet *sheet, int column, double phi, int64_t n, int kind, const gg_race *r)
 {
   const double ns = 1e9 / r->own.rate, ratio = 1 / r->ratio, least = 1 / r->highest, largest = 1 / r->lowest;
-  if (kind == scenes[kind].against)
+  if (kind == gg_dsmc_features_timed[kind].against)
     gg_bench_cell(sheet, kind, column, "%.2f ns", ns);
   else
     gg_bench_cell(sheet, kind, column, "%.2f (%.2f - %.2f) %.1f ns", ratio, least, largest, ns);
-  json_array_append_new(sheet->rows, json_pack("{s:f, s:I, s:s, s:s, s:f, s:f, s:f, s:f, s:s}", "phi", phi, "particles",
-                                               (json_int_t)n, "scene", scenes[kind].name, "against",
-                                               scenes[scenes[kind].against].name, "ratio", ratio, "least", least,
-                                               "largest", largest, "mean", ns, "unit", "ns per collision"));
+  json_array_append_new(sheet->rows,
+                        json_pack("{s:f, s:I, s:s, s:s, s:f, s:f, s:f, s:f, s:s}", "phi", phi, "particles",
+                                  (json_int_t)n, "scene", gg_dsmc_features_timed[kind].name, "against",
+                                  gg_dsmc_features_timed[gg_dsmc_features_timed[kind].against].name, "ratio", ratio,
+                                  "least", least, "largest", largest, "mean", ns, "unit", "ns per collision"));
 }
 
 static gg_status ratios(gg_bench *b, gg_error *err)
 {
   bool quick = b->options->quick;
   const int64_t n = quick ? 10000 : 100000;
-  gg_bench_sheet *sheet = gg_bench_start_ratios(b, ratios_caption, scenes, N_SCENES, err);
+  gg_bench_sheet *sheet = gg_bench_start_ratios(b, ratios_caption, gg_dsmc_features_timed, GG_DSMC_KINDS, err);
   if (!sheet) return GG_FAILED;
   for (int d = 0; d < N_DENSITIES; d++) {
     int column = gg_bench_density_column(sheet, densities[d]);
-    gg_contender c[N_SCENES];
-    gg_race r[N_SCENES];
-    for (int k = 0; k < N_SCENES; k++) c[k] = contender(b, k, densities[d], n);
-    GG_TRY(gg_measure_race(c, N_SCENES, warmup_of(quick), quick ? 5 : 9, quick ? 0.1 : 0.4, r, err));
-    for (int k = 0; k < N_SCENES; k++) note_ratio(sheet, column, densities[d], n, k, &r[k]);
+    gg_contender c[GG_DSMC_KINDS];
+    gg_race r[GG_DSMC_KINDS];
+    for (int k = 0; k < GG_DSMC_KINDS; k++) c[k] = gg_bench_dsmc_contender(b, (gg_dsmc_kind)k, densities[d], n);
+    GG_TRY(gg_measure_race(c, GG_DSMC_KINDS, warmup_of(quick), quick ? 5 : 9, quick ? 0.1 : 0.4, r, err));
+    for (int k = 0; k < GG_DSMC_KINDS; k++) note_ratio(sheet, column, densities[d], n, k, &r[k]);
     gg_bench_tell(b, "ratios at phi %g N %lld done", densities[d], (long long)n);
   }
   return GG_OK;
@@ -130,5 +118,7 @@ static gg_status ratios(gg_bench *b, gg_error *err)
 gg_status gg_bench_dsmc(gg_bench *b, gg_error *err)
 {
   GG_TRY(times(b, err));
-  return ratios(b, err);
+  GG_TRY(ratios(b, err));
+  GG_TRY(gg_bench_dsmc_paths(b, err));
+  return gg_bench_dsmc_threads(b, err);
 }

@@ -32,6 +32,7 @@ typedef struct gg_engine_state {
   double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
   double time_step;      /* dsmc: the present step, model units; 0 for md */
   double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */
+  double others_cpu;     /* seconds of processor time of threads of the engine's own, so far in this process */
 } gg_engine_state;
 
 /* Grains a thousand at a time, in structure-of-arrays scratch that stays in the cache; NULL where the engine has none.
@@ -80,6 +81,9 @@ typedef struct gg_engine_ops {
    * block kernels, in which grains change places. An engine restored from a checkpoint has to be told again, and then
    * goes on bit for bit. */
   gg_status (*watch)(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
+  /* Share the work out to so many threads, the caller's included; the trajectory does not depend on it. NULL where the
+   * engine cannot. */
+  void (*threads)(gg_engine *engine, int threads);
   void (*state)(const gg_engine *engine, gg_engine_state *state);
   /* Show every grain at the present time. */
   void (*snapshot)(gg_engine *engine, bool positions, gg_visit *visit, void *context);

@@ -13,7 +13,13 @@ typedef struct gg_rng {
 } gg_rng;
 
 /* Numbers of the streams that one run draws from; a replica adds its index times GG_STREAMS_PER_REPLICA. */
-enum { GG_STREAM_START = 0, GG_STREAM_ENGINE = 1, GG_STREAM_LANES = 16, GG_STREAMS_PER_REPLICA = 1024 };
+enum {
+  GG_STREAM_START = 0,
+  GG_STREAM_ENGINE = 1,
+  GG_STREAM_LANES = 16,
+  GG_STREAM_SEGMENTS = 32,
+  GG_STREAMS_PER_REPLICA = 1024
+};
 
 gg_rng gg_rng_seed(uint64_t seed, uint64_t stream);
 

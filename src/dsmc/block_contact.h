@@ -20,7 +20,7 @@
 typedef struct gg_batch {
   gg_real_block *one, *two, *spin_one, *spin_two;
   float *top_one, *top_two;
-  uint32_t n_one, n_two;     /* blocks */
+  gg_range blocks_one, blocks_two;
   uint32_t odd_one, odd_two; /* that are not full, or UINT32_MAX */
   gg_lane_contact contact;
   gg_lane_rng rng;

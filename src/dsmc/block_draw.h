@@ -22,6 +22,11 @@ GG_INLINE gg_word gg_listed(const gg_real *list, unsigned i)
   return bits;
 }
 
+GG_INLINE void gg_list(gg_real *list, unsigned i, gg_word bits)
+{
+  __builtin_memcpy(&list[i], &bits, sizeof bits);
+}
+
 GG_INLINE gg_vu gg_lane_numbers(unsigned first)
 {
   static const gg_word count[GG_LANES] __attribute__((aligned(64))) = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -45,7 +50,10 @@ GG_INLINE void gg_draw_part(gg_features f, gg_batch *w, gg_draw *next, int part,
                             unsigned n)
 {
   gg_vu a, b, more, spare;
-  gg_lane_two_below(&w->rng, part, w->n_one, w->n_two, &a, &b);
+  gg_lane_two_below(&w->rng, part, w->blocks_one.n, w->blocks_two.n, &a, &b);
+  const gg_vu backwards = (gg_vu)(b < a); /* by their places in their ranges: each range is sorted by speed */
+  a += w->blocks_one.first;
+  b += w->blocks_two.first;
   gg_lane_two(&w->rng, part, &more, &spare);
   gg_vd bound = (gg_roots_at(w->top_one, a) + gg_roots_at(w->top_two, b)) * root;
   const gg_real upper = w->floor == 0 ? 0 : (gg_real)INFINITY; /* a layer under one bound */
@@ -53,7 +61,7 @@ GG_INLINE void gg_draw_part(gg_features f, gg_batch *w, gg_draw *next, int part,
   gg_vd u = gg_lane_one_to_two(more) - 1;
   gg_vu odd = gg_equal(a, gg_all_bits(w->odd_one)) | gg_equal(b, gg_all_bits(w->odd_two));
   if (f.same) {
-    gg_vu swap = (a ^ b) & (gg_vu)(b < a);
+    gg_vu swap = (a ^ b) & backwards;
     odd |= gg_equal(a, b);
     a ^= swap;
     b ^= swap;
@@ -85,7 +93,11 @@ GG_INLINE void gg_draw_visits(gg_features f, gg_batch *w, gg_draw *next, unsigne
   for (unsigned i = 0; i < next->n; i += 2)
     for (int part = 0; part < GG_PARTS; part++)
       gg_lane_two(&w->rng, part, &next->words[i][part], &next->words[i + 1][part]);
-  next->bound[next->n] = (gg_real)INFINITY; /* past the end nothing hits */
+  /* What follows the last is looked at, though nothing hits: let it take part, for others may be at work on the rest.
+   */
+  gg_list(next->one, next->n, w->blocks_one.first);
+  gg_list(next->two, next->n, w->blocks_two.first);
+  next->bound[next->n] = (gg_real)INFINITY;
 }
 
 #endif

@@ -25,27 +25,39 @@ void gg_dsmc_bounds(gg_dsmc *d)
     }
 }
 
-static gg_pairing pairing_of(gg_dsmc *d, int i, int j)
+gg_pairing gg_dsmc_pairing(gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
   int o = 2 * i + j;
-  return (gg_pairing){.one = &d->ensemble.of[i],
-                      .two = &d->ensemble.of[j],
+  gg_population *one = &d->ensemble.of[i], *two = &d->ensemble.of[j];
+  return (gg_pairing){.one = one,
+                      .two = two,
+                      .blocks = {gg_all_blocks(one), gg_all_blocks(two)},
                       .contact = m->contact[o],
                       .sigma = m->sigma[o],
                       .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
 }
 
-/* Candidates per unit time and unit of bound. */
-static double candidate_rate(const gg_dsmc *d, gg_features f, int i, int j)
+double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
   int o = 2 * i + j;
-  double cross_section = m->sigma[o] * m->sigma[o] * m->chi[o] / m->volume;
-  return gg_candidates(d->path[gg_pair_index(i, j)], f, &d->ensemble.of[i], &d->ensemble.of[j]) * cross_section;
+  return m->sigma[o] * m->sigma[o] * m->chi[o] / m->volume;
 }
 
-static void hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
+/* Candidates per unit time and unit of bound. */
+static double candidate_rate(const gg_dsmc *d, gg_features f, int i, int j)
+{
+  const gg_population *one = &d->ensemble.of[i], *two = &d->ensemble.of[j];
+  return gg_candidates(d->path[gg_pair_index(i, j)], f, one, two) * gg_dsmc_cross_section(d, i, j);
+}
+
+uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j)
+{
+  return 20000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 3;
+}
+
+void gg_dsmc_hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
 {
   gg_dsmc_state *s = &d->now;
   s->collisions += p->collisions;
@@ -76,10 +88,9 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
   gg_features f = gg_dsmc_features(d, i, j);
   double thermal = sqrt(d->now.temperature), rate = candidate_rate(d, f, i, j) * dt,
          top = gg_majorant_bound(majorant, thermal);
-  uint64_t window = 20000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 3;
   /* A layer above the bound is added for as long as some candidate stood out of it. */
   for (double base = 0, bound = top; bound > 0;) {
-    gg_pairing p = pairing_of(d, i, j);
+    gg_pairing p = gg_dsmc_pairing(d, i, j);
     p.floor = base;
     p.bound = bound;
     p.candidates = candidates(d, gg_pair_index(i, j), rate * bound, base > 0);
@@ -91,20 +102,43 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
     gg_collide(path, f, &p, &d->now.lanes, &d->now.rng);
     d->ensemble.top_unit = p.top_unit;
     d->ensemble.top_drift = drift + span;
-    hand_over(d, gg_pair_index(i, j), &p);
-    gg_majorant_learn(majorant, p.worst, thermal, p.tried, window);
+    gg_dsmc_hand_over(d, gg_pair_index(i, j), &p);
+    gg_majorant_learn(majorant, p.worst, thermal, p.tried, gg_dsmc_window(d, i, j));
     base += bound;
     if (p.worst <= base) break;
     bound = fmax(1.1 * p.worst, gg_rate_bound(path, f, 2 * d->now.fastest, p.shift)) - base;
   }
 }
 
-void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards)
+/* In segments, and of blocks enough that a segment of each species has a hundred. */
+static bool in_rounds(const gg_dsmc *d)
 {
-  static const int order[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+  if (!d->tournament) return false;
+  for (int i = 0; i < d->model.n_species; i++)
+    for (int j = i; j < d->model.n_species; j++)
+      if (d->path[gg_pair_index(i, j)] == GG_PATH_PLAIN) return false;
+  for (int i = 0; i < d->model.n_species; i++)
+    if (d->ensemble.of[i].n_blocks < 100 * (size_t)d->ensemble.segments) return false;
+  return true;
+}
+
+const int gg_turns[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+
+void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order)
+{
+  if (in_rounds(d)) {
+    gg_dsmc_collide_in_rounds(d, dt, drift, span, order);
+    return;
+  }
+  if (order == GG_TURNS_THERE_AND_BACK) {
+    gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, GG_TURNS_THERE);
+    d->stretch += 0.5 * dt;
+    gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, GG_TURNS_BACK);
+    return;
+  }
   int pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
   for (int q = 0; q < pairs; q++) {
-    const int *ij = order[backwards ? pairs - 1 - q : q];
+    const int *ij = gg_turns[order == GG_TURNS_BACK ? pairs - 1 - q : q];
     collide_pair(d, ij[0], ij[1], dt, drift, span);
   }
 }

@@ -29,6 +29,11 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   char text[160];
   snprintf(text, sizeof text, "%lld velocities in blocks of %d", (long long)m->n, GG_LANES);
   line(context, text);
+  size_t blocks = 0;
+  for (int i = 0; i < m->n_species; i++) blocks += ((size_t)m->n_of[i] + GG_LANES - 1) / GG_LANES;
+  int segments = gg_segments_of(blocks);
+  snprintf(text, sizeof text, "in %d segments, which threads share", segments);
+  line(context, segments > 1 ? text : "not enough for threads to share");
   line(context, rules[m->rule]);
   line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, nothing of them computed"
                              : "Enskog: contact value and collisional stress");

@@ -7,6 +7,7 @@
 #include "dsmc/kernels.h"
 #include "dsmc/majorant.h"
 #include "dsmc/pairing.h"
+#include "dsmc/segments.h"
 #include "dsmc/timestep.h"
 
 /* Everything that changes while running, but for the ensemble: plain data, saved as it is. */
@@ -30,6 +31,7 @@ typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_ensemble ensemble;
+  gg_tournament *tournament; /* NULL if the ensemble is one segment */
   gg_path path[GG_PAIRS];
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white noise */
@@ -44,11 +46,24 @@ void gg_dsmc_settle(gg_dsmc *d);
 double gg_dsmc_step(gg_dsmc *d, double left, double wanted);
 
 gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j);
+/* What all collisions of two species have in common. */
+gg_pairing gg_dsmc_pairing(gg_dsmc *d, int i, int j);
+/* sigma^2 chi/V. */
+double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j);
+/* Candidates after which their bound forgets. */
+uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
+/* Add to the sums what the collisions of a pair of species came to. */
+void gg_dsmc_hand_over(gg_dsmc *d, int pair, const gg_pairing *p);
 /* Bounds that hold for sure, to start from. */
 void gg_dsmc_bounds(gg_dsmc *d);
-/* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). Pairs
- * of species take turns: 11, 12, 22, or backwards. */
-void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, bool backwards);
+/* Pairs of species take turns: 11, 12, 22; or backwards; or each half of the stretch in its order. */
+typedef enum gg_order_of_turns { GG_TURNS_THERE, GG_TURNS_BACK, GG_TURNS_THERE_AND_BACK } gg_order_of_turns;
+extern const int gg_turns[GG_PAIRS][2];
+/* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). */
+void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order);
+
+/* rounds.c: the same for an ensemble in segments. */
+void gg_dsmc_collide_in_rounds(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order);
 
 gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);
 void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);

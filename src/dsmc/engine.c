@@ -36,13 +36,11 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   GG_TRY(gg_dsmc_accepts(model, err));
   gg_dsmc *d;
   GG_TRY(gg_dsmc_alloc(model, &d, err));
+  if (d->tournament) gg_tournament_start(d->tournament, seed, stream);
   gg_rng start = gg_rng_seed(seed, stream + GG_STREAM_START);
   gg_ensemble_start(model, &d->ensemble, &start);
   d->now.rng = gg_rng_seed(seed, stream + GG_STREAM_ENGINE);
-  for (unsigned l = 0; l < GG_LANES; l++) {
-    gg_rng lane = gg_rng_seed(seed, stream + GG_STREAM_LANES + l);
-    for (int i = 0; i < 4; i++) d->now.lanes.s[i][l] = lane.s[i];
-  }
+  gg_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
   gg_dsmc_settle(d);
   gg_dsmc_bounds(d);
   *engine = &d->base;
@@ -61,6 +59,14 @@ static void read_tap(gg_engine *engine, gg_transfer *transfer)
   s->transfer = (gg_transfer){0};
 }
 
+/* As many as can meet at once, at most. */
+static void threads(gg_engine *engine, int threads)
+{
+  gg_ensemble *e = &dsmc_of(engine)->ensemble;
+  gg_crew_free(e->crew);
+  e->crew = e->segments > 1 ? gg_crew_new(threads < e->segments / 2 ? threads : e->segments / 2) : NULL;
+}
+
 static void state(const gg_engine *engine, gg_engine_state *state)
 {
   const gg_dsmc_state *s = &const_dsmc_of(engine)->now;
@@ -69,7 +75,8 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .events = s->candidates,
                              .overflows = s->overflows,
                              .time_step = s->step.length,
-                             .time_step_bias = s->step.bias};
+                             .time_step_bias = s->step.bias,
+                             .others_cpu = gg_crew_cpu(const_dsmc_of(engine)->ensemble.crew)};
 }
 
 /* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
@@ -153,6 +160,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .tap = tap,
     .read_tap = read_tap,
     .watch = gg_dsmc_watch,
+    .threads = threads,
     .state = state,
     .snapshot = snapshot,
     .rescale = rescale,

@@ -5,18 +5,14 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "dsmc/segments.h"
 #include "dsmc/sweep.h"
-
-static size_t block_size(const gg_population *p)
-{
-  return p->single ? sizeof(gg_block_single) : sizeof(gg_block);
-}
 
 /* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
  * them, spare it the walks. */
 static void *new_blocks(const gg_population *p, gg_error *err)
 {
-  const size_t huge = (size_t)1 << 21, n = p->n_blocks, bytes = n * block_size(p);
+  const size_t huge = (size_t)1 << 21, n = p->n_blocks, bytes = n * gg_block_size(p);
   size_t unit = bytes >= 2 * huge ? huge : 64, rounded = (bytes + unit - 1) / unit * unit;
   void *b = aligned_alloc(unit, rounded);
   if (!b) {
@@ -33,10 +29,12 @@ static void *new_blocks(const gg_population *p, gg_error *err)
 gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err)
 {
   *e = (gg_ensemble){.n_species = model->n_species};
+  size_t blocks = 0;
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
     p->n = model->n_of[i];
     p->n_blocks = ((size_t)p->n + GG_LANES - 1) / GG_LANES;
+    blocks += p->n_blocks;
     p->mass = model->mass[i];
     p->inertia = model->inertia[i];
     p->single = model->single;
@@ -48,6 +46,7 @@ gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err)
       return GG_FAILED;
     }
   }
+  e->segments = gg_segments_of(blocks);
   return GG_OK;
 }
 
@@ -58,6 +57,7 @@ void gg_ensemble_free(gg_ensemble *e)
     free(e->of[i].s);
     free(e->of[i].top);
   }
+  gg_crew_free(e->crew);
   *e = (gg_ensemble){0};
 }
 
@@ -84,20 +84,16 @@ void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng)
   }
 }
 
-/* Components in all blocks, empty lanes included. */
-static size_t components(const gg_population *p)
-{
-  return p->n_blocks * sizeof(gg_block) / sizeof(double);
-}
+enum { COMPONENTS = sizeof(gg_block) / sizeof(double) }; /* of a block */
 
-static void scale_blocks(const gg_population *p, void *blocks, double factor)
+static void scale_blocks(const gg_population *p, void *blocks, gg_range r, double factor)
 {
-  const size_t n = blocks ? components(p) : 0;
+  const size_t n = (size_t)r.n * COMPONENTS;
   if (p->single) {
-    float *v = blocks;
+    float *v = gg_blocks_at(p, blocks, r.first);
     for (size_t i = 0; i < n; i++) v[i] = (float)(v[i] * factor);
   } else {
-    double *v = blocks;
+    double *v = gg_blocks_at(p, blocks, r.first);
     for (size_t i = 0; i < n; i++) v[i] *= factor;
   }
 }
@@ -107,13 +103,27 @@ const gg_block *gg_blocks_in_double(const gg_population *p, const void *blocks, 
   if (!p->single) return (const gg_block *)blocks + first;
   const float *from = (const float *)((const gg_block_single *)blocks + first);
   double *to = (double *)room;
-  for (size_t i = 0; i < n * sizeof(gg_block) / sizeof(double); i++) to[i] = from[i];
+  for (size_t i = 0; i < n * COMPONENTS; i++) to[i] = from[i];
   return room;
+}
+
+typedef struct scaling {
+  gg_ensemble *e;
+  double factor;
+} scaling;
+
+static void heat_segment(void *context, int segment)
+{
+  const scaling *w = context;
+  for (int i = 0; i < w->e->n_species; i++) {
+    const gg_population *p = &w->e->of[i];
+    scale_blocks(p, p->c, gg_segment(p, w->e->segments, segment), w->factor);
+  }
 }
 
 void gg_ensemble_heat(gg_ensemble *e, double factor)
 {
-  for (int i = 0; i < e->n_species; i++) scale_blocks(&e->of[i], e->of[i].c, factor);
+  gg_crew_share(e->crew, e->segments, heat_segment, &(scaling){e, factor});
   e->top_unit *= factor * factor * (1 + 1e-15);
 }
 
@@ -121,7 +131,8 @@ void gg_ensemble_scale(gg_ensemble *e, double factor)
 {
   gg_ensemble_heat(e, factor);
   for (int i = 0; i < e->n_species; i++) {
-    scale_blocks(&e->of[i], e->of[i].s, factor);
+    const gg_population *p = &e->of[i];
+    if (p->s) scale_blocks(p, p->s, gg_all_blocks(p), factor);
   }
 }
 
@@ -129,7 +140,7 @@ void gg_ensemble_scale(gg_ensemble *e, double factor)
 static void settle_odd_block(gg_population *p, double drift, double scale, gg_vec centre, double unit, gg_sums *s)
 {
   const size_t last = p->n_blocks - 1;
-  void *block = (char *)p->c + last * block_size(p);
+  void *block = gg_blocks_at(p, p->c, last);
   gg_sums ignored = {0};
   float *top = &p->top[last];
   gg_sweep_blocks(block, p->single, top, 1, drift, scale, centre, unit, &ignored);
@@ -137,20 +148,43 @@ static void settle_odd_block(gg_population *p, double drift, double scale, gg_ve
   gg_sweep_blocks(block, p->single, top, 1, 0, 1, (gg_vec){0, 0, 0}, unit, s);
 }
 
+typedef struct settling {
+  gg_ensemble *e;
+  double drift, scale, unit;
+  gg_vec centre;
+  gg_sums of[GG_MOST_SEGMENTS][GG_MAX_SPECIES];
+} settling;
+
+static void settle_segment(void *context, int segment)
+{
+  settling *w = context;
+  for (int i = 0; i < w->e->n_species; i++) {
+    gg_population *p = &w->e->of[i];
+    gg_range r = gg_segment(p, w->e->segments, segment);
+    bool odd = p->n % GG_LANES && segment == w->e->segments - 1;
+    gg_sums s = {0};
+    gg_sweep_blocks(gg_blocks_at(p, p->c, r.first), p->single, p->top + r.first, r.n - odd, w->drift, w->scale,
+                    w->centre, w->unit, &s);
+    if (odd) settle_odd_block(p, w->drift, w->scale, w->centre, w->unit, &s);
+    w->of[segment][i] = s;
+  }
+}
+
 gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre, double unit)
 {
   double n = 0, mass = 0, energy = 0, most = 0;
   gg_vec momentum = {0, 0, 0};
+  settling w = {.e = e, .drift = drift, .scale = scale, .unit = unit, .centre = centre};
+  gg_crew_share(e->crew, e->segments, settle_segment, &w);
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
-    gg_sums s = {0};
-    gg_sweep_blocks(p->c, p->single, p->top, (size_t)p->n / GG_LANES, drift, scale, centre, unit, &s);
-    if (p->n % GG_LANES) settle_odd_block(p, drift, scale, centre, unit, &s);
-    for (int l = 0; l < GG_LANES; l++) {
-      momentum = gg_axpy(p->mass, (gg_vec){s.c.x[l], s.c.y[l], s.c.z[l]}, momentum);
-      energy += p->mass * s.c2[l];
-      most = s.fastest[l] > most ? s.fastest[l] : most;
-    }
+    for (int segment = 0; segment < e->segments; segment++)
+      for (int l = 0; l < GG_LANES; l++) {
+        const gg_sums *s = &w.of[segment][i];
+        momentum = gg_axpy(p->mass, (gg_vec){s->c.x[l], s->c.y[l], s->c.z[l]}, momentum);
+        energy += p->mass * s->c2[l];
+        most = s->fastest[l] > most ? s->fastest[l] : most;
+      }
     n += (double)p->n;
     mass += p->mass * (double)p->n;
   }
@@ -174,12 +208,12 @@ static const char top_unit_item[] = "dsmc/top_unit";
 
 static gg_status put_blocks(const gg_population *p, const char *name, const void *blocks, gg_archive *a, gg_error *err)
 {
-  return gg_archive_put(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, components(p), err);
+  return gg_archive_put(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, p->n_blocks * COMPONENTS, err);
 }
 
 static gg_status get_blocks(const gg_population *p, const char *name, void *blocks, const gg_archive *a, gg_error *err)
 {
-  return gg_archive_get(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, components(p), err);
+  return gg_archive_get(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, p->n_blocks * COMPONENTS, err);
 }
 
 gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *err)

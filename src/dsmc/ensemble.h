@@ -45,6 +45,8 @@ typedef struct gg_ensemble {
   int n_species;
   gg_population of[GG_MAX_SPECIES];
   double top_unit, top_drift; /* drift at which it holds */
+  int segments;               /* that each species is cut into (segments.h): by size alone, 1 if small */
+  struct gg_crew *crew;       /* that shares them; NULL: one thread does all */
 } gg_ensemble;
 
 typedef struct gg_moments {
@@ -84,6 +86,17 @@ GG_INLINE double gg_top_growth(double delta)
 GG_INLINE double gg_per_top(double unit)
 {
   return (1 + 1e-6) / unit;
+}
+
+GG_INLINE size_t gg_block_size(const gg_population *p)
+{
+  return p->single ? sizeof(gg_block_single) : sizeof(gg_block);
+}
+
+/* Blocks (of p->c or p->s) from `first` on. */
+GG_INLINE void *gg_blocks_at(const gg_population *p, void *blocks, size_t first)
+{
+  return (char *)blocks + first * gg_block_size(p);
 }
 
 /* Grain i of blocks (p->c or p->s). */

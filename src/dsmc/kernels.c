@@ -1,6 +1,7 @@
 #include "dsmc/kernels.h"
 
 #include "dsmc/collide_blocks.h"
+#include "dsmc/segments.h"
 #include "dsmc/sweep.h"
 
 static const struct {
@@ -63,9 +64,13 @@ double gg_candidates(gg_path path, gg_features f, const gg_population *one, cons
     double n = (double)one->n, pairs = f.same ? 0.5 * n * (n - 1) : n * (double)two->n;
     return 4 * M_PI * pairs;
   }
-  /* A draw of two blocks gives each of the pairs between them 1/8; within a species they come in either order. */
-  double blocks = (double)one->n_blocks * (double)two->n_blocks;
-  return M_PI * 8 * (f.same ? 0.5 : 1) * blocks;
+  return gg_block_candidates(gg_all_blocks(one), gg_all_blocks(two), f.same);
+}
+
+/* A draw of two blocks gives each of the pairs between them 1/8; among themselves they come in either order. */
+double gg_block_candidates(gg_range one, gg_range two, bool themselves)
+{
+  return M_PI * 8 * (themselves ? 0.5 : 1) * ((double)one.n * (double)two.n);
 }
 
 double gg_rate_bound(gg_path path, gg_features f, double speed, double shift)

@@ -20,6 +20,8 @@ gg_path gg_path_choose(const gg_population *one, const gg_population *two);
 
 /* Candidates (plain) or pairs of blocks (else) for every unit of bound x (chi sigma^2/V) x time. */
 double gg_candidates(gg_path path, gg_features f, const gg_population *one, const gg_population *two);
+/* The same for a meeting of blocks with blocks, or of blocks with themselves. */
+double gg_block_candidates(gg_range one, gg_range two, bool themselves);
 /* Largest rate, in the path's measure, of a pair whose relative speed is `speed`. */
 double gg_rate_bound(gg_path path, gg_features f, double speed, double shift);
 

@@ -41,12 +41,18 @@ typedef struct gg_watching {
   double *last[GG_MAX_SPECIES]; /* when each grain last collided; -INFINITY: not yet */
 } gg_watching;
 
+/* Blocks of a population. */
+typedef struct gg_range {
+  uint32_t first, n;
+} gg_range;
+
 typedef struct gg_pairing {
   /* given */
   gg_watching *watching;  /* NULL: nobody looks */
   int species[2];         /* for the watcher */
   double time, time_step; /* the same: of the first candidate, and from one to the next */
   gg_population *one, *two;
+  gg_range blocks[2]; /* of `one` and `two` that take part; the plain path takes all grains */
   gg_contact contact;
   double shift;             /* sigma x rate */
   double sigma;             /* for the stress */
@@ -65,6 +71,15 @@ typedef struct gg_pairing {
 typedef struct gg_rng_lanes {
   uint64_t s[4][GG_LANES];
 } gg_rng_lanes;
+
+/* Streams `stream` to `stream` + 7 of this seed. */
+GG_INLINE void gg_rng_lanes_seed(gg_rng_lanes *lanes, uint64_t seed, uint64_t stream)
+{
+  for (unsigned l = 0; l < GG_LANES; l++) {
+    gg_rng lane = gg_rng_seed(seed, stream + l);
+    for (int i = 0; i < 4; i++) lanes->s[i][l] = lane.s[i];
+  }
+}
 
 /* The plain path, one candidate after another: what every other kernel is measured against. */
 void gg_collide_plain(gg_features f, gg_pairing *p, gg_rng *rng);

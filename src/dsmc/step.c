@@ -19,7 +19,8 @@ static void heat(gg_dsmc *d, double dt, double drift, double half)
   if (d->thermostat == GG_GAUSSIAN) {
     d->now.lost = -gg_thermostat_return(&d->ensemble, drift, d->now.lost, half);
   } else {
-    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, &d->now.lanes);
+    gg_rng_lanes *lanes = d->tournament ? d->tournament->lanes : &d->now.lanes;
+    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, lanes);
   }
 }
 
@@ -27,16 +28,16 @@ static void heat(gg_dsmc *d, double dt, double drift, double half)
 static void collide(gg_dsmc *d, double dt, double drift, double span)
 {
   d->stretch = d->now.time;
-  if (d->thermostat == GG_NO_THERMOSTAT && d->model.n_species == 1) {
-    gg_dsmc_collide(d, dt, drift, span, false);
+  /* The second half mirrors the first, so that turns cancel to second order. */
+  if (d->thermostat == GG_NO_THERMOSTAT) {
+    gg_dsmc_collide(d, dt, drift, span, d->model.n_species == 1 ? GG_TURNS_THERE : GG_TURNS_THERE_AND_BACK);
     return;
   }
   double lost = d->now.lost;
-  /* The second half mirrors the first, so that turns cancel to second order. */
-  gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, false);
-  if (d->thermostat != GG_NO_THERMOSTAT) heat(d, dt, drift + 0.5 * span, d->now.lost - lost);
+  gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, GG_TURNS_THERE);
+  heat(d, dt, drift + 0.5 * span, d->now.lost - lost);
   d->stretch += 0.5 * dt;
-  gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, true);
+  gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, GG_TURNS_BACK);
 }
 
 /* The step to take with `left` time and `wanted` collisions to go: a step that the scene asked for is taken whole. */

@@ -1,5 +1,6 @@
 #include "dsmc/thermostat.h"
 
+#include "dsmc/segments.h"
 #include "dsmc/sweep.h"
 
 enum { RUN = 64 }; /* blocks looked at together */
@@ -13,20 +14,39 @@ static void add_squares(const gg_block *c, size_t n, double drift, double lane[G
     }
 }
 
+typedef struct looking {
+  const gg_ensemble *e;
+  double drift;
+  double lane[GG_MOST_SEGMENTS][GG_MAX_SPECIES][GG_LANES]; /* sums of C^2 */
+} looking;
+
+static void look_at_segment(void *context, int segment)
+{
+  looking *w = context;
+  for (int i = 0; i < w->e->n_species; i++) {
+    const gg_population *p = &w->e->of[i];
+    gg_range r = gg_segment(p, w->e->segments, segment);
+    double lane[GG_LANES] = {0};
+    for (size_t done = 0; done < r.n; done += RUN) {
+      const size_t n = r.n - done < RUN ? r.n - done : RUN;
+      gg_block room[RUN];
+      add_squares(gg_blocks_in_double(p, p->c, r.first + done, n, room), n, w->drift, lane);
+    }
+    for (int l = 0; l < GG_LANES; l++) w->lane[segment][i][l] = lane[l];
+  }
+}
+
 /* Twice the kinetic energy. */
 static double vis_viva(const gg_ensemble *e, double drift)
 {
+  looking w = {.e = e, .drift = drift};
+  gg_crew_share(e->crew, e->segments, look_at_segment, &w);
   double sum = 0;
   for (int i = 0; i < e->n_species; i++) {
-    const gg_population *p = &e->of[i];
-    double lane[GG_LANES] = {0}, all = 0;
-    for (size_t first = 0; first < p->n_blocks; first += RUN) {
-      const size_t n = p->n_blocks - first < RUN ? p->n_blocks - first : RUN;
-      gg_block room[RUN];
-      add_squares(gg_blocks_in_double(p, p->c, first, n, room), n, drift, lane);
-    }
-    for (int l = 0; l < GG_LANES; l++) all += lane[l];
-    sum += p->mass * all;
+    double all = 0;
+    for (int segment = 0; segment < e->segments; segment++)
+      for (int l = 0; l < GG_LANES; l++) all += w.lane[segment][i][l];
+    sum += e->of[i].mass * all;
   }
   return sum;
 }
@@ -41,13 +61,28 @@ double gg_thermostat_return(gg_ensemble *e, double drift, double missing, double
   return advance;
 }
 
-void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng_lanes *lanes)
+typedef struct kicking {
+  gg_ensemble *e;
+  double drift, size;
+  gg_rng_lanes *lanes;
+} kicking;
+
+static void kick_segment(void *context, int segment)
 {
-  for (int i = 0; i < e->n_species; i++) {
-    gg_population *p = &e->of[i];
-    gg_kick_blocks(p->c, p->single, p->top, p->n_blocks, drift, sqrt(variance), e->top_unit, lanes);
+  const kicking *w = context;
+  for (int i = 0; i < w->e->n_species; i++) {
+    gg_population *p = &w->e->of[i];
+    gg_range r = gg_segment(p, w->e->segments, segment);
+    gg_kick_blocks(gg_blocks_at(p, p->c, r.first), p->single, p->top + r.first, r.n, w->drift, w->size, w->e->top_unit,
+                   &w->lanes[segment]);
+    if (segment < w->e->segments - 1) continue;
     for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++)
       gg_block_set(p, p->c, (uint32_t)a, (gg_vec){0, 0, 0});
   }
+}
+
+void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng_lanes *lanes)
+{
+  gg_crew_share(e->crew, e->segments, kick_segment, &(kicking){e, drift, sqrt(variance), lanes});
   e->top_drift = drift;
 }

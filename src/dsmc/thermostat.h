@@ -13,7 +13,7 @@
  * the first destroyed `half`, so that steps begin and end at the kept energy. Returns the advance. Velocities are
  * stored with `drift`. */
 double gg_thermostat_return(gg_ensemble *e, double drift, double missing, double half);
-/* Kick every grain: `variance` along each axis. */
+/* Kick every grain: `variance` along each axis; each segment of the ensemble has `lanes` of its own. */
 void gg_thermostat_kick(gg_ensemble *e, double drift, double variance, gg_rng_lanes *lanes);
 
 #endif

@@ -7,7 +7,8 @@
 typedef struct gg_time_step {
   double length; /* model units */
   double settle; /* time after which to look at the ensemble again */
-  bool split;    /* streaming and collisions taken in turns (Strang), rather than streaming followed exactly */
+  int64_t split; /* streaming and collisions taken in turns (Strang), rather than streaming followed exactly: a truth,
+                  * as wide as its neighbours, for states are saved and compared as bytes */
   double bias;   /* estimated relative bias of the temperature */
 } gg_time_step;
 

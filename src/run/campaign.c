@@ -13,6 +13,15 @@ static gg_status create_replicas(gg_campaign *c, gg_error *err)
   return GG_OK;
 }
 
+/* Threads go to replicas first; what is left over, in equal parts to each. */
+static void share_threads(gg_campaign *c)
+{
+  for (int i = 0; i < c->n; i++) {
+    gg_engine *engine = c->replicas[i].engine;
+    if (c->threads >= 2 * c->n && engine->ops->threads) engine->ops->threads(engine, c->threads / c->n);
+  }
+}
+
 gg_status gg_campaign_create(gg_campaign *c, const gg_scene *scene, const gg_archive *resume, int threads,
                              const gg_hooks *hooks, gg_error *err)
 {
@@ -24,7 +33,10 @@ gg_status gg_campaign_create(gg_campaign *c, const gg_scene *scene, const gg_arc
   c->replicas = gg_new_array((size_t)c->n, sizeof *c->replicas, err);
   if (!c->replicas) return GG_FAILED;
   gg_status status = resume ? gg_campaign_restore(c, resume, err) : create_replicas(c, err);
-  if (status != GG_OK) gg_campaign_clear(c);
+  if (status == GG_OK)
+    share_threads(c);
+  else
+    gg_campaign_clear(c);
   c->started = c->last_checkpoint = gg_wall_now();
   return status;
 }

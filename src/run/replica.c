@@ -47,6 +47,14 @@ double gg_replica_collisions_per_grain(const gg_replica *r)
   return 2 * (double)collisions(r) / (double)r->model.n;
 }
 
+/* Of all threads that work for it. */
+static double cpu_used(const gg_replica *r)
+{
+  gg_engine_state state;
+  r->engine->ops->state(r->engine, &state);
+  return gg_cpu_now() + state.others_cpu;
+}
+
 /* Advance by one interval, in parts if something wants to look in between. A stretch in which a grain collides a
  * thousand times more than expected is a collapse that the contact-time rule was not there to prevent. */
 static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happened, gg_error *err)
@@ -118,7 +126,7 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
 
 static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
 {
-  double start = gg_cpu_now(), elapsed;
+  double start = cpu_used(r), elapsed;
   uint64_t happened;
   GG_TRY(advance_interval(r, &elapsed, &happened, err));
   gg_replica_look(r, elapsed);
@@ -127,7 +135,7 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened);
   GG_TRY(rescale_if_due(r, err));
-  r->clock.cpu += gg_cpu_now() - start;
+  r->clock.cpu += cpu_used(r) - start;
   return GG_OK;
 }
 

@@ -29,7 +29,8 @@ typedef struct gg_hooks {
 } gg_hooks;
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side
- * by side, the result not depending on it. GG_FAILED with *result set: ended short of what was asked. The caller frees
+ * by side, and shares out a large ensemble of engine dsmc where there are more threads than that needs; the result does
+ * not depend on it. GG_FAILED with *result set: ended short of what was asked. The caller frees
  * *result with gg_result_free. */
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                        gg_result **result, gg_error *err);

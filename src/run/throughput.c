@@ -13,6 +13,8 @@ typedef struct runner {
   gg_engine *engine;
   uint64_t guess; /* collisions that are worth looking at the clock for */
   uint64_t timed;
+  bool by_the_clock;
+  double wall, cpu; /* in all */
   double rate[MOST_REPEATS];
 } runner;
 
@@ -36,25 +38,40 @@ static gg_status advance_by(gg_engine *e, uint64_t count, uint64_t *done, gg_err
   return GG_OK;
 }
 
+static double cpu_used(const gg_engine *e)
+{
+  gg_engine_state s;
+  e->ops->state(e, &s);
+  return gg_cpu_now() + s.others_cpu;
+}
+
+static double read_clock(const runner *r)
+{
+  return r->by_the_clock ? gg_wall_now() : cpu_used(r->engine);
+}
+
 /* One timed stretch, grown until it is long enough to time. */
 static gg_status time_stretch(runner *r, double seconds, double *rate, gg_error *err)
 {
-  double start = gg_cpu_now(), gone;
+  double start = read_clock(r), gone, wall = gg_wall_now(), cpu = cpu_used(r->engine);
   uint64_t sum = 0;
   do {
     uint64_t done;
     GG_TRY(advance_by(r->engine, r->guess, &done, err));
     sum += done;
-    gone = gg_cpu_now() - start;
+    gone = read_clock(r) - start;
     if (gone < seconds / 4) r->guess *= 2;
   } while (gone < seconds);
   *rate = (double)sum / gone;
+  r->wall += gg_wall_now() - wall;
+  r->cpu += cpu_used(r->engine) - cpu;
   r->timed += sum;
   return GG_OK;
 }
 
-static gg_status start(const gg_scene *scene, bool tap, double warmup, runner *r, gg_error *err)
+static gg_status start(const gg_contender *c, double warmup, runner *r, gg_error *err)
 {
+  const gg_scene *scene = &c->scene;
   gg_model model;
   uint64_t done;
   GG_TRY(gg_model_make(scene, scene->engine, &model, err));
@@ -62,7 +79,10 @@ static gg_status start(const gg_scene *scene, bool tap, double warmup, runner *r
   GG_TRY(ops->accepts(&model, err));
   gg_start_near_steady(&model);
   GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
-  ops->tap(r->engine, tap);
+  r->by_the_clock = c->by_the_clock;
+  if (c->threads > 1 && ops->threads) ops->threads(r->engine, c->threads);
+  if (c->prepare) c->prepare(r->engine);
+  ops->tap(r->engine, c->tap);
   r->guess = (uint64_t)model.n / 4 + 1000;
   return advance_by(r->engine, (uint64_t)(warmup * (double)model.n / 2) + 1, &done, err);
 }
@@ -78,7 +98,7 @@ static gg_throughput summary(const runner *r, int repeats)
   double rate[MOST_REPEATS];
   for (int i = 0; i < repeats; i++) rate[i] = r->rate[i];
   double middle = median(rate, repeats);
-  return (gg_throughput){middle, rate[0], rate[repeats - 1], repeats, r->timed};
+  return (gg_throughput){middle, rate[0], rate[repeats - 1], repeats, r->cpu / r->wall, r->timed};
 }
 
 static void compare(const runner *r, const runner *other, int repeats, gg_race *out)
@@ -94,7 +114,7 @@ static void compare(const runner *r, const runner *other, int repeats, gg_race *
 static gg_status race(const gg_contender *c, int n, double warmup, int repeats, double seconds, runner *r,
                       gg_error *err)
 {
-  for (int k = 0; k < n; k++) GG_TRY(start(&c[k].scene, c[k].tap, warmup, &r[k], err));
+  for (int k = 0; k < n; k++) GG_TRY(start(&c[k], warmup, &r[k], err));
   for (int i = 0; i < repeats; i++)
     for (int k = 0; k < n; k++) GG_TRY(time_stretch(&r[k], seconds, &r[k].rate[i], err));
   return GG_OK;

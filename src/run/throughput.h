@@ -1,13 +1,14 @@
-/* How fast an engine is on a scene: collisions per CPU-second, engine alone or with its tap open. */
+/* How fast an engine is on a scene: collisions per second, engine alone or with its tap open. */
 #ifndef GG_THROUGHPUT_H
 #define GG_THROUGHPUT_H
 
 #include "common/engine.h"
 
 typedef struct gg_throughput {
-  double rate;             /* collisions per CPU-second: median of the repeats */
+  double rate;             /* collisions per CPU-second (or second): median of the repeats */
   double slowest, fastest; /* of the repeats */
   int repeats;
+  double processors;   /* that were busy, on average: CPU time of all threads over time */
   uint64_t collisions; /* timed, in all */
 } gg_throughput;
 
@@ -22,7 +23,10 @@ enum { GG_MOST_CONTENDERS = 16 };
 typedef struct gg_contender {
   gg_scene scene;
   bool tap;
-  int against; /* index of the contender that it is compared with */
+  int against;                        /* index of the contender that it is compared with */
+  int threads;                        /* of the engine's; 0: one */
+  bool by_the_clock;                  /* time goes by the clock on the wall, not by processor time */
+  void (*prepare)(gg_engine *engine); /* done to it when new; NULL: nothing */
 } gg_contender;
 typedef struct gg_race {
   gg_throughput own;

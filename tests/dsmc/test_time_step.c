@@ -65,7 +65,7 @@ static lab_mean heated(double step, int blocks)
 static void thermostat_is_second_order(void **state)
 {
   (void)state;
-  lab_mean fine = heated(0.1, 120), full = heated(1.4, 40), half = heated(0.7, 120);
+  lab_mean fine = heated(0.1, 150), full = heated(1.4, 50), half = heated(0.7, 150);
   double e = hypot(lab_error(&fine), lab_error(&half));
   expect_order("a2", lab_value(&full) - lab_value(&fine), lab_value(&half) - lab_value(&fine), e);
 }

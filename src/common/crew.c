@@ -1,0 +1,190 @@
+#include "common/crew.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { MOST_THREADS = 64 };
+/* Looks at an empty list before a thread sleeps, a hundred microseconds or two in all: longer than others need to
+ * finish what they are at, or than the caller needs between two jobs. Where processors are fewer than threads nobody
+ * looks twice: whom he waits for may wait for his processor. */
+enum { LOOKS = 10000 };
+
+typedef struct gg_member {
+  gg_crew *crew;
+  int self;
+  pthread_t thread;
+} gg_member;
+
+struct gg_crew {
+  /* Number of the job in the upper half; in the lower one a bit for each part that nobody has taken. Whoever succeeds
+   * in clearing a bit may read the job, which stays until all its parts are done. */
+  _Alignas(64) _Atomic uint64_t open;
+  _Alignas(64) _Atomic int undone;
+  _Alignas(64) gg_part *part;
+  void *context;
+  _Atomic int parts, asleep, quit;
+  _Atomic int waiting; /* the caller sleeps until all is done */
+  pthread_mutex_t mutex;
+  pthread_cond_t work, done;
+  int n, looks;
+  gg_member member[MOST_THREADS];
+};
+
+static void relax(void)
+{
+#ifdef GG_X86_64
+  __builtin_ia32_pause();
+#endif
+}
+
+/* Something may have come: look again. False: it is time to sleep. */
+static bool patient(const gg_crew *c, int looks)
+{
+  relax();
+  return looks < c->looks;
+}
+
+static int processors(void)
+{
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+/* The parts that thread `self` takes first, so that it has what it had in the job before: its caches know. */
+static uint32_t home(const gg_crew *c, int self)
+{
+  const int parts = atomic_load_explicit(&c->parts, memory_order_relaxed), n = c->n + 1;
+  return (uint32_t)((UINT64_C(1) << (self + 1) * parts / n) - (UINT64_C(1) << self * parts / n));
+}
+
+static bool take(gg_crew *c, int self, int *part)
+{
+  uint64_t seen = atomic_load(&c->open);
+  while ((uint32_t)seen) {
+    uint32_t open = (uint32_t)seen, own = open & home(c, self);
+    *part = own ? __builtin_ctz(own) : 31 - __builtin_clz(open);
+    if (atomic_compare_exchange_weak(&c->open, &seen, seen & ~(UINT64_C(1) << *part))) return true;
+  }
+  return false;
+}
+
+static void work_off(gg_crew *c, int self)
+{
+  for (int part; take(c, self, &part);) {
+    c->part(c->context, part);
+    if (atomic_fetch_sub(&c->undone, 1) > 1 || !atomic_load(&c->waiting)) continue;
+    pthread_mutex_lock(&c->mutex);
+    pthread_cond_signal(&c->done);
+    pthread_mutex_unlock(&c->mutex);
+  }
+}
+
+static bool idle(gg_crew *c)
+{
+  return !(uint32_t)atomic_load(&c->open) && !atomic_load(&c->quit);
+}
+
+static void *live(void *argument)
+{
+  const gg_member *me = argument;
+  gg_crew *c = me->crew;
+  while (!atomic_load(&c->quit)) {
+    work_off(c, me->self);
+    for (int looks = 0; idle(c); looks++) {
+      if (patient(c, looks)) continue;
+      pthread_mutex_lock(&c->mutex);
+      atomic_fetch_add(&c->asleep, 1);
+      while (idle(c)) pthread_cond_wait(&c->work, &c->mutex);
+      atomic_fetch_sub(&c->asleep, 1);
+      pthread_mutex_unlock(&c->mutex);
+    }
+  }
+  return NULL;
+}
+
+gg_crew *gg_crew_new(int threads)
+{
+  if (threads < 2) return NULL;
+  gg_crew *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
+  if (!c) return NULL;
+  *c = (gg_crew){.looks = processors() < threads ? 0 : LOOKS};
+  pthread_mutex_init(&c->mutex, NULL);
+  pthread_cond_init(&c->work, NULL);
+  pthread_cond_init(&c->done, NULL);
+  int made = 0;
+  c->n = threads - 1 < MOST_THREADS ? threads - 1 : MOST_THREADS;
+  for (; made < c->n; made++) {
+    gg_member *m = &c->member[made];
+    *m = (gg_member){.crew = c, .self = made + 1};
+    if (pthread_create(&m->thread, NULL, live, m) != 0) break;
+  }
+  if (made == c->n) return c;
+  c->n = made;
+  gg_crew_free(c);
+  return NULL;
+}
+
+static void wake(gg_crew *c)
+{
+  pthread_mutex_lock(&c->mutex);
+  pthread_cond_broadcast(&c->work);
+  pthread_mutex_unlock(&c->mutex);
+}
+
+void gg_crew_free(gg_crew *c)
+{
+  if (!c) return;
+  atomic_store(&c->quit, 1);
+  wake(c);
+  for (int i = 0; i < c->n; i++) pthread_join(c->member[i].thread, NULL);
+  pthread_mutex_destroy(&c->mutex);
+  pthread_cond_destroy(&c->work);
+  pthread_cond_destroy(&c->done);
+  free(c);
+}
+
+static void wait_for_all(gg_crew *c)
+{
+  for (int looks = 0; atomic_load(&c->undone) > 0; looks++) {
+    if (patient(c, looks)) continue;
+    pthread_mutex_lock(&c->mutex);
+    atomic_store(&c->waiting, 1);
+    while (atomic_load(&c->undone) > 0) pthread_cond_wait(&c->done, &c->mutex);
+    atomic_store(&c->waiting, 0);
+    pthread_mutex_unlock(&c->mutex);
+  }
+}
+
+void gg_crew_share(gg_crew *c, int parts, gg_part *part, void *context)
+{
+  if (!c || parts < 2 || parts > GG_MOST_PARTS) {
+    for (int i = 0; i < parts; i++) part(context, i);
+    return;
+  }
+  c->part = part;
+  c->context = context;
+  atomic_store(&c->undone, parts);
+  atomic_store_explicit(&c->parts, parts, memory_order_relaxed);
+  uint64_t job = (atomic_load(&c->open) >> 32) + 1;
+  atomic_store(&c->open, job << 32 | ((UINT64_C(1) << parts) - 1));
+  if (atomic_load(&c->asleep)) wake(c);
+  work_off(c, 0);
+  wait_for_all(c);
+}
+
+double gg_crew_cpu(const gg_crew *c)
+{
+  double sum = 0;
+  for (int i = 0; c && i < c->n; i++) {
+    clockid_t clock;
+    struct timespec t;
+    if (pthread_getcpuclockid(c->member[i].thread, &clock) != 0 || clock_gettime(clock, &t) != 0) continue;
+    sum += (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+  }
+  return sum;
+}

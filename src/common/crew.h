@@ -1,0 +1,28 @@
+/* A crew of threads that share the parts of a job. Made once, asleep while there is nothing to do; a job costs about a
+ * microsecond as long as they come one after another. Each thread takes a run of parts first, the same in each job of
+ * as many, and then what others have left: who does what is not known, and parts must not depend on it. */
+#ifndef GG_CREW_H
+#define GG_CREW_H
+
+#include "common/error.h"
+
+typedef struct gg_crew gg_crew;
+
+/* More parts than these are not shared. */
+enum { GG_MOST_PARTS = 32 };
+
+/* Part number `part` of a job. */
+typedef void gg_part(void *context, int part);
+
+/* So many threads, the caller's included. NULL if that is one, or if the system has none to give: a job that is given
+ * to nobody is done by the caller. */
+gg_crew *gg_crew_new(int threads);
+void gg_crew_free(gg_crew *crew);
+
+/* Do parts 0 to parts - 1, and return when all are done. One caller at a time. */
+void gg_crew_share(gg_crew *crew, int parts, gg_part *part, void *context);
+
+/* CPU time of the others so far, in seconds. */
+double gg_crew_cpu(const gg_crew *crew);
+
+#endif

@@ -1,0 +1,93 @@
+#include "dsmc/segments.h"
+
+int gg_segments_of(size_t blocks)
+{
+  return blocks < 8000 ? 1 : blocks < 32000 ? 8 : 16;
+}
+
+gg_range gg_all_blocks(const gg_population *p)
+{
+  return (gg_range){0, (uint32_t)p->n_blocks};
+}
+
+static uint32_t beginning(const gg_population *p, int segments, int segment)
+{
+  enum { LINE = 64 / sizeof *p->top };
+  if (segment == segments) return (uint32_t)p->n_blocks;
+  return (uint32_t)(p->n_blocks * (size_t)segment / (size_t)segments / LINE * LINE);
+}
+
+gg_range gg_segment(const gg_population *p, int segments, int segment)
+{
+  uint32_t first = beginning(p, segments, segment);
+  return (gg_range){first, beginning(p, segments, segment + 1) - first};
+}
+
+int gg_meetings(int segments, int round)
+{
+  return round ? segments / 2 : segments;
+}
+
+/* Segment i of quarter q meets i ^ k of quarter q ^ c in round (c, k). The first half of the meetings has quarters 0
+ * and c (or 1, if each quarter is for itself), the second half the others: whoever plays the same half keeps them near.
+ */
+void gg_meeting_of(int segments, int round, int meeting, int *one, int *two)
+{
+  const int quarter = segments / 4, c = round / quarter, k = round % quarter;
+  int q, i;
+  if (c == 0) {
+    const int each = k ? quarter / 2 : quarter, nth = meeting % each;
+    q = meeting / each;
+    /* The nth i that is the smaller one of i and i ^ k: without the highest bit of k. */
+    int high = 1;
+    while (2 * high <= k) high *= 2;
+    i = k ? nth % high + nth / high * 2 * high : nth;
+  } else {
+    static const int second[] = {0, 2, 1, 1}; /* the smaller one of the two that are left */
+    q = meeting < quarter ? 0 : second[c];
+    i = meeting % quarter;
+  }
+  *one = q * quarter + i;
+  *two = (q ^ c) * quarter + (i ^ k);
+}
+
+void gg_tournament_start(gg_tournament *t, uint64_t seed, uint64_t stream)
+{
+  uint64_t next = stream + GG_STREAM_SEGMENTS;
+  t->rng = gg_rng_seed(seed, next++);
+  for (int k = 0; k < GG_MOST_SEGMENTS; k++) {
+    t->draws[k] = gg_rng_seed(seed, next++);
+    gg_rng_lanes_seed(&t->lanes[k], seed, next);
+    next += GG_LANES;
+  }
+}
+
+/* Numbers 0 to n - 1 in random order (Fisher & Yates). */
+static void shuffle(gg_rng *rng, int n, uint8_t *list)
+{
+  for (int i = 0; i < n; i++) {
+    uint32_t j = gg_rng_below(rng, (uint32_t)i + 1);
+    list[i] = list[j];
+    list[j] = (uint8_t)i;
+  }
+}
+
+static void new_order(gg_tournament *t, int segments)
+{
+  const int quarter = segments / 4;
+  uint8_t c[4], k[GG_MOST_SEGMENTS];
+  shuffle(&t->rng, 4, c);
+  for (int n = 0; n < 4; n++) {
+    shuffle(&t->rng, quarter, k);
+    for (int i = 0; i < quarter; i++) t->order[n * quarter + i] = (uint8_t)(c[n] * quarter + k[i]);
+  }
+}
+
+int gg_next_round(gg_tournament *t, int segments)
+{
+  if (t->next % (uint64_t)segments == 0) {
+    t->next = 0;
+    new_order(t, segments);
+  }
+  return t->order[t->next++];
+}

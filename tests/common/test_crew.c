@@ -1,0 +1,84 @@
+/* A crew does every part of a job once and returns when all are done: many short jobs in a row, jobs after a pause (the
+ * others sleep), more threads than processors, and jobs that one part holds up. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <stdatomic.h>
+#include <time.h>
+
+#include "common/crew.h"
+
+enum { PARTS = 12 };
+
+typedef struct job {
+  int done[PARTS];      /* by each part; no atomics: the end of a job is what makes it seen */
+  _Atomic int together; /* parts being done at once */
+  long pause;           /* nanoseconds */
+} job;
+
+static void part(void *context, int part)
+{
+  job *j = context;
+  if (j->pause) nanosleep(&(struct timespec){0, j->pause}, NULL);
+  j->done[part]++;
+}
+
+static void share(gg_crew *crew, job *j, int parts, int times)
+{
+  *j = (job){.pause = j->pause};
+  for (int i = 0; i < times; i++) {
+    gg_crew_share(crew, parts, part, j);
+    for (int p = 0; p < PARTS; p++) assert_int_equal(j->done[p], p < parts ? i + 1 : 0);
+  }
+}
+
+static void every_part_once(void **state)
+{
+  (void)state;
+  const int threads[] = {1, 2, 3, 8};
+  for (int t = 0; t < 4; t++) {
+    gg_crew *crew = gg_crew_new(threads[t]);
+    assert_true((crew != NULL) == (threads[t] > 1));
+    job j = {.pause = 0};
+    for (int parts = 0; parts <= PARTS; parts++) share(crew, &j, parts, 2000);
+    for (int i = 0; i < 5; i++) {
+      nanosleep(&(struct timespec){0, 5000000}, NULL);
+      share(crew, &j, PARTS, 20);
+    }
+    j.pause = 1000000; /* longer than the caller's patience */
+    share(crew, &j, PARTS, 3);
+    gg_crew_free(crew);
+  }
+}
+
+/* Two parts that wait for each other end only if they are done at once. */
+static void meet(void *context, int part)
+{
+  job *j = context;
+  (void)part;
+  atomic_fetch_add(&j->together, 1);
+  while (atomic_load(&j->together) < 2) nanosleep(&(struct timespec){0, 100000}, NULL);
+}
+
+static void at_once(void **state)
+{
+  (void)state;
+  gg_crew *crew = gg_crew_new(2);
+  job j = {.pause = 0};
+  gg_crew_share(crew, 2, meet, &j);
+  assert_int_equal(j.together, 2);
+  double before = gg_crew_cpu(crew);
+  for (int i = 0; i < 20000; i++) gg_crew_share(crew, 2, part, &j);
+  assert_true(gg_crew_cpu(crew) >= before);
+  assert_true(gg_crew_cpu(NULL) == 0);
+  gg_crew_free(crew);
+  gg_crew_free(NULL);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_part_once), cmocka_unit_test(at_once)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,246 @@
+/* Segments that meet in rounds are the gas: every pair of segments meets as often as any other, grains of one segment
+ * and of two collide at the same rate, gases that begin at different temperatures mix as they would one pair after
+ * another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. */
+#include "dsmc/dsmc.h"
+#include "lab.h"
+
+/* Everyone meets everyone once, and nobody is in two places at once. */
+static void everyone_meets(void **state)
+{
+  (void)state;
+  for (int segments = 4; segments <= GG_MOST_SEGMENTS; segments *= 2) {
+    int met[GG_MOST_SEGMENTS][GG_MOST_SEGMENTS] = {{0}};
+    for (int round = 0; round < segments; round++) {
+      int busy[GG_MOST_SEGMENTS] = {0};
+      for (int k = 0; k < gg_meetings(segments, round); k++) {
+        int a, b;
+        gg_meeting_of(segments, round, k, &a, &b);
+        assert_true(a >= 0 && b >= 0 && a < segments && b < segments);
+        met[a][b]++, busy[a]++;
+        if (a != b) met[b][a]++, busy[b]++;
+      }
+      for (int s = 0; s < segments; s++) assert_int_equal(busy[s], 1);
+    }
+    for (int a = 0; a < segments; a++)
+      for (int b = 0; b < segments; b++) assert_int_equal(met[a][b], 1);
+  }
+}
+
+/* All blocks are in one segment, whatever their number; rounds come each once, in ever new orders. */
+static void cut_and_shuffled(void **state)
+{
+  (void)state;
+  float tops[1];
+  for (size_t blocks = 1; blocks < 40000; blocks += 1 + blocks / 7)
+    for (int segments = 1; segments <= GG_MOST_SEGMENTS; segments += segments == 1 ? 1 : 2) {
+      gg_population p = {.n_blocks = blocks, .top = tops};
+      uint32_t next = 0;
+      for (int s = 0; s < segments; s++) {
+        gg_range r = gg_segment(&p, segments, s);
+        assert_int_equal(r.first, next);
+        assert_true(r.first % 16 == 0 && (double)r.n < (double)blocks / segments + 16);
+        next += r.n;
+      }
+      assert_int_equal(next, blocks);
+    }
+  static gg_tournament t;
+  gg_tournament_start(&t, 1, 0);
+  int first[8] = {0};
+  for (int i = 0; i < 8000; i++) {
+    unsigned seen = 0;
+    for (int k = 0; k < 8; k++) {
+      int round = gg_next_round(&t, 8);
+      if (k == 0) first[round]++;
+      seen |= 1u << round;
+    }
+    assert_int_equal(seen, 255);
+  }
+  for (int k = 0; k < 8; k++) assert_true(abs(first[k] - 1000) < 5 * 30);
+}
+
+/* --- planted velocities: rates of collision between segments and within them --- */
+
+enum { SEGMENTS = 8, PLANTED = 64000 };
+
+/* Speeds along x by segment and by odd and even blocks. */
+typedef struct plan {
+  const char *name;
+  double x[SEGMENTS][2];
+} plan;
+
+/* Returns the sum of |difference| over all pairs of grains. */
+static double plant(gg_dsmc *d, const plan *p)
+{
+  const gg_population *one = &d->ensemble.of[0];
+  gg_block *c = one->c;
+  double n[SEGMENTS][2] = {{0}}, sum = 0;
+  for (int s = 0; s < SEGMENTS; s++) {
+    gg_range r = gg_segment(one, SEGMENTS, s);
+    for (uint32_t b = r.first; b < r.first + r.n; b++)
+      for (int l = 0; l < GG_LANES; l++) {
+        c[b].x[l] = p->x[s][b % 2];
+        c[b].y[l] = c[b].z[l] = 0;
+        n[s][b % 2]++;
+      }
+  }
+  for (int i = 0; i < 2 * SEGMENTS; i++)
+    for (int k = 0; k < i; k++)
+      sum += n[i / 2][i % 2] * n[k / 2][k % 2] * fabs(p->x[i / 2][i % 2] - p->x[k / 2][k % 2]);
+  gg_vec none = {0, 0, 0};
+  gg_moments m = gg_ensemble_settle(&d->ensemble, 0, 1, none, 1);
+  d->now.fastest = m.fastest;
+  d->now.temperature = m.temperature;
+  gg_dsmc_bounds(d);
+  return sum;
+}
+
+static void planted_rates(void **state)
+{
+  (void)state;
+  static const plan plans[] = {
+      {"one against seven", {{1, 1}}},
+      {"four against four", {{1, 1}, {1, 1}, {1, 1}, {1, 1}}},
+      {"each its own", {{0, 0}, {1, 1}, {-1, -1}, {2, 2}, {-2, -2}, {3, 3}, {-3, -3}, {4, 4}}},
+      {"odd against even blocks", {{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}}},
+  };
+  gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.1, 1, -1, PLANTED);
+  gg_model m = lab_model(&s);
+  for (size_t i = 0; i < sizeof plans / sizeof *plans; i++) {
+    gg_engine *g = lab_engine(&m, 100 + i);
+    gg_dsmc *d = (gg_dsmc *)g;
+    gg_dsmc_ops.threads(g, 2);
+    lab_mean ratio = {0};
+    double pairs = plant(d, &plans[i]);
+    /* A collision for every 2000 grains in a stretch, and some 250 in a meeting if it has them all: few second ones. */
+    const double rate = M_PI * gg_dsmc_cross_section(d, 0, 0) * pairs, dt = PLANTED / 2000. / rate;
+    for (int block = 0; block < 600; block++) {
+      uint64_t before = d->now.collisions;
+      for (int k = 0; k < 3 * SEGMENTS; k++) { /* whole tournaments, however many rounds a stretch has */
+        plant(d, &plans[i]);
+        gg_dsmc_collide(d, dt, 0, 0, GG_TURNS_THERE);
+      }
+      lab_add(&ratio, (double)(d->now.collisions - before) / (3 * SEGMENTS * rate * dt));
+    }
+    lab_expect(plans[i].name, &ratio, 1, 0.002, 0.018);
+    gg_dsmc_ops.destroy(g);
+  }
+}
+
+/* --- two temperatures --- */
+
+static void in_one_piece(gg_engine *g)
+{
+  gg_dsmc *d = (gg_dsmc *)g;
+  d->ensemble.segments = 1;
+  free(d->tournament);
+  d->tournament = NULL;
+}
+
+/* Half of the segments nine times as hot as the others: the fourth cumulant tells how far they have mixed, by
+ * collisions between segments alone, and so does the collision rate. */
+static void mix(gg_path path, int seed, lab_mean a2[3], lab_mean time[3])
+{
+  gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.1, 1, -1, PLANTED);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, (uint64_t)seed);
+  gg_dsmc *d = (gg_dsmc *)g;
+  const gg_population *p = &d->ensemble.of[0];
+  gg_block *c = p->c;
+  for (int k = 0; k < SEGMENTS; k++) {
+    gg_range r = gg_segment(p, SEGMENTS, k);
+    double factor = k % 2 ? sqrt(0.2) : sqrt(1.8);
+    for (uint32_t b = r.first; b < r.first + r.n; b++)
+      for (int l = 0; l < GG_LANES; l++) c[b].x[l] *= factor, c[b].y[l] *= factor, c[b].z[l] *= factor;
+  }
+  gg_dsmc_settle(d);
+  for (int q = 0; q < GG_PAIRS && path == GG_PATH_PLAIN; q++) d->path[q] = path;
+  gg_dsmc_bounds(d);
+  if (path == GG_PATH_PLAIN)
+    in_one_piece(g);
+  else
+    gg_dsmc_ops.threads(g, 2);
+  double gone = 0;
+  for (int i = 0; i < 3; i++) {
+    gone += lab_advance(g, INFINITY, PLANTED / 2);
+    lab_view v = lab_snapshot(g);
+    gg_engine_state now;
+    gg_dsmc_ops.state(g, &now);
+    double T = lab_temperature(&v);
+    lab_add(&a2[i], v.c4 / v.n / (15 * T * T) - 1);
+    lab_add(&time[i], gone / (double)now.collisions * PLANTED);
+  }
+  gg_dsmc_ops.destroy(g);
+}
+
+static void segments_mix(void **state)
+{
+  (void)state;
+  lab_mean a2[2][3] = {{{0}}}, time[2][3] = {{{0}}};
+  for (int seed = 0; seed < 100; seed++) {
+    mix(GG_PATH_PLAIN, seed, a2[0], time[0]);
+    mix(GG_PATH_BASELINE, seed + 100, a2[1], time[1]);
+  }
+  for (int i = 0; i < 3; i++) {
+    printf("# after %d collisions a grain\n", i + 1);
+    lab_expect("a2", &a2[1][i], lab_value(&a2[0][i]), lab_error(&a2[0][i]), 0.04);
+    lab_expect("time a collision", &time[1][i], lab_value(&time[0][i]), lab_error(&time[0][i]), 0.01);
+  }
+}
+
+/* --- the physics of large ensembles, in segments and in one piece --- */
+
+static void agree(const char *what, const lab_mean *a, const lab_mean *b, double sight)
+{
+  lab_expect(what, b, lab_value(a), lab_error(a), sight);
+}
+
+static void no_bias_in(const char *name, const gg_scene *s, double length)
+{
+  gg_model m = lab_model(s);
+  lab_flow f[2] = {{.T = {0}}, {.T = {0}}};
+  for (int seed = 0; seed < 8; seed++)
+    for (int cut = 0; cut < 2; cut++) {
+      gg_engine *g = lab_engine(&m, (uint64_t)(10 * seed + cut));
+      if (cut)
+        gg_dsmc_ops.threads(g, 2);
+      else
+        in_one_piece(g);
+      lab_average(g, &m, 8, 1, length, &f[cut]);
+      gg_dsmc_ops.destroy(g);
+    }
+  printf("# %s\n", name);
+  agree("T", &f[0].T, &f[1].T, 0.02);
+  agree("p", &f[0].p, &f[1].p, 0.02);
+  agree("loss", &f[0].loss, &f[1].loss, 0.02);
+  agree("collision rate", &f[0].rate, &f[1].rate, 0.01);
+  if (m.shear_rate > 0) {
+    agree("shear viscosity", &f[0].eta, &f[1].eta, 0.03);
+    agree("N1", &f[0].N1, &f[1].N1, 0.2);
+  } else {
+    agree("a2", &f[0].a2, &f[1].a2, 0.3);
+  }
+  if (m.rule != GG_SMOOTH) agree("theta", &f[0].theta, &f[1].theta, 0.02);
+}
+
+static void no_bias(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_USF, 0.3, 0.8, 0.3, PLANTED);
+  no_bias_in("rough, dense, sheared", &s, 5);
+  s.n_species = 2;
+  s.species[0] = (gg_species){0.4, 1, 1, 0.4};
+  s.species[1] = (gg_species){0.6, 0.7, 0.5, 0.3};
+  no_bias_in("two rough species, dense, sheared", &s, 5);
+  s = lab_scene(GG_HSS, 0.1, 0.5, -1, PLANTED);
+  no_bias_in("Gaussian thermostat", &s, 10);
+  s.thermostat = GG_WHITE_NOISE;
+  no_bias_in("white noise", &s, 10);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(everyone_meets), cmocka_unit_test(cut_and_shuffled),
+                                     cmocka_unit_test(planted_rates), cmocka_unit_test(segments_mix),
+                                     cmocka_unit_test(no_bias)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,163 @@
+/* Threads change nothing: the same seed leaves the same ensemble, sums, counts and streams with one thread, two, three
+ * or as many as can meet at once, whatever the scene has; also if a run is saved and goes on with another number. */
+#include "dsmc/dsmc.h"
+#include "lab.h"
+
+enum { LARGE = 64003 }; /* the smallest ensembles in segments have 64000; the last block is not full */
+
+static void same(const gg_archive *a, const gg_archive *b)
+{
+  assert_int_equal(a->n_items, b->n_items);
+  for (size_t i = 0; i < a->n_items; i++) {
+    size_t bytes = a->items[i].count * gg_item_size(a->items[i].type);
+    assert_int_equal(bytes, b->items[i].count * gg_item_size(b->items[i].type));
+    if (memcmp(a->items[i].data, b->items[i].data, bytes) != 0) fail_msg("%s differs", a->items[i].name);
+  }
+}
+
+static void save(gg_engine *g, gg_archive *a)
+{
+  gg_error err = {0};
+  if (gg_dsmc_ops.save(g, a, &err) != GG_OK) fail_msg("%s", err.message);
+}
+
+/* Threads change on the way; 0: not said. */
+static gg_archive outcome(const gg_model *m, int first, int then)
+{
+  gg_engine *g = lab_engine(m, 3);
+  gg_archive a = {0};
+  if (first) gg_dsmc_ops.threads(g, first);
+  assert_int_equal(((gg_dsmc *)g)->ensemble.segments, 8);
+  assert_true((((gg_dsmc *)g)->ensemble.crew != NULL) == (first > 1));
+  gg_dsmc_ops.tap(g, true);
+  lab_advance(g, INFINITY, (uint64_t)m->n);
+  if (then) gg_dsmc_ops.threads(g, then);
+  lab_advance(g, INFINITY, (uint64_t)m->n / 2);
+  save(g, &a);
+  gg_dsmc_ops.destroy(g);
+  return a;
+}
+
+static void same_bits_on(const gg_model *m)
+{
+  const int threads[][2] = {{0, 0}, {1, 2}, {2, 0}, {3, 0}, {64, 3}};
+  gg_archive first = {0};
+  for (int i = 0; i < 5; i++) {
+    gg_archive a = outcome(m, threads[i][0], threads[i][1]);
+    if (i) same(&first, &a);
+    if (i)
+      gg_archive_clear(&a);
+    else
+      first = a;
+  }
+  gg_archive_clear(&first);
+}
+
+/* Rules, flows dilute and dense, thermostats, one species, two, and two of which one is too small for segments. */
+static void same_bits(void **state)
+{
+  (void)state;
+  const double beta[] = {-1, 0.3, 0.3}, mu[] = {INFINITY, INFINITY, 0.2};
+  const gg_flow flows[] = {GG_HCS, GG_USF, GG_HSS, GG_HSS};
+  for (int rule = 0; rule < 3; rule++)
+    for (int dense = 0; dense < 2; dense++)
+      for (int flow = 0; flow < 4; flow++)
+        for (int species = 1; species <= 3; species++) {
+          gg_scene s = lab_scene(flows[flow], dense ? 0.3 : 0, 0.8, beta[rule], LARGE);
+          s.collision.mu[0] = s.collision.mu[1] = mu[rule];
+          if (flow == 3) s.thermostat = GG_WHITE_NOISE;
+          s.n_species = species > 1 ? 2 : 1;
+          s.species[0] = (gg_species){species == 3 ? 0.03 : 0.4, 1, 1, 0.4};
+          s.species[1] = (gg_species){species == 3 ? 0.97 : 0.6, 0.7, 2, 0.3};
+          gg_model m = lab_model(&s);
+          same_bits_on(&m);
+        }
+}
+
+/* Without the bits that only some processors have, too. */
+static void same_bits_with_any_instructions(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_USF, 0.2, 0.8, -1, LARGE);
+  gg_model m = lab_model(&s);
+  gg_archive first = {0};
+  for (int path = GG_PATH_BASELINE; path < GG_PATHS; path++) {
+    if (!gg_path_runs_here((gg_path)path)) continue;
+    gg_engine *g = lab_engine(&m, 3);
+    gg_dsmc *d = (gg_dsmc *)g;
+    gg_archive a = {0};
+    for (int p = 0; p < GG_PAIRS; p++) d->path[p] = (gg_path)path;
+    gg_dsmc_ops.threads(g, 2);
+    lab_advance(g, INFINITY, (uint64_t)m.n);
+    save(g, &a);
+    gg_dsmc_ops.destroy(g);
+    if (path > GG_PATH_BASELINE) same(&first, &a);
+    if (path > GG_PATH_BASELINE)
+      gg_archive_clear(&a);
+    else
+      first = a;
+  }
+  gg_archive_clear(&first);
+}
+
+/* Saved under two threads, gone on with under one, two and three. */
+static void resumes_with_other_threads(void **state)
+{
+  (void)state;
+  for (int species = 1; species <= 2; species++) {
+    gg_scene s = lab_scene(GG_USF, 0.3, 0.8, 0.2, LARGE);
+    s.n_species = species;
+    s.species[1] = (gg_species){1, 0.7, 2, 0.3};
+    gg_model m = lab_model(&s);
+    gg_engine *straight = lab_engine(&m, 11);
+    gg_error err = {0};
+    gg_archive half = {0}, end = {0};
+    gg_dsmc_ops.threads(straight, 2);
+    gg_dsmc_ops.tap(straight, true);
+    lab_advance(straight, INFINITY, (uint64_t)m.n / 3);
+    save(straight, &half);
+    lab_advance(straight, INFINITY, (uint64_t)m.n);
+    save(straight, &end);
+    for (int threads = 1; threads <= 3; threads++) {
+      gg_engine *resumed = NULL;
+      gg_archive a = {0};
+      if (gg_dsmc_ops.restore(&m, &half, &resumed, &err) != GG_OK) fail_msg("%s", err.message);
+      gg_dsmc_ops.threads(resumed, threads);
+      lab_advance(resumed, INFINITY, (uint64_t)m.n);
+      save(resumed, &a);
+      same(&end, &a);
+      gg_archive_clear(&a);
+      gg_dsmc_ops.destroy(resumed);
+    }
+    gg_archive_clear(&half);
+    gg_archive_clear(&end);
+    gg_dsmc_ops.destroy(straight);
+  }
+}
+
+/* A block less than it takes: one segment, and threads are not even made. */
+static void small_ones_do_not_pay(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0.1, 0.8, -1, 63992);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 5);
+  gg_dsmc *d = (gg_dsmc *)g;
+  gg_archive a = {0};
+  gg_dsmc_ops.threads(g, 4);
+  assert_int_equal(d->ensemble.segments, 1);
+  assert_null(d->ensemble.crew);
+  assert_null(d->tournament);
+  save(g, &a);
+  assert_null(gg_archive_find(&a, "dsmc/tournament"));
+  gg_archive_clear(&a);
+  gg_dsmc_ops.destroy(g);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(small_ones_do_not_pay),
+                                     cmocka_unit_test(resumes_with_other_threads),
+                                     cmocka_unit_test(same_bits_with_any_instructions), cmocka_unit_test(same_bits)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
