@@ -9,7 +9,8 @@
 #include "measure/curve.h"
 
 /* {"name": {"group", "panel", "label", "x_name", "x_unit", "y_name", "unit", "log_x", "log_y", "samples", "x": [],
- * "value": [], "stderr": [], "numbers": {"alpha": {"mean", "stderr", "unit"}}}} */
+ * "value": [], "stderr": [], "numbers": {"alpha": {"mean", "stderr", "unit"}}, "reference": {"label", "value": []}}}:
+ * the last only where there is a law to see the curve beside. */
 json_t *gg_curves_json(const gg_curves *curves);
 
 /* GROUP/curves/<name>/ x, value, stderr; numbers/<name>: mean, stderr; units are attributes. */

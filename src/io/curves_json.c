@@ -35,6 +35,9 @@ static json_t *curve_json(const gg_curve *c)
   json_object_set_new(o, "value", array(c->value, c->n));
   json_object_set_new(o, "stderr", array(c->error, c->n));
   json_object_set_new(o, "numbers", numbers_json(c));
+  if (c->reference)
+    json_object_set_new(o, "reference",
+                        json_pack("{s:s, s:o}", "label", c->reference_label, "value", array(c->reference, c->n)));
   return o;
 }
 

@@ -78,7 +78,11 @@ static void find_ends(const json_t *curve, size_t *from, size_t *to)
 }
 
 /* On a logarithmic axis a point that is not known within two thirds of itself says little, and hides other curves. */
-static void print_data(FILE *s, int k, const json_t *curve, double range[2], double *least)
+typedef struct extent {
+  double range[2], least, x[2]; /* of values with their errors, of values, of x */
+} extent;
+
+static void print_data(FILE *s, int k, const json_t *curve, extent *all)
 {
   bool log_x = json_is_true(json_object_get(curve, "log_x")), log_y = json_is_true(json_object_get(curve, "log_y"));
   size_t from, to;
@@ -88,11 +92,41 @@ static void print_data(FILE *s, int k, const json_t *curve, double range[2], dou
     double x = at(curve, "x", i), y = at(curve, "value", i), e = at(curve, "stderr", i);
     if (!isfinite(y) || (log_x && x <= 0) || (log_y && (y <= 0 || e > 0.67 * y))) continue;
     double band = isfinite(e) ? e : 0, low = y - band;
-    *least = fmin(*least, y);
-    range[0] = fmin(range[0], low), range[1] = fmax(range[1], y + band);
+    all->least = fmin(all->least, y);
+    all->range[0] = fmin(all->range[0], low), all->range[1] = fmax(all->range[1], y + band);
+    all->x[0] = fmin(all->x[0], x), all->x[1] = fmax(all->x[1], x);
     fprintf(s, "%.7g %.7g %.7g %.7g\n", x, y, low, y + band);
   }
   fprintf(s, "EOD\n");
+}
+
+/* The law beside a curve, as far as curves are drawn. False if there is none, or it is that of the curve before. */
+static bool print_reference(FILE *s, int k, const json_t *curve, const json_t *before, const extent *all)
+{
+  const json_t *law = json_object_get(curve, "reference");
+  bool logarithmic = json_is_true(json_object_get(curve, "log_y"));
+  if (!law || (before && json_equal(law, json_object_get(before, "reference")))) return false;
+  fprintf(s, "$law%d << EOD\n", k);
+  for (size_t i = 0; i < json_array_size(json_object_get(curve, "x")); i++) {
+    double x = at(curve, "x", i), y = at(law, "value", i);
+    bool shown = x >= all->x[0] && x <= all->x[1] && (!logarithmic || y >= 0.3 * all->range[0]);
+    if (isfinite(y) && shown) fprintf(s, "%.7g %.7g\n", x, y);
+  }
+  fprintf(s, "EOD\n");
+  return true;
+}
+
+/* Over the curves, dashed; in their own colours where there are several laws. */
+static void draw_references(FILE *s, const panel *p, const bool *there)
+{
+  int n = 0, named = 0;
+  for (int k = 0; k < p->n; k++) n += there[k];
+  for (int k = 0; k < p->n; k++) {
+    if (!there[k]) continue;
+    fprintf(s, ", $law%d using 1:2 with lines lw 1.2 dt (6,4) lc rgb '%s' ", k,
+            n > 1 ? gg_plot_colours[k % GG_PLOT_COLOURS] : "#444444");
+    fprintf(s, named++ ? "notitle" : "title '%s'", text_of(json_object_get(p->curve[k], "reference"), "label"));
+  }
 }
 
 static void axis_label(FILE *s, char axis, const char *name, const char *raw)
@@ -109,23 +143,27 @@ static void draw_panel(FILE *s, const panel *p, gg_panel place)
 {
   const json_t *first = p->curve[0];
   gg_plot_place(s, place);
-  double range[2] = {INFINITY, -INFINITY}, least = INFINITY;
-  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], range, &least);
-  if (least >= 0 && range[0] < 0.3 * range[1]) fprintf(s, "set yrange [0:*]\n");
+  extent all = {{INFINITY, -INFINITY}, INFINITY, {INFINITY, -INFINITY}};
+  for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], &all);
+  bool law[MOST_IN_PANEL], any = false;
+  for (int k = 0; k < p->n; k++) any |= law[k] = print_reference(s, k, p->curve[k], k ? p->curve[k - 1] : NULL, &all);
+  if (all.least >= 0 && all.range[0] < 0.3 * all.range[1]) fprintf(s, "set yrange [0:*]\n");
   if (json_is_true(json_object_get(first, "log_x"))) fprintf(s, "set logscale x\n");
   if (json_is_true(json_object_get(first, "log_y")))
     fprintf(s, "set yrange [*:*]\nset logscale y\nset format y '10^{%%T}'\n");
   axis_label(s, 'x', text_of(first, "x_name"), text_of(first, "x_unit"));
   axis_label(s, 'y', text_of(first, "y_name"), text_of(first, "unit"));
   fprintf(s, "set label '%s' at graph 0,1.21 left\n", p->title);
-  fprintf(s, p->n > 1 ? "set key at graph 1.0,1.16 right top horizontal samplen 1\n" : "unset key\n");
+  fprintf(s, p->n > 1 || any ? "set key at graph 1.0,1.16 right top horizontal samplen 1\n" : "unset key\n");
   fprintf(s, "plot ");
   for (int k = 0; k < p->n; k++) {
     const char *colour = gg_plot_colours[k % GG_PLOT_COLOURS];
     fprintf(s, "%s$curve%d using 1:3:4 with filledcurves notitle fc rgb '%s' fs transparent solid 0.25 noborder, ",
             k ? ", " : "", k, colour);
-    fprintf(s, "$curve%d using 1:2 with lines lw 1.3 lc rgb '%s' title '%s'", k, colour, text_of(p->curve[k], "label"));
+    fprintf(s, "$curve%d using 1:2 with lines lw 1.3 lc rgb '%s' title '%s'", k, colour,
+            *text_of(p->curve[k], "label") ? text_of(p->curve[k], "label") : "measured");
   }
+  draw_references(s, p, law);
   fprintf(s, "\n");
 }
 

@@ -69,10 +69,17 @@ static double top_of(const snapshot *s)
   return fmin(s->edge[1], top + 1);
 }
 
-/* Of large systems a layer is drawn: the grains nearest to the viewer, in `across` below the limit. */
-static void print_grains(FILE *out, const snapshot *s, int species, int along, int across)
+/* Of large or crowded systems a layer is drawn, so deep that discs cover the panel once: the grains nearest to the
+ * viewer, in `across` below the limit. */
+static double layer_of(const snapshot *s, int along, int across, double top)
 {
-  double layer = s->edge[across] * fmin(1, (double)MOST_GRAINS / (double)s->n);
+  double area = 0;
+  for (size_t i = 0; i < s->n; i++) area += M_PI * s->radius[s->species[i]] * s->radius[s->species[i]];
+  return s->edge[across] * fmin(fmin(1, (double)MOST_GRAINS / (double)s->n), s->edge[along] * top / area);
+}
+
+static void print_grains(FILE *out, const snapshot *s, int species, int along, int across, double layer)
+{
   fprintf(out, "$grains%d%d << EOD\n", species, along);
   for (size_t i = 0; i < s->n; i++) {
     const double *r = s->position + 3 * i;
@@ -84,10 +91,13 @@ static void print_grains(FILE *out, const snapshot *s, int species, int along, i
 static void draw_panel(FILE *out, const snapshot *s, int along, gg_panel place, double top)
 {
   int across = along == 0 ? 2 : 0;
+  double layer = layer_of(s, along, across, top);
   gg_plot_place(out, place);
+  if (layer < s->edge[across])
+    fprintf(out, "set label 'grains at %c < %.2g d' at graph 0,1.03 left\n", across ? 'z' : 'x', layer);
   bool two = false;
   for (size_t i = 0; i < s->n; i++) two |= s->species[i] != 0;
-  for (int k = 0; k < 1 + two; k++) print_grains(out, s, k, along, across);
+  for (int k = 0; k < 1 + two; k++) print_grains(out, s, k, along, across, layer);
   fprintf(out, "set border 15\nunset grid\nset xrange [0:%.9g]\nset yrange [0:%.9g]\n", s->edge[along], top);
   fprintf(out, "set xlabel '%c [d]'\nset ylabel 'y [d]'\nunset key\nplot ", along == 0 ? 'x' : 'z');
   for (int k = 0; k < 1 + two; k++)

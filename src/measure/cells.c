@@ -238,6 +238,15 @@ static void put_averages(gg_curve *c, const gg_model *m, const double *T, double
   for (int k = 0; k < 5; k++) gg_curve_put_number(c, names[spins][k], T[k] / looks, gg_curve_unit(m, "temperature"));
 }
 
+/* Grains thrown anywhere fall into a cell binomially; parameters: N, share of a cell, solid fraction of one grain in
+ * it. */
+static double thrown(double x, const double *p)
+{
+  double n = round(x / p[2]);
+  return exp(lgamma(p[0] + 1) - lgamma(n + 1) - lgamma(p[0] - n + 1) + n * log(p[1]) + (p[0] - n) * log1p(-p[1])) /
+         p[2];
+}
+
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const cells *d = self;
@@ -245,6 +254,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   double unit = m->phi * count_of(d) / (double)m->n, looks = bin[LOOKS];
   gg_curve *c =
       put(list, "cell_density", "local solid fraction", "φ", DENSITY_BINS, 0, unit, bin + DENSITY, bin[N_DENSITY]);
+  gg_curve_beside(c, "ideal gas", thrown, (const double[]){(double)m->n, 1.0 / count_of(d), unit});
   gg_curve_put_number(c, "cells", count_of(d), "1");
   gg_curve_put_number(c, "count_variance_over_mean", bin[COUNT_SQUARED] / looks, "1");
   c = put(list, "cell_temperature", "local temperature", "T_{cell}/T", RATIO_BINS, RATIO_WIDTH / 2, RATIO_WIDTH,

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "measure/free_flight.h"
 #include "measure/observable.h"
 
 /* Bins of flights: sixteen of equal width in every octave of the expected mean, from 2^-8 to 2^8 of it. */
@@ -25,6 +26,7 @@ typedef struct collisions {
   double unit[KINDS]; /* one over the expected mean free time and path */
   bool has[KINDS];
   size_t width;
+  uint64_t seen; /* collisions since watching began, as far as it matters */
   double sums[]; /* since the last look: angles, then the flights of each species */
 } collisions;
 
@@ -38,7 +40,10 @@ static void *create(const gg_model *m, gg_error *err)
   d->width = width;
   d->unit[TIME] = rate;
   d->unit[PATH] = d->unit[LABORATORY] = rate / speed;
-  d->has[TIME] = m->flow != GG_HCS && m->flow != GG_HSS;
+  /* A time has a meaning where the temperature stays; under md's Gaussian thermostat the engine's clock is not that of
+   * the gas. A path is known from the velocity at its end where nothing but shear changes it in flight. */
+  bool other_clock = m->thermostat == GG_GAUSSIAN && !m->homogeneous;
+  d->has[TIME] = m->flow != GG_HCS && !m->small_shear && !other_clock;
   d->has[PATH] = m->flow != GG_HSS && !gg_flow_is_walled(m->flow);
   d->has[LABORATORY] = d->has[PATH] && m->shear_rate != 0 && !m->homogeneous;
   return d;
@@ -82,6 +87,17 @@ static double peculiar_path(gg_vec c, double rate, double t)
   return sum * t;
 }
 
+/* Flights are counted where they end; of those that end soon after watching began the long ones, begun before, are not
+ * known. So nothing counts until hardly a grain is left that has not collided: else means would be too small by one
+ * part in the number of collisions a grain. */
+#define SETTLING 12 /* collisions a grain; exp(-12) of them have had none */
+static bool settled(collisions *d)
+{
+  uint64_t enough = SETTLING * (uint64_t)d->model.n / 2;
+  d->seen += d->seen < enough;
+  return d->seen == enough;
+}
+
 static void add_flights(collisions *d, const gg_seen_collision *m, int which)
 {
   double t = m->since[which], rate = d->model.shear_rate, *to = d->sums + ANGLES + m->species[which] * KINDS * FLIGHT;
@@ -112,8 +128,16 @@ static void watch(void *self, const gg_seen_collision *m)
   fabric[0] += k.x * k.x, fabric[1] += k.y * k.y, fabric[2] += k.z * k.z, fabric[3] += k.x * k.y;
   d->sums[COSINES + (cosine < 0 ? 0 : cosine < COS_BINS ? cosine : COS_BINS - 1)]++;
   d->sums[PLANE + plane_bin(k)]++;
+  if (!settled(d)) return;
   add_flights(d, m, 0);
   add_flights(d, m, 1);
+}
+
+static void *memory(void *self, size_t *bytes)
+{
+  collisions *d = self;
+  *bytes = sizeof d->seen;
+  return &d->seen;
 }
 
 static void look(void *self, const gg_snapshot *s, double *bin)
@@ -165,6 +189,14 @@ static void put_flight(const collisions *d, gg_curves *list, int kind, int speci
     c->value[i] = at[FLIGHT_FIRST + i] / (at[COUNT] * (to - from));
   }
   put_numbers(c, m, kind, at);
+  double mean = at[SUM] / at[COUNT];
+  gg_curve_beside(c, "Maxwellian gas", kind == TIME ? gg_free_time_law : gg_free_path_law, &mean);
+}
+
+static double twice(double x, const double *none)
+{
+  (void)none;
+  return 2 * x;
 }
 
 static void put_angles(gg_curves *list, const double *bin)
@@ -176,12 +208,14 @@ static void put_angles(gg_curves *list, const double *bin)
     c->x[i] = (i + 0.5) / COS_BINS;
     c->value[i] = bin[COSINES + i] * COS_BINS / bin[MEETINGS];
   }
+  gg_curve_beside(c, "molecular chaos", twice, NULL);
   c = gg_curve_add(list, PLANE_BINS, "collision_angle", "angle of k in the plane of shear", "");
   gg_curve_axes(c, "θ_c/π", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) / PLANE_BINS;
     c->value[i] = bin[PLANE + i] * PLANE_BINS / bin[MEETINGS];
   }
+  gg_curve_beside(c, "no direction", gg_level, &(double){1});
   for (int a = 0; a < 4; a++) gg_curve_put_number(c, fabric[a], bin[FABRIC + a] / bin[MEETINGS], "1");
 }
 
@@ -201,6 +235,7 @@ const gg_observable gg_collisions = {
     .destroy = free,
     .flag = GG_MEASURE_COLLISIONS,
     .bins = bins,
+    .memory = memory,
     .every = 1,
     .watch = watch,
     .look = look,

@@ -13,6 +13,7 @@ static void clear_curve(gg_curve *c)
   free(c->x);
   free(c->value);
   free(c->error);
+  free(c->reference);
 }
 
 void gg_curves_clear(gg_curves *list)
@@ -67,6 +68,20 @@ void gg_curve_put_number(gg_curve *c, const char *name, double value, const char
   *p = (gg_curve_number){.value = value, .error = NAN};
   snprintf(p->name, sizeof p->name, "%s", name);
   snprintf(p->unit, sizeof p->unit, "%s", unit);
+}
+
+void gg_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const double *parameters)
+{
+  if (!c->reference) c->reference = calloc(c->n + 1, sizeof(double));
+  if (!c->reference) return; /* the curve itself is what matters */
+  snprintf(c->reference_label, sizeof c->reference_label, "%s", label);
+  for (size_t i = 0; i < c->n; i++) c->reference[i] = law(c->x[i], parameters);
+}
+
+double gg_level(double x, const double *parameters)
+{
+  (void)x;
+  return *parameters;
 }
 
 const char *gg_curve_unit(const gg_model *m, const char *what)

@@ -22,8 +22,10 @@ typedef struct gg_curve {
   bool log_x, log_y; /* how it is best drawn */
   size_t n;
   double *x, *value, *error; /* NaN: cannot be had, unknown */
-  double block_correlation;  /* between neighbouring blocks, on average over the points: errors allow for it */
-  uint64_t samples;          /* snapshots behind each point, all replicas */
+  double *reference;         /* a law to see the curve beside, NULL if there is none; under what name */
+  char reference_label[32];
+  double block_correlation; /* between neighbouring blocks, on average over the points: errors allow for it */
+  uint64_t samples;         /* snapshots behind each point, all replicas */
   int n_numbers;
   gg_curve_number number[GG_CURVE_NUMBERS]; /* read off this curve: exponents, contact values, coefficients */
 } gg_curve;
@@ -44,6 +46,12 @@ void gg_curves_clear(gg_curves *list);
 gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label);
 void gg_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit);
 void gg_curve_put_number(gg_curve *c, const char *name, double value, const char *unit);
+
+/* Draw a law beside the curve, whose x are in place: f(x, parameters). */
+typedef double gg_curve_law(double x, const double *parameters);
+void gg_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const double *parameters);
+/* The same number everywhere: its only parameter. */
+gg_curve_law gg_level;
 
 /* Units of results for curves: "length", "time", "velocity", "temperature", "spin" of this model. */
 const char *gg_curve_unit(const gg_model *model, const char *what);

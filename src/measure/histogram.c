@@ -43,6 +43,12 @@ static void put_tail(gg_curve *c, const double *bin, double sigma, double sample
   gg_curve_put_number(c, "fit_to", data.first + n * width, "1");
 }
 
+static double gaussian(double x, const double *none)
+{
+  (void)none;
+  return exp(-x * x / 2);
+}
+
 gg_curve *gg_histogram_put(gg_curves *list, const char *name, const char *panel, const char *label, const double *bin,
                            double sigma, double samples)
 {
@@ -50,6 +56,7 @@ gg_curve *gg_histogram_put(gg_curves *list, const char *name, const char *panel,
   gg_curve *c = gg_curve_add(list, GG_HISTOGRAM_BINS, name, panel, label);
   c->log_y = true;
   for (int i = 0; i < (int)c->n; i++) c->x[i] = (i - HALF) * WIDTH / sigma, c->value[i] = bin[i] / zero;
+  gg_curve_beside(c, "Gaussian", gaussian, NULL);
   put_tail(c, bin, sigma, samples);
   double n = bin[GG_HISTOGRAM_GRAINS];
   gg_curve_put_number(c, "kurtosis", bin[GG_HISTOGRAM_FOURTHS] / n / (variance * variance), "1");

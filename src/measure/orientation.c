@@ -84,6 +84,12 @@ static gg_curve *histogram(gg_curves *list, const char *name, const char *panel,
   return c;
 }
 
+/* Any direction as likely as any other: uniform in the cosine; of its square, the mean over a bin. */
+static double squares_of_uniform(double x, const double *width)
+{
+  return (sqrt(x + *width / 2) - sqrt(fmax(x - *width / 2, 0))) / *width;
+}
+
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   (void)self;
@@ -93,9 +99,11 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   for (int k = 0; k < 2; k++, bin += SET) {
     gg_curve *c = histogram(list, names[k][0], "P(cos Ψ)", labels[k], bin + COS, bin[COUNT], -1, 1);
     gg_curve_axes(c, "cos Ψ", "1", "P", "1");
+    gg_curve_beside(c, "no correlation", gg_level, &(double){0.5});
     gg_curve_put_number(c, "Lambda", bin[SUM] / bin[COUNT], "1");
     c = histogram(list, names[k][1], "P(cos^2 Ψ)", labels[k], bin + SQUARE, bin[COUNT], 0, 1);
     gg_curve_axes(c, "cos^2 Ψ", "1", "P", "1");
+    gg_curve_beside(c, "no correlation", squares_of_uniform, &(double){1.0 / (double)c->n});
     c->log_y = true;
   }
 }

@@ -163,6 +163,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
         c->x[k] = from + WIDTH / 2;
         c->value[k] = bin[(size_t)(q * d->bins) + k] / (pairs * shell / m->volume);
       }
+      gg_curve_beside(c, "ideal gas", gg_level, &(double){1});
       if (c->n) put_contact(d, c, bin + q * d->bins, extra, (double)list->samples);
     }
 }

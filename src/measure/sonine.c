@@ -69,6 +69,13 @@ static double reduced(const gg_model *m, int k, const double *bin)
   return sqrt(bin[SHARE] * m->mass[1 - k] / (m->mass[0] + m->mass[1]));
 }
 
+/* First Sonine approximation; parameters: its factor, and the unit of x. */
+static double first_sonine(double x, const double *p)
+{
+  double xx = x * x / (p[1] * p[1]);
+  return p[0] * (xx * xx / 2 - 2.5 * xx + 15.0 / 8);
+}
+
 static void put_species(const gg_model *m, int k, const double *bin, gg_curves *list)
 {
   char name[3][48], label[24] = "measured", theory[24] = "first Sonine";
@@ -97,6 +104,7 @@ static void put_species(const gg_model *m, int k, const double *bin, gg_curves *
     delta->value[i] = 2 / cumulant * excess->value[i];
     series->value[i] = xx * xx / 2 - 2.5 * xx + 15.0 / 8;
   }
+  gg_curve_beside(excess, "first Sonine", first_sonine, (const double[]){cumulant / 2, unit});
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)

@@ -173,6 +173,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
       c->x[i] = at[COUNT] > 0 ? at[WAVE] / at[COUNT] : ((double)i + 1) * spacing(&d->model);
       c->value[i] = at[COUNT] > 0 ? at[radial[r].channel] / at[COUNT] : NAN;
     }
+    if (radial[r].channel != DENSITY) gg_curve_beside(c, "no correlation", gg_level, &(double){1});
   }
   for (int a = 0; a < 3; a++) {
     char name[48], label[24];

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "measure/observable.h"
 #include "measure/pairs.h"
@@ -134,6 +135,8 @@ static void put(const correlations *d, gg_curves *list, const char *name, const 
     c->x[i] = ((double)i + first + 0.5) * SPACING;
     c->value[i] = at[COUNT] > 0 ? at[channel] / (at[COUNT] * norm) : NAN;
   }
+  gg_curve_beside(c, "uncorrelated", gg_level,
+                  &(double){strchr(name, 'W') ? 0 : -1 / ((double)m->n - 1)}); /* momentum: 0 */
 }
 
 static void put_radial(const correlations *d, const double *bin, const double *square, gg_curves *list)

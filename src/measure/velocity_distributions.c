@@ -103,6 +103,7 @@ static void put_deviation(gg_curves *list, const naming *n, int vector, const do
     double x = (i - LOW) * GG_HISTOGRAM_WIDTH;
     c->x[i] = x, c->value[i] = bin[GG_HISTOGRAM_HALF - LOW + i] / zero - exp(-x * x / 2);
   }
+  gg_curve_beside(c, "Gaussian", gg_level, &(double){0});
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
