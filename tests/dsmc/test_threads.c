@@ -154,9 +154,27 @@ static void small_ones_do_not_pay(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
+static void find_segments(void *context, const char *text)
+{
+  *(bool *)context |= strstr(text, "in 8 segments, which threads share") != NULL;
+}
+
+/* `graingas info` tells. */
+static void describes(void **state)
+{
+  (void)state;
+  for (int large = 0; large < 2; large++) {
+    gg_scene s = lab_scene(GG_HCS, 0.1, 0.8, -1, large ? 64000 : 63992);
+    gg_model m = lab_model(&s);
+    bool found = false;
+    gg_dsmc_ops.describe(&m, find_segments, &found);
+    assert_int_equal(found, large);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(small_ones_do_not_pay),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(describes), cmocka_unit_test(small_ones_do_not_pay),
                                      cmocka_unit_test(resumes_with_other_threads),
                                      cmocka_unit_test(same_bits_with_any_instructions), cmocka_unit_test(same_bits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
