@@ -1,6 +1,7 @@
 /* Segments that meet in rounds are the gas: every pair of segments meets as often as any other, grains of one segment
  * and of two collide at the same rate, gases that begin at different temperatures mix as they would one pair after
- * another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. */
+ * another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. One thread
+ * does all: that more leave the same bits is test_threads.c's matter. */
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
@@ -108,7 +109,6 @@ static void planted_rates(void **state)
   for (size_t i = 0; i < sizeof plans / sizeof *plans; i++) {
     gg_engine *g = lab_engine(&m, 100 + i);
     gg_dsmc *d = (gg_dsmc *)g;
-    gg_dsmc_ops.threads(g, 2);
     lab_mean ratio = {0};
     double pairs = plant(d, &plans[i]);
     /* A collision for every 4000 grains in a stretch, and for every 500 in a meeting if it has them all: few second
@@ -156,10 +156,7 @@ static void mix(gg_path path, int seed, lab_mean a2[3], lab_mean time[3])
   gg_dsmc_settle(d);
   for (int q = 0; q < GG_PAIRS && path == GG_PATH_PLAIN; q++) d->path[q] = path;
   gg_dsmc_bounds(d);
-  if (path == GG_PATH_PLAIN)
-    in_one_piece(g);
-  else
-    gg_dsmc_ops.threads(g, 2);
+  if (path == GG_PATH_PLAIN) in_one_piece(g);
   double gone = 0;
   for (int i = 0; i < 3; i++) {
     gone += lab_advance(g, INFINITY, PLANTED / 2);
@@ -202,10 +199,7 @@ static void no_bias_in(const char *name, const gg_scene *s, double length)
   for (int seed = 0; seed < 8; seed++)
     for (int cut = 0; cut < 2; cut++) {
       gg_engine *g = lab_engine(&m, (uint64_t)(10 * seed + cut));
-      if (cut)
-        gg_dsmc_ops.threads(g, 2);
-      else
-        in_one_piece(g);
+      if (!cut) in_one_piece(g);
       lab_average(g, &m, 8, 1, length, &f[cut]);
       gg_dsmc_ops.destroy(g);
     }
