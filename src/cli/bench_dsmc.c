@@ -119,6 +119,7 @@ gg_status gg_bench_dsmc(gg_bench *b, gg_error *err)
 {
   GG_TRY(times(b, err));
   GG_TRY(ratios(b, err));
+  GG_TRY(gg_bench_dsmc_precision(b, err));
   GG_TRY(gg_bench_dsmc_paths(b, err));
   return gg_bench_dsmc_threads(b, err);
 }

@@ -23,6 +23,8 @@ extern const gg_bench_feature gg_dsmc_features_timed[GG_DSMC_KINDS];
 
 gg_contender gg_bench_dsmc_contender(const gg_bench *b, gg_dsmc_kind kind, double phi, int64_t n);
 
+/* bench_dsmc_precision.c: a sheet of its own. */
+gg_status gg_bench_dsmc_precision(gg_bench *b, gg_error *err);
 /* bench_dsmc_threads.c: sheets of its own. */
 gg_status gg_bench_dsmc_paths(gg_bench *b, gg_error *err);
 gg_status gg_bench_dsmc_threads(gg_bench *b, gg_error *err);

@@ -6,7 +6,7 @@
 
 size_t gg_item_size(gg_item_type type)
 {
-  return type == GG_ITEM_U8 ? 1 : 8;
+  return type == GG_ITEM_U8 ? 1 : type == GG_ITEM_F32 ? 4 : 8;
 }
 
 static gg_status grow(gg_archive *a, gg_error *err)
@@ -46,7 +46,9 @@ gg_status gg_archive_get(const gg_archive *a, const char *name, gg_item_type typ
 {
   const gg_item *item = gg_archive_find(a, name);
   if (!item) return gg_fail(err, GG_BAD_FILE, "the checkpoint lacks '%s'", name);
-  if (item->type != type || item->count != count)
+  if (item->type != type)
+    return gg_fail(err, GG_BAD_FILE, "the checkpoint's '%s' holds numbers of another type than is needed", name);
+  if (item->count != count)
     return gg_fail(err, GG_BAD_FILE, "the checkpoint's '%s' holds %zu items where %zu are needed", name, item->count,
                    count);
   if (count) memcpy(data, item->data, count * gg_item_size(type));

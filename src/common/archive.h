@@ -5,7 +5,7 @@
 
 #include "common/error.h"
 
-typedef enum gg_item_type { GG_ITEM_F64, GG_ITEM_I64, GG_ITEM_U64, GG_ITEM_U8 } gg_item_type;
+typedef enum gg_item_type { GG_ITEM_F64, GG_ITEM_I64, GG_ITEM_U64, GG_ITEM_U8, GG_ITEM_F32, GG_ITEM_TYPES } gg_item_type;
 
 typedef struct gg_item {
   char name[64]; /* "md/grains": may hold one level of folders */

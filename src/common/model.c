@@ -149,6 +149,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
                     : m->gravity[1] != 0            ? 1e-3
                                                     : 1e-5;
   m->time_step = s->dsmc.time_step;
+  m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
   m->temperature0 = sheared || s->flow == GG_COUETTE ? guess_sheared_temperature(m) : 0.5;
   if (sheared && s->temperature != GG_AUTO) {
     double speed = s->shear_rate * s->species[0].diameter;

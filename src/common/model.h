@@ -49,6 +49,7 @@ typedef struct gg_model {
   double contact_time; /* of the contact-time rule, in mean free times per grain, or sqrt(d/|g_y|) where there is g_y;
                         * 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
+  bool single;         /* dsmc: velocities kept in single precision */
 
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;

@@ -12,6 +12,7 @@ typedef enum gg_flow { GG_EQUILIBRIUM, GG_USF, GG_HCS, GG_HSS, GG_COUETTE, GG_PO
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
 typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE } gg_thermostat;
 typedef enum gg_switch { GG_OFF, GG_ON } gg_switch;
+typedef enum gg_precision { GG_DOUBLE, GG_SINGLE } gg_precision;
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
 
@@ -74,6 +75,7 @@ struct gg_scene {
   struct {
     double time_step;  /* in mean free times, or GG_AUTO */
     int64_t particles; /* size of the ensemble, or 0: chosen */
+    gg_precision precision;
   } dsmc;
   unsigned measure; /* GG_MEASURE_... */
   struct {

@@ -18,19 +18,17 @@
 
 /* A batch in progress: constants and sums where the compiler can keep them in registers. */
 typedef struct gg_batch {
-  gg_block *one, *two, *spin_one, *spin_two;
+  gg_real_block *one, *two, *spin_one, *spin_two;
   float *top_one, *top_two;
   gg_range blocks_one, blocks_two;
   uint32_t odd_one, odd_two; /* that are not full, or UINT32_MAX */
-  gg_contact contact;
+  gg_lane_contact contact;
   gg_lane_rng rng;
   gg_directions near, sheared; /* about C12, and by the law |k_x k_y| */
-  gg_vu word[GG_PARTS];        /* random: a half for each of two visits */
-  bool half_left;
-  gg_mask sorts;       /* lanes change places by speed, not at random */
-  double floor, bound; /* the layer of |C12| */
-  double s0, shift;
-  double per_unit;              /* of the tops */
+  gg_mask sorts;               /* lanes change places by speed, not at random */
+  gg_real floor, bound;        /* the layer of |C12| */
+  gg_real s0, shift;
+  gg_real per_unit;             /* of the tops */
   double next_drift, next_unit; /* of the next draws */
   uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
@@ -39,7 +37,9 @@ typedef struct gg_batch {
 
 /* What a candidate comes to; where it does not hit, the rest means nothing (but is finite). */
 typedef struct gg_encounter {
-  gg_mask hit;
+  gg_mask hit, special; /* special: by the second law */
+  gg_vd speed, t;
+  gg_vd3 q;    /* of the law about the z axis, or uniform */
   gg_vd3 k, g; /* k: only if needed; g: contact velocity without spins */
   gg_vd3 gn_k; /* 2 g_n k, if not */
   gg_vd gn;
@@ -56,41 +56,49 @@ GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd3 q)
   const gg_vu sign = (gg_vu)v.z & (gg_vu)gg_all(-0.0);
   gg_vd side = (gg_vd)((gg_vu)speed | sign), height = speed + (gg_vd)((gg_vu)v.z ^ sign);
   gg_vd3 h = {v.x, v.y, v.z + side}, m = {q.x, q.y, (gg_vd)((gg_vu)q.z ^ sign ^ (gg_vu)gg_all(-0.0))};
-  gg_vd f = gg_vd3_dot(h, m) / (speed * height + 1e-300); /* 0/0 only where nothing moves */
+  gg_vd f = gg_vd3_dot(h, m) / (speed * height + GG_TINY); /* 0/0 only where nothing moves */
   return gg_vd3_sub(m, gg_vd3_scale(f, h));
 }
 
-/* Shear between the centres: lanes in `special` take the second law; then the last choice. */
-GG_INLINE void gg_encounter_shear(gg_batch *w, gg_vd3 v, gg_vd speed, gg_vd t, gg_mask special, gg_encounter *e)
+/* Candidates of this speed, decided by the random word r: who collides by the first law, who may by the second. None
+ * is faster than `bound`. */
+GG_INLINE void gg_encounter_meet(gg_features f, const gg_batch *w, gg_vd speed, gg_vd bound, gg_vu r, gg_encounter *e)
 {
-  gg_vd3 k = e->k, other = gg_directions_take(&w->sheared, special);
-  k = (gg_vd3){gg_select(special, other.x, k.x), gg_select(special, other.y, k.y), gg_select(special, other.z, k.z)};
+  const gg_real lowest = w->floor - w->s0;
+  e->speed = speed;
+  e->t = (gg_lane_one_to_two(r) - 1) * (bound - lowest) + lowest;
+  e->hit = gg_less(e->t, speed);
+  if (f.shear != GG_SHEARED_DENSE) return;
+  e->special = gg_less(e->t, gg_all(0));
+  e->hit = gg_and_not(e->hit, e->special);
+}
+
+/* Shear between the centres: lanes in `special` take the second law; then the last choice. */
+GG_INLINE void gg_encounter_shear(gg_batch *w, gg_vd3 v, gg_encounter *e)
+{
+  gg_vd3 k = e->k, other = gg_directions_take(&w->sheared, e->special);
+  k = (gg_vd3){gg_select(e->special, other.x, k.x), gg_select(e->special, other.y, k.y),
+               gg_select(e->special, other.z, k.z)};
   gg_vd gn = gg_vd3_dot(k, v), forward = gg_where(gg_less(gg_all(0), gn), gn), shear = w->shift * k.x * k.y;
   gg_vd most = forward + gg_larger(shear, -shear);
-  gg_vd left = gg_select(special, -t, t), range = gg_select(special, gg_all(w->s0), speed);
+  gg_vd left = gg_select(e->special, -e->t, e->t), range = gg_select(e->special, gg_all(w->s0), e->speed);
   e->k = k;
   e->gn = gn - shear;
   e->g.x -= w->shift * k.y;
-  e->hit = gg_and(gg_or(e->hit, special), gg_less(left * most, range * e->gn));
+  e->hit = gg_and(gg_or(e->hit, e->special), gg_less(left * most, range * e->gn));
 }
 
-/* The candidates with relative velocity v, decided by the random word r; none is faster than `bound`. */
-GG_INLINE gg_encounter gg_encounter_of(gg_features f, gg_batch *w, gg_vd3 v, gg_vd v2, double bound, gg_vu r)
+/* Along which k do they collide, with relative velocity v? */
+GG_INLINE void gg_encounter_aim(gg_features f, gg_batch *w, gg_vd3 v, gg_encounter *e)
 {
-  const double span = bound - w->floor + w->s0, offset = w->floor - w->s0 - span;
-  gg_vd speed = gg_sqrt(v2), t = gg_lane_one_to_two(r) * span + offset;
-  gg_mask special = gg_less(t, gg_all(0));
-  gg_encounter e = {.hit = gg_less(t, speed), .g = v};
-  if (f.shear == GG_SHEARED_DENSE) e.hit = gg_and_not(e.hit, special);
-  gg_vd3 q = gg_directions_take(&w->near, e.hit);
+  e->g = v;
   if (!gg_needs_k(f)) {
-    e.gn_k = gg_vd3_sub(v, gg_vd3_scale(speed, q));
-    return e;
+    e->gn_k = gg_vd3_sub(v, gg_vd3_scale(e->speed, e->q));
+    return;
   }
-  e.k = gg_about(v, speed, q);
-  e.gn = speed * q.z;
-  if (f.shear == GG_SHEARED_DENSE) gg_encounter_shear(w, v, speed, t, special, &e);
-  return e;
+  e->k = gg_about(v, e->speed, e->q);
+  e->gn = e->speed * e->q.z;
+  if (f.shear == GG_SHEARED_DENSE) gg_encounter_shear(w, v, e);
 }
 
 #endif

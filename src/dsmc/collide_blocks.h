@@ -13,5 +13,9 @@ typedef void gg_collide_blocks(gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng);
 gg_collide_blocks *gg_collide_blocks_baseline(gg_features f);
 gg_collide_blocks *gg_collide_blocks_avx2(gg_features f);
 gg_collide_blocks *gg_collide_blocks_avx512(gg_features f);
+/* For ensembles kept in single precision. */
+gg_collide_blocks *gg_collide_blocks_single_baseline(gg_features f);
+gg_collide_blocks *gg_collide_blocks_single_avx2(gg_features f);
+gg_collide_blocks *gg_collide_blocks_single_avx512(gg_features f);
 
 #endif

@@ -12,8 +12,8 @@ typedef struct gg_pair {
 /* Their velocities at this candidate's time. */
 static void fetch(gg_features f, const gg_pairing *p, gg_pair *q)
 {
-  q->ca = gg_block_get(p->one->c, q->a);
-  q->cb = gg_block_get(p->two->c, q->b);
+  q->ca = gg_block_get(p->one, p->one->c, q->a);
+  q->cb = gg_block_get(p->two, p->two->c, q->b);
   if (f.shear == GG_UNSHEARED) return;
   q->ca.x -= p->drift * q->ca.y;
   q->cb.x -= p->drift * q->cb.y;
@@ -53,8 +53,8 @@ static void raise_top(const gg_pairing *p, float *top, gg_vec c)
 static void collide(gg_features f, gg_pairing *p, gg_pair *q, gg_vec k, gg_vec c12, double gn)
 {
   if (f.rule != GG_SMOOTH) {
-    q->sa = gg_block_get(p->one->s, q->a);
-    q->sb = gg_block_get(p->two->s, q->b);
+    q->sa = gg_block_get(p->one, p->one->s, q->a);
+    q->sb = gg_block_get(p->two, p->two->s, q->b);
   }
   if (p->watching) show(p, q, k, c12);
   gg_vec g = gg_contact_velocity(f.rule, k, c12, q->sa, q->sb), J = gg_impulse(f.rule, &p->contact, k, g, gn);
@@ -66,11 +66,11 @@ static void collide(gg_features f, gg_pairing *p, gg_pair *q, gg_vec k, gg_vec c
     q->ca.x += p->drift * q->ca.y;
     q->cb.x += p->drift * q->cb.y;
   }
-  gg_block_set(p->one->c, q->a, q->ca);
-  gg_block_set(p->two->c, q->b, q->cb);
+  gg_block_set(p->one, p->one->c, q->a, q->ca);
+  gg_block_set(p->two, p->two->c, q->b, q->cb);
   if (f.rule == GG_SMOOTH) return;
-  gg_block_set(p->one->s, q->a, q->sa);
-  gg_block_set(p->two->s, q->b, q->sb);
+  gg_block_set(p->one, p->one->s, q->a, q->sa);
+  gg_block_set(p->two, p->two->s, q->b, q->sb);
 }
 
 /* One candidate: a uniform direction, kept at the rate g_n. */
@@ -107,11 +107,12 @@ static void attempt_four(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, g
   for (int i = 0; i < 4; i++) attempt(f, p, a, b, rng);
 }
 
-static void exchange(gg_block *one, gg_block *two, uint32_t a, uint32_t b)
+/* Two grains of one species. */
+static void exchange(const gg_population *p, void *blocks, uint32_t a, uint32_t b)
 {
-  gg_vec v = gg_block_get(one, a);
-  gg_block_set(one, a, gg_block_get(two, b));
-  gg_block_set(two, b, v);
+  gg_vec v = gg_block_get(p, blocks, a);
+  gg_block_set(p, blocks, a, gg_block_get(p, blocks, b));
+  gg_block_set(p, blocks, b, v);
 }
 
 void gg_collide_odd_blocks(gg_features f, gg_pairing *p, uint32_t a, uint32_t b, unsigned order, gg_rng *rng)
@@ -131,8 +132,8 @@ void gg_collide_odd_blocks(gg_features f, gg_pairing *p, uint32_t a, uint32_t b,
     attempt_four(f, p, i, j, rng);
     bool both = i < p->one->n && j < p->two->n;
     if (!f.same || !both || gg_rng_below(rng, 2)) continue;
-    exchange(p->one->c, p->two->c, i, j);
-    if (p->one->s) exchange(p->one->s, p->two->s, i, j);
+    exchange(p->one, p->one->c, i, j);
+    if (p->one->s) exchange(p->one, p->one->s, i, j);
     float *x = &p->one->top[i / GG_LANES], *y = &p->two->top[j / GG_LANES];
     *x = *y = *x > *y ? *x : *y;
   }

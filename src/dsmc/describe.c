@@ -27,7 +27,8 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   static const char *const rules[] = {"smooth grains: no spins are kept", "rough grains: spins, constant beta",
                                       "frictional grains: spins, Coulomb's law"};
   char text[160];
-  snprintf(text, sizeof text, "%lld velocities in blocks of %d", (long long)m->n, GG_LANES);
+  snprintf(text, sizeof text, "%lld velocities in blocks of %d, in %s precision", (long long)m->n, GG_LANES,
+           m->single ? "single" : "double");
   line(context, text);
   size_t blocks = 0;
   for (int i = 0; i < m->n_species; i++) blocks += ((size_t)m->n_of[i] + GG_LANES - 1) / GG_LANES;

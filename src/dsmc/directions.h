@@ -8,48 +8,18 @@
 enum { GG_DIRECTIONS = 128, GG_DIRECTIONS_ROOM = GG_DIRECTIONS + 3 * GG_LANES };
 
 typedef struct gg_directions {
-  double *x, *y, *z; /* room for each: a buffer of its own, so that the rest can stay in registers */
-  unsigned at, n;    /* used, made */
+  gg_real *x, *y, *z; /* room for each: a buffer of its own, so that the rest can stay in registers */
+  unsigned at, n;     /* used, made */
 } gg_directions;
 
-/* sin and cos on [-pi/4, pi/4], Taylor's series to rounding: no libm, so that every processor has the same bits. */
-GG_INLINE void gg_lane_sincos(gg_vd a, gg_vd *sine, gg_vd *cosine)
-{
-  gg_vd q = a * a;
-  gg_vd s = q * (-1. / 1307674368000.) + 1. / 6227020800.;
-  s = s * q - 1. / 39916800.;
-  s = s * q + 1. / 362880.;
-  s = s * q - 1. / 5040.;
-  s = s * q + 1. / 120.;
-  s = s * q - 1. / 6.;
-  *sine = a + a * (q * s);
-  gg_vd c = q * (1. / 20922789888000.) - 1. / 87178291200.;
-  c = c * q + 1. / 479001600.;
-  c = c * q - 1. / 3628800.;
-  c = c * q + 1. / 40320.;
-  c = c * q - 1. / 720.;
-  c = c * q + 1. / 24.;
-  *cosine = 1 - (0.5 * q - q * q * c);
-}
-
-/* A unit vector in the plane, any angle: an eighth turn either way, turned on by the quarter that two bits choose. */
-GG_INLINE void gg_lane_circle(gg_vu r, gg_vd *x, gg_vd *y)
-{
-  gg_vd s, c;
-  gg_lane_sincos((gg_lane_one_to_two(r) - 1.5) * M_PI_2, &s, &c);
-  c = (gg_vd)((gg_vu)c ^ (r << 63)); /* and s has either sign by itself */
-  gg_mask other = gg_low_bit(r >> 1);
-  *x = gg_select(other, s, c);
-  *y = gg_select(other, c, s);
-}
-
-/* A point (u, v) uniform in the unit disc, s = u^2 + v^2, in the lanes of the mask: each coordinate from half of a
- * random word. Directions follow without trigonometry (Marsaglia, Ann. Math. Stat. 43 (1972) 645). */
+/* A point (u, v) uniform in the unit disc, s = u^2 + v^2, in the lanes of the mask: each coordinate from a word
+ * of its own. Directions follow without trigonometry (Marsaglia, Ann. Math. Stat. 43 (1972) 645). */
 GG_INLINE gg_mask gg_lane_disc(gg_lane_rng *r, int p, gg_vd *u, gg_vd *v, gg_vd *s)
 {
-  gg_vu bits = gg_lane_next(r, p);
-  *u = 2 * gg_lane_one_to_two(bits) - 3;
-  *v = 2 * gg_lane_one_to_two(bits << 32) - 3;
+  gg_vu first, second;
+  gg_lane_two(r, p, &first, &second);
+  *u = 2 * gg_lane_one_to_two(first) - 3;
+  *v = 2 * gg_lane_one_to_two(second) - 3;
   *s = *u * *u + *v * *v;
   return gg_less(*s, gg_all(1));
 }
@@ -77,14 +47,16 @@ GG_INLINE gg_mask gg_lane_cosine(gg_lane_rng *r, int p, gg_vd3 *w)
  * squared sine of the azimuth is uniform. */
 GG_INLINE gg_mask gg_lane_sheared(gg_lane_rng *r, int p, gg_vd3 *k)
 {
-  gg_vu ab = gg_lane_next(r, p), cq = gg_lane_next(r, p);
-  gg_vd a = gg_lane_one_to_two(ab), b = gg_lane_one_to_two(ab << 32);
-  gg_vd c = gg_lane_one_to_two(cq), q = gg_lane_one_to_two(cq << 32) - 1;
+  gg_vu word[4];
+  gg_lane_two(r, p, &word[0], &word[1]);
+  gg_lane_two(r, p, &word[2], &word[3]);
+  gg_vd a = gg_lane_one_to_two(word[0]), b = gg_lane_one_to_two(word[1]);
+  gg_vd c = gg_lane_one_to_two(word[2]), q = gg_lane_one_to_two(word[3]) - 1;
   gg_vd median = gg_larger(gg_smaller(a, b), gg_smaller(gg_larger(a, b), c));
   k->z = 2 * median - 3;
   gg_vd rho2 = 1 - k->z * k->z;
-  k->x = (gg_vd)((gg_vu)gg_sqrt(rho2 * q) ^ (cq << 63));
-  k->y = (gg_vd)((gg_vu)gg_sqrt(rho2 * (1 - q)) ^ (cq >> 1 << 63));
+  k->x = (gg_vd)((gg_vu)gg_sqrt(rho2 * q) ^ (word[2] << (GG_REAL_BITS - 1)));
+  k->y = (gg_vd)((gg_vu)gg_sqrt(rho2 * (1 - q)) ^ (word[2] >> 1 << (GG_REAL_BITS - 1)));
   return gg_less(gg_all(0), gg_all(1));
 }
 

@@ -20,8 +20,9 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   gg_dsmc *d = dsmc_of(engine);
   uint64_t start = d->now.collisions;
   double gone = 0;
+  const double largest = d->model.single ? 0x1p60 : 0x1p900; /* temperature whose squares are numbers, too */
   while (gone < dt && d->now.collisions - start < max_collisions) {
-    if (!(d->now.temperature > 0x1p-900) || !(d->now.temperature < 0x1p900))
+    if (!(d->now.temperature > 1 / largest) || !(d->now.temperature < largest))
       return gg_fail(err, GG_FAILED, "the temperature has left the range of numbers (%g) after %.3g collisions a grain",
                      d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
     gone += gg_dsmc_step(d, dt - gone, (double)(max_collisions - (d->now.collisions - start)));
@@ -92,6 +93,15 @@ GG_CLONES static void unpack(const gg_block *b, size_t n, double drift, double *
 
 enum { SHOWN = 256 }; /* grains at a time: so few stay in the first cache until they have been looked at */
 
+/* `n` grains from `first` on, a multiple of eight; of p->c or p->s. */
+static void lay_out(const gg_population *p, const void *blocks, size_t first, size_t n, double drift,
+                    double v[3][SHOWN])
+{
+  gg_block room[SHOWN / GG_LANES];
+  const gg_block *b = gg_blocks_in_double(p, blocks, first / GG_LANES, (n + GG_LANES - 1) / GG_LANES, room);
+  unpack(b, n, drift, v[0], v[1], v[2]);
+}
+
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
 {
   (void)positions; /* a homogeneous gas has none */
@@ -104,9 +114,9 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
     for (size_t first = 0; first < (size_t)p->n; first += SHOWN) {
       size_t left = (size_t)p->n - first;
       gg_chunk chunk = {.n = left < SHOWN ? left : SHOWN, .c = {v[0], v[1], v[2]}};
-      unpack(p->c + first / GG_LANES, chunk.n, d->now.drift, v[0], v[1], v[2]);
+      lay_out(p, p->c, first, chunk.n, d->now.drift, v);
       if (p->s) {
-        unpack(p->s + first / GG_LANES, chunk.n, 0, v[3], v[4], v[5]);
+        lay_out(p, p->s, first, chunk.n, 0, v + 3);
         for (int a = 0; a < 3; a++) chunk.s[a] = v[3 + a];
       }
       if (d->ensemble.n_species > 1) chunk.species = kind;

@@ -10,11 +10,11 @@
 
 /* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
  * them, spare it the walks. */
-static gg_block *new_blocks(size_t n, gg_error *err)
+static void *new_blocks(const gg_population *p, gg_error *err)
 {
-  const size_t huge = (size_t)1 << 21, bytes = n * sizeof(gg_block);
+  const size_t huge = (size_t)1 << 21, n = p->n_blocks, bytes = n * gg_block_size(p);
   size_t unit = bytes >= 2 * huge ? huge : 64, rounded = (bytes + unit - 1) / unit * unit;
-  gg_block *b = aligned_alloc(unit, rounded);
+  void *b = aligned_alloc(unit, rounded);
   if (!b) {
     gg_fail(err, GG_FAILED, "out of memory for an ensemble of %zu grains: lower dsmc.particles", n * GG_LANES);
     return NULL;
@@ -37,8 +37,9 @@ gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err)
     blocks += p->n_blocks;
     p->mass = model->mass[i];
     p->inertia = model->inertia[i];
-    p->c = new_blocks(p->n_blocks, err);
-    if (p->c && model->rule != GG_SMOOTH) p->s = new_blocks(p->n_blocks, err);
+    p->single = model->single;
+    p->c = new_blocks(p, err);
+    if (p->c && model->rule != GG_SMOOTH) p->s = new_blocks(p, err);
     p->top = gg_new_array(p->n_blocks, sizeof *p->top, err);
     if (!p->c || !p->top || (model->rule != GG_SMOOTH && !p->s)) {
       gg_ensemble_free(e);
@@ -67,25 +68,43 @@ void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng)
     double speed = sqrt(model->temperature0 / p->mass), spin = sqrt(model->ratio0 * model->temperature0 / p->mass);
     double mean_spin = model->boltzmann ? 0 : -model->shear_rate * model->diameter[i] / 4; /* s = (d/2) omega */
     for (uint32_t a = 0; a < p->n; a++) {
-      gg_block_set(p->c, a, gg_scale(speed, gg_rng_normal_vec(rng)));
+      gg_block_set(p, p->c, a, gg_scale(speed, gg_rng_normal_vec(rng)));
       if (!p->s) continue;
       gg_vec s = gg_scale(spin / sqrt(p->inertia), gg_rng_normal_vec(rng));
       s.z += mean_spin;
-      gg_block_set(p->s, a, s);
+      gg_block_set(p, p->s, a, s);
     }
   }
   gg_vec none = {0, 0, 0};
   gg_moments m = gg_ensemble_settle(e, 0, 1, gg_ensemble_settle(e, 0, 1, none, 1).centre, 1);
   double factor = sqrt(model->temperature0 / m.temperature);
-  for (int i = 0; i < e->n_species; i++)
-    for (uint32_t a = 0; a < e->of[i].n; a++)
-      gg_block_set(e->of[i].c, a, gg_scale(factor, gg_block_get(e->of[i].c, a)));
+  for (int i = 0; i < e->n_species; i++) {
+    gg_population *p = &e->of[i];
+    for (uint32_t a = 0; a < p->n; a++) gg_block_set(p, p->c, a, gg_scale(factor, gg_block_get(p, p->c, a)));
+  }
 }
 
-static void scale_blocks(gg_block *b, size_t n, double factor)
+enum { COMPONENTS = sizeof(gg_block) / sizeof(double) }; /* of a block */
+
+static void scale_blocks(const gg_population *p, void *blocks, gg_range r, double factor)
 {
-  double *v = (double *)b;
-  for (size_t i = 0; b && i < n * sizeof(gg_block) / sizeof(double); i++) v[i] *= factor;
+  const size_t n = (size_t)r.n * COMPONENTS;
+  if (p->single) {
+    float *v = gg_blocks_at(p, blocks, r.first);
+    for (size_t i = 0; i < n; i++) v[i] = (float)(v[i] * factor);
+  } else {
+    double *v = gg_blocks_at(p, blocks, r.first);
+    for (size_t i = 0; i < n; i++) v[i] *= factor;
+  }
+}
+
+const gg_block *gg_blocks_in_double(const gg_population *p, const void *blocks, size_t first, size_t n, gg_block *room)
+{
+  if (!p->single) return (const gg_block *)blocks + first;
+  const float *from = (const float *)((const gg_block_single *)blocks + first);
+  double *to = (double *)room;
+  for (size_t i = 0; i < n * COMPONENTS; i++) to[i] = from[i];
+  return room;
 }
 
 typedef struct scaling {
@@ -98,8 +117,7 @@ static void heat_segment(void *context, int segment)
   const scaling *w = context;
   for (int i = 0; i < w->e->n_species; i++) {
     const gg_population *p = &w->e->of[i];
-    gg_range r = gg_segment(p, w->e->segments, segment);
-    scale_blocks(p->c + r.first, r.n, w->factor);
+    scale_blocks(p, p->c, gg_segment(p, w->e->segments, segment), w->factor);
   }
 }
 
@@ -113,19 +131,21 @@ void gg_ensemble_scale(gg_ensemble *e, double factor)
 {
   gg_ensemble_heat(e, factor);
   for (int i = 0; i < e->n_species; i++) {
-    scale_blocks(e->of[i].s, e->of[i].n_blocks, factor);
+    const gg_population *p = &e->of[i];
+    if (p->s) scale_blocks(p, p->s, gg_all_blocks(p), factor);
   }
 }
 
 /* The last block alone: its empty lanes stay 0. */
 static void settle_odd_block(gg_population *p, double drift, double scale, gg_vec centre, double unit, gg_sums *s)
 {
-  gg_block *block = &p->c[p->n_blocks - 1];
+  const size_t last = p->n_blocks - 1;
+  void *block = gg_blocks_at(p, p->c, last);
   gg_sums ignored = {0};
-  float *top = &p->top[p->n_blocks - 1];
-  gg_sweep_blocks(block, top, 1, drift, scale, centre, unit, &ignored);
-  for (int l = (int)(p->n % GG_LANES); l < GG_LANES; l++) block->x[l] = block->y[l] = block->z[l] = 0;
-  gg_sweep_blocks(block, top, 1, 0, 1, (gg_vec){0, 0, 0}, unit, s);
+  float *top = &p->top[last];
+  gg_sweep_blocks(block, p->single, top, 1, drift, scale, centre, unit, &ignored);
+  for (uint32_t a = (uint32_t)p->n; a < p->n_blocks * GG_LANES; a++) gg_block_set(p, p->c, a, (gg_vec){0, 0, 0});
+  gg_sweep_blocks(block, p->single, top, 1, 0, 1, (gg_vec){0, 0, 0}, unit, s);
 }
 
 typedef struct settling {
@@ -143,7 +163,8 @@ static void settle_segment(void *context, int segment)
     gg_range r = gg_segment(p, w->e->segments, segment);
     bool odd = p->n % GG_LANES && segment == w->e->segments - 1;
     gg_sums s = {0};
-    gg_sweep_blocks(p->c + r.first, p->top + r.first, r.n - odd, w->drift, w->scale, w->centre, w->unit, &s);
+    gg_sweep_blocks(gg_blocks_at(p, p->c, r.first), p->single, p->top + r.first, r.n - odd, w->drift, w->scale,
+                    w->centre, w->unit, &s);
     if (odd) settle_odd_block(p, w->drift, w->scale, w->centre, w->unit, &s);
     w->of[segment][i] = s;
   }
@@ -185,13 +206,22 @@ static const char *const spin_items[] = {"dsmc/spin_1", "dsmc/spin_2"};
 static const char *const top_items[] = {"dsmc/top_1", "dsmc/top_2"};
 static const char top_unit_item[] = "dsmc/top_unit";
 
+static gg_status put_blocks(const gg_population *p, const char *name, const void *blocks, gg_archive *a, gg_error *err)
+{
+  return gg_archive_put(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, p->n_blocks * COMPONENTS, err);
+}
+
+static gg_status get_blocks(const gg_population *p, const char *name, void *blocks, const gg_archive *a, gg_error *err)
+{
+  return gg_archive_get(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, p->n_blocks * COMPONENTS, err);
+}
+
 gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *err)
 {
   for (int i = 0; i < e->n_species; i++) {
     const gg_population *p = &e->of[i];
-    size_t n = p->n_blocks * sizeof(gg_block) / sizeof(double);
-    GG_TRY(gg_archive_put(archive, velocity_items[i], GG_ITEM_F64, p->c, n, err));
-    if (p->s) GG_TRY(gg_archive_put(archive, spin_items[i], GG_ITEM_F64, p->s, n, err));
+    GG_TRY(put_blocks(p, velocity_items[i], p->c, archive, err));
+    if (p->s) GG_TRY(put_blocks(p, spin_items[i], p->s, archive, err));
     GG_TRY(gg_archive_put(archive, top_items[i], GG_ITEM_U8, p->top, p->n_blocks * sizeof *p->top, err));
   }
   double tops[] = {e->top_unit, e->top_drift};
@@ -202,9 +232,8 @@ gg_status gg_ensemble_restore(gg_ensemble *e, const gg_archive *archive, gg_erro
 {
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
-    size_t n = p->n_blocks * sizeof(gg_block) / sizeof(double);
-    GG_TRY(gg_archive_get(archive, velocity_items[i], GG_ITEM_F64, p->c, n, err));
-    if (p->s) GG_TRY(gg_archive_get(archive, spin_items[i], GG_ITEM_F64, p->s, n, err));
+    GG_TRY(get_blocks(p, velocity_items[i], p->c, archive, err));
+    if (p->s) GG_TRY(get_blocks(p, spin_items[i], p->s, archive, err));
     GG_TRY(gg_archive_get(archive, top_items[i], GG_ITEM_U8, p->top, p->n_blocks * sizeof *p->top, err));
   }
   double tops[2];

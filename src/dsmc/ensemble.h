@@ -2,6 +2,8 @@
  *
  * A block holds eight grains as structure of arrays, one cache line a component, so that a kernel takes them lane by
  * lane; the logical width is eight on every processor. The last block of a species may have empty lanes, always 0.
+ * A scene may keep its grains in single precision instead: half a line a component, and so two lines a block. Only the
+ * block kernels compute in it; everybody else sees such grains as double (gg_block_get, gg_blocks_in_double).
  *
  * Grains of a sheared gas stream as dC_x/dt = -rate C_y. That motion is the same linear map for all grains, so it is
  * not carried out grain by grain: what is stored is x = C_x + drift C_y, constant while streaming, with drift = rate x
@@ -25,12 +27,17 @@ typedef struct gg_block {
   double x[GG_LANES], y[GG_LANES], z[GG_LANES];
 } __attribute__((aligned(64))) gg_block;
 
+typedef struct gg_block_single {
+  float x[GG_LANES], y[GG_LANES], z[GG_LANES];
+} __attribute__((aligned(32))) gg_block_single;
+
 /* The grains of one species. */
 typedef struct gg_population {
   int64_t n;
   size_t n_blocks;
   double mass, inertia; /* m; K = 4I/(m d^2) */
-  gg_block *c, *s;      /* peculiar velocities; surface spins, NULL if smooth */
+  bool single;          /* blocks are gg_block_single, else gg_block */
+  void *c, *s;          /* blocks: peculiar velocities; surface spins, NULL if smooth */
   float *top;           /* of each block */
 } gg_population;
 
@@ -64,6 +71,8 @@ void gg_ensemble_drift_tops(gg_ensemble *e, double drift);
 void gg_ensemble_heat(gg_ensemble *e, double factor);
 /* Every velocity and spin times a factor. */
 void gg_ensemble_scale(gg_ensemble *e, double factor);
+/* `n` blocks (of p->c or p->s) from `first` on, as double: the ensemble's own, or copied to `room`. */
+const gg_block *gg_blocks_in_double(const gg_population *p, const void *blocks, size_t first, size_t n, gg_block *room);
 gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *err);
 gg_status gg_ensemble_restore(gg_ensemble *e, const gg_archive *archive, gg_error *err);
 
@@ -79,20 +88,39 @@ GG_INLINE double gg_per_top(double unit)
   return (1 + 1e-6) / unit;
 }
 
-GG_INLINE gg_vec gg_block_get(const gg_block *b, uint32_t i)
+GG_INLINE size_t gg_block_size(const gg_population *p)
 {
-  b += i / GG_LANES;
-  i %= GG_LANES;
-  return (gg_vec){b->x[i], b->y[i], b->z[i]};
+  return p->single ? sizeof(gg_block_single) : sizeof(gg_block);
 }
 
-GG_INLINE void gg_block_set(gg_block *b, uint32_t i, gg_vec v)
+/* Blocks (of p->c or p->s) from `first` on. */
+GG_INLINE void *gg_blocks_at(const gg_population *p, void *blocks, size_t first)
 {
-  b += i / GG_LANES;
-  i %= GG_LANES;
-  b->x[i] = v.x;
-  b->y[i] = v.y;
-  b->z[i] = v.z;
+  return (char *)blocks + first * gg_block_size(p);
+}
+
+/* Grain i of blocks (p->c or p->s). */
+GG_INLINE gg_vec gg_block_get(const gg_population *p, const void *blocks, uint32_t i)
+{
+  const uint32_t at = i / GG_LANES, l = i % GG_LANES;
+  if (p->single) {
+    const gg_block_single *b = (const gg_block_single *)blocks + at;
+    return (gg_vec){b->x[l], b->y[l], b->z[l]};
+  }
+  const gg_block *b = (const gg_block *)blocks + at;
+  return (gg_vec){b->x[l], b->y[l], b->z[l]};
+}
+
+GG_INLINE void gg_block_set(const gg_population *p, void *blocks, uint32_t i, gg_vec v)
+{
+  const uint32_t at = i / GG_LANES, l = i % GG_LANES;
+  if (p->single) {
+    gg_block_single *b = (gg_block_single *)blocks + at;
+    b->x[l] = (float)v.x, b->y[l] = (float)v.y, b->z[l] = (float)v.z;
+    return;
+  }
+  gg_block *b = (gg_block *)blocks + at;
+  b->x[l] = v.x, b->y[l] = v.y, b->z[l] = v.z;
 }
 
 #endif

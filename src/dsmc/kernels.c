@@ -6,13 +6,13 @@
 
 static const struct {
   const char *name;
-  gg_collide_blocks *(*kernel)(gg_features f);
+  gg_collide_blocks *(*kernel[2])(gg_features f); /* double, single */
 } paths[GG_PATHS] = {
-    [GG_PATH_PLAIN] = {"plain", NULL},
-    [GG_PATH_BASELINE] = {"blocks", gg_collide_blocks_baseline},
+    [GG_PATH_PLAIN] = {"plain", {NULL}},
+    [GG_PATH_BASELINE] = {"blocks", {gg_collide_blocks_baseline, gg_collide_blocks_single_baseline}},
 #ifdef GG_X86_64
-    [GG_PATH_AVX2] = {"blocks, AVX2", gg_collide_blocks_avx2},
-    [GG_PATH_AVX512] = {"blocks, AVX-512", gg_collide_blocks_avx512},
+    [GG_PATH_AVX2] = {"blocks, AVX2", {gg_collide_blocks_avx2, gg_collide_blocks_single_avx2}},
+    [GG_PATH_AVX512] = {"blocks, AVX-512", {gg_collide_blocks_avx512, gg_collide_blocks_single_avx512}},
 #endif
 };
 
@@ -21,30 +21,33 @@ bool gg_path_runs_here(gg_path path)
   if (!paths[path].name) return false;
 #ifdef GG_X86_64
   if (path == GG_PATH_AVX2) return __builtin_cpu_supports("avx2");
-  if (path == GG_PATH_AVX512) return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+  if (path == GG_PATH_AVX512)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
 #endif
   return true;
 }
 
-void gg_sweep_blocks(gg_block *c, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
+void gg_sweep_blocks(void *c, bool single, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
                      gg_sums *sums)
 {
-  gg_sweep *sweep = gg_sweep_baseline;
+  gg_sweep *sweep = single ? gg_sweep_single_baseline : gg_sweep_baseline;
 #ifdef GG_X86_64
-  if (gg_path_runs_here(GG_PATH_AVX2)) sweep = gg_sweep_avx2;
-  if (gg_path_runs_here(GG_PATH_AVX512)) sweep = gg_sweep_avx512;
+  if (gg_path_runs_here(GG_PATH_AVX2)) sweep = single ? gg_sweep_single_avx2 : gg_sweep_avx2;
+  if (gg_path_runs_here(GG_PATH_AVX512)) sweep = single ? gg_sweep_single_avx512 : gg_sweep_avx512;
 #endif
   sweep(c, top, n, drift, scale, centre, unit, sums);
 }
 
-void gg_kick_blocks(gg_block *c, float *top, size_t n, double drift, double size, double unit, gg_rng_lanes *lanes)
+void gg_kick_blocks(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
+                    gg_rng_lanes *lanes)
 {
   gg_kicks *kicks = gg_kicks_baseline;
 #ifdef GG_X86_64
   if (gg_path_runs_here(GG_PATH_AVX2)) kicks = gg_kicks_avx2;
   if (gg_path_runs_here(GG_PATH_AVX512)) kicks = gg_kicks_avx512;
 #endif
-  kicks(c, top, n, drift, size, unit, lanes);
+  kicks(c, single, top, n, drift, size, unit, lanes);
 }
 
 gg_path gg_path_choose(const gg_population *one, const gg_population *two)
@@ -81,5 +84,5 @@ void gg_collide(gg_path path, gg_features f, gg_pairing *p, gg_rng_lanes *lanes,
   if (path == GG_PATH_PLAIN)
     gg_collide_plain(f, p, rng);
   else
-    paths[path].kernel(f)(p, lanes, rng);
+    paths[path].kernel[p->one->single](f)(p, lanes, rng);
 }

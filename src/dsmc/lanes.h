@@ -1,34 +1,30 @@
-/* Eight lanes on whatever registers there are: parts of 8, 4 or 2 doubles (AVX-512, AVX2, or the compiler's own
- * two-wide vectors). Every operation is lane by lane, exact or correctly rounded, and nothing is contracted, so that
- * all processors leave the same bits. Included only by files that are compiled once for each set of instructions. */
+/* Eight lanes on whatever registers there are, in parts of GG_WIDTH: numbers `gg_real` are double, or float if
+ * GG_SINGLE_LANES is defined. Every operation is lane by lane, exact or correctly rounded, and nothing is contracted,
+ * so that all processors leave the same bits. Included only by files that are compiled once for each set of
+ * instructions.
+ *
+ * From lanes_double.h or lanes_single.h:
+ * gg_vd, gg_vi, gg_vu: numbers, whole numbers, and random words as wide. gg_mask: one truth a lane. gg_permute_of(r)
+ * and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_spread: the next numbers of a list, one for each true lane;
+ * gg_pack: the true lanes to the front of a list, then anything up to a width. gg_peaks: the largest lane of a, and
+ * of b. gg_roots_at: square roots out of a table, rounded to float. gg_lane_two: two random words a lane, from whose
+ * high bits gg_lane_one_to_two makes a number; bit GG_SPARE_BIT hardly matters to it. gg_lane_two_below: two random
+ * whole numbers. */
 #ifndef GG_DSMC_LANES_H
 #define GG_DSMC_LANES_H
 
-#include "dsmc/pairing.h"
-
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-#include <immintrin.h>
-enum { GG_WIDTH = 8 };
-#elif defined(__AVX2__)
-#include <immintrin.h>
-enum { GG_WIDTH = 4 };
+#ifdef GG_SINGLE_LANES
+#include "dsmc/lanes_single.h"
 #else
-enum { GG_WIDTH = 2 };
+#include "dsmc/lanes_double.h"
 #endif
-enum { GG_PARTS = GG_LANES / GG_WIDTH };
-
-typedef double gg_vd __attribute__((vector_size(8 * GG_WIDTH)));
-typedef int64_t gg_vi __attribute__((vector_size(8 * GG_WIDTH)));
-typedef uint64_t gg_vu __attribute__((vector_size(8 * GG_WIDTH)));
-
-typedef double gg_v2 __attribute__((vector_size(16)));
 
 /* Lane-wise vectors in space. */
 typedef struct gg_vd3 {
   gg_vd x, y, z;
 } gg_vd3;
 
-GG_INLINE gg_vd gg_all(double x)
+GG_INLINE gg_vd gg_all(gg_real x)
 {
   return x - (gg_vd){0};
 }
@@ -53,312 +49,13 @@ GG_INLINE gg_vd3 gg_vd3_cross(gg_vd3 a, gg_vd3 b)
   return (gg_vd3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* gg_mask: one truth a lane. gg_permute_of(r) and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_spread: the
- * next numbers of a list, one for each true lane; gg_pack: the true lanes to the front of a list, then anything up to a
- * width. gg_peaks: the largest lane of a, and of b. gg_mul32: products of the low halves. gg_roots_at: square roots
- * out of a table, rounded to float. */
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-typedef __mmask8 gg_mask;
-typedef __m512i gg_order;
-GG_INLINE gg_vd gg_sqrt(gg_vd x)
-{
-  return _mm512_sqrt_pd(x);
-}
-GG_INLINE gg_mask gg_less(gg_vd a, gg_vd b)
-{
-  return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
-}
-GG_INLINE gg_mask gg_low_bit(gg_vu r)
-{
-  return _mm512_movepi64_mask((__m512i)(r << 63));
-}
-GG_INLINE gg_mask gg_and(gg_mask a, gg_mask b)
-{
-  return a & b;
-}
-GG_INLINE gg_mask gg_and_not(gg_mask a, gg_mask b)
-{
-  return (gg_mask)(a & ~b);
-}
-GG_INLINE gg_mask gg_or(gg_mask a, gg_mask b)
-{
-  return a | b;
-}
-GG_INLINE unsigned gg_bits(gg_mask m)
-{
-  return m;
-}
-GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
-{
-  return _mm512_mask_blend_pd(m, no, yes);
-}
-GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
-{
-  return _mm512_maskz_mov_pd(m, x);
-}
-GG_INLINE gg_order gg_order_of(unsigned r)
-{
-  return _mm512_xor_epi64(_mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0), _mm512_set1_epi64((long long)r));
-}
-GG_INLINE gg_vd gg_permute(gg_vd v, gg_order o)
-{
-  return _mm512_permutexvar_pd(o, v);
-}
-GG_INLINE gg_vd gg_spread(gg_mask m, const double *list)
-{
-  return _mm512_maskz_expand_pd(m, _mm512_loadu_pd(list));
-}
-GG_INLINE void gg_pack(double *list, gg_mask m, gg_vd v)
-{
-  _mm512_storeu_pd(list, _mm512_maskz_compress_pd(m, v));
-}
-GG_INLINE gg_vd gg_larger(gg_vd a, gg_vd b)
-{
-  return _mm512_max_pd(a, b);
-}
-GG_INLINE gg_vd gg_smaller(gg_vd a, gg_vd b)
-{
-  return _mm512_min_pd(a, b);
-}
-GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
-{
-  return (gg_vu)_mm512_mul_epu32((__m512i)a, (__m512i)b);
-}
-GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
-{
-  return _mm512_cvtps_pd(_mm256_sqrt_ps(_mm512_i64gather_ps((__m512i)at, table, 4)));
-}
-GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
-{
-  __m512d pairs = _mm512_max_pd(_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
-  __m256d half = _mm256_max_pd(_mm512_castpd512_pd256(pairs), _mm512_extractf64x4_pd(pairs, 1));
-  return _mm_max_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
-}
-#elif defined(__AVX2__)
-typedef gg_vi gg_mask;
-typedef __m256i gg_order;
-GG_INLINE gg_vd gg_sqrt(gg_vd x)
-{
-  return _mm256_sqrt_pd(x);
-}
-GG_INLINE gg_mask gg_less(gg_vd a, gg_vd b)
-{
-  return (gg_mask)(a < b);
-}
-GG_INLINE gg_mask gg_low_bit(gg_vu r)
-{
-  return (gg_mask)(r << 63);
-} /* only the sign is looked at */
-GG_INLINE gg_mask gg_and(gg_mask a, gg_mask b)
-{
-  return a & b;
-}
-GG_INLINE gg_mask gg_and_not(gg_mask a, gg_mask b)
-{
-  return a & ~b;
-}
-GG_INLINE gg_mask gg_or(gg_mask a, gg_mask b)
-{
-  return a | b;
-}
-GG_INLINE unsigned gg_bits(gg_mask m)
-{
-  return (unsigned)_mm256_movemask_pd((gg_vd)m);
-}
-GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
-{
-  return _mm256_blendv_pd(no, yes, (gg_vd)m);
-}
-GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
-{
-  return (gg_vd)(m & (gg_mask)x);
-}
-GG_INLINE gg_order gg_order_of(unsigned r)
-{
-  return _mm256_xor_si256(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32((int)(2 * r)));
-}
-GG_INLINE gg_vd gg_permute(gg_vd v, gg_order o)
-{
-  return (gg_vd)_mm256_permutevar8x32_epi32((__m256i)v, o);
-}
-static const int gg_spread_order[16][8] __attribute__((aligned(32))) = {
-#define R(i) 2 * (i), 2 * (i) + 1
-#define ROW(m)                                                                                                         \
-  {                                                                                                                    \
-    R(0), R((m)&1), R(((m)&1) + ((m) >> 1 & 1)), R(((m)&1) + ((m) >> 1 & 1) + ((m) >> 2 & 1))                          \
-  }
-    ROW(0), ROW(1),  ROW(2),  ROW(3),  ROW(4),  ROW(5),  ROW(6), ROW(7), ROW(8),
-    ROW(9), ROW(10), ROW(11), ROW(12), ROW(13), ROW(14), ROW(15)
-#undef ROW
-#undef R
-};
-GG_INLINE gg_vd gg_spread(gg_mask m, const double *list)
-{
-  return gg_permute(_mm256_loadu_pd(list), *(const __m256i *)gg_spread_order[gg_bits(m)]);
-}
-static const int gg_pack_order[16][8] __attribute__((aligned(32))) = {
-#define R(i) 2 * (i), 2 * (i) + 1
-#define ROW(a, b, c, d)                                                                                                \
-  {                                                                                                                    \
-    R(a), R(b), R(c), R(d)                                                                                             \
-  }
-    ROW(0, 0, 0, 0), ROW(0, 0, 0, 0), ROW(1, 0, 0, 0), ROW(0, 1, 0, 0), ROW(2, 0, 0, 0), ROW(0, 2, 0, 0),
-    ROW(1, 2, 0, 0), ROW(0, 1, 2, 0), ROW(3, 0, 0, 0), ROW(0, 3, 0, 0), ROW(1, 3, 0, 0), ROW(0, 1, 3, 0),
-    ROW(2, 3, 0, 0), ROW(0, 2, 3, 0), ROW(1, 2, 3, 0), ROW(0, 1, 2, 3),
-#undef ROW
-#undef R
-};
-GG_INLINE void gg_pack(double *list, gg_mask m, gg_vd v)
-{
-  _mm256_storeu_pd(list, gg_permute(v, *(const __m256i *)gg_pack_order[gg_bits(m)]));
-}
-GG_INLINE gg_vd gg_larger(gg_vd a, gg_vd b)
-{
-  return _mm256_max_pd(a, b);
-}
-GG_INLINE gg_vd gg_smaller(gg_vd a, gg_vd b)
-{
-  return _mm256_min_pd(a, b);
-}
-GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
-{
-  return (gg_vu)_mm256_mul_epu32((__m256i)a, (__m256i)b);
-}
-GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
-{
-  return _mm256_cvtps_pd(_mm_sqrt_ps(_mm_setr_ps(table[at[0]], table[at[1]], table[at[2]], table[at[3]])));
-}
-GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
-{
-  __m256d pairs = _mm256_max_pd(_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
-  return _mm_max_pd(_mm256_castpd256_pd128(pairs), _mm256_extractf128_pd(pairs, 1));
-}
-#else
-typedef gg_vi gg_mask;
-typedef gg_vi gg_order;
-GG_INLINE gg_vd gg_sqrt(gg_vd x)
-{
-  return (gg_vd){__builtin_sqrt(x[0]), __builtin_sqrt(x[1])};
-}
-GG_INLINE gg_mask gg_less(gg_vd a, gg_vd b)
-{
-  return (gg_mask)(a < b);
-}
-GG_INLINE gg_mask gg_low_bit(gg_vu r)
-{
-  return -(gg_mask)(r & 1);
-}
-GG_INLINE gg_mask gg_and(gg_mask a, gg_mask b)
-{
-  return a & b;
-}
-GG_INLINE gg_mask gg_and_not(gg_mask a, gg_mask b)
-{
-  return a & ~b;
-}
-GG_INLINE gg_mask gg_or(gg_mask a, gg_mask b)
-{
-  return a | b;
-}
-GG_INLINE unsigned gg_bits(gg_mask m)
-{
-  return (unsigned)((m[0] & 1) | (m[1] & 2));
-}
-GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
-{
-  return (gg_vd)(((gg_mask)yes & m) | ((gg_mask)no & ~m));
-}
-GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
-{
-  return (gg_vd)(m & (gg_mask)x);
-}
-GG_INLINE gg_order gg_order_of(unsigned r)
-{
-  return -(gg_order){r & 1, r & 1};
-}
-GG_INLINE gg_vd gg_permute(gg_vd v, gg_order o)
-{
-  return gg_select(o, (gg_vd){v[1], v[0]}, v);
-}
-GG_INLINE gg_vd gg_spread(gg_mask m, const double *list)
-{
-  return (gg_vd){list[0], list[m[0] & 1]};
-}
-GG_INLINE void gg_pack(double *list, gg_mask m, gg_vd v)
-{
-  list[0] = m[0] ? v[0] : v[1];
-  list[1] = v[1];
-}
-GG_INLINE gg_vd gg_larger(gg_vd a, gg_vd b)
-{
-  return gg_select(gg_less(b, a), a, b);
-}
-GG_INLINE gg_vd gg_smaller(gg_vd a, gg_vd b)
-{
-  return gg_select(gg_less(a, b), a, b);
-}
-GG_INLINE gg_vu gg_mul32(gg_vu a, gg_vu b)
-{
-  return (a & UINT32_MAX) * (b & UINT32_MAX);
-}
-GG_INLINE gg_vd gg_roots_at(const float *table, gg_vu at)
-{
-  return (gg_vd){sqrtf(table[at[0]]), sqrtf(table[at[1]])};
-}
-GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
-{
-  return gg_larger((gg_v2){a[0], b[0]}, (gg_v2){a[1], b[1]});
-}
-#endif
-
-GG_INLINE gg_vd gg_load(const double *p)
+GG_INLINE gg_vd gg_load(const gg_real *p)
 {
   return *(const gg_vd *)p;
 }
-GG_INLINE void gg_store(double *p, gg_vd v)
+GG_INLINE void gg_store(gg_real *p, gg_vd v)
 {
   *(gg_vd *)p = v;
-}
-
-/* xoshiro256++ in every lane. */
-typedef struct gg_lane_rng {
-  gg_vu s[4][GG_PARTS];
-} gg_lane_rng;
-
-GG_INLINE gg_vu gg_lane_rotl(gg_vu x, int k)
-{
-  return (x << k) | (x >> (64 - k));
-}
-
-GG_INLINE gg_vu gg_lane_next(gg_lane_rng *r, int part)
-{
-  gg_vu *s0 = &r->s[0][part], *s1 = &r->s[1][part], *s2 = &r->s[2][part], *s3 = &r->s[3][part];
-  gg_vu result = gg_lane_rotl(*s0 + *s3, 23) + *s0, t = *s1 << 17;
-  *s2 ^= *s0;
-  *s3 ^= *s1;
-  *s1 ^= *s2;
-  *s0 ^= *s3;
-  *s2 ^= t;
-  *s3 = gg_lane_rotl(*s3, 45);
-  return result;
-}
-
-/* Uniform in [1, 2), 52 bits: the low 12 are left for other uses. */
-GG_INLINE gg_vd gg_lane_one_to_two(gg_vu r)
-{
-  return (gg_vd)((r >> 12) | 0x3ff0000000000000u);
-}
-
-GG_INLINE void gg_lane_rng_load(gg_lane_rng *r, const gg_rng_lanes *from)
-{
-  for (int i = 0; i < 4; i++)
-    for (int p = 0; p < GG_PARTS; p++) __builtin_memcpy(&r->s[i][p], &from->s[i][p * GG_WIDTH], sizeof(gg_vu));
-}
-
-GG_INLINE void gg_lane_rng_save(const gg_lane_rng *r, gg_rng_lanes *to)
-{
-  for (int i = 0; i < 4; i++)
-    for (int p = 0; p < GG_PARTS; p++) __builtin_memcpy(&to->s[i][p * GG_WIDTH], &r->s[i][p], sizeof(gg_vu));
 }
 
 #endif

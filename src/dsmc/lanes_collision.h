@@ -4,8 +4,27 @@
 
 #include "dsmc/lanes.h"
 
+/* A gg_contact in the lanes' precision. */
+typedef struct gg_lane_contact {
+  gg_real jn, jt, mu, im1, im2, ik1, ik2;
+  gg_real push1, push2; /* velocity changes from 2 g_n k */
+} gg_lane_contact;
+
+GG_INLINE gg_lane_contact gg_lane_contact_of(const gg_contact *c)
+{
+  return (gg_lane_contact){.jn = (gg_real)c->jn,
+                           .jt = (gg_real)c->jt,
+                           .mu = (gg_real)c->mu,
+                           .im1 = (gg_real)c->im1,
+                           .im2 = (gg_real)c->im2,
+                           .ik1 = (gg_real)c->ik1,
+                           .ik2 = (gg_real)c->ik2,
+                           .push1 = (gg_real)(0.5 * c->jn * c->im1),
+                           .push2 = (gg_real)(0.5 * c->jn * c->im2)};
+}
+
 /* Impulse from the contact velocity g and gn = k.g (gg_impulse): (jn - jt) g_n k + jt g. */
-GG_INLINE gg_vd3 gg_lane_impulse(gg_rule rule, const gg_contact *c, gg_vd3 k, gg_vd3 g, gg_vd gn)
+GG_INLINE gg_vd3 gg_lane_impulse(gg_rule rule, const gg_lane_contact *c, gg_vd3 k, gg_vd3 g, gg_vd gn)
 {
   if (rule == GG_SMOOTH) return gg_vd3_scale(c->jn * gn, k);
   gg_vd jt = gg_all(c->jt);

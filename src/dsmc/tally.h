@@ -18,8 +18,10 @@ typedef struct gg_note {
 typedef struct gg_tally {
   unsigned n; /* visits noted */
   gg_note note[GG_NOTES][GG_PARTS];
-  /* Stress as gg_transfer has it, and what the loss follows from (gg_loss_of). */
-  gg_vd xx[GG_PARTS], yy[GG_PARTS], zz[GG_PARTS], xy[GG_PARTS], yx[GG_PARTS], Jg[GG_PARTS], Jn2[GG_PARTS], J2[GG_PARTS];
+  /* Lane by lane, double in either precision: stress as gg_transfer has it, and what the loss follows from
+   * (gg_loss_of). */
+  double xx[GG_LANES], yy[GG_LANES], zz[GG_LANES], xy[GG_LANES], yx[GG_LANES], Jg[GG_LANES], Jn2[GG_LANES],
+      J2[GG_LANES];
 } gg_tally;
 
 /* Smooth grains lose a share of J.g: for that alone k need not be known. */
@@ -38,10 +40,15 @@ GG_INLINE void gg_tally_note(gg_features f, gg_tally *t, int part, gg_vd3 k, gg_
   note->J = J;
 }
 
+GG_INLINE void gg_tally_add(double *sum, int part, gg_vd v)
+{
+  for (int l = 0; l < GG_WIDTH; l++) sum[part * GG_WIDTH + l] += v[l];
+}
+
 GG_INLINE void gg_tally_sum_part(gg_features f, gg_tally *t, int p)
 {
-  gg_vd xx = t->xx[p], yy = t->yy[p], zz = t->zz[p], xy = t->xy[p], yx = t->yx[p];
-  gg_vd Jg = t->Jg[p], Jn2 = t->Jn2[p], J2 = t->J2[p];
+  const gg_vd none = gg_all(0);
+  gg_vd xx = none, yy = none, zz = none, xy = none, yx = none, Jg = none, Jn2 = none, J2 = none;
   for (unsigned i = 0; i < t->n; i++) {
     const gg_note *note = &t->note[i][p];
     Jg += note->Jg;
@@ -56,15 +63,15 @@ GG_INLINE void gg_tally_sum_part(gg_features f, gg_tally *t, int p)
     Jn2 += Jn * Jn;
     J2 += gg_vd3_dot(J, J);
   }
-  t->Jg[p] = Jg;
-  if (f.rule != GG_SMOOTH) t->Jn2[p] = Jn2;
-  if (f.rule == GG_FRICTIONAL) t->J2[p] = J2;
+  gg_tally_add(t->Jg, p, Jg);
+  if (f.rule != GG_SMOOTH) gg_tally_add(t->Jn2, p, Jn2);
+  if (f.rule == GG_FRICTIONAL) gg_tally_add(t->J2, p, J2);
   if (f.tap != GG_TAP_STRESS) return; /* what is not kept need not be computed */
-  t->xx[p] = xx;
-  t->yy[p] = yy;
-  t->zz[p] = zz;
-  t->xy[p] = xy;
-  if (f.rule != GG_SMOOTH) t->yx[p] = yx;
+  gg_tally_add(t->xx, p, xx);
+  gg_tally_add(t->yy, p, yy);
+  gg_tally_add(t->zz, p, zz);
+  gg_tally_add(t->xy, p, xy);
+  if (f.rule != GG_SMOOTH) gg_tally_add(t->yx, p, yx);
 }
 
 GG_INLINE void gg_tally_sum(gg_features f, gg_tally *t)
@@ -79,10 +86,10 @@ GG_INLINE void gg_tally_turn(gg_features f, gg_tally *t)
   if (f.tap != GG_TAP_CLOSED && ++t->n == GG_NOTES) gg_tally_sum(f, t);
 }
 
-GG_INLINE double gg_tally_of_lanes(const gg_vd v[GG_PARTS])
+GG_INLINE double gg_tally_of_lanes(const double v[GG_LANES])
 {
   double sum = 0;
-  for (int l = 0; l < GG_LANES; l++) sum += v[l / GG_WIDTH][l % GG_WIDTH];
+  for (int l = 0; l < GG_LANES; l++) sum += v[l];
   return sum;
 }
 

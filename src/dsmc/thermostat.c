@@ -3,6 +3,17 @@
 #include "dsmc/segments.h"
 #include "dsmc/sweep.h"
 
+enum { RUN = 64 }; /* blocks looked at together */
+
+static void add_squares(const gg_block *c, size_t n, double drift, double lane[GG_LANES])
+{
+  for (size_t b = 0; b < n; b++)
+    for (int l = 0; l < GG_LANES; l++) {
+      double x = c[b].x[l] - drift * c[b].y[l];
+      lane[l] += x * x + c[b].y[l] * c[b].y[l] + c[b].z[l] * c[b].z[l];
+    }
+}
+
 typedef struct looking {
   const gg_ensemble *e;
   double drift;
@@ -16,11 +27,11 @@ static void look_at_segment(void *context, int segment)
     const gg_population *p = &w->e->of[i];
     gg_range r = gg_segment(p, w->e->segments, segment);
     double lane[GG_LANES] = {0};
-    for (const gg_block *c = p->c + r.first; c < p->c + r.first + r.n; c++)
-      for (int l = 0; l < GG_LANES; l++) {
-        double x = c->x[l] - w->drift * c->y[l];
-        lane[l] += x * x + c->y[l] * c->y[l] + c->z[l] * c->z[l];
-      }
+    for (size_t done = 0; done < r.n; done += RUN) {
+      const size_t n = r.n - done < RUN ? r.n - done : RUN;
+      gg_block room[RUN];
+      add_squares(gg_blocks_in_double(p, p->c, r.first + done, n, room), n, w->drift, lane);
+    }
     for (int l = 0; l < GG_LANES; l++) w->lane[segment][i][l] = lane[l];
   }
 }
@@ -62,9 +73,11 @@ static void kick_segment(void *context, int segment)
   for (int i = 0; i < w->e->n_species; i++) {
     gg_population *p = &w->e->of[i];
     gg_range r = gg_segment(p, w->e->segments, segment);
-    gg_kick_blocks(p->c + r.first, p->top + r.first, r.n, w->drift, w->size, w->e->top_unit, &w->lanes[segment]);
+    gg_kick_blocks(gg_blocks_at(p, p->c, r.first), p->single, p->top + r.first, r.n, w->drift, w->size, w->e->top_unit,
+                   &w->lanes[segment]);
     if (segment < w->e->segments - 1) continue;
-    for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++) gg_block_set(p->c, (uint32_t)a, (gg_vec){0, 0, 0});
+    for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++)
+      gg_block_set(p, p->c, (uint32_t)a, (gg_vec){0, 0, 0});
   }
 }
 

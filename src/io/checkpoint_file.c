@@ -12,7 +12,7 @@
 
 static const struct {
   const char *name;
-} item_types[] = {[GG_ITEM_F64] = {"f64"}, [GG_ITEM_I64] = {"i64"}, [GG_ITEM_U64] = {"u64"}, [GG_ITEM_U8] = {"u8"}};
+} item_types[] = {[GG_ITEM_F64] = {"f64"}, [GG_ITEM_I64] = {"i64"}, [GG_ITEM_U64] = {"u64"}, [GG_ITEM_U8] = {"u8"}, [GG_ITEM_F32] = {"f32"}};
 
 static hid_t type_of(gg_item_type type)
 {
@@ -20,7 +20,9 @@ static hid_t type_of(gg_item_type type)
   case GG_ITEM_F64: return H5T_NATIVE_DOUBLE;
   case GG_ITEM_I64: return H5T_NATIVE_INT64;
   case GG_ITEM_U64: return H5T_NATIVE_UINT64;
-  case GG_ITEM_U8: break;
+  case GG_ITEM_F32: return H5T_NATIVE_FLOAT;
+  case GG_ITEM_U8:
+  case GG_ITEM_TYPES: break;
   }
   return H5T_NATIVE_UINT8;
 }
@@ -113,8 +115,8 @@ static gg_status read_item(gg_h5 *h, size_t i, gg_archive *a, gg_error *err)
   char *name = read_text_attribute(h, path, "name"), *word = read_text_attribute(h, path, "type");
   gg_status status = GG_OK;
   int type = 0;
-  while (!h->failed && type <= GG_ITEM_U8 && strcmp(item_types[type].name, word) != 0) type++;
-  if (!h->failed && type <= GG_ITEM_U8) {
+  while (!h->failed && type < GG_ITEM_TYPES && strcmp(item_types[type].name, word) != 0) type++;
+  if (!h->failed && type < GG_ITEM_TYPES) {
     size_t count;
     void *data = gg_h5_read_array(h, path, type_of((gg_item_type)type), gg_item_size((gg_item_type)type), &count);
     if (data) status = gg_archive_put(a, name, (gg_item_type)type, data, count, err);

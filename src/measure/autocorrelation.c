@@ -51,6 +51,10 @@ static void add_power(transform *f, const double *x, size_t n, double *power)
     power[k] += f->spectrum[k][0] * f->spectrum[k][0] + f->spectrum[k][1] * f->spectrum[k][1];
 }
 
+/* Five would do for a single exponential; where something fast is on top of something slow, 5 tau end too soon: of a
+ * slow part with a third of the variance, over 60 of its times, errors would be 11 % too small (2 % now). */
+enum { WINDOW = 8 };
+
 /* rho from covariances, its sum and where that ends. Anticorrelated series: do not claim less than independent samples
  * have. */
 static void sum_to_window(const double *covariance, size_t n, double shift, gg_correlation *c)
@@ -59,7 +63,7 @@ static void sum_to_window(const double *covariance, size_t n, double shift, gg_c
   c->window = 0;
   c->rho[0] = 1;
   if (!(covariance[0] + shift > 0)) return;
-  for (size_t t = 1; t < n && (double)c->window <= 5 * c->time; t++) {
+  for (size_t t = 1; t < n && (double)c->window <= WINDOW * c->time; t++) {
     c->rho[t] = (covariance[t] + shift) / (covariance[0] + shift);
     c->time += c->rho[t];
     c->window = t;

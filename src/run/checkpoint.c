@@ -42,6 +42,7 @@ static int fingerprint(const gg_scene *s, gg_fingerprint *f)
                                   {"md.contact_time", s->md.contact_time},
                                   {"dsmc.time_step", s->dsmc.time_step},
                                   {"dsmc.particles", (double)s->dsmc.particles},
+                                  {"dsmc.precision", s->dsmc.precision},
                                   {"measure", s->measure}};
   int n = sizeof fixed / sizeof *fixed;
   memcpy(f, fixed, sizeof fixed);

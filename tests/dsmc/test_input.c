@@ -40,7 +40,7 @@ static void describes(void **state)
   gg_model m = lab_model(&s);
   int lines = 0;
   gg_dsmc_ops.describe(&m, count_line, &lines);
-  assert_int_equal(lines, 6);
+  assert_int_equal(lines, 7);
 }
 
 int main(void)

@@ -14,9 +14,10 @@ static void same_archive(gg_engine *a, gg_engine *b)
   gg_archive_clear(&two);
 }
 
-static void restart(gg_flow flow, double phi, double beta, int64_t n)
+static void restart(gg_flow flow, double phi, double beta, int64_t n, gg_precision precision)
 {
   gg_scene s = lab_scene(flow, phi, 0.8, beta, n);
+  s.dsmc.precision = precision;
   gg_model m = lab_model(&s);
   gg_engine *straight = lab_engine(&m, 11), *resumed = NULL;
   gg_error err = {0};
@@ -42,39 +43,69 @@ static void restart(gg_flow flow, double phi, double beta, int64_t n)
 static void restarts_bit_for_bit(void **state)
 {
   (void)state;
-  restart(GG_USF, 0.3, 0.2, 5000);
-  restart(GG_USF, 0, -1, 11);
-  restart(GG_HCS, 0.1, -1, 3000);
+  for (int p = GG_DOUBLE; p <= GG_SINGLE; p++) {
+    restart(GG_USF, 0.3, 0.2, 5000, (gg_precision)p);
+    restart(GG_USF, 0, -1, 11, (gg_precision)p);
+    restart(GG_HCS, 0.1, -1, 3000, (gg_precision)p);
+  }
 }
 
 /* Rounding does not depend on the exponent, so neither does a cooling run. */
-static void rescaling_is_exact(void **state)
+static void rescale_in(gg_precision precision)
 {
-  (void)state;
   gg_scene s = lab_scene(GG_HCS, 0.1, 0.6, 0.5, 1001);
+  s.dsmc.precision = precision;
+  const int power = precision == GG_SINGLE ? 5 : 7; /* temperatures up to 2^60 */
   gg_model m = lab_model(&s);
   gg_engine *plain = lab_engine(&m, 13), *scaled = lab_engine(&m, 13);
   gg_error err = {0};
   for (int i = 0; i < 5; i++) {
     double long_ago = lab_advance(plain, INFINITY, 2000);
-    assert_int_equal(gg_dsmc_ops.rescale(scaled, 7, &err), GG_OK);
-    assert_true(lab_advance(scaled, INFINITY, 2000) == ldexp(long_ago, -7 * (i + 1)));
+    assert_int_equal(gg_dsmc_ops.rescale(scaled, power, &err), GG_OK);
+    assert_true(lab_advance(scaled, INFINITY, 2000) == ldexp(long_ago, -power * (i + 1)));
   }
-  assert_int_equal(gg_dsmc_ops.rescale(scaled, -35, &err), GG_OK);
+  assert_int_equal(gg_dsmc_ops.rescale(scaled, -5 * power, &err), GG_OK);
   lab_view a = lab_snapshot(plain), b = lab_snapshot(scaled);
   assert_memory_equal(&a, &b, sizeof a);
   gg_dsmc_ops.destroy(plain);
   gg_dsmc_ops.destroy(scaled);
+}
 
-  s = lab_scene(GG_USF, 0.1, 0.6, -1, 100);
-  m = lab_model(&s);
-  plain = lab_engine(&m, 1);
+static void rescaling_is_exact(void **state)
+{
+  (void)state;
+  rescale_in(GG_DOUBLE);
+  rescale_in(GG_SINGLE);
+  gg_error err = {0};
+  gg_scene s = lab_scene(GG_USF, 0.1, 0.6, -1, 100);
+  gg_model m = lab_model(&s);
+  gg_engine *plain = lab_engine(&m, 1);
   assert_int_equal(gg_dsmc_ops.rescale(plain, 1, &err), GG_BAD_INPUT);
   gg_dsmc_ops.destroy(plain);
 }
 
+/* A checkpoint of the other precision is refused with a message. */
+static void precision_is_kept(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0.1, 0.6, -1, 1000);
+  gg_model m = lab_model(&s);
+  gg_engine *one = lab_engine(&m, 1), *two = NULL;
+  gg_archive archive = {0};
+  gg_error err = {0};
+  assert_int_equal(gg_dsmc_ops.save(one, &archive, &err), GG_OK);
+  s.dsmc.precision = GG_SINGLE;
+  m = lab_model(&s);
+  assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &two, &err), GG_BAD_FILE);
+  assert_non_null(strstr(err.message, "dsmc/velocity_1"));
+  assert_non_null(strstr(err.message, "type"));
+  gg_archive_clear(&archive);
+  gg_dsmc_ops.destroy(one);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(rescaling_is_exact)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(rescaling_is_exact),
+                                     cmocka_unit_test(precision_is_kept)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Segments that meet in rounds are the gas: every pair of segments meets as often as any other, grains of one segment
  * and of two collide at the same rate, gases that begin at different temperatures mix as they would one pair after
- * another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. */
+ * another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. One thread
+ * does all: that more leave the same bits is test_threads.c's matter. */
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
@@ -72,13 +73,14 @@ typedef struct plan {
 static double plant(gg_dsmc *d, const plan *p)
 {
   const gg_population *one = &d->ensemble.of[0];
+  gg_block *c = one->c;
   double n[SEGMENTS][2] = {{0}}, sum = 0;
   for (int s = 0; s < SEGMENTS; s++) {
     gg_range r = gg_segment(one, SEGMENTS, s);
     for (uint32_t b = r.first; b < r.first + r.n; b++)
       for (int l = 0; l < GG_LANES; l++) {
-        one->c[b].x[l] = p->x[s][b % 2];
-        one->c[b].y[l] = one->c[b].z[l] = 0;
+        c[b].x[l] = p->x[s][b % 2];
+        c[b].y[l] = c[b].z[l] = 0;
         n[s][b % 2]++;
       }
   }
@@ -107,7 +109,6 @@ static void planted_rates(void **state)
   for (size_t i = 0; i < sizeof plans / sizeof *plans; i++) {
     gg_engine *g = lab_engine(&m, 100 + i);
     gg_dsmc *d = (gg_dsmc *)g;
-    gg_dsmc_ops.threads(g, 2);
     lab_mean ratio = {0};
     double pairs = plant(d, &plans[i]);
     /* A collision for every 4000 grains in a stretch, and for every 500 in a meeting if it has them all: few second
@@ -145,19 +146,17 @@ static void mix(gg_path path, int seed, lab_mean a2[3], lab_mean time[3])
   gg_engine *g = lab_engine(&m, (uint64_t)seed);
   gg_dsmc *d = (gg_dsmc *)g;
   const gg_population *p = &d->ensemble.of[0];
+  gg_block *c = p->c;
   for (int k = 0; k < SEGMENTS; k++) {
     gg_range r = gg_segment(p, SEGMENTS, k);
     double factor = k % 2 ? sqrt(0.2) : sqrt(1.8);
     for (uint32_t b = r.first; b < r.first + r.n; b++)
-      for (int l = 0; l < GG_LANES; l++) p->c[b].x[l] *= factor, p->c[b].y[l] *= factor, p->c[b].z[l] *= factor;
+      for (int l = 0; l < GG_LANES; l++) c[b].x[l] *= factor, c[b].y[l] *= factor, c[b].z[l] *= factor;
   }
   gg_dsmc_settle(d);
   for (int q = 0; q < GG_PAIRS && path == GG_PATH_PLAIN; q++) d->path[q] = path;
   gg_dsmc_bounds(d);
-  if (path == GG_PATH_PLAIN)
-    in_one_piece(g);
-  else
-    gg_dsmc_ops.threads(g, 2);
+  if (path == GG_PATH_PLAIN) in_one_piece(g);
   double gone = 0;
   for (int i = 0; i < 3; i++) {
     gone += lab_advance(g, INFINITY, PLANTED / 2);
@@ -200,10 +199,7 @@ static void no_bias_in(const char *name, const gg_scene *s, double length)
   for (int seed = 0; seed < 8; seed++)
     for (int cut = 0; cut < 2; cut++) {
       gg_engine *g = lab_engine(&m, (uint64_t)(10 * seed + cut));
-      if (cut)
-        gg_dsmc_ops.threads(g, 2);
-      else
-        in_one_piece(g);
+      if (!cut) in_one_piece(g);
       lab_average(g, &m, 8, 1, length, &f[cut]);
       gg_dsmc_ops.destroy(g);
     }

@@ -53,7 +53,8 @@ static void same_bits_on(const gg_model *m)
   gg_archive_clear(&first);
 }
 
-/* Rules, flows dilute and dense, thermostats, one species, two, and two of which one is too small for segments. */
+/* Rules, flows dilute and dense, thermostats, precisions, one species, two, and two of which one is too small for
+ * segments. */
 static void same_bits(void **state)
 {
   (void)state;
@@ -66,6 +67,7 @@ static void same_bits(void **state)
           gg_scene s = lab_scene(flows[flow], dense ? 0.3 : 0, 0.8, beta[rule], LARGE);
           s.collision.mu[0] = s.collision.mu[1] = mu[rule];
           if (flow == 3) s.thermostat = GG_WHITE_NOISE;
+          s.dsmc.precision = (rule + dense + flow + species) % 2 ? GG_SINGLE : GG_DOUBLE;
           s.n_species = species > 1 ? 2 : 1;
           s.species[0] = (gg_species){species == 3 ? 0.03 : 0.4, 1, 1, 0.4};
           s.species[1] = (gg_species){species == 3 ? 0.97 : 0.6, 0.7, 2, 0.3};
@@ -75,10 +77,10 @@ static void same_bits(void **state)
 }
 
 /* Without the bits that only some processors have, too. */
-static void same_bits_with_any_instructions(void **state)
+static void same_bits_of(gg_precision precision)
 {
-  (void)state;
   gg_scene s = lab_scene(GG_USF, 0.2, 0.8, -1, LARGE);
+  s.dsmc.precision = precision;
   gg_model m = lab_model(&s);
   gg_archive first = {0};
   for (int path = GG_PATH_BASELINE; path < GG_PATHS; path++) {
@@ -98,6 +100,13 @@ static void same_bits_with_any_instructions(void **state)
       first = a;
   }
   gg_archive_clear(&first);
+}
+
+static void same_bits_with_any_instructions(void **state)
+{
+  (void)state;
+  same_bits_of(GG_DOUBLE);
+  same_bits_of(GG_SINGLE);
 }
 
 /* Saved under two threads, gone on with under one, two and three. */
@@ -154,9 +163,27 @@ static void small_ones_do_not_pay(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
+static void find_segments(void *context, const char *text)
+{
+  *(bool *)context |= strstr(text, "in 8 segments, which threads share") != NULL;
+}
+
+/* `graingas info` tells. */
+static void describes(void **state)
+{
+  (void)state;
+  for (int large = 0; large < 2; large++) {
+    gg_scene s = lab_scene(GG_HCS, 0.1, 0.8, -1, large ? 64000 : 63992);
+    gg_model m = lab_model(&s);
+    bool found = false;
+    gg_dsmc_ops.describe(&m, find_segments, &found);
+    assert_int_equal(found, large);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(small_ones_do_not_pay),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(describes), cmocka_unit_test(small_ones_do_not_pay),
                                      cmocka_unit_test(resumes_with_other_threads),
                                      cmocka_unit_test(same_bits_with_any_instructions), cmocka_unit_test(same_bits)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -33,9 +33,9 @@ static void shear_is_second_order(void **state)
   (void)state;
   lab_mean exact[OBSERVED], full[OBSERVED], half[OBSERVED];
   double bias[3];
-  sheared(GG_AUTO, 90, exact, &bias[0]);
+  sheared(GG_AUTO, 140, exact, &bias[0]);
   sheared(1, 25, full, &bias[1]);
-  sheared(0.5, 90, half, &bias[2]);
+  sheared(0.5, 140, half, &bias[2]);
   const char *names[] = {"T", "P_xy"};
   for (int q = 0; q < OBSERVED; q++) {
     double e = hypot(lab_error(&exact[q]), lab_error(&half[q]));

@@ -29,16 +29,17 @@ static gg_scene parse(const char *yaml)
 static void reads_every_key(void **state)
 {
   (void)state;
-  gg_scene s = parse("flow: hss\nengine: dsmc\nthermostat: white_noise\ncontact_value: kolafa\nphi: 0.25\n"
-                     "particles: 1e5\nshear_rate: 2.5\ntemperature: 0.125\naspect: [1, 2, 0.5]\n"
-                     "collision:\n  e: {11: 0.9, 12: 0.8, 22: 0.7}\n  beta: 0.5\n  mu: {11: inf, 12: 0.25, 22: .inf}\n"
-                     "species:\n  - {fraction: 0.25, diameter: 2, mass: 3, inertia: 0.5}\n"
-                     "  - {fraction: 0.75, diameter: 1, mass: 4}\n"
-                     "walls: {e: 0.5, beta: -1, mu: 0.1, speed: 3}\ngravity: [0, 0, 0]\n"
-                     "run: {relative_error: 0.02, collisions: 500, time_limit: 60, warmup: 10, replicas: 3, "
-                     "seed: 9007199254740993}\n"
-                     "md: {contact_time: 0.001}\ndsmc: {time_step: 0.05, particles: 777}\nmeasure: []\n"
-                     "output: {checkpoint_every: 30, trajectory_every: 4}\n");
+  gg_scene s =
+      parse("flow: hss\nengine: dsmc\nthermostat: white_noise\ncontact_value: kolafa\nphi: 0.25\n"
+            "particles: 1e5\nshear_rate: 2.5\ntemperature: 0.125\naspect: [1, 2, 0.5]\n"
+            "collision:\n  e: {11: 0.9, 12: 0.8, 22: 0.7}\n  beta: 0.5\n  mu: {11: inf, 12: 0.25, 22: .inf}\n"
+            "species:\n  - {fraction: 0.25, diameter: 2, mass: 3, inertia: 0.5}\n"
+            "  - {fraction: 0.75, diameter: 1, mass: 4}\n"
+            "walls: {e: 0.5, beta: -1, mu: 0.1, speed: 3}\ngravity: [0, 0, 0]\n"
+            "run: {relative_error: 0.02, collisions: 500, time_limit: 60, warmup: 10, replicas: 3, "
+            "seed: 9007199254740993}\n"
+            "md: {contact_time: 0.001}\ndsmc: {time_step: 0.05, particles: 777, precision: single}\nmeasure: []\n"
+            "output: {checkpoint_every: 30, trajectory_every: 4}\n");
   assert_int_equal(s.flow, GG_HSS);
   assert_int_equal(s.engine, GG_DSMC);
   assert_int_equal(s.thermostat, GG_WHITE_NOISE);
@@ -55,6 +56,7 @@ static void reads_every_key(void **state)
   assert_true(s.run.relative_error == 0.02 && s.run.collisions == 500 && s.run.time_limit == 60);
   assert_true(s.run.warmup == 10 && s.run.replicas == 3 && s.run.seed == UINT64_C(9007199254740993));
   assert_true(s.md.contact_time == 0.001 && s.dsmc.time_step == 0.05 && s.dsmc.particles == 777);
+  assert_int_equal(s.dsmc.precision, GG_SINGLE);
   assert_true(s.measure == 0 && s.output.checkpoint_every == 30 && s.output.trajectory_every == 4);
 }
 
@@ -85,6 +87,7 @@ static void refusals(void **state)
   (void)state;
   assert_refused("flow: usf\nphi: 0.3\ncollision:\n  e: 1.5\n",
                  "s.yaml:4: key 'collision.e': value '1.5' is not allowed; allowed: a number from 0 to 1");
+  assert_refused("flow: usf\nphi: 0.3\ndsmc: {precision: float}\n", "allowed: one of double, single");
   assert_refused("flow: usf\nphi: 0.7\n",
                  "s.yaml:2: key 'phi': value '0.7' is not allowed; allowed: a number from 0 to 0.6");
   assert_refused("flow: usf\nphi: -0.1\n", "s.yaml:2: key 'phi'");
