@@ -73,13 +73,25 @@ static bool fit_shared(const gg_model *m, int32_t n[3])
   return true;
 }
 
+/* Under shear, cells are long along the flow, which carries grains through them: as far as that leaves so many that the
+ * wide kernels can be used. */
+static void fit_cells(const gg_model *m, int32_t n[3])
+{
+  double across = fmax(gg_md_reach(m), cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
+  count_cells(m, across, n);
+  if (m->shear_rate == 0) return;
+  int32_t x[3];
+  count_cells(m, fmax(across, fmin(across * sqrt(mean_speed_ratio(m)), m->box[0] / GG_FEWEST_SHEARED)), x);
+  n[0] = x[0];
+}
+
 enum gg_search_in gg_md_plan(const gg_model *m, double *radius, int32_t n[3])
 {
   *radius = shell_radius(m);
   if (*radius > 0 && fit_lists(m, *radius, n)) return GG_LISTS;
   *radius = 0;
   if (fit_shared(m, n)) return GG_SHARED_CELLS;
-  count_cells(m, fmax(gg_md_reach(m), cbrt(GRAINS_PER_CELL * m->volume / (double)m->n)), n);
+  fit_cells(m, n);
   return GG_CELLS;
 }
 
