@@ -73,15 +73,17 @@ static bool fit_shared(const gg_model *m, int32_t n[3])
   return true;
 }
 
-/* Under shear, cells are long along the flow, which carries grains through them: as far as that leaves so many that the
- * wide kernels can be used. */
+/* Under shear, cells are long along the flow, which carries grains through them: up to two contact distances, so that
+ * no more than seven grains find room in one, and as far as there are so many cells that the wide kernels can be used.
+ */
 static void fit_cells(const gg_model *m, int32_t n[3])
 {
-  double across = fmax(gg_md_reach(m), cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
+  double reach = gg_md_reach(m), across = fmax(reach, cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
   count_cells(m, across, n);
   if (m->shear_rate == 0) return;
+  double along = fmin(across * sqrt(mean_speed_ratio(m)), 2 * reach);
   int32_t x[3];
-  count_cells(m, fmax(across, fmin(across * sqrt(mean_speed_ratio(m)), m->box[0] / GG_FEWEST_SHEARED)), x);
+  count_cells(m, fmax(across, fmin(along, m->box[0] / GG_FEWEST_SHEARED)), x);
   n[0] = x[0];
 }
 
