@@ -151,7 +151,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
     e->node[i].collision *= t;
     if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
     if (e->last) e->last[i] *= t;
-    if (e->shell) e->shell[i].built *= t;
+    e->node[i].shell_built *= t;
   }
   gg_queue_rescale(&e->queue, t);
   double *times[] = {&e->k.now, &e->k.epoch_start, &e->k.contact_time, &e->k.free_time, &e->k.window_time, &e->k.mark};

@@ -28,15 +28,20 @@ static void measure_free_time(gg_md *e, double span)
   k->window_collisions = 0;
 }
 
-/* A gas that cools forever cools below the rounding of its own mean velocity, which must not take over: the frame
- * follows it. Relative motion, and so every predicted collision, stays as it is. */
+/* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
+ * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every
+ * predicted collision, stays as it is. */
 static void follow_drift(gg_md *e)
 {
+  const double rate = e->model.shear_rate, middle = 0.5 * e->box.edge[1];
   gg_vec momentum = {0, 0, 0};
   double mass = 0;
   for (uint32_t i = 0; i < e->n; i++) {
-    double m = e->model.mass[gg_species_of(&e->grain[i])];
-    momentum = gg_axpy(m, e->grain[i].v, momentum);
+    const gg_grain *g = &e->grain[i];
+    double m = e->model.mass[gg_species_of(g)];
+    gg_vec c = g->v;
+    if (rate != 0) c.x -= rate * (g->r.y - middle);
+    momentum = gg_axpy(m, c, momentum);
     mass += m;
   }
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
@@ -79,7 +84,7 @@ bool gg_md_next_epoch(gg_md *e)
     e->node[i].time -= span;
     e->node[i].collision -= span;
     if (e->last) e->last[i] -= span;
-    if (e->shell) e->shell[i].built -= span;
+    e->node[i].shell_built -= span;
   }
   if (e->shell && e->model.shear_rate != 0) move_shells(e, span);
   e->k.epoch_start += span;
@@ -87,7 +92,7 @@ bool gg_md_next_epoch(gg_md *e)
   e->k.mark -= span;
   e->k.next_kick -= span;
   e->stop -= span;
-  if (e->model.flow == GG_HCS || e->model.flow == GG_HSS) follow_drift(e);
+  if (e->model.flow == GG_HCS || e->model.flow == GG_HSS || e->model.flow == GG_USF) follow_drift(e);
   if (e->thermostat == GG_GAUSSIAN) {
     span /= e->k.scale;
     gg_md_thermostat_fold(e);

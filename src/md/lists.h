@@ -36,7 +36,7 @@ GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const 
   if (f.sheared) {
     dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]); /* the centre is kept wrapped */
     dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);
-    radius -= kappa * (e->k.now - e->shell[i].built);
+    radius -= kappa * (e->k.now - e->node[i].shell_built);
   }
   double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
   double c = gg_dot(dr, dr) - radius * radius;
@@ -284,7 +284,8 @@ GG_INLINE void gg_new_shell(gg_md *e, gg_features f, uint32_t i)
     centre.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]) * e->k.now;
     centre.x = gg_wrap(centre.x, e->box.edge[0], e->box.inverse[0]);
   }
-  *shell = (gg_shell){centre, e->k.now};
+  *shell = (gg_shell){centre};
+  node->shell_built = e->k.now;
   gg_md_cell_of(&e->cells, centre, node->cell);
 }
 

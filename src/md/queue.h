@@ -23,6 +23,7 @@ typedef struct gg_node {
   int32_t cell[3];
   uint32_t neighbours; /* in its list */
   int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), GG_SLIDE or GG_SHELL */
+  double shell_built;  /* time at which the grain's shell was made, of shells that shrink */
 } __attribute__((aligned(64))) gg_node;
 
 /* The neighbouring cells across the sheared boundary have slid: look at them anew. The grain leaves its shell. */

@@ -26,7 +26,6 @@ typedef struct gg_grain {
 /* Of the neighbour lists: where the grain may go before its list must be mended. */
 typedef struct gg_shell {
   gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
-  double built;
 } gg_shell;
 enum { GG_LIST = 24 }; /* most neighbours in a list */
 

@@ -35,7 +35,7 @@ void gg_md_thermostat_fold(gg_md *e)
     e->node[i].collision *= t;
     if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
     if (e->last) e->last[i] *= t;
-    if (e->shell) e->shell[i].built *= t;
+    e->node[i].shell_built *= t;
   }
   double *times[] = {&k->now, &k->mark, &k->contact_time, &k->free_time, &k->window_time, &k->epoch_start};
   for (size_t i = 0; i < sizeof times / sizeof *times; i++) *times[i] *= t;

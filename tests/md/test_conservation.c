@@ -61,6 +61,21 @@ static void dissipative(void **state)
   }
 }
 
+/* Under shear the rounding of P_y would drive P_x for ever: without a frame that follows, 10^-12 and more here. */
+static void sheared_momentum_does_not_drift(void **state)
+{
+  (void)state;
+  gg_model m = md_model((md_case){GG_USF, 100, 0.01, 0.9, 0, INFINITY, {0}});
+  gg_md *e = md_create(&m, 4);
+  for (int k = 0; k < 20; k++) {
+    md_collide(e, 50000);
+    gg_vec p = md_momentum(e);
+    double ratio = sqrt(gg_dot(p, p) / (2 * md_energy(e) * e->n));
+    if (!(ratio < 1e-14)) fail_msg("momentum of %g N thermal speeds after %d collisions", ratio, 50000 * (k + 1));
+  }
+  md_destroy(e);
+}
+
 /* Shear work -P_xy x rate x V x time = energy gained + energy lost, exactly, event by event: the work is done at the
  * sliding boundary, so take it from the stress of a long run: C_x C_y integrated is not at hand here, so the balance is
  * asked of kinetic work measured by sampling, within its error. */
@@ -95,6 +110,7 @@ static void shear_work_balances_loss(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(energy_does_not_drift),
-                                     cmocka_unit_test(dissipative), cmocka_unit_test(shear_work_balances_loss)};
+                                     cmocka_unit_test(dissipative), cmocka_unit_test(sheared_momentum_does_not_drift),
+                                     cmocka_unit_test(shear_work_balances_loss)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
