@@ -73,9 +73,9 @@ static bool fit_shared(const gg_model *m, int32_t n[3])
   return true;
 }
 
-/* Under shear, cells are long along the flow, which carries grains through them: up to two contact distances, so that
- * no more than seven grains find room in one, and as far as there are so many cells that the wide kernels can be used.
- */
+/* Under shear, cells are long along the flow, which carries grains through them: up to two contact distances, where
+ * hardly ever more than seven grains are in one, which is all that its eight words hold, and as far as there are so
+ * many cells that the wide kernels can be used. */
 static void fit_cells(const gg_model *m, int32_t n[3])
 {
   double reach = gg_md_reach(m), across = fmax(reach, cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
