@@ -73,13 +73,27 @@ static bool fit_shared(const gg_model *m, int32_t n[3])
   return true;
 }
 
+/* Under shear, cells are long along the flow, which carries grains through them: up to two contact distances, where
+ * hardly ever more than seven grains are in one, which is all that its eight words hold, and as far as there are so
+ * many cells that the wide kernels can be used. */
+static void fit_cells(const gg_model *m, int32_t n[3])
+{
+  double reach = gg_md_reach(m), across = fmax(reach, cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
+  count_cells(m, across, n);
+  if (m->shear_rate == 0) return;
+  double along = fmin(across * sqrt(mean_speed_ratio(m)), 2 * reach);
+  int32_t x[3];
+  count_cells(m, fmax(across, fmin(along, m->box[0] / GG_FEWEST_SHEARED)), x);
+  n[0] = x[0];
+}
+
 enum gg_search_in gg_md_plan(const gg_model *m, double *radius, int32_t n[3])
 {
   *radius = shell_radius(m);
   if (*radius > 0 && fit_lists(m, *radius, n)) return GG_LISTS;
   *radius = 0;
   if (fit_shared(m, n)) return GG_SHARED_CELLS;
-  count_cells(m, fmax(gg_md_reach(m), cbrt(GRAINS_PER_CELL * m->volume / (double)m->n)), n);
+  fit_cells(m, n);
   return GG_CELLS;
 }
 

@@ -93,7 +93,7 @@ static enum gg_boundary boundary_of(const gg_md *e)
 static bool is_wide_enough(const gg_md *e)
 {
   bool sheared = e->model.shear_rate != 0;
-  return e->cells.n[0] >= (sheared ? 10 : 4) && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
+  return e->cells.n[0] >= (sheared ? GG_FEWEST_SHEARED : 4) && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
 }
 
 static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, enum gg_search_in where)

@@ -227,9 +227,10 @@ GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
     uint32_t i = e->queue.due[k].grain, j = e->node[i].partner;
     __builtin_prefetch(&e->grain[i]);
     if (f.shared) gg_prefetch_shared(e, i, false);
-    if (!f.listed || GG_NO_GRAIN(j)) continue;
+    if (f.shared || GG_NO_GRAIN(j)) continue;
     __builtin_prefetch(&e->grain[j]);
     __builtin_prefetch(&e->node[j]);
+    if (!f.listed) continue;
     __builtin_prefetch(gg_list(e, i));
     __builtin_prefetch(gg_list(e, j));
   }
