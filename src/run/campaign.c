@@ -167,11 +167,12 @@ static bool out_of_time(const gg_campaign *c)
 /* A window of this length that still drifts is given up, and averaging begins anew after it; but not for ever. */
 enum { MOST_RESTARTS = 6 };
 
-/* Length that the window is to reach before it is judged again: grows by a quarter a time. */
+/* Length that the window is to reach before it is judged again: grows by a quarter a time, and by half once errors are
+ * as small as asked (see `finished`). */
 static uint64_t next_length(const gg_campaign *c, uint64_t window)
 {
   uint64_t least = c->plan.least << c->state.restarts;
-  uint64_t next = window < least ? least : window + window / 4;
+  uint64_t next = window < least ? least : window + window / (c->state.exact ? 2 : 4);
   return c->plan.most && next > c->plan.most ? c->plan.most : next;
 }
 
@@ -179,18 +180,28 @@ static gg_status open_window(gg_campaign *c, gg_error *err)
 {
   for (int i = 0; i < c->n; i++) GG_TRY(gg_replica_open_window(&c->replicas[i], err));
   c->state.averaging = 1;
+  c->state.exact = 0;
   c->state.window_at = c->state.due;
   c->state.goal = c->state.due + next_length(c, 0);
   return GG_OK;
 }
 
-/* Is the window long, steady and exact enough? */
-static bool finished(const gg_campaign *c, const gg_judgement *j, uint64_t window)
+static bool exact_enough(const gg_campaign *c, const gg_judgement *j, uint64_t window)
+{
+  return c->plan.relative_error > 0 && window >= c->plan.least && j->trusted &&
+         j->relative_error <= c->plan.relative_error;
+}
+
+/* Is the window long, steady and exact enough? Who judges again and again, and stops as soon as an estimate of the
+ * error is small, stops where it is too small. So the window goes on for half its length, and it is that estimate which
+ * counts, and stands. */
+static bool finished(gg_campaign *c, const gg_judgement *j, uint64_t window)
 {
   if (c->plan.most && window >= c->plan.most) return true;
   if (window >= c->plan.longest << c->state.restarts) return true;
-  return c->plan.relative_error > 0 && window >= c->plan.least && j->trusted &&
-         j->relative_error <= c->plan.relative_error;
+  bool before = c->state.exact;
+  c->state.exact = exact_enough(c, j, window);
+  return before && c->state.exact;
 }
 
 /* The next judging point belongs to the state, so that a resumed run judges where the uninterrupted one does. */

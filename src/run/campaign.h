@@ -35,6 +35,7 @@ typedef struct gg_campaign {
     uint64_t window_at;      /* samples when the window was opened */
     uint64_t goal;           /* samples at which the window is judged next */
     uint64_t restarts;       /* windows given up for drift */
+    int64_t exact;           /* at the last judgement, errors were as small as asked */
     double wall;             /* seconds used before this process */
   } state;
   gg_judgement last;

@@ -6,7 +6,7 @@
 
 /* Relaxation times of the slowest mode: before averaging, and at least while averaging. A start within a few tens of
  * per cent of the steady state leaves less than 0.1 % of it after the first. */
-enum { WARMUP_TIMES = 6, WINDOW_TIMES = 15 };
+enum { WARMUP_TIMES = 6, WINDOW_TIMES = 50 };
 /* Slow shear: at least so many rounds. */
 enum { LEAST_ROUNDS = 4 };
 /* An error that this many of the shortest windows have not brought down is out of reach: a clustered or collapsing gas.
@@ -41,7 +41,7 @@ gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
   double slowest = gg_model_relaxation(model);
   double warmup = scene->run.warmup == GG_AUTO ? fmax(40, WARMUP_TIMES * slowest) : scene->run.warmup;
   p.warmup = samples_for(warmup);
-  p.least = samples_for(fmax(100, WINDOW_TIMES * slowest));
+  p.least = samples_for(fmax(300, WINDOW_TIMES * slowest));
   p.longest = p.least * MOST_WINDOWS;
   bool asked = scene->run.relative_error != GG_AUTO || scene->run.collisions != GG_AUTO;
   if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
