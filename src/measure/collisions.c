@@ -199,7 +199,7 @@ static double twice(double x, const double *none)
   return 2 * x;
 }
 
-static void put_angles(gg_curves *list, const double *bin)
+static void put_angles(const collisions *d, gg_curves *list, const double *bin)
 {
   static const char *const fabric[] = {"fabric_xx", "fabric_yy", "fabric_zz", "fabric_xy"};
   gg_curve *c = gg_curve_add(list, COS_BINS, "impact_cos", "impact angle", "");
@@ -209,7 +209,8 @@ static void put_angles(gg_curves *list, const double *bin)
     c->value[i] = bin[COSINES + i] * COS_BINS / bin[MEETINGS];
   }
   gg_curve_beside(c, "molecular chaos", twice, NULL);
-  c = gg_curve_add(list, PLANE_BINS, "collision_angle", "angle of k in the plane of shear", "");
+  c = gg_curve_add(list, PLANE_BINS, "collision_angle",
+                   d->model.shear_rate != 0 ? "angle of k in the plane of shear" : "angle of k in the plane xy", "");
   gg_curve_axes(c, "θ_c/π", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) / PLANE_BINS;
@@ -222,7 +223,7 @@ static void put_angles(gg_curves *list, const double *bin)
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const collisions *d = self;
-  put_angles(list, bin);
+  put_angles(d, list, bin);
   for (int kind = 0; kind < KINDS; kind++)
     for (int k = 0; k < d->model.n_species && d->has[kind]; k++)
       put_flight(d, list, kind, k, bin + ANGLES + (k * KINDS + kind) * FLIGHT);
