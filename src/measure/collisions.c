@@ -43,9 +43,9 @@ static void *create(const gg_model *m, gg_error *err)
   /* A time has a meaning where the temperature stays; under md's Gaussian thermostat the engine's clock is not that of
    * the gas. A path is known from the velocity at its end where nothing but shear changes it in flight. */
   bool other_clock = m->thermostat == GG_GAUSSIAN && !m->homogeneous;
-  d->has[TIME] = m->flow != GG_HCS && !m->small_shear && !other_clock;
+  d->has[TIME] = m->flow != GG_HCS && m->steady && !m->small_shear && !other_clock; /* else it changes with T */
   d->has[PATH] = m->flow != GG_HSS && !gg_flow_is_walled(m->flow);
-  d->has[LABORATORY] = d->has[PATH] && m->shear_rate != 0 && !m->homogeneous;
+  d->has[LABORATORY] = d->has[PATH] && m->steady && m->shear_rate != 0 && !m->homogeneous;
   return d;
 }
 
@@ -163,7 +163,8 @@ static void put_numbers(gg_curve *c, const gg_model *m, int kind, const double *
     gg_curve_put_number(c, "mean_free_time", mean, gg_curve_unit(m, "time"));
   } else {
     gg_curve_put_number(c, kind == PATH ? "mean_free_path" : "mean_free_path_laboratory", mean, length);
-    gg_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / cbrt(m->volume), "1");
+    if (!m->homogeneous) /* an ensemble without a box has no width */
+      gg_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / cbrt(m->volume), "1");
   }
   gg_curve_put_number(c, "second_moment_over_mean_squared", dispersion, "1");
 }
