@@ -183,6 +183,20 @@ static void print_causes(const gg_comparison *c, bool all)
   for (int i = 0; i < n; i++) gg_print_wrapped(stdout, "  - ", cause[i], 98);
 }
 
+/* What stands behind theories' deviations. */
+static void print_remarks(const gg_comparison *c)
+{
+  gg_theory_remark r[GG_MOST_THEORIES];
+  int n = gg_theory_remarks(c, r);
+  if (n) printf("\nTheories further off than is expected of solutions of one problem, and why:\n");
+  for (int i = 0; i < n; i++) {
+    char text[400];
+    snprintf(text, sizeof text, "%s, %s %+.1f %%: %s", r[i].theory->name, gg_quantity_name(r[i].quantity),
+             100 * r[i].deviation, r[i].cause);
+    gg_print_wrapped(stdout, "  - ", text, 98);
+  }
+}
+
 static void print_inapplicable(const gg_comparison *c)
 {
   size_t used = 0;
@@ -214,6 +228,7 @@ void gg_print_comparison(const gg_comparison *c, bool all)
   if (n_theories && against) printf(";%s%%: deviation of a theory from %s", both ? "\n" : " ", against->engine);
   printf("\n");
   print_causes(c, all);
+  print_remarks(c);
   gg_print_numbers(c->by_engine[GG_MD], c->by_engine[GG_DSMC], all);
   printf("\n");
   for (int k = 0; k < 2; k++) {
@@ -234,10 +249,13 @@ void gg_print_theories(const gg_scene *scene, const gg_comparison *c, bool all)
   if (n_theories) gg_table_print(t, stdout, gg_terminal_width(), 1);
   free(t);
   printf("\n");
-  for (int i = 0; i < c->n_theories; i++)
-    if (c->theory[i].applies)
-      printf("%s: %s (%s)\n  %s\n", c->theory[i].theory->name, c->theory[i].theory->title,
-             c->theory[i].theory->citation, c->theory[i].theory->assumptions);
+  for (int i = 0; i < c->n_theories; i++) {
+    const gg_theory *theory = c->theory[i].theory;
+    if (!c->theory[i].applies) continue;
+    printf("%s: %s (%s)\n  %s\n", theory->name, theory->title, theory->citation, theory->assumptions);
+    const char *beyond = gg_theory_beyond(theory, &c->model);
+    if (beyond) printf("  Here: %s.\n", beyond);
+  }
   for (int i = 0; i < c->n_theories; i++)
     if (!c->theory[i].applies) printf("%s\n", c->theory[i].reason);
 }

@@ -27,11 +27,26 @@ static json_t *theories_json(const gg_comparison *c, json_t *warnings)
   return all;
 }
 
+/* {"lun1991": {"title", "citation", "assumptions", "beyond": why this scene is out of its range, or null}}. */
+static json_t *about_json(const gg_comparison *c)
+{
+  json_t *all = json_object();
+  for (int i = 0; i < c->n_theories; i++) {
+    const gg_theory *t = c->theory[i].theory;
+    if (!c->theory[i].applies) continue;
+    const char *beyond = gg_theory_beyond(t, &c->model);
+    json_object_set_new(all, t->name,
+                        json_pack("{s:s, s:s, s:s, s:s?}", "title", t->title, "citation", t->citation, "assumptions",
+                                  t->assumptions, "beyond", beyond));
+  }
+  return all;
+}
+
 json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *c)
 {
   json_t *warnings = json_array(), *theory = theories_json(c, warnings);
-  return json_pack("{s:s, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene), "theory", theory,
-                   "warnings", warnings);
+  return json_pack("{s:s, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene), "theory", theory,
+                   "theories", about_json(c), "warnings", warnings);
 }
 
 static json_t *deviations_json(const gg_comparison *c, const gg_result *engine, gg_quantity q, json_t *warnings)
@@ -89,6 +104,15 @@ static void warn_causes(const gg_comparison *c, json_t *warnings)
     json_array_append_new(warnings, json_sprintf("md and dsmc differ beyond what is expected: %s", cause[i]));
 }
 
+static void warn_remarks(const gg_comparison *c, json_t *warnings)
+{
+  gg_theory_remark r[GG_MOST_THEORIES];
+  int n = gg_theory_remarks(c, r);
+  for (int i = 0; i < n; i++)
+    json_array_append_new(warnings, json_sprintf("%s is off by %+.1f %% in %s: %s", r[i].theory->name,
+                                                 100 * r[i].deviation, gg_quantity_name(r[i].quantity), r[i].cause));
+}
+
 json_t *gg_comparison_document(const gg_comparison *c)
 {
   json_t *warnings = json_array(), *rows = json_array();
@@ -98,6 +122,8 @@ json_t *gg_comparison_document(const gg_comparison *c)
     if (has(c->by_engine[GG_MD], (gg_quantity)q) || has(c->by_engine[GG_DSMC], (gg_quantity)q))
       json_array_append_new(rows, row_json(c, (gg_quantity)q, warnings));
   warn_causes(c, warnings);
-  return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(&c->scene),
-                   "md", md, "dsmc", dsmc, "theory", theory, "comparison", rows, "warnings", warnings);
+  warn_remarks(c, warnings);
+  return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
+                   gg_scene_json(&c->scene), "md", md, "dsmc", dsmc, "theory", theory, "theories", about_json(c),
+                   "comparison", rows, "warnings", warnings);
 }

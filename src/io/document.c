@@ -17,12 +17,6 @@ bool gg_is_measured(const gg_estimate *e)
   return !isnan(e->mean) || e->reason[0];
 }
 
-double gg_deviation(const gg_estimate *simulation, double theory)
-{
-  bool told_from_zero = fabs(simulation->mean) > 3 * (isnan(simulation->error) ? 0 : simulation->error);
-  return told_from_zero ? theory / simulation->mean - 1 : NAN;
-}
-
 /* A line "who: a, b: reason" per reason; `who` and the reason decide which line a quantity joins. */
 void gg_reason_add(json_t *warnings, const char *who, const char *quantity, const char *reason)
 {

@@ -14,10 +14,6 @@ json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *theories)
 /* Indented text, 17 digits; to be freed. */
 char *gg_document_text(const json_t *document);
 
-/* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN where the simulation cannot be told from
- * zero (within three standard errors). */
-double gg_deviation(const gg_estimate *simulation, double theory);
-
 /* Is there anything to say about this quantity: a mean, or a reason why there is none? */
 bool gg_is_measured(const gg_estimate *estimate);
 

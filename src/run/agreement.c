@@ -37,7 +37,7 @@ static bool rough_and_moderate(const gg_model *m)
 }
 static bool moderate(const gg_model *m)
 {
-  return m->phi > 0.02 && m->phi <= 0.3;
+  return m->shear_rate != 0 && m->phi > 0.02 && m->phi <= 0.3;
 }
 static bool clusters(const gg_model *m)
 {
@@ -56,9 +56,9 @@ static const struct {
     {clusters,
      "the box is longer than the length above which this gas forms clusters or vortices; a Monte Carlo ensemble "
      "stays homogeneous"},
-    {denser_than_enskog,
-     "at this density velocities of neighbours are correlated, which Enskog's equation leaves out: md "
-     "dissipates less and its normal stresses are smaller"},
+    {denser_than_enskog, "at this density velocities of neighbours are correlated, which Enskog's equation leaves out: "
+                         "smooth grains dissipate "
+                         "less in md; with rough or very dissipative grains the equation fails badly"},
     {rough_and_moderate,
      "rough grains: theta/T in md lies above Enskog's, by some 9 % at phi = 0.3 and beta = 0 (correlated "
      "velocities and spins)"},

@@ -1,4 +1,4 @@
-/* Where molecular dynamics and the Enskog equation may differ, and why: what a comparison is to remark on. */
+/* Where molecular dynamics, the Enskog equation and theories may differ, and why: what a comparison is to remark on. */
 #ifndef GG_AGREEMENT_H
 #define GG_AGREEMENT_H
 
@@ -13,5 +13,20 @@ bool gg_disagree(const gg_comparison *comparison, gg_quantity q);
 
 /* Causes that apply to this scene, one sentence each, at most `most`; returns how many. */
 int gg_causes_of_disagreement(const gg_comparison *comparison, const char **causes, int most);
+
+/* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN where the simulation cannot be told from
+ * zero (within three standard errors). */
+double gg_deviation(const gg_estimate *simulation, double theory);
+
+/* A theory that is off by more than the engines may be of one another, and by more than four standard errors: in which
+ * headline quantity most, by how much of it, and why. */
+typedef struct gg_theory_remark {
+  const gg_theory *theory;
+  gg_quantity quantity;
+  double deviation;
+  const char *cause;
+} gg_theory_remark;
+/* deviation.c: of all theories that apply, against md, or against dsmc where md was not run; returns how many. */
+int gg_theory_remarks(const gg_comparison *comparison, gg_theory_remark remarks[GG_MOST_THEORIES]);
 
 #endif

@@ -69,7 +69,7 @@ const gg_theory gg_carnahan_starling1969 = {
     .title = "Equation of state of elastic hard spheres",
     .citation = "N.F. Carnahan and K.E. Starling, J. Chem. Phys. 51 (1969) 635",
     .assumptions =
-        "Equilibrium fluid of one species, phi up to 0.494; 0.03 % low at phi = 0.1, 0.25 % at 0.3, 0.16 % at "
+        "Equilibrium fluid of one species, phi up to 0.494; 0.03 % low at phi = 0.1, 0.25 % at 0.3, 0.21 % at "
         "0.45.",
     .evaluate = evaluate_carnahan_starling,
 };

@@ -14,6 +14,7 @@
 
 #include <math.h>
 
+#include "theory/range.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "garzo_dufty1999";
@@ -97,6 +98,7 @@ const gg_theory gg_garzo_dufty1999 = {
                    "spheres, any density with molecular chaos; first Sonine order, linear in a2 (van Noije and Ernst "
                    "1998). Viscosity of small shear rates, counted in eta_0 = n T/nu_0.",
     .evaluate = evaluate,
+    .beyond = gg_beyond_first_sonine,
 };
 
 static const char name_ms[] = "montanero_santos2000";

@@ -16,6 +16,7 @@
 #include <math.h>
 
 #include "theory/garzo_dufty1999.h"
+#include "theory/range.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "garzo_montanero2003";
@@ -159,9 +160,10 @@ const gg_theory gg_garzo_montanero2003 = {
                 "(1999) 5706",
     .assumptions =
         "Homogeneous cooling or Gaussian-heated state of a smooth binary mixture, any density with molecular "
-        "chaos; first Sonine order, linear in c_1 and c_2. T_1/T_2 within 0.3 % and the viscosity within 1 % of "
+        "chaos; first Sonine order, linear in c_1 and c_2. T_1/T_2 within 0.5 % and the viscosity within 1 % of "
         "Enskog's equation; c some 10 % high at e = 0.5.",
     .evaluate = evaluate,
+    .beyond = gg_beyond_first_sonine,
 };
 
 static const char name_ms[] = "garzo_montanero2003_ms";

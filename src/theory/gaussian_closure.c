@@ -8,6 +8,7 @@
 
 #include "theory/answer.h"
 #include "theory/gaussian_moments.h"
+#include "theory/range.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "gaussian_closure";
@@ -81,4 +82,5 @@ const gg_theory gg_gaussian_closure = {
         "viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1; 4 % for dilute, half-rough grains); N2 within "
         "15 %.",
     .evaluate = evaluate,
+    .beyond = gg_beyond_gaussian,
 };

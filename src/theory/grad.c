@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "theory/lun1991.h"
+#include "theory/range.h"
 #include "theory/theory_list.h"
 #include "theory/two_maxwellian.h"
 
@@ -52,4 +53,5 @@ const gg_theory gg_grad = {
         "constant beta, or a smooth binary mixture; N2 = 0. T is 3 % high at e = 0.9, 12 % at e = 0.75 in "
         "mixtures.",
     .evaluate = evaluate,
+    .beyond = gg_beyond_linear_anisotropy,
 };

@@ -4,6 +4,7 @@
  * the cooling rate zeta = -(nu/3) dE_tr, nu = 4 n d^2 chi sqrt(pi T). */
 #include <math.h>
 
+#include "theory/range.h"
 #include "theory/theory_list.h"
 #include "theory/two_maxwellian.h"
 
@@ -40,6 +41,11 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   return GG_OK;
 }
 
+static const char *beyond(const gg_model *m)
+{
+  return m->shear_rate != 0 ? "made without shear, which its ratio of temperatures leaves out" : gg_beyond_gaussian(m);
+}
+
 const gg_theory gg_huthmann_zippelius1997 = {
     .name = name,
     .title = "Rough grains with Maxwellian velocities and spins",
@@ -51,4 +57,5 @@ const gg_theory gg_huthmann_zippelius1997 = {
         "spins Maxwellian and independent, any density with molecular chaos. theta/T is 2-5 % high in free "
         "cooling at e = 0.8-0.9 and low by up to 15 % under shear.",
     .evaluate = evaluate,
+    .beyond = beyond,
 };

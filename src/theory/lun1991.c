@@ -16,6 +16,7 @@
 #include <math.h>
 
 #include "common/contact_value.h"
+#include "theory/range.h"
 #include "theory/theory_list.h"
 
 /* Random close packing in the contact value of Lun & Savage. */
@@ -83,6 +84,7 @@ const gg_theory gg_lun1991 = {
         "order in the shear rate (so N1 = N2 = 0) and first Sonine order. Good near e = 1 with beta = -1 or 1; "
         "T is tens of percent off for dissipative or half-rough grains.",
     .evaluate = evaluate,
+    .beyond = gg_beyond_quasi_elastic,
 };
 
 static const char name_ls[] = "lun1991_lun_savage";
@@ -106,4 +108,5 @@ const gg_theory gg_lun1991_lun_savage = {
         "As lun1991, with chi = (1 - phi/0.64)^-1.6 whatever the scene chose: 11 % above Carnahan-Starling at "
         "phi = 0.3, 90 % at 0.5.",
     .evaluate = evaluate_lun_savage,
+    .beyond = gg_beyond_quasi_elastic,
 };

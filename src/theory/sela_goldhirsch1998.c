@@ -3,6 +3,7 @@
  *   N1 =  (1.6735 eps - 0.04315 eps^2)/(1.2996 + 0.0966 eps)
  *   N2 = -(0.14189 eps - 0.003659 eps^2)/(1.2996 + 0.0966 eps) */
 #include "theory/answer.h"
+#include "theory/range.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "sela_goldhirsch1998";
@@ -27,4 +28,5 @@ const gg_theory gg_sela_goldhirsch1998 = {
         "Steady uniform shear of a dilute gas (phi up to 0.05) of smooth spheres of one species; second order "
         "in the shear rate and expanded in 1 - e^2, so for e near 1.",
     .evaluate = evaluate,
+    .beyond = gg_beyond_quasi_elastic,
 };

@@ -31,6 +31,11 @@ const gg_theory *gg_theory_find(const char *name)
   return NULL;
 }
 
+const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model)
+{
+  return theory->beyond ? theory->beyond(model) : NULL;
+}
+
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
 {
   for (int q = 0; q < GG_N_QUANTITIES; q++) answer->value[q] = NAN;

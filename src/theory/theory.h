@@ -16,11 +16,16 @@ typedef struct gg_theory {
   const char *assumptions; /* and range, one or two sentences */
   /* GG_OK with the answer, or GG_BAD_INPUT with the reason why the theory does not apply to this model. */
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);
+  /* Why this model is beyond what the theory was made for, though it answers; NULL (also the function) within it. */
+  const char *(*beyond)(const gg_model *model);
 } gg_theory;
 
 /* Every theory there is, NULL-terminated, in the order they are shown. */
 extern const gg_theory *const gg_theories[];
 const gg_theory *gg_theory_find(const char *name);
+
+/* What of the above applies, NULL if nothing does. */
+const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model);
 
 /* Evaluate with every value preset to NaN. */
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err);

@@ -365,6 +365,42 @@ static void agreement(void **state)
   }
 }
 
+/* Theories are remarked on where they are off by more than four errors and more than expected: with the cause that
+ * applies, be it the theory's range or, where it agrees with the Monte Carlo engine, what Enskog's equation leaves out.
+ */
+static void remarks(void **state)
+{
+  (void)state;
+  const struct {
+    double e, md, dsmc, lun, error;
+    const char *cause; /* NULL: nothing to remark on */
+  } cases[] = {{0.98, 1, 1, 1.02, 0.001, NULL},
+               {0.98, 1, 1, 1.2, 0.06, NULL},
+               {0.98, 1, 1, 1.2, 0.001, "no cause"},
+               {0.8, 1, 1, 1.2, 0.001, "quasi-elastic"},
+               {0.98, 1, 1.2, 1.2, 0.001, "agrees with dsmc"}};
+  gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
+  gg_comparison c = {.by_engine = {&md, &dsmc}};
+  gg_scene s = scene_of(-1);
+  for (int i = 0; i < 5; i++) {
+    gg_theory_remark r[GG_MOST_THEORIES];
+    for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = cases[i].e;
+    assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+    gg_compare_theories(&c.model, &c);
+    for (int k = 0; k < c.n_theories; k++) c.theory[k].applies = strcmp(c.theory[k].theory->name, "lun1991") == 0;
+    for (int q = 0; q < GG_N_QUANTITIES; q++) md.value[q].mean = dsmc.value[q].mean = NAN;
+    md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = cases[i].md, .error = cases[i].error};
+    dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = cases[i].dsmc, .error = cases[i].error};
+    for (int k = 0; k < c.n_theories; k++) c.theory[k].answer.value[GG_Q_TEMPERATURE] = cases[i].lun;
+    int n = gg_theory_remarks(&c, r);
+    assert_int_equal(n, cases[i].cause ? 1 : 0);
+    if (n == 0) continue;
+    assert_int_equal(r[0].quantity, GG_Q_TEMPERATURE);
+    assert_true(fabs(r[0].deviation - (cases[i].lun / cases[i].md - 1)) < 1e-12);
+    assert_non_null(strstr(r[0].cause, cases[i].cause));
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -372,7 +408,7 @@ int main(void)
       cmocka_unit_test(endless_drift), cmocka_unit_test(heating),         cmocka_unit_test(ends),
       cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(other_scene),
       cmocka_unit_test(trajectory),    cmocka_unit_test(time_limit),      cmocka_unit_test(comparison),
-      cmocka_unit_test(agreement),     cmocka_unit_test(standstill),
+      cmocka_unit_test(agreement),     cmocka_unit_test(remarks),         cmocka_unit_test(standstill),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
