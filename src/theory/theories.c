@@ -39,5 +39,7 @@ const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model)
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
 {
   for (int q = 0; q < GG_N_QUANTITIES; q++) answer->value[q] = NAN;
-  return theory->evaluate(model, answer, err);
+  gg_status status = theory->evaluate(model, answer, err);
+  for (int q = 0; q < GG_N_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
+  return status;
 }
