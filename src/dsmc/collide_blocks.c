@@ -33,6 +33,20 @@ GG_INLINE void call(gg_features f, const gg_batch *w, uint32_t a, uint32_t b)
   prefetch(&w->spin_two[b]);
 }
 
+/* The same for all of a list. */
+GG_INLINE void call_all(gg_features f, const gg_batch *w, const gg_draw *list)
+{
+  for (unsigned i = 0; i < list->n; i++)
+    call(f, w, (uint32_t)gg_listed(list->one, i), (uint32_t)gg_listed(list->two, i) & ~GG_ODD);
+}
+
+/* Of some blocks of a population the tops: another thread may have had them before. */
+GG_INLINE void call_tops(const gg_population *p, gg_range r)
+{
+  if (r.n == p->n_blocks) return;
+  for (uint32_t b = r.first; b < r.first + r.n; b += 64 / sizeof *p->top) __builtin_prefetch(&p->top[b], 1);
+}
+
 GG_INLINE uint32_t odd_block(const gg_population *p)
 {
   return p->n % GG_LANES ? (uint32_t)p->n_blocks - 1 : UINT32_MAX;
@@ -153,7 +167,10 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   w.near = (gg_directions){.x = near[0], .y = near[1], .z = near[2]};
   w.sheared = (gg_directions){.x = sheared[0], .y = sheared[1], .z = sheared[2]};
   unsigned n = p->candidates < GG_DRAWS ? (unsigned)p->candidates : GG_DRAWS;
+  call_tops(p->one, p->blocks[0]);
+  call_tops(p->two, p->blocks[1]);
   gg_draw_visits(f, &w, &queue[0], n, p->drift_step);
+  call_all(f, &w, &queue[0]);
   for (uint64_t left = p->candidates - n, turn = 0; n; turn ^= 1) {
     n = left < GG_DRAWS ? (unsigned)left : GG_DRAWS;
     left -= n;
