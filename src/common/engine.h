@@ -48,6 +48,16 @@ typedef struct gg_chunk {
 } gg_chunk;
 typedef void gg_visit(void *context, const gg_chunk *chunk);
 
+/* Grains of one species as an engine that keeps them in blocks of eight has them, nothing copied: of block g the eight
+ * x lie at c + 24 g, then eight y, eight z. For those in a hurry. */
+typedef struct gg_block_run {
+  size_t n; /* grains; lanes beyond the last of them are 0 */
+  int species;
+  double drift;        /* what is there is C_x + drift C_y, C_y, C_z */
+  const double *c, *s; /* s NULL for smooth grains */
+} gg_block_run;
+typedef void gg_visit_blocks(void *context, const gg_block_run *run);
+
 /* One collision between two grains as a watcher sees it, before the impulse. */
 typedef struct gg_seen_collision {
   int species[2];
@@ -87,6 +97,8 @@ typedef struct gg_engine_ops {
   void (*state)(const gg_engine *engine, gg_engine_state *state);
   /* Show every grain at the present time. */
   void (*snapshot)(gg_engine *engine, bool positions, gg_visit *visit, void *context);
+  /* The same grains in the same order, as they are. NULL where the engine has no blocks. */
+  void (*blocks)(gg_engine *engine, gg_visit_blocks *visit, void *context);
   /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades, and to begin a round of slow shear
    * again (small_shear.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
   gg_status (*rescale)(gg_engine *engine, int power, gg_error *err);

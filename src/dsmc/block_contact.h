@@ -50,6 +50,12 @@ GG_INLINE bool gg_needs_k(gg_features f)
   return f.rule != GG_SMOOTH || f.shear == GG_SHEARED_DENSE || f.tap == GG_TAP_STRESS;
 }
 
+/* Without its sign. */
+GG_INLINE gg_vd gg_size(gg_vd x)
+{
+  return (gg_vd)((gg_vu)x & ~(gg_vu)gg_all(-0.0));
+}
+
 /* The direction that lies about v as q lies about the z axis: q mirrored by the Householder vector v +- |v| z. */
 GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd3 q)
 {
@@ -79,9 +85,8 @@ GG_INLINE void gg_encounter_shear(gg_batch *w, gg_vd3 v, gg_encounter *e)
   gg_vd3 k = e->k, other = gg_directions_take(&w->sheared, e->special);
   k = (gg_vd3){gg_select(e->special, other.x, k.x), gg_select(e->special, other.y, k.y),
                gg_select(e->special, other.z, k.z)};
-  gg_vd gn = gg_vd3_dot(k, v), forward = gg_where(gg_less(gg_all(0), gn), gn), shear = w->shift * k.x * k.y;
-  gg_vd most = forward + gg_larger(shear, -shear);
-  gg_vd left = gg_select(e->special, -e->t, e->t), range = gg_select(e->special, gg_all(w->s0), e->speed);
+  gg_vd gn = gg_vd3_dot(k, v), shear = w->shift * k.x * k.y, most = gg_larger(gn, gg_all(0)) + gg_size(shear);
+  gg_vd left = gg_size(e->t), range = gg_select(e->special, gg_all(w->s0), e->speed); /* special: t < 0 */
   e->k = k;
   e->gn = gn - shear;
   e->g.x -= w->shift * k.y;

@@ -93,11 +93,6 @@ GG_INLINE void gg_draw_visits(gg_features f, gg_batch *w, gg_draw *next, unsigne
   for (unsigned i = 0; i < next->n; i += 2)
     for (int part = 0; part < GG_PARTS; part++)
       gg_lane_two(&w->rng, part, &next->words[i][part], &next->words[i + 1][part]);
-  /* What follows the last is looked at, though nothing hits: let it take part, for others may be at work on the rest.
-   */
-  gg_list(next->one, next->n, w->blocks_one.first);
-  gg_list(next->two, next->n, w->blocks_two.first);
-  next->bound[next->n] = (gg_real)INFINITY;
 }
 
 #endif

@@ -90,7 +90,8 @@ GG_INLINE void gg_carry_out(gg_features f, gg_batch *w, const gg_meeting *at)
     w->worst = gg_larger(w->worst, at->v2[part]);
     w->collisions += (unsigned)__builtin_popcount(gg_bits(at->e[part].hit));
     gg_vd3 J = gg_needs_k(f) ? at->J[part] : gg_vd3_scale(gg_all(0.5 * w->contact.jn), at->J[part]);
-    gg_tally_note(f, &w->tally, part, at->e[part].k, at->e[part].g, J);
+    gg_vd Jn = gg_where(at->e[part].hit, w->contact.jn * at->e[part].gn);
+    gg_tally_note(f, &w->tally, part, at->e[part].k, at->e[part].g, J, Jn);
     gg_mask swap = gg_push(f, w, at, part, &top);
     if (f.rule != GG_SMOOTH) gg_turn(f, w, swap, at, part);
   }
@@ -143,7 +144,14 @@ GG_INLINE void gg_aim(gg_features f, gg_batch *w, gg_vd3 v, gg_meeting *at, int 
   at->J[part] = (gg_vd3){gg_where(e->hit, J.x), gg_where(e->hit, J.y), gg_where(e->hit, J.z)};
 }
 
-/* The i-th visit of the list, but for writing it back; past its end, some blocks or other without a hit. */
+/* Directions for a visit. */
+GG_INLINE void gg_stock(gg_features f, gg_batch *w)
+{
+  gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
+  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
+}
+
+/* The i-th visit of the list, but for writing it back. */
 GG_INLINE void gg_foresee(gg_features f, gg_batch *w, const gg_draw *now, unsigned i, double drift_step, gg_rng *rng,
                           gg_meeting *at)
 {
@@ -168,8 +176,7 @@ GG_INLINE void gg_foresee(gg_features f, gg_batch *w, const gg_draw *now, unsign
     faster |= gg_bits(gg_less(gg_all(at->bound), speed[part]));
   }
   if (__builtin_expect(faster, 0) && !at->odd) at->bound = gg_reconsider(f, w, at, rng, &at->again);
-  gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
-  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
+  gg_stock(f, w);
   for (int part = 0; part < GG_PARTS; part++) {
     at->word[part] = now->words[i][part];
     gg_encounter_meet(f, w, speed[part], gg_all(at->bound), at->word[part], &at->e[part]);

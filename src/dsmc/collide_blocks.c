@@ -33,6 +33,20 @@ GG_INLINE void call(gg_features f, const gg_batch *w, uint32_t a, uint32_t b)
   prefetch(&w->spin_two[b]);
 }
 
+/* The same for all of a list. */
+GG_INLINE void call_all(gg_features f, const gg_batch *w, const gg_draw *list)
+{
+  for (unsigned i = 0; i < list->n; i++)
+    call(f, w, (uint32_t)gg_listed(list->one, i), (uint32_t)gg_listed(list->two, i) & ~GG_ODD);
+}
+
+/* Of some blocks of a population the tops: another thread may have had them before. */
+GG_INLINE void call_tops(const gg_population *p, gg_range r)
+{
+  if (r.n == p->n_blocks) return;
+  for (uint32_t b = r.first; b < r.first + r.n; b += 64 / sizeof *p->top) __builtin_prefetch(&p->top[b], 1);
+}
+
 GG_INLINE uint32_t odd_block(const gg_population *p)
 {
   return p->n % GG_LANES ? (uint32_t)p->n_blocks - 1 : UINT32_MAX;
@@ -88,34 +102,58 @@ GG_INLINE bool carry_out_odd(gg_features f, gg_batch *w, gg_draw *now, unsigned 
   return true;
 }
 
+/* A list of draws being visited. */
+typedef struct gg_visits {
+  gg_draw *now;
+  const gg_draw *next; /* whose memory is called meanwhile */
+  unsigned i;          /* visits looked at */
+  bool pending;        /* the last of them is still to be written back */
+} gg_visits;
+
+GG_INLINE bool in_common(const gg_meeting *one, const gg_meeting *two)
+{
+  return (one->a == two->a) | (one->a == two->b) | (one->b == two->a) | (one->b == two->b);
+}
+
+/* Work out the next visit, then write back the one before. If they have a block in common, the next is worked out anew.
+ * Returns false at the end. */
+GG_INLINE bool visit(gg_features f, gg_batch *w, gg_visits *r, gg_pairing *p, gg_rng *rng, const gg_meeting *at,
+                     gg_meeting *ahead)
+{
+  const bool end = r->i == r->now->n;
+  if (end)
+    gg_stock(f, w);
+  else
+    gg_foresee(f, w, r->now, r->i, p->drift_step, rng, ahead);
+  /* About as many to come; what is past the end of their list is old, and harmless. */
+  call(f, w, (uint32_t)gg_listed(r->next->one, r->i), (uint32_t)gg_listed(r->next->two, r->i) & ~GG_ODD);
+  if (r->pending) {
+    bool anew = !end && in_common(ahead, at);
+    if (__builtin_expect(at->odd | at->again, 0)) {
+      r->i -= carry_out_odd(f, w, r->now, r->i - 1, at, p, rng);
+      anew = true;
+    } else {
+      gg_carry_out(f, w, at);
+    }
+    r->pending = !anew;
+    if (__builtin_expect(anew, 0)) return true;
+  }
+  if (end) return false;
+  r->pending = true;
+  r->i++;
+  return true;
+}
+
 /* What comes of a visit is worked out before the one ahead of it is written back: there is more to do meanwhile, and
  * with stores that come late and addresses that agree in their last bits now and then, a processor would rather wait
- * than let loads pass. If they have a block in common, it is worked out anew. */
-GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_draw *now, const gg_draw *next, gg_pairing *p, gg_rng *rng)
+ * than let loads pass. Two meetings take turns as the one and the other: copying them would cost as much as the sums.
+ */
+GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_draw *now, const gg_draw *next, gg_meeting turn[2],
+                         gg_pairing *p, gg_rng *rng)
 {
-  gg_meeting at, ahead;
-  bool pending = false;
+  gg_visits r = {.now = now, .next = next};
   w->per_unit = (gg_real)gg_per_top(now->unit);
-  for (unsigned i = 0;;) {
-    gg_foresee(f, w, now, i, p->drift_step, rng, &ahead);
-    /* About as many to come; what is past the end of their list is old, and harmless. */
-    call(f, w, (uint32_t)gg_listed(next->one, i), (uint32_t)gg_listed(next->two, i) & ~GG_ODD);
-    if (pending) {
-      bool anew = (ahead.a == at.a) | (ahead.a == at.b) | (ahead.b == at.a) | (ahead.b == at.b);
-      if (__builtin_expect(at.odd | at.again, 0)) {
-        i -= carry_out_odd(f, w, now, i - 1, &at, p, rng);
-        anew = true;
-      } else {
-        gg_carry_out(f, w, &at);
-      }
-      pending = !anew;
-      if (__builtin_expect(anew, 0)) continue;
-    }
-    if (i == now->n) return;
-    at = ahead;
-    pending = true;
-    i++;
-  }
+  while (visit(f, w, &r, p, rng, &turn[0], &turn[1]) && visit(f, w, &r, p, rng, &turn[1], &turn[0])) continue;
 }
 
 /* Everything of a batch. `f` is a constant: each instance holds only what it needs. */
@@ -124,16 +162,20 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   gg_batch w;
   gg_real near[3][GG_DIRECTIONS_ROOM], sheared[3][GG_DIRECTIONS_ROOM];
   gg_draw queue[2] = {{0}, {0}};
+  gg_meeting meeting[2] = {{0}, {0}};
   start(f, &w, p, lanes);
   w.near = (gg_directions){.x = near[0], .y = near[1], .z = near[2]};
   w.sheared = (gg_directions){.x = sheared[0], .y = sheared[1], .z = sheared[2]};
   unsigned n = p->candidates < GG_DRAWS ? (unsigned)p->candidates : GG_DRAWS;
+  call_tops(p->one, p->blocks[0]);
+  call_tops(p->two, p->blocks[1]);
   gg_draw_visits(f, &w, &queue[0], n, p->drift_step);
+  call_all(f, &w, &queue[0]);
   for (uint64_t left = p->candidates - n, turn = 0; n; turn ^= 1) {
     n = left < GG_DRAWS ? (unsigned)left : GG_DRAWS;
     left -= n;
     gg_draw_visits(f, &w, &queue[turn ^ 1], n, p->drift_step);
-    visit_all(f, &w, &queue[turn], &queue[turn ^ 1], p, rng);
+    visit_all(f, &w, &queue[turn], &queue[turn ^ 1], meeting, p, rng);
   }
   p->top_unit = w.next_unit;
   finish(f, &w, p, lanes);

@@ -125,6 +125,24 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
   }
 }
 
+/* Blocks in double as they are, others so many at a time. */
+static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
+{
+  gg_dsmc *d = dsmc_of(engine);
+  gg_block c[SHOWN / GG_LANES], s[SHOWN / GG_LANES];
+  for (int i = 0; i < d->ensemble.n_species; i++) {
+    const gg_population *p = &d->ensemble.of[i];
+    const size_t all = (size_t)p->n, most = p->single ? SHOWN : all;
+    for (size_t first = 0; first < all; first += most) {
+      gg_block_run run = {.n = all - first < most ? all - first : most, .species = i, .drift = d->now.drift};
+      const size_t at = first / GG_LANES, n = (run.n + GG_LANES - 1) / GG_LANES;
+      run.c = gg_blocks_in_double(p, p->c, at, n, c)->x;
+      if (p->s) run.s = gg_blocks_in_double(p, p->s, at, n, s)->x;
+      visit(context, &run);
+    }
+  }
+}
+
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
@@ -163,6 +181,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .threads = threads,
     .state = state,
     .snapshot = snapshot,
+    .blocks = blocks,
     .rescale = rescale,
     .save = gg_dsmc_save,
     .restore = gg_dsmc_restore,

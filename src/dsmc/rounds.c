@@ -95,6 +95,11 @@ static void meet(void *context, int meeting)
   r->d->tournament->draws[meeting] = rng;
 }
 
+static bool takes_part(const gg_round *r, int pair)
+{
+  return r->side[pair].common.one != NULL;
+}
+
 /* Play all meetings; sums by pair of species. */
 static void play(gg_round *r, double expected, gg_pairing sum[GG_PAIRS])
 {
@@ -102,12 +107,13 @@ static void play(gg_round *r, double expected, gg_pairing sum[GG_PAIRS])
   const int meetings = gg_meetings(e->segments, r->number);
   for (int q = 0; q < GG_PAIRS; q++) {
     sum[q] = r->side[q].common;
-    for (int m = 0; m < meetings; m++) r->sum[m][q] = (gg_pairing){0};
+    for (int m = 0; m < meetings && takes_part(r, q); m++) r->sum[m][q] = (gg_pairing){0};
   }
   gg_ensemble_drift_tops(e, r->turn[0].drift);
   gg_crew_share(expected < worth_calling ? NULL : e->crew, meetings, meet, r);
   for (int m = 0; m < meetings; m++) {
-    for (int q = 0; q < GG_PAIRS; q++) add(&sum[q], &r->sum[m][q]);
+    for (int q = 0; q < GG_PAIRS; q++)
+      if (takes_part(r, q)) add(&sum[q], &r->sum[m][q]);
     e->top_unit = fmax(e->top_unit, r->unit[m]); /* bounds in some unit hold in a larger one, too */
   }
   e->top_drift = r->turn[r->n_turns - 1].drift + r->span;
@@ -117,6 +123,7 @@ static void play(gg_round *r, double expected, gg_pairing sum[GG_PAIRS])
  * round's. */
 static void play_layers(gg_round *r, int pair, double top, double worst)
 {
+  if (worst <= top) return; /* as a rule */
   gg_dsmc *d = r->d;
   gg_side *s = &r->side[pair];
   gg_round over = *r;

@@ -9,7 +9,8 @@
 
 enum { GG_NOTES = 8 };
 
-/* k, impulse and J.g of one visit: J is 0 where nothing hits, and k finite. */
+/* k, impulse and J.g of one visit: J is 0 where nothing hits, and k finite. Of smooth grains k and J_n are enough
+ * (J = J_n k, J.g = J_n^2/jn), and J.x stands for the latter. */
 typedef struct gg_note {
   gg_vd3 k, J;
   gg_vd Jg;
@@ -30,14 +31,22 @@ GG_INLINE bool gg_tally_needs_k(gg_features f)
   return f.tap == GG_TAP_STRESS || (f.tap == GG_TAP_LOSS && f.rule != GG_SMOOTH);
 }
 
-GG_INLINE void gg_tally_note(gg_features f, gg_tally *t, int part, gg_vd3 k, gg_vd3 g, gg_vd3 J)
+GG_INLINE bool gg_tally_smooth(gg_features f)
+{
+  return f.tap == GG_TAP_STRESS && f.rule == GG_SMOOTH;
+}
+
+GG_INLINE void gg_tally_note(gg_features f, gg_tally *t, int part, gg_vd3 k, gg_vd3 g, gg_vd3 J, gg_vd Jn)
 {
   if (f.tap == GG_TAP_CLOSED) return;
   gg_note *note = &t->note[t->n][part];
-  note->Jg = gg_vd3_dot(J, g);
+  if (!gg_tally_smooth(f)) note->Jg = gg_vd3_dot(J, g);
   if (!gg_tally_needs_k(f)) return;
   note->k = k;
-  note->J = J;
+  if (gg_tally_smooth(f))
+    note->J.x = Jn;
+  else
+    note->J = J;
 }
 
 GG_INLINE void gg_tally_add(double *sum, int part, gg_vd v)
@@ -51,10 +60,10 @@ GG_INLINE void gg_tally_sum_part(gg_features f, gg_tally *t, int p)
   gg_vd xx = none, yy = none, zz = none, xy = none, yx = none, Jg = none, Jn2 = none, J2 = none;
   for (unsigned i = 0; i < t->n; i++) {
     const gg_note *note = &t->note[i][p];
-    Jg += note->Jg;
+    if (!gg_tally_smooth(f)) Jg += note->Jg;
     if (!gg_tally_needs_k(f)) continue;
-    gg_vd3 k = note->k, J = note->J;
-    gg_vd x = k.x * J.x, y = k.y * J.y, z = k.z * J.z, Jn = x + y + z;
+    gg_vd3 k = note->k, J = gg_tally_smooth(f) ? gg_vd3_scale(note->J.x, k) : note->J;
+    gg_vd x = k.x * J.x, y = k.y * J.y, z = k.z * J.z, Jn = gg_tally_smooth(f) ? note->J.x : x + y + z;
     xx += x;
     yy += y;
     zz += z;
@@ -63,8 +72,8 @@ GG_INLINE void gg_tally_sum_part(gg_features f, gg_tally *t, int p)
     Jn2 += Jn * Jn;
     J2 += gg_vd3_dot(J, J);
   }
-  gg_tally_add(t->Jg, p, Jg);
-  if (f.rule != GG_SMOOTH) gg_tally_add(t->Jn2, p, Jn2);
+  if (!gg_tally_smooth(f)) gg_tally_add(t->Jg, p, Jg);
+  if (gg_tally_needs_k(f)) gg_tally_add(t->Jn2, p, Jn2);
   if (f.rule == GG_FRICTIONAL) gg_tally_add(t->J2, p, J2);
   if (f.tap != GG_TAP_STRESS) return; /* what is not kept need not be computed */
   gg_tally_add(t->xx, p, xx);
@@ -98,6 +107,7 @@ GG_INLINE void gg_tally_finish(gg_features f, gg_tally *t, gg_pairing *p)
   if (f.tap == GG_TAP_CLOSED) return;
   gg_tally_sum(f, t);
   gg_loss_terms terms = {.Jg = gg_tally_of_lanes(t->Jg)};
+  if (gg_tally_smooth(f)) terms.Jg = gg_tally_of_lanes(t->Jn2) / p->contact.jn;
   if (f.rule != GG_SMOOTH) terms.Jn2 = gg_tally_of_lanes(t->Jn2);
   if (f.rule == GG_FRICTIONAL) terms.J2 = gg_tally_of_lanes(t->J2);
   p->loss += gg_loss_of(f.rule, &p->contact, terms);

@@ -6,19 +6,28 @@
 
 enum { LANES = GG_MOMENT_LANES };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
-
+typedef float singles __attribute__((vector_size(LANES * sizeof(float))));
 typedef int64_t masks __attribute__((vector_size(LANES * sizeof(int64_t))));
 
-/* The first `n` of eight; `fill` in the others. */
-GG_INLINE void load(lanes *to, const double *from, size_t n, double fill)
+GG_INLINE lanes in_double(singles x)
 {
-  if (n >= LANES) {
-    memcpy(to, from, sizeof *to);
-    return;
+  lanes d;
+  for (int l = 0; l < LANES; l++) d[l] = (double)x[l];
+  return d;
+}
+
+/* Roots of doubles would keep the processor longer than all the sums do; in single precision they take a quarter of
+ * the time. */
+GG_INLINE lanes root_of(bool quick, lanes x)
+{
+  lanes root;
+  if (!quick) {
+    for (int l = 0; l < LANES; l++) root[l] = __builtin_sqrt(x[l]);
+    return root;
   }
-  double part[LANES];
-  for (size_t l = 0; l < LANES; l++) part[l] = l < n ? from[l] : fill;
-  memcpy(to, part, sizeof *to);
+  singles s = __builtin_convertvector(x, singles);
+  for (int l = 0; l < LANES; l++) s[l] = __builtin_sqrtf(s[l]);
+  return in_double(s);
 }
 
 static double sum_of(const gg_moment_lanes *v)
@@ -28,19 +37,18 @@ static double sum_of(const gg_moment_lanes *v)
 }
 
 /* Eight grains; returns C.C. */
-GG_INLINE lanes translation(gg_moment_sums *a, const lanes c[3])
+GG_INLINE lanes translation(gg_moment_sums *a, bool quick, const lanes c[3])
 {
-  lanes square[3], root, all;
+  lanes square[3], all;
   for (int k = 0; k < 3; k++) square[k] = c[k] * c[k];
   all = square[0] + square[1] + square[2];
-  for (int l = 0; l < LANES; l++) root[l] = __builtin_sqrt(all[l]);
   for (int k = 0; k < 3; k++) {
     a->cc[k] += square[k];
     a->c4[k] += square[k] * square[k];
   }
   a->cxcy += c[0] * c[1];
   a->cccc += all * all;
-  a->speed += root;
+  a->speed += root_of(quick, all);
   return all;
 }
 
@@ -61,40 +69,61 @@ GG_INLINE void rotation(gg_moment_sums *a, const lanes c[3], lanes c2, const lan
   a->cos2 += (lanes)(((masks)(dot * dot / product) & moves) | ((masks)third & ~moves));
 }
 
+/* Eight grains, `at` so far into the view. */
+GG_INLINE void add_group(gg_moment_sums *a, const double mean[3], bool quick, bool spins, const gg_moment_view *v,
+                         size_t at)
+{
+  lanes c[3], w[3], c2;
+  for (int k = 0; k < 3; k++) memcpy(&c[k], v->c[k] + at, sizeof c[k]);
+  c[0] -= v->drift * c[1];
+  c2 = translation(a, quick, c);
+  if (!spins) return;
+  for (int k = 0; k < 3; k++) memcpy(&w[k], v->s[k] + at, sizeof w[k]), w[k] -= mean[k];
+  rotation(a, c, c2, w);
+}
+
+/* The last grains, fewer than eight: the others at rest. */
+GG_INLINE void add_rest(gg_moment_sums *a, const double mean[3], bool quick, bool spins, const gg_moment_view *v)
+{
+  double c[3][LANES] = {{0}}, s[3][LANES];
+  const size_t at = v->n / LANES * v->stride, n = v->n % LANES;
+  for (size_t k = 0; k < 3; k++)
+    for (size_t l = 0; l < LANES; l++) {
+      if (l < n) c[k][l] = v->c[k][at + l];
+      if (spins) s[k][l] = l < n ? v->s[k][at + l] : mean[k];
+    }
+  const gg_moment_view rest = {n, 0, v->drift, {c[0], c[1], c[2]}, {s[0], s[1], s[2]}};
+  add_group(a, mean, quick, spins, &rest, 0);
+}
+
 /* One pass for everything; the sums stay in registers as far as these go. */
-GG_INLINE void add(gg_moments *m, size_t n, const double *const c[3], const double *const s[3], bool spins)
+GG_INLINE void add(gg_moments *m, bool quick, bool spins, const gg_moment_view *view)
 {
   gg_moment_sums a = m->sums;
+  const gg_moment_view v = *view;
   const double mean[3] = {m->mean_spin[0], m->mean_spin[1], m->mean_spin[2]};
-  for (size_t i = 0; i < n; i += LANES) {
-    lanes v[3], w[3], c2;
-    for (int k = 0; k < 3; k++) load(&v[k], c[k] + i, n - i, 0);
-    c2 = translation(&a, v);
-    if (!spins) continue;
-    for (int k = 0; k < 3; k++) load(&w[k], s[k] + i, n - i, mean[k]), w[k] -= mean[k];
-    rotation(&a, v, c2, w);
-  }
-  m->n += (double)n;
+  for (size_t g = 0; g < v.n / LANES; g++) add_group(&a, mean, quick, spins, &v, g * v.stride);
+  if (v.n % LANES) add_rest(&a, mean, quick, spins, &v);
+  m->n += (double)v.n;
   m->sums = a;
-  if (spins) m->cos2 -= (double)((LANES - n % LANES) % LANES) / 3; /* lanes beyond the last grain */
+  if (spins) m->cos2 -= (double)((LANES - v.n % LANES) % LANES) / 3; /* lanes beyond the last grain */
 }
 
-GG_CLONES static void add_smooth(gg_moments *m, size_t n, const double *const c[3])
-{
-  add(m, n, c, c, false);
-}
+#define INSTANCE(name, quick, spins)                                                                                   \
+  GG_CLONES static void name(gg_moments *m, const gg_moment_view *v)                                                   \
+  {                                                                                                                    \
+    add(m, quick, spins, v);                                                                                           \
+  }
+INSTANCE(add_smooth, false, false)
+INSTANCE(add_rough, false, true)
+INSTANCE(quick_smooth, true, false)
+INSTANCE(quick_rough, true, true)
 
-GG_CLONES static void add_rough(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
+void gg_moments_add(gg_moments *m, bool quick, const gg_moment_view *v)
 {
-  add(m, n, c, s, true);
-}
-
-void gg_moments_add(gg_moments *m, size_t n, const double *const c[3], const double *const s[3])
-{
-  if (s[0])
-    add_rough(m, n, c, s);
-  else
-    add_smooth(m, n, c);
+  static void (*const instance[2][2])(gg_moments *, const gg_moment_view *) = {{add_smooth, add_rough},
+                                                                               {quick_smooth, quick_rough}};
+  instance[quick][v->s[0] != NULL](m, v);
 }
 
 void gg_moments_settle(gg_moments *m)

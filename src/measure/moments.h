@@ -26,8 +26,17 @@ typedef struct gg_moments {
   gg_moment_sums sums;
 } gg_moments;
 
-/* Add n grains; s[0] NULL: without spins. Spins are taken about m->mean_spin, any guess of their mean. */
-void gg_moments_add(gg_moments *m, size_t n, const double *const c[3], const double *const s[3]);
+/* n grains in groups of eight: group g lies at c[a] + g x stride and the seven places that follow. What is there is
+ * C_x + drift C_y, C_y, C_z. s[0] NULL: without spins. */
+typedef struct gg_moment_view {
+  size_t n, stride;
+  double drift;
+  const double *c[3], *s[3];
+} gg_moment_view;
+
+/* Add grains; spins are taken about m->mean_spin, any guess of their mean. `quick`: each |C| is rounded to single
+ * precision, whose range C.C has to be in; otherwise roots would cost as much as all other sums together. */
+void gg_moments_add(gg_moments *m, bool quick, const gg_moment_view *v);
 /* All grains are in: mean_spin becomes their mean, and the powers of Omega are about it. */
 void gg_moments_settle(gg_moments *m);
 

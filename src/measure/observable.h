@@ -41,6 +41,7 @@ typedef struct gg_observable {
   size_t (*width)(const gg_model *model);
   void (*begin)(void *self);
   void (*visit)(void *self, const gg_chunk *chunk);
+  void (*visit_blocks)(void *self, const gg_block_run *run); /* instead, with the same result; NULL: chunks only */
   void (*finish)(void *self, const gg_interval *interval, double *row);
   const gg_derived *derived;   /* ends with of = NULL */
   gg_of_means *const *history; /* the gg_history_quantities of one row, GG_N_HISTORY of them; or NULL */

@@ -1,4 +1,5 @@
-/* How a replica is looked at: chunk by chunk for rows at every sample; as whole snapshots for curves, when one is due.
+/* How a replica is looked at: chunk by chunk, or block by block, for rows at every sample; as whole snapshots for
+ * curves, when one is due.
  */
 #include "measure/local_frame.h"
 #include "run/replica.h"
@@ -10,6 +11,21 @@ static void show_chunk(void *context, const gg_chunk *chunk)
     if (r->observable[k]->width) r->observable[k]->visit(r->self[k], chunk);
 }
 
+static void show_blocks(void *context, const gg_block_run *run)
+{
+  gg_replica *r = context;
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->width) r->observable[k]->visit_blocks(r->self[k], run);
+}
+
+/* The engine has blocks, and all who look can read them. */
+static bool sees_blocks(const gg_replica *r)
+{
+  bool all = r->engine->ops->blocks != NULL;
+  for (int k = 0; k < r->n_observables; k++) all &= !r->observable[k]->width || r->observable[k]->visit_blocks;
+  return all;
+}
+
 void gg_replica_look(gg_replica *r, double elapsed)
 {
   gg_local_frame frame;
@@ -18,6 +34,8 @@ void gg_replica_look(gg_replica *r, double elapsed)
   if (r->model.walled) {
     gg_local_frame_take(&frame, &r->model, r->engine);
     gg_local_frame_snapshot(&frame, r->engine, show_chunk, r);
+  } else if (sees_blocks(r)) {
+    r->engine->ops->blocks(r->engine, show_blocks, r);
   } else {
     r->engine->ops->snapshot(r->engine, false, show_chunk, r);
   }
