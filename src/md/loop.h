@@ -91,30 +91,42 @@ GG_INLINE void gg_cross_sheared(gg_md *e, gg_grain *g, gg_node *node, int side)
   node->cell[0] = x < e->cells.n[0] ? x : e->cells.n[0] - 1;
 }
 
+/* Through the sheared boundary into the cells there. */
+GG_INLINE void gg_come_through(gg_md *e, gg_features f, uint32_t i, int up)
+{
+  gg_node *node = &e->node[i];
+  gg_grain *g = &e->grain[i];
+  gg_members in;
+  gg_shared_cells(e, node, &in);
+  gg_shared_leave(e, i, &in, in.which);
+  int side = up ? 1 : -1;
+  g->r.y -= side * e->box.edge[1];
+  gg_cross_sheared(e, g, node, side);
+  g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
+  gg_vec r = g->r;
+  r.y = up ? 0 : e->box.edge[1];
+  gg_shared_place(e, f, r, node);
+  gg_shared_cells(e, node, &in);
+  gg_check_memory(e, gg_shared_enter(e, i, &in));
+  gg_predict(e, f, i);
+}
+
 /* Into another cell that overlaps with those that the grain is in. */
 GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
 {
-  gg_node *node = &e->node[i];
+  const gg_node *node = &e->node[i];
   gg_search s;
-  gg_begin_search(&s, i, gg_settle(e, f, i), node->collision, node->partner);
-  gg_grain *g = &e->grain[i];
-  int axis = node->face >> 1, up = node->face & 1;
-  if (f.sheared && node->face == GG_SLIDE) {
+  gg_step step = {node->face >> 1, node->face & 1};
+  bool slide = f.sheared && node->face == GG_SLIDE, across = f.sheared && step.axis == 1;
+  gg_grain *g = gg_settle_step(e, i, across ? (gg_step){3, 0} : step);
+  gg_begin_search(&s, i, g, node->collision, node->partner);
+  if (slide) {
     gg_shared_slides(e, f, &s);
-  } else if (gg_is_last(e, f, axis, node->cell[axis] + (up ? (int)(node->neighbours >> axis & 1) : 0), up)) {
-    gg_shared_leave(e, i, -1, 0);
-    int side = up ? 1 : -1;
-    g->r.y -= side * e->box.edge[1];
-    gg_cross_sheared(e, g, node, side);
-    g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
-    gg_vec r = g->r;
-    r.y = up ? 0 : e->box.edge[1];
-    gg_shared_place(e, f, r, node);
-    gg_check_memory(e, gg_shared_enter(e, i, -1, 0));
-    gg_predict(e, f, i);
+  } else if (across && gg_is_last(e, f, 1, node->cell[1] + (step.up ? (int)(node->neighbours >> 1 & 1) : 0), step.up)) {
+    gg_come_through(e, f, i, step.up);
     return;
   } else {
-    gg_check_memory(e, gg_shared_cross(e, f, &s, axis, up));
+    gg_check_memory(e, gg_shared_cross(e, f, &s, step));
   }
   gg_scan_near(e, f, &s);
   gg_schedule(e, f, &s);
