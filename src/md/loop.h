@@ -231,6 +231,21 @@ GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
     for (uint32_t m = 1; m <= 8; m++) __builtin_prefetch(&e->grain[m <= cell[0] ? cell[m] : i]);
 }
 
+/* Of a grain that will come into another cell, should the cache hold it all: from its outer level into the inner. */
+GG_INLINE void gg_prefetch_step(const gg_md *e, gg_features f, uint32_t i)
+{
+  const gg_node *node = &e->node[i];
+  const gg_cells *c = &e->cells;
+  const int32_t *at = node->cell;
+  __builtin_prefetch(&e->grain[i]);
+  if (f.sheared && node->face == GG_SLIDE) return;
+  int axis = node->face >> 1, step = 2 * (node->face & 1) - 1;
+  const uint32_t *part = c->part[axis] + at[axis];
+  uint32_t own = c->part[0][at[0]] + c->part[1][at[1]] + c->part[2][at[2]], next = own + part[step] - part[0];
+  __builtin_prefetch(c->cell + (size_t)own * c->stride);
+  __builtin_prefetch(c->cell + (size_t)next * c->stride);
+}
+
 /* Bring what the events of a new bucket will read into the cache while the first of them are handled. */
 GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
 {
@@ -264,7 +279,10 @@ GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
 GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
 {
   uint32_t n = e->queue.n_due;
-  if (gg_is_cached(e, f)) return;
+  if (gg_is_cached(e, f)) {
+    if (f.shared && n >= 2) gg_prefetch_step(e, f, e->queue.due[n - 2].grain);
+    return;
+  }
   if (f.listed) gg_prefetch_neighbours(e, f);
   if (f.shared && n >= 2) gg_prefetch_shared(e, e->queue.due[n - 2].grain, true);
 }
