@@ -232,8 +232,8 @@ GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
   return (gg_batch){one[0], one[1], one[2], one[3], two[0], two[1], two[2], two[3]};
 }
 
-/* gg_contact_delay, eight times, in two steps. First about when, to GG_ABOUT of the delay (INFINITY: never): without the
- * square root and the division, which take longer than all the rest. Then exactly, for the earliest. */
+/* gg_contact_delay, eight times, in two steps. First about when, to GG_ABOUT of the delay (INFINITY: never): without
+ * the square root and the division, which take longer than all the rest. Then exactly, for the earliest. */
 #define GG_ABOUT 0x1p-9
 
 typedef struct gg_quadratic {
