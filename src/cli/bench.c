@@ -43,21 +43,6 @@ int gg_bench_density_column(gg_bench_sheet *sheet, double phi)
   return gg_table_column(sheet->table, head, true);
 }
 
-gg_bench_sheet *gg_bench_start_ratios(gg_bench *b, const char *caption, const gg_bench_feature *features, int n,
-                                      gg_error *err)
-{
-  gg_bench_sheet *sheet = gg_bench_new_sheet(b, "ratios", caption, 2, err);
-  if (!sheet) return NULL;
-  gg_table_column(sheet->table, "scene", false);
-  gg_table_column(sheet->table, "against", false);
-  for (int k = 0; k < n; k++) {
-    int row = gg_table_row(sheet->table);
-    gg_bench_cell(sheet, row, 0, "%s", features[k].name);
-    if (features[k].against != k) gg_bench_cell(sheet, row, 1, "%s", features[features[k].against].name);
-  }
-  return sheet;
-}
-
 void gg_bench_tell(const gg_bench *b, const char *format, ...)
 {
   if (b->options->quiet) return;

@@ -41,9 +41,22 @@ typedef struct gg_bench_feature {
   const char *name;
   int against;
 } gg_bench_feature;
-/* A sheet "ratios" with a row for each. */
-gg_bench_sheet *gg_bench_start_ratios(gg_bench *b, const char *caption, const gg_bench_feature *features, int n,
-                                      gg_error *err);
+/* What both engines' benches have: densities side by side. Quick: fewer sizes, shorter stretches. */
+typedef struct gg_bench_grid {
+  const double *densities;
+  int n_densities;
+  gg_contender (*scene)(const gg_bench *b, int kind, double phi, int64_t n); /* kind 0: the plain one */
+  double (*warmup)(int64_t n, bool quick);                                   /* collisions per grain */
+} gg_bench_grid;
+/* bench_grid.c: the plain scene by size, a column a density; `note` fills a cell and adds a row. */
+typedef void gg_bench_note_rate(gg_bench_sheet *sheet, int row, int column, double phi, int64_t n,
+                                const gg_throughput *t);
+gg_status gg_bench_rates(gg_bench *b, gg_bench_sheet *sheet, const gg_bench_grid *grid, const int64_t *sizes,
+                         int n_sizes, gg_bench_note_rate *note, gg_error *err);
+/* Scenes with a feature against those without, at one size; a row each. */
+typedef void gg_bench_note_ratio(gg_bench_sheet *sheet, int column, double phi, int64_t n, int kind, const gg_race *r);
+gg_status gg_bench_ratios(gg_bench *b, const char *caption, const gg_bench_grid *grid, const gg_bench_feature *features,
+                          int n_features, int64_t n, double seconds, gg_bench_note_ratio *note, gg_error *err);
 /* Progress on standard error, a line each, unless --quiet. */
 void gg_bench_tell(const gg_bench *b, const char *format, ...) GG_PRINTF(2, 3);
 /* The defaults with this bench's seed. */

@@ -19,9 +19,11 @@ typedef enum gg_dsmc_kind {
   GG_DSMC_KINDS
 } gg_dsmc_kind;
 
+/* bench_dsmc_scenes.c */
 extern const gg_bench_feature gg_dsmc_features_timed[GG_DSMC_KINDS];
 
-gg_contender gg_bench_dsmc_contender(const gg_bench *b, gg_dsmc_kind kind, double phi, int64_t n);
+/* The scene of a gg_dsmc_kind. */
+gg_contender gg_bench_dsmc_contender(const gg_bench *b, int kind, double phi, int64_t n);
 
 /* bench_dsmc_precision.c: a sheet of its own. */
 gg_status gg_bench_dsmc_precision(gg_bench *b, gg_error *err);

@@ -106,27 +106,6 @@ static double warmup_of(int64_t n, bool quick)
   return n >= 1000000 ? 5 : quick ? 10 : 30;
 }
 
-static gg_status rates(gg_bench *b, gg_error *err)
-{
-  bool quick = b->options->quick;
-  gg_bench_sheet *sheet = gg_bench_new_sheet(b, "collisions", rates_caption, 1, err);
-  if (!sheet) return GG_FAILED;
-  gg_table_column(sheet->table, "N", true);
-  for (int d = 0; d < N_DENSITIES; d++) gg_bench_density_column(sheet, densities[d]);
-  for (int i = 0; i < (quick ? QUICK_SIZES : N_SIZES); i++) {
-    int row = gg_table_row(sheet->table);
-    gg_bench_cell(sheet, row, 0, "%lld", (long long)sizes[i]);
-    for (int d = 0; d < N_DENSITIES; d++) {
-      gg_throughput t;
-      gg_scene s = elastic(b, densities[d], sizes[i]);
-      GG_TRY(gg_measure_throughput(&s, false, warmup_of(sizes[i], quick), quick ? 3 : 7, quick ? 0.3 : 1, &t, err));
-      note_rate(sheet, row, 1 + d, densities[d], sizes[i], &t);
-      gg_bench_tell(b, "phi %g N %lld: %.3g M/s", densities[d], (long long)sizes[i], t.rate * 1e-6);
-    }
-  }
-  return GG_OK;
-}
-
 static void note_ratio(gg_bench_sheet *sheet, int column, double phi, int64_t n, int kind, const gg_race *r)
 {
   const char *against = scenes[scenes[kind].against].name;
@@ -138,26 +117,12 @@ static void note_ratio(gg_bench_sheet *sheet, int column, double phi, int64_t n,
                                                "unit", "collisions per CPU-second"));
 }
 
-static gg_status ratios(gg_bench *b, gg_error *err)
-{
-  bool quick = b->options->quick;
-  int64_t n = quick ? 2000 : 10000;
-  gg_bench_sheet *sheet = gg_bench_start_ratios(b, ratios_caption, scenes, N_SCENES, err);
-  if (!sheet) return GG_FAILED;
-  for (int d = 0; d < N_DENSITIES; d++) {
-    int column = gg_bench_density_column(sheet, densities[d]);
-    gg_contender c[N_SCENES];
-    gg_race r[N_SCENES];
-    for (int k = 0; k < N_SCENES; k++) c[k] = contender(b, k, densities[d], n);
-    GG_TRY(gg_measure_race(c, N_SCENES, warmup_of(n, quick), quick ? 5 : 9, quick ? 0.1 : 0.5, r, err));
-    for (int k = 0; k < N_SCENES; k++) note_ratio(sheet, column, densities[d], n, k, &r[k]);
-    gg_bench_tell(b, "ratios at phi %g N %lld done", densities[d], (long long)n);
-  }
-  return GG_OK;
-}
-
 gg_status gg_bench_md(gg_bench *b, gg_error *err)
 {
-  GG_TRY(rates(b, err));
-  return ratios(b, err);
+  bool quick = b->options->quick;
+  const gg_bench_grid grid = {densities, N_DENSITIES, contender, warmup_of};
+  gg_bench_sheet *sheet = gg_bench_new_sheet(b, "collisions", rates_caption, 1, err);
+  if (!sheet) return GG_FAILED;
+  GG_TRY(gg_bench_rates(b, sheet, &grid, sizes, quick ? QUICK_SIZES : N_SIZES, note_rate, err));
+  return gg_bench_ratios(b, ratios_caption, &grid, scenes, N_SCENES, quick ? 2000 : 10000, 0.5, note_ratio, err);
 }

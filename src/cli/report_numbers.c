@@ -51,7 +51,8 @@ static void put_row(listing *l, const gg_curve *c, const gg_curve_number *number
     column++;
   }
   if (l->result[0] && l->result[1]) {
-    double z = by[0] && by[1] ? (by[0]->value - by[1]->value) / hypot(by[0]->error, by[1]->error) : NAN;
+    bool both = by[0] && by[1] && !number->setting;
+    double z = both ? (by[0]->value - by[1]->value) / hypot(by[0]->error, by[1]->error) : NAN;
     if (isfinite(z)) snprintf(gg_table_cell(l->table, row, column), GG_TABLE_CELL, "%+.1f", z);
   }
 }
@@ -83,7 +84,7 @@ void gg_print_numbers(const gg_result *one, const gg_result *two, bool all)
   if (l.table->n_rows) {
     printf("\n");
     gg_table_print(l.table, stdout, gg_terminal_width(), 2);
-    if (l.table->n_rows == GG_TABLE_ROWS) printf("... and more: see the result file or --json\n");
+    if (l.table->n_rows == GG_TABLE_ROWS) printf("... and more than fit here: see the result file or --json\n");
   }
   free(l.table);
 }

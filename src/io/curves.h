@@ -13,7 +13,8 @@
  * the last only where there is a law to see the curve beside. */
 json_t *gg_curves_json(const gg_curves *curves);
 
-/* GROUP/curves/<name>/ x, value, stderr; numbers/<name>: mean, stderr; units are attributes. */
+/* GROUP/curves/<name>/ x, value, stderr, reference if there is one; numbers/<name>: mean, stderr; units and the
+ * reference's label are attributes. */
 void gg_h5_write_curves(gg_h5 *h, const char *group, const gg_curves *curves);
 
 /* How many groups of curves an engine's document holds, and the k-th one's name. */

@@ -19,6 +19,16 @@ static void write_numbers(gg_h5 *h, const char *base, const gg_curve *c)
   }
 }
 
+static void write_reference(gg_h5 *h, const char *base, const gg_curve *c)
+{
+  char path[200];
+  hsize_t n = c->n;
+  snprintf(path, sizeof path, "%s/reference", base);
+  gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 1, &n, c->reference);
+  gg_h5_text_attribute(h, path, "unit", c->unit);
+  gg_h5_text_attribute(h, path, "label", c->reference_label);
+}
+
 static void write_curve(gg_h5 *h, const char *group, const gg_curve *c)
 {
   char base[160], path[200];
@@ -33,6 +43,7 @@ static void write_curve(gg_h5 *h, const char *group, const gg_curve *c)
     gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 1, &n, arrays[i].data);
     gg_h5_text_attribute(h, path, "unit", arrays[i].unit);
   }
+  if (c->reference) write_reference(h, base, c);
   gg_h5_text_attribute(h, base, "group", c->group);
   gg_h5_text_attribute(h, base, "x", c->x_name);
   gg_h5_text_attribute(h, base, "value", c->y_name);

@@ -60,7 +60,7 @@ void gg_plot_curves_size(const json_t *document, const char *group, int size[2])
   panel panels[MOST_PANELS];
   int n = panels_of(document, group, panels), columns = n ? columns_for(n) : 1;
   size[0] = columns == 1 ? 640 : 440 * columns;
-  size[1] = 50 + 370 * (n ? (n + columns - 1) / columns : 1);
+  size[1] = 50 + 378 * (n ? (n + columns - 1) / columns : 1);
 }
 
 static double at(const json_t *curve, const char *key, size_t i)
@@ -139,21 +139,32 @@ static void axis_label(FILE *s, char axis, const char *name, const char *raw)
     fprintf(s, "set %clabel '%s [%s]'\n", axis, name, unit);
 }
 
+/* Nothing but a frame: gnuplot makes no axes of no points. */
+static void draw_nothing(FILE *s)
+{
+  fprintf(s, "set xrange [0:1]\nset yrange [0:1]\nunset key\nset label 'not enough samples' at graph 0.5,0.5 center "
+             "textcolor rgb '#666666'\nplot NaN notitle\n");
+}
+
 static void draw_panel(FILE *s, const panel *p, gg_panel place)
 {
   const json_t *first = p->curve[0];
   gg_plot_place(s, place);
+  fprintf(s, "set label '%s' at graph 0,1.21 left\n", p->title);
+  axis_label(s, 'x', text_of(first, "x_name"), text_of(first, "x_unit"));
+  axis_label(s, 'y', text_of(first, "y_name"), text_of(first, "unit"));
   extent all = {{INFINITY, -INFINITY}, INFINITY, {INFINITY, -INFINITY}};
   for (int k = 0; k < p->n; k++) print_data(s, k, p->curve[k], &all);
+  if (!(all.x[0] < all.x[1])) {
+    draw_nothing(s);
+    return;
+  }
   bool law[MOST_IN_PANEL], any = false;
   for (int k = 0; k < p->n; k++) any |= law[k] = print_reference(s, k, p->curve[k], k ? p->curve[k - 1] : NULL, &all);
   if (all.least >= 0 && all.range[0] < 0.3 * all.range[1]) fprintf(s, "set yrange [0:*]\n");
   if (json_is_true(json_object_get(first, "log_x"))) fprintf(s, "set logscale x\n");
   if (json_is_true(json_object_get(first, "log_y")))
     fprintf(s, "set yrange [*:*]\nset logscale y\nset format y '10^{%%T}'\n");
-  axis_label(s, 'x', text_of(first, "x_name"), text_of(first, "x_unit"));
-  axis_label(s, 'y', text_of(first, "y_name"), text_of(first, "unit"));
-  fprintf(s, "set label '%s' at graph 0,1.21 left\n", p->title);
   fprintf(s, p->n > 1 || any ? "set key at graph 1.0,1.16 right top horizontal samplen 1\n" : "unset key\n");
   fprintf(s, "plot ");
   for (int k = 0; k < p->n; k++) {
@@ -175,7 +186,7 @@ void gg_plot_curves(FILE *s, const json_t *document, const char *group)
   int size[2], columns = columns_for(n), rows = (n + columns - 1) / columns;
   gg_plot_curves_size(document, group, size);
   double width = 1.0 / columns, head = 50.0 / size[1], height = (1 - head) / rows;
-  double left = columns == 1 ? 90.0 / size[0] : 80.0 / size[0], below = 58.0 / size[1], above = 62.0 / size[1];
+  double left = columns == 1 ? 90.0 / size[0] : 80.0 / size[0], below = 66.0 / size[1], above = 62.0 / size[1];
   for (int i = 0; i < n; i++) {
     double x = (i % columns) * width, y = 1 - head - (i / columns + 1) * height;
     draw_panel(s, &panels[i], (gg_panel){x + left, x + width - 20.0 / size[0], y + below, y + height - above});

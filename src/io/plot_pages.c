@@ -58,16 +58,19 @@ gg_status gg_plot_result_curves(const char *result_path, const char *picture, co
   size_t length = strlen(picture);
   bool png = format ? strcmp(format, "png") == 0 : length > 4 && strcmp(picture + length - 4, ".png") == 0;
   GG_TRY(gg_stored_result_read(&stored, result_path, err));
+  /* A page that fails keeps none of the others from being drawn; what is told is the first failure. */
   gg_status status = draw_snapshot(&stored, result_path, picture, png, drawn, context, err);
   for (int k = 0; k < 2; k++) {
     const gg_stored_engine *e = &stored.engine[k];
     const char *groups[MOST_GROUPS];
     int n = e->name ? gg_curve_groups(e->document, groups, MOST_GROUPS) : 0;
-    for (int i = 0; i < n && status == GG_OK; i++) {
+    for (int i = 0; i < n; i++) {
+      gg_error unheard, *told = status == GG_OK ? err : &unheard;
       char *name = page_name(picture, stored.comparison ? e->name : "", groups[i], png);
-      status =
-          name ? draw_page(&stored, e->document, groups[i], name, png, err) : gg_fail(err, GG_FAILED, "out of memory");
-      if (status == GG_OK && drawn) drawn(context, name);
+      gg_status page = name ? draw_page(&stored, e->document, groups[i], name, png, told)
+                            : gg_fail(told, GG_FAILED, "out of memory");
+      if (page == GG_OK && drawn) drawn(context, name);
+      if (status == GG_OK) status = page;
       free(name);
     }
   }

@@ -2,21 +2,9 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-gg_status gg_scene_refuse(const gg_scene_reader *r, const yaml_node_t *node, const char *key, const char *format, ...)
-{
-  char text[900];
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text, sizeof text, format, args);
-  va_end(args);
-  if (!r->lines) return gg_fail(r->err, GG_BAD_INPUT, "%s: %s", r->name, text);
-  return gg_fail(r->err, GG_BAD_INPUT, "%s:%zu: key '%.60s': %s", r->name, node->start_mark.line + 1, key, text);
-}
 
 /* The node as a message shows it. */
 static void show(const yaml_node_t *node, char *text, size_t size)

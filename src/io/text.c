@@ -24,8 +24,11 @@ void gg_format_estimate(double mean, double error, char *text, size_t size)
     snprintf(text, size, "-");
     return;
   }
-  bool exact = error < 1e-9 * fabs(mean); /* conserved: all its error is rounding */
-  if (!(error > 0) || !isfinite(error) || exact) {
+  if (!isfinite(error)) {
+    snprintf(text, size, "%.3g(?)", mean);
+    return;
+  }
+  if (error < 1e-9 * fabs(mean) || !(error > 0)) { /* conserved: all its error is rounding */
     snprintf(text, size, "%.6g", mean);
     return;
   }

@@ -5,7 +5,7 @@
 #include "run/result.h"
 
 /* Mean with its standard error in the last digits: "1.2340(41)", "123.4(1.2)", "5.1(3)e-05"; two digits of the error.
- * Without an error where it is none or mere rounding. */
+ * "1.23(?)" where the error is not known (NaN); without one where it is none or mere rounding. */
 void gg_format_estimate(double mean, double error, char *text, size_t size);
 /* A count with a unit prefix: "12.3 M". */
 void gg_format_count(double count, char *text, size_t size);

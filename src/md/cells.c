@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "md/lines.h"
+
 enum { FEWEST_WORDS = 8 };
 
 void gg_cells_count(const gg_box *box, double width, int32_t n[3])

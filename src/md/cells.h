@@ -14,9 +14,6 @@
 #include "common/error.h"
 #include "md/box.h"
 
-/* arrays.c: a zeroed array on cache lines, in huge pages if it is large. Released by free(). */
-void *gg_md_new_lines(size_t count, size_t size, gg_error *err);
-
 /* Fewest plain cells along a sheared box in which the nearest image of all that the cells around hold is the one that
  * is looked at. */
 enum { GG_FEWEST_SHEARED = 10 };

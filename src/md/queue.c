@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "md/cells.h"
+#include "md/lines.h"
 
 enum { FEWEST_BUCKETS = 64 };
 

@@ -86,14 +86,22 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   }
 }
 
-/* theta = K m <s.s>/3; about the spin of the vorticity. */
+/* Gaussian spins, exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever. To
+ * them comes the spin of the vorticity. */
 static void set_spins(gg_md *e, gg_rng *rng, double theta)
 {
+  double energy = 0;
   if (!e->spin) return;
   for (uint32_t i = 0; i < e->n; i++) {
     int k = gg_species_of(&e->grain[i]);
-    e->spin[i] = gg_scale(sqrt(theta / (e->model.inertia[k] * e->model.mass[k])), gg_rng_normal_vec(rng));
-    e->spin[i].z -= 0.25 * e->model.diameter[k] * e->model.shear_rate;
+    double inertia = e->model.inertia[k] * e->model.mass[k];
+    e->spin[i] = gg_scale(sqrt(theta / inertia), gg_rng_normal_vec(rng));
+    energy += inertia * gg_dot(e->spin[i], e->spin[i]);
+  }
+  double scale = energy > 0 ? sqrt(3 * e->n * theta / energy) : 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->spin[i] = gg_scale(scale, e->spin[i]);
+    e->spin[i].z -= 0.25 * e->model.diameter[gg_species_of(&e->grain[i])] * e->model.shear_rate;
   }
 }
 

@@ -235,6 +235,7 @@ static void put_averages(gg_curve *c, const gg_model *m, const double *T, double
                                           {"rotational_temperature_box", "rotational_temperature_slabs",
                                            "rotational_temperature_slabs_corrected", "rotational_temperature_cells",
                                            "rotational_temperature_cells_corrected"}};
+  if (m->flow == GG_HCS || !m->steady) return; /* no mean of what cools down or heats up */
   for (int k = 0; k < 5; k++) gg_curve_put_number(c, names[spins][k], T[k] / looks, gg_curve_unit(m, "temperature"));
 }
 
@@ -263,8 +264,9 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   c = put(list, "cell_shear_rate", "local shear rate, less the imposed", "h Δγ/√T", SIGNED_BINS,
           -SIGNED_BINS * SIGNED_WIDTH / 4 + SIGNED_WIDTH / 4, SIGNED_WIDTH / 2, bin + SHEAR, bin[N_SHEAR]);
   const char *rate = gg_curve_unit(m, "spin");
-  gg_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
-  gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / looks * d->n[1] / m->box[1], rate);
+  if (m->shear_rate != 0 || m->walled) gg_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
+  if (m->flow != GG_HCS && m->steady)
+    gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / looks * d->n[1] / m->box[1], rate);
   if (m->rule == GG_SMOOTH) return;
   c = put(list, "cell_rotational_temperature", "local rotational temperature", "θ_{cell}/θ", RATIO_BINS,
           RATIO_WIDTH / 2, RATIO_WIDTH, bin + ROTATIONAL, bin[N_ROTATIONAL]);

@@ -43,9 +43,9 @@ static void *create(const gg_model *m, gg_error *err)
   /* A time has a meaning where the temperature stays; under md's Gaussian thermostat the engine's clock is not that of
    * the gas. A path is known from the velocity at its end where nothing but shear changes it in flight. */
   bool other_clock = m->thermostat == GG_GAUSSIAN && !m->homogeneous;
-  d->has[TIME] = m->flow != GG_HCS && !m->small_shear && !other_clock;
+  d->has[TIME] = m->flow != GG_HCS && m->steady && !m->small_shear && !other_clock; /* else it changes with T */
   d->has[PATH] = m->flow != GG_HSS && !gg_flow_is_walled(m->flow);
-  d->has[LABORATORY] = d->has[PATH] && m->shear_rate != 0 && !m->homogeneous;
+  d->has[LABORATORY] = d->has[PATH] && m->steady && m->shear_rate != 0 && !m->homogeneous;
   return d;
 }
 
@@ -163,7 +163,8 @@ static void put_numbers(gg_curve *c, const gg_model *m, int kind, const double *
     gg_curve_put_number(c, "mean_free_time", mean, gg_curve_unit(m, "time"));
   } else {
     gg_curve_put_number(c, kind == PATH ? "mean_free_path" : "mean_free_path_laboratory", mean, length);
-    gg_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / cbrt(m->volume), "1");
+    if (!m->homogeneous) /* an ensemble without a box has no width */
+      gg_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / cbrt(m->volume), "1");
   }
   gg_curve_put_number(c, "second_moment_over_mean_squared", dispersion, "1");
 }
@@ -199,7 +200,7 @@ static double twice(double x, const double *none)
   return 2 * x;
 }
 
-static void put_angles(gg_curves *list, const double *bin)
+static void put_angles(const collisions *d, gg_curves *list, const double *bin)
 {
   static const char *const fabric[] = {"fabric_xx", "fabric_yy", "fabric_zz", "fabric_xy"};
   gg_curve *c = gg_curve_add(list, COS_BINS, "impact_cos", "impact angle", "");
@@ -209,7 +210,8 @@ static void put_angles(gg_curves *list, const double *bin)
     c->value[i] = bin[COSINES + i] * COS_BINS / bin[MEETINGS];
   }
   gg_curve_beside(c, "molecular chaos", twice, NULL);
-  c = gg_curve_add(list, PLANE_BINS, "collision_angle", "angle of k in the plane of shear", "");
+  c = gg_curve_add(list, PLANE_BINS, "collision_angle",
+                   d->model.shear_rate != 0 ? "angle of k in the plane of shear" : "angle of k in the plane xy", "");
   gg_curve_axes(c, "θ_c/π", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) / PLANE_BINS;
@@ -222,7 +224,7 @@ static void put_angles(gg_curves *list, const double *bin)
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const collisions *d = self;
-  put_angles(list, bin);
+  put_angles(d, list, bin);
   for (int kind = 0; kind < KINDS; kind++)
     for (int k = 0; k < d->model.n_species && d->has[kind]; k++)
       put_flight(d, list, kind, k, bin + ANGLES + (k * KINDS + kind) * FLIGHT);

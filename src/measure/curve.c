@@ -70,6 +70,13 @@ void gg_curve_put_number(gg_curve *c, const char *name, double value, const char
   snprintf(p->unit, sizeof p->unit, "%s", unit);
 }
 
+void gg_curve_put_setting(gg_curve *c, const char *name, double value, const char *unit)
+{
+  int n = c->n_numbers;
+  gg_curve_put_number(c, name, value, unit);
+  if (c->n_numbers > n) c->number[n].setting = true;
+}
+
 void gg_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const double *parameters)
 {
   if (!c->reference) c->reference = calloc(c->n + 1, sizeof(double));
@@ -163,7 +170,10 @@ static void put_errors(gg_curves *full, const gg_jackknife *j)
     for (size_t i = 0; i < c->n; i++)
       if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was ever counted: unknown, not exact */
     at += c->n;
-    for (int i = 0; i < c->n_numbers; i++, at++) gg_jackknife_errors(j, at, 1, &c->number[i].error);
+    for (int i = 0; i < c->n_numbers; i++, at++) {
+      gg_jackknife_errors(j, at, 1, &c->number[i].error);
+      if (c->number[i].setting) c->number[i].error = 0;
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 typedef struct gg_curve_number {
   char name[40], unit[40];
   double value, error;
+  bool setting; /* chosen, not measured: no error, and nothing to compare */
 } gg_curve_number;
 
 enum { GG_CURVE_NUMBERS = 16, GG_MOST_CURVES = 160 };
@@ -46,6 +47,7 @@ void gg_curves_clear(gg_curves *list);
 gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label);
 void gg_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit);
 void gg_curve_put_number(gg_curve *c, const char *name, double value, const char *unit);
+void gg_curve_put_setting(gg_curve *c, const char *name, double value, const char *unit);
 
 /* Draw a law beside the curve, whose x are in place: f(x, parameters). */
 typedef double gg_curve_law(double x, const double *parameters);

@@ -39,8 +39,8 @@ static void put_tail(gg_curve *c, const double *bin, double sigma, double sample
   gg_curve_put_number(c, "gamma", least.gamma, "1");
   gg_curve_put_number(c, "alpha_likelihood", likely.alpha, "1");
   gg_curve_put_number(c, "gamma_likelihood", likely.gamma, "1");
-  gg_curve_put_number(c, "fit_from", data.first, "1");
-  gg_curve_put_number(c, "fit_to", data.first + n * width, "1");
+  gg_curve_put_setting(c, "fit_from", data.first, "1");
+  gg_curve_put_setting(c, "fit_to", data.first + n * width, "1");
 }
 
 static double gaussian(double x, const double *none)

@@ -17,26 +17,53 @@ static int slab_of(const gg_local_frame *f, double y)
   return k < 0 ? 0 : k >= f->n_slabs ? f->n_slabs - 1 : k;
 }
 
-static void add_chunk(void *context, const gg_chunk *chunk)
-{
-  gg_local_frame *f = context;
-  for (size_t i = 0; i < chunk->n; i++) {
-    int k = slab_of(f, chunk->r[1][i]);
-    f->count[k]++;
-    for (int a = 0; a < 3; a++) f->mean[k][a] += chunk->c[a][i];
-  }
-}
-
-void gg_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *engine)
+static void start(gg_local_frame *f, const gg_model *model)
 {
   *f = (gg_local_frame){.n_slabs = slabs_of(model)};
   f->inverse_width = f->n_slabs / model->box[1];
-  engine->ops->snapshot(engine, true, add_chunk, f);
+}
+
+static void add(gg_local_frame *f, double y, gg_vec c)
+{
+  int k = slab_of(f, y);
+  f->count[k]++;
+  f->mean[k][0] += c.x, f->mean[k][1] += c.y, f->mean[k][2] += c.z;
+}
+
+static void settle(gg_local_frame *f)
+{
   for (int k = 0; k < f->n_slabs; k++) {
     double n = f->count[k];
     for (int a = 0; a < 3; a++) f->mean[k][a] = n > 0 ? f->mean[k][a] / n : 0;
     f->stretch[k] = n > 1 ? sqrt(n / (n - 1)) : 1;
   }
+}
+
+static void add_chunk(void *context, const gg_chunk *chunk)
+{
+  for (size_t i = 0; i < chunk->n; i++)
+    add(context, chunk->r[1][i], (gg_vec){chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]});
+}
+
+void gg_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *engine)
+{
+  start(f, model);
+  engine->ops->snapshot(engine, true, add_chunk, f);
+  settle(f);
+}
+
+void gg_local_frame_of_snapshot(gg_local_frame *f, const gg_snapshot *s)
+{
+  start(f, s->model);
+  for (size_t i = 0; i < s->n; i++) add(f, s->r[1][i], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]});
+  settle(f);
+}
+
+gg_vec gg_local_frame_velocity(const gg_local_frame *f, double y, gg_vec c)
+{
+  int k = slab_of(f, y);
+  gg_vec mean = {f->mean[k][0], f->mean[k][1], f->mean[k][2]};
+  return gg_scale(f->stretch[k], gg_sub(c, mean));
 }
 
 typedef struct shifting {
@@ -50,8 +77,9 @@ static void shift_chunk(void *context, const gg_chunk *chunk)
   const shifting *s = context;
   double c[3][GG_CHUNK];
   for (size_t i = 0; i < chunk->n; i++) {
-    int k = slab_of(s->frame, chunk->r[1][i]);
-    for (int a = 0; a < 3; a++) c[a][i] = (chunk->c[a][i] - s->frame->mean[k][a]) * s->frame->stretch[k];
+    gg_vec seen = {chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]};
+    seen = gg_local_frame_velocity(s->frame, chunk->r[1][i], seen);
+    c[0][i] = seen.x, c[1][i] = seen.y, c[2][i] = seen.z;
   }
   gg_chunk local = *chunk;
   for (int a = 0; a < 3; a++) local.c[a] = c[a];

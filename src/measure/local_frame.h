@@ -4,7 +4,7 @@
 #ifndef GG_LOCAL_FRAME_H
 #define GG_LOCAL_FRAME_H
 
-#include "common/engine.h"
+#include "measure/snapshot.h"
 
 enum { GG_MAX_SLABS = 128 };
 
@@ -16,6 +16,9 @@ typedef struct gg_local_frame {
 
 /* Measure the mean velocity of every slab now. */
 void gg_local_frame_take(gg_local_frame *frame, const gg_model *model, gg_engine *engine);
+
+void gg_local_frame_of_snapshot(gg_local_frame *frame, const gg_snapshot *snapshot);
+gg_vec gg_local_frame_velocity(const gg_local_frame *frame, double y, gg_vec c);
 
 /* Show every grain with its velocity in the local frame. */
 void gg_local_frame_snapshot(const gg_local_frame *frame, gg_engine *engine, gg_visit *visit, void *context);

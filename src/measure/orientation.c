@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "measure/local_frame.h"
 #include "measure/observable.h"
 
 enum { BINS = 50, COS = 0, SQUARE = BINS, SUM = 2 * BINS, COUNT, SET };
@@ -58,15 +59,19 @@ static gg_vec mean_spin(const gg_snapshot *s, int species)
   return gg_scale(n > 0 ? 1 / n : 0, sum);
 }
 
+/* Between walls peculiar velocities are about the flow of the slab; elsewhere they are what a snapshot holds. */
 static void look(void *self, const gg_snapshot *s, double *bin)
 {
   (void)self;
+  const gg_model *m = s->model;
   gg_vec mean[GG_MAX_SPECIES];
-  double shear = s->r[1] ? s->model->shear_rate : 0, middle = s->model->box[1] / 2;
-  for (int k = 0; k < s->model->n_species; k++) mean[k] = mean_spin(s, k);
+  gg_local_frame frame;
+  double shear = s->r[1] ? m->shear_rate : 0, middle = m->box[1] / 2;
+  for (int k = 0; k < m->n_species; k++) mean[k] = mean_spin(s, k);
+  if (m->walled) gg_local_frame_of_snapshot(&frame, s);
   for (size_t i = 0; i < s->n; i++) {
-    gg_vec c = at(s->c, i), w = at(s->s, i);
-    count(c, gg_sub(w, mean[gg_snapshot_species(s, i)]), bin);
+    gg_vec c = at(s->c, i), w = at(s->s, i), C = m->walled ? gg_local_frame_velocity(&frame, s->r[1][i], c) : c;
+    count(C, gg_sub(w, mean[gg_snapshot_species(s, i)]), bin);
     if (shear != 0) c.x += shear * (s->r[1][i] - middle);
     count(c, w, bin + SET);
   }
@@ -93,10 +98,12 @@ static double squares_of_uniform(double x, const double *width)
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   (void)self;
+  /* The sheared Monte Carlo ensemble has no places, and so no velocities but the peculiar ones. */
+  bool both = !list->model->homogeneous || list->model->shear_rate == 0;
   static const char *const names[2][2] = {{"orientation_cos", "orientation_cos2"},
                                           {"orientation_cos_instantaneous", "orientation_cos2_instantaneous"}};
   static const char *const labels[] = {"peculiar", "instantaneous"};
-  for (int k = 0; k < 2; k++, bin += SET) {
+  for (int k = 0; k < 1 + both; k++, bin += SET) {
     gg_curve *c = histogram(list, names[k][0], "P(cos Ψ)", labels[k], bin + COS, bin[COUNT], -1, 1);
     gg_curve_axes(c, "cos Ψ", "1", "P", "1");
     gg_curve_beside(c, "no correlation", gg_level, &(double){0.5});

@@ -136,7 +136,7 @@ static void put_contact(const pair_correlation *d, gg_curve *c, const double *bi
   int n = d->bins < FIT_BINS ? d->bins : FIT_BINS;
   for (int i = 0; i < n; i++) counts[i] = bin[i] * samples;
   gg_curve_put_number(c, "contact_value", n > 4 ? extrapolate(c->value, counts, n) : NAN, "1");
-  if (m->n_species > 1 || m->flow == GG_HCS) return;
+  if (m->n_species > 1 || m->flow == GG_HCS || !m->steady) return;
   double rate = 2 * extra[COLLISIONS] / ((double)m->n * extra[TIME]), T = extra[TEMPERATURE] / extra[LOOKS];
   gg_curve_put_number(c, "contact_value_of_rate", rate / (4 * m->density * sqrt(M_PI * T)), "1");
 }

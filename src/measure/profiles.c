@@ -135,21 +135,29 @@ static const struct {
     {"profile_spin_z", "spin", "ω_z", "spin", spin, true},
 };
 
-/* Velocity of the gas next to a wall (the straight line through its outermost three slabs with grains, at the height
- * of a grain that touches), over that of the wall. */
-static void put_slip(const gg_model *m, gg_curve *c)
+/* Velocity of the gas next to a wall, over that of the wall: the straight line through the outermost three slabs with
+ * grains, at the height of a grain that touches. Centres are only beyond that height: the outermost slab stands for the
+ * part of it where they can be, and every slab counts by its grains. */
+static void put_slip(const gg_model *m, const double *bin, gg_curve *c)
 {
+  double height = m->box[1] / (double)c->n;
   for (int upper = 0; upper < 2; upper++) {
-    double touch = upper ? m->box[1] - 0.5 : 0.5, x[3], y[3];
+    double from_wall[3], u[3], grains[3], all = 0, mx = 0, mu = 0, xx = 0, xu = 0;
     int n = 0;
     for (size_t i = 0; i < c->n && n < 3; i++) {
       size_t k = upper ? c->n - 1 - i : i;
-      if (isfinite(c->value[k])) x[n] = c->x[k], y[n++] = c->value[k];
+      if (!isfinite(c->value[k])) continue;
+      from_wall[n] = 0.5 * (fmax((double)i * height, 0.5) + (double)(i + 1) * height);
+      grains[n] = bin[k * SLAB + GRAINS], u[n++] = c->value[k];
     }
     if (n < 3) continue;
-    double mx = (x[0] + x[1] + x[2]) / 3, my = (y[0] + y[1] + y[2]) / 3, xx = 0, xy = 0;
-    for (int k = 0; k < 3; k++) xx += (x[k] - mx) * (x[k] - mx), xy += (x[k] - mx) * (y[k] - my);
-    double slip = (upper ? 1 : -1) * m->wall_speed - (my + xy / xx * (touch - mx));
+    for (int k = 0; k < 3; k++) all += grains[k], mx += grains[k] * from_wall[k], mu += grains[k] * u[k];
+    mx /= all, mu /= all;
+    for (int k = 0; k < 3; k++) {
+      xx += grains[k] * (from_wall[k] - mx) * (from_wall[k] - mx);
+      xu += grains[k] * (from_wall[k] - mx) * (u[k] - mu);
+    }
+    double slip = (upper ? 1 : -1) * m->wall_speed - (mu + xu / xx * (0.5 - mx));
     gg_curve_put_number(c, upper ? "slip_upper" : "slip_lower", slip, gg_curve_unit(m, "velocity"));
   }
 }
@@ -183,7 +191,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
       c->value[i] = at[GRAINS] > 0 || table[t].of == solid_fraction ? table[t].of(at, volume) : NAN;
     }
     if (table[t].of != velocity) continue;
-    put_slip(m, c);
+    put_slip(m, bin, c);
     put_wall_stress(m, bin + d->slabs * SLAB, c);
   }
 }

@@ -1,6 +1,6 @@
 /* Spatial velocity correlations G(r) = <zeta_a(R) zeta_b(R + r)>/<zeta_a^2>: C with C and Omega with Omega by
  * component, C_x with Omega_z (over the root of both), over all directions, and within half a diameter of the axes.
- * Without correlations G = -1/(N-1), for the total momentum is 0. Spins are about their mean, by species. */
+ * Without correlations G is a little below 0, for the total momentum is 0. Spins are about their mean, by species. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -121,6 +121,18 @@ static void look(void *self, const gg_snapshot *s, double *bin)
     }
 }
 
+/* In equilibrium without momentum <C_i C_j> = -T/M for any two of total mass M, and <C_i^2> = T (1/m_i - 1/M): over all
+ * pairs and grains -1/(M <1/m> - 1), which is -1/(N - 1) for one species. Spins, about their mean by species: that. */
+static double of_no_momentum(const gg_model *m)
+{
+  double mass = 0, inverse = 0;
+  for (int k = 0; k < m->n_species; k++) {
+    mass += (double)m->n_of[k] * m->mass[k];
+    inverse += (double)m->n_of[k] / m->mass[k] / (double)m->n;
+  }
+  return -1 / (mass * inverse - 1);
+}
+
 /* One curve from a channel of `width`-wide bins, from the first bin that can hold a pair. */
 static void put(const correlations *d, gg_curves *list, const char *name, const char *panel, const char *label,
                 const double *bin, int width, int channel, double norm)
@@ -135,8 +147,8 @@ static void put(const correlations *d, gg_curves *list, const char *name, const 
     c->x[i] = ((double)i + first + 0.5) * SPACING;
     c->value[i] = at[COUNT] > 0 ? at[channel] / (at[COUNT] * norm) : NAN;
   }
-  gg_curve_beside(c, "uncorrelated", gg_level,
-                  &(double){strchr(name, 'W') ? 0 : -1 / ((double)m->n - 1)}); /* momentum: 0 */
+  double level = strstr(name, "CxW") ? 0 : strchr(name, 'W') ? -1 / ((double)m->n - 1) : of_no_momentum(m);
+  gg_curve_beside(c, "uncorrelated", gg_level, &level);
 }
 
 static void put_radial(const correlations *d, const double *bin, const double *square, gg_curves *list)

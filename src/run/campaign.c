@@ -140,6 +140,17 @@ static bool checkpoints(const gg_campaign *c)
   return c->scene.output.checkpoint_every > 0 && c->hooks && c->hooks->checkpoint;
 }
 
+static bool out_of_time(const gg_campaign *c)
+{
+  return c->plan.time_limit > 0 && c->state.wall + gg_wall_now() - c->started > c->plan.time_limit;
+}
+
+/* Is there no point in going on, whatever was asked? */
+static bool is_over(const gg_campaign *c)
+{
+  return out_of_time(c) || c->state.standstill > 0;
+}
+
 /* Let every replica reach `due` samples, in short rounds with a word to the user and a checkpoint between them. */
 static gg_status go_to(gg_campaign *c, uint64_t due, gg_error *err)
 {
@@ -151,17 +162,13 @@ static gg_status go_to(gg_campaign *c, uint64_t due, gg_error *err)
     gg_status status = sample_all(c, !c->state.averaging || c->model.flow == GG_HCS || !c->model.steady, err);
     if (status == GG_INTERRUPTED && checkpoints(c)) GG_TRY(store_checkpoint(c, NULL));
     if (status != GG_OK) return status;
+    gg_campaign_look_for_standstill(c);
     tell_progress(c);
     if (checkpoints(c) && gg_wall_now() - c->last_checkpoint > c->scene.output.checkpoint_every)
       GG_TRY(store_checkpoint(c, err));
-    if (c->plan.time_limit > 0 && c->state.wall + gg_wall_now() - c->started > c->plan.time_limit) return GG_OK;
+    if (is_over(c)) return GG_OK;
   }
   return GG_OK;
-}
-
-static bool out_of_time(const gg_campaign *c)
-{
-  return c->plan.time_limit > 0 && c->state.wall + gg_wall_now() - c->started > c->plan.time_limit;
 }
 
 /* A window of this length that still drifts is given up, and averaging begins anew after it; but not for ever. */
@@ -209,11 +216,11 @@ gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
 {
   if (!c->state.averaging) {
     GG_TRY(go_to(c, c->plan.warmup, err));
-    if (!out_of_time(c)) GG_TRY(open_window(c, err));
+    if (!is_over(c)) GG_TRY(open_window(c, err));
   }
-  while (!out_of_time(c)) {
+  while (!is_over(c)) {
     GG_TRY(go_to(c, c->state.goal, err));
-    if (c->state.due < c->state.goal) break; /* out of time on the way */
+    if (c->state.due < c->state.goal) break; /* over on the way */
     uint64_t window = c->state.due - c->state.window_at;
     gg_judgement j;
     GG_TRY(gg_campaign_judge(c, &j, err));
@@ -226,5 +233,5 @@ gg_status gg_campaign_execute(gg_campaign *c, gg_error *err)
       c->state.goal = c->state.window_at + next_length(c, window);
     }
   }
-  return checkpoints(c) ? store_checkpoint(c, err) : GG_OK; /* the time limit struck */
+  return checkpoints(c) ? store_checkpoint(c, err) : GG_OK; /* over before its time */
 }

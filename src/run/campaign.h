@@ -29,14 +29,16 @@ typedef struct gg_campaign {
   int threads, n;
   gg_replica *replicas;
   const gg_hooks *hooks;
-  struct gg_campaign_state { /* plain data: saved as bytes */
-    int64_t averaging;       /* 0: warm-up */
-    uint64_t due;            /* samples that every replica is to have taken */
-    uint64_t window_at;      /* samples when the window was opened */
-    uint64_t goal;           /* samples at which the window is judged next */
-    uint64_t restarts;       /* windows given up for drift */
-    int64_t exact;           /* at the last judgement, errors were as small as asked */
-    double wall;             /* seconds used before this process */
+  struct gg_campaign_state {                      /* plain data: saved as bytes */
+    int64_t averaging;                            /* 0: warm-up */
+    uint64_t due;                                 /* samples that every replica is to have taken */
+    uint64_t window_at;                           /* samples when the window was opened */
+    uint64_t goal;                                /* samples at which the window is judged next */
+    uint64_t restarts;                            /* windows given up for drift */
+    int64_t exact;                                /* at the last judgement, errors were as small as asked */
+    double wall;                                  /* seconds used before this process */
+    uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began (standstill.c) */
+    double standstill; /* share of contacts that last, if there was little else; 0: the grains move */
   } state;
   gg_judgement last;
   double started, last_checkpoint; /* clock readings */
@@ -51,6 +53,9 @@ void gg_campaign_clear(gg_campaign *c);
 
 gg_status gg_campaign_save(const gg_campaign *c, gg_archive *archive, gg_error *err);
 gg_status gg_campaign_restore(gg_campaign *c, const gg_archive *archive, gg_error *err);
+
+/* standstill.c: under gravity, have the grains come to rest? Tells c->state.standstill. */
+void gg_campaign_look_for_standstill(gg_campaign *c);
 
 /* Judge the window; with `final`, against everything watched. */
 gg_status gg_campaign_judge(gg_campaign *c, gg_judgement *j, gg_error *err);

@@ -114,6 +114,9 @@ static void report_verdict(const gg_campaign *c, const gg_judgement *j, gg_resul
   if (!c->model.steady && !c->model.small_shear) {
     result->verdict = GG_HEATING;
     snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
+  } else if (c->state.standstill > 0) {
+    snprintf(text, size, "the grains have come to rest or nearly so: %.0f %% of collisions are contacts that last",
+             100 * c->state.standstill);
   } else if (!c->state.averaging) {
     snprintf(text, size, "the run ended in its warm-up");
   } else if (j->drifting) {
@@ -187,6 +190,11 @@ static gg_status judge_end(const gg_campaign *c, const gg_judgement *j, gg_error
   const char *engine = c->replicas[0].engine->ops->name;
   uint64_t window = c->state.averaging ? c->state.due - c->state.window_at : 0;
   bool by_error = c->plan.relative_error > 0;
+  if (c->state.standstill > 0)
+    return gg_fail(err, GG_FAILED,
+                   "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
+                   "last, and fall under the contact-time rule; hard spheres need a flow",
+                   engine, 100 * c->state.standstill);
   if (!c->state.averaging || (!by_error && c->plan.most && window < c->plan.most))
     return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
                    (double)c->state.due * GG_SAMPLE_SPACING,

@@ -76,6 +76,22 @@ def test_h5py_opens_a_comparison():
         check(lun["pressure/mean"][()] == d["theory"]["lun1991"]["pressure"]["mean"] and lun.attrs["citation"])
 
 
+def test_h5py_opens_curves():
+    """Curves and the laws beside them are what the JSON holds; a curve without a law has none in the file, either."""
+    (h5py,) = modules("h5py")
+    d = json.loads(run("run", "scene.yaml", "--json", "--set", "measure=[rheology,collisions,diffusion]", scene=SCENE).out)
+    with h5py.File("scene.h5") as f:
+        laws = 0
+        for name, curve in d["curves"].items():
+            group, law = f["graingas/curves"][name], curve.get("reference")
+            check(list(group["x"][:]) == curve["x"] and group["x"].attrs["unit"] == curve["x_unit"], name)
+            check(("reference" in group) == bool(law), name)
+            if law:
+                laws += 1
+                check(list(group["reference"][:]) == law["value"] and group["reference"].attrs["label"] == law["label"], name)
+        check(0 < laws < len(d["curves"]), laws)
+
+
 def test_mdanalysis():
     (mda, h5py) = modules("MDAnalysis", "h5py")
     for command in "run", "compare":

@@ -35,6 +35,22 @@ static void energy_is_kept(void **state)
   assert_true(drift(0.3, 1, 0.1, 1000) > 1e-3); /* sliding does lose energy: the test can see it */
 }
 
+/* A start has exactly the asked temperatures, whatever the seed: perfectly rough grains keep the sum for ever. */
+static void starts_are_exact(void **state)
+{
+  (void)state;
+  const int64_t sizes[] = {9, 1000};
+  for (int i = 0; i < 2; i++)
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+      gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.1, 1, 1, sizes[i]);
+      gg_model m = lab_model(&s);
+      m.ratio0 = 0.3;
+      gg_engine *g = lab_engine(&m, seed);
+      assert_true(fabs(energy(g, &m) / (3 * (double)sizes[i] * m.temperature0 * 1.3) - 1) < 1e-12);
+      gg_dsmc_ops.destroy(g);
+    }
+}
+
 static void momentum_stays_at_rounding(void **state)
 {
   (void)state;
@@ -74,6 +90,6 @@ static void tap_accounts_for_the_loss(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(energy_is_kept), cmocka_unit_test(momentum_stays_at_rounding),
-                                     cmocka_unit_test(tap_accounts_for_the_loss)};
+                                     cmocka_unit_test(starts_are_exact), cmocka_unit_test(tap_accounts_for_the_loss)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,7 +31,8 @@ static void estimates(void **state)
   assert_estimate(0, 0.0012, "0.0000(12)");
   assert_estimate(0.1, 0.3, "0.10(30)");
   assert_estimate(2.5, 0, "2.5");
-  assert_estimate(2.5, NAN, "2.5");
+  assert_estimate(2.5, NAN, "2.5(?)");
+  assert_estimate(2.5, 0, "2.5");
   assert_estimate(0.50000000000005, 2.3e-13, "0.5");
   assert_estimate(NAN, NAN, "-");
 }

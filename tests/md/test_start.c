@@ -24,7 +24,7 @@ static void check_start(md_case c)
   }
   assert_true(sqrt(gg_dot(p, p)) < 1e-11 * sqrt(T) * e->n);
   assert_true(fabs(T / m.temperature0 - 1) < 1e-12);
-  if (e->spin) assert_true(fabs(theta / (m.ratio0 * T) - 1) < 5 / sqrt(1.5 * e->n));
+  if (e->spin) assert_true(fabs(theta / (m.ratio0 * T) - 1) < 1e-12);
   md_destroy(e);
 }
 

@@ -70,7 +70,7 @@ static void planted(void **state)
 static void mixture(void **state)
 {
   (void)state;
-  gg_model m = ct_model(GG_HCS, 0.1, 0, 4000, 2);
+  gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
   gg_curves list = ct_curves(&gg_cells, &m, 96, thrown, 82);
   const gg_curve *T = ct_find(&list, "cell_temperature");
   double raw = ct_number(T, "temperature_cells").value;

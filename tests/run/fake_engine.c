@@ -69,7 +69,9 @@ static void read_tap(gg_engine *base, gg_transfer *t)
 static void state(const gg_engine *base, gg_engine_state *s)
 {
   const fake_engine *e = (const fake_engine *)base;
-  *s = (gg_engine_state){.time = e->now.time, .collisions = e->now.collisions};
+  *s = (gg_engine_state){.time = e->now.time,
+                         .collisions = e->now.collisions,
+                         .treated = (uint64_t)(fake.treated * (double)e->now.collisions)};
 }
 
 /* Half the grains move one way, half the other, along each axis: <C_a^2> = T exactly, and so for the spins. */

@@ -11,6 +11,7 @@ typedef struct fake_plan {
   double relaxation; /* of theta, collisions per grain */
   double noise;      /* relative, of T and theta: autoregressive over 10 collisions per grain */
   double drift;      /* relative growth of T per collision per grain */
+  double treated;    /* share of collisions under the contact-time rule */
   double seconds;    /* wall time that an advance takes */
 } fake_plan;
 

@@ -55,6 +55,27 @@ static void planted_means(void **state)
   gg_result_free(r);
 }
 
+/* Under gravity a run ends, and says why, when nearly all collisions are contacts that last; in the flow before, and
+ * without gravity, it goes on. */
+static void standstill(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0);
+  s.run.relative_error = 0.002;
+  const struct {
+    double gravity, treated;
+    gg_status status;
+  } cases[] = {{-1, 0.8, GG_OK}, {0, 0.97, GG_OK}, {-1, 0.97, GG_FAILED}};
+  for (int i = 0; i < 3; i++) {
+    s.gravity[1] = cases[i].gravity;
+    fake.treated = cases[i].treated;
+    gg_result *r = run(&s, cases[i].status);
+    assert_int_equal(r->verdict, cases[i].status == GG_OK ? GG_STEADY : GG_NOT_STEADY);
+    assert_int_equal(strstr(r->verdict_text, "97 % of collisions") != NULL, cases[i].status != GG_OK);
+    gg_result_free(r);
+  }
+}
+
 /* Spins that need ten times longer than the rule says are noticed from the data: averaging starts anew until they
  * stand. */
 static void slow_relaxation(void **state)
@@ -351,7 +372,7 @@ int main(void)
       cmocka_unit_test(endless_drift), cmocka_unit_test(heating),         cmocka_unit_test(ends),
       cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(other_scene),
       cmocka_unit_test(trajectory),    cmocka_unit_test(time_limit),      cmocka_unit_test(comparison),
-      cmocka_unit_test(agreement),
+      cmocka_unit_test(agreement),     cmocka_unit_test(standstill),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

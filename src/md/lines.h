@@ -1,0 +1,12 @@
+/* Memory for what events jump all over. */
+#ifndef GG_MD_LINES_H
+#define GG_MD_LINES_H
+
+#include <stddef.h>
+
+#include "common/error.h"
+
+/* A zeroed array on cache lines, in huge pages if it is large. Released by free(). */
+void *gg_md_new_lines(size_t count, size_t size, gg_error *err);
+
+#endif
