@@ -61,10 +61,9 @@ GG_INLINE gg_v8 gg_smaller8(gg_v8 x, gg_v8 y)
 {
   return (gg_v8)_mm512_min_pd((__m512d)x, (__m512d)y);
 }
-/* Add y where the mask is set. */
-GG_INLINE gg_v8 gg_add_where(gg_k8 mask, gg_v8 x, gg_v8 y)
+GG_INLINE gg_v8 gg_larger8(gg_v8 x, gg_v8 y)
 {
-  return (gg_v8)_mm512_mask_add_pd((__m512d)x, mask, (__m512d)x, (__m512d)y);
+  return (gg_v8)_mm512_max_pd((__m512d)x, (__m512d)y);
 }
 GG_INLINE bool gg_any8(gg_k8 mask)
 {
@@ -103,9 +102,9 @@ GG_INLINE gg_v8 gg_smaller8(gg_v8 x, gg_v8 y)
 {
   return gg_choose(x < y, x, y);
 }
-GG_INLINE gg_v8 gg_add_where(gg_k8 mask, gg_v8 x, gg_v8 y)
+GG_INLINE gg_v8 gg_larger8(gg_v8 x, gg_v8 y)
 {
-  return gg_choose(mask, x + y, x);
+  return gg_choose(x > y, x, y);
 }
 GG_INLINE bool gg_any8(gg_k8 mask)
 {
@@ -135,11 +134,16 @@ GG_INLINE gg_v8 gg_nearest8(gg_v8 x)
   return (x + shift) - shift;
 }
 
-/* Into the nearest image, for separations below one and a half edges: as x - edge * gg_nearest(x/edge). */
-GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge)
+/* Into the nearest image: edge times a small whole number is exact, fused or not. */
+GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge, double inverse)
 {
-  gg_k8 above = gg_less8(gg_all(0.5 * edge), x), below = gg_less8(x, gg_all(-0.5 * edge));
-  return gg_add_where(below, gg_add_where(above, x, gg_all(-edge)), gg_all(edge));
+#if defined(__AVX512F__)
+  gg_v8 shift = gg_all(0x1.8p52);
+  gg_v8 whole = (gg_v8)_mm512_fmadd_pd((__m512d)x, (__m512d)gg_all(inverse), (__m512d)shift) - shift;
+  return (gg_v8)_mm512_fnmadd_pd((__m512d)whole, (__m512d)gg_all(edge), (__m512d)x);
+#else
+  return x - edge * gg_nearest8(x * inverse);
+#endif
 }
 
 /* The least of eight, in all lanes. */
@@ -184,35 +188,52 @@ GG_INLINE uint32_t gg_pick8(uint32_t *to, const uint32_t *from, uint32_t but, gg
 #endif
 }
 
-/* Records are one cache line each: load the lines of eight grains and transpose. */
-GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
+/* Half a record. */
+typedef double gg_half __attribute__((vector_size(32), may_alias));
+
+/* Two halves side by side: so the loads do part of the transposition, which otherwise all falls to the one unit that
+ * shuffles. */
+GG_INLINE gg_v8 gg_side_by_side(const gg_half *one, const gg_half *two)
 {
-  gg_v8 a = *(const gg_line *)&grain[index[0]], b = *(const gg_line *)&grain[index[1]];
-  gg_v8 c = *(const gg_line *)&grain[index[2]], d = *(const gg_line *)&grain[index[3]];
-  gg_v8 e = *(const gg_line *)&grain[index[4]], f = *(const gg_line *)&grain[index[5]];
-  gg_v8 g = *(const gg_line *)&grain[index[6]], h = *(const gg_line *)&grain[index[7]];
+#if defined(__AVX512F__)
+  return (gg_v8)_mm512_insertf64x4(_mm512_castpd256_pd512((__m256d)*one), (__m256d)*two, 1);
+#else
+  return __builtin_shufflevector(*one, *two, 0, 1, 2, 3, 4, 5, 6, 7);
+#endif
+}
+
+/* Half `half` of eight records as columns. */
+GG_INLINE void gg_gather_half(const gg_grain *grain, const uint32_t *index, int half, gg_v8 column[4])
+{
+#define TWO(k, m) gg_side_by_side((const gg_half *)&grain[index[k]] + half, (const gg_half *)&grain[index[m]] + half)
+  gg_v8 a = TWO(0, 4), b = TWO(1, 5), c = TWO(2, 6), d = TWO(3, 7);
+#undef TWO
 #define EVEN(p, q) __builtin_shufflevector(p, q, 0, 8, 2, 10, 4, 12, 6, 14)
 #define ODD(p, q) __builtin_shufflevector(p, q, 1, 9, 3, 11, 5, 13, 7, 15)
 #define PAIR0(p, q) __builtin_shufflevector(p, q, 0, 1, 8, 9, 4, 5, 12, 13)
 #define PAIR1(p, q) __builtin_shufflevector(p, q, 2, 3, 10, 11, 6, 7, 14, 15)
-#define LOW(p, q) __builtin_shufflevector(p, q, 0, 1, 2, 3, 8, 9, 10, 11)
-#define HIGH(p, q) __builtin_shufflevector(p, q, 4, 5, 6, 7, 12, 13, 14, 15)
   gg_v8 ab0 = EVEN(a, b), ab1 = ODD(a, b), cd0 = EVEN(c, d), cd1 = ODD(c, d);
-  gg_v8 ef0 = EVEN(e, f), ef1 = ODD(e, f), gh0 = EVEN(g, h), gh1 = ODD(g, h);
-  gg_v8 p0 = PAIR0(ab0, cd0), p1 = PAIR0(ab1, cd1), p2 = PAIR1(ab0, cd0), p3 = PAIR1(ab1, cd1);
-  gg_v8 q0 = PAIR0(ef0, gh0), q1 = PAIR0(ef1, gh1), q2 = PAIR1(ef0, gh0), q3 = PAIR1(ef1, gh1);
-  return (gg_batch){LOW(p0, q0),  LOW(p1, q1),  LOW(p2, q2),  LOW(p3, q3),
-                    HIGH(p0, q0), HIGH(p1, q1), HIGH(p2, q2), HIGH(p3, q3)};
+  column[0] = PAIR0(ab0, cd0);
+  column[1] = PAIR0(ab1, cd1);
+  column[2] = PAIR1(ab0, cd0);
+  column[3] = PAIR1(ab1, cd1);
 #undef EVEN
 #undef ODD
 #undef PAIR0
 #undef PAIR1
-#undef LOW
-#undef HIGH
 }
 
-/* gg_contact_delay, eight times, in two steps. First about when, to GG_ABOUT of the delay (NAN: never): without the
- * square root and the division, which take longer than all the rest. Then exactly, for the earliest. */
+/* Records are one cache line each: load the lines of eight grains and transpose. */
+GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
+{
+  gg_v8 one[4], two[4];
+  gg_gather_half(grain, index, 0, one);
+  gg_gather_half(grain, index, 1, two);
+  return (gg_batch){one[0], one[1], one[2], one[3], two[0], two[1], two[2], two[3]};
+}
+
+/* gg_contact_delay, eight times, in two steps. First about when, to GG_ABOUT of the delay (INFINITY: never): without
+ * the square root and the division, which take longer than all the rest. Then exactly, for the earliest. */
 #define GG_ABOUT 0x1p-9
 
 typedef struct gg_quadratic {
@@ -258,9 +279,9 @@ GG_INLINE gg_k8 gg_meets8(gg_quadratic q)
 
 GG_INLINE gg_v8 gg_about8(gg_quadratic q)
 {
-  gg_v8 d = q.discriminant, least = gg_all(0x1p-1000);
-  gg_v8 t = q.c * gg_about_inverse8(d * gg_about_inverse_root8(gg_choose(gg_less8(d, least), least, d)) - q.b);
-  return gg_choose(gg_meets8(q), gg_choose(gg_less8(gg_all(0), t), t, gg_all(0)), gg_all(NAN));
+  gg_v8 d = gg_larger8(q.discriminant, gg_all(0x1p-1000));
+  gg_v8 t = q.c * gg_about_inverse8(d * gg_about_inverse_root8(d) - q.b);
+  return gg_choose(gg_meets8(q), gg_larger8(t, gg_all(0)), gg_all(INFINITY));
 }
 
 GG_INLINE gg_v8 gg_contact_delay8(gg_quadratic q)

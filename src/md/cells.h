@@ -7,6 +7,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 #include "common/error.h"
 #include "md/box.h"
 
@@ -49,6 +53,27 @@ GG_INLINE bool gg_cell_add(const gg_cells *c, const int32_t at[3], uint32_t grai
   if (cell[0] + 1 == c->stride) return false;
   cell[++cell[0]] = grain;
   return true;
+}
+
+/* One bit for each of sixteen words of an array that are `one`. */
+GG_INLINE uint32_t gg_words_equal16(const uint32_t *words, uint32_t one)
+{
+#if defined(__AVX512F__)
+  return _mm512_cmpeq_epi32_mask(_mm512_loadu_si512(words), _mm512_set1_epi32((int)one));
+#else
+  uint32_t equal = 0;
+  for (int k = 0; k < 16; k++) equal |= (uint32_t)(words[k] == one) << k;
+  return equal;
+#endif
+}
+
+/* Where a grain stands in a cell that it is in. What stands behind a cell's end may be anybody: the first place found
+ * is the one. */
+GG_INLINE uint32_t gg_cell_find(const uint32_t *cell, uint32_t grain)
+{
+  uint32_t found = gg_words_equal16(cell, grain) & ~1u, base = 0;
+  while (!found) found = gg_words_equal16(cell + (base += 16), grain);
+  return base + (uint32_t)__builtin_ctz(found);
 }
 
 GG_INLINE void gg_cell_remove(const gg_cells *c, const int32_t at[3], uint32_t grain)

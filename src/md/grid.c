@@ -140,8 +140,11 @@ void gg_md_enter_grid(gg_md *e)
 bool gg_md_fill_grid(gg_md *e)
 {
   gg_cells_clear(&e->cells);
-  for (uint32_t i = 0; e->shared && i < e->n; i++)
-    if (!gg_shared_enter(e, i, -1, 0)) return false;
+  for (uint32_t i = 0; e->shared && i < e->n; i++) {
+    gg_members in;
+    gg_shared_cells(e, &e->node[i], &in);
+    if (!gg_shared_enter(e, i, &in)) return false;
+  }
   if (e->shared) return true;
   for (uint32_t i = 0; i < e->n; i++)
     while (!gg_cell_add(&e->cells, e->node[i].cell, i))

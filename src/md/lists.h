@@ -69,10 +69,10 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_sear
     x -= L[0] * gg_nearest8(x * inverse[0]);
     vx -= layers * e->box.slide;
   } else {
-    x = gg_fold8(x, L[0]);
-    if (!f.walled) y = gg_fold8(y, L[1]);
+    x = gg_fold8(x, L[0], inverse[0]);
+    if (!f.walled) y = gg_fold8(y, L[1], inverse[1]);
   }
-  z = gg_fold8(z, L[2]);
+  z = gg_fold8(z, L[2], inverse[2]);
   gg_v8 sigma2 = gg_all(sigma[0] * sigma[0]);
   if (f.mixture) {
     int species = gg_species_of(g);
@@ -99,11 +99,11 @@ GG_INLINE void gg_take_batch(const gg_md *e, gg_search *s, gg_quadratic q, gg_m8
   gg_take_contact(s, t, partner);
 }
 
-/* The exact time of one lane. */
-GG_INLINE void gg_take_lane(const gg_md *e, gg_search *s, const gg_quadratic *q, const gg_m8 *who, uint32_t lane)
+/* The exact time of one lane, which is with `who`. */
+GG_INLINE void gg_take_lane(const gg_md *e, gg_search *s, const gg_quadratic *q, uint32_t lane, uint32_t who)
 {
   double delay = q->c[lane] / (sqrt(q->discriminant[lane]) - q->b[lane]);
-  gg_take_contact(s, e->k.now + (delay > 0 ? delay : 0), (*who)[lane]);
+  gg_take_contact(s, e->k.now + (delay > 0 ? delay : 0), who);
 }
 
 GG_INLINE gg_m8 gg_who8(const uint32_t *list)
@@ -111,39 +111,45 @@ GG_INLINE gg_m8 gg_who8(const uint32_t *list)
   return __builtin_convertvector(*(const gg_list8 *)list, gg_m8);
 }
 
+/* The earliest contact of each lane of several batches, by about when it is; and about when the second of a lane is. */
+typedef struct gg_foremost {
+  gg_v8 soonest, second;
+  gg_quadratic q;
+  gg_m8 batch; /* where it stands in the list */
+} gg_foremost;
+
+GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, uint32_t k)
+{
+  gg_v8 about = gg_about8(q);
+  gg_k8 sooner = gg_less8(about, best->soonest);
+  best->second = gg_smaller8(best->second, gg_larger8(about, best->soonest));
+  best->soonest = gg_smaller8(about, best->soonest);
+  best->q.b = gg_choose(sooner, q.b, best->q.b);
+  best->q.c = gg_choose(sooner, q.c, best->q.c);
+  best->q.discriminant = gg_choose(sooner, q.discriminant, best->q.discriminant);
+  best->batch = gg_choose_who(sooner, (gg_m8){0} + k, best->batch);
+}
+
 /* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place.
  * Which it is, is seen from about when the contacts are; where that leaves doubt, all are worked out. */
 GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
 {
   double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0;
-  gg_v8 soonest = gg_all(INFINITY), none = gg_all(INFINITY);
-  gg_quadratic best = {none, none, none}; /* never */
-  gg_m8 with = {0};
-  gg_k8 doubt = (gg_k8){0};
+  gg_v8 never = gg_all(INFINITY);
+  gg_foremost best = {never, never, {never, never, never}, {0}};
   bool found = !f.shared;
   for (uint32_t k = 0; k < count; k += GG_BATCH) {
     gg_quadratic q = gg_try_batch(e, f, s, list + k, offset);
     if (f.shared && !gg_any8(gg_meets8(q))) continue; /* few are in the way */
     found = true;
-    gg_v8 about = gg_about8(q);
-    gg_k8 sooner = gg_less8(about, soonest);
-    doubt |= gg_not_above8(about, (1 + 4 * GG_ABOUT) * soonest) & gg_not_above8(soonest, (1 + 4 * GG_ABOUT) * about);
-    soonest = gg_choose(sooner, about, soonest);
-    best.b = gg_choose(sooner, q.b, best.b);
-    best.c = gg_choose(sooner, q.c, best.c);
-    best.discriminant = gg_choose(sooner, q.discriminant, best.discriminant);
-    with = gg_choose_who(sooner, gg_who8(list + k), with);
+    gg_compare_batch(&best, q, k);
   }
   if (!found) return;
-  gg_v8 first = gg_least8(soonest);
+  gg_v8 first = gg_least8(best.soonest), limit = (1 + 4 * GG_ABOUT) * first;
   if (!(first[0] < INFINITY)) return;
-  gg_k8 foremost = gg_not_above8(soonest, (1 + 4 * GG_ABOUT) * first);
-  uint32_t lanes = gg_lanes8(foremost);
-  if (__builtin_expect(!gg_any8(doubt & foremost), 1)) {
-    if (lanes & (lanes - 1))
-      gg_take_batch(e, s, best, with);
-    else
-      gg_take_lane(e, s, &best, &with, (uint32_t)__builtin_ctz(lanes));
+  uint32_t lanes = gg_lanes8(gg_not_above8(best.soonest, limit)), lane = (uint32_t)__builtin_ctz(lanes);
+  if (__builtin_expect(!(lanes & (lanes - 1)) && !gg_any8(gg_not_above8(best.second, limit)), 1)) {
+    gg_take_lane(e, s, &best.q, lane, list[(uint32_t)best.batch[lane] + lane]);
     return;
   }
   for (uint32_t k = 0; k < count; k += GG_BATCH)

@@ -91,30 +91,42 @@ GG_INLINE void gg_cross_sheared(gg_md *e, gg_grain *g, gg_node *node, int side)
   node->cell[0] = x < e->cells.n[0] ? x : e->cells.n[0] - 1;
 }
 
+/* Through the sheared boundary into the cells there. */
+GG_INLINE void gg_come_through(gg_md *e, gg_features f, uint32_t i, int up)
+{
+  gg_node *node = &e->node[i];
+  gg_grain *g = &e->grain[i];
+  gg_members in;
+  gg_shared_cells(e, node, &in);
+  gg_shared_leave(e, i, &in, in.which);
+  int side = up ? 1 : -1;
+  g->r.y -= side * e->box.edge[1];
+  gg_cross_sheared(e, g, node, side);
+  g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
+  gg_vec r = g->r;
+  r.y = up ? 0 : e->box.edge[1];
+  gg_shared_place(e, f, r, node);
+  gg_shared_cells(e, node, &in);
+  gg_check_memory(e, gg_shared_enter(e, i, &in));
+  gg_predict(e, f, i);
+}
+
 /* Into another cell that overlaps with those that the grain is in. */
 GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
 {
-  gg_node *node = &e->node[i];
+  const gg_node *node = &e->node[i];
   gg_search s;
-  gg_begin_search(&s, i, gg_settle(e, f, i), node->collision, node->partner);
-  gg_grain *g = &e->grain[i];
-  int axis = node->face >> 1, up = node->face & 1;
-  if (f.sheared && node->face == GG_SLIDE) {
+  gg_step step = {node->face >> 1, node->face & 1};
+  bool slide = f.sheared && node->face == GG_SLIDE, across = f.sheared && step.axis == 1;
+  gg_grain *g = gg_settle_step(e, i, across ? (gg_step){3, 0} : step);
+  gg_begin_search(&s, i, g, node->collision, node->partner);
+  if (slide) {
     gg_shared_slides(e, f, &s);
-  } else if (gg_is_last(e, f, axis, node->cell[axis] + (up ? (int)(node->neighbours >> axis & 1) : 0), up)) {
-    gg_shared_leave(e, i, -1, 0);
-    int side = up ? 1 : -1;
-    g->r.y -= side * e->box.edge[1];
-    gg_cross_sheared(e, g, node, side);
-    g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
-    gg_vec r = g->r;
-    r.y = up ? 0 : e->box.edge[1];
-    gg_shared_place(e, f, r, node);
-    gg_check_memory(e, gg_shared_enter(e, i, -1, 0));
-    gg_predict(e, f, i);
+  } else if (across && gg_is_last(e, f, 1, node->cell[1] + (step.up ? (int)(node->neighbours >> 1 & 1) : 0), step.up)) {
+    gg_come_through(e, f, i, step.up);
     return;
   } else {
-    gg_check_memory(e, gg_shared_cross(e, f, &s, axis, up));
+    gg_check_memory(e, gg_shared_cross(e, f, &s, step));
   }
   gg_scan_near(e, f, &s);
   gg_schedule(e, f, &s);
@@ -219,6 +231,21 @@ GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
     for (uint32_t m = 1; m <= 8; m++) __builtin_prefetch(&e->grain[m <= cell[0] ? cell[m] : i]);
 }
 
+/* Of a grain that will come into another cell, should the cache hold it all: from its outer level into the inner. */
+GG_INLINE void gg_prefetch_step(const gg_md *e, gg_features f, uint32_t i)
+{
+  const gg_node *node = &e->node[i];
+  const gg_cells *c = &e->cells;
+  const int32_t *at = node->cell;
+  __builtin_prefetch(&e->grain[i]);
+  if (f.sheared && node->face == GG_SLIDE) return;
+  int axis = node->face >> 1, step = 2 * (node->face & 1) - 1;
+  const uint32_t *part = c->part[axis] + at[axis];
+  uint32_t own = c->part[0][at[0]] + c->part[1][at[1]] + c->part[2][at[2]], next = own + part[step] - part[0];
+  __builtin_prefetch(c->cell + (size_t)own * c->stride);
+  __builtin_prefetch(c->cell + (size_t)next * c->stride);
+}
+
 /* Bring what the events of a new bucket will read into the cache while the first of them are handled. */
 GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
 {
@@ -248,12 +275,30 @@ GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
   for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[others[k]]);
 }
 
+/* Two events ahead: the plain cells around, of which three neighbours along x stand on two lines. */
+GG_INLINE void gg_prefetch_around(const gg_md *e, uint32_t i)
+{
+  const int32_t *at = e->node[i].cell;
+  const gg_cells *c = &e->cells;
+  const uint32_t *x = c->part[0] + at[0], *y = c->part[1] + at[1], *z = c->part[2] + at[2];
+  for (int m = -1; m <= 1; m++)
+    for (int l = -1; l <= 1; l++) {
+      const uint32_t *row = c->cell + (size_t)(z[m] + y[l]) * c->stride;
+      __builtin_prefetch(row + (size_t)x[-1] * c->stride);
+      __builtin_prefetch(row + (size_t)x[1] * c->stride);
+    }
+}
+
 /* While one event is handled, what the next ones will read is on its way. */
 GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
 {
   uint32_t n = e->queue.n_due;
-  if (gg_is_cached(e, f)) return;
+  if (gg_is_cached(e, f)) {
+    if (f.shared && n >= 2) gg_prefetch_step(e, f, e->queue.due[n - 2].grain);
+    return;
+  }
   if (f.listed) gg_prefetch_neighbours(e, f);
+  if (!f.listed && !f.shared && n >= 2 && e->n > 40000) gg_prefetch_around(e, e->queue.due[n - 2].grain);
   if (f.shared && n >= 2) gg_prefetch_shared(e, e->queue.due[n - 2].grain, true);
 }
 

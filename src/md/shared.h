@@ -11,13 +11,15 @@
 
 #include <math.h>
 
+#include "md/axes.h"
 #include "md/lists.h"
 
-/* From the lower edge of its lower cell to where a grain is, nearest image. */
-GG_INLINE double gg_depth(const gg_md *e, const gg_node *node, int axis, double x)
+/* From the lower edges of its lower cells to where a grain is, nearest image. */
+GG_INLINE gg_axes gg_depths(const gg_md *e, const gg_node *node, const gg_vec *r)
 {
-  double depth = x - node->cell[axis] * e->cells.width[axis];
-  return depth - e->box.edge[axis] * gg_nearest(depth * e->box.inverse[axis]);
+  gg_axes cell = __builtin_convertvector(gg_load_indices(node->cell), gg_axes);
+  gg_axes depth = gg_load_axes(&r->x) - cell * gg_load_axes(e->cells.width);
+  return depth - gg_load_axes(e->box.edge) * gg_nearest_axes(depth * gg_load_axes(e->box.inverse));
 }
 
 /* Is there no cell beyond, upwards or downwards? */
@@ -26,50 +28,50 @@ GG_INLINE bool gg_is_last(const gg_md *e, gg_features f, int axis, int32_t cell,
   return f.sheared && axis == 1 && cell == (up ? e->cells.n[1] - 1 : 0);
 }
 
-/* Every cell that a grain is in: its index, for each of up to eight; returns how many. Restricted to the cells `only`
- * along `axis`, if that is not negative. */
-GG_INLINE uint32_t gg_shared_cells(const gg_md *e, const gg_node *node, int axis, int32_t only, size_t index[8])
+/* Cells that a grain may be in: number `index` is up along those axes whose bits are set in that number. `which` has
+ * a bit for each that it is in. */
+typedef struct gg_members {
+  uint32_t index[8], which;
+} gg_members;
+
+/* Numbers of which no other bits are set than of n. */
+GG_INLINE uint32_t gg_numbers_within(uint32_t n)
 {
-  const gg_cells *c = &e->cells;
-  uint32_t part[3][2], n[3], count = 0;
-  for (int a = 0; a < 3; a++) {
-    part[a][0] = c->part[a][a == axis ? only : node->cell[a]];
-    part[a][1] = c->part[a][node->cell[a] + 1];
-    n[a] = a == axis ? 1 : 1 + (node->neighbours >> a & 1);
-  }
-  for (uint32_t z = 0; z < n[2]; z++)
-    for (uint32_t y = 0; y < n[1]; y++)
-      for (uint32_t x = 0; x < n[0]; x++) index[count++] = (size_t)part[2][z] + part[1][y] + part[0][x];
-  return count;
+  static const uint8_t within[8] = {0x01, 0x03, 0x05, 0x0f, 0x11, 0x33, 0x55, 0xff};
+  return within[n];
 }
 
-/* Out of the cells `only` along `axis`, or of all (axis -1). What stands behind a cell's end may be anybody: the first
- * place found is the one. No branch depends on where it is. */
-GG_INLINE void gg_shared_leave(gg_md *e, uint32_t i, int axis, int32_t only)
+GG_INLINE void gg_shared_cells(const gg_md *e, const gg_node *node, gg_members *in)
 {
-  size_t index[8];
-  uint32_t n = gg_shared_cells(e, &e->node[i], axis, only, index), stride = e->cells.stride;
-  for (uint32_t k = 0; k < n; k++) {
-    uint32_t *cell = e->cells.cell + index[k] * stride, at = UINT32_MAX;
-    for (uint32_t base = 0; at == UINT32_MAX; base += 8)
-      for (uint32_t m = base ? 0 : 1; m < 8; m++) {
-        uint32_t found = cell[base + m] == i ? base + m : UINT32_MAX;
-        at = found < at ? found : at;
-      }
-    cell[at] = cell[cell[0]--];
+  typedef uint32_t words __attribute__((vector_size(32)));
+  const uint32_t *x = e->cells.part[0] + node->cell[0], *y = e->cells.part[1] + node->cell[1],
+                 *z = e->cells.part[2] + node->cell[2];
+  words up = {0, -1u, 0, -1u, 0, -1u, 0, -1u}, along = {0, 0, -1u, -1u, 0, 0, -1u, -1u};
+  words deep = {0, 0, 0, 0, -1u, -1u, -1u, -1u};
+  words index = x[0] + y[0] + z[0] + (up & (x[1] - x[0])) + (along & (y[1] - y[0])) + (deep & (z[1] - z[0]));
+  memcpy(in->index, &index, sizeof index);
+  in->which = gg_numbers_within(node->neighbours);
+}
+
+GG_INLINE void gg_shared_leave(gg_md *e, uint32_t i, const gg_members *in, uint32_t which)
+{
+  size_t stride = e->cells.stride;
+  for (; which; which &= which - 1) {
+    uint32_t *cell = e->cells.cell + in->index[__builtin_ctz(which)] * stride;
+    cell[gg_cell_find(cell, i)] = cell[cell[0]];
+    cell[0]--;
   }
 }
 
-/* Into them. False: out of memory. */
-GG_INLINE bool gg_shared_enter(gg_md *e, uint32_t i, int axis, int32_t only)
+/* Into those of `in`. False: out of memory. */
+GG_INLINE bool gg_shared_enter(gg_md *e, uint32_t i, const gg_members *in)
 {
-  size_t index[8];
-  uint32_t n = gg_shared_cells(e, &e->node[i], axis, only, index);
-  for (uint32_t k = 0; k < n; k++) {
-    uint32_t *cell = e->cells.cell + index[k] * e->cells.stride;
-    if (cell[0] + 1 == e->cells.stride) {
+  for (uint32_t which = in->which; which; which &= which - 1) {
+    size_t index = in->index[__builtin_ctz(which)];
+    uint32_t *cell = e->cells.cell + index * e->cells.stride;
+    if (__builtin_expect(cell[0] + 1 == e->cells.stride, 0)) {
       if (!gg_cells_grow(&e->cells)) return false;
-      cell = e->cells.cell + index[k] * e->cells.stride;
+      cell = e->cells.cell + index * e->cells.stride;
     }
     cell[++cell[0]] = i;
   }
@@ -98,44 +100,69 @@ GG_INLINE int32_t gg_cell_after(const gg_md *e, int axis, int32_t cell)
   return cell + 1 == e->cells.n[axis] ? 0 : cell + 1;
 }
 
-/* Out of the cells along one axis that the grain is beyond by now. */
-GG_INLINE void gg_shared_trim(gg_md *e, uint32_t i, int axis, double x)
+/* To the next cell along an axis; axis 3: nowhere. */
+typedef struct gg_step {
+  int axis, up;
+} gg_step;
+
+/* gg_settle, and into the box along the axis of a step. The record is written as a whole: what is read of it soon after
+ * would otherwise wait for its parts to arrive in the cache. */
+GG_INLINE gg_grain *gg_settle_step(gg_md *e, uint32_t i, gg_step step)
+{
+  gg_grain *g = &e->grain[i];
+  gg_line *record = (gg_line *)g;
+  gg_v8 old = *record;
+  gg_axes r = gg_load_axes(&g->r.x) + (e->k.now - g->t) * gg_load_axes(&g->v.x);
+  gg_axes wrapped = gg_wrap_axes(r, gg_load_axes(e->box.edge), gg_load_axes(e->box.inverse));
+  r = gg_choose_axes(gg_axes_of(1u << step.axis), wrapped, r);
+  gg_v8 new = __builtin_shufflevector(r, r, 0, 1, 2, 3, 4, 5, 6, 7);
+  new = __builtin_shufflevector(new, old, 0, 1, 2, 11, 12, 13, 14, 15);
+  new[6] = e->k.now;
+  *record = new;
+  return g;
+}
+
+/* Out of the cells that the grain is beyond by now, and of those behind the step that it is about to make. `in` are
+ * those that are left. */
+GG_INLINE void gg_shared_trim(gg_md *e, uint32_t i, gg_step step, gg_members *in)
 {
   gg_node *node = &e->node[i];
-  double half = 0.5 * e->cells.reach, width = e->cells.width[axis];
-  if (!(node->neighbours >> axis & 1)) return;
-  double depth = gg_depth(e, node, axis, x);
-  if (depth > width + half) {
-    gg_shared_leave(e, i, axis, node->cell[axis]);
-    node->neighbours &= ~(1u << axis);
-    node->cell[axis] = gg_cell_after(e, axis, node->cell[axis]);
-  } else if (depth < width - half) {
-    gg_shared_leave(e, i, axis, node->cell[axis] + 1);
-    node->neighbours &= ~(1u << axis);
-  }
+  gg_axes width = gg_load_axes(e->cells.width), depth = gg_depths(e, node, &e->grain[i].r);
+  double half = 0.5 * e->cells.reach;
+  uint32_t both = node->neighbours, stepping = 1u << step.axis, rising = (uint32_t)step.up << step.axis;
+  uint32_t above = ((gg_axes_bits(depth > width + half) & ~stepping) | rising) & both;
+  uint32_t below = ((gg_axes_bits(depth < width - half) & ~stepping) | (stepping ^ rising)) & both;
+  gg_shared_cells(e, node, in);
+  both &= ~(above | below);
+  uint32_t kept = gg_numbers_within(both) << above;
+  gg_shared_leave(e, i, in, in->which & ~kept);
+  in->which = kept;
+  gg_indices cell = gg_load_indices(node->cell) - gg_indices_of(above);
+  cell &= cell != gg_load_indices(e->cells.n);
+  cell[3] = (int32_t)both;
+  *(gg_indices_there *)node->cell = cell;
 }
 
 /* When the grain comes into another cell, and along which axis, which way. */
 GG_INLINE double gg_shared_next(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
 {
   const gg_node *node = &e->node[s->grain];
-  double half = 0.5 * e->cells.reach, first = INFINITY;
-  *face = 0;
-  for (int a = 0; a < 3; a++) {
-    double v = gg_along(&s->self->v, a), width = e->cells.width[a];
-    double depth = gg_depth(e, node, a, gg_along(&s->self->r, a));
-    int up = v > 0, both = node->neighbours >> a & 1;
-    double way[2] = {depth - half, (both + 1) * width - half - depth};
-    if (f.sheared && a == 1) { /* or through the boundary */
-      if (gg_is_last(e, f, a, node->cell[a] + (up ? both : 0), up)) way[up] += half;
-    }
-    double delay = way[up] / fabs(v);
-    delay = delay > 0 ? delay : 0; /* at rest: NAN or infinite */
-    delay = v != 0 ? delay : INFINITY;
-    *face = delay < first ? 2 * a + up : *face;
-    first = delay < first ? delay : first;
+  double half = 0.5 * e->cells.reach;
+  gg_axes v = gg_load_axes(&s->self->v.x), width = gg_load_axes(e->cells.width);
+  gg_axes depth = gg_depths(e, node, &s->self->r), zero = {0}, never = {INFINITY, INFINITY, INFINITY, INFINITY};
+  gg_axes upwards = gg_choose_axes(gg_axes_of(node->neighbours), 2 * width, width) - half - depth;
+  gg_axes way = gg_choose_axes(v > 0, upwards, depth - half);
+  if (f.sheared) { /* or through the boundary */
+    int up = v[1] > 0, both = node->neighbours >> 1 & 1;
+    if (gg_is_last(e, f, 1, node->cell[1] + (up ? both : 0), up)) way += (gg_axes){0, half, 0, 0};
   }
-  double t = e->k.now + first;
+  gg_axes delay = way / (gg_axes)((gg_axes_mask)v & INT64_MAX);
+  delay = gg_choose_axes(delay > 0, delay, zero); /* at rest: NAN or infinite */
+  delay = gg_choose_axes((v != 0) & (gg_axes_mask){-1, -1, -1, 0}, delay, never);
+  gg_axes first = gg_least_axes(delay);
+  int axis = __builtin_ctz(gg_axes_bits(delay == first));
+  *face = 2 * axis + (int)(gg_axes_bits(v > 0) >> axis & 1);
+  double t = e->k.now + first[0];
   if (f.sheared && s->valid < t) t = s->valid, *face = GG_SLIDE;
   return t;
 }
@@ -188,53 +215,44 @@ GG_INLINE void gg_shared_slides(const gg_md *e, gg_features f, gg_search *s)
   if (node->cell[1] == 0) gg_shared_approach(e, f, s, -1, y);
 }
 
-GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, int axis, int32_t only)
+GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, const gg_members *in)
 {
-  size_t index[8];
-  uint32_t n = gg_shared_cells(e, &e->node[s->grain], axis, only, index);
   const uint32_t *cell = e->cells.cell;
   size_t stride = e->cells.stride;
-  for (uint32_t k = 0; k < n; k++) index[k] *= stride;
-  if (gg_has_room(e, 8)) {
-    uint32_t n_near = s->n_near;
-    for (uint32_t k = 0; k < n; k++) n_near = gg_append_cell(s->near, n_near, cell + index[k]);
-    s->n_near = n_near;
-  } else {
-    for (uint32_t k = 0; k < n; k++) gg_take_cell(s, cell + index[k]);
+  uint32_t n_near = s->n_near;
+  bool room = gg_has_room(e, 8);
+  for (uint32_t which = in->which; which; which &= which - 1) {
+    const uint32_t *one = cell + in->index[__builtin_ctz(which)] * stride;
+    if (room || n_near + one[0] <= GG_MOST_NEAR) n_near = gg_append_cell(s->near, n_near, one);
   }
+  s->n_near = n_near;
   gg_shared_slides(e, f, s);
 }
 
 /* All who share a cell with the grain, after it has been taken out of cells that it has left. */
 GG_INLINE void gg_shared_scan(gg_md *e, gg_features f, gg_search *s)
 {
-  if (e->node[s->grain].neighbours)
-    for (int a = 0; a < 3; a++) gg_shared_trim(e, s->grain, a, gg_along(&s->self->r, a));
-  gg_shared_take(e, f, s, -1, 0);
+  gg_members in;
+  gg_shared_trim(e, s->grain, (gg_step){3, 0}, &in);
+  gg_shared_take(e, f, s, &in);
 }
 
 /* Into the next cell along an axis: those who are there. */
-GG_INLINE bool gg_shared_cross(gg_md *e, gg_features f, gg_search *s, int axis, int up)
+GG_INLINE bool gg_shared_cross(gg_md *e, gg_features f, gg_search *s, gg_step step)
 {
   gg_node *node = &e->node[s->grain];
-  gg_grain *g = &e->grain[s->grain];
-  int32_t n = e->cells.n[axis], *cell = &node->cell[axis];
-  if (node->neighbours & ~(1u << axis))
-    for (int a = 0; a < 3; a++)
-      if (a != axis) gg_shared_trim(e, s->grain, a, gg_along(&g->r, a));
-  if (node->neighbours >> axis & 1) gg_shared_leave(e, s->grain, axis, up ? *cell : *cell + 1);
-  if (!up)
-    *cell = *cell ? *cell - 1 : n - 1;
-  else if (node->neighbours >> axis & 1)
-    *cell = gg_cell_after(e, axis, *cell);
+  gg_members in;
+  gg_shared_trim(e, s->grain, step, &in);
+  int axis = step.axis;
+  int32_t at = node->cell[axis];
+  const uint32_t *part = e->cells.part[axis] + at;
+  uint32_t further = part[2 * step.up - 1] - part[0];
+  for (int k = 0; k < 8; k++) in.index[k] += further;
+  int32_t down = at ? at - 1 : e->cells.n[axis] - 1;
+  node->cell[axis] = step.up ? at : down;
   node->neighbours |= 1u << axis;
-  if (!(f.sheared && axis == 1)) {
-    double *x = gg_component(&g->r, axis);
-    *x = gg_wrap(*x, e->box.edge[axis], e->box.inverse[axis]);
-  }
-  bool good = gg_shared_enter(e, s->grain, axis, *cell + up);
-  gg_shared_take(e, f, s, axis, *cell + up);
-  return good;
+  gg_shared_take(e, f, s, &in);
+  return gg_shared_enter(e, s->grain, &in);
 }
 
 #endif

@@ -1,0 +1,76 @@
+/* The three axes at once: vectors of four lanes, the fourth idle. Plain vector types; every lane goes through the
+ * operations that one axis would alone, so that results are the same on every processor. No branch depends on an axis
+ * or on a side: which of them is next can't be foreseen. */
+#ifndef GG_MD_AXES_H
+#define GG_MD_AXES_H
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#include "md/state.h"
+
+typedef double gg_axes __attribute__((vector_size(32)));
+typedef int64_t gg_axes_mask __attribute__((vector_size(32)));
+typedef int32_t gg_indices __attribute__((vector_size(16)));
+typedef double gg_axes_there __attribute__((vector_size(32), may_alias, aligned(8)));
+typedef int32_t gg_indices_there __attribute__((vector_size(16), may_alias, aligned(4)));
+
+/* What stands behind the third comes along in the fourth lane: there must be something. */
+GG_INLINE gg_axes gg_load_axes(const double *x)
+{
+  return *(const gg_axes_there *)x;
+}
+GG_INLINE gg_indices gg_load_indices(const int32_t *k)
+{
+  return *(const gg_indices_there *)k;
+}
+
+GG_INLINE gg_axes gg_choose_axes(gg_axes_mask mask, gg_axes yes, gg_axes no)
+{
+  return (gg_axes)(((gg_axes_mask)yes & mask) | ((gg_axes_mask)no & ~mask));
+}
+
+/* Bit a for axis a, and back. */
+GG_INLINE uint32_t gg_axes_bits(gg_axes_mask mask)
+{
+#if defined(__AVX2__)
+  return (uint32_t)_mm256_movemask_pd((__m256d)mask);
+#else
+  return (uint32_t)((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
+#endif
+}
+GG_INLINE gg_axes_mask gg_axes_of(uint32_t bits)
+{
+  gg_axes_mask each = {1, 2, 4, 8};
+  return ((int64_t)bits & each) != 0;
+}
+GG_INLINE gg_indices gg_indices_of(uint32_t bits)
+{
+  gg_indices each = {1, 2, 4, 8};
+  return ((int32_t)bits & each) != 0;
+}
+
+GG_INLINE gg_axes gg_nearest_axes(gg_axes x)
+{
+  gg_axes shift = {0x1.8p52, 0x1.8p52, 0x1.8p52, 0x1.8p52};
+  return (x + shift) - shift;
+}
+
+/* As gg_wrap. */
+GG_INLINE gg_axes gg_wrap_axes(gg_axes x, gg_axes edge, gg_axes inverse)
+{
+  gg_axes scaled = x * inverse, whole = gg_nearest_axes(scaled);
+  return x - edge * gg_choose_axes(whole > scaled, whole - 1, whole);
+}
+
+/* The least, in all lanes. */
+GG_INLINE gg_axes gg_least_axes(gg_axes x)
+{
+  gg_axes other = __builtin_shufflevector(x, x, 2, 3, 0, 1);
+  x = gg_choose_axes(x < other, x, other);
+  other = __builtin_shufflevector(x, x, 1, 0, 3, 2);
+  return gg_choose_axes(x < other, x, other);
+}
+
+#endif
