@@ -58,7 +58,9 @@ void gg_format_count(double count, char *text, size_t size)
 void gg_format_duration(double seconds, char *text, size_t size)
 {
   long whole = lround(seconds);
-  if (seconds < 9.95)
+  if (seconds < 0.0995)
+    snprintf(text, size, "%.0f ms", 1000 * seconds);
+  else if (seconds < 9.95)
     snprintf(text, size, "%.1f s", seconds);
   else if (whole < 60)
     snprintf(text, size, "%ld s", whole);

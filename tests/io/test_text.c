@@ -49,6 +49,8 @@ static void counts(void **state)
   assert_string_equal(text, "1 M");
   gg_format_duration(3.14, text, sizeof text);
   assert_string_equal(text, "3.1 s");
+  gg_format_duration(0.0449, text, sizeof text);
+  assert_string_equal(text, "45 ms");
   gg_format_duration(59.7, text, sizeof text);
   assert_string_equal(text, "1:00 min");
   gg_format_duration(3725, text, sizeof text);
