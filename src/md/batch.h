@@ -134,7 +134,9 @@ GG_INLINE gg_v8 gg_nearest8(gg_v8 x)
   return (x + shift) - shift;
 }
 
-/* Into the nearest image: edge times a small whole number is exact, fused or not. */
+/* Into the nearest image: edge times a small whole number is exact, fused or not. Which whole number it is may depend
+ * on that only within a rounding of half an edge, where both images are as far: no pair in neighbouring cells or lists.
+ */
 GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge, double inverse)
 {
 #if defined(__AVX512F__)
