@@ -28,8 +28,8 @@ typedef struct gg_batch {
   gg_mask sorts;               /* lanes change places by speed, not at random */
   gg_real floor, bound;        /* the layer of |C12| */
   gg_real s0, shift;
-  gg_real per_unit;             /* of the tops */
-  double next_drift, next_unit; /* of the next draws */
+  double unit;            /* of the tops, at the next draw */
+  gg_real root, per_unit; /* its square root, and its inverse at the last draws */
   uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
   gg_tally tally;
