@@ -23,17 +23,23 @@ typedef struct gg_batch {
   gg_range blocks_one, blocks_two;
   uint32_t odd_one, odd_two; /* that are not full, or UINT32_MAX */
   gg_lane_contact contact;
-  gg_lane_rng rng;
-  gg_directions near, sheared; /* about C12, and by the law |k_x k_y| */
-  gg_mask sorts;               /* lanes change places by speed, not at random */
+  bool sorts;                  /* lanes change places by speed, not at random */
   gg_real floor, bound;        /* the layer of |C12| */
   gg_real s0, shift;
+  gg_real lowest;     /* t: floor - s0 */
+  gg_vd to_a, to_b;   /* from J, or 2 g_n k, to velocities */
   double unit;            /* of the tops, at the next draw */
   gg_real root, per_unit; /* its square root, and its inverse at the last draws */
   uint64_t visits, collisions, overflows;
   gg_vd worst; /* largest C12^2 */
   gg_tally tally;
 } gg_batch;
+
+/* What chance has in store: apart from the rest, so that it stays in registers. */
+typedef struct gg_chance {
+  gg_lane_rng rng;
+  gg_directions near, sheared; /* about C12, and by the law |k_x k_y| */
+} gg_chance;
 
 /* What a candidate comes to; where it does not hit, the rest means nothing (but is finite). */
 typedef struct gg_encounter {
@@ -70,9 +76,11 @@ GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd3 q)
  * is faster than `bound`. */
 GG_INLINE void gg_encounter_meet(gg_features f, const gg_batch *w, gg_vd speed, gg_vd bound, gg_vu r, gg_encounter *e)
 {
-  const gg_real lowest = w->floor - w->s0;
+  const bool from_zero = w->lowest == 0; /* as a rule, without shear */
+  gg_vd range = from_zero ? bound : bound - w->lowest;
   e->speed = speed;
-  e->t = (gg_lane_one_to_two(r) - 1) * (bound - lowest) + lowest;
+  e->t = gg_lane_one_to_two(r) * range - range;
+  if (!from_zero) e->t += w->lowest;
   e->hit = gg_less(e->t, speed);
   if (f.shear != GG_SHEARED_DENSE) return;
   e->special = gg_less(e->t, gg_all(0));
@@ -80,9 +88,9 @@ GG_INLINE void gg_encounter_meet(gg_features f, const gg_batch *w, gg_vd speed, 
 }
 
 /* Shear between the centres: lanes in `special` take the second law; then the last choice. */
-GG_INLINE void gg_encounter_shear(gg_batch *w, gg_vd3 v, gg_encounter *e)
+GG_INLINE void gg_encounter_shear(const gg_batch *w, gg_chance *c, gg_vd3 v, gg_encounter *e)
 {
-  gg_vd3 k = e->k, other = gg_directions_take(&w->sheared, e->special);
+  gg_vd3 k = e->k, other = gg_directions_take(&c->sheared, e->special);
   k = (gg_vd3){gg_select(e->special, other.x, k.x), gg_select(e->special, other.y, k.y),
                gg_select(e->special, other.z, k.z)};
   gg_vd gn = gg_vd3_dot(k, v), shear = w->shift * k.x * k.y, most = gg_larger(gn, gg_all(0)) + gg_size(shear);
@@ -94,7 +102,7 @@ GG_INLINE void gg_encounter_shear(gg_batch *w, gg_vd3 v, gg_encounter *e)
 }
 
 /* Along which k do they collide, with relative velocity v? */
-GG_INLINE void gg_encounter_aim(gg_features f, gg_batch *w, gg_vd3 v, gg_encounter *e)
+GG_INLINE void gg_encounter_aim(gg_features f, const gg_batch *w, gg_chance *c, gg_vd3 v, gg_encounter *e)
 {
   e->g = v;
   if (!gg_needs_k(f)) {
@@ -103,7 +111,7 @@ GG_INLINE void gg_encounter_aim(gg_features f, gg_batch *w, gg_vd3 v, gg_encount
   }
   e->k = gg_about(v, e->speed, e->q);
   e->gn = e->speed * e->q.z;
-  if (f.shear == GG_SHEARED_DENSE) gg_encounter_shear(w, v, e);
+  if (f.shear == GG_SHEARED_DENSE) gg_encounter_shear(w, c, v, e);
 }
 
 #endif

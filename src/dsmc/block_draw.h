@@ -6,7 +6,7 @@
 
 /* Visits to be had in stock, and how far ahead of a visit its memory is called. Draws begin when every fourth visit
  * finds less in stock, so that some are left. */
-enum { GG_STOCK = 20, GG_CALLED = 12, GG_DRAW_FULL = 128, GG_DRAW_ROOM = GG_DRAW_FULL + 2 * GG_LANES };
+enum { GG_STOCK = 20, GG_STOCKED = 36, GG_CALLED = 12, GG_DRAW_FULL = 128, GG_DRAW_ROOM = GG_DRAW_FULL + 2 * GG_LANES };
 #define GG_ODD (UINT32_C(1) << 31) /* in `two`: no visit for this path */
 
 /* What is to be visited, in order of time. Lists as gg_pack leaves them: each a number's worth of bits. Before the
@@ -50,14 +50,14 @@ GG_INLINE gg_vu gg_all_bits(gg_word x)
 
 /* One draw a lane: which blocks, and under which bound of |C12|; another random word gives the order, and whether to
  * visit. `number`: of the lane's draw, of which there are n. */
-GG_INLINE void gg_draw_part(gg_features f, gg_batch *w, gg_draws *d, int part, gg_real root, gg_real step, unsigned n)
+GG_INLINE void gg_draw_part(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, int part, gg_real root, gg_real step, unsigned n)
 {
   gg_vu a, b, more, spare, number = gg_lane_numbers((unsigned)part * GG_WIDTH);
-  gg_lane_two_below(&w->rng, part, w->blocks_one.n, w->blocks_two.n, &a, &b);
+  gg_lane_two_below(&c->rng, part, w->blocks_one.n, w->blocks_two.n, &a, &b);
   const gg_vu backwards = (gg_vu)(b < a); /* by their places in their ranges: each range is sorted by speed */
   a += w->blocks_one.first;
   b += w->blocks_two.first;
-  gg_lane_two(&w->rng, part, &more, &spare);
+  gg_lane_two(&c->rng, part, &more, &spare);
   gg_vd bound = (gg_roots_at(w->top_one, a) + gg_roots_at(w->top_two, b)) * root;
   const gg_real upper = w->floor == 0 ? 0 : (gg_real)INFINITY; /* a layer under one bound */
   bound = gg_smaller(bound + upper, gg_all(w->bound));
@@ -94,7 +94,7 @@ GG_INLINE void gg_draws_move_up(gg_features f, gg_draws *d)
 }
 
 /* Eight draws, of which those to be visited are kept. */
-GG_INLINE void gg_draw(gg_features f, gg_batch *w, gg_draws *d, double drift_step)
+GG_INLINE void gg_draw(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, double drift_step)
 {
   const unsigned n = d->left < GG_LANES ? (unsigned)d->left : GG_LANES;
   if (__builtin_expect(d->n + GG_LANES > GG_DRAW_FULL, 0)) gg_draws_move_up(f, d);
@@ -104,9 +104,16 @@ GG_INLINE void gg_draw(gg_features f, gg_batch *w, gg_draws *d, double drift_ste
     w->unit *= gg_top_growth(delta);
     w->root = (gg_real)(sqrt(w->unit) * (1 + 1e-6));
   }
-  for (int part = 0; part < GG_PARTS; part++) gg_draw_part(f, w, d, part, w->root, (gg_real)drift_step, n);
+  for (int part = 0; part < GG_PARTS; part++) gg_draw_part(f, w, c, d, part, w->root, (gg_real)drift_step, n);
   d->drift += n * drift_step;
   d->left -= n;
+}
+
+/* Draw ahead if little is left in stock: then for some visits to come. */
+GG_INLINE void gg_draw_ahead(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, double drift_step)
+{
+  if (d->n - d->at >= GG_STOCK) return;
+  while (d->left && d->n - d->at < GG_STOCKED) gg_draw(f, w, c, d, drift_step);
 }
 
 /* The visit just looked at comes next once more, under this bound. */

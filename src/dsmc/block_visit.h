@@ -16,12 +16,25 @@ GG_INLINE void gg_lanes_store(gg_real_block *b, int at, gg_vd3 v)
   gg_store(b->z + at, v.z);
 }
 
-/* Lanes of `swap` change places. */
-GG_INLINE void gg_lanes_exchange(gg_mask swap, gg_vd3 *a, gg_vd3 *b)
+/* The true lanes of `yes`, the others of `no`. */
+GG_INLINE void gg_lanes_store_either(gg_real_block *b, int at, gg_mask m, gg_vd3 yes, gg_vd3 no)
 {
-  gg_vd3 old = *a;
-  *a = (gg_vd3){gg_select(swap, b->x, a->x), gg_select(swap, b->y, a->y), gg_select(swap, b->z, a->z)};
-  *b = (gg_vd3){gg_select(swap, old.x, b->x), gg_select(swap, old.y, b->y), gg_select(swap, old.z, b->z)};
+  gg_store_either(b->x + at, m, yes.x, no.x);
+  gg_store_either(b->y + at, m, yes.y, no.y);
+  gg_store_either(b->z + at, m, yes.z, no.z);
+}
+
+/* a and b go to their blocks; if they are of one species, lanes of `swap` change places. */
+GG_INLINE void gg_lanes_settle(gg_features f, gg_real_block *one, gg_real_block *two, int at, gg_mask swap, gg_vd3 a,
+                               gg_vd3 b)
+{
+  if (f.same) {
+    gg_lanes_store_either(one, at, swap, b, a);
+    gg_lanes_store_either(two, at, swap, a, b);
+  } else {
+    gg_lanes_store(one, at, a);
+    gg_lanes_store(two, at, b);
+  }
 }
 
 /* Two blocks that meet. Worked out in three steps, each of which waits for the one before: approach, decide, carry out. */
@@ -59,31 +72,24 @@ GG_INLINE void gg_turn(gg_features f, gg_batch *w, gg_mask swap, const gg_meetin
   gg_vd3 turn_a = gg_vd3_scale(gg_all(c->ik1), kJ), turn_b = f.same ? turn_a : gg_vd3_scale(gg_all(c->ik2), kJ);
   gg_vd3 sa = gg_vd3_sub(gg_lanes_load(&w->spin_one[at->one], part * GG_WIDTH), turn_a);
   gg_vd3 sb = gg_vd3_sub(at->sb[part], turn_b);
-  if (f.same) gg_lanes_exchange(swap, &sa, &sb);
-  gg_lanes_store(&w->spin_one[at->one], part * GG_WIDTH, sa);
-  gg_lanes_store(&w->spin_two[at->two], part * GG_WIDTH, sb);
+  gg_lanes_settle(f, &w->spin_one[at->one], &w->spin_two[at->two], part * GG_WIDTH, swap, sa, sb);
 }
 
 /* Grains of one species change places so that the faster one is in the first block. Returns where. */
 GG_INLINE gg_mask gg_push(gg_features f, gg_batch *w, const gg_meeting *at, int part, gg_fastest *top)
 {
-  const gg_lane_contact *c = &w->contact;
-  const gg_real to_a = gg_needs_k(f) ? c->im1 : c->push1, to_b = gg_needs_k(f) ? c->im2 : c->push2;
   gg_vd3 J = at->J[part];
   if (f.shear != GG_UNSHEARED) J.x += at->drift * J.y; /* as stored velocities have it */
-  gg_vd3 push_a = gg_vd3_scale(gg_all(to_a), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(to_b), J);
+  gg_vd3 push_a = gg_vd3_scale(w->to_a, J), push_b = f.same ? push_a : gg_vd3_scale(w->to_b, J);
   gg_vd3 a = gg_vd3_sub(gg_lanes_load(&w->one[at->one], part * GG_WIDTH), push_a);
   gg_vd3 b = gg_vd3_add(at->cb[part], push_b);
   gg_vd3 Ca = gg_streamed(f, at->drift, a), Cb = gg_streamed(f, at->drift, b);
   gg_vd a2 = gg_vd3_dot(Ca, Ca), b2 = gg_vd3_dot(Cb, Cb);
-  gg_mask mixed = gg_low_bit(at->word[part] >> GG_SPARE_BIT);
-  gg_mask swap = gg_or(gg_and(gg_less(a2, b2), w->sorts), gg_and_not(mixed, w->sorts));
+  gg_mask swap = w->sorts ? gg_less(a2, b2) : gg_low_bit(at->word[part] >> GG_SPARE_BIT);
   gg_vd first = f.same ? gg_select(swap, b2, a2) : a2, second = f.same ? gg_select(swap, a2, b2) : b2;
   top->a = part ? gg_larger(top->a, first) : first;
   top->b = part ? gg_larger(top->b, second) : second;
-  if (f.same) gg_lanes_exchange(swap, &a, &b);
-  gg_lanes_store(&w->one[at->one], part * GG_WIDTH, a);
-  gg_lanes_store(&w->two[at->two], part * GG_WIDTH, b);
+  gg_lanes_settle(f, &w->one[at->one], &w->two[at->two], part * GG_WIDTH, swap, a, b);
   return swap;
 }
 
@@ -154,12 +160,12 @@ GG_INLINE void gg_approach(gg_features f, gg_batch *w, const gg_draws *d, gg_mee
 }
 
 /* Who collides, along which k, with what impulse? */
-GG_INLINE void gg_aim(gg_features f, gg_batch *w, gg_meeting *at, int part)
+GG_INLINE void gg_aim(gg_features f, gg_batch *w, gg_chance *c, gg_meeting *at, int part)
 {
   gg_encounter e;
   gg_encounter_meet(f, w, at->speed[part], gg_all(at->bound), at->word[part], &e);
-  e.q = gg_directions_take(&w->near, e.hit);
-  gg_encounter_aim(f, w, at->v[part], &e);
+  e.q = gg_directions_take(&c->near, e.hit);
+  gg_encounter_aim(f, w, c, at->v[part], &e);
   if (f.rule != GG_SMOOTH) {
     gg_vd3 sa = gg_lanes_load(&w->spin_one[at->one], part * GG_WIDTH);
     e.g = gg_vd3_sub(e.g, gg_vd3_cross(e.k, gg_vd3_add(sa, at->sb[part])));
@@ -174,20 +180,20 @@ GG_INLINE void gg_aim(gg_features f, gg_batch *w, gg_meeting *at, int part)
                 gg_where(e.hit, w->contact.jn * e.gn));
 }
 
-GG_INLINE void gg_make_directions(gg_features f, gg_batch *w)
+GG_INLINE void gg_make_directions(gg_features f, gg_chance *c)
 {
-  gg_directions_make(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
+  gg_directions_make(&c->near, &c->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
 }
 
 /* What comes of it, but for writing it back. */
-GG_INLINE void gg_decide(gg_features f, gg_batch *w, gg_rng *rng, gg_meeting *at)
+GG_INLINE void gg_decide(gg_features f, gg_batch *w, gg_chance *c, gg_rng *rng, gg_meeting *at)
 {
   unsigned faster = 0;
   for (int part = 0; part < GG_PARTS; part++) faster |= gg_bits(gg_less(gg_all(at->bound), at->speed[part]));
   if (__builtin_expect(faster, 0)) gg_reconsider(f, w, at, rng);
-  while (__builtin_expect(w->near.n - w->near.at < GG_LANES, 0)) gg_make_directions(f, w);
-  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
-  for (int part = 0; part < GG_PARTS; part++) gg_aim(f, w, at, part);
+  gg_directions_stock(&c->near, &c->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
+  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&c->sheared, &c->rng, GG_SHEARED);
+  for (int part = 0; part < GG_PARTS; part++) gg_aim(f, w, c, at, part);
   gg_tally_turn(f, &w->tally);
   w->visits++;
 }

@@ -47,7 +47,7 @@ GG_INLINE uint32_t odd_block(const gg_population *p)
   return p->n % GG_LANES ? (uint32_t)p->n_blocks - 1 : UINT32_MAX;
 }
 
-GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_rng_lanes *lanes)
+GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p)
 {
   *w = (gg_batch){.one = p->one->c,
                   .two = p->two->c,
@@ -67,13 +67,14 @@ GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_r
                   .root = (gg_real)(sqrt(p->top_unit) * (1 + 1e-6)),
                   .per_unit = (gg_real)gg_per_top(p->top_unit)};
   w->bound = (gg_real)(p->floor + p->bound - w->s0);
-  w->sorts = gg_less(gg_all(SORTED), gg_all((gg_real)p->one->n_blocks));
-  gg_lane_rng_load(&w->rng, lanes);
+  w->lowest = w->floor - w->s0;
+  w->to_a = gg_all(gg_needs_k(f) ? w->contact.im1 : w->contact.push1);
+  w->to_b = gg_all(gg_needs_k(f) ? w->contact.im2 : w->contact.push2);
+  w->sorts = p->one->n_blocks > SORTED;
 }
 
-GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *lanes)
+GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p)
 {
-  gg_lane_rng_save(&w->rng, lanes);
   p->tried += w->visits * GG_LANES;
   p->collisions += w->collisions;
   p->overflows += w->overflows;
@@ -123,39 +124,40 @@ GG_INLINE bool take(gg_features f, gg_batch *w, gg_draws *d, gg_pipeline *l, gg_
 }
 
 /* Random words of two visits at a time. */
-GG_INLINE void give_words(gg_batch *w, gg_meeting *at, gg_vu second[GG_PARTS], unsigned turn)
+GG_INLINE void give_words(gg_chance *c, gg_meeting *at, gg_vu second[GG_PARTS], unsigned turn)
 {
   for (int part = 0; part < GG_PARTS; part++)
     if (turn % 2)
       at->word[part] = second[part];
     else
-      gg_lane_two(&w->rng, part, &at->word[part], &second[part]);
+      gg_lane_two(&c->rng, part, &at->word[part], &second[part]);
 }
 
 /* All visits. Three are in progress, each at another step, so that a step finds ready what the one before has left,
  * and a processor always has something to do; and what visits will need is made in their midst, a little at a time,
  * for the same reason. */
-GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_draws *d, gg_pairing *p, gg_rng *rng)
+GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, gg_pairing *p, gg_rng *rng)
 {
   static const unsigned makes = 0xb6db; /* directions: in eleven of sixteen turns */
   gg_meeting room[3];
   gg_pipeline l = {.next = &room[0], .approached = &room[1], .decided = &room[2]};
   gg_vu second[GG_PARTS] = {0};
+  unsigned making = 0;
   for (unsigned turn = 0;; turn++) {
-    if (turn % 4 == 0)
-      while (d->left && d->n - d->at < GG_STOCK) gg_draw(f, w, d, p->drift_step);
+    if (turn % 4 == 0) gg_draw_ahead(f, w, c, d, p->drift_step);
+    if (turn % 16 == 0) making = gg_directions_begin(&c->near) ? makes : 0;
     if (d->at == d->n && !l.to_decide && !l.to_carry_out) break;
-    give_words(w, l.next, second, turn);
+    give_words(c, l.next, second, turn);
     const bool taken = take(f, w, d, &l, p, rng);
     call(f, w, (uint32_t)gg_listed(d->one, d->at + GG_CALLED), (uint32_t)gg_listed(d->two, d->at + GG_CALLED) & ~GG_ODD);
-    if (l.to_decide) gg_decide(f, w, rng, l.approached);
+    if (l.to_decide) gg_decide(f, w, c, rng, l.approached);
     if (l.to_carry_out) {
       const gg_meeting *at = l.decided;
       gg_carry_out(f, w, at);
       if (__builtin_expect(at->again, 0))
         gg_draw_again(f, d, at->one, at->two, at->order, at->bound, at->drift, at->per_unit);
     }
-    if ((makes >> turn % 16 & 1) && w->near.n - w->near.at < GG_PLENTY) gg_make_directions(f, w);
+    if (making >> turn % 16 & 1) gg_make_directions(f, c);
     gg_meeting *free = l.decided;
     l.decided = l.approached;
     l.approached = l.next;
@@ -171,9 +173,9 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   gg_batch w;
   gg_real near[3 * GG_DIRECTIONS_ROOM], sheared[3 * GG_DIRECTIONS_ROOM];
   gg_draws draws;
-  start(f, &w, p, lanes);
-  w.near = (gg_directions){.x = near};
-  w.sheared = (gg_directions){.x = sheared};
+  start(f, &w, p);
+  gg_chance chance = {.near = {.x = near}, .sheared = {.x = sheared}};
+  gg_lane_rng_load(&chance.rng, lanes);
   draws.at = draws.n = 1;
   draws.left = p->candidates;
   draws.drift = p->drift;
@@ -181,9 +183,10 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   memset(draws.two, 0, sizeof draws.two);
   call_tops(p->one, p->blocks[0]);
   call_tops(p->two, p->blocks[1]);
-  visit_all(f, &w, &draws, p, rng);
+  visit_all(f, &w, &chance, &draws, p, rng);
   p->top_unit = w.unit;
-  finish(f, &w, p, lanes);
+  finish(f, &w, p);
+  gg_lane_rng_save(&chance.rng, lanes);
 }
 
 /* The table of instances: rule x shear and tap x one or two species. */

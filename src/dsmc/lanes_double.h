@@ -50,6 +50,12 @@ GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
 {
   return _mm512_mask_blend_pd(m, no, yes);
 }
+/* Stores where others would blend: ports that do arithmetic are the scarce ones. */
+GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
+{
+  *(gg_vd *)p = no;
+  _mm512_mask_store_pd(p, m, yes);
+}
 GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
   return _mm512_maskz_mov_pd(m, x);
@@ -280,6 +286,12 @@ GG_INLINE void gg_lane_two(gg_lane_rng *r, int part, gg_vu *a, gg_vu *b)
 GG_INLINE gg_vd gg_lane_one_to_two(gg_vu r)
 {
   return (gg_vd)((r >> 12) | 0x3ff0000000000000u);
+}
+
+/* Uniform in [2, 4), likewise. */
+GG_INLINE gg_vd gg_lane_two_to_four(gg_vu r)
+{
+  return (gg_vd)((r >> 12) | 0x4000000000000000u);
 }
 
 /* Whole numbers below m and below n < 2^32. */

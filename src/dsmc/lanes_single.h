@@ -55,6 +55,12 @@ GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
 {
   return _mm256_mask_blend_ps(m, no, yes);
 }
+/* Stores where others would blend: ports that do arithmetic are the scarce ones. */
+GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
+{
+  *(gg_vd *)p = no;
+  _mm256_mask_store_ps(p, m, yes);
+}
 GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
   return _mm256_maskz_mov_ps(m, x);
@@ -278,6 +284,12 @@ GG_INLINE void gg_lane_two(gg_lane_rng *r, int part, gg_vu *a, gg_vu *b)
 GG_INLINE gg_vd gg_lane_one_to_two(gg_vu r)
 {
   return (gg_vd)((r >> 9) | 0x3f800000u);
+}
+
+/* Uniform in [2, 4), likewise. */
+GG_INLINE gg_vd gg_lane_two_to_four(gg_vu r)
+{
+  return (gg_vd)((r >> 9) | 0x40000000u);
 }
 
 /* Whole numbers below m and below n. */
