@@ -20,14 +20,17 @@
 typedef struct gg_batch {
   gg_real_block *one, *two, *spin_one, *spin_two;
   float *top_one, *top_two;
-  gg_range blocks_one, blocks_two;
-  uint32_t odd_one, odd_two; /* that are not full, or UINT32_MAX */
+  bool any_odd; /* blocks that are not full: odd_one, odd_two, or UINT32_MAX */
+  gg_vu odd_one, odd_two, first_one, first_two, n_one, n_two; /* in all lanes */
   gg_lane_contact contact;
   bool sorts;                  /* lanes change places by speed, not at random */
   gg_real floor, bound;        /* the layer of |C12| */
   gg_real s0, shift;
   gg_real lowest;     /* t: floor - s0 */
+  bool from_zero;     /* that is so */
   gg_vd to_a, to_b;   /* from J, or 2 g_n k, to velocities */
+  bool layer;             /* above another: all under one bound */
+  gg_vd most, most_rate;  /* bound; bound + s0 */
   double unit;            /* of the tops, at the next draw */
   gg_real root, per_unit; /* its square root, and its inverse at the last draws */
   uint64_t visits, collisions, overflows;
@@ -76,7 +79,7 @@ GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd3 q)
  * is faster than `bound`. */
 GG_INLINE void gg_encounter_meet(gg_features f, const gg_batch *w, gg_vd speed, gg_vd bound, gg_vu r, gg_encounter *e)
 {
-  const bool from_zero = w->lowest == 0; /* as a rule, without shear */
+  const bool from_zero = w->from_zero; /* as a rule, without shear */
   gg_vd range = from_zero ? bound : bound - w->lowest;
   e->speed = speed;
   e->t = gg_lane_one_to_two(r) * range - range;

@@ -37,42 +37,31 @@ GG_INLINE gg_vu gg_lane_numbers(unsigned first)
   return *(const gg_vu *)(count + first);
 }
 
-/* All bits of the lanes where a == b. */
-GG_INLINE gg_vu gg_equal(gg_vu a, gg_vu b)
-{
-  return (gg_vu)(a == b);
-}
-
-GG_INLINE gg_vu gg_all_bits(gg_word x)
-{
-  return x - (gg_vu){0};
-}
-
 /* One draw a lane: which blocks, and under which bound of |C12|; another random word gives the order, and whether to
  * visit. `number`: of the lane's draw, of which there are n. */
 GG_INLINE void gg_draw_part(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, int part, gg_real root, gg_real step, unsigned n)
 {
   gg_vu a, b, more, spare, number = gg_lane_numbers((unsigned)part * GG_WIDTH);
-  gg_lane_two_below(&c->rng, part, w->blocks_one.n, w->blocks_two.n, &a, &b);
-  const gg_vu backwards = (gg_vu)(b < a); /* by their places in their ranges: each range is sorted by speed */
-  a += w->blocks_one.first;
-  b += w->blocks_two.first;
+  gg_lane_two_below(&c->rng, part, w->n_one, w->n_two, &a, &b);
+  const gg_mask backwards = gg_below_word(b, a); /* by their places in their ranges: each range is sorted by speed */
+  a += w->first_one;
+  b += w->first_two;
   gg_lane_two(&c->rng, part, &more, &spare);
-  gg_vd bound = (gg_roots_at(w->top_one, a) + gg_roots_at(w->top_two, b)) * root;
-  const gg_real upper = w->floor == 0 ? 0 : (gg_real)INFINITY; /* a layer under one bound */
-  bound = gg_smaller(bound + upper, gg_all(w->bound));
+  gg_vd bound = w->most;
+  if (!w->layer) bound = gg_smaller((gg_roots_at(w->top_one, a) + gg_roots_at(w->top_two, b)) * root, bound);
   gg_vd u = gg_lane_one_to_two(more) - 1;
-  gg_vu odd = gg_equal(a, gg_all_bits(w->odd_one)) | gg_equal(b, gg_all_bits(w->odd_two));
+  gg_mask odd = f.same ? gg_same_word(a, b) : gg_less(bound, bound); /* none */
+  if (w->any_odd) odd = gg_or(odd, gg_or(gg_same_word(a, w->odd_one), gg_same_word(b, w->odd_two)));
+  gg_vu one = a, two = b;
   if (f.same) {
-    gg_vu swap = (a ^ b) & backwards;
-    odd |= gg_equal(a, b);
-    a ^= swap;
-    b ^= swap;
+    one = gg_select_words(backwards, b, a);
+    two = gg_select_words(backwards, a, b);
   }
-  gg_mask keep = gg_or(gg_less(u * (w->bound + w->s0), bound + w->s0), gg_low_bit(odd));
-  if (n < GG_LANES) keep = gg_and(keep, gg_low_bit((gg_vu)(number < gg_all_bits(n))));
-  gg_pack(d->one + d->n, keep, (gg_vd)a);
-  gg_pack(d->two + d->n, keep, (gg_vd)(b | (odd & gg_all_bits(GG_ODD))));
+  two |= (gg_vu)gg_where(odd, (gg_vd)gg_all_words(GG_ODD));
+  gg_mask keep = gg_or(gg_less(u * w->most_rate, bound + w->s0), odd);
+  if (n < GG_LANES) keep = gg_and(keep, gg_below_word(number, gg_all_words(n)));
+  gg_pack(d->one + d->n, keep, (gg_vd)one);
+  gg_pack(d->two + d->n, keep, (gg_vd)two);
   gg_pack(d->order + d->n, keep, (gg_vd)more);
   gg_pack(d->bound + d->n, keep, bound);
   if (f.shear != GG_UNSHEARED) {

@@ -102,8 +102,7 @@ GG_INLINE void gg_carry_out(gg_features f, gg_batch *w, const gg_meeting *at)
     if (f.rule != GG_SMOOTH) gg_turn(f, w, swap, at, part);
   }
   gg_v2 peaks = gg_peaks(top.a, top.b) * (f.shear == GG_UNSHEARED ? w->per_unit : at->per_unit);
-  w->top_one[at->one] = (float)peaks[0];
-  w->top_two[at->two] = (float)peaks[1];
+  gg_peaks_store(peaks, &w->top_one[at->one], &w->top_two[at->two]);
 }
 
 /* Block b with its lanes in order r (of which the low bits count), in registers. */

@@ -55,10 +55,13 @@ GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p)
                   .spin_two = p->two->s,
                   .top_one = p->one->top,
                   .top_two = p->two->top,
-                  .blocks_one = p->blocks[0],
-                  .blocks_two = p->blocks[1],
-                  .odd_one = odd_block(p->one),
-                  .odd_two = odd_block(p->two),
+                  .any_odd = p->one->n % GG_LANES || p->two->n % GG_LANES,
+                  .odd_one = gg_all_words(odd_block(p->one)),
+                  .odd_two = gg_all_words(odd_block(p->two)),
+                  .first_one = gg_all_words(p->blocks[0].first),
+                  .first_two = gg_all_words(p->blocks[1].first),
+                  .n_one = gg_all_words(p->blocks[0].n),
+                  .n_two = gg_all_words(p->blocks[1].n),
                   .contact = gg_lane_contact_of(&p->contact),
                   .floor = (gg_real)p->floor,
                   .shift = (gg_real)p->shift,
@@ -67,7 +70,11 @@ GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p)
                   .root = (gg_real)(sqrt(p->top_unit) * (1 + 1e-6)),
                   .per_unit = (gg_real)gg_per_top(p->top_unit)};
   w->bound = (gg_real)(p->floor + p->bound - w->s0);
+  w->layer = p->floor > 0;
+  w->most = gg_all(w->bound);
+  w->most_rate = gg_all(w->bound + w->s0);
   w->lowest = w->floor - w->s0;
+  w->from_zero = w->lowest == 0;
   w->to_a = gg_all(gg_needs_k(f) ? w->contact.im1 : w->contact.push1);
   w->to_b = gg_all(gg_needs_k(f) ? w->contact.im2 : w->contact.push2);
   w->sorts = p->one->n_blocks > SORTED;
@@ -92,22 +99,18 @@ GG_INLINE void visit_odd(gg_features f, const gg_batch *w, const gg_draws *d, gg
                         (unsigned)gg_listed(d->order, i) % GG_LANES, rng);
 }
 
-/* Meetings in progress, one at each step, or none. */
+/* The visit that has taken its first step, if there is one, and room for the next. */
 typedef struct gg_pipeline {
-  gg_meeting *next, *approached, *decided;
-  bool to_decide, to_carry_out;
+  gg_meeting *next, *approached;
+  bool pending;
 } gg_pipeline;
 
-GG_INLINE bool in_common(const gg_meeting *at, uint32_t one, uint32_t two)
-{
-  return at->one == one || at->two == one || at->one == two || at->two == two;
-}
-
-/* Does the next visit of the list have to wait for one in progress, since they have a block in common? */
+/* Does the next visit of the list have to wait for the one in progress, since they have a block in common? */
 GG_INLINE bool has_to_wait(const gg_pipeline *l, const gg_draws *d)
 {
   const uint32_t one = (uint32_t)gg_listed(d->one, d->at), two = (uint32_t)gg_listed(d->two, d->at) & ~GG_ODD;
-  return (l->to_decide && in_common(l->approached, one, two)) || (l->to_carry_out && in_common(l->decided, one, two));
+  const gg_meeting *at = l->approached;
+  return l->pending && ((at->one == one) | (at->two == one) | (at->one == two) | (at->two == two));
 }
 
 /* The next visit takes its first step, if there is one that can. Returns whether. */
@@ -139,31 +142,28 @@ GG_INLINE void give_words(gg_chance *c, gg_meeting *at, gg_vu second[GG_PARTS], 
 GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, gg_pairing *p, gg_rng *rng)
 {
   static const unsigned makes = 0xb6db; /* directions: in eleven of sixteen turns */
-  gg_meeting room[3];
-  gg_pipeline l = {.next = &room[0], .approached = &room[1], .decided = &room[2]};
+  gg_meeting room[2];
+  gg_pipeline l = {.next = &room[0], .approached = &room[1]};
   gg_vu second[GG_PARTS] = {0};
   unsigned making = 0;
   for (unsigned turn = 0;; turn++) {
     if (turn % 4 == 0) gg_draw_ahead(f, w, c, d, p->drift_step);
     if (turn % 16 == 0) making = gg_directions_begin(&c->near) ? makes : 0;
-    if (d->at == d->n && !l.to_decide && !l.to_carry_out) break;
+    if (d->at == d->n && !l.pending) break;
     give_words(c, l.next, second, turn);
     const bool taken = take(f, w, d, &l, p, rng);
     call(f, w, (uint32_t)gg_listed(d->one, d->at + GG_CALLED), (uint32_t)gg_listed(d->two, d->at + GG_CALLED) & ~GG_ODD);
-    if (l.to_decide) gg_decide(f, w, c, rng, l.approached);
-    if (l.to_carry_out) {
-      const gg_meeting *at = l.decided;
+    if (making >> turn % 16 & 1) gg_make_directions(f, c);
+    gg_meeting *at = l.approached;
+    if (l.pending) {
+      gg_decide(f, w, c, rng, at);
       gg_carry_out(f, w, at);
       if (__builtin_expect(at->again, 0))
         gg_draw_again(f, d, at->one, at->two, at->order, at->bound, at->drift, at->per_unit);
     }
-    if (making >> turn % 16 & 1) gg_make_directions(f, c);
-    gg_meeting *free = l.decided;
-    l.decided = l.approached;
     l.approached = l.next;
-    l.next = free;
-    l.to_carry_out = l.to_decide;
-    l.to_decide = taken;
+    l.next = at;
+    l.pending = taken;
   }
 }
 

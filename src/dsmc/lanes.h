@@ -21,6 +21,14 @@
 #endif
 
 #ifndef GG_HAS_AVX512
+GG_INLINE gg_mask gg_below_word(gg_vu a, gg_vu b)
+{
+  return (gg_mask)(a < b);
+}
+GG_INLINE gg_mask gg_same_word(gg_vu a, gg_vu b)
+{
+  return (gg_mask)(a == b);
+}
 GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
 {
   *(gg_vd *)p = gg_select(m, yes, no);
@@ -35,6 +43,14 @@ typedef struct gg_vd3 {
 GG_INLINE gg_vd gg_all(gg_real x)
 {
   return x - (gg_vd){0};
+}
+GG_INLINE gg_vu gg_all_words(gg_word x)
+{
+  return x - (gg_vu){0};
+}
+GG_INLINE gg_vu gg_select_words(gg_mask m, gg_vu yes, gg_vu no)
+{
+  return (gg_vu)gg_select(m, (gg_vd)yes, (gg_vd)no);
 }
 GG_INLINE gg_vd3 gg_vd3_sub(gg_vd3 a, gg_vd3 b)
 {
