@@ -99,24 +99,35 @@ GG_INLINE void visit_odd(gg_features f, const gg_batch *w, const gg_draws *d, gg
                         (unsigned)gg_listed(d->order, i) % GG_LANES, rng);
 }
 
-/* The visit that has taken its first step, if there is one, and room for the next. */
+/* Visits in progress, each at another step, or none. */
 typedef struct gg_pipeline {
-  gg_meeting *next, *approached;
-  bool pending;
+  gg_meeting *next, *approached, *decided;
+  bool to_decide, to_carry_out;
 } gg_pipeline;
 
-/* Does the next visit of the list have to wait for the one in progress, since they have a block in common? */
-GG_INLINE bool has_to_wait(const gg_pipeline *l, const gg_draws *d)
+/* Where k is needed a visit takes so long to be decided that the last step, too, had better wait for another visit. */
+GG_INLINE bool three_at_once(gg_features f)
+{
+  return gg_needs_k(f);
+}
+
+GG_INLINE bool in_common(const gg_meeting *at, uint32_t one, uint32_t two)
+{
+  return (at->one == one) | (at->two == one) | (at->one == two) | (at->two == two);
+}
+
+/* Does the next visit of the list have to wait for one in progress, since they have a block in common? */
+GG_INLINE bool has_to_wait(gg_features f, const gg_pipeline *l, const gg_draws *d)
 {
   const uint32_t one = (uint32_t)gg_listed(d->one, d->at), two = (uint32_t)gg_listed(d->two, d->at) & ~GG_ODD;
-  const gg_meeting *at = l->approached;
-  return l->pending && ((at->one == one) | (at->two == one) | (at->one == two) | (at->two == two));
+  return (l->to_decide && in_common(l->approached, one, two)) ||
+         (three_at_once(f) && l->to_carry_out && in_common(l->decided, one, two));
 }
 
 /* The next visit takes its first step, if there is one that can. Returns whether. */
 GG_INLINE bool take(gg_features f, gg_batch *w, gg_draws *d, gg_pipeline *l, gg_pairing *p, gg_rng *rng)
 {
-  if (__builtin_expect(d->at == d->n || has_to_wait(l, d), 0)) return false;
+  if (__builtin_expect(d->at == d->n || has_to_wait(f, l, d), 0)) return false;
   const bool odd = gg_listed(d->two, d->at) & GG_ODD;
   if (__builtin_expect(odd, 0))
     visit_odd(f, w, d, p, rng);
@@ -142,28 +153,31 @@ GG_INLINE void give_words(gg_chance *c, gg_meeting *at, gg_vu second[GG_PARTS], 
 GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, gg_pairing *p, gg_rng *rng)
 {
   static const unsigned makes = 0xb6db; /* directions: in eleven of sixteen turns */
-  gg_meeting room[2];
-  gg_pipeline l = {.next = &room[0], .approached = &room[1]};
+  gg_meeting room[3];
+  gg_pipeline l = {.next = &room[0], .approached = &room[1], .decided = &room[2]};
   gg_vu second[GG_PARTS] = {0};
   unsigned making = 0;
   for (unsigned turn = 0;; turn++) {
     if (turn % 4 == 0) gg_draw_ahead(f, w, c, d, p->drift_step);
     if (turn % 16 == 0) making = gg_directions_begin(&c->near) ? makes : 0;
-    if (d->at == d->n && !l.pending) break;
+    if (d->at == d->n && !l.to_decide && !l.to_carry_out) break;
     give_words(c, l.next, second, turn);
     const bool taken = take(f, w, d, &l, p, rng);
     call(f, w, (uint32_t)gg_listed(d->one, d->at + GG_CALLED), (uint32_t)gg_listed(d->two, d->at + GG_CALLED) & ~GG_ODD);
     if (making >> turn % 16 & 1) gg_make_directions(f, c);
-    gg_meeting *at = l.approached;
-    if (l.pending) {
-      gg_decide(f, w, c, rng, at);
+    const bool last = three_at_once(f) ? l.to_carry_out : l.to_decide;
+    gg_meeting *at = three_at_once(f) ? l.decided : l.approached;
+    if (l.to_decide) gg_decide(f, w, c, rng, l.approached);
+    if (last) {
       gg_carry_out(f, w, at);
       if (__builtin_expect(at->again, 0))
         gg_draw_again(f, d, at->one, at->two, at->order, at->bound, at->drift, at->per_unit);
     }
+    l.decided = l.approached;
     l.approached = l.next;
     l.next = at;
-    l.pending = taken;
+    l.to_carry_out = three_at_once(f) && l.to_decide;
+    l.to_decide = taken;
   }
 }
 
