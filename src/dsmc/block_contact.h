@@ -59,20 +59,37 @@ GG_INLINE bool gg_needs_k(gg_features f)
   return f.rule != GG_SMOOTH || f.shear == GG_SHEARED_DENSE || f.tap == GG_TAP_STRESS;
 }
 
+/* Shear between the centres makes the second step longer than the first: this one moves to the first. */
+GG_INLINE bool gg_scales_early(gg_features f)
+{
+  return f.shear == GG_SHEARED_DENSE;
+}
+
 /* Without its sign. */
 GG_INLINE gg_vd gg_size(gg_vd x)
 {
   return (gg_vd)((gg_vu)x & ~(gg_vu)gg_all(-0.0));
 }
 
-/* The direction that lies about v as q lies about the z axis: q mirrored by the Householder vector v +- |v| z. */
-GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd3 q)
+/* z component of the Householder vector v +- |v| z that mirrors the z axis to the direction of v, or against it. */
+GG_INLINE gg_vd gg_mirror_z(gg_vd3 v, gg_vd speed)
+{
+  return v.z + (gg_vd)((gg_vu)speed | ((gg_vu)v.z & (gg_vu)gg_all(-0.0)));
+}
+
+/* Half the inverse square of its length: known as soon as v is, and so long in coming that it had better be asked for then. */
+GG_INLINE gg_vd gg_mirror_scale(gg_vd3 v, gg_vd speed)
+{
+  return 1 / (speed * gg_size(gg_mirror_z(v, speed)) + GG_TINY); /* 0/0 only where nothing moves */
+}
+
+/* The direction that lies about v as q lies about the z axis: q mirrored. */
+GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd scale, gg_vd3 q)
 {
   const gg_vu sign = (gg_vu)v.z & (gg_vu)gg_all(-0.0);
-  gg_vd side = (gg_vd)((gg_vu)speed | sign), height = speed + (gg_vd)((gg_vu)v.z ^ sign);
-  gg_vd3 h = {v.x, v.y, v.z + side}, m = {q.x, q.y, (gg_vd)((gg_vu)q.z ^ sign ^ (gg_vu)gg_all(-0.0))};
-  gg_vd f = gg_vd3_dot(h, m) / (speed * height + GG_TINY); /* 0/0 only where nothing moves */
-  return gg_vd3_sub(m, gg_vd3_scale(f, h));
+  gg_vd3 h = {v.x, v.y, gg_mirror_z(v, speed)};
+  gg_vd3 m = {q.x, q.y, (gg_vd)((gg_vu)q.z ^ sign ^ (gg_vu)gg_all(-0.0))};
+  return gg_vd3_sub(m, gg_vd3_scale(gg_vd3_dot(h, m) * scale, h));
 }
 
 /* Candidates of this speed, decided by the random word r: who collides by the first law, who may by the second. None
@@ -104,15 +121,15 @@ GG_INLINE void gg_encounter_shear(const gg_batch *w, gg_chance *c, gg_vd3 v, gg_
   e->hit = gg_and(gg_or(e->hit, e->special), gg_less(left * most, range * e->gn));
 }
 
-/* Along which k do they collide, with relative velocity v? */
-GG_INLINE void gg_encounter_aim(gg_features f, const gg_batch *w, gg_chance *c, gg_vd3 v, gg_encounter *e)
+/* Along which k do they collide, with relative velocity v, whose gg_mirror_scale is known? */
+GG_INLINE void gg_encounter_aim(gg_features f, const gg_batch *w, gg_chance *c, gg_vd3 v, gg_vd scale, gg_encounter *e)
 {
   e->g = v;
   if (!gg_needs_k(f)) {
     e->gn_k = gg_vd3_sub(v, gg_vd3_scale(e->speed, e->q));
     return;
   }
-  e->k = gg_about(v, e->speed, e->q);
+  e->k = gg_about(v, e->speed, gg_scales_early(f) ? scale : gg_mirror_scale(v, e->speed), e->q);
   e->gn = e->speed * e->q.z;
   if (f.shear == GG_SHEARED_DENSE) gg_encounter_shear(w, c, v, e);
 }

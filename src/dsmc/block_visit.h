@@ -48,7 +48,8 @@ typedef struct gg_meeting {
   gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
   gg_vd3 v[GG_PARTS];
   gg_vd v2[GG_PARTS], speed[GG_PARTS];
-  gg_vu word[GG_PARTS]; /* random */
+  gg_vd scale[GG_PARTS]; /* gg_mirror_scale, if asked for early */
+  gg_vu word[GG_PARTS];  /* random */
   gg_vd3 k[GG_PARTS];   /* if grains turn */
   gg_vd3 J[GG_PARTS];   /* 0 without a hit; 2 g_n k where k is not needed */
 } gg_meeting;
@@ -155,6 +156,7 @@ GG_INLINE void gg_approach(gg_features f, gg_batch *w, const gg_draws *d, gg_mee
     at->v[part] = gg_streamed(f, at->drift, gg_vd3_sub(ca, at->cb[part]));
     at->v2[part] = gg_vd3_dot(at->v[part], at->v[part]);
     at->speed[part] = gg_sqrt(at->v2[part]);
+    if (gg_scales_early(f)) at->scale[part] = gg_mirror_scale(at->v[part], at->speed[part]);
   }
 }
 
@@ -164,7 +166,7 @@ GG_INLINE void gg_aim(gg_features f, gg_batch *w, gg_chance *c, gg_meeting *at, 
   gg_encounter e;
   gg_encounter_meet(f, w, at->speed[part], gg_all(at->bound), at->word[part], &e);
   e.q = gg_directions_take(&c->near, e.hit);
-  gg_encounter_aim(f, w, c, at->v[part], &e);
+  gg_encounter_aim(f, w, c, at->v[part], at->scale[part], &e);
   if (f.rule != GG_SMOOTH) {
     gg_vd3 sa = gg_lanes_load(&w->spin_one[at->one], part * GG_WIDTH);
     e.g = gg_vd3_sub(e.g, gg_vd3_cross(e.k, gg_vd3_add(sa, at->sb[part])));
