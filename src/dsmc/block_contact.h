@@ -23,12 +23,12 @@ typedef struct gg_batch {
   bool any_odd; /* blocks that are not full: odd_one, odd_two, or UINT32_MAX */
   gg_vu odd_one, odd_two, first_one, first_two, n_one, n_two; /* in all lanes */
   gg_lane_contact contact;
-  bool sorts;                  /* lanes change places by speed, not at random */
-  gg_real floor, bound;        /* the layer of |C12| */
+  bool sorts;           /* lanes change places by speed, not at random */
+  gg_real floor, bound; /* the layer of |C12| */
   gg_real s0, shift;
-  gg_real lowest;     /* t: floor - s0 */
-  bool from_zero;     /* that is so */
-  gg_vd to_a, to_b;   /* from J, or 2 g_n k, to velocities */
+  gg_real lowest;         /* t: floor - s0 */
+  bool from_zero;         /* that is so */
+  gg_vd to_a, to_b;       /* from J, or 2 g_n k, to velocities */
   bool layer;             /* above another: all under one bound */
   gg_vd most, most_rate;  /* bound; bound + s0 */
   double unit;            /* of the tops, at the next draw */
@@ -77,7 +77,8 @@ GG_INLINE gg_vd gg_mirror_z(gg_vd3 v, gg_vd speed)
   return v.z + (gg_vd)((gg_vu)speed | ((gg_vu)v.z & (gg_vu)gg_all(-0.0)));
 }
 
-/* Half the inverse square of its length: known as soon as v is, and so long in coming that it had better be asked for then. */
+/* Half the inverse square of its length: known as soon as v is, and so long in coming that it had better be asked for
+ * then. */
 GG_INLINE gg_vd gg_mirror_scale(gg_vd3 v, gg_vd speed)
 {
   return 1 / (speed * gg_size(gg_mirror_z(v, speed)) + GG_TINY); /* 0/0 only where nothing moves */

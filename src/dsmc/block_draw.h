@@ -39,7 +39,8 @@ GG_INLINE gg_vu gg_lane_numbers(unsigned first)
 
 /* One draw a lane: which blocks, and under which bound of |C12|; another random word gives the order, and whether to
  * visit. `number`: of the lane's draw, of which there are n. */
-GG_INLINE void gg_draw_part(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, int part, gg_real root, gg_real step, unsigned n)
+GG_INLINE void gg_draw_part(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, int part, gg_real root, gg_real step,
+                            unsigned n)
 {
   gg_vu a, b, more, spare, number = gg_lane_numbers((unsigned)part * GG_WIDTH);
   gg_lane_two_below(&c->rng, part, w->n_one, w->n_two, &a, &b);

@@ -37,21 +37,22 @@ GG_INLINE void gg_lanes_settle(gg_features f, gg_real_block *one, gg_real_block 
   }
 }
 
-/* Two blocks that meet. Worked out in three steps, each of which waits for the one before: approach, decide, carry out. */
+/* Two blocks that meet. Worked out in three steps, each of which waits for the one before: approach, decide, carry out.
+ */
 typedef struct gg_meeting {
   uint32_t one, two;
-  bool again;             /* once more */
-  gg_word order;          /* of the lanes of the second */
+  bool again;              /* once more */
+  gg_word order;           /* of the lanes of the second */
   gg_real drift, per_unit; /* if sheared */
-  gg_real bound;          /* of |C12| */
+  gg_real bound;           /* of |C12| */
   /* Of the first: what is in its block, for no one comes between. Of the second: in their order. */
   gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
   gg_vd3 v[GG_PARTS];
   gg_vd v2[GG_PARTS], speed[GG_PARTS];
   gg_vd scale[GG_PARTS]; /* gg_mirror_scale, if asked for early */
   gg_vu word[GG_PARTS];  /* random */
-  gg_vd3 k[GG_PARTS];   /* if grains turn */
-  gg_vd3 J[GG_PARTS];   /* 0 without a hit; 2 g_n k where k is not needed */
+  gg_vd3 k[GG_PARTS];    /* if grains turn */
+  gg_vd3 J[GG_PARTS];    /* 0 without a hit; 2 g_n k where k is not needed */
 } gg_meeting;
 
 /* Largest C^2 after a visit, lane by lane. */

@@ -105,29 +105,23 @@ typedef struct gg_pipeline {
   bool to_decide, to_carry_out;
 } gg_pipeline;
 
-/* Where k is needed a visit takes so long to be decided that the last step, too, had better wait for another visit. */
-GG_INLINE bool three_at_once(gg_features f)
-{
-  return gg_needs_k(f);
-}
-
 GG_INLINE bool in_common(const gg_meeting *at, uint32_t one, uint32_t two)
 {
   return (at->one == one) | (at->two == one) | (at->one == two) | (at->two == two);
 }
 
 /* Does the next visit of the list have to wait for one in progress, since they have a block in common? */
-GG_INLINE bool has_to_wait(gg_features f, const gg_pipeline *l, const gg_draws *d)
+GG_INLINE bool has_to_wait(const gg_pipeline *l, const gg_draws *d)
 {
   const uint32_t one = (uint32_t)gg_listed(d->one, d->at), two = (uint32_t)gg_listed(d->two, d->at) & ~GG_ODD;
-  return (l->to_decide && in_common(l->approached, one, two)) ||
-         (three_at_once(f) && l->to_carry_out && in_common(l->decided, one, two));
+  if (l->to_decide && in_common(l->approached, one, two)) return true;
+  return l->to_carry_out && in_common(l->decided, one, two);
 }
 
 /* The next visit takes its first step, if there is one that can. Returns whether. */
 GG_INLINE bool take(gg_features f, gg_batch *w, gg_draws *d, gg_pipeline *l, gg_pairing *p, gg_rng *rng)
 {
-  if (__builtin_expect(d->at == d->n || has_to_wait(f, l, d), 0)) return false;
+  if (__builtin_expect(d->at == d->n || has_to_wait(l, d), 0)) return false;
   const bool odd = gg_listed(d->two, d->at) & GG_ODD;
   if (__builtin_expect(odd, 0))
     visit_odd(f, w, d, p, rng);
@@ -147,9 +141,10 @@ GG_INLINE void give_words(gg_chance *c, gg_meeting *at, gg_vu second[GG_PARTS], 
       gg_lane_two(&c->rng, part, &at->word[part], &second[part]);
 }
 
-/* All visits. Three are in progress, each at another step, so that a step finds ready what the one before has left,
- * and a processor always has something to do; and what visits will need is made in their midst, a little at a time,
- * for the same reason. */
+/* All visits. Up to three are in progress, each at another step, so that a step finds ready what the one before has
+ * left, and a processor always has something to do; and directions are made in their midst, a few at a time, for the
+ * same reason. What is scarce is the arithmetic on registers of eight: so constants come as whole registers, either of
+ * two velocities is chosen by what is stored. */
 GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, gg_pairing *p, gg_rng *rng)
 {
   static const unsigned makes = 0xb6db; /* directions: in eleven of sixteen turns */
@@ -163,20 +158,20 @@ GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, 
     if (d->at == d->n && !l.to_decide && !l.to_carry_out) break;
     give_words(c, l.next, second, turn);
     const bool taken = take(f, w, d, &l, p, rng);
-    call(f, w, (uint32_t)gg_listed(d->one, d->at + GG_CALLED), (uint32_t)gg_listed(d->two, d->at + GG_CALLED) & ~GG_ODD);
+    call(f, w, (uint32_t)gg_listed(d->one, d->at + GG_CALLED),
+         (uint32_t)gg_listed(d->two, d->at + GG_CALLED) & ~GG_ODD);
     if (making >> turn % 16 & 1) gg_make_directions(f, c);
-    const bool last = three_at_once(f) ? l.to_carry_out : l.to_decide;
-    gg_meeting *at = three_at_once(f) ? l.decided : l.approached;
     if (l.to_decide) gg_decide(f, w, c, rng, l.approached);
-    if (last) {
-      gg_carry_out(f, w, at);
-      if (__builtin_expect(at->again, 0))
-        gg_draw_again(f, d, at->one, at->two, at->order, at->bound, at->drift, at->per_unit);
+    gg_meeting *last = l.decided;
+    if (l.to_carry_out) {
+      gg_carry_out(f, w, last);
+      if (__builtin_expect(last->again, 0))
+        gg_draw_again(f, d, last->one, last->two, last->order, last->bound, last->drift, last->per_unit);
     }
     l.decided = l.approached;
     l.approached = l.next;
-    l.next = at;
-    l.to_carry_out = three_at_once(f) && l.to_decide;
+    l.next = last;
+    l.to_carry_out = l.to_decide;
     l.to_decide = taken;
   }
 }
