@@ -93,19 +93,24 @@ GG_INLINE gg_vd3 gg_about(gg_vd3 v, gg_vd speed, gg_vd scale, gg_vd3 q)
   return gg_vd3_sub(m, gg_vd3_scale(gg_vd3_dot(h, m) * scale, h));
 }
 
-/* Candidates of this speed, decided by the random word r: who collides by the first law, who may by the second. None
- * is faster than `bound`. */
-GG_INLINE void gg_encounter_meet(gg_features f, const gg_batch *w, gg_vd speed, gg_vd bound, gg_vu r, gg_encounter *e)
+/* Candidates of e->speed, decided by the random word r, t from `lowest` (0 if from_zero) to `bound`: who collides by
+ * the first law, who may by the second. */
+GG_INLINE void gg_encounter_meet(gg_features f, bool from_zero, gg_real lowest, gg_real bound, gg_vu r, gg_encounter *e)
 {
-  const bool from_zero = w->from_zero; /* as a rule, without shear */
-  gg_vd range = from_zero ? bound : bound - w->lowest;
-  e->speed = speed;
+  gg_vd range = gg_all(bound);
+  if (!from_zero) range -= gg_all(lowest);
   e->t = gg_lane_one_to_two(r) * range - range;
-  if (!from_zero) e->t += w->lowest;
-  e->hit = gg_less(e->t, speed);
+  if (!from_zero) e->t += gg_all(lowest);
+  e->hit = gg_less(e->t, e->speed);
   if (f.shear != GG_SHEARED_DENSE) return;
   e->special = gg_less(e->t, gg_all(0));
   e->hit = gg_and_not(e->hit, e->special);
+}
+
+/* What is left of t is to be uniform from 0 to the speed. */
+GG_INLINE void gg_encounter_in_layer(gg_real lowest, gg_encounter *e)
+{
+  e->t = (e->t - lowest) * e->speed / (e->speed - lowest);
 }
 
 /* Shear between the centres: lanes in `special` take the second law; then the last choice. */

@@ -4,9 +4,17 @@
 
 #include "dsmc/block_contact.h"
 
-/* Visits to be had in stock, and how far ahead of a visit its memory is called. Draws begin when every fourth visit
- * finds less in stock, so that some are left. */
-enum { GG_STOCK = 20, GG_STOCKED = 36, GG_CALLED = 12, GG_DRAW_FULL = 128, GG_DRAW_ROOM = GG_DRAW_FULL + 2 * GG_LANES };
+/* Visits to be had in stock: draws begin when every fourth visit finds less, and end with more. Few in small ensembles,
+ * whose blocks are at hand, and change so soon that bounds would not hold for long. GG_CALLED: how far ahead of a visit
+ * its memory is called. */
+enum {
+  GG_STOCK = 20,
+  GG_STOCKED = 36,
+  GG_STOCK_OF_FEW = 4,
+  GG_CALLED = 12,
+  GG_DRAW_FULL = 128,
+  GG_DRAW_ROOM = GG_DRAW_FULL + 2 * GG_LANES
+};
 #define GG_ODD (UINT32_C(1) << 31) /* in `two`: no visit for this path */
 
 /* What is to be visited, in order of time. Lists as gg_pack leaves them: each a number's worth of bits. Before the
@@ -14,7 +22,9 @@ enum { GG_STOCK = 20, GG_STOCKED = 36, GG_CALLED = 12, GG_DRAW_FULL = 128, GG_DR
 typedef struct gg_draws {
   unsigned at, n; /* next, and how many there are */
   uint64_t left;  /* draws to be made */
-  double drift;   /* of the next draw */
+  bool layer;     /* the next is a visit made again, in the layer above its bound, from `lowest` on */
+  gg_real lowest;
+  double drift; /* of the next draw */
   gg_real one[GG_DRAW_ROOM], two[GG_DRAW_ROOM], order[GG_DRAW_ROOM], bound[GG_DRAW_ROOM];
   gg_real drifts[GG_DRAW_ROOM], per_unit[GG_DRAW_ROOM]; /* of the tops; both only if sheared */
 } gg_draws;
@@ -102,15 +112,18 @@ GG_INLINE void gg_draw(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, do
 /* Draw ahead if little is left in stock: then for some visits to come. */
 GG_INLINE void gg_draw_ahead(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, double drift_step)
 {
-  if (d->n - d->at >= GG_STOCK) return;
-  while (d->left && d->n - d->at < GG_STOCKED) gg_draw(f, w, c, d, drift_step);
+  if (d->n - d->at >= (w->sorts ? GG_STOCK : GG_STOCK_OF_FEW)) return;
+  while (d->left && d->n - d->at < (w->sorts ? GG_STOCKED : GG_STOCK_OF_FEW)) gg_draw(f, w, c, d, drift_step);
 }
 
-/* The visit just looked at comes next once more, under this bound. */
-GG_INLINE void gg_draw_again(gg_features f, gg_draws *d, uint32_t one, uint32_t two, gg_word order, gg_real bound,
-                             gg_real drift, gg_real per_unit)
+/* A visit comes once more, as the next one, in the layer from `lowest` to `bound`. It has no block in common with those
+ * that have begun since. */
+GG_INLINE void gg_draw_again(gg_features f, gg_draws *d, uint32_t one, uint32_t two, gg_word order, gg_real lowest,
+                             gg_real bound, gg_real drift, gg_real per_unit)
 {
   const unsigned i = --d->at;
+  d->layer = true;
+  d->lowest = lowest;
   gg_list(d->one, i, one);
   gg_list(d->two, i, two);
   gg_list(d->order, i, order);

@@ -41,10 +41,14 @@ GG_INLINE void gg_lanes_settle(gg_features f, gg_real_block *one, gg_real_block 
  */
 typedef struct gg_meeting {
   uint32_t one, two;
+  gg_real_block *a, *b;
   bool again;              /* once more */
   gg_word order;           /* of the lanes of the second */
   gg_real drift, per_unit; /* if sheared */
-  gg_real bound;           /* of |C12| */
+  gg_real lowest, bound;   /* of t (block_contact.h) */
+  bool from_zero;          /* lowest is 0 */
+  bool layer;              /* above a visit before */
+  gg_real most;            /* bound of the layer above this one, if again */
   /* Of the first: what is in its block, for no one comes between. Of the second: in their order. */
   gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
   gg_vd3 v[GG_PARTS];
@@ -83,7 +87,7 @@ GG_INLINE gg_mask gg_push(gg_features f, gg_batch *w, const gg_meeting *at, int 
   gg_vd3 J = at->J[part];
   if (f.shear != GG_UNSHEARED) J.x += at->drift * J.y; /* as stored velocities have it */
   gg_vd3 push_a = gg_vd3_scale(w->to_a, J), push_b = f.same ? push_a : gg_vd3_scale(w->to_b, J);
-  gg_vd3 a = gg_vd3_sub(gg_lanes_load(&w->one[at->one], part * GG_WIDTH), push_a);
+  gg_vd3 a = gg_vd3_sub(gg_lanes_load(at->a, part * GG_WIDTH), push_a);
   gg_vd3 b = gg_vd3_add(at->cb[part], push_b);
   gg_vd3 Ca = gg_streamed(f, at->drift, a), Cb = gg_streamed(f, at->drift, b);
   gg_vd a2 = gg_vd3_dot(Ca, Ca), b2 = gg_vd3_dot(Cb, Cb);
@@ -91,7 +95,7 @@ GG_INLINE gg_mask gg_push(gg_features f, gg_batch *w, const gg_meeting *at, int 
   gg_vd first = f.same ? gg_select(swap, b2, a2) : a2, second = f.same ? gg_select(swap, a2, b2) : b2;
   top->a = part ? gg_larger(top->a, first) : first;
   top->b = part ? gg_larger(top->b, second) : second;
-  gg_lanes_settle(f, &w->one[at->one], &w->two[at->two], part * GG_WIDTH, swap, a, b);
+  gg_lanes_settle(f, at->a, at->b, part * GG_WIDTH, swap, a, b);
   return swap;
 }
 
@@ -119,24 +123,22 @@ GG_INLINE void gg_load_in_order(const gg_real_block *b, gg_word r, gg_vd3 c[GG_P
 }
 
 /* Some pair is faster than the sum of tops by which its blocks were drawn: one of them has been visited since, or the
- * gas is faster than the bound of all. The former is made good exactly: the visit goes under the bound of now, and is
- * repeated with such a probability that its mean number is what it should have been: `again`. */
-GG_INLINE void gg_reconsider(gg_features f, gg_batch *w, gg_meeting *at, gg_rng *rng)
+ * gas is faster than the bound of all. What such pairs should collide more often than at every visit is made good by
+ * another visit in the layer above the bound, which comes with the probability that makes the rates right: `again`.
+ * (All lanes under a higher bound, and all of them again now and then, would have the same rates; but pairs that meet
+ * twice in a row scatter no further than once, and there would be more of them.) */
+GG_INLINE void gg_reconsider(gg_batch *w, gg_meeting *at, gg_rng *rng)
 {
   const gg_real bound = at->bound;
-  gg_vd a2 = gg_all(0), b2 = a2;
+  gg_vd most = at->v2[0];
   for (int part = 0; part < GG_PARTS; part++) {
-    gg_vd3 a = gg_streamed(f, at->drift, gg_lanes_load(&w->one[at->one], part * GG_WIDTH));
-    gg_vd3 b = gg_streamed(f, at->drift, at->cb[part]);
-    a2 = gg_larger(a2, gg_vd3_dot(a, a));
-    b2 = gg_larger(b2, gg_vd3_dot(b, b));
-    w->overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(w->bound), gg_sqrt(at->v2[part]))));
+    most = gg_larger(most, at->v2[part]);
+    w->overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(w->bound), at->speed[part])));
   }
-  gg_v2 peaks = gg_peaks(a2, b2);
-  gg_real now = (gg_real)fmin((sqrt(peaks[0]) + sqrt(peaks[1])) * (1 + 1e-15), w->bound);
+  gg_real now = (gg_real)fmin(sqrt(gg_peaks(most, most)[0]) * (1 + 1e-15), w->bound);
   if (now <= bound) return;
-  at->again = gg_rng_uniform(rng) * (bound + w->s0) < now - bound;
-  at->bound = now;
+  at->again = gg_rng_uniform(rng) * (bound - at->lowest) < now - bound;
+  at->most = now;
 }
 
 /* Take the next visit of the list: how fast do they meet? */
@@ -145,15 +147,24 @@ GG_INLINE void gg_approach(gg_features f, gg_batch *w, const gg_draws *d, gg_mee
   const unsigned i = d->at;
   at->one = (uint32_t)gg_listed(d->one, i);
   at->two = (uint32_t)gg_listed(d->two, i);
+  at->a = &w->one[at->one];
+  at->b = &w->two[at->two];
   at->order = gg_listed(d->order, i);
   at->bound = d->bound[i];
-  at->again = false;
+  at->again = at->layer = false;
+  at->lowest = w->lowest;
+  at->from_zero = w->from_zero;
+  if (__builtin_expect(d->layer, 0)) {
+    at->layer = true;
+    at->lowest = d->lowest;
+    at->from_zero = false;
+  }
   at->drift = f.shear == GG_UNSHEARED ? 0 : d->drifts[i];
   if (f.shear != GG_UNSHEARED) at->per_unit = d->per_unit[i];
-  gg_load_in_order(&w->two[at->two], at->order, at->cb);
+  gg_load_in_order(at->b, at->order, at->cb);
   if (f.rule != GG_SMOOTH) gg_load_in_order(&w->spin_two[at->two], at->order, at->sb);
   for (int part = 0; part < GG_PARTS; part++) {
-    gg_vd3 ca = gg_lanes_load(&w->one[at->one], part * GG_WIDTH);
+    gg_vd3 ca = gg_lanes_load(at->a, part * GG_WIDTH);
     at->v[part] = gg_streamed(f, at->drift, gg_vd3_sub(ca, at->cb[part]));
     at->v2[part] = gg_vd3_dot(at->v[part], at->v[part]);
     at->speed[part] = gg_sqrt(at->v2[part]);
@@ -164,8 +175,9 @@ GG_INLINE void gg_approach(gg_features f, gg_batch *w, const gg_draws *d, gg_mee
 /* Who collides, along which k, with what impulse? */
 GG_INLINE void gg_aim(gg_features f, gg_batch *w, gg_chance *c, gg_meeting *at, int part)
 {
-  gg_encounter e;
-  gg_encounter_meet(f, w, at->speed[part], gg_all(at->bound), at->word[part], &e);
+  gg_encounter e = {.speed = at->speed[part]};
+  gg_encounter_meet(f, at->from_zero, at->lowest, at->bound, at->word[part], &e);
+  if (__builtin_expect(at->layer, 0)) gg_encounter_in_layer(at->lowest, &e);
   e.q = gg_directions_take(&c->near, e.hit);
   gg_encounter_aim(f, w, c, at->v[part], at->scale[part], &e);
   if (f.rule != GG_SMOOTH) {
@@ -192,7 +204,7 @@ GG_INLINE void gg_decide(gg_features f, gg_batch *w, gg_chance *c, gg_rng *rng, 
 {
   unsigned faster = 0;
   for (int part = 0; part < GG_PARTS; part++) faster |= gg_bits(gg_less(gg_all(at->bound), at->speed[part]));
-  if (__builtin_expect(faster, 0)) gg_reconsider(f, w, at, rng);
+  if (__builtin_expect(faster, 0)) gg_reconsider(w, at, rng);
   gg_directions_stock(&c->near, &c->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
   if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&c->sheared, &c->rng, GG_SHEARED);
   for (int part = 0; part < GG_PARTS; part++) gg_aim(f, w, c, at, part);

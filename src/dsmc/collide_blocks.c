@@ -127,6 +127,7 @@ GG_INLINE bool take(gg_features f, gg_batch *w, gg_draws *d, gg_pipeline *l, gg_
     visit_odd(f, w, d, p, rng);
   else
     gg_approach(f, w, d, l->next);
+  d->layer = false;
   d->at++;
   return !odd;
 }
@@ -166,7 +167,7 @@ GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, 
     if (l.to_carry_out) {
       gg_carry_out(f, w, last);
       if (__builtin_expect(last->again, 0))
-        gg_draw_again(f, d, last->one, last->two, last->order, last->bound, last->drift, last->per_unit);
+        gg_draw_again(f, d, last->one, last->two, last->order, last->bound, last->most, last->drift, last->per_unit);
     }
     l.decided = l.approached;
     l.approached = l.next;
@@ -187,6 +188,7 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   gg_lane_rng_load(&chance.rng, lanes);
   draws.at = draws.n = 1;
   draws.left = p->candidates;
+  draws.layer = false;
   draws.drift = p->drift;
   memset(draws.one, 0, sizeof draws.one); /* what is past the end is called, too */
   memset(draws.two, 0, sizeof draws.two);
