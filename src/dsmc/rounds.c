@@ -4,9 +4,9 @@
  * comes between the two halves of a step, each round has both, the second in reverse order. */
 #include "dsmc/dsmc.h"
 
-/* Candidates that a turn within a meeting should have, on average: enough that what it costs to begin one is no
- * matter. */
-static const double worth_a_turn = 600;
+/* Candidates that a turn within a meeting should have, on average: enough that to begin one, to wait for who is last
+ * and to call segments out of another's cache hardly matter. */
+static const double worth_a_turn = 4000;
 /* Candidates of a round that others are called for. */
 static const double worth_calling = 400;
 
