@@ -4,7 +4,6 @@
 #include <sched.h>
 #include <stdatomic.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -25,10 +24,12 @@ struct gg_crew {
    * in clearing a bit may read the job, which stays until all its parts are done. */
   _Alignas(64) _Atomic uint64_t open;
   _Alignas(64) _Atomic int undone;
+  _Atomic uint32_t finished; /* a bit for each part */
   _Alignas(64) gg_part *part;
   void *context;
-  _Atomic int parts, asleep, quit;
-  _Atomic int waiting; /* the caller sleeps until all is done */
+  _Atomic int rounds, columns, asleep, quit;
+  _Atomic uint32_t need[GG_MOST_PARTS]; /* what has to be done before each part */
+  _Atomic int waiting;                  /* the caller sleeps until all is done */
   pthread_mutex_t mutex;
   pthread_cond_t work, done;
   int n, looks;
@@ -58,17 +59,49 @@ static int processors(void)
 /* The parts that thread `self` takes first, so that it has what it had in the job before: its caches know. */
 static uint32_t home(const gg_crew *c, int self)
 {
-  const int parts = atomic_load_explicit(&c->parts, memory_order_relaxed), n = c->n + 1;
-  return (uint32_t)((UINT64_C(1) << (self + 1) * parts / n) - (UINT64_C(1) << self * parts / n));
+  const int columns = atomic_load_explicit(&c->columns, memory_order_relaxed), n = c->n + 1;
+  const int rounds = atomic_load_explicit(&c->rounds, memory_order_relaxed);
+  const uint64_t one = (UINT64_C(1) << (self + 1) * columns / n) - (UINT64_C(1) << self * columns / n);
+  uint64_t all = 0;
+  for (int r = 0; r < rounds; r++) all |= one << r * columns;
+  return (uint32_t)all;
 }
 
+/* Of these parts those that need not wait for others. */
+static uint32_t ready(const gg_crew *c, uint32_t parts)
+{
+  const uint32_t finished = atomic_load(&c->finished);
+  uint32_t those = 0;
+  for (uint32_t left = parts; left; left &= left - 1) {
+    const int k = __builtin_ctz(left);
+    if (!(atomic_load_explicit(&c->need[k], memory_order_relaxed) & ~finished)) those |= UINT32_C(1) << k;
+  }
+  return those;
+}
+
+/* A part to take, or -1: all that is left waits for somebody who is at it; or what thread `self` has at home does,
+ * which is better waited for than to change columns, and caches, with others: not for long, since they may be asleep.
+ */
+static int choose(const gg_crew *c, int self, uint32_t open, int looks)
+{
+  const uint32_t at_home = home(c, self), can = ready(c, open), own = can & at_home;
+  if (own) return __builtin_ctz(own);
+  if (!can || (open & at_home && looks < c->looks / 4)) return -1;
+  return 31 - __builtin_clz(can);
+}
+
+/* What is read of the job before a bit has been cleared may be of the next: then the bit cannot be cleared. */
 static bool take(gg_crew *c, int self, int *part)
 {
   uint64_t seen = atomic_load(&c->open);
-  while ((uint32_t)seen) {
-    uint32_t open = (uint32_t)seen, own = open & home(c, self);
-    *part = own ? __builtin_ctz(own) : 31 - __builtin_clz(open);
-    if (atomic_compare_exchange_weak(&c->open, &seen, seen & ~(UINT64_C(1) << *part))) return true;
+  for (int looks = 0; (uint32_t)seen;) {
+    *part = choose(c, self, (uint32_t)seen, looks);
+    if (*part >= 0) {
+      if (atomic_compare_exchange_weak(&c->open, &seen, seen & ~(UINT64_C(1) << *part))) return true;
+      continue;
+    }
+    if (!patient(c, looks++)) sched_yield();
+    seen = atomic_load(&c->open);
   }
   return false;
 }
@@ -77,6 +110,7 @@ static void work_off(gg_crew *c, int self)
 {
   for (int part; take(c, self, &part);) {
     c->part(c->context, part);
+    atomic_fetch_or(&c->finished, UINT32_C(1) << part);
     if (atomic_fetch_sub(&c->undone, 1) > 1 || !atomic_load(&c->waiting)) continue;
     pthread_mutex_lock(&c->mutex);
     pthread_cond_signal(&c->done);
@@ -160,21 +194,30 @@ static void wait_for_all(gg_crew *c)
   }
 }
 
-void gg_crew_share(gg_crew *c, int parts, gg_part *part, void *context)
+void gg_crew_share_rounds(gg_crew *c, int rounds, int columns, const uint32_t *need, gg_part *part, void *context)
 {
+  const int parts = rounds * columns;
   if (!c || parts < 2 || parts > GG_MOST_PARTS) {
     for (int i = 0; i < parts; i++) part(context, i);
     return;
   }
   c->part = part;
   c->context = context;
+  for (int i = 0; i < parts; i++) atomic_store_explicit(&c->need[i], need ? need[i] : 0, memory_order_relaxed);
+  atomic_store_explicit(&c->rounds, rounds, memory_order_relaxed);
+  atomic_store_explicit(&c->columns, columns, memory_order_relaxed);
+  atomic_store(&c->finished, 0);
   atomic_store(&c->undone, parts);
-  atomic_store_explicit(&c->parts, parts, memory_order_relaxed);
   uint64_t job = (atomic_load(&c->open) >> 32) + 1;
   atomic_store(&c->open, job << 32 | ((UINT64_C(1) << parts) - 1));
   if (atomic_load(&c->asleep)) wake(c);
   work_off(c, 0);
   wait_for_all(c);
+}
+
+void gg_crew_share(gg_crew *c, int parts, gg_part *part, void *context)
+{
+  gg_crew_share_rounds(c, 1, parts, NULL, part, context);
 }
 
 double gg_crew_cpu(const gg_crew *c)

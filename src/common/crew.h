@@ -4,6 +4,8 @@
 #ifndef GG_CREW_H
 #define GG_CREW_H
 
+#include <stdint.h>
+
 #include "common/error.h"
 
 typedef struct gg_crew gg_crew;
@@ -21,6 +23,10 @@ void gg_crew_free(gg_crew *crew);
 
 /* Do parts 0 to parts - 1, and return when all are done. One caller at a time. */
 void gg_crew_share(gg_crew *crew, int parts, gg_part *part, void *context);
+
+/* The same for rounds of `columns` parts each: part k is not begun before those in need[k] (a bit each, of earlier
+ * rounds) are done. Nobody waits for all of a round. Each thread takes a run of columns first. */
+void gg_crew_share_rounds(gg_crew *crew, int rounds, int columns, const uint32_t *need, gg_part *part, void *context);
 
 /* CPU time of the others so far, in seconds. */
 double gg_crew_cpu(const gg_crew *crew);

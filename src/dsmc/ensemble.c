@@ -134,9 +134,10 @@ typedef struct scaling {
   double factor;
 } scaling;
 
-static void heat_segment(void *context, int segment)
+static void heat_segment(void *context, int part)
 {
   const scaling *w = context;
+  const int segment = gg_segment_in(w->e->segments, w->e->halves, part);
   for (int i = 0; i < w->e->n_species; i++) {
     const gg_population *p = &w->e->of[i];
     scale_blocks(p, p->c, gg_segment(p, w->e->segments, segment), w->factor);
@@ -177,9 +178,10 @@ typedef struct settling {
   gg_sums of[GG_MOST_SEGMENTS][GG_MAX_SPECIES];
 } settling;
 
-static void settle_segment(void *context, int segment)
+static void settle_segment(void *context, int part)
 {
   settling *w = context;
+  const int segment = gg_segment_in(w->e->segments, w->e->halves, part);
   for (int i = 0; i < w->e->n_species; i++) {
     gg_population *p = &w->e->of[i];
     gg_range r = gg_segment(p, w->e->segments, segment);

@@ -46,6 +46,7 @@ typedef struct gg_ensemble {
   gg_population of[GG_MAX_SPECIES];
   double top_unit, top_drift; /* drift at which it holds */
   int segments;               /* that each species is cut into (segments.h): by size alone, 1 if small */
+  int halves;                 /* that have met last, and may be in caches: the quarter that went with the first */
   struct gg_crew *crew;       /* that shares them; NULL: one thread does all */
 } gg_ensemble;
 

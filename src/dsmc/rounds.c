@@ -25,18 +25,27 @@ typedef struct gg_side {
 /* A pair of species over a part of the round. */
 typedef struct gg_turn {
   int pair;
-  double drift; /* where it begins */
+  double begin; /* its drift, from that of the round on */
 } gg_turn;
 
-typedef struct gg_round {
+/* The unit of a segment's tops, and the drift at which they hold. */
+typedef struct gg_tops {
+  double unit, drift;
+} gg_tops;
+
+/* Rounds under the same bounds. Whoever has done with a meeting goes on to any of the next round whose two segments are
+ * free: so all that changes from meeting to meeting belongs to a segment, here and in gg_tournament. */
+typedef struct gg_rounds {
   gg_dsmc *d;
-  int number, n_turns;
+  int n, number[GG_MOST_PARTS];
+  int n_turns;
   gg_turn turn[MOST_TURNS];
-  double span; /* of a turn's drift */
+  double drift, each; /* where the first begins; how far one goes */
+  double span;        /* of a turn's drift */
   gg_side side[GG_PAIRS];
-  double unit[GG_MOST_SEGMENTS];              /* of the tops, after each meeting */
-  gg_pairing sum[GG_MOST_SEGMENTS][GG_PAIRS]; /* handed back by each */
-} gg_round;
+  gg_tops tops[GG_MOST_SEGMENTS];
+  gg_pairing sum[GG_MOST_SEGMENTS][GG_PAIRS]; /* handed back, by the first segment of each meeting */
+} gg_rounds;
 
 /* Add what `p` hands back. */
 static void add(gg_pairing *sum, const gg_pairing *p)
@@ -59,75 +68,114 @@ static uint64_t candidates(const gg_side *s, double *owed, double mean, gg_rng *
   return (uint64_t)whole;
 }
 
-/* Blocks of segment `one` of the first species against those of `two` of the second. */
-static void collide(gg_round *r, int meeting, const gg_turn *turn, int one, int two, gg_ensemble *tops, gg_rng *rng)
+/* Two segments that meet, where they stand. */
+typedef struct gg_pair_met {
+  int first;        /* the one whose streams they use */
+  gg_ensemble tops; /* its tops alone: where this meeting has them */
+  gg_rng rng;
+} gg_pair_met;
+
+/* Blocks of segment `one` of the first species against those of `two` of the second, from `drift` on. */
+static void collide(gg_rounds *r, const gg_side *s, double drift, int one, int two, gg_pair_met *at)
 {
-  const gg_side *s = &r->side[turn->pair];
   gg_tournament *t = r->d->tournament;
-  const int segments = r->d->ensemble.segments;
+  const int segments = r->d->ensemble.segments, pair = gg_pair_index(s->i, s->j);
   gg_pairing p = s->common;
   p.blocks[0] = gg_segment(p.one, segments, one);
   p.blocks[1] = gg_segment(p.two, segments, two);
   double mean = s->rate * gg_block_candidates(p.blocks[0], p.blocks[1], s->f.same && one == two);
-  p.candidates = candidates(s, &t->owed[turn->pair][one][two], mean, rng);
+  p.candidates = candidates(s, &t->owed[pair][one][two], mean, &at->rng);
   p.drift_step = p.candidates ? r->span / (double)p.candidates : 0;
-  p.drift = turn->drift + 0.5 * p.drift_step;
-  gg_ensemble_drift_tops(tops, turn->drift);
-  p.top_unit = tops->top_unit;
-  gg_collide(s->path, s->f, &p, &t->lanes[meeting], rng);
-  tops->top_unit = fmax(p.top_unit, tops->top_unit * gg_top_growth(r->span));
-  tops->top_drift = turn->drift + r->span;
-  add(&r->sum[meeting][turn->pair], &p);
+  p.drift = drift + 0.5 * p.drift_step;
+  gg_ensemble_drift_tops(&at->tops, drift);
+  p.top_unit = at->tops.top_unit;
+  gg_collide(s->path, s->f, &p, &t->lanes[at->first], &at->rng);
+  at->tops.top_unit = fmax(p.top_unit, at->tops.top_unit * gg_top_growth(r->span));
+  at->tops.top_drift = drift + r->span;
+  add(&r->sum[at->first][pair], &p);
 }
 
-static void meet(void *context, int meeting)
+/* Bounds in some unit hold in a larger one, too. */
+static void meet(gg_rounds *r, double drift, int one, int two)
 {
-  gg_round *r = context;
-  gg_rng rng = r->d->tournament->draws[meeting];
-  gg_ensemble tops = r->d->ensemble; /* its tops alone: where this meeting has them */
-  int one, two;
-  gg_meeting_of(r->d->ensemble.segments, r->number, meeting, &one, &two);
+  gg_pair_met at = {.first = one, .tops = r->d->ensemble, .rng = r->d->tournament->draws[one]};
+  at.tops.top_unit = fmax(r->tops[one].unit, r->tops[two].unit);
+  at.tops.top_drift = r->tops[one].drift;
   for (int k = 0; k < r->n_turns; k++) {
-    const gg_turn *turn = &r->turn[k];
-    collide(r, meeting, turn, one, two, &tops, &rng);
-    if (one != two && !r->side[turn->pair].f.same) collide(r, meeting, turn, two, one, &tops, &rng);
+    const gg_side *s = &r->side[r->turn[k].pair];
+    const double begin = drift + r->turn[k].begin;
+    collide(r, s, begin, one, two, &at);
+    if (one != two && !s->f.same) collide(r, s, begin, two, one, &at);
   }
-  r->unit[meeting] = tops.top_unit;
-  r->d->tournament->draws[meeting] = rng;
+  r->tops[one] = r->tops[two] = (gg_tops){at.tops.top_unit, at.tops.top_drift};
+  r->d->tournament->draws[one] = at.rng;
 }
 
-static bool takes_part(const gg_round *r, int pair)
+/* Who meets in a part of the rounds; where each meets itself, two of them. Returns how many meetings. */
+static int meetings_of(const gg_rounds *r, int part, int one[2], int two[2])
+{
+  const int segments = r->d->ensemble.segments, columns = segments / 2;
+  const int number = r->number[part / columns], each = gg_meetings(segments, number) / columns;
+  for (int m = 0; m < each; m++) gg_meeting_of(segments, number, part % columns * each + m, &one[m], &two[m]);
+  return each;
+}
+
+static void play_part(void *context, int part)
+{
+  gg_rounds *r = context;
+  int one[2], two[2], n = meetings_of(r, part, one, two);
+  const int nth = part / (r->d->ensemble.segments / 2);
+  for (int m = 0; m < n; m++) meet(r, r->drift + nth * r->each, one[m], two[m]);
+}
+
+/* Each part waits for those that have had its segments before. */
+static void find_needs(const gg_rounds *r, int parts, uint32_t need[GG_MOST_PARTS])
+{
+  uint32_t last[GG_MOST_SEGMENTS] = {0};
+  for (int part = 0; part < parts; part++) {
+    int one[2], two[2], n = meetings_of(r, part, one, two);
+    need[part] = 0;
+    for (int m = 0; m < n; m++) {
+      need[part] |= last[one[m]] | last[two[m]];
+      last[one[m]] = last[two[m]] = UINT32_C(1) << part;
+    }
+  }
+}
+
+static bool takes_part(const gg_rounds *r, int pair)
 {
   return r->side[pair].common.one != NULL;
 }
 
 /* Play all meetings; sums by pair of species. */
-static void play(gg_round *r, double expected, gg_pairing sum[GG_PAIRS])
+static void play(gg_rounds *r, double expected, gg_pairing sum[GG_PAIRS])
 {
   gg_ensemble *e = &r->d->ensemble;
-  const int meetings = gg_meetings(e->segments, r->number);
+  const int columns = e->segments / 2;
+  uint32_t need[GG_MOST_PARTS];
+  find_needs(r, r->n * columns, need);
+  gg_ensemble_drift_tops(e, r->drift + r->turn[0].begin);
+  for (int s = 0; s < e->segments; s++) {
+    r->tops[s] = (gg_tops){e->top_unit, e->top_drift};
+    for (int q = 0; q < GG_PAIRS; q++) r->sum[s][q] = (gg_pairing){0};
+  }
+  gg_crew_share_rounds(expected < worth_calling * r->n ? NULL : e->crew, r->n, columns, need, play_part, r);
   for (int q = 0; q < GG_PAIRS; q++) {
     sum[q] = r->side[q].common;
-    for (int m = 0; m < meetings && takes_part(r, q); m++) r->sum[m][q] = (gg_pairing){0};
+    for (int s = 0; s < e->segments && takes_part(r, q); s++) add(&sum[q], &r->sum[s][q]);
   }
-  gg_ensemble_drift_tops(e, r->turn[0].drift);
-  gg_crew_share(expected < worth_calling ? NULL : e->crew, meetings, meet, r);
-  for (int m = 0; m < meetings; m++) {
-    for (int q = 0; q < GG_PAIRS; q++)
-      if (takes_part(r, q)) add(&sum[q], &r->sum[m][q]);
-    e->top_unit = fmax(e->top_unit, r->unit[m]); /* bounds in some unit hold in a larger one, too */
-  }
-  e->top_drift = r->turn[r->n_turns - 1].drift + r->span;
+  for (int s = 0; s < e->segments; s++) e->top_unit = fmax(e->top_unit, r->tops[s].unit);
+  e->top_drift = r->tops[0].drift;
 }
 
-/* What goes over the top in this round (see collide_pair in collisions.c): one pair of species alone, in turns of the
- * round's. */
-static void play_layers(gg_round *r, int pair, double top, double worst)
+/* What goes over the top in these rounds (see collide_pair in collisions.c): one pair of species alone, in turns of the
+ * rounds'. */
+static void play_layers(gg_rounds *r, int pair, double top, double worst)
 {
   if (worst <= top) return; /* as a rule */
   gg_dsmc *d = r->d;
   gg_side *s = &r->side[pair];
-  gg_round over = *r;
+  gg_rounds over = *r;
   over.n_turns = 0;
   for (int k = 0; k < r->n_turns; k++)
     if (r->turn[k].pair == pair) over.turn[over.n_turns++] = r->turn[k];
@@ -138,7 +186,7 @@ static void play_layers(gg_round *r, int pair, double top, double worst)
     above->common.floor = base;
     above->common.bound = bound;
     above->rate = s->rate / s->common.bound * bound;
-    play(&over, worth_calling, sum);
+    play(&over, worth_calling * over.n, sum);
     gg_dsmc_hand_over(d, pair, &sum[pair]);
     gg_majorant_learn(&d->now.majorant[pair], sum[pair].worst, sqrt(d->now.temperature), sum[pair].tried,
                       gg_dsmc_window(d, s->i, s->j));
@@ -155,18 +203,19 @@ static gg_side side_of(gg_dsmc *d, int i, int j)
   return s;
 }
 
-/* One round; `time` is that of a turn. Bounds are what they are now. */
-static void play_round(gg_round *r, double time, double expected)
+/* Some rounds; `time` is that of a turn, candidates are `expected` in each. Bounds are what they are now. */
+static void play_rounds(gg_rounds *r, double time, double expected)
 {
   gg_dsmc *d = r->d;
   gg_pairing sum[GG_PAIRS];
-  r->number = gg_next_round(d->tournament, d->ensemble.segments);
+  for (int k = 0; k < r->n; k++) r->number[k] = gg_next_round(d->tournament, d->ensemble.segments);
+  d->ensemble.halves = r->number[r->n - 1] / (d->ensemble.segments / 4);
   for (int k = 0; k < r->n_turns; k++) {
     gg_side *s = &r->side[r->turn[k].pair];
     s->common.bound = gg_majorant_bound(&d->now.majorant[r->turn[k].pair], sqrt(d->now.temperature));
     s->rate = gg_dsmc_cross_section(d, s->i, s->j) * time * s->common.bound * d->ensemble.segments;
   }
-  play(r, expected, sum);
+  play(r, expected * r->n, sum);
   for (int q = 0; q < GG_PAIRS; q++) {
     if (!sum[q].tried) continue;
     gg_dsmc_hand_over(d, q, &sum[q]);
@@ -188,21 +237,25 @@ void gg_dsmc_collide_in_rounds(gg_dsmc *d, double dt, double drift, double span,
 {
   const int halves = order == GG_TURNS_THERE_AND_BACK ? 2 : 1, segments = d->ensemble.segments;
   const int n = d->model.n_species == 1 ? 1 : GG_PAIRS, calls = halves * (n == 1 ? 1 : 4);
-  gg_round r = {.d = d, .n_turns = halves * n};
+  const int together = GG_MOST_PARTS / (segments / 2);
+  gg_rounds r = {.d = d, .n_turns = halves * n};
   double expected = 0;
   for (int q = 0; q < n; q++) {
     const int *ij = gg_turns[q];
     r.side[q] = side_of(d, ij[0], ij[1]);
     expected += expected_of(d, &r.side[q], dt);
   }
-  int rounds = (int)fmax(1, fmin(expected / (0.5 * segments * worth_a_turn * calls), segments));
-  r.span = span / (halves * rounds);
-  for (int k = 0; k < rounds; k++) {
-    for (int h = 0; h < halves; h++)
-      for (int q = 0; q < n; q++) {
-        bool back = order == GG_TURNS_BACK || h == 1;
-        r.turn[h * n + q] = (gg_turn){back ? n - 1 - q : q, drift + (k * halves + h) * r.span};
-      }
-    play_round(&r, dt / (halves * rounds), expected / rounds);
+  const int rounds = (int)fmax(1, fmin(expected / (0.5 * segments * worth_a_turn * calls), segments));
+  r.each = span / rounds;
+  r.span = r.each / halves;
+  for (int h = 0; h < halves; h++)
+    for (int q = 0; q < n; q++) {
+      bool back = order == GG_TURNS_BACK || h == 1;
+      r.turn[h * n + q] = (gg_turn){back ? n - 1 - q : q, h * r.span};
+    }
+  for (int done = 0; done < rounds; done += r.n) {
+    r.drift = drift + done * r.each;
+    r.n = rounds - done < together ? rounds - done : together;
+    play_rounds(&r, dt / (halves * rounds), expected / rounds);
   }
 }

@@ -28,6 +28,12 @@ int gg_meetings(int segments, int round)
   return round ? segments / 2 : segments;
 }
 
+/* Where quarters 0 and c are one half: the smaller one of the two that are left. */
+static int second_half(int c)
+{
+  return c == 1 ? 2 : 1;
+}
+
 /* Segment i of quarter q meets i ^ k of quarter q ^ c in round (c, k). The first half of the meetings has quarters 0
  * and c (or 1, if each quarter is for itself), the second half the others: whoever plays the same half keeps them near.
  */
@@ -43,12 +49,19 @@ void gg_meeting_of(int segments, int round, int meeting, int *one, int *two)
     while (2 * high <= k) high *= 2;
     i = k ? nth % high + nth / high * 2 * high : nth;
   } else {
-    static const int second[] = {0, 2, 1, 1}; /* the smaller one of the two that are left */
-    q = meeting < quarter ? 0 : second[c];
+    q = meeting < quarter ? 0 : second_half(c);
     i = meeting % quarter;
   }
   *one = q * quarter + i;
   *two = (q ^ c) * quarter + (i ^ k);
+}
+
+int gg_segment_in(int segments, int halves, int part)
+{
+  if (segments < 4 || halves == 0) return part;
+  const int quarter = segments / 4, at = part / quarter;
+  const int q = (at < 2 ? 0 : second_half(halves)) ^ (at % 2 ? halves : 0);
+  return q * quarter + part % quarter;
 }
 
 void gg_tournament_start(gg_tournament *t, uint64_t seed, uint64_t stream)

@@ -30,6 +30,10 @@ gg_range gg_segment(const gg_population *p, int segments, int segment);
 int gg_meetings(int segments, int round);
 void gg_meeting_of(int segments, int round, int meeting, int *one, int *two);
 
+/* The segment of part `part` (0 to segments - 1) of what goes through all, where quarters 0 and `halves` were last in
+ * one half of the meetings: each half has its own in the half of the parts that goes with it. */
+int gg_segment_in(int segments, int halves, int part);
+
 /* What the tournaments of an ensemble need: plain data, saved as it is. */
 typedef struct gg_tournament {
   gg_rng rng;    /* of the order */

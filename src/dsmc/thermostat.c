@@ -20,9 +20,10 @@ typedef struct looking {
   double lane[GG_MOST_SEGMENTS][GG_MAX_SPECIES][GG_LANES]; /* sums of C^2 */
 } looking;
 
-static void look_at_segment(void *context, int segment)
+static void look_at_segment(void *context, int part)
 {
   looking *w = context;
+  const int segment = gg_segment_in(w->e->segments, w->e->halves, part);
   for (int i = 0; i < w->e->n_species; i++) {
     const gg_population *p = &w->e->of[i];
     gg_range r = gg_segment(p, w->e->segments, segment);
@@ -67,9 +68,10 @@ typedef struct kicking {
   gg_rng_lanes *lanes;
 } kicking;
 
-static void kick_segment(void *context, int segment)
+static void kick_segment(void *context, int part)
 {
   const kicking *w = context;
+  const int segment = gg_segment_in(w->e->segments, w->e->halves, part);
   for (int i = 0; i < w->e->n_species; i++) {
     gg_population *p = &w->e->of[i];
     gg_range r = gg_segment(p, w->e->segments, segment);
