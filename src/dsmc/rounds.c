@@ -37,7 +37,7 @@ typedef struct gg_tops {
  * free: so all that changes from meeting to meeting belongs to a segment, here and in gg_tournament. */
 typedef struct gg_rounds {
   gg_dsmc *d;
-  int n, number[GG_MOST_PARTS];
+  int n, number[GG_MOST_PARTS], halves[GG_MOST_PARTS];
   int n_turns;
   gg_turn turn[MOST_TURNS];
   double drift, each; /* where the first begins; how far one goes */
@@ -116,7 +116,12 @@ static int meetings_of(const gg_rounds *r, int part, int one[2], int two[2])
 {
   const int segments = r->d->ensemble.segments, columns = segments / 2;
   const int number = r->number[part / columns], each = gg_meetings(segments, number) / columns;
-  for (int m = 0; m < each; m++) gg_meeting_of(segments, number, part % columns * each + m, &one[m], &two[m]);
+  for (int m = 0; m < each; m++) {
+    gg_meeting_of(segments, number, part % columns * each + m, &one[m], &two[m]);
+    if (number >= segments / 4) continue;
+    one[m] = gg_segment_in(segments, r->halves[part / columns], one[m]);
+    two[m] = gg_segment_in(segments, r->halves[part / columns], two[m]);
+  }
   return each;
 }
 
@@ -203,13 +208,24 @@ static gg_side side_of(gg_dsmc *d, int i, int j)
   return s;
 }
 
+/* Quarters that are each for themselves stay in the halves they are in. */
+static void draw_rounds(gg_rounds *r)
+{
+  gg_ensemble *e = &r->d->ensemble;
+  for (int k = 0; k < r->n; k++) {
+    r->number[k] = gg_next_round(r->d->tournament, e->segments);
+    const int c = r->number[k] / (e->segments / 4);
+    r->halves[k] = e->halves;
+    if (c) e->halves = c;
+  }
+}
+
 /* Some rounds; `time` is that of a turn, candidates are `expected` in each. Bounds are what they are now. */
 static void play_rounds(gg_rounds *r, double time, double expected)
 {
   gg_dsmc *d = r->d;
   gg_pairing sum[GG_PAIRS];
-  for (int k = 0; k < r->n; k++) r->number[k] = gg_next_round(d->tournament, d->ensemble.segments);
-  d->ensemble.halves = r->number[r->n - 1] / (d->ensemble.segments / 4);
+  draw_rounds(r);
   for (int k = 0; k < r->n_turns; k++) {
     gg_side *s = &r->side[r->turn[k].pair];
     s->common.bound = gg_majorant_bound(&d->now.majorant[r->turn[k].pair], sqrt(d->now.temperature));

@@ -85,11 +85,28 @@ static void shuffle(gg_rng *rng, int n, uint8_t *list)
   }
 }
 
+/* The halves that the last tournament has ended with; 0: it is the first. */
+static int last_halves(const gg_tournament *t, int segments)
+{
+  for (int n = segments - 1; n >= 0; n--)
+    if (t->order[n] >= segments / 4) return t->order[n] / (segments / 4);
+  return 0;
+}
+
+/* In random order, but that halves stay together from one tournament to the next; for c = 0 any will do. All c are
+ * equally often at each place. */
+static void order_halves(gg_rng *rng, int last, uint8_t c[4])
+{
+  shuffle(rng, 4, c);
+  const uint8_t first = c[0] ? c[0] : c[1];
+  for (int n = 0; n < 4 && last; n++) c[n] = c[n] == first ? (uint8_t)last : c[n] == last ? first : c[n];
+}
+
 static void new_order(gg_tournament *t, int segments)
 {
   const int quarter = segments / 4;
   uint8_t c[4], k[GG_MOST_SEGMENTS];
-  shuffle(&t->rng, 4, c);
+  order_halves(&t->rng, last_halves(t, segments), c);
   for (int n = 0; n < 4; n++) {
     shuffle(&t->rng, quarter, k);
     for (int i = 0; i < quarter; i++) t->order[n * quarter + i] = (uint8_t)(c[n] * quarter + k[i]);
