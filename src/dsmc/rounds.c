@@ -1,12 +1,16 @@
 /* Collisions in rounds of meetings between segments (segments.h).
  *
+ * Rounds are played under the same bounds, as many at once as a crew takes: whoever has done with a meeting begins one
+ * of the next round, if its segments are free, while others are still at theirs. To wait for all of them after each
+ * round cost two threads some three hundredths of their time.
+ *
  * All pairs of species take their turns within a meeting, so that a round is worth calling others for. Where nothing
  * comes between the two halves of a step, each round has both, the second in reverse order. */
 #include "dsmc/dsmc.h"
 
-/* Candidates that a turn within a meeting should have, on average: enough that to begin one and to wait for who is last
- * hardly matter, few enough that segments that differ mix as one pair after another would (4000 cost less still, but
- * segments of different temperatures then mix by fits and starts). */
+/* Candidates that a turn within a meeting should have, on average: enough that to begin one hardly matters, few
+ * enough that segments that differ mix as one pair after another would (4000 cost less still, but segments of different
+ * temperatures then mix by fits and starts). */
 static const double worth_a_turn = 1200;
 /* Candidates of a round that others are called for. */
 static const double worth_calling = 400;

@@ -35,8 +35,8 @@ static int second_half(int c)
 }
 
 /* Segment i of quarter q meets i ^ k of quarter q ^ c in round (c, k). The first half of the meetings has quarters 0
- * and c (or 1, if each quarter is for itself), the second half the others: whoever plays the same half keeps them near.
- */
+ * and c (or 1, if each quarter is for itself: gg_segment_in finds others), the second half the others: whoever plays
+ * the same half keeps them near. */
 void gg_meeting_of(int segments, int round, int meeting, int *one, int *two)
 {
   const int quarter = segments / 4, c = round / quarter, k = round % quarter;

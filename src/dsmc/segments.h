@@ -1,16 +1,19 @@
 /* A large ensemble in segments, so that threads can share it.
  *
  * Collisions go in rounds, like a tournament: in each, every segment meets one other (or itself), so that the meetings
- * of a round have no grain in common and may take place at once. A meeting has random streams and a remainder of
- * candidates of its own, and what it hands back is added up in the order of meetings: the bits do not depend on who
- * plays which, when.
+ * of a round have no grain in common and may take place at once. A meeting may begin as soon as both of its segments
+ * have done with theirs of the round before. All that goes from meeting to meeting belongs to a segment or to a pair of
+ * them (random streams, a remainder of candidates, how far tops hold), and what is handed back is added up in the order
+ * of segments: the bits do not depend on who plays which, when.
  *
  * A round lasts for a part of the step and makes up for all the segments that a grain does not meet meanwhile: the
  * collision rate of any pair over a whole tournament is what it should be, and that of a grain at any time, because all
  * segments are alike: grains come into them at random, sorting by speed goes on in each of them in the same way, and
  * they exchange grains whenever they meet. So rounds are no splitting of the step: nothing is advanced by more than its
  * part of the time. Every tournament has its rounds in a random order, those together in which the same quarters meet,
- * so that segments change hands, and caches, three times a tournament. */
+ * and begins with those that the last one has ended with, so that segments change hands, and caches, twice a
+ * tournament.
+ */
 #ifndef GG_DSMC_SEGMENTS_H
 #define GG_DSMC_SEGMENTS_H
 
@@ -40,7 +43,7 @@ typedef struct gg_tournament {
   uint64_t next; /* round to play, in its order */
   uint8_t order[GG_MOST_SEGMENTS];
   double owed[GG_PAIRS][GG_MOST_SEGMENTS][GG_MOST_SEGMENTS]; /* fractions of candidates */
-  gg_rng draws[GG_MOST_SEGMENTS];                            /* by meeting of a round, or by segment */
+  gg_rng draws[GG_MOST_SEGMENTS];                            /* by segment: the first one of a meeting */
   gg_rng_lanes lanes[GG_MOST_SEGMENTS];
 } gg_tournament;
 

@@ -1,5 +1,6 @@
 /* A crew does every part of a job once and returns when all are done: many short jobs in a row, jobs after a pause (the
- * others sleep), more threads than processors, and jobs that one part holds up. */
+ * others sleep), more threads than processors, and jobs that one part holds up. Parts that have to wait for others do.
+ */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -77,8 +78,51 @@ static void at_once(void **state)
   gg_crew_free(NULL);
 }
 
+/* Rounds of columns, in which each part needs its own column and the next of the round before. */
+typedef struct tour {
+  uint32_t need[GG_MOST_PARTS];
+  _Atomic uint32_t done;
+  _Atomic int early; /* parts that did not wait */
+  int slow;          /* column that takes its time; -1: none */
+  int columns;
+} tour;
+
+static void part_of_tour(void *context, int part)
+{
+  tour *t = context;
+  if (t->need[part] & ~atomic_load(&t->done)) atomic_fetch_add(&t->early, 1);
+  if (part % t->columns == t->slow) nanosleep(&(struct timespec){0, 200000}, NULL);
+  if (atomic_fetch_or(&t->done, UINT32_C(1) << part) >> part & 1) atomic_fetch_add(&t->early, 1);
+}
+
+static void play_tour(gg_crew *crew, int rounds, int columns, int slow)
+{
+  tour t = {.slow = slow, .columns = columns};
+  for (int p = columns; p < rounds * columns; p++) {
+    const int before = (p / columns - 1) * columns, column = p % columns;
+    t.need[p] = UINT32_C(1) << (before + column) | UINT32_C(1) << (before + (column + 1) % columns);
+  }
+  gg_crew_share_rounds(crew, rounds, columns, t.need, part_of_tour, &t);
+  assert_int_equal(t.done, (UINT64_C(1) << rounds * columns) - 1);
+  assert_int_equal(t.early, 0);
+}
+
+static void rounds_in_order(void **state)
+{
+  (void)state;
+  const int threads[] = {1, 2, 3, 8};
+  for (int t = 0; t < 4; t++) {
+    gg_crew *crew = gg_crew_new(threads[t]);
+    for (int columns = 1; columns <= 8; columns++)
+      for (int k = 0; k < 500; k++) play_tour(crew, 1 + k % (GG_MOST_PARTS / columns), columns, -1);
+    for (int slow = 0; slow < 4; slow++) play_tour(crew, 8, 4, slow);
+    gg_crew_free(crew);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_part_once), cmocka_unit_test(at_once)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_part_once), cmocka_unit_test(at_once),
+                                     cmocka_unit_test(rounds_in_order)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

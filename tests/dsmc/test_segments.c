@@ -59,6 +59,35 @@ static void cut_and_shuffled(void **state)
   for (int k = 0; k < 8; k++) assert_true(abs(first[k] - 1000) < 5 * 30);
 }
 
+/* Whoever plays a half of the meetings, and then has the parts that go with it, keeps to the same segments; and halves
+ * change twice a tournament. */
+static void halves_stay(void **state)
+{
+  (void)state;
+  for (int segments = 8; segments <= GG_MOST_SEGMENTS; segments *= 2)
+    for (int round = segments / 4; round < segments; round++) {
+      unsigned met[2] = {0}, kept[2] = {0};
+      for (int k = 0; k < segments / 2; k++) {
+        int a, b;
+        gg_meeting_of(segments, round, k, &a, &b);
+        met[k / (segments / 4)] |= 1u << a | 1u << b;
+      }
+      for (int part = 0; part < segments; part++)
+        kept[part / (segments / 2)] |= 1u << gg_segment_in(segments, round / (segments / 4), part);
+      assert_int_equal(met[0], kept[0]);
+      assert_int_equal(met[1], kept[1]);
+    }
+  static gg_tournament t;
+  gg_tournament_start(&t, 1, 0);
+  int changes = 0, halves = 0;
+  for (int i = 0; i < 8 * 1000; i++) {
+    const int c = gg_next_round(&t, 8) / 2;
+    changes += c && c != halves;
+    if (c) halves = c;
+  }
+  assert_int_equal(changes, 2 * 1000 + 1);
+}
+
 /* --- planted velocities: rates of collision between segments and within them --- */
 
 enum { SEGMENTS = 8, PLANTED = 64000 };
@@ -235,7 +264,7 @@ static void no_bias(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(everyone_meets), cmocka_unit_test(cut_and_shuffled),
-                                     cmocka_unit_test(planted_rates), cmocka_unit_test(segments_mix),
-                                     cmocka_unit_test(no_bias)};
+                                     cmocka_unit_test(halves_stay),    cmocka_unit_test(planted_rates),
+                                     cmocka_unit_test(segments_mix),   cmocka_unit_test(no_bias)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
