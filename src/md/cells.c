@@ -26,7 +26,7 @@ gg_status gg_cells_make(gg_cells *c, const gg_box *box, const int32_t n[3], doub
     total *= (size_t)n[a];
   }
   for (int a = 0, each = 1; a < 3; each *= n[a], a++) {
-    uint32_t *part = gg_new_array((size_t)n[a] + 2, sizeof *part, err);
+    uint32_t *part = gg_new_array((size_t)n[a] + 3, sizeof *part, err);
     if (!part) return GG_FAILED;
     for (int32_t k = -1; k <= n[a]; k++) part[k + 1] = (uint32_t)((k + n[a]) % n[a] * each);
     c->part[a] = part + 1;

@@ -10,7 +10,7 @@
 #define GRAINS_PER_SHARED_CELL 6.0
 #define GRAINS_PER_SHEARED_CELL 8.0
 #define LISTED_FROM 0.4
-#define GRAINS_PER_CELL 0.7
+#define GRAINS_PER_CELL 0.5
 
 double gg_md_reach(const gg_model *m)
 {

@@ -22,15 +22,18 @@ typedef struct gg_features {
   bool wide;   /* eight pairs at a time; else one by one: the reference for the tests */
 } gg_features;
 
-enum { GG_MOST_NEAR = 2048 };
+/* Room for so many grains to try. Stores into one array and loads from another do not hinder each other where the
+ * lower twelve bits of their addresses differ: the arrays of two searches lie half a page apart, and not on the stack,
+ * which stands elsewhere at every start. */
+enum { GG_MOST_NEAR = 2048, GG_NEAR_APART = GG_MOST_NEAR + 512 };
 
 typedef struct gg_search {
   uint32_t grain;
   const gg_grain *self; /* at the present time */
   double collision;     /* earliest so far, and with whom */
   uint32_t partner;
-  double valid;                             /* until then the sliding rows have been searched */
-  uint32_t n_near, near[GG_MOST_NEAR + 16]; /* wide: whom to try */
+  double valid;            /* until then the sliding rows have been searched */
+  uint32_t n_near, *near;  /* wide: whom to try */
 } gg_search;
 
 /* Bring a grain's record to the present time. */

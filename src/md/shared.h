@@ -57,9 +57,7 @@ GG_INLINE void gg_shared_leave(gg_md *e, uint32_t i, const gg_members *in, uint3
 {
   size_t stride = e->cells.stride;
   for (; which; which &= which - 1) {
-    uint32_t *cell = e->cells.cell + in->index[__builtin_ctz(which)] * stride;
-    cell[gg_cell_find(cell, i)] = cell[cell[0]];
-    cell[0]--;
+    gg_cell_remove(e->cells.cell + in->index[__builtin_ctz(which)] * stride, i);
   }
 }
 
