@@ -167,7 +167,12 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
 GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
 {
   for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = e->n;
-  gg_scan_batches(e, f, s, s->near, s->n_near);
+  gg_features still = f;
+  still.sheared = false;
+  if (f.sheared && !f.shared && s->regular)
+    gg_scan_batches(e, still, s, s->near, s->n_near);
+  else
+    gg_scan_batches(e, f, s, s->near, s->n_near);
 }
 
 /* Everybody in the cells that can hold centres within rho of shell i's, under shear, as far as there is room. */

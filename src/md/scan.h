@@ -33,6 +33,7 @@ typedef struct gg_search {
   double collision;     /* earliest so far, and with whom */
   uint32_t partner;
   double valid;            /* until then the sliding rows have been searched */
+  bool regular;            /* no image of those to try has slid */
   uint32_t n_near, *near;  /* wide: whom to try */
 } gg_search;
 
@@ -54,6 +55,7 @@ GG_INLINE void gg_begin_search(gg_search *s, uint32_t i, const gg_grain *self, d
   s->collision = collision;
   s->partner = partner;
   s->n_near = 0;
+  s->regular = false;
 }
 
 GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
@@ -202,6 +204,7 @@ GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
   s->valid = INFINITY;
   if (gg_is_regular(e, f, at) && gg_has_room(e, 27)) {
     gg_take_regular(e, s, at, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
+    s->regular = true;
     return;
   }
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
@@ -218,6 +221,7 @@ GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int ax
   from[axis] = to[axis] = step;
   if (gg_is_regular(e, f, at) && gg_has_room(e, 9)) {
     gg_take_regular(e, s, at, from, to);
+    s->regular = true;
     return;
   }
   for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
