@@ -76,11 +76,11 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_sear
     x -= layers * offset;
     x -= L[0] * gg_nearest8(x * inverse[0]);
     vx -= layers * e->box.slide;
-  } else {
+  } else if (!f.inside) {
     x = gg_fold8(x, L[0], inverse[0]);
     if (!f.walled) y = gg_fold8(y, L[1], inverse[1]);
   }
-  z = gg_fold8(z, L[2], inverse[2]);
+  if (!f.inside) z = gg_fold8(z, L[2], inverse[2]);
   gg_v8 touch2 = gg_all(sigma2[0]);
   if (f.mixture) {
     int species = gg_species_of(g);
@@ -119,7 +119,7 @@ GG_INLINE gg_m8 gg_who8(const uint32_t *list)
   return __builtin_convertvector(*(const gg_list8 *)list, gg_m8);
 }
 
-/* Of several batches, by lane: about when the earliest contact is, labelled by where it stands in the list, and the
+/* Of several batches, by lane: how soon the earliest contact is, labelled by where it stands in the list, and the
  * second; and the first one's quadratic. */
 typedef struct gg_foremost {
   gg_v8 soonest, second;
@@ -128,10 +128,10 @@ typedef struct gg_foremost {
 
 GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, gg_m8 place)
 {
-  gg_v8 about = gg_label8(gg_about8(q), place);
-  gg_k8 sooner = gg_less8(about, best->soonest);
-  best->second = gg_smaller8(best->second, gg_larger8(about, best->soonest));
-  best->soonest = gg_smaller8(about, best->soonest);
+  gg_v8 soon = gg_label8(gg_how_soon8(q), place);
+  gg_k8 sooner = gg_less8(best->soonest, soon);
+  best->second = gg_larger8(best->second, gg_smaller8(soon, best->soonest));
+  best->soonest = gg_larger8(soon, best->soonest);
   best->q.b = gg_choose(sooner, q.b, best->q.b);
   best->q.c = gg_choose(sooner, q.c, best->q.c);
   best->q.discriminant = gg_choose(sooner, q.discriminant, best->q.discriminant);
@@ -142,7 +142,7 @@ GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, gg_m8 place)
 GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
 {
   double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0;
-  gg_v8 never = gg_all(GG_ABOUT_NEVER);
+  gg_v8 never = gg_all(0);
   gg_foremost best = {never, never, {never, never, never}};
   gg_m8 place = {0, 1, 2, 3, 4, 5, 6, 7};
   for (uint32_t k = 0; k < count; k += GG_BATCH, place += GG_BATCH) {
@@ -150,12 +150,12 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
     if (f.shared && !gg_any8(gg_meets8(q))) continue; /* few are in the way */
     gg_compare_batch(&best, q, place);
   }
-  gg_v8 first = gg_least8(best.soonest);
-  if (!(first[0] < GG_ABOUT_NEVER)) return;
+  gg_v8 first = gg_greatest8(best.soonest);
+  if (!(first[0] >= GG_SOON_AT_ALL)) return;
   uint32_t at = gg_label_of(first[0]), lane = at % GG_BATCH;
-  gg_v8 limit = (1 + 4 * GG_ABOUT) * first;
-  uint32_t lanes = gg_lanes8(gg_not_above8(best.soonest, limit));
-  if (__builtin_expect(!(lanes & (lanes - 1)) && !gg_any8(gg_not_above8(best.second, limit)), 1)) {
+  gg_v8 limit = (1 - 4 * GG_ABOUT) * first;
+  uint32_t lanes = gg_lanes8(gg_not_above8(limit, best.soonest));
+  if (__builtin_expect(!(lanes & (lanes - 1)) && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
     gg_take_lane(e, s, &best.q, lane, list[at]);
     return;
   }
@@ -167,9 +167,12 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
 GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
 {
   for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = e->n;
-  gg_features still = f;
-  still.sheared = false;
-  if (f.sheared && !f.shared && s->regular)
+  gg_features still = f, inside = f;
+  still.sheared = inside.sheared = false;
+  inside.inside = true;
+  if (!f.shared && !f.sheared && s->inside)
+    gg_scan_batches(e, inside, s, s->near, s->n_near);
+  else if (f.sheared && !f.shared && s->regular)
     gg_scan_batches(e, still, s, s->near, s->n_near);
   else
     gg_scan_batches(e, f, s, s->near, s->n_near);

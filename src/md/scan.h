@@ -19,6 +19,7 @@ typedef struct gg_features {
   bool sheared, walled, gravity, mixture;
   bool listed; /* neighbour lists instead of cells */
   bool shared; /* cells that overlap; wide, too */
+  bool inside; /* all in one image of the box */
   bool wide;   /* eight pairs at a time; else one by one: the reference for the tests */
 } gg_features;
 
@@ -34,6 +35,7 @@ typedef struct gg_search {
   uint32_t partner;
   double valid;            /* until then the sliding rows have been searched */
   bool regular;            /* no image of those to try has slid */
+  bool inside;             /* they and the grain are in the same image of the box */
   uint32_t n_near, *near;  /* wide: whom to try */
 } gg_search;
 
@@ -55,7 +57,7 @@ GG_INLINE void gg_begin_search(gg_search *s, uint32_t i, const gg_grain *self, d
   s->collision = collision;
   s->partner = partner;
   s->n_near = 0;
-  s->regular = false;
+  s->regular = s->inside = false;
 }
 
 GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
@@ -173,6 +175,14 @@ GG_INLINE bool gg_is_regular(const gg_md *e, gg_features f, const int32_t at[3])
   return f.wide && (!(f.sheared || f.walled) || (at[1] > 0 && at[1] < e->cells.n[1] - 1));
 }
 
+/* Is no cell around in another image of the box? */
+GG_INLINE bool gg_is_inside(const gg_md *e, const int32_t at[3])
+{
+  const int32_t *n = e->cells.n;
+  return ((uint32_t)(at[0] - 1) < (uint32_t)(n[0] - 2)) & ((uint32_t)(at[1] - 1) < (uint32_t)(n[1] - 2)) &
+         ((uint32_t)(at[2] - 1) < (uint32_t)(n[2] - 2));
+}
+
 /* Is there room for so many full cells? */
 GG_INLINE bool gg_has_room(const gg_md *e, int cells)
 {
@@ -205,6 +215,7 @@ GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
   if (gg_is_regular(e, f, at) && gg_has_room(e, 27)) {
     gg_take_regular(e, s, at, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
     s->regular = true;
+    s->inside = gg_is_inside(e, at);
     return;
   }
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
@@ -222,6 +233,7 @@ GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int ax
   if (gg_is_regular(e, f, at) && gg_has_room(e, 9)) {
     gg_take_regular(e, s, at, from, to);
     s->regular = true;
+    s->inside = gg_is_inside(e, at);
     return;
   }
   for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
