@@ -11,6 +11,7 @@
 
 #include <string.h>
 
+#include "md/axes.h"
 #include "md/predict.h"
 #include "md/state.h"
 
@@ -83,6 +84,12 @@ GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *ce
   memcpy(near + n, cell + 1, 8 * sizeof *cell);
   for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
   return n + count;
+}
+/* Of cells of eight words. */
+GG_INLINE uint32_t gg_append_small(uint32_t *near, uint32_t n, const uint32_t *cell)
+{
+  memcpy(near + n, cell + 1, 8 * sizeof *cell);
+  return n + cell[0];
 }
 
 /* False: no more room. */
@@ -201,9 +208,16 @@ GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3]
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++) row[m + 1][l + 1] = c->cell + (size_t)(z[m] + y[l]) * stride;
   uint32_t n = s->n_near;
-  for (int m = from[2]; m <= to[2]; m++)
-    for (int l = from[1]; l <= to[1]; l++)
-      for (int k = from[0]; k <= to[0]; k++) n = gg_append_cell(s->near, n, row[m + 1][l + 1] + step[k + 1]);
+#define EACH(append)                                                                                                   \
+  for (int m = from[2]; m <= to[2]; m++)                                                                               \
+    for (int l = from[1]; l <= to[1]; l++)                                                                             \
+      for (int k = from[0]; k <= to[0]; k++) n = append(s->near, n, row[m + 1][l + 1] + step[k + 1]);
+  if (stride == 8) {
+    EACH(gg_append_small)
+  } else {
+    EACH(gg_append_cell)
+  }
+#undef EACH
   s->n_near = n;
 }
 
@@ -256,37 +270,63 @@ GG_INLINE void gg_try_walls(const gg_md *e, gg_features f, gg_search *s)
   if (upper < s->collision) s->collision = upper, s->partner = GG_UPPER_WALL;
 }
 
-/* Delay until the grain leaves its cell along one axis, and through which face. Rounding may have left it outside by a
- * digit: then at once. */
-GG_INLINE double gg_exit_delay(const gg_md *e, gg_features f, const gg_search *s, int axis, int32_t *face)
+/* Faces that are walls are not crossed. */
+GG_INLINE bool gg_is_wall_above(const gg_md *e, gg_features f, const int32_t *cell)
+{
+  return f.walled && cell[1] == e->cells.n[1] - 1;
+}
+GG_INLINE bool gg_is_wall_below(gg_features f, const int32_t *cell)
+{
+  return f.walled && cell[1] == 0;
+}
+
+/* When a grain on a parabola leaves its cell along one axis, and through which face. */
+GG_INLINE double gg_fall_out(const gg_md *e, gg_features f, const gg_search *s, int axis, int32_t *face)
 {
   double x = gg_along(&s->self->r, axis), v = gg_along(&s->self->v, axis), width = e->cells.width[axis];
-  int32_t cell = e->node[s->grain].cell[axis];
-  bool bottom = f.walled && axis == 1 && cell == 0, top = f.walled && axis == 1 && cell == e->cells.n[1] - 1;
-  if (!f.gravity) {
-    int up = v > 0;
-    *face = 2 * axis + up;
-    if (v == 0 || (up ? top : bottom)) return INFINITY;
-    double delay = ((cell + up) * width - x) / v;
-    return delay > 0 ? delay : 0;
-  }
+  const int32_t *cell = e->node[s->grain].cell;
+  bool bottom = axis == 1 && gg_is_wall_below(f, cell), top = axis == 1 && gg_is_wall_above(e, f, cell);
   double w = gg_along(&e->gravity, axis);
-  double down = bottom ? INFINITY : gg_fall_delay(x - cell * width, -v, -w);
-  double up = top ? INFINITY : gg_fall_delay((cell + 1) * width - x, v, w);
+  double down = bottom ? INFINITY : gg_fall_delay(x - cell[axis] * width, -v, -w);
+  double up = top ? INFINITY : gg_fall_delay((cell[axis] + 1) * width - x, v, w);
   *face = 2 * axis + (up < down);
   return up < down ? up : down;
+}
+
+GG_INLINE double gg_first_fall_out(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
+{
+  int32_t other;
+  double first = gg_fall_out(e, f, s, 0, face);
+  for (int axis = 1; axis < 3; axis++) {
+    double delay = gg_fall_out(e, f, s, axis, &other);
+    *face = delay < first ? other : *face;
+    first = delay < first ? delay : first;
+  }
+  return first;
+}
+
+/* The same on a straight line. Rounding may have left the grain outside by a digit: then at once. */
+GG_INLINE double gg_first_exit(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
+{
+  const int32_t *cell = e->node[s->grain].cell;
+  gg_axes v = gg_load_axes(&s->self->v.x), zero = {0}, one = {1, 1, 1, 1};
+  gg_axes never = {INFINITY, INFINITY, INFINITY, INFINITY};
+  gg_axes_mask up = v > 0, open = (v != 0) & (gg_axes_mask){-1, -1, -1, 0};
+  if (gg_is_wall_below(f, cell)) open &= up | (gg_axes_mask){-1, 0, -1, 0};
+  if (gg_is_wall_above(e, f, cell)) open &= ~up | (gg_axes_mask){-1, 0, -1, 0};
+  gg_axes ahead = __builtin_convertvector(gg_load_indices(cell), gg_axes) + gg_choose_axes(up, one, zero);
+  gg_axes delay = (ahead * gg_load_axes(e->cells.width) - gg_load_axes(&s->self->r.x)) / v;
+  delay = gg_choose_axes(open, gg_choose_axes(delay > 0, delay, zero), never);
+  gg_axes first = gg_least_axes(delay);
+  int axis = __builtin_ctz(gg_axes_bits(delay == first));
+  *face = 2 * axis + (int)(gg_axes_bits(up) >> axis & 1);
+  return first[0];
 }
 
 /* Which face of its cell the grain crosses next, and when. */
 GG_INLINE double gg_next_face(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
 {
-  int32_t other;
-  double first = gg_exit_delay(e, f, s, 0, face);
-  for (int axis = 1; axis < 3; axis++) {
-    double delay = gg_exit_delay(e, f, s, axis, &other);
-    *face = delay < first ? other : *face;
-    first = delay < first ? delay : first;
-  }
+  double first = f.gravity ? gg_first_fall_out(e, f, s, face) : gg_first_exit(e, f, s, face);
   double t = e->k.now + first;
   if (f.sheared && s->valid < t) t = s->valid, *face = GG_SLIDE;
   return t;
