@@ -43,8 +43,9 @@ GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const 
   double c = gg_dot(dr, dr) - radius * radius;
   if (!(c < 0) || radius < 0) return e->k.now;
   double root = sqrt(b * b - a * c);
-  double delay = b > 0 ? -c / (b + root) : a > 0 ? (root - b) / a : INFINITY;
-  return e->k.now + delay;
+  bool out = b > 0; /* half of all: no branch */
+  double delay = (out ? -c : root - b) / (out ? b + root : a);
+  return out | (a > 0) ? e->k.now + delay : INFINITY;
 }
 
 /* What a pointer points at is loaded where it is used: a constant kept in all lanes of a register would only push out
