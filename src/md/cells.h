@@ -63,8 +63,9 @@ GG_INLINE uint32_t gg_cell_find(const uint32_t *cell, uint32_t grain)
 
 GG_INLINE void gg_cell_remove(uint32_t *cell, uint32_t grain)
 {
-  uint32_t last = cell[0]--;
-  cell[gg_cell_find(cell, grain)] = cell[last];
+  uint32_t at = gg_cell_find(cell, grain); /* read as a line before a word of it is written */
+  cell[at] = cell[cell[0]];
+  cell[0]--;
 }
 
 #endif

@@ -252,7 +252,7 @@ GG_INLINE void gg_collect_near(const gg_md *e, uint32_t i, gg_search *s)
   uint32_t n = 0;
   for (uint32_t which = nearby.which; which; which &= which - 1) {
     const uint32_t *cell = cells + nearby.index[__builtin_ctz(which)] * stride;
-    if (room || n + cell[0] <= GG_MOST_NEAR) 
+    if (room || n + cell[0] <= GG_MOST_NEAR)
       n = gg_append_cell(s->near, n, cell);
     else
       n = GG_MOST_NEAR;

@@ -34,10 +34,10 @@ typedef struct gg_search {
   const gg_grain *self; /* at the present time */
   double collision;     /* earliest so far, and with whom */
   uint32_t partner;
-  double valid;            /* until then the sliding rows have been searched */
-  bool regular;            /* no image of those to try has slid */
-  bool inside;             /* they and the grain are in the same image of the box */
-  uint32_t n_near, *near;  /* wide: whom to try */
+  double valid;           /* until then the sliding rows have been searched */
+  bool regular;           /* no image of those to try has slid */
+  bool inside;            /* they and the grain are in the same image of the box */
+  uint32_t n_near, *near; /* wide: whom to try */
 } gg_search;
 
 /* Bring a grain's record to the present time. */
@@ -83,6 +83,14 @@ GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *ce
   uint32_t count = cell[0];
   memcpy(near + n, cell + 1, 8 * sizeof *cell);
   for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
+  return n + count;
+}
+/* Of cells of sixteen words or more. */
+GG_INLINE uint32_t gg_append_large(uint32_t *near, uint32_t n, const uint32_t *cell)
+{
+  uint32_t count = cell[0];
+  memcpy(near + n, cell + 1, 16 * sizeof *cell);
+  for (uint32_t k = 16; k < count; k += 16) memcpy(near + n + k, cell + 1 + k, 16 * sizeof *cell);
   return n + count;
 }
 /* Of cells of eight words. */
