@@ -16,25 +16,47 @@ GG_INLINE void gg_lanes_store(gg_real_block *b, int at, gg_vd3 v)
   gg_store(b->z + at, v.z);
 }
 
-/* Lanes of `swap` change places. */
-GG_INLINE void gg_lanes_exchange(gg_mask swap, gg_vd3 *a, gg_vd3 *b)
+/* The true lanes of `yes`, the others of `no`. */
+GG_INLINE void gg_lanes_store_either(gg_real_block *b, int at, gg_mask m, gg_vd3 yes, gg_vd3 no)
 {
-  gg_vd3 old = *a;
-  *a = (gg_vd3){gg_select(swap, b->x, a->x), gg_select(swap, b->y, a->y), gg_select(swap, b->z, a->z)};
-  *b = (gg_vd3){gg_select(swap, old.x, b->x), gg_select(swap, old.y, b->y), gg_select(swap, old.z, b->z)};
+  gg_store_either(b->x + at, m, yes.x, no.x);
+  gg_store_either(b->y + at, m, yes.y, no.y);
+  gg_store_either(b->z + at, m, yes.z, no.z);
 }
 
-/* Two blocks, the lanes of the second in their order of this visit, and what is to come of it. */
+/* a and b go to their blocks; if they are of one species, lanes of `swap` change places. */
+GG_INLINE void gg_lanes_settle(gg_features f, gg_real_block *one, gg_real_block *two, int at, gg_mask swap, gg_vd3 a,
+                               gg_vd3 b)
+{
+  if (f.same) {
+    gg_lanes_store_either(one, at, swap, b, a);
+    gg_lanes_store_either(two, at, swap, a, b);
+  } else {
+    gg_lanes_store(one, at, a);
+    gg_lanes_store(two, at, b);
+  }
+}
+
+/* Two blocks that meet. Worked out in three steps, each of which waits for the one before: approach, decide, carry out.
+ */
 typedef struct gg_meeting {
-  uint32_t a, b;
-  bool odd;   /* not for this path */
-  bool again; /* once more */
-  gg_real drift, bound;
-  gg_vd3 ca[GG_PARTS], cb[GG_PARTS], sa[GG_PARTS], sb[GG_PARTS];
-  gg_vd v2[GG_PARTS];
-  gg_encounter e[GG_PARTS];
-  gg_vd3 J[GG_PARTS]; /* 0 without a hit; 2 g_n k where k is not needed */
-  gg_vu word[GG_PARTS];
+  uint32_t one, two;
+  gg_real_block *a, *b;
+  bool again;              /* once more */
+  gg_word order;           /* of the lanes of the second */
+  gg_real drift, per_unit; /* if sheared */
+  gg_real lowest, bound;   /* of t (block_contact.h) */
+  bool from_zero;          /* lowest is 0 */
+  bool layer;              /* above a visit before */
+  gg_real most;            /* bound of the layer above this one, if again */
+  /* Of the first: what is in its block, for no one comes between. Of the second: in their order. */
+  gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
+  gg_vd3 v[GG_PARTS];
+  gg_vd v2[GG_PARTS], speed[GG_PARTS];
+  gg_vd scale[GG_PARTS]; /* gg_mirror_scale, if asked for early */
+  gg_vu word[GG_PARTS];  /* random */
+  gg_vd3 k[GG_PARTS];    /* if grains turn */
+  gg_vd3 J[GG_PARTS];    /* 0 without a hit; 2 g_n k where k is not needed */
 } gg_meeting;
 
 /* Largest C^2 after a visit, lane by lane. */
@@ -52,33 +74,28 @@ GG_INLINE gg_vd3 gg_streamed(gg_features f, gg_real drift, gg_vd3 c)
 GG_INLINE void gg_turn(gg_features f, gg_batch *w, gg_mask swap, const gg_meeting *at, int part)
 {
   const gg_lane_contact *c = &w->contact;
-  gg_vd3 kJ = gg_vd3_cross(at->e[part].k, at->J[part]);
+  gg_vd3 kJ = gg_vd3_cross(at->k[part], at->J[part]);
   gg_vd3 turn_a = gg_vd3_scale(gg_all(c->ik1), kJ), turn_b = f.same ? turn_a : gg_vd3_scale(gg_all(c->ik2), kJ);
-  gg_vd3 sa = gg_vd3_sub(at->sa[part], turn_a), sb = gg_vd3_sub(at->sb[part], turn_b);
-  if (f.same) gg_lanes_exchange(swap, &sa, &sb);
-  gg_lanes_store(&w->spin_one[at->a], part * GG_WIDTH, sa);
-  gg_lanes_store(&w->spin_two[at->b], part * GG_WIDTH, sb);
+  gg_vd3 sa = gg_vd3_sub(gg_lanes_load(&w->spin_one[at->one], part * GG_WIDTH), turn_a);
+  gg_vd3 sb = gg_vd3_sub(at->sb[part], turn_b);
+  gg_lanes_settle(f, &w->spin_one[at->one], &w->spin_two[at->two], part * GG_WIDTH, swap, sa, sb);
 }
 
 /* Grains of one species change places so that the faster one is in the first block. Returns where. */
 GG_INLINE gg_mask gg_push(gg_features f, gg_batch *w, const gg_meeting *at, int part, gg_fastest *top)
 {
-  const gg_lane_contact *c = &w->contact;
-  const gg_real to_a = gg_needs_k(f) ? c->im1 : c->push1, to_b = gg_needs_k(f) ? c->im2 : c->push2;
   gg_vd3 J = at->J[part];
   if (f.shear != GG_UNSHEARED) J.x += at->drift * J.y; /* as stored velocities have it */
-  gg_vd3 push_a = gg_vd3_scale(gg_all(to_a), J), push_b = f.same ? push_a : gg_vd3_scale(gg_all(to_b), J);
-  gg_vd3 a = gg_vd3_sub(at->ca[part], push_a), b = gg_vd3_add(at->cb[part], push_b);
+  gg_vd3 push_a = gg_vd3_scale(w->to_a, J), push_b = f.same ? push_a : gg_vd3_scale(w->to_b, J);
+  gg_vd3 a = gg_vd3_sub(gg_lanes_load(at->a, part * GG_WIDTH), push_a);
+  gg_vd3 b = gg_vd3_add(at->cb[part], push_b);
   gg_vd3 Ca = gg_streamed(f, at->drift, a), Cb = gg_streamed(f, at->drift, b);
   gg_vd a2 = gg_vd3_dot(Ca, Ca), b2 = gg_vd3_dot(Cb, Cb);
-  gg_mask mixed = gg_low_bit(at->word[part] >> GG_SPARE_BIT);
-  gg_mask swap = gg_or(gg_and(gg_less(a2, b2), w->sorts), gg_and_not(mixed, w->sorts));
+  gg_mask swap = w->sorts ? gg_less(a2, b2) : gg_low_bit(at->word[part] >> GG_SPARE_BIT);
   gg_vd first = f.same ? gg_select(swap, b2, a2) : a2, second = f.same ? gg_select(swap, a2, b2) : b2;
   top->a = part ? gg_larger(top->a, first) : first;
   top->b = part ? gg_larger(top->b, second) : second;
-  if (f.same) gg_lanes_exchange(swap, &a, &b);
-  gg_lanes_store(&w->one[at->a], part * GG_WIDTH, a);
-  gg_lanes_store(&w->two[at->b], part * GG_WIDTH, b);
+  gg_lanes_settle(f, at->a, at->b, part * GG_WIDTH, swap, a, b);
   return swap;
 }
 
@@ -87,19 +104,11 @@ GG_INLINE void gg_carry_out(gg_features f, gg_batch *w, const gg_meeting *at)
 {
   gg_fastest top;
   for (int part = 0; part < GG_PARTS; part++) {
-    w->worst = gg_larger(w->worst, at->v2[part]);
-    w->collisions += (unsigned)__builtin_popcount(gg_bits(at->e[part].hit));
-    gg_vd3 J = gg_needs_k(f) ? at->J[part] : gg_vd3_scale(gg_all(0.5 * w->contact.jn), at->J[part]);
-    gg_vd Jn = gg_where(at->e[part].hit, w->contact.jn * at->e[part].gn);
-    gg_tally_note(f, &w->tally, part, at->e[part].k, at->e[part].g, J, Jn);
     gg_mask swap = gg_push(f, w, at, part, &top);
     if (f.rule != GG_SMOOTH) gg_turn(f, w, swap, at, part);
   }
-  gg_tally_turn(f, &w->tally);
-  w->visits++;
-  gg_v2 peaks = gg_peaks(top.a, top.b) * w->per_unit;
-  w->top_one[at->a] = (float)peaks[0];
-  w->top_two[at->b] = (float)peaks[1];
+  gg_v2 peaks = gg_peaks(top.a, top.b) * (f.shear == GG_UNSHEARED ? w->per_unit : at->per_unit);
+  gg_peaks_store(peaks, &w->top_one[at->one], &w->top_two[at->two]);
 }
 
 /* Block b with its lanes in order r (of which the low bits count), in registers. */
@@ -114,74 +123,93 @@ GG_INLINE void gg_load_in_order(const gg_real_block *b, gg_word r, gg_vd3 c[GG_P
 }
 
 /* Some pair is faster than the sum of tops by which its blocks were drawn: one of them has been visited since, or the
- * gas is faster than the bound of all. The former is made good exactly: the visit goes under the bound of now, and is
- * repeated with such a probability that its mean number is what it should have been: `again`. Returns the bound. */
-GG_INLINE gg_real gg_reconsider(gg_features f, gg_batch *w, const gg_meeting *at, gg_rng *rng, bool *again)
+ * gas is faster than the bound of all. What such pairs should collide more often than at every visit is made good by
+ * another visit in the layer above the bound, which comes with the probability that makes the rates right: `again`.
+ * (All lanes under a higher bound, and all of them again now and then, would have the same rates; but pairs that meet
+ * twice in a row scatter no further than once, and there would be more of them.) */
+GG_INLINE void gg_reconsider(gg_batch *w, gg_meeting *at, gg_rng *rng)
 {
   const gg_real bound = at->bound;
-  gg_vd a2 = gg_all(0), b2 = a2;
+  gg_vd most = at->v2[0];
   for (int part = 0; part < GG_PARTS; part++) {
-    gg_vd3 a = gg_streamed(f, at->drift, at->ca[part]), b = gg_streamed(f, at->drift, at->cb[part]);
-    a2 = gg_larger(a2, gg_vd3_dot(a, a));
-    b2 = gg_larger(b2, gg_vd3_dot(b, b));
-    w->overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(w->bound), gg_sqrt(at->v2[part]))));
+    most = gg_larger(most, at->v2[part]);
+    w->overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(w->bound), at->speed[part])));
   }
-  gg_v2 peaks = gg_peaks(a2, b2);
-  gg_real now = (gg_real)fmin((sqrt(peaks[0]) + sqrt(peaks[1])) * (1 + 1e-15), w->bound);
-  if (now <= bound) return bound;
-  *again = gg_rng_uniform(rng) * (bound + w->s0) < now - bound;
-  return now;
+  gg_real now = (gg_real)fmin(sqrt(gg_peaks(most, most)[0]) * (1 + 1e-15), w->bound);
+  if (now <= bound) return;
+  at->again = gg_rng_uniform(rng) * (bound - at->lowest) < now - bound;
+  at->most = now;
+}
+
+/* Take the next visit of the list: how fast do they meet? */
+GG_INLINE void gg_approach(gg_features f, gg_batch *w, const gg_draws *d, gg_meeting *at)
+{
+  const unsigned i = d->at;
+  at->one = (uint32_t)gg_listed(d->one, i);
+  at->two = (uint32_t)gg_listed(d->two, i);
+  at->a = &w->one[at->one];
+  at->b = &w->two[at->two];
+  at->order = gg_listed(d->order, i);
+  at->bound = d->bound[i];
+  at->again = at->layer = false;
+  at->lowest = w->lowest;
+  at->from_zero = w->from_zero;
+  if (__builtin_expect(d->layer, 0)) {
+    at->layer = true;
+    at->lowest = d->lowest;
+    at->from_zero = false;
+  }
+  at->drift = f.shear == GG_UNSHEARED ? 0 : d->drifts[i];
+  if (f.shear != GG_UNSHEARED) at->per_unit = d->per_unit[i];
+  gg_load_in_order(at->b, at->order, at->cb);
+  if (f.rule != GG_SMOOTH) gg_load_in_order(&w->spin_two[at->two], at->order, at->sb);
+  for (int part = 0; part < GG_PARTS; part++) {
+    gg_vd3 ca = gg_lanes_load(at->a, part * GG_WIDTH);
+    at->v[part] = gg_streamed(f, at->drift, gg_vd3_sub(ca, at->cb[part]));
+    at->v2[part] = gg_vd3_dot(at->v[part], at->v[part]);
+    at->speed[part] = gg_sqrt(at->v2[part]);
+    if (gg_scales_early(f)) at->scale[part] = gg_mirror_scale(at->v[part], at->speed[part]);
+  }
 }
 
 /* Who collides, along which k, with what impulse? */
-GG_INLINE void gg_aim(gg_features f, gg_batch *w, gg_vd3 v, gg_meeting *at, int part)
+GG_INLINE void gg_aim(gg_features f, gg_batch *w, gg_chance *c, gg_meeting *at, int part)
 {
-  gg_encounter *e = &at->e[part];
-  e->q = gg_directions_take(&w->near, e->hit);
-  gg_encounter_aim(f, w, v, e);
-  if (f.rule != GG_SMOOTH) e->g = gg_vd3_sub(e->g, gg_vd3_cross(e->k, gg_vd3_add(at->sa[part], at->sb[part])));
-  gg_vd3 J = gg_needs_k(f) ? gg_lane_impulse(f.rule, &w->contact, e->k, e->g, e->gn) : e->gn_k;
-  at->J[part] = (gg_vd3){gg_where(e->hit, J.x), gg_where(e->hit, J.y), gg_where(e->hit, J.z)};
+  gg_encounter e = {.speed = at->speed[part]};
+  gg_encounter_meet(f, at->from_zero, at->lowest, at->bound, at->word[part], &e);
+  if (__builtin_expect(at->layer, 0)) gg_encounter_in_layer(at->lowest, &e);
+  e.q = gg_directions_take(&c->near, e.hit);
+  gg_encounter_aim(f, w, c, at->v[part], at->scale[part], &e);
+  if (f.rule != GG_SMOOTH) {
+    gg_vd3 sa = gg_lanes_load(&w->spin_one[at->one], part * GG_WIDTH);
+    e.g = gg_vd3_sub(e.g, gg_vd3_cross(e.k, gg_vd3_add(sa, at->sb[part])));
+    at->k[part] = e.k;
+  }
+  gg_vd3 J = gg_needs_k(f) ? gg_lane_impulse(f.rule, &w->contact, e.k, e.g, e.gn) : e.gn_k;
+  J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
+  at->J[part] = J;
+  w->worst = gg_larger(w->worst, at->v2[part]);
+  w->collisions += (unsigned)__builtin_popcount(gg_bits(e.hit));
+  gg_tally_note(f, &w->tally, part, e.k, e.g, gg_needs_k(f) ? J : gg_vd3_scale(gg_all(0.5 * w->contact.jn), J),
+                gg_where(e.hit, w->contact.jn * e.gn));
 }
 
-/* Directions for a visit. */
-GG_INLINE void gg_stock(gg_features f, gg_batch *w)
+GG_INLINE void gg_make_directions(gg_features f, gg_chance *c)
 {
-  gg_directions_stock(&w->near, &w->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
-  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&w->sheared, &w->rng, GG_SHEARED);
+  gg_directions_make(&c->near, &c->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
 }
 
-/* The i-th visit of the list, but for writing it back. */
-GG_INLINE void gg_foresee(gg_features f, gg_batch *w, const gg_draw *now, unsigned i, double drift_step, gg_rng *rng,
-                          gg_meeting *at)
+/* What comes of it, but for writing it back. */
+GG_INLINE void gg_decide(gg_features f, gg_batch *w, gg_chance *c, gg_rng *rng, gg_meeting *at)
 {
-  const uint32_t two = (uint32_t)gg_listed(now->two, i);
-  gg_vd3 v[GG_PARTS];
-  gg_vd speed[GG_PARTS];
   unsigned faster = 0;
-  at->a = (uint32_t)gg_listed(now->one, i);
-  at->b = two & ~GG_ODD;
-  at->odd = two & GG_ODD;
-  at->again = false;
-  at->bound = now->bound[i];
-  at->drift = f.shear == GG_UNSHEARED ? 0 : (gg_real)(now->drift + (double)gg_listed(now->nth, i) * drift_step);
-  gg_load_in_order(&w->two[at->b], gg_listed(now->order, i), at->cb);
-  if (f.rule != GG_SMOOTH) gg_load_in_order(&w->spin_two[at->b], gg_listed(now->order, i), at->sb);
-  for (int part = 0; part < GG_PARTS; part++) {
-    at->ca[part] = gg_lanes_load(&w->one[at->a], part * GG_WIDTH);
-    if (f.rule != GG_SMOOTH) at->sa[part] = gg_lanes_load(&w->spin_one[at->a], part * GG_WIDTH);
-    v[part] = gg_streamed(f, at->drift, gg_vd3_sub(at->ca[part], at->cb[part]));
-    at->v2[part] = gg_vd3_dot(v[part], v[part]);
-    speed[part] = gg_sqrt(at->v2[part]);
-    faster |= gg_bits(gg_less(gg_all(at->bound), speed[part]));
-  }
-  if (__builtin_expect(faster, 0) && !at->odd) at->bound = gg_reconsider(f, w, at, rng, &at->again);
-  gg_stock(f, w);
-  for (int part = 0; part < GG_PARTS; part++) {
-    at->word[part] = now->words[i][part];
-    gg_encounter_meet(f, w, speed[part], gg_all(at->bound), at->word[part], &at->e[part]);
-    gg_aim(f, w, v[part], at, part);
-  }
+  for (int part = 0; part < GG_PARTS; part++) faster |= gg_bits(gg_less(gg_all(at->bound), at->speed[part]));
+  if (__builtin_expect(faster, 0)) gg_reconsider(w, at, rng);
+  gg_directions_stock(&c->near, &c->rng, gg_needs_k(f) ? GG_COSINE : GG_UNIFORM);
+  if (f.shear == GG_SHEARED_DENSE) gg_directions_stock(&c->sheared, &c->rng, GG_SHEARED);
+  for (int part = 0; part < GG_PARTS; part++) gg_aim(f, w, c, at, part);
+  gg_tally_turn(f, &w->tally);
+  w->visits++;
 }
 
 #endif

@@ -14,6 +14,8 @@
  * that always act at once would be too large a part of the ensemble. */
 #include "dsmc/collide_blocks.h"
 
+#include <string.h>
+
 #include "dsmc/block_visit.h"
 
 enum { SORTED = 999 }; /* blocks, at least, to be sorted by speed */
@@ -33,13 +35,6 @@ GG_INLINE void call(gg_features f, const gg_batch *w, uint32_t a, uint32_t b)
   prefetch(&w->spin_two[b]);
 }
 
-/* The same for all of a list. */
-GG_INLINE void call_all(gg_features f, const gg_batch *w, const gg_draw *list)
-{
-  for (unsigned i = 0; i < list->n; i++)
-    call(f, w, (uint32_t)gg_listed(list->one, i), (uint32_t)gg_listed(list->two, i) & ~GG_ODD);
-}
-
 /* Of some blocks of a population the tops: another thread may have had them before. */
 GG_INLINE void call_tops(const gg_population *p, gg_range r)
 {
@@ -52,7 +47,7 @@ GG_INLINE uint32_t odd_block(const gg_population *p)
   return p->n % GG_LANES ? (uint32_t)p->n_blocks - 1 : UINT32_MAX;
 }
 
-GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_rng_lanes *lanes)
+GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p)
 {
   *w = (gg_batch){.one = p->one->c,
                   .two = p->two->c,
@@ -60,24 +55,33 @@ GG_INLINE void start(gg_features f, gg_batch *w, const gg_pairing *p, const gg_r
                   .spin_two = p->two->s,
                   .top_one = p->one->top,
                   .top_two = p->two->top,
-                  .blocks_one = p->blocks[0],
-                  .blocks_two = p->blocks[1],
-                  .odd_one = odd_block(p->one),
-                  .odd_two = odd_block(p->two),
+                  .any_odd = p->one->n % GG_LANES || p->two->n % GG_LANES,
+                  .odd_one = gg_all_words(odd_block(p->one)),
+                  .odd_two = gg_all_words(odd_block(p->two)),
+                  .first_one = gg_all_words(p->blocks[0].first),
+                  .first_two = gg_all_words(p->blocks[1].first),
+                  .n_one = gg_all_words(p->blocks[0].n),
+                  .n_two = gg_all_words(p->blocks[1].n),
                   .contact = gg_lane_contact_of(&p->contact),
                   .floor = (gg_real)p->floor,
                   .shift = (gg_real)p->shift,
                   .s0 = f.shear == GG_SHEARED_DENSE ? (gg_real)(GG_SHEAR_SHARE * p->shift) : 0,
-                  .next_drift = p->drift,
-                  .next_unit = p->top_unit};
+                  .unit = p->top_unit,
+                  .root = (gg_real)(sqrt(p->top_unit) * (1 + 1e-6)),
+                  .per_unit = (gg_real)gg_per_top(p->top_unit)};
   w->bound = (gg_real)(p->floor + p->bound - w->s0);
-  w->sorts = gg_less(gg_all(SORTED), gg_all((gg_real)p->one->n_blocks));
-  gg_lane_rng_load(&w->rng, lanes);
+  w->layer = p->floor > 0;
+  w->most = gg_all(w->bound);
+  w->most_rate = gg_all(w->bound + w->s0);
+  w->lowest = w->floor - w->s0;
+  w->from_zero = w->lowest == 0;
+  w->to_a = gg_all(gg_needs_k(f) ? w->contact.im1 : w->contact.push1);
+  w->to_b = gg_all(gg_needs_k(f) ? w->contact.im2 : w->contact.push2);
+  w->sorts = p->one->n_blocks > SORTED;
 }
 
-GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *lanes)
+GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p)
 {
-  gg_lane_rng_save(&w->rng, lanes);
   p->tried += w->visits * GG_LANES;
   p->collisions += w->collisions;
   p->overflows += w->overflows;
@@ -85,100 +89,115 @@ GG_INLINE void finish(gg_features f, gg_batch *w, gg_pairing *p, gg_rng_lanes *l
   gg_tally_finish(f, &w->tally, p);
 }
 
-/* What is not an ordinary visit. Returns whether the i-th is to be made once more. */
-GG_INLINE bool carry_out_odd(gg_features f, gg_batch *w, gg_draw *now, unsigned i, const gg_meeting *at, gg_pairing *p,
-                             gg_rng *rng)
+/* The next visit is not for this path. */
+GG_INLINE void visit_odd(gg_features f, const gg_batch *w, const gg_draws *d, gg_pairing *p, gg_rng *rng)
 {
-  if (at->odd) {
-    p->drift = at->drift;
-    p->top_unit = now->unit;
-    gg_collide_odd_blocks(f, p, at->a, at->b, (unsigned)gg_listed(now->order, i) % GG_LANES, rng);
-    return false;
-  }
-  gg_vu spare;
-  gg_carry_out(f, w, at);
-  now->bound[i] = at->bound;
-  for (int part = 0; part < GG_PARTS; part++) gg_lane_two(&w->rng, part, &now->words[i][part], &spare);
-  return true;
+  const unsigned i = d->at;
+  p->drift = f.shear == GG_UNSHEARED ? d->drift : (double)d->drifts[i];
+  p->top_unit = f.shear == GG_UNSHEARED ? w->unit : 1 / (double)d->per_unit[i];
+  gg_collide_odd_blocks(f, p, (uint32_t)gg_listed(d->one, i), (uint32_t)gg_listed(d->two, i) & ~GG_ODD,
+                        (unsigned)gg_listed(d->order, i) % GG_LANES, rng);
 }
 
-/* A list of draws being visited. */
-typedef struct gg_visits {
-  gg_draw *now;
-  const gg_draw *next; /* whose memory is called meanwhile */
-  unsigned i;          /* visits looked at */
-  bool pending;        /* the last of them is still to be written back */
-} gg_visits;
+/* Visits in progress, each at another step, or none. */
+typedef struct gg_pipeline {
+  gg_meeting *next, *approached, *decided;
+  bool to_decide, to_carry_out;
+} gg_pipeline;
 
-GG_INLINE bool in_common(const gg_meeting *one, const gg_meeting *two)
+GG_INLINE bool in_common(const gg_meeting *at, uint32_t one, uint32_t two)
 {
-  return (one->a == two->a) | (one->a == two->b) | (one->b == two->a) | (one->b == two->b);
+  return (at->one == one) | (at->two == one) | (at->one == two) | (at->two == two);
 }
 
-/* Work out the next visit, then write back the one before. If they have a block in common, the next is worked out anew.
- * Returns false at the end. */
-GG_INLINE bool visit(gg_features f, gg_batch *w, gg_visits *r, gg_pairing *p, gg_rng *rng, const gg_meeting *at,
-                     gg_meeting *ahead)
+/* Does the next visit of the list have to wait for one in progress, since they have a block in common? */
+GG_INLINE bool has_to_wait(const gg_pipeline *l, const gg_draws *d)
 {
-  const bool end = r->i == r->now->n;
-  if (end)
-    gg_stock(f, w);
+  const uint32_t one = (uint32_t)gg_listed(d->one, d->at), two = (uint32_t)gg_listed(d->two, d->at) & ~GG_ODD;
+  if (l->to_decide && in_common(l->approached, one, two)) return true;
+  return l->to_carry_out && in_common(l->decided, one, two);
+}
+
+/* The next visit takes its first step, if there is one that can. Returns whether. */
+GG_INLINE bool take(gg_features f, gg_batch *w, gg_draws *d, gg_pipeline *l, gg_pairing *p, gg_rng *rng)
+{
+  if (__builtin_expect(d->at == d->n || has_to_wait(l, d), 0)) return false;
+  const bool odd = gg_listed(d->two, d->at) & GG_ODD;
+  if (__builtin_expect(odd, 0))
+    visit_odd(f, w, d, p, rng);
   else
-    gg_foresee(f, w, r->now, r->i, p->drift_step, rng, ahead);
-  /* About as many to come; what is past the end of their list is old, and harmless. */
-  call(f, w, (uint32_t)gg_listed(r->next->one, r->i), (uint32_t)gg_listed(r->next->two, r->i) & ~GG_ODD);
-  if (r->pending) {
-    bool anew = !end && in_common(ahead, at);
-    if (__builtin_expect(at->odd | at->again, 0)) {
-      r->i -= carry_out_odd(f, w, r->now, r->i - 1, at, p, rng);
-      anew = true;
-    } else {
-      gg_carry_out(f, w, at);
-    }
-    r->pending = !anew;
-    if (__builtin_expect(anew, 0)) return true;
-  }
-  if (end) return false;
-  r->pending = true;
-  r->i++;
-  return true;
+    gg_approach(f, w, d, l->next);
+  d->layer = false;
+  d->at++;
+  return !odd;
 }
 
-/* What comes of a visit is worked out before the one ahead of it is written back: there is more to do meanwhile, and
- * with stores that come late and addresses that agree in their last bits now and then, a processor would rather wait
- * than let loads pass. Two meetings take turns as the one and the other: copying them would cost as much as the sums.
- */
-GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_draw *now, const gg_draw *next, gg_meeting turn[2],
-                         gg_pairing *p, gg_rng *rng)
+/* Random words of two visits at a time. */
+GG_INLINE void give_words(gg_chance *c, gg_meeting *at, gg_vu second[GG_PARTS], unsigned turn)
 {
-  gg_visits r = {.now = now, .next = next};
-  w->per_unit = (gg_real)gg_per_top(now->unit);
-  while (visit(f, w, &r, p, rng, &turn[0], &turn[1]) && visit(f, w, &r, p, rng, &turn[1], &turn[0])) continue;
+  for (int part = 0; part < GG_PARTS; part++)
+    if (turn % 2)
+      at->word[part] = second[part];
+    else
+      gg_lane_two(&c->rng, part, &at->word[part], &second[part]);
+}
+
+/* All visits. Up to three are in progress, each at another step, so that a step finds ready what the one before has
+ * left, and a processor always has something to do; and directions are made in their midst, a few at a time, for the
+ * same reason. What is scarce is the arithmetic on registers of eight: so constants come as whole registers, either of
+ * two velocities is chosen by what is stored. */
+GG_INLINE void visit_all(gg_features f, gg_batch *w, gg_chance *c, gg_draws *d, gg_pairing *p, gg_rng *rng)
+{
+  static const unsigned makes = 0xb6db; /* directions: in eleven of sixteen turns */
+  gg_meeting room[3];
+  gg_pipeline l = {.next = &room[0], .approached = &room[1], .decided = &room[2]};
+  gg_vu second[GG_PARTS] = {0};
+  unsigned making = 0;
+  for (unsigned turn = 0;; turn++) {
+    if (turn % 4 == 0) gg_draw_ahead(f, w, c, d, p->drift_step);
+    if (turn % 16 == 0) making = gg_directions_begin(&c->near) ? makes : 0;
+    if (d->at == d->n && !l.to_decide && !l.to_carry_out) break;
+    give_words(c, l.next, second, turn);
+    const bool taken = take(f, w, d, &l, p, rng);
+    call(f, w, (uint32_t)gg_listed(d->one, d->at + GG_CALLED),
+         (uint32_t)gg_listed(d->two, d->at + GG_CALLED) & ~GG_ODD);
+    if (making >> turn % 16 & 1) gg_make_directions(f, c);
+    if (l.to_decide) gg_decide(f, w, c, rng, l.approached);
+    gg_meeting *last = l.decided;
+    if (l.to_carry_out) {
+      gg_carry_out(f, w, last);
+      if (__builtin_expect(last->again, 0))
+        gg_draw_again(f, d, last->one, last->two, last->order, last->bound, last->most, last->drift, last->per_unit);
+    }
+    l.decided = l.approached;
+    l.approached = l.next;
+    l.next = last;
+    l.to_carry_out = l.to_decide;
+    l.to_decide = taken;
+  }
 }
 
 /* Everything of a batch. `f` is a constant: each instance holds only what it needs. */
 GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng)
 {
   gg_batch w;
-  gg_real near[3][GG_DIRECTIONS_ROOM], sheared[3][GG_DIRECTIONS_ROOM];
-  gg_draw queue[2] = {{0}, {0}};
-  gg_meeting meeting[2] = {{0}, {0}};
-  start(f, &w, p, lanes);
-  w.near = (gg_directions){.x = near[0], .y = near[1], .z = near[2]};
-  w.sheared = (gg_directions){.x = sheared[0], .y = sheared[1], .z = sheared[2]};
-  unsigned n = p->candidates < GG_DRAWS ? (unsigned)p->candidates : GG_DRAWS;
+  gg_real near[3 * GG_DIRECTIONS_ROOM], sheared[3 * GG_DIRECTIONS_ROOM];
+  gg_draws draws;
+  start(f, &w, p);
+  gg_chance chance = {.near = {.x = near}, .sheared = {.x = sheared}};
+  gg_lane_rng_load(&chance.rng, lanes);
+  draws.at = draws.n = 1;
+  draws.left = p->candidates;
+  draws.layer = false;
+  draws.drift = p->drift;
+  memset(draws.one, 0, sizeof draws.one); /* what is past the end is called, too */
+  memset(draws.two, 0, sizeof draws.two);
   call_tops(p->one, p->blocks[0]);
   call_tops(p->two, p->blocks[1]);
-  gg_draw_visits(f, &w, &queue[0], n, p->drift_step);
-  call_all(f, &w, &queue[0]);
-  for (uint64_t left = p->candidates - n, turn = 0; n; turn ^= 1) {
-    n = left < GG_DRAWS ? (unsigned)left : GG_DRAWS;
-    left -= n;
-    gg_draw_visits(f, &w, &queue[turn ^ 1], n, p->drift_step);
-    visit_all(f, &w, &queue[turn], &queue[turn ^ 1], meeting, p, rng);
-  }
-  p->top_unit = w.next_unit;
-  finish(f, &w, p, lanes);
+  visit_all(f, &w, &chance, &draws, p, rng);
+  p->top_unit = w.unit;
+  finish(f, &w, p);
+  gg_lane_rng_save(&chance.rng, lanes);
 }
 
 /* The table of instances: rule x shear and tap x one or two species. */

@@ -5,11 +5,12 @@
 
 #include "dsmc/lanes.h"
 
-enum { GG_DIRECTIONS = 128, GG_DIRECTIONS_ROOM = GG_DIRECTIONS + 3 * GG_LANES };
+/* Room for what is in stock when sixteen visits begin, for what is made meanwhile, and for the width of a register. */
+enum { GG_PLENTY = 64, GG_DIRECTIONS = 256, GG_DIRECTIONS_ROOM = GG_DIRECTIONS + 17 * GG_LANES };
 
 typedef struct gg_directions {
-  gg_real *x, *y, *z; /* room for each: a buffer of its own, so that the rest can stay in registers */
-  unsigned at, n;     /* used, made */
+  gg_real *x;     /* three lists of GG_DIRECTIONS_ROOM: a buffer of its own, so that the rest can stay in registers */
+  unsigned at, n; /* used, made */
 } gg_directions;
 
 /* A point (u, v) uniform in the unit disc, s = u^2 + v^2, in the lanes of the mask: each coordinate from a word
@@ -18,8 +19,8 @@ GG_INLINE gg_mask gg_lane_disc(gg_lane_rng *r, int p, gg_vd *u, gg_vd *v, gg_vd 
 {
   gg_vu first, second;
   gg_lane_two(r, p, &first, &second);
-  *u = 2 * gg_lane_one_to_two(first) - 3;
-  *v = 2 * gg_lane_one_to_two(second) - 3;
+  *u = gg_lane_two_to_four(first) - 3;
+  *v = gg_lane_two_to_four(second) - 3;
   *s = *u * *u + *v * *v;
   return gg_less(*s, gg_all(1));
 }
@@ -71,32 +72,54 @@ GG_INLINE gg_mask gg_lane_direction(gg_law law, gg_lane_rng *r, int p, gg_vd3 *w
   }
 }
 
-/* At least eight in stock; `law` is constant. */
+/* Those that are left come to the front: whole registers at a time, which hurts nobody. */
+GG_INLINE void gg_directions_move_up(gg_directions *d)
+{
+  for (unsigned i = 0; i < d->n - d->at; i += GG_WIDTH)
+    for (int k = 0; k < 3; k++) {
+      gg_real *list = d->x + k * GG_DIRECTIONS_ROOM;
+      gg_vd some;
+      __builtin_memcpy(&some, list + d->at + i, sizeof some);
+      __builtin_memcpy(list + i, &some, sizeof some);
+    }
+  d->n -= d->at;
+  d->at = 0;
+}
+
+/* Sixteen visits begin. Should there be more directions made in their midst? */
+GG_INLINE bool gg_directions_begin(gg_directions *d)
+{
+  if (__builtin_expect(d->n > GG_DIRECTIONS, 0)) gg_directions_move_up(d);
+  return d->n - d->at < GG_PLENTY;
+}
+
+/* Up to eight more; `law` is constant. */
+GG_INLINE void gg_directions_make(gg_directions *d, gg_lane_rng *r, gg_law law)
+{
+  for (int p = 0; p < GG_PARTS; p++) {
+    gg_vd3 w;
+    gg_mask made = gg_lane_direction(law, r, p, &w);
+    gg_real *to = d->x + d->n;
+    gg_pack(to, made, w.x);
+    gg_pack(to + GG_DIRECTIONS_ROOM, made, w.y);
+    gg_pack(to + 2 * GG_DIRECTIONS_ROOM, made, w.z);
+    d->n += (unsigned)__builtin_popcount(gg_bits(made));
+  }
+}
+
+/* At least eight in stock. */
 GG_INLINE void gg_directions_stock(gg_directions *d, gg_lane_rng *r, gg_law law)
 {
   if (__builtin_expect(d->n - d->at >= GG_LANES, 1)) return;
-  unsigned left = d->n - d->at;
-  for (unsigned i = 0; i < left; i++) {
-    d->x[i] = d->x[d->at + i];
-    d->y[i] = d->y[d->at + i];
-    d->z[i] = d->z[d->at + i];
-  }
-  d->at = 0;
-  for (d->n = left; d->n < GG_DIRECTIONS;)
-    for (int p = 0; p < GG_PARTS; p++) {
-      gg_vd3 w;
-      gg_mask made = gg_lane_direction(law, r, p, &w);
-      gg_pack(d->x + d->n, made, w.x);
-      gg_pack(d->y + d->n, made, w.y);
-      gg_pack(d->z + d->n, made, w.z);
-      d->n += (unsigned)__builtin_popcount(gg_bits(made));
-    }
+  gg_directions_move_up(d);
+  while (d->n < GG_PLENTY) gg_directions_make(d, r, law);
 }
 
 /* One for each lane of the mask; the others hold anything finite. */
 GG_INLINE gg_vd3 gg_directions_take(gg_directions *d, gg_mask m)
 {
-  gg_vd3 w = {gg_spread(m, d->x + d->at), gg_spread(m, d->y + d->at), gg_spread(m, d->z + d->at)};
+  const gg_real *from = d->x + d->at;
+  gg_vd3 w = {gg_spread(m, from), gg_spread(m, from + GG_DIRECTIONS_ROOM), gg_spread(m, from + 2 * GG_DIRECTIONS_ROOM)};
   d->at += (unsigned)__builtin_popcount(gg_bits(m));
   return w;
 }

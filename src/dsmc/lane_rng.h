@@ -32,18 +32,29 @@ GG_INLINE gg_vq gg_lane_rotl(gg_vq x, int k)
   return (x << k) | (x >> (64 - k));
 }
 
+GG_INLINE gg_vq gg_xor3(gg_vq a, gg_vq b, gg_vq c)
+{
+#ifdef GG_HAS_AVX512
+#ifdef GG_SINGLE_LANES
+  return (gg_vq)_mm256_ternarylogic_epi64((__m256i)a, (__m256i)b, (__m256i)c, 0x96);
+#else
+  return (gg_vq)_mm512_ternarylogic_epi64((__m512i)a, (__m512i)b, (__m512i)c, 0x96);
+#endif
+#else
+  return a ^ b ^ c;
+#endif
+}
+
 /* The next number of each of a part's lanes. */
 GG_INLINE gg_vq gg_lane_next(gg_lane_rng *r, int part)
 {
   gg_vq *s0 = &r->s[0][part], *s1 = &r->s[1][part], *s2 = &r->s[2][part], *s3 = &r->s[3][part];
-  gg_vq result = gg_lane_rotl(*s0 + *s3, 23) + *s0, t = *s1 << 17;
-  *s2 ^= *s0;
-  *s3 ^= *s1;
-  *s1 ^= *s2;
-  *s0 ^= *s3;
-  *s2 ^= t;
-  *s3 = gg_lane_rotl(*s3, 45);
-  return result;
+  const gg_vq a = *s0, b = *s1, c = *s2, d = *s3;
+  *s0 = gg_xor3(a, d, b);
+  *s1 = gg_xor3(b, c, a);
+  *s2 = gg_xor3(c, a, b << 17);
+  *s3 = gg_lane_rotl(d ^ b, 45);
+  return gg_lane_rotl(a + d, 23) + a;
 }
 
 GG_INLINE void gg_lane_rng_load(gg_lane_rng *r, const gg_rng_lanes *from)

@@ -5,7 +5,8 @@
  *
  * From lanes_double.h or lanes_single.h:
  * gg_vd, gg_vi, gg_vu: numbers, whole numbers, and random words as wide. gg_mask: one truth a lane. gg_permute_of(r)
- * and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_spread: the next numbers of a list, one for each true lane;
+ * and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_store_either: `yes` in
+ * true lanes, else `no`. gg_spread: the next numbers of a list, one for each true lane;
  * gg_pack: the true lanes to the front of a list, then anything up to a width. gg_peaks: the largest lane of a, and
  * of b. gg_roots_at: square roots out of a table, rounded to float. gg_lane_two: two random words a lane, from whose
  * high bits gg_lane_one_to_two makes a number; bit GG_SPARE_BIT hardly matters to it. gg_lane_two_below: two random
@@ -19,6 +20,21 @@
 #include "dsmc/lanes_double.h"
 #endif
 
+#ifndef GG_HAS_AVX512
+GG_INLINE gg_mask gg_below_word(gg_vu a, gg_vu b)
+{
+  return (gg_mask)(a < b);
+}
+GG_INLINE gg_mask gg_same_word(gg_vu a, gg_vu b)
+{
+  return (gg_mask)(a == b);
+}
+GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
+{
+  *(gg_vd *)p = gg_select(m, yes, no);
+}
+#endif
+
 /* Lane-wise vectors in space. */
 typedef struct gg_vd3 {
   gg_vd x, y, z;
@@ -27,6 +43,14 @@ typedef struct gg_vd3 {
 GG_INLINE gg_vd gg_all(gg_real x)
 {
   return x - (gg_vd){0};
+}
+GG_INLINE gg_vu gg_all_words(gg_word x)
+{
+  return x - (gg_vu){0};
+}
+GG_INLINE gg_vu gg_select_words(gg_mask m, gg_vu yes, gg_vu no)
+{
+  return (gg_vu)gg_select(m, (gg_vd)yes, (gg_vd)no);
 }
 GG_INLINE gg_vd3 gg_vd3_sub(gg_vd3 a, gg_vd3 b)
 {

@@ -26,6 +26,14 @@ GG_INLINE gg_mask gg_less(gg_vd a, gg_vd b)
 {
   return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
 }
+GG_INLINE gg_mask gg_below_word(gg_vu a, gg_vu b)
+{
+  return _mm512_cmplt_epu64_mask((__m512i)a, (__m512i)b);
+}
+GG_INLINE gg_mask gg_same_word(gg_vu a, gg_vu b)
+{
+  return _mm512_cmpeq_epu64_mask((__m512i)a, (__m512i)b);
+}
 GG_INLINE gg_mask gg_low_bit(gg_vu r)
 {
   return _mm512_movepi64_mask((__m512i)(r << 63));
@@ -49,6 +57,12 @@ GG_INLINE unsigned gg_bits(gg_mask m)
 GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
 {
   return _mm512_mask_blend_pd(m, no, yes);
+}
+/* Stores where others would blend: ports that do arithmetic are the scarce ones. */
+GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
+{
+  *(gg_vd *)p = no;
+  _mm512_mask_store_pd(p, m, yes);
 }
 GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
@@ -269,6 +283,15 @@ GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
 }
 #endif
 
+/* Both peaks, in single precision. */
+GG_INLINE void gg_peaks_store(gg_v2 peaks, float *one, float *two)
+{
+  typedef float gg_f2 __attribute__((vector_size(8)));
+  gg_f2 rounded = __builtin_convertvector(peaks, gg_f2);
+  *one = rounded[0];
+  *two = rounded[1];
+}
+
 /* Two random words a lane, good for 32 bits at least; the low half of the first is the second. */
 GG_INLINE void gg_lane_two(gg_lane_rng *r, int part, gg_vu *a, gg_vu *b)
 {
@@ -282,12 +305,18 @@ GG_INLINE gg_vd gg_lane_one_to_two(gg_vu r)
   return (gg_vd)((r >> 12) | 0x3ff0000000000000u);
 }
 
+/* Uniform in [2, 4), likewise. */
+GG_INLINE gg_vd gg_lane_two_to_four(gg_vu r)
+{
+  return (gg_vd)((r >> 12) | 0x4000000000000000u);
+}
+
 /* Whole numbers below m and below n < 2^32. */
-GG_INLINE void gg_lane_two_below(gg_lane_rng *r, int part, uint32_t m, uint32_t n, gg_vu *a, gg_vu *b)
+GG_INLINE void gg_lane_two_below(gg_lane_rng *r, int part, gg_vu m, gg_vu n, gg_vu *a, gg_vu *b)
 {
   gg_vu bits = gg_lane_next(r, part);
-  *a = gg_mul32(bits >> 32, m - (gg_vu){0}) >> 32;
-  *b = gg_mul32(bits, n - (gg_vu){0}) >> 32;
+  *a = gg_mul32(bits >> 32, m) >> 32;
+  *b = gg_mul32(bits, n) >> 32;
 }
 
 /* Numbers kept in single precision: read, and rounded; what is there then. */

@@ -31,6 +31,14 @@ GG_INLINE gg_mask gg_less(gg_vd a, gg_vd b)
 {
   return _mm256_cmp_ps_mask(a, b, _CMP_LT_OQ);
 }
+GG_INLINE gg_mask gg_below_word(gg_vu a, gg_vu b)
+{
+  return _mm256_cmplt_epu32_mask((__m256i)a, (__m256i)b);
+}
+GG_INLINE gg_mask gg_same_word(gg_vu a, gg_vu b)
+{
+  return _mm256_cmpeq_epu32_mask((__m256i)a, (__m256i)b);
+}
 GG_INLINE gg_mask gg_low_bit(gg_vu r)
 {
   return _mm256_movepi32_mask((__m256i)(r << 31));
@@ -54,6 +62,12 @@ GG_INLINE unsigned gg_bits(gg_mask m)
 GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
 {
   return _mm256_mask_blend_ps(m, no, yes);
+}
+/* Stores where others would blend: ports that do arithmetic are the scarce ones. */
+GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
+{
+  *(gg_vd *)p = no;
+  _mm256_mask_store_ps(p, m, yes);
 }
 GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
@@ -226,10 +240,10 @@ GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
   return gg_larger(pairs, (gg_vd){pairs[2], pairs[3], pairs[0], pairs[1]});
 }
 /* High halves of the products. */
-GG_INLINE gg_vu gg_below(gg_vu r, uint32_t n)
+GG_INLINE gg_vu gg_below(gg_vu r, gg_vu n)
 {
   gg_vu high;
-  for (int l = 0; l < GG_WIDTH; l++) high[l] = (uint32_t)((uint64_t)r[l] * n >> 32);
+  for (int l = 0; l < GG_WIDTH; l++) high[l] = (uint32_t)((uint64_t)r[l] * n[l] >> 32);
   return high;
 }
 #endif
@@ -258,14 +272,20 @@ GG_INLINE gg_v2 gg_peaks(gg_vd a, gg_vd b)
   return _mm_max_ps(fours, _mm_movehl_ps(fours, fours));
 }
 /* High halves of the products. */
-GG_INLINE gg_vu gg_below(gg_vu r, uint32_t n)
+GG_INLINE gg_vu gg_below(gg_vu r, gg_vu n)
 {
-  const __m256i factor = _mm256_set1_epi32((int)n);
+  const __m256i factor = (__m256i)n; /* the same in all lanes */
   __m256i even = _mm256_mul_epu32((__m256i)r, factor),
           odd = _mm256_mul_epu32(_mm256_srli_epi64((__m256i)r, 32), factor);
   return (gg_vu)_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa);
 }
 #endif
+
+GG_INLINE void gg_peaks_store(gg_v2 peaks, float *one, float *two)
+{
+  *one = peaks[0];
+  *two = peaks[1];
+}
 
 /* Two random words a lane: of the first four numbers, and the other four. */
 GG_INLINE void gg_lane_two(gg_lane_rng *r, int part, gg_vu *a, gg_vu *b)
@@ -280,8 +300,14 @@ GG_INLINE gg_vd gg_lane_one_to_two(gg_vu r)
   return (gg_vd)((r >> 9) | 0x3f800000u);
 }
 
+/* Uniform in [2, 4), likewise. */
+GG_INLINE gg_vd gg_lane_two_to_four(gg_vu r)
+{
+  return (gg_vd)((r >> 9) | 0x40000000u);
+}
+
 /* Whole numbers below m and below n. */
-GG_INLINE void gg_lane_two_below(gg_lane_rng *r, int part, uint32_t m, uint32_t n, gg_vu *a, gg_vu *b)
+GG_INLINE void gg_lane_two_below(gg_lane_rng *r, int part, gg_vu m, gg_vu n, gg_vu *a, gg_vu *b)
 {
   gg_lane_two(r, part, a, b);
   *a = gg_below(*a, m);

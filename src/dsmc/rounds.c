@@ -4,9 +4,10 @@
  * comes between the two halves of a step, each round has both, the second in reverse order. */
 #include "dsmc/dsmc.h"
 
-/* Candidates that a turn within a meeting should have, on average: enough that what it costs to begin one is no
- * matter. */
-static const double worth_a_turn = 600;
+/* Candidates that a turn within a meeting should have, on average: enough that to begin one and to wait for who is last
+ * hardly matter, few enough that segments that differ mix as one pair after another would (4000 cost less still, but
+ * segments of different temperatures then mix by fits and starts). */
+static const double worth_a_turn = 1200;
 /* Candidates of a round that others are called for. */
 static const double worth_calling = 400;
 

@@ -51,7 +51,11 @@ GG_INLINE void gg_tally_note(gg_features f, gg_tally *t, int part, gg_vd3 k, gg_
 
 GG_INLINE void gg_tally_add(double *sum, int part, gg_vd v)
 {
-  for (int l = 0; l < GG_WIDTH; l++) sum[part * GG_WIDTH + l] += v[l];
+  typedef double gg_doubles __attribute__((vector_size(8 * GG_WIDTH)));
+  gg_doubles s;
+  __builtin_memcpy(&s, sum + part * GG_WIDTH, sizeof s);
+  s += __builtin_convertvector(v, gg_doubles);
+  __builtin_memcpy(sum + part * GG_WIDTH, &s, sizeof s);
 }
 
 GG_INLINE void gg_tally_sum_part(gg_features f, gg_tally *t, int p)

@@ -1,5 +1,7 @@
 #include "run/throughput.h"
 
+#include <math.h>
+
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
@@ -50,9 +52,29 @@ static double read_clock(const runner *r)
   return r->by_the_clock ? gg_wall_now() : cpu_used(r->engine);
 }
 
+static void add_squares(void *context, const gg_chunk *chunk)
+{
+  double *sum = context; /* of grains, of C^2 */
+  sum[0] += (double)chunk->n;
+  for (int a = 0; a < 3; a++)
+    for (size_t i = 0; i < chunk->n; i++) sum[1] += chunk->c[a][i] * chunk->c[a][i];
+}
+
+/* Gases that cool leave the range of numbers in some thousand collisions a grain: back to where they began, by powers
+ * of two. */
+static gg_status warm_up_again(gg_engine *e, gg_error *err)
+{
+  double sum[2] = {0, 0};
+  e->ops->snapshot(e, false, add_squares, sum);
+  const double T = sum[1] / (3 * sum[0]);
+  if (!(T > 0) || T > 1e-30) return GG_OK;
+  return e->ops->rescale(e, (int)floor(-0.5 * log2(T)), err);
+}
+
 /* One timed stretch, grown until it is long enough to time. */
 static gg_status time_stretch(runner *r, double seconds, double *rate, gg_error *err)
 {
+  GG_TRY(warm_up_again(r->engine, err));
   double start = read_clock(r), gone, wall = gg_wall_now(), cpu = cpu_used(r->engine);
   uint64_t sum = 0;
   do {
