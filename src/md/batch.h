@@ -250,6 +250,7 @@ GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
  * take longer than all the rest. Then exactly, for the earliest. */
 #define GG_ABOUT 0x1p-12
 #define GG_SOON_AT_ALL 0x1p-1000
+#define GG_AT_ONCE 0x1p800 /* in contact already: how soon does not tell who is first */
 
 typedef struct gg_quadratic {
   gg_v8 b, c, discriminant;

@@ -156,7 +156,8 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
   uint32_t at = gg_label_of(first[0]), lane = at % GG_BATCH;
   gg_v8 limit = (1 - 4 * GG_ABOUT) * first;
   uint32_t lanes = gg_lanes8(gg_not_above8(limit, best.soonest));
-  if (__builtin_expect(!(lanes & (lanes - 1)) && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
+  bool alone = !(lanes & (lanes - 1)) && first[0] < GG_AT_ONCE;
+  if (__builtin_expect(alone && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
     gg_take_lane(e, s, &best.q, lane, list[at]);
     return;
   }

@@ -206,7 +206,8 @@ GG_INLINE bool gg_has_room(const gg_md *e, int cells)
 
 /* The cells from `from` to `to` relative to `at`, where nothing slides and no wall stands. All that does not change is
  * in local variables: to the compiler, what goes into `near` might overwrite the rest. */
-GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3])
+GG_INLINE void gg_take_rows(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3],
+                            bool small)
 {
   const gg_cells *c = &e->cells;
   const uint32_t *x = c->part[0] + at[0], *y = c->part[1] + at[1], *z = c->part[2] + at[2];
@@ -216,17 +217,23 @@ GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3]
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++) row[m + 1][l + 1] = c->cell + (size_t)(z[m] + y[l]) * stride;
   uint32_t n = s->n_near;
-#define EACH(append)                                                                                                   \
-  for (int m = from[2]; m <= to[2]; m++)                                                                               \
-    for (int l = from[1]; l <= to[1]; l++)                                                                             \
-      for (int k = from[0]; k <= to[0]; k++) n = append(s->near, n, row[m + 1][l + 1] + step[k + 1]);
-  if (stride == 8) {
-    EACH(gg_append_small)
-  } else {
-    EACH(gg_append_cell)
-  }
-#undef EACH
+  for (int m = from[2]; m <= to[2]; m++)
+    for (int l = from[1]; l <= to[1]; l++)
+      for (int k = from[0]; k <= to[0]; k++) {
+        const uint32_t *cell = row[m + 1][l + 1] + step[k + 1];
+        n = small ? gg_append_small(s->near, n, cell) : gg_append_cell(s->near, n, cell);
+      }
   s->n_near = n;
+}
+
+GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3])
+{
+  if (e->cells.stride == 8)
+    gg_take_rows(e, s, at, from, to, true);
+  else
+    gg_take_rows(e, s, at, from, to, false);
+  s->regular = true;
+  s->inside = gg_is_inside(e, at);
 }
 
 /* All 27 cells. */
@@ -236,8 +243,6 @@ GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
   s->valid = INFINITY;
   if (gg_is_regular(e, f, at) && gg_has_room(e, 27)) {
     gg_take_regular(e, s, at, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
-    s->regular = true;
-    s->inside = gg_is_inside(e, at);
     return;
   }
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
@@ -254,8 +259,6 @@ GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int ax
   from[axis] = to[axis] = step;
   if (gg_is_regular(e, f, at) && gg_has_room(e, 9)) {
     gg_take_regular(e, s, at, from, to);
-    s->regular = true;
-    s->inside = gg_is_inside(e, at);
     return;
   }
   for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
