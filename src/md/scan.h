@@ -184,12 +184,6 @@ GG_INLINE void gg_scan_sliding_rows(const gg_md *e, gg_features f, gg_search *s)
   if (y == 0) gg_scan_sliding(e, f, s, -1);
 }
 
-/* Nothing slides and no wall stands in the rows around: cells follow from their places alone, images from nearness. */
-GG_INLINE bool gg_is_regular(const gg_md *e, gg_features f, const int32_t at[3])
-{
-  return f.wide && (!(f.sheared || f.walled) || (at[1] > 0 && at[1] < e->cells.n[1] - 1));
-}
-
 /* Is no cell around in another image of the box? */
 GG_INLINE bool gg_is_inside(const gg_md *e, const int32_t at[3])
 {
@@ -226,45 +220,46 @@ GG_INLINE void gg_take_rows(const gg_md *e, gg_search *s, const int32_t at[3], c
   s->n_near = n;
 }
 
-GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3])
+/* Those of them that are in the box, in wide kernels; false: there may be no room for all. */
+GG_INLINE bool gg_take_box(const gg_md *e, gg_features f, gg_search *s, const int32_t at[3], const int from[3],
+                           const int to[3])
 {
+  if (!f.wide || !gg_has_room(e, 27)) return false;
+  bool lowest = (f.sheared | f.walled) & (at[1] == 0), highest = (f.sheared | f.walled) & (at[1] == e->cells.n[1] - 1);
+  int lower[3] = {from[0], lowest && from[1] < 0 ? 0 : from[1], from[2]};
+  int upper[3] = {to[0], highest && to[1] > 0 ? 0 : to[1], to[2]};
   if (e->cells.stride == 8)
-    gg_take_rows(e, s, at, from, to, true);
+    gg_take_rows(e, s, at, lower, upper, true);
   else
-    gg_take_rows(e, s, at, from, to, false);
-  s->regular = true;
+    gg_take_rows(e, s, at, lower, upper, false);
+  s->regular = !(lowest | highest);
   s->inside = gg_is_inside(e, at);
+  return true;
+}
+
+/* The cells from `from` to `to`, and what slides past. */
+GG_INLINE void gg_scan_cells(const gg_md *e, gg_features f, gg_search *s, const int from[3], const int to[3])
+{
+  const int32_t *at = e->node[s->grain].cell;
+  if (!gg_take_box(e, f, s, at, from, to))
+    for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
+      for (int32_t y = at[1] + from[1]; y <= at[1] + to[1]; y++)
+        gg_scan_plain_row(e, f, s, at[0] + from[0], at[0] + to[0], y, z);
+  gg_scan_sliding_rows(e, f, s);
 }
 
 /* All 27 cells. */
 GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
 {
-  const int32_t *at = e->node[s->grain].cell;
-  s->valid = INFINITY;
-  if (gg_is_regular(e, f, at) && gg_has_room(e, 27)) {
-    gg_take_regular(e, s, at, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
-    return;
-  }
-  for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
-    for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) gg_scan_plain_row(e, f, s, at[0] - 1, at[0] + 1, y, z);
-  gg_scan_sliding_rows(e, f, s);
+  gg_scan_cells(e, f, s, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
 }
 
 /* The nine cells that came within reach by crossing a face. */
 GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int axis, int32_t step)
 {
-  const int32_t *at = e->node[s->grain].cell;
-  s->valid = INFINITY;
   int from[3] = {-1, -1, -1}, to[3] = {1, 1, 1};
   from[axis] = to[axis] = step;
-  if (gg_is_regular(e, f, at) && gg_has_room(e, 9)) {
-    gg_take_regular(e, s, at, from, to);
-    return;
-  }
-  for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
-    for (int32_t y = at[1] + from[1]; y <= at[1] + to[1]; y++)
-      gg_scan_plain_row(e, f, s, at[0] + from[0], at[0] + to[0], y, z);
-  gg_scan_sliding_rows(e, f, s);
+  gg_scan_cells(e, f, s, from, to);
 }
 
 /* A wall that the grain meets before anything else so far. Only grains in the cells along a wall can touch it. */
