@@ -3,7 +3,7 @@
 
 #include "common/thermostat.h"
 #include "md/lines.h"
-#include "md/state.h"
+#include "md/scan.h"
 
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
 {
@@ -20,7 +20,8 @@ static gg_status allocate(gg_md *e, gg_error *err)
   e->grain = gg_md_new_lines((size_t)e->n + 1, sizeof *e->grain, err);
   e->node = gg_md_new_lines(e->n, sizeof *e->node, err);
   e->id = gg_new_array(e->n, sizeof *e->id, err);
-  if (!e->grain || !e->node || !e->id) return GG_FAILED;
+  e->near = gg_md_new_lines(2 * GG_NEAR_APART, sizeof *e->near, err);
+  if (!e->grain || !e->node || !e->id || !e->near) return GG_FAILED;
   e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
   if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
   if (m->contact_time > 0) GG_TRY(gg_md_allocate_last(e, err));
@@ -74,5 +75,6 @@ void gg_md_free(gg_md *e)
   free(e->shell);
   free(e->neighbour);
   free(e->id);
+  free(e->near);
   free(e);
 }

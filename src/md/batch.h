@@ -5,6 +5,7 @@
 #define GG_MD_BATCH_H
 
 #include <math.h>
+#include <string.h>
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
@@ -148,15 +149,21 @@ GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge, double inverse)
 #endif
 }
 
-/* The least of eight, in all lanes. */
+/* The least and the greatest of eight, in all lanes. */
+#define FOLD(v, a, b, c, d, e, f, g, h) __builtin_shufflevector(v, v, a, b, c, d, e, f, g, h)
 GG_INLINE gg_v8 gg_least8(gg_v8 x)
 {
-#define FOLD(v, a, b, c, d, e, f, g, h) __builtin_shufflevector(v, v, a, b, c, d, e, f, g, h)
   x = gg_smaller8(x, FOLD(x, 4, 5, 6, 7, 0, 1, 2, 3));
   x = gg_smaller8(x, FOLD(x, 2, 3, 0, 1, 6, 7, 4, 5));
   return gg_smaller8(x, FOLD(x, 1, 0, 3, 2, 5, 4, 7, 6));
-#undef FOLD
 }
+GG_INLINE gg_v8 gg_greatest8(gg_v8 x)
+{
+  x = gg_larger8(x, FOLD(x, 4, 5, 6, 7, 0, 1, 2, 3));
+  x = gg_larger8(x, FOLD(x, 2, 3, 0, 1, 6, 7, 4, 5));
+  return gg_larger8(x, FOLD(x, 1, 0, 3, 2, 5, 4, 7, 6));
+}
+#undef FOLD
 
 /* The earliest of eight times and with whom; of equal times the smallest index. */
 GG_INLINE double gg_earliest8(gg_v8 t, gg_m8 who, int64_t *partner)
@@ -204,10 +211,10 @@ GG_INLINE gg_v8 gg_side_by_side(const gg_half *one, const gg_half *two)
 #endif
 }
 
-/* Half `half` of eight records as columns. */
-GG_INLINE void gg_gather_half(const gg_grain *grain, const uint32_t *index, int half, gg_v8 column[4])
+/* Eight rows of four as columns. */
+GG_INLINE void gg_columns(const gg_half *const row[GG_BATCH], gg_v8 column[4])
 {
-#define TWO(k, m) gg_side_by_side((const gg_half *)&grain[index[k]] + half, (const gg_half *)&grain[index[m]] + half)
+#define TWO(k, m) gg_side_by_side(row[k], row[m])
   gg_v8 a = TWO(0, 4), b = TWO(1, 5), c = TWO(2, 6), d = TWO(3, 7);
 #undef TWO
 #define EVEN(p, q) __builtin_shufflevector(p, q, 0, 8, 2, 10, 4, 12, 6, 14)
@@ -228,15 +235,22 @@ GG_INLINE void gg_gather_half(const gg_grain *grain, const uint32_t *index, int 
 /* Records are one cache line each: load the lines of eight grains and transpose. */
 GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
 {
+  const gg_half *front[GG_BATCH], *back[GG_BATCH];
   gg_v8 one[4], two[4];
-  gg_gather_half(grain, index, 0, one);
-  gg_gather_half(grain, index, 1, two);
+  for (int k = 0; k < GG_BATCH; k++) {
+    front[k] = (const gg_half *)(grain + index[k]);
+    back[k] = front[k] + 1;
+  }
+  gg_columns(front, one);
+  gg_columns(back, two);
   return (gg_batch){one[0], one[1], one[2], one[3], two[0], two[1], two[2], two[3]};
 }
 
-/* gg_contact_delay, eight times, in two steps. First about when, to GG_ABOUT of the delay (INFINITY: never): without
- * the square root and the division, which take longer than all the rest. Then exactly, for the earliest. */
-#define GG_ABOUT 0x1p-9
+/* gg_contact_delay, eight times, in two steps. First about how soon: without the square root and the division, which
+ * take longer than all the rest. Then exactly, for the earliest. */
+#define GG_ABOUT 0x1p-12
+#define GG_SOON_AT_ALL 0x1p-1000
+#define GG_AT_ONCE 0x1p800 /* in contact already: how soon does not tell who is first */
 
 typedef struct gg_quadratic {
   gg_v8 b, c, discriminant;
@@ -279,11 +293,26 @@ GG_INLINE gg_k8 gg_meets8(gg_quadratic q)
   return gg_less8(q.b, gg_all(0)) & gg_not_above8(gg_all(0), q.discriminant);
 }
 
-GG_INLINE gg_v8 gg_about8(gg_quadratic q)
+/* About one over the delay, to GG_ABOUT of it: the greatest is the earliest. 0: never. The two approximations do not
+ * wait for each other. */
+GG_INLINE gg_v8 gg_how_soon8(gg_quadratic q)
 {
-  gg_v8 d = gg_larger8(q.discriminant, gg_all(0x1p-1000));
-  gg_v8 t = q.c * gg_about_inverse8(d * gg_about_inverse_root8(d) - q.b);
-  return gg_choose(gg_meets8(q), gg_larger8(t, gg_all(0)), gg_all(INFINITY));
+  gg_v8 tiny = gg_all(0x1p-1000), d = gg_larger8(q.discriminant, tiny);
+  gg_v8 soon = (d * gg_about_inverse_root8(d) - q.b) * gg_about_inverse8(gg_larger8(q.c, tiny));
+  return gg_choose(gg_meets8(q), soon, gg_all(0));
+}
+
+/* A number and, in its last digits, a small whole number below GG_PLACES: the greatest of many tells which it is. */
+enum { GG_PLACES = 4096 };
+GG_INLINE gg_v8 gg_label8(gg_v8 t, gg_m8 place)
+{
+  return (gg_v8)(((gg_m8)t & -(int64_t)GG_PLACES) | place);
+}
+GG_INLINE uint32_t gg_label_of(double t)
+{
+  uint64_t bits;
+  memcpy(&bits, &t, sizeof bits);
+  return bits % GG_PLACES;
 }
 
 GG_INLINE gg_v8 gg_contact_delay8(gg_quadratic q)

@@ -5,7 +5,7 @@
 
 #include "md/lines.h"
 
-enum { FEWEST_WORDS = 8 };
+enum { FEWEST_WORDS = 8, MOST_BEHIND = 16 }; /* the latter: what may be read behind the last */
 
 void gg_cells_count(const gg_box *box, double width, int32_t n[3])
 {
@@ -26,13 +26,13 @@ gg_status gg_cells_make(gg_cells *c, const gg_box *box, const int32_t n[3], doub
     total *= (size_t)n[a];
   }
   for (int a = 0, each = 1; a < 3; each *= n[a], a++) {
-    uint32_t *part = gg_new_array((size_t)n[a] + 2, sizeof *part, err);
+    uint32_t *part = gg_new_array((size_t)n[a] + 3, sizeof *part, err);
     if (!part) return GG_FAILED;
     for (int32_t k = -1; k <= n[a]; k++) part[k + 1] = (uint32_t)((k + n[a]) % n[a] * each);
     c->part[a] = part + 1;
   }
   c->stride = FEWEST_WORDS;
-  c->cell = gg_md_new_lines(total * c->stride + FEWEST_WORDS, sizeof *c->cell, err);
+  c->cell = gg_md_new_lines(total * c->stride + MOST_BEHIND, sizeof *c->cell, err);
   return c->cell ? GG_OK : GG_FAILED;
 }
 
@@ -50,7 +50,7 @@ void gg_cells_clear(gg_cells *c)
 bool gg_cells_grow(gg_cells *c)
 {
   size_t total = total_of(c), stride = 2 * c->stride;
-  uint32_t *cell = gg_md_new_lines(total * stride + FEWEST_WORDS, sizeof *cell, NULL);
+  uint32_t *cell = gg_md_new_lines(total * stride + MOST_BEHIND, sizeof *cell, NULL);
   if (!cell) return false;
   for (size_t k = 0; k < total; k++) memcpy(cell + k * stride, c->cell + k * c->stride, c->stride * sizeof *cell);
   free(c->cell);

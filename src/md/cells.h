@@ -7,12 +7,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#if defined(__AVX512F__)
-#include <immintrin.h>
-#endif
-
 #include "common/error.h"
 #include "md/box.h"
+#include "md/words.h"
 
 /* Fewest plain cells along a sheared box in which the nearest image of all that the cells around hold is the one that
  * is looked at. */
@@ -23,7 +20,7 @@ typedef struct gg_cells {
   double width[3], inverse[3];
   double reach;      /* largest contact distance (of lists: largest distance of centres) */
   uint32_t stride;   /* a multiple of 8 */
-  uint32_t *part[3]; /* an index -1 .. n along an axis: its share of the cell's number, wrapped */
+  uint32_t *part[3]; /* an index -1 .. n along an axis: its share of the cell's number, wrapped; and a word more */
   uint32_t *cell;    /* stride words a cell, x fastest: how many grains, then who; room for a word more at the end */
 } gg_cells;
 
@@ -55,18 +52,6 @@ GG_INLINE bool gg_cell_add(const gg_cells *c, const int32_t at[3], uint32_t grai
   return true;
 }
 
-/* One bit for each of sixteen words of an array that are `one`. */
-GG_INLINE uint32_t gg_words_equal16(const uint32_t *words, uint32_t one)
-{
-#if defined(__AVX512F__)
-  return _mm512_cmpeq_epi32_mask(_mm512_loadu_si512(words), _mm512_set1_epi32((int)one));
-#else
-  uint32_t equal = 0;
-  for (int k = 0; k < 16; k++) equal |= (uint32_t)(words[k] == one) << k;
-  return equal;
-#endif
-}
-
 /* Where a grain stands in a cell that it is in. What stands behind a cell's end may be anybody: the first place found
  * is the one. */
 GG_INLINE uint32_t gg_cell_find(const uint32_t *cell, uint32_t grain)
@@ -76,11 +61,11 @@ GG_INLINE uint32_t gg_cell_find(const uint32_t *cell, uint32_t grain)
   return base + (uint32_t)__builtin_ctz(found);
 }
 
-GG_INLINE void gg_cell_remove(const gg_cells *c, const int32_t at[3], uint32_t grain)
+GG_INLINE void gg_cell_remove(uint32_t *cell, uint32_t grain)
 {
-  uint32_t *cell = gg_cell_at(c, at), k = 1;
-  while (cell[k] != grain) k++;
-  cell[k] = cell[cell[0]--];
+  uint32_t at = gg_cell_find(cell, grain); /* read as a line before a word of it is written */
+  cell[at] = cell[cell[0]];
+  cell[0]--;
 }
 
 #endif

@@ -4,13 +4,14 @@
 #include "md/shared.h"
 
 /* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains, of eight under shear; from
- * 0.4 on neighbour lists; in between plain cells of a contact distance, which dilute hold this many grains: fewer
- * crossings against more pairs to try. */
+ * 0.4 on neighbour lists; in between plain cells, from 0.25 on of a contact distance, below with this many grains:
+ * fewer crossings against more pairs to try. */
 #define SHARED_BELOW 0.05
 #define GRAINS_PER_SHARED_CELL 6.0
 #define GRAINS_PER_SHEARED_CELL 8.0
 #define LISTED_FROM 0.4
 #define GRAINS_PER_CELL 0.7
+#define NARROW_FROM 0.25
 
 double gg_md_reach(const gg_model *m)
 {
@@ -78,7 +79,8 @@ static bool fit_shared(const gg_model *m, int32_t n[3])
  * many cells that the wide kernels can be used. */
 static void fit_cells(const gg_model *m, int32_t n[3])
 {
-  double reach = gg_md_reach(m), across = fmax(reach, cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
+  double reach = gg_md_reach(m), across = reach;
+  if (m->phi < NARROW_FROM) across = fmax(reach, cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
   count_cells(m, across, n);
   if (m->shear_rate == 0) return;
   double along = fmin(across * sqrt(mean_speed_ratio(m)), 2 * reach);

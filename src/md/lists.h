@@ -12,6 +12,7 @@
 #ifndef GG_MD_LISTS_H
 #define GG_MD_LISTS_H
 
+#include "md/axes.h"
 #include "md/batch.h"
 #include "md/scan.h"
 
@@ -42,16 +43,24 @@ GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const 
   double c = gg_dot(dr, dr) - radius * radius;
   if (!(c < 0) || radius < 0) return e->k.now;
   double root = sqrt(b * b - a * c);
-  double delay = b > 0 ? -c / (b + root) : a > 0 ? (root - b) / a : INFINITY;
-  return e->k.now + delay;
+  bool out = b > 0; /* half of all: no branch */
+  double delay = (out ? -c : root - b) / (out ? b + root : a);
+  return out | (a > 0) ? e->k.now + delay : INFINITY;
 }
+
+/* What a pointer points at is loaded where it is used: a constant kept in all lanes of a register would only push out
+ * others. */
+#define GG_RELOAD(pointer) __asm__("" : "+r"(pointer))
 
 /* Eight grains of a list against s->self, images accounted for. */
 GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_search *s, const uint32_t *list,
                                     double offset)
 {
   const gg_grain *g = s->self;
-  const double *L = e->box.edge, *inverse = e->box.inverse, *sigma = e->model.sigma;
+  const double *L = e->box.edge, *inverse = e->box.inverse, *sigma2 = e->contacts.sigma2;
+  GG_RELOAD(L);
+  GG_RELOAD(inverse);
+  GG_RELOAD(sigma2);
   gg_batch b = gg_gather(e->grain, list);
   gg_v8 dt = e->k.now - b.t;
   gg_v8 x = b.x + dt * b.vx - g->r.x, y = b.y + dt * b.vy - g->r.y, z = b.z + dt * b.vz - g->r.z;
@@ -68,18 +77,18 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_sear
     x -= layers * offset;
     x -= L[0] * gg_nearest8(x * inverse[0]);
     vx -= layers * e->box.slide;
-  } else {
+  } else if (!f.inside) {
     x = gg_fold8(x, L[0], inverse[0]);
     if (!f.walled) y = gg_fold8(y, L[1], inverse[1]);
   }
-  z = gg_fold8(z, L[2], inverse[2]);
-  gg_v8 sigma2 = gg_all(sigma[0] * sigma[0]);
+  if (!f.inside) z = gg_fold8(z, L[2], inverse[2]);
+  gg_v8 touch2 = gg_all(sigma2[0]);
   if (f.mixture) {
     int species = gg_species_of(g);
-    double s0 = sigma[2 * species], s1 = sigma[2 * species + 1];
-    sigma2 = gg_choose(gg_odd8(b.tag), gg_all(s1 * s1), gg_all(s0 * s0));
+    double s0 = sigma2[2 * species], s1 = sigma2[2 * species + 1];
+    touch2 = gg_choose(gg_odd8(b.tag), gg_all(s1), gg_all(s0));
   }
-  return gg_contact_quadratic8(x, y, z, vx, vy, vz, sigma2);
+  return gg_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
 }
 
 /* A contact against the earliest known. */
@@ -111,23 +120,22 @@ GG_INLINE gg_m8 gg_who8(const uint32_t *list)
   return __builtin_convertvector(*(const gg_list8 *)list, gg_m8);
 }
 
-/* The earliest contact of each lane of several batches, by about when it is; and about when the second of a lane is. */
+/* Of several batches, by lane: how soon the earliest contact is, labelled by where it stands in the list, and the
+ * second; and the first one's quadratic. */
 typedef struct gg_foremost {
   gg_v8 soonest, second;
   gg_quadratic q;
-  gg_m8 batch; /* where it stands in the list */
 } gg_foremost;
 
-GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, uint32_t k)
+GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, gg_m8 place)
 {
-  gg_v8 about = gg_about8(q);
-  gg_k8 sooner = gg_less8(about, best->soonest);
-  best->second = gg_smaller8(best->second, gg_larger8(about, best->soonest));
-  best->soonest = gg_smaller8(about, best->soonest);
+  gg_v8 soon = gg_label8(gg_how_soon8(q), place);
+  gg_k8 sooner = gg_less8(best->soonest, soon);
+  best->second = gg_larger8(best->second, gg_smaller8(soon, best->soonest));
+  best->soonest = gg_larger8(soon, best->soonest);
   best->q.b = gg_choose(sooner, q.b, best->q.b);
   best->q.c = gg_choose(sooner, q.c, best->q.c);
   best->q.discriminant = gg_choose(sooner, q.discriminant, best->q.discriminant);
-  best->batch = gg_choose_who(sooner, (gg_m8){0} + k, best->batch);
 }
 
 /* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place.
@@ -135,21 +143,22 @@ GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, uint32_t k)
 GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
 {
   double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0;
-  gg_v8 never = gg_all(INFINITY);
-  gg_foremost best = {never, never, {never, never, never}, {0}};
-  bool found = !f.shared;
-  for (uint32_t k = 0; k < count; k += GG_BATCH) {
+  gg_v8 never = gg_all(0);
+  gg_foremost best = {never, never, {never, never, never}};
+  gg_m8 place = {0, 1, 2, 3, 4, 5, 6, 7};
+  for (uint32_t k = 0; k < count; k += GG_BATCH, place += GG_BATCH) {
     gg_quadratic q = gg_try_batch(e, f, s, list + k, offset);
     if (f.shared && !gg_any8(gg_meets8(q))) continue; /* few are in the way */
-    found = true;
-    gg_compare_batch(&best, q, k);
+    gg_compare_batch(&best, q, place);
   }
-  if (!found) return;
-  gg_v8 first = gg_least8(best.soonest), limit = (1 + 4 * GG_ABOUT) * first;
-  if (!(first[0] < INFINITY)) return;
-  uint32_t lanes = gg_lanes8(gg_not_above8(best.soonest, limit)), lane = (uint32_t)__builtin_ctz(lanes);
-  if (__builtin_expect(!(lanes & (lanes - 1)) && !gg_any8(gg_not_above8(best.second, limit)), 1)) {
-    gg_take_lane(e, s, &best.q, lane, list[(uint32_t)best.batch[lane] + lane]);
+  gg_v8 first = gg_greatest8(best.soonest);
+  if (!(first[0] >= GG_SOON_AT_ALL)) return;
+  uint32_t at = gg_label_of(first[0]), lane = at % GG_BATCH;
+  gg_v8 limit = (1 - 4 * GG_ABOUT) * first;
+  uint32_t lanes = gg_lanes8(gg_not_above8(limit, best.soonest));
+  bool alone = !(lanes & (lanes - 1)) && first[0] < GG_AT_ONCE;
+  if (__builtin_expect(alone && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
+    gg_take_lane(e, s, &best.q, lane, list[at]);
     return;
   }
   for (uint32_t k = 0; k < count; k += GG_BATCH)
@@ -160,7 +169,15 @@ GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, cons
 GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
 {
   for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = e->n;
-  gg_scan_batches(e, f, s, s->near, s->n_near);
+  gg_features still = f, inside = f;
+  still.sheared = inside.sheared = false;
+  inside.inside = true;
+  if (!f.shared && !f.sheared && s->inside)
+    gg_scan_batches(e, inside, s, s->near, s->n_near);
+  else if (f.sheared && !f.shared && s->regular)
+    gg_scan_batches(e, still, s, s->near, s->n_near);
+  else
+    gg_scan_batches(e, f, s, s->near, s->n_near);
 }
 
 /* Everybody in the cells that can hold centres within rho of shell i's, under shear, as far as there is room. */
@@ -195,28 +212,53 @@ GG_INLINE void gg_collect_sheared(const gg_md *e, uint32_t i, gg_search *s)
   }
 }
 
-/* The same where nothing slides: of the 27 cells around, those that the sphere of radius rho reaches into. */
-GG_INLINE void gg_collect_near(const gg_md *e, uint32_t i, gg_search *s)
+/* The 27 cells around one: where they begin, and a bit for each that a sphere of radius rho reaches into. */
+typedef struct gg_nearby {
+  uint32_t index[28], which; /* x fastest */
+} gg_nearby;
+
+GG_INLINE void gg_cells_nearby(const gg_md *e, uint32_t i, gg_nearby *nearby)
 {
+  typedef uint32_t words __attribute__((vector_size(16)));
+  typedef uint32_t words_there __attribute__((vector_size(16), may_alias, aligned(4)));
   const gg_cells *c = &e->cells;
   const int32_t *at = e->node[i].cell;
-  gg_vec centre = e->shell[i].centre;
-  double far[3][3]; /* squared distance to the cells below, here and above along each axis */
+  const uint32_t *y = c->part[1] + at[1], *z = c->part[2] + at[2];
+  words x = *(const words_there *)(c->part[0] + at[0] - 1);
+  double below[3], above[3]; /* squared distances to the cells below and above along each axis */
   for (int a = 0; a < 3; a++) {
-    double below = gg_along(&centre, a) - at[a] * c->width[a], above = c->width[a] - below;
-    far[a][0] = below * below;
-    far[a][1] = 0;
-    far[a][2] = above * above;
+    double depth = gg_along(&e->shell[i].centre, a) - at[a] * c->width[a], rest = c->width[a] - depth;
+    below[a] = depth * depth;
+    above[a] = rest * rest;
   }
-  s->n_near = 0;
+  gg_axes far = {below[0], 0, above[0], INFINITY};
+  double far_y[3] = {below[1], 0, above[1]}, far_z[3] = {below[2], 0, above[2]}, rho2 = c->reach * c->reach;
+  nearby->which = 0;
   for (int m = 0; m < 3; m++)
     for (int l = 0; l < 3; l++) {
-      double left = c->reach * c->reach - far[2][m] - far[1][l];
-      uint32_t row = c->part[2][at[2] + m - 1] + c->part[1][at[1] + l - 1];
-      for (int k = 0; k < 3; k++)
-        if (far[0][k] < left && !gg_take_cell(s, c->cell + (size_t)(row + c->part[0][at[0] + k - 1]) * c->stride))
-          s->n_near = GG_MOST_NEAR;
+      int row = 3 * (3 * m + l);
+      *(words_there *)(nearby->index + row) = x + (z[m - 1] + y[l - 1]);
+      nearby->which |= gg_axes_bits(far < rho2 - far_z[m] - far_y[l]) << row;
     }
+}
+
+/* The same where nothing slides. */
+GG_INLINE void gg_collect_near(const gg_md *e, uint32_t i, gg_search *s)
+{
+  gg_nearby nearby;
+  gg_cells_nearby(e, i, &nearby);
+  bool room = gg_has_room(e, 27);
+  const uint32_t *cells = e->cells.cell;
+  size_t stride = e->cells.stride;
+  uint32_t n = 0;
+  for (uint32_t which = nearby.which; which; which &= which - 1) {
+    const uint32_t *cell = cells + nearby.index[__builtin_ctz(which)] * stride;
+    if (room || n + cell[0] <= GG_MOST_NEAR)
+      n = gg_append_cell(s->near, n, cell);
+    else
+      n = GG_MOST_NEAR;
+  }
+  s->n_near = n;
 }
 
 typedef double gg_centre4 __attribute__((vector_size(32), may_alias, aligned(8)));
@@ -244,7 +286,7 @@ enum { GG_FOUND = GG_LIST + 1 + GG_BATCH };
 /* Everybody whose centre lies within rho of shell i's: ids into found[GG_FOUND]; more than GG_LIST: too many. */
 GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, uint32_t *found)
 {
-  gg_search s;
+  gg_search s = {.near = e->near};
   if (f.sheared)
     gg_collect_sheared(e, i, &s);
   else
@@ -310,35 +352,35 @@ GG_INLINE bool gg_list_add(gg_md *e, uint32_t i, uint32_t j)
   return true;
 }
 
-GG_INLINE void gg_list_remove(gg_md *e, uint32_t i, uint32_t j)
+/* Where in a list of GG_LIST a grain stands: a bit for each place. */
+GG_INLINE uint32_t gg_list_places(const uint32_t *list, uint32_t j)
 {
-  uint32_t *list = gg_list(e, i), last = --e->node[i].neighbours, k = 0;
-  while (list[k] != j) k++;
-  list[k] = list[last];
-  list[last] = e->n;
+  return gg_words_equal16(list, j) | gg_words_equal8(list + 16, j) << 16;
 }
 
-GG_INLINE bool gg_is_among(const uint32_t *list, uint32_t j)
+GG_INLINE void gg_list_remove(gg_md *e, uint32_t i, uint32_t j)
 {
-  typedef int32_t words __attribute__((vector_size(32)));
-  typedef int64_t halves __attribute__((vector_size(32)));
-  words hits = {0};
-  for (int k = 0; k < GG_LIST; k += GG_BATCH) hits |= *(const gg_list8 *)(list + k) == j;
-  halves h = (halves)hits;
-  return (h[0] | h[1] | h[2] | h[3]) != 0;
+  uint32_t *list = gg_list(e, i), last = --e->node[i].neighbours;
+  list[__builtin_ctz(gg_list_places(list, j))] = list[last];
+  list[last] = e->n;
 }
 
 /* Replace i's list by found[], and mend the lists of those who are no longer or newly in it. False: no room. */
 GG_INLINE bool gg_mend_lists(gg_md *e, uint32_t i, const uint32_t *found, uint32_t count)
 {
-  uint32_t old[GG_LIST], *list = gg_list(e, i), n_old = e->node[i].neighbours;
+  uint32_t old[GG_LIST], *list = gg_list(e, i), n_old = e->node[i].neighbours, still = 0, fresh = 0;
   if (count > GG_LIST) return false;
   for (int k = 0; k < GG_LIST; k++) old[k] = list[k], list[k] = (uint32_t)k < count ? found[k] : e->n;
   e->node[i].neighbours = count;
-  for (uint32_t k = 0; k < n_old; k++)
-    if (!gg_is_among(list, old[k])) gg_list_remove(e, old[k], i);
-  for (uint32_t k = 0; k < count; k++)
-    if (!gg_is_among(old, found[k]) && !gg_list_add(e, found[k], i)) return false;
+  for (uint32_t k = 0; k < count; k++) {
+    uint32_t places = gg_list_places(old, found[k]);
+    still |= places;
+    fresh |= (uint32_t)(places == 0) << k;
+  }
+  for (uint32_t gone = gg_lowest_bits(n_old) & ~still; gone; gone &= gone - 1)
+    gg_list_remove(e, old[__builtin_ctz(gone)], i);
+  for (; fresh; fresh &= fresh - 1)
+    if (!gg_list_add(e, found[__builtin_ctz(fresh)], i)) return false;
   return true;
 }
 

@@ -12,7 +12,7 @@
 
 GG_INLINE void gg_leave_cell(gg_md *e, uint32_t i)
 {
-  gg_cell_remove(&e->cells, e->node[i].cell, i);
+  gg_cell_remove(gg_cell_at(&e->cells, e->node[i].cell), i);
 }
 
 GG_INLINE void gg_enter_cell(gg_md *e, uint32_t i)
@@ -67,7 +67,7 @@ GG_INLINE void gg_search_all(gg_md *e, gg_features f, gg_search *s, uint32_t i)
 
 GG_INLINE void gg_predict(gg_md *e, gg_features f, uint32_t i)
 {
-  gg_search s;
+  gg_search s = {.near = e->near};
   gg_search_all(e, f, &s, i);
   gg_schedule(e, f, &s);
 }
@@ -75,7 +75,7 @@ GG_INLINE void gg_predict(gg_md *e, gg_features f, uint32_t i)
 /* Both searches before either goes into the calendar: the processor works on both at a time. */
 GG_INLINE void gg_predict_two(gg_md *e, gg_features f, uint32_t i, uint32_t j)
 {
-  gg_search one, two;
+  gg_search one = {.near = e->near}, two = {.near = e->near + GG_NEAR_APART};
   gg_search_all(e, f, &one, i);
   gg_search_all(e, f, &two, j);
   gg_schedule(e, f, &one);
@@ -115,7 +115,7 @@ GG_INLINE void gg_come_through(gg_md *e, gg_features f, uint32_t i, int up)
 GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
 {
   const gg_node *node = &e->node[i];
-  gg_search s;
+  gg_search s = {.near = e->near};
   gg_step step = {node->face >> 1, node->face & 1};
   bool slide = f.sheared && node->face == GG_SLIDE, across = f.sheared && step.axis == 1;
   gg_grain *g = gg_settle_step(e, i, across ? (gg_step){3, 0} : step);
@@ -135,7 +135,7 @@ GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
 GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
 {
   gg_node *node = &e->node[i];
-  gg_search s;
+  gg_search s = {.near = e->near};
   gg_begin_search(&s, i, gg_settle(e, f, i), node->collision, node->partner);
   if (f.sheared && node->face == GG_SLIDE) {
     gg_scan_sliding_rows(e, f, &s);

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "common/vec.h"
+#include "md/words.h"
 
 #define GG_NONE UINT32_MAX
 
@@ -123,10 +124,9 @@ GG_INLINE void gg_queue_remove(gg_queue *q, gg_node *node, uint32_t grain)
   }
   if (b == q->n_buckets) return;
   gg_bucket *bucket = &q->bucket[b];
-  uint32_t at = GG_BUCKET;
-  for (uint32_t k = 0; k < GG_BUCKET; k++) at = bucket->grain[k] == grain && k < bucket->count ? k : at;
-  if (at < GG_BUCKET)
-    bucket->grain[at] = bucket->grain[--bucket->count];
+  uint32_t found = gg_words_equal16((const uint32_t *)bucket, grain) >> 2 & gg_lowest_bits(bucket->count);
+  if (__builtin_expect(found != 0, 1))
+    bucket->grain[__builtin_ctz(found)] = bucket->grain[--bucket->count];
   else
     gg_queue_unchain(bucket, node, grain);
 }

@@ -11,6 +11,7 @@
 
 #include <string.h>
 
+#include "md/axes.h"
 #include "md/predict.h"
 #include "md/state.h"
 
@@ -19,18 +20,24 @@ typedef struct gg_features {
   bool sheared, walled, gravity, mixture;
   bool listed; /* neighbour lists instead of cells */
   bool shared; /* cells that overlap; wide, too */
+  bool inside; /* all in one image of the box */
   bool wide;   /* eight pairs at a time; else one by one: the reference for the tests */
 } gg_features;
 
-enum { GG_MOST_NEAR = 2048 };
+/* Room for so many grains to try. Stores into one array and loads from another do not hinder each other where the
+ * lower twelve bits of their addresses differ: the arrays of two searches lie half a page apart, and not on the stack,
+ * which stands elsewhere at every start. */
+enum { GG_MOST_NEAR = 2048, GG_NEAR_APART = GG_MOST_NEAR + 512 };
 
 typedef struct gg_search {
   uint32_t grain;
   const gg_grain *self; /* at the present time */
   double collision;     /* earliest so far, and with whom */
   uint32_t partner;
-  double valid;                             /* until then the sliding rows have been searched */
-  uint32_t n_near, near[GG_MOST_NEAR + 16]; /* wide: whom to try */
+  double valid;           /* until then the sliding rows have been searched */
+  bool regular;           /* no image of those to try has slid */
+  bool inside;            /* they and the grain are in the same image of the box */
+  uint32_t n_near, *near; /* wide: whom to try */
 } gg_search;
 
 /* Bring a grain's record to the present time. */
@@ -51,6 +58,7 @@ GG_INLINE void gg_begin_search(gg_search *s, uint32_t i, const gg_grain *self, d
   s->collision = collision;
   s->partner = partner;
   s->n_near = 0;
+  s->regular = s->inside = false;
 }
 
 GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
@@ -76,6 +84,20 @@ GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *ce
   memcpy(near + n, cell + 1, 8 * sizeof *cell);
   for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
   return n + count;
+}
+/* Of cells of sixteen words or more. */
+GG_INLINE uint32_t gg_append_large(uint32_t *near, uint32_t n, const uint32_t *cell)
+{
+  uint32_t count = cell[0];
+  memcpy(near + n, cell + 1, 16 * sizeof *cell);
+  for (uint32_t k = 16; k < count; k += 16) memcpy(near + n + k, cell + 1 + k, 16 * sizeof *cell);
+  return n + count;
+}
+/* Of cells of eight words. */
+GG_INLINE uint32_t gg_append_small(uint32_t *near, uint32_t n, const uint32_t *cell)
+{
+  memcpy(near + n, cell + 1, 8 * sizeof *cell);
+  return n + cell[0];
 }
 
 /* False: no more room. */
@@ -162,10 +184,12 @@ GG_INLINE void gg_scan_sliding_rows(const gg_md *e, gg_features f, gg_search *s)
   if (y == 0) gg_scan_sliding(e, f, s, -1);
 }
 
-/* Nothing slides and no wall stands in the rows around: cells follow from their places alone, images from nearness. */
-GG_INLINE bool gg_is_regular(const gg_md *e, gg_features f, const int32_t at[3])
+/* Is no cell around in another image of the box? */
+GG_INLINE bool gg_is_inside(const gg_md *e, const int32_t at[3])
 {
-  return f.wide && (!(f.sheared || f.walled) || (at[1] > 0 && at[1] < e->cells.n[1] - 1));
+  const int32_t *n = e->cells.n;
+  return ((uint32_t)(at[0] - 1) < (uint32_t)(n[0] - 2)) & ((uint32_t)(at[1] - 1) < (uint32_t)(n[1] - 2)) &
+         ((uint32_t)(at[2] - 1) < (uint32_t)(n[2] - 2));
 }
 
 /* Is there room for so many full cells? */
@@ -176,7 +200,8 @@ GG_INLINE bool gg_has_room(const gg_md *e, int cells)
 
 /* The cells from `from` to `to` relative to `at`, where nothing slides and no wall stands. All that does not change is
  * in local variables: to the compiler, what goes into `near` might overwrite the rest. */
-GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3])
+GG_INLINE void gg_take_rows(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3],
+                            bool small)
 {
   const gg_cells *c = &e->cells;
   const uint32_t *x = c->part[0] + at[0], *y = c->part[1] + at[1], *z = c->part[2] + at[2];
@@ -188,39 +213,53 @@ GG_INLINE void gg_take_regular(const gg_md *e, gg_search *s, const int32_t at[3]
   uint32_t n = s->n_near;
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++)
-      for (int k = from[0]; k <= to[0]; k++) n = gg_append_cell(s->near, n, row[m + 1][l + 1] + step[k + 1]);
+      for (int k = from[0]; k <= to[0]; k++) {
+        const uint32_t *cell = row[m + 1][l + 1] + step[k + 1];
+        n = small ? gg_append_small(s->near, n, cell) : gg_append_cell(s->near, n, cell);
+      }
   s->n_near = n;
+}
+
+/* Those of them that are in the box, in wide kernels; false: there may be no room for all. */
+GG_INLINE bool gg_take_box(const gg_md *e, gg_features f, gg_search *s, const int32_t at[3], const int from[3],
+                           const int to[3])
+{
+  if (!f.wide || !gg_has_room(e, 27)) return false;
+  bool lowest = (f.sheared | f.walled) & (at[1] == 0), highest = (f.sheared | f.walled) & (at[1] == e->cells.n[1] - 1);
+  int lower[3] = {from[0], lowest && from[1] < 0 ? 0 : from[1], from[2]};
+  int upper[3] = {to[0], highest && to[1] > 0 ? 0 : to[1], to[2]};
+  if (e->cells.stride == 8)
+    gg_take_rows(e, s, at, lower, upper, true);
+  else
+    gg_take_rows(e, s, at, lower, upper, false);
+  s->regular = !(lowest | highest);
+  s->inside = gg_is_inside(e, at);
+  return true;
+}
+
+/* The cells from `from` to `to`, and what slides past. */
+GG_INLINE void gg_scan_cells(const gg_md *e, gg_features f, gg_search *s, const int from[3], const int to[3])
+{
+  const int32_t *at = e->node[s->grain].cell;
+  if (!gg_take_box(e, f, s, at, from, to))
+    for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
+      for (int32_t y = at[1] + from[1]; y <= at[1] + to[1]; y++)
+        gg_scan_plain_row(e, f, s, at[0] + from[0], at[0] + to[0], y, z);
+  gg_scan_sliding_rows(e, f, s);
 }
 
 /* All 27 cells. */
 GG_INLINE void gg_scan_around(const gg_md *e, gg_features f, gg_search *s)
 {
-  const int32_t *at = e->node[s->grain].cell;
-  s->valid = INFINITY;
-  if (gg_is_regular(e, f, at) && gg_has_room(e, 27)) {
-    gg_take_regular(e, s, at, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
-    return;
-  }
-  for (int32_t z = at[2] - 1; z <= at[2] + 1; z++)
-    for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) gg_scan_plain_row(e, f, s, at[0] - 1, at[0] + 1, y, z);
-  gg_scan_sliding_rows(e, f, s);
+  gg_scan_cells(e, f, s, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
 }
 
 /* The nine cells that came within reach by crossing a face. */
 GG_INLINE void gg_scan_ahead(const gg_md *e, gg_features f, gg_search *s, int axis, int32_t step)
 {
-  const int32_t *at = e->node[s->grain].cell;
-  s->valid = INFINITY;
   int from[3] = {-1, -1, -1}, to[3] = {1, 1, 1};
   from[axis] = to[axis] = step;
-  if (gg_is_regular(e, f, at) && gg_has_room(e, 9)) {
-    gg_take_regular(e, s, at, from, to);
-    return;
-  }
-  for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
-    for (int32_t y = at[1] + from[1]; y <= at[1] + to[1]; y++)
-      gg_scan_plain_row(e, f, s, at[0] + from[0], at[0] + to[0], y, z);
-  gg_scan_sliding_rows(e, f, s);
+  gg_scan_cells(e, f, s, from, to);
 }
 
 /* A wall that the grain meets before anything else so far. Only grains in the cells along a wall can touch it. */
@@ -237,37 +276,63 @@ GG_INLINE void gg_try_walls(const gg_md *e, gg_features f, gg_search *s)
   if (upper < s->collision) s->collision = upper, s->partner = GG_UPPER_WALL;
 }
 
-/* Delay until the grain leaves its cell along one axis, and through which face. Rounding may have left it outside by a
- * digit: then at once. */
-GG_INLINE double gg_exit_delay(const gg_md *e, gg_features f, const gg_search *s, int axis, int32_t *face)
+/* Faces that are walls are not crossed. */
+GG_INLINE bool gg_is_wall_above(const gg_md *e, gg_features f, const int32_t *cell)
+{
+  return f.walled && cell[1] == e->cells.n[1] - 1;
+}
+GG_INLINE bool gg_is_wall_below(gg_features f, const int32_t *cell)
+{
+  return f.walled && cell[1] == 0;
+}
+
+/* When a grain on a parabola leaves its cell along one axis, and through which face. */
+GG_INLINE double gg_fall_out(const gg_md *e, gg_features f, const gg_search *s, int axis, int32_t *face)
 {
   double x = gg_along(&s->self->r, axis), v = gg_along(&s->self->v, axis), width = e->cells.width[axis];
-  int32_t cell = e->node[s->grain].cell[axis];
-  bool bottom = f.walled && axis == 1 && cell == 0, top = f.walled && axis == 1 && cell == e->cells.n[1] - 1;
-  if (!f.gravity) {
-    int up = v > 0;
-    *face = 2 * axis + up;
-    if (v == 0 || (up ? top : bottom)) return INFINITY;
-    double delay = ((cell + up) * width - x) / v;
-    return delay > 0 ? delay : 0;
-  }
+  const int32_t *cell = e->node[s->grain].cell;
+  bool bottom = axis == 1 && gg_is_wall_below(f, cell), top = axis == 1 && gg_is_wall_above(e, f, cell);
   double w = gg_along(&e->gravity, axis);
-  double down = bottom ? INFINITY : gg_fall_delay(x - cell * width, -v, -w);
-  double up = top ? INFINITY : gg_fall_delay((cell + 1) * width - x, v, w);
+  double down = bottom ? INFINITY : gg_fall_delay(x - cell[axis] * width, -v, -w);
+  double up = top ? INFINITY : gg_fall_delay((cell[axis] + 1) * width - x, v, w);
   *face = 2 * axis + (up < down);
   return up < down ? up : down;
+}
+
+GG_INLINE double gg_first_fall_out(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
+{
+  int32_t other;
+  double first = gg_fall_out(e, f, s, 0, face);
+  for (int axis = 1; axis < 3; axis++) {
+    double delay = gg_fall_out(e, f, s, axis, &other);
+    *face = delay < first ? other : *face;
+    first = delay < first ? delay : first;
+  }
+  return first;
+}
+
+/* The same on a straight line. Rounding may have left the grain outside by a digit: then at once. */
+GG_INLINE double gg_first_exit(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
+{
+  const int32_t *cell = e->node[s->grain].cell;
+  gg_axes v = gg_load_axes(&s->self->v.x), zero = {0}, one = {1, 1, 1, 1};
+  gg_axes never = {INFINITY, INFINITY, INFINITY, INFINITY};
+  gg_axes_mask up = v > 0, open = (v != 0) & (gg_axes_mask){-1, -1, -1, 0};
+  if (gg_is_wall_below(f, cell)) open &= up | (gg_axes_mask){-1, 0, -1, 0};
+  if (gg_is_wall_above(e, f, cell)) open &= ~up | (gg_axes_mask){-1, 0, -1, 0};
+  gg_axes ahead = __builtin_convertvector(gg_load_indices(cell), gg_axes) + gg_choose_axes(up, one, zero);
+  gg_axes delay = (ahead * gg_load_axes(e->cells.width) - gg_load_axes(&s->self->r.x)) / v;
+  delay = gg_choose_axes(open, gg_choose_axes(delay > 0, delay, zero), never);
+  gg_axes first = gg_least_axes(delay);
+  int axis = __builtin_ctz(gg_axes_bits(delay == first));
+  *face = 2 * axis + (int)(gg_axes_bits(up) >> axis & 1);
+  return first[0];
 }
 
 /* Which face of its cell the grain crosses next, and when. */
 GG_INLINE double gg_next_face(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
 {
-  int32_t other;
-  double first = gg_exit_delay(e, f, s, 0, face);
-  for (int axis = 1; axis < 3; axis++) {
-    double delay = gg_exit_delay(e, f, s, axis, &other);
-    *face = delay < first ? other : *face;
-    first = delay < first ? delay : first;
-  }
+  double first = f.gravity ? gg_first_fall_out(e, f, s, face) : gg_first_exit(e, f, s, face);
   double t = e->k.now + first;
   if (f.sheared && s->valid < t) t = s->valid, *face = GG_SLIDE;
   return t;

@@ -57,9 +57,7 @@ GG_INLINE void gg_shared_leave(gg_md *e, uint32_t i, const gg_members *in, uint3
 {
   size_t stride = e->cells.stride;
   for (; which; which &= which - 1) {
-    uint32_t *cell = e->cells.cell + in->index[__builtin_ctz(which)] * stride;
-    cell[gg_cell_find(cell, i)] = cell[cell[0]];
-    cell[0]--;
+    gg_cell_remove(e->cells.cell + in->index[__builtin_ctz(which)] * stride, i);
   }
 }
 
@@ -123,8 +121,9 @@ GG_INLINE gg_grain *gg_settle_step(gg_md *e, uint32_t i, gg_step step)
 }
 
 /* Out of the cells that the grain is beyond by now, and of those behind the step that it is about to make. `in` are
- * those that are left. */
-GG_INLINE void gg_shared_trim(gg_md *e, uint32_t i, gg_step step, gg_members *in)
+ * those that are left. Returns what node->cell and neighbours then are: nobody reads them by words before they are
+ * written. */
+GG_INLINE gg_indices gg_shared_trim(gg_md *e, uint32_t i, gg_step step, gg_members *in)
 {
   gg_node *node = &e->node[i];
   gg_axes width = gg_load_axes(e->cells.width), depth = gg_depths(e, node, &e->grain[i].r);
@@ -140,6 +139,11 @@ GG_INLINE void gg_shared_trim(gg_md *e, uint32_t i, gg_step step, gg_members *in
   gg_indices cell = gg_load_indices(node->cell) - gg_indices_of(above);
   cell &= cell != gg_load_indices(e->cells.n);
   cell[3] = (int32_t)both;
+  return cell;
+}
+
+GG_INLINE void gg_store_cell(gg_node *node, gg_indices cell)
+{
   *(gg_indices_there *)node->cell = cell;
 }
 
@@ -223,7 +227,7 @@ GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, const
   bool room = gg_has_room(e, 8);
   for (uint32_t which = in->which; which; which &= which - 1) {
     const uint32_t *one = cell + in->index[__builtin_ctz(which)] * stride;
-    if (room || n_near + one[0] <= GG_MOST_NEAR) n_near = gg_append_cell(s->near, n_near, one);
+    if (room || n_near + one[0] <= GG_MOST_NEAR) n_near = gg_append_large(s->near, n_near, one);
   }
   s->n_near = n_near;
   gg_shared_slides(e, f, s);
@@ -233,7 +237,7 @@ GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, const
 GG_INLINE void gg_shared_scan(gg_md *e, gg_features f, gg_search *s)
 {
   gg_members in;
-  gg_shared_trim(e, s->grain, (gg_step){3, 0}, &in);
+  gg_store_cell(&e->node[s->grain], gg_shared_trim(e, s->grain, (gg_step){3, 0}, &in));
   gg_shared_take(e, f, s, &in);
 }
 
@@ -242,15 +246,16 @@ GG_INLINE bool gg_shared_cross(gg_md *e, gg_features f, gg_search *s, gg_step st
 {
   gg_node *node = &e->node[s->grain];
   gg_members in;
-  gg_shared_trim(e, s->grain, step, &in);
-  int axis = step.axis;
-  int32_t at = node->cell[axis];
-  const uint32_t *part = e->cells.part[axis] + at;
+  gg_indices cell = gg_shared_trim(e, s->grain, step, &in);
+  int32_t at[4];
+  memcpy(at, &cell, sizeof at);
+  const uint32_t *part = e->cells.part[step.axis] + at[step.axis];
   uint32_t further = part[2 * step.up - 1] - part[0];
   for (int k = 0; k < 8; k++) in.index[k] += further;
-  int32_t down = at ? at - 1 : e->cells.n[axis] - 1;
-  node->cell[axis] = step.up ? at : down;
-  node->neighbours |= 1u << axis;
+  if (!step.up) cell += gg_indices_of(1u << step.axis); /* each is -1 */
+  cell += gg_load_indices(e->cells.n) & (cell < 0);
+  cell[3] |= 1 << step.axis;
+  gg_store_cell(node, cell);
   gg_shared_take(e, f, s, &in);
   return gg_shared_enter(e, s->grain, &in);
 }

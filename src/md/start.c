@@ -86,8 +86,8 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   }
 }
 
-/* Gaussian spins, exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever. To
- * them comes the spin of the vorticity. */
+/* Gaussian spins, exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever.
+ * To them comes the spin of the vorticity. */
 static void set_spins(gg_md *e, gg_rng *rng, double theta)
 {
   double energy = 0;

@@ -80,6 +80,7 @@ struct gg_md {
   bool falls; /* gravity is not zero */
   gg_box box;
   gg_cells cells;
+  uint32_t *near; /* of two searches at a time: whom to try (scan.h) */
   gg_queue queue;
   gg_md_counts k;
   double stop;              /* end of the present advance, epoch time */

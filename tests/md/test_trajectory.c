@@ -15,7 +15,7 @@ static const struct {
 } stored[] = {
     {{GG_EQUILIBRIUM, 200, 0.1, 1, -1, INFINITY, {0}}, 0x7ceb47a8466fddeb},
     {{GG_EQUILIBRIUM, 200, 0.5, 1, 1, INFINITY, {0}}, 0x6adbaf4c476eff4a},
-    {{GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}}, 0xa9237044860933fa},
+    {{GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}}, 0x52ec7a9c92dfa5bd},
     {{GG_USF, 300, 0.45, 0.9, 0, INFINITY, {0}}, 0x2414360ff0e60cb5},
     {{GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}}, 0x2f4beb9b4634246f},
     {{GG_COUETTE, 200, 0.2, 0.9, 0, INFINITY, {0}}, 0xe5dea531e22b46b4},

@@ -1,0 +1,42 @@
+/* Many words of an array at once: which of them are the one looked for? One bit for each. */
+#ifndef GG_MD_WORDS_H
+#define GG_MD_WORDS_H
+
+#include <stdint.h>
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#include "common/vec.h"
+
+GG_INLINE uint32_t gg_words_equal8(const uint32_t *words, uint32_t one)
+{
+#if defined(__AVX512VL__)
+  return _mm256_cmpeq_epi32_mask(_mm256_loadu_si256((const __m256i *)words), _mm256_set1_epi32((int)one));
+#elif defined(__AVX2__)
+  __m256i equal = _mm256_cmpeq_epi32(_mm256_loadu_si256((const __m256i *)words), _mm256_set1_epi32((int)one));
+  return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(equal));
+#else
+  uint32_t equal = 0;
+  for (int k = 0; k < 8; k++) equal |= (uint32_t)(words[k] == one) << k;
+  return equal;
+#endif
+}
+
+GG_INLINE uint32_t gg_words_equal16(const uint32_t *words, uint32_t one)
+{
+#if defined(__AVX512F__)
+  return _mm512_cmpeq_epi32_mask(_mm512_loadu_si512(words), _mm512_set1_epi32((int)one));
+#else
+  return gg_words_equal8(words, one) | gg_words_equal8(words + 8, one) << 8;
+#endif
+}
+
+/* The lowest n bits; n < 32. */
+GG_INLINE uint32_t gg_lowest_bits(uint32_t n)
+{
+  return (1u << n) - 1;
+}
+
+#endif
