@@ -85,12 +85,15 @@ GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *ce
   for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
   return n + count;
 }
-/* Of cells of sixteen words or more. */
+/* Of cells of sixteen words or more, line by line: the word behind a line would be another line to wait for. */
 GG_INLINE uint32_t gg_append_large(uint32_t *near, uint32_t n, const uint32_t *cell)
 {
+  typedef uint32_t line __attribute__((vector_size(64), may_alias, aligned(4)));
   uint32_t count = cell[0];
-  memcpy(near + n, cell + 1, 16 * sizeof *cell);
-  for (uint32_t k = 16; k < count; k += 16) memcpy(near + n + k, cell + 1 + k, 16 * sizeof *cell);
+  line first = *(const line *)cell;
+  first = __builtin_shufflevector(first, first, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0);
+  memcpy(near + n, &first, sizeof first);
+  for (uint32_t k = 15; k < count; k += 16) memcpy(near + n + k, cell + 1 + k, sizeof first);
   return n + count;
 }
 /* Of cells of eight words. */
