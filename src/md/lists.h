@@ -45,7 +45,7 @@ GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const 
   double root = sqrt(b * b - a * c);
   bool out = b > 0; /* half of all: no branch */
   double delay = (out ? -c : root - b) / (out ? b + root : a);
-  return out | (a > 0) ? e->k.now + delay : INFINITY;
+  return (out | (a > 0)) ? e->k.now + delay : INFINITY;
 }
 
 /* What a pointer points at is loaded where it is used: a constant kept in all lanes of a register would only push out
