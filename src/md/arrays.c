@@ -3,7 +3,7 @@
 
 #include "common/thermostat.h"
 #include "md/lines.h"
-#include "md/scan.h"
+#include "md/state.h"
 
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
 {

@@ -50,10 +50,6 @@ GG_INLINE gg_v8 gg_choose(gg_k8 mask, gg_v8 yes, gg_v8 no)
 {
   return (gg_v8)_mm512_mask_mov_pd((__m512d)no, mask, (__m512d)yes);
 }
-GG_INLINE gg_m8 gg_choose_who(gg_k8 mask, gg_m8 yes, gg_m8 no)
-{
-  return (gg_m8)_mm512_mask_mov_epi64((__m512i)no, mask, (__m512i)yes);
-}
 GG_INLINE gg_k8 gg_odd8(gg_v8 bits)
 {
   return _mm512_test_epi64_mask((__m512i)bits, _mm512_set1_epi64(1));
@@ -90,10 +86,6 @@ GG_INLINE gg_k8 gg_not_above8(gg_v8 x, gg_v8 y)
 GG_INLINE gg_v8 gg_choose(gg_k8 mask, gg_v8 yes, gg_v8 no)
 {
   return (gg_v8)(((gg_m8)yes & mask) | ((gg_m8)no & ~mask));
-}
-GG_INLINE gg_m8 gg_choose_who(gg_k8 mask, gg_m8 yes, gg_m8 no)
-{
-  return (yes & mask) | (no & ~mask);
 }
 GG_INLINE gg_k8 gg_odd8(gg_v8 bits)
 {

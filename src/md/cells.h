@@ -21,7 +21,7 @@ typedef struct gg_cells {
   double reach;      /* largest contact distance (of lists: largest distance of centres) */
   uint32_t stride;   /* a multiple of 8 */
   uint32_t *part[3]; /* an index -1 .. n along an axis: its share of the cell's number, wrapped; and a word more */
-  uint32_t *cell;    /* stride words a cell, x fastest: how many grains, then who; room for a word more at the end */
+  uint32_t *cell;    /* stride words a cell, x fastest: how many grains, then who; readable beyond the last (cells.c) */
 } gg_cells;
 
 /* A grid of n[] cells on the box, empty. */

@@ -24,11 +24,6 @@ typedef struct gg_features {
   bool wide;   /* eight pairs at a time; else one by one: the reference for the tests */
 } gg_features;
 
-/* Room for so many grains to try. Stores into one array and loads from another do not hinder each other where the
- * lower twelve bits of their addresses differ: the arrays of two searches lie half a page apart, and not on the stack,
- * which stands elsewhere at every start. */
-enum { GG_MOST_NEAR = 2048, GG_NEAR_APART = GG_MOST_NEAR + 512 };
-
 typedef struct gg_search {
   uint32_t grain;
   const gg_grain *self; /* at the present time */

@@ -56,9 +56,7 @@ GG_INLINE void gg_shared_cells(const gg_md *e, const gg_node *node, gg_members *
 GG_INLINE void gg_shared_leave(gg_md *e, uint32_t i, const gg_members *in, uint32_t which)
 {
   size_t stride = e->cells.stride;
-  for (; which; which &= which - 1) {
-    gg_cell_remove(e->cells.cell + in->index[__builtin_ctz(which)] * stride, i);
-  }
+  for (; which; which &= which - 1) gg_cell_remove(e->cells.cell + in->index[__builtin_ctz(which)] * stride, i);
 }
 
 /* Into those of `in`. False: out of memory. */

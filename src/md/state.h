@@ -29,6 +29,11 @@ typedef struct gg_shell {
 } gg_shell;
 enum { GG_LIST = 24 }; /* most neighbours in a list */
 
+/* Room for so many grains to try. Stores into one array and loads from another do not hinder each other where the
+ * lower twelve bits of their addresses differ: the arrays of two searches lie half a page apart, and not on the stack,
+ * which stands elsewhere at every start. */
+enum { GG_MOST_NEAR = 2048, GG_NEAR_APART = GG_MOST_NEAR + 512 };
+
 typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
@@ -80,7 +85,7 @@ struct gg_md {
   bool falls; /* gravity is not zero */
   gg_box box;
   gg_cells cells;
-  uint32_t *near; /* of two searches at a time: whom to try (scan.h) */
+  uint32_t *near; /* of two searches at a time, GG_NEAR_APART: whom to try (scan.h) */
   gg_queue queue;
   gg_md_counts k;
   double stop;              /* end of the present advance, epoch time */
