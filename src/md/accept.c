@@ -62,9 +62,12 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
       [GG_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
       [GG_LISTS] = "as dense: lists are seldom mended",
       [GG_SHARED_CELLS] = "as dilute: few crossings, each into one cell",
+      [GG_DRIFTING_CELLS] = "as sheared: the flow carries nobody through them",
   };
-  const char *const what[] = {
-      [GG_CELLS] = "cells", [GG_LISTS] = "neighbour lists", [GG_SHARED_CELLS] = "overlapping cells"};
+  const char *const what[] = {[GG_CELLS] = "cells",
+                              [GG_LISTS] = "neighbour lists",
+                              [GG_SHARED_CELLS] = "overlapping cells",
+                              [GG_DRIFTING_CELLS] = "cells that move with the flow"};
   int used = snprintf(text, sizeof text, "%s, %d x %d x %d cells, ", what[where], n[0], n[1], n[2]);
   if (where == GG_LISTS) used += snprintf(text + used, sizeof text - (size_t)used, "shells of %.2g d, ", radius);
   snprintf(text + used, sizeof text - (size_t)used, "%s", why[where]);

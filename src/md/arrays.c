@@ -72,6 +72,7 @@ void gg_md_free(gg_md *e)
   free(e->node);
   free(e->spin);
   free(e->last);
+  free(e->row);
   free(e->shell);
   free(e->neighbour);
   free(e->id);

@@ -26,10 +26,10 @@ gg_status gg_cells_make(gg_cells *c, const gg_box *box, const int32_t n[3], doub
     total *= (size_t)n[a];
   }
   for (int a = 0, each = 1; a < 3; each *= n[a], a++) {
-    uint32_t *part = gg_new_array((size_t)n[a] + 3, sizeof *part, err);
+    uint32_t *part = gg_new_array((size_t)n[a] + 4, sizeof *part, err);
     if (!part) return GG_FAILED;
-    for (int32_t k = -1; k <= n[a]; k++) part[k + 1] = (uint32_t)((k + n[a]) % n[a] * each);
-    c->part[a] = part + 1;
+    for (int32_t k = -2; k <= n[a] + 1; k++) part[k + 2] = (uint32_t)((k + 2 * n[a]) % n[a] * each);
+    c->part[a] = part + 2;
   }
   c->stride = FEWEST_WORDS;
   c->cell = gg_md_new_lines(total * c->stride + MOST_BEHIND, sizeof *c->cell, err);
@@ -63,6 +63,6 @@ void gg_cells_free(gg_cells *c)
 {
   free(c->cell);
   for (int a = 0; a < 3; a++)
-    if (c->part[a]) free(c->part[a] - 1);
+    if (c->part[a]) free(c->part[a] - 2);
   *c = (gg_cells){0};
 }

@@ -11,16 +11,12 @@
 #include "md/box.h"
 #include "md/words.h"
 
-/* Fewest plain cells along a sheared box in which the nearest image of all that the cells around hold is the one that
- * is looked at. */
-enum { GG_FEWEST_SHEARED = 10 };
-
 typedef struct gg_cells {
   int32_t n[3];
   double width[3], inverse[3];
   double reach;      /* largest contact distance (of lists: largest distance of centres) */
   uint32_t stride;   /* a multiple of 8 */
-  uint32_t *part[3]; /* an index -1 .. n along an axis: its share of the cell's number, wrapped; and a word more */
+  uint32_t *part[3]; /* an index -2 .. n + 1 along an axis: its share of the cell's number, wrapped */
   uint32_t *cell;    /* stride words a cell, x fastest: how many grains, then who; readable beyond the last (cells.c) */
 } gg_cells;
 

@@ -10,7 +10,7 @@ typedef struct block {
   double offset0, bucket_width, shell_radius; /* 0: no lists */
   uint32_t current_bucket;
   int32_t cells[3];
-  uint32_t shared, spare;
+  uint32_t shared, drifts;
 } block;
 
 static gg_status put(gg_archive *a, const char *name, const void *data, size_t bytes, gg_error *err)
@@ -29,6 +29,7 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
   b.current_bucket = e->queue.current;
   b.shell_radius = e->shell ? e->shell_radius : 0;
   b.shared = e->shared;
+  b.drifts = e->row != NULL;
   memcpy(b.cells, e->cells.n, sizeof b.cells);
   GG_TRY(put(a, "md/state", &b, sizeof b, err));
   GG_TRY(put(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
@@ -66,6 +67,7 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   e->box.offset0 = b.offset0;
   e->shared = b.shared;
   GG_TRY(gg_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.shell_radius, err));
+  if (b.drifts) GG_TRY(gg_md_make_rows(e, err));
   if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   gg_queue_reset(&e->queue, b.bucket_width);
   e->queue.current = b.current_bucket;

@@ -72,6 +72,7 @@ bool gg_md_next_epoch(gg_md *e)
 {
   double span = gg_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
   if (!(wait < INFINITY)) return false;
+  if (e->row && e->slip < wait) wait = e->slip;
   while (span < 0.5 * wait) span *= 2; /* nothing happens for long: skip it */
   e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;
   measure_free_time(e, span);
@@ -86,6 +87,7 @@ bool gg_md_next_epoch(gg_md *e)
     if (e->last) e->last[i] -= span;
     e->node[i].shell_built -= span;
   }
+  if (e->row) gg_md_move_rows(e, span);
   if (e->shell && e->model.shear_rate != 0) move_shells(e, span);
   e->k.epoch_start += span;
   e->k.now -= span;

@@ -1,6 +1,7 @@
 /* The grid that suits a model, and the grains' places in it. */
 #include <math.h>
 
+#include "md/drift.h"
 #include "md/shared.h"
 
 /* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains, of eight under shear; from
@@ -74,19 +75,11 @@ static bool fit_shared(const gg_model *m, int32_t n[3])
   return true;
 }
 
-/* Under shear, cells are long along the flow, which carries grains through them: up to two contact distances, where
- * hardly ever more than seven grains are in one, which is all that its eight words hold, and as far as there are so
- * many cells that the wide kernels can be used. */
 static void fit_cells(const gg_model *m, int32_t n[3])
 {
-  double reach = gg_md_reach(m), across = reach;
-  if (m->phi < NARROW_FROM) across = fmax(reach, cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
-  count_cells(m, across, n);
-  if (m->shear_rate == 0) return;
-  double along = fmin(across * sqrt(mean_speed_ratio(m)), 2 * reach);
-  int32_t x[3];
-  count_cells(m, fmax(across, fmin(along, m->box[0] / GG_FEWEST_SHEARED)), x);
-  n[0] = x[0];
+  double width = gg_md_reach(m);
+  if (m->phi < NARROW_FROM) width = fmax(width, cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
+  count_cells(m, width, n);
 }
 
 enum gg_search_in gg_md_plan(const gg_model *m, double *radius, int32_t n[3])
@@ -96,7 +89,8 @@ enum gg_search_in gg_md_plan(const gg_model *m, double *radius, int32_t n[3])
   *radius = 0;
   if (fit_shared(m, n)) return GG_SHARED_CELLS;
   fit_cells(m, n);
-  return GG_CELLS;
+  bool drift = m->shear_rate != 0 && n[0] >= GG_FEWEST_DRIFTING && n[1] >= 4 && n[2] >= 4;
+  return drift ? GG_DRIFTING_CELLS : GG_CELLS;
 }
 
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
@@ -118,7 +112,11 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   enum gg_search_in where = gg_md_plan(&e->model, &radius, n);
   if (where == GG_LISTS) return gg_md_make_lists(e, radius, err);
   e->shared = where == GG_SHARED_CELLS;
-  return gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err);
+  GG_TRY(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err));
+  if (where != GG_DRIFTING_CELLS) return GG_OK;
+  GG_TRY(gg_md_make_rows(e, err));
+  gg_md_align_rows(e);
+  return GG_OK;
 }
 
 void gg_md_cell_of(const gg_cells *c, gg_vec r, int32_t cell[3])
@@ -137,6 +135,8 @@ void gg_md_enter_grid(gg_md *e)
       gg_shared_place(e, f, e->grain[i].r, &e->node[i]);
     else
       gg_md_cell_of(&e->cells, e->shell ? e->shell[i].centre : e->grain[i].r, e->node[i].cell);
+  for (uint32_t i = 0; e->row && i < e->n; i++)
+    e->node[i].cell[0] = gg_md_drifting_cell(e, e->node[i].cell[1], e->grain[i].r.x);
 }
 
 bool gg_md_fill_grid(gg_md *e)

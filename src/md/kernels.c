@@ -19,6 +19,7 @@
   MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
 MOTIONS(periodic, .sheared = false)
 MOTIONS(sheared, .sheared = true)
+MOTIONS(drifting, .sheared = true, .drifts = true)
 MOTIONS(walled, .walled = true)
 MOTIONS(falling, .walled = true, .gravity = true)
 
@@ -31,6 +32,7 @@ MOTIONS(falling, .walled = true, .gravity = true)
   }
 static const gg_kernel plain[][2] = {
     [GG_PERIODIC] = ROW(periodic), [GG_SHEARED] = ROW(sheared), [GG_WALLED] = ROW(walled), [GG_FALLING] = ROW(falling)};
+static const gg_kernel plain_drifting[] = ROW(drifting);
 #undef ROW
 
 #define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
@@ -89,11 +91,10 @@ static enum gg_boundary boundary_of(const gg_md *e)
   return e->model.walled ? GG_WALLED : GG_PERIODIC;
 }
 
-/* The nearest image of all that the cells around hold must be the one looked at. */
+/* The nearest image of all that the cells around hold, at rest, must be the one looked at. */
 static bool is_wide_enough(const gg_md *e)
 {
-  bool sheared = e->model.shear_rate != 0;
-  return e->cells.n[0] >= (sheared ? GG_FEWEST_SHEARED : 4) && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
+  return e->model.shear_rate == 0 && e->cells.n[0] >= 4 && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
 }
 
 static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, enum gg_search_in where)
@@ -114,12 +115,13 @@ static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, enum gg_se
 void gg_md_select(gg_md *e)
 {
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
-  enum gg_search_in where = e->shell ? GG_LISTS : e->shared ? GG_SHARED_CELLS : GG_CELLS;
+  enum gg_search_in where = e->shell ? GG_LISTS : e->shared ? GG_SHARED_CELLS : e->row ? GG_DRIFTING_CELLS : GG_CELLS;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
   enum gg_boundary boundary = boundary_of(e);
-  gg_kernel kernel = plain[boundary][mixture];
-  if (where != GG_CELLS || (is_wide_enough(e) && !e->plain)) kernel = wide_kernel(boundary, mixture, where);
+  gg_kernel kernel = e->row ? plain_drifting[mixture] : plain[boundary][mixture];
+  bool lined = where == GG_LISTS || where == GG_SHARED_CELLS;
+  if (lined || (!e->plain && (e->row || is_wide_enough(e)))) kernel = wide_kernel(boundary, mixture, where);
   e->motion = kernel.run;
   e->predict_all = kernel.predict_all;
   e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];

@@ -21,7 +21,7 @@
   MOTION(name, __VA_ARGS__)                                                                                            \
   MOTION(name##_mixture, .mixture = true, __VA_ARGS__)
 MOTIONS(periodic, .wide = true)
-MOTIONS(sheared, .wide = true, .sheared = true)
+MOTIONS(drifting, .wide = true, .sheared = true, .drifts = true)
 MOTIONS(walled, .wide = true, .walled = true)
 MOTIONS(falling, .wide = true, .walled = true, .gravity = true)
 MOTIONS(periodic_shared, .wide = true, .shared = true)
@@ -39,7 +39,7 @@ gg_kernel JOIN(gg_md_wide_, GG_ISA)(enum gg_boundary boundary, bool mixture, enu
     }                                                                                                                  \
   }
   static const gg_kernel cells[][2] = {[GG_PERIODIC] = ROW(periodic),
-                                       [GG_SHEARED] = ROW(sheared),
+                                       [GG_SHEARED] = ROW(drifting),
                                        [GG_WALLED] = ROW(walled),
                                        [GG_FALLING] = ROW(falling)};
   static const gg_kernel lists[][2] = {[GG_PERIODIC] = ROW(periodic_listed), [GG_SHEARED] = ROW(sheared_listed)};

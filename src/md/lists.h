@@ -71,7 +71,9 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_sear
     y = (b.y + dt * b.vy + half * e->gravity.y) - g->r.y, vy = (b.vy + dt * e->gravity.y) - g->v.y;
     z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
   }
-  if (f.sheared) {
+  if (f.drifts && f.inside) {
+    x = gg_fold8(x, L[0], inverse[0]);
+  } else if (f.sheared) {
     gg_v8 layers = gg_nearest8(y * inverse[1]);
     y -= L[1] * layers;
     x -= layers * offset;
@@ -172,9 +174,9 @@ GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
   gg_features still = f, inside = f;
   still.sheared = inside.sheared = false;
   inside.inside = true;
-  if (!f.shared && !f.sheared && s->inside)
+  if (!f.shared && s->inside)
     gg_scan_batches(e, inside, s, s->near, s->n_near);
-  else if (f.sheared && !f.shared && s->regular)
+  else if (f.drifts && s->regular)
     gg_scan_batches(e, still, s, s->near, s->n_near);
   else
     gg_scan_batches(e, f, s, s->near, s->n_near);

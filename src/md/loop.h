@@ -8,6 +8,7 @@
 #ifndef GG_MD_LOOP_H
 #define GG_MD_LOOP_H
 
+#include "md/drift.h"
 #include "md/shared.h"
 
 GG_INLINE void gg_leave_cell(gg_md *e, uint32_t i)
@@ -60,6 +61,8 @@ GG_INLINE void gg_search_all(gg_md *e, gg_features f, gg_search *s, uint32_t i)
     gg_scan_batches(e, f, s, gg_list(e, i), e->node[i].neighbours);
   else if (f.shared)
     gg_shared_scan(e, f, s);
+  else if (f.drifts)
+    gg_drift_around(e, f, s);
   else
     gg_scan_around(e, f, s);
   if (f.wide) gg_scan_near(e, f, s);
@@ -162,6 +165,48 @@ GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
   gg_scan_ahead(e, f, &s, axis, step);
   if (f.wide) gg_scan_near(e, f, &s);
   gg_schedule(e, f, &s);
+}
+
+/* The same in rows that drift. */
+GG_INLINE void gg_cross_drifting(gg_md *e, gg_features f, uint32_t i)
+{
+  gg_node *node = &e->node[i];
+  gg_search s = {.near = e->near};
+  gg_begin_search(&s, i, gg_settle(e, f, i), node->collision, node->partner);
+  gg_grain *g = &e->grain[i];
+  int axis = node->face >> 1, step = node->face & 1 ? 1 : -1;
+  gg_leave_cell(e, i);
+  if (axis == 1) {
+    gg_window window = gg_change_row(e, i, step);
+    gg_enter_cell(e, i);
+    gg_drift_scan(e, f, &s, window);
+  } else {
+    int32_t at = node->cell[axis] + step, n = e->cells.n[axis], side = at < 0 ? -1 : at >= n ? 1 : 0;
+    node->cell[axis] = at - side * n;
+    *gg_component(&g->r, axis) -= side * e->box.edge[axis];
+    gg_enter_cell(e, i);
+    gg_drift_ahead(e, f, &s, axis, step);
+  }
+  if (f.wide) gg_scan_near(e, f, &s);
+  gg_schedule(e, f, &s);
+}
+
+/* Rows have slipped by a cell: everybody looks at what comes within reach above. Most see nothing that changes their
+ * next event, and stay as they are. */
+GG_INLINE void gg_slip(gg_md *e, gg_features f)
+{
+  e->k.now = e->slip;
+  gg_md_slip_rows(e);
+  for (uint32_t i = 0; i < e->n; i++) {
+    const gg_node *node = &e->node[i];
+    gg_search s = {.near = e->near};
+    gg_grain here = e->grain[i];
+    here.r = gg_position(e, f.gravity, &here, e->k.now);
+    gg_begin_search(&s, i, &here, node->collision, node->partner);
+    gg_drift_scan(e, f, &s, (gg_window){{0, -1}, {-2, -2}, {0, -1}, {-1, 1}});
+    if (f.wide) gg_scan_near(e, f, &s);
+    if (s.collision < node->collision) gg_schedule(e, f, &s);
+  }
 }
 
 /* Out of its shell: a new one, lists mended, and a new prediction. */
@@ -302,16 +347,25 @@ GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
   if (f.shared && n >= 2) gg_prefetch_shared(e, e->queue.due[n - 2].grain, true);
 }
 
-/* The next event of all; GG_NONE if there is none before e->stop. */
+/* The next event of all; GG_NONE if there is none before e->stop. Rows slip as soon as something would happen later, or
+ * the epoch end: a matter of the trajectory alone. */
 GG_INLINE uint32_t gg_next(gg_md *e, gg_features f)
 {
-  while (e->queue.n_due == 0)
-    if (gg_queue_turn(&e->queue, e->node))
-      gg_prefetch_due(e, f);
-    else if (gg_queue_span(&e->queue) > e->stop || !gg_md_next_epoch(e))
-      return GG_NONE;
-  gg_due due = e->queue.due[e->queue.n_due - 1];
-  return due.time <= e->stop ? due.grain : GG_NONE;
+  for (;;) {
+    while (e->queue.n_due == 0)
+      if (gg_queue_turn(&e->queue, e->node))
+        gg_prefetch_due(e, f);
+      else if (gg_queue_span(&e->queue) > e->stop)
+        return GG_NONE;
+      else if (f.drifts && e->slip <= gg_queue_span(&e->queue))
+        gg_slip(e, f);
+      else if (!gg_md_next_epoch(e))
+        return GG_NONE;
+    gg_due due = e->queue.due[e->queue.n_due - 1];
+    if (!(due.time <= e->stop)) return GG_NONE;
+    if (!f.drifts || due.time <= e->slip) return due.grain;
+    gg_slip(e, f);
+  }
 }
 
 /* Every grain anew: at a start, or after kicks to all. */
@@ -334,6 +388,8 @@ GG_INLINE void gg_loop(gg_md *e, gg_features f)
         gg_leave_shell(e, f, i);
       else if (f.shared)
         gg_come_into_cell(e, f, i);
+      else if (f.drifts)
+        gg_cross_drifting(e, f, i);
       else
         gg_cross_face(e, f, i);
     } else if (f.walled && GG_NO_GRAIN(partner))

@@ -20,7 +20,8 @@ typedef struct gg_features {
   bool sheared, walled, gravity, mixture;
   bool listed; /* neighbour lists instead of cells */
   bool shared; /* cells that overlap; wide, too */
-  bool inside; /* all in one image of the box */
+  bool drifts; /* rows of cells that move with the flow */
+  bool inside; /* all in one image of the box, or of drifting rows, but for images along x */
   bool wide;   /* eight pairs at a time; else one by one: the reference for the tests */
 } gg_features;
 
@@ -30,7 +31,7 @@ typedef struct gg_search {
   double collision;     /* earliest so far, and with whom */
   uint32_t partner;
   double valid;           /* until then the sliding rows have been searched */
-  bool regular;           /* no image of those to try has slid */
+  bool regular;           /* no image of those to try has slid: of drifting rows */
   bool inside;            /* they and the grain are in the same image of the box */
   uint32_t n_near, *near; /* wide: whom to try */
 } gg_search;
@@ -56,19 +57,26 @@ GG_INLINE void gg_begin_search(gg_search *s, uint32_t i, const gg_grain *self, d
   s->regular = s->inside = false;
 }
 
-GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
+/* The contact with grain j, which is separated by dr and dv. */
+GG_INLINE void gg_try_separated(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec dr, gg_vec dv)
 {
-  const gg_grain *one = s->self, *two = &e->grain[j];
-  gg_vec dr = gg_add(gg_sub(gg_position(e, f.gravity, two, e->k.now), one->r), shift);
-  gg_vec dv = gg_sub(gg_velocity(e, f.gravity, two, e->k.now), one->v);
-  if (f.sheared) dv.x += slide;
-  double sigma = e->model.sigma[f.mixture ? 2 * gg_species_of(one) + gg_species_of(two) : 0];
+  double sigma = e->model.sigma[f.mixture ? 2 * gg_species_of(s->self) + gg_species_of(&e->grain[j]) : 0];
   double t = e->k.now + gg_contact_delay(dr, dv, sigma * sigma);
   /* Ties go by index, so that the order in a cell's chain never matters. */
   if (t < s->collision || (t == s->collision && t < INFINITY && j < s->partner)) {
     s->collision = t;
     s->partner = j;
   }
+}
+
+/* The same with an image shifted by `shift`, sliding by `slide`. */
+GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t j, gg_vec shift, double slide)
+{
+  const gg_grain *one = s->self, *two = &e->grain[j];
+  gg_vec dr = gg_add(gg_sub(gg_position(e, f.gravity, two, e->k.now), one->r), shift);
+  gg_vec dv = gg_sub(gg_velocity(e, f.gravity, two, e->k.now), one->v);
+  if (f.sheared) dv.x += slide;
+  gg_try_separated(e, f, s, j, dr, dv);
 }
 
 /* All grains of a cell behind the n that there are, eight words at a time: what stands behind its end does not count.
@@ -196,7 +204,7 @@ GG_INLINE bool gg_has_room(const gg_md *e, int cells)
   return (uint32_t)cells * e->cells.stride <= GG_MOST_NEAR;
 }
 
-/* The cells from `from` to `to` relative to `at`, where nothing slides and no wall stands. All that does not change is
+/* The cells from `from` to `to` relative to `at`, where no wall stands. All that does not change is
  * in local variables: to the compiler, what goes into `near` might overwrite the rest. */
 GG_INLINE void gg_take_rows(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3],
                             bool small)
@@ -223,14 +231,13 @@ GG_INLINE bool gg_take_box(const gg_md *e, gg_features f, gg_search *s, const in
                            const int to[3])
 {
   if (!f.wide || !gg_has_room(e, 27)) return false;
-  bool lowest = (f.sheared | f.walled) & (at[1] == 0), highest = (f.sheared | f.walled) & (at[1] == e->cells.n[1] - 1);
+  bool lowest = f.walled & (at[1] == 0), highest = f.walled & (at[1] == e->cells.n[1] - 1);
   int lower[3] = {from[0], lowest && from[1] < 0 ? 0 : from[1], from[2]};
   int upper[3] = {to[0], highest && to[1] > 0 ? 0 : to[1], to[2]};
   if (e->cells.stride == 8)
     gg_take_rows(e, s, at, lower, upper, true);
   else
     gg_take_rows(e, s, at, lower, upper, false);
-  s->regular = !(lowest | highest);
   s->inside = gg_is_inside(e, at);
   return true;
 }
@@ -309,17 +316,27 @@ GG_INLINE double gg_first_fall_out(const gg_md *e, gg_features f, const gg_searc
   return first;
 }
 
+/* Place and velocity relative to the grain's row, in the image that is in its cell. */
+GG_INLINE void gg_seen_from_row(const gg_md *e, const int32_t *cell, gg_axes *r, gg_axes *v)
+{
+  const gg_row *row = &e->row[cell[1]];
+  double x = (*r)[0] - (row->origin + row->speed * e->k.now), depth = x - cell[0] * e->cells.width[0];
+  (*r)[0] = x - e->box.edge[0] * gg_nearest(depth * e->box.inverse[0]);
+  (*v)[0] -= row->speed;
+}
+
 /* The same on a straight line. Rounding may have left the grain outside by a digit: then at once. */
 GG_INLINE double gg_first_exit(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
 {
   const int32_t *cell = e->node[s->grain].cell;
-  gg_axes v = gg_load_axes(&s->self->v.x), zero = {0}, one = {1, 1, 1, 1};
+  gg_axes r = gg_load_axes(&s->self->r.x), v = gg_load_axes(&s->self->v.x), zero = {0}, one = {1, 1, 1, 1};
+  if (f.drifts) gg_seen_from_row(e, cell, &r, &v);
   gg_axes never = {INFINITY, INFINITY, INFINITY, INFINITY};
   gg_axes_mask up = v > 0, open = (v != 0) & (gg_axes_mask){-1, -1, -1, 0};
   if (gg_is_wall_below(f, cell)) open &= up | (gg_axes_mask){-1, 0, -1, 0};
   if (gg_is_wall_above(e, f, cell)) open &= ~up | (gg_axes_mask){-1, 0, -1, 0};
   gg_axes ahead = __builtin_convertvector(gg_load_indices(cell), gg_axes) + gg_choose_axes(up, one, zero);
-  gg_axes delay = (ahead * gg_load_axes(e->cells.width) - gg_load_axes(&s->self->r.x)) / v;
+  gg_axes delay = (ahead * gg_load_axes(e->cells.width) - r) / v;
   delay = gg_choose_axes(open, gg_choose_axes(delay > 0, delay, zero), never);
   gg_axes first = gg_least_axes(delay);
   int axis = __builtin_ctz(gg_axes_bits(delay == first));
@@ -332,7 +349,7 @@ GG_INLINE double gg_next_face(const gg_md *e, gg_features f, const gg_search *s,
 {
   double first = f.gravity ? gg_first_fall_out(e, f, s, face) : gg_first_exit(e, f, s, face);
   double t = e->k.now + first;
-  if (f.sheared && s->valid < t) t = s->valid, *face = GG_SLIDE;
+  if (f.sheared && !f.drifts && s->valid < t) t = s->valid, *face = GG_SLIDE;
   return t;
 }
 

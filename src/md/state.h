@@ -34,6 +34,13 @@ enum { GG_LIST = 24 }; /* most neighbours in a list */
  * which stands elsewhere at every start. */
 enum { GG_MOST_NEAR = 2048, GG_NEAR_APART = GG_MOST_NEAR + 512 };
 
+/* A row of cells along x that drifts with the flow (drift.h): where its first cell begins at the epoch's start, its
+ * speed, and by how many cells the rows above and below are ahead of it. */
+typedef struct gg_row {
+  double origin, speed;
+  int32_t above, below;
+} gg_row;
+
 typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
@@ -62,6 +69,8 @@ typedef struct gg_md_counts {
   double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
   double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
   double outer_time;               /* outside, up to the present advance */
+  double lean, common; /* of drifting rows (drift.c), at the epoch's start */
+  int32_t turn, seam;
   uint32_t tap_open, spare;
 } gg_md_counts;
 
@@ -88,6 +97,8 @@ struct gg_md {
   uint32_t *near; /* of two searches at a time, GG_NEAR_APART: whom to try (scan.h) */
   gg_queue queue;
   gg_md_counts k;
+  gg_row *row;              /* one for each layer of cells along y that drift; NULL: cells are at rest */
+  double slip;              /* epoch time at which rows will have slipped by a cell; INFINITY: never */
   double stop;              /* end of the present advance, epoch time */
   double outer_stop;        /* the same in outside time since it began; INFINITY: none */
   uint64_t collisions_left; /* of the present advance */
@@ -119,8 +130,8 @@ gg_status gg_md_begin(gg_md *e, gg_error *err);
 /* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
 double gg_md_reach(const gg_model *model);
 /* Where partners are best looked for: plain cells, neighbour lists (lists.h; *radius: of their shells) or cells that
- * overlap (shared.h); and how many cells. */
-enum gg_search_in { GG_CELLS, GG_LISTS, GG_SHARED_CELLS };
+ * overlap (shared.h) or drift with the flow (drift.h); and how many cells. */
+enum gg_search_in { GG_CELLS, GG_LISTS, GG_SHARED_CELLS, GG_DRIFTING_CELLS };
 enum gg_search_in gg_md_plan(const gg_model *model, double *radius, int32_t n[3]);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 /* Neighbour lists with shells of this radius, if the box is wide enough for them; else nothing. */
@@ -128,6 +139,15 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
 void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);
+
+/* drift.c: rows of cells that drift, placed as e->k tells; as the images above stand at the epoch's start; at the start
+ * of the next epoch; and after they have slipped by a cell. */
+gg_status gg_md_make_rows(gg_md *e, gg_error *err);
+void gg_md_align_rows(gg_md *e);
+void gg_md_move_rows(gg_md *e, double span);
+void gg_md_slip_rows(gg_md *e);
+/* The cell along x of row y that a place is in now. */
+int32_t gg_md_drifting_cell(const gg_md *e, int32_t y, double x);
 
 /* lists.c: every grain's shell and list anew at the present time; the shells get smaller where lists overflow. */
 void gg_md_build_lists(gg_md *e);
