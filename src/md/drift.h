@@ -60,15 +60,36 @@ GG_INLINE void gg_drift_row(const gg_md *e, gg_features f, gg_search *s, const u
   }
 }
 
-/* The same if there is room for all: what does not change is in local variables (gg_take_rows). */
-GG_INLINE uint32_t gg_drift_take(uint32_t *near, uint32_t n, const uint32_t *row, const uint32_t *x, size_t stride,
-                                 const int range[2], bool small)
+/* A window's rows, and their cells' shares of the cell's number. */
+typedef struct gg_rows_seen {
+  const uint32_t *own, *above, *below, *y, *z;
+} gg_rows_seen;
+
+/* Cells x[from..to] of the rows that begin with `row` in each layer. Row by row there are so few addresses that all are
+ * in registers. */
+GG_INLINE uint32_t *gg_take_row(uint32_t *end, const uint32_t *row, const uint32_t *const layer[3], const uint32_t *x,
+                                const int range[2], const int deep[2], size_t stride)
 {
-  for (int k = range[0]; k <= range[1]; k++) {
-    const uint32_t *cell = row + x[k] * stride;
-    n = small ? gg_append_small(near, n, cell) : gg_append_cell(near, n, cell);
-  }
-  return n;
+  size_t step[4];
+  for (int k = range[0]; k <= range[1]; k++) step[k - range[0]] = x[k] * stride;
+  for (int m = deep[0]; m <= deep[1]; m++)
+    for (int k = 0; k <= range[1] - range[0]; k++) {
+      const uint32_t *cell = layer[m + 1] + (size_t)*row * stride + step[k];
+      end = stride == 8 ? gg_append_small(end, cell) : gg_append_cell(end, cell);
+    }
+  return end;
+}
+
+/* All of a window, for which there is room: what does not change is in local variables (gg_take_rows). */
+GG_INLINE void gg_take_window(const gg_md *e, gg_search *s, const gg_rows_seen *seen, const gg_window *w, size_t stride)
+{
+  const uint32_t *z = seen->z, y[3] = {seen->y[-1], seen->y[0], seen->y[1]}, *layer[3];
+  for (int m = w->deep[0]; m <= w->deep[1]; m++) layer[m + 1] = e->cells.cell + z[m] * stride;
+  uint32_t *end = s->near + s->n_near;
+  end = gg_take_row(end, y + 1, layer, seen->own, w->own, w->deep, stride);
+  end = gg_take_row(end, y + 2, layer, seen->above, w->above, w->deep, stride);
+  end = gg_take_row(end, y, layer, seen->below, w->below, w->deep, stride);
+  s->n_near = (uint32_t)(end - s->near);
 }
 
 GG_INLINE void gg_drift_scan(const gg_md *e, gg_features f, gg_search *s, gg_window window)
@@ -76,33 +97,27 @@ GG_INLINE void gg_drift_scan(const gg_md *e, gg_features f, gg_search *s, gg_win
   const gg_cells *c = &e->cells;
   const int32_t *at = e->node[s->grain].cell;
   const gg_row *row = &e->row[at[1]];
-  const uint32_t *x = c->part[0] + at[0], *above = c->part[0] + gg_drifting_index(e, at[0] - row->above),
-                 *below = c->part[0] + gg_drifting_index(e, at[0] + row->below);
-  const uint32_t *y = c->part[1] + at[1], *z = c->part[2] + at[2], *cell = c->cell;
-  size_t stride = c->stride;
-  bool room = f.wide && gg_has_room(e, 33), small = stride == 8;
-  uint32_t n = s->n_near, *near = s->near;
-  for (int m = window.deep[0]; m <= window.deep[1]; m++) {
-    const uint32_t *own = cell + (size_t)(z[m] + y[0]) * stride, *up = cell + (size_t)(z[m] + y[1]) * stride,
-                   *down = cell + (size_t)(z[m] + y[-1]) * stride;
-    if (room & small) {
-      n = gg_drift_take(near, n, own, x, 8, window.own, true);
-      n = gg_drift_take(near, n, up, above, 8, window.above, true);
-      n = gg_drift_take(near, n, down, below, 8, window.below, true);
-    } else if (room) {
-      n = gg_drift_take(near, n, own, x, stride, window.own, false);
-      n = gg_drift_take(near, n, up, above, stride, window.above, false);
-      n = gg_drift_take(near, n, down, below, stride, window.below, false);
-    } else {
-      gg_drift_row(e, f, s, own, x, window.own);
-      gg_drift_row(e, f, s, up, above, window.above);
-      gg_drift_row(e, f, s, down, below, window.below);
-    }
-  }
-  if (room) s->n_near = n;
+  gg_rows_seen seen = {.own = c->part[0] + at[0],
+                       .above = c->part[0] + gg_drifting_index(e, at[0] - row->above),
+                       .below = c->part[0] + gg_drifting_index(e, at[0] + row->below),
+                       .y = c->part[1] + at[1],
+                       .z = c->part[2] + at[2]};
   uint32_t layers = (uint32_t)c->n[1] - 2, deep = (uint32_t)c->n[2] - 2;
   s->regular = (uint32_t)(at[1] - 1) < layers;
   s->inside = s->regular & ((uint32_t)(at[2] - 1) < deep);
+  if (f.wide && gg_has_room(e, 33)) {
+    if (c->stride == 8)
+      gg_take_window(e, s, &seen, &window, 8);
+    else
+      gg_take_window(e, s, &seen, &window, c->stride);
+    return;
+  }
+  for (int m = window.deep[0]; m <= window.deep[1]; m++) {
+    const uint32_t *layer = c->cell + (size_t)seen.z[m] * c->stride;
+    gg_drift_row(e, f, s, layer + (size_t)seen.y[0] * c->stride, seen.own, window.own);
+    gg_drift_row(e, f, s, layer + (size_t)seen.y[1] * c->stride, seen.above, window.above);
+    gg_drift_row(e, f, s, layer + (size_t)seen.y[-1] * c->stride, seen.below, window.below);
+  }
 }
 
 /* All that a grain can touch from its cell. */

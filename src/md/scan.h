@@ -79,38 +79,38 @@ GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t
   gg_try_separated(e, f, s, j, dr, dv);
 }
 
-/* All grains of a cell behind the n that there are, eight words at a time: what stands behind its end does not count.
- */
-GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *cell)
+/* All grains of a cell at the end of a list, eight words at a time: what stands behind the cell's end does not count.
+ * Returns the list's new end. */
+GG_INLINE uint32_t *gg_append_cell(uint32_t *end, const uint32_t *cell)
 {
   uint32_t count = cell[0];
-  memcpy(near + n, cell + 1, 8 * sizeof *cell);
-  for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
-  return n + count;
+  memcpy(end, cell + 1, 8 * sizeof *cell);
+  for (uint32_t k = 8; k < count; k += 8) memcpy(end + k, cell + 1 + k, 8 * sizeof *cell);
+  return end + count;
 }
 /* Of cells of sixteen words or more, line by line: the word behind a line would be another line to wait for. */
-GG_INLINE uint32_t gg_append_large(uint32_t *near, uint32_t n, const uint32_t *cell)
+GG_INLINE uint32_t *gg_append_large(uint32_t *end, const uint32_t *cell)
 {
   typedef uint32_t line __attribute__((vector_size(64), may_alias, aligned(4)));
   uint32_t count = cell[0];
   line first = *(const line *)cell;
   first = __builtin_shufflevector(first, first, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0);
-  memcpy(near + n, &first, sizeof first);
-  for (uint32_t k = 15; k < count; k += 16) memcpy(near + n + k, cell + 1 + k, sizeof first);
-  return n + count;
+  memcpy(end, &first, sizeof first);
+  for (uint32_t k = 15; k < count; k += 16) memcpy(end + k, cell + 1 + k, sizeof first);
+  return end + count;
 }
 /* Of cells of eight words. */
-GG_INLINE uint32_t gg_append_small(uint32_t *near, uint32_t n, const uint32_t *cell)
+GG_INLINE uint32_t *gg_append_small(uint32_t *end, const uint32_t *cell)
 {
-  memcpy(near + n, cell + 1, 8 * sizeof *cell);
-  return n + cell[0];
+  memcpy(end, cell + 1, 8 * sizeof *cell);
+  return end + cell[0];
 }
 
 /* False: no more room. */
 GG_INLINE bool gg_take_cell(gg_search *s, const uint32_t *cell)
 {
   if (s->n_near + cell[0] > GG_MOST_NEAR) return false;
-  s->n_near = gg_append_cell(s->near, s->n_near, cell);
+  s->n_near = (uint32_t)(gg_append_cell(s->near + s->n_near, cell) - s->near);
   return true;
 }
 
@@ -216,14 +216,14 @@ GG_INLINE void gg_take_rows(const gg_md *e, gg_search *s, const int32_t at[3], c
   for (int k = from[0]; k <= to[0]; k++) step[k + 1] = x[k] * stride;
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++) row[m + 1][l + 1] = c->cell + (size_t)(z[m] + y[l]) * stride;
-  uint32_t n = s->n_near;
+  uint32_t *end = s->near + s->n_near;
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++)
       for (int k = from[0]; k <= to[0]; k++) {
         const uint32_t *cell = row[m + 1][l + 1] + step[k + 1];
-        n = small ? gg_append_small(s->near, n, cell) : gg_append_cell(s->near, n, cell);
+        end = small ? gg_append_small(end, cell) : gg_append_cell(end, cell);
       }
-  s->n_near = n;
+  s->n_near = (uint32_t)(end - s->near);
 }
 
 /* Those of them that are in the box, in wide kernels; false: there may be no room for all. */

@@ -221,13 +221,13 @@ GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, const
 {
   const uint32_t *cell = e->cells.cell;
   size_t stride = e->cells.stride;
-  uint32_t n_near = s->n_near;
+  uint32_t *end = s->near + s->n_near, *last = s->near + GG_MOST_NEAR;
   bool room = gg_has_room(e, 8);
   for (uint32_t which = in->which; which; which &= which - 1) {
     const uint32_t *one = cell + in->index[__builtin_ctz(which)] * stride;
-    if (room || n_near + one[0] <= GG_MOST_NEAR) n_near = gg_append_large(s->near, n_near, one);
+    if (room || one[0] <= last - end) end = gg_append_large(end, one);
   }
-  s->n_near = n_near;
+  s->n_near = (uint32_t)(end - s->near);
   gg_shared_slides(e, f, s);
 }
 
