@@ -56,7 +56,7 @@ GG_INLINE void gg_nearest_image(const gg_box *b, int sheared, double t, gg_vec *
 {
   double layers = gg_nearest(dr->y * b->inverse[1]);
   dr->y -= b->edge[1] * layers;
-  if (sheared) {
+  if (sheared && layers != 0) { /* seldom */
     dr->x -= layers * gg_offset(b, t);
     dv->x -= layers * b->slide;
   }

@@ -72,7 +72,7 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_sear
     z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
   }
   if (f.drifts && f.inside) {
-    x = gg_fold8(x, L[0], inverse[0]);
+    x -= L[0] * gg_nearest8(x * inverse[0]); /* rows may have carried them apart by several edges: not exact if fused */
   } else if (f.sheared) {
     gg_v8 layers = gg_nearest8(y * inverse[1]);
     y -= L[1] * layers;
@@ -80,7 +80,7 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_sear
     x -= L[0] * gg_nearest8(x * inverse[0]);
     vx -= layers * e->box.slide;
   } else if (!f.inside) {
-    x = gg_fold8(x, L[0], inverse[0]);
+    x = f.drifts ? x - L[0] * gg_nearest8(x * inverse[0]) : gg_fold8(x, L[0], inverse[0]);
     if (!f.walled) y = gg_fold8(y, L[1], inverse[1]);
   }
   if (!f.inside) z = gg_fold8(z, L[2], inverse[2]);

@@ -69,7 +69,7 @@ typedef struct gg_md_counts {
   double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
   double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
   double outer_time;               /* outside, up to the present advance */
-  double lean, common; /* of drifting rows (drift.c), at the epoch's start */
+  double lean, common;             /* of drifting rows (drift.c), at the epoch's start */
   int32_t turn, seam;
   uint32_t tap_open, spare;
 } gg_md_counts;

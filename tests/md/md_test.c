@@ -192,6 +192,12 @@ long double md_closest(const gg_md *e)
 
 static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
 {
+  if (e->row) { /* which drifts */
+    double L = e->box.edge[0], middle = (e->node[i].cell[0] + 0.5) * e->cells.width[0];
+    const gg_row *row = &e->row[e->node[i].cell[1]];
+    r.x -= row->origin + row->speed * e->k.now;
+    r.x -= L * rint((r.x - middle) / L);
+  }
   for (int a = 0; a < 3; a++) {
     double x = gg_along(&r, a), w = e->cells.width[a], lower = e->node[i].cell[a] * w;
     bool above = e->model.open_top && a == 1 && e->node[i].cell[a] == e->cells.n[a] - 1;

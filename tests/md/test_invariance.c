@@ -3,6 +3,7 @@
  * boxes, and for any grid of cells or neighbour lists; and the same averages of long runs. */
 #include <string.h>
 
+#include "md/drift.h"
 #include "md_test.h"
 
 enum { EVENTS = 100, MAX_N = 200 };
@@ -22,6 +23,7 @@ static gg_md *copy_of(const gg_md *e)
   for (uint32_t i = 0; i < e->n; i++) {
     c->grain[i] = e->grain[i];
     c->grain[i].r = gg_position(e, e->falls, &e->grain[i], e->k.now);
+    c->grain[i].r.x = gg_wrap(c->grain[i].r.x, e->box.edge[0], e->box.inverse[0]); /* rows may have carried it out */
     c->grain[i].t = 0;
     c->grain[i].stamp &= 1;
     if (e->spin) c->spin[i] = e->spin[i];
@@ -88,6 +90,22 @@ static void turn(gg_md *e)
   }
 }
 
+/* Any number of cells that fits, but enough for rows of them to drift. */
+static void set_drifting_grid(gg_md *e, gg_rng *rng)
+{
+  const int32_t least[3] = {GG_FEWEST_DRIFTING, 4, 4};
+  int32_t n[3];
+  gg_error err;
+  gg_cells_count(&e->box, gg_md_reach(&e->model), n);
+  for (int a = 0; a < 3; a++) {
+    assert_true(n[a] >= least[a]);
+    n[a] = least[a] + (int32_t)gg_rng_below(rng, (uint32_t)(n[a] - least[a]) + 1);
+  }
+  assert_int_equal(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), &err), GG_OK);
+  assert_int_equal(gg_md_make_rows(e, &err), GG_OK);
+  gg_md_align_rows(e);
+}
+
 /* Any number of cells that fits, or just one. */
 static void set_random_grid(gg_md *e, gg_rng *rng, bool one)
 {
@@ -98,7 +116,7 @@ static void set_random_grid(gg_md *e, gg_rng *rng, bool one)
   assert_int_equal(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), &err), GG_OK);
 }
 
-static void check(md_case c, uint64_t seed)
+static void check(md_case c, uint64_t seed, bool drift)
 {
   gg_model m = md_model(c);
   gg_md *e = md_create(&m, seed), *copy = copy_of(e);
@@ -110,7 +128,7 @@ static void check(md_case c, uint64_t seed)
   record(copy, &first);
   md_destroy(copy);
   gg_rng rng = gg_rng_seed(seed, 9);
-  for (int k = 0; k < 18; k++) {
+  for (int k = 0; k < (drift ? 24 : 18); k++) {
     gg_error err;
     copy = copy_of(e);
     if (k < 6)
@@ -122,8 +140,10 @@ static void check(md_case c, uint64_t seed)
       set_random_grid(copy, &rng, k == 7);
     else if (k < 16)
       assert_int_equal(gg_md_make_lists(copy, 0.05 * (k - 11), &err), GG_OK);
-    else
+    else if (k < 18)
       copy->box.offset0 += (k == 16 ? 1 : -2) * copy->box.edge[0];
+    else
+      set_drifting_grid(copy, &rng);
     begin(copy);
     record(copy, &other);
     same(copy, &first, &other);
@@ -135,17 +155,17 @@ static void check(md_case c, uint64_t seed)
 static void periodic(void **state)
 {
   (void)state;
-  check((md_case){GG_HCS, 60, 0.05, 0.9, 0, INFINITY, {0}}, 1);
-  check((md_case){GG_HCS, 100, 0.5, 0.9, -1, INFINITY, {1, 1.3, 1.1}}, 2);
+  check((md_case){GG_HCS, 60, 0.05, 0.9, 0, INFINITY, {0}}, 1, false);
+  check((md_case){GG_HCS, 100, 0.5, 0.9, -1, INFINITY, {1, 1.3, 1.1}}, 2, false);
 }
 
 static void sheared(void **state)
 {
   (void)state;
-  check((md_case){GG_USF, 60, 0.02, 0.9, -1, INFINITY, {0}}, 1);
-  check((md_case){GG_USF, 100, 0.2, 0.9, 0, INFINITY, {2, 1, 1}}, 2);
-  check((md_case){GG_USF, 100, 0.2, 0.9, 0, INFINITY, {1, 2, 1}}, 3);
-  check((md_case){GG_USF, 120, 0.5, 0.7, 0.5, 0.3, {0}}, 4);
+  check((md_case){GG_USF, 60, 0.02, 0.9, -1, INFINITY, {0}}, 1, true);
+  check((md_case){GG_USF, 100, 0.2, 0.9, 0, INFINITY, {2, 1, 1}}, 2, true);
+  check((md_case){GG_USF, 100, 0.2, 0.9, 0, INFINITY, {1, 2, 1}}, 3, false);
+  check((md_case){GG_USF, 120, 0.5, 0.7, 0.5, 0.3, {0}}, 4, false);
 }
 
 /* Means over a long run and their standard errors, from blocks. */

@@ -7,6 +7,8 @@
 
 #include "md_test.h"
 
+#include "md/drift.h"
+
 enum { MOST = 160 };
 
 typedef struct watch {
@@ -173,6 +175,28 @@ static void wide_cells(void **state)
   }
 }
 
+/* Under shear, in boxes wide enough for rows of cells that drift; until rows have slipped several times. */
+static void drifting_cells(void **state)
+{
+  (void)state;
+  md_case dilute = {GG_USF, 150, 0.06, 0.9, -1, INFINITY, {2, 1, 1}},
+          dense = {GG_USF, 150, 0.3, 0.8, 0, INFINITY, {1.25, 0.8, 0.8}};
+  md_case fewest = {GG_USF, 140, 0.2, 0.8, 0.5, 0.3, {1.4, 0.9, 0.9}},
+          wide = {GG_USF, 160, 0.1, 0.7, 1, INFINITY, {3, 1, 1.1}};
+  const md_case all[] = {dilute, dense, fewest, wide};
+  for (int k = 0; k < 4; k++) {
+    gg_model m = md_model(all[k]);
+    gg_md *e = md_create(&m, 1);
+    assert_non_null(e->row);
+    if (k == 2) assert_int_equal(e->cells.n[0], GG_FEWEST_DRIFTING);
+    md_destroy(e);
+    for (uint64_t seed = 1; seed <= 4; seed++) one(all[k], seed, 200, seed == 1 ? 1500 : 300);
+    gg_scene s = md_scene(all[k]);
+    s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5, s.species[1].diameter = 0.8;
+    follow(&s, 5, 200, 300);
+  }
+}
+
 /* Dilute, in boxes wide enough for cells that overlap. */
 static void shared_cells(void **state)
 {
@@ -275,17 +299,10 @@ static void late(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(periodic),
-      cmocka_unit_test(sheared),
-      cmocka_unit_test(mixtures),
-      cmocka_unit_test(between_walls),
-      cmocka_unit_test(under_gravity),
-      cmocka_unit_test(dense),
-      cmocka_unit_test(few_grains),
-      cmocka_unit_test(listed),
-      cmocka_unit_test(wide_cells),
-      cmocka_unit_test(shared_cells),
-      cmocka_unit_test(ten_thousand_in_a_row),
+      cmocka_unit_test(periodic),       cmocka_unit_test(sheared),       cmocka_unit_test(mixtures),
+      cmocka_unit_test(between_walls),  cmocka_unit_test(under_gravity), cmocka_unit_test(dense),
+      cmocka_unit_test(few_grains),     cmocka_unit_test(listed),        cmocka_unit_test(wide_cells),
+      cmocka_unit_test(drifting_cells), cmocka_unit_test(shared_cells),  cmocka_unit_test(ten_thousand_in_a_row),
       cmocka_unit_test(late),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
