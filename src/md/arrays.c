@@ -72,7 +72,7 @@ void gg_md_free(gg_md *e)
   free(e->node);
   free(e->spin);
   free(e->last);
-  free(e->row);
+  if (e->row) free(e->row - 1);
   free(e->shell);
   free(e->neighbour);
   free(e->id);

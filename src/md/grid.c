@@ -1,18 +1,17 @@
 /* The grid that suits a model, and the grains' places in it. */
 #include <math.h>
 
-#include "md/drift.h"
-#include "md/shared.h"
+#include "md/shared_rows.h"
 
-/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains, of eight under shear; from
- * 0.4 on neighbour lists; in between plain cells, from 0.25 on of a contact distance, below with this many grains:
- * fewer crossings against more pairs to try. */
+/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists;
+ * in between plain cells, from 0.25 on of a contact distance, below with this many grains: fewer crossings against more
+ * pairs to try. */
 #define SHARED_BELOW 0.05
 #define GRAINS_PER_SHARED_CELL 6.0
-#define GRAINS_PER_SHEARED_CELL 8.0
 #define LISTED_FROM 0.4
 #define GRAINS_PER_CELL 0.7
 #define NARROW_FROM 0.25
+enum { FEWEST_SHARED = 6 };
 
 double gg_md_reach(const gg_model *m)
 {
@@ -44,32 +43,14 @@ static bool fit_lists(const gg_model *m, double radius, int32_t n[3])
   return true;
 }
 
-/* How much faster grains move along x than across, where the flow carries them: u_x is uniform within half the slide.
- */
-static double mean_speed_ratio(const gg_model *m)
-{
-  double flow = 0.25 * m->shear_rate * m->box[1];
-  return sqrt(1 + 0.5 * M_PI * flow * flow / m->temperature0);
-}
-
-/* Pairs in a cell, and under shear those in a window of three cells along x, in one more each by now, must have one
- * nearest image. Under shear, cells are long: as often left along x as across. */
+/* Pairs in a cell must have one nearest image. */
 static bool fit_shared(const gg_model *m, int32_t n[3])
 {
-  bool sheared = m->shear_rate != 0;
-  int32_t x[3], least[3] = {sheared ? 8 : 6, 6, 6};
   if (m->walled || m->phi >= SHARED_BELOW) return false;
-  double grains = sheared ? GRAINS_PER_SHEARED_CELL : GRAINS_PER_SHARED_CELL, narrowest = 3 * gg_md_reach(m);
-  double room = grains * m->volume / (double)m->n, across = cbrt(room), along = across;
-  if (sheared) {
-    along = fmin(along * pow(mean_speed_ratio(m), 2.0 / 3), m->box[0] / least[0]);
-    across = sqrt(room / along);
-  }
-  count_cells(m, fmax(narrowest, along), x);
-  count_cells(m, fmax(narrowest, across), n);
-  n[0] = x[0];
+  double narrowest = 3 * gg_md_reach(m);
+  count_cells(m, fmax(narrowest, cbrt(GRAINS_PER_SHARED_CELL * m->volume / (double)m->n)), n);
   for (int a = 0; a < 3; a++) {
-    if (n[a] < least[a]) n[a] = least[a];
+    if (n[a] < FEWEST_SHARED) n[a] = FEWEST_SHARED;
     if (m->box[a] < narrowest * n[a]) return false;
   }
   return true;
@@ -113,7 +94,7 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   if (where == GG_LISTS) return gg_md_make_lists(e, radius, err);
   e->shared = where == GG_SHARED_CELLS;
   GG_TRY(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err));
-  if (where != GG_DRIFTING_CELLS) return GG_OK;
+  if (e->box.slide == 0 || where == GG_CELLS) return GG_OK;
   GG_TRY(gg_md_make_rows(e, err));
   gg_md_align_rows(e);
   return GG_OK;
@@ -129,13 +110,14 @@ void gg_md_cell_of(const gg_cells *c, gg_vec r, int32_t cell[3])
 
 void gg_md_enter_grid(gg_md *e)
 {
-  gg_features f = {.sheared = e->box.slide != 0};
   for (uint32_t i = 0; i < e->n; i++)
-    if (e->shared)
-      gg_shared_place(e, f, e->grain[i].r, &e->node[i]);
+    if (e->shared && e->row)
+      gg_rows_place(e, e->grain[i].r, &e->node[i]);
+    else if (e->shared)
+      gg_shared_place(e, e->grain[i].r, &e->node[i]);
     else
       gg_md_cell_of(&e->cells, e->shell ? e->shell[i].centre : e->grain[i].r, e->node[i].cell);
-  for (uint32_t i = 0; e->row && i < e->n; i++)
+  for (uint32_t i = 0; e->row && !e->shared && i < e->n; i++)
     e->node[i].cell[0] = gg_md_drifting_cell(e, e->node[i].cell[1], e->grain[i].r.x);
 }
 
@@ -144,7 +126,10 @@ bool gg_md_fill_grid(gg_md *e)
   gg_cells_clear(&e->cells);
   for (uint32_t i = 0; e->shared && i < e->n; i++) {
     gg_members in;
-    gg_shared_cells(e, &e->node[i], &in);
+    if (e->row)
+      gg_rows_cells(e, &e->node[i], &in);
+    else
+      gg_shared_cells(e, &e->node[i], &in);
     if (!gg_shared_enter(e, i, &in)) return false;
   }
   if (e->shared) return true;

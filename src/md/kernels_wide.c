@@ -25,7 +25,7 @@ MOTIONS(drifting, .wide = true, .sheared = true, .drifts = true)
 MOTIONS(walled, .wide = true, .walled = true)
 MOTIONS(falling, .wide = true, .walled = true, .gravity = true)
 MOTIONS(periodic_shared, .wide = true, .shared = true)
-MOTIONS(sheared_shared, .wide = true, .shared = true, .sheared = true)
+MOTIONS(sheared_shared, .wide = true, .shared = true, .sheared = true, .drifts = true)
 MOTIONS(periodic_listed, .listed = true)
 MOTIONS(sheared_listed, .listed = true, .sheared = true)
 

@@ -176,7 +176,7 @@ GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
   inside.inside = true;
   if (!f.shared && s->inside)
     gg_scan_batches(e, inside, s, s->near, s->n_near);
-  else if (f.drifts && s->regular)
+  else if (f.drifts && !f.shared && s->regular)
     gg_scan_batches(e, still, s, s->near, s->n_near);
   else
     gg_scan_batches(e, f, s, s->near, s->n_near);

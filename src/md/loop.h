@@ -8,8 +8,7 @@
 #ifndef GG_MD_LOOP_H
 #define GG_MD_LOOP_H
 
-#include "md/drift.h"
-#include "md/shared.h"
+#include "md/shared_rows.h"
 
 GG_INLINE void gg_leave_cell(gg_md *e, uint32_t i)
 {
@@ -44,7 +43,7 @@ GG_INLINE void gg_schedule(gg_md *e, gg_features f, gg_search *s)
     node->stamp = GG_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].stamp;
   }
   double exit = f.listed   ? gg_shell_exit(e, f, s->grain, s->self)
-                : f.shared ? gg_shared_next(e, f, s, &node->face)
+                : f.shared ? (f.drifts ? gg_rows_next(e, s, &node->face) : gg_shared_next(e, s, &node->face))
                            : gg_next_face(e, f, s, &node->face);
   gg_queue_remove(&e->queue, e->node, s->grain);
   node->time = s->collision < exit ? s->collision : exit;
@@ -59,8 +58,10 @@ GG_INLINE void gg_search_all(gg_md *e, gg_features f, gg_search *s, uint32_t i)
   gg_begin_search(s, i, gg_settle(e, f, i), INFINITY, GG_NONE);
   if (f.listed)
     gg_scan_batches(e, f, s, gg_list(e, i), e->node[i].neighbours);
+  else if (f.shared && f.drifts)
+    gg_rows_scan(e, s);
   else if (f.shared)
-    gg_shared_scan(e, f, s);
+    gg_shared_scan(e, s);
   else if (f.drifts)
     gg_drift_around(e, f, s);
   else
@@ -94,43 +95,15 @@ GG_INLINE void gg_cross_sheared(gg_md *e, gg_grain *g, gg_node *node, int side)
   node->cell[0] = x < e->cells.n[0] ? x : e->cells.n[0] - 1;
 }
 
-/* Through the sheared boundary into the cells there. */
-GG_INLINE void gg_come_through(gg_md *e, gg_features f, uint32_t i, int up)
-{
-  gg_node *node = &e->node[i];
-  gg_grain *g = &e->grain[i];
-  gg_members in;
-  gg_shared_cells(e, node, &in);
-  gg_shared_leave(e, i, &in, in.which);
-  int side = up ? 1 : -1;
-  g->r.y -= side * e->box.edge[1];
-  gg_cross_sheared(e, g, node, side);
-  g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
-  gg_vec r = g->r;
-  r.y = up ? 0 : e->box.edge[1];
-  gg_shared_place(e, f, r, node);
-  gg_shared_cells(e, node, &in);
-  gg_check_memory(e, gg_shared_enter(e, i, &in));
-  gg_predict(e, f, i);
-}
-
 /* Into another cell that overlaps with those that the grain is in. */
 GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
 {
   const gg_node *node = &e->node[i];
   gg_search s = {.near = e->near};
-  gg_step step = {node->face >> 1, node->face & 1};
-  bool slide = f.sheared && node->face == GG_SLIDE, across = f.sheared && step.axis == 1;
-  gg_grain *g = gg_settle_step(e, i, across ? (gg_step){3, 0} : step);
+  int lane = node->face >> 1, up = node->face & 1;
+  gg_grain *g = f.drifts ? gg_settle_in_rows(e, f, i, lane) : gg_settle_step(e, i, (gg_step){lane, up});
   gg_begin_search(&s, i, g, node->collision, node->partner);
-  if (slide) {
-    gg_shared_slides(e, f, &s);
-  } else if (across && gg_is_last(e, f, 1, node->cell[1] + (step.up ? (int)(node->neighbours >> 1 & 1) : 0), step.up)) {
-    gg_come_through(e, f, i, step.up);
-    return;
-  } else {
-    gg_check_memory(e, gg_shared_cross(e, f, &s, step));
-  }
+  gg_check_memory(e, f.drifts ? gg_rows_cross(e, &s, lane, up) : gg_shared_cross(e, &s, (gg_step){lane, up}));
   gg_scan_near(e, f, &s);
   gg_schedule(e, f, &s);
 }
@@ -252,7 +225,7 @@ GG_INLINE bool gg_is_cached(const gg_md *e, gg_features f)
 }
 
 /* Of a grain that will come into another cell: that cell, or the grains in it. Else the partner. */
-GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
+GG_INLINE void gg_prefetch_shared(const gg_md *e, gg_features f, uint32_t i, bool members)
 {
   const gg_node *node = &e->node[i];
   const gg_cells *c = &e->cells;
@@ -262,9 +235,10 @@ GG_INLINE void gg_prefetch_shared(const gg_md *e, uint32_t i, bool members)
     __builtin_prefetch(&e->node[node->partner]);
     return;
   }
-  if (node->face == GG_SLIDE) return;
   int axis = node->face >> 1, up = node->face & 1;
   int32_t at[3] = {node->cell[0], node->cell[1], node->cell[2]};
+  if (f.drifts && axis == 1) return; /* the cell there depends on how far its row has drifted */
+  if (f.drifts && axis == GG_UPPER_X) axis = 0, at[0] = node->upper, at[1] = gg_cell_after(e, 1, at[1]);
   if (!up)
     at[axis]--;
   else
@@ -283,7 +257,7 @@ GG_INLINE void gg_prefetch_step(const gg_md *e, gg_features f, uint32_t i)
   const gg_cells *c = &e->cells;
   const int32_t *at = node->cell;
   __builtin_prefetch(&e->grain[i]);
-  if (f.sheared && node->face == GG_SLIDE) return;
+  if (f.drifts) return;
   int axis = node->face >> 1, step = 2 * (node->face & 1) - 1;
   const uint32_t *part = c->part[axis] + at[axis];
   uint32_t own = c->part[0][at[0]] + c->part[1][at[1]] + c->part[2][at[2]], next = own + part[step] - part[0];
@@ -298,7 +272,7 @@ GG_INLINE void gg_prefetch_due(const gg_md *e, gg_features f)
   for (uint32_t k = 0; k < e->queue.n_due; k++) {
     uint32_t i = e->queue.due[k].grain, j = e->node[i].partner;
     __builtin_prefetch(&e->grain[i]);
-    if (f.shared) gg_prefetch_shared(e, i, false);
+    if (f.shared) gg_prefetch_shared(e, f, i, false);
     if (f.shared || GG_NO_GRAIN(j)) continue;
     __builtin_prefetch(&e->grain[j]);
     __builtin_prefetch(&e->node[j]);
@@ -344,7 +318,7 @@ GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
   }
   if (f.listed) gg_prefetch_neighbours(e, f);
   if (!f.listed && !f.shared && n >= 2 && e->n > 40000) gg_prefetch_around(e, e->queue.due[n - 2].grain);
-  if (f.shared && n >= 2) gg_prefetch_shared(e, e->queue.due[n - 2].grain, true);
+  if (f.shared && n >= 2) gg_prefetch_shared(e, f, e->queue.due[n - 2].grain, true);
 }
 
 /* The next event of all; GG_NONE if there is none before e->stop. Rows slip as soon as something would happen later, or
@@ -357,13 +331,13 @@ GG_INLINE uint32_t gg_next(gg_md *e, gg_features f)
         gg_prefetch_due(e, f);
       else if (gg_queue_span(&e->queue) > e->stop)
         return GG_NONE;
-      else if (f.drifts && e->slip <= gg_queue_span(&e->queue))
+      else if (f.drifts && !f.shared && e->slip <= gg_queue_span(&e->queue))
         gg_slip(e, f);
       else if (!gg_md_next_epoch(e))
         return GG_NONE;
     gg_due due = e->queue.due[e->queue.n_due - 1];
     if (!(due.time <= e->stop)) return GG_NONE;
-    if (!f.drifts || due.time <= e->slip) return due.grain;
+    if (!f.drifts || f.shared || due.time <= e->slip) return due.grain;
     gg_slip(e, f);
   }
 }

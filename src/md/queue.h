@@ -24,6 +24,7 @@ typedef struct gg_node {
   int32_t cell[3];
   uint32_t neighbours; /* in its list */
   int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), GG_SLIDE or GG_SHELL */
+  int32_t upper;       /* cell along x in the upper one of two rows that drift */
   double shell_built;  /* time at which the grain's shell was made, of shells that shrink */
 } __attribute__((aligned(64))) gg_node;
 

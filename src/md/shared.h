@@ -5,7 +5,7 @@
  * Leaving a cell is no event: it is done at the grain's next one.
  *
  * node->cell is the lower cell along each axis; bit a of node->neighbours tells whether the grain is in the next one
- * along axis a, too. Nobody is in cells across a sheared boundary: who is near it searches a window beyond it. */
+ * along axis a, too. Under shear: shared_rows.h. */
 #ifndef GG_MD_SHARED_H
 #define GG_MD_SHARED_H
 
@@ -20,12 +20,6 @@ GG_INLINE gg_axes gg_depths(const gg_md *e, const gg_node *node, const gg_vec *r
   gg_axes cell = __builtin_convertvector(gg_load_indices(node->cell), gg_axes);
   gg_axes depth = gg_load_axes(&r->x) - cell * gg_load_axes(e->cells.width);
   return depth - gg_load_axes(e->box.edge) * gg_nearest_axes(depth * gg_load_axes(e->box.inverse));
-}
-
-/* Is there no cell beyond, upwards or downwards? */
-GG_INLINE bool gg_is_last(const gg_md *e, gg_features f, int axis, int32_t cell, int up)
-{
-  return f.sheared && axis == 1 && cell == (up ? e->cells.n[1] - 1 : 0);
 }
 
 /* Cells that a grain may be in: number `index` is up along those axes whose bits are set in that number. `which` has
@@ -75,16 +69,16 @@ GG_INLINE bool gg_shared_enter(gg_md *e, uint32_t i, const gg_members *in)
 }
 
 /* The cells of a place in the box. */
-GG_INLINE void gg_shared_place(const gg_md *e, gg_features f, gg_vec r, gg_node *node)
+GG_INLINE void gg_shared_place(const gg_md *e, gg_vec r, gg_node *node)
 {
   double half = 0.5 * e->cells.reach;
   gg_md_cell_of(&e->cells, r, node->cell);
   node->neighbours = 0;
   for (int a = 0; a < 3; a++) {
     double depth = gg_along(&r, a) - node->cell[a] * e->cells.width[a];
-    if (depth > e->cells.width[a] - half && !gg_is_last(e, f, a, node->cell[a], 1)) {
+    if (depth > e->cells.width[a] - half) {
       node->neighbours |= 1u << a;
-    } else if (depth < half && !gg_is_last(e, f, a, node->cell[a], 0)) {
+    } else if (depth < half) {
       node->neighbours |= 1u << a;
       node->cell[a] = node->cell[a] ? node->cell[a] - 1 : e->cells.n[a] - 1;
     }
@@ -146,7 +140,7 @@ GG_INLINE void gg_store_cell(gg_node *node, gg_indices cell)
 }
 
 /* When the grain comes into another cell, and along which axis, which way. */
-GG_INLINE double gg_shared_next(const gg_md *e, gg_features f, const gg_search *s, int32_t *face)
+GG_INLINE double gg_shared_next(const gg_md *e, const gg_search *s, int32_t *face)
 {
   const gg_node *node = &e->node[s->grain];
   double half = 0.5 * e->cells.reach;
@@ -154,70 +148,16 @@ GG_INLINE double gg_shared_next(const gg_md *e, gg_features f, const gg_search *
   gg_axes depth = gg_depths(e, node, &s->self->r), zero = {0}, never = {INFINITY, INFINITY, INFINITY, INFINITY};
   gg_axes upwards = gg_choose_axes(gg_axes_of(node->neighbours), 2 * width, width) - half - depth;
   gg_axes way = gg_choose_axes(v > 0, upwards, depth - half);
-  if (f.sheared) { /* or through the boundary */
-    int up = v[1] > 0, both = node->neighbours >> 1 & 1;
-    if (gg_is_last(e, f, 1, node->cell[1] + (up ? both : 0), up)) way += (gg_axes){0, half, 0, 0};
-  }
   gg_axes delay = way / (gg_axes)((gg_axes_mask)v & INT64_MAX);
   delay = gg_choose_axes(delay > 0, delay, zero); /* at rest: NAN or infinite */
   delay = gg_choose_axes((v != 0) & (gg_axes_mask){-1, -1, -1, 0}, delay, never);
   gg_axes first = gg_least_axes(delay);
   int axis = __builtin_ctz(gg_axes_bits(delay == first));
   *face = 2 * axis + (int)(gg_axes_bits(v > 0) >> axis & 1);
-  double t = e->k.now + first[0];
-  if (f.sheared && s->valid < t) t = s->valid, *face = GG_SLIDE;
-  return t;
+  return e->k.now + first[0];
 }
 
-/* The row across the sheared boundary, searched around where the grain is in it: what it can touch until a time
- * `valid`, with a cell of store in the direction in which it moves along the row. */
-GG_INLINE void gg_shared_slide(const gg_md *e, gg_features f, gg_search *s, int side)
-{
-  const gg_cells *c = &e->cells;
-  const gg_node *node = &e->node[s->grain];
-  double w = c->width[0], reach = 1.5 * c->reach, speed = s->self->v.x - side * e->box.slide;
-  double x = s->self->r.x - side * gg_offset(&e->box, e->k.now);
-  int32_t from = (int32_t)gg_floor((x - reach) / w), to = (int32_t)gg_floor((x + reach) / w);
-  if (speed < 0)
-    from--;
-  else
-    to++;
-  double room = speed < 0 ? x - c->reach - from * w : (to + 1) * w - x - c->reach;
-  double valid = e->k.now + room / fabs(speed); /* at rest in the row: never */
-  if (valid < s->valid) s->valid = valid;
-  int deep = node->neighbours >> 2 & 1;
-  for (int32_t z = node->cell[2]; z <= node->cell[2] + deep; z++) {
-    gg_vec shift = {0, 0, 0};
-    int32_t iz = gg_image_cell(e, 2, z, &shift.z);
-    gg_scan_row(e, f, s, from, to, side > 0 ? 0 : c->n[1] - 1, iz, shift, 0);
-  }
-}
-
-/* Two grains touch across the sheared boundary only where both are within reach of it. Who is not so far, at this
- * height above or below it, looks across when it comes there: whoever of the two has the last event sees the other. */
-GG_INLINE void gg_shared_approach(const gg_md *e, gg_features f, gg_search *s, int side, double height)
-{
-  double reach = e->cells.reach, speed = side * s->self->v.y;
-  if (height < 1.25 * reach) {
-    gg_shared_slide(e, f, s, side);
-  } else if (speed > 0) {
-    double valid = e->k.now + (height - reach) / speed;
-    if (valid < s->valid) s->valid = valid;
-  }
-}
-
-GG_INLINE void gg_shared_slides(const gg_md *e, gg_features f, gg_search *s)
-{
-  s->valid = INFINITY;
-  if (!f.sheared) return;
-  const gg_node *node = &e->node[s->grain];
-  double y = s->self->r.y;
-  int top = node->cell[1] + (int)(node->neighbours >> 1 & 1) == e->cells.n[1] - 1;
-  if (top) gg_shared_approach(e, f, s, 1, e->box.edge[1] - y);
-  if (node->cell[1] == 0) gg_shared_approach(e, f, s, -1, y);
-}
-
-GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, const gg_members *in)
+GG_INLINE void gg_shared_take(const gg_md *e, gg_search *s, const gg_members *in)
 {
   const uint32_t *cell = e->cells.cell;
   size_t stride = e->cells.stride;
@@ -228,19 +168,18 @@ GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, const
     if (room || one[0] <= last - end) end = gg_append_large(end, one);
   }
   s->n_near = (uint32_t)(end - s->near);
-  gg_shared_slides(e, f, s);
 }
 
 /* All who share a cell with the grain, after it has been taken out of cells that it has left. */
-GG_INLINE void gg_shared_scan(gg_md *e, gg_features f, gg_search *s)
+GG_INLINE void gg_shared_scan(gg_md *e, gg_search *s)
 {
   gg_members in;
   gg_store_cell(&e->node[s->grain], gg_shared_trim(e, s->grain, (gg_step){3, 0}, &in));
-  gg_shared_take(e, f, s, &in);
+  gg_shared_take(e, s, &in);
 }
 
 /* Into the next cell along an axis: those who are there. */
-GG_INLINE bool gg_shared_cross(gg_md *e, gg_features f, gg_search *s, gg_step step)
+GG_INLINE bool gg_shared_cross(gg_md *e, gg_search *s, gg_step step)
 {
   gg_node *node = &e->node[s->grain];
   gg_members in;
@@ -254,7 +193,7 @@ GG_INLINE bool gg_shared_cross(gg_md *e, gg_features f, gg_search *s, gg_step st
   cell += gg_load_indices(e->cells.n) & (cell < 0);
   cell[3] |= 1 << step.axis;
   gg_store_cell(node, cell);
-  gg_shared_take(e, f, s, &in);
+  gg_shared_take(e, s, &in);
   return gg_shared_enter(e, s->grain, &in);
 }
 

@@ -97,10 +97,10 @@ struct gg_md {
   uint32_t *near; /* of two searches at a time, GG_NEAR_APART: whom to try (scan.h) */
   gg_queue queue;
   gg_md_counts k;
-  gg_row *row;              /* one for each layer of cells along y that drift; NULL: cells are at rest */
-  double slip;              /* epoch time at which rows will have slipped by a cell; INFINITY: never */
-  double stop;              /* end of the present advance, epoch time */
-  double outer_stop;        /* the same in outside time since it began; INFINITY: none */
+  gg_row *row;       /* of cells that drift: one for each layer along y, and -1 and n_y; NULL: cells are at rest */
+  double slip;       /* epoch time at which rows will have slipped by a cell; INFINITY: never */
+  double stop;       /* end of the present advance, epoch time */
+  double outer_stop; /* the same in outside time since it began; INFINITY: none */
   uint64_t collisions_left; /* of the present advance */
   bool plain;               /* one pair at a time, the reference for the tests */
   bool shared;              /* the cells overlap (shared.h) */

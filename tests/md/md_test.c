@@ -206,21 +206,33 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
   return true;
 }
 
-/* Overlapping cells: in one or two along each axis, and not yet in a third, whose region begins half a contact distance
- * before it. At the sheared boundary there is none beyond, only the boundary. */
+/* Where a grain is along x in a row that drifts, of which it may be stored another image. */
+static double along_row(const gg_md *e, int32_t row, gg_vec r)
+{
+  double layers = rint((r.y - (row + 0.5) * e->cells.width[1]) / e->box.edge[1]);
+  return r.x - layers * gg_offset(&e->box, e->k.now) - e->row[row].origin - e->row[row].speed * e->k.now;
+}
+
+/* Overlapping cells along one axis: in one or in two, and not yet in a third, whose region begins half a contact
+ * distance before it. */
+static bool is_between(const gg_md *e, int axis, double x, int32_t cell, bool both)
+{
+  double half = 0.5 * e->cells.reach, w = e->cells.width[axis], L = e->box.edge[axis], room = 1e-12 * L;
+  double depth = x - cell * w;
+  depth -= L * rint((depth - w) / L);
+  return depth > half - room && depth < (1 + both) * w - half + room;
+}
+
 static bool is_in_shared_cells(const gg_md *e, uint32_t i, gg_vec r)
 {
-  double half = 0.5 * e->cells.reach;
-  for (int a = 0; a < 3; a++) {
-    int32_t cell = e->node[i].cell[a], both = e->node[i].neighbours >> a & 1;
-    bool bounded = a == 1 && e->model.shear_rate != 0;
-    double w = e->cells.width[a], L = e->box.edge[a], room = 1e-12 * L, depth = gg_along(&r, a) - cell * w;
-    depth -= L * rint((depth - w) / L);
-    double least = bounded && cell == 0 ? 0 : half;
-    double most = (both + 1) * w - (bounded && cell + both == e->cells.n[a] - 1 ? 0 : half);
-    if (depth < least - room || depth > most + room) return false;
-  }
-  return true;
+  const gg_node *node = &e->node[i];
+  uint32_t both = node->neighbours;
+  int32_t lower = node->cell[1], upper = (lower + 1) % e->cells.n[1];
+  for (int a = e->row ? 1 : 0; a < 3; a++)
+    if (!is_between(e, a, gg_along(&r, a), node->cell[a], both >> a & 1)) return false;
+  if (!e->row) return true;
+  if (!is_between(e, 0, along_row(e, lower, r), node->cell[0], both & 1)) return false;
+  return !(both & 2) || is_between(e, 0, along_row(e, upper, r), node->upper, both >> 3 & 1);
 }
 
 /* Under shear shells shrink and move: their exits are tested by what they are for, contacts. */

@@ -210,7 +210,7 @@ static void shared_cells(void **state)
     gg_model m = md_model(all[k]);
     gg_md *e = md_create(&m, 1);
     assert_true(e->shared);
-    if (k == 3) assert_int_equal(e->cells.n[0], 8);
+    if (k == 3) assert_int_equal(e->cells.n[0], 6);
     md_destroy(e);
   }
   for (uint64_t seed = 1; seed <= 4; seed++) {

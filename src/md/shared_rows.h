@@ -1,0 +1,223 @@
+/* Cells that overlap (shared.h), in a dilute gas under shear: rows of them along x, each of which moves with the mean
+ * flow at its middle. Two grains that touch are together in the layer of one row, which reaches half a contact distance
+ * beyond its faces, and there share a cell of that row. So each row is on its own, wherever the others have slipped to;
+ * and across the sheared boundary the next row is the image of the last one on the other side.
+ *
+ * A grain is in one row or in two, node->cell[1] and the next; in the lower one in cell node->cell[0], in the upper one
+ * in node->upper. There are four lanes: along x in the lower row, along y, along z, along x in the upper row; bit a of
+ * node->neighbours tells whether the grain is in the next cell along lane a, too. */
+#ifndef GG_MD_SHARED_ROWS_H
+#define GG_MD_SHARED_ROWS_H
+
+#include "md/drift.h"
+#include "md/shared.h"
+
+/* Of a step: x and y of the lower and the upper row. Lane 4: nowhere. */
+enum { GG_LOWER_X, GG_ALONG_Y, GG_ALONG_Z, GG_UPPER_X, GG_NO_LANE };
+
+/* Numbers of cells: bit 0 is x, bit 1 the row, bit 2 z. Which of them a grain is in. */
+GG_INLINE uint32_t gg_numbers_in_rows(uint32_t both)
+{
+  uint32_t lower = 1 | (both & 1) << 1, upper = (both >> 1 & 1) * (4 | (both & 8));
+  return (lower | upper) * (1 + ((both & 4) << 2));
+}
+
+GG_INLINE void gg_rows_cells(const gg_md *e, const gg_node *node, gg_members *in)
+{
+  const uint32_t *lower = e->cells.part[0] + node->cell[0], *upper = e->cells.part[0] + node->upper,
+                 *y = e->cells.part[1] + node->cell[1], *z = e->cells.part[2] + node->cell[2];
+  for (int deep = 0; deep < 2; deep++) {
+    uint32_t one = y[0] + z[deep], two = y[1] + z[deep], *index = in->index + 4 * deep;
+    index[0] = lower[0] + one, index[1] = lower[1] + one;
+    index[2] = upper[0] + two, index[3] = upper[1] + two;
+  }
+  in->which = gg_numbers_in_rows(node->neighbours);
+}
+
+/* The grain's lower row, counted on from that of which it is stored an image: -1 .. n_y - 1. */
+GG_INLINE int32_t gg_lower_row(const gg_md *e, const gg_node *node, double y)
+{
+  double depth = y - node->cell[1] * e->cells.width[1];
+  return node->cell[1] + (int32_t)gg_nearest(depth * e->box.inverse[1]) * e->cells.n[1];
+}
+
+/* From the lower edges of its lower cells to where a grain is, and how fast that grows, in each lane. */
+typedef struct gg_footing {
+  gg_axes depth, v, width;
+} gg_footing;
+
+GG_INLINE gg_footing gg_stand(const gg_md *e, const gg_node *node, const gg_grain *g)
+{
+  int32_t row = gg_lower_row(e, node, g->r.y);
+  const gg_row *lower = e->row + row, *upper = lower + 1;
+  const double *w = e->cells.width, *L = e->box.edge, *inverse = e->box.inverse;
+  gg_footing f;
+  f.width = (gg_axes){w[0], w[1], w[2], w[0]};
+  gg_axes corner = {gg_row_begins(e, row), 0, 0, gg_row_begins(e, row + 1)};
+  gg_axes cell = {node->cell[0], node->cell[1], node->cell[2], node->upper};
+  f.depth = (gg_axes){g->r.x, g->r.y, g->r.z, g->r.x} - corner - cell * f.width;
+  f.depth -= (gg_axes){L[0], L[1], L[2], L[0]} *
+             gg_nearest_axes(f.depth * (gg_axes){inverse[0], inverse[1], inverse[2], inverse[0]});
+  f.v = (gg_axes){g->v.x - lower->speed, g->v.y, g->v.z, g->v.x - upper->speed};
+  return f;
+}
+
+/* Of two cells along a lane, those that are kept: bit 0 the lower one, bit 1 the upper one. */
+GG_INLINE uint32_t gg_kept(uint32_t both, uint32_t above, uint32_t below, int lane)
+{
+  uint32_t had = 1 | (both >> lane & 1) << 1;
+  return had & ~((above >> lane & 1) | (below >> lane & 1) << 1);
+}
+
+/* Out of the cells that the grain is beyond by now, and of those behind the step that it is about to make. `in` are
+ * those that are left, under their old numbers. Returns the lane of the step, which is another one where the lower row
+ * has been left, or none where the row of the step has been. */
+GG_INLINE int gg_rows_trim(gg_md *e, uint32_t i, int lane, int up, gg_members *in)
+{
+  gg_node *node = &e->node[i];
+  gg_footing f = gg_stand(e, node, &e->grain[i]);
+  double half = 0.5 * e->cells.reach;
+  uint32_t both = node->neighbours, stepping = 1u << lane & 15, rising = up ? stepping : 0;
+  uint32_t above = ((gg_axes_bits(f.depth > f.width + half) & ~stepping) | rising) & both;
+  uint32_t below = ((gg_axes_bits(f.depth < f.width - half) & ~stepping) | (stepping ^ rising)) & both;
+  uint32_t rows = gg_kept(both, above, below, 1), deep = gg_kept(both, above, below, 2);
+  uint32_t kept = (rows & 1) * gg_kept(both, above, below, 0) | (rows & 2) * 2 * gg_kept(both, above, below, 3);
+  kept = (deep & 1) * kept | (deep & 2) * 8 * kept;
+  gg_rows_cells(e, node, in);
+  gg_shared_leave(e, i, in, in->which & ~kept);
+  in->which &= kept;
+  int32_t lower = gg_drifting_index(e, node->cell[0] + (int32_t)(above & 1)),
+          upper = gg_drifting_index(e, node->upper + (int32_t)(above >> 3 & 1));
+  both &= ~(above | below);
+  node->cell[2] += (int32_t)(above >> 2 & 1);
+  if (node->cell[2] == e->cells.n[2]) node->cell[2] = 0;
+  if (above & 2) {
+    lower = upper;
+    both = (both & ~1u) | both >> 3;
+    if (++node->cell[1] == e->cells.n[1]) node->cell[1] = 0;
+    lane = lane == GG_UPPER_X ? GG_LOWER_X : lane == GG_LOWER_X ? GG_NO_LANE : lane;
+  } else if ((below & 2) && lane == GG_UPPER_X) {
+    lane = GG_NO_LANE;
+  }
+  node->cell[0] = lower;
+  node->upper = upper;
+  node->neighbours = both & 2 ? both : both & ~8u;
+  return lane;
+}
+
+/* All who share a cell with the grain, after it has been taken out of cells that it has left. */
+GG_INLINE void gg_rows_scan(gg_md *e, gg_search *s)
+{
+  gg_members in;
+  gg_rows_trim(e, s->grain, GG_NO_LANE, 0, &in);
+  gg_shared_take(e, s, &in);
+}
+
+/* The cell of a row in which the place x is now; *both: in the next one, too. Row -1 and row n_y are images. */
+GG_INLINE int32_t gg_place_in_row(const gg_md *e, int32_t row, double x, uint32_t *both)
+{
+  double w = e->cells.width[0], half = 0.5 * e->cells.reach;
+  double depth = gg_wrap(x - gg_row_begins(e, row), e->box.edge[0], e->box.inverse[0]);
+  int32_t cell = (int32_t)(depth * e->cells.inverse[0]);
+  depth -= cell * w;
+  bool under = depth < half;
+  *both = under | (depth > w - half);
+  return gg_drifting_index(e, cell - under);
+}
+
+/* The cells of a place in the box. */
+GG_INLINE void gg_rows_place(const gg_md *e, gg_vec r, gg_node *node)
+{
+  double half = 0.5 * e->cells.reach;
+  uint32_t both[2];
+  gg_md_cell_of(&e->cells, r, node->cell);
+  node->neighbours = 0;
+  for (int a = 1; a < 3; a++) {
+    double depth = gg_along(&r, a) - node->cell[a] * e->cells.width[a];
+    if (depth < half && node->cell[a]-- == 0) node->cell[a] += e->cells.n[a];
+    if (depth < half || depth > e->cells.width[a] - half) node->neighbours |= 1u << a;
+  }
+  int32_t row = gg_lower_row(e, node, r.y);
+  node->cell[0] = gg_place_in_row(e, row, r.x, &both[0]);
+  node->upper = gg_place_in_row(e, row + 1, r.x, &both[1]);
+  node->neighbours |= both[0] | (node->neighbours & 2 ? both[1] << 3 : 0);
+}
+
+/* Into the row above or below those that the grain is in. */
+GG_INLINE void gg_enter_row(gg_md *e, gg_node *node, const gg_grain *g, int up)
+{
+  int32_t row = gg_lower_row(e, node, g->r.y);
+  uint32_t both, *bits = &node->neighbours;
+  int32_t cell = gg_place_in_row(e, up ? row + 1 : row - 1, g->r.x, &both);
+  if (up) {
+    node->upper = cell;
+    *bits |= 2 | both << 3;
+  } else {
+    node->upper = node->cell[0];
+    node->cell[0] = cell;
+    *bits = (*bits & 4) | 2 | (*bits & 1) << 3 | both;
+    if (node->cell[1]-- == 0) node->cell[1] += e->cells.n[1];
+  }
+}
+
+/* Into the next cell along a lane: those who are there. */
+GG_INLINE bool gg_rows_cross(gg_md *e, gg_search *s, int lane, int up)
+{
+  static const uint32_t fresh[4][2] = {{0x11, 0x22}, {0x33, 0xcc}, {0x0f, 0xf0}, {0x44, 0x88}};
+  gg_node *node = &e->node[s->grain];
+  gg_members in;
+  lane = gg_rows_trim(e, s->grain, lane, up, &in);
+  if (lane == GG_NO_LANE) return true;
+  if (lane == GG_ALONG_Y) {
+    gg_enter_row(e, node, s->self, up);
+  } else {
+    int32_t *cell = lane == GG_LOWER_X ? &node->cell[0] : lane == GG_UPPER_X ? &node->upper : &node->cell[2];
+    if (!up && (*cell)-- == 0) *cell += e->cells.n[lane == GG_ALONG_Z ? 2 : 0];
+    node->neighbours |= 1u << lane;
+  }
+  gg_rows_cells(e, node, &in);
+  in.which &= fresh[lane][up];
+  gg_shared_take(e, s, &in);
+  return gg_shared_enter(e, s->grain, &in);
+}
+
+/* When the grain comes into another cell, and along which lane, which way. */
+GG_INLINE double gg_rows_next(const gg_md *e, const gg_search *s, int32_t *face)
+{
+  const gg_node *node = &e->node[s->grain];
+  gg_footing f = gg_stand(e, node, s->self);
+  double half = 0.5 * e->cells.reach;
+  gg_axes zero = {0}, never = {INFINITY, INFINITY, INFINITY, INFINITY};
+  gg_axes upwards = gg_choose_axes(gg_axes_of(node->neighbours), 2 * f.width, f.width) - half - f.depth;
+  gg_axes way = gg_choose_axes(f.v > 0, upwards, f.depth - half);
+  gg_axes delay = way / (gg_axes)((gg_axes_mask)f.v & INT64_MAX);
+  delay = gg_choose_axes(delay > 0, delay, zero); /* at rest: NAN or infinite */
+  gg_axes_mask open = {-1, -1, -1, -(int64_t)(node->neighbours >> 1 & 1)};
+  delay = gg_choose_axes((f.v != 0) & open, delay, never);
+  gg_axes first = gg_least_axes(delay);
+  int lane = __builtin_ctz(gg_axes_bits(delay == first));
+  *face = 2 * lane + (int)(gg_axes_bits(f.v > 0) >> lane & 1);
+  return e->k.now + first[0];
+}
+
+/* gg_settle, and into the box along the lane of a step; with an image above or below goes its velocity. */
+GG_INLINE gg_grain *gg_settle_in_rows(gg_md *e, gg_features f, uint32_t i, int lane)
+{
+  gg_grain *g = gg_settle(e, f, i);
+  if (lane == GG_ALONG_Z) {
+    g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
+    return g;
+  }
+  if (lane == GG_ALONG_Y) {
+    double layers = gg_floor(g->r.y * e->box.inverse[1]);
+    if (layers != 0) {
+      g->r.y -= layers * e->box.edge[1];
+      g->r.x -= layers * gg_offset(&e->box, e->k.now);
+      g->v.x -= layers * e->box.slide;
+    }
+  }
+  g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
+  return g;
+}
+
+#endif
