@@ -20,7 +20,7 @@ static gg_status allocate(gg_md *e, gg_error *err)
   e->grain = gg_md_new_lines((size_t)e->n + 1, sizeof *e->grain, err);
   e->node = gg_md_new_lines(e->n, sizeof *e->node, err);
   e->id = gg_new_array(e->n, sizeof *e->id, err);
-  e->near = gg_md_new_lines(2 * GG_NEAR_APART, sizeof *e->near, err);
+  e->near = gg_md_new_pages(2 * GG_NEAR_APART, sizeof *e->near, err);
   if (!e->grain || !e->node || !e->id || !e->near) return GG_FAILED;
   e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
   if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;

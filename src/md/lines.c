@@ -5,22 +5,33 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#define PAGE ((size_t)4096)
 #define HUGE_PAGE ((size_t)2 << 20)
+
+/* `bytes` of zeros, from a multiple of `alignment` on. */
+static void *new_block(size_t bytes, size_t alignment, gg_error *err)
+{
+  void *block = aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+  if (!block) {
+    gg_fail(err, GG_FAILED, "out of memory: %zu bytes were asked for", bytes);
+    return NULL;
+  }
+#ifdef MADV_HUGEPAGE
+  if (alignment == HUGE_PAGE) madvise(block, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE); /* a wish, no more */
+#endif
+  memset(block, 0, bytes);
+  return block;
+}
 
 /* Events jump all over these arrays: with pages of 4 KiB nearly every jump in a large system would miss the TLB, too.
  */
 void *gg_md_new_lines(size_t count, size_t size, gg_error *err)
 {
   size_t bytes = (count * size + 63) / 64 * 64 + 64;
-  bool huge = bytes >= 2 * HUGE_PAGE;
-  void *block = aligned_alloc(huge ? HUGE_PAGE : 64, huge ? (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE : bytes);
-  if (!block) {
-    gg_fail(err, GG_FAILED, "out of memory: %zu items of %zu bytes were asked for", count, size);
-    return NULL;
-  }
-#ifdef MADV_HUGEPAGE
-  if (huge) madvise(block, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE); /* a wish: no matter if it is not granted */
-#endif
-  memset(block, 0, bytes);
-  return block;
+  return new_block(bytes, bytes >= 2 * HUGE_PAGE ? HUGE_PAGE : 64, err);
+}
+
+void *gg_md_new_pages(size_t count, size_t size, gg_error *err)
+{
+  return new_block(count * size, PAGE, err);
 }
