@@ -295,16 +295,19 @@ GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
 }
 
 /* Two events ahead: the plain cells around, of which three neighbours along x stand on two lines. */
-GG_INLINE void gg_prefetch_around(const gg_md *e, uint32_t i)
+GG_INLINE void gg_prefetch_around(const gg_md *e, gg_features f, uint32_t i)
 {
   const int32_t *at = e->node[i].cell;
   const gg_cells *c = &e->cells;
-  const uint32_t *x = c->part[0] + at[0], *y = c->part[1] + at[1], *z = c->part[2] + at[2];
+  const uint32_t *y = c->part[1] + at[1], *z = c->part[2] + at[2];
+  int32_t below = f.drifts ? gg_drifting_index(e, at[0] + e->row[at[1]].below) : at[0],
+          above = f.drifts ? gg_drifting_index(e, at[0] - e->row[at[1]].above) : at[0];
+  const uint32_t *x[3] = {c->part[0] + below, c->part[0] + at[0], c->part[0] + above};
   for (int m = -1; m <= 1; m++)
     for (int l = -1; l <= 1; l++) {
       const uint32_t *row = c->cell + (size_t)(z[m] + y[l]) * c->stride;
-      __builtin_prefetch(row + (size_t)x[-1] * c->stride);
-      __builtin_prefetch(row + (size_t)x[1] * c->stride);
+      __builtin_prefetch(row + (size_t)x[l + 1][-1] * c->stride);
+      __builtin_prefetch(row + (size_t)x[l + 1][1] * c->stride);
     }
 }
 
@@ -317,7 +320,7 @@ GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
     return;
   }
   if (f.listed) gg_prefetch_neighbours(e, f);
-  if (!f.listed && !f.shared && n >= 2 && e->n > 40000) gg_prefetch_around(e, e->queue.due[n - 2].grain);
+  if (!f.listed && !f.shared && n >= 2 && e->n > 40000) gg_prefetch_around(e, f, e->queue.due[n - 2].grain);
   if (f.shared && n >= 2) gg_prefetch_shared(e, f, e->queue.due[n - 2].grain, true);
 }
 

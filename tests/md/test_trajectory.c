@@ -18,6 +18,8 @@ static const struct {
     {{GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}}, 0x52ec7a9c92dfa5bd},
     {{GG_USF, 300, 0.45, 0.9, 0, INFINITY, {0}}, 0x2414360ff0e60cb5},
     {{GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}}, 0x2f4beb9b4634246f},
+    {{GG_USF, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}}, 0},
+    {{GG_USF, 1000, 0.15, 0.8, 0, INFINITY, {1, 1.2, 1}}, 0},
     {{GG_COUETTE, 200, 0.2, 0.9, 0, INFINITY, {0}}, 0xe5dea531e22b46b4},
 };
 enum { CASES = sizeof stored / sizeof *stored };
