@@ -2,12 +2,14 @@
  *
  *   common + (j - J) lean + s_j w,  J = floor(n_y/2),
  *
- * where lean, in [0, w), is how far each row is ahead of the one below it beyond whole cells, and s_j whole numbers:
- * s_j+1 - s_j = turn inside the box and `seam` from its uppermost row to the image of the lowest one. All rows slip
- * past each other at the same speed, shear_rate h for layers of height h: so lean is the same for all of them, and all
- * whole numbers grow by one at the same time. With the image above at offset D, D = n_y lean + m w.
+ * where lean, at present in [0, w), is how far each row is ahead of the one below it beyond whole cells, and s_j whole
+ * numbers: s_j+1 - s_j = turn inside the box and `seam` from its uppermost row to the image of the lowest one. All rows
+ * slip past each other at the same speed, shear_rate h for layers of height h: so lean is the same for all of them, and
+ * all whole numbers grow by one at the same time. With the image above at offset D, D = n_y lean + m w.
  *
- * Rows of cells that overlap (shared_rows.h) need not know of each other: row j begins at (j + 1/2 - n_y/2) lean. */
+ * Rows of cells that overlap (shared_rows.h) need not know of each other: row j begins at (j + 1/2 - n_y/2) lean, where
+ * lean, in [0, 2 L_x), is how far rows have moved past each other. e->k.lean is what it was, or would have been, at the
+ * epoch's start. */
 #include <math.h>
 
 #include "md/drift.h"
@@ -49,7 +51,8 @@ static void place_free_rows(gg_md *e)
     e->row[j].speed = place * slip_speed(e);
   }
   e->row[-1] = (gg_row){e->row[n - 1].origin - e->box.offset0, e->row[n - 1].speed - e->box.slide, 0, 0};
-  e->row[n] = (gg_row){e->row[0].origin + e->box.offset0, e->row[0].speed + e->box.slide, 0, 0};
+  for (int k = 0; k < 2; k++)
+    e->row[n + k] = (gg_row){e->row[k].origin + e->box.offset0, e->row[k].speed + e->box.slide, 0, 0};
   e->slip = INFINITY;
 }
 
@@ -63,7 +66,7 @@ static void place_rows(gg_md *e)
 
 gg_status gg_md_make_rows(gg_md *e, gg_error *err)
 {
-  gg_row *row = gg_new_array((size_t)e->cells.n[1] + 2, sizeof *row, err);
+  gg_row *row = gg_new_array((size_t)e->cells.n[1] + 3, sizeof *row, err);
   if (!row) return GG_FAILED;
   e->row = row + 1;
   place_rows(e);

@@ -67,17 +67,17 @@ typedef struct gg_rows_seen {
 
 /* Cells x[from..to] of the rows that begin with `row` in each layer. Row by row there are so few addresses that all are
  * in registers. */
-GG_INLINE uint32_t *gg_take_row(uint32_t *end, const uint32_t *row, const uint32_t *const layer[3], const uint32_t *x,
-                                const int range[2], const int deep[2], size_t stride)
+GG_INLINE uint32_t gg_take_row(uint32_t *near, uint32_t n, const uint32_t *row, const uint32_t *const layer[3],
+                               const uint32_t *x, const int range[2], const int deep[2], size_t stride)
 {
   size_t step[4];
   for (int k = range[0]; k <= range[1]; k++) step[k - range[0]] = x[k] * stride;
   for (int m = deep[0]; m <= deep[1]; m++)
     for (int k = 0; k <= range[1] - range[0]; k++) {
       const uint32_t *cell = layer[m + 1] + (size_t)*row * stride + step[k];
-      end = stride == 8 ? gg_append_small(end, cell) : gg_append_cell(end, cell);
+      n = stride == 8 ? gg_append_small(near, n, cell) : gg_append_cell(near, n, cell);
     }
-  return end;
+  return n;
 }
 
 /* All of a window, for which there is room: what does not change is in local variables (gg_take_rows). */
@@ -85,11 +85,11 @@ GG_INLINE void gg_take_window(const gg_md *e, gg_search *s, const gg_rows_seen *
 {
   const uint32_t *z = seen->z, y[3] = {seen->y[-1], seen->y[0], seen->y[1]}, *layer[3];
   for (int m = w->deep[0]; m <= w->deep[1]; m++) layer[m + 1] = e->cells.cell + z[m] * stride;
-  uint32_t *end = s->near + s->n_near;
-  end = gg_take_row(end, y + 1, layer, seen->own, w->own, w->deep, stride);
-  end = gg_take_row(end, y + 2, layer, seen->above, w->above, w->deep, stride);
-  end = gg_take_row(end, y, layer, seen->below, w->below, w->deep, stride);
-  s->n_near = (uint32_t)(end - s->near);
+  uint32_t n = s->n_near;
+  n = gg_take_row(s->near, n, y + 1, layer, seen->own, w->own, w->deep, stride);
+  n = gg_take_row(s->near, n, y + 2, layer, seen->above, w->above, w->deep, stride);
+  n = gg_take_row(s->near, n, y, layer, seen->below, w->below, w->deep, stride);
+  s->n_near = n;
 }
 
 GG_INLINE void gg_drift_scan(const gg_md *e, gg_features f, gg_search *s, gg_window window)

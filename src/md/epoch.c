@@ -71,7 +71,7 @@ static void move_shells(gg_md *e, double span)
 bool gg_md_next_epoch(gg_md *e)
 {
   double span = gg_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
-  if (!(wait < INFINITY)) return false;
+  if (!(wait < INFINITY)) return false; /* all at rest, or each just as its row */
   if (e->row && e->slip < wait) wait = e->slip;
   while (span < 0.5 * wait) span *= 2; /* nothing happens for long: skip it */
   e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;

@@ -252,15 +252,15 @@ GG_INLINE void gg_collect_near(const gg_md *e, uint32_t i, gg_search *s)
   bool room = gg_has_room(e, 27);
   const uint32_t *cells = e->cells.cell;
   size_t stride = e->cells.stride;
-  uint32_t *end = s->near, *last = end + GG_MOST_NEAR;
+  uint32_t n = 0;
   for (uint32_t which = nearby.which; which; which &= which - 1) {
     const uint32_t *cell = cells + nearby.index[__builtin_ctz(which)] * stride;
-    if (room || cell[0] <= last - end)
-      end = gg_append_cell(end, cell);
+    if (room || n + cell[0] <= GG_MOST_NEAR)
+      n = gg_append_cell(s->near, n, cell);
     else
-      end = last;
+      n = GG_MOST_NEAR;
   }
-  s->n_near = (uint32_t)(end - s->near);
+  s->n_near = n;
 }
 
 typedef double gg_centre4 __attribute__((vector_size(32), may_alias, aligned(8)));

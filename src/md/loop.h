@@ -59,9 +59,9 @@ GG_INLINE void gg_search_all(gg_md *e, gg_features f, gg_search *s, uint32_t i)
   if (f.listed)
     gg_scan_batches(e, f, s, gg_list(e, i), e->node[i].neighbours);
   else if (f.shared && f.drifts)
-    gg_rows_scan(e, s);
+    gg_rows_scan(e, f, s);
   else if (f.shared)
-    gg_shared_scan(e, s);
+    gg_shared_scan(e, f, s);
   else if (f.drifts)
     gg_drift_around(e, f, s);
   else
@@ -103,7 +103,7 @@ GG_INLINE void gg_come_into_cell(gg_md *e, gg_features f, uint32_t i)
   int lane = node->face >> 1, up = node->face & 1;
   gg_grain *g = f.drifts ? gg_settle_in_rows(e, f, i, lane) : gg_settle_step(e, i, (gg_step){lane, up});
   gg_begin_search(&s, i, g, node->collision, node->partner);
-  gg_check_memory(e, f.drifts ? gg_rows_cross(e, &s, lane, up) : gg_shared_cross(e, &s, (gg_step){lane, up}));
+  gg_check_memory(e, f.drifts ? gg_rows_cross(e, f, &s, lane, up) : gg_shared_cross(e, f, &s, (gg_step){lane, up}));
   gg_scan_near(e, f, &s);
   gg_schedule(e, f, &s);
 }
@@ -115,7 +115,6 @@ GG_INLINE void gg_cross_face(gg_md *e, gg_features f, uint32_t i)
   gg_begin_search(&s, i, gg_settle(e, f, i), node->collision, node->partner);
   if (f.sheared && node->face == GG_SLIDE) {
     gg_scan_sliding_rows(e, f, &s);
-    if (f.wide) gg_scan_near(e, f, &s);
     gg_schedule(e, f, &s);
     return;
   }
@@ -235,14 +234,14 @@ GG_INLINE void gg_prefetch_shared(const gg_md *e, gg_features f, uint32_t i, boo
     __builtin_prefetch(&e->node[node->partner]);
     return;
   }
-  int axis = node->face >> 1, up = node->face & 1;
+  int axis = node->face >> 1, up = node->face & 1, both = node->neighbours >> axis & 1;
   int32_t at[3] = {node->cell[0], node->cell[1], node->cell[2]};
   if (f.drifts && axis == 1) return; /* the cell there depends on how far its row has drifted */
   if (f.drifts && axis == GG_UPPER_X) axis = 0, at[0] = node->upper, at[1] = gg_cell_after(e, 1, at[1]);
   if (!up)
     at[axis]--;
   else
-    at[axis] = (node->neighbours >> axis & 1 ? gg_cell_after(e, axis, at[axis]) : at[axis]) + 1;
+    at[axis] = (both ? gg_cell_after(e, axis, at[axis]) : at[axis]) + 1;
   const uint32_t *cell = c->cell + (size_t)(c->part[0][at[0]] + c->part[1][at[1]] + c->part[2][at[2]]) * c->stride;
   if (!members)
     __builtin_prefetch(cell);
@@ -294,7 +293,7 @@ GG_INLINE void gg_prefetch_neighbours(const gg_md *e, gg_features f)
   for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[others[k]]);
 }
 
-/* Two events ahead: the plain cells around, of which three neighbours along x stand on two lines. */
+/* Two events ahead: the plain cells around, of which three neighbours along x stand on two lines, four on three. */
 GG_INLINE void gg_prefetch_around(const gg_md *e, gg_features f, uint32_t i)
 {
   const int32_t *at = e->node[i].cell;
@@ -308,6 +307,7 @@ GG_INLINE void gg_prefetch_around(const gg_md *e, gg_features f, uint32_t i)
       const uint32_t *row = c->cell + (size_t)(z[m] + y[l]) * c->stride;
       __builtin_prefetch(row + (size_t)x[l + 1][-1] * c->stride);
       __builtin_prefetch(row + (size_t)x[l + 1][1] * c->stride);
+      if (f.drifts && l) __builtin_prefetch(row + (size_t)x[l + 1][-2 * l] * c->stride);
     }
 }
 
@@ -324,24 +324,26 @@ GG_INLINE void gg_prefetch_next(const gg_md *e, gg_features f)
   if (f.shared && n >= 2) gg_prefetch_shared(e, f, e->queue.due[n - 2].grain, true);
 }
 
-/* The next event of all; GG_NONE if there is none before e->stop. Rows slip as soon as something would happen later, or
- * the epoch end: a matter of the trajectory alone. */
+/* The next event of all; GG_NONE if there is none before e->stop. Rows slip after all events up to then and before all
+ * later ones: a matter of the trajectory alone. */
 GG_INLINE uint32_t gg_next(gg_md *e, gg_features f)
 {
+  bool slips = f.drifts && !f.shared;
   for (;;) {
     while (e->queue.n_due == 0)
       if (gg_queue_turn(&e->queue, e->node))
         gg_prefetch_due(e, f);
+      else if (slips && e->slip <= gg_queue_span(&e->queue) && e->slip <= e->stop)
+        gg_slip(e, f);
       else if (gg_queue_span(&e->queue) > e->stop)
         return GG_NONE;
-      else if (f.drifts && !f.shared && e->slip <= gg_queue_span(&e->queue))
-        gg_slip(e, f);
       else if (!gg_md_next_epoch(e))
         return GG_NONE;
     gg_due due = e->queue.due[e->queue.n_due - 1];
-    if (!(due.time <= e->stop)) return GG_NONE;
-    if (!f.drifts || f.shared || due.time <= e->slip) return due.grain;
-    gg_slip(e, f);
+    if (slips && e->slip < due.time && e->slip <= e->stop)
+      gg_slip(e, f);
+    else
+      return due.time <= e->stop ? due.grain : GG_NONE;
   }
 }
 

@@ -22,14 +22,14 @@ typedef struct gg_node {
   uint32_t partner, stamp; /* of that collision: with whom, and the partner's stamp when it was predicted */
   uint32_t later, earlier; /* chain of a full bucket */
   int32_t cell[3];
-  uint32_t neighbours; /* in its list */
-  int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), GG_SLIDE or GG_SHELL */
-  int32_t upper;       /* cell along x in the upper one of two rows that drift */
+  uint32_t neighbours; /* in its list; of overlapping cells: bits of those along which it is in two */
+  int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), or GG_SLIDE */
+  int32_t upper;       /* overlapping cells that drift: where along x in the upper one of two rows */
   double shell_built;  /* time at which the grain's shell was made, of shells that shrink */
 } __attribute__((aligned(64))) gg_node;
 
-/* The neighbouring cells across the sheared boundary have slid: look at them anew. The grain leaves its shell. */
-enum { GG_SLIDE = 6, GG_SHELL };
+/* The neighbouring cells across the sheared boundary have slid: look at them anew. */
+enum { GG_SLIDE = 8 };
 
 /* Partners that are no grains. */
 #define GG_LOWER_WALL (UINT32_MAX - 1)

@@ -3,9 +3,10 @@
  * Every neighbouring cell is looked at as one definite image, with its shift, so that boxes of one or two cells across
  * and grains that meet several images of one partner need no special case.
  *
- * Rows across a sheared boundary: the image row of cells stands at any offset and slides. The grain looks at all of it
- * that can come within reach of its cell until a time `valid`, and looks anew then. What makes incremental scans right:
- * at every scan a grain looks at the whole window of each sliding row, and otherwise neighbourhoods are symmetric. */
+ * Rows across a sheared boundary, of cells at rest in small boxes (else: drift.h): the image row of cells stands at any
+ * offset and slides. The grain looks at all of it that can come within reach of its cell until a time `valid`, and
+ * looks anew then. What makes incremental scans right: at every scan a grain looks at the whole window of each sliding
+ * row, and otherwise neighbourhoods are symmetric. */
 #ifndef GG_MD_SCAN_H
 #define GG_MD_SCAN_H
 
@@ -79,16 +80,17 @@ GG_INLINE void gg_try_pair(const gg_md *e, gg_features f, gg_search *s, uint32_t
   gg_try_separated(e, f, s, j, dr, dv);
 }
 
-/* All grains of a cell at the end of a list, eight words at a time: what stands behind the cell's end does not count.
- * Returns the list's new end. */
-GG_INLINE uint32_t *gg_append_cell(uint32_t *end, const uint32_t *cell)
+/* All grains of a cell behind the n that there are, eight words at a time: what stands behind its end does not count.
+ */
+GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *cell)
 {
   uint32_t count = cell[0];
-  memcpy(end, cell + 1, 8 * sizeof *cell);
-  for (uint32_t k = 8; k < count; k += 8) memcpy(end + k, cell + 1 + k, 8 * sizeof *cell);
-  return end + count;
+  memcpy(near + n, cell + 1, 8 * sizeof *cell);
+  for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
+  return n + count;
 }
-/* Of cells of sixteen words or more, line by line: the word behind a line would be another line to wait for. */
+/* At the end of a list, of cells of sixteen words or more, line by line: the word behind a line would be another line
+ * to wait for. Returns the new end. */
 GG_INLINE uint32_t *gg_append_large(uint32_t *end, const uint32_t *cell)
 {
   typedef uint32_t line __attribute__((vector_size(64), may_alias, aligned(4)));
@@ -100,17 +102,17 @@ GG_INLINE uint32_t *gg_append_large(uint32_t *end, const uint32_t *cell)
   return end + count;
 }
 /* Of cells of eight words. */
-GG_INLINE uint32_t *gg_append_small(uint32_t *end, const uint32_t *cell)
+GG_INLINE uint32_t gg_append_small(uint32_t *near, uint32_t n, const uint32_t *cell)
 {
-  memcpy(end, cell + 1, 8 * sizeof *cell);
-  return end + cell[0];
+  memcpy(near + n, cell + 1, 8 * sizeof *cell);
+  return n + cell[0];
 }
 
 /* False: no more room. */
 GG_INLINE bool gg_take_cell(gg_search *s, const uint32_t *cell)
 {
   if (s->n_near + cell[0] > GG_MOST_NEAR) return false;
-  s->n_near = (uint32_t)(gg_append_cell(s->near + s->n_near, cell) - s->near);
+  s->n_near = gg_append_cell(s->near, s->n_near, cell);
   return true;
 }
 
@@ -216,14 +218,14 @@ GG_INLINE void gg_take_rows(const gg_md *e, gg_search *s, const int32_t at[3], c
   for (int k = from[0]; k <= to[0]; k++) step[k + 1] = x[k] * stride;
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++) row[m + 1][l + 1] = c->cell + (size_t)(z[m] + y[l]) * stride;
-  uint32_t *end = s->near + s->n_near;
+  uint32_t n = s->n_near;
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++)
       for (int k = from[0]; k <= to[0]; k++) {
         const uint32_t *cell = row[m + 1][l + 1] + step[k + 1];
-        end = small ? gg_append_small(end, cell) : gg_append_cell(end, cell);
+        n = small ? gg_append_small(s->near, n, cell) : gg_append_cell(s->near, n, cell);
       }
-  s->n_near = (uint32_t)(end - s->near);
+  s->n_near = n;
 }
 
 /* Those of them that are in the box, in wide kernels; false: there may be no room for all. */

@@ -157,29 +157,43 @@ GG_INLINE double gg_shared_next(const gg_md *e, const gg_search *s, int32_t *fac
   return e->k.now + first[0];
 }
 
-GG_INLINE void gg_shared_take(const gg_md *e, gg_search *s, const gg_members *in)
+/* The grains of a cell for which there may be no room: those so far are tried first. */
+GG_INLINE void gg_take_crowded(const gg_md *e, gg_features f, gg_search *s, const uint32_t *cell)
+{
+  for (uint32_t k = 1; k <= cell[0]; k++) {
+    if (s->n_near == GG_MOST_NEAR) {
+      gg_scan_near(e, f, s);
+      s->n_near = 0;
+    }
+    s->near[s->n_near++] = cell[k];
+  }
+}
+
+GG_INLINE void gg_shared_take(const gg_md *e, gg_features f, gg_search *s, const gg_members *in)
 {
   const uint32_t *cell = e->cells.cell;
   size_t stride = e->cells.stride;
-  uint32_t *end = s->near + s->n_near, *last = s->near + GG_MOST_NEAR;
-  bool room = gg_has_room(e, 8);
-  for (uint32_t which = in->which; which; which &= which - 1) {
-    const uint32_t *one = cell + in->index[__builtin_ctz(which)] * stride;
-    if (room || one[0] <= last - end) end = gg_append_large(end, one);
+  if (__builtin_expect(!gg_has_room(e, 8), 0)) {
+    for (uint32_t which = in->which; which; which &= which - 1)
+      gg_take_crowded(e, f, s, cell + in->index[__builtin_ctz(which)] * stride);
+    return;
   }
+  uint32_t *end = s->near + s->n_near;
+  for (uint32_t which = in->which; which; which &= which - 1)
+    end = gg_append_large(end, cell + in->index[__builtin_ctz(which)] * stride);
   s->n_near = (uint32_t)(end - s->near);
 }
 
 /* All who share a cell with the grain, after it has been taken out of cells that it has left. */
-GG_INLINE void gg_shared_scan(gg_md *e, gg_search *s)
+GG_INLINE void gg_shared_scan(gg_md *e, gg_features f, gg_search *s)
 {
   gg_members in;
   gg_store_cell(&e->node[s->grain], gg_shared_trim(e, s->grain, (gg_step){3, 0}, &in));
-  gg_shared_take(e, s, &in);
+  gg_shared_take(e, f, s, &in);
 }
 
 /* Into the next cell along an axis: those who are there. */
-GG_INLINE bool gg_shared_cross(gg_md *e, gg_search *s, gg_step step)
+GG_INLINE bool gg_shared_cross(gg_md *e, gg_features f, gg_search *s, gg_step step)
 {
   gg_node *node = &e->node[s->grain];
   gg_members in;
@@ -193,7 +207,7 @@ GG_INLINE bool gg_shared_cross(gg_md *e, gg_search *s, gg_step step)
   cell += gg_load_indices(e->cells.n) & (cell < 0);
   cell[3] |= 1 << step.axis;
   gg_store_cell(node, cell);
-  gg_shared_take(e, s, &in);
+  gg_shared_take(e, f, s, &in);
   return gg_shared_enter(e, s->grain, &in);
 }
 

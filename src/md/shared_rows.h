@@ -34,7 +34,8 @@ GG_INLINE void gg_rows_cells(const gg_md *e, const gg_node *node, gg_members *in
   in->which = gg_numbers_in_rows(node->neighbours);
 }
 
-/* The grain's lower row, counted on from that of which it is stored an image: -1 .. n_y - 1. */
+/* The grain's lower row, counted from those of the image of the box that it is stored in: -1 .. n_y. It comes into the
+ * box when it next changes rows. */
 GG_INLINE int32_t gg_lower_row(const gg_md *e, const gg_node *node, double y)
 {
   double depth = y - node->cell[1] * e->cells.width[1];
@@ -106,11 +107,11 @@ GG_INLINE int gg_rows_trim(gg_md *e, uint32_t i, int lane, int up, gg_members *i
 }
 
 /* All who share a cell with the grain, after it has been taken out of cells that it has left. */
-GG_INLINE void gg_rows_scan(gg_md *e, gg_search *s)
+GG_INLINE void gg_rows_scan(gg_md *e, gg_features f, gg_search *s)
 {
   gg_members in;
   gg_rows_trim(e, s->grain, GG_NO_LANE, 0, &in);
-  gg_shared_take(e, s, &in);
+  gg_shared_take(e, f, s, &in);
 }
 
 /* The cell of a row in which the place x is now; *both: in the next one, too. Row -1 and row n_y are images. */
@@ -161,7 +162,7 @@ GG_INLINE void gg_enter_row(gg_md *e, gg_node *node, const gg_grain *g, int up)
 }
 
 /* Into the next cell along a lane: those who are there. */
-GG_INLINE bool gg_rows_cross(gg_md *e, gg_search *s, int lane, int up)
+GG_INLINE bool gg_rows_cross(gg_md *e, gg_features f, gg_search *s, int lane, int up)
 {
   static const uint32_t fresh[4][2] = {{0x11, 0x22}, {0x33, 0xcc}, {0x0f, 0xf0}, {0x44, 0x88}};
   gg_node *node = &e->node[s->grain];
@@ -177,7 +178,7 @@ GG_INLINE bool gg_rows_cross(gg_md *e, gg_search *s, int lane, int up)
   }
   gg_rows_cells(e, node, &in);
   in.which &= fresh[lane][up];
-  gg_shared_take(e, s, &in);
+  gg_shared_take(e, f, s, &in);
   return gg_shared_enter(e, s->grain, &in);
 }
 

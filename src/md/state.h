@@ -97,7 +97,7 @@ struct gg_md {
   uint32_t *near; /* of two searches at a time, GG_NEAR_APART: whom to try (scan.h) */
   gg_queue queue;
   gg_md_counts k;
-  gg_row *row;       /* of cells that drift: one for each layer along y, and -1 and n_y; NULL: cells are at rest */
+  gg_row *row;       /* of cells that drift: one for each layer along y, and images: -1, n_y, n_y + 1; NULL: at rest */
   double slip;       /* epoch time at which rows will have slipped by a cell; INFINITY: never */
   double stop;       /* end of the present advance, epoch time */
   double outer_stop; /* the same in outside time since it began; INFINITY: none */

@@ -62,8 +62,26 @@ static void instruction_sets_agree(void **state)
 #endif
 }
 
+/* In crowded cells there may be no room for all that a grain has to try: they are tried in parts. */
+static void crowds_are_tried_in_parts(void **state)
+{
+  (void)state;
+  for (int sheared = 0; sheared < 2; sheared++) {
+    gg_model m = md_model((md_case){sheared ? GG_USF : GG_HCS, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}});
+    gg_md *e = md_create(&m, 3), *crowded = md_create(&m, 3);
+    assert_true(e->shared);
+    while (crowded->cells.stride < GG_MOST_NEAR / 4) assert_true(gg_cells_grow(&crowded->cells));
+    md_collide(e, 5000);
+    md_collide(crowded, 5000);
+    assert_true(md_hash(e) == md_hash(crowded));
+    md_destroy(e);
+    md_destroy(crowded);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wide_is_plain), cmocka_unit_test(instruction_sets_agree)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wide_is_plain), cmocka_unit_test(instruction_sets_agree),
+                                     cmocka_unit_test(crowds_are_tried_in_parts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
