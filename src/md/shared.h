@@ -158,8 +158,8 @@ GG_INLINE double gg_shared_next(const gg_md *e, const gg_search *s, int32_t *fac
 }
 
 /* The grains of a cell for which there may be no room: those so far are tried first. */
-static inline __attribute__((noinline, cold)) void gg_take_crowded(const gg_md *e, gg_features f, gg_search *s,
-                                                                   const uint32_t *cell)
+static __attribute__((noinline, cold, unused)) void gg_take_crowded(const gg_md *e, gg_features f, gg_search *s,
+                                                                    const uint32_t *cell)
 {
   for (uint32_t k = 1; k <= cell[0]; k++) {
     if (s->n_near == GG_MOST_NEAR) {
