@@ -1,5 +1,5 @@
 /* Cells: a grid over the box, no edge below the largest contact distance, so that a grain can only touch grains of its
- * own and the 26 cells around (32 where rows of cells drift, drift.h). The grains of a cell stand side by side in
+ * own and the 26 cells around (32 where rows of cells drift, rows.h). The grains of a cell stand side by side in
  * memory. A grain's cell is a matter of its crossings, not of its rounded coordinates: it changes only by crossing
  * events. */
 #ifndef GG_MD_CELLS_H

@@ -3,7 +3,7 @@
  * Every neighbouring cell is looked at as one definite image, with its shift, so that boxes of one or two cells across
  * and grains that meet several images of one partner need no special case.
  *
- * Rows across a sheared boundary, of cells at rest in small boxes (else: drift.h): the image row of cells stands at any
+ * Rows across a sheared boundary, of cells at rest in small boxes (else: rows.h): the image row of cells stands at any
  * offset and slides. The grain looks at all of it that can come within reach of its cell until a time `valid`, and
  * looks anew then. What makes incremental scans right: at every scan a grain looks at the whole window of each sliding
  * row, and otherwise neighbourhoods are symmetric. */

@@ -9,7 +9,7 @@
 #ifndef GG_MD_SHARED_ROWS_H
 #define GG_MD_SHARED_ROWS_H
 
-#include "md/drift.h"
+#include "md/rows.h"
 #include "md/shared.h"
 
 /* Of a step: x and y of the lower and the upper row. Lane 4: nowhere. */

@@ -34,7 +34,7 @@ enum { GG_LIST = 24 }; /* most neighbours in a list */
  * which stands elsewhere at every start. */
 enum { GG_MOST_NEAR = 2048, GG_NEAR_APART = GG_MOST_NEAR + 512 };
 
-/* A row of cells along x that drifts with the flow (drift.h): where its first cell begins at the epoch's start, its
+/* A row of cells along x that drifts with the flow (rows.h): where its first cell begins at the epoch's start, its
  * speed, and by how many cells the rows above and below are ahead of it. */
 typedef struct gg_row {
   double origin, speed;
@@ -69,7 +69,7 @@ typedef struct gg_md_counts {
   double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
   double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
   double outer_time;               /* outside, up to the present advance */
-  double lean, common;             /* of drifting rows (drift.c), at the epoch's start */
+  double lean, common;             /* of drifting rows (rows.c), at the epoch's start */
   int32_t turn, seam;
   uint32_t tap_open, spare;
 } gg_md_counts;
@@ -130,7 +130,7 @@ gg_status gg_md_begin(gg_md *e, gg_error *err);
 /* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
 double gg_md_reach(const gg_model *model);
 /* Where partners are best looked for: plain cells, neighbour lists (lists.h; *radius: of their shells) or cells that
- * overlap (shared.h) or drift with the flow (drift.h); and how many cells. */
+ * overlap (shared.h) or drift with the flow (rows.h); and how many cells. */
 enum gg_search_in { GG_CELLS, GG_LISTS, GG_SHARED_CELLS, GG_DRIFTING_CELLS };
 enum gg_search_in gg_md_plan(const gg_model *model, double *radius, int32_t n[3]);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
@@ -140,7 +140,7 @@ void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
 void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);
 
-/* drift.c: rows of cells that drift, placed as e->k tells; as the images above stand at the epoch's start; at the start
+/* rows.c: rows of cells that drift, placed as e->k tells; as the images above stand at the epoch's start; at the start
  * of the next epoch; and after they have slipped by a cell. */
 gg_status gg_md_make_rows(gg_md *e, gg_error *err);
 void gg_md_align_rows(gg_md *e);

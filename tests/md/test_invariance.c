@@ -3,7 +3,7 @@
  * boxes, and for any grid of cells or neighbour lists; and the same averages of long runs. */
 #include <string.h>
 
-#include "md/drift.h"
+#include "md/rows.h"
 #include "md_test.h"
 
 enum { EVENTS = 100, MAX_N = 200 };

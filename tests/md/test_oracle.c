@@ -7,7 +7,7 @@
 
 #include "md_test.h"
 
-#include "md/drift.h"
+#include "md/rows.h"
 
 enum { MOST = 160 };
 

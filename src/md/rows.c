@@ -1,4 +1,4 @@
-/* Where rows of cells that drift with the flow stand (drift.h). Row j begins at
+/* Where rows of cells that drift with the flow stand (rows.h). Row j begins at
  *
  *   common + (j - J) lean + s_j w,  J = floor(n_y/2),
  *
@@ -12,7 +12,7 @@
  * epoch's start. */
 #include <math.h>
 
-#include "md/drift.h"
+#include "md/rows.h"
 
 static double slip_speed(const gg_md *e)
 {

@@ -1,7 +1,7 @@
 /* Cells under shear: a grid in which each row of cells along x moves with the mean flow at its middle, so that the flow
  * carries nobody through cells, however large the box, and the sheared boundary is a boundary of rows like any other.
  *
- * The row above a row moves on by `lean` (drift.c), from 0 to a cell's width w, then begins again one cell further: the
+ * The row above a row moves on by `lean` (rows.c), from 0 to a cell's width w, then begins again one cell further: the
  * rows slip. In between, a cell with contact distances of at most w sees what it can touch in four cells of the row
  * above and in four of the row below:
  *
@@ -12,8 +12,8 @@
  * Who comes into another cell looks at the cells that are new to it; and when the rows slip, everybody looks at the
  * cells above that come within reach (-2): thus of two grains in cells that see each other one has always looked at the
  * other. */
-#ifndef GG_MD_DRIFT_H
-#define GG_MD_DRIFT_H
+#ifndef GG_MD_ROWS_H
+#define GG_MD_ROWS_H
 
 #include "md/scan.h"
 
