@@ -20,12 +20,6 @@
 /* Fewest cells along x, in which the nearest image of all that a cell sees is the one that is looked at. */
 enum { GG_FEWEST_DRIFTING = 7 };
 
-/* Where cell 0 of a row begins now. */
-GG_INLINE double gg_row_begins(const gg_md *e, int32_t y)
-{
-  return e->row[y].origin + e->row[y].speed * e->k.now;
-}
-
 /* Cells to look at: those from..to relative to the grain's own, in its own row and in those above and below, in layers
  * from..to along z. From above to: none. */
 typedef struct gg_window {

@@ -321,10 +321,9 @@ GG_INLINE double gg_first_fall_out(const gg_md *e, gg_features f, const gg_searc
 /* Place and velocity relative to the grain's row, in the image that is in its cell. */
 GG_INLINE void gg_seen_from_row(const gg_md *e, const int32_t *cell, gg_axes *r, gg_axes *v)
 {
-  const gg_row *row = &e->row[cell[1]];
-  double x = (*r)[0] - (row->origin + row->speed * e->k.now), depth = x - cell[0] * e->cells.width[0];
+  double x = (*r)[0] - gg_row_begins(e, cell[1]), depth = x - cell[0] * e->cells.width[0];
   (*r)[0] = x - e->box.edge[0] * gg_nearest(depth * e->box.inverse[0]);
-  (*v)[0] -= row->speed;
+  (*v)[0] -= e->row[cell[1]].speed;
 }
 
 /* The same on a straight line. Rounding may have left the grain outside by a digit: then at once. */

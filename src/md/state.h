@@ -166,6 +166,12 @@ gg_status gg_md_watch(gg_engine *engine, gg_watch *watch, void *context, gg_erro
 /* kernels.c: choose the kernels that this model and tap need. */
 void gg_md_select(gg_md *e);
 
+/* Where cell 0 of a row that drifts begins now. */
+GG_INLINE double gg_row_begins(const gg_md *e, int32_t y)
+{
+  return e->row[y].origin + e->row[y].speed * e->k.now;
+}
+
 GG_INLINE int gg_species_of(const gg_grain *g)
 {
   return (int)(g->stamp & 1);

@@ -1,6 +1,6 @@
 /* Proves: the same first hundred collisions (pairs in order, and times to 10^-8 of a mean free time) wherever the
  * sheared boundary lies, under translations, under half a turn about the vorticity, for images displaced by whole
- * boxes, and for any grid of cells or neighbour lists; and the same averages of long runs. */
+ * boxes, and for any grid of cells, at rest or drifting, or neighbour lists; and the same averages of long runs. */
 #include <string.h>
 
 #include "md/rows.h"
