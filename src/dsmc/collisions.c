@@ -122,7 +122,7 @@ static bool in_rounds(const gg_dsmc *d)
   return true;
 }
 
-const int gg_turns[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+const int gg_species_of_pair[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
 
 void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order)
 {
@@ -130,15 +130,15 @@ void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, gg_order_
     gg_dsmc_collide_in_rounds(d, dt, drift, span, order);
     return;
   }
-  if (order == GG_TURNS_THERE_AND_BACK) {
-    gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, GG_TURNS_THERE);
-    d->stretch += 0.5 * dt;
-    gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, GG_TURNS_BACK);
-    return;
+  gg_turn turn[GG_MOST_TURNS];
+  const int sweeps = gg_sweeps_of(&d->now.step, order, dt);
+  const int n = gg_list_turns(d->model.n_species == 1 ? 1 : GG_PAIRS, order, sweeps, turn);
+  const double begin = d->stretch, each = 1.0 / sweeps;
+  for (const gg_turn *t = turn; t < turn + n; t++) {
+    const int *ij = gg_species_of_pair[t->pair];
+    const double from = t->begin * each, part = t->length * each;
+    d->stretch = begin + from * dt;
+    collide_pair(d, ij[0], ij[1], part * dt, drift + from * span, part * span);
   }
-  int pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
-  for (int q = 0; q < pairs; q++) {
-    const int *ij = gg_turns[order == GG_TURNS_BACK ? pairs - 1 - q : q];
-    collide_pair(d, ij[0], ij[1], dt, drift, span);
-  }
+  d->stretch = begin;
 }

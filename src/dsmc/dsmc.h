@@ -9,6 +9,7 @@
 #include "dsmc/pairing.h"
 #include "dsmc/segments.h"
 #include "dsmc/timestep.h"
+#include "dsmc/turns.h"
 
 /* Everything that changes while running, but for the ensemble: plain data, saved as it is. */
 typedef struct gg_dsmc_state {
@@ -56,9 +57,8 @@ uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
 void gg_dsmc_hand_over(gg_dsmc *d, int pair, const gg_pairing *p);
 /* Bounds that hold for sure, to start from. */
 void gg_dsmc_bounds(gg_dsmc *d);
-/* Pairs of species take turns: 11, 12, 22; or backwards; or each half of the stretch in its order. */
-typedef enum gg_order_of_turns { GG_TURNS_THERE, GG_TURNS_BACK, GG_TURNS_THERE_AND_BACK } gg_order_of_turns;
-extern const int gg_turns[GG_PAIRS][2];
+/* Species of each pair. */
+extern const int gg_species_of_pair[GG_PAIRS][2];
 /* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). */
 void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order);
 

@@ -4,8 +4,7 @@
  * of the next round, if its segments are free, while others are still at theirs. To wait for all of them after each
  * round cost two threads some three hundredths of their time.
  *
- * All pairs of species take their turns within a meeting, so that a round is worth calling others for. Where nothing
- * comes between the two halves of a step, each round has both, the second in reverse order. */
+ * All pairs of species take their turns within a meeting (turns.h), so that a round is worth calling others for. */
 #include "dsmc/dsmc.h"
 
 /* Candidates that a turn within a meeting should have, on average: enough that to begin one hardly matters, few
@@ -15,22 +14,14 @@ static const double worth_a_turn = 1200;
 /* Candidates of a round that others are called for. */
 static const double worth_calling = 400;
 
-enum { MOST_TURNS = 2 * GG_PAIRS };
-
 /* What one pair of species has in common in all meetings. */
 typedef struct gg_side {
   int i, j;
   gg_path path;
   gg_features f;
-  double rate; /* candidates per unit of gg_block_candidates, in one turn */
+  double rate; /* candidates per unit of gg_block_candidates, in a sweep */
   gg_pairing common;
 } gg_side;
-
-/* A pair of species over a part of the round. */
-typedef struct gg_turn {
-  int pair;
-  double begin; /* its drift, from that of the round on */
-} gg_turn;
 
 /* The unit of a segment's tops, and the drift at which they hold. */
 typedef struct gg_tops {
@@ -43,9 +34,9 @@ typedef struct gg_rounds {
   gg_dsmc *d;
   int n, number[GG_MOST_PARTS], halves[GG_MOST_PARTS];
   int n_turns;
-  gg_turn turn[MOST_TURNS];
+  gg_turn turn[GG_MOST_TURNS];
   double drift, each; /* where the first begins; how far one goes */
-  double span;        /* of a turn's drift */
+  double span;        /* of a sweep's drift */
   gg_side side[GG_PAIRS];
   gg_tops tops[GG_MOST_SEGMENTS];
   gg_pairing sum[GG_MOST_SEGMENTS][GG_PAIRS]; /* handed back, by the first segment of each meeting */
@@ -79,23 +70,26 @@ typedef struct gg_pair_met {
   gg_rng rng;
 } gg_pair_met;
 
-/* Blocks of segment `one` of the first species against those of `two` of the second, from `drift` on. */
-static void collide(gg_rounds *r, const gg_side *s, double drift, int one, int two, gg_pair_met *at)
+/* A turn in the meeting of these segments: blocks of `one` of the first species against those of `two` of the second,
+ * from `drift` on. */
+static void collide(gg_rounds *r, const gg_turn *turn, double drift, int one, int two, gg_pair_met *at)
 {
+  const gg_side *s = &r->side[turn->pair];
+  const double span = turn->length * r->span;
   gg_tournament *t = r->d->tournament;
   const int segments = r->d->ensemble.segments, pair = gg_pair_index(s->i, s->j);
   gg_pairing p = s->common;
   p.blocks[0] = gg_segment(p.one, segments, one);
   p.blocks[1] = gg_segment(p.two, segments, two);
-  double mean = s->rate * gg_block_candidates(p.blocks[0], p.blocks[1], s->f.same && one == two);
+  double mean = turn->length * s->rate * gg_block_candidates(p.blocks[0], p.blocks[1], s->f.same && one == two);
   p.candidates = candidates(s, &t->owed[pair][one][two], mean, &at->rng);
-  p.drift_step = p.candidates ? r->span / (double)p.candidates : 0;
+  p.drift_step = p.candidates ? span / (double)p.candidates : 0;
   p.drift = drift + 0.5 * p.drift_step;
   gg_ensemble_drift_tops(&at->tops, drift);
   p.top_unit = at->tops.top_unit;
   gg_collide(s->path, s->f, &p, &t->lanes[at->first], &at->rng);
-  at->tops.top_unit = fmax(p.top_unit, at->tops.top_unit * gg_top_growth(r->span));
-  at->tops.top_drift = drift + r->span;
+  at->tops.top_unit = fmax(p.top_unit, at->tops.top_unit * gg_top_growth(span));
+  at->tops.top_drift = drift + span;
   add(&r->sum[at->first][pair], &p);
 }
 
@@ -106,10 +100,10 @@ static void meet(gg_rounds *r, double drift, int one, int two)
   at.tops.top_unit = fmax(r->tops[one].unit, r->tops[two].unit);
   at.tops.top_drift = r->tops[one].drift;
   for (int k = 0; k < r->n_turns; k++) {
-    const gg_side *s = &r->side[r->turn[k].pair];
-    const double begin = drift + r->turn[k].begin;
-    collide(r, s, begin, one, two, &at);
-    if (one != two && !s->f.same) collide(r, s, begin, two, one, &at);
+    const gg_turn *turn = &r->turn[k];
+    const double begin = drift + turn->begin * r->span;
+    collide(r, turn, begin, one, two, &at);
+    if (one != two && !r->side[turn->pair].f.same) collide(r, turn, begin, two, one, &at);
   }
   r->tops[one] = r->tops[two] = (gg_tops){at.tops.top_unit, at.tops.top_drift};
   r->d->tournament->draws[one] = at.rng;
@@ -163,7 +157,7 @@ static void play(gg_rounds *r, double expected, gg_pairing sum[GG_PAIRS])
   const int columns = e->segments / 2;
   uint32_t need[GG_MOST_PARTS];
   find_needs(r, r->n * columns, need);
-  gg_ensemble_drift_tops(e, r->drift + r->turn[0].begin);
+  gg_ensemble_drift_tops(e, r->drift + r->turn[0].begin * r->span);
   for (int s = 0; s < e->segments; s++) {
     r->tops[s] = (gg_tops){e->top_unit, e->top_drift};
     for (int q = 0; q < GG_PAIRS; q++) r->sum[s][q] = (gg_pairing){0};
@@ -224,7 +218,7 @@ static void draw_rounds(gg_rounds *r)
   }
 }
 
-/* Some rounds; `time` is that of a turn, candidates are `expected` in each. Bounds are what they are now. */
+/* Some rounds; `time` is that of a sweep, candidates are `expected` in each. Bounds are what they are now. */
 static void play_rounds(gg_rounds *r, double time, double expected)
 {
   gg_dsmc *d = r->d;
@@ -255,27 +249,25 @@ static double expected_of(const gg_dsmc *d, const gg_side *s, double time)
 
 void gg_dsmc_collide_in_rounds(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order)
 {
-  const int halves = order == GG_TURNS_THERE_AND_BACK ? 2 : 1, segments = d->ensemble.segments;
-  const int n = d->model.n_species == 1 ? 1 : GG_PAIRS, calls = halves * (n == 1 ? 1 : 4);
-  const int together = GG_MOST_PARTS / (segments / 2);
-  gg_rounds r = {.d = d, .n_turns = halves * n};
+  const int segments = d->ensemble.segments, pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
+  const int together = GG_MOST_PARTS / (segments / 2), both = order == GG_TURNS_THERE_AND_BACK ? 2 : 1;
+  gg_rounds r = {.d = d};
   double expected = 0;
-  for (int q = 0; q < n; q++) {
-    const int *ij = gg_turns[q];
+  for (int q = 0; q < pairs; q++) {
+    const int *ij = gg_species_of_pair[q];
     r.side[q] = side_of(d, ij[0], ij[1]);
     expected += expected_of(d, &r.side[q], dt);
   }
-  const int rounds = (int)fmax(1, fmin(expected / (0.5 * segments * worth_a_turn * calls), segments));
+  const double worth_a_round = worth_a_turn * both * (pairs == 1 ? 1 : 4);
+  const int rounds = (int)fmax(1, fmin(expected / (0.5 * segments * worth_a_round), segments));
+  /* There and back is an even number of sweeps in each round, too. */
+  const int sweeps = both * (int)ceil((double)gg_sweeps_of(&d->now.step, order, dt) / (both * rounds));
+  r.n_turns = gg_list_turns(pairs, order, sweeps, r.turn);
   r.each = span / rounds;
-  r.span = r.each / halves;
-  for (int h = 0; h < halves; h++)
-    for (int q = 0; q < n; q++) {
-      bool back = order == GG_TURNS_BACK || h == 1;
-      r.turn[h * n + q] = (gg_turn){back ? n - 1 - q : q, h * r.span};
-    }
+  r.span = r.each / sweeps;
   for (int done = 0; done < rounds; done += r.n) {
     r.drift = drift + done * r.each;
     r.n = rounds - done < together ? rounds - done : together;
-    play_rounds(&r, dt / (halves * rounds), expected / rounds);
+    play_rounds(&r, dt / (sweeps * rounds), expected / rounds);
   }
 }

@@ -16,17 +16,18 @@ static double smaller(double a, double b)
 
 gg_time_step gg_time_step_choose(const gg_model *model, double T)
 {
-  bool turns = model->n_species > 1 || gg_thermostat_of(model) != GG_NO_THERMOSTAT;
+  bool heated = gg_thermostat_of(model) != GG_NO_THERMOSTAT;
   double free_time = 1 / gg_model_collision_rate(model, T);
-  gg_time_step step = {.settle = free_time, .length = turns ? 0.25 * free_time : free_time};
+  gg_time_step step = {.settle = free_time, .length = heated ? 0.25 * free_time : free_time};
   /* Nothing but collisions: the kernel needs no step at all. */
-  if (!turns && model->shear_rate == 0) step.settle = step.length = 3 * free_time;
+  if (!heated && model->shear_rate == 0) step.settle = step.length = 3 * free_time;
   if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
+  step.turns = smaller(step.length, 0.25 * free_time);
   if (model->time_step > 0) {
-    step.length = model->time_step * free_time;
+    step.turns = step.length = model->time_step * free_time;
     step.split = model->shear_rate > 0;
   }
-  double h = step.length / free_time;
-  step.bias = step.split ? bias_of_splitting * h * h : turns ? bias_of_turns * h * h : 0;
+  double h = step.turns / free_time;
+  step.bias = step.split ? bias_of_splitting * h * h : heated || model->n_species > 1 ? bias_of_turns * h * h : 0;
   return step;
 }
