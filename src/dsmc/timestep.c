@@ -18,9 +18,8 @@ gg_time_step gg_time_step_choose(const gg_model *model, double T)
 {
   bool heated = gg_thermostat_of(model) != GG_NO_THERMOSTAT;
   double free_time = 1 / gg_model_collision_rate(model, T);
-  gg_time_step step = {.settle = free_time, .length = heated ? 0.25 * free_time : free_time};
-  /* Nothing but collisions: the kernel needs no step at all. */
-  if (!heated && model->shear_rate == 0) step.settle = step.length = 3 * free_time;
+  gg_time_step step = {.settle = heated ? free_time : 3 * free_time, .length = heated ? 0.25 * free_time : free_time};
+  if (!heated && model->shear_rate == 0) step.length = step.settle; /* the kernel needs no step at all */
   if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
   step.turns = smaller(step.length, 0.25 * free_time);
   if (model->time_step > 0) {
