@@ -30,7 +30,7 @@ typedef struct gg_engine_state {
   uint64_t overflows;    /* dsmc: candidates whose rate exceeded the majorant */
   double offset;         /* md, sheared: the image of the box above stands so far displaced along x; else 0 */
   double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
-  double time_step;      /* dsmc: the present step, model units; 0 for md */
+  double time_step;      /* dsmc: the present step, or what all pairs of species take turns in; model units; 0 for md */
   double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */
   double others_cpu;     /* seconds of processor time of threads of the engine's own, so far in this process */
 } gg_engine_state;

@@ -74,7 +74,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .collisions = s->collisions,
                              .events = s->candidates,
                              .overflows = s->overflows,
-                             .time_step = s->step.length,
+                             .time_step = s->step.turns,
                              .time_step_bias = s->step.bias,
                              .others_cpu = gg_crew_cpu(const_dsmc_of(engine)->ensemble.crew)};
 }

@@ -7,10 +7,10 @@
  * All pairs of species take their turns within a meeting (turns.h), so that a round is worth calling others for. */
 #include "dsmc/dsmc.h"
 
-/* Candidates that a turn within a meeting should have, on average: enough that to begin one hardly matters, few
- * enough that segments that differ mix as one pair after another would (4000 cost less still, but segments of different
- * temperatures then mix by fits and starts). */
-static const double worth_a_turn = 1200;
+/* Candidates that a meeting should have, on average, of one species and of two, whose turns are parts of it: enough
+ * that to begin a turn hardly matters, few enough that segments that differ mix as one pair after another would (4000
+ * of one species cost less still, but segments of different temperatures then mix by fits and starts). */
+static const double worth_a_meeting[] = {1200, 2400};
 /* Candidates of a round that others are called for. */
 static const double worth_calling = 400;
 
@@ -250,7 +250,7 @@ static double expected_of(const gg_dsmc *d, const gg_side *s, double time)
 void gg_dsmc_collide_in_rounds(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order)
 {
   const int segments = d->ensemble.segments, pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
-  const int together = GG_MOST_PARTS / (segments / 2), both = order == GG_TURNS_THERE_AND_BACK ? 2 : 1;
+  const int together = GG_MOST_PARTS / (segments / 2);
   gg_rounds r = {.d = d};
   double expected = 0;
   for (int q = 0; q < pairs; q++) {
@@ -258,10 +258,9 @@ void gg_dsmc_collide_in_rounds(gg_dsmc *d, double dt, double drift, double span,
     r.side[q] = side_of(d, ij[0], ij[1]);
     expected += expected_of(d, &r.side[q], dt);
   }
-  const double worth_a_round = worth_a_turn * both * (pairs == 1 ? 1 : 4);
-  const int rounds = (int)fmax(1, fmin(expected / (0.5 * segments * worth_a_round), segments));
-  /* There and back is an even number of sweeps in each round, too. */
-  const int sweeps = both * (int)ceil((double)gg_sweeps_of(&d->now.step, order, dt) / (both * rounds));
+  const double worth_a_round = 0.5 * segments * worth_a_meeting[d->model.n_species - 1];
+  const int rounds = (int)fmax(1, fmin(expected / worth_a_round, segments));
+  const int sweeps = gg_sweeps_of_a_part(&d->now.step, order, dt, rounds);
   r.n_turns = gg_list_turns(pairs, order, sweeps, r.turn);
   r.each = span / rounds;
   r.span = r.each / sweeps;

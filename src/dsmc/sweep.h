@@ -1,4 +1,4 @@
-/* One pass through the blocks of a species: what every step needs of all grains, done at once. Compiled for several
+/* One pass through the blocks of a species: what settling needs of all grains, done at once. Compiled for several
  * sets of instructions like the block kernels; lane by lane, so that all leave the same bits. */
 #ifndef GG_DSMC_SWEEP_H
 #define GG_DSMC_SWEEP_H

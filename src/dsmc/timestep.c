@@ -21,7 +21,7 @@ gg_time_step gg_time_step_choose(const gg_model *model, double T)
   gg_time_step step = {.settle = heated ? free_time : 3 * free_time, .length = heated ? 0.25 * free_time : free_time};
   if (!heated && model->shear_rate == 0) step.length = step.settle; /* the kernel needs no step at all */
   if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
-  step.turns = smaller(step.length, 0.25 * free_time);
+  step.turns = model->n_species == 1 ? step.length : smaller(step.length, 0.25 * free_time);
   if (model->time_step > 0) {
     step.turns = step.length = model->time_step * free_time;
     step.split = model->shear_rate > 0;

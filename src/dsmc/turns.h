@@ -6,6 +6,8 @@
 #ifndef GG_DSMC_TURNS_H
 #define GG_DSMC_TURNS_H
 
+#include <stdbool.h>
+
 #include "dsmc/timestep.h"
 
 /* All pairs once in their order, or once in the reverse order, or there and back as often as it takes. */
@@ -18,10 +20,11 @@ typedef struct gg_turn {
   int pair, begin, length;
 } gg_turn;
 
-/* How many sweeps a stretch `dt` takes in this order. */
+/* How many sweeps a stretch `dt` takes in this order; in each of so many equal parts of it: all of one kind. */
 int gg_sweeps_of(const gg_time_step *step, gg_order_of_turns order, double dt);
-/* The turns of so many sweeps, every second of them backwards; a pair that has just had a turn goes on with it. Returns
- * how many there are. */
+int gg_sweeps_of_a_part(const gg_time_step *step, gg_order_of_turns order, double dt, int parts);
+/* The turns of so many sweeps, every second of them the other way; a pair that has just had a turn goes on with it.
+ * Returns how many there are. */
 int gg_list_turns(int pairs, gg_order_of_turns order, int sweeps, gg_turn turn[GG_MOST_TURNS]);
 
 #endif

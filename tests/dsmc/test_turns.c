@@ -1,5 +1,5 @@
-/* Pairs of species have turns of the same length, the second half of the list mirrors the first, and going there and
- * back takes no longer than the step allows. */
+/* All pairs of species have had the same time in turns, the second half of the list mirrors the first, and going there
+ * and back takes no longer than the step allows: in the list, and as a watcher of a mixture sees it. */
 #include "dsmc/turns.h"
 #include "lab.h"
 
@@ -9,7 +9,8 @@ static void turns_cover_all(void **state)
   for (int pairs = 1; pairs <= GG_PAIRS; pairs++)
     for (int sweeps = 1; sweeps <= GG_MOST_SWEEPS; sweeps++) {
       gg_turn turn[GG_MOST_TURNS];
-      int n = gg_list_turns(pairs, GG_TURNS_THERE, sweeps, turn), sum[GG_PAIRS] = {0};
+      gg_order_of_turns order = (gg_order_of_turns)(sweeps % (GG_TURNS_THERE_AND_BACK + 1));
+      int n = gg_list_turns(pairs, order, sweeps, turn), sum[GG_PAIRS] = {0};
       assert_in_range(n, 1, GG_MOST_TURNS);
       for (int k = 0; k < n; k++) {
         assert_int_equal(turn[k].begin, sum[turn[k].pair]); /* whole sweeps that this pair has done */
@@ -42,16 +43,21 @@ static void backwards_is_reversed(void **state)
   for (int q = 0; q < GG_PAIRS; q++) assert_int_equal(there[q].pair, back[GG_PAIRS - 1 - q].pair);
 }
 
-/* Of a cooling and of a sheared mixture: whole steps, and what is left at the end of a run. */
+static gg_model mixture(gg_flow flow)
+{
+  gg_scene s = lab_scene(flow, 0.2, 0.95, -1, 2000);
+  s.n_species = 2;
+  s.species[0].fraction = 0.5;
+  s.species[1] = (gg_species){0.5, 1, 4, 0.4};
+  return lab_model(&s);
+}
+
+/* Whole steps, what is left of them at the end of a run, and parts of them. */
 static void as_often_as_the_step_asks(void **state)
 {
   (void)state;
   for (int sheared = 0; sheared < 2; sheared++) {
-    gg_scene s = lab_scene(sheared ? GG_USF : GG_HCS, 0.2, 0.8, -1, 1000);
-    s.n_species = 2;
-    s.species[0].fraction = 0.5;
-    s.species[1] = (gg_species){0.5, 1, 4, 0.4};
-    gg_model m = lab_model(&s);
+    gg_model m = mixture(sheared ? GG_USF : GG_HCS);
     gg_time_step step = gg_time_step_choose(&m, 1);
     double free_time = 1 / gg_model_collision_rate(&m, 1);
     assert_true(step.turns <= 0.25 * free_time && step.length > 1.9 * step.turns);
@@ -59,9 +65,53 @@ static void as_often_as_the_step_asks(void **state)
       int sweeps = gg_sweeps_of(&step, GG_TURNS_THERE_AND_BACK, dt);
       assert_int_equal(sweeps % 2, 0);
       assert_true(2 * dt / sweeps <= step.turns * (1 + 1e-6));
+      for (int parts = 1; parts <= 16; parts++) {
+        int each = gg_sweeps_of_a_part(&step, GG_TURNS_THERE_AND_BACK, dt, parts);
+        assert_true(each % 2 == 0 && each >= 2 && each <= GG_MOST_SWEEPS);
+        assert_true(each * parts >= sweeps && (each - 2) * parts < sweeps);
+      }
     }
     assert_int_equal(gg_sweeps_of(&step, GG_TURNS_THERE, step.length), 1);
+    assert_int_equal(gg_sweeps_of_a_part(&step, GG_TURNS_BACK, step.length, 3), 1);
   }
+}
+
+/* Times since the grains' last collisions. */
+typedef struct flights {
+  double unit, shortest; /* mean free time */
+  uint64_t n, middling;  /* from 0.5 to 1.5 */
+} flights;
+
+static void note_flight(void *context, const gg_seen_collision *c)
+{
+  flights *f = context;
+  for (int g = 0; g < 2; g++) {
+    double since = c->since[g] / f->unit;
+    if (!(since < INFINITY)) continue;
+    f->n++;
+    f->middling += since > 0.5 && since < 1.5;
+    f->shortest = fmin(f->shortest, since);
+  }
+}
+
+/* Where pairs take turns, a grain may have had its last collision a little later than this one, by no more than all of
+ * them take there and back; and over many turns a step, flights are as long as in any gas: were all collisions at the
+ * beginning of their step, none would be middling. */
+static void collisions_come_in_their_time(void **state)
+{
+  (void)state;
+  gg_model m = mixture(GG_HCS);
+  gg_engine *g = lab_engine(&m, 5);
+  flights f = {.unit = 1 / gg_model_collision_rate(&m, m.temperature0)};
+  gg_error err;
+  assert_int_equal(gg_dsmc_ops.watch(g, note_flight, &f, &err), GG_OK);
+  lab_advance(g, 6 * f.unit, UINT64_MAX);
+  double share = (double)f.middling / (double)f.n;
+  printf("# %d flights, shortest %.3f mean free times, %.3f of them middling\n", (int)f.n, f.shortest, share);
+  assert_true(f.n > 5000);
+  assert_true(f.shortest > -0.27); /* mean free times grow by as much in a cooling gas */
+  assert_true(share > 0.3 && share < 0.45);
+  gg_dsmc_ops.destroy(g);
 }
 
 int main(void)
@@ -71,6 +121,7 @@ int main(void)
       cmocka_unit_test(there_and_back_is_symmetric),
       cmocka_unit_test(backwards_is_reversed),
       cmocka_unit_test(as_often_as_the_step_asks),
+      cmocka_unit_test(collisions_come_in_their_time),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
