@@ -46,6 +46,7 @@ void gg_dsmc_settle(gg_dsmc *d);
 /* A step of no more than `left` time and about `wanted` collisions; returns its length. */
 double gg_dsmc_step(gg_dsmc *d, double left, double wanted);
 
+/* pairs.c: which kernel two species need. */
 gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j);
 /* What all collisions of two species have in common. */
 gg_pairing gg_dsmc_pairing(gg_dsmc *d, int i, int j);
@@ -55,10 +56,11 @@ double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j);
 uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
 /* Add to the sums what the collisions of a pair of species came to. */
 void gg_dsmc_hand_over(gg_dsmc *d, int pair, const gg_pairing *p);
-/* Bounds that hold for sure, to start from. */
-void gg_dsmc_bounds(gg_dsmc *d);
 /* Species of each pair. */
 extern const int gg_species_of_pair[GG_PAIRS][2];
+
+/* collisions.c: bounds that hold for sure, to start from. */
+void gg_dsmc_bounds(gg_dsmc *d);
 /* All collisions of a stretch `dt`, candidates at drifts `drift` + (0..1) x `span` (a constant one if span is 0). */
 void gg_dsmc_collide(gg_dsmc *d, double dt, double drift, double span, gg_order_of_turns order);
 

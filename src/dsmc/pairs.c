@@ -1,0 +1,55 @@
+/* What all collisions of a pair of species have in common, and where what they come to is added up. */
+#include "dsmc/dsmc.h"
+
+const int gg_species_of_pair[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+
+gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j)
+{
+  const gg_model *m = &d->model;
+  gg_features f = {.rule = gg_rule_of(m->beta[2 * i + j], m->mu[2 * i + j]), .same = i == j};
+  /* Grains that have spins keep them with their velocities, whichever pair of species is smooth. */
+  if (m->rule != GG_SMOOTH && f.rule == GG_SMOOTH) f.rule = GG_ROUGH;
+  if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_SHEARED_DILUTE : GG_SHEARED_DENSE;
+  if (d->thermostat == GG_GAUSSIAN) f.tap = GG_TAP_LOSS;
+  if (d->now.tap) f.tap = m->boltzmann ? GG_TAP_LOSS : GG_TAP_STRESS;
+  return f;
+}
+
+gg_pairing gg_dsmc_pairing(gg_dsmc *d, int i, int j)
+{
+  const gg_model *m = &d->model;
+  int o = 2 * i + j;
+  gg_population *one = &d->ensemble.of[i], *two = &d->ensemble.of[j];
+  return (gg_pairing){.one = one,
+                      .two = two,
+                      .blocks = {gg_all_blocks(one), gg_all_blocks(two)},
+                      .contact = m->contact[o],
+                      .sigma = m->sigma[o],
+                      .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
+}
+
+double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j)
+{
+  const gg_model *m = &d->model;
+  int o = 2 * i + j;
+  return m->sigma[o] * m->sigma[o] * m->chi[o] / m->volume;
+}
+
+uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j)
+{
+  return 20000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 3;
+}
+
+void gg_dsmc_hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
+{
+  gg_dsmc_state *s = &d->now;
+  s->collisions += p->collisions;
+  s->candidates += p->tried;
+  s->overflows += p->overflows;
+  s->transfer.collisions[pair] += p->collisions;
+  s->lost += p->loss;
+  if (!s->tap) return;
+  s->transfer.loss[pair] += p->loss;
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += p->stress[a][b];
+}
