@@ -109,7 +109,7 @@ static void collisions_come_in_their_time(void **state)
   double share = (double)f.middling / (double)f.n;
   printf("# %d flights, shortest %.3f mean free times, %.3f of them middling\n", (int)f.n, f.shortest, share);
   assert_true(f.n > 5000);
-  assert_true(f.shortest > -0.27); /* mean free times grow by as much in a cooling gas */
+  assert_true(f.shortest > -0.27); /* a quarter, and a little for mean free times that grow as the gas cools */
   assert_true(share > 0.3 && share < 0.45);
   gg_dsmc_ops.destroy(g);
 }

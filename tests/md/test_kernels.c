@@ -1,5 +1,5 @@
-/* Proves: eight pairs at a time give the same bits as one at a time, on every boundary, and every instruction set gives
- * the same bits. */
+/* Proves: eight pairs at a time give the same bits as one at a time, on every boundary, every instruction set gives the
+ * same bits, and cells may be crowded. */
 #include <stdlib.h>
 
 #include "md_test.h"
