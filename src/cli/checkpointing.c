@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "io/checkpoint_file.h"
+#include "io/h5/checkpoint_file.h"
 
 int gg_checkpointing_start(gg_checkpointing *c, const gg_options *options, const gg_scene *scene, const char *output)
 {

@@ -8,8 +8,8 @@
 #include "cli/report.h"
 #include "cli/simulate.h"
 #include "io/document.h"
-#include "io/plot.h"
-#include "io/result_file.h"
+#include "io/h5/result_file.h"
+#include "io/plot/plot.h"
 
 static void tell(void *context, const char *picture)
 {

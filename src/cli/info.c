@@ -8,8 +8,8 @@
 #include "cli/report.h"
 #include "cli/table.h"
 #include "common/engine.h"
-#include "io/result_reader.h"
-#include "io/scene_json.h"
+#include "io/h5/result_reader.h"
+#include "io/scene/json.h"
 #include "io/text.h"
 
 static void print_line(void *context, const char *text)

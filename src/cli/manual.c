@@ -4,7 +4,7 @@
 
 #include "cli/options.h"
 #include "common/quantity.h"
-#include "io/scene_json.h"
+#include "io/scene/json.h"
 #include "theory/theory.h"
 
 /* Text with what roff would read as its own escaped. */

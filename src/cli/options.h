@@ -3,7 +3,7 @@
 #define GG_CLI_OPTIONS_H
 
 #include "cli/cli.h"
-#include "io/scene_draft.h"
+#include "io/scene/draft.h"
 
 enum {
   GG_OPT_SET = 1u << 0,

@@ -1,5 +1,5 @@
 /* graingas plot: a picture of what a result file holds. */
-#include "io/plot.h"
+#include "io/plot/plot.h"
 
 #include <stdio.h>
 #include <stdlib.h>

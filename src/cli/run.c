@@ -7,7 +7,7 @@
 #include "cli/report.h"
 #include "cli/simulate.h"
 #include "io/document.h"
-#include "io/result_file.h"
+#include "io/h5/result_file.h"
 
 typedef struct running {
   const gg_options *options;

@@ -4,10 +4,10 @@
 
 #include "common/engine.h"
 #include "dsmc/ensemble.h"
-#include "dsmc/kernels.h"
+#include "dsmc/kernel/kernels.h"
+#include "dsmc/kernel/pairing.h"
 #include "dsmc/majorant.h"
-#include "dsmc/pairing.h"
-#include "dsmc/segments.h"
+#include "dsmc/parallel/segments.h"
 #include "dsmc/timestep.h"
 #include "dsmc/turns.h"
 

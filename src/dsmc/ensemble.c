@@ -5,8 +5,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#include "dsmc/segments.h"
-#include "dsmc/sweep.h"
+#include "dsmc/kernel/sweep.h"
+#include "dsmc/parallel/segments.h"
 
 /* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
  * them, spare it the walks. */

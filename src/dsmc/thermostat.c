@@ -1,7 +1,7 @@
 #include "dsmc/thermostat.h"
 
-#include "dsmc/segments.h"
-#include "dsmc/sweep.h"
+#include "dsmc/kernel/sweep.h"
+#include "dsmc/parallel/segments.h"
 
 enum { RUN = 64 }; /* blocks looked at together */
 

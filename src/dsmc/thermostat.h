@@ -7,7 +7,7 @@
 #ifndef GG_DSMC_THERMOSTAT_H
 #define GG_DSMC_THERMOSTAT_H
 
-#include "dsmc/pairing.h"
+#include "dsmc/kernel/pairing.h"
 
 /* In the middle of a step: give back the energy that is missing and, in advance, what the second half will destroy if
  * the first destroyed `half`, so that steps begin and end at the kept energy. Returns the advance. Velocities are

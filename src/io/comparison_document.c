@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "io/document.h"
-#include "io/scene_json.h"
+#include "io/scene/json.h"
 #include "run/agreement.h"
 
 /* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}; those that do not apply are warnings. */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "io/curves.h"
-#include "io/scene_json.h"
+#include "io/scene/json.h"
 
 static json_t *real(double x)
 {

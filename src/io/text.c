@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/scene_json.h"
+#include "io/scene/json.h"
 
 /* With `decimals` after the point; the error in units of the last digit where it has no point in it. */
 static void put_estimate(double mean, double error, int decimals, char *text, size_t size)

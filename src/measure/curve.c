@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "common/quantity.h"
-#include "measure/jackknife.h"
+#include "statistics/jackknife.h"
 
 static void clear_curve(gg_curve *c)
 {

@@ -5,7 +5,7 @@
 #define GG_CURVE_H
 
 #include "common/model.h"
-#include "measure/bins.h"
+#include "statistics/bins.h"
 
 typedef struct gg_curve_number {
   char name[40], unit[40];

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "measure/planner.h"
+#include "statistics/planner.h"
 
 gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err)
 {

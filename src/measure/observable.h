@@ -8,8 +8,8 @@
 #include "common/engine.h"
 #include "common/quantity.h"
 #include "measure/curve.h"
-#include "measure/estimator.h"
 #include "measure/snapshot.h"
+#include "statistics/estimator.h"
 
 /* One sampling interval: sums over its collisions, and how long it lasted (0: the very first look, which makes no row).
  * velocity_factor: by what all velocities were multiplied when it began (1, but for cooling runs that were rescaled).

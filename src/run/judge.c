@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "measure/drift.h"
 #include "run/campaign.h"
+#include "statistics/trend.h"
 
 /* A difference of the first and last third beyond this many errors is a drift: with five quantities looked at a few
  * times, chance alone reaches it about once in a thousand runs. */

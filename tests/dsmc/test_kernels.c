@@ -1,7 +1,7 @@
 /* The block kernels against each other, bit for bit, and against the plain path, within its error bars. */
 #include "dsmc/dsmc.h"
-#include "dsmc/lanes_collision.h"
-#include "dsmc/normal.h"
+#include "dsmc/kernel/lanes_collision.h"
+#include "dsmc/kernel/normal.h"
 #include "lab.h"
 
 static gg_engine *on_path(const gg_model *m, gg_path path, uint64_t seed)

@@ -12,10 +12,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/checkpoint_file.h"
-#include "io/h5.h"
-#include "io/result_file.h"
-#include "io/result_reader.h"
+#include "io/h5/checkpoint_file.h"
+#include "io/h5/h5.h"
+#include "io/h5/result_file.h"
+#include "io/h5/result_reader.h"
 #include "planted.h"
 
 static char folder[] = "/tmp/graingas-files-XXXXXX";

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "io/nearest.h"
-#include "io/scene_draft.h"
-#include "io/scene_json.h"
+#include "io/scene/draft.h"
+#include "io/scene/json.h"
 
 static gg_scene parse(const char *yaml)
 {

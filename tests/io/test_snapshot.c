@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "io/plot.h"
+#include "io/plot/plot.h"
 #include "planted.h"
 
 enum { GRAINS = 5, MOST = 64 };

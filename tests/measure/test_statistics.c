@@ -9,9 +9,9 @@
 #include <stdlib.h>
 
 #include "common/rng.h"
-#include "measure/autocorrelation.h"
-#include "measure/drift.h"
-#include "measure/estimator.h"
+#include "statistics/autocorrelation.h"
+#include "statistics/estimator.h"
+#include "statistics/trend.h"
 
 /* x_t = rho x_{t-1} + noise, stationary, unit variance: tau_int = (1+rho)/(2(1-rho)). */
 static void autoregressive(gg_rng *r, double rho, double *x, size_t n)

@@ -1,0 +1,94 @@
+#include "bench/observable_cost.h"
+
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+
+#include "run/clock.h"
+#include "run/replica.h"
+#include "run/start.h"
+
+enum { MOST_REPEATS = 32, CYCLE = 32 }; /* samples after which every observable has looked as often as it does */
+
+typedef struct contender {
+  gg_replica replica;
+  bool bare; /* the engine alone */
+} contender;
+
+static uint64_t collisions(const contender *c)
+{
+  gg_engine_state state;
+  c->replica.engine->ops->state(c->replica.engine, &state);
+  return state.collisions;
+}
+
+static gg_status go_on(contender *c, uint64_t samples, bool adapt, gg_error *err)
+{
+  gg_replica *r = &c->replica;
+  double gone;
+  adapt = adapt || r->model.flow == GG_HCS;
+  if (!c->bare) return gg_replica_sample(r, r->clock.samples + samples, adapt, NULL, err);
+  for (uint64_t k = 0; k < samples; k++)
+    GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval, UINT64_MAX, &gone, err));
+  return GG_OK;
+}
+
+static gg_status start(contender *c, const gg_scene *scene, unsigned measure, double warmup, gg_error *err)
+{
+  gg_scene s = *scene;
+  gg_model model;
+  s.measure = measure;
+  GG_TRY(gg_model_make(&s, s.engine, &model, err));
+  gg_start_near_steady(&model);
+  GG_TRY(gg_replica_create(&c->replica, &s, &model, 0, err));
+  GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLE_SPACING), true, err));
+  return gg_replica_open_window(&c->replica, err);
+}
+
+/* Nanoseconds a collision, over `samples`. */
+static gg_status time_stretch(contender *c, uint64_t samples, double *ns, gg_error *err)
+{
+  uint64_t before = collisions(c);
+  double began = gg_cpu_now();
+  GG_TRY(go_on(c, samples, false, err));
+  *ns = 1e9 * (gg_cpu_now() - began) / (double)(collisions(c) - before);
+  return GG_OK;
+}
+
+static gg_status compete(contender c[2], int repeats, double seconds, gg_cost *cost, gg_error *err)
+{
+  double share[MOST_REPEATS], ns[2][MOST_REPEATS], began = gg_cpu_now();
+  uint64_t cycles = 1;
+  GG_TRY(go_on(&c[0], CYCLE, false, err));
+  GG_TRY(go_on(&c[1], CYCLE, false, err));
+  cycles += (uint64_t)(2 * seconds / fmax(gg_cpu_now() - began, 1e-6));
+  for (int i = 0; i < repeats; i++) {
+    for (int k = 0; k < 2; k++) GG_TRY(time_stretch(&c[k], cycles * CYCLE, &ns[k][i], err));
+    share[i] = 1 - ns[0][i] / ns[1][i];
+  }
+  gsl_sort(share, 1, (size_t)repeats);
+  gsl_sort(ns[1], 1, (size_t)repeats);
+  *cost = (gg_cost){.share = gsl_stats_median_from_sorted_data(share, 1, (size_t)repeats),
+                    .lowest = share[0],
+                    .highest = share[repeats - 1],
+                    .ns = gsl_stats_median_from_sorted_data(ns[1], 1, (size_t)repeats),
+                    .repeats = repeats};
+  return GG_OK;
+}
+
+gg_status gg_measure_observable_cost(const gg_scene *scene, const gg_observable *o, double warmup, int repeats,
+                                     double seconds, gg_cost *cost, gg_error *err)
+{
+  contender c[2] = {0};
+  bool itself = o->flag == GG_MEASURE_RHEOLOGY;
+  gg_status status = start(&c[0], scene, GG_MEASURE_RHEOLOGY, warmup, err);
+  if (status == GG_OK) status = start(&c[1], scene, GG_MEASURE_RHEOLOGY | o->flag, warmup, err);
+  if (status == GG_OK && itself) {
+    c[0].bare = true;
+    c[0].replica.engine->ops->tap(c[0].replica.engine, false);
+  }
+  if (status == GG_OK) status = compete(c, repeats < MOST_REPEATS ? repeats : MOST_REPEATS, seconds, cost, err);
+  for (int k = 0; k < 2; k++)
+    if (c[k].replica.engine) gg_replica_clear(&c[k].replica);
+  return status;
+}

@@ -1,0 +1,168 @@
+#include "bench/throughput.h"
+
+#include <math.h>
+
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+
+#include "run/clock.h"
+#include "run/start.h"
+
+enum { MOST_REPEATS = 32 };
+
+/* A scene being timed. */
+typedef struct runner {
+  gg_engine *engine;
+  uint64_t guess; /* collisions that are worth looking at the clock for */
+  uint64_t timed;
+  bool by_the_clock;
+  double wall, cpu; /* in all */
+  double rate[MOST_REPEATS];
+} runner;
+
+static uint64_t collisions(const gg_engine *e)
+{
+  gg_engine_state s;
+  e->ops->state(e, &s);
+  return s.collisions;
+}
+
+/* Advance by about `count` collisions, however long that takes; returns how many there were. */
+static gg_status advance_by(gg_engine *e, uint64_t count, uint64_t *done, gg_error *err)
+{
+  uint64_t before = collisions(e);
+  double elapsed;
+  do {
+    uint64_t left = count - (collisions(e) - before);
+    GG_TRY(e->ops->advance(e, 1e300, left, &elapsed, err));
+  } while (collisions(e) - before < count);
+  *done = collisions(e) - before;
+  return GG_OK;
+}
+
+static double cpu_used(const gg_engine *e)
+{
+  gg_engine_state s;
+  e->ops->state(e, &s);
+  return gg_cpu_now() + s.others_cpu;
+}
+
+static double read_clock(const runner *r)
+{
+  return r->by_the_clock ? gg_wall_now() : cpu_used(r->engine);
+}
+
+static void add_squares(void *context, const gg_chunk *chunk)
+{
+  double *sum = context; /* of grains, of C^2 */
+  sum[0] += (double)chunk->n;
+  for (int a = 0; a < 3; a++)
+    for (size_t i = 0; i < chunk->n; i++) sum[1] += chunk->c[a][i] * chunk->c[a][i];
+}
+
+/* Gases that cool leave the range of numbers in some thousand collisions a grain: back to where they began, by powers
+ * of two. */
+static gg_status warm_up_again(gg_engine *e, gg_error *err)
+{
+  double sum[2] = {0, 0};
+  e->ops->snapshot(e, false, add_squares, sum);
+  const double T = sum[1] / (3 * sum[0]);
+  if (!(T > 0) || T > 1e-30) return GG_OK;
+  return e->ops->rescale(e, (int)floor(-0.5 * log2(T)), err);
+}
+
+/* One timed stretch, grown until it is long enough to time. */
+static gg_status time_stretch(runner *r, double seconds, double *rate, gg_error *err)
+{
+  GG_TRY(warm_up_again(r->engine, err));
+  double start = read_clock(r), gone, wall = gg_wall_now(), cpu = cpu_used(r->engine);
+  uint64_t sum = 0;
+  do {
+    uint64_t done;
+    GG_TRY(advance_by(r->engine, r->guess, &done, err));
+    sum += done;
+    gone = read_clock(r) - start;
+    if (gone < seconds / 4) r->guess *= 2;
+  } while (gone < seconds);
+  *rate = (double)sum / gone;
+  r->wall += gg_wall_now() - wall;
+  r->cpu += cpu_used(r->engine) - cpu;
+  r->timed += sum;
+  return GG_OK;
+}
+
+static gg_status start(const gg_contender *c, double warmup, runner *r, gg_error *err)
+{
+  const gg_scene *scene = &c->scene;
+  gg_model model;
+  uint64_t done;
+  GG_TRY(gg_model_make(scene, scene->engine, &model, err));
+  const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
+  GG_TRY(ops->accepts(&model, err));
+  gg_start_near_steady(&model);
+  GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
+  r->by_the_clock = c->by_the_clock;
+  if (c->threads > 1 && ops->threads) ops->threads(r->engine, c->threads);
+  if (c->prepare) c->prepare(r->engine);
+  ops->tap(r->engine, c->tap);
+  r->guess = (uint64_t)model.n / 4 + 1000;
+  return advance_by(r->engine, (uint64_t)(warmup * (double)model.n / 2) + 1, &done, err);
+}
+
+static double median(double *values, int n)
+{
+  gsl_sort(values, 1, (size_t)n);
+  return gsl_stats_median_from_sorted_data(values, 1, (size_t)n);
+}
+
+static gg_throughput summary(const runner *r, int repeats)
+{
+  double rate[MOST_REPEATS];
+  for (int i = 0; i < repeats; i++) rate[i] = r->rate[i];
+  double middle = median(rate, repeats);
+  return (gg_throughput){middle, rate[0], rate[repeats - 1], repeats, r->cpu / r->wall, r->timed};
+}
+
+static void compare(const runner *r, const runner *other, int repeats, gg_race *out)
+{
+  double ratio[MOST_REPEATS];
+  for (int i = 0; i < repeats; i++) ratio[i] = r->rate[i] / other->rate[i];
+  out->own = summary(r, repeats);
+  out->ratio = median(ratio, repeats);
+  out->lowest = ratio[0];
+  out->highest = ratio[repeats - 1];
+}
+
+static gg_status race(const gg_contender *c, int n, double warmup, int repeats, double seconds, runner *r,
+                      gg_error *err)
+{
+  for (int k = 0; k < n; k++) GG_TRY(start(&c[k], warmup, &r[k], err));
+  for (int i = 0; i < repeats; i++)
+    for (int k = 0; k < n; k++) GG_TRY(time_stretch(&r[k], seconds, &r[k].rate[i], err));
+  return GG_OK;
+}
+
+gg_status gg_measure_race(const gg_contender *c, int n, double warmup, int repeats, double seconds, gg_race *out,
+                          gg_error *err)
+{
+  runner r[GG_MOST_CONTENDERS] = {0};
+  if (n > GG_MOST_CONTENDERS) return gg_fail(err, GG_FAILED, "%d scenes at once; at most %d", n, GG_MOST_CONTENDERS);
+  if (repeats > MOST_REPEATS) repeats = MOST_REPEATS;
+  gg_status status = race(c, n, warmup, repeats, seconds, r, err);
+  for (int k = 0; k < n; k++) {
+    if (status == GG_OK) compare(&r[k], &r[c[k].against], repeats, &out[k]);
+    if (r[k].engine) r[k].engine->ops->destroy(r[k].engine);
+  }
+  return status;
+}
+
+gg_status gg_measure_throughput(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
+                                gg_throughput *out, gg_error *err)
+{
+  gg_contender only = {.scene = *scene, .tap = tap, .against = 0};
+  gg_race result;
+  *out = (gg_throughput){0};
+  GG_TRY(gg_measure_race(&only, 1, warmup, repeats, seconds, &result, err));
+  *out = result.own;
+  return GG_OK;
+}

@@ -1,0 +1,73 @@
+/* xoshiro256++ in eight lanes side by side, on whatever registers there are: `gg_vq` holds some of the lanes' 64-bit
+ * words, eight, four or two. */
+#ifndef GG_DSMC_LANE_RNG_H
+#define GG_DSMC_LANE_RNG_H
+
+#include "dsmc/kernel/pairing.h"
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define GG_HAS_AVX512
+#include <immintrin.h>
+#ifdef GG_SINGLE_LANES
+enum { GG_QUADS = 4 }; /* as wide as the rest: a wider register now and then would slow down all others */
+#else
+enum { GG_QUADS = 8 };
+#endif
+#elif defined(__AVX2__)
+#define GG_HAS_AVX2
+#include <immintrin.h>
+enum { GG_QUADS = 4 };
+#else
+enum { GG_QUADS = 2 };
+#endif
+
+typedef uint64_t gg_vq __attribute__((vector_size(8 * GG_QUADS)));
+
+typedef struct gg_lane_rng {
+  gg_vq s[4][GG_LANES / GG_QUADS];
+} gg_lane_rng;
+
+GG_INLINE gg_vq gg_lane_rotl(gg_vq x, int k)
+{
+  return (x << k) | (x >> (64 - k));
+}
+
+GG_INLINE gg_vq gg_xor3(gg_vq a, gg_vq b, gg_vq c)
+{
+#ifdef GG_HAS_AVX512
+#ifdef GG_SINGLE_LANES
+  return (gg_vq)_mm256_ternarylogic_epi64((__m256i)a, (__m256i)b, (__m256i)c, 0x96);
+#else
+  return (gg_vq)_mm512_ternarylogic_epi64((__m512i)a, (__m512i)b, (__m512i)c, 0x96);
+#endif
+#else
+  return a ^ b ^ c;
+#endif
+}
+
+/* The next number of each of a part's lanes. */
+GG_INLINE gg_vq gg_lane_next(gg_lane_rng *r, int part)
+{
+  gg_vq *s0 = &r->s[0][part], *s1 = &r->s[1][part], *s2 = &r->s[2][part], *s3 = &r->s[3][part];
+  const gg_vq a = *s0, b = *s1, c = *s2, d = *s3;
+  *s0 = gg_xor3(a, d, b);
+  *s1 = gg_xor3(b, c, a);
+  *s2 = gg_xor3(c, a, b << 17);
+  *s3 = gg_lane_rotl(d ^ b, 45);
+  return gg_lane_rotl(a + d, 23) + a;
+}
+
+GG_INLINE void gg_lane_rng_load(gg_lane_rng *r, const gg_rng_lanes *from)
+{
+  for (int i = 0; i < 4; i++)
+    for (int p = 0; p < GG_LANES / GG_QUADS; p++)
+      __builtin_memcpy(&r->s[i][p], &from->s[i][p * GG_QUADS], sizeof(gg_vq));
+}
+
+GG_INLINE void gg_lane_rng_save(const gg_lane_rng *r, gg_rng_lanes *to)
+{
+  for (int i = 0; i < 4; i++)
+    for (int p = 0; p < GG_LANES / GG_QUADS; p++) __builtin_memcpy(&to->s[i][p * GG_QUADS], &r->s[i][p], sizeof(gg_vq));
+}
+
+#endif

@@ -1,0 +1,59 @@
+/* Normal numbers in lanes (Box & Muller 1958), without libm: the same bits everywhere. */
+#ifndef GG_DSMC_NORMAL_H
+#define GG_DSMC_NORMAL_H
+
+#include "dsmc/kernel/directions.h"
+
+/* sin and cos on [-pi/4, pi/4], Taylor's series to rounding: no libm, so that every processor has the same bits. */
+GG_INLINE void gg_lane_sincos(gg_vd a, gg_vd *sine, gg_vd *cosine)
+{
+  gg_vd q = a * a;
+  gg_vd s = q * (-1. / 1307674368000.) + 1. / 6227020800.;
+  s = s * q - 1. / 39916800.;
+  s = s * q + 1. / 362880.;
+  s = s * q - 1. / 5040.;
+  s = s * q + 1. / 120.;
+  s = s * q - 1. / 6.;
+  *sine = a + a * (q * s);
+  gg_vd c = q * (1. / 20922789888000.) - 1. / 87178291200.;
+  c = c * q + 1. / 479001600.;
+  c = c * q - 1. / 3628800.;
+  c = c * q + 1. / 40320.;
+  c = c * q - 1. / 720.;
+  c = c * q + 1. / 24.;
+  *cosine = 1 - (0.5 * q - q * q * c);
+}
+
+/* A unit vector in the plane, any angle: an eighth turn either way, turned on by the quarter that two bits choose. */
+GG_INLINE void gg_lane_circle(gg_vu r, gg_vd *x, gg_vd *y)
+{
+  gg_vd s, c;
+  gg_lane_sincos((gg_lane_one_to_two(r) - 1.5) * M_PI_2, &s, &c);
+  c = (gg_vd)((gg_vu)c ^ (r << 63)); /* and s has either sign by itself */
+  gg_mask other = gg_low_bit(r >> 1);
+  *x = gg_select(other, s, c);
+  *y = gg_select(other, c, s);
+}
+
+/* ln u for 0 < u <= 1: u = 2^e f with f in [sqrt(1/2), sqrt(2)), ln f = 2 artanh((f-1)/(f+1)) by its series. */
+GG_INLINE gg_vd gg_lane_log(gg_vd u)
+{
+  gg_vu bits = (gg_vu)u,
+        above = bits + (0x3ff0000000000000u - 0x3fe6a09e667f3bcdu); /* exponent, as seen from sqrt(1/2) */
+  gg_vd e = (gg_vd)((above >> 52) | 0x4330000000000000u) - (0x1p52 + 1023);
+  gg_vd f = (gg_vd)((above & 0x000fffffffffffffu) + 0x3fe6a09e667f3bcdu);
+  gg_vd s = (f - 1) / (f + 1), q = s * s, sum = gg_all(1. / 21);
+  for (int k = 19; k >= 1; k -= 2) sum = sum * q + 1. / k;
+  return e * M_LN2 + 2 * s * sum;
+}
+
+/* Two independent normal numbers a lane. */
+GG_INLINE void gg_lane_normal(gg_lane_rng *r, int part, gg_vd *a, gg_vd *b)
+{
+  gg_vd radius = gg_sqrt(-2 * gg_lane_log(2 - gg_lane_one_to_two(gg_lane_next(r, part))));
+  gg_lane_circle(gg_lane_next(r, part), a, b);
+  *a *= radius;
+  *b *= radius;
+}
+
+#endif

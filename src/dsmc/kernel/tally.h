@@ -1,0 +1,126 @@
+/* What the open tap keeps of collisions: a note of each visit, and now and then the sums over a handful of notes.
+ * Summed at once, seven sums would be fetched and put back at every visit, in the midst of a kernel that has its
+ * registers full; a handful later they stay in registers: a tenth of the cost. */
+#ifndef GG_DSMC_TALLY_H
+#define GG_DSMC_TALLY_H
+
+#include "dsmc/kernel/lanes_collision.h"
+#include "dsmc/kernel/pairing.h"
+
+enum { GG_NOTES = 8 };
+
+/* k, impulse and J.g of one visit: J is 0 where nothing hits, and k finite. Of smooth grains k and J_n are enough
+ * (J = J_n k, J.g = J_n^2/jn), and J.x stands for the latter. */
+typedef struct gg_note {
+  gg_vd3 k, J;
+  gg_vd Jg;
+} gg_note;
+
+typedef struct gg_tally {
+  unsigned n; /* visits noted */
+  gg_note note[GG_NOTES][GG_PARTS];
+  /* Lane by lane, double in either precision: stress as gg_transfer has it, and what the loss follows from
+   * (gg_loss_of). */
+  double xx[GG_LANES], yy[GG_LANES], zz[GG_LANES], xy[GG_LANES], yx[GG_LANES], Jg[GG_LANES], Jn2[GG_LANES],
+      J2[GG_LANES];
+} gg_tally;
+
+/* Smooth grains lose a share of J.g: for that alone k need not be known. */
+GG_INLINE bool gg_tally_needs_k(gg_features f)
+{
+  return f.tap == GG_TAP_STRESS || (f.tap == GG_TAP_LOSS && f.rule != GG_SMOOTH);
+}
+
+GG_INLINE bool gg_tally_smooth(gg_features f)
+{
+  return f.tap == GG_TAP_STRESS && f.rule == GG_SMOOTH;
+}
+
+GG_INLINE void gg_tally_note(gg_features f, gg_tally *t, int part, gg_vd3 k, gg_vd3 g, gg_vd3 J, gg_vd Jn)
+{
+  if (f.tap == GG_TAP_CLOSED) return;
+  gg_note *note = &t->note[t->n][part];
+  if (!gg_tally_smooth(f)) note->Jg = gg_vd3_dot(J, g);
+  if (!gg_tally_needs_k(f)) return;
+  note->k = k;
+  if (gg_tally_smooth(f))
+    note->J.x = Jn;
+  else
+    note->J = J;
+}
+
+GG_INLINE void gg_tally_add(double *sum, int part, gg_vd v)
+{
+  typedef double gg_doubles __attribute__((vector_size(8 * GG_WIDTH)));
+  gg_doubles s;
+  __builtin_memcpy(&s, sum + part * GG_WIDTH, sizeof s);
+  s += __builtin_convertvector(v, gg_doubles);
+  __builtin_memcpy(sum + part * GG_WIDTH, &s, sizeof s);
+}
+
+GG_INLINE void gg_tally_sum_part(gg_features f, gg_tally *t, int p)
+{
+  const gg_vd none = gg_all(0);
+  gg_vd xx = none, yy = none, zz = none, xy = none, yx = none, Jg = none, Jn2 = none, J2 = none;
+  for (unsigned i = 0; i < t->n; i++) {
+    const gg_note *note = &t->note[i][p];
+    if (!gg_tally_smooth(f)) Jg += note->Jg;
+    if (!gg_tally_needs_k(f)) continue;
+    gg_vd3 k = note->k, J = gg_tally_smooth(f) ? gg_vd3_scale(note->J.x, k) : note->J;
+    gg_vd x = k.x * J.x, y = k.y * J.y, z = k.z * J.z, Jn = gg_tally_smooth(f) ? note->J.x : x + y + z;
+    xx += x;
+    yy += y;
+    zz += z;
+    xy += k.x * J.y;
+    yx += k.y * J.x;
+    Jn2 += Jn * Jn;
+    J2 += gg_vd3_dot(J, J);
+  }
+  if (!gg_tally_smooth(f)) gg_tally_add(t->Jg, p, Jg);
+  if (gg_tally_needs_k(f)) gg_tally_add(t->Jn2, p, Jn2);
+  if (f.rule == GG_FRICTIONAL) gg_tally_add(t->J2, p, J2);
+  if (f.tap != GG_TAP_STRESS) return; /* what is not kept need not be computed */
+  gg_tally_add(t->xx, p, xx);
+  gg_tally_add(t->yy, p, yy);
+  gg_tally_add(t->zz, p, zz);
+  gg_tally_add(t->xy, p, xy);
+  if (f.rule != GG_SMOOTH) gg_tally_add(t->yx, p, yx);
+}
+
+GG_INLINE void gg_tally_sum(gg_features f, gg_tally *t)
+{
+  for (int p = 0; p < GG_PARTS; p++) gg_tally_sum_part(f, t, p);
+  t->n = 0;
+}
+
+/* A visit is over. */
+GG_INLINE void gg_tally_turn(gg_features f, gg_tally *t)
+{
+  if (f.tap != GG_TAP_CLOSED && ++t->n == GG_NOTES) gg_tally_sum(f, t);
+}
+
+GG_INLINE double gg_tally_of_lanes(const double v[GG_LANES])
+{
+  double sum = 0;
+  for (int l = 0; l < GG_LANES; l++) sum += v[l];
+  return sum;
+}
+
+GG_INLINE void gg_tally_finish(gg_features f, gg_tally *t, gg_pairing *p)
+{
+  if (f.tap == GG_TAP_CLOSED) return;
+  gg_tally_sum(f, t);
+  gg_loss_terms terms = {.Jg = gg_tally_of_lanes(t->Jg)};
+  if (gg_tally_smooth(f)) terms.Jg = gg_tally_of_lanes(t->Jn2) / p->contact.jn;
+  if (f.rule != GG_SMOOTH) terms.Jn2 = gg_tally_of_lanes(t->Jn2);
+  if (f.rule == GG_FRICTIONAL) terms.J2 = gg_tally_of_lanes(t->J2);
+  p->loss += gg_loss_of(f.rule, &p->contact, terms);
+  if (f.tap == GG_TAP_LOSS) return;
+  p->stress[0][0] += p->sigma * gg_tally_of_lanes(t->xx);
+  p->stress[1][1] += p->sigma * gg_tally_of_lanes(t->yy);
+  p->stress[2][2] += p->sigma * gg_tally_of_lanes(t->zz);
+  p->stress[0][1] += p->sigma * gg_tally_of_lanes(t->xy);
+  p->stress[1][0] += p->sigma * gg_tally_of_lanes(f.rule == GG_SMOOTH ? t->xy : t->yx);
+}
+
+#endif

@@ -1,0 +1,123 @@
+#include "dsmc/parallel/segments.h"
+
+int gg_segments_of(size_t blocks)
+{
+  return blocks < 8000 ? 1 : blocks < 32000 ? 8 : 16;
+}
+
+gg_range gg_all_blocks(const gg_population *p)
+{
+  return (gg_range){0, (uint32_t)p->n_blocks};
+}
+
+static uint32_t beginning(const gg_population *p, int segments, int segment)
+{
+  enum { LINE = 64 / sizeof *p->top };
+  if (segment == segments) return (uint32_t)p->n_blocks;
+  return (uint32_t)(p->n_blocks * (size_t)segment / (size_t)segments / LINE * LINE);
+}
+
+gg_range gg_segment(const gg_population *p, int segments, int segment)
+{
+  uint32_t first = beginning(p, segments, segment);
+  return (gg_range){first, beginning(p, segments, segment + 1) - first};
+}
+
+int gg_meetings(int segments, int round)
+{
+  return round ? segments / 2 : segments;
+}
+
+/* Where quarters 0 and c are one half: the smaller one of the two that are left. */
+static int second_half(int c)
+{
+  return c == 1 ? 2 : 1;
+}
+
+/* Segment i of quarter q meets i ^ k of quarter q ^ c in round (c, k). The first half of the meetings has quarters 0
+ * and c (or 1, if each quarter is for itself: gg_segment_in finds others), the second half the others: whoever plays
+ * the same half keeps them near. */
+void gg_meeting_of(int segments, int round, int meeting, int *one, int *two)
+{
+  const int quarter = segments / 4, c = round / quarter, k = round % quarter;
+  int q, i;
+  if (c == 0) {
+    const int each = k ? quarter / 2 : quarter, nth = meeting % each;
+    q = meeting / each;
+    /* The nth i that is the smaller one of i and i ^ k: without the highest bit of k. */
+    int high = 1;
+    while (2 * high <= k) high *= 2;
+    i = k ? nth % high + nth / high * 2 * high : nth;
+  } else {
+    q = meeting < quarter ? 0 : second_half(c);
+    i = meeting % quarter;
+  }
+  *one = q * quarter + i;
+  *two = (q ^ c) * quarter + (i ^ k);
+}
+
+int gg_segment_in(int segments, int halves, int part)
+{
+  if (segments < 4 || halves == 0) return part;
+  const int quarter = segments / 4, at = part / quarter;
+  const int q = (at < 2 ? 0 : second_half(halves)) ^ (at % 2 ? halves : 0);
+  return q * quarter + part % quarter;
+}
+
+void gg_tournament_start(gg_tournament *t, uint64_t seed, uint64_t stream)
+{
+  uint64_t next = stream + GG_STREAM_SEGMENTS;
+  t->rng = gg_rng_seed(seed, next++);
+  for (int k = 0; k < GG_MOST_SEGMENTS; k++) {
+    t->draws[k] = gg_rng_seed(seed, next++);
+    gg_rng_lanes_seed(&t->lanes[k], seed, next);
+    next += GG_LANES;
+  }
+}
+
+/* Numbers 0 to n - 1 in random order (Fisher & Yates). */
+static void shuffle(gg_rng *rng, int n, uint8_t *list)
+{
+  for (int i = 0; i < n; i++) {
+    uint32_t j = gg_rng_below(rng, (uint32_t)i + 1);
+    list[i] = list[j];
+    list[j] = (uint8_t)i;
+  }
+}
+
+/* The halves that the last tournament has ended with; 0: it is the first. */
+static int last_halves(const gg_tournament *t, int segments)
+{
+  for (int n = segments - 1; n >= 0; n--)
+    if (t->order[n] >= segments / 4) return t->order[n] / (segments / 4);
+  return 0;
+}
+
+/* In random order, but that halves stay together from one tournament to the next; for c = 0 any will do. All c are
+ * equally often at each place. */
+static void order_halves(gg_rng *rng, int last, uint8_t c[4])
+{
+  shuffle(rng, 4, c);
+  const uint8_t first = c[0] ? c[0] : c[1];
+  for (int n = 0; n < 4 && last; n++) c[n] = c[n] == first ? (uint8_t)last : c[n] == last ? first : c[n];
+}
+
+static void new_order(gg_tournament *t, int segments)
+{
+  const int quarter = segments / 4;
+  uint8_t c[4], k[GG_MOST_SEGMENTS];
+  order_halves(&t->rng, last_halves(t, segments), c);
+  for (int n = 0; n < 4; n++) {
+    shuffle(&t->rng, quarter, k);
+    for (int i = 0; i < quarter; i++) t->order[n * quarter + i] = (uint8_t)(c[n] * quarter + k[i]);
+  }
+}
+
+int gg_next_round(gg_tournament *t, int segments)
+{
+  if (t->next % (uint64_t)segments == 0) {
+    t->next = 0;
+    new_order(t, segments);
+  }
+  return t->order[t->next++];
+}

@@ -1,0 +1,119 @@
+#include "io/h5/h5.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The system's word for it ("No space left on device") stands at the bottom of HDF5's error stack. */
+static herr_t find_cause(unsigned n, const H5E_error2_t *entry, void *context)
+{
+  gg_h5 *h = context;
+  const char *start = entry->desc ? strstr(entry->desc, "error message = '") : NULL;
+  (void)n;
+  if (!start) return 0;
+  start += strlen("error message = '");
+  const char *end = strchr(start, '\'');
+  snprintf(h->why, sizeof h->why, "%.*s", end ? (int)(end - start) : 100, start);
+  return 1;
+}
+
+void gg_h5_failed(gg_h5 *h, const char *what)
+{
+  if (h->failed) return;
+  h->failed = true;
+  snprintf(h->why, sizeof h->why, "%.200s", what);
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, find_cause, h);
+}
+
+static void start(gg_h5 *h)
+{
+  *h = (gg_h5){.file = -1};
+  H5Eget_auto2(H5E_DEFAULT, &h->print, &h->print_data);
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
+static void create(gg_h5 *h, const char *path, bool in_memory)
+{
+  start(h);
+  hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  if (in_memory) H5Pset_fapl_core(access, 1 << 20, 0);
+  h->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  H5Pclose(access);
+  if (h->file < 0) gg_h5_failed(h, "HDF5 cannot create it");
+}
+
+void gg_h5_create_in_memory(gg_h5 *h, const char *path)
+{
+  create(h, path, true);
+}
+
+void gg_h5_create(gg_h5 *h, const char *path)
+{
+  create(h, path, false);
+}
+
+void gg_h5_open(gg_h5 *h, const char *path)
+{
+  start(h);
+  h->file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (h->file < 0) gg_h5_failed(h, "it is not an HDF5 file, or a damaged one");
+}
+
+void *gg_h5_image(gg_h5 *h, size_t *size)
+{
+  if (h->failed) return NULL;
+  ssize_t needed = H5Fflush(h->file, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(h->file, NULL, 0);
+  void *image = needed > 0 ? malloc((size_t)needed) : NULL;
+  if (!image || H5Fget_file_image(h->file, image, (size_t)needed) < 0) {
+    gg_h5_failed(h, "out of memory");
+    free(image);
+    return NULL;
+  }
+  *size = (size_t)needed;
+  return image;
+}
+
+void gg_h5_close(gg_h5 *h)
+{
+  if (h->file >= 0 && H5Fclose(h->file) < 0) gg_h5_failed(h, "HDF5 cannot close it");
+  H5Eset_auto2(H5E_DEFAULT, h->print, h->print_data);
+  h->file = -1;
+}
+
+gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_error *err)
+{
+  return h->failed ? gg_fail(err, GG_BAD_FILE, "%s: cannot be %s: %s", path, verb, h->why) : GG_OK;
+}
+
+bool gg_h5_exists(gg_h5 *h, const char *path)
+{
+  char part[256];
+  if (h->failed) return false;
+  for (const char *end = path + 1;; end++) { /* every group on the way must exist, too */
+    if (*end && *end != '/') continue;
+    snprintf(part, sizeof part, "%.*s", (int)(end - path), path);
+    if (H5Lexists(h->file, part, H5P_DEFAULT) <= 0) return false;
+    if (!*end) return true;
+  }
+}
+
+void gg_h5_group(gg_h5 *h, const char *path)
+{
+  if (h->failed || gg_h5_exists(h, path)) return;
+  hid_t links = H5Pcreate(H5P_LINK_CREATE);
+  H5Pset_create_intermediate_group(links, 1);
+  hid_t group = H5Gcreate2(h->file, path, links, H5P_DEFAULT, H5P_DEFAULT);
+  if (group < 0) gg_h5_failed(h, path);
+  H5Gclose(group);
+  H5Pclose(links);
+}
+
+void gg_h5_link(gg_h5 *h, const char *target, const char *path)
+{
+  if (h->failed) return;
+  hid_t links = H5Pcreate(H5P_LINK_CREATE);
+  H5Pset_create_intermediate_group(links, 1);
+  if (H5Lcreate_hard(h->file, target, h->file, path, links, H5P_DEFAULT) < 0) gg_h5_failed(h, path);
+  H5Pclose(links);
+}

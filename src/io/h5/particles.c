@@ -1,0 +1,124 @@
+#include "io/h5/particles.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GRAINS "/particles/grains/"
+
+static void start_vectors(gg_h5 *h, gg_h5_particles *p, gg_h5_rows *rows, const char *path, const double *data)
+{
+  rows->dataset = -1;
+  if (!data) return;
+  char name[80];
+  hsize_t row[2] = {p->n, 3};
+  snprintf(name, sizeof name, GRAINS "%s/value", path);
+  gg_h5_rows_create(h, rows, name, H5T_NATIVE_DOUBLE, 2, row);
+  snprintf(name, sizeof name, GRAINS "%s/step", path);
+  gg_h5_link(h, GRAINS "velocity/step", name);
+  snprintf(name, sizeof name, GRAINS "%s/time", path);
+  gg_h5_link(h, GRAINS "velocity/time", name);
+}
+
+static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
+{
+  const int dimension = 3;
+  const char *walls = gg_flow_is_walled(model->flow) ? "none" : "periodic";
+  const char *const periodic[3] = {"periodic", walls, "periodic"}, *const nowhere[3] = {"none", "none", "none"};
+  gg_h5_group(h, GRAINS "box");
+  gg_h5_ints_attribute(h, GRAINS "box", "dimension", &dimension, 0);
+  gg_h5_texts_attribute(h, GRAINS "box", "boundary", p->boxed ? periodic : nowhere, 3);
+  if (!p->boxed) return;
+  const hsize_t row[2] = {3, 3};
+  gg_h5_rows_create(h, &p->edges, GRAINS "box/edges/value", H5T_NATIVE_DOUBLE, 2, row);
+  gg_h5_link(h, GRAINS "velocity/step", GRAINS "box/edges/step");
+  gg_h5_link(h, GRAINS "velocity/time", GRAINS "box/edges/time");
+}
+
+/* Rows in the order of the grains' numbers, so that a row is the same grain in every frame. */
+static size_t *order_of(const gg_frame *frame)
+{
+  size_t *order = malloc(frame->n * sizeof *order);
+  for (size_t i = 0; order && i < frame->n; i++) {
+    int64_t id = frame->id ? frame->id[i] : (int64_t)i;
+    if (id < 0 || (size_t)id >= frame->n) {
+      free(order);
+      return NULL;
+    }
+    order[id] = i;
+  }
+  return order;
+}
+
+static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame, const size_t *order)
+{
+  hsize_t n = frame->n;
+  int64_t *id = calloc(frame->n, sizeof *id);
+  uint8_t *species = calloc(frame->n, 1);
+  *p = (gg_h5_particles){.started = true, .boxed = frame->position != NULL, .n = frame->n};
+  p->edges.dataset = -1;
+  gg_h5_rows_create(h, &p->step, GRAINS "velocity/step", H5T_NATIVE_UINT64, 0, NULL);
+  gg_h5_rows_create(h, &p->time, GRAINS "velocity/time", H5T_NATIVE_DOUBLE, 0, NULL);
+  const hsize_t row[2] = {n, 3};
+  gg_h5_rows_create(h, &p->velocity, GRAINS "velocity/value", H5T_NATIVE_DOUBLE, 2, row);
+  start_vectors(h, p, &p->position, "position", frame->position);
+  start_vectors(h, p, &p->spin, "spin", frame->spin);
+  start_box(h, p, model);
+  for (size_t i = 0; id && species && i < frame->n; i++) {
+    id[i] = (int64_t)i;
+    species[i] = frame->species ? frame->species[order[i]] : 0;
+  }
+  if (!id || !species) {
+    gg_h5_failed(h, "out of memory");
+  } else {
+    gg_h5_array(h, GRAINS "id", H5T_NATIVE_INT64, 1, &n, id);
+    gg_h5_array(h, GRAINS "species", H5T_NATIVE_UINT8, 1, &n, species);
+  }
+  free(id);
+  free(species);
+}
+
+/* Under shear the image above has slid by rate L_y t (Lees & Edwards 1972): the second edge leans by as much, counted
+ * from the nearest image, so that periodic images of the stored box are those of the simulation. */
+static double tilt_at(const gg_model *model, double time)
+{
+  return remainder(model->shear_rate * model->box[1] * time, model->box[0]);
+}
+
+static void append_vectors(gg_h5 *h, gg_h5_rows *rows, const double *data, const size_t *order, double *sorted,
+                           size_t n)
+{
+  if (!data) return;
+  for (size_t i = 0; i < n; i++) memcpy(sorted + 3 * i, data + 3 * order[i], 3 * sizeof *data);
+  gg_h5_rows_append(h, rows, sorted);
+}
+
+void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame)
+{
+  if (h->failed) return;
+  size_t *order = order_of(frame);
+  double *sorted = malloc(3 * frame->n * sizeof *sorted);
+  if (!order || !sorted) {
+    gg_h5_failed(h, "out of memory for a frame, or its grains are not numbered from 0 to n-1");
+  } else {
+    if (!p->started) start(h, p, model, frame, order);
+    const double tilt = tilt_at(model, frame->time);
+    const double edges[9] = {model->box[0], 0, 0, tilt, model->box[1], 0, 0, 0, model->box[2]};
+    gg_h5_rows_append(h, &p->step, &frame->step);
+    gg_h5_rows_append(h, &p->time, &frame->time);
+    if (p->boxed) gg_h5_rows_append(h, &p->edges, edges);
+    append_vectors(h, &p->position, frame->position, order, sorted, p->n);
+    append_vectors(h, &p->velocity, frame->velocity, order, sorted, p->n);
+    append_vectors(h, &p->spin, frame->spin, order, sorted, p->n);
+    p->last_step = frame->step;
+  }
+  free(order);
+  free(sorted);
+}
+
+void gg_h5_particles_close(gg_h5_particles *p)
+{
+  if (!p->started) return;
+  gg_h5_rows *const all[] = {&p->step, &p->time, &p->edges, &p->position, &p->velocity, &p->spin};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) gg_h5_rows_close(all[i]);
+}

@@ -1,0 +1,19 @@
+/* Grains in H5MD 1.1: /particles/grains with box, positions, velocities, spins, and what they are. */
+#ifndef GG_H5_PARTICLES_H
+#define GG_H5_PARTICLES_H
+
+#include "io/h5/h5.h"
+#include "run/result.h"
+
+typedef struct gg_h5_particles {
+  bool started, boxed;
+  size_t n;
+  uint64_t last_step;
+  gg_h5_rows step, time, edges, position, velocity, spin;
+} gg_h5_particles;
+
+/* Store one frame more; the first one lays out the groups. */
+void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame);
+void gg_h5_particles_close(gg_h5_particles *p);
+
+#endif

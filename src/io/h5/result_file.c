@@ -1,0 +1,107 @@
+#include "io/h5/result_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/statvfs.h>
+
+#include "io/c_locale.h"
+#include "io/document.h"
+
+gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
+{
+  *f = (gg_result_file){.command = command, .h.file = -1};
+  return gg_atomic_open(&f->file, path, err);
+}
+
+void gg_result_file_abandon(gg_result_file *f)
+{
+  gg_h5_particles_close(&f->particles);
+  if (f->h.file >= 0) gg_h5_close(&f->h);
+  gg_atomic_abandon(&f->file);
+}
+
+/* HDF5 recovers badly from a full disk: ask first. */
+static gg_status check_room(const gg_result_file *f, const gg_frame *frame, gg_error *err)
+{
+  struct statvfs disk;
+  double needed = 2.0 * (double)frame->n * 9 * sizeof(double) + (1 << 22);
+  if (fstatvfs(f->file.fd, &disk) == 0 && (double)disk.f_bavail * (double)disk.f_frsize < needed)
+    return gg_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", f->file.path, strerror(ENOSPC));
+  return GG_OK;
+}
+
+gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err)
+{
+  GG_TRY(check_room(f, frame, err));
+  if (!f->streaming) gg_h5_create(&f->h, f->file.temporary);
+  f->streaming = true;
+  gg_h5_particles_append(&f->h, &f->particles, model, frame);
+  return gg_h5_status(&f->h, f->file.path, "written", err);
+}
+
+/* Close what was streamed, or write what was made in memory; then put it in place. */
+static gg_status finish(gg_result_file *f, gg_error *err)
+{
+  gg_h5_particles_close(&f->particles);
+  size_t size = 0;
+  void *image = f->streaming ? NULL : gg_h5_image(&f->h, &size);
+  gg_h5_close(&f->h);
+  gg_status status = gg_h5_status(&f->h, f->file.path, "written", err);
+  if (status == GG_OK && image) status = gg_atomic_write(&f->file, image, size, err);
+  free(image);
+  if (status == GG_OK) return gg_atomic_commit(&f->file, err);
+  gg_atomic_abandon(&f->file);
+  return status;
+}
+
+static void write_document(gg_result_file *f, const gg_scene *scene, json_t *document)
+{
+  char *text = document ? gg_document_text(document) : NULL;
+  if (text)
+    gg_h5_write_header(&f->h, f->command, scene, text);
+  else
+    gg_h5_failed(&f->h, "out of memory");
+  free(text);
+  json_decref(document);
+}
+
+static void write_last_frame(gg_result_file *f, const gg_result *r)
+{
+  bool fresh = !f->particles.started || r->final.step > f->particles.last_step;
+  if (r->final.n && r->final.velocity && fresh) gg_h5_particles_append(&f->h, &f->particles, &r->model, &r->final);
+}
+
+gg_status gg_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err)
+{
+  locale_t before = gg_c_locale_enter();
+  if (!f->streaming) gg_h5_create_in_memory(&f->h, f->file.temporary);
+  write_document(f, &result->scene, gg_run_document(result));
+  gg_h5_text_attribute(&f->h, "/graingas", "kind", "run");
+  gg_h5_write_engine(&f->h, "/graingas", "/observables/", result);
+  write_last_frame(f, result);
+  gg_c_locale_leave(before);
+  return finish(f, err);
+}
+
+gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_comparison *c, gg_error *err)
+{
+  const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
+  locale_t before = gg_c_locale_enter();
+  if (!f->streaming) gg_h5_create_in_memory(&f->h, f->file.temporary);
+  write_document(f, &c->scene, gg_comparison_document(c));
+  gg_h5_text_attribute(&f->h, "/graingas", "kind", "compare");
+  if (md) gg_h5_write_engine(&f->h, "/graingas/md", "/observables/md_", md);
+  if (dsmc) gg_h5_write_engine(&f->h, "/graingas/dsmc", "/observables/dsmc_", dsmc);
+  gg_h5_write_theories(&f->h, c);
+  if (md || dsmc) write_last_frame(f, md ? md : dsmc);
+  gg_c_locale_leave(before);
+  return finish(f, err);
+}
+
+gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err)
+{
+  gg_result_file file;
+  GG_TRY(gg_result_file_open(&file, path, "gg_result_write", err));
+  return gg_result_file_finish_run(&file, result, err);
+}

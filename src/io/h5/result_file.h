@@ -1,0 +1,42 @@
+/* Result files: HDF5, H5MD 1.1 for grains and time series; scene, results and how they were made under /graingas.
+ *
+ *   /h5md                            version, author, creator
+ *   /particles/grains                box, position, velocity, spin (value, step, time), species, id
+ *   /observables/<quantity>          step, time, value from the start of the run; compare: /observables/md_<quantity>
+ *   /graingas                        version, command, machine, date, seed, scene (YAML), document (JSON), warnings
+ *   /graingas/results/<quantity>     mean, stderr, unit, samples, correlation_time; compare: /graingas/md/results/...
+ *   /graingas/curves/<name>          x, value, stderr, numbers/<what>/mean, stderr; units are attributes; compare:
+ *                                    /graingas/md/curves/...
+ *   /graingas/theory/<name>/<quantity>   mean, unit */
+#ifndef GG_RESULT_FILE_H
+#define GG_RESULT_FILE_H
+
+#include "io/atomic_file.h"
+#include "io/h5/particles.h"
+#include "run/run.h"
+
+typedef struct gg_result_file {
+  gg_atomic_file file;
+  const char *command; /* the command line, for the record */
+  bool streaming;      /* frames go to the disk as they come; otherwise the file is made in memory at the end */
+  gg_h5 h;
+  gg_h5_particles particles;
+} gg_result_file;
+
+/* `path` is checked to be writable and left untouched until the end. */
+gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err);
+/* Store a frame now. */
+gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err);
+/* Write all the rest, and put the file in place; on failure nothing is left. */
+gg_status gg_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err);
+gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_comparison *comparison, gg_error *err);
+/* Give up: nothing is left. Harmless after a finish. */
+void gg_result_file_abandon(gg_result_file *f);
+
+/* The inner layouts, for the writers above. */
+void gg_h5_write_header(gg_h5 *h, const char *command, const gg_scene *scene, const char *document);
+/* `observables` is what the names of its series begin with: "/observables/md_". */
+void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, const gg_result *result);
+void gg_h5_write_theories(gg_h5 *h, const gg_comparison *comparison);
+
+#endif

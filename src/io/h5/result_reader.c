@@ -1,0 +1,113 @@
+#include "io/h5/result_reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/h5/h5.h"
+
+static void read_series(gg_h5 *h, gg_stored_engine *e, const char *observables, const char *name)
+{
+  char path[160];
+  size_t n_times;
+  if (e->n_series == GG_MAX_STORED_SERIES) return;
+  snprintf(path, sizeof path, "%s%s/value", observables, name);
+  if (!gg_h5_exists(h, path)) return;
+  gg_stored_series *s = &e->series[e->n_series++];
+  snprintf(s->name, sizeof s->name, "%s", name);
+  s->value = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof(double), &s->n);
+  snprintf(path, sizeof path, "%s%s/time", observables, name);
+  s->time = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof(double), &n_times);
+  if (n_times < s->n) s->n = n_times;
+}
+
+static void read_engine(gg_h5 *h, gg_stored_engine *e, const char *group, const char *observables)
+{
+  char path[160];
+  size_t n = 0;
+  snprintf(path, sizeof path, "%s/window", group);
+  double *window = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof(double), &n);
+  if (n == 2) memcpy(e->window, window, sizeof e->window);
+  free(window);
+  for (int q = 0; q < GG_N_QUANTITIES; q++) read_series(h, e, observables, gg_quantity_name((gg_quantity)q));
+}
+
+static void read_engines(gg_h5 *h, gg_stored_result *s)
+{
+  for (int k = 0; k < 2; k++) {
+    const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
+    gg_stored_engine *e = &s->engine[k];
+    char group[64] = "/graingas", observables[64] = "/observables/";
+    json_t *document = s->document;
+    if (s->comparison) {
+      document = json_object_get(s->document, name);
+      snprintf(group, sizeof group, "/graingas/%s", name);
+      snprintf(observables, sizeof observables, "/observables/%s_", name);
+    } else {
+      const char *engine = json_string_value(json_object_get(document, "engine"));
+      if (!engine || strcmp(engine, name) != 0) continue;
+    }
+    if (!json_is_object(document)) continue;
+    e->name = name;
+    e->document = document;
+    read_engine(h, e, group, observables);
+  }
+}
+
+static size_t count_numbers(gg_h5 *h, const char *path)
+{
+  size_t n = 0;
+  if (gg_h5_exists(h, path)) free(gg_h5_read_array(h, path, H5T_NATIVE_INT64, sizeof(int64_t), &n));
+  return n;
+}
+
+gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
+{
+  gg_h5 h;
+  *s = (gg_stored_result){0};
+  gg_h5_open(&h, path);
+  if (!h.failed && gg_h5_exists(&h, "/checkpoint"))
+    gg_h5_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
+  if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_failed(&h, "it holds no result of graingas");
+  char *text = gg_h5_read_text(&h, "/graingas/document");
+  s->version = gg_h5_read_text(&h, "/graingas/version");
+  s->command = gg_h5_read_text(&h, "/graingas/command");
+  s->machine = gg_h5_read_text(&h, "/graingas/machine");
+  s->date = gg_h5_read_text(&h, "/graingas/date");
+  s->scene = gg_h5_read_text(&h, "/graingas/scene");
+  s->document = text ? json_loads(text, 0, NULL) : NULL;
+  free(text);
+  if (!s->document) gg_h5_failed(&h, "its document is damaged");
+  if (!h.failed) {
+    s->comparison = json_object_get(s->document, "comparison") != NULL;
+    read_engines(&h, s);
+    s->n_frames = count_numbers(&h, "/particles/grains/velocity/step");
+    s->n_grains = count_numbers(&h, "/particles/grains/id");
+  }
+  gg_h5_close(&h);
+  gg_status status = gg_h5_status(&h, path, "read", err);
+  if (status != GG_OK) gg_stored_result_clear(s);
+  return status;
+}
+
+void gg_stored_result_clear(gg_stored_result *s)
+{
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < s->engine[k].n_series; i++) {
+      free(s->engine[k].series[i].time);
+      free(s->engine[k].series[i].value);
+    }
+  free(s->version);
+  free(s->command);
+  free(s->machine);
+  free(s->date);
+  free(s->scene);
+  json_decref(s->document);
+  *s = (gg_stored_result){0};
+}
+
+const gg_stored_series *gg_stored_series_find(const gg_stored_engine *e, const char *name)
+{
+  for (int i = 0; i < e->n_series; i++)
+    if (strcmp(e->series[i].name, name) == 0) return &e->series[i];
+  return NULL;
+}

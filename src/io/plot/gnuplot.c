@@ -1,0 +1,86 @@
+/* gnuplot as a child process: the script on its standard input, its complaints read back. */
+#include <errno.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "io/atomic_file.h"
+#include "io/plot/plot.h"
+
+extern char **environ;
+
+static gg_status spawn(FILE *in, FILE *complaints, pid_t *child, gg_error *err)
+{
+  char *const arguments[] = {(char[]){"gnuplot"}, (char[]){"-"}, NULL};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, fileno(in), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(complaints), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(complaints), STDERR_FILENO);
+  int failed = posix_spawnp(child, "gnuplot", &actions, NULL, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed == ENOENT) return gg_fail(err, GG_FAILED, "gnuplot is not installed (Debian: apt install gnuplot-nox)");
+  return failed ? gg_fail(err, GG_FAILED, "gnuplot cannot be started: %s", strerror(failed)) : GG_OK;
+}
+
+/* Its complaint is the last line that says something. */
+static gg_status judge(int status, FILE *complaints, gg_error *err)
+{
+  char line[256], last[256] = "no picture came out";
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return GG_OK;
+  rewind(complaints);
+  while (fgets(line, sizeof line, complaints)) {
+    line[strcspn(line, "\n")] = '\0';
+    if (line[strspn(line, " ^")]) memcpy(last, line, sizeof last);
+  }
+  return gg_fail(err, GG_FAILED, "gnuplot failed: %s", last);
+}
+
+static gg_status draw(const char *script, const char *target, gg_error *err)
+{
+  pid_t child;
+  int status = -1;
+  FILE *in = tmpfile(), *complaints = tmpfile();
+  gg_status result = GG_OK;
+  if (!in || !complaints) {
+    result = gg_fail(err, GG_BAD_FILE, "no temporary file can be made: %s", strerror(errno));
+  } else {
+    fprintf(in, "set output '%s'\n%s\nunset output\n", target, script);
+    rewind(in);
+    result = spawn(in, complaints, &child, err);
+    if (result == GG_OK) {
+      while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+      result = judge(status, complaints, err);
+    }
+  }
+  if (in) fclose(in);
+  if (complaints) fclose(complaints);
+  return result;
+}
+
+/* gnuplot does not notice a full disk: a whole picture is known by its end. */
+static bool is_whole(int fd)
+{
+  char tail[64];
+  off_t size = lseek(fd, 0, SEEK_END), from = size > (off_t)sizeof tail ? size - (off_t)sizeof tail : 0;
+  ssize_t got = pread(fd, tail, sizeof tail, from);
+  return got > 0 && (memmem(tail, (size_t)got, "</svg>", 6) || memmem(tail, (size_t)got, "IEND", 4));
+}
+
+gg_status gg_gnuplot_run(const char *script, const char *picture, gg_error *err)
+{
+  gg_atomic_file file;
+  if (strchr(picture, '\'')) return gg_fail(err, GG_BAD_INPUT, "%s: a picture's name must not hold a quote", picture);
+  GG_TRY(gg_atomic_open(&file, picture, err));
+  gg_status status = draw(script, file.temporary, err);
+  if (status == GG_OK && !is_whole(file.fd))
+    status = gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
+  if (status == GG_OK) return gg_atomic_commit(&file, err);
+  gg_atomic_abandon(&file);
+  return status;
+}

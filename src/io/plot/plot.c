@@ -1,0 +1,63 @@
+#include "io/plot/plot.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/c_locale.h"
+
+static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_engine *e, bool png)
+{
+  gg_plot_start_page(s, stored, png, 1000, 440);
+  gg_plot_relaxation(s, e, (gg_panel){0.085, 0.455, 0.15, 0.80});
+  gg_plot_stresses(s, e, (gg_panel){0.585, 0.94, 0.15, 0.80});
+  fprintf(s, "unset multiplot\n");
+}
+
+/* The engines' relaxation side by side, between two heights of the page. */
+static void draw_both(FILE *s, const gg_stored_result *stored, double bottom, double top)
+{
+  const gg_stored_engine *md = &stored->engine[GG_MD], *dsmc = &stored->engine[GG_DSMC];
+  if (md->name) gg_plot_relaxation(s, md, (gg_panel){0.075, dsmc->name ? 0.475 : 0.965, bottom, top});
+  if (dsmc->name) gg_plot_relaxation(s, dsmc, (gg_panel){md->name ? 0.575 : 0.075, 0.965, bottom, top});
+}
+
+static void draw_comparison(FILE *s, const gg_stored_result *stored, bool png)
+{
+  bool ratios = gg_plot_has(stored, true), differences = gg_plot_has(stored, false), either = ratios || differences;
+  gg_plot_start_page(s, stored, png, 1100, either ? 820 : 440);
+  double from = ratios ? 0.73 : 0.075, to = differences ? 0.64 : 0.98;
+  if (ratios) gg_plot_ratios(s, stored, (gg_panel){0.075, to, 0.53, 0.85});
+  if (differences) gg_plot_differences(s, stored, (gg_panel){from, 0.98, 0.53, 0.85});
+  draw_both(s, stored, either ? 0.085 : 0.15, either ? 0.38 : 0.80);
+  fprintf(s, "unset multiplot\n");
+}
+
+static gg_status draw(const gg_stored_result *stored, const char *picture, bool png, gg_error *err)
+{
+  char *script = NULL;
+  size_t size;
+  FILE *s = open_memstream(&script, &size);
+  if (!s) return gg_fail(err, GG_FAILED, "out of memory");
+  locale_t before = gg_c_locale_enter();
+  if (stored->comparison)
+    draw_comparison(s, stored, png);
+  else
+    draw_run(s, stored, &stored->engine[stored->engine[GG_MD].name ? GG_MD : GG_DSMC], png);
+  gg_c_locale_leave(before);
+  gg_status status = GG_OK;
+  if (fclose(s) != 0) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK) status = gg_gnuplot_run(script, picture, err);
+  free(script);
+  return status;
+}
+
+gg_status gg_plot_result(const char *result_path, const char *picture, const char *format, gg_error *err)
+{
+  gg_stored_result stored;
+  size_t length = strlen(picture);
+  bool png = format ? strcmp(format, "png") == 0 : length > 4 && strcmp(picture + length - 4, ".png") == 0;
+  GG_TRY(gg_stored_result_read(&stored, result_path, err));
+  gg_status status = draw(&stored, picture, png, err);
+  gg_stored_result_clear(&stored);
+  return status;
+}

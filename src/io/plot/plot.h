@@ -1,0 +1,49 @@
+/* Pictures of result files, drawn by gnuplot. */
+#ifndef GG_PLOT_H
+#define GG_PLOT_H
+
+#include <stdio.h>
+
+#include "io/h5/result_reader.h"
+
+/* Draw a result file to a picture, whole or not at all. format: "svg", "png", or NULL: by the picture's name. */
+gg_status gg_plot_result(const char *result_path, const char *picture, const char *format, gg_error *err);
+
+/* A picture of the last frame, projected, if the file holds positions: *drawn says whether. */
+gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *result_path, const char *picture, bool png,
+                           bool *drawn, gg_error *err);
+
+/* Further pictures beside the given name: PICTURE_snapshot.svg if the file holds grains with positions, and one for
+ * each observable that left curves: PICTURE_<observable>.svg, for comparisons PICTURE_<engine>_<observable>.svg.
+ * `drawn` (may be NULL) is called with the name of each. */
+gg_status gg_plot_result_curves(const char *result_path, const char *picture, const char *format,
+                                void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
+
+/* Open a page of this size under the scene's title; to be ended by `unset multiplot`. */
+void gg_plot_start_page(FILE *script, const gg_stored_result *stored, bool png, int width, int height);
+
+/* Run a gnuplot script, and put what it drew in place. */
+gg_status gg_gnuplot_run(const char *script, const char *picture, gg_error *err);
+
+/* Where a panel stands on the page, in fractions of it. */
+typedef struct gg_panel {
+  double left, right, bottom, top;
+} gg_panel;
+void gg_plot_place(FILE *script, gg_panel panel);
+
+/* One engine's temperatures (or stresses) from start to end, with the averaging window. */
+void gg_plot_relaxation(FILE *script, const gg_stored_engine *engine, gg_panel panel);
+void gg_plot_stresses(FILE *script, const gg_stored_engine *engine, gg_panel panel);
+/* md, dsmc and the theories: ratios to md, and the numbers that have no scale to be divided by (N1, N2 ...). */
+bool gg_plot_has(const gg_stored_result *stored, bool ratios);
+void gg_plot_ratios(FILE *script, const gg_stored_result *stored, gg_panel panel);
+void gg_plot_differences(FILE *script, const gg_stored_result *stored, gg_panel panel);
+
+/* A unit as gnuplot's enhanced text: "d^2 gamma^2" becomes "d^2 γ^2". */
+void gg_plot_unit(const char *unit, char *text, size_t size);
+
+/* Okabe and Ito's colours, told apart by the colour-blind: md, dsmc, then the theories. */
+extern const char *const gg_plot_colours[];
+enum { GG_PLOT_COLOURS = 8 };
+
+#endif

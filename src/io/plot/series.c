@@ -1,0 +1,140 @@
+/* How a run relaxed: series from its start to its end, with the averaging window shaded. */
+#include <math.h>
+#include <string.h>
+
+#include "io/plot/plot.h"
+
+typedef struct curve {
+  const char *name, *label;
+  double sign;
+  const gg_stored_series *series;
+} curve;
+
+enum { MOST_POINTS = 1200 };
+
+/* The series as gnuplot data; long ones averaged over blocks, so that a picture stays small. */
+static void print_data(FILE *s, int k, const curve *c)
+{
+  const gg_stored_series *d = c->series;
+  size_t block = (d->n + MOST_POINTS - 1) / MOST_POINTS;
+  fprintf(s, "$curve%d << EOD\n", k);
+  for (size_t i = 0; i < d->n; i += block) {
+    double time = 0, value = 0;
+    size_t n = 0;
+    for (; n < block && i + n < d->n; n++) time += d->time[i + n], value += d->value[i + n];
+    if (isfinite(value)) fprintf(s, "%.9g %.9g\n", time / (double)n, c->sign * value / (double)n);
+  }
+  fprintf(s, "EOD\n");
+}
+
+static bool spans_decades(const curve *curves, int n)
+{
+  double least = INFINITY, most = 0;
+  for (int k = 0; k < n; k++)
+    for (size_t i = 0; i < curves[k].series->n; i++) {
+      double x = curves[k].sign * curves[k].series->value[i];
+      if (!isfinite(x)) continue;
+      least = fmin(least, x), most = fmax(most, x);
+    }
+  return least > 0 && most > 30 * least;
+}
+
+static const char *unit_of(const gg_stored_engine *e, const char *name)
+{
+  const json_t *result = json_object_get(json_object_get(e->document, "results"), name);
+  const char *unit = json_string_value(json_object_get(result, "unit"));
+  return unit ? unit : "1";
+}
+
+/* The unit of time that goes with a unit of temperature. */
+static const char *time_unit(const gg_stored_engine *e)
+{
+  const char *temperature = unit_of(e, "temperature");
+  if (strstr(temperature, "gamma")) return "1/γ";
+  return strstr(unit_of(e, "mean_free_path"), "n d^2") ? "1/(n d^2 v_0)" : "d/v_0";
+}
+
+static bool draw_mean(FILE *s, const gg_stored_engine *e, const curve *c)
+{
+  const json_t *result = json_object_get(json_object_get(e->document, "results"), c->name);
+  const json_t *mean = json_object_get(result, "mean");
+  if (!json_is_number(mean)) return false;
+  double y = c->sign * json_number_value(mean);
+  fprintf(s, "set arrow from %.9g,%.9g to %.9g,%.9g nohead front dt 2 lw 1.2 lc rgb '#222222'\n", e->window[0], y,
+          e->window[1], y);
+  return true;
+}
+
+/* Cooling goes on over decades of time, too. */
+static void set_time_axis(FILE *s, const gg_stored_series *d, double end, bool decades)
+{
+  double start = d->time[0] > 0 ? d->time[0] : d->time[1];
+  if (decades && start > 0 && end > 1000 * start)
+    fprintf(s, "set logscale x\nset format x '10^{%%T}'\nset xrange [%.9g:%.9g]\n", start, end);
+  else
+    fprintf(s, "set xrange [0:%.9g]\n", end);
+}
+
+/* Where the name of a curve stands: the mean of its last tenth, or its last value on a logarithmic axis. */
+static double level_at_end(const curve *c, bool decades)
+{
+  size_t n = c->series->n, from = decades ? n - 1 : n - 1 - n / 10;
+  double sum = 0;
+  for (size_t i = from; i < n; i++) sum += c->series->value[i];
+  return c->sign * sum / (double)(n - from);
+}
+
+static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const char *what, gg_panel panel)
+{
+  static const char *const colours[2][3] = {{"#0072B2", "#56B4E9", "#009E73"}, {"#D55E00", "#E69F00", "#CC79A7"}};
+  int found = 0;
+  char unit[96];
+  for (int k = 0; k < n; k++) {
+    curves[found] = curves[k];
+    curves[found].series = gg_stored_series_find(e, curves[k].name);
+    if (curves[found].series && curves[found].series->n > 1) found++;
+  }
+  if (!found) return;
+  gg_plot_place(s, panel);
+  for (int k = 0; k < found; k++) print_data(s, k, &curves[k]);
+  bool decades = spans_decades(curves, found);
+  if (decades) fprintf(s, "set logscale y\nset format y '10^{%%T}'\n");
+  if (found > 1 && !decades) fprintf(s, "set yrange [0:*]\n");
+  gg_plot_unit(unit_of(e, curves[0].name), unit, sizeof unit);
+  bool means = false;
+  for (int k = 0; k < found; k++) means |= draw_mean(s, e, &curves[k]);
+  fprintf(s, "set label '%s: %s (shaded: averaged over%s)' at graph 0,1.08 left\n", e->name, what,
+          means ? "; dashed: mean" : "");
+  fprintf(s, "set xlabel 'time [%s]'\nset ylabel '%s%s%s [%s]' offset 0.5,0\n", time_unit(e), curves[0].label,
+          found > 1 ? ", " : "", found > 1 ? curves[1].label : "", unit);
+  fprintf(s, "unset key\n");
+  if (e->window[1] > e->window[0])
+    fprintf(s, "set object 1 rectangle from %.9g,graph 0 to %.9g,graph 1 behind fc rgb '#eef2f5' fs solid noborder\n",
+            e->window[0], e->window[1]);
+  bool md = strcmp(e->name, "md") == 0;
+  double end = 0;
+  for (int k = 0; k < found; k++) end = fmax(end, curves[k].series->time[curves[k].series->n - 1]);
+  set_time_axis(s, curves[0].series, end, decades);
+  for (int k = 0; k < found; k++) {
+    const char *colour = colours[md ? 0 : 1][k];
+    fprintf(s, "set label '%s' at first %.9g,%.9g left offset 0.6,0 tc rgb '%s'\n", curves[k].label, end,
+            level_at_end(&curves[k], decades), colour);
+  }
+  fprintf(s, "plot ");
+  for (int k = 0; k < found; k++)
+    fprintf(s, "%s$curve%d using 1:2 with lines lw 1.4 lc rgb '%s'", k ? ", " : "", k, colours[md ? 0 : 1][k]);
+  fprintf(s, "\n");
+}
+
+void gg_plot_relaxation(FILE *s, const gg_stored_engine *e, gg_panel panel)
+{
+  curve curves[] = {{"temperature", "T", 1, NULL}, {"rotational_temperature", "θ", 1, NULL}};
+  draw(s, e, curves, 2, "temperature", panel);
+}
+
+void gg_plot_stresses(FILE *s, const gg_stored_engine *e, gg_panel panel)
+{
+  curve curves[] = {{"pressure", "p", 1, NULL}, {"P_xy", "-P_{xy}", -1, NULL}};
+  bool sheared = strstr(unit_of(e, "temperature"), "gamma") != NULL;
+  draw(s, e, curves, sheared ? 2 : 1, sheared ? "stress" : "pressure", panel);
+}

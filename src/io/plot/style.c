@@ -1,0 +1,73 @@
+/* What all pages have in common: terminal, title, colours, how a panel is placed, units. */
+#include <string.h>
+
+#include "io/plot/plot.h"
+#include "io/text.h"
+
+const char *const gg_plot_colours[GG_PLOT_COLOURS] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                      "#E69F00", "#56B4E9", "#000000", "#8C6D31"};
+
+void gg_plot_place(FILE *s, gg_panel p)
+{
+  fprintf(s,
+          "set lmargin at screen %g\nset rmargin at screen %g\nset bmargin at screen %g\nset tmargin at screen %g\n"
+          "unset object\nunset label\nunset arrow\nunset logscale\nunset title\nunset offsets\nset xtics auto\nset "
+          "xrange [*:*]\n"
+          "set yrange [*:*]\nset format x '%%g'\nset format y '%%g'\nset key default\n",
+          p.left, p.right, p.bottom, p.top);
+}
+
+void gg_plot_unit(const char *unit, char *text, size_t size)
+{
+  size_t used = 0;
+  while (*unit && used + 4 < size) {
+    if (strncmp(unit, "gamma", 5) == 0) {
+      used += (size_t)snprintf(text + used, size - used, "γ");
+      unit += 5;
+    } else if (strncmp(unit, "rho", 3) == 0) {
+      used += (size_t)snprintf(text + used, size - used, "ρ");
+      unit += 3;
+    } else {
+      text[used++] = *unit++;
+    }
+  }
+  text[used] = '\0';
+}
+
+static void start(FILE *s, bool png, int width, int height)
+{
+  if (png)
+    fprintf(s,
+            "set terminal pngcairo enhanced font 'DejaVu Sans,12' size %d,%d fontscale 1.25 linewidth 1.5 "
+            "pointscale 1.4 background '#ffffff'\n",
+            width * 3 / 2, height * 3 / 2);
+  else
+    fprintf(s, "set terminal svg enhanced font 'DejaVu Sans,12' size %d,%d background '#ffffff'\n", width, height);
+  fprintf(s, "set encoding utf8\nset border 3 lc rgb '#444444'\nset errorbars small\nset tics nomirror out textcolor "
+             "rgb '#222222'\n"
+             "set grid ytics lc rgb '#e4e4e4' lt 1 lw 0.8\n");
+}
+
+/* The scene's title over the page, from its YAML. */
+static void set_title(FILE *s, const gg_stored_result *stored)
+{
+  gg_scene *scene;
+  char title[240] = "", safe[300];
+  size_t used = 0;
+  if (gg_scene_parse(stored->scene, "scene", &scene, NULL) == GG_OK) {
+    gg_scene_title(scene, title, sizeof title);
+    gg_scene_free(scene);
+  }
+  for (const char *c = title; *c && used + 3 < sizeof safe; c++) {
+    if (*c == '\'') continue;
+    safe[used++] = *c;
+  }
+  safe[used] = '\0';
+  fprintf(s, "set multiplot title '%s' noenhanced font ',14'\n", safe);
+}
+
+void gg_plot_start_page(FILE *s, const gg_stored_result *stored, bool png, int width, int height)
+{
+  start(s, png, width, height);
+  set_title(s, stored);
+}

@@ -1,0 +1,154 @@
+#include "io/scene/draft.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "io/scene/node.h"
+
+void gg_scene_draft_start(gg_scene_draft *draft)
+{
+  *draft = (gg_scene_draft){.scene = gg_scene_defaults()};
+}
+
+static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *name, const yaml_node_t *value);
+
+static gg_status apply_members(gg_scene_reader *r, const char *section, const yaml_node_t *map)
+{
+  for (yaml_node_pair_t *i = map->data.mapping.pairs.start; i < map->data.mapping.pairs.top; i++) {
+    const yaml_node_t *name = yaml_document_get_node(r->document, i->key);
+    const yaml_node_t *value = yaml_document_get_node(r->document, i->value);
+    if (name->type != YAML_SCALAR_NODE) return gg_scene_refuse(r, name, section, "a key must be a word");
+    char key[96];
+    snprintf(key, sizeof key, "%.30s%s%.60s", section, *section ? "." : "", (const char *)name->data.scalar.value);
+    GG_TRY(apply(r, key, name, value));
+  }
+  return GG_OK;
+}
+
+static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *name, const yaml_node_t *value)
+{
+  int id = gg_scene_field_find(key);
+  if (id >= 0) {
+    if (r->seen[id]) return gg_scene_refuse(r, name, key, "is given twice, first on line %d", r->seen[id]);
+    r->seen[id] = (int)name->start_mark.line + 1;
+    r->draft->given[id] = true;
+    return gg_scene_read_value(r, &gg_scene_fields[id], key, value, &r->draft->scene);
+  }
+  if (!gg_scene_is_section(key)) return gg_scene_refuse_key(r, name, key);
+  if (value->type != YAML_MAPPING_NODE)
+    return gg_scene_refuse(r, value, key, "is a section: its keys go below it, indented");
+  return apply_members(r, key, value);
+}
+
+/* libyaml's word for what is wrong, with the line. */
+static gg_status refuse_syntax(const yaml_parser_t *parser, const char *name, gg_error *err)
+{
+  if (parser->error == YAML_MEMORY_ERROR) return gg_fail(err, GG_FAILED, "%s: out of memory", name);
+  const char *problem = parser->problem ? parser->problem : "cannot be read";
+  if (parser->error == YAML_READER_ERROR)
+    return gg_fail(err, GG_BAD_INPUT, "%s: is not a scene: no YAML text (%s at byte %zu)", name, problem,
+                   parser->problem_offset);
+  return gg_fail(err, GG_BAD_INPUT, "%s:%zu: is not YAML: %s%s%s", name, parser->problem_mark.line + 1, problem,
+                 parser->context ? " " : "", parser->context ? parser->context : "");
+}
+
+typedef gg_status use_root(gg_scene_reader *r, const char *key, const yaml_node_t *root);
+
+/* Parse one document and hand its root (NULL: nothing there) on. */
+static gg_status with_document(gg_scene_reader *r, const char *yaml, size_t length, const char *key, use_root *use)
+{
+  yaml_parser_t parser;
+  yaml_document_t document, next;
+  if (!yaml_parser_initialize(&parser)) return gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
+  yaml_parser_set_input_string(&parser, (const unsigned char *)yaml, length);
+  gg_status status;
+  if (!yaml_parser_load(&parser, &document)) {
+    status = refuse_syntax(&parser, r->name, r->err);
+  } else {
+    r->document = &document;
+    status = use(r, key, yaml_document_get_root_node(&document));
+    if (status == GG_OK && yaml_document_get_root_node(&document)) {
+      if (!yaml_parser_load(&parser, &next)) {
+        status = refuse_syntax(&parser, r->name, r->err);
+      } else {
+        if (yaml_document_get_root_node(&next))
+          status = gg_fail(r->err, GG_BAD_INPUT, "%s: holds more than one document; a scene is one", r->name);
+        yaml_document_delete(&next);
+      }
+    }
+    yaml_document_delete(&document);
+  }
+  yaml_parser_delete(&parser);
+  return status;
+}
+
+static gg_status use_scene(gg_scene_reader *r, const char *key, const yaml_node_t *root)
+{
+  if (!root || (root->type == YAML_SCALAR_NODE && root->data.scalar.length == 0))
+    return gg_fail(r->err, GG_BAD_INPUT, "%s: is empty; a scene needs at least flow and phi", r->name);
+  if (root->type != YAML_MAPPING_NODE)
+    return gg_fail(r->err, GG_BAD_INPUT, "%s:%zu: is not a scene: lines of 'key: value' are expected", r->name,
+                   root->start_mark.line + 1);
+  return apply_members(r, key, root);
+}
+
+gg_status gg_scene_draft_parse(gg_scene_draft *draft, const char *yaml, size_t length, const char *name, gg_error *err)
+{
+  gg_scene_reader r = {.name = name, .lines = true, .draft = draft, .err = err};
+  return with_document(&r, yaml, length, "", use_scene);
+}
+
+/* "collision.e.12": one pair of a pair-wise coefficient. */
+static gg_status set_pair(gg_scene_reader *r, const char *key, const yaml_node_t *root, bool *done)
+{
+  static const char *const names[GG_PAIRS] = {".11", ".12", ".22"};
+  size_t length = strlen(key);
+  for (int p = 0; p < GG_PAIRS; p++) {
+    if (length < 4 || length > 60 || strcmp(key + length - 3, names[p]) != 0) continue;
+    char base[64];
+    snprintf(base, sizeof base, "%.*s", (int)length - 3, key);
+    int id = gg_scene_field_find(base);
+    if (id < 0 || gg_scene_fields[id].type != GG_FIELD_PAIRS) continue;
+    *done = r->draft->given[id] = true;
+    char *values = (char *)&r->draft->scene + gg_scene_fields[id].offset;
+    return gg_scene_read_number(r, &gg_scene_fields[id], key, root, (double *)(void *)values + p);
+  }
+  return GG_OK;
+}
+
+/* "species.2.mass": one member of one species. */
+static gg_status set_species(gg_scene_reader *r, const char *key, const yaml_node_t *root, bool *done)
+{
+  int number, used = 0;
+  if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return GG_OK;
+  gg_scene *scene = &r->draft->scene;
+  *done = true;
+  if (number < 1 || number > scene->n_species)
+    return gg_scene_refuse(r, root, key, "this scene has %d species", scene->n_species);
+  for (const gg_field *f = gg_species_fields; f->key; f++)
+    if (strcmp(f->key, key + used) == 0) {
+      r->draft->given[gg_scene_field_find("species")] = true;
+      return gg_scene_read_value(r, f, key, root, &scene->species[number - 1]);
+    }
+  return gg_scene_refuse_key(r, root, key);
+}
+
+static gg_status use_override(gg_scene_reader *r, const char *key, const yaml_node_t *root)
+{
+  if (!root) return gg_scene_refuse(r, root, key, "no value is given");
+  bool done = false;
+  GG_TRY(set_pair(r, key, root, &done));
+  if (!done) GG_TRY(set_species(r, key, root, &done));
+  return done ? GG_OK : apply(r, key, root, root);
+}
+
+gg_status gg_scene_draft_set(gg_scene_draft *draft, const char *key, const char *value, gg_error *err)
+{
+  char name[160];
+  gg_scene_draft changed = *draft;
+  snprintf(name, sizeof name, "key '%.60s'", key);
+  gg_scene_reader r = {.name = name, .draft = &changed, .err = err};
+  GG_TRY(with_document(&r, value, strlen(value), key, use_override));
+  *draft = changed;
+  return GG_OK;
+}

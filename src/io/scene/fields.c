@@ -1,0 +1,184 @@
+#include "io/scene/fields.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io/scene/json.h"
+
+static const gg_word flows[] = {{"equilibrium", GG_EQUILIBRIUM, "elastic gas at rest"},
+                                {"usf", GG_USF, "uniform shear, Lees-Edwards box"},
+                                {"hcs", GG_HCS, "homogeneous cooling"},
+                                {"hss", GG_HSS, "homogeneous, heated by a thermostat"},
+                                {"couette", GG_COUETTE, "shear between moving walls"},
+                                {"poiseuille", GG_POISEUILLE, "driven by a force along resting walls"},
+                                {"chute", GG_CHUTE, "down an incline"},
+                                {0}};
+static const gg_word engines[] = {
+    {"md", GG_MD, "event-driven molecular dynamics"}, {"dsmc", GG_DSMC, "Enskog Monte Carlo"}, {0}};
+static const gg_word thermostats[] = {{"none", GG_NO_THERMOSTAT, "but gaussian in hss"},
+                                      {"gaussian", GG_GAUSSIAN, "anti-drag that keeps the energy constant"},
+                                      {"white_noise", GG_WHITE_NOISE, "random kicks"},
+                                      {0}};
+static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
+                                         {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
+                                         {"kolafa", GG_KOLAFA, "from the accurate equation of state"},
+                                         {0}};
+static const gg_word precisions[] = {{"double", GG_DOUBLE, "to 1e-16"},
+                                     {"single", GG_SINGLE, "to 1e-7, in half the memory; up to 1.5 times as fast"},
+                                     {0}};
+static const gg_word switches[] = {{"off", GG_OFF, ""}, {"on", GG_ON, ""}, {0}};
+static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one below"},
+                               {"open", GG_OPEN_TOP, "none: grains fall back under gravity"},
+                               {0}};
+static const gg_word observables[] = {
+    {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
+    {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
+    {"local_distributions", GG_MEASURE_LOCAL_DISTRIBUTIONS, "velocity distributions by local density"},
+    {"orientation", GG_MEASURE_ORIENTATION, "angle between velocity and spin"},
+    {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
+    {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
+    {"velocity_correlations", GG_MEASURE_VELOCITY_CORRELATIONS, "between grains, over their distance"},
+    {"structure", GG_MEASURE_STRUCTURE, "structure factor and velocity spectra"},
+    {"cells", GG_MEASURE_CELLS, "local density, shear rate, temperatures, spin"},
+    {"profiles", GG_MEASURE_PROFILES, "across the gap between walls"},
+    {"diffusion", GG_MEASURE_DIFFUSION, "velocity autocorrelation, mean-square displacement"},
+    {"viscosity", GG_MEASURE_VISCOSITY, "eta* of cooling and heated gases; comes with small_shear: on"},
+    {"collisions", GG_MEASURE_COLLISIONS, "free paths and times, angles of contact"},
+    {0}};
+
+#define AT(member) offsetof(gg_scene, member)
+#define AUTO .special = "auto", .special_value = GG_AUTO
+#define NONE .special = "none", .special_value = GG_AUTO
+
+const gg_field gg_scene_fields[] = {
+    {"flow", GG_FIELD_CHOICE, AT(flow), .words = flows, .doc = "the flow; must be given"},
+    {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines, .doc = "which engine `run` uses; `compare` uses both"},
+    {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .words = thermostats, .doc = "what keeps the gas warm"},
+    {"contact_value", GG_FIELD_CHOICE, AT(contact_value), .words = contact_values,
+     .doc = "pair correlation at contact, in dsmc and the theories"},
+    {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6,
+     .doc = "solid fraction; must be given; 0 is the Boltzmann limit (dsmc only)"},
+    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box"},
+    {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), 0, 1e12, true, .unit = "1/time", .doc = "shear rate of usf"},
+    {"small_shear", GG_FIELD_CHOICE, AT(small_shear), .words = switches,
+     .doc = "usf: shear so slow that the viscosity can be extrapolated to none: of the heated gas with "
+            "thermostat: gaussian (where it is on unless switched off), of the cooling one without"},
+    {"temperature", GG_FIELD_NUMBER, AT(temperature), 0, 1e300, true, AUTO, .unit = "velocity^2",
+     .doc = "<C.C>/3 to start from; auto: near the steady state"},
+    {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges"},
+    {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .doc = "normal restitution; 1 unless given in equilibrium"},
+    {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1,
+     .doc = "tangential restitution: -1 smooth, 1 perfectly rough; with a finite mu, that of sticking contacts"},
+    {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY,
+     .doc = "Coulomb friction coefficient; inf: constant beta"},
+    {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "one or two kinds of grains"},
+    {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls"},
+    {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1,
+     .doc = "tangential restitution at the walls; of smooth grains, which do not spin, that of their centres"},
+    {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .doc = "friction coefficient at the walls"},
+    {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "chute: the upper end"},
+    {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), 0, 1e12, true, .unit = "velocity",
+     .doc = "couette: the walls at +-L_y/2 move at +-speed"},
+    {"gravity", GG_FIELD_VECTOR, AT(gravity), -1e12, 1e12, .unit = "acceleration",
+     .doc = "body force per mass; walled flows only"},
+    {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
+     .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or not asked if "
+            "run.collisions is given"},
+    {"run.collisions", GG_FIELD_NUMBER, AT(run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
+     .doc = "stop after so much averaging"},
+    {"run.time_limit", GG_FIELD_NUMBER, AT(run.time_limit), 0, 1e9, true, NONE, .unit = "s",
+     .doc = "stop after so much time"},
+    {"run.warmup", GG_FIELD_NUMBER, AT(run.warmup), 0, 1e15, false, AUTO, .unit = "collisions per grain",
+     .doc = "before averaging; auto: until the slowest quantity is steady"},
+    {"run.replicas", GG_FIELD_INTEGER, AT(run.replicas), 1, 10000, .doc = "independent copies, averaged over"},
+    {"run.seed", GG_FIELD_INTEGER, AT(run.seed), 0, 9223372036854775807.0,
+     .doc = "of the random streams: the same seed gives the same run"},
+    {"md.contact_time", GG_FIELD_NUMBER, AT(md.contact_time), 0, 1, false, AUTO, .unit = "mean free times",
+     .doc =
+         "collisions closer in time than this have e = 1 (against inelastic collapse); 0: off. With gravity along y in "
+         "units of sqrt(d/g) instead; auto: 1e-5, with gravity along y 1e-3"},
+    {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
+     .doc = "step of the Monte Carlo engine"},
+    {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
+     .doc = "size of the Monte Carlo ensemble; auto: particles, but at least 5000"},
+    {"dsmc.precision", GG_FIELD_CHOICE, AT(dsmc.precision), .words = precisions,
+     .doc = "of the velocities and spins that the Monte Carlo engine keeps; sums are double in either; md is double"},
+    {"measure", GG_FIELD_SET, AT(measure), .words = observables, .doc = "what is measured; only that is paid for"},
+    {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
+     .doc = "time between checkpoints; 0: none"},
+    {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
+     .doc = "between stored frames; 0: only the last state"},
+    {0},
+};
+
+const gg_field gg_species_fields[] = {
+    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, 1, true, .doc = "mole fraction n_i/n"},
+    {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), 0, 1e12, true, .unit = "length", .doc = "diameter"},
+    {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), 0, 1e12, true, .unit = "mass", .doc = "mass"},
+    {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 0, 1, true,
+     .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow"},
+    {0},
+};
+
+int gg_scene_field_find(const char *key)
+{
+  for (int i = 0; gg_scene_fields[i].key; i++)
+    if (strcmp(gg_scene_fields[i].key, key) == 0) return i;
+  return -1;
+}
+
+bool gg_scene_is_section(const char *name)
+{
+  size_t length = strlen(name);
+  for (const gg_field *f = gg_scene_fields; f->key; f++)
+    if (strncmp(f->key, name, length) == 0 && f->key[length] == '.') return true;
+  return false;
+}
+
+static void list_words(const gg_word *words, char *text, size_t size)
+{
+  for (size_t used = strlen(text); words->name && used < size; words++, used = strlen(text))
+    snprintf(text + used, size - used, "%s%s", words->name, words[1].name ? ", " : "");
+}
+
+static void number_allowed(const gg_field *f, const char *what, char *text, size_t size)
+{
+  char min[32], max[32];
+  gg_format_number(f->min, min, sizeof min);
+  gg_format_number(f->max, max, sizeof max);
+  if (f->max == INFINITY)
+    snprintf(text, size, "%s of at least %s, or inf", what, min);
+  else if (f->above_min)
+    snprintf(text, size, "%s above %s, at most %s", what, min, max);
+  else
+    snprintf(text, size, "%s from %s to %s", what, min, max);
+  size_t used = strlen(text);
+  if (f->special && used < size) snprintf(text + used, size - used, ", or %s", f->special);
+}
+
+void gg_field_allowed(const gg_field *f, char *text, size_t size)
+{
+  static const char *const pairs = ", or a map {11: , 12: , 22: } of them";
+  switch (f->type) {
+  case GG_FIELD_NUMBER: number_allowed(f, "a number", text, size); return;
+  case GG_FIELD_INTEGER: number_allowed(f, "a whole number", text, size); return;
+  case GG_FIELD_VECTOR: number_allowed(f, "a list of three numbers", text, size); return;
+  case GG_FIELD_PAIRS:
+    number_allowed(f, "a number", text, size);
+    if (strlen(text) + strlen(pairs) < size) strcat(text, pairs);
+    return;
+  case GG_FIELD_CHOICE:
+    snprintf(text, size, "one of ");
+    list_words(f->words, text, size);
+    return;
+  case GG_FIELD_SET:
+    snprintf(text, size, "a list of ");
+    list_words(f->words, text, size);
+    return;
+  case GG_FIELD_SPECIES:
+    snprintf(text, size, "a list of one or two maps with fraction, diameter, mass and inertia");
+    return;
+  }
+}

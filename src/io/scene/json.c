@@ -1,0 +1,174 @@
+#include "io/scene/json.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static json_t *number_json(const gg_field *f, double value)
+{
+  if (f->special && value == f->special_value) return json_string(f->special);
+  if (value == INFINITY) return json_string("inf");
+  if (value == floor(value) && fabs(value) < 1e15) return json_integer((json_int_t)value);
+  return json_real(value);
+}
+
+static json_t *integer_json(const gg_field *f, int64_t value)
+{
+  return f->special && (double)value == f->special_value ? json_string(f->special) : json_integer(value);
+}
+
+static json_t *choice_json(const gg_field *f, const void *at)
+{
+  int value;
+  memcpy(&value, at, sizeof value);
+  for (const gg_word *w = f->words; w->name; w++)
+    if (w->value == value) return json_string(w->name);
+  return json_null();
+}
+
+static json_t *set_json(const gg_field *f, unsigned set)
+{
+  json_t *list = json_array();
+  for (const gg_word *w = f->words; w->name; w++)
+    if (set & (unsigned)w->value) json_array_append_new(list, json_string(w->name));
+  return list;
+}
+
+static json_t *pairs_json(const gg_field *f, const double *x)
+{
+  if (x[GG_11] == x[GG_12] && x[GG_11] == x[GG_22]) return number_json(f, x[GG_11]);
+  return json_pack("{s:o, s:o, s:o}", "11", number_json(f, x[GG_11]), "12", number_json(f, x[GG_12]), "22",
+                   number_json(f, x[GG_22]));
+}
+
+static json_t *vector_json(const gg_field *f, const double *x)
+{
+  return json_pack("[o, o, o]", number_json(f, x[0]), number_json(f, x[1]), number_json(f, x[2]));
+}
+
+static json_t *species_json(const gg_scene *scene)
+{
+  json_t *list = json_array();
+  for (int i = 0; i < scene->n_species; i++) {
+    json_t *one = json_object();
+    for (const gg_field *f = gg_species_fields; f->key; f++)
+      json_object_set_new(one, f->key, gg_field_json(f, &scene->species[i], scene));
+    json_array_append_new(list, one);
+  }
+  return list;
+}
+
+json_t *gg_field_json(const gg_field *f, const void *base, const gg_scene *scene)
+{
+  const void *at = (const char *)base + f->offset;
+  switch (f->type) {
+  case GG_FIELD_NUMBER: return number_json(f, *(const double *)at);
+  case GG_FIELD_INTEGER: return integer_json(f, *(const int64_t *)at);
+  case GG_FIELD_CHOICE: return choice_json(f, at);
+  case GG_FIELD_SET: return set_json(f, *(const unsigned *)at);
+  case GG_FIELD_PAIRS: return pairs_json(f, at);
+  case GG_FIELD_VECTOR: return vector_json(f, at);
+  case GG_FIELD_SPECIES: return species_json(scene);
+  }
+  return json_null();
+}
+
+json_t *gg_scene_json(const gg_scene *scene)
+{
+  json_t *root = json_object();
+  for (const gg_field *f = gg_scene_fields; f->key; f++) {
+    json_t *into = root;
+    const char *dot = strchr(f->key, '.'), *name = dot ? dot + 1 : f->key;
+    if (dot) {
+      char section[32];
+      snprintf(section, sizeof section, "%.*s", (int)(dot - f->key), f->key);
+      into = json_object_get(root, section);
+      if (!into) json_object_set_new(root, section, into = json_object());
+    }
+    json_object_set_new(into, name, gg_field_json(f, scene, scene));
+  }
+  return root;
+}
+
+void gg_format_number(double value, char *text, size_t size)
+{
+  for (int digits = 15; digits <= 17; digits++) {
+    snprintf(text, size, "%.*g", digits, value);
+    if (strtod(text, NULL) == value) return;
+  }
+}
+
+void gg_print_flow_style(FILE *out, const json_t *value)
+{
+  char text[40];
+  const char *key;
+  json_t *member;
+  size_t i;
+  switch (json_typeof(value)) {
+  case JSON_REAL:
+    gg_format_number(json_real_value(value), text, sizeof text);
+    fputs(text, out);
+    return;
+  case JSON_INTEGER: fprintf(out, "%" JSON_INTEGER_FORMAT, json_integer_value(value)); return;
+  case JSON_STRING: fputs(json_string_value(value), out); return;
+  case JSON_ARRAY:
+    fputc('[', out);
+    json_array_foreach(value, i, member)
+    {
+      if (i) fputs(", ", out);
+      gg_print_flow_style(out, member);
+    }
+    fputc(']', out);
+    return;
+  case JSON_OBJECT:
+    fputc('{', out);
+    i = 0;
+    json_object_foreach((json_t *)(uintptr_t)value, key, member)
+    {
+      fprintf(out, "%s%s: ", i++ ? ", " : "", key);
+      gg_print_flow_style(out, member);
+    }
+    fputc('}', out);
+    return;
+  default: fputs("null", out);
+  }
+}
+
+static bool is_pairs(const json_t *value)
+{
+  return json_object_get(value, "12") != NULL;
+}
+
+static void print_yaml(FILE *out, const json_t *root)
+{
+  const char *key, *name;
+  json_t *value, *member;
+  json_object_foreach((json_t *)(uintptr_t)root, key, value)
+  {
+    if (!json_is_object(value) || is_pairs(value)) {
+      fprintf(out, "%s: ", key);
+      gg_print_flow_style(out, value);
+      fputc('\n', out);
+      continue;
+    }
+    fprintf(out, "%s:\n", key);
+    json_object_foreach(value, name, member)
+    {
+      fprintf(out, "  %s: ", name);
+      gg_print_flow_style(out, member);
+      fputc('\n', out);
+    }
+  }
+}
+
+char *gg_scene_yaml(const gg_scene *scene)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return NULL;
+  json_t *root = gg_scene_json(scene);
+  print_yaml(out, root);
+  json_decref(root);
+  return fclose(out) == 0 ? text : NULL;
+}

@@ -1,0 +1,21 @@
+/* Scenes written back: as JSON for results, as YAML for people; either can be read again as a scene. */
+#ifndef GG_SCENE_JSON_H
+#define GG_SCENE_JSON_H
+
+#include <jansson.h>
+#include <stdio.h>
+
+#include "io/scene/fields.h"
+
+/* Every key with its value; NULL only if out of memory. The caller owns the reference. */
+json_t *gg_scene_json(const gg_scene *scene);
+/* One value of it. */
+json_t *gg_field_json(const gg_field *field, const void *base, const gg_scene *scene);
+/* A number in the fewest digits that read back as the same number. */
+void gg_format_number(double value, char *text, size_t size);
+/* A JSON value on one line, as YAML flow style. */
+void gg_print_flow_style(FILE *out, const json_t *value);
+/* The scene as YAML text, to be freed; NULL if out of memory. */
+char *gg_scene_yaml(const gg_scene *scene);
+
+#endif

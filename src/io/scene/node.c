@@ -1,0 +1,196 @@
+#include "io/scene/node.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The node as a message shows it. */
+static void show(const yaml_node_t *node, char *text, size_t size)
+{
+  if (node->type == YAML_SEQUENCE_NODE)
+    snprintf(text, size, "a list");
+  else if (node->type == YAML_MAPPING_NODE)
+    snprintf(text, size, "a map");
+  else if (node->data.scalar.length == 0)
+    snprintf(text, size, "nothing");
+  else
+    snprintf(text, size, "%s '%.40s'", node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE ? "value" : "text",
+             (const char *)node->data.scalar.value);
+}
+
+static gg_status refuse_value(const gg_scene_reader *r, const gg_field *field, const char *key, const yaml_node_t *node)
+{
+  char shown[64], allowed[256];
+  show(node, shown, sizeof shown);
+  gg_field_allowed(field, allowed, sizeof allowed);
+  return gg_scene_refuse(r, node, key, "%s is not allowed; allowed: %s", shown, allowed);
+}
+
+static const char *scalar(const yaml_node_t *node)
+{
+  return node->type == YAML_SCALAR_NODE ? (const char *)node->data.scalar.value : NULL;
+}
+
+static bool parse_number(const char *text, double *value)
+{
+  static const char *const infinities[] = {"inf", ".inf", "+.inf", "+inf", ".Inf", NULL};
+  for (int i = 0; infinities[i]; i++)
+    if (strcmp(text, infinities[i]) == 0) return *value = INFINITY, true;
+  char *end;
+  if (!*text || text[strspn(text, "0123456789+-.eE")]) return false;
+  *value = strtod(text, &end);
+  return *end == '\0' && isfinite(*value);
+}
+
+gg_status gg_scene_read_number(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
+                               double *value)
+{
+  const char *text = scalar(node);
+  if (text && f->special && strcmp(text, f->special) == 0) return *value = f->special_value, GG_OK;
+  bool quoted = text && node->data.scalar.style != YAML_PLAIN_SCALAR_STYLE && strcmp(text, "inf") != 0;
+  double x;
+  if (!text || quoted || !parse_number(text, &x)) return refuse_value(r, f, key, node);
+  if (x < f->min || x > f->max || (f->above_min && x == f->min)) return refuse_value(r, f, key, node);
+  *value = x;
+  return GG_OK;
+}
+
+static gg_status read_integer(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
+                              int64_t *value)
+{
+  double x;
+  GG_TRY(gg_scene_read_number(r, f, key, node, &x));
+  if (x != floor(x)) return refuse_value(r, f, key, node);
+  char *end;
+  errno = 0;
+  long long exact = strtoll(scalar(node), &end, 10); /* a seed has more digits than a double */
+  if (*end == '\0' && errno) return refuse_value(r, f, key, node);
+  *value = *end == '\0' ? exact : (int64_t)x;
+  return GG_OK;
+}
+
+static const gg_word *find_word(const gg_word *words, const yaml_node_t *node)
+{
+  const char *text = scalar(node);
+  for (; text && words->name; words++)
+    if (strcmp(words->name, text) == 0) return words;
+  return NULL;
+}
+
+static gg_status read_choice(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
+                             void *value)
+{
+  const gg_word *word = find_word(f->words, node);
+  if (!word) return refuse_value(r, f, key, node);
+  memcpy(value, &word->value, sizeof word->value);
+  return GG_OK;
+}
+
+static gg_status read_set(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
+                          unsigned *value)
+{
+  if (node->type != YAML_SEQUENCE_NODE) return refuse_value(r, f, key, node);
+  unsigned set = 0;
+  for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {
+    const yaml_node_t *item = yaml_document_get_node(r->document, *i);
+    const gg_word *word = find_word(f->words, item);
+    if (!word) return refuse_value(r, f, key, item);
+    set |= (unsigned)word->value;
+  }
+  *value = set;
+  return GG_OK;
+}
+
+static gg_status read_vector(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
+                             double *value)
+{
+  if (node->type != YAML_SEQUENCE_NODE || node->data.sequence.items.top - node->data.sequence.items.start != 3)
+    return refuse_value(r, f, key, node);
+  for (int a = 0; a < 3; a++) {
+    const yaml_node_t *item = yaml_document_get_node(r->document, node->data.sequence.items.start[a]);
+    GG_TRY(gg_scene_read_number(r, f, key, item, &value[a]));
+  }
+  return GG_OK;
+}
+
+static gg_status read_pairs(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
+                            double *value)
+{
+  static const char *const names[GG_PAIRS] = {"11", "12", "22"};
+  if (node->type != YAML_MAPPING_NODE) {
+    GG_TRY(gg_scene_read_number(r, f, key, node, &value[GG_11]));
+    value[GG_12] = value[GG_22] = value[GG_11];
+    return GG_OK;
+  }
+  bool given[GG_PAIRS] = {false};
+  for (yaml_node_pair_t *i = node->data.mapping.pairs.start; i < node->data.mapping.pairs.top; i++) {
+    const yaml_node_t *name = yaml_document_get_node(r->document, i->key);
+    int p = 0;
+    while (p < GG_PAIRS && (!scalar(name) || strcmp(scalar(name), names[p]) != 0)) p++;
+    if (p == GG_PAIRS || given[p])
+      return gg_scene_refuse(r, name, key, "a map by pairs of species has the keys 11, 12 and 22, each once");
+    given[p] = true;
+    GG_TRY(gg_scene_read_number(r, f, key, yaml_document_get_node(r->document, i->value), &value[p]));
+  }
+  if (given[GG_11] && given[GG_12] && given[GG_22]) return GG_OK;
+  return gg_scene_refuse(r, node, key, "a map by pairs of species needs all of 11, 12 and 22");
+}
+
+static gg_status read_one_species(const gg_scene_reader *r, const char *key, const yaml_node_t *node, gg_species *one)
+{
+  if (node->type != YAML_MAPPING_NODE)
+    return gg_scene_refuse(r, node, key, "a species is a map with fraction, diameter, mass and inertia");
+  unsigned given = 0;
+  for (yaml_node_pair_t *i = node->data.mapping.pairs.start; i < node->data.mapping.pairs.top; i++) {
+    const yaml_node_t *name = yaml_document_get_node(r->document, i->key);
+    const yaml_node_t *value = yaml_document_get_node(r->document, i->value);
+    const char *word = scalar(name) ? scalar(name) : "?";
+    int k = 0;
+    while (gg_species_fields[k].key && strcmp(gg_species_fields[k].key, word) != 0) k++;
+    char full[96];
+    snprintf(full, sizeof full, "%s.%.60s", key, word);
+    if (!gg_species_fields[k].key) return gg_scene_refuse_key(r, name, full);
+    if (given & 1u << k) return gg_scene_refuse(r, name, full, "is given twice");
+    given |= 1u << k;
+    GG_TRY(gg_scene_read_value(r, &gg_species_fields[k], full, value, one));
+  }
+  return GG_OK;
+}
+
+static gg_status read_species(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node)
+{
+  if (node->type != YAML_SEQUENCE_NODE) return refuse_value(r, f, key, node);
+  ptrdiff_t n = node->data.sequence.items.top - node->data.sequence.items.start;
+  if (n < 1 || n > GG_MAX_SPECIES)
+    return gg_scene_refuse(r, node, key, "%td species are given; allowed: one or two", n);
+  gg_scene *scene = &r->draft->scene;
+  double total = 0;
+  for (int i = 0; i < n; i++) {
+    gg_species one = {1.0 / (double)n, 1, 1, 0.4};
+    GG_TRY(read_one_species(r, key, yaml_document_get_node(r->document, node->data.sequence.items.start[i]), &one));
+    scene->species[i] = one;
+    total += one.fraction;
+  }
+  if (fabs(total - 1) > 1e-9)
+    return gg_scene_refuse(r, node, key, "the fractions sum to %.10g; they must sum to 1 (within 1e-9)", total);
+  scene->n_species = (int)n;
+  return GG_OK;
+}
+
+gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
+                              void *base)
+{
+  void *value = (char *)base + f->offset;
+  switch (f->type) {
+  case GG_FIELD_NUMBER: return gg_scene_read_number(r, f, key, node, value);
+  case GG_FIELD_INTEGER: return read_integer(r, f, key, node, value);
+  case GG_FIELD_CHOICE: return read_choice(r, f, key, node, value);
+  case GG_FIELD_SET: return read_set(r, f, key, node, value);
+  case GG_FIELD_PAIRS: return read_pairs(r, f, key, node, value);
+  case GG_FIELD_VECTOR: return read_vector(r, f, key, node, value);
+  case GG_FIELD_SPECIES: return read_species(r, f, key, node);
+  }
+  return GG_OK;
+}

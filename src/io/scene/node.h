@@ -1,0 +1,32 @@
+/* Reading the value of one key from a YAML node. */
+#ifndef GG_SCENE_NODE_H
+#define GG_SCENE_NODE_H
+
+#include <yaml.h>
+
+#include "io/scene/draft.h"
+
+typedef struct gg_scene_reader {
+  yaml_document_t *document;
+  const char *name; /* file, for messages; or the override as it was typed */
+  bool lines;       /* say the line, too */
+  gg_scene_draft *draft;
+  int seen[GG_MAX_FIELDS]; /* line on which this document gave the key, 0: not yet */
+  gg_error *err;
+} gg_scene_reader;
+
+/* GG_BAD_INPUT with "file:line: key 'KEY': ..." */
+gg_status gg_scene_refuse(const gg_scene_reader *r, const yaml_node_t *node, const char *key, const char *format, ...)
+    GG_PRINTF(4, 5);
+
+/* The node's value into the member of `base` that the field names. */
+gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *field, const char *key, const yaml_node_t *node,
+                              void *base);
+/* One number within the field's range. */
+gg_status gg_scene_read_number(const gg_scene_reader *r, const gg_field *field, const char *key,
+                               const yaml_node_t *node, double *value);
+
+/* The nearest word is named if there is one, all are listed otherwise. */
+gg_status gg_scene_refuse_key(const gg_scene_reader *r, const yaml_node_t *node, const char *key);
+
+#endif

@@ -1,0 +1,112 @@
+#include "statistics/estimator.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include <gsl/gsl_statistics_double.h>
+
+#include "statistics/autocorrelation.h"
+
+/* Means over equal blocks, none across the seam of two runs; returns how many. */
+static size_t block_means(const double *y, size_t n, size_t n_runs, size_t length, double *means)
+{
+  size_t per_run = n / length, count = 0;
+  for (size_t r = 0; r < n_runs; r++)
+    for (size_t b = 0; b < per_run; b++) /* the rows left over are those nearest to the start */
+      means[count++] = gsl_stats_mean(y + r * n + (n - per_run * length) + b * length, 1, length);
+  return count;
+}
+
+/* The longest blocks that leave GG_MAX_BLOCKS of them, but never shorter than ten correlation times while that leaves
+ * GG_MIN_BLOCKS. */
+static size_t block_length(size_t n, size_t n_runs, double tau)
+{
+  size_t total = n * n_runs;
+  double shortest = ceil(10 * tau), most = floor((double)total / GG_MIN_BLOCKS);
+  double length = fmax(ceil((double)total / GG_MAX_BLOCKS), fmin(shortest, most));
+  return length < 1 ? 1 : length > (double)n ? n : (size_t)length;
+}
+
+/* Blocks that are not much longer than the correlation time depend on their neighbours, and scatter less than their
+ * mean is uncertain: by how much follows from the correlation function itself. */
+static double neighbours(const gg_correlation *c, size_t n, size_t length)
+{
+  double whole = gg_correlation_inflation(c, n), block = gg_correlation_inflation(c, length);
+  return whole > block && block > 0 ? sqrt(whole / block) : 1;
+}
+
+gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err)
+{
+  *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
+  size_t total = n * n_runs;
+  if (total == 0) return GG_OK;
+  out->mean = gsl_stats_mean(y, 1, total);
+  if (total < 4) return GG_OK;
+  double *work = gg_new_array(total, sizeof *work, err);
+  if (!work) return GG_FAILED;
+  for (size_t i = 0; i < total; i++) work[i] = y[i] - out->mean;
+  gg_correlation c;
+  gg_status status = gg_correlation_of(work, n, n_runs, &c, err);
+  if (status == GG_OK) {
+    size_t length = block_length(n, n_runs, c.time);
+    out->correlation_rows = c.time;
+    out->blocks = block_means(y, n, n_runs, length, work);
+    if (out->blocks >= 2) out->scatter = gsl_stats_sd(work, 1, out->blocks) / sqrt((double)out->blocks);
+    out->error = out->scatter * neighbours(&c, n, length);
+    out->trusted = out->blocks >= GG_MIN_BLOCKS && (double)length >= 5 * c.time;
+    gg_correlation_clear(&c);
+  }
+  free(work);
+  return status;
+}
+
+static void channel_means(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
+                          size_t channels, double *mean)
+{
+  for (size_t k = 0; k < channels; k++) mean[k] = 0;
+  for (size_t r = 0; r < n_runs; r++)
+    for (size_t i = begin; i < end; i++)
+      for (size_t k = 0; k < channels; k++) mean[k] += gg_series_row(series[r], i)[offset + k];
+  for (size_t k = 0; k < channels; k++) mean[k] /= (double)(n_runs * (end - begin));
+}
+
+/* df/da_k by a central difference: f is smooth on the scale of a mean's error. */
+static double slope(gg_of_means *f, const gg_model *model, double *mean, size_t k)
+{
+  double at = mean[k], step = 1e-6 * (fabs(at) + 1e-3);
+  mean[k] = at + step;
+  double up = f(mean, model);
+  mean[k] = at - step;
+  double down = f(mean, model);
+  mean[k] = at;
+  return (up - down) / (2 * step);
+}
+
+gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
+                           size_t channels, gg_of_means *f, const gg_model *model, gg_mean *out, gg_error *err)
+{
+  *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
+  if (end <= begin) return GG_OK;
+  size_t n = end - begin, total = n * n_runs;
+  double *work = gg_new_array(total + 2 * channels, sizeof *work, err);
+  if (!work) return GG_FAILED;
+  double *y = work, *mean = work + total, *df = mean + channels;
+  channel_means(series, n_runs, begin, end, offset, channels, mean);
+  double value = f(mean, model);
+  gg_status status = GG_OK;
+  if (isfinite(value)) {
+    for (size_t k = 0; k < channels; k++) df[k] = slope(f, model, mean, k);
+    for (size_t r = 0; r < n_runs; r++)
+      for (size_t i = 0; i < n; i++) {
+        const double *row = gg_series_row(series[r], begin + i) + offset;
+        double sum = value;
+        for (size_t k = 0; k < channels; k++)
+          if (df[k] != 0) sum += df[k] * (row[k] - mean[k]);
+        y[r * n + i] = sum;
+      }
+    status = gg_estimate_scalar(y, n, n_runs, out, err);
+    out->mean = value;
+  }
+  free(work);
+  return status;
+}

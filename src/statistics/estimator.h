@@ -1,0 +1,33 @@
+/* Means and their standard errors, from one place. A quantity is a function f of channel means (a plain mean, a ratio,
+ * a difference of stresses); its error comes from the series of its linear response to each row, y_t = f(a) + sum_i
+ * (df/da_i)(a_i,t - a_i), so that correlations between channels and in time are both accounted for: blocks of y much
+ * longer than its correlation time, standard error from their scatter (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989)
+ * 461), enlarged by what neighbouring blocks have in common: a few per cent, in short windows a quarter. */
+#ifndef GG_ESTIMATOR_H
+#define GG_ESTIMATOR_H
+
+#include "common/model.h"
+#include "statistics/series.h"
+
+/* Value of a quantity for given channel means; NaN where it has none. */
+typedef double gg_of_means(const double *mean, const gg_model *model);
+
+typedef struct gg_mean {
+  double mean, error;      /* NaN if it cannot be had */
+  double scatter;          /* the error if blocks did not depend on their neighbours */
+  double correlation_rows; /* integrated correlation time, rows */
+  size_t blocks;           /* independent blocks behind the error */
+  bool trusted;            /* at least GG_MIN_BLOCKS blocks of at least 5 correlation times */
+} gg_mean;
+
+enum { GG_MIN_BLOCKS = 16, GG_MAX_BLOCKS = 64 };
+
+/* Rows [begin, end) of each of n_runs series of equal length and width. `offset` is where the observable's channels
+ * begin in a row, `channels` how many f looks at. */
+gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
+                           size_t channels, gg_of_means *f, const gg_model *model, gg_mean *out, gg_error *err);
+
+/* The same for a scalar series, n_runs stretches of n rows end to end. */
+gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err);
+
+#endif

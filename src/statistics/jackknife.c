@@ -1,0 +1,83 @@
+#include "statistics/jackknife.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ARRAYS = 6, NEIGHBOURS = 4 };
+#define STRONGEST 0.9 /* beyond, a block says nothing new */
+
+gg_status gg_jackknife_init(gg_jackknife *j, size_t width, gg_error *err)
+{
+  *j = (gg_jackknife){.width = width, .first = true};
+  double *all = gg_new_array(ARRAYS * width + 1, sizeof *all, err);
+  if (!all) return GG_FAILED;
+  double **arrays[ARRAYS] = {&j->now, &j->before, &j->sum, &j->squares, &j->products, &j->ends};
+  for (size_t k = 0; k < ARRAYS; k++) *arrays[k] = all + k * width;
+  return GG_OK;
+}
+
+void gg_jackknife_clear(gg_jackknife *j)
+{
+  free(j->now < j->before ? j->now : j->before); /* the two change places */
+  *j = (gg_jackknife){0};
+}
+
+void gg_jackknife_cut(gg_jackknife *j)
+{
+  j->first = true;
+}
+
+double *gg_jackknife_next(gg_jackknife *j)
+{
+  return j->now;
+}
+
+void gg_jackknife_add(gg_jackknife *j)
+{
+  for (size_t i = 0; i < j->width; i++) {
+    double d = j->now[i];
+    j->sum[i] += d;
+    j->squares[i] += d * d;
+    if (j->first) continue;
+    j->products[i] += d * j->before[i];
+    j->ends[i] += d + j->before[i];
+  }
+  double *swap = j->now;
+  j->now = j->before, j->before = swap;
+  j->pairs += !j->first;
+  j->blocks++;
+  j->first = false;
+}
+
+/* Sum of squares about the mean. */
+static double scatter(const gg_jackknife *j, size_t i)
+{
+  return j->squares[i] - j->sum[i] * j->sum[i] / (double)j->blocks;
+}
+
+/* Correlation of neighbours; about a mean of n of their own it comes out 1/n too low. NaN where nothing varies. */
+static double correlation(const gg_jackknife *j, size_t i)
+{
+  double n = (double)j->blocks, mean = j->sum[i] / n, total = scatter(j, i);
+  if (!(total > 0) || n < 3) return NAN;
+  return (j->products[i] - mean * j->ends[i] + (double)j->pairs * mean * mean) / total + 1 / n;
+}
+
+double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double *error)
+{
+  double blocks = (double)j->blocks, all = 0;
+  size_t known = 0;
+  for (size_t i = 0; i < n; i++) {
+    double sum = 0, count = 0, own = correlation(j, from + i);
+    for (size_t k = i < NEIGHBOURS ? 0 : i - NEIGHBOURS; k < n && k <= i + NEIGHBOURS; k++) {
+      double r = correlation(j, from + k);
+      if (isfinite(r)) sum += r, count++;
+    }
+    double r = count > 0 ? fmin(fmax(sum / count, 0), STRONGEST) : 0;
+    double variance = (blocks - 1) / blocks * fmax(scatter(j, from + i), 0) * (1 + r) / (1 - r);
+    error[i] = blocks > 1 ? sqrt(variance) + 0 * j->sum[from + i] : NAN; /* NaN stays NaN */
+    if (isfinite(own)) all += own, known++;
+  }
+  return known ? all / (double)known : NAN;
+}
