@@ -4,9 +4,11 @@
 #include "common/thermostat.h"
 #include "dsmc/dsmc.h"
 #include "dsmc/thermostat.h"
+#include "simd/dispatch.h"
 
 gg_status gg_dsmc_alloc(const gg_model *model, gg_dsmc **d, gg_error *err)
 {
+  GG_TRY(gg_instructions_check(err));
   gg_dsmc *made = gg_new_array(1, sizeof *made, err);
   if (!made) return GG_FAILED;
   made->base.ops = &gg_dsmc_ops;

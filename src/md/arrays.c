@@ -4,6 +4,7 @@
 #include "common/thermostat.h"
 #include "md/lines.h"
 #include "md/state.h"
+#include "simd/dispatch.h"
 
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
 {
@@ -39,6 +40,7 @@ gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
 
 gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
 {
+  GG_TRY(gg_instructions_check(err));
   gg_md *e = gg_new_array(1, sizeof *e, err);
   if (!e) return GG_FAILED;
   e->base.ops = &gg_md_ops;

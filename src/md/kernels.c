@@ -97,19 +97,18 @@ static bool is_wide_enough(const gg_md *e)
   return e->model.shear_rate == 0 && e->cells.n[0] >= 4 && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
 }
 
-static gg_kernel wide_kernel(enum gg_boundary boundary, bool mixture, enum gg_search_in where)
+gg_kernel gg_md_wide(gg_instructions set, enum gg_boundary boundary, bool mixture, enum gg_search_in where)
 {
-#if defined(__x86_64__)
-  /* They are compiled for x86-64-v3 and -v4: the compiler may use more of those levels than their registers. */
-  bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
-            __builtin_cpu_supports("bmi2");
-  bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-            __builtin_cpu_supports("avx512cd");
-  if (v4) return gg_md_wide_avx512(boundary, mixture, where);
-  if (v3) return gg_md_wide_avx2(boundary, mixture, where);
+#ifdef GG_HAVE_AVX512
+  if (set == GG_AVX512) return gg_md_wide_avx512(boundary, mixture, where);
 #endif
-  return gg_md_wide_any(boundary, mixture, where);
+#ifdef GG_HAVE_AVX2
+  if (set == GG_AVX2) return gg_md_wide_avx2(boundary, mixture, where);
+#endif
+#ifdef GG_HAVE_BASELINE
+  if (set == GG_BASELINE) return gg_md_wide_baseline(boundary, mixture, where);
+#endif
+  return (gg_kernel){NULL, NULL};
 }
 
 void gg_md_select(gg_md *e)
@@ -121,7 +120,8 @@ void gg_md_select(gg_md *e)
   enum gg_boundary boundary = boundary_of(e);
   gg_kernel kernel = e->row ? plain_drifting[mixture] : plain[boundary][mixture];
   bool lined = where == GG_LISTS || where == GG_SHARED_CELLS;
-  if (lined || (!e->plain && (e->row || is_wide_enough(e)))) kernel = wide_kernel(boundary, mixture, where);
+  if (lined || (!e->plain && (e->row || is_wide_enough(e))))
+    kernel = gg_md_wide(gg_instructions_best(), boundary, mixture, where);
   e->motion = kernel.run;
   e->predict_all = kernel.predict_all;
   e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];

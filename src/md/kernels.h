@@ -4,6 +4,7 @@
 #define GG_MD_KERNELS_H
 
 #include "md/state.h"
+#include "simd/dispatch.h"
 
 enum gg_boundary { GG_PERIODIC, GG_SHEARED, GG_WALLED, GG_FALLING };
 
@@ -12,8 +13,11 @@ typedef struct gg_kernel {
   gg_forecast *predict_all;
 } gg_kernel;
 
-gg_kernel gg_md_wide_any(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
+gg_kernel gg_md_wide_baseline(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
 gg_kernel gg_md_wide_avx2(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
 gg_kernel gg_md_wide_avx512(enum gg_boundary boundary, bool mixture, enum gg_search_in where);
+
+/* Those of a compiled set of instructions. */
+gg_kernel gg_md_wide(gg_instructions set, enum gg_boundary boundary, bool mixture, enum gg_search_in where);
 
 #endif

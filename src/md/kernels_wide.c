@@ -1,10 +1,7 @@
-/* Compiled several times, for one instruction set each: GG_ISA names it. */
+/* Compiled several times, for one instruction set each: GG_INSTRUCTIONS names it. */
 #include "md/kernels.h"
 #include "md/loop.h"
 
-#ifndef GG_ISA
-#define GG_ISA any
-#endif
 #define JOIN2(a, b) a##b
 #define JOIN(a, b) JOIN2(a, b)
 
@@ -29,7 +26,7 @@ MOTIONS(sheared_shared, .wide = true, .shared = true, .sheared = true, .drifts =
 MOTIONS(periodic_listed, .listed = true)
 MOTIONS(sheared_listed, .listed = true, .sheared = true)
 
-gg_kernel JOIN(gg_md_wide_, GG_ISA)(enum gg_boundary boundary, bool mixture, enum gg_search_in where)
+gg_kernel JOIN(gg_md_wide_, GG_INSTRUCTIONS)(enum gg_boundary boundary, bool mixture, enum gg_search_in where)
 {
 #define ROW(name)                                                                                                      \
   {                                                                                                                    \

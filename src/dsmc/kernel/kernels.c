@@ -3,37 +3,40 @@
 #include "dsmc/kernel/collide_blocks.h"
 #include "dsmc/kernel/sweep.h"
 #include "dsmc/parallel/segments.h"
+#include "simd/dispatch.h"
 
 static const struct {
   const char *name;
   gg_collide_blocks *(*kernel[2])(gg_features f); /* double, single */
 } paths[GG_PATHS] = {
     [GG_PATH_PLAIN] = {"plain", {NULL}},
+#ifdef GG_HAVE_BASELINE
     [GG_PATH_BASELINE] = {"blocks", {gg_collide_blocks_baseline, gg_collide_blocks_single_baseline}},
-#ifdef GG_X86_64
+#endif
+#ifdef GG_HAVE_AVX2
     [GG_PATH_AVX2] = {"blocks, AVX2", {gg_collide_blocks_avx2, gg_collide_blocks_single_avx2}},
+#endif
+#ifdef GG_HAVE_AVX512
     [GG_PATH_AVX512] = {"blocks, AVX-512", {gg_collide_blocks_avx512, gg_collide_blocks_single_avx512}},
 #endif
 };
 
 bool gg_path_runs_here(gg_path path)
 {
-  if (!paths[path].name) return false;
-#ifdef GG_X86_64
-  if (path == GG_PATH_AVX2) return __builtin_cpu_supports("avx2");
-  if (path == GG_PATH_AVX512)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-#endif
-  return true;
+  return path == GG_PATH_PLAIN || gg_instructions_run_here((gg_instructions)(path - GG_PATH_BASELINE));
 }
 
 void gg_sweep_blocks(void *c, bool single, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
                      gg_sums *sums)
 {
-  gg_sweep *sweep = single ? gg_sweep_single_baseline : gg_sweep_baseline;
-#ifdef GG_X86_64
+  gg_sweep *sweep = NULL;
+#ifdef GG_HAVE_BASELINE
+  sweep = single ? gg_sweep_single_baseline : gg_sweep_baseline;
+#endif
+#ifdef GG_HAVE_AVX2
   if (gg_path_runs_here(GG_PATH_AVX2)) sweep = single ? gg_sweep_single_avx2 : gg_sweep_avx2;
+#endif
+#ifdef GG_HAVE_AVX512
   if (gg_path_runs_here(GG_PATH_AVX512)) sweep = single ? gg_sweep_single_avx512 : gg_sweep_avx512;
 #endif
   sweep(c, top, n, drift, scale, centre, unit, sums);
@@ -42,9 +45,14 @@ void gg_sweep_blocks(void *c, bool single, float *top, size_t n, double drift, d
 void gg_kick_blocks(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
                     gg_rng_lanes *lanes)
 {
-  gg_kicks *kicks = gg_kicks_baseline;
-#ifdef GG_X86_64
+  gg_kicks *kicks = NULL;
+#ifdef GG_HAVE_BASELINE
+  kicks = gg_kicks_baseline;
+#endif
+#ifdef GG_HAVE_AVX2
   if (gg_path_runs_here(GG_PATH_AVX2)) kicks = gg_kicks_avx2;
+#endif
+#ifdef GG_HAVE_AVX512
   if (gg_path_runs_here(GG_PATH_AVX512)) kicks = gg_kicks_avx512;
 #endif
   kicks(c, single, top, n, drift, size, unit, lanes);
