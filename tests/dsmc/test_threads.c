@@ -93,11 +93,12 @@ static void same_bits_of(gg_precision precision)
     lab_advance(g, INFINITY, (uint64_t)m.n);
     save(g, &a);
     gg_dsmc_ops.destroy(g);
-    if (path > GG_PATH_BASELINE) same(&first, &a);
-    if (path > GG_PATH_BASELINE)
+    if (first.n_items) {
+      same(&first, &a);
       gg_archive_clear(&a);
-    else
+    } else {
       first = a;
+    }
   }
   gg_archive_clear(&first);
 }
