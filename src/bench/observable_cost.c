@@ -27,7 +27,7 @@ static gg_status go_on(contender *c, uint64_t samples, bool adapt, gg_error *err
   gg_replica *r = &c->replica;
   double gone;
   adapt = adapt || r->model.flow == GG_HCS;
-  if (!c->bare) return gg_replica_sample(r, r->clock.samples + samples, adapt, NULL, err);
+  if (!c->bare) return gg_replica_advance(r, r->clock.samples + samples, adapt, NULL, err);
   for (uint64_t k = 0; k < samples; k++)
     GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval, UINT64_MAX, &gone, err));
   return GG_OK;
@@ -41,7 +41,7 @@ static gg_status start(contender *c, const gg_scene *scene, unsigned measure, do
   GG_TRY(gg_model_make(&s, s.engine, &model, err));
   gg_start_near_steady(&model);
   GG_TRY(gg_replica_create(&c->replica, &s, &model, 0, err));
-  GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLE_SPACING), true, err));
+  GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
   return gg_replica_open_window(&c->replica, err);
 }
 

@@ -47,7 +47,7 @@ static void print_effort(const gg_result *r)
   printf("%-5s %ld grains; %s collisions averaged over in %s of processor time", r->engine, (long)r->model.n,
          collisions, seconds);
   if (a->cpu_seconds > 0) printf(" (%s/s)", rate);
-  printf("\n      %s: %s\n", r->verdict == GG_STEADY ? "steady" : "not steady", r->verdict_text);
+  printf("\n      %s: %s\n", r->steadiness == GG_STEADY ? "steady" : "not steady", r->steadiness_text);
 }
 
 static void print_warnings(const gg_result *r)

@@ -89,8 +89,8 @@ json_t *gg_run_document(const gg_result *r)
       json_object_set_new(results, gg_quantity_name((gg_quantity)q), estimate_json(r, (gg_quantity)q, warnings));
   json_t *document =
       json_pack("{s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
-                gg_scene_json(&r->scene), "engine", r->engine, "steady", r->verdict == GG_STEADY, "verdict",
-                r->verdict_text, "particles", (json_int_t)r->model.n, "collisions", (json_int_t)r->averaging.collisions,
+                gg_scene_json(&r->scene), "engine", r->engine, "steady", r->steadiness == GG_STEADY, "verdict",
+                r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions", (json_int_t)r->averaging.collisions,
                 "cpu_seconds", real(r->averaging.cpu_seconds), "total", effort_json(&r->total), "engine_state",
                 engine_state_json(r), "results", results, "warnings", warnings);
   if (r->curves.n) json_object_set_new(document, "curves", gg_curves_json(&r->curves));

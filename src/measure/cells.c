@@ -19,7 +19,7 @@ enum {
   ROTATIONAL = TEMPERATURE + RATIO_BINS,
   SPIN = ROTATIONAL + RATIO_BINS,
   SHEAR = SPIN + SIGNED_BINS,
-  LOOKS = SHEAR + SIGNED_BINS,
+  SNAPSHOTS = SHEAR + SIGNED_BINS,
   N_DENSITY, /* cells behind each distribution */
   N_TEMPERATURE,
   N_ROTATIONAL,
@@ -187,7 +187,7 @@ static void add_shear_rate(const cells *d, int x, int y, int z, double root_T, d
        &bin[N_SHEAR]);
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   cells *d = self;
   const gg_model *m = &d->model;
@@ -213,7 +213,7 @@ static void look(void *self, const gg_snapshot *s, double *bin)
   double n = count_of(d), mean = box.n / n;
   bin[COUNT_SQUARED] += (squares / n - mean * mean) / mean;
   bin[ROOT_T] += sqrt(T);
-  bin[LOOKS]++;
+  bin[SNAPSHOTS]++;
 }
 
 static gg_curve *put(gg_curves *list, const char *name, const char *title, const char *axis, int n, double first,
@@ -228,7 +228,7 @@ static gg_curve *put(gg_curves *list, const char *name, const char *title, const
   return c;
 }
 
-static void put_averages(gg_curve *c, const gg_model *m, const double *T, double looks, bool spins)
+static void put_averages(gg_curve *c, const gg_model *m, const double *T, double snapshots, bool spins)
 {
   static const char *const names[2][5] = {{"temperature_box", "temperature_slabs", "temperature_slabs_corrected",
                                            "temperature_cells", "temperature_cells_corrected"},
@@ -236,7 +236,8 @@ static void put_averages(gg_curve *c, const gg_model *m, const double *T, double
                                            "rotational_temperature_slabs_corrected", "rotational_temperature_cells",
                                            "rotational_temperature_cells_corrected"}};
   if (m->flow == GG_HCS || !m->steady) return; /* no mean of what cools down or heats up */
-  for (int k = 0; k < 5; k++) gg_curve_put_number(c, names[spins][k], T[k] / looks, gg_curve_unit(m, "temperature"));
+  for (int k = 0; k < 5; k++)
+    gg_curve_put_number(c, names[spins][k], T[k] / snapshots, gg_curve_unit(m, "temperature"));
 }
 
 /* Grains thrown anywhere fall into a cell binomially; parameters: N, share of a cell, solid fraction of one grain in
@@ -252,25 +253,25 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const cells *d = self;
   const gg_model *m = &d->model;
-  double unit = m->phi * count_of(d) / (double)m->n, looks = bin[LOOKS];
+  double unit = m->phi * count_of(d) / (double)m->n, snapshots = bin[SNAPSHOTS];
   gg_curve *c =
       put(list, "cell_density", "local solid fraction", "φ", DENSITY_BINS, 0, unit, bin + DENSITY, bin[N_DENSITY]);
   gg_curve_beside(c, "ideal gas", thrown, (const double[]){(double)m->n, 1.0 / count_of(d), unit});
   gg_curve_put_number(c, "cells", count_of(d), "1");
-  gg_curve_put_number(c, "count_variance_over_mean", bin[COUNT_SQUARED] / looks, "1");
+  gg_curve_put_number(c, "count_variance_over_mean", bin[COUNT_SQUARED] / snapshots, "1");
   c = put(list, "cell_temperature", "local temperature", "T_{cell}/T", RATIO_BINS, RATIO_WIDTH / 2, RATIO_WIDTH,
           bin + TEMPERATURE, bin[N_TEMPERATURE]);
-  put_averages(c, m, bin + T_BOX, looks, false);
+  put_averages(c, m, bin + T_BOX, snapshots, false);
   c = put(list, "cell_shear_rate", "local shear rate, less the imposed", "h Δγ/√T", SIGNED_BINS,
           -SIGNED_BINS * SIGNED_WIDTH / 4 + SIGNED_WIDTH / 4, SIGNED_WIDTH / 2, bin + SHEAR, bin[N_SHEAR]);
   const char *rate = gg_curve_unit(m, "spin");
   if (m->shear_rate != 0 || m->walled) gg_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
   if (m->flow != GG_HCS && m->steady)
-    gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / looks * d->n[1] / m->box[1], rate);
+    gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / snapshots * d->n[1] / m->box[1], rate);
   if (m->rule == GG_SMOOTH) return;
   c = put(list, "cell_rotational_temperature", "local rotational temperature", "θ_{cell}/θ", RATIO_BINS,
           RATIO_WIDTH / 2, RATIO_WIDTH, bin + ROTATIONAL, bin[N_ROTATIONAL]);
-  put_averages(c, m, bin + W_BOX, looks, true);
+  put_averages(c, m, bin + W_BOX, snapshots, true);
   put(list, "cell_spin", "local spin", "ω_z/ω_{rms}", SIGNED_BINS, -SIGNED_BINS * SIGNED_WIDTH / 2 + SIGNED_WIDTH / 2,
       SIGNED_WIDTH, bin + SPIN, bin[N_SPIN]);
 }
@@ -285,6 +286,6 @@ const gg_observable gg_cells = {
     .bins = bins,
     .every = 8,
     .positions = true,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .curves = curves,
 };

@@ -1,4 +1,4 @@
-/* What single collisions say: how far and how long grains fly freely between them, and at which angles they meet.
+/* What single collisions say: path and time between successive ones, and the angles at which grains collide.
  *
  * A free path is peculiar, the integral of |C| over the flight, or the way in the laboratory, |c| times its duration.
  * Under shear C_x changes in flight: back from the collision, C_x + shear_rate C_y s. In free cooling times grow
@@ -19,15 +19,15 @@ enum { PARTS = 16, LOWEST = -8, HIGHEST = 8, FLIGHT_BINS = (HIGHEST - LOWEST) * 
 enum { COUNT, SUM, SQUARES, FLIGHT_FIRST, FLIGHT = FLIGHT_FIRST + FLIGHT_BINS }; /* one distribution of flights */
 enum { TIME, PATH, LABORATORY, KINDS };
 enum { COS_BINS = 50, PLANE_BINS = 72 };
-enum { MEETINGS, FABRIC, COSINES = FABRIC + 4, PLANE = COSINES + COS_BINS, ANGLES = PLANE + PLANE_BINS };
+enum { COLLISIONS, FABRIC, COSINES = FABRIC + 4, PLANE = COSINES + COS_BINS, ANGLES = PLANE + PLANE_BINS };
 
 typedef struct collisions {
   gg_model model;
-  double unit[KINDS]; /* one over the expected mean free time and path */
+  double unit[KINDS]; /* one over the expected mean time and path between collisions */
   bool has[KINDS];
   size_t width;
-  uint64_t seen; /* collisions since watching began, as far as it matters */
-  double sums[]; /* since the last look: angles, then the flights of each species */
+  uint64_t first; /* collisions since averaging began, counted until flights are */
+  double sums[];  /* since the last snapshot: angles, then the flights of each species */
 } collisions;
 
 static void *create(const gg_model *m, gg_error *err)
@@ -87,15 +87,15 @@ static double peculiar_path(gg_vec c, double rate, double t)
   return sum * t;
 }
 
-/* Flights are counted where they end; of those that end soon after watching began the long ones, begun before, are not
- * known. So nothing counts until hardly a grain is left that has not collided: else means would be too small by one
- * part in the number of collisions a grain. */
-#define SETTLING 12 /* collisions a grain; exp(-12) of them have had none */
-static bool settled(collisions *d)
+/* Flights are counted where they end. Of those that end soon after averaging began, the long ones began before it and
+ * are not known. So nothing counts until hardly a grain is left that has not collided: else means would be too small by
+ * one part in the number of collisions a grain. */
+#define FIRST_COLLISIONS 12 /* a grain; exp(-12) of the grains have had none */
+static bool flights_count(collisions *d)
 {
-  uint64_t enough = SETTLING * (uint64_t)d->model.n / 2;
-  d->seen += d->seen < enough;
-  return d->seen == enough;
+  uint64_t enough = FIRST_COLLISIONS * (uint64_t)d->model.n / 2;
+  d->first += d->first < enough;
+  return d->first == enough;
 }
 
 static void add_flights(collisions *d, const gg_seen_collision *m, int which)
@@ -118,17 +118,17 @@ static int plane_bin(gg_vec k)
   return bin < PLANE_BINS ? bin : 0;
 }
 
-static void watch(void *self, const gg_seen_collision *m)
+static void add_collision(void *self, const gg_seen_collision *m)
 {
   collisions *d = self;
   gg_vec k = m->k;
   int cosine = (int)(gg_dot(k, m->c12) / sqrt(gg_dot(m->c12, m->c12)) * COS_BINS);
   double *fabric = d->sums + FABRIC;
-  d->sums[MEETINGS]++;
+  d->sums[COLLISIONS]++;
   fabric[0] += k.x * k.x, fabric[1] += k.y * k.y, fabric[2] += k.z * k.z, fabric[3] += k.x * k.y;
   d->sums[COSINES + (cosine < 0 ? 0 : cosine < COS_BINS ? cosine : COS_BINS - 1)]++;
   d->sums[PLANE + plane_bin(k)]++;
-  if (!settled(d)) return;
+  if (!flights_count(d)) return;
   add_flights(d, m, 0);
   add_flights(d, m, 1);
 }
@@ -136,11 +136,11 @@ static void watch(void *self, const gg_seen_collision *m)
 static void *memory(void *self, size_t *bytes)
 {
   collisions *d = self;
-  *bytes = sizeof d->seen;
-  return &d->seen;
+  *bytes = sizeof d->first;
+  return &d->first;
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   collisions *d = self;
   (void)s;
@@ -172,7 +172,7 @@ static void put_numbers(gg_curve *c, const gg_model *m, int kind, const double *
 static void put_flight(const collisions *d, gg_curves *list, int kind, int species, const double *at)
 {
   static const char *const names[] = {"free_time", "free_path", "free_path_laboratory"};
-  static const char *const panels[] = {"free times", "free paths", "free paths"};
+  static const char *const panels[] = {"time between collisions", "free path", "free path"};
   static const char *const labels[] = {"", "peculiar", "laboratory"};
   const gg_model *m = &d->model;
   const char *unit = gg_curve_unit(m, kind == TIME ? "time" : "length");
@@ -207,7 +207,7 @@ static void put_angles(const collisions *d, gg_curves *list, const double *bin)
   gg_curve_axes(c, "cos χ", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) / COS_BINS;
-    c->value[i] = bin[COSINES + i] * COS_BINS / bin[MEETINGS];
+    c->value[i] = bin[COSINES + i] * COS_BINS / bin[COLLISIONS];
   }
   gg_curve_beside(c, "molecular chaos", twice, NULL);
   c = gg_curve_add(list, PLANE_BINS, "collision_angle",
@@ -215,10 +215,10 @@ static void put_angles(const collisions *d, gg_curves *list, const double *bin)
   gg_curve_axes(c, "θ_c/π", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) / PLANE_BINS;
-    c->value[i] = bin[PLANE + i] * PLANE_BINS / bin[MEETINGS];
+    c->value[i] = bin[PLANE + i] * PLANE_BINS / bin[COLLISIONS];
   }
   gg_curve_beside(c, "no direction", gg_level, &(double){1});
-  for (int a = 0; a < 4; a++) gg_curve_put_number(c, fabric[a], bin[FABRIC + a] / bin[MEETINGS], "1");
+  for (int a = 0; a < 4; a++) gg_curve_put_number(c, fabric[a], bin[FABRIC + a] / bin[COLLISIONS], "1");
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
@@ -232,15 +232,15 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 
 const gg_observable gg_collisions = {
     .name = "collisions",
-    .doc = "free paths and times, angles at which grains meet",
+    .doc = "free paths, times between collisions, angles of collisions",
     .create = create,
     .destroy = free,
     .flag = GG_MEASURE_COLLISIONS,
     .bins = bins,
     .memory = memory,
     .every = 1,
-    .watch = watch,
-    .look = look,
+    .add_collision = add_collision,
+    .add_snapshot = add_snapshot,
     .restart = restart,
     .curves = curves,
 };

@@ -1,7 +1,7 @@
 /* Velocity autocorrelation and mean-square displacement of a grain, by component and species, from origins spread over
  * the run, up to 16 collisions a grain; the coefficient of self-diffusion from both, D = int <C(0)C(t)> dt (Green 1952,
  * Kubo 1957) and half the slope of the displacement (Einstein 1905). Under shear displacements are peculiar: what the
- * flow has carried along x is taken off, the grain's height between two looks being taken as the mean of both. */
+ * flow has carried along x is taken off, the grain's height between two snapshots being taken as the mean of both. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,20 +9,20 @@
 #include "measure/observable.h"
 #include "measure/pairs.h"
 
-/* Looks per sample (two collisions a grain); one origin in each; lags are kept over 8 samples. */
-enum { LOOKS = 16, ORIGINS = 8, LAGS = LOOKS * ORIGINS };
+/* Snapshots per sampling interval (two collisions a grain); one origin in each; lags are kept over 8 intervals. */
+enum { SNAPSHOTS = 16, ORIGINS = 8, LAGS = SNAPSHOTS * ORIGINS };
 enum { COUNT, TIME, CC, RR = CC + 3, LAG = RR + 3 };
 
 typedef struct diffusion {
   gg_model model;
   size_t n, bytes;
   struct diffusion_state { /* one block of plain bytes, with all arrays behind it */
-    uint64_t looks;
+    uint64_t snapshots;
     double time;
     double began[ORIGINS];
   } * state;
   uint32_t *place;                /* of each grain by its number: species 1 first */
-  double *r[3], *c[3], *moved[3]; /* at the last look, by place; moved: displacement since the start */
+  double *r[3], *c[3], *moved[3]; /* at the last snapshot, by place; moved: displacement since the start */
   double *c0[ORIGINS][3], *moved0[ORIGINS][3];
 } diffusion;
 
@@ -72,7 +72,7 @@ static void *memory(void *self, size_t *bytes)
 static void restart(void *self)
 {
   diffusion *d = self;
-  d->state->looks = 0;
+  d->state->snapshots = 0;
   d->state->time = 0;
 }
 
@@ -81,7 +81,7 @@ static size_t bins(const void *self)
   return (size_t)((const diffusion *)self)->model.n_species * (LAGS + 1) * LAG;
 }
 
-/* What was moved since the look before: of all images of the new place the one that the velocity leads to. */
+/* Displacement since the snapshot before: of all images of the new place the one that the velocity leads to. */
 static gg_vec displacement(const diffusion *d, const gg_images *b, gg_vec from, gg_vec to, gg_vec c, double dt)
 {
   double rate = d->model.shear_rate;
@@ -103,7 +103,7 @@ static void give_places(diffusion *d, const gg_snapshot *s)
 static void follow(diffusion *d, const gg_snapshot *s)
 {
   gg_images b = gg_images_of(s);
-  bool first = d->state->looks == 0;
+  bool first = d->state->snapshots == 0;
   if (first) give_places(d, s);
   for (size_t i = 0; i < s->n; i++) {
     size_t g = d->place[s->id[i]];
@@ -148,17 +148,17 @@ static void correlate(const diffusion *d, int o, size_t from, size_t to, double 
   }
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   diffusion *d = self;
-  uint64_t now = d->state->looks;
+  uint64_t now = d->state->snapshots;
   follow(d, s);
-  if (now % LOOKS == 0) set_origin(d, (int)(now / LOOKS % ORIGINS));
+  if (now % SNAPSHOTS == 0) set_origin(d, (int)(now / SNAPSHOTS % ORIGINS));
   for (uint64_t o = 0; o < ORIGINS; o++) {
-    /* the last look at which this origin was set */
-    uint64_t round = now / LOOKS;
-    if (round < o) continue;
-    uint64_t set = round - (round - o) % ORIGINS, lag = now - set * LOOKS;
+    /* the last interval that began with this origin */
+    uint64_t interval = now / SNAPSHOTS;
+    if (interval < o) continue;
+    uint64_t set = interval - (interval - o) % ORIGINS, lag = now - set * SNAPSHOTS;
     size_t from = 0;
     for (int k = 0; k < d->model.n_species; k++) {
       size_t to = from + (size_t)d->model.n_of[k];
@@ -166,7 +166,7 @@ static void look(void *self, const gg_snapshot *s, double *bin)
       from = to;
     }
   }
-  d->state->looks++;
+  d->state->snapshots++;
 }
 
 static double value_at(const double *bin, size_t lag, int channel)
@@ -237,9 +237,9 @@ const gg_observable gg_diffusion = {
     .refuses = refuses,
     .bins = bins,
     .every = 1,
-    .looks = LOOKS,
+    .parts = SNAPSHOTS,
     .positions = true,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .restart = restart,
     .curves = curves,
 };

@@ -80,7 +80,7 @@ static double weight_of(const gg_model *m, int species, int vector)
   return vector ? m->inertia[species] * m->mass[species] : m->mass[species];
 }
 
-static double seen(const gg_snapshot *s, int vector, size_t i)
+static double component(const gg_snapshot *s, int vector, size_t i)
 {
   return vector ? s->s[2][i] : s->c[0][i];
 }
@@ -100,7 +100,7 @@ static void sort_grains(local *d, const gg_snapshot *s)
     c->volume += m->diameter[k] * m->diameter[k] * m->diameter[k];
     for (int v = 0; v < d->vectors; v++) {
       double w = weight_of(m, k, v);
-      c->weight[v] += w, c->sum[v] += w * seen(s, v, i);
+      c->weight[v] += w, c->sum[v] += w * component(s, v, i);
     }
   }
 }
@@ -114,14 +114,14 @@ static void centre_values(local *d, const gg_snapshot *s, int v, double sigma[GG
     int k = gg_snapshot_species(s, i);
     const cell *c = &d->cell[d->at[i]];
     double w = weight_of(&d->model, k, v), left = c->weight[v] - w;
-    double x = left > 1e-9 * w ? (seen(s, v, i) - c->sum[v] / c->weight[v]) * sqrt(c->weight[v] / left) : NAN;
+    double x = left > 1e-9 * w ? (component(s, v, i) - c->sum[v] / c->weight[v]) * sqrt(c->weight[v] / left) : NAN;
     d->value[v][i] = x;
     if (isfinite(x)) squares[k] += x * x, n[k]++;
   }
   for (int k = 0; k < GG_MAX_SPECIES; k++) sigma[k] = sqrt(squares[k] / n[k]);
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   local *d = self;
   const gg_model *m = &d->model;
@@ -175,6 +175,6 @@ const gg_observable gg_local_distributions = {
     .bins = bins,
     .every = 4,
     .positions = true,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .curves = curves,
 };

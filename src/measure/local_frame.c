@@ -30,7 +30,7 @@ static void add(gg_local_frame *f, double y, gg_vec c)
   f->mean[k][0] += c.x, f->mean[k][1] += c.y, f->mean[k][2] += c.z;
 }
 
-static void settle(gg_local_frame *f)
+static void finish(gg_local_frame *f)
 {
   for (int k = 0; k < f->n_slabs; k++) {
     double n = f->count[k];
@@ -49,14 +49,14 @@ void gg_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *en
 {
   start(f, model);
   engine->ops->snapshot(engine, true, add_chunk, f);
-  settle(f);
+  finish(f);
 }
 
 void gg_local_frame_of_snapshot(gg_local_frame *f, const gg_snapshot *s)
 {
   start(f, s->model);
   for (size_t i = 0; i < s->n; i++) add(f, s->r[1][i], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]});
-  settle(f);
+  finish(f);
 }
 
 gg_vec gg_local_frame_velocity(const gg_local_frame *f, double y, gg_vec c)
@@ -77,9 +77,9 @@ static void shift_chunk(void *context, const gg_chunk *chunk)
   const shifting *s = context;
   double c[3][GG_CHUNK];
   for (size_t i = 0; i < chunk->n; i++) {
-    gg_vec seen = {chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]};
-    seen = gg_local_frame_velocity(s->frame, chunk->r[1][i], seen);
-    c[0][i] = seen.x, c[1][i] = seen.y, c[2][i] = seen.z;
+    gg_vec v = {chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]};
+    v = gg_local_frame_velocity(s->frame, chunk->r[1][i], v);
+    c[0][i] = v.x, c[1][i] = v.y, c[2][i] = v.z;
   }
   gg_chunk local = *chunk;
   for (int a = 0; a < 3; a++) local.c[a] = c[a];

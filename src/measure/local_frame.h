@@ -1,6 +1,6 @@
 /* Peculiar velocities in walled flows, where no profile is imposed: the flow velocity is the mean over slabs across y
- * of this very instant, and what observables see is c - u(y). Subtracting a slab's own mean takes 1/n_c of the variance
- * of its n_c grains away; velocities are scaled by sqrt(n_c/(n_c - 1)) to give it back. */
+ * of this very instant, and what observables are given is c - u(y). Subtracting a slab's own mean takes 1/n_c of the
+ * variance of its n_c grains away; velocities are scaled by sqrt(n_c/(n_c - 1)) to give it back. */
 #ifndef GG_LOCAL_FRAME_H
 #define GG_LOCAL_FRAME_H
 

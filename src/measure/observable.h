@@ -11,7 +11,8 @@
 #include "measure/snapshot.h"
 #include "statistics/estimator.h"
 
-/* One sampling interval: sums over its collisions, and how long it lasted (0: the very first look, which makes no row).
+/* One sampling interval: sums over its collisions, and how long it lasted (0: the very first sample, which makes no
+ * row).
  * velocity_factor: by what all velocities were multiplied when it began (1, but for cooling runs that were rescaled).
  */
 typedef struct gg_interval {
@@ -29,37 +30,42 @@ typedef struct gg_derived {
 typedef struct gg_observable {
   const char *name; /* the word under `measure` in a scene */
   const char *doc;
+  unsigned flag; /* GG_MEASURE_... */
   void *(*create)(const gg_model *model, gg_error *err);
   void (*destroy)(void *self);
   /* Plain bytes that one sample leaves for the next: what a checkpoint keeps. NULL if there are none. */
   void *(*memory)(void *self, size_t *bytes);
-  unsigned flag; /* GG_MEASURE_... */
   /* Why this model cannot have it at all; NULL (also the function itself) if it can. */
   const char *(*refuses)(const gg_model *model);
 
-  /* Rows: quantities. An observable without has width NULL, and none of what follows. */
+  /* Rows: quantities. Every sample is begin, then all grains in chunks (or blocks), then finish, which writes the row.
+   * An observable without rows has width NULL, and none of what follows. */
   size_t (*width)(const gg_model *model);
   void (*begin)(void *self);
-  void (*visit)(void *self, const gg_chunk *chunk);
-  void (*visit_blocks)(void *self, const gg_block_run *run); /* instead, with the same result; NULL: chunks only */
+  void (*add_chunk)(void *self, const gg_chunk *chunk);
+  void (*add_blocks)(void *self, const gg_block_run *run); /* instead, with the same result; NULL: chunks only */
   void (*finish)(void *self, const gg_interval *interval, double *row);
   const gg_derived *derived;   /* ends with of = NULL */
   gg_of_means *const *history; /* the gg_history_quantities of one row, GG_N_HISTORY of them; or NULL */
   /* Why this model has no such quantity; NULL if it has. */
   const char *(*missing)(const gg_model *model, gg_quantity quantity);
 
-  /* Curves: once averaging has begun, add to bins at every `every`-th sample. An observable without has bins NULL. */
+  /* Curves: while averaging, a snapshot at the end of every `every`-th sampling interval is added to bins. An
+   * observable without curves has bins NULL. */
   size_t (*bins)(const void *self);
   int every;
-  int looks;       /* looks between two samples, evenly spaced, instead of one at each: for correlations in time */
-  bool positions;  /* wants them, where the engine has any */
-  gg_watch *watch; /* is shown every collision while averaging, and leaves at the next look what it made of them; at
-                      most one observable of all has this */
-  void (*look)(void *self, const gg_snapshot *snapshot, double *bins);
-  /* Hear of the collisions of every sampling interval, after the look at its end; what follows goes into the bins at
-   * the next look, and has to be among the memory. NULL: none of its business. */
-  void (*hear)(void *self, const gg_interval *interval);
-  void (*restart)(void *self); /* averaging begins (anew): forget earlier looks; NULL if there is nothing to forget */
+  int parts;      /* above 1: each interval is cut into so many parts, with a snapshot after each; for correlations in
+                     time */
+  bool positions; /* of the grains are wanted, where the engine has any */
+  void (*add_snapshot)(void *self, const gg_snapshot *snapshot, double *bins);
+  /* Called with every sampling interval, after the snapshot at its end. What it takes from it goes into the bins with
+   * the next snapshot, and has to be among the memory. NULL: not needed. */
+  void (*add_interval)(void *self, const gg_interval *interval);
+  /* Called with every collision while averaging; goes into the bins with the next snapshot. At most one observable of
+   * all has this. NULL: not needed. */
+  gg_watch *add_collision;
+  void (*restart)(void *self); /* averaging begins (anew): forget earlier snapshots; NULL if there is nothing to forget
+                                */
   gg_curves_of *curves;
 } gg_observable;
 

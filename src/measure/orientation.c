@@ -60,7 +60,7 @@ static gg_vec mean_spin(const gg_snapshot *s, int species)
 }
 
 /* Between walls peculiar velocities are about the flow of the slab; elsewhere they are what a snapshot holds. */
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   (void)self;
   const gg_model *m = s->model;
@@ -125,6 +125,6 @@ const gg_observable gg_orientation = {
     .bins = bins,
     .every = 2,
     .positions = true,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .curves = curves,
 };

@@ -18,13 +18,13 @@ typedef struct pair_correlation {
   gg_pairs pairs;
   int bins;               /* of each g_ij */
   double sigma[GG_PAIRS]; /* where they begin */
-  struct since {          /* of the look before: plain bytes */
+  struct since {          /* of the snapshot before: plain bytes */
     double time;
     uint64_t collisions, known;
   } since;
 } pair_correlation;
 
-enum { COLLISIONS, TIME, TEMPERATURE, LOOKS, EXTRA }; /* behind the bins */
+enum { COLLISIONS, TIME, TEMPERATURE, SNAPSHOTS, EXTRA }; /* behind the bins */
 
 static const char *refuses(const gg_model *m)
 {
@@ -87,7 +87,7 @@ GG_INLINE void count(void *context, size_t i, size_t j, gg_vec separation, doubl
     c->bin[q * c->d->bins + (int)fmax(at, 0)]++; /* an overlap by rounding is a contact */
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   pair_correlation *d = self;
   counting c = {d, s, bin};
@@ -96,7 +96,7 @@ static void look(void *self, const gg_snapshot *s, double *bin)
   for (size_t i = 0; i < s->n; i++)
     energy += s->c[0][i] * s->c[0][i] + s->c[1][i] * s->c[1][i] + s->c[2][i] * s->c[2][i];
   extra[TEMPERATURE] += energy / (3 * (double)s->n);
-  extra[LOOKS]++;
+  extra[SNAPSHOTS]++;
   if (d->since.known) {
     extra[COLLISIONS] += (double)(s->collisions - d->since.collisions);
     extra[TIME] += s->time - d->since.time;
@@ -104,22 +104,22 @@ static void look(void *self, const gg_snapshot *s, double *bin)
   d->since = (struct since){s->time, s->collisions, 1};
 }
 
-/* g at the gap 0: ln g = a + b x + c x^2 by least squares, weighted by counts. NaN where too few pairs were seen. */
+/* g at the gap 0: ln g = a + b x + c x^2 by least squares, weighted by counts. NaN where there were too few pairs. */
 static double extrapolate(const double *g, const double *counts, int n)
 {
   gsl_matrix *X = gsl_matrix_alloc((size_t)n, 3), *cov = gsl_matrix_alloc(3, 3);
   gsl_vector *y = gsl_vector_alloc((size_t)n), *w = gsl_vector_alloc((size_t)n), *c = gsl_vector_alloc(3);
   gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc((size_t)n, 3);
   double value = NAN, chi2;
-  bool seen = X && cov && y && w && c && work;
-  for (int i = 0; seen && i < n; i++) {
+  bool enough = X && cov && y && w && c && work;
+  for (int i = 0; enough && i < n; i++) {
     double x = (i + 0.5) * WIDTH;
-    if (!(counts[i] > 1)) seen = false;
+    if (!(counts[i] > 1)) enough = false;
     for (int k = 0; k < 3; k++) gsl_matrix_set(X, (size_t)i, (size_t)k, pow(x, k));
     gsl_vector_set(y, (size_t)i, log(g[i]));
     gsl_vector_set(w, (size_t)i, counts[i]);
   }
-  if (seen && gsl_multifit_wlinear(X, w, y, c, cov, &chi2, work) == 0) value = exp(gsl_vector_get(c, 0));
+  if (enough && gsl_multifit_wlinear(X, w, y, c, cov, &chi2, work) == 0) value = exp(gsl_vector_get(c, 0));
   gsl_multifit_linear_free(work);
   gsl_vector_free(c);
   gsl_vector_free(w);
@@ -137,7 +137,7 @@ static void put_contact(const pair_correlation *d, gg_curve *c, const double *bi
   for (int i = 0; i < n; i++) counts[i] = bin[i] * samples;
   gg_curve_put_number(c, "contact_value", n > 4 ? extrapolate(c->value, counts, n) : NAN, "1");
   if (m->n_species > 1 || m->flow == GG_HCS || !m->steady) return;
-  double rate = 2 * extra[COLLISIONS] / ((double)m->n * extra[TIME]), T = extra[TEMPERATURE] / extra[LOOKS];
+  double rate = 2 * extra[COLLISIONS] / ((double)m->n * extra[TIME]), T = extra[TEMPERATURE] / extra[SNAPSHOTS];
   gg_curve_put_number(c, "contact_value_of_rate", rate / (4 * m->density * sqrt(M_PI * T)), "1");
 }
 
@@ -179,7 +179,7 @@ const gg_observable gg_pair_correlation = {
     .bins = bins,
     .every = 8,
     .positions = true,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .restart = restart,
     .curves = curves,
 };

@@ -9,14 +9,14 @@ double gg_pairs_longest_reach(const gg_model *m)
   return fmin(fmin(m->box[0], m->box[1]), m->box[2]) / 2;
 }
 
-/* Cells at least half a reach wide, also across when the box leans most, D = L_x/2. */
+/* Cells at least half a reach wide, also across when the box is most oblique, D = L_x/2. */
 gg_status gg_pairs_init(gg_pairs *p, const gg_model *m, double reach, gg_error *err)
 {
-  double lean = m->shear_rate != 0 ? hypot(1, 0.5 * m->box[0] / m->box[1]) : 1, count = 1;
+  double slant = m->shear_rate != 0 ? hypot(1, 0.5 * m->box[0] / m->box[1]) : 1, count = 1;
   *p = (gg_pairs){.reach = reach, .n = (size_t)m->n};
   for (int a = 0; a < 3; a++) {
     double width = fmax(reach / 2, cbrt(m->volume / (double)m->n)); /* about one grain a cell at the least */
-    p->cells[a] = (int)fmin(floor(m->box[a] / (a == 0 ? lean : 1) / width), 1024);
+    p->cells[a] = (int)fmin(floor(m->box[a] / (a == 0 ? slant : 1) / width), 1024);
     count *= fmax(p->cells[a], 1);
   }
   p->start = gg_new_array((size_t)count + 1, sizeof *p->start, err);

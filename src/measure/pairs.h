@@ -73,7 +73,7 @@ GG_INLINE void gg_pairs_between(const gg_pairs *p, const gg_snapshot *s, const g
       gg_pairs_try(s, b, reach2, p->grain[k], p->grain[l], visit, context);
 }
 
-/* Visit every pair; inlined with a constant `visit`. Half of the 125 cells around each are looked at. */
+/* Visit every pair; inlined with a constant `visit`. Half of the 125 cells around each are searched. */
 GG_INLINE void gg_pairs_each(gg_pairs *p, const gg_snapshot *s, gg_pair_visit *visit, void *context)
 {
   gg_images b = gg_images_of(s);

@@ -18,7 +18,7 @@ enum { TIME, LOWER, UPPER = LOWER + 3, WALLS = UPPER + 3 };
 typedef struct profiles {
   gg_model model;
   int slabs;
-  double walls[WALLS]; /* since the last look */
+  double walls[WALLS]; /* since the last snapshot */
 } profiles;
 
 static const char *refuses(const gg_model *m)
@@ -50,7 +50,7 @@ static void restart(void *self)
   memset(((profiles *)self)->walls, 0, sizeof((profiles *)self)->walls);
 }
 
-static void hear(void *self, const gg_interval *in)
+static void add_interval(void *self, const gg_interval *in)
 {
   profiles *d = self;
   d->walls[TIME] += in->elapsed;
@@ -60,7 +60,7 @@ static void hear(void *self, const gg_interval *in)
   }
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   profiles *d = self;
   const gg_model *m = &d->model;
@@ -207,8 +207,8 @@ const gg_observable gg_profiles = {
     .memory = memory,
     .every = 2,
     .positions = true,
-    .look = look,
-    .hear = hear,
+    .add_snapshot = add_snapshot,
+    .add_interval = add_interval,
     .restart = restart,
     .curves = curves,
 };

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "measure/by_species.h"
-#include "measure/moments.h"
+#include "measure/velocity_moments.h"
 
 /* What one sample leaves for the next. */
 typedef struct memory {
@@ -17,7 +17,7 @@ typedef struct memory {
 
 typedef struct rheology {
   gg_model model;
-  gg_moments moments[GG_MAX_SPECIES];
+  gg_velocity_moments moments[GG_MAX_SPECIES];
   bool quick;
   memory memory;
   gg_species_scratch scratch;
@@ -44,39 +44,40 @@ static void *memory_of(void *self, size_t *bytes)
   return &r->memory;
 }
 
-/* Spins are looked at about their mean of the sample before, so that one look at the grains is enough: moments are put
- * right afterwards (gg_moments_settle); the angles to C feel the shift to second order, as they do that of any mean
- * over N grains. */
+/* Spins are taken about their mean of the sample before, so that one pass over the grains is enough: moments are put
+ * right afterwards (gg_velocity_moments_centre); the angles to C feel the shift to second order, as they do that of any
+ * mean over N grains. */
 static void begin(void *self)
 {
   rheology *r = self;
   const double T = r->memory.last_temperature;
   r->quick = T > 0x1p-60 && T < 0x1p60; /* squares of velocities will be far from what single precision cannot hold */
   for (int i = 0; i < r->model.n_species; i++) {
-    r->moments[i] = (gg_moments){0};
+    r->moments[i] = (gg_velocity_moments){0};
     memcpy(r->moments[i].mean_spin, r->memory.mean_spin[i], sizeof r->memory.mean_spin[i]);
   }
 }
 
-static void visit(void *self, const gg_chunk *chunk)
+static void add_chunk(void *self, const gg_chunk *chunk)
 {
   rheology *r = self;
   for (int i = 0; i < r->model.n_species; i++) {
     gg_species_view v = gg_chunk_of_species(chunk, i, &r->scratch);
-    gg_moment_view grains = {v.n, GG_MOMENT_LANES, 0, {v.c[0], v.c[1], v.c[2]}, {v.s[0], v.s[1], v.s[2]}};
-    gg_moments_add(&r->moments[i], r->quick, &grains);
+    gg_velocity_moment_view grains = {
+        v.n, GG_VELOCITY_MOMENT_LANES, 0, {v.c[0], v.c[1], v.c[2]}, {v.s[0], v.s[1], v.s[2]}};
+    gg_velocity_moments_add(&r->moments[i], r->quick, &grains);
   }
 }
 
-static void visit_blocks(void *self, const gg_block_run *run)
+static void add_blocks(void *self, const gg_block_run *run)
 {
   rheology *r = self;
-  gg_moment_view grains = {.n = run->n, .stride = 3 * GG_MOMENT_LANES, .drift = run->drift};
+  gg_velocity_moment_view grains = {.n = run->n, .stride = 3 * GG_VELOCITY_MOMENT_LANES, .strain = run->drift};
   for (int a = 0; a < 3; a++) {
-    grains.c[a] = run->c + a * GG_MOMENT_LANES;
-    if (run->s) grains.s[a] = run->s + a * GG_MOMENT_LANES;
+    grains.c[a] = run->c + a * GG_VELOCITY_MOMENT_LANES;
+    if (run->s) grains.s[a] = run->s + a * GG_VELOCITY_MOMENT_LANES;
   }
-  gg_moments_add(&r->moments[run->species], r->quick, &grains);
+  gg_velocity_moments_add(&r->moments[run->species], r->quick, &grains);
 }
 
 /* T = sum x_i m_i <C.C>_i/3 of this instant. */
@@ -84,7 +85,7 @@ static double temperature(const rheology *r)
 {
   double sum = 0;
   for (int i = 0; i < r->model.n_species; i++) {
-    const gg_moments *m = &r->moments[i];
+    const gg_velocity_moments *m = &r->moments[i];
     sum += r->model.mass[i] * (m->cc[0] + m->cc[1] + m->cc[2]);
   }
   return sum / (3 * (double)r->model.n);
@@ -92,7 +93,7 @@ static double temperature(const rheology *r)
 
 static void put_moments(const rheology *r, int species, double T, double *ch)
 {
-  const gg_moments *m = &r->moments[species];
+  const gg_velocity_moments *m = &r->moments[species];
   double second = 1 / (m->n * T), fourth = second / T;
   for (int a = 0; a < 3; a++) {
     ch[CH_C2X + a] = m->cc[a] * second;
@@ -147,7 +148,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   rheology *r = self;
   bool cooling = r->model.flow == GG_HCS;
   for (int i = 0; i < r->model.n_species; i++) {
-    gg_moments_settle(&r->moments[i]);
+    gg_velocity_moments_centre(&r->moments[i]);
     memcpy(r->memory.mean_spin[i], r->moments[i].mean_spin, sizeof r->memory.mean_spin[i]);
   }
   double T = temperature(r), T0 = r->memory.last_temperature * in->velocity_factor * in->velocity_factor;
@@ -170,8 +171,8 @@ const gg_observable gg_rheology = {
     .destroy = free,
     .memory = memory_of,
     .begin = begin,
-    .visit = visit,
-    .visit_blocks = visit_blocks,
+    .add_chunk = add_chunk,
+    .add_blocks = add_blocks,
     .finish = finish,
     .derived = gg_rheology_derived,
     .history = gg_rheology_history,

@@ -48,7 +48,7 @@ static bool always(const gg_model *m)
   (void)m;
   return true;
 }
-static bool not_slow(const gg_model *m)
+static bool nonlinear(const gg_model *m)
 {
   return !m->small_shear;
 }
@@ -82,7 +82,7 @@ static const struct {
     {heated_rough, "the loss of rough grains is not of one temperature", GG_Q_COOLING_RATE, GG_Q_COOLING_RATE},
     {sheared, "see the kurtosis in sheared flows", GG_Q_A2, GG_Q_C_2},
     {mixture, "see c_1 and c_2 for mixtures", GG_Q_A2, GG_Q_A2},
-    {not_slow, "needs slow shear: flow: usf with thermostat: gaussian, or small_shear: on for a cooling gas",
+    {nonlinear, "needs the linear response: flow: usf with thermostat: gaussian, or small_shear: on for a cooling gas",
      GG_Q_VISCOSITY_REDUCED, GG_Q_VISCOSITY_REDUCED_KINETIC},
     {always, "a length of theory, not a mean; see graingas theory", GG_Q_CLUSTERING_LENGTH, GG_Q_CLUSTERING_LENGTH},
     {one_species, "there is one species only", GG_Q_C_1, GG_Q_PARTIAL_TEMPERATURE_RATIO},

@@ -1,5 +1,5 @@
-/* All grains at one instant, gathered from an engine's chunks: what observables of distributions, pairs and fields look
- * at. */
+/* All grains at one instant, gathered from an engine's chunks: what observables of distributions, pairs and fields
+ * sample. */
 #ifndef GG_SNAPSHOT_H
 #define GG_SNAPSHOT_H
 
@@ -9,14 +9,15 @@ typedef struct gg_snapshot {
   const gg_model *model;
   size_t n;
   double *r[3], *c[3],
-      *s[3];              /* positions in the box (NULL where not asked for), peculiar velocities, spins (or NULL) */
-  uint8_t *species;       /* NULL for one species */
-  int64_t *id;            /* with positions; else NULL: the order itself is constant */
-  double offset;          /* the image of the box above stands so far displaced along x (sheared flows) */
-  double time;            /* the engine's, since its creation */
-  double elapsed;         /* since the look before, whoever looked */
-  uint64_t collisions;    /* of the engine, since its creation */
-  double velocity_factor; /* all velocities were multiplied by this since the look before (1, but in free cooling) */
+      *s[3];           /* positions in the box (NULL where not asked for), peculiar velocities, spins (or NULL) */
+  uint8_t *species;    /* NULL for one species */
+  int64_t *id;         /* with positions; else NULL: the order itself is constant */
+  double offset;       /* the image of the box above stands so far displaced along x (sheared flows) */
+  double time;         /* the engine's, since its creation */
+  double elapsed;      /* since the snapshot before, whoever took it */
+  uint64_t collisions; /* of the engine, since its creation */
+  double
+      velocity_factor; /* all velocities were multiplied by this since the snapshot before (1, but in free cooling) */
 } gg_snapshot;
 
 gg_status gg_snapshot_init(gg_snapshot *s, const gg_model *model, bool positions, gg_error *err);

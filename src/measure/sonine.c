@@ -40,7 +40,7 @@ static double square(const gg_snapshot *s, size_t i)
   return s->c[0][i] * s->c[0][i] + s->c[1][i] * s->c[1][i] + s->c[2][i] * s->c[2][i];
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   const gg_model *m = &((const sonine *)self)->model;
   double T[GG_MAX_SPECIES] = {0}, total = 0; /* T_i/m_i; sum of m C^2/3 */
@@ -122,6 +122,6 @@ const gg_observable gg_sonine = {
     .refuses = refuses,
     .bins = bins,
     .every = 2,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .curves = curves,
 };

@@ -125,8 +125,8 @@ static double density_of(const structure *d, int x, int y, int z)
 static void add_axes(const structure *d, const gg_images *box, double *bin)
 {
   for (int k = 1; k <= d->most; k++) {
-    int lean = (int)lround(k * box->offset * box->inverse[0]); /* |D| <= L_x/2: within the mesh */
-    const double value[3] = {density_of(d, k, lean, 0), density_of(d, 0, k, 0), density_of(d, 0, 0, k)};
+    int nx = (int)lround(k * box->offset * box->inverse[0]); /* |D| <= L_x/2: within the mesh */
+    const double value[3] = {density_of(d, k, nx, 0), density_of(d, 0, k, 0), density_of(d, 0, 0, k)};
     for (int a = 0; a < 3; a++) {
       bin[(a * d->most + k - 1) * AXIS + AXIS_COUNT]++;
       bin[(a * d->most + k - 1) * AXIS + AXIS_DENSITY] += value[a];
@@ -134,7 +134,7 @@ static void add_axes(const structure *d, const gg_images *box, double *bin)
   }
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   structure *d = self;
   gg_images box = gg_images_of(s);
@@ -198,6 +198,6 @@ const gg_observable gg_structure = {
     .bins = bins,
     .every = 32,
     .positions = true,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .curves = curves,
 };

@@ -106,7 +106,7 @@ static void centre_spins(correlations *d, const gg_snapshot *s)
   }
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   correlations *d = self;
   summing c = {d, s, bin};
@@ -198,6 +198,6 @@ const gg_observable gg_velocity_correlations = {
     .bins = bins,
     .every = 16,
     .positions = true,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .curves = curves,
 };

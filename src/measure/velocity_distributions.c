@@ -54,7 +54,7 @@ static void count(const gg_snapshot *s, const double *x, int species, double *bi
     if (gg_snapshot_species(s, i) == species) gg_histogram_add(bin, (x[i] - u.mean) * inverse);
 }
 
-static void look(void *self, const gg_snapshot *s, double *bin)
+static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   const distributions *d = self;
   for (int species = 0; species < d->species; species++)
@@ -127,6 +127,6 @@ const gg_observable gg_velocity_distributions = {
     .refuses = refuses,
     .bins = bins,
     .every = 2,
-    .look = look,
+    .add_snapshot = add_snapshot,
     .curves = curves,
 };

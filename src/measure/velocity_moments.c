@@ -1,10 +1,10 @@
-#include "measure/moments.h"
+#include "measure/velocity_moments.h"
 
 #include <string.h>
 
 #include "common/clones.h"
 
-enum { LANES = GG_MOMENT_LANES };
+enum { LANES = GG_VELOCITY_MOMENT_LANES };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 typedef float singles __attribute__((vector_size(LANES * sizeof(float))));
 typedef int64_t masks __attribute__((vector_size(LANES * sizeof(int64_t))));
@@ -30,14 +30,14 @@ GG_INLINE lanes root_of(bool quick, lanes x)
   return in_double(s);
 }
 
-static double sum_of(const gg_moment_lanes *v)
+static double sum_of(const gg_velocity_moment_lanes *v)
 {
   const double *x = (const double *)v;
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
 /* Eight grains; returns C.C. */
-GG_INLINE lanes translation(gg_moment_sums *a, bool quick, const lanes c[3])
+GG_INLINE lanes translation(gg_velocity_moment_sums *a, bool quick, const lanes c[3])
 {
   lanes square[3], all;
   for (int k = 0; k < 3; k++) square[k] = c[k] * c[k];
@@ -53,7 +53,7 @@ GG_INLINE lanes translation(gg_moment_sums *a, bool quick, const lanes c[3])
 }
 
 /* c2: C.C */
-GG_INLINE void rotation(gg_moment_sums *a, const lanes c[3], lanes c2, const lanes w[3])
+GG_INLINE void rotation(gg_velocity_moment_sums *a, const lanes c[3], lanes c2, const lanes w[3])
 {
   const lanes none = {0}, third = none + 1.0 / 3;
   lanes square[3], dot = c[0] * w[0] + c[1] * w[1] + c[2] * w[2];
@@ -70,12 +70,12 @@ GG_INLINE void rotation(gg_moment_sums *a, const lanes c[3], lanes c2, const lan
 }
 
 /* Eight grains, `at` so far into the view. */
-GG_INLINE void add_group(gg_moment_sums *a, const double mean[3], bool quick, bool spins, const gg_moment_view *v,
-                         size_t at)
+GG_INLINE void add_group(gg_velocity_moment_sums *a, const double mean[3], bool quick, bool spins,
+                         const gg_velocity_moment_view *v, size_t at)
 {
   lanes c[3], w[3], c2;
   for (int k = 0; k < 3; k++) memcpy(&c[k], v->c[k] + at, sizeof c[k]);
-  c[0] -= v->drift * c[1];
+  c[0] -= v->strain * c[1];
   c2 = translation(a, quick, c);
   if (!spins) return;
   for (int k = 0; k < 3; k++) memcpy(&w[k], v->s[k] + at, sizeof w[k]), w[k] -= mean[k];
@@ -83,7 +83,8 @@ GG_INLINE void add_group(gg_moment_sums *a, const double mean[3], bool quick, bo
 }
 
 /* The last grains, fewer than eight: the others at rest. */
-GG_INLINE void add_rest(gg_moment_sums *a, const double mean[3], bool quick, bool spins, const gg_moment_view *v)
+GG_INLINE void add_rest(gg_velocity_moment_sums *a, const double mean[3], bool quick, bool spins,
+                        const gg_velocity_moment_view *v)
 {
   double c[3][LANES] = {{0}}, s[3][LANES];
   const size_t at = v->n / LANES * v->stride, n = v->n % LANES;
@@ -92,15 +93,15 @@ GG_INLINE void add_rest(gg_moment_sums *a, const double mean[3], bool quick, boo
       if (l < n) c[k][l] = v->c[k][at + l];
       if (spins) s[k][l] = l < n ? v->s[k][at + l] : mean[k];
     }
-  const gg_moment_view rest = {n, 0, v->drift, {c[0], c[1], c[2]}, {s[0], s[1], s[2]}};
+  const gg_velocity_moment_view rest = {n, 0, v->strain, {c[0], c[1], c[2]}, {s[0], s[1], s[2]}};
   add_group(a, mean, quick, spins, &rest, 0);
 }
 
 /* One pass for everything; the sums stay in registers as far as these go. */
-GG_INLINE void add(gg_moments *m, bool quick, bool spins, const gg_moment_view *view)
+GG_INLINE void add(gg_velocity_moments *m, bool quick, bool spins, const gg_velocity_moment_view *view)
 {
-  gg_moment_sums a = m->sums;
-  const gg_moment_view v = *view;
+  gg_velocity_moment_sums a = m->sums;
+  const gg_velocity_moment_view v = *view;
   const double mean[3] = {m->mean_spin[0], m->mean_spin[1], m->mean_spin[2]};
   for (size_t g = 0; g < v.n / LANES; g++) add_group(&a, mean, quick, spins, &v, g * v.stride);
   if (v.n % LANES) add_rest(&a, mean, quick, spins, &v);
@@ -110,7 +111,7 @@ GG_INLINE void add(gg_moments *m, bool quick, bool spins, const gg_moment_view *
 }
 
 #define INSTANCE(name, quick, spins)                                                                                   \
-  GG_CLONES static void name(gg_moments *m, const gg_moment_view *v)                                                   \
+  GG_CLONES static void name(gg_velocity_moments *m, const gg_velocity_moment_view *v)                                 \
   {                                                                                                                    \
     add(m, quick, spins, v);                                                                                           \
   }
@@ -119,16 +120,16 @@ INSTANCE(add_rough, false, true)
 INSTANCE(quick_smooth, true, false)
 INSTANCE(quick_rough, true, true)
 
-void gg_moments_add(gg_moments *m, bool quick, const gg_moment_view *v)
+void gg_velocity_moments_add(gg_velocity_moments *m, bool quick, const gg_velocity_moment_view *v)
 {
-  static void (*const instance[2][2])(gg_moments *, const gg_moment_view *) = {{add_smooth, add_rough},
-                                                                               {quick_smooth, quick_rough}};
+  static void (*const instance[2][2])(gg_velocity_moments *, const gg_velocity_moment_view *) = {
+      {add_smooth, add_rough}, {quick_smooth, quick_rough}};
   instance[quick][v->s[0] != NULL](m, v);
 }
 
-void gg_moments_settle(gg_moments *m)
+void gg_velocity_moments_centre(gg_velocity_moments *m)
 {
-  const gg_moment_sums *s = &m->sums;
+  const gg_velocity_moment_sums *s = &m->sums;
   m->cxcy = sum_of(&s->cxcy), m->cccc = sum_of(&s->cccc), m->speed = sum_of(&s->speed);
   m->cos2 += sum_of(&s->cos2);
   for (int a = 0; m->n > 0 && a < 3; a++) {

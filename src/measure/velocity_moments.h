@@ -1,20 +1,21 @@
 /* Velocity moments of grains, by species, summed over chunks. */
-#ifndef GG_MOMENTS_H
-#define GG_MOMENTS_H
+#ifndef GG_VELOCITY_MOMENTS_H
+#define GG_VELOCITY_MOMENTS_H
 
 #include "common/engine.h"
 
 /* Sums while grains are added: eight lanes each, whatever the processor's registers hold, so that every processor has
  * the same bits. */
-enum { GG_MOMENT_LANES = 8 };
-typedef double gg_moment_lanes __attribute__((vector_size(GG_MOMENT_LANES * sizeof(double)), aligned(8), may_alias));
-typedef struct gg_moment_sums {
-  gg_moment_lanes cc[3], cxcy, c4[3], cccc, speed;
-  gg_moment_lanes w[3], ww[3], w3[3], w4[3], cos2;
-} gg_moment_sums;
+enum { GG_VELOCITY_MOMENT_LANES = 8 };
+typedef double gg_velocity_moment_lanes
+    __attribute__((vector_size(GG_VELOCITY_MOMENT_LANES * sizeof(double)), aligned(8), may_alias));
+typedef struct gg_velocity_moment_sums {
+  gg_velocity_moment_lanes cc[3], cxcy, c4[3], cccc, speed;
+  gg_velocity_moment_lanes w[3], ww[3], w3[3], w4[3], cos2;
+} gg_velocity_moment_sums;
 
-/* Sums over grains of one species; spins about `mean_spin`. Once settled: */
-typedef struct gg_moments {
+/* Sums over grains of one species; spins about `mean_spin`. After gg_velocity_moments_centre: */
+typedef struct gg_velocity_moments {
   double n;
   double cc[3], cxcy;         /* C_a^2, C_x C_y */
   double c4[3];               /* C_a^4 */
@@ -23,21 +24,21 @@ typedef struct gg_moments {
   double mean_spin[3];        /* about which spins are taken: a guess before, <s_a> then */
   double ww[3], w3[3], w4[3]; /* sums of powers of Omega_a = s_a - mean_spin, surface velocities */
   double cos2;                /* (C.Omega)^2/(C^2 Omega^2), of the guess */
-  gg_moment_sums sums;
-} gg_moments;
+  gg_velocity_moment_sums sums;
+} gg_velocity_moments;
 
 /* n grains in groups of eight: group g lies at c[a] + g x stride and the seven places that follow. What is there is
- * C_x + drift C_y, C_y, C_z. s[0] NULL: without spins. */
-typedef struct gg_moment_view {
+ * C_x + strain C_y, C_y, C_z. s[0] NULL: without spins. */
+typedef struct gg_velocity_moment_view {
   size_t n, stride;
-  double drift;
+  double strain;
   const double *c[3], *s[3];
-} gg_moment_view;
+} gg_velocity_moment_view;
 
 /* Add grains; spins are taken about m->mean_spin, any guess of their mean. `quick`: each |C| is rounded to single
  * precision, whose range C.C has to be in; otherwise roots would cost as much as all other sums together. */
-void gg_moments_add(gg_moments *m, bool quick, const gg_moment_view *v);
+void gg_velocity_moments_add(gg_velocity_moments *m, bool quick, const gg_velocity_moment_view *v);
 /* All grains are in: mean_spin becomes their mean, and the powers of Omega are about it. */
-void gg_moments_settle(gg_moments *m);
+void gg_velocity_moments_centre(gg_velocity_moments *m);
 
 #endif

@@ -1,10 +1,10 @@
-/* eta* = nu_0 eta/(n T) of cooling and heated gases: the limit a* -> 0 of -P_xy/(n T a*) in slow shear
- * (common/small_shear.h). The noise of P_xy/(nT) is the same at every a*, so least squares of -P_xy/(n T) on
- * eta* a* + B a*^3, over everything seen while a* went up and down its range; its sums are the channels, so that the
- * estimator's error of eta* contains that of the extrapolation.
+/* eta* = nu_0 eta/(n T) of cooling and heated gases by linear response: the limit of -P_xy/(n T a*) at a vanishing
+ * reduced shear rate a* (common/small_shear.h). The noise of P_xy/(nT) is the same at every a*, so least squares of
+ * -P_xy/(n T) on eta* a* + B a*^3, over all samples while a* went up and down its range; its sums are the channels, so
+ * that the estimator's error of eta* contains that of the extrapolation.
  *
- * The kinetic stress belongs to the instant of the look. The collisional one is a mean over the interval before it, in
- * which it goes as sqrt(T): it belongs to the temperature at which sqrt(T) has its mean. */
+ * The kinetic stress belongs to the instant of the sample. The collisional one is a mean over the interval before it,
+ * in which it goes as sqrt(T): it belongs to the temperature at which sqrt(T) has its mean. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -17,11 +17,11 @@ enum { A2, A4, A6, SA, SA3, SUMS };
 enum { KINETIC, COLLISIONAL = SUMS, CHANNELS = 2 * SUMS };
 
 /* Rows, of two collisions a grain each, that a heated gas needs to forget its rescaling. */
-enum { SETTLING = 5 };
+enum { RELAXATION = 5 };
 
 typedef struct memory { /* what one sample leaves for the next */
   double last_temperature;
-  double settled; /* rows since the last rescaling */
+  double since; /* rows since the last rescaling */
 } memory;
 
 typedef struct viscosity {
@@ -62,7 +62,7 @@ static void begin(void *self)
   v->cc = v->cxcy = 0;
 }
 
-static void visit(void *self, const gg_chunk *chunk)
+static void add_chunk(void *self, const gg_chunk *chunk)
 {
   viscosity *v = self;
   for (int i = 0; i < v->model.n_species; i++) {
@@ -95,7 +95,7 @@ static double mean_root(double T0, double T1)
 
 static bool counts(const viscosity *v, const gg_small_shear *range, double a)
 {
-  return range->cools ? a >= range->low : v->memory.settled > SETTLING;
+  return range->cools ? a >= range->low : v->memory.since > RELAXATION;
 }
 
 static void finish(void *self, const gg_interval *in, double *row)
@@ -104,7 +104,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   const gg_model *m = &v->model;
   double T = v->cc / (3 * (double)m->n), T0 = v->memory.last_temperature * in->velocity_factor * in->velocity_factor;
   v->memory.last_temperature = T;
-  v->memory.settled = in->velocity_factor == 1 ? v->memory.settled + 1 : 0;
+  v->memory.since = in->velocity_factor == 1 ? v->memory.since + 1 : 0;
   for (int k = 0; k < CHANNELS; k++) row[k] = 0;
   gg_small_shear range = gg_small_shear_of(m);
   double a = gg_reduced_shear_rate(m, T);
@@ -148,14 +148,14 @@ static const char *missing(const gg_model *m, gg_quantity q)
 
 const gg_observable gg_viscosity = {
     .name = "viscosity",
-    .doc = "eta* of cooling and heated gases in slow shear, extrapolated to none",
+    .doc = "eta* of cooling and heated gases by linear response: shear, extrapolated to none",
     .flag = GG_MEASURE_VISCOSITY,
     .width = width,
     .create = create,
     .destroy = free,
     .memory = memory_of,
     .begin = begin,
-    .visit = visit,
+    .add_chunk = add_chunk,
     .finish = finish,
     .derived = derived,
     .missing = missing,

@@ -1,4 +1,4 @@
-/* What a replica is looked at with: the observables that the scene asks for, their bins, their memories. */
+/* What a replica is sampled with: the observables that the scene asks for, their bins, their memories. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -12,7 +12,7 @@ static gg_status attach_one(gg_replica *r, const gg_observable *o, gg_error *err
   if (!r->self[k]) return GG_FAILED;
   r->observable[k] = o;
   r->n_observables++;
-  if (o->looks > r->parts) r->parts = o->looks;
+  if (o->parts > r->parts) r->parts = o->parts;
   return o->bins ? gg_bins_init(&r->bins[k], o->bins(r->self[k]), err) : GG_OK;
 }
 

@@ -1,9 +1,9 @@
-/* A campaign in an archive: everything needed to go on bit for bit, and enough of the scene to refuse another one. */
+/* The replicas in an archive: everything needed to go on bit for bit, and enough of the scene to refuse another one. */
 #include <stdio.h>
 #include <string.h>
 
-#include "run/campaign.h"
 #include "run/clock.h"
+#include "run/replicas.h"
 
 /* Every key that fixes the trajectory or what is averaged; stop rules and output may change between parts of a run. */
 typedef struct gg_fingerprint {
@@ -60,21 +60,21 @@ static int fingerprint(const gg_scene *s, gg_fingerprint *f)
   return n;
 }
 
-gg_status gg_campaign_save(const gg_campaign *c, gg_archive *a, gg_error *err)
+gg_status gg_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *err)
 {
   gg_fingerprint f[MOST_FINGERPRINT];
   double values[MOST_FINGERPRINT];
-  int n = fingerprint(&c->scene, f);
+  int n = fingerprint(&all->scene, f);
   for (int i = 0; i < n; i++) values[i] = f[i].value;
-  struct gg_campaign_state state = c->state;
-  state.wall += gg_wall_now() - c->started;
+  struct gg_replicas_state state = all->state;
+  state.wall += gg_wall_now() - all->started;
   GG_TRY(gg_archive_put(a, "campaign/fingerprint", GG_ITEM_F64, values, (size_t)n, err));
   GG_TRY(gg_archive_put(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
-  for (int i = 0; i < c->n; i++) {
+  for (int i = 0; i < all->n; i++) {
     gg_archive one = {0};
     char prefix[24];
     snprintf(prefix, sizeof prefix, "replica%d", i);
-    gg_status status = gg_replica_save(&c->replicas[i], &one, err);
+    gg_status status = gg_replica_save(&all->replica[i], &one, err);
     if (status == GG_OK) status = gg_archive_nest(a, prefix, &one, err);
     gg_archive_clear(&one);
     if (status != GG_OK) return status;
@@ -82,11 +82,11 @@ gg_status gg_campaign_save(const gg_campaign *c, gg_archive *a, gg_error *err)
   return GG_OK;
 }
 
-static gg_status same_scene(const gg_campaign *c, const gg_archive *a, gg_error *err)
+static gg_status same_scene(const gg_replicas *all, const gg_archive *a, gg_error *err)
 {
   gg_fingerprint here[MOST_FINGERPRINT];
   double there[MOST_FINGERPRINT];
-  int n = fingerprint(&c->scene, here);
+  int n = fingerprint(&all->scene, here);
   GG_TRY(gg_archive_get(a, "campaign/fingerprint", GG_ITEM_F64, there, (size_t)n, err));
   for (int i = 0; i < n; i++)
     if (memcmp(&here[i].value, &there[i], sizeof there[i]) != 0)
@@ -98,16 +98,16 @@ static gg_status same_scene(const gg_campaign *c, const gg_archive *a, gg_error 
   return GG_OK;
 }
 
-gg_status gg_campaign_restore(gg_campaign *c, const gg_archive *a, gg_error *err)
+gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *a, gg_error *err)
 {
-  GG_TRY(same_scene(c, a, err));
-  GG_TRY(gg_archive_get(a, "campaign/state", GG_ITEM_U8, &c->state, sizeof c->state, err));
-  for (int i = 0; i < c->n; i++) {
+  GG_TRY(same_scene(all, a, err));
+  GG_TRY(gg_archive_get(a, "campaign/state", GG_ITEM_U8, &all->state, sizeof all->state, err));
+  for (int i = 0; i < all->n; i++) {
     gg_archive one = {0};
     char prefix[24];
     snprintf(prefix, sizeof prefix, "replica%d", i);
     gg_status status = gg_archive_unnest(&one, prefix, a, err);
-    if (status == GG_OK) status = gg_replica_restore(&c->replicas[i], &one, &c->scene, &c->model, i, err);
+    if (status == GG_OK) status = gg_replica_restore(&all->replica[i], &one, &all->scene, &all->model, i, err);
     gg_archive_clear(&one);
     if (status != GG_OK) return status;
   }

@@ -91,7 +91,7 @@ static void *run_part(void *argument)
 }
 
 /* A scene that an engine cannot run leaves that column empty with the reason; anything else ends the comparison. */
-static gg_status settle(part *p, gg_error *err)
+static gg_status close_part(part *p, gg_error *err)
 {
   gg_comparison *c = p->comparison;
   gg_result *result = c->by_engine[p->kind];
@@ -116,9 +116,9 @@ static void run_parts(part parts[2], bool beside)
     run_part(&parts[GG_DSMC]);
 }
 
-static gg_status judge_parts(part parts[2], gg_comparison *c, gg_error *err)
+static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
 {
-  for (int k = 0; k < 2; k++) GG_TRY(settle(&parts[k], err));
+  for (int k = 0; k < 2; k++) GG_TRY(close_part(&parts[k], err));
   if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
     return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
                    c->refusal[GG_DSMC]);
@@ -152,7 +152,7 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
     status = gg_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
   if (status == GG_OK) {
     run_parts(parts, beside);
-    status = judge_parts(parts, c, err);
+    status = close_parts(parts, c, err);
   }
   for (int k = 0; k < 2; k++) gg_archive_clear(&parts[k].resume), gg_archive_clear(&latest[k]);
   pthread_mutex_destroy(&lock);

@@ -1,100 +1,100 @@
-/* Is the window long, steady and exact enough? */
+/* The convergence monitor: how exact the means over the averaging window are, and whether a quantity has a trend. */
 #include <math.h>
 #include <stdlib.h>
 
-#include "run/campaign.h"
+#include "run/replicas.h"
 #include "statistics/trend.h"
 
-/* A difference of the first and last third beyond this many errors is a drift: with five quantities looked at a few
- * times, chance alone reaches it about once in a thousand runs. */
-#define DRIFT_Z 4.0
+/* A difference of the first and last third beyond this many errors is a trend: with five quantities tested a few times,
+ * chance alone reaches it about once in a thousand runs. */
+#define TREND_Z 4.0
 /* ... unless it is too small to matter beside the error asked for. */
-#define DRIFT_NEGLIGIBLE 1e-4
+#define TREND_NEGLIGIBLE 1e-4
 
-static const gg_derived *find_derived(const gg_campaign *c, gg_quantity q, int *observable)
+static const gg_derived *find_derived(const gg_replicas *all, gg_quantity q, int *observable)
 {
-  for (int k = 0; k < c->replicas[0].n_observables; k++) {
-    const gg_observable *o = c->replicas[0].observable[k];
-    if (!o->width || o->missing(&c->model, q)) continue;
+  for (int k = 0; k < all->replica[0].n_observables; k++) {
+    const gg_observable *o = all->replica[0].observable[k];
+    if (!o->width || o->missing(&all->model, q)) continue;
     for (const gg_derived *d = o->derived; d->of; d++)
       if (d->quantity == q) return *observable = k, d;
   }
   return NULL;
 }
 
-gg_status gg_campaign_mean(const gg_campaign *c, gg_quantity q, gg_mean *mean, gg_error *err)
+gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err)
 {
   *mean = (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = 0.5};
   int k;
-  const gg_derived *d = find_derived(c, q, &k);
+  const gg_derived *d = find_derived(all, q, &k);
   if (!d) return GG_OK;
-  const gg_series **series = gg_new_array((size_t)c->n, sizeof *series, err);
+  const gg_series **series = gg_new_array((size_t)all->n, sizeof *series, err);
   if (!series) return GG_FAILED;
-  for (int r = 0; r < c->n; r++) series[r] = &c->replicas[r].series;
-  const gg_replica *first = &c->replicas[0];
-  gg_status status = gg_estimate_mean(series, (size_t)c->n, first->series.window, first->series.n, first->offset[k],
-                                      first->observable[k]->width(&c->model), d->of, &c->model, mean, err);
+  for (int r = 0; r < all->n; r++) series[r] = &all->replica[r].series;
+  const gg_replica *first = &all->replica[0];
+  gg_status status = gg_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
+                                      first->observable[k]->width(&all->model), d->of, &all->model, mean, err);
   free(series);
   return status;
 }
 
-/* What must not drift: everything headline, and the slow ones. */
-static int watched(const gg_campaign *c, gg_quantity *list)
+/* What must not have a trend: the headline quantities first, then those that relax slowly. Returns how many. */
+static int monitored(const gg_replicas *all, gg_quantity *list)
 {
-  int n = gg_headline(&c->model, list), k;
-  if (c->model.small_shear) return n; /* goes round and round: nothing else stands still */
+  int n = gg_headline(&all->model, list), k;
+  if (all->model.small_shear) return n; /* the shear rate goes up and down: nothing else is steady */
   const gg_quantity slow[] = {GG_Q_TEMPERATURE, GG_Q_TEMPERATURE_RATIO, GG_Q_SPIN_Z, GG_Q_COLLISION_RATE, GG_Q_A2};
   for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
-    bool there = !find_derived(c, slow[i], &k);
+    bool there = !find_derived(all, slow[i], &k);
     for (int h = 0; h < n && !there; h++) there = list[h] == slow[i];
     if (!there) list[n++] = slow[i];
   }
   return n;
 }
 
-static gg_status test_drift(const gg_campaign *c, gg_quantity q, gg_drift *drift, gg_error *err)
+static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *trend, gg_error *err)
 {
   int k;
-  const gg_derived *d = find_derived(c, q, &k);
-  *drift = (gg_drift){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
-  size_t n = gg_series_window_rows(&c->replicas[0].series);
+  const gg_derived *d = find_derived(all, q, &k);
+  *trend = (gg_trend){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
+  size_t n = gg_series_window_rows(&all->replica[0].series);
   if (!d || n < 24) return GG_OK;
-  double *y = gg_new_array(n * (size_t)c->n, sizeof *y, err);
+  double *y = gg_new_array(n * (size_t)all->n, sizeof *y, err);
   if (!y) return GG_FAILED;
-  for (int r = 0; r < c->n; r++) {
-    const gg_replica *p = &c->replicas[r];
+  for (int r = 0; r < all->n; r++) {
+    const gg_replica *p = &all->replica[r];
     for (size_t i = 0; i < n; i++)
-      y[(size_t)r * n + i] = d->of(gg_series_row(&p->series, p->series.window + i) + p->offset[k], &c->model);
+      y[(size_t)r * n + i] = d->of(gg_series_row(&p->series, p->series.window + i) + p->offset[k], &all->model);
   }
-  gg_status status = gg_drift_test(y, n, (size_t)c->n, drift, err);
+  gg_status status = gg_trend_test(y, n, (size_t)all->n, trend, err);
   free(y);
   return status;
 }
 
-gg_status gg_campaign_judge(gg_campaign *c, gg_judgement *j, gg_error *err)
+gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error *err)
 {
-  *j = (gg_judgement){.relative_error = 0, .trusted = true};
+  *c = (gg_convergence){.relative_error = 0, .trusted = true};
   gg_quantity list[GG_N_QUANTITIES];
-  int headline = gg_headline(&c->model, list), n = watched(c, list);
-  double per_row = (double)c->replicas[0].series.per_row;
+  int headline = gg_headline(&all->model, list), n = monitored(all, list);
+  double per_row = (double)all->replica[0].series.per_row;
   for (int i = 0; i < n; i++) {
     gg_mean m;
-    GG_TRY(gg_campaign_mean(c, list[i], &m, err));
-    j->slowest = fmax(j->slowest, m.correlation_rows * per_row);
+    GG_TRY(gg_replicas_mean(all, list[i], &m, err));
+    c->slowest = fmax(c->slowest, m.correlation_rows * per_row);
     if (i < headline) {
       double relative = m.error / fabs(m.mean);
-      if (!(relative <= j->relative_error)) j->relative_error = relative, j->worst = list[i];
-      if (!m.trusted) j->trusted = false;
+      if (!(relative <= c->relative_error)) c->relative_error = relative, c->worst = list[i];
+      if (!m.trusted) c->trusted = false;
     }
-    if (c->model.small_shear) continue;
-    gg_drift d;
-    GG_TRY(test_drift(c, list[i], &d, err));
-    if (fabs(d.z) > DRIFT_Z && fabs(d.relative) > DRIFT_NEGLIGIBLE && fabs(d.z) > fabs(j->drift_z)) {
-      j->drifting = true;
-      j->drifter = list[i];
-      j->drift_z = d.z, j->drift_relative = d.relative;
+    if (all->model.small_shear) continue;
+    gg_trend t;
+    GG_TRY(test_trend(all, list[i], &t, err));
+    if (fabs(t.z) > TREND_Z && fabs(t.relative) > TREND_NEGLIGIBLE && fabs(t.z) > fabs(c->trend_z)) {
+      c->trending = true;
+      c->trending_quantity = list[i];
+      c->trend_z = t.z, c->trend_relative = t.relative;
     }
   }
-  c->last = *j;
+  all->last = *c;
   return GG_OK;
 }

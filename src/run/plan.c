@@ -2,36 +2,36 @@
 #include <math.h>
 
 #include "common/small_shear.h"
-#include "run/campaign.h"
+#include "run/replicas.h"
 
 /* Relaxation times of the slowest mode: before averaging, and at least while averaging. A start within a few tens of
  * per cent of the steady state leaves less than 0.1 % of it after the first. */
 enum { WARMUP_TIMES = 6, WINDOW_TIMES = 50 };
-/* Slow shear: at least so many rounds. */
-enum { LEAST_ROUNDS = 4 };
+/* Linear response: at least so many sweeps of the reduced shear rate. */
+enum { LEAST_SWEEPS = 4 };
 /* An error that this many of the shortest windows have not brought down is out of reach: a clustered or collapsing gas.
  */
 enum { MOST_WINDOWS = 500 };
 
 static uint64_t samples_for(double collisions)
 {
-  return (uint64_t)ceil(collisions / GG_SAMPLE_SPACING);
+  return (uint64_t)ceil(collisions / GG_SAMPLING_INTERVAL);
 }
 
-/* Collisions per grain of one round of slow shear: cooling by 2^(2 power), or viscous heating by as much, in which
- * 1/a*^2 grows by (2/3) eta* a time 1/nu_0, five quarters of a collision; eta* taken as 1. */
-static double round_length(const gg_model *m)
+/* Collisions per grain of one sweep of the reduced shear rate: cooling by 2^(2 power), or viscous heating by as much,
+ * in which 1/a*^2 grows by (2/3) eta* a time 1/nu_0, five quarters of a collision; eta* taken as 1. */
+static double sweep_length(const gg_model *m)
 {
   gg_small_shear s = gg_small_shear_of(m);
   if (s.cools) return 2 * M_LN2 * s.power * gg_model_relaxation(m);
   return 1.25 * m->chi[0] * 1.5 * (1 / (s.low * s.low) - 1 / (s.high * s.high));
 }
 
-static void plan_slow_shear(gg_plan *p, const gg_scene *scene, const gg_model *m)
+static void plan_linear_response(gg_plan *p, const gg_scene *scene, const gg_model *m)
 {
-  double length = round_length(m);
+  double length = sweep_length(m);
   if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_small_shear_of(m).cools ? 10 : 40);
-  p->least = samples_for(LEAST_ROUNDS * length);
+  p->least = samples_for(LEAST_SWEEPS * length);
   p->longest = p->least * MOST_WINDOWS;
 }
 
@@ -48,7 +48,7 @@ gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
   p.relative_error = scene->run.relative_error != GG_AUTO ? scene->run.relative_error : asked ? 0 : 0.01;
   if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
   if (model->small_shear) {
-    plan_slow_shear(&p, scene, model);
+    plan_linear_response(&p, scene, model);
   } else if (!model->steady) { /* heating: nothing to wait for; follow it for as long as asked, or for a while */
     p.relative_error = 0;
     if (!p.most) p.most = samples_for(1000);

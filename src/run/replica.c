@@ -21,8 +21,8 @@ gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model
     return status;
   }
   ops->tap(r->engine, true);
-  r->clock.interval = GG_SAMPLE_SPACING / gg_model_collision_rate(model, model->temperature0);
-  gg_replica_look(r, 0);
+  r->clock.interval = GG_SAMPLING_INTERVAL / gg_model_collision_rate(model, model->temperature0);
+  gg_replica_sample_row(r, 0);
   return GG_OK;
 }
 
@@ -55,19 +55,20 @@ static double cpu_used(const gg_replica *r)
   return gg_cpu_now() + state.others_cpu;
 }
 
-/* Advance by one interval, in parts if something wants to look in between. A stretch in which a grain collides a
- * thousand times more than expected is a collapse that the contact-time rule was not there to prevent. */
+/* Advance by one sampling interval, in parts if an observable asks for snapshots in between. An interval in which a
+ * grain collides a thousand times more than expected is an inelastic collapse that the contact-time rule was not there
+ * to prevent. */
 static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happened, gg_error *err)
 {
   uint64_t before = collisions(r);
-  uint64_t limit = (uint64_t)(1000 * GG_SAMPLE_SPACING * (double)r->model.n / 2) + 1000000;
+  uint64_t limit = (uint64_t)(1000 * GG_SAMPLING_INTERVAL * (double)r->model.n / 2) + 1000000;
   int parts = r->clock.averaging ? r->parts : 1;
   *elapsed = 0;
   for (int part = 1; part <= parts; part++) {
     double gone;
     GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval / parts, limit, &gone, err));
     *elapsed += gone;
-    if (r->clock.averaging) gg_replica_look_for_curves(r, part, gone);
+    if (r->clock.averaging) gg_replica_sample_curves(r, part, gone);
   }
   *happened = collisions(r) - before;
   if (*happened >= limit)
@@ -82,8 +83,8 @@ static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happ
 /* Follow the rate, by at most a factor of four a time. */
 static void adapt_interval(gg_replica *r, double elapsed, uint64_t happened)
 {
-  double seen = 2 * (double)happened / (double)r->model.n;
-  double factor = seen > 0 ? GG_SAMPLE_SPACING / seen : 4;
+  double per_grain = 2 * (double)happened / (double)r->model.n;
+  double factor = per_grain > 0 ? GG_SAMPLING_INTERVAL / per_grain : 4;
   r->clock.interval = elapsed * fmin(fmax(factor, 0.25), 4);
 }
 
@@ -95,13 +96,13 @@ static gg_status rescale(gg_replica *r, int power, gg_error *err)
   return GG_OK;
 }
 
-/* Free cooling: bring the velocities back when they have fallen fourfold (T sixteenfold), the clock with them. Slow
- * shear: at the end of a round, judged by the collision rate, back to its beginning. */
+/* Free cooling: bring the velocities back when they have fallen fourfold (T sixteenfold), the clock with them. Linear
+ * response: at the end of a sweep of the reduced shear rate, told by the collision rate, back to its beginning. */
 static gg_status rescale_if_due(gg_replica *r, gg_error *err)
 {
   if (r->model.flow != GG_HCS && !r->model.small_shear) return GG_OK;
   double T0 = r->model.temperature0, slowdown = r->clock.interval * gg_model_collision_rate(&r->model, T0);
-  slowdown /= GG_SAMPLE_SPACING;
+  slowdown /= GG_SAMPLING_INTERVAL;
   if (r->model.small_shear) {
     bool over = gg_small_shear_ends(&r->model, T0 / (slowdown * slowdown));
     return over ? rescale(r, gg_small_shear_of(&r->model).power, err) : GG_OK;
@@ -129,7 +130,7 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   double start = cpu_used(r), elapsed;
   uint64_t happened;
   GG_TRY(advance_interval(r, &elapsed, &happened, err));
-  gg_replica_look(r, elapsed);
+  gg_replica_sample_row(r, elapsed);
   r->clock.time += ldexp(elapsed, (int)r->clock.power);
   gg_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
@@ -139,7 +140,7 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   return GG_OK;
 }
 
-gg_status gg_replica_sample(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err)
+gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err)
 {
   while (r->clock.samples < samples) {
     if (hooks && hooks->interrupted && hooks->interrupted(hooks->context))
@@ -156,7 +157,7 @@ gg_status gg_replica_open_window(gg_replica *r, gg_error *err)
   r->clock.window_collisions = collisions(r);
   r->clock.window_cpu = r->clock.cpu;
   gg_replica_restart_curves(r);
-  return gg_replica_watch(r, err);
+  return gg_replica_observe_collisions(r, err);
 }
 
 gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
@@ -176,7 +177,7 @@ gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene 
   if (status == GG_OK) status = gg_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
   if (status == GG_OK) status = gg_replica_restore_observables(r, a, err);
-  if (status == GG_OK && r->clock.averaging) status = gg_replica_watch(r, err);
+  if (status == GG_OK && r->clock.averaging) status = gg_replica_observe_collisions(r, err);
   if (status != GG_OK) gg_replica_clear(r);
   return status;
 }

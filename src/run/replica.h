@@ -1,4 +1,4 @@
-/* A replica: one engine, the observables that look at it, and the series they fill. */
+/* A replica: one engine, the observables that sample it, and the series they fill. */
 #ifndef GG_REPLICA_H
 #define GG_REPLICA_H
 
@@ -15,8 +15,8 @@ typedef struct gg_replica {
   void *self[GG_MAX_OBSERVABLES];
   size_t offset[GG_MAX_OBSERVABLES]; /* where its channels begin in a row */
   gg_bins bins[GG_MAX_OBSERVABLES];  /* of those that leave curves */
-  gg_snapshot snapshot;              /* that they look at; gathered only if one of them is due */
-  int parts;                         /* looks between two samples while averaging */
+  gg_snapshot snapshot;              /* what they sample; gathered only if one of them is due */
+  int parts;                         /* of a sampling interval, each ending with a snapshot, while averaging */
   gg_series series;
   double *row;
   double trajectory_every;  /* collisions per grain between frames; 0: none */
@@ -33,15 +33,15 @@ typedef struct gg_replica {
   } clock;
 } gg_replica;
 
-/* Samples are this many collisions per grain apart: closer ones cost time and say little new. */
-#define GG_SAMPLE_SPACING 2.0
+/* The sampling interval, collisions per grain: closer samples cost time and say little new. */
+#define GG_SAMPLING_INTERVAL 2.0
 
 gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err);
 void gg_replica_clear(gg_replica *r);
 
 /* Go on until `samples` have been taken in all; GG_INTERRUPTED between samples if the hook says so. With `adapt`, the
  * interval follows the collision rate (warm-up, cooling). */
-gg_status gg_replica_sample(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
+gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
 
 /* Averaging begins at the next sample. */
 gg_status gg_replica_open_window(gg_replica *r, gg_error *err);
@@ -52,12 +52,12 @@ void gg_replica_detach(gg_replica *r);
 gg_status gg_replica_save_observables(const gg_replica *r, gg_archive *archive, gg_error *err);
 gg_status gg_replica_restore_observables(gg_replica *r, const gg_archive *archive, gg_error *err);
 
-/* look.c: a row of the series; after each part of an interval, `part` from 1 to r->parts, what curves need. */
-void gg_replica_look(gg_replica *r, double elapsed);
-void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed);
+/* sampling.c: a row of the series; after each part of an interval, `part` from 1 to r->parts, what curves need. */
+void gg_replica_sample_row(gg_replica *r, double elapsed);
+void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
 void gg_replica_restart_curves(gg_replica *r);
-/* Collisions are shown to whom wants to see them, from now on. */
-gg_status gg_replica_watch(gg_replica *r, gg_error *err);
+/* From now on the engine shows every collision to the observables that ask for it. */
+gg_status gg_replica_observe_collisions(gg_replica *r, gg_error *err);
 
 double gg_replica_collisions_per_grain(const gg_replica *r);
 

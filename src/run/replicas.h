@@ -1,72 +1,79 @@
-/* The campaign of one scene: replicas in lockstep through warm-up and averaging, to the end that the scene asks for. */
-#ifndef GG_CAMPAIGN_H
-#define GG_CAMPAIGN_H
+/* The ensemble of replicas that answers one scene. They go through warm-up and averaging in lockstep, until what the
+ * scene asks for is reached; the result is taken from all of them together. */
+#ifndef GG_REPLICAS_H
+#define GG_REPLICAS_H
 
 #include "run/replica.h"
 
-typedef struct gg_plan {        /* what is asked, settled before the run; in samples a replica */
-  uint64_t warmup, least, most; /* warm-up; shortest window that can be judged; asked length, 0: until the error */
+typedef struct gg_plan {        /* what is asked, settled before the run; in samples of each replica */
+  uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; asked length, 0: until the error */
   uint64_t longest;             /* window after which the asked error counts as out of reach */
   double relative_error;        /* 0: not asked */
   double time_limit;            /* seconds, 0: none */
-  bool find_steady;             /* extend the warm-up while the window drifts */
+  bool find_steady;             /* give up windows that show a trend */
 } gg_plan;
 
-typedef struct gg_judgement { /* of the present window */
-  double relative_error;      /* of the worst headline quantity; NaN: not known */
+typedef struct gg_convergence { /* of the present averaging window */
+  double relative_error;        /* of the worst headline quantity; NaN: not known */
   gg_quantity worst;
-  bool drifting;
-  gg_quantity drifter;
-  double drift_z, drift_relative;
-  double slowest; /* longest correlation time of the watched, in samples */
   bool trusted;   /* every headline error rests on long enough blocks */
-} gg_judgement;
+  double slowest; /* longest correlation time of the monitored quantities, in samples */
+  bool trending;  /* some quantity still changes ... */
+  gg_quantity trending_quantity;
+  double trend_z, trend_relative; /* ... by so many errors, and by this share of its mean */
+} gg_convergence;
 
-typedef struct gg_campaign {
+typedef struct gg_replicas {
   gg_scene scene;
   gg_model model;
   gg_plan plan;
   int threads, n;
-  gg_replica *replicas;
+  gg_replica *replica; /* n of them */
   const gg_hooks *hooks;
-  struct gg_campaign_state {                      /* plain data: saved as bytes */
+  struct gg_replicas_state {                      /* plain data: saved as bytes */
     int64_t averaging;                            /* 0: warm-up */
     uint64_t due;                                 /* samples that every replica is to have taken */
     uint64_t window_at;                           /* samples when the window was opened */
-    uint64_t goal;                                /* samples at which the window is judged next */
-    uint64_t restarts;                            /* windows given up for drift */
-    int64_t exact;                                /* at the last judgement, errors were as small as asked */
+    uint64_t goal;                                /* samples at which the window is tested next */
+    uint64_t restarts;                            /* windows given up for a trend */
+    int64_t exact;                                /* at the last test, errors were as small as asked */
     double wall;                                  /* seconds used before this process */
     uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began (standstill.c) */
     double standstill; /* share of contacts that last, if there was little else; 0: the grains move */
   } state;
-  gg_judgement last;
+  gg_convergence last;
   double started, last_checkpoint; /* clock readings */
-} gg_campaign;
+} gg_replicas;
 
 gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model);
 
-gg_status gg_campaign_create(gg_campaign *c, const gg_scene *scene, const gg_archive *resume, int threads,
+gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                              const gg_hooks *hooks, gg_error *err);
-gg_status gg_campaign_execute(gg_campaign *c, gg_error *err);
-void gg_campaign_clear(gg_campaign *c);
+void gg_replicas_clear(gg_replicas *all);
+/* Every replica, on the threads that there are, takes samples until it has all->state.due of them. */
+gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err);
 
-gg_status gg_campaign_save(const gg_campaign *c, gg_archive *archive, gg_error *err);
-gg_status gg_campaign_restore(gg_campaign *c, const gg_archive *archive, gg_error *err);
+/* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
+gg_status gg_replicas_run(gg_replicas *all, gg_error *err);
 
-/* standstill.c: under gravity, have the grains come to rest? Tells c->state.standstill. */
-void gg_campaign_look_for_standstill(gg_campaign *c);
-
-/* Judge the window; with `final`, against everything watched. */
-gg_status gg_campaign_judge(gg_campaign *c, gg_judgement *j, gg_error *err);
+/* convergence.c: how exact the means over the window are, and whether it is steady. */
+gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *convergence, gg_error *err);
 /* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
-gg_status gg_campaign_mean(const gg_campaign *c, gg_quantity q, gg_mean *mean, gg_error *err);
+gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
 
+/* standstill.c: under gravity, have the grains come to rest? Leaves the answer in all->state.standstill. */
+void gg_replicas_check_standstill(gg_replicas *all);
+
+/* checkpoint.c */
+gg_status gg_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);
+gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *archive, gg_error *err);
+
+/* report.c: the result of where the replicas stand. */
+gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err);
 /* report_curves.c: the curves of all replicas together, and a warning for each observable that this model cannot have.
  */
-gg_status gg_campaign_report_curves(const gg_campaign *c, gg_result *result, gg_error *err);
-
-/* The result of where the campaign stands. */
-gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err);
+gg_status gg_replicas_report_curves(const gg_replicas *all, gg_result *result, gg_error *err);
+/* steady_state.c: is the mean over the window one of a steady state, and from what that is known. */
+void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *convergence, gg_result *result);
 
 #endif

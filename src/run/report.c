@@ -1,17 +1,17 @@
-/* From where a campaign stands to a result. */
+/* From where the replicas stand to a result. */
 #include <math.h>
 #include <stdio.h>
 
 #include "common/small_shear.h"
-#include "run/campaign.h"
 #include "run/clock.h"
+#include "run/replicas.h"
 
 /* Why a quantity is not there: the first observable's reason, else that nothing asked for measures it. */
-static const char *why_missing(const gg_campaign *c, gg_quantity q)
+static const char *why_missing(const gg_replicas *all, gg_quantity q)
 {
-  if (!c->state.averaging) return "nothing was averaged: the run ended in its warm-up";
-  if (c->replicas[0].n_observables == 0) return "nothing is measured in this scene";
-  const char *reason = c->replicas[0].observable[0]->missing(&c->model, q);
+  if (!all->state.averaging) return "nothing was averaged: the run ended in its warm-up";
+  if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
+  const char *reason = all->replica[0].observable[0]->missing(&all->model, q);
   return reason ? reason : "not measured in this scene";
 }
 
@@ -29,36 +29,36 @@ static bool scale_free(gg_quantity q)
   }
 }
 
-static gg_status report_means(gg_campaign *c, gg_result *result, gg_error *err)
+static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err)
 {
-  const gg_series *s = &c->replicas[0].series;
+  const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
   double row_time = rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
   for (int q = 0; q < GG_N_QUANTITIES; q++) {
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
-    if (!c->model.steady && !scale_free((gg_quantity)q)) {
+    if (!all->model.steady && !scale_free((gg_quantity)q)) {
       snprintf(e->reason, sizeof e->reason,
-               c->model.small_shear ? "its temperature goes up and down"
-                                    : "no steady state: the gas heats up; see the history");
+               all->model.small_shear ? "its temperature goes up and down"
+                                      : "no steady state: the gas heats up; see the history");
       continue;
     }
     gg_mean m = {.mean = NAN};
-    if (c->state.averaging) GG_TRY(gg_campaign_mean(c, (gg_quantity)q, &m, err));
+    if (all->state.averaging) GG_TRY(gg_replicas_mean(all, (gg_quantity)q, &m, err));
     if (!isfinite(m.mean)) {
-      snprintf(e->reason, sizeof e->reason, "%s", why_missing(c, (gg_quantity)q));
+      snprintf(e->reason, sizeof e->reason, "%s", why_missing(all, (gg_quantity)q));
       continue;
     }
     e->mean = m.mean, e->error = m.error;
     e->correlation_time = m.correlation_rows * row_time;
-    e->samples = rows * s->per_row * (uint64_t)c->n;
+    e->samples = rows * s->per_row * (uint64_t)all->n;
   }
   return GG_OK;
 }
 
-static gg_status report_history(const gg_campaign *c, gg_result *result, gg_error *err)
+static gg_status report_history(const gg_replicas *all, gg_result *result, gg_error *err)
 {
-  const gg_replica *r = &c->replicas[0];
+  const gg_replica *r = &all->replica[0];
   gg_history *h = &result->history;
   h->n = r->series.n;
   h->time = gg_new_array(h->n, sizeof *h->time, err);
@@ -71,21 +71,21 @@ static gg_status report_history(const gg_campaign *c, gg_result *result, gg_erro
     if (!h->value[k]) return GG_FAILED;
     gg_quantity q = gg_history_quantities[k];
     const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-    const char *missing = o ? o->missing(&c->model, q) : "";
-    bool rotational = q == GG_Q_ROTATIONAL_TEMPERATURE && c->model.rule != GG_SMOOTH;
+    const char *missing = o ? o->missing(&all->model, q) : "";
+    bool rotational = q == GG_Q_ROTATIONAL_TEMPERATURE && all->model.rule != GG_SMOOTH;
     bool there = o && o->history && (!missing || q == GG_Q_TEMPERATURE || rotational);
     for (size_t i = 0; i < h->n; i++)
-      h->value[k][i] = there ? o->history[k](gg_series_row(&r->series, i) + r->offset[0], &c->model) : NAN;
+      h->value[k][i] = there ? o->history[k](gg_series_row(&r->series, i) + r->offset[0], &all->model) : NAN;
   }
   return GG_OK;
 }
 
-static void report_effort(const gg_campaign *c, gg_result *result)
+static void report_effort(const gg_replicas *all, gg_result *result)
 {
   result->engine_state = (gg_engine_state){0};
   gg_engine_state *sum = &result->engine_state;
-  for (int i = 0; i < c->n; i++) {
-    const gg_replica *r = &c->replicas[i];
+  for (int i = 0; i < all->n; i++) {
+    const gg_replica *r = &all->replica[i];
     gg_engine_state s;
     r->engine->ops->state(r->engine, &s);
     sum->time = s.time, sum->time_step = s.time_step, sum->time_step_bias = s.time_step_bias;
@@ -97,49 +97,8 @@ static void report_effort(const gg_campaign *c, gg_result *result)
     result->total.cpu_seconds += r->clock.cpu;
   }
   result->total.collisions = sum->collisions;
-  result->total.wall_seconds = c->state.wall + gg_wall_now() - c->started;
+  result->total.wall_seconds = all->state.wall + gg_wall_now() - all->started;
   result->averaging.wall_seconds = NAN;
-}
-
-/* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
-enum { LEAST_CORRELATION_TIMES = 20 };
-
-static void report_verdict(const gg_campaign *c, const gg_judgement *j, gg_result *result)
-{
-  uint64_t window = c->state.due - c->state.window_at;
-  char *text = result->verdict_text;
-  size_t size = sizeof result->verdict_text;
-  double grain = (double)window * GG_SAMPLE_SPACING;
-  result->verdict = GG_NOT_STEADY;
-  if (!c->model.steady && !c->model.small_shear) {
-    result->verdict = GG_HEATING;
-    snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
-  } else if (c->state.standstill > 0) {
-    snprintf(text, size, "the grains have come to rest or nearly so: %.0f %% of collisions are contacts that last",
-             100 * c->state.standstill);
-  } else if (!c->state.averaging) {
-    snprintf(text, size, "the run ended in its warm-up");
-  } else if (j->drifting) {
-    snprintf(text, size, "%s still drifts: %+.2g %% from the first to the last third of the averaging, %.1f errors",
-             gg_quantity_name(j->drifter), 100 * j->drift_relative, fabs(j->drift_z));
-  } else if (window < c->plan.least) {
-    snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
-             grain, (double)c->plan.least * GG_SAMPLE_SPACING);
-  } else if (c->model.small_shear) {
-    result->verdict = GG_STEADY;
-    gg_small_shear s = gg_small_shear_of(&c->model);
-    snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",
-             s.cools ? "slow shear of the cooling gas" : "slow shear of the heated gas", s.cools ? s.low : s.high,
-             s.cools ? s.high : s.low);
-  } else if ((double)window < LEAST_CORRELATION_TIMES * j->slowest) {
-    snprintf(text, size,
-             "too short to tell: averaged over %.1f correlation times of the slowest quantity, %d are needed",
-             (double)window / j->slowest, LEAST_CORRELATION_TIMES);
-  } else {
-    result->verdict = GG_STEADY;
-    snprintf(text, size, "no drift over %.0f collisions a grain, %.0f correlation times of the slowest quantity", grain,
-             (double)window / j->slowest);
-  }
 }
 
 /* At rest or cooling, a homogeneous gas has equal normal stresses. Free cooling breaks up into vortices and clusters in
@@ -160,11 +119,11 @@ static void warn_if_structured(gg_result *result)
   }
 }
 
-static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_result *result)
+static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   const gg_engine_state *s = &result->engine_state;
-  if (result->verdict != GG_STEADY) gg_result_warn(result, "not a steady mean: %s", result->verdict_text);
-  if (result->verdict == GG_STEADY && !j->trusted)
+  if (result->steadiness != GG_STEADY) gg_result_warn(result, "not a steady mean: %s", result->steadiness_text);
+  if (result->steadiness == GG_STEADY && !c->trusted)
     gg_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
                    GG_MIN_BLOCKS);
   if ((double)s->treated > 1e-4 * (double)s->collisions)
@@ -177,7 +136,7 @@ static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_resu
   if (s->overflows > 1e-3 * (double)s->collisions)
     gg_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
                    100 * (double)s->overflows / (double)s->collisions);
-  if (c->plan.relative_error > 0 && s->time_step_bias > c->plan.relative_error / 5)
+  if (all->plan.relative_error > 0 && s->time_step_bias > all->plan.relative_error / 5)
     gg_result_warn(result,
                    "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the asked error",
                    100 * s->time_step_bias);
@@ -185,41 +144,41 @@ static void report_warnings(const gg_campaign *c, const gg_judgement *j, gg_resu
 
 /* Did the run reach what was asked? An error that was asked for counts even where run.collisions ended the run first.
  */
-static gg_status judge_end(const gg_campaign *c, const gg_judgement *j, gg_error *err)
+static gg_status test_end(const gg_replicas *all, const gg_convergence *c, gg_error *err)
 {
-  const char *engine = c->replicas[0].engine->ops->name;
-  uint64_t window = c->state.averaging ? c->state.due - c->state.window_at : 0;
-  bool by_error = c->plan.relative_error > 0;
-  if (c->state.standstill > 0)
+  const char *engine = all->replica[0].engine->ops->name;
+  uint64_t window = all->state.averaging ? all->state.due - all->state.window_at : 0;
+  bool by_error = all->plan.relative_error > 0;
+  if (all->state.standstill > 0)
     return gg_fail(err, GG_FAILED,
                    "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
                    "last, and fall under the contact-time rule; hard spheres need a flow",
-                   engine, 100 * c->state.standstill);
-  if (!c->state.averaging || (!by_error && c->plan.most && window < c->plan.most))
+                   engine, 100 * all->state.standstill);
+  if (!all->state.averaging || (!by_error && all->plan.most && window < all->plan.most))
     return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
-                   (double)c->state.due * GG_SAMPLE_SPACING,
-                   c->state.averaging ? " and short of run.collisions" : ", in the warm-up");
-  if (!by_error || j->relative_error <= c->plan.relative_error) return GG_OK;
-  if (isnan(j->relative_error))
-    return gg_fail(err, GG_FAILED, "%s: too short a run to know the error of %s", engine, gg_quantity_name(j->worst));
+                   (double)all->state.due * GG_SAMPLING_INTERVAL,
+                   all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
+  if (!by_error || c->relative_error <= all->plan.relative_error) return GG_OK;
+  if (isnan(c->relative_error))
+    return gg_fail(err, GG_FAILED, "%s: too short a run to know the error of %s", engine, gg_quantity_name(c->worst));
   return gg_fail(err, GG_FAILED, "%s: the asked relative error %g was not reached: %s has %.3g", engine,
-                 c->plan.relative_error, gg_quantity_name(j->worst), j->relative_error);
+                 all->plan.relative_error, gg_quantity_name(c->worst), c->relative_error);
 }
 
-gg_status gg_campaign_report(gg_campaign *c, gg_result *result, gg_error *err)
+gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)
 {
-  gg_judgement j;
-  result->scene = c->scene;
-  result->model = c->model;
-  result->engine = c->replicas[0].engine->ops->name;
-  GG_TRY(gg_campaign_judge(c, &j, err));
-  GG_TRY(report_means(c, result, err));
-  GG_TRY(report_history(c, result, err));
-  report_effort(c, result);
-  report_verdict(c, &j, result);
-  report_warnings(c, &j, result);
-  GG_TRY(gg_campaign_report_curves(c, result, err));
-  GG_TRY(gg_frame_take(c->replicas[0].engine, &c->model, &result->final, err));
-  result->final.time = c->replicas[0].clock.time;
-  return judge_end(c, &j, err);
+  gg_convergence c;
+  result->scene = all->scene;
+  result->model = all->model;
+  result->engine = all->replica[0].engine->ops->name;
+  GG_TRY(gg_replicas_convergence(all, &c, err));
+  GG_TRY(report_means(all, result, err));
+  GG_TRY(report_history(all, result, err));
+  report_effort(all, result);
+  gg_replicas_report_steadiness(all, &c, result);
+  report_warnings(all, &c, result);
+  GG_TRY(gg_replicas_report_curves(all, result, err));
+  GG_TRY(gg_frame_take(all->replica[0].engine, &all->model, &result->final, err));
+  result->final.time = all->replica[0].clock.time;
+  return test_end(all, &c, err);
 }

@@ -14,11 +14,11 @@ typedef struct gg_estimate {
   char reason[160];
 } gg_estimate;
 
-typedef enum gg_verdict {
+typedef enum gg_steadiness {
   GG_STEADY,
-  GG_NOT_STEADY, /* still drifting, or too short to tell */
+  GG_NOT_STEADY, /* still trending, or too short to tell */
   GG_HEATING     /* no steady state exists; followed as what it is */
-} gg_verdict;
+} gg_steadiness;
 
 /* gg_history_quantities from the start to the end, one row a sample; the first replica. In a cooling run values are
  * scaled back to the units of the start. */
@@ -52,8 +52,8 @@ struct gg_result {
   gg_scene scene; /* as run: overrides and seed included */
   gg_model model;
   const char *engine; /* "md", "dsmc" */
-  gg_verdict verdict;
-  char verdict_text[256]; /* which observable decided, and how */
+  gg_steadiness steadiness;
+  char steadiness_text[256]; /* which quantity decided, and how */
   gg_estimate value[GG_N_QUANTITIES];
   gg_history history;
   gg_curves curves;

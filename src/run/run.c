@@ -3,23 +3,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "run/campaign.h"
+#include "run/replicas.h"
 
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                        gg_result **out, gg_error *err)
 {
-  gg_campaign campaign;
+  gg_replicas all;
   *out = NULL;
-  GG_TRY(gg_campaign_create(&campaign, scene, resume, threads, hooks, err));
-  gg_status status = gg_campaign_execute(&campaign, err);
+  GG_TRY(gg_replicas_create(&all, scene, resume, threads, hooks, err));
+  gg_status status = gg_replicas_run(&all, err);
   gg_result *result = NULL;
   if (status == GG_OK) {
     result = gg_new_array(1, sizeof *result, err);
-    status = result ? gg_campaign_report(&campaign, result, err) : GG_FAILED;
+    status = result ? gg_replicas_report(&all, result, err) : GG_FAILED;
     if (result && resume && scene->output.trajectory_every > 0)
       gg_result_warn(result, "the trajectory begins where the run was resumed");
   }
-  gg_campaign_clear(&campaign);
+  gg_replicas_clear(&all);
   *out = result;
   return status;
 }
@@ -49,7 +49,7 @@ const char *gg_result_unit(const gg_result *result, const char *name)
 
 int gg_result_is_steady(const gg_result *result)
 {
-  return result->verdict == GG_STEADY;
+  return result->steadiness == GG_STEADY;
 }
 
 const char *gg_version(void)

@@ -1,64 +1,69 @@
-/* How a replica is looked at: chunk by chunk, or block by block, for rows at every sample; as whole snapshots for
- * curves, when one is due.
- */
+/* How a replica is sampled. For rows: chunk by chunk, or block by block, at the end of every sampling interval. For
+ * curves: whole snapshots, where an observable is due. */
 #include "measure/local_frame.h"
 #include "run/replica.h"
 
-static void show_chunk(void *context, const gg_chunk *chunk)
+static void add_chunk(void *context, const gg_chunk *chunk)
 {
   gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width) r->observable[k]->visit(r->self[k], chunk);
+    if (r->observable[k]->width) r->observable[k]->add_chunk(r->self[k], chunk);
 }
 
-static void show_blocks(void *context, const gg_block_run *run)
+static void add_blocks(void *context, const gg_block_run *run)
 {
   gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width) r->observable[k]->visit_blocks(r->self[k], run);
+    if (r->observable[k]->width) r->observable[k]->add_blocks(r->self[k], run);
 }
 
-/* The engine has blocks, and all who look can read them. */
-static bool sees_blocks(const gg_replica *r)
+/* The engine has blocks, and every observable with rows can read them. */
+static bool reads_blocks(const gg_replica *r)
 {
   bool all = r->engine->ops->blocks != NULL;
-  for (int k = 0; k < r->n_observables; k++) all &= !r->observable[k]->width || r->observable[k]->visit_blocks;
+  for (int k = 0; k < r->n_observables; k++) all &= !r->observable[k]->width || r->observable[k]->add_blocks;
   return all;
 }
 
-void gg_replica_look(gg_replica *r, double elapsed)
+static void add_grains(gg_replica *r)
 {
   gg_local_frame frame;
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width) r->observable[k]->begin(r->self[k]);
   if (r->model.walled) {
     gg_local_frame_take(&frame, &r->model, r->engine);
-    gg_local_frame_snapshot(&frame, r->engine, show_chunk, r);
-  } else if (sees_blocks(r)) {
-    r->engine->ops->blocks(r->engine, show_blocks, r);
+    gg_local_frame_snapshot(&frame, r->engine, add_chunk, r);
+  } else if (reads_blocks(r)) {
+    r->engine->ops->blocks(r->engine, add_blocks, r);
   } else {
-    r->engine->ops->snapshot(r->engine, false, show_chunk, r);
+    r->engine->ops->snapshot(r->engine, false, add_chunk, r);
   }
+}
+
+void gg_replica_sample_row(gg_replica *r, double elapsed)
+{
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->width) r->observable[k]->begin(r->self[k]);
+  add_grains(r);
   gg_transfer transfer;
   r->engine->ops->read_tap(r->engine, &transfer);
   gg_interval in = {&r->model, &transfer, elapsed, r->clock.velocity_factor};
   for (int k = 0; k < r->n_observables; k++) {
     const gg_observable *o = r->observable[k];
     if (o->width) o->finish(r->self[k], &in, r->row + r->offset[k]);
-    if (o->hear && r->clock.averaging) o->hear(r->self[k], &in);
+    if (o->add_interval && r->clock.averaging) o->add_interval(r->self[k], &in);
   }
   r->clock.velocity_factor = 1;
 }
 
-/* Those that look between samples look at every part; the others at the last part of every so-many-th sample. */
+/* Observables of several parts take a snapshot after each of them; the others at the end of every so-many-th interval.
+ */
 static bool is_due(const gg_replica *r, int k, int part)
 {
   const gg_observable *o = r->observable[k];
   if (!o->bins) return false;
-  return o->looks > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)o->every == 0);
+  return o->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)o->every == 0);
 }
 
-void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed)
+void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
 {
   bool any = false, last = part == r->parts;
   for (int k = 0; k < r->n_observables; k++) any |= is_due(r, k, part);
@@ -69,16 +74,18 @@ void gg_replica_look_for_curves(gg_replica *r, int part, double part_elapsed)
   }
   for (int k = 0; k < r->n_observables; k++) {
     if (!is_due(r, k, part)) continue;
-    r->observable[k]->look(r->self[k], &r->snapshot, gg_bins_sample(&r->bins[k]));
+    r->observable[k]->add_snapshot(r->self[k], &r->snapshot, gg_bins_sample(&r->bins[k]));
     if (last) gg_bins_commit(&r->bins[k]);
   }
   if (last) r->clock.window_samples++;
 }
 
-gg_status gg_replica_watch(gg_replica *r, gg_error *err)
+gg_status gg_replica_observe_collisions(gg_replica *r, gg_error *err)
 {
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->watch) GG_TRY(r->engine->ops->watch(r->engine, r->observable[k]->watch, r->self[k], err));
+  for (int k = 0; k < r->n_observables; k++) {
+    gg_watch *add_collision = r->observable[k]->add_collision;
+    if (add_collision) GG_TRY(r->engine->ops->watch(r->engine, add_collision, r->self[k], err));
+  }
   return GG_OK;
 }
 

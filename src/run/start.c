@@ -5,8 +5,8 @@
 #include "common/small_shear.h"
 #include "theory/theory.h"
 
-/* Slow shear: at the beginning of its round. */
-static void start_of_round(gg_model *model)
+/* Linear response: at the beginning of a sweep of the reduced shear rate. */
+static void start_of_sweep(gg_model *model)
 {
   double speed = 1 / (gg_small_shear_of(model).start * gg_model_nu0(model, 1));
   model->temperature0 = speed * speed;
@@ -14,7 +14,7 @@ static void start_of_round(gg_model *model)
 
 void gg_start_near_steady(gg_model *model)
 {
-  if (model->small_shear) start_of_round(model);
+  if (model->small_shear) start_of_sweep(model);
   if (!model->steady || model->shear_rate == 0) return;
   const char *const best_first[] = {"gaussian_closure", "lun1991"};
   for (int i = 0; i < 2; i++) {

@@ -7,7 +7,7 @@
 
 #include "statistics/autocorrelation.h"
 
-/* Means over equal blocks, none across the seam of two runs; returns how many. */
+/* Means over equal blocks, none across the end of a run; returns how many. */
 static size_t block_means(const double *y, size_t n, size_t n_runs, size_t length, double *means)
 {
   size_t per_run = n / length, count = 0;

@@ -23,7 +23,7 @@ typedef struct gg_mean {
 enum { GG_MIN_BLOCKS = 16, GG_MAX_BLOCKS = 64 };
 
 /* Rows [begin, end) of each of n_runs series of equal length and width. `offset` is where the observable's channels
- * begin in a row, `channels` how many f looks at. */
+ * begin in a row, `channels` how many f depends on. */
 gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
                            size_t channels, gg_of_means *f, const gg_model *model, gg_mean *out, gg_error *err);
 

@@ -12,9 +12,9 @@ static void cut(const double *y, size_t n, size_t n_runs, size_t from, size_t m,
     for (size_t i = 0; i < m; i++) to[r * m + i] = y[r * n + from + i];
 }
 
-gg_status gg_drift_test(const double *y, size_t n, size_t n_runs, gg_drift *out, gg_error *err)
+gg_status gg_trend_test(const double *y, size_t n, size_t n_runs, gg_trend *out, gg_error *err)
 {
-  *out = (gg_drift){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
+  *out = (gg_trend){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
   size_t third = n / 3;
   if (third < 8) return GG_OK;
   double *part = gg_new_array(third * n_runs, sizeof *part, err);
@@ -26,7 +26,6 @@ gg_status gg_drift_test(const double *y, size_t n, size_t n_runs, gg_drift *out,
   if (status == GG_OK) status = gg_estimate_scalar(part, third, n_runs, &last, err);
   free(part);
   if (status != GG_OK) return status;
-  /* By blocks alone: a trend within a third would pass for a long correlation, and hide itself. */
   double change = last.mean - first.mean, error = hypot(first.scatter, last.scatter);
   out->z = error > 0 ? change / error : change == 0 ? 0 : INFINITY * (change > 0 ? 1 : -1);
   out->relative = change / fmax(fabs(first.mean + last.mean) / 2, 1e-300);

@@ -96,7 +96,7 @@ const gg_theory gg_garzo_dufty1999 = {
         "336",
     .assumptions = "Homogeneous cooling or heated state (Gaussian thermostat or white noise) of one species of smooth "
                    "spheres, any density with molecular chaos; first Sonine order, linear in a2 (van Noije and Ernst "
-                   "1998). Viscosity of small shear rates, counted in eta_0 = n T/nu_0.",
+                   "1998). Viscosity of linear response, counted in eta_0 = n T/nu_0.",
     .evaluate = evaluate,
     .beyond = gg_beyond_first_sonine,
 };

@@ -50,7 +50,7 @@ static inline gg_curves ct_curves(const gg_observable *o, const gg_model *m, int
   if (o->restart) o->restart(self);
   for (int k = 0; k < samples; k++) {
     fill(&s, &r, k);
-    o->look(self, &s, gg_bins_sample(&bins));
+    o->add_snapshot(self, &s, gg_bins_sample(&bins));
     gg_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};

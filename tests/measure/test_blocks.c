@@ -1,5 +1,5 @@
-/* A look at the Monte Carlo engine's blocks leaves the very row that a look at its chunks leaves, for any scene; and
- * what its roots in single precision cost the mean speed. */
+/* A row sampled from the Monte Carlo engine's blocks is, to the bit, the one sampled from its chunks, for any scene;
+ * and what roots in single precision cost the mean speed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -25,15 +25,15 @@ static gg_model model_of(gg_flow flow, double beta, int species, gg_precision pr
   return m;
 }
 
-static void look(gg_engine *g, const gg_model *m, void *self, bool blocks, double elapsed, double *row)
+static void take_row(gg_engine *g, const gg_model *m, void *self, bool blocks, double elapsed, double *row)
 {
   const gg_transfer transfer = {.collisions = {100, 20, 30}, .loss = {7, 5, 3}};
   const gg_interval in = {m, &transfer, elapsed, 1};
   gg_rheology.begin(self);
   if (blocks)
-    g->ops->blocks(g, gg_rheology.visit_blocks, self);
+    g->ops->blocks(g, gg_rheology.add_blocks, self);
   else
-    g->ops->snapshot(g, false, gg_rheology.visit, self);
+    g->ops->snapshot(g, false, gg_rheology.add_chunk, self);
   gg_rheology.finish(self, &in, row);
 }
 
@@ -44,7 +44,7 @@ static void add_speed(void *context, const gg_chunk *chunk)
     *sum += sqrt(chunk->c[0][i] * chunk->c[0][i] + chunk->c[1][i] * chunk->c[1][i] + chunk->c[2][i] * chunk->c[2][i]);
 }
 
-/* The first look makes no row and takes roots in double; those after it have a temperature to go by. */
+/* The first sample makes no row and takes roots in double; those after it have a temperature to go by. */
 static void same_rows_in(const gg_model *m, uint64_t seed)
 {
   gg_engine *g = NULL;
@@ -53,18 +53,19 @@ static void same_rows_in(const gg_model *m, uint64_t seed)
   if (gg_dsmc_ops.create(m, seed, 0, &g, &err) != GG_OK) fail_msg("%s", err.message);
   void *self[2] = {gg_rheology.create(m, &err), gg_rheology.create(m, &err)};
   for (int sample = 0; sample < 4; sample++) {
-    for (int k = 0; k < 2; k++) look(g, m, self[k], k, sample ? 0.5 : 0, row[k]);
+    for (int k = 0; k < 2; k++) take_row(g, m, self[k], k, sample ? 0.5 : 0, row[k]);
     assert_memory_equal(row[0], row[1], gg_rheology.width(m) * sizeof(double));
     if (sample == 3) break;
-    assert_int_equal(g->ops->advance(g, INFINITY, (uint64_t)m->n, &elapsed, &err), GG_OK); /* ends amid a drift */
+    assert_int_equal(g->ops->advance(g, INFINITY, (uint64_t)m->n, &elapsed, &err),
+                     GG_OK); /* ends with shear strain not yet applied */
   }
   g->ops->snapshot(g, false, add_speed, &speed);
-  double seen = 0, T = 1;
+  double sampled = 0, T = 1;
   for (int i = 0; i < m->n_species; i++)
-    seen += (double)m->n_of[i] * row[1][CH_SPECIES + (size_t)i * gg_rheology_species_width(m) + CH_SPEED];
+    sampled += (double)m->n_of[i] * row[1][CH_SPECIES + (size_t)i * gg_rheology_species_width(m) + CH_SPEED];
   if (m->flow == GG_HCS) T = exp(row[1][CH_LN_T]);
-  assert_true(fabs(seen * sqrt(T) / speed - 1) < 1e-8); /* each root to 9e-8, up or down */
-  assert_true(fabs(seen * sqrt(T) / speed - 1) > 0);
+  assert_true(fabs(sampled * sqrt(T) / speed - 1) < 1e-8); /* each root to 9e-8, up or down */
+  assert_true(fabs(sampled * sqrt(T) / speed - 1) > 0);
   for (int k = 0; k < 2; k++) gg_rheology.destroy(self[k]);
   g->ops->destroy(g);
 }
@@ -98,7 +99,7 @@ static void far_units(void **state)
       const gg_transfer transfer = {0};
       const gg_interval in = {&m, &transfer, sample, 1};
       gg_rheology.begin(self);
-      gg_rheology.visit(self, &chunk);
+      gg_rheology.add_chunk(self, &chunk);
       gg_rheology.finish(self, &in, row[u]);
     }
     gg_rheology.destroy(self);

@@ -1,4 +1,5 @@
-/* The tap on single collisions: what it shows adds up to what the engine's own sums say, and changes no trajectory.
+/* The callback for single collisions: what it is given adds up to what the engine's own sums say, and changes no
+ * trajectory.
  * Free flights and angles planted with known laws come back; an elastic gas has the free times and paths of the kinetic
  * theory of gases, point by point; sheared gases meet head-on in the compressing quadrants, alike in both engines. */
 #include "curve_test.h"
@@ -42,8 +43,8 @@ static void whole_velocity(void *context, const gg_chunk *c)
   for (size_t i = 0; i < c->n; i++) *sum += c->c[0][i] * (double)(i + 1) + c->c[1][i];
 }
 
-/* Smooth grains, e = 0.9: impulse and loss by hand from each meeting equal the tap's sums; every meeting ends two
- * flights; md moves to the last bit as when nobody watches. */
+/* Smooth grains, e = 0.9: impulse and loss by hand from each collision equal the engine's sums; every collision ends
+ * two flights; md moves to the last bit as without a callback. */
 static void adds_up(void **state)
 {
   (void)state;
@@ -55,19 +56,19 @@ static void adds_up(void **state)
     gg_transfer t;
     double gone, velocity[2] = {0, 0};
     assert_int_equal(gg_model_make(&s, which, &m, NULL), GG_OK);
-    sums seen = {.model = &m};
+    sums shown = {.model = &m};
     const gg_engine_ops *ops = gg_engine_ops_of(which);
     for (int k = 0; k < 2; k++) {
       assert_int_equal(ops->create(&m, 5, 0, &e[k], NULL), GG_OK);
       ops->tap(e[k], true);
-      if (k) assert_int_equal(ops->watch(e[k], add, &seen, NULL), GG_OK);
+      if (k) assert_int_equal(ops->watch(e[k], add, &shown, NULL), GG_OK);
       for (int i = 0; i < 7; i++) assert_int_equal(ops->advance(e[k], 1.0, UINT64_MAX, &gone, NULL), GG_OK);
       ops->read_tap(e[k], &t);
       ops->snapshot(e[k], false, whole_velocity, &velocity[k]);
     }
     if (which == GG_MD) assert_true(velocity[0] == velocity[1]);
     for (int p = 0; p < (kind % 2 ? GG_PAIRS : 1); p++) {
-      const gg_transfer *h = &seen.by_hand;
+      const gg_transfer *h = &shown.by_hand;
       assert_int_equal(h->collisions[p], t.collisions[p]);
       assert_true(fabs(h->loss[p] / t.loss[p] - 1) < 1e-9);
       for (int a = 0; a < 9; a++) { /* what the flow gives no reason to be there is not summed */
@@ -76,10 +77,10 @@ static void adds_up(void **state)
         assert_true(fabs(by_hand - t.stress[p][a / 3][a % 3]) < 1e-9 * t.stress[p][0][0]);
       }
     }
-    uint64_t met = 0; /* every meeting ends a flight of both, but for each grain's first */
+    uint64_t met = 0; /* every collision ends a flight of both, but for each grain's first */
     for (int p = 0; p < GG_PAIRS; p++) met += 2 * t.collisions[p];
-    assert_int_equal(seen.flights, met - (uint64_t)m.n);
-    assert_true(seen.flown > 0 && seen.flown < 7 * (double)m.n);
+    assert_int_equal(shown.flights, met - (uint64_t)m.n);
+    assert_true(shown.flown > 0 && shown.flown < 7 * (double)m.n);
     for (int k = 0; k < 2; k++) ops->destroy(e[k]);
   }
 }
@@ -93,11 +94,11 @@ static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make
   assert_int_equal(gg_bins_init(&bins, gg_collisions.bins(self), NULL), GG_OK);
   for (int k = 0; k < samples; k++) {
     for (int i = 0; i < per_sample; i++) {
-      gg_seen_collision meeting = {.height = {NAN, NAN}};
-      make(&meeting, &r);
-      gg_collisions.watch(self, &meeting);
+      gg_seen_collision collision = {.height = {NAN, NAN}};
+      make(&collision, &r);
+      gg_collisions.add_collision(self, &collision);
     }
-    gg_collisions.look(self, NULL, gg_bins_sample(&bins));
+    gg_collisions.add_snapshot(self, NULL, gg_bins_sample(&bins));
     gg_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
@@ -198,7 +199,7 @@ typedef struct gas {
   double speed; /* sqrt(2T); 0: times */
 } gas;
 
-/* Free times, or paths, between collisions: grains of speed v collide nu(v) f(v) times, after exp(-nu t). */
+/* Times, or paths, between collisions: grains of speed v collide nu(v) f(v) times, after exp(-nu t). */
 static double law(double at, const void *context)
 {
   const gas *g = context;

@@ -46,9 +46,9 @@ static void planted_profile(void **state)
     gg_model model = {.n = N, .box = {10, heights[h], 10}, .walled = true};
     gg_local_frame frame;
     sums s = {{0}, {0}};
-    int looks = 200;
+    int samples = 200;
     gg_rng rng = gg_rng_seed(21, (uint64_t)h);
-    for (int k = 0; k < looks; k++) {
+    for (int k = 0; k < samples; k++) {
       for (int i = 0; i < N; i++) {
         double y = heights[h] * gg_rng_uniform(&rng), slabs = floor(heights[h]);
         double u = 50 * sin(floor(y / heights[h] * slabs)); /* constant in each slab */
@@ -59,7 +59,7 @@ static void planted_profile(void **state)
       assert_int_equal(frame.n_slabs, (int)floor(heights[h]));
       gg_local_frame_snapshot(&frame, &planted, add, &s);
     }
-    double n = (double)N * looks, error = sqrt(2 / n);
+    double n = (double)N * samples, error = sqrt(2 / n);
     for (int a = 0; a < 3; a++) {
       assert_true(fabs(s.square[a] / n - 1) < 4 * error * 1.1);
       assert_true(fabs(s.mean[a] / n) < 1e-12 * 50);

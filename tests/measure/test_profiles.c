@@ -66,7 +66,7 @@ static void planted_profiles(void **state)
 }
 
 /* Walls that take up known impulses in known times: the stress is their sum over area and time, whatever the lengths of
- * the intervals; what came before averaging began is forgotten, and two intervals may go into one look. `noise`:
+ * the intervals; what came before averaging began is forgotten, and two intervals may go into one snapshot. `noise`:
  * relative scatter of the impulses of an interval. */
 static gg_curves pushed(const gg_model *m, int samples, double noise)
 {
@@ -78,16 +78,16 @@ static gg_curves pushed(const gg_model *m, int samples, double noise)
   assert_int_equal(gg_snapshot_init(&s, m, true, NULL), GG_OK);
   assert_int_equal(gg_bins_init(&bins, gg_profiles.bins(self), NULL), GG_OK);
   gg_transfer t = {.wall_impulse = {{1e6, 1e6, 1e6}, {1e6, 1e6, 1e6}}};
-  gg_profiles.hear(self, &(gg_interval){m, &t, 1e3, 1});
+  gg_profiles.add_interval(self, &(gg_interval){m, &t, 1e3, 1});
   gg_profiles.restart(self);
   for (int k = 0; k < 2 * samples; k++) {
     double time = 0.5 + 0.1 * (k % 7);
     for (int wall = 0; wall < 2; wall++)
       for (int a = 0; a < 3; a++)
         t.wall_impulse[wall][a] = P[wall][a] * m->box[0] * m->box[2] * time * (1 + noise * gg_rng_normal(&r));
-    gg_profiles.hear(self, &(gg_interval){m, &t, time, 1});
+    gg_profiles.add_interval(self, &(gg_interval){m, &t, time, 1});
     if (k % 2 == 0) continue;
-    gg_profiles.look(self, &s, gg_bins_sample(&bins));
+    gg_profiles.add_snapshot(self, &s, gg_bins_sample(&bins));
     gg_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};

@@ -59,7 +59,7 @@ static void take_row(void *self, const gg_model *m, const gg_transfer *t, double
     if (m->rule != GG_SMOOTH)
       for (int a = 0; a < 3; a++) c.s[a] = scaled[3 + a];
     if (m->n_species == 2) c.species = kind + start;
-    gg_rheology.visit(self, &c);
+    gg_rheology.add_chunk(self, &c);
   }
   gg_interval in = {m, t, elapsed, 1};
   gg_rheology.finish(self, &in, row);
@@ -92,7 +92,7 @@ static void sheared_rough(void **state)
   double row[64];
   gg_transfer t = planted_transfer();
   void *self = gg_rheology.create(&m, NULL);
-  take_row(self, &m, &t, 0, 1, row); /* the first look, which makes no row */
+  take_row(self, &m, &t, 0, 1, row); /* the first sample, which makes no row */
   take_row(self, &m, &t, 0.5, 1, row);
   double T = 0, xx = 0, xy = 0, w = 0, mean[3] = {0}, cos2 = 0, w4 = 0, w2 = 0, w3 = 0, speed = 0;
   double rounded = 0; /* roots are taken in single precision, each rounded up or down */
@@ -157,7 +157,7 @@ static void mixture(void **state)
   gg_rheology.destroy(self);
 }
 
-/* Free cooling by Haff's law between two looks: zeta* and the rate in units of the moment's temperature come out
+/* Free cooling by Haff's law between two samples: zeta* and the rate in units of the moment's temperature come out
  * exactly, however fast the gas cools. */
 static void cooling(void **state)
 {

@@ -1,5 +1,5 @@
 /* Errors and correlation times on series whose answer is known: autoregressive noise, ratios of correlated channels,
- * planted drifts. */
+ * planted trends. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -151,30 +151,30 @@ static void replicas(void **state)
   for (int i = 0; i < 4; i++) gg_series_clear(&s[i]);
 }
 
-/* Stationary noise is not called drifting (|z| > 4 in none of 200 series); an exponential relaxation of half a standard
+/* Stationary noise is not called a trend (|z| > 4 in none of 200 series); an exponential relaxation of half a standard
  * deviation over the window is. */
-static void drifts(void **state)
+static void trends(void **state)
 {
   (void)state;
   enum { N = 3000 };
   static double x[N];
   gg_rng r = gg_rng_seed(15, 0);
-  gg_drift d;
+  gg_trend d;
   for (int s = 0; s < 200; s++) {
     autoregressive(&r, 0.8, x, N);
     for (int i = 0; i < N; i++) x[i] += 10;
-    assert_int_equal(gg_drift_test(x, N, 1, &d, NULL), GG_OK);
+    assert_int_equal(gg_trend_test(x, N, 1, &d, NULL), GG_OK);
     assert_true(fabs(d.z) < 4);
   }
-  int seen = 0;
+  int found = 0;
   for (int s = 0; s < 50; s++) {
     autoregressive(&r, 0.8, x, N);
     for (int i = 0; i < N; i++) x[i] += 10 - 2 * exp(-3.0 * i / N);
-    assert_int_equal(gg_drift_test(x, N, 1, &d, NULL), GG_OK);
-    seen += d.z > 4;
+    assert_int_equal(gg_trend_test(x, N, 1, &d, NULL), GG_OK);
+    found += d.z > 4;
   }
-  assert_true(seen >= 48);
-  assert_int_equal(gg_drift_test(x, 10, 1, &d, NULL), GG_OK);
+  assert_true(found >= 48);
+  assert_int_equal(gg_trend_test(x, 10, 1, &d, NULL), GG_OK);
   assert_true(isnan(d.z)); /* ten rows tell nothing */
 }
 
@@ -196,7 +196,8 @@ static void long_series(void **state)
   double mean = 0;
   for (size_t i = s.window; i < s.n; i++) mean += gg_series_row(&s, i)[0];
   mean /= (double)gg_series_window_rows(&s);
-  assert_true(fabs(mean - sum / in_window) < 5e-4);    /* up to 3 samples at the seam and 3 pending are left out */
+  assert_true(fabs(mean - sum / in_window) <
+              5e-4); /* up to 3 samples where the window opens and 3 pending are left out */
   assert_true(gg_series_row(&s, s.window)[1] >= 5001); /* no row mixes warm-up into the window */
   gg_archive a = {0};
   assert_int_equal(gg_series_save(&s, &a, NULL), GG_OK);
@@ -215,7 +216,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(correlation_time), cmocka_unit_test(honest_errors), cmocka_unit_test(ratios),
-      cmocka_unit_test(short_windows),    cmocka_unit_test(replicas),      cmocka_unit_test(drifts),
+      cmocka_unit_test(short_windows),    cmocka_unit_test(replicas),      cmocka_unit_test(trends),
       cmocka_unit_test(long_series),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,7 +20,7 @@ static gg_result *run(double phi, double e, double beta)
   gg_status status = gg_run_scene(&s, NULL, 1, NULL, &r, &err);
   if (status != GG_OK) print_message("%s\n", err.message);
   assert_int_equal(status, GG_OK);
-  assert_int_equal(r->verdict, GG_STEADY);
+  assert_int_equal(r->steadiness, GG_STEADY);
   return r;
 }
 

@@ -1,4 +1,4 @@
-/* Viscosities of heated and cooling gases by slow shear in rounds, through the run layer: the elastic one to the exact
+/* Viscosities of heated and cooling gases by linear response, through the run layer: the elastic one to the exact
  * 1.016 of first Sonine order, the inelastic ones to independent Monte Carlo solutions (Garzo & Montanero 2002), which
  * lie 14 % apart at e = 0.7 (a wrong thermostat fails), a dense mixture to first Sonine order within the 1.5 % that
  * Montanero's review reports. Each within four of its own standard errors and what the reference is worth. */
@@ -29,7 +29,7 @@ static gg_result *run(const gg_scene *s)
   gg_status status = gg_run_scene(s, NULL, 1, NULL, &r, &err);
   if (status != GG_OK) print_message("%s\n", err.message);
   assert_int_equal(status, GG_OK);
-  assert_int_equal(r->verdict, GG_STEADY);
+  assert_int_equal(r->steadiness, GG_STEADY);
   return r;
 }
 

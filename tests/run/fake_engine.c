@@ -79,7 +79,7 @@ static void snapshot(gg_engine *base, bool positions, gg_visit *visit, void *con
 {
   (void)positions;
   fake_engine *e = (fake_engine *)base;
-  double T = fake.T * (1 + fake.noise * e->now.noise[0] + fake.drift * e->now.age);
+  double T = fake.T * (1 + fake.noise * e->now.noise[0] + fake.trend * e->now.age);
   double theta = fake.theta * (1 + fake.noise * e->now.noise[1] + fake.start * exp(-e->now.age / fake.relaxation));
   double c[3][GG_CHUNK], s[3][GG_CHUNK];
   size_t n = (size_t)e->model.n;

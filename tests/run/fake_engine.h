@@ -10,7 +10,7 @@ typedef struct fake_plan {
   double start;      /* relative departure of theta at the start */
   double relaxation; /* of theta, collisions per grain */
   double noise;      /* relative, of T and theta: autoregressive over 10 collisions per grain */
-  double drift;      /* relative growth of T per collision per grain */
+  double trend;      /* relative growth of T per collision per grain */
   double treated;    /* share of collisions under the contact-time rule */
   double seconds;    /* wall time that an advance takes */
 } fake_plan;

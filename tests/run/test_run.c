@@ -44,7 +44,7 @@ static void planted_means(void **state)
   gg_scene s = scene_of(0);
   s.run.relative_error = 0.002;
   gg_result *r = run(&s, GG_OK);
-  assert_int_equal(r->verdict, GG_STEADY);
+  assert_int_equal(r->steadiness, GG_STEADY);
   within(r, GG_Q_TEMPERATURE, 2);
   within(r, GG_Q_TEMPERATURE_RATIO, 0.25);
   within(r, GG_Q_SHEAR_VISCOSITY, M_PI / 6 * 0.5);
@@ -70,8 +70,8 @@ static void standstill(void **state)
     s.gravity[1] = cases[i].gravity;
     fake.treated = cases[i].treated;
     gg_result *r = run(&s, cases[i].status);
-    assert_int_equal(r->verdict, cases[i].status == GG_OK ? GG_STEADY : GG_NOT_STEADY);
-    assert_int_equal(strstr(r->verdict_text, "97 % of collisions") != NULL, cases[i].status != GG_OK);
+    assert_int_equal(r->steadiness, cases[i].status == GG_OK ? GG_STEADY : GG_NOT_STEADY);
+    assert_int_equal(strstr(r->steadiness_text, "97 % of collisions") != NULL, cases[i].status != GG_OK);
     gg_result_free(r);
   }
 }
@@ -85,39 +85,39 @@ static void slow_relaxation(void **state)
   fake.start = -0.9, fake.relaxation = 400;
   s.run.relative_error = 0.005;
   gg_result *r = run(&s, GG_OK);
-  assert_int_equal(r->verdict, GG_STEADY);
+  assert_int_equal(r->steadiness, GG_STEADY);
   within(r, GG_Q_TEMPERATURE_RATIO, 0.25);
   gg_result_free(r);
   s.run.warmup = 10, s.run.collisions = 400; /* told not to wait: says what it is */
   s.run.relative_error = GG_AUTO;
   r = run(&s, GG_OK);
-  assert_int_equal(r->verdict, GG_NOT_STEADY);
+  assert_int_equal(r->steadiness, GG_NOT_STEADY);
   assert_true(r->n_warnings > 0);
   gg_result_free(r);
 }
 
-/* beta near -1: the window must be long for the slow spins even before anything can be seen to drift. */
+/* beta near -1: the window must be long for the slow spins even before a trend can be told from noise. */
 static void nearly_smooth(void **state)
 {
   (void)state;
   gg_scene s = scene_of(-0.99);
   s.run.collisions = 300;
   gg_result *r = run(&s, GG_OK);
-  assert_int_equal(r->verdict, GG_NOT_STEADY);
-  assert_non_null(strstr(r->verdict_text, "too short"));
+  assert_int_equal(r->steadiness, GG_NOT_STEADY);
+  assert_non_null(strstr(r->steadiness_text, "too short"));
   gg_result_free(r);
 }
 
 /* A temperature that never stops growing is not steady, whatever was asked. */
-static void endless_drift(void **state)
+static void endless_trend(void **state)
 {
   (void)state;
   gg_scene s = scene_of(-1);
-  fake.drift = 1e-4, fake.noise = 0.005;
+  fake.trend = 1e-4, fake.noise = 0.005;
   s.run.collisions = 2000;
   gg_result *r = run(&s, GG_OK);
-  assert_int_equal(r->verdict, GG_NOT_STEADY);
-  assert_non_null(strstr(r->verdict_text, "still drifts"));
+  assert_int_equal(r->steadiness, GG_NOT_STEADY);
+  assert_non_null(strstr(r->steadiness_text, "has a trend"));
   gg_result_free(r);
 }
 
@@ -128,7 +128,7 @@ static void heating(void **state)
   gg_scene s = scene_of(-1);
   s.collision.e[0] = 1;
   gg_result *r = run(&s, GG_OK);
-  assert_int_equal(r->verdict, GG_HEATING);
+  assert_int_equal(r->steadiness, GG_HEATING);
   assert_true(isnan(r->value[GG_Q_TEMPERATURE].mean));
   assert_non_null(strstr(r->value[GG_Q_TEMPERATURE].reason, "heats"));
   assert_true(r->history.n > 100 && r->history.value[0][50] > 0);
@@ -222,14 +222,14 @@ static gg_result *in_two_parts(const gg_scene *s, int stop, gg_archive *archive)
   return r;
 }
 
-/* Interrupted anywhere (warm-up, averaging, mid-round, between replicas) and resumed from its checkpoint, a run ends
- * with the same numbers to the last bit, whatever ends it. */
+/* Interrupted anywhere (warm-up, averaging, in the midst of an interval, between replicas) and resumed from its
+ * checkpoint, a run ends with the same numbers to the last bit, whatever ends it. */
 static void resume(void **state)
 {
   (void)state;
   for (int mode = 0; mode < 2; mode++) {
     gg_scene s = scene_of(0);
-    fake.start = 0.5, fake.relaxation = 60; /* windows are given up for drift */
+    fake.start = 0.5, fake.relaxation = 60; /* windows are given up for their trend */
     s.run.replicas = 2, s.run.seed = 3;
     if (mode == 0)
       s.run.collisions = 800;
@@ -405,7 +405,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_means), cmocka_unit_test(slow_relaxation), cmocka_unit_test(nearly_smooth),
-      cmocka_unit_test(endless_drift), cmocka_unit_test(heating),         cmocka_unit_test(ends),
+      cmocka_unit_test(endless_trend), cmocka_unit_test(heating),         cmocka_unit_test(ends),
       cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(other_scene),
       cmocka_unit_test(trajectory),    cmocka_unit_test(time_limit),      cmocka_unit_test(comparison),
       cmocka_unit_test(agreement),     cmocka_unit_test(remarks),         cmocka_unit_test(standstill),

@@ -156,8 +156,8 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
   snprintf(path, sizeof path, "%s/engine", group);
   gg_h5_text(h, path, r->engine);
   snprintf(path, sizeof path, "%s/verdict", group);
-  gg_h5_text(h, path, verdicts[r->verdict]);
-  gg_h5_text_attribute(h, path, "why", r->verdict_text);
+  gg_h5_text(h, path, verdicts[r->steadiness]);
+  gg_h5_text_attribute(h, path, "why", r->steadiness_text);
   const hsize_t two = 2;
   snprintf(path, sizeof path, "%s/window", group);
   gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 1, &two, r->history.window);

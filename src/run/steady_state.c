@@ -1,0 +1,47 @@
+/* The steady-state test: may a mean over the window be called that of a steady state? */
+#include <math.h>
+#include <stdio.h>
+
+#include "common/small_shear.h"
+#include "run/replicas.h"
+
+/* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
+enum { LEAST_CORRELATION_TIMES = 20 };
+
+void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *c, gg_result *result)
+{
+  uint64_t window = all->state.due - all->state.window_at;
+  char *text = result->steadiness_text;
+  size_t size = sizeof result->steadiness_text;
+  double grain = (double)window * GG_SAMPLING_INTERVAL;
+  result->steadiness = GG_NOT_STEADY;
+  if (!all->model.steady && !all->model.small_shear) {
+    result->steadiness = GG_HEATING;
+    snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
+  } else if (all->state.standstill > 0) {
+    snprintf(text, size, "the grains have come to rest or nearly so: %.0f %% of collisions are contacts that last",
+             100 * all->state.standstill);
+  } else if (!all->state.averaging) {
+    snprintf(text, size, "the run ended in its warm-up");
+  } else if (c->trending) {
+    snprintf(text, size, "%s has a trend: %+.2g %% from the first to the last third of the averaging, %.1f errors",
+             gg_quantity_name(c->trending_quantity), 100 * c->trend_relative, fabs(c->trend_z));
+  } else if (window < all->plan.least) {
+    snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
+             grain, (double)all->plan.least * GG_SAMPLING_INTERVAL);
+  } else if (all->model.small_shear) {
+    result->steadiness = GG_STEADY;
+    gg_small_shear s = gg_small_shear_of(&all->model);
+    snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",
+             s.cools ? "linear response of the cooling gas" : "linear response of the heated gas",
+             s.cools ? s.low : s.high, s.cools ? s.high : s.low);
+  } else if ((double)window < LEAST_CORRELATION_TIMES * c->slowest) {
+    snprintf(text, size,
+             "too short to tell: averaged over %.1f correlation times of the slowest quantity, %d are needed",
+             (double)window / c->slowest, LEAST_CORRELATION_TIMES);
+  } else {
+    result->steadiness = GG_STEADY;
+    snprintf(text, size, "no trend over %.0f collisions a grain, %.0f correlation times of the slowest quantity", grain,
+             (double)window / c->slowest);
+  }
+}
