@@ -1,4 +1,5 @@
-/* The graingas command: one file a subcommand, a line in main.c's table each. A subcommand returns its exit code. */
+/* The graingas command: one file a subcommand, a line in the table of commands.c each. A subcommand returns its exit
+ * code. */
 #ifndef GG_CLI_H
 #define GG_CLI_H
 
@@ -29,5 +30,7 @@ int gg_cli_fail(gg_status status, const char *format, ...) GG_PRINTF(2, 3);
 
 /* The manual page, from the tables of commands, options, scene keys and quantities. */
 void gg_cli_print_manual(void);
+/* The page of scene keys, docs/scene.md. */
+void gg_cli_print_scene_page(void);
 
 #endif

@@ -75,6 +75,10 @@ int main(int argc, char **argv)
     gg_cli_print_manual();
     return GG_OK;
   }
+  if (strcmp(argv[1], "--scene-page") == 0) {
+    gg_cli_print_scene_page();
+    return check_output(GG_OK);
+  }
   for (const gg_command *c = gg_commands; c->name; c++)
     if (strcmp(c->name, argv[1]) == 0) return check_output(c->run(c, argc - 1, argv + 1));
   return unknown(argv[1]);
