@@ -1,7 +1,9 @@
 """The library as it is installed: header, pkg-config file, manual page, command; examples/*.c build and run against it;
 every exported name carries the prefix."""
 import glob
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -55,11 +57,17 @@ def test_examples_build_against_it():
 
 
 def test_example_scenes():
-    """Every scene that newcomers copy is one."""
+    """Every scene that newcomers copy is one; among them is each flow, and each observable in some."""
     scenes = glob.glob(os.path.join(SOURCE, "examples", "*.yaml"))
-    check(len(scenes) >= 5)
+    flows, measured = set(), set()
     for scene in scenes:
-        sh(GRAINGAS, "info", scene)
+        values = json.loads(sh(GRAINGAS, "info", scene, "--json"))
+        flows.add(values["flow"])
+        measured.update(values["measure"])
+    page = sh(GRAINGAS, "--scene-page")
+    for shown, key in (flows, "flow"), (measured, "measure"):
+        words = set(re.findall(r"^- `(\w+)`", page.split(f"### `{key}`")[1].split("###")[0], re.MULTILINE))
+        check(len(words) >= 7 and shown == words, key, "without an example:", words - shown)
 
 
 def test_header_in_other_languages():
@@ -74,8 +82,6 @@ def test_header_in_other_languages():
 
 def test_exported_names():
     """The shared library shows the public header's functions and nothing else; inside, everything global is gg_."""
-    import re
-
     shared = glob.glob(os.path.join(BUILD, "libgraingas.so"))[0]
     seen = {line.split()[-1] for line in sh("nm", "-D", "--defined-only", shared).splitlines()}
     header = open(os.path.join(SOURCE, "include", "graingas.h")).read()
