@@ -1,25 +1,90 @@
-# Debian packages, by what they are for; sourced by quickstart and check.
-packages_build="gcc libc6-dev meson ninja-build pkg-config libgsl-dev libfftw3-dev libhdf5-dev libyaml-dev libjansson-dev librandom123-dev gnuplot-nox"
-packages_test="clang libcmocka-dev python3 python3-h5py python3-mdanalysis man-db"
+# What a step needs is there, or is installed, or is named: `need build unit`. Sourced by quickstart and check.
+needs_table=scripts/needs.txt
 
-# Install those of the named packages that are missing; say so, and stop with a clear message where that cannot be done.
+need() {
+  if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then
+    install_missing "$@"
+  else
+    name_missing "$@"
+  fi
+}
+
+# Column $1 of the table, of the steps that follow.
+names_of() {
+  column=$1
+  shift
+  awk -v column="$column" -v steps=" $* " \
+    '!/^#/ && index(steps, " " $1 " ") && $column != "-" && !seen[$column]++ { print $column }' "$needs_table"
+}
+
 install_missing() {
   missing=""
-  for package in "$@"; do
+  for package in $(names_of 3 "$@"); do
     dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
   done
   [ -z "$missing" ] && return 0
-  echo "Installing Debian packages:$missing" >&2
   as_root=""
   if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || { echo "Not root and no sudo: ask for these packages to be installed:$missing" >&2; return 1; }
+    command -v sudo >/dev/null || { name_missing "$@"; return; }
     as_root=sudo
   fi
+  echo "Installing Debian packages:$missing" >&2
   log=$(mktemp)
-  if ! { $as_root apt-get update -q && DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y -q --no-install-recommends $missing; } >"$log" 2>&1; then
+  if ! { $as_root apt-get update -q && $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing; } >"$log" 2>&1; then
     tail -n 20 "$log" >&2
-    echo "apt-get could not install:$missing" >&2
+    echo "apt-get could not install:$missing (all it said: $log)" >&2
     return 1
   fi
   rm -f "$log"
+}
+
+# Is it there, for the compiler and the python that the build takes?
+is_there() {
+  what=${1#*:}
+  case $1 in
+  command:cc) command -v "${CC:-cc}" ;;
+  command:*) command -v "$what" ;;
+  module:*) for name in $(echo "$what" | tr , ' '); do pkg-config --exists "$name" && return 0; done; false ;;
+  header:*) echo "#include <$what>" | ${CC:-cc} ${CPPFLAGS:-} ${CFLAGS:-} -E - ;;
+  esac >/dev/null 2>&1
+}
+
+# Of the rows of those steps, the ones whose probe fails, as a table of the same form.
+missing_rows() {
+  while read -r step probe names; do
+    case " $* " in *" $step "*) is_there "$probe" || echo "$step $probe $names" ;; esac
+  done <"$needs_table"
+}
+
+# What is missing is said, and what this system, or others, would install it with. Nothing is: true.
+name_missing() {
+  rows=$(missing_rows "$@")
+  [ -z "$rows" ] && return 0
+  {
+    echo "Missing on this machine, and not to be installed from here (no apt-get, or no right to use it):"
+    echo "$rows" | sed 's/^[^ ]* \([^ ]*\).*/  \1/; s/module:/pkg-config module /; s/command://; s/header:/header /; s/,/ or /'
+    echo "Install it, and start this again:"
+    case $(command -v dnf || command -v brew || command -v pacman) in
+    */dnf) suggest 4 "sudo dnf install" ;;
+    */brew) suggest 5 "brew install" ;;
+    */pacman) suggest 6 "sudo pacman -S" ;;
+    *)
+      suggest 3 "Debian, Ubuntu: sudo apt-get install"
+      suggest 4 "Fedora: sudo dnf install"
+      suggest 5 "Homebrew: brew install"
+      suggest 6 "Arch: sudo pacman -S"
+      ;;
+    esac
+    case $rows in *Random123*)
+      echo "  Random123 is headers alone: where it is no package, unpack github.com/DEShawResearch/random123 and set"
+      echo "  CPPFLAGS=-I<its folder include>"
+      ;;
+    esac
+  } >&2
+  return 1
+}
+
+suggest() {
+  echo "$rows" | awk -v column="$1" -v line="  $2" \
+    '$column != "-" && !seen[$column]++ { line = line " " $column } END { print line }'
 }

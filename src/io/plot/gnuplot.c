@@ -63,22 +63,35 @@ static gg_status draw(const char *script, const char *target, gg_error *err)
   return result;
 }
 
-/* gnuplot does not notice a full disk: a whole picture is known by its end. */
-static bool is_whole(int fd)
+/* gnuplot does not notice a full disk: a whole picture is known by its end. Where that is in the file; -1: not whole.
+ */
+static off_t end_of(int fd, const char *mark)
 {
   char tail[64];
   off_t size = lseek(fd, 0, SEEK_END), from = size > (off_t)sizeof tail ? size - (off_t)sizeof tail : 0;
   ssize_t got = pread(fd, tail, sizeof tail, from);
-  return got > 0 && (memmem(tail, (size_t)got, "</svg>", 6) || memmem(tail, (size_t)got, "IEND", 4));
+  char *at = got > 0 ? memmem(tail, (size_t)got, mark, strlen(mark)) : NULL;
+  return at ? from + (at - tail) : -1;
 }
 
-gg_status gg_gnuplot_run(const char *script, const char *picture, gg_error *err)
+/* What gnuplot cannot draw well goes before the end of its page. */
+static gg_status put_over(gg_atomic_file *file, const char *over, gg_error *err)
+{
+  off_t end = end_of(file->fd, "</svg>");
+  if (end < 0 || ftruncate(file->fd, end) != 0 || lseek(file->fd, 0, SEEK_END) != end)
+    return gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", file->path);
+  GG_TRY(gg_atomic_write(file, over, strlen(over), err));
+  return gg_atomic_write(file, "</svg>\n", 7, err);
+}
+
+gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err)
 {
   gg_atomic_file file;
   if (strchr(picture, '\'')) return gg_fail(err, GG_BAD_INPUT, "%s: a picture's name must not hold a quote", picture);
   GG_TRY(gg_atomic_open(&file, picture, err));
   gg_status status = draw(script, file.temporary, err);
-  if (status == GG_OK && !is_whole(file.fd))
+  if (status == GG_OK && over) status = put_over(&file, over, err);
+  if (status == GG_OK && end_of(file.fd, "</svg>") < 0 && end_of(file.fd, "IEND") < 0)
     status = gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
   if (status == GG_OK) return gg_atomic_commit(&file, err);
   gg_atomic_abandon(&file);

@@ -23,7 +23,7 @@ static gg_status draw_page(const gg_stored_result *stored, const json_t *documen
   fprintf(s, "unset multiplot\n");
   gg_c_locale_leave(before);
   gg_status status = fclose(s) == 0 ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
-  if (status == GG_OK) status = gg_gnuplot_run(script, picture, err);
+  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;
 }

@@ -46,7 +46,7 @@ static gg_status draw(const gg_stored_result *stored, const char *picture, bool 
   gg_c_locale_leave(before);
   gg_status status = GG_OK;
   if (fclose(s) != 0) status = gg_fail(err, GG_FAILED, "out of memory");
-  if (status == GG_OK) status = gg_gnuplot_run(script, picture, err);
+  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;
 }

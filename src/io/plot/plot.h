@@ -19,11 +19,13 @@ gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *result_pa
 gg_status gg_plot_result_curves(const char *result_path, const char *picture, const char *format,
                                 void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 
+#define GG_PLOT_PNG_SCALE 1.5 /* pixels of PNG for one of a page's size */
+
 /* Open a page of this size under the scene's title; to be ended by `unset multiplot`. */
 void gg_plot_start_page(FILE *script, const gg_stored_result *stored, bool png, int width, int height);
 
-/* Run a gnuplot script, and put what it drew in place. */
-gg_status gg_gnuplot_run(const char *script, const char *picture, gg_error *err);
+/* Run a gnuplot script, and put what it drew in place; `over` (may be NULL) is SVG that is put over an SVG page. */
+gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err);
 
 /* Where a panel stands on the page, in fractions of it. */
 typedef struct gg_panel {

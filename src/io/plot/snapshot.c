@@ -1,5 +1,6 @@
 /* A snapshot: the last stored frame, its grains projected on the planes of shear (x, y) and across it (z, y), to scale.
- */
+ * Frames, tics and titles are gnuplot's, and in PNG the discs. In SVG it would draw each as two polygons of 4 kB: there
+ * they are put over its page, forty bytes each. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,22 +8,26 @@
 #include "common/scene.h"
 #include "io/c_locale.h"
 #include "io/h5/h5.h"
+#include "io/plot/layer.h"
 #include "io/plot/plot.h"
 
 #define GRAINS "/particles/grains/"
-enum { MOST_GRAINS = 20000, MOST_NUMBERS = 100 * 1000 * 1000 };
-/* Pixels: height of the panels at most, and of everything between. */
-enum { TALL = 520, WIDE = 700, LEFT = 70, BETWEEN = 80, RIGHT = 25, ABOVE = 70, BELOW = 65 };
+enum { MOST_NUMBERS = 100 * 1000 * 1000 };
+/* Pixels: sizes of the panels at most, and of everything between. PNG has GG_PLOT_PNG_SCALE of its own for each of
+ * them, and is made smaller: its bytes are the rims of the discs, some seven for a pixel, where a disc of SVG takes some
+ * 44 in all. */
+enum { TALL = 520, WIDE = 700, TALL_PNG = 350, WIDE_PNG = 470 };
+enum { LEFT = 70, BETWEEN = 80, RIGHT = 25, ABOVE = 70, BELOW = 65 };
+#define RIM "#2f4f63"
 
-typedef struct snapshot {
-  size_t n;         /* grains */
-  double *position; /* of the last frame: inside the array of all */
-  uint8_t *species;
-  double edge[3], radius[GG_MAX_SPECIES];
+/* What was read: the arrays that the snapshot looks into. */
+typedef struct frame {
   double *all;
-} snapshot;
+  uint8_t *species;
+  gg_plot_grains shown;
+} frame;
 
-static void read_radii(const gg_stored_result *stored, snapshot *s)
+static void read_radii(const gg_stored_result *stored, gg_plot_grains *s)
 {
   gg_scene *scene;
   for (int k = 0; k < GG_MAX_SPECIES; k++) s->radius[k] = 0.5;
@@ -32,116 +37,163 @@ static void read_radii(const gg_stored_result *stored, snapshot *s)
   gg_scene_free(scene);
 }
 
-static void clear(snapshot *s)
-{
-  free(s->all);
-  free(s->species);
-}
-
-/* False if the file holds no positions. */
-static bool read_snapshot(const gg_stored_result *stored, const char *path, snapshot *s)
-{
-  gg_h5 h;
-  size_t numbers = 0, kinds = 0, edges = 0;
-  *s = (snapshot){.n = stored->n_grains};
-  if (!s->n || (double)s->n * (double)stored->n_frames > MOST_NUMBERS) return false;
-  gg_h5_open(&h, path);
-  if (!h.failed && gg_h5_exists(&h, GRAINS "position/value")) {
-    s->all = gg_h5_read_array(&h, GRAINS "position/value", H5T_NATIVE_DOUBLE, sizeof(double), &numbers);
-    s->species = gg_h5_read_array(&h, GRAINS "species", H5T_NATIVE_UINT8, 1, &kinds);
-    double *edge = gg_h5_read_array(&h, GRAINS "box/edges/value", H5T_NATIVE_DOUBLE, sizeof(double), &edges);
-    for (size_t a = 0; edge && edges >= 9 && a < 3; a++) s->edge[a] = edge[edges - 9 + 4 * a];
-    free(edge);
-  }
-  gg_h5_close(&h);
-  bool whole = s->all && s->species && numbers >= 3 * s->n && kinds == s->n && s->edge[0] > 0 && s->edge[1] > 0;
-  if (whole) s->position = s->all + numbers - 3 * s->n;
-  if (whole) read_radii(stored, s);
-  if (!whole) clear(s);
-  return whole;
-}
-
 /* The height that holds all grains: of a gas under gravity not the whole box. */
-static double top_of(const snapshot *s)
+static double top_of(const gg_plot_grains *s)
 {
   double top = 0;
   for (size_t i = 0; i < s->n; i++) top = fmax(top, s->position[3 * i + 1]);
   return fmin(s->edge[1], top + 1);
 }
 
-/* Of large or crowded systems a layer is drawn, so deep that discs cover the panel once: the grains nearest to the
- * viewer, in `across` below the limit. */
-static double layer_of(const snapshot *s, int along, int across, double top)
+static void clear(frame *f)
 {
-  double area = 0;
-  for (size_t i = 0; i < s->n; i++) area += M_PI * s->radius[s->species[i]] * s->radius[s->species[i]];
-  return s->edge[across] * fmin(fmin(1, (double)MOST_GRAINS / (double)s->n), s->edge[along] * top / area);
+  free(f->all);
+  free(f->species);
 }
 
-static void print_grains(FILE *out, const snapshot *s, int species, int along, int across, double layer)
+/* False if the file holds no positions. */
+static bool read_frame(const gg_stored_result *stored, const char *path, frame *f)
 {
-  fprintf(out, "$grains%d%d << EOD\n", species, along);
-  for (size_t i = 0; i < s->n; i++) {
-    const double *r = s->position + 3 * i;
-    if (s->species[i] == species && r[across] <= layer) fprintf(out, "%.5g %.5g\n", r[along], r[1]);
+  gg_h5 h;
+  size_t numbers = 0, kinds = 0, edges = 0, n = stored->n_grains;
+  *f = (frame){.shown.n = n};
+  gg_plot_grains *s = &f->shown;
+  if (!n || (double)n * (double)stored->n_frames > MOST_NUMBERS) return false;
+  gg_h5_open(&h, path);
+  if (!h.failed && gg_h5_exists(&h, GRAINS "position/value")) {
+    f->all = gg_h5_read_array(&h, GRAINS "position/value", H5T_NATIVE_DOUBLE, sizeof(double), &numbers);
+    f->species = gg_h5_read_array(&h, GRAINS "species", H5T_NATIVE_UINT8, 1, &kinds);
+    double *edge = gg_h5_read_array(&h, GRAINS "box/edges/value", H5T_NATIVE_DOUBLE, sizeof(double), &edges);
+    for (size_t a = 0; edge && edges >= 9 && a < 3; a++) s->edge[a] = edge[edges - 9 + 4 * a];
+    free(edge);
   }
-  fprintf(out, "EOD\n");
+  gg_h5_close(&h);
+  bool whole = f->all && f->species && numbers >= 3 * n && kinds == n && s->edge[0] > 0 && s->edge[1] > 0;
+  for (size_t i = 0; whole && i < n; i++) whole = f->species[i] < GG_MAX_SPECIES;
+  if (!whole) {
+    clear(f);
+    return false;
+  }
+  s->position = f->all + numbers - 3 * n, s->species = f->species;
+  s->top = top_of(s);
+  read_radii(stored, s);
+  return true;
 }
 
-static void draw_panel(FILE *out, const snapshot *s, int along, gg_panel place, double top)
+/* Half the colour of its species, half white. */
+static unsigned fill_of(int species)
+{
+  unsigned colour = (unsigned)strtoul(gg_plot_colours[species] + 1, NULL, 16);
+  return (colour >> 1 & 0x7f7f7f) + 0x808080;
+}
+
+/* What the page is made of: gnuplot's script, and in SVG what goes over it. */
+typedef struct page {
+  FILE *script, *over; /* NULL: PNG */
+  double scale;        /* pixels a diameter */
+} page;
+
+static void print_discs(const page *p, const gg_plot_grains *s, const gg_plot_layer *layer, char axis)
+{
+  fprintf(p->script, "$grains%c << EOD\n", axis);
+  for (size_t i = 0; i < layer->n; i++) {
+    const gg_plot_disc *d = &layer->disc[i];
+    fprintf(p->script, "%.5g %.5g %.4g %u\n", d->x, d->y, s->radius[d->species], fill_of(d->species));
+  }
+  fprintf(p->script, "EOD\n");
+}
+
+/* In diameters, upwards, cut off at the panel's frame. */
+static void print_svg_discs(const page *p, const gg_plot_grains *s, const gg_plot_layer *layer, int along, double left)
+{
+  double wide = s->edge[along], tall = s->top;
+  fprintf(p->over,
+          "<svg x='%g' y='%d' width='%g' height='%g' viewBox='0 0 %.9g %.9g'>\n"
+          "<g transform='matrix(1 0 0 -1 0 %.9g)' stroke='" RIM "' stroke-width='%.3g'>\n",
+          left, ABOVE, wide * p->scale, tall * p->scale, wide, tall, tall, 0.4 / p->scale);
+  for (size_t i = 0; i < layer->n; i++) {
+    const gg_plot_disc *d = &layer->disc[i];
+    fprintf(p->over, "<use xlink:href='#g%d' x='%.5g' y='%.5g'/>\n", d->species, d->x, d->y);
+  }
+  fprintf(p->over, "</g></svg>\n");
+}
+
+static bool draw_panel(const page *p, const gg_plot_grains *s, int along, double left, gg_panel place)
 {
   int across = along == 0 ? 2 : 0;
-  double layer = layer_of(s, along, across, top);
-  gg_plot_place(out, place);
-  if (layer < s->edge[across])
-    fprintf(out, "set label 'grains at %c < %.2g d' at graph 0,1.03 left\n", across ? 'z' : 'x', layer);
-  bool two = false;
-  for (size_t i = 0; i < s->n; i++) two |= s->species[i] != 0;
-  for (int k = 0; k < 1 + two; k++) print_grains(out, s, k, along, across, layer);
-  fprintf(out, "set border 15\nunset grid\nset xrange [0:%.9g]\nset yrange [0:%.9g]\n", s->edge[along], top);
-  fprintf(out, "set xlabel '%c [d]'\nset ylabel 'y [d]'\nunset key\nplot ", along == 0 ? 'x' : 'z');
-  for (int k = 0; k < 1 + two; k++)
-    fprintf(out, "%s$grains%d%d using 1:2:(%.6g) with circles lc rgb '%s' lw 0.4 fs transparent solid 0.3 border",
-            k ? ", " : "", k, along, s->radius[k], gg_plot_colours[k]);
-  fprintf(out, "\n");
+  char axis = along == 0 ? 'x' : 'z';
+  gg_plot_layer layer;
+  gg_disc_cost cost = p->over ? (gg_disc_cost){44, 0} : (gg_disc_cost){8, 7 * M_PI * GG_PLOT_PNG_SCALE * p->scale};
+  if (!gg_plot_layer_make(&layer, s, along, across, cost)) return false;
+  gg_plot_place(p->script, place);
+  if (!layer.whole)
+    fprintf(p->script, "set label 'grains at %c < %.2g d' at graph 0,1.03 left\n", along == 0 ? 'z' : 'x', layer.depth);
+  fprintf(p->script, "set border 15\nunset grid\nset xrange [0:%.9g]\nset yrange [0:%.9g]\n", s->edge[along], s->top);
+  fprintf(p->script, "set xlabel '%c [d]'\nset ylabel 'y [d]'\nunset key\n", axis);
+  if (p->over) {
+    print_svg_discs(p, s, &layer, along, left);
+    fprintf(p->script, "plot NaN\n");
+  } else {
+    print_discs(p, s, &layer, axis);
+    fprintf(p->script,
+            "plot $grains%c using 1:2:3:4 with circles lc rgb variable lw 0.4 fs solid border lc rgb '" RIM "'\n",
+            axis);
+  }
+  gg_plot_layer_free(&layer);
+  return true;
 }
 
-static void draw(FILE *out, const gg_stored_result *stored, const snapshot *s, bool png)
+static void define_discs(FILE *over, const gg_plot_grains *s)
 {
-  double top = top_of(s), scale = fmin(TALL / top, WIDE / fmax(s->edge[0], s->edge[2]));
-  double across[2] = {s->edge[0] * scale, s->edge[2] * scale}, tall = top * scale;
-  double width = LEFT + across[0] + BETWEEN + across[1] + RIGHT, height = ABOVE + tall + BELOW;
-  gg_plot_start_page(out, stored, png, (int)width, (int)height);
-  double bottom = BELOW / height, upper = (BELOW + tall) / height, x = LEFT / width;
-  draw_panel(out, s, 0, (gg_panel){x, x + across[0] / width, bottom, upper}, top);
-  x += (across[0] + BETWEEN) / width;
-  draw_panel(out, s, 2, (gg_panel){x, x + across[1] / width, bottom, upper}, top);
-  fprintf(out, "unset multiplot\n");
+  fprintf(over, "<defs>");
+  for (int k = 0; k < GG_MAX_SPECIES; k++)
+    fprintf(over, "<circle id='g%d' r='%.6g' fill='#%06x'/>", k, s->radius[k], fill_of(k));
+  fprintf(over, "</defs>\n");
 }
 
-static gg_status draw_page(const gg_stored_result *stored, const snapshot *s, const char *picture, bool png,
+static bool draw(page *p, const gg_stored_result *stored, const gg_plot_grains *s)
+{
+  double most_tall = p->over ? TALL : TALL_PNG, most_wide = p->over ? WIDE : WIDE_PNG;
+  p->scale = fmin(most_tall / s->top, most_wide / fmax(s->edge[0], s->edge[2]));
+  double across[2] = {s->edge[0] * p->scale, s->edge[2] * p->scale}, tall = s->top * p->scale;
+  double width = ceil(LEFT + across[0] + BETWEEN + across[1] + RIGHT), height = ceil(ABOVE + tall + BELOW);
+  double left[2] = {LEFT, LEFT + across[0] + BETWEEN}, upper = 1 - ABOVE / height, lower = upper - tall / height;
+  bool drawn = true;
+  gg_plot_start_page(p->script, stored, !p->over, (int)width, (int)height);
+  if (p->over) define_discs(p->over, s);
+  for (int k = 0; k < 2; k++)
+    drawn &= draw_panel(p, s, 2 * k, left[k], (gg_panel){left[k] / width, (left[k] + across[k]) / width, lower, upper});
+  fprintf(p->script, "unset multiplot\n");
+  return drawn;
+}
+
+static gg_status draw_page(const gg_stored_result *stored, const gg_plot_grains *s, const char *picture, bool png,
                            gg_error *err)
 {
-  char *script = NULL;
+  char *script = NULL, *over = NULL;
   size_t length;
-  FILE *out = open_memstream(&script, &length);
-  if (!out) return gg_fail(err, GG_FAILED, "out of memory");
-  locale_t before = gg_c_locale_enter();
-  draw(out, stored, s, png);
-  gg_c_locale_leave(before);
-  gg_status status = fclose(out) == 0 ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
-  if (status == GG_OK) status = gg_gnuplot_run(script, picture, err);
+  page p = {.script = open_memstream(&script, &length), .over = png ? NULL : open_memstream(&over, &length)};
+  bool drawn = p.script && (png || p.over);
+  if (drawn) {
+    locale_t before = gg_c_locale_enter();
+    drawn = draw(&p, stored, s);
+    gg_c_locale_leave(before);
+  }
+  if (p.script) drawn &= fclose(p.script) == 0;
+  if (p.over) drawn &= fclose(p.over) == 0;
+  gg_status status = drawn ? gg_gnuplot_run(script, over, picture, err) : gg_fail(err, GG_FAILED, "out of memory");
   free(script);
+  free(over);
   return status;
 }
 
 gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *result_path, const char *picture, bool png,
                            bool *drawn, gg_error *err)
 {
-  snapshot s;
-  *drawn = read_snapshot(stored, result_path, &s);
+  frame f;
+  *drawn = read_frame(stored, result_path, &f);
   if (!*drawn) return GG_OK;
-  gg_status status = draw_page(stored, &s, picture, png, err);
-  clear(&s);
+  gg_status status = draw_page(stored, &f.shown, picture, png, err);
+  clear(&f);
   return status;
 }

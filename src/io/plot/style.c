@@ -40,7 +40,7 @@ static void start(FILE *s, bool png, int width, int height)
     fprintf(s,
             "set terminal pngcairo enhanced font 'DejaVu Sans,12' size %d,%d fontscale 1.25 linewidth 1.5 "
             "pointscale 1.4 background '#ffffff'\n",
-            width * 3 / 2, height * 3 / 2);
+            (int)(width * GG_PLOT_PNG_SCALE), (int)(height * GG_PLOT_PNG_SCALE));
   else
     fprintf(s, "set terminal svg enhanced font 'DejaVu Sans,12' size %d,%d background '#ffffff'\n", width, height);
   fprintf(s, "set encoding utf8\nset border 3 lc rgb '#444444'\nset errorbars small\nset tics nomirror out textcolor "

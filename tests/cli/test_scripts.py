@@ -1,0 +1,62 @@
+"""quickstart and check where there is no apt-get: what is missing is named, with the packages of the system."""
+import os
+import shutil
+import subprocess
+import sys
+
+from tap import check, main
+
+SOURCE = os.environ["SOURCE"]
+SHELL = "sh", "awk", "sed", "cat", "tr", "dirname"  # what every system has
+
+
+def without_apt(script, *arguments, present=(), fake=()):
+    """Run a script of an otherwise empty tree with nothing on the PATH but the named programs and fakes, which do
+    nothing, successfully."""
+    os.makedirs("tree/scripts", exist_ok=True)
+    for name in "quickstart", "check", "scripts/packages.sh", "scripts/needs.txt":
+        shutil.copy(os.path.join(SOURCE, name), os.path.join("tree", name))
+    shutil.rmtree("bin", ignore_errors=True)
+    os.mkdir("bin")
+    for name in (*SHELL, *present):
+        os.symlink(shutil.which(name), f"bin/{name}")
+    for name in fake:
+        with open(f"bin/{name}", "w") as f:
+            f.write("#!/bin/sh\n")
+        os.chmod(f"bin/{name}", 0o755)
+    clean = {k: v for k, v in os.environ.items() if k not in ("CC", "CPPFLAGS", "CFLAGS")}
+    return subprocess.run([f"tree/{script}", *arguments], capture_output=True, text=True,
+                          env={**clean, "PATH": os.path.abspath("bin")})
+
+
+def test_missing_things_are_named():
+    done = without_apt("quickstart")
+    check(done.returncode == 1 and done.stdout == "", done)
+    for word in ("meson", "gsl", "Random123/philox.h", "gnuplot", "sudo apt-get install", "sudo dnf install",
+                 "brew install", "gsl-devel", "libgsl-dev", "CPPFLAGS=-I"):
+        check(word in done.stderr, word, done.stderr)
+    check("cmocka" not in done.stderr and "clang" not in done.stderr, "quickstart asks for what tests need", done.stderr)
+
+
+def test_only_this_system_is_told_of():
+    done = without_apt("quickstart", fake=["dnf"])
+    check(done.returncode == 1 and "dnf install" in done.stderr and "brew" not in done.stderr, done.stderr)
+
+
+def test_what_is_there_is_not_asked_for():
+    done = without_apt("quickstart", fake=["meson", "ninja", "pkg-config", "dnf"])
+    missing = done.stderr.split("Install it")[0]
+    check(done.returncode == 1 and "gnuplot" in missing, done.stderr)
+    for word in "meson", "ninja", "gsl", "hdf5":
+        check(word not in done.stderr.split(), word, done.stderr)
+
+
+def test_steps_ask_for_what_they_need():
+    unit, whole = without_apt("check", "--suite", "unit"), without_apt("check")
+    check(unit.returncode == 1 and whole.returncode == 1)
+    check("cmocka" in unit.stderr and "clang" not in unit.stderr, unit.stderr)
+    check("cmocka" in whole.stderr and "clang" in whole.stderr and "MDAnalysis" not in whole.stderr, whole.stderr)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])
