@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "io/nearest.h"
 
@@ -61,8 +62,12 @@ static int refuse_option(const gg_command *c, const char *typed)
 
 static int processors(void)
 {
+#ifdef __linux__
   cpu_set_t set;
   return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+#else
+  return (int)sysconf(_SC_NPROCESSORS_ONLN);
+#endif
 }
 
 /* The command line as it can be typed again. */

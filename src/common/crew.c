@@ -6,6 +6,11 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <time.h>
+#include <unistd.h>
+
+#ifdef __APPLE__
+#include <mach/mach.h>
+#endif
 
 enum { MOST_THREADS = 64 };
 /* Looks at an empty list before a thread sleeps, a hundred microseconds or two in all: longer than others need to
@@ -38,8 +43,10 @@ struct gg_crew {
 
 static void relax(void)
 {
-#ifdef GG_X86_64
+#if defined(__x86_64__)
   __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  __asm__ volatile("yield");
 #endif
 }
 
@@ -52,8 +59,12 @@ static bool patient(const gg_crew *c, int looks)
 
 static int processors(void)
 {
+#ifdef __linux__
   cpu_set_t set;
   return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+#else
+  return (int)sysconf(_SC_NPROCESSORS_ONLN);
+#endif
 }
 
 /* The parts that thread `self` takes first, so that it has what it had in the job before: its caches know. */
@@ -220,14 +231,27 @@ void gg_crew_share(gg_crew *c, int parts, gg_part *part, void *context)
   gg_crew_share_rounds(c, 1, parts, NULL, part, context);
 }
 
+/* Seconds of processor time that a thread has had. */
+static double thread_cpu(pthread_t thread)
+{
+#ifdef __APPLE__
+  thread_basic_info_data_t used;
+  mach_msg_type_number_t count = THREAD_BASIC_INFO_COUNT;
+  if (thread_info(pthread_mach_thread_np(thread), THREAD_BASIC_INFO, (thread_info_t)&used, &count) != KERN_SUCCESS)
+    return 0;
+  return used.user_time.seconds + used.system_time.seconds +
+         1e-6 * (used.user_time.microseconds + used.system_time.microseconds);
+#else
+  clockid_t clock;
+  struct timespec t;
+  if (pthread_getcpuclockid(thread, &clock) != 0 || clock_gettime(clock, &t) != 0) return 0;
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+#endif
+}
+
 double gg_crew_cpu(const gg_crew *c)
 {
   double sum = 0;
-  for (int i = 0; c && i < c->n; i++) {
-    clockid_t clock;
-    struct timespec t;
-    if (pthread_getcpuclockid(c->member[i].thread, &clock) != 0 || clock_gettime(clock, &t) != 0) continue;
-    sum += (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-  }
+  for (int i = 0; c && i < c->n; i++) sum += thread_cpu(c->member[i].thread);
   return sum;
 }

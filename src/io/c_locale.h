@@ -3,6 +3,9 @@
 #define GG_C_LOCALE_H
 
 #include <locale.h>
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
 
 /* Switch this thread to the C locale; hand the returned value to gg_c_locale_leave. */
 locale_t gg_c_locale_enter(void);
