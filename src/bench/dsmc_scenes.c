@@ -3,36 +3,37 @@
 
 #include "bench/dsmc.h"
 
-const gg_bench_feature gg_dsmc_features_timed[GG_DSMC_KINDS] = {
-    [GG_DSMC_SMOOTH] = {"smooth", GG_DSMC_SMOOTH},
-    [GG_DSMC_ROUGH] = {"rough", GG_DSMC_SMOOTH},
-    [GG_DSMC_FRICTIONAL] = {"frictional", GG_DSMC_ROUGH},
-    [GG_DSMC_TWO] = {"two species", GG_DSMC_SMOOTH},
-    [GG_DSMC_TWO_ROUGH] = {"two species, rough", GG_DSMC_ROUGH},
-    [GG_DSMC_TAPPED] = {"smooth, tap open", GG_DSMC_SMOOTH},
-    [GG_DSMC_SHEARED] = {"sheared smooth", GG_DSMC_SMOOTH},
-    [GG_DSMC_SHEARED_TAPPED] = {"sheared smooth, tap open", GG_DSMC_SHEARED},
-    [GG_DSMC_SHEARED_ROUGH] = {"sheared rough, tap open", GG_DSMC_SHEARED_TAPPED},
-    [GG_DSMC_SHEARED_FRICTIONAL] = {"sheared frictional, tap open", GG_DSMC_SHEARED_ROUGH},
-    [GG_DSMC_SHEARED_TWO] = {"sheared, two species, tap open", GG_DSMC_SHEARED_TAPPED},
+const gg_bench_feature gg_bench_dsmc_features[GG_BENCH_DSMC_KINDS] = {
+    [GG_BENCH_DSMC_SMOOTH] = {"smooth", GG_BENCH_DSMC_SMOOTH},
+    [GG_BENCH_DSMC_ROUGH] = {"rough", GG_BENCH_DSMC_SMOOTH},
+    [GG_BENCH_DSMC_FRICTIONAL] = {"frictional", GG_BENCH_DSMC_ROUGH},
+    [GG_BENCH_DSMC_TWO] = {"two species", GG_BENCH_DSMC_SMOOTH},
+    [GG_BENCH_DSMC_TWO_ROUGH] = {"two species, rough", GG_BENCH_DSMC_ROUGH},
+    [GG_BENCH_DSMC_TAPPED] = {"smooth, tap open", GG_BENCH_DSMC_SMOOTH},
+    [GG_BENCH_DSMC_SHEARED] = {"sheared smooth", GG_BENCH_DSMC_SMOOTH},
+    [GG_BENCH_DSMC_SHEARED_TAPPED] = {"sheared smooth, tap open", GG_BENCH_DSMC_SHEARED},
+    [GG_BENCH_DSMC_SHEARED_ROUGH] = {"sheared rough, tap open", GG_BENCH_DSMC_SHEARED_TAPPED},
+    [GG_BENCH_DSMC_SHEARED_FRICTIONAL] = {"sheared frictional, tap open", GG_BENCH_DSMC_SHEARED_ROUGH},
+    [GG_BENCH_DSMC_SHEARED_TWO] = {"sheared, two species, tap open", GG_BENCH_DSMC_SHEARED_TAPPED},
 };
 
-gg_contender gg_bench_dsmc_contender(const gg_bench *b, int kind, double phi, int64_t n)
+gg_timed_scene gg_bench_dsmc_scene(const gg_bench *b, int kind, double phi, int64_t n)
 {
-  const bool sheared = kind >= GG_DSMC_SHEARED;
-  gg_contender c = {.scene = gg_bench_scene(b, GG_DSMC, phi, n),
-                    .tap = kind == GG_DSMC_TAPPED || kind > GG_DSMC_SHEARED};
+  const bool sheared = kind >= GG_BENCH_DSMC_SHEARED;
+  gg_timed_scene c = {.scene = gg_bench_scene(b, GG_DSMC, phi, n),
+                      .tap = kind == GG_BENCH_DSMC_TAPPED || kind > GG_BENCH_DSMC_SHEARED};
   gg_scene *s = &c.scene;
-  c.against = gg_dsmc_features_timed[kind].against;
+  c.against = gg_bench_dsmc_features[kind].against;
   s->flow = sheared ? GG_USF : GG_EQUILIBRIUM;
-  const bool rough = kind == GG_DSMC_ROUGH || kind == GG_DSMC_TWO_ROUGH || kind == GG_DSMC_SHEARED_ROUGH;
-  const bool frictional = kind == GG_DSMC_FRICTIONAL || kind == GG_DSMC_SHEARED_FRICTIONAL;
+  const bool rough =
+      kind == GG_BENCH_DSMC_ROUGH || kind == GG_BENCH_DSMC_TWO_ROUGH || kind == GG_BENCH_DSMC_SHEARED_ROUGH;
+  const bool frictional = kind == GG_BENCH_DSMC_FRICTIONAL || kind == GG_BENCH_DSMC_SHEARED_FRICTIONAL;
   for (int p = 0; p < GG_PAIRS; p++) {
     s->collision.e[p] = sheared ? 0.9 : 1;
     s->collision.beta[p] = rough ? sheared ? 0 : 1 : frictional ? 0.4 : -1;
     s->collision.mu[p] = frictional ? 0.123 : INFINITY;
   }
-  if (kind != GG_DSMC_TWO && kind != GG_DSMC_TWO_ROUGH && kind != GG_DSMC_SHEARED_TWO) return c;
+  if (kind != GG_BENCH_DSMC_TWO && kind != GG_BENCH_DSMC_TWO_ROUGH && kind != GG_BENCH_DSMC_SHEARED_TWO) return c;
   s->n_species = 2;
   s->species[0].fraction = 0.5;
   s->species[1] = (gg_species){0.5, 1, 4, 0.4};

@@ -1,7 +1,7 @@
 /* graingas bench md: the event-driven engine by size and density, and what each feature of a scene costs. */
 #include <math.h>
 
-#include "bench/bench.h"
+#include "bench/grid.h"
 
 static const char rates_caption[] =
     "Elastic smooth spheres in a periodic box, no stress measured: millions of collisions per CPU-second on one core, "
@@ -74,9 +74,9 @@ static void add_species(gg_scene *s)
   s->species[1] = (gg_species){0.5, 1, 4, 0.4};
 }
 
-static gg_contender contender(const gg_bench *b, int kind, double phi, int64_t n)
+static gg_timed_scene timed_scene(const gg_bench *b, int kind, double phi, int64_t n)
 {
-  gg_contender c = {.scene = elastic(b, phi, n), .tap = kind == TAPPED || kind == SHEARED_TAPPED};
+  gg_timed_scene c = {.scene = elastic(b, phi, n), .tap = kind == TAPPED || kind == SHEARED_TAPPED};
   c.against = scenes[kind].against;
   if (kind == ROUGH) set_rule(&c.scene, 1, INFINITY);
   if (kind == TWO) add_species(&c.scene);
@@ -93,8 +93,8 @@ static gg_contender contender(const gg_bench *b, int kind, double phi, int64_t n
 
 static void note_rate(gg_bench_sheet *sheet, int row, int column, double phi, int64_t n, const gg_throughput *t)
 {
-  gg_bench_cell(sheet, row, column, "%.3g (%.3g - %.3g) %.0f ns", t->rate * 1e-6, t->slowest * 1e-6, t->fastest * 1e-6,
-                1e9 / t->rate);
+  gg_bench_sheet_put(sheet, row, column, "%.3g (%.3g - %.3g) %.0f ns", t->rate * 1e-6, t->slowest * 1e-6,
+                     t->fastest * 1e-6, 1e9 / t->rate);
   json_array_append_new(sheet->rows, json_pack("{s:f, s:I, s:f, s:f, s:f, s:s}", "phi", phi, "particles", (json_int_t)n,
                                                "mean", t->rate, "slowest", t->slowest, "fastest", t->fastest, "unit",
                                                "collisions per CPU-second"));
@@ -106,11 +106,11 @@ static double warmup_of(int64_t n, bool quick)
   return n >= 1000000 ? 5 : quick ? 10 : 30;
 }
 
-static void note_ratio(gg_bench_sheet *sheet, int column, double phi, int64_t n, int kind, const gg_race *r)
+static void note_ratio(gg_bench_sheet *sheet, int column, double phi, int64_t n, int kind, const gg_timing *r)
 {
   const char *against = scenes[scenes[kind].against].name;
-  gg_bench_cell(sheet, kind, column, "%.2f (%.2f - %.2f)", r->ratio, r->lowest, r->highest);
-  if (kind == scenes[kind].against) gg_bench_cell(sheet, kind, column, "%.3g M/s", r->own.rate * 1e-6);
+  gg_bench_sheet_put(sheet, kind, column, "%.2f (%.2f - %.2f)", r->ratio, r->lowest, r->highest);
+  if (kind == scenes[kind].against) gg_bench_sheet_put(sheet, kind, column, "%.3g M/s", r->own.rate * 1e-6);
   json_array_append_new(sheet->rows, json_pack("{s:f, s:I, s:s, s:s, s:f, s:f, s:f, s:f, s:s}", "phi", phi, "particles",
                                                (json_int_t)n, "scene", scenes[kind].name, "against", against, "ratio",
                                                r->ratio, "least", r->lowest, "largest", r->highest, "mean", r->own.rate,
@@ -120,7 +120,7 @@ static void note_ratio(gg_bench_sheet *sheet, int column, double phi, int64_t n,
 gg_status gg_bench_md(gg_bench *b, gg_error *err)
 {
   bool quick = b->options->quick;
-  const gg_bench_grid grid = {densities, N_DENSITIES, contender, warmup_of};
+  const gg_bench_grid grid = {densities, N_DENSITIES, timed_scene, warmup_of};
   gg_bench_sheet *sheet = gg_bench_new_sheet(b, "collisions", rates_caption, 1, err);
   if (!sheet) return GG_FAILED;
   GG_TRY(gg_bench_rates(b, sheet, &grid, sizes, quick ? QUICK_SIZES : N_SIZES, note_rate, err));

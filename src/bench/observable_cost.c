@@ -8,21 +8,21 @@
 #include "run/replica.h"
 #include "run/start.h"
 
-enum { MOST_REPEATS = 32, CYCLE = 32 }; /* samples after which every observable has looked as often as it does */
+enum { MOST_REPEATS = 32, CYCLE = 32 }; /* samples in which every observable is due as often as ever */
 
-typedef struct contender {
+typedef struct timed_run {
   gg_replica replica;
   bool bare; /* the engine alone */
-} contender;
+} timed_run;
 
-static uint64_t collisions(const contender *c)
+static uint64_t collisions(const timed_run *c)
 {
   gg_engine_state state;
   c->replica.engine->ops->state(c->replica.engine, &state);
   return state.collisions;
 }
 
-static gg_status go_on(contender *c, uint64_t samples, bool adapt, gg_error *err)
+static gg_status go_on(timed_run *c, uint64_t samples, bool adapt, gg_error *err)
 {
   gg_replica *r = &c->replica;
   double gone;
@@ -33,7 +33,7 @@ static gg_status go_on(contender *c, uint64_t samples, bool adapt, gg_error *err
   return GG_OK;
 }
 
-static gg_status start(contender *c, const gg_scene *scene, unsigned measure, double warmup, gg_error *err)
+static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, double warmup, gg_error *err)
 {
   gg_scene s = *scene;
   gg_model model;
@@ -46,7 +46,7 @@ static gg_status start(contender *c, const gg_scene *scene, unsigned measure, do
 }
 
 /* Nanoseconds a collision, over `samples`. */
-static gg_status time_stretch(contender *c, uint64_t samples, double *ns, gg_error *err)
+static gg_status time_stretch(timed_run *c, uint64_t samples, double *ns, gg_error *err)
 {
   uint64_t before = collisions(c);
   double began = gg_cpu_now();
@@ -55,7 +55,7 @@ static gg_status time_stretch(contender *c, uint64_t samples, double *ns, gg_err
   return GG_OK;
 }
 
-static gg_status compete(contender c[2], int repeats, double seconds, gg_cost *cost, gg_error *err)
+static gg_status compare(timed_run c[2], int repeats, double seconds, gg_observable_cost *cost, gg_error *err)
 {
   double share[MOST_REPEATS], ns[2][MOST_REPEATS], began = gg_cpu_now();
   uint64_t cycles = 1;
@@ -68,18 +68,18 @@ static gg_status compete(contender c[2], int repeats, double seconds, gg_cost *c
   }
   gsl_sort(share, 1, (size_t)repeats);
   gsl_sort(ns[1], 1, (size_t)repeats);
-  *cost = (gg_cost){.share = gsl_stats_median_from_sorted_data(share, 1, (size_t)repeats),
-                    .lowest = share[0],
-                    .highest = share[repeats - 1],
-                    .ns = gsl_stats_median_from_sorted_data(ns[1], 1, (size_t)repeats),
-                    .repeats = repeats};
+  *cost = (gg_observable_cost){.share = gsl_stats_median_from_sorted_data(share, 1, (size_t)repeats),
+                               .lowest = share[0],
+                               .highest = share[repeats - 1],
+                               .ns = gsl_stats_median_from_sorted_data(ns[1], 1, (size_t)repeats),
+                               .repeats = repeats};
   return GG_OK;
 }
 
-gg_status gg_measure_observable_cost(const gg_scene *scene, const gg_observable *o, double warmup, int repeats,
-                                     double seconds, gg_cost *cost, gg_error *err)
+gg_status gg_observable_cost_measure(const gg_scene *scene, const gg_observable *o, double warmup, int repeats,
+                                     double seconds, gg_observable_cost *cost, gg_error *err)
 {
-  contender c[2] = {0};
+  timed_run c[2] = {0};
   bool itself = o->flag == GG_MEASURE_RHEOLOGY;
   gg_status status = start(&c[0], scene, GG_MEASURE_RHEOLOGY, warmup, err);
   if (status == GG_OK) status = start(&c[1], scene, GG_MEASURE_RHEOLOGY | o->flag, warmup, err);
@@ -87,7 +87,7 @@ gg_status gg_measure_observable_cost(const gg_scene *scene, const gg_observable 
     c[0].bare = true;
     c[0].replica.engine->ops->tap(c[0].replica.engine, false);
   }
-  if (status == GG_OK) status = compete(c, repeats < MOST_REPEATS ? repeats : MOST_REPEATS, seconds, cost, err);
+  if (status == GG_OK) status = compare(c, repeats < MOST_REPEATS ? repeats : MOST_REPEATS, seconds, cost, err);
   for (int k = 0; k < 2; k++)
     if (c[k].replica.engine) gg_replica_clear(&c[k].replica);
   return status;

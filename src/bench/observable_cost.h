@@ -4,16 +4,16 @@
 
 #include "measure/observable.h"
 
-typedef struct gg_cost {
+typedef struct gg_observable_cost {
   double share, lowest, highest; /* of the time of a run that measures it: median, least and largest of the repeats */
   double ns;                     /* that a collision takes in such a run; median */
   int repeats;
-} gg_cost;
+} gg_observable_cost;
 
-/* Run the scene with `rheology` and this observable, and beside it with rheology alone (for rheology itself: an engine
- * that nobody looks at, its tap closed), in turn, `repeats` stretches of at least `seconds` each after `warmup`
- * collisions a grain; looks as often as in any run. */
-gg_status gg_measure_observable_cost(const gg_scene *scene, const gg_observable *observable, double warmup, int repeats,
-                                     double seconds, gg_cost *cost, gg_error *err);
+/* Run the scene with `rheology` and this observable, and beside it with rheology alone (for rheology itself: the engine
+ * alone, not sampled, its tap closed), in turn, `repeats` stretches of at least `seconds` each after `warmup`
+ * collisions a grain. The sampling interval is that of any run. */
+gg_status gg_observable_cost_measure(const gg_scene *scene, const gg_observable *observable, double warmup, int repeats,
+                                     double seconds, gg_observable_cost *cost, gg_error *err);
 
 #endif

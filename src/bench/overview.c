@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "bench/bench.h"
+#include "bench/throughput.h"
 
 static const char caption[] =
     "Collisions per CPU-second, one core; uniform shear, e = 0.9, stress measured; median of repeats";
@@ -27,12 +28,12 @@ static gg_scene scene_of(const gg_bench *b, gg_engine_kind engine, int kernel, d
 
 static void note(gg_bench_sheet *sheet, const char *engine, double phi, int64_t n, const gg_throughput t[N_KERNELS])
 {
-  int row = gg_table_row(sheet->table);
-  gg_bench_cell(sheet, row, 0, "%s", engine);
-  gg_bench_cell(sheet, row, 1, "%g", phi);
-  gg_bench_cell(sheet, row, 2, "%lld", (long long)n);
+  int row = gg_bench_sheet_row(sheet);
+  gg_bench_sheet_put(sheet, row, 0, "%s", engine);
+  gg_bench_sheet_put(sheet, row, 1, "%g", phi);
+  gg_bench_sheet_put(sheet, row, 2, "%lld", (long long)n);
   for (int k = 0; k < N_KERNELS; k++) {
-    gg_bench_cell(sheet, row, 3 + k, "%.3g M/s (%.0f ns)", t[k].rate * 1e-6, 1e9 / t[k].rate);
+    gg_bench_sheet_put(sheet, row, 3 + k, "%.3g M/s (%.0f ns)", t[k].rate * 1e-6, 1e9 / t[k].rate);
     json_array_append_new(sheet->rows,
                           json_pack("{s:s, s:f, s:I, s:s, s:f, s:f, s:f, s:s}", "engine", engine, "phi", phi,
                                     "particles", (json_int_t)n, "kernel", kernels[k].name, "mean", t[k].rate, "slowest",
@@ -49,7 +50,7 @@ static gg_status measure(gg_bench *b, gg_bench_sheet *sheet, gg_engine_kind engi
       gg_throughput t[N_KERNELS];
       for (int k = 0; k < N_KERNELS; k++) {
         gg_scene s = scene_of(b, engine, k, densities[d], sizes[i]);
-        GG_TRY(gg_measure_throughput(&s, true, 20, quick ? 3 : 5, quick ? 0.2 : 0.6, &t[k], err));
+        GG_TRY(gg_throughput_measure(&s, true, 20, quick ? 3 : 5, quick ? 0.2 : 0.6, &t[k], err));
       }
       note(sheet, name, densities[d], sizes[i], t);
       gg_bench_tell(b, "%s phi %g N %lld done", name, densities[d], (long long)sizes[i]);
@@ -61,10 +62,10 @@ gg_status gg_bench_overview(gg_bench *b, gg_error *err)
 {
   gg_bench_sheet *sheet = gg_bench_new_sheet(b, "throughput", caption, 3, err);
   if (!sheet) return GG_FAILED;
-  gg_table_column(sheet->table, "engine", false);
-  gg_table_column(sheet->table, "phi", true);
-  gg_table_column(sheet->table, "N", true);
-  for (int k = 0; k < N_KERNELS; k++) gg_table_column(sheet->table, kernels[k].name, true);
+  gg_bench_sheet_column(sheet, false, "engine");
+  gg_bench_sheet_column(sheet, true, "phi");
+  gg_bench_sheet_column(sheet, true, "N");
+  for (int k = 0; k < N_KERNELS; k++) gg_bench_sheet_column(sheet, true, "%s", kernels[k].name);
   GG_TRY(measure(b, sheet, GG_MD, err));
   return measure(b, sheet, GG_DSMC, err);
 }

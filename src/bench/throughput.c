@@ -11,14 +11,14 @@
 enum { MOST_REPEATS = 32 };
 
 /* A scene being timed. */
-typedef struct runner {
+typedef struct timed {
   gg_engine *engine;
-  uint64_t guess; /* collisions that are worth looking at the clock for */
+  uint64_t guess; /* collisions that are worth reading the clock for */
   uint64_t timed;
   bool by_the_clock;
   double wall, cpu; /* in all */
   double rate[MOST_REPEATS];
-} runner;
+} timed;
 
 static uint64_t collisions(const gg_engine *e)
 {
@@ -47,7 +47,7 @@ static double cpu_used(const gg_engine *e)
   return gg_cpu_now() + s.others_cpu;
 }
 
-static double read_clock(const runner *r)
+static double read_clock(const timed *r)
 {
   return r->by_the_clock ? gg_wall_now() : cpu_used(r->engine);
 }
@@ -62,7 +62,7 @@ static void add_squares(void *context, const gg_chunk *chunk)
 
 /* Gases that cool leave the range of numbers in some thousand collisions a grain: back to where they began, by powers
  * of two. */
-static gg_status warm_up_again(gg_engine *e, gg_error *err)
+static gg_status restore_temperature(gg_engine *e, gg_error *err)
 {
   double sum[2] = {0, 0};
   e->ops->snapshot(e, false, add_squares, sum);
@@ -72,9 +72,9 @@ static gg_status warm_up_again(gg_engine *e, gg_error *err)
 }
 
 /* One timed stretch, grown until it is long enough to time. */
-static gg_status time_stretch(runner *r, double seconds, double *rate, gg_error *err)
+static gg_status time_stretch(timed *r, double seconds, double *rate, gg_error *err)
 {
-  GG_TRY(warm_up_again(r->engine, err));
+  GG_TRY(restore_temperature(r->engine, err));
   double start = read_clock(r), gone, wall = gg_wall_now(), cpu = cpu_used(r->engine);
   uint64_t sum = 0;
   do {
@@ -91,7 +91,7 @@ static gg_status time_stretch(runner *r, double seconds, double *rate, gg_error 
   return GG_OK;
 }
 
-static gg_status start(const gg_contender *c, double warmup, runner *r, gg_error *err)
+static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_error *err)
 {
   const gg_scene *scene = &c->scene;
   gg_model model;
@@ -115,7 +115,7 @@ static double median(double *values, int n)
   return gsl_stats_median_from_sorted_data(values, 1, (size_t)n);
 }
 
-static gg_throughput summary(const runner *r, int repeats)
+static gg_throughput summary(const timed *r, int repeats)
 {
   double rate[MOST_REPEATS];
   for (int i = 0; i < repeats; i++) rate[i] = r->rate[i];
@@ -123,7 +123,7 @@ static gg_throughput summary(const runner *r, int repeats)
   return (gg_throughput){middle, rate[0], rate[repeats - 1], repeats, r->cpu / r->wall, r->timed};
 }
 
-static void compare(const runner *r, const runner *other, int repeats, gg_race *out)
+static void compare(const timed *r, const timed *other, int repeats, gg_timing *out)
 {
   double ratio[MOST_REPEATS];
   for (int i = 0; i < repeats; i++) ratio[i] = r->rate[i] / other->rate[i];
@@ -133,8 +133,8 @@ static void compare(const runner *r, const runner *other, int repeats, gg_race *
   out->highest = ratio[repeats - 1];
 }
 
-static gg_status race(const gg_contender *c, int n, double warmup, int repeats, double seconds, runner *r,
-                      gg_error *err)
+static gg_status time_all(const gg_timed_scene *c, int n, double warmup, int repeats, double seconds, timed *r,
+                          gg_error *err)
 {
   for (int k = 0; k < n; k++) GG_TRY(start(&c[k], warmup, &r[k], err));
   for (int i = 0; i < repeats; i++)
@@ -142,13 +142,13 @@ static gg_status race(const gg_contender *c, int n, double warmup, int repeats, 
   return GG_OK;
 }
 
-gg_status gg_measure_race(const gg_contender *c, int n, double warmup, int repeats, double seconds, gg_race *out,
-                          gg_error *err)
+gg_status gg_throughput_compare(const gg_timed_scene *c, int n, double warmup, int repeats, double seconds,
+                                gg_timing *out, gg_error *err)
 {
-  runner r[GG_MOST_CONTENDERS] = {0};
-  if (n > GG_MOST_CONTENDERS) return gg_fail(err, GG_FAILED, "%d scenes at once; at most %d", n, GG_MOST_CONTENDERS);
+  timed r[GG_MOST_TIMED] = {0};
+  if (n > GG_MOST_TIMED) return gg_fail(err, GG_FAILED, "%d scenes at once; at most %d", n, GG_MOST_TIMED);
   if (repeats > MOST_REPEATS) repeats = MOST_REPEATS;
-  gg_status status = race(c, n, warmup, repeats, seconds, r, err);
+  gg_status status = time_all(c, n, warmup, repeats, seconds, r, err);
   for (int k = 0; k < n; k++) {
     if (status == GG_OK) compare(&r[k], &r[c[k].against], repeats, &out[k]);
     if (r[k].engine) r[k].engine->ops->destroy(r[k].engine);
@@ -156,13 +156,13 @@ gg_status gg_measure_race(const gg_contender *c, int n, double warmup, int repea
   return status;
 }
 
-gg_status gg_measure_throughput(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
+gg_status gg_throughput_measure(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
                                 gg_throughput *out, gg_error *err)
 {
-  gg_contender only = {.scene = *scene, .tap = tap, .against = 0};
-  gg_race result;
+  gg_timed_scene only = {.scene = *scene, .tap = tap, .against = 0};
+  gg_timing result;
   *out = (gg_throughput){0};
-  GG_TRY(gg_measure_race(&only, 1, warmup, repeats, seconds, &result, err));
+  GG_TRY(gg_throughput_compare(&only, 1, warmup, repeats, seconds, &result, err));
   *out = result.own;
   return GG_OK;
 }

@@ -14,26 +14,26 @@ typedef struct gg_throughput {
 
 /* Start the scene near its steady state, let it forget the start for `warmup` collisions per grain, then time `repeats`
  * stretches of at least `seconds` CPU each. */
-gg_status gg_measure_throughput(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
+gg_status gg_throughput_measure(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
                                 gg_throughput *out, gg_error *err);
 
 /* Several scenes side by side. A repeat times a stretch of each in turn, so that what else the machine does meets all
  * alike: the ratios within a repeat mean more than the rates. */
-enum { GG_MOST_CONTENDERS = 16 };
-typedef struct gg_contender {
+enum { GG_MOST_TIMED = 16 };
+typedef struct gg_timed_scene {
   gg_scene scene;
   bool tap;
-  int against;                        /* index of the contender that it is compared with */
+  int against;                        /* index of the scene that it is compared with */
   int threads;                        /* of the engine's; 0: one */
-  bool by_the_clock;                  /* time goes by the clock on the wall, not by processor time */
+  bool by_the_clock;                  /* time is that of the clock on the wall, not processor time */
   void (*prepare)(gg_engine *engine); /* done to it when new; NULL: nothing */
-} gg_contender;
-typedef struct gg_race {
+} gg_timed_scene;
+typedef struct gg_timing {
   gg_throughput own;
   double ratio, lowest, highest; /* own rate over that of `against`: median, least and largest of the repeats */
-} gg_race;
+} gg_timing;
 
-gg_status gg_measure_race(const gg_contender *contenders, int n, double warmup, int repeats, double seconds,
-                          gg_race *out, gg_error *err);
+gg_status gg_throughput_compare(const gg_timed_scene *scenes, int n, double warmup, int repeats, double seconds,
+                                gg_timing *out, gg_error *err);
 
 #endif

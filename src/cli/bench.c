@@ -1,0 +1,65 @@
+/* graingas bench: prints what src/bench measures. The one subcommand that looks behind the public header. */
+#include "bench/bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/options.h"
+#include "cli/table.h"
+
+static void tell(void *context, const char *line)
+{
+  (void)context;
+  fprintf(stderr, "%s\n", line);
+}
+
+static int print_sheet(const gg_bench_sheet *s)
+{
+  gg_table *t = gg_table_new();
+  if (!t) return gg_cli_fail(GG_FAILED, "out of memory");
+  for (int c = 0; c < s->n_columns; c++) gg_table_column(t, s->head[c], s->right[c]);
+  for (int r = 0; r < s->n_rows; r++) {
+    int row = gg_table_row(t);
+    for (int c = 0; c < s->n_columns; c++) snprintf(gg_table_cell(t, row, c), GG_TABLE_CELL, "%s", s->cell[r][c]);
+  }
+  gg_print_wrapped(stdout, "", s->caption, gg_terminal_width());
+  putchar('\n');
+  gg_table_print(t, stdout, gg_terminal_width(), s->keep);
+  free(t);
+  return GG_OK;
+}
+
+static int print_document(const gg_bench *b)
+{
+  char *text = gg_bench_document(b);
+  if (!text) return gg_cli_fail(GG_FAILED, "out of memory");
+  puts(text);
+  free(text);
+  return GG_OK;
+}
+
+static int print(const gg_bench *b, bool json)
+{
+  int code = json ? print_document(b) : GG_OK;
+  for (int i = 0; i < b->n_sheets && !json && code == GG_OK; i++) {
+    if (i) putchar('\n');
+    code = print_sheet(b->sheet[i]);
+  }
+  return code;
+}
+
+int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
+{
+  gg_options o;
+  int code = gg_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON) {
+    gg_bench_options asked = {.quick = o.quick, .threads = o.threads, .tell = o.quiet ? NULL : tell};
+    asked.n_overrides = o.n_overrides, asked.override = o.override;
+    gg_bench b;
+    gg_error err;
+    code = gg_bench_run(&b, o.input, &asked, &err) == GG_OK ? print(&b, o.json) : gg_cli_report(&err);
+    gg_bench_clear(&b);
+  }
+  gg_options_clear(&o);
+  return code;
+}
