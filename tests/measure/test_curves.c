@@ -1,5 +1,6 @@
-/* The statistics under every curve: blocks joined without loss, jackknife errors that equal the textbook error of a
- * mean and are honest for a ratio, replicas pooled, and a checkpoint that changes nothing. */
+/* Errors of curves: equal to the textbook error of a mean, honest for a ratio and for correlated blocks, replicas
+ * pooled.
+ */
 #include "curve_test.h"
 
 enum { WIDTH = 3 };
@@ -26,26 +27,6 @@ static void add(gg_bins *b, gg_rng *r)
   bin[1] += 3 * (1 + common);
   bin[2] += 1;
   gg_bins_commit(b);
-}
-
-/* Every sample counts once, however often blocks are joined; the number of blocks stays between 16 and 32. */
-static void joined_blocks(void **state)
-{
-  (void)state;
-  gg_bins b;
-  assert_int_equal(gg_bins_init(&b, 1, NULL), GG_OK);
-  for (int k = 0; k < 5000; k++) {
-    *gg_bins_sample(&b) += 1;
-    gg_bins_commit(&b);
-    double sum = 0;
-    for (size_t i = 0; i <= b.blocks; i++) sum += *gg_bins_block(&b, i);
-    assert_true(sum == k + 1);
-    for (size_t i = 0; i < b.blocks; i++) assert_true(*gg_bins_block(&b, i) == (double)b.per_block);
-    if (k >= 16) assert_true(b.blocks >= 16 && b.blocks < 32);
-  }
-  gg_bins_restart(&b);
-  assert_true(b.blocks == 0 && b.pending == 0 && *gg_bins_block(&b, 0) == 0);
-  gg_bins_clear(&b);
 }
 
 /* Blocks that alternate: no neighbour is like the other, and nothing is to be allowed for. */
@@ -154,32 +135,12 @@ static void honest_mean(void **state)
   }
 }
 
-/* Saved and restored in the middle of a block, bins go on as if nothing had been. */
-static void checkpoint(void **state)
-{
-  (void)state;
-  gg_bins a, b;
-  gg_archive archive = {0};
-  gg_rng r = gg_rng_seed(7, 0), again;
-  assert_int_equal(gg_bins_init(&a, WIDTH, NULL), GG_OK);
-  assert_int_equal(gg_bins_init(&b, WIDTH, NULL), GG_OK);
-  for (int i = 0; i < 77; i++) add(&a, &r);
-  assert_int_equal(gg_bins_save(&a, "x", &archive, NULL), GG_OK);
-  assert_int_equal(gg_bins_restore(&b, "x", &archive, NULL), GG_OK);
-  again = r;
-  for (int i = 0; i < 100; i++) add(&a, &r), add(&b, &again);
-  assert_true(a.blocks == b.blocks && a.pending == b.pending);
-  assert_memory_equal(a.sum, b.sum, (a.blocks + 1) * WIDTH * sizeof(double));
-  gg_archive_clear(&archive);
-  gg_bins_clear(&a);
-  gg_bins_clear(&b);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(joined_blocks), cmocka_unit_test(error_of_a_mean), cmocka_unit_test(honest_ratio),
-      cmocka_unit_test(honest_mean),   cmocka_unit_test(checkpoint),
+      cmocka_unit_test(error_of_a_mean),
+      cmocka_unit_test(honest_ratio),
+      cmocka_unit_test(honest_mean),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

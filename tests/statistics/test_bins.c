@@ -1,0 +1,59 @@
+/* Blocks of bins: joined without loss, and restored from a checkpoint as they were. */
+#include "planted.h"
+#include "statistics/bins.h"
+
+enum { WIDTH = 3 };
+
+static void add(gg_bins *b, gg_rng *r)
+{
+  double *bin = gg_bins_sample(b);
+  for (int k = 0; k < WIDTH; k++) bin[k] += gg_rng_normal(r);
+  gg_bins_commit(b);
+}
+
+/* Every sample counts once, however often blocks are joined; the number of blocks stays between 16 and 32. */
+static void joined_blocks(void **state)
+{
+  (void)state;
+  gg_bins b;
+  assert_int_equal(gg_bins_init(&b, 1, NULL), GG_OK);
+  for (int k = 0; k < 5000; k++) {
+    *gg_bins_sample(&b) += 1;
+    gg_bins_commit(&b);
+    double sum = 0;
+    for (size_t i = 0; i <= b.blocks; i++) sum += *gg_bins_block(&b, i);
+    assert_true(sum == k + 1);
+    for (size_t i = 0; i < b.blocks; i++) assert_true(*gg_bins_block(&b, i) == (double)b.per_block);
+    if (k >= 16) assert_true(b.blocks >= 16 && b.blocks < 32);
+  }
+  gg_bins_restart(&b);
+  assert_true(b.blocks == 0 && b.pending == 0 && *gg_bins_block(&b, 0) == 0);
+  gg_bins_clear(&b);
+}
+
+/* Saved and restored in the middle of a block, bins go on as if nothing had been. */
+static void checkpoint(void **state)
+{
+  (void)state;
+  gg_bins a, b;
+  gg_archive archive = {0};
+  gg_rng r = gg_rng_seed(7, 0), again;
+  assert_int_equal(gg_bins_init(&a, WIDTH, NULL), GG_OK);
+  assert_int_equal(gg_bins_init(&b, WIDTH, NULL), GG_OK);
+  for (int i = 0; i < 77; i++) add(&a, &r);
+  assert_int_equal(gg_bins_save(&a, "x", &archive, NULL), GG_OK);
+  assert_int_equal(gg_bins_restore(&b, "x", &archive, NULL), GG_OK);
+  again = r;
+  for (int i = 0; i < 100; i++) add(&a, &r), add(&b, &again);
+  assert_true(a.blocks == b.blocks && a.pending == b.pending);
+  assert_memory_equal(a.sum, b.sum, (a.blocks + 1) * WIDTH * sizeof(double));
+  gg_archive_clear(&archive);
+  gg_bins_clear(&a);
+  gg_bins_clear(&b);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(joined_blocks), cmocka_unit_test(checkpoint)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,115 @@
+/* Errors of means and of ratios of means: honest for correlated series, short windows, replicas. */
+#include "planted.h"
+#include "statistics/estimator.h"
+
+/* Honest errors: over 400 series the deviation from the true mean, in units of the reported error, has unit variance.
+ */
+static void honest_errors(void **state)
+{
+  (void)state;
+  enum { N = 4000, SERIES = 400 };
+  static double x[N];
+  gg_rng r = gg_rng_seed(12, 0);
+  const double rho[] = {0, 0.9, 0.97};
+  for (int k = 0; k < 3; k++) {
+    double sum = 0;
+    for (int s = 0; s < SERIES; s++) {
+      gg_mean m;
+      planted_autoregressive(&r, rho[k], x, N);
+      assert_int_equal(gg_estimate_scalar(x, N, 1, &m, NULL), GG_OK);
+      sum += m.mean * m.mean / (m.error * m.error);
+    }
+    double variance = sum / SERIES; /* of Student's t with ~ 16-60 degrees: 1.03-1.15; scatter sqrt(2/400) = 0.07 */
+    assert_true(variance > 0.75 && variance < 1.45);
+  }
+}
+
+/* Windows of only 30 correlation times, whose 16 blocks hang together: the mean square of the reported error is not
+ * below the variance of the mean, nor far above. Blocks alone give 0.75 of it (0.8 in three runs). */
+static void short_windows(void **state)
+{
+  (void)state;
+  enum { SERIES = 4000, T = 20 };
+  static double x[60 * T];
+  gg_rng r = gg_rng_seed(18, 0);
+  double rho = exp(-1.0 / T);
+  for (size_t runs = 1; runs <= 3; runs += 2) {
+    double mean2 = 0, error2 = 0;
+    size_t n = 60 * T / runs;
+    for (int s = 0; s < SERIES; s++) {
+      gg_mean m;
+      for (size_t k = 0; k < runs; k++) planted_autoregressive(&r, rho, x + k * n, n);
+      assert_int_equal(gg_estimate_scalar(x, n, runs, &m, NULL), GG_OK);
+      mean2 += m.mean * m.mean / SERIES;
+      error2 += m.error * m.error / SERIES;
+    }
+    double exact =
+        ((1 + rho) / (1 - rho) - 2 * rho * (1 - pow(rho, (double)n)) / ((double)n * pow(1 - rho, 2))) / (60 * T);
+    print_message("# %zu runs: error^2 %.3f, scatter %.3f of the variance of the mean\n", runs, error2 / exact,
+                  mean2 / exact);
+    assert_true(fabs(mean2 / exact - 1) < 4 * sqrt(2.0 / SERIES));
+    assert_true(error2 / exact > 0.94 && error2 / exact < 1.25);
+  }
+}
+
+static double ratio(const double *mean, const gg_model *m)
+{
+  (void)m;
+  return mean[0] / mean[1];
+}
+
+static gg_series planted_ratio(gg_rng *r, size_t n)
+{
+  gg_series s;
+  assert_int_equal(gg_series_init(&s, 3, NULL), GG_OK);
+  double slow = 0;
+  for (size_t i = 0; i < n; i++) {
+    slow = 0.8 * slow + 0.1 * gg_rng_normal(r);
+    double row[3] = {0, 3 * (1 + slow) + 0.02 * gg_rng_normal(r), 2 * (1 + slow)};
+    gg_series_add(&s, (double)i, row);
+  }
+  return s;
+}
+
+/* A ratio of channels that fluctuate together: the common part drops out of the error (jackknife-like), and the mean is
+ * the ratio of means. */
+static void ratios(void **state)
+{
+  (void)state;
+  gg_rng r = gg_rng_seed(13, 0);
+  gg_model model = {0};
+  double sum = 0;
+  for (int i = 0; i < 100; i++) {
+    gg_series s = planted_ratio(&r, 2000);
+    const gg_series *list[] = {&s};
+    gg_mean m;
+    assert_int_equal(gg_estimate_mean(list, 1, 0, s.n, 1, 2, ratio, &model, &m, NULL), GG_OK);
+    assert_true(m.error < 0.0005); /* 0.02/2/sqrt(2000) = 0.00022; the common part alone would give 0.005 */
+    sum += pow((m.mean - 1.5) / m.error, 2);
+    gg_series_clear(&s);
+  }
+  assert_true(sum / 100 > 0.5 && sum / 100 < 1.8);
+}
+
+/* Replicas: the pooled error is that of all rows together. */
+static void replicas(void **state)
+{
+  (void)state;
+  gg_rng r = gg_rng_seed(14, 0);
+  gg_model model = {0};
+  gg_series s[4];
+  const gg_series *list[4];
+  for (int i = 0; i < 4; i++) s[i] = planted_ratio(&r, 1500), list[i] = &s[i];
+  gg_mean one, four;
+  assert_int_equal(gg_estimate_mean(list, 1, 0, 1500, 1, 2, ratio, &model, &one, NULL), GG_OK);
+  assert_int_equal(gg_estimate_mean(list, 4, 0, 1500, 1, 2, ratio, &model, &four, NULL), GG_OK);
+  assert_true(fabs(one.error / four.error - 2) < 0.8);
+  for (int i = 0; i < 4; i++) gg_series_clear(&s[i]);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(honest_errors), cmocka_unit_test(short_windows),
+                                     cmocka_unit_test(ratios), cmocka_unit_test(replicas)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
