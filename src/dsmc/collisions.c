@@ -48,7 +48,7 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double drift, doub
     p.drift = drift + 0.5 * p.drift_step;
     gg_ensemble_drift_tops(&d->ensemble, drift);
     p.top_unit = d->ensemble.top_unit;
-    gg_collide(path, f, &p, &d->now.lanes, &d->now.rng);
+    gg_collide(d->ensemble.kernels, path, f, &p, &d->now.lanes, &d->now.rng);
     d->ensemble.top_unit = p.top_unit;
     d->ensemble.top_drift = drift + span;
     gg_dsmc_hand_over(d, gg_pair_index(i, j), &p);

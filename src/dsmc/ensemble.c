@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#include "dsmc/kernel/sweep.h"
+#include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/segments.h"
 
 /* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
@@ -28,7 +28,7 @@ static void *new_blocks(const gg_population *p, gg_error *err)
 
 gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err)
 {
-  *e = (gg_ensemble){.n_species = model->n_species};
+  *e = (gg_ensemble){.n_species = model->n_species, .kernels = gg_kernels_for(gg_instructions_best())};
   size_t blocks = 0;
   for (int i = 0; i < e->n_species; i++) {
     gg_population *p = &e->of[i];
@@ -160,15 +160,16 @@ void gg_ensemble_scale(gg_ensemble *e, double factor)
 }
 
 /* The last block alone: its empty lanes stay 0. */
-static void settle_odd_block(gg_population *p, double drift, double scale, gg_vec centre, double unit, gg_sums *s)
+static void settle_odd_block(gg_sweep *sweep, gg_population *p, double drift, double scale, gg_vec centre, double unit,
+                             gg_sums *s)
 {
   const size_t last = p->n_blocks - 1;
   void *block = gg_blocks_at(p, p->c, last);
   gg_sums ignored = {0};
   float *top = &p->top[last];
-  gg_sweep_blocks(block, p->single, top, 1, drift, scale, centre, unit, &ignored);
+  sweep(block, top, 1, drift, scale, centre, unit, &ignored);
   for (uint32_t a = (uint32_t)p->n; a < p->n_blocks * GG_LANES; a++) gg_block_set(p, p->c, a, (gg_vec){0, 0, 0});
-  gg_sweep_blocks(block, p->single, top, 1, 0, 1, (gg_vec){0, 0, 0}, unit, s);
+  sweep(block, top, 1, 0, 1, (gg_vec){0, 0, 0}, unit, s);
 }
 
 typedef struct settling {
@@ -187,9 +188,9 @@ static void settle_segment(void *context, int part)
     gg_range r = gg_segment(p, w->e->segments, segment);
     bool odd = p->n % GG_LANES && segment == w->e->segments - 1;
     gg_sums s = {0};
-    gg_sweep_blocks(gg_blocks_at(p, p->c, r.first), p->single, p->top + r.first, r.n - odd, w->drift, w->scale,
-                    w->centre, w->unit, &s);
-    if (odd) settle_odd_block(p, w->drift, w->scale, w->centre, w->unit, &s);
+    gg_sweep *sweep = w->e->kernels->sweep[p->single];
+    sweep(gg_blocks_at(p, p->c, r.first), p->top + r.first, r.n - odd, w->drift, w->scale, w->centre, w->unit, &s);
+    if (odd) settle_odd_block(sweep, p, w->drift, w->scale, w->centre, w->unit, &s);
     w->of[segment][i] = s;
   }
 }

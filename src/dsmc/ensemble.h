@@ -48,6 +48,7 @@ typedef struct gg_ensemble {
   int segments;               /* that each species is cut into (segments.h): by size alone, 1 if small */
   int halves;                 /* that have met last, and may be in caches: the quarter that went with the first */
   struct gg_crew *crew;       /* that shares them; NULL: one thread does all */
+  const struct gg_kernel_set *kernels; /* for the instructions of this processor */
 } gg_ensemble;
 
 typedef struct gg_moments {

@@ -1,6 +1,6 @@
 #include "dsmc/thermostat.h"
 
-#include "dsmc/kernel/sweep.h"
+#include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/segments.h"
 
 enum { RUN = 64 }; /* blocks looked at together */
@@ -75,8 +75,8 @@ static void kick_segment(void *context, int part)
   for (int i = 0; i < w->e->n_species; i++) {
     gg_population *p = &w->e->of[i];
     gg_range r = gg_segment(p, w->e->segments, segment);
-    gg_kick_blocks(gg_blocks_at(p, p->c, r.first), p->single, p->top + r.first, r.n, w->drift, w->size, w->e->top_unit,
-                   &w->lanes[segment]);
+    w->e->kernels->kicks(gg_blocks_at(p, p->c, r.first), p->single, p->top + r.first, r.n, w->drift, w->size,
+                         w->e->top_unit, &w->lanes[segment]);
     if (segment < w->e->segments - 1) continue;
     for (size_t a = (size_t)p->n; a < p->n_blocks * GG_LANES; a++)
       gg_block_set(p, p->c, (uint32_t)a, (gg_vec){0, 0, 0});

@@ -2,23 +2,12 @@
 
 #include "simd/levels.h"
 
-static bool is_compiled(gg_instructions set)
-{
-#ifdef GG_HAVE_BASELINE
-  if (set == GG_BASELINE) return true;
-#endif
-#ifdef GG_HAVE_AVX2
-  if (set == GG_AVX2) return true;
-#endif
-#ifdef GG_HAVE_AVX512
-  if (set == GG_AVX512) return true;
-#endif
-  return false;
-}
+#define COMPILED(set, name) [set] = true,
+static const bool is_compiled[GG_INSTRUCTION_SETS] = {GG_EACH_COMPILED_SET(COMPILED)};
 
 bool gg_instructions_run_here(gg_instructions set)
 {
-  if (!is_compiled(set)) return false;
+  if (!is_compiled[set]) return false;
   return set == GG_BASELINE || (set == GG_AVX2 && gg_has_avx2()) || (set == GG_AVX512 && gg_has_avx512());
 }
 

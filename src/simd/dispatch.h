@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "common/error.h"
+#include "simd/compiled_sets.h" /* GG_EACH_COMPILED_SET(X): X(GG_AVX2, avx2) for each set in this build */
 
 typedef enum gg_instructions {
   GG_BASELINE, /* what every processor of the family has: SSE2, NEON */

@@ -1,5 +1,5 @@
-/* What this processor can do, in the levels that kernels are compiled for: x86-64-v3 (AVX2) and x86-64-v4 (AVX-512). The
- * compiler may use anything of a level, so all of it is asked for. */
+/* What this processor can do, in the levels that kernels are compiled for: x86-64-v3 (AVX2) and x86-64-v4 (AVX-512).
+ * The compiler may use anything of a level, so all of it is asked for. */
 #ifndef GG_SIMD_LEVELS_H
 #define GG_SIMD_LEVELS_H
 
@@ -19,8 +19,7 @@ static inline bool gg_has_avx512(void)
 {
 #if defined(__x86_64__)
   return gg_has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512cd");
+         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
 #else
   return false;
 #endif

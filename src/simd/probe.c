@@ -1,4 +1,5 @@
-/* Run when the build is configured: the best set of instructions that this machine has. The same tests as dispatch.c. */
+/* Run when the build is configured: the best set of instructions that this machine has. The same tests as dispatch.c.
+ */
 #include <stdio.h>
 
 #include "levels.h"

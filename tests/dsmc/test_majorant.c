@@ -129,7 +129,7 @@ static void forced_overflows_of_a_mixture(void **state)
   shear(GG_PATH_PLAIN, 0, 1, &plain);
   for (int i = 0; i < 4; i++) {
     mixed f = {0};
-    shear(i < 2 ? GG_PATH_PLAIN : GG_PATH_BASELINE, forced[i % 2], 2 + (uint64_t)i, &f);
+    shear(i < 2 ? GG_PATH_PLAIN : GG_PATH_BLOCKS, forced[i % 2], 2 + (uint64_t)i, &f);
     const struct {
       const char *name;
       lab_mean *forced, *plain;

@@ -205,7 +205,7 @@ static void segments_mix(void **state)
   lab_mean a2[2][3] = {{{0}}}, time[2][3] = {{{0}}};
   for (int seed = 0; seed < 100; seed++) {
     mix(GG_PATH_PLAIN, seed, a2[0], time[0]);
-    mix(GG_PATH_BASELINE, seed + 100, a2[1], time[1]);
+    mix(GG_PATH_BLOCKS, seed + 100, a2[1], time[1]);
   }
   for (int i = 0; i < 3; i++) {
     printf("# after %d collisions a grain\n", i + 1);

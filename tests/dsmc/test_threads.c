@@ -83,12 +83,11 @@ static void same_bits_of(gg_precision precision)
   s.dsmc.precision = precision;
   gg_model m = lab_model(&s);
   gg_archive first = {0};
-  for (int path = GG_PATH_BASELINE; path < GG_PATHS; path++) {
-    if (!gg_path_runs_here((gg_path)path)) continue;
+  for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
+    if (!gg_instructions_run_here(set)) continue;
     gg_engine *g = lab_engine(&m, 3);
-    gg_dsmc *d = (gg_dsmc *)g;
     gg_archive a = {0};
-    for (int p = 0; p < GG_PAIRS; p++) d->path[p] = (gg_path)path;
+    ((gg_dsmc *)g)->ensemble.kernels = gg_kernels_for(set);
     gg_dsmc_ops.threads(g, 2);
     lab_advance(g, INFINITY, (uint64_t)m.n);
     save(g, &a);

@@ -1,6 +1,6 @@
 /* The collision step on blocks: two random blocks, the lanes of one against those of the other in a random order, eight
- * candidates at once (block_contact.h). Compiled once for each set of instructions (GG_INSTRUCTIONS names it), and for
- * either precision (GG_SINGLE_LANES); all sets leave the same bits.
+ * candidates at once (block_contact.h). Compiled once for each collision rule (GG_RULE), set of instructions and
+ * precision (GG_SINGLE_LANES): GG_INSTANCES is what they are found by. All sets leave the same bits.
  *
  * Fairness. Each lane of one block meets each lane of the other with probability 1/8, and every pair of grains in
  * different blocks comes up equally often. Pairs within one block, and the last block where it is not full, go through
@@ -200,36 +200,24 @@ GG_INLINE void run(gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rn
   gg_lane_rng_save(&chance.rng, lanes);
 }
 
-/* The table of instances: rule x shear and tap x one or two species. */
-#define EACH_SAME(X, rule, shear, tap) X(rule, shear, tap, 0) X(rule, shear, tap, 1)
-#define EACH_FLOW(X, rule)                                                                                             \
-  EACH_SAME(X, rule, GG_UNSHEARED, GG_TAP_CLOSED)                                                                      \
-  EACH_SAME(X, rule, GG_UNSHEARED, GG_TAP_LOSS)                                                                        \
-  EACH_SAME(X, rule, GG_UNSHEARED, GG_TAP_STRESS)                                                                      \
-  EACH_SAME(X, rule, GG_SHEARED_DILUTE, GG_TAP_CLOSED)                                                                 \
-  EACH_SAME(X, rule, GG_SHEARED_DILUTE, GG_TAP_LOSS)                                                                   \
-  EACH_SAME(X, rule, GG_SHEARED_DENSE, GG_TAP_CLOSED)                                                                  \
-  EACH_SAME(X, rule, GG_SHEARED_DENSE, GG_TAP_LOSS)                                                                    \
-  EACH_SAME(X, rule, GG_SHEARED_DENSE, GG_TAP_STRESS)
-#define EACH(X) EACH_FLOW(X, GG_SMOOTH) EACH_FLOW(X, GG_ROUGH) EACH_FLOW(X, GG_FRICTIONAL)
+/* The instances: shear and tap x one or two species. What is not here, no scene needs. */
+#define EACH_SAME(X, shear, tap) X(shear, tap, 0) X(shear, tap, 1)
+#define EACH(X)                                                                                                        \
+  EACH_SAME(X, GG_UNSHEARED, GG_TAP_CLOSED)                                                                            \
+  EACH_SAME(X, GG_UNSHEARED, GG_TAP_LOSS)                                                                              \
+  EACH_SAME(X, GG_UNSHEARED, GG_TAP_STRESS)                                                                            \
+  EACH_SAME(X, GG_SHEARED_DILUTE, GG_TAP_CLOSED)                                                                       \
+  EACH_SAME(X, GG_SHEARED_DILUTE, GG_TAP_LOSS)                                                                         \
+  EACH_SAME(X, GG_SHEARED_DENSE, GG_TAP_CLOSED)                                                                        \
+  EACH_SAME(X, GG_SHEARED_DENSE, GG_TAP_LOSS)                                                                          \
+  EACH_SAME(X, GG_SHEARED_DENSE, GG_TAP_STRESS)
 
-#define INSTANCE(rule, shear, tap, same)                                                                               \
-  static void run_##rule##_##shear##_##tap##_##same(gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng)                   \
+#define INSTANCE(shear, tap, same)                                                                                     \
+  static void run_##shear##_##tap##_##same(gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng)                            \
   {                                                                                                                    \
-    run((gg_features){rule, shear, tap, same}, p, lanes, rng);                                                         \
+    run((gg_features){GG_RULE, shear, tap, same}, p, lanes, rng);                                                      \
   }
 EACH(INSTANCE)
 
-#ifdef GG_SINGLE_LANES
-#define NAME_OF(instructions) gg_collide_blocks_single_##instructions
-#else
-#define NAME_OF(instructions) gg_collide_blocks_##instructions
-#endif
-#define NAME(instructions) NAME_OF(instructions)
-
-gg_collide_blocks *NAME(GG_INSTRUCTIONS)(gg_features f)
-{
-#define ENTRY(rule, shear, tap, same) [rule][shear][tap][same] = run_##rule##_##shear##_##tap##_##same,
-  static gg_collide_blocks *const table[GG_FRICTIONAL + 1][GG_SHEARED_DENSE + 1][GG_TAP_STRESS + 1][2] = {EACH(ENTRY)};
-  return table[f.rule][f.shear][f.tap][f.same];
-}
+#define ENTRY(shear, tap, same) [shear][tap][same] = run_##shear##_##tap##_##same,
+const gg_collide_instances GG_INSTANCES = {.of = {EACH(ENTRY)}};

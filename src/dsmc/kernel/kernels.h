@@ -2,18 +2,23 @@
 #ifndef GG_DSMC_KERNELS_H
 #define GG_DSMC_KERNELS_H
 
+#include "dsmc/kernel/collide_blocks.h"
 #include "dsmc/kernel/pairing.h"
+#include "dsmc/kernel/sweep.h"
+#include "simd/dispatch.h"
 
-typedef enum gg_path {
-  GG_PATH_PLAIN,
-  GG_PATH_BASELINE, /* blocks, with the instructions that every processor has */
-  GG_PATH_AVX2,
-  GG_PATH_AVX512,
-  GG_PATHS
-} gg_path;
+/* One pair of grains after another, or two blocks at a time. */
+typedef enum gg_path { GG_PATH_PLAIN, GG_PATH_BLOCKS } gg_path;
 
-/* Can this processor take it? */
-bool gg_path_runs_here(gg_path path);
+/* What is compiled once for each set of instructions; by precision (double, single) and rule. */
+typedef struct gg_kernel_set {
+  const gg_collide_instances *collide[2][GG_FRICTIONAL + 1];
+  gg_sweep *sweep[2];
+  gg_kicks *kicks;
+} gg_kernel_set;
+
+/* Of a set that runs here (simd/dispatch.h). */
+const gg_kernel_set *gg_kernels_for(gg_instructions set);
 /* The fastest one for a pair of species: plain where either has fewer than a hundred blocks, which would meet again too
  * soon. */
 gg_path gg_path_choose(const gg_population *one, const gg_population *two);
@@ -25,6 +30,7 @@ double gg_block_candidates(gg_range one, gg_range two, bool themselves);
 /* Largest rate, in the path's measure, of a pair whose relative speed is `speed`. */
 double gg_rate_bound(gg_path path, gg_features f, double speed, double shift);
 
-void gg_collide(gg_path path, gg_features f, gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng);
+void gg_collide(const gg_kernel_set *kernels, gg_path path, gg_features f, gg_pairing *p, gg_rng_lanes *lanes,
+                gg_rng *rng);
 
 #endif

@@ -4,6 +4,7 @@
 #define GG_DSMC_SWEEP_H
 
 #include "dsmc/kernel/pairing.h"
+#include "simd/compiled_sets.h"
 
 typedef struct gg_sums {
   gg_block c;                             /* sum of C */
@@ -14,17 +15,14 @@ typedef struct gg_sums {
  * `unit`. */
 typedef void gg_sweep(void *c, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
                       gg_sums *sums);
-gg_sweep gg_sweep_baseline, gg_sweep_avx2, gg_sweep_avx512;
-gg_sweep gg_sweep_single_baseline, gg_sweep_single_avx2, gg_sweep_single_avx512;
 
 /* C += size (n_x, n_y, n_z) with normal n, for full blocks stored with `drift`; tops in `unit`. Computed in double. */
 typedef void gg_kicks(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
                       gg_rng_lanes *lanes);
-gg_kicks gg_kicks_baseline, gg_kicks_avx2, gg_kicks_avx512;
 
-/* By this processor's best. */
-void gg_sweep_blocks(void *c, bool single, float *top, size_t n, double drift, double scale, gg_vec centre, double unit,
-                     gg_sums *sums);
-gg_kicks gg_kick_blocks;
+#define GG_DECLARE_SWEEPS(set, name)                                                                                   \
+  gg_sweep gg_sweep_##name, gg_sweep_single_##name;                                                                    \
+  gg_kicks gg_kicks_##name;
+GG_EACH_COMPILED_SET(GG_DECLARE_SWEEPS)
 
 #endif

@@ -87,7 +87,7 @@ static void collide(gg_rounds *r, const gg_turn *turn, double drift, int one, in
   p.drift = drift + 0.5 * p.drift_step;
   gg_ensemble_drift_tops(&at->tops, drift);
   p.top_unit = at->tops.top_unit;
-  gg_collide(s->path, s->f, &p, &t->lanes[at->first], &at->rng);
+  gg_collide(r->d->ensemble.kernels, s->path, s->f, &p, &t->lanes[at->first], &at->rng);
   at->tops.top_unit = fmax(p.top_unit, at->tops.top_unit * gg_top_growth(span));
   at->tops.top_drift = drift + span;
   add(&r->sum[at->first][pair], &p);
