@@ -42,7 +42,7 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     e->node[i].time = INFINITY;
     gg_queue_insert(&e->queue, e->node, i);
   }
-  e->predict_all(e);
+  e->kernel->predict_all(e);
   return GG_OK;
 }
 
@@ -78,14 +78,14 @@ static void go_on_with_kicks(gg_md *e)
   double beyond = e->stop - e->k.next_kick;
   while (beyond >= 0) {
     e->stop = e->k.next_kick;
-    e->motion(e);
+    e->kernel->run(e);
     if (!e->collisions_left) return;
     e->k.now = e->k.next_kick;
     gg_md_thermostat_kick(e);
     beyond -= e->k.next_kick - e->k.now;
   }
   e->stop = e->k.next_kick + beyond;
-  e->motion(e);
+  e->kernel->run(e);
 }
 
 /* A run stands at the end of the advance, or at the last collision allowed to it. */
@@ -101,7 +101,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   if (e->thermostat == GG_WHITE_NOISE)
     go_on_with_kicks(e);
   else
-    e->motion(e);
+    e->kernel->run(e);
   if (e->out_of_memory) return gg_fail(err, GG_FAILED, "out of memory: a cell of the grid could not grow");
   bool whole = e->collisions_left && e->stop < INFINITY;
   if (whole) e->k.now = e->stop;

@@ -1,7 +1,7 @@
 /* The grid that suits a model, and the grains' places in it. */
 #include <math.h>
 
-#include "md/shared_rows.h"
+#include "md/members_of_rows.h"
 
 /* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists;
  * in between plain cells, from 0.25 on of a contact distance, below with this many grains: fewer crossings against more

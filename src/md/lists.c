@@ -1,13 +1,12 @@
-#include "md/lists.h"
-
-#include "md/loop.h"
+/* All lists anew: the searches of search/list_update.h for any boundary and mixture. */
+#include "md/search/list_update.h"
 
 /* Lists from cells that are there, all shells being new. False: some list is too long. */
-static bool fill_lists(gg_md *e, gg_features f)
+static bool fill_lists(gg_md *e)
 {
   uint32_t found[GG_FOUND];
   for (uint32_t i = 0; i < e->n; i++) {
-    uint32_t count = gg_search_shell(e, f, i, found), *list = gg_list(e, i);
+    uint32_t count = gg_search_shell(e, i, found), *list = gg_list(e, i);
     if (count > GG_LIST) return false;
     gg_list_clear(e, i);
     for (uint32_t k = 0; k < count; k++) list[k] = found[k];
@@ -28,8 +27,7 @@ void gg_md_set_shells(gg_md *e, double radius)
 
 void gg_md_build_lists(gg_md *e)
 {
-  gg_features f = {.sheared = e->model.shear_rate != 0, .mixture = e->model.n_species > 1, .listed = true};
-  for (uint32_t i = 0; i < e->n; i++) gg_new_shell(e, f, i);
+  for (uint32_t i = 0; i < e->n; i++) gg_new_shell(e, i);
   gg_md_fill_grid(e);
-  while (!fill_lists(e, f)) gg_md_set_shells(e, 0.95 * e->shell_radius);
+  while (!fill_lists(e)) gg_md_set_shells(e, 0.95 * e->shell_radius);
 }

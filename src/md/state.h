@@ -47,10 +47,11 @@ typedef struct gg_md gg_md;
 typedef void gg_impact(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12);
 /* What happens to a grain in contact with the lower (0) or upper (1) wall. */
 typedef void gg_wall_impact(gg_md *e, uint32_t i, int upper);
-/* Predict every grain's next event. */
-typedef void gg_forecast(gg_md *e);
-/* Handle events until e->stop or until e->collisions_left is used up. */
-typedef void gg_motion(gg_md *e);
+/* An instance of the event loop (kernels.h). */
+typedef struct gg_md_kernel {
+  void (*run)(gg_md *e);         /* handle events until e->stop or until e->collisions_left is used up */
+  void (*predict_all)(gg_md *e); /* predict every grain's next event */
+} gg_md_kernel;
 
 /* Plain data beside the arrays: goes into a checkpoint as it is. */
 typedef struct gg_md_counts {
@@ -105,8 +106,7 @@ struct gg_md {
   bool plain;               /* one pair at a time, the reference for the tests */
   bool shared;              /* the cells overlap (shared.h) */
   bool out_of_memory;       /* a cell could not grow: the run is over */
-  gg_motion *motion;
-  gg_forecast *predict_all;
+  const gg_md_kernel *kernel;
   gg_impact *impact;
   gg_wall_impact *wall_impact;
   gg_watch *watch; /* sees every collision; NULL: nobody does, and `impact` is not wrapped */
@@ -163,8 +163,9 @@ double gg_md_bucket_width(double events_per_time);
 gg_impact gg_md_show_impact;
 gg_status gg_md_watch(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
 
-/* kernels.c: choose the kernels that this model and tap need. */
+/* kernels.c: choose the kernels that this model and tap need; impacts.c: the part that concerns contacts. */
 void gg_md_select(gg_md *e);
+void gg_md_select_impacts(gg_md *e);
 
 /* Where cell 0 of a row that drifts begins now. */
 GG_INLINE double gg_row_begins(const gg_md *e, int32_t y)

@@ -59,6 +59,6 @@ void gg_md_thermostat_kick(gg_md *e)
     mass += m;
   }
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
-  e->predict_all(e);
+  e->kernel->predict_all(e);
   e->k.next_kick += kick_interval(e);
 }

@@ -17,12 +17,12 @@ static gg_scene scene_of(enum gg_boundary boundary, bool mixture)
   return s;
 }
 
-static uint64_t run_with(const gg_model *m, const gg_kernel *kernel)
+static uint64_t run_with(const gg_model *m, const gg_md_kernel *kernel)
 {
   gg_md *e = md_create(m, 3);
   e->plain = kernel == NULL;
   gg_md_select(e);
-  if (kernel) e->motion = kernel->run, e->predict_all = kernel->predict_all;
+  if (kernel) e->kernel = kernel;
   md_collide(e, 20000);
   uint64_t hash = md_hash(e);
   md_destroy(e);
@@ -36,9 +36,9 @@ static void wide_is_plain(void **state)
     for (int mixture = 0; mixture < 2; mixture++) {
       gg_scene s = scene_of(boundary, mixture);
       gg_model m = md_model_of(&s);
-      gg_kernel wide =
-          gg_md_wide(gg_instructions_best(), boundary, mixture, boundary == GG_SHEARED ? GG_DRIFTING_CELLS : GG_CELLS);
-      if (run_with(&m, NULL) != run_with(&m, &wide)) fail_msg("boundary %d, mixture %d", boundary, mixture);
+      const gg_md_kernel *simd = gg_md_simd_kernel(
+          gg_instructions_best(), boundary == GG_SHEARED ? GG_DRIFTING_CELLS : GG_CELLS, boundary, mixture);
+      if (run_with(&m, NULL) != run_with(&m, simd)) fail_msg("boundary %d, mixture %d", boundary, mixture);
     }
 }
 
@@ -55,8 +55,7 @@ static void instruction_sets_agree(void **state)
       uint64_t hash = 0;
       for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
         if (!gg_instructions_run_here(set)) continue;
-        gg_kernel kernel = gg_md_wide(set, boundary, false, where);
-        uint64_t its = run_with(&m, &kernel);
+        uint64_t its = run_with(&m, gg_md_simd_kernel(set, where, boundary, false));
         if (hash && its != hash) fail_msg("%s, search %d", gg_instructions_name(set), (int)where);
         hash = its;
       }

@@ -1,46 +1,9 @@
-/* Cells that overlap (shared.h), in a dilute gas under shear: rows of them along x, each of which moves with the mean
- * flow at its middle. Two grains that touch are together in the layer of one row, which reaches half a contact distance
- * beyond its faces, and there share a cell of that row. So each row is on its own, wherever the others have slipped to;
- * and across the sheared boundary the next row is the image of the last one on the other side.
- *
- * A grain is in one row or in two, node->cell[1] and the next; in the lower one in cell node->cell[0], in the upper one
- * in node->upper. There are four lanes: along x in the lower row, along y, along z, along x in the upper row; bit a of
- * node->neighbours tells whether the grain is in the next cell along lane a, too. */
-#ifndef GG_MD_SHARED_ROWS_H
-#define GG_MD_SHARED_ROWS_H
+/* Searching cells that overlap, in rows that move with the flow (members_of_rows.h). */
+#ifndef GG_MD_SEARCH_OVERLAPPING_ROWS_H
+#define GG_MD_SEARCH_OVERLAPPING_ROWS_H
 
-#include "md/rows.h"
-#include "md/shared.h"
-
-/* Of a step: x and y of the lower and the upper row. Lane 4: nowhere. */
-enum { GG_LOWER_X, GG_ALONG_Y, GG_ALONG_Z, GG_UPPER_X, GG_NO_LANE };
-
-/* Numbers of cells: bit 0 is x, bit 1 the row, bit 2 z. Which of them a grain is in. */
-GG_INLINE uint32_t gg_numbers_in_rows(uint32_t both)
-{
-  uint32_t lower = 1 | (both & 1) << 1, upper = (both >> 1 & 1) * (4 | (both & 8));
-  return (lower | upper) * (1 + ((both & 4) << 2));
-}
-
-GG_INLINE void gg_rows_cells(const gg_md *e, const gg_node *node, gg_members *in)
-{
-  const uint32_t *lower = e->cells.part[0] + node->cell[0], *upper = e->cells.part[0] + node->upper,
-                 *y = e->cells.part[1] + node->cell[1], *z = e->cells.part[2] + node->cell[2];
-  for (int deep = 0; deep < 2; deep++) {
-    uint32_t one = y[0] + z[deep], two = y[1] + z[deep], *index = in->index + 4 * deep;
-    index[0] = lower[0] + one, index[1] = lower[1] + one;
-    index[2] = upper[0] + two, index[3] = upper[1] + two;
-  }
-  in->which = gg_numbers_in_rows(node->neighbours);
-}
-
-/* The grain's lower row, counted from those of the image of the box that it is stored in: -1 .. n_y. It comes into the
- * box when it next changes rows. */
-GG_INLINE int32_t gg_lower_row(const gg_md *e, const gg_node *node, double y)
-{
-  double depth = y - node->cell[1] * e->cells.width[1];
-  return node->cell[1] + (int32_t)gg_nearest(depth * e->box.inverse[1]) * e->cells.n[1];
-}
+#include "md/members_of_rows.h"
+#include "md/search/overlapping.h"
 
 /* From the lower edges of its lower cells to where a grain is, and how fast that grows, in each lane. */
 typedef struct gg_footing {
@@ -107,41 +70,12 @@ GG_INLINE int gg_rows_trim(gg_md *e, uint32_t i, int lane, int up, gg_members *i
 }
 
 /* All who share a cell with the grain, after it has been taken out of cells that it has left. */
-GG_INLINE void gg_rows_scan(gg_md *e, gg_features f, gg_search *s)
+GG_INLINE void gg_md_search_all(gg_md *e, gg_search *s)
 {
   gg_members in;
   gg_rows_trim(e, s->grain, GG_NO_LANE, 0, &in);
-  gg_shared_take(e, f, s, &in);
-}
-
-/* The cell of a row in which the place x is now; *both: in the next one, too. Row -1 and row n_y are images. */
-GG_INLINE int32_t gg_place_in_row(const gg_md *e, int32_t row, double x, uint32_t *both)
-{
-  double w = e->cells.width[0], half = 0.5 * e->cells.reach;
-  double depth = gg_wrap(x - gg_row_begins(e, row), e->box.edge[0], e->box.inverse[0]);
-  int32_t cell = (int32_t)(depth * e->cells.inverse[0]);
-  depth -= cell * w;
-  bool under = depth < half;
-  *both = under | (depth > w - half);
-  return gg_drifting_index(e, cell - under);
-}
-
-/* The cells of a place in the box. */
-GG_INLINE void gg_rows_place(const gg_md *e, gg_vec r, gg_node *node)
-{
-  double half = 0.5 * e->cells.reach;
-  uint32_t both[2];
-  gg_md_cell_of(&e->cells, r, node->cell);
-  node->neighbours = 0;
-  for (int a = 1; a < 3; a++) {
-    double depth = gg_along(&r, a) - node->cell[a] * e->cells.width[a];
-    if (depth < half && node->cell[a]-- == 0) node->cell[a] += e->cells.n[a];
-    if (depth < half || depth > e->cells.width[a] - half) node->neighbours |= 1u << a;
-  }
-  int32_t row = gg_lower_row(e, node, r.y);
-  node->cell[0] = gg_place_in_row(e, row, r.x, &both[0]);
-  node->upper = gg_place_in_row(e, row + 1, r.x, &both[1]);
-  node->neighbours |= both[0] | (node->neighbours & 2 ? both[1] << 3 : 0);
+  gg_shared_take(e, s, &in);
+  gg_scan_near(e, s);
 }
 
 /* Into the row above or below those that the grain is in. */
@@ -162,7 +96,7 @@ GG_INLINE void gg_enter_row(gg_md *e, gg_node *node, const gg_grain *g, int up)
 }
 
 /* Into the next cell along a lane: those who are there. */
-GG_INLINE bool gg_rows_cross(gg_md *e, gg_features f, gg_search *s, int lane, int up)
+GG_INLINE bool gg_rows_cross(gg_md *e, gg_search *s, int lane, int up)
 {
   static const uint32_t fresh[4][2] = {{0x11, 0x22}, {0x33, 0xcc}, {0x0f, 0xf0}, {0x44, 0x88}};
   gg_node *node = &e->node[s->grain];
@@ -178,12 +112,12 @@ GG_INLINE bool gg_rows_cross(gg_md *e, gg_features f, gg_search *s, int lane, in
   }
   gg_rows_cells(e, node, &in);
   in.which &= fresh[lane][up];
-  gg_shared_take(e, f, s, &in);
+  gg_shared_take(e, s, &in);
   return gg_shared_enter(e, s->grain, &in);
 }
 
 /* When the grain comes into another cell, and along which lane, which way. */
-GG_INLINE double gg_rows_next(const gg_md *e, const gg_search *s, int32_t *face)
+GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t *face)
 {
   const gg_node *node = &e->node[s->grain];
   gg_footing f = gg_stand(e, node, s->self);
@@ -202,9 +136,9 @@ GG_INLINE double gg_rows_next(const gg_md *e, const gg_search *s, int32_t *face)
 }
 
 /* gg_settle, and into the box along the lane of a step; with an image above or below goes its velocity. */
-GG_INLINE gg_grain *gg_settle_in_rows(gg_md *e, gg_features f, uint32_t i, int lane)
+GG_INLINE gg_grain *gg_settle_in_rows(gg_md *e, uint32_t i, int lane)
 {
-  gg_grain *g = gg_settle(e, f, i);
+  gg_grain *g = gg_settle(e, i);
   if (lane == GG_ALONG_Z) {
     g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
     return g;
@@ -219,6 +153,30 @@ GG_INLINE gg_grain *gg_settle_in_rows(gg_md *e, gg_features f, uint32_t i, int l
   }
   g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
   return g;
+}
+
+/* Into another cell that overlaps with those that the grain is in. */
+GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
+{
+  const gg_node *node = &e->node[i];
+  gg_search s = {.near = e->near};
+  int lane = node->face >> 1, up = node->face & 1;
+  gg_begin_search(&s, i, gg_settle_in_rows(e, i, lane), node->collision, node->partner);
+  gg_md_check_memory(e, gg_rows_cross(e, &s, lane, up));
+  gg_scan_near(e, &s);
+  gg_md_schedule(e, &s);
+}
+
+GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_node *node, int *axis, int32_t at[3])
+{
+  if (*axis == GG_ALONG_Y) return false; /* the cell there depends on how far its row has moved */
+  if (*axis == GG_UPPER_X) *axis = 0, at[0] = node->upper, at[1] = gg_cell_after(e, 1, at[1]);
+  return true;
+}
+
+GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i)
+{
+  __builtin_prefetch(&e->grain[i]);
 }
 
 #endif

@@ -1,185 +1,14 @@
-/* Neighbour lists for dense systems: who can be met before one of both leaves its shell.
- *
- * Each grain has a shell of radius s around where it stood when its list was made; the list holds everybody whose
- * shell centre then lay within rho = sigma + 2 s of its own, and is symmetric. While two grains that are not listed
- * stay in their shells they cannot touch. A grain that leaves its shell gets a new one, and lists are mended.
- *
- * Under shear the centres move with the flow at their height, and shells shrink at the rate kappa = shear_rate rho/4:
- * two centres at a distance R approach at most at shear_rate R/2, so what holds at the making holds until the exit. A
- * centre is kept by where it stood at the epoch's start, which does not change: the cells of the centres are at rest.
- *
- * Predictions take the whole list, eight at a time. */
-#ifndef GG_MD_LISTS_H
-#define GG_MD_LISTS_H
+/* Neighbour lists kept up to date: who is within reach of a new skin, and whose lists change by that. */
+#ifndef GG_MD_SEARCH_LIST_UPDATE_H
+#define GG_MD_SEARCH_LIST_UPDATE_H
 
 #include "md/axes.h"
 #include "md/batch.h"
-#include "md/scan.h"
+#include "md/search/candidates.h"
 
 GG_INLINE uint32_t *gg_list(const gg_md *e, uint32_t i)
 {
   return e->neighbour + (size_t)i * GG_LIST;
-}
-
-/* Where shell i's centre is at the present time. */
-GG_INLINE gg_vec gg_centre(const gg_md *e, gg_features f, uint32_t i)
-{
-  gg_vec c = e->shell[i].centre;
-  if (f.sheared) c.x += e->model.shear_rate * (c.y - 0.5 * e->box.edge[1]) * e->k.now;
-  return c;
-}
-
-/* When the grain leaves its shell: |dr + dv t| = s - kappa t, root without cancellation. */
-GG_INLINE double gg_shell_exit(const gg_md *e, gg_features f, uint32_t i, const gg_grain *g)
-{
-  gg_vec centre = gg_centre(e, f, i), dr = gg_sub(g->r, centre), dv = g->v;
-  double radius = e->shell_radius, kappa = f.sheared ? e->shrinkage : 0;
-  if (f.sheared) {
-    dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]); /* the centre is kept wrapped */
-    dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);
-    radius -= kappa * (e->k.now - e->node[i].shell_built);
-  }
-  double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
-  double c = gg_dot(dr, dr) - radius * radius;
-  if (!(c < 0) || radius < 0) return e->k.now;
-  double root = sqrt(b * b - a * c);
-  bool out = b > 0; /* half of all: no branch */
-  double delay = (out ? -c : root - b) / (out ? b + root : a);
-  return (out | (a > 0)) ? e->k.now + delay : INFINITY;
-}
-
-/* What a pointer points at is loaded where it is used: a constant kept in all lanes of a register would only push out
- * others. */
-#define GG_RELOAD(pointer) __asm__("" : "+r"(pointer))
-
-/* Eight grains of a list against s->self, images accounted for. */
-GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, gg_features f, const gg_search *s, const uint32_t *list,
-                                    double offset)
-{
-  const gg_grain *g = s->self;
-  const double *L = e->box.edge, *inverse = e->box.inverse, *sigma2 = e->contacts.sigma2;
-  GG_RELOAD(L);
-  GG_RELOAD(inverse);
-  GG_RELOAD(sigma2);
-  gg_batch b = gg_gather(e->grain, list);
-  gg_v8 dt = e->k.now - b.t;
-  gg_v8 x = b.x + dt * b.vx - g->r.x, y = b.y + dt * b.vy - g->r.y, z = b.z + dt * b.vz - g->r.z;
-  gg_v8 vx = b.vx - g->v.x, vy = b.vy - g->v.y, vz = b.vz - g->v.z;
-  if (f.gravity) {
-    gg_v8 half = 0.5 * dt * dt;
-    x = (b.x + dt * b.vx + half * e->gravity.x) - g->r.x, vx = (b.vx + dt * e->gravity.x) - g->v.x;
-    y = (b.y + dt * b.vy + half * e->gravity.y) - g->r.y, vy = (b.vy + dt * e->gravity.y) - g->v.y;
-    z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
-  }
-  if (f.drifts && f.inside) {
-    x -= L[0] * gg_nearest8(x * inverse[0]); /* rows may have carried them apart by several edges: not exact if fused */
-  } else if (f.sheared) {
-    gg_v8 layers = gg_nearest8(y * inverse[1]);
-    y -= L[1] * layers;
-    x -= layers * offset;
-    x -= L[0] * gg_nearest8(x * inverse[0]);
-    vx -= layers * e->box.slide;
-  } else if (!f.inside) {
-    x = f.drifts ? x - L[0] * gg_nearest8(x * inverse[0]) : gg_fold8(x, L[0], inverse[0]);
-    if (!f.walled) y = gg_fold8(y, L[1], inverse[1]);
-  }
-  if (!f.inside) z = gg_fold8(z, L[2], inverse[2]);
-  gg_v8 touch2 = gg_all(sigma2[0]);
-  if (f.mixture) {
-    int species = gg_species_of(g);
-    double s0 = sigma2[2 * species], s1 = sigma2[2 * species + 1];
-    touch2 = gg_choose(gg_odd8(b.tag), gg_all(s1), gg_all(s0));
-  }
-  return gg_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
-}
-
-/* A contact against the earliest known. */
-GG_INLINE void gg_take_contact(gg_search *s, double t, int64_t partner)
-{
-  if (t < s->collision || (t == s->collision && t < INFINITY && partner < s->partner)) {
-    s->collision = t;
-    s->partner = (uint32_t)partner;
-  }
-}
-
-/* Exact times of a batch. */
-GG_INLINE void gg_take_batch(const gg_md *e, gg_search *s, gg_quadratic q, gg_m8 who)
-{
-  int64_t partner;
-  double t = gg_earliest8(e->k.now + gg_contact_delay8(q), who, &partner);
-  gg_take_contact(s, t, partner);
-}
-
-/* The exact time of one lane, which is with `who`. */
-GG_INLINE void gg_take_lane(const gg_md *e, gg_search *s, const gg_quadratic *q, uint32_t lane, uint32_t who)
-{
-  double delay = q->c[lane] / (sqrt(q->discriminant[lane]) - q->b[lane]);
-  gg_take_contact(s, e->k.now + (delay > 0 ? delay : 0), who);
-}
-
-GG_INLINE gg_m8 gg_who8(const uint32_t *list)
-{
-  return __builtin_convertvector(*(const gg_list8 *)list, gg_m8);
-}
-
-/* Of several batches, by lane: how soon the earliest contact is, labelled by where it stands in the list, and the
- * second; and the first one's quadratic. */
-typedef struct gg_foremost {
-  gg_v8 soonest, second;
-  gg_quadratic q;
-} gg_foremost;
-
-GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, gg_m8 place)
-{
-  gg_v8 soon = gg_label8(gg_how_soon8(q), place);
-  gg_k8 sooner = gg_less8(best->soonest, soon);
-  best->second = gg_larger8(best->second, gg_smaller8(soon, best->soonest));
-  best->soonest = gg_larger8(soon, best->soonest);
-  best->q.b = gg_choose(sooner, q.b, best->q.b);
-  best->q.c = gg_choose(sooner, q.c, best->q.c);
-  best->q.discriminant = gg_choose(sooner, q.discriminant, best->q.discriminant);
-}
-
-/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place.
- * Which it is, is seen from about when the contacts are; where that leaves doubt, all are worked out. */
-GG_INLINE void gg_scan_batches(const gg_md *e, gg_features f, gg_search *s, const uint32_t *list, uint32_t count)
-{
-  double offset = f.sheared ? gg_offset(&e->box, e->k.now) : 0;
-  gg_v8 never = gg_all(0);
-  gg_foremost best = {never, never, {never, never, never}};
-  gg_m8 place = {0, 1, 2, 3, 4, 5, 6, 7};
-  for (uint32_t k = 0; k < count; k += GG_BATCH, place += GG_BATCH) {
-    gg_quadratic q = gg_try_batch(e, f, s, list + k, offset);
-    if (f.shared && !gg_any8(gg_meets8(q))) continue; /* few are in the way */
-    gg_compare_batch(&best, q, place);
-  }
-  gg_v8 first = gg_greatest8(best.soonest);
-  if (!(first[0] >= GG_SOON_AT_ALL)) return;
-  uint32_t at = gg_label_of(first[0]), lane = at % GG_BATCH;
-  gg_v8 limit = (1 - 4 * GG_ABOUT) * first;
-  uint32_t lanes = gg_lanes8(gg_not_above8(limit, best.soonest));
-  bool alone = !(lanes & (lanes - 1)) && first[0] < GG_AT_ONCE;
-  if (__builtin_expect(alone && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
-    gg_take_lane(e, s, &best.q, lane, list[at]);
-    return;
-  }
-  for (uint32_t k = 0; k < count; k += GG_BATCH)
-    gg_take_batch(e, s, gg_try_batch(e, f, s, list + k, offset), gg_who8(list + k));
-}
-
-/* Those that cells were searched for. */
-GG_INLINE void gg_scan_near(const gg_md *e, gg_features f, gg_search *s)
-{
-  for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = e->n;
-  gg_features still = f, inside = f;
-  still.sheared = inside.sheared = false;
-  inside.inside = true;
-  if (!f.shared && s->inside)
-    gg_scan_batches(e, inside, s, s->near, s->n_near);
-  else if (f.drifts && !f.shared && s->regular)
-    gg_scan_batches(e, still, s, s->near, s->n_near);
-  else
-    gg_scan_batches(e, f, s, s->near, s->n_near);
 }
 
 /* Everybody in the cells that can hold centres within rho of shell i's, under shear, as far as there is room. */
@@ -286,28 +115,28 @@ GG_INLINE void gg_gather_centres(const gg_shell *shell, const uint32_t *index, g
 enum { GG_FOUND = GG_LIST + 1 + GG_BATCH };
 
 /* Everybody whose centre lies within rho of shell i's: ids into found[GG_FOUND]; more than GG_LIST: too many. */
-GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, uint32_t *found)
+GG_INLINE uint32_t gg_search_shell(const gg_md *e, uint32_t i, uint32_t *found)
 {
   gg_search s = {.near = e->near};
-  if (f.sheared)
+  if (IS_SHEARED)
     gg_collect_sheared(e, i, &s);
   else
     gg_collect_near(e, i, &s);
   uint32_t *near = s.near, n = s.n_near, count = 0;
   const gg_vec centre = e->shell[i].centre;
   const double *L = e->box.edge, *inverse = e->box.inverse;
-  double strain = f.sheared ? e->model.shear_rate * e->k.now : 0;
-  int species = f.mixture ? gg_species_of(&e->grain[i]) : 0;
+  double strain = IS_SHEARED ? e->model.shear_rate * e->k.now : 0;
+  int species = IS_MIXTURE ? gg_species_of(&e->grain[i]) : 0;
   for (int l = 0; l < GG_BATCH; l++) near[n + (uint32_t)l] = e->n;
   for (uint32_t k = 0; k < n && count <= GG_LIST; k += GG_BATCH) {
     gg_v8 x, y, z, reach = gg_all(e->pair_reach[0]);
     gg_gather_centres(e->shell, near + k, &x, &y, &z);
-    for (int l = 0; f.mixture && l < GG_BATCH; l++)
+    for (int l = 0; IS_MIXTURE && l < GG_BATCH; l++)
       reach[l] = e->pair_reach[species + gg_species_of(&e->grain[near[k + (uint32_t)l]])];
     x -= centre.x, y -= centre.y, z -= centre.z;
     gg_v8 layers = gg_nearest8(y * inverse[1]);
     y -= L[1] * layers;
-    if (f.sheared) x += strain * y - layers * e->box.offset0;
+    if (IS_SHEARED) x += strain * y - layers * e->box.offset0;
     x -= L[0] * gg_nearest8(x * inverse[0]);
     z -= L[2] * gg_nearest8(z * inverse[2]);
     count += gg_pick8(found + count, near + k, i, gg_less8(x * x + y * y + z * z, reach * reach));
@@ -316,21 +145,21 @@ GG_INLINE uint32_t gg_search_shell(const gg_md *e, gg_features f, uint32_t i, ui
 }
 
 /* The shell of grain i anew, around where it now is: image in the box, centre, cell (not yet in the chains). */
-GG_INLINE void gg_new_shell(gg_md *e, gg_features f, uint32_t i)
+GG_INLINE void gg_new_shell(gg_md *e, uint32_t i)
 {
-  gg_grain *g = gg_settle(e, f, i);
+  gg_grain *g = gg_settle(e, i);
   gg_node *node = &e->node[i];
   gg_shell *shell = &e->shell[i];
   double layers = gg_floor(g->r.y * e->box.inverse[1]);
   g->r.y -= layers * e->box.edge[1];
-  if (f.sheared && layers != 0) {
+  if (IS_SHEARED && layers != 0) {
     g->r.x -= layers * gg_offset(&e->box, e->k.now);
     g->v.x -= layers * e->box.slide;
   }
   g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
   g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
   gg_vec centre = g->r;
-  if (f.sheared) {
+  if (IS_SHEARED) {
     centre.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]) * e->k.now;
     centre.x = gg_wrap(centre.x, e->box.edge[0], e->box.inverse[0]);
   }

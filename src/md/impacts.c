@@ -1,0 +1,64 @@
+/* The instances of what a contact does, and which of them a scene needs. */
+#include <assert.h>
+
+#include "md/impact.h"
+
+#define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
+  static void rule##_##mixture##contact_time##tap##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)   \
+  {                                                                                                                    \
+    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap, gaussian, false}, i, j, dr, c12);         \
+  }
+#define FOUR(rule, mixture, contact_time)                                                                              \
+  IMPACT(rule, mixture, contact_time, 0, 0)                                                                            \
+  IMPACT(rule, mixture, contact_time, 0, 1)                                                                            \
+  IMPACT(rule, mixture, contact_time, 1, 0)                                                                            \
+  IMPACT(rule, mixture, contact_time, 1, 1)
+#define WALL(rule, contact_time, tap)                                                                                  \
+  static void rule##_wall##contact_time##tap(gg_md *e, uint32_t i, int upper)                                          \
+  {                                                                                                                    \
+    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, false}, i, upper);                    \
+  }                                                                                                                    \
+  static void rule##_spinning##contact_time##tap(gg_md *e, uint32_t i, int upper)                                      \
+  {                                                                                                                    \
+    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, rule != GG_SMOOTH}, i, upper);        \
+  }
+#define INSTANCES(rule)                                                                                                \
+  FOUR(rule, 0, 0)                                                                                                     \
+  FOUR(rule, 0, 1) FOUR(rule, 1, 0) FOUR(rule, 1, 1) WALL(rule, 0, 0) WALL(rule, 0, 1) WALL(rule, 1, 0) WALL(rule, 1, 1)
+INSTANCES(GG_SMOOTH)
+INSTANCES(GG_ROUGH)
+INSTANCES(GG_FRICTIONAL)
+
+/* By rule, mixture, contact time, tap, Gaussian thermostat. */
+#define PAIR(x)                                                                                                        \
+  {                                                                                                                    \
+    {x##00, x##01},                                                                                                    \
+    {                                                                                                                  \
+      x##10, x##11                                                                                                     \
+    }                                                                                                                  \
+  }
+#define ROW(rule)                                                                                                      \
+  {                                                                                                                    \
+    {PAIR(rule##_00), PAIR(rule##_01)},                                                                                \
+    {                                                                                                                  \
+      PAIR(rule##_10), PAIR(rule##_11)                                                                                 \
+    }                                                                                                                  \
+  }
+static gg_impact *const impacts[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+#undef ROW
+#define ROW(rule) PAIR(rule##_wall)
+static gg_wall_impact *const wall_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+#undef ROW
+#define ROW(rule) PAIR(rule##_spinning)
+static gg_wall_impact *const spinning_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+
+void gg_md_select_impacts(gg_md *e)
+{
+  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
+  gg_rule rule = e->model.rule;
+  assert((rule != GG_SMOOTH) == (e->spin != NULL));
+  e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
+  e->watched = e->impact;
+  if (e->watch) e->impact = gg_md_show_impact;
+  e->wall_impact = e->spin ? spinning_impacts[rule][timed][tap] : wall_impacts[e->model.wall_rule][timed][tap];
+}

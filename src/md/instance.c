@@ -1,0 +1,20 @@
+/* One instance of the event loop: compiled once for each row of the table in meson.build (search/features.h). */
+#include GG_WAY
+
+#include "md/event_loop.h"
+
+#define JOIN2(a, b) a##b
+#define JOIN(a, b) JOIN2(a, b)
+
+static void run(gg_md *e)
+{
+  gg_md_run_events(e);
+}
+
+/* Every grain anew: at a start, or after kicks to all. */
+static void predict_all(gg_md *e)
+{
+  for (uint32_t i = 0; i < e->n; i++) gg_md_predict(e, i);
+}
+
+const gg_md_kernel JOIN(gg_md_kernel_, GG_INSTANCE) = {run, predict_all};

@@ -1,0 +1,68 @@
+/* Gathering candidates: the grains of the cells around, one list of them for the SIMD pair kernel. */
+#ifndef GG_MD_SEARCH_CANDIDATES_H
+#define GG_MD_SEARCH_CANDIDATES_H
+
+#include <string.h>
+
+#include "md/search/search.h"
+
+/* All grains of a cell behind the n that there are, eight words at a time: what stands behind its end does not count.
+ */
+GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *cell)
+{
+  uint32_t count = cell[0];
+  memcpy(near + n, cell + 1, 8 * sizeof *cell);
+  for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
+  return n + count;
+}
+
+/* At the end of a list, of cells of sixteen words or more, line by line: the word behind a line would be another line
+ * to wait for. Returns the new end. */
+GG_INLINE uint32_t *gg_append_large(uint32_t *end, const uint32_t *cell)
+{
+  typedef uint32_t line __attribute__((vector_size(64), may_alias, aligned(4)));
+  uint32_t count = cell[0];
+  line first = *(const line *)cell;
+  first = __builtin_shufflevector(first, first, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0);
+  memcpy(end, &first, sizeof first);
+  for (uint32_t k = 15; k < count; k += 16) memcpy(end + k, cell + 1 + k, sizeof first);
+  return end + count;
+}
+
+/* Of cells of eight words. */
+GG_INLINE uint32_t gg_append_small(uint32_t *near, uint32_t n, const uint32_t *cell)
+{
+  memcpy(near + n, cell + 1, 8 * sizeof *cell);
+  return n + cell[0];
+}
+
+/* Is there room for so many full cells? */
+GG_INLINE bool gg_has_room(const gg_md *e, int cells)
+{
+  return (uint32_t)cells * e->cells.stride <= GG_MOST_NEAR;
+}
+
+/* False: no more room. */
+GG_INLINE bool gg_take_cell(gg_search *s, const uint32_t *cell)
+{
+  if (s->n_near + cell[0] > GG_MOST_NEAR) return false;
+  s->n_near = gg_append_cell(s->near, s->n_near, cell);
+  return true;
+}
+
+/* Index of a neighbouring cell along one axis, and the shift of its image. */
+GG_INLINE int32_t gg_image_cell(const gg_md *e, int axis, int32_t k, double *shift)
+{
+  *shift = 0;
+  if (k < 0) {
+    *shift = -e->box.edge[axis];
+    return k + e->cells.n[axis];
+  }
+  if (k >= e->cells.n[axis]) {
+    *shift = e->box.edge[axis];
+    return k - e->cells.n[axis];
+  }
+  return k;
+}
+
+#endif

@@ -1,0 +1,28 @@
+/* What this instance of the event loop is for. The loop and its searches are compiled once for every row of the table
+ * in meson.build, each into an object of its own, which defines GG_WAY (the header of its way of searching),
+ * GG_BOUNDARY, GG_MIXTURE and GG_SIMD. So all of this is constant, and nothing in an instance asks what a scene has.
+ *
+ * The reference path is compiled once for all boundaries and mixtures, without those: there it is asked of the model.
+ */
+#ifndef GG_MD_SEARCH_FEATURES_H
+#define GG_MD_SEARCH_FEATURES_H
+
+#include "md/kernels.h"
+
+#ifdef GG_BOUNDARY
+enum {
+  IS_SHEARED = GG_BOUNDARY == GG_SHEARED,
+  IS_WALLED = GG_BOUNDARY == GG_WALLED || GG_BOUNDARY == GG_FALLING,
+  HAS_GRAVITY = GG_BOUNDARY == GG_FALLING,
+  IS_MIXTURE = GG_MIXTURE,
+  IS_SIMD = GG_SIMD, /* eight pairs at a time */
+};
+#else
+#define IS_SHEARED (e->model.shear_rate != 0)
+#define IS_WALLED (e->model.walled)
+#define HAS_GRAVITY (e->falls)
+#define IS_MIXTURE (e->model.n_species > 1)
+enum { IS_SIMD = false };
+#endif
+
+#endif

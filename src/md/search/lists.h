@@ -1,0 +1,109 @@
+/* Neighbour lists for dense systems: who can be met before one of both leaves its shell.
+ *
+ * Each grain has a shell of radius s around where it stood when its list was made; the list holds everybody whose
+ * shell centre then lay within rho = sigma + 2 s of its own, and is symmetric. While two grains that are not listed
+ * stay in their shells they cannot touch. A grain that leaves its shell gets a new one, and lists are mended.
+ *
+ * Under shear the centres move with the flow at their height, and shells shrink at the rate kappa = shear_rate rho/4:
+ * two centres at a distance R approach at most at shear_rate R/2, so what holds at the making holds until the exit. A
+ * centre is kept by where it stood at the epoch's start, which does not change: the cells of the centres are at rest.
+ *
+ * Predictions take the whole list, eight at a time. */
+#ifndef GG_MD_SEARCH_LISTS_H
+#define GG_MD_SEARCH_LISTS_H
+
+#include "md/search/features.h"
+
+enum { ROWS_SHIFT = false, ROWS_MOVE = false, KNOWS_IMAGES = false, FEW_MEET = false, CACHED = 6000 };
+
+#include "md/search/list_update.h"
+#include "md/search/simd_pairs.h"
+#include "md/search/way.h"
+
+/* Where shell i's centre is at the present time. */
+GG_INLINE gg_vec gg_centre(const gg_md *e, uint32_t i)
+{
+  gg_vec c = e->shell[i].centre;
+  if (IS_SHEARED) c.x += e->model.shear_rate * (c.y - 0.5 * e->box.edge[1]) * e->k.now;
+  return c;
+}
+
+/* When the grain leaves its shell: |dr + dv t| = s - kappa t, root without cancellation. */
+GG_INLINE double gg_shell_exit(const gg_md *e, uint32_t i, const gg_grain *g)
+{
+  gg_vec centre = gg_centre(e, i), dr = gg_sub(g->r, centre), dv = g->v;
+  double radius = e->shell_radius, kappa = IS_SHEARED ? e->shrinkage : 0;
+  if (IS_SHEARED) {
+    dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]); /* the centre is kept wrapped */
+    dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);
+    radius -= kappa * (e->k.now - e->node[i].shell_built);
+  }
+  double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
+  double c = gg_dot(dr, dr) - radius * radius;
+  if (!(c < 0) || radius < 0) return e->k.now;
+  double root = sqrt(b * b - a * c);
+  bool out = b > 0; /* half of all: no branch */
+  double delay = (out ? -c : root - b) / (out ? b + root : a);
+  return (out | (a > 0)) ? e->k.now + delay : INFINITY;
+}
+
+GG_INLINE void gg_md_search_all(gg_md *e, gg_search *s)
+{
+  uint32_t i = s->grain;
+  gg_scan_batches(e, s, gg_list(e, i), e->node[i].neighbours, IS_SHEARED ? GG_MD_SLIDING : GG_MD_AT_REST);
+}
+
+GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t *face)
+{
+  (void)face;
+  return gg_shell_exit(e, s->grain, s->self);
+}
+
+/* Out of its shell: a new one, lists mended, and a new prediction. */
+GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
+{
+  uint32_t found[GG_FOUND];
+  gg_md_leave_cell(e, i);
+  gg_new_shell(e, i);
+  gg_md_enter_cell(e, i);
+  uint32_t count = gg_search_shell(e, i, found);
+  if (gg_mend_lists(e, i, found, count)) {
+    gg_md_predict(e, i);
+    return;
+  }
+  gg_md_build_lists(e);
+  e->kernel->predict_all(e);
+}
+
+GG_INLINE void gg_md_shift_all(gg_md *e)
+{
+  (void)e;
+}
+
+GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)
+{
+  if (GG_NO_GRAIN(partner)) return;
+  __builtin_prefetch(&e->grain[partner]);
+  __builtin_prefetch(&e->node[partner]);
+  __builtin_prefetch(gg_list(e, i));
+  __builtin_prefetch(gg_list(e, partner));
+}
+
+GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i)
+{
+  (void)e;
+  (void)i;
+}
+
+/* The neighbours, too. */
+GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
+{
+  uint32_t j = e->node[i].partner;
+  const uint32_t *mine = gg_list(e, i);
+  for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[mine[k]]);
+  if (GG_NO_GRAIN(j)) return;
+  const uint32_t *others = gg_list(e, j);
+  for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[others[k]]);
+}
+
+#endif

@@ -1,0 +1,86 @@
+/* What both kinds of overlapping cells have in common: candidates from the cells that a grain is in. */
+#ifndef GG_MD_SEARCH_OVERLAPPING_H
+#define GG_MD_SEARCH_OVERLAPPING_H
+
+#include "md/search/features.h"
+
+enum { ROWS_SHIFT = false, ROWS_MOVE = false, KNOWS_IMAGES = false, FEW_MEET = true, CACHED = 20000 };
+
+#include "md/members.h"
+#include "md/search/candidates.h"
+#include "md/search/simd_pairs.h"
+#include "md/search/way.h"
+
+/* The grains of a cell for which there may be no room: those so far are tried first. */
+static __attribute__((noinline, cold, unused)) void gg_take_crowded(const gg_md *e, gg_search *s, const uint32_t *cell)
+{
+  for (uint32_t k = 1; k <= cell[0]; k++) {
+    if (s->n_near == GG_MOST_NEAR) {
+      gg_scan_near(e, s);
+      s->n_near = 0;
+    }
+    s->near[s->n_near++] = cell[k];
+  }
+}
+
+GG_INLINE void gg_shared_take(const gg_md *e, gg_search *s, const gg_members *in)
+{
+  const uint32_t *cell = e->cells.cell;
+  size_t stride = e->cells.stride;
+  if (__builtin_expect(!gg_has_room(e, 8), 0)) {
+    for (uint32_t which = in->which; which; which &= which - 1)
+      gg_take_crowded(e, s, cell + in->index[__builtin_ctz(which)] * stride);
+    return;
+  }
+  uint32_t *end = s->near + s->n_near;
+  for (uint32_t which = in->which; which; which &= which - 1)
+    end = gg_append_large(end, cell + in->index[__builtin_ctz(which)] * stride);
+  s->n_near = (uint32_t)(end - s->near);
+}
+
+/* Where a grain that is to come into another cell will be: the axis of its step and its cell, of those that it is in
+ * the one to count from. False: not known before. Each of the two ways has its own. */
+GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_node *node, int *axis, int32_t at[3]);
+
+/* Of a grain that will come into another cell: that cell, or the grains in it. Else the partner. */
+GG_INLINE void gg_prefetch_entry(const gg_md *e, uint32_t i, bool members)
+{
+  const gg_node *node = &e->node[i];
+  const gg_cells *c = &e->cells;
+  if (!(node->time < node->collision)) {
+    if (GG_NO_GRAIN(node->partner) || members) return;
+    __builtin_prefetch(&e->grain[node->partner]);
+    __builtin_prefetch(&e->node[node->partner]);
+    return;
+  }
+  int axis = node->face >> 1, up = node->face & 1, both = node->neighbours >> axis & 1;
+  int32_t at[3] = {node->cell[0], node->cell[1], node->cell[2]};
+  if (!gg_md_step_of(e, node, &axis, at)) return;
+  if (!up)
+    at[axis]--;
+  else
+    at[axis] = (both ? gg_cell_after(e, axis, at[axis]) : at[axis]) + 1;
+  const uint32_t *cell = c->cell + (size_t)(c->part[0][at[0]] + c->part[1][at[1]] + c->part[2][at[2]]) * c->stride;
+  if (!members)
+    __builtin_prefetch(cell);
+  else
+    for (uint32_t m = 1; m <= 8; m++) __builtin_prefetch(&e->grain[m <= cell[0] ? cell[m] : i]);
+}
+
+GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)
+{
+  (void)partner;
+  gg_prefetch_entry(e, i, false);
+}
+
+GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
+{
+  gg_prefetch_entry(e, i, true);
+}
+
+GG_INLINE void gg_md_shift_all(gg_md *e)
+{
+  (void)e; /* rows that overlap need not know of each other */
+}
+
+#endif

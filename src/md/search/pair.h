@@ -1,0 +1,34 @@
+/* One pair at a time: the reference path. */
+#ifndef GG_MD_SEARCH_PAIR_H
+#define GG_MD_SEARCH_PAIR_H
+
+#include "md/search/search.h"
+
+/* The contact with grain j, which is separated by dr and dv. */
+GG_INLINE void gg_try_separated(const gg_md *e, gg_search *s, uint32_t j, gg_vec dr, gg_vec dv)
+{
+  double sigma = e->model.sigma[IS_MIXTURE ? 2 * gg_species_of(s->self) + gg_species_of(&e->grain[j]) : 0];
+  double t = e->k.now + gg_contact_delay(dr, dv, sigma * sigma);
+  gg_take_contact(s, t, j);
+}
+
+/* The same with an image shifted by `shift`, sliding by `slide`. */
+GG_INLINE void gg_try_pair(const gg_md *e, gg_search *s, uint32_t j, gg_vec shift, double slide)
+{
+  const gg_grain *one = s->self, *two = &e->grain[j];
+  gg_vec dr = gg_add(gg_sub(gg_position(e, HAS_GRAVITY, two, e->k.now), one->r), shift);
+  gg_vec dv = gg_sub(gg_velocity(e, HAS_GRAVITY, two, e->k.now), one->v);
+  if (IS_SHEARED) dv.x += slide;
+  gg_try_separated(e, s, j, dr, dv);
+}
+
+GG_INLINE void gg_try_nearest(const gg_md *e, gg_search *s, uint32_t j)
+{
+  const gg_grain *one = s->self, *two = &e->grain[j];
+  gg_vec dr = gg_sub(gg_position(e, HAS_GRAVITY, two, e->k.now), one->r);
+  gg_vec dv = gg_sub(gg_velocity(e, HAS_GRAVITY, two, e->k.now), one->v);
+  gg_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
+  gg_try_separated(e, s, j, dr, dv);
+}
+
+#endif

@@ -1,0 +1,54 @@
+/* A way of searching for partners: plain cells, cells in rows that move with the flow, overlapping cells, overlapping
+ * cells in rows, neighbour lists. One header each, of which an instance of the event loop includes one (features.h).
+ * Each of them defines the functions declared here, and the constants
+ *
+ *   ROWS_SHIFT     do rows shift, so that all grains have to look at once (gg_md_shift_all)?
+ *   FEW_MEET       of those tried: worth a test whether anybody of a batch is in the way at all?
+ *   CACHED         so many grains are in the cache anyway: nothing needs to be prefetched */
+#ifndef GG_MD_SEARCH_WAY_H
+#define GG_MD_SEARCH_WAY_H
+
+#include "md/search/search.h"
+
+/* All that the grain can meet from where it is. */
+GG_INLINE void gg_md_search_all(gg_md *e, gg_search *s);
+/* When it next comes into another cell, or out of the skin of its list; and node->face: where. */
+GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t *face);
+/* It does so now. */
+GG_INLINE void gg_md_cross(gg_md *e, uint32_t i);
+/* Rows shift by a cell: everybody looks at what comes within reach. */
+GG_INLINE void gg_md_shift_all(gg_md *e);
+
+/* What the events of a new bucket will read, beside the grain: `partner` of its predicted collision, or none. */
+GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner);
+/* What an event two ahead will read: in systems that the cache holds, and in larger ones. */
+GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i);
+GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i);
+
+/* event_loop.h: the search is over, and what it found goes into the calendar; and a search from scratch with that. */
+GG_INLINE void gg_md_schedule(gg_md *e, gg_search *s);
+static void gg_md_predict(gg_md *e, uint32_t i);
+
+/* A cell could not grow: the run is over. */
+GG_INLINE void gg_md_check_memory(gg_md *e, bool good)
+{
+  if (good) return;
+  e->out_of_memory = true;
+  e->collisions_left = 0;
+}
+
+GG_INLINE void gg_md_leave_cell(gg_md *e, uint32_t i)
+{
+  gg_cell_remove(gg_cell_at(&e->cells, e->node[i].cell), i);
+}
+
+GG_INLINE void gg_md_enter_cell(gg_md *e, uint32_t i)
+{
+  while (!gg_cell_add(&e->cells, e->node[i].cell, i))
+    if (!gg_cells_grow(&e->cells)) {
+      gg_md_check_memory(e, false);
+      return;
+    }
+}
+
+#endif
