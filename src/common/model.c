@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "common/contact_value.h"
+#include "common/cube_root.h"
 
 static void set_composition(gg_model *m, const gg_scene *s)
 {
@@ -40,7 +41,7 @@ static void set_box(gg_model *m, const gg_scene *s)
   m->density = m->boltzmann ? 1 : 6 * s->phi / (M_PI * mean_power(m, 3));
   m->volume = (double)m->n / m->density;
   double shape = s->aspect[0] * s->aspect[1] * s->aspect[2];
-  for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * cbrt(m->volume / shape);
+  for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * gg_cube_root(m->volume / shape);
 }
 
 static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)

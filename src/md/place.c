@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/cube_root.h"
 #include "md/place.h"
 
 /* Spread the low 21 bits of x to every third bit. */
@@ -136,7 +137,7 @@ static uint64_t sweep_once(gg_packing *p, double margin, bool pushing)
 /* Denser systems leave less room to aim for than touching. */
 static double margin_for(double phi)
 {
-  double room = cbrt(0.64 / phi) - 1;
+  double room = gg_cube_root(0.64 / phi) - 1;
   return fmin(0.02, fmax(0.25 * room, 1e-4));
 }
 
