@@ -1,11 +1,14 @@
-"""Documents say what is true of the tree: the page of scene keys is the table's."""
+"""Documents say what is true of the tree: the page of scene keys is the table's, every path that a document names
+exists, and the commands that it shows are the command's."""
 import glob
 import os
+import re
 import sys
 
 from tap import check, main, run
 
 SOURCE = os.environ["SOURCE"]
+ROOMS = "src|tests|docs|examples|include|validation|scripts|page|external"
 
 
 def documents():
@@ -14,12 +17,84 @@ def documents():
     return {os.path.relpath(path, SOURCE): open(path, encoding="utf-8").read() for path in found}
 
 
+def none(missing):
+    check(not missing, "named in documents, but not there:\n" + "\n".join(sorted(missing)))
+
+
 def test_scene_page():
     """A new key is a new line there: graingas --scene-page > docs/scene.md"""
     page = run("--scene-page")
     check(page.code == 0 and not page.err and "collision.beta" in page.out)
     check(page.out == documents()["docs/scene.md"], "docs/scene.md is not what `graingas --scene-page` prints: redirect "
           "it there")
+
+
+def test_paths():
+    """src/md/queue.h, examples/usf.yaml, src/dsmc/ ...; <name> stands for any name. A word may go on after a path
+    ("tests/md"), so only what looks like a path is asked for: a known room, a slash, a name."""
+    missing = set()
+    for name, text in documents().items():
+        for path in re.findall(rf"(?<![\w/.<-])((?:{ROOMS})/[\w./*{{}},<>-]*\w)", text):
+            if "<" in path or "{" in path or "*" in path:
+                continue
+            there = (os.path.exists(os.path.join(SOURCE, path + end)) for end in ("", ".c"))  # or a program of it
+            if not any(there):
+                missing.add(f"{name}: {path}")
+    none(missing)
+
+
+def test_links():
+    """Links of Markdown to files lead somewhere, from where the document stands."""
+    missing = set()
+    for name, text in documents().items():
+        for target in re.findall(r"\[[^]]+\]\(([^)#\s]+)[^)\s]*\)", text):
+            if "://" not in target and not os.path.exists(os.path.join(SOURCE, os.path.dirname(name), target)):
+                missing.add(f"{name}: {target}")
+    none(missing)
+
+
+def test_file_names():
+    """A source file named without its folder (`queue.h`) is somewhere in the tree."""
+    known = {file for folder, _, files in os.walk(SOURCE) if "/build" not in folder for file in files}
+    missing = set()
+    for name, text in documents().items():
+        for file in re.findall(r"`(\w+\.(?:h|c|py))`", text):
+            if file not in known:
+                missing.add(f"{name}: {file}")
+    none(missing)
+
+
+def test_commands():
+    """graingas COMMAND --option --set key=value, wherever documents show it."""
+    page, helps, wrong = run("--scene-page").out, {}, set()
+    for name, text in documents().items():
+        text = text.replace("\\\n", " ")
+        blocks = re.findall(r"^```.*?^```", text, re.MULTILINE | re.DOTALL)
+        spans = re.findall(r"`[^`]+`", re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL))
+        code = "\n".join(blocks + [span.strip("`").replace("\n", " ") for span in spans])
+        for shown in re.findall(r"^\s*(?:\$ )?graingas ([a-z]+\b[^\n;|]*)", code, re.MULTILINE):
+            command = shown.split()[0]
+            if command not in helps:
+                helps[command] = run(command, "--help")
+            if helps[command].code:
+                wrong.add(f"{name}: graingas {command}")
+            for option in re.findall(r"--[a-z]+", shown):
+                if option not in helps[command].out:
+                    wrong.add(f"{name}: graingas {command} {option}")
+            for key in re.findall(r"--set \"?([\w.]+)=", shown):
+                if f"| `{key}` |" not in page:
+                    wrong.add(f"{name}: --set {key}")
+    check(not wrong, "shown in documents, but not so:\n" + "\n".join(sorted(wrong)))
+
+
+def test_line_lengths():
+    """Lines of text end where the code's do, at 120 columns; tables and pictures may be as wide as they are."""
+    for name, text in documents().items():
+        code = False
+        for number, line in enumerate(text.splitlines(), 1):
+            code ^= line.startswith("```")
+            wide = len(line) > 120 and not code and line[:1] not in ("|", "!", "-") and not line.startswith("    ")
+            check(not wide or name == "docs/scene.md", f"{name}:{number} has {len(line)} columns")
 
 
 if __name__ == "__main__":
