@@ -47,11 +47,36 @@ void gg_replicas_clear(gg_replicas *all)
   all->replica = NULL;
 }
 
-/* Replicas share out their threads: worker w takes w, w + threads, ... Nothing of a replica depends on who runs it. */
+/* The caller's hooks, called by one replica at a time. */
+typedef struct shared_hooks {
+  const gg_hooks *hooks;
+  pthread_mutex_t lock;
+} shared_hooks;
+
+static bool locked_interrupted(void *context)
+{
+  shared_hooks *s = context;
+  pthread_mutex_lock(&s->lock);
+  bool yes = s->hooks->interrupted(s->hooks->context);
+  pthread_mutex_unlock(&s->lock);
+  return yes;
+}
+
+static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *err)
+{
+  shared_hooks *s = context;
+  pthread_mutex_lock(&s->lock);
+  gg_status status = s->hooks->frame(s->hooks->context, frame, err);
+  pthread_mutex_unlock(&s->lock);
+  return status;
+}
+
+/* Replicas are dealt out to threads: worker w takes w, w + threads, ... Nothing of a replica depends on who runs it. */
 typedef struct worker {
   gg_replicas *all;
   int first, stride;
   bool adapt;
+  const gg_hooks *hooks;
   gg_status status;
   gg_error err;
 } worker;
@@ -61,7 +86,7 @@ static void *work(void *argument)
   worker *w = argument;
   gg_replicas *all = w->all;
   for (int i = w->first; i < all->n && w->status == GG_OK; i += w->stride)
-    w->status = gg_replica_advance(&all->replica[i], all->state.due, w->adapt, all->hooks, &w->err);
+    w->status = gg_replica_advance(&all->replica[i], all->state.due, w->adapt, w->hooks, &w->err);
   return NULL;
 }
 
@@ -73,14 +98,19 @@ gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err)
   worker workers[MOST_THREADS];
   pthread_t threads[MOST_THREADS];
   bool running[MOST_THREADS] = {false};
+  shared_hooks shared = {.hooks = all->hooks, .lock = PTHREAD_MUTEX_INITIALIZER};
+  gg_hooks hooks = {.context = &shared};
+  if (all->hooks && all->hooks->interrupted) hooks.interrupted = locked_interrupted;
+  if (all->hooks && all->hooks->frame) hooks.frame = locked_frame;
   for (int w = 0; w < n; w++) {
-    workers[w] = (worker){.all = all, .first = w, .stride = n, .adapt = adapt, .status = GG_OK};
+    workers[w] = (worker){.all = all, .first = w, .stride = n, .adapt = adapt, .hooks = &hooks, .status = GG_OK};
     if (w > 0) running[w] = pthread_create(&threads[w], NULL, work, &workers[w]) == 0;
   }
   for (int w = 0; w < n; w++)
     if (!running[w]) work(&workers[w]);
   for (int w = 0; w < n; w++)
     if (running[w]) pthread_join(threads[w], NULL);
+  pthread_mutex_destroy(&shared.lock);
   for (int w = 0; w < n; w++)
     if (workers[w].status != GG_OK) {
       if (err) *err = workers[w].err;

@@ -17,7 +17,7 @@ typedef struct gg_progress {
   int64_t replica, replicas;
 } gg_progress;
 
-/* What the caller wants to hear of while it runs; every member may be NULL. Calls come from the running thread, never
+/* What the caller wants to be told while it runs; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
 typedef struct gg_hooks {
   void *context;

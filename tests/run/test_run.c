@@ -6,7 +6,9 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
+#include <time.h>
 
 #include "fake_engine.h"
 #include "run/agreement.h"
@@ -308,6 +310,47 @@ static void trajectory(void **state)
   gg_result_free(r), gg_archive_clear(&archive);
 }
 
+typedef struct crowd {
+  atomic_int inside, most, calls;
+} crowd;
+
+static void enter(crowd *c)
+{
+  int now = atomic_fetch_add(&c->inside, 1) + 1;
+  if (now > atomic_load(&c->most)) atomic_store(&c->most, now);
+  nanosleep(&(struct timespec){0, 20000}, NULL);
+  atomic_fetch_add(&c->calls, 1);
+  atomic_fetch_sub(&c->inside, 1);
+}
+
+static bool ask(void *context)
+{
+  enter(context);
+  return false;
+}
+
+static gg_status show(void *context, const gg_frame *frame, gg_error *err)
+{
+  (void)frame, (void)err;
+  enter(context);
+  return GG_OK;
+}
+
+/* Replicas on several threads call the hooks one at a time. */
+static void hooks_one_at_a_time(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(-1);
+  s.run.collisions = 200, s.run.replicas = 4, s.output.trajectory_every = 10;
+  crowd c = {0};
+  gg_hooks hooks = {.context = &c, .interrupted = ask, .frame = show};
+  gg_result *r = NULL;
+  assert_int_equal(gg_run_scene(&s, NULL, 4, &hooks, &r, NULL), GG_OK);
+  assert_true(c.calls > 400);
+  assert_int_equal(c.most, 1);
+  gg_result_free(r);
+}
+
 /* The time limit keeps a checkpoint, calls what is short short, and never averages over a warm-up. */
 static void time_limit(void **state)
 {
@@ -408,7 +451,8 @@ int main(void)
       cmocka_unit_test(endless_trend), cmocka_unit_test(heating),         cmocka_unit_test(ends),
       cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(other_scene),
       cmocka_unit_test(trajectory),    cmocka_unit_test(time_limit),      cmocka_unit_test(comparison),
-      cmocka_unit_test(agreement),     cmocka_unit_test(remarks),         cmocka_unit_test(standstill),
+      cmocka_unit_test(agreement),     cmocka_unit_test(remarks),         cmocka_unit_test(hooks_one_at_a_time),
+      cmocka_unit_test(standstill),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
