@@ -35,8 +35,8 @@ typedef struct gg_engine_state {
   double others_cpu;     /* seconds of processor time of threads of the engine's own, so far in this process */
 } gg_engine_state;
 
-/* Grains a thousand at a time, in structure-of-arrays scratch that stays in the cache; NULL where the engine has none.
- */
+/* Some hundred grains, in structure-of-arrays scratch that stays in the cache; at most GG_CHUNK. NULL where the engine
+ * has none. */
 enum { GG_CHUNK = 1024 };
 typedef struct gg_chunk {
   size_t n;

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "common/error.h"
+#include "common/observables.h"
 
 typedef enum gg_flow { GG_EQUILIBRIUM, GG_USF, GG_HCS, GG_HSS, GG_COUETTE, GG_POISEUILLE, GG_CHUTE } gg_flow;
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
@@ -18,23 +19,6 @@ typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA }
 
 enum { GG_MAX_SPECIES = 2 };
 enum { GG_11, GG_12, GG_22, GG_PAIRS }; /* unordered pairs of species */
-
-/* Observable sets that a scene can ask for under `measure`. */
-enum {
-  GG_MEASURE_RHEOLOGY = 1u << 0,
-  GG_MEASURE_VELOCITY_DISTRIBUTIONS = 1u << 1,
-  GG_MEASURE_ORIENTATION = 1u << 2,
-  GG_MEASURE_SONINE = 1u << 3,
-  GG_MEASURE_PAIR_CORRELATION = 1u << 4,
-  GG_MEASURE_VELOCITY_CORRELATIONS = 1u << 5,
-  GG_MEASURE_STRUCTURE = 1u << 6,
-  GG_MEASURE_CELLS = 1u << 7,
-  GG_MEASURE_DIFFUSION = 1u << 8,
-  GG_MEASURE_PROFILES = 1u << 9,
-  GG_MEASURE_VISCOSITY = 1u << 12,
-  GG_MEASURE_COLLISIONS = 1u << 10,
-  GG_MEASURE_LOCAL_DISTRIBUTIONS = 1u << 11,
-};
 
 #define GG_AUTO (-1.0) /* a number that the program is to choose */
 
@@ -51,8 +35,8 @@ struct gg_scene {
   int64_t particles;
   double shear_rate;
   gg_switch small_shear; /* usf: towards a* = 0, for viscosities (common/small_shear.h) */
-  double temperature; /* initial <C.C>/3 in the user's units, or GG_AUTO */
-  double aspect[3];   /* shape of the box, relative edges */
+  double temperature;    /* initial <C.C>/3 in the user's units, or GG_AUTO */
+  double aspect[3];      /* shape of the box, relative edges */
   struct {
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   } collision;

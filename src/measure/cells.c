@@ -1,4 +1,4 @@
-/* Local state over cells of about eight grains (at least three cells along an edge): density, translational and
+/* Local state over cells of about eight grains: density, translational and
  * rotational temperature about the cell's own mean, spin, shear rate, with their distributions; and what averaging over
  * cells, slabs across y, or the whole box makes of the temperatures. A mean taken over n_c grains takes the share 1/n_c
  * out of a temperature: sums over (n_c - 1) instead of n_c put it back. Local shear rate: imposed one plus the central
@@ -7,9 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "measure/cell_grid.h"
+#include "measure/needs.h"
 #include "measure/observable.h"
 
-enum { GRAINS_PER_CELL = 8, LEAST_CELLS = 3 };
 enum { DENSITY_BINS = 64, RATIO_BINS = 50, SIGNED_BINS = 80 };
 #define RATIO_WIDTH 0.1
 #define SIGNED_WIDTH 0.1 /* of spins in their rms; of shear rates half of it, in sqrt(T)/height */
@@ -41,14 +42,9 @@ typedef struct cell {                  /* sums over its grains */
 
 typedef struct cells {
   gg_model model;
-  int n[3];
+  gg_cell_grid grid;
   cell *cell;
 } cells;
-
-static const char *refuses(const gg_model *m)
-{
-  return m->homogeneous ? "the Monte Carlo ensemble has no positions" : NULL;
-}
 
 static void destroy(void *self)
 {
@@ -58,7 +54,7 @@ static void destroy(void *self)
 
 static int count_of(const cells *d)
 {
-  return d->n[0] * d->n[1] * d->n[2];
+  return (int)gg_cell_grid_cells(&d->grid);
 }
 
 static void *create(const gg_model *m, gg_error *err)
@@ -66,8 +62,7 @@ static void *create(const gg_model *m, gg_error *err)
   cells *d = gg_new_array(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
-  double edge = cbrt(GRAINS_PER_CELL * m->volume / (double)m->n);
-  for (int a = 0; a < 3; a++) d->n[a] = (int)fmax(LEAST_CELLS, round(m->box[a] / edge));
+  d->grid = gg_cell_grid_of(m);
   d->cell = gg_new_array((size_t)count_of(d), sizeof *d->cell, err);
   if (d->cell) return d;
   free(d);
@@ -82,7 +77,7 @@ static size_t bins(const void *self)
 
 static cell *cell_at(const cells *d, int x, int y, int z)
 {
-  return &d->cell[(z * d->n[1] + y) * d->n[0] + x];
+  return &d->cell[(z * d->grid.n[1] + y) * d->grid.n[0] + x];
 }
 
 static void add_grain(const gg_model *m, const gg_snapshot *s, size_t i, cell *c)
@@ -102,14 +97,7 @@ static void add_grain(const gg_model *m, const gg_snapshot *s, size_t i, cell *c
 static void sort_grains(cells *d, const gg_snapshot *s)
 {
   memset(d->cell, 0, (size_t)count_of(d) * sizeof *d->cell);
-  for (size_t i = 0; i < s->n; i++) {
-    int at[3];
-    for (int a = 0; a < 3; a++) {
-      at[a] = (int)(s->r[a][i] / d->model.box[a] * d->n[a]);
-      at[a] = at[a] < 0 ? 0 : at[a] >= d->n[a] ? d->n[a] - 1 : at[a];
-    }
-    add_grain(&d->model, s, i, cell_at(d, at[0], at[1], at[2]));
-  }
+  for (size_t i = 0; i < s->n; i++) add_grain(&d->model, s, i, &d->cell[gg_cell_grid_cell(&d->grid, s, i)]);
 }
 
 static void merge(cell *to, const cell *from)
@@ -147,11 +135,11 @@ static cell add_averages(const cells *d, double *bin)
 {
   enum { MOST_SLABS = 512 };
   cell box = {0}, slab[MOST_SLABS];
-  int n = d->n[1] < MOST_SLABS ? d->n[1] : MOST_SLABS;
+  int n = d->grid.n[1] < MOST_SLABS ? d->grid.n[1] : MOST_SLABS;
   memset(slab, 0, (size_t)n * sizeof *slab);
-  for (int z = 0; z < d->n[2]; z++)
-    for (int y = 0; y < d->n[1]; y++)
-      for (int x = 0; x < d->n[0]; x++) merge(&slab[y * n / d->n[1]], cell_at(d, x, y, z));
+  for (int z = 0; z < d->grid.n[2]; z++)
+    for (int y = 0; y < d->grid.n[1]; y++)
+      for (int x = 0; x < d->grid.n[0]; x++) merge(&slab[y * n / d->grid.n[1]], cell_at(d, x, y, z));
   for (int y = 0; y < n; y++) merge(&box, &slab[y]);
   put_temperatures(&box, 1, bin + T_BOX, bin + W_BOX);
   put_temperatures(slab, n, bin + T_BOX + 1, bin + W_BOX + 1);
@@ -176,10 +164,10 @@ static void add_shear_rate(const cells *d, int x, int y, int z, double root_T, d
 {
   const gg_model *m = &d->model;
   bool open = m->shear_rate == 0 && !gg_flow_is_walled(m->flow);
-  if (!open && (y == 0 || y == d->n[1] - 1)) return;
-  double height = m->box[1] / d->n[1];
-  double above = mean_x(cell_at(d, x, (y + 1) % d->n[1], z));
-  double below = mean_x(cell_at(d, x, (y + d->n[1] - 1) % d->n[1], z));
+  if (!open && (y == 0 || y == d->grid.n[1] - 1)) return;
+  double height = m->box[1] / d->grid.n[1];
+  double above = mean_x(cell_at(d, x, (y + 1) % d->grid.n[1], z));
+  double below = mean_x(cell_at(d, x, (y + d->grid.n[1] - 1) % d->grid.n[1], z));
   double excess = (above - below) / (2 * height);
   if (!isfinite(excess)) return; /* a cell is empty */
   bin[SHEAR_SUM] += m->shear_rate + excess;
@@ -196,9 +184,9 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   double T = thermal(&box) / (3 * box.n), theta = rotational(&box) / (3 * box.n), squares = 0;
   double rms = sqrt(box.rotation / (3 * fmax(box.inertia, 1e-300))) * 2 / m->diameter[0]; /* omega of a component */
   double unit = box.volume / box.n;
-  for (int z = 0; z < d->n[2]; z++)
-    for (int y = 0; y < d->n[1]; y++)
-      for (int x = 0; x < d->n[0]; x++) {
+  for (int z = 0; z < d->grid.n[2]; z++)
+    for (int y = 0; y < d->grid.n[1]; y++)
+      for (int x = 0; x < d->grid.n[0]; x++) {
         const cell *c = cell_at(d, x, y, z);
         squares += c->n * c->n;
         drop(c->volume / unit + 0.5, 1, DENSITY_BINS, bin + DENSITY, &bin[N_DENSITY]);
@@ -267,7 +255,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   const char *rate = gg_curve_unit(m, "spin");
   if (m->shear_rate != 0 || m->walled) gg_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
   if (m->flow != GG_HCS && m->steady)
-    gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / snapshots * d->n[1] / m->box[1], rate);
+    gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / snapshots * d->grid.n[1] / m->box[1], rate);
   if (m->rule == GG_SMOOTH) return;
   c = put(list, "cell_rotational_temperature", "local rotational temperature", "θ_{cell}/θ", RATIO_BINS,
           RATIO_WIDTH / 2, RATIO_WIDTH, bin + ROTATIONAL, bin[N_ROTATIONAL]);
@@ -277,12 +265,10 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_cells = {
-    .name = "cells",
-    .doc = "local density, shear rate, temperatures and spin",
+    GG_OBSERVABLE(CELLS, cells),
     .create = create,
     .destroy = destroy,
-    .flag = GG_MEASURE_CELLS,
-    .refuses = refuses,
+    .refuses = gg_needs_positions,
     .bins = bins,
     .every = 8,
     .positions = true,

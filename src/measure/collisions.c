@@ -231,11 +231,9 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_collisions = {
-    .name = "collisions",
-    .doc = "free paths, times between collisions, angles of collisions",
+    GG_OBSERVABLE(COLLISIONS, collisions),
     .create = create,
     .destroy = free,
-    .flag = GG_MEASURE_COLLISIONS,
     .bins = bins,
     .memory = memory,
     .every = 1,

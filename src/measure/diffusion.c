@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
 
@@ -31,7 +32,7 @@ static const char *refuses(const gg_model *m)
   if (m->homogeneous) return "the grains of the Monte Carlo ensemble have neither positions nor names";
   if (m->flow == GG_HCS) return "a cooling gas has no stationary velocity correlation";
   if (!m->steady) return "a gas that heats up has no stationary velocity correlation";
-  return gg_flow_is_walled(m->flow) ? "between walls the gas is not homogeneous" : NULL;
+  return gg_needs_homogeneity(m);
 }
 
 static void destroy(void *self)
@@ -228,12 +229,10 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_diffusion = {
-    .name = "diffusion",
-    .doc = "velocity autocorrelation and mean-square displacement, self-diffusion",
+    GG_OBSERVABLE(DIFFUSION, diffusion),
     .create = create,
     .destroy = destroy,
     .memory = memory,
-    .flag = GG_MEASURE_DIFFUSION,
     .refuses = refuses,
     .bins = bins,
     .every = 1,

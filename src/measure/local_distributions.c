@@ -7,10 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "measure/cell_grid.h"
 #include "measure/histogram.h"
+#include "measure/needs.h"
 #include "measure/observable.h"
 
-enum { GRAINS_PER_CELL = 8, LEAST_CELLS = 3, CLASSES = 5, VECTORS = 2 };
+enum { CLASSES = 5, VECTORS = 2 };
 static const double centre[CLASSES] = {0.5, 0.75, 1, 1.25, 1.5}; /* of the mean solid fraction */
 #define TOLERANCE 0.1
 
@@ -20,17 +22,12 @@ typedef struct cell {
 
 typedef struct local {
   gg_model model;
-  int n[3], vectors;
+  gg_cell_grid grid;
+  int vectors;
   cell *cell;
   uint32_t *at;           /* the cell of each grain */
   double *value[VECTORS]; /* of each grain, about its cell's mean */
 } local;
-
-static const char *refuses(const gg_model *m)
-{
-  if (m->homogeneous) return "the Monte Carlo ensemble has no positions";
-  return gg_flow_is_walled(m->flow) ? "between walls velocities depend on the place; measure profiles" : NULL;
-}
 
 static void destroy(void *self)
 {
@@ -41,20 +38,14 @@ static void destroy(void *self)
   free(d);
 }
 
-static size_t cells_of(const local *d)
-{
-  return (size_t)d->n[0] * (size_t)d->n[1] * (size_t)d->n[2];
-}
-
 static void *create(const gg_model *m, gg_error *err)
 {
   local *d = gg_new_array(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
   d->vectors = m->rule == GG_SMOOTH ? 1 : VECTORS;
-  double edge = cbrt(GRAINS_PER_CELL * m->volume / (double)m->n);
-  for (int a = 0; a < 3; a++) d->n[a] = (int)fmax(LEAST_CELLS, round(m->box[a] / edge));
-  d->cell = gg_new_array(cells_of(d), sizeof *d->cell, err);
+  d->grid = gg_cell_grid_of(m);
+  d->cell = gg_new_array(gg_cell_grid_cells(&d->grid), sizeof *d->cell, err);
   d->at = gg_new_array((size_t)m->n, sizeof *d->at, err);
   bool whole = d->cell && d->at;
   for (int v = 0; v < d->vectors; v++)
@@ -88,14 +79,10 @@ static double component(const gg_snapshot *s, int vector, size_t i)
 static void sort_grains(local *d, const gg_snapshot *s)
 {
   const gg_model *m = &d->model;
-  memset(d->cell, 0, cells_of(d) * sizeof *d->cell);
+  memset(d->cell, 0, gg_cell_grid_cells(&d->grid) * sizeof *d->cell);
   for (size_t i = 0; i < s->n; i++) {
-    int at[3], k = gg_snapshot_species(s, i);
-    for (int a = 0; a < 3; a++) {
-      at[a] = (int)(s->r[a][i] / m->box[a] * d->n[a]);
-      at[a] = at[a] < 0 ? 0 : at[a] >= d->n[a] ? d->n[a] - 1 : at[a];
-    }
-    d->at[i] = (uint32_t)((at[2] * d->n[1] + at[1]) * d->n[0] + at[0]);
+    int k = gg_snapshot_species(s, i);
+    d->at[i] = (uint32_t)gg_cell_grid_cell(&d->grid, s, i);
     cell *c = &d->cell[d->at[i]];
     c->volume += m->diameter[k] * m->diameter[k] * m->diameter[k];
     for (int v = 0; v < d->vectors; v++) {
@@ -125,7 +112,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   local *d = self;
   const gg_model *m = &d->model;
-  double mean = 6 / M_PI * m->phi * m->volume / (double)cells_of(d); /* sum of d^3 in a cell */
+  double mean = 6 / M_PI * m->phi * m->volume / (double)gg_cell_grid_cells(&d->grid); /* sum of d^3 in a cell */
   sort_grains(d, s);
   for (int v = 0; v < d->vectors; v++) {
     double sigma[GG_MAX_SPECIES];
@@ -166,12 +153,10 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_local_distributions = {
-    .name = "local_distributions",
-    .doc = "distributions of C_x and Omega_z by the local density",
+    GG_OBSERVABLE(LOCAL_DISTRIBUTIONS, local_distributions),
     .create = create,
     .destroy = destroy,
-    .flag = GG_MEASURE_LOCAL_DISTRIBUTIONS,
-    .refuses = refuses,
+    .refuses = gg_needs_bulk,
     .bins = bins,
     .every = 4,
     .positions = true,

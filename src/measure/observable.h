@@ -1,7 +1,6 @@
 /* An observable: a plug-in that turns what an engine shows (its grains, its sums over collisions) into a row of numbers
  * a sample, and channel means into named quantities; or adds to bins, from which curves follow; or both. It knows
- * nothing of engines' insides, files or pictures. A new one is a file, a word in the scene's table and a line in
- * observables.c. */
+ * nothing of engines' insides, files or pictures. A new one is a file and a line in common/observables.h. */
 #ifndef GG_OBSERVABLE_H
 #define GG_OBSERVABLE_H
 
@@ -29,8 +28,7 @@ typedef struct gg_derived {
 
 typedef struct gg_observable {
   const char *name; /* the word under `measure` in a scene */
-  const char *doc;
-  unsigned flag; /* GG_MEASURE_... */
+  unsigned flag;    /* GG_MEASURE_... */
   void *(*create)(const gg_model *model, gg_error *err);
   void (*destroy)(void *self);
   /* Plain bytes that one sample leaves for the next: what a checkpoint keeps. NULL if there are none. */
@@ -73,11 +71,13 @@ typedef struct gg_observable {
 enum { GG_N_HISTORY = 9 };
 extern const gg_quantity gg_history_quantities[GG_N_HISTORY];
 
-/* Every observable there is; NULL-terminated. */
-extern const gg_observable *const gg_observables[];
+/* Name and flag of an observable of the list in common/observables.h. */
+#define GG_OBSERVABLE(FLAG, word) .name = #word, .flag = GG_MEASURE_##FLAG
 
-extern const gg_observable gg_rheology, gg_velocity_distributions, gg_orientation, gg_sonine, gg_pair_correlation,
-    gg_velocity_correlations, gg_structure, gg_cells, gg_profiles, gg_diffusion, gg_collisions, gg_local_distributions,
-    gg_viscosity;
+/* Every observable of that list, NULL-terminated; and each by its name, gg_rheology and so on. */
+extern const gg_observable *const gg_observables[];
+#define GG_OBSERVABLE_PLUG_IN(FLAG, word, description) extern const gg_observable gg_##word;
+GG_OBSERVABLES(GG_OBSERVABLE_PLUG_IN)
+#undef GG_OBSERVABLE_PLUG_IN
 
 #endif

@@ -1,21 +1,7 @@
 #include "measure/observable.h"
 
-const gg_observable *const gg_observables[] = {
-    &gg_rheology, /* stays first: it tells when a run is steady */
-    &gg_velocity_distributions,
-    &gg_local_distributions,
-    &gg_orientation,
-    &gg_sonine,
-    &gg_pair_correlation,
-    &gg_velocity_correlations,
-    &gg_structure,
-    &gg_cells,
-    &gg_profiles,
-    &gg_diffusion,
-    &gg_viscosity,
-    &gg_collisions,
-    NULL,
-};
+#define PLUG_IN(FLAG, word, description) &gg_##word,
+const gg_observable *const gg_observables[] = {GG_OBSERVABLES(PLUG_IN) NULL};
 
 const gg_quantity gg_history_quantities[GG_N_HISTORY] = {
     GG_Q_TEMPERATURE,

@@ -116,11 +116,9 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_orientation = {
-    .name = "orientation",
-    .doc = "angle between peculiar velocity and spin",
+    GG_OBSERVABLE(ORIENTATION, orientation),
     .create = create,
     .destroy = free,
-    .flag = GG_MEASURE_ORIENTATION,
     .refuses = refuses,
     .bins = bins,
     .every = 2,

@@ -7,6 +7,7 @@
 
 #include <gsl/gsl_multifit.h>
 
+#include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
 
@@ -25,12 +26,6 @@ typedef struct pair_correlation {
 } pair_correlation;
 
 enum { COLLISIONS, TIME, TEMPERATURE, SNAPSHOTS, EXTRA }; /* behind the bins */
-
-static const char *refuses(const gg_model *m)
-{
-  if (m->homogeneous) return "the Monte Carlo ensemble has no positions";
-  return gg_flow_is_walled(m->flow) ? "between walls the gas is not homogeneous" : NULL;
-}
 
 static void destroy(void *self)
 {
@@ -169,13 +164,11 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_pair_correlation = {
-    .name = "pair_correlation",
-    .doc = "pair correlation from contact outwards",
+    GG_OBSERVABLE(PAIR_CORRELATION, pair_correlation),
     .create = create,
     .destroy = destroy,
     .memory = memory,
-    .flag = GG_MEASURE_PAIR_CORRELATION,
-    .refuses = refuses,
+    .refuses = gg_needs_bulk,
     .bins = bins,
     .every = 8,
     .positions = true,

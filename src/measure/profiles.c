@@ -197,11 +197,9 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_profiles = {
-    .name = "profiles",
-    .doc = "density, flow, temperatures and spin across the gap between walls",
+    GG_OBSERVABLE(PROFILES, profiles),
     .create = create,
     .destroy = free,
-    .flag = GG_MEASURE_PROFILES,
     .refuses = refuses,
     .bins = bins,
     .memory = memory,

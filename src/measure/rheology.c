@@ -163,9 +163,7 @@ static void finish(void *self, const gg_interval *in, double *row)
 }
 
 const gg_observable gg_rheology = {
-    .name = "rheology",
-    .doc = "temperatures, spin, stress, collision rate, free path, velocity moments",
-    .flag = GG_MEASURE_RHEOLOGY,
+    GG_OBSERVABLE(RHEOLOGY, rheology),
     .width = width,
     .create = create,
     .destroy = free,

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "measure/needs.h"
 #include "measure/observable.h"
 
 enum { BINS = 60, FOURTH = BINS, SIXTH, SHARE, SET };
@@ -20,7 +21,7 @@ typedef struct sonine {
 static const char *refuses(const gg_model *m)
 {
   if (m->shear_rate != 0) return "under shear the distribution is not isotropic; see velocity_distributions";
-  return gg_flow_is_walled(m->flow) ? "between walls velocities depend on the place; measure profiles" : NULL;
+  return gg_needs_homogeneity(m);
 }
 
 static void *create(const gg_model *m, gg_error *err)
@@ -114,14 +115,6 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_sonine = {
-    .name = "sonine",
-    .doc = "deviation of speeds from a Maxwellian",
-    .create = create,
-    .destroy = free,
-    .flag = GG_MEASURE_SONINE,
-    .refuses = refuses,
-    .bins = bins,
-    .every = 2,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    GG_OBSERVABLE(SONINE, sonine), .create = create, .destroy = free, .refuses = refuses, .bins = bins, .every = 2,
+    .add_snapshot = add_snapshot,  .curves = curves,
 };

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "measure/mesh.h"
+#include "measure/needs.h"
 #include "measure/observable.h"
 
 enum { LEAST_MESH = 16, MOST_MESH = 96 };
@@ -21,12 +22,6 @@ typedef struct structure {
   gg_mode *mode[4]; /* of density and momentum: (2 most + 1)^2 (most + 1) */
   double *momentum;
 } structure;
-
-static const char *refuses(const gg_model *m)
-{
-  if (m->homogeneous) return "the Monte Carlo ensemble has no positions";
-  return gg_flow_is_walled(m->flow) ? "between walls the gas is not periodic" : NULL;
-}
 
 static void destroy(void *self)
 {
@@ -189,12 +184,10 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_structure = {
-    .name = "structure",
-    .doc = "structure factor and velocity spectra",
+    GG_OBSERVABLE(STRUCTURE, structure),
     .create = create,
     .destroy = destroy,
-    .flag = GG_MEASURE_STRUCTURE,
-    .refuses = refuses,
+    .refuses = gg_needs_bulk,
     .bins = bins,
     .every = 32,
     .positions = true,

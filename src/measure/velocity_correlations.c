@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
 
@@ -24,12 +25,6 @@ typedef struct correlations {
   int bins;
   double *spin[3]; /* about the mean */
 } correlations;
-
-static const char *refuses(const gg_model *m)
-{
-  if (m->homogeneous) return "the Monte Carlo ensemble has no positions";
-  return gg_flow_is_walled(m->flow) ? "between walls the gas is not homogeneous" : NULL;
-}
 
 static void destroy(void *self)
 {
@@ -189,12 +184,10 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_velocity_correlations = {
-    .name = "velocity_correlations",
-    .doc = "velocity correlations over distance",
+    GG_OBSERVABLE(VELOCITY_CORRELATIONS, velocity_correlations),
     .create = create,
     .destroy = destroy,
-    .flag = GG_MEASURE_VELOCITY_CORRELATIONS,
-    .refuses = refuses,
+    .refuses = gg_needs_bulk,
     .bins = bins,
     .every = 16,
     .positions = true,

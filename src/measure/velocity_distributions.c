@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "measure/histogram.h"
+#include "measure/needs.h"
 #include "measure/observable.h"
 
 enum { LOW = 20 }; /* bins |k| <= LOW about 0: the head */
@@ -13,11 +14,6 @@ enum { LOW = 20 }; /* bins |k| <= LOW about 0: the head */
 typedef struct distributions {
   int species, vectors; /* vectors: C, and Omega if there are spins */
 } distributions;
-
-static const char *refuses(const gg_model *m)
-{
-  return gg_flow_is_walled(m->flow) ? "between walls velocities depend on the place; measure profiles" : NULL;
-}
 
 static void *create(const gg_model *m, gg_error *err)
 {
@@ -119,12 +115,10 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_velocity_distributions = {
-    .name = "velocity_distributions",
-    .doc = "distributions of the components of C and Omega, their tails and heads",
+    GG_OBSERVABLE(VELOCITY_DISTRIBUTIONS, velocity_distributions),
     .create = create,
     .destroy = free,
-    .flag = GG_MEASURE_VELOCITY_DISTRIBUTIONS,
-    .refuses = refuses,
+    .refuses = gg_needs_homogeneity,
     .bins = bins,
     .every = 2,
     .add_snapshot = add_snapshot,

@@ -147,9 +147,7 @@ static const char *missing(const gg_model *m, gg_quantity q)
 }
 
 const gg_observable gg_viscosity = {
-    .name = "viscosity",
-    .doc = "eta* of cooling and heated gases by linear response: shear, extrapolated to none",
-    .flag = GG_MEASURE_VISCOSITY,
+    GG_OBSERVABLE(VISCOSITY, viscosity),
     .width = width,
     .create = create,
     .destroy = free,

@@ -156,11 +156,11 @@ static void add_velocity(const pair *p, const impulse *f, double w, gg_gaussian 
 /* s_1' = s_1 - k x J/(K_1 m_1); the second moment about the mean, which moves as well. */
 static void add_spin(const pair *p, const impulse *f, double w, gg_gaussian *change)
 {
-  double q = p->contact->ik1, drift = -w * q * f->kJ.z;
+  double q = p->contact->ik1, spin_rate = -w * q * f->kJ.z;
   gg_tensor gain = plus(f->kJs, 1, transposed(f->kJs));
   change->Theta = plus(plus(change->Theta, -w * q, gain), w * q * q, f->kJkJ);
-  change->Theta.at[2][2] -= 2 * p->one->spin * drift;
-  change->spin += drift;
+  change->Theta.at[2][2] -= 2 * p->one->spin * spin_rate;
+  change->spin += spin_rate;
 }
 
 static double number_density(const gg_model *m, int i)

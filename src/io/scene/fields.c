@@ -32,21 +32,9 @@ static const gg_word switches[] = {{"off", GG_OFF, ""}, {"on", GG_ON, ""}, {0}};
 static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one below"},
                                {"open", GG_OPEN_TOP, "none: grains fall back under gravity"},
                                {0}};
-static const gg_word observables[] = {
-    {"rheology", GG_MEASURE_RHEOLOGY, "temperatures, stresses, rates, moments"},
-    {"velocity_distributions", GG_MEASURE_VELOCITY_DISTRIBUTIONS, "of every component, with their tails"},
-    {"local_distributions", GG_MEASURE_LOCAL_DISTRIBUTIONS, "velocity distributions by local density"},
-    {"orientation", GG_MEASURE_ORIENTATION, "angle between velocity and spin"},
-    {"sonine", GG_MEASURE_SONINE, "deviation of speeds from a Maxwellian"},
-    {"pair_correlation", GG_MEASURE_PAIR_CORRELATION, "g(r) to contact"},
-    {"velocity_correlations", GG_MEASURE_VELOCITY_CORRELATIONS, "between grains, over their distance"},
-    {"structure", GG_MEASURE_STRUCTURE, "structure factor and velocity spectra"},
-    {"cells", GG_MEASURE_CELLS, "local density, shear rate, temperatures, spin"},
-    {"profiles", GG_MEASURE_PROFILES, "across the gap between walls"},
-    {"diffusion", GG_MEASURE_DIFFUSION, "velocity autocorrelation, mean-square displacement"},
-    {"viscosity", GG_MEASURE_VISCOSITY, "eta* of cooling and heated gases; comes with small_shear: on"},
-    {"collisions", GG_MEASURE_COLLISIONS, "free paths and times, angles of contact"},
-    {0}};
+#define WORD(FLAG, word, description) {#word, GG_MEASURE_##FLAG, description},
+static const gg_word observables[] = {GG_OBSERVABLES(WORD){0}};
+#undef WORD
 
 #define AT(member) offsetof(gg_scene, member)
 #define AUTO .special = "auto", .special_value = GG_AUTO
