@@ -22,8 +22,8 @@ static const double dense = 0.3;
 static void take_plain_path(gg_engine *engine)
 {
   gg_dsmc *d = (gg_dsmc *)engine;
-  for (int p = 0; p < GG_PAIRS; p++) d->path[p] = GG_PATH_PLAIN;
-  gg_dsmc_bounds(d);
+  for (int p = 0; p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
+  gg_dsmc_start_majorants(d);
 }
 
 static gg_bench_sheet *new_sheet(gg_bench *b, const char *key, const char *caption, const gg_bench_dsmc_kind *kinds,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/clones.h"
+#include "common/crew.h"
 #include "dsmc/dsmc.h"
 
 static gg_dsmc *dsmc_of(gg_engine *engine)
@@ -35,14 +36,14 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
 {
   GG_TRY(gg_dsmc_accepts(model, err));
   gg_dsmc *d;
-  GG_TRY(gg_dsmc_alloc(model, &d, err));
-  if (d->tournament) gg_tournament_start(d->tournament, seed, stream);
+  GG_TRY(gg_dsmc_allocate(model, &d, err));
+  if (d->schedule) gg_dsmc_schedule_start(d->schedule, seed, stream);
   gg_rng start = gg_rng_seed(seed, stream + GG_STREAM_START);
-  gg_ensemble_start(model, &d->ensemble, &start);
+  gg_dsmc_ensemble_start(model, &d->ensemble, &start);
   d->now.rng = gg_rng_seed(seed, stream + GG_STREAM_ENGINE);
-  gg_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
-  gg_dsmc_settle(d);
-  gg_dsmc_bounds(d);
+  gg_dsmc_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
+  gg_dsmc_synchronise(d);
+  gg_dsmc_start_majorants(d);
   *engine = &d->base;
   return GG_OK;
 }
@@ -59,10 +60,10 @@ static void read_tap(gg_engine *engine, gg_transfer *transfer)
   s->transfer = (gg_transfer){0};
 }
 
-/* As many as can meet at once, at most. */
+/* At most as many as there are pairs of segments in a round. */
 static void threads(gg_engine *engine, int threads)
 {
-  gg_ensemble *e = &dsmc_of(engine)->ensemble;
+  gg_dsmc_ensemble *e = &dsmc_of(engine)->ensemble;
   gg_crew_free(e->crew);
   e->crew = e->segments > 1 ? gg_crew_new(threads < e->segments / 2 ? threads : e->segments / 2) : NULL;
 }
@@ -74,32 +75,33 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .collisions = s->collisions,
                              .events = s->candidates,
                              .overflows = s->overflows,
-                             .time_step = s->step.turns,
+                             .time_step = s->step.splitting,
                              .time_step_bias = s->step.bias,
                              .others_cpu = gg_crew_cpu(const_dsmc_of(engine)->ensemble.crew)};
 }
 
 /* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
-GG_CLONES static void unpack(const gg_block *b, size_t n, double drift, double *restrict x, double *restrict y,
+GG_CLONES static void unpack(const gg_dsmc_block *b, size_t n, double strain, double *restrict x, double *restrict y,
                              double *restrict z)
 {
-  for (size_t i = 0; i < n; i += GG_LANES, b++)
-    for (size_t l = 0; l < GG_LANES; l++) {
-      x[i + l] = b->x[l] - drift * b->y[l];
+  for (size_t i = 0; i < n; i += GG_DSMC_LANES, b++)
+    for (size_t l = 0; l < GG_DSMC_LANES; l++) {
+      x[i + l] = b->x[l] - strain * b->y[l];
       y[i + l] = b->y[l];
       z[i + l] = b->z[l];
     }
 }
 
-enum { SHOWN = 256 }; /* grains at a time: so few stay in the first cache until they have been looked at */
+enum { SHOWN = 256 }; /* grains at a time: so few stay in the first cache until they have been sampled */
 
 /* `n` grains from `first` on, a multiple of eight; of p->c or p->s. */
-static void lay_out(const gg_population *p, const void *blocks, size_t first, size_t n, double drift,
+static void lay_out(const gg_dsmc_population *p, const void *blocks, size_t first, size_t n, double strain,
                     double v[3][SHOWN])
 {
-  gg_block room[SHOWN / GG_LANES];
-  const gg_block *b = gg_blocks_in_double(p, blocks, first / GG_LANES, (n + GG_LANES - 1) / GG_LANES, room);
-  unpack(b, n, drift, v[0], v[1], v[2]);
+  gg_dsmc_block room[SHOWN / GG_DSMC_LANES];
+  const gg_dsmc_block *b =
+      gg_dsmc_blocks_in_double(p, blocks, first / GG_DSMC_LANES, (n + GG_DSMC_LANES - 1) / GG_DSMC_LANES, room);
+  unpack(b, n, strain, v[0], v[1], v[2]);
 }
 
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
@@ -109,12 +111,12 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
   double v[6][SHOWN];
   uint8_t kind[SHOWN];
   for (int i = 0; i < d->ensemble.n_species; i++) {
-    const gg_population *p = &d->ensemble.of[i];
+    const gg_dsmc_population *p = &d->ensemble.of[i];
     memset(kind, i, sizeof kind);
     for (size_t first = 0; first < (size_t)p->n; first += SHOWN) {
       size_t left = (size_t)p->n - first;
       gg_chunk chunk = {.n = left < SHOWN ? left : SHOWN, .c = {v[0], v[1], v[2]}};
-      lay_out(p, p->c, first, chunk.n, d->now.drift, v);
+      lay_out(p, p->c, first, chunk.n, d->now.strain, v);
       if (p->s) {
         lay_out(p, p->s, first, chunk.n, 0, v + 3);
         for (int a = 0; a < 3; a++) chunk.s[a] = v[3 + a];
@@ -129,15 +131,15 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
 static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
 {
   gg_dsmc *d = dsmc_of(engine);
-  gg_block c[SHOWN / GG_LANES], s[SHOWN / GG_LANES];
+  gg_dsmc_block c[SHOWN / GG_DSMC_LANES], s[SHOWN / GG_DSMC_LANES];
   for (int i = 0; i < d->ensemble.n_species; i++) {
-    const gg_population *p = &d->ensemble.of[i];
+    const gg_dsmc_population *p = &d->ensemble.of[i];
     const size_t all = (size_t)p->n, most = p->single ? SHOWN : all;
     for (size_t first = 0; first < all; first += most) {
-      gg_block_run run = {.n = all - first < most ? all - first : most, .species = i, .drift = d->now.drift};
-      const size_t at = first / GG_LANES, n = (run.n + GG_LANES - 1) / GG_LANES;
-      run.c = gg_blocks_in_double(p, p->c, at, n, c)->x;
-      if (p->s) run.s = gg_blocks_in_double(p, p->s, at, n, s)->x;
+      gg_block_run run = {.n = all - first < most ? all - first : most, .species = i, .drift = d->now.strain};
+      const size_t at = first / GG_DSMC_LANES, n = (run.n + GG_DSMC_LANES - 1) / GG_DSMC_LANES;
+      run.c = gg_dsmc_blocks_in_double(p, p->c, at, n, c)->x;
+      if (p->s) run.s = gg_dsmc_blocks_in_double(p, p->s, at, n, s)->x;
       visit(context, &run);
     }
   }
@@ -153,17 +155,17 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
   if (power < -1000 || power > 1000) return gg_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);
   double factor = ldexp(1, power);
-  gg_ensemble_scale(&d->ensemble, factor);
+  gg_dsmc_ensemble_scale(&d->ensemble, factor);
   if (!slow) {
     d->now.time /= factor;
-    d->now.unsettled /= factor;
-    gg_dsmc_rescale_watching(d, factor);
+    d->now.unsynchronised /= factor;
+    gg_dsmc_rescale_callback(d, factor);
   }
   d->now.lost *= factor * factor;
   d->now.fastest *= factor;
   d->now.centre = gg_scale(factor, d->now.centre);
   d->now.temperature *= factor * factor;
-  d->now.step = gg_time_step_choose(&d->model, d->now.temperature);
+  d->now.step = gg_dsmc_time_step_choose(&d->model, d->now.temperature);
   for (int p = 0; p < GG_PAIRS; p++) d->now.transfer.loss[p] *= factor * factor;
   return GG_OK;
 }
@@ -177,7 +179,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .advance = advance,
     .tap = tap,
     .read_tap = read_tap,
-    .watch = gg_dsmc_watch,
+    .watch = gg_dsmc_set_callback,
     .threads = threads,
     .state = state,
     .snapshot = snapshot,

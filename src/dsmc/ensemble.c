@@ -1,4 +1,5 @@
 #include "dsmc/ensemble.h"
+#include "common/crew.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,17 +7,17 @@
 #include <sys/mman.h>
 
 #include "dsmc/kernel/kernels.h"
-#include "dsmc/parallel/segments.h"
+#include "dsmc/parallel/schedule.h"
 
 /* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
  * them, spare it the walks. */
-static void *new_blocks(const gg_population *p, gg_error *err)
+static void *new_blocks(const gg_dsmc_population *p, gg_error *err)
 {
-  const size_t huge = (size_t)1 << 21, n = p->n_blocks, bytes = n * gg_block_size(p);
+  const size_t huge = (size_t)1 << 21, n = p->n_blocks, bytes = n * gg_dsmc_block_size(p);
   size_t unit = bytes >= 2 * huge ? huge : 64, rounded = (bytes + unit - 1) / unit * unit;
   void *b = aligned_alloc(unit, rounded);
   if (!b) {
-    gg_fail(err, GG_FAILED, "out of memory for an ensemble of %zu grains: lower dsmc.particles", n * GG_LANES);
+    gg_fail(err, GG_FAILED, "out of memory for an ensemble of %zu grains: lower dsmc.particles", n * GG_DSMC_LANES);
     return NULL;
   }
 #ifdef MADV_HUGEPAGE
@@ -26,186 +27,190 @@ static void *new_blocks(const gg_population *p, gg_error *err)
   return b;
 }
 
-gg_status gg_ensemble_new(const gg_model *model, gg_ensemble *e, gg_error *err)
+gg_status gg_dsmc_ensemble_new(const gg_model *model, gg_dsmc_ensemble *e, gg_error *err)
 {
-  *e = (gg_ensemble){.n_species = model->n_species, .kernels = gg_kernels_for(gg_instructions_best())};
+  *e = (gg_dsmc_ensemble){.n_species = model->n_species, .kernels = gg_dsmc_kernels_for(gg_instructions_best())};
   size_t blocks = 0;
   for (int i = 0; i < e->n_species; i++) {
-    gg_population *p = &e->of[i];
+    gg_dsmc_population *p = &e->of[i];
     p->n = model->n_of[i];
-    p->n_blocks = ((size_t)p->n + GG_LANES - 1) / GG_LANES;
+    p->n_blocks = ((size_t)p->n + GG_DSMC_LANES - 1) / GG_DSMC_LANES;
     blocks += p->n_blocks;
     p->mass = model->mass[i];
     p->inertia = model->inertia[i];
     p->single = model->single;
     p->c = new_blocks(p, err);
     if (p->c && model->rule != GG_SMOOTH) p->s = new_blocks(p, err);
-    p->top = gg_new_array(p->n_blocks, sizeof *p->top, err);
-    if (!p->c || !p->top || (model->rule != GG_SMOOTH && !p->s)) {
-      gg_ensemble_free(e);
+    p->speed_bound = gg_new_array(p->n_blocks, sizeof *p->speed_bound, err);
+    if (!p->c || !p->speed_bound || (model->rule != GG_SMOOTH && !p->s)) {
+      gg_dsmc_ensemble_free(e);
       return GG_FAILED;
     }
   }
-  e->segments = gg_segments_of(blocks);
+  e->segments = gg_dsmc_segments_of(blocks);
   return GG_OK;
 }
 
-void gg_ensemble_free(gg_ensemble *e)
+void gg_dsmc_ensemble_free(gg_dsmc_ensemble *e)
 {
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     free(e->of[i].c);
     free(e->of[i].s);
-    free(e->of[i].top);
+    free(e->of[i].speed_bound);
   }
   gg_crew_free(e->crew);
-  *e = (gg_ensemble){0};
+  *e = (gg_dsmc_ensemble){0};
 }
 
 /* Exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever. To them comes the
  * spin of the vorticity, s = (d/2) omega. */
-static void settle_spins(const gg_model *model, gg_ensemble *e)
+static void start_spins(const gg_model *model, gg_dsmc_ensemble *e)
 {
   double energy = 0, grains = 0;
   for (int i = 0; i < e->n_species; i++) {
-    const gg_population *p = &e->of[i];
+    const gg_dsmc_population *p = &e->of[i];
     grains += p->n;
     for (uint32_t a = 0; p->s && a < p->n; a++) {
-      gg_vec s = gg_block_get(p, p->s, a);
+      gg_vec s = gg_dsmc_block_get(p, p->s, a);
       energy += p->inertia * p->mass * gg_dot(s, s);
     }
   }
   double factor = energy > 0 ? sqrt(3 * grains * model->ratio0 * model->temperature0 / energy) : 0;
   for (int i = 0; i < e->n_species; i++) {
-    gg_population *p = &e->of[i];
+    gg_dsmc_population *p = &e->of[i];
     double mean_spin = model->boltzmann ? 0 : -model->shear_rate * model->diameter[i] / 4;
     for (uint32_t a = 0; p->s && a < p->n; a++) {
-      gg_vec s = gg_scale(factor, gg_block_get(p, p->s, a));
+      gg_vec s = gg_scale(factor, gg_dsmc_block_get(p, p->s, a));
       s.z += mean_spin;
-      gg_block_set(p, p->s, a, s);
+      gg_dsmc_block_set(p, p->s, a, s);
     }
   }
 }
 
-void gg_ensemble_start(const gg_model *model, gg_ensemble *e, gg_rng *rng)
+void gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *rng)
 {
   for (int i = 0; i < e->n_species; i++) {
-    gg_population *p = &e->of[i];
+    gg_dsmc_population *p = &e->of[i];
     double speed = sqrt(model->temperature0 / p->mass), spin = sqrt(model->ratio0 * model->temperature0 / p->mass);
     for (uint32_t a = 0; a < p->n; a++) {
-      gg_block_set(p, p->c, a, gg_scale(speed, gg_rng_normal_vec(rng)));
-      if (p->s) gg_block_set(p, p->s, a, gg_scale(spin / sqrt(p->inertia), gg_rng_normal_vec(rng)));
+      gg_dsmc_block_set(p, p->c, a, gg_scale(speed, gg_rng_normal_vec(rng)));
+      if (p->s) gg_dsmc_block_set(p, p->s, a, gg_scale(spin / sqrt(p->inertia), gg_rng_normal_vec(rng)));
     }
   }
-  settle_spins(model, e);
+  start_spins(model, e);
   gg_vec none = {0, 0, 0};
-  gg_moments m = gg_ensemble_settle(e, 0, 1, gg_ensemble_settle(e, 0, 1, none, 1).centre, 1);
+  gg_dsmc_moments m = gg_dsmc_ensemble_synchronise(e, 0, 1, gg_dsmc_ensemble_synchronise(e, 0, 1, none, 1).centre, 1);
   double factor = sqrt(model->temperature0 / m.temperature);
   for (int i = 0; i < e->n_species; i++) {
-    gg_population *p = &e->of[i];
-    for (uint32_t a = 0; a < p->n; a++) gg_block_set(p, p->c, a, gg_scale(factor, gg_block_get(p, p->c, a)));
+    gg_dsmc_population *p = &e->of[i];
+    for (uint32_t a = 0; a < p->n; a++) gg_dsmc_block_set(p, p->c, a, gg_scale(factor, gg_dsmc_block_get(p, p->c, a)));
   }
 }
 
-enum { COMPONENTS = sizeof(gg_block) / sizeof(double) }; /* of a block */
+enum { COMPONENTS = sizeof(gg_dsmc_block) / sizeof(double) }; /* of a block */
 
-static void scale_blocks(const gg_population *p, void *blocks, gg_range r, double factor)
+static void scale_blocks(const gg_dsmc_population *p, void *blocks, gg_dsmc_range r, double factor)
 {
   const size_t n = (size_t)r.n * COMPONENTS;
   if (p->single) {
-    float *v = gg_blocks_at(p, blocks, r.first);
+    float *v = gg_dsmc_blocks_at(p, blocks, r.first);
     for (size_t i = 0; i < n; i++) v[i] = (float)(v[i] * factor);
   } else {
-    double *v = gg_blocks_at(p, blocks, r.first);
+    double *v = gg_dsmc_blocks_at(p, blocks, r.first);
     for (size_t i = 0; i < n; i++) v[i] *= factor;
   }
 }
 
-const gg_block *gg_blocks_in_double(const gg_population *p, const void *blocks, size_t first, size_t n, gg_block *room)
+const gg_dsmc_block *gg_dsmc_blocks_in_double(const gg_dsmc_population *p, const void *blocks, size_t first, size_t n,
+                                              gg_dsmc_block *room)
 {
-  if (!p->single) return (const gg_block *)blocks + first;
-  const float *from = (const float *)((const gg_block_single *)blocks + first);
+  if (!p->single) return (const gg_dsmc_block *)blocks + first;
+  const float *from = (const float *)((const gg_dsmc_block_single *)blocks + first);
   double *to = (double *)room;
   for (size_t i = 0; i < n * COMPONENTS; i++) to[i] = from[i];
   return room;
 }
 
 typedef struct scaling {
-  gg_ensemble *e;
+  gg_dsmc_ensemble *e;
   double factor;
 } scaling;
 
 static void heat_segment(void *context, int part)
 {
   const scaling *w = context;
-  const int segment = gg_segment_in(w->e->segments, w->e->halves, part);
+  const int segment = gg_dsmc_segment_in(w->e->segments, w->e->grouping, part);
   for (int i = 0; i < w->e->n_species; i++) {
-    const gg_population *p = &w->e->of[i];
-    scale_blocks(p, p->c, gg_segment(p, w->e->segments, segment), w->factor);
+    const gg_dsmc_population *p = &w->e->of[i];
+    scale_blocks(p, p->c, gg_dsmc_segment(p, w->e->segments, segment), w->factor);
   }
 }
 
-void gg_ensemble_heat(gg_ensemble *e, double factor)
+void gg_dsmc_ensemble_heat(gg_dsmc_ensemble *e, double factor)
 {
   gg_crew_share(e->crew, e->segments, heat_segment, &(scaling){e, factor});
-  e->top_unit *= factor * factor * (1 + 1e-15);
+  e->bound_scale *= factor * factor * (1 + 1e-15);
 }
 
-void gg_ensemble_scale(gg_ensemble *e, double factor)
+void gg_dsmc_ensemble_scale(gg_dsmc_ensemble *e, double factor)
 {
-  gg_ensemble_heat(e, factor);
+  gg_dsmc_ensemble_heat(e, factor);
   for (int i = 0; i < e->n_species; i++) {
-    const gg_population *p = &e->of[i];
-    if (p->s) scale_blocks(p, p->s, gg_all_blocks(p), factor);
+    const gg_dsmc_population *p = &e->of[i];
+    if (p->s) scale_blocks(p, p->s, gg_dsmc_all_blocks(p), factor);
   }
 }
 
 /* The last block alone: its empty lanes stay 0. */
-static void settle_odd_block(gg_sweep *sweep, gg_population *p, double drift, double scale, gg_vec centre, double unit,
-                             gg_sums *s)
+static void synchronise_odd_block(gg_dsmc_synchronise_blocks *synchronise, gg_dsmc_population *p, double strain,
+                                  double scale, gg_vec centre, double bound_scale, gg_dsmc_block_sums *s)
 {
   const size_t last = p->n_blocks - 1;
-  void *block = gg_blocks_at(p, p->c, last);
-  gg_sums ignored = {0};
-  float *top = &p->top[last];
-  sweep(block, top, 1, drift, scale, centre, unit, &ignored);
-  for (uint32_t a = (uint32_t)p->n; a < p->n_blocks * GG_LANES; a++) gg_block_set(p, p->c, a, (gg_vec){0, 0, 0});
-  sweep(block, top, 1, 0, 1, (gg_vec){0, 0, 0}, unit, s);
+  void *block = gg_dsmc_blocks_at(p, p->c, last);
+  gg_dsmc_block_sums ignored = {0};
+  float *speed_bound = &p->speed_bound[last];
+  synchronise(block, speed_bound, 1, strain, scale, centre, bound_scale, &ignored);
+  for (uint32_t a = (uint32_t)p->n; a < p->n_blocks * GG_DSMC_LANES; a++)
+    gg_dsmc_block_set(p, p->c, a, (gg_vec){0, 0, 0});
+  synchronise(block, speed_bound, 1, 0, 1, (gg_vec){0, 0, 0}, bound_scale, s);
 }
 
-typedef struct settling {
-  gg_ensemble *e;
-  double drift, scale, unit;
+typedef struct synchronising {
+  gg_dsmc_ensemble *e;
+  double strain, scale, bound_scale;
   gg_vec centre;
-  gg_sums of[GG_MOST_SEGMENTS][GG_MAX_SPECIES];
-} settling;
+  gg_dsmc_block_sums of[GG_DSMC_MAX_SEGMENTS][GG_MAX_SPECIES];
+} synchronising;
 
-static void settle_segment(void *context, int part)
+static void synchronise_segment(void *context, int part)
 {
-  settling *w = context;
-  const int segment = gg_segment_in(w->e->segments, w->e->halves, part);
+  synchronising *w = context;
+  const int segment = gg_dsmc_segment_in(w->e->segments, w->e->grouping, part);
   for (int i = 0; i < w->e->n_species; i++) {
-    gg_population *p = &w->e->of[i];
-    gg_range r = gg_segment(p, w->e->segments, segment);
-    bool odd = p->n % GG_LANES && segment == w->e->segments - 1;
-    gg_sums s = {0};
-    gg_sweep *sweep = w->e->kernels->sweep[p->single];
-    sweep(gg_blocks_at(p, p->c, r.first), p->top + r.first, r.n - odd, w->drift, w->scale, w->centre, w->unit, &s);
-    if (odd) settle_odd_block(sweep, p, w->drift, w->scale, w->centre, w->unit, &s);
+    gg_dsmc_population *p = &w->e->of[i];
+    gg_dsmc_range r = gg_dsmc_segment(p, w->e->segments, segment);
+    bool odd = p->n % GG_DSMC_LANES && segment == w->e->segments - 1;
+    gg_dsmc_block_sums s = {0};
+    gg_dsmc_synchronise_blocks *synchronise = w->e->kernels->synchronise[p->single];
+    synchronise(gg_dsmc_blocks_at(p, p->c, r.first), p->speed_bound + r.first, r.n - odd, w->strain, w->scale,
+                w->centre, w->bound_scale, &s);
+    if (odd) synchronise_odd_block(synchronise, p, w->strain, w->scale, w->centre, w->bound_scale, &s);
     w->of[segment][i] = s;
   }
 }
 
-gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec centre, double unit)
+gg_dsmc_moments gg_dsmc_ensemble_synchronise(gg_dsmc_ensemble *e, double strain, double scale, gg_vec centre,
+                                             double bound_scale)
 {
   double n = 0, mass = 0, energy = 0, most = 0;
   gg_vec momentum = {0, 0, 0};
-  settling w = {.e = e, .drift = drift, .scale = scale, .unit = unit, .centre = centre};
-  gg_crew_share(e->crew, e->segments, settle_segment, &w);
+  synchronising w = {.e = e, .strain = strain, .scale = scale, .bound_scale = bound_scale, .centre = centre};
+  gg_crew_share(e->crew, e->segments, synchronise_segment, &w);
   for (int i = 0; i < e->n_species; i++) {
-    gg_population *p = &e->of[i];
+    gg_dsmc_population *p = &e->of[i];
     for (int segment = 0; segment < e->segments; segment++)
-      for (int l = 0; l < GG_LANES; l++) {
-        const gg_sums *s = &w.of[segment][i];
+      for (int l = 0; l < GG_DSMC_LANES; l++) {
+        const gg_dsmc_block_sums *s = &w.of[segment][i];
         momentum = gg_axpy(p->mass, (gg_vec){s->c.x[l], s->c.y[l], s->c.z[l]}, momentum);
         energy += p->mass * s->c2[l];
         most = s->fastest[l] > most ? s->fastest[l] : most;
@@ -213,57 +218,62 @@ gg_moments gg_ensemble_settle(gg_ensemble *e, double drift, double scale, gg_vec
     n += (double)p->n;
     mass += p->mass * (double)p->n;
   }
-  e->top_unit = unit;
-  e->top_drift = 0;
-  return (gg_moments){.temperature = energy / (3 * n), .fastest = sqrt(most), .centre = gg_scale(1 / mass, momentum)};
+  e->bound_scale = bound_scale;
+  e->bound_strain = 0;
+  return (gg_dsmc_moments){
+      .temperature = energy / (3 * n), .fastest = sqrt(most), .centre = gg_scale(1 / mass, momentum)};
 }
 
-void gg_ensemble_drift_tops(gg_ensemble *e, double drift)
+void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain)
 {
-  double delta = drift - e->top_drift, part = gg_top_growth(delta / 8); /* drifts by a few units at most */
+  double delta = strain - e->bound_strain, part = gg_dsmc_bound_growth(delta / 8); /* strains of a few units at most */
   for (int twice = 0; twice < 3; twice++) part *= part;
-  e->top_unit *= part;
-  e->top_drift = drift;
+  e->bound_scale *= part;
+  e->bound_strain = strain;
 }
 
 static const char *const velocity_items[] = {"dsmc/velocity_1", "dsmc/velocity_2"};
 static const char *const spin_items[] = {"dsmc/spin_1", "dsmc/spin_2"};
-static const char *const top_items[] = {"dsmc/top_1", "dsmc/top_2"};
-static const char top_unit_item[] = "dsmc/top_unit";
+static const char *const bound_items[] = {"dsmc/speed_bound_1", "dsmc/speed_bound_2"};
+static const char bound_scale_item[] = "dsmc/bound_scale";
 
-static gg_status put_blocks(const gg_population *p, const char *name, const void *blocks, gg_archive *a, gg_error *err)
+static gg_status put_blocks(const gg_dsmc_population *p, const char *name, const void *blocks, gg_archive *a,
+                            gg_error *err)
 {
   return gg_archive_put(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, p->n_blocks * COMPONENTS, err);
 }
 
-static gg_status get_blocks(const gg_population *p, const char *name, void *blocks, const gg_archive *a, gg_error *err)
+static gg_status get_blocks(const gg_dsmc_population *p, const char *name, void *blocks, const gg_archive *a,
+                            gg_error *err)
 {
   return gg_archive_get(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, p->n_blocks * COMPONENTS, err);
 }
 
-gg_status gg_ensemble_save(const gg_ensemble *e, gg_archive *archive, gg_error *err)
+gg_status gg_dsmc_ensemble_save(const gg_dsmc_ensemble *e, gg_archive *archive, gg_error *err)
 {
   for (int i = 0; i < e->n_species; i++) {
-    const gg_population *p = &e->of[i];
+    const gg_dsmc_population *p = &e->of[i];
     GG_TRY(put_blocks(p, velocity_items[i], p->c, archive, err));
     if (p->s) GG_TRY(put_blocks(p, spin_items[i], p->s, archive, err));
-    GG_TRY(gg_archive_put(archive, top_items[i], GG_ITEM_U8, p->top, p->n_blocks * sizeof *p->top, err));
+    GG_TRY(
+        gg_archive_put(archive, bound_items[i], GG_ITEM_U8, p->speed_bound, p->n_blocks * sizeof *p->speed_bound, err));
   }
-  double tops[] = {e->top_unit, e->top_drift};
-  return gg_archive_put(archive, top_unit_item, GG_ITEM_F64, tops, 2, err);
+  double bounds[] = {e->bound_scale, e->bound_strain};
+  return gg_archive_put(archive, bound_scale_item, GG_ITEM_F64, bounds, 2, err);
 }
 
-gg_status gg_ensemble_restore(gg_ensemble *e, const gg_archive *archive, gg_error *err)
+gg_status gg_dsmc_ensemble_restore(gg_dsmc_ensemble *e, const gg_archive *archive, gg_error *err)
 {
   for (int i = 0; i < e->n_species; i++) {
-    gg_population *p = &e->of[i];
+    gg_dsmc_population *p = &e->of[i];
     GG_TRY(get_blocks(p, velocity_items[i], p->c, archive, err));
     if (p->s) GG_TRY(get_blocks(p, spin_items[i], p->s, archive, err));
-    GG_TRY(gg_archive_get(archive, top_items[i], GG_ITEM_U8, p->top, p->n_blocks * sizeof *p->top, err));
+    GG_TRY(
+        gg_archive_get(archive, bound_items[i], GG_ITEM_U8, p->speed_bound, p->n_blocks * sizeof *p->speed_bound, err));
   }
-  double tops[2];
-  GG_TRY(gg_archive_get(archive, top_unit_item, GG_ITEM_F64, tops, 2, err));
-  e->top_unit = tops[0];
-  e->top_drift = tops[1];
+  double bounds[2];
+  GG_TRY(gg_archive_get(archive, bound_scale_item, GG_ITEM_F64, bounds, 2, err));
+  e->bound_scale = bounds[0];
+  e->bound_strain = bounds[1];
   return GG_OK;
 }

@@ -3,20 +3,20 @@
 /* Room above the largest value seen: enough that a new record rarely goes over, little enough to cost no candidates. */
 static const double room = 1.05;
 
-void gg_majorant_start(gg_majorant *m, double bound, double thermal)
+void gg_dsmc_majorant_start(gg_dsmc_majorant *m, double sure, double thermal)
 {
-  *m = (gg_majorant){.before = bound / thermal};
+  *m = (gg_dsmc_majorant){.before = sure / thermal};
 }
 
-double gg_majorant_bound(const gg_majorant *m, double thermal)
+double gg_dsmc_majorant_at(const gg_dsmc_majorant *m, double thermal)
 {
   return room * (m->now > m->before ? m->now : m->before) * thermal;
 }
 
-void gg_majorant_learn(gg_majorant *m, double worst, double thermal, uint64_t candidates, uint64_t window)
+void gg_dsmc_majorant_learn(gg_dsmc_majorant *m, double largest, double thermal, uint64_t candidates, uint64_t window)
 {
-  if (worst > m->now * thermal) m->now = worst / thermal;
+  if (largest > m->now * thermal) m->now = largest / thermal;
   m->seen += candidates;
   if (m->seen < window || m->now == 0) return;
-  *m = (gg_majorant){.before = m->now};
+  *m = (gg_dsmc_majorant){.before = m->now};
 }

@@ -2,42 +2,42 @@
 #include "dsmc/dsmc.h"
 #include "dsmc/thermostat.h"
 
-void gg_dsmc_settle(gg_dsmc *d)
+void gg_dsmc_synchronise(gg_dsmc *d)
 {
   gg_dsmc_state *s = &d->now;
   double unit = s->temperature > 0 ? s->temperature : d->model.temperature0;
-  gg_moments m = gg_ensemble_settle(&d->ensemble, s->drift, 1, s->centre, unit);
+  gg_dsmc_moments m = gg_dsmc_ensemble_synchronise(&d->ensemble, s->strain, 1, s->centre, unit);
   s->temperature = m.temperature;
   s->fastest = m.fastest;
   s->centre = m.centre;
-  s->drift = s->unsettled = 0;
-  s->step = gg_time_step_choose(&d->model, s->temperature);
+  s->strain = s->unsynchronised = 0;
+  s->step = gg_dsmc_time_step_choose(&d->model, s->temperature);
 }
 
-static void heat(gg_dsmc *d, double dt, double drift, double half)
+static void heat(gg_dsmc *d, double dt, double strain, double half)
 {
   if (d->thermostat == GG_GAUSSIAN) {
-    d->now.lost = -gg_thermostat_return(&d->ensemble, drift, d->now.lost, half);
+    d->now.lost = -gg_dsmc_thermostat_return(&d->ensemble, strain, d->now.lost, half);
   } else {
-    gg_rng_lanes *lanes = d->tournament ? d->tournament->lanes : &d->now.lanes;
-    gg_thermostat_kick(&d->ensemble, drift, d->noise * dt, lanes);
+    gg_dsmc_rng_lanes *lanes = d->schedule ? d->schedule->lanes : &d->now.lanes;
+    gg_dsmc_thermostat_kick(&d->ensemble, strain, d->noise * dt, lanes);
   }
 }
 
-/* Collisions and thermostat over `dt`, while the drift goes from `drift` to `drift + span`. */
-static void collide(gg_dsmc *d, double dt, double drift, double span)
+/* Collisions and thermostat over `dt`, while the strain goes from `strain` to `strain + span`. */
+static void collide(gg_dsmc *d, double dt, double strain, double span)
 {
-  d->stretch = d->now.time;
-  /* The second half mirrors the first, so that turns cancel to second order. */
+  d->interval_begin = d->now.time;
+  /* Symmetric splitting: the second half mirrors the first. */
   if (d->thermostat == GG_NO_THERMOSTAT) {
-    gg_dsmc_collide(d, dt, drift, span, d->model.n_species == 1 ? GG_TURNS_THERE : GG_TURNS_THERE_AND_BACK);
+    gg_dsmc_collide(d, dt, strain, span, d->model.n_species == 1 ? GG_DSMC_FORWARD : GG_DSMC_SYMMETRIC);
     return;
   }
   double lost = d->now.lost;
-  gg_dsmc_collide(d, 0.5 * dt, drift, 0.5 * span, GG_TURNS_THERE);
-  heat(d, dt, drift + 0.5 * span, d->now.lost - lost);
-  d->stretch += 0.5 * dt;
-  gg_dsmc_collide(d, 0.5 * dt, drift + 0.5 * span, 0.5 * span, GG_TURNS_BACK);
+  gg_dsmc_collide(d, 0.5 * dt, strain, 0.5 * span, GG_DSMC_FORWARD);
+  heat(d, dt, strain + 0.5 * span, d->now.lost - lost);
+  d->interval_begin += 0.5 * dt;
+  gg_dsmc_collide(d, 0.5 * dt, strain + 0.5 * span, 0.5 * span, GG_DSMC_BACKWARD);
 }
 
 /* The step to take with `left` time and `wanted` collisions to go: a step that the scene asked for is taken whole. */
@@ -54,15 +54,15 @@ double gg_dsmc_step(gg_dsmc *d, double left, double wanted)
   gg_dsmc_state *s = &d->now;
   double dt = next_length(d, left, wanted), span = d->model.shear_rate * dt;
   /* Strang (SIAM J. Numer. Anal. 5 (1968) 506): half the streaming, all collisions, the other half. With collisions in
-   * stored velocities this is nothing but a constant half drift. */
+   * stored velocities this is nothing but a constant half strain. */
   if (s->step.split)
-    collide(d, dt, s->drift + 0.5 * span, 0);
+    collide(d, dt, s->strain + 0.5 * span, 0);
   else
-    collide(d, dt, s->drift, span);
-  s->drift += span;
+    collide(d, dt, s->strain, span);
+  s->strain += span;
   s->time += dt;
-  s->unsettled += dt;
+  s->unsynchronised += dt;
   /* Going through the ensemble costs as much as some collisions a grain: not oftener than the temperature changes. */
-  if (s->unsettled >= s->step.settle || s->drift >= 1) gg_dsmc_settle(d);
+  if (s->unsynchronised >= s->step.synchronise || s->strain >= 1) gg_dsmc_synchronise(d);
   return dt;
 }

@@ -83,7 +83,7 @@ static inline double lab_temperature(const lab_view *v)
   return (v->cc[0][0] + v->cc[1][1] + v->cc[2][2]) / (3 * v->n);
 }
 
-/* A mean and its standard error, from values that each average a stretch much longer than the correlation time. */
+/* A mean and its standard error, from values that each average an interval much longer than the correlation time. */
 typedef struct lab_mean {
   int n;
   double sum, sum2;

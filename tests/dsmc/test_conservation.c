@@ -68,7 +68,7 @@ static void momentum_stays_at_rounding(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* Over any stretch the energy lost to collisions, as the tap has it, is what is missing. */
+/* Over any interval the energy lost to collisions, as the tap has it, is what is missing. */
 static void tap_accounts_for_the_loss(void **state)
 {
   (void)state;

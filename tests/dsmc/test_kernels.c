@@ -4,12 +4,12 @@
 #include "dsmc/kernel/normal.h"
 #include "lab.h"
 
-static gg_engine *on_path(const gg_model *m, gg_path path, uint64_t seed)
+static gg_engine *on_path(const gg_model *m, gg_dsmc_path path, uint64_t seed)
 {
   gg_engine *g = lab_engine(m, seed);
   gg_dsmc *d = (gg_dsmc *)g;
   for (int p = 0; p < GG_PAIRS; p++) d->path[p] = path;
-  gg_dsmc_bounds(d);
+  gg_dsmc_start_majorants(d);
   return g;
 }
 
@@ -28,13 +28,13 @@ static void same_rule(void **state)
     gg_vec J = gg_impulse(rule, &c, k, g, gn);
     gg_vd3 vk = {gg_all(k.x), gg_all(k.y), gg_all(k.z)}, vg = {gg_all(g.x), gg_all(g.y), gg_all(g.z)};
     if (gn < 0) continue;
-    gg_lane_contact lanes = gg_lane_contact_of(&c);
-    gg_vd3 vJ = gg_lane_impulse(rule, &lanes, vk, vg, gg_all(gn));
+    gg_dsmc_lane_contact lanes = gg_dsmc_lane_contact_of(&c);
+    gg_vd3 vJ = gg_dsmc_lane_impulse(rule, &lanes, vk, vg, gg_all(gn));
     /* what smooth and rough grains do not need must not matter */
-    gg_loss_terms terms = {.Jg = gg_dot(J, g), .Jn2 = NAN, .J2 = NAN};
+    gg_dsmc_loss_terms terms = {.Jg = gg_dot(J, g), .Jn2 = NAN, .J2 = NAN};
     if (rule != GG_SMOOTH) terms.Jn2 = gg_dot(k, J) * gg_dot(k, J);
     if (rule == GG_FRICTIONAL) terms.J2 = gg_dot(J, J);
-    double loss = gg_energy_loss(&c, k, g, J), vloss = gg_loss_of(rule, &c, terms);
+    double loss = gg_energy_loss(&c, k, g, J), vloss = gg_dsmc_loss_of(rule, &c, terms);
     assert_true(fabs(vJ.x[0] - J.x) + fabs(vJ.y[1] - J.y) + fabs(vJ.z[0] - J.z) < 1e-14);
     assert_true(fabs(loss - vloss) < 1e-13);
   }
@@ -45,8 +45,8 @@ static void same_bits_on(const gg_model *m)
   gg_archive first = {0};
   for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
     if (!gg_instructions_run_here(set)) continue;
-    gg_engine *g = on_path(m, GG_PATH_BLOCKS, 3);
-    ((gg_dsmc *)g)->ensemble.kernels = gg_kernels_for(set);
+    gg_engine *g = on_path(m, GG_DSMC_BLOCKS, 3);
+    ((gg_dsmc *)g)->ensemble.kernels = gg_dsmc_kernels_for(set);
     gg_error err = {0};
     gg_archive a = {0};
     gg_dsmc_ops.tap(g, true);
@@ -99,18 +99,18 @@ static void normal_numbers(void **state)
   gg_rng rng = gg_rng_seed(6, 0);
   for (int i = 0; i < 100000; i++) {
     double u = i < 50 ? ldexp(1, -i) : gg_rng_uniform(&rng) + 0x1p-53;
-    assert_true(fabs(gg_lane_log(gg_all(u))[0] - log(u)) <= 4e-16 * (1 + fabs(log(u))));
+    assert_true(fabs(gg_dsmc_lane_log(gg_all(u))[0] - log(u)) <= 4e-16 * (1 + fabs(log(u))));
   }
-  gg_rng_lanes lanes;
-  for (unsigned l = 0; l < GG_LANES; l++)
+  gg_dsmc_rng_lanes lanes;
+  for (unsigned l = 0; l < GG_DSMC_LANES; l++)
     for (int i = 0; i < 4; i++) lanes.s[i][l] = gg_rng_seed(6, l + 1).s[i];
-  gg_lane_rng r;
-  gg_lane_rng_load(&r, &lanes);
+  gg_dsmc_lane_rng r;
+  gg_dsmc_lane_rng_load(&r, &lanes);
   const int n = 1000000;
   double m[5] = {0}, cross = 0;
   for (int i = 0; i < n; i++) {
     gg_vd a, b;
-    gg_lane_normal(&r, i % GG_PARTS, &a, &b);
+    gg_dsmc_lane_normal(&r, i % GG_PARTS, &a, &b);
     m[1] += a[0], m[2] += b[0] * b[0], m[3] += a[1] * a[1] * a[1], m[4] += pow(b[1], 4), cross += a[0] * b[0];
   }
   const double expected[5] = {0, 0, 1, 0, 3}, variance[5] = {0, 1, 2, 15, 96};
@@ -124,7 +124,7 @@ typedef struct physics {
 
 /* From the same Maxwellian start: a2 and d ln T/ds (s: collisions a grain) of a cooling gas, stress of a sheared one.
  */
-static void observe(gg_path path, int64_t n, int ensembles, int seed, physics *x)
+static void observe(gg_dsmc_path path, int64_t n, int ensembles, int seed, physics *x)
 {
   gg_scene s = lab_scene(GG_HCS, 0, 0.5, -1, n);
   gg_model m = lab_model(&s);
@@ -180,8 +180,8 @@ static void blocks_and_plain_agree(void **state)
   for (int i = 0; i < 4; i++) {
     physics plain = {0}, blocks = {0};
     for (int seed = 0; seed < 8; seed++) {
-      observe(GG_PATH_PLAIN, sizes[i].n, sizes[i].ensembles, seed, &plain);
-      observe(GG_PATH_BLOCKS, sizes[i].n, sizes[i].ensembles * (i ? 2 : 1), seed + 50, &blocks);
+      observe(GG_DSMC_PLAIN, sizes[i].n, sizes[i].ensembles, seed, &plain);
+      observe(GG_DSMC_BLOCKS, sizes[i].n, sizes[i].ensembles * (i ? 2 : 1), seed + 50, &blocks);
     }
     /* A hundred grains miss 2 % of the pressure of many, and whole blocks a little less of it: an effect of the size of
      * 1/N either way, and the engine takes the plain path there. */
@@ -209,7 +209,7 @@ static void every_rule_agrees(void **state)
       lab_flow f[2] = {{.T = {0}}, {.T = {0}}};
       for (int seed = 0; seed < 10; seed++)
         for (int fast = 0; fast < 2; fast++) {
-          gg_engine *g = on_path(&m, fast ? GG_PATH_BLOCKS : GG_PATH_PLAIN, (uint64_t)(seed + 100 * fast));
+          gg_engine *g = on_path(&m, fast ? GG_DSMC_BLOCKS : GG_DSMC_PLAIN, (uint64_t)(seed + 100 * fast));
           lab_average(g, &m, 50, 2, 20, &f[fast]);
           gg_dsmc_ops.destroy(g);
         }

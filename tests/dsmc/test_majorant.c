@@ -7,7 +7,7 @@
 static void force(gg_engine *g, double bound)
 {
   gg_dsmc *d = (gg_dsmc *)g;
-  for (int p = 0; p < GG_PAIRS; p++) d->now.majorant[p] = (gg_majorant){.before = bound};
+  for (int p = 0; p < GG_PAIRS; p++) d->now.majorant[p] = (gg_dsmc_majorant){.before = bound};
 }
 
 static void run(double forced, lab_mean *rate, lab_mean *loss, uint64_t *overflows)
@@ -64,16 +64,16 @@ static double trace(double a[3][3])
 }
 
 /* One block; the bound is forced down (if `forced`) an eighth of a collision per grain after it last was. There must be
- * grains enough that each stretch has candidates, of each pair of species, that notice it: of a few tens of collisions
- * that would share one stretch, about 1 % get lost unnoticed. */
+ * grains enough that each interval has candidates, of each pair of species, that notice it: of a few tens of collisions
+ * that would share one interval, about 1 % get lost unnoticed. */
 static void block(gg_engine *g, const gg_model *m, double forced, mixed *out)
 {
-  enum { STRETCHES = 300 };
+  enum { INTERVALS = 300 };
   lab_view v = {0};
   gg_transfer t;
   double time = 0, collisional[3][3] = {{0}}, energy[2];
   gg_dsmc_ops.read_tap(g, &t);
-  for (int i = 0; i < STRETCHES; i++) {
+  for (int i = 0; i < INTERVALS; i++) {
     if (forced > 0) force(g, forced);
     time += lab_advance(g, INFINITY, (uint64_t)m->n / 16);
     if (i % 5 == 0) gg_dsmc_ops.snapshot(g, false, lab_look, &v);
@@ -100,7 +100,7 @@ static void block(gg_engine *g, const gg_model *m, double forced, mixed *out)
   lab_add(&out->pressure, m->density * T + trace(collisional) / 3);
 }
 
-static void shear(gg_path path, double forced, uint64_t seed, mixed *out)
+static void shear(gg_dsmc_path path, double forced, uint64_t seed, mixed *out)
 {
   gg_scene s = lab_scene(GG_USF, 0.2, 0.8, 0.2, 16000);
   s.n_species = 2;
@@ -109,13 +109,13 @@ static void shear(gg_path path, double forced, uint64_t seed, mixed *out)
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, seed);
   gg_dsmc *d = (gg_dsmc *)g;
-  for (int q = 0; q < GG_PAIRS && path == GG_PATH_PLAIN; q++) d->path[q] = path;
-  assert_true((d->path[0] == GG_PATH_PLAIN) == (path == GG_PATH_PLAIN));
+  for (int q = 0; q < GG_PAIRS && path == GG_DSMC_PLAIN; q++) d->path[q] = path;
+  assert_true((d->path[0] == GG_DSMC_PLAIN) == (path == GG_DSMC_PLAIN));
   lab_advance(g, INFINITY, 40 * (uint64_t)m.n / 2);
   gg_dsmc_ops.tap(g, true);
   uint64_t before = d->now.overflows;
   for (int b = 0; b < 20; b++) block(g, &m, forced, out);
-  printf("# %s, bound %g thermal speeds: %llu overflows\n", path == GG_PATH_PLAIN ? "one by one" : "blocks", forced,
+  printf("# %s, bound %g thermal speeds: %llu overflows\n", path == GG_DSMC_PLAIN ? "one by one" : "blocks", forced,
          (unsigned long long)(d->now.overflows - before));
   if (forced > 0) assert_true(d->now.overflows - before > 1000);
   gg_dsmc_ops.destroy(g);
@@ -126,10 +126,10 @@ static void forced_overflows_of_a_mixture(void **state)
   (void)state;
   const double forced[] = {2, 0.3};
   mixed plain = {0};
-  shear(GG_PATH_PLAIN, 0, 1, &plain);
+  shear(GG_DSMC_PLAIN, 0, 1, &plain);
   for (int i = 0; i < 4; i++) {
     mixed f = {0};
-    shear(i < 2 ? GG_PATH_PLAIN : GG_PATH_BLOCKS, forced[i % 2], 2 + (uint64_t)i, &f);
+    shear(i < 2 ? GG_DSMC_PLAIN : GG_DSMC_BLOCKS, forced[i % 2], 2 + (uint64_t)i, &f);
     const struct {
       const char *name;
       lab_mean *forced, *plain;

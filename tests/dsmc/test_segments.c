@@ -1,21 +1,21 @@
-/* Segments that meet in rounds are the gas: every pair of segments meets as often as any other, grains of one segment
- * and of two collide at the same rate, gases that begin at different temperatures mix as they would one pair after
- * another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. One thread
- * does all: that more leave the same bits is test_threads.c's matter. */
+/* Segments that collide in rounds are the gas: every pair of segments is paired as often as any other, grains of one
+ * segment and of two collide at the same rate, gases that begin at different temperatures mix as they would one pair
+ * after another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. One
+ * thread does all: that more leave the same bits is test_threads.c's matter. */
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
-/* Everyone meets everyone once, and nobody is in two places at once. */
+/* Each segment is paired with each other once, and is in one pair at a time. */
 static void everyone_meets(void **state)
 {
   (void)state;
-  for (int segments = 4; segments <= GG_MOST_SEGMENTS; segments *= 2) {
-    int met[GG_MOST_SEGMENTS][GG_MOST_SEGMENTS] = {{0}};
+  for (int segments = 4; segments <= GG_DSMC_MAX_SEGMENTS; segments *= 2) {
+    int met[GG_DSMC_MAX_SEGMENTS][GG_DSMC_MAX_SEGMENTS] = {{0}};
     for (int round = 0; round < segments; round++) {
-      int busy[GG_MOST_SEGMENTS] = {0};
-      for (int k = 0; k < gg_meetings(segments, round); k++) {
+      int busy[GG_DSMC_MAX_SEGMENTS] = {0};
+      for (int k = 0; k < gg_dsmc_segment_pairs(segments, round); k++) {
         int a, b;
-        gg_meeting_of(segments, round, k, &a, &b);
+        gg_dsmc_segment_pair(segments, round, k, &a, &b);
         assert_true(a >= 0 && b >= 0 && a < segments && b < segments);
         met[a][b]++, busy[a]++;
         if (a != b) met[b][a]++, busy[b]++;
@@ -31,26 +31,26 @@ static void everyone_meets(void **state)
 static void cut_and_shuffled(void **state)
 {
   (void)state;
-  float tops[1];
+  float bounds[1];
   for (size_t blocks = 1; blocks < 40000; blocks += 1 + blocks / 7)
-    for (int segments = 1; segments <= GG_MOST_SEGMENTS; segments += segments == 1 ? 1 : 2) {
-      gg_population p = {.n_blocks = blocks, .top = tops};
+    for (int segments = 1; segments <= GG_DSMC_MAX_SEGMENTS; segments += segments == 1 ? 1 : 2) {
+      gg_dsmc_population p = {.n_blocks = blocks, .speed_bound = bounds};
       uint32_t next = 0;
       for (int s = 0; s < segments; s++) {
-        gg_range r = gg_segment(&p, segments, s);
+        gg_dsmc_range r = gg_dsmc_segment(&p, segments, s);
         assert_int_equal(r.first, next);
         assert_true(r.first % 16 == 0 && (double)r.n < (double)blocks / segments + 16);
         next += r.n;
       }
       assert_int_equal(next, blocks);
     }
-  static gg_tournament t;
-  gg_tournament_start(&t, 1, 0);
+  static gg_dsmc_schedule t;
+  gg_dsmc_schedule_start(&t, 1, 0);
   int first[8] = {0};
   for (int i = 0; i < 8000; i++) {
     unsigned seen = 0;
     for (int k = 0; k < 8; k++) {
-      int round = gg_next_round(&t, 8);
+      int round = gg_dsmc_next_round(&t, 8);
       if (k == 0) first[round]++;
       seen |= 1u << round;
     }
@@ -59,31 +59,31 @@ static void cut_and_shuffled(void **state)
   for (int k = 0; k < 8; k++) assert_true(abs(first[k] - 1000) < 5 * 30);
 }
 
-/* Whoever plays a half of the meetings, and then has the parts that go with it, keeps to the same segments; and halves
- * change twice a tournament. */
+/* A thread that takes one half of the pairs, and then the parts that go with it, keeps to the same segments; and the
+ * grouping changes twice a schedule. */
 static void halves_stay(void **state)
 {
   (void)state;
-  for (int segments = 8; segments <= GG_MOST_SEGMENTS; segments *= 2)
+  for (int segments = 8; segments <= GG_DSMC_MAX_SEGMENTS; segments *= 2)
     for (int round = segments / 4; round < segments; round++) {
       unsigned met[2] = {0}, kept[2] = {0};
       for (int k = 0; k < segments / 2; k++) {
         int a, b;
-        gg_meeting_of(segments, round, k, &a, &b);
+        gg_dsmc_segment_pair(segments, round, k, &a, &b);
         met[k / (segments / 4)] |= 1u << a | 1u << b;
       }
       for (int part = 0; part < segments; part++)
-        kept[part / (segments / 2)] |= 1u << gg_segment_in(segments, round / (segments / 4), part);
+        kept[part / (segments / 2)] |= 1u << gg_dsmc_segment_in(segments, round / (segments / 4), part);
       assert_int_equal(met[0], kept[0]);
       assert_int_equal(met[1], kept[1]);
     }
-  static gg_tournament t;
-  gg_tournament_start(&t, 1, 0);
-  int changes = 0, halves = 0;
+  static gg_dsmc_schedule t;
+  gg_dsmc_schedule_start(&t, 1, 0);
+  int changes = 0, grouping = 0;
   for (int i = 0; i < 8 * 1000; i++) {
-    const int c = gg_next_round(&t, 8) / 2;
-    changes += c && c != halves;
-    if (c) halves = c;
+    const int c = gg_dsmc_next_round(&t, 8) / 2;
+    changes += c && c != grouping;
+    if (c) grouping = c;
   }
   assert_int_equal(changes, 2 * 1000 + 1);
 }
@@ -101,13 +101,13 @@ typedef struct plan {
 /* Returns the sum of |difference| over all pairs of grains. */
 static double plant(gg_dsmc *d, const plan *p)
 {
-  const gg_population *one = &d->ensemble.of[0];
-  gg_block *c = one->c;
+  const gg_dsmc_population *one = &d->ensemble.of[0];
+  gg_dsmc_block *c = one->c;
   double n[SEGMENTS][2] = {{0}}, sum = 0;
   for (int s = 0; s < SEGMENTS; s++) {
-    gg_range r = gg_segment(one, SEGMENTS, s);
+    gg_dsmc_range r = gg_dsmc_segment(one, SEGMENTS, s);
     for (uint32_t b = r.first; b < r.first + r.n; b++)
-      for (int l = 0; l < GG_LANES; l++) {
+      for (int l = 0; l < GG_DSMC_LANES; l++) {
         c[b].x[l] = p->x[s][b % 2];
         c[b].y[l] = c[b].z[l] = 0;
         n[s][b % 2]++;
@@ -117,10 +117,10 @@ static double plant(gg_dsmc *d, const plan *p)
     for (int k = 0; k < i; k++)
       sum += n[i / 2][i % 2] * n[k / 2][k % 2] * fabs(p->x[i / 2][i % 2] - p->x[k / 2][k % 2]);
   gg_vec none = {0, 0, 0};
-  gg_moments m = gg_ensemble_settle(&d->ensemble, 0, 1, none, 1);
+  gg_dsmc_moments m = gg_dsmc_ensemble_synchronise(&d->ensemble, 0, 1, none, 1);
   d->now.fastest = m.fastest;
   d->now.temperature = m.temperature;
-  gg_dsmc_bounds(d);
+  gg_dsmc_start_majorants(d);
   return sum;
 }
 
@@ -140,14 +140,14 @@ static void planted_rates(void **state)
     gg_dsmc *d = (gg_dsmc *)g;
     lab_mean ratio = {0};
     double pairs = plant(d, &plans[i]);
-    /* A collision for every 4000 grains in a stretch, and for every 500 in a meeting if it has them all: few second
+    /* A collision for every 4000 grains in an interval, and for every 500 in a pair if it has them all: few second
      * ones. */
     const double rate = M_PI * gg_dsmc_cross_section(d, 0, 0) * pairs, dt = PLANTED / 4000. / rate;
     for (int block = 0; block < 1500; block++) {
       uint64_t before = d->now.collisions;
-      for (int k = 0; k < 3 * SEGMENTS; k++) { /* whole tournaments, however many rounds a stretch has */
+      for (int k = 0; k < 3 * SEGMENTS; k++) { /* whole schedules, however many rounds an interval has */
         plant(d, &plans[i]);
-        gg_dsmc_collide(d, dt, 0, 0, GG_TURNS_THERE);
+        gg_dsmc_collide(d, dt, 0, 0, GG_DSMC_FORWARD);
       }
       lab_add(&ratio, (double)(d->now.collisions - before) / (3 * SEGMENTS * rate * dt));
     }
@@ -162,30 +162,30 @@ static void in_one_piece(gg_engine *g)
 {
   gg_dsmc *d = (gg_dsmc *)g;
   d->ensemble.segments = 1;
-  free(d->tournament);
-  d->tournament = NULL;
+  free(d->schedule);
+  d->schedule = NULL;
 }
 
 /* Half of the segments nine times as hot as the others: the fourth cumulant tells how far they have mixed, by
  * collisions between segments alone, and so does the collision rate. */
-static void mix(gg_path path, int seed, lab_mean a2[3], lab_mean time[3])
+static void mix(gg_dsmc_path path, int seed, lab_mean a2[3], lab_mean time[3])
 {
   gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.1, 1, -1, PLANTED);
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, (uint64_t)seed);
   gg_dsmc *d = (gg_dsmc *)g;
-  const gg_population *p = &d->ensemble.of[0];
-  gg_block *c = p->c;
+  const gg_dsmc_population *p = &d->ensemble.of[0];
+  gg_dsmc_block *c = p->c;
   for (int k = 0; k < SEGMENTS; k++) {
-    gg_range r = gg_segment(p, SEGMENTS, k);
+    gg_dsmc_range r = gg_dsmc_segment(p, SEGMENTS, k);
     double factor = k % 2 ? sqrt(0.2) : sqrt(1.8);
     for (uint32_t b = r.first; b < r.first + r.n; b++)
-      for (int l = 0; l < GG_LANES; l++) c[b].x[l] *= factor, c[b].y[l] *= factor, c[b].z[l] *= factor;
+      for (int l = 0; l < GG_DSMC_LANES; l++) c[b].x[l] *= factor, c[b].y[l] *= factor, c[b].z[l] *= factor;
   }
-  gg_dsmc_settle(d);
-  for (int q = 0; q < GG_PAIRS && path == GG_PATH_PLAIN; q++) d->path[q] = path;
-  gg_dsmc_bounds(d);
-  if (path == GG_PATH_PLAIN) in_one_piece(g);
+  gg_dsmc_synchronise(d);
+  for (int q = 0; q < GG_PAIRS && path == GG_DSMC_PLAIN; q++) d->path[q] = path;
+  gg_dsmc_start_majorants(d);
+  if (path == GG_DSMC_PLAIN) in_one_piece(g);
   double gone = 0;
   for (int i = 0; i < 3; i++) {
     gone += lab_advance(g, INFINITY, PLANTED / 2);
@@ -204,8 +204,8 @@ static void segments_mix(void **state)
   (void)state;
   lab_mean a2[2][3] = {{{0}}}, time[2][3] = {{{0}}};
   for (int seed = 0; seed < 100; seed++) {
-    mix(GG_PATH_PLAIN, seed, a2[0], time[0]);
-    mix(GG_PATH_BLOCKS, seed + 100, a2[1], time[1]);
+    mix(GG_DSMC_PLAIN, seed, a2[0], time[0]);
+    mix(GG_DSMC_BLOCKS, seed + 100, a2[1], time[1]);
   }
   for (int i = 0; i < 3; i++) {
     printf("# after %d collisions a grain\n", i + 1);

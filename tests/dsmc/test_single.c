@@ -162,7 +162,7 @@ static void mixture(void **state)
 }
 
 /* The plain path computes in double on grains kept in single precision: a small ensemble, a number of grains that is no
- * multiple of eight, a watcher. */
+ * multiple of eight, a collision callback. */
 static void seen(void *context, const gg_seen_collision *meeting)
 {
   *(double *)context += gg_dot(meeting->k, meeting->c12);

@@ -1,5 +1,6 @@
 /* Threads change nothing: the same seed leaves the same ensemble, sums, counts and streams with one thread, two, three
- * or as many as can meet at once, whatever the scene has; also if a run is saved and goes on with another number. */
+ * or as many as there are pairs of segments, whatever the scene has; also if a run is saved and goes on with another
+ * number. */
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
@@ -87,7 +88,7 @@ static void same_bits_of(gg_precision precision)
     if (!gg_instructions_run_here(set)) continue;
     gg_engine *g = lab_engine(&m, 3);
     gg_archive a = {0};
-    ((gg_dsmc *)g)->ensemble.kernels = gg_kernels_for(set);
+    ((gg_dsmc *)g)->ensemble.kernels = gg_dsmc_kernels_for(set);
     gg_dsmc_ops.threads(g, 2);
     lab_advance(g, INFINITY, (uint64_t)m.n);
     save(g, &a);
@@ -156,9 +157,9 @@ static void small_ones_do_not_pay(void **state)
   gg_dsmc_ops.threads(g, 4);
   assert_int_equal(d->ensemble.segments, 1);
   assert_null(d->ensemble.crew);
-  assert_null(d->tournament);
+  assert_null(d->schedule);
   save(g, &a);
-  assert_null(gg_archive_find(&a, "dsmc/tournament"));
+  assert_null(gg_archive_find(&a, "dsmc/schedule"));
   gg_archive_clear(&a);
   gg_dsmc_ops.destroy(g);
 }

@@ -48,7 +48,7 @@ static void shear_is_second_order(void **state)
   assert_true(fabs(bias[1] / bias[2] - 4) < 1e-9);
 }
 
-/* White noise in turns with collisions at e = 0.1, where it matters most: a2. */
+/* White noise split from collisions at e = 0.1, where it matters most: a2. */
 static lab_mean heated(double step, int blocks)
 {
   gg_scene s = lab_scene(GG_HSS, 0, 0.1, -1, 100000);
@@ -70,7 +70,7 @@ static void thermostat_is_second_order(void **state)
   expect_order("a2", lab_value(&full) - lab_value(&fine), lab_value(&half) - lab_value(&fine), e);
 }
 
-/* By default the bias is under a fifth of a hundredth, whatever has to take turns. */
+/* By default the bias is under a fifth of a hundredth, whatever is split. */
 static void automatic_step_is_fine(void **state)
 {
   (void)state;

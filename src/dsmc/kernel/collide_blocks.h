@@ -2,25 +2,25 @@
 #ifndef GG_DSMC_COLLIDE_BLOCKS_H
 #define GG_DSMC_COLLIDE_BLOCKS_H
 
-#include "dsmc/kernel/pairing.h"
+#include "dsmc/kernel/pass.h"
 #include "simd/compiled_sets.h"
 
 /* s0 = (8/3 pi) sigma rate: integral of |k_x k_y| over the sphere, over pi. */
-#define GG_SHEAR_SHARE (8 / (3 * M_PI))
+#define GG_DSMC_SHEAR_SHARE (8 / (3 * M_PI))
 
-typedef void gg_collide_blocks(gg_pairing *p, gg_rng_lanes *lanes, gg_rng *rng);
+typedef void gg_dsmc_collide_blocks(gg_dsmc_pass *p, gg_dsmc_rng_lanes *lanes, gg_rng *rng);
 
-/* The instances of one collision rule, by shear, tap and whether both grains are of one species; NULL where there is
+/* The instances of one collision rule, by shear, sums and whether both grains are of one species; NULL where there is
  * no such thing. */
-typedef struct gg_collide_instances {
-  gg_collide_blocks *of[GG_SHEARED_DENSE + 1][GG_TAP_STRESS + 1][2];
-} gg_collide_instances;
+typedef struct gg_dsmc_instances {
+  gg_dsmc_collide_blocks *of[GG_DSMC_SHEARED_DENSE + 1][GG_DSMC_STRESS + 1][2];
+} gg_dsmc_instances;
 
 /* One object for each rule, precision and set of instructions (meson.build). */
-#define GG_DECLARE_COLLIDE(set, name)                                                                                  \
-  extern const gg_collide_instances gg_collide_double_smooth_##name, gg_collide_double_rough_##name,                   \
-      gg_collide_double_frictional_##name, gg_collide_single_smooth_##name, gg_collide_single_rough_##name,            \
-      gg_collide_single_frictional_##name;
-GG_EACH_COMPILED_SET(GG_DECLARE_COLLIDE)
+#define GG_DSMC_DECLARE_COLLIDE(set, name)                                                                             \
+  extern const gg_dsmc_instances gg_dsmc_collide_double_smooth_##name, gg_dsmc_collide_double_rough_##name,            \
+      gg_dsmc_collide_double_frictional_##name, gg_dsmc_collide_single_smooth_##name,                                  \
+      gg_dsmc_collide_single_rough_##name, gg_dsmc_collide_single_frictional_##name;
+GG_EACH_COMPILED_SET(GG_DSMC_DECLARE_COLLIDE)
 
 #endif

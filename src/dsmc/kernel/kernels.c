@@ -1,52 +1,53 @@
 #include "dsmc/kernel/kernels.h"
 
-#include "dsmc/parallel/segments.h"
+#include "dsmc/parallel/schedule.h"
 
 #define KERNELS(set, name)                                                                                             \
-  [set] = {.collide = {{&gg_collide_double_smooth_##name, &gg_collide_double_rough_##name,                             \
-                        &gg_collide_double_frictional_##name},                                                         \
-                       {&gg_collide_single_smooth_##name, &gg_collide_single_rough_##name,                             \
-                        &gg_collide_single_frictional_##name}},                                                        \
-           .sweep = {gg_sweep_##name, gg_sweep_single_##name},                                                         \
-           .kicks = gg_kicks_##name},
+  [set] = {.collide = {{&gg_dsmc_collide_double_smooth_##name, &gg_dsmc_collide_double_rough_##name,                   \
+                        &gg_dsmc_collide_double_frictional_##name},                                                    \
+                       {&gg_dsmc_collide_single_smooth_##name, &gg_dsmc_collide_single_rough_##name,                   \
+                        &gg_dsmc_collide_single_frictional_##name}},                                                   \
+           .synchronise = {gg_dsmc_synchronise_##name, gg_dsmc_synchronise_single_##name},                             \
+           .kick = gg_dsmc_kick_##name},
 
-const gg_kernel_set *gg_kernels_for(gg_instructions set)
+const gg_dsmc_kernels *gg_dsmc_kernels_for(gg_instructions set)
 {
-  static const gg_kernel_set sets[GG_INSTRUCTION_SETS] = {GG_EACH_COMPILED_SET(KERNELS)};
+  static const gg_dsmc_kernels sets[GG_INSTRUCTION_SETS] = {GG_EACH_COMPILED_SET(KERNELS)};
   return &sets[set];
 }
 
-gg_path gg_path_choose(const gg_population *one, const gg_population *two)
+gg_dsmc_path gg_dsmc_choose_path(const gg_dsmc_population *one, const gg_dsmc_population *two)
 {
-  return one->n_blocks < 100 || two->n_blocks < 100 ? GG_PATH_PLAIN : GG_PATH_BLOCKS;
+  return one->n_blocks < 100 || two->n_blocks < 100 ? GG_DSMC_PLAIN : GG_DSMC_BLOCKS;
 }
 
-double gg_candidates(gg_path path, gg_features f, const gg_population *one, const gg_population *two)
+double gg_dsmc_candidates_per_unit(gg_dsmc_path path, gg_dsmc_features f, const gg_dsmc_population *one,
+                                   const gg_dsmc_population *two)
 {
-  if (path == GG_PATH_PLAIN) {
+  if (path == GG_DSMC_PLAIN) {
     double n = (double)one->n, pairs = f.same ? 0.5 * n * (n - 1) : n * (double)two->n;
     return 4 * M_PI * pairs;
   }
-  return gg_block_candidates(gg_all_blocks(one), gg_all_blocks(two), f.same);
+  return gg_dsmc_block_pairs_per_unit(gg_dsmc_all_blocks(one), gg_dsmc_all_blocks(two), f.same);
 }
 
 /* A draw of two blocks gives each of the pairs between them 1/8; among themselves they come in either order. */
-double gg_block_candidates(gg_range one, gg_range two, bool themselves)
+double gg_dsmc_block_pairs_per_unit(gg_dsmc_range one, gg_dsmc_range two, bool themselves)
 {
   return M_PI * 8 * (themselves ? 0.5 : 1) * ((double)one.n * (double)two.n);
 }
 
-double gg_rate_bound(gg_path path, gg_features f, double speed, double shift)
+double gg_dsmc_sure_majorant(gg_dsmc_path path, gg_dsmc_features f, double speed, double shift)
 {
-  if (f.shear != GG_SHEARED_DENSE) return speed;
-  return speed + (path == GG_PATH_PLAIN ? 0.5 : GG_SHEAR_SHARE) * shift; /* |k_x k_y| <= 1/2 */
+  if (f.shear != GG_DSMC_SHEARED_DENSE) return speed;
+  return speed + (path == GG_DSMC_PLAIN ? 0.5 : GG_DSMC_SHEAR_SHARE) * shift; /* |k_x k_y| <= 1/2 */
 }
 
-void gg_collide(const gg_kernel_set *kernels, gg_path path, gg_features f, gg_pairing *p, gg_rng_lanes *lanes,
-                gg_rng *rng)
+void gg_dsmc_collide_pass(const gg_dsmc_kernels *kernels, gg_dsmc_path path, gg_dsmc_features f, gg_dsmc_pass *p,
+                          gg_dsmc_rng_lanes *lanes, gg_rng *rng)
 {
-  if (path == GG_PATH_PLAIN)
-    gg_collide_plain(f, p, rng);
+  if (path == GG_DSMC_PLAIN)
+    gg_dsmc_collide_plain(f, p, rng);
   else
-    kernels->collide[p->one->single][f.rule]->of[f.shear][f.tap][f.same](p, lanes, rng);
+    kernels->collide[p->one->single][f.rule]->of[f.shear][f.sums][f.same](p, lanes, rng);
 }

@@ -1,25 +1,25 @@
-/* White noise, computed in double for blocks of either precision. */
-#include "dsmc/kernel/sweep.h"
+/* White-noise thermostat: a random kick for every grain, computed in double for blocks of either precision. */
+#include "dsmc/kernel/synchronise.h"
 
 #include "dsmc/kernel/normal.h"
 
 #define NAME_OF(name, instructions) name##_##instructions
 #define NAME(name, instructions) NAME_OF(name, instructions)
 
-GG_INLINE void note_top(float *top, int at, gg_vd c2, double per_unit)
+GG_INLINE void note_speed_bound(float *speed_bound, int at, gg_vd c2, double per_scale)
 {
-  float peak = (float)(gg_peaks(c2, c2)[0] * per_unit);
-  *top = at && *top > peak ? *top : peak;
+  float peak = (float)(gg_peaks(c2, c2)[0] * per_scale);
+  *speed_bound = at && *speed_bound > peak ? *speed_bound : peak;
 }
 
 /* Lanes from `at` on of block b; `single` is constant. */
 GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
 {
   if (single) {
-    const gg_block_single *c = (const gg_block_single *)blocks + b;
+    const gg_dsmc_block_single *c = (const gg_dsmc_block_single *)blocks + b;
     return (gg_vd3){gg_load_single(c->x + at), gg_load_single(c->y + at), gg_load_single(c->z + at)};
   }
-  const gg_block *c = (const gg_block *)blocks + b;
+  const gg_dsmc_block *c = (const gg_dsmc_block *)blocks + b;
   return (gg_vd3){gg_load(c->x + at), gg_load(c->y + at), gg_load(c->z + at)};
 }
 
@@ -27,41 +27,41 @@ GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
 GG_INLINE gg_vd3 store(void *blocks, bool single, size_t b, int at, gg_vd3 v)
 {
   if (single) {
-    gg_block_single *c = (gg_block_single *)blocks + b;
+    gg_dsmc_block_single *c = (gg_dsmc_block_single *)blocks + b;
     return (gg_vd3){gg_store_single(c->x + at, v.x), gg_store_single(c->y + at, v.y), gg_store_single(c->z + at, v.z)};
   }
-  gg_block *c = (gg_block *)blocks + b;
+  gg_dsmc_block *c = (gg_dsmc_block *)blocks + b;
   gg_store(c->x + at, v.x);
   gg_store(c->y + at, v.y);
   gg_store(c->z + at, v.z);
   return v;
 }
 
-GG_INLINE void kick(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
-                    gg_rng_lanes *lanes)
+GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double strain, double size, double bound_scale,
+                    gg_dsmc_rng_lanes *lanes)
 {
-  const double per_unit = gg_per_top(unit);
-  gg_lane_rng rng;
-  gg_lane_rng_load(&rng, lanes);
+  const double per_scale = gg_dsmc_per_bound(bound_scale);
+  gg_dsmc_lane_rng rng;
+  gg_dsmc_lane_rng_load(&rng, lanes);
   for (size_t b = 0; b < n; b++)
     for (int part = 0; part < GG_PARTS; part++) {
       const int at = part * GG_WIDTH;
       gg_vd x, y, z, spare;
-      gg_lane_normal(&rng, part, &x, &y);
-      gg_lane_normal(&rng, part, &z, &spare);
+      gg_dsmc_lane_normal(&rng, part, &x, &y);
+      gg_dsmc_lane_normal(&rng, part, &z, &spare);
       gg_vd3 v = load(c, single, b, at);
-      v = store(c, single, b, at, (gg_vd3){v.x + size * (x + drift * y), v.y + size * y, v.z + size * z});
-      v.x -= drift * v.y;
-      note_top(&top[b], at, gg_vd3_dot(v, v), per_unit);
+      v = store(c, single, b, at, (gg_vd3){v.x + size * (x + strain * y), v.y + size * y, v.z + size * z});
+      v.x -= strain * v.y;
+      note_speed_bound(&speed_bound[b], at, gg_vd3_dot(v, v), per_scale);
     }
-  gg_lane_rng_save(&rng, lanes);
+  gg_dsmc_lane_rng_save(&rng, lanes);
 }
 
-void NAME(gg_kicks, GG_INSTRUCTIONS)(void *c, bool single, float *top, size_t n, double drift, double size, double unit,
-                                     gg_rng_lanes *lanes)
+void NAME(gg_dsmc_kick, GG_INSTRUCTIONS)(void *c, bool single, float *speed_bound, size_t n, double strain, double size,
+                                         double bound_scale, gg_dsmc_rng_lanes *lanes)
 {
   if (single)
-    kick(c, true, top, n, drift, size, unit, lanes);
+    kick(c, true, speed_bound, n, strain, size, bound_scale, lanes);
   else
-    kick(c, false, top, n, drift, size, unit, lanes);
+    kick(c, false, speed_bound, n, strain, size, bound_scale, lanes);
 }

@@ -3,7 +3,7 @@
 #ifndef GG_DSMC_LANE_RNG_H
 #define GG_DSMC_LANE_RNG_H
 
-#include "dsmc/kernel/pairing.h"
+#include "dsmc/kernel/pass.h"
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define GG_HAS_AVX512
@@ -23,11 +23,11 @@ enum { GG_QUADS = 2 };
 
 typedef uint64_t gg_vq __attribute__((vector_size(8 * GG_QUADS)));
 
-typedef struct gg_lane_rng {
-  gg_vq s[4][GG_LANES / GG_QUADS];
-} gg_lane_rng;
+typedef struct gg_dsmc_lane_rng {
+  gg_vq s[4][GG_DSMC_LANES / GG_QUADS];
+} gg_dsmc_lane_rng;
 
-GG_INLINE gg_vq gg_lane_rotl(gg_vq x, int k)
+GG_INLINE gg_vq gg_dsmc_lane_rotl(gg_vq x, int k)
 {
   return (x << k) | (x >> (64 - k));
 }
@@ -46,28 +46,29 @@ GG_INLINE gg_vq gg_xor3(gg_vq a, gg_vq b, gg_vq c)
 }
 
 /* The next number of each of a part's lanes. */
-GG_INLINE gg_vq gg_lane_next(gg_lane_rng *r, int part)
+GG_INLINE gg_vq gg_dsmc_lane_next(gg_dsmc_lane_rng *r, int part)
 {
   gg_vq *s0 = &r->s[0][part], *s1 = &r->s[1][part], *s2 = &r->s[2][part], *s3 = &r->s[3][part];
   const gg_vq a = *s0, b = *s1, c = *s2, d = *s3;
   *s0 = gg_xor3(a, d, b);
   *s1 = gg_xor3(b, c, a);
   *s2 = gg_xor3(c, a, b << 17);
-  *s3 = gg_lane_rotl(d ^ b, 45);
-  return gg_lane_rotl(a + d, 23) + a;
+  *s3 = gg_dsmc_lane_rotl(d ^ b, 45);
+  return gg_dsmc_lane_rotl(a + d, 23) + a;
 }
 
-GG_INLINE void gg_lane_rng_load(gg_lane_rng *r, const gg_rng_lanes *from)
+GG_INLINE void gg_dsmc_lane_rng_load(gg_dsmc_lane_rng *r, const gg_dsmc_rng_lanes *from)
 {
   for (int i = 0; i < 4; i++)
-    for (int p = 0; p < GG_LANES / GG_QUADS; p++)
+    for (int p = 0; p < GG_DSMC_LANES / GG_QUADS; p++)
       __builtin_memcpy(&r->s[i][p], &from->s[i][p * GG_QUADS], sizeof(gg_vq));
 }
 
-GG_INLINE void gg_lane_rng_save(const gg_lane_rng *r, gg_rng_lanes *to)
+GG_INLINE void gg_dsmc_lane_rng_save(const gg_dsmc_lane_rng *r, gg_dsmc_rng_lanes *to)
 {
   for (int i = 0; i < 4; i++)
-    for (int p = 0; p < GG_LANES / GG_QUADS; p++) __builtin_memcpy(&to->s[i][p * GG_QUADS], &r->s[i][p], sizeof(gg_vq));
+    for (int p = 0; p < GG_DSMC_LANES / GG_QUADS; p++)
+      __builtin_memcpy(&to->s[i][p * GG_QUADS], &r->s[i][p], sizeof(gg_vq));
 }
 
 #endif

@@ -8,9 +8,9 @@
  * and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_store_either: `yes` in
  * true lanes, else `no`. gg_spread: the next numbers of a list, one for each true lane;
  * gg_pack: the true lanes to the front of a list, then anything up to a width. gg_peaks: the largest lane of a, and
- * of b. gg_roots_at: square roots out of a table, rounded to float. gg_lane_two: two random words a lane, from whose
- * high bits gg_lane_one_to_two makes a number; bit GG_SPARE_BIT hardly matters to it. gg_lane_two_below: two random
- * whole numbers. */
+ * of b. gg_roots_at: square roots out of a table, rounded to float. gg_dsmc_lane_two: two random words a lane, from
+ * whose high bits gg_dsmc_lane_one_to_two makes a number; bit GG_SPARE_BIT hardly matters to it.
+ * gg_dsmc_lane_two_below: two random whole numbers. */
 #ifndef GG_DSMC_LANES_H
 #define GG_DSMC_LANES_H
 

@@ -5,26 +5,26 @@
 #include "dsmc/kernel/lanes.h"
 
 /* A gg_contact in the lanes' precision. */
-typedef struct gg_lane_contact {
+typedef struct gg_dsmc_lane_contact {
   gg_real jn, jt, mu, im1, im2, ik1, ik2;
   gg_real push1, push2; /* velocity changes from 2 g_n k */
-} gg_lane_contact;
+} gg_dsmc_lane_contact;
 
-GG_INLINE gg_lane_contact gg_lane_contact_of(const gg_contact *c)
+GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(const gg_contact *c)
 {
-  return (gg_lane_contact){.jn = (gg_real)c->jn,
-                           .jt = (gg_real)c->jt,
-                           .mu = (gg_real)c->mu,
-                           .im1 = (gg_real)c->im1,
-                           .im2 = (gg_real)c->im2,
-                           .ik1 = (gg_real)c->ik1,
-                           .ik2 = (gg_real)c->ik2,
-                           .push1 = (gg_real)(0.5 * c->jn * c->im1),
-                           .push2 = (gg_real)(0.5 * c->jn * c->im2)};
+  return (gg_dsmc_lane_contact){.jn = (gg_real)c->jn,
+                                .jt = (gg_real)c->jt,
+                                .mu = (gg_real)c->mu,
+                                .im1 = (gg_real)c->im1,
+                                .im2 = (gg_real)c->im2,
+                                .ik1 = (gg_real)c->ik1,
+                                .ik2 = (gg_real)c->ik2,
+                                .push1 = (gg_real)(0.5 * c->jn * c->im1),
+                                .push2 = (gg_real)(0.5 * c->jn * c->im2)};
 }
 
 /* Impulse from the contact velocity g and gn = k.g (gg_impulse): (jn - jt) g_n k + jt g. */
-GG_INLINE gg_vd3 gg_lane_impulse(gg_rule rule, const gg_lane_contact *c, gg_vd3 k, gg_vd3 g, gg_vd gn)
+GG_INLINE gg_vd3 gg_dsmc_lane_impulse(gg_rule rule, const gg_dsmc_lane_contact *c, gg_vd3 k, gg_vd3 g, gg_vd gn)
 {
   if (rule == GG_SMOOTH) return gg_vd3_scale(c->jn * gn, k);
   gg_vd jt = gg_all(c->jt);
@@ -40,11 +40,11 @@ GG_INLINE gg_vd3 gg_lane_impulse(gg_rule rule, const gg_lane_contact *c, gg_vd3 
 /* What the energy that collisions destroy (gg_energy_loss) follows from, one or their sum: it is linear in J.g, J_n^2
  * and J.J, and smooth grains need the first alone (J.g = m_r (1+e) g_n^2), rough ones two (J_t^2 = m_t (1+beta) J_t.g).
  */
-typedef struct gg_loss_terms {
+typedef struct gg_dsmc_loss_terms {
   double Jg, Jn2, J2;
-} gg_loss_terms;
+} gg_dsmc_loss_terms;
 
-GG_INLINE double gg_loss_of(gg_rule rule, const gg_contact *c, gg_loss_terms sum)
+GG_INLINE double gg_dsmc_loss_of(gg_rule rule, const gg_contact *c, gg_dsmc_loss_terms sum)
 {
   if (rule == GG_SMOOTH) return (1 - 0.5 * gg_inverse_mr(c) * c->jn) * sum.Jg;
   double Jt2 = rule == GG_ROUGH ? c->jt * (sum.Jg - sum.Jn2 / c->jn) : sum.J2 - sum.Jn2;

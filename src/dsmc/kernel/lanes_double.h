@@ -4,12 +4,12 @@
 
 #include "dsmc/kernel/lane_rng.h"
 
-enum { GG_WIDTH = GG_QUADS, GG_PARTS = GG_LANES / GG_WIDTH, GG_REAL_BITS = 64, GG_SPARE_BIT = 32 };
+enum { GG_WIDTH = GG_QUADS, GG_PARTS = GG_DSMC_LANES / GG_WIDTH, GG_REAL_BITS = 64, GG_SPARE_BIT = 32 };
 typedef double gg_real;
 typedef uint64_t gg_word; /* as wide as a number */
 #define GG_TINY 1e-300    /* added to what may be 0/0 */
 
-typedef gg_block gg_real_block;
+typedef gg_dsmc_block gg_dsmc_real_block;
 typedef gg_real gg_vd __attribute__((vector_size(8 * GG_WIDTH)));
 typedef int64_t gg_vi __attribute__((vector_size(8 * GG_WIDTH)));
 typedef gg_word gg_vu __attribute__((vector_size(8 * GG_WIDTH)));
@@ -293,28 +293,28 @@ GG_INLINE void gg_peaks_store(gg_v2 peaks, float *one, float *two)
 }
 
 /* Two random words a lane, good for 32 bits at least; the low half of the first is the second. */
-GG_INLINE void gg_lane_two(gg_lane_rng *r, int part, gg_vu *a, gg_vu *b)
+GG_INLINE void gg_dsmc_lane_two(gg_dsmc_lane_rng *r, int part, gg_vu *a, gg_vu *b)
 {
-  *a = gg_lane_next(r, part);
+  *a = gg_dsmc_lane_next(r, part);
   *b = *a << 32;
 }
 
 /* Uniform in [1, 2), 52 bits: the low 12 are left for other uses. */
-GG_INLINE gg_vd gg_lane_one_to_two(gg_vu r)
+GG_INLINE gg_vd gg_dsmc_lane_one_to_two(gg_vu r)
 {
   return (gg_vd)((r >> 12) | 0x3ff0000000000000u);
 }
 
 /* Uniform in [2, 4), likewise. */
-GG_INLINE gg_vd gg_lane_two_to_four(gg_vu r)
+GG_INLINE gg_vd gg_dsmc_lane_two_to_four(gg_vu r)
 {
   return (gg_vd)((r >> 12) | 0x4000000000000000u);
 }
 
 /* Whole numbers below m and below n < 2^32. */
-GG_INLINE void gg_lane_two_below(gg_lane_rng *r, int part, gg_vu m, gg_vu n, gg_vu *a, gg_vu *b)
+GG_INLINE void gg_dsmc_lane_two_below(gg_dsmc_lane_rng *r, int part, gg_vu m, gg_vu n, gg_vu *a, gg_vu *b)
 {
-  gg_vu bits = gg_lane_next(r, part);
+  gg_vu bits = gg_dsmc_lane_next(r, part);
   *a = gg_mul32(bits >> 32, m) >> 32;
   *b = gg_mul32(bits, n) >> 32;
 }

@@ -9,12 +9,12 @@ enum { GG_WIDTH = 8 };
 #else
 enum { GG_WIDTH = 4 };
 #endif
-enum { GG_PARTS = GG_LANES / GG_WIDTH, GG_REAL_BITS = 32, GG_SPARE_BIT = 0 };
+enum { GG_PARTS = GG_DSMC_LANES / GG_WIDTH, GG_REAL_BITS = 32, GG_SPARE_BIT = 0 };
 typedef float gg_real;
 typedef uint32_t gg_word; /* as wide as a number */
 #define GG_TINY 1e-37f    /* added to what may be 0/0 */
 
-typedef gg_block_single gg_real_block;
+typedef gg_dsmc_block_single gg_dsmc_real_block;
 typedef gg_real gg_vd __attribute__((vector_size(4 * GG_WIDTH)));
 typedef int32_t gg_vi __attribute__((vector_size(4 * GG_WIDTH)));
 typedef gg_word gg_vu __attribute__((vector_size(4 * GG_WIDTH)));
@@ -288,28 +288,28 @@ GG_INLINE void gg_peaks_store(gg_v2 peaks, float *one, float *two)
 }
 
 /* Two random words a lane: of the first four numbers, and the other four. */
-GG_INLINE void gg_lane_two(gg_lane_rng *r, int part, gg_vu *a, gg_vu *b)
+GG_INLINE void gg_dsmc_lane_two(gg_dsmc_lane_rng *r, int part, gg_vu *a, gg_vu *b)
 {
-  *a = (gg_vu)gg_lane_next(r, part);
-  *b = (gg_vu)gg_lane_next(r, part + GG_PARTS);
+  *a = (gg_vu)gg_dsmc_lane_next(r, part);
+  *b = (gg_vu)gg_dsmc_lane_next(r, part + GG_PARTS);
 }
 
 /* Uniform in [1, 2), 23 bits: the low 9 are left for other uses. */
-GG_INLINE gg_vd gg_lane_one_to_two(gg_vu r)
+GG_INLINE gg_vd gg_dsmc_lane_one_to_two(gg_vu r)
 {
   return (gg_vd)((r >> 9) | 0x3f800000u);
 }
 
 /* Uniform in [2, 4), likewise. */
-GG_INLINE gg_vd gg_lane_two_to_four(gg_vu r)
+GG_INLINE gg_vd gg_dsmc_lane_two_to_four(gg_vu r)
 {
   return (gg_vd)((r >> 9) | 0x40000000u);
 }
 
 /* Whole numbers below m and below n. */
-GG_INLINE void gg_lane_two_below(gg_lane_rng *r, int part, gg_vu m, gg_vu n, gg_vu *a, gg_vu *b)
+GG_INLINE void gg_dsmc_lane_two_below(gg_dsmc_lane_rng *r, int part, gg_vu m, gg_vu n, gg_vu *a, gg_vu *b)
 {
-  gg_lane_two(r, part, a, b);
+  gg_dsmc_lane_two(r, part, a, b);
   *a = gg_below(*a, m);
   *b = gg_below(*b, n);
 }

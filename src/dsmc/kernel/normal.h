@@ -5,7 +5,7 @@
 #include "dsmc/kernel/directions.h"
 
 /* sin and cos on [-pi/4, pi/4], Taylor's series to rounding: no libm, so that every processor has the same bits. */
-GG_INLINE void gg_lane_sincos(gg_vd a, gg_vd *sine, gg_vd *cosine)
+GG_INLINE void gg_dsmc_lane_sincos(gg_vd a, gg_vd *sine, gg_vd *cosine)
 {
   gg_vd q = a * a;
   gg_vd s = q * (-1. / 1307674368000.) + 1. / 6227020800.;
@@ -25,10 +25,10 @@ GG_INLINE void gg_lane_sincos(gg_vd a, gg_vd *sine, gg_vd *cosine)
 }
 
 /* A unit vector in the plane, any angle: an eighth turn either way, turned on by the quarter that two bits choose. */
-GG_INLINE void gg_lane_circle(gg_vu r, gg_vd *x, gg_vd *y)
+GG_INLINE void gg_dsmc_lane_circle(gg_vu r, gg_vd *x, gg_vd *y)
 {
   gg_vd s, c;
-  gg_lane_sincos((gg_lane_one_to_two(r) - 1.5) * M_PI_2, &s, &c);
+  gg_dsmc_lane_sincos((gg_dsmc_lane_one_to_two(r) - 1.5) * M_PI_2, &s, &c);
   c = (gg_vd)((gg_vu)c ^ (r << 63)); /* and s has either sign by itself */
   gg_mask other = gg_low_bit(r >> 1);
   *x = gg_select(other, s, c);
@@ -36,7 +36,7 @@ GG_INLINE void gg_lane_circle(gg_vu r, gg_vd *x, gg_vd *y)
 }
 
 /* ln u for 0 < u <= 1: u = 2^e f with f in [sqrt(1/2), sqrt(2)), ln f = 2 artanh((f-1)/(f+1)) by its series. */
-GG_INLINE gg_vd gg_lane_log(gg_vd u)
+GG_INLINE gg_vd gg_dsmc_lane_log(gg_vd u)
 {
   gg_vu bits = (gg_vu)u,
         above = bits + (0x3ff0000000000000u - 0x3fe6a09e667f3bcdu); /* exponent, as seen from sqrt(1/2) */
@@ -48,10 +48,10 @@ GG_INLINE gg_vd gg_lane_log(gg_vd u)
 }
 
 /* Two independent normal numbers a lane. */
-GG_INLINE void gg_lane_normal(gg_lane_rng *r, int part, gg_vd *a, gg_vd *b)
+GG_INLINE void gg_dsmc_lane_normal(gg_dsmc_lane_rng *r, int part, gg_vd *a, gg_vd *b)
 {
-  gg_vd radius = gg_sqrt(-2 * gg_lane_log(2 - gg_lane_one_to_two(gg_lane_next(r, part))));
-  gg_lane_circle(gg_lane_next(r, part), a, b);
+  gg_vd radius = gg_sqrt(-2 * gg_dsmc_lane_log(2 - gg_dsmc_lane_one_to_two(gg_dsmc_lane_next(r, part))));
+  gg_dsmc_lane_circle(gg_dsmc_lane_next(r, part), a, b);
   *a *= radius;
   *b *= radius;
 }

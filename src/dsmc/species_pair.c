@@ -1,31 +1,31 @@
 /* What all collisions of a pair of species have in common, and where what they come to is added up. */
 #include "dsmc/dsmc.h"
 
-const int gg_species_of_pair[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
+const int gg_dsmc_species_of_pair[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
 
-gg_features gg_dsmc_features(const gg_dsmc *d, int i, int j)
+gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
-  gg_features f = {.rule = gg_rule_of(m->beta[2 * i + j], m->mu[2 * i + j]), .same = i == j};
+  gg_dsmc_features f = {.rule = gg_rule_of(m->beta[2 * i + j], m->mu[2 * i + j]), .same = i == j};
   /* Grains that have spins keep them with their velocities, whichever pair of species is smooth. */
   if (m->rule != GG_SMOOTH && f.rule == GG_SMOOTH) f.rule = GG_ROUGH;
-  if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_SHEARED_DILUTE : GG_SHEARED_DENSE;
-  if (d->thermostat == GG_GAUSSIAN) f.tap = GG_TAP_LOSS;
-  if (d->now.tap) f.tap = m->boltzmann ? GG_TAP_LOSS : GG_TAP_STRESS;
+  if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
+  if (d->thermostat == GG_GAUSSIAN) f.sums = GG_DSMC_LOSS;
+  if (d->now.tap) f.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
   return f;
 }
 
-gg_pairing gg_dsmc_pairing(gg_dsmc *d, int i, int j)
+gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
   int o = 2 * i + j;
-  gg_population *one = &d->ensemble.of[i], *two = &d->ensemble.of[j];
-  return (gg_pairing){.one = one,
-                      .two = two,
-                      .blocks = {gg_all_blocks(one), gg_all_blocks(two)},
-                      .contact = m->contact[o],
-                      .sigma = m->sigma[o],
-                      .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
+  gg_dsmc_population *one = &d->ensemble.of[i], *two = &d->ensemble.of[j];
+  return (gg_dsmc_pass){.one = one,
+                        .two = two,
+                        .blocks = {gg_dsmc_all_blocks(one), gg_dsmc_all_blocks(two)},
+                        .contact = m->contact[o],
+                        .sigma = m->sigma[o],
+                        .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
 }
 
 double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j)
@@ -40,7 +40,7 @@ uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j)
   return 20000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 3;
 }
 
-void gg_dsmc_hand_over(gg_dsmc *d, int pair, const gg_pairing *p)
+void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *p)
 {
   gg_dsmc_state *s = &d->now;
   s->collisions += p->collisions;

@@ -1,0 +1,41 @@
+/* Life of the engine: memory and the choice of kernels. */
+#include <stdlib.h>
+
+#include "common/thermostat.h"
+#include "dsmc/dsmc.h"
+#include "dsmc/thermostat.h"
+
+gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
+{
+  GG_TRY(gg_instructions_check(err));
+  gg_dsmc *made = gg_new_array(1, sizeof *made, err);
+  if (!made) return GG_FAILED;
+  made->base.ops = &gg_dsmc_ops;
+  made->model = *model;
+  made->thermostat = gg_thermostat_of(model);
+  made->noise = gg_thermostat_noise(model);
+  gg_status status = gg_dsmc_ensemble_new(model, &made->ensemble, err);
+  if (status == GG_OK && made->ensemble.segments > 1) {
+    made->schedule = gg_new_array(1, sizeof *made->schedule, err);
+    if (!made->schedule) status = GG_FAILED;
+  }
+  if (status != GG_OK) {
+    gg_dsmc_destroy(&made->base);
+    return status;
+  }
+  for (int i = 0; i < model->n_species; i++)
+    for (int j = i; j < model->n_species; j++)
+      made->path[gg_pair_index(i, j)] = gg_dsmc_choose_path(&made->ensemble.of[i], &made->ensemble.of[j]);
+  *d = made;
+  return GG_OK;
+}
+
+void gg_dsmc_destroy(gg_engine *engine)
+{
+  gg_dsmc *d = (gg_dsmc *)engine;
+  if (!d) return;
+  gg_dsmc_ensemble_free(&d->ensemble);
+  free(d->schedule);
+  for (int i = 0; i < GG_MAX_SPECIES; i++) free(d->callback.last[i]);
+  free(d);
+}

@@ -1,0 +1,71 @@
+/* The collision callback: collisions told one by one. They take the plain path, whose grains stay at their places in
+ * the ensemble, so that it is known when each collided last. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "dsmc/dsmc.h"
+
+static gg_status allocate(gg_dsmc *d, gg_error *err)
+{
+  for (int i = 0; i < d->model.n_species; i++) {
+    if (d->callback.last[i]) continue;
+    size_t n = (size_t)d->ensemble.of[i].n;
+    double *last = d->callback.last[i] = gg_new_array(n, sizeof *last, err);
+    if (!last) return GG_FAILED;
+    for (size_t k = 0; k < n; k++) last[k] = -INFINITY;
+  }
+  return GG_OK;
+}
+
+/* The majorants that block kernels have learned hold for the plain path, too: they bound an integral over directions
+ * that is no less than the largest rate. */
+gg_status gg_dsmc_set_callback(gg_engine *engine, gg_watch *watch, void *context, gg_error *err)
+{
+  gg_dsmc *d = (gg_dsmc *)engine;
+  if (watch) GG_TRY(allocate(d, err));
+  d->callback.watch = watch;
+  d->callback.context = context;
+  for (int p = 0; watch && p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
+  return GG_OK;
+}
+
+void gg_dsmc_call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *p)
+{
+  p->callback = &d->callback;
+  p->species[0] = i;
+  p->species[1] = j;
+  p->time_step = p->candidates ? dt / (double)p->candidates : 0;
+  p->time = d->interval_begin + 0.5 * p->time_step;
+}
+
+static const char *name_of(int species, char name[32])
+{
+  snprintf(name, 32, "dsmc/last_%d", species + 1);
+  return name;
+}
+
+gg_status gg_dsmc_save_callback(const gg_dsmc *d, gg_archive *a, gg_error *err)
+{
+  char name[32];
+  for (int i = 0; i < d->model.n_species; i++)
+    if (d->callback.last[i])
+      GG_TRY(gg_archive_put(a, name_of(i, name), GG_ITEM_F64, d->callback.last[i], (size_t)d->ensemble.of[i].n, err));
+  return GG_OK;
+}
+
+gg_status gg_dsmc_restore_callback(gg_dsmc *d, const gg_archive *a, gg_error *err)
+{
+  char name[32];
+  if (!gg_archive_find(a, name_of(0, name))) return GG_OK;
+  GG_TRY(allocate(d, err));
+  for (int i = 0; i < d->model.n_species; i++)
+    GG_TRY(gg_archive_get(a, name_of(i, name), GG_ITEM_F64, d->callback.last[i], (size_t)d->ensemble.of[i].n, err));
+  return GG_OK;
+}
+
+void gg_dsmc_rescale_callback(gg_dsmc *d, double factor)
+{
+  for (int i = 0; i < d->model.n_species; i++)
+    for (size_t k = 0; d->callback.last[i] && k < (size_t)d->ensemble.of[i].n; k++) d->callback.last[i][k] /= factor;
+}

@@ -1,0 +1,29 @@
+/* One run through the blocks of a species: stored velocities brought up to date, their sums, and their speed bounds.
+ * Compiled for several sets of instructions like the block kernels; lane by lane, so that all leave the same bits. */
+#ifndef GG_DSMC_SYNCHRONISE_H
+#define GG_DSMC_SYNCHRONISE_H
+
+#include "dsmc/kernel/pass.h"
+#include "simd/compiled_sets.h"
+
+typedef struct gg_dsmc_block_sums {
+  gg_dsmc_block c;                                  /* sum of C */
+  double c2[GG_DSMC_LANES], fastest[GG_DSMC_LANES]; /* sum and largest of C^2 */
+} gg_dsmc_block_sums;
+
+/* C = scale (x - strain y, y, z) - centre for full blocks (of the precision in the name), summing as it goes; speed
+ * bounds in units of `bound_scale`. */
+typedef void gg_dsmc_synchronise_blocks(void *c, float *speed_bound, size_t n, double strain, double scale,
+                                        gg_vec centre, double bound_scale, gg_dsmc_block_sums *sums);
+
+/* C += size (n_x, n_y, n_z) with normal n, for full blocks stored with `strain`; speed bounds in units of
+ * `bound_scale`. Computed in double. */
+typedef void gg_dsmc_kick_blocks(void *c, bool single, float *speed_bound, size_t n, double strain, double size,
+                                 double bound_scale, gg_dsmc_rng_lanes *lanes);
+
+#define GG_DSMC_DECLARE_SYNCHRONISE(set, name)                                                                         \
+  gg_dsmc_synchronise_blocks gg_dsmc_synchronise_##name, gg_dsmc_synchronise_single_##name;                            \
+  gg_dsmc_kick_blocks gg_dsmc_kick_##name;
+GG_EACH_COMPILED_SET(GG_DSMC_DECLARE_SYNCHRONISE)
+
+#endif

@@ -1,0 +1,278 @@
+/* Collisions of an ensemble in segments: rounds of a round-robin schedule (schedule.h).
+ *
+ * Some rounds run under the same majorants, as many at once as the thread pool takes: a thread that is done with a pair
+ * of segments begins one of the next round, if its segments are free, while others still work. To wait for all of them
+ * after each round cost two threads some three hundredths of their time.
+ *
+ * All pairs of species have their substeps (splitting.h) within a pair of segments, so that a round is worth waking
+ * other threads for. */
+#include "common/crew.h"
+#include "dsmc/dsmc.h"
+
+/* Candidates that a pair of segments should have, on average, of one species and of two, whose substeps are parts of
+ * it: enough that beginning a substep hardly matters, few enough that segments that differ mix as one pair after
+ * another would (4000 of one species cost less still, but segments of different temperatures then mix by fits and
+ * starts). */
+static const double worth_a_pair[] = {1200, 2400};
+/* Candidates of a round that other threads are woken for. */
+static const double worth_waking = 400;
+
+/* What one pair of species has in common in all pairs of segments. */
+typedef struct species_pair {
+  int i, j;
+  gg_dsmc_path path;
+  gg_dsmc_features f;
+  double rate; /* candidates per unit of gg_dsmc_block_pairs_per_unit, in a sweep */
+  gg_dsmc_pass common;
+} species_pair;
+
+/* The scale of a segment's speed bounds, and the strain at which they hold. */
+typedef struct speed_bounds {
+  double scale, strain;
+} speed_bounds;
+
+/* Rounds under the same majorants. A thread goes on from one pair of segments to any of the next round that is free: so
+ * all that is carried over belongs to a segment, here and in gg_dsmc_schedule. */
+typedef struct rounds {
+  gg_dsmc *d;
+  int n, number[GG_MOST_PARTS], grouping[GG_MOST_PARTS];
+  int n_substeps;
+  gg_dsmc_substep substep[GG_DSMC_MAX_SUBSTEPS];
+  double strain, each; /* where the first begins; how far one round goes */
+  double span;         /* of a sweep's strain */
+  species_pair species[GG_PAIRS];
+  speed_bounds bounds[GG_DSMC_MAX_SEGMENTS];
+  gg_dsmc_pass sum[GG_DSMC_MAX_SEGMENTS][GG_PAIRS]; /* handed back, by the first segment of each pair */
+} rounds;
+
+/* Add what `p` hands back. */
+static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *p)
+{
+  sum->tried += p->tried;
+  sum->collisions += p->collisions;
+  sum->overflows += p->overflows;
+  sum->largest = fmax(sum->largest, p->largest);
+  sum->loss += p->loss;
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) sum->stress[a][b] += p->stress[a][b];
+}
+
+/* See `candidates` in collisions.c: the same for two segments. */
+static uint64_t candidates(const species_pair *s, double *remainder, double mean, gg_rng *rng)
+{
+  if (s->common.floor > 0) return gg_rng_poisson(rng, mean);
+  double due = *remainder + mean, whole = floor(due);
+  *remainder = due - whole;
+  return (uint64_t)whole;
+}
+
+/* Two segments whose blocks collide. */
+typedef struct segment_pair {
+  int first;               /* the one whose random streams they use */
+  gg_dsmc_ensemble bounds; /* scale and strain of their speed bounds */
+  gg_rng rng;
+} segment_pair;
+
+/* A substep of these segments: blocks of `one` of the first species against those of `two` of the second, from `strain`
+ * on. */
+static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, int one, int two, segment_pair *at)
+{
+  const species_pair *s = &r->species[substep->pair];
+  const double span = substep->length * r->span;
+  gg_dsmc_schedule *schedule = r->d->schedule;
+  const int segments = r->d->ensemble.segments, pair = gg_pair_index(s->i, s->j);
+  gg_dsmc_pass p = s->common;
+  p.blocks[0] = gg_dsmc_segment(p.one, segments, one);
+  p.blocks[1] = gg_dsmc_segment(p.two, segments, two);
+  double mean =
+      substep->length * s->rate * gg_dsmc_block_pairs_per_unit(p.blocks[0], p.blocks[1], s->f.same && one == two);
+  p.candidates = candidates(s, &schedule->remainder[pair][one][two], mean, &at->rng);
+  p.strain_step = p.candidates ? span / (double)p.candidates : 0;
+  p.strain = strain + 0.5 * p.strain_step;
+  gg_dsmc_ensemble_strain_bounds(&at->bounds, strain);
+  p.bound_scale = at->bounds.bound_scale;
+  gg_dsmc_collide_pass(r->d->ensemble.kernels, s->path, s->f, &p, &schedule->lanes[at->first], &at->rng);
+  at->bounds.bound_scale = fmax(p.bound_scale, at->bounds.bound_scale * gg_dsmc_bound_growth(span));
+  at->bounds.bound_strain = strain + span;
+  add(&r->sum[at->first][pair], &p);
+}
+
+/* All substeps of a pair of segments. Speed bounds of some scale hold at a larger one, too. */
+static void collide_segments(rounds *r, double strain, int one, int two)
+{
+  segment_pair at = {.first = one, .bounds = r->d->ensemble, .rng = r->d->schedule->rng[one]};
+  at.bounds.bound_scale = fmax(r->bounds[one].scale, r->bounds[two].scale);
+  at.bounds.bound_strain = r->bounds[one].strain;
+  for (int k = 0; k < r->n_substeps; k++) {
+    const gg_dsmc_substep *substep = &r->substep[k];
+    const double begin = strain + substep->begin * r->span;
+    collide(r, substep, begin, one, two, &at);
+    if (one != two && !r->species[substep->pair].f.same) collide(r, substep, begin, two, one, &at);
+  }
+  r->bounds[one] = r->bounds[two] = (speed_bounds){at.bounds.bound_scale, at.bounds.bound_strain};
+  r->d->schedule->rng[one] = at.rng;
+}
+
+/* The pairs of segments in a part of the rounds: one, or two where each segment is paired with itself. Returns how
+ * many. */
+static int pairs_of_part(const rounds *r, int part, int one[2], int two[2])
+{
+  const int segments = r->d->ensemble.segments, columns = segments / 2;
+  const int number = r->number[part / columns], each = gg_dsmc_segment_pairs(segments, number) / columns;
+  for (int m = 0; m < each; m++) {
+    gg_dsmc_segment_pair(segments, number, part % columns * each + m, &one[m], &two[m]);
+    if (number >= segments / 4) continue;
+    one[m] = gg_dsmc_segment_in(segments, r->grouping[part / columns], one[m]);
+    two[m] = gg_dsmc_segment_in(segments, r->grouping[part / columns], two[m]);
+  }
+  return each;
+}
+
+static void run_part(void *context, int part)
+{
+  rounds *r = context;
+  int one[2], two[2], n = pairs_of_part(r, part, one, two);
+  const int nth = part / (r->d->ensemble.segments / 2);
+  for (int m = 0; m < n; m++) collide_segments(r, r->strain + nth * r->each, one[m], two[m]);
+}
+
+/* Each part waits for those that have had its segments before. */
+static void find_needs(const rounds *r, int parts, uint32_t need[GG_MOST_PARTS])
+{
+  uint32_t last[GG_DSMC_MAX_SEGMENTS] = {0};
+  for (int part = 0; part < parts; part++) {
+    int one[2], two[2], n = pairs_of_part(r, part, one, two);
+    need[part] = 0;
+    for (int m = 0; m < n; m++) {
+      need[part] |= last[one[m]] | last[two[m]];
+      last[one[m]] = last[two[m]] = UINT32_C(1) << part;
+    }
+  }
+}
+
+static bool takes_part(const rounds *r, int pair)
+{
+  return r->species[pair].common.one != NULL;
+}
+
+/* Run all rounds; sums by pair of species. */
+static void run(rounds *r, double expected, gg_dsmc_pass sum[GG_PAIRS])
+{
+  gg_dsmc_ensemble *e = &r->d->ensemble;
+  const int columns = e->segments / 2;
+  uint32_t need[GG_MOST_PARTS];
+  find_needs(r, r->n * columns, need);
+  gg_dsmc_ensemble_strain_bounds(e, r->strain + r->substep[0].begin * r->span);
+  for (int s = 0; s < e->segments; s++) {
+    r->bounds[s] = (speed_bounds){e->bound_scale, e->bound_strain};
+    for (int q = 0; q < GG_PAIRS; q++) r->sum[s][q] = (gg_dsmc_pass){0};
+  }
+  gg_crew_share_rounds(expected < worth_waking * r->n ? NULL : e->crew, r->n, columns, need, run_part, r);
+  for (int q = 0; q < GG_PAIRS; q++) {
+    sum[q] = r->species[q].common;
+    for (int s = 0; s < e->segments && takes_part(r, q); s++) add(&sum[q], &r->sum[s][q]);
+  }
+  for (int s = 0; s < e->segments; s++) e->bound_scale = fmax(e->bound_scale, r->bounds[s].scale);
+  e->bound_strain = r->bounds[0].strain;
+}
+
+/* Correction passes for the majorant overflows of these rounds (as in collisions.c): one pair of species alone, in its
+ * own substeps. */
+static void correct_overflows(rounds *r, int pair, double majorant, double largest)
+{
+  if (largest <= majorant) return; /* as a rule */
+  gg_dsmc *d = r->d;
+  species_pair *s = &r->species[pair];
+  rounds correction = *r;
+  correction.n_substeps = 0;
+  for (int k = 0; k < r->n_substeps; k++)
+    if (r->substep[k].pair == pair) correction.substep[correction.n_substeps++] = r->substep[k];
+  for (double floor = majorant; largest > floor;) {
+    gg_dsmc_pass sum[GG_PAIRS];
+    double layer =
+        fmax(1.1 * largest, gg_dsmc_sure_majorant(s->path, s->f, 2 * d->now.fastest, s->common.shift)) - floor;
+    species_pair *layer_pair = &correction.species[pair];
+    layer_pair->common.floor = floor;
+    layer_pair->common.majorant = layer;
+    layer_pair->rate = s->rate / s->common.majorant * layer;
+    run(&correction, worth_waking * correction.n, sum);
+    gg_dsmc_add_pass(d, pair, &sum[pair]);
+    gg_dsmc_majorant_learn(&d->now.majorant[pair], sum[pair].largest, sqrt(d->now.temperature), sum[pair].tried,
+                           gg_dsmc_window(d, s->i, s->j));
+    largest = sum[pair].largest;
+    floor += layer;
+  }
+}
+
+static species_pair species_pair_of(gg_dsmc *d, int i, int j)
+{
+  const int pair = gg_pair_index(i, j);
+  species_pair s = {.i = i, .j = j, .path = d->path[pair], .f = gg_dsmc_features_of(d, i, j)};
+  s.common = gg_dsmc_pass_of(d, i, j);
+  return s;
+}
+
+/* Quarters that are paired within themselves keep the grouping that they have. */
+static void next_rounds(rounds *r)
+{
+  gg_dsmc_ensemble *e = &r->d->ensemble;
+  for (int k = 0; k < r->n; k++) {
+    r->number[k] = gg_dsmc_next_round(r->d->schedule, e->segments);
+    const int c = r->number[k] / (e->segments / 4);
+    r->grouping[k] = e->grouping;
+    if (c) e->grouping = c;
+  }
+}
+
+/* Some rounds; `time` is that of a sweep, candidates are `expected` in each. Majorants are what they are now. */
+static void run_rounds(rounds *r, double time, double expected)
+{
+  gg_dsmc *d = r->d;
+  gg_dsmc_pass sum[GG_PAIRS];
+  next_rounds(r);
+  for (int k = 0; k < r->n_substeps; k++) {
+    species_pair *s = &r->species[r->substep[k].pair];
+    s->common.majorant = gg_dsmc_majorant_at(&d->now.majorant[r->substep[k].pair], sqrt(d->now.temperature));
+    s->rate = gg_dsmc_cross_section(d, s->i, s->j) * time * s->common.majorant * d->ensemble.segments;
+  }
+  run(r, expected * r->n, sum);
+  for (int q = 0; q < GG_PAIRS; q++) {
+    if (!sum[q].tried) continue;
+    gg_dsmc_add_pass(d, q, &sum[q]);
+    gg_dsmc_majorant_learn(&d->now.majorant[q], sum[q].largest, sqrt(d->now.temperature), sum[q].tried,
+                           gg_dsmc_window(d, r->species[q].i, r->species[q].j));
+    correct_overflows(r, q, r->species[q].common.majorant, sum[q].largest);
+  }
+}
+
+/* Candidates to be expected in all. */
+static double expected_of(const gg_dsmc *d, const species_pair *s, double time)
+{
+  double majorant = gg_dsmc_majorant_at(&d->now.majorant[gg_pair_index(s->i, s->j)], sqrt(d->now.temperature));
+  return gg_dsmc_cross_section(d, s->i, s->j) * time * majorant *
+         gg_dsmc_candidates_per_unit(s->path, s->f, s->common.one, s->common.two);
+}
+
+void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting)
+{
+  const int segments = d->ensemble.segments, pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
+  const int together = GG_MOST_PARTS / (segments / 2);
+  rounds r = {.d = d};
+  double expected = 0;
+  for (int q = 0; q < pairs; q++) {
+    const int *ij = gg_dsmc_species_of_pair[q];
+    r.species[q] = species_pair_of(d, ij[0], ij[1]);
+    expected += expected_of(d, &r.species[q], dt);
+  }
+  const double worth_a_round = 0.5 * segments * worth_a_pair[d->model.n_species - 1];
+  const int n_rounds = (int)fmax(1, fmin(expected / worth_a_round, segments));
+  const int sweeps = gg_dsmc_sweeps_of_part(&d->now.step, splitting, dt, n_rounds);
+  r.n_substeps = gg_dsmc_list_substeps(pairs, splitting, sweeps, r.substep);
+  r.each = span / n_rounds;
+  r.span = r.each / sweeps;
+  for (int done = 0; done < n_rounds; done += r.n) {
+    r.strain = strain + done * r.each;
+    r.n = n_rounds - done < together ? n_rounds - done : together;
+    run_rounds(&r, dt / (sweeps * n_rounds), expected / n_rounds);
+  }
+}
