@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/clones.h"
 #include "common/crew.h"
 #include "dsmc/dsmc.h"
+#include "simd/clones.h"
 
 static gg_dsmc *dsmc_of(gg_engine *engine)
 {

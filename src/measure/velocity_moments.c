@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "common/clones.h"
+#include "simd/clones.h"
 
 enum { LANES = GG_VELOCITY_MOMENT_LANES };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));

@@ -61,7 +61,8 @@ GG_INLINE void gg_dsmc_draw_part(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_d
   b += w->first_two;
   gg_dsmc_lane_two(&c->rng, part, &more, &spare);
   gg_vd majorant = w->most;
-  if (!w->layer) majorant = gg_smaller((gg_roots_at(w->bound_one, a) + gg_roots_at(w->bound_two, b)) * root, majorant);
+  if (!w->layer)
+    majorant = gg_smaller((gg_dsmc_roots_at(w->bound_one, a) + gg_dsmc_roots_at(w->bound_two, b)) * root, majorant);
   gg_vd u = gg_dsmc_lane_one_to_two(more) - 1;
   gg_mask odd = f.same ? gg_same_word(a, b) : gg_less(majorant, majorant); /* none */
   if (w->any_odd) odd = gg_or(odd, gg_or(gg_same_word(a, w->odd_one), gg_same_word(b, w->odd_two)));

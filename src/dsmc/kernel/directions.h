@@ -3,7 +3,7 @@
 #ifndef GG_DSMC_DIRECTIONS_H
 #define GG_DSMC_DIRECTIONS_H
 
-#include "dsmc/kernel/lanes.h"
+#include "dsmc/kernel/lane_random.h"
 
 /* Room for what is left when sixteen block pairs begin, for what is made meanwhile, and for the width of a register. */
 enum {

@@ -8,7 +8,7 @@
 
 GG_INLINE void note_speed_bound(float *speed_bound, int at, gg_vd c2, double per_scale)
 {
-  float peak = (float)(gg_peaks(c2, c2)[0] * per_scale);
+  float peak = (float)(gg_dsmc_peaks(c2, c2)[0] * per_scale);
   *speed_bound = at && *speed_bound > peak ? *speed_bound : peak;
 }
 
@@ -17,7 +17,7 @@ GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
 {
   if (single) {
     const gg_dsmc_block_single *c = (const gg_dsmc_block_single *)blocks + b;
-    return (gg_vd3){gg_load_single(c->x + at), gg_load_single(c->y + at), gg_load_single(c->z + at)};
+    return (gg_vd3){gg_dsmc_load_single(c->x + at), gg_dsmc_load_single(c->y + at), gg_dsmc_load_single(c->z + at)};
   }
   const gg_dsmc_block *c = (const gg_dsmc_block *)blocks + b;
   return (gg_vd3){gg_load(c->x + at), gg_load(c->y + at), gg_load(c->z + at)};
@@ -28,7 +28,8 @@ GG_INLINE gg_vd3 store(void *blocks, bool single, size_t b, int at, gg_vd3 v)
 {
   if (single) {
     gg_dsmc_block_single *c = (gg_dsmc_block_single *)blocks + b;
-    return (gg_vd3){gg_store_single(c->x + at, v.x), gg_store_single(c->y + at, v.y), gg_store_single(c->z + at, v.z)};
+    return (gg_vd3){gg_dsmc_store_single(c->x + at, v.x), gg_dsmc_store_single(c->y + at, v.y),
+                    gg_dsmc_store_single(c->z + at, v.z)};
   }
   gg_dsmc_block *c = (gg_dsmc_block *)blocks + b;
   gg_store(c->x + at, v.x);

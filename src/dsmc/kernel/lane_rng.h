@@ -4,18 +4,12 @@
 #define GG_DSMC_LANE_RNG_H
 
 #include "dsmc/kernel/pass.h"
+#include "simd/lanes.h"
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-#define GG_HAS_AVX512
-#include <immintrin.h>
-#ifdef GG_SINGLE_LANES
-enum { GG_QUADS = 4 }; /* as wide as the rest: a wider register now and then would slow down all others */
-#else
+/* In single precision no wider than the rest: a wider register now and then would slow down all others. */
+#if defined(GG_HAS_AVX512) && !defined(GG_SINGLE_LANES)
 enum { GG_QUADS = 8 };
-#endif
-#elif defined(__AVX2__)
-#define GG_HAS_AVX2
-#include <immintrin.h>
+#elif defined(GG_HAS_AVX512) || defined(GG_HAS_AVX2)
 enum { GG_QUADS = 4 };
 #else
 enum { GG_QUADS = 2 };

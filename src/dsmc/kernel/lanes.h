@@ -1,85 +1,92 @@
-/* Eight lanes on whatever registers there are, in parts of GG_WIDTH: numbers `gg_real` are double, or float if
- * GG_SINGLE_LANES is defined. Every operation is lane by lane, exact or correctly rounded, and nothing is contracted,
- * so that all processors leave the same bits. Included only by files that are compiled once for each set of
- * instructions.
- *
- * From lanes_double.h or lanes_single.h:
- * gg_vd, gg_vi, gg_vu: numbers, whole numbers, and random words as wide. gg_mask: one truth a lane. gg_permute_of(r)
- * and gg_permute: lane l gets lane l ^ r (r < GG_WIDTH). gg_store_either: `yes` in
- * true lanes, else `no`. gg_spread: the next numbers of a list, one for each true lane;
- * gg_pack: the true lanes to the front of a list, then anything up to a width. gg_peaks: the largest lane of a, and
- * of b. gg_roots_at: square roots out of a table, rounded to float. gg_dsmc_lane_two: two random words a lane, from
- * whose high bits gg_dsmc_lane_one_to_two makes a number; bit GG_SPARE_BIT hardly matters to it.
- * gg_dsmc_lane_two_below: two random whole numbers. */
+/* The eight lanes of a block on registers of GG_WIDTH (simd/lanes.h), in GG_PARTS; and what only speed bounds need. */
 #ifndef GG_DSMC_LANES_H
 #define GG_DSMC_LANES_H
 
+#include <math.h>
+
+#include "dsmc/kernel/pass.h"
+#include "simd/lanes.h"
+
+enum { GG_PARTS = GG_DSMC_LANES / GG_WIDTH };
+
+/* GG_TINY: added to what may be 0/0. gg_v2: two numbers. */
 #ifdef GG_SINGLE_LANES
-#include "dsmc/kernel/lanes_single.h"
+#define GG_TINY 1e-37f
+typedef gg_dsmc_block_single gg_dsmc_real_block;
+typedef gg_real gg_v2 __attribute__((vector_size(16))); /* of four */
 #else
-#include "dsmc/kernel/lanes_double.h"
+#define GG_TINY 1e-300
+typedef gg_dsmc_block gg_dsmc_real_block;
+typedef gg_real gg_v2 __attribute__((vector_size(16)));
 #endif
 
-#ifndef GG_HAS_AVX512
-GG_INLINE gg_mask gg_below_word(gg_vu a, gg_vu b)
+/* Square roots out of a table, rounded to float. */
+GG_INLINE gg_vd gg_dsmc_roots_at(const float *table, gg_vu at)
 {
-  return (gg_mask)(a < b);
+#if defined(GG_HAS_AVX512) && defined(GG_SINGLE_LANES)
+  return _mm256_sqrt_ps(_mm256_i32gather_ps(table, (__m256i)at, 4));
+#elif defined(GG_HAS_AVX512)
+  return _mm512_cvtps_pd(_mm256_sqrt_ps(_mm512_i64gather_ps((__m512i)at, table, 4)));
+#elif defined(GG_SINGLE_LANES)
+  gg_vd x;
+  for (int l = 0; l < GG_WIDTH; l++) x[l] = table[at[l]];
+  return gg_sqrt(x);
+#elif defined(GG_HAS_AVX2)
+  return _mm256_cvtps_pd(_mm_sqrt_ps(_mm_setr_ps(table[at[0]], table[at[1]], table[at[2]], table[at[3]])));
+#else
+  return (gg_vd){sqrtf(table[at[0]]), sqrtf(table[at[1]])};
+#endif
 }
-GG_INLINE gg_mask gg_same_word(gg_vu a, gg_vu b)
+
+/* The largest lane of a, and of b. */
+GG_INLINE gg_v2 gg_dsmc_peaks(gg_vd a, gg_vd b)
 {
-  return (gg_mask)(a == b);
+#if (defined(GG_HAS_AVX512) || defined(GG_HAS_AVX2)) && defined(GG_SINGLE_LANES)
+  __m256 pairs = _mm256_max_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b)); /* of lanes 0 2, 1 3 */
+  __m128 fours = _mm_max_ps(_mm256_castps256_ps128(pairs), _mm256_extractf128_ps(pairs, 1));
+  return _mm_max_ps(fours, _mm_movehl_ps(fours, fours));
+#elif defined(GG_HAS_AVX512)
+  __m512d pairs = _mm512_max_pd(_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+  __m256d half = _mm256_max_pd(_mm512_castpd512_pd256(pairs), _mm512_extractf64x4_pd(pairs, 1));
+  return _mm_max_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
+#elif defined(GG_HAS_AVX2)
+  __m256d pairs = _mm256_max_pd(_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+  return _mm_max_pd(_mm256_castpd256_pd128(pairs), _mm256_extractf128_pd(pairs, 1));
+#elif defined(GG_SINGLE_LANES)
+  gg_vd pairs = gg_larger((gg_vd){a[0], b[0], a[1], b[1]}, (gg_vd){a[2], b[2], a[3], b[3]});
+  return gg_larger(pairs, (gg_vd){pairs[2], pairs[3], pairs[0], pairs[1]});
+#else
+  return gg_larger((gg_v2){a[0], b[0]}, (gg_v2){a[1], b[1]});
+#endif
 }
-GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
+
+/* Both peaks, in single precision. */
+GG_INLINE void gg_dsmc_peaks_store(gg_v2 peaks, float *one, float *two)
 {
-  *(gg_vd *)p = gg_select(m, yes, no);
+#ifdef GG_SINGLE_LANES
+  *one = peaks[0];
+  *two = peaks[1];
+#else
+  typedef float gg_f2 __attribute__((vector_size(8)));
+  gg_f2 rounded = __builtin_convertvector(peaks, gg_f2);
+  *one = rounded[0];
+  *two = rounded[1];
+#endif
+}
+
+#ifndef GG_SINGLE_LANES
+/* Numbers kept in single precision: read, and rounded; what is there then. */
+typedef float gg_vf __attribute__((vector_size(4 * GG_WIDTH), aligned(4 * GG_WIDTH)));
+GG_INLINE gg_vd gg_dsmc_load_single(const float *p)
+{
+  return __builtin_convertvector(*(const gg_vf *)p, gg_vd);
+}
+GG_INLINE gg_vd gg_dsmc_store_single(float *p, gg_vd v)
+{
+  gg_vf rounded = __builtin_convertvector(v, gg_vf);
+  *(gg_vf *)p = rounded;
+  return __builtin_convertvector(rounded, gg_vd);
 }
 #endif
-
-/* Lane-wise vectors in space. */
-typedef struct gg_vd3 {
-  gg_vd x, y, z;
-} gg_vd3;
-
-GG_INLINE gg_vd gg_all(gg_real x)
-{
-  return x - (gg_vd){0};
-}
-GG_INLINE gg_vu gg_all_words(gg_word x)
-{
-  return x - (gg_vu){0};
-}
-GG_INLINE gg_vu gg_select_words(gg_mask m, gg_vu yes, gg_vu no)
-{
-  return (gg_vu)gg_select(m, (gg_vd)yes, (gg_vd)no);
-}
-GG_INLINE gg_vd3 gg_vd3_sub(gg_vd3 a, gg_vd3 b)
-{
-  return (gg_vd3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-GG_INLINE gg_vd3 gg_vd3_add(gg_vd3 a, gg_vd3 b)
-{
-  return (gg_vd3){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-GG_INLINE gg_vd3 gg_vd3_scale(gg_vd f, gg_vd3 a)
-{
-  return (gg_vd3){f * a.x, f * a.y, f * a.z};
-}
-GG_INLINE gg_vd gg_vd3_dot(gg_vd3 a, gg_vd3 b)
-{
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-GG_INLINE gg_vd3 gg_vd3_cross(gg_vd3 a, gg_vd3 b)
-{
-  return (gg_vd3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-GG_INLINE gg_vd gg_load(const gg_real *p)
-{
-  return *(const gg_vd *)p;
-}
-GG_INLINE void gg_store(gg_real *p, gg_vd v)
-{
-  *(gg_vd *)p = v;
-}
 
 #endif

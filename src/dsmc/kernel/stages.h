@@ -48,7 +48,8 @@ typedef struct gg_dsmc_block_pair {
   bool from_zero;            /* lowest is 0 */
   bool layer;                /* is a correction itself */
   gg_real most;              /* majorant of the correction */
-  /* The first block is read again where it is needed: nothing writes it meanwhile. The second is permuted: kept here. */
+  /* The first block is read again where it is needed: nothing writes it meanwhile. The second is permuted: kept here.
+   */
   gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
   gg_vd3 v[GG_PARTS];
   gg_vd v2[GG_PARTS], speed[GG_PARTS];
@@ -110,8 +111,8 @@ GG_INLINE void gg_dsmc_write_back(gg_dsmc_features f, gg_dsmc_pass_state *w, con
     gg_mask swap = gg_dsmc_write_back_velocities(f, w, at, part, &most);
     if (f.rule != GG_SMOOTH) gg_dsmc_write_back_spins(f, w, swap, at, part);
   }
-  gg_v2 peaks = gg_peaks(most.a, most.b) * (f.shear == GG_DSMC_UNSHEARED ? w->per_scale : at->per_scale);
-  gg_peaks_store(peaks, &w->bound_one[at->one], &w->bound_two[at->two]);
+  gg_v2 peaks = gg_dsmc_peaks(most.a, most.b) * (f.shear == GG_DSMC_UNSHEARED ? w->per_scale : at->per_scale);
+  gg_dsmc_peaks_store(peaks, &w->bound_one[at->one], &w->bound_two[at->two]);
 }
 
 /* Block b with its lanes in order r (of which the low bits count), in registers. */
@@ -138,7 +139,7 @@ GG_INLINE void gg_dsmc_check_majorant(gg_dsmc_pass_state *w, gg_dsmc_block_pair 
     most = gg_larger(most, at->v2[part]);
     w->overflows += (unsigned)__builtin_popcount(gg_bits(gg_less(gg_all(w->majorant), at->speed[part])));
   }
-  gg_real now = (gg_real)fmin(sqrt(gg_peaks(most, most)[0]) * (1 + 1e-15), w->majorant);
+  gg_real now = (gg_real)fmin(sqrt(gg_dsmc_peaks(most, most)[0]) * (1 + 1e-15), w->majorant);
   if (now <= majorant) return;
   at->correct = gg_rng_uniform(rng) * (majorant - at->lowest) < now - majorant;
   at->most = now;

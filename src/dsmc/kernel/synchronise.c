@@ -19,7 +19,7 @@ typedef struct affine_map {
 /* The speed bound of a block, part by part. */
 GG_INLINE void note_speed_bound(float *speed_bound, int at, gg_vd c2, gg_real per_scale)
 {
-  float peak = (float)(gg_peaks(c2, c2)[0] * per_scale);
+  float peak = (float)(gg_dsmc_peaks(c2, c2)[0] * per_scale);
   *speed_bound = at && *speed_bound > peak ? *speed_bound : peak;
 }
 

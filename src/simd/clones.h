@@ -1,8 +1,8 @@
 /* Functions compiled for wider registers, too: the one for this processor is chosen when the program starts. For plain
  * loops whose result does not depend on how many numbers a register holds; static ones, for
  * the choice itself would be seen from outside. Where the loader can choose (ELF with the GNU C library). */
-#ifndef GG_CLONES_H
-#define GG_CLONES_H
+#ifndef GG_SIMD_CLONES_H
+#define GG_SIMD_CLONES_H
 
 #include <stdlib.h> /* tells whose library it is */
 
