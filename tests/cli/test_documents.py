@@ -64,6 +64,23 @@ def test_file_names():
     none(missing)
 
 
+def test_names():
+    """Functions and types that documents speak of are in the code."""
+    code = ""
+    for folder in "src", "include":
+        for path in glob.glob(os.path.join(SOURCE, folder, "**", "*.[hc]"), recursive=True):
+            with open(path, encoding="utf-8") as source:
+                code += source.read()
+    known = set(re.findall(r"\bgg_\w+", code))
+    check(len(known) > 500, len(known))
+    missing = set()
+    for name, text in documents().items():
+        for word in re.findall(r"\bgg_\w+\b(?!_?`?<)", text):
+            if word not in known and not any(k.startswith(word) for k in known if word.endswith("_")):
+                missing.add(f"{name}: {word}")
+    none(missing)
+
+
 def test_commands():
     """graingas COMMAND --option --set key=value, wherever documents show it."""
     page, helps, wrong = run("--scene-page").out, {}, set()
