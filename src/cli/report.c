@@ -20,6 +20,7 @@ void gg_cli_print_document(json_t *document)
 /* Left to --all: parts and components that few look at first. */
 static bool is_minor(gg_quantity q)
 {
+  if (q >= GG_N_QUANTITIES) return false;
   const char *name = gg_quantity_name(q);
   if (q == GG_Q_VISCOSITY_REDUCED_KINETIC) return false;
   static const char *const minor[] = {"_kinetic", "_collisional", "P_yx",       "kurtosis",
@@ -75,11 +76,11 @@ void gg_print_run(const gg_result *r, bool all)
   gg_table_column(t, r->engine, true);
   gg_table_column(t, "unit", false);
   gg_table_column(t, "samples", true);
-  for (int i = 0; i < GG_N_QUANTITIES; i++) {
+  for (int i = 0; i < gg_quantities_of(&r->model); i++) {
     gg_quantity q = (gg_quantity)i;
     if (!has(r, q) || (is_minor(q) && !all)) continue;
     int row = gg_table_row(t);
-    snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", gg_quantity_name(q));
+    snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", gg_quantity_name_in(&r->model, q));
     put_mean(t, row, 1, r, q);
     snprintf(gg_table_cell(t, row, 2), GG_TABLE_CELL, "%s", gg_quantity_unit(q, &r->model));
     snprintf(gg_table_cell(t, row, 3), GG_TABLE_CELL, "%lu", (unsigned long)r->value[q].samples);
@@ -130,7 +131,7 @@ static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int *co
   int n = 0;
   for (int i = 0; i < c->n_theories; i++) {
     column[i] = -1;
-    for (int q = 0; q < GG_N_QUANTITIES && column[i] < 0; q++)
+    for (int q = 0; q < gg_quantities_of(&c->model) && column[i] < 0; q++)
       if (shown(c, (gg_quantity)q, all) && answers(c, i, (gg_quantity)q))
         column[i] = gg_table_column(t, c->theory[i].theory->name, true), n++;
   }
@@ -158,11 +159,11 @@ static gg_table *tabulate(const gg_comparison *c, bool engines, bool all, int *n
     if (c->by_engine[k]) gg_table_column(t, c->by_engine[k]->engine, true);
   if (engines && c->by_engine[GG_MD] && c->by_engine[GG_DSMC]) gg_table_column(t, "z", true);
   *n_theories = theory_columns(t, c, all, column);
-  for (int i = 0; i < GG_N_QUANTITIES; i++) {
+  for (int i = 0; i < gg_quantities_of(&c->model); i++) {
     gg_quantity q = (gg_quantity)i;
     if (!shown(c, q, all)) continue;
     int row = gg_table_row(t);
-    snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", gg_quantity_name(q));
+    snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", gg_quantity_name_in(&c->model, q));
     snprintf(gg_table_cell(t, row, 1), GG_TABLE_CELL, "%s", gg_quantity_unit(q, &c->model));
     if (engines) put_engines(t, row, c, q);
     for (int k = 0; k < c->n_theories; k++)
@@ -176,7 +177,7 @@ static void print_causes(const gg_comparison *c, bool all)
 {
   const char *cause[8];
   int marked = 0;
-  for (int q = 0; q < GG_N_QUANTITIES; q++) marked += shown(c, (gg_quantity)q, all) && gg_disagree(c, (gg_quantity)q);
+  for (int q = 0; q < gg_quantities_of(&c->model); q++) marked += shown(c, (gg_quantity)q, all) && gg_disagree(c, (gg_quantity)q);
   if (!marked) return;
   printf("\n!: md and dsmc differ by more than is expected here. Causes that apply to this scene:\n");
   int n = gg_causes_of_disagreement(c, cause, 8);
@@ -191,7 +192,7 @@ static void print_remarks(const gg_comparison *c)
   if (n) printf("\nTheories further off than is expected of solutions of one problem, and why:\n");
   for (int i = 0; i < n; i++) {
     char text[400];
-    snprintf(text, sizeof text, "%s, %s %+.1f %%: %s", r[i].theory->name, gg_quantity_name(r[i].quantity),
+    snprintf(text, sizeof text, "%s, %s %+.1f %%: %s", r[i].theory->name, gg_quantity_name_in(&c->model, r[i].quantity),
              100 * r[i].deviation, r[i].cause);
     gg_print_wrapped(stdout, "  - ", text, 98);
   }

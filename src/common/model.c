@@ -53,6 +53,23 @@ static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)
   return gg_contact_value_mixture(m->phi, phi_hat, d_red);
 }
 
+static void set_restitution(gg_model *m, int i, int j, double e)
+{
+  int o = 2 * i + j;
+  gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
+  m->contact[o] = gg_contact_make(one, two, e, m->beta[o], m->mu[o]);
+  m->e[o] = e;
+}
+
+void gg_model_at(gg_model *m, double T)
+{
+  for (int i = 0; m->law.e && i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) {
+      double speed = sqrt(M_PI / 2 * T * (1 / m->mass[i] + 1 / m->mass[j]));
+      set_restitution(m, i, j, gg_law_at(&m->law, speed, i, j));
+    }
+}
+
 static gg_rule later_rule(gg_rule a, gg_rule b)
 {
   return a > b ? a : b;
@@ -67,14 +84,14 @@ static void set_pairs(gg_model *m, const gg_scene *s)
       int o = 2 * i + j, p = gg_pair_index(i, j);
       double e = s->collision.e[p], beta = s->collision.beta[p], mu = s->collision.mu[p];
       gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
-      m->contact[o] = gg_contact_make(one, two, e, beta, mu);
+      m->beta[o] = beta, m->mu[o] = mu;
+      set_restitution(m, i, j, e);
       m->treated[o] = gg_contact_make(one, two, 1, beta, mu);
       m->sigma[o] = (m->diameter[i] + m->diameter[j]) / 2;
       m->chi[o] = chi_of(m, s, i, j);
-      m->e[o] = e, m->beta[o] = beta, m->mu[o] = mu;
       gg_rule rule = gg_rule_of(beta, mu);
       m->rule = later_rule(m->rule, rule);
-      if (e < 1 || rule == GG_FRICTIONAL || (rule == GG_ROUGH && beta < 1)) m->elastic = false;
+      if (e < 1 || m->law.e || rule == GG_FRICTIONAL || (rule == GG_ROUGH && beta < 1)) m->elastic = false;
     }
 }
 
@@ -110,6 +127,17 @@ static double guess_sheared_temperature(const gg_model *m)
   return m->boltzmann ? dilute : dilute + dense;
 }
 
+/* With a restitution law, temperature and mean impact depend on each other. */
+static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
+{
+  double speed = s->shear_rate * s->species[0].diameter;
+  for (int round = 0; round < (m->law.e ? 5 : 1); round++) {
+    m->temperature0 = sheared || s->flow == GG_COUETTE ? guess_sheared_temperature(m) : 0.5;
+    if (sheared && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
+    gg_model_at(m, m->temperature0);
+  }
+}
+
 /* theta/T where rotational energy neither grows nor decays (Gayen's thesis, eq. 5.13). */
 static double guess_ratio(const gg_model *m)
 {
@@ -131,7 +159,11 @@ static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
 gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
 {
   if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
-  *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat};
+  *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat, .extension = s->extension};
+  m->law = gg_extension_law(s->extension);
+  if (m->law.e && s->small_shear == GG_ON)
+    return gg_fail(err, GG_BAD_INPUT, "small_shear: needs a constant e: restitution law '%s' has a speed of its own",
+                   m->law.name);
   bool sheared = gg_flow_is_sheared(s->flow);
   m->homogeneous = engine == GG_DSMC;
   m->n = grains_of(s, engine);
@@ -151,11 +183,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
                                                     : 1e-5;
   m->time_step = s->dsmc.time_step;
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
-  m->temperature0 = sheared || s->flow == GG_COUETTE ? guess_sheared_temperature(m) : 0.5;
-  if (sheared && s->temperature != GG_AUTO) {
-    double speed = s->shear_rate * s->species[0].diameter;
-    m->temperature0 = s->temperature / (speed * speed);
-  }
+  guess_temperature(m, s, sheared);
   m->ratio0 = guess_ratio(m);
   m->small_shear = s->small_shear == GG_ON;
   m->steady = !m->small_shear && !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);

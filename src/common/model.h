@@ -9,6 +9,7 @@
 #define GG_MODEL_H
 
 #include "common/collision.h"
+#include "common/restitution.h"
 #include "common/scene.h"
 
 typedef struct gg_model {
@@ -37,6 +38,8 @@ typedef struct gg_model {
   double sigma[4];       /* (d_i + d_j)/2 */
   double chi[4];         /* contact value; 1 in the Boltzmann limit */
   double e[4], beta[4], mu[4];
+  gg_restitution_law law; /* of restitution between grains; with one, `e` and `contact` are those of the mean impact at
+                 some temperature (gg_model_at), for estimates, and engines ask the law at every collision */
 
   gg_contact wall[GG_MAX_SPECIES];         /* grain (1) against wall (2) */
   gg_contact wall_treated[GG_MAX_SPECIES]; /* the same with e = 1 */
@@ -51,12 +54,17 @@ typedef struct gg_model {
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
   bool single;         /* dsmc: velocities kept in single precision */
 
+  const gg_extension *extension; /* borrowed from the scene */
+
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;
 
 /* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get
  * order-of- magnitude guesses, which a caller may improve before creating an engine. */
 gg_status gg_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
+
+/* With a restitution law: e and contacts of the mean impact of Maxwellians at temperature T. */
+void gg_model_at(gg_model *model, double T);
 
 /* Collisions per grain that the slowest of T, theta, mean spin needs to relax by a factor 1/e, estimated from two-
  * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); INFINITY where nothing relaxes. */

@@ -50,8 +50,35 @@ gg_quantity gg_quantity_find(const char *name)
   return (gg_quantity)q;
 }
 
+int gg_quantities_of(const gg_model *m)
+{
+  return GG_N_QUANTITIES + gg_extension_quantities(m->extension);
+}
+
+static const gg_quantity_definition *own(const gg_model *m, gg_quantity q)
+{
+  return gg_extension_quantity(m->extension, (int)q - GG_N_QUANTITIES);
+}
+
+const char *gg_quantity_name_in(const gg_model *m, gg_quantity q)
+{
+  return q < GG_N_QUANTITIES ? gg_quantity_name(q) : own(m, q)->name;
+}
+const char *gg_quantity_doc_in(const gg_model *m, gg_quantity q)
+{
+  return q < GG_N_QUANTITIES ? gg_quantity_doc(q) : own(m, q)->doc;
+}
+
+gg_quantity gg_quantity_find_in(const gg_model *m, const char *name)
+{
+  for (int q = 0; q < gg_quantities_of(m); q++)
+    if (strcmp(gg_quantity_name_in(m, (gg_quantity)q), name) == 0) return (gg_quantity)q;
+  return GG_MOST_QUANTITIES;
+}
+
 const char *gg_quantity_unit(gg_quantity q, const gg_model *model)
 {
+  if (q >= GG_N_QUANTITIES) return own(model, q)->unit;
   bool sheared = model->shear_rate != 0 || model->flow == GG_COUETTE;
   int scale =
       sheared ? (model->boltzmann ? SHEARED_BOLTZMANN : SHEARED) : (model->boltzmann ? THERMAL_BOLTZMANN : THERMAL);

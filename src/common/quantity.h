@@ -56,9 +56,20 @@
     "box length above which a cooling gas forms vortices and clusters")
 
 #define GG_QUANTITY_ENUM(id, name, unit, doc) GG_Q_##id,
-typedef enum gg_quantity { GG_QUANTITIES(GG_QUANTITY_ENUM) GG_N_QUANTITIES } gg_quantity;
+typedef enum gg_quantity {
+  GG_QUANTITIES(GG_QUANTITY_ENUM) GG_N_QUANTITIES,
+  GG_MOST_QUANTITIES = GG_N_QUANTITIES + GG_MOST_OWN_QUANTITIES
+} gg_quantity;
 #undef GG_QUANTITY_ENUM
 
+/* Scenes may have quantities of their own (extension.h), numbered from GG_N_QUANTITIES on. */
+int gg_quantities_of(const gg_model *model); /* how many in all */
+const char *gg_quantity_name_in(const gg_model *model, gg_quantity q);
+const char *gg_quantity_doc_in(const gg_model *model, gg_quantity q);
+/* Quantity of that name, or GG_MOST_QUANTITIES. */
+gg_quantity gg_quantity_find_in(const gg_model *model, const char *name);
+
+/* Shared quantities alone. */
 const char *gg_quantity_name(gg_quantity q);
 const char *gg_quantity_doc(gg_quantity q);
 /* Quantity of that name, or GG_N_QUANTITIES. */

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "common/error.h"
+#include "common/extension.h"
 #include "common/observables.h"
 
 typedef enum gg_flow { GG_EQUILIBRIUM, GG_USF, GG_HCS, GG_HSS, GG_COUETTE, GG_POISEUILLE, GG_CHUTE } gg_flow;
@@ -66,6 +66,8 @@ struct gg_scene {
     double checkpoint_every; /* seconds, 0: none */
     double trajectory_every; /* collisions per particle, 0: none */
   } output;
+  gg_extension *extension; /* what the user's program adds; NULL: nothing. The scene of the interface holds it, copies
+                              of its values borrow it */
 };
 
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */

@@ -25,7 +25,8 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
   }
   for (int i = 0; i < model->n_species; i++)
     for (int j = i; j < model->n_species; j++)
-      made->path[gg_pair_index(i, j)] = gg_dsmc_choose_path(&made->ensemble.of[i], &made->ensemble.of[j]);
+      made->path[gg_pair_index(i, j)] =
+          model->law.e ? GG_DSMC_PLAIN : gg_dsmc_choose_path(&made->ensemble.of[i], &made->ensemble.of[j]);
   *d = made;
   return GG_OK;
 }

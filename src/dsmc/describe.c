@@ -19,6 +19,7 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   snprintf(text, sizeof text, "in %d segments, which threads share", segments);
   line(context, segments > 1 ? text : "not enough for threads to share");
   line(context, rules[m->rule]);
+  if (m->law.e) line(context, "a law of restitution: collisions one by one, the block kernels are left out");
   line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, nothing of them computed"
                              : "Enskog: contact value and collisional stress");
   if (m->shear_rate == 0)

@@ -26,6 +26,7 @@ typedef struct gg_dsmc_state {
   gg_dsmc_majorant majorant[GG_PAIRS];
   gg_transfer transfer;
   bool tap;
+  int power; /* velocities are 2^power times those of the start (rescale) */
 } gg_dsmc_state;
 
 typedef struct gg_dsmc {

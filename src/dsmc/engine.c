@@ -155,6 +155,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
   if (power < -1000 || power > 1000) return gg_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);
   double factor = ldexp(1, power);
+  d->now.power += power;
   gg_dsmc_ensemble_scale(&d->ensemble, factor);
   if (!slow) {
     d->now.time /= factor;

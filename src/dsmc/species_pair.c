@@ -24,6 +24,9 @@ gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
                         .two = two,
                         .blocks = {gg_dsmc_all_blocks(one), gg_dsmc_all_blocks(two)},
                         .contact = m->contact[o],
+                        .species = {i, j},
+                        .law = m->law.e ? &m->law : NULL,
+                        .law_unit = ldexp(1, -d->now.power),
                         .sigma = m->sigma[o],
                         .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
 }

@@ -16,10 +16,10 @@ static json_t *theories_json(const gg_comparison *c, json_t *warnings)
       continue;
     }
     json_t *one = json_object();
-    for (int q = 0; q < GG_N_QUANTITIES; q++) {
+    for (int q = 0; q < gg_quantities_of(&c->model); q++) {
       double value = c->theory[i].answer.value[q];
       if (!isfinite(value)) continue;
-      json_object_set_new(one, gg_quantity_name((gg_quantity)q),
+      json_object_set_new(one, gg_quantity_name_in(&c->model, (gg_quantity)q),
                           json_pack("{s:f, s:s}", "mean", value, "unit", gg_quantity_unit((gg_quantity)q, &c->model)));
     }
     json_object_set_new(all, name, one);
@@ -61,7 +61,7 @@ static json_t *deviations_json(const gg_comparison *c, const gg_result *engine, 
     json_object_set_new(all, c->theory[i].theory->name, isnan(deviation) ? json_null() : json_real(deviation));
   }
   if (small)
-    gg_reason_add(warnings, engine->engine, gg_quantity_name(q),
+    gg_reason_add(warnings, engine->engine, gg_quantity_name_in(&c->model, q),
                   "the relative deviation of theories, since the mean is within three standard errors of zero");
   return all;
 }
@@ -74,11 +74,11 @@ static bool has(const gg_result *r, gg_quantity q)
 static json_t *row_json(const gg_comparison *c, gg_quantity q, json_t *warnings)
 {
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
-  json_t *row = json_pack("{s:s, s:s}", "quantity", gg_quantity_name(q), "unit", gg_quantity_unit(q, &c->model));
+  json_t *row = json_pack("{s:s, s:s}", "quantity", gg_quantity_name_in(&c->model, q), "unit", gg_quantity_unit(q, &c->model));
   double z = md && dsmc ? gg_z_score(&md->value[q], &dsmc->value[q]) : NAN;
   json_object_set_new(row, "md_dsmc_z", isfinite(z) ? json_real(z) : json_null());
   if (!isfinite(z))
-    gg_reason_add(warnings, "md_dsmc_z", gg_quantity_name(q), "the mean or error of an engine is not known");
+    gg_reason_add(warnings, "md_dsmc_z", gg_quantity_name_in(&c->model, q), "the mean or error of an engine is not known");
   json_object_set_new(row, "beyond_expected", json_boolean(gg_disagree(c, q)));
   if (has(md, q)) json_object_set_new(row, "md_theory_deviation", deviations_json(c, md, q, warnings));
   if (has(dsmc, q)) json_object_set_new(row, "dsmc_theory_deviation", deviations_json(c, dsmc, q, warnings));
@@ -98,7 +98,7 @@ static void warn_causes(const gg_comparison *c, json_t *warnings)
 {
   const char *cause[8];
   int marked = 0;
-  for (int q = 0; q < GG_N_QUANTITIES; q++) marked += gg_disagree(c, (gg_quantity)q);
+  for (int q = 0; q < gg_quantities_of(&c->model); q++) marked += gg_disagree(c, (gg_quantity)q);
   int n = marked ? gg_causes_of_disagreement(c, cause, 8) : 0;
   for (int i = 0; i < n; i++)
     json_array_append_new(warnings, json_sprintf("md and dsmc differ beyond what is expected: %s", cause[i]));
@@ -110,7 +110,7 @@ static void warn_remarks(const gg_comparison *c, json_t *warnings)
   int n = gg_theory_remarks(c, r);
   for (int i = 0; i < n; i++)
     json_array_append_new(warnings, json_sprintf("%s is off by %+.1f %% in %s: %s", r[i].theory->name,
-                                                 100 * r[i].deviation, gg_quantity_name(r[i].quantity), r[i].cause));
+                                                 100 * r[i].deviation, gg_quantity_name_in(&c->model, r[i].quantity), r[i].cause));
 }
 
 json_t *gg_comparison_document(const gg_comparison *c)
@@ -118,7 +118,7 @@ json_t *gg_comparison_document(const gg_comparison *c)
   json_t *warnings = json_array(), *rows = json_array();
   json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
   json_t *theory = theories_json(c, warnings);
-  for (int q = 0; q < GG_N_QUANTITIES; q++)
+  for (int q = 0; q < gg_quantities_of(&c->model); q++)
     if (has(c->by_engine[GG_MD], (gg_quantity)q) || has(c->by_engine[GG_DSMC], (gg_quantity)q))
       json_array_append_new(rows, row_json(c, (gg_quantity)q, warnings));
   warn_causes(c, warnings);

@@ -49,7 +49,7 @@ void gg_reason_add(json_t *warnings, const char *who, const char *quantity, cons
 static json_t *estimate_json(const gg_result *r, gg_quantity q, json_t *warnings)
 {
   const gg_estimate *e = &r->value[q];
-  const char *name = gg_quantity_name(q);
+  const char *name = gg_quantity_name_in(&r->model, q);
   if (isnan(e->mean))
     gg_reason_add(warnings, "", name, e->reason);
   else if (isnan(e->error))
@@ -84,9 +84,9 @@ json_t *gg_run_document(const gg_result *r)
 {
   json_t *results = json_object(), *warnings = json_array();
   for (int i = 0; i < r->n_warnings; i++) json_array_append_new(warnings, json_string(r->warnings[i]));
-  for (int q = 0; q < GG_N_QUANTITIES; q++)
+  for (int q = 0; q < gg_quantities_of(&r->model); q++)
     if (gg_is_measured(&r->value[q]))
-      json_object_set_new(results, gg_quantity_name((gg_quantity)q), estimate_json(r, (gg_quantity)q, warnings));
+      json_object_set_new(results, gg_quantity_name_in(&r->model, (gg_quantity)q), estimate_json(r, (gg_quantity)q, warnings));
   json_t *document =
       json_pack("{s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
                 gg_scene_json(&r->scene), "engine", r->engine, "steady", r->steadiness == GG_STEADY, "verdict",

@@ -97,7 +97,11 @@ void gg_scene_title(const gg_scene *s, char *text, size_t size)
   const char *flow = flows[s->flow];
   if (s->small_shear == GG_ON) flow = s->thermostat == GG_GAUSSIAN ? "Slow shear, heated" : "Slow shear, cooling";
   snprintf(text, size, "%s, phi %g", flow, s->phi);
-  add_pairs(text, size, "e", s->collision.e, s->n_species);
+  const gg_restitution_law law = gg_extension_law(s->extension);
+  if (law.e)
+    add(text, size, ", law %s of e", law.name);
+  else
+    add_pairs(text, size, "e", s->collision.e, s->n_species);
   bool smooth = true, frictional = false;
   for (int p = 0; p < (s->n_species > 1 ? GG_PAIRS : 1); p++) {
     smooth &= s->collision.beta[p] == -1 || s->collision.mu[p] == 0;

@@ -32,6 +32,13 @@ static void make_turns(gg_contacts *c, gg_contact (*turn)[4], int pair, const gg
   if (up[0] || (up[1] && rounded->jt > 0)) c->turns = GG_TURNS - 1;
 }
 
+double gg_contact_normal_coefficient(const gg_contact *c, double e, uint64_t number)
+{
+  double lower, upper;
+  int up = upper_turns((1 + (long double)e) / ((long double)c->im1 + c->im2), &lower, &upper);
+  return goes_up((int)(number % GG_TURNS), up) ? upper : lower;
+}
+
 void gg_contacts_make(gg_contacts *c, const gg_model *m)
 {
   c->turns = 0;

@@ -28,6 +28,9 @@ typedef struct gg_contacts {
 
 void gg_contacts_make(gg_contacts *contacts, const gg_model *model);
 
+/* jn = m_r (1+e) rounded likewise, for an e of the moment; in the collision of this number. */
+double gg_contact_normal_coefficient(const gg_contact *contact, double e, uint64_t number);
+
 /* Unit vector along dr, where |dr| is sigma but for rounding; r2 = |dr|^2; in the collision of this number. */
 GG_INLINE gg_vec gg_contact_normal(const gg_contacts *c, int pair, gg_vec dr, double r2, uint64_t number)
 {

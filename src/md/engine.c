@@ -144,6 +144,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   if (e->model.shear_rate != 0 || e->model.walled || e->model.flow == GG_HSS)
     return gg_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
   double v = ldexp(1, power), t = ldexp(1, -power);
+  e->k.power += power;
   for (uint32_t i = 0; i < e->n; i++) {
     e->grain[i].v = gg_scale(v, e->grain[i].v);
     e->grain[i].t *= t;

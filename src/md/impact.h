@@ -12,6 +12,7 @@ typedef struct gg_impact_features {
   bool mixture, contact_time, tap;
   bool gaussian; /* thermostat: the energy that goes is returned by a slower clock */
   bool spins;    /* at walls: else the wall acts on the grain's centre alone */
+  bool law;      /* of restitution: e depends on the speed of the impact */
 } gg_impact_features;
 
 /* Contact-time rule: a grain that collided less than t_c ago is still "in contact", and collides with e = 1, so that an
@@ -58,6 +59,15 @@ GG_INLINE double gg_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was2, 
   return 0.5 * (one / c->im1 + two / c->im2);
 }
 
+/* The contact of this pair at this speed, outside and in units of the start. */
+GG_INLINE gg_contact gg_contact_by_law(const gg_md *e, const gg_contact *contact, double gn, int a, int b)
+{
+  gg_contact at = *contact;
+  double restitution = gg_law_at(&e->model.law, ldexp(gn * e->k.scale, -e->k.power), a, b);
+  at.jn = gg_contact_normal_coefficient(contact, restitution, e->k.collisions);
+  return at;
+}
+
 GG_INLINE void gg_impact_pair(gg_md *e, gg_impact_features f, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
 {
   gg_grain *one = &e->grain[i], *two = &e->grain[j];
@@ -65,13 +75,19 @@ GG_INLINE void gg_impact_pair(gg_md *e, gg_impact_features f, uint32_t i, uint32
   const gg_contacts *contacts = &e->contacts;
   uint64_t turn = e->k.collisions & contacts->turns;
   const gg_contact *contact = &contacts->contact[turn][pair];
-  if (f.contact_time && gg_is_treated(e, i, j)) contact = &contacts->treated[turn][pair];
+  bool treated = f.contact_time && gg_is_treated(e, i, j);
+  if (treated) contact = &contacts->treated[turn][pair];
   double r2 = gg_dot(dr, dr), overlap = 0.5 * (contacts->sigma2[pair] - r2) * contacts->inverse[pair];
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
   gg_vec k = gg_contact_normal(contacts, pair, dr, r2, e->k.collisions);
   gg_vec none = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i],
          *s2 = f.rule == GG_SMOOTH ? &none : &e->spin[j];
   gg_vec g = gg_contact_velocity(f.rule, k, c12, *s1, *s2);
+  gg_contact by_law;
+  if (f.law && !treated) {
+    by_law = gg_contact_by_law(e, contact, gg_dot(k, g), a, b);
+    contact = &by_law;
+  }
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
   gg_vec v1 = one->v, v2 = two->v;
   gg_kick(f.rule, contact, k, J, &one->v, s1, &two->v, s2);

@@ -6,7 +6,7 @@
 #define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
   static void rule##_##mixture##contact_time##tap##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)   \
   {                                                                                                                    \
-    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap, gaussian, false}, i, j, dr, c12);         \
+    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap, gaussian, false, false}, i, j, dr, c12);  \
   }
 #define FOUR(rule, mixture, contact_time)                                                                              \
   IMPACT(rule, mixture, contact_time, 0, 0)                                                                            \
@@ -16,11 +16,11 @@
 #define WALL(rule, contact_time, tap)                                                                                  \
   static void rule##_wall##contact_time##tap(gg_md *e, uint32_t i, int upper)                                          \
   {                                                                                                                    \
-    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, false}, i, upper);                    \
+    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, false, false}, i, upper);             \
   }                                                                                                                    \
   static void rule##_spinning##contact_time##tap(gg_md *e, uint32_t i, int upper)                                      \
   {                                                                                                                    \
-    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, rule != GG_SMOOTH}, i, upper);        \
+    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, rule != GG_SMOOTH, false}, i, upper); \
   }
 #define INSTANCES(rule)                                                                                                \
   FOUR(rule, 0, 0)                                                                                                     \
@@ -28,6 +28,18 @@
 INSTANCES(GG_SMOOTH)
 INSTANCES(GG_ROUGH)
 INSTANCES(GG_FRICTIONAL)
+
+/* With a law of restitution, one for each rule: the law costs more than the tests of what else there is. */
+#define BY_LAW(rule)                                                                                                   \
+  static void rule##_by_law(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)                                   \
+  {                                                                                                                    \
+    gg_impact_features f = {rule, true, e->last != NULL, e->k.tap_open, e->thermostat == GG_GAUSSIAN, .law = true};    \
+    gg_impact_pair(e, f, i, j, dr, c12);                                                                               \
+  }
+BY_LAW(GG_SMOOTH)
+BY_LAW(GG_ROUGH)
+BY_LAW(GG_FRICTIONAL)
+static gg_impact *const impacts_by_law[] = {GG_SMOOTH_by_law, GG_ROUGH_by_law, GG_FRICTIONAL_by_law};
 
 /* By rule, mixture, contact time, tap, Gaussian thermostat. */
 #define PAIR(x)                                                                                                        \
@@ -57,7 +69,7 @@ void gg_md_select_impacts(gg_md *e)
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  e->impact = impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
+  e->impact = e->model.law.e ? impacts_by_law[rule] : impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
   e->watched = e->impact;
   if (e->watch) e->impact = gg_md_show_impact;
   e->wall_impact = e->spin ? spinning_impacts[rule][timed][tap] : wall_impacts[e->model.wall_rule][timed][tap];

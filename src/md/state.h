@@ -72,7 +72,8 @@ typedef struct gg_md_counts {
   double outer_time;               /* outside, up to the present advance */
   double lean, common;             /* of drifting rows (rows.c), at the epoch's start */
   int32_t turn, seam;
-  uint32_t tap_open, spare;
+  uint32_t tap_open;
+  int32_t power; /* velocities are 2^power times those of the start (rescale) */
 } gg_md_counts;
 
 struct gg_md {

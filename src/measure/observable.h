@@ -59,8 +59,7 @@ typedef struct gg_observable {
   /* Called with every sampling interval, after the snapshot at its end. What it takes from it goes into the bins with
    * the next snapshot, and has to be among the memory. NULL: not needed. */
   void (*add_interval)(void *self, const gg_interval *interval);
-  /* Called with every collision while averaging; goes into the bins with the next snapshot. At most one observable of
-   * all has this. NULL: not needed. */
+  /* Called with every collision while averaging; goes into the bins with the next snapshot. NULL: not needed. */
   gg_watch *add_collision;
   void (*restart)(void *self); /* averaging begins (anew): forget earlier snapshots; NULL if there is nothing to forget
                                 */

@@ -2,9 +2,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "measure/own.h"
 #include "run/replica.h"
 
-static gg_status attach_one(gg_replica *r, const gg_observable *o, gg_error *err)
+/* Its channels begin at *width, which grows by what it has. */
+static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width, gg_error *err)
 {
   int k = r->n_observables;
   if (k == GG_MAX_OBSERVABLES) return gg_fail(err, GG_FAILED, "too many observables");
@@ -12,6 +14,8 @@ static gg_status attach_one(gg_replica *r, const gg_observable *o, gg_error *err
   if (!r->self[k]) return GG_FAILED;
   r->observable[k] = o;
   r->n_observables++;
+  r->offset[k] = *width;
+  if (o->width) *width += o->width(&r->model);
   if (o->parts > r->parts) r->parts = o->parts;
   return o->bins ? gg_bins_init(&r->bins[k], o->bins(r->self[k]), err) : GG_OK;
 }
@@ -21,17 +25,17 @@ gg_status gg_replica_attach(gg_replica *r, const gg_scene *scene, gg_error *err)
   size_t width = 0;
   bool curves = false, positions = false;
   r->parts = 1;
-  if (scene->measure & ~GG_MEASURE_RHEOLOGY && !(scene->measure & GG_MEASURE_RHEOLOGY))
+  const gg_observable *own = gg_own_observables(&r->model);
+  if ((own || scene->measure & ~GG_MEASURE_RHEOLOGY) && !(scene->measure & GG_MEASURE_RHEOLOGY))
     return gg_fail(err, GG_BAD_INPUT, "measure: add rheology: it tells when the gas is steady and the run is done");
   for (int i = 0; gg_observables[i]; i++) {
     const gg_observable *o = gg_observables[i];
     if (!(scene->measure & o->flag) || (o->refuses && o->refuses(&r->model))) continue;
-    GG_TRY(attach_one(r, o, err));
-    r->offset[r->n_observables - 1] = width;
-    if (o->width) width += o->width(&r->model);
+    GG_TRY(attach_one(r, o, &width, err));
     if (o->bins) curves = true;
     if (o->positions && !r->model.homogeneous) positions = true;
   }
+  if (own) GG_TRY(attach_one(r, own, &width, err));
   r->row = gg_new_array(width, sizeof *r->row, err);
   if (!r->row) return GG_FAILED;
   if (curves) GG_TRY(gg_snapshot_init(&r->snapshot, &r->model, positions, err));

@@ -15,11 +15,11 @@ void gg_compare_theories(const gg_model *model, gg_comparison *c)
 {
   c->model = *model;
   c->n_theories = 0;
-  size_t room = sizeof c->theory / sizeof *c->theory;
-  for (int i = 0; gg_theories[i] && (size_t)i < room; i++) {
+  const gg_theory *theory;
+  for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error err = {0};
-    c->theory[i].theory = gg_theories[i];
-    c->theory[i].applies = gg_theory_evaluate(gg_theories[i], model, &c->theory[i].answer, &err) == GG_OK;
+    c->theory[i].theory = theory;
+    c->theory[i].applies = gg_theory_evaluate(theory, model, &c->theory[i].answer, &err) == GG_OK;
     snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", err.message);
     c->n_theories++;
   }
@@ -131,6 +131,7 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
                            gg_comparison *c, gg_error *err)
 {
   *c = (gg_comparison){.scene = *scene};
+  gg_extension_hold(c->scene.extension);
   gg_model model;
   GG_TRY(gg_model_make(scene, GG_MD, &model, err));
   gg_compare_theories(&model, c);
@@ -162,5 +163,6 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
 void gg_comparison_clear(gg_comparison *c)
 {
   for (int k = 0; k < 2; k++) gg_result_free(c->by_engine[k]);
+  gg_extension_release(c->scene.extension);
   memset(c, 0, sizeof *c);
 }

@@ -9,6 +9,7 @@
 /* Why a quantity is not there: the first observable's reason, else that nothing asked for measures it. */
 static const char *why_missing(const gg_replicas *all, gg_quantity q)
 {
+  if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned something that is no number";
   if (!all->state.averaging) return "nothing was averaged: the run ended in its warm-up";
   if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
   const char *reason = all->replica[0].observable[0]->missing(&all->model, q);
@@ -34,7 +35,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
   double row_time = rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
-  for (int q = 0; q < GG_N_QUANTITIES; q++) {
+  for (int q = 0; q < gg_quantities_of(&all->model); q++) {
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
     if (!all->model.steady && !scale_free((gg_quantity)q)) {
@@ -122,6 +123,9 @@ static void warn_if_structured(gg_result *result)
 static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   const gg_engine_state *s = &result->engine_state;
+  if (all->model.law.e)
+    gg_result_warn(result, "collision.e was not in force, but the calling program's restitution law '%s'",
+                   all->model.law.name);
   if (result->steadiness != GG_STEADY) gg_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (result->steadiness == GG_STEADY && !c->trusted)
     gg_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
@@ -169,6 +173,7 @@ gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)
 {
   gg_convergence c;
   result->scene = all->scene;
+  gg_extension_hold(result->scene.extension);
   result->model = all->model;
   result->engine = all->replica[0].engine->ops->name;
   GG_TRY(gg_replicas_convergence(all, &c, err));

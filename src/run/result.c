@@ -23,5 +23,6 @@ void gg_result_free(gg_result *result)
   gg_curves_clear(&result->curves);
   gg_frame_free(&result->final);
   for (int i = 0; i < result->n_warnings; i++) free(result->warnings[i]);
+  gg_extension_release(result->scene.extension);
   free(result);
 }

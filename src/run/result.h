@@ -49,12 +49,12 @@ typedef struct gg_effort {
 enum { GG_MAX_WARNINGS = 32 };
 
 struct gg_result {
-  gg_scene scene; /* as run: overrides and seed included */
+  gg_scene scene; /* as run: overrides and seed included; holds its extension */
   gg_model model;
   const char *engine; /* "md", "dsmc" */
   gg_steadiness steadiness;
   char steadiness_text[256]; /* which quantity decided, and how */
-  gg_estimate value[GG_N_QUANTITIES];
+  gg_estimate value[GG_MOST_QUANTITIES]; /* gg_quantities_of(&model) of them */
   gg_history history;
   gg_curves curves;
   gg_frame final; /* the first replica's last state */

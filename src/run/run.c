@@ -31,8 +31,8 @@ gg_status gg_run(const gg_scene *scene, gg_result **result, gg_error *err)
 
 gg_status gg_result_get(const gg_result *result, const char *name, double *mean, double *error, gg_error *err)
 {
-  gg_quantity q = gg_quantity_find(name);
-  if (q == GG_N_QUANTITIES) return gg_fail(err, GG_BAD_INPUT, "there is no quantity called '%s'", name);
+  gg_quantity q = gg_quantity_find_in(&result->model, name);
+  if (q == GG_MOST_QUANTITIES) return gg_fail(err, GG_BAD_INPUT, "there is no quantity called '%s'", name);
   const gg_estimate *e = &result->value[q];
   if (isnan(e->mean)) return gg_fail(err, GG_BAD_INPUT, "'%s' cannot be had here: %s", name, e->reason);
   if (mean) *mean = e->mean;
@@ -42,8 +42,8 @@ gg_status gg_result_get(const gg_result *result, const char *name, double *mean,
 
 const char *gg_result_unit(const gg_result *result, const char *name)
 {
-  gg_quantity q = gg_quantity_find(name);
-  if (q == GG_N_QUANTITIES || isnan(result->value[q].mean)) return NULL;
+  gg_quantity q = gg_quantity_find_in(&result->model, name);
+  if (q == GG_MOST_QUANTITIES || isnan(result->value[q].mean)) return NULL;
   return gg_quantity_unit(q, &result->model);
 }
 

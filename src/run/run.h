@@ -38,7 +38,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
 /* Both engines and every theory. */
 enum { GG_MOST_THEORIES = 32 };
 typedef struct gg_comparison {
-  gg_scene scene;
+  gg_scene scene;          /* holds its extension */
   gg_model model;          /* md's */
   gg_result *by_engine[2]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
   char refusal[2][256];
@@ -58,7 +58,7 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
 double gg_z_score(const gg_estimate *a, const gg_estimate *b);
 void gg_comparison_clear(gg_comparison *comparison);
 
-/* Evaluate the theories for a scene: fills only model and theory[]. */
+/* Evaluate the theories for a scene: fills only model and theory[], both of which borrow from the scene. */
 void gg_compare_theories(const gg_model *model, gg_comparison *comparison);
 
 #endif

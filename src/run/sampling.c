@@ -25,6 +25,14 @@ static bool reads_blocks(const gg_replica *r)
   return all;
 }
 
+/* Where rows are made of positions, too, and the engine has any. */
+static bool reads_positions(const gg_replica *r)
+{
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->width && r->observable[k]->positions) return !r->model.homogeneous;
+  return false;
+}
+
 static void add_grains(gg_replica *r)
 {
   gg_local_frame frame;
@@ -34,7 +42,7 @@ static void add_grains(gg_replica *r)
   } else if (reads_blocks(r)) {
     r->engine->ops->blocks(r->engine, add_blocks, r);
   } else {
-    r->engine->ops->snapshot(r->engine, false, add_chunk, r);
+    r->engine->ops->snapshot(r->engine, reads_positions(r), add_chunk, r);
   }
 }
 
@@ -80,12 +88,17 @@ void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
   if (last) r->clock.window_samples++;
 }
 
+static void add_collision(void *context, const gg_seen_collision *seen)
+{
+  gg_replica *r = context;
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->add_collision) r->observable[k]->add_collision(r->self[k], seen);
+}
+
 gg_status gg_replica_observe_collisions(gg_replica *r, gg_error *err)
 {
-  for (int k = 0; k < r->n_observables; k++) {
-    gg_watch *add_collision = r->observable[k]->add_collision;
-    if (add_collision) GG_TRY(r->engine->ops->watch(r->engine, add_collision, r->self[k], err));
-  }
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->add_collision) return r->engine->ops->watch(r->engine, add_collision, r, err);
   return GG_OK;
 }
 

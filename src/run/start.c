@@ -12,19 +12,31 @@ static void start_of_sweep(gg_model *model)
   model->temperature0 = speed * speed;
 }
 
-void gg_start_near_steady(gg_model *model)
+/* Theories know constant coefficients alone: of a law, that of the mean impact stands in. */
+static void start_at_theory(gg_model *model)
 {
-  if (model->small_shear) start_of_sweep(model);
-  if (!model->steady || model->shear_rate == 0) return;
   const char *const best_first[] = {"gaussian_closure", "lun1991"};
   for (int i = 0; i < 2; i++) {
     const gg_theory *theory = gg_theory_find(best_first[i]);
     gg_theory_answer answer;
-    if (!theory || gg_theory_evaluate(theory, model, &answer, NULL) != GG_OK) continue;
+    gg_model constant = *model;
+    constant.law = (gg_restitution_law){0};
+    if (!theory || gg_theory_evaluate(theory, &constant, &answer, NULL) != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
     if (!(T > 0)) continue;
     model->temperature0 = T;
     if (ratio > 0) model->ratio0 = ratio;
     return;
+  }
+}
+
+/* With a law, temperature and mean impact depend on each other: a few rounds. */
+void gg_start_near_steady(gg_model *model)
+{
+  if (model->small_shear) start_of_sweep(model);
+  if (!model->steady || model->shear_rate == 0) return;
+  for (int round = 0; round < (model->law.e ? 5 : 1); round++) {
+    start_at_theory(model);
+    gg_model_at(model, model->temperature0);
   }
 }

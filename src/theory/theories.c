@@ -31,6 +31,12 @@ const gg_theory *gg_theory_find(const char *name)
   return NULL;
 }
 
+const gg_theory *gg_theory_of(const gg_model *model, int index)
+{
+  const int shared = (int)(sizeof gg_theories / sizeof *gg_theories) - 1;
+  return index < shared ? gg_theories[index] : gg_extension_face(model->extension, index - shared);
+}
+
 const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model)
 {
   return theory->beyond ? theory->beyond(model) : NULL;
@@ -38,8 +44,12 @@ const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model)
 
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
 {
-  for (int q = 0; q < GG_N_QUANTITIES; q++) answer->value[q] = NAN;
-  gg_status status = theory->evaluate(model, answer, err);
-  for (int q = 0; q < GG_N_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
+  for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = NAN;
+  if (model->law.e && !theory->own)
+    return gg_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
+                   theory->name, model->law.name);
+  gg_status status = theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err)
+                                 : theory->evaluate(model, answer, err);
+  for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
   return status;
 }

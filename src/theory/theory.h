@@ -6,7 +6,7 @@
 
 /* What a theory says: NaN where it has no answer. */
 typedef struct gg_theory_answer {
-  double value[GG_N_QUANTITIES];
+  double value[GG_MOST_QUANTITIES];
 } gg_theory_answer;
 
 typedef struct gg_theory {
@@ -18,11 +18,21 @@ typedef struct gg_theory {
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);
   /* Why this model is beyond what the theory was made for, though it answers; NULL (also the function) within it. */
   const char *(*beyond)(const gg_model *model);
+  /* A theory that the user's program brings (own.c): this instead of the two above; else NULL. */
+  const gg_theory_definition *own;
 } gg_theory;
 
 /* Every theory there is, NULL-terminated, in the order they are shown. */
 extern const gg_theory *const gg_theories[];
 const gg_theory *gg_theory_find(const char *name);
+
+/* Those of a scene: the above, and after them its own. NULL beyond the last. */
+const gg_theory *gg_theory_of(const gg_model *model, int index);
+
+/* own.c: put a theory that the user's program brings in front of what a scene has. */
+gg_status gg_own_theory_add(gg_extension **extension, const gg_theory_definition *definition, gg_error *err);
+gg_status gg_own_theory_evaluate(const gg_theory_definition *theory, const gg_model *model, gg_theory_answer *answer,
+                                 gg_error *err);
 
 /* What of the above applies, NULL if nothing does. */
 const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model);

@@ -32,16 +32,24 @@ static void call_back(gg_dsmc_pass *p, const grain_pair *q, gg_vec k, gg_vec c12
   *one = *two = p->time;
 }
 
-static void sums(gg_dsmc_features f, gg_dsmc_pass *p, gg_vec k, gg_vec g, gg_vec J)
+static void sums(gg_dsmc_features f, gg_dsmc_pass *p, const gg_contact *contact, gg_vec k, gg_vec g, gg_vec J)
 {
   if (f.sums == GG_DSMC_NO_SUMS) return;
-  p->loss += gg_energy_loss(&p->contact, k, g, J);
+  p->loss += gg_energy_loss(contact, k, g, J);
   if (f.sums == GG_DSMC_LOSS) return;
   p->stress[0][0] += p->sigma * k.x * J.x;
   p->stress[1][1] += p->sigma * k.y * J.y;
   p->stress[2][2] += p->sigma * k.z * J.z;
   p->stress[0][1] += p->sigma * k.x * J.y;
   p->stress[1][0] += p->sigma * k.y * J.x;
+}
+
+/* The contact at this speed, by the law of restitution. */
+static gg_contact contact_at(const gg_dsmc_pass *p, double gn)
+{
+  gg_contact c = p->contact;
+  c.jn = (1 + gg_law_at(p->law, gn * p->law_unit, p->species[0], p->species[1])) / gg_inverse_mr(&c);
+  return c;
 }
 
 static void raise_speed_bound(const gg_dsmc_pass *p, float *speed_bound, gg_vec c)
@@ -57,9 +65,12 @@ static void collide(gg_dsmc_features f, gg_dsmc_pass *p, grain_pair *q, gg_vec k
     q->sb = gg_dsmc_block_get(p->two, p->two->s, q->b);
   }
   if (p->callback) call_back(p, q, k, c12);
-  gg_vec g = gg_contact_velocity(f.rule, k, c12, q->sa, q->sb), J = gg_impulse(f.rule, &p->contact, k, g, gn);
-  sums(f, p, k, g, J);
-  gg_kick(f.rule, &p->contact, k, J, &q->ca, &q->sa, &q->cb, &q->sb);
+  gg_contact by_law;
+  const gg_contact *contact = &p->contact;
+  if (p->law) by_law = contact_at(p, gn), contact = &by_law;
+  gg_vec g = gg_contact_velocity(f.rule, k, c12, q->sa, q->sb), J = gg_impulse(f.rule, contact, k, g, gn);
+  sums(f, p, contact, k, g, J);
+  gg_kick(f.rule, contact, k, J, &q->ca, &q->sa, &q->cb, &q->sb);
   raise_speed_bound(p, &p->one->speed_bound[q->a / GG_DSMC_LANES], q->ca);
   raise_speed_bound(p, &p->two->speed_bound[q->b / GG_DSMC_LANES], q->cb);
   if (f.shear != GG_DSMC_UNSHEARED) {

@@ -51,15 +51,17 @@ typedef struct gg_dsmc_range {
 typedef struct gg_dsmc_pass {
   /* given */
   gg_dsmc_callback *callback; /* NULL: none */
-  int species[2];             /* for the callback */
+  int species[2];             /* for the callback and the law */
   double time, time_step;     /* the same: of the first candidate, and from one to the next */
   gg_dsmc_population *one, *two;
   gg_dsmc_range blocks[2]; /* of `one` and `two` that take part; the plain path takes all grains */
   gg_contact contact;
-  double shift;               /* sigma x rate */
-  double sigma;               /* for the stress */
-  double floor, majorant;     /* the layer of g_n */
-  double strain, strain_step; /* of the first candidate, and from one to the next: rate x time */
+  const gg_restitution_law *law; /* which the plain path alone asks; NULL: `contact` as it is */
+  double law_unit;               /* speed in units of the start over the present one */
+  double shift;                  /* sigma x rate */
+  double sigma;                  /* for the stress */
+  double floor, majorant;        /* the layer of g_n */
+  double strain, strain_step;    /* of the first candidate, and from one to the next: rate x time */
   uint64_t candidates;
   double bound_scale; /* of both species' speed bounds: at the strain where the interval begins, then where it ends */
   /* handed back */

@@ -73,12 +73,12 @@ static void write_estimate(gg_h5 *h, const char *group, gg_quantity q, const gg_
   char path[160];
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
     if (isnan(numbers[i].value)) continue; /* what cannot be had is not there */
-    snprintf(path, sizeof path, "%s/results/%s/%s", group, gg_quantity_name(q), numbers[i].name);
+    snprintf(path, sizeof path, "%s/results/%s/%s", group, gg_quantity_name_in(&r->model, q), numbers[i].name);
     gg_h5_number(h, path, numbers[i].value);
   }
-  snprintf(path, sizeof path, "%s/results/%s/samples", group, gg_quantity_name(q));
+  snprintf(path, sizeof path, "%s/results/%s/samples", group, gg_quantity_name_in(&r->model, q));
   gg_h5_count(h, path, e->samples);
-  snprintf(path, sizeof path, "%s/results/%s/unit", group, gg_quantity_name(q));
+  snprintf(path, sizeof path, "%s/results/%s/unit", group, gg_quantity_name_in(&r->model, q));
   gg_h5_text(h, path, gg_quantity_unit(q, &r->model));
 }
 
@@ -98,7 +98,7 @@ static void write_series(gg_h5 *h, const char *observables, const gg_result *r, 
   gg_quantity q = gg_history_quantities[k];
   hsize_t n = history->n;
   char group[120], path[160], target[160];
-  snprintf(group, sizeof group, "%s%s", observables, gg_quantity_name(q));
+  snprintf(group, sizeof group, "%s%s", observables, gg_quantity_name_in(&r->model, q));
   snprintf(path, sizeof path, "%s/value", group);
   gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 1, &n, history->value[k]);
   gg_h5_text_attribute(h, path, "unit", gg_quantity_unit(q, &r->model));
@@ -151,7 +151,7 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
   char path[160], first[120] = "";
   snprintf(path, sizeof path, "%s/results", group);
   gg_h5_group(h, path);
-  for (int q = 0; q < GG_N_QUANTITIES; q++)
+  for (int q = 0; q < gg_quantities_of(&r->model); q++)
     if (gg_is_measured(&r->value[q])) write_estimate(h, group, (gg_quantity)q, r);
   snprintf(path, sizeof path, "%s/engine", group);
   gg_h5_text(h, path, r->engine);
@@ -178,12 +178,12 @@ void gg_h5_write_theories(gg_h5 *h, const gg_comparison *c)
     snprintf(path, sizeof path, "/graingas/theory/%s", name);
     gg_h5_group(h, path);
     gg_h5_text_attribute(h, path, "citation", c->theory[i].theory->citation);
-    for (int q = 0; q < GG_N_QUANTITIES; q++) {
+    for (int q = 0; q < gg_quantities_of(&c->model); q++) {
       double value = c->theory[i].answer.value[q];
       if (!isfinite(value)) continue;
-      snprintf(path, sizeof path, "/graingas/theory/%s/%s/mean", name, gg_quantity_name((gg_quantity)q));
+      snprintf(path, sizeof path, "/graingas/theory/%s/%s/mean", name, gg_quantity_name_in(&c->model, (gg_quantity)q));
       gg_h5_number(h, path, value);
-      snprintf(path, sizeof path, "/graingas/theory/%s/%s/unit", name, gg_quantity_name((gg_quantity)q));
+      snprintf(path, sizeof path, "/graingas/theory/%s/%s/unit", name, gg_quantity_name_in(&c->model, (gg_quantity)q));
       gg_h5_text(h, path, gg_quantity_unit((gg_quantity)q, &c->model));
     }
   }

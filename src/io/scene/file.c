@@ -93,5 +93,6 @@ gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_e
 
 void gg_scene_free(gg_scene *scene)
 {
+  if (scene) gg_extension_release(scene->extension);
   free(scene);
 }

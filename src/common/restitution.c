@@ -1,0 +1,35 @@
+#include "common/restitution.h"
+
+#include <math.h>
+
+double gg_law_from_table(void *context, double speed, int species_1, int species_2)
+{
+  const gg_law_table *t = context;
+  (void)species_1, (void)species_2;
+  if (!(speed > t->speed[0])) return t->e[0];
+  if (speed >= t->speed[t->n - 1]) return t->e[t->n - 1];
+  size_t below = 0, above = t->n - 1;
+  while (above - below > 1) {
+    size_t middle = (below + above) / 2;
+    if (t->speed[middle] <= speed)
+      below = middle;
+    else
+      above = middle;
+  }
+  double share = (speed - t->speed[below]) / (t->speed[above] - t->speed[below]);
+  return t->e[below] + share * (t->e[above] - t->e[below]);
+}
+
+gg_status gg_law_check(const gg_restitution_law *law, int n_species, gg_error *err)
+{
+  for (int i = 0; i < n_species; i++)
+    for (int j = 0; j < n_species; j++)
+      for (int k = -36; k <= 36; k++) {
+        double speed = pow(10, 0.25 * k), e = law->e(law->context, speed, i, j);
+        if (!(e >= 0 && e <= 1))
+          return gg_fail(err, GG_BAD_INPUT,
+                         "restitution law '%s': e = %g at normal speed %g (species %d and %d); it must be from 0 to 1",
+                         law->name, e, speed, i + 1, j + 1);
+      }
+  return GG_OK;
+}
