@@ -5,10 +5,12 @@
 
 #include "io/plot/plot.h"
 
-static const struct entry {
+typedef struct entry {
   const char *name, *label;
   bool ratio;
-} entries[] = {
+} entry;
+
+static const entry entries[] = {
     {"temperature", "temperature\\nT", true},
     {"rotational_temperature", "rotational\\nθ", true},
     {"temperature_ratio", "ratio\\nθ/T", true},
@@ -26,16 +28,29 @@ static const struct entry {
     {"spin_z", "spin\\n<ω_z>", false},
     {"a2", "a_2", false},
 };
-enum { N_ENTRIES = sizeof entries / sizeof *entries, MOST_METHODS = 16 };
+enum { N_ENTRIES = sizeof entries / sizeof *entries, MOST_OWN = 6, MOST_SELECTED = N_ENTRIES + MOST_OWN };
+enum { MOST_METHODS = 16 };
 
 typedef struct method {
   const char *name;
   const json_t *results;
 } method;
 
+/* A quantity that the program that made the file brought with it. */
+static bool is_own(const char *quantity)
+{
+  return gg_quantity_find(quantity) == GG_N_QUANTITIES;
+}
+
 /* Does it say anything about what is drawn? */
 static bool has_entries(const json_t *results)
 {
+  const char *name;
+  json_t *own;
+  json_object_foreach((json_t *)(uintptr_t)results, name, own)
+  {
+    if (is_own(name)) return true;
+  }
   for (int i = 0; i < N_ENTRIES; i++)
     if (json_object_get(results, entries[i].name)) return true;
   return false;
@@ -62,14 +77,30 @@ static double number(const method *m, const char *quantity, const char *member)
   return json_is_number(x) ? json_number_value(x) : NAN;
 }
 
-/* The entries of one kind that an engine has measured, and told from zero if they are to be divided by. */
-static int select_entries(const method *engine, bool ratio, int *selected)
+/* Is it measured, and told from zero? */
+static bool is_told(const method *engine, const char *name, bool *from_zero)
 {
-  int n = 0;
-  for (int i = 0; i < N_ENTRIES; i++) {
-    double mean = number(engine, entries[i].name, "mean"), error = number(engine, entries[i].name, "stderr");
-    bool usable = isfinite(mean) && (!ratio || fabs(mean) > 3 * (isfinite(error) ? error : 0));
-    if (entries[i].ratio == ratio && usable) selected[n++] = i;
+  double mean = number(engine, name, "mean"), error = number(engine, name, "stderr");
+  *from_zero = fabs(mean) > 3 * (isfinite(error) ? error : 0);
+  return isfinite(mean);
+}
+
+/* The entries of one kind that an engine has measured, and told from zero if they are to be divided by; and some of the
+ * program's own, as ratios where they can be. */
+static int select_entries(const method *engine, bool ratio, entry *selected)
+{
+  int n = 0, n_own = 0;
+  bool from_zero;
+  const char *name;
+  json_t *own;
+  for (int i = 0; i < N_ENTRIES; i++)
+    if (entries[i].ratio == ratio && is_told(engine, entries[i].name, &from_zero) && (!ratio || from_zero))
+      selected[n++] = entries[i];
+  json_object_foreach((json_t *)(uintptr_t)engine->results, name, own)
+  {
+    if (n_own == MOST_OWN || !is_own(name) || !is_told(engine, name, &from_zero) || from_zero != ratio) continue;
+    selected[n++] = (entry){name, name, ratio};
+    n_own++;
   }
   return n;
 }
@@ -81,12 +112,12 @@ static int colour_of(const method *m, int index)
   return 2 + index % (GG_PLOT_COLOURS - 2);
 }
 
-static void print_points(FILE *s, int k, const method *m, const method *reference, bool ratio, const int *selected,
+static void print_points(FILE *s, int k, const method *m, const method *reference, bool ratio, const entry *selected,
                          int n, double offset)
 {
   fprintf(s, "$method%d << EOD\n", k);
   for (int i = 0; i < n; i++) {
-    const char *name = entries[selected[i]].name;
+    const char *name = selected[i].name;
     double scale = ratio ? number(reference, name, "mean") : 1;
     double mean = number(m, name, "mean") / scale, error = fabs(number(m, name, "stderr") / scale);
     if (isfinite(mean)) fprintf(s, "%.4f %.9g %.9g\n", i + 1 + offset, mean, isfinite(error) ? error : 0);
@@ -95,13 +126,13 @@ static void print_points(FILE *s, int k, const method *m, const method *referenc
 }
 
 /* How far the axis reaches below and above 1: all that is there, but not to the ends of the world. */
-static void find_reach(const method *methods, int n_methods, const int *selected, int n, double reach[2])
+static void find_reach(const method *methods, int n_methods, const entry *selected, int n, double reach[2])
 {
   const double most[2] = {0.75, 0.75};
   reach[0] = reach[1] = 0.003;
   for (int k = 0; k < n_methods; k++)
     for (int i = 0; i < n; i++) {
-      const char *name = entries[selected[i]].name;
+      const char *name = selected[i].name;
       double reference = number(&methods[0], name, "mean"), off = number(&methods[k], name, "mean") / reference - 1;
       double error = number(&methods[k], name, "stderr") / fabs(reference);
       if (!isfinite(off)) continue;
@@ -114,11 +145,11 @@ static void find_reach(const method *methods, int n_methods, const int *selected
 }
 
 /* What lies outside the axis is named at its edge. */
-static void label_outliers(FILE *s, const method *m, const method *reference, const int *selected, int n, double offset,
-                           const double *reach, const char *colour)
+static void label_outliers(FILE *s, const method *m, const method *reference, const entry *selected, int n,
+                           double offset, const double *reach, const char *colour)
 {
   for (int i = 0; i < n; i++) {
-    double ratio = number(m, entries[selected[i]].name, "mean") / number(reference, entries[selected[i]].name, "mean");
+    double ratio = number(m, selected[i].name, "mean") / number(reference, selected[i].name, "mean");
     bool above = ratio > 1;
     if (!isfinite(ratio) || fabs(ratio - 1) <= reach[above]) continue;
     fprintf(s, "set label '%s %.3g' at first %.4f, graph %g rotate by 90 %s tc rgb '%s' font ',9'\n", above ? "→" : "←",
@@ -126,10 +157,24 @@ static void label_outliers(FILE *s, const method *m, const method *reference, co
   }
 }
 
-static void print_categories(FILE *s, const int *selected, int n)
+/* A name of one's own stands as it is: no subscripts in it. */
+static void print_label(FILE *s, const entry *e)
+{
+  for (const char *c = e->label; *c; c++)
+    if (*c == '_' && is_own(e->name))
+      fputs("\\\\_", s);
+    else
+      fputc(*c, s);
+}
+
+static void print_categories(FILE *s, const entry *selected, int n)
 {
   fprintf(s, "set xtics (");
-  for (int i = 0; i < n; i++) fprintf(s, "%s\"%s\" %d", i ? ", " : "", entries[selected[i]].label, i + 1);
+  for (int i = 0; i < n; i++) {
+    fprintf(s, "%s\"", i ? ", " : "");
+    print_label(s, &selected[i]);
+    fprintf(s, "\" %d", i + 1);
+  }
   fprintf(s, ") scale 0\nset xrange [0.45:%g]\n", n + 0.55);
   for (int i = 1; i < n; i++)
     fprintf(s, "set arrow from %g,graph 0 to %g,graph 1 nohead back lc rgb '#eeeeee' lw 0.8\n", i + 0.5, i + 0.5);
@@ -158,7 +203,8 @@ static void plot_methods(FILE *s, const method *methods, int n, bool legend)
 static void draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel panel)
 {
   method methods[MOST_METHODS];
-  int selected[N_ENTRIES], n_methods = methods_of(stored, methods);
+  entry selected[MOST_SELECTED];
+  int n_methods = methods_of(stored, methods);
   int n = n_methods ? select_entries(&methods[0], ratio, selected) : 0;
   if (n == 0) return;
   gg_plot_place(s, panel);
@@ -197,6 +243,6 @@ void gg_plot_differences(FILE *s, const gg_stored_result *stored, gg_panel panel
 bool gg_plot_has(const gg_stored_result *stored, bool ratios)
 {
   method methods[MOST_METHODS];
-  int selected[N_ENTRIES];
+  entry selected[MOST_SELECTED];
   return methods_of(stored, methods) > 0 && select_entries(&methods[0], ratios, selected) > 0;
 }
