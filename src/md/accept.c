@@ -57,19 +57,20 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
   double radius;
   int32_t n[3];
   char text[160];
-  enum gg_search_in where = gg_md_plan(m, &radius, n);
+  enum gg_md_search_way where = gg_md_choose_way(m, &radius, n);
   const char *const why[] = {
-      [GG_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
-      [GG_LISTS] = "as dense: lists are seldom mended",
-      [GG_SHARED_CELLS] = "as dilute: few crossings, each into one cell",
-      [GG_DRIFTING_CELLS] = "as sheared: the flow carries nobody through them",
+      [GG_MD_PLAIN_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
+      [GG_MD_NEIGHBOUR_LISTS] = "as dense: neighbour lists, seldom updated",
+      [GG_MD_OVERLAPPING_CELLS] = "as dilute: few crossings, each into one cell",
+      [GG_MD_COMOVING_ROWS] = "as sheared: the flow carries nobody through them",
   };
-  const char *const what[] = {[GG_CELLS] = "cells",
-                              [GG_LISTS] = "neighbour lists",
-                              [GG_SHARED_CELLS] = "overlapping cells",
-                              [GG_DRIFTING_CELLS] = "cells that move with the flow"};
+  const char *const what[] = {[GG_MD_PLAIN_CELLS] = "cells",
+                              [GG_MD_NEIGHBOUR_LISTS] = "neighbour lists",
+                              [GG_MD_OVERLAPPING_CELLS] = "overlapping cells",
+                              [GG_MD_COMOVING_ROWS] = "cells that move with the flow"};
   int used = snprintf(text, sizeof text, "%s, %d x %d x %d cells, ", what[where], n[0], n[1], n[2]);
-  if (where == GG_LISTS) used += snprintf(text + used, sizeof text - (size_t)used, "shells of %.2g d, ", radius);
+  if (where == GG_MD_NEIGHBOUR_LISTS)
+    used += snprintf(text + used, sizeof text - (size_t)used, "skins of %.2g d, ", radius);
   snprintf(text + used, sizeof text - (size_t)used, "%s", why[where]);
   tell(line, context, "search", text);
 }

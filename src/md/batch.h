@@ -27,9 +27,9 @@ enum { GG_BATCH = 8 };
 typedef uint32_t gg_list8 __attribute__((vector_size(32), may_alias, aligned(4)));
 
 /* Eight records as columns: r, v, t and the bits of (stamp, next). */
-typedef struct gg_batch {
+typedef struct gg_md_batch {
   gg_v8 x, y, z, vx, vy, vz, t, tag;
-} gg_batch;
+} gg_md_batch;
 
 GG_INLINE gg_v8 gg_all(double x)
 {
@@ -225,7 +225,7 @@ GG_INLINE void gg_columns(const gg_half *const row[GG_BATCH], gg_v8 column[4])
 }
 
 /* Records are one cache line each: load the lines of eight grains and transpose. */
-GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
+GG_INLINE gg_md_batch gg_md_gather(const gg_md_grain *grain, const uint32_t *index)
 {
   const gg_half *front[GG_BATCH], *back[GG_BATCH];
   gg_v8 one[4], two[4];
@@ -235,24 +235,25 @@ GG_INLINE gg_batch gg_gather(const gg_grain *grain, const uint32_t *index)
   }
   gg_columns(front, one);
   gg_columns(back, two);
-  return (gg_batch){one[0], one[1], one[2], one[3], two[0], two[1], two[2], two[3]};
+  return (gg_md_batch){one[0], one[1], one[2], one[3], two[0], two[1], two[2], two[3]};
 }
 
-/* gg_contact_delay, eight times, in two steps. First about how soon: without the square root and the division, which
+/* gg_md_contact_delay, eight times, in two steps. First about how soon: without the square root and the division, which
  * take longer than all the rest. Then exactly, for the earliest. */
-#define GG_ABOUT 0x1p-12
-#define GG_SOON_AT_ALL 0x1p-1000
-#define GG_AT_ONCE 0x1p800 /* in contact already: how soon does not tell who is first */
+#define GG_MD_ABOUT 0x1p-12
+#define GG_MD_SOON_AT_ALL 0x1p-1000
+#define GG_MD_AT_ONCE 0x1p800 /* in contact already: how soon does not tell who is first */
 
-typedef struct gg_quadratic {
+typedef struct gg_md_quadratic {
   gg_v8 b, c, discriminant;
-} gg_quadratic;
+} gg_md_quadratic;
 
-GG_INLINE gg_quadratic gg_contact_quadratic8(gg_v8 x, gg_v8 y, gg_v8 z, gg_v8 vx, gg_v8 vy, gg_v8 vz, gg_v8 sigma2)
+GG_INLINE gg_md_quadratic gg_md_contact_quadratic8(gg_v8 x, gg_v8 y, gg_v8 z, gg_v8 vx, gg_v8 vy, gg_v8 vz,
+                                                   gg_v8 sigma2)
 {
   gg_v8 b = x * vx + y * vy + z * vz, a = vx * vx + vy * vy + vz * vz;
   gg_v8 c = x * x + y * y + z * z - sigma2;
-  return (gg_quadratic){b, c, b * b - a * c};
+  return (gg_md_quadratic){b, c, b * b - a * c};
 }
 
 /* About 1/sqrt(x) and 1/x, for x > 0, by instructions made for it or from the bits of the exponent. Only the choice of
@@ -280,18 +281,18 @@ GG_INLINE gg_v8 gg_about_inverse8(gg_v8 x)
 }
 
 /* Who meets at all: those who approach and whose discriminant is not negative. */
-GG_INLINE gg_k8 gg_meets8(gg_quadratic q)
+GG_INLINE gg_k8 gg_md_meets8(gg_md_quadratic q)
 {
   return gg_less8(q.b, gg_all(0)) & gg_not_above8(gg_all(0), q.discriminant);
 }
 
-/* About one over the delay, to GG_ABOUT of it: the greatest is the earliest. 0: never. The two approximations do not
+/* About one over the delay, to GG_MD_ABOUT of it: the greatest is the earliest. 0: never. The two approximations do not
  * wait for each other. */
-GG_INLINE gg_v8 gg_how_soon8(gg_quadratic q)
+GG_INLINE gg_v8 gg_md_how_soon8(gg_md_quadratic q)
 {
   gg_v8 tiny = gg_all(0x1p-1000), d = gg_larger8(q.discriminant, tiny);
   gg_v8 soon = (d * gg_about_inverse_root8(d) - q.b) * gg_about_inverse8(gg_larger8(q.c, tiny));
-  return gg_choose(gg_meets8(q), soon, gg_all(0));
+  return gg_choose(gg_md_meets8(q), soon, gg_all(0));
 }
 
 /* A number and, in its last digits, a small whole number below GG_PLACES: the greatest of many tells which it is. */
@@ -307,11 +308,11 @@ GG_INLINE uint32_t gg_label_of(double t)
   return bits % GG_PLACES;
 }
 
-GG_INLINE gg_v8 gg_contact_delay8(gg_quadratic q)
+GG_INLINE gg_v8 gg_md_contact_delay8(gg_md_quadratic q)
 {
   gg_v8 delay = q.c / (gg_sqrt8(q.discriminant) - q.b);
   delay = gg_choose(gg_less8(gg_all(0), delay), delay, gg_all(0));
-  return gg_choose(gg_meets8(q), delay, gg_all(INFINITY));
+  return gg_choose(gg_md_meets8(q), delay, gg_all(INFINITY));
 }
 
 #endif

@@ -1,7 +1,7 @@
-/* The box, its images and, under shear, its sliding images (Lees & Edwards, J. Phys. C 5 (1972) 1921).
+/* The box, its images and, under shear, its moving images (Lees & Edwards, J. Phys. C 5 (1972) 1921).
  *
- * The image of the box above slides in x at speed U = shear_rate L_y and stands at offset D(t) = D_0 + U t; the one
- * below slides the other way. A grain's image there is r + (D, L_y, 0) with velocity v + (U, 0, 0). */
+ * The image of the box above moves in x at speed U = shear_rate L_y and stands at offset D(t) = D_0 + U t; the one
+ * below moves the other way. A grain's image there is r + (D, L_y, 0) with velocity v + (U, 0, 0). */
 #ifndef GG_MD_BOX_H
 #define GG_MD_BOX_H
 
@@ -9,11 +9,11 @@
 
 #include "common/vec.h"
 
-typedef struct gg_box {
+typedef struct gg_md_box {
   double edge[3], inverse[3];
-  double slide;   /* U; 0 without shear */
-  double offset0; /* D_0, in [0, L_x): the offset at the epoch's start */
-} gg_box;
+  double image_velocity; /* U; 0 without shear */
+  double offset0;        /* D_0, in [0, L_x): the offset at the epoch's start */
+} gg_md_box;
 
 /* Component 0, 1 or 2 of a vector. */
 GG_INLINE double *gg_component(gg_vec *v, int axis)
@@ -45,20 +45,20 @@ GG_INLINE double gg_wrap(double x, double edge, double inverse)
   return x - edge * gg_floor(x * inverse);
 }
 
-GG_INLINE double gg_offset(const gg_box *b, double t)
+GG_INLINE double gg_md_offset(const gg_md_box *b, double t)
 {
-  return gg_wrap(b->offset0 + b->slide * t, b->edge[0], b->inverse[0]);
+  return gg_wrap(b->offset0 + b->image_velocity * t, b->edge[0], b->inverse[0]);
 }
 
 /* The nearest image of a separation: right for pairs closer than half the shortest edge. The relative velocity dv goes
  * with the image. */
-GG_INLINE void gg_nearest_image(const gg_box *b, int sheared, double t, gg_vec *dr, gg_vec *dv)
+GG_INLINE void gg_md_nearest_image(const gg_md_box *b, int sheared, double t, gg_vec *dr, gg_vec *dv)
 {
   double layers = gg_nearest(dr->y * b->inverse[1]);
   dr->y -= b->edge[1] * layers;
   if (sheared && layers != 0) { /* seldom */
-    dr->x -= layers * gg_offset(b, t);
-    dv->x -= layers * b->slide;
+    dr->x -= layers * gg_md_offset(b, t);
+    dv->x -= layers * b->image_velocity;
   }
   dr->x -= b->edge[0] * gg_nearest(dr->x * b->inverse[0]);
   dr->z -= b->edge[2] * gg_nearest(dr->z * b->inverse[2]);

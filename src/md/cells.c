@@ -7,7 +7,7 @@
 
 enum { FEWEST_WORDS = 8, MOST_BEHIND = 16 }; /* the latter: what may be read behind the last */
 
-void gg_cells_count(const gg_box *box, double width, int32_t n[3])
+void gg_md_cells_count(const gg_md_box *box, double width, int32_t n[3])
 {
   for (int a = 0; a < 3; a++) {
     double fit = gg_floor(box->edge[a] / width);
@@ -15,9 +15,9 @@ void gg_cells_count(const gg_box *box, double width, int32_t n[3])
   }
 }
 
-gg_status gg_cells_make(gg_cells *c, const gg_box *box, const int32_t n[3], double reach, gg_error *err)
+gg_status gg_md_cells_make(gg_md_cells *c, const gg_md_box *box, const int32_t n[3], double reach, gg_error *err)
 {
-  *c = (gg_cells){.reach = reach};
+  *c = (gg_md_cells){.reach = reach};
   size_t total = 1;
   for (int a = 0; a < 3; a++) {
     c->n[a] = n[a];
@@ -36,18 +36,18 @@ gg_status gg_cells_make(gg_cells *c, const gg_box *box, const int32_t n[3], doub
   return c->cell ? GG_OK : GG_FAILED;
 }
 
-static size_t total_of(const gg_cells *c)
+static size_t total_of(const gg_md_cells *c)
 {
   return (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2];
 }
 
-void gg_cells_clear(gg_cells *c)
+void gg_md_cells_clear(gg_md_cells *c)
 {
   size_t total = total_of(c);
   for (size_t k = 0; k < total; k++) c->cell[k * c->stride] = 0;
 }
 
-bool gg_cells_grow(gg_cells *c)
+bool gg_md_cells_grow(gg_md_cells *c)
 {
   size_t total = total_of(c), stride = 2 * c->stride;
   uint32_t *cell = gg_md_new_lines(total * stride + MOST_BEHIND, sizeof *cell, NULL);
@@ -59,10 +59,10 @@ bool gg_cells_grow(gg_cells *c)
   return true;
 }
 
-void gg_cells_free(gg_cells *c)
+void gg_md_cells_free(gg_md_cells *c)
 {
   free(c->cell);
   for (int a = 0; a < 3; a++)
     if (c->part[a]) free(c->part[a] - 2);
-  *c = (gg_cells){0};
+  *c = (gg_md_cells){0};
 }

@@ -7,10 +7,10 @@
 /* What stands beside the arrays, in one plain block. */
 typedef struct block {
   gg_md_counts counts;
-  double offset0, bucket_width, shell_radius; /* 0: no lists */
+  double offset0, bucket_width, skin_radius; /* 0: no lists */
   uint32_t current_bucket;
   int32_t cells[3];
-  uint32_t shared, drifts;
+  uint32_t overlapping, comoving;
 } block;
 
 static gg_status put(gg_archive *a, const char *name, const void *data, size_t bytes, gg_error *err)
@@ -27,9 +27,9 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
   b.offset0 = e->box.offset0;
   b.bucket_width = e->queue.width;
   b.current_bucket = e->queue.current;
-  b.shell_radius = e->shell ? e->shell_radius : 0;
-  b.shared = e->shared;
-  b.drifts = e->row != NULL;
+  b.skin_radius = e->skin ? e->skin_radius : 0;
+  b.overlapping = e->overlapping;
+  b.comoving = e->row != NULL;
   memcpy(b.cells, e->cells.n, sizeof b.cells);
   GG_TRY(put(a, "md/state", &b, sizeof b, err));
   GG_TRY(put(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
@@ -37,8 +37,8 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
   GG_TRY(put(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(put(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
   if (e->last) GG_TRY(put(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
-  if (e->shell) GG_TRY(put(a, "md/shells", e->shell, e->n * sizeof *e->shell, err));
-  if (e->shell) GG_TRY(put(a, "md/neighbours", e->neighbour, e->n * GG_LIST * sizeof *e->neighbour, err));
+  if (e->skin) GG_TRY(put(a, "md/skins", e->skin, e->n * sizeof *e->skin, err));
+  if (e->skin) GG_TRY(put(a, "md/neighbours", e->neighbour, e->n * GG_MD_LIST * sizeof *e->neighbour, err));
   return GG_OK;
 }
 
@@ -57,21 +57,21 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   if (e->spin) GG_TRY(get(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
   if (!e->last && gg_archive_find(a, "md/last_collisions")) GG_TRY(gg_md_allocate_last(e, err)); /* it was watched */
   if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
-  if (b.shell_radius > 0) {
+  if (b.skin_radius > 0) {
     GG_TRY(gg_md_allocate_lists(e, err));
-    gg_md_set_shells(e, b.shell_radius);
-    GG_TRY(get(a, "md/shells", e->shell, e->n * sizeof *e->shell, err));
-    GG_TRY(get(a, "md/neighbours", e->neighbour, e->n * GG_LIST * sizeof *e->neighbour, err));
+    gg_md_set_skins(e, b.skin_radius);
+    GG_TRY(get(a, "md/skins", e->skin, e->n * sizeof *e->skin, err));
+    GG_TRY(get(a, "md/neighbours", e->neighbour, e->n * GG_MD_LIST * sizeof *e->neighbour, err));
   }
   e->k = b.counts;
   e->box.offset0 = b.offset0;
-  e->shared = b.shared;
-  GG_TRY(gg_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.shell_radius, err));
-  if (b.drifts) GG_TRY(gg_md_make_rows(e, err));
+  e->overlapping = b.overlapping;
+  GG_TRY(gg_md_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.skin_radius, err));
+  if (b.comoving) GG_TRY(gg_md_make_rows(e, err));
   if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
-  gg_queue_reset(&e->queue, b.bucket_width);
+  gg_md_queue_reset(&e->queue, b.bucket_width);
   e->queue.current = b.current_bucket;
-  for (uint32_t i = 0; i < e->n; i++) gg_queue_insert(&e->queue, e->node, i);
+  for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
   gg_md_select(e);
   return GG_OK;
 }

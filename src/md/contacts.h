@@ -1,10 +1,10 @@
 /* Contacts whose rounding does not add up. A rounding that takes the same side at every collision would make the energy
- * of elastic grains drift by some 10^-16 T a collision: 3 x 10^-10 of it in 10^9 collisions of 1000 grains.
+ * of elastic grains change by some 10^-16 T a collision: 3 x 10^-10 of it in 10^9 collisions of 1000 grains.
  *
  * The normal: near sigma = 1 the square root of |dr|^2 falls between two numbers and is mostly rounded down. So k comes
  * from the difference |dr|^2 - sigma^2, which is exact. What is left to round is a few quanta of the last digit, and a
- * quarter of a quantum would always be lost: a shift by less than a quantum, different in each of GG_TURNS collisions,
- * makes it count in its share of them (dither).
+ * quarter of a quantum would always be lost: a shift by less than a quantum, different in each of GG_MD_DITHERS
+ * collisions, makes it count in its share of them (dither).
  *
  * The coefficients jn = m_r (1+e) and jt = m_t (1+beta) are seldom exact: in the same way they are rounded up in some
  * turns and down in the others, so that their mean is right. */
@@ -15,29 +15,29 @@
 
 #include "common/model.h"
 
-enum { GG_TURNS = 32 };
+enum { GG_MD_DITHERS = 32 };
 
 /* By ordered pair of species, as in the model. */
-typedef struct gg_contacts {
+typedef struct gg_md_contacts {
   double sigma2[4], inverse[4]; /* sigma^2, 1/sigma */
   double residue[4];            /* sigma^2 x inverse^2 - 1: the rounding of the two */
-  double tilt[GG_TURNS];        /* shift of the last digit of k */
-  uint64_t turns;               /* GG_TURNS - 1, or 0 where every coefficient is exact */
-  gg_contact contact[GG_TURNS][4], treated[GG_TURNS][4];
-} gg_contacts;
+  double tilt[GG_MD_DITHERS];   /* shift of the last digit of k */
+  uint64_t turns;               /* GG_MD_DITHERS - 1, or 0 where every coefficient is exact */
+  gg_contact contact[GG_MD_DITHERS][4], treated[GG_MD_DITHERS][4];
+} gg_md_contacts;
 
-void gg_contacts_make(gg_contacts *contacts, const gg_model *model);
+void gg_md_contacts_make(gg_md_contacts *contacts, const gg_model *model);
 
 /* jn = m_r (1+e) rounded likewise, for an e of the moment; in the collision of this number. */
-double gg_contact_normal_coefficient(const gg_contact *contact, double e, uint64_t number);
+double gg_md_contact_normal_coefficient(const gg_contact *contact, double e, uint64_t number);
 
 /* Unit vector along dr, where |dr| is sigma but for rounding; r2 = |dr|^2; in the collision of this number. */
-GG_INLINE gg_vec gg_contact_normal(const gg_contacts *c, int pair, gg_vec dr, double r2, uint64_t number)
+GG_INLINE gg_vec gg_md_contact_normal(const gg_md_contacts *c, int pair, gg_vec dr, double r2, uint64_t number)
 {
   double y = (r2 - c->sigma2[pair]) * (c->inverse[pair] * c->inverse[pair]) + c->residue[pair];
   if (__builtin_expect(!(fabs(y) < 1e-6), 0)) return gg_scale(1 / sqrt(r2), dr); /* a start with overlaps */
   gg_vec k = gg_scale(c->inverse[pair], dr);
-  return gg_axpy(y * (0.375 * y - 0.5) + c->tilt[number % GG_TURNS], k, k); /* (1 + y)^(-1/2) */
+  return gg_axpy(y * (0.375 * y - 0.5) + c->tilt[number % GG_MD_DITHERS], k, k); /* (1 + y)^(-1/2) */
 }
 
 #endif

@@ -25,22 +25,22 @@ static bool falls_across(const gg_md *e)
 gg_status gg_md_begin(gg_md *e, gg_error *err)
 {
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
-  if (e->shell) {
+  if (e->skin) {
     gg_md_build_lists(e);
   } else {
     gg_md_enter_grid(e);
     if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   }
-  e->k.free_time = 1 / fmax(gg_model_collision_rate(&e->model, e->model.temperature0), 1e-300);
-  e->k.contact_time = e->model.contact_time * (falls_across(e) ? 1 / sqrt(fabs(e->gravity.y)) : e->k.free_time);
+  e->k.mean_free_time = 1 / fmax(gg_model_collision_rate(&e->model, e->model.temperature0), 1e-300);
+  e->k.contact_time = e->model.contact_time * (falls_across(e) ? 1 / sqrt(fabs(e->gravity.y)) : e->k.mean_free_time);
   if (e->last)
     for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
-  gg_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e)));
+  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e)));
   gg_md_select(e);
   gg_md_thermostat_begin(e);
   for (uint32_t i = 0; i < e->n; i++) {
     e->node[i].time = INFINITY;
-    gg_queue_insert(&e->queue, e->node, i);
+    gg_md_queue_insert(&e->queue, e->node, i);
   }
   e->kernel->predict_all(e);
   return GG_OK;
@@ -132,7 +132,7 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .collisions = e->k.collisions,
                          .events = e->k.events,
                          .treated = e->k.treated,
-                         .offset = gg_offset(&e->box, e->k.now),
+                         .offset = gg_md_offset(&e->box, e->k.now),
                          .wall_treated = e->k.wall_treated,
                          .worst_overlap = e->k.worst_overlap};
 }
@@ -152,10 +152,11 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
     e->node[i].collision *= t;
     if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
     if (e->last) e->last[i] *= t;
-    e->node[i].shell_built *= t;
+    e->node[i].skin_time *= t;
   }
-  gg_queue_rescale(&e->queue, t);
-  double *times[] = {&e->k.now, &e->k.epoch_start, &e->k.contact_time, &e->k.free_time, &e->k.window_time, &e->k.mark};
+  gg_md_queue_rescale(&e->queue, t);
+  double *times[] = {&e->k.now,         &e->k.epoch_start, &e->k.contact_time, &e->k.mean_free_time,
+                     &e->k.window_time, &e->k.mark};
   for (size_t k = 0; k < sizeof times / sizeof *times; k++) *times[k] *= t;
   return GG_OK;
 }

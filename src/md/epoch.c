@@ -11,19 +11,19 @@ enum { COLLISIONS_TO_MEASURE = 16 };
 double gg_md_bucket_width(double events_per_time)
 {
   int exponent;
-  double mantissa = frexp(GG_BUCKET_MEAN / events_per_time, &exponent);
+  double mantissa = frexp(GG_MD_BUCKET_MEAN / events_per_time, &exponent);
   return ldexp(floor(8 * mantissa), exponent - 3);
 }
 
 /* The present mean free time per grain: each collision counts for both partners. */
-static void measure_free_time(gg_md *e, double span)
+static void measure_mean_free_time(gg_md *e, double span)
 {
   gg_md_counts *k = &e->k;
   k->window_time += span;
   if (k->window_collisions < COLLISIONS_TO_MEASURE) return;
-  double old = k->free_time;
-  k->free_time = k->window_time * e->n / (2.0 * (double)k->window_collisions);
-  if (e->gravity.y == 0) k->contact_time *= k->free_time / old;
+  double old = k->mean_free_time;
+  k->mean_free_time = k->window_time * e->n / (2.0 * (double)k->window_collisions);
+  if (e->gravity.y == 0) k->contact_time *= k->mean_free_time / old;
   k->window_time = 0;
   k->window_collisions = 0;
 }
@@ -31,14 +31,14 @@ static void measure_free_time(gg_md *e, double span)
 /* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
  * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every
  * predicted collision, stays as it is. */
-static void follow_drift(gg_md *e)
+static void follow_centre_of_mass(gg_md *e)
 {
   const double rate = e->model.shear_rate, middle = 0.5 * e->box.edge[1];
   gg_vec momentum = {0, 0, 0};
   double mass = 0;
   for (uint32_t i = 0; i < e->n; i++) {
-    const gg_grain *g = &e->grain[i];
-    double m = e->model.mass[gg_species_of(g)];
+    const gg_md_grain *g = &e->grain[i];
+    double m = e->model.mass[gg_md_species_of(g)];
     gg_vec c = g->v;
     if (rate != 0) c.x -= rate * (g->r.y - middle);
     momentum = gg_axpy(m, c, momentum);
@@ -57,10 +57,10 @@ static double earliest_event(const gg_md *e, double soon)
 }
 
 /* Shells under shear are kept by where they stand at the epoch's start. */
-static void move_shells(gg_md *e, double span)
+static void move_skins(gg_md *e, double span)
 {
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec *c = &e->shell[i].centre;
+    gg_vec *c = &e->skin[i].centre;
     double x = c->x + e->model.shear_rate * (c->y - 0.5 * e->box.edge[1]) * span;
     c->x = gg_wrap(x, e->box.edge[0], e->box.inverse[0]);
   }
@@ -70,38 +70,38 @@ static void move_shells(gg_md *e, double span)
 
 bool gg_md_next_epoch(gg_md *e)
 {
-  double span = gg_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
+  double span = gg_md_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
   if (!(wait < INFINITY)) return false; /* all at rest, or each just as its row */
-  if (e->row && e->slip < wait) wait = e->slip;
+  if (e->row && e->next_shift < wait) wait = e->next_shift;
   while (span < 0.5 * wait) span *= 2; /* nothing happens for long: skip it */
   e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;
-  measure_free_time(e, span);
-  e->box.offset0 = gg_offset(&e->box, span);
+  measure_mean_free_time(e, span);
+  e->box.offset0 = gg_md_offset(&e->box, span);
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_grain *g = &e->grain[i];
-    g->r = gg_position(e, e->falls, g, span);
-    g->v = gg_velocity(e, e->falls, g, span);
+    gg_md_grain *g = &e->grain[i];
+    g->r = gg_md_position(e, e->falls, g, span);
+    g->v = gg_md_velocity(e, e->falls, g, span);
     g->t = 0;
     e->node[i].time -= span;
     e->node[i].collision -= span;
     if (e->last) e->last[i] -= span;
-    e->node[i].shell_built -= span;
+    e->node[i].skin_time -= span;
   }
   if (e->row) gg_md_move_rows(e, span);
-  if (e->shell && e->model.shear_rate != 0) move_shells(e, span);
+  if (e->skin && e->model.shear_rate != 0) move_skins(e, span);
   e->k.epoch_start += span;
   e->k.now -= span;
   e->k.mark -= span;
   e->k.next_kick -= span;
   e->stop -= span;
-  if (e->model.flow == GG_HCS || e->model.flow == GG_HSS || e->model.flow == GG_USF) follow_drift(e);
+  if (e->model.flow == GG_HCS || e->model.flow == GG_HSS || e->model.flow == GG_USF) follow_centre_of_mass(e);
   if (e->thermostat == GG_GAUSSIAN) {
     span /= e->k.scale;
     gg_md_thermostat_fold(e);
   }
   double events = (double)(e->k.events - e->k.epoch_events);
-  gg_queue_reset(&e->queue, gg_md_bucket_width(fmax(events, 1) / span));
-  for (uint32_t i = 0; i < e->n; i++) gg_queue_insert(&e->queue, e->node, i);
+  gg_md_queue_reset(&e->queue, gg_md_bucket_width(fmax(events, 1) / span));
+  for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
   e->k.epoch_events = e->k.events;
   e->k.epoch_collisions = e->k.collisions;
   return true;

@@ -11,33 +11,33 @@
 #include "md/search/walls.h"
 #include "md/search/way.h"
 
-GG_INLINE void gg_md_schedule(gg_md *e, gg_search *s)
+GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
 {
-  gg_node *node = &e->node[s->grain];
-  if (IS_WALLED) gg_try_walls(e, s);
+  gg_md_node *node = &e->node[s->grain];
+  if (IS_WALLED) gg_md_try_walls(e, s);
   if (s->partner != node->partner || s->collision != node->collision) {
     node->collision = s->collision;
     node->partner = s->partner;
-    node->stamp = GG_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].stamp;
+    node->counter = GG_MD_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].counter;
   }
   double crossing = gg_md_next_crossing(e, s, &node->face);
-  gg_queue_remove(&e->queue, e->node, s->grain);
+  gg_md_queue_remove(&e->queue, e->node, s->grain);
   node->time = s->collision < crossing ? s->collision : crossing;
-  gg_queue_insert(&e->queue, e->node, s->grain);
+  gg_md_queue_insert(&e->queue, e->node, s->grain);
 }
 
-GG_INLINE void gg_md_search_anew(gg_md *e, gg_search *s, uint32_t i)
+GG_INLINE void gg_md_search_anew(gg_md *e, gg_md_search *s, uint32_t i)
 {
   e->node[i].collision = INFINITY;
-  e->node[i].partner = GG_NONE;
-  gg_begin_search(s, i, gg_settle(e, i), INFINITY, GG_NONE);
+  e->node[i].partner = GG_MD_NONE;
+  gg_md_begin_search(s, i, gg_md_synchronise(e, i), INFINITY, GG_MD_NONE);
   gg_md_search_all(e, s);
 }
 
 /* A call: most predictions come by two, below. */
 static __attribute__((noinline)) void gg_md_predict(gg_md *e, uint32_t i)
 {
-  gg_search s = {.near = e->near};
+  gg_md_search s = {.candidates = e->candidates};
   gg_md_search_anew(e, &s, i);
   gg_md_schedule(e, &s);
 }
@@ -45,7 +45,7 @@ static __attribute__((noinline)) void gg_md_predict(gg_md *e, uint32_t i)
 /* Both searches before either goes into the calendar: the processor works on both at a time. */
 GG_INLINE void gg_md_predict_two(gg_md *e, uint32_t i, uint32_t j)
 {
-  gg_search one = {.near = e->near}, two = {.near = e->near + GG_NEAR_APART};
+  gg_md_search one = {.candidates = e->candidates}, two = {.candidates = e->candidates + GG_MD_CANDIDATES_APART};
   gg_md_search_anew(e, &one, i);
   gg_md_search_anew(e, &two, j);
   gg_md_schedule(e, &one);
@@ -54,12 +54,12 @@ GG_INLINE void gg_md_predict_two(gg_md *e, uint32_t i, uint32_t j)
 
 GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
 {
-  gg_grain *one = gg_settle(e, i), *two = gg_settle(e, j);
+  gg_md_grain *one = gg_md_synchronise(e, i), *two = gg_md_synchronise(e, j);
   gg_vec dr = gg_sub(two->r, one->r), dv = gg_sub(two->v, one->v);
-  gg_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
-  e->impact(e, i, j, dr, gg_scale(-1, dv));
-  one->stamp += 2;
-  two->stamp += 2;
+  gg_md_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
+  e->resolve(e, i, j, dr, gg_scale(-1, dv));
+  one->counter += 2;
+  two->counter += 2;
   e->k.collisions++;
   e->collisions_left--;
   gg_md_predict_two(e, i, j);
@@ -67,9 +67,9 @@ GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
 
 GG_INLINE void gg_md_hit_wall(gg_md *e, uint32_t i, int upper)
 {
-  gg_grain *g = gg_settle(e, i);
-  e->wall_impact(e, i, upper);
-  g->stamp += 2;
+  gg_md_grain *g = gg_md_synchronise(e, i);
+  e->resolve_wall(e, i, upper);
+  g->counter += 2;
   gg_md_predict(e, i);
 }
 
@@ -95,42 +95,42 @@ GG_INLINE void gg_md_prefetch_next(const gg_md *e)
     gg_md_prefetch_ahead(e, e->queue.due[n - 2].grain);
 }
 
-/* The next event of all; GG_NONE if there is none before e->stop. Rows shift after all events up to then and before all
- * later ones: a matter of the trajectory alone. */
+/* The next event of all; GG_MD_NONE if there is none before e->stop. Rows shift after all events up to then and before
+ * all later ones: a matter of the trajectory alone. */
 GG_INLINE uint32_t gg_md_next(gg_md *e)
 {
   for (;;) {
     while (e->queue.n_due == 0)
-      if (gg_queue_turn(&e->queue, e->node))
+      if (gg_md_queue_turn(&e->queue, e->node))
         gg_md_prefetch_bucket(e);
-      else if (ROWS_SHIFT && e->slip <= gg_queue_span(&e->queue) && e->slip <= e->stop)
+      else if (ROWS_SHIFT && e->next_shift <= gg_md_queue_span(&e->queue) && e->next_shift <= e->stop)
         gg_md_shift_all(e);
-      else if (gg_queue_span(&e->queue) > e->stop)
-        return GG_NONE;
+      else if (gg_md_queue_span(&e->queue) > e->stop)
+        return GG_MD_NONE;
       else if (!gg_md_next_epoch(e))
-        return GG_NONE;
-    gg_due due = e->queue.due[e->queue.n_due - 1];
-    if (ROWS_SHIFT && e->slip < due.time && e->slip <= e->stop)
+        return GG_MD_NONE;
+    gg_md_due due = e->queue.due[e->queue.n_due - 1];
+    if (ROWS_SHIFT && e->next_shift < due.time && e->next_shift <= e->stop)
       gg_md_shift_all(e);
     else
-      return due.time <= e->stop ? due.grain : GG_NONE;
+      return due.time <= e->stop ? due.grain : GG_MD_NONE;
   }
 }
 
 GG_INLINE void gg_md_run_events(gg_md *e)
 {
   uint32_t i;
-  while (e->collisions_left && (i = gg_md_next(e)) != GG_NONE) {
+  while (e->collisions_left && (i = gg_md_next(e)) != GG_MD_NONE) {
     gg_md_prefetch_next(e);
-    const gg_node *node = &e->node[i];
+    const gg_md_node *node = &e->node[i];
     uint32_t partner = node->partner;
     e->k.now = node->time;
     e->k.events++;
     if (node->time < node->collision)
       gg_md_cross(e, i);
-    else if (IS_WALLED && GG_NO_GRAIN(partner))
-      gg_md_hit_wall(e, i, partner == GG_UPPER_WALL);
-    else if (e->grain[partner].stamp != node->stamp)
+    else if (IS_WALLED && GG_MD_NO_GRAIN(partner))
+      gg_md_hit_wall(e, i, partner == GG_MD_UPPER_WALL);
+    else if (e->grain[partner].counter != node->counter)
       gg_md_predict(e, i);
     else
       gg_md_collide(e, i, partner);

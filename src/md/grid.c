@@ -1,17 +1,17 @@
 /* The grid that suits a model, and the grains' places in it. */
 #include <math.h>
 
-#include "md/members_of_rows.h"
+#include "md/members_in_rows.h"
 
 /* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists;
  * in between plain cells, from 0.25 on of a contact distance, below with this many grains: fewer crossings against more
  * pairs to try. */
-#define SHARED_BELOW 0.05
-#define GRAINS_PER_SHARED_CELL 6.0
+#define OVERLAPPING_BELOW 0.05
+#define GRAINS_PER_OVERLAPPING_CELL 6.0
 #define LISTED_FROM 0.4
 #define GRAINS_PER_CELL 0.7
 #define NARROW_FROM 0.25
-enum { FEWEST_SHARED = 6 };
+enum { FEWEST_OVERLAPPING = 6 };
 
 double gg_md_reach(const gg_model *m)
 {
@@ -19,9 +19,9 @@ double gg_md_reach(const gg_model *m)
   return widest * (1 + 1e-9);
 }
 
-/* How wide the shells: wide ones are left seldom, but make long lists. Lists of grains of very unequal size would be
+/* How wide the skins: wide ones are left seldom, but make long lists. Lists of grains of very unequal size would be
  * too long; 0: none. */
-static double shell_radius(const gg_model *m)
+static double skin_radius(const gg_model *m)
 {
   double ratio = m->n_species > 1 ? fmax(m->diameter[0], m->diameter[1]) / fmin(m->diameter[0], m->diameter[1]) : 1;
   if (m->walled || m->phi < LISTED_FROM || ratio > 1.3) return 0;
@@ -30,10 +30,10 @@ static double shell_radius(const gg_model *m)
 
 static void count_cells(const gg_model *m, double width, int32_t n[3])
 {
-  gg_cells_count(&(gg_box){.edge = {m->box[0], m->box[1], m->box[2]}}, width, n);
+  gg_md_cells_count(&(gg_md_box){.edge = {m->box[0], m->box[1], m->box[2]}}, width, n);
 }
 
-/* Cells for shells' centres: only in boxes of at least three cells, no nearest image in doubt. */
+/* Cells for the centres of lists: only in boxes of at least three cells, no nearest image in doubt. */
 static bool fit_lists(const gg_model *m, double radius, int32_t n[3])
 {
   double reach = gg_md_reach(m) + 2 * radius;
@@ -44,13 +44,13 @@ static bool fit_lists(const gg_model *m, double radius, int32_t n[3])
 }
 
 /* Pairs in a cell must have one nearest image. */
-static bool fit_shared(const gg_model *m, int32_t n[3])
+static bool fit_overlapping(const gg_model *m, int32_t n[3])
 {
-  if (m->walled || m->phi >= SHARED_BELOW) return false;
+  if (m->walled || m->phi >= OVERLAPPING_BELOW) return false;
   double narrowest = 3 * gg_md_reach(m);
-  count_cells(m, fmax(narrowest, cbrt(GRAINS_PER_SHARED_CELL * m->volume / (double)m->n)), n);
+  count_cells(m, fmax(narrowest, cbrt(GRAINS_PER_OVERLAPPING_CELL * m->volume / (double)m->n)), n);
   for (int a = 0; a < 3; a++) {
-    if (n[a] < FEWEST_SHARED) n[a] = FEWEST_SHARED;
+    if (n[a] < FEWEST_OVERLAPPING) n[a] = FEWEST_OVERLAPPING;
     if (m->box[a] < narrowest * n[a]) return false;
   }
   return true;
@@ -63,15 +63,15 @@ static void fit_cells(const gg_model *m, int32_t n[3])
   count_cells(m, width, n);
 }
 
-enum gg_search_in gg_md_plan(const gg_model *m, double *radius, int32_t n[3])
+enum gg_md_search_way gg_md_choose_way(const gg_model *m, double *radius, int32_t n[3])
 {
-  *radius = shell_radius(m);
-  if (*radius > 0 && fit_lists(m, *radius, n)) return GG_LISTS;
+  *radius = skin_radius(m);
+  if (*radius > 0 && fit_lists(m, *radius, n)) return GG_MD_NEIGHBOUR_LISTS;
   *radius = 0;
-  if (fit_shared(m, n)) return GG_SHARED_CELLS;
+  if (fit_overlapping(m, n)) return GG_MD_OVERLAPPING_CELLS;
   fit_cells(m, n);
-  bool drift = m->shear_rate != 0 && n[0] >= GG_FEWEST_DRIFTING && n[1] >= 4 && n[2] >= 4;
-  return drift ? GG_DRIFTING_CELLS : GG_CELLS;
+  bool comoving = m->shear_rate != 0 && n[0] >= GG_MD_FEWEST_COMOVING && n[1] >= 4 && n[2] >= 4;
+  return comoving ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS;
 }
 
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
@@ -79,10 +79,10 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
   int32_t n[3];
   if (!fit_lists(&e->model, radius, n)) return GG_OK;
   /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
-  GG_TRY(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
-  if (!gg_cells_grow(&e->cells)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
+  GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
+  if (!gg_md_cells_grow(&e->cells)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   GG_TRY(gg_md_allocate_lists(e, err));
-  gg_md_set_shells(e, radius);
+  gg_md_set_skins(e, radius);
   return GG_OK;
 }
 
@@ -90,17 +90,17 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
 {
   double radius;
   int32_t n[3];
-  enum gg_search_in where = gg_md_plan(&e->model, &radius, n);
-  if (where == GG_LISTS) return gg_md_make_lists(e, radius, err);
-  e->shared = where == GG_SHARED_CELLS;
-  GG_TRY(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err));
-  if (e->box.slide == 0 || where == GG_CELLS) return GG_OK;
+  enum gg_md_search_way where = gg_md_choose_way(&e->model, &radius, n);
+  if (where == GG_MD_NEIGHBOUR_LISTS) return gg_md_make_lists(e, radius, err);
+  e->overlapping = where == GG_MD_OVERLAPPING_CELLS;
+  GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err));
+  if (e->box.image_velocity == 0 || where == GG_MD_PLAIN_CELLS) return GG_OK;
   GG_TRY(gg_md_make_rows(e, err));
   gg_md_align_rows(e);
   return GG_OK;
 }
 
-void gg_md_cell_of(const gg_cells *c, gg_vec r, int32_t cell[3])
+void gg_md_cell_of(const gg_md_cells *c, gg_vec r, int32_t cell[3])
 {
   for (int a = 0; a < 3; a++) {
     int32_t k = (int32_t)(gg_along(&r, a) * c->inverse[a]);
@@ -111,30 +111,30 @@ void gg_md_cell_of(const gg_cells *c, gg_vec r, int32_t cell[3])
 void gg_md_enter_grid(gg_md *e)
 {
   for (uint32_t i = 0; i < e->n; i++)
-    if (e->shared && e->row)
-      gg_rows_place(e, e->grain[i].r, &e->node[i]);
-    else if (e->shared)
-      gg_shared_place(e, e->grain[i].r, &e->node[i]);
+    if (e->overlapping && e->row)
+      gg_md_members_in_rows_place(e, e->grain[i].r, &e->node[i]);
+    else if (e->overlapping)
+      gg_md_members_place(e, e->grain[i].r, &e->node[i]);
     else
-      gg_md_cell_of(&e->cells, e->shell ? e->shell[i].centre : e->grain[i].r, e->node[i].cell);
-  for (uint32_t i = 0; e->row && !e->shared && i < e->n; i++)
-    e->node[i].cell[0] = gg_md_drifting_cell(e, e->node[i].cell[1], e->grain[i].r.x);
+      gg_md_cell_of(&e->cells, e->skin ? e->skin[i].centre : e->grain[i].r, e->node[i].cell);
+  for (uint32_t i = 0; e->row && !e->overlapping && i < e->n; i++)
+    e->node[i].cell[0] = gg_md_cell_in_row(e, e->node[i].cell[1], e->grain[i].r.x);
 }
 
 bool gg_md_fill_grid(gg_md *e)
 {
-  gg_cells_clear(&e->cells);
-  for (uint32_t i = 0; e->shared && i < e->n; i++) {
-    gg_members in;
+  gg_md_cells_clear(&e->cells);
+  for (uint32_t i = 0; e->overlapping && i < e->n; i++) {
+    gg_md_members in;
     if (e->row)
-      gg_rows_cells(e, &e->node[i], &in);
+      gg_md_members_in_rows_of(e, &e->node[i], &in);
     else
-      gg_shared_cells(e, &e->node[i], &in);
-    if (!gg_shared_enter(e, i, &in)) return false;
+      gg_md_members_of(e, &e->node[i], &in);
+    if (!gg_md_members_enter(e, i, &in)) return false;
   }
-  if (e->shared) return true;
+  if (e->overlapping) return true;
   for (uint32_t i = 0; i < e->n; i++)
-    while (!gg_cell_add(&e->cells, e->node[i].cell, i))
-      if (!gg_cells_grow(&e->cells)) return false;
+    while (!gg_md_cell_add(&e->cells, e->node[i].cell, i))
+      if (!gg_md_cells_grow(&e->cells)) return false;
   return true;
 }

@@ -20,13 +20,14 @@
 
 #define TABLE(set)                                                                                                     \
   {                                                                                                                    \
-    [GG_CELLS] = {[GG_PERIODIC] = BOTH(cells_periodic, set),                                                           \
-                  [GG_WALLED] = BOTH(cells_walled, set),                                                               \
-                  [GG_FALLING] = BOTH(cells_falling, set)},                                                            \
-    [GG_DRIFTING_CELLS] = {[GG_SHEARED] = BOTH(rows_sheared, set)},                                                    \
-    [GG_SHARED_CELLS] =                                                                                                \
-        {[GG_PERIODIC] = BOTH(overlapping_periodic, set), [GG_SHEARED] = BOTH(overlapping_sheared, set)},              \
-    [GG_LISTS] = {[GG_PERIODIC] = BOTH(lists_periodic, set), [GG_SHEARED] = BOTH(lists_sheared, set)},                 \
+    [GG_MD_PLAIN_CELLS] = {[GG_MD_PERIODIC] = BOTH(cells_periodic, set),                                               \
+                           [GG_MD_WALLED] = BOTH(cells_walled, set),                                                   \
+                           [GG_MD_FALLING] = BOTH(cells_falling, set)},                                                \
+    [GG_MD_COMOVING_ROWS] = {[GG_MD_SHEARED] = BOTH(rows_sheared, set)},                                               \
+    [GG_MD_OVERLAPPING_CELLS] =                                                                                        \
+        {[GG_MD_PERIODIC] = BOTH(overlapping_periodic, set), [GG_MD_SHEARED] = BOTH(overlapping_sheared, set)},        \
+    [GG_MD_NEIGHBOUR_LISTS] = {                                                                                        \
+        [GG_MD_PERIODIC] = BOTH(lists_periodic, set), [GG_MD_SHEARED] = BOTH(lists_sheared, set)},                     \
   }
 
 #ifdef GG_HAVE_BASELINE
@@ -40,7 +41,7 @@ DECLARE_SET(avx512)
 #endif
 extern const gg_md_kernel gg_md_kernel_plain_cells, gg_md_kernel_plain_rows;
 
-static const gg_md_kernel *const simd[GG_INSTRUCTION_SETS][GG_DRIFTING_CELLS + 1][GG_FALLING + 1][2] = {
+static const gg_md_kernel *const simd[GG_INSTRUCTION_SETS][GG_MD_COMOVING_ROWS + 1][GG_MD_FALLING + 1][2] = {
 #ifdef GG_HAVE_BASELINE
     [GG_BASELINE] = TABLE(baseline),
 #endif
@@ -52,17 +53,17 @@ static const gg_md_kernel *const simd[GG_INSTRUCTION_SETS][GG_DRIFTING_CELLS + 1
 #endif
 };
 
-const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, enum gg_search_in where, enum gg_boundary boundary,
+const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, enum gg_md_search_way where, enum gg_md_boundary boundary,
                                       bool mixture)
 {
   return simd[set][where][boundary][mixture];
 }
 
-static enum gg_boundary boundary_of(const gg_md *e)
+static enum gg_md_boundary boundary_of(const gg_md *e)
 {
-  if (e->model.shear_rate != 0) return GG_SHEARED;
-  if (e->falls) return GG_FALLING;
-  return e->model.walled ? GG_WALLED : GG_PERIODIC;
+  if (e->model.shear_rate != 0) return GG_MD_SHEARED;
+  if (e->falls) return GG_MD_FALLING;
+  return e->model.walled ? GG_MD_WALLED : GG_MD_PERIODIC;
 }
 
 /* The nearest image of all that the cells around hold must be the one looked at: four cells along each axis. */
@@ -72,18 +73,21 @@ static bool is_wide_enough(const gg_md *e)
 }
 
 /* The reference path, one pair at a time: for tests, and for boxes of a few cells. */
-static bool takes_plain_path(const gg_md *e, enum gg_search_in where)
+static bool takes_plain_path(const gg_md *e, enum gg_md_search_way where)
 {
-  if (where == GG_LISTS || where == GG_SHARED_CELLS) return false;
-  return e->plain || (where == GG_CELLS && (e->model.shear_rate != 0 || !is_wide_enough(e)));
+  if (where == GG_MD_NEIGHBOUR_LISTS || where == GG_MD_OVERLAPPING_CELLS) return false;
+  return e->plain || (where == GG_MD_PLAIN_CELLS && (e->model.shear_rate != 0 || !is_wide_enough(e)));
 }
 
 void gg_md_select(gg_md *e)
 {
-  enum gg_search_in where = e->shell ? GG_LISTS : e->shared ? GG_SHARED_CELLS : e->row ? GG_DRIFTING_CELLS : GG_CELLS;
+  enum gg_md_search_way where = e->skin          ? GG_MD_NEIGHBOUR_LISTS
+                                : e->overlapping ? GG_MD_OVERLAPPING_CELLS
+                                : e->row         ? GG_MD_COMOVING_ROWS
+                                                 : GG_MD_PLAIN_CELLS;
   if (takes_plain_path(e, where))
     e->kernel = e->row ? &gg_md_kernel_plain_rows : &gg_md_kernel_plain_cells;
   else
     e->kernel = gg_md_simd_kernel(gg_instructions_best(), where, boundary_of(e), e->model.n_species > 1);
-  gg_md_select_impacts(e);
+  gg_md_select_resolution(e);
 }

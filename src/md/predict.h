@@ -11,7 +11,7 @@
  *   receding pairs (b >= 0), overlapping by rounding or not, are let go;
  *   touching or slightly overlapping pairs that approach (c <= 0) collide now: the root is <= 0 and is taken as 0;
  *   grazing pairs (discriminant near 0) collide or not by its sign; either way the momentum exchanged is negligible. */
-GG_INLINE double gg_contact_delay(gg_vec dr, gg_vec dv, double sigma2)
+GG_INLINE double gg_md_contact_delay(gg_vec dr, gg_vec dv, double sigma2)
 {
   double b = gg_dot(dr, dv);
   if (b >= 0) return INFINITY;
@@ -25,7 +25,7 @@ GG_INLINE double gg_contact_delay(gg_vec dr, gg_vec dv, double sigma2)
 /* Time until a grain has covered the distance h towards a plane, at speed u and acceleration w towards it: the earlier
  * root of h = u t + w t^2/2, without cancellation. Touching or behind by rounding (h <= 0): now if it approaches, else
  * when it falls back. */
-GG_INLINE double gg_fall_delay(double h, double u, double w)
+GG_INLINE double gg_md_fall_delay(double h, double u, double w)
 {
   double discriminant = u * u + 2 * w * h, s = sqrt(discriminant > 0 ? discriminant : 0);
   if (h <= 0) return u > 0 ? 0 : w > 0 ? (s - u) / w : INFINITY;

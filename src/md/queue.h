@@ -13,87 +13,87 @@
 #include "common/vec.h"
 #include "md/words.h"
 
-#define GG_NONE UINT32_MAX
+#define GG_MD_NONE UINT32_MAX
 
 /* A grain's next event and its place in the calendar and the grid: read only by the grain's own events. */
-typedef struct gg_node {
-  double time;             /* of the next event */
-  double collision;        /* of the next collision known of, >= time; equal: that is the event */
-  uint32_t partner, stamp; /* of that collision: with whom, and the partner's stamp when it was predicted */
-  uint32_t later, earlier; /* chain of a full bucket */
+typedef struct gg_md_node {
+  double time;               /* of the next event */
+  double collision;          /* of the next collision known of, >= time; equal: that is the event */
+  uint32_t partner, counter; /* of that collision: with whom, and the partner's counter when it was predicted */
+  uint32_t later, earlier;   /* in the overflow list of a full bucket */
   int32_t cell[3];
   uint32_t neighbours; /* in its list; of overlapping cells: bits of those along which it is in two */
-  int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), or GG_SLIDE */
-  int32_t upper;       /* overlapping cells that drift: where along x in the upper one of two rows */
-  double shell_built;  /* time at which the grain's shell was made, of shells that shrink */
-} __attribute__((aligned(64))) gg_node;
+  int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), or GG_MD_IMAGES_MOVED */
+  int32_t upper;       /* overlapping cells in rows: where along x in the upper one of two rows */
+  double skin_time;    /* when the grain's list was made: under shear its skin shrinks */
+} __attribute__((aligned(64))) gg_md_node;
 
-/* The neighbouring cells across the sheared boundary have slid: look at them anew. */
-enum { GG_SLIDE = 8 };
+/* The neighbouring cells across the sheared boundary have moved: search them again. */
+enum { GG_MD_IMAGES_MOVED = 8 };
 
 /* Partners that are no grains. */
-#define GG_LOWER_WALL (UINT32_MAX - 1)
-#define GG_UPPER_WALL (UINT32_MAX - 2)
+#define GG_MD_LOWER_WALL (UINT32_MAX - 1)
+#define GG_MD_UPPER_WALL (UINT32_MAX - 2)
 /* Is a partner a wall or nobody? */
-#define GG_NO_GRAIN(partner) ((partner) >= GG_UPPER_WALL)
+#define GG_MD_NO_GRAIN(partner) ((partner) >= GG_MD_UPPER_WALL)
 
-typedef struct gg_due {
+typedef struct gg_md_due {
   double time;
   uint32_t grain;
-} gg_due;
+} gg_md_due;
 
-enum { GG_BUCKET = 14, GG_BUCKET_MEAN = 6 };
-typedef struct gg_bucket {
-  uint32_t chain, count, grain[GG_BUCKET]; /* chain: first of those beyond the fourteen, GG_NONE */
-} __attribute__((aligned(64))) gg_bucket;
+enum { GG_MD_BUCKET = 14, GG_MD_BUCKET_MEAN = 6 };
+typedef struct gg_md_bucket {
+  uint32_t chain, count, grain[GG_MD_BUCKET]; /* chain: the first of those beyond the fourteen, GG_MD_NONE */
+} __attribute__((aligned(64))) gg_md_bucket;
 
-typedef struct gg_queue {
+typedef struct gg_md_queue {
   double inverse_width, width;
   uint32_t n_buckets, current; /* buckets up to and including `current` stand in `due` */
-  gg_bucket *bucket;
-  gg_due *due; /* latest first, so that the next event is the last entry */
+  gg_md_bucket *bucket;
+  gg_md_due *due; /* latest first, so that the next event is the last entry */
   uint32_t n_due;
-} gg_queue;
+} gg_md_queue;
 
-gg_status gg_queue_make(gg_queue *q, uint32_t n_grains, gg_error *err);
-void gg_queue_free(gg_queue *q);
+gg_status gg_md_queue_make(gg_md_queue *q, uint32_t n_grains, gg_error *err);
+void gg_md_queue_free(gg_md_queue *q);
 /* Empty it, at bucket 0, with buckets of this width. */
-void gg_queue_reset(gg_queue *q, double width);
+void gg_md_queue_reset(gg_md_queue *q, double width);
 /* Bring the next non-empty bucket into `due`; false if the epoch is over. */
-bool gg_queue_turn(gg_queue *q, gg_node *node);
+bool gg_md_queue_turn(gg_md_queue *q, gg_md_node *node);
 /* All times have been multiplied by this power of two. */
-void gg_queue_rescale(gg_queue *q, double factor);
+void gg_md_queue_rescale(gg_md_queue *q, double factor);
 /* For buckets that overflow. */
-void gg_queue_chain(gg_bucket *bucket, gg_node *node, uint32_t grain);
-void gg_queue_unchain(gg_bucket *bucket, gg_node *node, uint32_t grain);
+void gg_md_queue_chain(gg_md_bucket *bucket, gg_md_node *node, uint32_t grain);
+void gg_md_queue_unchain(gg_md_bucket *bucket, gg_md_node *node, uint32_t grain);
 
 /* Length of the epoch that the buckets cover. */
-GG_INLINE double gg_queue_span(const gg_queue *q)
+GG_INLINE double gg_md_queue_span(const gg_md_queue *q)
 {
   return q->width * q->n_buckets;
 }
 
 /* The same time always falls into the same bucket: removal finds it again. */
-GG_INLINE uint32_t gg_bucket_of(const gg_queue *q, double time)
+GG_INLINE uint32_t gg_md_bucket_of(const gg_md_queue *q, double time)
 {
   double b = time * q->inverse_width;
   return b < q->n_buckets ? (uint32_t)b : q->n_buckets;
 }
 
 /* Equal times go by the grain's index, so that the order never depends on the history of the calendar. */
-GG_INLINE bool gg_is_before(gg_due a, gg_due b)
+GG_INLINE bool gg_md_is_before(gg_md_due a, gg_md_due b)
 {
   return (a.time < b.time) | ((a.time == b.time) & (a.grain < b.grain));
 }
 
-GG_INLINE void gg_insert_due(gg_queue *q, gg_due new)
+GG_INLINE void gg_md_queue_insert_due(gg_md_queue *q, gg_md_due new)
 {
   uint32_t k = q->n_due++;
-  for (; k > 0 && gg_is_before(q->due[k - 1], new); k--) q->due[k] = q->due[k - 1];
+  for (; k > 0 && gg_md_is_before(q->due[k - 1], new); k--) q->due[k] = q->due[k - 1];
   q->due[k] = new;
 }
 
-GG_INLINE void gg_remove_due(gg_queue *q, uint32_t grain)
+GG_INLINE void gg_md_queue_remove_due(gg_md_queue *q, uint32_t grain)
 {
   uint32_t k = q->n_due - 1;
   while (q->due[k].grain != grain) k--;
@@ -101,35 +101,35 @@ GG_INLINE void gg_remove_due(gg_queue *q, uint32_t grain)
   for (; k < q->n_due; k++) q->due[k] = q->due[k + 1];
 }
 
-GG_INLINE void gg_queue_insert(gg_queue *q, gg_node *node, uint32_t grain)
+GG_INLINE void gg_md_queue_insert(gg_md_queue *q, gg_md_node *node, uint32_t grain)
 {
-  uint32_t b = gg_bucket_of(q, node[grain].time);
+  uint32_t b = gg_md_bucket_of(q, node[grain].time);
   if (b <= q->current) {
-    gg_insert_due(q, (gg_due){node[grain].time, grain});
+    gg_md_queue_insert_due(q, (gg_md_due){node[grain].time, grain});
     return;
   }
   if (b == q->n_buckets) return;
-  gg_bucket *bucket = &q->bucket[b];
-  if (bucket->count < GG_BUCKET)
+  gg_md_bucket *bucket = &q->bucket[b];
+  if (bucket->count < GG_MD_BUCKET)
     bucket->grain[bucket->count++] = grain;
   else
-    gg_queue_chain(bucket, node, grain);
+    gg_md_queue_chain(bucket, node, grain);
 }
 
-GG_INLINE void gg_queue_remove(gg_queue *q, gg_node *node, uint32_t grain)
+GG_INLINE void gg_md_queue_remove(gg_md_queue *q, gg_md_node *node, uint32_t grain)
 {
-  uint32_t b = gg_bucket_of(q, node[grain].time);
+  uint32_t b = gg_md_bucket_of(q, node[grain].time);
   if (b <= q->current) {
-    gg_remove_due(q, grain);
+    gg_md_queue_remove_due(q, grain);
     return;
   }
   if (b == q->n_buckets) return;
-  gg_bucket *bucket = &q->bucket[b];
+  gg_md_bucket *bucket = &q->bucket[b];
   uint32_t found = gg_words_equal16((const uint32_t *)bucket, grain) >> 2 & gg_lowest_bits(bucket->count);
   if (__builtin_expect(found != 0, 1))
     bucket->grain[__builtin_ctz(found)] = bucket->grain[--bucket->count];
   else
-    gg_queue_unchain(bucket, node, grain);
+    gg_md_queue_unchain(bucket, node, grain);
 }
 
 #endif

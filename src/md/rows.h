@@ -5,10 +5,10 @@
 #include "md/state.h"
 
 /* Fewest cells along x, in which the nearest image of all that a cell sees is the one that is looked at. */
-enum { GG_FEWEST_DRIFTING = 7 };
+enum { GG_MD_FEWEST_COMOVING = 7 };
 
 /* Index of a cell, up to n cells off. */
-GG_INLINE int32_t gg_drifting_index(const gg_md *e, int32_t x)
+GG_INLINE int32_t gg_md_index_in_row(const gg_md *e, int32_t x)
 {
   int32_t n = e->cells.n[0];
   return x < 0 ? x + n : x >= n ? x - n : x;

@@ -13,7 +13,7 @@ typedef struct scratch {
 static void into_box(const gg_md *e, gg_vec *r)
 {
   double layers = gg_floor(r->y * e->box.inverse[1]);
-  if (e->box.slide != 0) r->x -= layers * gg_offset(&e->box, e->k.now);
+  if (e->box.image_velocity != 0) r->x -= layers * gg_md_offset(&e->box, e->k.now);
   for (int a = 0; a < 3; a++) {
     if (e->box.inverse[a] == 0) continue; /* between walls, or above an open top: no image */
     double x = gg_wrap(gg_along(r, a), e->box.edge[a], e->box.inverse[a]);
@@ -23,8 +23,9 @@ static void into_box(const gg_md *e, gg_vec *r)
 
 static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, scratch *out)
 {
-  const gg_grain *g = &e->grain[i];
-  gg_vec r = gg_position(e, e->falls, g, e->k.now), c = gg_scale(e->k.scale, gg_velocity(e, e->falls, g, e->k.now));
+  const gg_md_grain *g = &e->grain[i];
+  gg_vec r = gg_md_position(e, e->falls, g, e->k.now),
+         c = gg_scale(e->k.scale, gg_md_velocity(e, e->falls, g, e->k.now));
   c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
   if (positions) into_box(e, &r);
   for (int a = 0; a < 3; a++) {
@@ -32,7 +33,7 @@ static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, 
     out->c[a][slot] = gg_along(&c, a);
     if (e->spin) out->s[a][slot] = e->k.scale * gg_along(&e->spin[i], a);
   }
-  out->species[slot] = (uint8_t)gg_species_of(g);
+  out->species[slot] = (uint8_t)gg_md_species_of(g);
   out->id[slot] = e->id[i];
 }
 

@@ -16,37 +16,37 @@
 #include "md/contacts.h"
 #include "md/queue.h"
 
-typedef struct gg_grain {
+typedef struct gg_md_grain {
   gg_vec r, v;
   double t;
-  uint32_t stamp; /* 2 x (changes of course so far) + species */
+  uint32_t counter; /* 2 x (changes of course so far) + species */
   uint32_t spare;
-} __attribute__((aligned(64))) gg_grain;
+} __attribute__((aligned(64))) gg_md_grain;
 
-/* Of the neighbour lists: where the grain may go before its list must be mended. */
-typedef struct gg_shell {
+/* Of the neighbour lists: the centre of the skin, which the grain may not leave before its list is updated. */
+typedef struct gg_md_skin {
   gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
-} gg_shell;
-enum { GG_LIST = 24 }; /* most neighbours in a list */
+} gg_md_skin;
+enum { GG_MD_LIST = 24 }; /* most neighbours in a list */
 
 /* Room for so many grains to try. Stores into one array and loads from another do not hinder each other where the
  * lower twelve bits of their addresses differ: the arrays of two searches lie half a page apart, and not on the stack,
  * which stands elsewhere at every start. */
-enum { GG_MOST_NEAR = 2048, GG_NEAR_APART = GG_MOST_NEAR + 512 };
+enum { GG_MD_MOST_CANDIDATES = 2048, GG_MD_CANDIDATES_APART = GG_MD_MOST_CANDIDATES + 512 };
 
-/* A row of cells along x that drifts with the flow (rows.h): where its first cell begins at the epoch's start, its
- * speed, and by how many cells the rows above and below are ahead of it. */
-typedef struct gg_row {
+/* A row of cells along x that moves with the flow (search/comoving_rows.h): where its first cell begins at the epoch's
+ * start, its speed, and by how many cells the rows above and below are ahead of it. */
+typedef struct gg_md_row {
   double origin, speed;
   int32_t above, below;
-} gg_row;
+} gg_md_row;
 
 typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
-typedef void gg_impact(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12);
+typedef void gg_md_resolution(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12);
 /* What happens to a grain in contact with the lower (0) or upper (1) wall. */
-typedef void gg_wall_impact(gg_md *e, uint32_t i, int upper);
+typedef void gg_md_wall_resolution(gg_md *e, uint32_t i, int upper);
 /* An instance of the event loop (kernels.h). */
 typedef struct gg_md_kernel {
   void (*run)(gg_md *e);         /* handle events until e->stop or until e->collisions_left is used up */
@@ -57,7 +57,7 @@ typedef struct gg_md_kernel {
 typedef struct gg_md_counts {
   double now, epoch_start; /* present time in the epoch, and the epoch's start in the run's */
   double contact_time;     /* absolute; 0: off */
-  double free_time;        /* present mean free time per grain */
+  double mean_free_time;   /* present mean free time per grain */
   double window_time;      /* since free_time was last measured, with so many collisions */
   uint64_t window_collisions, epoch_events, epoch_collisions; /* the latter two: counts at the epoch's start */
   uint64_t collisions, events, treated, wall_treated;
@@ -70,8 +70,8 @@ typedef struct gg_md_counts {
   double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
   double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
   double outer_time;               /* outside, up to the present advance */
-  double lean, common;             /* of drifting rows (rows.c), at the epoch's start */
-  int32_t turn, seam;
+  double fractional_shift, common_shift; /* of co-moving rows (rows.c), at the epoch's start */
+  int32_t row_shift, image_shift;
   uint32_t tap_open;
   int32_t power; /* velocities are 2^power times those of the start (rescale) */
 } gg_md_counts;
@@ -79,40 +79,41 @@ typedef struct gg_md_counts {
 struct gg_md {
   gg_engine base;
   gg_model model;
-  gg_contacts contacts;
-  gg_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
-  gg_node *node;
+  gg_md_contacts contacts;
+  gg_md_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
+  gg_md_node *node;
   gg_vec *spin; /* surface velocities; NULL for smooth grains */
   double *last; /* time of the last collision, for the contact-time rule or a watcher; NULL without either */
   uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
   /* Neighbour lists: NULL where the cells themselves are searched. */
-  gg_shell *shell;
-  uint32_t *neighbour;  /* GG_LIST a grain */
-  double shell_radius;  /* s */
+  gg_md_skin *skin;
+  uint32_t *neighbour;  /* GG_MD_LIST a grain */
+  double skin_radius;   /* s */
   double shrinkage;     /* kappa */
   double pair_reach[3]; /* sigma + 2 s by unordered pair */
   uint32_t n;
   gg_vec gravity;
   bool falls; /* gravity is not zero */
-  gg_box box;
-  gg_cells cells;
-  uint32_t *near; /* of two searches at a time, GG_NEAR_APART: whom to try (scan.h) */
-  gg_queue queue;
+  gg_md_box box;
+  gg_md_cells cells;
+  uint32_t *candidates; /* of two searches at a time, GG_MD_CANDIDATES_APART: whom to try (scan.h) */
+  gg_md_queue queue;
   gg_md_counts k;
-  gg_row *row;       /* of cells that drift: one for each layer along y, and images: -1, n_y, n_y + 1; NULL: at rest */
-  double slip;       /* epoch time at which rows will have slipped by a cell; INFINITY: never */
-  double stop;       /* end of the present advance, epoch time */
-  double outer_stop; /* the same in outside time since it began; INFINITY: none */
+  gg_md_row *row; /* of cells that move with the flow: one for each layer along y, and images: -1, n_y, n_y + 1; NULL:
+                     at rest */
+  double next_shift;        /* epoch time at which rows will have shifted by a cell; INFINITY: never */
+  double stop;              /* end of the present advance, epoch time */
+  double outer_stop;        /* the same in outside time since it began; INFINITY: none */
   uint64_t collisions_left; /* of the present advance */
   bool plain;               /* one pair at a time, the reference for the tests */
-  bool shared;              /* the cells overlap (shared.h) */
+  bool overlapping;         /* the cells overlap (members.h) */
   bool out_of_memory;       /* a cell could not grow: the run is over */
   const gg_md_kernel *kernel;
-  gg_impact *impact;
-  gg_wall_impact *wall_impact;
-  gg_watch *watch; /* sees every collision; NULL: nobody does, and `impact` is not wrapped */
+  gg_md_resolution *resolve;
+  gg_md_wall_resolution *resolve_wall;
+  gg_watch *watch; /* sees every collision; NULL: nobody does, and `resolve` is not wrapped */
   void *watcher;
-  gg_impact *watched;
+  gg_md_resolution *watched;
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white-noise thermostat */
 };
@@ -128,31 +129,31 @@ gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err);
 /* engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. */
 gg_status gg_md_begin(gg_md *e, gg_error *err);
 
-/* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the chains from the cells. */
+/* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the cells filled with them. */
 double gg_md_reach(const gg_model *model);
-/* Where partners are best looked for: plain cells, neighbour lists (lists.h; *radius: of their shells) or cells that
- * overlap (shared.h) or drift with the flow (rows.h); and how many cells. */
-enum gg_search_in { GG_CELLS, GG_LISTS, GG_SHARED_CELLS, GG_DRIFTING_CELLS };
-enum gg_search_in gg_md_plan(const gg_model *model, double *radius, int32_t n[3]);
+/* Where partners are best looked for: plain cells, neighbour lists (search/lists.h; *radius: of their skins) or cells
+ * that overlap (members.h) or move with the flow (search/comoving_rows.h); and how many cells. */
+enum gg_md_search_way { GG_MD_PLAIN_CELLS, GG_MD_NEIGHBOUR_LISTS, GG_MD_OVERLAPPING_CELLS, GG_MD_COMOVING_ROWS };
+enum gg_md_search_way gg_md_choose_way(const gg_model *model, double *radius, int32_t n[3]);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
-/* Neighbour lists with shells of this radius, if the box is wide enough for them; else nothing. */
+/* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
-void gg_md_cell_of(const gg_cells *cells, gg_vec r, int32_t cell[3]);
+void gg_md_cell_of(const gg_md_cells *cells, gg_vec r, int32_t cell[3]);
 
-/* rows.c: rows of cells that drift, placed as e->k tells; as the images above stand at the epoch's start; at the start
- * of the next epoch; and after they have slipped by a cell. */
+/* rows.c: rows of cells that move with the flow, placed as e->k tells; as the images above stand at the epoch's start;
+ * at the start of the next epoch; and after they have shifted by a cell. */
 gg_status gg_md_make_rows(gg_md *e, gg_error *err);
 void gg_md_align_rows(gg_md *e);
 void gg_md_move_rows(gg_md *e, double span);
-void gg_md_slip_rows(gg_md *e);
+void gg_md_shift_rows_by_a_cell(gg_md *e);
 /* The cell along x of row y that a place is in now. */
-int32_t gg_md_drifting_cell(const gg_md *e, int32_t y, double x);
+int32_t gg_md_cell_in_row(const gg_md *e, int32_t y, double x);
 
-/* lists.c: every grain's shell and list anew at the present time; the shells get smaller where lists overflow. */
+/* lists.c: every grain's skin and list anew at the present time; the skins get smaller where lists overflow. */
 void gg_md_build_lists(gg_md *e);
-void gg_md_set_shells(gg_md *e, double radius);
+void gg_md_set_skins(gg_md *e, double radius);
 
 /* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
  * False if nothing will ever happen again. */
@@ -160,33 +161,34 @@ bool gg_md_next_epoch(gg_md *e);
 /* Width of a calendar's bucket that suits a rate of events. */
 double gg_md_bucket_width(double events_per_time);
 
-/* watch.c: an impact that shows itself to the watcher, then goes on to e->watched; and the engine's watch operation. */
-gg_impact gg_md_show_impact;
+/* watch.c: a resolution that shows the collision to the callback, then goes on to e->watched; and the engine's watch
+ * operation. */
+gg_md_resolution gg_md_show_collision;
 gg_status gg_md_watch(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
 
-/* kernels.c: choose the kernels that this model and tap need; impacts.c: the part that concerns contacts. */
+/* kernels.c: choose the kernels that this model and tap need; resolve.c: the part that concerns contacts. */
 void gg_md_select(gg_md *e);
-void gg_md_select_impacts(gg_md *e);
+void gg_md_select_resolution(gg_md *e);
 
-/* Where cell 0 of a row that drifts begins now. */
-GG_INLINE double gg_row_begins(const gg_md *e, int32_t y)
+/* Where cell 0 of a co-moving row begins now. */
+GG_INLINE double gg_md_row_begins(const gg_md *e, int32_t y)
 {
   return e->row[y].origin + e->row[y].speed * e->k.now;
 }
 
-GG_INLINE int gg_species_of(const gg_grain *g)
+GG_INLINE int gg_md_species_of(const gg_md_grain *g)
 {
-  return (int)(g->stamp & 1);
+  return (int)(g->counter & 1);
 }
 
 /* Where the grain is at epoch time t, and how it moves there; on a parabola only if the constant `gravity` is true. */
-GG_INLINE gg_vec gg_position(const gg_md *e, bool gravity, const gg_grain *g, double t)
+GG_INLINE gg_vec gg_md_position(const gg_md *e, bool gravity, const gg_md_grain *g, double t)
 {
   double dt = t - g->t;
   gg_vec r = gg_axpy(dt, g->v, g->r);
   return gravity ? gg_axpy(0.5 * dt * dt, e->gravity, r) : r;
 }
-GG_INLINE gg_vec gg_velocity(const gg_md *e, bool gravity, const gg_grain *g, double t)
+GG_INLINE gg_vec gg_md_velocity(const gg_md *e, bool gravity, const gg_md_grain *g, double t)
 {
   return gravity ? gg_axpy(t - g->t, e->gravity, g->v) : g->v;
 }

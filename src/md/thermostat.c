@@ -9,7 +9,7 @@ static double kinetic_energy(const gg_md *e)
 {
   double sum = 0;
   for (uint32_t i = 0; i < e->n; i++)
-    sum += 0.5 * e->model.mass[gg_species_of(&e->grain[i])] * gg_dot(e->grain[i].v, e->grain[i].v);
+    sum += 0.5 * e->model.mass[gg_md_species_of(&e->grain[i])] * gg_dot(e->grain[i].v, e->grain[i].v);
   return sum;
 }
 
@@ -35,9 +35,9 @@ void gg_md_thermostat_fold(gg_md *e)
     e->node[i].collision *= t;
     if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
     if (e->last) e->last[i] *= t;
-    e->node[i].shell_built *= t;
+    e->node[i].skin_time *= t;
   }
-  double *times[] = {&k->now, &k->mark, &k->contact_time, &k->free_time, &k->window_time, &k->epoch_start};
+  double *times[] = {&k->now, &k->mark, &k->contact_time, &k->mean_free_time, &k->window_time, &k->epoch_start};
   for (size_t i = 0; i < sizeof times / sizeof *times; i++) *times[i] *= t;
   k->kinetic = kinetic_energy(e);
   k->scale = sqrt(k->kinetic0 / k->kinetic);
@@ -49,12 +49,12 @@ void gg_md_thermostat_kick(gg_md *e)
   double size = sqrt(3 * e->noise * kick_interval(e)), mass = 0;
   gg_vec momentum = {0, 0, 0};
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_grain *g = &e->grain[i];
-    g->r = gg_position(e, false, g, e->k.now);
+    gg_md_grain *g = &e->grain[i];
+    g->r = gg_md_position(e, false, g, e->k.now);
     g->t = e->k.now;
     g->v = gg_axpy(size, gg_rng_direction(&e->k.rng), g->v);
-    g->stamp += 2;
-    double m = e->model.mass[gg_species_of(g)];
+    g->counter += 2;
+    double m = e->model.mass[gg_md_species_of(g)];
     momentum = gg_axpy(m, g->v, momentum);
     mass += m;
   }

@@ -1,22 +1,22 @@
-/* Collisions shown one by one. A watched engine's impact is wrapped by one that shows it first: one that is not watched
- * knows nothing of it. */
+/* Collisions shown one by one. While a callback is set, the resolution of contacts is wrapped by one that shows them
+ * first: one that is not watched knows nothing of it. */
 #include <math.h>
 
 #include "md/state.h"
 
 static void show_grain(const gg_md *e, uint32_t i, int which, gg_seen_collision *m)
 {
-  const gg_grain *g = &e->grain[i];
+  const gg_md_grain *g = &e->grain[i];
   double height = g->r.y - 0.5 * e->box.edge[1];
   gg_vec c = g->v;
   c.x -= e->model.shear_rate * height;
-  m->species[which] = gg_species_of(g);
+  m->species[which] = gg_md_species_of(g);
   m->c[which] = gg_scale(e->k.scale, c);
   m->height[which] = height;
   m->since[which] = (e->k.now - e->last[i]) / e->k.scale; /* of a Gaussian thermostat's clock: at its present pace */
 }
 
-void gg_md_show_impact(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
+void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
 {
   gg_seen_collision m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
   show_grain(e, i, 0, &m);

@@ -66,8 +66,8 @@ uint64_t md_hash(const gg_md *e)
 {
   uint64_t h = 0xcbf29ce484222325u;
   for (uint32_t i = 0; i < e->n; i++) {
-    const gg_grain *g = &e->grain[i];
-    h = mix(h, &g->r, sizeof g->r + sizeof g->v + sizeof g->t + sizeof g->stamp);
+    const gg_md_grain *g = &e->grain[i];
+    h = mix(h, &g->r, sizeof g->r + sizeof g->v + sizeof g->t + sizeof g->counter);
     h = mix(h, &e->node[i].time, 2 * sizeof(double));
     if (e->spin) h = mix(h, &e->spin[i], sizeof e->spin[i]);
   }
@@ -77,11 +77,11 @@ uint64_t md_hash(const gg_md *e)
 
 typedef struct separation {
   long double r[3], v[3]; /* of j from i, nearest box, and how images above move */
-  long double offset, slide;
+  long double offset, image_velocity;
 } separation;
 
 /* Where a grain is now, and how it moves. */
-static void place_now(const gg_md *e, const gg_grain *g, long double r[3], long double v[3])
+static void place_now(const gg_md *e, const gg_md_grain *g, long double r[3], long double v[3])
 {
   long double dt = (long double)e->k.now - g->t;
   for (int k = 0; k < 3; k++) {
@@ -93,7 +93,8 @@ static void place_now(const gg_md *e, const gg_grain *g, long double r[3], long 
 
 static separation separate(const gg_md *e, uint32_t i, uint32_t j)
 {
-  separation s = {.slide = e->box.slide, .offset = e->box.offset0 + (long double)e->box.slide * e->k.now};
+  separation s = {.image_velocity = e->box.image_velocity,
+                  .offset = e->box.offset0 + (long double)e->box.image_velocity * e->k.now};
   long double r[3], v[3];
   place_now(e, &e->grain[i], r, v);
   place_now(e, &e->grain[j], s.r, s.v);
@@ -114,7 +115,7 @@ static long double contact(const long double r[3], const long double v[3], long 
 static long double next_of_pair(const gg_md *e, uint32_t i, uint32_t j, double horizon)
 {
   separation s = separate(e, i, j);
-  int o = 2 * gg_species_of(&e->grain[i]) + gg_species_of(&e->grain[j]);
+  int o = 2 * gg_md_species_of(&e->grain[i]) + gg_md_species_of(&e->grain[j]);
   long double first = INFINITY, sigma = e->model.sigma[o], L[3];
   for (int k = 0; k < 3; k++) L[k] = e->box.edge[k];
   int ny = 2 + (int)(fabsl(s.v[1]) * horizon / L[1]), nz = 2 + (int)(fabsl(s.v[2]) * horizon / L[2]);
@@ -123,7 +124,7 @@ static long double next_of_pair(const gg_md *e, uint32_t i, uint32_t j, double h
     if (fabsl(s.r[1] + y * L[1]) > fabsl(s.v[1]) * horizon + sigma) continue; /* never within reach */
     for (int z = -nz; z <= nz; z++) {
       if (fabsl(s.r[2] + z * L[2]) > fabsl(s.v[2]) * horizon + sigma) continue;
-      long double v[3] = {s.v[0] + y * s.slide, s.v[1], s.v[2]}, x0 = s.r[0] + y * s.offset;
+      long double v[3] = {s.v[0] + y * s.image_velocity, s.v[1], s.v[2]}, x0 = s.r[0] + y * s.offset;
       /* Images along x that pass within reach before the horizon. */
       long double span = fabsl(v[0]) * horizon + sigma;
       for (long long x = (long long)((-span - x0) / L[0]) - 1; x <= (long long)((span - x0) / L[0]) + 1; x++) {
@@ -163,12 +164,12 @@ md_forecast md_oracle_walls(const gg_md *e)
 {
   md_forecast f = {.time = INFINITY};
   for (uint32_t i = 0; e->model.walled && i < e->n; i++) {
-    long double r[3], v[3], w = e->gravity.y, a = e->model.diameter[gg_species_of(&e->grain[i])] / 2;
+    long double r[3], v[3], w = e->gravity.y, a = e->model.diameter[gg_md_species_of(&e->grain[i])] / 2;
     place_now(e, &e->grain[i], r, v);
     long double lower = next_touch(r[1] - a, v[1], w);
     long double upper = e->model.open_top ? INFINITY : next_touch(e->box.edge[1] - a - r[1], -v[1], -w);
-    if (lower < f.time) f = (md_forecast){lower, {i, GG_LOWER_WALL}};
-    if (upper < f.time) f = (md_forecast){upper, {i, GG_UPPER_WALL}};
+    if (lower < f.time) f = (md_forecast){lower, {i, GG_MD_LOWER_WALL}};
+    if (upper < f.time) f = (md_forecast){upper, {i, GG_MD_UPPER_WALL}};
   }
   return f;
 }
@@ -179,7 +180,7 @@ long double md_closest(const gg_md *e)
   for (uint32_t i = 0; i < e->n; i++)
     for (uint32_t j = 0; j < i; j++) {
       separation s = separate(e, i, j);
-      int o = 2 * gg_species_of(&e->grain[i]) + gg_species_of(&e->grain[j]);
+      int o = 2 * gg_md_species_of(&e->grain[i]) + gg_md_species_of(&e->grain[j]);
       long double y = e->model.walled ? 0 : rintl(s.r[1] / e->box.edge[1]),
                   r[3] = {s.r[0] - y * s.offset, s.r[1] - y * e->box.edge[1], s.r[2]};
       r[0] -= e->box.edge[0] * rintl(r[0] / e->box.edge[0]);
@@ -194,7 +195,7 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
 {
   if (e->row) { /* which drifts */
     double L = e->box.edge[0], middle = (e->node[i].cell[0] + 0.5) * e->cells.width[0];
-    const gg_row *row = &e->row[e->node[i].cell[1]];
+    const gg_md_row *row = &e->row[e->node[i].cell[1]];
     r.x -= row->origin + row->speed * e->k.now;
     r.x -= L * rint((r.x - middle) / L);
   }
@@ -210,7 +211,7 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
 static double along_row(const gg_md *e, int32_t row, gg_vec r)
 {
   double layers = rint((r.y - (row + 0.5) * e->cells.width[1]) / e->box.edge[1]);
-  return r.x - layers * gg_offset(&e->box, e->k.now) - e->row[row].origin - e->row[row].speed * e->k.now;
+  return r.x - layers * gg_md_offset(&e->box, e->k.now) - e->row[row].origin - e->row[row].speed * e->k.now;
 }
 
 /* Overlapping cells along one axis: in one or in two, and not yet in a third, whose region begins half a contact
@@ -225,7 +226,7 @@ static bool is_between(const gg_md *e, int axis, double x, int32_t cell, bool bo
 
 static bool is_in_shared_cells(const gg_md *e, uint32_t i, gg_vec r)
 {
-  const gg_node *node = &e->node[i];
+  const gg_md_node *node = &e->node[i];
   uint32_t both = node->neighbours;
   int32_t lower = node->cell[1], upper = (lower + 1) % e->cells.n[1];
   for (int a = e->row ? 1 : 0; a < 3; a++)
@@ -238,11 +239,11 @@ static bool is_in_shared_cells(const gg_md *e, uint32_t i, gg_vec r)
 /* Under shear shells shrink and move: their exits are tested by what they are for, contacts. */
 static bool is_in_shell(const gg_md *e, uint32_t i, gg_vec r)
 {
-  gg_vec dr = gg_sub(r, e->shell[i].centre);
-  if (e->model.shear_rate == 0 && gg_dot(dr, dr) > e->shell_radius * e->shell_radius * (1 + 1e-9)) return false;
-  const uint32_t *mine = e->neighbour + (size_t)i * GG_LIST;
+  gg_vec dr = gg_sub(r, e->skin[i].centre);
+  if (e->model.shear_rate == 0 && gg_dot(dr, dr) > e->skin_radius * e->skin_radius * (1 + 1e-9)) return false;
+  const uint32_t *mine = e->neighbour + (size_t)i * GG_MD_LIST;
   for (uint32_t k = 0; k < e->node[i].neighbours; k++) {
-    const uint32_t *other = e->neighbour + (size_t)mine[k] * GG_LIST;
+    const uint32_t *other = e->neighbour + (size_t)mine[k] * GG_MD_LIST;
     bool back = false;
     for (uint32_t m = 0; m < e->node[mine[k]].neighbours; m++) back |= other[m] == i;
     if (!back) return false;
@@ -252,7 +253,7 @@ static bool is_in_shell(const gg_md *e, uint32_t i, gg_vec r)
 
 static bool is_between_walls(const gg_md *e, uint32_t i, gg_vec r)
 {
-  double radius = 0.5 * e->model.diameter[gg_species_of(&e->grain[i])], room = 1e-11;
+  double radius = 0.5 * e->model.diameter[gg_md_species_of(&e->grain[i])], room = 1e-11;
   if (!e->model.walled) return true;
   return r.y > radius - room && (e->model.open_top || r.y < e->box.edge[1] - radius + room);
 }
@@ -261,8 +262,8 @@ uint32_t md_misplaced(const gg_md *e)
 {
   uint32_t count = 0;
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now);
-    bool in = e->shell ? is_in_shell(e, i, r) : e->shared ? is_in_shared_cells(e, i, r) : is_in_cell(e, i, r);
+    gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now);
+    bool in = e->skin ? is_in_shell(e, i, r) : e->overlapping ? is_in_shared_cells(e, i, r) : is_in_cell(e, i, r);
     count += !in || !is_between_walls(e, i, r);
   }
   return count;
@@ -272,9 +273,9 @@ gg_vec md_momentum(const gg_md *e)
 {
   gg_vec sum = {0, 0, 0};
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), c = e->grain[i].v;
+    gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now), c = e->grain[i].v;
     c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
-    sum = gg_axpy(e->model.mass[gg_species_of(&e->grain[i])], c, sum);
+    sum = gg_axpy(e->model.mass[gg_md_species_of(&e->grain[i])], c, sum);
   }
   return sum;
 }
@@ -283,7 +284,7 @@ double md_energy(const gg_md *e)
 {
   double sum = 0;
   for (uint32_t i = 0; i < e->n; i++) {
-    int s = gg_species_of(&e->grain[i]);
+    int s = gg_md_species_of(&e->grain[i]);
     double m = e->model.mass[s], K = e->model.inertia[s];
     sum += 0.5 * m * gg_dot(e->grain[i].v, e->grain[i].v);
     if (e->spin) sum += 0.5 * K * m * gg_dot(e->spin[i], e->spin[i]);

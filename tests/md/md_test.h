@@ -38,7 +38,7 @@ typedef struct md_forecast {
   uint32_t pair[2];
 } md_forecast;
 md_forecast md_oracle(const gg_md *e, double horizon);
-/* The same for collisions with walls alone; pair[1] is GG_LOWER_WALL or GG_UPPER_WALL. */
+/* The same for collisions with walls alone; pair[1] is GG_MD_LOWER_WALL or GG_MD_UPPER_WALL. */
 md_forecast md_oracle_walls(const gg_md *e);
 /* Smallest distance of two centres over their contact distance. */
 long double md_closest(const gg_md *e);

@@ -81,15 +81,15 @@ static void print(const soak *s, FILE *out, const char *verdict, double seconds)
 /* To the next look: half of them stand between two collisions. */
 static void go_on(soak *s, uint64_t collisions)
 {
-  double between = s->looks % 2 ? 0.3 * s->e->k.free_time / s->e->n : 0, dt;
+  double between = s->looks % 2 ? 0.3 * s->e->k.mean_free_time / s->e->n : 0, dt;
   s->gone += md_collide(s->e, collisions);
   if (between > 0 && gg_md_ops.advance(&s->e->base, between, UINT64_MAX, &dt, NULL) == GG_OK) s->gone += dt;
 }
 
 static void set_clock(soak *s, double start)
 {
-  const gg_box *box = &s->e->box;
-  double period = box->slide != 0 ? box->edge[0] / box->slide : 1;
+  const gg_md_box *box = &s->e->box;
+  double period = box->image_velocity != 0 ? box->edge[0] / box->image_velocity : 1;
   s->start = period * rint(start / period);
   s->e->k.epoch_start = s->e->k.outer_time = s->start;
 }

@@ -96,7 +96,7 @@ static void shear_work_balances_loss(void **state)
     gg_md_ops.advance(&e->base, 0.01, UINT64_MAX, &dt, &err);
     time += dt;
     for (uint32_t i = 0; i < e->n; i++) {
-      gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), v = e->grain[i].v;
+      gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now), v = e->grain[i].v;
       sum += (v.x - m.shear_rate * (r.y - 0.5 * m.box[1])) * v.y;
     }
     kinetic += sum / samples;

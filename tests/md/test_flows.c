@@ -25,7 +25,8 @@ static double potential(const gg_md *e, double t)
 {
   double sum = 0;
   for (uint32_t i = 0; i < e->n; i++)
-    sum -= e->model.mass[gg_species_of(&e->grain[i])] * e->gravity.y * gg_position(e, e->falls, &e->grain[i], t).y;
+    sum -=
+        e->model.mass[gg_md_species_of(&e->grain[i])] * e->gravity.y * gg_md_position(e, e->falls, &e->grain[i], t).y;
   return sum;
 }
 
@@ -33,8 +34,8 @@ static double kinetic(const gg_md *e)
 {
   double sum = 0;
   for (uint32_t i = 0; i < e->n; i++) {
-    int k = gg_species_of(&e->grain[i]);
-    gg_vec v = gg_velocity(e, e->falls, &e->grain[i], e->k.now);
+    int k = gg_md_species_of(&e->grain[i]);
+    gg_vec v = gg_md_velocity(e, e->falls, &e->grain[i], e->k.now);
     sum += 0.5 * e->model.mass[k] * gg_dot(v, v);
     if (e->spin) sum += 0.5 * e->model.inertia[k] * e->model.mass[k] * gg_dot(e->spin[i], e->spin[i]);
   }
@@ -45,14 +46,15 @@ static gg_vec total_momentum(const gg_md *e)
 {
   gg_vec sum = {0, 0, 0};
   for (uint32_t i = 0; i < e->n; i++)
-    sum = gg_axpy(e->model.mass[gg_species_of(&e->grain[i])], gg_velocity(e, e->falls, &e->grain[i], e->k.now), sum);
+    sum = gg_axpy(e->model.mass[gg_md_species_of(&e->grain[i])], gg_md_velocity(e, e->falls, &e->grain[i], e->k.now),
+                  sum);
   return sum;
 }
 
 static double total_mass(const gg_md *e)
 {
   double sum = 0;
-  for (uint32_t i = 0; i < e->n; i++) sum += e->model.mass[gg_species_of(&e->grain[i])];
+  for (uint32_t i = 0; i < e->n; i++) sum += e->model.mass[gg_md_species_of(&e->grain[i])];
   return sum;
 }
 
@@ -65,8 +67,8 @@ typedef struct work {
 static void follow_work(const gg_md *e, work *w)
 {
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), dr = gg_sub(r, w->last[e->id[i]]);
-    double m = e->model.mass[gg_species_of(&e->grain[i])];
+    gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now), dr = gg_sub(r, w->last[e->id[i]]);
+    double m = e->model.mass[gg_md_species_of(&e->grain[i])];
     dr.x -= e->box.edge[0] * gg_nearest(dr.x / e->box.edge[0]);
     dr.z -= e->box.edge[2] * gg_nearest(dr.z / e->box.edge[2]);
     w->done += m * (e->gravity.x * dr.x + e->gravity.z * dr.z);
@@ -136,7 +138,7 @@ static void moments(const gg_md *e, double *xy, double *yy)
 {
   *xy = *yy = 0;
   for (uint32_t i = 0; i < e->n; i++) {
-    double y = gg_position(e, false, &e->grain[i], e->k.now).y - 0.5 * e->box.edge[1];
+    double y = gg_md_position(e, false, &e->grain[i], e->k.now).y - 0.5 * e->box.edge[1];
     *xy += e->grain[i].v.x * y;
     *yy += e->grain[i].v.y * y;
   }
@@ -191,7 +193,7 @@ static double partial_temperature(const gg_md *e, int species)
 {
   double sum = 0, n = 0;
   for (uint32_t i = 0; i < e->n; i++)
-    if (gg_species_of(&e->grain[i]) == species) {
+    if (gg_md_species_of(&e->grain[i]) == species) {
       sum += e->model.mass[species] * gg_dot(e->grain[i].v, e->grain[i].v) / 3;
       n++;
     }
@@ -206,7 +208,7 @@ static void equipartition(void **state)
   gg_model m = md_model_of(&s);
   gg_md *e = md_create(&m, 8);
   for (uint32_t i = 0; i < e->n; i++) /* far from it at first */
-    if (gg_species_of(&e->grain[i]) == 0) assert_true(e->model.mass[0] == 1);
+    if (gg_md_species_of(&e->grain[i]) == 0) assert_true(e->model.mass[0] == 1);
   double ratio = 0;
   md_collide(e, 20000);
   for (int k = 0; k < 400; k++) {
@@ -229,7 +231,7 @@ static void gaussian_is_free_cooling(void **state)
   md_collide(f, 600), md_collide(k, 600);
   double factor = k->k.scale * k->grain[0].v.x / f->grain[0].v.x;
   for (uint32_t i = 0; i < f->n; i++) {
-    gg_vec a = gg_position(f, false, &f->grain[i], f->k.now), b = gg_position(k, false, &k->grain[i], k->k.now);
+    gg_vec a = gg_md_position(f, false, &f->grain[i], f->k.now), b = gg_md_position(k, false, &k->grain[i], k->k.now);
     gg_vec dr = gg_sub(a, b), dv = gg_axpy(-k->k.scale / factor, k->grain[i].v, f->grain[i].v);
     assert_true(gg_dot(dr, dr) < 1e-12 && gg_dot(dv, dv) < 1e-12);
   }

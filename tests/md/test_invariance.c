@@ -19,13 +19,13 @@ static gg_md *copy_of(const gg_md *e)
   gg_md *c;
   gg_error err;
   assert_int_equal(gg_md_allocate(&e->model, &c, &err), GG_OK);
-  c->box.offset0 = gg_offset(&e->box, e->k.now);
+  c->box.offset0 = gg_md_offset(&e->box, e->k.now);
   for (uint32_t i = 0; i < e->n; i++) {
     c->grain[i] = e->grain[i];
-    c->grain[i].r = gg_position(e, e->falls, &e->grain[i], e->k.now);
+    c->grain[i].r = gg_md_position(e, e->falls, &e->grain[i], e->k.now);
     c->grain[i].r.x = gg_wrap(c->grain[i].r.x, e->box.edge[0], e->box.inverse[0]); /* rows may have carried it out */
     c->grain[i].t = 0;
-    c->grain[i].stamp &= 1;
+    c->grain[i].counter &= 1;
     if (e->spin) c->spin[i] = e->spin[i];
     c->id[i] = e->id[i];
   }
@@ -43,11 +43,11 @@ static void record(gg_md *e, history *h)
   uint32_t before[MAX_N];
   double time = 0;
   for (int k = 0; k < EVENTS; k++) {
-    for (uint32_t i = 0; i < e->n; i++) before[i] = e->grain[i].stamp;
+    for (uint32_t i = 0; i < e->n; i++) before[i] = e->grain[i].counter;
     time += md_collide(e, 1);
     int n = 0;
     for (uint32_t i = 0; i < e->n; i++)
-      if (e->grain[i].stamp != before[i]) h->pair[k][n++] = i;
+      if (e->grain[i].counter != before[i]) h->pair[k][n++] = i;
     assert_int_equal(n, 2);
     h->time[k] = time;
   }
@@ -58,7 +58,7 @@ static void same(const gg_md *e, const history *a, const history *b)
   for (int k = 0; k < EVENTS; k++) {
     assert_int_equal(a->pair[k][0], b->pair[k][0]);
     assert_int_equal(a->pair[k][1], b->pair[k][1]);
-    assert_true(fabs(a->time[k] - b->time[k]) < 1e-8 * e->k.free_time);
+    assert_true(fabs(a->time[k] - b->time[k]) < 1e-8 * e->k.mean_free_time);
   }
 }
 
@@ -66,13 +66,13 @@ static void same(const gg_md *e, const history *a, const history *b)
 static void shift(gg_md *e, gg_vec by)
 {
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_grain *g = &e->grain[i];
+    gg_md_grain *g = &e->grain[i];
     g->r = gg_add(g->r, by);
     g->v.x += e->model.shear_rate * by.y;
     double layers = gg_floor(g->r.y / e->box.edge[1]);
     g->r.y -= layers * e->box.edge[1];
     g->r.x -= layers * e->box.offset0;
-    g->v.x -= layers * e->box.slide;
+    g->v.x -= layers * e->box.image_velocity;
     g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
     g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
   }
@@ -82,7 +82,7 @@ static void shift(gg_md *e, gg_vec by)
 static void turn(gg_md *e)
 {
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_grain *g = &e->grain[i];
+    gg_md_grain *g = &e->grain[i];
     g->r.x = e->box.edge[0] - g->r.x;
     g->r.y = e->box.edge[1] - g->r.y;
     g->v.x = -g->v.x, g->v.y = -g->v.y;
@@ -93,15 +93,15 @@ static void turn(gg_md *e)
 /* Any number of cells that fits, but enough for rows of them to drift. */
 static void set_drifting_grid(gg_md *e, gg_rng *rng)
 {
-  const int32_t least[3] = {GG_FEWEST_DRIFTING, 4, 4};
+  const int32_t least[3] = {GG_MD_FEWEST_COMOVING, 4, 4};
   int32_t n[3];
   gg_error err;
-  gg_cells_count(&e->box, gg_md_reach(&e->model), n);
+  gg_md_cells_count(&e->box, gg_md_reach(&e->model), n);
   for (int a = 0; a < 3; a++) {
     assert_true(n[a] >= least[a]);
     n[a] = least[a] + (int32_t)gg_rng_below(rng, (uint32_t)(n[a] - least[a]) + 1);
   }
-  assert_int_equal(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), &err), GG_OK);
+  assert_int_equal(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), &err), GG_OK);
   assert_int_equal(gg_md_make_rows(e, &err), GG_OK);
   gg_md_align_rows(e);
 }
@@ -111,9 +111,9 @@ static void set_random_grid(gg_md *e, gg_rng *rng, bool one)
 {
   int32_t n[3];
   gg_error err;
-  gg_cells_count(&e->box, gg_md_reach(&e->model), n);
+  gg_md_cells_count(&e->box, gg_md_reach(&e->model), n);
   for (int a = 0; a < 3; a++) n[a] = one ? 1 : 1 + (int32_t)gg_rng_below(rng, (uint32_t)n[a]);
-  assert_int_equal(gg_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), &err), GG_OK);
+  assert_int_equal(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), &err), GG_OK);
 }
 
 static void check(md_case c, uint64_t seed, bool drift)
@@ -177,7 +177,7 @@ enum { BLOCKS = 30, LOOKS = 100 };
 static void look(const gg_md *e, double *T, double *xy)
 {
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec r = gg_position(e, e->falls, &e->grain[i], e->k.now), c = e->grain[i].v;
+    gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now), c = e->grain[i].v;
     c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
     *T += gg_dot(c, c) / (3.0 * e->n * LOOKS);
     *xy += c.x * c.y / (e->n * (double)LOOKS);

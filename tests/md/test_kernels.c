@@ -6,11 +6,11 @@
 
 #include "md/kernels.h"
 
-static gg_scene scene_of(enum gg_boundary boundary, bool mixture)
+static gg_scene scene_of(enum gg_md_boundary boundary, bool mixture)
 {
   static const gg_flow flows[] = {GG_HCS, GG_USF, GG_COUETTE, GG_CHUTE};
   gg_scene s = md_scene((md_case){flows[boundary], 1500, 0.12, 0.9, 0.3, INFINITY, {0}});
-  if (boundary == GG_FALLING) s.gravity[1] = -0.01;
+  if (boundary == GG_MD_FALLING) s.gravity[1] = -0.01;
   s.n_species = mixture ? 2 : 1;
   s.species[0].fraction = s.species[1].fraction = 0.5;
   s.species[1].diameter = 0.8;
@@ -32,12 +32,13 @@ static uint64_t run_with(const gg_model *m, const gg_md_kernel *kernel)
 static void wide_is_plain(void **state)
 {
   (void)state;
-  for (int boundary = GG_PERIODIC; boundary <= GG_FALLING; boundary++)
+  for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
     for (int mixture = 0; mixture < 2; mixture++) {
       gg_scene s = scene_of(boundary, mixture);
       gg_model m = md_model_of(&s);
-      const gg_md_kernel *simd = gg_md_simd_kernel(
-          gg_instructions_best(), boundary == GG_SHEARED ? GG_DRIFTING_CELLS : GG_CELLS, boundary, mixture);
+      const gg_md_kernel *simd =
+          gg_md_simd_kernel(gg_instructions_best(), boundary == GG_MD_SHEARED ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS,
+                            boundary, mixture);
       if (run_with(&m, NULL) != run_with(&m, simd)) fail_msg("boundary %d, mixture %d", boundary, mixture);
     }
 }
@@ -45,11 +46,13 @@ static void wide_is_plain(void **state)
 static void instruction_sets_agree(void **state)
 {
   (void)state;
-  for (int boundary = GG_PERIODIC; boundary <= GG_SHEARED; boundary++)
-    for (enum gg_search_in where = GG_CELLS; where <= GG_DRIFTING_CELLS; where++) {
-      static const double phi[] = {
-          [GG_CELLS] = 0.1, [GG_LISTS] = 0.45, [GG_SHARED_CELLS] = 0.01, [GG_DRIFTING_CELLS] = 0.1};
-      if (where == (boundary == GG_SHEARED ? GG_CELLS : GG_DRIFTING_CELLS)) continue;
+  for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_SHEARED; boundary++)
+    for (enum gg_md_search_way where = GG_MD_PLAIN_CELLS; where <= GG_MD_COMOVING_ROWS; where++) {
+      static const double phi[] = {[GG_MD_PLAIN_CELLS] = 0.1,
+                                   [GG_MD_NEIGHBOUR_LISTS] = 0.45,
+                                   [GG_MD_OVERLAPPING_CELLS] = 0.01,
+                                   [GG_MD_COMOVING_ROWS] = 0.1};
+      if (where == (boundary == GG_MD_SHEARED ? GG_MD_PLAIN_CELLS : GG_MD_COMOVING_ROWS)) continue;
       gg_scene s = md_scene((md_case){boundary ? GG_USF : GG_HCS, 700, phi[where], 0.9, 0, INFINITY, {2, 1, 1}});
       gg_model m = md_model_of(&s);
       uint64_t hash = 0;
@@ -67,11 +70,11 @@ static gg_md *create_huddle(const gg_model *m, int32_t n)
 {
   gg_md *e = md_create(m, 3);
   gg_error err;
-  assert_true(e->shared);
+  assert_true(e->overlapping);
   for (uint32_t i = 0; i < e->n; i++)
     e->grain[i].r = (gg_vec){1 + 1.2 * (i % 15), 1 + 1.2 * (i / 15 % 15), 1 + 1.2 * (i / 225)};
-  gg_cells_free(&e->cells);
-  assert_int_equal(gg_cells_make(&e->cells, &e->box, (int32_t[3]){n, n, n}, gg_md_reach(m), &err), GG_OK);
+  gg_md_cells_free(&e->cells);
+  assert_int_equal(gg_md_cells_make(&e->cells, &e->box, (int32_t[3]){n, n, n}, gg_md_reach(m), &err), GG_OK);
   if (e->row) {
     free(e->row - 1);
     assert_int_equal(gg_md_make_rows(e, &err), GG_OK);
@@ -90,10 +93,10 @@ static void crowds_are_tried_in_parts(void **state)
     gg_model m = md_model((md_case){sheared ? GG_USF : GG_HCS, 3000, 0.0009, 0.9, 0, INFINITY, {0}});
     gg_md *e = create_huddle(&m, 24), *crowded = create_huddle(&m, 6);
     assert_int_equal(crowded->row != NULL, sheared);
-    assert_true(crowded->cells.cell[0] > GG_MOST_NEAR);
+    assert_true(crowded->cells.cell[0] > GG_MD_MOST_CANDIDATES);
     double time = md_collide(e, 2000);
     assert_true(fabs(md_collide(crowded, 2000) - time) < 1e-9 * time);
-    for (uint32_t i = 0; i < e->n; i++) assert_int_equal(e->grain[i].stamp, crowded->grain[i].stamp);
+    for (uint32_t i = 0; i < e->n; i++) assert_int_equal(e->grain[i].counter, crowded->grain[i].counter);
     md_destroy(e);
     md_destroy(crowded);
   }

@@ -12,13 +12,13 @@
 enum { MOST = 160 };
 
 typedef struct watch {
-  uint32_t stamp[MOST];
+  uint32_t counter[MOST];
   int64_t changed[3]; /* who collided since, -1: nobody */
 } watch;
 
 static void look(watch *w, const gg_md *e)
 {
-  for (uint32_t i = 0; i < e->n; i++) w->stamp[i] = e->grain[i].stamp;
+  for (uint32_t i = 0; i < e->n; i++) w->counter[i] = e->grain[i].counter;
 }
 
 static void look_again(watch *w, const gg_md *e)
@@ -26,7 +26,7 @@ static void look_again(watch *w, const gg_md *e)
   int n = 0;
   w->changed[0] = w->changed[1] = w->changed[2] = -1;
   for (uint32_t i = 0; i < e->n && n < 3; i++)
-    if (e->grain[i].stamp != w->stamp[i]) w->changed[n++] = i;
+    if (e->grain[i].counter != w->counter[i]) w->changed[n++] = i;
 }
 
 static void advance(gg_md *e, double dt)
@@ -38,7 +38,7 @@ static void advance(gg_md *e, double dt)
 /* One forecast of the plain search, and what the engine does around that time. */
 static void check_next(gg_md *e, uint64_t seed)
 {
-  double tolerance = 1e-10 * e->k.free_time, horizon = 30 * e->k.free_time / e->n;
+  double tolerance = 1e-10 * e->k.mean_free_time, horizon = 30 * e->k.mean_free_time / e->n;
   md_forecast f = md_oracle(e, horizon), wall = md_oracle_walls(e);
   if (wall.time < f.time) f = wall;
   watch w;
@@ -54,7 +54,7 @@ static void check_next(gg_md *e, uint64_t seed)
   int64_t early = w.changed[0];
   advance(e, 2 * tolerance);
   look_again(&w, e);
-  bool by_wall = f.pair[1] >= GG_UPPER_WALL;
+  bool by_wall = f.pair[1] >= GG_MD_UPPER_WALL;
   bool same = w.changed[0] == f.pair[0] && w.changed[1] == (by_wall ? -1 : (int64_t)f.pair[1]) && w.changed[2] == -1;
   if (early >= 0 || !same)
     fail_msg("n %u phi %g flow %d seed %d: plain search (%u, %u) after %.17Lg; engine (%d, %d, %d), %s", e->n,
@@ -65,7 +65,7 @@ static void check_next(gg_md *e, uint64_t seed)
 /* So many collisions, or the time in which there should have been: grains that lie apart on a floor meet no more. */
 static void warm_up(gg_md *e, uint64_t collisions)
 {
-  double time = 20 * (double)collisions * e->k.free_time / e->n;
+  double time = 20 * (double)collisions * e->k.mean_free_time / e->n;
   assert_int_equal(gg_md_ops.advance(&e->base, time, collisions, NULL, NULL), GG_OK);
 }
 
@@ -188,7 +188,7 @@ static void drifting_cells(void **state)
     gg_model m = md_model(all[k]);
     gg_md *e = md_create(&m, 1);
     assert_non_null(e->row);
-    if (k == 2) assert_int_equal(e->cells.n[0], GG_FEWEST_DRIFTING);
+    if (k == 2) assert_int_equal(e->cells.n[0], GG_MD_FEWEST_COMOVING);
     md_destroy(e);
     for (uint64_t seed = 1; seed <= 4; seed++) one(all[k], seed, 200, seed == 1 ? 1500 : 300);
     gg_scene s = md_scene(all[k]);
@@ -209,7 +209,7 @@ static void shared_cells(void **state)
   for (int k = 0; k < 4; k++) {
     gg_model m = md_model(all[k]);
     gg_md *e = md_create(&m, 1);
-    assert_true(e->shared);
+    assert_true(e->overlapping);
     if (k == 3) assert_int_equal(e->cells.n[0], 6);
     md_destroy(e);
   }

@@ -9,22 +9,22 @@
 enum { N = 200, OPERATIONS = 10000000 };
 
 typedef struct both {
-  gg_queue queue;
-  gg_node node[N];
+  gg_md_queue queue;
+  gg_md_node node[N];
   bool there[N];
-  gg_due sorted[N]; /* earliest first; equal times by index */
+  gg_md_due sorted[N]; /* earliest first; equal times by index */
   uint32_t n_sorted;
   gg_rng rng;
   double now;
 } both;
 
-static bool is_before(gg_due a, gg_due b)
+static bool is_before(gg_md_due a, gg_md_due b)
 {
   return a.time < b.time || (a.time == b.time && a.grain < b.grain);
 }
 
 /* Where in the sorted list it is, or would go. */
-static uint32_t rank_of(const both *b, gg_due due)
+static uint32_t rank_of(const both *b, gg_md_due due)
 {
   uint32_t low = 0, high = b->n_sorted;
   while (low < high) {
@@ -37,14 +37,14 @@ static uint32_t rank_of(const both *b, gg_due due)
   return low;
 }
 
-static void sorted_insert(both *b, gg_due due)
+static void sorted_insert(both *b, gg_md_due due)
 {
   uint32_t k = rank_of(b, due);
   memmove(&b->sorted[k + 1], &b->sorted[k], (b->n_sorted++ - k) * sizeof due);
   b->sorted[k] = due;
 }
 
-static void sorted_remove(both *b, gg_due due)
+static void sorted_remove(both *b, gg_md_due due)
 {
   uint32_t k = rank_of(b, due);
   assert_true(k < b->n_sorted && b->sorted[k].grain == due.grain);
@@ -64,42 +64,42 @@ static double random_time(both *b)
 static void insert(both *b, uint32_t i)
 {
   b->node[i].time = random_time(b);
-  gg_queue_insert(&b->queue, b->node, i);
-  sorted_insert(b, (gg_due){b->node[i].time, i});
+  gg_md_queue_insert(&b->queue, b->node, i);
+  sorted_insert(b, (gg_md_due){b->node[i].time, i});
   b->there[i] = true;
 }
 
 static void take_out(both *b, uint32_t i)
 {
-  gg_queue_remove(&b->queue, b->node, i);
-  sorted_remove(b, (gg_due){b->node[i].time, i});
+  gg_md_queue_remove(&b->queue, b->node, i);
+  sorted_remove(b, (gg_md_due){b->node[i].time, i});
   b->there[i] = false;
 }
 
 /* Times are re-zeroed, and entered again in another order than before. */
 static void next_epoch(both *b)
 {
-  double span = gg_queue_span(&b->queue);
+  double span = gg_md_queue_span(&b->queue);
   b->now = 0;
   b->n_sorted = 0;
   for (uint32_t i = 0; i < N; i++) b->node[i].time -= span;
-  gg_queue_reset(&b->queue, b->queue.width);
+  gg_md_queue_reset(&b->queue, b->queue.width);
   for (uint32_t i = N; i-- > 0;) {
     if (!b->there[i]) continue;
-    gg_queue_insert(&b->queue, b->node, i);
-    sorted_insert(b, (gg_due){b->node[i].time, i});
+    gg_md_queue_insert(&b->queue, b->node, i);
+    sorted_insert(b, (gg_md_due){b->node[i].time, i});
   }
 }
 
 /* The next event of both, or an epoch's end. */
 static void pop(both *b)
 {
-  if (!gg_queue_turn(&b->queue, b->node)) {
-    assert_true(b->n_sorted == 0 || b->sorted[0].time >= gg_queue_span(&b->queue));
+  if (!gg_md_queue_turn(&b->queue, b->node)) {
+    assert_true(b->n_sorted == 0 || b->sorted[0].time >= gg_md_queue_span(&b->queue));
     next_epoch(b);
     return;
   }
-  gg_due due = b->queue.due[b->queue.n_due - 1];
+  gg_md_due due = b->queue.due[b->queue.n_due - 1];
   assert_true(b->n_sorted > 0 && due.grain == b->sorted[0].grain && due.time == b->sorted[0].time);
   assert_true(due.time >= b->now);
   b->now = due.time;
@@ -112,8 +112,8 @@ static void same_order_as_sorted_list(void **state)
   both *b = calloc(1, sizeof *b);
   gg_error err;
   b->rng = gg_rng_seed(1, 0);
-  assert_int_equal(gg_queue_make(&b->queue, N, &err), GG_OK);
-  gg_queue_reset(&b->queue, 0x1p-4);
+  assert_int_equal(gg_md_queue_make(&b->queue, N, &err), GG_OK);
+  gg_md_queue_reset(&b->queue, 0x1p-4);
   for (int k = 0; k < OPERATIONS; k++) {
     uint32_t i = gg_rng_below(&b->rng, N), what = gg_rng_below(&b->rng, 3);
     if (what == 0) {
@@ -125,7 +125,7 @@ static void same_order_as_sorted_list(void **state)
       if (what == 1) insert(b, i);
     }
   }
-  gg_queue_free(&b->queue);
+  gg_md_queue_free(&b->queue);
   free(b);
 }
 

@@ -49,7 +49,7 @@ static void cut_anywhere(void **state)
     double elapsed, total = 0, straight = md_collide(whole, 30000);
     while (cut->k.collisions < 30000) {
       uint64_t left = 30000 - cut->k.collisions, few = 1 + gg_rng_below(&rng, 200);
-      double dt = gg_rng_uniform(&rng) * 20 * whole->k.free_time / (double)m.n;
+      double dt = gg_rng_uniform(&rng) * 20 * whole->k.mean_free_time / (double)m.n;
       assert_int_equal(gg_md_ops.advance(&cut->base, dt, few < left ? few : left, &elapsed, &err), GG_OK);
       assert_true(elapsed <= dt);
       total += elapsed;

@@ -54,8 +54,8 @@ static void dense_mixtures_and_walls(void **state)
     int64_t first = 0;
     double solid = 0;
     for (uint32_t i = 0; i < e->n; i++) {
-      double d = m.diameter[gg_species_of(&e->grain[i])], y = e->grain[i].r.y;
-      first += gg_species_of(&e->grain[i]) == 0;
+      double d = m.diameter[gg_md_species_of(&e->grain[i])], y = e->grain[i].r.y;
+      first += gg_md_species_of(&e->grain[i]) == 0;
       solid += M_PI / 6 * d * d * d / m.volume;
       if (m.walled) assert_true(y >= 0.5 * d && y <= m.box[1] - 0.5 * d);
     }
@@ -116,7 +116,7 @@ static void above_an_open_top(void **state)
   shown seen = {.height = m.box[1]};
   int64_t above = 0;
   gg_md_ops.snapshot(&e->base, true, count_shown, &seen);
-  for (uint32_t i = 0; i < e->n; i++) above += gg_position(e, true, &e->grain[i], e->k.now).y > m.box[1];
+  for (uint32_t i = 0; i < e->n; i++) above += gg_md_position(e, true, &e->grain[i], e->k.now).y > m.box[1];
   assert_int_equal(seen.n, 100);
   assert_true(seen.above == above && above > 10 && above < 100);
   assert_true(md_closest(e) > 1 - 1e-12L && md_misplaced(e) == 0);

@@ -8,17 +8,17 @@
 
 /* All grains of a cell behind the n that there are, eight words at a time: what stands behind its end does not count.
  */
-GG_INLINE uint32_t gg_append_cell(uint32_t *near, uint32_t n, const uint32_t *cell)
+GG_INLINE uint32_t gg_md_append_cell(uint32_t *candidates, uint32_t n, const uint32_t *cell)
 {
   uint32_t count = cell[0];
-  memcpy(near + n, cell + 1, 8 * sizeof *cell);
-  for (uint32_t k = 8; k < count; k += 8) memcpy(near + n + k, cell + 1 + k, 8 * sizeof *cell);
+  memcpy(candidates + n, cell + 1, 8 * sizeof *cell);
+  for (uint32_t k = 8; k < count; k += 8) memcpy(candidates + n + k, cell + 1 + k, 8 * sizeof *cell);
   return n + count;
 }
 
 /* At the end of a list, of cells of sixteen words or more, line by line: the word behind a line would be another line
  * to wait for. Returns the new end. */
-GG_INLINE uint32_t *gg_append_large(uint32_t *end, const uint32_t *cell)
+GG_INLINE uint32_t *gg_md_append_large(uint32_t *end, const uint32_t *cell)
 {
   typedef uint32_t line __attribute__((vector_size(64), may_alias, aligned(4)));
   uint32_t count = cell[0];
@@ -30,28 +30,28 @@ GG_INLINE uint32_t *gg_append_large(uint32_t *end, const uint32_t *cell)
 }
 
 /* Of cells of eight words. */
-GG_INLINE uint32_t gg_append_small(uint32_t *near, uint32_t n, const uint32_t *cell)
+GG_INLINE uint32_t gg_md_append_small(uint32_t *candidates, uint32_t n, const uint32_t *cell)
 {
-  memcpy(near + n, cell + 1, 8 * sizeof *cell);
+  memcpy(candidates + n, cell + 1, 8 * sizeof *cell);
   return n + cell[0];
 }
 
 /* Is there room for so many full cells? */
-GG_INLINE bool gg_has_room(const gg_md *e, int cells)
+GG_INLINE bool gg_md_has_room(const gg_md *e, int cells)
 {
-  return (uint32_t)cells * e->cells.stride <= GG_MOST_NEAR;
+  return (uint32_t)cells * e->cells.stride <= GG_MD_MOST_CANDIDATES;
 }
 
 /* False: no more room. */
-GG_INLINE bool gg_take_cell(gg_search *s, const uint32_t *cell)
+GG_INLINE bool gg_md_take_cell(gg_md_search *s, const uint32_t *cell)
 {
-  if (s->n_near + cell[0] > GG_MOST_NEAR) return false;
-  s->n_near = gg_append_cell(s->near, s->n_near, cell);
+  if (s->n_candidates + cell[0] > GG_MD_MOST_CANDIDATES) return false;
+  s->n_candidates = gg_md_append_cell(s->candidates, s->n_candidates, cell);
   return true;
 }
 
 /* Index of a neighbouring cell along one axis, and the shift of its image. */
-GG_INLINE int32_t gg_image_cell(const gg_md *e, int axis, int32_t k, double *shift)
+GG_INLINE int32_t gg_md_image_cell(const gg_md *e, int axis, int32_t k, double *shift)
 {
   *shift = 0;
   if (k < 0) {

@@ -1,15 +1,15 @@
 /* Cells under shear: a grid in which each row of cells along x moves with the mean flow at its middle, so that the flow
  * carries nobody through cells, however large the box, and the sheared boundary is a boundary of rows like any other.
  *
- * The row above a row moves on by `lean` (rows.c), from 0 to a cell's width w, then begins again one cell further: the
- * rows slip. In between, a cell with contact distances of at most w sees what it can touch in four cells of the row
- * above and in four of the row below:
+ * The row above a row moves on by the fractional shift f (rows.c), from 0 to a cell's width w, then begins again one
+ * cell further: the rows shift. In between, a cell with contact distances of at most w sees what it can touch in four
+ * cells of the row above and in four of the row below:
  *
- *   above:  -2 -1  0 +1     ahead by `lean`
+ *   above:  -2 -1  0 +1     ahead by f
  *   own:       -1  0 +1
- *   below:     -1  0 +1 +2  behind by `lean`
+ *   below:     -1  0 +1 +2  behind by f
  *
- * Who comes into another cell looks at the cells that are new to it; and when the rows slip, everybody looks at the
+ * Who comes into another cell looks at the cells that are new to it; and when the rows shift, everybody looks at the
  * cells above that come within reach (-2): thus of two grains in cells that see each other one has always looked at the
  * other. */
 #ifndef GG_MD_SEARCH_COMOVING_ROWS_H
@@ -28,91 +28,93 @@ enum { ROWS_SHIFT = true, ROWS_MOVE = true, KNOWS_IMAGES = true, FEW_MEET = fals
 
 /* Cells to look at: those from..to relative to the grain's own, in its own row and in those above and below, in layers
  * from..to along z. From above to: none. */
-typedef struct gg_window {
+typedef struct gg_md_window {
   int own[2], above[2], below[2], deep[2];
-} gg_window;
+} gg_md_window;
 
-/* Cells from..to of a row, whose shares of the cell's number are `x`; in wide kernels as far as there is room. */
-GG_INLINE void gg_drift_row(const gg_md *e, gg_search *s, const uint32_t *row, const uint32_t *x, const int range[2])
+/* Cells from..to of a row, whose shares of the cell's number are `x`; in SIMD kernels as far as there is room. */
+GG_INLINE void gg_md_try_row(const gg_md *e, gg_md_search *s, const uint32_t *row, const uint32_t *x,
+                             const int range[2])
 {
   for (int k = range[0]; k <= range[1]; k++) {
     const uint32_t *cell = row + (size_t)x[k] * e->cells.stride;
-    if (IS_SIMD && gg_take_cell(s, cell)) continue;
+    if (IS_SIMD && gg_md_take_cell(s, cell)) continue;
     for (uint32_t m = 1; m <= cell[0]; m++)
-      if (cell[m] != s->grain) gg_try_nearest(e, s, cell[m]);
+      if (cell[m] != s->grain) gg_md_try_nearest(e, s, cell[m]);
   }
 }
 
 /* A window's rows, and their cells' shares of the cell's number. */
-typedef struct gg_rows_seen {
+typedef struct gg_md_rows_seen {
   const uint32_t *own, *above, *below, *y, *z;
-} gg_rows_seen;
+} gg_md_rows_seen;
 
 /* Cells x[from..to] of the rows that begin with `row` in each layer. Row by row there are so few addresses that all are
  * in registers. */
-GG_INLINE uint32_t gg_take_row(uint32_t *near, uint32_t n, const uint32_t *row, const uint32_t *const layer[3],
-                               const uint32_t *x, const int range[2], const int deep[2], size_t stride)
+GG_INLINE uint32_t gg_md_take_row(uint32_t *candidates, uint32_t n, const uint32_t *row, const uint32_t *const layer[3],
+                                  const uint32_t *x, const int range[2], const int deep[2], size_t stride)
 {
   size_t step[4];
   for (int k = range[0]; k <= range[1]; k++) step[k - range[0]] = x[k] * stride;
   for (int m = deep[0]; m <= deep[1]; m++)
     for (int k = 0; k <= range[1] - range[0]; k++) {
       const uint32_t *cell = layer[m + 1] + (size_t)*row * stride + step[k];
-      n = stride == 8 ? gg_append_small(near, n, cell) : gg_append_cell(near, n, cell);
+      n = stride == 8 ? gg_md_append_small(candidates, n, cell) : gg_md_append_cell(candidates, n, cell);
     }
   return n;
 }
 
-/* All of a window, for which there is room: what does not change is in local variables (gg_take_rows). */
-GG_INLINE void gg_take_window(const gg_md *e, gg_search *s, const gg_rows_seen *seen, const gg_window *w, size_t stride)
+/* All of a window, for which there is room: what does not change is in local variables (gg_md_take_rows). */
+GG_INLINE void gg_md_take_window(const gg_md *e, gg_md_search *s, const gg_md_rows_seen *seen, const gg_md_window *w,
+                                 size_t stride)
 {
   const uint32_t *z = seen->z, y[3] = {seen->y[-1], seen->y[0], seen->y[1]}, *layer[3];
   for (int m = w->deep[0]; m <= w->deep[1]; m++) layer[m + 1] = e->cells.cell + z[m] * stride;
-  uint32_t n = s->n_near;
-  n = gg_take_row(s->near, n, y + 1, layer, seen->own, w->own, w->deep, stride);
-  n = gg_take_row(s->near, n, y + 2, layer, seen->above, w->above, w->deep, stride);
-  n = gg_take_row(s->near, n, y, layer, seen->below, w->below, w->deep, stride);
-  s->n_near = n;
+  uint32_t n = s->n_candidates;
+  n = gg_md_take_row(s->candidates, n, y + 1, layer, seen->own, w->own, w->deep, stride);
+  n = gg_md_take_row(s->candidates, n, y + 2, layer, seen->above, w->above, w->deep, stride);
+  n = gg_md_take_row(s->candidates, n, y, layer, seen->below, w->below, w->deep, stride);
+  s->n_candidates = n;
 }
 
-GG_INLINE void gg_drift_scan(const gg_md *e, gg_search *s, gg_window window)
+GG_INLINE void gg_md_scan_window(const gg_md *e, gg_md_search *s, gg_md_window window)
 {
-  const gg_cells *c = &e->cells;
+  const gg_md_cells *c = &e->cells;
   const int32_t *at = e->node[s->grain].cell;
-  const gg_row *row = &e->row[at[1]];
-  gg_rows_seen seen = {.own = c->part[0] + at[0],
-                       .above = c->part[0] + gg_drifting_index(e, at[0] - row->above),
-                       .below = c->part[0] + gg_drifting_index(e, at[0] + row->below),
-                       .y = c->part[1] + at[1],
-                       .z = c->part[2] + at[2]};
+  const gg_md_row *row = &e->row[at[1]];
+  gg_md_rows_seen seen = {.own = c->part[0] + at[0],
+                          .above = c->part[0] + gg_md_index_in_row(e, at[0] - row->above),
+                          .below = c->part[0] + gg_md_index_in_row(e, at[0] + row->below),
+                          .y = c->part[1] + at[1],
+                          .z = c->part[2] + at[2]};
   uint32_t layers = (uint32_t)c->n[1] - 2, deep = (uint32_t)c->n[2] - 2;
   s->regular = (uint32_t)(at[1] - 1) < layers;
   s->inside = s->regular & ((uint32_t)(at[2] - 1) < deep);
-  if (IS_SIMD && gg_has_room(e, 33)) {
+  if (IS_SIMD && gg_md_has_room(e, 33)) {
     if (c->stride == 8)
-      gg_take_window(e, s, &seen, &window, 8);
+      gg_md_take_window(e, s, &seen, &window, 8);
     else
-      gg_take_window(e, s, &seen, &window, c->stride);
+      gg_md_take_window(e, s, &seen, &window, c->stride);
     return;
   }
   for (int m = window.deep[0]; m <= window.deep[1]; m++) {
     const uint32_t *layer = c->cell + (size_t)seen.z[m] * c->stride;
-    gg_drift_row(e, s, layer + (size_t)seen.y[0] * c->stride, seen.own, window.own);
-    gg_drift_row(e, s, layer + (size_t)seen.y[1] * c->stride, seen.above, window.above);
-    gg_drift_row(e, s, layer + (size_t)seen.y[-1] * c->stride, seen.below, window.below);
+    gg_md_try_row(e, s, layer + (size_t)seen.y[0] * c->stride, seen.own, window.own);
+    gg_md_try_row(e, s, layer + (size_t)seen.y[1] * c->stride, seen.above, window.above);
+    gg_md_try_row(e, s, layer + (size_t)seen.y[-1] * c->stride, seen.below, window.below);
   }
 }
 
-GG_INLINE void gg_md_search_all(gg_md *e, gg_search *s)
+GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
 {
-  gg_drift_scan(e, s, (gg_window){{-1, 1}, {-2, 1}, {-1, 2}, {-1, 1}});
-  if (IS_SIMD) gg_scan_near(e, s);
+  gg_md_scan_window(e, s, (gg_md_window){{-1, 1}, {-2, 1}, {-1, 2}, {-1, 1}});
+  if (IS_SIMD) gg_md_try_candidates(e, s);
 }
 
 /* What is new after a step along x or z. */
-GG_INLINE void gg_drift_ahead(const gg_md *e, gg_search *s, int axis, int step)
+GG_INLINE void gg_md_scan_window_ahead(const gg_md *e, gg_md_search *s, int axis, int step)
 {
-  gg_window w = {{-1, 1}, {-2, 1}, {-1, 2}, {-1, 1}};
+  gg_md_window w = {{-1, 1}, {-2, 1}, {-1, 2}, {-1, 1}};
   if (axis == 2)
     w.deep[0] = w.deep[1] = step;
   else {
@@ -120,30 +122,30 @@ GG_INLINE void gg_drift_ahead(const gg_md *e, gg_search *s, int axis, int step)
     w.above[0] = w.above[1] = step > 0 ? 1 : -2;
     w.below[0] = w.below[1] = step > 0 ? 2 : -1;
   }
-  gg_drift_scan(e, s, w);
+  gg_md_scan_window(e, s, w);
 }
 
 /* Into the row above (step 1) or below (-1), where the grain is in one of two cells: into which is seen from where it
  * is. It looks at all of the next row, and at that end of the row that it comes from which it did not see before. */
-GG_INLINE gg_window gg_change_row(gg_md *e, uint32_t i, int step)
+GG_INLINE gg_md_window gg_md_change_row(gg_md *e, uint32_t i, int step)
 {
-  gg_node *node = &e->node[i];
-  gg_grain *g = &e->grain[i];
-  const gg_row *old = &e->row[node->cell[1]];
-  int32_t first = gg_drifting_index(e, node->cell[0] + (step > 0 ? -old->above - 1 : old->below));
+  gg_md_node *node = &e->node[i];
+  gg_md_grain *g = &e->grain[i];
+  const gg_md_row *old = &e->row[node->cell[1]];
+  int32_t first = gg_md_index_in_row(e, node->cell[0] + (step > 0 ? -old->above - 1 : old->below));
   int32_t y = node->cell[1] + step, side = y < 0 ? -1 : y >= e->cells.n[1] ? 1 : 0;
   node->cell[1] = y - side * e->cells.n[1];
   if (side) {
     g->r.y -= side * e->box.edge[1];
-    g->r.x -= side * gg_offset(&e->box, e->k.now);
-    g->v.x -= side * e->box.slide;
+    g->r.x -= side * gg_md_offset(&e->box, e->k.now);
+    g->v.x -= side * e->box.image_velocity;
   }
   g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
-  double beyond = g->r.x - gg_row_begins(e, node->cell[1]) - (first + 1) * e->cells.width[0];
+  double beyond = g->r.x - gg_md_row_begins(e, node->cell[1]) - (first + 1) * e->cells.width[0];
   beyond -= e->box.edge[0] * gg_nearest(beyond * e->box.inverse[0]);
   int second = beyond >= 0, low = step > 0 ? -1 : -2, end = second ? low + 3 : low;
-  node->cell[0] = gg_drifting_index(e, first + second);
-  gg_window w = {{0, -1}, {-2, 1}, {-1, 2}, {-1, 1}};
+  node->cell[0] = gg_md_index_in_row(e, first + second);
+  gg_md_window w = {{0, -1}, {-2, 1}, {-1, 2}, {-1, 1}};
   if (step > 0)
     w.below[0] = w.below[1] = end;
   else
@@ -152,71 +154,71 @@ GG_INLINE gg_window gg_change_row(gg_md *e, uint32_t i, int step)
 }
 
 /* Place and velocity relative to the grain's row, in the image that is in its cell. */
-GG_INLINE void gg_seen_from_row(const gg_md *e, const int32_t *cell, gg_axes *r, gg_axes *v)
+GG_INLINE void gg_md_seen_from_row(const gg_md *e, const int32_t *cell, gg_axes *r, gg_axes *v)
 {
-  double x = (*r)[0] - gg_row_begins(e, cell[1]), depth = x - cell[0] * e->cells.width[0];
+  double x = (*r)[0] - gg_md_row_begins(e, cell[1]), depth = x - cell[0] * e->cells.width[0];
   (*r)[0] = x - e->box.edge[0] * gg_nearest(depth * e->box.inverse[0]);
   (*v)[0] -= e->row[cell[1]].speed;
 }
 
-GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t *face)
+GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
   const int32_t *cell = e->node[s->grain].cell;
   gg_axes r = gg_load_axes(&s->self->r.x), v = gg_load_axes(&s->self->v.x);
-  gg_seen_from_row(e, cell, &r, &v);
-  return e->k.now + gg_first_exit(e, cell, r, v, face);
+  gg_md_seen_from_row(e, cell, &r, &v);
+  return e->k.now + gg_md_first_exit(e, cell, r, v, face);
 }
 
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 {
-  gg_node *node = &e->node[i];
-  gg_search s = {.near = e->near};
-  gg_begin_search(&s, i, gg_settle(e, i), node->collision, node->partner);
-  gg_grain *g = &e->grain[i];
+  gg_md_node *node = &e->node[i];
+  gg_md_search s = {.candidates = e->candidates};
+  gg_md_begin_search(&s, i, gg_md_synchronise(e, i), node->collision, node->partner);
+  gg_md_grain *g = &e->grain[i];
   int axis = node->face >> 1, step = node->face & 1 ? 1 : -1;
   gg_md_leave_cell(e, i);
   if (axis == 1) {
-    gg_window window = gg_change_row(e, i, step);
+    gg_md_window window = gg_md_change_row(e, i, step);
     gg_md_enter_cell(e, i);
-    gg_drift_scan(e, &s, window);
+    gg_md_scan_window(e, &s, window);
   } else {
     int32_t at = node->cell[axis] + step, n = e->cells.n[axis], side = at < 0 ? -1 : at >= n ? 1 : 0;
     node->cell[axis] = at - side * n;
     *gg_component(&g->r, axis) -= side * e->box.edge[axis];
     gg_md_enter_cell(e, i);
-    gg_drift_ahead(e, &s, axis, step);
+    gg_md_scan_window_ahead(e, &s, axis, step);
   }
-  if (IS_SIMD) gg_scan_near(e, &s);
+  if (IS_SIMD) gg_md_try_candidates(e, &s);
   gg_md_schedule(e, &s);
 }
 
-/* Rows have slipped by a cell: everybody looks at what comes within reach above. Most see nothing that changes their
+/* Rows have shifted by a cell: everybody looks at what comes within reach above. Most see nothing that changes their
  * next event, and stay as they are. */
-static __attribute__((noinline)) void gg_shift_rows(gg_md *e)
+static __attribute__((noinline)) void gg_md_look_at_shifted_rows(gg_md *e)
 {
-  e->k.now = e->slip;
-  gg_md_slip_rows(e);
+  e->k.now = e->next_shift;
+  gg_md_shift_rows_by_a_cell(e);
   for (uint32_t i = 0; i < e->n; i++) {
-    const gg_node *node = &e->node[i];
-    gg_search s = {.near = e->near};
-    gg_grain here = e->grain[i];
-    here.r = gg_position(e, HAS_GRAVITY, &here, e->k.now);
-    gg_begin_search(&s, i, &here, node->collision, node->partner);
-    gg_drift_scan(e, &s, (gg_window){{0, -1}, {-2, -2}, {0, -1}, {-1, 1}});
-    if (IS_SIMD) gg_scan_near(e, &s);
+    const gg_md_node *node = &e->node[i];
+    gg_md_search s = {.candidates = e->candidates};
+    gg_md_grain here = e->grain[i];
+    here.r = gg_md_position(e, HAS_GRAVITY, &here, e->k.now);
+    gg_md_begin_search(&s, i, &here, node->collision, node->partner);
+    gg_md_scan_window(e, &s, (gg_md_window){{0, -1}, {-2, -2}, {0, -1}, {-1, 1}});
+    if (IS_SIMD) gg_md_try_candidates(e, &s);
     if (s.collision < node->collision) gg_md_schedule(e, &s);
   }
 }
 
 GG_INLINE void gg_md_shift_all(gg_md *e)
 {
-  gg_shift_rows(e);
+  gg_md_look_at_shifted_rows(e);
 }
 
 GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)
 {
   (void)i;
-  if (GG_NO_GRAIN(partner)) return;
+  if (GG_MD_NO_GRAIN(partner)) return;
   __builtin_prefetch(&e->grain[partner]);
   __builtin_prefetch(&e->node[partner]);
 }
@@ -232,11 +234,11 @@ GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
 {
   if (e->n <= 40000) return;
   const int32_t *at = e->node[i].cell;
-  const gg_cells *c = &e->cells;
-  const gg_row *own = &e->row[at[1]];
+  const gg_md_cells *c = &e->cells;
+  const gg_md_row *own = &e->row[at[1]];
   const uint32_t *y = c->part[1] + at[1], *z = c->part[2] + at[2];
-  const uint32_t *x[3] = {c->part[0] + gg_drifting_index(e, at[0] + own->below), c->part[0] + at[0],
-                          c->part[0] + gg_drifting_index(e, at[0] - own->above)};
+  const uint32_t *x[3] = {c->part[0] + gg_md_index_in_row(e, at[0] + own->below), c->part[0] + at[0],
+                          c->part[0] + gg_md_index_in_row(e, at[0] - own->above)};
   for (int m = -1; m <= 1; m++)
     for (int l = -1; l <= 1; l++) {
       const uint32_t *row = c->cell + (size_t)(z[m] + y[l]) * c->stride;

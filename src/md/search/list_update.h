@@ -6,24 +6,24 @@
 #include "md/batch.h"
 #include "md/search/candidates.h"
 
-GG_INLINE uint32_t *gg_list(const gg_md *e, uint32_t i)
+GG_INLINE uint32_t *gg_md_list(const gg_md *e, uint32_t i)
 {
-  return e->neighbour + (size_t)i * GG_LIST;
+  return e->neighbour + (size_t)i * GG_MD_LIST;
 }
 
-/* Everybody in the cells that can hold centres within rho of shell i's, under shear, as far as there is room. */
-GG_INLINE void gg_collect_sheared(const gg_md *e, uint32_t i, gg_search *s)
+/* Everybody in the cells that can hold centres within rho of list i's, under shear, as far as there is room. */
+GG_INLINE void gg_md_collect_sheared(const gg_md *e, uint32_t i, gg_md_search *s)
 {
-  const gg_cells *c = &e->cells;
+  const gg_md_cells *c = &e->cells;
   const int32_t *at = e->node[i].cell;
-  gg_vec centre = e->shell[i].centre;
+  gg_vec centre = e->skin[i].centre;
   double rho = c->reach, strain = e->model.shear_rate * e->k.now;
-  s->n_near = 0;
+  s->n_candidates = 0;
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++) {
     if (z * c->width[2] > centre.z + rho || (z + 1) * c->width[2] < centre.z - rho) continue;
     for (int32_t y = at[1] - 1; y <= at[1] + 1; y++) {
       gg_vec shift = {0, 0, 0};
-      int32_t iy = gg_image_cell(e, 1, y, &shift.y), iz = gg_image_cell(e, 2, z, &shift.z);
+      int32_t iy = gg_md_image_cell(e, 1, y, &shift.y), iz = gg_md_image_cell(e, 2, z, &shift.z);
       shift.x = shift.y > 0 ? e->box.offset0 : shift.y < 0 ? -e->box.offset0 : 0;
       double below = y * c->width[1] - centre.y, above = (y + 1) * c->width[1] - centre.y;
       if (below > rho || above < -rho) continue;
@@ -32,33 +32,33 @@ GG_INLINE void gg_collect_sheared(const gg_md *e, uint32_t i, gg_search *s)
       int32_t from = (int32_t)gg_floor((centre.x - rho - strain * above - shift.x) * c->inverse[0]);
       int32_t to = (int32_t)gg_floor((centre.x + rho - strain * below - shift.x) * c->inverse[0]);
       if (to - from >= c->n[0]) to = from + c->n[0] - 1;
-      const uint32_t *row = gg_cell_at(c, (int32_t[3]){0, iy, iz});
+      const uint32_t *row = gg_md_cell_at(c, (int32_t[3]){0, iy, iz});
       for (int32_t k = from; k <= to; k++) {
         int32_t x = k;
         while (x < 0) x += c->n[0];
         while (x >= c->n[0]) x -= c->n[0];
-        if (!gg_take_cell(s, row + (size_t)x * c->stride)) s->n_near = GG_MOST_NEAR;
+        if (!gg_md_take_cell(s, row + (size_t)x * c->stride)) s->n_candidates = GG_MD_MOST_CANDIDATES;
       }
     }
   }
 }
 
 /* The 27 cells around one: where they begin, and a bit for each that a sphere of radius rho reaches into. */
-typedef struct gg_nearby {
+typedef struct gg_md_nearby {
   uint32_t index[28], which; /* x fastest */
-} gg_nearby;
+} gg_md_nearby;
 
-GG_INLINE void gg_cells_nearby(const gg_md *e, uint32_t i, gg_nearby *nearby)
+GG_INLINE void gg_md_cells_nearby(const gg_md *e, uint32_t i, gg_md_nearby *nearby)
 {
   typedef uint32_t words __attribute__((vector_size(16)));
   typedef uint32_t words_there __attribute__((vector_size(16), may_alias, aligned(4)));
-  const gg_cells *c = &e->cells;
+  const gg_md_cells *c = &e->cells;
   const int32_t *at = e->node[i].cell;
   const uint32_t *y = c->part[1] + at[1], *z = c->part[2] + at[2];
   words x = *(const words_there *)(c->part[0] + at[0] - 1);
   double below[3], above[3]; /* squared distances to the cells below and above along each axis */
   for (int a = 0; a < 3; a++) {
-    double depth = gg_along(&e->shell[i].centre, a) - at[a] * c->width[a], rest = c->width[a] - depth;
+    double depth = gg_along(&e->skin[i].centre, a) - at[a] * c->width[a], rest = c->width[a] - depth;
     below[a] = depth * depth;
     above[a] = rest * rest;
   }
@@ -73,33 +73,33 @@ GG_INLINE void gg_cells_nearby(const gg_md *e, uint32_t i, gg_nearby *nearby)
     }
 }
 
-/* The same where nothing slides. */
-GG_INLINE void gg_collect_near(const gg_md *e, uint32_t i, gg_search *s)
+/* The same without shear. */
+GG_INLINE void gg_md_collect_near(const gg_md *e, uint32_t i, gg_md_search *s)
 {
-  gg_nearby nearby;
-  gg_cells_nearby(e, i, &nearby);
-  bool room = gg_has_room(e, 27);
+  gg_md_nearby nearby;
+  gg_md_cells_nearby(e, i, &nearby);
+  bool room = gg_md_has_room(e, 27);
   const uint32_t *cells = e->cells.cell;
   size_t stride = e->cells.stride;
   uint32_t n = 0;
   for (uint32_t which = nearby.which; which; which &= which - 1) {
     const uint32_t *cell = cells + nearby.index[__builtin_ctz(which)] * stride;
-    if (room || n + cell[0] <= GG_MOST_NEAR)
-      n = gg_append_cell(s->near, n, cell);
+    if (room || n + cell[0] <= GG_MD_MOST_CANDIDATES)
+      n = gg_md_append_cell(s->candidates, n, cell);
     else
-      n = GG_MOST_NEAR;
+      n = GG_MD_MOST_CANDIDATES;
   }
-  s->n_near = n;
+  s->n_candidates = n;
 }
 
-typedef double gg_centre4 __attribute__((vector_size(32), may_alias, aligned(8)));
+typedef double gg_md_centre4 __attribute__((vector_size(32), may_alias, aligned(8)));
 
-/* The centres of eight shells as columns. */
-GG_INLINE void gg_gather_centres(const gg_shell *shell, const uint32_t *index, gg_v8 *x, gg_v8 *y, gg_v8 *z)
+/* The centres of eight skins as columns. */
+GG_INLINE void gg_md_gather_centres(const gg_md_skin *skin, const uint32_t *index, gg_v8 *x, gg_v8 *y, gg_v8 *z)
 {
 #define TWO(k, m)                                                                                                      \
-  __builtin_shufflevector(*(const gg_centre4 *)&shell[index[k]].centre, *(const gg_centre4 *)&shell[index[m]].centre,  \
-                          0, 1, 2, 3, 4, 5, 6, 7)
+  __builtin_shufflevector(*(const gg_md_centre4 *)&skin[index[k]].centre,                                              \
+                          *(const gg_md_centre4 *)&skin[index[m]].centre, 0, 1, 2, 3, 4, 5, 6, 7)
   gg_v8 a = TWO(0, 4), b = TWO(1, 5), c = TWO(2, 6), d = TWO(3, 7);
 #undef TWO
   gg_v8 ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
@@ -112,49 +112,49 @@ GG_INLINE void gg_gather_centres(const gg_shell *shell, const uint32_t *index, g
 }
 
 /* Room for a full list, and for eight more that are written before they are counted. */
-enum { GG_FOUND = GG_LIST + 1 + GG_BATCH };
+enum { GG_MD_FOUND = GG_MD_LIST + 1 + GG_BATCH };
 
-/* Everybody whose centre lies within rho of shell i's: ids into found[GG_FOUND]; more than GG_LIST: too many. */
-GG_INLINE uint32_t gg_search_shell(const gg_md *e, uint32_t i, uint32_t *found)
+/* Everybody whose centre lies within rho of list i's: ids into found[GG_MD_FOUND]; more than GG_MD_LIST: too many. */
+GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found)
 {
-  gg_search s = {.near = e->near};
+  gg_md_search s = {.candidates = e->candidates};
   if (IS_SHEARED)
-    gg_collect_sheared(e, i, &s);
+    gg_md_collect_sheared(e, i, &s);
   else
-    gg_collect_near(e, i, &s);
-  uint32_t *near = s.near, n = s.n_near, count = 0;
-  const gg_vec centre = e->shell[i].centre;
+    gg_md_collect_near(e, i, &s);
+  uint32_t *candidates = s.candidates, n = s.n_candidates, count = 0;
+  const gg_vec centre = e->skin[i].centre;
   const double *L = e->box.edge, *inverse = e->box.inverse;
   double strain = IS_SHEARED ? e->model.shear_rate * e->k.now : 0;
-  int species = IS_MIXTURE ? gg_species_of(&e->grain[i]) : 0;
-  for (int l = 0; l < GG_BATCH; l++) near[n + (uint32_t)l] = e->n;
-  for (uint32_t k = 0; k < n && count <= GG_LIST; k += GG_BATCH) {
+  int species = IS_MIXTURE ? gg_md_species_of(&e->grain[i]) : 0;
+  for (int l = 0; l < GG_BATCH; l++) candidates[n + (uint32_t)l] = e->n;
+  for (uint32_t k = 0; k < n && count <= GG_MD_LIST; k += GG_BATCH) {
     gg_v8 x, y, z, reach = gg_all(e->pair_reach[0]);
-    gg_gather_centres(e->shell, near + k, &x, &y, &z);
+    gg_md_gather_centres(e->skin, candidates + k, &x, &y, &z);
     for (int l = 0; IS_MIXTURE && l < GG_BATCH; l++)
-      reach[l] = e->pair_reach[species + gg_species_of(&e->grain[near[k + (uint32_t)l]])];
+      reach[l] = e->pair_reach[species + gg_md_species_of(&e->grain[candidates[k + (uint32_t)l]])];
     x -= centre.x, y -= centre.y, z -= centre.z;
     gg_v8 layers = gg_nearest8(y * inverse[1]);
     y -= L[1] * layers;
     if (IS_SHEARED) x += strain * y - layers * e->box.offset0;
     x -= L[0] * gg_nearest8(x * inverse[0]);
     z -= L[2] * gg_nearest8(z * inverse[2]);
-    count += gg_pick8(found + count, near + k, i, gg_less8(x * x + y * y + z * z, reach * reach));
+    count += gg_pick8(found + count, candidates + k, i, gg_less8(x * x + y * y + z * z, reach * reach));
   }
-  return n == GG_MOST_NEAR ? GG_LIST + 1 : count;
+  return n == GG_MD_MOST_CANDIDATES ? GG_MD_LIST + 1 : count;
 }
 
-/* The shell of grain i anew, around where it now is: image in the box, centre, cell (not yet in the chains). */
-GG_INLINE void gg_new_shell(gg_md *e, uint32_t i)
+/* The skin of grain i anew, around where it now is: image in the box, centre, cell (which it does not enter yet). */
+GG_INLINE void gg_md_new_skin(gg_md *e, uint32_t i)
 {
-  gg_grain *g = gg_settle(e, i);
-  gg_node *node = &e->node[i];
-  gg_shell *shell = &e->shell[i];
+  gg_md_grain *g = gg_md_synchronise(e, i);
+  gg_md_node *node = &e->node[i];
+  gg_md_skin *skin = &e->skin[i];
   double layers = gg_floor(g->r.y * e->box.inverse[1]);
   g->r.y -= layers * e->box.edge[1];
   if (IS_SHEARED && layers != 0) {
-    g->r.x -= layers * gg_offset(&e->box, e->k.now);
-    g->v.x -= layers * e->box.slide;
+    g->r.x -= layers * gg_md_offset(&e->box, e->k.now);
+    g->v.x -= layers * e->box.image_velocity;
   }
   g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
   g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
@@ -163,55 +163,55 @@ GG_INLINE void gg_new_shell(gg_md *e, uint32_t i)
     centre.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]) * e->k.now;
     centre.x = gg_wrap(centre.x, e->box.edge[0], e->box.inverse[0]);
   }
-  *shell = (gg_shell){centre};
-  node->shell_built = e->k.now;
+  *skin = (gg_md_skin){centre};
+  node->skin_time = e->k.now;
   gg_md_cell_of(&e->cells, centre, node->cell);
 }
 
-GG_INLINE void gg_list_clear(gg_md *e, uint32_t i)
+GG_INLINE void gg_md_list_clear(gg_md *e, uint32_t i)
 {
-  uint32_t *list = gg_list(e, i);
-  for (int k = 0; k < GG_LIST; k++) list[k] = e->n;
+  uint32_t *list = gg_md_list(e, i);
+  for (int k = 0; k < GG_MD_LIST; k++) list[k] = e->n;
   e->node[i].neighbours = 0;
 }
 
 /* Beyond its end a list holds the grain at no place. */
-GG_INLINE bool gg_list_add(gg_md *e, uint32_t i, uint32_t j)
+GG_INLINE bool gg_md_list_add(gg_md *e, uint32_t i, uint32_t j)
 {
-  if (e->node[i].neighbours == GG_LIST) return false;
-  gg_list(e, i)[e->node[i].neighbours++] = j;
+  if (e->node[i].neighbours == GG_MD_LIST) return false;
+  gg_md_list(e, i)[e->node[i].neighbours++] = j;
   return true;
 }
 
-/* Where in a list of GG_LIST a grain stands: a bit for each place. */
-GG_INLINE uint32_t gg_list_places(const uint32_t *list, uint32_t j)
+/* Where in a list of GG_MD_LIST a grain stands: a bit for each place. */
+GG_INLINE uint32_t gg_md_list_places(const uint32_t *list, uint32_t j)
 {
   return gg_words_equal16(list, j) | gg_words_equal8(list + 16, j) << 16;
 }
 
-GG_INLINE void gg_list_remove(gg_md *e, uint32_t i, uint32_t j)
+GG_INLINE void gg_md_list_remove(gg_md *e, uint32_t i, uint32_t j)
 {
-  uint32_t *list = gg_list(e, i), last = --e->node[i].neighbours;
-  list[__builtin_ctz(gg_list_places(list, j))] = list[last];
+  uint32_t *list = gg_md_list(e, i), last = --e->node[i].neighbours;
+  list[__builtin_ctz(gg_md_list_places(list, j))] = list[last];
   list[last] = e->n;
 }
 
-/* Replace i's list by found[], and mend the lists of those who are no longer or newly in it. False: no room. */
-GG_INLINE bool gg_mend_lists(gg_md *e, uint32_t i, const uint32_t *found, uint32_t count)
+/* Replace i's list by found[], and update the lists of those who are no longer or newly in it. False: no room. */
+GG_INLINE bool gg_md_update_lists(gg_md *e, uint32_t i, const uint32_t *found, uint32_t count)
 {
-  uint32_t old[GG_LIST], *list = gg_list(e, i), n_old = e->node[i].neighbours, still = 0, fresh = 0;
-  if (count > GG_LIST) return false;
-  for (int k = 0; k < GG_LIST; k++) old[k] = list[k], list[k] = (uint32_t)k < count ? found[k] : e->n;
+  uint32_t old[GG_MD_LIST], *list = gg_md_list(e, i), n_old = e->node[i].neighbours, still = 0, fresh = 0;
+  if (count > GG_MD_LIST) return false;
+  for (int k = 0; k < GG_MD_LIST; k++) old[k] = list[k], list[k] = (uint32_t)k < count ? found[k] : e->n;
   e->node[i].neighbours = count;
   for (uint32_t k = 0; k < count; k++) {
-    uint32_t places = gg_list_places(old, found[k]);
+    uint32_t places = gg_md_list_places(old, found[k]);
     still |= places;
     fresh |= (uint32_t)(places == 0) << k;
   }
   for (uint32_t gone = gg_lowest_bits(n_old) & ~still; gone; gone &= gone - 1)
-    gg_list_remove(e, old[__builtin_ctz(gone)], i);
+    gg_md_list_remove(e, old[__builtin_ctz(gone)], i);
   for (; fresh; fresh &= fresh - 1)
-    if (!gg_list_add(e, found[__builtin_ctz(fresh)], i)) return false;
+    if (!gg_md_list_add(e, found[__builtin_ctz(fresh)], i)) return false;
   return true;
 }
 

@@ -1,10 +1,10 @@
-/* Neighbour lists for dense systems: who can be met before one of both leaves its shell.
+/* Neighbour lists for dense systems: who can be met before one of both leaves its skin.
  *
- * Each grain has a shell of radius s around where it stood when its list was made; the list holds everybody whose
- * shell centre then lay within rho = sigma + 2 s of its own, and is symmetric. While two grains that are not listed
- * stay in their shells they cannot touch. A grain that leaves its shell gets a new one, and lists are mended.
+ * Each grain has a skin, a sphere of radius s around where it stood when its list was made; the list holds everybody
+ * whose skin then lay with its centre within rho = sigma + 2 s of its own, and is symmetric. While two grains that are
+ * not listed stay in their skins they cannot touch. A grain that leaves its skin gets a new one, and lists are updated.
  *
- * Under shear the centres move with the flow at their height, and shells shrink at the rate kappa = shear_rate rho/4:
+ * Under shear the centres move with the flow at their height, and skins shrink at the rate kappa = shear_rate rho/4:
  * two centres at a distance R approach at most at shear_rate R/2, so what holds at the making holds until the exit. A
  * centre is kept by where it stood at the epoch's start, which does not change: the cells of the centres are at rest.
  *
@@ -20,23 +20,23 @@ enum { ROWS_SHIFT = false, ROWS_MOVE = false, KNOWS_IMAGES = false, FEW_MEET = f
 #include "md/search/simd_pairs.h"
 #include "md/search/way.h"
 
-/* Where shell i's centre is at the present time. */
-GG_INLINE gg_vec gg_centre(const gg_md *e, uint32_t i)
+/* Where the centre of skin i is at the present time. */
+GG_INLINE gg_vec gg_md_centre(const gg_md *e, uint32_t i)
 {
-  gg_vec c = e->shell[i].centre;
+  gg_vec c = e->skin[i].centre;
   if (IS_SHEARED) c.x += e->model.shear_rate * (c.y - 0.5 * e->box.edge[1]) * e->k.now;
   return c;
 }
 
-/* When the grain leaves its shell: |dr + dv t| = s - kappa t, root without cancellation. */
-GG_INLINE double gg_shell_exit(const gg_md *e, uint32_t i, const gg_grain *g)
+/* When the grain leaves its skin: |dr + dv t| = s - kappa t, root without cancellation. */
+GG_INLINE double gg_md_skin_exit(const gg_md *e, uint32_t i, const gg_md_grain *g)
 {
-  gg_vec centre = gg_centre(e, i), dr = gg_sub(g->r, centre), dv = g->v;
-  double radius = e->shell_radius, kappa = IS_SHEARED ? e->shrinkage : 0;
+  gg_vec centre = gg_md_centre(e, i), dr = gg_sub(g->r, centre), dv = g->v;
+  double radius = e->skin_radius, kappa = IS_SHEARED ? e->shrinkage : 0;
   if (IS_SHEARED) {
     dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]); /* the centre is kept wrapped */
     dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);
-    radius -= kappa * (e->k.now - e->node[i].shell_built);
+    radius -= kappa * (e->k.now - e->node[i].skin_time);
   }
   double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
   double c = gg_dot(dr, dr) - radius * radius;
@@ -47,27 +47,27 @@ GG_INLINE double gg_shell_exit(const gg_md *e, uint32_t i, const gg_grain *g)
   return (out | (a > 0)) ? e->k.now + delay : INFINITY;
 }
 
-GG_INLINE void gg_md_search_all(gg_md *e, gg_search *s)
+GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
 {
   uint32_t i = s->grain;
-  gg_scan_batches(e, s, gg_list(e, i), e->node[i].neighbours, IS_SHEARED ? GG_MD_SLIDING : GG_MD_AT_REST);
+  gg_md_try_list(e, s, gg_md_list(e, i), e->node[i].neighbours, IS_SHEARED ? GG_MD_MOVING : GG_MD_AT_REST);
 }
 
-GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t *face)
+GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
   (void)face;
-  return gg_shell_exit(e, s->grain, s->self);
+  return gg_md_skin_exit(e, s->grain, s->self);
 }
 
-/* Out of its shell: a new one, lists mended, and a new prediction. */
+/* Out of its skin: a new one, lists updated, and a new prediction. */
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 {
-  uint32_t found[GG_FOUND];
+  uint32_t found[GG_MD_FOUND];
   gg_md_leave_cell(e, i);
-  gg_new_shell(e, i);
+  gg_md_new_skin(e, i);
   gg_md_enter_cell(e, i);
-  uint32_t count = gg_search_shell(e, i, found);
-  if (gg_mend_lists(e, i, found, count)) {
+  uint32_t count = gg_md_search_skin(e, i, found);
+  if (gg_md_update_lists(e, i, found, count)) {
     gg_md_predict(e, i);
     return;
   }
@@ -82,11 +82,11 @@ GG_INLINE void gg_md_shift_all(gg_md *e)
 
 GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)
 {
-  if (GG_NO_GRAIN(partner)) return;
+  if (GG_MD_NO_GRAIN(partner)) return;
   __builtin_prefetch(&e->grain[partner]);
   __builtin_prefetch(&e->node[partner]);
-  __builtin_prefetch(gg_list(e, i));
-  __builtin_prefetch(gg_list(e, partner));
+  __builtin_prefetch(gg_md_list(e, i));
+  __builtin_prefetch(gg_md_list(e, partner));
 }
 
 GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i)
@@ -99,10 +99,10 @@ GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i)
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
 {
   uint32_t j = e->node[i].partner;
-  const uint32_t *mine = gg_list(e, i);
+  const uint32_t *mine = gg_md_list(e, i);
   for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[mine[k]]);
-  if (GG_NO_GRAIN(j)) return;
-  const uint32_t *others = gg_list(e, j);
+  if (GG_MD_NO_GRAIN(j)) return;
+  const uint32_t *others = gg_md_list(e, j);
   for (uint32_t k = 0; k < 16; k++) __builtin_prefetch(&e->grain[others[k]]);
 }
 

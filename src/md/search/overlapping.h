@@ -12,43 +12,44 @@ enum { ROWS_SHIFT = false, ROWS_MOVE = false, KNOWS_IMAGES = false, FEW_MEET = t
 #include "md/search/way.h"
 
 /* The grains of a cell for which there may be no room: those so far are tried first. */
-static __attribute__((noinline, cold, unused)) void gg_take_crowded(const gg_md *e, gg_search *s, const uint32_t *cell)
+static __attribute__((noinline, cold, unused)) void gg_md_take_crowded(const gg_md *e, gg_md_search *s,
+                                                                       const uint32_t *cell)
 {
   for (uint32_t k = 1; k <= cell[0]; k++) {
-    if (s->n_near == GG_MOST_NEAR) {
-      gg_scan_near(e, s);
-      s->n_near = 0;
+    if (s->n_candidates == GG_MD_MOST_CANDIDATES) {
+      gg_md_try_candidates(e, s);
+      s->n_candidates = 0;
     }
-    s->near[s->n_near++] = cell[k];
+    s->candidates[s->n_candidates++] = cell[k];
   }
 }
 
-GG_INLINE void gg_shared_take(const gg_md *e, gg_search *s, const gg_members *in)
+GG_INLINE void gg_md_take_members(const gg_md *e, gg_md_search *s, const gg_md_members *in)
 {
   const uint32_t *cell = e->cells.cell;
   size_t stride = e->cells.stride;
-  if (__builtin_expect(!gg_has_room(e, 8), 0)) {
+  if (__builtin_expect(!gg_md_has_room(e, 8), 0)) {
     for (uint32_t which = in->which; which; which &= which - 1)
-      gg_take_crowded(e, s, cell + in->index[__builtin_ctz(which)] * stride);
+      gg_md_take_crowded(e, s, cell + in->index[__builtin_ctz(which)] * stride);
     return;
   }
-  uint32_t *end = s->near + s->n_near;
+  uint32_t *end = s->candidates + s->n_candidates;
   for (uint32_t which = in->which; which; which &= which - 1)
-    end = gg_append_large(end, cell + in->index[__builtin_ctz(which)] * stride);
-  s->n_near = (uint32_t)(end - s->near);
+    end = gg_md_append_large(end, cell + in->index[__builtin_ctz(which)] * stride);
+  s->n_candidates = (uint32_t)(end - s->candidates);
 }
 
 /* Where a grain that is to come into another cell will be: the axis of its step and its cell, of those that it is in
  * the one to count from. False: not known before. Each of the two ways has its own. */
-GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_node *node, int *axis, int32_t at[3]);
+GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_md_node *node, int *axis, int32_t at[3]);
 
 /* Of a grain that will come into another cell: that cell, or the grains in it. Else the partner. */
-GG_INLINE void gg_prefetch_entry(const gg_md *e, uint32_t i, bool members)
+GG_INLINE void gg_md_prefetch_entry(const gg_md *e, uint32_t i, bool members)
 {
-  const gg_node *node = &e->node[i];
-  const gg_cells *c = &e->cells;
+  const gg_md_node *node = &e->node[i];
+  const gg_md_cells *c = &e->cells;
   if (!(node->time < node->collision)) {
-    if (GG_NO_GRAIN(node->partner) || members) return;
+    if (GG_MD_NO_GRAIN(node->partner) || members) return;
     __builtin_prefetch(&e->grain[node->partner]);
     __builtin_prefetch(&e->node[node->partner]);
     return;
@@ -59,7 +60,7 @@ GG_INLINE void gg_prefetch_entry(const gg_md *e, uint32_t i, bool members)
   if (!up)
     at[axis]--;
   else
-    at[axis] = (both ? gg_cell_after(e, axis, at[axis]) : at[axis]) + 1;
+    at[axis] = (both ? gg_md_cell_after(e, axis, at[axis]) : at[axis]) + 1;
   const uint32_t *cell = c->cell + (size_t)(c->part[0][at[0]] + c->part[1][at[1]] + c->part[2][at[2]]) * c->stride;
   if (!members)
     __builtin_prefetch(cell);
@@ -70,12 +71,12 @@ GG_INLINE void gg_prefetch_entry(const gg_md *e, uint32_t i, bool members)
 GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)
 {
   (void)partner;
-  gg_prefetch_entry(e, i, false);
+  gg_md_prefetch_entry(e, i, false);
 }
 
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
 {
-  gg_prefetch_entry(e, i, true);
+  gg_md_prefetch_entry(e, i, true);
 }
 
 GG_INLINE void gg_md_shift_all(gg_md *e)

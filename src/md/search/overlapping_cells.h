@@ -5,15 +5,15 @@
 #include "md/search/overlapping.h"
 
 /* To the next cell along an axis; axis 3: nowhere. */
-typedef struct gg_step {
+typedef struct gg_md_step {
   int axis, up;
-} gg_step;
+} gg_md_step;
 
-/* gg_settle, and into the box along the axis of a step. The record is written as a whole: what is read of it soon after
- * would otherwise wait for its parts to arrive in the cache. */
-GG_INLINE gg_grain *gg_settle_step(gg_md *e, uint32_t i, gg_step step)
+/* gg_md_synchronise, and into the box along the axis of a step. The record is written as a whole: what is read of it
+ * soon after would otherwise wait for its parts to arrive in the cache. */
+GG_INLINE gg_md_grain *gg_md_synchronise_step(gg_md *e, uint32_t i, gg_md_step step)
 {
-  gg_grain *g = &e->grain[i];
+  gg_md_grain *g = &e->grain[i];
   gg_line *record = (gg_line *)g;
   gg_v8 old = *record;
   gg_axes r = gg_load_axes(&g->r.x) + (e->k.now - g->t) * gg_load_axes(&g->v.x);
@@ -29,18 +29,18 @@ GG_INLINE gg_grain *gg_settle_step(gg_md *e, uint32_t i, gg_step step)
 /* Out of the cells that the grain is beyond by now, and of those behind the step that it is about to make. `in` are
  * those that are left. Returns what node->cell and neighbours then are: nobody reads them by words before they are
  * written. */
-GG_INLINE gg_indices gg_shared_trim(gg_md *e, uint32_t i, gg_step step, gg_members *in)
+GG_INLINE gg_indices gg_md_leave_behind(gg_md *e, uint32_t i, gg_md_step step, gg_md_members *in)
 {
-  gg_node *node = &e->node[i];
-  gg_axes width = gg_load_axes(e->cells.width), depth = gg_depths(e, node, &e->grain[i].r);
+  gg_md_node *node = &e->node[i];
+  gg_axes width = gg_load_axes(e->cells.width), depth = gg_md_depths(e, node, &e->grain[i].r);
   double half = 0.5 * e->cells.reach;
   uint32_t both = node->neighbours, stepping = 1u << step.axis, rising = (uint32_t)step.up << step.axis;
   uint32_t above = ((gg_axes_bits(depth > width + half) & ~stepping) | rising) & both;
   uint32_t below = ((gg_axes_bits(depth < width - half) & ~stepping) | (stepping ^ rising)) & both;
-  gg_shared_cells(e, node, in);
+  gg_md_members_of(e, node, in);
   both &= ~(above | below);
-  uint32_t kept = gg_numbers_within(both) << above;
-  gg_shared_leave(e, i, in, in->which & ~kept);
+  uint32_t kept = gg_md_numbers_within(both) << above;
+  gg_md_members_leave(e, i, in, in->which & ~kept);
   in->which = kept;
   gg_indices cell = gg_load_indices(node->cell) - gg_indices_of(above);
   cell &= cell != gg_load_indices(e->cells.n);
@@ -48,18 +48,18 @@ GG_INLINE gg_indices gg_shared_trim(gg_md *e, uint32_t i, gg_step step, gg_membe
   return cell;
 }
 
-GG_INLINE void gg_store_cell(gg_node *node, gg_indices cell)
+GG_INLINE void gg_md_store_cell(gg_md_node *node, gg_indices cell)
 {
   *(gg_indices_there *)node->cell = cell;
 }
 
 /* When the grain comes into another cell, and along which axis, which way. */
-GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t *face)
+GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
-  const gg_node *node = &e->node[s->grain];
+  const gg_md_node *node = &e->node[s->grain];
   double half = 0.5 * e->cells.reach;
   gg_axes v = gg_load_axes(&s->self->v.x), width = gg_load_axes(e->cells.width);
-  gg_axes depth = gg_depths(e, node, &s->self->r), zero = {0}, never = {INFINITY, INFINITY, INFINITY, INFINITY};
+  gg_axes depth = gg_md_depths(e, node, &s->self->r), zero = {0}, never = {INFINITY, INFINITY, INFINITY, INFINITY};
   gg_axes upwards = gg_choose_axes(gg_axes_of(node->neighbours), 2 * width, width) - half - depth;
   gg_axes way = gg_choose_axes(v > 0, upwards, depth - half);
   gg_axes delay = way / (gg_axes)((gg_axes_mask)v & INT64_MAX);
@@ -72,20 +72,20 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t
 }
 
 /* All who share a cell with the grain, after it has been taken out of cells that it has left. */
-GG_INLINE void gg_md_search_all(gg_md *e, gg_search *s)
+GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
 {
-  gg_members in;
-  gg_store_cell(&e->node[s->grain], gg_shared_trim(e, s->grain, (gg_step){3, 0}, &in));
-  gg_shared_take(e, s, &in);
-  gg_scan_near(e, s);
+  gg_md_members in;
+  gg_md_store_cell(&e->node[s->grain], gg_md_leave_behind(e, s->grain, (gg_md_step){3, 0}, &in));
+  gg_md_take_members(e, s, &in);
+  gg_md_try_candidates(e, s);
 }
 
 /* Into the next cell along an axis: those who are there. */
-GG_INLINE bool gg_shared_cross(gg_md *e, gg_search *s, gg_step step)
+GG_INLINE bool gg_md_enter_next(gg_md *e, gg_md_search *s, gg_md_step step)
 {
-  gg_node *node = &e->node[s->grain];
-  gg_members in;
-  gg_indices cell = gg_shared_trim(e, s->grain, step, &in);
+  gg_md_node *node = &e->node[s->grain];
+  gg_md_members in;
+  gg_indices cell = gg_md_leave_behind(e, s->grain, step, &in);
   int32_t at[4];
   memcpy(at, &cell, sizeof at);
   const uint32_t *part = e->cells.part[step.axis] + at[step.axis];
@@ -94,24 +94,24 @@ GG_INLINE bool gg_shared_cross(gg_md *e, gg_search *s, gg_step step)
   if (!step.up) cell += gg_indices_of(1u << step.axis); /* each is -1 */
   cell += gg_load_indices(e->cells.n) & (cell < 0);
   cell[3] |= 1 << step.axis;
-  gg_store_cell(node, cell);
-  gg_shared_take(e, s, &in);
-  return gg_shared_enter(e, s->grain, &in);
+  gg_md_store_cell(node, cell);
+  gg_md_take_members(e, s, &in);
+  return gg_md_members_enter(e, s->grain, &in);
 }
 
 /* Into another cell that overlaps with those that the grain is in. */
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 {
-  const gg_node *node = &e->node[i];
-  gg_search s = {.near = e->near};
-  gg_step step = {node->face >> 1, node->face & 1};
-  gg_begin_search(&s, i, gg_settle_step(e, i, step), node->collision, node->partner);
-  gg_md_check_memory(e, gg_shared_cross(e, &s, step));
-  gg_scan_near(e, &s);
+  const gg_md_node *node = &e->node[i];
+  gg_md_search s = {.candidates = e->candidates};
+  gg_md_step step = {node->face >> 1, node->face & 1};
+  gg_md_begin_search(&s, i, gg_md_synchronise_step(e, i, step), node->collision, node->partner);
+  gg_md_check_memory(e, gg_md_enter_next(e, &s, step));
+  gg_md_try_candidates(e, &s);
   gg_md_schedule(e, &s);
 }
 
-GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_node *node, int *axis, int32_t at[3])
+GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_md_node *node, int *axis, int32_t at[3])
 {
   (void)e, (void)node, (void)axis, (void)at;
   return true;
@@ -120,8 +120,8 @@ GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_node *node, int *axis, int
 /* Should the cache hold it all: from its outer level into the inner. */
 GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i)
 {
-  const gg_node *node = &e->node[i];
-  const gg_cells *c = &e->cells;
+  const gg_md_node *node = &e->node[i];
+  const gg_md_cells *c = &e->cells;
   const int32_t *at = node->cell;
   __builtin_prefetch(&e->grain[i]);
   int axis = node->face >> 1, step = 2 * (node->face & 1) - 1;

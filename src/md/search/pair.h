@@ -5,30 +5,30 @@
 #include "md/search/search.h"
 
 /* The contact with grain j, which is separated by dr and dv. */
-GG_INLINE void gg_try_separated(const gg_md *e, gg_search *s, uint32_t j, gg_vec dr, gg_vec dv)
+GG_INLINE void gg_md_try_separated(const gg_md *e, gg_md_search *s, uint32_t j, gg_vec dr, gg_vec dv)
 {
-  double sigma = e->model.sigma[IS_MIXTURE ? 2 * gg_species_of(s->self) + gg_species_of(&e->grain[j]) : 0];
-  double t = e->k.now + gg_contact_delay(dr, dv, sigma * sigma);
-  gg_take_contact(s, t, j);
+  double sigma = e->model.sigma[IS_MIXTURE ? 2 * gg_md_species_of(s->self) + gg_md_species_of(&e->grain[j]) : 0];
+  double t = e->k.now + gg_md_contact_delay(dr, dv, sigma * sigma);
+  gg_md_take_contact(s, t, j);
 }
 
-/* The same with an image shifted by `shift`, sliding by `slide`. */
-GG_INLINE void gg_try_pair(const gg_md *e, gg_search *s, uint32_t j, gg_vec shift, double slide)
+/* The same with an image shifted by `shift`, moving at `image_velocity`. */
+GG_INLINE void gg_md_try_pair(const gg_md *e, gg_md_search *s, uint32_t j, gg_vec shift, double image_velocity)
 {
-  const gg_grain *one = s->self, *two = &e->grain[j];
-  gg_vec dr = gg_add(gg_sub(gg_position(e, HAS_GRAVITY, two, e->k.now), one->r), shift);
-  gg_vec dv = gg_sub(gg_velocity(e, HAS_GRAVITY, two, e->k.now), one->v);
-  if (IS_SHEARED) dv.x += slide;
-  gg_try_separated(e, s, j, dr, dv);
+  const gg_md_grain *one = s->self, *two = &e->grain[j];
+  gg_vec dr = gg_add(gg_sub(gg_md_position(e, HAS_GRAVITY, two, e->k.now), one->r), shift);
+  gg_vec dv = gg_sub(gg_md_velocity(e, HAS_GRAVITY, two, e->k.now), one->v);
+  if (IS_SHEARED) dv.x += image_velocity;
+  gg_md_try_separated(e, s, j, dr, dv);
 }
 
-GG_INLINE void gg_try_nearest(const gg_md *e, gg_search *s, uint32_t j)
+GG_INLINE void gg_md_try_nearest(const gg_md *e, gg_md_search *s, uint32_t j)
 {
-  const gg_grain *one = s->self, *two = &e->grain[j];
-  gg_vec dr = gg_sub(gg_position(e, HAS_GRAVITY, two, e->k.now), one->r);
-  gg_vec dv = gg_sub(gg_velocity(e, HAS_GRAVITY, two, e->k.now), one->v);
-  gg_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
-  gg_try_separated(e, s, j, dr, dv);
+  const gg_md_grain *one = s->self, *two = &e->grain[j];
+  gg_vec dr = gg_sub(gg_md_position(e, HAS_GRAVITY, two, e->k.now), one->r);
+  gg_vec dv = gg_sub(gg_md_velocity(e, HAS_GRAVITY, two, e->k.now), one->v);
+  gg_md_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
+  gg_md_try_separated(e, s, j, dr, dv);
 }
 
 #endif

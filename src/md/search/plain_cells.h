@@ -4,8 +4,8 @@
  * and grains that meet several images of one partner need no special case.
  *
  * Rows across a sheared boundary, of cells at rest in small boxes (else: rows.h): the image row of cells stands at any
- * offset and slides. The grain looks at all of it that can come within reach of its cell until a time `valid`, and
- * looks anew then. What makes incremental scans right: at every scan a grain looks at the whole window of each sliding
+ * offset and moves. The grain looks at all of it that can come within reach of its cell until a time `valid`, and
+ * looks anew then. What makes incremental scans right: at every scan a grain looks at the whole window of each moving
  * row, and otherwise neighbourhoods are symmetric. */
 #ifndef GG_MD_SEARCH_PLAIN_CELLS_H
 #define GG_MD_SEARCH_PLAIN_CELLS_H
@@ -20,41 +20,41 @@ enum { ROWS_SHIFT = false, ROWS_MOVE = false, KNOWS_IMAGES = true, FEW_MEET = fa
 #include "md/search/simd_pairs.h"
 #include "md/search/way.h"
 
-/* Cells from..to (unwrapped) of row (y, z): images shifted by `shift`, sliding by `slide`. */
-GG_INLINE void gg_scan_row(const gg_md *e, gg_search *s, int32_t from, int32_t to, int32_t y, int32_t z, gg_vec shift,
-                           double slide)
+/* Cells from..to (unwrapped) of row (y, z): images shifted by `shift`, moving at `image_velocity`. */
+GG_INLINE void gg_md_scan_row(const gg_md *e, gg_md_search *s, int32_t from, int32_t to, int32_t y, int32_t z,
+                              gg_vec shift, double image_velocity)
 {
-  const gg_cells *c = &e->cells;
-  const uint32_t *row = gg_cell_at(c, (int32_t[3]){0, y, z});
+  const gg_md_cells *c = &e->cells;
+  const uint32_t *row = gg_md_cell_at(c, (int32_t[3]){0, y, z});
   for (int32_t k = from; k <= to; k++) {
     int32_t x = k;
     gg_vec here = shift;
     while (x < 0) x += c->n[0], here.x -= e->box.edge[0];
     while (x >= c->n[0]) x -= c->n[0], here.x += e->box.edge[0];
     const uint32_t *cell = row + (size_t)x * c->stride;
-    if (IS_SIMD && gg_take_cell(s, cell)) continue;
+    if (IS_SIMD && gg_md_take_cell(s, cell)) continue;
     for (uint32_t m = 1; m <= cell[0]; m++)
-      if (cell[m] != s->grain) gg_try_pair(e, s, cell[m], here, slide);
+      if (cell[m] != s->grain) gg_md_try_pair(e, s, cell[m], here, image_velocity);
   }
 }
 
 /* Cells from..to (unwrapped) of the row at (y, z), unless it lies across the sheared boundary. */
-GG_INLINE void gg_scan_plain_row(const gg_md *e, gg_search *s, int32_t from, int32_t to, int32_t y, int32_t z)
+GG_INLINE void gg_md_scan_plain_row(const gg_md *e, gg_md_search *s, int32_t from, int32_t to, int32_t y, int32_t z)
 {
   gg_vec shift = {0, 0, 0};
   if (IS_WALLED && (y < 0 || y >= e->cells.n[1])) return;
-  int32_t iy = gg_image_cell(e, 1, y, &shift.y);
+  int32_t iy = gg_md_image_cell(e, 1, y, &shift.y);
   if (IS_SHEARED && shift.y != 0) return;
-  int32_t iz = gg_image_cell(e, 2, z, &shift.z);
-  gg_scan_row(e, s, from, to, iy, iz, shift, 0);
+  int32_t iz = gg_md_image_cell(e, 2, z, &shift.z);
+  gg_md_scan_row(e, s, from, to, iy, iz, shift, 0);
 }
 
-/* The sliding row above (side = 1) or below (-1): cell k of it now covers x from k w + D to (k+1) w + D. */
-GG_INLINE void gg_scan_sliding(const gg_md *e, gg_search *s, int side)
+/* The moving row above (side = 1) or below (-1): cell k of it now covers x from k w + D to (k+1) w + D. */
+GG_INLINE void gg_md_scan_moving_row(const gg_md *e, gg_md_search *s, int side)
 {
-  const gg_cells *c = &e->cells;
-  const gg_node *node = &e->node[s->grain];
-  double w = c->width[0], D = side * gg_offset(&e->box, e->k.now);
+  const gg_md_cells *c = &e->cells;
+  const gg_md_node *node = &e->node[s->grain];
+  double w = c->width[0], D = side * gg_md_offset(&e->box, e->k.now);
   double left = node->cell[0] * w - c->reach, right = (node->cell[0] + 1) * w + c->reach;
   int32_t from = (int32_t)gg_floor((left - D) / w), to = (int32_t)gg_floor((right - D) / w);
   if (side > 0)
@@ -62,26 +62,26 @@ GG_INLINE void gg_scan_sliding(const gg_md *e, gg_search *s, int side)
   else
     to++;
   double room = side > 0 ? left - (from * w + D) : (to + 1) * w + D - right;
-  double valid = e->k.now + room / e->box.slide;
+  double valid = e->k.now + room / e->box.image_velocity;
   if (valid < s->valid) s->valid = valid;
   for (int32_t z = node->cell[2] - 1; z <= node->cell[2] + 1; z++) {
     gg_vec shift = {D, side * e->box.edge[1], 0};
-    int32_t iz = gg_image_cell(e, 2, z, &shift.z);
-    gg_scan_row(e, s, from, to, side > 0 ? 0 : c->n[1] - 1, iz, shift, side * e->box.slide);
+    int32_t iz = gg_md_image_cell(e, 2, z, &shift.z);
+    gg_md_scan_row(e, s, from, to, side > 0 ? 0 : c->n[1] - 1, iz, shift, side * e->box.image_velocity);
   }
 }
 
-GG_INLINE void gg_scan_sliding_rows(const gg_md *e, gg_search *s)
+GG_INLINE void gg_md_scan_moving_rows(const gg_md *e, gg_md_search *s)
 {
   s->valid = INFINITY;
   if (!IS_SHEARED) return;
   int32_t y = e->node[s->grain].cell[1];
-  if (y == e->cells.n[1] - 1) gg_scan_sliding(e, s, 1);
-  if (y == 0) gg_scan_sliding(e, s, -1);
+  if (y == e->cells.n[1] - 1) gg_md_scan_moving_row(e, s, 1);
+  if (y == 0) gg_md_scan_moving_row(e, s, -1);
 }
 
 /* Is no cell around in another image of the box? */
-GG_INLINE bool gg_is_inside(const gg_md *e, const int32_t at[3])
+GG_INLINE bool gg_md_is_inside(const gg_md *e, const int32_t at[3])
 {
   const int32_t *n = e->cells.n;
   return ((uint32_t)(at[0] - 1) < (uint32_t)(n[0] - 2)) & ((uint32_t)(at[1] - 1) < (uint32_t)(n[1] - 2)) &
@@ -89,98 +89,98 @@ GG_INLINE bool gg_is_inside(const gg_md *e, const int32_t at[3])
 }
 
 /* The cells from `from` to `to` relative to `at`, where no wall stands. All that does not change is
- * in local variables: to the compiler, what goes into `near` might overwrite the rest. */
-GG_INLINE void gg_take_rows(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3],
-                            bool small)
+ * in local variables: to the compiler, what goes into `candidates` might overwrite the rest. */
+GG_INLINE void gg_md_take_rows(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3],
+                               bool small)
 {
-  const gg_cells *c = &e->cells;
+  const gg_md_cells *c = &e->cells;
   const uint32_t *x = c->part[0] + at[0], *y = c->part[1] + at[1], *z = c->part[2] + at[2];
   const uint32_t *row[3][3];
   size_t stride = c->stride, step[3];
   for (int k = from[0]; k <= to[0]; k++) step[k + 1] = x[k] * stride;
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++) row[m + 1][l + 1] = c->cell + (size_t)(z[m] + y[l]) * stride;
-  uint32_t n = s->n_near;
+  uint32_t n = s->n_candidates;
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++)
       for (int k = from[0]; k <= to[0]; k++) {
         const uint32_t *cell = row[m + 1][l + 1] + step[k + 1];
-        n = small ? gg_append_small(s->near, n, cell) : gg_append_cell(s->near, n, cell);
+        n = small ? gg_md_append_small(s->candidates, n, cell) : gg_md_append_cell(s->candidates, n, cell);
       }
-  s->n_near = n;
+  s->n_candidates = n;
 }
 
-/* Those of them that are in the box, in wide kernels; false: there may be no room for all. */
-GG_INLINE bool gg_take_box(const gg_md *e, gg_search *s, const int32_t at[3], const int from[3], const int to[3])
+/* Those of them that are in the box, in SIMD kernels; false: there may be no room for all. */
+GG_INLINE bool gg_md_take_box(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3])
 {
-  if (!IS_SIMD || !gg_has_room(e, 27)) return false;
+  if (!IS_SIMD || !gg_md_has_room(e, 27)) return false;
   bool lowest = IS_WALLED & (at[1] == 0), highest = IS_WALLED & (at[1] == e->cells.n[1] - 1);
   int lower[3] = {from[0], lowest && from[1] < 0 ? 0 : from[1], from[2]};
   int upper[3] = {to[0], highest && to[1] > 0 ? 0 : to[1], to[2]};
   if (e->cells.stride == 8)
-    gg_take_rows(e, s, at, lower, upper, true);
+    gg_md_take_rows(e, s, at, lower, upper, true);
   else
-    gg_take_rows(e, s, at, lower, upper, false);
-  s->inside = gg_is_inside(e, at);
+    gg_md_take_rows(e, s, at, lower, upper, false);
+  s->inside = gg_md_is_inside(e, at);
   return true;
 }
 
-/* The cells from `from` to `to`, and what slides past. */
-GG_INLINE void gg_scan_cells(const gg_md *e, gg_search *s, const int from[3], const int to[3])
+/* The cells from `from` to `to`, and the moving rows. */
+GG_INLINE void gg_md_scan_cells(const gg_md *e, gg_md_search *s, const int from[3], const int to[3])
 {
   const int32_t *at = e->node[s->grain].cell;
-  if (!gg_take_box(e, s, at, from, to))
+  if (!gg_md_take_box(e, s, at, from, to))
     for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
       for (int32_t y = at[1] + from[1]; y <= at[1] + to[1]; y++)
-        gg_scan_plain_row(e, s, at[0] + from[0], at[0] + to[0], y, z);
-  gg_scan_sliding_rows(e, s);
+        gg_md_scan_plain_row(e, s, at[0] + from[0], at[0] + to[0], y, z);
+  gg_md_scan_moving_rows(e, s);
 }
 
 /* All 27 cells. */
-GG_INLINE void gg_md_search_all(gg_md *e, gg_search *s)
+GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
 {
-  gg_scan_cells(e, s, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
-  if (IS_SIMD) gg_scan_near(e, s);
+  gg_md_scan_cells(e, s, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
+  if (IS_SIMD) gg_md_try_candidates(e, s);
 }
 
 /* The nine cells that came within reach by crossing a face. */
-GG_INLINE void gg_scan_ahead(const gg_md *e, gg_search *s, int axis, int32_t step)
+GG_INLINE void gg_md_scan_ahead(const gg_md *e, gg_md_search *s, int axis, int32_t step)
 {
   int from[3] = {-1, -1, -1}, to[3] = {1, 1, 1};
   from[axis] = to[axis] = step;
-  gg_scan_cells(e, s, from, to);
+  gg_md_scan_cells(e, s, from, to);
 }
 
-GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t *face)
+GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
-  double first = HAS_GRAVITY ? gg_first_fall_out(e, s, face)
-                             : gg_first_exit(e, e->node[s->grain].cell, gg_load_axes(&s->self->r.x),
-                                             gg_load_axes(&s->self->v.x), face);
+  double first = HAS_GRAVITY ? gg_md_first_fall_out(e, s, face)
+                             : gg_md_first_exit(e, e->node[s->grain].cell, gg_load_axes(&s->self->r.x),
+                                                gg_load_axes(&s->self->v.x), face);
   double t = e->k.now + first;
-  if (IS_SHEARED && s->valid < t) t = s->valid, *face = GG_SLIDE;
+  if (IS_SHEARED && s->valid < t) t = s->valid, *face = GG_MD_IMAGES_MOVED;
   return t;
 }
 
 /* Through the sheared boundary: the image that takes the grain's place has another velocity and cell. */
-GG_INLINE void gg_cross_sheared(gg_md *e, gg_grain *g, gg_node *node, int side)
+GG_INLINE void gg_md_cross_sheared(gg_md *e, gg_md_grain *g, gg_md_node *node, int side)
 {
-  g->r.x = gg_wrap(g->r.x - side * gg_offset(&e->box, e->k.now), e->box.edge[0], e->box.inverse[0]);
-  g->v.x -= side * e->box.slide;
+  g->r.x = gg_wrap(g->r.x - side * gg_md_offset(&e->box, e->k.now), e->box.edge[0], e->box.inverse[0]);
+  g->v.x -= side * e->box.image_velocity;
   int32_t x = (int32_t)(g->r.x * e->cells.inverse[0]);
   node->cell[0] = x < e->cells.n[0] ? x : e->cells.n[0] - 1;
 }
 
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 {
-  gg_node *node = &e->node[i];
-  gg_search s = {.near = e->near};
-  gg_begin_search(&s, i, gg_settle(e, i), node->collision, node->partner);
-  if (IS_SHEARED && node->face == GG_SLIDE) {
-    gg_scan_sliding_rows(e, &s);
+  gg_md_node *node = &e->node[i];
+  gg_md_search s = {.candidates = e->candidates};
+  gg_md_begin_search(&s, i, gg_md_synchronise(e, i), node->collision, node->partner);
+  if (IS_SHEARED && node->face == GG_MD_IMAGES_MOVED) {
+    gg_md_scan_moving_rows(e, &s);
     gg_md_schedule(e, &s);
     return;
   }
-  gg_grain *g = &e->grain[i];
+  gg_md_grain *g = &e->grain[i];
   int axis = node->face >> 1, step = node->face & 1 ? 1 : -1;
   gg_md_leave_cell(e, i);
   int32_t at = node->cell[axis] + step, n = e->cells.n[axis];
@@ -189,15 +189,15 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
   if (side) {
     *gg_component(&g->r, axis) -= side * e->box.edge[axis];
     if (IS_SHEARED && axis == 1) {
-      gg_cross_sheared(e, g, node, side);
+      gg_md_cross_sheared(e, g, node, side);
       gg_md_enter_cell(e, i);
       gg_md_predict(e, i);
       return;
     }
   }
   gg_md_enter_cell(e, i);
-  gg_scan_ahead(e, &s, axis, step);
-  if (IS_SIMD) gg_scan_near(e, &s);
+  gg_md_scan_ahead(e, &s, axis, step);
+  if (IS_SIMD) gg_md_try_candidates(e, &s);
   gg_md_schedule(e, &s);
 }
 
@@ -209,7 +209,7 @@ GG_INLINE void gg_md_shift_all(gg_md *e)
 GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)
 {
   (void)i;
-  if (GG_NO_GRAIN(partner)) return;
+  if (GG_MD_NO_GRAIN(partner)) return;
   __builtin_prefetch(&e->grain[partner]);
   __builtin_prefetch(&e->node[partner]);
 }
@@ -225,7 +225,7 @@ GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
 {
   if (e->n <= 40000) return;
   const int32_t *at = e->node[i].cell;
-  const gg_cells *c = &e->cells;
+  const gg_md_cells *c = &e->cells;
   const uint32_t *x = c->part[0] + at[0], *y = c->part[1] + at[1], *z = c->part[2] + at[2];
   for (int m = -1; m <= 1; m++)
     for (int l = -1; l <= 1; l++) {

@@ -9,7 +9,7 @@
 typedef enum gg_md_images {
   GG_MD_SAME,    /* in the same image of the box; in rows that move, but for images along x */
   GG_MD_AT_REST, /* any image, none of which has moved */
-  GG_MD_SLIDING  /* across the sheared boundary: images move by the offset and have another velocity */
+  GG_MD_MOVING   /* across the sheared boundary: images move by the offset and have another velocity */
 } gg_md_images;
 
 /* What a pointer points at is loaded where it is used: a constant kept in all lanes of a register would only push out
@@ -17,15 +17,15 @@ typedef enum gg_md_images {
 #define GG_RELOAD(pointer) __asm__("" : "+r"(pointer))
 
 /* Eight grains of a list against s->self, images accounted for. */
-GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, const gg_search *s, const uint32_t *list, gg_md_images images,
-                                    double offset)
+GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s, const uint32_t *list,
+                                          gg_md_images images, double offset)
 {
-  const gg_grain *g = s->self;
+  const gg_md_grain *g = s->self;
   const double *L = e->box.edge, *inverse = e->box.inverse, *sigma2 = e->contacts.sigma2;
   GG_RELOAD(L);
   GG_RELOAD(inverse);
   GG_RELOAD(sigma2);
-  gg_batch b = gg_gather(e->grain, list);
+  gg_md_batch b = gg_md_gather(e->grain, list);
   gg_v8 dt = e->k.now - b.t;
   gg_v8 x = b.x + dt * b.vx - g->r.x, y = b.y + dt * b.vy - g->r.y, z = b.z + dt * b.vz - g->r.z;
   gg_v8 vx = b.vx - g->v.x, vy = b.vy - g->v.y, vz = b.vz - g->v.z;
@@ -35,14 +35,14 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, const gg_search *s, const ui
     y = (b.y + dt * b.vy + half * e->gravity.y) - g->r.y, vy = (b.vy + dt * e->gravity.y) - g->v.y;
     z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
   }
-  if (ROWS_MOVE && images != GG_MD_SLIDING) { /* apart by several edges, perhaps: not exact if fused */
+  if (ROWS_MOVE && images != GG_MD_MOVING) { /* apart by several edges, perhaps: not exact if fused */
     x -= L[0] * gg_nearest8(x * inverse[0]);
-  } else if (images == GG_MD_SLIDING) {
+  } else if (images == GG_MD_MOVING) {
     gg_v8 layers = gg_nearest8(y * inverse[1]);
     y -= L[1] * layers;
     x -= layers * offset;
     x -= L[0] * gg_nearest8(x * inverse[0]);
-    vx -= layers * e->box.slide;
+    vx -= layers * e->box.image_velocity;
   } else if (images == GG_MD_AT_REST) {
     x = gg_fold8(x, L[0], inverse[0]);
   }
@@ -50,26 +50,26 @@ GG_INLINE gg_quadratic gg_try_batch(const gg_md *e, const gg_search *s, const ui
   if (images != GG_MD_SAME) z = gg_fold8(z, L[2], inverse[2]);
   gg_v8 touch2 = gg_all(sigma2[0]);
   if (IS_MIXTURE) {
-    int species = gg_species_of(g);
+    int species = gg_md_species_of(g);
     double s0 = sigma2[2 * species], s1 = sigma2[2 * species + 1];
     touch2 = gg_choose(gg_odd8(b.tag), gg_all(s1), gg_all(s0));
   }
-  return gg_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
+  return gg_md_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
 }
 
 /* Exact times of a batch. */
-GG_INLINE void gg_take_batch(const gg_md *e, gg_search *s, gg_quadratic q, gg_m8 who)
+GG_INLINE void gg_md_take_exact_batch(const gg_md *e, gg_md_search *s, gg_md_quadratic q, gg_m8 who)
 {
   int64_t partner;
-  double t = gg_earliest8(e->k.now + gg_contact_delay8(q), who, &partner);
-  gg_take_contact(s, t, partner);
+  double t = gg_earliest8(e->k.now + gg_md_contact_delay8(q), who, &partner);
+  gg_md_take_contact(s, t, partner);
 }
 
 /* The exact time of one lane, which is with `who`. */
-GG_INLINE void gg_take_lane(const gg_md *e, gg_search *s, const gg_quadratic *q, uint32_t lane, uint32_t who)
+GG_INLINE void gg_md_take_lane(const gg_md *e, gg_md_search *s, const gg_md_quadratic *q, uint32_t lane, uint32_t who)
 {
   double delay = q->c[lane] / (sqrt(q->discriminant[lane]) - q->b[lane]);
-  gg_take_contact(s, e->k.now + (delay > 0 ? delay : 0), who);
+  gg_md_take_contact(s, e->k.now + (delay > 0 ? delay : 0), who);
 }
 
 GG_INLINE gg_m8 gg_who8(const uint32_t *list)
@@ -79,14 +79,14 @@ GG_INLINE gg_m8 gg_who8(const uint32_t *list)
 
 /* Of several batches, by lane: how soon the earliest contact is, labelled by where it stands in the list, and the
  * second; and the first one's quadratic. */
-typedef struct gg_foremost {
+typedef struct gg_md_foremost {
   gg_v8 soonest, second;
-  gg_quadratic q;
-} gg_foremost;
+  gg_md_quadratic q;
+} gg_md_foremost;
 
-GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, gg_m8 place)
+GG_INLINE void gg_md_compare_batch(gg_md_foremost *best, gg_md_quadratic q, gg_m8 place)
 {
-  gg_v8 soon = gg_label8(gg_how_soon8(q), place);
+  gg_v8 soon = gg_label8(gg_md_how_soon8(q), place);
   gg_k8 sooner = gg_less8(best->soonest, soon);
   best->second = gg_larger8(best->second, gg_smaller8(soon, best->soonest));
   best->soonest = gg_larger8(soon, best->soonest);
@@ -97,41 +97,42 @@ GG_INLINE void gg_compare_batch(gg_foremost *best, gg_quadratic q, gg_m8 place)
 
 /* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place.
  * Which it is, is seen from about when the contacts are; where that leaves doubt, all are worked out. */
-GG_INLINE void gg_scan_batches(const gg_md *e, gg_search *s, const uint32_t *list, uint32_t count, gg_md_images images)
+GG_INLINE void gg_md_try_list(const gg_md *e, gg_md_search *s, const uint32_t *list, uint32_t count,
+                              gg_md_images images)
 {
-  double offset = images == GG_MD_SLIDING ? gg_offset(&e->box, e->k.now) : 0;
+  double offset = images == GG_MD_MOVING ? gg_md_offset(&e->box, e->k.now) : 0;
   gg_v8 never = gg_all(0);
-  gg_foremost best = {never, never, {never, never, never}};
+  gg_md_foremost best = {never, never, {never, never, never}};
   gg_m8 place = {0, 1, 2, 3, 4, 5, 6, 7};
   for (uint32_t k = 0; k < count; k += GG_BATCH, place += GG_BATCH) {
-    gg_quadratic q = gg_try_batch(e, s, list + k, images, offset);
-    if (FEW_MEET && !gg_any8(gg_meets8(q))) continue;
-    gg_compare_batch(&best, q, place);
+    gg_md_quadratic q = gg_md_try_batch(e, s, list + k, images, offset);
+    if (FEW_MEET && !gg_any8(gg_md_meets8(q))) continue;
+    gg_md_compare_batch(&best, q, place);
   }
   gg_v8 first = gg_greatest8(best.soonest);
-  if (!(first[0] >= GG_SOON_AT_ALL)) return;
+  if (!(first[0] >= GG_MD_SOON_AT_ALL)) return;
   uint32_t at = gg_label_of(first[0]), lane = at % GG_BATCH;
-  gg_v8 limit = (1 - 4 * GG_ABOUT) * first;
+  gg_v8 limit = (1 - 4 * GG_MD_ABOUT) * first;
   uint32_t lanes = gg_lanes8(gg_not_above8(limit, best.soonest));
-  bool alone = !(lanes & (lanes - 1)) && first[0] < GG_AT_ONCE;
+  bool alone = !(lanes & (lanes - 1)) && first[0] < GG_MD_AT_ONCE;
   if (__builtin_expect(alone && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
-    gg_take_lane(e, s, &best.q, lane, list[at]);
+    gg_md_take_lane(e, s, &best.q, lane, list[at]);
     return;
   }
   for (uint32_t k = 0; k < count; k += GG_BATCH)
-    gg_take_batch(e, s, gg_try_batch(e, s, list + k, images, offset), gg_who8(list + k));
+    gg_md_take_exact_batch(e, s, gg_md_try_batch(e, s, list + k, images, offset), gg_who8(list + k));
 }
 
 /* Those that cells were searched for. */
-GG_INLINE void gg_scan_near(const gg_md *e, gg_search *s)
+GG_INLINE void gg_md_try_candidates(const gg_md *e, gg_md_search *s)
 {
-  for (int l = 0; l < GG_BATCH; l++) s->near[s->n_near + (uint32_t)l] = e->n;
+  for (int l = 0; l < GG_BATCH; l++) s->candidates[s->n_candidates + (uint32_t)l] = e->n;
   if (KNOWS_IMAGES && s->inside)
-    gg_scan_batches(e, s, s->near, s->n_near, GG_MD_SAME);
+    gg_md_try_list(e, s, s->candidates, s->n_candidates, GG_MD_SAME);
   else if (!IS_SHEARED || (ROWS_MOVE && s->regular))
-    gg_scan_batches(e, s, s->near, s->n_near, GG_MD_AT_REST);
+    gg_md_try_list(e, s, s->candidates, s->n_candidates, GG_MD_AT_REST);
   else
-    gg_scan_batches(e, s, s->near, s->n_near, GG_MD_SLIDING);
+    gg_md_try_list(e, s, s->candidates, s->n_candidates, GG_MD_MOVING);
 }
 
 #endif

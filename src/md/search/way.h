@@ -11,9 +11,9 @@
 #include "md/search/search.h"
 
 /* All that the grain can meet from where it is. */
-GG_INLINE void gg_md_search_all(gg_md *e, gg_search *s);
+GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s);
 /* When it next comes into another cell, or out of the skin of its list; and node->face: where. */
-GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_search *s, int32_t *face);
+GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face);
 /* It does so now. */
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i);
 /* Rows shift by a cell: everybody looks at what comes within reach. */
@@ -26,7 +26,7 @@ GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i);
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i);
 
 /* event_loop.h: the search is over, and what it found goes into the calendar; and a search from scratch with that. */
-GG_INLINE void gg_md_schedule(gg_md *e, gg_search *s);
+GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s);
 static void gg_md_predict(gg_md *e, uint32_t i);
 
 /* A cell could not grow: the run is over. */
@@ -39,13 +39,13 @@ GG_INLINE void gg_md_check_memory(gg_md *e, bool good)
 
 GG_INLINE void gg_md_leave_cell(gg_md *e, uint32_t i)
 {
-  gg_cell_remove(gg_cell_at(&e->cells, e->node[i].cell), i);
+  gg_md_cell_remove(gg_md_cell_at(&e->cells, e->node[i].cell), i);
 }
 
 GG_INLINE void gg_md_enter_cell(gg_md *e, uint32_t i)
 {
-  while (!gg_cell_add(&e->cells, e->node[i].cell, i))
-    if (!gg_cells_grow(&e->cells)) {
+  while (!gg_md_cell_add(&e->cells, e->node[i].cell, i))
+    if (!gg_md_cells_grow(&e->cells)) {
       gg_md_check_memory(e, false);
       return;
     }

@@ -1,12 +1,12 @@
 /* Centres on a face-centred lattice stretched to the box, some sites left empty at random. */
 #include <math.h>
 
-#include "md/place.h"
+#include "md/start/place.h"
 
 static const double basis[4][3] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
 
 /* Distance of the nearest sites with m[] cubes along the edges. */
-static double spacing(const gg_box *box, const uint32_t m[3])
+static double spacing(const gg_md_box *box, const uint32_t m[3])
 {
   double a[3], nearest = INFINITY;
   for (int k = 0; k < 3; k++) a[k] = box->edge[k] / m[k];
@@ -18,7 +18,7 @@ static double spacing(const gg_box *box, const uint32_t m[3])
 }
 
 /* The numbers of cubes that leave the sites farthest apart. */
-static void choose_cubes(const gg_box *box, uint32_t n, uint32_t best[3])
+static void choose_cubes(const gg_md_box *box, uint32_t n, uint32_t best[3])
 {
   double widest = 0, edge = cbrt(4 * box->edge[0] * box->edge[1] * box->edge[2] / n);
   uint32_t most[3];
@@ -31,7 +31,7 @@ static void choose_cubes(const gg_box *box, uint32_t n, uint32_t best[3])
     }
 }
 
-void gg_place_lattice(const gg_box *box, uint32_t n, gg_rng *rng, gg_vec *r)
+void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *r)
 {
   uint32_t m[3] = {1, 1, 1}, placed = 0, seen = 0;
   choose_cubes(box, n, m);

@@ -21,20 +21,20 @@ static gg_status allocate(gg_md *e, gg_error *err)
   e->grain = gg_md_new_lines((size_t)e->n + 1, sizeof *e->grain, err);
   e->node = gg_md_new_lines(e->n, sizeof *e->node, err);
   e->id = gg_new_array(e->n, sizeof *e->id, err);
-  e->near = gg_md_new_pages(2 * GG_NEAR_APART, sizeof *e->near, err);
-  if (!e->grain || !e->node || !e->id || !e->near) return GG_FAILED;
+  e->candidates = gg_md_new_pages(2 * GG_MD_CANDIDATES_APART, sizeof *e->candidates, err);
+  if (!e->grain || !e->node || !e->id || !e->candidates) return GG_FAILED;
   e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
   if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
   if (m->contact_time > 0) GG_TRY(gg_md_allocate_last(e, err));
-  return gg_queue_make(&e->queue, e->n, err);
+  return gg_md_queue_make(&e->queue, e->n, err);
 }
 
 gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
 {
-  e->shell = gg_md_new_lines((size_t)e->n + 1, sizeof *e->shell, err);
-  e->neighbour = gg_md_new_lines(e->n, GG_LIST * sizeof *e->neighbour, err);
-  if (!e->shell || !e->neighbour) return GG_FAILED;
-  e->shell[e->n].centre = (gg_vec){NAN, NAN, NAN};
+  e->skin = gg_md_new_lines((size_t)e->n + 1, sizeof *e->skin, err);
+  e->neighbour = gg_md_new_lines(e->n, GG_MD_LIST * sizeof *e->neighbour, err);
+  if (!e->skin || !e->neighbour) return GG_FAILED;
+  e->skin[e->n].centre = (gg_vec){NAN, NAN, NAN};
   return GG_OK;
 }
 
@@ -45,13 +45,13 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   if (!e) return GG_FAILED;
   e->base.ops = &gg_md_ops;
   e->model = *model;
-  gg_contacts_make(&e->contacts, model);
+  gg_md_contacts_make(&e->contacts, model);
   for (int a = 0; a < 3; a++) {
     e->box.edge[a] = model->box[a];
     e->box.inverse[a] = 1 / model->box[a];
   }
   if (model->walled) e->box.inverse[1] = 0; /* no image across a wall */
-  e->box.slide = model->shear_rate * model->box[1];
+  e->box.image_velocity = model->shear_rate * model->box[1];
   e->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
   e->falls = gg_dot(e->gravity, e->gravity) > 0;
   e->thermostat = gg_thermostat_of(model);
@@ -68,16 +68,16 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
 void gg_md_free(gg_md *e)
 {
   if (!e) return;
-  gg_queue_free(&e->queue);
-  gg_cells_free(&e->cells);
+  gg_md_queue_free(&e->queue);
+  gg_md_cells_free(&e->cells);
   free(e->grain);
   free(e->node);
   free(e->spin);
   free(e->last);
   if (e->row) free(e->row - 1);
-  free(e->shell);
+  free(e->skin);
   free(e->neighbour);
   free(e->id);
-  free(e->near);
+  free(e->candidates);
   free(e);
 }

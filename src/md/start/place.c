@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "common/cube_root.h"
-#include "md/place.h"
+#include "md/start/place.h"
 
 /* Spread the low 21 bits of x to every third bit. */
 static uint64_t spread(uint64_t x)
@@ -30,7 +30,7 @@ static int by_key(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-gg_status gg_place_sort(const gg_box *box, gg_vec *r, uint32_t n, gg_error *err)
+gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, gg_error *err)
 {
   keyed *sorted = gg_new_array(n, sizeof *sorted, err);
   if (!sorted) return GG_FAILED;
@@ -48,7 +48,7 @@ gg_status gg_place_sort(const gg_box *box, gg_vec *r, uint32_t n, gg_error *err)
 
 /* A sweep: push apart every pair closer than (1 + margin) contact distances; returns how many overlapped in earnest. */
 typedef struct sweep {
-  gg_packing *p;
+  gg_md_packing *p;
   double margin;
   bool pushing;
   uint64_t overlaps;
@@ -56,9 +56,9 @@ typedef struct sweep {
 
 static void try_pair(sweep *s, uint32_t i, uint32_t j)
 {
-  gg_packing *p = s->p;
+  gg_md_packing *p = s->p;
   gg_vec dr = gg_sub(p->r[j], p->r[i]), unused = {0, 0, 0};
-  gg_nearest_image(&p->box, 0, 0, &dr, &unused);
+  gg_md_nearest_image(&p->box, 0, 0, &dr, &unused);
   double sigma = 0.5 * (p->diameter[i] + p->diameter[j]), wanted = sigma * (1 + s->margin), r2 = gg_dot(dr, dr);
   if (r2 >= wanted * wanted) return;
   double distance = sqrt(r2);
@@ -76,7 +76,7 @@ static void sweep_small(sweep *s)
     for (uint32_t j = 0; j < i; j++) try_pair(s, i, j);
 }
 
-static void cell_of(const gg_cells *c, gg_vec r, int32_t at[3])
+static void cell_of(const gg_md_cells *c, gg_vec r, int32_t at[3])
 {
   for (int a = 0; a < 3; a++) {
     int32_t k = (int32_t)(gg_along(&r, a) * c->inverse[a]);
@@ -86,9 +86,9 @@ static void cell_of(const gg_cells *c, gg_vec r, int32_t at[3])
 
 static void sweep_cells(sweep *s)
 {
-  gg_packing *p = s->p;
-  gg_cells *c = &p->cells;
-  gg_cells_clear(c);
+  gg_md_packing *p = s->p;
+  gg_md_cells *c = &p->cells;
+  gg_md_cells_clear(c);
   int32_t at[3], to[3];
   for (uint32_t i = 0; i < p->n; i++) {
     cell_of(c, p->r[i], at);
@@ -98,18 +98,18 @@ static void sweep_cells(sweep *s)
         to[a] = at[a] + step[a];
         to[a] += to[a] < 0 ? c->n[a] : to[a] >= c->n[a] ? -c->n[a] : 0;
       }
-      const uint32_t *cell = gg_cell_at(c, to);
+      const uint32_t *cell = gg_md_cell_at(c, to);
       for (uint32_t k = 1; k <= cell[0]; k++) try_pair(s, i, cell[k]);
     }
-    while (!gg_cell_add(c, at, i))
-      if (!gg_cells_grow(c)) {
+    while (!gg_md_cell_add(c, at, i))
+      if (!gg_md_cells_grow(c)) {
         s->overlaps++; /* out of memory: never free of overlaps */
         return;
       }
   }
 }
 
-static void into_box(const gg_packing *p, uint32_t i)
+static void into_box(const gg_md_packing *p, uint32_t i)
 {
   for (int a = 0; a < 3; a++) {
     double *x = gg_component(&p->r[i], a), edge = p->box.edge[a], radius = 0.5 * p->diameter[i];
@@ -123,7 +123,7 @@ static void into_box(const gg_packing *p, uint32_t i)
   }
 }
 
-static uint64_t sweep_once(gg_packing *p, double margin, bool pushing)
+static uint64_t sweep_once(gg_md_packing *p, double margin, bool pushing)
 {
   sweep s = {p, margin, pushing, 0};
   for (uint32_t i = 0; i < p->n; i++) into_box(p, i);
@@ -141,7 +141,7 @@ static double margin_for(double phi)
   return fmin(0.02, fmax(0.25 * room, 1e-4));
 }
 
-bool gg_place_relax(gg_packing *p, double phi, int most_sweeps)
+bool gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps)
 {
   double margin = margin_for(phi);
   for (int k = 0; k < most_sweeps; k++)

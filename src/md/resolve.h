@@ -1,23 +1,23 @@
-/* What a contact does to its grains: the collision rule, the contact-time rule and the tap. One always-inlined body
- * with constant features; kernels.c makes the instances. */
-#ifndef GG_MD_IMPACT_H
-#define GG_MD_IMPACT_H
+/* What a contact does to its grains: the collision rule, the contact-time rule and the collision sums. One
+ * always-inlined body with constant features; kernels.c makes the instances. */
+#ifndef GG_MD_RESOLVE_H
+#define GG_MD_RESOLVE_H
 
 #include <math.h>
 
 #include "md/state.h"
 
-typedef struct gg_impact_features {
+typedef struct gg_md_resolve_features {
   gg_rule rule;
   bool mixture, contact_time, tap;
   bool gaussian; /* thermostat: the energy that goes is returned by a slower clock */
   bool spins;    /* at walls: else the wall acts on the grain's centre alone */
   bool law;      /* of restitution: e depends on the speed of the impact */
-} gg_impact_features;
+} gg_md_resolve_features;
 
 /* Contact-time rule: a grain that collided less than t_c ago is still "in contact", and collides with e = 1, so that an
  * inelastic collapse ends in finite time (Luding & McNamara, Granular Matter 1 (1998) 113). */
-GG_INLINE bool gg_is_treated(gg_md *e, uint32_t i, uint32_t j)
+GG_INLINE bool gg_md_is_treated(gg_md *e, uint32_t i, uint32_t j)
 {
   double now = e->k.now, limit = e->k.contact_time;
   bool treated = now - e->last[i] < limit || now - e->last[j] < limit;
@@ -29,7 +29,7 @@ GG_INLINE bool gg_is_treated(gg_md *e, uint32_t i, uint32_t j)
   return treated;
 }
 
-GG_INLINE void gg_tap_pair(gg_transfer *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
+GG_INLINE void gg_md_sum_pair(gg_transfer *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
 {
   double(*stress)[3] = t->stress[pair];
   stress[0][0] += sigma * k.x * J.x;
@@ -42,7 +42,7 @@ GG_INLINE void gg_tap_pair(gg_transfer *t, int pair, double sigma, gg_vec k, gg_
 
 /* Gaussian thermostat: outside, the kinetic energy stays what it is: velocities there are larger by a factor that grows
  * with every loss, and the clock slower by it. */
-GG_INLINE void gg_return_energy(gg_md *e, double lost)
+GG_INLINE void gg_md_return_energy(gg_md *e, double lost)
 {
   gg_md_counts *k = &e->k;
   k->outer += (k->now - k->mark) / k->scale;
@@ -53,39 +53,40 @@ GG_INLINE void gg_return_energy(gg_md *e, double lost)
 }
 
 /* Kinetic energy lost, from the changes of velocity. */
-GG_INLINE double gg_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was2, gg_vec is1, gg_vec is2)
+GG_INLINE double gg_md_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was2, gg_vec is1, gg_vec is2)
 {
   double one = gg_dot(gg_sub(was1, is1), gg_add(was1, is1)), two = gg_dot(gg_sub(was2, is2), gg_add(was2, is2));
   return 0.5 * (one / c->im1 + two / c->im2);
 }
 
 /* The contact of this pair at this speed, outside and in units of the start. */
-GG_INLINE gg_contact gg_contact_by_law(const gg_md *e, const gg_contact *contact, double gn, int a, int b)
+GG_INLINE gg_contact gg_md_contact_by_law(const gg_md *e, const gg_contact *contact, double gn, int a, int b)
 {
   gg_contact at = *contact;
   double restitution = gg_law_at(&e->model.law, ldexp(gn * e->k.scale, -e->k.power), a, b);
-  at.jn = gg_contact_normal_coefficient(contact, restitution, e->k.collisions);
+  at.jn = gg_md_contact_normal_coefficient(contact, restitution, e->k.collisions);
   return at;
 }
 
-GG_INLINE void gg_impact_pair(gg_md *e, gg_impact_features f, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
+GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
 {
-  gg_grain *one = &e->grain[i], *two = &e->grain[j];
-  int a = f.mixture ? gg_species_of(one) : 0, b = f.mixture ? gg_species_of(two) : 0, pair = f.mixture ? 2 * a + b : 0;
-  const gg_contacts *contacts = &e->contacts;
+  gg_md_grain *one = &e->grain[i], *two = &e->grain[j];
+  int a = f.mixture ? gg_md_species_of(one) : 0, b = f.mixture ? gg_md_species_of(two) : 0,
+      pair = f.mixture ? 2 * a + b : 0;
+  const gg_md_contacts *contacts = &e->contacts;
   uint64_t turn = e->k.collisions & contacts->turns;
   const gg_contact *contact = &contacts->contact[turn][pair];
-  bool treated = f.contact_time && gg_is_treated(e, i, j);
+  bool treated = f.contact_time && gg_md_is_treated(e, i, j);
   if (treated) contact = &contacts->treated[turn][pair];
   double r2 = gg_dot(dr, dr), overlap = 0.5 * (contacts->sigma2[pair] - r2) * contacts->inverse[pair];
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
-  gg_vec k = gg_contact_normal(contacts, pair, dr, r2, e->k.collisions);
+  gg_vec k = gg_md_contact_normal(contacts, pair, dr, r2, e->k.collisions);
   gg_vec none = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i],
          *s2 = f.rule == GG_SMOOTH ? &none : &e->spin[j];
   gg_vec g = gg_contact_velocity(f.rule, k, c12, *s1, *s2);
   gg_contact by_law;
   if (f.law && !treated) {
-    by_law = gg_contact_by_law(e, contact, gg_dot(k, g), a, b);
+    by_law = gg_md_contact_by_law(e, contact, gg_dot(k, g), a, b);
     contact = &by_law;
   }
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
@@ -94,25 +95,25 @@ GG_INLINE void gg_impact_pair(gg_md *e, gg_impact_features f, uint32_t i, uint32
   double scale = f.gaussian ? e->k.scale : 1;
   e->k.transfer.collisions[a + b]++;
   if (f.tap)
-    gg_tap_pair(&e->k.transfer, a + b, e->model.sigma[pair] * scale, k, J,
-                gg_energy_loss(contact, k, g, J) * scale * scale);
-  if (f.gaussian) gg_return_energy(e, gg_kinetic_loss(contact, v1, v2, one->v, two->v));
+    gg_md_sum_pair(&e->k.transfer, a + b, e->model.sigma[pair] * scale, k, J,
+                   gg_energy_loss(contact, k, g, J) * scale * scale);
+  if (f.gaussian) gg_md_return_energy(e, gg_md_kinetic_loss(contact, v1, v2, one->v, two->v));
 }
 
 /* A grain that rests on a wall by gravity would collide infinitely often in finite time. With the contact-time rule on,
  * it leaves at least so fast that gravity brings it back no sooner than after t_c. */
-GG_INLINE double gg_least_speed(const gg_md *e, bool contact_time, double towards)
+GG_INLINE double gg_md_least_speed(const gg_md *e, bool contact_time, double towards)
 {
   return contact_time && towards > 0 ? 0.5 * towards * e->k.contact_time : 0;
 }
 
 /* The same rule with a partner of infinite mass without spin. */
-GG_INLINE void gg_impact_wall(gg_md *e, gg_impact_features f, uint32_t i, int upper)
+GG_INLINE void gg_md_resolve_wall(gg_md *e, gg_md_resolve_features f, uint32_t i, int upper)
 {
-  gg_grain *one = &e->grain[i];
-  int a = gg_species_of(one);
+  gg_md_grain *one = &e->grain[i];
+  int a = gg_md_species_of(one);
   const gg_contact *contact = &e->model.wall[a];
-  if (f.contact_time && gg_is_treated(e, i, i)) contact = &e->model.wall_treated[a];
+  if (f.contact_time && gg_md_is_treated(e, i, i)) contact = &e->model.wall_treated[a];
   double side = upper ? 1 : -1, gap = upper ? e->box.edge[1] - one->r.y : one->r.y;
   double overlap = 0.5 * e->model.diameter[a] - gap;
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
@@ -121,7 +122,7 @@ GG_INLINE void gg_impact_wall(gg_md *e, gg_impact_features f, uint32_t i, int up
   gg_vec g = gg_contact_velocity(f.rule, k, gg_sub(one->v, wall), *s1, still);
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
   gg_kick(f.rule, contact, k, J, &one->v, s1, &wall_v, &still);
-  double least = gg_least_speed(e, f.contact_time, side * e->gravity.y);
+  double least = gg_md_least_speed(e, f.contact_time, side * e->gravity.y);
   if (-side * one->v.y < least) {
     J.y += side * (least + side * one->v.y) / contact->im1;
     one->v.y = -side * least;

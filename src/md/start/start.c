@@ -3,30 +3,30 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "md/place.h"
+#include "md/start/place.h"
 #include "md/state.h"
 
 enum { SWEEPS = 3000 };
 
-static gg_status make_cells(const gg_md *e, gg_packing *p, gg_error *err)
+static gg_status make_cells(const gg_md *e, gg_md_packing *p, gg_error *err)
 {
   double widest = fmax(e->model.diameter[0], e->model.diameter[e->model.n_species - 1]) * 1.05;
   int32_t n[3];
-  gg_cells_count(&e->box, fmax(widest, cbrt(e->model.volume / e->n)), n); /* not most of them empty */
+  gg_md_cells_count(&e->box, fmax(widest, cbrt(e->model.volume / e->n)), n); /* not most of them empty */
   if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
-  GG_TRY(gg_cells_make(&p->cells, &e->box, n, widest, err));
+  GG_TRY(gg_md_cells_make(&p->cells, &e->box, n, widest, err));
   return GG_OK;
 }
 
 /* From random points; where that gets stuck, near random close packing, from a lattice with vacancies, which the run
  * itself has to melt. */
-static gg_status relax(const gg_md *e, gg_packing *p, gg_rng *rng, gg_error *err)
+static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *err)
 {
   GG_TRY(make_cells(e, p, err));
-  if (gg_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
-  gg_place_lattice(&e->box, e->n, rng, p->r);
-  GG_TRY(gg_place_sort(&e->box, p->r, e->n, err));
-  if (gg_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
+  if (gg_md_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
+  gg_md_place_lattice(&e->box, e->n, rng, p->r);
+  GG_TRY(gg_md_place_sort(&e->box, p->r, e->n, err));
+  if (gg_md_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
   return gg_fail(err, GG_FAILED,
                  "phi: no start without overlaps was found at phi = %g with particles = %u; try a lower phi or another "
                  "number of particles",
@@ -40,7 +40,7 @@ static void deal_species(gg_md *e, double *diameter, gg_rng *rng)
   for (uint32_t i = 0; i < e->n; i++) {
     uint32_t s = gg_rng_below(rng, left[0] + left[1]) >= left[0];
     left[s]--;
-    e->grain[i].stamp = s;
+    e->grain[i].counter = s;
     diameter[i] = e->model.diameter[s];
   }
 }
@@ -49,11 +49,11 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_er
 {
   for (uint32_t i = 0; i < e->n; i++)
     for (int a = 0; a < 3; a++) *gg_component(&r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
-  GG_TRY(gg_place_sort(&e->box, r, e->n, err));
+  GG_TRY(gg_md_place_sort(&e->box, r, e->n, err));
   deal_species(e, diameter, rng);
-  gg_packing p = {.box = e->box, .walled = e->model.walled, .n = e->n, .r = r, .diameter = diameter};
+  gg_md_packing p = {.box = e->box, .walled = e->model.walled, .n = e->n, .r = r, .diameter = diameter};
   gg_status status = relax(e, &p, rng, err);
-  gg_cells_free(&p.cells);
+  gg_md_cells_free(&p.cells);
   for (uint32_t i = 0; i < e->n; i++) {
     e->grain[i].r = r[i];
     e->id[i] = i;
@@ -67,7 +67,7 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   gg_vec momentum = {0, 0, 0};
   double mass = 0, energy = 0;
   for (uint32_t i = 0; i < e->n; i++) {
-    double m = e->model.mass[gg_species_of(&e->grain[i])];
+    double m = e->model.mass[gg_md_species_of(&e->grain[i])];
     e->grain[i].v = gg_scale(sqrt(T / m), gg_rng_normal_vec(rng));
     momentum = gg_axpy(m, e->grain[i].v, momentum);
     mass += m;
@@ -75,11 +75,11 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   for (uint32_t i = 0; i < e->n; i++) {
     gg_vec *v = &e->grain[i].v;
     *v = gg_axpy(-1 / mass, momentum, *v);
-    energy += e->model.mass[gg_species_of(&e->grain[i])] * gg_dot(*v, *v);
+    energy += e->model.mass[gg_md_species_of(&e->grain[i])] * gg_dot(*v, *v);
   }
   double scale = energy > 0 ? sqrt(3 * e->n * T / energy) : 0;
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_grain *g = &e->grain[i];
+    gg_md_grain *g = &e->grain[i];
     g->v = gg_scale(scale, g->v);
     double rate = e->model.shear_rate + 2 * e->model.wall_speed / e->box.edge[1]; /* the laminar profile */
     g->v.x += rate * (g->r.y - 0.5 * e->box.edge[1]);
@@ -93,7 +93,7 @@ static void set_spins(gg_md *e, gg_rng *rng, double theta)
   double energy = 0;
   if (!e->spin) return;
   for (uint32_t i = 0; i < e->n; i++) {
-    int k = gg_species_of(&e->grain[i]);
+    int k = gg_md_species_of(&e->grain[i]);
     double inertia = e->model.inertia[k] * e->model.mass[k];
     e->spin[i] = gg_scale(sqrt(theta / inertia), gg_rng_normal_vec(rng));
     energy += inertia * gg_dot(e->spin[i], e->spin[i]);
@@ -101,7 +101,7 @@ static void set_spins(gg_md *e, gg_rng *rng, double theta)
   double scale = energy > 0 ? sqrt(3 * e->n * theta / energy) : 0;
   for (uint32_t i = 0; i < e->n; i++) {
     e->spin[i] = gg_scale(scale, e->spin[i]);
-    e->spin[i].z -= 0.25 * e->model.diameter[gg_species_of(&e->grain[i])] * e->model.shear_rate;
+    e->spin[i].z -= 0.25 * e->model.diameter[gg_md_species_of(&e->grain[i])] * e->model.shear_rate;
   }
 }
 

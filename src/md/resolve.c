@@ -1,12 +1,13 @@
 /* The instances of what a contact does, and which of them a scene needs. */
 #include <assert.h>
 
-#include "md/impact.h"
+#include "md/resolve.h"
 
 #define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
   static void rule##_##mixture##contact_time##tap##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)   \
   {                                                                                                                    \
-    gg_impact_pair(e, (gg_impact_features){rule, mixture, contact_time, tap, gaussian, false, false}, i, j, dr, c12);  \
+    gg_md_resolve_pair(e, (gg_md_resolve_features){rule, mixture, contact_time, tap, gaussian, false, false}, i, j,    \
+                       dr, c12);                                                                                       \
   }
 #define FOUR(rule, mixture, contact_time)                                                                              \
   IMPACT(rule, mixture, contact_time, 0, 0)                                                                            \
@@ -16,11 +17,12 @@
 #define WALL(rule, contact_time, tap)                                                                                  \
   static void rule##_wall##contact_time##tap(gg_md *e, uint32_t i, int upper)                                          \
   {                                                                                                                    \
-    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, false, false}, i, upper);             \
+    gg_md_resolve_wall(e, (gg_md_resolve_features){rule, true, contact_time, tap, false, false, false}, i, upper);     \
   }                                                                                                                    \
   static void rule##_spinning##contact_time##tap(gg_md *e, uint32_t i, int upper)                                      \
   {                                                                                                                    \
-    gg_impact_wall(e, (gg_impact_features){rule, true, contact_time, tap, false, rule != GG_SMOOTH, false}, i, upper); \
+    gg_md_resolve_wall(e, (gg_md_resolve_features){rule, true, contact_time, tap, false, rule != GG_SMOOTH, false}, i, \
+                       upper);                                                                                         \
   }
 #define INSTANCES(rule)                                                                                                \
   FOUR(rule, 0, 0)                                                                                                     \
@@ -33,13 +35,14 @@ INSTANCES(GG_FRICTIONAL)
 #define BY_LAW(rule)                                                                                                   \
   static void rule##_by_law(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)                                   \
   {                                                                                                                    \
-    gg_impact_features f = {rule, true, e->last != NULL, e->k.tap_open, e->thermostat == GG_GAUSSIAN, .law = true};    \
-    gg_impact_pair(e, f, i, j, dr, c12);                                                                               \
+    gg_md_resolve_features f = {                                                                                       \
+        rule, true, e->last != NULL, e->k.tap_open, e->thermostat == GG_GAUSSIAN, .law = true};                        \
+    gg_md_resolve_pair(e, f, i, j, dr, c12);                                                                           \
   }
 BY_LAW(GG_SMOOTH)
 BY_LAW(GG_ROUGH)
 BY_LAW(GG_FRICTIONAL)
-static gg_impact *const impacts_by_law[] = {GG_SMOOTH_by_law, GG_ROUGH_by_law, GG_FRICTIONAL_by_law};
+static gg_md_resolution *const resolutions_by_law[] = {GG_SMOOTH_by_law, GG_ROUGH_by_law, GG_FRICTIONAL_by_law};
 
 /* By rule, mixture, contact time, tap, Gaussian thermostat. */
 #define PAIR(x)                                                                                                        \
@@ -56,21 +59,22 @@ static gg_impact *const impacts_by_law[] = {GG_SMOOTH_by_law, GG_ROUGH_by_law, G
       PAIR(rule##_10), PAIR(rule##_11)                                                                                 \
     }                                                                                                                  \
   }
-static gg_impact *const impacts[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+static gg_md_resolution *const resolutions[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
 #undef ROW
 #define ROW(rule) PAIR(rule##_wall)
-static gg_wall_impact *const wall_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+static gg_md_wall_resolution *const wall_resolutions[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
 #undef ROW
 #define ROW(rule) PAIR(rule##_spinning)
-static gg_wall_impact *const spinning_impacts[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+static gg_md_wall_resolution *const spinning_resolutions[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
 
-void gg_md_select_impacts(gg_md *e)
+void gg_md_select_resolution(gg_md *e)
 {
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  e->impact = e->model.law.e ? impacts_by_law[rule] : impacts[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
-  e->watched = e->impact;
-  if (e->watch) e->impact = gg_md_show_impact;
-  e->wall_impact = e->spin ? spinning_impacts[rule][timed][tap] : wall_impacts[e->model.wall_rule][timed][tap];
+  e->resolve =
+      e->model.law.e ? resolutions_by_law[rule] : resolutions[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
+  e->watched = e->resolve;
+  if (e->watch) e->resolve = gg_md_show_collision;
+  e->resolve_wall = e->spin ? spinning_resolutions[rule][timed][tap] : wall_resolutions[e->model.wall_rule][timed][tap];
 }

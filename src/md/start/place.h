@@ -1,0 +1,26 @@
+#ifndef GG_MD_START_PLACE_H
+#define GG_MD_START_PLACE_H
+
+#include <stdbool.h>
+
+#include "common/rng.h"
+#include "md/cells.h"
+
+/* Centres and diameters in a box, on their way to a state without overlaps. */
+typedef struct gg_md_packing {
+  gg_md_box box; /* inverse[1] = 0 between walls */
+  bool walled;   /* no closer to the ends of y than a radius */
+  uint32_t n;
+  gg_vec *r;
+  const double *diameter;
+  gg_md_cells cells; /* none in boxes below three cells across: then all pairs are tried */
+} gg_md_packing;
+
+/* Order points along a space-filling curve. */
+gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, gg_error *err);
+/* n of the sites of a face-centred lattice that fills the box. */
+void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *r);
+/* Push overlapping grains apart; false if overlaps remain after so many sweeps. Positions end in the box. */
+bool gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps);
+
+#endif
