@@ -37,7 +37,7 @@ int main(void)
   gg_result *result = NULL;
   double mean, error;
   if (gg_scene_parse("{flow: usf, phi: 0.1, particles: 500, run: {collisions: 200}}", "scene", &scene, &err) ||
-      gg_scene_add_observable(scene, &mine, &err) || gg_run(scene, &result, &err))
+      gg_scene_add_observable(scene, &mine, &err) || gg_run(scene, NULL, &result, &err))
     fprintf(stderr, "%s\n", err.message);
   for (int k = 0; k < 2 && gg_result_get(result, quantities[k].name, &mean, &error, &err) == GG_OK; k++)
     printf("%s = %.4g +- %.2g %s\n", quantities[k].name, mean, error, quantities[k].unit);

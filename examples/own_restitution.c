@@ -20,8 +20,8 @@ int main(void)
   for (int k = 0; k < 3; k++) {
     gg_result *result = NULL;
     double T, error;
-    if (gg_scene_set_restitution(scene, "softening", softening, &between[k], &err) || gg_run(scene, &result, &err) ||
-        gg_result_get(result, "temperature", &T, &error, &err))
+    if (gg_scene_set_restitution(scene, "softening", softening, &between[k], &err) ||
+        gg_run(scene, NULL, &result, &err) || gg_result_get(result, "temperature", &T, &error, &err))
       fprintf(stderr, "%s\n", err.message);
     else
       printf("%g: T = %.4g +- %.2g %s\n", between[k], T, error, gg_result_unit(result, "temperature"));

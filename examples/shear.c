@@ -9,7 +9,7 @@ int main(void)
   gg_result *result = NULL;
   double T, dT;
   if (gg_scene_parse("{flow: usf, phi: 0.1, particles: 500, run: {relative_error: 0.03}}", "scene", &scene, &err) ||
-      gg_run(scene, &result, &err) || gg_result_get(result, "temperature", &T, &dT, &err))
+      gg_run(scene, NULL, &result, &err) || gg_result_get(result, "temperature", &T, &dT, &err))
     fprintf(stderr, "%s\n", err.message);
   else
     printf("T = %g +- %g %s\n", T, dT, gg_result_unit(result, "temperature"));

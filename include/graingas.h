@@ -1,12 +1,25 @@
-/* graingas: granular gases of hard spheres by event-driven molecular dynamics and Enskog Monte Carlo.
+/* graingas: granular gases of hard spheres by event-driven molecular dynamics and Enskog Monte Carlo, with theories.
+ * The whole public interface, for C99 and later and for C++. What holds throughout:
  *
- * The whole public interface. Every call that can fail returns a gg_status (0 is success; the values are the exit codes
- * of the graingas command) and, where the caller passes a gg_error, leaves a message there. The library never exits and
- * never prints. Objects made by a `_new`, `_load` or `_run` call belong to the caller, who frees them with the matching
- * `_free`. No global state: different objects may be used from different threads.
+ * Status: every call that can fail returns a gg_status (its values are the exit codes of the graingas command; 0 is
+ * success) and leaves a message where the last argument points, which may be NULL. Outputs are written only on success,
+ * unless it is said otherwise. A missing argument (NULL) is GG_BAD_INPUT, never a crash; calls that return pointers or
+ * numbers answer it with NULL or 0. The library never exits and never prints.
  *
- * Quantities and their units are those of `graingas info`: lengths in the diameter and masses in the mass of species 1;
- * sheared flows in units of the shear rate, others in the initial thermal speed v_0 = sqrt(2T/m). */
+ * Ownership: handles made by a call belong to the caller, who frees them with the matching `_free` (of NULL: nothing
+ * happens). Texts handed out as `char **` are the caller's to free(). Every other pointer handed out is borrowed: it
+ * lasts as long as the handle that it came from.
+ *
+ * Threads: there is no global state. One thread at a time may use a handle, many may where it is `const`. Simulations
+ * and runs in different threads do not know of each other. Callbacks come on the calling thread, unless it is said
+ * otherwise, and must not use the handle that they are called for.
+ *
+ * Units are those of results (gg_catalogue_entry tells them): lengths in the diameter d and masses in the mass m of
+ * species 1; sheared flows in units of the shear rate gamma, others in the initial thermal speed v_0 = sqrt(2T/m).
+ * Stresses are in rho_p d^2 gamma^2 or rho_p v_0^2 with rho_p = 6m/(pi d^3). Temperatures are <C.C>/3, C the velocity
+ * relative to the imposed flow. Where phi = 0, n d^2 = 1 sets the length.
+ *
+ * Structs grow at their end only; those that the caller fills in are to be zeroed first. */
 #ifndef GRAINGAS_H
 #define GRAINGAS_H
 
@@ -23,9 +36,11 @@ extern "C" {
 #define GG_API
 #endif
 
+/* ---- Status ---- */
+
 typedef enum gg_status {
   GG_OK = 0,
-  GG_FAILED = 1,       /* the run failed or fell short of what was asked */
+  GG_FAILED = 1,       /* the run failed or fell short of what was asked; out of memory */
   GG_BAD_INPUT = 2,    /* the scene or an argument is wrong */
   GG_BAD_FILE = 3,     /* a file could not be read or written */
   GG_INTERRUPTED = 130 /* stopped by the caller */
@@ -33,48 +48,310 @@ typedef enum gg_status {
 
 typedef struct gg_error {
   gg_status status;
-  char message[1024];
+  char message[1024]; /* for people: what is wrong, where, what is allowed */
 } gg_error;
 
-typedef struct gg_scene gg_scene;   /* what to simulate */
-typedef struct gg_result gg_result; /* what came out */
+GG_API const char *gg_version(void); /* "0.1.0" */
 
-GG_API const char *gg_version(void);
+/* ---- Scenes: what to simulate ----
+ * A scene holds the keys that were given; all others have their defaults, of which some follow the given ones. Each key
+ * is checked when it is set, and how they go together (gg_scene_check) when the scene is used. Whoever uses a scene
+ * takes a copy: it may be changed or freed afterwards. */
 
-/* A scene from a YAML file. */
+typedef struct gg_scene gg_scene;
+
+/* From a YAML file, or from YAML text, for which `name` (may be NULL) stands as the file's name in messages. */
 GG_API gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err);
-/* A scene from YAML text; `name` stands for the file name in messages. */
 GG_API gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err);
-/* Set one value, e.g. gg_scene_set(scene, "collision.e", "0.9", &err); the scene is unchanged on failure. */
-GG_API gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err);
+GG_API gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err);
 GG_API void gg_scene_free(gg_scene *scene);
 
-/* Run the scene's engine to the end that the scene asks for. GG_FAILED with *result set: the run ended short of what
- * was asked (no steady state, time limit) and the result says how far it came. */
-GG_API gg_status gg_run(const gg_scene *scene, gg_result **result, gg_error *err);
+/* Set one key from YAML: ("collision.e", "0.9"), ("collision.e.12", "0.8"), ("species.2.mass", "4"), ("gravity",
+ * "[0.01, 0, 0]"). The scene is unchanged on failure. The other way round: the value in force, as YAML on one line, cut
+ * to `size` bytes. */
+GG_API gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err);
+GG_API gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err);
 
-/* One measured mean and its standard error by its shared name ("temperature", "shear_viscosity", "N1" ...).
- * GG_BAD_INPUT for a name that the run did not measure, with the reason. Either pointer may be NULL. */
-GG_API gg_status gg_result_get(const gg_result *result, const char *quantity, double *mean, double *stderr_,
+/* Do the keys go together? GG_BAD_INPUT says what is missing or contradicts. */
+GG_API gg_status gg_scene_check(const gg_scene *scene, gg_error *err);
+
+/* Every key with the value in force, as a text that gg_scene_parse reads back (YAML; JSON is YAML, too). */
+GG_API gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err);
+GG_API gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err);
+/* "Uniform shear flow, phi 0.3, e 0.9, smooth", cut to `size` bytes. */
+GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err);
+/* What an engine ("md", "dsmc") switches on and off for this scene, a line of text a call; or GG_BAD_INPUT with the
+ * reason why it cannot run it. */
+GG_API gg_status gg_scene_describe(const gg_scene *scene, const char *engine,
+                                   void (*line)(void *context, const char *text), void *context, gg_error *err);
+
+/* ---- Simulations, step by step ----
+ * The grains themselves, from a fresh start that is near the steady state where there is one. The same scene, seed and
+ * stream give the same trajectory, bit for bit, in md however it is cut into steps; stream 0 is that of gg_run. Nothing
+ * is averaged: that is what gg_run does. Free cooling goes on in the units of the start. */
+
+typedef struct gg_simulation gg_simulation;
+
+/* Of the scene's engine and run.seed. Streams are independent copies of one seed. */
+GG_API gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err);
+GG_API void gg_simulation_free(gg_simulation *simulation);
+
+/* Go on for so much time, or until so many collisions between grains more have happened. Monte Carlo ends at the first
+ * end of a step beyond. GG_FAILED: collisions pile up without end (inelastic collapse). */
+GG_API gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err);
+GG_API gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions, gg_error *err);
+
+typedef struct gg_simulation_state {
+  double time;                 /* since the start */
+  uint64_t collisions;         /* between grains since the start; each counts once */
+  double collisions_per_grain; /* each counts for both partners */
+  size_t grains;
+  double temperature;            /* T; of mixtures sum x_i m_i <C.C>_i / 3 */
+  double rotational_temperature; /* theta = I <omega^2>/(3m) about the mean spin; 0 for smooth grains */
+  double kinetic_stress[3][3];   /* in units of stress; x along the flow, y along its gradient */
+  double strain;                 /* shear rate times time; 0 without shear */
+  double image_offset;           /* md, sheared: the box above is displaced so far along x, from 0 to box[0] */
+  double box[3];                 /* edges; 0 where the engine has no positions (dsmc) */
+} gg_simulation_state;
+GG_API gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err);
+
+/* Arrays of the caller's, for `grains` grains, in an order that never changes; NULL for what is not wanted. */
+typedef struct gg_grains {
+  double *position; /* 3 a grain: x y z x y z ...; from 0 to box[i]; with walls at y = 0 and box[1] */
+  double *velocity; /* 3 a grain, relative to the imposed flow gamma (y - box[1]/2) along x */
+  double *spin;     /* 3 a grain: angular velocity omega ((d/2) omega where phi = 0); 0 for smooth grains */
+  int *species;     /* 0 for species 1, 1 for species 2 */
+} gg_grains;
+/* Copy the grains out. GG_BAD_INPUT where positions are asked of dsmc, which has none. */
+GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err);
+
+typedef struct gg_simulation_sums { /* over the collisions since they were last asked for, or since the start */
+  double time;                      /* that they are over */
+  uint64_t collisions, wall_collisions;
+  double collisional_stress[3][3]; /* mean over the time, in units of stress; 0 in components that no flow here has */
+  double dissipation;              /* energy that collisions between grains destroyed, per volume and time */
+  double wall_impulse[2][3];       /* on the lower and the upper wall: m times velocity */
+  double wall_loss;                /* energy that collisions with walls destroyed */
+} gg_simulation_sums;
+GG_API gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err);
+
+typedef struct gg_collision_event {
+  size_t grain[2];     /* places in the arrays of gg_simulation_get_grains */
+  int species[2];      /* 0, 1 */
+  double k[3];         /* unit vector from the first grain's centre to the second's */
+  double velocity[3];  /* of the first relative to the second, flow included, before the collision */
+  double normal_speed; /* of approach: k . velocity, > 0 */
+  double impulse[3];   /* J on the second grain, -J on the first; m times velocity */
+} gg_collision_event;
+typedef void gg_on_collision(void *context, const gg_collision_event *event);
+/* Show every collision between grains to `callback` from now on (NULL: no longer), as it happens, during advances. It
+ * costs time; Monte Carlo leaves its fast path, and with it the trajectory that it had without. */
+GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context,
+                                            gg_error *err);
+
+/* Everything needed to go on bit for bit, to a file that is whole or not there; and back. `scene` NULL: the stored one;
+ * otherwise it must be the scene that was saved (stop rules and output may differ), or GG_BAD_INPUT names the
+ * difference. A callback has to be set again. */
+GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, gg_error *err);
+GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulation **simulation, gg_error *err);
+
+/* ---- Runs: to the end that the scene asks for, means with their errors ---- */
+
+typedef struct gg_progress { /* where a run stands */
+  const char *engine;        /* "md", "dsmc": a comparison runs both */
+  const char *phase;         /* "warm-up", "averaging" */
+  double fraction;           /* of this phase, 0..1 */
+  uint64_t collisions;       /* so far, this replica */
+  double rate;               /* collisions per second of processor time */
+  double relative_error;     /* of the worst headline quantity; NaN: not known yet */
+  double time_left;          /* seconds; NaN: not known */
+  int64_t replica, replicas;
+} gg_progress;
+
+/* All zero: one thread, nobody told, nothing written. Results do not depend on any of it. */
+typedef struct gg_run_options {
+  int threads;            /* for replicas, for compare's two engines, for large Monte Carlo ensembles; 0: one */
+  const char *output;     /* result file to write, with the trajectory if the scene has output.trajectory_every */
+  const char *checkpoint; /* file to keep checkpoints in: every output.checkpoint_every seconds of the scene (0: never),
+                           * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1 */
+  const char *resume;     /* checkpoint to go on from, bit for bit; FILE.1 is taken where it is damaged */
+  const char *command;    /* how the file was made, for its record; NULL: "the graingas library" */
+  void *context;          /* for the callbacks, of which each may be NULL; one at a time, maybe on threads of the run */
+  int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop */
+  int (*stop)(void *context); /* asked more often, and by many threads at once (read a flag); not 0: stop */
+  void (*stored)(void *context, const char *checkpoint); /* a checkpoint was written */
+  void (*warn)(void *context, const char *message);      /* what was put right before the run began */
+} gg_run_options;
+
+typedef struct gg_result gg_result; /* what came out of one engine's run */
+
+/* Run the scene's engine; options NULL: the default ones. With a result as well as a status that is not GG_OK:
+ * GG_FAILED, the run ended short of what was asked, and the result says how far it came; GG_INTERRUPTED, a callback
+ * stopped it, results so far (no output is written); GG_BAD_FILE, the output could not be written at the end. */
+GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
+
+/* ---- Results ---- */
+
+typedef struct gg_measurement {
+  const char *name;        /* "temperature", "shear_viscosity", "N1": see GG_CATALOGUE_QUANTITIES */
+  double mean, error;      /* with its standard error. NaN mean: cannot be had; NaN error: the run is too short */
+  double correlation_time; /* integrated, in units of time */
+  uint64_t samples;
+  const char *unit;
+  const char *reason; /* why there is no mean; NULL if there is one; "" if it was not asked for */
+} gg_measurement;
+
+/* Mean and standard error of one quantity; either pointer may be NULL. GG_BAD_INPUT with the reason where there is
+ * none. All there is to know of it, also where there is no mean; by name, and one after the other, GG_BAD_INPUT after
+ * the last: for (i = 0; gg_result_at(result, i, &m, NULL) == GG_OK; i++). */
+GG_API gg_status gg_result_get(const gg_result *result, const char *quantity, double *mean, double *error,
                                gg_error *err);
-GG_API const char *gg_result_unit(const gg_result *result, const char *quantity); /* NULL if not measured */
+GG_API gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err);
+GG_API gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found, gg_error *err);
+GG_API const char *gg_result_unit(const gg_result *result, const char *quantity); /* NULL if it was not measured */
 GG_API int gg_result_is_steady(const gg_result *result);
-/* Write the HDF5 (H5MD) result file: complete, or not at all. */
+
+typedef struct gg_result_info {
+  const char *engine;  /* "md", "dsmc" */
+  int steady;          /* was the steady state reached ... */
+  const char *verdict; /* ... and how is that known */
+  int64_t grains;
+  double window[2];                               /* averaged over these times */
+  uint64_t collisions;                            /* between grains, while averaging ... */
+  double cpu_seconds;                             /* ... in so much processor time */
+  uint64_t total_collisions;                      /* of the whole run */
+  double total_cpu_seconds, wall_seconds;         /* NaN: not known */
+  const char *version, *command, *machine, *date; /* of the file that it was read from; NULL if it was not */
+  size_t frames;                                  /* of the trajectory in that file */
+} gg_result_info;
+GG_API gg_status gg_result_about(const gg_result *result, gg_result_info *info, gg_error *err);
+GG_API const gg_scene *gg_result_scene(const gg_result *result);         /* as it was run */
+GG_API const char *gg_result_warning(const gg_result *result, size_t i); /* NULL after the last */
+
+/* One quantity from the start of the run, the first replica: n values, NaN where there is none, and their times. */
+GG_API gg_status gg_result_history(const gg_result *result, const char *quantity, size_t *n, const double **time,
+                                   const double **value, gg_error *err);
+
+typedef struct gg_curve_data { /* a distribution, profile, correlation function, spectrum ... */
+  const char *name;            /* unique in a result */
+  const char *observable;      /* the word under `measure` that it came with */
+  const char *panel, *label;   /* curves of one panel belong in one picture, under their labels */
+  const char *x_name, *x_unit, *y_name, *unit;
+  int log_x, log_y; /* how it is best drawn */
+  size_t n;
+  const double *x, *value, *error; /* NaN: cannot be had, not known */
+  const double *law;               /* to see the curve beside: n values, under this label; NULL if there is none */
+  const char *law_label;
+  uint64_t samples;
+} gg_curve_data;
+/* The i-th curve, GG_BAD_INPUT after the last; the k-th number read off it (an exponent, a coefficient). */
+GG_API gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curve, gg_error *err);
+GG_API gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg_measurement *number,
+                                        gg_error *err);
+/* The last state of the grains (of the first replica), as gg_simulation_get_grains. */
+GG_API gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_error *err);
+
+/* The JSON document of `graingas run --json`; the HDF5 (H5MD) result file, complete or not at all; one read back. */
+GG_API gg_status gg_result_to_json(const gg_result *result, char **text, gg_error *err);
 GG_API gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err);
+GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *err);
 GG_API void gg_result_free(gg_result *result);
 
-/* ---- Extension -----------------------------------------------------------------------------------------------------
- *
+/* ---- Comparisons and theories ----
+ * Both engines and every theory on one scene; also the theories alone, and a file of one engine's run read back. */
+
+typedef struct gg_comparison gg_comparison;
+
+/* As gg_run. An engine that cannot run the scene is left out, with its reason. */
+GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison,
+                            gg_error *err);
+/* What theories say, at once, nothing simulated: all of them, or the one of that name. GG_OK also where they do not
+ * apply: gg_comparison_theory says why. */
+GG_API gg_status gg_evaluate_theories(const gg_scene *scene, const char *theory, gg_comparison **comparison,
+                                      gg_error *err);
+GG_API void gg_comparison_free(gg_comparison *comparison);
+
+/* The part of "md" or "dsmc", which belongs to the comparison; NULL if there is none, for this reason. */
+GG_API const gg_result *gg_comparison_result(const gg_comparison *comparison, const char *engine);
+GG_API const char *gg_comparison_refusal(const gg_comparison *comparison, const char *engine);
+GG_API const gg_scene *gg_comparison_scene(const gg_comparison *comparison);
+/* *z: (md - dsmc) over their combined standard error, NaN if either is not known. *beyond: do they differ by more than
+ * is expected of the two at this density and dissipation? Either may be NULL. */
+GG_API gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,
+                                         gg_error *err);
+
+typedef struct gg_theory_info {
+  const char *name, *title, *citation, *assumptions;
+  const char *reason; /* why it does not apply to this scene; NULL if it does */
+  const char *beyond; /* why this scene is beyond what it was made for, though it answers; NULL within */
+} gg_theory_info;
+/* The i-th theory, GG_BAD_INPUT after the last; what it says of a quantity, in the unit of results (NaN: nothing), and
+ * how far that is from md (or dsmc, if that is all there is): theory/simulation - 1, NaN where the simulation cannot be
+ * told from 0. */
+GG_API gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err);
+GG_API gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
+                                            double *value, double *deviation, gg_error *err);
+
+typedef struct gg_remark { /* on what differs by more than is expected */
+  const char *theory;      /* NULL: md and dsmc; causes that apply to this scene */
+  const char *quantity;    /* in which it is off most; NULL for md and dsmc */
+  double deviation;
+  const char *cause;
+} gg_remark;
+GG_API gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err);
+
+/* As of results. gg_comparison_read also reads the file of a run: a comparison of one. */
+GG_API gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg_error *err);
+GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err);
+GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err);
+
+/* Pictures of a result file, by gnuplot: PICTURE, PICTURE_snapshot and one for each observable that left curves.
+ * `format` is "svg", "png" or NULL: by PICTURE's name. `drawn` (may be NULL) hears the name of each. */
+GG_API gg_status gg_plot(const char *result_file, const char *picture, const char *format,
+                         void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
+
+/* ---- Tables to ask ---- */
+
+typedef enum gg_catalogue {
+  GG_CATALOGUE_KEYS,         /* of scenes: name, type, unit, doc, allowed, value, given */
+  GG_CATALOGUE_SPECIES_KEYS, /* of one species: the same */
+  GG_CATALOGUE_FLOWS,        /* name, doc */
+  GG_CATALOGUE_ENGINES,      /* name, doc */
+  GG_CATALOGUE_OBSERVABLES,  /* words under `measure`: name, doc */
+  GG_CATALOGUE_QUANTITIES,   /* name, unit, doc */
+  GG_CATALOGUE_THEORIES      /* name, doc, citation, assumptions */
+} gg_catalogue;
+
+typedef struct gg_entry { /* NULL or "" where the list has no such thing */
+  const char *name, *doc, *unit, *citation, *assumptions;
+  const char *type;  /* "number", "integer", "choice", "set", "pairs", "vector", "species" */
+  char allowed[256]; /* "a number from 0 to 1" */
+  char value[256];   /* in force in the scene; without a scene, the default, "" if there is none */
+  int given;         /* in the scene */
+} gg_entry;
+/* The i-th entry, GG_BAD_INPUT after the last. `scene` (may be NULL) decides units and values. */
+GG_API gg_status gg_catalogue_entry(gg_catalogue list, size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err);
+/* The i-th word that a key of type choice or set takes: name and doc. */
+GG_API gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error *err);
+
+/* ---- Words for people ---- */
+
+/* "1.2340(41)": standard error in the last digits; "1.23(?)" where it is not known. Cut to `size` bytes. */
+GG_API void gg_format_estimate(double mean, double error, char *text, size_t size);
+/* The known word nearest to a mistyped one, for "did you mean"; NULL if none is near. `known` ends with NULL. */
+GG_API const char *gg_nearest_word(const char *word, const char *const *known);
+
+/* ---- Extension ----
  * Observables, theories and a restitution law of one's own, registered with a scene. What is run, compared or evaluated
  * from it uses them; their quantities stand under their own names beside all others in results, tables, JSON documents,
  * files and pictures.
  *
  * Definitions are copied, strings and tables included. A `context` stays the caller's, is handed to the callbacks as it
- * is, and must live for as long as the scene and whatever runs from it (results keep no more than names). Callbacks come
- * from the threads of the run, several at once where replicas or engines run side by side: they must not write to what
- * they share without a lock. Numbers have the units of results. Each call below returns GG_BAD_INPUT with the reason, and
- * leaves the scene as it was, if something is missing, a name is taken or is no name (letters, digits and _, at most 40),
- * or if there are too many: 32 quantities, 8 theories a scene. */
+ * is, and must live for as long as the scene and whatever runs from it (results keep no more than names). Callbacks
+ * come from the threads of the run, several at once where replicas or engines run side by side: they must not write to
+ * what they share without a lock. Numbers have the units of results. Each call below returns GG_BAD_INPUT with the
+ * reason, and leaves the scene as it was, if something is missing, a name is taken or is no name (letters, digits and
+ * _, at most 40), or if there are too many: 32 quantities, 8 theories a scene. */
 
 /* A quantity of one's own. */
 typedef struct gg_quantity_definition {
@@ -90,10 +367,10 @@ typedef struct gg_sample {
   double elapsed; /* length of the interval */
   size_t n;       /* grains; in md always in the same order */
   int n_species;
-  const double (*position)[3];  /* in the box, 0 to its edges; NULL where there are no positions (dsmc) */
-  const double (*velocity)[3];  /* peculiar: less the imposed flow; between walls less the local mean */
-  const double (*spin)[3];      /* angular velocity (Boltzmann limit: times d/2); NULL for smooth grains */
-  const unsigned char *species; /* of each grain, from 0 */
+  const double (*position)[3];             /* in the box, 0 to its edges; NULL where there are no positions (dsmc) */
+  const double (*velocity)[3];             /* peculiar: less the imposed flow; between walls less the local mean */
+  const double (*spin)[3];                 /* angular velocity (Boltzmann limit: times d/2); NULL for smooth grains */
+  const unsigned char *species;            /* of each grain, from 0 */
   const double *mass, *diameter, *inertia; /* of each species; inertia: 4I/(m d^2) */
   double box[3], volume;
   uint64_t collisions;
@@ -163,8 +440,8 @@ GG_API gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition
 /* Coefficient of normal restitution, 0 to 1, of two grains (species from 0) that meet with this relative speed along
  * their normal, instead of collision.e (walls keep theirs). Asked at every collision of either engine; the same
  * arguments must have the same answer. It is tried at speeds from 1e-9 to 1e9 when it is registered; what it
- * returns out of range during a run is taken as the nearer end. dsmc leaves its fast kernels for it; theories of constant
- * e do not apply. A run that is resumed needs the same law; its name tells. NULL: back to collision.e. */
+ * returns out of range during a run is taken as the nearer end. dsmc leaves its fast kernels for it; theories of
+ * constant e do not apply. A run that is resumed needs the same law; its name tells. NULL: back to collision.e. */
 typedef double gg_restitution(void *context, double normal_speed, int species_1, int species_2);
 GG_API gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *law, void *context,
                                           gg_error *err);

@@ -7,7 +7,7 @@
 
 #include "graingas.h"
 #include "io/document.h"
-#include "io/scene/draft.h"
+#include "io/scene/reader.h"
 
 static const struct {
   const char *name; /* the word typed; NULL: none */
@@ -55,15 +55,14 @@ gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, in
 /* The overrides that options stand for (--seed), checked as a scene's are. */
 static gg_status take_seed(gg_bench *b, gg_error *err)
 {
-  gg_scene_draft draft;
-  gg_scene_draft_start(&draft);
+  gg_scene scene = gg_scene_defaults();
   for (int i = 0; i < b->options->n_overrides; i++) {
     const char *equals = strchr(b->options->override[i], '=');
     char key[96];
     snprintf(key, sizeof key, "%.*s", (int)(equals - b->options->override[i]), b->options->override[i]);
-    GG_TRY(gg_scene_draft_set(&draft, key, equals + 1, err));
+    GG_TRY(gg_scene_override(&scene, key, equals + 1, err));
   }
-  b->seed = draft.scene.run.seed;
+  b->seed = scene.run.seed;
   return GG_OK;
 }
 

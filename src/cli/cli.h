@@ -1,9 +1,12 @@
-/* The graingas command: one file a subcommand, a line in the table of commands.c each. A subcommand returns its exit
- * code. */
+/* The graingas command, first user of graingas.h: one file a subcommand, a line in commands.c each. A subcommand
+ * returns its exit code. Only `bench` looks inside the library. */
 #ifndef GG_CLI_H
 #define GG_CLI_H
 
-#include "common/error.h"
+#include <graingas.h>
+#include <stdbool.h>
+
+#define GG_CLI_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
 
 typedef struct gg_command {
   const char *name;
@@ -25,8 +28,13 @@ int gg_cli_bench_main(const gg_command *command, int argc, char **argv);
 
 /* "graingas: MESSAGE" on standard error; returns the exit code that goes with the error. */
 int gg_cli_report(const gg_error *err);
+/* The same with "PREFIX: " before the message. */
+int gg_cli_report_of(const char *prefix, const gg_error *err);
 /* The same for a message of the command line's own. */
-int gg_cli_fail(gg_status status, const char *format, ...) GG_PRINTF(2, 3);
+int gg_cli_fail(gg_status status, const char *format, ...) GG_CLI_PRINTF(2, 3);
+
+/* A text of the library's on standard output; frees it. */
+void gg_cli_print_text(char *text);
 
 /* The manual page, from the tables of commands, options, scene keys and quantities. */
 void gg_cli_print_manual(void);

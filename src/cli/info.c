@@ -5,12 +5,7 @@
 #include <string.h>
 
 #include "cli/options.h"
-#include "cli/report.h"
 #include "cli/table.h"
-#include "common/engine.h"
-#include "io/h5/result_reader.h"
-#include "io/scene/json.h"
-#include "io/text.h"
 
 static void print_line(void *context, const char *text)
 {
@@ -18,80 +13,65 @@ static void print_line(void *context, const char *text)
   printf("  %s\n", text);
 }
 
-static void print_engine(const gg_scene *scene, gg_engine_kind kind)
+static void print_engines(const gg_scene *scene)
 {
-  gg_model model;
-  gg_error err = {0};
-  const gg_engine_ops *ops = gg_engine_ops_of(kind);
-  printf("\n%s, %s:\n", ops->name, ops->doc);
-  if (gg_model_make(scene, kind, &model, &err) != GG_OK || ops->accepts(&model, &err) != GG_OK)
-    print_line(NULL, err.message);
-  else
-    ops->describe(&model, print_line, NULL);
+  gg_entry engine;
+  gg_error err;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_ENGINES, i, scene, &engine, NULL) == GG_OK; i++) {
+    printf("\n%s, %s:\n", engine.name, engine.doc);
+    if (gg_scene_describe(scene, engine.name, print_line, NULL, &err) != GG_OK) print_line(NULL, err.message);
+  }
 }
 
-static void print_fields(const gg_scene_draft *draft)
+static void print_fields(const gg_scene *scene)
 {
-  for (int i = 0; gg_scene_fields[i].key; i++) {
-    const gg_field *f = &gg_scene_fields[i];
-    json_t *value = gg_field_json(f, &draft->scene, &draft->scene);
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    if (out) {
-      gg_print_flow_style(out, value);
-      fclose(out);
-    }
-    json_decref(value);
-    printf("%-24s %-22s %-7s  %s%s%s%s\n", f->key, text ? text : "?", draft->given[i] ? "given" : "default", f->doc,
-           f->unit ? " (" : "", f->unit ? f->unit : "", f->unit ? ")" : "");
-    free(text);
-  }
+  gg_entry f;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_KEYS, i, scene, &f, NULL) == GG_OK; i++)
+    printf("%-24s %-22s %-7s  %s%s%s%s\n", f.name, f.value, f.given ? "given" : "default", f.doc, f.unit ? " (" : "",
+           f.unit ? f.unit : "", f.unit ? ")" : "");
 }
 
 static int inform_scene(const gg_options *o)
 {
   gg_error err;
-  gg_scene_draft draft;
-  if (gg_options_scene(o, &draft, &err) != GG_OK) return gg_cli_report(&err);
-  if (o->json) {
-    gg_cli_print_document(gg_scene_json(&draft.scene));
-    return GG_OK;
+  char *text = NULL;
+  gg_scene *scene = NULL;
+  gg_status status = gg_options_scene(o, &scene, &err);
+  int code = status == GG_OK ? GG_OK : gg_cli_report(&err);
+  if (code == GG_OK && gg_scene_check(scene, &err) != GG_OK) code = gg_cli_report_of(o->input, &err);
+  if (code == GG_OK && o->json) {
+    if (gg_scene_to_json(scene, &text, &err) != GG_OK) code = gg_cli_report(&err);
+    gg_cli_print_text(text);
+  } else if (code == GG_OK) {
+    print_fields(scene);
+    print_engines(scene);
   }
-  print_fields(&draft);
-  print_engine(&draft.scene, GG_MD);
-  print_engine(&draft.scene, GG_DSMC);
-  return GG_OK;
+  gg_scene_free(scene);
+  return code;
 }
 
-static void put_estimate(gg_table *t, int row, int column, const json_t *estimate)
-{
-  json_t *mean = json_object_get(estimate, "mean"), *error = json_object_get(estimate, "stderr");
-  if (json_is_number(mean))
-    gg_format_estimate(json_number_value(mean), json_is_number(error) ? json_number_value(error) : NAN,
-                       gg_table_cell(t, row, column), GG_TABLE_CELL);
-}
+static const char *const engines[] = {"md", "dsmc"};
 
 /* The means of both engines side by side; what cannot be had is left out. */
-static void print_means(const gg_stored_result *stored)
+static void print_means(const gg_comparison *c)
 {
   int column[2] = {-1, -1};
+  gg_entry q;
+  gg_measurement m;
   gg_table *t = gg_table_new();
   if (!t) return;
   gg_table_column(t, "quantity", false);
   for (int k = 0; k < 2; k++)
-    if (stored->engine[k].name) column[k] = gg_table_column(t, stored->engine[k].name, true);
+    if (gg_comparison_result(c, engines[k])) column[k] = gg_table_column(t, engines[k], true);
   int unit = gg_table_column(t, "unit", false);
-  for (int q = 0; q < GG_N_QUANTITIES; q++) {
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
     int row = -1;
     for (int k = 0; k < 2; k++) {
-      const json_t *results = column[k] < 0 ? NULL : json_object_get(stored->engine[k].document, "results");
-      const json_t *estimate = json_object_get(results, gg_quantity_name((gg_quantity)q));
-      if (!json_is_number(json_object_get(estimate, "mean"))) continue;
+      if (gg_result_find(gg_comparison_result(c, engines[k]), q.name, &m, NULL) != GG_OK || isnan(m.mean)) continue;
       if (row < 0) row = gg_table_row(t);
-      put_estimate(t, row, column[k], estimate);
-      snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", gg_quantity_name((gg_quantity)q));
-      snprintf(gg_table_cell(t, row, unit), GG_TABLE_CELL, "%s", json_string_value(json_object_get(estimate, "unit")));
+      gg_format_estimate(m.mean, m.error, gg_table_cell(t, row, column[k]), GG_TABLE_CELL);
+      snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", m.name);
+      snprintf(gg_table_cell(t, row, unit), GG_TABLE_CELL, "%s", m.unit);
     }
   }
   printf("\n");
@@ -99,57 +79,85 @@ static void print_means(const gg_stored_result *stored)
   free(t);
 }
 
-static void print_verdict(const gg_stored_engine *e)
+static void print_verdict(const gg_result *r)
 {
-  const char *verdict = json_string_value(json_object_get(e->document, "verdict"));
-  json_t *warning;
-  size_t i;
-  bool steady = json_is_true(json_object_get(e->document, "steady"));
-  printf("\n%s: %s: %s\n", e->name, steady ? "steady" : "not steady", verdict ? verdict : "");
-  json_array_foreach(json_object_get(e->document, "warnings"), i, warning) printf("  %s\n", json_string_value(warning));
+  gg_result_info about;
+  const char *warning;
+  if (gg_result_about(r, &about, NULL) != GG_OK) return;
+  printf("\n%s: %s: %s\n", about.engine, about.steady ? "steady" : "not steady", about.verdict);
+  for (size_t i = 0; (warning = gg_result_warning(r, i)); i++) printf("  %s\n", warning);
+}
+
+static bool has_numbers(const double *x, size_t n)
+{
+  for (size_t i = 0; i < n; i++)
+    if (!isnan(x[i])) return true;
+  return false;
+}
+
+static void print_series(const gg_result *r)
+{
+  gg_result_info about;
+  gg_entry q;
+  bool any = false;
+  const double *value;
+  size_t n;
+  if (gg_result_about(r, &about, NULL) != GG_OK) return;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
+    if (gg_result_history(r, q.name, &n, NULL, &value, NULL) != GG_OK || !has_numbers(value, n)) continue;
+    if (!any)
+      printf("  %s series of %zu samples, averaged from %g to %g:", about.engine, n, about.window[0], about.window[1]);
+    any = true;
+    printf(" %s", q.name);
+  }
+  if (any) printf("\n");
 }
 
 /* Series, frames and theories: what there is to plot or to read with other tools. */
-static void print_contents(const gg_stored_result *stored)
+static void print_contents(const gg_comparison *c, const gg_result_info *about)
 {
-  const char *name;
-  json_t *theory;
-  printf("\nalso in the file:\n");
-  for (int k = 0; k < 2; k++) {
-    const gg_stored_engine *e = &stored->engine[k];
-    if (e->n_series)
-      printf("  %s series of %zu samples, averaged from %g to %g:", e->name, e->series[0].n, e->window[0],
-             e->window[1]);
-    for (int i = 0; i < e->n_series; i++) printf(" %s", e->series[i].name);
-    if (e->n_series) printf("\n");
-  }
-  if (stored->n_frames)
-    printf("  %zu frame%s of %zu grains (/particles/grains)\n", stored->n_frames, stored->n_frames > 1 ? "s" : "",
-           stored->n_grains);
+  gg_theory_info theory;
   int n = 0;
-  json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
-      printf("%s%s", n++ ? ", " : "  theories: ", name);
+  printf("\nalso in the file:\n");
+  for (int k = 0; k < 2; k++) print_series(gg_comparison_result(c, engines[k]));
+  if (about->frames)
+    printf("  %zu frame%s of %ld grains (/particles/grains)\n", about->frames, about->frames > 1 ? "s" : "",
+           (long)about->grains);
+  for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
+    if (!theory.reason) printf("%s%s", n++ ? ", " : "  theories: ", theory.name);
   if (n) printf("\n");
+}
+
+static void print_file(const gg_options *o, const gg_comparison *c)
+{
+  const gg_result *md = gg_comparison_result(c, "md"), *dsmc = gg_comparison_result(c, "dsmc");
+  gg_theory_info theory;
+  gg_result_info about;
+  char *scene = NULL;
+  bool comparison = gg_comparison_theory(c, 0, &theory, NULL) == GG_OK;
+  if (gg_result_about(md ? md : dsmc, &about, NULL) != GG_OK) return;
+  gg_scene_to_yaml(gg_comparison_scene(c), &scene, NULL);
+  printf("%s: %s by graingas %s\ncommand: %s\ndate:    %s\nmachine: %s\n\nscene:\n%s", o->input,
+         comparison ? "a comparison" : "a run", about.version, about.command, about.date, about.machine,
+         scene ? scene : "");
+  free(scene);
+  print_means(c);
+  print_verdict(md);
+  print_verdict(dsmc);
+  print_contents(c, &about);
 }
 
 static int inform_result(const gg_options *o)
 {
   gg_error err;
-  gg_stored_result stored;
-  if (gg_stored_result_read(&stored, o->input, &err) != GG_OK) return gg_cli_report(&err);
-  if (o->json) {
-    gg_cli_print_document(json_incref(stored.document));
-  } else {
-    printf("%s: %s by graingas %s\ncommand: %s\ndate:    %s\nmachine: %s\n\nscene:\n%s", o->input,
-           stored.comparison ? "a comparison" : "a run", stored.version, stored.command, stored.date, stored.machine,
-           stored.scene);
-    print_means(&stored);
-    for (int k = 0; k < 2; k++)
-      if (stored.engine[k].name) print_verdict(&stored.engine[k]);
-    print_contents(&stored);
-  }
-  gg_stored_result_clear(&stored);
-  return GG_OK;
+  char *text = NULL;
+  gg_comparison *c = NULL;
+  gg_status status = gg_comparison_read(o->input, &c, &err);
+  if (status == GG_OK && o->json) status = gg_comparison_to_json(c, &text, &err);
+  if (status == GG_OK && o->json) gg_cli_print_text(text);
+  if (status == GG_OK && !o->json) print_file(o, c);
+  gg_comparison_free(c);
+  return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
 /* HDF5 files begin with these bytes. */

@@ -18,8 +18,7 @@ void gg_cli_catch_interrupts(void)
   sigaction(SIGTERM, &action, NULL);
 }
 
-bool gg_cli_interrupted(void *unused)
+bool gg_cli_interrupted(void)
 {
-  (void)unused;
   return caught != 0;
 }

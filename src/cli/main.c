@@ -4,16 +4,21 @@
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/cli.h"
-#include "io/nearest.h"
 
 int gg_cli_report(const gg_error *err)
 {
   fflush(stdout);
   fprintf(stderr, "graingas: %s\n", err->message);
   return err->status;
+}
+
+int gg_cli_report_of(const char *prefix, const gg_error *err)
+{
+  return gg_cli_fail(err->status, "%s: %s", prefix, err->message);
 }
 
 int gg_cli_fail(gg_status status, const char *format, ...)
@@ -24,6 +29,12 @@ int gg_cli_fail(gg_status status, const char *format, ...)
   vsnprintf(err.message, sizeof err.message, format, args);
   va_end(args);
   return gg_cli_report(&err);
+}
+
+void gg_cli_print_text(char *text)
+{
+  if (text) puts(text);
+  free(text);
 }
 
 static void print_help(void)
@@ -41,9 +52,10 @@ static void print_help(void)
 
 static int unknown(const char *word)
 {
-  gg_nearest nearest = {.word = word};
-  for (const gg_command *c = gg_commands; c->name; c++) gg_nearest_try(&nearest, c->name);
-  if (nearest.best) return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; did you mean '%s'?", word, nearest.best);
+  const char *known[16] = {NULL};
+  for (int i = 0; gg_commands[i].name && i < 15; i++) known[i] = gg_commands[i].name;
+  const char *nearest = gg_nearest_word(word, known);
+  if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; did you mean '%s'?", word, nearest);
   return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; see graingas --help", word);
 }
 

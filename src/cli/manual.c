@@ -3,9 +3,6 @@
 #include <string.h>
 
 #include "cli/options.h"
-#include "common/quantity.h"
-#include "io/scene/json.h"
-#include "theory/theory.h"
 
 /* Text with what roff would read as its own escaped. */
 static void put(const char *text)
@@ -36,35 +33,37 @@ static void item(const char *head, const char *argument, const char *text)
   printf("\n");
 }
 
-static void print_fields(const gg_field *fields)
+static void print_keys(gg_catalogue catalogue)
 {
-  gg_scene defaults = gg_scene_defaults();
-  for (const gg_field *f = fields; f->key; f++) {
-    char allowed[256];
-    bool required = strcmp(f->key, "flow") == 0 || strcmp(f->key, "phi") == 0;
-    gg_field_allowed(f, allowed, sizeof allowed);
+  gg_entry f;
+  for (size_t i = 0; gg_catalogue_entry(catalogue, i, NULL, &f, NULL) == GG_OK; i++) {
     printf(".TP\n.B ");
-    put(f->key);
+    put(f.name);
     printf("\n");
-    put(f->doc);
+    put(f.doc);
     printf("; ");
-    put(allowed);
-    if (f->unit) printf(" (unit: %s)", f->unit);
-    if (fields == gg_scene_fields && !required) {
-      json_t *value = gg_field_json(f, &defaults, &defaults);
-      printf("; default ");
-      fflush(stdout);
-      gg_print_flow_style(stdout, value);
-      json_decref(value);
-    }
+    put(f.allowed);
+    if (f.unit) printf(" (unit: %s)", f.unit);
+    if (catalogue == GG_CATALOGUE_KEYS && f.value[0]) printf("; default %s", f.value);
     printf(".\n");
   }
 }
 
 static void print_quantities(void)
 {
-  for (int q = 0; q < GG_N_QUANTITIES; q++)
-    item(gg_quantity_name((gg_quantity)q), NULL, gg_quantity_doc((gg_quantity)q));
+  gg_entry q;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++)
+    item(q.name, NULL, q.doc);
+}
+
+static void print_theories(void)
+{
+  gg_entry t;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_THEORIES, i, NULL, &t, NULL) == GG_OK; i++) {
+    char text[800];
+    snprintf(text, sizeof text, "%s. %s %s", t.doc, t.citation, t.assumptions);
+    item(t.name, NULL, text);
+  }
 }
 
 static void print_files(void)
@@ -120,18 +119,13 @@ void gg_cli_print_manual(void)
   item("--help", NULL, "Help on a command.");
   item("--version", NULL, "The version.");
   printf(".SH SCENE\nOnly flow and phi must be given. Keys with a dot stand in a section of YAML.\n");
-  print_fields(gg_scene_fields);
+  print_keys(GG_CATALOGUE_KEYS);
   printf(".SS Members of a species\n");
-  print_fields(gg_species_fields);
+  print_keys(GG_CATALOGUE_SPECIES_KEYS);
   printf(".SH QUANTITIES\nThe names in tables, JSON documents and HDF5 files.\n");
   print_quantities();
   printf(".SH THEORIES\n");
-  for (int i = 0; gg_theories[i]; i++) {
-    char text[800];
-    snprintf(text, sizeof text, "%s. %s %s", gg_theories[i]->title, gg_theories[i]->citation,
-             gg_theories[i]->assumptions);
-    item(gg_theories[i]->name, NULL, text);
-  }
+  print_theories();
   print_files();
   printf(".SH EXIT STATUS\n");
   item("0", NULL, "Done.");

@@ -2,13 +2,12 @@
 
 #include <getopt.h>
 #include <sched.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include "io/nearest.h"
 
 const gg_option gg_options_table[] = {
     {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run, instead of the scene's"},
@@ -42,21 +41,19 @@ void gg_print_command_help(const gg_command *c)
 
 static int refuse_option(const gg_command *c, const char *typed)
 {
-  char word[48];
+  char word[48], name[sizeof gg_options_table / sizeof *gg_options_table][24];
+  const char *known[sizeof gg_options_table / sizeof *gg_options_table] = {NULL};
+  int n = 0;
   snprintf(word, sizeof word, "%.*s", (int)strcspn(typed, "="), typed);
-  gg_nearest nearest = {.word = word};
   for (const gg_option *o = gg_options_table; o->flag; o++) {
-    char name[24];
     if (!(c->options & o->flag)) continue;
-    snprintf(name, sizeof name, "--%s", o->name);
-    if (strcmp(name, word) == 0)
+    snprintf(name[n], sizeof name[n], "--%s", o->name);
+    if (strcmp(name[n], word) == 0)
       return gg_cli_fail(GG_BAD_INPUT, o->argument ? "option '%s' needs a value" : "option '%s' takes no value", word);
-    gg_nearest whole = {.word = word};
-    gg_nearest_try(&whole, name);
-    if (whole.best && (!nearest.best || whole.distance < nearest.distance))
-      nearest = (gg_nearest){.word = word, .best = o->name, .distance = whole.distance};
+    known[n] = name[n], n++;
   }
-  if (nearest.best) return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; did you mean '--%s'?", word, nearest.best);
+  const char *nearest = gg_nearest_word(word, known);
+  if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; did you mean '%s'?", word, nearest);
   return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; see graingas %s --help", word, c->name);
 }
 
@@ -156,23 +153,33 @@ void gg_options_clear(gg_options *o)
   *o = (gg_options){0};
 }
 
-static gg_status override(gg_scene_draft *draft, const char *typed, gg_error *err)
+static gg_status refuse(gg_error *err, gg_status status, const char *format, ...) GG_CLI_PRINTF(3, 4);
+static gg_status refuse(gg_error *err, gg_status status, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  vsnprintf(err->message, sizeof err->message, format, args);
+  va_end(args);
+  return err->status = status;
+}
+
+static gg_status override(gg_scene *scene, const char *typed, gg_error *err)
 {
   const char *equals = strchr(typed, '=');
   char key[96];
   if (!equals || equals == typed)
-    return gg_fail(err, GG_BAD_INPUT, "--set %s: KEY=VALUE is expected, e.g. --set collision.e=0.8", typed);
+    return refuse(err, GG_BAD_INPUT, "--set %s: KEY=VALUE is expected, e.g. --set collision.e=0.8", typed);
   snprintf(key, sizeof key, "%.*s", (int)(equals - typed), typed);
-  gg_status status = gg_scene_draft_set(draft, key, equals + 1, err);
-  return status == GG_OK ? GG_OK : gg_error_prefix(err, status, "--set %.200s", typed);
+  gg_error why;
+  if (gg_scene_set(scene, key, equals + 1, &why) == GG_OK) return GG_OK;
+  return refuse(err, why.status, "--set %.200s: %.800s", typed, why.message);
 }
 
-gg_status gg_options_scene(const gg_options *o, gg_scene_draft *draft, gg_error *err)
+gg_status gg_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
 {
-  gg_scene_draft_start(draft);
-  GG_TRY(gg_scene_draft_load(draft, o->input, err));
-  for (int i = 0; i < o->n_overrides; i++) GG_TRY(override(draft, o->override[i], err));
-  return gg_scene_draft_finish(draft, o->input, err);
+  gg_status status = gg_scene_load(o->input, scene, err);
+  for (int i = 0; i < o->n_overrides && status == GG_OK; i++) status = override(*scene, o->override[i], err);
+  return status;
 }
 
 char *gg_with_suffix(const char *path, const char *suffix)
@@ -193,9 +200,9 @@ char *gg_options_output(const gg_options *o, const char *suffix, gg_error *err)
 {
   const char *slash = strrchr(o->input, '/');
   char *output = o->output ? strdup(o->output) : gg_with_suffix(slash ? slash + 1 : o->input, suffix);
-  if (!output) gg_fail(err, GG_FAILED, "out of memory");
+  if (!output) refuse(err, GG_FAILED, "out of memory");
   if (!output || !same_file(output, o->input)) return output;
-  gg_fail(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);
+  refuse(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);
   free(output);
   return NULL;
 }

@@ -3,7 +3,6 @@
 #define GG_CLI_OPTIONS_H
 
 #include "cli/cli.h"
-#include "io/scene/draft.h"
 
 enum {
   GG_OPT_SET = 1u << 0,
@@ -44,8 +43,8 @@ enum { GG_CLI_GO_ON = -1 };
 int gg_options_parse(const gg_command *command, int argc, char **argv, gg_options *options);
 void gg_options_clear(gg_options *options);
 
-/* The scene of the input, overridden and complete. */
-gg_status gg_options_scene(const gg_options *options, gg_scene_draft *draft, gg_error *err);
+/* The scene of the input, overridden; to be freed. */
+gg_status gg_options_scene(const gg_options *options, gg_scene **scene, gg_error *err);
 
 /* --output, or the input's base name with `suffix` in the current folder; to be freed. NULL with the message when that
  * is the input itself. */

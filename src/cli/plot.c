@@ -1,6 +1,4 @@
 /* graingas plot: a picture of what a result file holds. */
-#include "io/plot/plot.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,10 +18,7 @@ static int draw(const gg_options *o)
   snprintf(suffix, sizeof suffix, ".%s", o->format ? o->format : "svg");
   char *picture = gg_options_output(o, suffix, &err);
   if (!picture) return gg_cli_report(&err);
-  int code = gg_plot_result(o->input, picture, o->format, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
-  if (code == GG_OK) tell(NULL, picture);
-  if (code == GG_OK && gg_plot_result_curves(o->input, picture, o->format, tell, NULL, &err) != GG_OK)
-    code = gg_cli_report(&err);
+  int code = gg_plot(o->input, picture, o->format, tell, NULL, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
   free(picture);
   return code;
 }

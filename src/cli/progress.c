@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "io/text.h"
+#include "cli/format.h"
 
 static const double live_every = 0.1, plain_every = 20;
 
@@ -58,9 +58,8 @@ static void show_live(gg_cli_progress *p)
   p->live = true;
 }
 
-void gg_cli_progress_show(void *context, const gg_progress *g)
+void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *g)
 {
-  gg_cli_progress *p = context;
   if (p->quiet) return;
   int k = strcmp(g->engine, "dsmc") == 0;
   bool new_phase = strcmp(p->phase[k], g->phase) != 0;

@@ -2,7 +2,8 @@
 #ifndef GG_CLI_PROGRESS_H
 #define GG_CLI_PROGRESS_H
 
-#include "run/run.h"
+#include <graingas.h>
+#include <stdbool.h>
 
 typedef struct gg_cli_progress {
   bool quiet, terminal;
@@ -13,14 +14,13 @@ typedef struct gg_cli_progress {
 } gg_cli_progress;
 
 void gg_cli_progress_start(gg_cli_progress *p, bool quiet);
-/* The hook of gg_hooks; context is a gg_cli_progress. */
-void gg_cli_progress_show(void *context, const gg_progress *now);
-/* Take the live line away. */
+void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *now);
+/* Take the live line away; harmless again. */
 void gg_cli_progress_end(gg_cli_progress *p);
 
 /* SIGINT and SIGTERM end a run at the next occasion, with a checkpoint if one was asked for; a second one ends it at
  * once. */
 void gg_cli_catch_interrupts(void);
-bool gg_cli_interrupted(void *unused);
+bool gg_cli_interrupted(void);
 
 #endif

@@ -1,11 +1,11 @@
 /* The numbers read off curves (exponents, contact values, coefficients), printed with their errors. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/report.h"
 #include "cli/table.h"
-#include "io/text.h"
 
 /* Left to --all: where a fit began, second ways to the same number, what stands among the quantities already. */
 static bool is_minor(const char *name)
@@ -18,67 +18,66 @@ static bool is_minor(const char *name)
   return false;
 }
 
-static const gg_curve_number *find(const gg_result *r, const char *curve, const char *number)
-{
-  for (int k = 0; r && k < r->curves.n; k++) {
-    const gg_curve *c = &r->curves.curve[k];
-    if (strcmp(c->name, curve) != 0) continue;
-    for (int i = 0; i < c->n_numbers; i++)
-      if (strcmp(c->number[i].name, number) == 0) return &c->number[i];
-  }
-  return NULL;
-}
-
 typedef struct listing {
   const gg_result *result[2]; /* either may be missing */
   gg_table *table;
-  const char *curve; /* named last */
+  char curve[64]; /* named last */
 } listing;
 
-static void put_row(listing *l, const gg_curve *c, const gg_curve_number *number)
+/* The number of that name on the curve of that name. */
+static bool find(const gg_result *r, const char *curve, const char *name, gg_measurement *found)
 {
-  const gg_curve_number *by[2];
+  gg_curve_data c;
+  for (size_t i = 0; r && gg_result_curve(r, i, &c, NULL) == GG_OK; i++) {
+    if (strcmp(c.name, curve) != 0) continue;
+    for (size_t k = 0; gg_result_curve_number(r, i, k, found, NULL) == GG_OK; k++)
+      if (strcmp(found->name, name) == 0) return true;
+  }
+  return false;
+}
+
+static void put_row(listing *l, const char *curve, const gg_measurement *number)
+{
+  gg_measurement by[2];
+  bool there[2];
   if (l->table->n_rows == GG_TABLE_ROWS) return;
   int row = gg_table_row(l->table), column = 2;
-  if (l->curve != c->name) snprintf(gg_table_cell(l->table, row, 0), GG_TABLE_CELL, "%s", c->name);
-  l->curve = c->name;
+  if (strcmp(l->curve, curve) != 0) snprintf(gg_table_cell(l->table, row, 0), GG_TABLE_CELL, "%s", curve);
+  snprintf(l->curve, sizeof l->curve, "%s", curve);
   bool pure = strcmp(number->unit, "1") == 0;
   snprintf(gg_table_cell(l->table, row, 1), GG_TABLE_CELL, pure ? "%s" : "%s [%s]", number->name, number->unit);
   for (int k = 0; k < 2; k++) {
-    by[k] = find(l->result[k], c->name, number->name);
+    there[k] = find(l->result[k], curve, number->name, &by[k]);
     if (!l->result[k]) continue;
-    if (by[k]) gg_format_estimate(by[k]->value, by[k]->error, gg_table_cell(l->table, row, column), GG_TABLE_CELL);
+    if (there[k]) gg_format_estimate(by[k].mean, by[k].error, gg_table_cell(l->table, row, column), GG_TABLE_CELL);
     column++;
   }
-  if (l->result[0] && l->result[1]) {
-    bool both = by[0] && by[1] && !number->setting;
-    double z = both ? (by[0]->value - by[1]->value) / hypot(by[0]->error, by[1]->error) : NAN;
-    if (isfinite(z)) snprintf(gg_table_cell(l->table, row, column), GG_TABLE_CELL, "%+.1f", z);
-  }
+  if (!there[0] || !there[1]) return;
+  double error = hypot(by[0].error, by[1].error), z = (by[0].mean - by[1].mean) / error; /* a setting has no error */
+  if (error > 0 && isfinite(z)) snprintf(gg_table_cell(l->table, row, column), GG_TABLE_CELL, "%+.1f", z);
 }
 
 /* Of the first result; and of the second what the first has not. */
 static void put_rows(listing *l, int which, bool all)
 {
   const gg_result *r = l->result[which], *other = which ? l->result[0] : NULL;
-  for (int k = 0; r && k < r->curves.n; k++) {
-    const gg_curve *c = &r->curves.curve[k];
-    for (int i = 0; i < c->n_numbers; i++) {
-      const gg_curve_number *p = &c->number[i];
-      if (!isfinite(p->value) || (is_minor(p->name) && !all) || find(other, c->name, p->name)) continue;
-      put_row(l, c, p);
-    }
-  }
+  gg_curve_data c;
+  gg_measurement p, elsewhere;
+  for (size_t i = 0; r && gg_result_curve(r, i, &c, NULL) == GG_OK; i++)
+    for (size_t k = 0; gg_result_curve_number(r, i, k, &p, NULL) == GG_OK; k++)
+      if (isfinite(p.mean) && (all || !is_minor(p.name)) && !find(other, c.name, p.name, &elsewhere))
+        put_row(l, c.name, &p);
 }
 
 void gg_print_numbers(const gg_result *one, const gg_result *two, bool all)
 {
   listing l = {.result = {one, two}, .table = gg_table_new()};
+  gg_result_info about;
   if (!l.table) return;
   gg_table_column(l.table, "read off", false);
   gg_table_column(l.table, "", false);
   for (int k = 0; k < 2; k++)
-    if (l.result[k]) gg_table_column(l.table, l.result[k]->engine, true);
+    if (gg_result_about(l.result[k], &about, NULL) == GG_OK) gg_table_column(l.table, about.engine, true);
   if (one && two) gg_table_column(l.table, "z", true);
   for (int k = 0; k < 2; k++) put_rows(&l, k, all);
   if (l.table->n_rows) {

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "cli/options.h"
-#include "io/scene/json.h"
 
 /* Text with what Markdown would read as its own escaped. */
 static void put(const char *text)
@@ -15,9 +14,9 @@ static void put(const char *text)
   }
 }
 
-static bool takes_words(const gg_field *f)
+static bool takes_words(const gg_entry *f)
 {
-  return f->type == GG_FIELD_CHOICE || f->type == GG_FIELD_SET;
+  return strcmp(f->type, "choice") == 0 || strcmp(f->type, "set") == 0;
 }
 
 /* A heading's name in links leaves out its dots. */
@@ -27,55 +26,42 @@ static void put_anchor(const char *key)
     if (*key != '.') putchar(*key);
 }
 
-static void put_range(const gg_field *f)
+static void put_range(const gg_entry *f)
 {
-  char allowed[256];
   if (takes_words(f)) {
-    printf("%s [below](#", f->type == GG_FIELD_SET ? "a list of words" : "a word");
-    put_anchor(f->key);
+    printf("%s [below](#", strcmp(f->type, "set") == 0 ? "a list of words" : "a word");
+    put_anchor(f->name);
     putchar(')');
     return;
   }
-  gg_field_allowed(f, allowed, sizeof allowed);
-  put(allowed);
+  put(f->allowed);
 }
 
-static void put_default(const gg_field *f)
+static void print_keys(gg_catalogue catalogue, bool with_default)
 {
-  gg_scene defaults = gg_scene_defaults();
-  if (strcmp(f->key, "flow") == 0 || strcmp(f->key, "phi") == 0) return; /* must be given */
-  json_t *value = gg_field_json(f, &defaults, &defaults);
-  putchar('`');
-  gg_print_flow_style(stdout, value);
-  putchar('`');
-  json_decref(value);
-}
-
-static void print_fields(const gg_field *fields, bool with_default)
-{
+  gg_entry f;
   printf("| key | takes | %sunit | meaning |\n| --- | --- | %s--- | --- |\n", with_default ? "default | " : "",
          with_default ? "--- | " : "");
-  for (const gg_field *f = fields; f->key; f++) {
-    printf("| `%s` | ", f->key);
-    put_range(f);
+  for (size_t i = 0; gg_catalogue_entry(catalogue, i, NULL, &f, NULL) == GG_OK; i++) {
+    printf("| `%s` | ", f.name);
+    put_range(&f);
     printf(" | ");
-    if (with_default) {
-      put_default(f);
-      printf(" | ");
-    }
-    put(f->unit ? f->unit : "");
+    if (with_default && f.value[0]) printf("`%s`", f.value);
+    if (with_default) printf(" | ");
+    put(f.unit ? f.unit : "");
     printf(" | ");
-    put(f->doc);
+    put(f.doc);
     printf(" |\n");
   }
 }
 
-static void print_words(const gg_field *f)
+static void print_words(const char *key)
 {
-  printf("\n### `%s`\n\n", f->key);
-  for (const gg_word *w = f->words; w->name; w++) {
-    printf("- `%s`%s", w->name, *w->doc ? ": " : "");
-    put(w->doc);
+  gg_entry w;
+  printf("\n### `%s`\n\n", key);
+  for (size_t i = 0; gg_catalogue_word(key, i, &w, NULL) == GG_OK; i++) {
+    printf("- `%s`%s", w.name, *w.doc ? ": " : "");
+    put(w.doc);
     printf("\n");
   }
 }
@@ -89,11 +75,12 @@ void gg_cli_print_scene_page(void)
       "`collision.e` is\n`e` under `collision:`; on the command line it is `--set collision.e=0.8`. Lengths, masses "
       "and times of a scene are in\nunits of the user's choice, the same throughout; where no unit stands, the number "
       "is pure. `graingas info SCENE.yaml`\nprints every key with its value and what the scene switches on.\n\n");
-  print_fields(gg_scene_fields, true);
+  print_keys(GG_CATALOGUE_KEYS, true);
   printf("\n## Members of a species\n\nUnder `species`, a list of maps. Lengths and masses of results are in those of "
          "the first.\n\n");
-  print_fields(gg_species_fields, false);
+  print_keys(GG_CATALOGUE_SPECIES_KEYS, false);
   printf("\n## Words\n");
-  for (const gg_field *f = gg_scene_fields; f->key; f++)
-    if (takes_words(f)) print_words(f);
+  gg_entry f;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_KEYS, i, NULL, &f, NULL) == GG_OK; i++)
+    if (takes_words(&f)) print_words(f.name);
 }

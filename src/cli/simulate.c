@@ -1,23 +1,114 @@
 #include "cli/simulate.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "cli/checkpointing.h"
+/* usf.h5 -> usf.checkpoint.h5 */
+static char *checkpoint_path(const char *output)
+{
+  size_t length = strlen(output);
+  char *path = NULL;
+  if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
+  return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
+}
+
+static int show(void *context, const gg_progress *progress)
+{
+  gg_cli_progress_show(&((gg_simulating *)context)->progress, progress);
+  return 0;
+}
+
+static int is_interrupted(void *context)
+{
+  (void)context;
+  return gg_cli_interrupted();
+}
+
+static void note_checkpoint(void *context, const char *checkpoint)
+{
+  (void)checkpoint;
+  ((gg_simulating *)context)->stored = true;
+}
+
+static void warn(void *context, const char *message)
+{
+  (void)context;
+  fprintf(stderr, "warning: %s\n", message);
+}
+
+static int simulate_scene(gg_simulating *s, gg_simulate *simulate)
+{
+  const gg_options *o = s->options;
+  gg_error err;
+  char every[40] = "0";
+  gg_scene_get(s->scene, "output.checkpoint_every", every, sizeof every, NULL);
+  s->keeps_checkpoints = strtod(every, NULL) > 0;
+  s->output = gg_options_output(o, ".h5", &err);
+  if (!s->output) return gg_cli_report(&err);
+  s->checkpoint = checkpoint_path(s->output);
+  if (!s->checkpoint) return gg_cli_fail(GG_FAILED, "out of memory");
+  s->replaced = gg_file_exists(s->output);
+  s->run = (gg_run_options){.threads = o->threads,
+                            .output = s->output,
+                            .checkpoint = s->keeps_checkpoints ? s->checkpoint : NULL,
+                            .resume = o->resume,
+                            .command = o->command_line,
+                            .context = s,
+                            .progress = show,
+                            .stop = is_interrupted,
+                            .stored = note_checkpoint,
+                            .warn = warn};
+  gg_cli_progress_start(&s->progress, o->quiet);
+  gg_cli_catch_interrupts();
+  return simulate(s);
+}
 
 int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simulate *simulate)
 {
   gg_options o;
   gg_error err;
-  gg_scene_draft draft;
-  gg_archive archive = {0};
+  gg_simulating s = {.options = &o};
   int code = gg_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && gg_options_scene(&o, &draft, &err) != GG_OK) code = gg_cli_report(&err);
-  if (code == GG_CLI_GO_ON) code = gg_checkpointing_read(&o, &archive);
-  char *output = code == GG_CLI_GO_ON ? gg_options_output(&o, ".h5", &err) : NULL;
-  if (code == GG_CLI_GO_ON)
-    code = output ? simulate(&o, &draft.scene, output, o.resume ? &archive : NULL) : gg_cli_report(&err);
-  free(output);
-  gg_archive_clear(&archive);
+  if (code == GG_CLI_GO_ON && gg_options_scene(&o, &s.scene, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON) code = simulate_scene(&s, simulate);
+  free(s.output);
+  free(s.checkpoint);
+  gg_scene_free(s.scene);
   gg_options_clear(&o);
   return code;
+}
+
+/* How to go on. */
+static void tell_interrupted(const gg_simulating *s, gg_error *err)
+{
+  const char *hint = s->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)";
+  char *to = err->message;
+  size_t size = sizeof err->message;
+  if (!s->stored)
+    snprintf(to, size, "interrupted; nothing was written%s", hint);
+  else if (s->options->resume)
+    snprintf(to, size, "interrupted; go on with the same command and --resume %s", s->checkpoint);
+  else
+    snprintf(to, size, "interrupted; go on with: %.700s --resume %s", s->options->command_line, s->checkpoint);
+}
+
+bool gg_simulating_shows(gg_simulating *s, gg_status status, bool result)
+{
+  gg_cli_progress_end(&s->progress);
+  return result && status != GG_INTERRUPTED;
+}
+
+bool gg_simulating_tell(const gg_simulating *s, gg_status status)
+{
+  if (status == GG_BAD_FILE) return false;
+  gg_tell_written(s->options, "results", s->output, s->replaced);
+  return true;
+}
+
+int gg_simulating_end(const gg_simulating *s, gg_status status, gg_error *err)
+{
+  if (status == GG_OK) return GG_OK;
+  if (status == GG_INTERRUPTED) tell_interrupted(s, err);
+  return status == GG_BAD_INPUT ? gg_cli_report_of(s->options->input, err) : gg_cli_report(err);
 }

@@ -1,14 +1,32 @@
-/* What run and compare have in common: options, scene, checkpoint to go on from, output. */
+/* What run and compare have in common: options, scene, output, progress, checkpoints, and how a run ends. */
 #ifndef GG_CLI_SIMULATE_H
 #define GG_CLI_SIMULATE_H
 
 #include "cli/options.h"
-#include "common/archive.h"
+#include "cli/progress.h"
 
-/* Simulate the scene into `output`; resume: NULL, or where to go on from. Returns the exit code. */
-typedef int gg_simulate(const gg_options *options, const gg_scene *scene, const char *output, const gg_archive *resume);
+typedef struct gg_simulating {
+  const gg_options *options;
+  gg_scene *scene;
+  char *output, *checkpoint;
+  bool keeps_checkpoints; /* the scene asks for them */
+  bool stored;            /* at least one in this run */
+  bool replaced;          /* the output takes the place of an older file */
+  gg_cli_progress progress;
+  gg_run_options run; /* ready for gg_run or gg_compare */
+} gg_simulating;
+
+/* Run, print, and tell what was written; returns the exit code. */
+typedef int gg_simulate(gg_simulating *simulating);
 
 /* The whole of a simulating subcommand around its `simulate`. */
 int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simulate *simulate);
+
+/* After the run: is there a result to show? */
+bool gg_simulating_shows(gg_simulating *simulating, gg_status status, bool result);
+/* After it was shown: tell where it was written. False if it was not. */
+bool gg_simulating_tell(const gg_simulating *simulating, gg_status status);
+/* Report what the run fell short of; returns the exit code. */
+int gg_simulating_end(const gg_simulating *simulating, gg_status status, gg_error *err);
 
 #endif

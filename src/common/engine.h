@@ -58,13 +58,15 @@ typedef struct gg_block_run {
 } gg_block_run;
 typedef void gg_visit_blocks(void *context, const gg_block_run *run);
 
-/* One collision between two grains as a watcher sees it, before the impulse. */
+/* One collision between two grains as a watcher sees it: velocities are those before the impulse. */
 typedef struct gg_seen_collision {
+  int64_t id[2]; /* the grains' numbers: gg_chunk.id, or their places in a snapshot where that is NULL */
   int species[2];
   gg_vec k;         /* from 1 to 2 */
   gg_vec c12;       /* c_1 - c_2 of the centres, the flow between them included */
   gg_vec c[2];      /* peculiar velocities */
   double height[2]; /* y over the middle of the box; NaN where there are no positions */
+  gg_vec J;         /* impulse on grain 2, -J on grain 1 */
   double since[2];  /* time since the last contact of each, walls included; INFINITY: none since watching began */
 } gg_seen_collision;
 typedef void gg_watch(void *context, const gg_seen_collision *meeting);

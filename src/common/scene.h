@@ -1,4 +1,4 @@
-/* The scene: what the user asked for, in the user's own units. Plain data; the field table of src/io/scene_fields.c
+/* The scene: what the user asked for, in the user's own units. Plain data; the field table of src/io/scene/fields.c
  * reads, checks, prints and documents every member. */
 #ifndef GG_SCENE_H
 #define GG_SCENE_H
@@ -68,6 +68,7 @@ struct gg_scene {
   } output;
   gg_extension *extension; /* what the user's program adds; NULL: nothing. The scene of the interface holds it, copies
                               of its values borrow it */
+  uint64_t given; /* keys that the user gave: a bit per row of the field table */
 };
 
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */

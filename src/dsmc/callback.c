@@ -9,6 +9,7 @@
 static gg_status allocate(gg_dsmc *d, gg_error *err)
 {
   for (int i = 0; i < d->model.n_species; i++) {
+    d->callback.first[i] = i ? d->callback.first[i - 1] + d->ensemble.of[i - 1].n : 0;
     if (d->callback.last[i]) continue;
     size_t n = (size_t)d->ensemble.of[i].n;
     double *last = d->callback.last[i] = gg_new_array(n, sizeof *last, err);

@@ -82,6 +82,7 @@ static json_t *engine_state_json(const gg_result *r)
 
 json_t *gg_run_document(const gg_result *r)
 {
+  if (r->origin.document) return json_loads(r->origin.document, 0, NULL); /* as it was stored */
   json_t *results = json_object(), *warnings = json_array();
   for (int i = 0; i < r->n_warnings; i++) json_array_append_new(warnings, json_string(r->warnings[i]));
   for (int q = 0; q < gg_quantities_of(&r->model); q++)
@@ -90,9 +91,9 @@ json_t *gg_run_document(const gg_result *r)
   json_t *document =
       json_pack("{s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
                 gg_scene_json(&r->scene), "engine", r->engine, "steady", r->steadiness == GG_STEADY, "verdict",
-                r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions", (json_int_t)r->averaging.collisions,
-                "cpu_seconds", real(r->averaging.cpu_seconds), "total", effort_json(&r->total), "engine_state",
-                engine_state_json(r), "results", results, "warnings", warnings);
+                r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions",
+                (json_int_t)r->averaging.collisions, "cpu_seconds", real(r->averaging.cpu_seconds), "total",
+                effort_json(&r->total), "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
   if (r->curves.n) json_object_set_new(document, "curves", gg_curves_json(&r->curves));
   return document;
 }

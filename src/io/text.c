@@ -18,7 +18,7 @@ static void put_estimate(double mean, double error, int decimals, char *text, si
     snprintf(text, size, "%.*f(%.0f)", decimals, mean, error * pow(10, decimals));
 }
 
-void gg_format_estimate(double mean, double error, char *text, size_t size)
+void gg_estimate_text(double mean, double error, char *text, size_t size)
 {
   if (isnan(mean)) {
     snprintf(text, size, "-");
@@ -44,32 +44,6 @@ void gg_format_estimate(double mean, double error, char *text, size_t size)
   if (scientific && used < size) snprintf(text + used, size - used, "e%+03d", exponent);
 }
 
-void gg_format_count(double count, char *text, size_t size)
-{
-  static const char *const prefixes[] = {"", " k", " M", " G", " T"};
-  int k = 0;
-  while (count >= 999.5 && k < 4) count /= 1000, k++;
-  if (k == 0 && count == floor(count))
-    snprintf(text, size, "%.0f", count);
-  else
-    snprintf(text, size, "%.3g%s", count, prefixes[k]);
-}
-
-void gg_format_duration(double seconds, char *text, size_t size)
-{
-  long whole = lround(seconds);
-  if (seconds < 0.0995)
-    snprintf(text, size, "%.0f ms", 1000 * seconds);
-  else if (seconds < 9.95)
-    snprintf(text, size, "%.1f s", seconds);
-  else if (whole < 60)
-    snprintf(text, size, "%ld s", whole);
-  else if (whole < 3600)
-    snprintf(text, size, "%ld:%02ld min", whole / 60, whole % 60);
-  else
-    snprintf(text, size, "%ld:%02ld:%02ld h", whole / 3600, whole / 60 % 60, whole % 60);
-}
-
 static void add(char *text, size_t size, const char *format, ...) GG_PRINTF(3, 4);
 static void add(char *text, size_t size, const char *format, ...)
 {
@@ -88,7 +62,7 @@ static void add_pairs(char *text, size_t size, const char *name, const double *x
     add(text, size, ", %s %g/%g/%g", name, x[GG_11], x[GG_12], x[GG_22]);
 }
 
-void gg_scene_title(const gg_scene *s, char *text, size_t size)
+void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
 {
   static const char *const flows[] = {
       [GG_EQUILIBRIUM] = "Equilibrium", [GG_USF] = "Uniform shear flow", [GG_HCS] = "Homogeneous cooling",

@@ -1,5 +1,5 @@
-/* Collisions shown one by one. While a callback is set, the resolution of contacts is wrapped by one that shows them
- * first: one that is not watched knows nothing of it. */
+/* Collisions shown one by one. While a callback is set, the resolution of contacts is wrapped by one that shows them:
+ * one that is not watched knows nothing of it. */
 #include <math.h>
 
 #include "md/state.h"
@@ -10,6 +10,7 @@ static void show_grain(const gg_md *e, uint32_t i, int which, gg_seen_collision 
   double height = g->r.y - 0.5 * e->box.edge[1];
   gg_vec c = g->v;
   c.x -= e->model.shear_rate * height;
+  m->id[which] = e->id[i];
   m->species[which] = gg_md_species_of(g);
   m->c[which] = gg_scale(e->k.scale, c);
   m->height[which] = height;
@@ -21,8 +22,10 @@ void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c1
   gg_seen_collision m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
   show_grain(e, i, 0, &m);
   show_grain(e, j, 1, &m);
-  e->watch(e->watcher, &m);
+  gg_vec before = e->grain[j].v;
   e->watched(e, i, j, dr, c12);
+  m.J = gg_scale(e->k.scale * e->model.mass[m.species[1]], gg_sub(e->grain[j].v, before));
+  e->watch(e->watcher, &m);
 }
 
 gg_status gg_md_watch(gg_engine *engine, gg_watch *watch, void *context, gg_error *err)

@@ -29,7 +29,8 @@ static gg_curve *new_curve(gg_curves *list, size_t n)
   if (!list->curve) list->curve = calloc(GG_MOST_CURVES, sizeof *list->curve);
   if (!list->curve || list->n == GG_MOST_CURVES || list->failed) return NULL;
   gg_curve *c = &list->curve[list->n];
-  *c = (gg_curve){.group = list->group, .samples = list->samples, .n = n};
+  *c = (gg_curve){.samples = list->samples, .n = n};
+  snprintf(c->group, sizeof c->group, "%s", list->group ? list->group : "");
   c->x = calloc(n, sizeof(double));
   c->value = calloc(n, sizeof(double));
   c->error = calloc(n, sizeof(double));
@@ -45,7 +46,7 @@ gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *
   if (!c) {
     list->failed = true;
     c = &list->spare;
-    *c = (gg_curve){.group = list->group};
+    *c = (gg_curve){0};
   }
   snprintf(c->name, sizeof c->name, "%s", name);
   snprintf(c->panel, sizeof c->panel, "%s", panel);

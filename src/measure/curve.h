@@ -17,7 +17,7 @@ enum { GG_CURVE_NUMBERS = 16, GG_MOST_CURVES = 160 };
 
 typedef struct gg_curve {
   char name[48];             /* unique in a result: "velocity_distribution_Cx" */
-  const char *group;         /* the observable: one picture */
+  char group[40];            /* the observable: one picture */
   char panel[48], label[24]; /* curves of one panel are drawn together, under their labels */
   char x_name[24], x_unit[40], y_name[40], unit[40];
   bool log_x, log_y; /* how it is best drawn */

@@ -52,7 +52,19 @@ static gg_status store_checkpoint(gg_replicas *all, gg_error *err)
 
 static bool checkpoints(const gg_replicas *all)
 {
-  return all->scene.output.checkpoint_every > 0 && all->hooks && all->hooks->checkpoint;
+  return all->hooks && all->hooks->checkpoint;
+}
+
+static bool checkpoint_is_due(const gg_replicas *all)
+{
+  double every = all->scene.output.checkpoint_every;
+  return checkpoints(all) && every > 0 && gg_wall_now() - all->last_checkpoint > every;
+}
+
+/* Sampling intervals follow the collision rate before averaging, and where the temperature never stands still. */
+static bool adapts(const gg_replicas *all)
+{
+  return !all->state.averaging || all->model.flow == GG_HCS || !all->model.steady;
 }
 
 static bool out_of_time(const gg_replicas *all)
@@ -74,17 +86,21 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
       uint64_t step = 1 + (uint64_t)(2e5 / (double)all->model.n); /* some tens of milliseconds */
       all->state.due = all->state.due + step < due ? all->state.due + step : due;
     }
-    gg_status status =
-        gg_replicas_advance(all, !all->state.averaging || all->model.flow == GG_HCS || !all->model.steady, err);
+    gg_status status = gg_replicas_advance(all, adapts(all), err);
     if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, NULL));
     if (status != GG_OK) return status;
     gg_replicas_check_standstill(all);
     report_progress(all);
-    if (checkpoints(all) && gg_wall_now() - all->last_checkpoint > all->scene.output.checkpoint_every)
-      GG_TRY(store_checkpoint(all, err));
+    if (checkpoint_is_due(all)) GG_TRY(store_checkpoint(all, err));
     if (is_over(all)) return GG_OK;
   }
   return GG_OK;
+}
+
+gg_status gg_replicas_finish_round(gg_replicas *all, gg_error *err)
+{
+  all->hooks = NULL;
+  return gg_replicas_advance(all, adapts(all), err);
 }
 
 /* Windows that may be given up: averaging does not begin anew for ever. */

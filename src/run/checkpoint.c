@@ -1,64 +1,10 @@
-/* The replicas in an archive: everything needed to go on bit for bit, and enough of the scene to refuse another one. */
+/* The replicas in an archive: everything needed to go on bit for bit. */
 #include <stdio.h>
 #include <string.h>
 
 #include "run/clock.h"
+#include "run/fingerprint.h"
 #include "run/replicas.h"
-
-/* Every key that fixes the trajectory or what is averaged; stop rules and output may change between parts of a run. */
-typedef struct gg_fingerprint {
-  const char *name;
-  double value;
-} gg_fingerprint;
-
-enum { MOST_FINGERPRINT = 64 };
-
-static int fingerprint(const gg_scene *s, gg_fingerprint *f)
-{
-  const gg_fingerprint fixed[] = {{"flow", s->flow},
-                                  {"engine", s->engine},
-                                  {"thermostat", s->thermostat},
-                                  {"contact_value", s->contact_value},
-                                  {"phi", s->phi},
-                                  {"particles", (double)s->particles},
-                                  {"shear_rate", s->shear_rate},
-                                  {"temperature", s->temperature},
-                                  {"small_shear", s->small_shear},
-                                  {"aspect", s->aspect[0]},
-                                  {"aspect", s->aspect[1]},
-                                  {"aspect", s->aspect[2]},
-                                  {"species", s->n_species},
-                                  {"walls.e", s->walls.e},
-                                  {"walls.beta", s->walls.beta},
-                                  {"walls.mu", s->walls.mu},
-                                  {"walls.speed", s->walls.speed},
-                                  {"walls.top", s->walls.top},
-                                  {"gravity", s->gravity[0]},
-                                  {"gravity", s->gravity[1]},
-                                  {"gravity", s->gravity[2]},
-                                  {"run.warmup", s->run.warmup},
-                                  {"run.replicas", (double)s->run.replicas},
-                                  {"run.seed", (double)s->run.seed},
-                                  {"md.contact_time", s->md.contact_time},
-                                  {"dsmc.time_step", s->dsmc.time_step},
-                                  {"dsmc.particles", (double)s->dsmc.particles},
-                                  {"dsmc.precision", s->dsmc.precision},
-                                  {"measure", s->measure}};
-  int n = sizeof fixed / sizeof *fixed;
-  memcpy(f, fixed, sizeof fixed);
-  for (int p = 0; p < GG_PAIRS; p++) {
-    f[n++] = (gg_fingerprint){"collision.e", s->collision.e[p]};
-    f[n++] = (gg_fingerprint){"collision.beta", s->collision.beta[p]};
-    f[n++] = (gg_fingerprint){"collision.mu", s->collision.mu[p]};
-  }
-  for (int i = 0; i < GG_MAX_SPECIES; i++) {
-    f[n++] = (gg_fingerprint){"species: fraction", s->species[i].fraction};
-    f[n++] = (gg_fingerprint){"species: diameter", s->species[i].diameter};
-    f[n++] = (gg_fingerprint){"species: mass", s->species[i].mass};
-    f[n++] = (gg_fingerprint){"species: inertia", s->species[i].inertia};
-  }
-  return n;
-}
 
 static const char extension_item[] = "campaign/extension";
 enum { SIGNATURE = 2048 };
@@ -79,13 +25,9 @@ static gg_status same_extension(const gg_replicas *all, const gg_archive *a, gg_
 
 gg_status gg_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *err)
 {
-  gg_fingerprint f[MOST_FINGERPRINT];
-  double values[MOST_FINGERPRINT];
-  int n = fingerprint(&all->scene, f);
-  for (int i = 0; i < n; i++) values[i] = f[i].value;
   struct gg_replicas_state state = all->state;
   state.wall += gg_wall_now() - all->started;
-  GG_TRY(gg_archive_put(a, "campaign/fingerprint", GG_ITEM_F64, values, (size_t)n, err));
+  GG_TRY(gg_fingerprint_put(&all->scene, a, err));
   char signature[SIGNATURE] = "";
   gg_extension_signature(all->scene.extension, signature, sizeof signature);
   GG_TRY(gg_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err));
@@ -102,26 +44,10 @@ gg_status gg_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *err)
   return GG_OK;
 }
 
-static gg_status same_scene(const gg_replicas *all, const gg_archive *a, gg_error *err)
-{
-  gg_fingerprint here[MOST_FINGERPRINT];
-  double there[MOST_FINGERPRINT];
-  int n = fingerprint(&all->scene, here);
-  GG_TRY(gg_archive_get(a, "campaign/fingerprint", GG_ITEM_F64, there, (size_t)n, err));
-  for (int i = 0; i < n; i++)
-    if (memcmp(&here[i].value, &there[i], sizeof there[i]) != 0)
-      return gg_fail(
-          err, GG_BAD_INPUT,
-          "the checkpoint is of another run: %s differs (there %.15g, here %.15g); only stop rules and output "
-          "may change",
-          here[i].name, there[i], here[i].value);
-  return GG_OK;
-}
-
 gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *a, gg_error *err)
 {
   GG_TRY(same_extension(all, a, err));
-  GG_TRY(same_scene(all, a, err));
+  GG_TRY(gg_fingerprint_check(&all->scene, a, err));
   GG_TRY(gg_archive_get(a, "campaign/state", GG_ITEM_U8, &all->state, sizeof all->state, err));
   for (int i = 0; i < all->n; i++) {
     gg_archive one = {0};

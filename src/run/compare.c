@@ -1,6 +1,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "run/run.h"
@@ -96,7 +97,7 @@ static gg_status close_part(part *p, gg_error *err)
   gg_comparison *c = p->comparison;
   gg_result *result = c->by_engine[p->kind];
   bool refused = p->status == GG_BAD_INPUT && p->resume.n_items == 0;
-  if (p->status == GG_OK || refused || (p->status == GG_FAILED && result)) {
+  if (p->status == GG_OK || refused || (result && (p->status == GG_FAILED || p->status == GG_INTERRUPTED))) {
     if (refused) snprintf(c->refusal[p->kind], sizeof c->refusal[0], "%.250s", p->err.message);
     return GG_OK;
   }
@@ -122,8 +123,10 @@ static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
   if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
     return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
                    c->refusal[GG_DSMC]);
-  for (int k = 0; k < 2; k++)
-    if (parts[k].status == GG_FAILED) return gg_fail(err, GG_FAILED, "%s", parts[k].err.message);
+  const gg_status short_of[] = {GG_INTERRUPTED, GG_FAILED};
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 2; k++)
+      if (parts[k].status == short_of[i]) return gg_fail(err, short_of[i], "%s", parts[k].err.message);
   return GG_OK;
 }
 
@@ -164,5 +167,6 @@ void gg_comparison_clear(gg_comparison *c)
 {
   for (int k = 0; k < 2; k++) gg_result_free(c->by_engine[k]);
   gg_extension_release(c->scene.extension);
+  free(c->document);
   memset(c, 0, sizeof *c);
 }

@@ -55,6 +55,8 @@ gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err);
 
 /* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
 gg_status gg_replicas_run(gg_replicas *all, gg_error *err);
+/* After an interruption: bring every replica to where the step was to end, and call nobody any more. */
+gg_status gg_replicas_finish_round(gg_replicas *all, gg_error *err);
 
 /* convergence.c: how exact the means over the window are, and whether it is steady. */
 gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *convergence, gg_error *err);

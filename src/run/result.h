@@ -53,7 +53,7 @@ struct gg_result {
   gg_model model;
   const char *engine; /* "md", "dsmc" */
   gg_steadiness steadiness;
-  char steadiness_text[256]; /* which quantity decided, and how */
+  char steadiness_text[256];             /* which quantity decided, and how */
   gg_estimate value[GG_MOST_QUANTITIES]; /* gg_quantities_of(&model) of them */
   gg_history history;
   gg_curves curves;
@@ -62,6 +62,10 @@ struct gg_result {
   gg_engine_state engine_state; /* counts summed over replicas */
   char *warnings[GG_MAX_WARNINGS];
   int n_warnings;
+  struct {
+    char *version, *command, *machine, *date, *document; /* document: JSON as it was stored */
+    size_t frames;
+  } origin; /* of the file that it was read from; NULL of a run */
 };
 
 void gg_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);

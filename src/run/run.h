@@ -5,18 +5,6 @@
 #include "run/result.h"
 #include "theory/theory.h"
 
-/* Where a run stands, for a progress line. */
-typedef struct gg_progress {
-  const char *engine;
-  const char *phase;     /* "warm-up", "averaging" */
-  double fraction;       /* of this phase, 0..1 */
-  uint64_t collisions;   /* so far, this replica */
-  double rate;           /* collisions per second */
-  double relative_error; /* worst headline, NaN if not known yet */
-  double time_left;      /* seconds, NaN if not known */
-  int64_t replica, replicas;
-} gg_progress;
-
 /* What the caller wants to be told while it runs; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
 typedef struct gg_hooks {
@@ -24,20 +12,21 @@ typedef struct gg_hooks {
   void (*progress)(void *context, const gg_progress *progress);
   bool (*interrupted)(void *context); /* asked between advances; true ends the run with GG_INTERRUPTED */
   gg_status (*frame)(void *context, const gg_frame *frame, gg_error *err); /* every output.trajectory_every */
-  /* Every output.checkpoint_every seconds, and at an interruption if that was asked for: store it whole. */
+  /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole.
+   */
   gg_status (*checkpoint)(void *context, const gg_archive *archive, gg_error *err);
 } gg_hooks;
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side
  * by side, and shares out a large ensemble of engine dsmc where there are more threads than that needs; the result does
- * not depend on it. GG_FAILED with *result set: ended short of what was asked. The caller frees
- * *result with gg_result_free. */
+ * not depend on it. GG_FAILED with *result set: ended short of what was asked; GG_INTERRUPTED with *result set: so far.
+ * The caller frees *result with gg_result_free. */
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                        gg_result **result, gg_error *err);
 
 /* Both engines and every theory. */
 enum { GG_MOST_THEORIES = 32 };
-typedef struct gg_comparison {
+struct gg_comparison {
   gg_scene scene;          /* holds its extension */
   gg_model model;          /* md's */
   gg_result *by_engine[2]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
@@ -49,9 +38,11 @@ typedef struct gg_comparison {
     char reason[256]; /* why not */
     gg_theory_answer answer;
   } theory[GG_MOST_THEORIES];
-} gg_comparison;
+  char *document; /* JSON as it was stored; NULL of a comparison that was not read from a file */
+};
 
-/* `resume` (may be NULL): an archive that the checkpoint hook stored; each engine goes on from its part. */
+/* `resume` (may be NULL): an archive that the checkpoint hook stored; each engine goes on from its part. Also after a
+ * failure the comparison holds what there is, and is to be cleared. */
 gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                            gg_comparison *comparison, gg_error *err);
 /* (a - b) over their combined standard error; NaN where either is missing. */

@@ -48,11 +48,16 @@ def test_examples_build_against_it():
     flags = sh("pkg-config", "--cflags", "--libs", "graingas", env=env).split()
     examples = sorted(glob.glob(os.path.join(SOURCE, "examples", "*.c")))
     check(examples, "no examples")
+    env["LD_LIBRARY_PATH"] = os.path.dirname(found("libgraingas.so"))
+    strict = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread"]
     for example in examples:
-        program = os.path.splitext(os.path.basename(example))[0]
-        sh("cc", "-Wall", "-Wextra", "-Werror", "-std=c11", example, "-o", program, *flags)
-        env["LD_LIBRARY_PATH"] = os.path.dirname(found("libgraingas.so"))
-        out = sh(os.path.abspath(program), env=env, timeout=60)
+        check(len(open(example).readlines()) <= 50, example, "is longer than 50 lines")
+        program = os.path.abspath(os.path.splitext(os.path.basename(example))[0])
+        if shutil.which("c++"):
+            sh("c++", "-x", "c++", "-std=c++11", *strict, example, "-o", program, "-x", "none", *flags)
+        sh("cc", "-std=c99", *strict, example, "-o", program, *flags)
+        sh("cc", "-std=c17", *strict, example, "-o", program, *flags)
+        out = sh(program, env=env, timeout=60)
         check(len(out.splitlines()) >= 1, out)
 
 
@@ -78,6 +83,19 @@ def test_header_in_other_languages():
     if not shutil.which("c++"):
         raise Skip("no C++ compiler")
     sh("c++", "-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-x", "c++", header)
+
+
+def test_command_uses_the_door():
+    """The command includes the public header and its own files only; `bench` alone looks inside."""
+    sources = glob.glob(os.path.join(SOURCE, "src", "cli", "*.[ch]"))
+    check(len(sources) > 20)
+    for source in sources:
+        for name in re.findall(r'#include "([^"]+)"', open(source).read()):
+            allowed = name.startswith("cli/") or (os.path.basename(source) == "bench.c" and name.startswith("bench/"))
+            check(allowed, source, "includes", name)
+    for source in glob.glob(os.path.join(SOURCE, "tests", "door", "*.[ch]")):
+        inside = [n for n in re.findall(r'#include "([^"]+)"', open(source).read()) if n != "door_test.h"]
+        check(not inside, source, "includes", inside)
 
 
 def test_exported_names():

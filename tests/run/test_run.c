@@ -213,7 +213,8 @@ static gg_result *in_two_parts(const gg_scene *s, int stop, gg_archive *archive)
   gg_result *r = NULL;
   gg_archive_clear(archive);
   if (gg_run_scene(s, NULL, 1, &hooks, &r, NULL) == GG_INTERRUPTED) {
-    assert_null(r);
+    assert_non_null(r); /* what there is so far */
+    gg_result_free(r);
     assert_int_equal(gg_archive_unnest(archive, "x", &k.kept, NULL), GG_OK);
     assert_int_equal(gg_run_scene(s, archive, 1, NULL, &r, NULL), GG_OK);
   } else {

@@ -19,14 +19,17 @@ static void fetch(gg_dsmc_features f, const gg_dsmc_pass *p, grain_pair *q)
   q->cb.x -= p->strain * q->cb.y;
 }
 
-static void call_back(gg_dsmc_pass *p, const grain_pair *q, gg_vec k, gg_vec c12)
+static void call_back(gg_dsmc_pass *p, const grain_pair *q, gg_vec k, gg_vec c12, gg_vec J)
 {
   double *one = &p->callback->last[p->species[0]][q->a], *two = &p->callback->last[p->species[1]][q->b];
-  gg_seen_collision m = {.species = {p->species[0], p->species[1]},
+  const int64_t *first = p->callback->first;
+  gg_seen_collision m = {.id = {first[p->species[0]] + q->a, first[p->species[1]] + q->b},
+                         .species = {p->species[0], p->species[1]},
                          .k = k,
                          .c12 = c12,
                          .c = {q->ca, q->cb},
                          .height = {NAN, NAN},
+                         .J = J,
                          .since = {p->time - *one, p->time - *two}};
   p->callback->watch(p->callback->context, &m);
   *one = *two = p->time;
@@ -64,11 +67,11 @@ static void collide(gg_dsmc_features f, gg_dsmc_pass *p, grain_pair *q, gg_vec k
     q->sa = gg_dsmc_block_get(p->one, p->one->s, q->a);
     q->sb = gg_dsmc_block_get(p->two, p->two->s, q->b);
   }
-  if (p->callback) call_back(p, q, k, c12);
   gg_contact by_law;
   const gg_contact *contact = &p->contact;
   if (p->law) by_law = contact_at(p, gn), contact = &by_law;
   gg_vec g = gg_contact_velocity(f.rule, k, c12, q->sa, q->sb), J = gg_impulse(f.rule, contact, k, g, gn);
+  if (p->callback) call_back(p, q, k, c12, J);
   sums(f, p, contact, k, g, J);
   gg_kick(f.rule, contact, k, J, &q->ca, &q->sa, &q->cb, &q->sb);
   raise_speed_bound(p, &p->one->speed_bound[q->a / GG_DSMC_LANES], q->ca);

@@ -40,7 +40,8 @@ typedef struct gg_dsmc_features {
 typedef struct gg_dsmc_callback {
   gg_watch *watch;
   void *context;
-  double *last[GG_MAX_SPECIES]; /* when each grain last collided; -INFINITY: not yet */
+  double *last[GG_MAX_SPECIES];  /* when each grain last collided; -INFINITY: not yet */
+  int64_t first[GG_MAX_SPECIES]; /* number of a species' first grain */
 } gg_dsmc_callback;
 
 /* Blocks of a population. */

@@ -161,6 +161,28 @@ void *gg_h5_read_array(gg_h5 *h, const char *path, hid_t type, size_t item, size
   return data;
 }
 
+void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, size_t items)
+{
+  if (h->failed) return NULL;
+  hsize_t size[3] = {0}, from[3] = {0}, row = 1;
+  hid_t dataset = H5Dopen2(h->file, path, H5P_DEFAULT), space = dataset < 0 ? -1 : H5Dget_space(dataset);
+  int rank = space < 0 ? 0 : H5Sget_simple_extent_ndims(space);
+  if (rank >= 1 && rank <= 3) H5Sget_simple_extent_dims(space, size, NULL);
+  for (int a = 1; a < rank && a < 3; a++) row *= size[a];
+  void *data = size[0] && row == items ? calloc(items, item) : NULL;
+  from[0] = size[0] - 1, size[0] = 1;
+  hid_t memory = data ? H5Screate_simple(rank, size, NULL) : -1;
+  bool read = data && H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL) >= 0 &&
+              H5Dread(dataset, type, memory, space, H5P_DEFAULT, data) >= 0;
+  if (memory >= 0) H5Sclose(memory);
+  if (space >= 0) H5Sclose(space);
+  if (dataset >= 0) H5Dclose(dataset);
+  if (read) return data;
+  gg_h5_failed(h, path);
+  free(data);
+  return NULL;
+}
+
 void gg_h5_read_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, void *value)
 {
   if (h->failed) return;

@@ -98,10 +98,3 @@ gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_compariso
   gg_c_locale_leave(before);
   return finish(f, err);
 }
-
-gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err)
-{
-  gg_result_file file;
-  GG_TRY(gg_result_file_open(&file, path, "gg_result_write", err));
-  return gg_result_file_finish_run(&file, result, err);
-}

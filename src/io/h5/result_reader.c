@@ -60,6 +60,32 @@ static size_t count_numbers(gg_h5 *h, const char *path)
   return n;
 }
 
+static double *read_last_rows(gg_h5 *h, const char *what, size_t n)
+{
+  char path[80];
+  snprintf(path, sizeof path, "/particles/grains/%s/value", what);
+  return gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, H5T_NATIVE_DOUBLE, sizeof(double), 3 * n) : NULL;
+}
+
+static void read_last_frame(gg_h5 *h, gg_stored_result *s)
+{
+  gg_frame *f = &s->last;
+  size_t kinds = 0;
+  if (!s->n_frames || !s->n_grains) return;
+  f->n = s->n_grains;
+  uint64_t *step = gg_h5_read_last_row(h, "/particles/grains/velocity/step", H5T_NATIVE_UINT64, sizeof *step, 1);
+  double *time = gg_h5_read_last_row(h, "/particles/grains/velocity/time", H5T_NATIVE_DOUBLE, sizeof *time, 1);
+  if (step) f->step = *step;
+  if (time) f->time = *time;
+  free(step);
+  free(time);
+  f->position = read_last_rows(h, "position", f->n);
+  f->velocity = read_last_rows(h, "velocity", f->n);
+  f->spin = read_last_rows(h, "spin", f->n);
+  f->species = gg_h5_read_array(h, "/particles/grains/species", H5T_NATIVE_UINT8, 1, &kinds);
+  if (!h->failed && kinds != f->n) gg_h5_failed(h, "its grains are not all of a known species");
+}
+
 gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
 {
   gg_h5 h;
@@ -82,6 +108,7 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
     read_engines(&h, s);
     s->n_frames = count_numbers(&h, "/particles/grains/velocity/step");
     s->n_grains = count_numbers(&h, "/particles/grains/id");
+    read_last_frame(&h, s);
   }
   gg_h5_close(&h);
   gg_status status = gg_h5_status(&h, path, "read", err);
@@ -102,6 +129,7 @@ void gg_stored_result_clear(gg_stored_result *s)
   free(s->date);
   free(s->scene);
   json_decref(s->document);
+  gg_frame_free(&s->last);
   *s = (gg_stored_result){0};
 }
 

@@ -5,17 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/scene.h"
 #include "io/c_locale.h"
 #include "io/h5/h5.h"
 #include "io/plot/layer.h"
 #include "io/plot/plot.h"
+#include "io/scene/reader.h"
 
 #define GRAINS "/particles/grains/"
 enum { MOST_NUMBERS = 100 * 1000 * 1000 };
 /* Pixels: sizes of the panels at most, and of everything between. PNG has GG_PLOT_PNG_SCALE of its own for each of
- * them, and is made smaller: its bytes are the rims of the discs, some seven for a pixel, where a disc of SVG takes some
- * 44 in all. */
+ * them, and is made smaller: its bytes are the rims of the discs, some seven for a pixel, where a disc of SVG takes
+ * some 44 in all. */
 enum { TALL = 520, WIDE = 700, TALL_PNG = 350, WIDE_PNG = 470 };
 enum { LEFT = 70, BETWEEN = 80, RIGHT = 25, ABOVE = 70, BELOW = 65 };
 #define RIM "#2f4f63"
@@ -29,12 +29,10 @@ typedef struct frame {
 
 static void read_radii(const gg_stored_result *stored, gg_plot_grains *s)
 {
-  gg_scene *scene;
+  gg_scene scene = gg_scene_defaults();
   for (int k = 0; k < GG_MAX_SPECIES; k++) s->radius[k] = 0.5;
-  if (gg_scene_parse(stored->scene, "scene", &scene, NULL) != GG_OK) return;
-  for (int k = 1; k < scene->n_species; k++)
-    s->radius[k] = 0.5 * scene->species[k].diameter / scene->species[0].diameter;
-  gg_scene_free(scene);
+  if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) != GG_OK) return;
+  for (int k = 1; k < scene.n_species; k++) s->radius[k] = 0.5 * scene.species[k].diameter / scene.species[0].diameter;
 }
 
 /* The height that holds all grains: of a gas under gravity not the whole box. */

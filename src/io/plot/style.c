@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "io/plot/plot.h"
+#include "io/scene/reader.h"
 #include "io/text.h"
 
 const char *const gg_plot_colours[GG_PLOT_COLOURS] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
@@ -51,13 +52,11 @@ static void start(FILE *s, bool png, int width, int height)
 /* The scene's title over the page, from its YAML. */
 static void set_title(FILE *s, const gg_stored_result *stored)
 {
-  gg_scene *scene;
+  gg_scene scene = gg_scene_defaults();
   char title[240] = "", safe[300];
   size_t used = 0;
-  if (gg_scene_parse(stored->scene, "scene", &scene, NULL) == GG_OK) {
-    gg_scene_title(scene, title, sizeof title);
-    gg_scene_free(scene);
-  }
+  if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) == GG_OK)
+    gg_title_of_scene(&scene, title, sizeof title);
   for (const char *c = title; *c && used + 3 < sizeof safe; c++) {
     if (*c == '\'') continue;
     safe[used++] = *c;

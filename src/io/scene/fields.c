@@ -110,11 +110,20 @@ const gg_field gg_species_fields[] = {
     {0},
 };
 
+_Static_assert(sizeof gg_scene_fields / sizeof *gg_scene_fields <= GG_MAX_FIELDS + 1 && GG_MAX_FIELDS <= 64,
+               "a bit for every key");
+
 int gg_scene_field_find(const char *key)
 {
   for (int i = 0; gg_scene_fields[i].key; i++)
     if (strcmp(gg_scene_fields[i].key, key) == 0) return i;
   return -1;
+}
+
+bool gg_scene_is_given(const gg_scene *scene, const char *key)
+{
+  int id = gg_scene_field_find(key);
+  return id >= 0 && scene->given >> id & 1;
 }
 
 bool gg_scene_is_section(const char *name)

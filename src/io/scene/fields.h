@@ -1,5 +1,5 @@
 /* The one table of what a scene may say. It drives the reader, --set, range checks, `graingas info`, the scene echoed
- * in results, and the manual. A new key is a member of gg_scene and a line of scene_fields.c. */
+ * in results, and the manual. A new key is a member of gg_scene and a line of fields.c. */
 #ifndef GG_SCENE_FIELDS_H
 #define GG_SCENE_FIELDS_H
 
@@ -33,12 +33,14 @@ typedef struct gg_field {
   const char *unit, *doc;
 } gg_field;
 
-enum { GG_MAX_FIELDS = 48 };
+enum { GG_MAX_FIELDS = 48 };               /* as many bits of gg_scene.given are used */
 extern const gg_field gg_scene_fields[];   /* ends with a NULL key */
 extern const gg_field gg_species_fields[]; /* likewise */
 
 /* Index in gg_scene_fields, or -1. */
 int gg_scene_field_find(const char *key);
+/* Did the user give this key? */
+bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */
 bool gg_scene_is_section(const char *name);
 

@@ -134,6 +134,16 @@ void gg_print_flow_style(FILE *out, const json_t *value)
   }
 }
 
+void gg_flow_style_text(const json_t *value, char *text, size_t size)
+{
+  char *whole = NULL;
+  size_t length;
+  FILE *out = open_memstream(&whole, &length);
+  if (out) gg_print_flow_style(out, value);
+  if (out && fclose(out) == 0) snprintf(text, size, "%s", whole);
+  free(whole);
+}
+
 static bool is_pairs(const json_t *value)
 {
   return json_object_get(value, "12") != NULL;

@@ -15,6 +15,8 @@ json_t *gg_field_json(const gg_field *field, const void *base, const gg_scene *s
 void gg_format_number(double value, char *text, size_t size);
 /* A JSON value on one line, as YAML flow style. */
 void gg_print_flow_style(FILE *out, const json_t *value);
+/* The same, cut to `size` bytes. */
+void gg_flow_style_text(const json_t *value, char *text, size_t size);
 /* The scene as YAML text, to be freed; NULL if out of memory. */
 char *gg_scene_yaml(const gg_scene *scene);
 

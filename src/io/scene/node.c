@@ -165,7 +165,7 @@ static gg_status read_species(const gg_scene_reader *r, const gg_field *f, const
   ptrdiff_t n = node->data.sequence.items.top - node->data.sequence.items.start;
   if (n < 1 || n > GG_MAX_SPECIES)
     return gg_scene_refuse(r, node, key, "%td species are given; allowed: one or two", n);
-  gg_scene *scene = &r->draft->scene;
+  gg_scene *scene = r->scene;
   double total = 0;
   for (int i = 0; i < n; i++) {
     gg_species one = {1.0 / (double)n, 1, 1, 0.4};

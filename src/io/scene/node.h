@@ -4,13 +4,13 @@
 
 #include <yaml.h>
 
-#include "io/scene/draft.h"
+#include "io/scene/reader.h"
 
 typedef struct gg_scene_reader {
   yaml_document_t *document;
   const char *name; /* file, for messages; or the override as it was typed */
   bool lines;       /* say the line, too */
-  gg_scene_draft *draft;
+  gg_scene *scene;
   int seen[GG_MAX_FIELDS]; /* line on which this document gave the key, 0: not yet */
   gg_error *err;
 } gg_scene_reader;

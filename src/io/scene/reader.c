@@ -1,13 +1,13 @@
-#include "io/scene/draft.h"
+#include "io/scene/reader.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "io/scene/node.h"
 
-void gg_scene_draft_start(gg_scene_draft *draft)
+static void mark_given(gg_scene *scene, int id)
 {
-  *draft = (gg_scene_draft){.scene = gg_scene_defaults()};
+  scene->given |= (uint64_t)1 << id;
 }
 
 static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *name, const yaml_node_t *value);
@@ -31,8 +31,8 @@ static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *n
   if (id >= 0) {
     if (r->seen[id]) return gg_scene_refuse(r, name, key, "is given twice, first on line %d", r->seen[id]);
     r->seen[id] = (int)name->start_mark.line + 1;
-    r->draft->given[id] = true;
-    return gg_scene_read_value(r, &gg_scene_fields[id], key, value, &r->draft->scene);
+    mark_given(r->scene, id);
+    return gg_scene_read_value(r, &gg_scene_fields[id], key, value, r->scene);
   }
   if (!gg_scene_is_section(key)) return gg_scene_refuse_key(r, name, key);
   if (value->type != YAML_MAPPING_NODE)
@@ -92,9 +92,9 @@ static gg_status use_scene(gg_scene_reader *r, const char *key, const yaml_node_
   return apply_members(r, key, root);
 }
 
-gg_status gg_scene_draft_parse(gg_scene_draft *draft, const char *yaml, size_t length, const char *name, gg_error *err)
+gg_status gg_scene_read(gg_scene *scene, const char *yaml, size_t length, const char *name, gg_error *err)
 {
-  gg_scene_reader r = {.name = name, .lines = true, .draft = draft, .err = err};
+  gg_scene_reader r = {.name = name, .lines = true, .scene = scene, .err = err};
   return with_document(&r, yaml, length, "", use_scene);
 }
 
@@ -109,8 +109,9 @@ static gg_status set_pair(gg_scene_reader *r, const char *key, const yaml_node_t
     snprintf(base, sizeof base, "%.*s", (int)length - 3, key);
     int id = gg_scene_field_find(base);
     if (id < 0 || gg_scene_fields[id].type != GG_FIELD_PAIRS) continue;
-    *done = r->draft->given[id] = true;
-    char *values = (char *)&r->draft->scene + gg_scene_fields[id].offset;
+    *done = true;
+    mark_given(r->scene, id);
+    char *values = (char *)r->scene + gg_scene_fields[id].offset;
     return gg_scene_read_number(r, &gg_scene_fields[id], key, root, (double *)(void *)values + p);
   }
   return GG_OK;
@@ -121,13 +122,13 @@ static gg_status set_species(gg_scene_reader *r, const char *key, const yaml_nod
 {
   int number, used = 0;
   if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return GG_OK;
-  gg_scene *scene = &r->draft->scene;
+  gg_scene *scene = r->scene;
   *done = true;
   if (number < 1 || number > scene->n_species)
     return gg_scene_refuse(r, root, key, "this scene has %d species", scene->n_species);
   for (const gg_field *f = gg_species_fields; f->key; f++)
     if (strcmp(f->key, key + used) == 0) {
-      r->draft->given[gg_scene_field_find("species")] = true;
+      mark_given(scene, gg_scene_field_find("species"));
       return gg_scene_read_value(r, f, key, root, &scene->species[number - 1]);
     }
   return gg_scene_refuse_key(r, root, key);
@@ -142,13 +143,13 @@ static gg_status use_override(gg_scene_reader *r, const char *key, const yaml_no
   return done ? GG_OK : apply(r, key, root, root);
 }
 
-gg_status gg_scene_draft_set(gg_scene_draft *draft, const char *key, const char *value, gg_error *err)
+gg_status gg_scene_override(gg_scene *scene, const char *key, const char *value, gg_error *err)
 {
   char name[160];
-  gg_scene_draft changed = *draft;
+  gg_scene changed = *scene;
   snprintf(name, sizeof name, "key '%.60s'", key);
-  gg_scene_reader r = {.name = name, .draft = &changed, .err = err};
+  gg_scene_reader r = {.name = name, .scene = &changed, .err = err};
   GG_TRY(with_document(&r, value, strlen(value), key, use_override));
-  *draft = changed;
+  *scene = changed;
   return GG_OK;
 }

@@ -1,0 +1,224 @@
+/* Both engines and the theories in one table, and what stands behind their differences. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/report.h"
+#include "cli/table.h"
+
+static const char *const engines[] = {"md", "dsmc"};
+enum { MOST_THEORIES = 32, WIDTH = 98 };
+
+/* The simulation that theories are measured against. */
+static const gg_result *reference(const gg_comparison *c)
+{
+  const gg_result *md = gg_comparison_result(c, "md");
+  return md ? md : gg_comparison_result(c, "dsmc");
+}
+
+static bool both_ran(const gg_comparison *c)
+{
+  return gg_comparison_result(c, "md") && gg_comparison_result(c, "dsmc");
+}
+
+static bool has(const gg_result *r, const char *quantity)
+{
+  gg_measurement m;
+  return gg_result_find(r, quantity, &m, NULL) == GG_OK && !isnan(m.mean);
+}
+
+static double value_of(const gg_comparison *c, const char *theory, const char *quantity, double *deviation)
+{
+  double value = NAN;
+  gg_comparison_theory_value(c, theory, quantity, &value, deviation, NULL);
+  return value;
+}
+
+static bool shown(const gg_comparison *c, const char *quantity, bool all)
+{
+  gg_theory_info t;
+  if (gg_is_minor_quantity(quantity) && !all) return false;
+  if (reference(c))
+    return has(gg_comparison_result(c, "md"), quantity) || has(gg_comparison_result(c, "dsmc"), quantity);
+  for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK; i++)
+    if (!isnan(value_of(c, t.name, quantity, NULL))) return true;
+  return false;
+}
+
+/* The i-th quantity that is shown; false after the last. */
+static bool next_shown(const gg_comparison *c, bool all, size_t *i, gg_entry *q)
+{
+  while (gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, (*i)++, gg_comparison_scene(c), q, NULL) == GG_OK)
+    if (shown(c, q->name, all)) return true;
+  return false;
+}
+
+static void put_theory(gg_table *t, int row, int column, const gg_comparison *c, const char *theory,
+                       const char *quantity)
+{
+  double deviation = NAN, value = value_of(c, theory, quantity, &deviation);
+  char *cell = gg_table_cell(t, row, column);
+  if (isnan(value)) return;
+  if (isnan(deviation))
+    snprintf(cell, GG_TABLE_CELL, reference(c) ? "%.4g        " : "%.5g", value);
+  else if (fabs(deviation) < 9.995)
+    snprintf(cell, GG_TABLE_CELL, "%.4g %+6.1f%%", value, 100 * deviation);
+  else
+    snprintf(cell, GG_TABLE_CELL, "%.4g %+6.0fx", value, deviation + 1);
+}
+
+/* A theory with nothing to say on what is shown gets no column: -1. */
+static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int column[MOST_THEORIES])
+{
+  int n = 0;
+  gg_theory_info theory;
+  for (size_t i = 0; i < MOST_THEORIES; i++) {
+    gg_entry q;
+    column[i] = -1;
+    if (gg_comparison_theory(c, i, &theory, NULL) != GG_OK) continue;
+    for (size_t k = 0; column[i] < 0 && next_shown(c, all, &k, &q);)
+      if (!isnan(value_of(c, theory.name, q.name, NULL))) column[i] = gg_table_column(t, theory.name, true), n++;
+  }
+  return n;
+}
+
+static void put_engines(gg_table *t, int row, const gg_comparison *c, const char *quantity)
+{
+  int column = 2, beyond = 0;
+  double z = NAN;
+  gg_measurement m;
+  for (int k = 0; k < 2; k++) {
+    const gg_result *r = gg_comparison_result(c, engines[k]);
+    if (!r) continue;
+    if (gg_result_find(r, quantity, &m, NULL) == GG_OK && !isnan(m.mean))
+      gg_format_estimate(m.mean, m.error, gg_table_cell(t, row, column), GG_TABLE_CELL);
+    column++;
+  }
+  gg_comparison_agreement(c, quantity, &z, &beyond, NULL);
+  if (isfinite(z)) snprintf(gg_table_cell(t, row, column), GG_TABLE_CELL, "%+.1f%s", z, beyond ? "!" : " ");
+}
+
+static gg_table *tabulate(const gg_comparison *c, bool all, int *n_theories)
+{
+  int column[MOST_THEORIES];
+  gg_entry q;
+  gg_theory_info theory;
+  gg_table *t = gg_table_new();
+  if (!t) return NULL;
+  gg_table_column(t, "quantity", false);
+  gg_table_column(t, "unit", false);
+  for (int k = 0; k < 2; k++)
+    if (gg_comparison_result(c, engines[k])) gg_table_column(t, engines[k], true);
+  if (both_ran(c)) gg_table_column(t, "z", true);
+  *n_theories = theory_columns(t, c, all, column);
+  for (size_t i = 0; next_shown(c, all, &i, &q);) {
+    int row = gg_table_row(t);
+    snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", q.name);
+    snprintf(gg_table_cell(t, row, 1), GG_TABLE_CELL, "%s", q.unit);
+    if (reference(c)) put_engines(t, row, c, q.name);
+    for (size_t k = 0; k < MOST_THEORIES && gg_comparison_theory(c, k, &theory, NULL) == GG_OK; k++)
+      if (column[k] >= 0) put_theory(t, row, column[k], c, theory.name, q.name);
+  }
+  return t;
+}
+
+/* What stands behind the marked z-scores. */
+static void print_causes(const gg_comparison *c, bool all)
+{
+  int marked = 0;
+  gg_entry q;
+  gg_remark r;
+  for (size_t i = 0; next_shown(c, all, &i, &q);) {
+    int beyond = 0;
+    gg_comparison_agreement(c, q.name, NULL, &beyond, NULL);
+    marked += beyond;
+  }
+  if (!marked) return;
+  printf("\n!: md and dsmc differ by more than is expected here. Causes that apply to this scene:\n");
+  for (size_t i = 0; gg_comparison_remark(c, i, &r, NULL) == GG_OK; i++)
+    if (!r.theory) gg_print_wrapped(stdout, "  - ", r.cause, WIDTH);
+}
+
+/* What stands behind theories' deviations. */
+static void print_remarks(const gg_comparison *c)
+{
+  bool any = false;
+  gg_remark r;
+  for (size_t i = 0; gg_comparison_remark(c, i, &r, NULL) == GG_OK; i++) {
+    char text[400];
+    if (!r.theory) continue;
+    if (!any) printf("\nTheories further off than is expected of solutions of one problem, and why:\n");
+    any = true;
+    snprintf(text, sizeof text, "%s, %s %+.1f %%: %s", r.theory, r.quantity, 100 * r.deviation, r.cause);
+    gg_print_wrapped(stdout, "  - ", text, WIDTH);
+  }
+}
+
+static void print_inapplicable(const gg_comparison *c)
+{
+  size_t used = 0;
+  gg_theory_info t;
+  for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK; i++) {
+    if (!t.reason) continue;
+    if (!used)
+      used = (size_t)printf("\nTheories for other scenes (graingas theory says why): %s", t.name) - 1;
+    else if (used + strlen(t.name) > 96)
+      used = (size_t)printf(",\n%s", t.name) - 2;
+    else
+      used += (size_t)printf(", %s", t.name);
+  }
+  if (used) printf("\n");
+}
+
+static void print_legend(const gg_comparison *c, int n_theories)
+{
+  gg_result_info against;
+  printf("\n(..): standard error of the last digits");
+  if (both_ran(c)) printf("; z: (md - dsmc) over their combined standard error");
+  if (n_theories && gg_result_about(reference(c), &against, NULL) == GG_OK)
+    printf(";%s%%: deviation of a theory from %s", both_ran(c) ? "\n" : " ", against.engine);
+  printf("\n");
+}
+
+void gg_print_comparison(const gg_comparison *c, bool all)
+{
+  int n_theories;
+  gg_table *t = tabulate(c, all, &n_theories);
+  if (!t) return;
+  gg_print_head(gg_comparison_scene(c));
+  gg_table_print(t, stdout, gg_terminal_width(), 1);
+  free(t);
+  print_legend(c, n_theories);
+  print_causes(c, all);
+  print_remarks(c);
+  gg_print_numbers(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
+  printf("\n");
+  for (int k = 0; k < 2; k++) {
+    const char *refusal = gg_comparison_refusal(c, engines[k]);
+    if (gg_comparison_result(c, engines[k])) gg_print_effort(gg_comparison_result(c, engines[k]));
+    if (refusal) printf("%-5s not run: %s\n", engines[k], refusal);
+  }
+  print_inapplicable(c);
+  for (int k = 0; k < 2; k++)
+    if (gg_comparison_result(c, engines[k])) gg_print_warnings(gg_comparison_result(c, engines[k]));
+}
+
+void gg_print_theories(const gg_comparison *c, bool all)
+{
+  int n_theories;
+  gg_theory_info theory;
+  gg_table *t = tabulate(c, all, &n_theories);
+  if (!t) return;
+  gg_print_head(gg_comparison_scene(c));
+  if (n_theories) gg_table_print(t, stdout, gg_terminal_width(), 1);
+  free(t);
+  printf("\n");
+  for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++) {
+    if (theory.reason) continue;
+    printf("%s: %s (%s)\n  %s\n", theory.name, theory.title, theory.citation, theory.assumptions);
+    if (theory.beyond) printf("  Here: %s.\n", theory.beyond);
+  }
+  for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
+    if (theory.reason) printf("%s\n", theory.reason);
+}

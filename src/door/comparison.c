@@ -1,0 +1,185 @@
+/* Comparisons and theories asked. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/extension.h"
+#include "door/run.h"
+#include "run/agreement.h"
+
+static gg_comparison *new_comparison(gg_error *err)
+{
+  return gg_new_array(1, sizeof(gg_comparison), err);
+}
+
+void gg_comparison_free(gg_comparison *c)
+{
+  if (c) gg_comparison_clear(c);
+  free(c);
+}
+
+gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(comparison);
+  gg_comparison *c = new_comparison(err);
+  if (!c) return GG_FAILED;
+  gg_door_run run;
+  gg_hooks hooks;
+  gg_error why = {0};
+  gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
+  if (status == GG_OK) {
+    hooks.frame = NULL; /* a comparison keeps no trajectory */
+    status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);
+  }
+  bool some = status == GG_OK ||
+              ((status == GG_FAILED || status == GG_INTERRUPTED) && (c->by_engine[GG_MD] || c->by_engine[GG_DSMC]));
+  if (some && run.options.output && status != GG_INTERRUPTED)
+    written = gg_result_file_finish_comparison(&run.file, c, &why);
+  gg_door_run_end(&run);
+  if (some)
+    *comparison = c;
+  else
+    gg_comparison_free(c);
+  return gg_door_run_status(status, written, &why, err);
+}
+
+/* Leave only the theory of that name. */
+static gg_status keep_one(gg_comparison *c, const char *theory, gg_error *err)
+{
+  for (int i = 0; i < c->n_theories; i++)
+    if (strcmp(c->theory[i].theory->name, theory) == 0) {
+      c->theory[0] = c->theory[i];
+      c->n_theories = 1;
+      return GG_OK;
+    }
+  return gg_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s'", theory);
+}
+
+static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, gg_error *err)
+{
+  gg_model model;
+  gg_scene finished;
+  GG_TRY(gg_door_finished(scene, &finished, err));
+  c->scene = finished;
+  gg_extension_hold(c->scene.extension);
+  GG_TRY(gg_model_make(&c->scene, GG_MD, &model, err));
+  gg_compare_theories(&model, c);
+  return theory ? keep_one(c, theory, err) : GG_OK;
+}
+
+gg_status gg_evaluate_theories(const gg_scene *scene, const char *theory, gg_comparison **comparison, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(comparison);
+  gg_comparison *c = new_comparison(err);
+  if (!c) return GG_FAILED;
+  gg_status status = evaluate(c, scene, theory, err);
+  if (status == GG_OK)
+    *comparison = c;
+  else
+    gg_comparison_free(c);
+  return status;
+}
+
+const gg_result *gg_comparison_result(const gg_comparison *comparison, const char *engine)
+{
+  gg_engine_kind kind;
+  if (!comparison || !engine || gg_door_engine(engine, &kind, NULL) != GG_OK) return NULL;
+  return comparison->by_engine[kind];
+}
+
+const char *gg_comparison_refusal(const gg_comparison *comparison, const char *engine)
+{
+  gg_engine_kind kind;
+  if (!comparison || !engine || gg_door_engine(engine, &kind, NULL) != GG_OK) return NULL;
+  return comparison->refusal[kind][0] ? comparison->refusal[kind] : NULL;
+}
+
+const gg_scene *gg_comparison_scene(const gg_comparison *comparison)
+{
+  return comparison ? &comparison->scene : NULL;
+}
+
+static gg_status find(const gg_comparison *c, const char *name, gg_quantity *q, gg_error *err)
+{
+  *q = gg_quantity_find_in(&c->model, name);
+  return *q == GG_MOST_QUANTITIES ? gg_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name) : GG_OK;
+}
+
+static bool has(const gg_result *r, gg_quantity q)
+{
+  return r && !isnan(r->value[q].mean);
+}
+
+gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,
+                                  gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(quantity);
+  gg_quantity q;
+  GG_TRY(find(comparison, quantity, &q, err));
+  const gg_result *md = comparison->by_engine[GG_MD], *dsmc = comparison->by_engine[GG_DSMC];
+  if (z) *z = has(md, q) && has(dsmc, q) ? gg_z_score(&md->value[q], &dsmc->value[q]) : NAN;
+  if (beyond) *beyond = gg_disagree(comparison, q);
+  return GG_OK;
+}
+
+gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(theory);
+  const gg_comparison *c = comparison;
+  if (i >= (size_t)c->n_theories) return gg_fail(err, GG_BAD_INPUT, "this comparison has %d theories", c->n_theories);
+  const gg_theory *t = c->theory[i].theory;
+  bool applies = c->theory[i].applies;
+  *theory = (gg_theory_info){.name = t->name,
+                             .title = t->title,
+                             .citation = t->citation,
+                             .assumptions = t->assumptions,
+                             .reason = applies ? NULL : c->theory[i].reason,
+                             .beyond = applies ? gg_theory_beyond(t, &c->model) : NULL};
+  return GG_OK;
+}
+
+gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
+                                     double *value, double *deviation, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(theory);
+  GG_NEED(quantity);
+  const gg_comparison *c = comparison;
+  gg_quantity q;
+  GG_TRY(find(comparison, quantity, &q, err));
+  int i = 0;
+  while (i < c->n_theories && strcmp(c->theory[i].theory->name, theory) != 0) i++;
+  if (i == c->n_theories) return gg_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s' here", theory);
+  const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
+  const gg_result *against = has(md, q) ? md : has(dsmc, q) ? dsmc : NULL;
+  double said = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
+  if (value) *value = isfinite(said) ? said : NAN;
+  if (deviation) *deviation = against && isfinite(said) ? gg_deviation(&against->value[q], said) : NAN;
+  return GG_OK;
+}
+
+gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(remark);
+  enum { MOST_CAUSES = 8 };
+  const char *cause[MOST_CAUSES];
+  gg_theory_remark theories[GG_MOST_THEORIES];
+  bool marked = false;
+  for (int q = 0; q < gg_quantities_of(&comparison->model); q++) marked |= gg_disagree(comparison, (gg_quantity)q);
+  size_t causes = marked ? (size_t)gg_causes_of_disagreement(comparison, cause, MOST_CAUSES) : 0;
+  size_t n = causes + (size_t)gg_theory_remarks(comparison, theories);
+  if (i >= n) return gg_fail(err, GG_BAD_INPUT, "there are %zu remarks on this comparison", n);
+  if (i < causes) {
+    *remark = (gg_remark){.deviation = NAN, .cause = cause[i]};
+  } else {
+    const gg_theory_remark *r = &theories[i - causes];
+    *remark =
+        (gg_remark){r->theory->name, gg_quantity_name_in(&comparison->model, r->quantity), r->deviation, r->cause};
+  }
+  return GG_OK;
+}

@@ -1,0 +1,58 @@
+/* Comparisons to and from files and documents; pictures of files. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "door/door.h"
+#include "io/document.h"
+#include "io/h5/result_file.h"
+#include "io/h5/result_restore.h"
+#include "io/plot/plot.h"
+
+gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(text);
+  bool simulated = comparison->document || comparison->by_engine[GG_MD] || comparison->by_engine[GG_DSMC];
+  return gg_door_text(
+      simulated ? gg_comparison_document(comparison) : gg_theory_document(&comparison->scene, comparison), text, err);
+}
+
+gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(path);
+  gg_result_file file;
+  if (!comparison->by_engine[GG_MD] && !comparison->by_engine[GG_DSMC])
+    return gg_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
+  GG_TRY(gg_result_file_open(&file, path, "gg_comparison_write", err));
+  return gg_result_file_finish_comparison(&file, comparison, err);
+}
+
+gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err)
+{
+  GG_NEED(path);
+  GG_NEED(comparison);
+  gg_stored_result stored;
+  gg_comparison *c = gg_new_array(1, sizeof *c, err);
+  if (!c) return GG_FAILED;
+  gg_status status = gg_stored_result_read(&stored, path, err);
+  if (status == GG_OK) status = gg_comparison_restore(&stored, c, err);
+  gg_stored_result_clear(&stored);
+  if (status == GG_OK)
+    *comparison = c;
+  else
+    gg_comparison_free(c);
+  return status;
+}
+
+gg_status gg_plot(const char *result_file, const char *picture, const char *format,
+                  void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
+{
+  GG_NEED(result_file);
+  GG_NEED(picture);
+  if (format && strcmp(format, "svg") != 0 && strcmp(format, "png") != 0)
+    return gg_fail(err, GG_BAD_INPUT, "pictures are svg or png, not '%.20s'", format);
+  GG_TRY(gg_plot_result(result_file, picture, format, err));
+  if (drawn) drawn(context, picture);
+  return gg_plot_result_curves(result_file, picture, format, drawn, context, err);
+}

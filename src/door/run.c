@@ -1,0 +1,105 @@
+/* Runs and comparisons with options. */
+#include "door/run.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/c_locale.h"
+#include "io/h5/checkpoint_file.h"
+
+static void hear_progress(void *context, const gg_progress *progress)
+{
+  gg_door_run *r = context;
+  if (r->options.progress && r->options.progress(r->options.context, progress)) atomic_store(&r->stopped, true);
+}
+
+static bool is_stopped(void *context)
+{
+  gg_door_run *r = context;
+  if (r->options.stop && r->options.stop(r->options.context)) atomic_store(&r->stopped, true);
+  return atomic_load(&r->stopped);
+}
+
+static gg_status store_frame(void *context, const gg_frame *frame, gg_error *err)
+{
+  gg_door_run *r = context;
+  return gg_result_file_frame(&r->file, &r->model, frame, err);
+}
+
+static gg_status store_checkpoint(void *context, const gg_archive *archive, gg_error *err)
+{
+  gg_door_run *r = context;
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_checkpoint_write(r->options.checkpoint, archive, &r->scene, err);
+  gg_c_locale_leave(before);
+  if (status == GG_OK && r->options.stored) r->options.stored(r->options.context, r->options.checkpoint);
+  return status;
+}
+
+static gg_status read_resume(gg_door_run *r, gg_error *err)
+{
+  bool older;
+  char text[1024];
+  const char *path = r->options.resume;
+  GG_TRY(gg_checkpoint_read(path, &r->resume, &older, err));
+  snprintf(text, sizeof text, "%s cannot be read; going on from the one before, %s.1", path, path);
+  if (older && r->options.warn) r->options.warn(r->options.context, text);
+  return GG_OK;
+}
+
+gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, gg_hooks *hooks,
+                            gg_error *err)
+{
+  memset(r, 0, sizeof *r);
+  r->file = (gg_result_file){.h.file = -1, .file.fd = -1};
+  if (options) r->options = *options;
+  if (r->options.threads < 1) r->options.threads = 1;
+  if (!r->options.command) r->options.command = "the graingas library";
+  atomic_init(&r->stopped, false);
+  *hooks = (gg_hooks){.context = r, .progress = hear_progress, .interrupted = is_stopped};
+  if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
+  GG_TRY(gg_door_finished(scene, &r->scene, err));
+  GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));
+  if (r->options.resume) GG_TRY(read_resume(r, err));
+  if (!r->options.output) return GG_OK;
+  hooks->frame = store_frame;
+  return gg_result_file_open(&r->file, r->options.output, r->options.command, err);
+}
+
+void gg_door_run_end(gg_door_run *r)
+{
+  gg_result_file_abandon(&r->file);
+  gg_archive_clear(&r->resume);
+}
+
+const gg_archive *gg_door_run_resume(const gg_door_run *r)
+{
+  return r->resume.n_items ? &r->resume : NULL;
+}
+
+gg_status gg_door_run_status(gg_status run, gg_status written, const gg_error *why, gg_error *err)
+{
+  if (written == GG_OK) return run;
+  if (run == GG_OK) return gg_fail(err, written, "%s", why->message);
+  char message[sizeof why->message];
+  memcpy(message, why->message, sizeof message);
+  return gg_fail(err, written, "%.500s; and %.500s", message, err ? err->message : "");
+}
+
+gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(result);
+  gg_door_run run;
+  gg_hooks hooks;
+  gg_error why = {0};
+  gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
+  gg_result *made = NULL;
+  if (status == GG_OK)
+    status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);
+  if (made && run.options.output && status != GG_INTERRUPTED)
+    written = gg_result_file_finish_run(&run.file, made, &why);
+  gg_door_run_end(&run);
+  if (made) *result = made;
+  return gg_door_run_status(status, written, &why, err);
+}

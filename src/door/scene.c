@@ -1,0 +1,173 @@
+/* Scenes: read, changed, asked and written back. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/engine.h"
+#include "common/extension.h"
+#include "door/door.h"
+#include "io/c_locale.h"
+#include "io/scene/json.h"
+#include "io/scene/reader.h"
+#include "io/text.h"
+
+gg_status gg_door_finished(const gg_scene *scene, gg_scene *copy, gg_error *err)
+{
+  *copy = *scene;
+  return gg_scene_finish(copy, err);
+}
+
+static gg_status publish(const gg_scene *made, gg_scene **scene, gg_error *err)
+{
+  gg_scene *copy = gg_new_array(1, sizeof *copy, err);
+  if (!copy) return GG_FAILED;
+  *copy = *made;
+  gg_extension_hold(copy->extension);
+  *scene = copy;
+  return GG_OK;
+}
+
+gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
+{
+  GG_NEED(path);
+  GG_NEED(scene);
+  gg_scene made = gg_scene_defaults();
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_scene_read_file(&made, path, err);
+  gg_c_locale_leave(before);
+  return status == GG_OK ? publish(&made, scene, err) : status;
+}
+
+gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err)
+{
+  GG_NEED(yaml);
+  GG_NEED(scene);
+  gg_scene made = gg_scene_defaults();
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_scene_read(&made, yaml, strlen(yaml), name ? name : "scene", err);
+  gg_c_locale_leave(before);
+  return status == GG_OK ? publish(&made, scene, err) : status;
+}
+
+gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(copy);
+  return publish(scene, copy, err);
+}
+
+void gg_scene_free(gg_scene *scene)
+{
+  if (scene) gg_extension_release(scene->extension);
+  free(scene);
+}
+
+gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(key);
+  GG_NEED(value);
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_scene_override(scene, key, value, err);
+  gg_c_locale_leave(before);
+  return status;
+}
+
+/* One member of what a key holds: "collision.e.12", "species.2.mass". NULL if there is no such thing. */
+static json_t *member_json(const gg_scene *scene, const char *key)
+{
+  const char *section = strrchr(key, '.');
+  char base[64];
+  int number, used = 0;
+  if (sscanf(key, "species.%d.%n", &number, &used) == 1 && used && number >= 1 && number <= scene->n_species)
+    for (const gg_field *f = gg_species_fields; f->key; f++)
+      if (strcmp(f->key, key + used) == 0) return gg_field_json(f, &scene->species[number - 1], scene);
+  static const char *const names[GG_PAIRS] = {"11", "12", "22"};
+  for (int p = 0; section && p < GG_PAIRS; p++) {
+    snprintf(base, sizeof base, "%.*s", (int)(section - key), key);
+    int id = gg_scene_field_find(base);
+    if (strcmp(section + 1, names[p]) != 0 || id < 0 || gg_scene_fields[id].type != GG_FIELD_PAIRS) continue;
+    gg_field one = gg_scene_fields[id];
+    one.type = GG_FIELD_NUMBER;
+    one.offset += (size_t)p * sizeof(double);
+    return gg_field_json(&one, scene, scene);
+  }
+  return NULL;
+}
+
+gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(key);
+  GG_NEED(text);
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  int id = gg_scene_field_find(key);
+  json_t *value = id >= 0 ? gg_field_json(&gg_scene_fields[id], &filled, &filled) : member_json(&filled, key);
+  if (!value) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
+  locale_t before = gg_c_locale_enter();
+  gg_flow_style_text(value, text, size);
+  gg_c_locale_leave(before);
+  json_decref(value);
+  return GG_OK;
+}
+
+gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
+{
+  GG_NEED(scene);
+  gg_scene copy;
+  return gg_door_finished(scene, &copy, err);
+}
+
+gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(text);
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  locale_t before = gg_c_locale_enter();
+  char *yaml = gg_scene_yaml(&filled);
+  gg_c_locale_leave(before);
+  if (!yaml) return gg_fail(err, GG_FAILED, "out of memory");
+  *text = yaml;
+  return GG_OK;
+}
+
+gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(text);
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  return gg_door_text(gg_scene_json(&filled), text, err);
+}
+
+gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(text);
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  locale_t before = gg_c_locale_enter();
+  gg_title_of_scene(&filled, text, size);
+  gg_c_locale_leave(before);
+  return GG_OK;
+}
+
+gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*line)(void *context, const char *text),
+                            void *context, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(engine);
+  GG_NEED(line);
+  gg_scene finished;
+  gg_model model;
+  gg_engine_kind kind;
+  GG_TRY(gg_door_engine(engine, &kind, err));
+  GG_TRY(gg_door_finished(scene, &finished, err));
+  GG_TRY(gg_model_make(&finished, kind, &model, err));
+  const gg_engine_ops *ops = gg_engine_ops_of(kind);
+  GG_TRY(ops->accepts(&model, err));
+  ops->describe(&model, line, context);
+  return GG_OK;
+}

@@ -1,0 +1,140 @@
+/* Simulations: made, advanced, watched. */
+#include "door/simulation.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "common/extension.h"
+#include "common/rng.h"
+#include "run/start.h"
+
+gg_status gg_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err)
+{
+  gg_simulation *s = gg_new_array(1, sizeof *s, err);
+  if (!s) return GG_FAILED;
+  gg_status status = gg_door_finished(scene, &s->scene, err);
+  if (status == GG_OK) status = gg_model_make(&s->scene, s->scene.engine, &s->model, err);
+  if (status == GG_OK) status = gg_engine_ops_of(s->scene.engine)->accepts(&s->model, err);
+  if (status != GG_OK) {
+    free(s);
+    return status;
+  }
+  gg_extension_hold(s->scene.extension);
+  if (s->scene.temperature == GG_AUTO) gg_start_near_steady(&s->model);
+  *simulation = s;
+  return GG_OK;
+}
+
+gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(simulation);
+  gg_simulation *s;
+  GG_TRY(gg_simulation_prepare(scene, &s, err));
+  const gg_engine_ops *ops = gg_engine_ops_of(s->scene.engine);
+  gg_status status = ops->create(&s->model, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
+  if (status != GG_OK) {
+    gg_simulation_free(s);
+    return status;
+  }
+  ops->tap(s->engine, true);
+  *simulation = s;
+  return GG_OK;
+}
+
+void gg_simulation_free(gg_simulation *s)
+{
+  if (!s) return;
+  if (s->engine) s->engine->ops->destroy(s->engine);
+  gg_extension_release(s->scene.extension);
+  free(s);
+}
+
+double gg_simulation_unit(const gg_simulation *s)
+{
+  return ldexp(1, -(int)s->clock.power);
+}
+
+static uint64_t collisions(const gg_simulation *s)
+{
+  gg_engine_state state;
+  s->engine->ops->state(s->engine, &state);
+  return state.collisions;
+}
+
+/* Velocities that have fallen fourfold are brought back. */
+static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
+{
+  if (s->model.flow != GG_HCS || T > s->model.temperature0 / 16) return GG_OK;
+  gg_simulation_collect(s);
+  GG_TRY(s->engine->ops->rescale(s->engine, 2, err));
+  s->clock.power += 2;
+  return GG_OK;
+}
+
+/* Free times of a grain that one stretch lasts: so few that a cooling gas is brought back in time. A stretch in which a
+ * grain collides a thousand times more often is a collapse. */
+enum { STRETCH = 20, COLLAPSE = 1000 };
+
+/* One stretch: at most `time` (units of the start) and `most` collisions; both are lessened by what has gone. */
+static gg_status go_on(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
+{
+  double T = gg_simulation_temperature(s), unit = gg_simulation_unit(s), gone;
+  double free_time = 1 / gg_model_collision_rate(&s->model, T > 0 ? T : s->model.temperature0);
+  double stretch = fmin(*time * unit, STRETCH * free_time);
+  uint64_t before = collisions(s), pile = (uint64_t)(COLLAPSE * STRETCH * (double)s->model.n / 2) + 1000000;
+  GG_TRY(s->engine->ops->advance(s->engine, stretch, *most < pile ? *most : pile, &gone, err));
+  uint64_t happened = collisions(s) - before;
+  if (happened >= pile)
+    return gg_fail(err, GG_FAILED,
+                   "%s: collisions accumulate without end (inelastic collapse) near time %g; give "
+                   "md.contact_time a larger value",
+                   s->engine->ops->name, s->clock.time);
+  s->clock.time += gone / unit;
+  *time = gone >= *time * unit ? 0 : *time - gone / unit;
+  *most = happened < *most ? *most - happened : 0;
+  return rescale_if_cold(s, gg_simulation_temperature(s), err);
+}
+
+gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err)
+{
+  GG_NEED(simulation);
+  if (!(time >= 0 && time < INFINITY))
+    return gg_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
+  for (uint64_t most = UINT64_MAX; time > 0;) GG_TRY(go_on(simulation, &time, &most, err));
+  return GG_OK;
+}
+
+gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_more, gg_error *err)
+{
+  GG_NEED(simulation);
+  for (double time = INFINITY; collisions_more > 0;) GG_TRY(go_on(simulation, &time, &collisions_more, err));
+  return GG_OK;
+}
+
+static void put(double to[3], gg_vec v, double factor)
+{
+  to[0] = v.x * factor, to[1] = v.y * factor, to[2] = v.z * factor;
+}
+
+static void show(void *context, const gg_seen_collision *seen)
+{
+  const gg_simulation *s = context;
+  double unit = gg_simulation_unit(s);
+  gg_collision_event event = {.grain = {(size_t)seen->id[0], (size_t)seen->id[1]},
+                              .species = {seen->species[0], seen->species[1]},
+                              .normal_speed = gg_dot(seen->k, seen->c12) * unit};
+  put(event.k, seen->k, 1);
+  put(event.velocity, seen->c12, unit);
+  put(event.impulse, seen->J, unit);
+  s->callback(s->context, &event);
+}
+
+gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context, gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_TRY(simulation->engine->ops->watch(simulation->engine, callback ? show : NULL, simulation, err));
+  simulation->callback = callback;
+  simulation->context = context;
+  return GG_OK;
+}

@@ -1,0 +1,154 @@
+/* Simulations asked: their state, their grains, their sums over collisions. */
+#include <math.h>
+#include <string.h>
+
+#include "door/simulation.h"
+
+/* Sums over grains, mass by mass. */
+typedef struct moments {
+  const gg_model *model;
+  double cc[3][3];                                       /* m C C */
+  double spin[GG_MAX_SPECIES][3], spin2[GG_MAX_SPECIES]; /* of surface velocities */
+} moments;
+
+static void add(void *context, const gg_chunk *chunk)
+{
+  moments *m = context;
+  for (size_t i = 0; i < chunk->n; i++) {
+    int species = chunk->species ? chunk->species[i] : 0;
+    const double c[3] = {chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]};
+    for (int a = 0; a < 3; a++) {
+      for (int b = 0; b < 3; b++) m->cc[a][b] += m->model->mass[species] * c[a] * c[b];
+      if (!chunk->s[0]) continue;
+      m->spin[species][a] += chunk->s[a][i];
+      m->spin2[species] += chunk->s[a][i] * chunk->s[a][i];
+    }
+  }
+}
+
+static moments sum_up(const gg_simulation *s)
+{
+  moments m = {.model = &s->model};
+  s->engine->ops->snapshot(s->engine, false, add, &m);
+  return m;
+}
+
+static double temperature_of(const moments *m)
+{
+  return (m->cc[0][0] + m->cc[1][1] + m->cc[2][2]) / (3 * (double)m->model->n);
+}
+
+double gg_simulation_temperature(const gg_simulation *s)
+{
+  const moments m = sum_up(s);
+  return temperature_of(&m);
+}
+
+/* sum I Omega^2 / 3 with I Omega^2 = K m s^2 for surface velocities s, about the mean of each species. */
+static double rotational_temperature_of(const moments *m)
+{
+  double sum = 0;
+  for (int i = 0; i < m->model->n_species; i++) {
+    const double *s = m->spin[i], n = (double)m->model->n_of[i];
+    double about_mean = m->spin2[i] - (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / n;
+    sum += m->model->inertia[i] * m->model->mass[i] * about_mean;
+  }
+  return sum / (3 * (double)m->model->n);
+}
+
+gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_NEED(state);
+  const gg_model *model = &simulation->model;
+  const moments m = sum_up(simulation);
+  double unit = gg_simulation_unit(simulation), n = (double)model->n;
+  gg_engine_state engine;
+  simulation->engine->ops->state(simulation->engine, &engine);
+  *state = (gg_simulation_state){.time = simulation->clock.time,
+                                 .collisions = engine.collisions,
+                                 .collisions_per_grain = 2 * (double)engine.collisions / n,
+                                 .grains = (size_t)model->n,
+                                 .temperature = temperature_of(&m) * unit * unit,
+                                 .rotational_temperature = rotational_temperature_of(&m) * unit * unit,
+                                 .strain = model->shear_rate * simulation->clock.time,
+                                 .image_offset = engine.offset};
+  double stress = model->density * model->stress_unit * unit * unit / n;
+  for (int a = 0; a < 3; a++) {
+    for (int b = 0; b < 3; b++) state->kinetic_stress[a][b] = stress * m.cc[a][b];
+    state->box[a] = model->homogeneous ? 0 : model->box[a];
+  }
+  return GG_OK;
+}
+
+/* Grains go to the places of their numbers. */
+typedef struct copying {
+  const gg_grains *into;
+  double velocity_unit, spin_unit[GG_MAX_SPECIES];
+  size_t at;
+} copying;
+
+static void copy(void *context, const gg_chunk *chunk)
+{
+  copying *c = context;
+  const gg_grains *to = c->into;
+  for (size_t i = 0; i < chunk->n; i++, c->at++) {
+    size_t place = chunk->id ? (size_t)chunk->id[i] : c->at;
+    int species = chunk->species ? chunk->species[i] : 0;
+    if (to->species) to->species[place] = species;
+    for (size_t a = 0; a < 3; a++) {
+      if (to->position) to->position[3 * place + a] = chunk->r[a][i];
+      if (to->velocity) to->velocity[3 * place + a] = chunk->c[a][i] * c->velocity_unit;
+      if (to->spin) to->spin[3 * place + a] = chunk->s[0] ? chunk->s[a][i] * c->spin_unit[species] : 0;
+    }
+  }
+}
+
+gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_NEED(into);
+  const gg_model *model = &simulation->model;
+  if (into->position && model->homogeneous)
+    return gg_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
+                   simulation->engine->ops->name);
+  copying c = {.into = into, .velocity_unit = gg_simulation_unit(simulation)};
+  for (int i = 0; i < GG_MAX_SPECIES; i++)
+    c.spin_unit[i] = c.velocity_unit * (model->boltzmann ? 1 : 2 / model->diameter[i]);
+  simulation->engine->ops->snapshot(simulation->engine, !model->homogeneous, copy, &c);
+  return GG_OK;
+}
+
+void gg_simulation_collect(gg_simulation *s)
+{
+  gg_simulation_sums *sums = &s->clock.sums;
+  double unit = gg_simulation_unit(s);
+  gg_transfer t;
+  s->engine->ops->read_tap(s->engine, &t);
+  for (int p = 0; p < GG_PAIRS; p++) {
+    sums->collisions += t.collisions[p];
+    sums->dissipation += t.loss[p] * unit * unit;
+    for (int a = 0; a < 3; a++)
+      for (int b = 0; b < 3; b++) sums->collisional_stress[a][b] += t.stress[p][a][b] * unit;
+  }
+  sums->wall_collisions += t.wall_collisions;
+  sums->wall_loss += t.wall_loss;
+  for (int w = 0; w < 2; w++)
+    for (int a = 0; a < 3; a++) sums->wall_impulse[w][a] += t.wall_impulse[w][a];
+}
+
+gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_NEED(sums);
+  gg_simulation_collect(simulation);
+  struct gg_simulation_clock *clock = &simulation->clock;
+  *sums = clock->sums;
+  sums->time = clock->time - clock->sums.time;
+  double per = sums->time > 0 ? simulation->model.stress_unit / (simulation->model.volume * sums->time) : 0;
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) sums->collisional_stress[a][b] *= per;
+  sums->dissipation *= per;
+  clock->sums = (gg_simulation_sums){.time = clock->time}; /* when they were last taken */
+  return GG_OK;
+}

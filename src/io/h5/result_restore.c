@@ -1,0 +1,257 @@
+#include "io/h5/result_restore.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/document.h"
+#include "io/scene/reader.h"
+
+static double number(const json_t *object, const char *key)
+{
+  const json_t *value = json_object_get(object, key);
+  return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static uint64_t count(const json_t *object, const char *key)
+{
+  return (uint64_t)json_integer_value(json_object_get(object, key));
+}
+
+static const char *text(const json_t *object, const char *key)
+{
+  const char *value = json_string_value(json_object_get(object, key));
+  return value ? value : "";
+}
+
+static void restore_warnings(gg_result *r, const json_t *document)
+{
+  size_t i;
+  json_t *line;
+  json_array_foreach(json_object_get(document, "warnings"), i, line) gg_result_warn(r, "%s", json_string_value(line));
+}
+
+/* "a, b are null: reason": what such a line says of `name`. */
+static void restore_reason(const gg_result *r, const char *name, char *reason, size_t size)
+{
+  size_t length = strlen(name);
+  for (int i = 0; i < r->n_warnings; i++) {
+    const char *end = strstr(r->warnings[i], " null: ");
+    for (const char *at = r->warnings[i]; end && (at = strstr(at, name)) && at < end; at += length)
+      if ((at == r->warnings[i] || at[-1] == ' ') && strchr(", ", at[length])) {
+        snprintf(reason, size, "%s", end + strlen(" null: "));
+        return;
+      }
+  }
+}
+
+static void restore_means(gg_result *r, const json_t *document)
+{
+  const json_t *results = json_object_get(document, "results");
+  for (int q = 0; q < GG_N_QUANTITIES; q++) { /* those of a program's own are in the document alone */
+    gg_estimate *e = &r->value[q];
+    const json_t *stored = json_object_get(results, gg_quantity_name((gg_quantity)q));
+    *e = (gg_estimate){.mean = number(stored, "mean"),
+                       .error = number(stored, "stderr"),
+                       .correlation_time = number(stored, "correlation_time"),
+                       .samples = count(stored, "samples")};
+    if (stored && isnan(e->mean)) restore_reason(r, gg_quantity_name((gg_quantity)q), e->reason, sizeof e->reason);
+  }
+}
+
+static double *copy_of(const double *from, size_t n, gg_error *err)
+{
+  double *to = gg_new_array(n, sizeof *to, err);
+  if (to) memcpy(to, from, n * sizeof *to);
+  return to;
+}
+
+static gg_status restore_history(gg_result *r, const gg_stored_engine *e, gg_error *err)
+{
+  gg_history *h = &r->history;
+  memcpy(h->window, e->window, sizeof h->window);
+  if (!e->n_series) return GG_OK;
+  h->n = e->series[0].n;
+  if (!(h->time = copy_of(e->series[0].time, h->n, err))) return GG_FAILED;
+  for (int k = 0; k < GG_N_HISTORY; k++) {
+    const gg_stored_series *s = gg_stored_series_find(e, gg_quantity_name(gg_history_quantities[k]));
+    h->value[k] = s && s->n == h->n ? copy_of(s->value, h->n, err) : gg_new_array(h->n, sizeof(double), err);
+    if (!h->value[k]) return GG_FAILED;
+    for (size_t i = 0; (!s || s->n != h->n) && i < h->n; i++) h->value[k][i] = NAN;
+  }
+  return GG_OK;
+}
+
+static void fill(double *to, size_t n, const json_t *list)
+{
+  for (size_t i = 0; i < n; i++) {
+    const json_t *value = json_array_get(list, i);
+    to[i] = json_is_number(value) ? json_number_value(value) : NAN;
+  }
+}
+
+static void restore_numbers(gg_curve *c, const json_t *numbers)
+{
+  const char *name;
+  json_t *one;
+  json_object_foreach((json_t *)(uintptr_t)numbers, name, one)
+  {
+    int n = c->n_numbers;
+    gg_curve_put_number(c, name, number(one, "mean"), text(one, "unit"));
+    if (c->n_numbers > n) c->number[n].error = number(one, "stderr");
+    if (c->n_numbers > n) c->number[n].setting = c->number[n].error == 0;
+  }
+}
+
+static gg_status restore_curve(gg_result *r, const char *name, const json_t *stored, gg_error *err)
+{
+  const json_t *law = json_object_get(stored, "reference");
+  r->curves.group = text(stored, "group");
+  r->curves.samples = count(stored, "samples");
+  gg_curve *c = gg_curve_add(&r->curves, json_array_size(json_object_get(stored, "x")), name, text(stored, "panel"),
+                             text(stored, "label"));
+  r->curves.group = NULL; /* every curve has its own copy */
+  if (r->curves.failed) return gg_fail(err, GG_FAILED, "out of memory for the curve %s", name);
+  gg_curve_axes(c, text(stored, "x_name"), text(stored, "x_unit"), text(stored, "y_name"), text(stored, "unit"));
+  c->log_x = json_is_true(json_object_get(stored, "log_x"));
+  c->log_y = json_is_true(json_object_get(stored, "log_y"));
+  fill(c->x, c->n, json_object_get(stored, "x"));
+  fill(c->value, c->n, json_object_get(stored, "value"));
+  fill(c->error, c->n, json_object_get(stored, "stderr"));
+  restore_numbers(c, json_object_get(stored, "numbers"));
+  if (!law) return GG_OK;
+  gg_curve_beside(c, text(law, "label"), gg_level, &(double){0});
+  if (c->reference) fill(c->reference, c->n, json_object_get(law, "value"));
+  return GG_OK;
+}
+
+static gg_status restore_curves(gg_result *r, const json_t *document, gg_error *err)
+{
+  const char *name;
+  json_t *stored;
+  r->curves.model = &r->model;
+  json_object_foreach(json_object_get(document, "curves"), name, stored) GG_TRY(restore_curve(r, name, stored, err));
+  return GG_OK;
+}
+
+/* The file's frame is that of the run, or of a comparison's md where there was one. */
+static gg_status restore_frame(gg_result *r, const gg_stored_result *s, gg_error *err)
+{
+  const gg_frame *from = &s->last;
+  bool its_own = !s->comparison || strcmp(r->engine, s->engine[GG_MD].name ? "md" : "dsmc") == 0;
+  if (!its_own || !from->velocity) return GG_OK;
+  gg_frame *to = &r->final;
+  *to = (gg_frame){.time = from->time, .step = from->step, .n = from->n};
+  if (!(to->velocity = copy_of(from->velocity, 3 * to->n, err))) return GG_FAILED;
+  if (from->position && !(to->position = copy_of(from->position, 3 * to->n, err))) return GG_FAILED;
+  if (from->spin && !(to->spin = copy_of(from->spin, 3 * to->n, err))) return GG_FAILED;
+  if (from->species && !(to->species = gg_new_array(to->n, 1, err))) return GG_FAILED;
+  if (from->species) memcpy(to->species, from->species, to->n);
+  return GG_OK;
+}
+
+static void restore_effort(gg_result *r, const json_t *document)
+{
+  const json_t *total = json_object_get(document, "total"), *state = json_object_get(document, "engine_state");
+  r->averaging = (gg_effort){count(document, "collisions"), number(document, "cpu_seconds"), NAN};
+  r->total = (gg_effort){count(total, "collisions"), number(total, "cpu_seconds"), number(total, "wall_seconds")};
+  r->engine_state = (gg_engine_state){.time = number(state, "time"),
+                                      .collisions = r->total.collisions,
+                                      .events = count(state, "events"),
+                                      .treated = count(state, "contact_time_collisions"),
+                                      .overflows = count(state, "majorant_overflows")};
+  if (json_object_get(state, "worst_overlap")) r->engine_state.worst_overlap = number(state, "worst_overlap");
+  if (json_object_get(state, "time_step")) r->engine_state.time_step = number(state, "time_step");
+  if (json_object_get(state, "time_step_bias")) r->engine_state.time_step_bias = number(state, "time_step_bias");
+}
+
+static gg_status restore_origin(gg_result *r, const gg_stored_result *s, const json_t *document, gg_error *err)
+{
+  char **const to[] = {&r->origin.version, &r->origin.command, &r->origin.machine, &r->origin.date};
+  const char *const from[] = {s->version, s->command, s->machine, s->date};
+  for (int i = 0; i < 4; i++)
+    if (!(*to[i] = strdup(from[i] ? from[i] : ""))) return gg_fail(err, GG_FAILED, "out of memory");
+  r->origin.document = gg_document_text(document);
+  r->origin.frames = s->n_frames;
+  return r->origin.document ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+}
+
+static gg_status restore_scene(const gg_stored_result *s, gg_engine_kind engine, gg_scene *scene, gg_model *model,
+                               gg_error *err)
+{
+  *scene = gg_scene_defaults();
+  GG_TRY(gg_scene_read(scene, s->scene, strlen(s->scene), "the stored scene", err));
+  return gg_model_make(scene, engine, model, err);
+}
+
+static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_kind engine, gg_error *err)
+{
+  const gg_stored_engine *e = &s->engine[engine];
+  GG_TRY(restore_scene(s, engine, &r->scene, &r->model, err));
+  r->scene.engine = engine;
+  r->engine = gg_engine_ops_of(engine)->name;
+  bool steady = json_is_true(json_object_get(e->document, "steady"));
+  r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.small_shear ? GG_NOT_STEADY : GG_HEATING;
+  snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", text(e->document, "verdict"));
+  restore_warnings(r, e->document);
+  restore_means(r, e->document);
+  restore_effort(r, e->document);
+  GG_TRY(restore_history(r, e, err));
+  GG_TRY(restore_curves(r, e->document, err));
+  GG_TRY(restore_frame(r, s, err));
+  return restore_origin(r, s, e->document, err);
+}
+
+gg_status gg_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg_result **result, gg_error *err)
+{
+  gg_result *r = gg_new_array(1, sizeof *r, err);
+  if (!r) return GG_FAILED;
+  gg_status status = restore_all(r, s, engine, err);
+  if (status == GG_OK)
+    *result = r;
+  else
+    gg_result_free(r);
+  return status;
+}
+
+/* What the file's theories said, which those of today may not. */
+static void restore_theories(gg_comparison *c, const json_t *document)
+{
+  const json_t *all = json_object_get(document, "theory");
+  gg_compare_theories(&c->model, c);
+  for (int i = 0; json_is_object(all) && i < c->n_theories; i++) {
+    const json_t *said = json_object_get(all, c->theory[i].theory->name);
+    if (said) c->theory[i].applies = true;
+    for (int q = 0; said && q < GG_N_QUANTITIES; q++)
+      c->theory[i].answer.value[q] = number(json_object_get(said, gg_quantity_name((gg_quantity)q)), "mean");
+  }
+}
+
+/* "md is null: reason" */
+static void restore_refusals(gg_comparison *c, const json_t *document)
+{
+  size_t i;
+  json_t *line;
+  json_array_foreach(json_object_get(document, "warnings"), i, line) for (int k = 0; k < 2; k++)
+  {
+    char head[24];
+    int length = snprintf(head, sizeof head, "%s is null: ", gg_engine_ops_of((gg_engine_kind)k)->name);
+    if (strncmp(json_string_value(line), head, (size_t)length) == 0)
+      snprintf(c->refusal[k], sizeof c->refusal[k], "%.250s", json_string_value(line) + length);
+  }
+}
+
+gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_error *err)
+{
+  *c = (gg_comparison){0};
+  GG_TRY(restore_scene(s, GG_MD, &c->scene, &c->model, err));
+  for (int k = 0; k < 2; k++)
+    if (s->engine[k].name)
+      GG_TRY(gg_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));
+    else if (!s->comparison)
+      snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
+  if (s->comparison) restore_theories(c, s->document);
+  restore_refusals(c, s->document);
+  c->document = gg_document_text(s->document);
+  return c->document ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+}

@@ -1,0 +1,83 @@
+#include "run/fingerprint.h"
+
+#include <string.h>
+
+/* Every key that fixes the trajectory or what is averaged; stop rules and output may change between parts of a run. */
+typedef struct gg_fingerprint {
+  const char *name;
+  double value;
+} gg_fingerprint;
+
+enum { MOST_FINGERPRINT = 64 };
+
+static int fingerprint(const gg_scene *s, gg_fingerprint *f)
+{
+  const gg_fingerprint fixed[] = {{"flow", s->flow},
+                                  {"engine", s->engine},
+                                  {"thermostat", s->thermostat},
+                                  {"contact_value", s->contact_value},
+                                  {"phi", s->phi},
+                                  {"particles", (double)s->particles},
+                                  {"shear_rate", s->shear_rate},
+                                  {"temperature", s->temperature},
+                                  {"small_shear", s->small_shear},
+                                  {"aspect", s->aspect[0]},
+                                  {"aspect", s->aspect[1]},
+                                  {"aspect", s->aspect[2]},
+                                  {"species", s->n_species},
+                                  {"walls.e", s->walls.e},
+                                  {"walls.beta", s->walls.beta},
+                                  {"walls.mu", s->walls.mu},
+                                  {"walls.speed", s->walls.speed},
+                                  {"walls.top", s->walls.top},
+                                  {"gravity", s->gravity[0]},
+                                  {"gravity", s->gravity[1]},
+                                  {"gravity", s->gravity[2]},
+                                  {"run.warmup", s->run.warmup},
+                                  {"run.replicas", (double)s->run.replicas},
+                                  {"run.seed", (double)s->run.seed},
+                                  {"md.contact_time", s->md.contact_time},
+                                  {"dsmc.time_step", s->dsmc.time_step},
+                                  {"dsmc.particles", (double)s->dsmc.particles},
+                                  {"dsmc.precision", s->dsmc.precision},
+                                  {"measure", s->measure}};
+  int n = sizeof fixed / sizeof *fixed;
+  memcpy(f, fixed, sizeof fixed);
+  for (int p = 0; p < GG_PAIRS; p++) {
+    f[n++] = (gg_fingerprint){"collision.e", s->collision.e[p]};
+    f[n++] = (gg_fingerprint){"collision.beta", s->collision.beta[p]};
+    f[n++] = (gg_fingerprint){"collision.mu", s->collision.mu[p]};
+  }
+  for (int i = 0; i < GG_MAX_SPECIES; i++) {
+    f[n++] = (gg_fingerprint){"species: fraction", s->species[i].fraction};
+    f[n++] = (gg_fingerprint){"species: diameter", s->species[i].diameter};
+    f[n++] = (gg_fingerprint){"species: mass", s->species[i].mass};
+    f[n++] = (gg_fingerprint){"species: inertia", s->species[i].inertia};
+  }
+  return n;
+}
+
+gg_status gg_fingerprint_put(const gg_scene *scene, gg_archive *a, gg_error *err)
+{
+  gg_fingerprint f[MOST_FINGERPRINT];
+  double values[MOST_FINGERPRINT];
+  int n = fingerprint(scene, f);
+  for (int i = 0; i < n; i++) values[i] = f[i].value;
+  return gg_archive_put(a, "campaign/fingerprint", GG_ITEM_F64, values, (size_t)n, err);
+}
+
+gg_status gg_fingerprint_check(const gg_scene *scene, const gg_archive *a, gg_error *err)
+{
+  gg_fingerprint here[MOST_FINGERPRINT];
+  double there[MOST_FINGERPRINT];
+  int n = fingerprint(scene, here);
+  GG_TRY(gg_archive_get(a, "campaign/fingerprint", GG_ITEM_F64, there, (size_t)n, err));
+  for (int i = 0; i < n; i++)
+    if (memcmp(&here[i].value, &there[i], sizeof there[i]) != 0)
+      return gg_fail(
+          err, GG_BAD_INPUT,
+          "the checkpoint is of another run: %s differs (there %.15g, here %.15g); only stop rules and output "
+          "may change",
+          here[i].name, there[i], here[i].value);
+  return GG_OK;
+}

@@ -1,0 +1,190 @@
+/* A missing argument is answered with GG_BAD_INPUT and a message that names it, in every function. */
+#include "door_test.h"
+
+#define SHEAR "{flow: usf, phi: 0.1, particles: 100, engine: dsmc}"
+#define assert_missing(call) assert_refused(call, "is missing (NULL)")
+
+static void line(void *context, const char *text)
+{
+  (void)context, (void)text;
+}
+
+static void scenes(void **state)
+{
+  (void)state;
+  gg_error err;
+  char text[40], *whole;
+  gg_scene *s = scene_of(SHEAR), *other = NULL;
+  assert_missing(gg_scene_load(NULL, &other, &err));
+  assert_missing(gg_scene_load("x", NULL, &err));
+  assert_missing(gg_scene_parse(NULL, "x", &other, &err));
+  assert_missing(gg_scene_parse(SHEAR, "x", NULL, &err));
+  assert_missing(gg_scene_copy(NULL, &other, &err));
+  assert_missing(gg_scene_copy(s, NULL, &err));
+  assert_missing(gg_scene_set(NULL, "phi", "1", &err));
+  assert_missing(gg_scene_set(s, NULL, "1", &err));
+  assert_missing(gg_scene_set(s, "phi", NULL, &err));
+  assert_missing(gg_scene_get(NULL, "phi", text, sizeof text, &err));
+  assert_missing(gg_scene_get(s, NULL, text, sizeof text, &err));
+  assert_missing(gg_scene_get(s, "phi", NULL, 0, &err));
+  assert_missing(gg_scene_check(NULL, &err));
+  assert_missing(gg_scene_to_yaml(NULL, &whole, &err));
+  assert_missing(gg_scene_to_yaml(s, NULL, &err));
+  assert_missing(gg_scene_to_json(NULL, &whole, &err));
+  assert_missing(gg_scene_to_json(s, NULL, &err));
+  assert_missing(gg_scene_title(NULL, text, sizeof text, &err));
+  assert_missing(gg_scene_title(s, NULL, 0, &err));
+  assert_missing(gg_scene_describe(NULL, "md", line, NULL, &err));
+  assert_missing(gg_scene_describe(s, NULL, line, NULL, &err));
+  assert_missing(gg_scene_describe(s, "md", NULL, NULL, &err));
+  assert_int_equal(gg_scene_check(NULL, NULL), GG_BAD_INPUT); /* nobody has to listen */
+  assert_null(other);
+  gg_scene_free(s);
+  gg_scene_free(NULL);
+}
+
+static void simulations(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_simulation *m = NULL, *other = NULL;
+  gg_simulation_state now;
+  gg_simulation_sums sums;
+  gg_grains grains = {0};
+  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_missing(gg_simulation_new(NULL, 0, &other, &err));
+  assert_missing(gg_simulation_new(s, 0, NULL, &err));
+  assert_missing(gg_simulation_advance(NULL, 1, &err));
+  assert_missing(gg_simulation_collide(NULL, 1, &err));
+  assert_missing(gg_simulation_get_state(NULL, &now, &err));
+  assert_missing(gg_simulation_get_state(m, NULL, &err));
+  assert_missing(gg_simulation_get_grains(NULL, &grains, &err));
+  assert_missing(gg_simulation_get_grains(m, NULL, &err));
+  assert_missing(gg_simulation_take_sums(NULL, &sums, &err));
+  assert_missing(gg_simulation_take_sums(m, NULL, &err));
+  assert_missing(gg_simulation_on_collision(NULL, NULL, NULL, &err));
+  assert_missing(gg_simulation_save(NULL, "x", &err));
+  assert_missing(gg_simulation_save(m, NULL, &err));
+  assert_missing(gg_simulation_load(NULL, NULL, &other, &err));
+  assert_missing(gg_simulation_load("x", NULL, NULL, &err));
+  assert_null(other);
+  gg_simulation_free(m);
+  gg_simulation_free(NULL);
+  gg_scene_free(s);
+}
+
+static void results(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_result *r = NULL, *other = NULL;
+  gg_measurement m;
+  gg_result_info info;
+  gg_curve_data curve;
+  gg_grains grains = {0};
+  char *text;
+  size_t n;
+  assert_ok(gg_scene_set(s, "run", "{collisions: 400}", &err));
+  assert_ok(gg_run(s, NULL, &r, &err));
+  assert_missing(gg_run(NULL, NULL, &other, &err));
+  assert_missing(gg_run(s, NULL, NULL, &err));
+  assert_missing(gg_result_get(NULL, "N1", NULL, NULL, &err));
+  assert_missing(gg_result_get(r, NULL, NULL, NULL, &err));
+  assert_missing(gg_result_find(NULL, "N1", &m, &err));
+  assert_missing(gg_result_find(r, NULL, &m, &err));
+  assert_missing(gg_result_find(r, "N1", NULL, &err));
+  assert_missing(gg_result_at(NULL, 0, &m, &err));
+  assert_missing(gg_result_at(r, 0, NULL, &err));
+  assert_missing(gg_result_about(NULL, &info, &err));
+  assert_missing(gg_result_about(r, NULL, &err));
+  assert_missing(gg_result_history(NULL, "N1", &n, NULL, NULL, &err));
+  assert_missing(gg_result_history(r, NULL, &n, NULL, NULL, &err));
+  assert_missing(gg_result_history(r, "N1", NULL, NULL, NULL, &err));
+  assert_missing(gg_result_curve(NULL, 0, &curve, &err));
+  assert_missing(gg_result_curve(r, 0, NULL, &err));
+  assert_missing(gg_result_curve_number(NULL, 0, 0, &m, &err));
+  assert_missing(gg_result_curve_number(r, 0, 0, NULL, &err));
+  assert_missing(gg_result_grains(NULL, &grains, &err));
+  assert_missing(gg_result_grains(r, NULL, &err));
+  assert_missing(gg_result_to_json(NULL, &text, &err));
+  assert_missing(gg_result_to_json(r, NULL, &err));
+  assert_missing(gg_result_write(NULL, "x", &err));
+  assert_missing(gg_result_write(r, NULL, &err));
+  assert_missing(gg_result_read(NULL, &other, &err));
+  assert_missing(gg_result_read("x", NULL, &err));
+  assert_null(gg_result_unit(NULL, "N1"));
+  assert_null(gg_result_unit(r, NULL));
+  assert_int_equal(gg_result_is_steady(NULL), 0);
+  assert_null(gg_result_scene(NULL));
+  assert_null(gg_result_warning(NULL, 0));
+  assert_null(other);
+  gg_result_free(r);
+  gg_result_free(NULL);
+  gg_scene_free(s);
+}
+
+static void comparisons(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_comparison *c = NULL, *other = NULL;
+  gg_theory_info theory;
+  gg_remark remark;
+  double x;
+  char *text;
+  assert_ok(gg_evaluate_theories(s, NULL, &c, &err));
+  assert_missing(gg_evaluate_theories(NULL, NULL, &other, &err));
+  assert_missing(gg_evaluate_theories(s, NULL, NULL, &err));
+  assert_missing(gg_compare(NULL, NULL, &other, &err));
+  assert_missing(gg_compare(s, NULL, NULL, &err));
+  assert_null(gg_comparison_result(NULL, "md"));
+  assert_null(gg_comparison_result(c, NULL));
+  assert_null(gg_comparison_refusal(NULL, "md"));
+  assert_null(gg_comparison_refusal(c, NULL));
+  assert_null(gg_comparison_scene(NULL));
+  assert_missing(gg_comparison_agreement(NULL, "N1", &x, NULL, &err));
+  assert_missing(gg_comparison_agreement(c, NULL, &x, NULL, &err));
+  assert_missing(gg_comparison_theory(NULL, 0, &theory, &err));
+  assert_missing(gg_comparison_theory(c, 0, NULL, &err));
+  assert_missing(gg_comparison_theory_value(NULL, "grad", "N1", &x, NULL, &err));
+  assert_missing(gg_comparison_theory_value(c, NULL, "N1", &x, NULL, &err));
+  assert_missing(gg_comparison_theory_value(c, "grad", NULL, &x, NULL, &err));
+  assert_missing(gg_comparison_remark(NULL, 0, &remark, &err));
+  assert_missing(gg_comparison_remark(c, 0, NULL, &err));
+  assert_missing(gg_comparison_to_json(NULL, &text, &err));
+  assert_missing(gg_comparison_to_json(c, NULL, &err));
+  assert_missing(gg_comparison_write(NULL, "x", &err));
+  assert_missing(gg_comparison_write(c, NULL, &err));
+  assert_missing(gg_comparison_read(NULL, &other, &err));
+  assert_missing(gg_comparison_read("x", NULL, &err));
+  assert_missing(gg_plot(NULL, "x.svg", NULL, NULL, NULL, &err));
+  assert_missing(gg_plot("x", NULL, NULL, NULL, NULL, &err));
+  assert_null(other);
+  gg_comparison_free(c);
+  gg_comparison_free(NULL);
+  gg_scene_free(s);
+}
+
+static void tables(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_entry entry;
+  const char *const known[] = {"md", NULL};
+  assert_missing(gg_catalogue_entry(GG_CATALOGUE_KEYS, 0, NULL, NULL, &err));
+  assert_missing(gg_catalogue_word(NULL, 0, &entry, &err));
+  assert_missing(gg_catalogue_word("flow", 0, NULL, &err));
+  assert_null(gg_nearest_word(NULL, known));
+  assert_null(gg_nearest_word("md", NULL));
+  gg_format_estimate(1, 1, NULL, 10);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(scenes), cmocka_unit_test(simulations), cmocka_unit_test(results),
+                                     cmocka_unit_test(comparisons), cmocka_unit_test(tables)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

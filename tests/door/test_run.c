@@ -1,0 +1,308 @@
+/* Runs with options, comparisons, and results: asked, written, read back. */
+#include "door_test.h"
+
+#define SHORT "{flow: usf, engine: dsmc, phi: 0.1, particles: 200, dsmc: {particles: 500}, run: {collisions: 6000}}"
+
+static int told;
+static int count_progress(void *context, const gg_progress *now)
+{
+  told++;
+  assert_true(now->fraction >= 0 && now->fraction <= 1 && now->engine && now->phase);
+  return context && now->phase[0] == 'a' && now->fraction > *(double *)context;
+}
+
+static double mean_of(const gg_result *r, const char *name)
+{
+  gg_error err;
+  double mean = NAN;
+  assert_ok(gg_result_get(r, name, &mean, NULL, &err));
+  return mean;
+}
+
+/* A callback that stops the run gets results so far; the run goes on from its checkpoint to the very same end. */
+static void stopped_and_resumed(void **state)
+{
+  (void)state;
+  gg_error err;
+  double half = 0.5;
+  gg_scene *s = scene_of(SHORT);
+  gg_result *whole = NULL, *part = NULL, *rest = NULL;
+  gg_run_options options = {.progress = count_progress};
+  assert_ok(gg_run(s, &options, &whole, &err));
+  assert_true(told > 2);
+  options.context = &half;
+  options.checkpoint = "t_stopped.h5";
+  options.output = "t_never.h5";
+  assert_int_equal(gg_run(s, &options, &part, &err), GG_INTERRUPTED);
+  assert_non_null(part);
+  gg_measurement m;
+  assert_ok(gg_result_find(part, "temperature", &m, &err));
+  assert_true(m.mean > 0 && m.samples > 0 && access("t_never.h5", F_OK) != 0);
+  options = (gg_run_options){.resume = "t_stopped.h5", .threads = 2};
+  assert_ok(gg_run(s, &options, &rest, &err));
+  assert_true(mean_of(rest, "temperature") == mean_of(whole, "temperature"));
+  assert_true(mean_of(rest, "N1") == mean_of(whole, "N1") && mean_of(part, "N1") != mean_of(whole, "N1"));
+  gg_result_free(whole);
+  gg_result_free(part);
+  gg_result_free(rest);
+  gg_scene_free(s);
+}
+
+static int at_once(void *context)
+{
+  (void)context;
+  return 1;
+}
+
+/* Replicas on threads, stopped anywhere, are brought to the same sample before they are averaged. */
+static void replicas_stopped(void **state)
+{
+  (void)state;
+  gg_error err;
+  double half = 0.5;
+  gg_scene *s = scene_of(SHORT);
+  gg_result *r = NULL;
+  assert_ok(gg_scene_set(s, "run.replicas", "3", &err));
+  gg_run_options options = {.threads = 3, .progress = count_progress, .context = &half};
+  assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
+  gg_measurement m;
+  assert_ok(gg_result_find(r, "pressure", &m, &err));
+  assert_true(m.mean > 0 && m.samples % 3 == 0);
+  gg_result_free(r);
+  options = (gg_run_options){.stop = at_once};
+  assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
+  assert_refused(gg_result_get(r, "pressure", NULL, NULL, &err), "warm-up");
+  gg_result_free(r);
+  gg_scene_free(s);
+}
+
+static void same_means(const gg_result *a, const gg_result *b)
+{
+  gg_measurement x, y;
+  gg_error err;
+  size_t i = 0;
+  for (; gg_result_at(a, i, &x, NULL) == GG_OK; i++) {
+    assert_ok(gg_result_at(b, i, &y, &err));
+    assert_string_equal(x.name, y.name);
+    assert_string_equal(x.unit, y.unit);
+    assert_true(x.mean == y.mean || (isnan(x.mean) && isnan(y.mean)));
+    assert_true(x.error == y.error || (isnan(x.error) && isnan(y.error)));
+    assert_true(x.samples == y.samples && (x.reason == NULL) == (y.reason == NULL));
+    if (x.reason) assert_string_equal(x.reason, y.reason);
+  }
+  assert_true(i > 40);
+}
+
+static void same_curves(const gg_result *a, const gg_result *b)
+{
+  gg_curve_data x, y;
+  gg_measurement p, q;
+  gg_error err;
+  size_t i = 0, numbers = 0;
+  for (; gg_result_curve(a, i, &x, NULL) == GG_OK; i++) {
+    assert_ok(gg_result_curve(b, i, &y, &err));
+    assert_string_equal(x.name, y.name);
+    assert_string_equal(x.observable, y.observable);
+    assert_string_equal(x.x_unit, y.x_unit);
+    assert_true(x.n == y.n && x.log_y == y.log_y && (x.law == NULL) == (y.law == NULL) && x.samples == y.samples);
+    assert_memory_equal(x.x, y.x, x.n * sizeof *x.x);
+    assert_memory_equal(x.value, y.value, x.n * sizeof *x.value);
+    if (x.law) assert_memory_equal(x.law, y.law, x.n * sizeof *x.law);
+    for (size_t k = 0; gg_result_curve_number(a, i, k, &p, NULL) == GG_OK; k++, numbers++) {
+      assert_ok(gg_result_curve_number(b, i, k, &q, &err));
+      assert_string_equal(p.name, q.name);
+      assert_true(p.mean == q.mean || (isnan(p.mean) && isnan(q.mean)));
+    }
+  }
+  assert_true(i > 3 && numbers > 3);
+}
+
+static void same_text(const gg_result *a, const gg_result *b)
+{
+  gg_error err;
+  char *x = NULL, *y = NULL;
+  assert_ok(gg_result_to_json(a, &x, &err));
+  assert_ok(gg_result_to_json(b, &y, &err));
+  assert_string_equal(x, y);
+  free(x);
+  free(y);
+}
+
+/* A result read back is the one that was written: means, reasons, curves, history, grains, document; and written once
+ * more it is so again. */
+static void written_and_read(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1, particles: 100, measure: [rheology, velocity_distributions, sonine], "
+                         "collision: {beta: 0}, run: {collisions: 300}}");
+  gg_result *r = NULL, *back = NULL, *twice = NULL;
+  gg_run_options options = {.output = "t_run.h5", .command = "a test"};
+  assert_ok(gg_run(s, &options, &r, &err));
+  assert_ok(gg_result_read("t_run.h5", &back, &err));
+  same_means(r, back);
+  same_curves(r, back);
+  same_text(r, back);
+  gg_result_info a, b;
+  assert_ok(gg_result_about(r, &a, &err));
+  assert_ok(gg_result_about(back, &b, &err));
+  assert_true(!a.version && strcmp(b.command, "a test") == 0 && strcmp(b.version, gg_version()) == 0);
+  assert_true(a.steady == b.steady && a.grains == 100 && b.grains == 100 && a.collisions == b.collisions);
+  assert_true(a.window[0] == b.window[0] && b.frames == 1 && strcmp(a.verdict, b.verdict) == 0);
+  const double *t[2], *x[2];
+  size_t n[2];
+  assert_ok(gg_result_history(r, "temperature", &n[0], &t[0], &x[0], &err));
+  assert_ok(gg_result_history(back, "temperature", &n[1], &t[1], &x[1], &err));
+  assert_true(n[0] == n[1] && n[0] > 100);
+  assert_memory_equal(t[0], t[1], n[0] * sizeof(double));
+  assert_memory_equal(x[0], x[1], n[0] * sizeof(double));
+  double one[300], two[300], spin[300];
+  assert_ok(gg_result_grains(r, &(gg_grains){one, NULL, NULL, NULL}, &err));
+  assert_ok(gg_result_grains(back, &(gg_grains){two, NULL, spin, NULL}, &err));
+  assert_memory_equal(one, two, sizeof one);
+  assert_ok(gg_result_write(back, "t_again.h5", &err));
+  assert_ok(gg_result_read("t_again.h5", &twice, &err));
+  same_means(r, twice);
+  same_text(r, twice);
+  char yaml[40];
+  assert_ok(gg_scene_get(gg_result_scene(twice), "particles", yaml, sizeof yaml, &err));
+  assert_string_equal(yaml, "100");
+  gg_result_free(r);
+  gg_result_free(back);
+  gg_result_free(twice);
+  gg_scene_free(s);
+}
+
+/* What is not there is said with the reason, in every way of asking. */
+static void missing_quantities(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHORT);
+  gg_result *r = NULL;
+  gg_measurement m;
+  size_t n;
+  assert_ok(gg_run(s, NULL, &r, &err));
+  assert_refused(gg_result_get(r, "temperatur", NULL, NULL, &err), "no quantity called 'temperatur'");
+  assert_refused(gg_result_get(r, "temperature_ratio", NULL, NULL, &err), "cannot be had here: ");
+  assert_ok(gg_result_find(r, "temperature_ratio", &m, &err));
+  assert_true(isnan(m.mean) && m.reason && m.reason[0]);
+  assert_null(gg_result_unit(r, "temperature_ratio"));
+  assert_string_equal(gg_result_unit(r, "temperature"), "d^2 gamma^2");
+  assert_refused(gg_result_history(r, "N1", &n, NULL, NULL, &err), "not followed");
+  gg_curve_data curve;
+  assert_refused(gg_result_curve(r, 0, &curve, &err), "0 curves");
+  double x[3];
+  assert_refused(gg_result_grains(r, &(gg_grains){x, NULL, NULL, NULL}, &err), "no positions");
+  assert_int_equal(gg_result_read("t_nowhere.h5", &r, &err), GG_BAD_FILE);
+  gg_result_free(r);
+  gg_scene_free(s);
+}
+
+/* Files that cannot be written: known before the run, or with the result in hand. */
+static void unwritable_output(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHORT);
+  gg_result *r = NULL;
+  assert_int_equal(gg_run(s, &(gg_run_options){.output = "nowhere/t.h5"}, &r, &err), GG_BAD_FILE);
+  assert_null(r);
+  assert_int_equal(gg_run(s, &(gg_run_options){.resume = "t_nowhere.h5"}, &r, &err), GG_BAD_FILE);
+  assert_null(r);
+  gg_scene_free(s);
+}
+
+/* A comparison has both parts, agreement, theories with their deviations; read back it has them still. */
+static void comparisons(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 200, collision: {e: 0.8}, run: {collisions: 300}}");
+  gg_comparison *c = NULL, *back = NULL;
+  gg_run_options options = {.threads = 2, .output = "t_compare.h5", .progress = count_progress};
+  gg_status status = gg_compare(s, &options, &c, &err);
+  assert_true(status == GG_OK || status == GG_FAILED);
+  assert_ok(gg_comparison_read("t_compare.h5", &back, &err));
+  const gg_comparison *both[] = {c, back};
+  double z[2], value[2], deviation[2], md = mean_of(gg_comparison_result(c, "md"), "temperature");
+  for (int k = 0; k < 2; k++) {
+    assert_non_null(gg_comparison_result(both[k], "dsmc"));
+    assert_null(gg_comparison_refusal(both[k], "md"));
+    assert_null(gg_comparison_result(both[k], "lattice"));
+    assert_ok(gg_comparison_agreement(both[k], "temperature", &z[k], NULL, &err));
+    assert_ok(gg_comparison_theory_value(both[k], "grad", "temperature", &value[k], &deviation[k], &err));
+    assert_true(fabs(deviation[k] - (value[k] / md - 1)) < 1e-12);
+  }
+  assert_true(z[0] == z[1] && value[0] == value[1]);
+  gg_theory_info theory;
+  int applying = 0, refusing = 0;
+  for (size_t i = 0; gg_comparison_theory(back, i, &theory, NULL) == GG_OK; i++)
+    theory.reason ? refusing++ : applying++;
+  assert_true(applying > 2 && refusing > 5);
+  assert_refused(gg_comparison_theory_value(c, "newton", "temperature", value, NULL, &err), "no theory called");
+  gg_remark remark;
+  for (size_t i = 0; gg_comparison_remark(c, i, &remark, NULL) == GG_OK; i++) assert_non_null(remark.cause);
+  gg_result *r = NULL;
+  assert_refused(gg_result_read("t_compare.h5", &r, &err), "gg_comparison_read");
+  same_means(gg_comparison_result(c, "dsmc"), gg_comparison_result(back, "dsmc"));
+  gg_comparison_free(c);
+  gg_comparison_free(back);
+  gg_scene_free(s);
+}
+
+/* An engine that cannot run the scene is left out with the reason; a comparison that is stopped has what there is. */
+static void part_comparisons(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0, dsmc: {particles: 500}, run: {collisions: 400}}");
+  gg_comparison *c = NULL;
+  assert_ok(gg_compare(s, NULL, &c, &err));
+  assert_null(gg_comparison_result(c, "md"));
+  assert_non_null(strstr(gg_comparison_refusal(c, "md"), "phi"));
+  assert_non_null(gg_comparison_result(c, "dsmc"));
+  gg_comparison_free(c);
+  assert_int_equal(gg_compare(s, &(gg_run_options){.stop = at_once}, &c, &err), GG_INTERRUPTED);
+  assert_non_null(gg_comparison_result(c, "dsmc"));
+  gg_comparison_free(c);
+  gg_scene_free(s);
+}
+
+/* Theories alone: all, one, none of that name. */
+static void theories(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: hcs, phi: 0.1, collision: {e: 0.8}}");
+  gg_comparison *all = NULL, *one = NULL;
+  gg_theory_info info;
+  double zeta[2], none;
+  assert_ok(gg_evaluate_theories(s, NULL, &all, &err));
+  assert_ok(gg_evaluate_theories(s, "garzo_dufty1999", &one, &err));
+  assert_ok(gg_comparison_theory_value(all, "garzo_dufty1999", "cooling_rate", &zeta[0], NULL, &err));
+  assert_ok(gg_comparison_theory_value(one, "garzo_dufty1999", "cooling_rate", &zeta[1], &none, &err));
+  assert_true(zeta[0] == zeta[1] && zeta[0] > 0 && isnan(none));
+  assert_ok(gg_comparison_theory(one, 0, &info, &err));
+  assert_true(!info.reason && strstr(info.citation, "1999") && info.title && info.assumptions);
+  assert_int_equal(gg_comparison_theory(one, 1, &info, &err), GG_BAD_INPUT);
+  assert_refused(gg_evaluate_theories(s, "newton", &one, &err), "no theory called 'newton'");
+  assert_refused(gg_comparison_write(all, "t_theory.h5", &err), "nothing was simulated");
+  char *text = NULL;
+  assert_ok(gg_comparison_to_json(all, &text, &err));
+  assert_non_null(strstr(text, "\"garzo_dufty1999\""));
+  free(text);
+  gg_comparison_free(all);
+  gg_comparison_free(one);
+  gg_scene_free(s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(stopped_and_resumed), cmocka_unit_test(replicas_stopped),  cmocka_unit_test(written_and_read),
+      cmocka_unit_test(missing_quantities),  cmocka_unit_test(unwritable_output), cmocka_unit_test(comparisons),
+      cmocka_unit_test(part_comparisons),    cmocka_unit_test(theories),
+  };
+  return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}

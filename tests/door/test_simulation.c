@@ -1,0 +1,254 @@
+/* Simulations step by step: what they show agrees with itself and with the conservation laws; cut, saved and loaded
+ * they go on bit for bit. */
+#include "door_test.h"
+
+#define ROUGH "{flow: usf, phi: 0.2, particles: 200, collision: {e: 0.9, beta: 0}}"
+
+static gg_simulation *simulation_of(const char *yaml)
+{
+  gg_error err;
+  gg_simulation *m = NULL;
+  gg_scene *s = scene_of(yaml);
+  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  gg_scene_free(s); /* a simulation has its own copy */
+  return m;
+}
+
+static gg_simulation_state state_of(const gg_simulation *m)
+{
+  gg_error err;
+  gg_simulation_state now;
+  assert_ok(gg_simulation_get_state(m, &now, &err));
+  return now;
+}
+
+enum { MOST = 1000 };
+static double position[3 * MOST], velocity[3 * MOST], spin[3 * MOST];
+static int species[MOST];
+
+static void take_grains(const gg_simulation *m, int positions)
+{
+  gg_error err;
+  gg_grains into = {positions ? position : NULL, velocity, spin, species};
+  assert_ok(gg_simulation_get_grains(m, &into, &err));
+}
+
+/* Time, strain and image offset of a sheared gas; the temperature is that of the velocities handed out. */
+static void state_and_grains(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_simulation *m = simulation_of(ROUGH);
+  assert_ok(gg_simulation_advance(m, 1.75, &err));
+  gg_simulation_state now = state_of(m);
+  assert_true(fabs(now.time - 1.75) < 1e-12 && fabs(now.strain - 1.75) < 1e-12);
+  double slid = fmod(1.75 * now.box[1], now.box[0]);
+  assert_true(fabs(remainder(now.image_offset - slid, now.box[0])) < 1e-9);
+  assert_true(fabs(now.box[0] * now.box[1] * now.box[2] - 200 * 3.14159265358979 / 6 / 0.2) < 1e-6);
+  assert_true(now.grains == 200 && fabs(now.collisions_per_grain - (double)now.collisions / 100) < 1e-12);
+  take_grains(m, 1);
+  double T = 0, Pxy = 0, w[3] = {0}, theta = 0;
+  for (size_t i = 0; i < 200; i++) {
+    for (size_t a = 0; a < 3; a++) {
+      T += velocity[3 * i + a] * velocity[3 * i + a] / 600;
+      w[a] += spin[3 * i + a] / 200;
+      assert_true(position[3 * i + a] >= 0 && position[3 * i + a] < now.box[a]);
+    }
+    Pxy += velocity[3 * i] * velocity[3 * i + 1] / 200;
+    assert_int_equal(species[i], 0);
+  }
+  for (size_t i = 0; i < 600; i++) theta += 0.1 * pow(spin[i] - w[i % 3], 2) / 600; /* I = 0.1 m d^2 */
+  assert_true(fabs(T / now.temperature - 1) < 1e-12 && fabs(theta / now.rotational_temperature - 1) < 1e-12);
+  assert_true(fabs(0.2 * Pxy - now.kinetic_stress[0][1]) < 1e-12); /* phi <C_x C_y> in rho_p d^2 gamma^2 */
+  gg_simulation_free(m);
+}
+
+/* Just so many collisions in md; cutting an advance into pieces changes nothing. */
+static void cut_into_steps(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_simulation *one = simulation_of(ROUGH), *two = simulation_of(ROUGH);
+  assert_ok(gg_simulation_collide(one, 12345, &err));
+  for (int i = 0; i < 5; i++) assert_ok(gg_simulation_collide(two, 2469, &err));
+  gg_simulation_state a = state_of(one), b = state_of(two);
+  assert_int_equal(a.collisions, 12345);
+  assert_int_equal(b.collisions, 12345);
+  assert_true(fabs(a.time - b.time) < 1e-9);
+  static double first[3 * MOST];
+  take_grains(one, 1);
+  memcpy(first, velocity, sizeof first);
+  take_grains(two, 1);
+  for (size_t i = 0; i < 600; i++) assert_true(fabs(first[i] - velocity[i]) < 1e-9);
+  gg_simulation_free(one);
+  gg_simulation_free(two);
+}
+
+typedef struct seen {
+  uint64_t n;
+  double stress[3][3], loss, worst;
+  size_t last[2];
+} seen;
+
+static void watch(void *context, const gg_collision_event *e)
+{
+  seen *s = context;
+  double dot = 0, Jn = 0, unit = 0;
+  for (int a = 0; a < 3; a++) {
+    dot += e->k[a] * e->velocity[a], Jn += e->k[a] * e->impulse[a], unit += e->k[a] * e->k[a];
+    for (int b = 0; b < 3; b++) s->stress[a][b] += e->k[a] * e->impulse[b];
+  }
+  s->n++;
+  s->worst = fmax(s->worst, fmax(fabs(unit - 1), fabs(dot - e->normal_speed)));
+  s->worst = fmax(s->worst, fabs(Jn - 0.95 * e->normal_speed)); /* m_r (1 + e) g_n */
+  assert_true(e->normal_speed > 0 && e->grain[0] != e->grain[1] && e->grain[0] < 200 && e->grain[1] < 200);
+  memcpy(s->last, e->grain, sizeof s->last);
+}
+
+/* Every collision is shown with the rule's normal impulse, and their sum is the collisional stress; energy goes where
+ * the shear work and the dissipation say. */
+static void collisions_and_sums(const char *yaml, double volume)
+{
+  gg_error err;
+  gg_simulation *m = simulation_of(yaml);
+  seen s = {0};
+  gg_simulation_sums sums;
+  assert_ok(gg_simulation_advance(m, 0.5, &err));
+  assert_ok(gg_simulation_take_sums(m, &sums, &err));
+  assert_true(fabs(sums.time - 0.5) < 0.05 && sums.dissipation > 0);
+  assert_ok(gg_simulation_on_collision(m, watch, &s, &err));
+  double start = state_of(m).time;
+  assert_ok(gg_simulation_collide(m, 5000, &err));
+  assert_ok(gg_simulation_take_sums(m, &sums, &err));
+  assert_true(s.n == sums.collisions && s.n >= 5000 && s.worst < 1e-12);
+  assert_true(fabs(sums.time - (state_of(m).time - start)) < 1e-12);
+  double unit = 3.14159265358979323846 / 6 / (volume * sums.time);
+  assert_true(fabs(s.stress[0][1] * unit - sums.collisional_stress[0][1]) < 1e-9 * fabs(sums.collisional_stress[0][1]));
+  assert_true(fabs(s.stress[2][2] * unit - sums.collisional_stress[2][2]) < 1e-9 * fabs(sums.collisional_stress[2][2]));
+  assert_ok(gg_simulation_on_collision(m, NULL, NULL, &err));
+  uint64_t before = s.n;
+  assert_ok(gg_simulation_collide(m, 100, &err));
+  assert_true(s.n == before);
+  gg_simulation_free(m);
+}
+
+static void collisions_of_md(void **state)
+{
+  (void)state;
+  collisions_and_sums(ROUGH, 200 * 3.14159265358979323846 / 6 / 0.2);
+}
+
+static void collisions_of_dsmc(void **state)
+{
+  (void)state;
+  collisions_and_sums("{flow: usf, phi: 0.2, engine: dsmc, dsmc: {particles: 200}, collision: {e: 0.9, beta: 0}}",
+                      200 * 3.14159265358979323846 / 6 / 0.2);
+}
+
+/* Energy is lost as the sums tell, where there is neither shear nor thermostat. */
+static void energy_balance(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_simulation *m = simulation_of("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.8}}");
+  gg_simulation_sums sums;
+  double before = state_of(m).temperature;
+  assert_true(fabs(before - 0.5) < 1e-12); /* T_0 = 1/2 in units of v_0^2 */
+  assert_ok(gg_simulation_advance(m, 30, &err));
+  assert_ok(gg_simulation_take_sums(m, &sums, &err));
+  double lost = 1.5 * 0.1 * (before - state_of(m).temperature); /* (3/2) n T in rho_p v_0^2 */
+  assert_true(fabs(sums.dissipation * sums.time / lost - 1) < 1e-9);
+  gg_simulation_free(m);
+}
+
+/* Free cooling over many decades stays in the units of the start: T falls as Haff's law has it, and time goes on. */
+static void cooling_over_decades(void **state)
+{
+  (void)state;
+  gg_error err;
+  const char *const engines[] = {"{flow: hcs, phi: 0.01, particles: 200, collision: {e: 0.7}}",
+                                 "{flow: hcs, phi: 0.01, engine: dsmc, dsmc: {particles: 1000}, collision: {e: 0.7}}"};
+  for (int k = 0; k < 2; k++) {
+    gg_simulation *m = simulation_of(engines[k]);
+    gg_simulation_state half, whole;
+    assert_ok(gg_simulation_advance(m, 5e6, &err));
+    half = state_of(m);
+    assert_ok(gg_simulation_advance(m, 5e6, &err));
+    whole = state_of(m);
+    assert_true(fabs(whole.time / 1e7 - 1) < 1e-3 && half.temperature < 1e-8);
+    double allowed = k == 0 ? 1.2 : 0.4; /* 200 grains in a box are not quite homogeneous */
+    assert_true(fabs(half.temperature / whole.temperature - 4) < allowed); /* T goes as 1/t^2 */
+    gg_simulation_free(m);
+  }
+}
+
+/* Saved and loaded, a simulation goes on bit for bit; another scene, or a file that is none, is refused. */
+static void saved_and_loaded(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_simulation *m = simulation_of(ROUGH), *again = NULL;
+  assert_ok(gg_simulation_collide(m, 3000, &err));
+  assert_ok(gg_simulation_save(m, "t_saved.h5", &err));
+  assert_ok(gg_simulation_load("t_saved.h5", NULL, &again, &err));
+  gg_simulation *both[] = {m, again};
+  static double first[3 * MOST];
+  gg_simulation_state now[2];
+  gg_simulation_sums sums[2];
+  for (int k = 0; k < 2; k++) {
+    assert_ok(gg_simulation_advance(both[k], 1.5, &err));
+    assert_ok(gg_simulation_take_sums(both[k], &sums[k], &err));
+    now[k] = state_of(both[k]);
+    take_grains(both[k], 1);
+    if (k == 0) memcpy(first, velocity, sizeof first);
+  }
+  assert_memory_equal(first, velocity, sizeof first);
+  assert_memory_equal(&now[0], &now[1], sizeof now[0]);
+  assert_memory_equal(&sums[0], &sums[1], sizeof sums[0]);
+  gg_simulation_free(again);
+  again = NULL;
+  gg_scene *other = scene_of(ROUGH);
+  assert_ok(gg_scene_set(other, "collision.e", "0.8", &err));
+  assert_refused(gg_simulation_load("t_saved.h5", other, &again, &err), "collision.e differs");
+  assert_ok(gg_scene_set(other, "collision.e", "0.9", &err));
+  assert_ok(gg_simulation_load("t_saved.h5", other, &again, &err));
+  gg_simulation_free(again);
+  assert_int_equal(gg_simulation_load("t_nowhere.h5", NULL, &again, &err), GG_BAD_FILE);
+  gg_scene_free(other);
+  gg_simulation_free(m);
+}
+
+/* Streams of one seed are different; a scene that an engine cannot run is refused with the reason. */
+static void starts(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.2, engine: dsmc, dsmc: {particles: 200}}");
+  gg_simulation *m[2];
+  double x[2];
+  for (int k = 0; k < 2; k++) {
+    assert_ok(gg_simulation_new(s, (uint64_t)k, &m[k], &err));
+    take_grains(m[k], 0);
+    x[k] = velocity[0];
+  }
+  assert_true(x[0] != x[1]);
+  gg_grains into = {position, NULL, NULL, NULL};
+  assert_refused(gg_simulation_get_grains(m[0], &into, &err), "keeps no positions");
+  assert_refused(gg_simulation_advance(m[0], -1, &err), "cannot advance by -1");
+  assert_refused(gg_simulation_advance(m[0], NAN, &err), "cannot advance");
+  for (int k = 0; k < 2; k++) gg_simulation_free(m[k]);
+  assert_ok(gg_scene_set(s, "phi", "0", &err));
+  assert_ok(gg_scene_set(s, "engine", "md", &err));
+  assert_refused(gg_simulation_new(s, 0, &m[0], &err), "phi");
+  gg_scene_free(s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(state_and_grains),   cmocka_unit_test(cut_into_steps), cmocka_unit_test(collisions_of_md),
+      cmocka_unit_test(collisions_of_dsmc), cmocka_unit_test(energy_balance), cmocka_unit_test(cooling_over_decades),
+      cmocka_unit_test(saved_and_loaded),   cmocka_unit_test(starts),
+  };
+  return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
