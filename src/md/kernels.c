@@ -8,7 +8,7 @@
     &gg_md_kernel_##name##_##set, &gg_md_kernel_##name##_mixture_##set                                                 \
   }
 
-#define DECLARE_SET(set)                                                                                               \
+#define DECLARE_SET(id, set)                                                                                           \
   DECLARE(cells_periodic, set)                                                                                         \
   DECLARE(cells_walled, set)                                                                                           \
   DECLARE(cells_falling, set)                                                                                          \
@@ -18,40 +18,23 @@
   DECLARE(lists_periodic, set)                                                                                         \
   DECLARE(lists_sheared, set)
 
-#define TABLE(set)                                                                                                     \
-  {                                                                                                                    \
-    [GG_MD_PLAIN_CELLS] = {[GG_MD_PERIODIC] = BOTH(cells_periodic, set),                                               \
-                           [GG_MD_WALLED] = BOTH(cells_walled, set),                                                   \
-                           [GG_MD_FALLING] = BOTH(cells_falling, set)},                                                \
-    [GG_MD_COMOVING_ROWS] = {[GG_MD_SHEARED] = BOTH(rows_sheared, set)},                                               \
-    [GG_MD_OVERLAPPING_CELLS] =                                                                                        \
-        {[GG_MD_PERIODIC] = BOTH(overlapping_periodic, set), [GG_MD_SHEARED] = BOTH(overlapping_sheared, set)},        \
-    [GG_MD_NEIGHBOUR_LISTS] = {                                                                                        \
-        [GG_MD_PERIODIC] = BOTH(lists_periodic, set), [GG_MD_SHEARED] = BOTH(lists_sheared, set)},                     \
-  }
+#define TABLE(id, set)                                                                                                 \
+  [id] = {                                                                                                             \
+      [GG_MD_PLAIN_CELLS] = {[GG_MD_PERIODIC] = BOTH(cells_periodic, set),                                             \
+                             [GG_MD_WALLED] = BOTH(cells_walled, set),                                                 \
+                             [GG_MD_FALLING] = BOTH(cells_falling, set)},                                              \
+      [GG_MD_COMOVING_ROWS] = {[GG_MD_SHEARED] = BOTH(rows_sheared, set)},                                             \
+      [GG_MD_OVERLAPPING_CELLS] =                                                                                      \
+          {[GG_MD_PERIODIC] = BOTH(overlapping_periodic, set), [GG_MD_SHEARED] = BOTH(overlapping_sheared, set)},      \
+      [GG_MD_NEIGHBOUR_LISTS] =                                                                                        \
+          {[GG_MD_PERIODIC] = BOTH(lists_periodic, set), [GG_MD_SHEARED] = BOTH(lists_sheared, set)},                  \
+  },
 
-#ifdef GG_HAVE_BASELINE
-DECLARE_SET(baseline)
-#endif
-#ifdef GG_HAVE_AVX2
-DECLARE_SET(avx2)
-#endif
-#ifdef GG_HAVE_AVX512
-DECLARE_SET(avx512)
-#endif
+GG_EACH_COMPILED_SET(DECLARE_SET)
 extern const gg_md_kernel gg_md_kernel_plain_cells, gg_md_kernel_plain_rows;
 
 static const gg_md_kernel *const simd[GG_INSTRUCTION_SETS][GG_MD_COMOVING_ROWS + 1][GG_MD_FALLING + 1][2] = {
-#ifdef GG_HAVE_BASELINE
-    [GG_BASELINE] = TABLE(baseline),
-#endif
-#ifdef GG_HAVE_AVX2
-    [GG_AVX2] = TABLE(avx2),
-#endif
-#ifdef GG_HAVE_AVX512
-    [GG_AVX512] = TABLE(avx512),
-#endif
-};
+    GG_EACH_COMPILED_SET(TABLE)};
 
 const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, enum gg_md_search_way where, enum gg_md_boundary boundary,
                                       bool mixture)
