@@ -10,7 +10,7 @@
 
 #include "common/error.h"
 #include "md/box.h"
-#include "md/words.h"
+#include "simd/words.h"
 
 typedef struct gg_md_cells {
   int32_t n[3];

@@ -11,7 +11,8 @@
 
 #include <string.h>
 
-#include "md/axes.h"
+#include "md/state.h"
+#include "simd/axes.h"
 
 /* From the lower edges of its lower cells to where a grain is, nearest image. */
 GG_INLINE gg_axes gg_md_depths(const gg_md *e, const gg_md_node *node, const gg_vec *r)

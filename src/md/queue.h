@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 #include "common/vec.h"
-#include "md/words.h"
+#include "simd/words.h"
 
 #define GG_MD_NONE UINT32_MAX
 

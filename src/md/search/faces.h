@@ -2,8 +2,8 @@
 #ifndef GG_MD_SEARCH_FACES_H
 #define GG_MD_SEARCH_FACES_H
 
-#include "md/axes.h"
 #include "md/search/search.h"
+#include "simd/axes.h"
 
 /* Faces that are walls are not crossed. */
 GG_INLINE bool gg_md_is_wall_above(const gg_md *e, const int32_t *cell)

@@ -2,9 +2,9 @@
 #ifndef GG_MD_SEARCH_LIST_UPDATE_H
 #define GG_MD_SEARCH_LIST_UPDATE_H
 
-#include "md/axes.h"
-#include "md/batch.h"
+#include "md/predict8.h"
 #include "md/search/candidates.h"
+#include "simd/axes.h"
 
 GG_INLINE uint32_t *gg_md_list(const gg_md *e, uint32_t i)
 {
@@ -129,7 +129,7 @@ GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found
   int species = IS_MIXTURE ? gg_md_species_of(&e->grain[i]) : 0;
   for (int l = 0; l < GG_BATCH; l++) candidates[n + (uint32_t)l] = e->n;
   for (uint32_t k = 0; k < n && count <= GG_MD_LIST; k += GG_BATCH) {
-    gg_v8 x, y, z, reach = gg_all(e->pair_reach[0]);
+    gg_v8 x, y, z, reach = gg_all8(e->pair_reach[0]);
     gg_md_gather_centres(e->skin, candidates + k, &x, &y, &z);
     for (int l = 0; IS_MIXTURE && l < GG_BATCH; l++)
       reach[l] = e->pair_reach[species + gg_md_species_of(&e->grain[candidates[k + (uint32_t)l]])];

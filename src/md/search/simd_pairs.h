@@ -1,8 +1,8 @@
-/* Eight candidates at a time (batch.h): which of them does the grain meet first? */
+/* Eight candidates at a time (predict8.h): which of them does the grain meet first? */
 #ifndef GG_MD_SEARCH_SIMD_PAIRS_H
 #define GG_MD_SEARCH_SIMD_PAIRS_H
 
-#include "md/batch.h"
+#include "md/predict8.h"
 #include "md/search/search.h"
 
 /* What the minimum-image convention takes for those to try: constant in each copy of the search. */
@@ -48,11 +48,11 @@ GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s,
   }
   if (images == GG_MD_AT_REST && !IS_WALLED) y = gg_fold8(y, L[1], inverse[1]);
   if (images != GG_MD_SAME) z = gg_fold8(z, L[2], inverse[2]);
-  gg_v8 touch2 = gg_all(sigma2[0]);
+  gg_v8 touch2 = gg_all8(sigma2[0]);
   if (IS_MIXTURE) {
     int species = gg_md_species_of(g);
     double s0 = sigma2[2 * species], s1 = sigma2[2 * species + 1];
-    touch2 = gg_choose(gg_odd8(b.tag), gg_all(s1), gg_all(s0));
+    touch2 = gg_choose8(gg_odd8(b.tag), gg_all8(s1), gg_all8(s0));
   }
   return gg_md_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
 }
@@ -90,9 +90,9 @@ GG_INLINE void gg_md_compare_batch(gg_md_foremost *best, gg_md_quadratic q, gg_m
   gg_k8 sooner = gg_less8(best->soonest, soon);
   best->second = gg_larger8(best->second, gg_smaller8(soon, best->soonest));
   best->soonest = gg_larger8(soon, best->soonest);
-  best->q.b = gg_choose(sooner, q.b, best->q.b);
-  best->q.c = gg_choose(sooner, q.c, best->q.c);
-  best->q.discriminant = gg_choose(sooner, q.discriminant, best->q.discriminant);
+  best->q.b = gg_choose8(sooner, q.b, best->q.b);
+  best->q.c = gg_choose8(sooner, q.c, best->q.c);
+  best->q.discriminant = gg_choose8(sooner, q.discriminant, best->q.discriminant);
 }
 
 /* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place.
@@ -101,7 +101,7 @@ GG_INLINE void gg_md_try_list(const gg_md *e, gg_md_search *s, const uint32_t *l
                               gg_md_images images)
 {
   double offset = images == GG_MD_MOVING ? gg_md_offset(&e->box, e->k.now) : 0;
-  gg_v8 never = gg_all(0);
+  gg_v8 never = gg_all8(0);
   gg_md_foremost best = {never, never, {never, never, never}};
   gg_m8 place = {0, 1, 2, 3, 4, 5, 6, 7};
   for (uint32_t k = 0; k < count; k += GG_BATCH, place += GG_BATCH) {

@@ -1,6 +1,6 @@
 /* Many words of an array at once: which of them are the one looked for? One bit for each. */
-#ifndef GG_MD_WORDS_H
-#define GG_MD_WORDS_H
+#ifndef GG_SIMD_WORDS_H
+#define GG_SIMD_WORDS_H
 
 #include <stdint.h>
 

@@ -1,17 +1,20 @@
-/* Eight predictions at a time. Plain vector types of a fixed width: the compiler maps them on whatever the processor
- * has, and every element goes through the operations of predict.h in the same order, so that each delay is the same bit
- * for bit as the one pair at a time. */
-#ifndef GG_MD_BATCH_H
-#define GG_MD_BATCH_H
+/* Eight doubles at a time, whatever the registers are: plain vector types of a fixed width, which the compiler maps on
+ * what the processor has. For the event-driven engine, whose batches are of eight grains on every processor; lanes.h,
+ * of the Monte Carlo engine, has as many as a register. Every element goes through the operations that one number alone
+ * would, so that all processors leave the same bits. */
+#ifndef GG_SIMD_EIGHT_H
+#define GG_SIMD_EIGHT_H
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
 #endif
 
-#include "md/state.h"
+#include "common/vec.h"
 
 typedef double gg_v8 __attribute__((vector_size(64)));
 typedef int64_t gg_m8 __attribute__((vector_size(64)));
@@ -26,12 +29,7 @@ typedef double gg_line __attribute__((vector_size(64), may_alias));
 enum { GG_BATCH = 8 };
 typedef uint32_t gg_list8 __attribute__((vector_size(32), may_alias, aligned(4)));
 
-/* Eight records as columns: r, v, t and the bits of (stamp, next). */
-typedef struct gg_md_batch {
-  gg_v8 x, y, z, vx, vy, vz, t, tag;
-} gg_md_batch;
-
-GG_INLINE gg_v8 gg_all(double x)
+GG_INLINE gg_v8 gg_all8(double x)
 {
   return (gg_v8){x, x, x, x, x, x, x, x};
 }
@@ -46,7 +44,7 @@ GG_INLINE gg_v8 gg_all(double x)
   }
 GG_COMPARE8(gg_less8, _CMP_LT_OQ)
 GG_COMPARE8(gg_not_above8, _CMP_LE_OQ)
-GG_INLINE gg_v8 gg_choose(gg_k8 mask, gg_v8 yes, gg_v8 no)
+GG_INLINE gg_v8 gg_choose8(gg_k8 mask, gg_v8 yes, gg_v8 no)
 {
   return (gg_v8)_mm512_mask_mov_pd((__m512d)no, mask, (__m512d)yes);
 }
@@ -83,7 +81,7 @@ GG_INLINE gg_k8 gg_not_above8(gg_v8 x, gg_v8 y)
 {
   return x <= y;
 }
-GG_INLINE gg_v8 gg_choose(gg_k8 mask, gg_v8 yes, gg_v8 no)
+GG_INLINE gg_v8 gg_choose8(gg_k8 mask, gg_v8 yes, gg_v8 no)
 {
   return (gg_v8)(((gg_m8)yes & mask) | ((gg_m8)no & ~mask));
 }
@@ -93,11 +91,11 @@ GG_INLINE gg_k8 gg_odd8(gg_v8 bits)
 }
 GG_INLINE gg_v8 gg_smaller8(gg_v8 x, gg_v8 y)
 {
-  return gg_choose(x < y, x, y);
+  return gg_choose8(x < y, x, y);
 }
 GG_INLINE gg_v8 gg_larger8(gg_v8 x, gg_v8 y)
 {
-  return gg_choose(x > y, x, y);
+  return gg_choose8(x > y, x, y);
 }
 GG_INLINE bool gg_any8(gg_k8 mask)
 {
@@ -123,7 +121,7 @@ GG_INLINE gg_v8 gg_sqrt8(gg_v8 x)
 /* Nearest integers, ties to even: as gg_nearest. */
 GG_INLINE gg_v8 gg_nearest8(gg_v8 x)
 {
-  gg_v8 shift = gg_all(0x1.8p52);
+  gg_v8 shift = gg_all8(0x1.8p52);
   return (x + shift) - shift;
 }
 
@@ -133,9 +131,9 @@ GG_INLINE gg_v8 gg_nearest8(gg_v8 x)
 GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge, double inverse)
 {
 #if defined(__AVX512F__)
-  gg_v8 shift = gg_all(0x1.8p52);
-  gg_v8 whole = (gg_v8)_mm512_fmadd_pd((__m512d)x, (__m512d)gg_all(inverse), (__m512d)shift) - shift;
-  return (gg_v8)_mm512_fnmadd_pd((__m512d)whole, (__m512d)gg_all(edge), (__m512d)x);
+  gg_v8 shift = gg_all8(0x1.8p52);
+  gg_v8 whole = (gg_v8)_mm512_fmadd_pd((__m512d)x, (__m512d)gg_all8(inverse), (__m512d)shift) - shift;
+  return (gg_v8)_mm512_fnmadd_pd((__m512d)whole, (__m512d)gg_all8(edge), (__m512d)x);
 #else
   return x - edge * gg_nearest8(x * inverse);
 #endif
@@ -224,38 +222,6 @@ GG_INLINE void gg_columns(const gg_half *const row[GG_BATCH], gg_v8 column[4])
 #undef PAIR1
 }
 
-/* Records are one cache line each: load the lines of eight grains and transpose. */
-GG_INLINE gg_md_batch gg_md_gather(const gg_md_grain *grain, const uint32_t *index)
-{
-  const gg_half *front[GG_BATCH], *back[GG_BATCH];
-  gg_v8 one[4], two[4];
-  for (int k = 0; k < GG_BATCH; k++) {
-    front[k] = (const gg_half *)(grain + index[k]);
-    back[k] = front[k] + 1;
-  }
-  gg_columns(front, one);
-  gg_columns(back, two);
-  return (gg_md_batch){one[0], one[1], one[2], one[3], two[0], two[1], two[2], two[3]};
-}
-
-/* gg_md_contact_delay, eight times, in two steps. First about how soon: without the square root and the division, which
- * take longer than all the rest. Then exactly, for the earliest. */
-#define GG_MD_ABOUT 0x1p-12
-#define GG_MD_SOON_AT_ALL 0x1p-1000
-#define GG_MD_AT_ONCE 0x1p800 /* in contact already: how soon does not tell who is first */
-
-typedef struct gg_md_quadratic {
-  gg_v8 b, c, discriminant;
-} gg_md_quadratic;
-
-GG_INLINE gg_md_quadratic gg_md_contact_quadratic8(gg_v8 x, gg_v8 y, gg_v8 z, gg_v8 vx, gg_v8 vy, gg_v8 vz,
-                                                   gg_v8 sigma2)
-{
-  gg_v8 b = x * vx + y * vy + z * vz, a = vx * vx + vy * vy + vz * vz;
-  gg_v8 c = x * x + y * y + z * z - sigma2;
-  return (gg_md_quadratic){b, c, b * b - a * c};
-}
-
 /* About 1/sqrt(x) and 1/x, for x > 0, by instructions made for it or from the bits of the exponent. Only the choice of
  * what is worked out exactly depends on them, no result. */
 GG_INLINE gg_v8 gg_about_inverse_root8(gg_v8 x)
@@ -280,21 +246,6 @@ GG_INLINE gg_v8 gg_about_inverse8(gg_v8 x)
 #endif
 }
 
-/* Who meets at all: those who approach and whose discriminant is not negative. */
-GG_INLINE gg_k8 gg_md_meets8(gg_md_quadratic q)
-{
-  return gg_less8(q.b, gg_all(0)) & gg_not_above8(gg_all(0), q.discriminant);
-}
-
-/* About one over the delay, to GG_MD_ABOUT of it: the greatest is the earliest. 0: never. The two approximations do not
- * wait for each other. */
-GG_INLINE gg_v8 gg_md_how_soon8(gg_md_quadratic q)
-{
-  gg_v8 tiny = gg_all(0x1p-1000), d = gg_larger8(q.discriminant, tiny);
-  gg_v8 soon = (d * gg_about_inverse_root8(d) - q.b) * gg_about_inverse8(gg_larger8(q.c, tiny));
-  return gg_choose(gg_md_meets8(q), soon, gg_all(0));
-}
-
 /* A number and, in its last digits, a small whole number below GG_PLACES: the greatest of many tells which it is. */
 enum { GG_PLACES = 4096 };
 GG_INLINE gg_v8 gg_label8(gg_v8 t, gg_m8 place)
@@ -306,13 +257,6 @@ GG_INLINE uint32_t gg_label_of(double t)
   uint64_t bits;
   memcpy(&bits, &t, sizeof bits);
   return bits % GG_PLACES;
-}
-
-GG_INLINE gg_v8 gg_md_contact_delay8(gg_md_quadratic q)
-{
-  gg_v8 delay = q.c / (gg_sqrt8(q.discriminant) - q.b);
-  delay = gg_choose(gg_less8(gg_all(0), delay), delay, gg_all(0));
-  return gg_choose(gg_md_meets8(q), delay, gg_all(INFINITY));
 }
 
 #endif

@@ -1,14 +1,16 @@
 /* The three axes at once: vectors of four lanes, the fourth idle. Plain vector types; every lane goes through the
  * operations that one axis would alone, so that results are the same on every processor. No branch depends on an axis
  * or on a side: which of them is next can't be foreseen. */
-#ifndef GG_MD_AXES_H
-#define GG_MD_AXES_H
+#ifndef GG_SIMD_AXES_H
+#define GG_SIMD_AXES_H
+
+#include <stdint.h>
 
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
-#include "md/state.h"
+#include "common/vec.h"
 
 typedef double gg_axes __attribute__((vector_size(32)));
 typedef int64_t gg_axes_mask __attribute__((vector_size(32)));
