@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "common/extension.h"
+
 /* Every key that fixes the trajectory or what is averaged; stop rules and output may change between parts of a run. */
 typedef struct gg_fingerprint {
   const char *name;
@@ -57,17 +59,38 @@ static int fingerprint(const gg_scene *s, gg_fingerprint *f)
   return n;
 }
 
+static const char extension_item[] = "campaign/extension";
+enum { SIGNATURE = 2048 };
+
+/* Callbacks cannot be kept: what a run was extended by has to be registered again before it goes on. */
+static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_error *err)
+{
+  char here[SIGNATURE], there[SIGNATURE];
+  gg_extension_signature(scene->extension, here, sizeof here);
+  GG_TRY(gg_archive_get(a, extension_item, GG_ITEM_U8, there, sizeof there, err));
+  there[SIGNATURE - 1] = 0;
+  if (strcmp(here, there) == 0) return GG_OK;
+  return gg_fail(err, GG_BAD_INPUT,
+                 "the run was extended by a program (%s), and this scene has %s: register the same law and observables "
+                 "with the scene before it is resumed",
+                 *there ? there : "nothing of its own", *here ? here : "nothing of its own");
+}
+
 gg_status gg_fingerprint_put(const gg_scene *scene, gg_archive *a, gg_error *err)
 {
   gg_fingerprint f[MOST_FINGERPRINT];
   double values[MOST_FINGERPRINT];
   int n = fingerprint(scene, f);
   for (int i = 0; i < n; i++) values[i] = f[i].value;
+  char signature[SIGNATURE] = "";
+  gg_extension_signature(scene->extension, signature, sizeof signature);
+  GG_TRY(gg_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err));
   return gg_archive_put(a, "campaign/fingerprint", GG_ITEM_F64, values, (size_t)n, err);
 }
 
 gg_status gg_fingerprint_check(const gg_scene *scene, const gg_archive *a, gg_error *err)
 {
+  GG_TRY(same_extension(scene, a, err));
   gg_fingerprint here[MOST_FINGERPRINT];
   double there[MOST_FINGERPRINT];
   int n = fingerprint(scene, here);
