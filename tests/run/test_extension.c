@@ -12,6 +12,7 @@
 #include <jansson.h>
 
 #include "io/document.h"
+#include "io/scene/reader.h"
 #include "run/run.h"
 
 static gg_scene *scene_of(const char *yaml)
@@ -19,6 +20,7 @@ static gg_scene *scene_of(const char *yaml)
   gg_scene *scene = NULL;
   gg_error err;
   if (gg_scene_parse(yaml, "scene", &scene, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_finish(scene, &err) != GG_OK) fail_msg("%s", err.message); /* as runs do with their copies */
   return scene;
 }
 
