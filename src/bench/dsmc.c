@@ -1,9 +1,9 @@
 /* graingas bench dsmc: the Enskog Monte Carlo engine by size, and what each feature of a scene costs. */
 #include "bench/dsmc.h"
 
-static const char times_caption[] =
-    "Elastic smooth spheres (the kernel of free cooling), no tap: nanoseconds per accepted collision, CPU time of one "
-    "core, median (least - largest) of repeats";
+static const char times_caption[] = "Elastic smooth spheres (the kernel of free cooling), nothing measured: "
+                                    "nanoseconds per accepted collision, CPU time of one "
+                                    "core, median (least - largest) of repeats";
 static const char ratios_caption[] =
     "What a scene's features cost: nanoseconds per accepted collision over those of the scene beside it, timed in "
     "turn; median (least - largest) of repeats. Elastic unless sheared: e = 0.9; rough: beta = 0, frictional: mu = "

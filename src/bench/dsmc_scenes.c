@@ -9,19 +9,19 @@ const gg_bench_feature gg_bench_dsmc_features[GG_BENCH_DSMC_KINDS] = {
     [GG_BENCH_DSMC_FRICTIONAL] = {"frictional", GG_BENCH_DSMC_ROUGH},
     [GG_BENCH_DSMC_TWO] = {"two species", GG_BENCH_DSMC_SMOOTH},
     [GG_BENCH_DSMC_TWO_ROUGH] = {"two species, rough", GG_BENCH_DSMC_ROUGH},
-    [GG_BENCH_DSMC_TAPPED] = {"smooth, tap open", GG_BENCH_DSMC_SMOOTH},
+    [GG_BENCH_DSMC_SUMMED] = {"smooth, stress measured", GG_BENCH_DSMC_SMOOTH},
     [GG_BENCH_DSMC_SHEARED] = {"sheared smooth", GG_BENCH_DSMC_SMOOTH},
-    [GG_BENCH_DSMC_SHEARED_TAPPED] = {"sheared smooth, tap open", GG_BENCH_DSMC_SHEARED},
-    [GG_BENCH_DSMC_SHEARED_ROUGH] = {"sheared rough, tap open", GG_BENCH_DSMC_SHEARED_TAPPED},
-    [GG_BENCH_DSMC_SHEARED_FRICTIONAL] = {"sheared frictional, tap open", GG_BENCH_DSMC_SHEARED_ROUGH},
-    [GG_BENCH_DSMC_SHEARED_TWO] = {"sheared, two species, tap open", GG_BENCH_DSMC_SHEARED_TAPPED},
+    [GG_BENCH_DSMC_SHEARED_SUMMED] = {"sheared smooth, stress measured", GG_BENCH_DSMC_SHEARED},
+    [GG_BENCH_DSMC_SHEARED_ROUGH] = {"sheared rough, stress measured", GG_BENCH_DSMC_SHEARED_SUMMED},
+    [GG_BENCH_DSMC_SHEARED_FRICTIONAL] = {"sheared frictional, stress measured", GG_BENCH_DSMC_SHEARED_ROUGH},
+    [GG_BENCH_DSMC_SHEARED_TWO] = {"sheared, two species, stress measured", GG_BENCH_DSMC_SHEARED_SUMMED},
 };
 
 gg_timed_scene gg_bench_dsmc_scene(const gg_bench *b, int kind, double phi, int64_t n)
 {
   const bool sheared = kind >= GG_BENCH_DSMC_SHEARED;
   gg_timed_scene c = {.scene = gg_bench_scene(b, GG_DSMC, phi, n),
-                      .tap = kind == GG_BENCH_DSMC_TAPPED || kind > GG_BENCH_DSMC_SHEARED};
+                      .sums = kind == GG_BENCH_DSMC_SUMMED || kind > GG_BENCH_DSMC_SHEARED};
   gg_scene *s = &c.scene;
   c.against = gg_bench_dsmc_features[kind].against;
   s->flow = sheared ? GG_USF : GG_EQUILIBRIUM;

@@ -12,9 +12,9 @@ static const char threads_caption[] =
 
 static const int64_t sizes[] = {10000, 100000, 1000000};
 static const gg_bench_dsmc_kind path_scenes[] = {GG_BENCH_DSMC_SMOOTH, GG_BENCH_DSMC_ROUGH, GG_BENCH_DSMC_TWO,
-                                                 GG_BENCH_DSMC_SHEARED_TAPPED};
+                                                 GG_BENCH_DSMC_SHEARED_SUMMED};
 static const gg_bench_dsmc_kind thread_scenes[] = {GG_BENCH_DSMC_SMOOTH, GG_BENCH_DSMC_ROUGH, GG_BENCH_DSMC_TWO,
-                                                   GG_BENCH_DSMC_SHEARED_TAPPED, GG_BENCH_DSMC_SHEARED_TWO};
+                                                   GG_BENCH_DSMC_SHEARED_SUMMED, GG_BENCH_DSMC_SHEARED_TWO};
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
 static const double dense = 0.3;

@@ -34,26 +34,26 @@ enum {
   SMOOTH,
   ROUGH,
   TWO,
-  TAPPED,
+  SUMMED,
   WALLED,
   FALLING,
   SHEARED,
   SHEARED_ROUGH,
   SHEARED_FRICTIONAL,
-  SHEARED_TAPPED,
+  SHEARED_SUMMED,
   COUETTE
 };
 static const gg_bench_feature scenes[] = {
     [SMOOTH] = {"smooth", SMOOTH},
     [ROUGH] = {"rough", SMOOTH},
     [TWO] = {"two species", SMOOTH},
-    [TAPPED] = {"stress tap open", SMOOTH},
+    [SUMMED] = {"stress measured", SMOOTH},
     [WALLED] = {"walls", SMOOTH},
     [FALLING] = {"walls, gravity", WALLED},
     [SHEARED] = {"sheared smooth", SMOOTH},
     [SHEARED_ROUGH] = {"sheared rough", SMOOTH},
     [SHEARED_FRICTIONAL] = {"sheared frictional", SHEARED_ROUGH},
-    [SHEARED_TAPPED] = {"sheared rough, tap open", SHEARED_ROUGH},
+    [SHEARED_SUMMED] = {"sheared rough, stress measured", SHEARED_ROUGH},
     [COUETTE] = {"moving walls, rough", SHEARED_ROUGH},
 };
 enum { N_SCENES = sizeof scenes / sizeof *scenes };
@@ -76,7 +76,7 @@ static void add_species(gg_scene *s)
 
 static gg_timed_scene timed_scene(const gg_bench *b, int kind, double phi, int64_t n)
 {
-  gg_timed_scene c = {.scene = elastic(b, phi, n), .tap = kind == TAPPED || kind == SHEARED_TAPPED};
+  gg_timed_scene c = {.scene = elastic(b, phi, n), .sums = kind == SUMMED || kind == SHEARED_SUMMED};
   c.against = scenes[kind].against;
   if (kind == ROUGH) set_rule(&c.scene, 1, INFINITY);
   if (kind == TWO) add_species(&c.scene);

@@ -85,7 +85,7 @@ gg_status gg_observable_cost_measure(const gg_scene *scene, const gg_observable 
   if (status == GG_OK) status = start(&c[1], scene, GG_MEASURE_RHEOLOGY | o->flag, warmup, err);
   if (status == GG_OK && itself) {
     c[0].bare = true;
-    c[0].replica.engine->ops->tap(c[0].replica.engine, false);
+    c[0].replica.engine->ops->keep_sums(c[0].replica.engine, false);
   }
   if (status == GG_OK) status = compare(c, repeats < MOST_REPEATS ? repeats : MOST_REPEATS, seconds, cost, err);
   for (int k = 0; k < 2; k++)

@@ -7,7 +7,7 @@
 static const char caption[] =
     "Collisions per CPU-second, one core; uniform shear, e = 0.9, stress measured; median of repeats";
 
-/* What is timed: sheared at e = 0.9, the tap open as in a measuring run. */
+/* What is timed: sheared at e = 0.9, its stress measured as in a run. */
 static const struct {
   const char *name;
   double beta, mu;

@@ -104,7 +104,7 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   r->by_the_clock = c->by_the_clock;
   if (c->threads > 1 && ops->threads) ops->threads(r->engine, c->threads);
   if (c->prepare) c->prepare(r->engine);
-  ops->tap(r->engine, c->tap);
+  ops->keep_sums(r->engine, c->sums);
   r->guess = (uint64_t)model.n / 4 + 1000;
   return advance_by(r->engine, (uint64_t)(warmup * (double)model.n / 2) + 1, &done, err);
 }
@@ -156,10 +156,10 @@ gg_status gg_throughput_compare(const gg_timed_scene *c, int n, double warmup, i
   return status;
 }
 
-gg_status gg_throughput_measure(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
+gg_status gg_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
                                 gg_throughput *out, gg_error *err)
 {
-  gg_timed_scene only = {.scene = *scene, .tap = tap, .against = 0};
+  gg_timed_scene only = {.scene = *scene, .sums = sums, .against = 0};
   gg_timing result;
   *out = (gg_throughput){0};
   GG_TRY(gg_throughput_compare(&only, 1, warmup, repeats, seconds, &result, err));

@@ -1,4 +1,4 @@
-/* How fast an engine is on a scene: collisions per second, engine alone or with its tap open. */
+/* How fast an engine is on a scene: collisions per second, engine alone or with its collision sums. */
 #ifndef GG_THROUGHPUT_H
 #define GG_THROUGHPUT_H
 
@@ -14,7 +14,7 @@ typedef struct gg_throughput {
 
 /* Start the scene near its steady state, let it forget the start for `warmup` collisions per grain, then time `repeats`
  * stretches of at least `seconds` CPU each. */
-gg_status gg_throughput_measure(const gg_scene *scene, bool tap, double warmup, int repeats, double seconds,
+gg_status gg_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
                                 gg_throughput *out, gg_error *err);
 
 /* Several scenes side by side. A repeat times a stretch of each in turn, so that what else the machine does meets all
@@ -22,7 +22,7 @@ gg_status gg_throughput_measure(const gg_scene *scene, bool tap, double warmup, 
 enum { GG_MOST_TIMED = 16 };
 typedef struct gg_timed_scene {
   gg_scene scene;
-  bool tap;
+  bool sums;
   int against;                        /* index of the scene that it is compared with */
   int threads;                        /* of the engine's; 0: one */
   bool by_the_clock;                  /* time is that of the clock on the wall, not processor time */

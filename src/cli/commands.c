@@ -27,7 +27,7 @@ const gg_command gg_commands[] = {
      "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "
      "repeats.\n"
      "md: elastic smooth spheres by size and density, and what roughness, shear, walls, gravity, a second species and\n"
-     "an open stress tap cost, scenes timed in turn.\n"
+     "measuring the stress cost, scenes timed in turn.\n"
      "dsmc: the same for Enskog Monte Carlo, as nanoseconds per accepted collision; what its blocks gain over the "
      "plain\n"
      "loop, and threads within one ensemble over one.\n"

@@ -8,17 +8,17 @@
 #include "common/archive.h"
 #include "common/model.h"
 
-/* Sums over collisions since the tap was last read, by unordered pair of species (GG_11, GG_12, GG_22); a collision
+/* Sums over collisions since they were last taken, by unordered pair of species (GG_11, GG_12, GG_22); a collision
  * counts once, k from 1 to 2, J the impulse on 2. Kept by the engine's own kernel; nothing of it is computed while the
- * tap is closed, but for `collisions`. */
-typedef struct gg_transfer {
+ * sums are off, but for `collisions`. */
+typedef struct gg_collision_sums {
   uint64_t collisions[GG_PAIRS];
   double stress[GG_PAIRS][3][3]; /* sigma k_a J_b of ab = xx, yy, zz, xy, yx (else 0); stress x volume x time */
   double loss[GG_PAIRS];         /* energy destroyed */
   double wall_impulse[2][3];     /* impulse on the lower and upper wall */
   double wall_loss;
   uint64_t wall_collisions;
-} gg_transfer;
+} gg_collision_sums;
 
 /* How a run goes; counts since creation. */
 typedef struct gg_engine_state {
@@ -53,13 +53,13 @@ typedef void gg_visit(void *context, const gg_chunk *chunk);
 typedef struct gg_block_run {
   size_t n; /* grains; lanes beyond the last of them are 0 */
   int species;
-  double drift;        /* what is there is C_x + drift C_y, C_y, C_z */
+  double strain;       /* what is there is C_x + strain C_y, C_y, C_z */
   const double *c, *s; /* s NULL for smooth grains */
 } gg_block_run;
 typedef void gg_visit_blocks(void *context, const gg_block_run *run);
 
-/* One collision between two grains as a watcher sees it: velocities are those before the impulse. */
-typedef struct gg_seen_collision {
+/* One collision between two grains as a callback sees it: velocities are those before the impulse. */
+typedef struct gg_collision_record {
   int64_t id[2]; /* the grains' numbers: gg_chunk.id, or their places in a snapshot where that is NULL */
   int species[2];
   gg_vec k;         /* from 1 to 2 */
@@ -67,9 +67,9 @@ typedef struct gg_seen_collision {
   gg_vec c[2];      /* peculiar velocities */
   double height[2]; /* y over the middle of the box; NaN where there are no positions */
   gg_vec J;         /* impulse on grain 2, -J on grain 1 */
-  double since[2];  /* time since the last contact of each, walls included; INFINITY: none since watching began */
-} gg_seen_collision;
-typedef void gg_watch(void *context, const gg_seen_collision *meeting);
+  double since[2];  /* time since the last contact of each, walls included; INFINITY: none since the callback was set */
+} gg_collision_record;
+typedef void gg_collision_callback(void *context, const gg_collision_record *meeting);
 
 typedef struct gg_engine gg_engine;
 
@@ -85,14 +85,14 @@ typedef struct gg_engine_ops {
    * may end its last step past either limit. Deterministic: cutting a run into advances never changes a trajectory in
    * md, and in dsmc only through the ends of steps. */
   gg_status (*advance)(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err);
-  /* Open or close the tap on collisions (closed at creation). */
-  void (*tap)(gg_engine *engine, bool open);
+  /* Keep these sums over collisions, or not (at creation they are not kept). */
+  void (*keep_sums)(gg_engine *engine, bool open);
   /* Hand over the sums since the last read, and start anew. */
-  void (*read_tap)(gg_engine *engine, gg_transfer *transfer);
-  /* Show every collision between grains to `watch` from now on. What is shown costs time; a dsmc engine also leaves its
-   * block kernels, in which grains change places. An engine restored from a checkpoint has to be told again, and then
-   * goes on bit for bit. */
-  gg_status (*watch)(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
+  void (*take_sums)(gg_engine *engine, gg_collision_sums *transfer);
+  /* Show every collision between grains to `callback` from now on. What is shown costs time; a dsmc engine also leaves
+   * its block kernels, in which grains change places. An engine restored from a checkpoint has to be told again, and
+   * then goes on bit for bit. */
+  gg_status (*set_callback)(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
   /* Share the work out to so many threads, the caller's included; the trajectory does not depend on it. NULL where the
    * engine cannot. */
   void (*threads)(gg_engine *engine, int threads);
@@ -102,7 +102,7 @@ typedef struct gg_engine_ops {
   /* The same grains in the same order, as they are. NULL where the engine has no blocks. */
   void (*blocks)(gg_engine *engine, gg_visit_blocks *visit, void *context);
   /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades, and to begin a round of slow shear
-   * again (small_shear.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
+   * again (linear_response.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
   gg_status (*rescale)(gg_engine *engine, int power, gg_error *err);
   /* Everything needed to go on bit for bit. Saving does not disturb the run. */
   gg_status (*save)(const gg_engine *engine, gg_archive *archive, gg_error *err);

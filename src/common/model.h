@@ -19,7 +19,7 @@ typedef struct gg_model {
   bool boltzmann;   /* phi = 0 */
   bool homogeneous; /* no box: an ensemble that stands for one point of the flow (dsmc) */
   bool elastic;     /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
-  bool small_shear; /* slow shear of a cooling or heated gas (small_shear.h) */
+  bool small_shear; /* slow shear of a cooling or heated gas (linear_response.h) */
   bool steady;      /* a steady state can exist (scaled, for cooling) */
 
   int64_t n; /* grains (of the engine's kind: `dsmc.particles` may differ from `particles`) */

@@ -34,7 +34,7 @@ struct gg_scene {
   double phi;
   int64_t particles;
   double shear_rate;
-  gg_switch small_shear; /* usf: towards a* = 0, for viscosities (common/small_shear.h) */
+  gg_switch small_shear; /* usf: towards a* = 0, for viscosities (common/linear_response.h) */
   double temperature;    /* initial <C.C>/3 in the user's units, or GG_AUTO */
   double aspect[3];      /* shape of the box, relative edges */
   struct {
@@ -68,7 +68,7 @@ struct gg_scene {
   } output;
   gg_extension *extension; /* what the user's program adds; NULL: nothing. The scene of the interface holds it, copies
                               of its values borrow it */
-  uint64_t given; /* keys that the user gave: a bit per row of the field table */
+  uint64_t given;          /* keys that the user gave: a bit per row of the field table */
 };
 
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */

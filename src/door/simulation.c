@@ -37,7 +37,7 @@ gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulatio
     gg_simulation_free(s);
     return status;
   }
-  ops->tap(s->engine, true);
+  ops->keep_sums(s->engine, true);
   *simulation = s;
   return GG_OK;
 }
@@ -117,7 +117,7 @@ static void put(double to[3], gg_vec v, double factor)
   to[0] = v.x * factor, to[1] = v.y * factor, to[2] = v.z * factor;
 }
 
-static void show(void *context, const gg_seen_collision *seen)
+static void show(void *context, const gg_collision_record *seen)
 {
   const gg_simulation *s = context;
   double unit = gg_simulation_unit(s);
@@ -133,7 +133,7 @@ static void show(void *context, const gg_seen_collision *seen)
 gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context, gg_error *err)
 {
   GG_NEED(simulation);
-  GG_TRY(simulation->engine->ops->watch(simulation->engine, callback ? show : NULL, simulation, err));
+  GG_TRY(simulation->engine->ops->set_callback(simulation->engine, callback ? show : NULL, simulation, err));
   simulation->callback = callback;
   simulation->context = context;
   return GG_OK;

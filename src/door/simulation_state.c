@@ -123,8 +123,8 @@ void gg_simulation_collect(gg_simulation *s)
 {
   gg_simulation_sums *sums = &s->clock.sums;
   double unit = gg_simulation_unit(s);
-  gg_transfer t;
-  s->engine->ops->read_tap(s->engine, &t);
+  gg_collision_sums t;
+  s->engine->ops->take_sums(s->engine, &t);
   for (int p = 0; p < GG_PAIRS; p++) {
     sums->collisions += t.collisions[p];
     sums->dissipation += t.loss[p] * unit * unit;

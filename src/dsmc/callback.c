@@ -21,13 +21,13 @@ static gg_status allocate(gg_dsmc *d, gg_error *err)
 
 /* The majorants that block kernels have learned hold for the plain path, too: they bound an integral over directions
  * that is no less than the largest rate. */
-gg_status gg_dsmc_set_callback(gg_engine *engine, gg_watch *watch, void *context, gg_error *err)
+gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err)
 {
   gg_dsmc *d = (gg_dsmc *)engine;
-  if (watch) GG_TRY(allocate(d, err));
-  d->callback.watch = watch;
+  if (callback) GG_TRY(allocate(d, err));
+  d->callback.call = callback;
   d->callback.context = context;
-  for (int p = 0; watch && p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
+  for (int p = 0; callback && p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
   return GG_OK;
 }
 

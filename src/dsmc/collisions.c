@@ -44,7 +44,7 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
     p.floor = floor;
     p.majorant = majorant;
     p.candidates = candidates(d, gg_pair_index(i, j), rate * majorant, floor > 0);
-    if (d->callback.watch) gg_dsmc_call_back(d, i, j, dt, &p);
+    if (d->callback.call) gg_dsmc_call_back(d, i, j, dt, &p);
     p.strain_step = p.candidates ? span / (double)p.candidates : 0;
     p.strain = strain + 0.5 * p.strain_step;
     gg_dsmc_ensemble_strain_bounds(&d->ensemble, strain);

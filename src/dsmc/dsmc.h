@@ -24,8 +24,8 @@ typedef struct gg_dsmc_state {
   gg_dsmc_time_step step;
   double lost; /* energy destroyed that the Gaussian thermostat has not given back */
   gg_dsmc_majorant majorant[GG_PAIRS];
-  gg_transfer transfer;
-  bool tap;
+  gg_collision_sums transfer;
+  bool sums;
   int power; /* velocities are 2^power times those of the start (rescale) */
 } gg_dsmc_state;
 
@@ -38,7 +38,7 @@ typedef struct gg_dsmc {
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;
-  gg_dsmc_callback callback; /* watch NULL: none */
+  gg_dsmc_callback callback; /* call NULL: none */
   double interval_begin;     /* time at which the present collisions begin; only for a callback */
 } gg_dsmc;
 
@@ -74,7 +74,7 @@ void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const c
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err);
 void gg_dsmc_destroy(gg_engine *engine);
 /* callback.c: the collision callback; where it keeps when each grain last collided. */
-gg_status gg_dsmc_set_callback(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
+gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
 /* These candidates, over `dt` from d->interval_begin, are to be told of. */
 void gg_dsmc_call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *pass);
 gg_status gg_dsmc_save_callback(const gg_dsmc *d, gg_archive *archive, gg_error *err);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/crew.h"
+#include "common/thread_pool.h"
 #include "dsmc/dsmc.h"
 #include "simd/clones.h"
 
@@ -48,24 +48,24 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   return GG_OK;
 }
 
-static void tap(gg_engine *engine, bool open)
+static void keep_sums(gg_engine *engine, bool open)
 {
-  dsmc_of(engine)->now.tap = open;
+  dsmc_of(engine)->now.sums = open;
 }
 
-static void read_tap(gg_engine *engine, gg_transfer *transfer)
+static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
 {
   gg_dsmc_state *s = &dsmc_of(engine)->now;
   *transfer = s->transfer;
-  s->transfer = (gg_transfer){0};
+  s->transfer = (gg_collision_sums){0};
 }
 
 /* At most as many as there are pairs of segments in a round. */
 static void threads(gg_engine *engine, int threads)
 {
   gg_dsmc_ensemble *e = &dsmc_of(engine)->ensemble;
-  gg_crew_free(e->crew);
-  e->crew = e->segments > 1 ? gg_crew_new(threads < e->segments / 2 ? threads : e->segments / 2) : NULL;
+  gg_thread_pool_free(e->pool);
+  e->pool = e->segments > 1 ? gg_thread_pool_new(threads < e->segments / 2 ? threads : e->segments / 2) : NULL;
 }
 
 static void state(const gg_engine *engine, gg_engine_state *state)
@@ -77,7 +77,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .overflows = s->overflows,
                              .time_step = s->step.splitting,
                              .time_step_bias = s->step.bias,
-                             .others_cpu = gg_crew_cpu(const_dsmc_of(engine)->ensemble.crew)};
+                             .others_cpu = gg_thread_pool_cpu(const_dsmc_of(engine)->ensemble.pool)};
 }
 
 /* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
@@ -136,7 +136,7 @@ static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
     const gg_dsmc_population *p = &d->ensemble.of[i];
     const size_t all = (size_t)p->n, most = p->single ? SHOWN : all;
     for (size_t first = 0; first < all; first += most) {
-      gg_block_run run = {.n = all - first < most ? all - first : most, .species = i, .drift = d->now.strain};
+      gg_block_run run = {.n = all - first < most ? all - first : most, .species = i, .strain = d->now.strain};
       const size_t at = first / GG_DSMC_LANES, n = (run.n + GG_DSMC_LANES - 1) / GG_DSMC_LANES;
       run.c = gg_dsmc_blocks_in_double(p, p->c, at, n, c)->x;
       if (p->s) run.s = gg_dsmc_blocks_in_double(p, p->s, at, n, s)->x;
@@ -178,9 +178,9 @@ const gg_engine_ops gg_dsmc_ops = {
     .create = create,
     .destroy = gg_dsmc_destroy,
     .advance = advance,
-    .tap = tap,
-    .read_tap = read_tap,
-    .watch = gg_dsmc_set_callback,
+    .keep_sums = keep_sums,
+    .take_sums = take_sums,
+    .set_callback = gg_dsmc_set_callback,
     .threads = threads,
     .state = state,
     .snapshot = snapshot,

@@ -1,5 +1,5 @@
 #include "dsmc/ensemble.h"
-#include "common/crew.h"
+#include "common/thread_pool.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -58,7 +58,7 @@ void gg_dsmc_ensemble_free(gg_dsmc_ensemble *e)
     free(e->of[i].s);
     free(e->of[i].speed_bound);
   }
-  gg_crew_free(e->crew);
+  gg_thread_pool_free(e->pool);
   *e = (gg_dsmc_ensemble){0};
 }
 
@@ -148,7 +148,7 @@ static void heat_segment(void *context, int part)
 
 void gg_dsmc_ensemble_heat(gg_dsmc_ensemble *e, double factor)
 {
-  gg_crew_share(e->crew, e->segments, heat_segment, &(scaling){e, factor});
+  gg_thread_pool_for(e->pool, e->segments, heat_segment, &(scaling){e, factor});
   e->bound_scale *= factor * factor * (1 + 1e-15);
 }
 
@@ -205,7 +205,7 @@ gg_dsmc_moments gg_dsmc_ensemble_synchronise(gg_dsmc_ensemble *e, double strain,
   double n = 0, mass = 0, energy = 0, most = 0;
   gg_vec momentum = {0, 0, 0};
   synchronising w = {.e = e, .strain = strain, .scale = scale, .bound_scale = bound_scale, .centre = centre};
-  gg_crew_share(e->crew, e->segments, synchronise_segment, &w);
+  gg_thread_pool_for(e->pool, e->segments, synchronise_segment, &w);
   for (int i = 0; i < e->n_species; i++) {
     gg_dsmc_population *p = &e->of[i];
     for (int segment = 0; segment < e->segments; segment++)

@@ -45,9 +45,9 @@ typedef struct gg_dsmc_ensemble {
   int n_species;
   gg_dsmc_population of[GG_MAX_SPECIES];
   double bound_scale, bound_strain; /* strain at which it holds */
-  int segments;         /* that each species is divided into (parallel/partition.h): by size alone, 1 if small */
-  int grouping;         /* paired last, and maybe in caches: the quarter that went with the first */
-  struct gg_crew *crew; /* threads that share them; NULL: one thread does all */
+  int segments;                /* that each species is divided into (parallel/partition.h): by size alone, 1 if small */
+  int grouping;                /* paired last, and maybe in caches: the quarter that went with the first */
+  struct gg_thread_pool *pool; /* threads that share them; NULL: one thread does all */
   const struct gg_dsmc_kernels *kernels; /* for the instructions of this processor */
 } gg_dsmc_ensemble;
 

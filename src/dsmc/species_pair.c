@@ -11,7 +11,7 @@ gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
   if (m->rule != GG_SMOOTH && f.rule == GG_SMOOTH) f.rule = GG_ROUGH;
   if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
   if (d->thermostat == GG_GAUSSIAN) f.sums = GG_DSMC_LOSS;
-  if (d->now.tap) f.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
+  if (d->now.sums) f.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
   return f;
 }
 
@@ -51,7 +51,7 @@ void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *p)
   s->overflows += p->overflows;
   s->transfer.collisions[pair] += p->collisions;
   s->lost += p->loss;
-  if (!s->tap) return;
+  if (!s->sums) return;
   s->transfer.loss[pair] += p->loss;
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += p->stress[a][b];

@@ -94,5 +94,5 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
            m->gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
   tell_search(m, line, context);
-  tell(line, context, "collision tap", "while stresses are measured; else only counts");
+  tell(line, context, "collision sums", "while stresses are measured; else only counts");
 }

@@ -55,7 +55,7 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(get(a, "md/events", e->node, e->n * sizeof *e->node, err));
   GG_TRY(get(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(get(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
-  if (!e->last && gg_archive_find(a, "md/last_collisions")) GG_TRY(gg_md_allocate_last(e, err)); /* it was watched */
+  if (!e->last && gg_archive_find(a, "md/last_collisions")) GG_TRY(gg_md_allocate_last(e, err)); /* it had a callback */
   if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
   if (b.skin_radius > 0) {
     GG_TRY(gg_md_allocate_lists(e, err));

@@ -111,14 +111,14 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   return GG_OK;
 }
 
-static void tap(gg_engine *engine, bool open)
+static void keep_sums(gg_engine *engine, bool open)
 {
   gg_md *e = (gg_md *)engine;
-  e->k.tap_open = open;
+  e->k.keeps_sums = open;
   gg_md_select(e);
 }
 
-static void read_tap(gg_engine *engine, gg_transfer *transfer)
+static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
 {
   gg_md *e = (gg_md *)engine;
   *transfer = e->k.transfer;
@@ -168,9 +168,9 @@ const gg_engine_ops gg_md_ops = {
     .create = create,
     .destroy = destroy,
     .advance = advance,
-    .tap = tap,
-    .read_tap = read_tap,
-    .watch = gg_md_watch,
+    .keep_sums = keep_sums,
+    .take_sums = take_sums,
+    .set_callback = gg_md_set_callback,
     .state = state,
     .snapshot = gg_md_snapshot,
     .rescale = rescale,

@@ -3,10 +3,10 @@
 
 #include "md/resolve.h"
 
-#define IMPACT(rule, mixture, contact_time, tap, gaussian)                                                             \
-  static void rule##_##mixture##contact_time##tap##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)   \
+#define IMPACT(rule, mixture, contact_time, sums, gaussian)                                                            \
+  static void rule##_##mixture##contact_time##sums##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)  \
   {                                                                                                                    \
-    gg_md_resolve_pair(e, (gg_md_resolve_features){rule, mixture, contact_time, tap, gaussian, false, false}, i, j,    \
+    gg_md_resolve_pair(e, (gg_md_resolve_features){rule, mixture, contact_time, sums, gaussian, false, false}, i, j,   \
                        dr, c12);                                                                                       \
   }
 #define FOUR(rule, mixture, contact_time)                                                                              \
@@ -14,15 +14,15 @@
   IMPACT(rule, mixture, contact_time, 0, 1)                                                                            \
   IMPACT(rule, mixture, contact_time, 1, 0)                                                                            \
   IMPACT(rule, mixture, contact_time, 1, 1)
-#define WALL(rule, contact_time, tap)                                                                                  \
-  static void rule##_wall##contact_time##tap(gg_md *e, uint32_t i, int upper)                                          \
+#define WALL(rule, contact_time, sums)                                                                                 \
+  static void rule##_wall##contact_time##sums(gg_md *e, uint32_t i, int upper)                                         \
   {                                                                                                                    \
-    gg_md_resolve_wall(e, (gg_md_resolve_features){rule, true, contact_time, tap, false, false, false}, i, upper);     \
+    gg_md_resolve_wall(e, (gg_md_resolve_features){rule, true, contact_time, sums, false, false, false}, i, upper);    \
   }                                                                                                                    \
-  static void rule##_spinning##contact_time##tap(gg_md *e, uint32_t i, int upper)                                      \
+  static void rule##_spinning##contact_time##sums(gg_md *e, uint32_t i, int upper)                                     \
   {                                                                                                                    \
-    gg_md_resolve_wall(e, (gg_md_resolve_features){rule, true, contact_time, tap, false, rule != GG_SMOOTH, false}, i, \
-                       upper);                                                                                         \
+    gg_md_resolve_wall(e, (gg_md_resolve_features){rule, true, contact_time, sums, false, rule != GG_SMOOTH, false},   \
+                       i, upper);                                                                                      \
   }
 #define INSTANCES(rule)                                                                                                \
   FOUR(rule, 0, 0)                                                                                                     \
@@ -35,8 +35,8 @@ INSTANCES(GG_FRICTIONAL)
 #define BY_LAW(rule)                                                                                                   \
   static void rule##_by_law(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)                                   \
   {                                                                                                                    \
-    gg_md_resolve_features f = {                                                                                       \
-        rule, true, e->last != NULL, e->k.tap_open, e->thermostat == GG_GAUSSIAN, .law = true};                        \
+    gg_md_resolve_features f = {rule,       true, e->last != NULL, e->k.keeps_sums, e->thermostat == GG_GAUSSIAN,      \
+                                .law = true};                                                                          \
     gg_md_resolve_pair(e, f, i, j, dr, c12);                                                                           \
   }
 BY_LAW(GG_SMOOTH)
@@ -44,7 +44,7 @@ BY_LAW(GG_ROUGH)
 BY_LAW(GG_FRICTIONAL)
 static gg_md_resolution *const resolutions_by_law[] = {GG_SMOOTH_by_law, GG_ROUGH_by_law, GG_FRICTIONAL_by_law};
 
-/* By rule, mixture, contact time, tap, Gaussian thermostat. */
+/* By rule, mixture, contact time, sums, Gaussian thermostat. */
 #define PAIR(x)                                                                                                        \
   {                                                                                                                    \
     {x##00, x##01},                                                                                                    \
@@ -69,12 +69,13 @@ static gg_md_wall_resolution *const spinning_resolutions[3][2][2] = {ROW(GG_SMOO
 
 void gg_md_select_resolution(gg_md *e)
 {
-  bool mixture = e->model.n_species > 1, timed = e->last != NULL, tap = e->k.tap_open;
+  bool mixture = e->model.n_species > 1, timed = e->last != NULL, sums = e->k.keeps_sums;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
   e->resolve =
-      e->model.law.e ? resolutions_by_law[rule] : resolutions[rule][mixture][timed][tap][e->thermostat == GG_GAUSSIAN];
-  e->watched = e->resolve;
-  if (e->watch) e->resolve = gg_md_show_collision;
-  e->resolve_wall = e->spin ? spinning_resolutions[rule][timed][tap] : wall_resolutions[e->model.wall_rule][timed][tap];
+      e->model.law.e ? resolutions_by_law[rule] : resolutions[rule][mixture][timed][sums][e->thermostat == GG_GAUSSIAN];
+  e->resolve_shown = e->resolve;
+  if (e->callback) e->resolve = gg_md_show_collision;
+  e->resolve_wall =
+      e->spin ? spinning_resolutions[rule][timed][sums] : wall_resolutions[e->model.wall_rule][timed][sums];
 }

@@ -9,7 +9,7 @@
 
 typedef struct gg_md_resolve_features {
   gg_rule rule;
-  bool mixture, contact_time, tap;
+  bool mixture, contact_time, sums;
   bool gaussian; /* thermostat: the energy that goes is returned by a slower clock */
   bool spins;    /* at walls: else the wall acts on the grain's centre alone */
   bool law;      /* of restitution: e depends on the speed of the impact */
@@ -29,7 +29,7 @@ GG_INLINE bool gg_md_is_treated(gg_md *e, uint32_t i, uint32_t j)
   return treated;
 }
 
-GG_INLINE void gg_md_sum_pair(gg_transfer *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
+GG_INLINE void gg_md_sum_pair(gg_collision_sums *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
 {
   double(*stress)[3] = t->stress[pair];
   stress[0][0] += sigma * k.x * J.x;
@@ -94,7 +94,7 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   gg_kick(f.rule, contact, k, J, &one->v, s1, &two->v, s2);
   double scale = f.gaussian ? e->k.scale : 1;
   e->k.transfer.collisions[a + b]++;
-  if (f.tap)
+  if (f.sums)
     gg_md_sum_pair(&e->k.transfer, a + b, e->model.sigma[pair] * scale, k, J,
                    gg_energy_loss(contact, k, g, J) * scale * scale);
   if (f.gaussian) gg_md_return_energy(e, gg_md_kinetic_loss(contact, v1, v2, one->v, two->v));
@@ -127,9 +127,9 @@ GG_INLINE void gg_md_resolve_wall(gg_md *e, gg_md_resolve_features f, uint32_t i
     J.y += side * (least + side * one->v.y) / contact->im1;
     one->v.y = -side * least;
   }
-  gg_transfer *t = &e->k.transfer;
+  gg_collision_sums *t = &e->k.transfer;
   t->wall_collisions++;
-  if (!f.tap) return;
+  if (!f.sums) return;
   for (int c = 0; c < 3; c++) t->wall_impulse[upper][c] += gg_along(&J, c);
   t->wall_loss += gg_energy_loss(contact, k, g, J);
 }

@@ -63,7 +63,7 @@ typedef struct gg_md_counts {
   uint64_t collisions, events, treated, wall_treated;
   double worst_overlap;
   gg_rng rng;
-  gg_transfer transfer;
+  gg_collision_sums transfer;
   double next_kick; /* white noise: epoch time of the next kick */
   /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
    */
@@ -72,7 +72,7 @@ typedef struct gg_md_counts {
   double outer_time;               /* outside, up to the present advance */
   double fractional_shift, common_shift; /* of co-moving rows (rows.c), at the epoch's start */
   int32_t row_shift, image_shift;
-  uint32_t tap_open;
+  uint32_t keeps_sums;
   int32_t power; /* velocities are 2^power times those of the start (rescale) */
 } gg_md_counts;
 
@@ -83,7 +83,7 @@ struct gg_md {
   gg_md_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
   gg_md_node *node;
   gg_vec *spin; /* surface velocities; NULL for smooth grains */
-  double *last; /* time of the last collision, for the contact-time rule or a watcher; NULL without either */
+  double *last; /* time of the last collision, for the contact-time rule or a callback; NULL without either */
   uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
   /* Neighbour lists: NULL where the cells themselves are searched. */
   gg_md_skin *skin;
@@ -111,9 +111,9 @@ struct gg_md {
   const gg_md_kernel *kernel;
   gg_md_resolution *resolve;
   gg_md_wall_resolution *resolve_wall;
-  gg_watch *watch; /* sees every collision; NULL: nobody does, and `resolve` is not wrapped */
-  void *watcher;
-  gg_md_resolution *watched;
+  gg_collision_callback *callback; /* sees every collision; NULL: nobody does, and `resolve` is not wrapped */
+  void *callback_context;
+  gg_md_resolution *resolve_shown; /* what `resolve` goes on to then */
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white-noise thermostat */
 };
@@ -161,12 +161,13 @@ bool gg_md_next_epoch(gg_md *e);
 /* Width of a calendar's bucket that suits a rate of events. */
 double gg_md_bucket_width(double events_per_time);
 
-/* watch.c: a resolution that shows the collision to the callback, then goes on to e->watched; and the engine's watch
- * operation. */
+/* callback.c: a resolution that shows the collision to the callback, then goes on to e->resolve_shown; and the engine's
+ * operation that sets it. */
 gg_md_resolution gg_md_show_collision;
-gg_status gg_md_watch(gg_engine *engine, gg_watch *watch, void *context, gg_error *err);
+gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
 
-/* kernels.c: choose the kernels that this model and tap need; resolve.c: the part that concerns contacts. */
+/* kernels.c: choose the kernels that this model and its collision sums need; resolve.c: the part that concerns
+ * contacts. */
 void gg_md_select(gg_md *e);
 void gg_md_select_resolution(gg_md *e);
 

@@ -98,7 +98,7 @@ static bool flights_count(collisions *d)
   return d->first == enough;
 }
 
-static void add_flights(collisions *d, const gg_seen_collision *m, int which)
+static void add_flights(collisions *d, const gg_collision_record *m, int which)
 {
   double t = m->since[which], rate = d->model.shear_rate, *to = d->sums + ANGLES + m->species[which] * KINDS * FLIGHT;
   gg_vec c = m->c[which];
@@ -118,7 +118,7 @@ static int plane_bin(gg_vec k)
   return bin < PLANE_BINS ? bin : 0;
 }
 
-static void add_collision(void *self, const gg_seen_collision *m)
+static void add_collision(void *self, const gg_collision_record *m)
 {
   collisions *d = self;
   gg_vec k = m->k;

@@ -16,7 +16,7 @@
  */
 typedef struct gg_interval {
   const gg_model *model;
-  const gg_transfer *transfer;
+  const gg_collision_sums *transfer;
   double elapsed, velocity_factor;
 } gg_interval;
 
@@ -60,7 +60,7 @@ typedef struct gg_observable {
    * the next snapshot, and has to be among the memory. NULL: not needed. */
   void (*add_interval)(void *self, const gg_interval *interval);
   /* Called with every collision while averaging; goes into the bins with the next snapshot. NULL: not needed. */
-  gg_watch *add_collision;
+  gg_collision_callback *add_collision;
   void (*restart)(void *self); /* averaging begins (anew): forget earlier snapshots; NULL if there is nothing to forget
                                 */
   gg_curves_of *curves;

@@ -170,7 +170,7 @@ static void put(double to[3], gg_vec v, double scale)
   to[0] = scale * v.x, to[1] = scale * v.y, to[2] = scale * v.z;
 }
 
-static void add_collision(void *self, const gg_seen_collision *seen)
+static void add_collision(void *self, const gg_collision_record *seen)
 {
   own *o = self;
   double scale = o->memory->scale;
@@ -203,8 +203,9 @@ static const char *missing(const gg_model *m, gg_quantity q)
 #define OF_REST(X)                                                                                                     \
   X(8)                                                                                                                 \
   X(9)                                                                                                                 \
-  X(10) X(11) X(12) X(13) X(14) X(15) X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28)    \
-      X(29) X(30) X(31)
+  X(10)                                                                                                                \
+  X(11) X(12) X(13) X(14) X(15) X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29)    \
+      X(30) X(31)
 OF_EIGHT(OF)
 OF_REST(OF)
 #define ROW(k) {(gg_quantity)(GG_N_QUANTITIES + (k)), of_##k},

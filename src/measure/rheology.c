@@ -72,7 +72,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
 static void add_blocks(void *self, const gg_block_run *run)
 {
   rheology *r = self;
-  gg_velocity_moment_view grains = {.n = run->n, .stride = 3 * GG_VELOCITY_MOMENT_LANES, .strain = run->drift};
+  gg_velocity_moment_view grains = {.n = run->n, .stride = 3 * GG_VELOCITY_MOMENT_LANES, .strain = run->strain};
   for (int a = 0; a < 3; a++) {
     grains.c[a] = run->c + a * GG_VELOCITY_MOMENT_LANES;
     if (run->s) grains.s[a] = run->s + a * GG_VELOCITY_MOMENT_LANES;
@@ -127,7 +127,7 @@ static haff haff_integrals(double T0, double T1, double dt)
 static void put_rates(const rheology *r, const gg_interval *in, haff h, double *row)
 {
   const gg_model *m = &r->model;
-  const gg_transfer *t = in->transfer;
+  const gg_collision_sums *t = in->transfer;
   double collisions = 0, loss = 0, p[3][3] = {{0}};
   for (int q = 0; q < GG_PAIRS; q++) {
     collisions += (double)t->collisions[q];

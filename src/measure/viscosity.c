@@ -1,5 +1,5 @@
 /* eta* = nu_0 eta/(n T) of cooling and heated gases by linear response: the limit of -P_xy/(n T a*) at a vanishing
- * reduced shear rate a* (common/small_shear.h). The noise of P_xy/(nT) is the same at every a*, so least squares of
+ * reduced shear rate a* (common/linear_response.h). The noise of P_xy/(nT) is the same at every a*, so least squares of
  * -P_xy/(n T) on eta* a* + B a*^3, over all samples while a* went up and down its range; its sums are the channels, so
  * that the estimator's error of eta* contains that of the extrapolation.
  *
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/small_shear.h"
+#include "common/linear_response.h"
 #include "measure/by_species.h"
 #include "measure/observable.h"
 
@@ -79,7 +79,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
 }
 
 /* Both in units of the high end of a*, so that no sum is tiny. */
-static void put(const gg_small_shear *range, double a, double stress, double *sums)
+static void put(const gg_linear_response *range, double a, double stress, double *sums)
 {
   double u = a / range->high, u2 = u * u, y = stress / range->high;
   sums[A2] = u2, sums[A4] = u2 * u2, sums[A6] = u2 * u2 * u2;
@@ -93,7 +93,7 @@ static double mean_root(double T0, double T1)
   return fabs(b) < 1e-9 * a0 ? sqrt(T0) : log(a1 / a0) / b;
 }
 
-static bool counts(const viscosity *v, const gg_small_shear *range, double a)
+static bool counts(const viscosity *v, const gg_linear_response *range, double a)
 {
   return range->cools ? a >= range->low : v->memory.since > RELAXATION;
 }
@@ -106,7 +106,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   v->memory.last_temperature = T;
   v->memory.since = in->velocity_factor == 1 ? v->memory.since + 1 : 0;
   for (int k = 0; k < CHANNELS; k++) row[k] = 0;
-  gg_small_shear range = gg_small_shear_of(m);
+  gg_linear_response range = gg_linear_response_of(m);
   double a = gg_reduced_shear_rate(m, T);
   if (!(in->elapsed > 0) || !counts(v, &range, a)) return;
   put(&range, a, -v->cxcy / ((double)m->n * T), row + KINETIC);

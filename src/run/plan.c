@@ -1,7 +1,7 @@
 /* How long to warm up and average: from what is asked and how slowly the slowest quantity relaxes. */
 #include <math.h>
 
-#include "common/small_shear.h"
+#include "common/linear_response.h"
 #include "run/replicas.h"
 
 /* Relaxation times of the slowest mode: before averaging, and at least while averaging. A start within a few tens of
@@ -22,7 +22,7 @@ static uint64_t samples_for(double collisions)
  * in which 1/a*^2 grows by (2/3) eta* a time 1/nu_0, five quarters of a collision; eta* taken as 1. */
 static double sweep_length(const gg_model *m)
 {
-  gg_small_shear s = gg_small_shear_of(m);
+  gg_linear_response s = gg_linear_response_of(m);
   if (s.cools) return 2 * M_LN2 * s.power * gg_model_relaxation(m);
   return 1.25 * m->chi[0] * 1.5 * (1 / (s.low * s.low) - 1 / (s.high * s.high));
 }
@@ -30,7 +30,7 @@ static double sweep_length(const gg_model *m)
 static void plan_linear_response(gg_plan *p, const gg_scene *scene, const gg_model *m)
 {
   double length = sweep_length(m);
-  if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_small_shear_of(m).cools ? 10 : 40);
+  if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_linear_response_of(m).cools ? 10 : 40);
   p->least = samples_for(LEAST_SWEEPS * length);
   p->longest = p->least * MOST_WINDOWS;
 }

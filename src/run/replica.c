@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/linear_response.h"
 #include "common/rng.h"
-#include "common/small_shear.h"
 #include "run/clock.h"
 
 gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
@@ -20,7 +20,7 @@ gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model
     gg_replica_clear(r);
     return status;
   }
-  ops->tap(r->engine, true);
+  ops->keep_sums(r->engine, true);
   r->clock.interval = GG_SAMPLING_INTERVAL / gg_model_collision_rate(model, model->temperature0);
   gg_replica_sample_row(r, 0);
   return GG_OK;
@@ -104,8 +104,8 @@ static gg_status rescale_if_due(gg_replica *r, gg_error *err)
   double T0 = r->model.temperature0, slowdown = r->clock.interval * gg_model_collision_rate(&r->model, T0);
   slowdown /= GG_SAMPLING_INTERVAL;
   if (r->model.small_shear) {
-    bool over = gg_small_shear_ends(&r->model, T0 / (slowdown * slowdown));
-    return over ? rescale(r, gg_small_shear_of(&r->model).power, err) : GG_OK;
+    bool over = gg_linear_response_ends(&r->model, T0 / (slowdown * slowdown));
+    return over ? rescale(r, gg_linear_response_of(&r->model).power, err) : GG_OK;
   }
   if (slowdown < 4) return GG_OK;
   r->clock.power += 2;

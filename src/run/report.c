@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "common/small_shear.h"
+#include "common/linear_response.h"
 #include "run/clock.h"
 #include "run/replicas.h"
 

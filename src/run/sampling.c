@@ -51,8 +51,8 @@ void gg_replica_sample_row(gg_replica *r, double elapsed)
   for (int k = 0; k < r->n_observables; k++)
     if (r->observable[k]->width) r->observable[k]->begin(r->self[k]);
   add_grains(r);
-  gg_transfer transfer;
-  r->engine->ops->read_tap(r->engine, &transfer);
+  gg_collision_sums transfer;
+  r->engine->ops->take_sums(r->engine, &transfer);
   gg_interval in = {&r->model, &transfer, elapsed, r->clock.velocity_factor};
   for (int k = 0; k < r->n_observables; k++) {
     const gg_observable *o = r->observable[k];
@@ -88,7 +88,7 @@ void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
   if (last) r->clock.window_samples++;
 }
 
-static void add_collision(void *context, const gg_seen_collision *seen)
+static void add_collision(void *context, const gg_collision_record *seen)
 {
   gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
@@ -98,7 +98,7 @@ static void add_collision(void *context, const gg_seen_collision *seen)
 gg_status gg_replica_observe_collisions(gg_replica *r, gg_error *err)
 {
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->add_collision) return r->engine->ops->watch(r->engine, add_collision, r, err);
+    if (r->observable[k]->add_collision) return r->engine->ops->set_callback(r->engine, add_collision, r, err);
   return GG_OK;
 }
 

@@ -2,13 +2,13 @@
 
 #include <math.h>
 
-#include "common/small_shear.h"
+#include "common/linear_response.h"
 #include "theory/theory.h"
 
 /* Linear response: at the beginning of a sweep of the reduced shear rate. */
 static void start_of_sweep(gg_model *model)
 {
-  double speed = 1 / (gg_small_shear_of(model).start * gg_model_nu0(model, 1));
+  double speed = 1 / (gg_linear_response_of(model).start * gg_model_nu0(model, 1));
   model->temperature0 = speed * speed;
 }
 

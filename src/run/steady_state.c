@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "common/small_shear.h"
+#include "common/linear_response.h"
 #include "run/replicas.h"
 
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
@@ -31,7 +31,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
              grain, (double)all->plan.least * GG_SAMPLING_INTERVAL);
   } else if (all->model.small_shear) {
     result->steadiness = GG_STEADY;
-    gg_small_shear s = gg_small_shear_of(&all->model);
+    gg_linear_response s = gg_linear_response_of(&all->model);
     snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",
              s.cools ? "linear response of the cooling gas" : "linear response of the heated gas",
              s.cools ? s.low : s.high, s.cools ? s.high : s.low);

@@ -125,17 +125,17 @@ static inline void lab_average(gg_engine *g, const gg_model *m, double warmup, i
   const int samples = 10;
   double n = (double)m->n;
   lab_advance(g, INFINITY, (uint64_t)(warmup * n / 2));
-  gg_dsmc_ops.tap(g, true);
+  gg_dsmc_ops.keep_sums(g, true);
   for (int b = 0; b < blocks; b++) {
     lab_view sum = {0};
     double time = 0;
-    gg_transfer t;
-    gg_dsmc_ops.read_tap(g, &t);
+    gg_collision_sums t;
+    gg_dsmc_ops.take_sums(g, &t);
     for (int s = 0; s < samples; s++) {
       time += lab_advance(g, INFINITY, (uint64_t)(length * n / 2 / samples));
       gg_dsmc_ops.snapshot(g, false, lab_look, &sum);
     }
-    gg_dsmc_ops.read_tap(g, &t);
+    gg_dsmc_ops.take_sums(g, &t);
     double P[3][3], K[3][3], trace = 0, T = lab_temperature(&sum), loss = 0, collisions = 0;
     for (int q = 0; q < GG_PAIRS; q++) loss += t.loss[q] / (m->volume * time), collisions += (double)t.collisions[q];
     for (int a = 0; a < 3; a++)

@@ -21,10 +21,10 @@ static void rate(double phi, int64_t n)
     double time = 0;
     lab_advance(g, INFINITY, 10 * (uint64_t)n); /* lose the memory of the start */
     uint64_t target = 20000;
-    gg_transfer t;
-    gg_dsmc_ops.read_tap(g, &t);
+    gg_collision_sums t;
+    gg_dsmc_ops.take_sums(g, &t);
     time = lab_advance(g, target / (0.5 * (double)n * gg_model_collision_rate(&m, 0.5)), UINT64_MAX);
-    gg_dsmc_ops.read_tap(g, &t);
+    gg_dsmc_ops.take_sums(g, &t);
     lab_add(&rate, 2 * (double)t.collisions[GG_11] / ((double)n * time));
     gg_dsmc_ops.destroy(g);
   }

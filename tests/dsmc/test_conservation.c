@@ -68,8 +68,8 @@ static void momentum_stays_at_rounding(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* Over any interval the energy lost to collisions, as the tap has it, is what is missing. */
-static void tap_accounts_for_the_loss(void **state)
+/* Over any interval the energy lost to collisions, as the collision sums have it, is what is missing. */
+static void sums_account_for_the_loss(void **state)
 {
   (void)state;
   for (int rough = 0; rough < 2; rough++) {
@@ -77,11 +77,11 @@ static void tap_accounts_for_the_loss(void **state)
     if (rough) s.collision.mu[0] = 0.4;
     gg_model m = lab_model(&s);
     gg_engine *g = lab_engine(&m, 7);
-    gg_dsmc_ops.tap(g, true);
+    gg_dsmc_ops.keep_sums(g, true);
     double before = energy(g, &m);
     lab_advance(g, INFINITY, 5000);
-    gg_transfer t;
-    gg_dsmc_ops.read_tap(g, &t);
+    gg_collision_sums t;
+    gg_dsmc_ops.take_sums(g, &t);
     assert_true(fabs(before - energy(g, &m) - 2 * t.loss[GG_11]) < 1e-12 * before);
     gg_dsmc_ops.destroy(g);
   }
@@ -90,6 +90,6 @@ static void tap_accounts_for_the_loss(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(energy_is_kept), cmocka_unit_test(momentum_stays_at_rounding),
-                                     cmocka_unit_test(starts_are_exact), cmocka_unit_test(tap_accounts_for_the_loss)};
+                                     cmocka_unit_test(starts_are_exact), cmocka_unit_test(sums_account_for_the_loss)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

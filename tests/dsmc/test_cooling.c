@@ -10,17 +10,17 @@ static void cool(const gg_model *m, uint64_t seed, int blocks, cooling *c)
 {
   gg_engine *g = lab_engine(m, seed);
   gg_error err = {0};
-  gg_dsmc_ops.tap(g, true);
+  gg_dsmc_ops.keep_sums(g, true);
   for (int b = -3; b < blocks; b++) {
     double a2 = 0, zeta = 0, ratio = 0;
     const int samples = 20;
     for (int i = 0; i < samples; i++) {
-      gg_transfer t;
+      gg_collision_sums t;
       lab_view v = lab_snapshot(g);
       double T0 = lab_temperature(&v);
-      gg_dsmc_ops.read_tap(g, &t);
+      gg_dsmc_ops.take_sums(g, &t);
       double time = lab_advance(g, INFINITY, (uint64_t)m->n / 2);
-      gg_dsmc_ops.read_tap(g, &t);
+      gg_dsmc_ops.take_sums(g, &t);
       v = lab_snapshot(g);
       double T = lab_temperature(&v), fell = T0 / T;
       a2 += (v.c4 / v.n / (15 * T * T) - 1) / samples;

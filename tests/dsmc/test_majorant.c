@@ -15,15 +15,15 @@ static void run(double forced, lab_mean *rate, lab_mean *loss, uint64_t *overflo
   gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.2, 1, -1, 2000);
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 17);
-  gg_dsmc_ops.tap(g, true);
-  gg_transfer t;
+  gg_dsmc_ops.keep_sums(g, true);
+  gg_collision_sums t;
   for (int b = 0; b < 20; b++) {
     double time = 0;
     for (int i = 0; i < 150; i++) {
       if (forced > 0) force(g, forced);
       time += lab_advance(g, INFINITY, 250);
     }
-    gg_dsmc_ops.read_tap(g, &t);
+    gg_dsmc_ops.take_sums(g, &t);
     double trace = t.stress[0][0][0] + t.stress[0][1][1] + t.stress[0][2][2];
     lab_add(rate, 2 * (double)t.collisions[0] / (time * (double)m.n));
     lab_add(loss, trace / (time * m.volume)); /* sigma k.J ~ g_n: mean square of g_n where rates are weighted by g_n */
@@ -70,15 +70,15 @@ static void block(gg_engine *g, const gg_model *m, double forced, mixed *out)
 {
   enum { INTERVALS = 300 };
   lab_view v = {0};
-  gg_transfer t;
+  gg_collision_sums t;
   double time = 0, collisional[3][3] = {{0}}, energy[2];
-  gg_dsmc_ops.read_tap(g, &t);
+  gg_dsmc_ops.take_sums(g, &t);
   for (int i = 0; i < INTERVALS; i++) {
     if (forced > 0) force(g, forced);
     time += lab_advance(g, INFINITY, (uint64_t)m->n / 16);
     if (i % 5 == 0) gg_dsmc_ops.snapshot(g, false, lab_look, &v);
   }
-  gg_dsmc_ops.read_tap(g, &t);
+  gg_dsmc_ops.take_sums(g, &t);
   double samples = v.n / (double)m->n, kinetic = 0, loss = 0;
   for (int q = 0; q < GG_PAIRS; q++) {
     lab_add(&out->rate[q], (double)t.collisions[q] / (time * (double)m->n));
@@ -112,7 +112,7 @@ static void shear(gg_dsmc_path path, double forced, uint64_t seed, mixed *out)
   for (int q = 0; q < GG_PAIRS && path == GG_DSMC_PLAIN; q++) d->path[q] = path;
   assert_true((d->path[0] == GG_DSMC_PLAIN) == (path == GG_DSMC_PLAIN));
   lab_advance(g, INFINITY, 40 * (uint64_t)m.n / 2);
-  gg_dsmc_ops.tap(g, true);
+  gg_dsmc_ops.keep_sums(g, true);
   uint64_t before = d->now.overflows;
   for (int b = 0; b < 20; b++) block(g, &m, forced, out);
   printf("# %s, bound %g thermal speeds: %llu overflows\n", path == GG_DSMC_PLAIN ? "one by one" : "blocks", forced,

@@ -21,7 +21,7 @@ static void restart(gg_flow flow, double phi, double beta, int64_t n, gg_precisi
   gg_model m = lab_model(&s);
   gg_engine *straight = lab_engine(&m, 11), *resumed = NULL;
   gg_error err = {0};
-  gg_dsmc_ops.tap(straight, true);
+  gg_dsmc_ops.keep_sums(straight, true);
   lab_advance(straight, INFINITY, 3 * (uint64_t)n);
   gg_archive archive = {0};
   assert_int_equal(gg_dsmc_ops.save(straight, &archive, &err), GG_OK);

@@ -163,7 +163,7 @@ static void mixture(void **state)
 
 /* The plain path computes in double on grains kept in single precision: a small ensemble, a number of grains that is no
  * multiple of eight, a collision callback. */
-static void seen(void *context, const gg_seen_collision *meeting)
+static void seen(void *context, const gg_collision_record *meeting)
 {
   *(double *)context += gg_dot(meeting->k, meeting->c12);
 }
@@ -178,13 +178,13 @@ static void plain_path(void **state)
     gg_model m = lab_model(&s);
     gg_engine *g = lab_engine(&m, 5);
     double sum = 0;
-    if (big) assert_int_equal(gg_dsmc_ops.watch(g, seen, &sum, &err), GG_OK);
+    if (big) assert_int_equal(gg_dsmc_ops.set_callback(g, seen, &sum, &err), GG_OK);
     lab_view before = lab_snapshot(g);
-    gg_dsmc_ops.tap(g, true);
+    gg_dsmc_ops.keep_sums(g, true);
     lab_advance(g, INFINITY, 2 * (uint64_t)m.n);
     lab_view after = lab_snapshot(g);
-    gg_transfer t;
-    gg_dsmc_ops.read_tap(g, &t);
+    gg_collision_sums t;
+    gg_dsmc_ops.take_sums(g, &t);
     double E0 = 3 * lab_temperature(&before) + m.inertia[0] * before.ss / before.n;
     double E1 = 3 * lab_temperature(&after) + m.inertia[0] * after.ss / after.n;
     assert_true(fabs(0.5 * before.n * (E0 - E1) / t.loss[0] - 1) < 1e-5);

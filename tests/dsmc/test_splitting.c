@@ -83,7 +83,7 @@ typedef struct flights {
   uint64_t n, middling;  /* from 0.5 to 1.5 */
 } flights;
 
-static void note_flight(void *context, const gg_seen_collision *c)
+static void note_flight(void *context, const gg_collision_record *c)
 {
   flights *f = context;
   for (int g = 0; g < 2; g++) {
@@ -105,7 +105,7 @@ static void collisions_come_in_their_time(void **state)
   gg_engine *g = lab_engine(&m, 5);
   flights f = {.unit = 1 / gg_model_collision_rate(&m, m.temperature0)};
   gg_error err;
-  assert_int_equal(gg_dsmc_ops.watch(g, note_flight, &f, &err), GG_OK);
+  assert_int_equal(gg_dsmc_ops.set_callback(g, note_flight, &f, &err), GG_OK);
   lab_advance(g, 6 * f.unit, UINT64_MAX);
   double share = (double)f.middling / (double)f.n;
   printf("# %d flights, shortest %.3f mean free times, %.3f of them middling\n", (int)f.n, f.shortest, share);

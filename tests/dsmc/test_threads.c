@@ -29,8 +29,8 @@ static gg_archive outcome(const gg_model *m, int first, int then)
   gg_archive a = {0};
   if (first) gg_dsmc_ops.threads(g, first);
   assert_int_equal(((gg_dsmc *)g)->ensemble.segments, 8);
-  assert_true((((gg_dsmc *)g)->ensemble.crew != NULL) == (first > 1));
-  gg_dsmc_ops.tap(g, true);
+  assert_true((((gg_dsmc *)g)->ensemble.pool != NULL) == (first > 1));
+  gg_dsmc_ops.keep_sums(g, true);
   lab_advance(g, INFINITY, (uint64_t)m->n);
   if (then) gg_dsmc_ops.threads(g, then);
   lab_advance(g, INFINITY, (uint64_t)m->n / 2);
@@ -123,7 +123,7 @@ static void resumes_with_other_threads(void **state)
     gg_error err = {0};
     gg_archive half = {0}, end = {0};
     gg_dsmc_ops.threads(straight, 2);
-    gg_dsmc_ops.tap(straight, true);
+    gg_dsmc_ops.keep_sums(straight, true);
     lab_advance(straight, INFINITY, (uint64_t)m.n / 3);
     save(straight, &half);
     lab_advance(straight, INFINITY, (uint64_t)m.n);
@@ -156,7 +156,7 @@ static void small_ones_do_not_pay(void **state)
   gg_archive a = {0};
   gg_dsmc_ops.threads(g, 4);
   assert_int_equal(d->ensemble.segments, 1);
-  assert_null(d->ensemble.crew);
+  assert_null(d->ensemble.pool);
   assert_null(d->schedule);
   save(g, &a);
   assert_null(gg_archive_find(&a, "dsmc/schedule"));

@@ -1,5 +1,5 @@
 /* Proves: momentum to rounding in every flow; energy at e = 1 with beta = -1 or 1; no overlaps, nobody outside the box
- * or its cell, over 10^5 collisions; the energy that the tap reports lost is the energy that went. */
+ * or its cell, over 10^5 collisions; the energy that the collision sums report lost is the energy that went. */
 #include "md_test.h"
 
 static void run(md_case c, bool conserves)
@@ -7,10 +7,10 @@ static void run(md_case c, bool conserves)
   gg_model m = md_model(c);
   gg_md *e = md_create(&m, 3);
   double energy = md_energy(e);
-  gg_transfer t;
-  gg_md_ops.tap(&e->base, true);
+  gg_collision_sums t;
+  gg_md_ops.keep_sums(&e->base, true);
   md_collide(e, 100000);
-  gg_md_ops.read_tap(&e->base, &t);
+  gg_md_ops.take_sums(&e->base, &t);
   gg_vec p = md_momentum(e);
   double scale = sqrt(2 * md_energy(e) * (double)c.n), drift = md_energy(e) - energy;
   assert_true(sqrt(gg_dot(p, p)) < 1e-12 * scale);
@@ -85,9 +85,9 @@ static void shear_work_balances_loss(void **state)
   gg_model m = md_model((md_case){GG_USF, 256, 0.3, 0.8, 0, INFINITY, {0}});
   gg_md *e = md_create(&m, 5);
   md_collide(e, 256 * 100);
-  gg_transfer t;
-  gg_md_ops.tap(&e->base, true);
-  gg_md_ops.read_tap(&e->base, &t);
+  gg_collision_sums t;
+  gg_md_ops.keep_sums(&e->base, true);
+  gg_md_ops.take_sums(&e->base, &t);
   double time = 0, kinetic = 0;
   int samples = 4000;
   for (int k = 0; k < samples; k++) {
@@ -101,7 +101,7 @@ static void shear_work_balances_loss(void **state)
     }
     kinetic += sum / samples;
   }
-  gg_md_ops.read_tap(&e->base, &t);
+  gg_md_ops.take_sums(&e->base, &t);
   double work = -(kinetic + t.stress[0][0][1] / time), loss = t.loss[0] / time;
   if (!(fabs(work / loss - 1) < 0.01)) fail_msg("shear work %g, loss %g", work, loss);
   md_destroy(e);

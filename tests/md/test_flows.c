@@ -81,9 +81,9 @@ static void budgets_close(gg_scene s, uint64_t collisions)
 {
   gg_model m = md_model_of(&s);
   gg_md *e = md_create(&m, 3);
-  gg_transfer t;
+  gg_collision_sums t;
   work w = {.done = 0};
-  gg_md_ops.tap(&e->base, true);
+  gg_md_ops.keep_sums(&e->base, true);
   gg_vec p0 = total_momentum(e);
   double E0 = kinetic(e) + potential(e, e->k.now), time = 0;
   follow_work(e, &w);
@@ -94,7 +94,7 @@ static void budgets_close(gg_scene s, uint64_t collisions)
     time += gone;
     follow_work(e, &w);
   }
-  gg_md_ops.read_tap(&e->base, &t);
+  gg_md_ops.take_sums(&e->base, &t);
   gg_vec p = total_momentum(e);
   double M = total_mass(e), scale = 0;
   for (int a = 0; a < 3; a++) scale += fabs(t.wall_impulse[0][a]) + fabs(t.wall_impulse[1][a]) + 1;
@@ -153,10 +153,10 @@ static void check_wall_stress(double beta, double mu)
   s.walls.e = 0.95, s.walls.beta = 0.5, s.walls.mu = INFINITY;
   gg_model m = md_model_of(&s);
   gg_md *e = md_create(&m, 3);
-  gg_transfer t;
+  gg_collision_sums t;
   md_collide(e, 400 * 300);
-  gg_md_ops.tap(&e->base, true);
-  gg_md_ops.read_tap(&e->base, &t);
+  gg_md_ops.keep_sums(&e->base, true);
+  gg_md_ops.take_sums(&e->base, &t);
   double time = 0, xy = 0, yy = 0, dt, first[2], last[2], arm = 0.5 * m.box[1] - 0.5;
   enum { SAMPLES = 6000 };
   moments(e, &first[0], &first[1]);
@@ -168,7 +168,7 @@ static void check_wall_stress(double beta, double mu)
       yy += e->grain[i].v.y * e->grain[i].v.y / SAMPLES;
     }
   }
-  gg_md_ops.read_tap(&e->base, &t);
+  gg_md_ops.take_sums(&e->base, &t);
   moments(e, &last[0], &last[1]);
   double wall[2] = {arm * (t.wall_impulse[1][0] - t.wall_impulse[0][0]) / time,
                     arm * (t.wall_impulse[1][1] - t.wall_impulse[0][1]) / time};

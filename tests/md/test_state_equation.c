@@ -14,14 +14,14 @@ static void pressure_at(double phi)
 {
   gg_model m = md_model((md_case){GG_EQUILIBRIUM, N, phi, 1, -1, INFINITY, {0}});
   gg_md *e = md_create(&m, 17);
-  gg_transfer t;
+  gg_collision_sums t;
   double sum = 0, squares = 0;
   md_collide(e, N * 50);
-  gg_md_ops.tap(&e->base, true);
-  gg_md_ops.read_tap(&e->base, &t);
+  gg_md_ops.keep_sums(&e->base, true);
+  gg_md_ops.take_sums(&e->base, &t);
   for (int b = 0; b < BLOCKS; b++) {
     double time = md_collide(e, N * 25);
-    gg_md_ops.read_tap(&e->base, &t);
+    gg_md_ops.take_sums(&e->base, &t);
     double virial = t.stress[0][0][0] + t.stress[0][1][1] + t.stress[0][2][2];
     double Z = 1 + (N - 1.0) / N * virial / (3 * N * m.temperature0 * time);
     sum += Z, squares += Z * Z;

@@ -27,7 +27,7 @@ static gg_model model_of(gg_flow flow, double beta, int species, gg_precision pr
 
 static void take_row(gg_engine *g, const gg_model *m, void *self, bool blocks, double elapsed, double *row)
 {
-  const gg_transfer transfer = {.collisions = {100, 20, 30}, .loss = {7, 5, 3}};
+  const gg_collision_sums transfer = {.collisions = {100, 20, 30}, .loss = {7, 5, 3}};
   const gg_interval in = {m, &transfer, elapsed, 1};
   gg_rheology.begin(self);
   if (blocks)
@@ -96,7 +96,7 @@ static void far_units(void **state)
       for (int i = 0; i < 40; i++) c[a][i] = units[u] * sin(1 + i + 40 * a);
     const gg_chunk chunk = {.n = 40, .c = {c[0], c[1], c[2]}, .s = {c[3], c[4], c[5]}};
     for (int sample = 0; sample < 2; sample++) {
-      const gg_transfer transfer = {0};
+      const gg_collision_sums transfer = {0};
       const gg_interval in = {&m, &transfer, sample, 1};
       gg_rheology.begin(self);
       gg_rheology.add_chunk(self, &chunk);

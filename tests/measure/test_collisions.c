@@ -6,13 +6,13 @@
 #include "measure/free_flight.h"
 
 typedef struct sums {
-  gg_transfer by_hand;
+  gg_collision_sums by_hand;
   const gg_model *model;
   uint64_t flights;
   double flown; /* sum of `since` */
 } sums;
 
-static void add(void *context, const gg_seen_collision *m)
+static void add(void *context, const gg_collision_record *m)
 {
   sums *s = context;
   int a = m->species[0], b = m->species[1], pair = gg_pair_index(a, b);
@@ -53,22 +53,22 @@ static void adds_up(void **state)
     gg_scene s = sheared(which, 1 + kind % 2, 0.2);
     gg_model m;
     gg_engine *e[2];
-    gg_transfer t;
+    gg_collision_sums t;
     double gone, velocity[2] = {0, 0};
     assert_int_equal(gg_model_make(&s, which, &m, NULL), GG_OK);
     sums shown = {.model = &m};
     const gg_engine_ops *ops = gg_engine_ops_of(which);
     for (int k = 0; k < 2; k++) {
       assert_int_equal(ops->create(&m, 5, 0, &e[k], NULL), GG_OK);
-      ops->tap(e[k], true);
-      if (k) assert_int_equal(ops->watch(e[k], add, &shown, NULL), GG_OK);
+      ops->keep_sums(e[k], true);
+      if (k) assert_int_equal(ops->set_callback(e[k], add, &shown, NULL), GG_OK);
       for (int i = 0; i < 7; i++) assert_int_equal(ops->advance(e[k], 1.0, UINT64_MAX, &gone, NULL), GG_OK);
-      ops->read_tap(e[k], &t);
+      ops->take_sums(e[k], &t);
       ops->snapshot(e[k], false, whole_velocity, &velocity[k]);
     }
     if (which == GG_MD) assert_true(velocity[0] == velocity[1]);
     for (int p = 0; p < (kind % 2 ? GG_PAIRS : 1); p++) {
-      const gg_transfer *h = &shown.by_hand;
+      const gg_collision_sums *h = &shown.by_hand;
       assert_int_equal(h->collisions[p], t.collisions[p]);
       assert_true(fabs(h->loss[p] / t.loss[p] - 1) < 1e-9);
       for (int a = 0; a < 9; a++) { /* what the flow gives no reason to be there is not summed */
@@ -86,7 +86,7 @@ static void adds_up(void **state)
 }
 
 /* The observable fed by hand. */
-static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make)(gg_seen_collision *m, gg_rng *r))
+static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make)(gg_collision_record *m, gg_rng *r))
 {
   gg_bins bins;
   gg_rng r = gg_rng_seed(32, 0);
@@ -94,7 +94,7 @@ static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make
   assert_int_equal(gg_bins_init(&bins, gg_collisions.bins(self), NULL), GG_OK);
   for (int k = 0; k < samples; k++) {
     for (int i = 0; i < per_sample; i++) {
-      gg_seen_collision collision = {.height = {NAN, NAN}};
+      gg_collision_record collision = {.height = {NAN, NAN}};
       make(&collision, &r);
       gg_collisions.add_collision(self, &collision);
     }
@@ -110,7 +110,7 @@ static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make
 }
 
 enum { RATE = 3 }; /* of flights; density of k in the plane 1 - sin(2 theta)/2; |C| = 2 without shear */
-static void planted(gg_seen_collision *m, gg_rng *r)
+static void planted(gg_collision_record *m, gg_rng *r)
 {
   double angle;
   do angle = M_PI * gg_rng_uniform(r);
@@ -164,7 +164,7 @@ static void flights_and_angles(void **state)
   gg_curves_clear(&list);
 }
 
-static void falling_behind(gg_seen_collision *m, gg_rng *r)
+static void falling_behind(gg_collision_record *m, gg_rng *r)
 {
   planted(m, r);
   for (int i = 0; i < 2; i++) m->c[i] = (gg_vec){0, 1.5, 0}, m->since[i] = 2;

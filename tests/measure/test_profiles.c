@@ -77,7 +77,7 @@ static gg_curves pushed(const gg_model *m, int samples, double noise)
   void *self = gg_profiles.create(m, NULL);
   assert_int_equal(gg_snapshot_init(&s, m, true, NULL), GG_OK);
   assert_int_equal(gg_bins_init(&bins, gg_profiles.bins(self), NULL), GG_OK);
-  gg_transfer t = {.wall_impulse = {{1e6, 1e6, 1e6}, {1e6, 1e6, 1e6}}};
+  gg_collision_sums t = {.wall_impulse = {{1e6, 1e6, 1e6}, {1e6, 1e6, 1e6}}};
   gg_profiles.add_interval(self, &(gg_interval){m, &t, 1e3, 1});
   gg_profiles.restart(self);
   for (int k = 0; k < 2 * samples; k++) {

@@ -46,7 +46,8 @@ static gg_model model_of(gg_flow flow, double beta, int species)
 }
 
 /* One row from the planted grains; `factor` scales all velocities (a cooling gas). */
-static void take_row(void *self, const gg_model *m, const gg_transfer *t, double elapsed, double factor, double *row)
+static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, double elapsed, double factor,
+                     double *row)
 {
   static double scaled[6][GG_CHUNK];
   const double *from[6] = {cx, cy, cz, sx, sy, sz};
@@ -74,9 +75,9 @@ static double value(gg_quantity q, const double *row, const gg_model *m)
 }
 
 /* Sums of an interval: every entry different, so that a swapped component shows. */
-static gg_transfer planted_transfer(void)
+static gg_collision_sums planted_transfer(void)
 {
-  gg_transfer t = {.collisions = {100, 20, 30}, .loss = {7, 5, 3}};
+  gg_collision_sums t = {.collisions = {100, 20, 30}, .loss = {7, 5, 3}};
   for (int q = 0; q < GG_PAIRS; q++)
     for (int a = 0; a < 3; a++)
       for (int b = 0; b < 3; b++) t.stress[q][a][b] = 1 + q + 10 * a + 0.7 * b;
@@ -90,7 +91,7 @@ static void sheared_rough(void **state)
   plant(1);
   gg_model m = model_of(GG_USF, 0, 1);
   double row[64];
-  gg_transfer t = planted_transfer();
+  gg_collision_sums t = planted_transfer();
   void *self = gg_rheology.create(&m, NULL);
   take_row(self, &m, &t, 0, 1, row); /* the first sample, which makes no row */
   take_row(self, &m, &t, 0.5, 1, row);
@@ -141,7 +142,7 @@ static void mixture(void **state)
   plant(2);
   gg_model m = model_of(GG_HSS, -1, 2);
   double row[64], T[2] = {0}, c4[2] = {0};
-  gg_transfer t = planted_transfer();
+  gg_collision_sums t = planted_transfer();
   void *self = gg_rheology.create(&m, NULL);
   take_row(self, &m, &t, 0.5, 1, row);
   for (int i = 0; i < N; i++) {
@@ -165,7 +166,7 @@ static void cooling(void **state)
   plant(3);
   gg_model m = model_of(GG_HCS, -1, 1);
   double row[64];
-  gg_transfer none = {0}, t = planted_transfer();
+  gg_collision_sums none = {0}, t = planted_transfer();
   void *self = gg_rheology.create(&m, NULL);
   take_row(self, &m, &none, 0, 1, row);
   double T0 = 0;

@@ -19,7 +19,7 @@ typedef struct fake_engine {
   gg_engine base;
   gg_model model;
   fake_state now;
-  gg_transfer sums;
+  gg_collision_sums sums;
 } fake_engine;
 
 static gg_status accepts(const gg_model *m, gg_error *err)
@@ -54,16 +54,16 @@ static gg_status advance(gg_engine *base, double dt, uint64_t most, double *elap
   return GG_OK;
 }
 
-static void tap(gg_engine *e, bool open)
+static void keep_sums(gg_engine *e, bool open)
 {
   (void)e, (void)open;
 }
 
-static void read_tap(gg_engine *base, gg_transfer *t)
+static void take_sums(gg_engine *base, gg_collision_sums *t)
 {
   fake_engine *e = (fake_engine *)base;
   *t = e->sums;
-  e->sums = (gg_transfer){0};
+  e->sums = (gg_collision_sums){0};
 }
 
 static void state(const gg_engine *base, gg_engine_state *s)
@@ -118,9 +118,9 @@ static void describe(const gg_model *m, void (*line)(void *, const char *), void
   (void)m, line(context, "fake");
 }
 
-static const gg_engine_ops ops = {"fake", "planted answers", accepts, create,  destroy, advance,
-                                  tap,    read_tap,          NULL,    NULL,    state,   snapshot,
-                                  NULL,   rescale,           save,    restore, describe};
+static const gg_engine_ops ops = {"fake",    "planted answers", accepts, create,  destroy, advance,
+                                  keep_sums, take_sums,         NULL,    NULL,    state,   snapshot,
+                                  NULL,      rescale,           save,    restore, describe};
 
 static gg_status create(const gg_model *m, uint64_t seed, uint64_t stream, gg_engine **out, gg_error *err)
 {

@@ -23,15 +23,15 @@ static void call_back(gg_dsmc_pass *p, const grain_pair *q, gg_vec k, gg_vec c12
 {
   double *one = &p->callback->last[p->species[0]][q->a], *two = &p->callback->last[p->species[1]][q->b];
   const int64_t *first = p->callback->first;
-  gg_seen_collision m = {.id = {first[p->species[0]] + q->a, first[p->species[1]] + q->b},
-                         .species = {p->species[0], p->species[1]},
-                         .k = k,
-                         .c12 = c12,
-                         .c = {q->ca, q->cb},
-                         .height = {NAN, NAN},
-                         .J = J,
-                         .since = {p->time - *one, p->time - *two}};
-  p->callback->watch(p->callback->context, &m);
+  gg_collision_record m = {.id = {first[p->species[0]] + q->a, first[p->species[1]] + q->b},
+                           .species = {p->species[0], p->species[1]},
+                           .k = k,
+                           .c12 = c12,
+                           .c = {q->ca, q->cb},
+                           .height = {NAN, NAN},
+                           .J = J,
+                           .since = {p->time - *one, p->time - *two}};
+  p->callback->call(p->callback->context, &m);
   *one = *two = p->time;
 }
 

@@ -19,7 +19,7 @@ typedef struct gg_dsmc_note {
 typedef struct gg_dsmc_sums {
   unsigned n; /* block pairs noted */
   gg_dsmc_note note[GG_DSMC_NOTES][GG_PARTS];
-  /* Lane by lane, double in either precision: stress as gg_transfer has it, and what the loss follows from
+  /* Lane by lane, double in either precision: stress as gg_collision_sums has it, and what the loss follows from
    * (gg_dsmc_loss_of). */
   double xx[GG_DSMC_LANES], yy[GG_DSMC_LANES], zz[GG_DSMC_LANES], xy[GG_DSMC_LANES], yx[GG_DSMC_LANES],
       Jg[GG_DSMC_LANES], Jn2[GG_DSMC_LANES], J2[GG_DSMC_LANES];

@@ -38,7 +38,7 @@ typedef struct gg_dsmc_features {
 
 /* Whom the plain path tells of each collision. */
 typedef struct gg_dsmc_callback {
-  gg_watch *watch;
+  gg_collision_callback *call;
   void *context;
   double *last[GG_MAX_SPECIES];  /* when each grain last collided; -INFINITY: not yet */
   int64_t first[GG_MAX_SPECIES]; /* number of a species' first grain */

@@ -6,7 +6,7 @@
  *
  * All pairs of species have their substeps (splitting.h) within a pair of segments, so that a round is worth waking
  * other threads for. */
-#include "common/crew.h"
+#include "common/thread_pool.h"
 #include "dsmc/dsmc.h"
 
 /* Candidates that a pair of segments should have, on average, of one species and of two, whose substeps are parts of
@@ -167,7 +167,7 @@ static void run(rounds *r, double expected, gg_dsmc_pass sum[GG_PAIRS])
     r->bounds[s] = (speed_bounds){e->bound_scale, e->bound_strain};
     for (int q = 0; q < GG_PAIRS; q++) r->sum[s][q] = (gg_dsmc_pass){0};
   }
-  gg_crew_share_rounds(expected < worth_waking * r->n ? NULL : e->crew, r->n, columns, need, run_part, r);
+  gg_thread_pool_rounds(expected < worth_waking * r->n ? NULL : e->pool, r->n, columns, need, run_part, r);
   for (int q = 0; q < GG_PAIRS; q++) {
     sum[q] = r->species[q].common;
     for (int s = 0; s < e->segments && takes_part(r, q); s++) add(&sum[q], &r->sum[s][q]);

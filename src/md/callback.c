@@ -1,10 +1,10 @@
 /* Collisions shown one by one. While a callback is set, the resolution of contacts is wrapped by one that shows them:
- * one that is not watched knows nothing of it. */
+ * one without a callback knows nothing of it. */
 #include <math.h>
 
 #include "md/state.h"
 
-static void show_grain(const gg_md *e, uint32_t i, int which, gg_seen_collision *m)
+static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_record *m)
 {
   const gg_md_grain *g = &e->grain[i];
   double height = g->r.y - 0.5 * e->box.edge[1];
@@ -19,21 +19,21 @@ static void show_grain(const gg_md *e, uint32_t i, int which, gg_seen_collision 
 
 void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
 {
-  gg_seen_collision m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
+  gg_collision_record m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
   show_grain(e, i, 0, &m);
   show_grain(e, j, 1, &m);
   gg_vec before = e->grain[j].v;
-  e->watched(e, i, j, dr, c12);
+  e->resolve_shown(e, i, j, dr, c12);
   m.J = gg_scale(e->k.scale * e->model.mass[m.species[1]], gg_sub(e->grain[j].v, before));
-  e->watch(e->watcher, &m);
+  e->callback(e->callback_context, &m);
 }
 
-gg_status gg_md_watch(gg_engine *engine, gg_watch *watch, void *context, gg_error *err)
+gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
-  if (watch && !e->last) GG_TRY(gg_md_allocate_last(e, err));
-  e->watch = watch;
-  e->watcher = context;
+  if (callback && !e->last) GG_TRY(gg_md_allocate_last(e, err));
+  e->callback = callback;
+  e->callback_context = context;
   gg_md_select(e);
   return GG_OK;
 }

@@ -1,4 +1,4 @@
-#include "common/crew.h"
+#include "common/thread_pool.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -19,12 +19,12 @@ enum { MOST_THREADS = 64 };
 enum { LOOKS = 10000 };
 
 typedef struct gg_member {
-  gg_crew *crew;
+  gg_thread_pool *pool;
   int self;
   pthread_t thread;
 } gg_member;
 
-struct gg_crew {
+struct gg_thread_pool {
   /* Number of the job in the upper half; in the lower one a bit for each part that nobody has taken. Whoever succeeds
    * in clearing a bit may read the job, which stays until all its parts are done. */
   _Alignas(64) _Atomic uint64_t open;
@@ -51,7 +51,7 @@ static void relax(void)
 }
 
 /* Something may have come: look again. False: it is time to sleep. */
-static bool patient(const gg_crew *c, int looks)
+static bool patient(const gg_thread_pool *c, int looks)
 {
   relax();
   return looks < c->looks;
@@ -68,7 +68,7 @@ static int processors(void)
 }
 
 /* The parts that thread `self` takes first, so that it has what it had in the job before: its caches know. */
-static uint32_t home(const gg_crew *c, int self)
+static uint32_t home(const gg_thread_pool *c, int self)
 {
   const int columns = atomic_load_explicit(&c->columns, memory_order_relaxed), n = c->n + 1;
   const int rounds = atomic_load_explicit(&c->rounds, memory_order_relaxed);
@@ -79,7 +79,7 @@ static uint32_t home(const gg_crew *c, int self)
 }
 
 /* Of these parts those that need not wait for others. */
-static uint32_t ready(const gg_crew *c, uint32_t parts)
+static uint32_t ready(const gg_thread_pool *c, uint32_t parts)
 {
   const uint32_t finished = atomic_load(&c->finished);
   uint32_t those = 0;
@@ -93,7 +93,7 @@ static uint32_t ready(const gg_crew *c, uint32_t parts)
 /* A part to take, or -1: all that is left waits for somebody who is at it; or what thread `self` has at home does,
  * which is better waited for than to change columns, and caches, with others: not for long, since they may be asleep.
  */
-static int choose(const gg_crew *c, int self, uint32_t open, int looks)
+static int choose(const gg_thread_pool *c, int self, uint32_t open, int looks)
 {
   const uint32_t at_home = home(c, self), can = ready(c, open), own = can & at_home;
   if (own) return __builtin_ctz(own);
@@ -102,7 +102,7 @@ static int choose(const gg_crew *c, int self, uint32_t open, int looks)
 }
 
 /* What is read of the job before a bit has been cleared may be of the next: then the bit cannot be cleared. */
-static bool take(gg_crew *c, int self, int *part)
+static bool take(gg_thread_pool *c, int self, int *part)
 {
   uint64_t seen = atomic_load(&c->open);
   for (int looks = 0; (uint32_t)seen;) {
@@ -117,7 +117,7 @@ static bool take(gg_crew *c, int self, int *part)
   return false;
 }
 
-static void work_off(gg_crew *c, int self)
+static void work_off(gg_thread_pool *c, int self)
 {
   for (int part; take(c, self, &part);) {
     c->part(c->context, part);
@@ -129,7 +129,7 @@ static void work_off(gg_crew *c, int self)
   }
 }
 
-static bool idle(gg_crew *c)
+static bool idle(gg_thread_pool *c)
 {
   return !(uint32_t)atomic_load(&c->open) && !atomic_load(&c->quit);
 }
@@ -137,7 +137,7 @@ static bool idle(gg_crew *c)
 static void *live(void *argument)
 {
   const gg_member *me = argument;
-  gg_crew *c = me->crew;
+  gg_thread_pool *c = me->pool;
   while (!atomic_load(&c->quit)) {
     work_off(c, me->self);
     for (int looks = 0; idle(c); looks++) {
@@ -152,12 +152,12 @@ static void *live(void *argument)
   return NULL;
 }
 
-gg_crew *gg_crew_new(int threads)
+gg_thread_pool *gg_thread_pool_new(int threads)
 {
   if (threads < 2) return NULL;
-  gg_crew *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
+  gg_thread_pool *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
   if (!c) return NULL;
-  *c = (gg_crew){.looks = processors() < threads ? 0 : LOOKS};
+  *c = (gg_thread_pool){.looks = processors() < threads ? 0 : LOOKS};
   pthread_mutex_init(&c->mutex, NULL);
   pthread_cond_init(&c->work, NULL);
   pthread_cond_init(&c->done, NULL);
@@ -165,23 +165,23 @@ gg_crew *gg_crew_new(int threads)
   c->n = threads - 1 < MOST_THREADS ? threads - 1 : MOST_THREADS;
   for (; made < c->n; made++) {
     gg_member *m = &c->member[made];
-    *m = (gg_member){.crew = c, .self = made + 1};
+    *m = (gg_member){.pool = c, .self = made + 1};
     if (pthread_create(&m->thread, NULL, live, m) != 0) break;
   }
   if (made == c->n) return c;
   c->n = made;
-  gg_crew_free(c);
+  gg_thread_pool_free(c);
   return NULL;
 }
 
-static void wake(gg_crew *c)
+static void wake(gg_thread_pool *c)
 {
   pthread_mutex_lock(&c->mutex);
   pthread_cond_broadcast(&c->work);
   pthread_mutex_unlock(&c->mutex);
 }
 
-void gg_crew_free(gg_crew *c)
+void gg_thread_pool_free(gg_thread_pool *c)
 {
   if (!c) return;
   atomic_store(&c->quit, 1);
@@ -193,7 +193,7 @@ void gg_crew_free(gg_crew *c)
   free(c);
 }
 
-static void wait_for_all(gg_crew *c)
+static void wait_for_all(gg_thread_pool *c)
 {
   for (int looks = 0; atomic_load(&c->undone) > 0; looks++) {
     if (patient(c, looks)) continue;
@@ -205,7 +205,8 @@ static void wait_for_all(gg_crew *c)
   }
 }
 
-void gg_crew_share_rounds(gg_crew *c, int rounds, int columns, const uint32_t *need, gg_part *part, void *context)
+void gg_thread_pool_rounds(gg_thread_pool *c, int rounds, int columns, const uint32_t *need, gg_part *part,
+                           void *context)
 {
   const int parts = rounds * columns;
   if (!c || parts < 2 || parts > GG_MOST_PARTS) {
@@ -226,9 +227,9 @@ void gg_crew_share_rounds(gg_crew *c, int rounds, int columns, const uint32_t *n
   wait_for_all(c);
 }
 
-void gg_crew_share(gg_crew *c, int parts, gg_part *part, void *context)
+void gg_thread_pool_for(gg_thread_pool *c, int parts, gg_part *part, void *context)
 {
-  gg_crew_share_rounds(c, 1, parts, NULL, part, context);
+  gg_thread_pool_rounds(c, 1, parts, NULL, part, context);
 }
 
 /* Seconds of processor time that a thread has had. */
@@ -249,7 +250,7 @@ static double thread_cpu(pthread_t thread)
 #endif
 }
 
-double gg_crew_cpu(const gg_crew *c)
+double gg_thread_pool_cpu(const gg_thread_pool *c)
 {
   double sum = 0;
   for (int i = 0; c && i < c->n; i++) sum += thread_cpu(c->member[i].thread);

@@ -6,23 +6,23 @@
  * cools starts hot, below `low`, forgets that start, and is counted from `low` to `high`. Then the velocities are
  * multiplied by 2^power and it begins again, so that averaging can go on for as long as the asked error needs; eta* is
  * extrapolated to a* = 0 (src/measure/viscosity.c). */
-#ifndef GG_SMALL_SHEAR_H
-#define GG_SMALL_SHEAR_H
+#ifndef GG_LINEAR_RESPONSE_H
+#define GG_LINEAR_RESPONSE_H
 
 #include "common/model.h"
 
-typedef struct gg_small_shear {
+typedef struct gg_linear_response {
   double start, low, high; /* of a*: where a run starts; what is averaged over */
   int power;               /* at the end of a round velocities are multiplied by 2^power */
   bool cools;              /* no thermostat: a* grows; else it falls */
-} gg_small_shear;
+} gg_linear_response;
 
-gg_small_shear gg_small_shear_of(const gg_model *model);
+gg_linear_response gg_linear_response_of(const gg_model *model);
 
 /* a* = rate/nu_0(T). */
 double gg_reduced_shear_rate(const gg_model *model, double T);
 
 /* Is a round at its end at this temperature? */
-bool gg_small_shear_ends(const gg_model *model, double T);
+bool gg_linear_response_ends(const gg_model *model, double T);
 
 #endif

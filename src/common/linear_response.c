@@ -1,15 +1,15 @@
-#include "common/small_shear.h"
+#include "common/linear_response.h"
 
 /* eta* falls with a* like 1 - 4 a*^2 (e = 0.7): 6 % at the high end, which the extrapolation takes out to 0.05 %. A
  * round spans a factor of four in a*, which fixes its slope. */
 static const double low = 0.03, high = 0.12;
 
-gg_small_shear gg_small_shear_of(const gg_model *m)
+gg_linear_response gg_linear_response_of(const gg_model *m)
 {
   bool cools = m->thermostat == GG_NO_THERMOSTAT && !m->elastic;
   /* The stress left over from a* = high is forgotten while a* grows fourfold from `low`/4 to `low`. */
-  if (cools) return (gg_small_shear){.start = low / 4, .low = low, .high = high, .power = 4, .cools = true};
-  return (gg_small_shear){.start = high, .low = low, .high = high, .power = -2};
+  if (cools) return (gg_linear_response){.start = low / 4, .low = low, .high = high, .power = 4, .cools = true};
+  return (gg_linear_response){.start = high, .low = low, .high = high, .power = -2};
 }
 
 double gg_reduced_shear_rate(const gg_model *m, double T)
@@ -17,9 +17,9 @@ double gg_reduced_shear_rate(const gg_model *m, double T)
   return m->shear_rate / gg_model_nu0(m, T);
 }
 
-bool gg_small_shear_ends(const gg_model *m, double T)
+bool gg_linear_response_ends(const gg_model *m, double T)
 {
   if (!m->small_shear) return false;
   double a = gg_reduced_shear_rate(m, T);
-  return gg_small_shear_of(m).cools ? a > high : a < low;
+  return gg_linear_response_of(m).cools ? a > high : a < low;
 }

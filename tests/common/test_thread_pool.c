@@ -1,5 +1,6 @@
-/* A crew does every part of a job once and returns when all are done: many short jobs in a row, jobs after a pause (the
- * others sleep), more threads than processors, and jobs that one part holds up. Parts that have to wait for others do.
+/* A thread pool does every part of a job once and returns when all are done: many short jobs in a row, jobs after a
+ * pause (the others sleep), more threads than processors, and jobs that one part holds up. Parts that have to wait for
+ * others do.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,7 +10,7 @@
 #include <stdatomic.h>
 #include <time.h>
 
-#include "common/crew.h"
+#include "common/thread_pool.h"
 
 enum { PARTS = GG_MOST_PARTS + 4 }; /* the last few are not shared */
 
@@ -26,11 +27,11 @@ static void part(void *context, int part)
   j->done[part]++;
 }
 
-static void share(gg_crew *crew, job *j, int parts, int times)
+static void share(gg_thread_pool *pool, job *j, int parts, int times)
 {
   *j = (job){.pause = j->pause};
   for (int i = 0; i < times; i++) {
-    gg_crew_share(crew, parts, part, j);
+    gg_thread_pool_for(pool, parts, part, j);
     for (int p = 0; p < PARTS; p++) assert_int_equal(j->done[p], p < parts ? i + 1 : 0);
   }
 }
@@ -40,17 +41,17 @@ static void every_part_once(void **state)
   (void)state;
   const int threads[] = {1, 2, 3, 8};
   for (int t = 0; t < 4; t++) {
-    gg_crew *crew = gg_crew_new(threads[t]);
-    assert_true((crew != NULL) == (threads[t] > 1));
+    gg_thread_pool *pool = gg_thread_pool_new(threads[t]);
+    assert_true((pool != NULL) == (threads[t] > 1));
     job j = {.pause = 0};
-    for (int parts = 0; parts <= PARTS; parts++) share(crew, &j, parts, 1000);
+    for (int parts = 0; parts <= PARTS; parts++) share(pool, &j, parts, 1000);
     for (int i = 0; i < 5; i++) {
       nanosleep(&(struct timespec){0, 5000000}, NULL);
-      share(crew, &j, 12, 20);
+      share(pool, &j, 12, 20);
     }
     j.pause = 1000000; /* longer than the caller's patience */
-    share(crew, &j, 12, 3);
-    gg_crew_free(crew);
+    share(pool, &j, 12, 3);
+    gg_thread_pool_free(pool);
   }
 }
 
@@ -66,16 +67,16 @@ static void meet(void *context, int part)
 static void at_once(void **state)
 {
   (void)state;
-  gg_crew *crew = gg_crew_new(2);
+  gg_thread_pool *pool = gg_thread_pool_new(2);
   job j = {.pause = 0};
-  gg_crew_share(crew, 2, meet, &j);
+  gg_thread_pool_for(pool, 2, meet, &j);
   assert_int_equal(j.together, 2);
-  double before = gg_crew_cpu(crew);
-  for (int i = 0; i < 20000; i++) gg_crew_share(crew, 2, part, &j);
-  assert_true(gg_crew_cpu(crew) >= before);
-  assert_true(gg_crew_cpu(NULL) == 0);
-  gg_crew_free(crew);
-  gg_crew_free(NULL);
+  double before = gg_thread_pool_cpu(pool);
+  for (int i = 0; i < 20000; i++) gg_thread_pool_for(pool, 2, part, &j);
+  assert_true(gg_thread_pool_cpu(pool) >= before);
+  assert_true(gg_thread_pool_cpu(NULL) == 0);
+  gg_thread_pool_free(pool);
+  gg_thread_pool_free(NULL);
 }
 
 /* Rounds of columns, in which each part needs its own column and the next of the round before. */
@@ -95,14 +96,14 @@ static void part_of_tour(void *context, int part)
   if (atomic_fetch_or(&t->done, UINT32_C(1) << part) >> part & 1) atomic_fetch_add(&t->early, 1);
 }
 
-static void play_tour(gg_crew *crew, int rounds, int columns, int slow)
+static void play_tour(gg_thread_pool *pool, int rounds, int columns, int slow)
 {
   tour t = {.slow = slow, .columns = columns};
   for (int p = columns; p < rounds * columns; p++) {
     const int before = (p / columns - 1) * columns, column = p % columns;
     t.need[p] = UINT32_C(1) << (before + column) | UINT32_C(1) << (before + (column + 1) % columns);
   }
-  gg_crew_share_rounds(crew, rounds, columns, t.need, part_of_tour, &t);
+  gg_thread_pool_rounds(pool, rounds, columns, t.need, part_of_tour, &t);
   assert_int_equal(t.done, (UINT64_C(1) << rounds * columns) - 1);
   assert_int_equal(t.early, 0);
 }
@@ -112,11 +113,11 @@ static void rounds_in_order(void **state)
   (void)state;
   const int threads[] = {1, 2, 3, 8};
   for (int t = 0; t < 4; t++) {
-    gg_crew *crew = gg_crew_new(threads[t]);
+    gg_thread_pool *pool = gg_thread_pool_new(threads[t]);
     for (int columns = 1; columns <= 8; columns++)
-      for (int k = 0; k < 500; k++) play_tour(crew, 1 + k % (GG_MOST_PARTS / columns), columns, -1);
-    for (int slow = 0; slow < 4; slow++) play_tour(crew, 8, 4, slow);
-    gg_crew_free(crew);
+      for (int k = 0; k < 500; k++) play_tour(pool, 1 + k % (GG_MOST_PARTS / columns), columns, -1);
+    for (int slow = 0; slow < 4; slow++) play_tour(pool, 8, 4, slow);
+    gg_thread_pool_free(pool);
   }
 }
 
