@@ -13,16 +13,16 @@
 #endif
 
 enum { MOST_THREADS = 64 };
-/* Looks at an empty list before a thread sleeps, a hundred microseconds or two in all: longer than others need to
+/* How often a thread polls for work before it sleeps, a hundred microseconds or two in all: longer than others need to
  * finish what they are at, or than the caller needs between two jobs. Where processors are fewer than threads nobody
- * looks twice: whom he waits for may wait for his processor. */
-enum { LOOKS = 10000 };
+ * polls twice: the thread that is waited for may wait for this one's processor. */
+enum { MOST_POLLS = 10000 };
 
-typedef struct gg_member {
+typedef struct worker {
   gg_thread_pool *pool;
   int self;
   pthread_t thread;
-} gg_member;
+} worker;
 
 struct gg_thread_pool {
   /* Number of the job in the upper half; in the lower one a bit for each part that nobody has taken. Whoever succeeds
@@ -37,8 +37,8 @@ struct gg_thread_pool {
   _Atomic int waiting;                  /* the caller sleeps until all is done */
   pthread_mutex_t mutex;
   pthread_cond_t work, done;
-  int n, looks;
-  gg_member member[MOST_THREADS];
+  int n, most_polls;
+  worker workers[MOST_THREADS];
 };
 
 static void relax(void)
@@ -50,11 +50,11 @@ static void relax(void)
 #endif
 }
 
-/* Something may have come: look again. False: it is time to sleep. */
-static bool patient(const gg_thread_pool *c, int looks)
+/* True: poll again. False: it is time to sleep. */
+static bool keep_polling(const gg_thread_pool *pool, int polls)
 {
   relax();
-  return looks < c->looks;
+  return polls < pool->most_polls;
 }
 
 static int processors(void)
@@ -67,11 +67,11 @@ static int processors(void)
 #endif
 }
 
-/* The parts that thread `self` takes first, so that it has what it had in the job before: its caches know. */
-static uint32_t home(const gg_thread_pool *c, int self)
+/* Affinity: the parts that thread `self` takes first, the same as in the job before, whose data its caches hold. */
+static uint32_t preferred(const gg_thread_pool *pool, int self)
 {
-  const int columns = atomic_load_explicit(&c->columns, memory_order_relaxed), n = c->n + 1;
-  const int rounds = atomic_load_explicit(&c->rounds, memory_order_relaxed);
+  const int columns = atomic_load_explicit(&pool->columns, memory_order_relaxed), n = pool->n + 1;
+  const int rounds = atomic_load_explicit(&pool->rounds, memory_order_relaxed);
   const uint64_t one = (UINT64_C(1) << (self + 1) * columns / n) - (UINT64_C(1) << self * columns / n);
   uint64_t all = 0;
   for (int r = 0; r < rounds; r++) all |= one << r * columns;
@@ -79,74 +79,74 @@ static uint32_t home(const gg_thread_pool *c, int self)
 }
 
 /* Of these parts those that need not wait for others. */
-static uint32_t ready(const gg_thread_pool *c, uint32_t parts)
+static uint32_t ready(const gg_thread_pool *pool, uint32_t parts)
 {
-  const uint32_t finished = atomic_load(&c->finished);
+  const uint32_t finished = atomic_load(&pool->finished);
   uint32_t those = 0;
   for (uint32_t left = parts; left; left &= left - 1) {
     const int k = __builtin_ctz(left);
-    if (!(atomic_load_explicit(&c->need[k], memory_order_relaxed) & ~finished)) those |= UINT32_C(1) << k;
+    if (!(atomic_load_explicit(&pool->need[k], memory_order_relaxed) & ~finished)) those |= UINT32_C(1) << k;
   }
   return those;
 }
 
-/* A part to take, or -1: all that is left waits for somebody who is at it; or what thread `self` has at home does,
- * which is better waited for than to change columns, and caches, with others: not for long, since they may be asleep.
- */
-static int choose(const gg_thread_pool *c, int self, uint32_t open, int looks)
+/* A part to take, or -1: all that is left waits for somebody who is at it; or one of thread `self`'s own parts does,
+ * and waiting for that is better than exchanging columns, and caches, with others: not for long, since they may be
+ * asleep. */
+static int choose(const gg_thread_pool *pool, int self, uint32_t open, int polls)
 {
-  const uint32_t at_home = home(c, self), can = ready(c, open), own = can & at_home;
+  const uint32_t mine = preferred(pool, self), can = ready(pool, open), own = can & mine;
   if (own) return __builtin_ctz(own);
-  if (!can || (open & at_home && looks < c->looks / 4)) return -1;
+  if (!can || (open & mine && polls < pool->most_polls / 4)) return -1;
   return 31 - __builtin_clz(can);
 }
 
 /* What is read of the job before a bit has been cleared may be of the next: then the bit cannot be cleared. */
-static bool take(gg_thread_pool *c, int self, int *part)
+static bool take(gg_thread_pool *pool, int self, int *part)
 {
-  uint64_t seen = atomic_load(&c->open);
-  for (int looks = 0; (uint32_t)seen;) {
-    *part = choose(c, self, (uint32_t)seen, looks);
+  uint64_t open = atomic_load(&pool->open);
+  for (int polls = 0; (uint32_t)open;) {
+    *part = choose(pool, self, (uint32_t)open, polls);
     if (*part >= 0) {
-      if (atomic_compare_exchange_weak(&c->open, &seen, seen & ~(UINT64_C(1) << *part))) return true;
+      if (atomic_compare_exchange_weak(&pool->open, &open, open & ~(UINT64_C(1) << *part))) return true;
       continue;
     }
-    if (!patient(c, looks++)) sched_yield();
-    seen = atomic_load(&c->open);
+    if (!keep_polling(pool, polls++)) sched_yield();
+    open = atomic_load(&pool->open);
   }
   return false;
 }
 
-static void work_off(gg_thread_pool *c, int self)
+static void work_off(gg_thread_pool *pool, int self)
 {
-  for (int part; take(c, self, &part);) {
-    c->part(c->context, part);
-    atomic_fetch_or(&c->finished, UINT32_C(1) << part);
-    if (atomic_fetch_sub(&c->undone, 1) > 1 || !atomic_load(&c->waiting)) continue;
-    pthread_mutex_lock(&c->mutex);
-    pthread_cond_signal(&c->done);
-    pthread_mutex_unlock(&c->mutex);
+  for (int part; take(pool, self, &part);) {
+    pool->part(pool->context, part);
+    atomic_fetch_or(&pool->finished, UINT32_C(1) << part);
+    if (atomic_fetch_sub(&pool->undone, 1) > 1 || !atomic_load(&pool->waiting)) continue;
+    pthread_mutex_lock(&pool->mutex);
+    pthread_cond_signal(&pool->done);
+    pthread_mutex_unlock(&pool->mutex);
   }
 }
 
-static bool idle(gg_thread_pool *c)
+static bool idle(gg_thread_pool *pool)
 {
-  return !(uint32_t)atomic_load(&c->open) && !atomic_load(&c->quit);
+  return !(uint32_t)atomic_load(&pool->open) && !atomic_load(&pool->quit);
 }
 
-static void *live(void *argument)
+static void *run_worker(void *argument)
 {
-  const gg_member *me = argument;
-  gg_thread_pool *c = me->pool;
-  while (!atomic_load(&c->quit)) {
-    work_off(c, me->self);
-    for (int looks = 0; idle(c); looks++) {
-      if (patient(c, looks)) continue;
-      pthread_mutex_lock(&c->mutex);
-      atomic_fetch_add(&c->asleep, 1);
-      while (idle(c)) pthread_cond_wait(&c->work, &c->mutex);
-      atomic_fetch_sub(&c->asleep, 1);
-      pthread_mutex_unlock(&c->mutex);
+  const worker *me = argument;
+  gg_thread_pool *pool = me->pool;
+  while (!atomic_load(&pool->quit)) {
+    work_off(pool, me->self);
+    for (int polls = 0; idle(pool); polls++) {
+      if (keep_polling(pool, polls)) continue;
+      pthread_mutex_lock(&pool->mutex);
+      atomic_fetch_add(&pool->asleep, 1);
+      while (idle(pool)) pthread_cond_wait(&pool->work, &pool->mutex);
+      atomic_fetch_sub(&pool->asleep, 1);
+      pthread_mutex_unlock(&pool->mutex);
     }
   }
   return NULL;
@@ -155,81 +155,81 @@ static void *live(void *argument)
 gg_thread_pool *gg_thread_pool_new(int threads)
 {
   if (threads < 2) return NULL;
-  gg_thread_pool *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
-  if (!c) return NULL;
-  *c = (gg_thread_pool){.looks = processors() < threads ? 0 : LOOKS};
-  pthread_mutex_init(&c->mutex, NULL);
-  pthread_cond_init(&c->work, NULL);
-  pthread_cond_init(&c->done, NULL);
+  gg_thread_pool *pool = aligned_alloc(64, (sizeof *pool + 63) / 64 * 64);
+  if (!pool) return NULL;
+  *pool = (gg_thread_pool){.most_polls = processors() < threads ? 0 : MOST_POLLS};
+  pthread_mutex_init(&pool->mutex, NULL);
+  pthread_cond_init(&pool->work, NULL);
+  pthread_cond_init(&pool->done, NULL);
   int made = 0;
-  c->n = threads - 1 < MOST_THREADS ? threads - 1 : MOST_THREADS;
-  for (; made < c->n; made++) {
-    gg_member *m = &c->member[made];
-    *m = (gg_member){.pool = c, .self = made + 1};
-    if (pthread_create(&m->thread, NULL, live, m) != 0) break;
+  pool->n = threads - 1 < MOST_THREADS ? threads - 1 : MOST_THREADS;
+  for (; made < pool->n; made++) {
+    worker *m = &pool->workers[made];
+    *m = (worker){.pool = pool, .self = made + 1};
+    if (pthread_create(&m->thread, NULL, run_worker, m) != 0) break;
   }
-  if (made == c->n) return c;
-  c->n = made;
-  gg_thread_pool_free(c);
+  if (made == pool->n) return pool;
+  pool->n = made;
+  gg_thread_pool_free(pool);
   return NULL;
 }
 
-static void wake(gg_thread_pool *c)
+static void wake(gg_thread_pool *pool)
 {
-  pthread_mutex_lock(&c->mutex);
-  pthread_cond_broadcast(&c->work);
-  pthread_mutex_unlock(&c->mutex);
+  pthread_mutex_lock(&pool->mutex);
+  pthread_cond_broadcast(&pool->work);
+  pthread_mutex_unlock(&pool->mutex);
 }
 
-void gg_thread_pool_free(gg_thread_pool *c)
+void gg_thread_pool_free(gg_thread_pool *pool)
 {
-  if (!c) return;
-  atomic_store(&c->quit, 1);
-  wake(c);
-  for (int i = 0; i < c->n; i++) pthread_join(c->member[i].thread, NULL);
-  pthread_mutex_destroy(&c->mutex);
-  pthread_cond_destroy(&c->work);
-  pthread_cond_destroy(&c->done);
-  free(c);
+  if (!pool) return;
+  atomic_store(&pool->quit, 1);
+  wake(pool);
+  for (int i = 0; i < pool->n; i++) pthread_join(pool->workers[i].thread, NULL);
+  pthread_mutex_destroy(&pool->mutex);
+  pthread_cond_destroy(&pool->work);
+  pthread_cond_destroy(&pool->done);
+  free(pool);
 }
 
-static void wait_for_all(gg_thread_pool *c)
+static void wait_for_all(gg_thread_pool *pool)
 {
-  for (int looks = 0; atomic_load(&c->undone) > 0; looks++) {
-    if (patient(c, looks)) continue;
-    pthread_mutex_lock(&c->mutex);
-    atomic_store(&c->waiting, 1);
-    while (atomic_load(&c->undone) > 0) pthread_cond_wait(&c->done, &c->mutex);
-    atomic_store(&c->waiting, 0);
-    pthread_mutex_unlock(&c->mutex);
+  for (int polls = 0; atomic_load(&pool->undone) > 0; polls++) {
+    if (keep_polling(pool, polls)) continue;
+    pthread_mutex_lock(&pool->mutex);
+    atomic_store(&pool->waiting, 1);
+    while (atomic_load(&pool->undone) > 0) pthread_cond_wait(&pool->done, &pool->mutex);
+    atomic_store(&pool->waiting, 0);
+    pthread_mutex_unlock(&pool->mutex);
   }
 }
 
-void gg_thread_pool_rounds(gg_thread_pool *c, int rounds, int columns, const uint32_t *need, gg_part *part,
+void gg_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
                            void *context)
 {
   const int parts = rounds * columns;
-  if (!c || parts < 2 || parts > GG_MOST_PARTS) {
+  if (!pool || parts < 2 || parts > GG_MOST_PARTS) {
     for (int i = 0; i < parts; i++) part(context, i);
     return;
   }
-  c->part = part;
-  c->context = context;
-  for (int i = 0; i < parts; i++) atomic_store_explicit(&c->need[i], need ? need[i] : 0, memory_order_relaxed);
-  atomic_store_explicit(&c->rounds, rounds, memory_order_relaxed);
-  atomic_store_explicit(&c->columns, columns, memory_order_relaxed);
-  atomic_store(&c->finished, 0);
-  atomic_store(&c->undone, parts);
-  uint64_t job = (atomic_load(&c->open) >> 32) + 1;
-  atomic_store(&c->open, job << 32 | ((UINT64_C(1) << parts) - 1));
-  if (atomic_load(&c->asleep)) wake(c);
-  work_off(c, 0);
-  wait_for_all(c);
+  pool->part = part;
+  pool->context = context;
+  for (int i = 0; i < parts; i++) atomic_store_explicit(&pool->need[i], need ? need[i] : 0, memory_order_relaxed);
+  atomic_store_explicit(&pool->rounds, rounds, memory_order_relaxed);
+  atomic_store_explicit(&pool->columns, columns, memory_order_relaxed);
+  atomic_store(&pool->finished, 0);
+  atomic_store(&pool->undone, parts);
+  uint64_t job = (atomic_load(&pool->open) >> 32) + 1;
+  atomic_store(&pool->open, job << 32 | ((UINT64_C(1) << parts) - 1));
+  if (atomic_load(&pool->asleep)) wake(pool);
+  work_off(pool, 0);
+  wait_for_all(pool);
 }
 
-void gg_thread_pool_for(gg_thread_pool *c, int parts, gg_part *part, void *context)
+void gg_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context)
 {
-  gg_thread_pool_rounds(c, 1, parts, NULL, part, context);
+  gg_thread_pool_rounds(pool, 1, parts, NULL, part, context);
 }
 
 /* Seconds of processor time that a thread has had. */
@@ -250,9 +250,9 @@ static double thread_cpu(pthread_t thread)
 #endif
 }
 
-double gg_thread_pool_cpu(const gg_thread_pool *c)
+double gg_thread_pool_cpu(const gg_thread_pool *pool)
 {
   double sum = 0;
-  for (int i = 0; c && i < c->n; i++) sum += thread_cpu(c->member[i].thread);
+  for (int i = 0; pool && i < pool->n; i++) sum += thread_cpu(pool->workers[i].thread);
   return sum;
 }
