@@ -306,7 +306,7 @@ GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char
 GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err);
 
 /* Pictures of a result file, by gnuplot: PICTURE, PICTURE_snapshot and one for each observable that left curves.
- * `format` is "svg", "png" or NULL: by PICTURE's name. `drawn` (may be NULL) hears the name of each. */
+ * `format` is "svg", "png" or NULL: by PICTURE's name. `drawn` (may be NULL) is called with the name of each. */
 GG_API gg_status gg_plot(const char *result_file, const char *picture, const char *format,
                          void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 
@@ -409,7 +409,7 @@ typedef struct gg_species_facts {
   double fraction, diameter, mass, inertia; /* mole fraction; inertia: 4I/(m d^2) */
 } gg_species_facts;
 typedef struct gg_pair_facts {
-  double e, beta, mu, diameter, contact_value; /* e of a restitution law: that of the mean impact at the start */
+  double e, beta, mu, diameter, contact_value; /* e of a restitution law: at the mean impact speed at the start */
 } gg_pair_facts;
 
 /* A scene as theories see it, in the units of results. Valid during the call only. */

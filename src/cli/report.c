@@ -26,7 +26,7 @@ void gg_print_head(const gg_scene *scene)
   printf("\n%s\n\n", title);
 }
 
-/* "md    1000 grains, 2.1 M collisions averaged over in 3.2 s (0.65 M/s); no drift over ..." */
+/* "md    1000 grains, 2.1 M collisions averaged over in 3.2 s (0.65 M/s); no trend over ..." */
 void gg_print_effort(const gg_result *r)
 {
   char collisions[24], rate[24], seconds[24];

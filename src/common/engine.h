@@ -30,7 +30,7 @@ typedef struct gg_engine_state {
   uint64_t overflows;    /* dsmc: candidates whose rate exceeded the majorant */
   double offset;         /* md, sheared: the image of the box above stands so far displaced along x; else 0 */
   double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
-  double time_step;      /* dsmc: the present step, or what all pairs of species take turns in; model units; 0 for md */
+  double time_step; /* dsmc: the present step, that of one sweep over all pairs of species; model units; 0 for md */
   double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */
   double others_cpu;     /* seconds of processor time of threads of the engine's own, so far in this process */
 } gg_engine_state;
@@ -49,7 +49,7 @@ typedef struct gg_chunk {
 typedef void gg_visit(void *context, const gg_chunk *chunk);
 
 /* Grains of one species as an engine that keeps them in blocks of eight has them, nothing copied: of block g the eight
- * x lie at c + 24 g, then eight y, eight z. For those in a hurry. */
+ * x lie at c + 24 g, then eight y, eight z. The fast way to read them all. */
 typedef struct gg_block_run {
   size_t n; /* grains; lanes beyond the last of them are 0 */
   int species;
@@ -69,7 +69,7 @@ typedef struct gg_collision_record {
   gg_vec J;         /* impulse on grain 2, -J on grain 1 */
   double since[2];  /* time since the last contact of each, walls included; INFINITY: none since the callback was set */
 } gg_collision_record;
-typedef void gg_collision_callback(void *context, const gg_collision_record *meeting);
+typedef void gg_collision_callback(void *context, const gg_collision_record *collision);
 
 typedef struct gg_engine gg_engine;
 
@@ -86,9 +86,9 @@ typedef struct gg_engine_ops {
    * md, and in dsmc only through the ends of steps. */
   gg_status (*advance)(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err);
   /* Keep these sums over collisions, or not (at creation they are not kept). */
-  void (*keep_sums)(gg_engine *engine, bool open);
+  void (*keep_sums)(gg_engine *engine, bool keep);
   /* Hand over the sums since the last read, and start anew. */
-  void (*take_sums)(gg_engine *engine, gg_collision_sums *transfer);
+  void (*take_sums)(gg_engine *engine, gg_collision_sums *sums);
   /* Show every collision between grains to `callback` from now on. What is shown costs time; a dsmc engine also leaves
    * its block kernels, in which grains change places. An engine restored from a checkpoint has to be told again, and
    * then goes on bit for bit. */
@@ -101,8 +101,8 @@ typedef struct gg_engine_ops {
   void (*snapshot)(gg_engine *engine, bool positions, gg_visit *visit, void *context);
   /* The same grains in the same order, as they are. NULL where the engine has no blocks. */
   void (*blocks)(gg_engine *engine, gg_visit_blocks *visit, void *context);
-  /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades, and to begin a round of slow shear
-   * again (linear_response.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
+  /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades, and to begin the next sweep of a
+   * linear response (linear_response.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
   gg_status (*rescale)(gg_engine *engine, int power, gg_error *err);
   /* Everything needed to go on bit for bit. Saving does not disturb the run. */
   gg_status (*save)(const gg_engine *engine, gg_archive *archive, gg_error *err);

@@ -1,7 +1,7 @@
 #include "common/linear_response.h"
 
 /* eta* falls with a* like 1 - 4 a*^2 (e = 0.7): 6 % at the high end, which the extrapolation takes out to 0.05 %. A
- * round spans a factor of four in a*, which fixes its slope. */
+ * sweep spans a factor of four in a*, which fixes its slope. */
 static const double low = 0.03, high = 0.12;
 
 gg_linear_response gg_linear_response_of(const gg_model *m)
@@ -19,7 +19,7 @@ double gg_reduced_shear_rate(const gg_model *m, double T)
 
 bool gg_linear_response_ends(const gg_model *m, double T)
 {
-  if (!m->small_shear) return false;
+  if (!m->linear_response) return false;
   double a = gg_reduced_shear_rate(m, T);
   return gg_linear_response_of(m).cools ? a > high : a < low;
 }

@@ -1,11 +1,11 @@
-/* Slow shear: the way to the viscosity of cooling and heated gases, which have no steady shear flow of their own
- * (Montanero's review, section 3: under a thermostat that compensates the cooling, viscous heating makes the reduced
- * shear rate a* = rate/nu_0 fall for ever, and eta* is the long-time limit of -nu_0 P_xy/(n T rate)).
+/* Linear response to uniform shear: the viscosity of cooling and heated gases, which have no steady shear flow of their
+ * own (Montanero's review, section 3: under a thermostat that compensates the cooling, viscous heating makes the
+ * reduced shear rate a* = rate/nu_0 fall for ever, and eta* is the long-time limit of -nu_0 P_xy/(n T rate)).
  *
  * A heated gas (Gaussian thermostat, or elastic grains) starts at a* = high and heats itself down to `low`; one that
  * cools starts hot, below `low`, forgets that start, and is counted from `low` to `high`. Then the velocities are
- * multiplied by 2^power and it begins again, so that averaging can go on for as long as the asked error needs; eta* is
- * extrapolated to a* = 0 (src/measure/viscosity.c). */
+ * multiplied by 2^power and the next sweep of a* begins, so that averaging can go on for as long as the asked error
+ * needs; eta* is extrapolated to a* = 0 (src/measure/viscosity.c). */
 #ifndef GG_LINEAR_RESPONSE_H
 #define GG_LINEAR_RESPONSE_H
 
@@ -13,7 +13,7 @@
 
 typedef struct gg_linear_response {
   double start, low, high; /* of a*: where a run starts; what is averaged over */
-  int power;               /* at the end of a round velocities are multiplied by 2^power */
+  int power;               /* at the end of a sweep velocities are multiplied by 2^power */
   bool cools;              /* no thermostat: a* grows; else it falls */
 } gg_linear_response;
 
@@ -22,7 +22,7 @@ gg_linear_response gg_linear_response_of(const gg_model *model);
 /* a* = rate/nu_0(T). */
 double gg_reduced_shear_rate(const gg_model *model, double T);
 
-/* Is a round at its end at this temperature? */
+/* Is a sweep at its end at this temperature? */
 bool gg_linear_response_ends(const gg_model *model, double T);
 
 #endif

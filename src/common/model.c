@@ -127,7 +127,7 @@ static double guess_sheared_temperature(const gg_model *m)
   return m->boltzmann ? dilute : dilute + dense;
 }
 
-/* With a restitution law, temperature and mean impact depend on each other. */
+/* With a restitution law, temperature and mean impact speed depend on each other. */
 static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
 {
   double speed = s->shear_rate * s->species[0].diameter;
@@ -185,8 +185,8 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
   guess_temperature(m, s, sheared);
   m->ratio0 = guess_ratio(m);
-  m->small_shear = s->small_shear == GG_ON;
-  m->steady = !m->small_shear && !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
+  m->linear_response = s->small_shear == GG_ON;
+  m->steady = !m->linear_response && !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;
 }

@@ -15,12 +15,12 @@
 typedef struct gg_model {
   gg_flow flow;
   gg_thermostat thermostat;
-  gg_rule rule;     /* the most complex rule that any collision of the scene needs */
-  bool boltzmann;   /* phi = 0 */
-  bool homogeneous; /* no box: an ensemble that stands for one point of the flow (dsmc) */
-  bool elastic;     /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
-  bool small_shear; /* slow shear of a cooling or heated gas (linear_response.h) */
-  bool steady;      /* a steady state can exist (scaled, for cooling) */
+  gg_rule rule;         /* the most complex rule that any collision of the scene needs */
+  bool boltzmann;       /* phi = 0 */
+  bool homogeneous;     /* no box: an ensemble that stands for one point of the flow (dsmc) */
+  bool elastic;         /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
+  bool linear_response; /* of a cooling or heated gas to shear (linear_response.h) */
+  bool steady;          /* a steady state can exist (scaled, for cooling) */
 
   int64_t n; /* grains (of the engine's kind: `dsmc.particles` may differ from `particles`) */
   int n_species;
@@ -38,8 +38,8 @@ typedef struct gg_model {
   double sigma[4];       /* (d_i + d_j)/2 */
   double chi[4];         /* contact value; 1 in the Boltzmann limit */
   double e[4], beta[4], mu[4];
-  gg_restitution_law law; /* of restitution between grains; with one, `e` and `contact` are those of the mean impact at
-                 some temperature (gg_model_at), for estimates, and engines ask the law at every collision */
+  gg_restitution_law law; /* of restitution between grains; with one, `e` and `contact` are those at the mean impact
+                 speed of some temperature (gg_model_at), for estimates, and engines ask the law at every collision */
 
   gg_contact wall[GG_MAX_SPECIES];         /* grain (1) against wall (2) */
   gg_contact wall_treated[GG_MAX_SPECIES]; /* the same with e = 1 */
@@ -63,7 +63,7 @@ typedef struct gg_model {
  * order-of- magnitude guesses, which a caller may improve before creating an engine. */
 gg_status gg_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
 
-/* With a restitution law: e and contacts of the mean impact of Maxwellians at temperature T. */
+/* With a restitution law: e and contacts at the mean normal speed at impact of Maxwellians at temperature T. */
 void gg_model_at(gg_model *model, double T);
 
 /* Collisions per grain that the slowest of T, theta, mean spin needs to relax by a factor 1/e, estimated from two-

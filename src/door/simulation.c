@@ -1,4 +1,4 @@
-/* Simulations: made, advanced, watched. */
+/* Simulations: made, advanced, with a callback for their collisions. */
 #include "door/simulation.h"
 
 #include <math.h>
@@ -117,16 +117,16 @@ static void put(double to[3], gg_vec v, double factor)
   to[0] = v.x * factor, to[1] = v.y * factor, to[2] = v.z * factor;
 }
 
-static void show(void *context, const gg_collision_record *seen)
+static void show(void *context, const gg_collision_record *collision)
 {
   const gg_simulation *s = context;
   double unit = gg_simulation_unit(s);
-  gg_collision_event event = {.grain = {(size_t)seen->id[0], (size_t)seen->id[1]},
-                              .species = {seen->species[0], seen->species[1]},
-                              .normal_speed = gg_dot(seen->k, seen->c12) * unit};
-  put(event.k, seen->k, 1);
-  put(event.velocity, seen->c12, unit);
-  put(event.impulse, seen->J, unit);
+  gg_collision_event event = {.grain = {(size_t)collision->id[0], (size_t)collision->id[1]},
+                              .species = {collision->species[0], collision->species[1]},
+                              .normal_speed = gg_dot(collision->k, collision->c12) * unit};
+  put(event.k, collision->k, 1);
+  put(event.velocity, collision->c12, unit);
+  put(event.impulse, collision->J, unit);
   s->callback(s->context, &event);
 }
 

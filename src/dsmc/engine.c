@@ -148,7 +148,7 @@ static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
-  bool slow = d->model.small_shear; /* goes back to the beginning of its round */
+  bool slow = d->model.linear_response; /* goes back to the beginning of its sweep */
   if (d->thermostat != GG_NO_THERMOSTAT && !slow)
     return gg_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
   if (d->model.shear_rate != 0 && !slow)

@@ -69,7 +69,8 @@ void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
       [GG_HSS] = "Homogeneous heating", [GG_COUETTE] = "Couette flow",   [GG_POISEUILLE] = "Poiseuille flow",
       [GG_CHUTE] = "Chute flow"};
   const char *flow = flows[s->flow];
-  if (s->small_shear == GG_ON) flow = s->thermostat == GG_GAUSSIAN ? "Slow shear, heated" : "Slow shear, cooling";
+  if (s->small_shear == GG_ON)
+    flow = s->thermostat == GG_GAUSSIAN ? "Linear response, heated" : "Linear response, cooling";
   snprintf(text, size, "%s, phi %g", flow, s->phi);
   const gg_restitution_law law = gg_extension_law(s->extension);
   if (law.e)

@@ -30,7 +30,7 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
   if (m->n < 2) return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at least 2 are needed", (long long)m->n);
   if (m->n > INT32_MAX / 4)
     return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at most %d", (long long)m->n, INT32_MAX / 4);
-  if (m->small_shear)
+  if (m->linear_response)
     return gg_fail(err, GG_BAD_INPUT,
                    "small_shear: on (the default of a sheared gas with thermostat: gaussian) needs engine: dsmc");
   if (m->thermostat != GG_NO_THERMOSTAT && m->flow != GG_HSS)

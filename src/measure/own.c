@@ -170,19 +170,19 @@ static void put(double to[3], gg_vec v, double scale)
   to[0] = scale * v.x, to[1] = scale * v.y, to[2] = scale * v.z;
 }
 
-static void add_collision(void *self, const gg_collision_record *seen)
+static void add_collision(void *self, const gg_collision_record *collision)
 {
   own *o = self;
   double scale = o->memory->scale;
-  gg_collision_view c = {.species = {seen->species[0], seen->species[1]},
-                         .height = {seen->height[0], seen->height[1]},
-                         .time_since_contact = {seen->since[0] * scale, seen->since[1] * scale}};
-  put(c.normal, seen->k, 1);
-  put(c.relative_velocity, seen->c12, 1 / scale);
-  for (int i = 0; i < 2; i++) put(c.velocity[i], seen->c[i], 1 / scale);
+  gg_collision_view view = {.species = {collision->species[0], collision->species[1]},
+                            .height = {collision->height[0], collision->height[1]},
+                            .time_since_contact = {collision->since[0] * scale, collision->since[1] * scale}};
+  put(view.normal, collision->k, 1);
+  put(view.relative_velocity, collision->c12, 1 / scale);
+  for (int i = 0; i < 2; i++) put(view.velocity[i], collision->c[i], 1 / scale);
   for (int k = 0; k < gg_extension_observables(o->model.extension); k++) {
     const gg_observable_definition *d = definition(o, k);
-    if (d->collision) d->collision(d->context, state_of(o, k), &c);
+    if (d->collision) d->collision(d->context, state_of(o, k), &view);
   }
 }
 
@@ -204,8 +204,9 @@ static const char *missing(const gg_model *m, gg_quantity q)
   X(8)                                                                                                                 \
   X(9)                                                                                                                 \
   X(10)                                                                                                                \
-  X(11) X(12) X(13) X(14) X(15) X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29)    \
-      X(30) X(31)
+  X(11)                                                                                                                \
+  X(12) X(13) X(14) X(15) X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29) X(30)    \
+      X(31)
 OF_EIGHT(OF)
 OF_REST(OF)
 #define ROW(k) {(gg_quantity)(GG_N_QUANTITIES + (k)), of_##k},
@@ -214,12 +215,12 @@ static const gg_derived derived[GG_MOST_OWN_QUANTITIES + 1] = {OF_EIGHT(ROW) OF_
 #define COMMON                                                                                                         \
   .name = "own", .create = create, .destroy = destroy, .memory = memory_of, .width = width, .begin = begin,            \
   .add_chunk = add_chunk, .finish = finish, .derived = derived, .missing = missing, .positions = true
-static const gg_observable quiet = {COMMON}, watching = {COMMON, .add_collision = add_collision};
+static const gg_observable quiet = {COMMON}, with_collisions = {COMMON, .add_collision = add_collision};
 
 const gg_observable *gg_own_observables(const gg_model *model)
 {
   int n = gg_extension_observables(model->extension);
   for (int k = 0; k < n; k++)
-    if (gg_extension_observable(model->extension, k)->collision) return &watching;
+    if (gg_extension_observable(model->extension, k)->collision) return &with_collisions;
   return n ? &quiet : NULL;
 }

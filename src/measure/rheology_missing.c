@@ -50,7 +50,7 @@ static bool always(const gg_model *m)
 }
 static bool nonlinear(const gg_model *m)
 {
-  return !m->small_shear;
+  return !m->linear_response;
 }
 static bool heated_rough(const gg_model *m)
 {

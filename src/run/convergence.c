@@ -42,7 +42,7 @@ gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean,
 static int monitored(const gg_replicas *all, gg_quantity *list)
 {
   int n = gg_headline(&all->model, list), k;
-  if (all->model.small_shear) return n; /* the shear rate goes up and down: nothing else is steady */
+  if (all->model.linear_response) return n; /* the shear rate goes up and down: nothing else is steady */
   const gg_quantity slow[] = {GG_Q_TEMPERATURE, GG_Q_TEMPERATURE_RATIO, GG_Q_SPIN_Z, GG_Q_COLLISION_RATE, GG_Q_A2};
   for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
     bool there = !find_derived(all, slow[i], &k);
@@ -86,7 +86,7 @@ gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error 
       if (!(relative <= c->relative_error)) c->relative_error = relative, c->worst = list[i];
       if (!m.trusted) c->trusted = false;
     }
-    if (all->model.small_shear) continue;
+    if (all->model.linear_response) continue;
     gg_trend t;
     GG_TRY(test_trend(all, list[i], &t, err));
     if (fabs(t.z) > TREND_Z && fabs(t.relative) > TREND_NEGLIGIBLE && fabs(t.z) > fabs(c->trend_z)) {

@@ -4,7 +4,7 @@ int gg_headline(const gg_model *m, gg_quantity list[GG_N_QUANTITIES])
 {
   int n = 0;
   bool rough = m->rule != GG_SMOOTH;
-  if (m->small_shear) {
+  if (m->linear_response) {
     list[n++] = GG_Q_VISCOSITY_REDUCED;
     return n;
   }

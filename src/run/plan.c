@@ -47,7 +47,7 @@ gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
   if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
   p.relative_error = scene->run.relative_error != GG_AUTO ? scene->run.relative_error : asked ? 0 : 0.01;
   if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
-  if (model->small_shear) {
+  if (model->linear_response) {
     plan_linear_response(&p, scene, model);
   } else if (!model->steady) { /* heating: nothing to wait for; follow it for as long as asked, or for a while */
     p.relative_error = 0;

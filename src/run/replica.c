@@ -100,10 +100,10 @@ static gg_status rescale(gg_replica *r, int power, gg_error *err)
  * response: at the end of a sweep of the reduced shear rate, told by the collision rate, back to its beginning. */
 static gg_status rescale_if_due(gg_replica *r, gg_error *err)
 {
-  if (r->model.flow != GG_HCS && !r->model.small_shear) return GG_OK;
+  if (r->model.flow != GG_HCS && !r->model.linear_response) return GG_OK;
   double T0 = r->model.temperature0, slowdown = r->clock.interval * gg_model_collision_rate(&r->model, T0);
   slowdown /= GG_SAMPLING_INTERVAL;
-  if (r->model.small_shear) {
+  if (r->model.linear_response) {
     bool over = gg_linear_response_ends(&r->model, T0 / (slowdown * slowdown));
     return over ? rescale(r, gg_linear_response_of(&r->model).power, err) : GG_OK;
   }

@@ -40,8 +40,8 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
     if (!all->model.steady && !scale_free((gg_quantity)q)) {
       snprintf(e->reason, sizeof e->reason,
-               all->model.small_shear ? "its temperature goes up and down"
-                                      : "no steady state: the gas heats up; see the history");
+               all->model.linear_response ? "its temperature goes up and down"
+                                          : "no steady state: the gas heats up; see the history");
       continue;
     }
     gg_mean m = {.mean = NAN};

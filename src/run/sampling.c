@@ -88,11 +88,11 @@ void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
   if (last) r->clock.window_samples++;
 }
 
-static void add_collision(void *context, const gg_collision_record *seen)
+static void add_collision(void *context, const gg_collision_record *collision)
 {
   gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->add_collision) r->observable[k]->add_collision(r->self[k], seen);
+    if (r->observable[k]->add_collision) r->observable[k]->add_collision(r->self[k], collision);
 }
 
 gg_status gg_replica_observe_collisions(gg_replica *r, gg_error *err)

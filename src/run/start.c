@@ -12,7 +12,7 @@ static void start_of_sweep(gg_model *model)
   model->temperature0 = speed * speed;
 }
 
-/* Theories know constant coefficients alone: of a law, that of the mean impact stands in. */
+/* Theories know constant coefficients alone: for a law, its value at the mean impact speed. */
 static void start_at_theory(gg_model *model)
 {
   const char *const best_first[] = {"gaussian_closure", "lun1991"};
@@ -30,10 +30,10 @@ static void start_at_theory(gg_model *model)
   }
 }
 
-/* With a law, temperature and mean impact depend on each other: a few rounds. */
+/* With a law, temperature and mean impact speed depend on each other: a few iterations. */
 void gg_start_near_steady(gg_model *model)
 {
-  if (model->small_shear) start_of_sweep(model);
+  if (model->linear_response) start_of_sweep(model);
   if (!model->steady || model->shear_rate == 0) return;
   for (int round = 0; round < (model->law.e ? 5 : 1); round++) {
     start_at_theory(model);

@@ -15,7 +15,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
   size_t size = sizeof result->steadiness_text;
   double grain = (double)window * GG_SAMPLING_INTERVAL;
   result->steadiness = GG_NOT_STEADY;
-  if (!all->model.steady && !all->model.small_shear) {
+  if (!all->model.steady && !all->model.linear_response) {
     result->steadiness = GG_HEATING;
     snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
   } else if (all->state.standstill > 0) {
@@ -29,7 +29,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
   } else if (window < all->plan.least) {
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
              grain, (double)all->plan.least * GG_SAMPLING_INTERVAL);
-  } else if (all->model.small_shear) {
+  } else if (all->model.linear_response) {
     result->steadiness = GG_STEADY;
     gg_linear_response s = gg_linear_response_of(&all->model);
     snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",

@@ -38,7 +38,7 @@ gg_status gg_require_homogeneous_smooth(const gg_model *m, const char *theory, g
 {
   GG_TRY(gg_require_smooth(m, theory, err));
   bool heated_shear = m->flow == GG_USF && m->thermostat == GG_GAUSSIAN;
-  if (m->flow == GG_HCS || m->flow == GG_HSS || heated_shear || m->small_shear) return GG_OK;
+  if (m->flow == GG_HCS || m->flow == GG_HSS || heated_shear || m->linear_response) return GG_OK;
   return gg_refuse(err, theory, "describes free cooling and homogeneously heated states; this scene is neither");
 }
 

@@ -191,7 +191,7 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   r->scene.engine = engine;
   r->engine = gg_engine_ops_of(engine)->name;
   bool steady = json_is_true(json_object_get(e->document, "steady"));
-  r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.small_shear ? GG_NOT_STEADY : GG_HEATING;
+  r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.linear_response ? GG_NOT_STEADY : GG_HEATING;
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", text(e->document, "verdict"));
   restore_warnings(r, e->document);
   restore_means(r, e->document);

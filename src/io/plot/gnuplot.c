@@ -29,7 +29,7 @@ static gg_status spawn(FILE *in, FILE *complaints, pid_t *child, gg_error *err)
 }
 
 /* Its complaint is the last line that says something. */
-static gg_status judge(int status, FILE *complaints, gg_error *err)
+static gg_status outcome(int status, FILE *complaints, gg_error *err)
 {
   char line[256], last[256] = "no picture came out";
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return GG_OK;
@@ -55,7 +55,7 @@ static gg_status draw(const char *script, const char *target, gg_error *err)
     result = spawn(in, complaints, &child, err);
     if (result == GG_OK) {
       while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-      result = judge(status, complaints, err);
+      result = outcome(status, complaints, err);
     }
   }
   if (in) fclose(in);
