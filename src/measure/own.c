@@ -199,18 +199,17 @@ static const char *missing(const gg_model *m, gg_quantity q)
     (void)model;                                                                                                       \
     return mean[k];                                                                                                    \
   }
-#define OF_EIGHT(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
-#define OF_REST(X)                                                                                                     \
-  X(8)                                                                                                                 \
-  X(9)                                                                                                                 \
-  X(10)                                                                                                                \
-  X(11)                                                                                                                \
-  X(12) X(13) X(14) X(15) X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29) X(30)    \
-      X(31)
-OF_EIGHT(OF)
-OF_REST(OF)
+#define OF_A(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
+#define OF_B(X) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)
+#define OF_C(X) X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23)
+#define OF_D(X) X(24) X(25) X(26) X(27) X(28) X(29) X(30) X(31)
+OF_A(OF)
+OF_B(OF)
+OF_C(OF)
+OF_D(OF)
 #define ROW(k) {(gg_quantity)(GG_N_QUANTITIES + (k)), of_##k},
-static const gg_derived derived[GG_MOST_OWN_QUANTITIES + 1] = {OF_EIGHT(ROW) OF_REST(ROW){GG_N_QUANTITIES, NULL}};
+static const gg_derived derived[GG_MOST_OWN_QUANTITIES + 1] = {OF_A(ROW) OF_B(ROW) OF_C(ROW)
+                                                                   OF_D(ROW){GG_N_QUANTITIES, NULL}};
 
 #define COMMON                                                                                                         \
   .name = "own", .create = create, .destroy = destroy, .memory = memory_of, .width = width, .begin = begin,            \
