@@ -50,11 +50,6 @@ void gg_simulation_free(gg_simulation *s)
   free(s);
 }
 
-double gg_simulation_unit(const gg_simulation *s)
-{
-  return ldexp(1, -(int)s->clock.power);
-}
-
 static uint64_t collisions(const gg_simulation *s)
 {
   gg_engine_state state;

@@ -20,7 +20,7 @@ struct gg_simulation {
   void *context;
 };
 
-/* Velocities of the start over those of the engine. */
+/* Asked of it (simulation_state.c). Velocities of the start over those of the engine. */
 double gg_simulation_unit(const gg_simulation *s);
 /* T of the engine's grains, in the engine's units. */
 double gg_simulation_temperature(const gg_simulation *s);

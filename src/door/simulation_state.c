@@ -4,6 +4,11 @@
 
 #include "door/simulation.h"
 
+double gg_simulation_unit(const gg_simulation *s)
+{
+  return ldexp(1, -(int)s->clock.power);
+}
+
 /* Sums over grains, mass by mass. */
 typedef struct moments {
   const gg_model *model;

@@ -3,9 +3,8 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-
-#include "io/scene/json.h"
 
 static const gg_word flows[] = {{"equilibrium", GG_EQUILIBRIUM, "elastic gas at rest"},
                                 {"usf", GG_USF, "uniform shear, Lees-Edwards box"},
@@ -138,6 +137,14 @@ static void list_words(const gg_word *words, char *text, size_t size)
 {
   for (size_t used = strlen(text); words->name && used < size; words++, used = strlen(text))
     snprintf(text + used, size - used, "%s%s", words->name, words[1].name ? ", " : "");
+}
+
+void gg_format_number(double value, char *text, size_t size)
+{
+  for (int digits = 15; digits <= 17; digits++) {
+    snprintf(text, size, "%.*g", digits, value);
+    if (strtod(text, NULL) == value) return;
+  }
 }
 
 static void number_allowed(const gg_field *f, const char *what, char *text, size_t size)

@@ -44,6 +44,8 @@ bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */
 bool gg_scene_is_section(const char *name);
 
+/* A number in the fewest digits that read back as the same number. */
+void gg_format_number(double value, char *text, size_t size);
 /* What a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
 void gg_field_allowed(const gg_field *field, char *text, size_t size);
 

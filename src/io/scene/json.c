@@ -90,14 +90,6 @@ json_t *gg_scene_json(const gg_scene *scene)
   return root;
 }
 
-void gg_format_number(double value, char *text, size_t size)
-{
-  for (int digits = 15; digits <= 17; digits++) {
-    snprintf(text, size, "%.*g", digits, value);
-    if (strtod(text, NULL) == value) return;
-  }
-}
-
 void gg_print_flow_style(FILE *out, const json_t *value)
 {
   char text[40];

@@ -11,8 +11,6 @@
 json_t *gg_scene_json(const gg_scene *scene);
 /* One value of it. */
 json_t *gg_field_json(const gg_field *field, const void *base, const gg_scene *scene);
-/* A number in the fewest digits that read back as the same number. */
-void gg_format_number(double value, char *text, size_t size);
 /* A JSON value on one line, as YAML flow style. */
 void gg_print_flow_style(FILE *out, const json_t *value);
 /* The same, cut to `size` bytes. */
