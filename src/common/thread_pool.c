@@ -102,7 +102,7 @@ static int choose(const gg_thread_pool *pool, int self, uint32_t open, int polls
 }
 
 /* What is read of the job before a bit has been cleared may be of the next: then the bit cannot be cleared. */
-static bool take(gg_thread_pool *pool, int self, int *part)
+static bool take_part(gg_thread_pool *pool, int self, int *part)
 {
   uint64_t open = atomic_load(&pool->open);
   for (int polls = 0; (uint32_t)open;) {
@@ -119,7 +119,7 @@ static bool take(gg_thread_pool *pool, int self, int *part)
 
 static void work_off(gg_thread_pool *pool, int self)
 {
-  for (int part; take(pool, self, &part);) {
+  for (int part; take_part(pool, self, &part);) {
     pool->part(pool->context, part);
     atomic_fetch_or(&pool->finished, UINT32_C(1) << part);
     if (atomic_fetch_sub(&pool->undone, 1) > 1 || !atomic_load(&pool->waiting)) continue;
