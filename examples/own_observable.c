@@ -9,22 +9,22 @@ struct impacts {
 
 static void collide(void *context, void *state, const gg_collision_view *c)
 {
-  struct impacts *seen = (struct impacts *)state;
+  struct impacts *sums = (struct impacts *)state;
   (void)context;
-  for (int a = 0; a < 3; a++) seen->sum += c->normal[a] * c->relative_velocity[a];
-  seen->count++;
+  for (int a = 0; a < 3; a++) sums->sum += c->normal[a] * c->relative_velocity[a];
+  sums->count++;
 }
 
 static void sample(void *context, void *state, const gg_sample *s, double *values)
 {
-  struct impacts *seen = (struct impacts *)state;
+  struct impacts *sums = (struct impacts *)state;
   double x = 0, y = 0;
   (void)context;
   for (size_t i = 0; i < s->n; i++)
     x += s->velocity[i][0] * s->velocity[i][0], y += s->velocity[i][1] * s->velocity[i][1];
   values[0] = x / y;
-  values[1] = seen->count > 0 ? seen->sum / seen->count : 0;
-  seen->sum = seen->count = 0;
+  values[1] = sums->count > 0 ? sums->sum / sums->count : 0;
+  sums->sum = sums->count = 0;
 }
 
 int main(void)

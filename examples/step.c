@@ -1,11 +1,11 @@
-/* Step a sheared gas and watch its temperature and stress. Build: cc step.c -o step $(pkg-config --cflags --libs
- * graingas) */
+/* Step a sheared gas and print its temperature and stress.
+ * Build: cc step.c -o step $(pkg-config --cflags --libs graingas) */
 #include <graingas.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 /* How fast do grains meet? */
-static void watch(void *context, const gg_collision_event *event)
+static void collided(void *context, const gg_collision_event *event)
 {
   double *fastest = (double *)context;
   if (event->normal_speed > *fastest) *fastest = event->normal_speed;
@@ -21,14 +21,15 @@ int main(void)
   gg_grains grains = {NULL, NULL, NULL, NULL};
   double fastest = 0;
   if (gg_scene_parse("{flow: usf, phi: 0.2, particles: 500}", "scene", &scene, &err) ||
-      gg_simulation_new(scene, 0, &simulation, &err) || gg_simulation_on_collision(simulation, watch, &fastest, &err))
+      gg_simulation_new(scene, 0, &simulation, &err) ||
+      gg_simulation_on_collision(simulation, collided, &fastest, &err))
     goto failed;
-  printf("   time  coll/grain  temperature     P_xy  fastest impact\n");
+  printf("   time  coll/grain  temperature     P_xy  fastest\n");
   for (int i = 0; i < 10; i++) {
     if (gg_simulation_advance(simulation, 2.0, &err) || gg_simulation_get_state(simulation, &s, &err) ||
         gg_simulation_take_sums(simulation, &sums, &err))
       goto failed;
-    printf("%7.2f %11.1f %12.4f %8.4f %15.2f\n", s.time, s.collisions_per_grain, s.temperature,
+    printf("%7.2f %11.1f %12.4f %8.4f %8.2f\n", s.time, s.collisions_per_grain, s.temperature,
            s.kinetic_stress[0][1] + sums.collisional_stress[0][1], fastest);
   }
   grains.position = (double *)malloc(3 * s.grains * sizeof(double));

@@ -84,15 +84,15 @@ static void cut_into_steps(void **state)
   gg_simulation_free(two);
 }
 
-typedef struct seen {
+typedef struct collision_sums {
   uint64_t n;
   double stress[3][3], loss, worst;
   size_t last[2];
-} seen;
+} collision_sums;
 
-static void watch(void *context, const gg_collision_event *e)
+static void add_collision(void *context, const gg_collision_event *e)
 {
-  seen *s = context;
+  collision_sums *s = context;
   double dot = 0, Jn = 0, unit = 0;
   for (int a = 0; a < 3; a++) {
     dot += e->k[a] * e->velocity[a], Jn += e->k[a] * e->impulse[a], unit += e->k[a] * e->k[a];
@@ -111,12 +111,12 @@ static void collisions_and_sums(const char *yaml, double volume)
 {
   gg_error err;
   gg_simulation *m = simulation_of(yaml);
-  seen s = {0};
+  collision_sums s = {0};
   gg_simulation_sums sums;
   assert_ok(gg_simulation_advance(m, 0.5, &err));
   assert_ok(gg_simulation_take_sums(m, &sums, &err));
   assert_true(fabs(sums.time - 0.5) < 0.05 && sums.dissipation > 0);
-  assert_ok(gg_simulation_on_collision(m, watch, &s, &err));
+  assert_ok(gg_simulation_on_collision(m, add_collision, &s, &err));
   double start = state_of(m).time;
   assert_ok(gg_simulation_collide(m, 5000, &err));
   assert_ok(gg_simulation_take_sums(m, &sums, &err));

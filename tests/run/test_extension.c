@@ -58,10 +58,10 @@ static void count_collision(void *context, void *state, const gg_collision_view 
 }
 static void sample_collisions(void *context, void *state, const gg_sample *s, double *values)
 {
-  uint64_t *seen = state;
+  uint64_t *count = state;
   (void)context;
-  values[0] = 2 * (double)*seen / ((double)s->n * s->elapsed);
-  *seen = 0;
+  values[0] = 2 * (double)*count / ((double)s->n * s->elapsed);
+  *count = 0;
 }
 
 static const gg_quantity_definition own_temperature[] = {
@@ -120,12 +120,12 @@ static void test_observable(void **state)
 static void test_observer_leaves_no_trace(void **state)
 {
   (void)state;
-  gg_scene *scene = scene_of(sheared), *watched = scene_of(sheared);
-  add(watched, &counter);
-  gg_result *r = run(scene, 1), *w = run(watched, 1);
+  gg_scene *scene = scene_of(sheared), *counted = scene_of(sheared);
+  add(counted, &counter);
+  gg_result *r = run(scene, 1), *w = run(counted, 1);
   assert_true(r->value[GG_Q_PRESSURE].mean == w->value[GG_Q_PRESSURE].mean);
   gg_result_free(r), gg_result_free(w);
-  gg_scene_free(scene), gg_scene_free(watched);
+  gg_scene_free(scene), gg_scene_free(counted);
 }
 
 static void sample_nan(void *context, void *state, const gg_sample *s, double *values)

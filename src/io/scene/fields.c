@@ -50,8 +50,8 @@ const gg_field gg_scene_fields[] = {
     {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box"},
     {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), 0, 1e12, true, .unit = "1/time", .doc = "shear rate of usf"},
     {"small_shear", GG_FIELD_CHOICE, AT(small_shear), .words = switches,
-     .doc = "usf: shear so slow that the viscosity can be extrapolated to none: of the heated gas with "
-            "thermostat: gaussian (where it is on unless switched off), of the cooling one without"},
+     .doc = "usf: linear response, shear so slow that the viscosity is extrapolated to the shear rate 0: of the heated "
+            "gas with thermostat: gaussian (where it is on unless switched off), of the cooling one without"},
     {"temperature", GG_FIELD_NUMBER, AT(temperature), 0, 1e300, true, AUTO, .unit = "velocity^2",
      .doc = "<C.C>/3 to start from; auto: near the steady state"},
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges"},
