@@ -5,7 +5,7 @@
  * Leaving a cell is no event: it is done at the grain's next one.
  *
  * node->cell is the lower cell along each axis; bit a of node->neighbours tells whether the grain is in the next one
- * along axis a, too. Under shear: shared_rows.h. */
+ * along axis a, too. Under shear: members_in_rows.h. */
 #ifndef GG_MD_MEMBERS_H
 #define GG_MD_MEMBERS_H
 

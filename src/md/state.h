@@ -96,7 +96,7 @@ struct gg_md {
   bool falls; /* gravity is not zero */
   gg_md_box box;
   gg_md_cells cells;
-  uint32_t *candidates; /* of two searches at a time, GG_MD_CANDIDATES_APART: whom to try (scan.h) */
+  uint32_t *candidates; /* of two searches at a time, GG_MD_CANDIDATES_APART: whom to try (search/candidates.h) */
   gg_md_queue queue;
   gg_md_counts k;
   gg_md_row *row; /* of cells that move with the flow: one for each layer along y, and images: -1, n_y, n_y + 1; NULL:
@@ -118,7 +118,7 @@ struct gg_md {
   double noise; /* xi^2 of the white-noise thermostat */
 };
 
-/* arrays.c: an engine with its arrays for this model, nothing in them; and its end. */
+/* allocate.c: an engine with its arrays for this model, nothing in them; and its end. */
 gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err);
 gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err);

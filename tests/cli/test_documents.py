@@ -1,5 +1,5 @@
 """Documents say what is true of the tree: the page of scene keys is the table's, every path that a document names
-exists, and the commands that it shows are the command's."""
+exists, and the commands that it shows are the command's. So do comments of the code."""
 import glob
 import os
 import re
@@ -79,6 +79,32 @@ def test_names():
             if word not in known and not any(k.startswith(word) for k in known if word.endswith("_")):
                 missing.add(f"{name}: {word}")
     none(missing)
+
+
+def test_comments():
+    """Files, functions, types and constants that comments of the code speak of are there."""
+    remarks, code, files = {}, "", set()
+    for folder in "src", "include", "tests", "examples", "validation":
+        for where, _, names in os.walk(os.path.join(SOURCE, folder)):
+            files.update(names)
+            for name in names:
+                if name.endswith((".c", ".h")):
+                    text = open(os.path.join(where, name), encoding="utf-8").read()
+                    remarks[os.path.join(where, name)] = re.findall(r"/\*.*?\*/", text, re.DOTALL)
+                    code += re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL)
+                elif name == "meson.build":  # files that the build makes
+                    files.update(re.findall(r"output: '([\w.]+)'", open(os.path.join(where, name)).read()))
+    known = set(re.findall(r"\b(?:gg|GG)_\w+", code))
+    check(len(remarks) > 300 and len(known) > 500, len(remarks), len(known))
+    missing = set()
+    for name, texts in remarks.items():
+        name = os.path.relpath(name, SOURCE)
+        for text in texts:
+            missing.update(f"{name}: {file}" for file in re.findall(r"\b(\w+\.[ch])\b", text)
+                           if file not in files)
+            missing.update(f"{name}: {word}" for word in re.findall(r"\b(?:gg|GG)_\w+\b", text)
+                           if word not in known and not (word.endswith("_") and any(k.startswith(word) for k in known)))
+    check(not missing, "named in comments, but not there:\n" + "\n".join(sorted(missing)))
 
 
 def test_commands():
