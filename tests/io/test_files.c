@@ -264,6 +264,19 @@ static void assert_same(const gg_archive *a, const gg_archive *b)
   }
 }
 
+/* In the first byte of the first place in a file that holds these. */
+static void flip_bit(const char *path, const void *bytes, size_t size)
+{
+  FILE *f = fopen(path, "r+b");
+  char *all = calloc(1, 100000);
+  char *at = memmem(all, fread(all, 1, 100000, f), bytes, size);
+  assert_non_null(at);
+  fseek(f, at - all, SEEK_SET);
+  fputc(at[0] ^ 1, f);
+  fclose(f);
+  free(all);
+}
+
 /* Bit for bit; the generation before is kept, and taken when the present one is damaged or gone. */
 static void checkpoint_generations(void **state)
 {
@@ -280,18 +293,8 @@ static void checkpoint_generations(void **state)
   gg_archive_clear(&back);
 
   /* One flipped bit in the data is found by the checksum. */
-  FILE *f = fopen("c.h5", "r+b");
   double wanted = 2;
-  char bytes[8];
-  memcpy(bytes, &wanted, 8);
-  char *all = calloc(1, 100000);
-  size_t size = fread(all, 1, 100000, f);
-  char *at = memmem(all, size, bytes, 8);
-  assert_non_null(at);
-  fseek(f, at - all, SEEK_SET);
-  fputc(at[0] ^ 1, f);
-  fclose(f);
-  free(all);
+  flip_bit("c.h5", &wanted, sizeof wanted);
   assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
   assert_true(older);
   assert_same(&one, &back);
@@ -305,6 +308,27 @@ static void checkpoint_generations(void **state)
   assert_string_equal(err.message, "c.h5: cannot be read: No such file or directory");
   gg_archive_clear(&one);
   gg_archive_clear(&two);
+  remove_all();
+}
+
+/* States go in as they stand in memory: another version's are refused, and both versions named. */
+static void checkpoint_of_another_version(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  bool older;
+  gg_scene scene = gg_scene_defaults();
+  gg_archive one = archive(1), back = {0};
+  assert_int_equal(gg_checkpoint_write("c.h5", &one, &scene, &err), GG_OK);
+  flip_bit("c.h5", GG_VERSION, sizeof GG_VERSION - 1);
+  char other[] = GG_VERSION, expected[200];
+  other[0] ^= 1;
+  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
+  snprintf(expected, sizeof expected,
+           "c.h5: cannot be read: graingas %s has written it, and this is graingas %s; only the same version can go on",
+           other, GG_VERSION);
+  assert_string_equal(err.message, expected);
+  gg_archive_clear(&one);
   remove_all();
 }
 
@@ -358,6 +382,7 @@ int main(void)
       cmocka_unit_test(failing_trajectory),
       cmocka_unit_test(unreadable_results),
       cmocka_unit_test(checkpoint_generations),
+      cmocka_unit_test(checkpoint_of_another_version),
       cmocka_unit_test(checkpoint_without_room),
       cmocka_unit_test(hdf5_stays_as_it_was),
   };

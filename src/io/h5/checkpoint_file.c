@@ -131,6 +131,18 @@ static gg_status read_item(gg_h5 *h, size_t i, gg_archive *a, gg_error *err)
   return status;
 }
 
+/* States are saved as they stand in memory, which another version may have laid out otherwise. */
+static void check_version(gg_h5 *h)
+{
+  char *version = gg_h5_read_text(h, "/checkpoint/version"), why[160];
+  if (version && strcmp(version, GG_VERSION) != 0) {
+    snprintf(why, sizeof why, "graingas %.20s has written it, and this is graingas %s; only the same version can go on",
+             version, GG_VERSION);
+    gg_h5_failed(h, why);
+  }
+  free(version);
+}
+
 static gg_status read_file(const char *path, gg_archive *a, gg_error *err)
 {
   gg_h5 h;
@@ -141,6 +153,7 @@ static gg_status read_file(const char *path, gg_archive *a, gg_error *err)
   fclose(there);
   gg_h5_open(&h, path);
   if (!h.failed && !gg_h5_exists(&h, "/checkpoint")) gg_h5_failed(&h, "it is not a checkpoint of graingas");
+  check_version(&h);
   gg_h5_read_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n);
   gg_h5_read_attribute(&h, "/checkpoint", "checksum", H5T_NATIVE_UINT64, &sum);
   for (uint64_t i = 0; i < n && status == GG_OK && !h.failed; i++) status = read_item(&h, i, a, err);
