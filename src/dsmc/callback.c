@@ -19,15 +19,20 @@ static gg_status allocate(gg_dsmc *d, gg_error *err)
   return GG_OK;
 }
 
-/* The majorants that block kernels have learned hold for the plain path, too: they bound an integral over directions
- * that is no less than the largest rate. */
+/* For good: also when there is no callback any more. The majorants that block kernels have learned hold for the plain
+ * path, too: they bound an integral over directions that is no less than the largest rate. */
+static void take_plain_path(gg_dsmc *d)
+{
+  for (int p = 0; p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
+}
+
 gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err)
 {
   gg_dsmc *d = (gg_dsmc *)engine;
   if (callback) GG_TRY(allocate(d, err));
   d->callback.call = callback;
   d->callback.context = context;
-  for (int p = 0; callback && p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
+  if (callback) take_plain_path(d);
   return GG_OK;
 }
 
@@ -60,6 +65,7 @@ gg_status gg_dsmc_restore_callback(gg_dsmc *d, const gg_archive *a, gg_error *er
   char name[32];
   if (!gg_archive_find(a, name_of(0, name))) return GG_OK;
   GG_TRY(allocate(d, err));
+  take_plain_path(d);
   for (int i = 0; i < d->model.n_species; i++)
     GG_TRY(gg_archive_get(a, name_of(i, name), GG_ITEM_F64, d->callback.last[i], (size_t)d->ensemble.of[i].n, err));
   return GG_OK;

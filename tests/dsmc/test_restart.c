@@ -50,6 +50,38 @@ static void restarts_bit_for_bit(void **state)
   }
 }
 
+static void count(void *context, const gg_collision_record *collision)
+{
+  *(uint64_t *)context += collision->c12.x == collision->c12.x;
+}
+
+/* A callback leaves the engine on the plain path: a run that had one and no longer has goes on bit for bit, too. */
+static void without_its_callback(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0.1, 0.8, -1, 3000);
+  gg_model m = lab_model(&s);
+  gg_engine *straight = lab_engine(&m, 12), *resumed = NULL;
+  gg_error err = {0};
+  gg_archive archive = {0};
+  gg_engine_state then;
+  uint64_t told = 0;
+  assert_int_equal(gg_dsmc_ops.set_callback(straight, count, &told, &err), GG_OK);
+  lab_advance(straight, INFINITY, 1000);
+  gg_dsmc_ops.state(straight, &then);
+  assert_int_equal(told, then.collisions);
+  assert_int_equal(gg_dsmc_ops.set_callback(straight, NULL, NULL, &err), GG_OK);
+  assert_int_equal(gg_dsmc_ops.save(straight, &archive, &err), GG_OK);
+  assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_OK);
+  lab_advance(straight, INFINITY, 3000);
+  lab_advance(resumed, INFINITY, 3000);
+  same_archive(straight, resumed);
+  assert_int_equal(told, then.collisions);
+  gg_archive_clear(&archive);
+  gg_dsmc_ops.destroy(straight);
+  gg_dsmc_ops.destroy(resumed);
+}
+
 /* Rounding does not depend on the exponent, so neither does a cooling run. */
 static void rescale_in(gg_precision precision)
 {
@@ -105,7 +137,7 @@ static void precision_is_kept(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(rescaling_is_exact),
-                                     cmocka_unit_test(precision_is_kept)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(without_its_callback),
+                                     cmocka_unit_test(rescaling_is_exact), cmocka_unit_test(precision_is_kept)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
