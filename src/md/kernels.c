@@ -1,6 +1,8 @@
 /* The instances of the event loop (instance.c, meson.build), and which of them a scene needs. */
 #include "md/kernels.h"
 
+#include <assert.h>
+
 /* Both of a row: one species, and two. */
 #define DECLARE(name, set) extern const gg_md_kernel gg_md_kernel_##name##_##set, gg_md_kernel_##name##_mixture_##set;
 #define BOTH(name, set)                                                                                                \
@@ -49,7 +51,7 @@ static enum gg_md_boundary boundary_of(const gg_md *e)
   return e->model.walled ? GG_MD_WALLED : GG_MD_PERIODIC;
 }
 
-/* The nearest image of all that the cells around hold must be the one looked at: four cells along each axis. */
+/* The nearest image of all that the cells around hold must be the one tried: four cells along each axis. */
 static bool is_wide_enough(const gg_md *e)
 {
   return e->cells.n[0] >= 4 && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
@@ -72,5 +74,6 @@ void gg_md_select(gg_md *e)
     e->kernel = e->row ? &gg_md_kernel_plain_rows : &gg_md_kernel_plain_cells;
   else
     e->kernel = gg_md_simd_kernel(gg_instructions_best(), where, boundary_of(e), e->model.n_species > 1);
+  assert(e->kernel);
   gg_md_select_resolution(e);
 }

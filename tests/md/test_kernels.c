@@ -1,5 +1,5 @@
 /* Proves: eight pairs at a time give the same bits as one at a time, on every boundary, every instruction set gives the
- * same bits, and cells may be crowded. */
+ * same bits, no choice of a way of searching is without its kernels, and cells may be crowded. */
 #include <stdlib.h>
 
 #include "md_test.h"
@@ -29,7 +29,7 @@ static uint64_t run_with(const gg_model *m, const gg_md_kernel *kernel)
   return hash;
 }
 
-static void wide_is_plain(void **state)
+static void simd_is_plain(void **state)
 {
   (void)state;
   for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
@@ -46,23 +46,63 @@ static void wide_is_plain(void **state)
 static void instruction_sets_agree(void **state)
 {
   (void)state;
-  for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_SHEARED; boundary++)
-    for (enum gg_md_search_way where = GG_MD_PLAIN_CELLS; where <= GG_MD_COMOVING_ROWS; where++) {
-      static const double phi[] = {[GG_MD_PLAIN_CELLS] = 0.1,
-                                   [GG_MD_NEIGHBOUR_LISTS] = 0.45,
-                                   [GG_MD_OVERLAPPING_CELLS] = 0.01,
-                                   [GG_MD_COMOVING_ROWS] = 0.1};
-      if (where == (boundary == GG_MD_SHEARED ? GG_MD_PLAIN_CELLS : GG_MD_COMOVING_ROWS)) continue;
-      gg_scene s = md_scene((md_case){boundary ? GG_USF : GG_HCS, 700, phi[where], 0.9, 0, INFINITY, {2, 1, 1}});
-      gg_model m = md_model_of(&s);
-      uint64_t hash = 0;
-      for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
-        if (!gg_instructions_run_here(set)) continue;
-        uint64_t its = run_with(&m, gg_md_simd_kernel(set, where, boundary, false));
-        if (hash && its != hash) fail_msg("%s, search %d", gg_instructions_name(set), (int)where);
-        hash = its;
+  static const double phi[] = {[GG_MD_PLAIN_CELLS] = 0.1,
+                               [GG_MD_NEIGHBOUR_LISTS] = 0.45,
+                               [GG_MD_OVERLAPPING_CELLS] = 0.01,
+                               [GG_MD_COMOVING_ROWS] = 0.1};
+  for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
+    for (enum gg_md_search_way where = GG_MD_PLAIN_CELLS; where <= GG_MD_COMOVING_ROWS; where++)
+      for (int mixture = 0; mixture < 2; mixture++) {
+        if (!gg_md_simd_kernel(gg_instructions_best(), where, boundary, mixture)) continue;
+        gg_scene s = scene_of(boundary, mixture);
+        s.particles = 700, s.phi = phi[where], s.aspect[0] = 2;
+        gg_model m = md_model_of(&s);
+        double radius;
+        int32_t n[3];
+        assert_int_equal(gg_md_choose_way(&m, &radius, n), where);
+        uint64_t hash = 0;
+        for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
+          if (!gg_instructions_run_here(set)) continue;
+          uint64_t its = run_with(&m, gg_md_simd_kernel(set, where, boundary, mixture));
+          if (hash && its != hash) fail_msg("%s, search %d", gg_instructions_name(set), (int)where);
+          hash = its;
+        }
       }
+}
+
+/* Whatever way of searching is chosen, every compiled set has its kernels; only sheared boxes too small for co-moving
+ * rows have none, and go one pair at a time. */
+static void every_way_has_its_kernels(void **state)
+{
+  (void)state;
+  static const double phi[] = {0.001, 0.03, 0.06, 0.2, 0.3, 0.42, 0.55};
+  static const int64_t sizes[] = {40, 300, 3000};
+  unsigned chosen[GG_MD_FALLING + 1] = {0};
+  for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
+    for (int k = 0; k < 7 * 3 * 2 * 2; k++) {
+      const int mixture = k % 2;
+      gg_scene s = scene_of(boundary, mixture);
+      s.phi = phi[k / 4 % 7], s.particles = sizes[k / 28], s.aspect[0] = k / 2 % 2 ? 2 : 1;
+      gg_model m = md_model_of(&s);
+      double radius;
+      int32_t n[3];
+      const enum gg_md_search_way where = gg_md_choose_way(&m, &radius, n);
+      const bool plain = boundary == GG_MD_SHEARED && where == GG_MD_PLAIN_CELLS;
+      chosen[boundary] |= 1u << where;
+      for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++)
+        if (gg_instructions_run_here(set) && !gg_md_simd_kernel(set, where, boundary, mixture) != plain)
+          fail_msg("%s, search %d, boundary %d", gg_instructions_name(set), (int)where, boundary);
+      if (!plain || gg_md_ops.accepts(&m, NULL) != GG_OK) continue;
+      gg_md *e = md_create(&m, 1);
+      md_collide(e, 100);
+      assert_int_equal(md_misplaced(e), 0);
+      md_destroy(e);
     }
+  const unsigned cells = 1 << GG_MD_PLAIN_CELLS, others = 1 << GG_MD_NEIGHBOUR_LISTS | 1 << GG_MD_OVERLAPPING_CELLS;
+  assert_int_equal(chosen[GG_MD_PERIODIC], cells | others);
+  assert_int_equal(chosen[GG_MD_SHEARED], cells | others | 1 << GG_MD_COMOVING_ROWS);
+  assert_int_equal(chosen[GG_MD_WALLED], cells);
+  assert_int_equal(chosen[GG_MD_FALLING], cells);
 }
 
 /* All grains in a corner of the box, in n^3 overlapping cells. */
@@ -104,7 +144,8 @@ static void crowds_are_tried_in_parts(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wide_is_plain), cmocka_unit_test(instruction_sets_agree),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(simd_is_plain), cmocka_unit_test(instruction_sets_agree),
+                                     cmocka_unit_test(every_way_has_its_kernels),
                                      cmocka_unit_test(crowds_are_tried_in_parts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
