@@ -3,7 +3,6 @@
 
 #include "common/thermostat.h"
 #include "dsmc/dsmc.h"
-#include "dsmc/thermostat.h"
 
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
 {

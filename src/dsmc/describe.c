@@ -3,7 +3,6 @@
 
 #include "common/thermostat.h"
 #include "dsmc/dsmc.h"
-#include "dsmc/thermostat.h"
 
 void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
 {

@@ -1,4 +1,4 @@
-/* The Enskog Monte Carlo engine: a step, and what the outside sees of it. */
+/* The engine behind the interface that all engines share. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,9 +48,9 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   return GG_OK;
 }
 
-static void keep_sums(gg_engine *engine, bool open)
+static void keep_sums(gg_engine *engine, bool keep)
 {
-  dsmc_of(engine)->now.sums = open;
+  dsmc_of(engine)->now.sums = keep;
 }
 
 static void take_sums(gg_engine *engine, gg_collision_sums *transfer)

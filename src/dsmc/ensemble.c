@@ -1,11 +1,11 @@
 #include "dsmc/ensemble.h"
-#include "common/thread_pool.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 
+#include "common/thread_pool.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/schedule.h"
 

@@ -1,6 +1,7 @@
 #include "dsmc/majorant.h"
 
-/* Room above the largest value seen: enough that a new record rarely goes over, little enough to cost no candidates. */
+/* Room above the largest value so far: enough that a new record rarely goes over, little enough to cost no candidates.
+ */
 static const double room = 1.05;
 
 void gg_dsmc_majorant_start(gg_dsmc_majorant *m, double sure, double thermal)

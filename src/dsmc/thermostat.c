@@ -1,6 +1,6 @@
 #include "dsmc/thermostat.h"
-#include "common/thread_pool.h"
 
+#include "common/thread_pool.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/schedule.h"
 

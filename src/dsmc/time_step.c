@@ -1,7 +1,6 @@
 #include "dsmc/time_step.h"
-#include "common/thermostat.h"
 
-#include "dsmc/thermostat.h"
+#include "common/thermostat.h"
 
 /* Relative bias of the most affected mean for a step of one mean free time; it goes with the square of the step.
  * Measured in the Boltzmann limit: streaming and collisions split: viscosity .080 at e = .9, .072 at e = .6

@@ -18,7 +18,7 @@
 
 #include "dsmc/kernel/stages.h"
 
-enum { SORTED = 999 }; /* blocks, at least, to be sorted by speed */
+enum { SORTED_FROM = 1000 }; /* blocks: from so many on grains are sorted by speed */
 
 GG_INLINE void prefetch_block(const gg_dsmc_real_block *b)
 {
@@ -78,7 +78,7 @@ GG_INLINE void start(gg_dsmc_features f, gg_dsmc_pass_state *w, const gg_dsmc_pa
   w->from_zero = w->lowest == 0;
   w->to_a = gg_all(gg_dsmc_needs_k(f) ? w->contact.im1 : w->contact.push1);
   w->to_b = gg_all(gg_dsmc_needs_k(f) ? w->contact.im2 : w->contact.push2);
-  w->sorts = p->one->n_blocks > SORTED;
+  w->sorts = p->one->n_blocks >= SORTED_FROM;
 }
 
 GG_INLINE void finish(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc_pass *p)

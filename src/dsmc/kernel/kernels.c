@@ -1,6 +1,6 @@
 #include "dsmc/kernel/kernels.h"
 
-#include "dsmc/parallel/schedule.h"
+#include "dsmc/parallel/partition.h"
 
 #define KERNELS(set, name)                                                                                             \
   [set] = {.collide = {{&gg_dsmc_collide_double_smooth_##name, &gg_dsmc_collide_double_rough_##name,                   \

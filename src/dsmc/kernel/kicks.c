@@ -6,12 +6,6 @@
 #define NAME_OF(name, instructions) name##_##instructions
 #define NAME(name, instructions) NAME_OF(name, instructions)
 
-GG_INLINE void note_speed_bound(float *speed_bound, int at, gg_vd c2, double per_scale)
-{
-  float peak = (float)(gg_dsmc_peaks(c2, c2)[0] * per_scale);
-  *speed_bound = at && *speed_bound > peak ? *speed_bound : peak;
-}
-
 /* Lanes from `at` on of block b; `single` is constant. */
 GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
 {
@@ -53,7 +47,7 @@ GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double s
       gg_vd3 v = load(c, single, b, at);
       v = store(c, single, b, at, (gg_vd3){v.x + size * (x + strain * y), v.y + size * y, v.z + size * z});
       v.x -= strain * v.y;
-      note_speed_bound(&speed_bound[b], at, gg_vd3_dot(v, v), per_scale);
+      gg_dsmc_note_speed_bound(&speed_bound[b], at, gg_vd3_dot(v, v), per_scale);
     }
   gg_dsmc_lane_rng_save(&rng, lanes);
 }

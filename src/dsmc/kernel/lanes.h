@@ -74,6 +74,13 @@ GG_INLINE void gg_dsmc_peaks_store(gg_v2 peaks, float *one, float *two)
 #endif
 }
 
+/* The speed bound of a block, part by part: from C^2 of the lanes from `at` on. */
+GG_INLINE void gg_dsmc_note_speed_bound(float *speed_bound, int at, gg_vd c2, gg_real per_scale)
+{
+  float peak = (float)(gg_dsmc_peaks(c2, c2)[0] * per_scale);
+  *speed_bound = at && *speed_bound > peak ? *speed_bound : peak;
+}
+
 #ifndef GG_SINGLE_LANES
 /* Numbers kept in single precision: read, and rounded; what is there then. */
 typedef float gg_vf __attribute__((vector_size(4 * GG_WIDTH), aligned(4 * GG_WIDTH)));

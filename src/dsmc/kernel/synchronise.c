@@ -16,13 +16,6 @@ typedef struct affine_map {
   gg_real strain, scale, x, y, z, per_scale;
 } affine_map;
 
-/* The speed bound of a block, part by part. */
-GG_INLINE void note_speed_bound(float *speed_bound, int at, gg_vd c2, gg_real per_scale)
-{
-  float peak = (float)(gg_dsmc_peaks(c2, c2)[0] * per_scale);
-  *speed_bound = at && *speed_bound > peak ? *speed_bound : peak;
-}
-
 /* Lanes from `at` on of n blocks. */
 GG_INLINE void synchronise(gg_dsmc_real_block *c, float *speed_bound, size_t n, int at, affine_map m,
                            gg_dsmc_block_sums *sums)
@@ -41,7 +34,7 @@ GG_INLINE void synchronise(gg_dsmc_real_block *c, float *speed_bound, size_t n, 
     sz += z;
     s2 += c2;
     fastest = gg_larger(fastest, c2);
-    note_speed_bound(&speed_bound[b - c], at, c2, m.per_scale);
+    gg_dsmc_note_speed_bound(&speed_bound[b - c], at, c2, m.per_scale);
   }
   for (int l = 0; l < GG_WIDTH; l++) {
     sums->c.x[at + l] += sx[l];
