@@ -51,7 +51,7 @@ static void tell(void (*line)(void *, const char *), void *context, const char *
   line(context, text);
 }
 
-/* Where partners are looked for, and why there. */
+/* Where partners are searched for, and why there. */
 static void tell_search(const gg_model *m, void (*line)(void *, const char *), void *context)
 {
   double radius;
@@ -60,7 +60,7 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
   enum gg_md_search_way where = gg_md_choose_way(m, &radius, n);
   const char *const why[] = {
       [GG_MD_PLAIN_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
-      [GG_MD_NEIGHBOUR_LISTS] = "as dense: neighbour lists, seldom updated",
+      [GG_MD_NEIGHBOUR_LISTS] = "as dense: they are seldom updated",
       [GG_MD_OVERLAPPING_CELLS] = "as dilute: few crossings, each into one cell",
       [GG_MD_COMOVING_ROWS] = "as sheared: the flow carries nobody through them",
   };

@@ -1,5 +1,5 @@
-/* Everything needed to go on bit for bit: the records as they are. Chains of cells and calendar are made anew: their
- * order never matters. */
+/* Everything needed to go on bit for bit: the records as they are. What cells and calendar hold is put there anew:
+ * its order never matters. */
 #include "md/checkpoint.h"
 
 #include <string.h>

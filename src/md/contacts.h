@@ -7,7 +7,7 @@
  * collisions, makes it count in its share of them (dither).
  *
  * The coefficients jn = m_r (1+e) and jt = m_t (1+beta) are seldom exact: in the same way they are rounded up in some
- * turns and down in the others, so that their mean is right. */
+ * of these collisions and down in the others, so that their mean is right. */
 #ifndef GG_MD_CONTACTS_H
 #define GG_MD_CONTACTS_H
 

@@ -111,10 +111,10 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   return GG_OK;
 }
 
-static void keep_sums(gg_engine *engine, bool open)
+static void keep_sums(gg_engine *engine, bool keep)
 {
   gg_md *e = (gg_md *)engine;
-  e->k.keeps_sums = open;
+  e->k.keeps_sums = keep;
   gg_md_select(e);
 }
 

@@ -56,7 +56,7 @@ static double earliest_event(const gg_md *e, double soon)
   return t;
 }
 
-/* Shells under shear are kept by where they stand at the epoch's start. */
+/* Skins under shear are kept by where they stand at the epoch's start. */
 static void move_skins(gg_md *e, double span)
 {
   for (uint32_t i = 0; i < e->n; i++) {

@@ -1,7 +1,7 @@
 /* Cells that overlap, for dilute gases: each reaches half a contact distance beyond its faces, and a grain is in every
- * cell whose extended region it is in, one or two along each axis. Two grains that touch share a cell, so a grain looks
- * only at those who share one with it; and there is something new to see only when it comes into another cell, whose
- * members are then looked at: one cell or two where ordinary cells would be nine, and with cells as wide as pays.
+ * cell whose extended region it is in, one or two along each axis. Two grains that touch share a cell, so a grain tries
+ * only those who share one with it; and there is somebody new to try only when it comes into another cell, whose
+ * members are then tried: one cell or two where ordinary cells would be nine, and with cells as wide as pays.
  * Leaving a cell is no event: it is done at the grain's next one.
  *
  * node->cell is the lower cell along each axis; bit a of node->neighbours tells whether the grain is in the next one

@@ -3,17 +3,17 @@
 
 #include "md/resolve.h"
 
-#define IMPACT(rule, mixture, contact_time, sums, gaussian)                                                            \
+#define COLLISION(rule, mixture, contact_time, sums, gaussian)                                                         \
   static void rule##_##mixture##contact_time##sums##gaussian(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)  \
   {                                                                                                                    \
     gg_md_resolve_pair(e, (gg_md_resolve_features){rule, mixture, contact_time, sums, gaussian, false, false}, i, j,   \
                        dr, c12);                                                                                       \
   }
 #define FOUR(rule, mixture, contact_time)                                                                              \
-  IMPACT(rule, mixture, contact_time, 0, 0)                                                                            \
-  IMPACT(rule, mixture, contact_time, 0, 1)                                                                            \
-  IMPACT(rule, mixture, contact_time, 1, 0)                                                                            \
-  IMPACT(rule, mixture, contact_time, 1, 1)
+  COLLISION(rule, mixture, contact_time, 0, 0)                                                                         \
+  COLLISION(rule, mixture, contact_time, 0, 1)                                                                         \
+  COLLISION(rule, mixture, contact_time, 1, 0)                                                                         \
+  COLLISION(rule, mixture, contact_time, 1, 1)
 #define WALL(rule, contact_time, sums)                                                                                 \
   static void rule##_wall##contact_time##sums(gg_md *e, uint32_t i, int upper)                                         \
   {                                                                                                                    \

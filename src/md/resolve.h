@@ -1,5 +1,5 @@
 /* What a contact does to its grains: the collision rule, the contact-time rule and the collision sums. One
- * always-inlined body with constant features; kernels.c makes the instances. */
+ * always-inlined body with constant features; resolve.c makes the instances. */
 #ifndef GG_MD_RESOLVE_H
 #define GG_MD_RESOLVE_H
 
@@ -12,7 +12,7 @@ typedef struct gg_md_resolve_features {
   bool mixture, contact_time, sums;
   bool gaussian; /* thermostat: the energy that goes is returned by a slower clock */
   bool spins;    /* at walls: else the wall acts on the grain's centre alone */
-  bool law;      /* of restitution: e depends on the speed of the impact */
+  bool law;      /* of restitution: e depends on the relative normal speed */
 } gg_md_resolve_features;
 
 /* Contact-time rule: a grain that collided less than t_c ago is still "in contact", and collides with e = 1, so that an

@@ -95,7 +95,7 @@ void gg_md_align_rows(gg_md *e)
 static void move_linked_rows(gg_md *e, double span)
 {
   int32_t n = e->cells.n[1];
-  double both = 0.5 - 0.5 * n + n / 2; /* what all rows share of their speeds, in units of slip_speed */
+  double both = 0.5 - 0.5 * n + n / 2; /* what all rows share of their speeds, in units of shift_speed */
   e->k.common_shift = gg_wrap(e->k.common_shift + both * shift_speed(e) * span, e->box.edge[0], e->box.inverse[0]);
   e->k.fractional_shift += shift_speed(e) * span;
   double ahead = e->box.offset0 - (double)whole_offset(e) * e->cells.width[0] - n * e->k.fractional_shift;

@@ -1,10 +1,10 @@
-/* Rows */
+/* Co-moving rows of cells (rows.c, search/comoving_rows.h): how few cells they may have, and their numbers. */
 #ifndef GG_MD_ROWS_H
 #define GG_MD_ROWS_H
 
 #include "md/state.h"
 
-/* Fewest cells along x, in which the nearest image of all that a cell sees is the one that is looked at. */
+/* Fewest cells along x, of which the nearest image of all that a cell sees is the one that is tried. */
 enum { GG_MD_FEWEST_COMOVING = 7 };
 
 /* Index of a cell, up to n cells off. */

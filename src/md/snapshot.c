@@ -1,7 +1,7 @@
 /* The grains shown to the outside: at the present time, peculiar velocities, a few hundred at a time. */
 #include "md/checkpoint.h"
 
-enum { SHOWN = 256 }; /* at a time: so few stay in the first cache until they have been looked at */
+enum { SHOWN = 256 }; /* at a time: so few stay in the first cache until they have been sampled */
 
 typedef struct scratch {
   double r[3][SHOWN], c[3][SHOWN], s[3][SHOWN];

@@ -58,7 +58,7 @@ typedef struct gg_md_counts {
   double now, epoch_start; /* present time in the epoch, and the epoch's start in the run's */
   double contact_time;     /* absolute; 0: off */
   double mean_free_time;   /* present mean free time per grain */
-  double window_time;      /* since free_time was last measured, with so many collisions */
+  double window_time;      /* since mean_free_time was last measured, with so many collisions */
   uint64_t window_collisions, epoch_events, epoch_collisions; /* the latter two: counts at the epoch's start */
   uint64_t collisions, events, treated, wall_treated;
   double worst_overlap;
@@ -111,7 +111,7 @@ struct gg_md {
   const gg_md_kernel *kernel;
   gg_md_resolution *resolve;
   gg_md_wall_resolution *resolve_wall;
-  gg_collision_callback *callback; /* sees every collision; NULL: nobody does, and `resolve` is not wrapped */
+  gg_collision_callback *callback; /* told of every collision; NULL: none, and `resolve` is not wrapped */
   void *callback_context;
   gg_md_resolution *resolve_shown; /* what `resolve` goes on to then */
   gg_thermostat thermostat;

@@ -55,7 +55,7 @@ typedef struct lab_view {
   double n_of[2], c4_of[2], cc_of[2], xy_of[2]; /* by species; sums of C^4, C^2, C_x C_y */
 } lab_view;
 
-static inline void lab_look(void *context, const gg_chunk *k)
+static inline void lab_add_chunk(void *context, const gg_chunk *k)
 {
   lab_view *v = context;
   for (size_t i = 0; i < k->n; i++) {
@@ -74,7 +74,7 @@ static inline void lab_look(void *context, const gg_chunk *k)
 static inline lab_view lab_snapshot(gg_engine *g)
 {
   lab_view v = {0};
-  gg_dsmc_ops.snapshot(g, false, lab_look, &v);
+  gg_dsmc_ops.snapshot(g, false, lab_add_chunk, &v);
   return v;
 }
 
@@ -133,7 +133,7 @@ static inline void lab_average(gg_engine *g, const gg_model *m, double warmup, i
     gg_dsmc_ops.take_sums(g, &t);
     for (int s = 0; s < samples; s++) {
       time += lab_advance(g, INFINITY, (uint64_t)(length * n / 2 / samples));
-      gg_dsmc_ops.snapshot(g, false, lab_look, &sum);
+      gg_dsmc_ops.snapshot(g, false, lab_add_chunk, &sum);
     }
     gg_dsmc_ops.take_sums(g, &t);
     double P[3][3], K[3][3], trace = 0, T = lab_temperature(&sum), loss = 0, collisions = 0;

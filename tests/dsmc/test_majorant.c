@@ -1,13 +1,13 @@
-/* A bound that is too low is noticed, counted and made up for: forced down before every step, it changes neither the
+/* A majorant that is too low is noticed, counted and made up for: forced down before every step, it changes neither the
  * collision rate nor the energy that collisions destroy; nor, of a sheared mixture of rough grains, the collision rate
  * of any pair of species, the stress, and how energy is shared between species and with the spins. */
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
-static void force(gg_engine *g, double bound)
+static void force(gg_engine *g, double majorant)
 {
   gg_dsmc *d = (gg_dsmc *)g;
-  for (int p = 0; p < GG_PAIRS; p++) d->now.majorant[p] = (gg_dsmc_majorant){.before = bound};
+  for (int p = 0; p < GG_PAIRS; p++) d->now.majorant[p] = (gg_dsmc_majorant){.before = majorant};
 }
 
 static void run(double forced, lab_mean *rate, lab_mean *loss, uint64_t *overflows)
@@ -46,7 +46,7 @@ static void forced_overflows(void **state)
     lab_mean r = {0}, p = {0};
     uint64_t overflows;
     run(forced[i], &r, &p, &overflows);
-    printf("# bound %g thermal speeds: %llu overflows\n", forced[i], (unsigned long long)overflows);
+    printf("# majorant %g thermal speeds: %llu overflows\n", forced[i], (unsigned long long)overflows);
     lab_expect("rate", &r, rate * (1 - 1 / (2.0 * 2000)), 0, 0.01);
     lab_expect("collisional stress", &p, pressure, 0, 0.01);
     if (i) assert_true(overflows > 1000);
@@ -63,9 +63,9 @@ static double trace(double a[3][3])
   return a[0][0] + a[1][1] + a[2][2];
 }
 
-/* One block; the bound is forced down (if `forced`) an eighth of a collision per grain after it last was. There must be
- * grains enough that each interval has candidates, of each pair of species, that notice it: of a few tens of collisions
- * that would share one interval, about 1 % get lost unnoticed. */
+/* One block; the majorant is forced down (if `forced`) an eighth of a collision per grain after it last was. There must
+ * be grains enough that each interval has candidates, of each pair of species, that notice it: of a few tens of
+ * collisions that would share one interval, about 1 % get lost unnoticed. */
 static void block(gg_engine *g, const gg_model *m, double forced, mixed *out)
 {
   enum { INTERVALS = 300 };
@@ -76,7 +76,7 @@ static void block(gg_engine *g, const gg_model *m, double forced, mixed *out)
   for (int i = 0; i < INTERVALS; i++) {
     if (forced > 0) force(g, forced);
     time += lab_advance(g, INFINITY, (uint64_t)m->n / 16);
-    if (i % 5 == 0) gg_dsmc_ops.snapshot(g, false, lab_look, &v);
+    if (i % 5 == 0) gg_dsmc_ops.snapshot(g, false, lab_add_chunk, &v);
   }
   gg_dsmc_ops.take_sums(g, &t);
   double samples = v.n / (double)m->n, kinetic = 0, loss = 0;
@@ -115,7 +115,7 @@ static void shear(gg_dsmc_path path, double forced, uint64_t seed, mixed *out)
   gg_dsmc_ops.keep_sums(g, true);
   uint64_t before = d->now.overflows;
   for (int b = 0; b < 20; b++) block(g, &m, forced, out);
-  printf("# %s, bound %g thermal speeds: %llu overflows\n", path == GG_DSMC_PLAIN ? "one by one" : "blocks", forced,
+  printf("# %s, majorant %g thermal speeds: %llu overflows\n", path == GG_DSMC_PLAIN ? "one by one" : "blocks", forced,
          (unsigned long long)(d->now.overflows - before));
   if (forced > 0) assert_true(d->now.overflows - before > 1000);
   gg_dsmc_ops.destroy(g);

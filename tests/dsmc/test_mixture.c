@@ -133,7 +133,7 @@ static void viscosity(void **state)
       gg_dsmc_ops.take_sums(g, &t);
       double time = lab_advance(g, INFINITY, (uint64_t)m.n / 4), P = 0, T = 0;
       lab_view k = {0};
-      gg_dsmc_ops.snapshot(g, false, lab_look, &k);
+      gg_dsmc_ops.snapshot(g, false, lab_add_chunk, &k);
       gg_dsmc_ops.take_sums(g, &t);
       for (int q = 0; q < GG_PAIRS; q++) P += t.stress[q][0][1] / (m.volume * time);
       for (int q = 0; q < 2; q++) T += m.mass[q] * k.cc_of[q] / (3 * k.n), P += m.mass[q] * k.xy_of[q] / m.volume;

@@ -150,7 +150,7 @@ static void mixture(void **state)
       gg_engine *g = lab_engine(&m, seed + 100 * (uint64_t)p);
       double sum = 0;
       lab_advance(g, INFINITY, 10 * (uint64_t)m.n);
-      for (int look = 0; look < 20; look++) {
+      for (int k = 0; k < 20; k++) {
         lab_advance(g, INFINITY, (uint64_t)m.n / 2);
         lab_view v = lab_snapshot(g);
         sum += v.cc_of[0] / v.n_of[0] / (8 * v.cc_of[1] / v.n_of[1]) / 20;
@@ -163,9 +163,9 @@ static void mixture(void **state)
 
 /* The plain path computes in double on grains kept in single precision: a small ensemble, a number of grains that is no
  * multiple of eight, a collision callback. */
-static void seen(void *context, const gg_collision_record *meeting)
+static void add_normal_speed(void *context, const gg_collision_record *collision)
 {
-  *(double *)context += gg_dot(meeting->k, meeting->c12);
+  *(double *)context += gg_dot(collision->k, collision->c12);
 }
 
 static void plain_path(void **state)
@@ -178,7 +178,7 @@ static void plain_path(void **state)
     gg_model m = lab_model(&s);
     gg_engine *g = lab_engine(&m, 5);
     double sum = 0;
-    if (big) assert_int_equal(gg_dsmc_ops.set_callback(g, seen, &sum, &err), GG_OK);
+    if (big) assert_int_equal(gg_dsmc_ops.set_callback(g, add_normal_speed, &sum, &err), GG_OK);
     lab_view before = lab_snapshot(g);
     gg_dsmc_ops.keep_sums(g, true);
     lab_advance(g, INFINITY, 2 * (uint64_t)m.n);

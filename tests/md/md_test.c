@@ -136,13 +136,13 @@ static long double next_of_pair(const gg_md *e, uint32_t i, uint32_t j, double h
   return first <= horizon ? first : INFINITY;
 }
 
-md_forecast md_oracle(const gg_md *e, double horizon)
+md_prediction md_oracle(const gg_md *e, double horizon)
 {
-  md_forecast f = {.time = INFINITY};
+  md_prediction f = {.time = INFINITY};
   for (uint32_t i = 0; i < e->n; i++)
     for (uint32_t j = 0; j < i; j++) {
       long double t = next_of_pair(e, i, j, horizon);
-      if (t < f.time) f = (md_forecast){t, {j, i}};
+      if (t < f.time) f = (md_prediction){t, {j, i}};
     }
   return f;
 }
@@ -160,16 +160,16 @@ static long double next_touch(long double h, long double v, long double w)
   return first;
 }
 
-md_forecast md_oracle_walls(const gg_md *e)
+md_prediction md_oracle_walls(const gg_md *e)
 {
-  md_forecast f = {.time = INFINITY};
+  md_prediction f = {.time = INFINITY};
   for (uint32_t i = 0; e->model.walled && i < e->n; i++) {
     long double r[3], v[3], w = e->gravity.y, a = e->model.diameter[gg_md_species_of(&e->grain[i])] / 2;
     place_now(e, &e->grain[i], r, v);
     long double lower = next_touch(r[1] - a, v[1], w);
     long double upper = e->model.open_top ? INFINITY : next_touch(e->box.edge[1] - a - r[1], -v[1], -w);
-    if (lower < f.time) f = (md_forecast){lower, {i, GG_MD_LOWER_WALL}};
-    if (upper < f.time) f = (md_forecast){upper, {i, GG_MD_UPPER_WALL}};
+    if (lower < f.time) f = (md_prediction){lower, {i, GG_MD_LOWER_WALL}};
+    if (upper < f.time) f = (md_prediction){upper, {i, GG_MD_UPPER_WALL}};
   }
   return f;
 }
@@ -193,7 +193,7 @@ long double md_closest(const gg_md *e)
 
 static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
 {
-  if (e->row) { /* which drifts */
+  if (e->row) { /* which moves */
     double L = e->box.edge[0], middle = (e->node[i].cell[0] + 0.5) * e->cells.width[0];
     const gg_md_row *row = &e->row[e->node[i].cell[1]];
     r.x -= row->origin + row->speed * e->k.now;
@@ -207,7 +207,7 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
   return true;
 }
 
-/* Where a grain is along x in a row that drifts, of which it may be stored another image. */
+/* Where a grain is along x in a row that moves, of which it may be stored another image. */
 static double along_row(const gg_md *e, int32_t row, gg_vec r)
 {
   double layers = rint((r.y - (row + 0.5) * e->cells.width[1]) / e->box.edge[1]);
@@ -224,7 +224,7 @@ static bool is_between(const gg_md *e, int axis, double x, int32_t cell, bool bo
   return depth > half - room && depth < (1 + both) * w - half + room;
 }
 
-static bool is_in_shared_cells(const gg_md *e, uint32_t i, gg_vec r)
+static bool is_in_overlapping_cells(const gg_md *e, uint32_t i, gg_vec r)
 {
   const gg_md_node *node = &e->node[i];
   uint32_t both = node->neighbours;
@@ -236,8 +236,8 @@ static bool is_in_shared_cells(const gg_md *e, uint32_t i, gg_vec r)
   return !(both & 2) || is_between(e, 0, along_row(e, upper, r), node->upper, both >> 3 & 1);
 }
 
-/* Under shear shells shrink and move: their exits are tested by what they are for, contacts. */
-static bool is_in_shell(const gg_md *e, uint32_t i, gg_vec r)
+/* Under shear skins shrink and move: their exits are tested by what they are for, contacts. */
+static bool is_in_skin(const gg_md *e, uint32_t i, gg_vec r)
 {
   gg_vec dr = gg_sub(r, e->skin[i].centre);
   if (e->model.shear_rate == 0 && gg_dot(dr, dr) > e->skin_radius * e->skin_radius * (1 + 1e-9)) return false;
@@ -263,7 +263,7 @@ uint32_t md_misplaced(const gg_md *e)
   uint32_t count = 0;
   for (uint32_t i = 0; i < e->n; i++) {
     gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now);
-    bool in = e->skin ? is_in_shell(e, i, r) : e->overlapping ? is_in_shared_cells(e, i, r) : is_in_cell(e, i, r);
+    bool in = e->skin ? is_in_skin(e, i, r) : e->overlapping ? is_in_overlapping_cells(e, i, r) : is_in_cell(e, i, r);
     count += !in || !is_between_walls(e, i, r);
   }
   return count;

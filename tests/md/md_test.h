@@ -31,19 +31,19 @@ double md_collide(gg_md *e, uint64_t collisions);
 /* Everything that decides how a run goes on, in 64 bits. */
 uint64_t md_hash(const gg_md *e);
 
-/* The next collision, by trying every image of every pair in long double from the present state, not looking further
+/* The next collision, by trying every image of every pair in long double from the present state, no further
  * than `horizon` ahead. INFINITY if there is none. */
-typedef struct md_forecast {
+typedef struct md_prediction {
   long double time; /* from now */
   uint32_t pair[2];
-} md_forecast;
-md_forecast md_oracle(const gg_md *e, double horizon);
+} md_prediction;
+md_prediction md_oracle(const gg_md *e, double horizon);
 /* The same for collisions with walls alone; pair[1] is GG_MD_LOWER_WALL or GG_MD_UPPER_WALL. */
-md_forecast md_oracle_walls(const gg_md *e);
+md_prediction md_oracle_walls(const gg_md *e);
 /* Smallest distance of two centres over their contact distance. */
 long double md_closest(const gg_md *e);
 
-/* How many grains are outside their cell or, with lists, outside their shell or missing in a neighbour's list; or in a
+/* How many grains are outside their cell or, with lists, outside their skin or missing in a neighbour's list; or in a
  * wall. */
 uint32_t md_misplaced(const gg_md *e);
 

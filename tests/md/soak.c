@@ -3,12 +3,12 @@
  *
  *   soak PHI E BETA COLLISIONS [START [N [SEED [equilibrium | usf | hss | couette]]]]
  *
- * Looks at the run some thousand times, half of them at a collision, half between two: the closest two of all pairs in
- * long double, images included; who is outside his cell, shell or walls; total momentum; where collisions conserve it
+ * Samples the run some thousand times, half of them at a collision, half between two: the closest two of all pairs in
+ * long double, images included; who is outside his cell, skin or walls; total momentum; where collisions conserve it
  * (e = 1, beta = 1 or -1, no shear), energy. Prints one line, PASS or FAIL, and exits 0 or 1.
  *
  * Without a word on the flow, grains that conserve energy are left alone in a periodic box, others are sheared: their
- * temperature stays, and the sliding images are the part of the engine that knows the time. START is what the clock
+ * temperature stays, and the moving images are the part of the engine that knows the time. START is what the clock
  * shows at the start (under shear, to a whole number of periods of the images). */
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@
 
 #define LARGEST_OVERLAP 1e-11 /* contact distances */
 #define LARGEST_DRIFT 1e-11   /* of energy, relative; of momentum, in N thermal speeds */
-enum { LOOKS = 4000, FEWEST_BETWEEN = 25000, REPORT_SECONDS = 20 };
+enum { SAMPLES = 4000, FEWEST_BETWEEN = 25000, REPORT_SECONDS = 20 };
 
 typedef struct soak {
   gg_md *e;
@@ -28,7 +28,7 @@ typedef struct soak {
   bool conserves;
   double overlap, drift, momentum; /* worst so far */
   uint32_t misplaced;
-  int looks;
+  int samples;
 } soak;
 
 static gg_flow flow_of(const char *word, double e, double beta)
@@ -44,7 +44,7 @@ static gg_flow flow_of(const char *word, double e, double beta)
   exit(2);
 }
 
-static void look(soak *s)
+static void sample(soak *s)
 {
   double overlap = (double)(1 - md_closest(s->e)), energy = md_energy(s->e);
   gg_vec p = md_momentum(s->e);
@@ -53,7 +53,7 @@ static void look(soak *s)
   if (!s->e->model.walled) s->momentum = fmax(s->momentum, sqrt(gg_dot(p, p)) / scale);
   if (s->conserves) s->drift = fmax(s->drift, fabs(energy / s->energy0 - 1));
   s->misplaced += md_misplaced(s->e);
-  s->looks++;
+  s->samples++;
 }
 
 static bool passes(const soak *s)
@@ -62,26 +62,26 @@ static bool passes(const soak *s)
          s->drift < LARGEST_DRIFT && s->momentum < LARGEST_DRIFT;
 }
 
-static void print(const soak *s, FILE *out, const char *verdict, double seconds)
+static void print(const soak *s, FILE *out, const char *word, double seconds)
 {
   const gg_model *m = &s->e->model;
   gg_engine_state now;
   gg_md_ops.state(&s->e->base, &now);
   static const char *const flows[] = {"equilibrium", "usf", "hcs", "hss", "couette", "poiseuille", "chute"};
-  fprintf(out, "%s phi %g e %g beta %g %s N %u start %.0f: %.4g collisions, %.0f s, clock %.6f; ", verdict, m->phi,
+  fprintf(out, "%s phi %g e %g beta %g %s N %u start %.0f: %.4g collisions, %.0f s, clock %.6f; ", word, m->phi,
           m->e[0], m->beta[0], flows[m->flow], s->e->n, s->start, (double)now.collisions, seconds, now.time);
-  fprintf(out, "overlap at collisions %.1e, of all pairs in %d looks %.1e; misplaced %u; momentum %.1e; ",
-          now.worst_overlap, s->looks, s->overlap, s->misplaced, s->momentum);
+  fprintf(out, "overlap at collisions %.1e, of all pairs in %d samples %.1e; misplaced %u; momentum %.1e; ",
+          now.worst_overlap, s->samples, s->overlap, s->misplaced, s->momentum);
   if (s->conserves) fprintf(out, "energy %.1e; ", s->drift);
   fprintf(out, "treated %.1e; state %016llx\n", (double)now.treated / (double)now.collisions,
           (unsigned long long)md_hash(s->e));
   fflush(out);
 }
 
-/* To the next look: half of them stand between two collisions. */
+/* To the next sample: half of them stand between two collisions. */
 static void go_on(soak *s, uint64_t collisions)
 {
-  double between = s->looks % 2 ? 0.3 * s->e->k.mean_free_time / s->e->n : 0, dt;
+  double between = s->samples % 2 ? 0.3 * s->e->k.mean_free_time / s->e->n : 0, dt;
   s->gone += md_collide(s->e, collisions);
   if (between > 0 && gg_md_ops.advance(&s->e->base, between, UINT64_MAX, &dt, NULL) == GG_OK) s->gone += dt;
 }
@@ -96,13 +96,13 @@ static void set_clock(soak *s, double start)
 
 static int run(soak *s)
 {
-  uint64_t step = s->collisions / LOOKS > FEWEST_BETWEEN ? s->collisions / LOOKS : FEWEST_BETWEEN;
+  uint64_t step = s->collisions / SAMPLES > FEWEST_BETWEEN ? s->collisions / SAMPLES : FEWEST_BETWEEN;
   time_t begin = time(NULL), told = begin;
-  look(s);
+  sample(s);
   while (s->e->k.collisions < s->collisions) {
     uint64_t left = s->collisions - s->e->k.collisions;
     go_on(s, left < step ? left : step);
-    look(s);
+    sample(s);
     if (time(NULL) < told + REPORT_SECONDS) continue;
     told = time(NULL);
     print(s, stderr, "at", (double)(told - begin));

@@ -58,7 +58,8 @@ static double total_mass(const gg_md *e)
   return sum;
 }
 
-/* Work of the gravity along x and z since the last look: displacements between looks are shorter than half a box. */
+/* Work of the gravity along x and z since the last sample: displacements between samples are shorter than half a box.
+ */
 typedef struct work {
   gg_vec last[300]; /* by the grain's number */
   double done;

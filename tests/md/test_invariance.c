@@ -1,6 +1,6 @@
 /* Proves: the same first hundred collisions (pairs in order, and times to 10^-8 of a mean free time) wherever the
  * sheared boundary lies, under translations, under half a turn about the vorticity, for images displaced by whole
- * boxes, and for any grid of cells, at rest or drifting, or neighbour lists; and the same averages of long runs. */
+ * boxes, and for any grid of cells, at rest or co-moving, or neighbour lists; and the same averages of long runs. */
 #include <string.h>
 
 #include "md/rows.h"
@@ -90,8 +90,8 @@ static void turn(gg_md *e)
   }
 }
 
-/* Any number of cells that fits, but enough for rows of them to drift. */
-static void set_drifting_grid(gg_md *e, gg_rng *rng)
+/* Any number of cells that fits, but enough for co-moving rows. */
+static void set_comoving_grid(gg_md *e, gg_rng *rng)
 {
   const int32_t least[3] = {GG_MD_FEWEST_COMOVING, 4, 4};
   int32_t n[3];
@@ -116,7 +116,7 @@ static void set_random_grid(gg_md *e, gg_rng *rng, bool one)
   assert_int_equal(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), &err), GG_OK);
 }
 
-static void check(md_case c, uint64_t seed, bool drift)
+static void check(md_case c, uint64_t seed, bool comoving)
 {
   gg_model m = md_model(c);
   gg_md *e = md_create(&m, seed), *copy = copy_of(e);
@@ -128,7 +128,7 @@ static void check(md_case c, uint64_t seed, bool drift)
   record(copy, &first);
   md_destroy(copy);
   gg_rng rng = gg_rng_seed(seed, 9);
-  for (int k = 0; k < (drift ? 24 : 18); k++) {
+  for (int k = 0; k < (comoving ? 24 : 18); k++) {
     gg_error err;
     copy = copy_of(e);
     if (k < 6)
@@ -143,7 +143,7 @@ static void check(md_case c, uint64_t seed, bool drift)
     else if (k < 18)
       copy->box.offset0 += (k == 16 ? 1 : -2) * copy->box.edge[0];
     else
-      set_drifting_grid(copy, &rng);
+      set_comoving_grid(copy, &rng);
     begin(copy);
     record(copy, &other);
     same(copy, &first, &other);
@@ -172,15 +172,15 @@ static void sheared(void **state)
 typedef struct averages {
   double mean[3], error[3]; /* temperature, collision rate, kinetic P_xy over density */
 } averages;
-enum { BLOCKS = 30, LOOKS = 100 };
+enum { BLOCKS = 30, SAMPLES = 100 };
 
-static void look(const gg_md *e, double *T, double *xy)
+static void sample(const gg_md *e, double *T, double *xy)
 {
   for (uint32_t i = 0; i < e->n; i++) {
     gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now), c = e->grain[i].v;
     c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
-    *T += gg_dot(c, c) / (3.0 * e->n * LOOKS);
-    *xy += c.x * c.y / (e->n * (double)LOOKS);
+    *T += gg_dot(c, c) / (3.0 * e->n * SAMPLES);
+    *xy += c.x * c.y / (e->n * (double)SAMPLES);
   }
 }
 
@@ -191,11 +191,11 @@ static averages average(gg_md *e)
   md_collide(e, 100 * e->n);
   for (int b = 0; b < BLOCKS; b++) {
     double x[3] = {0}, time = 0;
-    for (int k = 0; k < LOOKS; k++) {
+    for (int k = 0; k < SAMPLES; k++) {
       time += md_collide(e, e->n / 2);
-      look(e, &x[0], &x[2]);
+      sample(e, &x[0], &x[2]);
     }
-    x[1] = LOOKS / time;
+    x[1] = SAMPLES / time;
     for (int q = 0; q < 3; q++) a.mean[q] += x[q] / BLOCKS, sum2[q] += x[q] * x[q] / BLOCKS;
   }
   for (int q = 0; q < 3; q++) a.error[q] = sqrt((sum2[q] - a.mean[q] * a.mean[q]) / (BLOCKS - 1));

@@ -11,17 +11,17 @@
 
 enum { MOST = 160 };
 
-typedef struct watch {
+typedef struct collided {
   uint32_t counter[MOST];
   int64_t changed[3]; /* who collided since, -1: nobody */
-} watch;
+} collided;
 
-static void look(watch *w, const gg_md *e)
+static void note_counters(collided *w, const gg_md *e)
 {
   for (uint32_t i = 0; i < e->n; i++) w->counter[i] = e->grain[i].counter;
 }
 
-static void look_again(watch *w, const gg_md *e)
+static void find_changed(collided *w, const gg_md *e)
 {
   int n = 0;
   w->changed[0] = w->changed[1] = w->changed[2] = -1;
@@ -35,25 +35,25 @@ static void advance(gg_md *e, double dt)
   if (gg_md_ops.advance(&e->base, dt, UINT64_MAX, NULL, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
-/* One forecast of the plain search, and what the engine does around that time. */
+/* One prediction of the plain search, and what the engine does around that time. */
 static void check_next(gg_md *e, uint64_t seed)
 {
   double tolerance = 1e-10 * e->k.mean_free_time, horizon = 30 * e->k.mean_free_time / e->n;
-  md_forecast f = md_oracle(e, horizon), wall = md_oracle_walls(e);
+  md_prediction f = md_oracle(e, horizon), wall = md_oracle_walls(e);
   if (wall.time < f.time) f = wall;
-  watch w;
-  look(&w, e);
+  collided w;
+  note_counters(&w, e);
   if (!(f.time < horizon)) {
     advance(e, horizon);
-    look_again(&w, e);
+    find_changed(&w, e);
     assert_true(w.changed[0] < 0);
     return;
   }
   if (f.time > tolerance) advance(e, (double)f.time - tolerance);
-  look_again(&w, e);
+  find_changed(&w, e);
   int64_t early = w.changed[0];
   advance(e, 2 * tolerance);
-  look_again(&w, e);
+  find_changed(&w, e);
   bool by_wall = f.pair[1] >= GG_MD_UPPER_WALL;
   bool same = w.changed[0] == f.pair[0] && w.changed[1] == (by_wall ? -1 : (int64_t)f.pair[1]) && w.changed[2] == -1;
   if (early >= 0 || !same)
@@ -175,8 +175,8 @@ static void wide_cells(void **state)
   }
 }
 
-/* Under shear, in boxes wide enough for rows of cells that drift; until rows have slipped several times. */
-static void drifting_cells(void **state)
+/* Under shear, in boxes wide enough for co-moving rows of cells; until rows have shifted several times. */
+static void comoving_rows(void **state)
 {
   (void)state;
   md_case dilute = {GG_USF, 150, 0.06, 0.9, -1, INFINITY, {2, 1, 1}},
@@ -198,7 +198,7 @@ static void drifting_cells(void **state)
 }
 
 /* Dilute, in boxes wide enough for cells that overlap. */
-static void shared_cells(void **state)
+static void overlapping_cells(void **state)
 {
   (void)state;
   md_case still = {GG_HCS, 150, 0.01, 0.9, 0, INFINITY, {0}},
@@ -299,10 +299,18 @@ static void late(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(periodic),       cmocka_unit_test(sheared),       cmocka_unit_test(mixtures),
-      cmocka_unit_test(between_walls),  cmocka_unit_test(under_gravity), cmocka_unit_test(dense),
-      cmocka_unit_test(few_grains),     cmocka_unit_test(listed),        cmocka_unit_test(wide_cells),
-      cmocka_unit_test(drifting_cells), cmocka_unit_test(shared_cells),  cmocka_unit_test(ten_thousand_in_a_row),
+      cmocka_unit_test(periodic),
+      cmocka_unit_test(sheared),
+      cmocka_unit_test(mixtures),
+      cmocka_unit_test(between_walls),
+      cmocka_unit_test(under_gravity),
+      cmocka_unit_test(dense),
+      cmocka_unit_test(few_grains),
+      cmocka_unit_test(listed),
+      cmocka_unit_test(wide_cells),
+      cmocka_unit_test(comoving_rows),
+      cmocka_unit_test(overlapping_cells),
+      cmocka_unit_test(ten_thousand_in_a_row),
       cmocka_unit_test(late),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

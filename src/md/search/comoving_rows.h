@@ -9,8 +9,8 @@
  *   own:       -1  0 +1
  *   below:     -1  0 +1 +2  behind by f
  *
- * Who comes into another cell looks at the cells that are new to it; and when the rows shift, everybody looks at the
- * cells above that come within reach (-2): thus of two grains in cells that see each other one has always looked at the
+ * Who comes into another cell searches the cells that are new to it; and when the rows shift, everybody searches the
+ * cells above that come within reach (-2): thus of two grains in cells that see each other one has always tried the
  * other. */
 #ifndef GG_MD_SEARCH_COMOVING_ROWS_H
 #define GG_MD_SEARCH_COMOVING_ROWS_H
@@ -26,7 +26,7 @@ enum { ROWS_SHIFT = true, ROWS_MOVE = true, KNOWS_IMAGES = true, FEW_MEET = fals
 #include "md/search/simd_pairs.h"
 #include "md/search/way.h"
 
-/* Cells to look at: those from..to relative to the grain's own, in its own row and in those above and below, in layers
+/* Cells to search: those from..to relative to the grain's own, in its own row and in those above and below, in layers
  * from..to along z. From above to: none. */
 typedef struct gg_md_window {
   int own[2], above[2], below[2], deep[2];
@@ -126,7 +126,7 @@ GG_INLINE void gg_md_scan_window_ahead(const gg_md *e, gg_md_search *s, int axis
 }
 
 /* Into the row above (step 1) or below (-1), where the grain is in one of two cells: into which is seen from where it
- * is. It looks at all of the next row, and at that end of the row that it comes from which it did not see before. */
+ * is. It searches all of the next row, and that end of the row that it comes from which it did not see before. */
 GG_INLINE gg_md_window gg_md_change_row(gg_md *e, uint32_t i, int step)
 {
   gg_md_node *node = &e->node[i];
@@ -192,9 +192,9 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
   gg_md_schedule(e, &s);
 }
 
-/* Rows have shifted by a cell: everybody looks at what comes within reach above. Most see nothing that changes their
+/* Rows have shifted by a cell: everybody searches what comes within reach above. Most find nothing that changes their
  * next event, and stay as they are. */
-static __attribute__((noinline)) void gg_md_look_at_shifted_rows(gg_md *e)
+static __attribute__((noinline)) void gg_md_search_shifted_rows(gg_md *e)
 {
   e->k.now = e->next_shift;
   gg_md_shift_rows_by_a_cell(e);
@@ -212,7 +212,7 @@ static __attribute__((noinline)) void gg_md_look_at_shifted_rows(gg_md *e)
 
 GG_INLINE void gg_md_shift_all(gg_md *e)
 {
-  gg_md_look_at_shifted_rows(e);
+  gg_md_search_shifted_rows(e);
 }
 
 GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)

@@ -1,12 +1,12 @@
 /* The search for a grain's next event: the cells around it, image by image, and its own cell's faces.
  *
- * Every neighbouring cell is looked at as one definite image, with its shift, so that boxes of one or two cells across
+ * Every neighbouring cell is searched as one definite image, with its shift, so that boxes of one or two cells across
  * and grains that meet several images of one partner need no special case.
  *
- * Rows across a sheared boundary, of cells at rest in small boxes (else: rows.h): the image row of cells stands at any
- * offset and moves. The grain looks at all of it that can come within reach of its cell until a time `valid`, and
- * looks anew then. What makes incremental scans right: at every scan a grain looks at the whole window of each moving
- * row, and otherwise neighbourhoods are symmetric. */
+ * Rows across a sheared boundary, of cells at rest in small boxes (else: comoving_rows.h): the image row of cells
+ * stands at any offset and moves. The grain searches all of it that can come within reach of its cell until a time
+ * `valid`, and searches anew then. What makes incremental scans right: at every scan a grain searches the whole window
+ * of each moving row, and otherwise neighbourhoods are symmetric. */
 #ifndef GG_MD_SEARCH_PLAIN_CELLS_H
 #define GG_MD_SEARCH_PLAIN_CELLS_H
 

@@ -2,7 +2,7 @@
  * cells in rows, neighbour lists. One header each, of which an instance of the event loop includes one (features.h).
  * Each of them defines the functions declared here, and the constants
  *
- *   ROWS_SHIFT     do rows shift, so that all grains have to look at once (gg_md_shift_all)?
+ *   ROWS_SHIFT     do rows shift, upon which all grains search at once (gg_md_shift_all)?
  *   FEW_MEET       of those tried: worth a test whether anybody of a batch is in the way at all?
  *   CACHED         so many grains are in the cache anyway: nothing needs to be prefetched */
 #ifndef GG_MD_SEARCH_WAY_H
@@ -16,7 +16,7 @@ GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s);
 GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face);
 /* It does so now. */
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i);
-/* Rows shift by a cell: everybody looks at what comes within reach. */
+/* Rows shift by a cell: everybody searches what comes within reach. */
 GG_INLINE void gg_md_shift_all(gg_md *e);
 
 /* What the events of a new bucket will read, beside the grain: `partner` of its predicted collision, or none. */

@@ -1,3 +1,4 @@
+/* Places for the centres at a start: a lattice, or random ones pushed apart. */
 #ifndef GG_MD_START_PLACE_H
 #define GG_MD_START_PLACE_H
 
