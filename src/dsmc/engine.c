@@ -148,16 +148,16 @@ static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
-  bool slow = d->model.linear_response; /* goes back to the beginning of its sweep */
-  if (d->thermostat != GG_NO_THERMOSTAT && !slow)
+  const bool next_sweep = d->model.linear_response; /* of the reduced shear rate: the clock goes on */
+  if (d->thermostat != GG_NO_THERMOSTAT && !next_sweep)
     return gg_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
-  if (d->model.shear_rate != 0 && !slow)
+  if (d->model.shear_rate != 0 && !next_sweep)
     return gg_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
   if (power < -1000 || power > 1000) return gg_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);
   double factor = ldexp(1, power);
   d->now.power += power;
   gg_dsmc_ensemble_scale(&d->ensemble, factor);
-  if (!slow) {
+  if (!next_sweep) {
     d->now.time /= factor;
     d->now.unsynchronised /= factor;
     gg_dsmc_rescale_callback(d, factor);
