@@ -45,7 +45,9 @@ gg_status gg_archive_get(const gg_archive *a, const char *name, gg_item_type typ
                          gg_error *err)
 {
   const gg_item *item = gg_archive_find(a, name);
-  if (!item) return gg_fail(err, GG_BAD_FILE, "the checkpoint lacks '%s'", name);
+  if (!item)
+    return gg_fail(err, GG_BAD_FILE, "the checkpoint lacks '%s': another version wrote it, or it is of another kind",
+                   name);
   if (item->type != type)
     return gg_fail(err, GG_BAD_FILE, "the checkpoint's '%s' holds numbers of another type than is needed", name);
   if (item->count != count)
