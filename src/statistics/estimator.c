@@ -79,7 +79,7 @@ static double slope(gg_of_means *f, const gg_model *model, double *mean, size_t 
   mean[k] = at - step;
   double down = f(mean, model);
   mean[k] = at;
-  return (up - down) / (2 * step);
+  return up == down ? 0 : (up - down) / (2 * step); /* also of a channel that is no number */
 }
 
 gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
