@@ -61,6 +61,8 @@ typedef struct gg_observable {
   void (*add_interval)(void *self, const gg_interval *interval);
   /* Called with every collision while averaging; goes into the bins with the next snapshot. NULL: not needed. */
   gg_collision_callback *add_collision;
+  /* All velocities have just been multiplied by this: told before the next collision, where it has add_collision. */
+  void (*rescaled)(void *self, double factor);
   void (*restart)(void *self); /* averaging begins (anew): forget earlier snapshots; NULL if there is nothing to forget
                                 */
   gg_curves_of *curves;

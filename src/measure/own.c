@@ -10,7 +10,7 @@ typedef double triple[3];
 
 /* What one sample leaves for the next; the observables' states follow. */
 typedef struct memory {
-  double scale; /* engine's velocities over those of the start */
+  double scale; /* engine's velocities over those of the start; of repeated sweeps of slow shear, of its own start */
   double time;
 } memory;
 
@@ -152,7 +152,6 @@ static gg_sample sample_of(const own *o, const gg_interval *in)
 static void finish(void *self, const gg_interval *in, double *row)
 {
   own *o = self;
-  o->memory->scale *= in->velocity_factor;
   o->memory->time += in->elapsed * o->memory->scale;
   if (!(in->elapsed > 0)) return; /* the very first sample makes no row */
   convert(o);
@@ -163,6 +162,12 @@ static void finish(void *self, const gg_interval *in, double *row)
     d->sample(d->context, state_of(o, k), &sample, row);
     row += d->n_quantities;
   }
+}
+
+static void rescaled(void *self, double factor)
+{
+  own *o = self;
+  if (!o->model.linear_response) o->memory->scale *= factor;
 }
 
 static void put(double to[3], gg_vec v, double scale)
@@ -213,7 +218,8 @@ static const gg_derived derived[GG_MOST_OWN_QUANTITIES + 1] = {OF_A(ROW) OF_B(RO
 
 #define COMMON                                                                                                         \
   .name = "own", .create = create, .destroy = destroy, .memory = memory_of, .width = width, .begin = begin,            \
-  .add_chunk = add_chunk, .finish = finish, .derived = derived, .missing = missing, .positions = true
+  .add_chunk = add_chunk, .finish = finish, .derived = derived, .missing = missing, .positions = true,                 \
+  .rescaled = rescaled
 static const gg_observable quiet = {COMMON}, with_collisions = {COMMON, .add_collision = add_collision};
 
 const gg_observable *gg_own_observables(const gg_model *model)

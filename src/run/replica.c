@@ -92,6 +92,8 @@ static gg_status rescale(gg_replica *r, int power, gg_error *err)
 {
   GG_TRY(r->engine->ops->rescale(r->engine, power, err));
   r->clock.velocity_factor = ldexp(1, power);
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->rescaled) r->observable[k]->rescaled(r->self[k], r->clock.velocity_factor);
   r->clock.interval = ldexp(r->clock.interval, -power);
   return GG_OK;
 }
@@ -112,13 +114,23 @@ static gg_status rescale_if_due(gg_replica *r, gg_error *err)
   return rescale(r, 2, err);
 }
 
+void gg_replica_date_frame(const gg_replica *r, gg_frame *frame)
+{
+  double unit = ldexp(1, -(int)r->clock.power);
+  frame->time = r->clock.time;
+  for (size_t i = 0; i < 3 * frame->n && r->clock.power; i++) {
+    frame->velocity[i] *= unit;
+    if (frame->spin) frame->spin[i] *= unit;
+  }
+}
+
 static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
 {
   if (!hooks || !hooks->frame || !(r->trajectory_every > 0) || gg_replica_collisions_per_grain(r) < r->clock.next_frame)
     return GG_OK;
   gg_frame frame;
   GG_TRY(gg_frame_take(r->engine, &r->model, &frame, err));
-  frame.time = r->clock.time;
+  gg_replica_date_frame(r, &frame);
   gg_status status = hooks->frame(hooks->context, &frame, err);
   gg_frame_free(&frame);
   r->clock.next_frame += r->trajectory_every;

@@ -60,6 +60,8 @@ void gg_replica_restart_curves(gg_replica *r);
 gg_status gg_replica_observe_collisions(gg_replica *r, gg_error *err);
 
 double gg_replica_collisions_per_grain(const gg_replica *r);
+/* A frame of the engine as results have it: at the time since the start, velocities in units of the start. */
+void gg_replica_date_frame(const gg_replica *r, gg_frame *frame);
 
 gg_status gg_replica_save(const gg_replica *r, gg_archive *archive, gg_error *err);
 gg_status gg_replica_restore(gg_replica *r, const gg_archive *archive, const gg_scene *scene, const gg_model *model,

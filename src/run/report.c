@@ -184,6 +184,6 @@ gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)
   report_warnings(all, &c, result);
   GG_TRY(gg_replicas_report_curves(all, result, err));
   GG_TRY(gg_frame_take(all->replica[0].engine, &all->model, &result->final, err));
-  result->final.time = all->replica[0].clock.time;
+  gg_replica_date_frame(&all->replica[0], &result->final);
   return test_end(all, &c, err);
 }
