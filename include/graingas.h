@@ -106,7 +106,8 @@ typedef struct gg_simulation_state {
   uint64_t collisions;         /* between grains since the start; each counts once */
   double collisions_per_grain; /* each counts for both partners */
   size_t grains;
-  double temperature;            /* T; of mixtures sum x_i m_i <C.C>_i / 3 */
+  double temperature;            /* T; of mixtures sum x_i m_i <C.C>_i / 3; between walls, where no flow is imposed,
+                                  * of whole velocities (results are about the local mean), the stress likewise */
   double rotational_temperature; /* theta = I <omega^2>/(3m) about the mean spin; 0 for smooth grains */
   double kinetic_stress[3][3];   /* in units of stress; x along the flow, y along its gradient */
   double strain;                 /* shear rate times time; 0 without shear */
@@ -115,7 +116,8 @@ typedef struct gg_simulation_state {
 } gg_simulation_state;
 GG_API gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err);
 
-/* Arrays of the caller's, for `grains` grains, in an order that never changes; NULL for what is not wanted. */
+/* Arrays of the caller's, for `grains` grains; NULL for what is not wanted. The order of grains never changes in md; in
+ * dsmc grains of a species change places, but for as long as collisions are shown. */
 typedef struct gg_grains {
   double *position; /* 3 a grain: x y z x y z ...; from 0 to box[i]; with walls at y = 0 and box[1] */
   double *velocity; /* 3 a grain, relative to the imposed flow gamma (y - box[1]/2) along x */
@@ -161,33 +163,35 @@ typedef struct gg_progress { /* where a run stands */
   const char *engine;        /* "md", "dsmc": a comparison runs both */
   const char *phase;         /* "warm-up", "averaging" */
   double fraction;           /* of this phase, 0..1 */
-  uint64_t collisions;       /* so far, this replica */
+  uint64_t collisions;       /* so far, of all replicas */
   double rate;               /* collisions per second of processor time */
   double relative_error;     /* of the worst headline quantity; NaN: not known yet */
   double time_left;          /* seconds; NaN: not known */
-  int64_t replica, replicas;
+  int64_t replicas;
 } gg_progress;
 
 /* All zero: one thread, nobody told, nothing written. Results do not depend on any of it. */
 typedef struct gg_run_options {
   int threads;            /* for replicas, for compare's two engines, for large Monte Carlo ensembles; 0: one */
-  const char *output;     /* result file to write, with the trajectory if the scene has output.trajectory_every */
+  const char *output;     /* result file to write, with the trajectory if the scene has output.trajectory_every; another
+                           * file than the two below */
   const char *checkpoint; /* file to keep checkpoints in: every output.checkpoint_every seconds of the scene (0: never),
                            * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1 */
   const char *resume;     /* checkpoint to go on from, bit for bit; FILE.1 is taken where it is damaged */
   const char *command;    /* how the file was made, for its record; NULL: "the graingas library" */
   void *context;          /* for the callbacks, of which each may be NULL; one at a time, maybe on threads of the run */
   int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop */
-  int (*stop)(void *context); /* asked more often, and by many threads at once (read a flag); not 0: stop */
-  void (*stored)(void *context, const char *checkpoint); /* a checkpoint was written */
-  void (*warn)(void *context, const char *message);      /* what was put right before the run began */
+  int (*stop)(void *context);                                  /* asked at every sampling interval; not 0: stop */
+  void (*stored)(void *context, const char *checkpoint);       /* a checkpoint was written */
+  void (*warn)(void *context, const char *message);            /* what was put right before the run began */
 } gg_run_options;
 
 typedef struct gg_result gg_result; /* what came out of one engine's run */
 
 /* Run the scene's engine; options NULL: the default ones. With a result as well as a status that is not GG_OK:
  * GG_FAILED, the run ended short of what was asked, and the result says how far it came; GG_INTERRUPTED, a callback
- * stopped it, results so far (no output is written); GG_BAD_FILE, the output could not be written at the end. */
+ * stopped it, results so far (no output is written); GG_BAD_FILE, a checkpoint could not be written, results so far, or
+ * the output could not be at the end. */
 GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
 
 /* ---- Results ---- */
@@ -251,7 +255,8 @@ GG_API gg_status gg_result_curve_number(const gg_result *result, size_t i, size_
 /* The last state of the grains (of the first replica), as gg_simulation_get_grains. */
 GG_API gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_error *err);
 
-/* The JSON document of `graingas run --json`; the HDF5 (H5MD) result file, complete or not at all; one read back. */
+/* The JSON document of `graingas run --json`; the HDF5 (H5MD) result file, complete or not at all; one read back, with
+ * the names of what its program had added, but not the callbacks. */
 GG_API gg_status gg_result_to_json(const gg_result *result, char **text, gg_error *err);
 GG_API gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err);
 GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *err);
@@ -351,7 +356,7 @@ GG_API const char *gg_nearest_word(const char *word, const char *const *known);
  * come from the threads of the run, several at once where replicas or engines run side by side: they must not write to
  * what they share without a lock. Numbers have the units of results. Each call below returns GG_BAD_INPUT with the
  * reason, and leaves the scene as it was, if something is missing, a name is taken or is no name (letters, digits and
- * _, at most 40), or if there are too many: 32 quantities, 8 theories a scene. */
+ * _, at most 40), a text is not one line of UTF-8, or if there are too many: 32 quantities, 8 theories a scene. */
 
 /* A quantity of one's own. */
 typedef struct gg_quantity_definition {

@@ -56,15 +56,15 @@ static const char *const engines[] = {"md", "dsmc"};
 static void print_means(const gg_comparison *c)
 {
   int column[2] = {-1, -1};
-  gg_entry q;
-  gg_measurement m;
+  gg_measurement q, m;
+  const gg_result *md = gg_comparison_result(c, "md"), *one = md ? md : gg_comparison_result(c, "dsmc");
   gg_table *t = gg_table_new();
   if (!t) return;
   gg_table_column(t, "quantity", false);
   for (int k = 0; k < 2; k++)
     if (gg_comparison_result(c, engines[k])) column[k] = gg_table_column(t, engines[k], true);
   int unit = gg_table_column(t, "unit", false);
-  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
+  for (size_t i = 0; gg_result_at(one, i, &q, NULL) == GG_OK; i++) {
     int row = -1;
     for (int k = 0; k < 2; k++) {
       if (gg_result_find(gg_comparison_result(c, engines[k]), q.name, &m, NULL) != GG_OK || isnan(m.mean)) continue;

@@ -32,9 +32,8 @@ gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_co
     hooks.frame = NULL; /* a comparison keeps no trajectory */
     status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);
   }
-  bool some = status == GG_OK ||
-              ((status == GG_FAILED || status == GG_INTERRUPTED) && (c->by_engine[GG_MD] || c->by_engine[GG_DSMC]));
-  if (some && run.options.output && status != GG_INTERRUPTED)
+  bool some = status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC];
+  if (some && run.options.output && (status == GG_OK || status == GG_FAILED))
     written = gg_result_file_finish_comparison(&run.file, c, &why);
   gg_door_run_end(&run);
   if (some)

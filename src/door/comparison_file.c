@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "door/door.h"
+#include "io/c_locale.h"
 #include "io/document.h"
 #include "io/h5/result_file.h"
 #include "io/h5/result_restore.h"
@@ -22,9 +23,10 @@ gg_status gg_comparison_write(const gg_comparison *comparison, const char *path,
   GG_NEED(comparison);
   GG_NEED(path);
   gg_result_file file;
-  if (!comparison->by_engine[GG_MD] && !comparison->by_engine[GG_DSMC])
-    return gg_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
-  GG_TRY(gg_result_file_open(&file, path, "gg_comparison_write", err));
+  const gg_result *md = comparison->by_engine[GG_MD], *one = md ? md : comparison->by_engine[GG_DSMC];
+  if (!one) return gg_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
+  if (comparison->of_one) return gg_result_write(one, path, err);
+  GG_TRY(gg_result_file_open(&file, path, one->origin.command ? one->origin.command : "gg_comparison_write", err));
   return gg_result_file_finish_comparison(&file, comparison, err);
 }
 
@@ -35,8 +37,10 @@ gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_er
   gg_stored_result stored;
   gg_comparison *c = gg_new_array(1, sizeof *c, err);
   if (!c) return GG_FAILED;
+  locale_t before = gg_c_locale_enter();
   gg_status status = gg_stored_result_read(&stored, path, err);
   if (status == GG_OK) status = gg_comparison_restore(&stored, c, err);
+  gg_c_locale_leave(before);
   gg_stored_result_clear(&stored);
   if (status == GG_OK)
     *comparison = c;

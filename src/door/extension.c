@@ -1,33 +1,56 @@
 /* What the user's program adds to a scene is checked here, and here alone. */
 #include "common/extension.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
 #include "common/scene.h"
+#include "io/scene/fields.h"
 #include "theory/theory.h"
 
 enum { MOST_LETTERS = 40, MOST_TEXT = 500 };
+
+/* Whatever the locale says. */
+static bool is_letter(char c)
+{
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
 
 /* `what` is "observable" ... */
 static gg_status check_name(const char *what, const char *name, gg_error *err)
 {
   if (!name || !*name) return gg_fail(err, GG_BAD_INPUT, "%s: a name is missing", what);
-  bool good = isalpha((unsigned char)*name) && strlen(name) <= MOST_LETTERS;
-  for (const char *c = name; *c; c++) good &= isalnum((unsigned char)*c) || *c == '_';
+  bool good = is_letter(*name) && strlen(name) <= MOST_LETTERS;
+  for (const char *c = name; *c; c++) good &= is_letter(*c) || (*c >= '0' && *c <= '9') || *c == '_';
   if (good) return GG_OK;
   return gg_fail(err, GG_BAD_INPUT, "%s: '%.60s' is no name: a letter, then letters, digits and _, at most %d", what,
                  name, MOST_LETTERS);
 }
 
-/* Texts go into files, documents and tables: short, of one line, and may be missing. */
+/* Bytes of the UTF-8 character that begins here, 0 if none does. */
+static size_t character(const unsigned char *c)
+{
+  size_t n = *c < 0x80                 ? 1
+             : *c >= 0xc2 && *c < 0xe0 ? 2
+             : *c >= 0xe0 && *c < 0xf0 ? 3
+             : *c >= 0xf0 && *c < 0xf5 ? 4
+                                       : 0;
+  for (size_t k = 1; k < n; k++)
+    if ((c[k] & 0xc0) != 0x80) return 0;
+  bool overlong = (c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xf0 && c[1] < 0x90);
+  bool beyond = (c[0] == 0xed && c[1] > 0x9f) || (c[0] == 0xf4 && c[1] > 0x8f);
+  return overlong || beyond ? 0 : n;
+}
+
+/* Texts go into files, documents and tables: short, of one line, in UTF-8, and may be missing. */
 static gg_status check_text(const char *name, const char *text, size_t most, gg_error *err)
 {
   if (!text) return GG_OK;
   bool good = strlen(text) <= most;
-  for (const char *c = text; *c; c++) good &= !iscntrl((unsigned char)*c);
-  return good ? GG_OK : gg_fail(err, GG_BAD_INPUT, "%s: a text must be one line of at most %zu bytes", name, most);
+  for (const unsigned char *c = (const unsigned char *)text; good && *c; c += character(c))
+    good = character(c) > 0 && *c >= ' ' && *c != 0x7f;
+  return good ? GG_OK
+              : gg_fail(err, GG_BAD_INPUT, "%s: a text must be one line of UTF-8 of at most %zu bytes", name, most);
 }
 
 static bool is_shared(const char *quantity)
@@ -53,14 +76,22 @@ static gg_status check_quantity(const gg_extension *x, const gg_observable_defin
   return taken ? gg_fail(err, GG_BAD_INPUT, "quantity: the name '%s' is taken", q->name) : GG_OK;
 }
 
+static bool is_word_of_measure(const char *name)
+{
+  const gg_word *word = gg_scene_fields[gg_scene_field_find("measure")].words;
+  while (word->name && strcmp(word->name, name) != 0) word++;
+  return word->name != NULL;
+}
+
 static gg_status check_observable(const gg_extension *x, const gg_observable_definition *o, gg_error *err)
 {
   if (!o) return gg_fail(err, GG_BAD_INPUT, "observable: there is no definition");
   GG_TRY(check_name("observable", o->name, err));
   GG_TRY(check_text(o->name, o->doc, MOST_TEXT, err));
+  bool taken = is_word_of_measure(o->name);
   for (int k = 0; k < gg_extension_observables(x); k++)
-    if (strcmp(gg_extension_observable(x, k)->name, o->name) == 0)
-      return gg_fail(err, GG_BAD_INPUT, "observable: the name '%s' is taken", o->name);
+    taken |= strcmp(gg_extension_observable(x, k)->name, o->name) == 0;
+  if (taken) return gg_fail(err, GG_BAD_INPUT, "observable: the name '%s' is taken", o->name);
   if (!o->sample) return gg_fail(err, GG_BAD_INPUT, "%s: the callback `sample` is missing", o->name);
   if (!o->quantities || o->n_quantities < 1)
     return gg_fail(err, GG_BAD_INPUT, "%s: an observable has at least one quantity", o->name);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "door/door.h"
+#include "io/c_locale.h"
 #include "io/document.h"
 #include "io/h5/result_file.h"
 #include "io/h5/result_restore.h"
@@ -36,8 +37,10 @@ gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
   GG_NEED(path);
   GG_NEED(result);
   gg_stored_result stored;
-  GG_TRY(gg_stored_result_read(&stored, path, err));
-  gg_status status = restore(&stored, path, result, err);
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_stored_result_read(&stored, path, err);
+  if (status == GG_OK) status = restore(&stored, path, result, err);
+  gg_c_locale_leave(before);
   gg_stored_result_clear(&stored);
   return status;
 }

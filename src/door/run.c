@@ -3,7 +3,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "io/atomic_file.h"
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
 
@@ -47,6 +49,23 @@ static gg_status read_resume(gg_door_run *r, gg_error *err)
   return GG_OK;
 }
 
+static bool same_file(const char *a, const char *b)
+{
+  struct stat one, two;
+  if (!a || !b) return false;
+  return strcmp(a, b) == 0 ||
+         (stat(a, &one) == 0 && stat(b, &two) == 0 && one.st_dev == two.st_dev && one.st_ino == two.st_ino);
+}
+
+/* What cannot be written is better known before the run than after it. */
+static gg_status check_files(const gg_run_options *o, gg_error *err)
+{
+  if (same_file(o->output, o->checkpoint) || same_file(o->output, o->resume))
+    return gg_fail(err, GG_BAD_INPUT, "%s: a checkpoint would be overwritten by the result; choose another output",
+                   o->output);
+  return o->checkpoint ? gg_check_writable(o->checkpoint, err) : GG_OK;
+}
+
 gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, gg_hooks *hooks,
                             gg_error *err)
 {
@@ -60,6 +79,7 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
   GG_TRY(gg_door_finished(scene, &r->scene, err));
   GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));
+  GG_TRY(check_files(&r->options, err));
   if (r->options.resume) GG_TRY(read_resume(r, err));
   if (!r->options.output) return GG_OK;
   hooks->frame = store_frame;
@@ -97,7 +117,7 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   gg_result *made = NULL;
   if (status == GG_OK)
     status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);
-  if (made && run.options.output && status != GG_INTERRUPTED)
+  if (made && run.options.output && (status == GG_OK || status == GG_FAILED))
     written = gg_result_file_finish_run(&run.file, made, &why);
   gg_door_run_end(&run);
   if (made) *result = made;

@@ -34,7 +34,6 @@ static void report_progress(gg_replicas *all)
       .rate = cpu > 0 ? collisions / cpu : 0,
       .relative_error = all->state.averaging ? all->last.relative_error : NAN,
       .time_left = all->state.averaging && done > 0.02 ? elapsed * (1 - done) / done : NAN,
-      .replica = 0,
       .replicas = all->n,
   };
   all->hooks->progress(all->hooks->context, &p);
@@ -87,7 +86,7 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
       all->state.due = all->state.due + step < due ? all->state.due + step : due;
     }
     gg_status status = gg_replicas_advance(all, adapts(all), err);
-    if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, NULL));
+    if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, err));
     if (status != GG_OK) return status;
     gg_replicas_check_standstill(all);
     report_progress(all);

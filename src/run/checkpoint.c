@@ -23,8 +23,18 @@ gg_status gg_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *err)
   return GG_OK;
 }
 
+static gg_status check_kind(const gg_archive *a, gg_error *err)
+{
+  if (gg_archive_find(a, "md/campaign/state") || gg_archive_find(a, "dsmc/campaign/state"))
+    return gg_fail(err, GG_BAD_INPUT, "the checkpoint is one of a comparison, which alone can go on from it");
+  if (gg_archive_find(a, "simulation/scene"))
+    return gg_fail(err, GG_BAD_INPUT, "the checkpoint is a saved simulation, not one of a run");
+  return GG_OK;
+}
+
 gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *a, gg_error *err)
 {
+  GG_TRY(check_kind(a, err));
   GG_TRY(gg_fingerprint_check(&all->scene, a, err));
   GG_TRY(gg_archive_get(a, "campaign/state", GG_ITEM_U8, &all->state, sizeof all->state, err));
   for (int i = 0; i < all->n; i++) {

@@ -97,7 +97,8 @@ static gg_status close_part(part *p, gg_error *err)
   gg_comparison *c = p->comparison;
   gg_result *result = c->by_engine[p->kind];
   bool refused = p->status == GG_BAD_INPUT && p->resume.n_items == 0;
-  if (p->status == GG_OK || refused || (result && (p->status == GG_FAILED || p->status == GG_INTERRUPTED))) {
+  bool so_far = p->status == GG_FAILED || p->status == GG_INTERRUPTED || p->status == GG_BAD_FILE;
+  if (p->status == GG_OK || refused || (result && so_far)) {
     if (refused) snprintf(c->refusal[p->kind], sizeof c->refusal[0], "%.250s", p->err.message);
     return GG_OK;
   }
@@ -123,8 +124,8 @@ static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
   if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
     return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
                    c->refusal[GG_DSMC]);
-  const gg_status short_of[] = {GG_INTERRUPTED, GG_FAILED};
-  for (int i = 0; i < 2; i++)
+  const gg_status short_of[] = {GG_BAD_FILE, GG_INTERRUPTED, GG_FAILED};
+  for (int i = 0; i < 3; i++)
     for (int k = 0; k < 2; k++)
       if (parts[k].status == short_of[i]) return gg_fail(err, short_of[i], "%s", parts[k].err.message);
   return GG_OK;
@@ -167,6 +168,7 @@ void gg_comparison_clear(gg_comparison *c)
 {
   for (int k = 0; k < 2; k++) gg_result_free(c->by_engine[k]);
   gg_extension_release(c->scene.extension);
+  gg_extension_release(c->own);
   free(c->document);
   memset(c, 0, sizeof *c);
 }

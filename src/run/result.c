@@ -24,6 +24,7 @@ void gg_result_free(gg_result *result)
   gg_frame_free(&result->final);
   for (int i = 0; i < result->n_warnings; i++) free(result->warnings[i]);
   gg_extension_release(result->scene.extension);
+  gg_extension_release(result->own);
   char *const texts[] = {result->origin.version, result->origin.command, result->origin.machine, result->origin.date,
                          result->origin.document};
   for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) free(texts[i]);

@@ -65,7 +65,8 @@ struct gg_result {
   struct {
     char *version, *command, *machine, *date, *document; /* document: JSON as it was stored */
     size_t frames;
-  } origin; /* of the file that it was read from; NULL of a run */
+  } origin;          /* of the file that it was read from; NULL of a run */
+  gg_extension *own; /* names of what that file's program had brought; else NULL */
 };
 
 void gg_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);

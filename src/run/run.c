@@ -22,8 +22,8 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   GG_TRY(gg_replicas_create(&all, scene, resume, threads, hooks, err));
   gg_status status = gg_replicas_run(&all, err);
   if (status == GG_OK) status = report(&all, resume != NULL, out, err);
-  if (status == GG_INTERRUPTED && gg_replicas_finish_round(&all, NULL) == GG_OK)
-    report(&all, resume != NULL, out, NULL);
+  bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
+  if (cut_short && gg_replicas_finish_round(&all, NULL) == GG_OK) report(&all, resume != NULL, out, NULL);
   gg_replicas_clear(&all);
   return status;
 }

@@ -19,8 +19,8 @@ typedef struct gg_hooks {
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side
  * by side, and shares out a large ensemble of engine dsmc where there are more threads than that needs; the result does
- * not depend on it. GG_FAILED with *result set: ended short of what was asked; GG_INTERRUPTED with *result set: so far.
- * The caller frees *result with gg_result_free. */
+ * not depend on it. GG_FAILED with *result set: ended short of what was asked; GG_INTERRUPTED, and GG_BAD_FILE from a
+ * hook, with *result set: so far. The caller frees *result with gg_result_free. */
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                        gg_result **result, gg_error *err);
 
@@ -38,7 +38,9 @@ struct gg_comparison {
     char reason[256]; /* why not */
     gg_theory_answer answer;
   } theory[GG_MOST_THEORIES];
-  char *document; /* JSON as it was stored; NULL of a comparison that was not read from a file */
+  char *document;    /* JSON as it was stored; NULL of a comparison that was not read from a file */
+  bool of_one;       /* that file is one of a run */
+  gg_extension *own; /* names of what that file's program had brought; else NULL */
 };
 
 /* `resume` (may be NULL): an archive that the checkpoint hook stored; each engine goes on from its part. Also after a

@@ -48,7 +48,7 @@ static inline int enter_folder(void **state)
 static inline int leave_folder(void **state)
 {
   (void)state;
-  if (system("rm -f t_*") != 0 || chdir("/") != 0) return -1;
+  if (system("rm -rf t_*") != 0 || chdir("/") != 0) return -1;
   return rmdir(door_folder);
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "io/document.h"
+#include "io/h5/stored_extension.h"
 #include "io/scene/reader.h"
 
 static double number(const json_t *object, const char *key)
@@ -28,7 +29,8 @@ static void restore_warnings(gg_result *r, const json_t *document)
 {
   size_t i;
   json_t *line;
-  json_array_foreach(json_object_get(document, "warnings"), i, line) gg_result_warn(r, "%s", json_string_value(line));
+  json_array_foreach(json_object_get(document, "warnings"), i, line) if (json_is_string(line))
+      gg_result_warn(r, "%s", json_string_value(line));
 }
 
 /* "a, b are null: reason": what such a line says of `name`. */
@@ -48,14 +50,15 @@ static void restore_reason(const gg_result *r, const char *name, char *reason, s
 static void restore_means(gg_result *r, const json_t *document)
 {
   const json_t *results = json_object_get(document, "results");
-  for (int q = 0; q < GG_N_QUANTITIES; q++) { /* those of a program's own are in the document alone */
+  for (int q = 0; q < gg_quantities_of(&r->model); q++) {
+    const char *name = gg_quantity_name_in(&r->model, (gg_quantity)q);
     gg_estimate *e = &r->value[q];
-    const json_t *stored = json_object_get(results, gg_quantity_name((gg_quantity)q));
+    const json_t *stored = json_object_get(results, name);
     *e = (gg_estimate){.mean = number(stored, "mean"),
                        .error = number(stored, "stderr"),
                        .correlation_time = number(stored, "correlation_time"),
                        .samples = count(stored, "samples")};
-    if (stored && isnan(e->mean)) restore_reason(r, gg_quantity_name((gg_quantity)q), e->reason, sizeof e->reason);
+    if (stored && isnan(e->mean)) restore_reason(r, name, e->reason, sizeof e->reason);
   }
 }
 
@@ -139,7 +142,7 @@ static gg_status restore_frame(gg_result *r, const gg_stored_result *s, gg_error
 {
   const gg_frame *from = &s->last;
   bool its_own = !s->comparison || strcmp(r->engine, s->engine[GG_MD].name ? "md" : "dsmc") == 0;
-  if (!its_own || !from->velocity) return GG_OK;
+  if (!its_own || !from->velocity || from->n != (size_t)r->model.n) return GG_OK;
   gg_frame *to = &r->final;
   *to = (gg_frame){.time = from->time, .step = from->step, .n = from->n};
   if (!(to->velocity = copy_of(from->velocity, 3 * to->n, err))) return GG_FAILED;
@@ -188,6 +191,8 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
 {
   const gg_stored_engine *e = &s->engine[engine];
   GG_TRY(restore_scene(s, engine, &r->scene, &r->model, err));
+  GG_TRY(gg_stored_extension(json_object_get(e->document, "results"), NULL, NULL, &r->own, err));
+  r->model.extension = r->own;
   r->scene.engine = engine;
   r->engine = gg_engine_ops_of(engine)->name;
   bool steady = json_is_true(json_object_get(e->document, "steady"));
@@ -214,17 +219,48 @@ gg_status gg_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg
   return status;
 }
 
-/* What the file's theories said, which those of today may not. */
+/* "lun1991 does not apply: reason" */
+static void restore_refusal(const json_t *document, const char *theory, char *reason, size_t size)
+{
+  char head[80];
+  size_t i, length = (size_t)snprintf(head, sizeof head, "%s does not apply: ", theory);
+  json_t *line;
+  json_array_foreach(json_object_get(document, "warnings"), i, line)
+  {
+    const char *said = json_string_value(line);
+    if (said && strncmp(said, head, length) == 0) snprintf(reason, size, "%s", said + length);
+  }
+}
+
+/* What the file's theories said, which those of today may not, nor of the stored scene: a restitution law of the
+ * program's own is not in it. */
 static void restore_theories(gg_comparison *c, const json_t *document)
 {
   const json_t *all = json_object_get(document, "theory");
   gg_compare_theories(&c->model, c);
   for (int i = 0; json_is_object(all) && i < c->n_theories; i++) {
-    const json_t *said = json_object_get(all, c->theory[i].theory->name);
-    if (said) c->theory[i].applies = true;
-    for (int q = 0; said && q < GG_N_QUANTITIES; q++)
-      c->theory[i].answer.value[q] = number(json_object_get(said, gg_quantity_name((gg_quantity)q)), "mean");
+    const char *name = c->theory[i].theory->name;
+    const json_t *said = json_object_get(all, name);
+    c->theory[i].applies = said != NULL;
+    if (!said) {
+      snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "it is not in the file");
+      restore_refusal(document, name, c->theory[i].reason, sizeof c->theory[i].reason);
+    }
+    for (int q = 0; said && q < gg_quantities_of(&c->model); q++)
+      c->theory[i].answer.value[q] =
+          number(json_object_get(said, gg_quantity_name_in(&c->model, (gg_quantity)q)), "mean");
   }
+}
+
+/* The engines' own quantities are the same. */
+static gg_status restore_own(gg_comparison *c, const json_t *document, gg_error *err)
+{
+  const json_t *md = json_object_get(document, "md"),
+               *part = json_is_object(md) ? md : json_object_get(document, "dsmc");
+  GG_TRY(gg_stored_extension(json_object_get(part, "results"), json_object_get(document, "theory"),
+                             json_object_get(document, "theories"), &c->own, err));
+  c->model.extension = c->own;
+  return GG_OK;
 }
 
 /* "md is null: reason" */
@@ -236,8 +272,9 @@ static void restore_refusals(gg_comparison *c, const json_t *document)
   {
     char head[24];
     int length = snprintf(head, sizeof head, "%s is null: ", gg_engine_ops_of((gg_engine_kind)k)->name);
-    if (strncmp(json_string_value(line), head, (size_t)length) == 0)
-      snprintf(c->refusal[k], sizeof c->refusal[k], "%.250s", json_string_value(line) + length);
+    const char *said = json_string_value(line);
+    if (said && strncmp(said, head, (size_t)length) == 0)
+      snprintf(c->refusal[k], sizeof c->refusal[k], "%.250s", said + length);
   }
 }
 
@@ -250,8 +287,15 @@ gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_
       GG_TRY(gg_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));
     else if (!s->comparison)
       snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
-  if (s->comparison) restore_theories(c, s->document);
+  if (s->comparison) {
+    GG_TRY(restore_own(c, s->document, err));
+    restore_theories(c, s->document);
+  } else {
+    const gg_result *one = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
+    c->model.extension = one ? one->model.extension : NULL;
+  }
   restore_refusals(c, s->document);
+  c->of_one = !s->comparison;
   c->document = gg_document_text(s->document);
   return c->document ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
 }

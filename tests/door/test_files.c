@@ -1,0 +1,221 @@
+/* Runs and their files: what is stopped at any moment goes on to the same end; what cannot be written is said, and no
+ * result is lost for it. */
+#include <locale.h>
+#include <sys/stat.h>
+
+#include "door_test.h"
+
+#define SHEAR "{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 200}, run: {collisions: 6000}}"
+
+static int stop_now(void *context)
+{
+  return (*(int *)context)-- <= 0;
+}
+
+/* Before the first sample, in the warm-up, around its end, while averaging; with curves, in both engines. */
+static void stopped_anywhere(void **state)
+{
+  (void)state;
+  gg_error err;
+  const char *const scenes[] = {
+      "{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 2000}, measure: [rheology, velocity_distributions, "
+      "diffusion], run: {collisions: 40, warmup: 20}}",
+      "{flow: hcs, phi: 0.1, particles: 300, collision: {e: 0.7}, measure: [rheology, sonine, structure], run: "
+      "{collisions: 40, warmup: 20}}"};
+  const int after[] = {0, 1, 5, 9, 10, 11, 12, 20, 29};
+  for (int k = 0; k < 2; k++) {
+    gg_scene *s = scene_of(scenes[k]);
+    gg_result *whole = NULL;
+    gg_run(s, NULL, &whole, &err);
+    assert_non_null(whole);
+    gg_measurement end, here;
+    assert_ok(gg_result_find(whole, k ? "cooling_rate" : "temperature", &end, &err));
+    for (size_t i = 0; i < sizeof after / sizeof *after; i++) {
+      int left = after[i];
+      gg_result *part = NULL, *rest = NULL;
+      char *text = NULL;
+      gg_run_options options = {.stop = stop_now, .context = &left, .checkpoint = "t_any.h5"};
+      assert_int_equal(gg_run(s, &options, &part, &err), GG_INTERRUPTED);
+      assert_non_null(part);
+      assert_ok(gg_result_to_json(part, &text, &err));
+      free(text);
+      assert_ok(gg_result_write(part, "t_part.h5", &err));
+      gg_result_free(part);
+      assert_ok(gg_result_read("t_part.h5", &part, &err));
+      gg_result_free(part);
+      gg_run(s, &(gg_run_options){.resume = "t_any.h5", .checkpoint = "t_any.h5"}, &rest, &err);
+      assert_non_null(rest);
+      assert_ok(gg_result_find(rest, end.name, &here, &err));
+      if (!(here.mean == end.mean && here.error == end.error))
+        fail_msg("%d: %.17g %.17g", after[i], here.mean, end.mean);
+      gg_result_free(rest);
+    }
+    gg_result_free(whole);
+    gg_scene_free(s);
+  }
+}
+
+/* A large ensemble is stopped in steps of a single sample: the first of the averaging is all that there is. */
+static void a_single_sample(void **state)
+{
+  (void)state;
+  gg_error err;
+  int left = 2;
+  gg_scene *s = scene_of("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 250000}, measure: [rheology, "
+                         "velocity_distributions], run: {collisions: 40, warmup: 4}}");
+  gg_result *r = NULL;
+  gg_measurement m;
+  assert_int_equal(gg_run(s, &(gg_run_options){.stop = stop_now, .context = &left}, &r, &err), GG_INTERRUPTED);
+  assert_ok(gg_result_find(r, "temperature", &m, &err));
+  assert_true(m.mean > 0 && isnan(m.error) && m.samples == 1);
+  assert_ok(gg_result_write(r, "t_single.h5", &err));
+  gg_result_free(r);
+  gg_scene_free(s);
+}
+
+static int remove_folder(void *context, const gg_progress *now)
+{
+  (void)context;
+  if (now->phase[0] != 'a' || now->fraction < 0.5) return 0;
+  assert_true(rmdir("t_folder") == 0 || access("t_folder", F_OK) != 0);
+  return 1;
+}
+
+/* Known before the run; and if it happens on the way, with the results so far. */
+static void unwritable_checkpoints(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_result *r = NULL;
+  gg_comparison *c = NULL;
+  gg_measurement m;
+  gg_run_options options = {.checkpoint = "t_folder/c.h5", .output = "t_out.h5", .progress = remove_folder};
+  assert_int_equal(gg_run(s, &options, &r, &err), GG_BAD_FILE);
+  assert_null(r);
+  assert_int_equal(mkdir("t_folder", 0777), 0);
+  assert_int_equal(gg_run(s, &options, &r, &err), GG_BAD_FILE);
+  assert_true(err.status == GG_BAD_FILE && strstr(err.message, "t_folder/c.h5"));
+  assert_non_null(r);
+  assert_ok(gg_result_find(r, "temperature", &m, &err));
+  assert_true(m.mean > 0 && access("t_out.h5", F_OK) != 0);
+  gg_result_free(r);
+  assert_int_equal(mkdir("t_folder", 0777), 0);
+  assert_int_equal(gg_compare(s, &options, &c, &err), GG_BAD_FILE);
+  assert_non_null(c);
+  assert_ok(gg_result_find(gg_comparison_result(c, "md"), "temperature", &m, &err));
+  assert_true(access("t_out.h5", F_OK) != 0);
+  gg_comparison_free(c);
+  gg_scene_free(s);
+}
+
+/* A result never takes the place of a checkpoint; a checkpoint may that of the one that is resumed from. */
+static void one_path_for_two(void **state)
+{
+  (void)state;
+  gg_error err;
+  int left = 3;
+  gg_scene *s = scene_of(SHEAR);
+  gg_result *r = NULL;
+  gg_comparison *c = NULL;
+  gg_run_options same = {.output = "t_same.h5", .checkpoint = "t_same.h5"};
+  assert_refused(gg_run(s, &same, &r, &err), "choose another output");
+  assert_refused(gg_compare(s, &same, &c, &err), "choose another output");
+  assert_int_equal(gg_run(s, &(gg_run_options){.checkpoint = "t_cp.h5", .stop = stop_now, .context = &left}, &r, &err),
+                   GG_INTERRUPTED);
+  gg_result_free(r);
+  r = NULL;
+  assert_refused(gg_run(s, &(gg_run_options){.output = "./t_cp.h5", .resume = "t_cp.h5"}, &r, &err), "another output");
+  assert_null(r);
+  assert_ok(gg_run(s, &(gg_run_options){.checkpoint = "t_cp.h5", .resume = "t_cp.h5", .output = "t_o.h5"}, &r, &err));
+  gg_result_free(r);
+  gg_scene_free(s);
+}
+
+/* What a checkpoint is of is said, where it is of something else. */
+static void checkpoints_of_others(void **state)
+{
+  (void)state;
+  gg_error err;
+  int left = 3;
+  gg_scene *s = scene_of(SHEAR);
+  gg_result *r = NULL;
+  gg_comparison *c = NULL;
+  gg_simulation *m = NULL;
+  gg_run_options options = {.checkpoint = "t_both.h5", .stop = stop_now, .context = &left};
+  assert_int_equal(gg_compare(s, &options, &c, &err), GG_INTERRUPTED);
+  left = 3, options.checkpoint = "t_one.h5";
+  assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
+  gg_comparison_free(c);
+  gg_result_free(r);
+  r = NULL, c = NULL;
+  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_save(m, "t_simulation.h5", &err));
+  gg_simulation_free(m);
+  m = NULL;
+  assert_refused(gg_run(s, &(gg_run_options){.resume = "t_both.h5"}, &r, &err), "one of a comparison");
+  assert_refused(gg_run(s, &(gg_run_options){.resume = "t_simulation.h5"}, &r, &err), "a saved simulation");
+  assert_refused(gg_compare(s, &(gg_run_options){.resume = "t_one.h5"}, &c, &err), "not one of a comparison");
+  assert_refused(gg_simulation_load("t_one.h5", NULL, &m, &err), "not a saved simulation");
+  assert_true(!r && !c && !m);
+  gg_scene_free(s);
+}
+
+static uint64_t last_count;
+static int note_count(void *context, const gg_progress *now)
+{
+  (void)context;
+  assert_int_equal(now->replicas, 3);
+  last_count = now->collisions;
+  return 0;
+}
+
+static void progress_counts_all_replicas(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_result *r = NULL;
+  gg_result_info about;
+  assert_ok(gg_scene_set(s, "run.replicas", "3", &err));
+  gg_run(s, &(gg_run_options){.progress = note_count}, &r, &err);
+  assert_ok(gg_result_about(r, &about, &err));
+  assert_true(last_count > 0 && fabs((double)last_count / (double)about.total_collisions - 1) < 1e-9);
+  gg_result_free(r);
+  gg_scene_free(s);
+}
+
+/* A program with a decimal comma of its own. */
+static void decimal_comma(void **state)
+{
+  (void)state;
+  gg_error err;
+  if (system("localedef -i de_DE -f UTF-8 ./t_de >/dev/null 2>&1") != 0 || setenv("LOCPATH", ".", 1) != 0 ||
+      !setlocale(LC_ALL, "t_de"))
+    skip();
+  char text[40];
+  gg_scene *s = scene_of(SHEAR);
+  gg_result *r = NULL, *back = NULL;
+  gg_comparison *c = NULL;
+  gg_run(s, &(gg_run_options){.output = "t_comma.h5"}, &r, &err);
+  assert_ok(gg_result_read("t_comma.h5", &back, &err));
+  assert_ok(gg_comparison_read("t_comma.h5", &c, &err));
+  assert_ok(gg_scene_get(gg_result_scene(back), "phi", text, sizeof text, &err));
+  assert_string_equal(text, "0.1");
+  setlocale(LC_ALL, "C");
+  gg_comparison_free(c);
+  gg_result_free(back);
+  gg_result_free(r);
+  gg_scene_free(s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(stopped_anywhere),       cmocka_unit_test(a_single_sample),
+      cmocka_unit_test(unwritable_checkpoints), cmocka_unit_test(one_path_for_two),
+      cmocka_unit_test(checkpoints_of_others),  cmocka_unit_test(progress_counts_all_replicas),
+      cmocka_unit_test(decimal_comma),
+  };
+  return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}

@@ -1,0 +1,216 @@
+/* What a program adds to a scene, by the public interface alone: found again in files, right in a cooling gas, refused
+ * where it would spoil files. */
+#include "door_test.h"
+
+static void sample_T(void *context, void *state, const gg_sample *s, double *values)
+{
+  double sum = 0;
+  (void)context, (void)state;
+  for (size_t i = 0; i < s->n; i++)
+    for (int a = 0; a < 3; a++) sum += s->velocity[i][a] * s->velocity[i][a];
+  values[0] = sum / (3 * (double)s->n);
+  values[1] = NAN;
+}
+
+static const char *say(void *context, const gg_facts *facts, double *values)
+{
+  (void)context, (void)facts;
+  values[0] = 7;
+  values[1] = 8;
+  return NULL;
+}
+
+static void add_all(gg_scene *s)
+{
+  gg_error err;
+  const gg_quantity_definition quantities[] = {{"my_T", "d\xc2\xb2 gamma\xc2\xb2", NULL}, {"nothing", NULL, NULL}};
+  const gg_observable_definition o = {"thermometer", NULL, 2, quantities, 0, sample_T, NULL, NULL};
+  const char *const names[] = {"my_T", "pressure"};
+  const gg_theory_definition t = {"mine", "My theory", "a note", NULL, 2, names, say, NULL};
+  assert_ok(gg_scene_add_observable(s, &o, &err));
+  assert_ok(gg_scene_add_theory(s, &t, &err));
+}
+
+/* Means, the reason of one that is not there, agreement and theory of one's own, written and read twice. */
+static void read_back(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 200, dsmc: {particles: 500}, run: {collisions: 3000}}");
+  gg_comparison *c[3] = {NULL};
+  add_all(s);
+  gg_compare(s, &(gg_run_options){.output = "t_own.h5"}, &c[0], &err);
+  gg_scene_free(s);
+  assert_non_null(c[0]);
+  assert_ok(gg_comparison_read("t_own.h5", &c[1], &err));
+  assert_ok(gg_comparison_write(c[1], "t_own_again.h5", &err));
+  assert_ok(gg_comparison_read("t_own_again.h5", &c[2], &err));
+  gg_measurement md[3], dsmc, none;
+  double z[3], value, deviation[3];
+  for (int k = 0; k < 3; k++) {
+    const gg_result *r = gg_comparison_result(c[k], "md");
+    assert_ok(gg_result_find(r, "my_T", &md[k], &err));
+    assert_string_equal(md[k].unit, "d\xc2\xb2 gamma\xc2\xb2");
+    assert_true(md[k].mean == md[0].mean && md[k].error == md[0].error && md[k].samples == md[0].samples);
+    assert_ok(gg_result_find(gg_comparison_result(c[k], "dsmc"), "my_T", &dsmc, &err));
+    assert_true(dsmc.mean != md[k].mean);
+    assert_ok(gg_result_find(r, "nothing", &none, &err));
+    assert_non_null(strstr(none.reason, "no number"));
+    assert_ok(gg_comparison_agreement(c[k], "my_T", &z[k], NULL, &err));
+    assert_true(z[k] == z[0] && !isnan(z[0]));
+    assert_ok(gg_comparison_theory_value(c[k], "mine", "my_T", &value, &deviation[k], &err));
+    assert_true(value == 7 && deviation[k] == deviation[0]);
+    assert_ok(gg_comparison_theory_value(c[k], "mine", "pressure", &value, NULL, &err));
+    assert_true(value == 8);
+  }
+  for (int k = 0; k < 3; k++) gg_comparison_free(c[k]);
+}
+
+static void read_back_run(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, engine: dsmc, phi: 0.05, dsmc: {particles: 200}, run: {collisions: 300}}");
+  gg_result *r = NULL, *back = NULL;
+  gg_comparison *c = NULL;
+  double mean[2];
+  add_all(s);
+  assert_ok(gg_run(s, &(gg_run_options){.output = "t_own.h5"}, &r, &err));
+  assert_ok(gg_result_read("t_own.h5", &back, &err));
+  assert_ok(gg_result_get(r, "my_T", &mean[0], NULL, &err));
+  assert_ok(gg_result_get(back, "my_T", &mean[1], NULL, &err));
+  assert_true(mean[0] == mean[1]);
+  gg_result_free(back);
+  /* As a comparison of one, which is written as the run that it is. */
+  assert_ok(gg_comparison_read("t_own.h5", &c, &err));
+  assert_ok(gg_result_get(gg_comparison_result(c, "dsmc"), "my_T", &mean[1], NULL, &err));
+  assert_true(mean[0] == mean[1]);
+  assert_ok(gg_comparison_write(c, "t_own.h5", &err));
+  assert_ok(gg_result_read("t_own.h5", &back, &err));
+  assert_ok(gg_result_get(back, "my_T", &mean[1], NULL, &err));
+  assert_true(mean[0] == mean[1]);
+  gg_comparison_free(c);
+  gg_result_free(back);
+  gg_result_free(r);
+  gg_scene_free(s);
+}
+
+static double softening(void *context, double speed, int one, int two)
+{
+  (void)context, (void)one, (void)two;
+  return 1 - 0.3 * speed / (1 + speed);
+}
+
+/* The law is not in the file, but that no theory applied under it is. */
+static void theories_under_a_law(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 200, run: {collisions: 200}}");
+  gg_comparison *c = NULL, *back = NULL;
+  gg_theory_info t;
+  size_t n = 0;
+  assert_ok(gg_scene_set_restitution(s, "softening", softening, NULL, &err));
+  gg_compare(s, &(gg_run_options){.output = "t_law.h5"}, &c, &err);
+  assert_non_null(c);
+  assert_ok(gg_comparison_read("t_law.h5", &back, &err));
+  for (; gg_comparison_theory(back, n, &t, NULL) == GG_OK; n++) {
+    assert_non_null(t.reason);
+    assert_non_null(strstr(t.reason, "softening"));
+  }
+  assert_true(n > 5);
+  gg_comparison_free(c);
+  gg_comparison_free(back);
+  gg_scene_free(s);
+}
+
+typedef struct impacts {
+  double sum, count, least, most; /* of the ratio of <(k.g)^2> to T, over all intervals while averaging */
+} impacts;
+
+static void hit(void *context, void *state, const gg_collision_view *c)
+{
+  double speed = 0;
+  (void)context;
+  for (int a = 0; a < 3; a++) speed += c->normal[a] * c->relative_velocity[a];
+  ((impacts *)state)->sum += speed * speed;
+  ((impacts *)state)->count++;
+}
+
+static void compare_T(void *context, void *state, const gg_sample *s, double *values)
+{
+  impacts *now = state, *all = context;
+  double T;
+  sample_T(NULL, NULL, s, values);
+  T = values[0];
+  if (now->count > 0) {
+    double ratio = now->sum / now->count / T;
+    all->least = fmin(all->least, ratio);
+    all->most = fmax(all->most, ratio);
+  }
+  now->sum = now->count = 0;
+}
+
+/* The velocities of a cooling gas are brought back now and then: collisions are shown in units of the start all the
+ * same, in the interval after that, too; and so are the grains that are left at the end. */
+static void cooling(void **state)
+{
+  (void)state;
+  gg_error err;
+  for (int k = 0; k < 2; k++) {
+    gg_scene *s = scene_of("{flow: hcs, phi: 0.01, particles: 400, dsmc: {particles: 400}, collision: {e: 0.7}, run: "
+                           "{collisions: 200, warmup: 10}}");
+    impacts all = {.least = INFINITY};
+    const gg_quantity_definition quantities[] = {{"T_now", "v_0^2", NULL}, {"unused", NULL, NULL}};
+    const gg_observable_definition o = {"impacts", NULL, 2, quantities, sizeof(impacts), compare_T, hit, &all};
+    gg_result *r = NULL;
+    assert_ok(gg_scene_set(s, "engine", k ? "dsmc" : "md", &err));
+    assert_ok(gg_scene_add_observable(s, &o, &err));
+    gg_run(s, NULL, &r, &err);
+    assert_non_null(r);
+    const double *time, *T;
+    size_t n;
+    assert_ok(gg_result_history(r, "temperature", &n, &time, &T, &err));
+    assert_true(T[n - 1] < 1e-6); /* brought back several times */
+    if (!(all.least > 2 && all.most < 10)) fail_msg("<g_n^2>/T from %g to %g", all.least, all.most);
+    double velocity[1200], sum = 0;
+    assert_ok(gg_result_grains(r, &(gg_grains){.velocity = velocity}, &err));
+    for (int i = 0; i < 1200; i++) sum += velocity[i] * velocity[i] / 1200;
+    assert_true(fabs(sum / T[n - 1] - 1) < 1e-9);
+    gg_result_free(r);
+    gg_scene_free(s);
+  }
+}
+
+/* A text that is no UTF-8 would leave no document of the run; names of `measure` are taken. */
+static void spoiling(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1}");
+  const char *const bad[] = {"m\xb2", "\xc2", "\xe0\x80\x80", "\xed\xa0\x80", "\xf5\x80\x80\x80", "a\tb", "\x7f"};
+  gg_quantity_definition q = {"x", NULL, NULL};
+  gg_observable_definition o = {"mine", NULL, 1, &q, 0, sample_T, NULL, NULL};
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    q.unit = bad[k];
+    assert_refused(gg_scene_add_observable(s, &o, &err), "UTF-8");
+  }
+  q.unit = NULL;
+  o.name = "diffusion";
+  assert_refused(gg_scene_add_observable(s, &o, &err), "taken");
+  o.name = "\xe9tat";
+  assert_refused(gg_scene_add_observable(s, &o, &err), "no name");
+  o.name = "mine";
+  q.unit = "\xc2\xb5m \xe2\x82\xac \xf0\x9f\x8c\xbe";
+  assert_ok(gg_scene_add_observable(s, &o, &err));
+  gg_scene_free(s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(read_back), cmocka_unit_test(read_back_run), cmocka_unit_test(theories_under_a_law),
+      cmocka_unit_test(cooling),   cmocka_unit_test(spoiling),
+  };
+  return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
