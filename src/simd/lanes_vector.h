@@ -137,7 +137,7 @@ GG_INLINE void gg_pack(gg_real *list, gg_mask m, gg_vd v)
 #else /* any processor */
 GG_INLINE gg_vd gg_sqrt(gg_vd x)
 {
-  gg_vd root;
+  gg_vd root = {0};
 #ifdef GG_SINGLE_LANES
   for (int l = 0; l < GG_WIDTH; l++) root[l] = __builtin_sqrtf(x[l]);
 #else
@@ -192,7 +192,7 @@ GG_INLINE gg_vd gg_permute(gg_vd v, gg_order o)
  * width. */
 GG_INLINE gg_vd gg_spread(gg_mask m, const gg_real *list)
 {
-  gg_vd v;
+  gg_vd v = {0};
   for (int l = 0, at = 0; l < GG_WIDTH; l++) {
     v[l] = list[at];
     at -= (int)m[l];
