@@ -34,12 +34,26 @@ GG_INLINE void gg_md_search_anew(gg_md *e, gg_md_search *s, uint32_t i)
   gg_md_search_all(e, s);
 }
 
-/* A call: most predictions come by two, below. */
-static __attribute__((noinline)) void gg_md_predict(gg_md *e, uint32_t i)
+GG_INLINE void gg_md_predict_in_place(gg_md *e, uint32_t i)
 {
   gg_md_search s = {.candidates = e->candidates};
   gg_md_search_anew(e, &s, i);
   gg_md_schedule(e, &s);
+}
+
+/* A call, for what is rare. */
+static __attribute__((noinline)) void gg_md_predict(gg_md *e, uint32_t i)
+{
+  gg_md_predict_in_place(e, i);
+}
+
+/* The partner has collided since. */
+GG_INLINE void gg_md_re_predict(gg_md *e, uint32_t i)
+{
+  if (PREDICTS_IN_PLACE)
+    gg_md_predict_in_place(e, i);
+  else
+    gg_md_predict(e, i);
 }
 
 /* Both searches before either goes into the calendar: the processor works on both at a time. */
@@ -131,7 +145,7 @@ GG_INLINE void gg_md_run_events(gg_md *e)
     else if (IS_WALLED && GG_MD_NO_GRAIN(partner))
       gg_md_hit_wall(e, i, partner == GG_MD_UPPER_WALL);
     else if (e->grain[partner].counter != node->counter)
-      gg_md_predict(e, i);
+      gg_md_re_predict(e, i);
     else
       gg_md_collide(e, i, partner);
   }

@@ -17,7 +17,14 @@
 
 #include "md/search/features.h"
 
-enum { ROWS_SHIFT = true, ROWS_MOVE = true, KNOWS_IMAGES = true, FEW_MEET = false, CACHED = 6000 };
+enum {
+  ROWS_SHIFT = true,
+  ROWS_MOVE = true,
+  KNOWS_IMAGES = true,
+  FEW_MEET = false,
+  CACHED = 6000,
+  PREDICTS_IN_PLACE = false
+};
 
 #include "md/rows.h"
 #include "md/search/candidates.h"

@@ -14,7 +14,14 @@
 
 #include "md/search/features.h"
 
-enum { ROWS_SHIFT = false, ROWS_MOVE = false, KNOWS_IMAGES = false, FEW_MEET = false, CACHED = 6000 };
+enum {
+  ROWS_SHIFT = false,
+  ROWS_MOVE = false,
+  KNOWS_IMAGES = false,
+  FEW_MEET = false,
+  CACHED = 6000,
+  PREDICTS_IN_PLACE = true
+};
 
 #include "md/search/list_update.h"
 #include "md/search/simd_pairs.h"

@@ -4,7 +4,14 @@
 
 #include "md/search/features.h"
 
-enum { ROWS_SHIFT = false, ROWS_MOVE = false, KNOWS_IMAGES = false, FEW_MEET = true, CACHED = 20000 };
+enum {
+  ROWS_SHIFT = false,
+  ROWS_MOVE = false,
+  KNOWS_IMAGES = false,
+  FEW_MEET = true,
+  CACHED = 20000,
+  PREDICTS_IN_PLACE = false
+};
 
 #include "md/members.h"
 #include "md/search/candidates.h"

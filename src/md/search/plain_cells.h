@@ -12,7 +12,14 @@
 
 #include "md/search/features.h"
 
-enum { ROWS_SHIFT = false, ROWS_MOVE = false, KNOWS_IMAGES = true, FEW_MEET = false, CACHED = 6000 };
+enum {
+  ROWS_SHIFT = false,
+  ROWS_MOVE = false,
+  KNOWS_IMAGES = true,
+  FEW_MEET = false,
+  CACHED = 6000,
+  PREDICTS_IN_PLACE = true
+};
 
 #include "md/search/candidates.h"
 #include "md/search/faces.h"

@@ -3,8 +3,11 @@
  * Each of them defines the functions declared here, and the constants
  *
  *   ROWS_SHIFT     do rows shift, upon which all grains search at once (gg_md_shift_all)?
+ *   ROWS_MOVE      have rows carried images apart along x by several edges, perhaps?
+ *   KNOWS_IMAGES   does a search know whether all candidates are in the grain's own image of the box?
  *   FEW_MEET       of those tried: worth a test whether anybody of a batch is in the way at all?
- *   CACHED         so many grains are in the cache anyway: nothing needs to be prefetched */
+ *   CACHED         so many grains are in the cache anyway: nothing needs to be prefetched
+ *   PREDICTS_IN_PLACE   is a stale event re-predicted within the loop, or by a call (1 to 3 % either way)? */
 #ifndef GG_MD_SEARCH_WAY_H
 #define GG_MD_SEARCH_WAY_H
 
