@@ -66,3 +66,11 @@ void gg_md_cells_free(gg_md_cells *c)
     if (c->part[a]) free(c->part[a] - 2);
   *c = (gg_md_cells){0};
 }
+
+void gg_md_cell_of(const gg_md_cells *c, gg_vec r, int32_t cell[3])
+{
+  for (int a = 0; a < 3; a++) {
+    int32_t k = (int32_t)(gg_along(&r, a) * c->inverse[a]);
+    cell[a] = k < c->n[a] ? k : c->n[a] - 1;
+  }
+}

@@ -27,6 +27,8 @@ void gg_md_cells_free(gg_md_cells *cells);
 void gg_md_cells_clear(gg_md_cells *cells);
 /* As many cells as fit with edges of at least `width`. */
 void gg_md_cells_count(const gg_md_box *box, double width, int32_t n[3]);
+/* The cell that a place in the box lies in. */
+void gg_md_cell_of(const gg_md_cells *cells, gg_vec r, int32_t cell[3]);
 /* Twice the room in every cell; false if there is no memory for it. */
 bool gg_md_cells_grow(gg_md_cells *cells);
 

@@ -100,14 +100,6 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   return GG_OK;
 }
 
-void gg_md_cell_of(const gg_md_cells *c, gg_vec r, int32_t cell[3])
-{
-  for (int a = 0; a < 3; a++) {
-    int32_t k = (int32_t)(gg_along(&r, a) * c->inverse[a]);
-    cell[a] = k < c->n[a] ? k : c->n[a] - 1;
-  }
-}
-
 void gg_md_enter_grid(gg_md *e)
 {
   for (uint32_t i = 0; i < e->n; i++)

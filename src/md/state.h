@@ -140,7 +140,6 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
-void gg_md_cell_of(const gg_md_cells *cells, gg_vec r, int32_t cell[3]);
 
 /* rows.c: rows of cells that move with the flow, placed as e->k tells; as the images above stand at the epoch's start;
  * at the start of the next epoch; and after they have shifted by a cell. */

@@ -1,0 +1,58 @@
+/* What the engine makes of a model, in words. */
+#include <stdio.h>
+
+#include "md/accept.h"
+#include "md/state.h"
+
+static void tell(void (*line)(void *, const char *), void *context, const char *what, const char *how)
+{
+  char text[200];
+  snprintf(text, sizeof text, "%s: %s", what, how);
+  line(context, text);
+}
+
+/* Where partners are searched for, and why there. */
+static void tell_search(const gg_model *m, void (*line)(void *, const char *), void *context)
+{
+  double radius;
+  int32_t n[3];
+  char text[160];
+  enum gg_md_search_way where = gg_md_choose_way(m, &radius, n);
+  const char *const why[] = {
+      [GG_MD_PLAIN_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
+      [GG_MD_NEIGHBOUR_LISTS] = "as dense: they are seldom updated",
+      [GG_MD_OVERLAPPING_CELLS] = "as dilute: few crossings, each into one cell",
+      [GG_MD_COMOVING_ROWS] = "as sheared: the flow carries nobody through them",
+  };
+  const char *const what[] = {[GG_MD_PLAIN_CELLS] = "cells",
+                              [GG_MD_NEIGHBOUR_LISTS] = "neighbour lists",
+                              [GG_MD_OVERLAPPING_CELLS] = "overlapping cells",
+                              [GG_MD_COMOVING_ROWS] = "cells that move with the flow"};
+  int used = snprintf(text, sizeof text, "%s, %d x %d x %d cells, ", what[where], n[0], n[1], n[2]);
+  if (where == GG_MD_NEIGHBOUR_LISTS)
+    used += snprintf(text + used, sizeof text - (size_t)used, "skins of %.2g d, ", radius);
+  snprintf(text + used, sizeof text - (size_t)used, "%s", why[where]);
+  tell(line, context, "search", text);
+}
+
+void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
+{
+  static const char *const rules[] = {"smooth: no spins, no tangential impulse", "rough, constant beta",
+                                      "frictional (Coulomb)"};
+  char timing[100];
+  tell(line, context, "contact", rules[m->rule]);
+  const char *walls =
+      m->open_top ? "a lower wall, open above, periodic in x and z" : "walls below and above, periodic in x and z";
+  tell(line, context, "box",
+       m->walled            ? walls
+       : m->shear_rate != 0 ? "periodic, Lees-Edwards shear"
+                            : "periodic, no shear");
+  bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
+  tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
+  tell(line, context, "species", m->n_species > 1 ? "two: coefficients by pair" : "one: coefficients fixed");
+  snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time,
+           m->gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
+  tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
+  tell_search(m, line, context);
+  tell(line, context, "collision sums", "while stresses are measured; else only counts");
+}
