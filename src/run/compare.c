@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "run/run.h"
+#include "run/start.h"
 
 double gg_z_score(const gg_estimate *a, const gg_estimate *b)
 {
@@ -16,11 +17,14 @@ void gg_compare_theories(const gg_model *model, gg_comparison *c)
 {
   c->model = *model;
   c->n_theories = 0;
+  gg_model start = *model; /* facts tell how engines start; theories of ours find their own temperature */
+  if (c->scene.temperature == GG_AUTO) gg_start_near_steady(&start);
   const gg_theory *theory;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error err = {0};
     c->theory[i].theory = theory;
-    c->theory[i].applies = gg_theory_evaluate(theory, model, &c->theory[i].answer, &err) == GG_OK;
+    c->theory[i].applies =
+        gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &err) == GG_OK;
     snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", err.message);
     c->n_theories++;
   }

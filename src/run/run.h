@@ -51,7 +51,7 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
 double gg_z_score(const gg_estimate *a, const gg_estimate *b);
 void gg_comparison_clear(gg_comparison *comparison);
 
-/* Evaluate the theories for a scene: fills only model and theory[], both of which borrow from the scene. */
+/* Evaluate the theories for the comparison's scene: fills only model and theory[], which borrow from it. */
 void gg_compare_theories(const gg_model *model, gg_comparison *comparison);
 
 #endif

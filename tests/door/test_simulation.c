@@ -243,12 +243,78 @@ static void starts(void **state)
   gg_scene_free(s);
 }
 
+typedef struct start_facts {
+  double temperature, e;
+} start_facts;
+
+static const char *note_facts(void *context, const gg_facts *facts, double *values)
+{
+  (void)values;
+  *(start_facts *)context = (start_facts){facts->temperature, facts->pairs[0].e};
+  return NULL;
+}
+
+static double slowly_falling(void *context, double speed, int one, int two)
+{
+  (void)context, (void)one, (void)two;
+  return 1 / (1 + 0.1 * pow(speed, 0.2));
+}
+
+/* The facts that theories are shown are those that simulations start from. */
+static void facts_of_the_start(void **state)
+{
+  (void)state;
+  const char *const scenes[] = {"{flow: usf, phi: 0.1, particles: 400}",
+                                "{flow: usf, phi: 0.1, particles: 400, temperature: 3}",
+                                "{flow: usf, phi: 0.1, particles: 400, collision: {e: 0.7, beta: 0.2}}",
+                                "{flow: usf, engine: dsmc, phi: 0, dsmc: {particles: 20000}}",
+                                "{flow: equilibrium, phi: 0.1, particles: 400}",
+                                "{flow: hcs, phi: 0.1, particles: 400}",
+                                "{flow: hss, phi: 0.1, particles: 400}",
+                                "{flow: poiseuille, phi: 0.1, particles: 400, gravity: [0.01, 0, 0]}",
+                                "{flow: chute, phi: 0.1, particles: 400, gravity: [0.01, -0.02, 0]}",
+                                "{flow: couette, phi: 0.1, particles: 400, walls: {speed: 1}}"};
+  for (size_t k = 0; k < 2 * sizeof scenes / sizeof *scenes; k++) {
+    gg_error err;
+    start_facts facts = {NAN, NAN};
+    const char *const answers[] = {"temperature"};
+    const gg_theory_definition theory = {
+        .name = "noting", .n_quantities = 1, .quantities = answers, .evaluate = note_facts, .context = &facts};
+    gg_scene *s = scene_of(scenes[k / 2]);
+    if (k % 2) assert_ok(gg_scene_set_restitution(s, "falling", slowly_falling, NULL, &err));
+    assert_ok(gg_scene_add_theory(s, &theory, &err));
+    gg_comparison *c = NULL;
+    gg_simulation *m = NULL;
+    assert_ok(gg_evaluate_theories(s, "noting", &c, &err));
+    assert_ok(gg_simulation_new(s, 0, &m, &err));
+    gg_simulation_state now = state_of(m);
+    double T = now.temperature;
+    if (strstr(scenes[k / 2], "couette")) { /* less the laminar profile, of rate 1 */
+      take_grains(m, 1);
+      T = 0;
+      for (size_t i = 0; i < now.grains; i++) {
+        velocity[3 * i] -= position[3 * i + 1] - now.box[1] / 2;
+        for (size_t a = 0; a < 3; a++) T += velocity[3 * i + a] * velocity[3 * i + a] / (3 * (double)now.grains);
+      }
+    }
+    if (!(fabs(facts.temperature / T - 1) < 4 * sqrt(2 / (3 * (double)now.grains))))
+      fail_msg("%s: facts say %g, the simulation has %g", scenes[k / 2], facts.temperature, T);
+    if (k % 2) {
+      double e = slowly_falling(NULL, sqrt(3.14159265358979 * facts.temperature), 0, 0);
+      assert_true(fabs(facts.e - e) < 2e-3);
+    }
+    gg_simulation_free(m);
+    gg_comparison_free(c);
+    gg_scene_free(s);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(state_and_grains),   cmocka_unit_test(cut_into_steps), cmocka_unit_test(collisions_of_md),
       cmocka_unit_test(collisions_of_dsmc), cmocka_unit_test(energy_balance), cmocka_unit_test(cooling_over_decades),
-      cmocka_unit_test(saved_and_loaded),   cmocka_unit_test(starts),
+      cmocka_unit_test(saved_and_loaded),   cmocka_unit_test(starts),         cmocka_unit_test(facts_of_the_start),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
