@@ -1,5 +1,6 @@
 #include "run/replicas.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -25,6 +26,7 @@ gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_a
                              const gg_hooks *hooks, gg_error *err)
 {
   *all = (gg_replicas){.scene = *scene, .threads = threads, .n = (int)scene->run.replicas, .hooks = hooks};
+  all->last.relative_error = NAN; /* nothing is estimated yet */
   GG_TRY(gg_model_make(scene, scene->engine, &all->model, err));
   GG_TRY(gg_engine_ops_of(scene->engine)->accepts(&all->model, err));
   if (scene->temperature == GG_AUTO) gg_start_near_steady(&all->model);

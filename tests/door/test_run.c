@@ -8,6 +8,7 @@ static int count_progress(void *context, const gg_progress *now)
 {
   told++;
   assert_true(now->fraction >= 0 && now->fraction <= 1 && now->engine && now->phase);
+  assert_true(isnan(now->relative_error) || (now->phase[0] == 'a' && now->relative_error > 0)); /* not known, never 0 */
   return context && now->phase[0] == 'a' && now->fraction > *(double *)context;
 }
 
