@@ -19,7 +19,8 @@ static void put(const char *text)
   }
 }
 
-static void item(const char *head, const char *argument, const char *text)
+/* Head of an item, whose text is put after it and a line end at last. */
+static void begin_item(const char *head, const char *argument)
 {
   printf(".TP\n.B ");
   put(head);
@@ -29,6 +30,11 @@ static void item(const char *head, const char *argument, const char *text)
     printf("\\fR");
   }
   printf("\n");
+}
+
+static void item(const char *head, const char *argument, const char *text)
+{
+  begin_item(head, argument);
   put(text);
   printf("\n");
 }
@@ -60,9 +66,13 @@ static void print_theories(void)
 {
   gg_entry t;
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_THEORIES, i, NULL, &t, NULL) == GG_OK; i++) {
-    char text[800];
-    snprintf(text, sizeof text, "%s. %s %s", t.doc, t.citation, t.assumptions);
-    item(t.name, NULL, text);
+    begin_item(t.name, NULL);
+    put(t.doc);
+    printf(". ");
+    put(t.citation);
+    printf(" ");
+    put(t.assumptions);
+    printf("\n");
   }
 }
 
@@ -103,18 +113,23 @@ void gg_cli_print_manual(void)
       "dynamics and Enskog Monte Carlo on it, evaluates kinetic theories, and gives every number with its standard\n"
       "error and unit.\n.SH COMMANDS\n");
   for (const gg_command *c = gg_commands; c->name; c++) {
-    char text[600];
-    snprintf(text, sizeof text, "%s.%s%s", c->summary, c->help ? "\n" : "", c->help ? c->help : "");
-    item(c->name, c->arguments, text);
+    begin_item(c->name, c->arguments);
+    put(c->summary);
+    printf(".\n");
+    if (!c->help) continue;
+    put(c->help);
+    printf("\n");
   }
   printf(".SH OPTIONS\n");
   for (const gg_option *o = gg_options_table; o->flag; o++) {
-    char name[32], text[400];
+    char name[32];
     snprintf(name, sizeof name, "--%s", o->name);
-    snprintf(text, sizeof text, "%s. Taken by:", o->doc);
+    begin_item(name, o->argument);
+    put(o->doc);
+    printf(". Taken by:");
     for (const gg_command *c = gg_commands; c->name; c++)
-      if (c->options & o->flag) snprintf(text + strlen(text), sizeof text - strlen(text), " %s", c->name);
-    item(name, o->argument, text);
+      if (c->options & o->flag) printf(" %s", c->name);
+    printf("\n");
   }
   item("--help", NULL, "Help on a command.");
   item("--version", NULL, "The version.");

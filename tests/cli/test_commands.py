@@ -24,6 +24,23 @@ def test_help_and_version():
         check(done.code == 0 and "Usage: graingas " + command in done.out and not done.err, command)
 
 
+def test_manual_is_whole():
+    """Every paragraph of help, option, key and theory stands in the manual page to its end."""
+    page = " ".join(run("--manual").out.replace("\\-", "-").split())
+    for command in "compare", "run", "theory", "plot", "info", "bench":
+        text = run(command, "--help").out
+        summary, *paragraphs = text.split("\n\n")[1:]
+        for paragraph in [summary] + paragraphs[:-1]:
+            check(" ".join(paragraph.split()) in page, command, paragraph)
+        for line in text.split("Options:")[1].splitlines()[1:-1]:
+            check(line.split("  ")[-1].strip() + ". Taken by:" in page, line)
+    for key in json.loads(run("info", "scene.yaml", "--json", scene=ROUGH).out):
+        check(f".B {key}" in page, key)
+    about = json.loads(run("theory", "scene.yaml", "--json").out)["theories"]
+    for theory in about.values():
+        check(f'{theory["title"]}. {theory["citation"]} {theory["assumptions"]}' in page, theory)
+
+
 def test_theory():
     d = loads(run("theory", "scene.yaml", "--json", scene=ROUGH))
     check(d["theory"]["lun1991"]["temperature"]["unit"] == "d^2 gamma^2")
