@@ -1,8 +1,10 @@
 #include "run/fingerprint.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "common/extension.h"
+#include "io/scene/fields.h"
 
 /* Every key that fixes the trajectory or what is averaged; stop rules and output may change between parts of a run. */
 typedef struct gg_fingerprint {
@@ -88,6 +90,19 @@ gg_status gg_fingerprint_put(const gg_scene *scene, gg_archive *a, gg_error *err
   return gg_archive_put(a, "campaign/fingerprint", GG_ITEM_F64, values, (size_t)n, err);
 }
 
+/* The value as it stands in scenes: "md", "rheology, cells", "auto", 0.9. */
+static void show(const char *key, double value, char *text, size_t size)
+{
+  int id = gg_scene_field_find(key);
+  const gg_field *f = id < 0 ? NULL : &gg_scene_fields[id];
+  size_t used = 0;
+  snprintf(text, size, "%.15g", value);
+  if (f && f->special && value == f->special_value) snprintf(text, size, "%s", f->special);
+  for (const gg_word *w = f ? f->words : NULL; w && w->name && used < size; w++)
+    if (f->type == GG_FIELD_SET ? ((unsigned)value & (unsigned)w->value) != 0 : value == w->value)
+      used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", w->name);
+}
+
 gg_status gg_fingerprint_check(const gg_scene *scene, const gg_archive *a, gg_error *err)
 {
   GG_TRY(same_extension(scene, a, err));
@@ -96,11 +111,14 @@ gg_status gg_fingerprint_check(const gg_scene *scene, const gg_archive *a, gg_er
   int n = fingerprint(scene, here);
   GG_TRY(gg_archive_get(a, "campaign/fingerprint", GG_ITEM_F64, there, (size_t)n, err));
   for (int i = 0; i < n; i++)
-    if (memcmp(&here[i].value, &there[i], sizeof there[i]) != 0)
+    if (memcmp(&here[i].value, &there[i], sizeof there[i]) != 0) {
+      char one[256], two[256];
+      show(here[i].name, there[i], one, sizeof one);
+      show(here[i].name, here[i].value, two, sizeof two);
       return gg_fail(
           err, GG_BAD_INPUT,
-          "the checkpoint is of another run: %s differs (there %.15g, here %.15g); only stop rules and output "
-          "may change",
-          here[i].name, there[i], here[i].value);
+          "the checkpoint is of another run: %s differs (there %s, here %s); only stop rules and output may change",
+          here[i].name, one, two);
+    }
   return GG_OK;
 }

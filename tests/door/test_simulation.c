@@ -211,6 +211,18 @@ static void saved_and_loaded(void **state)
   assert_ok(gg_scene_set(other, "collision.e", "0.8", &err));
   assert_refused(gg_simulation_load("t_saved.h5", other, &again, &err), "collision.e differs");
   assert_ok(gg_scene_set(other, "collision.e", "0.9", &err));
+  const char *const words[][3] = {{"engine", "dsmc", "engine differs (there md, here dsmc)"},
+                                  {"flow", "hcs", "flow differs (there usf, here hcs)"},
+                                  {"contact_value", "kolafa", "(there carnahan_starling, here kolafa)"},
+                                  {"temperature", "2", "temperature differs (there auto, here 2)"},
+                                  {"dsmc.precision", "single", "(there double, here single)"},
+                                  {"measure", "[rheology, cells]", "(there rheology, here rheology, cells)"}};
+  for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+    gg_scene *changed = scene_of(ROUGH);
+    assert_ok(gg_scene_set(changed, words[k][0], words[k][1], &err));
+    assert_refused(gg_simulation_load("t_saved.h5", changed, &again, &err), words[k][2]);
+    gg_scene_free(changed);
+  }
   assert_ok(gg_simulation_load("t_saved.h5", other, &again, &err));
   gg_simulation_free(again);
   assert_int_equal(gg_simulation_load("t_nowhere.h5", NULL, &again, &err), GG_BAD_FILE);
