@@ -151,9 +151,10 @@ typedef void gg_on_collision(void *context, const gg_collision_event *event);
 GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context,
                                             gg_error *err);
 
-/* Everything needed to go on bit for bit, to a file that is whole or not there; and back. `scene` NULL: the stored one;
- * otherwise it must be the scene that was saved (stop rules and output may differ), or GG_BAD_INPUT names the
- * difference. A callback has to be set again. */
+/* Everything needed to go on bit for bit, to a file that is whole or not there; the one that was there before is kept
+ * as `path`.1 (which is read by that name only). And back: `scene` NULL: the stored one; otherwise it must be the scene
+ * that was saved (stop rules and output may differ), or GG_BAD_INPUT names the difference. A callback has to be set
+ * again. */
 GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, gg_error *err);
 GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulation **simulation, gg_error *err);
 
@@ -180,7 +181,7 @@ typedef struct gg_run_options {
   const char *resume;     /* checkpoint to go on from, bit for bit; FILE.1 is taken where it is damaged */
   const char *command;    /* how the file was made, for its record; NULL: "the graingas library" */
   void *context;          /* for the callbacks, of which each may be NULL; one at a time, maybe on threads of the run */
-  int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop */
+  int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop, as below */
   int (*stop)(void *context);                                  /* asked at every sampling interval; not 0: stop */
   void (*stored)(void *context, const char *checkpoint);       /* a checkpoint was written */
   void (*warn)(void *context, const char *message);            /* what was put right before the run began */
@@ -190,8 +191,9 @@ typedef struct gg_result gg_result; /* what came out of one engine's run */
 
 /* Run the scene's engine; options NULL: the default ones. With a result as well as a status that is not GG_OK:
  * GG_FAILED, the run ended short of what was asked, and the result says how far it came; GG_INTERRUPTED, a callback
- * stopped it, results so far (no output is written); GG_BAD_FILE, a checkpoint could not be written, results so far, or
- * the output could not be at the end. */
+ * stopped it, at the end of the sampling interval that was under way (two collisions a grain), results so far (no
+ * output is written); GG_BAD_FILE, a checkpoint could not be written, results so far, or the output could not be at the
+ * end. */
 GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
 
 /* ---- Results ---- */
@@ -232,7 +234,9 @@ GG_API gg_status gg_result_about(const gg_result *result, gg_result_info *info, 
 GG_API const gg_scene *gg_result_scene(const gg_result *result);         /* as it was run */
 GG_API const char *gg_result_warning(const gg_result *result, size_t i); /* NULL after the last */
 
-/* One quantity from the start of the run, the first replica: n values, NaN where there is none, and their times. */
+/* One quantity from the start of the run, the first replica: n values, NaN where there is none, and their times. These
+ * have a history: temperature, rotational_temperature, temperature_ratio, pressure, P_xy, spin_z, collision_rate, a2,
+ * cos2_psi; of others GG_BAD_INPUT. */
 GG_API gg_status gg_result_history(const gg_result *result, const char *quantity, size_t *n, const double **time,
                                    const double **value, gg_error *err);
 

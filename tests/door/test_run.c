@@ -191,6 +191,22 @@ static void missing_quantities(void **state)
   assert_null(gg_result_unit(r, "temperature_ratio"));
   assert_string_equal(gg_result_unit(r, "temperature"), "d^2 gamma^2");
   assert_refused(gg_result_history(r, "N1", &n, NULL, NULL, &err), "not followed");
+  const char *const followed[] = {"temperature",
+                                  "rotational_temperature",
+                                  "temperature_ratio",
+                                  "pressure",
+                                  "P_xy",
+                                  "spin_z",
+                                  "collision_rate",
+                                  "a2",
+                                  "cos2_psi"};
+  size_t histories = 0, named = 0; /* as the header names them */
+  for (size_t i = 0; gg_result_at(r, i, &m, NULL) == GG_OK; i++) {
+    histories += gg_result_history(r, m.name, &n, NULL, NULL, NULL) == GG_OK;
+    for (size_t k = 0; k < 9; k++) named += strcmp(followed[k], m.name) == 0;
+  }
+  assert_true(histories == 9 && named == 9);
+  for (size_t k = 0; k < 9; k++) assert_ok(gg_result_history(r, followed[k], &n, NULL, NULL, &err));
   gg_curve_data curve;
   assert_refused(gg_result_curve(r, 0, &curve, &err), "0 curves");
   double x[3];
