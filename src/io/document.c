@@ -54,9 +54,11 @@ static json_t *estimate_json(const gg_result *r, gg_quantity q, json_t *warnings
     gg_reason_add(warnings, "", name, e->reason);
   else if (isnan(e->error))
     gg_reason_add(warnings, "stderr", name, e->reason[0] ? e->reason : "too few samples");
-  return json_pack("{s:o, s:o, s:s, s:I, s:o}", "mean", real(e->mean), "stderr", real(e->error), "unit",
-                   gg_quantity_unit(q, &r->model), "samples", (json_int_t)e->samples, "correlation_time",
-                   real(e->correlation_time));
+  json_t *json = json_pack("{s:o, s:o, s:s, s:I, s:o}", "mean", real(e->mean), "stderr", real(e->error), "unit",
+                           gg_quantity_unit(q, &r->model), "samples", (json_int_t)e->samples, "correlation_time",
+                           real(e->correlation_time));
+  if (isnan(e->mean)) json_object_set_new(json, "reason", json_string(e->reason));
+  return json;
 }
 
 static json_t *effort_json(const gg_effort *effort)
@@ -87,7 +89,8 @@ json_t *gg_run_document(const gg_result *r)
   for (int i = 0; i < r->n_warnings; i++) json_array_append_new(warnings, json_string(r->warnings[i]));
   for (int q = 0; q < gg_quantities_of(&r->model); q++)
     if (gg_is_measured(&r->value[q]))
-      json_object_set_new(results, gg_quantity_name_in(&r->model, (gg_quantity)q), estimate_json(r, (gg_quantity)q, warnings));
+      json_object_set_new(results, gg_quantity_name_in(&r->model, (gg_quantity)q),
+                          estimate_json(r, (gg_quantity)q, warnings));
   json_t *document =
       json_pack("{s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
                 gg_scene_json(&r->scene), "engine", r->engine, "steady", r->steadiness == GG_STEADY, "verdict",

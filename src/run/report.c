@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "common/linear_response.h"
+#include "io/scene/fields.h"
 #include "run/clock.h"
 #include "run/replicas.h"
 
@@ -123,9 +124,11 @@ static void warn_if_structured(gg_result *result)
 static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   const gg_engine_state *s = &result->engine_state;
-  if (all->model.law.e)
+  if (all->model.law.e && gg_scene_is_given(&all->scene, "collision.e"))
     gg_result_warn(result, "collision.e was not in force, but the calling program's restitution law '%s'",
                    all->model.law.name);
+  else if (all->model.law.e)
+    gg_result_warn(result, "in force was the calling program's restitution law '%s'", all->model.law.name);
   if (result->steadiness != GG_STEADY) gg_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (result->steadiness == GG_STEADY && !c->trusted)
     gg_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",

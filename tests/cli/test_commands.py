@@ -62,6 +62,8 @@ def test_run():
         check(0.3 < T["mean"] < 1 and 0 < T["stderr"] < 0.2 and T["unit"] == "d^2 gamma^2" and T["samples"] >= 90)
         for quantity in d["results"].values():
             check(quantity["mean"] is not None or d["warnings"])
+            check((quantity["mean"] is None) == bool(quantity.get("reason")), quantity)
+        check(any(quantity["mean"] is None for quantity in d["results"].values()))
         check(done.new == [engine + ".h5"], done.new)
 
 

@@ -1,5 +1,7 @@
 /* What a program adds to a scene, by the public interface alone: found again in files, right in a cooling gas, refused
  * where it would spoil files. */
+#include <stdbool.h>
+
 #include "door_test.h"
 
 static void sample_T(void *context, void *state, const gg_sample *s, double *values)
@@ -124,6 +126,29 @@ static void theories_under_a_law(void **state)
   gg_scene_free(s);
 }
 
+/* A law is noted in results; that it took the place of collision.e, where that was given. */
+static void law_noted(void **state)
+{
+  (void)state;
+  gg_error err;
+  for (int given = 0; given < 2; given++) {
+    gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 200, run: {collisions: 100}}");
+    gg_result *r = NULL;
+    const char *warning;
+    bool noted = false, replaced = false;
+    if (given) assert_ok(gg_scene_set(s, "collision.e", "0.8", &err));
+    assert_ok(gg_scene_set_restitution(s, "softening", softening, NULL, &err));
+    gg_run(s, NULL, &r, &err);
+    for (size_t i = 0; (warning = gg_result_warning(r, i)); i++) {
+      noted |= strstr(warning, "restitution law 'softening'") != NULL;
+      replaced |= strstr(warning, "collision.e was not in force") != NULL;
+    }
+    assert_true(noted && replaced == given);
+    gg_result_free(r);
+    gg_scene_free(s);
+  }
+}
+
 typedef struct impacts {
   double sum, count, least, most; /* of the ratio of <(k.g)^2> to T, over all intervals while averaging */
 } impacts;
@@ -210,7 +235,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(read_back), cmocka_unit_test(read_back_run), cmocka_unit_test(theories_under_a_law),
-      cmocka_unit_test(cooling),   cmocka_unit_test(spoiling),
+      cmocka_unit_test(cooling),   cmocka_unit_test(spoiling),      cmocka_unit_test(law_noted),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -58,7 +58,11 @@ static void restore_means(gg_result *r, const json_t *document)
                        .error = number(stored, "stderr"),
                        .correlation_time = number(stored, "correlation_time"),
                        .samples = count(stored, "samples")};
-    if (stored && isnan(e->mean)) restore_reason(r, name, e->reason, sizeof e->reason);
+    const char *reason = text(stored, "reason");
+    if (stored && isnan(e->mean) && *reason)
+      snprintf(e->reason, sizeof e->reason, "%s", reason);
+    else if (stored && isnan(e->mean)) /* of an older file */
+      restore_reason(r, name, e->reason, sizeof e->reason);
   }
 }
 
