@@ -1,11 +1,13 @@
 /* graingas: dispatch to the subcommands. */
 #include <hdf5.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/cli.h"
 
@@ -59,10 +61,18 @@ static int unknown(const char *word)
   return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; see graingas --help", word);
 }
 
-/* What was printed has to have arrived. */
+/* A pipe whose reader has gone ("graingas info FILE | head"). */
+static bool reader_has_gone(void)
+{
+  struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+  return poll(&out, 1, 0) == 1 && (out.revents & POLLERR);
+}
+
+/* What was printed has to have arrived, unless the reader had enough of it. */
 static int check_output(int code)
 {
   bool lost = fflush(stdout) != 0 || ferror(stdout);
+  if (lost && reader_has_gone()) return code;
   return lost && code == GG_OK ? gg_cli_fail(GG_BAD_FILE, "standard output cannot be written") : code;
 }
 

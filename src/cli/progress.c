@@ -58,6 +58,14 @@ static void show_live(gg_cli_progress *p)
   p->live = true;
 }
 
+static void show_plain(gg_cli_progress *p, int k)
+{
+  char line[200];
+  describe(&p->last[k], false, line, sizeof line);
+  fprintf(stderr, "%s\n", line);
+  p->untold[k] = false;
+}
+
 void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *g)
 {
   if (p->quiet) return;
@@ -69,10 +77,9 @@ void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *g)
     if (now - p->shown < live_every) return;
     show_live(p);
   } else {
+    p->untold[k] = true;
     if (!new_phase && now - p->shown < plain_every) return;
-    char line[200];
-    describe(g, false, line, sizeof line);
-    fprintf(stderr, "%s\n", line);
+    show_plain(p, k);
     snprintf(p->phase[k], sizeof p->phase[k], "%s", g->phase);
   }
   p->shown = now;
@@ -82,4 +89,9 @@ void gg_cli_progress_end(gg_cli_progress *p)
 {
   if (p->live) fputs("\r\x1b[K", stderr);
   p->live = false;
+  for (int k = 0; k < 2; k++) {
+    if (!p->untold[k]) continue;
+    p->last[k].time_left = NAN; /* it is over */
+    show_plain(p, k);
+  }
 }

@@ -11,11 +11,12 @@ typedef struct gg_cli_progress {
   bool live;           /* a live line stands on the terminal */
   gg_progress last[2]; /* of md and dsmc, which may run side by side */
   char phase[2][24];   /* last phase told in plain lines */
+  bool untold[2];      /* `last` is news that no plain line has told */
 } gg_cli_progress;
 
 void gg_cli_progress_start(gg_cli_progress *p, bool quiet);
 void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *now);
-/* Take the live line away; harmless again. */
+/* Take the live line away, or tell how it ended in a plain line; harmless again. */
 void gg_cli_progress_end(gg_cli_progress *p);
 
 /* SIGINT and SIGTERM end a run at the next occasion, with a checkpoint if one was asked for; a second one ends it at

@@ -159,6 +159,7 @@ gg_status gg_replicas_run(gg_replicas *all, gg_error *err)
       all->state.restarts++;
       GG_TRY(open_window(all, err));
     } else if (finished(all, &c, window)) {
+      report_progress(all); /* the last word, with the errors of the end */
       return GG_OK;
     } else {
       all->state.goal = all->state.window_at + next_length(all, window);

@@ -1,9 +1,10 @@
 """The commands as interface: what they print, the keys of their JSON, their exit codes."""
 import json
 import os
+import subprocess
 import sys
 
-from tap import check, main, run
+from tap import GRAINGAS, check, main, run
 
 ROUGH = ("flow: usf\nphi: 0.2\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 1000}\n"
          "run: {collisions: 200, warmup: 30}\n")
@@ -39,6 +40,26 @@ def test_manual_is_whole():
     about = json.loads(run("theory", "scene.yaml", "--json").out)["theories"]
     for theory in about.values():
         check(f'{theory["title"]}. {theory["citation"]} {theory["assumptions"]}' in page, theory)
+
+
+def test_closed_pipe():
+    """A reader that has enough is no mistake; a full disk is one."""
+    run("run", "scene.yaml", "--quiet", scene=ROUGH)
+    for command in f"{GRAINGAS} info scene.h5", f"{GRAINGAS} info scene.h5 --json", f"{GRAINGAS} theory scene.yaml":
+        done = subprocess.run(["bash", "-c", f"(sleep 0.3; {command}) | head -n 0 >/dev/null; echo ${{PIPESTATUS[0]}}"],
+                              capture_output=True, text=True)
+        check(done.stdout == "0\n" and not done.stderr, command, done.stdout, done.stderr)
+    done = subprocess.run(["bash", "-c", f"{GRAINGAS} info scene.h5 >/dev/full"], capture_output=True, text=True)
+    check(done.returncode == 3 and "standard output cannot be written" in done.stderr, done.stderr)
+
+
+def test_last_progress():
+    """The last line before the results is of the end."""
+    for args in ("run", "scene.yaml"), ("compare", "scene.yaml", "--picture", "none"):
+        lines = [line for line in run(*args, scene=ROUGH).err.splitlines() if "averaging" in line]
+        for engine in ("md", "dsmc")[:1 if args[0] == "run" else 2]:
+            last = [line for line in lines if line.startswith(engine + " ")][-1]
+            check("averaging 100 %" in last and "left" not in last, lines)
 
 
 def test_theory():
