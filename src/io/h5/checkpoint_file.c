@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "io/atomic_file.h"
+#include "io/checksum.h"
 #include "io/h5/h5.h"
 #include "io/scene/json.h"
 
@@ -31,28 +32,14 @@ static hid_t type_of(gg_item_type type)
   return H5T_NATIVE_UINT8;
 }
 
-/* 64-bit FNV-1a over words where it can: a checkpoint's megabytes take milliseconds. */
-static uint64_t mix(uint64_t sum, const void *data, size_t size)
-{
-  const unsigned char *at = data;
-  for (; size >= 8; at += 8, size -= 8) {
-    uint64_t word;
-    memcpy(&word, at, 8);
-    sum = (sum ^ word) * UINT64_C(0x100000001b3);
-    sum ^= sum >> 29;
-  }
-  for (; size > 0; at++, size--) sum = (sum ^ *at) * UINT64_C(0x100000001b3);
-  return sum;
-}
-
 static uint64_t checksum(const gg_archive *a)
 {
-  uint64_t sum = UINT64_C(0xcbf29ce484222325);
+  uint64_t sum = GG_CHECKSUM_START;
   for (size_t i = 0; i < a->n_items; i++) {
     const gg_item *item = &a->items[i];
-    sum = mix(sum, item->name, strlen(item->name));
-    sum = mix(sum, &item->count, sizeof item->count);
-    sum = mix(sum, item->data, item->count * gg_item_size(item->type));
+    sum = gg_checksum(sum, item->name, strlen(item->name));
+    sum = gg_checksum(sum, &item->count, sizeof item->count);
+    sum = gg_checksum(sum, item->data, item->count * gg_item_size(item->type));
   }
   return sum;
 }
