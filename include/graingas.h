@@ -201,10 +201,11 @@ GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg
 typedef struct gg_measurement {
   const char *name;        /* "temperature", "shear_viscosity", "N1": see GG_CATALOGUE_QUANTITIES */
   double mean, error;      /* with its standard error. NaN mean: cannot be had; NaN error: the run is too short */
-  double correlation_time; /* integrated, in units of time */
+  double correlation_time; /* integrated, in correlation_time_unit; NaN: unknown */
   uint64_t samples;
   const char *unit;
-  const char *reason; /* why there is no mean; NULL if there is one; "" if it was not asked for */
+  const char *reason;                /* why there is no mean; NULL if there is one; "" if it was not asked for */
+  const char *correlation_time_unit; /* of time; "collisions a grain" where the gas cools or heats up for ever */
 } gg_measurement;
 
 /* Mean and standard error of one quantity; either pointer may be NULL. GG_BAD_INPUT with the reason where there is

@@ -90,7 +90,7 @@ static void print_files(void)
        "box, position, velocity (peculiar), spin, species, id: the last state, or every output.trajectory_every "
        "collisions per grain. Edges of a sheared box lean with its sliding images."},
       {"/observables", "QUANTITY", "step, time and value from the start of the run."},
-      {"/graingas/results", "QUANTITY", "mean, stderr, unit, samples, correlation_time."},
+      {"/graingas/results", "QUANTITY", "mean, stderr, unit, samples, correlation_time (its unit an attribute)."},
       {"/graingas/theory", "NAME/QUANTITY", "mean and unit."},
       {"/graingas", NULL,
        "scene (YAML), document (the JSON of --json), seed, version, command, machine, date, verdict, warnings, window, "

@@ -36,7 +36,8 @@ static void tell(const gg_result *r, gg_quantity q, gg_measurement *m)
                         .correlation_time = e->correlation_time,
                         .samples = e->samples,
                         .unit = gg_quantity_unit(q, &r->model),
-                        .reason = isnan(e->mean) ? e->reason : NULL};
+                        .reason = isnan(e->mean) ? e->reason : NULL,
+                        .correlation_time_unit = gg_correlation_time_unit(&r->model)};
 }
 
 gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err)
@@ -173,7 +174,8 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
                              .correlation_time = NAN,
                              .samples = c->samples,
                              .unit = p->unit,
-                             .reason = isnan(p->value) ? "it cannot be read off this curve" : NULL};
+                             .reason = isnan(p->value) ? "it cannot be read off this curve" : NULL,
+                             .correlation_time_unit = gg_correlation_time_unit(&result->model)};
   return GG_OK;
 }
 

@@ -54,9 +54,9 @@ static json_t *estimate_json(const gg_result *r, gg_quantity q, json_t *warnings
     gg_reason_add(warnings, "", name, e->reason);
   else if (isnan(e->error))
     gg_reason_add(warnings, "stderr", name, e->reason[0] ? e->reason : "too few samples");
-  json_t *json = json_pack("{s:o, s:o, s:s, s:I, s:o}", "mean", real(e->mean), "stderr", real(e->error), "unit",
+  json_t *json = json_pack("{s:o, s:o, s:s, s:I, s:o, s:s}", "mean", real(e->mean), "stderr", real(e->error), "unit",
                            gg_quantity_unit(q, &r->model), "samples", (json_int_t)e->samples, "correlation_time",
-                           real(e->correlation_time));
+                           real(e->correlation_time), "correlation_time_unit", gg_correlation_time_unit(&r->model));
   if (isnan(e->mean)) json_object_set_new(json, "reason", json_string(e->reason));
   return json;
 }

@@ -31,11 +31,19 @@ static bool scale_free(gg_quantity q)
   }
 }
 
+/* Of a row of the series, in the unit of correlation times. */
+static double row_length_of(const gg_replicas *all, const gg_series *s)
+{
+  size_t rows = gg_series_window_rows(s);
+  if (gg_counts_in_collisions(&all->model)) return (double)s->per_row * GG_SAMPLING_INTERVAL;
+  return rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
+}
+
 static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err)
 {
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
-  double row_time = rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
+  double row_length = row_length_of(all, s);
   for (int q = 0; q < gg_quantities_of(&all->model); q++) {
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
@@ -52,7 +60,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
       continue;
     }
     e->mean = m.mean, e->error = m.error;
-    e->correlation_time = m.correlation_rows * row_time;
+    e->correlation_time = m.correlation_rows * row_length;
     e->samples = rows * s->per_row * (uint64_t)all->n;
   }
   return GG_OK;

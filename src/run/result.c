@@ -15,6 +15,16 @@ void gg_result_warn(gg_result *result, const char *format, ...)
   if (length >= 0) result->warnings[result->n_warnings++] = text;
 }
 
+bool gg_counts_in_collisions(const gg_model *m)
+{
+  return m->flow == GG_HCS || !m->steady;
+}
+
+const char *gg_correlation_time_unit(const gg_model *m)
+{
+  return gg_counts_in_collisions(m) ? "collisions a grain" : gg_curve_unit(m, "time");
+}
+
 void gg_result_free(gg_result *result)
 {
   if (!result) return;

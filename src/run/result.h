@@ -9,10 +9,15 @@
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
 typedef struct gg_estimate {
   double mean, error;      /* error: standard error, correlation in time accounted for; NaN if unknown */
-  double correlation_time; /* integrated autocorrelation time, model units */
+  double correlation_time; /* integrated autocorrelation time, in gg_correlation_time_unit */
   uint64_t samples;        /* in the averaging window, all replicas */
   char reason[160];
 } gg_estimate;
+
+/* Of correlation times: that of time in a steady state; "collisions a grain" where the gas cools or heats up for ever,
+ * so that times grow without end and a mean of them says nothing. */
+bool gg_counts_in_collisions(const gg_model *model);
+const char *gg_correlation_time_unit(const gg_model *model);
 
 typedef enum gg_steadiness {
   GG_STEADY,

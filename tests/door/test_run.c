@@ -314,12 +314,42 @@ static void theories(void **state)
   gg_scene_free(s);
 }
 
+/* Times in a cooling gas grow without end: its correlation times are collisions a grain, also in the document. */
+static void correlation_times(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *flow, *quantity, *unit;
+  } cases[] = {{"hcs", "cooling_rate", "collisions a grain"}, {"usf", "temperature", "1/gamma"}};
+  for (int i = 0; i < 2; i++) {
+    gg_error err;
+    char yaml[200], *text = NULL;
+    snprintf(yaml, sizeof yaml,
+             "{flow: %s, engine: dsmc, phi: 0.1, dsmc: {particles: 500}, collision: {e: 0.7}, run: {collisions: 2000}}",
+             cases[i].flow);
+    gg_scene *s = scene_of(yaml);
+    gg_result *r = NULL;
+    gg_measurement m;
+    assert_ok(gg_run(s, NULL, &r, &err));
+    assert_ok(gg_result_find(r, cases[i].quantity, &m, &err));
+    print_message("# %s: %g %s\n", cases[i].flow, m.correlation_time, m.correlation_time_unit);
+    assert_string_equal(m.correlation_time_unit, cases[i].unit);
+    assert_true(m.correlation_time > 0.1 && m.correlation_time < 20);
+    assert_ok(gg_result_to_json(r, &text, &err));
+    assert_non_null(strstr(text, "\"correlation_time_unit\""));
+    assert_non_null(strstr(text, cases[i].unit));
+    free(text);
+    gg_result_free(r);
+    gg_scene_free(s);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stopped_and_resumed), cmocka_unit_test(replicas_stopped),  cmocka_unit_test(written_and_read),
       cmocka_unit_test(missing_quantities),  cmocka_unit_test(unwritable_output), cmocka_unit_test(comparisons),
-      cmocka_unit_test(part_comparisons),    cmocka_unit_test(theories),
+      cmocka_unit_test(part_comparisons),    cmocka_unit_test(theories),          cmocka_unit_test(correlation_times),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

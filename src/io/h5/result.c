@@ -69,12 +69,16 @@ static void write_estimate(gg_h5 *h, const char *group, gg_quantity q, const gg_
   const struct {
     const char *name;
     double value;
-  } numbers[] = {{"mean", e->mean}, {"stderr", e->error}, {"correlation_time", e->correlation_time}};
+    const char *unit; /* NULL: that of the quantity, beside it */
+  } numbers[] = {{"mean", e->mean, NULL},
+                 {"stderr", e->error, NULL},
+                 {"correlation_time", e->correlation_time, gg_correlation_time_unit(&r->model)}};
   char path[160];
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
     if (isnan(numbers[i].value)) continue; /* what cannot be had is not there */
     snprintf(path, sizeof path, "%s/results/%s/%s", group, gg_quantity_name_in(&r->model, q), numbers[i].name);
     gg_h5_number(h, path, numbers[i].value);
+    if (numbers[i].unit) gg_h5_text_attribute(h, path, "unit", numbers[i].unit);
   }
   snprintf(path, sizeof path, "%s/results/%s/samples", group, gg_quantity_name_in(&r->model, q));
   gg_h5_count(h, path, e->samples);
