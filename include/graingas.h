@@ -177,8 +177,10 @@ typedef struct gg_run_options {
   const char *output;     /* result file to write, with the trajectory if the scene has output.trajectory_every; another
                            * file than the two below */
   const char *checkpoint; /* file to keep checkpoints in: every output.checkpoint_every seconds of the scene (0: never),
-                           * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1 */
-  const char *resume;     /* checkpoint to go on from, bit for bit; FILE.1 is taken where it is damaged */
+                           * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1. The
+                           * trajectory until then is kept beside it (x.frames for x.h5), for the output at the end */
+  const char *resume;     /* checkpoint to go on from, bit for bit, the trajectory included; FILE.1 is taken where it is
+                           * damaged. GG_BAD_FILE where frames that belong to it are damaged or not there */
   const char *command;    /* how the file was made, for its record; NULL: "the graingas library" */
   void *context;          /* for the callbacks, of which each may be NULL; one at a time, maybe on threads of the run */
   int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop, as below */

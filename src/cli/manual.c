@@ -98,6 +98,9 @@ static void print_files(void)
       {"RESULT.checkpoint.h5", NULL,
        "A checkpoint, with a checksum; RESULT.checkpoint.h5.1 is the one before it, and is taken where the first is "
        "missing or damaged."},
+      {"RESULT.checkpoint.frames", NULL,
+       "The trajectory up to the checkpoint, which goes into RESULT.h5 at the end. It belongs to the checkpoint: move "
+       "both. Where it is lost, the run can go on without a trajectory, with --set output.trajectory_every=0."},
   };
   printf(".SH FILES\n");
   for (size_t i = 0; i < sizeof files / sizeof *files; i++) item(files[i].name, files[i].argument, files[i].text);

@@ -28,10 +28,8 @@ gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_co
   gg_hooks hooks;
   gg_error why = {0};
   gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
-  if (status == GG_OK) {
-    hooks.frame = NULL; /* a comparison keeps no trajectory */
+  if (status == GG_OK) /* without a trajectory */
     status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);
-  }
   bool some = status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC];
   if (some && run.options.output && (status == GG_OK || status == GG_FAILED))
     written = gg_result_file_finish_comparison(&run.file, c, &why);

@@ -15,27 +15,24 @@ static void hear_progress(void *context, const gg_progress *progress)
   if (r->options.progress && r->options.progress(r->options.context, progress)) atomic_store(&r->stopped, true);
 }
 
-static bool is_stopped(void *context)
+bool gg_door_run_stopped(void *context)
 {
   gg_door_run *r = context;
   if (r->options.stop && r->options.stop(r->options.context)) atomic_store(&r->stopped, true);
   return atomic_load(&r->stopped);
 }
 
-static gg_status store_frame(void *context, const gg_frame *frame, gg_error *err)
-{
-  gg_door_run *r = context;
-  return gg_result_file_frame(&r->file, &r->model, frame, err);
-}
-
-static gg_status store_checkpoint(void *context, const gg_archive *archive, gg_error *err)
+static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *err)
 {
   gg_door_run *r = context;
   locale_t before = gg_c_locale_enter();
-  gg_status status = gg_checkpoint_write(r->options.checkpoint, archive, &r->scene, err);
+  gg_status status = gg_door_trajectory_mark(r, archive, err);
+  if (status == GG_OK) status = gg_checkpoint_write(r->options.checkpoint, archive, &r->scene, err);
   gg_c_locale_leave(before);
-  if (status == GG_OK && r->options.stored) r->options.stored(r->options.context, r->options.checkpoint);
-  return status;
+  if (status != GG_OK) return status;
+  r->stored = true;
+  if (r->options.stored) r->options.stored(r->options.context, r->options.checkpoint);
+  return GG_OK;
 }
 
 static gg_status read_resume(gg_door_run *r, gg_error *err)
@@ -71,24 +68,25 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
 {
   memset(r, 0, sizeof *r);
   r->file = (gg_result_file){.h.file = -1, .file.fd = -1};
+  r->log.fd = -1;
   if (options) r->options = *options;
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
   atomic_init(&r->stopped, false);
-  *hooks = (gg_hooks){.context = r, .progress = hear_progress, .interrupted = is_stopped};
+  *hooks = (gg_hooks){.context = r, .progress = hear_progress, .interrupted = gg_door_run_stopped};
   if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
   GG_TRY(gg_door_finished(scene, &r->scene, err));
   GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));
   GG_TRY(check_files(&r->options, err));
   if (r->options.resume) GG_TRY(read_resume(r, err));
   if (!r->options.output) return GG_OK;
-  hooks->frame = store_frame;
   return gg_result_file_open(&r->file, r->options.output, r->options.command, err);
 }
 
 void gg_door_run_end(gg_door_run *r)
 {
   gg_result_file_abandon(&r->file);
+  gg_door_trajectory_end(r);
   gg_archive_clear(&r->resume);
 }
 
@@ -115,10 +113,13 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   gg_error why = {0};
   gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
   gg_result *made = NULL;
+  if (status == GG_OK) status = gg_door_trajectory_begin(&run, &hooks, err);
   if (status == GG_OK)
     status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);
-  if (made && run.options.output && (status == GG_OK || status == GG_FAILED))
-    written = gg_result_file_finish_run(&run.file, made, &why);
+  if (made && run.options.output && (status == GG_OK || status == GG_FAILED)) {
+    written = gg_door_trajectory_finish(&run, made, &why);
+    if (written == GG_OK) written = gg_result_file_finish_run(&run.file, made, &why);
+  }
   gg_door_run_end(&run);
   if (made) *result = made;
   return gg_door_run_status(status, written, &why, err);

@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "door/door.h"
+#include "io/frame_log.h"
 #include "io/h5/result_file.h"
 #include "run/run.h"
 
@@ -14,6 +15,9 @@ typedef struct gg_door_run {
   gg_archive resume;   /* empty: from the start */
   gg_result_file file; /* of options.output */
   gg_model model;      /* of the frames */
+  gg_frame_log log;    /* of the frames of a run that keeps checkpoints */
+  bool late;           /* frames before the resumption were not asked for */
+  bool stored;         /* a checkpoint */
   atomic_bool stopped;
 } gg_door_run;
 
@@ -24,6 +28,16 @@ gg_status gg_door_run_begin(gg_door_run *run, const gg_scene *scene, const gg_ru
 void gg_door_run_end(gg_door_run *run);
 /* What to resume from, or NULL. */
 const gg_archive *gg_door_run_resume(const gg_door_run *run);
+/* trajectory.c: the frames of a run, to the result as they come, or where checkpoints are kept, to the log beside them
+ * and to the result at the end. Begun after the run; what a resumed run had before goes first. */
+gg_status gg_door_trajectory_begin(gg_door_run *run, gg_hooks *hooks, gg_error *err);
+/* All frames so far are safe; a checkpoint says how many they are. */
+gg_status gg_door_trajectory_mark(const gg_door_run *run, gg_archive *archive, gg_error *err);
+/* Before the result is written. */
+gg_status gg_door_trajectory_finish(gg_door_run *run, gg_result *result, gg_error *err);
+void gg_door_trajectory_end(gg_door_run *run);
+/* Does the caller want the run to end? */
+bool gg_door_run_stopped(void *run);
 /* The status of a run whose output was or was not written: the worse of the two, with both messages. */
 gg_status gg_door_run_status(gg_status run, gg_status written, const gg_error *why, gg_error *err);
 

@@ -73,7 +73,7 @@ static gg_status store_both(part *p, const gg_archive *archive, gg_error *err)
   return status;
 }
 
-static gg_status locked_checkpoint(void *context, const gg_archive *archive, gg_error *err)
+static gg_status locked_checkpoint(void *context, gg_archive *archive, gg_error *err)
 {
   part *p = context;
   pthread_mutex_lock(p->lock);

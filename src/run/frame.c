@@ -56,3 +56,18 @@ void gg_frame_free(gg_frame *frame)
   free(frame->id);
   *frame = (gg_frame){0};
 }
+
+size_t *gg_frame_order(const gg_frame *frame, gg_error *err)
+{
+  size_t *order = gg_new_array(frame->n, sizeof *order, err);
+  for (size_t i = 0; order && i < frame->n; i++) {
+    int64_t id = frame->id ? frame->id[i] : (int64_t)i;
+    if (id < 0 || (size_t)id >= frame->n) {
+      gg_fail(err, GG_FAILED, "the grains of a frame are not numbered from 0 to n-1");
+      free(order);
+      return NULL;
+    }
+    order[id] = i;
+  }
+  return order;
+}

@@ -10,7 +10,7 @@
 gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
 {
   *r = (gg_replica){.model = *model};
-  r->trajectory_every = index == 0 ? scene->output.trajectory_every : 0;
+  r->trajectory_every = r->clock.frame_every = index == 0 ? scene->output.trajectory_every : 0;
   r->clock.velocity_factor = 1;
   const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
   uint64_t stream = (uint64_t)index * GG_STREAMS_PER_REPLICA;
@@ -124,16 +124,22 @@ void gg_replica_date_frame(const gg_replica *r, gg_frame *frame)
   }
 }
 
+/* Frames are due at the multiples of trajectory_every, and at the first sample. */
+static double next_frame(const gg_replica *r)
+{
+  return r->trajectory_every * (floor(gg_replica_collisions_per_grain(r) / r->trajectory_every) + 1);
+}
+
 static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
 {
-  if (!hooks || !hooks->frame || !(r->trajectory_every > 0) || gg_replica_collisions_per_grain(r) < r->clock.next_frame)
-    return GG_OK;
+  if (!(r->trajectory_every > 0) || gg_replica_collisions_per_grain(r) < r->clock.next_frame) return GG_OK;
+  r->clock.next_frame = next_frame(r);
+  if (!hooks || !hooks->frame) return GG_OK;
   gg_frame frame;
   GG_TRY(gg_frame_take(r->engine, &r->model, &frame, err));
   gg_replica_date_frame(r, &frame);
   gg_status status = hooks->frame(hooks->context, &frame, err);
   gg_frame_free(&frame);
-  r->clock.next_frame += r->trajectory_every;
   return status;
 }
 
@@ -180,6 +186,14 @@ gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
   return gg_replica_save_observables(r, a, err);
 }
 
+/* Frames may be asked for at other times than before: only of what is still to come. */
+static void resume_frames(gg_replica *r)
+{
+  if (r->clock.frame_every == r->trajectory_every) return;
+  r->clock.frame_every = r->trajectory_every;
+  if (r->trajectory_every > 0 && r->clock.samples > 0) r->clock.next_frame = next_frame(r);
+}
+
 gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
                              int index, gg_error *err)
 {
@@ -190,6 +204,7 @@ gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene 
   if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
   if (status == GG_OK) status = gg_replica_restore_observables(r, a, err);
   if (status == GG_OK && r->clock.averaging) status = gg_replica_observe_collisions(r, err);
+  if (status == GG_OK) resume_frames(r);
   if (status != GG_OK) gg_replica_clear(r);
   return status;
 }

@@ -29,7 +29,7 @@ typedef struct gg_replica {
     double cpu, window_cpu; /* seconds used; at the opening of the window */
     uint64_t window_collisions;
     uint64_t averaging, window_samples; /* curves are being taken; samples since */
-    double next_frame;                  /* collisions per grain */
+    double next_frame, frame_every;     /* collisions per grain; of the frames asked for when it was set */
   } clock;
 } gg_replica;
 

@@ -45,6 +45,8 @@ typedef struct gg_frame {
 } gg_frame;
 gg_status gg_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err);
 void gg_frame_free(gg_frame *frame);
+/* Places of the grains in the order of their numbers, so that a row is the same grain in every frame; to be freed. */
+size_t *gg_frame_order(const gg_frame *frame, gg_error *err);
 
 typedef struct gg_effort {
   uint64_t collisions;

@@ -3,13 +3,11 @@
 #include "run/replicas.h"
 
 /* Where the replicas stand as a result; it may fall short of what was asked. */
-static gg_status report(gg_replicas *all, bool resumed, gg_result **out, gg_error *err)
+static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
 {
   gg_result *result = gg_new_array(1, sizeof *result, err);
   if (!result) return GG_FAILED;
   gg_status status = gg_replicas_report(all, result, err);
-  if (resumed && all->scene.output.trajectory_every > 0)
-    gg_result_warn(result, "the trajectory begins where the run was resumed");
   *out = result;
   return status;
 }
@@ -21,9 +19,9 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   *out = NULL;
   GG_TRY(gg_replicas_create(&all, scene, resume, threads, hooks, err));
   gg_status status = gg_replicas_run(&all, err);
-  if (status == GG_OK) status = report(&all, resume != NULL, out, err);
+  if (status == GG_OK) status = report(&all, out, err);
   bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
-  if (cut_short && gg_replicas_finish_round(&all, NULL) == GG_OK) report(&all, resume != NULL, out, NULL);
+  if (cut_short && gg_replicas_finish_round(&all, NULL) == GG_OK) report(&all, out, NULL);
   gg_replicas_clear(&all);
   return status;
 }

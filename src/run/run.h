@@ -12,9 +12,9 @@ typedef struct gg_hooks {
   void (*progress)(void *context, const gg_progress *progress);
   bool (*interrupted)(void *context); /* asked between advances; true ends the run with GG_INTERRUPTED */
   gg_status (*frame)(void *context, const gg_frame *frame, gg_error *err); /* every output.trajectory_every */
-  /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole.
-   */
-  gg_status (*checkpoint)(void *context, const gg_archive *archive, gg_error *err);
+  /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole,
+   * with all frames that came before. Items may be added. */
+  gg_status (*checkpoint)(void *context, gg_archive *archive, gg_error *err);
 } gg_hooks;
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side

@@ -14,7 +14,7 @@ static bool interrupted(void *context)
   return s->left >= 0 && s->left-- == 0;
 }
 
-static gg_status keep(void *context, const gg_archive *archive, gg_error *err)
+static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 {
   stop *s = context;
   gg_archive nested = {0};

@@ -420,7 +420,7 @@ static bool interrupted(void *context)
   return ((stopping *)context)->left-- <= 0;
 }
 
-static gg_status keep(void *context, const gg_archive *archive, gg_error *err)
+static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 {
   stopping *s = context;
   gg_archive_clear(&s->last);

@@ -191,7 +191,7 @@ static bool stop_after(void *context)
   return ++k->asked > k->stop_at;
 }
 
-static gg_status keep(void *context, const gg_archive *archive, gg_error *err)
+static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 {
   keeper *k = context;
   gg_archive_clear(&k->kept);

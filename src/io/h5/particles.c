@@ -35,21 +35,6 @@ static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
   gg_h5_link(h, GRAINS "velocity/time", GRAINS "box/edges/time");
 }
 
-/* Rows in the order of the grains' numbers, so that a row is the same grain in every frame. */
-static size_t *order_of(const gg_frame *frame)
-{
-  size_t *order = malloc(frame->n * sizeof *order);
-  for (size_t i = 0; order && i < frame->n; i++) {
-    int64_t id = frame->id ? frame->id[i] : (int64_t)i;
-    if (id < 0 || (size_t)id >= frame->n) {
-      free(order);
-      return NULL;
-    }
-    order[id] = i;
-  }
-  return order;
-}
-
 static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame, const size_t *order)
 {
   hsize_t n = frame->n;
@@ -96,10 +81,11 @@ static void append_vectors(gg_h5 *h, gg_h5_rows *rows, const double *data, const
 void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame)
 {
   if (h->failed) return;
-  size_t *order = order_of(frame);
+  gg_error err = {.message = "out of memory for a frame"};
+  size_t *order = gg_frame_order(frame, &err);
   double *sorted = malloc(3 * frame->n * sizeof *sorted);
   if (!order || !sorted) {
-    gg_h5_failed(h, "out of memory for a frame, or its grains are not numbered from 0 to n-1");
+    gg_h5_failed(h, err.message);
   } else {
     if (!p->started) start(h, p, model, frame, order);
     const double tilt = tilt_at(model, frame->time);

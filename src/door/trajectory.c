@@ -1,0 +1,113 @@
+/* Where the frames of a run go. */
+#include <errno.h>
+#include <libgen.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "door/run.h"
+
+static const char mark_item[] = "trajectory/mark", name_item[] = "trajectory/name";
+enum { NAME = 256 };
+
+static gg_status store_in_result(void *context, const gg_frame *frame, gg_error *err)
+{
+  gg_door_run *r = context;
+  return gg_result_file_frame(&r->file, &r->model, frame, err);
+}
+
+static gg_status store_in_log(void *context, const gg_frame *frame, gg_error *err)
+{
+  return gg_frame_log_append(&((gg_door_run *)context)->log, frame, err);
+}
+
+/* The log that belongs to the checkpoint resumed from: beside it, under its name, or under the name that it was written
+ * by, where the checkpoint alone was copied. To be freed. */
+static char *log_of_resume(const gg_door_run *r)
+{
+  char *path = gg_frame_log_path(r->options.resume), *copy = NULL, *other = NULL, name[NAME];
+  bool there = path && access(path, F_OK) == 0;
+  if (!there && path && gg_archive_get(&r->resume, name_item, GG_ITEM_U8, name, NAME, NULL) == GG_OK) {
+    copy = strdup(r->options.resume);
+    if (!copy || asprintf(&other, "%s/%.*s", dirname(copy), NAME, name) < 0) other = NULL;
+  }
+  if (other && access(other, F_OK) == 0) {
+    free(path);
+    path = other, other = NULL;
+  }
+  free(copy);
+  free(other);
+  return path;
+}
+
+/* The frames before the checkpoint, every one looked at. */
+static gg_status open_earlier(gg_door_run *r, gg_frame_log *earlier, gg_error *err)
+{
+  gg_frame_mark mark;
+  gg_error why;
+  GG_TRY(gg_archive_get(&r->resume, mark_item, GG_ITEM_U8, &mark, sizeof mark, err));
+  if (!mark.frames) return GG_OK;
+  char *path = log_of_resume(r);
+  if (!path) return gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = gg_frame_log_open_at(earlier, path, &mark, gg_door_run_stopped, r, &why);
+  free(path);
+  if (status != GG_BAD_FILE) return status == GG_OK ? GG_OK : gg_fail(err, status, "%s", why.message);
+  return gg_fail(err, status,
+                 "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it the "
+                 "run can go on with output.trajectory_every: 0",
+                 why.message, (unsigned long long)mark.frames);
+}
+
+/* The last part of the path, which a checkpoint remembers. */
+static const char *base_of(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
+static gg_status open_log(gg_door_run *r, gg_error *err)
+{
+  char *path = gg_frame_log_path(r->options.checkpoint);
+  if (!path) return gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = gg_frame_log_open(&r->log, path, err);
+  free(path);
+  return status;
+}
+
+gg_status gg_door_trajectory_begin(gg_door_run *r, gg_hooks *hooks, gg_error *err)
+{
+  if (!r->options.output || !(r->scene.output.trajectory_every > 0)) return GG_OK;
+  gg_frame_log earlier = {.fd = -1};
+  r->late = r->resume.n_items > 0 && !gg_archive_find(&r->resume, mark_item);
+  hooks->frame = r->options.checkpoint ? store_in_log : store_in_result;
+  gg_status status = r->resume.n_items > 0 && !r->late ? open_earlier(r, &earlier, err) : GG_OK;
+  if (status == GG_OK && r->options.checkpoint) status = open_log(r, err);
+  if (status == GG_OK && earlier.fd >= 0)
+    status = r->log.fd >= 0 ? gg_frame_log_take_over(&r->log, &earlier, err)
+                            : gg_frame_log_replay(&earlier, store_in_result, r, err);
+  gg_frame_log_close(&earlier);
+  return status;
+}
+
+gg_status gg_door_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_error *err)
+{
+  char name[NAME] = "";
+  if (r->log.fd < 0) return GG_OK;
+  GG_TRY(gg_frame_log_sync(&r->log, err));
+  snprintf(name, sizeof name, "%s", base_of(r->log.path));
+  GG_TRY(gg_archive_put(archive, name_item, GG_ITEM_U8, name, sizeof name, err));
+  return gg_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
+}
+
+gg_status gg_door_trajectory_finish(gg_door_run *r, gg_result *result, gg_error *err)
+{
+  if (r->late) gg_result_warn(result, "the trajectory begins where the run was resumed: it was not asked for before");
+  return r->log.fd >= 0 ? gg_frame_log_replay(&r->log, store_in_result, r, err) : GG_OK;
+}
+
+void gg_door_trajectory_end(gg_door_run *r)
+{
+  if (r->log.fd >= 0 && r->log.created && !r->stored) unlink(r->log.path);
+  gg_frame_log_close(&r->log);
+}

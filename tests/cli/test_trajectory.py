@@ -1,0 +1,185 @@
+"""A trajectory goes on where a run does: cut by kill -9, SIGTERM or the time limit, resumed once or often, here or
+there, the result holds every frame of the run that was left alone, bit for bit."""
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+from tap import GRAINGAS, Skip, check, main, run
+
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
+SCENE = """flow: usf
+engine: %s
+phi: 0.2
+particles: 300
+species: [{fraction: 0.5}, {fraction: 0.5, mass: 2}]
+collision: {e: 0.9, beta: 0}
+dsmc: {particles: 300}
+run: {collisions: %g, warmup: 30, replicas: %d}
+output: {checkpoint_every: %g, trajectory_every: 10}
+"""
+
+
+def particles(path):
+    """Every array under /particles but second names of one, as shape and bytes."""
+    if not h5py:
+        raise Skip("no h5py")
+    found = {}
+    with h5py.File(path) as f:
+        f["particles"].visititems(lambda name, item: found.update({name: (item.shape, item[()].tobytes())})
+                                  if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def same(path, whole, *what):
+    found = particles(path)
+    check(sorted(found) == sorted(whole), *what, sorted(found))
+    for name in whole:
+        check(found[name] == whole[name], name, found[name][0], whole[name][0], *what)
+
+
+def whole_run(scene):
+    done = run("run", "scene.yaml", "--quiet", "--output", "whole.h5", "--set", "output.checkpoint_every=0", scene=scene)
+    check(done.code == 0, done.err)
+    whole = particles("whole.h5")
+    check(len(whole) > 5 and whole["grains/position/value" if "md" in scene else "grains/velocity/value"][0][0] > 40)
+    return whole
+
+
+def cut(args, after, how):
+    """True if the run was over before."""
+    child = subprocess.Popen([GRAINGAS, "run", "scene.yaml", "--quiet", *args], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, text=True)
+    try:
+        _, err = child.communicate(timeout=after)
+    except subprocess.TimeoutExpired:
+        child.send_signal(how)
+        _, err = child.communicate(timeout=60)
+    check(child.returncode in (0, 130, -how), child.returncode, err)
+    return child.returncode == 0
+
+
+def at_random_moments(engine, replicas, seed):
+    scene = SCENE % (engine, 6000, replicas, 0.02)
+    whole = whole_run(scene)
+    draw = random.Random(seed)
+    names, at, begun, cuts = ["one.h5", "two.h5"], 0, time.monotonic(), 0
+    over = False
+    while not over:
+        args = ["--output", names[at]]
+        kept = "%s.checkpoint.h5" % names[at][:3]
+        if os.path.exists(kept):
+            older = kept + ".1"
+            use = older if os.path.exists(older) and draw.random() < 0.3 else kept
+            args += ["--resume", use]
+            if draw.random() < 0.3:  # go on under another name
+                at = 1 - at
+                args[1] = names[at]
+        patience = 60 if time.monotonic() > begun + 4 else draw.uniform(0.03, 0.4)
+        over = cut([*args, "--threads", str(draw.choice([1, 2]))], patience, draw.choice([signal.SIGKILL, signal.SIGTERM]))
+        cuts += not over
+    check(cuts > 2, "too fast a machine", cuts)
+    same(names[at], whole, engine, cuts)
+
+
+def test_md_cut_at_random_moments():
+    at_random_moments("md", 1, 1)
+
+
+def test_replicas_of_dsmc_cut_at_random_moments():
+    at_random_moments("dsmc", 2, 2)
+
+
+def test_time_limit():
+    whole = whole_run(SCENE % ("md", 1000, 1, 60))
+    done = run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.1")
+    check(done.code == 1 and "time limit" in done.err, done.code, done.err)
+    part = particles("scene.h5")["grains/velocity/value"]
+    check(0 < part[0][0] < whole["grains/velocity/value"][0][0], part[0])
+    check(whole["grains/velocity/value"][1].startswith(part[1][:-24 * 300]))  # but the last state, which is stored, too
+    done = run("run", "scene.yaml", "--quiet", "--resume", "scene.checkpoint.h5")
+    check(done.code == 0 and "begins where" not in done.err + done.out, done.err)
+    same("scene.h5", whole)
+
+
+def stopped():
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE % ("md", 1e9, 1, 60))
+    check(not cut([], 0.5, signal.SIGTERM))
+    return ["--resume", "scene.checkpoint.h5"]
+
+
+def test_without_checkpoints_or_under_another_name():
+    whole = whole_run(SCENE % ("md", 1000, 1, 60))
+    run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.1")
+    done = run("run", "scene.yaml", "--quiet", "--resume", "scene.checkpoint.h5", "--output", "b.h5", "--set",
+               "output.checkpoint_every=0")
+    check(done.code == 0 and done.new == ["b.h5"], done.err, done.new)
+    same("b.h5", whole)
+    shutil.copy("scene.checkpoint.h5", "kept.h5")  # a copy of the checkpoint finds the frames beside it
+    done = run("run", "scene.yaml", "--quiet", "--resume", "kept.h5", "--output", "c.h5")
+    check(done.code == 0, done.err)
+    same("c.h5", whole)
+
+
+def test_log_missing_or_damaged():
+    """Refused with the way out, and nothing is touched."""
+    resume = stopped()
+    log = "scene.checkpoint.frames"
+    with open(log, "rb") as f:
+        good = f.read()
+    draw = random.Random(3)
+    for k in range(5):
+        bad = bytearray(good)
+        if k == 0:
+            del bad[-1]
+        else:
+            bad[draw.randrange(len(bad))] ^= 1 << draw.randrange(8)
+        with open(log, "wb") as f:
+            f.write(bad)
+        done = run("run", "scene.yaml", "--quiet", *resume)
+        check(done.code == 3 and log + ": frame " in done.err and "output.trajectory_every: 0" in done.err, done.err)
+        check(("missing" if k == 0 else "damaged") in done.err, done.err)
+    os.remove(log)
+    done = run("run", "scene.yaml", "--quiet", *resume)
+    check(done.code == 3 and log + ": cannot be read" in done.err and not done.new, done.err, done.new)
+    done = run("run", "scene.yaml", "--quiet", *resume, "--set", "output.trajectory_every=0", "--set", "run.collisions=100")
+    check(done.code == 0 and not os.path.exists(log), done.err)
+    with open(log, "wb") as f:
+        f.write(good)
+    check(not cut(resume, 0.3, signal.SIGKILL))
+
+
+def test_asked_for_later():
+    """Frames that were not asked for before a resumption are missing, which is said; those after it are as asked."""
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE % ("md", 1e9, 1, 60))
+    run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.05", "--set", "output.trajectory_every=0")
+    done = run("run", "scene.yaml", "--quiet", "--json", "--resume", "scene.checkpoint.h5", "--set",
+               "run.collisions=1500", "--set", "output.trajectory_every=100")
+    check(done.code == 0 and any("begins where the run was resumed" in w for w in json.loads(done.out)["warnings"]),
+          done.err, done.out)
+    if h5py:
+        with h5py.File("scene.h5") as f:
+            frames = f["particles/grains/velocity/step"][()]
+        check(5 < len(frames) <= 17 and all(b - a > 0.9 * 100 * 300 / 2 for a, b in zip(frames[:-2], frames[1:])), frames)
+
+
+def test_full_disk():
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE % ("md", 1e9, 1, 60))
+    done = run("run", "scene.yaml", "--quiet", limit=2_000_000)
+    check(done.code == 3 and "scene.checkpoint.frames: cannot be written: File too large" in done.err, done.code, done.err)
+    check("scene.checkpoint.frames" not in os.listdir("."), os.listdir("."))
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])
