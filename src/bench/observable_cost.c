@@ -57,20 +57,20 @@ static gg_status time_stretch(timed_run *c, uint64_t samples, double *ns, gg_err
 
 static gg_status compare(timed_run c[2], int repeats, double seconds, gg_observable_cost *cost, gg_error *err)
 {
-  double share[MOST_REPEATS], ns[2][MOST_REPEATS], began = gg_cpu_now();
+  double over[MOST_REPEATS], ns[2][MOST_REPEATS], began = gg_cpu_now();
   uint64_t cycles = 1;
   GG_TRY(go_on(&c[0], CYCLE, false, err));
   GG_TRY(go_on(&c[1], CYCLE, false, err));
   cycles += (uint64_t)(2 * seconds / fmax(gg_cpu_now() - began, 1e-6));
   for (int i = 0; i < repeats; i++) {
     for (int k = 0; k < 2; k++) GG_TRY(time_stretch(&c[k], cycles * CYCLE, &ns[k][i], err));
-    share[i] = 1 - ns[0][i] / ns[1][i];
+    over[i] = ns[1][i] / ns[0][i] - 1;
   }
-  gsl_sort(share, 1, (size_t)repeats);
+  gsl_sort(over, 1, (size_t)repeats);
   gsl_sort(ns[1], 1, (size_t)repeats);
-  *cost = (gg_observable_cost){.share = gsl_stats_median_from_sorted_data(share, 1, (size_t)repeats),
-                               .lowest = share[0],
-                               .highest = share[repeats - 1],
+  *cost = (gg_observable_cost){.overhead = gsl_stats_median_from_sorted_data(over, 1, (size_t)repeats),
+                               .lowest = over[0],
+                               .highest = over[repeats - 1],
                                .ns = gsl_stats_median_from_sorted_data(ns[1], 1, (size_t)repeats),
                                .repeats = repeats};
   return GG_OK;

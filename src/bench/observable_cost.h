@@ -1,12 +1,12 @@
-/* What an observable costs: its share of the processor time of a run. */
+/* What an observable costs: the processor time that it adds to a run. */
 #ifndef GG_OBSERVABLE_COST_H
 #define GG_OBSERVABLE_COST_H
 
 #include "measure/observable.h"
 
 typedef struct gg_observable_cost {
-  double share, lowest, highest; /* of the time of a run that measures it: median, least and largest of the repeats */
-  double ns;                     /* that a collision takes in such a run; median */
+  double overhead, lowest, highest; /* over the time of the run without it: median, least and largest of the repeats */
+  double ns;                        /* that a collision takes in the run with it; median */
   int repeats;
 } gg_observable_cost;
 

@@ -31,7 +31,7 @@ const gg_command gg_commands[] = {
      "dsmc: the same for Enskog Monte Carlo, as nanoseconds per accepted collision; what its blocks gain over the "
      "plain\n"
      "loop, and threads within one ensemble over one.\n"
-     "observables: the share of a run's time that each observable takes, both engines. Run it on an idle machine.",
+     "observables: what each observable adds to a run's time, both engines, three sizes. Run it on an idle machine.",
      GG_OPT_JSON | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
     {0},
 };
