@@ -13,6 +13,9 @@
 
 enum { MOST_BINS = 160, FIT_BINS = 10 };
 #define WIDTH 0.025
+/* Pairs a grain and snapshot, and how fast they become fewer with distance: most is asked of contact. */
+#define TRIES 50
+#define FALL 4.0
 
 typedef struct pair_correlation {
   gg_model model;
@@ -43,7 +46,7 @@ static void *create(const gg_model *m, gg_error *err)
   if (d->bins < 1) d->bins = 1;
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) d->sigma[gg_pair_index(i, j)] = m->sigma[2 * i + j];
-  if (gg_pairs_init(&d->pairs, m, fmin(reach, widest + d->bins * WIDTH), err) == GG_OK) return d;
+  if (gg_pairs_init(&d->pairs, m, fmin(reach, widest + d->bins * WIDTH), TRIES, FALL, err) == GG_OK) return d;
   free(d);
   return NULL;
 }
@@ -72,21 +75,24 @@ typedef struct counting {
   double *bin;
 } counting;
 
-GG_INLINE void count(void *context, size_t i, size_t j, gg_vec separation, double square)
+GG_INLINE void count(void *context, uint32_t one, uint32_t two, gg_vec separation, double square, double weight)
 {
   (void)separation;
   const counting *c = context;
-  int q = gg_pair_index(gg_snapshot_species(c->s, i), gg_snapshot_species(c->s, j));
+  const uint32_t *grain = c->d->pairs.grain;
+  int q = gg_pair_index(gg_snapshot_species(c->s, grain[one]), gg_snapshot_species(c->s, grain[two]));
   double at = (sqrt(square) - c->d->sigma[q]) * (1 / WIDTH);
   if (at < c->d->bins && at > -0.01)
-    c->bin[q * c->d->bins + (int)fmax(at, 0)]++; /* an overlap by rounding is a contact */
+    c->bin[q * c->d->bins + (int)fmax(at, 0)] += weight; /* an overlap by rounding is a contact */
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   pair_correlation *d = self;
   counting c = {d, s, bin};
-  gg_pairs_each(&d->pairs, s, count, &c);
+  gg_images box = gg_images_of(s);
+  gg_pairs_sort(&d->pairs, s, &box);
+  gg_pairs_each(&d->pairs, s, &box, count, &c);
   double *extra = bin + GG_PAIRS * d->bins, energy = 0;
   for (size_t i = 0; i < s->n; i++)
     energy += s->c[0][i] * s->c[0][i] + s->c[1][i] * s->c[1][i] + s->c[2][i] * s->c[2][i];
@@ -170,7 +176,7 @@ const gg_observable gg_pair_correlation = {
     .memory = memory,
     .refuses = gg_needs_bulk,
     .bins = bins,
-    .every = 8,
+    .every = 4,
     .positions = true,
     .add_snapshot = add_snapshot,
     .restart = restart,

@@ -1,9 +1,16 @@
-/* Every pair of grains closer than a reach, each once, under periodic or sheared periodic images. Cells are laid along
- * the edges of the sheared box, (L_x,0,0), (D,L_y,0), (0,0,L_z), in which its images form a plain lattice: no boundary
- * is special. */
+/* Pairs of grains closer than a reach, under periodic or sheared periodic images. Cells are laid along the edges of the
+ * sheared box, (L_x,0,0), (D,L_y,0), (0,0,L_z), in which its images form a plain lattice: no boundary is special.
+ *
+ * A grain has ever more partners the farther one looks, while near ones are few and say most. So a pair of cells within
+ * the radius `whole` is always taken, and one at a distance R beyond with the probability (whole/R)^fall (one power
+ * less along the edges, where pairs are few again); its pairs then count by one over that, so that sums over pairs keep
+ * their expectation. With fall 2 every shell has about as many pairs. Cells are taken at equal steps from a random
+ * start. The radius is what a budget allows: the cost of a snapshot grows with the number of grains, whatever the box
+ * and the density. */
 #ifndef GG_PAIRS_H
 #define GG_PAIRS_H
 
+#include "common/rng.h"
 #include "measure/snapshot.h"
 
 /* The box of a snapshot and its nearest images; D the displacement of the image above, brought to |D| <= L_x/2. */
@@ -12,22 +19,38 @@ typedef struct gg_images {
 } gg_images;
 
 typedef struct gg_pairs {
-  double reach;
-  int cells[3]; /* fewer than 5 along some edge: all pairs are tried */
+  double reach, whole, fall;
+  int cells[3];
   size_t n;
   uint32_t *start; /* of each cell in `grain`, and the end */
   uint32_t *grain; /* sorted by cell */
   uint32_t *cell;  /* of each grain */
+  gg_vec *at;      /* where the grains are, sorted */
 } gg_pairs;
 
 /* Reach: at most half the shortest edge. */
 double gg_pairs_longest_reach(const gg_model *model);
-gg_status gg_pairs_init(gg_pairs *p, const gg_model *model, double reach, gg_error *err);
+/* `tries`: pairs a grain that a snapshot may look at; INFINITY: all there are. `fall`: as above. */
+gg_status gg_pairs_init(gg_pairs *p, const gg_model *model, double reach, double tries, double fall, gg_error *err);
 void gg_pairs_clear(gg_pairs *p);
 
 gg_images gg_images_of(const gg_snapshot *s);
 /* Put the grains into their cells. */
 void gg_pairs_sort(gg_pairs *p, const gg_snapshot *s, const gg_images *box);
+/* A stream of this snapshot's own: a resumed run draws what the uninterrupted one does. */
+gg_rng gg_pairs_stream(const gg_snapshot *s);
+
+/* Cells at an offset from others, round the box: 0 <= offset < cells. An offset and its inverse are the same pairs. */
+typedef struct gg_pairs_offset {
+  int by[3];
+  double share;  /* of such pairs of cells that are taken; 0: out of reach, or found from the other side */
+  double weight; /* of their pairs */
+} gg_pairs_offset;
+gg_pairs_offset gg_pairs_offset_of(const gg_pairs *p, const gg_images *b, size_t index);
+static inline size_t gg_pairs_cells(const gg_pairs *p)
+{
+  return (size_t)p->cells[0] * (size_t)p->cells[1] * (size_t)p->cells[2];
+}
 
 /* Nearest integer, ties to even, |x| < 2^51. */
 GG_INLINE double gg_round_half(double x)
@@ -45,54 +68,47 @@ GG_INLINE gg_vec gg_nearest_separation(const gg_images *b, gg_vec d)
   return d;
 }
 
-/* What is done with a pair: the separation from i to j, its length squared. */
-typedef void gg_pair_visit(void *context, size_t i, size_t j, gg_vec separation, double square);
+/* What is done with a pair: places of both in the order of p->grain, the separation from one to two, its length
+ * squared, and by how much it counts. */
+typedef void gg_pair_visit(void *context, uint32_t one, uint32_t two, gg_vec separation, double square, double weight);
 
-GG_INLINE void gg_pairs_try(const gg_snapshot *s, const gg_images *b, double reach2, size_t i, size_t j,
-                            gg_pair_visit *visit, void *context)
-{
-  gg_vec d = {s->r[0][j] - s->r[0][i], s->r[1][j] - s->r[1][i], s->r[2][j] - s->r[2][i]};
-  d = gg_nearest_separation(b, d);
-  double square = gg_dot(d, d);
-  if (square < reach2) visit(context, i, j, d, square);
-}
-
-/* The cell at an offset from another, round the box. */
-GG_INLINE uint32_t gg_pairs_neighbour(const gg_pairs *p, int x, int y, int z)
-{
-  const int *n = p->cells;
-  return (uint32_t)(((z + n[2]) % n[2] * n[1] + (y + n[1]) % n[1]) * n[0] + (x + n[0]) % n[0]);
-}
-
-GG_INLINE void gg_pairs_between(const gg_pairs *p, const gg_snapshot *s, const gg_images *b, uint32_t one, uint32_t two,
+/* All pairs between two cells. */
+GG_INLINE void gg_pairs_between(const gg_pairs *p, const gg_images *b, size_t one, size_t two, double weight,
                                 gg_pair_visit *visit, void *context)
 {
   double reach2 = p->reach * p->reach;
   for (uint32_t k = p->start[one]; k < p->start[one + 1]; k++)
-    for (uint32_t l = one == two ? k + 1 : p->start[two]; l < p->start[two + 1]; l++)
-      gg_pairs_try(s, b, reach2, p->grain[k], p->grain[l], visit, context);
+    for (uint32_t l = one == two ? k + 1 : p->start[two]; l < p->start[two + 1]; l++) {
+      gg_vec d = gg_nearest_separation(b, gg_sub(p->at[l], p->at[k]));
+      double square = gg_dot(d, d);
+      if (square < reach2) visit(context, k, l, d, square, weight);
+    }
 }
 
-/* Visit every pair; inlined with a constant `visit`. Half of the 125 cells around each are searched. */
-GG_INLINE void gg_pairs_each(gg_pairs *p, const gg_snapshot *s, gg_pair_visit *visit, void *context)
+GG_INLINE int gg_pairs_wrap(int x, int n)
 {
-  gg_images b = gg_images_of(s);
+  return x < n ? x : x - n;
+}
+
+/* Visit the pairs of a snapshot that has been sorted; inlined with a constant `visit`. */
+GG_INLINE void gg_pairs_each(const gg_pairs *p, const gg_snapshot *s, const gg_images *b, gg_pair_visit *visit,
+                             void *context)
+{
+  gg_rng rng = gg_pairs_stream(s);
   const int *n = p->cells;
-  if (n[0] < 5 || n[1] < 5 || n[2] < 5) {
-    for (size_t i = 0; i < s->n; i++)
-      for (size_t j = i + 1; j < s->n; j++) gg_pairs_try(s, &b, p->reach * p->reach, i, j, visit, context);
-    return;
+  const size_t cells = gg_pairs_cells(p);
+  for (size_t index = 0; index < cells; index++) {
+    const gg_pairs_offset o = gg_pairs_offset_of(p, b, index);
+    if (o.share == 0) continue;
+    const double step = 1 / o.share;
+    for (double at = o.share < 1 ? step * gg_rng_uniform(&rng) : 0; at < (double)cells; at += step) {
+      const size_t one = (size_t)at;
+      const int x = (int)(one % (size_t)n[0]), row = (int)(one / (size_t)n[0]), y = row % n[1], z = row / n[1];
+      const int there = (gg_pairs_wrap(z + o.by[2], n[2]) * n[1] + gg_pairs_wrap(y + o.by[1], n[1])) * n[0] +
+                        gg_pairs_wrap(x + o.by[0], n[0]);
+      gg_pairs_between(p, b, one, (size_t)there, o.weight, visit, context);
+    }
   }
-  gg_pairs_sort(p, s, &b);
-  for (int z = 0; z < n[2]; z++)
-    for (int y = 0; y < n[1]; y++)
-      for (int x = 0; x < n[0]; x++) {
-        uint32_t here = gg_pairs_neighbour(p, x, y, z);
-        for (int k = 62; k < 125; k++) { /* 62: the cell itself */
-          uint32_t there = gg_pairs_neighbour(p, x + k % 5 - 2, y + k / 5 % 5 - 2, z + k / 25 - 2);
-          gg_pairs_between(p, s, &b, here, there, visit, context);
-        }
-      }
 }
 
 #endif

@@ -18,19 +18,28 @@ enum { AXIS_CC = 1, AXIS_WW, AXIS_CW };
 enum { SQUARES = 7 }; /* grains, C_a^2, Omega_a^2 */
 #define SPACING 0.25
 #define TUBE 0.5
+/* Pairs a grain and snapshot, and how fast they become fewer with distance: every shell has as many. */
+#define TRIES 50
+#define FALL 2.0
+
+/* Of a grain, in the order of the pairs; spins about their mean. */
+typedef struct motion {
+  double c[3], w[3];
+} motion;
 
 typedef struct correlations {
   gg_model model;
   gg_pairs pairs;
   int bins;
-  double *spin[3]; /* about the mean */
+  bool spins;
+  motion *motion;
 } correlations;
 
 static void destroy(void *self)
 {
   correlations *d = self;
   gg_pairs_clear(&d->pairs);
-  for (int a = 0; a < 3; a++) free(d->spin[a]);
+  free(d->motion);
   free(d);
 }
 
@@ -41,10 +50,9 @@ static void *create(const gg_model *m, gg_error *err)
   d->model = *m;
   double reach = gg_pairs_longest_reach(m);
   d->bins = (int)fmin(floor(reach / SPACING), MOST_BINS);
-  bool whole = gg_pairs_init(&d->pairs, m, d->bins * SPACING, err) == GG_OK;
-  for (int a = 0; a < 3 && whole && m->rule != GG_SMOOTH; a++)
-    if (!(d->spin[a] = gg_new_array((size_t)m->n, sizeof(double), err))) whole = false;
-  if (whole) return d;
+  d->spins = m->rule != GG_SMOOTH;
+  d->motion = gg_new_array((size_t)m->n, sizeof *d->motion, err);
+  if (d->motion && gg_pairs_init(&d->pairs, m, d->bins * SPACING, TRIES, FALL, err) == GG_OK) return d;
   destroy(d);
   return NULL;
 }
@@ -56,47 +64,62 @@ static size_t bins(const void *self)
 
 typedef struct summing {
   const correlations *d;
-  const gg_snapshot *s;
   double *bin;
 } summing;
 
-GG_INLINE void add_along(const summing *c, double *bin, size_t i, size_t j)
+GG_INLINE void add_along(const correlations *d, double *bin, const motion *i, const motion *j, double weight)
 {
-  double *const *v = c->s->c, *const *w = c->d->spin;
-  bin[COUNT]++;
-  bin[AXIS_CC] += v[0][i] * v[0][j];
-  if (!w[0]) return;
-  bin[AXIS_WW] += w[2][i] * w[2][j];
-  bin[AXIS_CW] += 0.5 * (v[0][i] * w[2][j] + v[0][j] * w[2][i]);
+  bin[COUNT] += weight;
+  bin[AXIS_CC] += weight * (i->c[0] * j->c[0]);
+  if (!d->spins) return;
+  bin[AXIS_WW] += weight * (i->w[2] * j->w[2]);
+  bin[AXIS_CW] += 0.5 * weight * (i->c[0] * j->w[2] + j->c[0] * i->w[2]);
 }
 
-GG_INLINE void add_pair(void *context, size_t i, size_t j, gg_vec r, double square)
+GG_INLINE void add_pair(void *context, uint32_t one, uint32_t two, gg_vec r, double square, double weight)
 {
-  const summing *c = context;
-  double *const *v = c->s->c, *const *w = c->d->spin;
+  const summing *s = context;
+  const correlations *d = s->d;
+  const motion *i = &d->motion[one], *j = &d->motion[two];
   int k = (int)(sqrt(square) * (1 / SPACING));
-  if (k >= c->d->bins) return;
-  double *bin = c->bin + k * RADIAL_WIDTH;
-  bin[COUNT]++;
-  for (int a = 0; a < 3; a++) bin[CC + a] += v[a][i] * v[a][j];
-  if (w[0]) {
-    for (int a = 0; a < 3; a++) bin[WW + a] += w[a][i] * w[a][j];
-    bin[CW] += 0.5 * (v[0][i] * w[2][j] + v[0][j] * w[2][i]);
+  if (k >= d->bins) return;
+  double *bin = s->bin + k * RADIAL_WIDTH;
+  bin[COUNT] += weight;
+  for (int a = 0; a < 3; a++) bin[CC + a] += weight * (i->c[a] * j->c[a]);
+  if (d->spins) {
+    for (int a = 0; a < 3; a++) bin[WW + a] += weight * (i->w[a] * j->w[a]);
+    bin[CW] += 0.5 * weight * (i->c[0] * j->w[2] + j->c[0] * i->w[2]);
   }
   const double along[3] = {r.x, r.y, r.z};
   for (int a = 0; a < 3; a++)
     if (square - along[a] * along[a] < TUBE * TUBE)
-      add_along(c, c->bin + c->d->bins * (RADIAL_WIDTH + a * AXIS_WIDTH) + k * AXIS_WIDTH, i, j);
+      add_along(d, s->bin + d->bins * (RADIAL_WIDTH + a * AXIS_WIDTH) + k * AXIS_WIDTH, i, j, weight);
 }
 
-static void centre_spins(correlations *d, const gg_snapshot *s)
+static void mean_spins(const correlations *d, const gg_snapshot *s, double mean[GG_MAX_SPECIES][3])
 {
-  for (int a = 0; a < 3; a++) {
-    double sum[GG_MAX_SPECIES] = {0};
-    for (size_t i = 0; i < s->n; i++) sum[gg_snapshot_species(s, i)] += s->s[a][i];
-    for (size_t i = 0; i < s->n; i++) {
-      int k = gg_snapshot_species(s, i);
-      d->spin[a][i] = s->s[a][i] - sum[k] / (double)d->model.n_of[k];
+  memset(mean, 0, GG_MAX_SPECIES * sizeof *mean);
+  for (size_t i = 0; i < s->n; i++)
+    for (int a = 0; a < 3; a++) mean[gg_snapshot_species(s, i)][a] += s->s[a][i];
+  for (int k = 0; k < d->model.n_species; k++)
+    for (int a = 0; a < 3; a++) mean[k][a] /= (double)d->model.n_of[k];
+}
+
+/* Velocities and spins in the order of the pairs, and the sums of their squares. */
+static void take_motions(correlations *d, const gg_snapshot *s, double *squares)
+{
+  double mean[GG_MAX_SPECIES][3];
+  if (d->spins) mean_spins(d, s, mean);
+  squares[0] += (double)s->n;
+  for (size_t k = 0; k < s->n; k++) {
+    const size_t i = d->pairs.grain[k];
+    motion *m = &d->motion[k];
+    for (int a = 0; a < 3; a++) {
+      m->c[a] = s->c[a][i];
+      squares[1 + a] += m->c[a] * m->c[a];
+      if (!d->spins) continue;
+      m->w[a] = s->s[a][i] - mean[gg_snapshot_species(s, i)][a];
+      squares[4 + a] += m->w[a] * m->w[a];
     }
   }
 }
@@ -104,16 +127,11 @@ static void centre_spins(correlations *d, const gg_snapshot *s)
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   correlations *d = self;
-  summing c = {d, s, bin};
-  if (d->spin[0]) centre_spins(d, s);
-  gg_pairs_each(&d->pairs, s, add_pair, &c);
-  double *squares = bin + d->bins * (RADIAL_WIDTH + 3 * AXIS_WIDTH);
-  squares[0] += (double)s->n;
-  for (int a = 0; a < 3; a++)
-    for (size_t i = 0; i < s->n; i++) {
-      squares[1 + a] += s->c[a][i] * s->c[a][i];
-      if (d->spin[0]) squares[4 + a] += d->spin[a][i] * d->spin[a][i];
-    }
+  summing to = {d, bin};
+  gg_images box = gg_images_of(s);
+  gg_pairs_sort(&d->pairs, s, &box);
+  take_motions(d, s, bin + d->bins * (RADIAL_WIDTH + 3 * AXIS_WIDTH));
+  gg_pairs_each(&d->pairs, s, &box, add_pair, &to);
 }
 
 /* In equilibrium without momentum <C_i C_j> = -T/M for any two of total mass M, and <C_i^2> = T (1/m_i - 1/M): over all
@@ -149,15 +167,14 @@ static void put(const correlations *d, gg_curves *list, const char *name, const 
 static void put_radial(const correlations *d, const double *bin, const double *square, gg_curves *list)
 {
   char name[48], label[24];
-  bool spins = d->spin[0] != NULL;
-  for (int vector = 0; vector < 1 + spins; vector++)
+  for (int vector = 0; vector < 1 + d->spins; vector++)
     for (int a = 0; a < 3; a++) {
       snprintf(name, sizeof name, "velocity_correlation_%s%c", vector ? "W" : "C", "xyz"[a]);
       snprintf(label, sizeof label, "%s_%c", vector ? "Ω" : "C", "xyz"[a]);
       put(d, list, name, vector ? "G_{ΩΩ}(r)" : "G_{CC}(r)", label, bin, RADIAL_WIDTH, (vector ? WW : CC) + a,
           square[3 * vector + a]);
     }
-  if (spins)
+  if (d->spins)
     put(d, list, "velocity_correlation_CxWz", "G_{CΩ}(r)", "radial", bin, RADIAL_WIDTH, CW,
         sqrt(square[0] * square[5]));
 }
@@ -175,7 +192,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
     snprintf(label, sizeof label, "along %c", "xyz"[a]);
     snprintf(name, sizeof name, "velocity_correlation_Cx_along_%c", "xyz"[a]);
     put(d, list, name, "G_{CC}^{xx} along axes", label, along, AXIS_WIDTH, AXIS_CC, square[0]);
-    if (!d->spin[0]) continue;
+    if (!d->spins) continue;
     snprintf(name, sizeof name, "velocity_correlation_Wz_along_%c", "xyz"[a]);
     put(d, list, name, "G_{ΩΩ}^{zz} along axes", label, along, AXIS_WIDTH, AXIS_WW, square[5]);
     snprintf(name, sizeof name, "velocity_correlation_CxWz_along_%c", "xyz"[a]);
@@ -189,7 +206,7 @@ const gg_observable gg_velocity_correlations = {
     .destroy = destroy,
     .refuses = gg_needs_bulk,
     .bins = bins,
-    .every = 16,
+    .every = 8,
     .positions = true,
     .add_snapshot = add_snapshot,
     .curves = curves,

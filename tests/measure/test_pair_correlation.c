@@ -1,5 +1,6 @@
-/* Pairs in sheared boxes against a search through every image; g = 1 for points thrown anywhere; hard spheres in
- * equilibrium have the contact value of the equation of state, by extrapolation and by the collision rate. */
+/* Pairs in sheared boxes against a search through every image; sampled pairs against all of them; g = 1 for points
+ * thrown anywhere; hard spheres in equilibrium have the contact value of the equation of state, by extrapolation and by
+ * the collision rate. */
 #include "curve_test.h"
 #include "measure/pairs.h"
 
@@ -14,20 +15,39 @@ static void thrown(gg_snapshot *s, gg_rng *r, int sample)
     }
 }
 
+enum { SHELLS = 6 };
 typedef struct tally {
-  double pairs, squares, checks;
+  const gg_pairs *p;                                         /* NULL: numbers of grains are what they are */
+  double pairs, squares, checks, tried, shell[SHELLS], bent; /* bent: sum of d_x d_y over |d|^2 */
+  double reach;
 } tally;
 
-static void add(void *context, size_t i, size_t j, gg_vec d, double square)
+static void add_grains(tally *t, size_t i, size_t j, gg_vec d, double square, double weight)
+{
+  t->tried++, t->pairs += weight, t->squares += weight * square, t->checks += weight * square * (double)(i * j);
+  t->shell[(int)(SHELLS * sqrt(square) / t->reach)] += weight;
+  t->bent += weight * d.x * d.y / square;
+}
+
+static void add(void *context, uint32_t one, uint32_t two, gg_vec d, double square, double weight)
 {
   tally *t = context;
-  t->pairs++, t->squares += square, t->checks += square * (double)(i * j) + 0 * d.x;
+  add_grains(t, t->p->grain[one], t->p->grain[two], d, square, weight);
+}
+
+static tally searched(gg_pairs *p, const gg_snapshot *s)
+{
+  tally t = {.p = p, .reach = p->reach};
+  gg_images box = gg_images_of(s);
+  gg_pairs_sort(p, s, &box);
+  gg_pairs_each(p, s, &box, add, &t);
+  return t;
 }
 
 /* Every image within two boxes. */
 static tally plain(const gg_snapshot *s, double reach)
 {
-  tally t = {0, 0, 0};
+  tally t = {.reach = reach};
   const double *L = s->model->box;
   for (size_t i = 0; i < s->n; i++)
     for (size_t j = i + 1; j < s->n; j++)
@@ -36,12 +56,12 @@ static tally plain(const gg_snapshot *s, double reach)
           for (int z = -1; z <= 1; z++) {
             gg_vec d = {s->r[0][j] - s->r[0][i] + x * L[0] + y * s->offset, s->r[1][j] - s->r[1][i] + y * L[1],
                         s->r[2][j] - s->r[2][i] + z * L[2]};
-            if (gg_dot(d, d) < reach * reach) add(&t, i, j, d, gg_dot(d, d));
+            if (gg_dot(d, d) < reach * reach) add_grains(&t, i, j, d, gg_dot(d, d), 1);
           }
   return t;
 }
 
-/* Cells, and all pairs tried in a small box, find what the plain search finds: offsets over the whole range, cubes and
+/* Cells, also few in a small box, find what the plain search finds: offsets over the whole range, cubes and
  * long boxes. */
 static void pairs_of_images(void **state)
 {
@@ -57,13 +77,57 @@ static void pairs_of_images(void **state)
     gg_snapshot s;
     gg_pairs p;
     assert_int_equal(gg_snapshot_init(&s, &m, true, NULL), GG_OK);
-    assert_int_equal(gg_pairs_init(&p, &m, reach, NULL), GG_OK);
-    assert_true((k % 4 < 2) == (p.cells[0] >= 5 && p.cells[1] >= 5 && p.cells[2] >= 5));
+    assert_int_equal(gg_pairs_init(&p, &m, reach, INFINITY, 2, NULL), GG_OK);
     thrown(&s, &r, k);
-    tally fast = {0, 0, 0}, slow = plain(&s, reach);
-    gg_pairs_each(&p, &s, add, &fast);
+    tally fast = searched(&p, &s), slow = plain(&s, reach);
     assert_true(slow.pairs > 100 && fast.pairs == slow.pairs);
     assert_true(fabs(fast.squares / slow.squares - 1) < 1e-9 && fabs(fast.checks / slow.checks - 1) < 1e-9);
+    gg_pairs_clear(&p);
+    gg_snapshot_clear(&s);
+  }
+}
+
+/* Within four errors, by the scatter of what was drawn. */
+static void expect_mean(const char *what, double sum, double squares, double n, double expected, double sight)
+{
+  double mean = sum / n, error = sqrt((squares / n - mean * mean) / (n - 1));
+  print_message("# %-10s %.6g +- %.2g, all pairs: %.6g\n", what, mean, error, expected);
+  assert_true(fabs(mean - expected) <= 4 * error + 1e-9 * fabs(expected));
+  assert_true(error < sight);
+}
+
+/* Pairs within a budget stand for all pairs, near and far, whatever their direction; the same snapshot draws the same
+ * ones, another one others. Cubes and long boxes, the image above displaced. */
+static void sampled_pairs(void **state)
+{
+  (void)state;
+  enum { DRAWS = 200, BUDGET = 60 };
+  gg_rng r = gg_rng_seed(54, 0);
+  for (int k = 0; k < 4; k++) {
+    gg_scene scene = gg_scene_defaults();
+    scene.phi = 0.2, scene.particles = 1500;
+    if (k) scene.aspect[k - 1] = 1.7;
+    gg_model m;
+    assert_int_equal(gg_model_make(&scene, GG_MD, &m, NULL), GG_OK);
+    double reach = gg_pairs_longest_reach(&m), sum[SHELLS + 1] = {0}, squares[SHELLS + 1] = {0};
+    gg_snapshot s;
+    gg_pairs p;
+    assert_int_equal(gg_snapshot_init(&s, &m, true, NULL), GG_OK);
+    assert_int_equal(gg_pairs_init(&p, &m, reach, BUDGET, 2 + k % 3, NULL), GG_OK);
+    thrown(&s, &r, k);
+    tally all = plain(&s, reach), again = searched(&p, &s);
+    assert_true(again.pairs == searched(&p, &s).pairs);
+    for (int i = 0; i < DRAWS; i++) {
+      s.time = i + 0.5;
+      tally t = searched(&p, &s);
+      assert_true(t.tried <= 1.1 * BUDGET * (double)s.n && t.tried < 0.5 * all.pairs);
+      for (int j = 0; j < SHELLS; j++) sum[j] += t.shell[j], squares[j] += t.shell[j] * t.shell[j];
+      sum[SHELLS] += t.bent, squares[SHELLS] += t.bent * t.bent;
+      assert_true(t.pairs != again.pairs);
+    }
+    for (int j = 0; j < SHELLS; j++)
+      expect_mean("shell", sum[j], squares[j], DRAWS, all.shell[j], 0.005 * all.shell[j]);
+    expect_mean("direction", sum[SHELLS], squares[SHELLS], DRAWS, all.bent, 0.001 * all.pairs);
     gg_pairs_clear(&p);
     gg_snapshot_clear(&s);
   }
@@ -121,6 +185,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(pairs_of_images),
+      cmocka_unit_test(sampled_pairs),
       cmocka_unit_test(ideal_gas),
       cmocka_unit_test(hard_spheres),
   };

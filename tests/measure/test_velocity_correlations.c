@@ -1,6 +1,8 @@
 /* Spatial velocity correlations: a planted wave of velocity and spin gives its sine integral back, radially and along
- * each axis; an elastic gas in equilibrium has only what momentum conservation leaves, -1/(N-1). */
+ * each axis; pairs that are sampled say what all pairs say; an elastic gas in equilibrium has only what momentum
+ * conservation leaves, -1/(N-1). */
 #include "curve_test.h"
+#include "measure/pairs.h"
 
 /* C_x = 2 cos(kz + phase) + noise, Omega_z = -cos(kz + phase) + noise/2, everything else noise. */
 static void wave(gg_snapshot *s, gg_rng *r, int sample)
@@ -67,6 +69,82 @@ static void planted_wave(void **state)
   gg_curves_clear(&list);
 }
 
+/* The same grains at other times, so that nothing but the pairs that are drawn is different. */
+static void held_wave(gg_snapshot *s, gg_rng *r, int sample)
+{
+  if (sample == 0) wave(s, r, sample);
+  s->time = sample;
+}
+
+enum { PLAIN_BINS = 60 };
+typedef struct plain_sums {
+  double count[PLAIN_BINS], cc[PLAIN_BINS], cw[PLAIN_BINS], square[2];
+} plain_sums;
+
+/* Every pair of the grains that `held_wave` leaves, from the definition. */
+static plain_sums plain(const gg_model *m, uint64_t seed)
+{
+  plain_sums p = {.square = {0, 0}};
+  gg_snapshot s;
+  gg_rng r = gg_rng_seed(seed, 0);
+  assert_int_equal(gg_snapshot_init(&s, m, true, NULL), GG_OK);
+  held_wave(&s, &r, 0);
+  gg_images b = gg_images_of(&s);
+  double spin = 0, n = (double)s.n;
+  for (size_t i = 0; i < s.n; i++) spin += s.s[2][i] / n;
+  for (size_t i = 0; i < s.n; i++) {
+    double wi = s.s[2][i] - spin;
+    p.square[0] += s.c[0][i] * s.c[0][i] / n, p.square[1] += wi * wi / n;
+    for (size_t j = i + 1; j < s.n; j++) {
+      gg_vec d = {s.r[0][j] - s.r[0][i], s.r[1][j] - s.r[1][i], s.r[2][j] - s.r[2][i]};
+      d = gg_nearest_separation(&b, d);
+      size_t k = (size_t)(sqrt(gg_dot(d, d)) / 0.25);
+      if (k >= PLAIN_BINS) continue;
+      double wj = s.s[2][j] - spin;
+      p.count[k]++, p.cc[k] += s.c[0][i] * s.c[0][j], p.cw[k] += 0.5 * (s.c[0][i] * wj + s.c[0][j] * wi);
+    }
+  }
+  gg_snapshot_clear(&s);
+  return p;
+}
+
+static double plain_cc(double r, const void *context)
+{
+  const plain_sums *p = context;
+  size_t k = (size_t)(r / 0.25);
+  return p->cc[k] / p->count[k] / p->square[0];
+}
+static double plain_cw(double r, const void *context)
+{
+  const plain_sums *p = context;
+  size_t k = (size_t)(r / 0.25);
+  return p->cw[k] / p->count[k] / sqrt(p->square[0] * p->square[1]);
+}
+
+/* Dense and large enough that far pairs are sampled: each point within five errors of the one of all pairs (34 points,
+ * errors from 32 blocks), chi^2 about 1, and the errors far smaller than what is there. */
+static void sampled_pairs(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_USF, 0.3, 0, 3000, 1);
+  gg_curves list = ct_curves(&gg_velocity_correlations, &m, 512, held_wave, 67);
+  plain_sums all = plain(&m, 67);
+  const struct {
+    const char *name;
+    double (*f)(double, const void *);
+  } cases[] = {{"velocity_correlation_Cx", plain_cc}, {"velocity_correlation_CxWz", plain_cw}};
+  for (int k = 0; k < 2; k++) {
+    const gg_curve *c = ct_find(&list, cases[k].name);
+    double chi2 = ct_chi2(c, 0, c->n, cases[k].f, &all), worst = 0;
+    for (size_t i = 0; i < c->n; i++)
+      worst = fmax(worst, fabs(c->value[i] - cases[k].f(c->x[i], &all)) / (c->error[i] + 1e-9));
+    print_message("# largest deviation %.2f errors; last error %.4f\n", worst, c->error[c->n - 1]);
+    assert_true(chi2 < 2.3 && worst < 5);
+    assert_true(c->error[c->n - 1] > 1e-6 && c->error[c->n - 1] < 0.002); /* it is sampled, and says something */
+  }
+  gg_curves_clear(&list);
+}
+
 static double conserved(double x, const void *context)
 {
   (void)x;
@@ -116,6 +194,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_wave),
+      cmocka_unit_test(sampled_pairs),
       cmocka_unit_test(equilibrium),
       cmocka_unit_test(sheared),
   };
