@@ -3,11 +3,66 @@
 #include <math.h>
 
 #include "measure/tail.h"
+#include "simd/clones.h"
 
 enum { HALF = GG_HISTOGRAM_HALF };
 #define WIDTH GG_HISTOGRAM_WIDTH
 #define TAIL_FROM 2.0
 enum { LEAST_COUNT = 25 }; /* in the last bin that a tail is fitted to */
+
+/* Sums in eight lanes, so that their bits do not depend on how many a register holds. */
+enum { LANES = 8 };
+
+static double sum_of(const double lane[LANES])
+{
+  return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+}
+
+GG_CLONES static void add_moments(const double *restrict x, size_t n, double *restrict one, double *restrict two)
+{
+  for (size_t i = 0; i < n; i += LANES)
+    for (size_t l = 0; l < LANES; l++) one[l] += x[i + l], two[l] += x[i + l] * x[i + l];
+}
+
+gg_scale_of gg_scale_of_values(const double *x, size_t n)
+{
+  double one[LANES] = {0}, two[LANES] = {0}, whole = (double)n;
+  size_t even = n - n % LANES;
+  add_moments(x, even, one, two);
+  for (size_t i = even; i < n; i++) one[i - even] += x[i], two[i - even] += x[i] * x[i];
+  double mean = sum_of(one) / whole;
+  return (gg_scale_of){mean, sqrt(sum_of(two) / whole - mean * mean)};
+}
+
+/* Where each belongs, from 1 on; 0 and the one behind the last: beyond the bins. And sums of powers. */
+enum { CHUNK = 256, BEYOND = GG_HISTOGRAM_BINS + 1 };
+GG_CLONES static void place(const double *restrict x, double mean, double inverse, int32_t *restrict at,
+                            double (*restrict power)[LANES])
+{
+  for (size_t i = 0; i < CHUNK; i += LANES)
+    for (size_t l = 0; l < LANES; l++) {
+      double u = (x[i + l] - mean) * inverse, uu = u * u, bin = u * (1 / WIDTH) + (HALF + 1.5);
+      bin = bin > 0 ? bin : 0;
+      at[i + l] = (int32_t)(bin < BEYOND ? bin : BEYOND);
+      power[0][l] += uu, power[1][l] += uu * u, power[2][l] += uu * uu;
+    }
+}
+
+void gg_histogram_add_all(double *bin, const double *x, size_t n, double mean, double unit)
+{
+  double power[3][LANES] = {{0}}, inverse = 1 / unit;
+  uint32_t counts[2][BEYOND + 1] = {{0}}; /* in turn: equal neighbours would wait for one another */
+  int32_t at[CHUNK];
+  size_t i = 0;
+  for (; i + CHUNK <= n; i += CHUNK) {
+    place(x + i, mean, inverse, at, power);
+    for (size_t k = 0; k < CHUNK; k += 2) counts[0][at[k]]++, counts[1][at[k + 1]]++;
+  }
+  for (int k = 0; k < GG_HISTOGRAM_BINS; k++) bin[k] += (double)(counts[0][k + 1] + counts[1][k + 1]);
+  bin[GG_HISTOGRAM_GRAINS] += (double)i;
+  for (int k = 0; k < 3; k++) bin[GG_HISTOGRAM_SQUARES + k] += sum_of(power[k]);
+  for (; i < n; i++) gg_histogram_add(bin, (x[i] - mean) * inverse);
+}
 
 double gg_histogram_sigma(const double *bin)
 {

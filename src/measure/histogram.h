@@ -26,6 +26,14 @@ GG_INLINE void gg_histogram_add(double *bin, double x)
   if (at >= 0 && at < GG_HISTOGRAM_BINS) bin[(int)at]++;
 }
 
+/* Many at once, of x about a mean over a unit. */
+void gg_histogram_add_all(double *bin, const double *x, size_t n, double mean, double unit);
+/* Mean and standard deviation of x. */
+typedef struct gg_scale_of {
+  double mean, sigma;
+} gg_scale_of;
+gg_scale_of gg_scale_of_values(const double *x, size_t n);
+
 /* Standard deviation, in the unit of x; the counts that a bin at x = 0 has. */
 double gg_histogram_sigma(const double *bin);
 double gg_histogram_height(const double *bin, double sigma);

@@ -7,6 +7,7 @@
 
 #include "measure/local_frame.h"
 #include "measure/observable.h"
+#include "simd/clones.h"
 
 enum { BINS = 50, COS = 0, SQUARE = BINS, SUM = 2 * BINS, COUNT, SET };
 
@@ -27,21 +28,44 @@ static size_t bins(const void *self)
   return 2 * (size_t)SET;
 }
 
+/* Some grains at a time, component by component. */
+enum { GRAINS = 128 };
+typedef struct vectors {
+  double x[3][GRAINS];
+} vectors;
+
+/* The cosine between both vectors of each, 2 where one of them is at rest and has no direction. */
+GG_CLONES static void cosines(const vectors *c, const vectors *w, double *restrict cosine)
+{
+  for (size_t i = 0; i < GRAINS; i++) {
+    double cc = c->x[0][i] * c->x[0][i] + c->x[1][i] * c->x[1][i] + c->x[2][i] * c->x[2][i];
+    double ww = w->x[0][i] * w->x[0][i] + w->x[1][i] * w->x[1][i] + w->x[2][i] * w->x[2][i];
+    double cw = c->x[0][i] * w->x[0][i] + c->x[1][i] * w->x[1][i] + c->x[2][i] * w->x[2][i];
+    double product = cc * ww;
+    cosine[i] = product > 0 ? cw / sqrt(product) : 2;
+  }
+}
+
 static int bin_of(double x)
 {
   int k = (int)(x * BINS);
   return k < 0 ? 0 : k >= BINS ? BINS - 1 : k;
 }
 
-static void count(gg_vec c, gg_vec w, double *bin)
+static void count(const vectors *c, const vectors *w, size_t n, double *bin)
 {
-  double product = gg_dot(c, c) * gg_dot(w, w);
-  if (!(product > 0)) return; /* a grain at rest has no direction */
-  double cosine = gg_dot(c, w) / sqrt(product);
-  bin[COS + bin_of((cosine + 1) / 2)]++;
-  bin[SQUARE + bin_of(cosine * cosine)]++;
-  bin[SUM] += cosine * cosine;
-  bin[COUNT]++;
+  double cosine[GRAINS], sum = 0, grains = 0;
+  cosines(c, w, cosine);
+  for (size_t i = 0; i < n; i++) {
+    double square = cosine[i] * cosine[i];
+    if (square > 2) continue;
+    bin[COS + bin_of((cosine[i] + 1) / 2)]++;
+    bin[SQUARE + bin_of(square)]++;
+    sum += square;
+    grains++;
+  }
+  bin[SUM] += sum;
+  bin[COUNT] += grains;
 }
 
 static gg_vec at(double *const x[3], size_t i)
@@ -59,21 +83,49 @@ static gg_vec mean_spin(const gg_snapshot *s, int species)
   return gg_scale(n > 0 ? 1 / n : 0, sum);
 }
 
-/* Between walls peculiar velocities are about the flow of the slab; elsewhere they are what a snapshot holds. */
+/* Velocity and spin, both peculiar; between walls about the flow of the slab, elsewhere what a snapshot holds. */
+static void take_peculiar(const gg_snapshot *s, size_t from, size_t n, const gg_local_frame *frame,
+                          const gg_vec mean[GG_MAX_SPECIES], vectors *c, vectors *w)
+{
+  for (size_t k = 0; k < n; k++) {
+    size_t i = from + k;
+    gg_vec C = at(s->c, i), W = gg_sub(at(s->s, i), mean[gg_snapshot_species(s, i)]);
+    if (s->model->walled) C = gg_local_frame_velocity(frame, s->r[1][i], C);
+    c->x[0][k] = C.x, c->x[1][k] = C.y, c->x[2][k] = C.z;
+    w->x[0][k] = W.x, w->x[1][k] = W.y, w->x[2][k] = W.z;
+  }
+}
+
+static void take_instantaneous(const gg_snapshot *s, size_t from, size_t n, vectors *c, vectors *w)
+{
+  double shear = s->r[1] ? s->model->shear_rate : 0, middle = s->model->box[1] / 2;
+  for (int a = 0; a < 3; a++)
+    for (size_t k = 0; k < n; k++) c->x[a][k] = s->c[a][from + k], w->x[a][k] = s->s[a][from + k];
+  for (size_t k = 0; k < n && shear != 0; k++) c->x[0][k] += shear * (s->r[1][from + k] - middle);
+}
+
+/* The sheared Monte Carlo ensemble has no places, and so no velocities but the peculiar ones. */
+static bool has_both(const gg_model *m)
+{
+  return !m->homogeneous || m->shear_rate == 0;
+}
+
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   (void)self;
   const gg_model *m = s->model;
   gg_vec mean[GG_MAX_SPECIES];
   gg_local_frame frame;
-  double shear = s->r[1] ? m->shear_rate : 0, middle = m->box[1] / 2;
+  vectors c = {{{0}}}, w = {{{0}}};
   for (int k = 0; k < m->n_species; k++) mean[k] = mean_spin(s, k);
   if (m->walled) gg_local_frame_of_snapshot(&frame, s);
-  for (size_t i = 0; i < s->n; i++) {
-    gg_vec c = at(s->c, i), w = at(s->s, i), C = m->walled ? gg_local_frame_velocity(&frame, s->r[1][i], c) : c;
-    count(C, gg_sub(w, mean[gg_snapshot_species(s, i)]), bin);
-    if (shear != 0) c.x += shear * (s->r[1][i] - middle);
-    count(c, w, bin + SET);
+  for (size_t from = 0; from < s->n; from += GRAINS) {
+    size_t n = s->n - from < GRAINS ? s->n - from : GRAINS;
+    take_peculiar(s, from, n, &frame, mean, &c, &w);
+    count(&c, &w, n, bin);
+    if (!has_both(m)) continue;
+    take_instantaneous(s, from, n, &c, &w);
+    count(&c, &w, n, bin + SET);
   }
 }
 
@@ -98,12 +150,10 @@ static double squares_of_uniform(double x, const double *width)
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   (void)self;
-  /* The sheared Monte Carlo ensemble has no places, and so no velocities but the peculiar ones. */
-  bool both = !list->model->homogeneous || list->model->shear_rate == 0;
   static const char *const names[2][2] = {{"orientation_cos", "orientation_cos2"},
                                           {"orientation_cos_instantaneous", "orientation_cos2_instantaneous"}};
   static const char *const labels[] = {"peculiar", "instantaneous"};
-  for (int k = 0; k < 1 + both; k++, bin += SET) {
+  for (int k = 0; k < 1 + has_both(list->model); k++, bin += SET) {
     gg_curve *c = histogram(list, names[k][0], "P(cos Ψ)", labels[k], bin + COS, bin[COUNT], -1, 1);
     gg_curve_axes(c, "cos Ψ", "1", "P", "1");
     gg_curve_beside(c, "no correlation", gg_level, &(double){0.5});

@@ -13,13 +13,23 @@ enum { LOW = 20 }; /* bins |k| <= LOW about 0: the head */
 
 typedef struct distributions {
   int species, vectors; /* vectors: C, and Omega if there are spins */
+  double *room;         /* for the grains of one species out of several; NULL for one */
 } distributions;
+
+static void destroy(void *self)
+{
+  free(((distributions *)self)->room);
+  free(self);
+}
 
 static void *create(const gg_model *m, gg_error *err)
 {
   distributions *d = gg_new_array(1, sizeof *d, err);
-  if (d) *d = (distributions){m->n_species, m->rule == GG_SMOOTH ? 1 : 2};
-  return d;
+  if (!d) return NULL;
+  *d = (distributions){m->n_species, m->rule == GG_SMOOTH ? 1 : 2, NULL};
+  if (m->n_species == 1 || (d->room = gg_new_array((size_t)m->n, sizeof(double), err))) return d;
+  free(d);
+  return NULL;
 }
 
 static size_t bins(const void *self)
@@ -28,26 +38,27 @@ static size_t bins(const void *self)
   return (size_t)(d->species * d->vectors * 3) * GG_HISTOGRAM;
 }
 
-typedef struct scale {
-  double mean, sigma;
-} scale;
-
-static scale scale_of(const gg_snapshot *s, const double *x, int species)
+/* The values of one species: as they are where there is no other, else gathered. */
+static size_t values_of(const distributions *d, const gg_snapshot *s, const double *x, int species,
+                        const double **values)
 {
-  double n = 0, sum = 0, squares = 0;
+  size_t n = 0;
+  *values = x;
+  if (d->species == 1) return s->n;
   for (size_t i = 0; i < s->n; i++) {
-    double one = gg_snapshot_species(s, i) == species;
-    n += one, sum += one * x[i], squares += one * x[i] * x[i];
+    d->room[n] = x[i];
+    n += s->species[i] == species;
   }
-  return (scale){sum / n, sqrt(squares / n - sum / n * (sum / n))};
+  *values = d->room;
+  return n;
 }
 
-static void count(const gg_snapshot *s, const double *x, int species, double *bin)
+static void count(const distributions *d, const gg_snapshot *s, const double *x, int species, double *bin)
 {
-  scale u = scale_of(s, x, species);
-  double inverse = 1 / u.sigma;
-  for (size_t i = 0; i < s->n; i++)
-    if (gg_snapshot_species(s, i) == species) gg_histogram_add(bin, (x[i] - u.mean) * inverse);
+  const double *values;
+  size_t n = values_of(d, s, x, species, &values);
+  gg_scale_of u = gg_scale_of_values(values, n);
+  gg_histogram_add_all(bin, values, n, u.mean, u.sigma);
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
@@ -55,7 +66,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   const distributions *d = self;
   for (int species = 0; species < d->species; species++)
     for (int vector = 0; vector < d->vectors; vector++)
-      for (int a = 0; a < 3; a++, bin += GG_HISTOGRAM) count(s, vector ? s->s[a] : s->c[a], species, bin);
+      for (int a = 0; a < 3; a++, bin += GG_HISTOGRAM) count(d, s, vector ? s->s[a] : s->c[a], species, bin);
 }
 
 /* "C_x", "C_{x,2}": how gnuplot writes it; and "Cx", "Cx_2" for names. */
@@ -117,7 +128,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 const gg_observable gg_velocity_distributions = {
     GG_OBSERVABLE(VELOCITY_DISTRIBUTIONS, velocity_distributions),
     .create = create,
-    .destroy = free,
+    .destroy = destroy,
     .refuses = gg_needs_homogeneity,
     .bins = bins,
     .every = 2,
