@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* Levenshtein's distance: insertions, deletions and substitutions between two words. */
+/* Insertions, deletions, substitutions and swaps of neighbours between two words; capitals are no others. */
 size_t gg_edit_distance(const char *a, const char *b);
 
 /* Keeps the best of the candidates shown to it; start with {.word = ...}. */

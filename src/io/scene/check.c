@@ -51,6 +51,20 @@ static gg_status check_flow(const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
+/* With beta -1, the default, there is no tangential impulse that friction could limit. */
+static gg_status check_friction(const gg_scene *s, gg_error *err)
+{
+  if (gg_scene_is_given(s, "collision.beta")) return GG_OK;
+  for (int p = 0; p < (s->n_species > 1 ? GG_PAIRS : 1); p++)
+    if (s->collision.mu[p] > 0 && s->collision.mu[p] < INFINITY)
+      return gg_fail(
+          err, GG_BAD_INPUT,
+          "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains; give "
+          "the beta of sticking contacts, e.g. collision: {beta: 0, mu: %g}",
+          s->collision.mu[p]);
+  return GG_OK;
+}
+
 gg_status gg_scene_finish(gg_scene *s, gg_error *err)
 {
   if (!gg_scene_is_given(s, "flow")) return gg_fail(err, GG_BAD_INPUT, "flow is missing, e.g. flow: usf");
@@ -62,5 +76,6 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT, "key 'species': the fractions sum to %.10g; they must sum to 1 (within 1e-9)",
                    total);
   gg_scene_fill_in(s);
+  GG_TRY(check_friction(s, err));
   return check_flow(s, err);
 }

@@ -37,49 +37,61 @@ static const gg_word observables[] = {GG_OBSERVABLES(WORD){0}};
 
 #define AT(member) offsetof(gg_scene, member)
 #define AUTO .special = "auto", .special_value = GG_AUTO
+/* Of numbers with a unit: products and ratios of a few of them are numbers, too. */
+#define SMALL 1e-30
+#define LARGE 1e30
 #define NONE .special = "none", .special_value = GG_AUTO
 
 const gg_field gg_scene_fields[] = {
-    {"flow", GG_FIELD_CHOICE, AT(flow), .words = flows, .doc = "the flow; must be given"},
-    {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines, .doc = "which engine `run` uses; `compare` uses both"},
+    {"flow", GG_FIELD_CHOICE, AT(flow), .words = flows, .doc = "the flow; must be given", .also = "type"},
+    {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines, .doc = "which engine `run` uses; `compare` uses both",
+     .also = "method"},
     {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .words = thermostats, .doc = "what keeps the gas warm"},
     {"contact_value", GG_FIELD_CHOICE, AT(contact_value), .words = contact_values,
      .doc = "pair correlation at contact, in dsmc and the theories"},
     {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6,
-     .doc = "solid fraction; must be given; 0 is the Boltzmann limit (dsmc only)"},
-    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box"},
-    {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), 0, 1e12, true, .unit = "1/time", .doc = "shear rate of usf"},
+     .doc = "solid fraction; must be given; 0 is the Boltzmann limit (dsmc only)",
+     .also = "density volume_fraction solid_fraction packing_fraction nu"},
+    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box",
+     .also = "N grains number n_particles num_particles"},
+    {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .unit = "1/time", .doc = "shear rate of usf",
+     .also = "gamma gamma_dot rate shear"},
     {"small_shear", GG_FIELD_CHOICE, AT(small_shear), .words = switches,
      .doc = "usf: linear response, shear so slow that the viscosity is extrapolated to the shear rate 0: of the heated "
             "gas with thermostat: gaussian (where it is on unless switched off), of the cooling one without"},
-    {"temperature", GG_FIELD_NUMBER, AT(temperature), 0, 1e300, true, AUTO, .unit = "velocity^2",
-     .doc = "<C.C>/3 to start from; auto: near the steady state"},
-    {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges"},
-    {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .doc = "normal restitution; 1 unless given in equilibrium"},
+    {"temperature", GG_FIELD_NUMBER, AT(temperature), 1e-100, 1e100, false, AUTO, .unit = "velocity^2",
+     .doc = "<C.C>/3 to start from; auto: near the steady state", .also = "T T0"},
+    {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges",
+     .also = "box"},
+    {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .doc = "normal restitution; 1 unless given in equilibrium",
+     .also = "restitution alpha normal_restitution e_n en"},
     {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1,
-     .doc = "tangential restitution: -1 smooth, 1 perfectly rough; with a finite mu, that of sticking contacts"},
+     .doc = "tangential restitution: -1 smooth, 1 perfectly rough; with a finite mu, that of sticking contacts",
+     .also = "tangential_restitution e_t et"},
     {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY,
-     .doc = "Coulomb friction coefficient; inf: constant beta"},
+     .doc = "Coulomb friction coefficient; inf: constant beta; finite: with collision.beta", .also = "friction"},
     {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "one or two kinds of grains"},
     {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls"},
     {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1,
      .doc = "tangential restitution at the walls; of smooth grains, which do not spin, that of their centres"},
     {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .doc = "friction coefficient at the walls"},
     {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "chute: the upper end"},
-    {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), 0, 1e12, true, .unit = "velocity",
+    {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), SMALL, LARGE, .unit = "velocity",
      .doc = "couette: the walls at +-L_y/2 move at +-speed"},
     {"gravity", GG_FIELD_VECTOR, AT(gravity), -1e12, 1e12, .unit = "acceleration",
-     .doc = "body force per mass; walled flows only"},
+     .doc = "body force per mass; walled flows only", .also = "g"},
     {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
      .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or not asked if "
-            "run.collisions is given"},
+            "run.collisions is given",
+     .also = "error tolerance accuracy"},
     {"run.collisions", GG_FIELD_NUMBER, AT(run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
-     .doc = "stop after so much averaging"},
+     .doc = "stop after so much averaging", .also = "steps"},
     {"run.time_limit", GG_FIELD_NUMBER, AT(run.time_limit), 0, 1e9, true, NONE, .unit = "s",
-     .doc = "stop after so much time"},
+     .doc = "stop after so much time", .also = "walltime wall_time max_time"},
     {"run.warmup", GG_FIELD_NUMBER, AT(run.warmup), 0, 1e15, false, AUTO, .unit = "collisions per grain",
-     .doc = "before averaging; auto: until the slowest quantity is steady"},
-    {"run.replicas", GG_FIELD_INTEGER, AT(run.replicas), 1, 10000, .doc = "independent copies, averaged over"},
+     .doc = "before averaging; auto: until the slowest quantity is steady", .also = "equilibration burn_in"},
+    {"run.replicas", GG_FIELD_INTEGER, AT(run.replicas), 1, 10000, .doc = "independent copies, averaged over",
+     .also = "repeats copies"},
     {"run.seed", GG_FIELD_INTEGER, AT(run.seed), 0, 9223372036854775807.0,
      .doc = "of the random streams: the same seed gives the same run"},
     {"md.contact_time", GG_FIELD_NUMBER, AT(md.contact_time), 0, 1, false, AUTO, .unit = "mean free times",
@@ -87,25 +99,28 @@ const gg_field gg_scene_fields[] = {
          "collisions closer in time than this have e = 1 (against inelastic collapse); 0: off. With gravity along y in "
          "units of sqrt(d/g) instead; auto: 1e-5, with gravity along y 1e-3"},
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
-     .doc = "step of the Monte Carlo engine"},
+     .doc = "step of the Monte Carlo engine", .also = "dt"},
     {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
      .doc = "size of the Monte Carlo ensemble; auto: particles, but at least 5000"},
     {"dsmc.precision", GG_FIELD_CHOICE, AT(dsmc.precision), .words = precisions,
      .doc = "of the velocities and spins that the Monte Carlo engine keeps; sums are double in either; md is double"},
-    {"measure", GG_FIELD_SET, AT(measure), .words = observables, .doc = "what is measured; only that is paid for"},
+    {"measure", GG_FIELD_SET, AT(measure), .words = observables, .doc = "what is measured; only that is paid for",
+     .also = "observables"},
     {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
      .doc = "time between checkpoints; 0: none"},
     {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
-     .doc = "between stored frames; 0: only the last state"},
+     .doc = "between stored frames; 0: only the last state", .also = "dump"},
     {0},
 };
 
 const gg_field gg_species_fields[] = {
-    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, 1, true, .doc = "mole fraction n_i/n"},
-    {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), 0, 1e12, true, .unit = "length", .doc = "diameter"},
-    {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), 0, 1e12, true, .unit = "mass", .doc = "mass"},
+    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, 1, true, .doc = "mole fraction n_i/n",
+     .also = "concentration"},
+    {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), SMALL, LARGE, .unit = "length", .doc = "diameter",
+     .also = "d size radius"},
+    {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .unit = "mass", .doc = "mass", .also = "m"},
     {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 0, 1, true,
-     .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow"},
+     .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .also = "K I"},
     {0},
 };
 
@@ -125,11 +140,12 @@ bool gg_scene_is_given(const gg_scene *scene, const char *key)
   return id >= 0 && scene->given >> id & 1;
 }
 
+const char *const gg_scene_sections[] = {"collision", "walls", "run", "md", "dsmc", "output", NULL};
+
 bool gg_scene_is_section(const char *name)
 {
-  size_t length = strlen(name);
-  for (const gg_field *f = gg_scene_fields; f->key; f++)
-    if (strncmp(f->key, name, length) == 0 && f->key[length] == '.') return true;
+  for (int i = 0; gg_scene_sections[i]; i++)
+    if (strcmp(gg_scene_sections[i], name) == 0) return true;
   return false;
 }
 

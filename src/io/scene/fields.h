@@ -31,11 +31,13 @@ typedef struct gg_field {
   double special_value;
   const gg_word *words; /* of choices and sets; ends with a NULL name */
   const char *unit, *doc;
+  const char *also; /* what others call it, for messages: words separated by blanks */
 } gg_field;
 
-enum { GG_MAX_FIELDS = 48 };               /* as many bits of gg_scene.given are used */
-extern const gg_field gg_scene_fields[];   /* ends with a NULL key */
-extern const gg_field gg_species_fields[]; /* likewise */
+enum { GG_MAX_FIELDS = 48 };                  /* as many bits of gg_scene.given are used */
+extern const gg_field gg_scene_fields[];      /* ends with a NULL key */
+extern const gg_field gg_species_fields[];    /* likewise */
+extern const char *const gg_scene_sections[]; /* first parts of dotted keys; ends with NULL */
 
 /* Index in gg_scene_fields, or -1. */
 int gg_scene_field_find(const char *key);

@@ -6,6 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/nearest.h"
+
+static const char *scalar(const yaml_node_t *node)
+{
+  return node->type == YAML_SCALAR_NODE ? (const char *)node->data.scalar.value : NULL;
+}
+
 /* The node as a message shows it. */
 static void show(const yaml_node_t *node, char *text, size_t size)
 {
@@ -15,22 +22,32 @@ static void show(const yaml_node_t *node, char *text, size_t size)
     snprintf(text, size, "a map");
   else if (node->data.scalar.length == 0)
     snprintf(text, size, "nothing");
-  else
-    snprintf(text, size, "%s '%.40s'", node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE ? "value" : "text",
-             (const char *)node->data.scalar.value);
+  else {
+    char word[41];
+    gg_scene_quote((const char *)node->data.scalar.value, word, sizeof word);
+    snprintf(text, size, "%s '%s'", node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE ? "value" : "text", word);
+  }
+}
+
+/* The nearest of the words, or the first that is described by the one that was typed ("cooling": hcs). */
+static const char *likely_word(const gg_word *words, const char *typed)
+{
+  gg_nearest nearest = {.word = typed};
+  if (!words || !typed) return NULL;
+  for (const gg_word *w = words; w->name; w++) gg_nearest_try(&nearest, w->name);
+  for (const gg_word *w = words; w->name && !nearest.best && strlen(typed) > 3; w++)
+    if (strcasestr(w->doc, typed)) nearest.best = w->name;
+  return nearest.best;
 }
 
 static gg_status refuse_value(const gg_scene_reader *r, const gg_field *field, const char *key, const yaml_node_t *node)
 {
-  char shown[64], allowed[256];
+  char shown[64], allowed[256], hint[64] = "";
+  const char *likely = likely_word(field->words, scalar(node));
   show(node, shown, sizeof shown);
   gg_field_allowed(field, allowed, sizeof allowed);
-  return gg_scene_refuse(r, node, key, "%s is not allowed; allowed: %s", shown, allowed);
-}
-
-static const char *scalar(const yaml_node_t *node)
-{
-  return node->type == YAML_SCALAR_NODE ? (const char *)node->data.scalar.value : NULL;
+  if (likely) snprintf(hint, sizeof hint, " (did you mean %s?)", likely);
+  return gg_scene_refuse(r, node, key, "%s is not allowed%s; allowed: %s", shown, hint, allowed);
 }
 
 static bool parse_number(const char *text, double *value)
@@ -91,6 +108,8 @@ static gg_status read_choice(const gg_scene_reader *r, const gg_field *f, const 
 static gg_status read_set(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
                           unsigned *value)
 {
+  const gg_word *alone = find_word(f->words, node);
+  if (alone) return gg_scene_refuse(r, node, key, "is a list, also of one: %s: [%s]", f->key, alone->name);
   if (node->type != YAML_SEQUENCE_NODE) return refuse_value(r, f, key, node);
   unsigned set = 0;
   for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {

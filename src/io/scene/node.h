@@ -19,6 +19,15 @@ typedef struct gg_scene_reader {
 gg_status gg_scene_refuse(const gg_scene_reader *r, const yaml_node_t *node, const char *key, const char *format, ...)
     GG_PRINTF(4, 5);
 
+/* The same of the text itself: "file:line: ...", without the line where it is 0; of an override "key 'KEY': ...". */
+gg_status gg_scene_refuse_text(const gg_scene_reader *r, size_t line, const char *format, ...) GG_PRINTF(3, 4);
+
+/* A word of the scene's as a message shows it: cut to `size` bytes, without what a terminal would act on. */
+void gg_scene_quote(const char *word, char *text, size_t size);
+
+/* Is the text small and shallow enough to be a scene? */
+gg_status gg_scene_check_limits(const gg_scene_reader *r, const char *yaml, size_t length);
+
 /* The node's value into the member of `base` that the field names. */
 gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *field, const char *key, const yaml_node_t *node,
                               void *base);

@@ -41,15 +41,17 @@ static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *n
 }
 
 /* libyaml's word for what is wrong, with the line. */
-static gg_status refuse_syntax(const yaml_parser_t *parser, const char *name, gg_error *err)
+static gg_status refuse_syntax(const gg_scene_reader *r, const yaml_parser_t *parser)
 {
-  if (parser->error == YAML_MEMORY_ERROR) return gg_fail(err, GG_FAILED, "%s: out of memory", name);
+  if (parser->error == YAML_MEMORY_ERROR) return gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
   const char *problem = parser->problem ? parser->problem : "cannot be read";
+  size_t line = parser->problem_mark.line + 1;
   if (parser->error == YAML_READER_ERROR)
-    return gg_fail(err, GG_BAD_INPUT, "%s: is not a scene: no YAML text (%s at byte %zu)", name, problem,
-                   parser->problem_offset);
-  return gg_fail(err, GG_BAD_INPUT, "%s:%zu: is not YAML: %s%s%s", name, parser->problem_mark.line + 1, problem,
-                 parser->context ? " " : "", parser->context ? parser->context : "");
+    return gg_scene_refuse_text(r, 0, "is not a scene: no YAML text (%s at byte %zu)", problem, parser->problem_offset);
+  if (parser->unread && *parser->buffer.pointer == '\t')
+    return gg_scene_refuse_text(r, line, "is not YAML: a tab cannot indent; use blanks");
+  return gg_scene_refuse_text(r, line, "is not YAML: %s%s%s", problem, parser->context ? " " : "",
+                              parser->context ? parser->context : "");
 }
 
 typedef gg_status use_root(gg_scene_reader *r, const char *key, const yaml_node_t *root);
@@ -59,20 +61,21 @@ static gg_status with_document(gg_scene_reader *r, const char *yaml, size_t leng
 {
   yaml_parser_t parser;
   yaml_document_t document, next;
+  GG_TRY(gg_scene_check_limits(r, yaml, length));
   if (!yaml_parser_initialize(&parser)) return gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
   yaml_parser_set_input_string(&parser, (const unsigned char *)yaml, length);
   gg_status status;
   if (!yaml_parser_load(&parser, &document)) {
-    status = refuse_syntax(&parser, r->name, r->err);
+    status = refuse_syntax(r, &parser);
   } else {
     r->document = &document;
     status = use(r, key, yaml_document_get_root_node(&document));
     if (status == GG_OK && yaml_document_get_root_node(&document)) {
       if (!yaml_parser_load(&parser, &next)) {
-        status = refuse_syntax(&parser, r->name, r->err);
+        status = refuse_syntax(r, &parser);
       } else {
         if (yaml_document_get_root_node(&next))
-          status = gg_fail(r->err, GG_BAD_INPUT, "%s: holds more than one document; a scene is one", r->name);
+          status = gg_scene_refuse_text(r, 0, "holds more than one document; a scene is one");
         yaml_document_delete(&next);
       }
     }
@@ -85,10 +88,9 @@ static gg_status with_document(gg_scene_reader *r, const char *yaml, size_t leng
 static gg_status use_scene(gg_scene_reader *r, const char *key, const yaml_node_t *root)
 {
   if (!root || (root->type == YAML_SCALAR_NODE && root->data.scalar.length == 0))
-    return gg_fail(r->err, GG_BAD_INPUT, "%s: is empty; a scene needs at least flow and phi", r->name);
+    return gg_scene_refuse_text(r, 0, "is empty; a scene needs at least flow and phi");
   if (root->type != YAML_MAPPING_NODE)
-    return gg_fail(r->err, GG_BAD_INPUT, "%s:%zu: is not a scene: lines of 'key: value' are expected", r->name,
-                   root->start_mark.line + 1);
+    return gg_scene_refuse_text(r, root->start_mark.line + 1, "is not a scene: lines of 'key: value' are expected");
   return apply_members(r, key, root);
 }
 
@@ -145,9 +147,10 @@ static gg_status use_override(gg_scene_reader *r, const char *key, const yaml_no
 
 gg_status gg_scene_override(gg_scene *scene, const char *key, const char *value, gg_error *err)
 {
-  char name[160];
+  char word[61], name[80];
   gg_scene changed = *scene;
-  snprintf(name, sizeof name, "key '%.60s'", key);
+  gg_scene_quote(key, word, sizeof word);
+  snprintf(name, sizeof name, "key '%s'", word);
   gg_scene_reader r = {.name = name, .scene = &changed, .err = err};
   GG_TRY(with_document(&r, value, strlen(value), key, use_override));
   *scene = changed;
