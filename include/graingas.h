@@ -52,6 +52,7 @@ typedef struct gg_error {
 } gg_error;
 
 GG_API const char *gg_version(void); /* "0.1.0" */
+GG_API int gg_processors(void);      /* that this process may use: as many threads are of use */
 
 /* ---- Scenes: what to simulate ----
  * A scene holds the keys that were given; all others have their defaults, of which some follow the given ones. Each key
@@ -60,7 +61,8 @@ GG_API const char *gg_version(void); /* "0.1.0" */
 
 typedef struct gg_scene gg_scene;
 
-/* From a YAML file, or from YAML text, for which `name` (may be NULL) stands as the file's name in messages. */
+/* From a YAML file ("-": standard input), or from YAML text, for which `name` (may be NULL) stands as the file's name
+ * in messages. */
 GG_API gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err);
 GG_API gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err);
 GG_API gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err);

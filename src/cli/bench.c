@@ -6,6 +6,7 @@
 
 #include "cli/options.h"
 #include "cli/table.h"
+#include "cli/wrap.h"
 
 static void tell(void *context, const char *line)
 {
@@ -22,9 +23,9 @@ static int print_sheet(const gg_bench_sheet *s)
     int row = gg_table_row(t);
     for (int c = 0; c < s->n_columns; c++) snprintf(gg_table_cell(t, row, c), GG_TABLE_CELL, "%s", s->cell[r][c]);
   }
-  gg_print_wrapped(stdout, "", s->caption, gg_terminal_width());
+  gg_print_wrapped(stdout, "", s->caption);
   putchar('\n');
-  gg_table_print(t, stdout, gg_terminal_width(), s->keep);
+  gg_table_print(t, stdout, s->keep);
   free(t);
   return GG_OK;
 }

@@ -6,31 +6,30 @@ enum {
 };
 const gg_command gg_commands[] = {
     {"compare", "SCENE.yaml", "Both engines and the theories: one table, with standard errors and z-scores",
-     "Runs event-driven molecular dynamics (md) and Enskog Monte Carlo (dsmc) on the scene, evaluates every theory\n"
+     "Runs event-driven molecular dynamics (md) and Enskog Monte Carlo (dsmc) on the scene, evaluates every theory "
      "that applies, and prints them side by side. Writes an HDF5 result file and a picture. Checkpoints and --resume "
-     "as\n"
-     "for run.",
+     "as for run.",
      SIMULATES | GG_OPT_PICTURE | GG_OPT_RESUME, gg_cli_compare_main},
     {"run", "SCENE.yaml", "One engine: the scene's, or that of --engine",
      "With output.checkpoint_every above 0 in the scene, a checkpoint is kept beside the result; --resume goes on "
-     "from\n"
-     "it bit for bit.",
+     "from it bit for bit.",
      SIMULATES | GG_OPT_ENGINE | GG_OPT_RESUME, gg_cli_run_main},
-    {"theory", "SCENE.yaml", "The theories alone", NULL, GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL, gg_cli_theory_main},
+    {"theory", "SCENE.yaml", "The theories alone", NULL, GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_QUIET,
+     gg_cli_theory_main},
     {"plot", "RESULT.h5", "A picture of what a result file holds",
-     "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side\n"
+     "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side "
      "by side. Beside it a snapshot, if there are positions, and a page for each observable that left curves.",
-     GG_OPT_OUTPUT | GG_OPT_FORMAT, gg_cli_plot_main},
-    {"info", "FILE", "What a result file holds, or every key of a scene and what it switches on and off", NULL,
-     GG_OPT_SET | GG_OPT_JSON, gg_cli_info_main},
+     GG_OPT_OUTPUT | GG_OPT_FORMAT | GG_OPT_QUIET, gg_cli_plot_main},
+    {"info", "[FILE]", "What a result file holds, or every key of a scene and what it switches on and off",
+     "Without a file: every key that a scene may have, with its default.", GG_OPT_SET | GG_OPT_JSON | GG_OPT_QUIET,
+     gg_cli_info_main},
     {"bench", "[md|dsmc|observables]", "How fast the engines are: collisions per second by kernel, density and size",
      "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "
      "repeats.\n"
-     "md: elastic smooth spheres by size and density, and what roughness, shear, walls, gravity, a second species and\n"
+     "md: elastic smooth spheres by size and density, and what roughness, shear, walls, gravity, a second species and "
      "measuring the stress cost, scenes timed in turn.\n"
      "dsmc: the same for Enskog Monte Carlo, as nanoseconds per accepted collision; what its blocks gain over the "
-     "plain\n"
-     "loop, and threads within one ensemble over one.\n"
+     "plain loop, and threads within one ensemble over one.\n"
      "observables: what each observable adds to a run's time, both engines, three sizes. Run it on an idle machine.",
      GG_OPT_JSON | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
     {0},

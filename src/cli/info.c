@@ -3,14 +3,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/options.h"
 #include "cli/table.h"
+#include "cli/wrap.h"
 
 static void print_line(void *context, const char *text)
 {
   (void)context;
-  printf("  %s\n", text);
+  gg_print_paragraph(stdout, 4, "  %s", text);
 }
 
 static void print_engines(const gg_scene *scene)
@@ -23,12 +25,27 @@ static void print_engines(const gg_scene *scene)
   }
 }
 
+/* A line a key where there is room; else its meaning below. */
+static void print_field(const gg_entry *f, const char *origin)
+{
+  char lead[80], meaning[400];
+  const int columns = snprintf(lead, sizeof lead, "%-24s %-17s %-7s  ", f->name, f->value, origin);
+  snprintf(meaning, sizeof meaning, "%s%s%s%s", f->doc, f->unit ? " (" : "", f->unit ? f->unit : "",
+           f->unit ? ")" : "");
+  if (strlen(f->value) <= 17 && gg_terminal_width() >= 100 && columns < (int)sizeof lead) {
+    gg_print_wrapped(stdout, lead, meaning);
+    return;
+  }
+  snprintf(lead, sizeof lead, "%-24s ", f->name);
+  gg_print_paragraph(stdout, 4, "%s%s%s%s\n%s", lead, f->value, *origin ? "  " : "", origin, meaning);
+}
+
+/* Of no scene: with the defaults. */
 static void print_fields(const gg_scene *scene)
 {
   gg_entry f;
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_KEYS, i, scene, &f, NULL) == GG_OK; i++)
-    printf("%-24s %-22s %-7s  %s%s%s%s\n", f.name, f.value, f.given ? "given" : "default", f.doc, f.unit ? " (" : "",
-           f.unit ? f.unit : "", f.unit ? ")" : "");
+    print_field(&f, f.given ? "given" : scene ? "default" : "");
 }
 
 static int inform_scene(const gg_options *o)
@@ -38,7 +55,7 @@ static int inform_scene(const gg_options *o)
   gg_scene *scene = NULL;
   gg_status status = gg_options_scene(o, &scene, &err);
   int code = status == GG_OK ? GG_OK : gg_cli_report(&err);
-  if (code == GG_OK && gg_scene_check(scene, &err) != GG_OK) code = gg_cli_report_of(o->input, &err);
+  if (code == GG_OK && gg_scene_check(scene, &err) != GG_OK) code = gg_cli_report_of(gg_options_name(o), &err);
   if (code == GG_OK && o->json) {
     if (gg_scene_to_json(scene, &text, &err) != GG_OK) code = gg_cli_report(&err);
     gg_cli_print_text(text);
@@ -75,7 +92,7 @@ static void print_means(const gg_comparison *c)
     }
   }
   printf("\n");
-  gg_table_print(t, stdout, 1000, 1);
+  gg_table_print(t, stdout, 1);
   free(t);
 }
 
@@ -84,8 +101,9 @@ static void print_verdict(const gg_result *r)
   gg_result_info about;
   const char *warning;
   if (gg_result_about(r, &about, NULL) != GG_OK) return;
-  printf("\n%s: %s: %s\n", about.engine, about.steady ? "steady" : "not steady", about.verdict);
-  for (size_t i = 0; (warning = gg_result_warning(r, i)); i++) printf("  %s\n", warning);
+  printf("\n");
+  gg_print_paragraph(stdout, 2, "%s: %s: %s", about.engine, about.steady ? "steady" : "not steady", about.verdict);
+  for (size_t i = 0; (warning = gg_result_warning(r, i)); i++) print_line(NULL, warning);
 }
 
 static bool has_numbers(const double *x, size_t n)
@@ -95,37 +113,47 @@ static bool has_numbers(const double *x, size_t n)
   return false;
 }
 
+/* What was written into memory, as a paragraph. */
+static void print_and_free(FILE *out, char **text)
+{
+  if (out && fclose(out) == 0 && **text) print_line(NULL, *text);
+  free(*text);
+}
+
 static void print_series(const gg_result *r)
 {
   gg_result_info about;
   gg_entry q;
-  bool any = false;
   const double *value;
-  size_t n;
+  char *text = NULL;
+  size_t n, size;
   if (gg_result_about(r, &about, NULL) != GG_OK) return;
-  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
+  FILE *out = open_memstream(&text, &size);
+  for (size_t i = 0; out && gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
     if (gg_result_history(r, q.name, &n, NULL, &value, NULL) != GG_OK || !has_numbers(value, n)) continue;
-    if (!any)
-      printf("  %s series of %zu samples, averaged from %g to %g:", about.engine, n, about.window[0], about.window[1]);
-    any = true;
-    printf(" %s", q.name);
+    if (ftell(out) == 0)
+      fprintf(out, "%s series of %zu samples, averaged from %g to %g:", about.engine, n, about.window[0],
+              about.window[1]);
+    fprintf(out, " %s", q.name);
   }
-  if (any) printf("\n");
+  print_and_free(out, &text);
 }
 
 /* Series, frames and theories: what there is to plot or to read with other tools. */
 static void print_contents(const gg_comparison *c, const gg_result_info *about)
 {
   gg_theory_info theory;
-  int n = 0;
+  char *text = NULL;
+  size_t size;
   printf("\nalso in the file:\n");
   for (int k = 0; k < 2; k++) print_series(gg_comparison_result(c, engines[k]));
   if (about->frames)
     printf("  %zu frame%s of %ld grains (/particles/grains)\n", about->frames, about->frames > 1 ? "s" : "",
            (long)about->grains);
-  for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
-    if (!theory.reason) printf("%s%s", n++ ? ", " : "  theories: ", theory.name);
-  if (n) printf("\n");
+  FILE *out = open_memstream(&text, &size);
+  for (size_t i = 0; out && gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
+    if (!theory.reason) fprintf(out, "%s%s", ftell(out) ? ", " : "theories: ", theory.name);
+  print_and_free(out, &text);
 }
 
 static void print_file(const gg_options *o, const gg_comparison *c)
@@ -164,17 +192,31 @@ static int inform_result(const gg_options *o)
 static bool is_hdf5(const char *path)
 {
   char start[8] = "";
+  struct stat about;
+  if (stat(path, &about) != 0 || !S_ISREG(about.st_mode)) return false; /* a pipe can be read once */
   FILE *in = fopen(path, "rb");
   bool yes = in && fread(start, 1, 8, in) == 8 && memcmp(start, "\x89HDF\r\n\x1a\n", 8) == 0;
   if (in) fclose(in);
   return yes;
 }
 
+static int inform(const gg_options *o)
+{
+  if (o->input && is_hdf5(o->input)) {
+    if (!o->n_overrides) return inform_result(o);
+    return gg_cli_fail(GG_BAD_INPUT, "%s: is a result, which --set does not change", o->input);
+  }
+  if (o->input) return inform_scene(o);
+  if (o->json || o->n_overrides) return gg_cli_fail(GG_BAD_INPUT, "info needs a FILE with --set and --json");
+  print_fields(NULL);
+  return GG_OK;
+}
+
 int gg_cli_info_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
   int code = gg_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON) code = is_hdf5(o.input) ? inform_result(&o) : inform_scene(&o);
+  if (code == GG_CLI_GO_ON) code = inform(&o);
   gg_options_clear(&o);
   return code;
 }

@@ -9,7 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/cli.h"
+#include "cli/options.h"
+#include "cli/wrap.h"
 
 int gg_cli_report(const gg_error *err)
 {
@@ -41,22 +42,39 @@ void gg_cli_print_text(char *text)
 
 static void print_help(void)
 {
-  printf("graingas %s: granular gases of hard spheres, by event-driven molecular dynamics, Enskog Monte Carlo and "
-         "theory\n\nUsage: graingas COMMAND ...\n\n",
-         gg_version());
+  gg_print_paragraph(stdout, 0,
+                     "graingas %s: granular gases of hard spheres, by event-driven molecular dynamics, Enskog Monte "
+                     "Carlo and theory\n\nUsage: graingas COMMAND ...\n",
+                     gg_version());
   for (const gg_command *c = gg_commands; c->name; c++) {
-    char left[64];
+    char left[64], lead[80];
     snprintf(left, sizeof left, "%s %s", c->name, c->arguments);
-    printf("  %-20s  %s\n", left, c->summary);
+    if (strlen(left) > 20) printf("  %s\n", left), *left = '\0'; /* more than there is room for beside it */
+    snprintf(lead, sizeof lead, "  %-20s  ", left);
+    gg_print_wrapped(stdout, lead, c->summary);
   }
-  printf("\ngraingas COMMAND --help tells more. Begin with: graingas compare examples/usf.yaml\n");
+  printf("\n");
+  gg_print_wrapped(stdout, "", "graingas COMMAND --help tells more. Begin with: graingas compare examples/usf.yaml");
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+  size_t length = strlen(text), tail = strlen(end);
+  return length > tail && strcmp(text + length - tail, end) == 0;
 }
 
 static int unknown(const char *word)
 {
-  const char *known[16] = {NULL};
-  for (int i = 0; gg_commands[i].name && i < 15; i++) known[i] = gg_commands[i].name;
+  const char *known[16] = {"--help", "--version", NULL};
+  for (int i = 0; gg_commands[i].name && i < 13; i++) known[i + 2] = gg_commands[i].name;
   const char *nearest = gg_nearest_word(word, known);
+  if (ends_with(word, ".yaml") || ends_with(word, ".yml"))
+    return gg_cli_fail(GG_BAD_INPUT, "'%s' is no command; for this scene, e.g. graingas compare %s", word, word);
+  if (ends_with(word, ".h5"))
+    return gg_cli_fail(GG_BAD_INPUT, "'%s' is no command; for this result, e.g. graingas info %s", word, word);
+  for (const gg_option *o = gg_options_table; o->flag; o++)
+    if (strncmp(word, "--", 2) == 0 && strcmp(o->name, word + 2) == 0)
+      return gg_cli_fail(GG_BAD_INPUT, "options come after the command: graingas COMMAND %s ...", word);
   if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; did you mean '%s'?", word, nearest);
   return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; see graingas --help", word);
 }
@@ -76,32 +94,42 @@ static int check_output(int code)
   return lost && code == GG_OK ? gg_cli_fail(GG_BAD_FILE, "standard output cannot be written") : code;
 }
 
+static const gg_command *find(const char *name)
+{
+  for (const gg_command *c = gg_commands; c->name; c++)
+    if (strcmp(c->name, name) == 0) return c;
+  return NULL;
+}
+
+static int help(const char *name)
+{
+  const gg_command *c = name ? find(name) : NULL;
+  if (name && !c) return unknown(name);
+  if (c)
+    gg_print_command_help(c);
+  else
+    print_help();
+  return GG_OK;
+}
+
+static int dispatch(int argc, char **argv)
+{
+  const char *word = argc > 1 ? argv[1] : "";
+  const gg_command *c = find(word);
+  if (c) return c->run(c, argc - 1, argv + 1);
+  if (argc < 2) return print_help(), GG_BAD_INPUT;
+  if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
+    return help(argc > 2 ? argv[2] : NULL);
+  if (strcmp(word, "--version") == 0) return printf("graingas %s\n", gg_version()), GG_OK;
+  if (strcmp(word, "--manual") == 0) return gg_cli_print_manual(), GG_OK;
+  if (strcmp(word, "--scene-page") == 0) return gg_cli_print_scene_page(), GG_OK;
+  return unknown(word);
+}
+
 int main(int argc, char **argv)
 {
   signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of the write, not the end of the program */
   signal(SIGPIPE, SIG_IGN);
   H5dont_atexit(); /* we close what we open; HDF5 would insist on flushing to a full disk */
-  if (argc < 2) {
-    print_help();
-    return GG_BAD_INPUT;
-  }
-  if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
-    print_help();
-    return GG_OK;
-  }
-  if (strcmp(argv[1], "--version") == 0) {
-    printf("graingas %s\n", gg_version());
-    return GG_OK;
-  }
-  if (strcmp(argv[1], "--manual") == 0) {
-    gg_cli_print_manual();
-    return GG_OK;
-  }
-  if (strcmp(argv[1], "--scene-page") == 0) {
-    gg_cli_print_scene_page();
-    return check_output(GG_OK);
-  }
-  for (const gg_command *c = gg_commands; c->name; c++)
-    if (strcmp(c->name, argv[1]) == 0) return check_output(c->run(c, argc - 1, argv + 1));
-  return unknown(argv[1]);
+  return check_output(dispatch(argc, argv));
 }

@@ -4,16 +4,17 @@
 
 #include "cli/options.h"
 
-/* Text with what roff would read as its own escaped. */
+/* Text with what roff would read as its own escaped; its lines stay lines. */
 static void put(const char *text)
 {
   for (; *text; text++) {
+    if (*text == '.' || *text == '\'') fputs("\\&", stdout); /* no request, also where a line begins */
     if (*text == '-')
       fputs("\\-", stdout);
     else if (*text == '\\')
       fputs("\\e", stdout);
     else if (*text == '\n')
-      fputs("\n", stdout);
+      fputs("\n.br\n", stdout);
     else
       fputc(*text, stdout);
   }
@@ -70,7 +71,7 @@ static void print_theories(void)
     put(t.doc);
     printf(". ");
     put(t.citation);
-    printf(" ");
+    printf(". ");
     put(t.assumptions);
     printf("\n");
   }

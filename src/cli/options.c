@@ -1,13 +1,13 @@
 #include "cli/options.h"
 
 #include <getopt.h>
-#include <sched.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
+
+#include "cli/wrap.h"
 
 const gg_option gg_options_table[] = {
     {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run, instead of the scene's"},
@@ -27,44 +27,63 @@ const gg_option gg_options_table[] = {
 
 void gg_print_command_help(const gg_command *c)
 {
-  printf("Usage: graingas %s %s [OPTION...]\n\n%s.\n", c->name, c->arguments, c->summary);
-  if (c->help) printf("\n%s\n", c->help);
-  printf("\nOptions:\n");
+  printf("Usage: graingas %s %s [OPTION...]\n\n", c->name, c->arguments);
+  gg_print_paragraph(stdout, 0, "%s.%s%s\n", c->summary, c->help ? "\n\n" : "", c->help ? c->help : "");
+  printf("Options:\n");
   for (const gg_option *o = gg_options_table; o->flag; o++) {
     if (!(c->options & o->flag)) continue;
-    char left[40];
-    snprintf(left, sizeof left, "--%s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
-    printf("  %-18s  %s\n", left, o->doc);
+    char name[40], left[60];
+    snprintf(name, sizeof name, "--%s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
+    snprintf(left, sizeof left, "  %-18s  ", name);
+    gg_print_wrapped(stdout, left, o->doc);
   }
-  printf("  %-18s  %s\n", "--help", "this text");
+  gg_print_wrapped(stdout, "  --help              ", "this text");
+}
+
+/* "compare, bench" */
+static void list_takers(unsigned flag, char *text, size_t size)
+{
+  size_t used = 0;
+  for (const gg_command *c = gg_commands; c->name && used < size; c++)
+    if (c->options & flag) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", c->name);
 }
 
 static int refuse_option(const gg_command *c, const char *typed)
 {
-  char word[48], name[sizeof gg_options_table / sizeof *gg_options_table][24];
-  const char *known[sizeof gg_options_table / sizeof *gg_options_table] = {NULL};
+  char word[48];
+  const char *known[sizeof gg_options_table / sizeof *gg_options_table + 1] = {NULL};
   int n = 0;
   snprintf(word, sizeof word, "%.*s", (int)strcspn(typed, "="), typed);
+  const char *name = word + strspn(word, "-");
   for (const gg_option *o = gg_options_table; o->flag; o++) {
+    bool same = strcmp(o->name, name) == 0;
+    if (same && !(c->options & o->flag)) {
+      char takers[80] = "";
+      list_takers(o->flag, takers, sizeof takers);
+      return gg_cli_fail(GG_BAD_INPUT, "%s has no option '%s', which is for %s", c->name, word, takers);
+    }
     if (!(c->options & o->flag)) continue;
-    snprintf(name[n], sizeof name[n], "--%s", o->name);
-    if (strcmp(name[n], word) == 0)
+    if (same)
       return gg_cli_fail(GG_BAD_INPUT, o->argument ? "option '%s' needs a value" : "option '%s' takes no value", word);
-    known[n] = name[n], n++;
+    known[n++] = o->name;
   }
-  const char *nearest = gg_nearest_word(word, known);
-  if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; did you mean '%s'?", word, nearest);
+  known[n] = "help";
+  const char *nearest = gg_nearest_word(name, known);
+  if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; did you mean '--%s'?", word, nearest);
   return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; see graingas %s --help", word, c->name);
 }
 
-static int processors(void)
+/* An argument as a shell reads it back. */
+static void put_quoted(FILE *out, const char *text)
 {
-#ifdef __linux__
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-#else
-  return (int)sysconf(_SC_NPROCESSORS_ONLN);
-#endif
+  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%";
+  if (*text && text[strspn(text, plain)] == '\0') {
+    fputs(text, out);
+    return;
+  }
+  fputc('\'', out);
+  for (; *text; text++) fputs(*text == '\'' ? "'\\''" : (char[]){*text, '\0'}, out);
+  fputc('\'', out);
 }
 
 /* The command line as it can be typed again. */
@@ -75,26 +94,34 @@ static char *join(int argc, char **argv)
   FILE *out = open_memstream(&text, &size);
   if (!out) return NULL;
   fputs("graingas", out);
-  for (int i = 0; i < argc; i++) fprintf(out, strpbrk(argv[i], " \t'\"{}[]*?$&|;<>()") ? " '%s'" : " %s", argv[i]);
+  for (int i = 0; i < argc; i++) {
+    fputc(' ', out);
+    put_quoted(out, argv[i]);
+  }
   return fclose(out) == 0 ? text : NULL;
 }
 
 /* "--seed 7" is "--set run.seed=7", "--engine md" is "--set engine=md". */
-static int add_override(gg_options *o, char **owned, const char *key, const char *value)
+static int add_override(gg_options *o, const char *key, const char *value)
 {
-  if (o->n_overrides == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d overrides", GG_MAX_OVERRIDES);
-  if (key && asprintf(owned, "%s=%s", key, value) < 0) return gg_cli_fail(GG_FAILED, "out of memory");
-  o->override[o->n_overrides++] = key ? *owned : value;
+  int n = o->n_overrides;
+  if (n == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d overrides", GG_MAX_OVERRIDES);
+  if (key && asprintf(&o->owned[n], "%s=%s", key, value) < 0) return gg_cli_fail(GG_FAILED, "out of memory");
+  o->override[n] = key ? o->owned[n] : value;
+  o->n_overrides++;
   return GG_CLI_GO_ON;
 }
+
+enum { MOST_THREADS = 4096 };
 
 static int take_threads(gg_options *o, const char *value)
 {
   char *end;
   long n = strtol(value, &end, 10);
-  if (*end || n < 1 || n > 4096)
-    return gg_cli_fail(GG_BAD_INPUT, "option '--threads': value '%s' is not allowed; allowed: a whole number from 1",
-                       value);
+  if (end == value || *end || n < 1 || n > MOST_THREADS)
+    return gg_cli_fail(GG_BAD_INPUT,
+                       "option '--threads': value '%s' is not allowed; allowed: a whole number from 1 to %d", value,
+                       MOST_THREADS);
   o->threads = (int)n;
   return GG_CLI_GO_ON;
 }
@@ -102,9 +129,9 @@ static int take_threads(gg_options *o, const char *value)
 static int take(gg_options *o, unsigned flag, const char *value)
 {
   switch (flag) {
-  case GG_OPT_SET: return add_override(o, NULL, NULL, value);
-  case GG_OPT_SEED: return add_override(o, &o->owned[0], "run.seed", value);
-  case GG_OPT_ENGINE: return add_override(o, &o->owned[1], "engine", value);
+  case GG_OPT_SET: return add_override(o, NULL, value);
+  case GG_OPT_SEED: return add_override(o, "run.seed", value);
+  case GG_OPT_ENGINE: return add_override(o, "engine", value);
   case GG_OPT_THREADS: return take_threads(o, value);
   case GG_OPT_OUTPUT: o->output = value; break;
   case GG_OPT_PICTURE: o->picture = value; break;
@@ -128,7 +155,7 @@ int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
       known[n++] = (struct option){t->name, t->argument ? required_argument : no_argument, NULL,
                                    256 + (int)(t - gg_options_table)};
   known[n++] = (struct option){"help", no_argument, NULL, 'h'};
-  *o = (gg_options){.threads = processors(), .command_line = join(argc, argv)};
+  *o = (gg_options){.threads = gg_processors(), .command_line = join(argc, argv)};
   opterr = 0, optind = 0;
   for (int got; (got = getopt_long(argc, argv, "h", known, NULL)) != -1;) {
     if (got == 'h') return gg_print_command_help(c), GG_OK;
@@ -142,14 +169,14 @@ int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
   if (optind + 1 < argc)
     return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, argv[optind + 1]);
   o->input = argv[optind];
+  if (strcmp(o->input, "help") == 0 && !gg_file_exists(o->input)) return gg_print_command_help(c), GG_OK;
   return GG_CLI_GO_ON;
 }
 
 void gg_options_clear(gg_options *o)
 {
   free(o->command_line);
-  free(o->owned[0]);
-  free(o->owned[1]);
+  for (int i = 0; i < o->n_overrides; i++) free(o->owned[i]);
   *o = (gg_options){0};
 }
 
@@ -182,6 +209,16 @@ gg_status gg_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
   return status;
 }
 
+static bool is_standard_input(const gg_options *o)
+{
+  return strcmp(o->input, "-") == 0;
+}
+
+const char *gg_options_name(const gg_options *o)
+{
+  return is_standard_input(o) ? "standard input" : o->input;
+}
+
 char *gg_with_suffix(const char *path, const char *suffix)
 {
   const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
@@ -198,8 +235,8 @@ static bool same_file(const char *a, const char *b)
 
 char *gg_options_output(const gg_options *o, const char *suffix, gg_error *err)
 {
-  const char *slash = strrchr(o->input, '/');
-  char *output = o->output ? strdup(o->output) : gg_with_suffix(slash ? slash + 1 : o->input, suffix);
+  const char *slash = strrchr(o->input, '/'), *base = is_standard_input(o) ? "stdin" : slash ? slash + 1 : o->input;
+  char *output = o->output ? strdup(o->output) : gg_with_suffix(base, suffix);
   if (!output) refuse(err, GG_FAILED, "out of memory");
   if (!output || !same_file(output, o->input)) return output;
   refuse(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);

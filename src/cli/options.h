@@ -34,7 +34,7 @@ typedef struct gg_options {
   int threads;
   int n_overrides;
   const char *override[GG_MAX_OVERRIDES]; /* "key=value" */
-  char *owned[2];                         /* overrides that options stand for */
+  char *owned[GG_MAX_OVERRIDES];          /* those that options stand for; else NULL */
   char *command_line;                     /* for the record */
 } gg_options;
 
@@ -42,6 +42,9 @@ enum { GG_CLI_GO_ON = -1 };
 /* GG_CLI_GO_ON, or the exit code to leave with (--help printed, or a mistake reported). */
 int gg_options_parse(const gg_command *command, int argc, char **argv, gg_options *options);
 void gg_options_clear(gg_options *options);
+
+/* The input as messages name it. */
+const char *gg_options_name(const gg_options *options);
 
 /* The scene of the input, overridden; to be freed. */
 gg_status gg_options_scene(const gg_options *options, gg_scene **scene, gg_error *err);

@@ -5,20 +5,21 @@
 
 #include "cli/options.h"
 
+/* The pictures go to standard output, for scripts. */
 static void tell(void *context, const char *picture)
 {
-  (void)context;
-  printf("%s\n", picture);
+  if (!*(const bool *)context) printf("%s\n", picture);
 }
 
 static int draw(const gg_options *o)
 {
   gg_error err;
+  bool quiet = o->quiet;
   char suffix[8];
   snprintf(suffix, sizeof suffix, ".%s", o->format ? o->format : "svg");
   char *picture = gg_options_output(o, suffix, &err);
   if (!picture) return gg_cli_report(&err);
-  int code = gg_plot(o->input, picture, o->format, tell, NULL, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
+  int code = gg_plot(o->input, picture, o->format, tell, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
   free(picture);
   return code;
 }

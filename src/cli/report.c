@@ -8,6 +8,7 @@
 
 #include "cli/format.h"
 #include "cli/table.h"
+#include "cli/wrap.h"
 
 bool gg_is_minor_quantity(const char *name)
 {
@@ -23,22 +24,24 @@ void gg_print_head(const gg_scene *scene)
 {
   char title[240] = "";
   gg_scene_title(scene, title, sizeof title, NULL);
-  printf("\n%s\n\n", title);
+  printf("\n");
+  gg_print_paragraph(stdout, 2, "%s", title);
+  printf("\n");
 }
 
 /* "md    1000 grains, 2.1 M collisions averaged over in 3.2 s (0.65 M/s); no trend over ..." */
 void gg_print_effort(const gg_result *r)
 {
-  char collisions[24], rate[24], seconds[24];
+  char collisions[24], rate[24], seconds[24], pace[40] = "";
   gg_result_info a;
   if (gg_result_about(r, &a, NULL) != GG_OK) return;
   gg_format_count((double)a.collisions, collisions, sizeof collisions);
   gg_format_count((double)a.collisions / a.cpu_seconds, rate, sizeof rate);
   gg_format_duration(a.cpu_seconds, seconds, sizeof seconds);
-  printf("%-5s %ld grains; %s collisions averaged over in %s of processor time", a.engine, (long)a.grains, collisions,
-         seconds);
-  if (a.cpu_seconds > 0) printf(" (%s/s)", rate);
-  printf("\n      %s: %s\n", a.steady ? "steady" : "not steady", a.verdict);
+  if (a.cpu_seconds > 0) snprintf(pace, sizeof pace, " (%s/s)", rate);
+  gg_print_paragraph(stdout, 6, "%-5s %ld grains; %s collisions averaged over in %s of processor time%s\n%s: %s",
+                     a.engine, (long)a.grains, collisions, seconds, pace, a.steady ? "steady" : "not steady",
+                     a.verdict);
 }
 
 void gg_print_warnings(const gg_result *r)
@@ -77,7 +80,7 @@ void gg_print_run(const gg_result *r, bool all)
   gg_table *t = tabulate(r, all);
   if (!t) return;
   gg_print_head(gg_result_scene(r));
-  gg_table_print(t, stdout, gg_terminal_width(), 1);
+  gg_table_print(t, stdout, 1);
   free(t);
   gg_print_numbers(r, NULL, all);
   printf("\n");

@@ -6,9 +6,10 @@
 
 #include "cli/report.h"
 #include "cli/table.h"
+#include "cli/wrap.h"
 
 static const char *const engines[] = {"md", "dsmc"};
-enum { MOST_THEORIES = 32, WIDTH = 98 };
+enum { MOST_THEORIES = 32 };
 
 /* The simulation that theories are measured against. */
 static const gg_result *reference(const gg_comparison *c)
@@ -135,9 +136,10 @@ static void print_causes(const gg_comparison *c, bool all)
     marked += beyond;
   }
   if (!marked) return;
-  printf("\n!: md and dsmc differ by more than is expected here. Causes that apply to this scene:\n");
+  printf("\n");
+  gg_print_wrapped(stdout, "!: ", "md and dsmc differ by more than is expected here. Causes that apply to this scene:");
   for (size_t i = 0; gg_comparison_remark(c, i, &r, NULL) == GG_OK; i++)
-    if (!r.theory) gg_print_wrapped(stdout, "  - ", r.cause, WIDTH);
+    if (!r.theory) gg_print_wrapped(stdout, "  - ", r.cause);
 }
 
 /* What stands behind theories' deviations. */
@@ -148,37 +150,35 @@ static void print_remarks(const gg_comparison *c)
   for (size_t i = 0; gg_comparison_remark(c, i, &r, NULL) == GG_OK; i++) {
     char text[400];
     if (!r.theory) continue;
-    if (!any) printf("\nTheories further off than is expected of solutions of one problem, and why:\n");
+    if (!any) printf("\n");
+    if (!any)
+      gg_print_wrapped(stdout, "", "Theories further off than is expected of solutions of one problem, and why:");
     any = true;
     snprintf(text, sizeof text, "%s, %s %+.1f %%: %s", r.theory, r.quantity, 100 * r.deviation, r.cause);
-    gg_print_wrapped(stdout, "  - ", text, WIDTH);
+    gg_print_wrapped(stdout, "  - ", text);
   }
 }
 
 static void print_inapplicable(const gg_comparison *c)
 {
-  size_t used = 0;
+  char list[800] = "";
   gg_theory_info t;
-  for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK; i++) {
-    if (!t.reason) continue;
-    if (!used)
-      used = (size_t)printf("\nTheories for other scenes (graingas theory says why): %s", t.name) - 1;
-    else if (used + strlen(t.name) > 96)
-      used = (size_t)printf(",\n%s", t.name) - 2;
-    else
-      used += (size_t)printf(", %s", t.name);
-  }
-  if (used) printf("\n");
+  for (size_t i = 0, used = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK && used < sizeof list; i++)
+    if (t.reason) used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", t.name);
+  if (!*list) return;
+  printf("\n");
+  gg_print_paragraph(stdout, 2, "Theories for other scenes (graingas theory says why): %s", list);
 }
 
 static void print_legend(const gg_comparison *c, int n_theories)
 {
   gg_result_info against;
-  printf("\n(..): standard error of the last digits");
-  if (both_ran(c)) printf("; z: (md - dsmc) over their combined standard error");
+  char deviation[80] = "";
   if (n_theories && gg_result_about(reference(c), &against, NULL) == GG_OK)
-    printf(";%s%%: deviation of a theory from %s", both_ran(c) ? "\n" : " ", against.engine);
+    snprintf(deviation, sizeof deviation, "; %%: deviation of a theory from %s", against.engine);
   printf("\n");
+  gg_print_paragraph(stdout, 0, "(..): standard error of the last digits%s%s",
+                     both_ran(c) ? "; z: (md - dsmc) over their combined standard error" : "", deviation);
 }
 
 void gg_print_comparison(const gg_comparison *c, bool all)
@@ -187,7 +187,7 @@ void gg_print_comparison(const gg_comparison *c, bool all)
   gg_table *t = tabulate(c, all, &n_theories);
   if (!t) return;
   gg_print_head(gg_comparison_scene(c));
-  gg_table_print(t, stdout, gg_terminal_width(), 1);
+  gg_table_print(t, stdout, 1);
   free(t);
   print_legend(c, n_theories);
   print_causes(c, all);
@@ -197,7 +197,7 @@ void gg_print_comparison(const gg_comparison *c, bool all)
   for (int k = 0; k < 2; k++) {
     const char *refusal = gg_comparison_refusal(c, engines[k]);
     if (gg_comparison_result(c, engines[k])) gg_print_effort(gg_comparison_result(c, engines[k]));
-    if (refusal) printf("%-5s not run: %s\n", engines[k], refusal);
+    if (refusal) gg_print_paragraph(stdout, 6, "%-5s not run: %s", engines[k], refusal);
   }
   print_inapplicable(c);
   for (int k = 0; k < 2; k++)
@@ -211,14 +211,14 @@ void gg_print_theories(const gg_comparison *c, bool all)
   gg_table *t = tabulate(c, all, &n_theories);
   if (!t) return;
   gg_print_head(gg_comparison_scene(c));
-  if (n_theories) gg_table_print(t, stdout, gg_terminal_width(), 1);
+  if (n_theories) gg_table_print(t, stdout, 1);
   free(t);
   printf("\n");
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++) {
     if (theory.reason) continue;
-    printf("%s: %s (%s)\n  %s\n", theory.name, theory.title, theory.citation, theory.assumptions);
-    if (theory.beyond) printf("  Here: %s.\n", theory.beyond);
+    gg_print_paragraph(stdout, 2, "%s: %s (%s)\n%s", theory.name, theory.title, theory.citation, theory.assumptions);
+    if (theory.beyond) gg_print_wrapped(stdout, "  Here: ", theory.beyond);
   }
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
-    if (theory.reason) printf("%s\n", theory.reason);
+    if (theory.reason) gg_print_paragraph(stdout, 2, "%s", theory.reason);
 }

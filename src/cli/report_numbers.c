@@ -82,7 +82,7 @@ void gg_print_numbers(const gg_result *one, const gg_result *two, bool all)
   for (int k = 0; k < 2; k++) put_rows(&l, k, all);
   if (l.table->n_rows) {
     printf("\n");
-    gg_table_print(l.table, stdout, gg_terminal_width(), 2);
+    gg_table_print(l.table, stdout, 2);
     if (l.table->n_rows == GG_TABLE_ROWS) printf("... and more than fit here: see the result file or --json\n");
   }
   free(l.table);

@@ -110,5 +110,5 @@ int gg_simulating_end(const gg_simulating *s, gg_status status, gg_error *err)
 {
   if (status == GG_OK) return GG_OK;
   if (status == GG_INTERRUPTED) tell_interrupted(s, err);
-  return status == GG_BAD_INPUT ? gg_cli_report_of(s->options->input, err) : gg_cli_report(err);
+  return status == GG_BAD_INPUT ? gg_cli_report_of(gg_options_name(s->options), err) : gg_cli_report(err);
 }

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
+
+#include "cli/wrap.h"
 
 enum { GAP = 2 };
 
@@ -38,24 +38,18 @@ static int width_of(const gg_table *t, int c)
   return (int)width;
 }
 
-static void print_cell(const gg_table *t, FILE *out, int c, const char *text, bool last)
-{
-  if (t->right[c])
-    fprintf(out, "%*s", width_of(t, c), text);
-  else if (last)
-    fputs(text, out);
-  else
-    fprintf(out, "%-*s", width_of(t, c), text);
-}
-
+/* Cells as wide as their columns, without blanks at the end. */
 static void print_line(const gg_table *t, FILE *out, const int *columns, int n, int row)
 {
+  char line[GG_TABLE_COLUMNS * (GG_TABLE_CELL + GAP)];
+  int used = 0;
   for (int i = 0; i < n; i++) {
-    int c = columns[i];
-    if (i) fprintf(out, "%*s", GAP, "");
-    print_cell(t, out, c, row < 0 ? t->head[c] : t->cell[row][c], i == n - 1);
+    int c = columns[i], width = width_of(t, c);
+    const char *text = row < 0 ? t->head[c] : t->cell[row][c];
+    used += sprintf(line + used, "%*s%*s", i ? GAP : 0, "", t->right[c] ? width : -width, text);
   }
-  fputc('\n', out);
+  while (used && line[used - 1] == ' ') used--;
+  fprintf(out, "%.*s\n", used, line);
 }
 
 static bool row_is_empty(const gg_table *t, const int *columns, int n, int keep, int row)
@@ -76,8 +70,9 @@ static void print_block(const gg_table *t, FILE *out, const int *columns, int n,
     if (!row_is_empty(t, columns, n, keep, r)) print_line(t, out, columns, n, r);
 }
 
-void gg_table_print(const gg_table *t, FILE *out, int width, int keep)
+void gg_table_print(const gg_table *t, FILE *out, int keep)
 {
+  int width = gg_terminal_width();
   int columns[GG_TABLE_COLUMNS], next = keep;
   do {
     int n = 0, used = 0;
@@ -91,26 +86,4 @@ void gg_table_print(const gg_table *t, FILE *out, int width, int keep)
     print_block(t, out, columns, n, keep);
     if (next < t->n_columns) fputc('\n', out);
   } while (next < t->n_columns);
-}
-
-int gg_terminal_width(void)
-{
-  struct winsize window = {0};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col >= 40) return window.ws_col;
-  return 100;
-}
-
-void gg_print_wrapped(FILE *out, const char *lead, const char *text, int width)
-{
-  int indent = (int)strlen(lead), used = fprintf(out, "%s", lead);
-  while (*text) {
-    int word = (int)strcspn(text, " ");
-    if (used > indent && used + 1 + word > width) {
-      fprintf(out, "\n%*s", indent, "");
-      used = indent;
-    }
-    used += fprintf(out, "%s%.*s", used > indent ? " " : "", word, text);
-    text += word + (text[word] == ' ');
-  }
-  fputc('\n', out);
 }

@@ -20,11 +20,7 @@ int gg_table_column(gg_table *table, const char *head, bool right);
 /* The cell to write into: GG_TABLE_CELL bytes. */
 char *gg_table_cell(gg_table *table, int row, int column);
 int gg_table_row(gg_table *table);
-/* Columns that do not fit into `width` follow in further blocks, which repeat the first `keep` columns. */
-void gg_table_print(const gg_table *table, FILE *out, int width, int keep);
-/* A paragraph: `lead` before the first line, as much space before the others. */
-void gg_print_wrapped(FILE *out, const char *lead, const char *text, int width);
-/* Of the terminal, or 100. */
-int gg_terminal_width(void);
+/* Columns that do not fit into the terminal follow in further blocks, which repeat the first `keep` columns. */
+void gg_table_print(const gg_table *table, FILE *out, int keep);
 
 #endif

@@ -12,7 +12,9 @@ static int evaluate(const gg_options *o, const gg_scene *scene)
   if (status == GG_OK && o->json) gg_cli_print_text(text);
   if (status == GG_OK && !o->json) gg_print_theories(c, o->all);
   gg_comparison_free(c);
-  return status == GG_BAD_INPUT ? gg_cli_report_of(o->input, &err) : status == GG_OK ? GG_OK : gg_cli_report(&err);
+  return status == GG_BAD_INPUT ? gg_cli_report_of(gg_options_name(o), &err)
+         : status == GG_OK      ? GG_OK
+                                : gg_cli_report(&err);
 }
 
 int gg_cli_theory_main(const gg_command *command, int argc, char **argv)

@@ -57,7 +57,7 @@ static bool keep_polling(const gg_thread_pool *pool, int polls)
   return polls < pool->most_polls;
 }
 
-static int processors(void)
+int gg_processors(void)
 {
 #ifdef __linux__
   cpu_set_t set;
@@ -157,7 +157,7 @@ gg_thread_pool *gg_thread_pool_new(int threads)
   if (threads < 2) return NULL;
   gg_thread_pool *pool = aligned_alloc(64, (sizeof *pool + 63) / 64 * 64);
   if (!pool) return NULL;
-  *pool = (gg_thread_pool){.most_polls = processors() < threads ? 0 : MOST_POLLS};
+  *pool = (gg_thread_pool){.most_polls = gg_processors() < threads ? 0 : MOST_POLLS};
   pthread_mutex_init(&pool->mutex, NULL);
   pthread_cond_init(&pool->work, NULL);
   pthread_cond_init(&pool->done, NULL);

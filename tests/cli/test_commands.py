@@ -27,9 +27,9 @@ def test_help_and_version():
 
 def test_manual_is_whole():
     """Every paragraph of help, option, key and theory stands in the manual page to its end."""
-    page = " ".join(run("--manual").out.replace("\\-", "-").split())
+    page = " ".join(run("--manual").out.replace("\\-", "-").replace("\\&", "").replace("\n.br\n", "\n").split())
     for command in "compare", "run", "theory", "plot", "info", "bench":
-        text = run(command, "--help").out
+        text = run(command, "--help", columns=1000).out
         summary, *paragraphs = text.split("\n\n")[1:]
         for paragraph in [summary] + paragraphs[:-1]:
             check(" ".join(paragraph.split()) in page, command, paragraph)
@@ -39,7 +39,7 @@ def test_manual_is_whole():
         check(f".B {key}" in page, key)
     about = json.loads(run("theory", "scene.yaml", "--json").out)["theories"]
     for theory in about.values():
-        check(f'{theory["title"]}. {theory["citation"]} {theory["assumptions"]}' in page, theory)
+        check(f'{theory["title"]}. {theory["citation"]}. {theory["assumptions"]}' in page, theory)
 
 
 def test_closed_pipe():

@@ -1,0 +1,114 @@
+"""The command line itself: which command takes which option, the ways to ask for help, where a scene comes from, how
+numbers may be written, and lines no wider than the terminal."""
+import json
+import re
+import sys
+
+from tap import check, main, run
+
+SCENE = ("flow: usf\nphi: 0.1\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 500}\n"
+         "measure: [rheology, velocity_distributions, orientation]\nrun: {collisions: 60, warmup: 10}\n")
+COMMANDS = "compare", "run", "theory", "plot", "info", "bench"
+TAKEN = {"set": "compare run theory info", "output": "compare run plot", "json": "compare run theory info bench",
+         "seed": "compare run bench", "threads": "compare run bench", "quiet": " ".join(COMMANDS),
+         "resume": "compare run", "all": "compare run theory", "engine": "run", "format": "plot", "picture": "compare",
+         "quick": "bench", "help": " ".join(COMMANDS)}
+
+
+def test_options_of_commands():
+    """The table of the interface, as --help has it; an option of others is said to be theirs."""
+    for command in COMMANDS:
+        text = run(command, "--help").out
+        has = set(re.findall(r"^  --(\w+)", text, re.M))
+        check(has == {name for name, takers in TAKEN.items() if command in takers.split()}, command, has)
+        for name in set(TAKEN) - has:
+            done = run(command, "x", f"--{name}")
+            check(done.code == 2 and f"{command} has no option '--{name}', which is for" in done.err, done.err)
+
+
+def test_quiet():
+    """Every command takes it, and says nothing beside its result."""
+    run("run", "scene.yaml", "--quiet", scene=SCENE)
+    for args in ("theory", "scene.yaml"), ("info", "scene.yaml"), ("info", "scene.h5"), ("plot", "scene.h5"):
+        done = run(*args, "--quiet")
+        check(done.code == 0 and not done.err, args, done.err)
+    check(run("plot", "scene.h5", "--quiet").out == "" and run("plot", "scene.h5").out.split()[0] == "scene.svg")
+
+
+def test_ways_to_ask():
+    check(run().code == 2 and "Usage: graingas COMMAND" in run().out)
+    top = run("--help").out
+    check(top == run("-h").out == run("help").out)
+    for command in COMMANDS:
+        text = run(command, "--help")
+        for args in (command, "-h"), (command, "help"), ("help", command):
+            done = run(*args)
+            check(done.code == 0 and done.out == text.out, args)
+    for args, words in ((("help", "rum"), "unknown command 'rum'; did you mean 'run'?"),
+                        (("scene.yaml",), "for this scene, e.g. graingas compare scene.yaml"),
+                        (("r.h5",), "for this result, e.g. graingas info r.h5"),
+                        (("--json", "run"), "options come after the command: graingas COMMAND --json"),
+                        (("--verison",), "did you mean '--version'?"), (("simulate",), "see graingas --help"),
+                        (("run", "--out-put", "x"), "did you mean '--output'?"),
+                        (("run", "--verbose"), "see graingas run --help"),
+                        (("run", "--quick", "x"), "run has no option '--quick', which is for bench"),
+                        (("info", "--json"), "needs a FILE")):
+        done = run(*args)
+        check(done.code == 2 and words in done.err and not done.out, args, done.err)
+    every = run("info")
+    check(every.code == 0 and "dsmc.precision" in every.out and "default" not in every.out.split("\n")[0], every.err)
+
+
+def test_where_scenes_come_from():
+    """Standard input; texts of other systems."""
+    expected = run("info", "scene.yaml", "--json", scene=SCENE).out
+    check(run("info", "-", "--json", typed=SCENE).out == expected)
+    check(run("info", "/dev/stdin", "--json", typed=SCENE).out == expected)
+    check(run("info", "scene.yaml", "--json", scene="\ufeff" + SCENE.replace("\n", "\r\n")).out == expected)
+    done = run("theory", "-", typed="flow: usf\n")
+    check(done.code == 2 and "standard input: phi is missing" in done.err, done.err)
+    check("standard input:1: key 'flwo'" in run("theory", "-", typed="flwo: usf\n").err)
+    done = run("run", "-", "--quiet", typed=SCENE)
+    check(done.code == 0 and done.new == ["stdin.h5"], done.err, done.new)
+    check("is an HDF5 file" in run("theory", "stdin.h5").err and run("info", "stdin.h5", "--set", "phi=1").code == 2)
+
+
+def test_numbers():
+    for text, value in ("1e3", 1000), (" 300 ", 300), ("300 # grains", 300), ("+300", 300):
+        done = run("info", "scene.yaml", "--json", "--set", f"particles={text}", scene=SCENE)
+        check(json.loads(done.out)["particles"] == value, text, done.err)
+    for text in "1_000", "0x10", "1e400", "nan", "inf", "yes", "1,5", "1.5", "[300]", '"300"', "-5", "":
+        done = run("info", "scene.yaml", "--set", f"particles={text}", scene=SCENE)
+        check(done.code == 2 and "key 'particles'" in done.err, text, done.err)
+    for text in "0", "-1", "1e9", "5000", "", "two":
+        done = run("run", "scene.yaml", "--threads", text)
+        check(done.code == 2 and f"value '{text}' is not allowed; allowed: a whole number from 1 to" in done.err, text)
+    twice = run("info", "scene.yaml", "--json", "--set", "phi=0.2", "--set", "phi=0.3").out
+    check(json.loads(twice)["phi"] == 0.3, "the last one counts")
+
+
+def test_command_line_is_kept():
+    """As a shell reads it; given twice, the last seed counts."""
+    done = run("run", "scene.yaml", "--quiet", "--output", "it's \"a\" $x.h5", "--seed", "1", "--seed", "2", scene=SCENE)
+    check(done.code == 0, done.err)
+    text = run("info", done.new[0]).out
+    check("command: graingas run scene.yaml --quiet --output 'it'\\''s \"a\" $x.h5' --seed 1 --seed 2\n" in text, text)
+    check("seed: 2" in text)
+
+
+def test_lines_fit():
+    """No line is wider than the terminal; a pipe is 80 columns wide. (Scenes are told as they can be read back, and
+    tables have a column at least.)"""
+    run("compare", "scene.yaml", "--quiet", "--picture", "none", scene=SCENE)
+    for columns in None, 80, 100, 120:
+        for args in [("theory", "scene.yaml", "--all"), ("info", "scene.yaml"), ("info",), ("info", "scene.h5"),
+                     ("run", "scene.yaml", "--quiet"), ("compare", "scene.yaml", "--quiet", "--picture", "none"),
+                     ()] + [(command, "--help") for command in COMMANDS]:
+            for line in run(*args, columns=columns).out.splitlines():
+                check(len(line) <= (columns or 80) or re.match("measure: |machine: |command: ", line), columns, args,
+                      line)
+                check(not line.endswith(" "), "blanks at the end:", args, line)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])
