@@ -1,17 +1,17 @@
 /* Pair correlation g_ij(r) = V/(N_i N_j) <sum delta(r - r_ij)>/(4 pi r^2) from contact outwards, averaged over
- * directions; its value at contact by extrapolation, ln g taken as quadratic in the gap; and the contact value that the
- * collision rate of one species asks for if velocities at contact are uncorrelated, rate/(4 n d^2 sqrt(pi T)). */
+ * directions; its value at contact, of pairs that approach and that part (contact.h); and the contact value of the
+ * collision rate of one species, which is rate/(2 pi n d^2 v), v the mean normal speed of those about to collide:
+ * 2 sqrt(T/pi) if velocities are Maxwellian and uncorrelated, or as measured. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <gsl/gsl_multifit.h>
-
+#include "measure/contact.h"
 #include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
 
-enum { MOST_BINS = 160, FIT_BINS = 10 };
+enum { MOST_BINS = 160 };
 #define WIDTH 0.025
 /* Pairs a grain and snapshot, and how fast they become fewer with distance: most is asked of contact. */
 #define TRIES 50
@@ -22,13 +22,15 @@ typedef struct pair_correlation {
   gg_pairs pairs;
   int bins;               /* of each g_ij */
   double sigma[GG_PAIRS]; /* where they begin */
+  gg_near near[GG_PAIRS];
+  double speed[GG_PAIRS]; /* mean normal speed of approach of Maxwellians, at the present temperatures */
   struct since {          /* of the snapshot before: plain bytes */
     double time;
     uint64_t collisions, known;
   } since;
 } pair_correlation;
 
-enum { COLLISIONS, TIME, TEMPERATURE, SNAPSHOTS, EXTRA }; /* behind the bins */
+enum { COLLISIONS, TIME, TEMPERATURE, SNAPSHOTS, EXTRA }; /* behind the bins and those next to contact */
 
 static void destroy(void *self)
 {
@@ -45,7 +47,11 @@ static void *create(const gg_model *m, gg_error *err)
   d->bins = (int)fmin(floor((reach - widest) / WIDTH), MOST_BINS);
   if (d->bins < 1) d->bins = 1;
   for (int i = 0; i < m->n_species; i++)
-    for (int j = i; j < m->n_species; j++) d->sigma[gg_pair_index(i, j)] = m->sigma[2 * i + j];
+    for (int j = i; j < m->n_species; j++) {
+      int q = gg_pair_index(i, j);
+      d->sigma[q] = m->sigma[2 * i + j];
+      d->near[q] = gg_near_of(m, d->sigma[q], reach);
+    }
   if (gg_pairs_init(&d->pairs, m, fmin(reach, widest + d->bins * WIDTH), TRIES, FALL, err) == GG_OK) return d;
   free(d);
   return NULL;
@@ -66,7 +72,7 @@ static void restart(void *self)
 static size_t bins(const void *self)
 {
   const pair_correlation *d = self;
-  return (size_t)(GG_PAIRS * d->bins) + EXTRA;
+  return (size_t)(GG_PAIRS * (d->bins + GG_NEAR_WIDTH)) + EXTRA;
 }
 
 typedef struct counting {
@@ -77,13 +83,35 @@ typedef struct counting {
 
 GG_INLINE void count(void *context, uint32_t one, uint32_t two, gg_vec separation, double square, double weight)
 {
-  (void)separation;
   const counting *c = context;
-  const uint32_t *grain = c->d->pairs.grain;
-  int q = gg_pair_index(gg_snapshot_species(c->s, grain[one]), gg_snapshot_species(c->s, grain[two]));
-  double at = (sqrt(square) - c->d->sigma[q]) * (1 / WIDTH);
-  if (at < c->d->bins && at > -0.01)
-    c->bin[q * c->d->bins + (int)fmax(at, 0)] += weight; /* an overlap by rounding is a contact */
+  const pair_correlation *d = c->d;
+  const gg_snapshot *s = c->s;
+  size_t i = d->pairs.grain[one], j = d->pairs.grain[two];
+  int q = gg_pair_index(gg_snapshot_species(s, i), gg_snapshot_species(s, j));
+  double gap = sqrt(square) - d->sigma[q], at = gap * (1 / WIDTH);
+  if (at < d->bins && at > -0.01)
+    c->bin[q * d->bins + (int)fmax(at, 0)] += weight; /* an overlap by rounding is a contact */
+  if (gap > d->near[q].reach) return;
+  gg_vec g = {s->c[0][j] - s->c[0][i] + d->model.shear_rate * separation.y, s->c[1][j] - s->c[1][i],
+              s->c[2][j] - s->c[2][i]};
+  gg_near_count(&d->near[q], c->bin + GG_PAIRS * d->bins + q * GG_NEAR_WIDTH, separation, square, g, d->speed[q],
+                weight);
+}
+
+/* Of each species; returns that of all, sum C^2/(3N). */
+static double take_temperatures(pair_correlation *d, const gg_snapshot *s)
+{
+  double energy[GG_MAX_SPECIES] = {0}, all = 0;
+  for (size_t i = 0; i < s->n; i++)
+    energy[gg_snapshot_species(s, i)] += s->c[0][i] * s->c[0][i] + s->c[1][i] * s->c[1][i] + s->c[2][i] * s->c[2][i];
+  for (int i = 0; i < d->model.n_species; i++) {
+    all += energy[i];
+    for (int j = i; j < d->model.n_species; j++) {
+      double T = energy[i] / (3 * (double)d->model.n_of[i]) + energy[j] / (3 * (double)d->model.n_of[j]);
+      d->speed[gg_pair_index(i, j)] = sqrt(2 * T / M_PI);
+    }
+  }
+  return all / (3 * (double)s->n);
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
@@ -91,12 +119,10 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   pair_correlation *d = self;
   counting c = {d, s, bin};
   gg_images box = gg_images_of(s);
+  double *extra = bin + GG_PAIRS * (d->bins + GG_NEAR_WIDTH);
+  extra[TEMPERATURE] += take_temperatures(d, s);
   gg_pairs_sort(&d->pairs, s, &box);
   gg_pairs_each(&d->pairs, s, &box, count, &c);
-  double *extra = bin + GG_PAIRS * d->bins, energy = 0;
-  for (size_t i = 0; i < s->n; i++)
-    energy += s->c[0][i] * s->c[0][i] + s->c[1][i] * s->c[1][i] + s->c[2][i] * s->c[2][i];
-  extra[TEMPERATURE] += energy / (3 * (double)s->n);
   extra[SNAPSHOTS]++;
   if (d->since.known) {
     extra[COLLISIONS] += (double)(s->collisions - d->since.collisions);
@@ -105,48 +131,35 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   d->since = (struct since){s->time, s->collisions, 1};
 }
 
-/* g at the gap 0: ln g = a + b x + c x^2 by least squares, weighted by counts. NaN where there were too few pairs. */
-static double extrapolate(const double *g, const double *counts, int n)
-{
-  gsl_matrix *X = gsl_matrix_alloc((size_t)n, 3), *cov = gsl_matrix_alloc(3, 3);
-  gsl_vector *y = gsl_vector_alloc((size_t)n), *w = gsl_vector_alloc((size_t)n), *c = gsl_vector_alloc(3);
-  gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc((size_t)n, 3);
-  double value = NAN, chi2;
-  bool enough = X && cov && y && w && c && work;
-  for (int i = 0; enough && i < n; i++) {
-    double x = (i + 0.5) * WIDTH;
-    if (!(counts[i] > 1)) enough = false;
-    for (int k = 0; k < 3; k++) gsl_matrix_set(X, (size_t)i, (size_t)k, pow(x, k));
-    gsl_vector_set(y, (size_t)i, log(g[i]));
-    gsl_vector_set(w, (size_t)i, counts[i]);
-  }
-  if (enough && gsl_multifit_wlinear(X, w, y, c, cov, &chi2, work) == 0) value = exp(gsl_vector_get(c, 0));
-  gsl_multifit_linear_free(work);
-  gsl_vector_free(c);
-  gsl_vector_free(w);
-  gsl_vector_free(y);
-  gsl_matrix_free(cov);
-  gsl_matrix_free(X);
-  return value;
-}
-
-static void put_contact(const pair_correlation *d, gg_curve *c, const double *bin, const double *extra, double samples)
+/* The rate counts pairs of a grain with the N - 1 others. */
+static void put_rate(const pair_correlation *d, gg_curve *c, const double *extra, double speed)
 {
   const gg_model *m = &d->model;
-  double counts[FIT_BINS];
-  int n = d->bins < FIT_BINS ? d->bins : FIT_BINS;
-  for (int i = 0; i < n; i++) counts[i] = bin[i] * samples;
-  gg_curve_put_number(c, "contact_value", n > 4 ? extrapolate(c->value, counts, n) : NAN, "1");
   if (m->n_species > 1 || m->flow == GG_HCS || !m->steady) return;
   double rate = 2 * extra[COLLISIONS] / ((double)m->n * extra[TIME]), T = extra[TEMPERATURE] / extra[SNAPSHOTS];
-  gg_curve_put_number(c, "contact_value_of_rate", rate / (4 * m->density * sqrt(M_PI * T)), "1");
+  double others = (double)(m->n - 1) / m->volume, value = rate / (4 * others * sqrt(M_PI * T));
+  gg_curve_put_number(c, "contact_value_of_rate", value, "1");
+  gg_curve_put_number(c, "contact_value_of_rate_and_speed", value / speed, "1");
+}
+
+/* In equilibrium motion reversed is as likely, and all pairs are alike. */
+static void put_contact(const pair_correlation *d, int q, gg_curve *c, const double *bin, double pairs, double samples)
+{
+  const gg_model *m = &d->model;
+  const double *near = bin + GG_PAIRS * d->bins + q * GG_NEAR_WIDTH;
+  gg_contact_density g = gg_near_read(&d->near[q], near, pairs / m->volume, samples);
+  double all = m->flow == GG_EQUILIBRIUM ? g.alike : 0.5 * (g.approaching + g.parting);
+  gg_curve_put_number(c, "contact_value", all, "1");
+  gg_curve_put_number(c, "contact_value_approaching", g.approaching, "1");
+  gg_curve_put_number(c, "contact_value_parting", g.parting, "1");
+  gg_curve_put_number(c, "approach_speed", g.speed, "1");
+  put_rate(d, c, bin + GG_PAIRS * (d->bins + GG_NEAR_WIDTH), g.speed);
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const pair_correlation *d = self;
   const gg_model *m = &d->model;
-  const double *extra = bin + GG_PAIRS * d->bins;
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       int q = gg_pair_index(i, j);
@@ -165,7 +178,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
         c->value[k] = bin[(size_t)(q * d->bins) + k] / (pairs * shell / m->volume);
       }
       gg_curve_beside(c, "ideal gas", gg_level, &(double){1});
-      if (c->n) put_contact(d, c, bin + q * d->bins, extra, (double)list->samples);
+      if (c->n) put_contact(d, q, c, bin, pairs, (double)list->samples);
     }
 }
 
