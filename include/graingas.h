@@ -177,10 +177,11 @@ typedef struct gg_progress { /* where a run stands */
 typedef struct gg_run_options {
   int threads;            /* for replicas, for compare's two engines, for large Monte Carlo ensembles; 0: one */
   const char *output;     /* result file to write, with the trajectory if the scene has output.trajectory_every; another
-                           * file than the two below */
+                           * file than the two below. A device or pipe is written to, made up in memory */
   const char *checkpoint; /* file to keep checkpoints in: every output.checkpoint_every seconds of the scene (0: never),
                            * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1. The
-                           * trajectory until then is kept beside it (x.frames for x.h5), for the output at the end */
+                           * trajectory until then is kept beside it (x.frames for x.h5), for the output at the end. All
+                           * are removed when all is done (GG_OK) and the output written */
   const char *resume;     /* checkpoint to go on from, bit for bit, the trajectory included; FILE.1 is taken where it is
                            * damaged. GG_BAD_FILE where frames that belong to it are damaged or not there */
   const char *command;    /* how the file was made, for its record; NULL: "the graingas library" */
@@ -189,6 +190,8 @@ typedef struct gg_run_options {
   int (*stop)(void *context);                                  /* asked at every sampling interval; not 0: stop */
   void (*stored)(void *context, const char *checkpoint);       /* a checkpoint was written */
   void (*warn)(void *context, const char *message);            /* what was put right before the run began */
+  const char *input;   /* the scene's file, which nothing written may replace; NULL: not known */
+  const char *picture; /* that gg_plot is to draw of the output afterwards: looked at before the run, like the others */
 } gg_run_options;
 
 typedef struct gg_result gg_result; /* what came out of one engine's run */

@@ -7,28 +7,26 @@
 #include "cli/simulate.h"
 
 typedef struct drawing {
-  const gg_options *options;
-  const char *first; /* the picture that was asked for; others stand beside it */
+  const gg_simulating *of;
   bool replaced;
 } drawing;
 
+/* Others stand beside the picture that was asked for. */
 static void tell(void *context, const char *picture)
 {
   const drawing *d = context;
-  gg_tell_written(d->options, "picture", picture, d->replaced && strcmp(picture, d->first) == 0);
+  gg_tell_written(d->of->options, "picture", picture, d->replaced && strcmp(picture, d->of->picture) == 0);
 }
 
-/* A picture that cannot be drawn is no reason to call the comparison failed. */
-static void draw(const gg_options *o, const char *output)
+/* A picture that nobody asked for may be missing, as where gnuplot is; a file that cannot be written is a failure. */
+static gg_status draw(const gg_simulating *s, gg_error *err)
 {
-  gg_error err;
-  if (o->picture && strcmp(o->picture, "none") == 0) return;
-  char *picture = o->picture ? strdup(o->picture) : gg_with_suffix(output, ".svg");
-  if (!picture) return;
-  drawing d = {o, picture, gg_file_exists(picture)};
-  if (gg_plot(output, picture, NULL, tell, &d, &err) != GG_OK)
-    fprintf(stderr, "warning: no picture: %s\n", err.message);
-  free(picture);
+  if (!s->picture) return GG_OK;
+  drawing d = {s, gg_file_exists(s->picture)};
+  gg_status status = gg_plot(s->output, s->picture, NULL, tell, &d, err);
+  if (status != GG_FAILED || s->options->picture) return status;
+  fprintf(stderr, "warning: no picture: %s\n", err->message);
+  return GG_OK;
 }
 
 static void print(const gg_options *o, const gg_comparison *c)
@@ -42,7 +40,8 @@ static void print(const gg_options *o, const gg_comparison *c)
 
 static int compare(gg_simulating *s)
 {
-  gg_error err;
+  gg_error err, why;
+  gg_status drawn = GG_OK;
   char every[40] = "0";
   gg_comparison *c = NULL;
   gg_scene_get(s->scene, "output.trajectory_every", every, sizeof every, NULL);
@@ -50,10 +49,12 @@ static int compare(gg_simulating *s)
   gg_status status = gg_compare(s->scene, &s->run, &c, &err);
   if (gg_simulating_shows(s, status, c != NULL)) {
     print(s->options, c);
-    if (gg_simulating_tell(s, status)) draw(s->options, s->output);
+    if (gg_simulating_tell(s, status)) drawn = draw(s, &why);
   }
   gg_comparison_free(c);
-  return gg_simulating_end(s, status, &err);
+  int code = gg_simulating_end(s, status, &err);
+  if (drawn != GG_OK) gg_cli_report(&why);
+  return code != GG_OK ? code : (int)drawn;
 }
 
 int gg_cli_compare_main(const gg_command *command, int argc, char **argv)

@@ -97,11 +97,21 @@ static void print_files(void)
        "scene (YAML), document (the JSON of --json), seed, version, command, machine, date, verdict, warnings, window, "
        "averaging and total effort."},
       {"RESULT.checkpoint.h5", NULL,
-       "A checkpoint, with a checksum; RESULT.checkpoint.h5.1 is the one before it, and is taken where the first is "
-       "missing or damaged."},
+       "The latest checkpoint; RESULT.checkpoint.h5.1 is the one before it, and is taken where the first is missing or "
+       "damaged. All are removed when a run is done and its result in place."},
       {"RESULT.checkpoint.frames", NULL,
        "The trajectory up to the checkpoint, which goes into RESULT.h5 at the end. It belongs to the checkpoint: move "
        "both. Where it is lost, the run can go on without a trajectory, with --set output.trajectory_every=0."},
+      {"RESULT.h5.graingas-lock, RESULT.h5.graingas-tmp", NULL,
+       "Who is writing the file, and the file that is to become it. What a dead process left of them is in nobody's "
+       "way, "
+       "and the next run removes it."},
+      {"Checksum", NULL,
+       "Results and checkpoints end with \"gg-crc32\", the size of the HDF5 file (8 bytes) and its CRC-32 (4 bytes), "
+       "lowest byte first, and are read only if they are right. To vouch for a result that another program has "
+       "changed, "
+       "in Python: data = open(FILE, \"rb\").read(); open(FILE, \"ab\").write(struct.pack(\"<8sQI\", b\"gg-crc32\", "
+       "len(data), zlib.crc32(data)))"},
   };
   printf(".SH FILES\n");
   for (size_t i = 0; i < sizeof files / sizeof *files; i++) item(files[i].name, files[i].argument, files[i].text);

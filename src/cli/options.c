@@ -250,6 +250,12 @@ bool gg_file_exists(const char *path)
   return stat(path, &about) == 0;
 }
 
+bool gg_is_device(const char *path)
+{
+  struct stat about;
+  return stat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode);
+}
+
 void gg_tell_written(const gg_options *o, const char *what, const char *path, bool replaced)
 {
   fflush(stdout);

@@ -55,6 +55,8 @@ char *gg_options_output(const gg_options *options, const char *suffix, gg_error 
 /* "results: usf.h5", and whether an older one was there. */
 void gg_tell_written(const gg_options *options, const char *what, const char *path, bool replaced);
 bool gg_file_exists(const char *path);
+/* A device or a pipe: what is written there stands nowhere, and nothing beside it. */
+bool gg_is_device(const char *path);
 /* `path` with another ending; to be freed. */
 char *gg_with_suffix(const char *path, const char *suffix);
 

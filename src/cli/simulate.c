@@ -4,11 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* usf.h5 -> usf.checkpoint.h5 */
-static char *checkpoint_path(const char *output)
+/* usf.h5 -> usf.checkpoint.h5; beside a device there is no place for it: then by the scene's name, as without --output.
+ */
+static char *checkpoint_path(const gg_options *o, const char *output)
 {
-  size_t length = strlen(output);
   char *path = NULL;
+  if (gg_is_device(output)) {
+    const char *slash = strrchr(o->input, '/');
+    return gg_with_suffix(slash ? slash + 1 : o->input, ".checkpoint.h5");
+  }
+  size_t length = strlen(output);
   if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
   return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
 }
@@ -37,6 +42,15 @@ static void warn(void *context, const char *message)
   fprintf(stderr, "warning: %s\n", message);
 }
 
+/* Of a command that draws one: where. NULL: it does not, or there is no file to draw it from. */
+static char *picture_path(const gg_simulating *s)
+{
+  const gg_options *o = s->options;
+  if (!s->draws || (o->picture && strcmp(o->picture, "none") == 0)) return NULL;
+  if (o->picture) return strdup(o->picture);
+  return gg_is_device(s->output) ? NULL : gg_with_suffix(s->output, ".svg");
+}
+
 static int simulate_scene(gg_simulating *s, gg_simulate *simulate)
 {
   const gg_options *o = s->options;
@@ -46,10 +60,13 @@ static int simulate_scene(gg_simulating *s, gg_simulate *simulate)
   s->keeps_checkpoints = strtod(every, NULL) > 0;
   s->output = gg_options_output(o, ".h5", &err);
   if (!s->output) return gg_cli_report(&err);
-  s->checkpoint = checkpoint_path(s->output);
+  s->checkpoint = checkpoint_path(o, s->output);
   if (!s->checkpoint) return gg_cli_fail(GG_FAILED, "out of memory");
-  s->replaced = gg_file_exists(s->output);
+  s->picture = picture_path(s);
+  s->replaced = gg_file_exists(s->output) && !gg_is_device(s->output);
   s->run = (gg_run_options){.threads = o->threads,
+                            .input = o->input,
+                            .picture = s->picture,
                             .output = s->output,
                             .checkpoint = s->keeps_checkpoints ? s->checkpoint : NULL,
                             .resume = o->resume,
@@ -68,12 +85,13 @@ int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simula
 {
   gg_options o;
   gg_error err;
-  gg_simulating s = {.options = &o};
+  gg_simulating s = {.options = &o, .draws = command->options & GG_OPT_PICTURE};
   int code = gg_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON && gg_options_scene(&o, &s.scene, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = simulate_scene(&s, simulate);
   free(s.output);
   free(s.checkpoint);
+  free(s.picture);
   gg_scene_free(s.scene);
   gg_options_clear(&o);
   return code;

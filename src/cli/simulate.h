@@ -8,10 +8,11 @@
 typedef struct gg_simulating {
   const gg_options *options;
   gg_scene *scene;
-  char *output, *checkpoint;
-  bool keeps_checkpoints; /* the scene asks for them */
-  bool stored;            /* at least one in this run */
-  bool replaced;          /* the output takes the place of an older file */
+  char *output, *checkpoint, *picture; /* picture: NULL if none is drawn */
+  bool draws;                          /* the command draws pictures */
+  bool keeps_checkpoints;              /* the scene asks for them */
+  bool stored;                         /* at least one in this run */
+  bool replaced;                       /* the output takes the place of an older file */
   gg_cli_progress progress;
   gg_run_options run; /* ready for gg_run or gg_compare */
 } gg_simulating;

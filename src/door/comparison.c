@@ -33,6 +33,7 @@ gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_co
   bool some = status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC];
   if (some && run.options.output && (status == GG_OK || status == GG_FAILED))
     written = gg_result_file_finish_comparison(&run.file, c, &why);
+  gg_door_run_done(&run, status, written);
   gg_door_run_end(&run);
   if (some)
     *comparison = c;

@@ -54,8 +54,8 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
 {
   GG_NEED(result_file);
   GG_NEED(picture);
-  if (format && strcmp(format, "svg") != 0 && strcmp(format, "png") != 0)
-    return gg_fail(err, GG_BAD_INPUT, "pictures are svg or png, not '%.20s'", format);
+  if (gg_same_file(result_file, picture))
+    return gg_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture", picture);
   GG_TRY(gg_plot_result(result_file, picture, format, err));
   if (drawn) drawn(context, picture);
   return gg_plot_result_curves(result_file, picture, format, drawn, context, err);

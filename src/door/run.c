@@ -3,9 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-#include "io/atomic_file.h"
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
 
@@ -27,7 +25,7 @@ static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *
   gg_door_run *r = context;
   locale_t before = gg_c_locale_enter();
   gg_status status = gg_door_trajectory_mark(r, archive, err);
-  if (status == GG_OK) status = gg_checkpoint_write(r->options.checkpoint, archive, &r->scene, err);
+  if (status == GG_OK) status = gg_checkpoint_write(r->options.checkpoint, true, archive, &r->scene, err);
   gg_c_locale_leave(before);
   if (status != GG_OK) return status;
   r->stored = true;
@@ -46,28 +44,24 @@ static gg_status read_resume(gg_door_run *r, gg_error *err)
   return GG_OK;
 }
 
-static bool same_file(const char *a, const char *b)
+/* From here to the end of the run nobody else writes it. */
+static gg_status lock_checkpoint(gg_door_run *r, gg_error *err)
 {
-  struct stat one, two;
-  if (!a || !b) return false;
-  return strcmp(a, b) == 0 ||
-         (stat(a, &one) == 0 && stat(b, &two) == 0 && one.st_dev == two.st_dev && one.st_ino == two.st_ino);
-}
-
-/* What cannot be written is better known before the run than after it. */
-static gg_status check_files(const gg_run_options *o, gg_error *err)
-{
-  if (same_file(o->output, o->checkpoint) || same_file(o->output, o->resume))
-    return gg_fail(err, GG_BAD_INPUT, "%s: a checkpoint would be overwritten by the result; choose another output",
-                   o->output);
-  return o->checkpoint ? gg_check_writable(o->checkpoint, err) : GG_OK;
+  const char *path = r->options.checkpoint;
+  gg_output_path place;
+  GG_TRY(gg_output_path_find(&place, path, err));
+  gg_status status = place.stream ? gg_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path)
+                                  : gg_file_lock_take(&r->lock, place.target, path, err);
+  gg_output_path_clear(&place);
+  return status;
 }
 
 gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, gg_hooks *hooks,
                             gg_error *err)
 {
   memset(r, 0, sizeof *r);
-  r->file = (gg_result_file){.h.file = -1, .file.fd = -1};
+  r->file = (gg_result_file){.h.file = -1, .file = GG_ATOMIC_NONE};
+  r->lock = GG_FILE_LOCK_NONE;
   r->log.fd = -1;
   if (options) r->options = *options;
   if (r->options.threads < 1) r->options.threads = 1;
@@ -77,22 +71,33 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
   GG_TRY(gg_door_finished(scene, &r->scene, err));
   GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));
-  GG_TRY(check_files(&r->options, err));
+  GG_TRY(gg_door_check_files(&r->options, err));
+  if (r->options.checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (r->options.resume) GG_TRY(read_resume(r, err));
-  if (!r->options.output) return GG_OK;
-  return gg_result_file_open(&r->file, r->options.output, r->options.command, err);
+  if (r->options.output) GG_TRY(gg_result_file_open(&r->file, r->options.output, r->options.command, err));
+  return gg_door_check_picture(&r->options, err);
 }
 
 void gg_door_run_end(gg_door_run *r)
 {
   gg_result_file_abandon(&r->file);
   gg_door_trajectory_end(r);
+  gg_file_lock_release(&r->lock);
   gg_archive_clear(&r->resume);
 }
 
 const gg_archive *gg_door_run_resume(const gg_door_run *r)
 {
   return r->resume.n_items ? &r->resume : NULL;
+}
+
+void gg_door_run_done(gg_door_run *r, gg_status run, gg_status written)
+{
+  const gg_run_options *o = &r->options;
+  bool own = r->stored || (o->resume && gg_same_file(o->resume, o->checkpoint));
+  if (run != GG_OK || written != GG_OK || !o->output || !o->checkpoint || !own) return;
+  gg_checkpoint_remove(o->checkpoint);
+  gg_door_trajectory_remove(r);
 }
 
 gg_status gg_door_run_status(gg_status run, gg_status written, const gg_error *why, gg_error *err)
@@ -120,6 +125,7 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
     written = gg_door_trajectory_finish(&run, made, &why);
     if (written == GG_OK) written = gg_result_file_finish_run(&run.file, made, &why);
   }
+  gg_door_run_done(&run, status, written);
   gg_door_run_end(&run);
   if (made) *result = made;
   return gg_door_run_status(status, written, &why, err);

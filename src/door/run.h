@@ -19,6 +19,7 @@ typedef struct gg_door_run {
   bool late;           /* frames before the resumption were not asked for */
   bool stored;         /* a checkpoint */
   atomic_bool stopped;
+  gg_file_lock lock; /* of options.checkpoint */
 } gg_door_run;
 
 /* Finish the scene, read what is resumed from, see that the output can be written; hooks for the run, which last as
@@ -26,6 +27,12 @@ typedef struct gg_door_run {
 gg_status gg_door_run_begin(gg_door_run *run, const gg_scene *scene, const gg_run_options *options, gg_hooks *hooks,
                             gg_error *err);
 void gg_door_run_end(gg_door_run *run);
+/* Before the end: if all is done and the result is in place, the run's own checkpoints have had their day. */
+void gg_door_run_done(gg_door_run *run, gg_status status, gg_status written);
+/* files.c: no two of the files that are read and written are one; the picture that is to be drawn could be. What cannot
+ * be written is better known before the run than after it. */
+gg_status gg_door_check_files(const gg_run_options *options, gg_error *err);
+gg_status gg_door_check_picture(const gg_run_options *options, gg_error *err);
 /* What to resume from, or NULL. */
 const gg_archive *gg_door_run_resume(const gg_door_run *run);
 /* trajectory.c: the frames of a run, to the result as they come, or where checkpoints are kept, to the log beside them
@@ -35,6 +42,8 @@ gg_status gg_door_trajectory_begin(gg_door_run *run, gg_hooks *hooks, gg_error *
 gg_status gg_door_trajectory_mark(const gg_door_run *run, gg_archive *archive, gg_error *err);
 /* Before the result is written. */
 gg_status gg_door_trajectory_finish(gg_door_run *run, gg_result *result, gg_error *err);
+/* The log, of a run that is done. */
+void gg_door_trajectory_remove(const gg_door_run *run);
 void gg_door_trajectory_end(gg_door_run *run);
 /* Does the caller want the run to end? */
 bool gg_door_run_stopped(void *run);

@@ -27,7 +27,7 @@ gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, 
   gg_archive archive = {0};
   locale_t before = gg_c_locale_enter();
   gg_status status = put_all(simulation, &archive, err);
-  if (status == GG_OK) status = gg_checkpoint_write(path, &archive, &simulation->scene, err);
+  if (status == GG_OK) status = gg_checkpoint_write(path, false, &archive, &simulation->scene, err);
   gg_c_locale_leave(before);
   gg_archive_clear(&archive);
   return status;

@@ -106,6 +106,13 @@ gg_status gg_door_trajectory_finish(gg_door_run *r, gg_result *result, gg_error 
   return r->log.fd >= 0 ? gg_frame_log_replay(&r->log, store_in_result, r, err) : GG_OK;
 }
 
+void gg_door_trajectory_remove(const gg_door_run *r)
+{
+  char *path = gg_frame_log_path(r->options.checkpoint);
+  if (path) unlink(path);
+  free(path);
+}
+
 void gg_door_trajectory_end(gg_door_run *r)
 {
   if (r->log.fd >= 0 && r->log.created && !r->stored) unlink(r->log.path);

@@ -8,32 +8,65 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
-static gg_status cannot(const char *path, int number, gg_error *err)
+static gg_status cannot(const gg_atomic_file *f, int number, gg_error *err)
 {
-  return gg_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", path, strerror(number));
+  return gg_cannot_write(f->path, strerror(number), err);
+}
+
+/* A pipe needs a reader, who may come a moment after the writer: without one, opening it would wait for ever. */
+static gg_status open_stream(gg_atomic_file *f, gg_error *err)
+{
+  const struct timespec moment = {0, 10 * 1000 * 1000};
+  for (int i = 0; i < 100; i++) {
+    f->fd = open(f->path, O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    if (f->fd >= 0 || errno != ENXIO) break;
+    nanosleep(&moment, NULL);
+  }
+  if (f->fd < 0 && errno == ENXIO) return gg_cannot_write(f->path, "nobody reads from this pipe", err);
+  if (f->fd < 0 || fcntl(f->fd, F_SETFL, fcntl(f->fd, F_GETFL) & ~O_NONBLOCK) != 0) return cannot(f, errno, err);
+  return GG_OK;
+}
+
+static gg_status open_temporary(gg_atomic_file *f, gg_error *err)
+{
+  if (asprintf(&f->temporary, "%s" GG_TEMPORARY_SUFFIX, f->place.target) < 0) {
+    f->temporary = NULL;
+    return cannot(f, ENOMEM, err);
+  }
+  /* What was private is not shown while it is written anew. */
+  f->fd = open(f->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, f->place.there ? 0600 : 0666);
+  return f->fd >= 0 ? GG_OK : cannot(f, errno, err);
+}
+
+static gg_status begin(gg_atomic_file *f, const char *path, bool locked, gg_error *err)
+{
+  GG_TRY(gg_output_path_find(&f->place, path, err));
+  f->path = strdup(path);
+  if (!f->path) return gg_cannot_write(path, strerror(ENOMEM), err);
+  if (f->place.stream) return open_stream(f, err);
+  if (!locked) GG_TRY(gg_file_lock_take(&f->lock, f->place.target, path, err));
+  return open_temporary(f, err);
+}
+
+static gg_status open_it(gg_atomic_file *f, const char *path, bool locked, gg_error *err)
+{
+  *f = GG_ATOMIC_NONE;
+  gg_status status = begin(f, path, locked, err);
+  if (status != GG_OK) gg_atomic_abandon(f);
+  return status;
 }
 
 gg_status gg_atomic_open(gg_atomic_file *f, const char *path, gg_error *err)
 {
-  struct stat about;
-  *f = (gg_atomic_file){.fd = -1};
-  if (stat(path, &about) == 0 && S_ISDIR(about.st_mode)) return cannot(path, EISDIR, err);
-  f->path = strdup(path);
-  for (int i = 0; f->path && f->fd < 0 && i < 100; i++) {
-    free(f->temporary);
-    if (asprintf(&f->temporary, "%s.tmp%ld-%d", path, (long)getpid(), i) < 0) f->temporary = NULL;
-    if (!f->temporary) break;
-    f->fd = open(f->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (f->fd < 0 && errno != EEXIST) break;
-  }
-  if (f->fd >= 0) return GG_OK;
-  int number = f->temporary ? errno : ENOMEM;
-  free(f->path);
-  free(f->temporary);
-  *f = (gg_atomic_file){.fd = -1};
-  return cannot(path, number, err);
+  return open_it(f, path, false, err);
+}
+
+gg_status gg_atomic_open_locked(gg_atomic_file *f, const char *path, gg_error *err)
+{
+  return open_it(f, path, true, err);
 }
 
 gg_status gg_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_error *err)
@@ -42,7 +75,7 @@ gg_status gg_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_e
   while (size > 0) {
     ssize_t done = write(f->fd, from, size);
     if (done < 0 && errno == EINTR) continue;
-    if (done < 0) return cannot(f->path, errno, err);
+    if (done < 0) return cannot(f, errno, err);
     from += done, size -= (size_t)done;
   }
   return GG_OK;
@@ -60,34 +93,60 @@ static void sync_folder(const char *path)
   free(copy);
 }
 
-gg_status gg_atomic_commit(gg_atomic_file *f, gg_error *err)
+/* Who may read and write the file does not change because it is written anew. */
+static void keep_owner_and_mode(const gg_atomic_file *f)
 {
-  bool renamed = fsync(f->fd) == 0 && rename(f->temporary, f->path) == 0;
-  if (!renamed) {
-    gg_status status = cannot(f->path, errno, err);
-    gg_atomic_abandon(f);
-    return status;
-  }
-  sync_folder(f->path);
+  const struct stat *was = &f->place.about;
+  if (!f->place.there) return;
+  if (fchown(f->fd, was->st_uid, was->st_gid) != 0) errno = 0; /* only root may give files away */
+  if (fchmod(f->fd, was->st_mode & 0777) != 0) errno = 0;
+}
+
+static bool put_in_place(gg_atomic_file *f)
+{
+  keep_owner_and_mode(f);
+  if (fsync(f->fd) != 0 || rename(f->temporary, f->place.target) != 0) return false;
+  sync_folder(f->place.target);
   free(f->temporary);
   f->temporary = NULL;
+  return true;
+}
+
+/* A device or pipe has had everything; some say only now that they could not take it. */
+static bool let_go(gg_atomic_file *f)
+{
+  int fd = f->fd;
+  f->fd = -1;
+  return close(fd) == 0;
+}
+
+gg_status gg_atomic_commit(gg_atomic_file *f, gg_error *err)
+{
+  bool done = f->place.stream ? let_go(f) : put_in_place(f);
+  gg_status status = done ? GG_OK : cannot(f, errno, err);
   gg_atomic_abandon(f);
-  return GG_OK;
+  return status;
 }
 
 void gg_atomic_abandon(gg_atomic_file *f)
 {
-  if (!f->path) return;
   if (f->fd >= 0) close(f->fd);
-  if (f->temporary) unlink(f->temporary);
+  if (f->temporary && f->fd >= 0) unlink(f->temporary);
+  gg_file_lock_release(&f->lock);
+  gg_output_path_clear(&f->place);
   free(f->temporary);
   free(f->path);
-  *f = (gg_atomic_file){.fd = -1};
+  *f = GG_ATOMIC_NONE;
 }
 
-gg_status gg_check_writable(const char *path, gg_error *err)
+gg_status gg_check_writable(const char *path, const char *why_regular, gg_error *err)
 {
   gg_atomic_file file;
+  gg_output_path place;
+  GG_TRY(gg_output_path_find(&place, path, err));
+  bool stream = place.stream;
+  gg_output_path_clear(&place);
+  if (stream) return gg_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; %s", path, why_regular);
   GG_TRY(gg_atomic_open(&file, path, err));
   gg_atomic_abandon(&file);
   return GG_OK;

@@ -19,9 +19,10 @@ class Done:
         self.code, self.out, self.err, self.new = code, out, err, new
 
 
-def run(*args, scene=None, name="scene.yaml", limit=None, timeout=100, columns=None, typed=None):
+def run(*args, scene=None, name="scene.yaml", limit=None, timeout=100, columns=None, typed=None, user=None):
     """Run graingas in the current folder; `scene` is written first; `limit`: largest file in bytes, as on a full disk;
-    `columns`: how wide lines may be; `typed`: what stands on standard input."""
+    `columns`: how wide lines may be; `typed`: what stands on standard input; `user`: as whom, where root runs the
+    tests."""
     if scene is not None:
         with open(name, "wb") as f:
             f.write(scene if isinstance(scene, bytes) else scene.encode())
@@ -33,7 +34,8 @@ def run(*args, scene=None, name="scene.yaml", limit=None, timeout=100, columns=N
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
     done = subprocess.run([GRAINGAS, *args], capture_output=True, timeout=timeout, text=True, input=typed,
-                          env=dict(os.environ, COLUMNS=str(columns)) if columns else None, preexec_fn=limited if limit else None)
+                          env=dict(os.environ, COLUMNS=str(columns)) if columns else None,
+                          preexec_fn=limited if limit else None, user=user)
     return Done(done.returncode, done.stdout, done.stderr, sorted(set(os.listdir(".")) - before))
 
 

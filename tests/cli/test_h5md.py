@@ -23,7 +23,7 @@ def test_h5py_opens_a_run():
     (h5py,) = modules("h5py")
     d = json.loads(run("run", "scene.yaml", "--json", scene=SCENE).out)
     with h5py.File("scene.h5") as f:
-        check(list(f["h5md"].attrs["version"]) == [1, 1] and f["h5md/creator"].attrs["name"] == "graingas")
+        check(list(f["h5md"].attrs["version"]) == [1, 1] and f["h5md/creator"].attrs["name"] == b"graingas")
         check(f["h5md/author"].attrs["name"])
         for name, result in d["results"].items():
             group = f["graingas/results"][name]
@@ -34,7 +34,7 @@ def test_h5py_opens_a_run():
         check("phi: 0.2" in f["graingas/scene"].asstr()[()] and f["graingas/seed"][()] == 1)
         check(f["graingas/command"].asstr()[()] == "graingas run scene.yaml --json")
         T = f["observables/temperature"]
-        check(len(T["value"]) == len(T["time"]) == len(T["step"]) and T["value"].attrs["unit"] == "d^2 gamma^2")
+        check(len(T["value"]) == len(T["time"]) == len(T["step"]) and T["value"].attrs["unit"] == b"d^2 gamma^2")
         grains = f["particles/grains"]
         position = grains["position"]
         check(position["value"].shape[1:] == (200, 3) and position["value"].shape[0] == len(position["time"]) >= 5)
@@ -84,11 +84,11 @@ def test_h5py_opens_curves():
         laws = 0
         for name, curve in d["curves"].items():
             group, law = f["graingas/curves"][name], curve.get("reference")
-            check(list(group["x"][:]) == curve["x"] and group["x"].attrs["unit"] == curve["x_unit"], name)
+            check(list(group["x"][:]) == curve["x"] and group["x"].attrs["unit"].decode() == curve["x_unit"], name)
             check(("reference" in group) == bool(law), name)
             if law:
                 laws += 1
-                check(list(group["reference"][:]) == law["value"] and group["reference"].attrs["label"] == law["label"], name)
+                check(list(group["reference"][:]) == law["value"] and group["reference"].attrs["label"].decode() == law["label"], name)
         check(0 < laws < len(d["curves"]), laws)
 
 

@@ -16,6 +16,7 @@
 #include "io/h5/h5.h"
 #include "io/h5/result_file.h"
 #include "io/h5/result_reader.h"
+#include "io/h5/seal.h"
 #include "planted.h"
 
 static char folder[] = "/tmp/graingas-files-XXXXXX";
@@ -233,7 +234,7 @@ static void unreadable_results(void **state)
   assert_non_null(strstr(err.message, "rubbish.h5: cannot be read: it is not an HDF5 file"));
   gg_archive a = {0};
   gg_scene scene = gg_scene_defaults();
-  assert_int_equal(gg_checkpoint_write("c.h5", &a, &scene, &err), GG_OK);
+  assert_int_equal(gg_checkpoint_write("c.h5", false, &a, &scene, &err), GG_OK);
   assert_int_equal(gg_stored_result_read(&s, "c.h5", &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "it is a checkpoint"));
   remove_all();
@@ -277,6 +278,17 @@ static void flip_bit(const char *path, const void *bytes, size_t size)
   free(all);
 }
 
+static void seal_anew(const char *path)
+{
+  struct stat about;
+  unsigned char seal[GG_SEAL_SIZE];
+  int fd = open(path, O_RDWR);
+  assert_true(fstat(fd, &about) == 0 && ftruncate(fd, about.st_size - GG_SEAL_SIZE) == 0);
+  assert_int_equal(gg_seal_of_file(fd, seal), 0);
+  assert_int_equal(pwrite(fd, seal, sizeof seal, about.st_size - GG_SEAL_SIZE), GG_SEAL_SIZE);
+  close(fd);
+}
+
 /* Bit for bit; the generation before is kept, and taken when the present one is damaged or gone. */
 static void checkpoint_generations(void **state)
 {
@@ -285,8 +297,8 @@ static void checkpoint_generations(void **state)
   bool older;
   gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), two = archive(2), back = {0};
-  assert_int_equal(gg_checkpoint_write("c.h5", &one, &scene, &err), GG_OK);
-  assert_int_equal(gg_checkpoint_write("c.h5", &two, &scene, &err), GG_OK);
+  assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_checkpoint_write("c.h5", false, &two, &scene, &err), GG_OK);
   assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
   assert_false(older);
   assert_same(&two, &back);
@@ -319,8 +331,9 @@ static void checkpoint_of_another_version(void **state)
   bool older;
   gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), back = {0};
-  assert_int_equal(gg_checkpoint_write("c.h5", &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
   flip_bit("c.h5", GG_VERSION, sizeof GG_VERSION - 1);
+  seal_anew("c.h5");
   char other[] = GG_VERSION, expected[200];
   other[0] ^= 1;
   assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
@@ -340,13 +353,13 @@ static void checkpoint_without_room(void **state)
   bool older;
   gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), back = {0};
-  assert_int_equal(gg_checkpoint_write("c.h5", &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
   struct rlimit whole, small;
   getrlimit(RLIMIT_FSIZE, &whole);
   small = whole;
   small.rlim_cur = 100;
   setrlimit(RLIMIT_FSIZE, &small);
-  gg_status status = gg_checkpoint_write("c.h5", &one, &scene, &err);
+  gg_status status = gg_checkpoint_write("c.h5", false, &one, &scene, &err);
   setrlimit(RLIMIT_FSIZE, &whole);
   assert_int_equal(status, GG_BAD_FILE);
   assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);

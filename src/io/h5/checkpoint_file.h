@@ -6,10 +6,15 @@
 #include "common/archive.h"
 #include "common/scene.h"
 
-gg_status gg_checkpoint_write(const char *path, const gg_archive *archive, const gg_scene *scene, gg_error *err);
+/* `locked`: the caller holds the lock of this path (io/file_lock.h). */
+gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
+                              gg_error *err);
+/* Remove FILE and FILE.1: the run that they were of is done. */
+void gg_checkpoint_remove(const char *path);
+
+#define GG_CHECKPOINTS_ARE "checkpoints take each other's place, and are files"
+
 /* Fills an empty archive. *older: FILE.1 had to be taken. GG_BAD_FILE if neither can be read. */
 gg_status gg_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err);
-/* "usf.h5" -> "usf.checkpoint.h5"; to be freed. */
-char *gg_checkpoint_path(const char *result_path);
 
 #endif

@@ -1,13 +1,16 @@
-/* Arrays, numbers and texts in HDF5 files. */
+/* Arrays, numbers and texts into HDF5 files. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "io/h5/h5.h"
 
-static hid_t text_type(void)
+/* Texts have a fixed length: those of variable length stand elsewhere in a file, where a damaged one leads HDF5 astray.
+ */
+static hid_t text_type(size_t length)
 {
   hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_size(type, length ? length : 1);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
   H5Tset_cset(type, H5T_CSET_UTF8);
   return type;
 }
@@ -34,8 +37,8 @@ static void write_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, c
 
 void gg_h5_text(gg_h5 *h, const char *path, const char *text)
 {
-  hid_t type = text_type();
-  write_dataset(h, path, type, H5Screate(H5S_SCALAR), &text);
+  hid_t type = text_type(strlen(text));
+  write_dataset(h, path, type, H5Screate(H5S_SCALAR), text);
   H5Tclose(type);
 }
 
@@ -67,16 +70,25 @@ void gg_h5_attribute(gg_h5 *h, const char *object, const char *name, hid_t type,
 
 void gg_h5_text_attribute(gg_h5 *h, const char *object, const char *name, const char *text)
 {
-  hid_t type = text_type();
-  gg_h5_attribute(h, object, name, type, &text, 0);
+  hid_t type = text_type(strlen(text));
+  gg_h5_attribute(h, object, name, type, text, 0);
   H5Tclose(type);
 }
 
 void gg_h5_texts_attribute(gg_h5 *h, const char *object, const char *name, const char *const *texts, size_t n)
 {
-  hid_t type = text_type();
-  gg_h5_attribute(h, object, name, type, texts, n);
+  size_t longest = 1;
+  for (size_t i = 0; i < n; i++) longest = strlen(texts[i]) > longest ? strlen(texts[i]) : longest;
+  char *packed = calloc(n, longest);
+  if (!packed) {
+    gg_h5_failed(h, "out of memory");
+    return;
+  }
+  for (size_t i = 0; i < n; i++) memcpy(packed + i * longest, texts[i], strlen(texts[i]));
+  hid_t type = text_type(longest);
+  gg_h5_attribute(h, object, name, type, packed, n);
   H5Tclose(type);
+  free(packed);
 }
 
 void gg_h5_ints_attribute(gg_h5 *h, const char *object, const char *name, const int *values, size_t n)
@@ -127,66 +139,4 @@ void gg_h5_rows_close(gg_h5_rows *rows)
 {
   if (rows->dataset >= 0) H5Dclose(rows->dataset);
   rows->dataset = -1;
-}
-
-char *gg_h5_read_text(gg_h5 *h, const char *path)
-{
-  if (h->failed) return NULL;
-  char *inside = NULL, *text = NULL;
-  hid_t dataset = H5Dopen2(h->file, path, H5P_DEFAULT), type = text_type();
-  if (dataset < 0 || H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &inside) < 0 || !inside)
-    gg_h5_failed(h, path);
-  else
-    text = strdup(inside);
-  if (inside) H5free_memory(inside);
-  H5Tclose(type);
-  H5Dclose(dataset);
-  return text;
-}
-
-void *gg_h5_read_array(gg_h5 *h, const char *path, hid_t type, size_t item, size_t *count)
-{
-  if (h->failed) return NULL;
-  hid_t dataset = H5Dopen2(h->file, path, H5P_DEFAULT), space = dataset < 0 ? -1 : H5Dget_space(dataset);
-  hssize_t n = space < 0 ? -1 : H5Sget_simple_extent_npoints(space);
-  void *data = n < 0 ? NULL : calloc((size_t)n + 1, item);
-  if (!data || H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
-    gg_h5_failed(h, path);
-    free(data);
-    data = NULL;
-  }
-  if (space >= 0) H5Sclose(space);
-  if (dataset >= 0) H5Dclose(dataset);
-  *count = data ? (size_t)n : 0;
-  return data;
-}
-
-void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, size_t items)
-{
-  if (h->failed) return NULL;
-  hsize_t size[3] = {0}, from[3] = {0}, row = 1;
-  hid_t dataset = H5Dopen2(h->file, path, H5P_DEFAULT), space = dataset < 0 ? -1 : H5Dget_space(dataset);
-  int rank = space < 0 ? 0 : H5Sget_simple_extent_ndims(space);
-  if (rank >= 1 && rank <= 3) H5Sget_simple_extent_dims(space, size, NULL);
-  for (int a = 1; a < rank && a < 3; a++) row *= size[a];
-  void *data = size[0] && row == items ? calloc(items, item) : NULL;
-  from[0] = size[0] - 1, size[0] = 1;
-  hid_t memory = data ? H5Screate_simple(rank, size, NULL) : -1;
-  bool read = data && H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL) >= 0 &&
-              H5Dread(dataset, type, memory, space, H5P_DEFAULT, data) >= 0;
-  if (memory >= 0) H5Sclose(memory);
-  if (space >= 0) H5Sclose(space);
-  if (dataset >= 0) H5Dclose(dataset);
-  if (read) return data;
-  gg_h5_failed(h, path);
-  free(data);
-  return NULL;
-}
-
-void gg_h5_read_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, void *value)
-{
-  if (h->failed) return;
-  hid_t attribute = H5Aopen_by_name(h->file, object, name, H5P_DEFAULT, H5P_DEFAULT);
-  if (attribute < 0 || H5Aread(attribute, type, value) < 0) gg_h5_failed(h, name);
-  if (attribute >= 0) H5Aclose(attribute);
 }

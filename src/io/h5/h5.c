@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/h5/seal.h"
+
 /* The system's word for it ("No space left on device") stands at the bottom of HDF5's error stack. */
 static herr_t find_cause(unsigned n, const H5E_error2_t *entry, void *context)
 {
@@ -56,6 +58,11 @@ void gg_h5_create(gg_h5 *h, const char *path)
 void gg_h5_open(gg_h5 *h, const char *path)
 {
   start(h);
+  const char *broken = gg_seal_broken(path);
+  if (broken) {
+    gg_h5_failed(h, broken);
+    return;
+  }
   h->file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   if (h->file < 0) gg_h5_failed(h, "it is not an HDF5 file, or a damaged one");
 }

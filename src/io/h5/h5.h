@@ -16,7 +16,8 @@ typedef struct gg_h5 {
   void *print_data;
 } gg_h5;
 
-/* A new file in memory (path for messages only), a new one on disk, or one to read. */
+/* A new file in memory (path for messages only), a new one on disk, or one to read, whose checksum is looked at first
+ * (seal.h). */
 void gg_h5_create_in_memory(gg_h5 *h, const char *path);
 void gg_h5_create(gg_h5 *h, const char *path);
 void gg_h5_open(gg_h5 *h, const char *path);
@@ -57,6 +58,7 @@ char *gg_h5_read_text(gg_h5 *h, const char *path);
 void *gg_h5_read_array(gg_h5 *h, const char *path, hid_t type, size_t item, size_t *count);
 /* The last row of an array that grows, `items` of them; to be freed, NULL on failure. */
 void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, size_t items);
+char *gg_h5_read_text_attribute(gg_h5 *h, const char *object, const char *name);
 void gg_h5_read_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, void *value);
 
 /* Record a failure of one's own, or HDF5's latest one. */

@@ -4,13 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/statvfs.h>
+#include <unistd.h>
 
 #include "io/c_locale.h"
 #include "io/document.h"
+#include "io/h5/seal.h"
 
 gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
 {
-  *f = (gg_result_file){.command = command, .h.file = -1};
+  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .h.file = -1};
   return gg_atomic_open(&f->file, path, err);
 }
 
@@ -21,11 +23,22 @@ void gg_result_file_abandon(gg_result_file *f)
   gg_atomic_abandon(&f->file);
 }
 
+/* On the disk under its temporary name, or in memory: what is small, and what goes to a device or pipe. */
+static void create(gg_result_file *f, bool streaming)
+{
+  f->streaming = streaming;
+  if (streaming)
+    gg_h5_create(&f->h, f->file.temporary);
+  else
+    gg_h5_create_in_memory(&f->h, f->file.path);
+}
+
 /* HDF5 recovers badly from a full disk: ask first. */
 static gg_status check_room(const gg_result_file *f, const gg_frame *frame, gg_error *err)
 {
   struct statvfs disk;
   double needed = 2.0 * (double)frame->n * 9 * sizeof(double) + (1 << 22);
+  if (f->file.place.stream) return GG_OK;
   if (fstatvfs(f->file.fd, &disk) == 0 && (double)disk.f_bavail * (double)disk.f_frsize < needed)
     return gg_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", f->file.path, strerror(ENOSPC));
   return GG_OK;
@@ -34,10 +47,26 @@ static gg_status check_room(const gg_result_file *f, const gg_frame *frame, gg_e
 gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err)
 {
   GG_TRY(check_room(f, frame, err));
-  if (!f->streaming) gg_h5_create(&f->h, f->file.temporary);
-  f->streaming = true;
+  if (f->h.file < 0) create(f, !f->file.place.stream);
   gg_h5_particles_append(&f->h, &f->particles, model, frame);
   return gg_h5_status(&f->h, f->file.path, "written", err);
+}
+
+static gg_status write_image(gg_result_file *f, const void *image, size_t size, gg_error *err)
+{
+  unsigned char seal[GG_SEAL_SIZE];
+  gg_seal_of(image, size, seal);
+  GG_TRY(gg_atomic_write(&f->file, image, size, err));
+  return gg_atomic_write(&f->file, seal, sizeof seal, err);
+}
+
+/* HDF5 wrote it, in an order of its own: it is read once for its checksum. */
+static gg_status seal_streamed(gg_result_file *f, gg_error *err)
+{
+  unsigned char seal[GG_SEAL_SIZE];
+  if (gg_seal_of_file(f->file.fd, seal) != 0 || lseek(f->file.fd, 0, SEEK_END) < 0)
+    return gg_cannot_write(f->file.path, strerror(errno), err);
+  return gg_atomic_write(&f->file, seal, sizeof seal, err);
 }
 
 /* Close what was streamed, or write what was made in memory; then put it in place. */
@@ -48,7 +77,7 @@ static gg_status finish(gg_result_file *f, gg_error *err)
   void *image = f->streaming ? NULL : gg_h5_image(&f->h, &size);
   gg_h5_close(&f->h);
   gg_status status = gg_h5_status(&f->h, f->file.path, "written", err);
-  if (status == GG_OK && image) status = gg_atomic_write(&f->file, image, size, err);
+  if (status == GG_OK) status = f->streaming ? seal_streamed(f, err) : write_image(f, image, size, err);
   free(image);
   if (status == GG_OK) return gg_atomic_commit(&f->file, err);
   gg_atomic_abandon(&f->file);
@@ -75,7 +104,7 @@ static void write_last_frame(gg_result_file *f, const gg_result *r)
 gg_status gg_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err)
 {
   locale_t before = gg_c_locale_enter();
-  if (!f->streaming) gg_h5_create_in_memory(&f->h, f->file.temporary);
+  if (f->h.file < 0) create(f, false);
   write_document(f, &result->scene, gg_run_document(result));
   gg_h5_text_attribute(&f->h, "/graingas", "kind", "run");
   gg_h5_write_engine(&f->h, "/graingas", "/observables/", result);
@@ -88,7 +117,7 @@ gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_compariso
 {
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
   locale_t before = gg_c_locale_enter();
-  if (!f->streaming) gg_h5_create_in_memory(&f->h, f->file.temporary);
+  if (f->h.file < 0) create(f, false);
   write_document(f, &c->scene, gg_comparison_document(c));
   gg_h5_text_attribute(&f->h, "/graingas", "kind", "compare");
   if (md) gg_h5_write_engine(&f->h, "/graingas/md", "/observables/md_", md);

@@ -18,12 +18,12 @@
 typedef struct gg_result_file {
   gg_atomic_file file;
   const char *command; /* the command line, for the record */
-  bool streaming;      /* frames go to the disk as they come; otherwise the file is made in memory at the end */
+  bool streaming;      /* frames go to the disk as they come; otherwise the file is made in memory */
   gg_h5 h;
   gg_h5_particles particles;
 } gg_result_file;
 
-/* `path` is checked to be writable and left untouched until the end. */
+/* `path` is checked to be writable and left untouched until the end; nobody else can open it in between. */
 gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err);
 /* Store a frame now. */
 gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err);

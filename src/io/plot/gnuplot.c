@@ -88,6 +88,7 @@ gg_status gg_gnuplot_run(const char *script, const char *over, const char *pictu
 {
   gg_atomic_file file;
   if (strchr(picture, '\'')) return gg_fail(err, GG_BAD_INPUT, "%s: a picture's name must not hold a quote", picture);
+  GG_TRY(gg_check_writable(picture, GG_PICTURES_ARE, err));
   GG_TRY(gg_atomic_open(&file, picture, err));
   gg_status status = draw(script, file.temporary, err);
   if (status == GG_OK && over) status = put_over(&file, over, err);

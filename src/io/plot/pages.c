@@ -55,8 +55,8 @@ gg_status gg_plot_result_curves(const char *result_path, const char *picture, co
                                 void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
 {
   gg_stored_result stored;
-  size_t length = strlen(picture);
-  bool png = format ? strcmp(format, "png") == 0 : length > 4 && strcmp(picture + length - 4, ".png") == 0;
+  bool png;
+  GG_TRY(gg_plot_format(picture, format, &png, err));
   GG_TRY(gg_stored_result_read(&stored, result_path, err));
   /* A page that fails keeps none of the others from being drawn; what is told is the first failure. */
   gg_status status = draw_snapshot(&stored, result_path, picture, png, drawn, context, err);

@@ -5,6 +5,22 @@
 
 #include "io/c_locale.h"
 
+gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_error *err)
+{
+  const char *slash = strrchr(picture, '/'), *name = slash ? slash + 1 : picture, *dot = strrchr(name, '.');
+  const char *ending = dot && dot > name ? dot + 1 : NULL;
+  if (!*name) return gg_fail(err, GG_BAD_INPUT, "'%s': a picture needs a name, .svg or .png", picture);
+  if (format && strcmp(format, "svg") != 0 && strcmp(format, "png") != 0)
+    return gg_fail(err, GG_BAD_INPUT, "pictures are svg or png, not '%.20s'", format);
+  if (!ending && !format) return gg_fail(err, GG_BAD_INPUT, "%s: a picture's name ends with .svg or .png", picture);
+  if (ending && strcmp(ending, "svg") != 0 && strcmp(ending, "png") != 0)
+    return gg_fail(err, GG_BAD_INPUT, "%s: pictures are .svg or .png, not .%.20s", picture, ending);
+  if (ending && format && strcmp(ending, format) != 0)
+    return gg_fail(err, GG_BAD_INPUT, "%s: is to be %s, and its name says %s", picture, format, ending);
+  *png = strcmp(ending ? ending : format, "png") == 0;
+  return GG_OK;
+}
+
 static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_engine *e, bool png)
 {
   gg_plot_start_page(s, stored, png, 1000, 440);
@@ -54,8 +70,8 @@ static gg_status draw(const gg_stored_result *stored, const char *picture, bool 
 gg_status gg_plot_result(const char *result_path, const char *picture, const char *format, gg_error *err)
 {
   gg_stored_result stored;
-  size_t length = strlen(picture);
-  bool png = format ? strcmp(format, "png") == 0 : length > 4 && strcmp(picture + length - 4, ".png") == 0;
+  bool png;
+  GG_TRY(gg_plot_format(picture, format, &png, err));
   GG_TRY(gg_stored_result_read(&stored, result_path, err));
   gg_status status = draw(&stored, picture, png, err);
   gg_stored_result_clear(&stored);

@@ -6,6 +6,12 @@
 
 #include "io/h5/result_reader.h"
 
+#define GG_PICTURES_ARE "pictures are files, with others beside them"
+
+/* By the ending of its name, or as asked for (NULL: not). GG_BAD_INPUT if that is neither .svg nor .png, or both are
+ * not the same. */
+gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_error *err);
+
 /* Draw a result file to a picture, whole or not at all. format: "svg", "png", or NULL: by the picture's name. */
 gg_status gg_plot_result(const char *result_path, const char *picture, const char *format, gg_error *err);
 

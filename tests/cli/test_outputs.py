@@ -1,0 +1,273 @@
+"""What stands where an output is to go: written to, replaced by a whole file, or refused before the run; by whom, too."""
+import os
+import signal
+import stat
+import subprocess
+import sys
+import threading
+import time
+
+from tap import GRAINGAS, Skip, check, main, run
+
+SCENE = ("flow: usf\nphi: 0.2\nparticles: 100\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 500}\n"
+         "run: {collisions: 20, warmup: 10}\n")
+LONG = SCENE.replace("collisions: 20", "collisions: 1e9")
+NOBODY = 65534
+
+
+def everybody():
+    """As whom to try: root can write where others cannot."""
+    if os.geteuid() != 0:
+        return [None]
+    os.chmod(".", 0o777)
+    reachable = subprocess.run([GRAINGAS, "--version"], capture_output=True, user=NOBODY).returncode == 0
+    return [None, NOBODY] if reachable else [None]
+
+
+def written(*args, user=None, command="run", code=0):
+    done = run(command, "scene.yaml", "--quiet", *args, user=user)
+    check(done.code == code, done.code, done.err)
+    return done
+
+
+def refused(words, code, *args, user=None, command="run"):
+    """Before the run, which would last for days, and with nothing left behind."""
+    before = sorted(os.listdir("."))
+    done = run(command, "long.yaml", *args, user=user, timeout=20)
+    check(done.code == code and words in done.err, args, done.code, done.err)
+    check(sorted(os.listdir(".")) == before, os.listdir("."))
+
+
+def scenes():
+    for name, scene in ("scene.yaml", SCENE), ("long.yaml", LONG):
+        with open(name, "w") as f:
+            f.write(scene)
+
+
+def readable(path):
+    done = run("info", path)
+    check(done.code == 0, done.err)
+
+
+def test_pipes():
+    scenes()
+    os.mkfifo("pipe")
+    os.chmod("pipe", 0o666)
+    for user in everybody():
+        refused("pipe: cannot be written: nobody reads from this pipe", 3, "--output", "pipe", user=user)
+        got = []
+        reader = threading.Thread(target=lambda: got.append(open("pipe", "rb").read()))
+        reader.start()
+        written("--output", "pipe", "--set", "output.trajectory_every=5", user=user)
+        reader.join()
+        with open("got.h5", "wb") as f:
+            f.write(got[0])
+        readable("got.h5")
+        check(stat.S_ISFIFO(os.stat("pipe").st_mode))
+
+
+def test_devices():
+    """Nodes of our own: a mistake here would cost the system its own."""
+    scenes()
+    try:
+        for name, minor in ("null", 3), ("full", 7):
+            os.mknod(name, 0o666 | stat.S_IFCHR, os.makedev(1, minor))
+            os.chmod(name, 0o666)
+        open("null", "w").close()
+    except OSError as why:
+        raise Skip(why)
+    before = sorted(os.listdir("."))
+    for command in "run", "compare":
+        written("--output", "null", command=command)
+        done = written("--output", "full", command=command, code=3)
+        check("full: cannot be written: No space left on device" in done.err, done.err)
+    check(sorted(os.listdir(".")) == before, os.listdir("."))
+    check(all(stat.S_ISCHR(os.stat(name).st_mode) for name in ("null", "full")))
+    refused("null keeps none", 2, "--output", "null", "--picture", "p.svg", command="compare")
+    # A checkpoint is a file all the same, called as without --output.
+    os.mkdir("there")
+    child = subprocess.Popen([GRAINGAS, "run", "../long.yaml", "--quiet", "--output", "../null", "--set",
+                              "output.checkpoint_every=0.01"], cwd="there", stderr=subprocess.PIPE)
+    wait_for("there/long.checkpoint.h5")
+    child.send_signal(signal.SIGTERM)
+    child.communicate(timeout=60)
+    check(child.returncode == 130 and "long.checkpoint.h5" in os.listdir("there"), os.listdir("there"))
+
+
+def test_standard_output():
+    """Its own tables would be mixed with the file's bytes."""
+    scenes()
+    for place in "/dev/stdout", "/dev/stderr":
+        refused("choose a file", 3, "--output", place)
+    with open("table", "w") as table:
+        done = subprocess.run([GRAINGAS, "run", "long.yaml", "--output", "table"], stdout=table, stderr=subprocess.PIPE)
+    check(done.returncode == 3 and b"choose a file" in done.stderr, done.stderr)
+
+
+def test_links():
+    scenes()
+    os.mkdir("far")
+    os.chmod("far", 0o777)
+    os.symlink("far/result.h5", "link.h5")
+    for user in everybody():
+        for _ in range(2):  # to nowhere yet, and to a file
+            written("--output", "link.h5", user=user)
+            check(os.path.islink("link.h5") and os.listdir("far") == ["result.h5"], os.listdir("far"))
+        readable("far/result.h5")
+        os.remove("far/result.h5")
+    os.symlink("nowhere/result.h5", "lost.h5")
+    refused("lost.h5: cannot be written: No such file or directory", 3, "--output", "lost.h5")
+    os.symlink("loop.h5", "loop.h5")
+    refused("loop.h5: cannot be written: Too many levels", 3, "--output", "loop.h5")
+
+
+def test_protected_files():
+    scenes()
+    for user in everybody():
+        written("--output", "kept.h5", user=user)
+        before = open("kept.h5", "rb").read()
+        os.chmod("kept.h5", 0o444)
+        refused("kept.h5: cannot be written: it is write-protected", 3, "--output", "kept.h5", user=user)
+        check(open("kept.h5", "rb").read() == before)
+        os.chmod("kept.h5", 0o640)
+        written("--output", "kept.h5", user=user)
+        check(stat.S_IMODE(os.stat("kept.h5").st_mode) == 0o640)
+        os.remove("kept.h5")
+
+
+def test_owner_is_kept():
+    if os.geteuid() != 0:
+        raise Skip("only root can give files away")
+    scenes()
+    written("--output", "theirs.h5")
+    os.chown("theirs.h5", NOBODY, NOBODY)
+    written("--output", "theirs.h5")
+    check(os.stat("theirs.h5").st_uid == NOBODY)
+    # Others' files are refused to those who may not write them, also where the folder would let them.
+    os.chown("theirs.h5", 0, 0)
+    for user in everybody()[1:]:
+        refused("theirs.h5: cannot be written: Permission denied", 3, "--output", "theirs.h5", user=user)
+
+
+def test_one_file_for_two():
+    scenes()
+    open("z.h5", "w").close()
+    os.link("z.h5", "hard.svg")
+    os.symlink("z.h5", "soft.svg")
+    for picture in "z.h5", "./z.h5", "hard.svg", "soft.svg":
+        refused("would be both the result and the picture", 2, "--output", "z.h5", "--picture", picture,
+                command="compare")
+    refused("would be both the result and the picture", 2, "--output", "new.svg", command="compare")
+    refused("would be both the picture and the scene", 2, "--picture", "long.yaml", command="compare")
+    refused("long.yaml: would be overwritten by its own result", 2, "--output", "./long.yaml")
+    for output in "long.checkpoint.h5", "long.checkpoint.h5.1":
+        refused("would be both the result and the checkpoint", 2, "--resume", "long.checkpoint.h5", "--output", output)
+    os.rename("long.yaml", "a.checkpoint.h5")
+    done = run("run", "a.checkpoint.h5", "--output", "a.h5", "--set", "output.checkpoint_every=1", timeout=20)
+    check(done.code == 2 and "would be both the checkpoint and the scene" in done.err, done.err)
+
+
+def test_empty_names():
+    scenes()
+    refused("empty name", 2, "--output", "")
+    refused("a picture needs a name", 2, "--picture", "", command="compare")
+    refused("the name is empty", 3, "--resume", "")
+
+
+def test_pictures():
+    scenes()
+    os.mkdir("folder.svg")
+    for picture, code, words in (("none/x.svg", 3, "No such file or directory"), ("folder.svg", 3, "Is a directory"),
+                                 ("q.pdf", 2, "pictures are .svg or .png, not .pdf"), ("q", 2, "ends with .svg or .png"),
+                                 ("/dev/null", 2, "ends with .svg or .png")):
+        refused(words, code, "--picture", picture, command="compare")
+    os.mkfifo("pipe.svg")
+    refused("pictures are files", 3, "--picture", "pipe.svg", command="compare")
+    written("--output", "z.h5")
+    whole = open("z.h5", "rb").read()
+    for picture in ("q.pdf", "z.h5", "q.svg", "pipe.svg"):
+        done = run("plot", "z.h5", "--output", picture, *(("--format", "png") if picture == "q.svg" else ()))
+        check(done.code in (2, 3) and not done.new, picture, done.code, done.err)
+    check(open("z.h5", "rb").read() == whole)
+
+
+def test_picture_that_fails():
+    """Asked for, and not there: the exit code says so, and the results are kept."""
+    scenes()
+    os.mkdir("empty")
+    environment = dict(os.environ, PATH=os.path.abspath("empty"))
+    for asked, code in (["--picture", "p.svg"], 1), ([], 0):
+        done = subprocess.run([GRAINGAS, "compare", "scene.yaml", "--quiet", *asked], env=environment,
+                              capture_output=True, text=True)
+        check(done.returncode == code and "gnuplot is not installed" in done.stderr, done.returncode, done.stderr)
+        readable("scene.h5")
+
+
+def wait_for(path):
+    deadline = time.monotonic() + 60
+    while not os.path.exists(path) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    check(os.path.exists(path), path, "does not come")
+
+
+def started(*args):
+    return subprocess.Popen([GRAINGAS, "run", "long.yaml", "--quiet", *args], stderr=subprocess.PIPE)
+
+
+def ended(child, sig):
+    child.send_signal(sig)
+    child.communicate(timeout=60)
+
+
+def test_two_runs_at_once():
+    """The second is refused, and the first named; a dead one is in nobody's way, and what it left goes."""
+    scenes()
+    first = started("--output", "one.h5")
+    wait_for("one.h5.graingas-lock")
+    os.symlink("one.h5", "link.h5")
+    for output in "one.h5", "link.h5":
+        refused(f"{output}: cannot be written: another run is writing it (process {first.pid} on ", 3, "--output", output)
+    refused("is writing it", 3, "--output", "one.h5", command="compare")
+    ended(first, signal.SIGKILL)
+    check("one.h5.graingas-tmp" in os.listdir("."), os.listdir("."))
+    written("--output", "one.h5")
+    check(sorted(os.listdir(".")) == ["link.h5", "long.yaml", "one.h5", "scene.yaml"], os.listdir("."))
+
+
+def test_one_checkpoint_for_two():
+    scenes()
+    keep = ("--set", "output.checkpoint_every=0.01")
+    first = started(*keep)
+    wait_for("long.checkpoint.h5.1")
+    ended(first, signal.SIGKILL)
+    resume = (*keep, "--resume", "long.checkpoint.h5")
+    first = started(*resume)
+    deadline = time.monotonic() + 60
+    while f"process {first.pid} " not in open("long.h5.graingas-lock").read() and time.monotonic() < deadline:
+        time.sleep(0.01)  # until then it is the dead one's
+    done = run("run", "long.yaml", "--quiet", *resume, timeout=20)
+    check(done.code == 3 and f"another run is writing it (process {first.pid} on " in done.err, done.code, done.err)
+    ended(first, signal.SIGTERM)
+    check(first.returncode == 130, first.returncode)
+    left = [name for name in os.listdir(".") if "graingas" in name]
+    check(not left, left)
+
+
+def test_checkpoints_go_when_all_is_done():
+    """Also the one that was gone on from; not of a run that was interrupted or fell short."""
+    scenes()
+    keep = ("--set", "output.checkpoint_every=0.001")
+    there = ["scene.checkpoint.h5", "scene.checkpoint.h5.1"]
+    for command in "run", "compare":
+        short = ("--set", "run.collisions=1e9", "--set", "run.time_limit=0.5")
+        done = run(command, "scene.yaml", "--quiet", *keep, *short)
+        check(done.code == 1, done.code, done.err)
+        check([name for name in there if os.path.exists(name)] == there, os.listdir("."))
+        done = run(command, "scene.yaml", "--quiet", "--set", "run.collisions=20", "--resume", there[0],
+                   "--set", "output.checkpoint_every=1000", "--output", "scene.h5")
+        check(done.code == 0, done.code, done.err)
+        check(os.path.exists("scene.h5") and not any(os.path.exists(name) for name in there), os.listdir("."))
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])
