@@ -9,7 +9,7 @@ static const char caption[] =
     "rough grains (beta = 0); sonine in free cooling, profiles in Couette flow. -: cannot be had";
 
 static const double densities[] = {0.01, 0.3};
-static const int64_t sizes[] = {500, 4000, 32000};
+static const int64_t sizes[] = {500, 4000, 32000}, quick_sizes[] = {500, 2000, 4000};
 enum { N_DENSITIES = 2, N_SIZES = 3, N_CASES = 2 * N_DENSITIES * N_SIZES };
 
 /* An engine at a density and a size: a column each. */
@@ -19,10 +19,10 @@ typedef struct setting {
   int64_t n;
 } setting;
 
-static setting setting_of(int i)
+static setting setting_of(const gg_bench *b, int i)
 {
   return (setting){(gg_engine_kind)(i / (N_DENSITIES * N_SIZES)), densities[i / N_SIZES % N_DENSITIES],
-                   sizes[i % N_SIZES]};
+                   (b->options->quick ? quick_sizes : sizes)[i % N_SIZES]};
 }
 
 /* The scene to measure it in: sheared, or the first of the other flows that have it. */
@@ -44,17 +44,18 @@ static bool find_scene(const gg_bench *b, const setting *c, const gg_observable 
 /* Stretches of large systems are long by themselves, and scatter less. */
 static int repeats_of(const gg_bench *b, int64_t n)
 {
-  return n > 10000 ? 3 : b->options->quick ? 5 : 15;
+  return n > 10000 || b->options->quick ? 3 : 15;
 }
 
 static gg_status measure(gg_bench *b, gg_bench_sheet *sheet, int row, int i, const gg_observable *o, gg_error *err)
 {
   gg_scene scene;
   gg_observable_cost cost;
-  setting c = setting_of(i);
+  setting c = setting_of(b, i);
   gg_bench_sheet_put(sheet, row, 1 + i, "-");
   if (!find_scene(b, &c, o, &scene)) return GG_OK;
-  GG_TRY(gg_observable_cost_measure(&scene, o, 30, repeats_of(b, c.n), b->options->quick ? 0.02 : 0.15, &cost, err));
+  GG_TRY(gg_observable_cost_measure(&scene, o, b->options->quick ? 10 : 30, repeats_of(b, c.n),
+                                    b->options->quick ? 0.01 : 0.15, &cost, err));
   gg_bench_sheet_put(sheet, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * cost.overhead, 100 * cost.lowest,
                      100 * cost.highest);
   json_array_append_new(sheet->rows,
@@ -71,7 +72,7 @@ gg_status gg_bench_observables(gg_bench *b, gg_error *err)
   if (!sheet) return GG_FAILED;
   gg_bench_sheet_column(sheet, false, "observable");
   for (int i = 0; i < N_CASES; i++) {
-    setting c = setting_of(i);
+    setting c = setting_of(b, i);
     gg_bench_sheet_column(sheet, true, "%s phi %g N %lld", gg_engine_ops_of(c.engine)->name, c.phi, (long long)c.n);
   }
   for (int k = 0; gg_observables[k]; k++) {

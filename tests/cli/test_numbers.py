@@ -85,7 +85,7 @@ def test_bench_observables():
     check(done.code == 0, done.err)
     both = {"rheology", "velocity_distributions", "orientation", "sonine", "collisions"}
     md = {"pair_correlation", "velocity_correlations", "structure", "cells", "diffusion", "profiles", "local_distributions"}
-    sizes = (500, 4000, 32000)
+    sizes = (500, 2000, 4000)
     expected = ({(o, "md", phi, n) for o in both | md for phi in (0.01, 0.3) for n in sizes}
                 | {(o, "dsmc", phi, n) for o in both for phi in (0.01, 0.3) for n in sizes})
     seen = set()
