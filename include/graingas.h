@@ -99,9 +99,15 @@ GG_API gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_si
 GG_API void gg_simulation_free(gg_simulation *simulation);
 
 /* Go on for so much time, or until so many collisions between grains more have happened. Monte Carlo ends at the first
- * end of a step beyond. GG_FAILED: collisions pile up without end (inelastic collapse). */
+ * end of a step beyond. GG_FAILED: collisions pile up without end (inelastic collapse), or grains do not meet any more.
+ * Where `stop` of gg_simulation_on_stop says so: GG_INTERRUPTED. */
 GG_API gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err);
 GG_API gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions, gg_error *err);
+/* Ask `stop` (NULL: nobody) several times a second while these two are at work. Not 0 ends them: the gas stands where
+ * it has come to, Monte Carlo at the end of a step, and can go on from there; gg_simulation_get_state tells the time.
+ */
+GG_API gg_status gg_simulation_on_stop(gg_simulation *simulation, int (*stop)(void *context), void *context,
+                                       gg_error *err);
 
 typedef struct gg_simulation_state {
   double time;                 /* since the start */
@@ -187,7 +193,7 @@ typedef struct gg_run_options {
   const char *command;    /* how the file was made, for its record; NULL: "the graingas library" */
   void *context;          /* for the callbacks, of which each may be NULL; one at a time, maybe on threads of the run */
   int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop, as below */
-  int (*stop)(void *context);                                  /* asked at every sampling interval; not 0: stop */
+  int (*stop)(void *context);                                  /* asked several times a second; not 0: stop */
   void (*stored)(void *context, const char *checkpoint);       /* a checkpoint was written */
   void (*warn)(void *context, const char *message);            /* what was put right before the run began */
   const char *input;   /* the scene's file, which nothing written may replace; NULL: not known */
@@ -198,9 +204,9 @@ typedef struct gg_result gg_result; /* what came out of one engine's run */
 
 /* Run the scene's engine; options NULL: the default ones. With a result as well as a status that is not GG_OK:
  * GG_FAILED, the run ended short of what was asked, and the result says how far it came; GG_INTERRUPTED, a callback
- * stopped it, at the end of the sampling interval that was under way (two collisions a grain), results so far (no
- * output is written); GG_BAD_FILE, a checkpoint could not be written, results so far, or the output could not be at the
- * end. */
+ * stopped it, within half a second, wherever it was: results so far, but none where large systems were being placed (no
+ * output is written; the checkpoint goes on from there, bit for bit); GG_BAD_FILE, a checkpoint could not be written,
+ * results so far, or the output could not be at the end. */
 GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
 
 /* ---- Results ---- */

@@ -13,9 +13,11 @@ static void on_signal(int number)
 
 void gg_cli_catch_interrupts(void)
 {
-  struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
+  struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART}, before;
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
+  if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* else: nohup */
+    sigaction(SIGHUP, &action, NULL);
 }
 
 bool gg_cli_interrupted(void)

@@ -19,8 +19,8 @@ void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *now);
 /* Take the live line away, or tell how it ended in a plain line; harmless again. */
 void gg_cli_progress_end(gg_cli_progress *p);
 
-/* SIGINT and SIGTERM end a run at the next occasion, with a checkpoint if one was asked for; a second one ends it at
- * once. */
+/* SIGINT, SIGTERM and SIGHUP end a run within half a second, with a checkpoint if one was asked for; a second one ends
+ * it at once. */
 void gg_cli_catch_interrupts(void);
 bool gg_cli_interrupted(void);
 

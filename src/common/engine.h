@@ -83,7 +83,11 @@ typedef struct gg_engine_ops {
   void (*destroy)(gg_engine *engine);
   /* Go on for `dt`, or until `max_collisions` more have happened, whichever is first; *elapsed is the time gone. dsmc
    * may end its last step past either limit. Deterministic: cutting a run into advances never changes a trajectory in
-   * md, and in dsmc only through the ends of steps. */
+   * md, and in dsmc only through the ends of steps.
+   *
+   * GG_INTERRUPTED where model.stop asks for it, which is looked at several times a second: the engine stands where it
+   * has come to, in dsmc at the end of a step, and *elapsed is the time gone. The next call may be a new advance; or
+   * `go_on`, also after save and restore, which takes this one to the end that it would have had, bit for bit. */
   gg_status (*advance)(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err);
   /* Keep these sums over collisions, or not (at creation they are not kept). */
   void (*keep_sums)(gg_engine *engine, bool keep);
@@ -109,6 +113,8 @@ typedef struct gg_engine_ops {
   gg_status (*restore)(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);
   /* Lines of what this model switched on and off, for `graingas info`: calls `line` for each. */
   void (*describe)(const gg_model *model, void (*line)(void *context, const char *text), void *context);
+  /* The rest of an advance that was stopped; *elapsed counts from where that began. */
+  gg_status (*go_on)(gg_engine *engine, double *elapsed, gg_error *err);
 } gg_engine_ops;
 
 struct gg_engine {

@@ -11,6 +11,7 @@
 #include "common/collision.h"
 #include "common/restitution.h"
 #include "common/scene.h"
+#include "common/stop.h"
 
 typedef struct gg_model {
   gg_flow flow;
@@ -55,6 +56,7 @@ typedef struct gg_model {
   bool single;         /* dsmc: velocities kept in single precision */
 
   const gg_extension *extension; /* borrowed from the scene */
+  const gg_stop *stop;           /* borrowed from whoever runs an engine on it: no physics; NULL: nobody stops it */
 
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;

@@ -8,6 +8,12 @@
 #include "common/rng.h"
 #include "run/start.h"
 
+static bool asked_to_stop(void *context)
+{
+  const gg_simulation *s = context;
+  return s->asks && s->asks(s->asks_context);
+}
+
 gg_status gg_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err)
 {
   gg_simulation *s = gg_new_array(1, sizeof *s, err);
@@ -20,6 +26,8 @@ gg_status gg_simulation_prepare(const gg_scene *scene, gg_simulation **simulatio
     return status;
   }
   gg_extension_hold(s->scene.extension);
+  s->stop = (gg_stop){asked_to_stop, s};
+  s->model.stop = &s->stop;
   if (s->scene.temperature == GG_AUTO) gg_start_near_steady(&s->model);
   *simulation = s;
   return GG_OK;
@@ -71,24 +79,31 @@ static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
  * grain collides a thousand times more often is a collapse. */
 enum { STRETCH = 20, COLLAPSE = 1000 };
 
-/* One stretch: at most `time` (units of the start) and `most` collisions; both are lessened by what has gone. */
-static gg_status go_on(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
+/* Within at most `time` (units of the start) and `most` collisions; both are lessened by what has gone. */
+static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
-  double T = gg_simulation_temperature(s), unit = gg_simulation_unit(s), gone;
+  double T = gg_simulation_temperature(s), unit = gg_simulation_unit(s), gone = 0;
   double free_time = 1 / gg_model_collision_rate(&s->model, T > 0 ? T : s->model.temperature0);
   double stretch = fmin(*time * unit, STRETCH * free_time);
   uint64_t before = collisions(s), pile = (uint64_t)(COLLAPSE * STRETCH * (double)s->model.n / 2) + 1000000;
-  GG_TRY(s->engine->ops->advance(s->engine, stretch, *most < pile ? *most : pile, &gone, err));
+  gg_status status = s->engine->ops->advance(s->engine, stretch, *most < pile ? *most : pile, &gone, err);
   uint64_t happened = collisions(s) - before;
+  s->clock.time += gone / unit;
+  *time = gone >= *time * unit ? 0 : *time - gone / unit;
+  *most = happened < *most ? *most - happened : 0;
+  if (status != GG_OK) return status;
   if (happened >= pile)
     return gg_fail(err, GG_FAILED,
                    "%s: collisions accumulate without end (inelastic collapse) near time %g; give "
                    "md.contact_time a larger value",
                    s->engine->ops->name, s->clock.time);
-  s->clock.time += gone / unit;
-  *time = gone >= *time * unit ? 0 : *time - gone / unit;
-  *most = happened < *most ? *most - happened : 0;
   return rescale_if_cold(s, gg_simulation_temperature(s), err);
+}
+
+/* Asked before the first stretch, too: with small systems an advance ends before the engine looks. */
+static gg_status look(const gg_simulation *s, gg_error *err)
+{
+  return gg_stop_asked(s->model.stop) ? gg_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
 }
 
 gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err)
@@ -96,14 +111,38 @@ gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error
   GG_NEED(simulation);
   if (!(time >= 0 && time < INFINITY))
     return gg_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
-  for (uint64_t most = UINT64_MAX; time > 0;) GG_TRY(go_on(simulation, &time, &most, err));
+  for (uint64_t most = UINT64_MAX; time > 0;) {
+    GG_TRY(look(simulation, err));
+    GG_TRY(advance_stretch(simulation, &time, &most, err));
+  }
   return GG_OK;
 }
+
+/* Stretches in a row without a collision after which there will be none: a grain expects twenty in each. */
+enum { MOST_EMPTY_STRETCHES = 100 };
 
 gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_more, gg_error *err)
 {
   GG_NEED(simulation);
-  for (double time = INFINITY; collisions_more > 0;) GG_TRY(go_on(simulation, &time, &collisions_more, err));
+  double time = INFINITY;
+  for (int empty = 0; collisions_more > 0; empty++) {
+    uint64_t before = collisions_more;
+    GG_TRY(look(simulation, err));
+    GG_TRY(advance_stretch(simulation, &time, &collisions_more, err));
+    if (collisions_more < before) empty = -1;
+    if (empty == MOST_EMPTY_STRETCHES)
+      return gg_fail(err, GG_FAILED,
+                     "gg_simulation_collide: the grains do not meet: no collision in %d mean free times up to time %g",
+                     STRETCH * MOST_EMPTY_STRETCHES, simulation->clock.time);
+  }
+  return GG_OK;
+}
+
+gg_status gg_simulation_on_stop(gg_simulation *simulation, int (*stop)(void *context), void *context, gg_error *err)
+{
+  GG_NEED(simulation);
+  simulation->asks = stop;
+  simulation->asks_context = context;
   return GG_OK;
 }
 

@@ -18,6 +18,9 @@ struct gg_simulation {
   } clock;
   gg_on_collision *callback;
   void *context;
+  int (*asks)(void *context); /* whether to stop; NULL: nobody does */
+  void *asks_context;
+  gg_stop stop; /* what the model's points to */
 };
 
 /* Asked of it (simulation_state.c). Velocities of the start over those of the engine. */

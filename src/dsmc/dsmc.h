@@ -27,6 +27,9 @@ typedef struct gg_dsmc_state {
   gg_collision_sums transfer;
   bool sums;
   int power; /* velocities are 2^power times those of the start (rescale) */
+  /* Of the present advance, which may have been stopped: its length, and what of it has gone; the last collision. */
+  double asked, gone;
+  uint64_t last_collision;
 } gg_dsmc_state;
 
 typedef struct gg_dsmc {

@@ -16,20 +16,50 @@ static const gg_dsmc *const_dsmc_of(const gg_engine *engine)
   return (const gg_dsmc *)engine;
 }
 
-static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
+/* Work between looks at whether to stop, in candidates: some milliseconds. A step is worth some by itself, and grains
+ * that are heated are each worth one. */
+enum { WORK_BETWEEN_LOOKS = 1 << 16, WORK_OF_A_STEP = 32 };
+
+static bool is_stopped(const gg_dsmc *d, uint64_t candidates_before, uint64_t *work)
+{
+  *work += WORK_OF_A_STEP + (d->now.candidates - candidates_before);
+  if (d->thermostat != GG_NO_THERMOSTAT) *work += (uint64_t)d->model.n;
+  if (*work < WORK_BETWEEN_LOOKS) return false;
+  *work = 0;
+  return gg_stop_asked(d->model.stop);
+}
+
+static gg_status check_temperature(const gg_dsmc *d, gg_error *err)
+{
+  const double largest = d->model.single ? 0x1p60 : 0x1p900; /* temperature whose squares are numbers, too */
+  if (d->now.temperature > 1 / largest && d->now.temperature < largest) return GG_OK;
+  return gg_fail(err, GG_FAILED, "the temperature has left the range of numbers (%g) after %.3g collisions a grain",
+                 d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
+}
+
+static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
-  uint64_t start = d->now.collisions;
-  double gone = 0;
-  const double largest = d->model.single ? 0x1p60 : 0x1p900; /* temperature whose squares are numbers, too */
-  while (gone < dt && d->now.collisions - start < max_collisions) {
-    if (!(d->now.temperature > 1 / largest) || !(d->now.temperature < largest))
-      return gg_fail(err, GG_FAILED, "the temperature has left the range of numbers (%g) after %.3g collisions a grain",
-                     d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
-    gone += gg_dsmc_step(d, dt - gone, (double)(max_collisions - (d->now.collisions - start)));
+  gg_dsmc_state *s = &d->now;
+  bool stopped = false;
+  for (uint64_t work = 0; !stopped && s->gone < s->asked && s->collisions < s->last_collision;) {
+    uint64_t before = s->candidates;
+    GG_TRY(check_temperature(d, err));
+    s->gone += gg_dsmc_step(d, s->asked - s->gone, (double)(s->last_collision - s->collisions));
+    stopped = is_stopped(d, before, &work);
   }
-  if (elapsed) *elapsed = gone;
-  return GG_OK;
+  *elapsed = s->gone;
+  return stopped ? gg_fail(err, GG_INTERRUPTED, "dsmc: stopped") : GG_OK;
+}
+
+static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
+{
+  gg_dsmc_state *s = &dsmc_of(engine)->now;
+  double unused;
+  s->asked = dt;
+  s->gone = 0;
+  s->last_collision = max_collisions < UINT64_MAX - s->collisions ? s->collisions + max_collisions : UINT64_MAX;
+  return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
 static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
@@ -189,4 +219,5 @@ const gg_engine_ops gg_dsmc_ops = {
     .save = gg_dsmc_save,
     .restore = gg_dsmc_restore,
     .describe = gg_dsmc_describe,
+    .go_on = go_on,
 };

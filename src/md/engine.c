@@ -21,6 +21,17 @@ static bool falls_across(const gg_md *e)
   return e->gravity.y != 0;
 }
 
+/* Of a large system it takes a while. */
+static gg_status predict_all(gg_md *e, gg_error *err)
+{
+  for (uint32_t from = 0, to; from < e->n; from = to) {
+    to = e->n - from > GG_MD_GRAINS_BETWEEN_LOOKS ? from + GG_MD_GRAINS_BETWEEN_LOOKS : e->n;
+    if (from > 0 && gg_stop_asked(e->model.stop)) return gg_fail(err, GG_INTERRUPTED, "md: stopped at the start");
+    e->kernel->predict(e, from, to);
+  }
+  return GG_OK;
+}
+
 /* From places and velocities to a run that can go on. */
 gg_status gg_md_begin(gg_md *e, gg_error *err)
 {
@@ -42,8 +53,7 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     e->node[i].time = INFINITY;
     gg_md_queue_insert(&e->queue, e->node, i);
   }
-  e->kernel->predict_all(e);
-  return GG_OK;
+  return predict_all(e, err);
 }
 
 static void destroy(gg_engine *engine)
@@ -71,44 +81,67 @@ static double outer_now(const gg_md *e)
   return e->k.outer + (e->k.now - e->k.mark) / e->k.scale;
 }
 
-/* Events with kicks in between: each kick stops the loop at its time. e->stop moves with the epochs, so what the kick
- * cuts off is kept as a difference. */
-static void go_on_with_kicks(gg_md *e)
+/* Between looks at whether to stop: some milliseconds. */
+enum { EVENTS_BETWEEN_LOOKS = 1 << 14 };
+
+/* Events up to k.stop; false if it was stopped on the way. */
+static bool run_leg(gg_md *e)
 {
-  double beyond = e->stop - e->k.next_kick;
-  while (beyond >= 0) {
-    e->stop = e->k.next_kick;
+  for (;;) {
     e->kernel->run(e);
-    if (!e->collisions_left) return;
-    e->k.now = e->k.next_kick;
-    gg_md_thermostat_kick(e);
-    beyond -= e->k.next_kick - e->k.now;
+    if (e->k.events < e->look_at) return true;
+    e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+    if (gg_stop_asked(e->model.stop)) return false;
   }
-  e->stop = e->k.next_kick + beyond;
-  e->kernel->run(e);
 }
 
-/* A run stands at the end of the advance, or at the last collision allowed to it. */
+/* Events with kicks in between: each kick ends a leg. k.stop moves with the epochs, so what the kick cuts off is kept
+ * as a difference. */
+static bool run_legs(gg_md *e)
+{
+  while (e->k.beyond_kick >= 0) {
+    e->k.stop = e->k.next_kick;
+    if (!run_leg(e)) return false;
+    if (!e->k.collisions_left) return true;
+    e->k.now = e->k.next_kick;
+    gg_md_thermostat_kick(e);
+    e->k.beyond_kick -= e->k.next_kick - e->k.now;
+  }
+  if (e->k.beyond_kick > -INFINITY) e->k.stop = e->k.next_kick + e->k.beyond_kick;
+  e->k.beyond_kick = -INFINITY;
+  return run_leg(e);
+}
+
+/* The run stands at the end of the advance, or at the last collision allowed to it, or where it was stopped. */
+static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+  bool ended = run_legs(e);
+  if (e->out_of_memory) return gg_fail(err, GG_FAILED, "out of memory: a cell of the grid could not grow");
+  bool whole = ended && e->k.collisions_left && e->k.stop < INFINITY;
+  if (whole) e->k.now = e->k.stop;
+  *elapsed = whole ? e->k.asked : outer_now(e);
+  if (!ended) return gg_fail(err, GG_INTERRUPTED, "md: stopped");
+  e->k.outer_time += *elapsed;
+  e->k.outer = 0;
+  e->k.mark = e->k.now;
+  return GG_OK;
+}
+
 static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
+  double unused;
   if (!(dt >= 0)) return gg_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
+  e->k.outer_time += outer_now(e); /* of one that was stopped, and is not to go on */
   e->k.outer = 0;
   e->k.mark = e->k.now;
-  e->outer_stop = dt;
-  e->stop = e->k.now + dt * e->k.scale;
-  e->collisions_left = max_collisions;
-  if (e->thermostat == GG_WHITE_NOISE)
-    go_on_with_kicks(e);
-  else
-    e->kernel->run(e);
-  if (e->out_of_memory) return gg_fail(err, GG_FAILED, "out of memory: a cell of the grid could not grow");
-  bool whole = e->collisions_left && e->stop < INFINITY;
-  if (whole) e->k.now = e->stop;
-  double gone = whole ? dt : outer_now(e);
-  e->k.outer_time += gone;
-  if (elapsed) *elapsed = gone;
-  return GG_OK;
+  e->k.asked = dt;
+  e->k.stop = e->k.now + dt * e->k.scale;
+  e->k.beyond_kick = e->thermostat == GG_WHITE_NOISE ? e->k.stop - e->k.next_kick : -INFINITY;
+  e->k.collisions_left = max_collisions;
+  return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
 static void keep_sums(gg_engine *engine, bool keep)
@@ -128,7 +161,8 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
 static void state(const gg_engine *engine, gg_engine_state *s)
 {
   const gg_md *e = (const gg_md *)engine;
-  *s = (gg_engine_state){.time = e->thermostat == GG_GAUSSIAN ? e->k.outer_time : e->k.epoch_start + e->k.now,
+  *s = (gg_engine_state){.time = e->thermostat == GG_GAUSSIAN ? e->k.outer_time + outer_now(e)
+                                                              : e->k.epoch_start + e->k.now,
                          .collisions = e->k.collisions,
                          .events = e->k.events,
                          .treated = e->k.treated,
@@ -177,4 +211,5 @@ const gg_engine_ops gg_md_ops = {
     .save = gg_md_save,
     .restore = gg_md_restore,
     .describe = gg_md_describe,
+    .go_on = go_on,
 };

@@ -93,7 +93,7 @@ bool gg_md_next_epoch(gg_md *e)
   e->k.now -= span;
   e->k.mark -= span;
   e->k.next_kick -= span;
-  e->stop -= span;
+  e->k.stop -= span;
   if (e->model.flow == GG_HCS || e->model.flow == GG_HSS || e->model.flow == GG_USF) follow_centre_of_mass(e);
   if (e->thermostat == GG_GAUSSIAN) {
     span /= e->k.scale;

@@ -75,7 +75,7 @@ GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
   one->counter += 2;
   two->counter += 2;
   e->k.collisions++;
-  e->collisions_left--;
+  e->k.collisions_left--;
   gg_md_predict_two(e, i, j);
 }
 
@@ -109,32 +109,32 @@ GG_INLINE void gg_md_prefetch_next(const gg_md *e)
     gg_md_prefetch_ahead(e, e->queue.due[n - 2].grain);
 }
 
-/* The next event of all; GG_MD_NONE if there is none before e->stop. Rows shift after all events up to then and before
- * all later ones: a matter of the trajectory alone. */
+/* The next event of all; GG_MD_NONE if there is none before e->k.stop. Rows shift after all events up to then and
+ * before all later ones: a matter of the trajectory alone. */
 GG_INLINE uint32_t gg_md_next(gg_md *e)
 {
   for (;;) {
     while (e->queue.n_due == 0)
       if (gg_md_queue_turn(&e->queue, e->node))
         gg_md_prefetch_bucket(e);
-      else if (ROWS_SHIFT && e->next_shift <= gg_md_queue_span(&e->queue) && e->next_shift <= e->stop)
+      else if (ROWS_SHIFT && e->next_shift <= gg_md_queue_span(&e->queue) && e->next_shift <= e->k.stop)
         gg_md_shift_all(e);
-      else if (gg_md_queue_span(&e->queue) > e->stop)
+      else if (gg_md_queue_span(&e->queue) > e->k.stop)
         return GG_MD_NONE;
       else if (!gg_md_next_epoch(e))
         return GG_MD_NONE;
     gg_md_due due = e->queue.due[e->queue.n_due - 1];
-    if (ROWS_SHIFT && e->next_shift < due.time && e->next_shift <= e->stop)
+    if (ROWS_SHIFT && e->next_shift < due.time && e->next_shift <= e->k.stop)
       gg_md_shift_all(e);
     else
-      return due.time <= e->stop ? due.grain : GG_MD_NONE;
+      return due.time <= e->k.stop ? due.grain : GG_MD_NONE;
   }
 }
 
 GG_INLINE void gg_md_run_events(gg_md *e)
 {
   uint32_t i;
-  while (e->collisions_left && (i = gg_md_next(e)) != GG_MD_NONE) {
+  while (e->k.collisions_left && e->k.events < e->look_at && (i = gg_md_next(e)) != GG_MD_NONE) {
     gg_md_prefetch_next(e);
     const gg_md_node *node = &e->node[i];
     uint32_t partner = node->partner;

@@ -11,10 +11,10 @@ static void run(gg_md *e)
   gg_md_run_events(e);
 }
 
-/* Every grain anew: at a start, or after kicks to all. */
-static void predict_all(gg_md *e)
+/* Grains anew: at a start, or after kicks to all. */
+static void predict(gg_md *e, uint32_t from, uint32_t to)
 {
-  for (uint32_t i = 0; i < e->n; i++) gg_md_predict(e, i);
+  for (uint32_t i = from; i < to; i++) gg_md_predict(e, i);
 }
 
-const gg_md_kernel JOIN(gg_md_kernel_, GG_INSTANCE) = {run, predict_all};
+const gg_md_kernel JOIN(gg_md_kernel_, GG_INSTANCE) = {run, predict};

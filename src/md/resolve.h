@@ -49,7 +49,7 @@ GG_INLINE void gg_md_return_energy(gg_md *e, double lost)
   k->mark = k->now;
   k->kinetic -= lost;
   k->scale = sqrt(k->kinetic0 / k->kinetic);
-  e->stop = k->now + (e->outer_stop - k->outer) * k->scale;
+  k->stop = k->now + (k->asked - k->outer) * k->scale;
 }
 
 /* Kinetic energy lost, from the changes of velocity. */

@@ -41,6 +41,9 @@ typedef struct gg_md_row {
   int32_t above, below;
 } gg_md_row;
 
+/* At the start: between looks at whether to stop, some milliseconds. */
+enum { GG_MD_GRAINS_BETWEEN_LOOKS = 1 << 13 };
+
 typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
@@ -49,8 +52,8 @@ typedef void gg_md_resolution(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_ve
 typedef void gg_md_wall_resolution(gg_md *e, uint32_t i, int upper);
 /* An instance of the event loop (kernels.h). */
 typedef struct gg_md_kernel {
-  void (*run)(gg_md *e);         /* handle events until e->stop or until e->collisions_left is used up */
-  void (*predict_all)(gg_md *e); /* predict every grain's next event */
+  void (*run)(gg_md *e); /* handle events until k.stop, k.collisions_left or e->look_at */
+  void (*predict)(gg_md *e, uint32_t from, uint32_t to); /* predict the next event of each of these grains */
 } gg_md_kernel;
 
 /* Plain data beside the arrays: goes into a checkpoint as it is. */
@@ -70,6 +73,10 @@ typedef struct gg_md_counts {
   double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
   double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
   double outer_time;               /* outside, up to the present advance */
+  /* Of the present advance, which may have been stopped. */
+  double asked, stop;       /* its length, outside; its end, or that of its present leg, in epoch time */
+  double beyond_kick;       /* white noise: what is left of it after the next kick; -INFINITY: that comes too late */
+  uint64_t collisions_left; /* to it */
   double fractional_shift, common_shift; /* of co-moving rows (rows.c), at the epoch's start */
   int32_t row_shift, image_shift;
   uint32_t keeps_sums;
@@ -101,13 +108,11 @@ struct gg_md {
   gg_md_counts k;
   gg_md_row *row; /* of cells that move with the flow: one for each layer along y, and images: -1, n_y, n_y + 1; NULL:
                      at rest */
-  double next_shift;        /* epoch time at which rows will have shifted by a cell; INFINITY: never */
-  double stop;              /* end of the present advance, epoch time */
-  double outer_stop;        /* the same in outside time since it began; INFINITY: none */
-  uint64_t collisions_left; /* of the present advance */
-  bool plain;               /* one pair at a time, the reference for the tests */
-  bool overlapping;         /* the cells overlap (members.h) */
-  bool out_of_memory;       /* a cell could not grow: the run is over */
+  double next_shift;  /* epoch time at which rows will have shifted by a cell; INFINITY: never */
+  uint64_t look_at;   /* events after which the loop is left, to look whether to stop */
+  bool plain;         /* one pair at a time, the reference for the tests */
+  bool overlapping;   /* the cells overlap (members.h) */
+  bool out_of_memory; /* a cell could not grow: the run is over */
   const gg_md_kernel *kernel;
   gg_md_resolution *resolve;
   gg_md_wall_resolution *resolve_wall;

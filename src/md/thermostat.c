@@ -41,7 +41,7 @@ void gg_md_thermostat_fold(gg_md *e)
   for (size_t i = 0; i < sizeof times / sizeof *times; i++) *times[i] *= t;
   k->kinetic = kinetic_energy(e);
   k->scale = sqrt(k->kinetic0 / k->kinetic);
-  e->stop = k->mark + (e->outer_stop - k->outer) * k->scale;
+  k->stop = k->mark + (k->asked - k->outer) * k->scale;
 }
 
 void gg_md_thermostat_kick(gg_md *e)
@@ -59,6 +59,6 @@ void gg_md_thermostat_kick(gg_md *e)
     mass += m;
   }
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
-  e->kernel->predict_all(e);
+  e->kernel->predict(e, 0, e->n);
   e->k.next_kick += kick_interval(e);
 }

@@ -66,26 +66,22 @@ static bool adapts(const gg_replicas *all)
   return !all->state.averaging || all->model.flow == GG_HCS || !all->model.steady;
 }
 
-static bool out_of_time(const gg_replicas *all)
-{
-  return all->plan.time_limit > 0 && all->state.wall + gg_wall_now() - all->started > all->plan.time_limit;
-}
-
 /* Is there no point in going on, whatever was asked? */
 static bool is_over(const gg_replicas *all)
 {
-  return out_of_time(all) || all->state.standstill > 0;
+  return all->stopped == GG_OUT_OF_TIME || all->state.standstill > 0;
 }
 
 /* Let every replica reach `due` samples, in short steps with progress and a checkpoint between them. */
 static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 {
-  while (all->state.due < due || all->replica[all->n - 1].clock.samples < all->state.due) {
-    if (all->replica[all->n - 1].clock.samples >= all->state.due) {
+  while (all->state.due < due || !gg_replicas_are_level(all)) {
+    if (gg_replicas_are_level(all)) {
       uint64_t step = 1 + (uint64_t)(2e5 / (double)all->model.n); /* some tens of milliseconds */
       all->state.due = all->state.due + step < due ? all->state.due + step : due;
     }
     gg_status status = gg_replicas_advance(all, adapts(all), err);
+    if (status == GG_INTERRUPTED && is_over(all)) return GG_OK;
     if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, err));
     if (status != GG_OK) return status;
     gg_replicas_check_standstill(all);
@@ -94,12 +90,6 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
     if (is_over(all)) return GG_OK;
   }
   return GG_OK;
-}
-
-gg_status gg_replicas_finish_round(gg_replicas *all, gg_error *err)
-{
-  all->hooks = NULL;
-  return gg_replicas_advance(all, adapts(all), err);
 }
 
 /* Windows that may be given up: averaging does not begin anew for ever. */
@@ -151,7 +141,7 @@ gg_status gg_replicas_run(gg_replicas *all, gg_error *err)
   }
   while (!is_over(all)) {
     GG_TRY(advance_to(all, all->state.goal, err));
-    if (all->state.due < all->state.goal) break; /* over on the way */
+    if (all->state.due < all->state.goal || !gg_replicas_are_level(all)) break; /* over on the way */
     uint64_t window = all->state.due - all->state.window_at;
     gg_convergence c;
     GG_TRY(gg_replicas_convergence(all, &c, err));

@@ -55,23 +55,39 @@ static double cpu_used(const gg_replica *r)
   return gg_cpu_now() + state.others_cpu;
 }
 
-/* Advance by one sampling interval, in parts if an observable asks for snapshots in between. An interval in which a
- * grain collides a thousand times more than expected is an inelastic collapse that the contact-time rule was not there
- * to prevent. */
+/* An interval in which a grain collides a thousand times more than expected is an inelastic collapse that the
+ * contact-time rule was not there to prevent. */
+static uint64_t most_collisions(const gg_replica *r)
+{
+  return (uint64_t)(1000 * GG_SAMPLING_INTERVAL * (double)r->model.n / 2) + 1000000;
+}
+
+/* One part of an interval, or the rest of one that was stopped. */
+static gg_status advance_part(gg_replica *r, int part, int parts, gg_error *err)
+{
+  const gg_engine_ops *ops = r->engine->ops;
+  bool cut = r->clock.part == part;
+  r->clock.part = part;
+  if (cut) return ops->go_on(r->engine, &r->clock.part_gone, err);
+  return ops->advance(r->engine, r->clock.interval / parts, most_collisions(r), &r->clock.part_gone, err);
+}
+
+/* Advance by one sampling interval, in parts if an observable asks for snapshots in between; or to the end of one that
+ * was stopped. */
 static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happened, gg_error *err)
 {
-  uint64_t before = collisions(r);
-  uint64_t limit = (uint64_t)(1000 * GG_SAMPLING_INTERVAL * (double)r->model.n / 2) + 1000000;
-  int parts = r->clock.averaging ? r->parts : 1;
-  *elapsed = 0;
-  for (int part = 1; part <= parts; part++) {
-    double gone;
-    GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval / parts, limit, &gone, err));
-    *elapsed += gone;
-    if (r->clock.averaging) gg_replica_sample_curves(r, part, gone);
+  struct gg_replica_clock *c = &r->clock;
+  int parts = c->averaging ? r->parts : 1;
+  if (!c->part) c->gone = 0, c->happened = collisions(r);
+  for (int part = c->part ? (int)c->part : 1; part <= parts; part++) {
+    GG_TRY(advance_part(r, part, parts, err));
+    c->gone += c->part_gone;
+    if (c->averaging) gg_replica_sample_curves(r, part, c->part_gone);
   }
-  *happened = collisions(r) - before;
-  if (*happened >= limit)
+  *elapsed = c->gone;
+  *happened = collisions(r) - c->happened;
+  c->part = 0;
+  if (*happened >= most_collisions(r))
     return gg_fail(err, GG_FAILED,
                    "%s: collisions accumulate without end (inelastic collapse) near time %g; "
                    "give md.contact_time a larger value (it is %g %s)",
@@ -116,8 +132,8 @@ static gg_status rescale_if_due(gg_replica *r, gg_error *err)
 
 void gg_replica_date_frame(const gg_replica *r, gg_frame *frame)
 {
-  double unit = ldexp(1, -(int)r->clock.power);
-  frame->time = r->clock.time;
+  double unit = ldexp(1, -(int)r->clock.power), unit_time = ldexp(1, (int)r->clock.power);
+  frame->time = r->clock.time + (r->clock.part ? unit_time * (r->clock.gone + r->clock.part_gone) : 0);
   for (size_t i = 0; i < 3 * frame->n && r->clock.power; i++) {
     frame->velocity[i] *= unit;
     if (frame->spin) frame->spin[i] *= unit;
@@ -143,9 +159,9 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
   return status;
 }
 
-static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
+static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
 {
-  double start = cpu_used(r), elapsed;
+  double elapsed;
   uint64_t happened;
   GG_TRY(advance_interval(r, &elapsed, &happened, err));
   gg_replica_sample_row(r, elapsed);
@@ -153,16 +169,21 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   gg_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened);
-  GG_TRY(rescale_if_due(r, err));
+  return rescale_if_due(r, err);
+}
+
+static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
+{
+  double start = cpu_used(r);
+  gg_status status = take_sample(r, adapt, err);
   r->clock.cpu += cpu_used(r) - start;
-  return GG_OK;
+  return status;
 }
 
 gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err)
 {
   while (r->clock.samples < samples) {
-    if (hooks && hooks->interrupted && hooks->interrupted(hooks->context))
-      return gg_fail(err, GG_INTERRUPTED, "interrupted");
+    if (gg_stop_asked(r->model.stop)) return gg_fail(err, GG_INTERRUPTED, "interrupted");
     GG_TRY(sample_once(r, adapt, err));
     GG_TRY(emit_frame(r, hooks, err));
   }

@@ -30,6 +30,11 @@ typedef struct gg_replica {
     uint64_t window_collisions;
     uint64_t averaging, window_samples; /* curves are being taken; samples since */
     double next_frame, frame_every;     /* collisions per grain; of the frames asked for when it was set */
+    /* Of the interval under way, where the run was stopped within it. */
+    int64_t part;      /* in which it was stopped, from 1 on; 0: between intervals */
+    double gone;       /* time of the parts before */
+    double part_gone;  /* of this part */
+    uint64_t happened; /* collisions of the engine when the interval began */
   } clock;
 } gg_replica;
 
@@ -39,8 +44,9 @@ typedef struct gg_replica {
 gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err);
 void gg_replica_clear(gg_replica *r);
 
-/* Go on until `samples` have been taken in all; GG_INTERRUPTED between samples if the hook says so. With `adapt`, the
- * interval follows the collision rate (warm-up, cooling). */
+/* Go on until `samples` have been taken in all; GG_INTERRUPTED where model.stop asks for it, within an interval as
+ * well: what is saved there goes on bit for bit. With `adapt`, the interval follows the collision rate (warm-up,
+ * cooling). */
 gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
 
 /* Averaging begins at the next sample. */

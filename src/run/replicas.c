@@ -26,6 +26,7 @@ gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_a
                              const gg_hooks *hooks, gg_error *err)
 {
   *all = (gg_replicas){.scene = *scene, .threads = threads, .n = (int)scene->run.replicas, .hooks = hooks};
+  all->started = all->last_checkpoint = gg_wall_now();
   all->last.relative_error = NAN; /* nothing is estimated yet */
   GG_TRY(gg_model_make(scene, scene->engine, &all->model, err));
   GG_TRY(gg_engine_ops_of(scene->engine)->accepts(&all->model, err));
@@ -33,12 +34,15 @@ gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_a
   all->plan = gg_plan_of(scene, &all->model);
   all->replica = gg_new_array((size_t)all->n, sizeof *all->replica, err);
   if (!all->replica) return GG_FAILED;
+  gg_replicas_watch(all);
   gg_status status = resume ? gg_replicas_restore(all, resume, err) : create_replicas(all, err);
+  if (status == GG_INTERRUPTED && all->stopped == GG_OUT_OF_TIME)
+    status = gg_fail(err, GG_FAILED, "%s: the time limit struck before the start was done",
+                     gg_engine_ops_of(scene->engine)->name);
   if (status == GG_OK)
     share_threads(all);
   else
     gg_replicas_clear(all);
-  all->started = all->last_checkpoint = gg_wall_now();
   return status;
 }
 
@@ -47,29 +51,15 @@ void gg_replicas_clear(gg_replicas *all)
   for (int i = 0; all->replica && i < all->n; i++) gg_replica_clear(&all->replica[i]);
   free(all->replica);
   all->replica = NULL;
-}
-
-/* The caller's hooks, called by one replica at a time. */
-typedef struct shared_hooks {
-  const gg_hooks *hooks;
-  pthread_mutex_t lock;
-} shared_hooks;
-
-static bool locked_interrupted(void *context)
-{
-  shared_hooks *s = context;
-  pthread_mutex_lock(&s->lock);
-  bool yes = s->hooks->interrupted(s->hooks->context);
-  pthread_mutex_unlock(&s->lock);
-  return yes;
+  gg_replicas_unwatch(all);
 }
 
 static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *err)
 {
-  shared_hooks *s = context;
-  pthread_mutex_lock(&s->lock);
-  gg_status status = s->hooks->frame(s->hooks->context, frame, err);
-  pthread_mutex_unlock(&s->lock);
+  gg_replicas *all = context;
+  pthread_mutex_lock(&all->lock);
+  gg_status status = all->hooks->frame(all->hooks->context, frame, err);
+  pthread_mutex_unlock(&all->lock);
   return status;
 }
 
@@ -100,9 +90,7 @@ gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err)
   worker workers[MOST_THREADS];
   pthread_t threads[MOST_THREADS];
   bool running[MOST_THREADS] = {false};
-  shared_hooks shared = {.hooks = all->hooks, .lock = PTHREAD_MUTEX_INITIALIZER};
-  gg_hooks hooks = {.context = &shared};
-  if (all->hooks && all->hooks->interrupted) hooks.interrupted = locked_interrupted;
+  gg_hooks hooks = {.context = all};
   if (all->hooks && all->hooks->frame) hooks.frame = locked_frame;
   for (int w = 0; w < n; w++) {
     workers[w] = (worker){.all = all, .first = w, .stride = n, .adapt = adapt, .hooks = &hooks, .status = GG_OK};
@@ -112,11 +100,42 @@ gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err)
     if (!running[w]) work(&workers[w]);
   for (int w = 0; w < n; w++)
     if (running[w]) pthread_join(threads[w], NULL);
-  pthread_mutex_destroy(&shared.lock);
   for (int w = 0; w < n; w++)
     if (workers[w].status != GG_OK) {
       if (err) *err = workers[w].err;
       return workers[w].status;
     }
   return GG_OK;
+}
+
+bool gg_replicas_are_level(const gg_replicas *all)
+{
+  for (int i = 0; i < all->n; i++)
+    if (all->replica[i].clock.samples < all->state.due) return false;
+  return true;
+}
+
+static void level_bins(gg_replicas *all, int k)
+{
+  size_t per_block = 0;
+  for (int i = 0; i < all->n; i++)
+    if (all->replica[i].bins[k].per_block > per_block) per_block = all->replica[i].bins[k].per_block;
+  for (int i = 0; i < all->n; i++)
+    if (all->replica[i].bins[k].sum) gg_bins_coarsen(&all->replica[i].bins[k], per_block);
+}
+
+void gg_replicas_level(gg_replicas *all)
+{
+  size_t per_row = 0, rows = SIZE_MAX;
+  for (int i = 0; i < all->n; i++) {
+    const gg_replica *r = &all->replica[i];
+    if (r->clock.samples < all->state.due) all->state.due = r->clock.samples;
+    if (r->series.per_row > per_row) per_row = r->series.per_row;
+  }
+  for (int i = 0; i < all->n; i++) {
+    gg_series_coarsen(&all->replica[i].series, per_row);
+    if (all->replica[i].series.n < rows) rows = all->replica[i].series.n;
+  }
+  for (int i = 0; i < all->n; i++) all->replica[i].series.n = rows;
+  for (int k = 0; k < all->replica[0].n_observables; k++) level_bins(all, k);
 }

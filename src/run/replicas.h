@@ -3,6 +3,9 @@
 #ifndef GG_REPLICAS_H
 #define GG_REPLICAS_H
 
+#include <pthread.h>
+#include <stdatomic.h>
+
 #include "run/replica.h"
 
 typedef struct gg_plan {        /* what is asked, settled before the run; in samples of each replica */
@@ -30,6 +33,9 @@ typedef struct gg_replicas {
   int threads, n;
   gg_replica *replica; /* n of them */
   const gg_hooks *hooks;
+  pthread_mutex_t lock;                           /* one replica at a time calls a hook */
+  gg_stop stop;                                   /* what the model's points to (stopping.c) */
+  _Atomic int stopped;                            /* GG_GOES_ON ... */
   struct gg_replicas_state {                      /* plain data: saved as bytes */
     int64_t averaging;                            /* 0: warm-up */
     uint64_t due;                                 /* samples that every replica is to have taken */
@@ -45,6 +51,8 @@ typedef struct gg_replicas {
   double started, last_checkpoint; /* clock readings */
 } gg_replicas;
 
+enum { GG_GOES_ON, GG_OUT_OF_TIME, GG_STOP_ASKED }; /* why a run is stopped */
+
 gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model);
 
 gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
@@ -55,8 +63,15 @@ gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err);
 
 /* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
 gg_status gg_replicas_run(gg_replicas *all, gg_error *err);
-/* After an interruption: bring every replica to where the step was to end, and call nobody any more. */
-gg_status gg_replicas_finish_round(gg_replicas *all, gg_error *err);
+/* Has every replica all->state.due samples? Where a run was stopped, some may not. */
+bool gg_replicas_are_level(const gg_replicas *all);
+/* Of a run that is over: forget the samples that not every replica has, so that what there is can be reported. */
+void gg_replicas_level(gg_replicas *all);
+
+/* stopping.c: from now on whoever works for these replicas looks whether the caller's hook or the time limit ask to
+ * stop; and the end of that. */
+void gg_replicas_watch(gg_replicas *all);
+void gg_replicas_unwatch(gg_replicas *all);
 
 /* convergence.c: how exact the means over the window are, and whether it is steady. */
 gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *convergence, gg_error *err);

@@ -186,6 +186,7 @@ gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)
   result->scene = all->scene;
   gg_extension_hold(result->scene.extension);
   result->model = all->model;
+  result->model.stop = NULL; /* it ends with the run */
   result->engine = all->replica[0].engine->ops->name;
   GG_TRY(gg_replicas_convergence(all, &c, err));
   GG_TRY(report_means(all, result, err));

@@ -7,6 +7,7 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
 {
   gg_result *result = gg_new_array(1, sizeof *result, err);
   if (!result) return GG_FAILED;
+  gg_replicas_level(all);
   gg_status status = gg_replicas_report(all, result, err);
   *out = result;
   return status;
@@ -21,7 +22,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   gg_status status = gg_replicas_run(&all, err);
   if (status == GG_OK) status = report(&all, out, err);
   bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
-  if (cut_short && gg_replicas_finish_round(&all, NULL) == GG_OK) report(&all, out, NULL);
+  if (cut_short) report(&all, out, NULL);
   gg_replicas_clear(&all);
   return status;
 }

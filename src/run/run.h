@@ -10,7 +10,8 @@
 typedef struct gg_hooks {
   void *context;
   void (*progress)(void *context, const gg_progress *progress);
-  bool (*interrupted)(void *context); /* asked between advances; true ends the run with GG_INTERRUPTED */
+  /* Asked several times a second, from the start on; true ends the run with GG_INTERRUPTED. */
+  bool (*interrupted)(void *context);
   gg_status (*frame)(void *context, const gg_frame *frame, gg_error *err); /* every output.trajectory_every */
   /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole,
    * with all frames that came before. Items may be added. */
@@ -20,7 +21,8 @@ typedef struct gg_hooks {
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side
  * by side, and shares out a large ensemble of engine dsmc where there are more threads than that needs; the result does
  * not depend on it. GG_FAILED with *result set: ended short of what was asked; GG_INTERRUPTED, and GG_BAD_FILE from a
- * hook, with *result set: so far. The caller frees *result with gg_result_free. */
+ * hook, with *result set: so far. Stopped while many grains were placed, no *result. The caller frees *result with
+ * gg_result_free. */
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                        gg_result **result, gg_error *err);
 

@@ -32,12 +32,20 @@ double *gg_bins_sample(gg_bins *b)
 
 static void join_neighbours(gg_bins *b)
 {
-  for (size_t i = 0; i < GG_BINS_BLOCKS / 2; i++)
+  for (size_t i = 0; i < b->blocks / 2; i++)
     for (size_t k = 0; k < b->width; k++)
       b->sum[i * b->width + k] = b->sum[2 * i * b->width + k] + b->sum[(2 * i + 1) * b->width + k];
-  b->blocks = GG_BINS_BLOCKS / 2;
+  b->blocks /= 2;
   b->per_block *= 2;
-  memset(b->sum + b->blocks * b->width, 0, (GG_BINS_BLOCKS / 2 + 1) * b->width * sizeof(double));
+  memset(b->sum + b->blocks * b->width, 0, (GG_BINS_BLOCKS + 1 - b->blocks) * b->width * sizeof(double));
+}
+
+void gg_bins_coarsen(gg_bins *b, size_t per_block)
+{
+  while (b->per_block < per_block) {
+    join_neighbours(b);
+    b->pending = 0;
+  }
 }
 
 void gg_bins_commit(gg_bins *b)

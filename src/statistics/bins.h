@@ -24,6 +24,9 @@ void gg_bins_restart(gg_bins *b);
 double *gg_bins_sample(gg_bins *b);
 void gg_bins_commit(gg_bins *b);
 
+/* Join neighbouring blocks until each is of `per_block` samples (a power of two); one that is left over is lost. */
+void gg_bins_coarsen(gg_bins *b, size_t per_block);
+
 static inline const double *gg_bins_block(const gg_bins *b, size_t i)
 {
   return b->sum + i * b->width;

@@ -49,6 +49,11 @@ void gg_series_add(gg_series *s, double time, const double *sample)
   if (s->n == GG_SERIES_ROWS) halve(s);
 }
 
+void gg_series_coarsen(gg_series *s, size_t per_row)
+{
+  while (s->per_row < per_row) halve(s);
+}
+
 void gg_series_open_window(gg_series *s)
 {
   s->pending = 0;

@@ -24,6 +24,9 @@ void gg_series_clear(gg_series *s);
 /* Append one sample of `width` numbers. */
 void gg_series_add(gg_series *s, double time, const double *sample);
 
+/* Average neighbouring rows until each is made of `per_row` samples (a power of two); one that is left over is lost. */
+void gg_series_coarsen(gg_series *s, size_t per_row);
+
 /* Start the averaging window at the next sample (drops a half-filled row) or at a row. */
 void gg_series_open_window(gg_series *s);
 

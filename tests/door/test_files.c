@@ -55,17 +55,22 @@ static void stopped_anywhere(void **state)
   }
 }
 
+static int stop_in_averaging(void *context, const gg_progress *progress)
+{
+  (void)context;
+  return strcmp(progress->phase, "averaging") == 0;
+}
+
 /* A large ensemble is stopped in steps of a single sample: the first of the averaging is all that there is. */
 static void a_single_sample(void **state)
 {
   (void)state;
   gg_error err;
-  int left = 2;
   gg_scene *s = scene_of("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 250000}, measure: [rheology, "
                          "velocity_distributions], run: {collisions: 40, warmup: 4}}");
   gg_result *r = NULL;
   gg_measurement m;
-  assert_int_equal(gg_run(s, &(gg_run_options){.stop = stop_now, .context = &left}, &r, &err), GG_INTERRUPTED);
+  assert_int_equal(gg_run(s, &(gg_run_options){.progress = stop_in_averaging}, &r, &err), GG_INTERRUPTED);
   assert_ok(gg_result_find(r, "temperature", &m, &err));
   assert_true(m.mean > 0 && isnan(m.error) && m.samples == 1);
   assert_ok(gg_result_write(r, "t_single.h5", &err));

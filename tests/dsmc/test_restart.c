@@ -1,4 +1,5 @@
 /* A restored engine goes on bit for bit; so does one whose velocities were multiplied by a power of two. */
+#include "common/rng.h"
 #include "lab.h"
 
 static void same_archive(gg_engine *a, gg_engine *b)
@@ -135,9 +136,57 @@ static void precision_is_kept(void **state)
   gg_dsmc_ops.destroy(one);
 }
 
+static bool by_chance(void *context)
+{
+  return gg_rng_uniform(context) < 0.5;
+}
+
+/* Stopped at random ends of steps, each time saved and restored, an advance ends as the uninterrupted one. */
+static void stopped(void **state)
+{
+  (void)state;
+  const struct {
+    gg_flow flow;
+    int64_t n;
+    double time_step;
+  } cases[] = {{GG_USF, 5000, GG_AUTO}, {GG_HSS, 3000, GG_AUTO}, {GG_USF, 300, 1e-4}, {GG_HCS, 70000, GG_AUTO}};
+  for (int k = 0; k < 4; k++) {
+    gg_scene s = lab_scene(cases[k].flow, 0.1, 0.8, -1, cases[k].n);
+    s.dsmc.time_step = cases[k].time_step;
+    s.thermostat = cases[k].flow == GG_HSS ? GG_GAUSSIAN : GG_NO_THERMOSTAT;
+    gg_model m = lab_model(&s);
+    gg_rng rng = gg_rng_seed(1, 0);
+    gg_stop stop = {by_chance, &rng};
+    gg_error err;
+    double dt = 20 / gg_model_collision_rate(&m, m.temperature0), gone;
+    gg_engine *straight = lab_engine(&m, 8);
+    m.stop = &stop;
+    gg_engine *cut = lab_engine(&m, 8);
+    double whole = lab_advance(straight, dt, UINT64_MAX);
+    gg_status status = gg_dsmc_ops.advance(cut, dt, UINT64_MAX, &gone, &err);
+    int stops = 0;
+    for (; status != GG_OK; stops++) {
+      gg_archive a = {0};
+      assert_int_equal(status, GG_INTERRUPTED);
+      assert_true(gone > 0 && gone <= whole);
+      assert_int_equal(gg_dsmc_ops.save(cut, &a, &err), GG_OK);
+      gg_dsmc_ops.destroy(cut);
+      assert_int_equal(gg_dsmc_ops.restore(&m, &a, &cut, &err), GG_OK);
+      gg_archive_clear(&a);
+      status = gg_dsmc_ops.go_on(cut, &gone, &err);
+    }
+    assert_true(stops > 0);
+    assert_true(gone == whole);
+    same_archive(straight, cut);
+    gg_dsmc_ops.destroy(straight);
+    gg_dsmc_ops.destroy(cut);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(without_its_callback),
-                                     cmocka_unit_test(rescaling_is_exact), cmocka_unit_test(precision_is_kept)};
+                                     cmocka_unit_test(rescaling_is_exact), cmocka_unit_test(precision_is_kept),
+                                     cmocka_unit_test(stopped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

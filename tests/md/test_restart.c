@@ -1,5 +1,6 @@
 /* Proves: a run saved and restored goes on bit for bit, and saving does not disturb it; a run cut into advances of any
- * length has the same trajectory; rescaling by powers of two is exact. */
+ * length has the same trajectory; rescaling by powers of two is exact; an advance that is stopped and goes on ends as
+ * one that was not. */
 #include "md_test.h"
 
 static const md_case cases[] = {
@@ -86,9 +87,111 @@ static void rescaled(void **state)
   md_destroy(e);
 }
 
+/* ---- stopped within an advance ---- */
+
+static bool by_chance(void *context)
+{
+  return gg_rng_uniform(context) < 0.7;
+}
+
+/* Stopped at random looks, each time saved and restored, an advance ends where the uninterrupted one does, to the last
+ * bit, and says that as much time has gone. */
+static void advance_stopped(const gg_model *model, double dt, uint64_t most, int *stops)
+{
+  gg_model m = *model;
+  gg_rng rng = gg_rng_seed(9, 0);
+  gg_stop stop = {by_chance, &rng};
+  gg_md *whole = md_create(&m, 5);
+  double gone, straight;
+  gg_error err;
+  gg_collision_sums one, two;
+  assert_int_equal(gg_md_ops.advance(&whole->base, 0.1 * dt, most, &straight, &err), GG_OK);
+  gg_engine *cut = &md_create(&m, 5)->base;
+  m.stop = ((gg_md *)cut)->model.stop = &stop;
+  gg_status status = gg_md_ops.advance(cut, 0.1 * dt, most, &gone, &err);
+  for (int advance = 0; advance < 2; advance++) {
+    for (; status != GG_OK; ++*stops) {
+      gg_archive a = {0};
+      assert_int_equal(status, GG_INTERRUPTED);
+      assert_int_equal(gg_md_ops.save(cut, &a, &err), GG_OK);
+      gg_md_ops.destroy(cut);
+      assert_int_equal(gg_md_ops.restore(&m, &a, &cut, &err), GG_OK);
+      gg_archive_clear(&a);
+      status = gg_md_ops.go_on(cut, &gone, &err);
+    }
+    assert_true(gone == straight);
+    assert_int_equal(md_hash(whole), md_hash((gg_md *)cut));
+    if (advance) break;
+    assert_int_equal(gg_md_ops.advance(&whole->base, dt, most, &straight, &err), GG_OK);
+    status = gg_md_ops.advance(cut, dt, most, &gone, &err);
+  }
+  gg_md_ops.take_sums(&whole->base, &one);
+  gg_md_ops.take_sums(cut, &two);
+  assert_memory_equal(&one, &two, sizeof one);
+  md_destroy(whole);
+  gg_md_ops.destroy(cut);
+}
+
+static void stopped(void **state)
+{
+  (void)state;
+  for (int k = 0; k < CASES; k++) {
+    gg_model m = md_model(cases[k]);
+    double dt = 1000 / gg_model_collision_rate(&m, m.temperature0);
+    int stops = 0;
+    advance_stopped(&m, dt, UINT64_MAX, &stops);
+    advance_stopped(&m, INFINITY, 100000, &stops);
+    assert_true(stops >= 4);
+  }
+}
+
+/* With a thermostat, whose clock is another one, or whose kicks come in between. */
+static void stopped_while_heated(void **state)
+{
+  (void)state;
+  const gg_thermostat thermostats[] = {GG_GAUSSIAN, GG_WHITE_NOISE};
+  for (int k = 0; k < 2; k++) {
+    gg_scene s = md_scene((md_case){GG_HSS, 200, 0.1, 0.7, -1, INFINITY, {0}});
+    s.thermostat = thermostats[k];
+    gg_model m = md_model_of(&s);
+    int stops = 0;
+    advance_stopped(&m, 400 / gg_model_collision_rate(&m, m.temperature0), UINT64_MAX, &stops);
+    assert_true(stops >= 4);
+  }
+}
+
+/* An advance that was stopped may be left as it is: what follows is the same trajectory, and no time is lost. */
+static void stopped_and_left(void **state)
+{
+  (void)state;
+  gg_model m = md_model(cases[0]);
+  gg_rng rng = gg_rng_seed(3, 0);
+  gg_stop stop = {by_chance, &rng};
+  gg_md *whole = md_create(&m, 6);
+  md_collide(whole, 60000);
+  gg_md *cut = md_create(&m, 6);
+  cut->model.stop = &stop;
+  gg_error err;
+  double gone, total = 0;
+  int stops = 0;
+  while (cut->k.collisions < 60000) {
+    stops += gg_md_ops.advance(&cut->base, INFINITY, 60000 - cut->k.collisions, &gone, &err) == GG_INTERRUPTED;
+    total += gone;
+  }
+  assert_true(stops >= 4);
+  assert_int_equal(md_hash(whole), md_hash(cut));
+  assert_true(fabs(total - (whole->k.epoch_start + whole->k.now)) < 1e-9 * total);
+  md_destroy(whole);
+  md_destroy(cut);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(saved_and_restored), cmocka_unit_test(cut_anywhere),
-                                     cmocka_unit_test(rescaled)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(saved_and_restored),
+                                     cmocka_unit_test(cut_anywhere),
+                                     cmocka_unit_test(rescaled),
+                                     cmocka_unit_test(stopped),
+                                     cmocka_unit_test(stopped_while_heated),
+                                     cmocka_unit_test(stopped_and_left)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,6 +31,22 @@ static void joined_blocks(void **state)
   gg_bins_clear(&b);
 }
 
+/* Coarsened blocks are those that a longer window would have had; what is left over is lost, and nothing else. */
+static void coarsened(void **state)
+{
+  (void)state;
+  gg_bins b;
+  assert_int_equal(gg_bins_init(&b, 1, NULL), GG_OK);
+  for (int k = 0; k < 23; k++) *gg_bins_sample(&b) += k, gg_bins_commit(&b);
+  gg_bins_coarsen(&b, 1);
+  assert_int_equal(b.blocks, 23);
+  gg_bins_coarsen(&b, 4);
+  assert_true(b.blocks == 5 && b.per_block == 4 && b.pending == 0);
+  for (int i = 0; i < 5; i++) assert_true(*gg_bins_block(&b, (size_t)i) == 16 * i + 6);
+  assert_true(*gg_bins_block(&b, 5) == 0);
+  gg_bins_clear(&b);
+}
+
 /* Saved and restored in the middle of a block, bins go on as if nothing had been. */
 static void checkpoint(void **state)
 {
@@ -54,6 +70,7 @@ static void checkpoint(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(joined_blocks), cmocka_unit_test(checkpoint)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(joined_blocks), cmocka_unit_test(coarsened),
+                                     cmocka_unit_test(checkpoint)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,8 +36,25 @@ static void long_series(void **state)
   gg_archive_clear(&a), gg_series_clear(&s), gg_series_clear(&t);
 }
 
+/* Coarsened rows are means of neighbours; the window still begins behind what came before it. */
+static void coarsened(void **state)
+{
+  (void)state;
+  gg_series s;
+  assert_int_equal(gg_series_init(&s, 1, NULL), GG_OK);
+  for (int i = 0; i < 11; i++) {
+    if (i == 3) gg_series_open_window(&s);
+    gg_series_add(&s, i + 1, &(double){i});
+  }
+  gg_series_coarsen(&s, 2);
+  assert_true(s.n == 5 && s.per_row == 2 && s.window == 2);
+  for (size_t i = 0; i < 5; i++)
+    assert_true(gg_series_row(&s, i)[0] == 2 * (double)i + 0.5 && s.end_time[i] == 2 * (double)i + 2);
+  gg_series_clear(&s);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(long_series)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(long_series), cmocka_unit_test(coarsened)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -79,7 +79,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
     return;
   }
   gg_md_build_lists(e);
-  e->kernel->predict_all(e);
+  e->kernel->predict(e, 0, e->n);
 }
 
 GG_INLINE void gg_md_shift_all(gg_md *e)

@@ -37,7 +37,7 @@ GG_INLINE void gg_md_check_memory(gg_md *e, bool good)
 {
   if (good) return;
   e->out_of_memory = true;
-  e->collisions_left = 0;
+  e->k.collisions_left = 0;
 }
 
 GG_INLINE void gg_md_leave_cell(gg_md *e, uint32_t i)

@@ -3,48 +3,11 @@
  * Phys. Rev. A 32 (1985) 2347, all pairs a sweep). The result is amorphous: a fluid configuration where a fluid exists.
  */
 #include <math.h>
-#include <stdlib.h>
 
 #include "common/cube_root.h"
 #include "md/start/place.h"
 
-/* Spread the low 21 bits of x to every third bit. */
-static uint64_t spread(uint64_t x)
-{
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffffu;
-  x = (x | x << 16) & 0x1f0000ff0000ffu;
-  x = (x | x << 8) & 0x100f00f00f00f00fu;
-  x = (x | x << 4) & 0x10c30c30c30c30c3u;
-  return (x | x << 2) & 0x1249249249249249u;
-}
-
-typedef struct keyed {
-  uint64_t key;
-  gg_vec r;
-} keyed;
-
-static int by_key(const void *a, const void *b)
-{
-  uint64_t x = ((const keyed *)a)->key, y = ((const keyed *)b)->key;
-  return (x > y) - (x < y);
-}
-
-gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, gg_error *err)
-{
-  keyed *sorted = gg_new_array(n, sizeof *sorted, err);
-  if (!sorted) return GG_FAILED;
-  double longest = fmax(box->edge[0], fmax(box->edge[1], box->edge[2])), scale = 0x1p21 / longest;
-  for (uint32_t i = 0; i < n; i++) {
-    uint64_t key = 0;
-    for (int a = 0; a < 3; a++) key |= spread((uint64_t)(gg_along(&r[i], a) * scale)) << a;
-    sorted[i] = (keyed){key, r[i]};
-  }
-  qsort(sorted, n, sizeof *sorted, by_key);
-  for (uint32_t i = 0; i < n; i++) r[i] = sorted[i].r;
-  free(sorted);
-  return GG_OK;
-}
+enum { BETWEEN_LOOKS = 1 << 13 }; /* grains: some milliseconds */
 
 /* A sweep: push apart every pair closer than (1 + margin) contact distances; returns how many overlapped in earnest. */
 typedef struct sweep {
@@ -52,6 +15,7 @@ typedef struct sweep {
   double margin;
   bool pushing;
   uint64_t overlaps;
+  gg_status status;
 } sweep;
 
 static void try_pair(sweep *s, uint32_t i, uint32_t j)
@@ -70,9 +34,16 @@ static void try_pair(sweep *s, uint32_t i, uint32_t j)
   p->r[j] = gg_axpy(push, dr, p->r[j]);
 }
 
+/* Asked at every grain, it looks at some, counted over all sweeps: what is placed at once is placed. */
+static bool is_stopped(sweep *s)
+{
+  if (++s->p->tried % BETWEEN_LOOKS == 0 && gg_stop_asked(s->p->stop)) s->status = GG_INTERRUPTED;
+  return s->status != GG_OK;
+}
+
 static void sweep_small(sweep *s)
 {
-  for (uint32_t i = 0; i < s->p->n; i++)
+  for (uint32_t i = 0; i < s->p->n && !is_stopped(s); i++)
     for (uint32_t j = 0; j < i; j++) try_pair(s, i, j);
 }
 
@@ -90,7 +61,7 @@ static void sweep_cells(sweep *s)
   gg_md_cells *c = &p->cells;
   gg_md_cells_clear(c);
   int32_t at[3], to[3];
-  for (uint32_t i = 0; i < p->n; i++) {
+  for (uint32_t i = 0; i < p->n && !is_stopped(s); i++) {
     cell_of(c, p->r[i], at);
     for (int32_t q = 0; q < 27; q++) {
       int32_t step[3] = {q % 3 - 1, q / 3 % 3 - 1, q / 9 - 1};
@@ -103,7 +74,7 @@ static void sweep_cells(sweep *s)
     }
     while (!gg_md_cell_add(c, at, i))
       if (!gg_md_cells_grow(c)) {
-        s->overlaps++; /* out of memory: never free of overlaps */
+        s->status = GG_FAILED;
         return;
       }
   }
@@ -123,15 +94,18 @@ static void into_box(const gg_md_packing *p, uint32_t i)
   }
 }
 
-static uint64_t sweep_once(gg_md_packing *p, double margin, bool pushing)
+static gg_status sweep_once(gg_md_packing *p, double margin, bool pushing, bool *free, gg_error *err)
 {
-  sweep s = {p, margin, pushing, 0};
+  sweep s = {p, margin, pushing, 0, GG_OK};
   for (uint32_t i = 0; i < p->n; i++) into_box(p, i);
   if (p->cells.cell)
     sweep_cells(&s);
   else
     sweep_small(&s);
-  return s.overlaps;
+  *free = s.overlaps == 0;
+  if (s.status == GG_INTERRUPTED) return gg_fail(err, GG_INTERRUPTED, "md: stopped while grains were placed");
+  if (s.status == GG_FAILED) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
+  return GG_OK;
 }
 
 /* Denser systems leave less room to aim for than touching. */
@@ -141,10 +115,13 @@ static double margin_for(double phi)
   return fmin(0.02, fmax(0.25 * room, 1e-4));
 }
 
-bool gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps)
+gg_status gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps, bool *free, gg_error *err)
 {
   double margin = margin_for(phi);
-  for (int k = 0; k < most_sweeps; k++)
-    if (sweep_once(p, margin, true) == 0 && sweep_once(p, margin, false) == 0) return true;
-  return false;
+  *free = false;
+  for (int k = 0; k < most_sweeps && !*free; k++) {
+    GG_TRY(sweep_once(p, margin, true, free, err));
+    if (*free) GG_TRY(sweep_once(p, margin, false, free, err));
+  }
+  return GG_OK;
 }

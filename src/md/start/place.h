@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "common/rng.h"
+#include "common/stop.h"
 #include "md/cells.h"
 
 /* Centres and diameters in a box, on their way to a state without overlaps. */
@@ -15,13 +16,15 @@ typedef struct gg_md_packing {
   gg_vec *r;
   const double *diameter;
   gg_md_cells cells; /* none in boxes below three cells across: then all pairs are tried */
+  const gg_stop *stop;
+  uint64_t tried; /* grains, over all sweeps */
 } gg_md_packing;
 
 /* Order points along a space-filling curve. */
-gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, gg_error *err);
+gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, const gg_stop *stop, gg_error *err);
 /* n of the sites of a face-centred lattice that fills the box. */
 void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *r);
-/* Push overlapping grains apart; false if overlaps remain after so many sweeps. Positions end in the box. */
-bool gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps);
+/* Push overlapping grains apart, *free: no overlap is left after so many sweeps. Positions end in the box. */
+gg_status gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps, bool *free, gg_error *err);
 
 #endif

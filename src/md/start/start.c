@@ -22,11 +22,14 @@ static gg_status make_cells(const gg_md *e, gg_md_packing *p, gg_error *err)
  * itself has to melt. */
 static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *err)
 {
+  bool free;
   GG_TRY(make_cells(e, p, err));
-  if (gg_md_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
+  GG_TRY(gg_md_place_relax(p, e->model.phi, SWEEPS, &free, err));
+  if (free) return GG_OK;
   gg_md_place_lattice(&e->box, e->n, rng, p->r);
-  GG_TRY(gg_md_place_sort(&e->box, p->r, e->n, err));
-  if (gg_md_place_relax(p, e->model.phi, SWEEPS)) return GG_OK;
+  GG_TRY(gg_md_place_sort(&e->box, p->r, e->n, p->stop, err));
+  GG_TRY(gg_md_place_relax(p, e->model.phi, SWEEPS, &free, err));
+  if (free) return GG_OK;
   return gg_fail(err, GG_FAILED,
                  "phi: no start without overlaps was found at phi = %g with particles = %u; try a lower phi or another "
                  "number of particles",
@@ -49,9 +52,10 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_er
 {
   for (uint32_t i = 0; i < e->n; i++)
     for (int a = 0; a < 3; a++) *gg_component(&r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
-  GG_TRY(gg_md_place_sort(&e->box, r, e->n, err));
+  GG_TRY(gg_md_place_sort(&e->box, r, e->n, e->model.stop, err));
   deal_species(e, diameter, rng);
   gg_md_packing p = {.box = e->box, .walled = e->model.walled, .n = e->n, .r = r, .diameter = diameter};
+  p.stop = e->model.stop;
   gg_status status = relax(e, &p, rng, err);
   gg_md_cells_free(&p.cells);
   for (uint32_t i = 0; i < e->n; i++) {

@@ -1,0 +1,153 @@
+/* Proves, with the real engines: a run that is stopped in the midst of an interval and resumed from the checkpoint it
+ * left ends with the same numbers to the last bit, whatever stops it; replicas that were stopped at different samples
+ * are reported as far as all of them came; the time limit is kept within an interval. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "common/rng.h"
+#include "io/scene/reader.h"
+#include "run/run.h"
+
+typedef struct caller {
+  gg_rng rng;
+  double chance; /* of a stop, whenever asked */
+  int stops;
+  gg_archive kept;
+} caller;
+
+static bool by_chance(void *context)
+{
+  caller *c = context;
+  bool stop = gg_rng_uniform(&c->rng) < c->chance;
+  c->stops += stop;
+  return stop;
+}
+
+static gg_status keep(void *context, const gg_archive *archive, gg_error *err)
+{
+  caller *c = context;
+  gg_archive_clear(&c->kept);
+  return gg_archive_append(&c->kept, archive, err);
+}
+
+static gg_scene scene_of(const char *yaml)
+{
+  gg_scene s = gg_scene_defaults();
+  gg_error err = {0};
+  if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK)
+    fail_msg("%s", err.message);
+  return s;
+}
+
+static void same(const gg_result *a, const gg_result *b)
+{
+  assert_int_equal(a->final.n, b->final.n);
+  assert_memory_equal(a->final.velocity, b->final.velocity, 3 * a->final.n * sizeof(double));
+  assert_true(a->final.time == b->final.time && a->engine_state.collisions == b->engine_state.collisions);
+  for (int q = 0; q < GG_N_QUANTITIES; q++) {
+    assert_memory_equal(&a->value[q].mean, &b->value[q].mean, sizeof(double));
+    assert_memory_equal(&a->value[q].error, &b->value[q].error, sizeof(double));
+  }
+  assert_int_equal(a->curves.n, b->curves.n);
+  for (int k = 0; k < a->curves.n; k++)
+    assert_memory_equal(a->curves.curve[k].value, b->curves.curve[k].value, a->curves.curve[k].n * sizeof(double));
+}
+
+/* Go on from checkpoint to checkpoint until the run is over. */
+static gg_result *in_pieces(const gg_scene *s, int threads, caller *c)
+{
+  gg_hooks hooks = {.context = c, .interrupted = by_chance, .checkpoint = keep};
+  gg_result *r = NULL;
+  gg_archive from = {0};
+  gg_error err;
+  while (gg_run_scene(s, from.n_items ? &from : NULL, threads, &hooks, &r, &err) == GG_INTERRUPTED) {
+    if (!r) continue; /* stopped while grains were placed */
+    gg_result_free(r);
+    r = NULL;
+    gg_archive_clear(&from);
+    assert_int_equal(gg_archive_append(&from, &c->kept, &err), GG_OK);
+  }
+  assert_non_null(r);
+  gg_archive_clear(&from);
+  gg_archive_clear(&c->kept);
+  return r;
+}
+
+/* Dilute, so that an interval has many events; small steps; a thermostat with kicks; curves of several parts. */
+static const char *const scenes[] = {
+    "{flow: hcs, phi: 1e-4, particles: 150, collision: {e: 0.7}, measure: [rheology, velocity_distributions], run: "
+    "{collisions: 30, warmup: 10}}",
+    "{flow: usf, phi: 1e-3, particles: 200, measure: [rheology, diffusion, viscosity], run: {collisions: 40, warmup: "
+    "10, replicas: 2}}",
+    "{flow: hss, thermostat: white_noise, phi: 0.01, particles: 150, run: {collisions: 30, warmup: 10}}",
+    "{engine: dsmc, flow: usf, phi: 0.1, dsmc: {particles: 200, time_step: 5e-5}, measure: [rheology, diffusion], run: "
+    "{collisions: 20, warmup: 4, replicas: 2}}",
+};
+
+static void in_the_midst_of_an_interval(void **state)
+{
+  (void)state;
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+    gg_scene s = scene_of(scenes[k]);
+    gg_result *whole = NULL;
+    gg_run_scene(&s, NULL, 1, NULL, &whole, NULL);
+    assert_non_null(whole);
+    for (int threads = 1; threads < 3; threads++) {
+      caller c = {.rng = gg_rng_seed(k, 1), .chance = 0.3};
+      gg_result *pieces = in_pieces(&s, threads, &c);
+      assert_true(c.stops >= 3);
+      same(whole, pieces);
+      gg_result_free(pieces);
+    }
+    gg_result_free(whole);
+  }
+}
+
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* An interval that would take minutes: the time limit ends it, and what was kept goes on from there. */
+static void time_limit(void **state)
+{
+  (void)state;
+  const char *const long_intervals[] = {
+      "{flow: hcs, phi: 1e-9, particles: 1000, run: {time_limit: 0.2}}",
+      "{engine: dsmc, flow: usf, phi: 0.1, dsmc: {particles: 1000, time_step: 1e-9}, run: {time_limit: 0.2}}"};
+  for (int k = 0; k < 2; k++) {
+    gg_scene s = scene_of(long_intervals[k]);
+    caller c = {.chance = 0};
+    gg_hooks hooks = {.context = &c, .checkpoint = keep};
+    gg_result *r = NULL;
+    gg_error err = {0};
+    double before = now(), reached = 0;
+    for (int piece = 0; piece < 2; piece++) {
+      gg_archive from = {0};
+      assert_int_equal(gg_archive_append(&from, &c.kept, NULL), GG_OK);
+      s.run.time_limit = 0.2 * (piece + 1);
+      assert_int_equal(gg_run_scene(&s, piece ? &from : NULL, 1, &hooks, &r, &err), GG_FAILED);
+      assert_non_null(strstr(err.message, "time limit"));
+      assert_true(r->final.time > reached);
+      reached = r->final.time;
+      gg_archive_clear(&from);
+      gg_result_free(r);
+    }
+    assert_true(now() - before < 20); /* and not minutes */
+    gg_archive_clear(&c.kept);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(in_the_midst_of_an_interval), cmocka_unit_test(time_limit)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
