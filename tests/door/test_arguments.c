@@ -64,6 +64,7 @@ static void simulations(void **state)
   assert_missing(gg_simulation_take_sums(NULL, &sums, &err));
   assert_missing(gg_simulation_take_sums(m, NULL, &err));
   assert_missing(gg_simulation_on_collision(NULL, NULL, NULL, &err));
+  assert_missing(gg_simulation_on_stop(NULL, NULL, NULL, &err));
   assert_missing(gg_simulation_save(NULL, "x", &err));
   assert_missing(gg_simulation_save(m, NULL, &err));
   assert_missing(gg_simulation_load(NULL, NULL, &other, &err));

@@ -321,12 +321,56 @@ static void facts_of_the_start(void **state)
   }
 }
 
+static int after_some(void *context)
+{
+  return --*(int *)context == 0;
+}
+
+/* Stopped within a call, a simulation stands where it has come to, says so, and goes on: in md on the same trajectory.
+ */
+static void stopped(void **state)
+{
+  (void)state;
+  gg_error err;
+  const char *const scenes[] = {"{flow: hcs, phi: 1e-4, particles: 300, collision: {e: 0.9}}",
+                                "{flow: usf, phi: 0.1, engine: dsmc, dsmc: {particles: 300, time_step: 1e-4}}"};
+  for (int k = 0; k < 2; k++) {
+    gg_scene *s = scene_of(scenes[k]);
+    gg_simulation *whole = NULL, *cut = NULL;
+    gg_simulation_state one, two = {0};
+    assert_ok(gg_simulation_new(s, 0, &whole, &err));
+    assert_ok(gg_simulation_new(s, 0, &cut, &err));
+    int left = 3, stops = 0;
+    double reached = 0;
+    assert_ok(gg_simulation_on_stop(cut, after_some, &left, &err));
+    for (; two.collisions < 3000; left = 3) {
+      gg_status status = gg_simulation_collide(cut, 3000 - two.collisions, &err);
+      assert_ok(gg_simulation_get_state(cut, &two, &err));
+      assert_true(status == GG_OK || status == GG_INTERRUPTED);
+      assert_true(two.time > reached);
+      reached = two.time;
+      stops += status == GG_INTERRUPTED;
+    }
+    assert_true(stops > 2);
+    assert_ok(gg_simulation_collide(whole, 3000, &err));
+    assert_ok(gg_simulation_get_state(whole, &one, &err));
+    if (k == 0) assert_true(one.temperature == two.temperature && fabs(one.time - two.time) < 1e-9 * one.time);
+    assert_ok(gg_simulation_on_stop(cut, NULL, NULL, &err));
+    assert_ok(gg_simulation_collide(cut, 3000, &err));
+    gg_simulation_free(whole);
+    gg_simulation_free(cut);
+    gg_scene_free(s);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(state_and_grains),   cmocka_unit_test(cut_into_steps), cmocka_unit_test(collisions_of_md),
-      cmocka_unit_test(collisions_of_dsmc), cmocka_unit_test(energy_balance), cmocka_unit_test(cooling_over_decades),
-      cmocka_unit_test(saved_and_loaded),   cmocka_unit_test(starts),         cmocka_unit_test(facts_of_the_start),
+      cmocka_unit_test(state_and_grains),   cmocka_unit_test(cut_into_steps),
+      cmocka_unit_test(collisions_of_md),   cmocka_unit_test(collisions_of_dsmc),
+      cmocka_unit_test(energy_balance),     cmocka_unit_test(cooling_over_decades),
+      cmocka_unit_test(saved_and_loaded),   cmocka_unit_test(starts),
+      cmocka_unit_test(facts_of_the_start), cmocka_unit_test(stopped),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
