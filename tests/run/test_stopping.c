@@ -29,7 +29,7 @@ static bool by_chance(void *context)
   return stop;
 }
 
-static gg_status keep(void *context, const gg_archive *archive, gg_error *err)
+static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 {
   caller *c = context;
   gg_archive_clear(&c->kept);
