@@ -86,6 +86,10 @@ GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, 
  * reason why it cannot run it. */
 GG_API gg_status gg_scene_describe(const gg_scene *scene, const char *engine,
                                    void (*line)(void *context, const char *text), void *context, gg_error *err);
+/* Keys that the scene gives and that have no effect there, a line of text a reason; none of it is a mistake. `use`: run
+ * by "md" or "dsmc", "compare", or "theory" for what is so whichever engine runs it. */
+GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,
+                                   void (*line)(void *context, const char *text), void *context, gg_error *err);
 
 /* ---- Simulations, step by step ----
  * The grains themselves, from a fresh start that is near the steady state where there is one. The same scene, seed and
@@ -195,7 +199,7 @@ typedef struct gg_run_options {
   int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop, as below */
   int (*stop)(void *context);                                  /* asked several times a second; not 0: stop */
   void (*stored)(void *context, const char *checkpoint);       /* a checkpoint was written */
-  void (*warn)(void *context, const char *message);            /* what was put right before the run began */
+  void (*warn)(void *context, const char *message); /* before the run begins: keys without effect, what was put right */
   const char *input;   /* the scene's file, which nothing written may replace; NULL: not known */
   const char *picture; /* that gg_plot is to draw of the output afterwards: looked at before the run, like the others */
 } gg_run_options;
@@ -298,6 +302,8 @@ GG_API void gg_comparison_free(gg_comparison *comparison);
 GG_API const gg_result *gg_comparison_result(const gg_comparison *comparison, const char *engine);
 GG_API const char *gg_comparison_refusal(const gg_comparison *comparison, const char *engine);
 GG_API const gg_scene *gg_comparison_scene(const gg_comparison *comparison);
+/* Keys that the scene gives and that have no effect on any part of it; NULL after the last. */
+GG_API const char *gg_comparison_warning(const gg_comparison *comparison, size_t i);
 /* *z: (md - dsmc) over their combined standard error, NaN if either is not known. *beyond: do they differ by more than
  * is expected of the two at this density and dissipation? Either may be NULL. */
 GG_API gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,

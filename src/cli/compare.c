@@ -42,10 +42,7 @@ static int compare(gg_simulating *s)
 {
   gg_error err, why;
   gg_status drawn = GG_OK;
-  char every[40] = "0";
   gg_comparison *c = NULL;
-  gg_scene_get(s->scene, "output.trajectory_every", every, sizeof every, NULL);
-  if (strtod(every, NULL) > 0) fprintf(stderr, "warning: compare keeps no trajectory; graingas run does\n");
   gg_status status = gg_compare(s->scene, &s->run, &c, &err);
   if (gg_simulating_shows(s, status, c != NULL)) {
     print(s->options, c);

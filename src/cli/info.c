@@ -15,10 +15,20 @@ static void print_line(void *context, const char *text)
   gg_print_paragraph(stdout, 4, "  %s", text);
 }
 
+static void print_inert(void *context, const char *text)
+{
+  bool *any = context;
+  if (!*any) printf("\nwithout effect:\n");
+  *any = true;
+  print_line(NULL, text);
+}
+
 static void print_engines(const gg_scene *scene)
 {
   gg_entry engine;
   gg_error err;
+  bool any = false;
+  gg_scene_warnings(scene, "theory", print_inert, &any, NULL);
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_ENGINES, i, scene, &engine, NULL) == GG_OK; i++) {
     printf("\n%s, %s:\n", engine.name, engine.doc);
     if (gg_scene_describe(scene, engine.name, print_line, NULL, &err) != GG_OK) print_line(NULL, err.message);

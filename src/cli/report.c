@@ -44,14 +44,14 @@ void gg_print_effort(const gg_result *r)
                      a.verdict);
 }
 
-void gg_print_warnings(const gg_result *r)
+void gg_print_warnings(const gg_result *r, const char *told)
 {
   gg_result_info about;
   const char *warning;
   if (gg_result_about(r, &about, NULL) != GG_OK) return;
   fflush(stdout);
   for (size_t i = 0; (warning = gg_result_warning(r, i)); i++)
-    fprintf(stderr, "warning: %s: %s\n", about.engine, warning);
+    if (!told || !strstr(told, warning)) fprintf(stderr, "warning: %s: %s\n", about.engine, warning);
 }
 
 static gg_table *tabulate(const gg_result *r, bool all)
@@ -75,7 +75,7 @@ static gg_table *tabulate(const gg_result *r, bool all)
   return t;
 }
 
-void gg_print_run(const gg_result *r, bool all)
+void gg_print_run(const gg_result *r, const char *told, bool all)
 {
   gg_table *t = tabulate(r, all);
   if (!t) return;
@@ -85,5 +85,5 @@ void gg_print_run(const gg_result *r, bool all)
   gg_print_numbers(r, NULL, all);
   printf("\n");
   gg_print_effort(r);
-  gg_print_warnings(r);
+  gg_print_warnings(r, told);
 }

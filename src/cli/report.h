@@ -6,14 +6,14 @@
 #include <stdbool.h>
 
 /* On standard output; warnings go to standard error. `all`: every quantity, not just the main ones. */
-void gg_print_run(const gg_result *result, bool all);
+void gg_print_run(const gg_result *result, const char *told, bool all); /* `told`: as below */
 void gg_print_comparison(const gg_comparison *comparison, bool all);
 void gg_print_theories(const gg_comparison *theories, bool all);
 
 /* Parts of them. */
 void gg_print_head(const gg_scene *scene);
 void gg_print_effort(const gg_result *result);
-void gg_print_warnings(const gg_result *result);
+void gg_print_warnings(const gg_result *result, const char *told); /* but for what was told already; NULL: nothing */
 /* Numbers read off the curves of one result or two; nothing if there are none. */
 void gg_print_numbers(const gg_result *one, const gg_result *two, bool all);
 

@@ -201,7 +201,7 @@ void gg_print_comparison(const gg_comparison *c, bool all)
   }
   print_inapplicable(c);
   for (int k = 0; k < 2; k++)
-    if (gg_comparison_result(c, engines[k])) gg_print_warnings(gg_comparison_result(c, engines[k]));
+    if (gg_comparison_result(c, engines[k])) gg_print_warnings(gg_comparison_result(c, engines[k]), NULL);
 }
 
 void gg_print_theories(const gg_comparison *c, bool all)

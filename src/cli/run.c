@@ -2,11 +2,11 @@
 #include "cli/report.h"
 #include "cli/simulate.h"
 
-static void print(const gg_options *o, const gg_result *result)
+static void print(const gg_simulating *s, const gg_result *result)
 {
   char *text = NULL;
-  if (!o->json)
-    gg_print_run(result, o->all);
+  if (!s->options->json)
+    gg_print_run(result, s->told, s->options->all);
   else if (gg_result_to_json(result, &text, NULL) == GG_OK)
     gg_cli_print_text(text);
 }
@@ -17,7 +17,7 @@ static int run(gg_simulating *s)
   gg_result *result = NULL;
   gg_status status = gg_run(s->scene, &s->run, &result, &err);
   if (gg_simulating_shows(s, status, result != NULL)) {
-    print(s->options, result);
+    print(s, result);
     gg_simulating_tell(s, status);
   }
   gg_result_free(result);

@@ -38,8 +38,12 @@ static void note_checkpoint(void *context, const char *checkpoint)
 
 static void warn(void *context, const char *message)
 {
-  (void)context;
+  gg_simulating *s = context;
+  char *told = NULL;
   fprintf(stderr, "warning: %s\n", message);
+  if (asprintf(&told, "%s%s\n", s->told ? s->told : "", message) < 0) return;
+  free(s->told);
+  s->told = told;
 }
 
 /* Of a command that draws one: where. NULL: it does not, or there is no file to draw it from. */
@@ -92,6 +96,7 @@ int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simula
   free(s.output);
   free(s.checkpoint);
   free(s.picture);
+  free(s.told);
   gg_scene_free(s.scene);
   gg_options_clear(&o);
   return code;

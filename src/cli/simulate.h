@@ -13,6 +13,7 @@ typedef struct gg_simulating {
   bool keeps_checkpoints;              /* the scene asks for them */
   bool stored;                         /* at least one in this run */
   bool replaced;                       /* the output takes the place of an older file */
+  char *told;                          /* warnings given before the run, a line each; NULL: none */
   gg_cli_progress progress;
   gg_run_options run; /* ready for gg_run or gg_compare */
 } gg_simulating;

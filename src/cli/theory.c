@@ -1,4 +1,6 @@
 /* graingas theory: what every theory that applies says of a scene. */
+#include <stdio.h>
+
 #include "cli/options.h"
 #include "cli/report.h"
 
@@ -6,8 +8,11 @@ static int evaluate(const gg_options *o, const gg_scene *scene)
 {
   gg_error err;
   char *text = NULL;
+  const char *warning;
   gg_comparison *c = NULL;
   gg_status status = gg_evaluate_theories(scene, NULL, &c, &err);
+  for (size_t i = 0; status == GG_OK && (warning = gg_comparison_warning(c, i)); i++)
+    fprintf(stderr, "warning: %s\n", warning);
   if (status == GG_OK && o->json) status = gg_comparison_to_json(c, &text, &err);
   if (status == GG_OK && o->json) gg_cli_print_text(text);
   if (status == GG_OK && !o->json) gg_print_theories(c, o->all);

@@ -5,6 +5,7 @@
 
 #include "common/extension.h"
 #include "door/run.h"
+#include "io/scene/inert.h"
 #include "run/agreement.h"
 
 static gg_comparison *new_comparison(gg_error *err)
@@ -28,8 +29,11 @@ gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_co
   gg_hooks hooks;
   gg_error why = {0};
   gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
+  if (status == GG_OK) gg_door_run_foretell(&run, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY);
   if (status == GG_OK) /* without a trajectory */
     status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);
+  c->warnings = run.warnings;
+  run.warnings = (gg_text_list){0};
   bool some = status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC];
   if (some && run.options.output && (status == GG_OK || status == GG_FAILED))
     written = gg_result_file_finish_comparison(&run.file, c, &why);
@@ -63,6 +67,7 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   gg_extension_hold(c->scene.extension);
   GG_TRY(gg_model_make(&c->scene, GG_MD, &model, err));
   gg_compare_theories(&model, c);
+  gg_scene_inert(&finished, GG_USE_THEORY, &c->warnings);
   return theory ? keep_one(c, theory, err) : GG_OK;
 }
 
@@ -92,6 +97,11 @@ const char *gg_comparison_refusal(const gg_comparison *comparison, const char *e
   gg_engine_kind kind;
   if (!comparison || !engine || gg_door_engine(engine, &kind, NULL) != GG_OK) return NULL;
   return comparison->refusal[kind][0] ? comparison->refusal[kind] : NULL;
+}
+
+const char *gg_comparison_warning(const gg_comparison *comparison, size_t i)
+{
+  return comparison ? gg_text_list_at(&comparison->warnings, i) : NULL;
 }
 
 const gg_scene *gg_comparison_scene(const gg_comparison *comparison)

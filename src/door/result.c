@@ -104,7 +104,7 @@ const gg_scene *gg_result_scene(const gg_result *result)
 
 const char *gg_result_warning(const gg_result *result, size_t i)
 {
-  return result && i < (size_t)result->n_warnings ? result->warnings[i] : NULL;
+  return result ? gg_text_list_at(&result->warnings, i) : NULL;
 }
 
 gg_status gg_result_history(const gg_result *result, const char *quantity, size_t *n, const double **time,

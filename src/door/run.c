@@ -6,6 +6,7 @@
 
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
+#include "io/scene/inert.h"
 
 static void hear_progress(void *context, const gg_progress *progress)
 {
@@ -84,6 +85,7 @@ void gg_door_run_end(gg_door_run *r)
   gg_door_trajectory_end(r);
   gg_file_lock_release(&r->lock);
   gg_archive_clear(&r->resume);
+  gg_text_list_clear(&r->warnings);
 }
 
 const gg_archive *gg_door_run_resume(const gg_door_run *r)
@@ -109,6 +111,13 @@ gg_status gg_door_run_status(gg_status run, gg_status written, const gg_error *w
   return gg_fail(err, written, "%.500s; and %.500s", message, err ? err->message : "");
 }
 
+void gg_door_run_foretell(gg_door_run *r, unsigned uses)
+{
+  gg_scene_inert(&r->scene, uses, &r->warnings);
+  for (size_t i = 0; i < r->warnings.n && r->options.warn; i++)
+    r->options.warn(r->options.context, r->warnings.text[i]);
+}
+
 gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err)
 {
   GG_NEED(scene);
@@ -118,9 +127,11 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   gg_error why = {0};
   gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
   gg_result *made = NULL;
+  if (status == GG_OK) gg_door_run_foretell(&run, 1u << run.scene.engine);
   if (status == GG_OK) status = gg_door_trajectory_begin(&run, &hooks, err);
   if (status == GG_OK)
     status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);
+  for (size_t i = 0; made && i < run.warnings.n; i++) gg_result_warn(made, "%s", run.warnings.text[i]);
   if (made && run.options.output && (status == GG_OK || status == GG_FAILED)) {
     written = gg_door_trajectory_finish(&run, made, &why);
     if (written == GG_OK) written = gg_result_file_finish_run(&run.file, made, &why);

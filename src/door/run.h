@@ -11,13 +11,14 @@
 
 typedef struct gg_door_run {
   gg_run_options options;
-  gg_scene scene;      /* finished */
-  gg_archive resume;   /* empty: from the start */
-  gg_result_file file; /* of options.output */
-  gg_model model;      /* of the frames */
-  gg_frame_log log;    /* of the frames of a run that keeps checkpoints */
-  bool late;           /* frames before the resumption were not asked for */
-  bool stored;         /* a checkpoint */
+  gg_scene scene;        /* finished */
+  gg_archive resume;     /* empty: from the start */
+  gg_result_file file;   /* of options.output */
+  gg_model model;        /* of the frames */
+  gg_frame_log log;      /* of the frames of a run that keeps checkpoints */
+  bool late;             /* frames before the resumption were not asked for */
+  bool stored;           /* a checkpoint */
+  gg_text_list warnings; /* of the scene, for what it is used for */
   atomic_bool stopped;
   gg_file_lock lock; /* of options.checkpoint */
 } gg_door_run;
@@ -33,6 +34,8 @@ void gg_door_run_done(gg_door_run *run, gg_status status, gg_status written);
  * be written is better known before the run than after it. */
 gg_status gg_door_check_files(const gg_run_options *options, gg_error *err);
 gg_status gg_door_check_picture(const gg_run_options *options, gg_error *err);
+/* Note and tell, once begun, which keys have no effect on what the scene is used for (io/scene/inert.h). */
+void gg_door_run_foretell(gg_door_run *run, unsigned uses);
 /* What to resume from, or NULL. */
 const gg_archive *gg_door_run_resume(const gg_door_run *run);
 /* trajectory.c: the frames of a run, to the result as they come, or where checkpoints are kept, to the log beside them

@@ -7,6 +7,7 @@
 #include "common/extension.h"
 #include "door/door.h"
 #include "io/c_locale.h"
+#include "io/scene/inert.h"
 #include "io/scene/json.h"
 #include "io/scene/reader.h"
 #include "io/text.h"
@@ -169,5 +170,28 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   const gg_engine_ops *ops = gg_engine_ops_of(kind);
   GG_TRY(ops->accepts(&model, err));
   ops->describe(&model, line, context);
+  return GG_OK;
+}
+
+gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)(void *context, const char *text),
+                            void *context, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(use);
+  GG_NEED(line);
+  gg_scene finished;
+  gg_engine_kind kind;
+  gg_text_list lines = {0};
+  unsigned uses = GG_USE_THEORY;
+  if (strcmp(use, "compare") == 0) {
+    uses |= GG_USE_MD | GG_USE_DSMC;
+  } else if (strcmp(use, "theory") != 0) {
+    GG_TRY(gg_door_engine(use, &kind, err));
+    uses = 1u << kind;
+  }
+  GG_TRY(gg_door_finished(scene, &finished, err));
+  gg_scene_inert(&finished, uses, &lines);
+  for (size_t i = 0; i < lines.n; i++) line(context, lines.text[i]);
+  gg_text_list_clear(&lines);
   return GG_OK;
 }

@@ -5,6 +5,13 @@
 #include "io/scene/json.h"
 #include "run/agreement.h"
 
+static json_t *warnings_json(const gg_comparison *c)
+{
+  json_t *warnings = json_array();
+  for (size_t i = 0; i < c->warnings.n; i++) json_array_append_new(warnings, json_string(c->warnings.text[i]));
+  return warnings;
+}
+
 /* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}; those that do not apply are warnings. */
 static json_t *theories_json(const gg_comparison *c, json_t *warnings)
 {
@@ -44,7 +51,7 @@ static json_t *about_json(const gg_comparison *c)
 
 json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *c)
 {
-  json_t *warnings = json_array(), *theory = theories_json(c, warnings);
+  json_t *warnings = warnings_json(c), *theory = theories_json(c, warnings);
   return json_pack("{s:s, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene), "theory", theory,
                    "theories", about_json(c), "warnings", warnings);
 }
@@ -74,11 +81,13 @@ static bool has(const gg_result *r, gg_quantity q)
 static json_t *row_json(const gg_comparison *c, gg_quantity q, json_t *warnings)
 {
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
-  json_t *row = json_pack("{s:s, s:s}", "quantity", gg_quantity_name_in(&c->model, q), "unit", gg_quantity_unit(q, &c->model));
+  json_t *row =
+      json_pack("{s:s, s:s}", "quantity", gg_quantity_name_in(&c->model, q), "unit", gg_quantity_unit(q, &c->model));
   double z = md && dsmc ? gg_z_score(&md->value[q], &dsmc->value[q]) : NAN;
   json_object_set_new(row, "md_dsmc_z", isfinite(z) ? json_real(z) : json_null());
   if (!isfinite(z))
-    gg_reason_add(warnings, "md_dsmc_z", gg_quantity_name_in(&c->model, q), "the mean or error of an engine is not known");
+    gg_reason_add(warnings, "md_dsmc_z", gg_quantity_name_in(&c->model, q),
+                  "the mean or error of an engine is not known");
   json_object_set_new(row, "beyond_expected", json_boolean(gg_disagree(c, q)));
   if (has(md, q)) json_object_set_new(row, "md_theory_deviation", deviations_json(c, md, q, warnings));
   if (has(dsmc, q)) json_object_set_new(row, "dsmc_theory_deviation", deviations_json(c, dsmc, q, warnings));
@@ -109,14 +118,15 @@ static void warn_remarks(const gg_comparison *c, json_t *warnings)
   gg_theory_remark r[GG_MOST_THEORIES];
   int n = gg_theory_remarks(c, r);
   for (int i = 0; i < n; i++)
-    json_array_append_new(warnings, json_sprintf("%s is off by %+.1f %% in %s: %s", r[i].theory->name,
-                                                 100 * r[i].deviation, gg_quantity_name_in(&c->model, r[i].quantity), r[i].cause));
+    json_array_append_new(warnings,
+                          json_sprintf("%s is off by %+.1f %% in %s: %s", r[i].theory->name, 100 * r[i].deviation,
+                                       gg_quantity_name_in(&c->model, r[i].quantity), r[i].cause));
 }
 
 json_t *gg_comparison_document(const gg_comparison *c)
 {
   if (c->document) return json_loads(c->document, 0, NULL); /* as it was stored */
-  json_t *warnings = json_array(), *rows = json_array();
+  json_t *warnings = warnings_json(c), *rows = json_array();
   json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
   json_t *theory = theories_json(c, warnings);
   for (int q = 0; q < gg_quantities_of(&c->model); q++)

@@ -86,7 +86,7 @@ json_t *gg_run_document(const gg_result *r)
 {
   if (r->origin.document) return json_loads(r->origin.document, 0, NULL); /* as it was stored */
   json_t *results = json_object(), *warnings = json_array();
-  for (int i = 0; i < r->n_warnings; i++) json_array_append_new(warnings, json_string(r->warnings[i]));
+  for (size_t i = 0; i < r->warnings.n; i++) json_array_append_new(warnings, json_string(r->warnings.text[i]));
   for (int q = 0; q < gg_quantities_of(&r->model); q++)
     if (gg_is_measured(&r->value[q]))
       json_object_set_new(results, gg_quantity_name_in(&r->model, (gg_quantity)q),

@@ -174,5 +174,6 @@ void gg_comparison_clear(gg_comparison *c)
   gg_extension_release(c->scene.extension);
   gg_extension_release(c->own);
   free(c->document);
+  gg_text_list_clear(&c->warnings);
   memset(c, 0, sizeof *c);
 }

@@ -6,13 +6,12 @@
 
 void gg_result_warn(gg_result *result, const char *format, ...)
 {
-  if (result->n_warnings == GG_MAX_WARNINGS) return;
   char *text = NULL;
   va_list args;
   va_start(args, format);
-  int length = vasprintf(&text, format, args);
+  if (vasprintf(&text, format, args) < 0) text = NULL;
   va_end(args);
-  if (length >= 0) result->warnings[result->n_warnings++] = text;
+  gg_text_list_take(&result->warnings, text);
 }
 
 bool gg_counts_in_collisions(const gg_model *m)
@@ -32,7 +31,7 @@ void gg_result_free(gg_result *result)
   for (int k = 0; k < GG_N_HISTORY; k++) free(result->history.value[k]);
   gg_curves_clear(&result->curves);
   gg_frame_free(&result->final);
-  for (int i = 0; i < result->n_warnings; i++) free(result->warnings[i]);
+  gg_text_list_clear(&result->warnings);
   gg_extension_release(result->scene.extension);
   gg_extension_release(result->own);
   char *const texts[] = {result->origin.version, result->origin.command, result->origin.machine, result->origin.date,

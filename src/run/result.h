@@ -4,6 +4,7 @@
 
 #include "common/engine.h"
 #include "common/quantity.h"
+#include "common/text_list.h"
 #include "measure/observable.h"
 
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
@@ -53,8 +54,6 @@ typedef struct gg_effort {
   double cpu_seconds, wall_seconds;
 } gg_effort;
 
-enum { GG_MAX_WARNINGS = 32 };
-
 struct gg_result {
   gg_scene scene; /* as run: overrides and seed included; holds its extension */
   gg_model model;
@@ -67,8 +66,7 @@ struct gg_result {
   gg_frame final; /* the first replica's last state */
   gg_effort averaging, total;
   gg_engine_state engine_state; /* counts summed over replicas */
-  char *warnings[GG_MAX_WARNINGS];
-  int n_warnings;
+  gg_text_list warnings;
   struct {
     char *version, *command, *machine, *date, *document; /* document: JSON as it was stored */
     size_t frames;

@@ -40,9 +40,10 @@ struct gg_comparison {
     char reason[256]; /* why not */
     gg_theory_answer answer;
   } theory[GG_MOST_THEORIES];
-  char *document;    /* JSON as it was stored; NULL of a comparison that was not read from a file */
-  bool of_one;       /* that file is one of a run */
-  gg_extension *own; /* names of what that file's program had brought; else NULL */
+  gg_text_list warnings; /* of the scene */
+  char *document;        /* JSON as it was stored; NULL of a comparison that was not read from a file */
+  bool of_one;           /* that file is one of a run */
+  gg_extension *own;     /* names of what that file's program had brought; else NULL */
 };
 
 /* `resume` (may be NULL): an archive that the checkpoint hook stored; each engine goes on from its part. Also after a

@@ -130,6 +130,24 @@ def test_compare_at_phi_0():
     check(any("md is null" in w for w in d["warnings"]))
 
 
+def test_keys_without_effect():
+    """Told once on standard error, before the run, and in the documents; of a comparison for both engines."""
+    scene = ROUGH.replace("usf", "hcs") + "shear_rate: 2\nmd: {contact_time: 1e-4}\noutput: {trajectory_every: 50}\n"
+    flow, dsmc = "shear_rate has no effect but in flow: usf", "dsmc.particles has no effect with engine: md"
+    md, frames = "md.contact_time has no effect with engine: dsmc", "output.trajectory_every has no effect in a comparison"
+    for args, told in ((("run", "scene.yaml"), (flow, dsmc)), (("run", "scene.yaml", "--engine", "dsmc"), (flow, md)),
+                       (("compare", "scene.yaml", "--picture", "none"), (flow, frames)), (("theory", "scene.yaml"), (flow,))):
+        plain, document = run(*args, scene=scene), run(*args, "--json")
+        for line in flow, dsmc, md, frames:
+            known = line in told
+            check(plain.err.count(line) == known, args, line, plain.err)
+            check(document.err.count(line) == known, args, line, document.err)
+            check(sum(line in w for w in loads(document)["warnings"]) == known, args, line)
+    check(json.loads(run("info", "scene.h5", "--json").out)["warnings"][0] == flow)
+    about = run("info", "scene.yaml", columns=200)
+    check(about.code == 0 and "without effect:\n  " + flow in about.out and "contact_time has no" not in about.out)
+
+
 def test_asked_error_out_of_reach():
     done = run("run", "scene.yaml", "--json", "--set", "run.relative_error=1e-6", "--set", "run.time_limit=1",
                scene=ROUGH)

@@ -94,7 +94,7 @@ static void slow_relaxation(void **state)
   s.run.relative_error = GG_AUTO;
   r = run(&s, GG_OK);
   assert_int_equal(r->steadiness, GG_NOT_STEADY);
-  assert_true(r->n_warnings > 0);
+  assert_true(r->warnings.n > 0);
   gg_result_free(r);
 }
 

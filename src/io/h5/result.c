@@ -142,7 +142,7 @@ static void write_warnings(gg_h5 *h, const char *group, const gg_result *r)
   size_t size;
   FILE *out = open_memstream(&text, &size);
   if (!out) return;
-  for (int i = 0; i < r->n_warnings; i++) fprintf(out, "%s\n", r->warnings[i]);
+  for (size_t i = 0; i < r->warnings.n; i++) fprintf(out, "%s\n", r->warnings.text[i]);
   snprintf(path, sizeof path, "%s/warnings", group);
   if (fclose(out) == 0) gg_h5_text(h, path, text);
   free(text);

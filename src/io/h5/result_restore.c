@@ -6,6 +6,7 @@
 
 #include "io/document.h"
 #include "io/h5/stored_extension.h"
+#include "io/scene/inert.h"
 #include "io/scene/reader.h"
 
 static double number(const json_t *object, const char *key)
@@ -37,10 +38,11 @@ static void restore_warnings(gg_result *r, const json_t *document)
 static void restore_reason(const gg_result *r, const char *name, char *reason, size_t size)
 {
   size_t length = strlen(name);
-  for (int i = 0; i < r->n_warnings; i++) {
-    const char *end = strstr(r->warnings[i], " null: ");
-    for (const char *at = r->warnings[i]; end && (at = strstr(at, name)) && at < end; at += length)
-      if ((at == r->warnings[i] || at[-1] == ' ') && strchr(", ", at[length])) {
+  for (size_t i = 0; i < r->warnings.n; i++) {
+    const char *line = r->warnings.text[i];
+    const char *end = strstr(line, " null: ");
+    for (const char *at = line; end && (at = strstr(at, name)) && at < end; at += length)
+      if ((at == line || at[-1] == ' ') && strchr(", ", at[length])) {
         snprintf(reason, size, "%s", end + strlen(" null: "));
         return;
       }
@@ -299,6 +301,7 @@ gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_
     c->model.extension = one ? one->model.extension : NULL;
   }
   restore_refusals(c, s->document);
+  if (s->comparison) gg_scene_inert(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
   c->of_one = !s->comparison;
   c->document = gg_document_text(s->document);
   return c->document ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");

@@ -2,6 +2,7 @@
  * What an engine cannot run is the engine's to say (gg_engine_ops.accepts). */
 #include <math.h>
 
+#include "io/scene/inert.h"
 #include "io/scene/reader.h"
 
 /* A gas in equilibrium loses no energy; a heated one needs a heater. */
@@ -17,21 +18,9 @@ void gg_scene_fill_in(gg_scene *s)
   if (s->small_shear == GG_ON) s->measure |= GG_MEASURE_VISCOSITY;
 }
 
-static bool loses_energy(const gg_scene *s)
-{
-  for (int i = 0; i < s->n_species; i++)
-    for (int j = i; j < s->n_species; j++) {
-      int p = gg_pair_index(i, j);
-      double beta = s->collision.beta[p], mu = s->collision.mu[p];
-      bool smooth = beta == -1 || mu == 0, rough = beta == 1 && mu == INFINITY;
-      if (s->collision.e[p] < 1 || !(smooth || rough)) return true;
-    }
-  return false;
-}
-
 static gg_status check_flow(const gg_scene *s, gg_error *err)
 {
-  if (s->flow == GG_EQUILIBRIUM && loses_energy(s))
+  if (s->flow == GG_EQUILIBRIUM && gg_scene_loses_energy(s))
     return gg_fail(err, GG_BAD_INPUT,
                    "flow: equilibrium needs collisions that lose no energy: collision.e 1, and collision.beta -1 "
                    "(or 1 with mu inf); for a cooling gas use flow: hcs");

@@ -1,0 +1,99 @@
+#include "io/scene/inert.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/scene/json.h"
+
+/* Keys that one reason leaves without effect: more than there are keys and members of species. */
+enum { MOST_INERT = GG_MAX_FIELDS + 4 * GG_MAX_SPECIES };
+typedef struct inert_keys {
+  int n;
+  struct {
+    char key[48];
+    const char *otherwise; /* NULL: told already */
+  } of[MOST_INERT];
+} inert_keys;
+
+static void note(inert_keys *all, const char *otherwise, const char *key)
+{
+  if (all->n == MOST_INERT) return;
+  snprintf(all->of[all->n].key, sizeof all->of[0].key, "%s", key);
+  all->of[all->n++].otherwise = otherwise;
+}
+
+/* Does `base` hold another value than `default_base`, of the scenes? */
+static bool differs(const gg_field *f, const void *base, const gg_scene *scene, const void *default_base,
+                    const gg_scene *defaults)
+{
+  json_t *value = gg_field_json(f, base, scene), *usual = gg_field_json(f, default_base, defaults);
+  bool yes = !json_equal(value, usual);
+  json_decref(value);
+  json_decref(usual);
+  return yes;
+}
+
+static const char *why_inert(const gg_field *f, const gg_scene *scene, unsigned uses)
+{
+  for (int i = 0; i < GG_MOST_CONDITIONS && f->when[i]; i++)
+    if (!f->when[i]->holds(scene, uses)) return f->when[i]->otherwise;
+  return NULL;
+}
+
+/* Of one species the pairs 12 and 22 are nobody's. */
+static void note_pairs(inert_keys *all, const gg_field *f, const gg_scene *scene)
+{
+  const double *value = (const double *)(const void *)((const char *)scene + f->offset);
+  char key[48];
+  if (scene->n_species > 1) return;
+  static const char *const names[GG_PAIRS] = {"11", "12", "22"};
+  for (int p = GG_12; p < GG_PAIRS; p++) {
+    snprintf(key, sizeof key, "%s.%s", f->key, names[p]);
+    if (value[p] != value[GG_11]) note(all, "with one species", key);
+  }
+}
+
+static void note_species(inert_keys *all, const gg_scene *scene, unsigned uses)
+{
+  const gg_scene defaults = gg_scene_defaults();
+  for (int i = 0; i < scene->n_species; i++)
+    for (const gg_field *f = gg_species_fields; f->key; f++) {
+      const char *why = why_inert(f, scene, uses);
+      char key[48];
+      snprintf(key, sizeof key, "species.%d.%s", i + 1, f->key);
+      if (why && differs(f, &scene->species[i], scene, &defaults.species[0], &defaults)) note(all, why, key);
+    }
+}
+
+static void note_all(inert_keys *all, const gg_scene *scene, unsigned uses)
+{
+  const gg_scene defaults = gg_scene_defaults();
+  for (const gg_field *f = gg_scene_fields; f->key; f++) {
+    if (!gg_scene_is_given(scene, f->key)) continue;
+    const char *why = why_inert(f, scene, uses);
+    if (f->type == GG_FIELD_SPECIES)
+      note_species(all, scene, uses);
+    else if (why && differs(f, scene, scene, &defaults, &defaults))
+      note(all, why, f->key);
+    else if (f->type == GG_FIELD_PAIRS)
+      note_pairs(all, f, scene);
+  }
+}
+
+void gg_scene_inert(const gg_scene *scene, unsigned uses, gg_text_list *lines)
+{
+  inert_keys all = {0};
+  note_all(&all, scene, uses);
+  for (int i = 0; i < all.n; i++) {
+    const char *why = all.of[i].otherwise;
+    char keys[600] = "";
+    int used = 0, n = 0;
+    for (int k = i; why && k < all.n && used < (int)sizeof keys; k++) {
+      if (!all.of[k].otherwise || strcmp(all.of[k].otherwise, why) != 0) continue;
+      used += snprintf(keys + used, sizeof keys - (size_t)used, "%s%s", n++ ? ", " : "", all.of[k].key);
+      all.of[k].otherwise = NULL;
+    }
+    if (n) gg_text_list_add(lines, "%s %s no effect %s", keys, n > 1 ? "have" : "has", why);
+  }
+}
