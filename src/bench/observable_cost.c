@@ -8,7 +8,7 @@
 #include "run/replica.h"
 #include "run/start.h"
 
-enum { MOST_REPEATS = 32, CYCLE = 32 }; /* samples in which every observable is due as often as ever */
+enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 
 typedef struct timed_run {
   gg_replica replica;
@@ -55,15 +55,28 @@ static gg_status time_stretch(timed_run *c, uint64_t samples, double *ns, gg_err
   return GG_OK;
 }
 
+/* Samples in which every observable is due as often as ever. */
+static uint64_t cycle_of(const gg_replica *r)
+{
+  const gg_engine_ops *ops = r->engine->ops;
+  int cycle = LEAST_CYCLE;
+  for (int k = 0; k < r->n_observables; k++) {
+    if (r->every[k] > cycle) cycle = r->every[k];
+    if (r->observable[k]->begin_episode && ops->callback_slows && ops->callback_slows(r->engine))
+      return GG_EPISODES_APART;
+  }
+  return (uint64_t)cycle;
+}
+
 static gg_status compare(timed_run c[2], int repeats, double seconds, gg_observable_cost *cost, gg_error *err)
 {
   double over[MOST_REPEATS], ns[2][MOST_REPEATS], began = gg_cpu_now();
-  uint64_t cycles = 1;
-  GG_TRY(go_on(&c[0], CYCLE, false, err));
-  GG_TRY(go_on(&c[1], CYCLE, false, err));
+  uint64_t cycles = 1, cycle = cycle_of(&c[1].replica);
+  GG_TRY(go_on(&c[0], cycle, false, err));
+  GG_TRY(go_on(&c[1], cycle, false, err));
   cycles += (uint64_t)(2 * seconds / fmax(gg_cpu_now() - began, 1e-6));
   for (int i = 0; i < repeats; i++) {
-    for (int k = 0; k < 2; k++) GG_TRY(time_stretch(&c[k], cycles * CYCLE, &ns[k][i], err));
+    for (int k = 0; k < 2; k++) GG_TRY(time_stretch(&c[k], cycles * cycle, &ns[k][i], err));
     over[i] = ns[1][i] / ns[0][i] - 1;
   }
   gsl_sort(over, 1, (size_t)repeats);

@@ -93,10 +93,12 @@ typedef struct gg_engine_ops {
   void (*keep_sums)(gg_engine *engine, bool keep);
   /* Hand over the sums since the last read, and start anew. */
   void (*take_sums)(gg_engine *engine, gg_collision_sums *sums);
-  /* Show every collision between grains to `callback` from now on. What is shown costs time; a dsmc engine also leaves
-   * its block kernels, in which grains change places. An engine restored from a checkpoint has to be told again, and
-   * then goes on bit for bit. */
+  /* Show every collision between grains to `callback` from now on; NULL: to nobody. What is shown costs time; a dsmc
+   * engine also leaves its block kernels, in which grains change places, until it has no callback. An engine restored
+   * from a checkpoint has to be told again, and then goes on bit for bit. */
   gg_status (*set_callback)(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
+  /* Does a callback slow this engine down many times over? Then it is best set now and then. NULL: no. */
+  bool (*callback_slows)(const gg_engine *engine);
   /* Share the work out to so many threads, the caller's included; the trajectory does not depend on it. NULL where the
    * engine cannot. */
   void (*threads)(gg_engine *engine, int threads);

@@ -4,6 +4,17 @@
 #include "common/thermostat.h"
 #include "dsmc/dsmc.h"
 
+gg_dsmc_path gg_dsmc_path_of(const gg_dsmc *d, int i, int j)
+{
+  return d->model.law.e ? GG_DSMC_PLAIN : gg_dsmc_choose_path(&d->ensemble.of[i], &d->ensemble.of[j]);
+}
+
+void gg_dsmc_take_paths(gg_dsmc *d)
+{
+  for (int i = 0; i < d->model.n_species; i++)
+    for (int j = i; j < d->model.n_species; j++) d->path[gg_pair_index(i, j)] = gg_dsmc_path_of(d, i, j);
+}
+
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
 {
   GG_TRY(gg_instructions_check(err));
@@ -22,10 +33,7 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
     gg_dsmc_destroy(&made->base);
     return status;
   }
-  for (int i = 0; i < model->n_species; i++)
-    for (int j = i; j < model->n_species; j++)
-      made->path[gg_pair_index(i, j)] =
-          model->law.e ? GG_DSMC_PLAIN : gg_dsmc_choose_path(&made->ensemble.of[i], &made->ensemble.of[j]);
+  gg_dsmc_take_paths(made);
   *d = made;
   return GG_OK;
 }

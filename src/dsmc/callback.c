@@ -19,11 +19,33 @@ static gg_status allocate(gg_dsmc *d, gg_error *err)
   return GG_OK;
 }
 
-/* For good: also when there is no callback any more. The majorants that block kernels have learned hold for the plain
- * path, too: they bound an integral over directions that is no less than the largest rate. */
+/* The majorants that block kernels have learned hold for the plain path, too: they bound an integral over directions
+ * that is no less than the largest rate. */
 static void take_plain_path(gg_dsmc *d)
 {
   for (int p = 0; p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
+}
+
+/* Back to the path of the model's own; what the plain path has learned does not hold there. */
+static void leave_plain_path(gg_dsmc *d)
+{
+  for (int i = 0; i < d->model.n_species; i++) {
+    free(d->callback.last[i]);
+    d->callback.last[i] = NULL;
+  }
+  if (!gg_dsmc_callback_slows(&d->base)) return;
+  gg_dsmc_take_paths(d);
+  gg_dsmc_synchronise(d);
+  gg_dsmc_start_majorants(d);
+}
+
+bool gg_dsmc_callback_slows(const gg_engine *engine)
+{
+  const gg_dsmc *d = (const gg_dsmc *)engine;
+  for (int i = 0; i < d->model.n_species; i++)
+    for (int j = i; j < d->model.n_species; j++)
+      if (gg_dsmc_path_of(d, i, j) != GG_DSMC_PLAIN) return true;
+  return false;
 }
 
 gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err)
@@ -33,6 +55,7 @@ gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callbac
   d->callback.call = callback;
   d->callback.context = context;
   if (callback) take_plain_path(d);
+  if (!callback && d->callback.last[0]) leave_plain_path(d);
   return GG_OK;
 }
 

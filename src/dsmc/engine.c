@@ -211,6 +211,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .keep_sums = keep_sums,
     .take_sums = take_sums,
     .set_callback = gg_dsmc_set_callback,
+    .callback_slows = gg_dsmc_callback_slows,
     .threads = threads,
     .state = state,
     .snapshot = snapshot,

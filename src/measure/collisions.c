@@ -133,6 +133,13 @@ static void add_collision(void *self, const gg_collision_record *m)
   add_flights(d, m, 1);
 }
 
+static void begin_episode(void *self)
+{
+  collisions *d = self;
+  d->first = 0;
+  memset(d->sums, 0, d->width * sizeof *d->sums);
+}
+
 static void *memory(void *self, size_t *bytes)
 {
   collisions *d = self;
@@ -238,6 +245,7 @@ const gg_observable gg_collisions = {
     .memory = memory,
     .every = 1,
     .add_collision = add_collision,
+    .begin_episode = begin_episode,
     .add_snapshot = add_snapshot,
     .restart = restart,
     .curves = curves,

@@ -52,6 +52,7 @@ typedef struct gg_observable {
    * observable without curves has bins NULL. */
   size_t (*bins)(const void *self);
   int every;
+  int (*every_of)(const void *self); /* instead, where it depends on the size; NULL: `every` */
   int parts;      /* above 1: each interval is cut into so many parts, with a snapshot after each; for correlations in
                      time */
   bool positions; /* of the grains are wanted, where the engine has any */
@@ -61,6 +62,9 @@ typedef struct gg_observable {
   void (*add_interval)(void *self, const gg_interval *interval);
   /* Called with every collision while averaging; goes into the bins with the next snapshot. NULL: not needed. */
   gg_collision_callback *add_collision;
+  /* It does with the collisions of some episodes, where showing them slows the engine down many times over; told when
+   * one begins. Snapshots are then added in episodes only. NULL: it is to have every collision. */
+  void (*begin_episode)(void *self);
   /* All velocities have just been multiplied by this: told before the next collision, where it has add_collision. */
   void (*rescaled)(void *self, double factor);
   void (*restart)(void *self); /* averaging begins (anew): forget earlier snapshots; NULL if there is nothing to forget

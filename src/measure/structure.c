@@ -59,6 +59,15 @@ static size_t bins(const void *self)
   return (size_t)((const structure *)self)->most * (RADIAL + 3 * AXIS);
 }
 
+/* Small systems in large boxes: transforms are worth so many collisions that they come more rarely. */
+enum { EVERY = 32, POINTS_PER_GRAIN = 480 };
+static int every_of(const void *self)
+{
+  const structure *d = self;
+  double points = (double)d->mesh.n * d->mesh.n * d->mesh.n / (double)d->model.n;
+  return EVERY * (int)fmax(1, ceil(points / POINTS_PER_GRAIN));
+}
+
 static void keep_modes(structure *d, int field)
 {
   gg_mode *to = d->mode[field];
@@ -189,7 +198,8 @@ const gg_observable gg_structure = {
     .destroy = destroy,
     .refuses = gg_needs_bulk,
     .bins = bins,
-    .every = 32,
+    .every = EVERY,
+    .every_of = every_of,
     .positions = true,
     .add_snapshot = add_snapshot,
     .curves = curves,

@@ -17,6 +17,7 @@ static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width
   r->offset[k] = *width;
   if (o->width) *width += o->width(&r->model);
   if (o->parts > r->parts) r->parts = o->parts;
+  r->every[k] = o->every_of ? o->every_of(r->self[k]) : o->every;
   return o->bins ? gg_bins_init(&r->bins[k], o->bins(r->self[k]), err) : GG_OK;
 }
 

@@ -79,6 +79,7 @@ static gg_status advance_interval(gg_replica *r, double *elapsed, uint64_t *happ
   struct gg_replica_clock *c = &r->clock;
   int parts = c->averaging ? r->parts : 1;
   if (!c->part) c->gone = 0, c->happened = collisions(r);
+  if (c->averaging) GG_TRY(gg_replica_show_collisions(r, err));
   for (int part = c->part ? (int)c->part : 1; part <= parts; part++) {
     GG_TRY(advance_part(r, part, parts, err));
     c->gone += c->part_gone;
@@ -196,7 +197,7 @@ gg_status gg_replica_open_window(gg_replica *r, gg_error *err)
   r->clock.window_collisions = collisions(r);
   r->clock.window_cpu = r->clock.cpu;
   gg_replica_restart_curves(r);
-  return gg_replica_observe_collisions(r, err);
+  return gg_replica_show_collisions(r, err);
 }
 
 gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
@@ -224,7 +225,6 @@ gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene 
   if (status == GG_OK) status = gg_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
   if (status == GG_OK) status = gg_replica_restore_observables(r, a, err);
-  if (status == GG_OK && r->clock.averaging) status = gg_replica_observe_collisions(r, err);
   if (status == GG_OK) resume_frames(r);
   if (status != GG_OK) gg_replica_clear(r);
   return status;

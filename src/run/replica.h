@@ -13,10 +13,12 @@ typedef struct gg_replica {
   int n_observables;
   const gg_observable *observable[GG_MAX_OBSERVABLES];
   void *self[GG_MAX_OBSERVABLES];
-  size_t offset[GG_MAX_OBSERVABLES]; /* where its channels begin in a row */
-  gg_bins bins[GG_MAX_OBSERVABLES];  /* of those that leave curves */
-  gg_snapshot snapshot;              /* what they sample; gathered only if one of them is due */
-  int parts;                         /* of a sampling interval, each ending with a snapshot, while averaging */
+  size_t offset[GG_MAX_OBSERVABLES];                        /* where its channels begin in a row */
+  gg_bins bins[GG_MAX_OBSERVABLES];                         /* of those that leave curves */
+  int every[GG_MAX_OBSERVABLES];                            /* samples between snapshots for them */
+  enum gg_shown { GG_NOT_SAID, GG_HIDDEN, GG_SHOWN } shown; /* collisions, to the observables that ask for them */
+  gg_snapshot snapshot;                                     /* what they sample; gathered only if one of them is due */
+  int parts; /* of a sampling interval, each ending with a snapshot, while averaging */
   gg_series series;
   double *row;
   double trajectory_every;  /* collisions per grain between frames; 0: none */
@@ -62,8 +64,15 @@ gg_status gg_replica_restore_observables(gg_replica *r, const gg_archive *archiv
 void gg_replica_sample_row(gg_replica *r, double elapsed);
 void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
 void gg_replica_restart_curves(gg_replica *r);
-/* From now on the engine shows every collision to the observables that ask for it. */
-gg_status gg_replica_observe_collisions(gg_replica *r, gg_error *err);
+
+/* episodes.c: before an interval of the window: does the engine show its collisions to the observables that ask for
+ * them? Always, but where that slows it down many times over, and they do with less: there for GG_EPISODE samples at
+ * the beginning of every GG_EPISODES_APART. */
+enum { GG_EPISODE = 12, GG_EPISODES_APART = 1024 };
+gg_status gg_replica_show_collisions(gg_replica *r, gg_error *err);
+/* Has the present sample of observable k others of its episode to follow? All of one are a single sample of its bins,
+ * so that errors know of what changes from one episode to the next alone. */
+bool gg_replica_in_episode(const gg_replica *r, int k);
 
 double gg_replica_collisions_per_grain(const gg_replica *r);
 /* A frame of the engine as results have it: at the time since the start, velocities in units of the start. */

@@ -67,8 +67,8 @@ void gg_replica_sample_row(gg_replica *r, double elapsed)
 static bool is_due(const gg_replica *r, int k, int part)
 {
   const gg_observable *o = r->observable[k];
-  if (!o->bins) return false;
-  return o->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)o->every == 0);
+  if (!o->bins || (o->add_collision && r->shown != GG_SHOWN)) return false;
+  return o->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)r->every[k] == 0);
 }
 
 void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
@@ -83,23 +83,9 @@ void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
   for (int k = 0; k < r->n_observables; k++) {
     if (!is_due(r, k, part)) continue;
     r->observable[k]->add_snapshot(r->self[k], &r->snapshot, gg_bins_sample(&r->bins[k]));
-    if (last) gg_bins_commit(&r->bins[k]);
+    if (last && !gg_replica_in_episode(r, k)) gg_bins_commit(&r->bins[k]);
   }
   if (last) r->clock.window_samples++;
-}
-
-static void add_collision(void *context, const gg_collision_record *collision)
-{
-  gg_replica *r = context;
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->add_collision) r->observable[k]->add_collision(r->self[k], collision);
-}
-
-gg_status gg_replica_observe_collisions(gg_replica *r, gg_error *err)
-{
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->add_collision) return r->engine->ops->set_callback(r->engine, add_collision, r, err);
-  return GG_OK;
 }
 
 void gg_replica_restart_curves(gg_replica *r)

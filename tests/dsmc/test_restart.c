@@ -56,7 +56,8 @@ static void count(void *context, const gg_collision_record *collision)
   *(uint64_t *)context += collision->c12.x == collision->c12.x;
 }
 
-/* A callback leaves the engine on the plain path: a run that had one and no longer has goes on bit for bit, too. */
+/* Without its callback an engine goes back to its block kernels: a run that had one and no longer has goes on bit for
+ * bit, too, and at the temperature that it would have had. */
 static void without_its_callback(void **state)
 {
   (void)state;
