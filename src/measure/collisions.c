@@ -143,7 +143,7 @@ static void begin_episode(void *self)
 static void *memory(void *self, size_t *bytes)
 {
   collisions *d = self;
-  *bytes = sizeof d->first;
+  *bytes = sizeof d->first + d->width * sizeof *d->sums; /* one behind the other; a run may be stopped in an interval */
   return &d->first;
 }
 
