@@ -88,7 +88,8 @@ static void print_files(void)
        "/graingas/results in a run is under /graingas/md/results and /graingas/dsmc/results there, and its series are "
        "called md_... and dsmc_..."},
       {"/particles/grains", NULL,
-       "box, position, velocity (peculiar), spin, species, id: the last state, or every output.trajectory_every "
+       "box, position, velocity (peculiar), spin, species, mass, diameter, id: the last state, or every "
+       "output.trajectory_every "
        "collisions per grain. Edges of a sheared box lean with its sliding images."},
       {"/observables", "QUANTITY", "step, time and value from the start of the run."},
       {"/graingas/results", "QUANTITY", "mean, stderr, unit, samples, correlation_time (its unit an attribute)."},

@@ -65,6 +65,36 @@ def test_edges_lean_with_the_shear():
         check(upright < 0.99, "the test would not notice")
 
 
+def test_grains_say_what_they_are():
+    """Units, mass and diameter; and with the shear put back, the laboratory's velocities have its slope."""
+    h5py, numpy = modules("h5py", "numpy")
+    mixture = SCENE + "species: [{fraction: 0.5, diameter: 1, mass: 1}, {fraction: 0.5, diameter: 2, mass: 4}]\n"
+    for scene, units in (SCENE, "1/gamma d gamma d gamma"), (mixture, "1/gamma d gamma d gamma"):
+        run("run", "scene.yaml", scene=scene)
+        with h5py.File("scene.h5") as f:
+            grains = f["particles/grains"]
+            named = [grains.attrs["time_unit"]] + [grains[k].attrs["unit"] for k in ("velocity", "position", "spin")]
+            check(b" ".join(named).decode() == units, named)
+            check(grains["spin/value"].attrs["unit"] == b"gamma" and grains["box/edges"].attrs["unit"] == b"d")
+            check(grains["mass"].attrs["unit"] == b"m" and grains["diameter"].attrs["unit"] == b"d")
+            for species, mass, diameter in zip(grains["species"], grains["mass"], grains["diameter"]):
+                check((mass, diameter) == ((4, 2) if species else (1, 1)), species, mass, diameter)
+            check(set(grains["species"]) == ({0, 1} if scene == mixture else {0}))
+            check(grains["velocity"].attrs["frame"].startswith(b"peculiar"))
+            y = grains["position/value"][..., 1] - grains["box/edges/value"][:][:, 1, 1, None] / 2
+            peculiar = grains["velocity/value"][..., 0]
+            laboratory = peculiar + grains["velocity"].attrs["shear_rate"] * y
+            for velocity, slope in (peculiar, 0), (laboratory, 1):
+                found = (velocity * y).mean() / (y * y).mean()
+                error = (peculiar.var() / (y * y).mean() / y.size) ** 0.5
+                check(abs(found - slope) < 5 * error < 0.5, found, slope, error)
+    run("run", "scene.yaml", scene=SCENE.replace("usf", "hcs"))
+    with h5py.File("scene.h5") as f:
+        velocity = f["particles/grains/velocity"]
+        check(velocity.attrs["unit"] == b"v_0" and velocity.attrs["shear_rate"] == 0)
+        check(velocity.attrs["frame"].startswith(b"laboratory"))
+
+
 def test_h5py_opens_a_comparison():
     (h5py,) = modules("h5py")
     d = json.loads(run("compare", "scene.yaml", "--json", "--picture", "none", scene=SCENE).out)

@@ -37,30 +37,16 @@ static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
 
 static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame, const size_t *order)
 {
-  hsize_t n = frame->n;
-  int64_t *id = calloc(frame->n, sizeof *id);
-  uint8_t *species = calloc(frame->n, 1);
   *p = (gg_h5_particles){.started = true, .boxed = frame->position != NULL, .n = frame->n};
   p->edges.dataset = -1;
   gg_h5_rows_create(h, &p->step, GRAINS "velocity/step", H5T_NATIVE_UINT64, 0, NULL);
   gg_h5_rows_create(h, &p->time, GRAINS "velocity/time", H5T_NATIVE_DOUBLE, 0, NULL);
-  const hsize_t row[2] = {n, 3};
+  const hsize_t row[2] = {p->n, 3};
   gg_h5_rows_create(h, &p->velocity, GRAINS "velocity/value", H5T_NATIVE_DOUBLE, 2, row);
   start_vectors(h, p, &p->position, "position", frame->position);
   start_vectors(h, p, &p->spin, "spin", frame->spin);
   start_box(h, p, model);
-  for (size_t i = 0; id && species && i < frame->n; i++) {
-    id[i] = (int64_t)i;
-    species[i] = frame->species ? frame->species[order[i]] : 0;
-  }
-  if (!id || !species) {
-    gg_h5_failed(h, "out of memory");
-  } else {
-    gg_h5_array(h, GRAINS "id", H5T_NATIVE_INT64, 1, &n, id);
-    gg_h5_array(h, GRAINS "species", H5T_NATIVE_UINT8, 1, &n, species);
-  }
-  free(id);
-  free(species);
+  gg_h5_write_grains(h, model, frame, order);
 }
 
 /* Under shear the image above has slid by rate L_y t (Lees & Edwards 1972): the second edge leans by as much, counted

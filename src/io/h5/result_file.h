@@ -1,7 +1,8 @@
 /* Result files: HDF5, H5MD 1.1 for grains and time series; scene, results and how they were made under /graingas.
  *
  *   /h5md                            version, author, creator
- *   /particles/grains                box, position, velocity, spin (value, step, time), species, id
+ *   /particles/grains                box, position, velocity, spin (value, step, time), species, id,
+ *                                    mass, diameter
  *   /observables/<quantity>          step, time, value from the start of the run; compare: /observables/md_<quantity>
  *   /graingas                        version, command, machine, date, seed, scene (YAML), document (JSON), warnings
  *   /graingas/results/<quantity>     mean, stderr, unit, samples, correlation_time; compare: /graingas/md/results/...
