@@ -34,17 +34,18 @@ static json_t *theories_json(const gg_comparison *c, json_t *warnings)
   return all;
 }
 
-/* {"lun1991": {"title", "citation", "assumptions", "beyond": why this scene is out of its range, or null}}. */
+/* {"lun1991": {"title", "citation", "assumptions", "beyond": why this scene is out of its range, or null, "reason": why
+ * it does not apply, or null}}. */
 static json_t *about_json(const gg_comparison *c)
 {
   json_t *all = json_object();
   for (int i = 0; i < c->n_theories; i++) {
     const gg_theory *t = c->theory[i].theory;
-    if (!c->theory[i].applies) continue;
-    const char *beyond = gg_theory_beyond(t, &c->model);
+    bool applies = c->theory[i].applies;
+    const char *beyond = applies ? gg_theory_beyond(t, &c->model) : NULL, *reason = applies ? NULL : c->theory[i].reason;
     json_object_set_new(all, t->name,
-                        json_pack("{s:s, s:s, s:s, s:s?}", "title", t->title, "citation", t->citation, "assumptions",
-                                  t->assumptions, "beyond", beyond));
+                        json_pack("{s:s, s:s, s:s, s:s?, s:s?}", "title", t->title, "citation", t->citation,
+                                  "assumptions", t->assumptions, "beyond", beyond, "reason", reason));
   }
   return all;
 }

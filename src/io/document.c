@@ -58,6 +58,7 @@ static json_t *estimate_json(const gg_result *r, gg_quantity q, json_t *warnings
                            gg_quantity_unit(q, &r->model), "samples", (json_int_t)e->samples, "correlation_time",
                            real(e->correlation_time), "correlation_time_unit", gg_correlation_time_unit(&r->model));
   if (isnan(e->mean)) json_object_set_new(json, "reason", json_string(e->reason));
+  if (q >= GG_N_QUANTITIES) json_object_set_new(json, "doc", json_string(gg_quantity_doc_in(&r->model, q)));
   return json;
 }
 

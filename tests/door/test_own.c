@@ -22,15 +22,40 @@ static const char *say(void *context, const gg_facts *facts, double *values)
   return NULL;
 }
 
+static const char *say_nothing(void *context, const gg_facts *facts, double *values)
+{
+  (void)context, (void)facts, (void)values;
+  return "is for fluids";
+}
+
+/* What the catalogue of a file's quantities and theories would say stands in it, too: of those that did not apply. */
+static void assert_told(const gg_comparison *c)
+{
+  gg_theory_info t = {0};
+  gg_error err;
+  char *text;
+  size_t i = 0;
+  while (gg_comparison_theory(c, i, &t, &err) == GG_OK && strcmp(t.name, "silent") != 0) i++;
+  assert_string_equal(t.name, "silent");
+  assert_string_equal(t.reason, "silent is for fluids");
+  assert_true(strcmp(t.title, "Another") == 0 && strcmp(t.citation, "a letter") == 0);
+  assert_ok(gg_comparison_to_json(c, &text, &err));
+  assert_non_null(strstr(text, "\"doc\": \"by my own thermometer\""));
+  free(text);
+}
+
 static void add_all(gg_scene *s)
 {
   gg_error err;
-  const gg_quantity_definition quantities[] = {{"my_T", "d\xc2\xb2 gamma\xc2\xb2", NULL}, {"nothing", NULL, NULL}};
+  const gg_quantity_definition quantities[] = {{"my_T", "d\xc2\xb2 gamma\xc2\xb2", "by my own thermometer"},
+                                               {"nothing", NULL, NULL}};
   const gg_observable_definition o = {"thermometer", NULL, 2, quantities, 0, sample_T, NULL, NULL};
   const char *const names[] = {"my_T", "pressure"};
   const gg_theory_definition t = {"mine", "My theory", "a note", NULL, 2, names, say, NULL};
   assert_ok(gg_scene_add_observable(s, &o, &err));
   assert_ok(gg_scene_add_theory(s, &t, &err));
+  const gg_theory_definition silent = {"silent", "Another", "a letter", "none", 2, names, say_nothing, NULL};
+  assert_ok(gg_scene_add_theory(s, &silent, &err));
 }
 
 /* Means, the reason of one that is not there, agreement and theory of one's own, written and read twice. */
@@ -64,6 +89,7 @@ static void read_back(void **state)
     assert_true(value == 7 && deviation[k] == deviation[0]);
     assert_ok(gg_comparison_theory_value(c[k], "mine", "pressure", &value, NULL, &err));
     assert_true(value == 8);
+    assert_told(c[k]);
   }
   for (int k = 0; k < 3; k++) gg_comparison_free(c[k]);
 }

@@ -84,6 +84,8 @@ static void write_estimate(gg_h5 *h, const char *group, gg_quantity q, const gg_
   gg_h5_count(h, path, e->samples);
   snprintf(path, sizeof path, "%s/results/%s/unit", group, gg_quantity_name_in(&r->model, q));
   gg_h5_text(h, path, gg_quantity_unit(q, &r->model));
+  snprintf(path, sizeof path, "%s/results/%s", group, gg_quantity_name_in(&r->model, q));
+  gg_h5_text_attribute(h, path, "doc", gg_quantity_doc_in(&r->model, q));
 }
 
 static void write_effort(gg_h5 *h, const char *group, const char *name, const gg_effort *effort)

@@ -197,7 +197,7 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
 {
   const gg_stored_engine *e = &s->engine[engine];
   GG_TRY(restore_scene(s, engine, &r->scene, &r->model, err));
-  GG_TRY(gg_stored_extension(json_object_get(e->document, "results"), NULL, NULL, &r->own, err));
+  GG_TRY(gg_stored_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
   r->model.extension = r->own;
   r->scene.engine = engine;
   r->engine = gg_engine_ops_of(engine)->name;
@@ -225,17 +225,12 @@ gg_status gg_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg
   return status;
 }
 
-/* "lun1991 does not apply: reason" */
+/* Why a theory did not apply. */
 static void restore_refusal(const json_t *document, const char *theory, char *reason, size_t size)
 {
-  char head[80];
-  size_t i, length = (size_t)snprintf(head, sizeof head, "%s does not apply: ", theory);
-  json_t *line;
-  json_array_foreach(json_object_get(document, "warnings"), i, line)
-  {
-    const char *said = json_string_value(line);
-    if (said && strncmp(said, head, length) == 0) snprintf(reason, size, "%s", said + length);
-  }
+  const json_t *about = json_object_get(json_object_get(document, "theories"), theory);
+  const char *said = text(about, "reason");
+  snprintf(reason, size, "%s", *said ? said : "it is not in the file");
 }
 
 /* What the file's theories said, which those of today may not, nor of the stored scene: a restitution law of the
@@ -248,10 +243,7 @@ static void restore_theories(gg_comparison *c, const json_t *document)
     const char *name = c->theory[i].theory->name;
     const json_t *said = json_object_get(all, name);
     c->theory[i].applies = said != NULL;
-    if (!said) {
-      snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "it is not in the file");
-      restore_refusal(document, name, c->theory[i].reason, sizeof c->theory[i].reason);
-    }
+    if (!said) restore_refusal(document, name, c->theory[i].reason, sizeof c->theory[i].reason);
     for (int q = 0; said && q < gg_quantities_of(&c->model); q++)
       c->theory[i].answer.value[q] =
           number(json_object_get(said, gg_quantity_name_in(&c->model, (gg_quantity)q)), "mean");
@@ -263,8 +255,7 @@ static gg_status restore_own(gg_comparison *c, const json_t *document, gg_error 
 {
   const json_t *md = json_object_get(document, "md"),
                *part = json_is_object(md) ? md : json_object_get(document, "dsmc");
-  GG_TRY(gg_stored_extension(json_object_get(part, "results"), json_object_get(document, "theory"),
-                             json_object_get(document, "theories"), &c->own, err));
+  GG_TRY(gg_stored_extension(json_object_get(part, "results"), json_object_get(document, "theories"), &c->own, err));
   c->model.extension = c->own;
   return GG_OK;
 }

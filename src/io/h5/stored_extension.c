@@ -22,7 +22,9 @@ static gg_status add_quantities(const json_t *results, gg_extension **x, gg_erro
   json_object_foreach((json_t *)(uintptr_t)results, name, stored)
   {
     if (gg_quantity_find(name) != GG_N_QUANTITIES || n == GG_MOST_OWN_QUANTITIES) continue;
-    own[n++] = (gg_quantity_definition){.name = name, .unit = json_string_value(json_object_get(stored, "unit"))};
+    own[n++] = (gg_quantity_definition){.name = name,
+                                        .unit = json_string_value(json_object_get(stored, "unit")),
+                                        .doc = json_string_value(json_object_get(stored, "doc"))};
   }
   if (n == 0) return GG_OK;
   const gg_observable_definition all = {
@@ -46,17 +48,16 @@ static gg_status add_theory(const char *name, const json_t *about, gg_extension 
   return gg_own_theory_add(x, &t, err);
 }
 
-gg_status gg_stored_extension(const json_t *results, const json_t *theory, const json_t *theories,
-                              gg_extension **extension, gg_error *err)
+gg_status gg_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension, gg_error *err)
 {
   gg_extension *x = NULL;
   gg_status status = add_quantities(results, &x, err);
   const char *name;
-  json_t *said;
-  json_object_foreach((json_t *)(uintptr_t)theory, name, said)
+  json_t *about;
+  json_object_foreach((json_t *)(uintptr_t)theories, name, about)
   {
     if (status != GG_OK || gg_theory_find(name) || gg_extension_theories(x) == GG_MOST_OWN_THEORIES) continue;
-    status = add_theory(name, json_object_get(theories, name), &x, err);
+    status = add_theory(name, about, &x, err);
   }
   if (status == GG_OK)
     *extension = x;

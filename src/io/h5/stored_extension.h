@@ -7,9 +7,8 @@
 
 #include "common/extension.h"
 
-/* Of the `results` of an engine's document that are no shared quantities, and the `theory` and `theories` (NULL: none)
- * of a comparison's that are no shared theories. *extension is NULL if there is nothing; else to be released. */
-gg_status gg_stored_extension(const json_t *results, const json_t *theory, const json_t *theories,
-                              gg_extension **extension, gg_error *err);
+/* Of the `results` of an engine's document that are no shared quantities, and the `theories` (NULL: none) of a
+ * comparison's that are no shared theories. *extension is NULL if there is nothing; else to be released. */
+gg_status gg_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension, gg_error *err);
 
 #endif
