@@ -56,7 +56,11 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   GG_NEED(picture);
   if (gg_same_file(result_file, picture))
     return gg_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture", picture);
-  GG_TRY(gg_plot_result(result_file, picture, format, err));
-  if (drawn) drawn(context, picture);
-  return gg_plot_result_curves(result_file, picture, format, drawn, context, err);
+  gg_stored_result stored;
+  GG_TRY(gg_stored_result_read(&stored, result_file, err));
+  gg_status status = gg_plot_result(&stored, picture, format, err);
+  if (status == GG_OK && drawn) drawn(context, picture);
+  if (status == GG_OK) status = gg_plot_result_curves(&stored, picture, format, drawn, context, err);
+  gg_stored_result_clear(&stored);
+  return status;
 }

@@ -143,8 +143,7 @@ static bool draw_as(gg_result *r, bool png)
   bool drawn = false;
   if (gg_result_write(r, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
   if (gg_stored_result_read(&stored, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
-  if (gg_plot_snapshot(&stored, "r.h5", png ? "r.png" : "r.svg", png, &drawn, &err) != GG_OK)
-    fail_msg("%s", err.message);
+  if (gg_plot_snapshot(&stored, png ? "r.png" : "r.svg", png, &drawn, &err) != GG_OK) fail_msg("%s", err.message);
   gg_stored_result_clear(&stored);
   return drawn;
 }

@@ -67,6 +67,14 @@ static double *read_last_rows(gg_h5 *h, const char *what, size_t n)
   return gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, H5T_NATIVE_DOUBLE, sizeof(double), 3 * n) : NULL;
 }
 
+static void read_box(gg_h5 *h, double edge[3])
+{
+  static const char path[] = "/particles/grains/box/edges/value";
+  double *edges = gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, H5T_NATIVE_DOUBLE, sizeof *edges, 9) : NULL;
+  for (int a = 0; edges && a < 3; a++) edge[a] = edges[4 * a];
+  free(edges);
+}
+
 static void read_last_frame(gg_h5 *h, gg_stored_result *s)
 {
   gg_frame *f = &s->last;
@@ -80,6 +88,7 @@ static void read_last_frame(gg_h5 *h, gg_stored_result *s)
   free(step);
   free(time);
   f->position = read_last_rows(h, "position", f->n);
+  read_box(h, s->edge);
   f->velocity = read_last_rows(h, "velocity", f->n);
   f->spin = read_last_rows(h, "spin", f->n);
   f->species = gg_h5_read_array(h, "/particles/grains/species", H5T_NATIVE_UINT8, 1, &kinds);

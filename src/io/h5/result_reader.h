@@ -30,6 +30,7 @@ typedef struct gg_stored_result {
   gg_stored_engine engine[2]; /* by gg_engine_kind */
   size_t n_frames, n_grains;  /* stored under /particles/grains */
   gg_frame last;              /* the last of them, rows in the order of the grains' numbers */
+  double edge[3];             /* of its box along x, y, z; 0 where there are no positions */
 } gg_stored_result;
 
 gg_status gg_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);

@@ -39,41 +39,38 @@ static char *page_name(const char *picture, const char *engine, const char *grou
   return written < 0 ? NULL : name;
 }
 
-static gg_status draw_snapshot(const gg_stored_result *stored, const char *path, const char *picture, bool png,
+static gg_status draw_snapshot(const gg_stored_result *stored, const char *picture, bool png,
                                void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
 {
   bool there;
   char *name = page_name(picture, "", "snapshot", png);
   if (!name) return gg_fail(err, GG_FAILED, "out of memory");
-  gg_status status = gg_plot_snapshot(stored, path, name, png, &there, err);
+  gg_status status = gg_plot_snapshot(stored, name, png, &there, err);
   if (status == GG_OK && there && drawn) drawn(context, name);
   free(name);
   return status;
 }
 
-gg_status gg_plot_result_curves(const char *result_path, const char *picture, const char *format,
+gg_status gg_plot_result_curves(const gg_stored_result *stored, const char *picture, const char *format,
                                 void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
 {
-  gg_stored_result stored;
   bool png;
   GG_TRY(gg_plot_format(picture, format, &png, err));
-  GG_TRY(gg_stored_result_read(&stored, result_path, err));
   /* A page that fails keeps none of the others from being drawn; what is told is the first failure. */
-  gg_status status = draw_snapshot(&stored, result_path, picture, png, drawn, context, err);
+  gg_status status = draw_snapshot(stored, picture, png, drawn, context, err);
   for (int k = 0; k < 2; k++) {
-    const gg_stored_engine *e = &stored.engine[k];
+    const gg_stored_engine *e = &stored->engine[k];
     const char *groups[MOST_GROUPS];
     int n = e->name ? gg_curve_groups(e->document, groups, MOST_GROUPS) : 0;
     for (int i = 0; i < n; i++) {
       gg_error unheard, *told = status == GG_OK ? err : &unheard;
-      char *name = page_name(picture, stored.comparison ? e->name : "", groups[i], png);
-      gg_status page = name ? draw_page(&stored, e->document, groups[i], name, png, told)
-                            : gg_fail(told, GG_FAILED, "out of memory");
+      char *name = page_name(picture, stored->comparison ? e->name : "", groups[i], png);
+      gg_status page =
+          name ? draw_page(stored, e->document, groups[i], name, png, told) : gg_fail(told, GG_FAILED, "out of memory");
       if (page == GG_OK && drawn) drawn(context, name);
       if (status == GG_OK) status = page;
       free(name);
     }
   }
-  gg_stored_result_clear(&stored);
   return status;
 }

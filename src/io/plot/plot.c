@@ -67,13 +67,9 @@ static gg_status draw(const gg_stored_result *stored, const char *picture, bool 
   return status;
 }
 
-gg_status gg_plot_result(const char *result_path, const char *picture, const char *format, gg_error *err)
+gg_status gg_plot_result(const gg_stored_result *stored, const char *picture, const char *format, gg_error *err)
 {
-  gg_stored_result stored;
   bool png;
   GG_TRY(gg_plot_format(picture, format, &png, err));
-  GG_TRY(gg_stored_result_read(&stored, result_path, err));
-  gg_status status = draw(&stored, picture, png, err);
-  gg_stored_result_clear(&stored);
-  return status;
+  return draw(stored, picture, png, err);
 }

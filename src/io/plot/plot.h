@@ -12,17 +12,16 @@
  * not the same. */
 gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_error *err);
 
-/* Draw a result file to a picture, whole or not at all. format: "svg", "png", or NULL: by the picture's name. */
-gg_status gg_plot_result(const char *result_path, const char *picture, const char *format, gg_error *err);
+/* Draw a result to a picture, whole or not at all. format: "svg", "png", or NULL: by the picture's name. */
+gg_status gg_plot_result(const gg_stored_result *stored, const char *picture, const char *format, gg_error *err);
 
 /* A picture of the last frame, projected, if the file holds positions: *drawn says whether. */
-gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *result_path, const char *picture, bool png,
-                           bool *drawn, gg_error *err);
+gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *picture, bool png, bool *drawn, gg_error *err);
 
 /* Further pictures beside the given name: PICTURE_snapshot.svg if the file holds grains with positions, and one for
  * each observable that left curves: PICTURE_<observable>.svg, for comparisons PICTURE_<engine>_<observable>.svg.
  * `drawn` (may be NULL) is called with the name of each. */
-gg_status gg_plot_result_curves(const char *result_path, const char *picture, const char *format,
+gg_status gg_plot_result_curves(const gg_stored_result *stored, const char *picture, const char *format,
                                 void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 
 #define GG_PLOT_PNG_SCALE 1.5 /* pixels of PNG for one of a page's size */

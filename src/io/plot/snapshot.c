@@ -6,26 +6,16 @@
 #include <string.h>
 
 #include "io/c_locale.h"
-#include "io/h5/h5.h"
 #include "io/plot/layer.h"
 #include "io/plot/plot.h"
 #include "io/scene/reader.h"
 
-#define GRAINS "/particles/grains/"
-enum { MOST_NUMBERS = 100 * 1000 * 1000 };
 /* Pixels: sizes of the panels at most, and of everything between. PNG has GG_PLOT_PNG_SCALE of its own for each of
  * them, and is made smaller: its bytes are the rims of the discs, some seven for a pixel, where a disc of SVG takes
  * some 44 in all. */
 enum { TALL = 520, WIDE = 700, TALL_PNG = 350, WIDE_PNG = 470 };
 enum { LEFT = 70, BETWEEN = 80, RIGHT = 25, ABOVE = 70, BELOW = 65 };
 #define RIM "#2f4f63"
-
-/* What was read: the arrays that the snapshot looks into. */
-typedef struct frame {
-  double *all;
-  uint8_t *species;
-  gg_plot_grains shown;
-} frame;
 
 static void read_radii(const gg_stored_result *stored, gg_plot_grains *s)
 {
@@ -43,36 +33,15 @@ static double top_of(const gg_plot_grains *s)
   return fmin(s->edge[1], top + 1);
 }
 
-static void clear(frame *f)
-{
-  free(f->all);
-  free(f->species);
-}
-
 /* False if the file holds no positions. */
-static bool read_frame(const gg_stored_result *stored, const char *path, frame *f)
+static bool find_grains(const gg_stored_result *stored, gg_plot_grains *s)
 {
-  gg_h5 h;
-  size_t numbers = 0, kinds = 0, edges = 0, n = stored->n_grains;
-  *f = (frame){.shown.n = n};
-  gg_plot_grains *s = &f->shown;
-  if (!n || (double)n * (double)stored->n_frames > MOST_NUMBERS) return false;
-  gg_h5_open(&h, path);
-  if (!h.failed && gg_h5_exists(&h, GRAINS "position/value")) {
-    f->all = gg_h5_read_array(&h, GRAINS "position/value", H5T_NATIVE_DOUBLE, sizeof(double), &numbers);
-    f->species = gg_h5_read_array(&h, GRAINS "species", H5T_NATIVE_UINT8, 1, &kinds);
-    double *edge = gg_h5_read_array(&h, GRAINS "box/edges/value", H5T_NATIVE_DOUBLE, sizeof(double), &edges);
-    for (size_t a = 0; edge && edges >= 9 && a < 3; a++) s->edge[a] = edge[edges - 9 + 4 * a];
-    free(edge);
-  }
-  gg_h5_close(&h);
-  bool whole = f->all && f->species && numbers >= 3 * n && kinds == n && s->edge[0] > 0 && s->edge[1] > 0;
-  for (size_t i = 0; whole && i < n; i++) whole = f->species[i] < GG_MAX_SPECIES;
-  if (!whole) {
-    clear(f);
-    return false;
-  }
-  s->position = f->all + numbers - 3 * n, s->species = f->species;
+  const gg_frame *f = &stored->last;
+  *s = (gg_plot_grains){.n = f->n, .position = f->position, .species = f->species};
+  memcpy(s->edge, stored->edge, sizeof s->edge);
+  bool whole = f->n && f->position && f->species && s->edge[0] > 0 && s->edge[1] > 0;
+  for (size_t i = 0; whole && i < f->n; i++) whole = f->species[i] < GG_MAX_SPECIES;
+  if (!whole) return false;
   s->top = top_of(s);
   read_radii(stored, s);
   return true;
@@ -185,13 +154,9 @@ static gg_status draw_page(const gg_stored_result *stored, const gg_plot_grains 
   return status;
 }
 
-gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *result_path, const char *picture, bool png,
-                           bool *drawn, gg_error *err)
+gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *picture, bool png, bool *drawn, gg_error *err)
 {
-  frame f;
-  *drawn = read_frame(stored, result_path, &f);
-  if (!*drawn) return GG_OK;
-  gg_status status = draw_page(stored, &f.shown, picture, png, err);
-  clear(&f);
-  return status;
+  gg_plot_grains shown;
+  *drawn = find_grains(stored, &shown);
+  return *drawn ? draw_page(stored, &shown, picture, png, err) : GG_OK;
 }
