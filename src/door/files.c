@@ -52,15 +52,18 @@ gg_status gg_door_check_picture(const gg_run_options *o, gg_error *err)
 gg_status gg_door_check_files(const gg_run_options *o, gg_error *err)
 {
   char *second = before(o->checkpoint), *third = before(o->resume);
+  char *frames = o->checkpoint ? gg_frame_log_path(o->checkpoint) : NULL;
   const file all[] = {{o->output, "the result", "output"},
                       {o->picture, "the picture", "picture"},
                       {o->checkpoint, "the checkpoint", "checkpoint"},
                       {second, "the checkpoint before", "checkpoint"},
+                      {frames, "the frames beside the checkpoint", "checkpoint"},
                       {o->resume, "the checkpoint that is gone on from", NULL},
                       {third, "the checkpoint before it", NULL},
                       {o->input, "the scene", NULL}};
   gg_status status = check_pairs(all, sizeof all / sizeof *all, err);
   free(second);
   free(third);
+  free(frames);
   return status;
 }

@@ -66,11 +66,22 @@ static const char *base_of(const char *path)
   return slash ? slash + 1 : path;
 }
 
+/* It is written to where it stands: devices, folders and write-protected files are refused as for every output. */
+static gg_status check_place(const char *path, gg_error *err)
+{
+  gg_output_path place;
+  GG_TRY(gg_output_path_find(&place, path, err));
+  bool stream = place.stream;
+  gg_output_path_clear(&place);
+  return stream ? gg_cannot_write(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
+}
+
 static gg_status open_log(gg_door_run *r, gg_error *err)
 {
   char *path = gg_frame_log_path(r->options.checkpoint);
   if (!path) return gg_fail(err, GG_FAILED, "out of memory");
-  gg_status status = gg_frame_log_open(&r->log, path, err);
+  gg_status status = check_place(path, err);
+  if (status == GG_OK) status = gg_frame_log_open(&r->log, path, err);
   free(path);
   return status;
 }

@@ -3,6 +3,8 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <libgen.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,11 +71,28 @@ gg_status gg_atomic_open_locked(gg_atomic_file *f, const char *path, gg_error *e
   return open_it(f, path, true, err);
 }
 
+/* A pipe whose reader has gone is an error, not the end of the program that uses the library. */
+static ssize_t write_calmly(int fd, const void *data, size_t size)
+{
+  sigset_t pipe, before, pending;
+  const struct timespec now = {0};
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  bool had = sigpending(&pending) == 0 && sigismember(&pending, SIGPIPE) == 1;
+  pthread_sigmask(SIG_BLOCK, &pipe, &before);
+  ssize_t done = write(fd, data, size);
+  int number = errno;
+  if (done < 0 && number == EPIPE && !had) sigtimedwait(&pipe, NULL, &now);
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  errno = number;
+  return done;
+}
+
 gg_status gg_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_error *err)
 {
   const char *from = data;
   while (size > 0) {
-    ssize_t done = write(f->fd, from, size);
+    ssize_t done = f->place.stream ? write_calmly(f->fd, from, size) : write(f->fd, from, size);
     if (done < 0 && errno == EINTR) continue;
     if (done < 0) return cannot(f, errno, err);
     from += done, size -= (size_t)done;

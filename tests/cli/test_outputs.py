@@ -162,6 +162,9 @@ def test_one_file_for_two():
     refused("long.yaml: would be overwritten by its own result", 2, "--output", "./long.yaml")
     for output in "long.checkpoint.h5", "long.checkpoint.h5.1":
         refused("would be both the result and the checkpoint", 2, "--resume", "long.checkpoint.h5", "--output", output)
+    os.symlink("a.checkpoint.frames", "frames.svg")
+    refused("would be both the picture and the frames beside the checkpoint", 2, "--output", "a.h5", "--picture",
+            "frames.svg", "--set", "output.checkpoint_every=1", command="compare")
     os.rename("long.yaml", "a.checkpoint.h5")
     done = run("run", "a.checkpoint.h5", "--output", "a.h5", "--set", "output.checkpoint_every=1", timeout=20)
     check(done.code == 2 and "would be both the checkpoint and the scene" in done.err, done.err)

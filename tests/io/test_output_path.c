@@ -143,7 +143,11 @@ static void streams(void **state)
   put("pipe", "through");
   assert_int_equal(read(in, got, sizeof got), 7);
   assert_memory_equal(got, "through", 7);
-  close(in);
+  assert_int_equal(gg_atomic_open(&f, "pipe", &err), GG_OK);
+  close(in); /* the reader goes: no signal */
+  assert_int_equal(gg_atomic_write(&f, "lost", 4, &err), GG_BAD_FILE);
+  assert_string_equal(err.message, "pipe: cannot be written: Broken pipe");
+  gg_atomic_abandon(&f);
   assert_int_equal(gg_check_writable("pipe", "pictures are files", &err), GG_BAD_FILE);
   assert_string_equal(err.message, "pipe: is a device or a pipe; pictures are files");
   assert_int_equal(gg_atomic_open(&f, "", &err), GG_BAD_INPUT);
