@@ -71,6 +71,13 @@ void gg_curve_put_number(gg_curve *c, const char *name, double value, const char
   snprintf(p->unit, sizeof p->unit, "%s", unit);
 }
 
+void gg_curve_put_truncated(gg_curve *c, const char *name, double value, double truncation, const char *unit)
+{
+  int n = c->n_numbers;
+  gg_curve_put_number(c, name, value, unit);
+  if (c->n_numbers > n) c->number[n].truncation = truncation;
+}
+
 void gg_curve_put_setting(gg_curve *c, const char *name, double value, const char *unit)
 {
   int n = c->n_numbers;
@@ -173,6 +180,7 @@ static void put_errors(gg_curves *full, const gg_jackknife *j)
     at += c->n;
     for (int i = 0; i < c->n_numbers; i++, at++) {
       gg_jackknife_errors(j, at, 1, &c->number[i].error);
+      c->number[i].error = hypot(c->number[i].error, c->number[i].truncation);
       if (c->number[i].setting) c->number[i].error = 0;
     }
   }

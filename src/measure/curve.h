@@ -10,7 +10,8 @@
 typedef struct gg_curve_number {
   char name[40], unit[40];
   double value, error;
-  bool setting; /* chosen, not measured: no error, and nothing to compare */
+  double truncation; /* standard error of what the samples do not say: added in quadrature to that of their scatter */
+  bool setting;      /* chosen, not measured: no error, and nothing to compare */
 } gg_curve_number;
 
 enum { GG_CURVE_NUMBERS = 16, GG_MOST_CURVES = 160 };
@@ -47,6 +48,8 @@ void gg_curves_clear(gg_curves *list);
 gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label);
 void gg_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit);
 void gg_curve_put_number(gg_curve *c, const char *name, double value, const char *unit);
+/* The same with a standard error that comes from elsewhere beside that of the samples. */
+void gg_curve_put_truncated(gg_curve *c, const char *name, double value, double truncation, const char *unit);
 void gg_curve_put_setting(gg_curve *c, const char *name, double value, const char *unit);
 
 /* Draw a law beside the curve, whose x are in place: f(x, parameters). */

@@ -1,18 +1,25 @@
 /* Velocity autocorrelation and mean-square displacement of a grain, by component and species, from origins spread over
- * the run, up to 16 collisions a grain; the coefficient of self-diffusion from both, D = int <C(0)C(t)> dt (Green 1952,
- * Kubo 1957) and half the slope of the displacement (Einstein 1905). Under shear displacements are peculiar: what the
- * flow has carried along x is taken off, the grain's height between two snapshots being taken as the mean of both. */
+ * the run; the coefficient of self-diffusion from both: D = int <C(0)C(t)> dt (Green 1952, Kubo 1957) and half the
+ * slope of the displacement (Einstein 1905), with what is left beyond the last lags (long_time_tail.h). Lags up to 480
+ * collisions a grain, in levels: each is four times as long as the one before, in steps four times as wide. The
+ * integral is had from <C(0) r(t)>, r the displacement, which needs no steps. Under shear displacements are peculiar:
+ * what the flow has carried along x is taken off, the grain's height between two snapshots being taken as the mean of
+ * both. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "measure/diffusion_lags.h"
 #include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
 
-/* Snapshots per sampling interval (two collisions a grain); one origin in each; lags are kept over 8 intervals. */
-enum { SNAPSHOTS = 16, ORIGINS = 8, LAGS = SNAPSHOTS * ORIGINS };
-enum { COUNT, TIME, CC, RR = CC + 3, LAG = RR + 3 };
+/* Velocities and displacements at an origin. Floats: of a displacement no more is lost than 1e-7 of all the way since
+ * averaging began, and of a velocity 1e-7. */
+typedef struct origin {
+  float *c[3], *moved[3];
+} origin;
 
 typedef struct diffusion {
   gg_model model;
@@ -20,11 +27,11 @@ typedef struct diffusion {
   struct diffusion_state { /* one block of plain bytes, with all arrays behind it */
     uint64_t snapshots;
     double time;
-    double began[ORIGINS];
+    double began[GG_LAG_ORIGINS];
   } * state;
   uint32_t *place;                /* of each grain by its number: species 1 first */
   double *r[3], *c[3], *moved[3]; /* at the last snapshot, by place; moved: displacement since the start */
-  double *c0[ORIGINS][3], *moved0[ORIGINS][3];
+  origin origin[GG_LAG_ORIGINS];  /* of the levels, one after the other */
 } diffusion;
 
 static const char *refuses(const gg_model *m)
@@ -47,7 +54,8 @@ static void *create(const gg_model *m, gg_error *err)
   if (!d) return NULL;
   d->model = *m;
   d->n = (size_t)m->n;
-  d->bytes = sizeof *d->state + (9 + 6 * ORIGINS) * d->n * sizeof(double) + d->n * sizeof *d->place;
+  d->bytes = sizeof *d->state + 9 * d->n * sizeof(double) + 6 * GG_LAG_ORIGINS * d->n * sizeof(float) +
+             d->n * sizeof *d->place;
   d->state = gg_new_array(1, d->bytes, err);
   if (!d->state) {
     free(d);
@@ -57,9 +65,11 @@ static void *create(const gg_model *m, gg_error *err)
   for (int a = 0; a < 3; a++) {
     double **arrays[] = {&d->r[a], &d->c[a], &d->moved[a]};
     for (int k = 0; k < 3; k++, at += d->n) *arrays[k] = at;
-    for (int o = 0; o < ORIGINS; o++, at += 2 * d->n) d->c0[o][a] = at, d->moved0[o][a] = at + d->n;
   }
-  d->place = (uint32_t *)at;
+  float *next = (float *)at;
+  for (int o = 0; o < GG_LAG_ORIGINS; o++)
+    for (int a = 0; a < 3; a++, next += 2 * d->n) d->origin[o].c[a] = next, d->origin[o].moved[a] = next + d->n;
+  d->place = (uint32_t *)next;
   return d;
 }
 
@@ -79,7 +89,7 @@ static void restart(void *self)
 
 static size_t bins(const void *self)
 {
-  return (size_t)((const diffusion *)self)->model.n_species * (LAGS + 1) * LAG;
+  return (size_t)((const diffusion *)self)->model.n_species * GG_LAGS * GG_LAG_WIDTH;
 }
 
 /* Displacement since the snapshot before: of all images of the new place the one that the velocity leads to. */
@@ -126,72 +136,62 @@ static void follow(diffusion *d, const gg_snapshot *s)
 static void set_origin(diffusion *d, int o)
 {
   for (int a = 0; a < 3; a++)
-    for (size_t g = 0; g < d->n; g++) d->c0[o][a][g] = d->c[a][g], d->moved0[o][a][g] = d->moved[a][g];
+    for (size_t g = 0; g < d->n; g++) {
+      d->origin[o].c[a][g] = (float)d->c[a][g];
+      d->origin[o].moved[a][g] = (float)d->moved[a][g];
+    }
   d->state->began[o] = d->state->time;
 }
 
-/* Sums over the grains of one species, at places from..to: products with the origin, squares of displacements. */
+/* Sums over the grains of one species, at places from..to: products with the origin, squares of displacements. By
+ * symmetry in time the velocity at the end of a displacement says as much as that at its beginning. */
 static void correlate(const diffusion *d, int o, size_t from, size_t to, double *bin)
 {
-  bin[COUNT] += (double)(to - from);
-  bin[TIME] += (double)(to - from) * (d->state->time - d->state->began[o]);
+  bin[GG_LAG_COUNT] += (double)(to - from);
+  bin[GG_LAG_TIME] += (double)(to - from) * (d->state->time - d->state->began[o]);
   for (int a = 0; a < 3; a++) {
-    const double *c = d->c[a], *c0 = d->c0[o][a], *r = d->moved[a], *r0 = d->moved0[o][a];
-    double cc = 0, rr = 0;
-#pragma omp simd reduction(+ : cc, rr)
+    const double *c = d->c[a], *r = d->moved[a];
+    const float *c0 = d->origin[o].c[a], *r0 = d->origin[o].moved[a];
+    double cc = 0, cr = 0, rr = 0;
+#pragma omp simd reduction(+ : cc, cr, rr)
     for (size_t g = from; g < to; g++) {
-      double moved = r[g] - r0[g];
-      cc += c[g] * c0[g];
+      double moved = r[g] - (double)r0[g], before = (double)c0[g];
+      cc += c[g] * before;
+      cr += (c[g] + before) * moved;
       rr += moved * moved;
     }
-    bin[CC + a] += cc;
-    bin[RR + a] += rr;
+    bin[GG_LAG_CC + a] += cc;
+    bin[GG_LAG_CR + a] += 0.5 * cr;
+    bin[GG_LAG_RR + a] += rr;
+  }
+}
+
+/* Every level: a new origin if it is time for one, then the lags to all of them. */
+static void add_level(diffusion *d, int level, int first, double *bin)
+{
+  const uint64_t now = d->state->snapshots, step = 1ull << (2 * level), n = (uint64_t)gg_lag_origins[level];
+  const uint64_t spacing = GG_LAG_REACH / n * step, interval = now / spacing;
+  if (now % step) return;
+  if (now % spacing == 0) set_origin(d, first + (int)(interval % n));
+  for (uint64_t o = 0; o < n && o <= interval; o++) {
+    uint64_t set = (interval - (interval - o) % n) * spacing; /* the last interval that began with this origin */
+    int lag = gg_lag_index(level, (int)((now - set) / step));
+    size_t from = 0;
+    for (int k = 0; k < d->model.n_species && lag >= 0; k++) {
+      size_t to = from + (size_t)d->model.n_of[k];
+      correlate(d, first + (int)o, from, to, bin + (k * GG_LAGS + lag) * GG_LAG_WIDTH);
+      from = to;
+    }
   }
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   diffusion *d = self;
-  uint64_t now = d->state->snapshots;
   follow(d, s);
-  if (now % SNAPSHOTS == 0) set_origin(d, (int)(now / SNAPSHOTS % ORIGINS));
-  for (uint64_t o = 0; o < ORIGINS; o++) {
-    /* the last interval that began with this origin */
-    uint64_t interval = now / SNAPSHOTS;
-    if (interval < o) continue;
-    uint64_t set = interval - (interval - o) % ORIGINS, lag = now - set * SNAPSHOTS;
-    size_t from = 0;
-    for (int k = 0; k < d->model.n_species; k++) {
-      size_t to = from + (size_t)d->model.n_of[k];
-      correlate(d, (int)o, from, to, bin + ((size_t)k * (LAGS + 1) + lag) * LAG);
-      from = to;
-    }
-  }
+  for (int level = 0, first = 0; level < GG_LAG_LEVELS; first += gg_lag_origins[level++])
+    add_level(d, level, first, bin);
   d->state->snapshots++;
-}
-
-static double value_at(const double *bin, size_t lag, int channel)
-{
-  const double *at = bin + lag * LAG;
-  return at[COUNT] > 0 ? at[channel] / at[COUNT] : NAN;
-}
-
-/* Trapezoidal integral of the velocity correlation over all lags. */
-static double green_kubo(const double *bin, int a)
-{
-  double sum = 0;
-  for (size_t k = 1; k < LAGS; k++)
-    sum += 0.5 * (value_at(bin, k, CC + a) + value_at(bin, k - 1, CC + a)) *
-           (value_at(bin, k, TIME) - value_at(bin, k - 1, TIME));
-  return sum;
-}
-
-/* Half the slope of the displacement from the middle of the lags to their end. */
-static double einstein(const double *bin, int a)
-{
-  size_t from = LAGS / 2, to = LAGS - 1;
-  double rise = value_at(bin, to, RR + a) - value_at(bin, from, RR + a);
-  return 0.5 * rise / (value_at(bin, to, TIME) - value_at(bin, from, TIME));
 }
 
 static void put_component(const diffusion *d, int species, int a, const double *bin, gg_curves *list)
@@ -203,29 +203,30 @@ static void put_component(const diffusion *d, int species, int a, const double *
     snprintf(tail, sizeof tail, "_%d", species + 1), snprintf(subscript, sizeof subscript, ",%d", species + 1);
   snprintf(name, sizeof name, "velocity_autocorrelation_C%c%s", "xyz"[a], tail);
   snprintf(label, sizeof label, "C_{%c%s}", "xyz"[a], subscript);
-  gg_curve *c = gg_curve_add(list, LAGS, name, "velocity autocorrelation", label);
+  gg_curve *c = gg_curve_add(list, GG_LAGS, name, "velocity autocorrelation", label);
   gg_curve_axes(c, "t", time, "<C(0)C(t)>", gg_curve_unit(m, "temperature"));
   snprintf(name, sizeof name, "displacement_squared_%c%s", "xyz"[a], tail);
   snprintf(label, sizeof label, "%c%s", "xyz"[a], *tail ? tail : "");
-  gg_curve *r = gg_curve_add(list, LAGS, name, "mean-square displacement", label);
+  gg_curve *r = gg_curve_add(list, GG_LAGS, name, "mean-square displacement", label);
   snprintf(unit, sizeof unit, "%.30s^2", gg_curve_unit(m, "length"));
   gg_curve_axes(r, "t", time, "<(Δr)^2>", unit);
-  for (size_t i = 0; i < c->n && i < r->n; i++) {
-    c->x[i] = r->x[i] = value_at(bin, i, TIME);
-    c->value[i] = value_at(bin, i, CC + a);
-    r->value[i] = value_at(bin, i, RR + a);
+  for (int i = 0; i < GG_LAGS && c->n && r->n; i++) {
+    c->x[i] = r->x[i] = gg_lag_mean(bin, i, GG_LAG_TIME);
+    c->value[i] = gg_lag_mean(bin, i, GG_LAG_CC + a);
+    r->value[i] = gg_lag_mean(bin, i, GG_LAG_RR + a);
   }
-  bool sheared = m->shear_rate != 0;
-  snprintf(unit, sizeof unit, sheared ? "d^2 gamma" : "d v_0");
-  gg_curve_put_number(c, "diffusion_green_kubo", green_kubo(bin, a), unit);
-  gg_curve_put_number(r, "diffusion_einstein", einstein(bin, a), unit);
+  gg_diffusion_coefficients D = gg_diffusion_read(m, species, a, bin, (double)list->samples);
+  const char *coefficient = m->shear_rate != 0 ? "d^2 gamma" : "d v_0";
+  gg_curve_put_truncated(c, "diffusion_green_kubo", D.green_kubo.D, D.green_kubo.unsure, coefficient);
+  gg_curve_put_truncated(c, "long_time_tail", D.green_kubo.tail, D.green_kubo.unsure, coefficient);
+  gg_curve_put_truncated(r, "diffusion_einstein", D.einstein.D, D.einstein.unsure, coefficient);
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const diffusion *d = self;
   for (int k = 0; k < d->model.n_species; k++)
-    for (int a = 0; a < 3; a++) put_component(d, k, a, bin + (size_t)k * (LAGS + 1) * LAG, list);
+    for (int a = 0; a < 3; a++) put_component(d, k, a, bin + k * GG_LAGS * GG_LAG_WIDTH, list);
 }
 
 const gg_observable gg_diffusion = {
@@ -236,7 +237,7 @@ const gg_observable gg_diffusion = {
     .refuses = refuses,
     .bins = bins,
     .every = 1,
-    .parts = SNAPSHOTS,
+    .parts = GG_LAG_SNAPSHOTS,
     .positions = true,
     .add_snapshot = add_snapshot,
     .restart = restart,

@@ -8,7 +8,7 @@ from tap import check, main, run
 CURVES = ("flow: usf\nphi: 0.2\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 1000}\n"
           "run: {collisions: 300, warmup: 30}\n"
           "measure: [rheology, orientation, velocity_distributions, pair_correlation, cells]\n")
-MINOR = re.compile("fit_|_likelihood|kurtosis|skewness|cells|_slabs|_box|_corrected|rate_unit")
+MINOR = re.compile("fit_|_likelihood|kurtosis|skewness|cells|_slabs|_box|_corrected|rate_unit|long_time_tail")
 
 
 def estimate(text):

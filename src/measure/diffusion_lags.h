@@ -1,0 +1,50 @@
+/* The lags at which diffusion correlates a grain with its past, and what is summed at each. Level l has lags up to
+ * REACH 4^l snapshots in steps of 4^l, from a quarter of it on: what is below belongs to the level before. */
+#ifndef GG_DIFFUSION_LAGS_H
+#define GG_DIFFUSION_LAGS_H
+
+#include <math.h>
+
+#include "measure/long_time_tail.h"
+
+enum {
+  GG_LAG_SNAPSHOTS = 4, /* per sampling interval (two collisions a grain) */
+  GG_LAG_LEVELS = 4,
+  GG_LAG_REACH = 16,
+  GG_LAG_OWN = GG_LAG_REACH * 3 / 4,
+  GG_LAGS = GG_LAG_REACH + (GG_LAG_LEVELS - 1) * GG_LAG_OWN,
+  GG_LAG_ORIGINS = 2 + 8 + 8 + 8 /* of all levels */
+};
+static const int gg_lag_origins[GG_LAG_LEVELS] = {2, 8, 8, 8};
+
+/* Sums over grains and origins, of one lag: how many, time, C(0)C(t), C r and r^2 by component, r the displacement. */
+enum {
+  GG_LAG_COUNT,
+  GG_LAG_TIME,
+  GG_LAG_CC,
+  GG_LAG_CR = GG_LAG_CC + 3,
+  GG_LAG_RR = GG_LAG_CR + 3,
+  GG_LAG_WIDTH = GG_LAG_RR + 3
+};
+
+/* Where the lag of so many steps of a level stands among all; -1: at another level. */
+static inline int gg_lag_index(int level, int steps)
+{
+  if (level == 0) return steps;
+  return steps < GG_LAG_REACH / 4 ? -1 : GG_LAG_REACH + (level - 1) * GG_LAG_OWN + steps - GG_LAG_REACH / 4;
+}
+
+static inline double gg_lag_mean(const double *bin, int lag, int channel)
+{
+  const double *at = bin + lag * GG_LAG_WIDTH;
+  return at[GG_LAG_COUNT] > 0 ? at[channel] / at[GG_LAG_COUNT] : NAN;
+}
+
+/* D of one species and component, from its means over samples. NaN where samples do not reach far enough. */
+typedef struct gg_diffusion_coefficients {
+  gg_coefficient green_kubo, einstein;
+} gg_diffusion_coefficients;
+gg_diffusion_coefficients gg_diffusion_read(const gg_model *model, int species, int component, const double *bin,
+                                            double samples);
+
+#endif
