@@ -320,6 +320,10 @@ typedef struct gg_theory_info {
 GG_API gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err);
 GG_API gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
                                             double *value, double *deviation, gg_error *err);
+/* How far that may be from the solution of the theory's own equations, where these are solved numerically; NaN: it is
+ * exact, or nothing is said. */
+GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char *theory, const char *quantity,
+                                            double *error, gg_error *err);
 
 typedef struct gg_remark { /* on what differs by more than is expected */
   const char *theory;      /* NULL: md and dsmc; causes that apply to this scene */

@@ -204,6 +204,25 @@ void gg_print_comparison(const gg_comparison *c, bool all)
     if (gg_comparison_result(c, engines[k])) gg_print_warnings(gg_comparison_result(c, engines[k]), NULL);
 }
 
+/* Of theories that are solved numerically: the largest relative error, and whose. */
+static void print_numerical_error(const gg_comparison *c, const char *theory)
+{
+  double most = 0;
+  gg_entry q;
+  char text[200], worst[64] = "";
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, gg_comparison_scene(c), &q, NULL) == GG_OK; i++) {
+    double error = NAN, relative;
+    gg_comparison_theory_error(c, theory, q.name, &error, NULL);
+    relative = error / fabs(value_of(c, theory, q.name, NULL));
+    if (!(relative > most)) continue;
+    most = relative;
+    snprintf(worst, sizeof worst, "%s", q.name);
+  }
+  if (!*worst) return;
+  snprintf(text, sizeof text, "solved numerically, to %.1g %% of %s and better of all others.", 100 * most, worst);
+  gg_print_wrapped(stdout, "  Here: ", text);
+}
+
 void gg_print_theories(const gg_comparison *c, bool all)
 {
   int n_theories;
@@ -218,6 +237,7 @@ void gg_print_theories(const gg_comparison *c, bool all)
     if (theory.reason) continue;
     gg_print_paragraph(stdout, 2, "%s: %s (%s)\n%s", theory.name, theory.title, theory.citation, theory.assumptions);
     if (theory.beyond) gg_print_wrapped(stdout, "  Here: ", theory.beyond);
+    print_numerical_error(c, theory.name);
   }
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
     if (theory.reason) gg_print_paragraph(stdout, 2, "%s", theory.reason);

@@ -150,6 +150,13 @@ gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_the
   return GG_OK;
 }
 
+static gg_status find_theory(const gg_comparison *c, const char *theory, int *i, gg_error *err)
+{
+  for (*i = 0; *i < c->n_theories; ++*i)
+    if (strcmp(c->theory[*i].theory->name, theory) == 0) return GG_OK;
+  return gg_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s' here", theory);
+}
+
 gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
                                      double *value, double *deviation, gg_error *err)
 {
@@ -158,15 +165,29 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
   GG_NEED(quantity);
   const gg_comparison *c = comparison;
   gg_quantity q;
+  int i;
   GG_TRY(find(comparison, quantity, &q, err));
-  int i = 0;
-  while (i < c->n_theories && strcmp(c->theory[i].theory->name, theory) != 0) i++;
-  if (i == c->n_theories) return gg_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s' here", theory);
+  GG_TRY(find_theory(c, theory, &i, err));
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
   const gg_result *against = has(md, q) ? md : has(dsmc, q) ? dsmc : NULL;
   double said = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
   if (value) *value = isfinite(said) ? said : NAN;
   if (deviation) *deviation = against && isfinite(said) ? gg_deviation(&against->value[q], said) : NAN;
+  return GG_OK;
+}
+
+gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char *theory, const char *quantity,
+                                     double *error, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(theory);
+  GG_NEED(quantity);
+  GG_NEED(error);
+  gg_quantity q;
+  int i;
+  GG_TRY(find(comparison, quantity, &q, err));
+  GG_TRY(find_theory(comparison, theory, &i, err));
+  *error = comparison->theory[i].applies ? comparison->theory[i].answer.error[q] : NAN;
   return GG_OK;
 }
 

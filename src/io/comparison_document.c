@@ -12,7 +12,8 @@ static json_t *warnings_json(const gg_comparison *c)
   return warnings;
 }
 
-/* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}; those that do not apply are warnings. */
+/* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}, with "error" where a theory
+ * is solved numerically and tells it; those that do not apply are warnings. */
 static json_t *theories_json(const gg_comparison *c, json_t *warnings)
 {
   json_t *all = json_object();
@@ -26,8 +27,10 @@ static json_t *theories_json(const gg_comparison *c, json_t *warnings)
     for (int q = 0; q < gg_quantities_of(&c->model); q++) {
       double value = c->theory[i].answer.value[q];
       if (!isfinite(value)) continue;
-      json_object_set_new(one, gg_quantity_name_in(&c->model, (gg_quantity)q),
-                          json_pack("{s:f, s:s}", "mean", value, "unit", gg_quantity_unit((gg_quantity)q, &c->model)));
+      double error = c->theory[i].answer.error[q];
+      json_t *said = json_pack("{s:f, s:s}", "mean", value, "unit", gg_quantity_unit((gg_quantity)q, &c->model));
+      if (isfinite(error)) json_object_set_new(said, "error", json_real(error));
+      json_object_set_new(one, gg_quantity_name_in(&c->model, (gg_quantity)q), said);
     }
     json_object_set_new(all, name, one);
   }

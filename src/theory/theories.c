@@ -6,6 +6,7 @@
 const gg_theory *const gg_theories[] = {
     &gg_lun1991,
     &gg_lun1991_lun_savage,
+    &gg_enskog_hermite,
     &gg_gaussian_closure,
     &gg_grad,
     &gg_sela_goldhirsch1998,
@@ -44,7 +45,7 @@ const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model)
 
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
 {
-  for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = NAN;
+  for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
   if (model->law.e && !theory->own)
     return gg_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
                    theory->name, model->law.name);

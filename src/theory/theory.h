@@ -4,9 +4,11 @@
 
 #include "common/quantity.h"
 
-/* What a theory says: NaN where it has no answer. */
+/* What a theory says: NaN where it has no answer. `error`: how far a number may be from what the theory's equations have
+ * as their solution, where these are solved numerically; else NaN. */
 typedef struct gg_theory_answer {
   double value[GG_MOST_QUANTITIES];
+  double error[GG_MOST_QUANTITIES];
 } gg_theory_answer;
 
 typedef struct gg_theory {

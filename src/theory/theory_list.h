@@ -6,6 +6,7 @@
 
 extern const gg_theory gg_lun1991;
 extern const gg_theory gg_lun1991_lun_savage;
+extern const gg_theory gg_enskog_hermite;
 extern const gg_theory gg_gaussian_closure;
 extern const gg_theory gg_grad;
 extern const gg_theory gg_sela_goldhirsch1998;

@@ -189,6 +189,8 @@ void gg_h5_write_theories(gg_h5 *h, const gg_comparison *c)
       if (!isfinite(value)) continue;
       snprintf(path, sizeof path, "/graingas/theory/%s/%s/mean", name, gg_quantity_name_in(&c->model, (gg_quantity)q));
       gg_h5_number(h, path, value);
+      snprintf(path, sizeof path, "/graingas/theory/%s/%s/error", name, gg_quantity_name_in(&c->model, (gg_quantity)q));
+      if (isfinite(c->theory[i].answer.error[q])) gg_h5_number(h, path, c->theory[i].answer.error[q]);
       snprintf(path, sizeof path, "/graingas/theory/%s/%s/unit", name, gg_quantity_name_in(&c->model, (gg_quantity)q));
       gg_h5_text(h, path, gg_quantity_unit((gg_quantity)q, &c->model));
     }

@@ -238,15 +238,23 @@ static void restore_refusal(const json_t *document, const char *theory, char *re
 static void restore_theories(gg_comparison *c, const json_t *document)
 {
   const json_t *all = json_object_get(document, "theory");
-  gg_compare_theories(&c->model, c);
-  for (int i = 0; json_is_object(all) && i < c->n_theories; i++) {
-    const char *name = c->theory[i].theory->name;
-    const json_t *said = json_object_get(all, name);
+  const gg_theory *theory;
+  if (!json_is_object(all)) { /* a run's file: no theory was asked */
+    gg_compare_theories(&c->model, c);
+    return;
+  }
+  c->n_theories = 0;
+  for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(&c->model, i)); i++, c->n_theories++) {
+    const json_t *said = json_object_get(all, theory->name);
+    c->theory[i].theory = theory;
     c->theory[i].applies = said != NULL;
-    if (!said) restore_refusal(document, name, c->theory[i].reason, sizeof c->theory[i].reason);
-    for (int q = 0; said && q < gg_quantities_of(&c->model); q++)
-      c->theory[i].answer.value[q] =
-          number(json_object_get(said, gg_quantity_name_in(&c->model, (gg_quantity)q)), "mean");
+    if (!said) restore_refusal(document, theory->name, c->theory[i].reason, sizeof c->theory[i].reason);
+    for (int q = 0; q < GG_MOST_QUANTITIES; q++) c->theory[i].answer.value[q] = c->theory[i].answer.error[q] = NAN;
+    for (int q = 0; said && q < gg_quantities_of(&c->model); q++) {
+      const json_t *one = json_object_get(said, gg_quantity_name_in(&c->model, (gg_quantity)q));
+      c->theory[i].answer.value[q] = number(one, "mean");
+      c->theory[i].answer.error[q] = number(one, "error");
+    }
   }
 }
 

@@ -1,0 +1,52 @@
+/* Products of normalised Hermite polynomials, Ho_r(c) = prod_i He_{r_i}(c_i)/sqrt(r_i!), orthonormal under the weight
+ * (2 pi)^(-3/2) exp(-c.c/2); those of even total degree up to N. */
+#ifndef GG_HERMITE_BASIS_H
+#define GG_HERMITE_BASIS_H
+
+#include <stdbool.h>
+
+#include "common/error.h"
+
+enum { GG_HERMITE_MOST_DEGREE = 20, GG_HERMITE_MOST_FUNCTIONS = 600 };
+
+typedef struct gg_hermite_index {
+  int r[3];
+} gg_hermite_index;
+
+typedef struct gg_hermite_basis {
+  int degree; /* N, even */
+  /* Functions even in z as well: those of a flow that is symmetric under reflection of z. The first is the constant. */
+  int n;
+  gg_hermite_index *function;
+  /* All of even degree, seen in the frame of a collision (normal, tangent, binormal): ordered by the last index, so
+   * that those of one last index Q lie between rotated_from[Q] and rotated_from[Q + 1]. */
+  int n_rotated;
+  gg_hermite_index *rotated;
+  int rotated_from[GG_HERMITE_MOST_DEGREE + 2];
+  /* Place in `function` and in `rotated`, by the three indices; -1: not there. See gg_hermite_at. */
+  int *place, *rotated_place;
+} gg_hermite_basis;
+
+gg_status gg_hermite_basis_make(gg_hermite_basis *basis, int degree, gg_error *err);
+void gg_hermite_basis_clear(gg_hermite_basis *basis);
+
+/* Index into `place`; r_i from 0 to N. */
+static inline int gg_hermite_cell(const gg_hermite_basis *b, int x, int y, int z)
+{
+  return (x * (b->degree + 1) + y) * (b->degree + 1) + z;
+}
+
+/* Place of a function; -1 where there is none (also for indices beyond the degree, or negative). */
+int gg_hermite_place(const gg_hermite_basis *basis, int x, int y, int z);
+
+int gg_hermite_rotated_place(const gg_hermite_basis *basis, int J, int P, int Q);
+
+/* He_0 .. He_N at x, normalised. */
+void gg_hermite_values(int degree, double x, double *value);
+
+/* D, n_rotated rows of `wide` >= n: Ho_s(c) = sum_q D_qs Ho_q(c'), where c'_i = axis_i . c; orthogonal, degree by
+ * degree. `work`: room for so many doubles. */
+void gg_hermite_rotation(const gg_hermite_basis *basis, double axis[3][3], int wide, double *D, double *work);
+size_t gg_hermite_rotation_room(int degree);
+
+#endif

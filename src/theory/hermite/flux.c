@@ -1,0 +1,171 @@
+#include "theory/hermite/flux.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "theory/hermite/basis.h"
+#include "theory/hermite/product.h"
+
+/* Beyond this the weight is below 1e-31. */
+static const double farthest = 12;
+
+enum { N1 = GG_HERMITE_MOST_DEGREE + 1 };
+
+static double *lay_out(gg_hermite_flux *f)
+{
+  int X = f->trials * f->width_X;
+  double **const part[] = {&f->u, &f->wu, &f->v, &f->wv, &f->Z, &f->X, &f->loss, &f->along, &f->Y, &f->W};
+  const int size[] = {f->n_u,
+                      f->n_u,
+                      f->n_v,
+                      f->n_v,
+                      f->width_Y,
+                      f->n_u * X,
+                      X,
+                      f->n_u * f->width_along,
+                      f->n_u * f->width_Y,
+                      f->width_along * f->width_Y};
+  enum { PARTS = sizeof size / sizeof *size };
+  size_t total = 0;
+  for (int i = 0; i < PARTS; i++) total += (size_t)size[i];
+  double *room = calloc(total, sizeof *room), *at = room;
+  for (int i = 0; room && i < PARTS; at += size[i++]) *part[i] = at;
+  return room;
+}
+
+gg_status gg_hermite_flux_make(gg_hermite_flux *f, int N, int tests, double decay, gg_error *err)
+{
+  *f = (gg_hermite_flux){
+      .tests = tests, .trials = N + 1, .halves = N / 2 + 1, .n_u = 24 + N / 2, .n_v = (3 * N + 4) / 2};
+  f->width_X = gg_padded(tests * f->halves, GG_PRODUCT_COLUMNS);
+  f->width_along = gg_padded(tests * f->trials, GG_PRODUCT_ROWS);
+  f->width_Y = gg_padded(tests * f->trials, GG_PRODUCT_COLUMNS);
+  gg_status status = lay_out(f) ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK) status = gg_hermite_overlap_make(&f->tangential, tests, N + 1, decay, err);
+  if (status == GG_OK) status = gg_legendre_rule(f->n_u, f->u, f->wu, err);
+  if (status == GG_OK) status = gg_hermite_rule(f->n_v, f->v, f->wv, err);
+  if (status != GG_OK)
+    gg_hermite_flux_clear(f);
+  else
+    gg_hermite_overlap_at(&f->tangential, 0, f->Z);
+  return status;
+}
+
+void gg_hermite_flux_clear(gg_hermite_flux *f)
+{
+  gg_hermite_overlap_clear(&f->tangential);
+  free(f->u);
+  *f = (gg_hermite_flux){0};
+}
+
+/* sum_l marginal_l Ho_2l(x) */
+static double density_at(const gg_hermite_flux *f, const double *marginal, double x)
+{
+  double value[N1], sum = 0;
+  gg_hermite_values(f->trials - 1, x, value);
+  for (int l = 0; l < f->halves; l++) sum += marginal[l] * value[2 * l];
+  return sum;
+}
+
+/* For one u: < psi_J(x) Ho_j(x1) Ho_2l(x2) > over v, with x = x1 - shift; times `amount`, added to the rows j of `to`,
+ * columns (J,l). exp(-v^2/2 - decay x^2/2) is a Gaussian in v again, and the rule is exact. */
+static void add_normal(const gg_hermite_flux *f, double u, double shift, double amount, double *to)
+{
+  double a = f->tangential.decay / 2, m = u - M_SQRT2 * shift; /* x = (v + m)/sqrt 2 */
+  double mean = -a * m / (1 + a), spread = 1 / sqrt(1 + a), x1[N1], x2[N1], test[N1], column[N1 * N1];
+  amount *= spread * exp(-a * m * m / (2 * (1 + a)));
+  for (int k = 0; k < f->n_v; k++) {
+    double v = mean + spread * f->v[k], w = amount * f->wv[k];
+    gg_hermite_values(f->trials - 1, (v + u) * M_SQRT1_2, x1);
+    gg_hermite_values(f->trials - 1, (v - u) * M_SQRT1_2, x2);
+    gg_hermite_values(f->tests - 1, (v + m) * M_SQRT1_2, test);
+    for (int J = 0; J < f->tests; J++)
+      for (int l = 0; l < f->halves; l++) column[J * f->halves + l] = w * test[J] * x2[2 * l];
+    for (int j = 0; j < f->trials; j++) {
+      double *row = to + j * f->width_X;
+      for (int c = 0; c < f->tests * f->halves; c++) row[c] += x1[j] * column[c];
+    }
+  }
+}
+
+/* The same with the partner contracted, by (J,j). */
+static void add_contracted(const gg_hermite_flux *f, double u, double shift, double amount, const double *marginal,
+                           double *to)
+{
+  double a = f->tangential.decay / 2, m = u - M_SQRT2 * shift;
+  double mean = -a * m / (1 + a), spread = 1 / sqrt(1 + a), x1[N1], test[N1];
+  amount *= spread * exp(-a * m * m / (2 * (1 + a)));
+  for (int k = 0; k < f->n_v; k++) {
+    double v = mean + spread * f->v[k];
+    double w = amount * f->wv[k] * density_at(f, marginal, (v - u) * M_SQRT1_2);
+    gg_hermite_values(f->trials - 1, (v + u) * M_SQRT1_2, x1);
+    gg_hermite_values(f->tests - 1, (v + m) * M_SQRT1_2, test);
+    for (int J = 0; J < f->tests; J++)
+      for (int j = 0; j < f->trials; j++) to[J * f->trials + j] += w * test[J] * x1[j];
+  }
+}
+
+/* By (J,j): the partner contracted with its distribution. */
+static void contract(const gg_hermite_flux *f, const double *X, const double *marginal, double *along)
+{
+  for (int J = 0; J < f->tests; J++)
+    for (int j = 0; j < f->trials; j++) {
+      const double *row = X + j * f->width_X + J * f->halves;
+      double sum = 0;
+      for (int l = 0; l < f->halves; l++) sum += row[l] * marginal[l];
+      along[J * f->trials + j] = sum;
+    }
+}
+
+/* Point i of the rule on (u0, farthest): u, and its weight with the Gaussian's. */
+static double point(const gg_hermite_flux *f, const gg_hermite_contact *c, int i, double *u)
+{
+  double from = fmax(c->u0, -farthest), width = fmax(farthest - from, 0);
+  *u = from + width * f->u[i];
+  return width * f->wu[i] * exp(-*u * *u / 2) / sqrt(2 * M_PI);
+}
+
+/* W from `along` and Y, less the loss. */
+static void combine(gg_hermite_flux *f, const double *loss)
+{
+  memset(f->W, 0, (size_t)f->width_along * (size_t)f->width_Y * sizeof *f->W);
+  gg_add_product(f->width_along, f->width_Y, f->n_u, f->along, f->width_along, f->Y, f->width_Y, f->W, f->width_Y);
+  for (int row = 0; row < f->tests * f->trials; row++)
+    for (int k = 0; k < f->width_Y; k++) f->W[row * f->width_Y + k] -= loss[row] * f->Z[k];
+}
+
+void gg_hermite_flux_at(gg_hermite_flux *f, const gg_hermite_contact *c, const double *marginal, bool partner)
+{
+  double loss[N1 * N1] = {0}, u;
+  size_t slice = (size_t)f->trials * (size_t)f->width_X;
+  memset(f->along, 0, (size_t)(f->n_u * f->width_along) * sizeof *f->along);
+  if (partner) memset(f->X, 0, (size_t)f->n_u * slice * sizeof *f->X), memset(f->loss, 0, slice * sizeof *f->loss);
+  for (int i = 0; i < f->n_u; i++) {
+    double w = point(f, c, i, &u), g = M_SQRT2 * c->s * (u - c->u0), *along = f->along + i * f->width_along;
+    if (partner) {
+      add_normal(f, u, c->eta * g * c->b0, g * w, f->X + (size_t)i * slice);
+      add_normal(f, u, 0, g * w, f->loss);
+      contract(f, f->X + (size_t)i * slice, marginal, along);
+    } else {
+      add_contracted(f, u, c->eta * g * c->b0, g * w, marginal, along);
+      add_contracted(f, u, 0, g * w, marginal, loss);
+    }
+    gg_hermite_overlap_at(&f->tangential, -c->eta * g * c->b1, f->Y + i * f->width_Y);
+  }
+  if (partner) contract(f, f->loss, marginal, loss);
+  combine(f, loss);
+}
+
+void gg_hermite_flux_powers(const gg_hermite_flux *f, const gg_hermite_contact *c, const double *marginal,
+                            double power[4])
+{
+  memset(power, 0, 4 * sizeof *power);
+  for (int i = 0; i < f->n_u; i++) {
+    double u, w = point(f, c, i, &u), g = M_SQRT2 * c->s * (u - c->u0), both = 0;
+    for (int k = 0; k < f->n_v; k++)
+      both += f->wv[k] * density_at(f, marginal, (f->v[k] + u) * M_SQRT1_2) *
+              density_at(f, marginal, (f->v[k] - u) * M_SQRT1_2);
+    for (int p = 0; p < 4; p++, w *= g) power[p] += w * both;
+  }
+}

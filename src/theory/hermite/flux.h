@@ -1,0 +1,51 @@
+/* The integrals of one collision direction k. The pair's velocities along the normal, x1 and x2, are standard normal
+ * under the weight; u = (x1 - x2)/sqrt 2, v = (x1 + x2)/sqrt 2; g = sqrt2 s (u - u0) is the approach velocity, and
+ * grains that approach (u > u0) leave with x1' = x1 - eta g b0 along the normal and y1' = y1 - eta g b1 along the
+ * tangent: W[(J,j),(P,p)] = < g [psi_J(x1') psi_P(y1') - psi_J(x1) psi_P(y1)] Ho_j(x1) Ho_p(y1) sum_l marginal_l
+ * Ho_2l(x2) > What is along the binormal z factors out: Z_Qq = < psi_Q(z) Ho_q(z) >. */
+#ifndef GG_HERMITE_FLUX_H
+#define GG_HERMITE_FLUX_H
+
+#include <stdbool.h>
+
+#include "theory/hermite/overlap.h"
+
+typedef struct gg_hermite_contact {
+  double eta;    /* (1+e)/2 */
+  double s;      /* |L^T k| */
+  double b0, b1; /* L^-1 k along normal and tangent */
+  double u0;     /* flow between the centres, in units of sqrt2 s */
+} gg_hermite_contact;
+
+typedef struct gg_hermite_flux {
+  int tests;  /* of an axis: Ho_0 ... */
+  int trials; /* N + 1 */
+  int halves; /* of the partner: N/2 + 1 */
+  gg_hermite_overlap tangential;
+  int n_u, n_v;
+  double *u, *wu, *v, *wv;           /* quadrature */
+  double *Z;                         /* by Q, columns q */
+  double *X, *loss;                  /* by (i,j) at u_i, columns (J,l); the loss by j, summed over u */
+  double *along;                     /* X with the partner contracted, by i, columns (J,j) */
+  double *Y;                         /* by i, columns (P,p) */
+  double *W;                         /* by (J,j), columns (P,p) */
+  int width_X, width_along, width_Y; /* of rows, padded for products */
+} gg_hermite_flux;
+
+/* Trials of up to N, tests of up to `tests` - 1 an axis that decay so. */
+gg_status gg_hermite_flux_make(gg_hermite_flux *flux, int N, int tests, double decay, gg_error *err);
+void gg_hermite_flux_clear(gg_hermite_flux *flux);
+
+/* W and Y; with `partner` also X and the loss of every l, from which derivatives are made. */
+void gg_hermite_flux_at(gg_hermite_flux *flux, const gg_hermite_contact *contact, const double *marginal, bool partner);
+
+static inline double gg_hermite_W(const gg_hermite_flux *f, int J, int P, int j, int p)
+{
+  return f->W[(J * f->trials + j) * f->width_Y + P * f->trials + p];
+}
+
+/* <g^power> of both partners by their marginals, power 0 .. 3. */
+void gg_hermite_flux_powers(const gg_hermite_flux *flux, const gg_hermite_contact *contact, const double *marginal,
+                            double power[4]);
+
+#endif

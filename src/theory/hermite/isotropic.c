@@ -1,0 +1,152 @@
+#include "theory/hermite/isotropic.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_sf_gamma.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "theory/hermite/room.h"
+
+enum { MOST_ITERATIONS = 60, HALVES = GG_HERMITE_MOST_DEGREE / 2 + 1 };
+static const double converged = 1e-12;
+
+/* Coefficient of Ho_r in the normalised Phi_l, 2 l its degree: l!/(x! y! z!) sqrt((2x)! (2y)! (2z)!/(2l + 1)!). */
+static double coefficient(const int r[3])
+{
+  double product = 1;
+  int l = 0;
+  for (int i = 0; i < 3; i++) {
+    if (r[i] % 2) return 0;
+    l += r[i] / 2;
+    product *= sqrt(gsl_sf_fact((unsigned)r[i])) / gsl_sf_fact((unsigned)r[i] / 2);
+  }
+  return product * gsl_sf_fact((unsigned)l) / sqrt(gsl_sf_fact(2 * (unsigned)l + 1));
+}
+
+/* Coefficients alpha of the Phi_l, and all. */
+static void expand(const gg_hermite_basis *b, const double *alpha, double *a)
+{
+  for (int r = 0; r < b->n; r++) a[r] = alpha[gg_hermite_degree(b->function[r]) / 2] * coefficient(b->function[r].r);
+}
+
+static void project(const gg_hermite_basis *b, const double *R, double *projected)
+{
+  memset(projected, 0, HALVES * sizeof *projected);
+  for (int r = 0; r < b->n; r++)
+    projected[gg_hermite_degree(b->function[r]) / 2] += R[r] * coefficient(b->function[r].r);
+}
+
+typedef struct gg_isotropic_work {
+  double *R, *jacobian, *column;
+  gsl_matrix *J;
+  gsl_vector *x;
+  gsl_permutation *order;
+} gg_isotropic_work;
+
+static bool make(gg_isotropic_work *w, int n, int half)
+{
+  size_t m = (size_t)n, h = (size_t)half;
+  *w = (gg_isotropic_work){.R = malloc((m * m + 2 * m) * sizeof *w->R),
+                           .J = gsl_matrix_alloc(h, h),
+                           .x = gsl_vector_alloc(h),
+                           .order = gsl_permutation_alloc(h)};
+  w->jacobian = w->R ? w->R + m : NULL, w->column = w->R ? w->jacobian + m * m : NULL;
+  return w->R && w->J && w->x && w->order;
+}
+
+static void clear(gg_isotropic_work *w)
+{
+  free(w->R);
+  if (w->J) gsl_matrix_free(w->J);
+  if (w->x) gsl_vector_free(w->x);
+  if (w->order) gsl_permutation_free(w->order);
+}
+
+/* How R changes with the rate of heating. */
+static void heat(gg_hermite_gas *gas, double rate, bool noise)
+{
+  for (int i = 0; i < 3; i++) gas->stream[i][i] = noise ? 0 : -rate;
+  gas->diffusion = noise ? rate : 0;
+}
+
+/* Unknowns: the rate of heating, in the place of alpha_1, which the width fixes; alpha_2 ... The last step, relative.
+ */
+static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double *alpha, double *rate, bool noise)
+{
+  const gg_hermite_basis *b = &h->op.basis;
+  int half = b->degree / 2, sign;
+  double projected[HALVES], basis[HALVES], most = 0;
+  heat(&h->gas, *rate, noise);
+  expand(b, alpha, h->state.a);
+  gg_hermite_operator_at(&h->op, &h->gas, h->state.L, h->state.a, w->R, w->jacobian);
+  project(b, w->R, projected);
+  for (int l = 1; l <= half; l++) gsl_vector_set(w->x, (size_t)l - 1, projected[l]);
+  for (int l = 1; l <= half; l++) {
+    memset(w->column, 0, (size_t)b->n * sizeof *w->column);
+    if (l == 1) {
+      gg_hermite_gas unit = {0};
+      heat(&unit, 1, noise);
+      gg_hermite_add_streaming(&h->op, &unit, h->state.L, h->state.a, w->column, NULL);
+    } else {
+      memset(basis, 0, sizeof basis);
+      basis[l] = 1;
+      expand(b, basis, h->state.a);
+      for (int r = 0; r < b->n; r++)
+        for (int s = 0; s < b->n; s++)
+          w->column[r] += w->jacobian[(size_t)r * (size_t)b->n + (size_t)s] * h->state.a[s];
+    }
+    project(b, w->column, projected);
+    for (int k = 1; k <= half; k++) gsl_matrix_set(w->J, (size_t)k - 1, (size_t)l - 1, projected[k]);
+  }
+  if (gsl_linalg_LU_decomp(w->J, w->order, &sign) != GSL_SUCCESS) return INFINITY;
+  if (gsl_linalg_LU_svx(w->J, w->order, w->x) != GSL_SUCCESS) return INFINITY;
+  *rate -= gsl_vector_get(w->x, 0);
+  most = fabs(gsl_vector_get(w->x, 0)) / h->gas.frequency;
+  for (int l = 2; l <= half; l++) {
+    double step = gsl_vector_get(w->x, (size_t)l - 1);
+    alpha[l] -= step;
+    most = fmax(most, fabs(step));
+  }
+  return isfinite(most) ? most : INFINITY;
+}
+
+static gg_status iterate(gg_hermite_isotropic *h, gg_isotropic_work *w, bool noise, gg_error *err)
+{
+  double alpha[HALVES] = {1, (3 / h->state.width - 3) / sqrt(6)}, rate = 0, left = INFINITY;
+  for (int i = 0; i < MOST_ITERATIONS && left > converged; i++) {
+    left = newton_step(h, w, alpha, &rate, noise);
+    if (left == INFINITY) break;
+  }
+  if (left > converged) return gg_fail(err, GG_FAILED, "no steady state was found");
+  heat(&h->gas, rate, noise);
+  expand(&h->op.basis, alpha, h->state.a);
+  h->cooling_rate = 2 * rate; /* d T/dt = 2 rate T, or 2 D, at T = 1 */
+  return GG_OK;
+}
+
+gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double frequency, double eta, bool noise,
+                                     gg_error *err)
+{
+  gg_isotropic_work w = {0};
+  *h = (gg_hermite_isotropic){.gas = {.frequency = frequency, .eta = eta}, .state.width = GG_HERMITE_WIDTH};
+  for (int i = 0; i < 3; i++) h->state.L[i][i] = sqrt(h->state.width);
+  gg_status status = gg_hermite_operator_make(&h->op, degree, GG_HERMITE_DECAY, true, err);
+  if (status == GG_OK) h->state.a = calloc((size_t)h->op.basis.n, sizeof *h->state.a);
+  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  if (status == GG_OK && (!h->state.a || !make(&w, h->op.basis.n, degree / 2)))
+    status = gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK) status = iterate(h, &w, noise, err);
+  gsl_set_error_handler(handler);
+  clear(&w);
+  if (status != GG_OK) gg_hermite_isotropic_end(h);
+  return status;
+}
+
+void gg_hermite_isotropic_end(gg_hermite_isotropic *h)
+{
+  gg_hermite_operator_clear(&h->op);
+  free(h->state.a);
+  *h = (gg_hermite_isotropic){0};
+}

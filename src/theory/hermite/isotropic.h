@@ -1,0 +1,21 @@
+/* Homogeneous smooth grains whose loss of energy is made up for, at T = 1: by stretching, as in the scaled frame of a
+ * cooling gas or by a Gaussian thermostat, or by diffusion, as white noise does. f is isotropic: a sum of
+ * Phi_l ~ (a^+ . a^+)^l, Sonine polynomials of c^2, of which one direction tells everything. */
+#ifndef GG_HERMITE_ISOTROPIC_H
+#define GG_HERMITE_ISOTROPIC_H
+
+#include "theory/hermite/state.h"
+
+typedef struct gg_hermite_isotropic {
+  gg_hermite_operator op;
+  gg_hermite_gas gas; /* stream and diffusion of the steady state are the answer's */
+  gg_hermite_state state;
+  double cooling_rate; /* of the temperature by collisions, at T = 1 */
+} gg_hermite_isotropic;
+
+/* frequency = n chi sigma^2; noise: white noise instead of stretching. */
+gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double frequency, double eta, bool noise,
+                                     gg_error *err);
+void gg_hermite_isotropic_end(gg_hermite_isotropic *h);
+
+#endif

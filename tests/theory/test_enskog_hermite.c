@@ -1,0 +1,98 @@
+/* The noise-free solution of Enskog's equation: limits that are known, and errors that are honest. */
+#include "theory_test.h"
+
+#include "theory/hermite/shear.h"
+#include "theory/hermite/viscosity.h"
+
+/* Elastic grains, dilute: 1.016034 times the first Sonine viscosity (Chapman & Cowling, 10.331); a2 is 0. */
+static void elastic_limit(void **state)
+{
+  (void)state;
+  gg_hermite_isotropic h;
+  gg_hermite_viscosity v;
+  gg_error err;
+  assert_int_equal(gg_hermite_isotropic_solve(&h, 10, 1, 1, false, &err), GG_OK);
+  assert_true(fabs(h.cooling_rate) < 1e-12);
+  assert_int_equal(gg_hermite_viscosity_of(&h, 0, 0, &v, &err), GG_OK);
+  assert_close(v.kinetic * 3.2 * sqrt(M_PI), 1.016034, 1e-5);
+  gg_hermite_isotropic_end(&h);
+}
+
+/* A cooling gas, near what the first Sonine order says, and a state heated by a Gaussian thermostat is the same. */
+static void homogeneous_states(void **state)
+{
+  (void)state;
+  gg_model cooling = model_for(GG_HCS, 0.1, 0.9, -1);
+  gg_theory_answer a = answer_of(&gg_enskog_hermite, &cooling), sonine = answer_of(&gg_garzo_dufty1999, &cooling);
+  assert_close(a.value[GG_Q_COOLING_RATE], sonine.value[GG_Q_COOLING_RATE], 1e-3);
+  assert_close(a.value[GG_Q_PRESSURE], sonine.value[GG_Q_PRESSURE], 1e-9);
+  assert_close(a.value[GG_Q_VISCOSITY_REDUCED], sonine.value[GG_Q_VISCOSITY_REDUCED], 0.02);
+  assert_close(a.value[GG_Q_A2], sonine.value[GG_Q_A2], 0.1);
+  assert_true(a.error[GG_Q_A2] < 1e-6 && a.error[GG_Q_VISCOSITY_REDUCED] < 1e-4);
+  gg_scene s = scene_of(GG_HSS, 0.1, 0.9, -1);
+  s.thermostat = GG_GAUSSIAN;
+  gg_model heated = model_of(&s);
+  assert_close(value_of(&gg_enskog_hermite, &heated, GG_Q_A2), a.value[GG_Q_A2], 1e-9);
+}
+
+/* What is stated as an error covers the difference from a higher degree. */
+static void errors_are_honest(void **state)
+{
+  (void)state;
+  const double phi[] = {0, 0, 0.1, 0.3, 0.5}, e[] = {0.9, 0.5, 0.7, 0.6, 0.4};
+  const double most[] = {5e-5, 4e-3, 1e-4, 3e-5, 1e-4};
+  for (int i = 0; i < 5; i++) {
+    gg_model m = model_for(GG_USF, phi[i], e[i], -1);
+    gg_theory_answer a = answer_of(&gg_enskog_hermite, &m);
+    gg_hermite_shear h;
+    gg_error err;
+    double M[3][3], T = a.value[GG_Q_TEMPERATURE];
+    assert_int_equal(gg_hermite_shear_begin(&h, &m, &err), GG_OK);
+    assert_int_equal(gg_hermite_shear_solve(&h, e[i] == 0.5 ? 14 : 12, &err), GG_OK);
+    gg_hermite_second_moments(&h.op.basis, &h.state, M);
+    gg_hermite_shear_end(&h);
+    double better = (M[0][0] + M[1][1] + M[2][2]) / 3, error = a.error[GG_Q_TEMPERATURE];
+    if (!(fabs(T - better) <= error)) fail_msg("phi %g e %g: %.8g +- %.1g, not %.8g", phi[i], e[i], T, error, better);
+    assert_true(error <= most[i] * T);
+  }
+}
+
+/* Energy: shear heats as collisions cool, to rounding. */
+static void energy_is_balanced(void **state)
+{
+  (void)state;
+  gg_model m = model_for(GG_USF, 0.2, 0.8, -1);
+  gg_hermite_shear h;
+  gg_hermite_sums sums;
+  gg_error err;
+  double M[3][3];
+  assert_int_equal(gg_hermite_shear_begin(&h, &m, &err), GG_OK);
+  assert_int_equal(gg_hermite_shear_solve(&h, 6, &err), GG_OK);
+  gg_hermite_second_moments(&h.op.basis, &h.state, M);
+  gg_hermite_sums_at(&h.op, &h.gas, 1, h.state.L, h.state.a, &sums);
+  assert_close(-m.shear_rate * (M[0][1] + sums.transfer[0][1]), sums.loss, 1e-8);
+  gg_hermite_shear_end(&h);
+}
+
+static void refuses_what_it_does_not_describe(void **state)
+{
+  (void)state;
+  gg_model rough = model_for(GG_USF, 0.1, 0.9, 0), mixed = mixture_for(GG_USF, 0.1, 0.9, -1, 2, 1, 1);
+  gg_model elastic = model_for(GG_USF, 0.1, 1, -1), walled = model_for(GG_COUETTE, 0.1, 0.9, -1);
+  assert_refused(&gg_enskog_hermite, &rough, "smooth grains");
+  assert_refused(&gg_enskog_hermite, &mixed, "one species");
+  assert_refused(&gg_enskog_hermite, &elastic, "heats up for ever");
+  assert_refused(&gg_enskog_hermite, &walled, "neither");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(elastic_limit),
+      cmocka_unit_test(homogeneous_states),
+      cmocka_unit_test(errors_are_honest),
+      cmocka_unit_test(energy_is_balanced),
+      cmocka_unit_test(refuses_what_it_does_not_describe),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
