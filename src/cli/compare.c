@@ -44,7 +44,7 @@ static int compare(gg_simulating *s)
   gg_status drawn = GG_OK;
   gg_comparison *c = NULL;
   gg_status status = gg_compare(s->scene, &s->run, &c, &err);
-  if (gg_simulating_shows(s, status, c != NULL)) {
+  if (gg_simulating_shows(s, status, gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"))) {
     print(s->options, c);
     if (gg_simulating_tell(s, status)) drawn = draw(s, &why);
   }

@@ -16,7 +16,7 @@ static int run(gg_simulating *s)
   gg_error err;
   gg_result *result = NULL;
   gg_status status = gg_run(s->scene, &s->run, &result, &err);
-  if (gg_simulating_shows(s, status, result != NULL)) {
+  if (gg_simulating_shows(s, status, result, NULL)) {
     print(s, result);
     gg_simulating_tell(s, status);
   }

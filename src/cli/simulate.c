@@ -1,5 +1,6 @@
 #include "cli/simulate.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -109,22 +110,34 @@ static void tell_interrupted(const gg_simulating *s, gg_error *err)
   char *to = err->message;
   size_t size = sizeof err->message;
   if (!s->stored)
-    snprintf(to, size, "interrupted; nothing was written%s", hint);
+    snprintf(to, size, "interrupted; nothing was stored%s", hint);
   else if (s->options->resume)
     snprintf(to, size, "interrupted; go on with the same command and --resume %s", s->checkpoint);
   else
     snprintf(to, size, "interrupted; go on with: %.700s --resume %s", s->options->command_line, s->checkpoint);
 }
 
-bool gg_simulating_shows(gg_simulating *s, gg_status status, bool result)
+/* Was anything averaged? */
+static bool has_means(const gg_result *result)
+{
+  gg_measurement m;
+  for (size_t i = 0; gg_result_at(result, i, &m, NULL) == GG_OK; i++)
+    if (isfinite(m.mean)) return true;
+  return false;
+}
+
+bool gg_simulating_shows(gg_simulating *s, gg_status status, const gg_result *one, const gg_result *other)
 {
   gg_cli_progress_end(&s->progress);
-  return result && status != GG_INTERRUPTED;
+  if (status != GG_INTERRUPTED) return one || other;
+  bool some = has_means(one) || has_means(other);
+  if (some && !s->options->json) puts("\ninterrupted: the results so far");
+  return some;
 }
 
 bool gg_simulating_tell(const gg_simulating *s, gg_status status)
 {
-  if (status == GG_BAD_FILE) return false;
+  if (status == GG_BAD_FILE || status == GG_INTERRUPTED) return false;
   gg_tell_written(s->options, "results", s->output, s->replaced);
   return true;
 }

@@ -24,8 +24,8 @@ typedef int gg_simulate(gg_simulating *simulating);
 /* The whole of a simulating subcommand around its `simulate`. */
 int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simulate *simulate);
 
-/* After the run: is there a result to show? */
-bool gg_simulating_shows(gg_simulating *simulating, gg_status status, bool result);
+/* After the run: is there a result to show? Of an interrupted one, if anything was averaged; either may be NULL. */
+bool gg_simulating_shows(gg_simulating *simulating, gg_status status, const gg_result *one, const gg_result *other);
 /* After it was shown: tell where it was written. False if it was not. */
 bool gg_simulating_tell(const gg_simulating *simulating, gg_status status);
 /* Report what the run fell short of; returns the exit code. */

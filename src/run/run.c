@@ -23,6 +23,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   if (status == GG_OK) status = report(&all, out, err);
   bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
   if (cut_short) report(&all, out, NULL);
+  if (status == GG_INTERRUPTED && *out) gg_result_warn(*out, "interrupted: these are the results so far");
   gg_replicas_clear(&all);
   return status;
 }
