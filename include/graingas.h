@@ -175,12 +175,13 @@ GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_
 typedef struct gg_progress { /* where a run stands */
   const char *engine;        /* "md", "dsmc": a comparison runs both */
   const char *phase;         /* "warm-up", "averaging" */
-  double fraction;           /* of this phase, 0..1 */
+  double fraction;           /* of the run, 0..1; never falls, and is 1 when the run is over */
   uint64_t collisions;       /* so far, of all replicas */
   double rate;               /* collisions per second of processor time */
   double relative_error;     /* of the worst headline quantity; NaN: not known yet */
-  double time_left;          /* seconds; NaN: not known */
+  double time_left;          /* seconds, of this engine's run; NaN: not known yet */
   int64_t replicas;
+  const char *next; /* a comparison: the engine that comes after this one; NULL: none */
 } gg_progress;
 
 /* All zero: one thread, nobody told, nothing written. Results do not depend on any of it. */

@@ -29,7 +29,7 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
   char collisions[24], rate[24], left[24] = "";
   gg_format_count((double)g->collisions, collisions, sizeof collisions);
   gg_format_count(g->rate, rate, sizeof rate);
-  int used = snprintf(text, size, "%s %s %.0f %%", g->engine, g->phase, 100 * g->fraction);
+  int used = snprintf(text, size, "%s %s %.0f %%", g->engine, g->phase, floor(100 * g->fraction));
   if (g->replicas > 1 && !brief)
     used += snprintf(text + used, size - (size_t)used, ", %ld replicas", (long)g->replicas);
   used += snprintf(text + used, size - (size_t)used, ", %s%s, %s/s", collisions, brief ? "" : " collisions", rate);
@@ -37,8 +37,9 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
     used += snprintf(text + used, size - (size_t)used, ", error %.2g %%", 100 * g->relative_error);
   if (isfinite(g->time_left)) {
     gg_format_duration(g->time_left, left, sizeof left);
-    snprintf(text + used, size - (size_t)used, ", %s left", left);
+    used += snprintf(text + used, size - (size_t)used, ", %s left", left);
   }
+  if (g->next) snprintf(text + used, size - (size_t)used, ", then %s", g->next);
 }
 
 static void show_live(gg_cli_progress *p)

@@ -5,40 +5,6 @@
 #include "run/clock.h"
 #include "run/replicas.h"
 
-/* Share of the phase that is done: by samples, or by the square of the error still missing. */
-static double fraction_done(const gg_replicas *all)
-{
-  if (!all->state.averaging) return (double)all->state.due / (double)(all->plan.warmup ? all->plan.warmup : 1);
-  double window = (double)(all->state.due - all->state.window_at);
-  if (all->plan.most && !(all->plan.relative_error > 0)) return window / (double)all->plan.most;
-  double by_length = window / (double)all->plan.least;
-  double by_error = all->last.relative_error > 0 ? pow(all->plan.relative_error / all->last.relative_error, 2) : 0;
-  double done = fmin(by_length, by_error);
-  return all->plan.most ? fmax(done, window / (double)all->plan.most) : done;
-}
-
-static void report_progress(gg_replicas *all)
-{
-  if (!all->hooks || !all->hooks->progress) return;
-  double collisions = 0, cpu = 0;
-  for (int i = 0; i < all->n; i++) {
-    collisions += gg_replica_collisions_per_grain(&all->replica[i]) * (double)all->model.n / 2;
-    cpu += all->replica[i].clock.cpu;
-  }
-  double elapsed = gg_wall_now() - all->started, done = fmin(fraction_done(all), 1);
-  gg_progress p = {
-      .engine = all->replica[0].engine->ops->name,
-      .phase = all->state.averaging ? "averaging" : "warm-up",
-      .fraction = done,
-      .collisions = (uint64_t)collisions,
-      .rate = cpu > 0 ? collisions / cpu : 0,
-      .relative_error = all->state.averaging ? all->last.relative_error : NAN,
-      .time_left = all->state.averaging && done > 0.02 ? elapsed * (1 - done) / done : NAN,
-      .replicas = all->n,
-  };
-  all->hooks->progress(all->hooks->context, &p);
-}
-
 static gg_status store_checkpoint(gg_replicas *all, gg_error *err)
 {
   gg_archive archive = {0};
@@ -77,7 +43,7 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 {
   while (all->state.due < due || !gg_replicas_are_level(all)) {
     if (gg_replicas_are_level(all)) {
-      uint64_t step = 1 + (uint64_t)(2e5 / (double)all->model.n); /* some tens of milliseconds */
+      uint64_t step = 1 + (uint64_t)(2e5 / (1000 + (double)all->model.n * all->n)); /* some tens of milliseconds */
       all->state.due = all->state.due + step < due ? all->state.due + step : due;
     }
     gg_status status = gg_replicas_advance(all, adapts(all), err);
@@ -85,32 +51,23 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
     if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, err));
     if (status != GG_OK) return status;
     gg_replicas_check_standstill(all);
-    report_progress(all);
+    gg_replicas_report_progress(all, false);
     if (checkpoint_is_due(all)) GG_TRY(store_checkpoint(all, err));
     if (is_over(all)) return GG_OK;
   }
   return GG_OK;
 }
 
-/* Windows that may be given up: averaging does not begin anew for ever. */
-enum { MOST_RESTARTS = 6 };
-
-/* Length at which the window is tested next. It grows by a quarter a time, and by half once errors are as small as
- * asked (see `finished`). */
-static uint64_t next_length(const gg_replicas *all, uint64_t window)
-{
-  uint64_t least = all->plan.least << all->state.restarts;
-  uint64_t next = window < least ? least : window + window / (all->state.exact ? 2 : 4);
-  return all->plan.most && next > all->plan.most ? all->plan.most : next;
-}
-
 static gg_status open_window(gg_replicas *all, gg_error *err)
 {
   for (int i = 0; i < all->n; i++) GG_TRY(gg_replica_open_window(&all->replica[i], err));
+  if (!all->state.averaging) gg_outlook_new_phase(&all->outlook);
+  gg_outlook_open_window(&all->outlook);
+  all->looked_at = 0;
   all->state.averaging = 1;
   all->state.exact = 0;
   all->state.window_at = all->state.due;
-  all->state.goal = all->state.due + next_length(all, 0);
+  all->state.goal = all->state.due + gg_plan_next_test(&all->plan, all->state.restarts, false, 0);
   return GG_OK;
 }
 
@@ -125,8 +82,7 @@ static bool exact_enough(const gg_replicas *all, const gg_convergence *c, uint64
  * estimate there is the one that counts. */
 static bool finished(gg_replicas *all, const gg_convergence *c, uint64_t window)
 {
-  if (all->plan.most && window >= all->plan.most) return true;
-  if (window >= all->plan.longest << all->state.restarts) return true;
+  if (gg_plan_ends(&all->plan, all->state.restarts, window)) return true;
   bool before = all->state.exact;
   all->state.exact = exact_enough(all, c, window);
   return before && all->state.exact;
@@ -145,15 +101,18 @@ gg_status gg_replicas_run(gg_replicas *all, gg_error *err)
     uint64_t window = all->state.due - all->state.window_at;
     gg_convergence c;
     GG_TRY(gg_replicas_convergence(all, &c, err));
-    if (c.trending && all->plan.find_steady && all->state.restarts < MOST_RESTARTS && window >= all->plan.least) {
+    gg_outlook_note_errors(&all->outlook, (double)window, &c);
+    if (c.trending && gg_plan_restarts(&all->plan, all->state.restarts) && window >= all->plan.least) {
       all->state.restarts++;
       GG_TRY(open_window(all, err));
     } else if (finished(all, &c, window)) {
-      report_progress(all); /* the last word, with the errors of the end */
+      gg_replicas_report_progress(all, true); /* with the errors of the end */
       return GG_OK;
     } else {
-      all->state.goal = all->state.window_at + next_length(all, window);
+      uint64_t next = gg_plan_next_test(&all->plan, all->state.restarts, all->state.exact, window);
+      all->state.goal = all->state.window_at + next;
     }
   }
+  gg_replicas_report_progress(all, true);
   return checkpoints(all) ? store_checkpoint(all, err) : GG_OK; /* over before its time */
 }

@@ -40,6 +40,7 @@ typedef struct part {
   pthread_mutex_t *lock;
   gg_archive resume;  /* this engine's part of a checkpoint; empty: from the start */
   gg_archive *latest; /* both engines' last checkpoints, by kind */
+  const char *next;   /* the engine that has to wait for this one; NULL: none */
   gg_status status;
   gg_error err;
 } part;
@@ -47,8 +48,10 @@ typedef struct part {
 static void locked_progress(void *context, const gg_progress *progress)
 {
   part *p = context;
+  gg_progress now = *progress;
+  now.next = p->next;
   pthread_mutex_lock(p->lock);
-  p->hooks->progress(p->hooks->context, progress);
+  p->hooks->progress(p->hooks->context, &now);
   pthread_mutex_unlock(p->lock);
 }
 
@@ -135,6 +138,14 @@ static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
   return GG_OK;
 }
 
+/* The engine's name, if it runs the scene. */
+static const char *next_of(const gg_scene *scene, gg_engine_kind kind)
+{
+  gg_model model;
+  const gg_engine_ops *ops = gg_engine_ops_of(kind);
+  return gg_model_make(scene, kind, &model, NULL) == GG_OK && ops->accepts(&model, NULL) == GG_OK ? ops->name : NULL;
+}
+
 gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                            gg_comparison *c, gg_error *err)
 {
@@ -153,6 +164,7 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
     parts[k] = (part){.scene = *scene, .kind = (gg_engine_kind)k, .hooks = hooks, .comparison = c, .lock = &lock};
     parts[k].threads = beside ? (threads + 1) / 2 : 1;
     parts[k].latest = latest;
+    if (k == GG_MD && !beside) parts[k].next = next_of(scene, GG_DSMC);
     const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
     if (resume && status == GG_OK) status = gg_archive_unnest(&parts[k].resume, name, resume, err);
     if (resume && status == GG_OK) status = gg_archive_nest(&latest[k], name, &parts[k].resume, err);

@@ -84,7 +84,7 @@ gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error 
     if (i < headline) {
       double relative = m.error / fabs(m.mean);
       if (!(relative <= c->relative_error)) c->relative_error = relative, c->worst = list[i];
-      if (!m.trusted) c->trusted = false;
+      if (!m.trusted) c->trusted = false, c->untrusted = fmax(c->untrusted, m.correlation_rows * per_row / all->n);
     }
     if (all->model.linear_response) continue;
     gg_trend t;

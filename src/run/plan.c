@@ -55,3 +55,23 @@ gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
   }
   return p;
 }
+
+/* Windows that may be given up: averaging does not begin anew for ever. */
+enum { MOST_RESTARTS = 6 };
+
+bool gg_plan_restarts(const gg_plan *plan, uint64_t restarts)
+{
+  return plan->find_steady && restarts < MOST_RESTARTS;
+}
+
+bool gg_plan_ends(const gg_plan *plan, uint64_t restarts, uint64_t window)
+{
+  return (plan->most && window >= plan->most) || (plan->relative_error > 0 && window >= plan->longest << restarts);
+}
+
+uint64_t gg_plan_next_test(const gg_plan *plan, uint64_t restarts, bool exact, uint64_t window)
+{
+  uint64_t least = plan->least << restarts;
+  uint64_t next = window < least ? least : window + window / (exact ? 2 : 4);
+  return plan->most && next > plan->most ? plan->most : next;
+}

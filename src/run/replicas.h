@@ -6,6 +6,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "run/outlook.h"
 #include "run/replica.h"
 
 typedef struct gg_plan {        /* what is asked, settled before the run; in samples of each replica */
@@ -19,9 +20,10 @@ typedef struct gg_plan {        /* what is asked, settled before the run; in sam
 typedef struct gg_convergence { /* of the present averaging window */
   double relative_error;        /* of the worst headline quantity; NaN: not known */
   gg_quantity worst;
-  bool trusted;   /* every headline error rests on long enough blocks */
-  double slowest; /* longest correlation time of the monitored quantities, in samples */
-  bool trending;  /* some quantity still changes ... */
+  bool trusted;     /* every headline error rests on long enough blocks */
+  double untrusted; /* longest correlation time of those that do not, in samples, over the number of replicas */
+  double slowest;   /* longest correlation time of the monitored quantities, in samples */
+  bool trending;    /* some quantity still changes ... */
   gg_quantity trending_quantity;
   double trend_z, trend_relative; /* ... by so many errors, and by this share of its mean */
 } gg_convergence;
@@ -49,11 +51,20 @@ typedef struct gg_replicas {
   } state;
   gg_convergence last;
   double started, last_checkpoint; /* clock readings */
+  gg_outlook outlook;
+  double looked_at, next_look; /* samples in the window when errors were last estimated for it; not before this time */
 } gg_replicas;
 
 enum { GG_GOES_ON, GG_OUT_OF_TIME, GG_STOP_ASKED }; /* why a run is stopped */
 
 gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model);
+/* Is a window with a trend given up, after so many that were? */
+bool gg_plan_restarts(const gg_plan *plan, uint64_t restarts);
+/* Does a window of this length end the run, whatever its errors are? */
+bool gg_plan_ends(const gg_plan *plan, uint64_t restarts, uint64_t window);
+/* Length at which the window is tested next (0: first). It grows by a quarter a time, and by half once errors are as
+ * small as asked (averaging.c: finished). */
+uint64_t gg_plan_next_test(const gg_plan *plan, uint64_t restarts, bool exact, uint64_t window);
 
 gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                              const gg_hooks *hooks, gg_error *err);
@@ -63,6 +74,8 @@ gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err);
 
 /* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
 gg_status gg_replicas_run(gg_replicas *all, gg_error *err);
+/* progress.c: tell the caller's hook, if there is one; `over`: the run is. */
+void gg_replicas_report_progress(gg_replicas *all, bool over);
 /* Has every replica all->state.due samples? Where a run was stopped, some may not. */
 bool gg_replicas_are_level(const gg_replicas *all);
 /* Of a run that is over: forget the samples that not every replica has, so that what there is can be reported. */

@@ -1,0 +1,65 @@
+/* What a run tells of itself while it goes on. */
+#include <math.h>
+
+#include "run/clock.h"
+#include "run/replicas.h"
+
+/* Looks at the errors between two tests, for the outlook alone: of windows a quarter as long as is tested at least,
+ * each longer by a twentieth than the last, and never more than a hundredth of the time. */
+static void look(gg_replicas *all, double window)
+{
+  gg_convergence c;
+  double before = gg_wall_now(), first = (double)(all->plan.least << all->state.restarts) / 4;
+  if (!all->state.averaging || window < fmax(first, 1.05 * all->looked_at) || before < all->next_look) return;
+  if (gg_replicas_convergence(all, &c, NULL) == GG_OK) gg_outlook_note_errors(&all->outlook, window, &c);
+  all->looked_at = window;
+  double now = gg_wall_now();
+  all->next_look = now + 100 * (now - before);
+}
+
+/* When a run of usual noise, 3/sqrt(grains samples), ends: where nothing is known of the errors of this one. */
+static double usual_end(const gg_replicas *all)
+{
+  double noise = 3 / all->plan.relative_error, grains = (double)all->model.n * all->n;
+  double window = 1.5 * fmax((double)(all->plan.least << all->state.restarts), noise * noise / grains);
+  if (all->plan.most) window = fmin(window, (double)all->plan.most);
+  double begins = (double)(all->state.averaging ? all->state.window_at : all->plan.warmup);
+  return fmax(begins + window, 1.25 * (double)all->state.goal);
+}
+
+/* NaN: not known. What a sample takes where curves are measured is known only after some of the averaging. */
+static double time_left(const gg_replicas *all, gg_end end, double limit_in)
+{
+  double left = (end.at - (double)all->state.due) * gg_outlook_pace(&all->outlook);
+  bool alike = all->state.averaging || all->replica[0].n_observables <= 1;
+  return isfinite(left) && end.known && alike ? fmin(left, limit_in) : NAN;
+}
+
+void gg_replicas_report_progress(gg_replicas *all, bool over)
+{
+  if (!all->hooks || !all->hooks->progress) return;
+  double window = all->state.averaging ? (double)(all->state.due - all->state.window_at) : 0;
+  if (!over) look(all, window);
+  double collisions = 0, cpu = 0, due = (double)all->state.due, now = gg_wall_now();
+  for (int i = 0; i < all->n; i++) {
+    collisions += gg_replica_collisions_per_grain(&all->replica[i]) * (double)all->model.n / 2;
+    cpu += all->replica[i].clock.cpu;
+  }
+  gg_outlook_note_time(&all->outlook, now, due);
+  gg_end end = gg_outlook_end(&all->outlook, &all->plan, &all->state);
+  double limit = all->plan.time_limit;
+  double used = all->state.wall + now - all->started;
+  double done = gg_outlook_fraction(&all->outlook, due, isfinite(end.at) ? end.at : usual_end(all),
+                                    limit > 0 ? used / limit : NAN);
+  gg_progress p = {
+      .engine = all->replica[0].engine->ops->name,
+      .phase = all->state.averaging ? "averaging" : "warm-up",
+      .fraction = over ? 1 : done,
+      .collisions = (uint64_t)collisions,
+      .rate = cpu > 0 ? collisions / cpu : 0,
+      .relative_error = window >= (double)all->plan.least ? all->last.relative_error : NAN,
+      .time_left = over ? 0 : time_left(all, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
+      .replicas = all->n,
+  };
+  all->hooks->progress(all->hooks->context, &p);
+}

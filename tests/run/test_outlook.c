@@ -1,0 +1,174 @@
+/* What a run tells of its end: right where errors fall as 1/sqrt(window), the half of the window that it goes on for
+ * included; a fraction that never falls and is 1 at the end alone, whatever ends the run; no time where none is known.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "fake_engine.h"
+#include "run/replicas.h"
+
+static const gg_plan plan = {.warmup = 20, .least = 150, .longest = 75000, .relative_error = 0.01, .find_steady = true};
+
+static gg_convergence errors_of(double scale, double window)
+{
+  return (gg_convergence){.relative_error = scale / sqrt(window), .trusted = true};
+}
+
+/* Where such a run ends: by the rules of averaging.c, test after test. */
+static double true_end(double scale)
+{
+  bool exact = false;
+  uint64_t window = gg_plan_next_test(&plan, 0, false, 0);
+  for (;;) {
+    bool now = scale / sqrt((double)window) <= plan.relative_error;
+    if (exact && now) return (double)(plan.warmup + window);
+    exact = now;
+    window = gg_plan_next_test(&plan, 0, exact, window);
+  }
+}
+
+/* Follow it; from a quarter on the end is told to within three tenths, once errors are as small as asked, exactly. */
+static void follow(double scale, int *exactly)
+{
+  gg_outlook o = {0};
+  struct gg_replicas_state s = {.averaging = 1, .due = plan.warmup, .window_at = plan.warmup};
+  double end = true_end(scale), window;
+  s.goal = s.window_at + gg_plan_next_test(&plan, 0, false, 0);
+  assert_false(gg_outlook_end(&o, &plan, &s).known);
+  for (; (double)s.due < end; s.due++) {
+    window = (double)(s.due - s.window_at);
+    if (s.due >= s.goal) {
+      s.exact = scale / sqrt(window) <= plan.relative_error;
+      s.goal = s.window_at + gg_plan_next_test(&plan, 0, s.exact, (uint64_t)window);
+    }
+    if (window < 40) continue;
+    gg_convergence c = errors_of(scale, window);
+    gg_outlook_note_errors(&o, window, &c);
+    gg_end told = gg_outlook_end(&o, &plan, &s);
+    assert_true(told.at >= (double)s.due);
+    if (window < (end - plan.warmup) / 4) continue;
+    if (fabs(told.at / end - 1) > 0.3) fail_msg("%g: at %g of %g told %g", scale, (double)s.due, end, told.at);
+    if (s.exact) {
+      assert_true(told.known && fabs(told.at - end) < 1e-9 * end);
+      ++*exactly;
+    }
+  }
+}
+
+static void half_a_window_more(void **state)
+{
+  (void)state;
+  int exactly = 0;
+  for (double scale = 0.02; scale < 1; scale *= 1.07) follow(scale, &exactly);
+  assert_true(exactly > 1000);
+}
+
+/* Without an error that is asked for the end is known from the start, and nothing else ends such a run. */
+static void so_many_collisions(void **state)
+{
+  (void)state;
+  gg_outlook o = {0};
+  gg_plan p = {.warmup = 20, .least = 150, .longest = 75000, .most = 200000};
+  struct gg_replicas_state s = {.due = 3};
+  gg_end end = gg_outlook_end(&o, &p, &s);
+  assert_true(end.known && end.at == 200020);
+  s = (struct gg_replicas_state){.averaging = 1, .due = 90020, .window_at = 20, .goal = 100020};
+  end = gg_outlook_end(&o, &p, &s);
+  assert_true(end.known && end.at == 200020);
+  assert_false(gg_plan_ends(&p, 0, 199999));
+  p.relative_error = 1e-9;
+  assert_true(gg_plan_ends(&p, 0, 75000)); /* out of reach */
+}
+
+/* A window that shows a trend will be given up; one that does not and cannot be trusted, go on. */
+static void trends_and_trust(void **state)
+{
+  (void)state;
+  gg_outlook o = {0};
+  struct gg_replicas_state s = {.averaging = 1, .due = 120, .window_at = 20, .goal = 170};
+  gg_convergence c = errors_of(0.05, 100);
+  gg_outlook_note_errors(&o, 100, &c);
+  gg_end end = gg_outlook_end(&o, &plan, &s);
+  assert_true(end.known && end.at == 20 + 225); /* the shortest test, and half as long again */
+  c.trending = true;
+  gg_outlook_note_errors(&o, 100, &c);
+  end = gg_outlook_end(&o, &plan, &s);
+  assert_true(!end.known && end.at == 170 + 450); /* twice as long after that */
+  s.restarts = 6;
+  assert_true(gg_outlook_end(&o, &plan, &s).known);
+  c.trending = false, c.trusted = false, c.untrusted = 5;
+  s.restarts = 0;
+  gg_outlook_note_errors(&o, 100, &c);
+  assert_true(gg_outlook_end(&o, &plan, &s).at >= 20 + 1.5 * 400); /* 16 blocks of 5 times */
+  gg_outlook_open_window(&o);
+  assert_true(isnan(gg_outlook_end(&o, &plan, &s).at));
+}
+
+/* Seconds a sample of late, not of the start; marks are thinned. */
+static void pace(void **state)
+{
+  (void)state;
+  gg_outlook o = {0};
+  double wall = 5;
+  assert_true(isnan(gg_outlook_pace(&o)));
+  for (int i = 0; i < 1000; i++, wall += i < 300 ? 0.1 : 0.4) gg_outlook_note_time(&o, wall, 10.0 * i);
+  assert_true(fabs(gg_outlook_pace(&o) / 0.04 - 1) < 1e-9);
+  assert_true(o.n_marks <= GG_OUTLOOK_MARKS);
+}
+
+typedef struct watcher {
+  double fraction, left;
+  int calls, known, falls, early;
+} watcher;
+
+static void watch(void *context, const gg_progress *p)
+{
+  watcher *w = context;
+  if (w->fraction == 1) w->early++; /* told to be over, and here it is again */
+  if (p->fraction < w->fraction) w->falls++;
+  assert_true(p->fraction >= 0 && p->fraction <= 1 && !(p->time_left < 0));
+  w->fraction = p->fraction, w->left = p->time_left;
+  w->known += isfinite(p->time_left);
+  w->calls++;
+}
+
+/* Runs of every end: errors, collisions, both, time, an error out of reach, windows given up, replicas, resumed. */
+static void every_run(void **state)
+{
+  (void)state;
+  enum { ERROR, COLLISIONS, BOTH, TIME, GIVEN_UP, REPLICAS, CASES };
+  for (int k = 0; k < CASES; k++) {
+    fake = (fake_plan){.T = 2, .theta = 0.5, .relaxation = 10, .noise = 0.02};
+    gg_scene s = gg_scene_defaults();
+    s.phi = 0.2, s.particles = 512, s.collision.beta[0] = 0;
+    if (k == ERROR || k == REPLICAS || k == BOTH) s.run.relative_error = 0.0005;
+    if (k == COLLISIONS || k == BOTH) s.run.collisions = 20000;
+    if (k == TIME) s.run.relative_error = 1e-9, s.run.time_limit = 0.3;
+    if (k == GIVEN_UP) s.run.relative_error = 0.004, fake.start = -0.9, fake.relaxation = 400;
+    if (k == REPLICAS) s.run.replicas = 3;
+    watcher w = {0};
+    gg_hooks hooks = {.context = &w, .progress = watch};
+    gg_result *r = NULL;
+    gg_status status = gg_run_scene(&s, NULL, 2, &hooks, &r, NULL);
+    assert_int_equal(status, k == TIME || k == BOTH ? GG_FAILED : GG_OK); /* fell short of the error */
+    if (w.falls || w.early || w.fraction != 1 || w.left != 0 || w.calls < 5 || w.known < 3)
+      fail_msg("%d: fell %d, early %d, ended %g %g, known %d of %d", k, w.falls, w.early, w.fraction, w.left, w.known,
+               w.calls);
+    gg_result_free(r);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(half_a_window_more), cmocka_unit_test(so_many_collisions),
+      cmocka_unit_test(trends_and_trust),   cmocka_unit_test(pace),
+      cmocka_unit_test(every_run),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
