@@ -208,6 +208,7 @@ static void put_component(const diffusion *d, int species, int a, const double *
   snprintf(name, sizeof name, "displacement_squared_%c%s", "xyz"[a], tail);
   snprintf(label, sizeof label, "%c%s", "xyz"[a], *tail ? tail : "");
   gg_curve *r = gg_curve_add(list, GG_LAGS, name, "mean-square displacement", label);
+  c->log_x = r->log_x = r->log_y = true;
   snprintf(unit, sizeof unit, "%.30s^2", gg_curve_unit(m, "length"));
   gg_curve_axes(r, "t", time, "<(Δr)^2>", unit);
   for (int i = 0; i < GG_LAGS && c->n && r->n; i++) {
