@@ -118,9 +118,22 @@ static void describe(const gg_model *m, void (*line)(void *, const char *), void
   (void)m, line(context, "fake");
 }
 
-static const gg_engine_ops ops = {"fake",    "planted answers", accepts, create,  destroy,  advance,
-                                  keep_sums, take_sums,         NULL,    NULL,    state,    snapshot,
-                                  NULL,      rescale,           save,    restore, describe, NULL};
+static const gg_engine_ops ops = {
+    .name = "fake",
+    .doc = "planted answers",
+    .accepts = accepts,
+    .create = create,
+    .destroy = destroy,
+    .advance = advance,
+    .keep_sums = keep_sums,
+    .take_sums = take_sums,
+    .state = state,
+    .snapshot = snapshot,
+    .rescale = rescale,
+    .save = save,
+    .restore = restore,
+    .describe = describe,
+};
 
 static gg_status create(const gg_model *m, uint64_t seed, uint64_t stream, gg_engine **out, gg_error *err)
 {
