@@ -56,24 +56,37 @@ static void clean_up(const char *target)
   free(temporary);
 }
 
+/* Another user's can be locked, too, if not written. */
+static int open_lock(const char *path, bool *foreign)
+{
+  int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  *foreign = fd < 0 && errno == EACCES;
+  return *foreign ? open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW) : fd;
+}
+
+/* One try: GG_OK with l->fd still -1 means another one. */
+static gg_status try_once(gg_file_lock *l, const char *path, gg_error *err)
+{
+  bool foreign;
+  int fd = open_lock(l->path, &foreign);
+  if (fd < 0) return gg_cannot_write(path, strerror(errno), err);
+  gg_status status = GG_OK;
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0 && !cannot_lock(errno)) {
+    if (errno != EINTR) status = in_use(fd, path, err);
+  } else if (still_there(fd, l->path) && !(foreign && unlink(l->path) == 0)) {
+    l->fd = fd; /* but a dead one's of another user gives way to one of one's own, where the folder lets it */
+    return GG_OK;
+  }
+  close(fd);
+  return status;
+}
+
 gg_status gg_file_lock_take(gg_file_lock *l, const char *target, const char *path, gg_error *err)
 {
   *l = GG_FILE_LOCK_NONE;
   if (asprintf(&l->path, "%s.graingas-lock", target) < 0) return gg_cannot_write(path, strerror(ENOMEM), err);
   gg_status status = GG_OK;
-  while (status == GG_OK && l->fd < 0) {
-    int fd = open(l->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (fd < 0) {
-      status = gg_cannot_write(path, strerror(errno), err);
-    } else if (flock(fd, LOCK_EX | LOCK_NB) != 0 && !cannot_lock(errno)) {
-      if (errno != EINTR) status = in_use(fd, path, err);
-      close(fd);
-    } else if (!still_there(fd, l->path)) {
-      close(fd);
-    } else {
-      l->fd = fd;
-    }
-  }
+  while (status == GG_OK && l->fd < 0) status = try_once(l, path, err);
   if (status == GG_OK) {
     sign(l->fd);
     clean_up(target);

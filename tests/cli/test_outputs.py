@@ -237,6 +237,22 @@ def test_two_runs_at_once():
     check(sorted(os.listdir(".")) == ["link.h5", "long.yaml", "one.h5", "scene.yaml"], os.listdir("."))
 
 
+def test_locks_of_others():
+    """What another user's dead run left is in nobody's way, either."""
+    scenes()
+    for mode in 0o777, 0o1777:  # in a folder like /tmp nobody may remove it
+        for user in everybody():
+            os.chmod(".", mode)
+            with open("one.h5.graingas-lock", "w") as f:
+                f.write("process 1 on nowhere\n")
+            written("--output", "one.h5", user=user)
+            readable("one.h5")
+            os.remove("one.h5")
+            if os.path.exists("one.h5.graingas-lock"):
+                check(mode == 0o1777 and user)
+                os.remove("one.h5.graingas-lock")
+
+
 def test_one_checkpoint_for_two():
     scenes()
     keep = ("--set", "output.checkpoint_every=0.01")
