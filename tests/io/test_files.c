@@ -6,6 +6,7 @@
 #include <cmocka.h>
 #include <dirent.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/resource.h>
@@ -371,6 +372,47 @@ static void checkpoint_without_room(void **state)
   remove_all();
 }
 
+/* Threads with files of their own, and all of them with one: each writes it whole, or is told that another does. */
+static void *write_and_read(void *number)
+{
+  gg_error err;
+  gg_stored_result s;
+  gg_result *r = planted_result(GG_MD);
+  char own[24];
+  intptr_t wrong = 0;
+  snprintf(own, sizeof own, "own%d.h5", *(int *)number);
+  for (int i = 0; i < 20; i++) {
+    bool read = gg_result_write(r, own, &err) == GG_OK && gg_stored_result_read(&s, own, &err) == GG_OK;
+    wrong += !read || !gg_stored_series_find(&s.engine[GG_MD], "temperature");
+    if (read) gg_stored_result_clear(&s);
+    gg_status status = gg_result_write(r, "one.h5", &err);
+    wrong += status != GG_OK && !(status == GG_BAD_FILE && strstr(err.message, "another run is writing it"));
+  }
+  gg_result_free(r);
+  return (void *)wrong;
+}
+
+static void threads_at_once(void **state)
+{
+  (void)state;
+  hbool_t safe = 0;
+  pthread_t thread[4];
+  int number[4] = {0, 1, 2, 3};
+  void *wrong;
+  gg_error err;
+  gg_stored_result s;
+  if (H5is_library_threadsafe(&safe) < 0 || !safe) skip();
+  for (int i = 0; i < 4; i++) assert_int_equal(pthread_create(&thread[i], NULL, write_and_read, &number[i]), 0);
+  for (int i = 0; i < 4; i++) {
+    assert_int_equal(pthread_join(thread[i], &wrong), 0);
+    assert_null(wrong);
+  }
+  assert_int_equal(gg_stored_result_read(&s, "one.h5", &err), GG_OK);
+  gg_stored_result_clear(&s);
+  assert_int_equal(count_files(), 5);
+  remove_all();
+}
+
 /* HDF5's own error printing is given back to the program that uses the library. */
 static void hdf5_stays_as_it_was(void **state)
 {
@@ -397,6 +439,7 @@ int main(void)
       cmocka_unit_test(checkpoint_generations),
       cmocka_unit_test(checkpoint_of_another_version),
       cmocka_unit_test(checkpoint_without_room),
+      cmocka_unit_test(threads_at_once),
       cmocka_unit_test(hdf5_stays_as_it_was),
   };
   H5dont_atexit();
