@@ -69,7 +69,7 @@ static gg_status run_point(const options *o, const gg_figure *f, const gg_point 
   if (f->subject == GG_CUMULANTS) s.run.relative_error = GG_AUTO, s.run.collisions = 4000;
   gg_status status = gg_run_scene(&s, NULL, 1, NULL, &r, err);
   if (!r) return status;
-  for (int i = 0; i < r->n_warnings; i++) fprintf(stderr, "warning: %s\n", r->warnings[i]);
+  for (size_t i = 0; i < r->warnings.n; i++) fprintf(stderr, "warning: %s\n", r->warnings.text[i]);
   const char *name = p->mass_ratio > 0 ? "garzo_montanero2003" : "garzo_dufty1999";
   status = gg_theory_evaluate(gg_theory_find(name), &r->model, &answer, err);
   for (int k = 0; k < 2 && status == GG_OK; k++) {
