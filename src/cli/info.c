@@ -35,13 +35,13 @@ static void print_engines(const gg_scene *scene)
   }
 }
 
-/* A line a key where there is room; else its meaning below. */
+/* A line a key where there is room; else its meaning below. Of no scene (no origin): what is allowed, too. */
 static void print_field(const gg_entry *f, const char *origin)
 {
-  char lead[80], meaning[400];
+  char lead[80], meaning[800];
   const int columns = snprintf(lead, sizeof lead, "%-24s %-17s %-7s  ", f->name, f->value, origin);
-  snprintf(meaning, sizeof meaning, "%s%s%s%s", f->doc, f->unit ? " (" : "", f->unit ? f->unit : "",
-           f->unit ? ")" : "");
+  snprintf(meaning, sizeof meaning, "%s%s%s%s%s%s", f->doc, f->unit ? " (" : "", f->unit ? f->unit : "",
+           f->unit ? ")" : "", *origin ? "" : "; ", *origin ? "" : f->allowed);
   if (strlen(f->value) <= 17 && gg_terminal_width() >= 100 && columns < (int)sizeof lead) {
     gg_print_wrapped(stdout, lead, meaning);
     return;

@@ -146,14 +146,11 @@ static double guess_ratio(const gg_model *m)
   return K * (1 + beta) / (1 + 2 * K - beta);
 }
 
-/* An ensemble of a few thousand stands for one point of the flow to better than 0.1 %; fewer only if asked for. */
-enum { LEAST_ENSEMBLE = 5000 };
-
 static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
 {
   if (engine == GG_MD) return s->particles;
   if (s->dsmc.particles) return s->dsmc.particles;
-  return s->particles > LEAST_ENSEMBLE ? s->particles : LEAST_ENSEMBLE;
+  return s->particles > GG_LEAST_ENSEMBLE ? s->particles : GG_LEAST_ENSEMBLE;
 }
 
 gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/engine.h"
+
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
 #include "io/scene/inert.h"
@@ -127,7 +129,9 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   gg_error why = {0};
   gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
   gg_result *made = NULL;
-  if (status == GG_OK) gg_door_run_foretell(&run, 1u << run.scene.engine);
+  gg_engine_kind engine = run.scene.engine;
+  if (status == GG_OK && gg_engine_ops_of(engine)->accepts(&run.model, NULL) == GG_OK)
+    gg_door_run_foretell(&run, 1u << engine);
   if (status == GG_OK) status = gg_door_trajectory_begin(&run, &hooks, err);
   if (status == GG_OK)
     status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);

@@ -96,6 +96,19 @@ def test_command_line_is_kept():
     check("seed: 2" in text)
 
 
+def test_exit_codes():
+    """Of mistakes, also with --json: nothing on standard output. Each code that a command may leave stands in the
+    manual (1 and 130 are met in test_commands.py and test_files.py)."""
+    manual = run("--manual").out.split(".SH EXIT STATUS")[1].split(".SH")[0]
+    check(re.findall(r"^\.B (\d+)", manual, re.M) == ["0", "1", "2", "3", "130"], manual)
+    for command in "compare", "run", "theory", "info":
+        for args, code in ((("none.yaml",), 3), ((".",), 3), (("scene.yaml", "--set", "phi=2"), 2),
+                           (("scene.yaml", "--set", "flow=chute"), 2), (("scene.yaml", "--nothing"), 2)):
+            done = run(command, *args, "--json", scene=SCENE)
+            check(done.code == code and done.out == "" and done.err.count("\n") == 1, command, args, done.code, done.err)
+            check(done.err.startswith("graingas: ") and not done.new, done.err, done.new)
+
+
 def test_lines_fit():
     """No line is wider than the terminal; a pipe is 80 columns wide. (Scenes are told as they can be read back, and
     tables have a column at least.)"""

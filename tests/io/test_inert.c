@@ -72,6 +72,12 @@ static void engines(void **state)
   assert_line("{flow: usf, phi: 0.1, output: {trajectory_every: 5}}", BOTH,
               "output.trajectory_every has no effect in a comparison; graingas run keeps a trajectory");
   assert_line("{flow: usf, phi: 0.1, output: {trajectory_every: 5}}", GG_USE_MD, NULL);
+  const char ensemble[] =
+      "particles has no effect with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)";
+  assert_line("{flow: usf, phi: 0.1, particles: 2000}", GG_USE_DSMC, ensemble);
+  assert_line("{flow: usf, phi: 0.1, particles: 20000}", GG_USE_DSMC, NULL);
+  assert_line("{flow: usf, phi: 0.1, particles: 20000, dsmc: {particles: 700}}", GG_USE_DSMC, ensemble);
+  assert_line("{flow: usf, phi: 0.1, particles: 2000}", BOTH, NULL);
   const char contact[] =
       "contact_value has no effect but on theories and engine: dsmc, with one species and phi above 0";
   assert_line("{flow: usf, phi: 0.1, contact_value: kolafa}", GG_USE_MD, contact);

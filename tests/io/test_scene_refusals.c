@@ -118,6 +118,7 @@ static void suggestions(void **state)
     snprintf(yaml, sizeof yaml, "flow: hss\n%s\n", cases[i].line);
     assert_refused(yaml, cases[i].words);
   }
+  assert_refused("flow: usf\nphi: 0,3\n", "value '0,3' is not allowed (did you mean a decimal point?)");
   assert_refused("flow: cooling\n", "(did you mean hcs?)");
   assert_refused("flow: shear\n", "(did you mean usf?)");
 }

@@ -39,6 +39,11 @@ static bool uses_dsmc(const gg_scene *s, unsigned uses)
   return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && !gg_flow_is_walled(s->flow));
 }
 
+static bool counts_particles(const gg_scene *s, unsigned uses)
+{
+  return uses_md(s, uses) || (s->dsmc.particles == 0 && s->particles > GG_LEAST_ENSEMBLE);
+}
+
 static bool uses_one_engine(const gg_scene *s, unsigned uses)
 {
   (void)s;
@@ -134,6 +139,8 @@ const gg_condition gg_if_chute = {is_chute, "but in flow: chute"};
 const gg_condition gg_if_walled = {is_walled, "but between walls (flow: couette, poiseuille or chute)"};
 const gg_condition gg_if_md = {uses_md, "with engine: dsmc"};
 const gg_condition gg_if_dsmc = {uses_dsmc, "with engine: md"};
+const gg_condition gg_if_counted = {counts_particles,
+                                    "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)"};
 const gg_condition gg_if_boxed = {uses_md, "with engine: dsmc, which has no box"};
 const gg_condition gg_if_one_engine = {uses_one_engine, "in a comparison; graingas run keeps a trajectory"};
 const gg_condition gg_if_contact_value = {uses_contact_value,

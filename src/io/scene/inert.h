@@ -15,8 +15,8 @@ typedef struct gg_condition {
   const char *otherwise;
 } gg_condition;
 
-extern const gg_condition gg_if_usf, gg_if_couette, gg_if_chute, gg_if_walled, gg_if_md, gg_if_dsmc, gg_if_boxed,
-    gg_if_one_engine, gg_if_contact_value, gg_if_lossy, gg_if_rough, gg_if_sticking, gg_if_tangential,
+extern const gg_condition gg_if_usf, gg_if_couette, gg_if_chute, gg_if_walled, gg_if_md, gg_if_dsmc, gg_if_counted,
+    gg_if_boxed, gg_if_one_engine, gg_if_contact_value, gg_if_lossy, gg_if_rough, gg_if_sticking, gg_if_tangential,
     gg_if_wall_sticking, gg_if_wall_tangential;
 
 /* Does some collision between grains lose energy, by the coefficients that the scene has? */

@@ -40,12 +40,19 @@ static const char *likely_word(const gg_word *words, const char *typed)
   return nearest.best;
 }
 
+static bool has_decimal_comma(const char *text)
+{
+  return text && *text && !text[strspn(text, "0123456789+-eE,")] && strchr(text, ',') == strrchr(text, ',') &&
+         strchr(text, ',');
+}
+
 static gg_status refuse_value(const gg_scene_reader *r, const gg_field *field, const char *key, const yaml_node_t *node)
 {
   char shown[64], allowed[256], hint[64] = "";
   const char *likely = likely_word(field->words, scalar(node));
   show(node, shown, sizeof shown);
   gg_field_allowed(field, allowed, sizeof allowed);
+  if (has_decimal_comma(scalar(node))) likely = "a decimal point";
   if (likely) snprintf(hint, sizeof hint, " (did you mean %s?)", likely);
   return gg_scene_refuse(r, node, key, "%s is not allowed%s; allowed: %s", shown, hint, allowed);
 }
