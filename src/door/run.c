@@ -98,7 +98,7 @@ const gg_archive *gg_door_run_resume(const gg_door_run *r)
 void gg_door_run_done(gg_door_run *r, gg_status run, gg_status written)
 {
   const gg_run_options *o = &r->options;
-  bool own = r->stored || (o->resume && gg_same_file(o->resume, o->checkpoint));
+  bool own = r->stored || (o->resume && gg_is_checkpoint_of(o->resume, o->checkpoint));
   if (run != GG_OK || written != GG_OK || !o->output || !o->checkpoint || !own) return;
   gg_checkpoint_remove(o->checkpoint);
   gg_door_trajectory_remove(r);

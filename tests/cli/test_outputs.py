@@ -282,7 +282,7 @@ def test_checkpoints_go_when_all_is_done():
         done = run(command, "scene.yaml", "--quiet", *keep, *short)
         check(done.code == 1, done.code, done.err)
         check([name for name in there if os.path.exists(name)] == there, os.listdir("."))
-        done = run(command, "scene.yaml", "--quiet", "--set", "run.collisions=20", "--resume", there[0],
+        done = run(command, "scene.yaml", "--quiet", "--set", "run.collisions=20", "--resume", there[command == "run"],
                    "--set", "output.checkpoint_every=1000", "--output", "scene.h5")
         check(done.code == 0, done.code, done.err)
         check(os.path.exists("scene.h5") and not any(os.path.exists(name) for name in there), os.listdir("."))

@@ -413,6 +413,29 @@ static void threads_at_once(void **state)
   remove_all();
 }
 
+/* Results for one pipe or device are made up side by side. */
+static void two_in_memory(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_result *r = planted_result(GG_MD);
+  gg_result_file f[2];
+  assert_int_equal(mkfifo("pipe", 0666), 0);
+  int in = open("pipe", O_RDONLY | O_NONBLOCK);
+  for (uint64_t step = 0; step <= 1; step++)
+    for (int i = 0; i < 2; i++) {
+      if (step == 0) assert_int_equal(gg_result_file_open(&f[i], "pipe", "x", &err), GG_OK);
+      gg_frame frame = planted_frame(step, true);
+      if (gg_result_file_frame(&f[i], &r->model, &frame, &err) != GG_OK) fail_msg("%s", err.message);
+      gg_frame_free(&frame);
+    }
+  for (int i = 0; i < 2; i++) gg_result_file_abandon(&f[i]);
+  close(in);
+  assert_int_equal(count_files(), 1);
+  gg_result_free(r);
+  remove_all();
+}
+
 /* HDF5's own error printing is given back to the program that uses the library. */
 static void hdf5_stays_as_it_was(void **state)
 {
@@ -440,6 +463,7 @@ int main(void)
       cmocka_unit_test(checkpoint_of_another_version),
       cmocka_unit_test(checkpoint_without_room),
       cmocka_unit_test(threads_at_once),
+      cmocka_unit_test(two_in_memory),
       cmocka_unit_test(hdf5_stays_as_it_was),
   };
   H5dont_atexit();

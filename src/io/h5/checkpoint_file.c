@@ -50,7 +50,7 @@ static void *make_image(const char *path, const gg_archive *a, const gg_scene *s
   gg_h5 h;
   uint64_t n = a->n_items;
   char *yaml = gg_scene_yaml(scene);
-  gg_h5_create_in_memory(&h, path);
+  gg_h5_create_in_memory(&h);
   gg_h5_text(&h, "/checkpoint/scene", yaml ? yaml : "");
   gg_h5_text(&h, "/checkpoint/version", GG_VERSION);
   gg_h5_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n, 0);
@@ -158,13 +158,25 @@ gg_status gg_checkpoint_read(const char *path, gg_archive *a, bool *older, gg_er
   return *older ? GG_OK : status;
 }
 
+bool gg_is_checkpoint_of(const char *file, const char *path)
+{
+  char *before;
+  if (gg_same_file(file, path)) return true;
+  if (asprintf(&before, "%s.1", path) < 0) return false;
+  bool is = gg_same_file(file, before);
+  free(before);
+  return is;
+}
+
 void gg_checkpoint_remove(const char *path)
 {
   gg_output_path place;
-  char *before = NULL;
+  char *before;
   if (gg_output_path_find(&place, path, NULL) != GG_OK) return;
   if (place.there) unlink(place.target);
-  if (asprintf(&before, "%s.1", place.target) >= 0) unlink(before);
-  free(before);
+  if (asprintf(&before, "%s.1", place.target) >= 0) {
+    unlink(before);
+    free(before);
+  }
   gg_output_path_clear(&place);
 }

@@ -12,6 +12,9 @@ gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *a
 /* Remove FILE and FILE.1: the run that they were of is done. */
 void gg_checkpoint_remove(const char *path);
 
+/* Is it FILE or FILE.1 of this path? */
+bool gg_is_checkpoint_of(const char *file, const char *path);
+
 #define GG_CHECKPOINTS_ARE "checkpoints take each other's place, and are files"
 
 /* Fills an empty archive. *older: FILE.1 had to be taken. GG_BAD_FILE if neither can be read. */

@@ -45,9 +45,12 @@ static void create(gg_h5 *h, const char *path, bool in_memory)
   if (h->file < 0) gg_h5_failed(h, "HDF5 cannot create it");
 }
 
-void gg_h5_create_in_memory(gg_h5 *h, const char *path)
+/* HDF5 takes open files of one name for one file, those in memory, too: each has its own. */
+void gg_h5_create_in_memory(gg_h5 *h)
 {
-  create(h, path, true);
+  char name[40];
+  snprintf(name, sizeof name, "graingas-%p", (void *)h);
+  create(h, name, true);
 }
 
 void gg_h5_create(gg_h5 *h, const char *path)

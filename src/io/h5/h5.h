@@ -16,9 +16,9 @@ typedef struct gg_h5 {
   void *print_data;
 } gg_h5;
 
-/* A new file in memory (path for messages only), a new one on disk, or one to read, whose checksum is looked at first
+/* A new file in memory, a new one on disk, or one to read, whose checksum is looked at first
  * (seal.h). */
-void gg_h5_create_in_memory(gg_h5 *h, const char *path);
+void gg_h5_create_in_memory(gg_h5 *h);
 void gg_h5_create(gg_h5 *h, const char *path);
 void gg_h5_open(gg_h5 *h, const char *path);
 /* The bytes of a file made in memory, to be freed. */

@@ -30,7 +30,7 @@ static void create(gg_result_file *f, bool streaming)
   if (streaming)
     gg_h5_create(&f->h, f->file.temporary);
   else
-    gg_h5_create_in_memory(&f->h, f->file.path);
+    gg_h5_create_in_memory(&f->h);
 }
 
 /* HDF5 recovers badly from a full disk: ask first. */
