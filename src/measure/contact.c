@@ -28,8 +28,9 @@ gg_near gg_near_of(const gg_model *m, double sigma, double longest_reach)
 
 static int bin_of(double x, double range)
 {
+  if (!(x < range)) return -1;
   int k = (int)(fmax(x, 0) * (GG_NEAR_BINS / range));
-  return k < GG_NEAR_BINS ? k : -1;
+  return k < GG_NEAR_BINS ? k : GG_NEAR_BINS - 1;
 }
 
 /* Straight back in time: |r - g t| = sigma. */
