@@ -40,6 +40,7 @@ typedef struct part {
   pthread_mutex_t *lock;
   gg_archive resume;  /* this engine's part of a checkpoint; empty: from the start */
   gg_archive *latest; /* both engines' last checkpoints, by kind */
+  bool *broken;       /* a checkpoint could not be stored: the comparison is over, for both engines */
   const char *next;   /* the engine that has to wait for this one; NULL: none */
   gg_status status;
   gg_error err;
@@ -59,7 +60,7 @@ static bool locked_interrupted(void *context)
 {
   part *p = context;
   pthread_mutex_lock(p->lock);
-  bool yes = p->hooks->interrupted(p->hooks->context);
+  bool yes = *p->broken || (p->hooks->interrupted && p->hooks->interrupted(p->hooks->context));
   pthread_mutex_unlock(p->lock);
   return yes;
 }
@@ -81,6 +82,7 @@ static gg_status locked_checkpoint(void *context, gg_archive *archive, gg_error 
   part *p = context;
   pthread_mutex_lock(p->lock);
   gg_status status = store_both(p, archive, err);
+  *p->broken |= status != GG_OK;
   pthread_mutex_unlock(p->lock);
   return status;
 }
@@ -90,7 +92,7 @@ static void *run_part(void *argument)
   part *p = argument;
   gg_hooks hooks = {.context = p};
   if (p->hooks && p->hooks->progress) hooks.progress = locked_progress;
-  if (p->hooks && p->hooks->interrupted) hooks.interrupted = locked_interrupted;
+  if (p->hooks && (p->hooks->interrupted || p->hooks->checkpoint)) hooks.interrupted = locked_interrupted;
   if (p->hooks && p->hooks->checkpoint) hooks.checkpoint = locked_checkpoint;
   p->scene.engine = p->kind;
   p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &hooks,
@@ -121,7 +123,7 @@ static void run_parts(part parts[2], bool beside)
   run_part(&parts[GG_MD]);
   if (running)
     pthread_join(thread, NULL);
-  else
+  else if (!*parts[GG_MD].broken)
     run_part(&parts[GG_DSMC]);
 }
 
@@ -158,12 +160,13 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};
   part parts[2];
-  bool beside = threads > 1;
+  bool beside = threads > 1, broken = false;
   gg_status status = GG_OK;
   for (int k = 0; k < 2; k++) {
     parts[k] = (part){.scene = *scene, .kind = (gg_engine_kind)k, .hooks = hooks, .comparison = c, .lock = &lock};
     parts[k].threads = beside ? (threads + 1) / 2 : 1;
     parts[k].latest = latest;
+    parts[k].broken = &broken;
     if (k == GG_MD && !beside) parts[k].next = next_of(scene, GG_DSMC);
     const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
     if (resume && status == GG_OK) status = gg_archive_unnest(&parts[k].resume, name, resume, err);

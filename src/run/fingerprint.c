@@ -1,5 +1,6 @@
 #include "run/fingerprint.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,11 +9,23 @@
 
 /* Every key that fixes the trajectory or what is averaged; stop rules and output may change between parts of a run. */
 typedef struct gg_fingerprint {
-  const char *name;
+  char name[24];
   double value;
 } gg_fingerprint;
 
 enum { MOST_FINGERPRINT = 64 };
+
+static const char *const pairs[GG_PAIRS] = {[GG_11] = ".11", [GG_12] = ".12", [GG_22] = ".22"};
+
+static GG_PRINTF(4, 5) int put(gg_fingerprint *f, int n, double value, const char *format, ...)
+{
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(f[n].name, sizeof f[n].name, format, arguments);
+  va_end(arguments);
+  f[n].value = value;
+  return n + 1;
+}
 
 static int fingerprint(const gg_scene *s, gg_fingerprint *f)
 {
@@ -39,7 +52,6 @@ static int fingerprint(const gg_scene *s, gg_fingerprint *f)
                                   {"gravity", s->gravity[2]},
                                   {"run.warmup", s->run.warmup},
                                   {"run.replicas", (double)s->run.replicas},
-                                  {"run.seed", (double)s->run.seed},
                                   {"md.contact_time", s->md.contact_time},
                                   {"dsmc.time_step", s->dsmc.time_step},
                                   {"dsmc.particles", (double)s->dsmc.particles},
@@ -48,20 +60,21 @@ static int fingerprint(const gg_scene *s, gg_fingerprint *f)
   int n = sizeof fixed / sizeof *fixed;
   memcpy(f, fixed, sizeof fixed);
   for (int p = 0; p < GG_PAIRS; p++) {
-    f[n++] = (gg_fingerprint){"collision.e", s->collision.e[p]};
-    f[n++] = (gg_fingerprint){"collision.beta", s->collision.beta[p]};
-    f[n++] = (gg_fingerprint){"collision.mu", s->collision.mu[p]};
+    const char *const pair = s->n_species > 1 ? pairs[p] : "";
+    n = put(f, n, s->collision.e[p], "collision.e%s", pair);
+    n = put(f, n, s->collision.beta[p], "collision.beta%s", pair);
+    n = put(f, n, s->collision.mu[p], "collision.mu%s", pair);
   }
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
-    f[n++] = (gg_fingerprint){"species: fraction", s->species[i].fraction};
-    f[n++] = (gg_fingerprint){"species: diameter", s->species[i].diameter};
-    f[n++] = (gg_fingerprint){"species: mass", s->species[i].mass};
-    f[n++] = (gg_fingerprint){"species: inertia", s->species[i].inertia};
+    n = put(f, n, s->species[i].fraction, "species.%d.fraction", i + 1);
+    n = put(f, n, s->species[i].diameter, "species.%d.diameter", i + 1);
+    n = put(f, n, s->species[i].mass, "species.%d.mass", i + 1);
+    n = put(f, n, s->species[i].inertia, "species.%d.inertia", i + 1);
   }
   return n;
 }
 
-static const char extension_item[] = "campaign/extension";
+static const char seed_item[] = "campaign/seed", extension_item[] = "campaign/extension";
 enum { SIGNATURE = 2048 };
 
 /* Callbacks cannot be kept: what a run was extended by has to be registered again before it goes on. */
@@ -78,6 +91,21 @@ static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_e
                  *there ? there : "nothing of its own", *here ? here : "nothing of its own");
 }
 
+static const char another[] = "the checkpoint is of another run: %s differs (there %s, here %s); only stop rules and "
+                              "output may change";
+
+/* Seeds are whole numbers that a double cannot tell apart. */
+static gg_status same_seed(const gg_scene *scene, const gg_archive *a, gg_error *err)
+{
+  int64_t here = (int64_t)scene->run.seed, there;
+  char one[24], two[24];
+  GG_TRY(gg_archive_get(a, seed_item, GG_ITEM_I64, &there, 1, err));
+  if (here == there) return GG_OK;
+  snprintf(one, sizeof one, "%lld", (long long)there);
+  snprintf(two, sizeof two, "%lld", (long long)here);
+  return gg_fail(err, GG_BAD_INPUT, another, "run.seed", one, two);
+}
+
 gg_status gg_fingerprint_put(const gg_scene *scene, gg_archive *a, gg_error *err)
 {
   gg_fingerprint f[MOST_FINGERPRINT];
@@ -87,6 +115,8 @@ gg_status gg_fingerprint_put(const gg_scene *scene, gg_archive *a, gg_error *err
   char signature[SIGNATURE] = "";
   gg_extension_signature(scene->extension, signature, sizeof signature);
   GG_TRY(gg_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err));
+  const int64_t seed = (int64_t)scene->run.seed;
+  GG_TRY(gg_archive_put(a, seed_item, GG_ITEM_I64, &seed, 1, err));
   return gg_archive_put(a, "campaign/fingerprint", GG_ITEM_F64, values, (size_t)n, err);
 }
 
@@ -106,6 +136,7 @@ static void show(const char *key, double value, char *text, size_t size)
 gg_status gg_fingerprint_check(const gg_scene *scene, const gg_archive *a, gg_error *err)
 {
   GG_TRY(same_extension(scene, a, err));
+  GG_TRY(same_seed(scene, a, err));
   gg_fingerprint here[MOST_FINGERPRINT];
   double there[MOST_FINGERPRINT];
   int n = fingerprint(scene, here);
@@ -115,10 +146,7 @@ gg_status gg_fingerprint_check(const gg_scene *scene, const gg_archive *a, gg_er
       char one[256], two[256];
       show(here[i].name, there[i], one, sizeof one);
       show(here[i].name, here[i].value, two, sizeof two);
-      return gg_fail(
-          err, GG_BAD_INPUT,
-          "the checkpoint is of another run: %s differs (there %s, here %s); only stop rules and output may change",
-          here[i].name, one, two);
+      return gg_fail(err, GG_BAD_INPUT, another, here[i].name, one, two);
     }
   return GG_OK;
 }

@@ -110,6 +110,7 @@ static void unwritable_checkpoints(void **state)
   assert_int_equal(gg_compare(s, &options, &c, &err), GG_BAD_FILE);
   assert_non_null(c);
   assert_ok(gg_result_find(gg_comparison_result(c, "md"), "temperature", &m, &err));
+  assert_null(gg_comparison_result(c, "dsmc")); /* was not begun any more */
   assert_true(access("t_out.h5", F_OK) != 0);
   gg_comparison_free(c);
   gg_scene_free(s);

@@ -260,13 +260,15 @@ static void other_scene(void **state)
   (void)state;
   gg_scene s = scene_of(0);
   s.run.collisions = 400, s.output.checkpoint_every = 1e6;
+  s.run.seed = 9007199254740992;
   gg_archive archive = {0};
   gg_result_free(in_two_parts(&s, 60, &archive));
-  gg_scene other[6] = {s, s, s, s, s, s};
+  gg_scene other[7] = {s, s, s, s, s, s, s};
   other[0].phi = 0.21, other[1].collision.e[1] = 0.5, other[2].species[1].mass = 2, other[3].walls.beta = 0;
-  other[4].gravity[1] = -1, other[5].run.warmup = 100;
-  const char *const names[] = {"phi", "collision.e", "mass", "walls.beta", "gravity", "run.warmup"};
-  for (int i = 0; i < 6; i++) {
+  other[4].gravity[1] = -1, other[5].run.warmup = 100, other[6].run.seed++;
+  const char *const names[] = {"phi",     "collision.e", "species.2.mass",  "walls.beta",
+                               "gravity", "run.warmup",  "9007199254740993"};
+  for (int i = 0; i < 7; i++) {
     gg_result *r = NULL;
     gg_error err;
     assert_int_equal(gg_run_scene(&other[i], &archive, 1, NULL, &r, &err), GG_BAD_INPUT);
