@@ -215,6 +215,22 @@ typedef struct gg_result gg_result; /* what came out of one engine's run */
  * results so far, or the output could not be at the end. */
 GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
 
+typedef struct gg_checkpoint_part { /* one engine's */
+  const char *engine;               /* "md", "dsmc"; NULL: none */
+  const char *phase;                /* "warm-up", "averaging"; "stepped": a saved simulation */
+  double collisions_per_grain;      /* about so many since the start ... */
+  double averaged;                  /* ... and averaged over; 0 of a saved simulation, as the next */
+  double seconds;                   /* by the clock on the wall */
+} gg_checkpoint_part;
+typedef struct gg_checkpoint_info {
+  const char *kind; /* "run", "comparison", "simulation" */
+  gg_checkpoint_part part[2];
+  uint64_t frames; /* of the trajectory, in the file beside it */
+  int older;       /* FILE is missing or damaged: this is of FILE.1 */
+} gg_checkpoint_info;
+/* What a checkpoint or a saved simulation holds, and the scene (may be NULL) that it belongs to. */
+GG_API gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err);
+
 /* ---- Results ---- */
 
 typedef struct gg_measurement {

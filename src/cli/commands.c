@@ -20,9 +20,9 @@ const gg_command gg_commands[] = {
      "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side "
      "by side. Beside it a snapshot, if there are positions, and a page for each observable that left curves.",
      GG_OPT_OUTPUT | GG_OPT_FORMAT | GG_OPT_QUIET, gg_cli_plot_main},
-    {"info", "[FILE]", "What a result file holds, or every key of a scene and what it switches on and off",
-     "Without a file: every key that a scene may have, with its default and what it takes.", GG_OPT_SET | GG_OPT_JSON | GG_OPT_QUIET,
-     gg_cli_info_main},
+    {"info", "[FILE]", "What a result or a checkpoint holds, or every key of a scene and what it switches on and off",
+     "Without a file: every key that a scene may have, with its default and what it takes.",
+     GG_OPT_SET | GG_OPT_JSON | GG_OPT_QUIET, gg_cli_info_main},
     {"bench", "[md|dsmc|observables]", "How fast the engines are: collisions per second by kernel, density and size",
      "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "
      "repeats.\n"

@@ -185,12 +185,38 @@ static void print_file(const gg_options *o, const gg_comparison *c)
   print_contents(c, &about);
 }
 
+/* Of a checkpoint; false where the file is none. */
+static bool print_checkpoint(const gg_options *o)
+{
+  gg_checkpoint_info about;
+  gg_scene *scene = NULL;
+  char *yaml = NULL;
+  if (gg_checkpoint_about(o->input, &about, &scene, NULL) != GG_OK) return false;
+  const char *what = strcmp(about.kind, "simulation") == 0 ? "a saved" : "a checkpoint of a";
+  printf("%s%s: %s %s, graingas %s\n\n", o->input, about.older ? ".1" : "", what, about.kind, gg_version());
+  for (int k = 0; k < 2; k++) {
+    const gg_checkpoint_part *p = &about.part[k];
+    if (!p->engine) continue;
+    printf("  %s: %s, after %.0f collisions a grain", p->engine, p->phase, p->collisions_per_grain);
+    if (p->averaged > 0) printf(", %.0f of them averaged over", p->averaged);
+    if (p->seconds > 0) printf(", %.3g s", p->seconds);
+    printf("\n");
+  }
+  if (about.frames) printf("  %llu frames of its trajectory beside it\n", (unsigned long long)about.frames);
+  gg_scene_to_yaml(scene, &yaml, NULL);
+  printf("\nscene:\n%s", yaml ? yaml : "");
+  free(yaml);
+  gg_scene_free(scene);
+  return true;
+}
+
 static int inform_result(const gg_options *o)
 {
   gg_error err;
   char *text = NULL;
   gg_comparison *c = NULL;
   gg_status status = gg_comparison_read(o->input, &c, &err);
+  if (status != GG_OK && !o->json && print_checkpoint(o)) return GG_OK;
   if (status == GG_OK && o->json) status = gg_comparison_to_json(c, &text, &err);
   if (status == GG_OK && o->json) gg_cli_print_text(text);
   if (status == GG_OK && !o->json) print_file(o, c);

@@ -43,6 +43,8 @@ const gg_archive *gg_door_run_resume(const gg_door_run *run);
 gg_status gg_door_trajectory_begin(gg_door_run *run, gg_hooks *hooks, gg_error *err);
 /* All frames so far are safe; a checkpoint says how many they are. */
 gg_status gg_door_trajectory_mark(const gg_door_run *run, gg_archive *archive, gg_error *err);
+/* How many they are, by an archive. */
+uint64_t gg_door_trajectory_frames(const gg_archive *archive);
 /* Before the result is written. */
 gg_status gg_door_trajectory_finish(gg_door_run *run, gg_result *result, gg_error *err);
 /* The log, of a run that is done. */

@@ -101,6 +101,12 @@ gg_status gg_door_trajectory_begin(gg_door_run *r, gg_hooks *hooks, gg_error *er
   return status;
 }
 
+uint64_t gg_door_trajectory_frames(const gg_archive *a)
+{
+  gg_frame_mark mark = {0};
+  return gg_archive_get(a, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) == GG_OK ? mark.frames : 0;
+}
+
 gg_status gg_door_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_error *err)
 {
   char name[NAME] = "";

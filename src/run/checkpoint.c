@@ -48,3 +48,15 @@ gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *a, gg_error *e
   }
   return GG_OK;
 }
+
+gg_status gg_run_how_far(const gg_archive *a, gg_checkpoint_part *part, gg_error *err)
+{
+  struct gg_replicas_state state;
+  GG_TRY(gg_archive_get(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
+  double window = state.averaging ? (double)(state.due - state.window_at) : 0;
+  part->phase = state.averaging ? "averaging" : "warm-up";
+  part->collisions_per_grain = (double)state.due * GG_SAMPLING_INTERVAL;
+  part->averaged = window * GG_SAMPLING_INTERVAL;
+  part->seconds = state.wall;
+  return GG_OK;
+}

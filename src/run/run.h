@@ -26,6 +26,9 @@ typedef struct gg_hooks {
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                        gg_result **result, gg_error *err);
 
+/* How far a run's archive is; GG_BAD_FILE of any other. */
+gg_status gg_run_how_far(const gg_archive *archive, gg_checkpoint_part *part, gg_error *err);
+
 /* Both engines and every theory. */
 enum { GG_MOST_THEORIES = 32 };
 struct gg_comparison {

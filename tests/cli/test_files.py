@@ -72,6 +72,8 @@ def test_resumed_comparison_is_the_same():
     if code == 0:
         return
     check(code == 130 and "--resume scene.checkpoint.h5" in err, code, err)
+    told = run("info", "scene.checkpoint.h5").out
+    check("a checkpoint of a comparison" in told and "  md: " in told, told)
     done = run(*args, "--resume", "scene.checkpoint.h5")
     check(done.code == 0, done.err)
     for engine in "md", "dsmc":
@@ -82,6 +84,9 @@ def test_checkpoint_of_another_scene():
     with open("scene.yaml", "w") as f:
         f.write(SCENE % 1e9 + "output: {checkpoint_every: 0.2}\n")
     interrupted("run", "scene.yaml", "--quiet", after=lambda _: os.path.exists("scene.checkpoint.h5"))
+    done = run("info", "scene.checkpoint.h5")
+    check(done.code == 0 and "a checkpoint of a run" in done.out and "  md: " in done.out, done.out, done.err)
+    check("collisions a grain" in done.out and "phi: 0.2" in done.out, done.out)
     done = run("run", "scene.yaml", "--resume", "scene.checkpoint.h5", "--set", "collision.e=0.8")
     check(done.code == 2 and "collision.e" in done.err, done.code, done.err)
 

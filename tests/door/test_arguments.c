@@ -69,6 +69,8 @@ static void simulations(void **state)
   assert_missing(gg_simulation_save(m, NULL, &err));
   assert_missing(gg_simulation_load(NULL, NULL, &other, &err));
   assert_missing(gg_simulation_load("x", NULL, NULL, &err));
+  assert_missing(gg_checkpoint_about(NULL, &(gg_checkpoint_info){0}, NULL, &err));
+  assert_missing(gg_checkpoint_about("x", NULL, NULL, &err));
   assert_null(other);
   gg_simulation_free(m);
   gg_simulation_free(NULL);

@@ -223,6 +223,16 @@ static void saved_and_loaded(void **state)
     assert_refused(gg_simulation_load("t_saved.h5", changed, &again, &err), words[k][2]);
     gg_scene_free(changed);
   }
+  gg_checkpoint_info about;
+  gg_scene *stored = NULL;
+  char phi[40];
+  assert_ok(gg_checkpoint_about("t_saved.h5", &about, &stored, &err));
+  assert_true(strcmp(about.kind, "simulation") == 0 && strcmp(about.part[0].engine, "md") == 0);
+  assert_true(about.part[0].collisions_per_grain > 0 && !about.part[1].engine && !about.older);
+  assert_ok(gg_scene_get(stored, "phi", phi, sizeof phi, &err));
+  assert_true(strtod(phi, NULL) > 0);
+  gg_scene_free(stored);
+  assert_int_equal(gg_checkpoint_about("t_nowhere.h5", &about, NULL, &err), GG_BAD_FILE);
   assert_ok(gg_simulation_load("t_saved.h5", other, &again, &err));
   gg_simulation_free(again);
   assert_int_equal(gg_simulation_load("t_nowhere.h5", NULL, &again, &err), GG_BAD_FILE);

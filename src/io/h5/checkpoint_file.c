@@ -168,6 +168,18 @@ bool gg_is_checkpoint_of(const char *file, const char *path)
   return is;
 }
 
+char *gg_checkpoint_scene(const char *path, bool older)
+{
+  gg_h5 h;
+  char *before = NULL;
+  if (older && asprintf(&before, "%s.1", path) < 0) return NULL;
+  gg_h5_open(&h, older ? before : path);
+  char *yaml = gg_h5_read_text(&h, "/checkpoint/scene");
+  gg_h5_close(&h);
+  free(before);
+  return yaml;
+}
+
 void gg_checkpoint_remove(const char *path)
 {
   gg_output_path place;

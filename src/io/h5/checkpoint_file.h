@@ -20,4 +20,7 @@ bool gg_is_checkpoint_of(const char *file, const char *path);
 /* Fills an empty archive. *older: FILE.1 had to be taken. GG_BAD_FILE if neither can be read. */
 gg_status gg_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err);
 
+/* The scene of a checkpoint that was read, as YAML, to be freed; NULL where it cannot be read. */
+char *gg_checkpoint_scene(const char *path, bool older);
+
 #endif
