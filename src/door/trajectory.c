@@ -117,10 +117,19 @@ gg_status gg_door_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_
   return gg_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
 }
 
+/* Gigabytes take seconds: a run that can be gone on from is stopped here, too. */
+static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *err)
+{
+  gg_door_run *r = context;
+  if (r->stored && gg_door_run_stopped(r))
+    return gg_fail(err, GG_INTERRUPTED, "interrupted while the trajectory was put into %s", r->options.output);
+  return store_in_result(context, frame, err);
+}
+
 gg_status gg_door_trajectory_finish(gg_door_run *r, gg_result *result, gg_error *err)
 {
   if (r->late) gg_result_warn(result, "the trajectory begins where the run was resumed: it was not asked for before");
-  return r->log.fd >= 0 ? gg_frame_log_replay(&r->log, store_in_result, r, err) : GG_OK;
+  return r->log.fd >= 0 ? gg_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
 }
 
 void gg_door_trajectory_remove(const gg_door_run *r)

@@ -168,6 +168,40 @@ static void checkpoints_of_others(void **state)
   gg_scene_free(s);
 }
 
+static int is_over(void *context, const gg_progress *now)
+{
+  if (context && now->fraction == 1) *(int *)context = 1;
+  return 0;
+}
+
+static int if_over(void *context)
+{
+  return context && *(int *)context;
+}
+
+/* Stopped while the frames go into the result: nothing is lost, and the run ends when it is gone on from. */
+static void stopped_at_the_end(void **state)
+{
+  (void)state;
+  gg_error err;
+  int over = 0;
+  gg_scene *s = scene_of(SHEAR);
+  gg_result *r = NULL;
+  assert_ok(gg_scene_set(s, "output.checkpoint_every", "0.0001", &err));
+  assert_ok(gg_scene_set(s, "output.trajectory_every", "50", &err));
+  gg_run_options options = {.output = "t_late.h5", .checkpoint = "t_late.checkpoint.h5", .context = &over};
+  options.progress = is_over, options.stop = if_over;
+  assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
+  assert_non_null(strstr(err.message, "the trajectory"));
+  assert_true(r && access("t_late.h5", F_OK) != 0 && access("t_late.checkpoint.frames", F_OK) == 0);
+  gg_result_free(r);
+  options.context = NULL, options.resume = options.checkpoint;
+  gg_run(s, &options, &r, &err);
+  assert_true(r && access("t_late.h5", F_OK) == 0 && access("t_late.checkpoint.frames", F_OK) != 0);
+  gg_result_free(r);
+  gg_scene_free(s);
+}
+
 static uint64_t last_count;
 static int note_count(void *context, const gg_progress *now)
 {
@@ -222,7 +256,7 @@ int main(void)
       cmocka_unit_test(stopped_anywhere),       cmocka_unit_test(a_single_sample),
       cmocka_unit_test(unwritable_checkpoints), cmocka_unit_test(one_path_for_two),
       cmocka_unit_test(checkpoints_of_others),  cmocka_unit_test(progress_counts_all_replicas),
-      cmocka_unit_test(decimal_comma),
+      cmocka_unit_test(decimal_comma),          cmocka_unit_test(stopped_at_the_end),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
