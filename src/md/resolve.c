@@ -74,6 +74,8 @@ void gg_md_select_resolution(gg_md *e)
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
   e->resolve =
       e->model.law.e ? resolutions_by_law[rule] : resolutions[rule][mixture][timed][sums][e->thermostat == GG_GAUSSIAN];
+  e->resolve_parted = e->resolve;
+  if (gg_md_needs_parting(&e->model)) e->resolve = gg_md_resolve_parting;
   e->resolve_shown = e->resolve;
   if (e->callback) e->resolve = gg_md_show_collision;
   e->resolve_wall =

@@ -118,7 +118,8 @@ struct gg_md {
   gg_md_wall_resolution *resolve_wall;
   gg_collision_callback *callback; /* told of every collision; NULL: none, and `resolve` is not wrapped */
   void *callback_context;
-  gg_md_resolution *resolve_shown; /* what `resolve` goes on to then */
+  gg_md_resolution *resolve_shown;  /* what `resolve` goes on to then */
+  gg_md_resolution *resolve_parted; /* what gg_md_resolve_parting goes on to */
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white-noise thermostat */
 };
@@ -169,6 +170,10 @@ double gg_md_bucket_width(double events_per_time);
  * operation that sets it. */
 gg_md_resolution gg_md_show_collision;
 gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
+
+/* parting.c: a resolution after which the pair parts, whatever is lost in rounding; and does this model need it? */
+gg_md_resolution gg_md_resolve_parting;
+bool gg_md_needs_parting(const gg_model *model);
 
 /* kernels.c: choose the kernels that this model and its collision sums need; resolve.c: the part that concerns
  * contacts. */

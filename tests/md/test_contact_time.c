@@ -65,6 +65,57 @@ static void cooling_cluster(void **state)
   md_destroy(e);
 }
 
+/* e = 0, where pairs leave each other at a normal speed of 0 but for rounding: every rule, every way to find
+ * neighbours, every drive. What collides goes on in time, touches and does not overlap, and is where the grid says. */
+static void no_restitution(void **state)
+{
+  (void)state;
+  const struct {
+    gg_flow flow;
+    double phi, beta, mu;
+  } cases[] = {{GG_HCS, 0.1, -1, INFINITY},  {GG_HCS, 0.01, 0, INFINITY},      {GG_HCS, 0.5, -1, INFINITY},
+               {GG_USF, 0.01, -1, INFINITY}, {GG_USF, 0.2, 0.3, 0.3},          {GG_USF, 0.5, 1, INFINITY},
+               {GG_HSS, 0.05, -1, INFINITY}, {GG_COUETTE, 0.1, -1, INFINITY},  {GG_COUETTE, 0.2, 0, 0.5},
+               {GG_CHUTE, 0.2, 0, INFINITY}, {GG_POISEUILLE, 0.1, 0, INFINITY}};
+  const double restitution[] = {0, 1e-300, 1e-6, 0.01};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+    for (int r = 0; r < 4; r++) {
+      gg_scene s =
+          md_scene((md_case){cases[k].flow, 500, cases[k].phi, restitution[r], cases[k].beta, cases[k].mu, {0}});
+      s.md.contact_time = GG_AUTO;
+      s.walls.e = restitution[r], s.walls.beta = 0, s.walls.speed = 1;
+      if (s.flow == GG_HSS) s.thermostat = GG_GAUSSIAN;
+      if (s.flow == GG_CHUTE || s.flow == GG_POISEUILLE) s.gravity[0] = 0.3;
+      if (s.flow == GG_CHUTE) s.gravity[1] = -1, s.walls.top = GG_OPEN_TOP;
+      gg_model m = md_model_of(&s);
+      gg_md *e = md_create(&m, k);
+      double time = 20 / gg_model_collision_rate(&m, m.temperature0), elapsed;
+      assert_int_equal(gg_md_ops.advance(&e->base, time, 100 * 500 * 500, &elapsed, NULL), GG_OK);
+      if (!(elapsed == time && e->k.treated < e->k.collisions && e->k.worst_overlap < 1e-11 && md_misplaced(e) == 0))
+        fail_msg("case %zu, e %g: %g of %g, %g treated of %g, overlap %g", k, restitution[r], elapsed, time,
+                 (double)e->k.treated, (double)e->k.collisions, e->k.worst_overlap);
+      md_destroy(e);
+    }
+}
+
+/* The reference path has the same bits there, too. */
+static void no_restitution_plain(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    gg_model m = md_model((md_case){k ? GG_USF : GG_HCS, 400, 0.15, 0, 0.2, INFINITY, {0}});
+    gg_md *fast = md_create(&m, 3), *plain = md_create(&m, 3);
+    plain->plain = true;
+    gg_md_select(plain);
+    assert_true(fast->kernel != plain->kernel);
+    md_collide(fast, 20000);
+    md_collide(plain, 20000);
+    assert_int_equal(md_hash(fast), md_hash(plain));
+    md_destroy(fast);
+    md_destroy(plain);
+  }
+}
+
 typedef struct cooling {
   double mean[2], error[2]; /* decay of ln T a collision and grain; collision rate over sqrt(T) */
 } cooling;
@@ -144,7 +195,8 @@ static void heap_at_rest(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(three_in_a_line), cmocka_unit_test(cooling_cluster),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(three_in_a_line),      cmocka_unit_test(cooling_cluster),
+                                     cmocka_unit_test(no_restitution),       cmocka_unit_test(no_restitution_plain),
                                      cmocka_unit_test(gas_does_not_feel_it), cmocka_unit_test(heap_at_rest)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* Where Enskog theory is exact (dilute), the two engines are two ways to the same numbers: uniform shear at phi = 0.01,
- * smooth, rough and frictional, within four combined standard errors; the energy balance closes; and the same test sees
- * a restitution coefficient that is off by 0.02 (a canary: it must not pass). */
+ * smooth, rough and frictional, within four combined standard errors; heated gases without restitution; the energy
+ * balance closes; and the same test sees a restitution coefficient that is off by 0.02 (a canary: it must not pass). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -74,6 +74,29 @@ static void frictional(void **state)
   (void)state, agree(0.9, 0.4, 0.123);
 }
 
+/* e = 0: grains keep nothing of their relative normal speed. So dilute that those that leave together do not meet
+ * again.
+ */
+static void no_restitution(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(0, -1, INFINITY);
+  s.flow = GG_HSS, s.thermostat = GG_GAUSSIAN;
+  s.phi = 0.001, s.particles = 300;
+  s.run.collisions = 1500;
+  gg_result *md = run(s, GG_MD), *dsmc = run(s, GG_DSMC);
+  const gg_quantity all[] = {GG_Q_COLLISION_RATE, GG_Q_PRESSURE, GG_Q_A2};
+  for (int i = 0; i < 3; i++) {
+    double z = gg_z_score(&md->value[all[i]], &dsmc->value[all[i]]);
+    print_message("# %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f\n", gg_quantity_name(all[i]),
+                  md->value[all[i]].mean, md->value[all[i]].error, dsmc->value[all[i]].mean, dsmc->value[all[i]].error,
+                  z);
+    assert_true(fabs(z) < 4);
+  }
+  assert_true(md->value[GG_Q_COLLISION_RATE].error < 0.005 * md->value[GG_Q_COLLISION_RATE].mean);
+  gg_result_free(md), gg_result_free(dsmc);
+}
+
 /* The canary: e off by 0.02 in one engine is seen. */
 static void canary(void **state)
 {
@@ -86,10 +109,8 @@ static void canary(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(smooth),
-      cmocka_unit_test(rough),
-      cmocka_unit_test(frictional),
-      cmocka_unit_test(canary),
+      cmocka_unit_test(smooth),     cmocka_unit_test(rough),  cmocka_unit_test(no_restitution),
+      cmocka_unit_test(frictional), cmocka_unit_test(canary),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
