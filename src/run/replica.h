@@ -33,10 +33,11 @@ typedef struct gg_replica {
     uint64_t averaging, window_samples; /* curves are being taken; samples since */
     double next_frame, frame_every;     /* collisions per grain; of the frames asked for when it was set */
     /* Of the interval under way, where the run was stopped within it. */
-    int64_t part;      /* in which it was stopped, from 1 on; 0: between intervals */
-    double gone;       /* time of the parts before */
-    double part_gone;  /* of this part */
-    uint64_t happened; /* collisions of the engine when the interval began */
+    int64_t part;       /* in which it was stopped, from 1 on; 0: between intervals */
+    double gone;        /* time of the parts before */
+    double part_gone;   /* of this part */
+    uint64_t happened;  /* collisions of the engine when the interval began */
+    uint64_t cut_short; /* intervals in a row that ended with their most collisions */
   } clock;
 } gg_replica;
 
