@@ -153,9 +153,45 @@ static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
   return s->particles > GG_LEAST_ENSEMBLE ? s->particles : GG_LEAST_ENSEMBLE;
 }
 
+/* Within these everything is far from where numbers end, in both engines; beyond them nothing is to be learnt. */
+#define LEAST_PHI 1e-20
+#define MOST_UNEQUAL_MASSES 1e12
+#define MOST_UNEQUAL_DIAMETERS 1e6
+static const double starts_within[2] = {1e-6, 1e30}; /* temperature of sheared flows, (d rate)^2 */
+
+static gg_status check_unequal(const char *key, double a, double b, double most, gg_error *err)
+{
+  double ratio = fmax(a / b, b / a);
+  if (ratio <= most) return GG_OK;
+  return gg_fail(err, GG_BAD_INPUT, "species: values of %s as unequal as 1 : %g are not allowed; allowed: up to 1 : %g",
+                 key, ratio, most);
+}
+
+static gg_status check_scales(const gg_scene *s, gg_error *err)
+{
+  if (s->phi > 0 && s->phi < LEAST_PHI)
+    return gg_fail(err, GG_BAD_INPUT,
+                   "phi: %g is too small a solid fraction; allowed: from %g to 0.6, or 0, the Boltzmann limit", s->phi,
+                   LEAST_PHI);
+  if (s->n_species == 2) {
+    const gg_species *one = &s->species[0], *two = &s->species[1];
+    GG_TRY(check_unequal("mass", one->mass, two->mass, MOST_UNEQUAL_MASSES, err));
+    GG_TRY(check_unequal("diameter", one->diameter, two->diameter, MOST_UNEQUAL_DIAMETERS, err));
+  }
+  if (!gg_flow_is_sheared(s->flow) || s->temperature == GG_AUTO) return GG_OK;
+  double speed = s->shear_rate * s->species[0].diameter, T = s->temperature / (speed * speed);
+  if (T >= starts_within[0] && T <= starts_within[1]) return GG_OK;
+  return gg_fail(err, GG_BAD_INPUT,
+                 "temperature: %g is %.3g (diameter x shear_rate)^2; allowed in sheared flows: from %g to %g of that, "
+                 "here %.3g to %.3g, or auto",
+                 s->temperature, T, starts_within[0], starts_within[1], starts_within[0] * speed * speed,
+                 starts_within[1] * speed * speed);
+}
+
 gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
 {
   if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
+  GG_TRY(check_scales(s, err));
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat, .extension = s->extension};
   m->law = gg_extension_law(s->extension);
   if (m->law.e && s->small_shear == GG_ON)

@@ -20,6 +20,20 @@ static gg_status check_box(const gg_model *m, gg_error *err)
   return GG_OK;
 }
 
+/* A grain that meets nobody crosses cell after cell, and the box again and again: each crossing is an event. */
+#define MOST_CROSSINGS 1e7
+
+static gg_status check_crossings(const gg_model *m, gg_error *err)
+{
+  double crossings = gg_md_crossings_per_collision(m);
+  if (crossings <= MOST_CROSSINGS) return GG_OK;
+  return gg_fail(
+      err, GG_BAD_INPUT,
+      "phi: at %g grains would cross %.1g cells between two collisions, hours for a collision a grain; allowed "
+      "with engine: md: up to %.0g; engine: dsmc is exact at such densities",
+      m->phi, crossings, MOST_CROSSINGS);
+}
+
 gg_status gg_md_accepts(const gg_model *m, gg_error *err)
 {
   if (m->boltzmann)
@@ -40,5 +54,6 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
   if (m->open_top && m->gravity[1] >= 0)
     return gg_fail(err, GG_BAD_INPUT,
                    "walls.top: open needs gravity towards the lower wall: gravity: [gx, gy < 0, gz]");
-  return check_box(m, err);
+  GG_TRY(check_box(m, err));
+  return check_crossings(m, err);
 }

@@ -33,6 +33,10 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
     used += snprintf(text + used, sizeof text - (size_t)used, "skins of %.2g d, ", radius);
   snprintf(text + used, sizeof text - (size_t)used, "%s", why[where]);
   tell(line, context, "search", text);
+  double crossings = gg_md_crossings_per_collision(m);
+  if (crossings < 100) return;
+  snprintf(text, sizeof text, "%.2g a collision: so dilute a gas is slow; engine: dsmc is exact there", crossings);
+  tell(line, context, "crossings of cells", text);
 }
 
 void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)

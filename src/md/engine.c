@@ -7,11 +7,18 @@
 #include "md/thermostat.h"
 
 /* Events expected per time at the start: collisions (each predicted about 1.25 times) and crossings. */
-static double guess_event_rate(const gg_md *e)
+static double guess_event_rate(const gg_md *e, double T)
 {
-  double T = e->model.temperature0, rate = 0.625 * gg_model_collision_rate(&e->model, T);
+  double rate = 0.625 * gg_model_collision_rate(&e->model, T);
   for (int a = 0; a < 3; a++) rate += 0.8 * sqrt(T) / e->cells.width[a];
   return e->n * fmax(rate, 1e-300);
+}
+
+/* To guess by: a sheared gas that begins in the cold does not stay there. */
+static double early_temperature(const gg_md *e)
+{
+  double T = e->model.temperature0;
+  return e->model.shear_rate != 0 && T < 0.01 ? 0.01 : T;
 }
 
 /* Grains come to rest on a wall and on each other, where the mean free time shrinks to t_c itself: t_c is set by how
@@ -42,11 +49,11 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     gg_md_enter_grid(e);
     if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   }
-  e->k.mean_free_time = 1 / fmax(gg_model_collision_rate(&e->model, e->model.temperature0), 1e-300);
+  e->k.mean_free_time = 1 / fmax(gg_model_collision_rate(&e->model, early_temperature(e)), 1e-300);
   e->k.contact_time = e->model.contact_time * (falls_across(e) ? 1 / sqrt(fabs(e->gravity.y)) : e->k.mean_free_time);
   if (e->last)
     for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
-  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e)));
+  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, early_temperature(e))));
   gg_md_select(e);
   gg_md_thermostat_begin(e);
   for (uint32_t i = 0; i < e->n; i++) {

@@ -74,6 +74,17 @@ enum gg_md_search_way gg_md_choose_way(const gg_model *m, double *radius, int32_
   return comoving ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS;
 }
 
+double gg_md_crossings_per_collision(const gg_model *m)
+{
+  double radius, rate = 0, T = m->temperature0;
+  int32_t n[3];
+  if (gg_md_choose_way(m, &radius, n) == GG_MD_NEIGHBOUR_LISTS) return 0;
+  for (int i = 0; i < m->n_species; i++)
+    for (int a = 0; a < 3; a++) /* <|v_a|> over the width */
+      rate += (double)m->n_of[i] / (double)m->n * sqrt(2 * T / (M_PI * m->mass[i])) * n[a] / m->box[a];
+  return 2 * rate / gg_model_collision_rate(m, T); /* a collision has two grains */
+}
+
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {
   int32_t n[3];

@@ -140,6 +140,8 @@ double gg_md_reach(const gg_model *model);
 /* Where partners are best looked for: plain cells, neighbour lists (search/lists.h; *radius: of their skins) or cells
  * that overlap (members.h) or move with the flow (search/comoving_rows.h); and how many cells. */
 enum gg_md_search_way { GG_MD_PLAIN_CELLS, GG_MD_NEIGHBOUR_LISTS, GG_MD_OVERLAPPING_CELLS, GG_MD_COMOVING_ROWS };
+/* Cells that are crossed in a collision's time, all grains together. */
+double gg_md_crossings_per_collision(const gg_model *model);
 enum gg_md_search_way gg_md_choose_way(const gg_model *model, double *radius, int32_t n[3]);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 /* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */

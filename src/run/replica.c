@@ -81,10 +81,18 @@ static gg_status check_collapse(gg_replica *r, bool adapt, uint64_t happened, gg
   bool cut_short = happened >= most_collisions(r, adapt);
   r->clock.cut_short = cut_short ? r->clock.cut_short + 1 : 0;
   if (!cut_short || (adapt && r->clock.cut_short < MOST_CUT_SHORT)) return GG_OK;
+  gg_engine_state state;
+  const char *engine = r->engine->ops->name;
+  r->engine->ops->state(r->engine, &state);
+  if (r->model.contact_time > 0 && state.treated < happened / 2)
+    return gg_fail(err, GG_FAILED,
+                   "%s: collisions come a thousand times faster near time %g than when averaging began: the gas still "
+                   "heats up; give run.warmup a larger value",
+                   engine, r->clock.time);
   return gg_fail(err, GG_FAILED,
                  "%s: collisions accumulate without end (inelastic collapse) near time %g; "
                  "give md.contact_time a larger value (it is %g %s)",
-                 r->engine->ops->name, r->clock.time, r->model.contact_time,
+                 engine, r->clock.time, r->model.contact_time,
                  r->model.gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
 }
 

@@ -162,6 +162,40 @@ static void archives(void **state)
   gg_archive_clear(&a), gg_archive_clear(&b), gg_archive_clear(&c);
 }
 
+static void refused(const gg_scene *s, const char *words)
+{
+  gg_model m;
+  gg_error err = {0};
+  assert_int_equal(gg_model_make(s, GG_DSMC, &m, &err), GG_BAD_INPUT);
+  if (!strstr(err.message, words)) fail_msg("'%s' lacks '%s'", err.message, words);
+}
+
+/* Scales at which numbers would end are refused, with what is allowed; those just within make models of numbers. */
+static void scales(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  gg_model m;
+  gg_error err = {0};
+  const double tiny[] = {9e-21, 1e-300, 1e-308, 5e-324};
+  for (int k = 0; k < 4; k++) s.phi = tiny[k], refused(&s, "allowed: from 1e-20 to 0.6, or 0");
+  s.phi = 1e-20;
+  assert_int_equal(gg_model_make(&s, GG_DSMC, &m, &err), GG_OK);
+  assert_true(isfinite(m.temperature0) && isfinite(m.volume) && m.density > 0);
+  s.phi = 0.1, s.shear_rate = 1e-3, s.temperature = 1e-13;
+  refused(&s, "here 1e-12 to 1e+24");
+  s.temperature = 1e25;
+  refused(&s, "here 1e-12 to 1e+24");
+  s.temperature = 1.01e-12;
+  assert_int_equal(gg_model_make(&s, GG_DSMC, &m, &err), GG_OK);
+  s.temperature = GG_AUTO, s.n_species = 2;
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
+  s.species[1].mass = 2e12;
+  refused(&s, "values of mass as unequal as 1 : 2e+12");
+  s.species[1].mass = 1, s.species[1].diameter = 1e-7;
+  refused(&s, "values of diameter");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -172,6 +206,7 @@ int main(void)
       cmocka_unit_test(kinds),
       cmocka_unit_test(rates_and_units),
       cmocka_unit_test(archives),
+      cmocka_unit_test(scales),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -144,6 +144,26 @@ static void refused(void **state)
   refuse((md_case){GG_USF, 1, 0.1, 0.9, -1, INFINITY, {0}}, "particles");
 }
 
+/* A gas so dilute that 10^7 cells are crossed a collision is refused, and told where it is exact; one less so is not.
+ */
+static void too_dilute(void **state)
+{
+  (void)state;
+  gg_error err = {0};
+  gg_model m = md_model((md_case){GG_HCS, 1000, 1e-12, 0.9, -1, INFINITY, {0}});
+  assert_int_equal(gg_md_ops.accepts(&m, &err), GG_BAD_INPUT);
+  assert_non_null(strstr(err.message, "engine: dsmc is exact"));
+  m = md_model((md_case){GG_HCS, 1000, 1e-11, 0.9, -1, INFINITY, {0}});
+  assert_int_equal(gg_md_ops.accepts(&m, &err), GG_OK);
+  /* The estimate is right where it can be measured. */
+  m = md_model((md_case){GG_EQUILIBRIUM, 1000, 1e-5, 1, -1, INFINITY, {0}});
+  gg_md *e = md_create(&m, 1);
+  md_collide(e, 500);
+  double measured = (double)e->k.events / 500, estimate = gg_md_crossings_per_collision(&m);
+  if (!(fabs(measured / estimate - 1) < 0.2)) fail_msg("%g crossings a collision, not %g", measured, estimate);
+  md_destroy(e);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -152,6 +172,7 @@ int main(void)
       cmocka_unit_test(long_and_flat_boxes),
       cmocka_unit_test(above_an_open_top),
       cmocka_unit_test(refused),
+      cmocka_unit_test(too_dilute),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

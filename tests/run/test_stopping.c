@@ -146,8 +146,26 @@ static void time_limit(void **state)
   }
 }
 
+/* From a start far below the steady temperature both engines come to the same. */
+static void cold_start(void **state)
+{
+  (void)state;
+  gg_result *r[2];
+  for (int k = 0; k < 2; k++) {
+    gg_scene s = scene_of("{flow: usf, phi: 0.01, particles: 500, temperature: 1e-6, dsmc: {particles: 2000}, run: "
+                          "{collisions: 600, warmup: 100}}");
+    s.engine = (gg_engine_kind)k;
+    gg_error err = {0};
+    if (gg_run_scene(&s, NULL, 1, NULL, &r[k], &err) != GG_OK) fail_msg("%s", err.message);
+  }
+  double z = gg_z_score(&r[GG_MD]->value[GG_Q_COLLISION_RATE], &r[GG_DSMC]->value[GG_Q_COLLISION_RATE]);
+  assert_true(fabs(z) < 4);
+  gg_result_free(r[GG_MD]), gg_result_free(r[GG_DSMC]);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(in_the_midst_of_an_interval), cmocka_unit_test(time_limit)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(in_the_midst_of_an_interval), cmocka_unit_test(time_limit),
+                                     cmocka_unit_test(cold_start)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,7 +128,7 @@ const gg_field gg_species_fields[] = {
     {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), SMALL, LARGE, .unit = "length", .doc = "diameter",
      .also = "d size radius"},
     {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .unit = "mass", .doc = "mass", .also = "m"},
-    {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 0, 1, true,
+    {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 1e-6, 1, false,
      .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = {&gg_if_rough}, .also = "K I"},
     {0},
 };
