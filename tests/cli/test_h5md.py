@@ -114,11 +114,12 @@ def test_h5py_opens_curves():
         laws = 0
         for name, curve in d["curves"].items():
             group, law = f["graingas/curves"][name], curve.get("reference")
-            check(list(group["x"][:]) == curve["x"] and group["x"].attrs["unit"].decode() == curve["x_unit"], name)
+            x = [None if v != v else v for v in group["x"][:]]  # a lag that was never reached
+            check(x == curve["x"] and group["x"].attrs["unit"].decode() == curve["x_unit"], name)
             check(("reference" in group) == bool(law), name)
             if law:
                 laws += 1
-                check(list(group["reference"][:]) == law["value"] and group["reference"].attrs["label"].decode() == law["label"], name)
+                check([None if v != v else v for v in group["reference"][:]] == law["value"] and group["reference"].attrs["label"].decode() == law["label"], name)
         check(0 < laws < len(d["curves"]), laws)
 
 

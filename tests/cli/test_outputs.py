@@ -1,4 +1,4 @@
-"""What stands where an output is to go: written to, replaced by a whole file, or refused before the run; by whom, too."""
+"""What stands where an output is to go is written to, replaced by a whole file, or refused before the run."""
 import os
 import signal
 import stat
