@@ -240,6 +240,16 @@ double gg_model_relaxation(const gg_model *m)
   return fmax(slowest, 1);
 }
 
+/* In diameters of a grain of the mean volume; n d^3 and n d^2 nu/rate are free of the temperature. */
+double gg_model_gap_relaxation(const gg_model *m)
+{
+  if (!m->walled) return 0;
+  double n = 6 * m->phi / M_PI, d = cbrt(n / m->density), gap = fmax(m->box[1] / d - 1, 0) / M_PI;
+  double chi = m->chi[0], b = 1 + 1.6 * m->phi * chi;
+  double viscosity = 5.0 / 16 * (b * b / chi + 768 / (25 * M_PI) * m->phi * m->phi * chi); /* sqrt(m T/pi)/d^2 */
+  return gap * gap * 4 * M_PI * n * n * chi / viscosity;
+}
+
 double gg_model_collision_rate(const gg_model *m, double T)
 {
   double rate = 0;

@@ -72,6 +72,11 @@ void gg_model_at(gg_model *model, double T);
  * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); INFINITY where nothing relaxes. */
 double gg_model_relaxation(const gg_model *model);
 
+/* Collisions per grain that momentum needs to diffuse across the gap between walls, the slowest wave of it by a factor
+ * 1/e: (H/pi)^2/nu, nu the kinematic viscosity of elastic Enskog theory (Chapman & Cowling 1970, 16.41). A dense core
+ * takes up to some times as long to form. 0 without walls. */
+double gg_model_gap_relaxation(const gg_model *model);
+
 /* Boltzmann-Enskog collision rate per grain at temperature T: 4 n d^2 chi sqrt(pi T) for one species. */
 double gg_model_collision_rate(const gg_model *model, double T);
 

@@ -31,6 +31,7 @@ static json_t *curve_json(const gg_curve *c)
   json_t *o = json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:s, s:b, s:b, s:I}", "group", c->group, "panel", c->panel,
                         "label", c->label, "x_name", c->x_name, "x_unit", c->x_unit, "y_name", c->y_name, "unit",
                         c->unit, "log_x", c->log_x, "log_y", c->log_y, "samples", (json_int_t)c->samples);
+  if (c->folded) json_object_set_new(o, "folded", json_true());
   json_object_set_new(o, "x", array(c->x, c->n));
   json_object_set_new(o, "value", array(c->value, c->n));
   json_object_set_new(o, "stderr", array(c->error, c->n));

@@ -169,17 +169,17 @@ static bool leave_one_out(const pooled *p, gg_curves_of *of, const void *self, c
   return true;
 }
 
-static void put_errors(gg_curves *full, const gg_jackknife *j)
+static void put_errors(gg_curves *full, const gg_jackknife *j, double memory)
 {
   size_t at = 0;
   for (int k = 0; k < full->n; k++) {
     gg_curve *c = &full->curve[k];
-    c->block_correlation = gg_jackknife_errors(j, at, c->n, c->error);
+    c->block_correlation = gg_jackknife_errors(j, at, c->n, memory, c->error);
     for (size_t i = 0; i < c->n; i++)
       if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was ever counted: unknown, not exact */
     at += c->n;
     for (int i = 0; i < c->n_numbers; i++, at++) {
-      gg_jackknife_errors(j, at, 1, &c->number[i].error);
+      gg_jackknife_errors(j, at, 1, memory, &c->number[i].error);
       c->number[i].error = hypot(c->number[i].error, c->number[i].truncation);
       if (c->number[i].setting) c->number[i].error = 0;
     }
@@ -198,7 +198,7 @@ static bool append(gg_curves *to, gg_curves *from)
 }
 
 gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curves_of *of, const void *self,
-                             const char *group, gg_curves *list, gg_error *err)
+                             const char *group, double memory, gg_curves *list, gg_error *err)
 {
   pooled p = {.bins = bins, .n_runs = n_runs, .width = bins[0]->width, .per_block = bins[0]->per_block};
   for (size_t r = 0; r < n_runs; r++) p.blocks += bins[r]->blocks;
@@ -212,7 +212,7 @@ gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curve
   gg_jackknife j;
   bool whole =
       gg_jackknife_init(&j, shape(&full), err) == GG_OK && !full.failed && leave_one_out(&p, of, self, &full, &j);
-  if (whole) put_errors(&full, &j);
+  if (whole) put_errors(&full, &j, memory / (double)p.per_block);
   whole = whole && (full.n == 0 || append(list, &full));
   gg_jackknife_clear(&j);
   gg_curves_clear(&full);

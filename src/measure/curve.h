@@ -26,6 +26,7 @@ typedef struct gg_curve {
   double *x, *value, *error; /* NaN: cannot be had, unknown */
   double *reference;         /* a law to see the curve beside, NULL if there is none; under what name */
   char reference_label[32];
+  bool folded;              /* the mean of the flow and its image under the symmetry of the walls */
   double block_correlation; /* between neighbouring blocks, on average over the points: errors allow for it */
   uint64_t samples;         /* snapshots behind each point, all replicas */
   int n_numbers;
@@ -64,8 +65,9 @@ const char *gg_curve_unit(const gg_model *model, const char *what);
 /* Curves from the mean of the bins over `list->samples` samples. */
 typedef void gg_curves_of(const void *self, const double *mean, gg_curves *list);
 
-/* Pool replicas' bins into curves with errors, appended to the list. */
+/* Pool replicas' bins into curves with errors, appended to the list. `memory`: the decay time, in samples of the bins,
+ * of a slow mode that they may depend on; 0: none is known. */
 gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curves_of *of, const void *self,
-                             const char *group, gg_curves *list, gg_error *err);
+                             const char *group, double memory, gg_curves *list, gg_error *err);
 
 #endif

@@ -23,26 +23,31 @@ static void start(gg_local_frame *f, const gg_model *model)
   f->inverse_width = f->n_slabs / model->box[1];
 }
 
-static void add(gg_local_frame *f, double y, gg_vec c)
+static void add(gg_local_frame *f, double y, gg_vec c, int species)
 {
   int k = slab_of(f, y);
   f->count[k]++;
+  f->first[k] += species == 0;
   f->mean[k][0] += c.x, f->mean[k][1] += c.y, f->mean[k][2] += c.z;
+  f->temperature[k] += gg_dot(c, c);
 }
 
 static void finish(gg_local_frame *f)
 {
   for (int k = 0; k < f->n_slabs; k++) {
-    double n = f->count[k];
+    double n = f->count[k], of_mean = 0;
     for (int a = 0; a < 3; a++) f->mean[k][a] = n > 0 ? f->mean[k][a] / n : 0;
+    for (int a = 0; a < 3; a++) of_mean += n * f->mean[k][a] * f->mean[k][a];
     f->stretch[k] = n > 1 ? sqrt(n / (n - 1)) : 1;
+    f->temperature[k] = n > 1 ? (f->temperature[k] - of_mean) / (3 * (n - 1)) : 0;
   }
 }
 
 static void add_chunk(void *context, const gg_chunk *chunk)
 {
   for (size_t i = 0; i < chunk->n; i++)
-    add(context, chunk->r[1][i], (gg_vec){chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]});
+    add(context, chunk->r[1][i], (gg_vec){chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]},
+        chunk->species ? chunk->species[i] : 0);
 }
 
 void gg_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *engine)
@@ -55,7 +60,8 @@ void gg_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *en
 void gg_local_frame_of_snapshot(gg_local_frame *f, const gg_snapshot *s)
 {
   start(f, s->model);
-  for (size_t i = 0; i < s->n; i++) add(f, s->r[1][i], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]});
+  for (size_t i = 0; i < s->n; i++)
+    add(f, s->r[1][i], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]}, gg_snapshot_species(s, i));
   finish(f);
 }
 

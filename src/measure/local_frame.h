@@ -12,6 +12,8 @@ typedef struct gg_local_frame {
   int n_slabs;
   double bottom, inverse_width;
   double count[GG_MAX_SLABS], mean[GG_MAX_SLABS][3], stretch[GG_MAX_SLABS];
+  double first[GG_MAX_SLABS];       /* grains of species 1 */
+  double temperature[GG_MAX_SLABS]; /* <C.C>/3 about that mean, what it takes away given back */
 } gg_local_frame;
 
 /* Measure the mean velocity of every slab now. */

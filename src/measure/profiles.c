@@ -1,11 +1,13 @@
 /* Profiles across the gap between walls: solid fraction (each grain where its centre is), flow velocity, temperatures
  * about the local mean, mean spin. Means are over the window, so a slab's temperature is about its mean velocity of the
- * whole window: nothing has to be put back for the few grains of one instant. */
+ * whole window: nothing has to be put back for the few grains of one instant. Where the walls are alike the profiles
+ * are those of the flow and its image together: what wanders to and fro about the middle is not in them. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "measure/observable.h"
+#include "measure/wall_symmetry.h"
 
 enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
 #define THICKNESS 0.5
@@ -13,7 +15,7 @@ enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
 enum { VOLUME, MASS, MOMENTUM, ENERGY = MOMENTUM + 3, INERTIA, SPIN, ROTATION = SPIN + 3, GRAINS, OMEGA, SLAB };
 
 /* Behind the slabs: time, and the impulses on the lower and the upper wall. */
-enum { TIME, LOWER, UPPER = LOWER + 3, WALLS = UPPER + 3 };
+enum { TIME, LOWER, UPPER = LOWER + 3, WALLS = UPPER + 3, MOST_BINS = MOST_SLABS * SLAB + WALLS };
 
 typedef struct profiles {
   gg_model model;
@@ -29,7 +31,8 @@ static const char *refuses(const gg_model *m)
 static void *create(const gg_model *m, gg_error *err)
 {
   profiles *d = gg_new_array(1, sizeof *d, err);
-  if (d) *d = (profiles){.model = *m, .slabs = (int)fmin(fmax(round(m->box[1] / THICKNESS), LEAST_SLABS), MOST_SLABS)};
+  double pairs = fmin(fmax(round(m->box[1] / (2 * THICKNESS)), LEAST_SLABS / 2), MOST_SLABS / 2);
+  if (d) *d = (profiles){.model = *m, .slabs = 2 * (int)pairs}; /* no slab is its own mirror image */
   return d;
 }
 
@@ -84,6 +87,44 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
       double w = s->s[a][i];
       at[SPIN + a] += K * w, at[ROTATION] += K * w * w;
     }
+  }
+}
+
+/* The image of a vector's component a; spins are axial: a mirror turns those along it, and leaves the one across. */
+static double image_of(gg_wall_symmetry symmetry, bool axial, int a)
+{
+  if (symmetry == GG_TURNED) return a == 2 ? 1 : -1;
+  return (a == 1) == axial ? 1 : -1; /* mirrored */
+}
+
+/* The image of a slab's sums. */
+static void slab_image(gg_wall_symmetry symmetry, const double *at, double *to)
+{
+  for (int k = 0; k < SLAB; k++) to[k] = at[k];
+  for (int a = 0; a < 3; a++) {
+    to[MOMENTUM + a] *= image_of(symmetry, false, a);
+    to[SPIN + a] *= image_of(symmetry, true, a);
+  }
+  to[OMEGA] *= image_of(symmetry, true, 2);
+}
+
+/* The mean of all sums and of their image; without a symmetry a copy. */
+static void fold(const profiles *d, const double *bin, double *to)
+{
+  gg_wall_symmetry symmetry = gg_wall_symmetry_of(&d->model);
+  const double *walls = bin + d->slabs * SLAB;
+  double *folded = to + d->slabs * SLAB;
+  memcpy(to, bin, bins(d) * sizeof *to);
+  if (symmetry == GG_NO_SYMMETRY) return;
+  for (int i = 0; i < d->slabs; i++) {
+    double image[SLAB];
+    slab_image(symmetry, bin + (d->slabs - 1 - i) * SLAB, image);
+    for (int k = 0; k < SLAB; k++) to[i * SLAB + k] = 0.5 * (bin[i * SLAB + k] + image[k]);
+  }
+  for (int a = 0; a < 3; a++) {
+    double image = image_of(symmetry, false, a);
+    folded[LOWER + a] = 0.5 * (walls[LOWER + a] + image * walls[UPPER + a]);
+    folded[UPPER + a] = 0.5 * (walls[UPPER + a] + image * walls[LOWER + a]);
   }
 }
 
@@ -176,14 +217,17 @@ static void put_wall_stress(const gg_model *m, const double *walls, gg_curve *c)
   gg_curve_put_number(c, "wall_P_yx_upper", unit * walls[UPPER], name);
 }
 
-static void curves(const void *self, const double *bin, gg_curves *list)
+static void curves(const void *self, const double *mean, gg_curves *list)
 {
   const profiles *d = self;
   const gg_model *m = &d->model;
+  double bin[MOST_BINS];
+  fold(d, mean, bin);
   double height = m->box[1] / d->slabs, volume = m->box[0] * m->box[2] * height;
   for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
     if (table[t].spins && m->rule == GG_SMOOTH) continue;
     gg_curve *c = gg_curve_add(list, (size_t)d->slabs, table[t].name, table[t].panel, table[t].label);
+    c->folded = gg_wall_symmetry_of(m) != GG_NO_SYMMETRY;
     gg_curve_axes(c, "y", gg_curve_unit(m, "length"), table[t].label, gg_curve_unit(m, table[t].unit));
     for (size_t i = 0; i < c->n; i++) {
       const double *at = bin + i * SLAB;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "measure/own.h"
+#include "measure/wall_modes.h"
 #include "run/replica.h"
 
 /* Its channels begin at *width, which grows by what it has. */
@@ -37,6 +38,8 @@ gg_status gg_replica_attach(gg_replica *r, const gg_scene *scene, gg_error *err)
     if (o->positions && !r->model.homogeneous) positions = true;
   }
   if (own) GG_TRY(attach_one(r, own, &width, err));
+  r->wall_modes_at = width;
+  width += (size_t)gg_wall_modes(&r->model);
   r->row = gg_new_array(width, sizeof *r->row, err);
   if (!r->row) return GG_FAILED;
   if (curves) GG_TRY(gg_snapshot_init(&r->snapshot, &r->model, positions, err));

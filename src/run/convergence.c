@@ -71,6 +71,16 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
   return status;
 }
 
+static gg_status test_wandering(const gg_replicas *all, gg_convergence *c, gg_error *err)
+{
+  gg_wandering w;
+  GG_TRY(gg_replicas_wandering(all, &w, err));
+  c->wanders = w.mode, c->wandering = w.time;
+  double sampled = (double)(all->state.due - all->state.window_at) * all->n;
+  if (w.mode >= 0 && sampled < GG_LEAST_CORRELATION_TIMES * w.time) c->trusted = false;
+  return GG_OK;
+}
+
 gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error *err)
 {
   *c = (gg_convergence){.relative_error = 0, .trusted = true};
@@ -95,6 +105,7 @@ gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error 
       c->trend_z = t.z, c->trend_relative = t.relative;
     }
   }
+  GG_TRY(test_wandering(all, c, err));
   all->last = *c;
   return GG_OK;
 }

@@ -7,6 +7,9 @@
 /* Relaxation times of the slowest mode: before averaging, and at least while averaging. A start within a few tens of
  * per cent of the steady state leaves less than 0.1 % of it after the first. */
 enum { WARMUP_TIMES = 6, WINDOW_TIMES = 50 };
+/* Between walls: relaxation times of the gap. A start that is symmetric has no part of the slowest wave, and relaxes
+ * faster; how long averaging takes is seen from the waves themselves (wandering.c). */
+enum { WARMUP_GAP_TIMES = 3, WINDOW_GAP_TIMES = 10 };
 /* Linear response: at least so many sweeps of the reduced shear rate. */
 enum { LEAST_SWEEPS = 4 };
 /* An error that this many of the shortest windows have not brought down is out of reach: a clustered or collapsing gas.
@@ -38,10 +41,10 @@ static void plan_linear_response(gg_plan *p, const gg_scene *scene, const gg_mod
 gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
 {
   gg_plan p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
-  double slowest = gg_model_relaxation(model);
-  double warmup = scene->run.warmup == GG_AUTO ? fmax(40, WARMUP_TIMES * slowest) : scene->run.warmup;
-  p.warmup = samples_for(warmup);
-  p.least = samples_for(fmax(300, WINDOW_TIMES * slowest));
+  double slowest = gg_model_relaxation(model), gap = gg_model_gap_relaxation(model);
+  double warmup = fmax(fmax(40, WARMUP_TIMES * slowest), WARMUP_GAP_TIMES * gap);
+  p.warmup = samples_for(scene->run.warmup == GG_AUTO ? warmup : scene->run.warmup);
+  p.least = samples_for(fmax(fmax(300, WINDOW_TIMES * slowest), WINDOW_GAP_TIMES * gap));
   p.longest = p.least * MOST_WINDOWS;
   bool asked = scene->run.relative_error != GG_AUTO || scene->run.collisions != GG_AUTO;
   if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);

@@ -14,6 +14,7 @@ typedef struct gg_replica {
   const gg_observable *observable[GG_MAX_OBSERVABLES];
   void *self[GG_MAX_OBSERVABLES];
   size_t offset[GG_MAX_OBSERVABLES];                        /* where its channels begin in a row */
+  size_t wall_modes_at;                                     /* where those between walls begin (wall_modes.h) */
   gg_bins bins[GG_MAX_OBSERVABLES];                         /* of those that leave curves */
   int every[GG_MAX_OBSERVABLES];                            /* samples between snapshots for them */
   enum gg_shown { GG_NOT_SAID, GG_HIDDEN, GG_SHOWN } shown; /* collisions, to the observables that ask for them */

@@ -17,6 +17,9 @@ typedef struct gg_plan {        /* what is asked, settled before the run; in sam
   bool find_steady;             /* give up windows that show a trend */
 } gg_plan;
 
+/* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
+enum { GG_LEAST_CORRELATION_TIMES = 20 };
+
 typedef struct gg_convergence { /* of the present averaging window */
   double relative_error;        /* of the worst headline quantity; NaN: not known */
   gg_quantity worst;
@@ -26,6 +29,8 @@ typedef struct gg_convergence { /* of the present averaging window */
   bool trending;    /* some quantity still changes ... */
   gg_quantity trending_quantity;
   double trend_z, trend_relative; /* ... by so many errors, and by this share of its mean */
+  int wanders;                    /* between walls: the slowest mode across the gap that shifts results; -1 without */
+  double wandering;               /* over what time it forgets, in samples */
 } gg_convergence;
 
 typedef struct gg_replicas {
@@ -90,6 +95,18 @@ void gg_replicas_unwatch(gg_replicas *all);
 gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *convergence, gg_error *err);
 /* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
 gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
+
+/* wandering.c: what wanders slowly across the gap between walls, over the window. */
+typedef struct gg_wandering {
+  int mode;    /* the slowest that shifts results (measure/wall_modes.h); -1 without walls */
+  double time; /* over which it forgets, in samples */
+  double
+      mean_time; /* of all modes that shift results: the slowest of several estimates is mostly one that is too long */
+  /* Walls alike: how far from the middle the centre of mass was on average, and that mean's share in the mean square.
+   */
+  double aside, aside_share;
+} gg_wandering;
+gg_status gg_replicas_wandering(const gg_replicas *all, gg_wandering *wandering, gg_error *err);
 
 /* standstill.c: under gravity, have the grains come to rest? Leaves the answer in all->state.standstill. */
 void gg_replicas_check_standstill(gg_replicas *all);

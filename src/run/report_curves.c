@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdlib.h>
 
 #include "run/replicas.h"
@@ -19,7 +20,26 @@ static void warn_of_short_blocks(gg_result *result, int from, const char *name)
                    name, worst->block_correlation, worst->name);
 }
 
-static gg_status report_one(const gg_replicas *all, int k, gg_result *result, gg_error *err)
+/* Folded curves do not feel on which side of the middle a dense core is. One that keeps to a side is to be seen all the
+ * same: by more of the gap than grains alone fluctuate, and for a window of four correlation times or less, when half
+ * of the mean square is the mean's. */
+#define ASIDE_OF_GAP 0.01
+#define ASIDE_SHARE 0.5
+
+static void warn_of_one_side(const gg_wandering *w, gg_result *result)
+{
+  if (!(w->aside_share > ASIDE_SHARE && fabs(w->aside) > ASIDE_OF_GAP * result->model.box[1])) return;
+  for (int i = 0; i < result->curves.n; i++) {
+    if (!result->curves.curve[i].folded) continue;
+    gg_result_warn(result,
+                   "profiles are means of the flow and its mirror image, but the flow kept to one side: the centre of "
+                   "mass was %.2g d from the middle of the gap on average, %.2g d at root mean square",
+                   w->aside, fabs(w->aside) / sqrt(w->aside_share));
+    return;
+  }
+}
+
+static gg_status report_one(const gg_replicas *all, int k, double memory, gg_result *result, gg_error *err)
 {
   const gg_replica *first = &all->replica[0];
   const gg_observable *o = first->observable[k];
@@ -27,7 +47,8 @@ static gg_status report_one(const gg_replicas *all, int k, gg_result *result, gg
   if (!bins) return GG_FAILED;
   for (int r = 0; r < all->n; r++) bins[r] = &all->replica[r].bins[k];
   int before = result->curves.n;
-  gg_status status = gg_curves_estimate(bins, (size_t)all->n, o->curves, first->self[k], o->name, &result->curves, err);
+  gg_status status = gg_curves_estimate(bins, (size_t)all->n, o->curves, first->self[k], o->name,
+                                        memory / fmax(first->every[k], 1), &result->curves, err);
   if (status == GG_OK && (size_t)all->n * bins[0]->blocks < GG_MIN_BLOCKS)
     gg_result_warn(result, "%s: too short for errors: its samples make %zu blocks only, %d are needed", o->name,
                    (size_t)all->n * bins[0]->blocks, GG_MIN_BLOCKS);
@@ -44,7 +65,10 @@ gg_status gg_replicas_report_curves(const gg_replicas *all, gg_result *result, g
     const char *why = all->scene.measure & o->flag && o->refuses ? o->refuses(&all->model) : NULL;
     if (why) gg_result_warn(result, "%s is not measured: %s", o->name, why);
   }
+  gg_wandering wandering;
+  GG_TRY(gg_replicas_wandering(all, &wandering, err));
   for (int k = 0; k < all->replica[0].n_observables; k++)
-    if (all->replica[0].observable[k]->bins) GG_TRY(report_one(all, k, result, err));
+    if (all->replica[0].observable[k]->bins) GG_TRY(report_one(all, k, wandering.mean_time, result, err));
+  warn_of_one_side(&wandering, result);
   return GG_OK;
 }

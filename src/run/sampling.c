@@ -1,6 +1,6 @@
 /* How a replica is sampled. For rows: chunk by chunk, or block by block, at the end of every sampling interval. For
  * curves: whole snapshots, where an observable is due. */
-#include "measure/local_frame.h"
+#include "measure/wall_modes.h"
 #include "run/replica.h"
 
 static void add_chunk(void *context, const gg_chunk *chunk)
@@ -39,6 +39,7 @@ static void add_grains(gg_replica *r)
   if (r->model.walled) {
     gg_local_frame_take(&frame, &r->model, r->engine);
     gg_local_frame_snapshot(&frame, r->engine, add_chunk, r);
+    gg_wall_modes_take(&r->model, &frame, r->row + r->wall_modes_at);
   } else if (reads_blocks(r)) {
     r->engine->ops->blocks(r->engine, add_blocks, r);
   } else {

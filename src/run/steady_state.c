@@ -3,16 +3,15 @@
 #include <stdio.h>
 
 #include "common/linear_response.h"
+#include "measure/wall_modes.h"
 #include "run/replicas.h"
-
-/* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
-enum { LEAST_CORRELATION_TIMES = 20 };
 
 void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   uint64_t window = all->state.due - all->state.window_at;
   char *text = result->steadiness_text;
   size_t size = sizeof result->steadiness_text;
+  double sampled = (double)window * all->n; /* by all replicas */
   double grain = (double)window * GG_SAMPLING_INTERVAL;
   result->steadiness = GG_NOT_STEADY;
   if (!all->model.steady && !all->model.linear_response) {
@@ -35,10 +34,16 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
     snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",
              s.cools ? "linear response of the cooling gas" : "linear response of the heated gas",
              s.cools ? s.low : s.high, s.cools ? s.high : s.low);
-  } else if ((double)window < LEAST_CORRELATION_TIMES * c->slowest) {
+  } else if ((double)window < GG_LEAST_CORRELATION_TIMES * c->slowest) {
     snprintf(text, size,
              "too short to tell: averaged over %.1f correlation times of the slowest quantity, %d are needed",
-             (double)window / c->slowest, LEAST_CORRELATION_TIMES);
+             (double)window / c->slowest, GG_LEAST_CORRELATION_TIMES);
+  } else if (c->wanders >= 0 && sampled < GG_LEAST_CORRELATION_TIMES * c->wandering) {
+    snprintf(text, size,
+             "too short to tell: one mode dominates, %s, which wanders with a correlation time of %.2g collisions a "
+             "grain; averaged over %.1f of these, %d are needed",
+             gg_wall_mode_name(c->wanders), c->wandering * GG_SAMPLING_INTERVAL, sampled / c->wandering,
+             GG_LEAST_CORRELATION_TIMES);
   } else {
     result->steadiness = GG_STEADY;
     snprintf(text, size, "no trend over %.0f collisions a grain, %.0f correlation times of the slowest quantity", grain,

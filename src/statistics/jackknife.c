@@ -5,7 +5,9 @@
 #include <string.h>
 
 enum { ARRAYS = 6, NEIGHBOURS = 4 };
-#define STRONGEST 0.9 /* beyond, a block says nothing new */
+#define STRONGEST 0.9        /* beyond, a block says nothing new */
+#define LEAST_MEMORY 0.02    /* of a block: what is forgotten sooner makes no difference */
+#define MOST_OF_VARIANCE 0.9 /* of a block that the mean of all may have: beyond, nothing is known */
 
 gg_status gg_jackknife_init(gg_jackknife *j, size_t width, gg_error *err)
 {
@@ -64,7 +66,27 @@ static double correlation(const gg_jackknife *j, size_t i)
   return (j->products[i] - mean * j->ends[i] + (double)j->pairs * mean * mean) / total + 1 / n;
 }
 
-double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double *error)
+/* Variance of the mean over a stretch of `length` decay times, over that of the mode itself. */
+static double of_stretch(double length)
+{
+  return 2 * (length + expm1(-length)) / (length * length);
+}
+
+/* Variance of the mean over what independent blocks of the same scatter would have, for numbers of which a share f of
+ * the variance of a block is the slow mode's: V = (1 + f (I - 1))/n of that variance, where I is the ratio for the mode
+ * alone. About the mean of the blocks themselves scatter shows 1 - V of the variance, and neighbours, whose correlation
+ * came out as r, f r_mode - V of it: that gives f. */
+static double with_slow_mode(const gg_jackknife *j, double r, double memory)
+{
+  double n = (double)j->blocks, per_run = n / (n - (double)j->pairs), one = of_stretch(1 / memory);
+  double r_mode = pow(expm1(-1 / memory) * memory, 2) / one, I = per_run * of_stretch(per_run / memory) / one;
+  double above = r + (1 - r) / n, below = r_mode - (I - 1) * (1 - r) / n;
+  double f = below > 0 ? fmin(fmax(above / below, 0), 1) : above > 0;
+  double V = fmin((1 + f * (I - 1)) / n, MOST_OF_VARIANCE);
+  return (n - 1) * V / (1 - V);
+}
+
+double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double *error)
 {
   double blocks = (double)j->blocks, all = 0;
   size_t known = 0;
@@ -74,8 +96,9 @@ double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double 
       double r = correlation(j, from + k);
       if (isfinite(r)) sum += r, count++;
     }
-    double r = count > 0 ? fmin(fmax(sum / count, 0), STRONGEST) : 0;
-    double variance = (blocks - 1) / blocks * fmax(scatter(j, from + i), 0) * (1 + r) / (1 - r);
+    double r = count > 0 ? fmin(fmax(sum / count, 0), STRONGEST) : 0, more = (1 + r) / (1 - r);
+    if (memory > LEAST_MEMORY && count > 0) more = with_slow_mode(j, sum / count - 1 / blocks, memory);
+    double variance = (blocks - 1) / blocks * fmax(scatter(j, from + i), 0) * more;
     error[i] = blocks > 1 ? sqrt(variance) + 0 * j->sum[from + i] : NAN; /* NaN stays NaN */
     if (isfinite(own)) all += own, known++;
   }

@@ -56,7 +56,7 @@ static inline gg_curves ct_curves(const gg_observable *o, const gg_model *m, int
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
   gg_error err = {0};
-  if (gg_curves_estimate(list, 1, o->curves, self, o->name, &curves, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_curves_estimate(list, 1, o->curves, self, o->name, 0, &curves, &err) != GG_OK) fail_msg("%s", err.message);
   gg_bins_clear(&bins);
   gg_snapshot_clear(&s);
   o->destroy(self);

@@ -103,7 +103,7 @@ static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(gg_curves_estimate(list, 1, gg_collisions.curves, self, "collisions", &curves, NULL), GG_OK);
+  assert_int_equal(gg_curves_estimate(list, 1, gg_collisions.curves, self, "collisions", 0, &curves, NULL), GG_OK);
   gg_bins_clear(&bins);
   gg_collisions.destroy(self);
   return curves;

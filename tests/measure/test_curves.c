@@ -50,7 +50,7 @@ static void error_of_a_mean(void **state)
   }
   const gg_bins *list[] = {&b[0], &b[1]};
   gg_curves curves = {0};
-  assert_int_equal(gg_curves_estimate(list, 2, plain, NULL, "test", &curves, NULL), GG_OK);
+  assert_int_equal(gg_curves_estimate(list, 2, plain, NULL, "test", 0, &curves, NULL), GG_OK);
   double sum = 0, squares = 0, n = (double)(2 * b[0].blocks);
   for (int k = 0; k < 2; k++)
     for (size_t i = 0; i < b[k].blocks; i++) {
@@ -79,7 +79,7 @@ static void honest_ratio(void **state)
     for (int i = 0; i < 20 * 8; i++) add(&b, &r);
     const gg_bins *list[] = {&b};
     gg_curves curves = {0};
-    assert_int_equal(gg_curves_estimate(list, 1, plain, NULL, "test", &curves, NULL), GG_OK);
+    assert_int_equal(gg_curves_estimate(list, 1, plain, NULL, "test", 0, &curves, NULL), GG_OK);
     gg_curve_number ratio = ct_number(&curves.curve[0], "ratio");
     assert_true(ratio.error < 0.006); /* 0.1/3/sqrt(160) = 0.0026; the common part alone: 0.05 */
     sum += pow((ratio.value - 2) / ratio.error, 2);
@@ -116,7 +116,7 @@ static void honest_mean(void **state)
       }
       const gg_bins *list[] = {&b};
       gg_curves curves = {0};
-      assert_int_equal(gg_curves_estimate(list, 1, plain_means, NULL, "test", &curves, NULL), GG_OK);
+      assert_int_equal(gg_curves_estimate(list, 1, plain_means, NULL, "test", 0, &curves, NULL), GG_OK);
       const gg_curve *c = &curves.curve[0];
       for (int a = 0; a < WIDTH; a++) {
         double squares = 0, blocks = (double)b.blocks;

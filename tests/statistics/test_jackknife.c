@@ -27,7 +27,7 @@ static void textbook_error(void **state)
   for (int b = 0; b < BLOCKS; b++) sum += x[b], squares += x[b] * x[b];
   assert_int_equal(gg_jackknife_init(&j, 1, NULL), GG_OK);
   add_mean(&j, x, BLOCKS);
-  double correlation = gg_jackknife_errors(&j, 0, 1, &error);
+  double correlation = gg_jackknife_errors(&j, 0, 1, 0, &error);
   double textbook = sqrt((squares - sum * sum / BLOCKS) / BLOCKS / (BLOCKS - 1));
   assert_true(fabs(error / textbook - 1) < 1e-12);
   assert_true(correlation < -0.8 && correlation > -1.1);
@@ -55,12 +55,56 @@ static void correlated_blocks(void **state)
       for (int a = 0; a < WIDTH; a++) d[a] = (mean[a] - x[a][b]) / (n - 1);
       gg_jackknife_add(&j);
     }
-    gg_jackknife_errors(&j, 0, WIDTH, error);
+    gg_jackknife_errors(&j, 0, WIDTH, 0, error);
     for (int a = 0; a < WIDTH; a++) sum += error[a] * error[a] / (REPEATS * WIDTH);
     gg_jackknife_clear(&j);
   }
   print_message("# error^2 %.3f of the variance of the mean, scatter alone %.3f\n", sum / exact, (1 - rho) / (1 + rho));
   assert_true(sum / exact > 0.85 && sum / exact < 1.25);
+}
+
+/* A slow mode of 20 decay times in fast noise of some times its variance, in 32 blocks: the correlation of neighbours
+ * alone gives too little, with the decay time the mean square of the error is the variance of the mean. Noise alone
+ * gets no more than chance correlations make. */
+static void slow_mode_in_noise(void **state)
+{
+  (void)state;
+  enum { REPEATS = 1000, WIDTH = 9, N = 32, LENGTH = 64 };
+  const double tau = N * LENGTH / 20.0, rho = exp(-1 / tau), n = N * LENGTH, kick = sqrt(1 - rho * rho);
+  const double of_mode = ((1 + rho) / (1 - rho) - 2 * rho * (1 - pow(rho, n)) / (n * pow(1 - rho, 2))) / n;
+  gg_rng r = gg_rng_seed(24, 0);
+  for (int slow = 0; slow < 2; slow++) {
+    double noise = 8, known = 0, unknown = 0, variance = slow * of_mode + noise * noise / n, squares = 0;
+    for (int k = 0; k < REPEATS; k++) {
+      double x[WIDTH][N] = {{0}}, mean[WIDTH] = {0}, error[2][WIDTH], at = gg_rng_normal(&r), all = 0;
+      gg_jackknife j;
+      assert_int_equal(gg_jackknife_init(&j, WIDTH, NULL), GG_OK);
+      for (int b = 0; b < N; b++) {
+        double mode = 0;
+        for (int t = 0; t < LENGTH; t++) mode += (at = rho * at + kick * gg_rng_normal(&r)) / LENGTH;
+        for (int a = 0; a < WIDTH; a++) x[a][b] = slow * mode + noise * gg_rng_normal(&r) / sqrt(LENGTH);
+        for (int a = 0; a < WIDTH; a++) mean[a] += x[a][b] / N;
+      }
+      for (int b = 0; b < N; b++) {
+        double *d = gg_jackknife_next(&j);
+        for (int a = 0; a < WIDTH; a++) d[a] = (mean[a] - x[a][b]) / (N - 1);
+        gg_jackknife_add(&j);
+      }
+      gg_jackknife_errors(&j, 0, WIDTH, 0, error[0]);
+      gg_jackknife_errors(&j, 0, WIDTH, tau / LENGTH, error[1]);
+      for (int a = 0; a < WIDTH; a++) {
+        unknown += error[0][a] * error[0][a] / (REPEATS * WIDTH * variance);
+        all += error[1][a] * error[1][a] / (WIDTH * variance);
+      }
+      known += all / REPEATS, squares += all * all / REPEATS;
+      gg_jackknife_clear(&j);
+    }
+    double four = 4 * sqrt((squares - known * known) / REPEATS);
+    print_message("# error^2 %.3f +- %.3f of the variance of the mean, %.3f without the decay time\n", known, four / 4,
+                  unknown);
+    assert_true(known > 0.85 - four && known < (slow ? 1.15 : 1.5) + four);
+    if (slow) assert_true(unknown < known - four);
+  }
 }
 
 /* Two runs that each stay where they are: all correlation is within them, and what joins them is no pair. */
@@ -87,7 +131,7 @@ static void too_few(void **state)
   assert_int_equal(gg_jackknife_init(&j, 1, NULL), GG_OK);
   *gg_jackknife_next(&j) = 1;
   gg_jackknife_add(&j);
-  gg_jackknife_errors(&j, 0, 1, &error);
+  gg_jackknife_errors(&j, 0, 1, 0, &error);
   assert_true(isnan(error));
   gg_jackknife_clear(&j);
 }
@@ -95,6 +139,7 @@ static void too_few(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(textbook_error), cmocka_unit_test(correlated_blocks),
-                                     cmocka_unit_test(runs_apart), cmocka_unit_test(too_few)};
+                                     cmocka_unit_test(slow_mode_in_noise), cmocka_unit_test(runs_apart),
+                                     cmocka_unit_test(too_few)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,6 +47,7 @@ static void write_curve(gg_h5 *h, const char *group, const gg_curve *c)
   gg_h5_text_attribute(h, base, "group", c->group);
   gg_h5_text_attribute(h, base, "x", c->x_name);
   gg_h5_text_attribute(h, base, "value", c->y_name);
+  if (c->folded) gg_h5_text_attribute(h, base, "folded", "yes");
   gg_h5_attribute(h, base, "samples", H5T_NATIVE_UINT64, &c->samples, 0);
   write_numbers(h, base, c);
 }

@@ -122,6 +122,7 @@ static gg_status restore_curve(gg_result *r, const char *name, const json_t *sto
   r->curves.group = NULL; /* every curve has its own copy */
   if (r->curves.failed) return gg_fail(err, GG_FAILED, "out of memory for the curve %s", name);
   gg_curve_axes(c, text(stored, "x_name"), text(stored, "x_unit"), text(stored, "y_name"), text(stored, "unit"));
+  c->folded = json_is_true(json_object_get(stored, "folded"));
   c->log_x = json_is_true(json_object_get(stored, "log_x"));
   c->log_y = json_is_true(json_object_get(stored, "log_y"));
   fill(c->x, c->n, json_object_get(stored, "x"));

@@ -1,0 +1,165 @@
+/* Proves: the modes across a gap are what they are called; a planted mode that wanders slowly is found, with how long
+ * it remembers, also in windows of a few such times; a window that is too short for it is not called steady, nor is one
+ * whose dense core keeps to one side overlooked. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/rng.h"
+#include "measure/wall_modes.h"
+#include "run/replicas.h"
+#include "statistics/decay_time.h"
+
+enum { ROWS = 4096, SPREAD = 1 };
+
+static gg_model couette(void)
+{
+  gg_model m;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_COUETTE, s.phi = 0.3;
+  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  return m;
+}
+
+static double autoregressive(gg_rng *r, double tau, double *at)
+{
+  double rho = exp(-1 / tau);
+  return *at = rho * *at + sqrt(1 - rho * rho) * gg_rng_normal(r);
+}
+
+/* Windows of 10 and of 40 decay times, noise of as much variance on top: on average within a quarter of what was
+ * planted, where an integral of the correlation function has less than half at 10. White noise has none, a run that
+ * stays where it is all. Replicas count as what they are together. */
+static void decay_times(void **state)
+{
+  (void)state;
+  enum { REPEATS = 200 };
+  static const int windows[] = {10, 40}, runs[] = {1, 4};
+  gg_rng r = gg_rng_seed(33, 0);
+  double y[512];
+  for (int w = 0; w < 2; w++)
+    for (int k = 0; k < 2; k++) {
+      size_t n = 512 / (size_t)runs[k];
+      double tau = 512.0 / windows[w] / (k ? 2 : 1), sum = 0, squares = 0;
+      for (int repeat = 0; repeat < REPEATS; repeat++) {
+        double at = gg_rng_normal(&r);
+        for (size_t i = 0; i < 512; i++) {
+          if (i % n == 0) at = gg_rng_normal(&r);
+          y[i] = autoregressive(&r, tau, &at) + gg_rng_normal(&r);
+        }
+        double time = gg_decay_time(y, n, (size_t)runs[k]) / tau;
+        sum += time / REPEATS, squares += time * time / REPEATS;
+      }
+      double four = 4 * sqrt((squares - sum * sum) / REPEATS);
+      print_message("# %d runs of %.0f decay times: %.3f +- %.3f of it\n", runs[k], (double)n / tau, sum, four / 4);
+      assert_true(fabs(sum - 1) < 0.25 + four);
+    }
+  for (size_t i = 0; i < 512; i++) y[i] = i < 256 ? 1 : -1;
+  assert_true(gg_decay_time(y, 512, 1) > 100);
+  for (size_t i = 0; i < 512; i++) y[i] = gg_rng_normal(&r);
+  assert_true(gg_decay_time(y, 512, 1) < 3);
+}
+
+static void begin(gg_replicas *all, gg_replica *replica)
+{
+  *all = (gg_replicas){.n = 1, .model = couette(), .replica = replica, .state.averaging = 1, .state.due = ROWS};
+  *replica = (gg_replica){.model = all->model};
+  assert_int_equal(gg_series_init(&replica->series, (size_t)gg_wall_modes(&all->model), NULL), GG_OK);
+}
+
+/* A window in which one mode is autoregressive over `tau` rows, the others are white, the centre of mass about `aside`.
+ */
+static void plant(gg_rng *r, double tau, double aside, gg_replica *p)
+{
+  double at = gg_rng_normal(r), row[GG_MOST_WALL_MODES];
+  for (int t = 0; t < ROWS; t++) {
+    for (int k = 0; k < gg_wall_modes(&p->model); k++) row[k] = gg_rng_normal(r);
+    row[SPREAD] += autoregressive(r, tau, &at);
+    row[GG_WALL_CENTRE] += aside;
+    gg_series_add(&p->series, t, row);
+  }
+}
+
+/* Five correlation times are too few, and the reason names the mode; 200 will do. */
+static void short_window(void **state)
+{
+  (void)state;
+  gg_rng r = gg_rng_seed(32, 0);
+  for (int slow = 0; slow < 2; slow++) {
+    gg_replicas all;
+    gg_replica replica;
+    gg_convergence c;
+    gg_wandering w;
+    double tau = slow ? ROWS / 5.0 : ROWS / 200.0;
+    begin(&all, &replica);
+    plant(&r, tau, slow ? 0 : 2, &replica);
+    assert_int_equal(gg_replicas_wandering(&all, &w, NULL), GG_OK);
+    assert_int_equal(w.mode, SPREAD);
+    print_message("# time %.2f of it\n", w.time / tau);
+    assert_true(w.time > 0.25 * tau && w.time < 3 * tau);
+    if (slow) assert_true(w.aside_share < 0.5);
+    if (!slow) assert_true(w.aside_share > 0.9 && fabs(w.aside - 2) < 0.1);
+    assert_int_equal(gg_replicas_convergence(&all, &c, NULL), GG_OK);
+    gg_result *result = calloc(1, sizeof *result);
+    gg_replicas_report_steadiness(&all, &c, result);
+    print_message("# %s\n", result->steadiness_text);
+    assert_int_equal(result->steadiness, slow ? GG_NOT_STEADY : GG_STEADY);
+    if (slow) assert_non_null(strstr(result->steadiness_text, gg_wall_mode_name(SPREAD)));
+    free(result);
+    gg_series_clear(&replica.series);
+  }
+}
+
+/* A frame of three slabs of known grains. */
+static void what_they_are(void **state)
+{
+  (void)state;
+  gg_model m = couette();
+  gg_local_frame f = {.n_slabs = 3,
+                      .count = {1, 2, 5},
+                      .mean = {{-2, 9, 9}, {0.5, 9, 9}, {3, 9, 9}},
+                      .temperature = {4, 1, 2},
+                      .first = {1, 0, 3}};
+  double row[GG_MOST_WALL_MODES], w1 = cos(M_PI / 6), w2 = 0.5, H = m.box[1]; /* cos(pi y), cos(2 pi y) of slab 1 */
+  m.n_species = 2;
+  gg_wall_modes_take(&m, &f, row);
+  const double expected[] = {(5 - 1) * H / 3 / 8,        (6 * w2 - 2) / 8,   (-2 + 1 + 15) / 8.0,
+                             (-2 - 15) * w1 / 8,         (13 * w2 - 1) / 8,  (4 - 10) * w1 / 8,
+                             (4 * w2 - 2 + 10 * w2) / 8, (1 - 3) * w1 / 4.0, 4 * w2 / 4};
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_true(fabs(row[k] - expected[k]) < 1e-12);
+}
+
+/* What waves across the gap are even: those that the symmetry of the flow leaves alone. Of homogeneous scenes and of
+ * the Monte Carlo ensemble there are none, and no rows. */
+static void parities(void **state)
+{
+  (void)state;
+  gg_model m;
+  gg_scene s = gg_scene_defaults();
+  s.phi = 0.1;
+  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_wall_modes(&m), 0);
+  static const bool turned[] = {true, false, true, false, true, true, false, true, false};
+  static const bool mirrored[] = {true, false, false, true, false, true, false, true, false};
+  s.flow = GG_COUETTE;
+  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_wall_mode_is_odd(&m, k), turned[k]);
+  m.gravity[0] = 1;
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_wall_mode_is_odd(&m, k));
+  m.wall_speed = 0;
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_wall_mode_is_odd(&m, k), mirrored[k]);
+  m.gravity[1] = -1;
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_wall_mode_is_odd(&m, k));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(decay_times), cmocka_unit_test(short_window),
+                                     cmocka_unit_test(what_they_are), cmocka_unit_test(parities)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
