@@ -83,10 +83,21 @@ GG_API gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *
 GG_API gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err);
 /* "Uniform shear flow, phi 0.3, e 0.9, smooth", cut to `size` bytes. */
 GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err);
-/* What an engine ("md", "dsmc") switches on and off for this scene, a line of text a call; or GG_BAD_INPUT with the
+/* What an engine ("md", "dsmc") switches on and off for this scene, and what memory and time a run will take, a line of
+ * text a call; or GG_BAD_INPUT with the
  * reason why it cannot run it. */
 GG_API gg_status gg_scene_describe(const gg_scene *scene, const char *engine,
                                    void (*line)(void *context, const char *text), void *context, gg_error *err);
+
+/* What a run of the scene will take on an engine: memory within a fifth, time within a factor of two. A run that needs
+ * more memory than there is ends with GG_FAILED before it begins. */
+typedef struct gg_scene_needs {
+  double memory, memory_available; /* bytes, all replicas; INFINITY available: nothing tells */
+  double collisions_per_grain;     /* warm-up included; the error that is asked for may take more */
+  double cpu_seconds;
+  double observables; /* share of the run's time that its observables add, over the run without them */
+} gg_scene_needs;
+GG_API gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene_needs *needs, gg_error *err);
 /* Keys that the scene gives and that have no effect there, a line of text a reason; none of it is a mistake. `use`: run
  * by "md" or "dsmc", "compare", or "theory" for what is so whichever engine runs it. */
 GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,

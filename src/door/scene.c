@@ -11,6 +11,8 @@
 #include "io/scene/json.h"
 #include "io/scene/reader.h"
 #include "io/text.h"
+#include "run/forecast.h"
+#include "run/memory.h"
 
 gg_status gg_door_finished(const gg_scene *scene, gg_scene *copy, gg_error *err)
 {
@@ -155,6 +157,30 @@ gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_erro
   return GG_OK;
 }
 
+static gg_status make_model(const gg_scene *scene, const char *engine, gg_scene *finished, gg_model *model,
+                            gg_engine_kind *kind, gg_error *err)
+{
+  GG_TRY(gg_door_engine(engine, kind, err));
+  GG_TRY(gg_door_finished(scene, finished, err));
+  GG_TRY(gg_model_make(finished, *kind, model, err));
+  return gg_engine_ops_of(*kind)->accepts(model, err);
+}
+
+gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene_needs *needs, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(engine);
+  GG_NEED(needs);
+  gg_scene finished;
+  gg_model model;
+  gg_engine_kind kind;
+  GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
+  const gg_forecast f = gg_forecast_of(&finished, &model, kind);
+  *needs = (gg_scene_needs){f.bytes, gg_memory_available(), f.collisions, f.seconds, 0};
+  for (int i = 0; i < f.n_costs; i++) needs->observables += f.cost[i].percent / 100;
+  return GG_OK;
+}
+
 gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*line)(void *context, const char *text),
                             void *context, gg_error *err)
 {
@@ -164,12 +190,10 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_scene finished;
   gg_model model;
   gg_engine_kind kind;
-  GG_TRY(gg_door_engine(engine, &kind, err));
-  GG_TRY(gg_door_finished(scene, &finished, err));
-  GG_TRY(gg_model_make(&finished, kind, &model, err));
-  const gg_engine_ops *ops = gg_engine_ops_of(kind);
-  GG_TRY(ops->accepts(&model, err));
-  ops->describe(&model, line, context);
+  GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
+  gg_engine_ops_of(kind)->describe(&model, line, context);
+  gg_forecast forecast = gg_forecast_of(&finished, &model, kind);
+  gg_forecast_tell(&forecast, finished.run.replicas, line, context);
   return GG_OK;
 }
 

@@ -5,6 +5,15 @@
 
 #include "statistics/planner.h"
 
+enum { LEAST_MESH = 16, MOST_MESH = 96 };
+#define MESH_SPACING 0.25
+
+int gg_mesh_points_along(const gg_model *m)
+{
+  double longest = fmax(fmax(m->box[0], m->box[1]), m->box[2]);
+  return 4 * (int)ceil(fmin(fmax(longest / MESH_SPACING, LEAST_MESH), MOST_MESH) / 4);
+}
+
 gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err)
 {
   size_t plane = (size_t)n * (size_t)n;

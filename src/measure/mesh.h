@@ -16,6 +16,10 @@ typedef struct gg_mesh {
   fftw_plan plan;
 } gg_mesh;
 
+/* So many points along each edge that suit a model; and how many of them for each grain are worth a transform in every
+ * 32nd sample. */
+enum { GG_MESH_POINTS_PER_GRAIN = 480 };
+int gg_mesh_points_along(const gg_model *model);
 gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err);
 void gg_mesh_clear(gg_mesh *m);
 

@@ -10,8 +10,6 @@
 #include "measure/needs.h"
 #include "measure/observable.h"
 
-enum { LEAST_MESH = 16, MOST_MESH = 96 };
-#define MESH_SPACING 0.25
 enum { COUNT, WAVE, DENSITY, LONGITUDINAL, TRANSVERSE, RADIAL }; /* a radial bin */
 enum { AXIS_COUNT, AXIS_DENSITY, AXIS };                         /* a mode along an axis */
 
@@ -43,8 +41,7 @@ static void *create(const gg_model *m, gg_error *err)
   structure *d = gg_new_array(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
-  double longest = fmax(fmax(m->box[0], m->box[1]), m->box[2]);
-  int n = 4 * (int)ceil(fmin(fmax(longest / MESH_SPACING, LEAST_MESH), MOST_MESH) / 4);
+  int n = gg_mesh_points_along(m);
   d->most = n / 4;
   bool whole = gg_mesh_init(&d->mesh, n, err) == GG_OK;
   for (int f = 0; f < 4 && whole; f++) whole = (d->mode[f] = gg_new_array(modes_of(d), sizeof(gg_mode), err)) != NULL;
@@ -60,12 +57,12 @@ static size_t bins(const void *self)
 }
 
 /* Small systems in large boxes: transforms are worth so many collisions that they come more rarely. */
-enum { EVERY = 32, POINTS_PER_GRAIN = 480 };
+enum { EVERY = 32 };
 static int every_of(const void *self)
 {
   const structure *d = self;
   double points = (double)d->mesh.n * d->mesh.n * d->mesh.n / (double)d->model.n;
-  return EVERY * (int)fmax(1, ceil(points / POINTS_PER_GRAIN));
+  return EVERY * (int)fmax(1, ceil(points / GG_MESH_POINTS_PER_GRAIN));
 }
 
 static void keep_modes(structure *d, int field)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "run/clock.h"
+#include "run/forecast.h"
 #include "run/start.h"
 
 static gg_status create_replicas(gg_replicas *all, gg_error *err)
@@ -32,6 +33,8 @@ gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_a
   GG_TRY(gg_engine_ops_of(scene->engine)->accepts(&all->model, err));
   if (scene->temperature == GG_AUTO) gg_start_near_steady(&all->model);
   all->plan = gg_plan_of(scene, &all->model);
+  const gg_forecast forecast = gg_forecast_of(scene, &all->model, scene->engine);
+  GG_TRY(gg_forecast_check_memory(&forecast, gg_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
   all->replica = gg_new_array((size_t)all->n, sizeof *all->replica, err);
   if (!all->replica) return GG_FAILED;
   gg_replicas_watch(all);

@@ -1,8 +1,11 @@
 """The commands as interface: what they print, the keys of their JSON, their exit codes."""
 import json
 import os
+import re
+import resource
 import subprocess
 import sys
+import tempfile
 
 from tap import GRAINGAS, check, main, run
 
@@ -13,6 +16,34 @@ ROUGH = ("flow: usf\nphi: 0.2\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsm
 def loads(done):
     check(done.code in (0, 1), done.code, done.err)
     return json.loads(done.out, parse_constant=lambda word: check(False, word, "in JSON"))
+
+
+def test_needs_foreseen():
+    """What info says of memory is what a run takes, within a fifth, of either engine and with observables; and a run
+    for which there is not enough is refused before it begins, with what it needs and what there is."""
+    few = "run: {warmup: 0.5, collisions: 2}\n"
+    scenes = {"md": "flow: usf\nphi: 0.1\nparticles: 500000\ncollision: {beta: 0}\n" + few,
+              "dsmc": "flow: hss\nengine: dsmc\nphi: 0.2\ndsmc: {particles: 1000000}\n"
+                      "measure: [rheology, velocity_distributions]\n" + few}
+    for engine, scene in scenes.items():
+        told = run("info", "scene.yaml", scene=scene).out.split(f"\n{engine}, ")[1]
+        number, unit = re.search(r"memory: about ([\d.]+) (MB|GB)", " ".join(told.split())).groups()
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.yaml")
+            with open(path, "w") as f:
+                f.write(scene)
+            one = subprocess.Popen([GRAINGAS, "run", path, "--json", "--quiet"], stdout=subprocess.DEVNULL, cwd=folder)
+            taken = os.wait4(one.pid, 0)[2].ru_maxrss * 1024
+        foreseen = float(number) * {"MB": 1e6, "GB": 1e9}[unit]
+        check(0.8 < foreseen / taken < 1.25, engine, foreseen, taken)
+    limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.yaml")
+        with open(path, "w") as f:
+            f.write("flow: usf\nphi: 0.1\nparticles: 100000000\n")
+        refused = subprocess.run([GRAINGAS, "run", path], capture_output=True, text=True, preexec_fn=limit, timeout=60)
+    check(refused.returncode == 1 and "would need about" in refused.stderr and "there are" in refused.stderr,
+          refused.returncode, refused.stderr)
 
 
 def test_help_and_version():

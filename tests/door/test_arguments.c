@@ -37,6 +37,10 @@ static void scenes(void **state)
   assert_missing(gg_scene_describe(NULL, "md", line, NULL, &err));
   assert_missing(gg_scene_describe(s, NULL, line, NULL, &err));
   assert_missing(gg_scene_describe(s, "md", NULL, NULL, &err));
+  gg_scene_needs needs;
+  assert_missing(gg_scene_get_needs(NULL, "md", &needs, &err));
+  assert_missing(gg_scene_get_needs(s, NULL, &needs, &err));
+  assert_missing(gg_scene_get_needs(s, "md", NULL, &err));
   assert_int_equal(gg_scene_check(NULL, NULL), GG_BAD_INPUT); /* nobody has to listen */
   assert_null(other);
   gg_scene_free(s);

@@ -95,6 +95,11 @@ static void described(void **state)
   gg_scene *s = scene_of("{flow: usf, phi: 0}");
   assert_ok(gg_scene_describe(s, "dsmc", count_line, &lines, &err));
   assert_true(lines > 2);
+  gg_scene_needs needs;
+  assert_ok(gg_scene_get_needs(s, "dsmc", &needs, &err));
+  assert_true(needs.memory > 1e6 && needs.memory_available > needs.memory);
+  assert_true(needs.collisions_per_grain > 100 && needs.cpu_seconds > 0 && needs.observables >= 0);
+  assert_refused(gg_scene_get_needs(s, "md", &needs, &err), "phi");
   assert_refused(gg_scene_describe(s, "md", count_line, &lines, &err), "phi");
   assert_refused(gg_scene_describe(s, "spectral", count_line, &lines, &err), "there are md and dsmc");
   gg_scene_free(s);

@@ -1,0 +1,38 @@
+/* What a run will take, told before it begins: memory, processor time, and the shares of its observables. Times are
+ * those of one processor of 2020 or so, right within a factor of two; memory within a fifth. */
+#ifndef GG_FORECAST_H
+#define GG_FORECAST_H
+
+#include "common/engine.h"
+#include "common/observables.h"
+#include "common/scene.h"
+
+typedef struct gg_forecast {
+  double engine, observables, series; /* bytes of one replica */
+  double writing;                     /* bytes for the grains at the end, and the file made of them */
+  double bytes;                       /* at most at a time, all replicas and the program included */
+  double collisions;                  /* a grain, warm-up included; NaN: until the time limit, or not known */
+  double ns;                          /* of processor time a collision, observables apart */
+  double seconds;                     /* of processor time in all; NaN: not known */
+  bool at_least;                      /* the error that is asked for may need more */
+  int n_costs;
+  struct {
+    const char *name;
+    double percent; /* of the run without it */
+  } cost[GG_N_OBSERVABLES];
+} gg_forecast;
+
+/* Of a finished scene, and the model of its engine. */
+gg_forecast gg_forecast_of(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
+
+/* GG_FAILED, with what is needed and what is there, if this machine has not the memory. */
+gg_status gg_forecast_check_memory(const gg_forecast *forecast, const char *engine, int64_t replicas, gg_error *err);
+
+/* In words, a line a call. */
+void gg_forecast_tell(const gg_forecast *forecast, int64_t replicas, void (*line)(void *context, const char *text),
+                      void *context);
+
+/* engines.c */
+double gg_engine_bytes(gg_engine_kind kind, const gg_model *model);
+
+#endif
