@@ -21,13 +21,11 @@ static double candidate_rate(const gg_dsmc *d, gg_dsmc_features f, int i, int j)
   return gg_dsmc_candidates_per_unit(d->path[gg_pair_index(i, j)], f, one, two) * gg_dsmc_cross_section(d, i, j);
 }
 
-/* How many candidates, `mean` on average, whatever the step: a Poisson number where they come one by one. Eight at a
- * time that would vary too much; there the fractional remainder is carried over instead. */
-static uint64_t candidates(gg_dsmc *d, int pair, double mean, bool correction)
+uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_rng *rng)
 {
-  if (d->path[pair] == GG_DSMC_PLAIN || correction) return gg_rng_poisson(&d->now.rng, mean);
-  double due = d->now.remainder[pair] + mean, whole = floor(due);
-  d->now.remainder[pair] = due - whole;
+  if (one_by_one) return gg_rng_poisson(rng, mean);
+  double due = *remainder + mean, whole = floor(due);
+  *remainder = due - whole;
   return (uint64_t)whole;
 }
 
@@ -43,7 +41,8 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
     gg_dsmc_pass p = gg_dsmc_pass_of(d, i, j);
     p.floor = floor;
     p.majorant = majorant;
-    p.candidates = candidates(d, gg_pair_index(i, j), rate * majorant, floor > 0);
+    p.candidates = gg_dsmc_candidates(path == GG_DSMC_PLAIN || floor > 0, rate * majorant,
+                                      &d->now.remainder[gg_pair_index(i, j)], &d->now.rng);
     if (d->callback.call) gg_dsmc_call_back(d, i, j, dt, &p);
     p.strain_step = p.candidates ? span / (double)p.candidates : 0;
     p.strain = strain + 0.5 * p.strain_step;

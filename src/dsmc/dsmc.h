@@ -65,6 +65,9 @@ extern const int gg_dsmc_species_of_pair[GG_PAIRS][2];
 
 /* collisions.c: majorants that hold for sure, to start from. */
 void gg_dsmc_start_majorants(gg_dsmc *d);
+/* How many candidates, `mean` on average, whatever the step: a Poisson number where they come one by one, or as a
+ * correction. Eight at a time that would vary too much; there the fractional remainder is carried over instead. */
+uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_rng *rng);
 /* All collisions of an interval `dt`, candidates at strains `strain` + (0..1) x `span` (a constant one if span is 0).
  */
 void gg_dsmc_collide(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting);

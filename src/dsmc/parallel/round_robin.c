@@ -57,15 +57,6 @@ static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *p)
     for (int b = 0; b < 3; b++) sum->stress[a][b] += p->stress[a][b];
 }
 
-/* See `candidates` in collisions.c: the same for two segments. */
-static uint64_t candidates(const species_pair *s, double *remainder, double mean, gg_rng *rng)
-{
-  if (s->common.floor > 0) return gg_rng_poisson(rng, mean);
-  double due = *remainder + mean, whole = floor(due);
-  *remainder = due - whole;
-  return (uint64_t)whole;
-}
-
 /* Two segments whose blocks collide. */
 typedef struct segment_pair {
   int first;               /* the one whose random streams they use */
@@ -86,7 +77,7 @@ static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, in
   p.blocks[1] = gg_dsmc_segment(p.two, segments, two);
   double mean =
       substep->length * s->rate * gg_dsmc_block_pairs_per_unit(p.blocks[0], p.blocks[1], s->f.same && one == two);
-  p.candidates = candidates(s, &schedule->remainder[pair][one][two], mean, &at->rng);
+  p.candidates = gg_dsmc_candidates(s->common.floor > 0, mean, &schedule->remainder[pair][one][two], &at->rng);
   p.strain_step = p.candidates ? span / (double)p.candidates : 0;
   p.strain = strain + 0.5 * p.strain_step;
   gg_dsmc_ensemble_strain_bounds(&at->bounds, strain);

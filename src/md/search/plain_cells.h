@@ -24,6 +24,7 @@ enum {
 #include "md/search/candidates.h"
 #include "md/search/faces.h"
 #include "md/search/pair.h"
+#include "md/search/prefetch_partner.h"
 #include "md/search/simd_pairs.h"
 #include "md/search/way.h"
 
@@ -211,20 +212,6 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 GG_INLINE void gg_md_shift_all(gg_md *e)
 {
   (void)e;
-}
-
-GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)
-{
-  (void)i;
-  if (GG_MD_NO_GRAIN(partner)) return;
-  __builtin_prefetch(&e->grain[partner]);
-  __builtin_prefetch(&e->node[partner]);
-}
-
-GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i)
-{
-  (void)e;
-  (void)i;
 }
 
 /* The cells around, of which three neighbours along x stand on two lines. */
