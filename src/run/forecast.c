@@ -19,15 +19,15 @@ static const struct needs {
   double bytes, ns[2]; /* by engine */
 } needs[] = {
     {GG_MEASURE_VELOCITY_DISTRIBUTIONS, 0, {10, 6}},
-    {GG_MEASURE_LOCAL_DISTRIBUTIONS, 25, {16, 0}},
+    {GG_MEASURE_LOCAL_DISTRIBUTIONS, 25, {10, 0}},
     {GG_MEASURE_ORIENTATION, 0, {10, 2.5}},
     {GG_MEASURE_SONINE, 0, {6, 4}},
     {GG_MEASURE_PAIR_CORRELATION, 34, {140, 0}},
     {GG_MEASURE_VELOCITY_CORRELATIONS, 82, {110, 0}},
     {GG_MEASURE_STRUCTURE, 8, {0, 0}},
-    {GG_MEASURE_CELLS, 10, {6, 0}},
+    {GG_MEASURE_CELLS, 10, {4, 0}},
     {GG_MEASURE_PROFILES, 0, {10, 0}},
-    {GG_MEASURE_DIFFUSION, 460, {400, 0}},
+    {GG_MEASURE_DIFFUSION, 700, {120, 0}},
     {GG_MEASURE_COLLISIONS, 8, {90, 6}},
 };
 enum { N_NEEDS = sizeof needs / sizeof *needs };
