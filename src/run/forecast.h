@@ -1,5 +1,6 @@
 /* What a run will take, told before it begins: memory, processor time, and the shares of its observables. Times are
- * those of one processor of 2020 or so, right within a factor of two; memory within a fifth. */
+ * those of one processor of 2020 or so, right within a factor of two (three where an error is asked for); memory within
+ * a fifth. */
 #ifndef GG_FORECAST_H
 #define GG_FORECAST_H
 
@@ -11,10 +12,10 @@ typedef struct gg_forecast {
   double engine, observables, series; /* bytes of one replica */
   double writing;                     /* bytes for the grains at the end, and the file made of them */
   double bytes;                       /* at most at a time, all replicas and the program included */
-  double collisions;                  /* a grain, warm-up included; NaN: until the time limit, or not known */
+  double collisions;                  /* a grain, warm-up included */
   double ns;                          /* of processor time a collision, observables apart */
-  double seconds;                     /* of processor time in all; NaN: not known */
-  bool at_least;                      /* the error that is asked for may need more */
+  double seconds;                     /* of processor time in all */
+  bool to_an_error;                   /* it goes on until an error that is asked for */
   int n_costs;
   struct {
     const char *name;
@@ -32,7 +33,7 @@ gg_status gg_forecast_check_memory(const gg_forecast *forecast, const char *engi
 void gg_forecast_tell(const gg_forecast *forecast, int64_t replicas, void (*line)(void *context, const char *text),
                       void *context);
 
-/* engines.c */
+/* engine_memory.c */
 double gg_engine_bytes(gg_engine_kind kind, const gg_model *model);
 
 #endif
