@@ -130,10 +130,10 @@ gg_forecast gg_forecast_of(const gg_scene *scene, const gg_model *m, gg_engine_k
   add_observables(&f, scene, m, engine);
   plan_time(&f, scene, m);
   f.series = bytes_of_series(&f, m);
-  double frame = (double)m->n * (8 + sizeof(gg_vec) * (1 + (m->rule != GG_SMOOTH) + !m->homogeneous));
+  double frame = (double)m->n * (24 + sizeof(gg_vec) * (1 + (m->rule != GG_SMOOTH) + !m->homogeneous));
   double replicas = (double)scene->run.replicas, each = f.engine + f.observables + f.series;
-  f.writing = 3.6 * frame; /* the grains, the file's image as it grows, and the whole of it */
-  f.bytes = PROGRAM + fmax(replicas * each + frame, f.writing);
+  f.writing = 3.5 * frame; /* the grains, the file's image as it grows, and the whole of it */
+  f.bytes = PROGRAM + fmax(replicas * each + frame, f.writing + f.observables);
   return f;
 }
 
