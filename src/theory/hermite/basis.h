@@ -1,5 +1,5 @@
 /* Products of normalised Hermite polynomials, Ho_r(c) = prod_i He_{r_i}(c_i)/sqrt(r_i!), orthonormal under the weight
- * (2 pi)^(-3/2) exp(-c.c/2); those of even total degree up to N. */
+ * (2 pi)^(-3/2) exp(-c^2/2); those of even total degree up to N. */
 #ifndef GG_HERMITE_BASIS_H
 #define GG_HERMITE_BASIS_H
 
@@ -23,7 +23,7 @@ typedef struct gg_hermite_basis {
   int n_rotated;
   gg_hermite_index *rotated;
   int rotated_from[GG_HERMITE_MOST_DEGREE + 2];
-  /* Place in `function` and in `rotated`, by the three indices; -1: not there. See gg_hermite_at. */
+  /* Place in `function` and in `rotated`, by the three indices; -1: not there. See gg_hermite_cell. */
   int *place, *rotated_place;
 } gg_hermite_basis;
 

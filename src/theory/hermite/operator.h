@@ -1,6 +1,6 @@
 /* Enskog's collision operator and streaming on an expansion about a Gaussian,
- *   f = n (2 pi)^(-3/2) |L|^-1 exp(-c.c/2) sum_s a_s Ho_s(c),   c = L^-1 C,
- * tested with psi_r = Ho_r(c) exp(-decay c.c/2): R_r = d<psi_r>/dt, and its derivatives with respect to the a_s. Tests
+ *   f = n (2 pi)^(-3/2) |L|^-1 exp(-c^2/2) sum_s a_s Ho_s(c),   c = L^-1 C,
+ * tested with psi_r = Ho_r(c) exp(-decay c^2/2): R_r = d<psi_r>/dt, and its derivatives with respect to the a_s. Tests
  * of degree 2 do not decay: energy and stress are balanced exactly. */
 #ifndef GG_HERMITE_OPERATOR_H
 #define GG_HERMITE_OPERATOR_H
