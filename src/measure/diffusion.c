@@ -211,8 +211,9 @@ static void put_component(const diffusion *d, int species, int a, const double *
   c->log_x = r->log_x = r->log_y = true;
   snprintf(unit, sizeof unit, "%.30s^2", gg_curve_unit(m, "length"));
   gg_curve_axes(r, "t", time, "<(Δr)^2>", unit);
+  double step = gg_lag_mean(bin, 1, GG_LAG_TIME);
   for (int i = 0; i < GG_LAGS && c->n && r->n; i++) {
-    c->x[i] = r->x[i] = gg_lag_mean(bin, i, GG_LAG_TIME);
+    c->x[i] = r->x[i] = gg_lag_steps(i) * step; /* also where no sample has come so far */
     c->value[i] = gg_lag_mean(bin, i, GG_LAG_CC + a);
     r->value[i] = gg_lag_mean(bin, i, GG_LAG_RR + a);
   }

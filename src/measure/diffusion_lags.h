@@ -34,6 +34,14 @@ static inline int gg_lag_index(int level, int steps)
   return steps < GG_LAG_REACH / 4 ? -1 : GG_LAG_REACH + (level - 1) * GG_LAG_OWN + steps - GG_LAG_REACH / 4;
 }
 
+/* The snapshots between. */
+static inline double gg_lag_steps(int lag)
+{
+  if (lag < GG_LAG_REACH) return lag;
+  int level = 1 + (lag - GG_LAG_REACH) / GG_LAG_OWN;
+  return ldexp(GG_LAG_REACH / 4 + (lag - GG_LAG_REACH) % GG_LAG_OWN, 2 * level);
+}
+
 static inline double gg_lag_mean(const double *bin, int lag, int channel)
 {
   const double *at = bin + lag * GG_LAG_WIDTH;

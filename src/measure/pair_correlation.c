@@ -139,7 +139,7 @@ static void put_rate(const pair_correlation *d, gg_curve *c, const double *extra
   double rate = 2 * extra[COLLISIONS] / ((double)m->n * extra[TIME]), T = extra[TEMPERATURE] / extra[SNAPSHOTS];
   double others = (double)(m->n - 1) / m->volume, value = rate / (4 * others * sqrt(M_PI * T));
   gg_curve_put_number(c, "contact_value_of_rate", value, "1");
-  gg_curve_put_number(c, "contact_value_of_rate_and_speed", value / speed, "1");
+  gg_curve_put_number(c, "contact_value_of_flux", value / speed, "1");
 }
 
 /* In equilibrium motion reversed is as likely, and all pairs are alike. */
@@ -150,8 +150,8 @@ static void put_contact(const pair_correlation *d, int q, gg_curve *c, const dou
   gg_contact_density g = gg_near_read(&d->near[q], near, pairs / m->volume, samples);
   double all = m->flow == GG_EQUILIBRIUM ? g.alike : 0.5 * (g.approaching + g.parting);
   gg_curve_put_number(c, "contact_value", all, "1");
-  gg_curve_put_number(c, "contact_value_approaching", g.approaching, "1");
-  gg_curve_put_number(c, "contact_value_parting", g.parting, "1");
+  gg_curve_put_number(c, "contact_value_before", g.approaching, "1");
+  gg_curve_put_number(c, "contact_value_after", g.parting, "1");
   gg_curve_put_number(c, "approach_speed", g.speed, "1");
   put_rate(d, c, bin + GG_PAIRS * (d->bins + GG_NEAR_WIDTH), g.speed);
 }

@@ -260,8 +260,8 @@ static void inelastic(void **state)
     s.measure |= GG_MEASURE_PAIR_CORRELATION;
     gg_result *r = ct_run(s);
     const gg_curve *c = ct_find(&r->curves, "pair_correlation");
-    const char *const names[] = {"contact_value_approaching", "contact_value_parting", "contact_value",
-                                 "contact_value_of_rate_and_speed", "approach_speed"};
+    const char *const names[] = {"contact_value_before", "contact_value_after", "contact_value",
+                                 "contact_value_of_flux", "approach_speed"};
     for (int k = 0; k < 5; k++) value[k] = ct_number(c, names[k]).value, error[k] = ct_number(c, names[k]).error;
     ct_expect("parting", value[1], hypot(error[1], error[0] / e), value[0] / e, 0.3);
     ct_expect("all", value[2], hypot(error[2], error[3] * (1 + 1 / e) / 2), value[3] * (1 + 1 / e) / 2, 0.2);
