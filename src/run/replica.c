@@ -178,6 +178,15 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
   return status;
 }
 
+/* What is no number is so for ever: better said at once. */
+static gg_status check_numbers(const gg_replica *r, gg_error *err)
+{
+  const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
+  if (!o || !o->history || isfinite(o->history[0](r->row + r->offset[0], &r->model))) return GG_OK;
+  return gg_fail(err, GG_FAILED, "%s: the temperature is no number any more near time %g", r->engine->ops->name,
+                 r->clock.time);
+}
+
 static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
 {
   double elapsed;
@@ -185,6 +194,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
   gg_replica_sample_row(r, elapsed);
   r->clock.time += ldexp(elapsed, (int)r->clock.power);
+  GG_TRY(check_numbers(r, err));
   gg_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened);

@@ -115,8 +115,10 @@ void gg_replicas_check_standstill(gg_replicas *all);
 gg_status gg_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);
 gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *archive, gg_error *err);
 
-/* report.c: the result of where the replicas stand. */
+/* report.c: the result of where the replicas stand, whole if GG_OK; then, GG_FAILED if that is short of what was asked.
+ */
 gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err);
+gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err);
 /* report_curves.c: the curves of all replicas together, and a warning for each observable that this model cannot have.
  */
 gg_status gg_replicas_report_curves(const gg_replicas *all, gg_result *result, gg_error *err);

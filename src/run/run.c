@@ -9,8 +9,12 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
   if (!result) return GG_FAILED;
   gg_replicas_level(all);
   gg_status status = gg_replicas_report(all, result, err);
+  if (status != GG_OK) { /* out of memory: half a result is none */
+    gg_result_free(result);
+    return status;
+  }
   *out = result;
-  return status;
+  return gg_replicas_check_end(all, err);
 }
 
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,

@@ -1,12 +1,14 @@
 /* Proves, with the real engines: a run that is stopped in the midst of an interval and resumed from the checkpoint it
  * left ends with the same numbers to the last bit, whatever stops it; replicas that were stopped at different samples
- * are reported as far as all of them came; the time limit is kept within an interval. */
+ * are reported as far as all of them came; the time limit is kept within an interval; a start in the cold, and a box of
+ * a few diameters. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 
 #include <cmocka.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -163,9 +165,28 @@ static void cold_start(void **state)
   gg_result_free(r[GG_MD]), gg_result_free(r[GG_DSMC]);
 }
 
+/* A box of a few diameters is told. */
+static void narrow_box(void **state)
+{
+  (void)state;
+  const char *const sizes[] = {"10", "200"};
+  for (int k = 0; k < 2; k++) {
+    char yaml[200];
+    snprintf(yaml, sizeof yaml, "{flow: usf, phi: 0.3, particles: %s, run: {collisions: 100, warmup: 10}}", sizes[k]);
+    gg_scene s = scene_of(yaml);
+    gg_result *r = NULL;
+    gg_run_scene(&s, NULL, 1, NULL, &r, NULL);
+    assert_non_null(r);
+    bool told = false;
+    for (size_t i = 0; i < r->warnings.n; i++) told |= strstr(r->warnings.text[i], "diameters wide") != NULL;
+    assert_int_equal(told, k == 0);
+    gg_result_free(r);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(in_the_midst_of_an_interval), cmocka_unit_test(time_limit),
-                                     cmocka_unit_test(cold_start)};
+                                     cmocka_unit_test(cold_start), cmocka_unit_test(narrow_box)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
