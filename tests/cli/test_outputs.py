@@ -87,7 +87,8 @@ def test_devices():
     # A checkpoint is a file all the same, called as without --output.
     os.mkdir("there")
     child = subprocess.Popen([GRAINGAS, "run", "../long.yaml", "--quiet", "--output", "../null", "--set",
-                              "output.checkpoint_every=0.01"], cwd="there", stderr=subprocess.PIPE)
+                              "output.checkpoint_every=0.01"], cwd="there", stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE)
     wait_for("there/long.checkpoint.h5")
     child.send_signal(signal.SIGTERM)
     child.communicate(timeout=60)
@@ -216,7 +217,8 @@ def wait_for(path):
 
 
 def started(*args):
-    return subprocess.Popen([GRAINGAS, "run", "long.yaml", "--quiet", *args], stderr=subprocess.PIPE)
+    return subprocess.Popen([GRAINGAS, "run", "long.yaml", "--quiet", *args], stdout=subprocess.DEVNULL,
+                            stderr=subprocess.PIPE)
 
 
 def ended(child, sig):
