@@ -37,7 +37,7 @@ def rows(text):
             name = line.split()[0 if line.startswith(" ") else 1]
             cells = table.setdefault((curve, name), {"md": "", "dsmc": "", "z": ""})
             for word, end in edges:
-                cell = re.search(r"(?:  |^)(\S*)$", line[:end])
+                cell = re.search(r"(?:  |^)(\S*)$", line.ljust(end)[:end])
                 cells[word] = cell.group(1) if cell else ""
     return table
 
@@ -54,7 +54,8 @@ def test_numbers_off_curves():
     d = json.loads(run("compare", "scene.yaml", "--json", "--picture", "none", scene=CURVES).out)
     curves = {engine: d[engine]["curves"] for engine in ("md", "dsmc")}
     for everything in False, True:
-        done = run("compare", "scene.yaml", "--quiet", "--picture", "none", *(["--all"] if everything else []))
+        more = ["--all"] if everything else []
+        done = run("compare", "scene.yaml", "--quiet", "--picture", "none", *more, columns=100)
         table = rows(done.out)
         check(everything or done.out.count("read off") == 1, "does not fit on a page")
         expected = {(c, n) for e in curves.values() for c, curve in e.items() for n in curve["numbers"]

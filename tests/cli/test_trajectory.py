@@ -99,7 +99,7 @@ def test_replicas_of_dsmc_cut_at_random_moments():
 
 
 def test_time_limit():
-    whole = whole_run(SCENE % ("md", 1000, 1, 60))
+    whole = whole_run(SCENE % ("md", 8000, 1, 60))
     done = run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.1")
     check(done.code == 1 and "time limit" in done.err, done.code, done.err)
     part = particles("scene.h5")["grains/velocity/value"]
@@ -118,7 +118,7 @@ def stopped():
 
 
 def test_without_checkpoints_or_under_another_name():
-    whole = whole_run(SCENE % ("md", 1000, 1, 60))
+    whole = whole_run(SCENE % ("md", 8000, 1, 60))
     run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.1")
     done = run("run", "scene.yaml", "--quiet", "--resume", "scene.checkpoint.h5", "--output", "b.h5", "--set",
                "output.checkpoint_every=0")
