@@ -185,7 +185,8 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features f, gg_dsmc_pass_state *w, gg
   gg_dsmc_candidate_accept(f, at->from_zero, at->lowest, at->majorant, at->word[part], &e);
   if (__builtin_expect(at->layer, 0)) gg_dsmc_candidate_in_layer(at->lowest, &e);
   e.q = gg_dsmc_directions_take(&c->near, e.hit);
-  gg_dsmc_candidate_direction(f, w, c, at->v[part], at->scale[part], &e);
+  gg_vd scale = gg_dsmc_scales_early(f) ? at->scale[part] : gg_all(0);
+  gg_dsmc_candidate_direction(f, w, c, at->v[part], scale, &e);
   if (f.rule != GG_SMOOTH) {
     gg_vd3 sa = gg_dsmc_lanes_load(&w->spin_one[at->one], part * GG_WIDTH);
     e.g = gg_vd3_sub(e.g, gg_vd3_cross(e.k, gg_vd3_add(sa, at->sb[part])));
