@@ -191,9 +191,11 @@ gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err)
                    (double)all->state.due * GG_SAMPLING_INTERVAL,
                    all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
   if (!by_error || c->relative_error <= all->plan.relative_error) return GG_OK;
+  const char *why = atomic_load(&all->stopped) == GG_OUT_OF_TIME ? "the time limit struck; " : "";
   if (isnan(c->relative_error))
-    return gg_fail(err, GG_FAILED, "%s: too short a run to know the error of %s", engine, gg_quantity_name(c->worst));
-  return gg_fail(err, GG_FAILED, "%s: the asked relative error %g was not reached: %s has %.3g", engine,
+    return gg_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
+                   gg_quantity_name(c->worst));
+  return gg_fail(err, GG_FAILED, "%s: %sthe asked relative error %g was not reached: %s has %.3g", engine, why,
                  all->plan.relative_error, gg_quantity_name(c->worst), c->relative_error);
 }
 
