@@ -136,7 +136,7 @@ static void axis_label(FILE *s, char axis, const char *name, const char *raw)
   if (strcmp(raw, "1") == 0 || !*raw)
     fprintf(s, "set %clabel '%s'\n", axis, name);
   else
-    fprintf(s, "set %clabel '%s [%s]'\n", axis, name, unit);
+    fprintf(s, "set %clabel '%s [%s]' offset %s,0\n", axis, name, unit, axis == 'y' ? "0.8" : "0");
 }
 
 /* Nothing but a frame: gnuplot makes no axes of no points. */
