@@ -28,10 +28,13 @@ static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *
   gg_door_run *r = context;
   locale_t before = gg_c_locale_enter();
   gg_status status = gg_door_trajectory_mark(r, archive, err);
-  if (status == GG_OK) status = gg_checkpoint_write(r->options.checkpoint, true, archive, &r->scene, err);
+  if (status == GG_OK)
+    status = r->log.place ? gg_checkpoint_replace(r->options.checkpoint, archive, &r->scene, err)
+                          : gg_checkpoint_write(r->options.checkpoint, true, archive, &r->scene, err);
   gg_c_locale_leave(before);
   if (status != GG_OK) return status;
   r->stored = true;
+  GG_TRY(gg_frame_log_put_in_place(&r->log, err));
   if (r->options.stored) r->options.stored(r->options.context, r->options.checkpoint);
   return GG_OK;
 }

@@ -1,4 +1,14 @@
-/* Where the frames of a run go. */
+/* Where the frames of a run go.
+ *
+ * A run that does not go on from the log beside its checkpoint may be beside the checkpoint of another run, which needs
+ * that log. So it writes X.frames.new, and its first checkpoint takes the other's place in three steps. What a kill -9
+ * leaves in between:
+ * before them           X.h5, X.h5.1 and X.frames of the other run, which can be gone on from; X.frames.new is litter
+ * X.h5 is replaced      the new X.h5 with X.frames.new; X.h5.1 of the other run with X.frames
+ * X.h5.1 is removed     the new X.h5 with X.frames.new; X.frames of the other run is litter
+ * X.frames is replaced  X.h5 and X.frames of the new run
+ * The next run to keep checkpoints there tells the litter from what is needed by the mark in the checkpoint
+ * (settle_new). */
 #include <errno.h>
 #include <libgen.h>
 #include <stdio.h>
@@ -7,6 +17,7 @@
 #include <unistd.h>
 
 #include "door/run.h"
+#include "io/h5/checkpoint_file.h"
 
 static const char mark_item[] = "trajectory/mark", name_item[] = "trajectory/name";
 enum { NAME = 256 };
@@ -41,6 +52,21 @@ static char *log_of_resume(const gg_door_run *r)
   return path;
 }
 
+/* The log up to the mark; or the new one beside it, where its run was killed before it was put in place. */
+static gg_status open_one_of_two(gg_door_run *r, gg_frame_log *log, const char *path, const gg_frame_mark *mark,
+                                 gg_error *err)
+{
+  gg_status status = gg_frame_log_open_at(log, path, mark, gg_door_run_stopped, r, err);
+  char *fresh = status == GG_BAD_FILE ? gg_frame_log_new_path(path) : NULL;
+  if (fresh) {
+    gg_status other = gg_frame_log_open_at(log, fresh, mark, gg_door_run_stopped, r, NULL);
+    if (other == GG_INTERRUPTED) gg_fail(err, other, "interrupted");
+    if (other != GG_BAD_FILE) status = other;
+  }
+  free(fresh);
+  return status;
+}
+
 /* The frames before the checkpoint, every one looked at. */
 static gg_status open_earlier(gg_door_run *r, gg_frame_log *earlier, gg_error *err)
 {
@@ -50,7 +76,7 @@ static gg_status open_earlier(gg_door_run *r, gg_frame_log *earlier, gg_error *e
   if (!mark.frames) return GG_OK;
   char *path = log_of_resume(r);
   if (!path) return gg_fail(err, GG_FAILED, "out of memory");
-  gg_status status = gg_frame_log_open_at(earlier, path, &mark, gg_door_run_stopped, r, &why);
+  gg_status status = open_one_of_two(r, earlier, path, &mark, &why);
   free(path);
   if (status != GG_BAD_FILE) return status == GG_OK ? GG_OK : gg_fail(err, status, "%s", why.message);
   return gg_fail(err, status,
@@ -76,24 +102,74 @@ static gg_status check_place(const char *path, gg_error *err)
   return stream ? gg_cannot_write(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
 }
 
-static gg_status open_log(gg_door_run *r, gg_error *err)
+/* Does the run go on from what is beside its checkpoint? */
+static bool goes_on_there(const gg_door_run *r)
 {
-  char *path = gg_frame_log_path(r->options.checkpoint);
-  if (!path) return gg_fail(err, GG_FAILED, "out of memory");
-  gg_status status = check_place(path, err);
-  if (status == GG_OK) status = gg_frame_log_open(&r->log, path, err);
+  return r->resume.n_items > 0 && gg_is_checkpoint_of(r->options.resume, r->options.checkpoint);
+}
+
+static gg_status open_log(gg_door_run *r, const gg_frame_log *earlier, gg_error *err)
+{
+  char *path = gg_frame_log_path(r->options.checkpoint), *target = path ? gg_follow_links(path) : NULL;
+  gg_status status = target ? check_place(path, err) : gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK) {
+    bool there = earlier->fd >= 0 ? gg_frame_log_is_at(earlier, target) : goes_on_there(r);
+    status = there ? gg_frame_log_open(&r->log, target, err) : gg_frame_log_open_new(&r->log, target, err);
+  }
+  free(target);
+  free(path);
+  return status;
+}
+
+/* The mark of the checkpoint that stays, or goes on, at the run's own place: no frames where there is none. */
+static gg_frame_mark mark_there(const gg_door_run *r)
+{
+  gg_frame_mark mark = {0};
+  gg_archive there = {0};
+  bool older, on = goes_on_there(r);
+  if (!on && gg_checkpoint_read(r->options.checkpoint, &there, &older, NULL) != GG_OK) return mark;
+  if (gg_archive_get(on ? &r->resume : &there, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) != GG_OK)
+    mark = (gg_frame_mark){0};
+  gg_archive_clear(&there);
+  return mark;
+}
+
+/* A dead run left a new log: it is put in place if the checkpoint needs it, and removed if not, as where the log in its
+ * place is good. */
+static gg_status settle(gg_door_run *r, const char *path, const char *fresh, gg_error *err)
+{
+  gg_frame_log log = {.fd = -1};
+  gg_frame_mark mark = mark_there(r);
+  gg_status status = mark.frames ? open_one_of_two(r, &log, path, &mark, err) : GG_BAD_FILE;
+  bool needed = log.fd >= 0 && gg_frame_log_is_at(&log, fresh);
+  gg_frame_log_close(&log);
+  if (status == GG_INTERRUPTED) return status;
+  if (needed) gg_checkpoint_remove_before(r->options.checkpoint);
+  if ((needed ? rename(fresh, path) : unlink(fresh)) != 0) return gg_cannot_write(fresh, strerror(errno), err);
+  return GG_OK;
+}
+
+static gg_status settle_new(gg_door_run *r, gg_error *err)
+{
+  char *path = gg_frame_log_path(r->options.checkpoint), *target = path ? gg_follow_links(path) : NULL;
+  char *fresh = target ? gg_frame_log_new_path(target) : NULL;
+  gg_status status = fresh ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  if (fresh && access(fresh, F_OK) == 0) status = settle(r, target, fresh, err);
+  free(fresh);
+  free(target);
   free(path);
   return status;
 }
 
 gg_status gg_door_trajectory_begin(gg_door_run *r, gg_hooks *hooks, gg_error *err)
 {
+  if (r->options.checkpoint) GG_TRY(settle_new(r, err));
   if (!r->options.output || !(r->scene.output.trajectory_every > 0)) return GG_OK;
   gg_frame_log earlier = {.fd = -1};
   r->late = r->resume.n_items > 0 && !gg_archive_find(&r->resume, mark_item);
   hooks->frame = r->options.checkpoint ? store_in_log : store_in_result;
   gg_status status = r->resume.n_items > 0 && !r->late ? open_earlier(r, &earlier, err) : GG_OK;
-  if (status == GG_OK && r->options.checkpoint) status = open_log(r, err);
+  if (status == GG_OK && r->options.checkpoint) status = open_log(r, &earlier, err);
   if (status == GG_OK && earlier.fd >= 0)
     status = r->log.fd >= 0 ? gg_frame_log_take_over(&r->log, &earlier, err)
                             : gg_frame_log_replay(&earlier, store_in_result, r, err);
@@ -112,7 +188,10 @@ gg_status gg_door_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_
   char name[NAME] = "";
   if (r->log.fd < 0) return GG_OK;
   GG_TRY(gg_frame_log_sync(&r->log, err));
-  snprintf(name, sizeof name, "%s", base_of(r->log.path));
+  char *path = gg_frame_log_path(r->options.checkpoint);
+  if (!path) return gg_fail(err, GG_FAILED, "out of memory");
+  snprintf(name, sizeof name, "%s", base_of(path));
+  free(path);
   GG_TRY(gg_archive_put(archive, name_item, GG_ITEM_U8, name, sizeof name, err));
   return gg_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
 }

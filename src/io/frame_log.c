@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "io/checksum.h"
+#include "io/output_path.h"
 
 enum { POSITIONS = 1, SPINS = 2, SPECIES = 4 };
 static const char word[8] = "GGFRAME";
@@ -45,6 +46,12 @@ char *gg_frame_log_path(const char *checkpoint)
   return asprintf(&path, "%.*s.frames", (int)length, checkpoint) < 0 ? NULL : path;
 }
 
+char *gg_frame_log_new_path(const char *path)
+{
+  char *fresh = NULL;
+  return asprintf(&fresh, "%s.new", path) < 0 ? NULL : fresh;
+}
+
 static gg_status open_file(gg_frame_log *log, const char *path, int flags)
 {
   *log = (gg_frame_log){.path = strdup(path), .mark.checksum = GG_CHECKSUM_START};
@@ -54,7 +61,7 @@ static gg_status open_file(gg_frame_log *log, const char *path, int flags)
 
 static gg_status cannot_write(const gg_frame_log *log, gg_error *err)
 {
-  return gg_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", log->path, strerror(errno));
+  return gg_cannot_write(log->place ? log->place : log->path, strerror(errno), err);
 }
 
 gg_status gg_frame_log_open(gg_frame_log *log, const char *path, gg_error *err)
@@ -67,6 +74,29 @@ gg_status gg_frame_log_open(gg_frame_log *log, const char *path, gg_error *err)
   gg_status status = log->path ? cannot_write(log, err) : gg_fail(err, GG_FAILED, "out of memory");
   gg_frame_log_close(log);
   return status;
+}
+
+gg_status gg_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err)
+{
+  char *fresh = gg_frame_log_new_path(path), *place = strdup(path);
+  bool made = fresh && place && open_file(log, fresh, O_RDWR | O_CREAT | O_EXCL) == GG_OK;
+  gg_status status = made ? GG_OK : gg_cannot_write(path, strerror(errno), err);
+  if (!fresh || !place) *log = (gg_frame_log){.fd = -1};
+  log->place = place;
+  log->created = made;
+  if (!made) gg_frame_log_close(log);
+  free(fresh);
+  return status;
+}
+
+gg_status gg_frame_log_put_in_place(gg_frame_log *log, gg_error *err)
+{
+  if (!log->place) return GG_OK;
+  if (rename(log->path, log->place) != 0) return cannot_write(log, err);
+  free(log->path);
+  log->path = log->place;
+  log->place = NULL;
+  return GG_OK;
 }
 
 static gg_status write_at(const gg_frame_log *log, const void *data, size_t size, uint64_t at, gg_error *err)
@@ -219,6 +249,13 @@ gg_status gg_frame_log_open_at(gg_frame_log *log, const char *path, const gg_fra
   return status;
 }
 
+bool gg_frame_log_is_at(const gg_frame_log *log, const char *path)
+{
+  struct stat mine, there;
+  return fstat(log->fd, &mine) == 0 && stat(path, &there) == 0 && mine.st_dev == there.st_dev &&
+         mine.st_ino == there.st_ino;
+}
+
 static gg_status copy_bytes(gg_frame_log *log, const gg_frame_log *from, gg_error *err)
 {
   enum { PIECE = 1 << 20 };
@@ -237,9 +274,7 @@ static gg_status copy_bytes(gg_frame_log *log, const gg_frame_log *from, gg_erro
 
 gg_status gg_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err)
 {
-  struct stat a, b;
-  bool same = fstat(log->fd, &a) == 0 && fstat(from->fd, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-  if (!same) GG_TRY(copy_bytes(log, from, err));
+  if (!gg_frame_log_is_at(from, log->path)) GG_TRY(copy_bytes(log, from, err));
   log->mark = from->mark;
   return GG_OK;
 }
@@ -248,5 +283,6 @@ void gg_frame_log_close(gg_frame_log *log)
 {
   if (log->fd >= 0) close(log->fd);
   free(log->path);
+  free(log->place);
   *log = (gg_frame_log){.fd = -1};
 }

@@ -179,7 +179,107 @@ def test_full_disk():
         f.write(SCENE % ("md", 1e9, 1, 60))
     done = run("run", "scene.yaml", "--quiet", limit=2_000_000)
     check(done.code == 3 and "scene.checkpoint.frames: cannot be written: File too large" in done.err, done.code, done.err)
-    check("scene.checkpoint.frames" not in os.listdir("."), os.listdir("."))
+    check(not [name for name in os.listdir(".") if name.startswith("scene.checkpoint.frames")], os.listdir("."))
+
+
+LEFT = "scene.checkpoint.h5"
+ANOTHER = ["--set", "run.seed=9"]
+
+
+def left_by_another():
+    """A checkpoint with its frames, and what its run comes to."""
+    whole = whole_run(SCENE % ("md", 8000, 1, 60))
+    done = run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.1")
+    check(done.code == 1 and os.path.exists(LEFT), done.code, done.err)
+    return whole
+
+
+def goes_on(whole, *args, resume=LEFT, output="scene.h5"):
+    done = run("run", "scene.yaml", "--quiet", "--resume", resume, "--output", output, *args)
+    check(done.code == 0, done.err)
+    same(output, whole)
+
+
+def gone():
+    return not [name for name in os.listdir(".") if "frames" in name or "checkpoint" in name]
+
+
+def test_frames_of_another_run_killed_before_its_first_checkpoint():
+    """Also of one that goes on from elsewhere; and what the dead leave is cleaned up."""
+    whole = left_by_another()
+    shutil.copytree(".", "elsewhere")
+    endless = ["--set", "run.collisions=1e9"]
+    for args in [*ANOTHER, *endless], [*endless, "--output", "scene.h5", "--resume", "other.checkpoint.h5"]:
+        done = run("run", "scene.yaml", "--quiet", "--output", "other.h5", "--set", "run.time_limit=0.03",
+                   "--set", "output.trajectory_every=5")
+        check(done.code == 1, done.err)
+        check(not cut([*args, "--set", "output.trajectory_every=5"], 0.4, signal.SIGKILL))
+        left = os.listdir(".")
+        goes_on(whole)
+        check("scene.checkpoint.frames.new" in left, left)
+        check(not [name for name in os.listdir(".") if name.startswith("scene.checkpoint")], os.listdir("."))
+        for name in LEFT, "scene.checkpoint.frames":
+            shutil.copy(os.path.join("elsewhere", name), name)
+
+
+def test_frames_of_another_run_that_ends_before_its_first_checkpoint():
+    whole = left_by_another()
+    done = run("run", "scene.yaml", "--quiet", *ANOTHER, "--set", "run.collisions=500")
+    check(done.code == 0 and done.new == [] and os.path.exists(LEFT), done.err, done.new)
+    goes_on(whole)
+    check(gone(), os.listdir("."))
+
+
+def another_whole():
+    done = run("run", "scene.yaml", "--quiet", *ANOTHER, "--output", "another.h5", "--set", "output.checkpoint_every=0")
+    check(done.code == 0, done.err)
+    return particles("another.h5")
+
+
+def test_frames_and_first_checkpoint_of_another_run():
+    """What can be gone on from then has its frames."""
+    left_by_another()
+    another = another_whole()
+    done = run("run", "scene.yaml", "--quiet", *ANOTHER, "--set", "run.time_limit=0.1")
+    check(done.code == 1, done.code, done.err)
+    check(not os.path.exists(LEFT + ".1") and not os.path.exists("scene.checkpoint.frames.new"), os.listdir("."))
+    goes_on(another, *ANOTHER)
+    check(gone(), os.listdir("."))
+
+
+def test_killed_between_first_checkpoint_and_its_frames():
+    """Both runs can be gone on from, at every step, here and from elsewhere, and after one more run was killed."""
+    log = "scene.checkpoint.frames"
+    whole = left_by_another()
+    another = another_whole()
+    os.mkdir("step")
+    os.rename(LEFT, "step/%s.1" % LEFT)
+    os.rename(log, "step/" + log)
+    done = run("run", "scene.yaml", "--quiet", *ANOTHER, "--set", "run.time_limit=0.1")
+    check(done.code == 1, done.code, done.err)
+    os.rename(LEFT, "step/" + LEFT)
+    os.rename(log, "step/%s.new" % log)
+    shutil.copy("scene.yaml", "step/scene.yaml")
+    for older in True, False:
+        if not older:
+            os.remove("step/%s.1" % LEFT)
+        for how in range(5 if older else 3):
+            shutil.copytree("step", "now")
+            os.chdir("now")
+            if how == 0:
+                goes_on(another, *ANOTHER)
+            elif how == 1:
+                goes_on(another, *ANOTHER, output="b.h5")
+            elif how == 2:
+                check(not cut(["--set", "run.seed=11", "--set", "run.collisions=1e9"], 0.3, signal.SIGKILL))
+                goes_on(another, *ANOTHER)
+            elif how == 3:
+                goes_on(whole, resume=LEFT + ".1", output="b.h5")
+            else:
+                goes_on(whole, resume=LEFT + ".1")
+            check(how in (1, 3) or gone(), how, os.listdir("."))
+            os.chdir("..")
+            shutil.rmtree("now")
 
 
 if __name__ == "__main__":

@@ -156,6 +156,27 @@ static void taken_to_another_file(void **state)
   gg_frame_log_close(&log);
 }
 
+/* What stands there is as it was until the new one is put in its place. */
+static void put_in_place(void **state)
+{
+  (void)state;
+  gg_frame_mark mark[FRAMES + 1];
+  gg_frame_log log, earlier;
+  write_log(path, mark);
+  assert_int_equal(gg_frame_log_open_new(&log, path, NULL), GG_OK);
+  append(&log, 2, FRAMES);
+  assert_false(gg_frame_log_is_at(&log, path));
+  assert_int_equal(open_at(&earlier, &mark[FRAMES], NULL), GG_OK);
+  gg_frame_log_close(&earlier);
+  assert_int_equal(gg_frame_log_put_in_place(&log, NULL), GG_OK);
+  assert_int_equal(gg_frame_log_put_in_place(&log, NULL), GG_OK);
+  assert_true(gg_frame_log_is_at(&log, path));
+  assert_int_equal(open_at(&earlier, &mark[FRAMES], NULL), GG_BAD_FILE);
+  assert_int_equal(open_at(&earlier, &log.mark, NULL), GG_OK);
+  gg_frame_log_close(&earlier);
+  gg_frame_log_close(&log);
+}
+
 static void refuse(const gg_frame_mark *mark, const char *what)
 {
   gg_frame_log log;
@@ -253,10 +274,15 @@ static void full(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(paths),        cmocka_unit_test(any_mark),
-      cmocka_unit_test(written_over), cmocka_unit_test(taken_to_another_file),
-      cmocka_unit_test(damage),       cmocka_unit_test(mark_of_another),
-      cmocka_unit_test(stopped),      cmocka_unit_test(full),
+      cmocka_unit_test(paths),
+      cmocka_unit_test(any_mark),
+      cmocka_unit_test(written_over),
+      cmocka_unit_test(taken_to_another_file),
+      cmocka_unit_test(put_in_place),
+      cmocka_unit_test(damage),
+      cmocka_unit_test(mark_of_another),
+      cmocka_unit_test(stopped),
+      cmocka_unit_test(full),
   };
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   unlink(path), unlink(other);

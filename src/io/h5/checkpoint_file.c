@@ -79,12 +79,11 @@ static gg_status write_image(gg_atomic_file *file, const void *image, size_t siz
     return gg_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, file->path);
   gg_seal_of(image, size, seal);
   GG_TRY(gg_atomic_write(file, image, size, err));
-  GG_TRY(gg_atomic_write(file, seal, sizeof seal, err));
-  keep_before(file);
-  return GG_OK;
+  return gg_atomic_write(file, seal, sizeof seal, err);
 }
 
-gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *a, const gg_scene *scene, gg_error *err)
+static gg_status write_it(const char *path, bool locked, bool keep, const gg_archive *a, const gg_scene *scene,
+                          gg_error *err)
 {
   gg_atomic_file file;
   size_t size = 0;
@@ -92,9 +91,22 @@ gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *a
   void *image = make_image(path, a, scene, &size, err);
   gg_status status = image ? write_image(&file, image, size, err) : GG_BAD_FILE;
   free(image);
+  if (status == GG_OK && keep) keep_before(&file);
   if (status == GG_OK) return gg_atomic_commit(&file, err);
   gg_atomic_abandon(&file);
   return status;
+}
+
+gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *a, const gg_scene *scene, gg_error *err)
+{
+  return write_it(path, locked, true, a, scene, err);
+}
+
+gg_status gg_checkpoint_replace(const char *path, const gg_archive *a, const gg_scene *scene, gg_error *err)
+{
+  GG_TRY(write_it(path, true, false, a, scene, err));
+  gg_checkpoint_remove_before(path);
+  return GG_OK;
 }
 
 static gg_status read_item(gg_h5 *h, size_t i, gg_archive *a, gg_error *err)
@@ -180,15 +192,21 @@ char *gg_checkpoint_scene(const char *path, bool older)
   return yaml;
 }
 
-void gg_checkpoint_remove(const char *path)
+void gg_checkpoint_remove_before(const char *path)
 {
-  gg_output_path place;
-  char *before;
-  if (gg_output_path_find(&place, path, NULL) != GG_OK) return;
-  if (place.there) unlink(place.target);
-  if (asprintf(&before, "%s.1", place.target) >= 0) {
+  char *target = gg_follow_links(path), *before = NULL;
+  if (target && asprintf(&before, "%s.1", target) >= 0) {
     unlink(before);
     free(before);
   }
+  free(target);
+}
+
+void gg_checkpoint_remove(const char *path)
+{
+  gg_output_path place;
+  if (gg_output_path_find(&place, path, NULL) != GG_OK) return;
+  if (place.there) unlink(place.target);
   gg_output_path_clear(&place);
+  gg_checkpoint_remove_before(path);
 }

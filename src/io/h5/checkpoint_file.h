@@ -9,6 +9,11 @@
 /* `locked`: the caller holds the lock of this path (io/file_lock.h). */
 gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
                               gg_error *err);
+/* The first of a run that does not go on from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was
+ * there is removed, since neither is a fall-back of this run. The caller holds the lock. */
+gg_status gg_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene, gg_error *err);
+/* Remove FILE.1. */
+void gg_checkpoint_remove_before(const char *path);
 /* Remove FILE and FILE.1: the run that they were of is done. */
 void gg_checkpoint_remove(const char *path);
 
