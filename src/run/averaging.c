@@ -88,11 +88,34 @@ static bool finished(gg_replicas *all, const gg_convergence *c, uint64_t window)
   return before && all->state.exact;
 }
 
+static const gg_replica *unsettled(const gg_replicas *all)
+{
+  for (int i = 0; i < all->n; i++)
+    if (!gg_replica_settled(&all->replica[i])) return &all->replica[i];
+  return NULL;
+}
+
+/* The warm-up, and after a burst of collisions at its end a little more: averaging keeps the interval that it begins
+ * with. A resumed run looks where the uninterrupted one does. */
+static gg_status warm_up(gg_replicas *all, gg_error *err)
+{
+  enum { LOOK_EVERY = 4, MOST_MORE = 300 };
+  uint64_t due = all->plan.warmup;
+  while (due < all->state.due) due += LOOK_EVERY;
+  for (;; due += LOOK_EVERY) {
+    GG_TRY(advance_to(all, due, err));
+    if (is_over(all)) return GG_OK;
+    const gg_replica *one = unsettled(all);
+    if (!one) return GG_OK;
+    if (due >= all->plan.warmup + MOST_MORE) return gg_replica_collapsed(one, err);
+  }
+}
+
 /* The next test belongs to the state, so that a resumed run tests where the uninterrupted one does. */
 gg_status gg_replicas_run(gg_replicas *all, gg_error *err)
 {
   if (!all->state.averaging) {
-    GG_TRY(advance_to(all, all->plan.warmup, err));
+    GG_TRY(warm_up(all, err));
     if (!is_over(all)) GG_TRY(open_window(all, err));
   }
   while (!is_over(all)) {

@@ -73,29 +73,6 @@ static gg_status advance_part(gg_replica *r, int part, int parts, bool adapt, gg
   return ops->advance(r->engine, r->clock.interval / parts, most_collisions(r, adapt), &r->clock.part_gone, err);
 }
 
-/* An inelastic collapse that the contact-time rule was not there to prevent: a grain collides a thousand times more
- * than expected in an interval; or in so many intervals in a row that the last is 10^-36 of the first. */
-static gg_status check_collapse(gg_replica *r, bool adapt, uint64_t happened, gg_error *err)
-{
-  enum { MOST_CUT_SHORT = 60 };
-  bool cut_short = happened >= most_collisions(r, adapt);
-  r->clock.cut_short = cut_short ? r->clock.cut_short + 1 : 0;
-  if (!cut_short || (adapt && r->clock.cut_short < MOST_CUT_SHORT)) return GG_OK;
-  gg_engine_state state;
-  const char *engine = r->engine->ops->name;
-  r->engine->ops->state(r->engine, &state);
-  if (r->model.contact_time > 0 && state.treated < happened / 2)
-    return gg_fail(err, GG_FAILED,
-                   "%s: collisions come a thousand times faster near time %g than when averaging began: the gas still "
-                   "heats up; give run.warmup a larger value",
-                   engine, r->clock.time);
-  return gg_fail(err, GG_FAILED,
-                 "%s: collisions accumulate without end (inelastic collapse) near time %g; "
-                 "give md.contact_time a larger value (it is %g %s)",
-                 engine, r->clock.time, r->model.contact_time,
-                 r->model.gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
-}
-
 /* Advance by one sampling interval, in parts if an observable asks for snapshots in between; or to the end of one that
  * was stopped. */
 static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, uint64_t *happened, gg_error *err)
@@ -112,7 +89,7 @@ static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, ui
   *elapsed = c->gone;
   *happened = collisions(r) - c->happened;
   c->part = 0;
-  return check_collapse(r, adapt, *happened, err);
+  return GG_OK;
 }
 
 /* Follow the rate, by at most a factor of four a time. */
@@ -130,6 +107,7 @@ static gg_status rescale(gg_replica *r, int power, gg_error *err)
   for (int k = 0; k < r->n_observables; k++)
     if (r->observable[k]->rescaled) r->observable[k]->rescaled(r->self[k], r->clock.velocity_factor);
   r->clock.interval = ldexp(r->clock.interval, -power);
+  r->clock.temperature = ldexp(r->clock.temperature, 2 * power);
   return GG_OK;
 }
 
@@ -178,13 +156,49 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
   return status;
 }
 
+/* Of the last row; as if all were well where nobody measures it. */
+static double temperature_now(const gg_replica *r)
+{
+  const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
+  return o && o->history ? o->history[0](r->row + r->offset[0], &r->model) : r->model.temperature0;
+}
+
 /* What is no number is so for ever: better said at once. */
 static gg_status check_numbers(const gg_replica *r, gg_error *err)
 {
-  const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-  if (!o || !o->history || isfinite(o->history[0](r->row + r->offset[0], &r->model))) return GG_OK;
+  if (isfinite(r->clock.temperature)) return GG_OK;
   return gg_fail(err, GG_FAILED, "%s: the temperature is no number any more near time %g", r->engine->ops->name,
                  r->clock.time);
+}
+
+gg_status gg_replica_collapsed(const gg_replica *r, gg_error *err)
+{
+  const char *unit = r->model.gravity[1] != 0 ? "sqrt(d/g)" : "mean free times", *name = r->engine->ops->name;
+  if (r->model.contact_time > 0 && r->model.e[0] == 1)
+    return gg_fail(err, GG_FAILED, "%s: collisions accumulate without end near time %g", name, r->clock.time);
+  return gg_fail(err, GG_FAILED,
+                 "%s: collisions accumulate without end (inelastic collapse) near time %g; "
+                 "give md.contact_time a larger value (it is %g %s)",
+                 name, r->clock.time, r->model.contact_time, unit);
+}
+
+/* An interval is over before its time where the rate has risen, as from a start in the cold: then grains are as fast as
+ * they collide. Where they collide a thousand times more often than grains of their temperature do, it is an inelastic
+ * collapse that the contact-time rule was not there to prevent, and so it is after many such intervals in a row. */
+static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint64_t happened, gg_error *err)
+{
+  enum { MOST_CUT_SHORT = 60 };
+  bool cut_short = happened >= most_collisions(r, adapt);
+  r->clock.cut_short = cut_short ? r->clock.cut_short + 1 : 0;
+  if (!cut_short) return GG_OK;
+  double per_grain = 2 * (double)happened / (double)r->model.n;
+  bool runaway = !(per_grain < 1000 * elapsed * gg_model_collision_rate(&r->model, r->clock.temperature));
+  if (runaway || r->clock.cut_short >= MOST_CUT_SHORT) return gg_replica_collapsed(r, err);
+  if (adapt) return GG_OK;
+  return gg_fail(err, GG_FAILED,
+                 "%s: collisions come a thousand times faster near time %g than when averaging began: the gas still "
+                 "heats up; give run.warmup a larger value",
+                 r->engine->ops->name, r->clock.time);
 }
 
 static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
@@ -193,8 +207,10 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   uint64_t happened;
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
   gg_replica_sample_row(r, elapsed);
+  r->clock.temperature = temperature_now(r);
   r->clock.time += ldexp(elapsed, (int)r->clock.power);
   GG_TRY(check_numbers(r, err));
+  GG_TRY(check_collapse(r, adapt, elapsed, happened, err));
   gg_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened);
@@ -217,6 +233,13 @@ gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const 
     GG_TRY(emit_frame(r, hooks, err));
   }
   return GG_OK;
+}
+
+bool gg_replica_settled(const gg_replica *r)
+{
+  if (r->model.gravity[1] != 0) return true; /* grains that lie collide as often as they like: standstill.c */
+  double per_grain = r->clock.interval * gg_model_collision_rate(&r->model, r->clock.temperature);
+  return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
 }
 
 gg_status gg_replica_open_window(gg_replica *r, gg_error *err)

@@ -26,6 +26,7 @@ typedef struct gg_replica {
   struct gg_replica_clock { /* plain data: saved as bytes */
     uint64_t samples;       /* taken so far */
     double interval;        /* between samples, engine's time */
+    double temperature;     /* of the last sample, at the engine's present velocities */
     double time;            /* since the start, in units of the start */
     int64_t power;          /* the engine's velocities are 2^power times those of the start */
     double velocity_factor; /* of a rescaling not yet told to the observables */
@@ -52,6 +53,12 @@ void gg_replica_clear(gg_replica *r);
  * well: what is saved there goes on bit for bit. With `adapt`, the interval follows the collision rate (warm-up,
  * cooling). */
 gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
+
+/* Is the interval between samples that of grains as fast as these are? Not while it still follows a burst of collisions
+ * that only lasted for a while. */
+bool gg_replica_settled(const gg_replica *r);
+/* Collisions accumulate without end: GG_FAILED, with what to do. */
+gg_status gg_replica_collapsed(const gg_replica *r, gg_error *err);
 
 /* Averaging begins at the next sample. */
 gg_status gg_replica_open_window(gg_replica *r, gg_error *err);
