@@ -75,6 +75,12 @@ static gg_rule later_rule(gg_rule a, gg_rule b)
   return a > b ? a : b;
 }
 
+double gg_treated_beta(const gg_model *m, int i, int j)
+{
+  double beta = m->beta[2 * i + j];
+  return i == j || beta == 1 ? beta : -1;
+}
+
 static void set_pairs(gg_model *m, const gg_scene *s)
 {
   m->rule = GG_SMOOTH;
@@ -86,7 +92,7 @@ static void set_pairs(gg_model *m, const gg_scene *s)
       gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
       m->beta[o] = beta, m->mu[o] = mu;
       set_restitution(m, i, j, e);
-      m->treated[o] = gg_contact_make(one, two, 1, beta, mu);
+      m->treated[o] = gg_contact_make(one, two, 1, gg_treated_beta(m, i, j), i == j ? mu : INFINITY);
       m->sigma[o] = (m->diameter[i] + m->diameter[j]) / 2;
       m->chi[o] = chi_of(m, s, i, j);
       gg_rule rule = gg_rule_of(beta, mu);

@@ -35,7 +35,7 @@ typedef struct gg_model {
 
   /* By ordered pair of species, index 2 i + j. */
   gg_contact contact[4]; /* grain 1 of species i, grain 2 of species j */
-  gg_contact treated[4]; /* the same with e = 1, for the contact-time rule */
+  gg_contact treated[4]; /* for the contact-time rule: e = 1, see gg_treated_beta */
   double sigma[4];       /* (d_i + d_j)/2 */
   double chi[4];         /* contact value; 1 in the Boltzmann limit */
   double e[4], beta[4], mu[4];
@@ -76,6 +76,11 @@ double gg_model_relaxation(const gg_model *model);
  * 1/e: (H/pi)^2/nu, nu the kinematic viscosity of elastic Enskog theory (Chapman & Cowling 1970, 16.41). A dense core
  * takes up to some times as long to form. 0 without walls. */
 double gg_model_gap_relaxation(const gg_model *model);
+
+/* Tangential restitution of contacts that the contact-time rule treats, whose e is 1. Unlike grains lose nothing at all:
+ * smooth, or perfectly rough where they are. (With friction left a light grain is rolled to rest between heavy ones, by
+ * collisions without end: masses 1:100 did, at any contact time.) */
+double gg_treated_beta(const gg_model *model, int i, int j);
 
 /* Boltzmann-Enskog collision rate per grain at temperature T: 4 n d^2 chi sqrt(pi T) for one species. */
 double gg_model_collision_rate(const gg_model *model, double T);

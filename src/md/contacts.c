@@ -50,6 +50,6 @@ void gg_md_contacts_make(gg_md_contacts *c, const gg_model *m)
     c->inverse[o] = 1 / sqrt(c->sigma2[o]);
     c->residue[o] = (double)((long double)c->sigma2[o] * c->inverse[o] * c->inverse[o] - 1);
     make_turns(c, c->contact, o, &m->contact[o], m->e[o], m->beta[o]);
-    make_turns(c, c->treated, o, &m->treated[o], 1, m->beta[o]);
+    make_turns(c, c->treated, o, &m->treated[o], 1, gg_treated_beta(m, o / 2, o % 2));
   }
 }

@@ -165,6 +165,40 @@ static void cold_start(void **state)
   gg_result_free(r[GG_MD]), gg_result_free(r[GG_DSMC]);
 }
 
+/* Without the contact-time rule grains of e = 0 collapse in the warm-up. That is said, wherever the warm-up ends: never
+ * a window without collisions, in which nothing varies. */
+static void collapse(void **state)
+{
+  (void)state;
+  for (int warmup = 6; warmup < 60; warmup += 17) {
+    char yaml[300];
+    snprintf(yaml, sizeof yaml,
+             "{flow: usf, phi: 0.2, particles: 200, collision: {e: 0, beta: 0}, "
+             "md: {contact_time: 0}, run: {collisions: 300, warmup: %d}}",
+             warmup);
+    gg_scene s = scene_of(yaml);
+    gg_error err = {0};
+    gg_result *r = NULL;
+    assert_int_equal(gg_run_scene(&s, NULL, 1, NULL, &r, &err), GG_FAILED);
+    assert_non_null(strstr(err.message, "accumulate without end"));
+    gg_result_free(r);
+  }
+}
+
+/* Light rough grains between heavy ones are no such collapse: bursts that the contact-time rule ends. */
+static void unlike_rough_grains(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of("{flow: usf, phi: 0.2, particles: 400, species: [{fraction: .5}, {fraction: .5, mass: 100}], "
+                        "collision: {e: 0.9, beta: 0}, run: {collisions: 300, seed: 1}}");
+  gg_error err = {0};
+  gg_result *r = NULL;
+  if (gg_run_scene(&s, NULL, 1, NULL, &r, &err) != GG_OK) fail_msg("%s", err.message);
+  assert_true(r->averaging.collisions > 0.2 * 300 * 200);
+  assert_true(fabs(r->value[GG_Q_ENERGY_BALANCE].mean - 1) < 4 * r->value[GG_Q_ENERGY_BALANCE].error + 0.05);
+  gg_result_free(r);
+}
+
 /* A box of a few diameters is told. */
 static void narrow_box(void **state)
 {
@@ -186,7 +220,11 @@ static void narrow_box(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(in_the_midst_of_an_interval), cmocka_unit_test(time_limit),
-                                     cmocka_unit_test(cold_start), cmocka_unit_test(narrow_box)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(in_the_midst_of_an_interval),
+                                     cmocka_unit_test(time_limit),
+                                     cmocka_unit_test(cold_start),
+                                     cmocka_unit_test(collapse),
+                                     cmocka_unit_test(unlike_rough_grains),
+                                     cmocka_unit_test(narrow_box)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
