@@ -368,7 +368,8 @@ GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char
 GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err);
 
 /* Pictures of a result file, by gnuplot: PICTURE, PICTURE_snapshot and one for each observable that left curves.
- * `format` is "svg", "png" or NULL: by PICTURE's name. `drawn` (may be NULL) is called with the name of each. */
+ * `format` is "svg", "png" or NULL: by PICTURE's name. `drawn` (may be NULL) is called with the name of each. Nothing
+ * is drawn if one of them could not be written (GG_BAD_FILE) or is the result file (GG_BAD_INPUT). */
 GG_API gg_status gg_plot(const char *result_file, const char *picture, const char *format,
                          void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 

@@ -28,7 +28,7 @@ gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_co
   gg_door_run run;
   gg_hooks hooks;
   gg_error why = {0};
-  gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
+  gg_status status = gg_door_run_begin(&run, scene, options, true, &hooks, err), written = GG_OK;
   if (status == GG_OK) gg_door_run_foretell(&run, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY);
   if (status == GG_OK) /* without a trajectory */
     status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);

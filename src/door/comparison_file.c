@@ -58,9 +58,10 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
     return gg_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture", picture);
   gg_stored_result stored;
   GG_TRY(gg_stored_result_read(&stored, result_file, err));
-  gg_status status = gg_plot_result(&stored, picture, format, err);
+  gg_status status = gg_plot_check_pages(&stored, result_file, picture, format, err);
+  if (status == GG_OK) status = gg_plot_result(&stored, picture, format, err);
   if (status == GG_OK && drawn) drawn(context, picture);
-  if (status == GG_OK) status = gg_plot_result_curves(&stored, picture, format, drawn, context, err);
+  if (status == GG_OK) status = gg_plot_pages(&stored, picture, format, drawn, context, err);
   gg_stored_result_clear(&stored);
   return status;
 }

@@ -62,13 +62,14 @@ static gg_status lock_checkpoint(gg_door_run *r, gg_error *err)
   return status;
 }
 
-gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, gg_hooks *hooks,
-                            gg_error *err)
+gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
+                            gg_hooks *hooks, gg_error *err)
 {
   memset(r, 0, sizeof *r);
   r->file = (gg_result_file){.h.file = -1, .file = GG_ATOMIC_NONE};
   r->lock = GG_FILE_LOCK_NONE;
   r->log.fd = -1;
+  r->comparison = comparison;
   if (options) r->options = *options;
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
@@ -77,11 +78,11 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
   GG_TRY(gg_door_finished(scene, &r->scene, err));
   GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));
-  GG_TRY(gg_door_check_files(&r->options, err));
+  GG_TRY(gg_door_check_files(r, err));
   if (r->options.checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (r->options.resume) GG_TRY(read_resume(r, err));
   if (r->options.output) GG_TRY(gg_result_file_open(&r->file, r->options.output, r->options.command, err));
-  return gg_door_check_picture(&r->options, err);
+  return gg_door_check_picture(r, err);
 }
 
 void gg_door_run_end(gg_door_run *r)
@@ -130,7 +131,7 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   gg_door_run run;
   gg_hooks hooks;
   gg_error why = {0};
-  gg_status status = gg_door_run_begin(&run, scene, options, &hooks, err), written = GG_OK;
+  gg_status status = gg_door_run_begin(&run, scene, options, false, &hooks, err), written = GG_OK;
   gg_result *made = NULL;
   gg_engine_kind engine = run.scene.engine;
   if (status == GG_OK && gg_engine_ops_of(engine)->accepts(&run.model, NULL) == GG_OK)

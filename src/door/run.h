@@ -18,22 +18,24 @@ typedef struct gg_door_run {
   gg_frame_log log;      /* of the frames of a run that keeps checkpoints */
   bool late;             /* frames before the resumption were not asked for */
   bool stored;           /* a checkpoint */
+  bool comparison;       /* of both engines */
   gg_text_list warnings; /* of the scene, for what it is used for */
   atomic_bool stopped;
   gg_file_lock lock; /* of options.checkpoint */
 } gg_door_run;
 
-/* Finish the scene, read what is resumed from, see that the output can be written; hooks for the run, which last as
- * long as `run`. To be followed by gg_door_run_end, also on failure. */
-gg_status gg_door_run_begin(gg_door_run *run, const gg_scene *scene, const gg_run_options *options, gg_hooks *hooks,
-                            gg_error *err);
+/* Of one engine or a comparison. Finish the scene, read what is resumed from, see that the output can be written; hooks
+ * for the run, which last as long as `run`. To be followed by gg_door_run_end, also on failure. */
+gg_status gg_door_run_begin(gg_door_run *run, const gg_scene *scene, const gg_run_options *options, bool comparison,
+                            gg_hooks *hooks, gg_error *err);
 void gg_door_run_end(gg_door_run *run);
 /* Before the end: if all is done and the result is in place, the run's own checkpoints have had their day. */
 void gg_door_run_done(gg_door_run *run, gg_status status, gg_status written);
-/* files.c: no two of the files that are read and written are one; the picture that is to be drawn could be. What cannot
- * be written is better known before the run than after it. */
-gg_status gg_door_check_files(const gg_run_options *options, gg_error *err);
-gg_status gg_door_check_picture(const gg_run_options *options, gg_error *err);
+/* files.c: no two of the files that are read and written are one, and a result is not called like a picture; the
+ * picture that is to be drawn could be, and all that may come beside it. What cannot be written is better known before
+ * the run than after it. */
+gg_status gg_door_check_files(const gg_door_run *run, gg_error *err);
+gg_status gg_door_check_picture(const gg_door_run *run, gg_error *err);
 /* Note and tell, once begun, which keys have no effect on what the scene is used for (io/scene/inert.h). */
 void gg_door_run_foretell(gg_door_run *run, unsigned uses);
 /* What to resume from, or NULL. */

@@ -1,5 +1,6 @@
 """What stands where an output is to go is written to, replaced by a whole file, or refused before the run."""
 import os
+import shutil
 import signal
 import stat
 import subprocess
@@ -195,6 +196,86 @@ def test_pictures():
         done = run("plot", "z.h5", "--output", picture, *(("--format", "png") if picture == "q.svg" else ()))
         check(done.code in (2, 3) and not done.new, picture, done.code, done.err)
     check(open("z.h5", "rb").read() == whole)
+
+
+def contents():
+    """Of all files here."""
+    kept = {}
+    for name in sorted(os.listdir(".")):
+        with open(name, "rb") as f:
+            kept[name] = f.read()
+    return kept
+
+
+def untouched(words, code, *args, user=None):
+    """Refused before anything ran or was drawn: every file is as it was."""
+    before = contents()
+    done = run(*args, user=user, timeout=20)
+    check(done.code == code and words in done.err, args, done.code, done.err)
+    check(contents() == before, args, os.listdir("."))
+
+
+def test_pictures_beside_a_picture():
+    """P_snapshot.svg and the pages of curves are outputs like all others, of `compare` ..."""
+    scenes()
+    untouched("would be both the result and a picture beside a.png", 2, "compare", "long.yaml", "--picture", "a.png",
+              "--output", "a_snapshot.png")
+    os.symlink("result.h5", "b_snapshot.svg")
+    refused("would be both the result and a picture beside b.svg", 2, "--picture", "b.svg", "--output", "result.h5",
+            command="compare")
+    os.remove("b_snapshot.svg")
+    shutil.copy("long.yaml", "p_snapshot.svg")
+    shutil.copy("long.yaml", "p_dsmc_velocity_distributions.svg")
+    os.link("p_dsmc_velocity_distributions.svg", "hard.yaml")
+    measure = ("--set", "measure=[rheology, velocity_distributions]")
+    for scene, picture in ("p_snapshot.svg", "p.svg"), ("p_snapshot.svg", "./p.svg"):
+        untouched("would be both the scene and a picture beside", 2, "compare", scene, "--picture", picture, "--output",
+                  "p.h5")
+    for scene in "p_dsmc_velocity_distributions.svg", "hard.yaml":
+        untouched("would be both the scene and a picture beside p.svg", 2, "compare", scene, "--picture", "p.svg",
+                  "--output", "p.h5", *measure)
+    os.remove("p_snapshot.svg")
+    for name, role in (("q.checkpoint.h5", "the checkpoint"), ("q.checkpoint.h5.1", "the checkpoint before"),
+                       ("q.checkpoint.frames", "the frames beside the checkpoint")):
+        os.symlink(name, "p_snapshot.svg")
+        refused(f"would be both {role} and a picture beside p.svg", 2, "--picture", "p.svg", "--output", "q.h5",
+                "--set", "output.checkpoint_every=1", command="compare")
+        os.remove("p_snapshot.svg")
+    os.symlink("gone.h5", "p_snapshot.svg")
+    refused("would be both the checkpoint that is gone on from and a picture beside p.svg", 2, "--picture", "p.svg",
+            "--output", "q.h5", "--resume", "gone.h5", command="compare")
+    os.remove("p_snapshot.svg")
+    os.chmod("p_dsmc_velocity_distributions.svg", 0o444)
+    for user in everybody():
+        untouched("p_dsmc_velocity_distributions.svg: cannot be written: it is write-protected", 3, "compare",
+                  "long.yaml", "--picture", "p.svg", "--output", "q.h5", *measure, user=user)
+    written("--picture", "p.svg", "--output", "q.h5", command="compare")  # which has no such page
+    check(os.path.exists("p_snapshot.svg"))
+
+
+def test_pictures_beside_a_plot():
+    """... and of `plot`."""
+    scenes()
+    written("--output", "b_snapshot.svg.h5", "--set", "measure=[rheology, velocity_distributions]")
+    os.rename("b_snapshot.svg.h5", "b_snapshot.svg")
+    untouched("would be both the result and a picture beside b.svg", 2, "plot", "b_snapshot.svg", "--output", "b.svg")
+    for page in "r_snapshot.png", "r_velocity_distributions.png":
+        shutil.copy("scene.yaml", page)
+        os.chmod(page, 0o444)
+        untouched(f"{page}: cannot be written: it is write-protected", 3, "plot", "b_snapshot.svg", "--output",
+                  "r.png")
+        os.remove(page)
+    done = run("plot", "b_snapshot.svg", "--output", "r.png")
+    check(done.code == 0, done.code, done.err)
+    check(done.new == ["r.png", "r_snapshot.png", "r_velocity_distributions.png"], done.new)
+
+
+def test_results_called_like_pictures():
+    scenes()
+    for command in "run", "compare":
+        for output in "q.pdf", "o.svg", "o.png", "o.PNG":
+            untouched(f"{output}: is called like a picture, and a result is HDF5", 2, command, "long.yaml", "--output",
+                      output, *(("--picture", "none") if command == "compare" else ()))
 
 
 def test_picture_that_fails():

@@ -1,12 +1,24 @@
-/* One picture for each observable that left curves. */
+/* The pictures beside a picture: a snapshot, and one for each observable that left curves. */
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/atomic_file.h"
 #include "io/c_locale.h"
 #include "io/curves.h"
 #include "io/plot/plot.h"
 
 enum { MOST_GROUPS = 16 };
+
+typedef struct page {
+  char *path;
+  const char *group; /* of curves; NULL: the snapshot */
+  const json_t *document;
+} page;
+
+typedef struct page_list {
+  int n;
+  page page[1 + 2 * MOST_GROUPS];
+} page_list;
 
 static gg_status draw_page(const gg_stored_result *stored, const json_t *document, const char *group,
                            const char *picture, bool png, gg_error *err)
@@ -28,8 +40,7 @@ static gg_status draw_page(const gg_stored_result *stored, const json_t *documen
   return status;
 }
 
-/* "usf.svg" -> "usf_md_velocity_distributions.svg" */
-static char *page_name(const char *picture, const char *engine, const char *group, bool png)
+char *gg_plot_page_name(const char *picture, const char *engine, const char *group, bool png)
 {
   char *name = NULL;
   size_t stem = strlen(picture);
@@ -39,38 +50,67 @@ static char *page_name(const char *picture, const char *engine, const char *grou
   return written < 0 ? NULL : name;
 }
 
-static gg_status draw_snapshot(const gg_stored_result *stored, const char *picture, bool png,
-                               void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
+static void clear(page_list *pages)
 {
-  bool there;
-  char *name = page_name(picture, "", "snapshot", png);
-  if (!name) return gg_fail(err, GG_FAILED, "out of memory");
-  gg_status status = gg_plot_snapshot(stored, name, png, &there, err);
-  if (status == GG_OK && there && drawn) drawn(context, name);
-  free(name);
+  for (int i = 0; i < pages->n; i++) free(pages->page[i].path);
+  pages->n = 0;
+}
+
+/* To be cleared, also on failure. */
+static gg_status list(page_list *pages, const gg_stored_result *stored, const char *picture, bool png, gg_error *err)
+{
+  bool whole = true;
+  pages->n = 0;
+  if (gg_plot_has_snapshot(stored))
+    pages->page[pages->n++] = (page){.path = gg_plot_page_name(picture, "", GG_SNAPSHOT_PAGE, png)};
+  for (int k = 0; k < 2; k++) {
+    const gg_stored_engine *e = &stored->engine[k];
+    const char *groups[MOST_GROUPS], *engine = stored->comparison ? e->name : "";
+    int n = e->name ? gg_curve_groups(e->document, groups, MOST_GROUPS) : 0;
+    for (int i = 0; i < n; i++)
+      pages->page[pages->n++] = (page){gg_plot_page_name(picture, engine, groups[i], png), groups[i], e->document};
+  }
+  for (int i = 0; i < pages->n; i++) whole &= pages->page[i].path != NULL;
+  return whole ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+}
+
+static gg_status check_page(const char *path, const char *picture, const char *file, gg_error *err)
+{
+  if (gg_same_file(path, file))
+    return gg_fail(err, GG_BAD_INPUT, "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture",
+                   path, picture);
+  return gg_check_writable(path, GG_PICTURES_ARE, err);
+}
+
+gg_status gg_plot_check_pages(const gg_stored_result *stored, const char *file, const char *picture, const char *format,
+                              gg_error *err)
+{
+  bool png;
+  page_list pages;
+  GG_TRY(gg_plot_format(picture, format, &png, err));
+  gg_status status = list(&pages, stored, picture, png, err);
+  for (int i = 0; status == GG_OK && i < pages.n; i++) status = check_page(pages.page[i].path, picture, file, err);
+  clear(&pages);
   return status;
 }
 
-gg_status gg_plot_result_curves(const gg_stored_result *stored, const char *picture, const char *format,
-                                void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
+gg_status gg_plot_pages(const gg_stored_result *stored, const char *picture, const char *format,
+                        void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
 {
-  bool png;
+  bool png, there;
+  page_list pages;
   GG_TRY(gg_plot_format(picture, format, &png, err));
+  gg_status status = list(&pages, stored, picture, png, err);
+  if (status != GG_OK) clear(&pages);
   /* A page that fails keeps none of the others from being drawn; what is told is the first failure. */
-  gg_status status = draw_snapshot(stored, picture, png, drawn, context, err);
-  for (int k = 0; k < 2; k++) {
-    const gg_stored_engine *e = &stored->engine[k];
-    const char *groups[MOST_GROUPS];
-    int n = e->name ? gg_curve_groups(e->document, groups, MOST_GROUPS) : 0;
-    for (int i = 0; i < n; i++) {
-      gg_error unheard, *told = status == GG_OK ? err : &unheard;
-      char *name = page_name(picture, stored->comparison ? e->name : "", groups[i], png);
-      gg_status page =
-          name ? draw_page(stored, e->document, groups[i], name, png, told) : gg_fail(told, GG_FAILED, "out of memory");
-      if (page == GG_OK && drawn) drawn(context, name);
-      if (status == GG_OK) status = page;
-      free(name);
-    }
+  for (int i = 0; i < pages.n; i++) {
+    const page *p = &pages.page[i];
+    gg_error unheard, *told = status == GG_OK ? err : &unheard;
+    gg_status done = p->group ? draw_page(stored, p->document, p->group, p->path, png, told)
+                              : gg_plot_snapshot(stored, p->path, png, &there, told);
+    if (done == GG_OK && drawn) drawn(context, p->path);
+    if (status == GG_OK) status = done;
   }
+  clear(&pages);
   return status;
 }

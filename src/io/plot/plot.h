@@ -18,11 +18,22 @@ gg_status gg_plot_result(const gg_stored_result *stored, const char *picture, co
 /* A picture of the last frame, projected, if the file holds positions: *drawn says whether. */
 gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *picture, bool png, bool *drawn, gg_error *err);
 
-/* Further pictures beside the given name: PICTURE_snapshot.svg if the file holds grains with positions, and one for
- * each observable that left curves: PICTURE_<observable>.svg, for comparisons PICTURE_<engine>_<observable>.svg.
- * `drawn` (may be NULL) is called with the name of each. */
-gg_status gg_plot_result_curves(const gg_stored_result *stored, const char *picture, const char *format,
-                                void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
+/* Does it? */
+bool gg_plot_has_snapshot(const gg_stored_result *stored);
+
+/* Pages are further pictures beside the given name: PICTURE_snapshot.svg if the file holds grains with positions, and
+ * one for each observable that left curves: PICTURE_<observable>.svg, for comparisons
+ * PICTURE_<engine>_<observable>.svg. `drawn` (may be NULL) is called with the name of each. */
+gg_status gg_plot_pages(const gg_stored_result *stored, const char *picture, const char *format,
+                        void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
+/* Before anything is drawn: could all of them be written, and is none the result's own file? */
+gg_status gg_plot_check_pages(const gg_stored_result *stored, const char *file, const char *picture, const char *format,
+                              gg_error *err);
+/* "usf.svg", "md", "profiles" -> "usf_md_profiles.svg"; engine: "" outside of comparisons. To be freed; NULL: out of
+ * memory. */
+char *gg_plot_page_name(const char *picture, const char *engine, const char *group, bool png);
+#define GG_SNAPSHOT_PAGE "snapshot"
+#define GG_PAGE_BESIDE "a picture beside %s"
 
 #define GG_PLOT_PNG_SCALE 1.5 /* pixels of PNG for one of a page's size */
 

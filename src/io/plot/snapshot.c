@@ -154,6 +154,12 @@ static gg_status draw_page(const gg_stored_result *stored, const gg_plot_grains 
   return status;
 }
 
+bool gg_plot_has_snapshot(const gg_stored_result *stored)
+{
+  gg_plot_grains shown;
+  return find_grains(stored, &shown);
+}
+
 gg_status gg_plot_snapshot(const gg_stored_result *stored, const char *picture, bool png, bool *drawn, gg_error *err)
 {
   gg_plot_grains shown;
