@@ -90,7 +90,8 @@ GG_API gg_status gg_scene_describe(const gg_scene *scene, const char *engine,
                                    void (*line)(void *context, const char *text), void *context, gg_error *err);
 
 /* What a run of the scene will take on an engine: memory within a fifth, time within a factor of two (three where the
- * run goes on until an error that is asked for). A run that needs more memory than there is ends with GG_FAILED before it begins. */
+ * run goes on until an error that is asked for). A run that needs more memory than there is ends with GG_FAILED before
+ * it begins. */
 typedef struct gg_scene_needs {
   double memory, memory_available; /* bytes, all replicas; INFINITY available: nothing tells */
   double collisions_per_grain;     /* warm-up included */

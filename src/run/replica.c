@@ -56,7 +56,7 @@ static double cpu_used(const gg_replica *r)
 }
 
 /* Collisions after which an interval is over, whatever time has gone. While it adapts: where the rate has risen since
- * it was chosen, as from a start in the cold. Later, a thousand times what is expected: see is_collapse. */
+ * it was chosen, as from a start in the cold. Later, a thousand times what is expected: see check_collapse. */
 static uint64_t most_collisions(const gg_replica *r, bool adapt)
 {
   double expected = GG_SAMPLING_INTERVAL * (double)r->model.n / 2;
