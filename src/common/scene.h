@@ -1,4 +1,4 @@
-/* The scene: what the user asked for, in the user's own units. Plain data; the field table of src/io/scene/fields.c
+/* The scene: what the user asked for, in the user's own units. Plain data; the field table of src/scene/fields.c
  * reads, checks, prints and documents every member. */
 #ifndef GG_SCENE_H
 #define GG_SCENE_H

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "common/scene.h"
-#include "io/scene/fields.h"
+#include "scene/fields.h"
 #include "theory/theory.h"
 
 enum { MOST_LETTERS = 40, MOST_TEXT = 500 };

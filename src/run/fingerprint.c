@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "common/extension.h"
-#include "io/scene/fields.h"
+#include "scene/fields.h"
 
 /* Every key that fixes the trajectory or what is averaged; stop rules and output may change between parts of a run. */
 typedef struct gg_fingerprint {

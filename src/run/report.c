@@ -3,9 +3,9 @@
 #include <stdio.h>
 
 #include "common/linear_response.h"
-#include "io/scene/fields.h"
 #include "run/clock.h"
 #include "run/replicas.h"
+#include "scene/fields.h"
 
 /* Why a quantity is not there: the first observable's reason, else that nothing asked for measures it. */
 static const char *why_missing(const gg_replicas *all, gg_quantity q)

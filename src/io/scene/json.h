@@ -5,7 +5,7 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include "io/scene/fields.h"
+#include "scene/fields.h"
 
 /* Every key with its value; NULL only if out of memory. The caller owns the reference. */
 json_t *gg_scene_json(const gg_scene *scene);

@@ -4,7 +4,7 @@
 
 #include <yaml.h>
 
-#include "io/scene/fields.h"
+#include "scene/fields.h"
 
 typedef struct gg_scene_reader {
   yaml_document_t *document;

@@ -2,7 +2,7 @@
 #ifndef GG_SCENE_READER_H
 #define GG_SCENE_READER_H
 
-#include "io/scene/fields.h"
+#include "scene/fields.h"
 
 enum { GG_SCENE_MAX_BYTES = 1 << 20 };
 

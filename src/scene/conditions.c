@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "common/collision.h"
-#include "io/scene/inert.h"
+#include "scene/conditions.h"
 
 static bool is_usf(const gg_scene *s, unsigned uses)
 {

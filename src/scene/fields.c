@@ -1,4 +1,4 @@
-#include "io/scene/fields.h"
+#include "scene/fields.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scene/inert.h"
+#include "scene/conditions.h"
 
 static const gg_word flows[] = {{"equilibrium", GG_EQUILIBRIUM, "elastic gas at rest"},
                                 {"usf", GG_USF, "uniform shear, Lees-Edwards box"},

@@ -33,7 +33,7 @@ typedef struct gg_field {
   double special_value;
   const gg_word *words; /* of choices and sets; ends with a NULL name */
   const char *unit, *doc;
-  const struct gg_condition *when[GG_MOST_CONDITIONS]; /* all of them, or the key has no effect (io/scene/inert.h) */
+  const struct gg_condition *when[GG_MOST_CONDITIONS]; /* all of them, or the key has no effect (scene/conditions.h) */
   const char *also; /* what others call it, for messages: words separated by blanks */
 } gg_field;
 

@@ -1,0 +1,23 @@
+/* When keys of a scene have an effect: what the rows of the field table name under `when`. */
+#ifndef GG_SCENE_CONDITIONS_H
+#define GG_SCENE_CONDITIONS_H
+
+#include "common/scene.h"
+
+/* What a scene is used for: a sum of these. */
+enum { GG_USE_MD = 1u << GG_MD, GG_USE_DSMC = 1u << GG_DSMC, GG_USE_THEORY = 1u << 2 };
+
+/* When a key has an effect, and the words for when it has none: "KEY has no effect ...". */
+typedef struct gg_condition {
+  bool (*holds)(const gg_scene *scene, unsigned uses);
+  const char *otherwise;
+} gg_condition;
+
+extern const gg_condition gg_if_usf, gg_if_couette, gg_if_chute, gg_if_walled, gg_if_md, gg_if_dsmc, gg_if_counted,
+    gg_if_boxed, gg_if_one_engine, gg_if_contact_value, gg_if_lossy, gg_if_rough, gg_if_sticking, gg_if_tangential,
+    gg_if_wall_sticking, gg_if_wall_tangential;
+
+/* Does some collision between grains lose energy, by the coefficients that the scene has? */
+bool gg_scene_loses_energy(const gg_scene *scene);
+
+#endif
