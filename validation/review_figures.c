@@ -17,7 +17,7 @@ typedef struct options {
 } options;
 
 static const gg_quantity subjects[][2] = {
-    [GG_CUMULANTS] = {GG_Q_C_1, GG_Q_C_2},
+    [GG_CUMULANTS] = {GG_Q_CUMULANT, GG_Q_CUMULANT + 1},
     [GG_PARTIAL_TEMPERATURES] = {GG_Q_PARTIAL_TEMPERATURE_RATIO, GG_N_QUANTITIES},
     [GG_VISCOSITY] = {GG_Q_VISCOSITY_REDUCED, GG_Q_VISCOSITY_REDUCED_KINETIC},
 };
@@ -44,7 +44,7 @@ static void print_row(const gg_point *p, gg_quantity q, const gg_estimate *s, do
   char mean[40], deviation[40] = "";
   gg_format_estimate(s->mean, s->error, mean, sizeof mean);
   /* Of cumulants, which may vanish, the difference; else relative. */
-  bool absolute = q == GG_Q_C_1 || q == GG_Q_C_2 || q == GG_Q_A2;
+  bool absolute = gg_quantity_family(q) == GG_Q_CUMULANT || q == GG_Q_A2;
   double scale = absolute ? 1 : theory;
   snprintf(deviation, sizeof deviation, absolute ? "%+.4f +- %.4f" : "%+.2f %% +- %.2f",
            (absolute ? 1 : 100) * (s->mean - theory) / scale, (absolute ? 1 : 100) * s->error / fabs(scale));

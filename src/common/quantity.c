@@ -1,5 +1,6 @@
 #include "common/quantity.h"
 
+#include <stdio.h>
 #include <string.h>
 
 enum unit {
@@ -26,33 +27,115 @@ static const char *const unit_names[N_SCALES][N_UNITS] = {
                            "n m v_0^3 (n d^2)"},
 };
 
-#define GG_QUANTITY_ROW(id, name, unit, doc) {name, unit, doc},
-static const struct {
-  const char *name;
+/* What a family's members are called. */
+#define NUMBERED(name)                                                                                                 \
+  name "_1", name "_2", name "_3", name "_4", name "_5", name "_6", name "_7", name "_8", name "_9", name "_10",       \
+      name "_11", name "_12", name "_13", name "_14", name "_15", name "_16"
+_Static_assert(GG_MAX_SPECIES <= 16, "a name for every species");
+
+#define NAMES_OF_ONE(id, name, ...) static const char *const names_##id[] = {name};
+#define NAMES_OF_EACH(id, name, ...) static const char *const names_##id[] = {NUMBERED(name)};
+GG_QUANTITIES(NAMES_OF_ONE, NAMES_OF_EACH)
+
+typedef struct row {
+  gg_quantity first;
+  int members; /* one, or a member a species */
+  const char *const *names;
+  const char *symbol, *word;
   enum unit unit;
+  unsigned mask;
   const char *doc;
-} table[] = {GG_QUANTITIES(GG_QUANTITY_ROW)};
-#undef GG_QUANTITY_ROW
+} row;
+
+#define ROW_OF_ONE(id, name, symbol, word, unit, mask, doc)                                                            \
+  {GG_Q_##id, 1, names_##id, symbol, word, UNIT_##unit, mask, doc},
+#define ROW_OF_EACH(id, name, symbol, word, unit, mask, doc)                                                           \
+  {GG_Q_##id, GG_MAX_SPECIES, names_##id, symbol, word, UNIT_##unit, mask, doc},
+static const row table[] = {GG_QUANTITIES(ROW_OF_ONE, ROW_OF_EACH)};
+enum { ROWS = sizeof table / sizeof *table };
+
+static const row *row_of(gg_quantity q)
+{
+  const row *r = table;
+  while (q >= r->first + (gg_quantity)r->members) r++;
+  return r;
+}
 
 const char *gg_quantity_name(gg_quantity q)
 {
-  return table[q].name;
+  const row *r = row_of(q);
+  return r->names[q - r->first];
 }
 const char *gg_quantity_doc(gg_quantity q)
 {
-  return table[q].doc;
+  return row_of(q)->doc;
+}
+const char *gg_quantity_word(gg_quantity q)
+{
+  return row_of(q)->word;
+}
+const char *gg_quantity_symbol(gg_quantity q, char *text, size_t size)
+{
+  const row *r = row_of(q);
+  if (r->members == 1)
+    snprintf(text, size, "%s", r->symbol);
+  else
+    snprintf(text, size, "%s_{%d}", r->symbol, (int)(q - r->first) + 1);
+  return text;
 }
 
 gg_quantity gg_quantity_find(const char *name)
 {
   int q = 0;
-  while (q < GG_N_QUANTITIES && strcmp(table[q].name, name) != 0) q++;
+  while (q < GG_N_QUANTITIES && strcmp(gg_quantity_name((gg_quantity)q), name) != 0) q++;
   return (gg_quantity)q;
+}
+
+unsigned gg_quantity_mask(gg_quantity q)
+{
+  return q < GG_N_QUANTITIES ? row_of(q)->mask : 0;
+}
+gg_quantity gg_quantity_family(gg_quantity q)
+{
+  return q < GG_N_QUANTITIES ? row_of(q)->first : GG_N_QUANTITIES;
+}
+
+gg_quantity gg_quantity_next(int q, unsigned mask)
+{
+  for (q++; q < GG_N_QUANTITIES; q++)
+    if (gg_quantity_mask((gg_quantity)q) & mask) break;
+  return (gg_quantity)q;
+}
+
+gg_quantity gg_history_quantity(int k)
+{
+  int q = -1;
+  while (k-- >= 0) q = (int)gg_quantity_next(q, GG_FOLLOWED);
+  return (gg_quantity)q;
+}
+
+/* How many of a row this model has. */
+static int members_in(const row *r, const gg_model *m)
+{
+  int species = m->n_species > 2 ? m->n_species : 2;
+  return r->members < species ? r->members : species;
 }
 
 int gg_quantities_of(const gg_model *m)
 {
-  return GG_N_QUANTITIES + gg_extension_quantities(m->extension);
+  int n = gg_extension_quantities(m->extension);
+  for (int i = 0; i < ROWS; i++) n += members_in(&table[i], m);
+  return n;
+}
+
+gg_quantity gg_quantity_at(const gg_model *m, int index)
+{
+  for (int i = 0; i < ROWS; i++) {
+    int members = members_in(&table[i], m);
+    if (index < members) return (gg_quantity)((int)table[i].first + index);
+    index -= members;
+  }
+  return (gg_quantity)(GG_N_QUANTITIES + index);
 }
 
 static const gg_quantity_definition *own(const gg_model *m, gg_quantity q)
@@ -71,8 +154,10 @@ const char *gg_quantity_doc_in(const gg_model *m, gg_quantity q)
 
 gg_quantity gg_quantity_find_in(const gg_model *m, const char *name)
 {
-  for (int q = 0; q < gg_quantities_of(m); q++)
-    if (strcmp(gg_quantity_name_in(m, (gg_quantity)q), name) == 0) return (gg_quantity)q;
+  for (int i = 0; i < gg_quantities_of(m); i++) {
+    gg_quantity q = gg_quantity_at(m, i);
+    if (strcmp(gg_quantity_name_in(m, q), name) == 0) return q;
+  }
   return GG_MOST_QUANTITIES;
 }
 
@@ -82,5 +167,5 @@ const char *gg_quantity_unit(gg_quantity q, const gg_model *model)
   bool sheared = model->shear_rate != 0 || model->flow == GG_COUETTE;
   int scale =
       sheared ? (model->boltzmann ? SHEARED_BOLTZMANN : SHEARED) : (model->boltzmann ? THERMAL_BOLTZMANN : THERMAL);
-  return unit_names[scale][table[q].unit];
+  return unit_names[scale][row_of(q)->unit];
 }

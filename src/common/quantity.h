@@ -1,69 +1,123 @@
-/* The shared names: one table for JSON keys, HDF5 names, table rows, theories and documents. */
+/* The shared names: one table for JSON keys, HDF5 names, table rows, pictures, theories and documents. What becomes of
+ * a quantity follows from its row, never from where the row stands. */
 #ifndef GG_QUANTITY_H
 #define GG_QUANTITY_H
 
 #include "common/model.h"
 
-/* X(identifier, name, unit, one-line meaning) */
-#define GG_QUANTITIES(X)                                                                                               \
-  X(TEMPERATURE, "temperature", UNIT_TEMPERATURE, "T = <C.C>/3")                                                       \
-  X(ROTATIONAL_TEMPERATURE, "rotational_temperature", UNIT_TEMPERATURE, "theta = I<Omega.Omega>/(3m)")                 \
-  X(TEMPERATURE_RATIO, "temperature_ratio", UNIT_NONE, "theta/T")                                                      \
-  X(SPIN_Z, "spin_z", UNIT_SPIN, "mean spin about z")                                                                  \
-  X(PRESSURE, "pressure", UNIT_STRESS, "third of the trace of the total stress")                                       \
-  X(COMPRESSIBILITY, "compressibility_factor", UNIT_NONE, "Z = p/(n T)")                                               \
-  X(SHEAR_VISCOSITY, "shear_viscosity", UNIT_VISCOSITY, "|P_xy|/shear rate")                                           \
-  X(N1, "N1", UNIT_NONE, "(P_xx - P_yy)/p")                                                                            \
-  X(N2, "N2", UNIT_NONE, "(P_yy - P_zz)/p")                                                                            \
-  X(P_XX, "P_xx", UNIT_STRESS, "stress")                                                                               \
-  X(P_YY, "P_yy", UNIT_STRESS, "stress")                                                                               \
-  X(P_ZZ, "P_zz", UNIT_STRESS, "stress")                                                                               \
-  X(P_XY, "P_xy", UNIT_STRESS, "stress")                                                                               \
-  X(P_YX, "P_yx", UNIT_STRESS, "stress")                                                                               \
-  X(P_XX_KINETIC, "P_xx_kinetic", UNIT_STRESS, "kinetic part of P_xx")                                                 \
-  X(P_YY_KINETIC, "P_yy_kinetic", UNIT_STRESS, "kinetic part of P_yy")                                                 \
-  X(P_ZZ_KINETIC, "P_zz_kinetic", UNIT_STRESS, "kinetic part of P_zz")                                                 \
-  X(P_XY_KINETIC, "P_xy_kinetic", UNIT_STRESS, "kinetic part of P_xy")                                                 \
-  X(P_YX_KINETIC, "P_yx_kinetic", UNIT_STRESS, "kinetic part of P_yx")                                                 \
-  X(P_XX_COLLISIONAL, "P_xx_collisional", UNIT_STRESS, "collisional part of P_xx")                                     \
-  X(P_YY_COLLISIONAL, "P_yy_collisional", UNIT_STRESS, "collisional part of P_yy")                                     \
-  X(P_ZZ_COLLISIONAL, "P_zz_collisional", UNIT_STRESS, "collisional part of P_zz")                                     \
-  X(P_XY_COLLISIONAL, "P_xy_collisional", UNIT_STRESS, "collisional part of P_xy")                                     \
-  X(P_YX_COLLISIONAL, "P_yx_collisional", UNIT_STRESS, "collisional part of P_yx")                                     \
-  X(COLLISION_RATE, "collision_rate", UNIT_RATE, "collisions per grain and unit time")                                 \
-  X(MEAN_FREE_PATH, "mean_free_path", UNIT_LENGTH, "mean peculiar speed over collision rate")                          \
-  X(KNUDSEN, "knudsen", UNIT_NONE, "mean free path over box length")                                                   \
-  X(COS2_PSI, "cos2_psi", UNIT_NONE, "<(C.Omega)^2/(C^2 Omega^2)>; 1/3 without correlation")                           \
-  X(KURTOSIS_CX, "kurtosis_Cx", UNIT_NONE, "<C_x^4>/<C_x^2>^2; 3 for a Gaussian")                                      \
-  X(KURTOSIS_CY, "kurtosis_Cy", UNIT_NONE, "<C_y^4>/<C_y^2>^2")                                                        \
-  X(KURTOSIS_CZ, "kurtosis_Cz", UNIT_NONE, "<C_z^4>/<C_z^2>^2")                                                        \
-  X(KURTOSIS_WX, "kurtosis_Wx", UNIT_NONE, "<Omega_x^4>/<Omega_x^2>^2")                                                \
-  X(KURTOSIS_WY, "kurtosis_Wy", UNIT_NONE, "<Omega_y^4>/<Omega_y^2>^2")                                                \
-  X(KURTOSIS_WZ, "kurtosis_Wz", UNIT_NONE, "<Omega_z^4>/<Omega_z^2>^2")                                                \
-  X(SKEWNESS_WZ, "skewness_Wz", UNIT_NONE, "<Omega_z^3>/<Omega_z^2>^(3/2)")                                            \
-  X(DISSIPATION, "dissipation", UNIT_POWER, "energy lost in collisions per volume and time")                           \
-  X(ENERGY_BALANCE, "energy_balance", UNIT_NONE, "shear work -P_xy*rate over dissipation; 1 in a steady state")        \
-  X(COOLING_RATE, "cooling_rate", UNIT_NONE, "zeta* = zeta/nu_0")                                                      \
-  X(A2, "a2", UNIT_NONE, "<c^4>/(15 T^2) - 1, fourth cumulant")                                                        \
-  X(C_1, "c_1", UNIT_NONE, "fourth cumulant of species 1 (twice a2)")                                                  \
-  X(C_2, "c_2", UNIT_NONE, "fourth cumulant of species 2 (twice a2)")                                                  \
-  X(TEMPERATURE_1, "temperature_1", UNIT_TEMPERATURE, "partial temperature m_1<C.C>_1/3")                              \
-  X(TEMPERATURE_2, "temperature_2", UNIT_TEMPERATURE, "partial temperature m_2<C.C>_2/3")                              \
-  X(PARTIAL_TEMPERATURE_RATIO, "partial_temperature_ratio", UNIT_NONE, "T_1/T_2")                                      \
-  X(VISCOSITY_REDUCED, "viscosity_reduced", UNIT_NONE, "eta* = nu eta/(n T)")                                          \
-  X(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", UNIT_NONE, "kinetic part of eta*")                         \
-  X(CLUSTERING_LENGTH, "clustering_length", UNIT_LENGTH,                                                               \
-    "box length above which a cooling gas forms vortices and clusters")
+/* What a scene must have for a quantity to have a mean (quantity_needs.c: when it has, and the reason when not), and
+ * how the quantity is treated: a row's mask is a sum of these. */
+enum {
+  GG_NEEDS_SPINS = 1u << 0,
+  GG_NEEDS_MEAN_SPIN = 1u << 1,
+  GG_NEEDS_SHEAR = 1u << 2,
+  GG_NEEDS_NO_SHEAR = 1u << 3,
+  GG_NEEDS_TRANSFER = 1u << 4, /* collisional, over the distance of two centres */
+  GG_NEEDS_VOLUME = 1u << 5,   /* of the grains */
+  GG_NEEDS_BOX = 1u << 6,
+  GG_NEEDS_LOSS = 1u << 7,
+  GG_NEEDS_COOLING = 1u << 8, /* by collisions, of one temperature */
+  GG_NEEDS_MIXTURE = 1u << 9,
+  GG_NEEDS_ONE_SPECIES = 1u << 10,
+  GG_NEEDS_LINEAR_RESPONSE = 1u << 11,
+  GG_NEEDS_SCALE = 1u << 12,       /* a temperature that lasts */
+  GG_NEEDS_SCALE_SHOWN = 1u << 13, /* likewise, and the history says how it decays */
+  GG_NEEDS_THEORY = 1u << 14,      /* no mean of anything */
 
-#define GG_QUANTITY_ENUM(id, name, unit, doc) GG_Q_##id,
+  GG_KEPT_HEATING = 1u << 15,      /* free of the temperature's scale: has a meaning as a mean in a gas that heats up */
+  GG_MONITORED = 1u << 16,         /* relaxes slowly: a run is not steady while it has a trend */
+  GG_FOLLOWED = 1u << 17,          /* from start to end of a run: the time series */
+  GG_STRESS_DIFFERENCE = 1u << 18, /* over p: compared as it is; vanishes where the gas has no direction */
+  GG_DRAWN = 1u << 19,             /* in the picture of a comparison, as it is: around zero */
+  GG_DRAWN_AS_RATIO = 1u << 20     /* there, over the value of an engine */
+};
+#define GG_P_TOTAL (GG_NEEDS_SCALE)
+#define GG_P_COLLISIONAL (GG_NEEDS_SCALE | GG_NEEDS_TRANSFER)
+#define GG_SPIN_MOMENT (GG_NEEDS_SPINS)
+#define GG_CUMULANT (GG_NEEDS_NO_SHEAR)
+#define GG_REDUCED_VISCOSITY (GG_NEEDS_LINEAR_RESPONSE | GG_KEPT_HEATING)
+
+/* ONE(identifier, name, symbol as pictures have it, short word or "", unit, mask, one-line meaning): a quantity.
+ * EACH(...): a family with a member a species, GG_Q_<identifier> + i for species i, called <name>_1 and on. A scene has
+ * those of the species that it has (and always the first two). */
+#define GG_QUANTITIES(ONE, EACH)                                                                                       \
+  ONE(TEMPERATURE, "temperature", "T", "temperature", TEMPERATURE,                                                     \
+      GG_NEEDS_SCALE_SHOWN | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO, "T = <C.C>/3")                            \
+  ONE(ROTATIONAL_TEMPERATURE, "rotational_temperature", "θ", "rotational", TEMPERATURE,                                \
+      GG_NEEDS_SPINS | GG_NEEDS_SCALE_SHOWN | GG_FOLLOWED | GG_DRAWN_AS_RATIO, "theta = I<Omega.Omega>/(3m)")          \
+  ONE(TEMPERATURE_RATIO, "temperature_ratio", "θ/T", "ratio", NONE,                                                    \
+      GG_NEEDS_SPINS | GG_KEPT_HEATING | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO, "theta/T")                    \
+  ONE(SPIN_Z, "spin_z", "<ω_z>", "spin", SPIN,                                                                         \
+      GG_NEEDS_SPINS | GG_NEEDS_MEAN_SPIN | GG_MONITORED | GG_FOLLOWED | GG_DRAWN, "mean spin about z")                \
+  ONE(PRESSURE, "pressure", "p", "pressure", STRESS, GG_NEEDS_SCALE | GG_FOLLOWED | GG_DRAWN_AS_RATIO,                 \
+      "third of the trace of the total stress")                                                                        \
+  ONE(COMPRESSIBILITY, "compressibility_factor", "p/(nT)", "", NONE, GG_NEEDS_VOLUME | GG_DRAWN_AS_RATIO,              \
+      "Z = p/(n T)")                                                                                                   \
+  ONE(SHEAR_VISCOSITY, "shear_viscosity", "η", "viscosity", VISCOSITY, GG_NEEDS_SHEAR | GG_DRAWN_AS_RATIO,             \
+      "|P_xy|/shear rate")                                                                                             \
+  ONE(N1, "N1", "N_1", "", NONE, GG_STRESS_DIFFERENCE | GG_DRAWN, "(P_xx - P_yy)/p")                                   \
+  ONE(N2, "N2", "N_2", "", NONE, GG_STRESS_DIFFERENCE | GG_DRAWN, "(P_yy - P_zz)/p")                                   \
+  ONE(P_XX, "P_xx", "P_{xx}", "", STRESS, GG_P_TOTAL, "stress")                                                        \
+  ONE(P_YY, "P_yy", "P_{yy}", "", STRESS, GG_P_TOTAL, "stress")                                                        \
+  ONE(P_ZZ, "P_zz", "P_{zz}", "", STRESS, GG_P_TOTAL, "stress")                                                        \
+  ONE(P_XY, "P_xy", "P_{xy}", "", STRESS, GG_P_TOTAL | GG_FOLLOWED, "stress")                                          \
+  ONE(P_YX, "P_yx", "P_{yx}", "", STRESS, GG_P_TOTAL, "stress")                                                        \
+  ONE(P_XX_KINETIC, "P_xx_kinetic", "P@_{xx}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_xx")                       \
+  ONE(P_YY_KINETIC, "P_yy_kinetic", "P@_{yy}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_yy")                       \
+  ONE(P_ZZ_KINETIC, "P_zz_kinetic", "P@_{zz}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_zz")                       \
+  ONE(P_XY_KINETIC, "P_xy_kinetic", "P@_{xy}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_xy")                       \
+  ONE(P_YX_KINETIC, "P_yx_kinetic", "P@_{yx}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_yx")                       \
+  ONE(P_XX_COLLISIONAL, "P_xx_collisional", "P@_{xx}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_xx")     \
+  ONE(P_YY_COLLISIONAL, "P_yy_collisional", "P@_{yy}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_yy")     \
+  ONE(P_ZZ_COLLISIONAL, "P_zz_collisional", "P@_{zz}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_zz")     \
+  ONE(P_XY_COLLISIONAL, "P_xy_collisional", "P@_{xy}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_xy")     \
+  ONE(P_YX_COLLISIONAL, "P_yx_collisional", "P@_{yx}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_yx")     \
+  ONE(COLLISION_RATE, "collision_rate", "ν", "collisions", RATE,                                                       \
+      GG_NEEDS_SCALE | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO, "collisions per grain and unit time")           \
+  ONE(MEAN_FREE_PATH, "mean_free_path", "l", "", LENGTH, GG_KEPT_HEATING, "mean peculiar speed over collision rate")   \
+  ONE(KNUDSEN, "knudsen", "Kn", "", NONE, GG_NEEDS_BOX | GG_KEPT_HEATING, "mean free path over box length")            \
+  ONE(COS2_PSI, "cos2_psi", "<cos^2 Ψ>", "", NONE, GG_NEEDS_SPINS | GG_KEPT_HEATING | GG_FOLLOWED,                     \
+      "<(C.Omega)^2/(C^2 Omega^2)>; 1/3 without correlation")                                                          \
+  ONE(KURTOSIS_CX, "kurtosis_Cx", "κ(C_x)", "", NONE, 0, "<C_x^4>/<C_x^2>^2; 3 for a Gaussian")                        \
+  ONE(KURTOSIS_CY, "kurtosis_Cy", "κ(C_y)", "", NONE, 0, "<C_y^4>/<C_y^2>^2")                                          \
+  ONE(KURTOSIS_CZ, "kurtosis_Cz", "κ(C_z)", "", NONE, 0, "<C_z^4>/<C_z^2>^2")                                          \
+  ONE(KURTOSIS_WX, "kurtosis_Wx", "κ(Ω_x)", "", NONE, GG_SPIN_MOMENT, "<Omega_x^4>/<Omega_x^2>^2")                     \
+  ONE(KURTOSIS_WY, "kurtosis_Wy", "κ(Ω_y)", "", NONE, GG_SPIN_MOMENT, "<Omega_y^4>/<Omega_y^2>^2")                     \
+  ONE(KURTOSIS_WZ, "kurtosis_Wz", "κ(Ω_z)", "", NONE, GG_SPIN_MOMENT, "<Omega_z^4>/<Omega_z^2>^2")                     \
+  ONE(SKEWNESS_WZ, "skewness_Wz", "γ(Ω_z)", "", NONE, GG_SPIN_MOMENT, "<Omega_z^3>/<Omega_z^2>^(3/2)")                 \
+  ONE(DISSIPATION, "dissipation", "D", "", POWER, GG_NEEDS_LOSS | GG_NEEDS_SCALE,                                      \
+      "energy lost in collisions per volume and time")                                                                 \
+  ONE(ENERGY_BALANCE, "energy_balance", "-P_{xy}γ/D", "", NONE, GG_NEEDS_SHEAR | GG_NEEDS_LOSS,                        \
+      "shear work -P_xy*rate over dissipation; 1 in a steady state")                                                   \
+  ONE(COOLING_RATE, "cooling_rate", "ζ*", "cooling", NONE, GG_NEEDS_LOSS | GG_NEEDS_COOLING | GG_DRAWN_AS_RATIO,       \
+      "zeta* = zeta/nu_0")                                                                                             \
+  ONE(A2, "a2", "a_2", "", NONE, GG_CUMULANT | GG_NEEDS_ONE_SPECIES | GG_MONITORED | GG_FOLLOWED | GG_DRAWN,           \
+      "<c^4>/(15 T^2) - 1, fourth cumulant")                                                                           \
+  EACH(CUMULANT, "c", "c", "", NONE, GG_CUMULANT | GG_NEEDS_MIXTURE, "fourth cumulant of the species (twice a2)")      \
+  EACH(PARTIAL_TEMPERATURE, "temperature", "T", "", TEMPERATURE,                                                       \
+       GG_NEEDS_SCALE | GG_NEEDS_MIXTURE | GG_DRAWN_AS_RATIO, "partial temperature m_i<C.C>_i/3 of the species")       \
+  ONE(PARTIAL_TEMPERATURE_RATIO, "partial_temperature_ratio", "T_1/T_2", "", NONE,                                     \
+      GG_NEEDS_MIXTURE | GG_DRAWN_AS_RATIO, "T_1/T_2")                                                                 \
+  ONE(VISCOSITY_REDUCED, "viscosity_reduced", "η*", "viscosity", NONE, GG_REDUCED_VISCOSITY | GG_DRAWN_AS_RATIO,       \
+      "eta* = nu eta/(n T)")                                                                                           \
+  ONE(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", "η*^k", "", NONE, GG_REDUCED_VISCOSITY,                  \
+      "kinetic part of eta*")                                                                                          \
+  ONE(CLUSTERING_LENGTH, "clustering_length", "L_c", "", LENGTH, GG_NEEDS_THEORY,                                      \
+      "box length above which a cooling gas forms vortices and clusters")
+
+#define GG_QUANTITY_ONE(id, ...) GG_Q_##id,
+#define GG_QUANTITY_EACH(id, ...) GG_Q_##id, GG_Q_LAST_##id = GG_Q_##id + GG_MAX_SPECIES - 1,
 typedef enum gg_quantity {
-  GG_QUANTITIES(GG_QUANTITY_ENUM) GG_N_QUANTITIES,
+  GG_QUANTITIES(GG_QUANTITY_ONE, GG_QUANTITY_EACH) GG_N_QUANTITIES,
   GG_MOST_QUANTITIES = GG_N_QUANTITIES + GG_MOST_OWN_QUANTITIES
 } gg_quantity;
-#undef GG_QUANTITY_ENUM
+#undef GG_QUANTITY_ONE
+#undef GG_QUANTITY_EACH
 
-/* Scenes may have quantities of their own (extension.h), numbered from GG_N_QUANTITIES on. */
+/* The quantities of a scene, in the order in which they are shown: the shared ones, of families the members that it
+ * has; then its own (extension.h), numbered from GG_N_QUANTITIES on. */
 int gg_quantities_of(const gg_model *model); /* how many in all */
+gg_quantity gg_quantity_at(const gg_model *model, int index);
 const char *gg_quantity_name_in(const gg_model *model, gg_quantity q);
 const char *gg_quantity_doc_in(const gg_model *model, gg_quantity q);
 /* Quantity of that name, or GG_MOST_QUANTITIES. */
@@ -72,9 +126,30 @@ gg_quantity gg_quantity_find_in(const gg_model *model, const char *name);
 /* Shared quantities alone. */
 const char *gg_quantity_name(gg_quantity q);
 const char *gg_quantity_doc(gg_quantity q);
+const char *gg_quantity_symbol(gg_quantity q, char *text, size_t size); /* "T", "T_2" of a family; returns text */
+const char *gg_quantity_word(gg_quantity q);                            /* for pictures: "temperature"; or "" */
 /* Quantity of that name, or GG_N_QUANTITIES. */
 gg_quantity gg_quantity_find(const char *name);
+/* The next one after q (first: start with -1) whose mask holds any of these; GG_N_QUANTITIES after the last. Of
+ * families every member. */
+gg_quantity gg_quantity_next(int q, unsigned mask);
+
+/* The mask of the row; 0 of the scene's own. */
+unsigned gg_quantity_mask(gg_quantity q);
+/* The first of the family that q belongs to: itself if it is none of a family. The scene's own are one family. */
+gg_quantity gg_quantity_family(gg_quantity q);
 /* Unit of the quantity in this model's flow, as printed beside every number: "d^2 gamma^2", "1", "rho_p v_0^2" ... */
 const char *gg_quantity_unit(gg_quantity q, const gg_model *model);
+
+/* Why this model has none of what the GG_NEEDS_ bits of the mask ask for; NULL if it has it all. */
+const char *gg_model_lacks(const gg_model *model, unsigned needs);
+/* The same of a quantity's mask: the reason why its mean cannot be had. */
+const char *gg_quantity_missing(const gg_model *model, gg_quantity q);
+
+#define GG_COUNT_FOLLOWED(id, name, symbol, word, unit, mask, doc) +(((mask)&GG_FOLLOWED) ? 1 : 0)
+enum { GG_N_HISTORY = 0 GG_QUANTITIES(GG_COUNT_FOLLOWED, GG_COUNT_FOLLOWED) };
+#undef GG_COUNT_FOLLOWED
+/* The quantities followed from start to end of a run: those of GG_FOLLOWED, k from 0 to GG_N_HISTORY - 1. */
+gg_quantity gg_history_quantity(int k);
 
 #endif

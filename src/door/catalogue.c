@@ -94,7 +94,7 @@ static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry
   gg_scene_fill_in(&filled);
   GG_TRY(gg_model_make(&filled, filled.engine, &model, err));
   if (i >= (size_t)gg_quantities_of(&model)) return no_more(err);
-  gg_quantity q = (gg_quantity)i;
+  gg_quantity q = gg_quantity_at(&model, (int)i);
   *entry = (gg_entry){.name = gg_quantity_name_in(&model, q),
                       .doc = gg_quantity_doc_in(&model, q),
                       .unit = gg_quantity_unit(q, &model),

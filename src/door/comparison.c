@@ -199,7 +199,8 @@ gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_rem
   const char *cause[MOST_CAUSES];
   gg_theory_remark theories[GG_MOST_THEORIES];
   bool marked = false;
-  for (int q = 0; q < gg_quantities_of(&comparison->model); q++) marked |= gg_disagree(comparison, (gg_quantity)q);
+  const gg_model *m = &comparison->model;
+  for (int k = 0; k < gg_quantities_of(m); k++) marked |= gg_disagree(comparison, gg_quantity_at(m, k));
   size_t causes = marked ? (size_t)gg_causes_of_disagreement(comparison, cause, MOST_CAUSES) : 0;
   size_t n = causes + (size_t)gg_theory_remarks(comparison, theories);
   if (i >= n) return gg_fail(err, GG_BAD_INPUT, "there are %zu remarks on this comparison", n);

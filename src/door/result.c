@@ -57,7 +57,7 @@ gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found,
   GG_NEED(found);
   int n = gg_quantities_of(&result->model);
   if (i >= (size_t)n) return gg_fail(err, GG_BAD_INPUT, "gg_result_at: there are %d quantities", n);
-  tell(result, (gg_quantity)i, found);
+  tell(result, gg_quantity_at(&result->model, (int)i), found);
   return GG_OK;
 }
 
@@ -116,7 +116,7 @@ gg_status gg_result_history(const gg_result *result, const char *quantity, size_
   gg_quantity q;
   GG_TRY(find(result, quantity, &q, err));
   for (int k = 0; k < GG_N_HISTORY; k++) {
-    if (gg_history_quantities[k] != q || !result->history.value[k]) continue;
+    if (gg_history_quantity(k) != q || !result->history.value[k]) continue;
     *n = result->history.n;
     if (time) *time = result->history.time;
     if (value) *value = result->history.value[k];

@@ -24,13 +24,14 @@ static json_t *theories_json(const gg_comparison *c, json_t *warnings)
       continue;
     }
     json_t *one = json_object();
-    for (int q = 0; q < gg_quantities_of(&c->model); q++) {
+    for (int k = 0; k < gg_quantities_of(&c->model); k++) {
+      const gg_quantity q = gg_quantity_at(&c->model, k);
       double value = c->theory[i].answer.value[q];
       if (!isfinite(value)) continue;
       double error = c->theory[i].answer.error[q];
-      json_t *said = json_pack("{s:f, s:s}", "mean", value, "unit", gg_quantity_unit((gg_quantity)q, &c->model));
+      json_t *said = json_pack("{s:f, s:s}", "mean", value, "unit", gg_quantity_unit(q, &c->model));
       if (isfinite(error)) json_object_set_new(said, "error", json_real(error));
-      json_object_set_new(one, gg_quantity_name_in(&c->model, (gg_quantity)q), said);
+      json_object_set_new(one, gg_quantity_name_in(&c->model, q), said);
     }
     json_object_set_new(all, name, one);
   }
@@ -45,7 +46,8 @@ static json_t *about_json(const gg_comparison *c)
   for (int i = 0; i < c->n_theories; i++) {
     const gg_theory *t = c->theory[i].theory;
     bool applies = c->theory[i].applies;
-    const char *beyond = applies ? gg_theory_beyond(t, &c->model) : NULL, *reason = applies ? NULL : c->theory[i].reason;
+    const char *beyond = applies ? gg_theory_beyond(t, &c->model) : NULL,
+               *reason = applies ? NULL : c->theory[i].reason;
     json_object_set_new(all, t->name,
                         json_pack("{s:s, s:s, s:s, s:s?, s:s?}", "title", t->title, "citation", t->citation,
                                   "assumptions", t->assumptions, "beyond", beyond, "reason", reason));
@@ -111,7 +113,7 @@ static void warn_causes(const gg_comparison *c, json_t *warnings)
 {
   const char *cause[8];
   int marked = 0;
-  for (int q = 0; q < gg_quantities_of(&c->model); q++) marked += gg_disagree(c, (gg_quantity)q);
+  for (int i = 0; i < gg_quantities_of(&c->model); i++) marked += gg_disagree(c, gg_quantity_at(&c->model, i));
   int n = marked ? gg_causes_of_disagreement(c, cause, 8) : 0;
   for (int i = 0; i < n; i++)
     json_array_append_new(warnings, json_sprintf("md and dsmc differ beyond what is expected: %s", cause[i]));
@@ -133,9 +135,11 @@ json_t *gg_comparison_document(const gg_comparison *c)
   json_t *warnings = warnings_json(c), *rows = json_array();
   json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
   json_t *theory = theories_json(c, warnings);
-  for (int q = 0; q < gg_quantities_of(&c->model); q++)
-    if (has(c->by_engine[GG_MD], (gg_quantity)q) || has(c->by_engine[GG_DSMC], (gg_quantity)q))
-      json_array_append_new(rows, row_json(c, (gg_quantity)q, warnings));
+  for (int i = 0; i < gg_quantities_of(&c->model); i++) {
+    gg_quantity q = gg_quantity_at(&c->model, i);
+    if (has(c->by_engine[GG_MD], q) || has(c->by_engine[GG_DSMC], q))
+      json_array_append_new(rows, row_json(c, q, warnings));
+  }
   warn_causes(c, warnings);
   warn_remarks(c, warnings);
   return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",

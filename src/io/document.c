@@ -88,10 +88,11 @@ json_t *gg_run_document(const gg_result *r)
   if (r->origin.document) return json_loads(r->origin.document, 0, NULL); /* as it was stored */
   json_t *results = json_object(), *warnings = json_array();
   for (size_t i = 0; i < r->warnings.n; i++) json_array_append_new(warnings, json_string(r->warnings.text[i]));
-  for (int q = 0; q < gg_quantities_of(&r->model); q++)
+  for (int i = 0; i < gg_quantities_of(&r->model); i++) {
+    gg_quantity q = gg_quantity_at(&r->model, i);
     if (gg_is_measured(&r->value[q]))
-      json_object_set_new(results, gg_quantity_name_in(&r->model, (gg_quantity)q),
-                          estimate_json(r, (gg_quantity)q, warnings));
+      json_object_set_new(results, gg_quantity_name_in(&r->model, q), estimate_json(r, q, warnings));
+  }
   json_t *document =
       json_pack("{s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
                 gg_scene_json(&r->scene), "engine", r->engine, "steady", r->steadiness == GG_STEADY, "verdict",

@@ -20,11 +20,18 @@ typedef struct gg_interval {
   double elapsed, velocity_factor;
 } gg_interval;
 
-/* A quantity as a function of this observable's channel means. */
+/* A quantity as a function of this observable's channel means; or a family of them, by its first member, with `each`.
+ */
 typedef struct gg_derived {
   gg_quantity quantity;
   gg_of_means *of;
+  gg_member_of_means *each; /* where `of` is NULL */
 } gg_derived;
+/* Ends a table of them. */
+#define GG_DERIVED_END                                                                                                 \
+  {                                                                                                                    \
+    GG_MOST_QUANTITIES, NULL, NULL                                                                                     \
+  }
 
 typedef struct gg_observable {
   const char *name; /* the word under `measure` in a scene */
@@ -43,10 +50,10 @@ typedef struct gg_observable {
   void (*add_chunk)(void *self, const gg_chunk *chunk);
   void (*add_blocks)(void *self, const gg_block_run *run); /* instead, with the same result; NULL: chunks only */
   void (*finish)(void *self, const gg_interval *interval, double *row);
-  const gg_derived *derived;   /* ends with of = NULL */
-  gg_of_means *const *history; /* the gg_history_quantities of one row, GG_N_HISTORY of them; or NULL */
-  /* Why this model has no such quantity; NULL if it has. */
-  const char *(*missing)(const gg_model *model, gg_quantity quantity);
+  const gg_derived *derived;
+  /* What followed quantities (GG_FOLLOWED) are in a single row, where it is something else than `derived` has; NULL: no
+   * history is asked of this observable. */
+  const gg_derived *history;
 
   /* Curves: while averaging, a snapshot at the end of every `every`-th sampling interval is added to bins. An
    * observable without curves has bins NULL. */
@@ -72,9 +79,8 @@ typedef struct gg_observable {
   gg_curves_of *curves;
 } gg_observable;
 
-/* The quantities followed from start to end of a run. */
-enum { GG_N_HISTORY = 9 };
-extern const gg_quantity gg_history_quantities[GG_N_HISTORY];
+/* The function that gives a quantity, from such a table; false if it has none. */
+bool gg_derived_find(const gg_derived *table, gg_quantity q, gg_function *f);
 
 /* Name and flag of an observable of the list in common/observables.h. */
 #define GG_OBSERVABLE(FLAG, word) .name = #word, .flag = GG_MEASURE_##FLAG

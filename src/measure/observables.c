@@ -3,14 +3,10 @@
 #define PLUG_IN(FLAG, word, description) &gg_##word,
 const gg_observable *const gg_observables[] = {GG_OBSERVABLES(PLUG_IN) NULL};
 
-const gg_quantity gg_history_quantities[GG_N_HISTORY] = {
-    GG_Q_TEMPERATURE,
-    GG_Q_ROTATIONAL_TEMPERATURE,
-    GG_Q_TEMPERATURE_RATIO,
-    GG_Q_PRESSURE,
-    GG_Q_P_XY,
-    GG_Q_SPIN_Z,
-    GG_Q_COLLISION_RATE,
-    GG_Q_A2,
-    GG_Q_COS2_PSI,
-};
+bool gg_derived_find(const gg_derived *table, gg_quantity q, gg_function *f)
+{
+  gg_quantity family = gg_quantity_family(q);
+  for (const gg_derived *d = table; d && d->quantity != GG_MOST_QUANTITIES; d++)
+    if (d->quantity == family) return *f = (gg_function){d->of, d->each, (int)(q - family)}, true;
+  return false;
+}

@@ -191,35 +191,18 @@ static void add_collision(void *self, const gg_collision_record *collision)
   }
 }
 
-static const char *missing(const gg_model *m, gg_quantity q)
+/* All of them are one family, whose means are those of the channels. */
+static double channel(const double *mean, const gg_model *model, int k)
 {
-  bool is_own = q >= GG_N_QUANTITIES && (int)q < gg_quantities_of(m);
-  return is_own ? NULL : "not of the user's own";
+  (void)model;
+  return mean[k];
 }
 
-/* Means of single channels: a function each, since a mean is asked for without its number. */
-#define OF(k)                                                                                                          \
-  static double of_##k(const double *mean, const gg_model *model)                                                      \
-  {                                                                                                                    \
-    (void)model;                                                                                                       \
-    return mean[k];                                                                                                    \
-  }
-#define OF_A(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
-#define OF_B(X) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)
-#define OF_C(X) X(16) X(17) X(18) X(19) X(20) X(21) X(22) X(23)
-#define OF_D(X) X(24) X(25) X(26) X(27) X(28) X(29) X(30) X(31)
-OF_A(OF)
-OF_B(OF)
-OF_C(OF)
-OF_D(OF)
-#define ROW(k) {(gg_quantity)(GG_N_QUANTITIES + (k)), of_##k},
-static const gg_derived derived[GG_MOST_OWN_QUANTITIES + 1] = {OF_A(ROW) OF_B(ROW) OF_C(ROW)
-                                                                   OF_D(ROW){GG_N_QUANTITIES, NULL}};
+static const gg_derived derived[] = {{GG_N_QUANTITIES, .each = channel}, GG_DERIVED_END};
 
 #define COMMON                                                                                                         \
   .name = "own", .create = create, .destroy = destroy, .memory = memory_of, .width = width, .begin = begin,            \
-  .add_chunk = add_chunk, .finish = finish, .derived = derived, .missing = missing, .positions = true,                 \
-  .rescaled = rescaled
+  .add_chunk = add_chunk, .finish = finish, .derived = derived, .positions = true, .rescaled = rescaled
 static const gg_observable quiet = {COMMON}, with_collisions = {COMMON, .add_collision = add_collision};
 
 const gg_observable *gg_own_observables(const gg_model *model)

@@ -174,5 +174,4 @@ const gg_observable gg_rheology = {
     .finish = finish,
     .derived = gg_rheology_derived,
     .history = gg_rheology_history,
-    .missing = gg_rheology_missing,
 };

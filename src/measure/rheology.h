@@ -47,7 +47,6 @@ static inline size_t gg_rheology_species_width(const gg_model *m)
 }
 
 extern const gg_derived gg_rheology_derived[];
-extern gg_of_means *const gg_rheology_history[]; /* of one row: the quantities of gg_history_quantities */
-const char *gg_rheology_missing(const gg_model *model, gg_quantity quantity);
+extern const gg_derived gg_rheology_history[];
 
 #endif

@@ -175,73 +175,59 @@ static double a2(const double *a, const gg_model *m)
 {
   return cumulant(a, m, 0);
 }
-static double c_1(const double *a, const gg_model *m)
+static double twice_cumulant(const double *a, const gg_model *m, int i)
 {
-  return 2 * cumulant(a, m, 0);
-}
-static double c_2(const double *a, const gg_model *m)
-{
-  return 2 * cumulant(a, m, 1);
-}
-static double temperature_1(const double *a, const gg_model *m)
-{
-  return partial_temperature(a, m, 0);
-}
-static double temperature_2(const double *a, const gg_model *m)
-{
-  return partial_temperature(a, m, 1);
+  return 2 * cumulant(a, m, i);
 }
 static double partial_ratio(const double *a, const gg_model *m)
 {
-  return temperature_1(a, m) / temperature_2(a, m);
+  return partial_temperature(a, m, 0) / partial_temperature(a, m, 1);
 }
 
 const gg_derived gg_rheology_derived[] = {
-    {GG_Q_TEMPERATURE, temperature},
-    {GG_Q_ROTATIONAL_TEMPERATURE, rotational_temperature},
-    {GG_Q_TEMPERATURE_RATIO, temperature_ratio},
-    {GG_Q_SPIN_Z, spin_z},
-    {GG_Q_PRESSURE, pressure},
-    {GG_Q_COMPRESSIBILITY, compressibility},
-    {GG_Q_SHEAR_VISCOSITY, shear_viscosity},
-    {GG_Q_N1, N1},
-    {GG_Q_N2, N2},
-    {GG_Q_P_XX, total_xx},
-    {GG_Q_P_YY, total_yy},
-    {GG_Q_P_ZZ, total_zz},
-    {GG_Q_P_XY, total_xy},
-    {GG_Q_P_YX, total_yx},
-    {GG_Q_P_XX_KINETIC, kinetic_xx},
-    {GG_Q_P_YY_KINETIC, kinetic_yy},
-    {GG_Q_P_ZZ_KINETIC, kinetic_zz},
-    {GG_Q_P_XY_KINETIC, kinetic_xy},
-    {GG_Q_P_YX_KINETIC, kinetic_xy},
-    {GG_Q_P_XX_COLLISIONAL, collisional_xx},
-    {GG_Q_P_YY_COLLISIONAL, collisional_yy},
-    {GG_Q_P_ZZ_COLLISIONAL, collisional_zz},
-    {GG_Q_P_XY_COLLISIONAL, collisional_xy},
-    {GG_Q_P_YX_COLLISIONAL, collisional_yx},
-    {GG_Q_COLLISION_RATE, collision_rate},
-    {GG_Q_MEAN_FREE_PATH, mean_free_path},
-    {GG_Q_KNUDSEN, knudsen},
-    {GG_Q_COS2_PSI, cos2_psi},
-    {GG_Q_KURTOSIS_CX, kurtosis_cx},
-    {GG_Q_KURTOSIS_CY, kurtosis_cy},
-    {GG_Q_KURTOSIS_CZ, kurtosis_cz},
-    {GG_Q_KURTOSIS_WX, kurtosis_wx},
-    {GG_Q_KURTOSIS_WY, kurtosis_wy},
-    {GG_Q_KURTOSIS_WZ, kurtosis_wz},
-    {GG_Q_SKEWNESS_WZ, skewness_wz},
-    {GG_Q_DISSIPATION, dissipation},
-    {GG_Q_ENERGY_BALANCE, energy_balance},
-    {GG_Q_COOLING_RATE, cooling_rate},
-    {GG_Q_A2, a2},
-    {GG_Q_C_1, c_1},
-    {GG_Q_C_2, c_2},
-    {GG_Q_TEMPERATURE_1, temperature_1},
-    {GG_Q_TEMPERATURE_2, temperature_2},
-    {GG_Q_PARTIAL_TEMPERATURE_RATIO, partial_ratio},
-    {GG_N_QUANTITIES, NULL},
+    {GG_Q_TEMPERATURE, .of = temperature},
+    {GG_Q_ROTATIONAL_TEMPERATURE, .of = rotational_temperature},
+    {GG_Q_TEMPERATURE_RATIO, .of = temperature_ratio},
+    {GG_Q_SPIN_Z, .of = spin_z},
+    {GG_Q_PRESSURE, .of = pressure},
+    {GG_Q_COMPRESSIBILITY, .of = compressibility},
+    {GG_Q_SHEAR_VISCOSITY, .of = shear_viscosity},
+    {GG_Q_N1, .of = N1},
+    {GG_Q_N2, .of = N2},
+    {GG_Q_P_XX, .of = total_xx},
+    {GG_Q_P_YY, .of = total_yy},
+    {GG_Q_P_ZZ, .of = total_zz},
+    {GG_Q_P_XY, .of = total_xy},
+    {GG_Q_P_YX, .of = total_yx},
+    {GG_Q_P_XX_KINETIC, .of = kinetic_xx},
+    {GG_Q_P_YY_KINETIC, .of = kinetic_yy},
+    {GG_Q_P_ZZ_KINETIC, .of = kinetic_zz},
+    {GG_Q_P_XY_KINETIC, .of = kinetic_xy},
+    {GG_Q_P_YX_KINETIC, .of = kinetic_xy},
+    {GG_Q_P_XX_COLLISIONAL, .of = collisional_xx},
+    {GG_Q_P_YY_COLLISIONAL, .of = collisional_yy},
+    {GG_Q_P_ZZ_COLLISIONAL, .of = collisional_zz},
+    {GG_Q_P_XY_COLLISIONAL, .of = collisional_xy},
+    {GG_Q_P_YX_COLLISIONAL, .of = collisional_yx},
+    {GG_Q_COLLISION_RATE, .of = collision_rate},
+    {GG_Q_MEAN_FREE_PATH, .of = mean_free_path},
+    {GG_Q_KNUDSEN, .of = knudsen},
+    {GG_Q_COS2_PSI, .of = cos2_psi},
+    {GG_Q_KURTOSIS_CX, .of = kurtosis_cx},
+    {GG_Q_KURTOSIS_CY, .of = kurtosis_cy},
+    {GG_Q_KURTOSIS_CZ, .of = kurtosis_cz},
+    {GG_Q_KURTOSIS_WX, .of = kurtosis_wx},
+    {GG_Q_KURTOSIS_WY, .of = kurtosis_wy},
+    {GG_Q_KURTOSIS_WZ, .of = kurtosis_wz},
+    {GG_Q_SKEWNESS_WZ, .of = skewness_wz},
+    {GG_Q_DISSIPATION, .of = dissipation},
+    {GG_Q_ENERGY_BALANCE, .of = energy_balance},
+    {GG_Q_COOLING_RATE, .of = cooling_rate},
+    {GG_Q_A2, .of = a2},
+    {GG_Q_CUMULANT, .each = twice_cumulant},
+    {GG_Q_PARTIAL_TEMPERATURE, .each = partial_temperature},
+    {GG_Q_PARTIAL_TEMPERATURE_RATIO, .of = partial_ratio},
+    GG_DERIVED_END,
 };
 
 /* History: the temperature of free cooling itself, which as a mean has no meaning. */
@@ -255,14 +241,8 @@ static double history_rotational(const double *a, const gg_model *m)
   return history_temperature(a, m) * temperature_ratio(a, m);
 }
 
-gg_of_means *const gg_rheology_history[GG_N_HISTORY] = {
-    history_temperature,
-    history_rotational,
-    temperature_ratio,
-    pressure,
-    total_xy,
-    spin_z,
-    collision_rate,
-    a2,
-    cos2_psi,
+const gg_derived gg_rheology_history[] = {
+    {GG_Q_TEMPERATURE, .of = history_temperature},
+    {GG_Q_ROTATIONAL_TEMPERATURE, .of = history_rotational},
+    GG_DERIVED_END,
 };

@@ -134,17 +134,10 @@ static double total(const double *mean, const gg_model *m)
 }
 
 static const gg_derived derived[] = {
-    {GG_Q_VISCOSITY_REDUCED, total},
-    {GG_Q_VISCOSITY_REDUCED_KINETIC, kinetic},
-    {GG_N_QUANTITIES, NULL},
+    {GG_Q_VISCOSITY_REDUCED, .of = total},
+    {GG_Q_VISCOSITY_REDUCED_KINETIC, .of = kinetic},
+    GG_DERIVED_END,
 };
-
-static const char *missing(const gg_model *m, gg_quantity q)
-{
-  (void)m;
-  bool mine = q == GG_Q_VISCOSITY_REDUCED || q == GG_Q_VISCOSITY_REDUCED_KINETIC;
-  return mine ? NULL : "not a viscosity";
-}
 
 const gg_observable gg_viscosity = {
     GG_OBSERVABLE(VISCOSITY, viscosity),
@@ -156,6 +149,5 @@ const gg_observable gg_viscosity = {
     .add_chunk = add_chunk,
     .finish = finish,
     .derived = derived,
-    .missing = missing,
     .refuses = refuses,
 };

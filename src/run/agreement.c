@@ -6,7 +6,7 @@
 
 static bool is_difference(gg_quantity q)
 {
-  return q == GG_Q_N1 || q == GG_Q_N2;
+  return gg_quantity_mask(q) & GG_STRESS_DIFFERENCE;
 }
 
 double gg_expected_agreement(const gg_model *m, gg_quantity q)

@@ -11,29 +11,29 @@
 /* ... unless it is too small to matter beside the error asked for. */
 #define TREND_NEGLIGIBLE 1e-4
 
-static const gg_derived *find_derived(const gg_replicas *all, gg_quantity q, int *observable)
+/* The observable that has a quantity, and by what function; -1 if none. */
+static int find_function(const gg_replicas *all, gg_quantity q, gg_function *f)
 {
+  if (gg_quantity_missing(&all->model, q)) return -1;
   for (int k = 0; k < all->replica[0].n_observables; k++) {
     const gg_observable *o = all->replica[0].observable[k];
-    if (!o->width || o->missing(&all->model, q)) continue;
-    for (const gg_derived *d = o->derived; d->of; d++)
-      if (d->quantity == q) return *observable = k, d;
+    if (o->width && gg_derived_find(o->derived, q, f)) return k;
   }
-  return NULL;
+  return -1;
 }
 
 gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err)
 {
   *mean = (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = 0.5};
-  int k;
-  const gg_derived *d = find_derived(all, q, &k);
-  if (!d) return GG_OK;
+  gg_function f;
+  const int k = find_function(all, q, &f);
+  if (k < 0) return GG_OK;
   const gg_series **series = gg_new_array((size_t)all->n, sizeof *series, err);
   if (!series) return GG_FAILED;
   for (int r = 0; r < all->n; r++) series[r] = &all->replica[r].series;
   const gg_replica *first = &all->replica[0];
   gg_status status = gg_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
-                                      first->observable[k]->width(&all->model), d->of, &all->model, mean, err);
+                                      first->observable[k]->width(&all->model), f, &all->model, mean, err);
   free(series);
   return status;
 }
@@ -41,30 +41,32 @@ gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean,
 /* What must not have a trend: the headline quantities first, then those that relax slowly. Returns how many. */
 static int monitored(const gg_replicas *all, gg_quantity *list)
 {
-  int n = gg_headline(&all->model, list), k;
+  gg_function f;
+  int n = gg_headline(&all->model, list);
   if (all->model.linear_response) return n; /* the shear rate goes up and down: nothing else is steady */
-  const gg_quantity slow[] = {GG_Q_TEMPERATURE, GG_Q_TEMPERATURE_RATIO, GG_Q_SPIN_Z, GG_Q_COLLISION_RATE, GG_Q_A2};
-  for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
-    bool there = !find_derived(all, slow[i], &k);
-    for (int h = 0; h < n && !there; h++) there = list[h] == slow[i];
-    if (!there) list[n++] = slow[i];
+  int headline = n;
+  for (gg_quantity q = gg_quantity_next(-1, GG_MONITORED); q < GG_N_QUANTITIES; q = gg_quantity_next(q, GG_MONITORED)) {
+    bool listed = false;
+    for (int h = 0; h < headline; h++) listed |= list[h] == q;
+    if (!listed && find_function(all, q, &f) >= 0) list[n++] = q;
   }
   return n;
 }
 
 static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *trend, gg_error *err)
 {
-  int k;
-  const gg_derived *d = find_derived(all, q, &k);
+  gg_function f;
+  const int k = find_function(all, q, &f);
   *trend = (gg_trend){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
   size_t n = gg_series_window_rows(&all->replica[0].series);
-  if (!d || n < 24) return GG_OK;
+  if (k < 0 || n < 24) return GG_OK;
   double *y = gg_new_array(n * (size_t)all->n, sizeof *y, err);
   if (!y) return GG_FAILED;
   for (int r = 0; r < all->n; r++) {
     const gg_replica *p = &all->replica[r];
     for (size_t i = 0; i < n; i++)
-      y[(size_t)r * n + i] = d->of(gg_series_row(&p->series, p->series.window + i) + p->offset[k], &all->model);
+      y[(size_t)r * n + i] =
+          gg_function_value(f, gg_series_row(&p->series, p->series.window + i) + p->offset[k], &all->model);
   }
   gg_status status = gg_trend_test(y, n, (size_t)all->n, trend, err);
   free(y);

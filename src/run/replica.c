@@ -160,7 +160,9 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
 static double temperature_now(const gg_replica *r)
 {
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-  return o && o->history ? o->history[0](r->row + r->offset[0], &r->model) : r->model.temperature0;
+  gg_function f;
+  bool known = o && gg_derived_find(o->history, GG_Q_TEMPERATURE, &f);
+  return known ? gg_function_value(f, r->row + r->offset[0], &r->model) : r->model.temperature0;
 }
 
 /* What is no number is so for ever: better said at once. */

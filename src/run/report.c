@@ -7,28 +7,14 @@
 #include "run/replicas.h"
 #include "scene/fields.h"
 
-/* Why a quantity is not there: the first observable's reason, else that nothing asked for measures it. */
+/* Why a quantity is not there: the scene has none of it, or nothing that was asked for measures it. */
 static const char *why_missing(const gg_replicas *all, gg_quantity q)
 {
   if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned something that is no number";
   if (!all->state.averaging) return "nothing was averaged: the run ended in its warm-up";
   if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
-  const char *reason = all->replica[0].observable[0]->missing(&all->model, q);
+  const char *reason = gg_quantity_missing(&all->model, q);
   return reason ? reason : "not measured in this scene";
-}
-
-/* In a heating gas only what is free of the temperature's scale has a meaning as a mean. */
-static bool scale_free(gg_quantity q)
-{
-  switch (q) {
-  case GG_Q_TEMPERATURE_RATIO:
-  case GG_Q_MEAN_FREE_PATH:
-  case GG_Q_KNUDSEN:
-  case GG_Q_COS2_PSI:
-  case GG_Q_VISCOSITY_REDUCED:
-  case GG_Q_VISCOSITY_REDUCED_KINETIC: return true;
-  default: return false;
-  }
 }
 
 /* Of a row of the series, in the unit of correlation times. */
@@ -44,19 +30,20 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
   double row_length = row_length_of(all, s);
-  for (int q = 0; q < gg_quantities_of(&all->model); q++) {
+  for (int i = 0; i < gg_quantities_of(&all->model); i++) {
+    const gg_quantity q = gg_quantity_at(&all->model, i);
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
-    if (!all->model.steady && !scale_free((gg_quantity)q)) {
+    if (!all->model.steady && !(gg_quantity_mask(q) & GG_KEPT_HEATING)) {
       snprintf(e->reason, sizeof e->reason,
                all->model.linear_response ? "its temperature goes up and down"
                                           : "no steady state: the gas heats up; see the history");
       continue;
     }
     gg_mean m = {.mean = NAN};
-    if (all->state.averaging) GG_TRY(gg_replicas_mean(all, (gg_quantity)q, &m, err));
+    if (all->state.averaging) GG_TRY(gg_replicas_mean(all, q, &m, err));
     if (!isfinite(m.mean)) {
-      snprintf(e->reason, sizeof e->reason, "%s", why_missing(all, (gg_quantity)q));
+      snprintf(e->reason, sizeof e->reason, "%s", why_missing(all, q));
       continue;
     }
     e->mean = m.mean, e->error = m.error;
@@ -64,6 +51,16 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     e->samples = rows * s->per_row * (uint64_t)all->n;
   }
   return GG_OK;
+}
+
+/* How a row of the first observable (rheology, if it was asked for) gives a followed quantity; also one that decays, of
+ * which there is no mean. */
+static bool find_history(const gg_replicas *all, gg_quantity q, gg_function *f)
+{
+  const gg_observable *o = all->replica[0].n_observables ? all->replica[0].observable[0] : NULL;
+  if (!o || !o->history || gg_model_lacks(&all->model, gg_quantity_mask(q) & ~(unsigned)GG_NEEDS_SCALE_SHOWN))
+    return false;
+  return gg_derived_find(o->history, q, f) || gg_derived_find(o->derived, q, f);
 }
 
 static gg_status report_history(const gg_replicas *all, gg_result *result, gg_error *err)
@@ -79,13 +76,10 @@ static gg_status report_history(const gg_replicas *all, gg_result *result, gg_er
   for (int k = 0; k < GG_N_HISTORY; k++) {
     h->value[k] = gg_new_array(h->n, sizeof *h->value[k], err);
     if (!h->value[k]) return GG_FAILED;
-    gg_quantity q = gg_history_quantities[k];
-    const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-    const char *missing = o ? o->missing(&all->model, q) : "";
-    bool rotational = q == GG_Q_ROTATIONAL_TEMPERATURE && all->model.rule != GG_SMOOTH;
-    bool there = o && o->history && (!missing || q == GG_Q_TEMPERATURE || rotational);
+    gg_function f;
+    bool there = find_history(all, gg_history_quantity(k), &f);
     for (size_t i = 0; i < h->n; i++)
-      h->value[k][i] = there ? o->history[k](gg_series_row(&r->series, i) + r->offset[0], &all->model) : NAN;
+      h->value[k][i] = there ? gg_function_value(f, gg_series_row(&r->series, i) + r->offset[0], &all->model) : NAN;
   }
   return GG_OK;
 }
@@ -115,16 +109,16 @@ static void report_effort(const gg_replicas *all, gg_result *result)
  * a box that is large enough (Goldhirsch & Zanetti 1993): then means are those of that state. */
 static void warn_if_structured(gg_result *result)
 {
-  const gg_quantity differences[] = {GG_Q_N1, GG_Q_N2};
   if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow)) return;
-  for (int i = 0; i < 2; i++) {
-    const gg_estimate *e = &result->value[differences[i]];
+  for (gg_quantity q = gg_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
+       q = gg_quantity_next(q, GG_STRESS_DIFFERENCE)) {
+    const gg_estimate *e = &result->value[q];
     if (!(fabs(e->mean) > 0.02 && fabs(e->mean) > 5 * e->error)) continue;
     gg_result_warn(
         result,
         "the gas is not homogeneous: %s = %.3g +- %.2g where it should vanish (vortices or clusters; a smaller "
         "box or shorter run stays homogeneous)",
-        gg_quantity_name(differences[i]), e->mean, e->error);
+        gg_quantity_name(q), e->mean, e->error);
     return;
   }
 }

@@ -26,8 +26,8 @@ typedef enum gg_steadiness {
   GG_HEATING     /* no steady state exists; followed as what it is */
 } gg_steadiness;
 
-/* gg_history_quantities from the start to the end, one row a sample; the first replica. In a cooling run values are
- * scaled back to the units of the start. */
+/* The quantities of GG_FOLLOWED from the start to the end, one row a sample; the first replica. In a cooling run values
+ * are scaled back to the units of the start. */
 typedef struct gg_history {
   size_t n;
   double *time;                /* model units */
@@ -60,7 +60,7 @@ struct gg_result {
   const char *engine; /* "md", "dsmc" */
   gg_steadiness steadiness;
   char steadiness_text[256];             /* which quantity decided, and how */
-  gg_estimate value[GG_MOST_QUANTITIES]; /* gg_quantities_of(&model) of them */
+  gg_estimate value[GG_MOST_QUANTITIES]; /* those of gg_quantity_at(&model, ...) */
   gg_history history;
   gg_curves curves;
   gg_frame final; /* the first replica's last state */

@@ -71,19 +71,19 @@ static void channel_means(const gg_series *const *series, size_t n_runs, size_t 
 }
 
 /* df/da_k by a central difference: f is smooth on the scale of a mean's error. */
-static double slope(gg_of_means *f, const gg_model *model, double *mean, size_t k)
+static double slope(gg_function f, const gg_model *model, double *mean, size_t k)
 {
   double at = mean[k], step = 1e-6 * (fabs(at) + 1e-3);
   mean[k] = at + step;
-  double up = f(mean, model);
+  double up = gg_function_value(f, mean, model);
   mean[k] = at - step;
-  double down = f(mean, model);
+  double down = gg_function_value(f, mean, model);
   mean[k] = at;
   return up == down ? 0 : (up - down) / (2 * step); /* also of a channel that is no number */
 }
 
 gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
-                           size_t channels, gg_of_means *f, const gg_model *model, gg_mean *out, gg_error *err)
+                           size_t channels, gg_function f, const gg_model *model, gg_mean *out, gg_error *err)
 {
   *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
   if (end <= begin) return GG_OK;
@@ -92,7 +92,7 @@ gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t
   if (!work) return GG_FAILED;
   double *y = work, *mean = work + total, *df = mean + channels;
   channel_means(series, n_runs, begin, end, offset, channels, mean);
-  double value = f(mean, model);
+  double value = gg_function_value(f, mean, model);
   gg_status status = GG_OK;
   if (isfinite(value)) {
     for (size_t k = 0; k < channels; k++) df[k] = slope(f, model, mean, k);

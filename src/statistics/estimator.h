@@ -9,8 +9,22 @@
 #include "common/model.h"
 #include "statistics/series.h"
 
-/* Value of a quantity for given channel means; NaN where it has none. */
+/* Value of a quantity for given channel means; NaN where it has none. Of a family the value of one member (a species).
+ */
 typedef double gg_of_means(const double *mean, const gg_model *model);
+typedef double gg_member_of_means(const double *mean, const gg_model *model, int member);
+
+/* Either of the two. */
+typedef struct gg_function {
+  gg_of_means *of;
+  gg_member_of_means *each; /* where `of` is NULL */
+  int member;
+} gg_function;
+
+static inline double gg_function_value(gg_function f, const double *mean, const gg_model *model)
+{
+  return f.of ? f.of(mean, model) : f.each(mean, model, f.member);
+}
 
 typedef struct gg_mean {
   double mean, error;      /* NaN if it cannot be had */
@@ -25,7 +39,7 @@ enum { GG_MIN_BLOCKS = 16, GG_MAX_BLOCKS = 64 };
 /* Rows [begin, end) of each of n_runs series of equal length and width. `offset` is where the observable's channels
  * begin in a row, `channels` how many f depends on. */
 gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
-                           size_t channels, gg_of_means *f, const gg_model *model, gg_mean *out, gg_error *err);
+                           size_t channels, gg_function f, const gg_model *model, gg_mean *out, gg_error *err);
 
 /* The same for a scalar series, n_runs stretches of n rows end to end. */
 gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err);

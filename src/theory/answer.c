@@ -94,11 +94,17 @@ static gg_stress stress_sum(gg_stress a, gg_stress b)
   return (gg_stress){a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yx + b.yx};
 }
 
-/* The five components stand in this order in the table of quantities. */
-static void set_components(const gg_model *m, gg_quantity first, gg_stress s, gg_theory_answer *a)
+#define COMPONENTS(part)                                                                                               \
+  {                                                                                                                    \
+    GG_Q_P_XX##part, GG_Q_P_YY##part, GG_Q_P_ZZ##part, GG_Q_P_XY##part, GG_Q_P_YX##part                                \
+  }
+static const gg_quantity total_stress[] = COMPONENTS(), kinetic_stress[] = COMPONENTS(_KINETIC),
+                         collisional_stress[] = COMPONENTS(_COLLISIONAL);
+
+static void set_components(const gg_model *m, const gg_quantity part[5], gg_stress s, gg_theory_answer *a)
 {
   const double component[] = {s.xx, s.yy, s.zz, s.xy, s.yx};
-  for (int i = 0; i < 5; i++) a->value[(int)first + i] = m->stress_unit * component[i];
+  for (int i = 0; i < 5; i++) a->value[part[i]] = m->stress_unit * component[i];
 }
 
 void gg_answer_stress(const gg_model *m, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a)
@@ -106,9 +112,9 @@ void gg_answer_stress(const gg_model *m, double T, gg_stress kinetic, gg_stress 
   bool transfer = !m->boltzmann && !isnan(collisional.xx);
   gg_stress total = transfer ? stress_sum(kinetic, collisional) : kinetic;
   double p = (total.xx + total.yy + total.zz) / 3;
-  set_components(m, GG_Q_P_XX, total, a);
-  set_components(m, GG_Q_P_XX_KINETIC, kinetic, a);
-  if (transfer) set_components(m, GG_Q_P_XX_COLLISIONAL, collisional, a);
+  set_components(m, total_stress, total, a);
+  set_components(m, kinetic_stress, kinetic, a);
+  if (transfer) set_components(m, collisional_stress, collisional, a);
   a->value[GG_Q_PRESSURE] = m->stress_unit * p;
   a->value[GG_Q_COMPRESSIBILITY] = p / (m->density * T);
   a->value[GG_Q_N1] = (total.xx - total.yy) / p;

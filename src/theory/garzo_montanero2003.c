@@ -136,8 +136,7 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
   if (isnan(s.zeta)) return gg_refuse(err, theory, "finds no common cooling rate for this mixture");
   gg_mixture_viscosity v = gg_mixture_viscosity_of(m, &s, gg_thermostat_share(m));
   double nu0 = gg_model_nu0(m, T), p = m->density * T, pc = collisional_pressure(m, &s);
-  a->value[GG_Q_C_1] = s.c[0];
-  a->value[GG_Q_C_2] = s.c[1];
+  for (int i = 0; i < 2; i++) a->value[GG_Q_CUMULANT + i] = s.c[i];
   a->value[GG_Q_COOLING_RATE] = s.zeta / nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = nu0 * v.total / p;
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = nu0 * v.kinetic / p;

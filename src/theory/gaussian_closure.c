@@ -34,8 +34,7 @@ static void report_temperatures(const gg_model *m, const gg_gaussian state[], gg
   gg_answer_temperature(m, sum, rotational / sum, a);
   if (m->rule != GG_SMOOTH && !m->boltzmann) a->value[GG_Q_SPIN_Z] = spin;
   if (m->n_species == 1) return;
-  a->value[GG_Q_TEMPERATURE_1] = T[0];
-  a->value[GG_Q_TEMPERATURE_2] = T[1];
+  for (int i = 0; i < m->n_species; i++) a->value[GG_Q_PARTIAL_TEMPERATURE + i] = T[i];
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = T[0] / T[1];
 }
 

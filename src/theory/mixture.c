@@ -125,8 +125,7 @@ void gg_answer_partial_temperatures(const gg_model *m, const double a[GG_MAX_SPE
 {
   double T[GG_MAX_SPECIES] = {m->mass[0] * a[0], m->mass[1] * a[1]};
   answer->value[GG_Q_TEMPERATURE] = gg_fraction(m, 0) * T[0] + gg_fraction(m, 1) * T[1];
-  answer->value[GG_Q_TEMPERATURE_1] = T[0];
-  answer->value[GG_Q_TEMPERATURE_2] = T[1];
+  for (int i = 0; i < m->n_species; i++) answer->value[GG_Q_PARTIAL_TEMPERATURE + i] = T[i];
   answer->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = T[0] / T[1];
   gg_answer_collisions(m, T, answer);
 }

@@ -83,7 +83,7 @@ static void ratios(void **state)
     gg_series s = planted_ratio(&r, 2000);
     const gg_series *list[] = {&s};
     gg_mean m;
-    assert_int_equal(gg_estimate_mean(list, 1, 0, s.n, 1, 2, ratio, &model, &m, NULL), GG_OK);
+    assert_int_equal(gg_estimate_mean(list, 1, 0, s.n, 1, 2, (gg_function){.of = ratio}, &model, &m, NULL), GG_OK);
     assert_true(m.error < 0.0005); /* 0.02/2/sqrt(2000) = 0.00022; the common part alone would give 0.005 */
     sum += pow((m.mean - 1.5) / m.error, 2);
     gg_series_clear(&s);
@@ -101,8 +101,8 @@ static void replicas(void **state)
   const gg_series *list[4];
   for (int i = 0; i < 4; i++) s[i] = planted_ratio(&r, 1500), list[i] = &s[i];
   gg_mean one, four;
-  assert_int_equal(gg_estimate_mean(list, 1, 0, 1500, 1, 2, ratio, &model, &one, NULL), GG_OK);
-  assert_int_equal(gg_estimate_mean(list, 4, 0, 1500, 1, 2, ratio, &model, &four, NULL), GG_OK);
+  assert_int_equal(gg_estimate_mean(list, 1, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, &one, NULL), GG_OK);
+  assert_int_equal(gg_estimate_mean(list, 4, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, &four, NULL), GG_OK);
   assert_true(fabs(one.error / four.error - 2) < 0.8);
   for (int i = 0; i < 4; i++) gg_series_clear(&s[i]);
 }

@@ -91,8 +91,8 @@ static void cooling(void **state)
   r = run(s);
   compare(r, &gg_garzo_montanero2003, GG_Q_PARTIAL_TEMPERATURE_RATIO, 0.003, 0);
   compare(r, &gg_garzo_montanero2003, GG_Q_COOLING_RATE, 0.003, 0);
-  compare(r, &gg_garzo_montanero2003, GG_Q_C_1, 0.12, 0);
-  compare(r, &gg_garzo_montanero2003_ms, GG_Q_C_1, 0.04, 0);
+  compare(r, &gg_garzo_montanero2003, GG_Q_CUMULANT, 0.12, 0);
+  compare(r, &gg_garzo_montanero2003_ms, GG_Q_CUMULANT, 0.04, 0);
   gg_result_free(r);
 }
 

@@ -101,7 +101,7 @@ static void write_effort(gg_h5 *h, const char *group, const char *name, const gg
 static void write_series(gg_h5 *h, const char *observables, const gg_result *r, int k, char *first, size_t size)
 {
   const gg_history *history = &r->history;
-  gg_quantity q = gg_history_quantities[k];
+  gg_quantity q = gg_history_quantity(k);
   hsize_t n = history->n;
   char group[120], path[160], target[160];
   snprintf(group, sizeof group, "%s%s", observables, gg_quantity_name_in(&r->model, q));
@@ -157,8 +157,10 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
   char path[160], first[120] = "";
   snprintf(path, sizeof path, "%s/results", group);
   gg_h5_group(h, path);
-  for (int q = 0; q < gg_quantities_of(&r->model); q++)
-    if (gg_is_measured(&r->value[q])) write_estimate(h, group, (gg_quantity)q, r);
+  for (int i = 0; i < gg_quantities_of(&r->model); i++) {
+    gg_quantity q = gg_quantity_at(&r->model, i);
+    if (gg_is_measured(&r->value[q])) write_estimate(h, group, q, r);
+  }
   snprintf(path, sizeof path, "%s/engine", group);
   gg_h5_text(h, path, r->engine);
   snprintf(path, sizeof path, "%s/verdict", group);
@@ -184,15 +186,17 @@ void gg_h5_write_theories(gg_h5 *h, const gg_comparison *c)
     snprintf(path, sizeof path, "/graingas/theory/%s", name);
     gg_h5_group(h, path);
     gg_h5_text_attribute(h, path, "citation", c->theory[i].theory->citation);
-    for (int q = 0; q < gg_quantities_of(&c->model); q++) {
+    for (int k = 0; k < gg_quantities_of(&c->model); k++) {
+      const gg_quantity q = gg_quantity_at(&c->model, k);
+      const char *quantity = gg_quantity_name_in(&c->model, q);
       double value = c->theory[i].answer.value[q];
       if (!isfinite(value)) continue;
-      snprintf(path, sizeof path, "/graingas/theory/%s/%s/mean", name, gg_quantity_name_in(&c->model, (gg_quantity)q));
+      snprintf(path, sizeof path, "/graingas/theory/%s/%s/mean", name, quantity);
       gg_h5_number(h, path, value);
-      snprintf(path, sizeof path, "/graingas/theory/%s/%s/error", name, gg_quantity_name_in(&c->model, (gg_quantity)q));
+      snprintf(path, sizeof path, "/graingas/theory/%s/%s/error", name, quantity);
       if (isfinite(c->theory[i].answer.error[q])) gg_h5_number(h, path, c->theory[i].answer.error[q]);
-      snprintf(path, sizeof path, "/graingas/theory/%s/%s/unit", name, gg_quantity_name_in(&c->model, (gg_quantity)q));
-      gg_h5_text(h, path, gg_quantity_unit((gg_quantity)q, &c->model));
+      snprintf(path, sizeof path, "/graingas/theory/%s/%s/unit", name, quantity);
+      gg_h5_text(h, path, gg_quantity_unit(q, &c->model));
     }
   }
 }

@@ -52,8 +52,9 @@ static void restore_reason(const gg_result *r, const char *name, char *reason, s
 static void restore_means(gg_result *r, const json_t *document)
 {
   const json_t *results = json_object_get(document, "results");
-  for (int q = 0; q < gg_quantities_of(&r->model); q++) {
-    const char *name = gg_quantity_name_in(&r->model, (gg_quantity)q);
+  for (int i = 0; i < gg_quantities_of(&r->model); i++) {
+    const gg_quantity q = gg_quantity_at(&r->model, i);
+    const char *name = gg_quantity_name_in(&r->model, q);
     gg_estimate *e = &r->value[q];
     const json_t *stored = json_object_get(results, name);
     *e = (gg_estimate){.mean = number(stored, "mean"),
@@ -83,7 +84,7 @@ static gg_status restore_history(gg_result *r, const gg_stored_engine *e, gg_err
   h->n = e->series[0].n;
   if (!(h->time = copy_of(e->series[0].time, h->n, err))) return GG_FAILED;
   for (int k = 0; k < GG_N_HISTORY; k++) {
-    const gg_stored_series *s = gg_stored_series_find(e, gg_quantity_name(gg_history_quantities[k]));
+    const gg_stored_series *s = gg_stored_series_find(e, gg_quantity_name(gg_history_quantity(k)));
     h->value[k] = s && s->n == h->n ? copy_of(s->value, h->n, err) : gg_new_array(h->n, sizeof(double), err);
     if (!h->value[k]) return GG_FAILED;
     for (size_t i = 0; (!s || s->n != h->n) && i < h->n; i++) h->value[k][i] = NAN;
@@ -251,8 +252,9 @@ static void restore_theories(gg_comparison *c, const json_t *document)
     c->theory[i].applies = said != NULL;
     if (!said) restore_refusal(document, theory->name, c->theory[i].reason, sizeof c->theory[i].reason);
     for (int q = 0; q < GG_MOST_QUANTITIES; q++) c->theory[i].answer.value[q] = c->theory[i].answer.error[q] = NAN;
-    for (int q = 0; said && q < gg_quantities_of(&c->model); q++) {
-      const json_t *one = json_object_get(said, gg_quantity_name_in(&c->model, (gg_quantity)q));
+    for (int k = 0; said && k < gg_quantities_of(&c->model); k++) {
+      const gg_quantity q = gg_quantity_at(&c->model, k);
+      const json_t *one = json_object_get(said, gg_quantity_name_in(&c->model, q));
       c->theory[i].answer.value[q] = number(one, "mean");
       c->theory[i].answer.error[q] = number(one, "error");
     }

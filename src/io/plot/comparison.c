@@ -5,30 +5,12 @@
 
 #include "io/plot/plot.h"
 
+/* A quantity of the picture. */
 typedef struct entry {
-  const char *name, *label;
-  bool ratio;
+  const char *name, *word;
+  char symbol[24]; /* as gnuplot writes it; empty: the name as it is */
 } entry;
-
-static const entry entries[] = {
-    {"temperature", "temperature\\nT", true},
-    {"rotational_temperature", "rotational\\nθ", true},
-    {"temperature_ratio", "ratio\\nθ/T", true},
-    {"temperature_1", "T_1", true},
-    {"temperature_2", "T_2", true},
-    {"partial_temperature_ratio", "T_1/T_2", true},
-    {"pressure", "pressure\\np", true},
-    {"compressibility_factor", "p/(nT)", true},
-    {"shear_viscosity", "viscosity\\nη", true},
-    {"viscosity_reduced", "viscosity\\nη*", true},
-    {"cooling_rate", "cooling\\nζ*", true},
-    {"collision_rate", "collision\\nrate", true},
-    {"N1", "N_1", false},
-    {"N2", "N_2", false},
-    {"spin_z", "spin\\n<ω_z>", false},
-    {"a2", "a_2", false},
-};
-enum { N_ENTRIES = sizeof entries / sizeof *entries, MOST_OWN = 6, MOST_SELECTED = N_ENTRIES + MOST_OWN };
+enum { MOST_OWN = 6, MOST_SELECTED = GG_N_QUANTITIES + MOST_OWN };
 enum { MOST_METHODS = 16 };
 
 typedef struct method {
@@ -51,9 +33,10 @@ static bool has_entries(const json_t *results)
   {
     if (is_own(name)) return true;
   }
-  for (int i = 0; i < N_ENTRIES; i++)
-    if (json_object_get(results, entries[i].name)) return true;
-  return false;
+  const unsigned drawn = GG_DRAWN | GG_DRAWN_AS_RATIO;
+  gg_quantity q = gg_quantity_next(-1, drawn);
+  while (q < GG_N_QUANTITIES && !json_object_get(results, gg_quantity_name(q))) q = gg_quantity_next(q, drawn);
+  return q < GG_N_QUANTITIES;
 }
 
 static int methods_of(const gg_stored_result *stored, method *methods)
@@ -93,13 +76,17 @@ static int select_entries(const method *engine, bool ratio, entry *selected)
   bool from_zero;
   const char *name;
   json_t *own;
-  for (int i = 0; i < N_ENTRIES; i++)
-    if (entries[i].ratio == ratio && is_told(engine, entries[i].name, &from_zero) && (!ratio || from_zero))
-      selected[n++] = entries[i];
+  const unsigned drawn = ratio ? GG_DRAWN_AS_RATIO : GG_DRAWN;
+  for (gg_quantity q = gg_quantity_next(-1, drawn); q < GG_N_QUANTITIES; q = gg_quantity_next(q, drawn)) {
+    if (!is_told(engine, gg_quantity_name(q), &from_zero) || (ratio && !from_zero)) continue;
+    selected[n] = (entry){.name = gg_quantity_name(q), .word = gg_quantity_word(q)};
+    gg_quantity_symbol(q, selected[n].symbol, sizeof selected[n].symbol);
+    n++;
+  }
   json_object_foreach((json_t *)(uintptr_t)engine->results, name, own)
   {
     if (n_own == MOST_OWN || !is_own(name) || !is_told(engine, name, &from_zero) || from_zero != ratio) continue;
-    selected[n++] = (entry){name, name, ratio};
+    selected[n++] = (entry){.name = name, .word = ""};
     n_own++;
   }
   return n;
@@ -157,11 +144,13 @@ static void label_outliers(FILE *s, const method *m, const method *reference, co
   }
 }
 
-/* A name of one's own stands as it is: no subscripts in it. */
+/* "word\nsymbol"; a name of one's own stands as it is: no subscripts in it. */
 static void print_label(FILE *s, const entry *e)
 {
-  for (const char *c = e->label; *c; c++)
-    if (*c == '_' && is_own(e->name))
+  if (*e->word) fprintf(s, "%s\\n", e->word);
+  fputs(e->symbol, s);
+  for (const char *c = e->name; !*e->symbol && *c; c++)
+    if (*c == '_')
       fputs("\\\\_", s);
     else
       fputc(*c, s);

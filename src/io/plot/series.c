@@ -5,7 +5,8 @@
 #include "io/plot/plot.h"
 
 typedef struct curve {
-  const char *name, *label;
+  const char *name;
+  char label[24];
   double sign;
   const gg_stored_series *series;
 } curve;
@@ -126,15 +127,24 @@ static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const
   fprintf(s, "\n");
 }
 
+/* The series of a quantity, to be drawn as `sign` times what it is. */
+static curve curve_of(gg_quantity q, double sign)
+{
+  curve c = {.name = gg_quantity_name(q), .sign = sign};
+  char symbol[sizeof c.label - 1];
+  snprintf(c.label, sizeof c.label, "%s%s", sign < 0 ? "-" : "", gg_quantity_symbol(q, symbol, sizeof symbol));
+  return c;
+}
+
 void gg_plot_relaxation(FILE *s, const gg_stored_engine *e, gg_panel panel)
 {
-  curve curves[] = {{"temperature", "T", 1, NULL}, {"rotational_temperature", "θ", 1, NULL}};
+  curve curves[] = {curve_of(GG_Q_TEMPERATURE, 1), curve_of(GG_Q_ROTATIONAL_TEMPERATURE, 1)};
   draw(s, e, curves, 2, "temperature", panel);
 }
 
 void gg_plot_stresses(FILE *s, const gg_stored_engine *e, gg_panel panel)
 {
-  curve curves[] = {{"pressure", "p", 1, NULL}, {"P_xy", "-P_{xy}", -1, NULL}};
+  curve curves[] = {curve_of(GG_Q_PRESSURE, 1), curve_of(GG_Q_P_XY, -1)};
   bool sheared = strstr(unit_of(e, "temperature"), "gamma") != NULL;
   draw(s, e, curves, sheared ? 2 : 1, sheared ? "stress" : "pressure", panel);
 }

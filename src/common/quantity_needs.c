@@ -1,0 +1,94 @@
+/* Which quantities a scene has, and why it lacks the others: what a need means, and the reason where it is not met. The
+ * first reason that applies is told. */
+#include "common/quantity.h"
+
+static bool smooth(const gg_model *m)
+{
+  return m->rule == GG_SMOOTH;
+}
+static bool cooling(const gg_model *m)
+{
+  return m->flow == GG_HCS;
+}
+static bool unsheared(const gg_model *m)
+{
+  return m->shear_rate == 0;
+}
+static bool sheared(const gg_model *m)
+{
+  return m->shear_rate != 0;
+}
+static bool boltzmann(const gg_model *m)
+{
+  return m->boltzmann;
+}
+static bool conserving(const gg_model *m)
+{
+  return m->elastic;
+}
+static bool homogeneous(const gg_model *m)
+{
+  return m->homogeneous;
+}
+static bool one_species(const gg_model *m)
+{
+  return m->n_species == 1;
+}
+static bool mixture(const gg_model *m)
+{
+  return m->n_species > 1;
+}
+static bool neither_cools(const gg_model *m)
+{
+  return m->flow != GG_HCS && m->flow != GG_HSS;
+}
+static bool always(const gg_model *m)
+{
+  (void)m;
+  return true;
+}
+static bool nonlinear(const gg_model *m)
+{
+  return !m->linear_response;
+}
+static bool heated_rough(const gg_model *m)
+{
+  return m->flow == GG_HSS && m->rule != GG_SMOOTH;
+}
+
+static const struct {
+  unsigned need;
+  bool (*unmet)(const gg_model *m);
+  const char *reason;
+} rules[] = {
+    {GG_NEEDS_SPINS, smooth, "smooth grains do not spin"},
+    {GG_NEEDS_MEAN_SPIN, unsheared, "without shear there is no mean spin"},
+    {GG_NEEDS_MEAN_SPIN, boltzmann, "in the Boltzmann limit collisions do not feel the shear: no mean spin"},
+    {GG_NEEDS_TRANSFER, boltzmann, "no collisional transfer in the Boltzmann limit"},
+    {GG_NEEDS_VOLUME, boltzmann, "an ideal gas in the Boltzmann limit: Z = 1 by definition"},
+    {GG_NEEDS_SCALE_SHOWN, cooling, "decays in free cooling; see the history"},
+    {GG_NEEDS_SCALE, cooling, "decays in free cooling"},
+    {GG_NEEDS_SHEAR, unsheared, "there is no shear"},
+    {GG_NEEDS_LOSS, conserving, "collisions conserve energy"},
+    {GG_NEEDS_BOX, homogeneous, "the Monte Carlo ensemble has no box"},
+    {GG_NEEDS_COOLING, neither_cools, "only in cooling and heated flows"},
+    {GG_NEEDS_COOLING, heated_rough, "the loss of rough grains is not of one temperature"},
+    {GG_NEEDS_NO_SHEAR, sheared, "see the kurtosis in sheared flows"},
+    {GG_NEEDS_ONE_SPECIES, mixture, "see c_1 and c_2 for mixtures"},
+    {GG_NEEDS_LINEAR_RESPONSE, nonlinear,
+     "needs the linear response: flow: usf with thermostat: gaussian, or small_shear: on for a cooling gas"},
+    {GG_NEEDS_THEORY, always, "a length of theory, not a mean; see graingas theory"},
+    {GG_NEEDS_MIXTURE, one_species, "there is one species only"},
+};
+
+const char *gg_model_lacks(const gg_model *model, unsigned needs)
+{
+  for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+    if ((needs & rules[i].need) && rules[i].unmet(model)) return rules[i].reason;
+  return NULL;
+}
+
+const char *gg_quantity_missing(const gg_model *model, gg_quantity q)
+{
+  return gg_model_lacks(model, gg_quantity_mask(q));
+}
