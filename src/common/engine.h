@@ -8,7 +8,7 @@
 #include "common/archive.h"
 #include "common/model.h"
 
-/* Sums over collisions since they were last taken, by unordered pair of species (GG_11, GG_12, GG_22); a collision
+/* Sums over collisions since they were last taken, by pair of species (gg_pair); a collision
  * counts once, k from 1 to 2, J the impulse on 2. Kept by the engine's own kernel; nothing of it is computed while the
  * sums are off, but for `collisions`. */
 typedef struct gg_collision_sums {

@@ -55,9 +55,9 @@ static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)
 
 static void set_restitution(gg_model *m, int i, int j, double e)
 {
-  int o = 2 * i + j;
+  int o = gg_pair(i, j);
   gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
-  m->contact[o] = gg_contact_make(one, two, e, m->beta[o], m->mu[o]);
+  m->contact[i][j] = gg_contact_make(one, two, e, m->beta[o], m->mu[o]);
   m->e[o] = e;
 }
 
@@ -77,7 +77,7 @@ static gg_rule later_rule(gg_rule a, gg_rule b)
 
 double gg_treated_beta(const gg_model *m, int i, int j)
 {
-  double beta = m->beta[2 * i + j];
+  double beta = m->beta[gg_pair(i, j)];
   return i == j || beta == 1 ? beta : -1;
 }
 
@@ -87,12 +87,12 @@ static void set_pairs(gg_model *m, const gg_scene *s)
   m->elastic = true;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
-      int o = 2 * i + j, p = gg_pair_index(i, j);
-      double e = s->collision.e[p], beta = s->collision.beta[p], mu = s->collision.mu[p];
+      int o = gg_pair(i, j);
+      double e = s->collision.e[o], beta = s->collision.beta[o], mu = s->collision.mu[o];
       gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
       m->beta[o] = beta, m->mu[o] = mu;
       set_restitution(m, i, j, e);
-      m->treated[o] = gg_contact_make(one, two, 1, gg_treated_beta(m, i, j), i == j ? mu : INFINITY);
+      m->treated[i][j] = gg_contact_make(one, two, 1, gg_treated_beta(m, i, j), i == j ? mu : INFINITY);
       m->sigma[o] = (m->diameter[i] + m->diameter[j]) / 2;
       m->chi[o] = chi_of(m, s, i, j);
       gg_rule rule = gg_rule_of(beta, mu);
@@ -230,11 +230,25 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   return GG_OK;
 }
 
+double gg_model_widest(const gg_model *m)
+{
+  double widest = m->diameter[0];
+  for (int i = 1; i < m->n_species; i++) widest = fmax(widest, m->diameter[i]);
+  return widest;
+}
+
+double gg_model_narrowest(const gg_model *m)
+{
+  double narrowest = m->diameter[0];
+  for (int i = 1; i < m->n_species; i++) narrowest = fmin(narrowest, m->diameter[i]);
+  return narrowest;
+}
+
 double gg_model_relaxation(const gg_model *m)
 {
   double slowest = 0;
   for (int i = 0; i < m->n_species; i++) {
-    int o = 3 * i;
+    int o = gg_pair(i, i);
     double K = m->inertia[i], eta1 = (1 + m->e[o]) / 2, eta2 = 0;
     if (gg_rule_of(m->beta[o], m->mu[o]) != GG_SMOOTH) eta2 = (1 + m->beta[o]) * K / (2 * (1 + K));
     double A = eta1 * (1 - eta1) + eta2 * (1 - eta2), C = eta2 / K * (1 - eta2 / K);
@@ -261,7 +275,7 @@ double gg_model_collision_rate(const gg_model *m, double T)
   double rate = 0;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
-      int o = 2 * i + j;
+      int o = gg_pair(i, j);
       double xi = (double)m->n_of[i] / (double)m->n, nj = m->density * (double)m->n_of[j] / (double)m->n;
       double spread = T * (1 / m->mass[i] + 1 / m->mass[j]); /* <c12_x^2> */
       rate += xi * nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
@@ -273,5 +287,5 @@ double gg_model_nu0(const gg_model *m, double T)
 {
   if (m->n_species == 1) return 3.2 * sqrt(M_PI) * m->density * sqrt(T);
   double v0 = sqrt(2 * T * (m->mass[0] + m->mass[1]) / (m->mass[0] * m->mass[1]));
-  return sqrt(M_PI) * m->density * m->sigma[1] * m->sigma[1] * v0;
+  return sqrt(M_PI) * m->density * m->sigma[GG_12] * m->sigma[GG_12] * v0;
 }

@@ -1,4 +1,5 @@
-/* The model: the scene in the engines' units, everything that both engines and the theories need settled once.
+/* The model: the scene in the engines' units, everything that both engines and the theories need settled once. It has
+ * room for any number of species; engines copy what their kernels read into arrays as small as the scene's own.
  *
  * Units: length d of species 1, mass m of species 1; time 1/shear_rate in sheared and walled-shear flows, else d/v_0
  * with v_0 = sqrt(2 T_0/m), so that T_0 = <C.C>/3 = 1/2. These are the units of every result, too.
@@ -33,12 +34,12 @@ typedef struct gg_model {
   double shear_rate;     /* 1 if sheared, else 0 */
   double gravity[3];
 
-  /* By ordered pair of species, index 2 i + j. */
-  gg_contact contact[4]; /* grain 1 of species i, grain 2 of species j */
-  gg_contact treated[4]; /* for the contact-time rule: e = 1, see gg_treated_beta */
-  double sigma[4];       /* (d_i + d_j)/2 */
-  double chi[4];         /* contact value; 1 in the Boltzmann limit */
-  double e[4], beta[4], mu[4];
+  gg_contact contact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* grain 1 of the first species, grain 2 of the second */
+  gg_contact treated[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* for the contact-time rule: e = 1, see gg_treated_beta */
+  /* By pair of species: gg_pair. */
+  double sigma[GG_PAIRS]; /* (d_i + d_j)/2 */
+  double chi[GG_PAIRS];   /* contact value; 1 in the Boltzmann limit */
+  double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   gg_restitution_law law; /* of restitution between grains; with one, `e` and `contact` are those at the mean impact
                  speed of some temperature (gg_model_at), for estimates, and engines ask the law at every collision */
 
@@ -68,6 +69,10 @@ gg_status gg_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *
 /* With a restitution law: e and contacts at the mean normal speed at impact of Maxwellians at temperature T. */
 void gg_model_at(gg_model *model, double T);
 
+/* Largest and smallest diameter of a species. */
+double gg_model_widest(const gg_model *model);
+double gg_model_narrowest(const gg_model *model);
+
 /* Collisions per grain that the slowest of T, theta, mean spin needs to relax by a factor 1/e, estimated from two-
  * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); INFINITY where nothing relaxes. */
 double gg_model_relaxation(const gg_model *model);
@@ -77,9 +82,9 @@ double gg_model_relaxation(const gg_model *model);
  * takes up to some times as long to form. 0 without walls. */
 double gg_model_gap_relaxation(const gg_model *model);
 
-/* Tangential restitution of contacts that the contact-time rule treats, whose e is 1. Unlike grains lose nothing at all:
- * smooth, or perfectly rough where they are. (With friction left a light grain is rolled to rest between heavy ones, by
- * collisions without end: masses 1:100 did, at any contact time.) */
+/* Tangential restitution of contacts that the contact-time rule treats, whose e is 1. Unlike grains lose nothing at
+ * all: smooth, or perfectly rough where they are. (With friction left a light grain is rolled to rest between heavy
+ * ones, by collisions without end: masses 1:100 did, at any contact time.) */
 double gg_treated_beta(const gg_model *model, int i, int j);
 
 /* Boltzmann-Enskog collision rate per grain at temperature T: 4 n d^2 chi sqrt(pi T) for one species. */

@@ -14,7 +14,6 @@ gg_scene gg_scene_defaults(void)
       .temperature = GG_AUTO,
       .aspect = {1, 1, 1},
       .n_species = 1,
-      .species = {{1, 1, 1, 0.4}, {0, 1, 1, 0.4}},
       .walls = {.e = 0.9, .beta = 1, .mu = INFINITY, .speed = 1},
       .run = {.relative_error = GG_AUTO,
               .collisions = GG_AUTO,
@@ -26,6 +25,7 @@ gg_scene gg_scene_defaults(void)
       .dsmc = {.time_step = GG_AUTO},
       .measure = GG_MEASURE_RHEOLOGY,
   };
+  for (int i = 0; i < GG_MAX_SPECIES; i++) s.species[i] = (gg_species){i == 0, 1, 1, 0.4};
   for (int p = 0; p < GG_PAIRS; p++) {
     s.collision.e[p] = 0.9;
     s.collision.beta[p] = -1;

@@ -8,6 +8,7 @@
 
 #include "common/extension.h"
 #include "common/observables.h"
+#include "common/species.h"
 
 typedef enum gg_flow { GG_EQUILIBRIUM, GG_USF, GG_HCS, GG_HSS, GG_COUETTE, GG_POISEUILLE, GG_CHUTE } gg_flow;
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
@@ -16,9 +17,6 @@ typedef enum gg_switch { GG_OFF, GG_ON } gg_switch;
 typedef enum gg_precision { GG_DOUBLE, GG_SINGLE } gg_precision;
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
-
-enum { GG_MAX_SPECIES = 2 };
-enum { GG_11, GG_12, GG_22, GG_PAIRS }; /* unordered pairs of species */
 
 /* An ensemble of a few thousand stands for one point of the flow to better than 0.1 %; fewer only if asked for. */
 enum { GG_LEAST_ENSEMBLE = 5000 };
@@ -40,7 +38,7 @@ struct gg_scene {
   gg_switch small_shear; /* usf: towards a* = 0, for viscosities (common/linear_response.h) */
   double temperature;    /* initial <C.C>/3 in the user's units, or GG_AUTO */
   double aspect[3];      /* shape of the box, relative edges */
-  struct {
+  struct {               /* by pair of species: gg_pair */
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   } collision;
   int n_species;
@@ -76,12 +74,6 @@ struct gg_scene {
 
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */
 gg_scene gg_scene_defaults(void);
-
-/* Index of the unordered pair of species i, j. */
-static inline int gg_pair_index(int i, int j)
-{
-  return i + j;
-}
 
 static inline bool gg_flow_is_sheared(gg_flow flow)
 {

@@ -79,23 +79,16 @@ gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_e
 /* One member of what a key holds: "collision.e.12", "species.2.mass". NULL if there is no such thing. */
 static json_t *member_json(const gg_scene *scene, const char *key)
 {
-  const char *section = strrchr(key, '.');
-  char base[64];
   int number, used = 0;
   if (sscanf(key, "species.%d.%n", &number, &used) == 1 && used && number >= 1 && number <= scene->n_species)
     for (const gg_field *f = gg_species_fields; f->key; f++)
       if (strcmp(f->key, key + used) == 0) return gg_field_json(f, &scene->species[number - 1], scene);
-  static const char *const names[GG_PAIRS] = {"11", "12", "22"};
-  for (int p = 0; section && p < GG_PAIRS; p++) {
-    snprintf(base, sizeof base, "%.*s", (int)(section - key), key);
-    int id = gg_scene_field_find(base);
-    if (strcmp(section + 1, names[p]) != 0 || id < 0 || gg_scene_fields[id].type != GG_FIELD_PAIRS) continue;
-    gg_field one = gg_scene_fields[id];
-    one.type = GG_FIELD_NUMBER;
-    one.offset += (size_t)p * sizeof(double);
-    return gg_field_json(&one, scene, scene);
-  }
-  return NULL;
+  int pair, id = gg_scene_field_of_pair(key, &pair);
+  if (id < 0) return NULL;
+  gg_field one = gg_scene_fields[id];
+  one.type = GG_FIELD_NUMBER;
+  one.offset += (size_t)pair * sizeof(double);
+  return gg_field_json(&one, scene, scene);
 }
 
 gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err)

@@ -130,7 +130,7 @@ void gg_simulation_collect(gg_simulation *s)
   double unit = gg_simulation_unit(s);
   gg_collision_sums t;
   s->engine->ops->take_sums(s->engine, &t);
-  for (int p = 0; p < GG_PAIRS; p++) {
+  for (int p = 0; p < gg_pairs_of(s->model.n_species); p++) {
     sums->collisions += t.collisions[p];
     sums->dissipation += t.loss[p] * unit * unit;
     for (int a = 0; a < 3; a++)

@@ -12,7 +12,7 @@ gg_dsmc_path gg_dsmc_path_of(const gg_dsmc *d, int i, int j)
 void gg_dsmc_take_paths(gg_dsmc *d)
 {
   for (int i = 0; i < d->model.n_species; i++)
-    for (int j = i; j < d->model.n_species; j++) d->path[gg_pair_index(i, j)] = gg_dsmc_path_of(d, i, j);
+    for (int j = i; j < d->model.n_species; j++) d->path[gg_pair(i, j)] = gg_dsmc_path_of(d, i, j);
 }
 
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
@@ -26,8 +26,9 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
   made->noise = gg_thermostat_noise(model);
   gg_status status = gg_dsmc_ensemble_new(model, &made->ensemble, err);
   if (status == GG_OK && made->ensemble.segments > 1) {
-    made->schedule = gg_new_array(1, sizeof *made->schedule, err);
-    if (!made->schedule) status = GG_FAILED;
+    made->schedule = gg_new_array(1, gg_dsmc_schedule_size(model->n_species), err);
+    made->rounds = gg_dsmc_rounds_room_new(model->n_species, made->ensemble.segments, err);
+    if (!made->schedule || !made->rounds) status = GG_FAILED;
   }
   if (status != GG_OK) {
     gg_dsmc_destroy(&made->base);
@@ -44,6 +45,7 @@ void gg_dsmc_destroy(gg_engine *engine)
   if (!d) return;
   gg_dsmc_ensemble_free(&d->ensemble);
   free(d->schedule);
+  gg_dsmc_rounds_room_free(d->rounds);
   for (int i = 0; i < GG_MAX_SPECIES; i++) free(d->callback.last[i]);
   free(d);
 }

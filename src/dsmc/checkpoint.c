@@ -8,7 +8,9 @@ gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *e
   const gg_dsmc *d = (const gg_dsmc *)engine;
   GG_TRY(gg_archive_put(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err));
   GG_TRY(gg_dsmc_ensemble_save(&d->ensemble, archive, err));
-  if (d->schedule) GG_TRY(gg_archive_put(archive, schedule_item, GG_ITEM_U8, d->schedule, sizeof *d->schedule, err));
+  if (d->schedule)
+    GG_TRY(gg_archive_put(archive, schedule_item, GG_ITEM_U8, d->schedule, gg_dsmc_schedule_size(d->model.n_species),
+                          err));
   return gg_dsmc_save_callback(d, archive, err);
 }
 
@@ -20,7 +22,8 @@ gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_e
   gg_status status = gg_archive_get(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err);
   if (status == GG_OK) status = gg_dsmc_ensemble_restore(&d->ensemble, archive, err);
   if (status == GG_OK && d->schedule)
-    status = gg_archive_get(archive, schedule_item, GG_ITEM_U8, d->schedule, sizeof *d->schedule, err);
+    status =
+        gg_archive_get(archive, schedule_item, GG_ITEM_U8, d->schedule, gg_dsmc_schedule_size(d->model.n_species), err);
   if (status == GG_OK) status = gg_dsmc_restore_callback(d, archive, err);
   if (status != GG_OK) {
     gg_dsmc_destroy(&d->base);

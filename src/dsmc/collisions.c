@@ -7,10 +7,10 @@ void gg_dsmc_start_majorants(gg_dsmc *d)
   double thermal = sqrt(d->now.temperature);
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
-      double shift = m->sigma[2 * i + j] * m->shear_rate;
+      double shift = m->sigma[gg_pair(i, j)] * m->shear_rate;
       double sure =
-          gg_dsmc_sure_majorant(d->path[gg_pair_index(i, j)], gg_dsmc_features_of(d, i, j), 2 * d->now.fastest, shift);
-      gg_dsmc_majorant_start(&d->now.majorant[gg_pair_index(i, j)], sure, thermal);
+          gg_dsmc_sure_majorant(d->path[gg_pair(i, j)], gg_dsmc_features_of(d, i, j), 2 * d->now.fastest, shift);
+      gg_dsmc_majorant_start(&d->now.majorant[gg_pair(i, j)], sure, thermal);
     }
 }
 
@@ -18,7 +18,7 @@ void gg_dsmc_start_majorants(gg_dsmc *d)
 static double candidate_rate(const gg_dsmc *d, gg_dsmc_features f, int i, int j)
 {
   const gg_dsmc_population *one = &d->ensemble.of[i], *two = &d->ensemble.of[j];
-  return gg_dsmc_candidates_per_unit(d->path[gg_pair_index(i, j)], f, one, two) * gg_dsmc_cross_section(d, i, j);
+  return gg_dsmc_candidates_per_unit(d->path[gg_pair(i, j)], f, one, two) * gg_dsmc_cross_section(d, i, j);
 }
 
 uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_rng *rng)
@@ -31,8 +31,8 @@ uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_
 
 static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, double span)
 {
-  gg_dsmc_majorant *learned = &d->now.majorant[gg_pair_index(i, j)];
-  gg_dsmc_path path = d->path[gg_pair_index(i, j)];
+  gg_dsmc_majorant *learned = &d->now.majorant[gg_pair(i, j)];
+  gg_dsmc_path path = d->path[gg_pair(i, j)];
   gg_dsmc_features f = gg_dsmc_features_of(d, i, j);
   double thermal = sqrt(d->now.temperature), rate = candidate_rate(d, f, i, j) * dt,
          majorant = gg_dsmc_majorant_at(learned, thermal);
@@ -42,7 +42,7 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
     p.floor = floor;
     p.majorant = majorant;
     p.candidates = gg_dsmc_candidates(path == GG_DSMC_PLAIN || floor > 0, rate * majorant,
-                                      &d->now.remainder[gg_pair_index(i, j)], &d->now.rng);
+                                      &d->now.remainder[gg_pair(i, j)], &d->now.rng);
     if (d->callback.call) gg_dsmc_call_back(d, i, j, dt, &p);
     p.strain_step = p.candidates ? span / (double)p.candidates : 0;
     p.strain = strain + 0.5 * p.strain_step;
@@ -51,7 +51,7 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
     gg_dsmc_collide_pass(d->ensemble.kernels, path, f, &p, &d->now.lanes, &d->now.rng);
     d->ensemble.bound_scale = p.bound_scale;
     d->ensemble.bound_strain = strain + span;
-    gg_dsmc_add_pass(d, gg_pair_index(i, j), &p);
+    gg_dsmc_add_pass(d, gg_pair(i, j), &p);
     gg_dsmc_majorant_learn(learned, p.largest, thermal, p.tried, gg_dsmc_window(d, i, j));
     floor += majorant;
     if (p.largest <= floor) break;
@@ -65,7 +65,7 @@ static bool in_segments(const gg_dsmc *d)
   if (!d->schedule) return false;
   for (int i = 0; i < d->model.n_species; i++)
     for (int j = i; j < d->model.n_species; j++)
-      if (d->path[gg_pair_index(i, j)] == GG_DSMC_PLAIN) return false;
+      if (d->path[gg_pair(i, j)] == GG_DSMC_PLAIN) return false;
   for (int i = 0; i < d->model.n_species; i++)
     if (d->ensemble.of[i].n_blocks < 100 * (size_t)d->ensemble.segments) return false;
   return true;
@@ -79,13 +79,13 @@ void gg_dsmc_collide(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_
   }
   gg_dsmc_substep substep[GG_DSMC_MAX_SUBSTEPS];
   const int sweeps = gg_dsmc_sweeps_of(&d->now.step, splitting, dt);
-  const int n = gg_dsmc_list_substeps(d->model.n_species == 1 ? 1 : GG_PAIRS, splitting, sweeps, substep);
+  const int n = gg_dsmc_list_substeps(gg_pairs_of(d->model.n_species), splitting, sweeps, substep);
   const double begin = d->interval_begin, each = 1.0 / sweeps;
   for (const gg_dsmc_substep *t = substep; t < substep + n; t++) {
-    const int *ij = gg_dsmc_species_of_pair[t->pair];
+    const gg_species_pair s = gg_species_of_pair(t->pair);
     const double from = t->begin * each, part = t->length * each;
     d->interval_begin = begin + from * dt;
-    collide_pair(d, ij[0], ij[1], part * dt, strain + from * span, part * span);
+    collide_pair(d, s.i, s.j, part * dt, strain + from * span, part * span);
   }
   d->interval_begin = begin;
 }

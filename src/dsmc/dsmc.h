@@ -32,11 +32,14 @@ typedef struct gg_dsmc_state {
   uint64_t last_collision;
 } gg_dsmc_state;
 
+typedef struct gg_dsmc_rounds_room gg_dsmc_rounds_room;
+
 typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_dsmc_ensemble ensemble;
-  gg_dsmc_schedule *schedule; /* NULL if the ensemble is one segment */
+  gg_dsmc_schedule *schedule;  /* NULL if the ensemble is one segment */
+  gg_dsmc_rounds_room *rounds; /* likewise */
   gg_dsmc_path path[GG_PAIRS];
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white noise */
@@ -60,8 +63,6 @@ double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j);
 uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
 /* Add to the sums what the collisions of a pair of species came to. */
 void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *p);
-/* Species of each pair. */
-extern const int gg_dsmc_species_of_pair[GG_PAIRS][2];
 
 /* collisions.c: majorants that hold for sure, to start from. */
 void gg_dsmc_start_majorants(gg_dsmc *d);
@@ -72,7 +73,9 @@ uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_
  */
 void gg_dsmc_collide(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting);
 
-/* parallel/round_robin.c: the same for an ensemble in segments. */
+/* parallel/round_robin.c: the same for an ensemble in segments, with the room that it takes. */
+gg_dsmc_rounds_room *gg_dsmc_rounds_room_new(int n_species, int segments, gg_error *err);
+void gg_dsmc_rounds_room_free(gg_dsmc_rounds_room *room);
 void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting);
 
 gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);

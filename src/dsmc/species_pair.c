@@ -1,12 +1,10 @@
 /* What all collisions of a pair of species have in common, and where what they come to is added up. */
 #include "dsmc/dsmc.h"
 
-const int gg_dsmc_species_of_pair[GG_PAIRS][2] = {{0, 0}, {0, 1}, {1, 1}};
-
 gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
-  gg_dsmc_features f = {.rule = gg_rule_of(m->beta[2 * i + j], m->mu[2 * i + j]), .same = i == j};
+  gg_dsmc_features f = {.rule = gg_rule_of(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]), .same = i == j};
   /* Grains that have spins keep them with their velocities, whichever pair of species is smooth. */
   if (m->rule != GG_SMOOTH && f.rule == GG_SMOOTH) f.rule = GG_ROUGH;
   if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
@@ -18,12 +16,12 @@ gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
 gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
-  int o = 2 * i + j;
+  int o = gg_pair(i, j);
   gg_dsmc_population *one = &d->ensemble.of[i], *two = &d->ensemble.of[j];
   return (gg_dsmc_pass){.one = one,
                         .two = two,
                         .blocks = {gg_dsmc_all_blocks(one), gg_dsmc_all_blocks(two)},
-                        .contact = m->contact[o],
+                        .contact = m->contact[i][j],
                         .species = {i, j},
                         .law = m->law.e ? &m->law : NULL,
                         .law_unit = ldexp(1, -d->now.power),
@@ -34,7 +32,7 @@ gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
 double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
-  int o = 2 * i + j;
+  int o = gg_pair(i, j);
   return m->sigma[o] * m->sigma[o] * m->chi[o] / m->volume;
 }
 

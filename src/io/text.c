@@ -56,10 +56,14 @@ static void add(char *text, size_t size, const char *format, ...)
 
 static void add_pairs(char *text, size_t size, const char *name, const double *x, int n_species)
 {
-  if (n_species == 1 || (x[GG_11] == x[GG_12] && x[GG_11] == x[GG_22]))
-    add(text, size, ", %s %g", name, x[0]);
-  else
+  double least = x[GG_11], most = x[GG_11];
+  for (int p = 0; p < gg_pairs_of(n_species); p++) least = fmin(least, x[p]), most = fmax(most, x[p]);
+  if (least == most)
+    add(text, size, ", %s %g", name, least);
+  else if (n_species == 2)
     add(text, size, ", %s %g/%g/%g", name, x[GG_11], x[GG_12], x[GG_22]);
+  else
+    add(text, size, ", %s %g to %g", name, least, most);
 }
 
 void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
@@ -78,7 +82,7 @@ void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
   else
     add_pairs(text, size, "e", s->collision.e, s->n_species);
   bool smooth = true, frictional = false;
-  for (int p = 0; p < (s->n_species > 1 ? GG_PAIRS : 1); p++) {
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
     smooth &= s->collision.beta[p] == -1 || s->collision.mu[p] == 0;
     frictional |= isfinite(s->collision.mu[p]);
   }
@@ -87,7 +91,8 @@ void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
   else
     add_pairs(text, size, frictional ? "beta_0" : "beta", s->collision.beta, s->n_species);
   if (!smooth && frictional) add_pairs(text, size, "mu", s->collision.mu, s->n_species);
-  if (s->n_species > 1) {
+  if (s->n_species > 2) add(text, size, "; %d species", s->n_species);
+  if (s->n_species == 2) {
     const gg_species *one = &s->species[0], *two = &s->species[1];
     add(text, size, "; mixture %g:%g", one->fraction, two->fraction);
     if (one->mass != two->mass) add(text, size, ", m_2/m_1 %g", two->mass / one->mass);

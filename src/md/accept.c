@@ -6,7 +6,7 @@
 
 static gg_status check_box(const gg_model *m, gg_error *err)
 {
-  double widest = fmax(m->diameter[0], m->n_species > 1 ? m->diameter[1] : 0), least = 2 * widest * (1 + 1e-9);
+  double widest = gg_model_widest(m), least = 2 * widest * (1 + 1e-9);
   for (int a = 0; a < 3; a++) {
     if (m->box[a] >= least) continue;
     double shrink = least / m->box[a], cube = shrink * shrink * shrink;

@@ -45,7 +45,6 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   if (!e) return GG_FAILED;
   e->base.ops = &gg_md_ops;
   e->model = *model;
-  gg_md_contacts_make(&e->contacts, model);
   for (int a = 0; a < 3; a++) {
     e->box.edge[a] = model->box[a];
     e->box.inverse[a] = 1 / model->box[a];
@@ -56,7 +55,8 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   e->falls = gg_dot(e->gravity, e->gravity) > 0;
   e->thermostat = gg_thermostat_of(model);
   e->noise = e->thermostat == GG_WHITE_NOISE ? gg_thermostat_noise(model) : 0;
-  gg_status status = allocate(e, err);
+  gg_status status = gg_md_contacts_make(&e->contacts, model, err);
+  if (status == GG_OK) status = allocate(e, err);
   if (status != GG_OK) {
     gg_md_free(e);
     return status;
@@ -68,6 +68,7 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
 void gg_md_free(gg_md *e)
 {
   if (!e) return;
+  gg_md_contacts_free(&e->contacts);
   gg_md_queue_free(&e->queue);
   gg_md_cells_free(&e->cells);
   free(e->grain);

@@ -1,5 +1,7 @@
 #include "md/contacts.h"
 
+#include <stdlib.h>
+
 /* `exact` lies between two neighbours; how many turns of all must take the upper one? */
 static int upper_turns(long double exact, double *lower, double *upper)
 {
@@ -16,18 +18,18 @@ static bool goes_up(int k, int count)
   return (k + 1) * count / GG_MD_DITHERS > k * count / GG_MD_DITHERS;
 }
 
-static void make_turns(gg_md_contacts *c, gg_contact (*turn)[4], int pair, const gg_contact *rounded, double e,
-                       double beta)
+/* `turn`: the first one; the next ones are as far apart as there are pairs. */
+static void make_turns(gg_md_contacts *c, gg_contact *turn, const gg_contact *rounded, double e, double beta)
 {
   long double mr = (long double)rounded->im1 + rounded->im2;
   long double mt = mr + ((long double)rounded->ik1 + rounded->ik2);
   double lower[2], upper[2];
   int up[2] = {upper_turns((1 + (long double)e) / mr, &lower[0], &upper[0]),
                upper_turns((1 + (long double)beta) / mt, &lower[1], &upper[1])};
-  for (int k = 0; k < GG_MD_DITHERS; k++) {
-    turn[k][pair] = *rounded;
-    turn[k][pair].jn = goes_up(k, up[0]) ? upper[0] : lower[0];
-    if (rounded->jt > 0) turn[k][pair].jt = goes_up(k, up[1]) ? upper[1] : lower[1];
+  for (int k = 0; k < GG_MD_DITHERS; k++, turn += c->n_pairs) {
+    *turn = *rounded;
+    turn->jn = goes_up(k, up[0]) ? upper[0] : lower[0];
+    if (rounded->jt > 0) turn->jt = goes_up(k, up[1]) ? upper[1] : lower[1];
   }
   if (up[0] || (up[1] && rounded->jt > 0)) c->turns = GG_MD_DITHERS - 1;
 }
@@ -39,17 +41,32 @@ double gg_md_contact_normal_coefficient(const gg_contact *c, double e, uint64_t 
   return goes_up((int)(number % GG_MD_DITHERS), up) ? upper : lower;
 }
 
-void gg_md_contacts_make(gg_md_contacts *c, const gg_model *m)
+static void make_pair(gg_md_contacts *c, const gg_model *m, int i, int j)
 {
-  c->turns = 0;
+  const int o = gg_md_pair(c, i, j), q = gg_pair(i, j);
+  c->sigma2[o] = m->sigma[q] * m->sigma[q];
+  c->inverse[o] = 1 / sqrt(c->sigma2[o]);
+  c->residue[o] = (double)((long double)c->sigma2[o] * c->inverse[o] * c->inverse[o] - 1);
+  make_turns(c, c->contact + o, &m->contact[i][j], m->e[q], m->beta[q]);
+  make_turns(c, c->treated + o, &m->treated[i][j], 1, gg_treated_beta(m, i, j));
+}
+
+gg_status gg_md_contacts_make(gg_md_contacts *c, const gg_model *m, gg_error *err)
+{
+  c->n_species = m->n_species;
+  c->n_pairs = m->n_species * m->n_species;
+  c->contact = gg_new_array((size_t)c->n_pairs * GG_MD_DITHERS, sizeof *c->contact, err);
+  c->treated = gg_new_array((size_t)c->n_pairs * GG_MD_DITHERS, sizeof *c->treated, err);
+  if (!c->contact || !c->treated) return GG_FAILED;
   for (int k = 0; k < GG_MD_DITHERS; k++)
     c->tilt[k] = (13 * k % GG_MD_DITHERS - 0.5 * (GG_MD_DITHERS - 1)) * (0x1p-53 / GG_MD_DITHERS);
-  for (int o = 0; o < 4; o++) {
-    if (m->sigma[o] <= 0) continue; /* one species: no such pair */
-    c->sigma2[o] = m->sigma[o] * m->sigma[o];
-    c->inverse[o] = 1 / sqrt(c->sigma2[o]);
-    c->residue[o] = (double)((long double)c->sigma2[o] * c->inverse[o] * c->inverse[o] - 1);
-    make_turns(c, c->contact, o, &m->contact[o], m->e[o], m->beta[o]);
-    make_turns(c, c->treated, o, &m->treated[o], 1, gg_treated_beta(m, o / 2, o % 2));
-  }
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) make_pair(c, m, i, j);
+  return GG_OK;
+}
+
+void gg_md_contacts_free(gg_md_contacts *c)
+{
+  free(c->contact);
+  free(c->treated);
 }

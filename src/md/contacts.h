@@ -17,16 +17,24 @@
 
 enum { GG_MD_DITHERS = 32 };
 
-/* By ordered pair of species, as in the model. */
+/* By ordered pair of the species there are: gg_md_pair. */
 typedef struct gg_md_contacts {
-  double sigma2[4], inverse[4]; /* sigma^2, 1/sigma */
-  double residue[4];            /* sigma^2 x inverse^2 - 1: the rounding of the two */
-  double tilt[GG_MD_DITHERS];   /* shift of the last digit of k */
-  uint64_t turns;               /* GG_MD_DITHERS - 1, or 0 where every coefficient is exact */
-  gg_contact contact[GG_MD_DITHERS][4], treated[GG_MD_DITHERS][4];
+  int n_species, n_pairs;
+  double sigma2[GG_MAX_SPECIES * GG_MAX_SPECIES], inverse[GG_MAX_SPECIES * GG_MAX_SPECIES]; /* sigma^2, 1/sigma */
+  double residue[GG_MAX_SPECIES * GG_MAX_SPECIES]; /* sigma^2 x inverse^2 - 1: the rounding of the two */
+  double tilt[GG_MD_DITHERS];                      /* shift of the last digit of k */
+  uint64_t turns;                                  /* GG_MD_DITHERS - 1, or 0 where every coefficient is exact */
+  gg_contact *contact, *treated;                   /* GG_MD_DITHERS turns, each of n_pairs */
 } gg_md_contacts;
 
-void gg_md_contacts_make(gg_md_contacts *contacts, const gg_model *model);
+gg_status gg_md_contacts_make(gg_md_contacts *contacts, const gg_model *model, gg_error *err);
+void gg_md_contacts_free(gg_md_contacts *contacts);
+
+/* Grain 1 of species a, grain 2 of species b. */
+GG_INLINE int gg_md_pair(const gg_md_contacts *c, int a, int b)
+{
+  return a * c->n_species + b;
+}
 
 /* jn = m_r (1+e) rounded likewise, for an e of the moment; in the collision of this number. */
 double gg_md_contact_normal_coefficient(const gg_contact *contact, double e, uint64_t number);

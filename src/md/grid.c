@@ -15,15 +15,14 @@ enum { FEWEST_OVERLAPPING = 6 };
 
 double gg_md_reach(const gg_model *m)
 {
-  double widest = fmax(m->sigma[0], m->n_species > 1 ? m->sigma[3] : 0);
-  return widest * (1 + 1e-9);
+  return gg_model_widest(m) * (1 + 1e-9);
 }
 
 /* How wide the skins: wide ones are left seldom, but make long lists. Lists of grains of very unequal size would be
  * too long; 0: none. */
 static double skin_radius(const gg_model *m)
 {
-  double ratio = m->n_species > 1 ? fmax(m->diameter[0], m->diameter[1]) / fmin(m->diameter[0], m->diameter[1]) : 1;
+  double ratio = gg_model_widest(m) / gg_model_narrowest(m);
   if (m->walled || m->phi < LISTED_FROM || ratio > 1.3) return 0;
   return fmin(0.34, 0.3 + 0.8 * (0.5 - m->phi));
 }

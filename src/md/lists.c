@@ -19,9 +19,7 @@ void gg_md_set_skins(gg_md *e, double radius)
 {
   const gg_model *m = &e->model;
   e->skin_radius = radius;
-  e->pair_reach[0] = m->sigma[0] + 2 * radius;
-  e->pair_reach[1] = m->sigma[1] + 2 * radius;
-  e->pair_reach[2] = m->sigma[3] + 2 * radius;
+  for (int q = 0; q < gg_pairs_of(m->n_species); q++) e->pair_reach[q] = m->sigma[q] + 2 * radius;
   e->shrinkage = 0.25 * m->shear_rate * (gg_md_reach(m) + 2 * radius) * (1 + 1e-9);
 }
 

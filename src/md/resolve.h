@@ -72,12 +72,12 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
 {
   gg_md_grain *one = &e->grain[i], *two = &e->grain[j];
   int a = f.mixture ? gg_md_species_of(one) : 0, b = f.mixture ? gg_md_species_of(two) : 0,
-      pair = f.mixture ? 2 * a + b : 0;
+      pair = f.mixture ? gg_md_pair(&e->contacts, a, b) : 0, q = f.mixture ? gg_pair(a, b) : 0;
   const gg_md_contacts *contacts = &e->contacts;
   uint64_t turn = e->k.collisions & contacts->turns;
-  const gg_contact *contact = &contacts->contact[turn][pair];
+  const gg_contact *contact = &contacts->contact[turn * (uint64_t)contacts->n_pairs + (uint64_t)pair];
   bool treated = f.contact_time && gg_md_is_treated(e, i, j);
-  if (treated) contact = &contacts->treated[turn][pair];
+  if (treated) contact = &contacts->treated[turn * (uint64_t)contacts->n_pairs + (uint64_t)pair];
   double r2 = gg_dot(dr, dr), overlap = 0.5 * (contacts->sigma2[pair] - r2) * contacts->inverse[pair];
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
   gg_vec k = gg_md_contact_normal(contacts, pair, dr, r2, e->k.collisions);
@@ -93,9 +93,9 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   gg_vec v1 = one->v, v2 = two->v;
   gg_kick(f.rule, contact, k, J, &one->v, s1, &two->v, s2);
   double scale = f.gaussian ? e->k.scale : 1;
-  e->k.transfer.collisions[a + b]++;
+  e->k.transfer.collisions[q]++;
   if (f.sums)
-    gg_md_sum_pair(&e->k.transfer, a + b, e->model.sigma[pair] * scale, k, J,
+    gg_md_sum_pair(&e->k.transfer, q, e->model.sigma[q] * scale, k, J,
                    gg_energy_loss(contact, k, g, J) * scale * scale);
   if (f.gaussian) gg_md_return_energy(e, gg_md_kinetic_loss(contact, v1, v2, one->v, two->v));
 }

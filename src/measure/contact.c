@@ -15,8 +15,7 @@ enum { ITERATIONS = 12 };
  * equation's g, at every density. In dilute gases third grains interfere little, and a parabola over 1 does. */
 gg_near gg_near_of(const gg_model *m, double sigma, double longest_reach)
 {
-  double phi = m->phi, smallest = m->diameter[0];
-  if (m->n_species > 1) smallest = fmin(smallest, m->diameter[1]);
+  double phi = m->phi, smallest = gg_model_narrowest(m);
   double length = (1 + phi / 2) * (1 - phi) / (4.5 * phi * (1 + phi));
   gg_near n = {.sigma = sigma, .order = length > 10 ? 2 : 3};
   double gap = smallest * fmin(0.5 * length, n.order == 2 ? 1 : 0.6);

@@ -107,7 +107,8 @@ static gg_vec displacement(const diffusion *d, const gg_images *b, gg_vec from, 
 
 static void give_places(diffusion *d, const gg_snapshot *s)
 {
-  uint32_t next[GG_MAX_SPECIES] = {0, (uint32_t)d->model.n_of[0]};
+  uint32_t next[GG_MAX_SPECIES] = {0};
+  for (int k = 1; k < d->model.n_species; k++) next[k] = next[k - 1] + (uint32_t)d->model.n_of[k - 1];
   for (size_t i = 0; i < s->n; i++) d->place[s->id[i]] = next[gg_snapshot_species(s, i)]++;
 }
 

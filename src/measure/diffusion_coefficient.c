@@ -13,7 +13,7 @@ static double kinetic_collisions(const gg_model *m, int species)
 {
   double friction = 0;
   for (int j = 0; j < m->n_species; j++) {
-    int q = 2 * species + j;
+    int q = gg_pair(species, j);
     double reduced = m->mass[species] * m->mass[j] / (m->mass[species] + m->mass[j]),
            n = (double)m->n_of[j] / m->volume;
     friction += 8.0 / 3 * n * m->sigma[q] * m->sigma[q] * m->chi[q] * sqrt(2 * M_PI * reduced) * (1 + m->e[q]) / 2;

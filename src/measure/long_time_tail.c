@@ -3,12 +3,12 @@
 #include <math.h>
 
 /* Mean over pairs of species. */
-static double one_fluid(const gg_model *m, const double of_pair[4], int power)
+static double one_fluid(const gg_model *m, const double of_pair[GG_PAIRS], int power)
 {
   double sum = 0;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++)
-      sum += (double)m->n_of[i] / (double)m->n * (double)m->n_of[j] / (double)m->n * pow(of_pair[2 * i + j], power);
+      sum += (double)m->n_of[i] / (double)m->n * (double)m->n_of[j] / (double)m->n * pow(of_pair[gg_pair(i, j)], power);
   return sum;
 }
 

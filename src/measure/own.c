@@ -140,7 +140,7 @@ static gg_sample sample_of(const own *o, const gg_interval *in)
                  .inertia = m->inertia,
                  .box = {m->box[0], m->box[1], m->box[2]},
                  .volume = m->volume};
-  for (int p = 0; p < GG_PAIRS; p++) {
+  for (int p = 0; p < gg_pairs_of(m->n_species); p++) {
     s.collisions += in->transfer->collisions[p];
     s.dissipation += in->transfer->loss[p] * v * v * unit;
     for (int a = 0; a < 3; a++)

@@ -20,7 +20,7 @@ enum { MOST_BINS = 160 };
 typedef struct pair_correlation {
   gg_model model;
   gg_pairs pairs;
-  int bins;               /* of each g_ij */
+  int n_pairs, bins;      /* of each g_ij */
   double sigma[GG_PAIRS]; /* where they begin */
   gg_near near[GG_PAIRS];
   double speed[GG_PAIRS]; /* mean normal speed of approach of Maxwellians, at the present temperatures */
@@ -43,13 +43,14 @@ static void *create(const gg_model *m, gg_error *err)
   pair_correlation *d = gg_new_array(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
-  double widest = fmax(m->sigma[0], m->sigma[3]), reach = gg_pairs_longest_reach(m);
+  d->n_pairs = gg_pairs_of(m->n_species);
+  double widest = gg_model_widest(m), reach = gg_pairs_longest_reach(m);
   d->bins = (int)fmin(floor((reach - widest) / WIDTH), MOST_BINS);
   if (d->bins < 1) d->bins = 1;
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
-      int q = gg_pair_index(i, j);
-      d->sigma[q] = m->sigma[2 * i + j];
+      int q = gg_pair(i, j);
+      d->sigma[q] = m->sigma[q];
       d->near[q] = gg_near_of(m, d->sigma[q], reach);
     }
   if (gg_pairs_init(&d->pairs, m, fmin(reach, widest + d->bins * WIDTH), TRIES, FALL, err) == GG_OK) return d;
@@ -72,7 +73,7 @@ static void restart(void *self)
 static size_t bins(const void *self)
 {
   const pair_correlation *d = self;
-  return (size_t)(GG_PAIRS * (d->bins + GG_NEAR_WIDTH)) + EXTRA;
+  return (size_t)(d->n_pairs * (d->bins + GG_NEAR_WIDTH)) + EXTRA;
 }
 
 typedef struct counting {
@@ -87,14 +88,14 @@ GG_INLINE void count(void *context, uint32_t one, uint32_t two, gg_vec separatio
   const pair_correlation *d = c->d;
   const gg_snapshot *s = c->s;
   size_t i = d->pairs.grain[one], j = d->pairs.grain[two];
-  int q = gg_pair_index(gg_snapshot_species(s, i), gg_snapshot_species(s, j));
+  int q = gg_pair(gg_snapshot_species(s, i), gg_snapshot_species(s, j));
   double gap = sqrt(square) - d->sigma[q], at = gap * (1 / WIDTH);
   if (at < d->bins && at > -0.01)
     c->bin[q * d->bins + (int)fmax(at, 0)] += weight; /* an overlap by rounding is a contact */
   if (gap > d->near[q].reach) return;
   gg_vec g = {s->c[0][j] - s->c[0][i] + d->model.shear_rate * separation.y, s->c[1][j] - s->c[1][i],
               s->c[2][j] - s->c[2][i]};
-  gg_near_count(&d->near[q], c->bin + GG_PAIRS * d->bins + q * GG_NEAR_WIDTH, separation, square, g, d->speed[q],
+  gg_near_count(&d->near[q], c->bin + d->n_pairs * d->bins + q * GG_NEAR_WIDTH, separation, square, g, d->speed[q],
                 weight);
 }
 
@@ -108,7 +109,7 @@ static double take_temperatures(pair_correlation *d, const gg_snapshot *s)
     all += energy[i];
     for (int j = i; j < d->model.n_species; j++) {
       double T = energy[i] / (3 * (double)d->model.n_of[i]) + energy[j] / (3 * (double)d->model.n_of[j]);
-      d->speed[gg_pair_index(i, j)] = sqrt(2 * T / M_PI);
+      d->speed[gg_pair(i, j)] = sqrt(2 * T / M_PI);
     }
   }
   return all / (3 * (double)s->n);
@@ -119,7 +120,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   pair_correlation *d = self;
   counting c = {d, s, bin};
   gg_images box = gg_images_of(s);
-  double *extra = bin + GG_PAIRS * (d->bins + GG_NEAR_WIDTH);
+  double *extra = bin + d->n_pairs * (d->bins + GG_NEAR_WIDTH);
   extra[TEMPERATURE] += take_temperatures(d, s);
   gg_pairs_sort(&d->pairs, s, &box);
   gg_pairs_each(&d->pairs, s, &box, count, &c);
@@ -146,14 +147,14 @@ static void put_rate(const pair_correlation *d, gg_curve *c, const double *extra
 static void put_contact(const pair_correlation *d, int q, gg_curve *c, const double *bin, double pairs, double samples)
 {
   const gg_model *m = &d->model;
-  const double *near = bin + GG_PAIRS * d->bins + q * GG_NEAR_WIDTH;
+  const double *near = bin + d->n_pairs * d->bins + q * GG_NEAR_WIDTH;
   gg_contact_density g = gg_near_read(&d->near[q], near, pairs / m->volume, samples);
   double all = m->flow == GG_EQUILIBRIUM ? g.alike : 0.5 * (g.approaching + g.parting);
   gg_curve_put_number(c, "contact_value", all, "1");
   gg_curve_put_number(c, "contact_value_before", g.approaching, "1");
   gg_curve_put_number(c, "contact_value_after", g.parting, "1");
   gg_curve_put_number(c, "approach_speed", g.speed, "1");
-  put_rate(d, c, bin + GG_PAIRS * (d->bins + GG_NEAR_WIDTH), g.speed);
+  put_rate(d, c, bin + d->n_pairs * (d->bins + GG_NEAR_WIDTH), g.speed);
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
@@ -162,7 +163,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   const gg_model *m = &d->model;
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
-      int q = gg_pair_index(i, j);
+      int q = gg_pair(i, j);
       char name[48] = "pair_correlation", label[24] = "g";
       if (m->n_species > 1) {
         snprintf(name, sizeof name, "pair_correlation_%d%d", i + 1, j + 1);

@@ -129,7 +129,7 @@ static void put_rates(const rheology *r, const gg_interval *in, haff h, double *
   const gg_model *m = &r->model;
   const gg_collision_sums *t = in->transfer;
   double collisions = 0, loss = 0, p[3][3] = {{0}};
-  for (int q = 0; q < GG_PAIRS; q++) {
+  for (int q = 0; q < gg_pairs_of(r->model.n_species); q++) {
     collisions += (double)t->collisions[q];
     loss += t->loss[q];
     for (int a = 0; a < 3; a++)

@@ -151,7 +151,7 @@ static void put(const correlations *d, gg_curves *list, const char *name, const 
                 const double *bin, int width, int channel, double norm)
 {
   const gg_model *m = &d->model;
-  int first = (int)(fmin(m->diameter[0], m->n_species > 1 ? m->diameter[1] : m->diameter[0]) / SPACING);
+  int first = (int)(gg_model_narrowest(m) / SPACING);
   if (d->bins <= first) return;
   gg_curve *c = gg_curve_add(list, (size_t)(d->bins - first), name, panel, label);
   gg_curve_axes(c, "r", gg_curve_unit(m, "length"), "G", "1");

@@ -112,7 +112,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   put(&range, a, -v->cxcy / ((double)m->n * T), row + KINETIC);
   if (m->boltzmann) return;
   double impulse = 0, root = mean_root(T0, T), mean_T = root * root;
-  for (int q = 0; q < GG_PAIRS; q++) impulse += in->transfer->stress[q][0][1];
+  for (int q = 0; q < gg_pairs_of(v->model.n_species); q++) impulse += in->transfer->stress[q][0][1];
   double stress = impulse / (m->volume * in->elapsed * m->density * mean_T);
   put(&range, gg_reduced_shear_rate(m, mean_T), -stress, row + COLLISIONAL);
 }

@@ -13,7 +13,7 @@ double gg_expected_agreement(const gg_model *m, gg_quantity q)
 {
   bool dissipative = false;
   for (int i = 0; i < m->n_species; i++)
-    for (int j = 0; j < m->n_species; j++) dissipative = dissipative || m->e[2 * i + j] < 0.7;
+    for (int j = 0; j < m->n_species; j++) dissipative = dissipative || m->e[gg_pair(i, j)] < 0.7;
   if (is_difference(q)) return m->phi <= 0.3 && !dissipative ? 0.02 : 0.05;
   if (m->phi <= 0.05) return dissipative ? 0.015 : 0.01;
   return m->phi <= 0.3 && !dissipative ? 0.03 : 0.10;

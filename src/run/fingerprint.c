@@ -13,9 +13,7 @@ typedef struct gg_fingerprint {
   double value;
 } gg_fingerprint;
 
-enum { MOST_FINGERPRINT = 64 };
-
-static const char *const pairs[GG_PAIRS] = {[GG_11] = ".11", [GG_12] = ".12", [GG_22] = ".22"};
+enum { MOST_FINGERPRINT = 32 + 3 * GG_PAIRS + 4 * GG_MAX_SPECIES };
 
 static GG_PRINTF(4, 5) int put(gg_fingerprint *f, int n, double value, const char *format, ...)
 {
@@ -60,10 +58,12 @@ static int fingerprint(const gg_scene *s, gg_fingerprint *f)
   int n = sizeof fixed / sizeof *fixed;
   memcpy(f, fixed, sizeof fixed);
   for (int p = 0; p < GG_PAIRS; p++) {
-    const char *const pair = s->n_species > 1 ? pairs[p] : "";
-    n = put(f, n, s->collision.e[p], "collision.e%s", pair);
-    n = put(f, n, s->collision.beta[p], "collision.beta%s", pair);
-    n = put(f, n, s->collision.mu[p], "collision.mu%s", pair);
+    char name[GG_PAIR_NAME] = "";
+    const char *const dot = s->n_species > 1 ? "." : "";
+    if (s->n_species > 1) gg_pair_name(p, name);
+    n = put(f, n, s->collision.e[p], "collision.e%s%s", dot, name);
+    n = put(f, n, s->collision.beta[p], "collision.beta%s%s", dot, name);
+    n = put(f, n, s->collision.mu[p], "collision.mu%s%s", dot, name);
   }
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     n = put(f, n, s->species[i].fraction, "species.%d.fraction", i + 1);

@@ -129,8 +129,7 @@ static void warn_if_structured(gg_result *result)
 static void warn_if_narrow(gg_result *result)
 {
   const gg_model *m = &result->model;
-  double narrowest = fmin(m->box[0], fmin(m->box[1], m->box[2])), widest = m->diameter[0];
-  if (m->n_species > 1) widest = fmax(widest, m->diameter[1]);
+  double narrowest = fmin(m->box[0], fmin(m->box[1], m->box[2])), widest = gg_model_widest(m);
   if (m->homogeneous || narrowest >= NARROW_BOX * widest) return;
   gg_result_warn(result,
                  "the box is %.3g diameters wide: its grains meet the same few again and again, and means are those of "

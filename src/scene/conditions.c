@@ -61,7 +61,7 @@ static bool any_pair(const gg_scene *s, pair_test *test)
 {
   for (int i = 0; i < s->n_species; i++)
     for (int j = i; j < s->n_species; j++) {
-      int p = gg_pair_index(i, j);
+      int p = gg_pair(i, j);
       if (test(s->collision.e[p], s->collision.beta[p], s->collision.mu[p])) return true;
     }
   return false;

@@ -143,6 +143,17 @@ int gg_scene_field_find(const char *key)
   return -1;
 }
 
+int gg_scene_field_of_pair(const char *key, int *pair)
+{
+  char base[64];
+  const char *dot = strrchr(key, '.');
+  if (!dot || strlen(key) >= sizeof base) return -1;
+  snprintf(base, sizeof base, "%.*s", (int)(dot - key), key);
+  int id = gg_scene_field_find(base);
+  *pair = gg_pair_named(dot + 1);
+  return *pair >= 0 && id >= 0 && gg_scene_fields[id].type == GG_FIELD_PAIRS ? id : -1;
+}
+
 bool gg_scene_is_given(const gg_scene *scene, const char *key)
 {
   int id = gg_scene_field_find(key);
@@ -189,7 +200,7 @@ static void number_allowed(const gg_field *f, const char *what, char *text, size
 
 void gg_field_allowed(const gg_field *f, char *text, size_t size)
 {
-  static const char *const pairs = ", or a map {11: , 12: , 22: } of them";
+  static const char *const pairs = ", or a map of them by pair of species: {11: , 12: , other: }";
   switch (f->type) {
   case GG_FIELD_NUMBER: number_allowed(f, "a number", text, size); return;
   case GG_FIELD_INTEGER: number_allowed(f, "a whole number", text, size); return;

@@ -10,7 +10,7 @@ typedef enum gg_field_type {
   GG_FIELD_INTEGER, /* int64_t */
   GG_FIELD_CHOICE,  /* an enum: one of `words` */
   GG_FIELD_SET,     /* unsigned bits: a list of `words` */
-  GG_FIELD_PAIRS,   /* double[GG_PAIRS]: a number, or {11: , 12: , 22: } */
+  GG_FIELD_PAIRS,   /* double[GG_PAIRS]: a number, or a map by pair: {11: , 12: , other: } */
   GG_FIELD_VECTOR,  /* double[3] */
   GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_species_fields */
 } gg_field_type;
@@ -44,6 +44,8 @@ extern const char *const gg_scene_sections[]; /* first parts of dotted keys; end
 
 /* Index in gg_scene_fields, or -1. */
 int gg_scene_field_find(const char *key);
+/* "collision.e.12": index of collision.e, and the pair; else -1. */
+int gg_scene_field_of_pair(const char *key, int *pair);
 /* Did the user give this key? */
 bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */

@@ -75,7 +75,7 @@ gg_status gg_require_dilute(const gg_model *m, const char *theory, gg_error *err
 
 gg_grain gg_grain_of(const gg_model *m)
 {
-  const gg_contact *c = &m->contact[0]; /* unit masses: m_r (1+e) = eta_1, m_t (1+beta) = eta_2 */
+  const gg_contact *c = &m->contact[0][0]; /* unit masses: m_r (1+e) = eta_1, m_t (1+beta) = eta_2 */
   return (gg_grain){.eta1 = c->jn, .eta2 = c->jt, .K = m->inertia[0]};
 }
 
@@ -137,7 +137,7 @@ void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_
   a->value[GG_Q_ROTATIONAL_TEMPERATURE] = ratio * T;
 }
 
-void gg_answer_collisions(const gg_model *m, const double T[GG_MAX_SPECIES], gg_theory_answer *a)
+void gg_answer_collisions(const gg_model *m, const double T[], gg_theory_answer *a)
 {
   double rate = 0, speed = 0;
   for (int i = 0; i < m->n_species; i++) {

@@ -44,7 +44,7 @@ void gg_answer_pressure(const gg_model *model, double T, double kinetic, double 
 void gg_answer_temperature(const gg_model *model, double T, double ratio, gg_theory_answer *a);
 
 /* Collision rate, mean free path and Knudsen number of Maxwellians at T (partial temperatures T_i for a mixture). */
-void gg_answer_collisions(const gg_model *model, const double T[GG_MAX_SPECIES], gg_theory_answer *a);
+void gg_answer_collisions(const gg_model *model, const double T[], gg_theory_answer *a);
 void gg_answer_collisions_one(const gg_model *model, double T, gg_theory_answer *a);
 
 /* Mole fraction x_i = n_i/n. */

@@ -17,7 +17,7 @@ static double compressibility(const gg_model *m)
   if (m->boltzmann) return 1;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++)
-      sum += gg_fraction(m, i) * gg_fraction(m, j) * pow(m->sigma[2 * i + j], 3) * m->chi[2 * i + j];
+      sum += gg_fraction(m, i) * gg_fraction(m, j) * pow(m->sigma[gg_pair(i, j)], 3) * m->chi[gg_pair(i, j)];
   return 1 + 2 * M_PI / 3 * m->density * sum;
 }
 

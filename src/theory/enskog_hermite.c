@@ -174,7 +174,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
     if (degree > GOOD_DEGREE && relative_error(&rungs, GG_Q_COOLING_RATE) < isotropic_good) break;
     gg_hermite_isotropic h;
     gg_error why;
-    gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0].jn, noise, &why);
+    gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, noise, &why);
     if (status != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
     answer_isotropic(m, &h, noise, next_rung(&rungs));
     if (degree <= VISCOSITY_DEGREE) status = answer_viscosity(m, &h, next_rung(&viscous), &why);

@@ -22,9 +22,9 @@
 static const char name[] = "garzo_montanero2003";
 
 /* c_1, c_2 at given partial temperatures. */
-static void cumulants(const gg_model *m, gg_linearisation how, const double a[], double c[GG_MAX_SPECIES])
+static void cumulants(const gg_model *m, gg_linearisation how, const double a[], double c[GG_BINARY])
 {
-  double A[GG_MAX_SPECIES][GG_MAX_SPECIES], b[GG_MAX_SPECIES];
+  double A[GG_BINARY][GG_BINARY], b[GG_BINARY];
   for (int i = 0; i < 2; i++) {
     gg_linear z = gg_zeta(m, i, a), r = gg_rate_v4(m, i, a);
     double v4 = 15 * a[i] * a[i];
@@ -49,7 +49,7 @@ typedef struct equipartition {
 static double difference(double ratio, void *params)
 {
   const equipartition *q = params;
-  double a[GG_MAX_SPECIES], c[GG_MAX_SPECIES];
+  double a[GG_BINARY], c[GG_BINARY];
   gg_partial_spreads(q->model, 1, ratio, a);
   cumulants(q->model, q->how, a, c);
   return zeta_with(q->model, 0, a, c) - zeta_with(q->model, 1, a, c);
@@ -72,15 +72,15 @@ static double sigma3(const gg_model *m, int o)
 }
 
 /* Kinetic viscosities eta_i; returns their sum. */
-static double kinetic_viscosity(const gg_model *m, const gg_mixture_state *s, double share, double eta[GG_MAX_SPECIES])
+static double kinetic_viscosity(const gg_model *m, const gg_mixture_state *s, double share, double eta[GG_BINARY])
 {
-  double tau[GG_MAX_SPECIES][GG_MAX_SPECIES], source[GG_MAX_SPECIES], rho[GG_MAX_SPECIES];
+  double tau[GG_BINARY][GG_BINARY], source[GG_BINARY], rho[GG_BINARY];
   for (int i = 0; i < 2; i++) rho[i] = m->density * gg_fraction(m, i) * m->mass[i];
   gg_stress_relaxation(m, s->a, tau);
   for (int i = 0; i < 2; i++) {
     source[i] = rho[i] * s->a[i];
     for (int j = 0; j < 2; j++) {
-      int o = 2 * i + j;
+      int o = gg_pair(i, j);
       double B = (1 + m->e[o]) * m->mass[j] / (m->mass[i] + m->mass[j]), S2 = s->a[i] + s->a[j];
       double F = 4 * M_PI * m->density * gg_fraction(m, j) * sigma3(m, o);
       source[i] -= rho[i] / 2 * F * (4 * s->a[i] * B / 15 - B * B * S2 / 5);
@@ -94,12 +94,12 @@ static double kinetic_viscosity(const gg_model *m, const gg_mixture_state *s, do
 
 gg_mixture_viscosity gg_mixture_viscosity_of(const gg_model *m, const gg_mixture_state *s, double share)
 {
-  double eta[GG_MAX_SPECIES];
+  double eta[GG_BINARY];
   gg_mixture_viscosity v;
   v.kinetic = v.total = kinetic_viscosity(m, s, share, eta);
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) {
-      int o = 2 * i + j;
+      int o = gg_pair(i, j);
       double ni = m->density * gg_fraction(m, i), nj = m->density * gg_fraction(m, j);
       double reduced = m->mass[i] * m->mass[j] / (m->mass[i] + m->mass[j]), S = sqrt(s->a[i] + s->a[j]);
       double flow = 0.5 * (eta[i] / (ni * m->mass[i]) + eta[j] / (nj * m->mass[j]));
@@ -115,7 +115,7 @@ static double collisional_pressure(const gg_model *m, const gg_mixture_state *s)
   double sum = 0;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) {
-      int o = 2 * i + j;
+      int o = gg_pair(i, j);
       double reduced = m->mass[i] * m->mass[j] / (m->mass[i] + m->mass[j]);
       sum += gg_fraction(m, i) * gg_fraction(m, j) * sigma3(m, o) * (1 + m->e[o]) * reduced * s->a[i];
     }

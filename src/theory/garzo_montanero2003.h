@@ -8,8 +8,8 @@
 typedef enum gg_linearisation { GG_LINEAR, GG_DIVIDED } gg_linearisation;
 
 typedef struct gg_mixture_state {
-  double a[GG_MAX_SPECIES], c[GG_MAX_SPECIES]; /* T_i/m_i; fourth cumulants */
-  double zeta;                                 /* common cooling rate; NaN if there is none */
+  double a[GG_BINARY], c[GG_BINARY]; /* T_i/m_i; fourth cumulants */
+  double zeta;                       /* common cooling rate; NaN if there is none */
 } gg_mixture_state;
 gg_mixture_state gg_mixture_cooling(const gg_model *model, gg_linearisation how, double T);
 

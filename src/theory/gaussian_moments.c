@@ -171,9 +171,9 @@ static double number_density(const gg_model *m, int i)
 static void add_pair(const gg_model *m, const gg_gaussian *state, int i, int j, gg_vec k, double w,
                      gg_gaussian_rates *r)
 {
-  int o = 2 * i + j;
+  int o = gg_pair(i, j);
   double sigma = m->sigma[o];
-  pair p = {&state[i], &state[j], &m->contact[o], .shear = m->boltzmann ? 0 : sigma * m->shear_rate,
+  pair p = {&state[i], &state[j], &m->contact[i][j], .shear = m->boltzmann ? 0 : sigma * m->shear_rate,
             .frequency = number_density(m, j) * m->chi[o] * sigma * sigma};
   impulse f = impulse_at(&p, k);
   w *= p.frequency;
@@ -220,6 +220,6 @@ void gg_gaussian_rates_at(const gg_model *m, const gg_gaussian *state, gg_gaussi
 bool gg_species_spins(const gg_model *m, int species)
 {
   for (int j = 0; j < m->n_species; j++)
-    if (m->contact[2 * species + j].jt > 0) return true;
+    if (m->contact[species][j].jt > 0) return true;
   return false;
 }

@@ -69,7 +69,7 @@ static void pack(const closure *c, const gg_gaussian *state, gsl_vector *x)
 static double grip_of(const gg_model *m, int i)
 {
   double grip = 0;
-  for (int j = 0; j < m->n_species; j++) grip = fmax(grip, m->contact[2 * i + j].jt * m->contact[2 * i + j].ik1);
+  for (int j = 0; j < m->n_species; j++) grip = fmax(grip, m->contact[i][j].jt * m->contact[i][j].ik1);
   return grip;
 }
 

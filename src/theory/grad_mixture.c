@@ -8,14 +8,14 @@
 #include "theory/mixture.h"
 
 typedef struct grad_state {
-  double a[GG_MAX_SPECIES], yy[GG_MAX_SPECIES], xy[GG_MAX_SPECIES]; /* Pi_yy; Pi_xy per unit shear rate */
-  double rate2[GG_MAX_SPECIES];                                     /* square of the shear rate that sustains T_i */
+  double a[GG_BINARY], yy[GG_BINARY], xy[GG_BINARY]; /* Pi_yy; Pi_xy per unit shear rate */
+  double rate2[GG_BINARY];                           /* square of the shear rate that sustains T_i */
 } grad_state;
 
 static grad_state state_at(const gg_model *m, double T, double ratio)
 {
   grad_state s;
-  double A[GG_MAX_SPECIES][GG_MAX_SPECIES], loss[GG_MAX_SPECIES], drive[GG_MAX_SPECIES];
+  double A[GG_BINARY][GG_BINARY], loss[GG_BINARY], drive[GG_BINARY];
   gg_partial_spreads(m, T, ratio, s.a);
   gg_stress_relaxation(m, s.a, A);
   for (int i = 0; i < 2; i++) loss[i] = -gg_zeta(m, i, s.a).at0 * s.a[i];

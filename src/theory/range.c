@@ -7,7 +7,7 @@ static double least_restitution(const gg_model *m)
 {
   double least = 1;
   for (int i = 0; i < m->n_species; i++)
-    for (int j = 0; j < m->n_species; j++) least = fmin(least, m->e[2 * i + j]);
+    for (int j = 0; j < m->n_species; j++) least = fmin(least, m->e[gg_pair(i, j)]);
   return least;
 }
 

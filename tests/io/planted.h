@@ -33,7 +33,7 @@ static inline gg_result *planted_result(gg_engine_kind engine)
   gg_result *r = calloc(1, sizeof *r);
   r->scene = gg_scene_defaults();
   r->scene.phi = 0.3, r->scene.particles = PLANTED_GRAINS, r->scene.engine = engine;
-  r->scene.collision.beta[0] = r->scene.collision.beta[1] = r->scene.collision.beta[2] = 0;
+  for (int p = 0; p < GG_PAIRS; p++) r->scene.collision.beta[p] = 0;
   gg_model_make(&r->scene, engine, &r->model, NULL);
   r->model.n = PLANTED_GRAINS;
   r->engine = engine == GG_MD ? "md" : "dsmc";

@@ -61,8 +61,8 @@ static void refusals(void **state)
   assert_refused("flow: usf\nphi: 0.3\naspect: [1, 2]\n", "a list of three numbers");
   assert_refused("flow: usf\nphi: 0.3\nmeasure: [rheologie]\n", "a list of rheology");
   assert_refused("flow: usf\nphi: 0.3\ncollision: 0.9\n", "s.yaml:3: key 'collision': is a section");
-  assert_refused("flow: usf\nphi: 0.3\ncollision: {e: {11: 1, 22: 1}}\n", "all of 11, 12 and 22");
-  assert_refused("flow: usf\nphi: 0.3\ncollision: {e: {11: 1, 12: 1, 22: 1, 21: 1}}\n", "11, 12 and 22, each once");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {e: {11: 1, 12: 1, 22: 1, 21: 1}}\n", "or other, each pair once");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {e: {1-17: 1}}\n", "keys like 11, 12 or 1-10");
   assert_refused("flow: usf\nphi: 0.3\ncollision: {mu: -1}\n", "at least 0, or inf");
 }
 

@@ -115,7 +115,7 @@ static long double contact(const long double r[3], const long double v[3], long 
 static long double next_of_pair(const gg_md *e, uint32_t i, uint32_t j, double horizon)
 {
   separation s = separate(e, i, j);
-  int o = 2 * gg_md_species_of(&e->grain[i]) + gg_md_species_of(&e->grain[j]);
+  int o = gg_pair(gg_md_species_of(&e->grain[i]), gg_md_species_of(&e->grain[j]));
   long double first = INFINITY, sigma = e->model.sigma[o], L[3];
   for (int k = 0; k < 3; k++) L[k] = e->box.edge[k];
   int ny = 2 + (int)(fabsl(s.v[1]) * horizon / L[1]), nz = 2 + (int)(fabsl(s.v[2]) * horizon / L[2]);
@@ -180,7 +180,7 @@ long double md_closest(const gg_md *e)
   for (uint32_t i = 0; i < e->n; i++)
     for (uint32_t j = 0; j < i; j++) {
       separation s = separate(e, i, j);
-      int o = 2 * gg_md_species_of(&e->grain[i]) + gg_md_species_of(&e->grain[j]);
+      int o = gg_pair(gg_md_species_of(&e->grain[i]), gg_md_species_of(&e->grain[j]));
       long double y = e->model.walled ? 0 : rintl(s.r[1] / e->box.edge[1]),
                   r[3] = {s.r[0] - y * s.offset, s.r[1] - y * e->box.edge[1], s.r[2]};
       r[0] -= e->box.edge[0] * rintl(r[0] / e->box.edge[0]);

@@ -15,13 +15,13 @@ typedef struct sums {
 static void add(void *context, const gg_collision_record *m)
 {
   sums *s = context;
-  int a = m->species[0], b = m->species[1], pair = gg_pair_index(a, b);
+  int a = m->species[0], b = m->species[1], pair = gg_pair(a, b);
   double mr = 1 / (1 / s->model->mass[a] + 1 / s->model->mass[b]), gn = gg_dot(m->k, m->c12);
   const double k[3] = {m->k.x, m->k.y, m->k.z};
   assert_true(gn > 0 && fabs(gg_dot(m->k, m->k) - 1) < 1e-12);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
-      s->by_hand.stress[pair][i][j] += s->model->sigma[2 * a + b] * k[i] * k[j] * mr * 1.9 * gn;
+      s->by_hand.stress[pair][i][j] += s->model->sigma[gg_pair(a, b)] * k[i] * k[j] * mr * 1.9 * gn;
   s->by_hand.loss[pair] += 0.5 * mr * (1 - 0.81) * gn * gn;
   s->by_hand.collisions[pair]++;
   for (int i = 0; i < 2; i++)

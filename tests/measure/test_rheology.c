@@ -74,12 +74,16 @@ static double value(gg_quantity q, const double *row, const gg_model *m)
 }
 
 /* Sums of an interval: every entry different, so that a swapped component shows. */
-static gg_collision_sums planted_transfer(void)
+static gg_collision_sums planted_transfer(int species)
 {
-  gg_collision_sums t = {.collisions = {100, 20, 30}, .loss = {7, 5, 3}};
-  for (int q = 0; q < GG_PAIRS; q++)
+  static const double collisions[] = {100, 20, 30}, loss[] = {7, 5, 3};
+  gg_collision_sums t = {.wall_loss = 0};
+  for (int q = 0; q < 3; q++) {
+    int into = species > 1 ? q : GG_11;
+    t.collisions[into] += (uint64_t)collisions[q], t.loss[into] += loss[q];
     for (int a = 0; a < 3; a++)
-      for (int b = 0; b < 3; b++) t.stress[q][a][b] = 1 + q + 10 * a + 0.7 * b;
+      for (int b = 0; b < 3; b++) t.stress[into][a][b] += 1 + q + 10 * a + 0.7 * b;
+  }
   return t;
 }
 
@@ -90,7 +94,7 @@ static void sheared_rough(void **state)
   plant(1);
   gg_model m = model_of(GG_USF, 0, 1);
   double row[64];
-  gg_collision_sums t = planted_transfer();
+  gg_collision_sums t = planted_transfer(m.n_species);
   void *self = gg_rheology.create(&m, NULL);
   take_row(self, &m, &t, 0, 1, row); /* the first sample, which makes no row */
   take_row(self, &m, &t, 0.5, 1, row);
@@ -141,7 +145,7 @@ static void mixture(void **state)
   plant(2);
   gg_model m = model_of(GG_HSS, -1, 2);
   double row[64], T[2] = {0}, c4[2] = {0};
-  gg_collision_sums t = planted_transfer();
+  gg_collision_sums t = planted_transfer(m.n_species);
   void *self = gg_rheology.create(&m, NULL);
   take_row(self, &m, &t, 0.5, 1, row);
   for (int i = 0; i < N; i++) {
@@ -165,7 +169,7 @@ static void cooling(void **state)
   plant(3);
   gg_model m = model_of(GG_HCS, -1, 1);
   double row[64];
-  gg_collision_sums none = {0}, t = planted_transfer();
+  gg_collision_sums none = {0}, t = planted_transfer(m.n_species);
   void *self = gg_rheology.create(&m, NULL);
   take_row(self, &m, &none, 0, 1, row);
   double T0 = 0;

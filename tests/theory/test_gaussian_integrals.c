@@ -123,7 +123,7 @@ static void mixture_rates(void **state)
     for (int i = 0; i < 2; i++) {
       double source = 0;
       for (int j = 0; j < 2; j++) {
-        int o = 2 * i + j;
+        int o = gg_pair(i, j);
         double B = (1 + e) * m.mass[j] / (m.mass[i] + m.mass[j]), S2 = a[i] + a[j];
         double F = 4 * M_PI * m.density * gg_fraction(&m, j) * m.chi[o] * pow(m.sigma[o], 3);
         source += 0.5 * F * (4 * a[i] * B / 15 - B * B * S2 / 5);

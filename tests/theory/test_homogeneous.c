@@ -141,7 +141,7 @@ static void published_source_term(void **state)
   for (int i = 0; i < 2; i++) {
     double ours = 0, theirs = 0;
     for (int j = 0; j < 2; j++) {
-      int o = 2 * i + j;
+      int o = gg_pair(i, j);
       double mu = m.mass[j] / (m.mass[i] + m.mass[j]), B = 1.8 * mu;
       double Ti = m.mass[i] * a[i], Tj = m.mass[j] * a[j], weight = gg_fraction(&m, j) * m.chi[o] * pow(m.sigma[o], 3);
       ours -= 2 * M_PI * weight * (4 * a[i] * B / 15 - B * B * (a[i] + a[j]) / 5);

@@ -6,14 +6,17 @@
  *
  * All pairs of species have their substeps (splitting.h) within a pair of segments, so that a round is worth waking
  * other threads for. */
+#include <stdlib.h>
+#include <string.h>
+
 #include "common/thread_pool.h"
 #include "dsmc/dsmc.h"
 
-/* Candidates that a pair of segments should have, on average, of one species and of two, whose substeps are parts of
+/* Candidates that a pair of segments should have, on average, of one species and of more, whose substeps are parts of
  * it: enough that beginning a substep hardly matters, few enough that segments that differ mix as one pair after
  * another would (4000 of one species cost less still, but segments of different temperatures then mix by fits and
  * starts). */
-static const double worth_a_pair[] = {1200, 2400};
+static const double worth_one_species = 1200, worth_mixture = 2400;
 /* Candidates of a round that other threads are woken for. */
 static const double worth_waking = 400;
 
@@ -37,13 +40,50 @@ typedef struct rounds {
   gg_dsmc *d;
   int n, number[GG_MOST_PARTS], grouping[GG_MOST_PARTS];
   int n_substeps;
-  gg_dsmc_substep substep[GG_DSMC_MAX_SUBSTEPS];
+  const gg_dsmc_substep *substep;
   double strain, each; /* where the first begins; how far one round goes */
   double span;         /* of a sweep's strain */
-  species_pair species[GG_PAIRS];
+  int pairs;           /* of species */
+  species_pair *species;
   speed_bounds bounds[GG_DSMC_MAX_SEGMENTS];
-  gg_dsmc_pass sum[GG_DSMC_MAX_SEGMENTS][GG_PAIRS]; /* handed back, by the first segment of each pair */
+  gg_dsmc_pass *sum; /* handed back: `pairs` of each segment that is the first one of a pair, then those of all */
 } rounds;
+
+/* What rounds, and their corrections, take that depends on the number of species. */
+struct gg_dsmc_rounds_room {
+  species_pair *species[2];
+  gg_dsmc_pass *sum[2];
+};
+
+gg_dsmc_rounds_room *gg_dsmc_rounds_room_new(int n_species, int segments, gg_error *err)
+{
+  const size_t pairs = (size_t)gg_pairs_of(n_species), sums = pairs * ((size_t)segments + 1);
+  gg_dsmc_rounds_room *room = gg_new_array(1, sizeof *room, err);
+  if (!room) return NULL;
+  for (int k = 0; k < 2; k++) {
+    room->species[k] = gg_new_array(pairs, sizeof *room->species[k], err);
+    room->sum[k] = gg_new_array(sums, sizeof *room->sum[k], err);
+    if (room->species[k] && room->sum[k]) continue;
+    gg_dsmc_rounds_room_free(room);
+    return NULL;
+  }
+  return room;
+}
+
+void gg_dsmc_rounds_room_free(gg_dsmc_rounds_room *room)
+{
+  for (int k = 0; room && k < 2; k++) {
+    free(room->species[k]);
+    free(room->sum[k]);
+  }
+  free(room);
+}
+
+/* Of a segment; of all of them: behind the last one. */
+static gg_dsmc_pass *sums_of(const rounds *r, int segment)
+{
+  return r->sum + (size_t)segment * (size_t)r->pairs;
+}
 
 /* Add what `p` hands back. */
 static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *p)
@@ -71,7 +111,7 @@ static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, in
   const species_pair *s = &r->species[substep->pair];
   const double span = substep->length * r->span;
   gg_dsmc_schedule *schedule = r->d->schedule;
-  const int segments = r->d->ensemble.segments, pair = gg_pair_index(s->i, s->j);
+  const int segments = r->d->ensemble.segments, pair = gg_pair(s->i, s->j);
   gg_dsmc_pass p = s->common;
   p.blocks[0] = gg_dsmc_segment(p.one, segments, one);
   p.blocks[1] = gg_dsmc_segment(p.two, segments, two);
@@ -85,7 +125,7 @@ static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, in
   gg_dsmc_collide_pass(r->d->ensemble.kernels, s->path, s->f, &p, &schedule->lanes[at->first], &at->rng);
   at->bounds.bound_scale = fmax(p.bound_scale, at->bounds.bound_scale * gg_dsmc_bound_growth(span));
   at->bounds.bound_strain = strain + span;
-  add(&r->sum[at->first][pair], &p);
+  add(&sums_of(r, at->first)[pair], &p);
 }
 
 /* All substeps of a pair of segments. Speed bounds of some scale hold at a larger one, too. */
@@ -141,13 +181,8 @@ static void find_needs(const rounds *r, int parts, uint32_t need[GG_MOST_PARTS])
   }
 }
 
-static bool takes_part(const rounds *r, int pair)
-{
-  return r->species[pair].common.one != NULL;
-}
-
-/* Run all rounds; sums by pair of species. */
-static void run(rounds *r, double expected, gg_dsmc_pass sum[GG_PAIRS])
+/* Run all rounds. Returns sums by pair of species. */
+static const gg_dsmc_pass *run(rounds *r, double expected)
 {
   gg_dsmc_ensemble *e = &r->d->ensemble;
   const int columns = e->segments / 2;
@@ -156,15 +191,17 @@ static void run(rounds *r, double expected, gg_dsmc_pass sum[GG_PAIRS])
   gg_dsmc_ensemble_strain_bounds(e, r->strain + r->substep[0].begin * r->span);
   for (int s = 0; s < e->segments; s++) {
     r->bounds[s] = (speed_bounds){e->bound_scale, e->bound_strain};
-    for (int q = 0; q < GG_PAIRS; q++) r->sum[s][q] = (gg_dsmc_pass){0};
+    for (int q = 0; q < r->pairs; q++) sums_of(r, s)[q] = (gg_dsmc_pass){0};
   }
   gg_thread_pool_rounds(expected < worth_waking * r->n ? NULL : e->pool, r->n, columns, need, run_part, r);
-  for (int q = 0; q < GG_PAIRS; q++) {
+  gg_dsmc_pass *sum = sums_of(r, e->segments);
+  for (int q = 0; q < r->pairs; q++) {
     sum[q] = r->species[q].common;
-    for (int s = 0; s < e->segments && takes_part(r, q); s++) add(&sum[q], &r->sum[s][q]);
+    for (int s = 0; s < e->segments; s++) add(&sum[q], &sums_of(r, s)[q]);
   }
   for (int s = 0; s < e->segments; s++) e->bound_scale = fmax(e->bound_scale, r->bounds[s].scale);
   e->bound_strain = r->bounds[0].strain;
+  return sum;
 }
 
 /* Correction passes for the majorant overflows of these rounds (as in collisions.c): one pair of species alone, in its
@@ -175,29 +212,33 @@ static void correct_overflows(rounds *r, int pair, double majorant, double large
   gg_dsmc *d = r->d;
   species_pair *s = &r->species[pair];
   rounds correction = *r;
+  gg_dsmc_substep substep[GG_DSMC_MAX_SWEEPS];
+  correction.substep = substep;
+  correction.species = d->rounds->species[1];
+  correction.sum = d->rounds->sum[1];
   correction.n_substeps = 0;
+  memcpy(correction.species, r->species, (size_t)r->pairs * sizeof *r->species);
   for (int k = 0; k < r->n_substeps; k++)
-    if (r->substep[k].pair == pair) correction.substep[correction.n_substeps++] = r->substep[k];
+    if (r->substep[k].pair == pair) substep[correction.n_substeps++] = r->substep[k];
   for (double floor = majorant; largest > floor;) {
-    gg_dsmc_pass sum[GG_PAIRS];
     double layer =
         fmax(1.1 * largest, gg_dsmc_sure_majorant(s->path, s->f, 2 * d->now.fastest, s->common.shift)) - floor;
     species_pair *layer_pair = &correction.species[pair];
     layer_pair->common.floor = floor;
     layer_pair->common.majorant = layer;
     layer_pair->rate = s->rate / s->common.majorant * layer;
-    run(&correction, worth_waking * correction.n, sum);
-    gg_dsmc_add_pass(d, pair, &sum[pair]);
-    gg_dsmc_majorant_learn(&d->now.majorant[pair], sum[pair].largest, sqrt(d->now.temperature), sum[pair].tried,
+    const gg_dsmc_pass *sum = run(&correction, worth_waking * correction.n) + pair;
+    gg_dsmc_add_pass(d, pair, sum);
+    gg_dsmc_majorant_learn(&d->now.majorant[pair], sum->largest, sqrt(d->now.temperature), sum->tried,
                            gg_dsmc_window(d, s->i, s->j));
-    largest = sum[pair].largest;
+    largest = sum->largest;
     floor += layer;
   }
 }
 
 static species_pair species_pair_of(gg_dsmc *d, int i, int j)
 {
-  const int pair = gg_pair_index(i, j);
+  const int pair = gg_pair(i, j);
   species_pair s = {.i = i, .j = j, .path = d->path[pair], .f = gg_dsmc_features_of(d, i, j)};
   s.common = gg_dsmc_pass_of(d, i, j);
   return s;
@@ -219,15 +260,14 @@ static void next_rounds(rounds *r)
 static void run_rounds(rounds *r, double time, double expected)
 {
   gg_dsmc *d = r->d;
-  gg_dsmc_pass sum[GG_PAIRS];
   next_rounds(r);
   for (int k = 0; k < r->n_substeps; k++) {
     species_pair *s = &r->species[r->substep[k].pair];
     s->common.majorant = gg_dsmc_majorant_at(&d->now.majorant[r->substep[k].pair], sqrt(d->now.temperature));
     s->rate = gg_dsmc_cross_section(d, s->i, s->j) * time * s->common.majorant * d->ensemble.segments;
   }
-  run(r, expected * r->n, sum);
-  for (int q = 0; q < GG_PAIRS; q++) {
+  const gg_dsmc_pass *sum = run(r, expected * r->n);
+  for (int q = 0; q < r->pairs; q++) {
     if (!sum[q].tried) continue;
     gg_dsmc_add_pass(d, q, &sum[q]);
     gg_dsmc_majorant_learn(&d->now.majorant[q], sum[q].largest, sqrt(d->now.temperature), sum[q].tried,
@@ -239,26 +279,27 @@ static void run_rounds(rounds *r, double time, double expected)
 /* Candidates to be expected in all. */
 static double expected_of(const gg_dsmc *d, const species_pair *s, double time)
 {
-  double majorant = gg_dsmc_majorant_at(&d->now.majorant[gg_pair_index(s->i, s->j)], sqrt(d->now.temperature));
+  double majorant = gg_dsmc_majorant_at(&d->now.majorant[gg_pair(s->i, s->j)], sqrt(d->now.temperature));
   return gg_dsmc_cross_section(d, s->i, s->j) * time * majorant *
          gg_dsmc_candidates_per_unit(s->path, s->f, s->common.one, s->common.two);
 }
 
 void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting)
 {
-  const int segments = d->ensemble.segments, pairs = d->model.n_species == 1 ? 1 : GG_PAIRS;
+  const int segments = d->ensemble.segments, pairs = gg_pairs_of(d->model.n_species);
   const int together = GG_MOST_PARTS / (segments / 2);
-  rounds r = {.d = d};
+  gg_dsmc_substep substep[GG_DSMC_MAX_SUBSTEPS];
+  rounds r = {.d = d, .pairs = pairs, .substep = substep, .species = d->rounds->species[0], .sum = d->rounds->sum[0]};
   double expected = 0;
   for (int q = 0; q < pairs; q++) {
-    const int *ij = gg_dsmc_species_of_pair[q];
-    r.species[q] = species_pair_of(d, ij[0], ij[1]);
+    const gg_species_pair s = gg_species_of_pair(q);
+    r.species[q] = species_pair_of(d, s.i, s.j);
     expected += expected_of(d, &r.species[q], dt);
   }
-  const double worth_a_round = 0.5 * segments * worth_a_pair[d->model.n_species - 1];
+  const double worth_a_round = 0.5 * segments * (pairs == 1 ? worth_one_species : worth_mixture);
   const int n_rounds = (int)fmax(1, fmin(expected / worth_a_round, segments));
   const int sweeps = gg_dsmc_sweeps_of_part(&d->now.step, splitting, dt, n_rounds);
-  r.n_substeps = gg_dsmc_list_substeps(pairs, splitting, sweeps, r.substep);
+  r.n_substeps = gg_dsmc_list_substeps(pairs, splitting, sweeps, substep);
   r.each = span / n_rounds;
   r.span = r.each / sweeps;
   for (int done = 0; done < n_rounds; done += r.n) {

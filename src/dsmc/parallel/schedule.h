@@ -34,10 +34,17 @@ typedef struct gg_dsmc_schedule {
   gg_rng order_rng; /* of the order */
   uint64_t next;    /* round to run, in its order */
   uint8_t order[GG_DSMC_MAX_SEGMENTS];
-  double remainder[GG_PAIRS][GG_DSMC_MAX_SEGMENTS][GG_DSMC_MAX_SEGMENTS]; /* fractional, of candidates */
-  gg_rng rng[GG_DSMC_MAX_SEGMENTS];                                       /* by segment: the first one of a pair */
+  gg_rng rng[GG_DSMC_MAX_SEGMENTS]; /* by segment: the first one of a pair */
   gg_dsmc_rng_lanes lanes[GG_DSMC_MAX_SEGMENTS];
+  double remainder[][GG_DSMC_MAX_SEGMENTS][GG_DSMC_MAX_SEGMENTS]; /* fractional, of candidates; by pair of species */
 } gg_dsmc_schedule;
+
+/* Bytes of one for so many species. */
+GG_INLINE size_t gg_dsmc_schedule_size(int n_species)
+{
+  const gg_dsmc_schedule *s = NULL;
+  return sizeof *s + (size_t)gg_pairs_of(n_species) * sizeof s->remainder[0];
+}
 
 /* From streams of their own of this seed. */
 void gg_dsmc_schedule_start(gg_dsmc_schedule *s, uint64_t seed, uint64_t stream);

@@ -15,6 +15,7 @@ typedef struct gg_plot_grains {
   size_t n;
   const double *position;
   const uint8_t *species;
+  int n_species;
   double edge[3], top, radius[GG_MAX_SPECIES];
 } gg_plot_grains;
 

@@ -40,18 +40,21 @@ static bool find_grains(const gg_stored_result *stored, gg_plot_grains *s)
   *s = (gg_plot_grains){.n = f->n, .position = f->position, .species = f->species};
   memcpy(s->edge, stored->edge, sizeof s->edge);
   bool whole = f->n && f->position && f->species && s->edge[0] > 0 && s->edge[1] > 0;
-  for (size_t i = 0; whole && i < f->n; i++) whole = f->species[i] < GG_MAX_SPECIES;
+  for (size_t i = 0; whole && i < f->n; i++) {
+    whole = f->species[i] < GG_MAX_SPECIES;
+    if (f->species[i] >= s->n_species) s->n_species = f->species[i] + 1;
+  }
   if (!whole) return false;
   s->top = top_of(s);
   read_radii(stored, s);
   return true;
 }
 
-/* Half the colour of its species, half white. */
+/* Half the colour of its species, half white; where the colours come again, a quarter. */
 static unsigned fill_of(int species)
 {
-  unsigned colour = (unsigned)strtoul(gg_plot_colours[species] + 1, NULL, 16);
-  return (colour >> 1 & 0x7f7f7f) + 0x808080;
+  unsigned colour = (unsigned)strtoul(gg_plot_colours[species % GG_PLOT_COLOURS] + 1, NULL, 16);
+  return species < GG_PLOT_COLOURS ? (colour >> 1 & 0x7f7f7f) + 0x808080 : (colour >> 2 & 0x3f3f3f) + 0xc0c0c0;
 }
 
 /* What the page is made of: gnuplot's script, and in SVG what goes over it. */
@@ -113,7 +116,7 @@ static bool draw_panel(const page *p, const gg_plot_grains *s, int along, double
 static void define_discs(FILE *over, const gg_plot_grains *s)
 {
   fprintf(over, "<defs>");
-  for (int k = 0; k < GG_MAX_SPECIES; k++)
+  for (int k = 0; k < s->n_species; k++)
     fprintf(over, "<circle id='g%d' r='%.6g' fill='#%06x'/>", k, s->radius[k], fill_of(k));
   fprintf(over, "</defs>\n");
 }

@@ -44,7 +44,7 @@ static gg_status check_flow(const gg_scene *s, gg_error *err)
 static gg_status check_friction(const gg_scene *s, gg_error *err)
 {
   if (gg_scene_is_given(s, "collision.beta")) return GG_OK;
-  for (int p = 0; p < (s->n_species > 1 ? GG_PAIRS : 1); p++)
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++)
     if (s->collision.mu[p] > 0 && s->collision.mu[p] < INFINITY)
       return gg_fail(
           err, GG_BAD_INPUT,

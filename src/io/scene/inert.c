@@ -41,16 +41,16 @@ static const char *why_inert(const gg_field *f, const gg_scene *scene, unsigned 
   return NULL;
 }
 
-/* Of one species the pairs 12 and 22 are nobody's. */
+/* Pairs of species that there are not: values given to them alone, unlike those of the rest. */
 static void note_pairs(inert_keys *all, const gg_field *f, const gg_scene *scene)
 {
   const double *value = (const double *)(const void *)((const char *)scene + f->offset);
   char key[48];
-  if (scene->n_species > 1) return;
-  static const char *const names[GG_PAIRS] = {"11", "12", "22"};
-  for (int p = GG_12; p < GG_PAIRS; p++) {
-    snprintf(key, sizeof key, "%s.%s", f->key, names[p]);
-    if (value[p] != value[GG_11]) note(all, "with one species", key);
+  char name[GG_PAIR_NAME];
+  for (int p = gg_pairs_of(scene->n_species); p < GG_PAIRS; p++) {
+    if (value[p] == value[GG_11] || value[p] == value[GG_PAIRS - 1]) continue;
+    snprintf(key, sizeof key, "%s.%s", f->key, gg_pair_name(p, name));
+    note(all, scene->n_species == 1 ? "with one species" : "with so few species", key);
   }
 }
 

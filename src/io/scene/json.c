@@ -34,11 +34,23 @@ static json_t *set_json(const gg_field *f, unsigned set)
   return list;
 }
 
-static json_t *pairs_json(const gg_field *f, const double *x)
+/* Up to two species: all three pairs. Of more: those unlike the rest, which the last pair that could be stands for. */
+static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *scene)
 {
-  if (x[GG_11] == x[GG_12] && x[GG_11] == x[GG_22]) return number_json(f, x[GG_11]);
-  return json_pack("{s:o, s:o, s:o}", "11", number_json(f, x[GG_11]), "12", number_json(f, x[GG_12]), "22",
-                   number_json(f, x[GG_22]));
+  const gg_scene defaults = gg_scene_defaults();
+  const double rest = x[GG_PAIRS - 1], usual = *(const double *)(const void *)((const char *)&defaults + f->offset);
+  const int used = gg_pairs_of(scene->n_species > 2 ? scene->n_species : 2), shown = scene->n_species > 2 ? 0 : used;
+  bool alike = true;
+  json_t *map = json_object();
+  for (int p = 0; p < GG_PAIRS; p++) {
+    char name[GG_PAIR_NAME];
+    alike = alike && (p >= used || x[p] == x[GG_11]);
+    if (p < shown || x[p] != rest) json_object_set_new(map, gg_pair_name(p, name), number_json(f, x[p]));
+  }
+  if (rest != usual || json_object_size(map) == 0) json_object_set_new(map, "other", number_json(f, rest));
+  if (!alike) return map;
+  json_decref(map);
+  return number_json(f, x[GG_11]);
 }
 
 static json_t *vector_json(const gg_field *f, const double *x)
@@ -66,7 +78,7 @@ json_t *gg_field_json(const gg_field *f, const void *base, const gg_scene *scene
   case GG_FIELD_INTEGER: return integer_json(f, *(const int64_t *)at);
   case GG_FIELD_CHOICE: return choice_json(f, at);
   case GG_FIELD_SET: return set_json(f, *(const unsigned *)at);
-  case GG_FIELD_PAIRS: return pairs_json(f, at);
+  case GG_FIELD_PAIRS: return pairs_json(f, at, scene);
   case GG_FIELD_VECTOR: return vector_json(f, at);
   case GG_FIELD_SPECIES: return species_json(scene);
   }
@@ -138,7 +150,8 @@ void gg_flow_style_text(const json_t *value, char *text, size_t size)
 
 static bool is_pairs(const json_t *value)
 {
-  return json_object_get(value, "12") != NULL;
+  const char *key = json_object_iter_key(json_object_iter((json_t *)(uintptr_t)value));
+  return key && (gg_pair_named(key) >= 0 || strcmp(key, "other") == 0);
 }
 
 static void print_yaml(FILE *out, const json_t *root)

@@ -141,27 +141,30 @@ static gg_status read_vector(const gg_scene_reader *r, const gg_field *f, const 
   return GG_OK;
 }
 
+/* Pairs that a map leaves out take `other`; without that they stay what they are. */
 static gg_status read_pairs(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
                             double *value)
 {
-  static const char *const names[GG_PAIRS] = {"11", "12", "22"};
+  double other;
   if (node->type != YAML_MAPPING_NODE) {
-    GG_TRY(gg_scene_read_number(r, f, key, node, &value[GG_11]));
-    value[GG_12] = value[GG_22] = value[GG_11];
+    GG_TRY(gg_scene_read_number(r, f, key, node, &other));
+    for (int p = 0; p < GG_PAIRS; p++) value[p] = other;
     return GG_OK;
   }
-  bool given[GG_PAIRS] = {false};
+  bool given[GG_PAIRS] = {false}, others = false;
   for (yaml_node_pair_t *i = node->data.mapping.pairs.start; i < node->data.mapping.pairs.top; i++) {
     const yaml_node_t *name = yaml_document_get_node(r->document, i->key);
-    int p = 0;
-    while (p < GG_PAIRS && (!scalar(name) || strcmp(scalar(name), names[p]) != 0)) p++;
-    if (p == GG_PAIRS || given[p])
-      return gg_scene_refuse(r, name, key, "a map by pairs of species has the keys 11, 12 and 22, each once");
-    given[p] = true;
-    GG_TRY(gg_scene_read_number(r, f, key, yaml_document_get_node(r->document, i->value), &value[p]));
+    bool rest = scalar(name) && strcmp(scalar(name), "other") == 0;
+    int p = scalar(name) && !rest ? gg_pair_named(scalar(name)) : -1;
+    if ((!rest && p < 0) || (rest ? others : given[p]))
+      return gg_scene_refuse(r, name, key,
+                             "a map by pairs of species has keys like 11, 12 or 1-10, or other, each pair once");
+    *(rest ? &others : &given[p]) = true;
+    GG_TRY(gg_scene_read_number(r, f, key, yaml_document_get_node(r->document, i->value), rest ? &other : &value[p]));
   }
-  if (given[GG_11] && given[GG_12] && given[GG_22]) return GG_OK;
-  return gg_scene_refuse(r, node, key, "a map by pairs of species needs all of 11, 12 and 22");
+  for (int p = 0; others && p < GG_PAIRS; p++)
+    if (!given[p]) value[p] = other;
+  return GG_OK;
 }
 
 static gg_status read_one_species(const gg_scene_reader *r, const char *key, const yaml_node_t *node, gg_species *one)
@@ -189,8 +192,7 @@ static gg_status read_species(const gg_scene_reader *r, const gg_field *f, const
 {
   if (node->type != YAML_SEQUENCE_NODE) return refuse_value(r, f, key, node);
   ptrdiff_t n = node->data.sequence.items.top - node->data.sequence.items.start;
-  if (n < 1 || n > GG_MAX_SPECIES)
-    return gg_scene_refuse(r, node, key, "%td species are given; allowed: one or two", n);
+  if (n < 1 || n > 2) return gg_scene_refuse(r, node, key, "%td species are given; allowed: one or two", n);
   gg_scene *scene = r->scene;
   double total = 0;
   for (int i = 0; i < n; i++) {

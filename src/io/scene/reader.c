@@ -103,20 +103,12 @@ gg_status gg_scene_read(gg_scene *scene, const char *yaml, size_t length, const 
 /* "collision.e.12": one pair of a pair-wise coefficient. */
 static gg_status set_pair(gg_scene_reader *r, const char *key, const yaml_node_t *root, bool *done)
 {
-  static const char *const names[GG_PAIRS] = {".11", ".12", ".22"};
-  size_t length = strlen(key);
-  for (int p = 0; p < GG_PAIRS; p++) {
-    if (length < 4 || length > 60 || strcmp(key + length - 3, names[p]) != 0) continue;
-    char base[64];
-    snprintf(base, sizeof base, "%.*s", (int)length - 3, key);
-    int id = gg_scene_field_find(base);
-    if (id < 0 || gg_scene_fields[id].type != GG_FIELD_PAIRS) continue;
-    *done = true;
-    mark_given(r->scene, id);
-    char *values = (char *)r->scene + gg_scene_fields[id].offset;
-    return gg_scene_read_number(r, &gg_scene_fields[id], key, root, (double *)(void *)values + p);
-  }
-  return GG_OK;
+  int pair, id = gg_scene_field_of_pair(key, &pair);
+  if (id < 0) return GG_OK;
+  *done = true;
+  mark_given(r->scene, id);
+  char *values = (char *)r->scene + gg_scene_fields[id].offset;
+  return gg_scene_read_number(r, &gg_scene_fields[id], key, root, (double *)(void *)values + pair);
 }
 
 /* "species.2.mass": one member of one species. */

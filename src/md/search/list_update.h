@@ -132,7 +132,7 @@ GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found
     gg_v8 x, y, z, reach = gg_all8(e->pair_reach[0]);
     gg_md_gather_centres(e->skin, candidates + k, &x, &y, &z);
     for (int l = 0; IS_MIXTURE && l < GG_BATCH; l++)
-      reach[l] = e->pair_reach[species + gg_md_species_of(&e->grain[candidates[k + (uint32_t)l]])];
+      reach[l] = e->pair_reach[gg_pair(species, gg_md_species_of(&e->grain[candidates[k + (uint32_t)l]]))];
     x -= centre.x, y -= centre.y, z -= centre.z;
     gg_v8 layers = gg_nearest8(y * inverse[1]);
     y -= L[1] * layers;

@@ -51,8 +51,8 @@ GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s,
   gg_v8 touch2 = gg_all8(sigma2[0]);
   if (IS_MIXTURE) {
     int species = gg_md_species_of(g);
-    double s0 = sigma2[2 * species], s1 = sigma2[2 * species + 1];
-    touch2 = gg_choose8(gg_odd8(b.tag), gg_all8(s1), gg_all8(s0));
+    const double *row = sigma2 + gg_md_pair(&e->contacts, species, 0);
+    touch2 = gg_choose8(gg_odd8(b.tag), gg_all8(row[1]), gg_all8(row[0]));
   }
   return gg_md_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
 }

@@ -10,7 +10,7 @@ enum { SWEEPS = 3000 };
 
 static gg_status make_cells(const gg_md *e, gg_md_packing *p, gg_error *err)
 {
-  double widest = fmax(e->model.diameter[0], e->model.diameter[e->model.n_species - 1]) * 1.05;
+  double widest = gg_model_widest(&e->model) * 1.05;
   int32_t n[3];
   gg_md_cells_count(&e->box, fmax(widest, cbrt(e->model.volume / e->n)), n); /* not most of them empty */
   if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
@@ -39,9 +39,11 @@ static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *
 /* Each species scattered at random over the places. */
 static void deal_species(gg_md *e, double *diameter, gg_rng *rng)
 {
-  uint32_t left[2] = {(uint32_t)e->model.n_of[0], e->n - (uint32_t)e->model.n_of[0]};
+  uint32_t left[GG_MAX_SPECIES];
+  for (int k = 0; k < e->model.n_species; k++) left[k] = (uint32_t)e->model.n_of[k];
   for (uint32_t i = 0; i < e->n; i++) {
-    uint32_t s = gg_rng_below(rng, left[0] + left[1]) >= left[0];
+    uint32_t s = 0;
+    for (uint32_t card = (uint32_t)gg_rng_below(rng, e->n - i); card >= left[s]; s++) card -= left[s];
     left[s]--;
     e->grain[i].counter = s;
     diameter[i] = e->model.diameter[s];

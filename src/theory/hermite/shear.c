@@ -12,7 +12,7 @@ gg_status gg_hermite_shear_begin(gg_hermite_shear *h, const gg_model *m, gg_erro
   gg_gaussian start[GG_MAX_SPECIES];
   *h = (gg_hermite_shear){.model = m, .state.width = 1};
   h->gas = (gg_hermite_gas){.frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0],
-                            .eta = m->contact[0].jn,
+                            .eta = m->contact[0][0].jn,
                             .shear = m->boltzmann ? 0 : m->sigma[0] * m->shear_rate};
   h->gas.stream[0][1] = m->shear_rate;
   h->state.a = calloc((size_t)GG_HERMITE_MOST_FUNCTIONS, sizeof *h->state.a);

@@ -1,0 +1,42 @@
+#include "common/species.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+gg_species_pair gg_species_of_pair(int pair)
+{
+  gg_species_pair p = {0, 0};
+  while (gg_pair(0, p.j + 1) <= pair) p.j++;
+  p.i = pair - gg_pair(0, p.j);
+  return p;
+}
+
+const char *gg_pair_name(int pair, char name[GG_PAIR_NAME])
+{
+  const gg_species_pair p = gg_species_of_pair(pair);
+  snprintf(name, GG_PAIR_NAME, p.j < 9 ? "%d%d" : "%d-%d", p.i + 1, p.j + 1);
+  return name;
+}
+
+/* A number of one or two digits, from 1 on; 0: it is none. */
+static int number(const char *text, size_t digits)
+{
+  int value = 0;
+  if (digits < 1 || digits > 2) return 0;
+  for (size_t k = 0; k < digits; k++) {
+    if (!isdigit((unsigned char)text[k]) || (k == 0 && text[k] == '0')) return 0;
+    value = 10 * value + (text[k] - '0');
+  }
+  return value;
+}
+
+int gg_pair_named(const char *name)
+{
+  const char *dash = strchr(name, '-');
+  size_t length = strlen(name);
+  if (!dash && length != 2) return -1;
+  int i = dash ? number(name, (size_t)(dash - name)) : number(name, 1);
+  int j = dash ? number(dash + 1, length - (size_t)(dash - name) - 1) : number(name + 1, 1);
+  return i < 1 || j < 1 || i > GG_MAX_SPECIES || j > GG_MAX_SPECIES ? -1 : gg_pair(i - 1, j - 1);
+}
