@@ -7,7 +7,7 @@
 #include "io/h5/checkpoint_file.h"
 #include "io/scene/json.h"
 #include "io/scene/reader.h"
-#include "run/fingerprint.h"
+#include "scene/resumption.h"
 
 static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 {
@@ -15,7 +15,7 @@ static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
   if (!yaml) return gg_fail(err, GG_FAILED, "out of memory");
   gg_status status = gg_archive_put(a, "simulation/scene", GG_ITEM_U8, yaml, strlen(yaml), err);
   free(yaml);
-  if (status == GG_OK) status = gg_fingerprint_put(&s->scene, a, err);
+  if (status == GG_OK) status = gg_resumption_put(&s->scene, a, err);
   if (status == GG_OK) status = gg_archive_put(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err);
   return status == GG_OK ? s->engine->ops->save(s->engine, a, err) : status;
 }
@@ -50,7 +50,7 @@ static gg_status stored_scene(const gg_archive *a, const char *path, gg_scene *s
 
 static gg_status take_all(gg_simulation *s, const gg_archive *a, gg_error *err)
 {
-  GG_TRY(gg_fingerprint_check(&s->scene, a, err));
+  GG_TRY(gg_resumption_check(&s->scene, a, err));
   GG_TRY(gg_archive_get(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err));
   return gg_engine_ops_of(s->scene.engine)->restore(&s->model, a, &s->engine, err);
 }

@@ -2,14 +2,14 @@
 #include <stdio.h>
 
 #include "run/clock.h"
-#include "run/fingerprint.h"
 #include "run/replicas.h"
+#include "scene/resumption.h"
 
 gg_status gg_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *err)
 {
   struct gg_replicas_state state = all->state;
   state.wall += gg_wall_now() - all->started;
-  GG_TRY(gg_fingerprint_put(&all->scene, a, err));
+  GG_TRY(gg_resumption_put(&all->scene, a, err));
   GG_TRY(gg_archive_put(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
   for (int i = 0; i < all->n; i++) {
     gg_archive one = {0};
@@ -35,7 +35,7 @@ static gg_status check_kind(const gg_archive *a, gg_error *err)
 gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *a, gg_error *err)
 {
   GG_TRY(check_kind(a, err));
-  GG_TRY(gg_fingerprint_check(&all->scene, a, err));
+  GG_TRY(gg_resumption_check(&all->scene, a, err));
   GG_TRY(gg_archive_get(a, "campaign/state", GG_ITEM_U8, &all->state, sizeof all->state, err));
   for (int i = 0; i < all->n; i++) {
     gg_archive one = {0};

@@ -90,11 +90,12 @@ const gg_field gg_scene_fields[] = {
     {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
      .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or not asked if "
             "run.collisions is given",
-     .also = "error tolerance accuracy"},
+     .also = "error tolerance accuracy", .may_change = true},
     {"run.collisions", GG_FIELD_NUMBER, AT(run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
-     .doc = "stop after so much averaging", .also = "steps"},
+     .doc = "stop after so much averaging", .also = "steps", .may_change = true},
     {"run.time_limit", GG_FIELD_NUMBER, AT(run.time_limit), 0, 1e9, true, NONE, .unit = "s",
-     .doc = "stop after so much time, at once; a checkpoint goes on from there", .also = "walltime wall_time max_time"},
+     .doc = "stop after so much time, at once; a checkpoint goes on from there", .also = "walltime wall_time max_time",
+     .may_change = true},
     {"run.warmup", GG_FIELD_NUMBER, AT(run.warmup), 0, 1e15, false, AUTO, .unit = "collisions per grain",
      .doc = "before averaging; auto: until the slowest quantity is steady", .also = "equilibration burn_in"},
     {"run.replicas", GG_FIELD_INTEGER, AT(run.replicas), 1, 10000, .doc = "independent copies, averaged over",
@@ -116,9 +117,10 @@ const gg_field gg_scene_fields[] = {
     {"measure", GG_FIELD_SET, AT(measure), .words = observables, .doc = "what is measured; only that is paid for",
      .also = "observables"},
     {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
-     .doc = "time between checkpoints; 0: none"},
+     .doc = "time between checkpoints; 0: none", .may_change = true},
     {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
-     .doc = "between stored frames; 0: only the last state", .when = {&gg_if_one_engine}, .also = "dump"},
+     .doc = "between stored frames; 0: only the last state", .when = {&gg_if_one_engine}, .also = "dump",
+     .may_change = true},
     {0},
 };
 

@@ -1,5 +1,6 @@
 /* The one table of what a scene may say. It drives the reader, --set, range checks, `graingas info`, the scene echoed
- * in results, and the manual. A new key is a member of gg_scene and a line of fields.c. */
+ * in results, what a checkpoint is held against when a run is resumed, and the manual. A new key is a member of
+ * gg_scene and a line of fields.c. */
 #ifndef GG_SCENE_FIELDS_H
 #define GG_SCENE_FIELDS_H
 
@@ -35,6 +36,7 @@ typedef struct gg_field {
   const char *unit, *doc;
   const struct gg_condition *when[GG_MOST_CONDITIONS]; /* all of them, or the key has no effect (scene/conditions.h) */
   const char *also; /* what others call it, for messages: words separated by blanks */
+  bool may_change;  /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
 
 enum { GG_MAX_FIELDS = 48 };                  /* as many bits of gg_scene.given are used */

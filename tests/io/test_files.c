@@ -335,15 +335,56 @@ static void checkpoint_of_another_version(void **state)
   assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
   flip_bit("c.h5", GG_VERSION, sizeof GG_VERSION - 1);
   seal_anew("c.h5");
-  char other[] = GG_VERSION, expected[200];
+  char other[] = GG_VERSION, expected[240];
   other[0] ^= 1;
   assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
-  snprintf(expected, sizeof expected,
-           "c.h5: cannot be read: graingas %s has written it, and this is graingas %s; only the same version can go on",
-           other, GG_VERSION);
+  snprintf(
+      expected, sizeof expected,
+      "c.h5: cannot be read: graingas %s has written it (layout %d), and this is graingas %s (layout %d); only the "
+      "same can go on",
+      other, GG_CHECKPOINT_LAYOUT, GG_VERSION, GG_CHECKPOINT_LAYOUT);
   assert_string_equal(err.message, expected);
   gg_archive_clear(&one);
   remove_all();
+}
+
+/* The same of another layout, by the same version; one from before layouts had a number is the first. */
+static void checkpoint_of_another_layout(void **state)
+{
+  (void)state;
+  const struct {
+    int layout;
+    bool remove;
+  } cases[] = {{GG_CHECKPOINT_LAYOUT + 1, false}, {1, true}};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    gg_error err = {0};
+    bool older;
+    char expected[240];
+    gg_scene scene = gg_scene_defaults();
+    gg_archive one = archive(1), back = {0};
+    assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+    unsigned char seal[GG_SEAL_SIZE]; /* HDF5 cuts it off */
+    hid_t file = H5Fopen("c.h5", H5F_ACC_RDWR, H5P_DEFAULT),
+          version = H5Dopen(file, "/checkpoint/version", H5P_DEFAULT);
+    hid_t layout = H5Aopen(version, "layout", H5P_DEFAULT);
+    if (!cases[k].remove) assert_true(H5Awrite(layout, H5T_NATIVE_INT, &cases[k].layout) >= 0);
+    H5Aclose(layout);
+    if (cases[k].remove) assert_true(H5Adelete(version, "layout") >= 0);
+    H5Dclose(version);
+    H5Fclose(file);
+    int fd = open("c.h5", O_RDWR | O_APPEND);
+    assert_int_equal(gg_seal_of_file(fd, seal), 0);
+    assert_int_equal(write(fd, seal, sizeof seal), GG_SEAL_SIZE);
+    close(fd);
+    assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
+    snprintf(expected, sizeof expected,
+             "c.h5: cannot be read: graingas %s has written it (layout %d), and this is graingas %s (layout %d); only "
+             "the same can go on",
+             GG_VERSION, cases[k].layout, GG_VERSION, GG_CHECKPOINT_LAYOUT);
+    assert_string_equal(err.message, expected);
+    gg_archive_clear(&one);
+    remove_all();
+  }
 }
 
 /* A checkpoint that cannot be written leaves both generations as they were. */
@@ -461,6 +502,7 @@ int main(void)
       cmocka_unit_test(unreadable_results),
       cmocka_unit_test(checkpoint_generations),
       cmocka_unit_test(checkpoint_of_another_version),
+      cmocka_unit_test(checkpoint_of_another_layout),
       cmocka_unit_test(checkpoint_without_room),
       cmocka_unit_test(threads_at_once),
       cmocka_unit_test(two_in_memory),

@@ -49,10 +49,12 @@ static void *make_image(const char *path, const gg_archive *a, const gg_scene *s
 {
   gg_h5 h;
   uint64_t n = a->n_items;
+  const int layout = GG_CHECKPOINT_LAYOUT;
   char *yaml = gg_scene_yaml(scene);
   gg_h5_create_in_memory(&h);
   gg_h5_text(&h, "/checkpoint/scene", yaml ? yaml : "");
   gg_h5_text(&h, "/checkpoint/version", GG_VERSION);
+  gg_h5_attribute(&h, "/checkpoint/version", "layout", H5T_NATIVE_INT, &layout, 0);
   gg_h5_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n, 0);
   write_items(&h, a);
   void *image = gg_h5_image(&h, size);
@@ -128,13 +130,18 @@ static gg_status read_item(gg_h5 *h, size_t i, gg_archive *a, gg_error *err)
   return status;
 }
 
-/* States are saved as they stand in memory, which another version may have laid out otherwise. */
+/* States are saved as they stand in memory, which another version may have laid out otherwise. The first layout did not
+ * say its number. */
 static void check_version(gg_h5 *h)
 {
-  char *version = gg_h5_read_text(h, "/checkpoint/version"), why[160];
-  if (version && strcmp(version, GG_VERSION) != 0) {
-    snprintf(why, sizeof why, "graingas %.20s has written it, and this is graingas %s; only the same version can go on",
-             version, GG_VERSION);
+  int layout = 1;
+  char *version = gg_h5_read_text(h, "/checkpoint/version"), why[200];
+  if (version && gg_h5_has_attribute(h, "/checkpoint/version", "layout"))
+    gg_h5_read_attribute(h, "/checkpoint/version", "layout", H5T_NATIVE_INT, &layout);
+  if (version && (strcmp(version, GG_VERSION) != 0 || layout != GG_CHECKPOINT_LAYOUT)) {
+    snprintf(why, sizeof why,
+             "graingas %.20s has written it (layout %d), and this is graingas %s (layout %d); only the same can go on",
+             version, layout, GG_VERSION, GG_CHECKPOINT_LAYOUT);
     gg_h5_failed(h, why);
   }
   free(version);

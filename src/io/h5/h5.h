@@ -59,6 +59,7 @@ void *gg_h5_read_array(gg_h5 *h, const char *path, hid_t type, size_t item, size
 /* The last row of an array that grows, `items` of them; to be freed, NULL on failure. */
 void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, size_t items);
 char *gg_h5_read_text_attribute(gg_h5 *h, const char *object, const char *name);
+bool gg_h5_has_attribute(gg_h5 *h, const char *object, const char *name);
 void gg_h5_read_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, void *value);
 
 /* Record a failure of one's own, or HDF5's latest one. */

@@ -90,6 +90,11 @@ void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, s
   return NULL;
 }
 
+bool gg_h5_has_attribute(gg_h5 *h, const char *object, const char *name)
+{
+  return !h->failed && H5Aexists_by_name(h->file, object, name, H5P_DEFAULT) > 0;
+}
+
 void gg_h5_read_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, void *value)
 {
   if (h->failed) return;
