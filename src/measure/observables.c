@@ -2,6 +2,7 @@
 
 #define PLUG_IN(FLAG, word, description) &gg_##word,
 const gg_observable *const gg_observables[] = {GG_OBSERVABLES(PLUG_IN) NULL};
+_Static_assert(GG_N_OBSERVABLES <= 32, "a bit of gg_scene.measure for each");
 
 bool gg_derived_find(const gg_derived *table, gg_quantity q, gg_function *f)
 {

@@ -10,7 +10,6 @@
 static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width, gg_error *err)
 {
   int k = r->n_observables;
-  if (k == GG_MAX_OBSERVABLES) return gg_fail(err, GG_FAILED, "too many observables");
   r->self[k] = o->create(&r->model, err);
   if (!r->self[k]) return GG_FAILED;
   r->observable[k] = o;

@@ -5,7 +5,7 @@
 #include "measure/observable.h"
 #include "run/run.h"
 
-enum { GG_MAX_OBSERVABLES = 16 };
+enum { GG_MAX_OBSERVABLES = GG_N_OBSERVABLES + 1 }; /* every one there is, and those of the user's own */
 
 typedef struct gg_replica {
   gg_model model;

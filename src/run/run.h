@@ -3,7 +3,7 @@
 #define GG_RUN_H
 
 #include "run/result.h"
-#include "theory/theory.h"
+#include "theory/theory_list.h"
 
 /* What the caller wants to be told while it runs; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
@@ -30,7 +30,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
 gg_status gg_run_how_far(const gg_archive *archive, gg_checkpoint_part *part, gg_error *err);
 
 /* Both engines and every theory. */
-enum { GG_MOST_THEORIES = 32 };
+enum { GG_MOST_THEORIES = GG_N_THEORIES + GG_MOST_OWN_THEORIES };
 struct gg_comparison {
   gg_scene scene;          /* holds its extension */
   gg_model model;          /* md's */

@@ -3,27 +3,8 @@
 
 #include "theory/theory_list.h"
 
-const gg_theory *const gg_theories[] = {
-    &gg_lun1991,
-    &gg_lun1991_lun_savage,
-    &gg_enskog_hermite,
-    &gg_gaussian_closure,
-    &gg_grad,
-    &gg_sela_goldhirsch1998,
-    &gg_huthmann_zippelius1997,
-    &gg_haff1983,
-    &gg_goldhirsch_zanetti1993,
-    &gg_garzo_dufty1999,
-    &gg_montanero_santos2000,
-    &gg_garzo_santos_montanero2007,
-    &gg_garzo_montanero2003,
-    &gg_garzo_montanero2003_ms,
-    &gg_enskog,
-    &gg_carnahan_starling1969,
-    &gg_kolafa2004,
-    &gg_pieprzyk2019,
-    NULL,
-};
+#define ENTRY(name) &gg_##name,
+const gg_theory *const gg_theories[] = {GG_THEORIES(ENTRY) NULL};
 
 const gg_theory *gg_theory_find(const char *name)
 {
@@ -49,8 +30,8 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
   if (model->law.e && !theory->own)
     return gg_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
                    theory->name, model->law.name);
-  gg_status status = theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err)
-                                 : theory->evaluate(model, answer, err);
+  gg_status status =
+      theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err) : theory->evaluate(model, answer, err);
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
   return status;
 }

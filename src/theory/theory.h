@@ -24,7 +24,7 @@ typedef struct gg_theory {
   const gg_theory_definition *own;
 } gg_theory;
 
-/* Every theory there is, NULL-terminated, in the order they are shown. */
+/* Every theory there is (theory_list.h), NULL-terminated, in the order they are shown. */
 extern const gg_theory *const gg_theories[];
 const gg_theory *gg_theory_find(const char *name);
 

@@ -1,26 +1,37 @@
-/* The theories by name: one a file. */
+/* The theories there are, in the order in which they are shown: the one list of them. Each is a constant gg_<name> in a
+ * file of its own, or shares one with its variants, and describes itself there; what asks for theories or names them
+ * reads these constants. */
 #ifndef GG_THEORY_LIST_H
 #define GG_THEORY_LIST_H
 
 #include "theory/theory.h"
 
-extern const gg_theory gg_lun1991;
-extern const gg_theory gg_lun1991_lun_savage;
-extern const gg_theory gg_enskog_hermite;
-extern const gg_theory gg_gaussian_closure;
-extern const gg_theory gg_grad;
-extern const gg_theory gg_sela_goldhirsch1998;
-extern const gg_theory gg_huthmann_zippelius1997;
-extern const gg_theory gg_haff1983;
-extern const gg_theory gg_goldhirsch_zanetti1993;
-extern const gg_theory gg_garzo_dufty1999;
-extern const gg_theory gg_montanero_santos2000;
-extern const gg_theory gg_garzo_santos_montanero2007;
-extern const gg_theory gg_garzo_montanero2003;
-extern const gg_theory gg_garzo_montanero2003_ms;
-extern const gg_theory gg_enskog;
-extern const gg_theory gg_carnahan_starling1969;
-extern const gg_theory gg_kolafa2004;
-extern const gg_theory gg_pieprzyk2019;
+#define GG_THEORIES(X)                                                                                                 \
+  X(lun1991)                                                                                                           \
+  X(lun1991_lun_savage)                                                                                                \
+  X(enskog_hermite)                                                                                                    \
+  X(gaussian_closure)                                                                                                  \
+  X(grad)                                                                                                              \
+  X(sela_goldhirsch1998)                                                                                               \
+  X(huthmann_zippelius1997)                                                                                            \
+  X(haff1983)                                                                                                          \
+  X(goldhirsch_zanetti1993)                                                                                            \
+  X(garzo_dufty1999)                                                                                                   \
+  X(montanero_santos2000)                                                                                              \
+  X(garzo_santos_montanero2007)                                                                                        \
+  X(garzo_montanero2003)                                                                                               \
+  X(garzo_montanero2003_ms)                                                                                            \
+  X(enskog)                                                                                                            \
+  X(carnahan_starling1969)                                                                                             \
+  X(kolafa2004)                                                                                                        \
+  X(pieprzyk2019)
+
+#define GG_THEORY_CONSTANT(name) extern const gg_theory gg_##name;
+GG_THEORIES(GG_THEORY_CONSTANT)
+#undef GG_THEORY_CONSTANT
+
+#define GG_THEORY_COUNT(name) +1
+enum { GG_N_THEORIES = 0 GG_THEORIES(GG_THEORY_COUNT) };
+#undef GG_THEORY_COUNT
 
 #endif

@@ -1,6 +1,7 @@
 """Documents say what is true of the tree: the page of scene keys is the table's, every path that a document names
 exists, and the commands that it shows are the command's. So do comments of the code."""
 import glob
+import json
 import os
 import re
 import sys
@@ -128,6 +129,38 @@ def test_commands():
                 if f"| `{key}` |" not in page:
                     wrong.add(f"{name}: --set {key}")
     check(not wrong, "shown in documents, but not so:\n" + "\n".join(sorted(wrong)))
+
+
+def names_of(kind):
+    """From the program itself: the words of `measure`, the theories that a scene is shown, those that refuse it too."""
+    if kind == "observables":
+        words = run("--scene-page").out.split("### `measure`")[1].split("###")[0]
+        return re.findall(r"^- `(\w+)`: \S", words, re.MULTILINE), words.count("\n- ")
+    about = json.loads(run("theory", os.path.join(SOURCE, "examples", "usf.yaml"), "--json").out)["theories"]
+    return list(about), sum(all(t[k] for k in ("title", "citation", "assumptions")) for t in about.values())
+
+
+def test_observables():
+    """Every observable has a word of description in the list of them, a section in its document, a scene that measures
+    it."""
+    names, described = names_of("observables")
+    check(len(names) == described >= 13, names, described)
+    text, scenes = documents()["docs/observables.md"], ""
+    for path in glob.glob(os.path.join(SOURCE, "examples", "*.yaml")):
+        scenes += "".join(re.findall(r"^measure:.*", open(path, encoding="utf-8").read(), re.MULTILINE))
+    none({f"docs/observables.md: a section on {name}" for name in names if name != "rheology"
+          and f"\n## `{name}`\n" not in text})
+    none({f"examples: a scene that measures {name}" for name in names if not re.search(rf"\b{name}\b", scenes)})
+
+
+def test_theories():
+    """Every theory describes itself, stands in the table of theories, and is spoken of below it."""
+    names, described = names_of("theories")
+    check(len(names) == described >= 18, names, described)
+    lines = documents()["docs/theory.md"].splitlines()
+    table, text = "".join(l for l in lines if l.startswith("|")), "\n".join(l for l in lines if not l.startswith("|"))
+    none({f"docs/theory.md: a row of {name} in the table" for name in names if f"`{name}`" not in table})
+    none({f"docs/theory.md: a section on {name}" for name in names if not re.search(rf"\b{name}\b", text)})
 
 
 def test_line_lengths():
