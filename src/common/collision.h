@@ -12,7 +12,8 @@
  * thesis, eqs 2.3-2.17, where the printed eta_2 = (1+beta)/K(1+K) must read (1+beta)K/(2(1+K)).
  * A wall is a partner of infinite mass without spin: 1/m2 = 1/(K2 m2) = 0.
  *
- * Every function inlines and takes `rule` as a constant, so that a smooth kernel holds no line of the others. */
+ * The rule itself is in common/collision_of.h, stated once for doubles (here) and for lanes (src/dsmc/kernel). Every
+ * function inlines and takes `rule` as a constant, so that a smooth kernel holds no line of the others. */
 #ifndef GG_COLLISION_H
 #define GG_COLLISION_H
 
@@ -54,44 +55,57 @@ GG_INLINE double gg_inverse_mt(const gg_contact *c)
   return (c->im1 + c->im2) + (c->ik1 + c->ik2);
 }
 
-/* Relative velocity of the surfaces at contact, g = c12 - k x (s1 + s2). */
-GG_INLINE gg_vec gg_contact_velocity(gg_rule rule, gg_vec k, gg_vec c12, gg_vec s1, gg_vec s2)
-{
-  return rule == GG_SMOOTH ? c12 : gg_sub(c12, gg_cross(k, gg_add(s1, s2)));
-}
+#define GG_NUMBER double
+#define GG_VECTOR gg_vec
+#define GG_OF(name) gg_##name
+#define GG_CONTACT gg_contact
+#define GG_ALL(x) (x)
+#define GG_ABS(x) fabs(x)
+#define GG_SQRT(x) sqrt(x)
+#define GG_IF_LESS(a, b, yes, no) ((a) < (b) ? (yes) : (no))
+#include "common/collision_of.h"
+#undef GG_NUMBER
+#undef GG_VECTOR
+#undef GG_OF
+#undef GG_CONTACT
+#undef GG_ALL
+#undef GG_ABS
+#undef GG_SQRT
+#undef GG_IF_LESS
 
-/* Impulse J on grain 2 (-J on grain 1), from the contact velocity and its normal part gn = k.g. */
-GG_INLINE gg_vec gg_impulse(gg_rule rule, const gg_contact *c, gg_vec k, gg_vec g, double gn)
-{
-  double jn = c->jn * gn;
-  if (rule == GG_SMOOTH) return gg_scale(jn, k);
-  gg_vec gt = gg_axpy(-gn, k, g);
-  double jt = c->jt;
-  if (rule == GG_FRICTIONAL) {
-    double gt2 = gg_dot(gt, gt), limit = c->mu * fabs(jn);
-    if (jt * jt * gt2 > limit * limit) jt = limit / sqrt(gt2); /* sliding; never with gt = 0 */
-  }
-  return gg_axpy(jt, gt, gg_scale(jn, k));
-}
-
-/* Give the impulse to both partners. */
 GG_INLINE void gg_kick(gg_rule rule, const gg_contact *c, gg_vec k, gg_vec J, gg_vec *c1, gg_vec *s1, gg_vec *c2,
                        gg_vec *s2)
 {
-  *c1 = gg_axpy(-c->im1, J, *c1);
-  *c2 = gg_axpy(c->im2, J, *c2);
-  if (rule == GG_SMOOTH) return;
-  gg_vec kJ = gg_cross(k, J);
-  *s1 = gg_axpy(-c->ik1, kJ, *s1);
-  *s2 = gg_axpy(-c->ik2, kJ, *s2);
+  gg_kick_centres(c->im1, c->im2, J, c1, c2);
+  if (rule != GG_SMOOTH) gg_kick_spins(c->ik1, c->ik2, k, J, s1, s2);
 }
 
-/* Energy (translation and rotation) that the collision destroys, >= 0 for |e|, |beta| <= 1: from the impulse, so that
- * it holds for sticking and sliding alike. Equals (1/2) m_r (1-e^2) g_n^2 + (1/2) m_t (1-beta^2) g_t^2. */
+/* What the energy that collisions destroy follows from, of one collision or summed over many of a kind. */
+typedef struct gg_loss_terms {
+  double Jg, Jn2, J2; /* J.g, J_n^2, J.J */
+} gg_loss_terms;
+
+/* Energy (translation and rotation) that collisions destroy, >= 0 for |e|, |beta| <= 1: from the impulse, so that it
+ * holds for sticking and sliding and for any e alike. Equals (1/2) m_r (1-e^2) g_n^2 + (1/2) m_t (1-beta^2) g_t^2. */
+GG_INLINE double gg_loss_of_terms(const gg_contact *c, gg_loss_terms t)
+{
+  return t.Jg - 0.5 * (gg_inverse_mr(c) * t.Jn2 + gg_inverse_mt(c) * (t.J2 - t.Jn2));
+}
+
 GG_INLINE double gg_energy_loss(const gg_contact *c, gg_vec k, gg_vec g, gg_vec J)
 {
-  double Jn = gg_dot(k, J), J2 = gg_dot(J, J), Jt2 = J2 - Jn * Jn;
-  return gg_dot(J, g) - 0.5 * (gg_inverse_mr(c) * Jn * Jn + gg_inverse_mt(c) * Jt2);
+  double Jn = gg_dot(k, J);
+  return gg_loss_of_terms(c, (gg_loss_terms){.Jg = gg_dot(J, g), .Jn2 = Jn * Jn, .J2 = gg_dot(J, J)});
+}
+
+/* Collisional stress: sigma k J. */
+GG_INLINE void gg_add_stress(double stress[3][3], double sigma, gg_vec k, gg_vec J)
+{
+  stress[0][0] += sigma * k.x * J.x;
+  stress[1][1] += sigma * k.y * J.y;
+  stress[2][2] += sigma * k.z * J.z;
+  stress[0][1] += sigma * k.x * J.y;
+  stress[1][0] += sigma * k.y * J.x;
 }
 
 #endif

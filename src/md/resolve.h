@@ -31,12 +31,7 @@ GG_INLINE bool gg_md_is_treated(gg_md *e, uint32_t i, uint32_t j)
 
 GG_INLINE void gg_md_sum_pair(gg_collision_sums *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
 {
-  double(*stress)[3] = t->stress[pair];
-  stress[0][0] += sigma * k.x * J.x;
-  stress[1][1] += sigma * k.y * J.y;
-  stress[2][2] += sigma * k.z * J.z;
-  stress[0][1] += sigma * k.x * J.y;
-  stress[1][0] += sigma * k.y * J.x;
+  gg_add_stress(t->stress[pair], sigma, k, J);
   t->loss[pair] += loss;
 }
 

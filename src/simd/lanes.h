@@ -88,25 +88,12 @@ typedef struct gg_vd3 {
   gg_vd x, y, z;
 } gg_vd3;
 
-GG_INLINE gg_vd3 gg_vd3_sub(gg_vd3 a, gg_vd3 b)
-{
-  return (gg_vd3){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-GG_INLINE gg_vd3 gg_vd3_add(gg_vd3 a, gg_vd3 b)
-{
-  return (gg_vd3){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-GG_INLINE gg_vd3 gg_vd3_scale(gg_vd f, gg_vd3 a)
-{
-  return (gg_vd3){f * a.x, f * a.y, f * a.z};
-}
-GG_INLINE gg_vd gg_vd3_dot(gg_vd3 a, gg_vd3 b)
-{
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-GG_INLINE gg_vd3 gg_vd3_cross(gg_vd3 a, gg_vd3 b)
-{
-  return (gg_vd3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+#define GG_NUMBER gg_vd
+#define GG_VECTOR gg_vd3
+#define GG_OF(name) gg_vd3_##name
+#include "common/vec_of.h"
+#undef GG_NUMBER
+#undef GG_VECTOR
+#undef GG_OF
 
 #endif

@@ -65,12 +65,6 @@ GG_INLINE bool gg_dsmc_scales_early(gg_dsmc_features f)
   return f.shear == GG_DSMC_SHEARED_DENSE;
 }
 
-/* Without its sign. */
-GG_INLINE gg_vd gg_dsmc_abs(gg_vd x)
-{
-  return (gg_vd)((gg_vu)x & ~(gg_vu)gg_all(-0.0));
-}
-
 /* z component of the Householder vector v +- |v| z that mirrors the z axis to the direction of v, or against it. */
 GG_INLINE gg_vd gg_dsmc_mirror_z(gg_vd3 v, gg_vd speed)
 {

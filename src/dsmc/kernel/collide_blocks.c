@@ -63,7 +63,7 @@ GG_INLINE void start(gg_dsmc_features f, gg_dsmc_pass_state *w, const gg_dsmc_pa
                             .first_two = gg_all_words(p->blocks[1].first),
                             .n_one = gg_all_words(p->blocks[0].n),
                             .n_two = gg_all_words(p->blocks[1].n),
-                            .contact = gg_dsmc_lane_contact_of(&p->contact),
+                            .contact = gg_dsmc_lane_contact_of(f.same, &p->contact),
                             .floor = (gg_real)p->floor,
                             .shift = (gg_real)p->shift,
                             .s0 = f.shear == GG_DSMC_SHEARED_DENSE ? (gg_real)(GG_DSMC_SHEAR_SHARE * p->shift) : 0,

@@ -40,11 +40,7 @@ static void sums(gg_dsmc_features f, gg_dsmc_pass *p, const gg_contact *contact,
   if (f.sums == GG_DSMC_NO_SUMS) return;
   p->loss += gg_energy_loss(contact, k, g, J);
   if (f.sums == GG_DSMC_LOSS) return;
-  p->stress[0][0] += p->sigma * k.x * J.x;
-  p->stress[1][1] += p->sigma * k.y * J.y;
-  p->stress[2][2] += p->sigma * k.z * J.z;
-  p->stress[0][1] += p->sigma * k.x * J.y;
-  p->stress[1][0] += p->sigma * k.y * J.x;
+  gg_add_stress(p->stress, p->sigma, k, J);
 }
 
 /* The contact at this speed, by the law of restitution. */

@@ -9,44 +9,29 @@
 
 enum { GG_DSMC_NOTES = 8 };
 
-/* k, impulse and J.g of one block pair: J is 0 where nothing collides, and k finite. Of smooth grains k and J_n are
- * enough (J = J_n k, J.g = J_n^2/jn), and J.x stands for the latter. */
+/* What the collisions of a block pair leave: J is 0 where nothing collides, and k finite. */
 typedef struct gg_dsmc_note {
-  gg_vd3 k, J;
-  gg_vd Jg;
+  gg_vd3 k, J;      /* for the stress, and kept nowhere else: the write-back takes them from here */
+  gg_vd Jg, Jn, J2; /* for what of the loss does not follow from those */
 } gg_dsmc_note;
 
 typedef struct gg_dsmc_sums {
   unsigned n; /* block pairs noted */
   gg_dsmc_note note[GG_DSMC_NOTES][GG_PARTS];
   /* Lane by lane, double in either precision: stress as gg_collision_sums has it, and what the loss follows from
-   * (gg_dsmc_loss_of). */
+   * (gg_dsmc_all_terms). */
   double xx[GG_DSMC_LANES], yy[GG_DSMC_LANES], zz[GG_DSMC_LANES], xy[GG_DSMC_LANES], yx[GG_DSMC_LANES],
       Jg[GG_DSMC_LANES], Jn2[GG_DSMC_LANES], J2[GG_DSMC_LANES];
 } gg_dsmc_sums;
 
-/* Smooth grains lose a share of J.g: for that alone k need not be known. */
-GG_INLINE bool gg_dsmc_sums_need_k(gg_dsmc_features f)
-{
-  return f.sums == GG_DSMC_STRESS || (f.sums == GG_DSMC_LOSS && f.rule != GG_SMOOTH);
-}
-
-GG_INLINE bool gg_dsmc_sums_smooth(gg_dsmc_features f)
-{
-  return f.sums == GG_DSMC_STRESS && f.rule == GG_SMOOTH;
-}
-
-GG_INLINE void gg_dsmc_sums_note(gg_dsmc_features f, gg_dsmc_sums *t, int part, gg_vd3 k, gg_vd3 g, gg_vd3 J, gg_vd Jn)
+/* The terms of the loss that k and J do not tell later. */
+GG_INLINE void gg_dsmc_note_loss(gg_dsmc_features f, gg_dsmc_note *note, gg_vd3 g, gg_vd3 J, gg_vd Jn)
 {
   if (f.sums == GG_DSMC_NO_SUMS) return;
-  gg_dsmc_note *note = &t->note[t->n][part];
-  if (!gg_dsmc_sums_smooth(f)) note->Jg = gg_vd3_dot(J, g);
-  if (!gg_dsmc_sums_need_k(f)) return;
-  note->k = k;
-  if (gg_dsmc_sums_smooth(f))
-    note->J.x = Jn;
-  else
-    note->J = J;
+  const bool stress = f.sums == GG_DSMC_STRESS, smooth = f.rule == GG_SMOOTH;
+  if (!stress || !smooth) note->Jg = gg_vd3_dot(J, g);
+  if (!stress && !smooth) note->Jn = Jn;
+  if (!stress && f.rule == GG_FRICTIONAL) note->J2 = gg_vd3_dot(J, J);
 }
 
 GG_INLINE void gg_dsmc_sums_add(double *sum, int part, gg_vd v)
@@ -58,16 +43,31 @@ GG_INLINE void gg_dsmc_sums_add(double *sum, int part, gg_vd v)
   __builtin_memcpy(sum + part * GG_WIDTH, &s, sizeof s);
 }
 
-GG_INLINE void gg_dsmc_sums_collect_part(gg_dsmc_features f, gg_dsmc_sums *t, int p)
+/* The loss alone. */
+GG_INLINE void gg_dsmc_sums_collect_loss(gg_dsmc_features f, gg_dsmc_sums *t, int p)
 {
+  gg_vd Jg = gg_all(0), Jn2 = Jg, J2 = Jg;
+  for (unsigned i = 0; i < t->n; i++) {
+    const gg_dsmc_note *note = &t->note[i][p];
+    Jg += note->Jg;
+    if (f.rule != GG_SMOOTH) Jn2 += note->Jn * note->Jn;
+    if (f.rule == GG_FRICTIONAL) J2 += note->J2;
+  }
+  gg_dsmc_sums_add(t->Jg, p, Jg);
+  if (f.rule != GG_SMOOTH) gg_dsmc_sums_add(t->Jn2, p, Jn2);
+  if (f.rule == GG_FRICTIONAL) gg_dsmc_sums_add(t->J2, p, J2);
+}
+
+/* Stress and loss; what is not kept need not be computed. */
+GG_INLINE void gg_dsmc_sums_collect_stress(gg_dsmc_features f, gg_dsmc_sums *t, int p)
+{
+  const bool smooth = f.rule == GG_SMOOTH;
   const gg_vd none = gg_all(0);
   gg_vd xx = none, yy = none, zz = none, xy = none, yx = none, Jg = none, Jn2 = none, J2 = none;
   for (unsigned i = 0; i < t->n; i++) {
     const gg_dsmc_note *note = &t->note[i][p];
-    if (!gg_dsmc_sums_smooth(f)) Jg += note->Jg;
-    if (!gg_dsmc_sums_need_k(f)) continue;
-    gg_vd3 k = note->k, J = gg_dsmc_sums_smooth(f) ? gg_vd3_scale(note->J.x, k) : note->J;
-    gg_vd x = k.x * J.x, y = k.y * J.y, z = k.z * J.z, Jn = gg_dsmc_sums_smooth(f) ? note->J.x : x + y + z;
+    gg_vd3 k = note->k, J = note->J;
+    gg_vd x = k.x * J.x, y = k.y * J.y, z = k.z * J.z, Jn = x + y + z;
     xx += x;
     yy += y;
     zz += z;
@@ -75,25 +75,30 @@ GG_INLINE void gg_dsmc_sums_collect_part(gg_dsmc_features f, gg_dsmc_sums *t, in
     yx += k.y * J.x;
     Jn2 += Jn * Jn;
     J2 += gg_vd3_dot(J, J);
+    if (!smooth) Jg += note->Jg;
   }
-  if (!gg_dsmc_sums_smooth(f)) gg_dsmc_sums_add(t->Jg, p, Jg);
-  if (gg_dsmc_sums_need_k(f)) gg_dsmc_sums_add(t->Jn2, p, Jn2);
-  if (f.rule == GG_FRICTIONAL) gg_dsmc_sums_add(t->J2, p, J2);
-  if (f.sums != GG_DSMC_STRESS) return; /* what is not kept need not be computed */
   gg_dsmc_sums_add(t->xx, p, xx);
   gg_dsmc_sums_add(t->yy, p, yy);
   gg_dsmc_sums_add(t->zz, p, zz);
   gg_dsmc_sums_add(t->xy, p, xy);
-  if (f.rule != GG_SMOOTH) gg_dsmc_sums_add(t->yx, p, yx);
+  gg_dsmc_sums_add(t->Jn2, p, Jn2);
+  if (smooth) return;
+  gg_dsmc_sums_add(t->yx, p, yx);
+  gg_dsmc_sums_add(t->Jg, p, Jg);
+  if (f.rule == GG_FRICTIONAL) gg_dsmc_sums_add(t->J2, p, J2);
 }
 
 GG_INLINE void gg_dsmc_sums_collect(gg_dsmc_features f, gg_dsmc_sums *t)
 {
-  for (int p = 0; p < GG_PARTS; p++) gg_dsmc_sums_collect_part(f, t, p);
+  for (int p = 0; p < GG_PARTS; p++)
+    if (f.sums == GG_DSMC_STRESS)
+      gg_dsmc_sums_collect_stress(f, t, p);
+    else
+      gg_dsmc_sums_collect_loss(f, t, p);
   t->n = 0;
 }
 
-/* A block pair is done. */
+/* A block pair has its impulses; the note stays as it is until the next but one has its own. */
 GG_INLINE void gg_dsmc_sums_next(gg_dsmc_features f, gg_dsmc_sums *t)
 {
   if (f.sums != GG_DSMC_NO_SUMS && ++t->n == GG_DSMC_NOTES) gg_dsmc_sums_collect(f, t);
@@ -110,17 +115,19 @@ GG_INLINE void gg_dsmc_sums_finish(gg_dsmc_features f, gg_dsmc_sums *t, gg_dsmc_
 {
   if (f.sums == GG_DSMC_NO_SUMS) return;
   gg_dsmc_sums_collect(f, t);
-  gg_dsmc_loss_terms terms = {.Jg = gg_dsmc_sum_of_lanes(t->Jg)};
-  if (gg_dsmc_sums_smooth(f)) terms.Jg = gg_dsmc_sum_of_lanes(t->Jn2) / p->contact.jn;
-  if (f.rule != GG_SMOOTH) terms.Jn2 = gg_dsmc_sum_of_lanes(t->Jn2);
-  if (f.rule == GG_FRICTIONAL) terms.J2 = gg_dsmc_sum_of_lanes(t->J2);
-  p->loss += gg_dsmc_loss_of(f.rule, &p->contact, terms);
+  /* The kernel's impulses are in units of a mass, and so are their sums. */
+  const double mass = gg_dsmc_impulse_unit(f.same, &p->contact), stress = p->sigma * mass;
+  gg_loss_terms terms = {.Jg = mass * gg_dsmc_sum_of_lanes(t->Jg),
+                         .Jn2 = mass * mass * gg_dsmc_sum_of_lanes(t->Jn2),
+                         .J2 = mass * mass * gg_dsmc_sum_of_lanes(t->J2)};
+  if (f.sums == GG_DSMC_STRESS && f.rule == GG_SMOOTH) terms.Jg = terms.Jn2 / p->contact.jn;
+  p->loss += gg_loss_of_terms(&p->contact, gg_dsmc_all_terms(f.rule, &p->contact, terms));
   if (f.sums == GG_DSMC_LOSS) return;
-  p->stress[0][0] += p->sigma * gg_dsmc_sum_of_lanes(t->xx);
-  p->stress[1][1] += p->sigma * gg_dsmc_sum_of_lanes(t->yy);
-  p->stress[2][2] += p->sigma * gg_dsmc_sum_of_lanes(t->zz);
-  p->stress[0][1] += p->sigma * gg_dsmc_sum_of_lanes(t->xy);
-  p->stress[1][0] += p->sigma * gg_dsmc_sum_of_lanes(f.rule == GG_SMOOTH ? t->xy : t->yx);
+  p->stress[0][0] += stress * gg_dsmc_sum_of_lanes(t->xx);
+  p->stress[1][1] += stress * gg_dsmc_sum_of_lanes(t->yy);
+  p->stress[2][2] += stress * gg_dsmc_sum_of_lanes(t->zz);
+  p->stress[0][1] += stress * gg_dsmc_sum_of_lanes(t->xy);
+  p->stress[1][0] += stress * gg_dsmc_sum_of_lanes(f.rule == GG_SMOOTH ? t->xy : t->yx);
 }
 
 #endif

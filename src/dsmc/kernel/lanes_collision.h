@@ -1,4 +1,4 @@
-/* The collision rule of common/collision.h, eight lanes at a time; a test holds the two against each other. */
+/* The collision rule for lanes: common/collision_of.h with the operations of lanes. */
 #ifndef GG_DSMC_LANES_COLLISION_H
 #define GG_DSMC_LANES_COLLISION_H
 
@@ -10,45 +10,57 @@ typedef struct gg_dsmc_lane_contact {
   gg_real push1, push2; /* velocity changes from 2 g_n k */
 } gg_dsmc_lane_contact;
 
-GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(const gg_contact *c)
+/* Without its sign. */
+GG_INLINE gg_vd gg_dsmc_abs(gg_vd x)
 {
-  return (gg_dsmc_lane_contact){.jn = (gg_real)c->jn,
-                                .jt = (gg_real)c->jt,
+  return (gg_vd)((gg_vu)x & ~(gg_vu)gg_all(-0.0));
+}
+
+/* What impulses are counted in: of grains of one species in their mass, so that an impulse is a change of velocity. */
+GG_INLINE double gg_dsmc_impulse_unit(bool same, const gg_contact *c)
+{
+  return same ? 1 / c->im1 : 1;
+}
+
+GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_contact *c)
+{
+  const double mass = gg_dsmc_impulse_unit(same, c);
+  return (gg_dsmc_lane_contact){.jn = (gg_real)(c->jn / mass),
+                                .jt = (gg_real)(c->jt / mass),
                                 .mu = (gg_real)c->mu,
-                                .im1 = (gg_real)c->im1,
-                                .im2 = (gg_real)c->im2,
-                                .ik1 = (gg_real)c->ik1,
-                                .ik2 = (gg_real)c->ik2,
+                                .im1 = (gg_real)(c->im1 * mass),
+                                .im2 = (gg_real)(c->im2 * mass),
+                                .ik1 = (gg_real)(c->ik1 * mass),
+                                .ik2 = (gg_real)(c->ik2 * mass),
                                 .push1 = (gg_real)(0.5 * c->jn * c->im1),
                                 .push2 = (gg_real)(0.5 * c->jn * c->im2)};
 }
 
-/* Impulse from the contact velocity g and gn = k.g (gg_impulse): (jn - jt) g_n k + jt g. */
-GG_INLINE gg_vd3 gg_dsmc_lane_impulse(gg_rule rule, const gg_dsmc_lane_contact *c, gg_vd3 k, gg_vd3 g, gg_vd gn)
-{
-  if (rule == GG_SMOOTH) return gg_vd3_scale(c->jn * gn, k);
-  gg_vd jt = gg_all(c->jt);
-  if (rule == GG_FRICTIONAL) {
-    gg_vd3 gt = gg_vd3_sub(g, gg_vd3_scale(gn, k));
-    gg_vd gt2 = gg_vd3_dot(gt, gt), limit = c->mu * c->jn * gn;
-    gg_mask slides = gg_less(limit * limit, jt * jt * gt2); /* never with gt = 0 */
-    jt = gg_select(slides, limit / gg_sqrt(gt2), jt);
-  }
-  return gg_vd3_add(gg_vd3_scale((c->jn - jt) * gn, k), gg_vd3_scale(jt, g));
-}
+#define GG_NUMBER gg_vd
+#define GG_VECTOR gg_vd3
+#define GG_OF(name) gg_vd3_##name
+#define GG_CONTACT gg_dsmc_lane_contact
+#define GG_ALL(x) gg_all(x)
+#define GG_ABS(x) gg_dsmc_abs(x)
+#define GG_SQRT(x) gg_sqrt(x)
+#define GG_IF_LESS(a, b, yes, no) gg_select(gg_less(a, b), yes, no)
+#include "common/collision_of.h"
+#undef GG_NUMBER
+#undef GG_VECTOR
+#undef GG_OF
+#undef GG_CONTACT
+#undef GG_ALL
+#undef GG_ABS
+#undef GG_SQRT
+#undef GG_IF_LESS
 
-/* What the energy that collisions destroy (gg_energy_loss) follows from, one or their sum: it is linear in J.g, J_n^2
- * and J.J, and smooth grains need the first alone (J.g = m_r (1+e) g_n^2), rough ones two (J_t^2 = m_t (1+beta) J_t.g).
- */
-typedef struct gg_dsmc_loss_terms {
-  double Jg, Jn2, J2;
-} gg_dsmc_loss_terms;
-
-GG_INLINE double gg_dsmc_loss_of(gg_rule rule, const gg_contact *c, gg_dsmc_loss_terms sum)
+/* Which terms of the loss need not be summed, since they follow from the others: smooth grains need the first alone
+ * (J.g = m_r (1+e) g_n^2), rough ones two (J_t^2 = m_t (1+beta) J_t.g_t). */
+GG_INLINE gg_loss_terms gg_dsmc_all_terms(gg_rule rule, const gg_contact *c, gg_loss_terms sum)
 {
-  if (rule == GG_SMOOTH) return (1 - 0.5 * gg_inverse_mr(c) * c->jn) * sum.Jg;
-  double Jt2 = rule == GG_ROUGH ? c->jt * (sum.Jg - sum.Jn2 / c->jn) : sum.J2 - sum.Jn2;
-  return sum.Jg - 0.5 * (gg_inverse_mr(c) * sum.Jn2 + gg_inverse_mt(c) * Jt2);
+  if (rule == GG_SMOOTH) sum.Jn2 = sum.J2 = c->jn * sum.Jg;
+  if (rule == GG_ROUGH) sum.J2 = sum.Jn2 + c->jt * (sum.Jg - sum.Jn2 / c->jn);
+  return sum;
 }
 
 #endif

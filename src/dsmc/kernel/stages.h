@@ -57,12 +57,22 @@ typedef struct gg_dsmc_block_pair {
   gg_vu word[GG_PARTS];  /* random */
   gg_vd3 k[GG_PARTS];    /* if grains have spins */
   gg_vd3 J[GG_PARTS];    /* 0 without a collision; 2 g_n k where k is not needed */
+  gg_dsmc_note *note;    /* has these two, part by part, if there is a stress to be summed */
 } gg_dsmc_block_pair;
 
 /* Largest C^2 of each block after its collisions, lane by lane. */
 typedef struct gg_dsmc_largest_squares {
   gg_vd a, b;
 } gg_dsmc_largest_squares;
+
+GG_INLINE gg_vd3 *gg_dsmc_normals(gg_dsmc_features f, gg_dsmc_block_pair *at, int part)
+{
+  return f.sums == GG_DSMC_STRESS ? &at->note[part].k : &at->k[part];
+}
+GG_INLINE gg_vd3 *gg_dsmc_impulses(gg_dsmc_features f, gg_dsmc_block_pair *at, int part)
+{
+  return f.sums == GG_DSMC_STRESS ? &at->note[part].J : &at->J[part];
+}
 
 /* C of a stored velocity. */
 GG_INLINE gg_vd3 gg_dsmc_streamed(gg_dsmc_features f, gg_real strain, gg_vd3 c)
@@ -72,27 +82,25 @@ GG_INLINE gg_vd3 gg_dsmc_streamed(gg_dsmc_features f, gg_real strain, gg_vd3 c)
 }
 
 /* Third stage: spins. */
-GG_INLINE void gg_dsmc_write_back_spins(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_mask swap,
-                                        const gg_dsmc_block_pair *at, int part)
+GG_INLINE void gg_dsmc_write_back_spins(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_mask swap, gg_dsmc_block_pair *at,
+                                        int part)
 {
-  const gg_dsmc_lane_contact *c = &w->contact;
-  gg_vd3 kJ = gg_vd3_cross(at->k[part], at->J[part]);
-  gg_vd3 change_a = gg_vd3_scale(gg_all(c->ik1), kJ), change_b = f.same ? change_a : gg_vd3_scale(gg_all(c->ik2), kJ);
-  gg_vd3 sa = gg_vd3_sub(gg_dsmc_lanes_load(&w->spin_one[at->one], part * GG_WIDTH), change_a);
-  gg_vd3 sb = gg_vd3_sub(at->sb[part], change_b);
+  gg_vd ik1 = gg_all(w->contact.ik1), ik2 = f.same ? ik1 : gg_all(w->contact.ik2);
+  gg_vd3 sa = gg_dsmc_lanes_load(&w->spin_one[at->one], part * GG_WIDTH), sb = at->sb[part];
+  gg_vd3_kick_spins(ik1, ik2, *gg_dsmc_normals(f, at, part), *gg_dsmc_impulses(f, at, part), &sa, &sb);
   gg_dsmc_lanes_store_pair(f, &w->spin_one[at->one], &w->spin_two[at->two], part * GG_WIDTH, swap, sa, sb);
 }
 
 /* Third stage: velocities. Grains of one species are exchanged so that the faster one is in the first block. Returns
  * where. */
-GG_INLINE gg_mask gg_dsmc_write_back_velocities(gg_dsmc_features f, gg_dsmc_pass_state *w, const gg_dsmc_block_pair *at,
+GG_INLINE gg_mask gg_dsmc_write_back_velocities(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc_block_pair *at,
                                                 int part, gg_dsmc_largest_squares *most)
 {
-  gg_vd3 J = at->J[part];
+  gg_vd3 J = *gg_dsmc_impulses(f, at, part);
   if (f.shear != GG_DSMC_UNSHEARED) J.x += at->strain * J.y; /* as stored velocities have it */
-  gg_vd3 change_a = gg_vd3_scale(w->to_a, J), change_b = f.same ? change_a : gg_vd3_scale(w->to_b, J);
-  gg_vd3 a = gg_vd3_sub(gg_dsmc_lanes_load(at->a, part * GG_WIDTH), change_a);
-  gg_vd3 b = gg_vd3_add(at->cb[part], change_b);
+  gg_vd3 a = gg_dsmc_lanes_load(at->a, part * GG_WIDTH), b = at->cb[part];
+  const gg_vd to_a = f.same && gg_dsmc_needs_k(f) ? gg_all(1) : w->to_a, to_b = f.same ? to_a : w->to_b;
+  gg_vd3_kick_centres(to_a, to_b, J, &a, &b);
   gg_vd3 Ca = gg_dsmc_streamed(f, at->strain, a), Cb = gg_dsmc_streamed(f, at->strain, b);
   gg_vd a2 = gg_vd3_dot(Ca, Ca), b2 = gg_vd3_dot(Cb, Cb);
   gg_mask swap = w->sorts ? gg_less(a2, b2) : gg_low_bit(at->word[part] >> GG_SPARE_BIT);
@@ -104,7 +112,7 @@ GG_INLINE gg_mask gg_dsmc_write_back_velocities(gg_dsmc_features f, gg_dsmc_pass
 }
 
 /* Third stage: write back, and renew the speed bounds of both blocks. */
-GG_INLINE void gg_dsmc_write_back(gg_dsmc_features f, gg_dsmc_pass_state *w, const gg_dsmc_block_pair *at)
+GG_INLINE void gg_dsmc_write_back(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc_block_pair *at)
 {
   gg_dsmc_largest_squares most;
   for (int part = 0; part < GG_PARTS; part++) {
@@ -189,16 +197,16 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features f, gg_dsmc_pass_state *w, gg
   gg_dsmc_candidate_direction(f, w, c, at->v[part], scale, &e);
   if (f.rule != GG_SMOOTH) {
     gg_vd3 sa = gg_dsmc_lanes_load(&w->spin_one[at->one], part * GG_WIDTH);
-    e.g = gg_vd3_sub(e.g, gg_vd3_cross(e.k, gg_vd3_add(sa, at->sb[part])));
-    at->k[part] = e.k;
+    e.g = gg_vd3_contact_velocity(f.rule, e.k, e.g, sa, at->sb[part]);
   }
-  gg_vd3 J = gg_dsmc_needs_k(f) ? gg_dsmc_lane_impulse(f.rule, &w->contact, e.k, e.g, e.gn) : e.gn_k;
+  gg_vd3 J = gg_dsmc_needs_k(f) ? gg_vd3_impulse(f.rule, &w->contact, e.k, e.g, e.gn) : e.gn_k;
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
-  at->J[part] = J;
+  if (gg_dsmc_needs_k(f)) *gg_dsmc_normals(f, at, part) = e.k;
+  *gg_dsmc_impulses(f, at, part) = J;
   w->largest = gg_larger(w->largest, at->v2[part]);
   w->collisions += (unsigned)__builtin_popcount(gg_bits(e.hit));
-  gg_dsmc_sums_note(f, &w->sums, part, e.k, e.g, gg_dsmc_needs_k(f) ? J : gg_vd3_scale(gg_all(0.5 * w->contact.jn), J),
-                    gg_where(e.hit, w->contact.jn * e.gn));
+  if (!gg_dsmc_needs_k(f)) J = gg_vd3_scale(gg_all(0.5 * w->contact.jn), J);
+  gg_dsmc_note_loss(f, &w->sums.note[w->sums.n][part], e.g, J, gg_where(e.hit, w->contact.jn * e.gn));
 }
 
 /* Some directions more than are needed now. */
@@ -216,6 +224,7 @@ GG_INLINE void gg_dsmc_accept(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc
   if (__builtin_expect(faster, 0)) gg_dsmc_check_majorant(w, at, rng);
   gg_dsmc_directions_ensure(&c->near, &c->rng, gg_dsmc_needs_k(f) ? GG_DSMC_COSINE : GG_DSMC_UNIFORM);
   if (f.shear == GG_DSMC_SHEARED_DENSE) gg_dsmc_directions_ensure(&c->sheared, &c->rng, GG_DSMC_SHEAR_LAW);
+  if (f.sums == GG_DSMC_STRESS) at->note = w->sums.note[w->sums.n];
   for (int part = 0; part < GG_PARTS; part++) gg_dsmc_accept_part(f, w, c, at, part);
   gg_dsmc_sums_next(f, &w->sums);
   w->block_pairs++;
