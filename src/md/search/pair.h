@@ -7,7 +7,7 @@
 /* The contact with grain j, which is separated by dr and dv. */
 GG_INLINE void gg_md_try_separated(const gg_md *e, gg_md_search *s, uint32_t j, gg_vec dr, gg_vec dv)
 {
-  double sigma = e->model.sigma[IS_MIXTURE ? 2 * gg_md_species_of(s->self) + gg_md_species_of(&e->grain[j]) : 0];
+  double sigma = e->model.sigma[IS_MIXTURE ? gg_pair(gg_md_species_of(s->self), gg_md_species_of(&e->grain[j])) : 0];
   double t = e->k.now + gg_md_contact_delay(dr, dv, sigma * sigma);
   gg_md_take_contact(s, t, j);
 }
