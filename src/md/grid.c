@@ -3,12 +3,15 @@
 
 #include "md/members_in_rows.h"
 
-/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists;
- * in between plain cells, from 0.25 on of a contact distance, below with this many grains: fewer crossings against more
- * pairs to try. */
+/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists,
+ * of sizes unequal up to 1:2 from 0.45 on; in between plain cells, from 0.25 on of a contact distance, below with this
+ * many grains: fewer crossings against more pairs to try. */
 #define OVERLAPPING_BELOW 0.05
 #define GRAINS_PER_OVERLAPPING_CELL 6.0
 #define LISTED_FROM 0.4
+#define LISTED_UNEQUAL_FROM 0.45
+#define NEARLY_EQUAL 1.3
+#define MOST_UNEQUAL_LISTED 2.0
 #define GRAINS_PER_CELL 0.7
 #define NARROW_FROM 0.25
 enum { FEWEST_OVERLAPPING = 6 };
@@ -18,13 +21,21 @@ double gg_md_reach(const gg_model *m)
   return gg_model_widest(m) * (1 + 1e-9);
 }
 
-/* How wide the skins: wide ones are left seldom, but make long lists. Lists of grains of very unequal size would be
- * too long; 0: none. */
+static double mean_diameter(const gg_model *m)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) sum += (double)m->n_of[i] * m->diameter[i];
+  return sum / (double)m->n;
+}
+
+/* How wide the skins: wide ones are left seldom, but make long lists. Those of grains of very unequal size would be too
+ * long, and cells must be as wide as the largest need; 0: none. */
 static double skin_radius(const gg_model *m)
 {
   double ratio = gg_model_widest(m) / gg_model_narrowest(m);
-  if (m->walled || m->phi < LISTED_FROM || ratio > 1.3) return 0;
-  return fmin(0.34, 0.3 + 0.8 * (0.5 - m->phi));
+  double from = ratio > NEARLY_EQUAL ? LISTED_UNEQUAL_FROM : LISTED_FROM;
+  if (m->walled || m->phi < from || ratio > MOST_UNEQUAL_LISTED) return 0;
+  return mean_diameter(m) * fmin(0.34, 0.3 + 0.8 * (0.5 - m->phi));
 }
 
 static void count_cells(const gg_model *m, double width, int32_t n[3])
