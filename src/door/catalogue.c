@@ -71,11 +71,12 @@ static gg_status species_key_entry(size_t i, gg_entry *entry, gg_error *err)
 static gg_status word_entry(const char *key, size_t i, gg_entry *entry, gg_error *err)
 {
   int id = gg_scene_field_find(key);
-  const gg_word *word = id < 0 ? NULL : gg_scene_fields[id].words;
-  if (!word) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s' that takes words", key);
-  for (size_t k = 0; word->name; word++, k++)
-    if (k == i) return *entry = (gg_entry){.name = word->name, .doc = word->doc}, GG_OK;
-  return no_more(err);
+  if (id < 0 || !gg_field_word(&gg_scene_fields[id], 0).name)
+    return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s' that takes words", key);
+  gg_word word = gg_field_word(&gg_scene_fields[id], 0);
+  for (int k = 0; word.name && (size_t)k < i;) word = gg_field_word(&gg_scene_fields[id], ++k);
+  if (!word.name) return no_more(err);
+  return *entry = (gg_entry){.name = word.name, .doc = word.doc}, GG_OK;
 }
 
 gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error *err)
@@ -119,10 +120,11 @@ static gg_status theory_entry(size_t i, const gg_scene *scene, gg_entry *entry, 
 static gg_status observable_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
   const gg_extension *own = scene ? scene->extension : NULL;
-  const gg_word *words = gg_scene_fields[gg_scene_field_find("measure")].words;
+  const gg_field *measure = &gg_scene_fields[gg_scene_field_find("measure")];
   size_t n = 0;
-  while (words[n].name) n++;
-  if (i < n) return *entry = (gg_entry){.name = words[i].name, .doc = words[i].doc}, GG_OK;
+  gg_word word = gg_field_word(measure, 0);
+  while (word.name && n < i) word = gg_field_word(measure, (int)++n);
+  if (word.name) return *entry = (gg_entry){.name = word.name, .doc = word.doc}, GG_OK;
   if (i - n >= (size_t)gg_extension_observables(own)) return no_more(err);
   const gg_observable_definition *o = gg_extension_observable(own, (int)(i - n));
   *entry = (gg_entry){.name = o->name, .doc = o->doc};

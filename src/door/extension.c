@@ -78,9 +78,7 @@ static gg_status check_quantity(const gg_extension *x, const gg_observable_defin
 
 static bool is_word_of_measure(const char *name)
 {
-  const gg_word *word = gg_scene_fields[gg_scene_field_find("measure")].words;
-  while (word->name && strcmp(word->name, name) != 0) word++;
-  return word->name != NULL;
+  return gg_field_find_word(&gg_scene_fields[gg_scene_field_find("measure")], name).name != NULL;
 }
 
 static gg_status check_observable(const gg_extension *x, const gg_observable_definition *o, gg_error *err)

@@ -171,10 +171,25 @@ bool gg_scene_is_section(const char *name)
   return false;
 }
 
-static void list_words(const gg_word *words, char *text, size_t size)
+gg_word gg_field_word(const gg_field *f, int i)
 {
-  for (size_t used = strlen(text); words->name && used < size; words++, used = strlen(text))
-    snprintf(text + used, size - used, "%s%s", words->name, words[1].name ? ", " : "");
+  return f->word ? f->word(i) : f->words ? f->words[i] : (gg_word){0};
+}
+
+gg_word gg_field_find_word(const gg_field *f, const char *name)
+{
+  int i = 0;
+  gg_word word = gg_field_word(f, 0);
+  while (word.name && strcmp(word.name, name) != 0) word = gg_field_word(f, ++i);
+  return word;
+}
+
+static void list_words(const gg_field *f, char *text, size_t size)
+{
+  gg_word word;
+  size_t used = strlen(text);
+  for (int i = 0; (word = gg_field_word(f, i)).name && used < size; i++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", word.name);
 }
 
 void gg_format_number(double value, char *text, size_t size)
@@ -213,11 +228,11 @@ void gg_field_allowed(const gg_field *f, char *text, size_t size)
     return;
   case GG_FIELD_CHOICE:
     snprintf(text, size, "one of ");
-    list_words(f->words, text, size);
+    list_words(f, text, size);
     return;
   case GG_FIELD_SET:
     snprintf(text, size, "a list of ");
-    list_words(f->words, text, size);
+    list_words(f, text, size);
     return;
   case GG_FIELD_SPECIES:
     snprintf(text, size, "a list of one or two maps with fraction, diameter, mass and inertia");

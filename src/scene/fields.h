@@ -32,7 +32,9 @@ typedef struct gg_field {
   bool above_min;      /* min itself is not allowed */
   const char *special; /* a word that stands for special_value: "auto", "none" */
   double special_value;
-  const gg_word *words; /* of choices and sets; ends with a NULL name */
+  /* Of choices and sets: a list that ends with a NULL name, or a table of another room, which is asked for its rows. */
+  const gg_word *words;
+  gg_word (*word)(int i);
   const char *unit, *doc;
   const struct gg_condition *when[GG_MOST_CONDITIONS]; /* all of them, or the key has no effect (scene/conditions.h) */
   const char *also; /* what others call it, for messages: words separated by blanks */
@@ -52,6 +54,11 @@ int gg_scene_field_of_pair(const char *key, int *pair);
 bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */
 bool gg_scene_is_section(const char *name);
+
+/* The i-th word that a choice or a set takes; beyond the last one its name is NULL. */
+gg_word gg_field_word(const gg_field *field, int i);
+/* The word of that name; its name is NULL if there is none. */
+gg_word gg_field_find_word(const gg_field *field, const char *name);
 
 /* A number in the fewest digits that read back as the same number. */
 void gg_format_number(double value, char *text, size_t size);

@@ -20,17 +20,19 @@ static json_t *integer_json(const gg_field *f, int64_t value)
 static json_t *choice_json(const gg_field *f, const void *at)
 {
   int value;
+  gg_word w;
   memcpy(&value, at, sizeof value);
-  for (const gg_word *w = f->words; w->name; w++)
-    if (w->value == value) return json_string(w->name);
+  for (int i = 0; (w = gg_field_word(f, i)).name; i++)
+    if (w.value == value) return json_string(w.name);
   return json_null();
 }
 
 static json_t *set_json(const gg_field *f, unsigned set)
 {
   json_t *list = json_array();
-  for (const gg_word *w = f->words; w->name; w++)
-    if (set & (unsigned)w->value) json_array_append_new(list, json_string(w->name));
+  gg_word w;
+  for (int i = 0; (w = gg_field_word(f, i)).name; i++)
+    if (set & (unsigned)w.value) json_array_append_new(list, json_string(w.name));
   return list;
 }
 

@@ -30,13 +30,14 @@ static void show(const yaml_node_t *node, char *text, size_t size)
 }
 
 /* The nearest of the words, or the first that is described by the one that was typed ("cooling": hcs). */
-static const char *likely_word(const gg_word *words, const char *typed)
+static const char *likely_word(const gg_field *f, const char *typed)
 {
   gg_nearest nearest = {.word = typed};
-  if (!words || !typed) return NULL;
-  for (const gg_word *w = words; w->name; w++) gg_nearest_try(&nearest, w->name);
-  for (const gg_word *w = words; w->name && !nearest.best && strlen(typed) > 3; w++)
-    if (strcasestr(w->doc, typed)) nearest.best = w->name;
+  gg_word w;
+  if (!typed) return NULL;
+  for (int i = 0; (w = gg_field_word(f, i)).name; i++) gg_nearest_try(&nearest, w.name);
+  for (int i = 0; !nearest.best && strlen(typed) > 3 && (w = gg_field_word(f, i)).name; i++)
+    if (strcasestr(w.doc, typed)) nearest.best = w.name;
   return nearest.best;
 }
 
@@ -49,7 +50,7 @@ static bool has_decimal_comma(const char *text)
 static gg_status refuse_value(const gg_scene_reader *r, const gg_field *field, const char *key, const yaml_node_t *node)
 {
   char shown[64], allowed[256], hint[64] = "";
-  const char *likely = likely_word(field->words, scalar(node));
+  const char *likely = likely_word(field, scalar(node));
   show(node, shown, sizeof shown);
   gg_field_allowed(field, allowed, sizeof allowed);
   if (has_decimal_comma(scalar(node))) likely = "a decimal point";
@@ -95,35 +96,33 @@ static gg_status read_integer(const gg_scene_reader *r, const gg_field *f, const
   return GG_OK;
 }
 
-static const gg_word *find_word(const gg_word *words, const yaml_node_t *node)
+static gg_word find_word(const gg_field *f, const yaml_node_t *node)
 {
   const char *text = scalar(node);
-  for (; text && words->name; words++)
-    if (strcmp(words->name, text) == 0) return words;
-  return NULL;
+  return text ? gg_field_find_word(f, text) : (gg_word){0};
 }
 
 static gg_status read_choice(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
                              void *value)
 {
-  const gg_word *word = find_word(f->words, node);
-  if (!word) return refuse_value(r, f, key, node);
-  memcpy(value, &word->value, sizeof word->value);
+  const gg_word word = find_word(f, node);
+  if (!word.name) return refuse_value(r, f, key, node);
+  memcpy(value, &word.value, sizeof word.value);
   return GG_OK;
 }
 
 static gg_status read_set(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
                           unsigned *value)
 {
-  const gg_word *alone = find_word(f->words, node);
-  if (alone) return gg_scene_refuse(r, node, key, "is a list, also of one: %s: [%s]", f->key, alone->name);
+  const gg_word alone = find_word(f, node);
+  if (alone.name) return gg_scene_refuse(r, node, key, "is a list, also of one: %s: [%s]", f->key, alone.name);
   if (node->type != YAML_SEQUENCE_NODE) return refuse_value(r, f, key, node);
   unsigned set = 0;
   for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {
     const yaml_node_t *item = yaml_document_get_node(r->document, *i);
-    const gg_word *word = find_word(f->words, item);
-    if (!word) return refuse_value(r, f, key, item);
-    set |= (unsigned)word->value;
+    const gg_word word = find_word(f, item);
+    if (!word.name) return refuse_value(r, f, key, item);
+    set |= (unsigned)word.value;
   }
   *value = set;
   return GG_OK;
