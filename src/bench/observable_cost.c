@@ -26,7 +26,7 @@ static gg_status go_on(timed_run *c, uint64_t samples, bool adapt, gg_error *err
 {
   gg_replica *r = &c->replica;
   double gone;
-  adapt = adapt || r->model.flow == GG_HCS;
+  adapt = adapt || !gg_model_keeps_temperature(&r->model);
   if (!c->bare) return gg_replica_advance(r, r->clock.samples + samples, adapt, NULL, err);
   for (uint64_t k = 0; k < samples; k++)
     GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval, UINT64_MAX, &gone, err));

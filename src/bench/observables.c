@@ -1,4 +1,6 @@
 /* graingas bench observables: what each observable costs, over the time of a run without it, at three sizes. */
+#include <string.h>
+
 #include "bench/bench.h"
 #include "bench/observable_cost.h"
 
@@ -25,14 +27,17 @@ static setting setting_of(const gg_bench *b, int i)
                    (b->options->quick ? quick_sizes : sizes)[i % N_SIZES]};
 }
 
-/* The scene to measure it in: sheared, or the first of the other flows that have it. */
+/* The scene to measure it in: of the usual flow, or of the first other one that has it and whose grains may lose
+ * energy.
+ */
 static bool find_scene(const gg_bench *b, const setting *c, const gg_observable *o, gg_scene *scene)
 {
-  static const gg_flow flows[] = {GG_USF, GG_HCS, GG_COUETTE};
-  for (int k = 0; k < 3; k++) {
+  for (int k = -1; k < GG_N_FLOWS; k++) {
     gg_model model;
     *scene = gg_bench_scene(b, c->engine, c->phi, c->n);
-    scene->flow = flows[k];
+    if (k >= 0) scene->flow = (gg_flow)k;
+    if (gg_flow_of(scene->flow)->conserves) continue;
+    memcpy(scene->gravity, gg_flow_of(scene->flow)->gravity, sizeof scene->gravity);
     for (int p = 0; p < GG_PAIRS; p++) scene->collision.beta[p] = 0;
     if (gg_model_make(scene, c->engine, &model, NULL) != GG_OK) continue;
     if (gg_engine_ops_of(c->engine)->accepts(&model, NULL) != GG_OK) continue;

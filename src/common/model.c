@@ -108,7 +108,7 @@ static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
 {
   gg_partner wall = {INFINITY, 1};
   m->walled = gg_flow_is_walled(s->flow);
-  m->open_top = m->walled && s->walls.top == GG_OPEN_TOP;
+  m->open_top = gg_flow_of(s->flow)->may_be_open && s->walls.top == GG_OPEN_TOP;
   m->wall_rule = m->walled ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
   if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;
@@ -119,7 +119,7 @@ static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
     m->wall[i] = gg_contact_make(grain, wall, s->walls.e, s->walls.beta, s->walls.mu);
     m->wall_treated[i] = gg_contact_make(grain, wall, 1, s->walls.beta, s->walls.mu);
   }
-  m->wall_speed = s->flow == GG_COUETTE ? s->walls.speed * time_unit / s->species[0].diameter : 0;
+  m->wall_speed = gg_flow_has_moving_walls(s->flow) ? s->walls.speed * time_unit / s->species[0].diameter : 0;
 }
 
 /* Steady temperature in units of (d rate)^2 from the balance of dilute viscous heating and dissipation, to start near.
@@ -138,7 +138,7 @@ static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
 {
   double speed = s->shear_rate * s->species[0].diameter;
   for (int round = 0; round < (m->law.e ? 5 : 1); round++) {
-    m->temperature0 = sheared || s->flow == GG_COUETTE ? guess_sheared_temperature(m) : 0.5;
+    m->temperature0 = gg_flow_is_timed_by_shear(s->flow) ? guess_sheared_temperature(m) : 0.5;
     if (sheared && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
     gg_model_at(m, m->temperature0);
   }
@@ -213,7 +213,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   /* One unit of time in the user's unit: 1/shear_rate, wall shear included; thermal flows have no other clock. */
   double time_unit = 1;
   if (sheared) time_unit = 1 / s->shear_rate;
-  if (s->flow == GG_COUETTE) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
+  if (gg_flow_has_moving_walls(s->flow)) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
   set_walls(m, s, time_unit);
   for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
   m->contact_time = m->elastic                      ? 0

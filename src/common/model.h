@@ -62,6 +62,13 @@ typedef struct gg_model {
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;
 
+/* Does the temperature stay what it is, in a steady state? Else sampling follows the collision rate, and what has a
+ * dimension of velocity or time has no mean. */
+static inline bool gg_model_keeps_temperature(const gg_model *model)
+{
+  return model->steady && !gg_flow_cools(model->flow);
+}
+
 /* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get
  * order-of- magnitude guesses, which a caller may improve before creating an engine. */
 gg_status gg_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);

@@ -164,7 +164,7 @@ gg_quantity gg_quantity_find_in(const gg_model *m, const char *name)
 const char *gg_quantity_unit(gg_quantity q, const gg_model *model)
 {
   if (q >= GG_N_QUANTITIES) return own(model, q)->unit;
-  bool sheared = model->shear_rate != 0 || model->flow == GG_COUETTE;
+  bool sheared = gg_flow_is_timed_by_shear(model->flow);
   int scale =
       sheared ? (model->boltzmann ? SHEARED_BOLTZMANN : SHEARED) : (model->boltzmann ? THERMAL_BOLTZMANN : THERMAL);
   return unit_names[scale][row_of(q)->unit];

@@ -8,7 +8,7 @@ static bool smooth(const gg_model *m)
 }
 static bool cooling(const gg_model *m)
 {
-  return m->flow == GG_HCS;
+  return gg_flow_cools(m->flow);
 }
 static bool unsheared(const gg_model *m)
 {
@@ -40,7 +40,7 @@ static bool mixture(const gg_model *m)
 }
 static bool neither_cools(const gg_model *m)
 {
-  return m->flow != GG_HCS && m->flow != GG_HSS;
+  return !gg_flow_cools(m->flow) && !gg_flow_is_heated(m->flow);
 }
 static bool always(const gg_model *m)
 {
@@ -53,7 +53,7 @@ static bool nonlinear(const gg_model *m)
 }
 static bool heated_rough(const gg_model *m)
 {
-  return m->flow == GG_HSS && m->rule != GG_SMOOTH;
+  return gg_flow_is_heated(m->flow) && m->rule != GG_SMOOTH;
 }
 
 static const struct {

@@ -7,12 +7,11 @@
 #include <stdint.h>
 
 #include "common/extension.h"
+#include "common/flow.h"
 #include "common/observables.h"
 #include "common/species.h"
 
-typedef enum gg_flow { GG_EQUILIBRIUM, GG_USF, GG_HCS, GG_HSS, GG_COUETTE, GG_POISEUILLE, GG_CHUTE } gg_flow;
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
-typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE } gg_thermostat;
 typedef enum gg_switch { GG_OFF, GG_ON } gg_switch;
 typedef enum gg_precision { GG_DOUBLE, GG_SINGLE } gg_precision;
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
@@ -74,14 +73,5 @@ struct gg_scene {
 
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */
 gg_scene gg_scene_defaults(void);
-
-static inline bool gg_flow_is_sheared(gg_flow flow)
-{
-  return flow == GG_USF;
-}
-static inline bool gg_flow_is_walled(gg_flow flow)
-{
-  return flow == GG_COUETTE || flow == GG_POISEUILLE || flow == GG_CHUTE;
-}
 
 #endif

@@ -2,7 +2,7 @@
 
 gg_thermostat gg_thermostat_of(const gg_model *model)
 {
-  return model->flow == GG_HSS && model->thermostat == GG_NO_THERMOSTAT ? GG_GAUSSIAN : model->thermostat;
+  return gg_flow_takes(model->flow, model->thermostat) ? model->thermostat : gg_flow_of(model->flow)->thermostat;
 }
 
 /* Mean energy that a collision of Maxwellians destroys: <g_n^2> = 2 <c12_x^2>, <g_t^2> = 2 (<c12_x^2> + <s_x^2>). */

@@ -4,7 +4,7 @@
 
 #include "common/model.h"
 
-/* The thermostat in force: a heated gas (flow: hss) has the Gaussian one unless the scene says otherwise. */
+/* The thermostat in force: that of the scene, or the flow's own where it cannot do without. */
 gg_thermostat gg_thermostat_of(const gg_model *model);
 
 /* xi^2 at which white noise balances the collisions of Maxwellians at temperature0 and ratio0. */

@@ -68,7 +68,7 @@ static uint64_t collisions(const gg_simulation *s)
 /* Velocities that have fallen fourfold are brought back. */
 static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
 {
-  if (s->model.flow != GG_HCS || T > s->model.temperature0 / 16) return GG_OK;
+  if (!gg_flow_cools(s->model.flow) || T > s->model.temperature0 / 16) return GG_OK;
   gg_simulation_collect(s);
   GG_TRY(s->engine->ops->rescale(s->engine, 2, err));
   s->clock.power += 2;

@@ -3,12 +3,13 @@
 
 gg_status gg_dsmc_accepts(const gg_model *m, gg_error *err)
 {
-  if (gg_flow_is_walled(m->flow))
-    return gg_fail(err, GG_BAD_INPUT, "flow: walled flows need engine: md (Enskog Monte Carlo here is homogeneous)");
+  if (!gg_flow_runs_in(m->flow, GG_DSMC))
+    return gg_fail(err, GG_BAD_INPUT, "flow: %s needs engine: md (Enskog Monte Carlo here is homogeneous)",
+                   gg_flow_of(m->flow)->word);
   if (m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0)
     return gg_fail(err, GG_BAD_INPUT, "gravity: must be 0 with engine: dsmc (a homogeneous gas falls freely)");
-  if (m->thermostat != GG_NO_THERMOSTAT && m->flow != GG_HSS && m->flow != GG_USF)
-    return gg_fail(err, GG_BAD_INPUT, "thermostat: only in flow: hss and usf");
+  if (m->thermostat != GG_NO_THERMOSTAT && !gg_flow_takes(m->flow, m->thermostat))
+    return gg_fail(err, GG_BAD_INPUT, "thermostat: not this one in flow: %s", gg_flow_of(m->flow)->word);
   for (int i = 0; i < m->n_species; i++)
     if (m->n_of[i] < (m->n_species == 1 ? 2 : 1))
       return gg_fail(err, GG_BAD_INPUT, "dsmc.particles: at least 2 are needed, for collisions");

@@ -68,11 +68,7 @@ static void add_pairs(char *text, size_t size, const char *name, const double *x
 
 void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
 {
-  static const char *const flows[] = {
-      [GG_EQUILIBRIUM] = "Equilibrium", [GG_USF] = "Uniform shear flow", [GG_HCS] = "Homogeneous cooling",
-      [GG_HSS] = "Homogeneous heating", [GG_COUETTE] = "Couette flow",   [GG_POISEUILLE] = "Poiseuille flow",
-      [GG_CHUTE] = "Chute flow"};
-  const char *flow = flows[s->flow];
+  const char *flow = gg_flow_of(s->flow)->title;
   if (s->small_shear == GG_ON)
     flow = s->thermostat == GG_GAUSSIAN ? "Linear response, heated" : "Linear response, cooling";
   snprintf(text, size, "%s, phi %g", flow, s->phi);

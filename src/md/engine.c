@@ -182,7 +182,7 @@ static void state(const gg_engine *engine, gg_engine_state *s)
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
-  if (e->model.shear_rate != 0 || e->model.walled || e->model.flow == GG_HSS)
+  if (e->model.shear_rate != 0 || e->model.walled || e->thermostat != GG_NO_THERMOSTAT)
     return gg_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
   double v = ldexp(1, power), t = ldexp(1, -power);
   e->k.power += power;

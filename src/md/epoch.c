@@ -94,7 +94,7 @@ bool gg_md_next_epoch(gg_md *e)
   e->k.mark -= span;
   e->k.next_kick -= span;
   e->k.stop -= span;
-  if (e->model.flow == GG_HCS || e->model.flow == GG_HSS || e->model.flow == GG_USF) follow_centre_of_mass(e);
+  if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY) follow_centre_of_mass(e);
   if (e->thermostat == GG_GAUSSIAN) {
     span /= e->k.scale;
     gg_md_thermostat_fold(e);

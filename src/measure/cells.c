@@ -223,7 +223,7 @@ static void put_averages(gg_curve *c, const gg_model *m, const double *T, double
                                           {"rotational_temperature_box", "rotational_temperature_slabs",
                                            "rotational_temperature_slabs_corrected", "rotational_temperature_cells",
                                            "rotational_temperature_cells_corrected"}};
-  if (m->flow == GG_HCS || !m->steady) return; /* no mean of what cools down or heats up */
+  if (!gg_model_keeps_temperature(m)) return; /* no mean of what cools down or heats up */
   for (int k = 0; k < 5; k++)
     gg_curve_put_number(c, names[spins][k], T[k] / snapshots, gg_curve_unit(m, "temperature"));
 }
@@ -254,7 +254,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
           -SIGNED_BINS * SIGNED_WIDTH / 4 + SIGNED_WIDTH / 4, SIGNED_WIDTH / 2, bin + SHEAR, bin[N_SHEAR]);
   const char *rate = gg_curve_unit(m, "spin");
   if (m->shear_rate != 0 || m->walled) gg_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
-  if (m->flow != GG_HCS && m->steady)
+  if (gg_model_keeps_temperature(m))
     gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / snapshots * d->grid.n[1] / m->box[1], rate);
   if (m->rule == GG_SMOOTH) return;
   c = put(list, "cell_rotational_temperature", "local rotational temperature", "θ_{cell}/θ", RATIO_BINS,

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/thermostat.h"
 #include "measure/free_flight.h"
 #include "measure/observable.h"
 
@@ -43,8 +44,8 @@ static void *create(const gg_model *m, gg_error *err)
   /* A time has a meaning where the temperature stays; under md's Gaussian thermostat the engine's clock is not that of
    * the gas. A path is known from the velocity at its end where nothing but shear changes it in flight. */
   bool other_clock = m->thermostat == GG_GAUSSIAN && !m->homogeneous;
-  d->has[TIME] = m->flow != GG_HCS && m->steady && !m->linear_response && !other_clock; /* else it changes with T */
-  d->has[PATH] = m->flow != GG_HSS && !gg_flow_is_walled(m->flow);
+  d->has[TIME] = gg_model_keeps_temperature(m) && !other_clock; /* else it changes with T */
+  d->has[PATH] = gg_thermostat_of(m) == GG_NO_THERMOSTAT && !gg_flow_is_walled(m->flow);
   d->has[LABORATORY] = d->has[PATH] && m->steady && m->shear_rate != 0 && !m->homogeneous;
   return d;
 }

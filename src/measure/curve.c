@@ -101,7 +101,7 @@ double gg_level(double x, const double *parameters)
 
 const char *gg_curve_unit(const gg_model *m, const char *what)
 {
-  bool sheared = m->shear_rate != 0 || m->flow == GG_COUETTE;
+  bool sheared = gg_flow_is_timed_by_shear(m->flow);
   if (strcmp(what, "length") == 0) return gg_quantity_unit(GG_Q_MEAN_FREE_PATH, m);
   if (strcmp(what, "temperature") == 0) return gg_quantity_unit(GG_Q_TEMPERATURE, m);
   if (strcmp(what, "spin") == 0) return gg_quantity_unit(GG_Q_SPIN_Z, m);

@@ -37,7 +37,7 @@ typedef struct diffusion {
 static const char *refuses(const gg_model *m)
 {
   if (m->homogeneous) return "the grains of the Monte Carlo ensemble have neither positions nor names";
-  if (m->flow == GG_HCS) return "a cooling gas has no stationary velocity correlation";
+  if (gg_flow_cools(m->flow)) return "a cooling gas has no stationary velocity correlation";
   if (!m->steady) return "a gas that heats up has no stationary velocity correlation";
   return gg_needs_homogeneity(m);
 }

@@ -78,7 +78,7 @@ gg_diffusion_coefficients gg_diffusion_read(const gg_model *m, int species, int 
 {
   double T = 0;
   for (int b = 0; b < 3; b++) T += m->mass[species] * gg_lag_mean(bin, 0, GG_LAG_CC + b) / 3;
-  bool driven = m->flow != GG_EQUILIBRIUM;
+  bool driven = !gg_flow_of(m->flow)->conserves;
   node list[NODES];
   int n = nodes_of(bin, kinetic_collisions(m, species) * (driven ? DRIVEN : 1), list);
   gg_tail tail = gg_tail_of(m, T);

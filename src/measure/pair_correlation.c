@@ -136,7 +136,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 static void put_rate(const pair_correlation *d, gg_curve *c, const double *extra, double speed)
 {
   const gg_model *m = &d->model;
-  if (m->n_species > 1 || m->flow == GG_HCS || !m->steady) return;
+  if (m->n_species > 1 || !gg_model_keeps_temperature(m)) return;
   double rate = 2 * extra[COLLISIONS] / ((double)m->n * extra[TIME]), T = extra[TEMPERATURE] / extra[SNAPSHOTS];
   double others = (double)(m->n - 1) / m->volume, value = rate / (4 * others * sqrt(M_PI * T));
   gg_curve_put_number(c, "contact_value_of_rate", value, "1");
@@ -149,7 +149,7 @@ static void put_contact(const pair_correlation *d, int q, gg_curve *c, const dou
   const gg_model *m = &d->model;
   const double *near = bin + d->n_pairs * d->bins + q * GG_NEAR_WIDTH;
   gg_contact_density g = gg_near_read(&d->near[q], near, pairs / m->volume, samples);
-  double all = m->flow == GG_EQUILIBRIUM ? g.alike : 0.5 * (g.approaching + g.parting);
+  double all = gg_flow_of(m->flow)->conserves ? g.alike : 0.5 * (g.approaching + g.parting);
   gg_curve_put_number(c, "contact_value", all, "1");
   gg_curve_put_number(c, "contact_value_before", g.approaching, "1");
   gg_curve_put_number(c, "contact_value_after", g.parting, "1");

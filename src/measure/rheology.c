@@ -146,7 +146,7 @@ static void put_rates(const rheology *r, const gg_interval *in, haff h, double *
 static void finish(void *self, const gg_interval *in, double *row)
 {
   rheology *r = self;
-  bool cooling = r->model.flow == GG_HCS;
+  bool cooling = gg_flow_cools(r->model.flow);
   for (int i = 0; i < r->model.n_species; i++) {
     gg_velocity_moments_centre(&r->moments[i]);
     memcpy(r->memory.mean_spin[i], r->moments[i].mean_spin, sizeof r->memory.mean_spin[i]);

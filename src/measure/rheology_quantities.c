@@ -121,7 +121,7 @@ static double energy_balance(const double *a, const gg_model *m)
 
 static double cooling_rate(const double *a, const gg_model *m)
 {
-  if (m->flow == GG_HCS) return a[CH_ZETA];
+  if (gg_flow_cools(m->flow)) return a[CH_ZETA];
   double T = temperature(a, m); /* heated: -dT/dt by collisions alone, smooth grains */
   return a[CH_LOSS] / (1.5 * m->density * m->stress_unit * T * gg_model_nu0(m, T));
 }

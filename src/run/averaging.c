@@ -29,7 +29,7 @@ static bool checkpoint_is_due(const gg_replicas *all)
 /* Sampling intervals follow the collision rate before averaging, and where the temperature never stands still. */
 static bool adapts(const gg_replicas *all)
 {
-  return !all->state.averaging || all->model.flow == GG_HCS || !all->model.steady;
+  return !all->state.averaging || !gg_model_keeps_temperature(&all->model);
 }
 
 /* Is there no point in going on, whatever was asked? */

@@ -115,7 +115,7 @@ static gg_status rescale(gg_replica *r, int power, gg_error *err)
  * response: at the end of a sweep of the reduced shear rate, told by the collision rate, back to its beginning. */
 static gg_status rescale_if_due(gg_replica *r, gg_error *err)
 {
-  if (r->model.flow != GG_HCS && !r->model.linear_response) return GG_OK;
+  if (!gg_flow_cools(r->model.flow) && !r->model.linear_response) return GG_OK;
   double T0 = r->model.temperature0, slowdown = r->clock.interval * gg_model_collision_rate(&r->model, T0);
   slowdown /= GG_SAMPLING_INTERVAL;
   if (r->model.linear_response) {

@@ -16,7 +16,7 @@ void gg_result_warn(gg_result *result, const char *format, ...)
 
 bool gg_counts_in_collisions(const gg_model *m)
 {
-  return m->flow == GG_HCS || !m->steady;
+  return !gg_model_keeps_temperature(m);
 }
 
 const char *gg_correlation_time_unit(const gg_model *m)

@@ -1,42 +1,36 @@
 /* When keys have an effect: what the rows of the field table name under `when`. */
 #include <math.h>
+#include <stdio.h>
 
 #include "common/collision.h"
 #include "scene/conditions.h"
 
-static bool is_usf(const gg_scene *s, unsigned uses)
+bool gg_condition_holds(const gg_condition *c, const gg_scene *s, unsigned uses)
 {
-  (void)uses;
-  return s->flow == GG_USF;
+  return c->flow ? c->flow(s->flow) : c->holds(s, uses);
 }
 
-static bool is_couette(const gg_scene *s, unsigned uses)
+void gg_condition_otherwise(const gg_condition *c, char *text, size_t size)
 {
-  (void)uses;
-  return s->flow == GG_COUETTE;
+  char flows[160] = "";
+  if (c->flow) gg_flow_list(c->flow, flows, sizeof flows);
+  snprintf(text, size, "%s%s%s", c->otherwise, flows, c->after ? c->after : "");
 }
 
-static bool is_chute(const gg_scene *s, unsigned uses)
+static bool may_be_open(gg_flow flow)
 {
-  (void)uses;
-  return s->flow == GG_CHUTE;
-}
-
-static bool is_walled(const gg_scene *s, unsigned uses)
-{
-  (void)uses;
-  return gg_flow_is_walled(s->flow);
+  return gg_flow_of(flow)->may_be_open;
 }
 
 /* Theories know nothing of engines: with them alone nothing is told of their keys. */
 static bool uses_md(const gg_scene *s, unsigned uses)
 {
-  return uses == GG_USE_THEORY || ((uses & GG_USE_MD) && s->phi > 0);
+  return uses == GG_USE_THEORY || ((uses & GG_USE_MD) && s->phi > 0 && gg_flow_runs_in(s->flow, GG_MD));
 }
 
 static bool uses_dsmc(const gg_scene *s, unsigned uses)
 {
-  return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && !gg_flow_is_walled(s->flow));
+  return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && gg_flow_runs_in(s->flow, GG_DSMC));
 }
 
 static bool counts_particles(const gg_scene *s, unsigned uses)
@@ -99,8 +93,9 @@ bool gg_scene_loses_energy(const gg_scene *s)
 /* Walls may lose energy, too. */
 static bool is_lossy(const gg_scene *s, unsigned uses)
 {
+  (void)uses;
   return gg_extension_law(s->extension).e || gg_scene_loses_energy(s) ||
-         (is_walled(s, uses) && loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
+         (gg_flow_is_walled(s->flow) && loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
 }
 
 static bool some_rough(const gg_scene *s, unsigned uses)
@@ -133,21 +128,23 @@ static bool wall_friction(const gg_scene *s, unsigned uses)
   return s->walls.mu != 0;
 }
 
-const gg_condition gg_if_usf = {is_usf, "but in flow: usf"};
-const gg_condition gg_if_couette = {is_couette, "but in flow: couette"};
-const gg_condition gg_if_chute = {is_chute, "but in flow: chute"};
-const gg_condition gg_if_walled = {is_walled, "but between walls (flow: couette, poiseuille or chute)"};
-const gg_condition gg_if_md = {uses_md, "with engine: dsmc"};
-const gg_condition gg_if_dsmc = {uses_dsmc, "with engine: md"};
-const gg_condition gg_if_counted = {counts_particles,
-                                    "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)"};
-const gg_condition gg_if_boxed = {uses_md, "with engine: dsmc, which has no box"};
-const gg_condition gg_if_one_engine = {uses_one_engine, "in a comparison; graingas run keeps a trajectory"};
-const gg_condition gg_if_contact_value = {uses_contact_value,
-                                          "but on theories and engine: dsmc, with one species and phi above 0"};
-const gg_condition gg_if_lossy = {is_lossy, "where no collision loses energy"};
-const gg_condition gg_if_rough = {some_rough, "on smooth grains, which do not spin"};
-const gg_condition gg_if_sticking = {some_beta, "while collision.beta is -1: smooth grains"};
-const gg_condition gg_if_tangential = {some_friction, "while collision.mu is 0: smooth grains"};
-const gg_condition gg_if_wall_sticking = {wall_beta, "while walls.beta is -1: smooth walls"};
-const gg_condition gg_if_wall_tangential = {wall_friction, "while walls.mu is 0: smooth walls"};
+const gg_condition gg_if_sheared = {.flow = gg_flow_is_sheared, .otherwise = "but in flow: "};
+const gg_condition gg_if_moving_walls = {.flow = gg_flow_has_moving_walls, .otherwise = "but in flow: "};
+const gg_condition gg_if_openable = {.flow = may_be_open, .otherwise = "but in flow: "};
+const gg_condition gg_if_walled = {.flow = gg_flow_is_walled, .otherwise = "but between walls (flow: ", .after = ")"};
+const gg_condition gg_if_md = {.holds = uses_md, .otherwise = "with engine: dsmc"};
+const gg_condition gg_if_dsmc = {.holds = uses_dsmc, .otherwise = "with engine: md"};
+const gg_condition gg_if_counted = {.holds = counts_particles,
+                                    .otherwise =
+                                        "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)"};
+const gg_condition gg_if_boxed = {.holds = uses_md, .otherwise = "with engine: dsmc, which has no box"};
+const gg_condition gg_if_one_engine = {.holds = uses_one_engine,
+                                       .otherwise = "in a comparison; graingas run keeps a trajectory"};
+const gg_condition gg_if_contact_value = {
+    .holds = uses_contact_value, .otherwise = "but on theories and engine: dsmc, with one species and phi above 0"};
+const gg_condition gg_if_lossy = {.holds = is_lossy, .otherwise = "where no collision loses energy"};
+const gg_condition gg_if_rough = {.holds = some_rough, .otherwise = "on smooth grains, which do not spin"};
+const gg_condition gg_if_sticking = {.holds = some_beta, .otherwise = "while collision.beta is -1: smooth grains"};
+const gg_condition gg_if_tangential = {.holds = some_friction, .otherwise = "while collision.mu is 0: smooth grains"};
+const gg_condition gg_if_wall_sticking = {.holds = wall_beta, .otherwise = "while walls.beta is -1: smooth walls"};
+const gg_condition gg_if_wall_tangential = {.holds = wall_friction, .otherwise = "while walls.mu is 0: smooth walls"};

@@ -8,17 +8,14 @@
 
 #include "scene/conditions.h"
 
-static const gg_word flows[] = {{"equilibrium", GG_EQUILIBRIUM, "elastic gas at rest"},
-                                {"usf", GG_USF, "uniform shear, Lees-Edwards box"},
-                                {"hcs", GG_HCS, "homogeneous cooling"},
-                                {"hss", GG_HSS, "homogeneous, heated by a thermostat"},
-                                {"couette", GG_COUETTE, "shear between moving walls"},
-                                {"poiseuille", GG_POISEUILLE, "driven by a force along resting walls"},
-                                {"chute", GG_CHUTE, "down an incline"},
-                                {0}};
+static gg_word flow_word(int i)
+{
+  return i < GG_N_FLOWS ? (gg_word){gg_flows[i].word, i, gg_flows[i].doc} : (gg_word){0};
+}
+
 static const gg_word engines[] = {
     {"md", GG_MD, "event-driven molecular dynamics"}, {"dsmc", GG_DSMC, "Enskog Monte Carlo"}, {0}};
-static const gg_word thermostats[] = {{"none", GG_NO_THERMOSTAT, "but gaussian in hss"},
+static const gg_word thermostats[] = {{"none", GG_NO_THERMOSTAT, "the default, but of flows that need one"},
                                       {"gaussian", GG_GAUSSIAN, "anti-drag that keeps the energy constant"},
                                       {"white_noise", GG_WHITE_NOISE, "random kicks"},
                                       {0}};
@@ -45,7 +42,7 @@ static const gg_word observables[] = {GG_OBSERVABLES(WORD){0}};
 #define NONE .special = "none", .special_value = GG_AUTO
 
 const gg_field gg_scene_fields[] = {
-    {"flow", GG_FIELD_CHOICE, AT(flow), .words = flows, .doc = "the flow; must be given", .also = "type"},
+    {"flow", GG_FIELD_CHOICE, AT(flow), .word = flow_word, .doc = "the flow; must be given", .also = "type"},
     {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines, .doc = "which engine `run` uses; `compare` uses both",
      .also = "method"},
     {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .words = thermostats, .doc = "what keeps the gas warm"},
@@ -56,14 +53,14 @@ const gg_field gg_scene_fields[] = {
      .also = "density volume_fraction solid_fraction packing_fraction nu"},
     {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box", .when = {&gg_if_counted},
      .also = "N grains number n_particles num_particles"},
-    {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .unit = "1/time", .doc = "shear rate of usf",
-     .when = {&gg_if_usf}, .also = "gamma gamma_dot rate shear"},
+    {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .unit = "1/time", .doc = "of sheared flows",
+     .when = {&gg_if_sheared}, .also = "gamma gamma_dot rate shear"},
     {"small_shear", GG_FIELD_CHOICE, AT(small_shear), .words = switches,
      .doc = "usf: linear response, shear so slow that the viscosity is extrapolated to the shear rate 0: of the heated "
             "gas with thermostat: gaussian (where it is on unless switched off), of the cooling one without",
-     .when = {&gg_if_usf}},
+     .when = {&gg_if_sheared}},
     {"temperature", GG_FIELD_NUMBER, AT(temperature), 1e-100, 1e100, false, AUTO, .unit = "velocity^2",
-     .doc = "<C.C>/3 to start from; auto: near the steady state", .when = {&gg_if_usf}, .also = "T T0"},
+     .doc = "<C.C>/3 to start from; auto: near the steady state", .when = {&gg_if_sheared}, .also = "T T0"},
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges",
      .when = {&gg_if_boxed}, .also = "box"},
     {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .doc = "normal restitution; 1 unless given in equilibrium",
@@ -81,12 +78,13 @@ const gg_field gg_scene_fields[] = {
      .when = {&gg_if_walled, &gg_if_wall_tangential}},
     {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .doc = "friction coefficient at the walls",
      .when = {&gg_if_walled, &gg_if_wall_sticking}},
-    {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "chute: the upper end",
-     .when = {&gg_if_walled, &gg_if_chute}},
+    {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "the upper end of chutes",
+     .when = {&gg_if_walled, &gg_if_openable}},
     {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), SMALL, LARGE, .unit = "velocity",
-     .doc = "couette: the walls at +-L_y/2 move at +-speed", .when = {&gg_if_walled, &gg_if_couette}},
+     .doc = "of walls that move: those at +-L_y/2 at +-speed", .when = {&gg_if_walled, &gg_if_moving_walls}},
     {"gravity", GG_FIELD_VECTOR, AT(gravity), -1e12, 1e12, .unit = "acceleration",
-     .doc = "body force per mass; walled flows only", .when = {&gg_if_walled}, .also = "g"},
+     .doc = "body force per mass; in flows between walls, some of which have another default", .when = {&gg_if_walled},
+     .also = "g"},
     {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
      .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or not asked if "
             "run.collisions is given",
@@ -181,6 +179,14 @@ gg_word gg_field_find_word(const gg_field *f, const char *name)
   int i = 0;
   gg_word word = gg_field_word(f, 0);
   while (word.name && strcmp(word.name, name) != 0) word = gg_field_word(f, ++i);
+  return word;
+}
+
+gg_word gg_field_word_for(const gg_field *f, int value)
+{
+  int i = 0;
+  gg_word word = gg_field_word(f, 0);
+  while (word.name && word.value != value) word = gg_field_word(f, ++i);
   return word;
 }
 

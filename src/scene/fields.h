@@ -59,6 +59,8 @@ bool gg_scene_is_section(const char *name);
 gg_word gg_field_word(const gg_field *field, int i);
 /* The word of that name; its name is NULL if there is none. */
 gg_word gg_field_find_word(const gg_field *field, const char *name);
+/* The word that stands for that value; its name is NULL if there is none. */
+gg_word gg_field_word_for(const gg_field *field, int value);
 
 /* A number in the fewest digits that read back as the same number. */
 void gg_format_number(double value, char *text, size_t size);

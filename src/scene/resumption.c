@@ -64,6 +64,7 @@ static void show(const gg_field *f, const void *at, char *text, size_t size)
 {
   int64_t whole;
   unsigned word;
+  gg_word w;
   *text = '\0';
   switch (f->type) {
   case GG_FIELD_INTEGER:
@@ -76,9 +77,9 @@ static void show(const gg_field *f, const void *at, char *text, size_t size)
   case GG_FIELD_CHOICE:
   case GG_FIELD_SET:
     memcpy(&word, at, sizeof word);
-    for (const gg_word *w = f->words; w->name; w++)
-      if (f->type == GG_FIELD_SET ? (word & (unsigned)w->value) != 0 : word == (unsigned)w->value)
-        append(text, size, "%s%s", *text ? ", " : "", w->name);
+    for (int i = 0; (w = gg_field_word(f, i)).name; i++)
+      if (f->type == GG_FIELD_SET ? (word & (unsigned)w.value) != 0 : word == (unsigned)w.value)
+        append(text, size, "%s%s", *text ? ", " : "", w.name);
     return;
   default:
     for (size_t i = 0; i < (f->type == GG_FIELD_VECTOR ? 3 : 1); i++) {

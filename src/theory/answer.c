@@ -6,16 +6,6 @@
 
 #include "theory/collision_rate.h"
 
-static const char *const flow_names[] = {
-    [GG_EQUILIBRIUM] = "equilibrium without shear",
-    [GG_USF] = "uniform shear",
-    [GG_HCS] = "free cooling",
-    [GG_HSS] = "a homogeneously heated state",
-    [GG_COUETTE] = "shear between walls",
-    [GG_POISEUILLE] = "Poiseuille flow",
-    [GG_CHUTE] = "chute flow",
-};
-
 gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...)
 {
   char reason[512];
@@ -26,16 +16,8 @@ gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...)
   return gg_fail(err, GG_BAD_INPUT, "%s %s", theory, reason);
 }
 
-gg_status gg_require_flow(const gg_model *m, gg_flow flow, const char *theory, gg_error *err)
-{
-  if (m->flow == flow) return GG_OK;
-  return gg_refuse(err, theory, "describes %s; this scene is %s", flow_names[flow], flow_names[m->flow]);
-}
-
 gg_status gg_require_steady_shear(const gg_model *m, const char *theory, gg_error *err)
 {
-  if (m->flow != GG_USF)
-    return gg_refuse(err, theory, "describes steady uniform shear; this scene is %s", flow_names[m->flow]);
   if (m->thermostat != GG_NO_THERMOSTAT)
     return gg_refuse(err, theory, "describes shear whose heating only collisions balance; this scene has a thermostat");
   if (m->linear_response)

@@ -10,7 +10,6 @@
 
 /* Guards: GG_OK, or GG_BAD_INPUT with "<theory> describes ...; this scene is ...". */
 gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...) GG_PRINTF(3, 4);
-gg_status gg_require_flow(const gg_model *model, gg_flow flow, const char *theory, gg_error *err);
 gg_status gg_require_steady_shear(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_require_one_species(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_require_smooth(const gg_model *model, const char *theory, gg_error *err);

@@ -38,7 +38,6 @@ static void answer_viscosity(const gg_model *m, double T, gg_theory_answer *a)
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_flow(m, GG_EQUILIBRIUM, name, err));
   if (!m->elastic) return gg_refuse(err, name, "describes elastic grains; collisions of this scene lose energy");
   double T = m->temperature0, p = m->density * T, pc = p * (compressibility(m) - 1);
   gg_answer_temperature(m, T, 1, a);
@@ -52,6 +51,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_enskog = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Elastic hard spheres in equilibrium",
     .citation =
         "D. Enskog, K. Svenska Vetensk. Akad. Handl. 63 (1922) no. 4; N.F. Carnahan and K.E. Starling, J. Chem. "

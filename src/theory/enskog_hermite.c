@@ -200,6 +200,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_enskog_hermite = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
     .title = "Enskog's equation, solved by expansion without random numbers",
     .citation = "J.J. Brey, J.W. Dufty and A. Santos, J. Stat. Phys. 87 (1997) 1051, for the equation",
     .assumptions =

@@ -34,7 +34,6 @@ static gg_status answer_with(double (*Z_of)(double), const char *name, const gg_
                              gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, name, err));
-  GG_TRY(gg_require_flow(m, GG_EQUILIBRIUM, name, err));
   if (!m->elastic) return gg_refuse(err, name, "describes elastic grains; collisions of this scene lose energy");
   if (m->boltzmann) return gg_refuse(err, name, "describes dense fluids; this scene has phi = 0");
   if (m->phi > GG_FREEZING_PHI)
@@ -66,6 +65,7 @@ static gg_status evaluate_pieprzyk(const gg_model *m, gg_theory_answer *a, gg_er
 
 const gg_theory gg_carnahan_starling1969 = {
     .name = "carnahan_starling1969",
+    .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Equation of state of elastic hard spheres",
     .citation = "N.F. Carnahan and K.E. Starling, J. Chem. Phys. 51 (1969) 635",
     .assumptions =
@@ -76,6 +76,7 @@ const gg_theory gg_carnahan_starling1969 = {
 
 const gg_theory gg_kolafa2004 = {
     .name = "kolafa2004",
+    .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Accurate equation of state of elastic hard spheres",
     .citation = "J. Kolafa, S. Labik and A. Malijevsky, Phys. Chem. Chem. Phys. 6 (2004) 2335",
     .assumptions = "Equilibrium fluid of one species, phi up to 0.494.",
@@ -84,6 +85,7 @@ const gg_theory gg_kolafa2004 = {
 
 const gg_theory gg_pieprzyk2019 = {
     .name = "pieprzyk2019",
+    .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Accurate equation of state of elastic hard spheres, refitted",
     .citation = "S. Pieprzyk, M.N. Bannerman, A.C. Branka, M. Chudak and D.M. Heyes, Phys. Chem. Chem. Phys. 21 (2019) "
                 "6886",

@@ -90,6 +90,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_garzo_dufty1999 = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
     .title = "Cooling and viscosity of smooth inelastic spheres",
     .citation =
         "V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895; V. Garzo and J.M. Montanero, Physica A 313 (2002) "
@@ -131,6 +132,7 @@ static gg_status evaluate_modified(const gg_model *m, gg_theory_answer *a, gg_er
 
 const gg_theory gg_montanero_santos2000 = {
     .name = name_ms,
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
     .title = "Fourth cumulant, the other linearisation",
     .citation = "J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .assumptions =
@@ -141,6 +143,7 @@ const gg_theory gg_montanero_santos2000 = {
 
 const gg_theory gg_garzo_santos_montanero2007 = {
     .name = name_modified,
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
     .title = "Viscosity about the cooling state's own distribution",
     .citation = "V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94",
     .assumptions =

@@ -154,6 +154,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_garzo_montanero2003 = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
     .title = "Cooling and viscosity of smooth binary mixtures",
     .citation = "V. Garzo and J.M. Montanero, Phys. Rev. E 68 (2003) 041302; V. Garzo and J.W. Dufty, Phys. Rev. E 60 "
                 "(1999) 5706",
@@ -174,6 +175,7 @@ static gg_status evaluate_ms(const gg_model *m, gg_theory_answer *a, gg_error *e
 
 const gg_theory gg_garzo_montanero2003_ms = {
     .name = name_ms,
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
     .title = "Binary mixtures, the other linearisation of c_1 and c_2",
     .citation = "As garzo_montanero2003, linearised as in J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .assumptions =

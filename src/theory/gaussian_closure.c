@@ -72,6 +72,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_gaussian_closure = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_USF),
     .title = "Anisotropic Gaussian closure of Enskog's equation",
     .citation = "J.T. Jenkins and M.W. Richman, J. Fluid Mech. 192 (1988) 313; S. Saha and M. Alam, J. Fluid Mech. 795 "
                 "(2016) 549",

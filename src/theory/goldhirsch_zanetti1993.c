@@ -41,8 +41,6 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, name, err));
   GG_TRY(gg_require_constant_beta(m, name, err));
-  if (m->flow != GG_HCS && m->flow != GG_USF)
-    return gg_refuse(err, name, "describes free cooling, and as a scale sheared gases; this scene is neither");
   if (m->elastic) return gg_refuse(err, name, "describes gases that lose energy; collisions of this scene do not");
   a->value[GG_Q_CLUSTERING_LENGTH] = gg_clustering_length(m);
   return GG_OK;
@@ -50,6 +48,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_goldhirsch_zanetti1993 = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_USF),
     .title = "Size above which cooling gases form vortices and clusters",
     .citation =
         "I. Goldhirsch and G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey et al., Phys. Rev. E 58 (1998) 4638",

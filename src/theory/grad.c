@@ -45,6 +45,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_grad = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_USF),
     .title = "Linear Grad theory of dilute shear",
     .citation = "J.J. Brey, M.J. Ruiz-Montero and F. Moreno, Phys. Rev. E 55 (1997) 2846; J.M. Montanero and V. Garzo, "
                 "Physica A 310 (2002) 17",

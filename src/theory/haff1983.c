@@ -25,7 +25,6 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, name, err));
   GG_TRY(gg_require_smooth(m, name, err));
-  GG_TRY(gg_require_flow(m, GG_HCS, name, err));
   double T = m->temperature0;
   gg_answer_temperature(m, T, NAN, a);
   gg_answer_collisions_one(m, T, a);
@@ -36,6 +35,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_haff1983 = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_HCS),
     .title = "Haff's law of free cooling",
     .citation = "P.K. Haff, J. Fluid Mech. 134 (1983) 401",
     .assumptions =

@@ -12,7 +12,7 @@ static const char name[] = "huthmann_zippelius1997";
 
 static gg_status ratio_of(const gg_model *m, gg_grain grain, double mu, double *ratio, gg_error *err)
 {
-  *ratio = m->flow == GG_HCS ? gg_ratio_cooling(grain, mu) : gg_ratio_driven(grain, mu);
+  *ratio = gg_flow_cools(m->flow) ? gg_ratio_cooling(grain, mu) : gg_ratio_driven(grain, mu);
   if (!isnan(*ratio)) return GG_OK;
   return gg_refuse(err, name,
                    "finds no steady theta/T: with so little friction rotation cools more slowly than translation "
@@ -22,10 +22,7 @@ static gg_status ratio_of(const gg_model *m, gg_grain grain, double mu, double *
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, name, err));
-  if (m->flow == GG_USF)
-    GG_TRY(gg_require_steady_shear(m, name, err));
-  else if (m->flow != GG_HSS)
-    GG_TRY(gg_require_flow(m, GG_HCS, name, err));
+  if (m->flow == GG_USF) GG_TRY(gg_require_steady_shear(m, name, err));
   if (m->rule == GG_SMOOTH) return gg_refuse(err, name, "describes rough grains; grains of this scene are smooth");
   gg_grain grain = gg_grain_of(m);
   double mu = m->rule == GG_FRICTIONAL ? m->mu[0] : INFINITY, ratio;
@@ -48,6 +45,7 @@ static const char *beyond(const gg_model *m)
 
 const gg_theory gg_huthmann_zippelius1997 = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
     .title = "Rough grains with Maxwellian velocities and spins",
     .citation =
         "M. Huthmann and A. Zippelius, Phys. Rev. E 56 (1997) R6275; with friction O. Herbst, M. Huthmann and A. "

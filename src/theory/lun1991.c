@@ -77,6 +77,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_lun1991 = {
     .name = "lun1991",
+    .flows = GG_FLOW_BIT(GG_USF),
     .title = "Kinetic theory of slightly inelastic, rough spheres",
     .citation = "C.K.K. Lun, J. Fluid Mech. 233 (1991) 539",
     .assumptions =
@@ -100,6 +101,7 @@ static gg_status evaluate_lun_savage(const gg_model *m, gg_theory_answer *a, gg_
 
 const gg_theory gg_lun1991_lun_savage = {
     .name = name_ls,
+    .flows = GG_FLOW_BIT(GG_USF),
     .title = "Lun's theory with the contact value of Lun and Savage",
     .citation =
         "C.K.K. Lun, J. Fluid Mech. 233 (1991) 539; contact value C.K.K. Lun and S.B. Savage, J. Appl. Mech. 54 "

@@ -24,18 +24,6 @@ gg_status gg_own_theory_add(gg_extension **extension, const gg_theory_definition
   return GG_OK;
 }
 
-static const char *word_of_flow(gg_flow flow)
-{
-  static const char *const words[] = {[GG_EQUILIBRIUM] = "equilibrium",
-                                      [GG_USF] = "usf",
-                                      [GG_HCS] = "hcs",
-                                      [GG_HSS] = "hss",
-                                      [GG_COUETTE] = "couette",
-                                      [GG_POISEUILLE] = "poiseuille",
-                                      [GG_CHUTE] = "chute"};
-  return words[flow];
-}
-
 static const char *word_of_thermostat(gg_thermostat thermostat)
 {
   static const char *const words[] = {
@@ -59,7 +47,7 @@ gg_status gg_own_theory_evaluate(const gg_theory_definition *t, const gg_model *
   gg_species_facts species[GG_MAX_SPECIES];
   gg_pair_facts pairs[GG_MAX_SPECIES * GG_MAX_SPECIES];
   describe_species(m, species, pairs);
-  const gg_facts facts = {.flow = word_of_flow(m->flow),
+  const gg_facts facts = {.flow = gg_flow_of(m->flow)->word,
                           .thermostat = word_of_thermostat(gg_thermostat_of(m)),
                           .restitution_law = m->law.e ? m->law.name : NULL,
                           .phi = m->phi,

@@ -22,6 +22,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_sela_goldhirsch1998 = {
     .name = name,
+    .flows = GG_FLOW_BIT(GG_USF),
     .title = "Normal stress differences at Burnett order",
     .citation = "N. Sela and I. Goldhirsch, J. Fluid Mech. 361 (1998) 41",
     .assumptions =

@@ -1,6 +1,8 @@
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "theory/answer.h"
 #include "theory/theory_list.h"
 
 #define ENTRY(name) &gg_##name,
@@ -24,12 +26,33 @@ const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model)
   return theory->beyond ? theory->beyond(model) : NULL;
 }
 
+/* "free cooling or uniform shear" */
+static void list_states(unsigned flows, char *text, size_t size)
+{
+  size_t used = 0;
+  for (int f = 0; f < GG_N_FLOWS && used < size; f++) {
+    if (!(flows & GG_FLOW_BIT(f))) continue;
+    flows &= ~GG_FLOW_BIT(f);
+    const char *after = !flows ? "" : flows & (flows - 1) ? ", " : " or ";
+    used += (size_t)snprintf(text + used, size - used, "%s%s", gg_flows[f].state, after);
+  }
+}
+
+static gg_status check_flow(const gg_theory *theory, const gg_model *m, gg_error *err)
+{
+  char states[320];
+  if (!theory->flows || (theory->flows & GG_FLOW_BIT(m->flow))) return GG_OK;
+  list_states(theory->flows, states, sizeof states);
+  return gg_refuse(err, theory->name, "describes %s; this scene is %s", states, gg_flow_of(m->flow)->state);
+}
+
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
 {
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
   if (model->law.e && !theory->own)
     return gg_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
                    theory->name, model->law.name);
+  GG_TRY(check_flow(theory, model, err));
   gg_status status =
       theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err) : theory->evaluate(model, answer, err);
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */

@@ -4,8 +4,8 @@
 
 #include "common/quantity.h"
 
-/* What a theory says: NaN where it has no answer. `error`: how far a number may be from what the theory's equations have
- * as their solution, where these are solved numerically; else NaN. */
+/* What a theory says: NaN where it has no answer. `error`: how far a number may be from what the theory's equations
+ * have as their solution, where these are solved numerically; else NaN. */
 typedef struct gg_theory_answer {
   double value[GG_MOST_QUANTITIES];
   double error[GG_MOST_QUANTITIES];
@@ -16,7 +16,9 @@ typedef struct gg_theory {
   const char *title;       /* one line for people */
   const char *citation;    /* the original paper */
   const char *assumptions; /* and range, one or two sentences */
-  /* GG_OK with the answer, or GG_BAD_INPUT with the reason why the theory does not apply to this model. */
+  unsigned flows;          /* that it describes, a sum of GG_FLOW_BIT; 0: it looks for itself */
+  /* Of those flows alone: GG_OK with the answer, or GG_BAD_INPUT with the reason why the theory does not apply to this
+   * model. */
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);
   /* Why this model is beyond what the theory was made for, though it answers; NULL (also the function) within it. */
   const char *(*beyond)(const gg_model *model);

@@ -53,6 +53,8 @@ static void used_incomplete(void **state)
   assert_refused(gg_compare(s, NULL, &c, &err), "flow is missing");
   assert_refused(gg_evaluate_theories(s, NULL, &c, &err), "flow is missing");
   assert_ok(gg_scene_set(s, "flow", "chute", &err));
+  assert_ok(gg_scene_check(s, &err));
+  assert_ok(gg_scene_set(s, "gravity", "[0, 0, 0]", &err));
   assert_refused(gg_scene_check(s, &err), "needs gravity");
   gg_scene_free(s);
 }

@@ -204,9 +204,9 @@ static void combinations(void **state)
   assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {e: 0.9}\n", "lose no energy");
   assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {beta: 0}\n", "lose no energy");
   assert_refused("flow: hss\nphi: 0.3\nthermostat: none\n", "hss needs a thermostat");
-  assert_refused("flow: hcs\nphi: 0.3\nthermostat: gaussian\n", "use flow: hss");
+  assert_refused("flow: hcs\nphi: 0.3\nthermostat: gaussian\n", "gaussian does not go with flow: hcs; use flow: ");
   assert_refused("flow: usf\nphi: 0.3\ngravity: [0, -1, 0]\n", "gravity needs a flow with walls");
-  assert_refused("flow: chute\nphi: 0.3\n", "chute needs gravity");
+  assert_refused("flow: chute\nphi: 0.3\ngravity: [0, 0, 0]\n", "chute needs gravity, e.g. gravity: [0.1, -0.1, 0]");
   assert_refused("flow: usf\nphi: 0.3\ncollision: {mu: 0.5}\n",
                  "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains");
   assert_refused("flow: usf\nphi: 0.3\nspecies: [{}, {}]\ncollision: {mu: {11: inf, 12: 0.5, 22: 0}}\n",

@@ -43,12 +43,12 @@ static void change(const gg_field *f, gg_scene *s)
     return;
   case GG_FIELD_CHOICE:
     memcpy(&word, at, sizeof word);
-    word = f->words[f->words[0].value == word].value;
+    word = gg_field_word(f, gg_field_word(f, 0).value == word).value;
     memcpy(at, &word, sizeof word);
     return;
   case GG_FIELD_SET:
     memcpy(&word, at, sizeof word);
-    word ^= f->words[1].value;
+    word ^= gg_field_word(f, 1).value;
     memcpy(at, &word, sizeof word);
     return;
   default: /* numbers: the last of three, of pairs the first; of a species its fraction */

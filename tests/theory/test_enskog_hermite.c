@@ -82,7 +82,7 @@ static void refuses_what_it_does_not_describe(void **state)
   assert_refused(&gg_enskog_hermite, &rough, "smooth grains");
   assert_refused(&gg_enskog_hermite, &mixed, "one species");
   assert_refused(&gg_enskog_hermite, &elastic, "heats up for ever");
-  assert_refused(&gg_enskog_hermite, &walled, "neither");
+  assert_refused(&gg_enskog_hermite, &walled, "this scene is shear between walls");
 }
 
 int main(void)

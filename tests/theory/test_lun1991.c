@@ -177,7 +177,7 @@ static void refuses_politely(void **state)
 {
   (void)state;
   gg_model m = model_for(GG_HCS, 0.1, 0.9, -1);
-  assert_refused(&gg_lun1991, &m, "lun1991 describes steady uniform shear; this scene is free cooling");
+  assert_refused(&gg_lun1991, &m, "lun1991 describes uniform shear; this scene is free cooling");
   m = model_for(GG_USF, 0.1, 1, -1);
   assert_refused(&gg_lun1991, &m, "lose no energy");
   m = model_for(GG_USF, 0.1, 1, 1);

@@ -1,43 +1,92 @@
 /* What concerns several keys of a scene: defaults that follow the flow, and combinations that make no sense anywhere.
  * What an engine cannot run is the engine's to say (gg_engine_ops.accepts). */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "io/scene/inert.h"
 #include "io/scene/reader.h"
 
-/* A gas in equilibrium loses no energy; a heated one needs a heater. */
+/* What depends on the flow: its row says. */
 void gg_scene_fill_in(gg_scene *s)
 {
+  const gg_flow_row *flow = gg_flow_of(s->flow);
   if (!gg_scene_is_given(s, "collision.e")) {
-    double e = s->flow == GG_EQUILIBRIUM ? 1 : gg_scene_defaults().collision.e[0];
+    double e = flow->conserves ? 1 : gg_scene_defaults().collision.e[0];
     for (int p = 0; p < GG_PAIRS; p++) s->collision.e[p] = e;
   }
-  if (!gg_scene_is_given(s, "thermostat")) s->thermostat = s->flow == GG_HSS ? GG_GAUSSIAN : GG_NO_THERMOSTAT;
+  if (!gg_scene_is_given(s, "thermostat")) s->thermostat = flow->thermostat;
+  if (!gg_scene_is_given(s, "gravity")) memcpy(s->gravity, flow->gravity, sizeof s->gravity);
   if (!gg_scene_is_given(s, "small_shear"))
     s->small_shear = s->flow == GG_USF && s->thermostat == GG_GAUSSIAN ? GG_ON : GG_OFF;
   if (s->small_shear == GG_ON) s->measure |= GG_MEASURE_VISCOSITY;
+  s->measure |= flow->measure;
+}
+
+static bool takes_gaussian(gg_flow flow)
+{
+  return gg_flow_takes(flow, GG_GAUSSIAN);
+}
+static bool takes_white_noise(gg_flow flow)
+{
+  return gg_flow_takes(flow, GG_WHITE_NOISE);
+}
+
+/* Flows that take the thermostat of the scene, for messages. */
+static void flows_with(gg_thermostat thermostat, char *text, size_t size)
+{
+  gg_flow_list(thermostat == GG_GAUSSIAN ? takes_gaussian : takes_white_noise, text, size);
+}
+
+static gg_status check_thermostat(const gg_scene *s, gg_error *err)
+{
+  const gg_field *field = &gg_scene_fields[gg_scene_field_find("thermostat")];
+  const char *flow = gg_flow_of(s->flow)->word;
+  char text[160] = "";
+  if (gg_flow_takes(s->flow, s->thermostat)) return GG_OK;
+  if (s->thermostat != GG_NO_THERMOSTAT) {
+    flows_with(s->thermostat, text, sizeof text);
+    return gg_fail(err, GG_BAD_INPUT, "thermostat: %s does not go with flow: %s; use flow: %s",
+                   gg_field_word_for(field, (int)s->thermostat).name, flow, text);
+  }
+  size_t used = 0;
+  for (int t = GG_NO_THERMOSTAT + 1; t < GG_N_THERMOSTATS && used < sizeof text; t++)
+    if (gg_flow_takes(s->flow, (gg_thermostat)t))
+      used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " or " : "",
+                               gg_field_word_for(field, t).name);
+  return gg_fail(err, GG_BAD_INPUT, "flow: %s needs a thermostat: %s", flow, text);
+}
+
+static gg_status check_gravity(const gg_scene *s, gg_error *err)
+{
+  const gg_flow_row *flow = gg_flow_of(s->flow);
+  bool falls = s->gravity[0] != 0 || s->gravity[1] != 0 || s->gravity[2] != 0;
+  char walled[160];
+  if (falls && flow->falling == GG_NEVER_FALLS) {
+    gg_flow_list(gg_flow_is_walled, walled, sizeof walled);
+    return gg_fail(err, GG_BAD_INPUT, "gravity needs a flow with walls: %s", walled);
+  }
+  if (!falls && flow->falling == GG_ALWAYS_FALLS)
+    return gg_fail(err, GG_BAD_INPUT, "flow: %s needs gravity, e.g. gravity: [%g, %g, %g]", flow->word,
+                   flow->gravity[0], flow->gravity[1], flow->gravity[2]);
+  return GG_OK;
 }
 
 static gg_status check_flow(const gg_scene *s, gg_error *err)
 {
-  if (s->flow == GG_EQUILIBRIUM && gg_scene_loses_energy(s))
+  const gg_flow_row *flow = gg_flow_of(s->flow);
+  char cooling[160];
+  if (flow->conserves && gg_scene_loses_energy(s)) {
+    gg_flow_list(gg_flow_cools, cooling, sizeof cooling);
     return gg_fail(err, GG_BAD_INPUT,
-                   "flow: equilibrium needs collisions that lose no energy: collision.e 1, and collision.beta -1 "
-                   "(or 1 with mu inf); for a cooling gas use flow: hcs");
-  if (s->flow == GG_HSS && s->thermostat == GG_NO_THERMOSTAT)
-    return gg_fail(err, GG_BAD_INPUT, "flow: hss needs a thermostat: gaussian or white_noise");
-  if ((s->flow == GG_HCS || s->flow == GG_EQUILIBRIUM) && s->thermostat != GG_NO_THERMOSTAT)
-    return gg_fail(err, GG_BAD_INPUT, "a thermostat does not go with flow: %s; use flow: hss",
-                   s->flow == GG_HCS ? "hcs" : "equilibrium");
+                   "flow: %s needs collisions that lose no energy: collision.e 1, and collision.beta -1 (or 1 with mu "
+                   "inf); for a cooling gas use flow: %s",
+                   flow->word, cooling);
+  }
+  GG_TRY(check_thermostat(s, err));
   if (s->small_shear == GG_ON && (s->flow != GG_USF || s->thermostat == GG_WHITE_NOISE))
     return gg_fail(err, GG_BAD_INPUT, "small_shear: on needs flow: usf, and thermostat: none or gaussian");
-  double g = fabs(s->gravity[0]) + fabs(s->gravity[1]) + fabs(s->gravity[2]);
-  if (g > 0 && !gg_flow_is_walled(s->flow))
-    return gg_fail(err, GG_BAD_INPUT, "gravity needs a flow with walls: couette, poiseuille or chute");
-  if (g == 0 && (s->flow == GG_POISEUILLE || s->flow == GG_CHUTE))
-    return gg_fail(err, GG_BAD_INPUT, "flow: %s needs gravity, e.g. gravity: [0.01, 0, 0]",
-                   s->flow == GG_CHUTE ? "chute" : "poiseuille");
-  return GG_OK;
+  return check_gravity(s, err);
 }
 
 /* With beta -1, the default, there is no tangential impulse that friction could limit. */

@@ -12,7 +12,7 @@ typedef struct inert_keys {
   int n;
   struct {
     char key[48];
-    const char *otherwise; /* NULL: told already */
+    char otherwise[160]; /* empty: told already */
   } of[MOST_INERT];
 } inert_keys;
 
@@ -20,7 +20,8 @@ static void note(inert_keys *all, const char *otherwise, const char *key)
 {
   if (all->n == MOST_INERT) return;
   snprintf(all->of[all->n].key, sizeof all->of[0].key, "%s", key);
-  all->of[all->n++].otherwise = otherwise;
+  snprintf(all->of[all->n].otherwise, sizeof all->of[0].otherwise, "%s", otherwise);
+  all->n++;
 }
 
 /* Does `base` hold another value than `default_base`, of the scenes? */
@@ -34,11 +35,12 @@ static bool differs(const gg_field *f, const void *base, const gg_scene *scene, 
   return yes;
 }
 
-static const char *why_inert(const gg_field *f, const gg_scene *scene, unsigned uses)
+/* The words for it in `text`, if the key has no effect. */
+static bool is_inert(const gg_field *f, const gg_scene *scene, unsigned uses, char *text, size_t size)
 {
   for (int i = 0; i < GG_MOST_CONDITIONS && f->when[i]; i++)
-    if (!f->when[i]->holds(scene, uses)) return f->when[i]->otherwise;
-  return NULL;
+    if (!gg_condition_holds(f->when[i], scene, uses)) return gg_condition_otherwise(f->when[i], text, size), true;
+  return false;
 }
 
 /* Pairs of species that there are not: values given to them alone, unlike those of the rest. */
@@ -59,10 +61,10 @@ static void note_species(inert_keys *all, const gg_scene *scene, unsigned uses)
   const gg_scene defaults = gg_scene_defaults();
   for (int i = 0; i < scene->n_species; i++)
     for (const gg_field *f = gg_species_fields; f->key; f++) {
-      const char *why = why_inert(f, scene, uses);
-      char key[48];
+      char why[160], key[48];
+      bool inert = is_inert(f, scene, uses, why, sizeof why);
       snprintf(key, sizeof key, "species.%d.%s", i + 1, f->key);
-      if (why && differs(f, &scene->species[i], scene, &defaults.species[0], &defaults)) note(all, why, key);
+      if (inert && differs(f, &scene->species[i], scene, &defaults.species[0], &defaults)) note(all, why, key);
     }
 }
 
@@ -71,10 +73,11 @@ static void note_all(inert_keys *all, const gg_scene *scene, unsigned uses)
   const gg_scene defaults = gg_scene_defaults();
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     if (!gg_scene_is_given(scene, f->key)) continue;
-    const char *why = why_inert(f, scene, uses);
+    char why[160];
+    bool inert = is_inert(f, scene, uses, why, sizeof why);
     if (f->type == GG_FIELD_SPECIES)
       note_species(all, scene, uses);
-    else if (why && differs(f, scene, scene, &defaults, &defaults))
+    else if (inert && differs(f, scene, scene, &defaults, &defaults))
       note(all, why, f->key);
     else if (f->type == GG_FIELD_PAIRS)
       note_pairs(all, f, scene);
@@ -86,13 +89,13 @@ void gg_scene_inert(const gg_scene *scene, unsigned uses, gg_text_list *lines)
   inert_keys all = {0};
   note_all(&all, scene, uses);
   for (int i = 0; i < all.n; i++) {
-    const char *why = all.of[i].otherwise;
-    char keys[600] = "";
+    char why[160], keys[600] = "";
     int used = 0, n = 0;
-    for (int k = i; why && k < all.n && used < (int)sizeof keys; k++) {
-      if (!all.of[k].otherwise || strcmp(all.of[k].otherwise, why) != 0) continue;
+    snprintf(why, sizeof why, "%s", all.of[i].otherwise);
+    for (int k = i; *why && k < all.n && used < (int)sizeof keys; k++) {
+      if (strcmp(all.of[k].otherwise, why) != 0) continue;
       used += snprintf(keys + used, sizeof keys - (size_t)used, "%s%s", n++ ? ", " : "", all.of[k].key);
-      all.of[k].otherwise = NULL;
+      *all.of[k].otherwise = '\0';
     }
     if (n) gg_text_list_add(lines, "%s %s no effect %s", keys, n > 1 ? "have" : "has", why);
   }

@@ -20,11 +20,9 @@ static json_t *integer_json(const gg_field *f, int64_t value)
 static json_t *choice_json(const gg_field *f, const void *at)
 {
   int value;
-  gg_word w;
   memcpy(&value, at, sizeof value);
-  for (int i = 0; (w = gg_field_word(f, i)).name; i++)
-    if (w.value == value) return json_string(w.name);
-  return json_null();
+  const gg_word word = gg_field_word_for(f, value);
+  return word.name ? json_string(word.name) : json_null();
 }
 
 static json_t *set_json(const gg_field *f, unsigned set)

@@ -1,0 +1,94 @@
+#include "common/flow.h"
+
+#include <stdio.h>
+
+#include "common/quantity.h"
+
+enum { IN_MD = 1u << GG_MD, IN_DSMC = 1u << GG_DSMC };
+enum { UNHEATED = 1u << GG_NO_THERMOSTAT, GAUSSIAN = 1u << GG_GAUSSIAN, WHITE_NOISE = 1u << GG_WHITE_NOISE };
+
+/* Those of them that a scene lacks (quantity_needs.c) are left out. */
+#define KNOWN_BY(...) ((const int[]){__VA_ARGS__, GG_N_QUANTITIES})
+#define BY_SHEAR KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_SHEAR_VISCOSITY, GG_Q_TEMPERATURE_RATIO)
+#define BY_LOSS KNOWN_BY(GG_Q_COOLING_RATE, GG_Q_TEMPERATURE_RATIO, GG_Q_PARTIAL_TEMPERATURE_RATIO)
+#define BY_WALLS KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_TEMPERATURE_RATIO)
+
+const gg_flow_row gg_flows[GG_N_FLOWS] = {
+    [GG_EQUILIBRIUM] = {.word = "equilibrium",
+                        .title = "Equilibrium",
+                        .doc = "elastic gas at rest",
+                        .state = "equilibrium without shear",
+                        .conserves = true,
+                        .thermostats = UNHEATED,
+                        .engines = IN_MD | IN_DSMC,
+                        .headline = KNOWN_BY(GG_Q_PRESSURE, GG_Q_COLLISION_RATE)},
+    [GG_USF] = {.word = "usf",
+                .title = "Uniform shear flow",
+                .doc = "uniform shear, Lees-Edwards box",
+                .state = "uniform shear",
+                .frame = GG_SHEARED_FRAME,
+                .thermostats = UNHEATED | GAUSSIAN | WHITE_NOISE,
+                .engines = IN_MD | IN_DSMC,
+                .headline = BY_SHEAR},
+    [GG_HCS] = {.word = "hcs",
+                .title = "Homogeneous cooling",
+                .doc = "homogeneous cooling",
+                .state = "free cooling",
+                .frame = GG_COOLING_FRAME,
+                .thermostats = UNHEATED,
+                .engines = IN_MD | IN_DSMC,
+                .headline = BY_LOSS},
+    [GG_HSS] = {.word = "hss",
+                .title = "Homogeneous heating",
+                .doc = "homogeneous, heated by a thermostat: gaussian unless given",
+                .state = "a homogeneously heated state",
+                .frame = GG_CENTRE_OF_MASS,
+                .thermostats = GAUSSIAN | WHITE_NOISE,
+                .thermostat = GG_GAUSSIAN,
+                .engines = IN_MD | IN_DSMC,
+                .headline = BY_LOSS},
+    [GG_COUETTE] = {.word = "couette",
+                    .title = "Couette flow",
+                    .doc = "shear between moving walls",
+                    .state = "shear between walls",
+                    .walls = GG_MOVING_WALLS,
+                    .falling = GG_MAY_FALL,
+                    .thermostats = UNHEATED,
+                    .engines = IN_MD,
+                    .headline = BY_WALLS},
+    [GG_POISEUILLE] = {.word = "poiseuille",
+                       .title = "Poiseuille flow",
+                       .doc = "driven by a force along resting walls: gravity, [1, 0, 0] unless given",
+                       .state = "Poiseuille flow",
+                       .walls = GG_RESTING_WALLS,
+                       .falling = GG_ALWAYS_FALLS,
+                       .gravity = {1, 0, 0},
+                       .thermostats = UNHEATED,
+                       .engines = IN_MD,
+                       .headline = BY_WALLS},
+    [GG_CHUTE] = {.word = "chute",
+                  .title = "Chute flow",
+                  .doc = "down an incline: gravity, [0.1, -0.1, 0] unless given",
+                  .state = "chute flow",
+                  .walls = GG_RESTING_WALLS,
+                  .may_be_open = true,
+                  .falling = GG_ALWAYS_FALLS,
+                  .gravity = {0.1, -0.1, 0},
+                  .thermostats = UNHEATED,
+                  .engines = IN_MD,
+                  .headline = BY_WALLS},
+};
+
+/* Separated by commas, before the last one by "or". */
+void gg_flow_list(bool (*test)(gg_flow flow), char *text, size_t size)
+{
+  int left = 0;
+  size_t used = 0;
+  for (int f = 0; f < GG_N_FLOWS; f++) left += test((gg_flow)f);
+  *text = '\0';
+  for (int f = 0; f < GG_N_FLOWS && used < size; f++) {
+    if (!test((gg_flow)f)) continue;
+    const char *after = --left > 1 ? ", " : left ? " or " : "";
+    used += (size_t)snprintf(text + used, size - used, "%s%s", gg_flows[f].word, after);
+  }
+}
