@@ -147,7 +147,7 @@ typedef struct gg_grains {
   double *position; /* 3 a grain: x y z x y z ...; from 0 to box[i]; with walls at y = 0 and box[1] */
   double *velocity; /* 3 a grain, relative to the imposed flow gamma (y - box[1]/2) along x */
   double *spin;     /* 3 a grain: angular velocity omega ((d/2) omega where phi = 0); 0 for smooth grains */
-  int *species;     /* 0 for species 1, 1 for species 2 */
+  int *species;     /* from 0 */
 } gg_grains;
 /* Copy the grains out. GG_BAD_INPUT where positions are asked of dsmc, which has none. */
 GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err);
@@ -164,7 +164,7 @@ GG_API gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulatio
 
 typedef struct gg_collision_event {
   size_t grain[2];     /* places in the arrays of gg_simulation_get_grains */
-  int species[2];      /* 0, 1 */
+  int species[2];      /* from 0 */
   double k[3];         /* unit vector from the first grain's centre to the second's */
   double velocity[3];  /* of the first relative to the second, flow included, before the collision */
   double normal_speed; /* of approach: k . velocity, > 0 */

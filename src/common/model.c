@@ -5,19 +5,44 @@
 #include "common/contact_value.h"
 #include "common/cube_root.h"
 
+/* Whole numbers of grains: the largest remainders go up, of equal ones the first. */
+static void deal_grains(gg_model *m, const gg_scene *s)
+{
+  double total = 0, remainder[GG_MAX_SPECIES];
+  for (int i = 0; i < m->n_species; i++) total += s->species[i].fraction;
+  int64_t left = m->n;
+  for (int i = 0; i < m->n_species; i++) {
+    double share = (double)m->n * s->species[i].fraction / total;
+    m->n_of[i] = (int64_t)floor(share * (1 + 1e-15));
+    remainder[i] = share - (double)m->n_of[i];
+    left -= m->n_of[i];
+  }
+  for (; left > 0; left--) {
+    int next = 0;
+    for (int i = 1; i < m->n_species; i++)
+      if (remainder[i] > remainder[next]) next = i;
+    m->n_of[next]++;
+    remainder[next] = -1;
+  }
+}
+
+static gg_status check_grains(const gg_model *m, const gg_scene *s, gg_error *err)
+{
+  for (int i = 0; m->n_species > 1 && i < m->n_species; i++)
+    if (m->n_of[i] < 2)
+      return gg_fail(err, GG_BAD_INPUT,
+                     "species: the fraction %g of species %d is %lld of %lld grains; each species needs two: give %s a "
+                     "larger value",
+                     s->species[i].fraction, i + 1, (long long)m->n_of[i], (long long)m->n,
+                     m->homogeneous ? "dsmc.particles" : "particles");
+  return GG_OK;
+}
+
 static void set_composition(gg_model *m, const gg_scene *s)
 {
   const gg_species *one = &s->species[0];
   m->n_species = s->n_species;
-  double total = 0;
-  for (int i = 0; i < s->n_species; i++) total += s->species[i].fraction;
-  m->n_of[0] = m->n;
-  if (m->n_species == 2) {
-    m->n_of[0] = llround((double)m->n * one->fraction / total);
-    if (m->n_of[0] < 1) m->n_of[0] = 1;
-    if (m->n_of[0] > m->n - 1) m->n_of[0] = m->n - 1;
-    m->n_of[1] = m->n - m->n_of[0];
-  }
+  deal_grains(m, s);
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     const gg_species *sp = &s->species[i < s->n_species ? i : 0];
     m->diameter[i] = sp->diameter / one->diameter;
@@ -165,9 +190,9 @@ static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
 #define MOST_UNEQUAL_DIAMETERS 1e6
 static const double starts_within[2] = {1e-6, 1e30}; /* temperature of sheared flows, (d rate)^2 */
 
-static gg_status check_unequal(const char *key, double a, double b, double most, gg_error *err)
+static gg_status check_unequal(const char *key, double least, double greatest, double most, gg_error *err)
 {
-  double ratio = fmax(a / b, b / a);
+  double ratio = greatest / least;
   if (ratio <= most) return GG_OK;
   return gg_fail(err, GG_BAD_INPUT, "species: values of %s as unequal as 1 : %g are not allowed; allowed: up to 1 : %g",
                  key, ratio, most);
@@ -179,11 +204,14 @@ static gg_status check_scales(const gg_scene *s, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT,
                    "phi: %g is too small a solid fraction; allowed: from %g to 0.6, or 0, the Boltzmann limit", s->phi,
                    LEAST_PHI);
-  if (s->n_species == 2) {
-    const gg_species *one = &s->species[0], *two = &s->species[1];
-    GG_TRY(check_unequal("mass", one->mass, two->mass, MOST_UNEQUAL_MASSES, err));
-    GG_TRY(check_unequal("diameter", one->diameter, two->diameter, MOST_UNEQUAL_DIAMETERS, err));
+  double mass[2] = {INFINITY, 0}, diameter[2] = {INFINITY, 0};
+  for (int i = 0; i < s->n_species; i++) {
+    const gg_species *one = &s->species[i];
+    mass[0] = fmin(mass[0], one->mass), mass[1] = fmax(mass[1], one->mass);
+    diameter[0] = fmin(diameter[0], one->diameter), diameter[1] = fmax(diameter[1], one->diameter);
   }
+  GG_TRY(check_unequal("mass", mass[0], mass[1], MOST_UNEQUAL_MASSES, err));
+  GG_TRY(check_unequal("diameter", diameter[0], diameter[1], MOST_UNEQUAL_DIAMETERS, err));
   if (!gg_flow_is_sheared(s->flow) || s->temperature == GG_AUTO) return GG_OK;
   double speed = s->shear_rate * s->species[0].diameter, T = s->temperature / (speed * speed);
   if (T >= starts_within[0] && T <= starts_within[1]) return GG_OK;
@@ -207,6 +235,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   m->homogeneous = engine == GG_DSMC;
   m->n = grains_of(s, engine);
   set_composition(m, s);
+  GG_TRY(check_grains(m, s, err));
   set_box(m, s);
   set_pairs(m, s);
   m->shear_rate = sheared ? 1 : 0;
@@ -283,9 +312,21 @@ double gg_model_collision_rate(const gg_model *m, double T)
   return rate;
 }
 
+static double unlike_rate(const gg_model *m, int i, int j, double T)
+{
+  double v0 = sqrt(2 * T * (m->mass[i] + m->mass[j]) / (m->mass[i] * m->mass[j]));
+  return sqrt(M_PI) * m->density * m->sigma[gg_pair(i, j)] * m->sigma[gg_pair(i, j)] * v0;
+}
+
 double gg_model_nu0(const gg_model *m, double T)
 {
   if (m->n_species == 1) return 3.2 * sqrt(M_PI) * m->density * sqrt(T);
-  double v0 = sqrt(2 * T * (m->mass[0] + m->mass[1]) / (m->mass[0] * m->mass[1]));
-  return sqrt(M_PI) * m->density * m->sigma[GG_12] * m->sigma[GG_12] * v0;
+  if (m->n_species == 2) return unlike_rate(m, 0, 1, T);
+  double sum = 0, weight = 0;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < i; j++) {
+      double pairs = (double)m->n_of[i] * (double)m->n_of[j];
+      sum += pairs * unlike_rate(m, i, j, T), weight += pairs;
+    }
+  return sum / weight;
 }

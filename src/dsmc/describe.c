@@ -30,5 +30,5 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   static const char *const thermostats[] = {"no thermostat", "Gaussian thermostat: returns what collisions destroy",
                                             "white-noise thermostat"};
   line(context, thermostats[gg_thermostat_of(m)]);
-  line(context, m->n_species == 1 ? "one species: one majorant" : "two species: a majorant for each pair");
+  line(context, m->n_species == 1 ? "one species: one majorant" : "several species: a majorant for each pair");
 }

@@ -232,9 +232,16 @@ void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain)
   e->bound_strain = strain;
 }
 
-static const char *const velocity_items[] = {"dsmc/velocity_1", "dsmc/velocity_2"};
-static const char *const spin_items[] = {"dsmc/spin_1", "dsmc/spin_2"};
-static const char *const bound_items[] = {"dsmc/speed_bound_1", "dsmc/speed_bound_2"};
+/* "dsmc/velocity_1": what is kept of a species. */
+typedef struct item {
+  char name[32];
+} item;
+static item item_of(const char *what, int species)
+{
+  item i;
+  snprintf(i.name, sizeof i.name, "dsmc/%s_%d", what, species + 1);
+  return i;
+}
 static const char bound_scale_item[] = "dsmc/bound_scale";
 
 static gg_status put_blocks(const gg_dsmc_population *p, const char *name, const void *blocks, gg_archive *a,
@@ -253,10 +260,10 @@ gg_status gg_dsmc_ensemble_save(const gg_dsmc_ensemble *e, gg_archive *archive, 
 {
   for (int i = 0; i < e->n_species; i++) {
     const gg_dsmc_population *p = &e->of[i];
-    GG_TRY(put_blocks(p, velocity_items[i], p->c, archive, err));
-    if (p->s) GG_TRY(put_blocks(p, spin_items[i], p->s, archive, err));
-    GG_TRY(
-        gg_archive_put(archive, bound_items[i], GG_ITEM_U8, p->speed_bound, p->n_blocks * sizeof *p->speed_bound, err));
+    GG_TRY(put_blocks(p, item_of("velocity", i).name, p->c, archive, err));
+    if (p->s) GG_TRY(put_blocks(p, item_of("spin", i).name, p->s, archive, err));
+    GG_TRY(gg_archive_put(archive, item_of("speed_bound", i).name, GG_ITEM_U8, p->speed_bound,
+                          p->n_blocks * sizeof *p->speed_bound, err));
   }
   double bounds[] = {e->bound_scale, e->bound_strain};
   return gg_archive_put(archive, bound_scale_item, GG_ITEM_F64, bounds, 2, err);
@@ -266,10 +273,10 @@ gg_status gg_dsmc_ensemble_restore(gg_dsmc_ensemble *e, const gg_archive *archiv
 {
   for (int i = 0; i < e->n_species; i++) {
     gg_dsmc_population *p = &e->of[i];
-    GG_TRY(get_blocks(p, velocity_items[i], p->c, archive, err));
-    if (p->s) GG_TRY(get_blocks(p, spin_items[i], p->s, archive, err));
-    GG_TRY(
-        gg_archive_get(archive, bound_items[i], GG_ITEM_U8, p->speed_bound, p->n_blocks * sizeof *p->speed_bound, err));
+    GG_TRY(get_blocks(p, item_of("velocity", i).name, p->c, archive, err));
+    if (p->s) GG_TRY(get_blocks(p, item_of("spin", i).name, p->s, archive, err));
+    GG_TRY(gg_archive_get(archive, item_of("speed_bound", i).name, GG_ITEM_U8, p->speed_bound,
+                          p->n_blocks * sizeof *p->speed_bound, err));
   }
   double bounds[2];
   GG_TRY(gg_archive_get(archive, bound_scale_item, GG_ITEM_F64, bounds, 2, err));

@@ -72,8 +72,8 @@ GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
   gg_vec dr = gg_sub(two->r, one->r), dv = gg_sub(two->v, one->v);
   gg_md_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
   e->resolve(e, i, j, dr, gg_scale(-1, dv));
-  one->counter += 2;
-  two->counter += 2;
+  one->counter++;
+  two->counter++;
   e->k.collisions++;
   e->k.collisions_left--;
   gg_md_predict_two(e, i, j);
@@ -83,7 +83,7 @@ GG_INLINE void gg_md_hit_wall(gg_md *e, uint32_t i, int upper)
 {
   gg_md_grain *g = gg_md_synchronise(e, i);
   e->resolve_wall(e, i, upper);
-  g->counter += 2;
+  g->counter++;
   gg_md_predict(e, i);
 }
 

@@ -6,7 +6,7 @@
 #include "md/state.h"
 #include "simd/eight.h"
 
-/* Eight records as columns: r, v, t and the bits of (counter, spare). */
+/* Eight records as columns: r, v, t and the bits of (species, counter). */
 typedef struct gg_md_batch {
   gg_v8 x, y, z, vx, vy, vz, t, tag;
 } gg_md_batch;

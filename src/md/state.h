@@ -19,8 +19,8 @@
 typedef struct gg_md_grain {
   gg_vec r, v;
   double t;
-  uint32_t counter; /* 2 x (changes of course so far) + species */
-  uint32_t spare;
+  uint32_t species; /* before the counter: batches find it in the lowest bits of both words as one */
+  uint32_t counter; /* changes of course so far */
 } __attribute__((aligned(64))) gg_md_grain;
 
 /* Of the neighbour lists: the centre of the skin, which the grain may not leave before its list is updated. */
@@ -190,7 +190,7 @@ GG_INLINE double gg_md_row_begins(const gg_md *e, int32_t y)
 
 GG_INLINE int gg_md_species_of(const gg_md_grain *g)
 {
-  return (int)(g->counter & 1);
+  return (int)g->species;
 }
 
 /* Where the grain is at epoch time t, and how it moves there; on a parabola only if the constant `gravity` is true. */

@@ -53,7 +53,7 @@ void gg_md_thermostat_kick(gg_md *e)
     g->r = gg_md_position(e, false, g, e->k.now);
     g->t = e->k.now;
     g->v = gg_axpy(size, gg_rng_direction(&e->k.rng), g->v);
-    g->counter += 2;
+    g->counter++;
     double m = e->model.mass[gg_md_species_of(g)];
     momentum = gg_axpy(m, g->v, momentum);
     mass += m;

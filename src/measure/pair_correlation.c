@@ -164,10 +164,10 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       int q = gg_pair(i, j);
-      char name[48] = "pair_correlation", label[24] = "g";
+      char name[48] = "pair_correlation", label[24] = "g", both[GG_PAIR_NAME];
       if (m->n_species > 1) {
-        snprintf(name, sizeof name, "pair_correlation_%d%d", i + 1, j + 1);
-        snprintf(label, sizeof label, "g_{%d%d}", i + 1, j + 1);
+        snprintf(name, sizeof name, "pair_correlation_%s", gg_pair_name(q, both));
+        snprintf(label, sizeof label, "g_{%s}", both);
       }
       double a = (double)m->n_of[i], b = (double)m->n_of[j], pairs = i == j ? a * (a - 1) / 2 : a * b;
       gg_curve *c = gg_curve_add(list, (size_t)d->bins, name, "pair correlation", label);

@@ -63,10 +63,11 @@ static double maxwellian_below(double x)
   return erf(x) - M_2_SQRTPI * x * exp(-x * x);
 }
 
-/* 1/sqrt(lambda_i): v* = x/sqrt(lambda_i), lambda_i = T/(T_i mu_ji). */
+/* 1/sqrt(lambda_i): v* = x/sqrt(lambda_i), lambda_i = T/(T_i mu_ji); of one species, and of more than two, whose mu are
+ * several: v* = x. */
 static double reduced(const gg_model *m, int k, const double *bin)
 {
-  if (m->n_species == 1) return 1;
+  if (m->n_species != 2) return 1;
   return sqrt(bin[SHARE] * m->mass[1 - k] / (m->mass[0] + m->mass[1]));
 }
 

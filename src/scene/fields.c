@@ -71,7 +71,7 @@ const gg_field gg_scene_fields[] = {
     {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY,
      .doc = "Coulomb friction coefficient; inf: constant beta; finite: with collision.beta", .when = {&gg_if_sticking},
      .also = "friction"},
-    {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "one or two kinds of grains"},
+    {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "kinds of grains, up to 16"},
     {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls", .when = {&gg_if_walled}},
     {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1,
      .doc = "tangential restitution at the walls; of smooth grains, which do not spin, that of their centres",
@@ -241,7 +241,7 @@ void gg_field_allowed(const gg_field *f, char *text, size_t size)
     list_words(f, text, size);
     return;
   case GG_FIELD_SPECIES:
-    snprintf(text, size, "a list of one or two maps with fraction, diameter, mass and inertia");
+    snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass and inertia", GG_MAX_SPECIES);
     return;
   }
 }

@@ -26,7 +26,7 @@ typedef gg_m8 gg_k8;
 #endif
 typedef double gg_line __attribute__((vector_size(64), may_alias));
 
-enum { GG_BATCH = 8 };
+enum { GG_BATCH = 8, GG_LOOK_UP = 16 };
 typedef uint32_t gg_list8 __attribute__((vector_size(32), may_alias, aligned(4)));
 
 GG_INLINE gg_v8 gg_all8(double x)
@@ -51,6 +51,11 @@ GG_INLINE gg_v8 gg_choose8(gg_k8 mask, gg_v8 yes, gg_v8 no)
 GG_INLINE gg_k8 gg_odd8(gg_v8 bits)
 {
   return _mm512_test_epi64_mask((__m512i)bits, _mm512_set1_epi64(1));
+}
+/* table[the lowest four bits]: sixteen numbers can be read there. */
+GG_INLINE gg_v8 gg_look_up8(const double *table, gg_v8 bits)
+{
+  return (gg_v8)_mm512_permutex2var_pd(_mm512_loadu_pd(table), (__m512i)bits, _mm512_loadu_pd(table + 8));
 }
 GG_INLINE gg_v8 gg_smaller8(gg_v8 x, gg_v8 y)
 {
@@ -88,6 +93,12 @@ GG_INLINE gg_v8 gg_choose8(gg_k8 mask, gg_v8 yes, gg_v8 no)
 GG_INLINE gg_k8 gg_odd8(gg_v8 bits)
 {
   return -((gg_m8)bits & 1);
+}
+GG_INLINE gg_v8 gg_look_up8(const double *table, gg_v8 bits)
+{
+  gg_v8 found;
+  for (int l = 0; l < GG_BATCH; l++) found[l] = table[((gg_m8)bits)[l] & (GG_LOOK_UP - 1)];
+  return found;
 }
 GG_INLINE gg_v8 gg_smaller8(gg_v8 x, gg_v8 y)
 {

@@ -35,6 +35,12 @@ gg_status gg_require_one_species(const gg_model *m, const char *theory, gg_error
   return gg_refuse(err, theory, "describes grains of one species; this scene has %d", m->n_species);
 }
 
+gg_status gg_require_at_most_two_species(const gg_model *m, const char *theory, gg_error *err)
+{
+  if (m->n_species <= 2) return GG_OK;
+  return gg_refuse(err, theory, "describes grains of one or two species; this scene has %d", m->n_species);
+}
+
 gg_status gg_require_smooth(const gg_model *m, const char *theory, gg_error *err)
 {
   if (m->rule == GG_SMOOTH) return GG_OK;
@@ -134,5 +140,7 @@ void gg_answer_collisions(const gg_model *m, const double T[], gg_theory_answer 
 
 void gg_answer_collisions_one(const gg_model *m, double T, gg_theory_answer *a)
 {
-  gg_answer_collisions(m, (const double[GG_MAX_SPECIES]){T, T}, a);
+  double each[GG_MAX_SPECIES];
+  for (int i = 0; i < m->n_species; i++) each[i] = T;
+  gg_answer_collisions(m, each, a);
 }

@@ -12,6 +12,7 @@
 gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...) GG_PRINTF(3, 4);
 gg_status gg_require_steady_shear(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_require_one_species(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_require_at_most_two_species(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_require_smooth(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_require_constant_beta(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_require_dilute(const gg_model *model, const char *theory, gg_error *err);

@@ -2,7 +2,7 @@
  * 16) at the contact value of the scene.
  *   Z = p/(nT) = 1 + (2 pi/3) n sum_ij x_i x_j sigma_ij^3 chi_ij        (= 1 + 4 phi chi for one species)
  *   eta/eta_0 = (1 + 8/5 phi chi)^2/chi + 768/(25 pi) phi^2 chi,   eta_0 = 5/(16 d^2) sqrt(m T/pi)
- * (first Sonine order; mixtures: the equations of garzo_montanero2003.c at e = 1). */
+ * (first Sonine order; two species: the equations of garzo_montanero2003.c at e = 1; of more no viscosity). */
 #include <math.h>
 
 #include "theory/answer.h"
@@ -29,6 +29,7 @@ static void answer_viscosity(const gg_model *m, double T, gg_theory_answer *a)
     a->value[GG_Q_VISCOSITY_REDUCED] = kinetic * kinetic / m->chi[0] + 768 / (25 * M_PI) * m->phi * y;
     return;
   }
+  if (m->n_species > 2) return;
   gg_mixture_state rest = {.a = {T / m->mass[0], T / m->mass[1]}};
   gg_mixture_viscosity v = gg_mixture_viscosity_of(m, &rest, 0);
   double unit = gg_model_nu0(m, T) / (m->density * T);
@@ -57,7 +58,7 @@ const gg_theory gg_enskog = {
         "D. Enskog, K. Svenska Vetensk. Akad. Handl. 63 (1922) no. 4; N.F. Carnahan and K.E. Starling, J. Chem. "
         "Phys. 51 (1969) 635",
     .assumptions =
-        "Equilibrium of one or two species of elastic spheres, at the contact value of the scene (within 0.3 % "
-        "of simulations up to phi = 0.49 for Carnahan-Starling); viscosity at first Sonine order.",
+        "Equilibrium of any number of species of elastic spheres, at the contact value of the scene (within 0.3 % "
+        "of simulations up to phi = 0.49 for Carnahan-Starling); viscosity of one or two at first Sonine order.",
     .evaluate = evaluate,
 };

@@ -125,7 +125,8 @@ static double collisional_pressure(const gg_model *m, const gg_mixture_state *s)
 static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisation how, gg_theory_answer *a,
                            gg_error *err)
 {
-  if (m->n_species != 2) return gg_refuse(err, theory, "describes binary mixtures; this scene has one species");
+  if (m->n_species != 2)
+    return gg_refuse(err, theory, "describes binary mixtures; this scene has %d species", m->n_species);
   GG_TRY(gg_require_homogeneous_smooth(m, theory, err));
   if (m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE)
     return gg_refuse(err, theory,

@@ -77,7 +77,7 @@ const gg_theory gg_gaussian_closure = {
     .citation = "J.T. Jenkins and M.W. Richman, J. Fluid Mech. 192 (1988) 313; S. Saha and M. Alam, J. Fluid Mech. 795 "
                 "(2016) 549",
     .assumptions =
-        "Steady uniform shear at any density, one or two species, smooth or of constant beta; molecular chaos "
+        "Steady uniform shear at any density, any number of species, smooth or of constant beta; molecular chaos "
         "with velocities and spins Gaussian and independent. Within 1 % of Enskog's equation in T, p and the "
         "viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1; 4 % for dilute, half-rough grains); N2 within "
         "15 %.",

@@ -24,7 +24,7 @@ typedef struct gg_gaussian_rates {
   double speed[GG_MAX_SPECIES];       /* <|C|> */
 } gg_gaussian_rates;
 
-/* Smooth or rough, one or two species (not frictional); shear_rate and sizes from the model. One state a
+/* Smooth or rough, any number of species (not frictional); shear_rate and sizes from the model. One state a
  * species; the spins of one that never spins are ignored. */
 void gg_gaussian_rates_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates);
 

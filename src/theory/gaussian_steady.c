@@ -138,7 +138,9 @@ static void start(closure *c, gsl_vector *x)
   double ratio = gg_lun_ratio(grain);
   gg_lun_functions lun = gg_lun_functions_at((gg_lun_state){m->density, m->phi, m->chi[0], grain, ratio});
   c->T = lun.f2 / lun.f5;
-  if (m->n_species == 2) c->T *= gg_fraction(m, 0) * m->mass[0] + gg_fraction(m, 1) * m->mass[1];
+  double mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += gg_fraction(m, i) * m->mass[i];
+  c->T *= mass;
   if (!(c->T > 0 && isfinite(c->T))) c->T = m->temperature0;
   gg_gaussian state[GG_MAX_SPECIES];
   for (int i = 0; i < m->n_species; i++) {

@@ -35,6 +35,7 @@ static gg_status one_species(const gg_model *m, gg_theory_answer *a, gg_error *e
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
+  GG_TRY(gg_require_at_most_two_species(m, name, err));
   GG_TRY(gg_require_constant_beta(m, name, err));
   GG_TRY(gg_require_steady_shear(m, name, err));
   GG_TRY(gg_require_dilute(m, name, err));

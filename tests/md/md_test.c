@@ -67,7 +67,9 @@ uint64_t md_hash(const gg_md *e)
   uint64_t h = 0xcbf29ce484222325u;
   for (uint32_t i = 0; i < e->n; i++) {
     const gg_md_grain *g = &e->grain[i];
-    h = mix(h, &g->r, sizeof g->r + sizeof g->v + sizeof g->t + sizeof g->counter);
+    const uint32_t both = 2 * g->counter + g->species; /* as the hashes that are stored have it */
+    h = mix(h, &g->r, sizeof g->r + sizeof g->v + sizeof g->t);
+    h = mix(h, &both, sizeof both);
     h = mix(h, &e->node[i].time, 2 * sizeof(double));
     if (e->spin) h = mix(h, &e->spin[i], sizeof e->spin[i]);
   }

@@ -25,7 +25,7 @@ static gg_md *copy_of(const gg_md *e)
     c->grain[i].r = gg_md_position(e, e->falls, &e->grain[i], e->k.now);
     c->grain[i].r.x = gg_wrap(c->grain[i].r.x, e->box.edge[0], e->box.inverse[0]); /* rows may have carried it out */
     c->grain[i].t = 0;
-    c->grain[i].counter &= 1;
+    c->grain[i].counter = 0;
     if (e->spin) c->spin[i] = e->spin[i];
     c->id[i] = e->id[i];
   }

@@ -191,7 +191,8 @@ static gg_status read_species(const gg_scene_reader *r, const gg_field *f, const
 {
   if (node->type != YAML_SEQUENCE_NODE) return refuse_value(r, f, key, node);
   ptrdiff_t n = node->data.sequence.items.top - node->data.sequence.items.start;
-  if (n < 1 || n > 2) return gg_scene_refuse(r, node, key, "%td species are given; allowed: one or two", n);
+  if (n < 1 || n > GG_MAX_SPECIES)
+    return gg_scene_refuse(r, node, key, "%td species are given; allowed: 1 to %d", n, GG_MAX_SPECIES);
   gg_scene *scene = r->scene;
   double total = 0;
   for (int i = 0; i < n; i++) {

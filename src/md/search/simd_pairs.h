@@ -16,6 +16,8 @@ typedef enum gg_md_images {
  * others. */
 #define GG_RELOAD(pointer) __asm__("" : "+r"(pointer))
 
+_Static_assert((int)GG_MAX_SPECIES <= (int)GG_LOOK_UP, "a table that a batch looks species up in");
+
 /* Eight grains of a list against s->self, images accounted for. */
 GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s, const uint32_t *list,
                                           gg_md_images images, double offset)
@@ -52,7 +54,8 @@ GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s,
   if (IS_MIXTURE) {
     int species = gg_md_species_of(g);
     const double *row = sigma2 + gg_md_pair(&e->contacts, species, 0);
-    touch2 = gg_choose8(gg_odd8(b.tag), gg_all8(row[1]), gg_all8(row[0]));
+    touch2 = e->contacts.n_species == 2 ? gg_choose8(gg_odd8(b.tag), gg_all8(row[1]), gg_all8(row[0]))
+                                        : gg_look_up8(row, b.tag);
   }
   return gg_md_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
 }

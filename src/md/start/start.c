@@ -45,7 +45,7 @@ static void deal_species(gg_md *e, double *diameter, gg_rng *rng)
     uint32_t s = 0;
     for (uint32_t card = (uint32_t)gg_rng_below(rng, e->n - i); card >= left[s]; s++) card -= left[s];
     left[s]--;
-    e->grain[i].counter = s;
+    e->grain[i].species = s;
     diameter[i] = e->model.diameter[s];
   }
 }
