@@ -29,7 +29,8 @@ uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_
   return (uint64_t)whole;
 }
 
-static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, double span)
+/* `hold`: strains from `strain` on at which the speed bounds are to hold, or 0: they follow. */
+static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, double span, double hold)
 {
   gg_dsmc_majorant *learned = &d->now.majorant[gg_pair(i, j)];
   gg_dsmc_path path = d->path[gg_pair(i, j)];
@@ -46,11 +47,12 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
     if (d->callback.call) gg_dsmc_call_back(d, i, j, dt, &p);
     p.strain_step = p.candidates ? span / (double)p.candidates : 0;
     p.strain = strain + 0.5 * p.strain_step;
-    gg_dsmc_ensemble_strain_bounds(&d->ensemble, strain);
+    gg_dsmc_ensemble_strain_bounds(&d->ensemble, strain, hold);
     p.bound_scale = d->ensemble.bound_scale;
+    if (hold > 0) p.bound_margin = gg_dsmc_bound_growth(hold);
     gg_dsmc_collide_pass(d->ensemble.kernels, path, f, &p, &d->now.lanes, &d->now.rng);
     d->ensemble.bound_scale = p.bound_scale;
-    d->ensemble.bound_strain = strain + span;
+    if (!(hold > 0)) d->ensemble.bound_strain = strain + span;
     gg_dsmc_add_pass(d, gg_pair(i, j), &p);
     gg_dsmc_majorant_learn(learned, p.largest, thermal, p.tried, gg_dsmc_window(d, i, j));
     floor += majorant;
@@ -59,15 +61,17 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
   }
 }
 
-/* In segments, and of blocks enough that a segment of each species has a hundred. */
+/* In segments, and of blocks enough that a segment of each species has a hundred; of many species more, whose substeps
+ * become the shorter the more pairs they have. */
 static bool in_segments(const gg_dsmc *d)
 {
   if (!d->schedule) return false;
   for (int i = 0; i < d->model.n_species; i++)
     for (int j = i; j < d->model.n_species; j++)
       if (d->path[gg_pair(i, j)] == GG_DSMC_PLAIN) return false;
+  const int species = d->model.n_species > 2 ? d->model.n_species : 2;
   for (int i = 0; i < d->model.n_species; i++)
-    if (d->ensemble.of[i].n_blocks < 100 * (size_t)d->ensemble.segments) return false;
+    if (d->ensemble.of[i].n_blocks < (size_t)(50 * species * d->ensemble.segments)) return false;
   return true;
 }
 
@@ -81,11 +85,12 @@ void gg_dsmc_collide(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_
   const int sweeps = gg_dsmc_sweeps_of(&d->now.step, splitting, dt);
   const int n = gg_dsmc_list_substeps(gg_pairs_of(d->model.n_species), splitting, sweeps, substep);
   const double begin = d->interval_begin, each = 1.0 / sweeps;
+  const double hold = gg_dsmc_strains_to_hold(d->model.n_species, each * span);
   for (const gg_dsmc_substep *t = substep; t < substep + n; t++) {
     const gg_species_pair s = gg_species_of_pair(t->pair);
     const double from = t->begin * each, part = t->length * each;
     d->interval_begin = begin + from * dt;
-    collide_pair(d, s.i, s.j, part * dt, strain + from * span, part * span);
+    collide_pair(d, s.i, s.j, part * dt, strain + from * span, part * span, hold);
   }
   d->interval_begin = begin;
 }

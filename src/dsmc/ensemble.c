@@ -219,17 +219,19 @@ gg_dsmc_moments gg_dsmc_ensemble_synchronise(gg_dsmc_ensemble *e, double strain,
     mass += p->mass * (double)p->n;
   }
   e->bound_scale = bound_scale;
-  e->bound_strain = 0;
+  e->bound_strain = e->bound_width = 0;
   return (gg_dsmc_moments){
       .temperature = energy / (3 * n), .fastest = sqrt(most), .centre = gg_scale(1 / mass, momentum)};
 }
 
-void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain)
+void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain, double width)
 {
-  double delta = strain - e->bound_strain, part = gg_dsmc_bound_growth(delta / 8); /* strains of a few units at most */
+  double below = e->bound_strain - strain, above = (strain + width) - (e->bound_strain + e->bound_width);
+  double delta = fmax(fmax(below, above), 0), part = gg_dsmc_bound_growth(delta / 8); /* a few units at most */
   for (int twice = 0; twice < 3; twice++) part *= part;
   e->bound_scale *= part;
   e->bound_strain = strain;
+  e->bound_width = width;
 }
 
 /* "dsmc/velocity_1": what is kept of a species. */
@@ -265,8 +267,8 @@ gg_status gg_dsmc_ensemble_save(const gg_dsmc_ensemble *e, gg_archive *archive, 
     GG_TRY(gg_archive_put(archive, item_of("speed_bound", i).name, GG_ITEM_U8, p->speed_bound,
                           p->n_blocks * sizeof *p->speed_bound, err));
   }
-  double bounds[] = {e->bound_scale, e->bound_strain};
-  return gg_archive_put(archive, bound_scale_item, GG_ITEM_F64, bounds, 2, err);
+  double bounds[] = {e->bound_scale, e->bound_strain, e->bound_width};
+  return gg_archive_put(archive, bound_scale_item, GG_ITEM_F64, bounds, 3, err);
 }
 
 gg_status gg_dsmc_ensemble_restore(gg_dsmc_ensemble *e, const gg_archive *archive, gg_error *err)
@@ -278,9 +280,10 @@ gg_status gg_dsmc_ensemble_restore(gg_dsmc_ensemble *e, const gg_archive *archiv
     GG_TRY(gg_archive_get(archive, item_of("speed_bound", i).name, GG_ITEM_U8, p->speed_bound,
                           p->n_blocks * sizeof *p->speed_bound, err));
   }
-  double bounds[2];
-  GG_TRY(gg_archive_get(archive, bound_scale_item, GG_ITEM_F64, bounds, 2, err));
+  double bounds[3];
+  GG_TRY(gg_archive_get(archive, bound_scale_item, GG_ITEM_F64, bounds, 3, err));
   e->bound_scale = bounds[0];
   e->bound_strain = bounds[1];
+  e->bound_width = bounds[2];
   return GG_OK;
 }

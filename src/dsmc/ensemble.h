@@ -44,7 +44,7 @@ typedef struct gg_dsmc_population {
 typedef struct gg_dsmc_ensemble {
   int n_species;
   gg_dsmc_population of[GG_MAX_SPECIES];
-  double bound_scale, bound_strain; /* strain at which it holds */
+  double bound_scale, bound_strain, bound_width; /* it holds at strains from bound_strain on, over bound_width */
   int segments;                /* that each species is divided into (parallel/partition.h): by size alone, 1 if small */
   int grouping;                /* paired last, and maybe in caches: the quarter that went with the first */
   struct gg_thread_pool *pool; /* threads that share them; NULL: one thread does all */
@@ -69,8 +69,8 @@ void gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *
  * bounds. */
 gg_dsmc_moments gg_dsmc_ensemble_synchronise(gg_dsmc_ensemble *e, double strain, double scale, gg_vec centre,
                                              double bound_scale);
-/* Let the speed bounds hold at another strain. */
-void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain);
+/* Let the speed bounds hold at other strains: from `strain` to `strain + width`. */
+void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain, double width);
 /* Every velocity times a factor. */
 void gg_dsmc_ensemble_heat(gg_dsmc_ensemble *e, double factor);
 /* Every velocity and spin times a factor. */

@@ -25,6 +25,7 @@ gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
                         .species = {i, j},
                         .law = m->law.e ? &m->law : NULL,
                         .law_unit = ldexp(1, -d->now.power),
+                        .bound_margin = 1,
                         .sigma = m->sigma[o],
                         .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
 }

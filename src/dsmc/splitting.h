@@ -20,6 +20,10 @@ typedef struct gg_dsmc_substep {
   int pair, begin, length;
 } gg_dsmc_substep;
 
+/* Strains over which speed bounds are to hold from the beginning of a substep on, `span` being that of a sweep: those
+ * of the longest substep. Of one species or two they follow the strain instead, from candidate to candidate. There and
+ * back again for each of many pairs would let them grow without end. */
+double gg_dsmc_strains_to_hold(int n_species, double span);
 /* How many sweeps an interval `dt` takes; in each of so many equal parts of it. */
 int gg_dsmc_sweeps_of(const gg_dsmc_time_step *step, gg_dsmc_splitting splitting, double dt);
 int gg_dsmc_sweeps_of_part(const gg_dsmc_time_step *step, gg_dsmc_splitting splitting, double dt, int parts);

@@ -88,4 +88,5 @@ void gg_dsmc_thermostat_kick(gg_dsmc_ensemble *e, double strain, double variance
 {
   gg_thread_pool_for(e->pool, e->segments, kick_segment, &(kicking){e, strain, sqrt(variance), lanes});
   e->bound_strain = strain;
+  e->bound_width = 0;
 }

@@ -199,7 +199,8 @@ static void combinations(void **state)
   assert_refused("flow: usf\n", "phi is missing");
   assert_refused("flow: usf\nphi: 0.3\nspecies: [{fraction: 0.4}, {fraction: 0.5}]\n",
                  "sum to 0.9; they must sum to 1");
-  assert_refused("flow: usf\nphi: 0.3\nspecies: [{}, {}, {}]\n", "3 species are given");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: [{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]\n",
+                 "17 species are given; allowed: 1 to 16");
   assert_refused("flow: usf\nphi: 0.3\nspecies: []\n", "0 species");
   assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {e: 0.9}\n", "lose no energy");
   assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {beta: 0}\n", "lose no energy");

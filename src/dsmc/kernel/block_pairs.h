@@ -104,8 +104,9 @@ GG_INLINE void gg_dsmc_draw(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc_s
   if (__builtin_expect(d->n + GG_DSMC_LANES > GG_DSMC_BLOCK_PAIRS, 0)) gg_dsmc_block_pairs_move_up(f, d);
   if (f.shear != GG_DSMC_UNSHEARED) {
     const double delta = n * strain_step;
-    w->per_scale = (gg_real)gg_dsmc_per_bound(w->scale); /* as the strain only grows, an earlier scale holds */
-    w->scale *= gg_dsmc_bound_growth(delta);
+    /* As the strain only grows, an earlier scale holds. */
+    w->per_scale = (gg_real)(gg_dsmc_per_bound(w->scale) * w->margin);
+    if (!(w->margin > 1)) w->scale *= gg_dsmc_bound_growth(delta);
     w->root = (gg_real)(sqrt(w->scale) * (1 + 1e-6));
   }
   for (int part = 0; part < GG_PARTS; part++) gg_dsmc_draw_part(f, w, c, d, part, w->root, (gg_real)strain_step, n);

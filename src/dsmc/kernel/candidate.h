@@ -32,6 +32,7 @@ typedef struct gg_dsmc_pass_state {
   bool layer;              /* a correction pass: all block pairs under one majorant */
   gg_vd most, most_rate;   /* majorant; majorant + s0 */
   double scale;            /* of the speed bounds, at the next draw */
+  double margin;           /* of new speed bounds; above 1: the scale stays */
   gg_real root, per_scale; /* its square root, and its inverse at the last draws */
   uint64_t block_pairs, collisions, overflows;
   gg_vd largest; /* largest C12^2 */

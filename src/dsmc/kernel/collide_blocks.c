@@ -68,6 +68,7 @@ GG_INLINE void start(gg_dsmc_features f, gg_dsmc_pass_state *w, const gg_dsmc_pa
                             .shift = (gg_real)p->shift,
                             .s0 = f.shear == GG_DSMC_SHEARED_DENSE ? (gg_real)(GG_DSMC_SHEAR_SHARE * p->shift) : 0,
                             .scale = p->bound_scale,
+                            .margin = p->bound_margin,
                             .root = (gg_real)(sqrt(p->bound_scale) * (1 + 1e-6)),
                             .per_scale = (gg_real)gg_dsmc_per_bound(p->bound_scale)};
   w->majorant = (gg_real)(p->floor + p->majorant - w->s0);
@@ -96,7 +97,7 @@ GG_INLINE void collide_odd(gg_dsmc_features f, const gg_dsmc_pass_state *w, cons
 {
   const unsigned i = d->at;
   p->strain = f.shear == GG_DSMC_UNSHEARED ? d->strain : (double)d->strains[i];
-  p->bound_scale = f.shear == GG_DSMC_UNSHEARED ? w->scale : 1 / (double)d->per_scale[i];
+  p->bound_scale = f.shear == GG_DSMC_UNSHEARED || w->margin > 1 ? w->scale : 1 / (double)d->per_scale[i];
   gg_dsmc_collide_odd_blocks(f, p, (uint32_t)gg_dsmc_listed(d->one, i),
                              (uint32_t)gg_dsmc_listed(d->two, i) & ~GG_DSMC_ODD,
                              (unsigned)gg_dsmc_listed(d->order, i) % GG_DSMC_LANES, rng);

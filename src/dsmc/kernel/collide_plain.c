@@ -53,7 +53,7 @@ static gg_contact contact_at(const gg_dsmc_pass *p, double gn)
 
 static void raise_speed_bound(const gg_dsmc_pass *p, float *speed_bound, gg_vec c)
 {
-  float peak = (float)(gg_dot(c, c) * gg_dsmc_per_bound(p->bound_scale));
+  float peak = (float)(gg_dot(c, c) * gg_dsmc_per_bound(p->bound_scale) * p->bound_margin);
   if (peak > *speed_bound) *speed_bound = peak;
 }
 
@@ -107,7 +107,7 @@ void gg_dsmc_collide_plain(gg_dsmc_features f, gg_dsmc_pass *p, gg_rng *rng)
     if (f.same && b >= a) b++;
     attempt(f, p, a, b, rng);
   }
-  p->bound_scale *= gg_dsmc_bound_growth((double)p->candidates * p->strain_step);
+  if (!(p->bound_margin > 1)) p->bound_scale *= gg_dsmc_bound_growth((double)p->candidates * p->strain_step);
 }
 
 /* Four uniform directions under a majorant of g_n are as many candidates as one under a majorant of its integral over

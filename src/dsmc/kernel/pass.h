@@ -64,7 +64,10 @@ typedef struct gg_dsmc_pass {
   double floor, majorant;        /* the layer of g_n */
   double strain, strain_step;    /* of the first candidate, and from one to the next: rate x time */
   uint64_t candidates;
-  double bound_scale; /* of both species' speed bounds: at the strain where the interval begins, then where it ends */
+  /* Of both species' speed bounds: at the strain where the interval begins, then where it ends. With a margin above 1
+   * it holds at all strains of the interval and beyond, and stays; new bounds are larger by the margin, to hold there.
+   */
+  double bound_scale, bound_margin;
   /* handed back */
   uint64_t tried; /* candidate pairs of grains */
   uint64_t collisions, overflows;

@@ -29,9 +29,9 @@ typedef struct species_pair {
   gg_dsmc_pass common;
 } species_pair;
 
-/* The scale of a segment's speed bounds, and the strain at which they hold. */
+/* The scale of a segment's speed bounds, and the strains at which they hold. */
 typedef struct speed_bounds {
-  double scale, strain;
+  double scale, strain, width;
 } speed_bounds;
 
 /* Rounds under the same majorants. A thread goes on from one pair of segments to any of the next round that is free: so
@@ -42,7 +42,7 @@ typedef struct rounds {
   int n_substeps;
   const gg_dsmc_substep *substep;
   double strain, each; /* where the first begins; how far one round goes */
-  double span;         /* of a sweep's strain */
+  double span, hold;   /* of a sweep's strain; gg_dsmc_strains_to_hold */
   int pairs;           /* of species */
   species_pair *species;
   speed_bounds bounds[GG_DSMC_MAX_SEGMENTS];
@@ -120,11 +120,14 @@ static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, in
   p.candidates = gg_dsmc_candidates(s->common.floor > 0, mean, &schedule->remainder[pair][one][two], &at->rng);
   p.strain_step = p.candidates ? span / (double)p.candidates : 0;
   p.strain = strain + 0.5 * p.strain_step;
-  gg_dsmc_ensemble_strain_bounds(&at->bounds, strain);
+  gg_dsmc_ensemble_strain_bounds(&at->bounds, strain, r->hold);
   p.bound_scale = at->bounds.bound_scale;
+  if (r->hold > 0) p.bound_margin = gg_dsmc_bound_growth(r->hold);
   gg_dsmc_collide_pass(r->d->ensemble.kernels, s->path, s->f, &p, &schedule->lanes[at->first], &at->rng);
-  at->bounds.bound_scale = fmax(p.bound_scale, at->bounds.bound_scale * gg_dsmc_bound_growth(span));
-  at->bounds.bound_strain = strain + span;
+  if (!(r->hold > 0)) {
+    at->bounds.bound_scale = fmax(p.bound_scale, at->bounds.bound_scale * gg_dsmc_bound_growth(span));
+    at->bounds.bound_strain = strain + span;
+  }
   add(&sums_of(r, at->first)[pair], &p);
 }
 
@@ -134,13 +137,15 @@ static void collide_segments(rounds *r, double strain, int one, int two)
   segment_pair at = {.first = one, .bounds = r->d->ensemble, .rng = r->d->schedule->rng[one]};
   at.bounds.bound_scale = fmax(r->bounds[one].scale, r->bounds[two].scale);
   at.bounds.bound_strain = r->bounds[one].strain;
+  at.bounds.bound_width = r->bounds[one].width;
   for (int k = 0; k < r->n_substeps; k++) {
     const gg_dsmc_substep *substep = &r->substep[k];
     const double begin = strain + substep->begin * r->span;
     collide(r, substep, begin, one, two, &at);
     if (one != two && !r->species[substep->pair].f.same) collide(r, substep, begin, two, one, &at);
   }
-  r->bounds[one] = r->bounds[two] = (speed_bounds){at.bounds.bound_scale, at.bounds.bound_strain};
+  r->bounds[one] = r->bounds[two] =
+      (speed_bounds){at.bounds.bound_scale, at.bounds.bound_strain, at.bounds.bound_width};
   r->d->schedule->rng[one] = at.rng;
 }
 
@@ -188,9 +193,9 @@ static const gg_dsmc_pass *run(rounds *r, double expected)
   const int columns = e->segments / 2;
   uint32_t need[GG_MOST_PARTS];
   find_needs(r, r->n * columns, need);
-  gg_dsmc_ensemble_strain_bounds(e, r->strain + r->substep[0].begin * r->span);
+  gg_dsmc_ensemble_strain_bounds(e, r->strain + r->substep[0].begin * r->span, r->hold);
   for (int s = 0; s < e->segments; s++) {
-    r->bounds[s] = (speed_bounds){e->bound_scale, e->bound_strain};
+    r->bounds[s] = (speed_bounds){e->bound_scale, e->bound_strain, e->bound_width};
     for (int q = 0; q < r->pairs; q++) sums_of(r, s)[q] = (gg_dsmc_pass){0};
   }
   gg_thread_pool_rounds(expected < worth_waking * r->n ? NULL : e->pool, r->n, columns, need, run_part, r);
@@ -201,6 +206,7 @@ static const gg_dsmc_pass *run(rounds *r, double expected)
   }
   for (int s = 0; s < e->segments; s++) e->bound_scale = fmax(e->bound_scale, r->bounds[s].scale);
   e->bound_strain = r->bounds[0].strain;
+  e->bound_width = r->bounds[0].width;
   return sum;
 }
 
@@ -302,6 +308,7 @@ void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span,
   r.n_substeps = gg_dsmc_list_substeps(pairs, splitting, sweeps, substep);
   r.each = span / n_rounds;
   r.span = r.each / sweeps;
+  r.hold = gg_dsmc_strains_to_hold(d->model.n_species, r.span);
   for (int done = 0; done < n_rounds; done += r.n) {
     r.strain = strain + done * r.each;
     r.n = n_rounds - done < together ? n_rounds - done : together;
