@@ -6,14 +6,19 @@
 
 #include "md/kernels.h"
 
-static gg_scene scene_of(enum gg_md_boundary boundary, bool mixture)
+static const int species[] = {1, 2, 3, GG_MAX_SPECIES};
+enum { MIXTURES = sizeof species / sizeof *species };
+
+static gg_scene scene_of(enum gg_md_boundary boundary, int mixture)
 {
   static const gg_flow flows[] = {GG_HCS, GG_USF, GG_COUETTE, GG_CHUTE};
   gg_scene s = md_scene((md_case){flows[boundary], 1500, 0.12, 0.9, 0.3, INFINITY, {0}});
   if (boundary == GG_MD_FALLING) s.gravity[1] = -0.01;
-  s.n_species = mixture ? 2 : 1;
-  s.species[0].fraction = s.species[1].fraction = 0.5;
-  s.species[1].diameter = 0.8;
+  s.n_species = species[mixture];
+  for (int i = 0; i < s.n_species; i++) {
+    s.species[i].fraction = 1.0 / s.n_species;
+    if (i) s.species[i].diameter = 0.8 + 0.015 * (i - 1);
+  }
   return s;
 }
 
@@ -33,13 +38,13 @@ static void simd_is_plain(void **state)
 {
   (void)state;
   for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
-    for (int mixture = 0; mixture < 2; mixture++) {
+    for (int mixture = 0; mixture < MIXTURES; mixture++) {
       gg_scene s = scene_of(boundary, mixture);
       gg_model m = md_model_of(&s);
       const gg_md_kernel *simd =
           gg_md_simd_kernel(gg_instructions_best(), boundary == GG_MD_SHEARED ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS,
-                            boundary, mixture);
-      if (run_with(&m, NULL) != run_with(&m, simd)) fail_msg("boundary %d, mixture %d", boundary, mixture);
+                            boundary, mixture > 0);
+      if (run_with(&m, NULL) != run_with(&m, simd)) fail_msg("boundary %d, species %d", boundary, species[mixture]);
     }
 }
 
@@ -52,8 +57,8 @@ static void instruction_sets_agree(void **state)
                                [GG_MD_COMOVING_ROWS] = 0.1};
   for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
     for (enum gg_md_search_way where = GG_MD_PLAIN_CELLS; where <= GG_MD_COMOVING_ROWS; where++)
-      for (int mixture = 0; mixture < 2; mixture++) {
-        if (!gg_md_simd_kernel(gg_instructions_best(), where, boundary, mixture)) continue;
+      for (int mixture = 0; mixture < MIXTURES; mixture++) {
+        if (!gg_md_simd_kernel(gg_instructions_best(), where, boundary, mixture > 0)) continue;
         gg_scene s = scene_of(boundary, mixture);
         s.particles = 700, s.phi = phi[where], s.aspect[0] = 2;
         gg_model m = md_model_of(&s);
@@ -63,8 +68,9 @@ static void instruction_sets_agree(void **state)
         uint64_t hash = 0;
         for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
           if (!gg_instructions_run_here(set)) continue;
-          uint64_t its = run_with(&m, gg_md_simd_kernel(set, where, boundary, mixture));
-          if (hash && its != hash) fail_msg("%s, search %d", gg_instructions_name(set), (int)where);
+          uint64_t its = run_with(&m, gg_md_simd_kernel(set, where, boundary, mixture > 0));
+          if (hash && its != hash)
+            fail_msg("%s, search %d, species %d", gg_instructions_name(set), (int)where, species[mixture]);
           hash = its;
         }
       }
@@ -90,7 +96,7 @@ static void every_way_has_its_kernels(void **state)
       const bool plain = boundary == GG_MD_SHEARED && where == GG_MD_PLAIN_CELLS;
       chosen[boundary] |= 1u << where;
       for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++)
-        if (gg_instructions_run_here(set) && !gg_md_simd_kernel(set, where, boundary, mixture) != plain)
+        if (gg_instructions_run_here(set) && !gg_md_simd_kernel(set, where, boundary, mixture > 0) != plain)
           fail_msg("%s, search %d, boundary %d", gg_instructions_name(set), (int)where, boundary);
       if (!plain || gg_md_ops.accepts(&m, NULL) != GG_OK) continue;
       gg_md *e = md_create(&m, 1);

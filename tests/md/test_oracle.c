@@ -106,13 +106,15 @@ static bool random_scene(gg_scene *s, gg_rng *rng, gg_flow flow, bool mixture)
   for (int a = 0; a < 3; a++) s->aspect[a] = 1 + 0.6 * gg_rng_uniform(rng);
   random_contact(s, rng);
   if (mixture) {
-    s->n_species = 2;
-    s->species[0].fraction = s->species[1].fraction = 0.5;
-    s->species[1].diameter = 0.6 + 0.8 * gg_rng_uniform(rng);
-    s->species[1].mass = 0.2 + 3 * gg_rng_uniform(rng);
+    s->n_species = 2 + (int)gg_rng_below(rng, 2);
+    for (int i = 0; i < s->n_species; i++) s->species[i].fraction = 1.0 / s->n_species;
+    for (int i = 1; i < s->n_species; i++) {
+      s->species[i].diameter = 0.6 + 0.8 * gg_rng_uniform(rng);
+      s->species[i].mass = 0.2 + 3 * gg_rng_uniform(rng);
+    }
   }
   double fewest = 10 * s->phi / (M_PI / 6);
-  s->particles = 3 + (int64_t)fewest + gg_rng_below(rng, 30);
+  s->particles = (mixture ? 2 * s->n_species : 3) + (int64_t)fewest + gg_rng_below(rng, 30);
   if (flow == GG_POISEUILLE) s->gravity[0] = 0.5, s->walls.beta = 0.5, s->walls.mu = INFINITY; /* walls that brake */
   if (flow == GG_CHUTE) {
     s->gravity[0] = 0.2, s->gravity[1] = -0.5;
