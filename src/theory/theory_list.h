@@ -14,6 +14,7 @@
   X(grad)                                                                                                              \
   X(sela_goldhirsch1998)                                                                                               \
   X(huthmann_zippelius1997)                                                                                            \
+  X(kremer_santos_garzo2014)                                                                                           \
   X(haff1983)                                                                                                          \
   X(goldhirsch_zanetti1993)                                                                                            \
   X(garzo_dufty1999)                                                                                                   \

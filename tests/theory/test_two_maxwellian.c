@@ -112,11 +112,44 @@ static void theory_answers(void **state)
   assert_refused(&gg_huthmann_zippelius1997, &m, "no steady theta/T");
 }
 
+/* Viscosity of rough grains that cool: elastic and perfectly rough is Pidduck's; without the cooling term it is Lun's
+ * at the ratio of the cooling state, whose integrals were done elsewhere; theta/T and zeta are those of Maxwellians. */
+static void rough_viscosity(void **state)
+{
+  (void)state;
+  const double K[] = {0.1, 0.4, 2. / 3};
+  for (int i = 0; i < 3; i++) {
+    gg_scene s = scene_of(GG_HCS, 0, 1, 1);
+    s.species[0].inertia = K[i];
+    gg_model m = model_of(&s);
+    assert_close(value_of(&gg_kremer_santos_garzo2014, &m, GG_Q_VISCOSITY_REDUCED),
+                 6 * pow(1 + K[i], 2) / (6 + 13 * K[i]), 1e-9);
+  }
+  const double e[] = {0.95, 0.8, 0.6}, beta[] = {0.9, 0, -0.7};
+  for (int i = 0; i < 3; i++) {
+    gg_model m = model_for(GG_HCS, 0, e[i], beta[i]);
+    gg_theory_answer a = answer_of(&gg_kremer_santos_garzo2014, &m), two = answer_of(&gg_huthmann_zippelius1997, &m);
+    double ratio = a.value[GG_Q_TEMPERATURE_RATIO], zeta = a.value[GG_Q_COOLING_RATE];
+    gg_lun_state state_of_lun = {1, 0, 1, gg_grain_of(&m), ratio};
+    double lun = gg_lun_functions_at(state_of_lun).f2 / (5. / 16 / sqrt(M_PI));
+    assert_close(1 / a.value[GG_Q_VISCOSITY_REDUCED] + zeta / 2, 1 / lun, 1e-12);
+    assert_close(ratio, two.value[GG_Q_TEMPERATURE_RATIO], 1e-12);
+    assert_close(zeta, two.value[GG_Q_COOLING_RATE], 1e-12);
+  }
+  gg_model m = model_for(GG_HCS, 0, 0.9, -1);
+  assert_refused(&gg_kremer_santos_garzo2014, &m, "garzo_dufty1999");
+  m = model_for(GG_HCS, 0.2, 0.9, 0);
+  assert_refused(&gg_kremer_santos_garzo2014, &m, "dilute");
+  m = model_for(GG_USF, 0, 0.9, 0);
+  assert_refused(&gg_kremer_santos_garzo2014, &m, "free cooling");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cooling_ratio),   cmocka_unit_test(rates_of_santos),        cmocka_unit_test(equipartition),
       cmocka_unit_test(friction_limits), cmocka_unit_test(friction_by_quadrature), cmocka_unit_test(theory_answers),
+      cmocka_unit_test(rough_viscosity),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
