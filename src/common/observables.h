@@ -17,7 +17,8 @@
   X(PROFILES, profiles, "density, flow, temperatures and spin across the gap between walls")                           \
   X(DIFFUSION, diffusion, "velocity autocorrelation, mean-square displacement, self-diffusion")                        \
   X(VISCOSITY, viscosity, "eta* of cooling and heated gases by linear response; comes with small_shear: on")           \
-  X(COLLISIONS, collisions, "free paths, times between collisions, angles of contact")
+  X(COLLISIONS, collisions, "free paths, times between collisions, angles of contact")                                 \
+  X(IMPACT_SPEED, impact_speed, "normal relative speed of collisions")
 
 #define GG_OBSERVABLE_ID(FLAG, word, description) GG_OBSERVABLE_##FLAG,
 enum { GG_OBSERVABLES(GG_OBSERVABLE_ID) GG_N_OBSERVABLES };
