@@ -67,7 +67,7 @@ static void adds_up(void **state)
       ops->snapshot(e[k], false, whole_velocity, &velocity[k]);
     }
     if (which == GG_MD) assert_true(velocity[0] == velocity[1]);
-    for (int p = 0; p < (kind % 2 ? GG_PAIRS : 1); p++) {
+    for (int p = 0; p < gg_pairs_of(m.n_species); p++) {
       const gg_collision_sums *h = &shown.by_hand;
       assert_int_equal(h->collisions[p], t.collisions[p]);
       assert_true(fabs(h->loss[p] / t.loss[p] - 1) < 1e-9);
