@@ -117,9 +117,9 @@ static double maxwellian(double x, const double *none)
 
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
-  (void)self;
+  const bool mixture = ((const impact_speed *)self)->model.n_species > 1;
   gg_curve *c = gg_curve_add(list, BINS, "impact_speed", "normal speed at impact", "");
-  gg_curve_axes(c, "g_n/√T", "1", "P", "1");
+  gg_curve_axes(c, mixture ? "√2 g_n/s" : "g_n/√T", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) * WIDTH;
     c->value[i] = bin[i] / (bin[COUNT] * WIDTH);

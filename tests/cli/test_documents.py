@@ -82,6 +82,27 @@ def test_names():
     none(missing)
 
 
+def test_rooms():
+    """Data goes one way (docs/architecture.md): no room includes one that stands after it."""
+    after = {"common": "scene md dsmc statistics measure theory run io bench door cli",
+             "scene": "md dsmc statistics measure theory run io bench door cli",
+             "md": "dsmc statistics measure theory run io bench door cli",
+             "dsmc": "md statistics measure theory run io bench door cli",
+             "statistics": "md dsmc measure theory run io bench door cli",
+             "theory": "md dsmc statistics measure run io bench door cli",
+             "measure": "md dsmc run io bench door cli", "run": "io bench door cli", "io": "bench door cli",
+             "bench": "door cli", "door": "cli"}
+    backwards, files = set(), 0
+    for room, later in after.items():
+        for path in glob.glob(os.path.join(SOURCE, "src", room, "**", "*.[hc]"), recursive=True):
+            files += 1
+            with open(path, encoding="utf-8") as source:
+                included = re.findall(r'^#include "(\w+)/', source.read(), re.MULTILINE)
+            backwards.update(f"{os.path.relpath(path, SOURCE)} includes {name}/" for name in included
+                             if name in later.split())
+    check(files > 200 and not backwards, "against the way the data goes:\n" + "\n".join(sorted(backwards)))
+
+
 def test_comments():
     """Files, functions, types and constants that comments of the code speak of are there."""
     remarks, code, files = {}, "", set()
