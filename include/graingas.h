@@ -141,6 +141,16 @@ typedef struct gg_simulation_state {
 } gg_simulation_state;
 GG_API gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err);
 
+/* How many species there are; 0 without a simulation. And what is known of each, from 0 on, in the units of results. */
+typedef struct gg_species_state {
+  size_t grains;
+  double diameter, mass, inertia;             /* inertia: 4I/(m d^2) */
+  double temperature, rotational_temperature; /* its own: m<C.C>/3, I<omega^2>/3 about its mean spin */
+} gg_species_state;
+GG_API int gg_simulation_species(const gg_simulation *simulation);
+GG_API gg_status gg_simulation_get_species(const gg_simulation *simulation, int species, gg_species_state *state,
+                                           gg_error *err);
+
 /* Arrays of the caller's, for `grains` grains; NULL for what is not wanted. The order of grains never changes in md; in
  * dsmc grains of a species change places, but for as long as collisions are shown. */
 typedef struct gg_grains {

@@ -12,7 +12,7 @@ double gg_simulation_unit(const gg_simulation *s)
 /* Sums over grains, mass by mass. */
 typedef struct moments {
   const gg_model *model;
-  double cc[3][3];                                       /* m C C */
+  double cc[3][3], energy[GG_MAX_SPECIES];               /* m C C; m C.C */
   double spin[GG_MAX_SPECIES][3], spin2[GG_MAX_SPECIES]; /* of surface velocities */
 } moments;
 
@@ -24,6 +24,7 @@ static void add(void *context, const gg_chunk *chunk)
     const double c[3] = {chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]};
     for (int a = 0; a < 3; a++) {
       for (int b = 0; b < 3; b++) m->cc[a][b] += m->model->mass[species] * c[a] * c[b];
+      m->energy[species] += m->model->mass[species] * c[a] * c[a];
       if (!chunk->s[0]) continue;
       m->spin[species][a] += chunk->s[a][i];
       m->spin2[species] += chunk->s[a][i] * chunk->s[a][i];
@@ -50,15 +51,43 @@ double gg_simulation_temperature(const gg_simulation *s)
 }
 
 /* sum I Omega^2 / 3 with I Omega^2 = K m s^2 for surface velocities s, about the mean of each species. */
+static double rotation_of(const moments *m, int i)
+{
+  const double *s = m->spin[i], n = (double)m->model->n_of[i];
+  double about_mean = m->spin2[i] - (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / n;
+  return m->model->inertia[i] * m->model->mass[i] * about_mean;
+}
+
 static double rotational_temperature_of(const moments *m)
 {
   double sum = 0;
-  for (int i = 0; i < m->model->n_species; i++) {
-    const double *s = m->spin[i], n = (double)m->model->n_of[i];
-    double about_mean = m->spin2[i] - (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / n;
-    sum += m->model->inertia[i] * m->model->mass[i] * about_mean;
-  }
+  for (int i = 0; i < m->model->n_species; i++) sum += rotation_of(m, i);
   return sum / (3 * (double)m->model->n);
+}
+
+int gg_simulation_species(const gg_simulation *simulation)
+{
+  return simulation ? simulation->model.n_species : 0;
+}
+
+gg_status gg_simulation_get_species(const gg_simulation *simulation, int species, gg_species_state *state,
+                                    gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_NEED(state);
+  const gg_model *model = &simulation->model;
+  if (species < 0 || species >= model->n_species)
+    return gg_fail(err, GG_BAD_INPUT, "there is no species %d: this scene has %d, counted from 0", species,
+                   model->n_species);
+  const moments m = sum_up(simulation);
+  const double unit = gg_simulation_unit(simulation), per = unit * unit / (3 * (double)model->n_of[species]);
+  *state = (gg_species_state){.grains = (size_t)model->n_of[species],
+                              .diameter = model->diameter[species],
+                              .mass = model->mass[species],
+                              .inertia = model->inertia[species],
+                              .temperature = m.energy[species] * per,
+                              .rotational_temperature = rotation_of(&m, species) * per};
+  return GG_OK;
 }
 
 gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err)

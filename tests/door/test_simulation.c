@@ -373,14 +373,47 @@ static void stopped(void **state)
   }
 }
 
+/* Of three species each has its own temperature, and together they have that of the gas. */
+static void species_one_by_one(void **state)
+{
+  (void)state;
+  gg_simulation *m = simulation_of("{flow: usf, phi: 0.1, particles: 100, collision: {beta: 0, e: {33: 0.8}}, species: "
+                                   "[{fraction: 0.5}, {fraction: 0.3, mass: 2}, {fraction: 0.2, diameter: 1.5}]}");
+  gg_error err;
+  gg_simulation_state now;
+  gg_species_state one;
+  double energy = 0, rotation = 0;
+  assert_int_equal(gg_simulation_collide(m, 500, &err), GG_OK);
+  assert_int_equal(gg_simulation_get_state(m, &now, &err), GG_OK);
+  assert_int_equal(gg_simulation_species(m), 3);
+  for (int i = 0; i < 3; i++) {
+    assert_int_equal(gg_simulation_get_species(m, i, &one, &err), GG_OK);
+    energy += one.temperature * (double)one.grains / 100;
+    rotation += one.rotational_temperature * (double)one.grains / 100;
+  }
+  assert_true(one.grains == 20 && one.diameter == 1.5 && one.mass == 1 && one.inertia == 0.4);
+  assert_true(fabs(energy / now.temperature - 1) < 1e-12);
+  assert_true(fabs(rotation / now.rotational_temperature - 1) < 1e-12);
+  assert_int_equal(gg_simulation_get_species(m, 3, &one, &err), GG_BAD_INPUT);
+  assert_non_null(strstr(err.message, "there is no species 3"));
+  assert_int_equal(gg_simulation_species(NULL), 0);
+  gg_simulation_free(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(state_and_grains),   cmocka_unit_test(cut_into_steps),
-      cmocka_unit_test(collisions_of_md),   cmocka_unit_test(collisions_of_dsmc),
-      cmocka_unit_test(energy_balance),     cmocka_unit_test(cooling_over_decades),
-      cmocka_unit_test(saved_and_loaded),   cmocka_unit_test(starts),
-      cmocka_unit_test(facts_of_the_start), cmocka_unit_test(stopped),
+      cmocka_unit_test(species_one_by_one),
+      cmocka_unit_test(state_and_grains),
+      cmocka_unit_test(cut_into_steps),
+      cmocka_unit_test(collisions_of_md),
+      cmocka_unit_test(collisions_of_dsmc),
+      cmocka_unit_test(energy_balance),
+      cmocka_unit_test(cooling_over_decades),
+      cmocka_unit_test(saved_and_loaded),
+      cmocka_unit_test(starts),
+      cmocka_unit_test(facts_of_the_start),
+      cmocka_unit_test(stopped),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
