@@ -15,9 +15,11 @@ static void same_archive(gg_engine *a, gg_engine *b)
   gg_archive_clear(&two);
 }
 
-static void restart(gg_flow flow, double phi, double beta, int64_t n, gg_precision precision)
+static void restart(gg_flow flow, double phi, double beta, int64_t n, int species, gg_precision precision)
 {
   gg_scene s = lab_scene(flow, phi, 0.8, beta, n);
+  s.n_species = species;
+  for (int i = 0; i < species; i++) s.species[i] = (gg_species){1.0 / species, 1 - 0.1 * i, 1 + 0.3 * i, 0.4};
   s.dsmc.precision = precision;
   gg_model m = lab_model(&s);
   gg_engine *straight = lab_engine(&m, 11), *resumed = NULL;
@@ -34,7 +36,7 @@ static void restart(gg_flow flow, double phi, double beta, int64_t n, gg_precisi
   gg_dsmc_ops.destroy(resumed);
 
   /* A checkpoint of another size is refused with a message. */
-  s.dsmc.particles = n + 8;
+  s.dsmc.particles = n + 8 * species;
   m = lab_model(&s);
   assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "dsmc/velocity_1"));
@@ -45,9 +47,11 @@ static void restarts_bit_for_bit(void **state)
 {
   (void)state;
   for (int p = GG_DOUBLE; p <= GG_SINGLE; p++) {
-    restart(GG_USF, 0.3, 0.2, 5000, (gg_precision)p);
-    restart(GG_USF, 0, -1, 11, (gg_precision)p);
-    restart(GG_HCS, 0.1, -1, 3000, (gg_precision)p);
+    restart(GG_USF, 0.3, 0.2, 5000, 1, (gg_precision)p);
+    restart(GG_USF, 0.3, 0.2, 5000, 3, (gg_precision)p);
+    restart(GG_HCS, 0, -1, 8000, 10, (gg_precision)p);
+    restart(GG_USF, 0, -1, 11, 1, (gg_precision)p);
+    restart(GG_HCS, 0.1, -1, 3000, 1, (gg_precision)p);
   }
 }
 

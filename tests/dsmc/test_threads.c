@@ -56,6 +56,21 @@ static void same_bits_on(const gg_model *m)
 
 /* Rules, flows dilute and dense, thermostats, precisions, one species, two, and two of which one is too small for
  * segments. */
+static void same_bits_of_three(void **state)
+{
+  (void)state;
+  const gg_flow flows[] = {GG_HCS, GG_USF, GG_HSS};
+  for (int flow = 0; flow < 3; flow++) {
+    gg_scene s = lab_scene(flows[flow], 0.2, 0.8, flow == 1 ? 0.3 : -1, LARGE);
+    s.n_species = 3;
+    s.species[0].fraction = 0.4;
+    s.species[1] = (gg_species){0.3, 0.7, 2, 0.3};
+    s.species[2] = (gg_species){0.3, 1.2, 0.5, 0.4};
+    gg_model m = lab_model(&s);
+    same_bits_on(&m);
+  }
+}
+
 static void same_bits(void **state)
 {
   (void)state;
@@ -114,10 +129,10 @@ static void same_bits_with_any_instructions(void **state)
 static void resumes_with_other_threads(void **state)
 {
   (void)state;
-  for (int species = 1; species <= 2; species++) {
+  for (int species = 1; species <= 3; species++) {
     gg_scene s = lab_scene(GG_USF, 0.3, 0.8, 0.2, LARGE);
     s.n_species = species;
-    s.species[1] = (gg_species){1, 0.7, 2, 0.3};
+    for (int i = 1; i < species; i++) s.species[i] = (gg_species){1, 0.7, 2.0 / i, 0.3};
     gg_model m = lab_model(&s);
     gg_engine *straight = lab_engine(&m, 11);
     gg_error err = {0};
@@ -184,8 +199,11 @@ static void describes(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(describes), cmocka_unit_test(small_ones_do_not_pay),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(describes),
+                                     cmocka_unit_test(small_ones_do_not_pay),
                                      cmocka_unit_test(resumes_with_other_threads),
-                                     cmocka_unit_test(same_bits_with_any_instructions), cmocka_unit_test(same_bits)};
+                                     cmocka_unit_test(same_bits_with_any_instructions),
+                                     cmocka_unit_test(same_bits_of_three),
+                                     cmocka_unit_test(same_bits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

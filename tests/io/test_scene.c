@@ -101,6 +101,34 @@ static void overrides(void **state)
   gg_scene_free(s);
 }
 
+/* Pairs by their names, in either order; those left out take `other`, or what they had. */
+static void pairs_of_many_species(void **state)
+{
+  (void)state;
+  gg_scene s = parse("flow: usf\nphi: 0.3\ncollision: {e: {11: 0.9, 3-1: 0.8, 1-12: 0.6, other: 0.7}, mu: {23: 0.5}, "
+                     "beta: 0}\nspecies: [{},{},{},{},{},{},{},{},{},{},{},{}]\n");
+  assert_int_equal(s.n_species, 12);
+  assert_true(s.species[11].fraction == 1.0 / 12 && s.species[11].mass == 1);
+  assert_true(s.collision.e[GG_11] == 0.9 && s.collision.e[gg_pair(0, 2)] == 0.8 &&
+              s.collision.e[gg_pair(11, 0)] == 0.6);
+  assert_true(s.collision.e[GG_22] == 0.7 && s.collision.e[gg_pair(11, 11)] == 0.7);
+  assert_true(s.collision.mu[gg_pair(1, 2)] == 0.5 && s.collision.mu[GG_11] == INFINITY);
+  gg_error err = {0};
+  assert_int_equal(gg_scene_set(&s, "collision.e.2-11", "0.5", &err), GG_OK);
+  assert_int_equal(gg_scene_set(&s, "species.12.diameter", "1.5", &err), GG_OK);
+  assert_true(s.collision.e[gg_pair(1, 10)] == 0.5 && s.species[11].diameter == 1.5);
+  char text[200];
+  assert_int_equal(gg_scene_get(&s, "collision.e.11-2", text, sizeof text, &err), GG_OK);
+  assert_string_equal(text, "0.5");
+  assert_int_equal(gg_scene_get(&s, "collision.e", text, sizeof text, &err), GG_OK);
+  assert_string_equal(text, "{11: 0.9, 13: 0.8, 2-11: 0.5, 1-12: 0.6, other: 0.7}");
+  char *yaml = gg_scene_yaml(&s);
+  gg_scene again = parse(yaml);
+  s.given = again.given;
+  assert_memory_equal(&s, &again, sizeof s);
+  free(yaml);
+}
+
 /* Written as YAML or as JSON and read again, a scene is the same to the last bit. */
 static void round_trip(void **state)
 {
@@ -155,8 +183,13 @@ static void table_is_sound(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(reads_every_key), cmocka_unit_test(defaults),  cmocka_unit_test(overrides),
-      cmocka_unit_test(round_trip),      cmocka_unit_test(mutations), cmocka_unit_test(table_is_sound),
+      cmocka_unit_test(reads_every_key),
+      cmocka_unit_test(defaults),
+      cmocka_unit_test(overrides),
+      cmocka_unit_test(round_trip),
+      cmocka_unit_test(mutations),
+      cmocka_unit_test(table_is_sound),
+      cmocka_unit_test(pairs_of_many_species),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,11 +11,24 @@ static const md_case cases[] = {
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
+/* The case, or with grains of three kinds in it. */
+static gg_model model_of(int k, bool mixture)
+{
+  gg_scene s = md_scene(cases[k]);
+  if (mixture) {
+    s.n_species = 3;
+    s.species[0].fraction = 0.5;
+    s.species[1] = (gg_species){0.3, 0.8, 0.5, 0.4};
+    s.species[2] = (gg_species){0.2, 1.2, 2, 0.3};
+  }
+  return md_model_of(&s);
+}
+
 static void saved_and_restored(void **state)
 {
   (void)state;
-  for (int k = 0; k < CASES; k++) {
-    gg_model m = md_model(cases[k]);
+  for (int k = 0; k < 2 * CASES; k++) {
+    gg_model m = model_of(k / 2, k % 2);
     gg_md *e = md_create(&m, 1);
     gg_engine *back = NULL;
     gg_archive a = {0};

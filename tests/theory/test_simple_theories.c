@@ -63,6 +63,35 @@ static void no_number_leaks(void **state)
         }
 }
 
+/* Of three species: theories of one or two say so and refuse; the rest take the same grains in three species for what
+ * they are. */
+static void three_species(void **state)
+{
+  (void)state;
+  static const gg_theory *const of_few[] = {&gg_lun1991, &gg_grad, &gg_garzo_montanero2003, &gg_garzo_montanero2003_ms,
+                                            &gg_enskog_hermite};
+  for (int flow = GG_EQUILIBRIUM; flow <= GG_HCS; flow++) {
+    gg_scene s = scene_of((gg_flow)flow, 0.04, flow == GG_EQUILIBRIUM ? 1 : 0.9, -1), three = s;
+    three.n_species = 3;
+    for (int i = 0; i < 3; i++) three.species[i].fraction = i ? 0.25 : 0.5;
+    gg_model one = model_of(&s), m = model_of(&three);
+    for (size_t k = 0; k < sizeof of_few / sizeof *of_few; k++) {
+      gg_theory_answer a;
+      gg_error err = {0};
+      assert_int_equal(gg_theory_evaluate(of_few[k], &m, &a, &err), GG_BAD_INPUT);
+      assert_non_null(strstr(err.message, "describes"));
+    }
+    const gg_theory *t = flow == GG_EQUILIBRIUM ? &gg_enskog : &gg_gaussian_closure;
+    gg_theory_answer a, b;
+    if (flow == GG_HCS) continue;
+    assert_int_equal(gg_theory_evaluate(t, &one, &a, NULL), GG_OK);
+    assert_int_equal(gg_theory_evaluate(t, &m, &b, NULL), GG_OK);
+    const gg_quantity same[] = {GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_COLLISION_RATE, GG_Q_MEAN_FREE_PATH};
+    for (int k = 0; k < 4; k++) assert_true(fabs(a.value[same[k]] / b.value[same[k]] - 1) < 1e-9);
+    if (flow == GG_USF) assert_true(fabs(b.value[GG_Q_PARTIAL_TEMPERATURE + 2] / a.value[GG_Q_TEMPERATURE] - 1) < 1e-9);
+  }
+}
+
 /* The example printed with the formulas: N1 = 0.24, N2 = -0.0203 at e = 0.9; leading coefficients are those of the
  * elastic Burnett equations, N1 = w2 x and N2 = (w6/4 - w2) x with x = 5/8 1.016034 eps, w2 = 2.028, w6 = 7.424. */
 static void sela_goldhirsch(void **state)
@@ -136,10 +165,10 @@ static void enskog_refuses(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(list_is_complete),      cmocka_unit_test(no_number_leaks),
-      cmocka_unit_test(sela_goldhirsch),       cmocka_unit_test(enskog_equation_of_state),
-      cmocka_unit_test(enskog_mean_free_time), cmocka_unit_test(enskog_knudsen),
-      cmocka_unit_test(enskog_refuses),
+      cmocka_unit_test(list_is_complete),         cmocka_unit_test(three_species),
+      cmocka_unit_test(no_number_leaks),          cmocka_unit_test(sela_goldhirsch),
+      cmocka_unit_test(enskog_equation_of_state), cmocka_unit_test(enskog_mean_free_time),
+      cmocka_unit_test(enskog_knudsen),           cmocka_unit_test(enskog_refuses),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
