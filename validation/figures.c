@@ -80,7 +80,7 @@ gg_scene gg_figure_scene(gg_subject subject, const gg_point *p)
     s.flow = GG_HSS, s.thermostat = GG_GAUSSIAN;
     return s;
   }
-  s.flow = GG_USF, s.small_shear = GG_ON;
+  s.flow = GG_SMALL_SHEAR;
   s.thermostat = p->cooling ? GG_NO_THERMOSTAT : GG_GAUSSIAN;
   s.measure |= GG_MEASURE_VISCOSITY;
   return s;

@@ -27,7 +27,7 @@ const gg_flow_row gg_flows[GG_N_FLOWS] = {
                 .doc = "uniform shear, Lees-Edwards box",
                 .state = "uniform shear",
                 .frame = GG_SHEARED_FRAME,
-                .thermostats = UNHEATED | GAUSSIAN | WHITE_NOISE,
+                .thermostats = UNHEATED | WHITE_NOISE,
                 .engines = IN_MD | IN_DSMC,
                 .headline = BY_SHEAR},
     [GG_HCS] = {.word = "hcs",
@@ -77,6 +77,17 @@ const gg_flow_row gg_flows[GG_N_FLOWS] = {
                   .thermostats = UNHEATED,
                   .engines = IN_MD,
                   .headline = BY_WALLS},
+    [GG_SMALL_SHEAR] = {.word = "small_shear",
+                        .title = "Linear response to shear",
+                        .doc = "shear so slow that the viscosity is extrapolated to the shear rate 0: of the cooling "
+                               "gas, with thermostat: gaussian of the heated one",
+                        .state = "the linear response of a cooling or heated gas to shear",
+                        .frame = GG_SHEARED_FRAME,
+                        .linear_response = true,
+                        .thermostats = UNHEATED | GAUSSIAN,
+                        .engines = IN_DSMC,
+                        .measure = GG_MEASURE_VISCOSITY,
+                        .headline = KNOWN_BY(GG_Q_VISCOSITY_REDUCED)},
 };
 
 /* Separated by commas, before the last one by "or". */

@@ -16,6 +16,7 @@ typedef enum gg_flow {
   GG_COUETTE,
   GG_POISEUILLE,
   GG_CHUTE,
+  GG_SMALL_SHEAR,
   GG_N_FLOWS
 } gg_flow;
 
@@ -43,6 +44,7 @@ typedef struct gg_flow_row {
   gg_flow_falling falling;
   bool may_be_open;     /* may the upper wall be left away? */
   bool conserves;       /* collisions must lose no energy */
+  bool linear_response; /* shear so slow that it goes to zero (linear_response.h) */
   unsigned thermostats; /* allowed ones, a sum of 1u << gg_thermostat */
   unsigned engines;     /* which can run it, a sum of 1u << gg_engine_kind */
   unsigned measure;     /* what is measured of it in any case, GG_MEASURE_... */

@@ -228,9 +228,10 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   GG_TRY(check_scales(s, err));
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat, .extension = s->extension};
   m->law = gg_extension_law(s->extension);
-  if (m->law.e && s->small_shear == GG_ON)
-    return gg_fail(err, GG_BAD_INPUT, "small_shear: needs a constant e: restitution law '%s' has a speed of its own",
-                   m->law.name);
+  m->linear_response = gg_flow_of(s->flow)->linear_response;
+  if (m->law.e && m->linear_response)
+    return gg_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
+                   gg_flow_of(s->flow)->word, m->law.name);
   bool sheared = gg_flow_is_sheared(s->flow);
   m->homogeneous = engine == GG_DSMC;
   m->n = grains_of(s, engine);
@@ -253,7 +254,6 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
   guess_temperature(m, s, sheared);
   m->ratio0 = guess_ratio(m);
-  m->linear_response = s->small_shear == GG_ON;
   m->steady = !m->linear_response && !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;

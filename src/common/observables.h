@@ -16,7 +16,7 @@
   X(CELLS, cells, "local density, shear rate, temperatures and spin")                                                  \
   X(PROFILES, profiles, "density, flow, temperatures and spin across the gap between walls")                           \
   X(DIFFUSION, diffusion, "velocity autocorrelation, mean-square displacement, self-diffusion")                        \
-  X(VISCOSITY, viscosity, "eta* of cooling and heated gases by linear response; comes with small_shear: on")           \
+  X(VISCOSITY, viscosity, "eta* of cooling and heated gases by linear response; comes with flow: small_shear")         \
   X(COLLISIONS, collisions, "free paths, times between collisions, angles of contact")                                 \
   X(IMPACT_SPEED, impact_speed, "normal relative speed of collisions")
 

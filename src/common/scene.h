@@ -12,7 +12,6 @@
 #include "common/species.h"
 
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
-typedef enum gg_switch { GG_OFF, GG_ON } gg_switch;
 typedef enum gg_precision { GG_DOUBLE, GG_SINGLE } gg_precision;
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
@@ -34,10 +33,9 @@ struct gg_scene {
   double phi;
   int64_t particles;
   double shear_rate;
-  gg_switch small_shear; /* usf: towards a* = 0, for viscosities (common/linear_response.h) */
-  double temperature;    /* initial <C.C>/3 in the user's units, or GG_AUTO */
-  double aspect[3];      /* shape of the box, relative edges */
-  struct {               /* by pair of species: gg_pair */
+  double temperature; /* initial <C.C>/3 in the user's units, or GG_AUTO */
+  double aspect[3];   /* shape of the box, relative edges */
+  struct {            /* by pair of species: gg_pair */
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   } collision;
   int n_species;

@@ -69,9 +69,8 @@ static void add_pairs(char *text, size_t size, const char *name, const double *x
 void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
 {
   const char *flow = gg_flow_of(s->flow)->title;
-  if (s->small_shear == GG_ON)
-    flow = s->thermostat == GG_GAUSSIAN ? "Linear response, heated" : "Linear response, cooling";
-  snprintf(text, size, "%s, phi %g", flow, s->phi);
+  bool as_well = gg_flow_takes(s->flow, GG_NO_THERMOSTAT) && s->thermostat != GG_NO_THERMOSTAT;
+  snprintf(text, size, "%s%s, phi %g", flow, as_well ? ", heated" : "", s->phi);
   const gg_restitution_law law = gg_extension_law(s->extension);
   if (law.e)
     add(text, size, ", law %s of e", law.name);

@@ -45,9 +45,6 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at most %d", (long long)m->n, INT32_MAX / 4);
   if (!gg_flow_runs_in(m->flow, GG_MD))
     return gg_fail(err, GG_BAD_INPUT, "flow: %s needs engine: dsmc", gg_flow_of(m->flow)->word);
-  if (m->linear_response)
-    return gg_fail(err, GG_BAD_INPUT,
-                   "small_shear: on (the default of a sheared gas with thermostat: gaussian) needs engine: dsmc");
   if (m->thermostat != GG_NO_THERMOSTAT && (m->shear_rate != 0 || !gg_flow_takes(m->flow, m->thermostat)))
     return gg_fail(err, GG_BAD_INPUT, "thermostat: not in flow: %s with engine: md", gg_flow_of(m->flow)->word);
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;

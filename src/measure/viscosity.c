@@ -33,7 +33,7 @@ typedef struct viscosity {
 
 static const char *refuses(const gg_model *m)
 {
-  return m->linear_response ? NULL : "needs small_shear: on (flow: usf)";
+  return m->linear_response ? NULL : "needs flow: small_shear";
 }
 
 static size_t width(const gg_model *m)

@@ -3,10 +3,6 @@
 int gg_headline(const gg_model *m, gg_quantity list[GG_N_QUANTITIES])
 {
   int n = 0;
-  if (m->linear_response) {
-    list[n++] = GG_Q_VISCOSITY_REDUCED;
-    return n;
-  }
   for (const int *q = gg_flow_of(m->flow)->headline; *q != GG_N_QUANTITIES; q++)
     if (!gg_quantity_missing(m, (gg_quantity)*q)) list[n++] = (gg_quantity)*q;
   return n;

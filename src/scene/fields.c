@@ -26,7 +26,6 @@ static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARL
 static const gg_word precisions[] = {{"double", GG_DOUBLE, "to 1e-16"},
                                      {"single", GG_SINGLE, "to 1e-7, in half the memory; up to 1.5 times as fast"},
                                      {0}};
-static const gg_word switches[] = {{"off", GG_OFF, ""}, {"on", GG_ON, ""}, {0}};
 static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one below"},
                                {"open", GG_OPEN_TOP, "none: grains fall back under gravity"},
                                {0}};
@@ -55,10 +54,6 @@ const gg_field gg_scene_fields[] = {
      .also = "N grains number n_particles num_particles"},
     {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .unit = "1/time", .doc = "of sheared flows",
      .when = {&gg_if_sheared}, .also = "gamma gamma_dot rate shear"},
-    {"small_shear", GG_FIELD_CHOICE, AT(small_shear), .words = switches,
-     .doc = "usf: linear response, shear so slow that the viscosity is extrapolated to the shear rate 0: of the heated "
-            "gas with thermostat: gaussian (where it is on unless switched off), of the cooling one without",
-     .when = {&gg_if_sheared}},
     {"temperature", GG_FIELD_NUMBER, AT(temperature), 1e-100, 1e100, false, AUTO, .unit = "velocity^2",
      .doc = "<C.C>/3 to start from; auto: near the steady state", .when = {&gg_if_sheared}, .also = "T T0"},
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges",
@@ -130,6 +125,11 @@ const gg_field gg_species_fields[] = {
     {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .unit = "mass", .doc = "mass", .also = "m"},
     {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 1e-6, 1, false,
      .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = {&gg_if_rough}, .also = "K I"},
+    {0},
+};
+
+const gg_word gg_former_keys[] = {
+    {"small_shear", 0, "is a flow of its own: write flow: small_shear instead of flow: usf, and leave this key out"},
     {0},
 };
 

@@ -20,9 +20,6 @@ gg_status gg_require_steady_shear(const gg_model *m, const char *theory, gg_erro
 {
   if (m->thermostat != GG_NO_THERMOSTAT)
     return gg_refuse(err, theory, "describes shear whose heating only collisions balance; this scene has a thermostat");
-  if (m->linear_response)
-    return gg_refuse(err, theory,
-                     "describes steady shear; this scene is the linear response of a cooling or heated gas to it");
   if (m->elastic)
     return gg_refuse(err, theory,
                      "describes steady shear; collisions of this scene lose no energy, so that it heats up for ever");

@@ -3,6 +3,7 @@
  * degree, so that each number tells how far it is from its limit. */
 #include <math.h>
 
+#include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/garzo_dufty1999.h"
 #include "theory/hermite/shear.h"
@@ -145,7 +146,7 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, bool no
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
   a->value[GG_Q_COOLING_RATE] = h->cooling_rate / gg_model_nu0(m, 1);
-  if (m->flow == GG_USF) return; /* no temperature of its own: it grows */
+  if (m->linear_response) return; /* no temperature of its own: it grows */
   double T = temperature_of(m, h->cooling_rate, noise), p = m->density * T;
   gg_answer_temperature(m, T, NAN, a);
   gg_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* all along the one direction: the trace */
@@ -167,9 +168,9 @@ static gg_status answer_viscosity(const gg_model *m, gg_hermite_isotropic *h, gg
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
-  bool noise = m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE;
+  bool noise = gg_thermostat_of(m) == GG_WHITE_NOISE;
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
-  GG_TRY(gg_require_homogeneous_smooth(m, name, err));
+  GG_TRY(gg_require_smooth(m, name, err));
   for (int degree = FIRST_DEGREE; degree <= ISOTROPIC_DEGREE; degree += 2) {
     if (degree > GOOD_DEGREE && relative_error(&rungs, GG_Q_COOLING_RATE) < isotropic_good) break;
     gg_hermite_isotropic h;
@@ -194,13 +195,12 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, name, err));
   GG_TRY(gg_require_smooth(m, name, err));
-  bool shear = m->flow == GG_USF && m->thermostat == GG_NO_THERMOSTAT && !m->linear_response;
-  return shear ? sheared(m, a, err) : homogeneous(m, a, err);
+  return m->flow == GG_USF ? sheared(m, a, err) : homogeneous(m, a, err);
 }
 
 const gg_theory gg_enskog_hermite = {
     .name = name,
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Enskog's equation, solved by expansion without random numbers",
     .citation = "J.J. Brey, J.W. Dufty and A. Santos, J. Stat. Phys. 87 (1997) 1051, for the equation",
     .assumptions =

@@ -11,6 +11,7 @@
  * nu_eta = chi [1 - (1-e)^2/4](1 + 7c/32), with the a_2 of Montanero & Santos: V. Garzo, A. Santos & J.M. Montanero,
  * Physica A 376 (2007) 94. */
 #include "theory/garzo_dufty1999.h"
+#include "common/thermostat.h"
 
 #include <math.h>
 
@@ -34,18 +35,10 @@ double gg_a2_white_noise(double e)
   return 16 * (1 - e) * (1 - 2 * e * e) / (241 - 177 * e + 30 * e * e * (1 - e));
 }
 
-gg_status gg_require_homogeneous_smooth(const gg_model *m, const char *theory, gg_error *err)
-{
-  GG_TRY(gg_require_smooth(m, theory, err));
-  bool heated_shear = m->flow == GG_USF && m->thermostat == GG_GAUSSIAN;
-  if (m->flow == GG_HCS || m->flow == GG_HSS || heated_shear || m->linear_response) return GG_OK;
-  return gg_refuse(err, theory, "describes free cooling and homogeneously heated states; this scene is neither");
-}
-
 double gg_thermostat_share(const gg_model *m)
 {
-  if (m->flow == GG_HCS || (m->flow == GG_USF && m->thermostat == GG_NO_THERMOSTAT)) return 0.5;
-  return m->thermostat == GG_WHITE_NOISE ? 0 : 1;
+  static const double share[] = {[GG_NO_THERMOSTAT] = 0.5, [GG_GAUSSIAN] = 1, [GG_WHITE_NOISE] = 0};
+  return share[gg_thermostat_of(m)];
 }
 
 static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
@@ -54,7 +47,7 @@ static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
   a->value[GG_Q_COOLING_RATE] = 5. / 12 * m->chi[0] * (1 - e * e) * (1 + 3. / 16 * a2);
-  if (m->flow == GG_USF) return; /* no temperature of its own: it grows */
+  if (m->linear_response) return; /* no temperature of its own: it grows */
   gg_answer_temperature(m, T, NAN, a);
   gg_answer_pressure(m, T, p, pc, a);
   gg_answer_collisions_one(m, T, a);
@@ -80,8 +73,8 @@ static const double standard = -1. / 32, modified = 7. / 16;
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, name, err));
-  GG_TRY(gg_require_homogeneous_smooth(m, name, err));
-  bool noisy = m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE;
+  GG_TRY(gg_require_smooth(m, name, err));
+  bool noisy = gg_thermostat_of(m) == GG_WHITE_NOISE;
   double a2 = noisy ? gg_a2_white_noise(m->e[0]) : gg_a2_van_noije_ernst(m->e[0]);
   answer_sonine(m, a2, a);
   answer_viscosity(m, a2, standard, a);
@@ -90,7 +83,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_garzo_dufty1999 = {
     .name = name,
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Cooling and viscosity of smooth inelastic spheres",
     .citation =
         "V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895; V. Garzo and J.M. Montanero, Physica A 313 (2002) "
@@ -107,8 +100,8 @@ static const char name_ms[] = "montanero_santos2000";
 static gg_status with_other_a2(const gg_model *m, const char *theory, double weight, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, theory, err));
-  GG_TRY(gg_require_homogeneous_smooth(m, theory, err));
-  if (m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE)
+  GG_TRY(gg_require_smooth(m, theory, err));
+  if (gg_thermostat_of(m) == GG_WHITE_NOISE)
     return gg_refuse(err, theory,
                      "is given here for free cooling and the Gaussian thermostat; this scene is heated by "
                      "white noise");
@@ -132,7 +125,7 @@ static gg_status evaluate_modified(const gg_model *m, gg_theory_answer *a, gg_er
 
 const gg_theory gg_montanero_santos2000 = {
     .name = name_ms,
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Fourth cumulant, the other linearisation",
     .citation = "J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .assumptions =
@@ -143,7 +136,7 @@ const gg_theory gg_montanero_santos2000 = {
 
 const gg_theory gg_garzo_santos_montanero2007 = {
     .name = name_modified,
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Viscosity about the cooling state's own distribution",
     .citation = "V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94",
     .assumptions =

@@ -9,9 +9,6 @@ double gg_a2_van_noije_ernst(double e);
 double gg_a2_montanero_santos(double e);
 double gg_a2_white_noise(double e);
 
-/* Free cooling, heated, or sheared with a Gaussian thermostat (the way to the viscosity of the heated state). */
-gg_status gg_require_homogeneous_smooth(const gg_model *model, const char *theory, gg_error *err);
-
 /* s in nu_eta - s zeta: 1/2 for cooling, 1 for a Gaussian thermostat, 0 for white noise. */
 double gg_thermostat_share(const gg_model *model);
 

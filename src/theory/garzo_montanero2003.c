@@ -12,6 +12,7 @@
  *           [(eta_i/(n_i m_i) + eta_j/(n_j m_j))/2 + sigma_ij S/sqrt(2 pi)],   m_ij = m_i m_j/(m_i+m_j)
  * with Maxwellian tau_ij = A_ij n_i m_i/(n_j m_j). */
 #include "theory/garzo_montanero2003.h"
+#include "common/thermostat.h"
 
 #include <math.h>
 
@@ -127,12 +128,12 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
 {
   if (m->n_species != 2)
     return gg_refuse(err, theory, "describes binary mixtures; this scene has %d species", m->n_species);
-  GG_TRY(gg_require_homogeneous_smooth(m, theory, err));
-  if (m->flow == GG_HSS && m->thermostat == GG_WHITE_NOISE)
+  GG_TRY(gg_require_smooth(m, theory, err));
+  if (gg_thermostat_of(m) == GG_WHITE_NOISE)
     return gg_refuse(err, theory,
                      "describes free cooling and the Gaussian thermostat; this scene is heated by white "
                      "noise");
-  double T = m->flow == GG_USF ? 0.5 : m->temperature0;
+  double T = m->linear_response ? 0.5 : m->temperature0;
   gg_mixture_state s = gg_mixture_cooling(m, how, T);
   if (isnan(s.zeta)) return gg_refuse(err, theory, "finds no common cooling rate for this mixture");
   gg_mixture_viscosity v = gg_mixture_viscosity_of(m, &s, gg_thermostat_share(m));
@@ -142,7 +143,7 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
   a->value[GG_Q_VISCOSITY_REDUCED] = nu0 * v.total / p;
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = nu0 * v.kinetic / p;
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = m->mass[0] * s.a[0] / (m->mass[1] * s.a[1]);
-  if (m->flow == GG_USF) return GG_OK; /* no temperature of its own: it grows */
+  if (m->linear_response) return GG_OK; /* no temperature of its own: it grows */
   gg_answer_partial_temperatures(m, s.a, a);
   gg_answer_pressure(m, T, p, pc, a);
   return GG_OK;
@@ -155,7 +156,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_garzo_montanero2003 = {
     .name = name,
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Cooling and viscosity of smooth binary mixtures",
     .citation = "V. Garzo and J.M. Montanero, Phys. Rev. E 68 (2003) 041302; V. Garzo and J.W. Dufty, Phys. Rev. E 60 "
                 "(1999) 5706",
@@ -176,7 +177,7 @@ static gg_status evaluate_ms(const gg_model *m, gg_theory_answer *a, gg_error *e
 
 const gg_theory gg_garzo_montanero2003_ms = {
     .name = name_ms,
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Binary mixtures, the other linearisation of c_1 and c_2",
     .citation = "As garzo_montanero2003, linearised as in J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .assumptions =

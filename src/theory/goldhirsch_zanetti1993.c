@@ -18,6 +18,7 @@ static double viscous_length2(gg_model m)
   gg_theory_answer a;
   m.flow = GG_HCS;
   m.thermostat = GG_NO_THERMOSTAT;
+  m.linear_response = false;
   m.shear_rate = 0;
   m.temperature0 = 1;
   double unit = 1 / gg_model_nu0(&m, 1); /* eta_0/(n m) over nu_0 is unit^2 */
@@ -48,7 +49,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_goldhirsch_zanetti1993 = {
     .name = name,
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_USF),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_USF) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Size above which cooling gases form vortices and clusters",
     .citation =
         "I. Goldhirsch and G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey et al., Phys. Rev. E 58 (1998) 4638",

@@ -22,13 +22,13 @@ static gg_status ratio_of(const gg_model *m, gg_grain grain, double mu, double *
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, name, err));
-  if (m->flow == GG_USF) GG_TRY(gg_require_steady_shear(m, name, err));
+  if (m->shear_rate != 0) GG_TRY(gg_require_steady_shear(m, name, err));
   if (m->rule == GG_SMOOTH) return gg_refuse(err, name, "describes rough grains; grains of this scene are smooth");
   gg_grain grain = gg_grain_of(m);
   double mu = m->rule == GG_FRICTIONAL ? m->mu[0] : INFINITY, ratio;
   GG_TRY(ratio_of(m, grain, mu, &ratio, err));
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
-  if (m->flow == GG_USF) return GG_OK; /* of sheared states it knows no more */
+  if (m->shear_rate != 0) return GG_OK; /* of sheared states it knows no more */
   double T = m->temperature0, p = m->density * T, pc = p * 4 * grain.eta1 * gg_phi_chi(m);
   gg_answer_temperature(m, T, ratio, a);
   gg_answer_pressure(m, T, p, pc, a);

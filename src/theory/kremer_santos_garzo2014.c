@@ -20,11 +20,8 @@ static gg_status check(const gg_model *m, gg_error *err)
   GG_TRY(gg_require_one_species(m, name, err));
   GG_TRY(gg_require_constant_beta(m, name, err));
   GG_TRY(gg_require_dilute(m, name, err));
-  bool response = m->linear_response && m->thermostat == GG_NO_THERMOSTAT;
-  if (!gg_flow_cools(m->flow) && !response)
-    return gg_refuse(err, name,
-                     "describes free cooling and its linear response to shear (small_shear: on); this scene is "
-                     "neither");
+  if (m->thermostat != GG_NO_THERMOSTAT)
+    return gg_refuse(err, name, "describes gases that cool freely; this scene has a thermostat");
   if (m->rule == GG_SMOOTH)
     return gg_refuse(err, name, "describes rough grains; for the smooth ones of this scene there is garzo_dufty1999");
   return GG_OK;
@@ -61,7 +58,7 @@ const gg_theory gg_kremer_santos_garzo2014 = {
         "rough grains, constant beta; first Sonine order, spins Maxwellian and independent of velocities. "
         "Viscosity of linear response, counted in eta_0 = n T/nu_0: within 2 % of Boltzmann's equation at e = "
         "0.8-0.9 and beta up to 0.5, 6 % low for perfectly rough grains.",
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_USF),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .evaluate = evaluate,
     .beyond = beyond,
 };

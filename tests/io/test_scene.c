@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/h5/result_reader.h"
 #include "io/scene/json.h"
 #include "io/scene/reader.h"
 
@@ -180,6 +181,20 @@ static void table_is_sound(void **state)
   assert_true(n <= GG_MAX_FIELDS);
 }
 
+/* Scenes that older files hold, whose linear response to shear was a key. */
+static void older_words(void **state)
+{
+  (void)state;
+  char off[] = "flow: hss\nphi: 0.1\nsmall_shear: off\nparticles: 123\n";
+  char on[] = "flow: usf\nphi: 0.1\nsmall_shear: on\nparticles: 123\n", today[] = "flow: usf\nphi: 0.1\n";
+  gg_stored_scene_in_words_of_today(off);
+  assert_string_equal(off, "flow: hss\nphi: 0.1\nparticles: 123\n");
+  gg_stored_scene_in_words_of_today(on);
+  assert_string_equal(on, "flow: small_shear\nphi: 0.1\nparticles: 123\n");
+  gg_stored_scene_in_words_of_today(today);
+  assert_string_equal(today, "flow: usf\nphi: 0.1\n");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -190,6 +205,7 @@ int main(void)
       cmocka_unit_test(mutations),
       cmocka_unit_test(table_is_sound),
       cmocka_unit_test(pairs_of_many_species),
+      cmocka_unit_test(older_words),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

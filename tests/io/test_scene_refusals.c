@@ -206,6 +206,10 @@ static void combinations(void **state)
   assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {beta: 0}\n", "lose no energy");
   assert_refused("flow: hss\nphi: 0.3\nthermostat: none\n", "hss needs a thermostat");
   assert_refused("flow: hcs\nphi: 0.3\nthermostat: gaussian\n", "gaussian does not go with flow: hcs; use flow: ");
+  assert_refused("flow: usf\nphi: 0.3\nthermostat: gaussian\n",
+                 "gaussian does not go with flow: usf; use flow: hss or small_shear");
+  assert_refused("flow: usf\nphi: 0.3\nsmall_shear: on\n",
+                 "s.yaml:3: key 'small_shear': is a flow of its own: write flow: small_shear instead of flow: usf");
   assert_refused("flow: usf\nphi: 0.3\ngravity: [0, -1, 0]\n", "gravity needs a flow with walls");
   assert_refused("flow: chute\nphi: 0.3\ngravity: [0, 0, 0]\n", "chute needs gravity, e.g. gravity: [0.1, -0.1, 0]");
   assert_refused("flow: usf\nphi: 0.3\ncollision: {mu: 0.5}\n",

@@ -58,7 +58,8 @@ static void one_species_numbers(void **state)
   assert_close(value_at(&gg_garzo_santos_montanero2007, GG_HCS, 0, 0, 0.6, GG_Q_VISCOSITY_REDUCED), 1.184, 0.015);
   assert_true(value_at(&gg_garzo_dufty1999, GG_HSS, GG_GAUSSIAN, 0, 0.6, GG_Q_VISCOSITY_REDUCED) > 1.025 * 1.4045);
   /* The same route to the viscosity through shear with a Gaussian thermostat. */
-  assert_close(value_at(&gg_garzo_dufty1999, GG_USF, GG_GAUSSIAN, 0.3, 0.8, GG_Q_VISCOSITY_REDUCED), 3.703, 1e-4);
+  assert_close(value_at(&gg_garzo_dufty1999, GG_SMALL_SHEAR, GG_GAUSSIAN, 0.3, 0.8, GG_Q_VISCOSITY_REDUCED), 3.703,
+               1e-4);
 }
 
 /* One species cut in two: the a_2 of van Noije & Ernst, of Montanero & Santos, and the viscosity of Garzo & Dufty. */

@@ -95,6 +95,20 @@ static void read_last_frame(gg_h5 *h, gg_stored_result *s)
   if (!h->failed && kinds != f->n) gg_h5_failed(h, "its grains are not all of a known species");
 }
 
+void gg_stored_scene_in_words_of_today(char *scene)
+{
+  static const char off[] = "\nsmall_shear: off\n", on[] = "\nsmall_shear: on\n", before[] = "flow: usf\n",
+                    now[] = "flow: small_shear\n";
+  char *key = scene ? strstr(scene, off) : NULL;
+  if (key) memmove(key + 1, key + sizeof off - 1, strlen(key + sizeof off - 1) + 1);
+  key = scene ? strstr(scene, on) : NULL;
+  if (!key || strncmp(scene, before, sizeof before - 1) != 0) return;
+  memmove(key + 1, key + sizeof on - 1, strlen(key + sizeof on - 1) + 1);
+  char *rest = scene + sizeof before - 1; /* the word is longer by less than the key that went was */
+  memmove(scene + sizeof now - 1, rest, strlen(rest) + 1);
+  memcpy(scene, now, sizeof now - 1);
+}
+
 gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
 {
   gg_h5 h;
@@ -109,6 +123,7 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   s->machine = gg_h5_read_text(&h, "/graingas/machine");
   s->date = gg_h5_read_text(&h, "/graingas/date");
   s->scene = gg_h5_read_text(&h, "/graingas/scene");
+  gg_stored_scene_in_words_of_today(s->scene);
   s->document = text ? json_loads(text, 0, NULL) : NULL;
   free(text);
   if (!s->document) gg_h5_failed(&h, "its document is damaged");

@@ -33,6 +33,10 @@ typedef struct gg_stored_result {
   double edge[3];             /* of its box along x, y, z; 0 where there are no positions */
 } gg_stored_result;
 
+/* A scene as files hold it, of the time when the flow small_shear was a key beside flow: usf, in the words of today; in
+ * place. One that is of today stays as it is. */
+void gg_stored_scene_in_words_of_today(char *yaml);
+
 gg_status gg_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);
 void gg_stored_result_clear(gg_stored_result *stored);
 /* The series of that name, or NULL. */

@@ -17,9 +17,6 @@ void gg_scene_fill_in(gg_scene *s)
   }
   if (!gg_scene_is_given(s, "thermostat")) s->thermostat = flow->thermostat;
   if (!gg_scene_is_given(s, "gravity")) memcpy(s->gravity, flow->gravity, sizeof s->gravity);
-  if (!gg_scene_is_given(s, "small_shear"))
-    s->small_shear = s->flow == GG_USF && s->thermostat == GG_GAUSSIAN ? GG_ON : GG_OFF;
-  if (s->small_shear == GG_ON) s->measure |= GG_MEASURE_VISCOSITY;
   s->measure |= flow->measure;
 }
 
@@ -84,8 +81,6 @@ static gg_status check_flow(const gg_scene *s, gg_error *err)
                    flow->word, cooling);
   }
   GG_TRY(check_thermostat(s, err));
-  if (s->small_shear == GG_ON && (s->flow != GG_USF || s->thermostat == GG_WHITE_NOISE))
-    return gg_fail(err, GG_BAD_INPUT, "small_shear: on needs flow: usf, and thermostat: none or gaussian");
   return check_gravity(s, err);
 }
 

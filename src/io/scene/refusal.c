@@ -109,6 +109,8 @@ static void list_section(const char *section, char *text, size_t size)
 gg_status gg_scene_refuse_key(const gg_scene_reader *r, const yaml_node_t *node, const char *key)
 {
   char section[32], members[256];
+  for (const gg_word *former = gg_former_keys; former->name; former++)
+    if (strcmp(former->name, key) == 0) return gg_scene_refuse(r, node, key, "%s", former->doc);
   bool species = strncmp(key, "species.", 8) == 0;
   const char *best = meant(species ? gg_species_fields : gg_scene_fields, species ? last_part(key) : key);
   if (best) return gg_scene_refuse(r, node, key, "no such key; did you mean '%s'?", best);
