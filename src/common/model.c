@@ -254,7 +254,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
   guess_temperature(m, s, sheared);
   m->ratio0 = guess_ratio(m);
-  m->steady = !m->linear_response && !(m->elastic && sheared && m->thermostat == GG_NO_THERMOSTAT);
+  m->steady = !m->linear_response && !(m->elastic && sheared);
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;
 }

@@ -45,7 +45,7 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
     return gg_fail(err, GG_BAD_INPUT, "particles: %lld; at most %d", (long long)m->n, INT32_MAX / 4);
   if (!gg_flow_runs_in(m->flow, GG_MD))
     return gg_fail(err, GG_BAD_INPUT, "flow: %s needs engine: dsmc", gg_flow_of(m->flow)->word);
-  if (m->thermostat != GG_NO_THERMOSTAT && (m->shear_rate != 0 || !gg_flow_takes(m->flow, m->thermostat)))
+  if (m->thermostat != GG_NO_THERMOSTAT && !gg_flow_takes(m->flow, m->thermostat))
     return gg_fail(err, GG_BAD_INPUT, "thermostat: not in flow: %s with engine: md", gg_flow_of(m->flow)->word);
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
   if (falls && gg_flow_of(m->flow)->falling == GG_NEVER_FALLS)

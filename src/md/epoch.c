@@ -31,7 +31,7 @@ static void measure_mean_free_time(gg_md *e, double span)
 /* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
  * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every
  * predicted collision, stays as it is. */
-static void follow_centre_of_mass(gg_md *e)
+void gg_md_follow_centre_of_mass(gg_md *e)
 {
   const double rate = e->model.shear_rate, middle = 0.5 * e->box.edge[1];
   gg_vec momentum = {0, 0, 0};
@@ -94,7 +94,7 @@ bool gg_md_next_epoch(gg_md *e)
   e->k.mark -= span;
   e->k.next_kick -= span;
   e->k.stop -= span;
-  if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY) follow_centre_of_mass(e);
+  if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY) gg_md_follow_centre_of_mass(e);
   if (e->thermostat == GG_GAUSSIAN) {
     span /= e->k.scale;
     gg_md_thermostat_fold(e);

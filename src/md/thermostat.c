@@ -46,19 +46,15 @@ void gg_md_thermostat_fold(gg_md *e)
 
 void gg_md_thermostat_kick(gg_md *e)
 {
-  double size = sqrt(3 * e->noise * kick_interval(e)), mass = 0;
-  gg_vec momentum = {0, 0, 0};
+  double size = sqrt(3 * e->noise * kick_interval(e));
   for (uint32_t i = 0; i < e->n; i++) {
     gg_md_grain *g = &e->grain[i];
     g->r = gg_md_position(e, false, g, e->k.now);
     g->t = e->k.now;
     g->v = gg_axpy(size, gg_rng_direction(&e->k.rng), g->v);
     g->counter++;
-    double m = e->model.mass[gg_md_species_of(g)];
-    momentum = gg_axpy(m, g->v, momentum);
-    mass += m;
   }
-  for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
+  gg_md_follow_centre_of_mass(e);
   e->kernel->predict(e, 0, e->n);
   e->k.next_kick += kick_interval(e);
 }
