@@ -27,7 +27,7 @@ const gg_flow_row gg_flows[GG_N_FLOWS] = {
                 .doc = "uniform shear, Lees-Edwards box",
                 .state = "uniform shear",
                 .frame = GG_SHEARED_FRAME,
-                .thermostats = UNHEATED | WHITE_NOISE,
+                .thermostats = UNHEATED,
                 .engines = IN_MD | IN_DSMC,
                 .headline = BY_SHEAR},
     [GG_HCS] = {.word = "hcs",
@@ -88,6 +88,16 @@ const gg_flow_row gg_flows[GG_N_FLOWS] = {
                         .engines = IN_DSMC,
                         .measure = GG_MEASURE_VISCOSITY,
                         .headline = KNOWN_BY(GG_Q_VISCOSITY_REDUCED)},
+    [GG_HEATED_SHEAR] = {.word = "heated_shear",
+                         .title = "Heated shear flow",
+                         .doc = "uniform shear of a gas that white noise keeps warm, at the strength that would do so "
+                                "alone at the temperature to start from",
+                         .state = "uniform shear of a heated gas",
+                         .frame = GG_SHEARED_FRAME,
+                         .thermostats = WHITE_NOISE,
+                         .thermostat = GG_WHITE_NOISE,
+                         .engines = IN_MD | IN_DSMC,
+                         .headline = BY_SHEAR},
 };
 
 /* Separated by commas, before the last one by "or". */

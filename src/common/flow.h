@@ -17,6 +17,7 @@ typedef enum gg_flow {
   GG_POISEUILLE,
   GG_CHUTE,
   GG_SMALL_SHEAR,
+  GG_HEATED_SHEAR,
   GG_N_FLOWS
 } gg_flow;
 

@@ -1,6 +1,7 @@
 /* Where Enskog theory is exact (dilute), the two engines are two ways to the same numbers: uniform shear at phi = 0.01,
- * smooth, rough and frictional, within four combined standard errors; heated gases without restitution; the energy
- * balance closes; and the same test sees a restitution coefficient that is off by 0.02 (a canary: it must not pass). */
+ * smooth, rough and frictional, within four combined standard errors; heated gases without restitution, sheared ones
+ * that are heated; the energy balance closes; and the same test sees a restitution coefficient that is off by 0.02 (a
+ * canary: it must not pass). */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -97,6 +98,22 @@ static void no_restitution(void **state)
   gg_result_free(md), gg_result_free(dsmc);
 }
 
+/* Shear of a gas that white noise heats as well, and of one that it heats so much that shear hardly bends it. */
+static void heated_shear(void **state)
+{
+  (void)state;
+  const double temperature[] = {GG_AUTO, 20000};
+  for (int k = 0; k < 2; k++) {
+    gg_scene s = scene_of(0.9, -1, INFINITY);
+    s.flow = GG_HEATED_SHEAR, s.thermostat = GG_WHITE_NOISE;
+    s.temperature = temperature[k], s.run.relative_error = 0.02;
+    gg_result *md = run(s, GG_MD), *dsmc = run(s, GG_DSMC);
+    assert_true(worst_z(md, dsmc, false) < 4);
+    assert_true(md->value[GG_Q_ENERGY_BALANCE].mean < 0.9); /* the rest of the heat comes from the kicks */
+    gg_result_free(md), gg_result_free(dsmc);
+  }
+}
+
 /* The canary: e off by 0.02 in one engine is seen. */
 static void canary(void **state)
 {
@@ -109,8 +126,8 @@ static void canary(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(smooth),     cmocka_unit_test(rough),  cmocka_unit_test(no_restitution),
-      cmocka_unit_test(frictional), cmocka_unit_test(canary),
+      cmocka_unit_test(smooth),     cmocka_unit_test(rough),        cmocka_unit_test(no_restitution),
+      cmocka_unit_test(frictional), cmocka_unit_test(heated_shear), cmocka_unit_test(canary),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
