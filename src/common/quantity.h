@@ -88,7 +88,7 @@ enum {
   ONE(DISSIPATION, "dissipation", "D", "", POWER, GG_NEEDS_LOSS | GG_NEEDS_SCALE,                                      \
       "energy lost in collisions per volume and time")                                                                 \
   ONE(ENERGY_BALANCE, "energy_balance", "-P_{xy}γ/D", "", NONE, GG_NEEDS_SHEAR | GG_NEEDS_LOSS,                        \
-      "shear work -P_xy*rate over dissipation; 1 in a steady state")                                                   \
+      "shear work -P_xy*rate over dissipation; 1 in a steady state but for heating")                                   \
   ONE(COOLING_RATE, "cooling_rate", "ζ*", "cooling", NONE, GG_NEEDS_LOSS | GG_NEEDS_COOLING | GG_DRAWN_AS_RATIO,       \
       "zeta* = zeta/nu_0")                                                                                             \
   ONE(A2, "a2", "a_2", "", NONE, GG_CUMULANT | GG_NEEDS_ONE_SPECIES | GG_MONITORED | GG_FOLLOWED | GG_DRAWN,           \

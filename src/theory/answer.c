@@ -18,8 +18,6 @@ gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...)
 
 gg_status gg_require_steady_shear(const gg_model *m, const char *theory, gg_error *err)
 {
-  if (m->thermostat != GG_NO_THERMOSTAT)
-    return gg_refuse(err, theory, "describes shear whose heating only collisions balance; this scene has a thermostat");
   if (m->elastic)
     return gg_refuse(err, theory,
                      "describes steady shear; collisions of this scene lose no energy, so that it heats up for ever");
