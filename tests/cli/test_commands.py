@@ -174,7 +174,7 @@ def test_keys_without_effect():
             check(plain.err.count(line) == known, args, line, plain.err)
             check(document.err.count(line) == known, args, line, document.err)
             check(sum(line in w for w in loads(document)["warnings"]) == known, args, line)
-    check(json.loads(run("info", "scene.h5", "--json").out)["warnings"][0] == flow)
+    check(json.loads(run("info", "scene.h5", "--json").out)["warnings"][0].startswith(flow))
     about = run("info", "scene.yaml", columns=200)
     check(about.code == 0 and "without effect:\n  " + flow in about.out and "contact_time has no" not in about.out)
 

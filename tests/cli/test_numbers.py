@@ -88,7 +88,7 @@ def test_bench_observables():
     md = {"pair_correlation", "velocity_correlations", "structure", "cells", "diffusion", "profiles", "local_distributions"}
     sizes = (500, 2000, 4000)
     expected = ({(o, "md", phi, n) for o in both | md for phi in (0.01, 0.3) for n in sizes}
-                | {(o, "dsmc", phi, n) for o in both for phi in (0.01, 0.3) for n in sizes})
+                | {(o, "dsmc", phi, n) for o in both | {"viscosity"} for phi in (0.01, 0.3) for n in sizes})
     seen = set()
     for row in json.loads(done.out)["observables"]:
         key = row["observable"], row["engine"], row["phi"], row["particles"]

@@ -103,7 +103,7 @@ def test_exit_codes():
     check(re.findall(r"^\.B (\d+)", manual, re.M) == ["0", "1", "2", "3", "130"], manual)
     for command in "compare", "run", "theory", "info":
         for args, code in ((("none.yaml",), 3), ((".",), 3), (("scene.yaml", "--set", "phi=2"), 2),
-                           (("scene.yaml", "--set", "flow=chute"), 2), (("scene.yaml", "--nothing"), 2)):
+                           (("scene.yaml", "--set", "gravity=[0, -1, 0]"), 2), (("scene.yaml", "--nothing"), 2)):
             done = run(command, *args, "--json", scene=SCENE)
             check(done.code == code and done.out == "" and done.err.count("\n") == 1, command, args, done.code, done.err)
             check(done.err.startswith("graingas: ") and not done.new, done.err, done.new)
