@@ -14,7 +14,7 @@ typedef struct gg_curve_number {
   bool setting;      /* chosen, not measured: no error, and nothing to compare */
 } gg_curve_number;
 
-enum { GG_CURVE_NUMBERS = 16, GG_MOST_CURVES = 160 };
+enum { GG_CURVE_NUMBERS = 16, GG_MOST_CURVES = 160 + 64 * GG_MAX_SPECIES };
 
 typedef struct gg_curve {
   char name[48];             /* unique in a result: "velocity_distribution_Cx" */

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <string.h>
 
 #include "run/run.h"
 #include "theory/collision_rate.h"
@@ -171,6 +172,26 @@ static void sheared(void **state)
   }
 }
 
+/* Every curve of every pair and species has room. */
+static void curves_of_sixteen(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_USF, s.phi = 0.1, s.particles = 320, s.n_species = GG_MAX_SPECIES;
+  for (int i = 0; i < GG_MAX_SPECIES; i++) s.species[i].fraction = 1.0 / GG_MAX_SPECIES;
+  for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = 0;
+  s.measure = GG_MEASURE_RHEOLOGY | GG_MEASURE_VELOCITY_DISTRIBUTIONS | GG_MEASURE_PAIR_CORRELATION |
+              GG_MEASURE_DIFFUSION | GG_MEASURE_COLLISIONS | GG_MEASURE_LOCAL_DISTRIBUTIONS | GG_MEASURE_ORIENTATION;
+  s.run.collisions = 20, s.run.warmup = 5;
+  gg_result *r = NULL;
+  gg_error err = {0};
+  if (gg_run_scene(&s, NULL, 1, NULL, &r, &err) != GG_OK) fail_msg("%s", err.message);
+  int pairs = 0;
+  for (int i = 0; i < r->curves.n; i++) pairs += strncmp(r->curves.curve[i].name, "pair_correlation_", 17) == 0;
+  assert_int_equal(pairs, GG_PAIRS);
+  gg_result_free(r);
+}
+
 static void canary(void **state)
 {
   (void)state;
@@ -184,6 +205,6 @@ static void canary(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(equilibrium), cmocka_unit_test(sheared),
-                                     cmocka_unit_test(canary)};
+                                     cmocka_unit_test(curves_of_sixteen), cmocka_unit_test(canary)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
