@@ -20,12 +20,12 @@ enum { GG_MD_DITHERS = 32 };
 /* By ordered pair of the species there are: gg_md_pair. */
 typedef struct gg_md_contacts {
   int n_species, n_pairs;
-  double sigma2[GG_MAX_SPECIES * GG_MAX_SPECIES + 16]; /* sigma^2; sixteen can be read from any pair on */
-  double inverse[GG_MAX_SPECIES * GG_MAX_SPECIES];     /* 1/sigma */
-  double residue[GG_MAX_SPECIES * GG_MAX_SPECIES];     /* sigma^2 x inverse^2 - 1: the rounding of the two */
-  double tilt[GG_MD_DITHERS];                          /* shift of the last digit of k */
   uint64_t turns;                                      /* GG_MD_DITHERS - 1, or 0 where every coefficient is exact */
   gg_contact *contact, *treated;                       /* GG_MD_DITHERS turns, each of n_pairs */
+  double tilt[GG_MD_DITHERS];                          /* shift of the last digit of k */
+  double inverse[GG_MAX_SPECIES * GG_MAX_SPECIES];     /* 1/sigma */
+  double residue[GG_MAX_SPECIES * GG_MAX_SPECIES];     /* sigma^2 x inverse^2 - 1: the rounding of the two */
+  double sigma2[GG_MAX_SPECIES * GG_MAX_SPECIES + 16]; /* sigma^2; sixteen can be read from any pair on */
 } gg_md_contacts;
 
 gg_status gg_md_contacts_make(gg_md_contacts *contacts, const gg_model *model, gg_error *err);

@@ -70,9 +70,10 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
       pair = f.mixture ? gg_md_pair(&e->contacts, a, b) : 0, q = f.mixture ? gg_pair(a, b) : 0;
   const gg_md_contacts *contacts = &e->contacts;
   uint64_t turn = e->k.collisions & contacts->turns;
-  const gg_contact *contact = &contacts->contact[turn * (uint64_t)contacts->n_pairs + (uint64_t)pair];
+  const uint64_t row = f.mixture ? turn * (uint64_t)contacts->n_pairs : turn;
+  const gg_contact *contact = &contacts->contact[row + (uint64_t)pair];
   bool treated = f.contact_time && gg_md_is_treated(e, i, j);
-  if (treated) contact = &contacts->treated[turn * (uint64_t)contacts->n_pairs + (uint64_t)pair];
+  if (treated) contact = &contacts->treated[row + (uint64_t)pair];
   double r2 = gg_dot(dr, dr), overlap = 0.5 * (contacts->sigma2[pair] - r2) * contacts->inverse[pair];
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
   gg_vec k = gg_md_contact_normal(contacts, pair, dr, r2, e->k.collisions);

@@ -66,7 +66,6 @@ typedef struct gg_md_counts {
   uint64_t collisions, events, treated, wall_treated;
   double worst_overlap;
   gg_rng rng;
-  gg_collision_sums transfer;
   double next_kick; /* white noise: epoch time of the next kick */
   /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
    */
@@ -80,7 +79,8 @@ typedef struct gg_md_counts {
   double fractional_shift, common_shift; /* of co-moving rows (rows.c), at the epoch's start */
   int32_t row_shift, image_shift;
   uint32_t keeps_sums;
-  int32_t power; /* velocities are 2^power times those of the start (rescale) */
+  int32_t power;              /* velocities are 2^power times those of the start (rescale) */
+  gg_collision_sums transfer; /* last: it is long */
 } gg_md_counts;
 
 struct gg_md {
