@@ -74,12 +74,33 @@ static void energy_is_balanced(void **state)
   gg_hermite_shear_end(&h);
 }
 
+/* Rough grains: nearly smooth ones shear as smooth ones do, and a heated gas of elastic, perfectly rough grains is in
+ * equilibrium. */
+static void limits_of_rough_grains(void **state)
+{
+  (void)state;
+  gg_model smooth = model_for(GG_USF, 0.3, 0.9, -1), nearly = model_for(GG_USF, 0.3, 0.9, -1 + 1e-6);
+  gg_theory_answer a = answer_of(&gg_enskog_hermite, &smooth), b = answer_of(&gg_enskog_hermite, &nearly);
+  const gg_quantity same[] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_PRESSURE, GG_Q_COLLISION_RATE, GG_Q_MEAN_FREE_PATH};
+  for (int i = 0; i < 5; i++) {
+    assert_close(b.value[same[i]], a.value[same[i]], 1.2e-3);
+    assert_true(fabs(b.value[same[i]] - a.value[same[i]]) <= b.error[same[i]] + a.error[same[i]]);
+  }
+  gg_model heated = model_for(GG_HSS, 0.2, 1, 1);
+  gg_theory_answer e = answer_of(&gg_enskog_hermite, &heated);
+  assert_close(e.value[GG_Q_TEMPERATURE_RATIO], 1, 1e-6);
+  assert_close(e.value[GG_Q_KURTOSIS_WX], 3, 1e-4); /* a Maxwellian narrower than the weight */
+  assert_true(fabs(e.value[GG_Q_COOLING_RATE]) < 1e-6);
+}
+
 static void refuses_what_it_does_not_describe(void **state)
 {
   (void)state;
-  gg_model rough = model_for(GG_USF, 0.1, 0.9, 0), mixed = mixture_for(GG_USF, 0.1, 0.9, -1, 2, 1, 1);
+  gg_scene friction = scene_of(GG_USF, 0.1, 0.9, 0);
+  for (int p = 0; p < GG_PAIRS; p++) friction.collision.mu[p] = 0.5;
+  gg_model frictional = model_of(&friction), mixed = mixture_for(GG_USF, 0.1, 0.9, -1, 2, 1, 1);
   gg_model elastic = model_for(GG_USF, 0.1, 1, -1), walled = model_for(GG_COUETTE, 0.1, 0.9, -1);
-  assert_refused(&gg_enskog_hermite, &rough, "smooth grains");
+  assert_refused(&gg_enskog_hermite, &frictional, "Coulomb friction");
   assert_refused(&gg_enskog_hermite, &mixed, "one species");
   assert_refused(&gg_enskog_hermite, &elastic, "heats up for ever");
   assert_refused(&gg_enskog_hermite, &walled, "this scene is shear between walls");
@@ -88,11 +109,9 @@ static void refuses_what_it_does_not_describe(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(elastic_limit),
-      cmocka_unit_test(homogeneous_states),
-      cmocka_unit_test(errors_are_honest),
-      cmocka_unit_test(energy_is_balanced),
-      cmocka_unit_test(refuses_what_it_does_not_describe),
+      cmocka_unit_test(elastic_limit),          cmocka_unit_test(homogeneous_states),
+      cmocka_unit_test(errors_are_honest),      cmocka_unit_test(energy_is_balanced),
+      cmocka_unit_test(limits_of_rough_grains), cmocka_unit_test(refuses_what_it_does_not_describe),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,22 @@
+/* Collisions as a linear operator on the relative motion (d, p) of a pair, summed over all directions:
+ *   W_RS = int dk < g_n [Ho_R(d', p') - Ho_R(d, p)] Ho_S(d, p) >,   g_n > 0,
+ * without the frequency of collisions. Everything of the equation is in it: of particles 1 and 2 only the expansion of
+ * products in relative and centre coordinates is left (pairs.h). */
+#ifndef GG_ROUGH_RELATIVE_H
+#define GG_ROUGH_RELATIVE_H
+
+#include "theory/rough/collision.h"
+
+typedef struct gg_rough_relative {
+  gg_rough_functions f;
+  double *W;       /* n x n by rows R; 0 between functions of different parities */
+  double *rate;    /* int dk < g_n Ho_S > */
+  double *J[3][3]; /* int dk k_i < g_n J_j Ho_S > */
+} gg_rough_relative;
+
+/* One direction, of weight 4 pi along z, stands for all where everything is isotropic. */
+gg_status gg_rough_relative_make(gg_rough_relative *relative, const gg_rough_gas *gas, const gg_rough_weight *weight,
+                                 int degree, bool isotropic, gg_error *err);
+void gg_rough_relative_clear(gg_rough_relative *relative);
+
+#endif

@@ -1,0 +1,33 @@
+/* Steady states of rough grains: uniform shear; free cooling in its scaled frame; translation heated. */
+#ifndef GG_ROUGH_STEADY_H
+#define GG_ROUGH_STEADY_H
+
+#include "theory/rough/state.h"
+
+typedef struct gg_rough_steady {
+  gg_rough_choice choice;
+  gg_rough_gas gas;
+  gg_rough_weight weight;
+  gg_rough_stream stream;
+  gg_rough_relative relative;
+  gg_rough_form form;
+  int degree;
+  double *a;
+} gg_rough_steady;
+
+/* choice, gas, weight and stream are the caller's: those of a shear flow. */
+gg_status gg_rough_shear_solve(gg_rough_steady *state, int degree, gg_error *err);
+
+/* What makes up for the energy that collisions take. */
+typedef enum gg_rough_heating { GG_ROUGH_COOLING, GG_ROUGH_STRETCHED, GG_ROUGH_NOISE } gg_rough_heating;
+
+/* choice, gas and the spread of the weight's spins are the caller's; T = 1. */
+gg_status gg_rough_isotropic_solve(gg_rough_steady *state, int degree, gg_rough_heating heating, double *cooling_rate,
+                                   gg_error *err);
+
+/* The weight of the next solution: Gaussian of the second moments of this. False where they are none. */
+bool gg_rough_follow(gg_rough_steady *state);
+
+void gg_rough_steady_clear(gg_rough_steady *state);
+
+#endif
