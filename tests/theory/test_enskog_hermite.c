@@ -93,6 +93,41 @@ static void limits_of_rough_grains(void **state)
   assert_true(fabs(e.value[GG_Q_COOLING_RATE]) < 1e-6);
 }
 
+/* Mixtures: equal species are one; elastic ones are in equilibrium; unlike ones near what the first Sonine order says;
+ * as many species as there are. */
+static void mixtures(void **state)
+{
+  (void)state;
+  gg_model one = model_for(GG_HCS, 0.2, 0.6, -1), two = mixture_for(GG_HCS, 0.2, 0.6, -1, 1, 1, 2);
+  gg_theory_answer a = answer_of(&gg_enskog_hermite, &one), b = answer_of(&gg_enskog_hermite, &two);
+  assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1, 1e-9);
+  assert_close(b.value[GG_Q_CUMULANT + 1], 2 * a.value[GG_Q_A2], 2e-3);
+  assert_close(b.value[GG_Q_PRESSURE], a.value[GG_Q_PRESSURE], 1e-9);
+  assert_close(b.value[GG_Q_COLLISION_RATE], a.value[GG_Q_COLLISION_RATE], 1e-6);
+  assert_close(b.value[GG_Q_COOLING_RATE] * gg_model_nu0(&two, 1), a.value[GG_Q_COOLING_RATE] * gg_model_nu0(&one, 1),
+               1e-5);
+  gg_model elastic = mixture_for(GG_HSS, 0.3, 1, -1, 10, 2, 1);
+  b = answer_of(&gg_enskog_hermite, &elastic);
+  assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1, 1e-9);
+  assert_close(b.value[GG_Q_CUMULANT], 0, 1e-8);
+  assert_close(b.value[GG_Q_COOLING_RATE], 0, 1e-10);
+  assert_close(b.value[GG_Q_PRESSURE], value_of(&gg_garzo_montanero2003, &elastic, GG_Q_PRESSURE), 1e-9);
+  gg_model unlike = mixture_for(GG_HCS, 0, 0.5, -1, 10, 1, 2);
+  b = answer_of(&gg_enskog_hermite, &unlike);
+  assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 3.79752, 1e-5);
+  assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO],
+               value_of(&gg_garzo_montanero2003, &unlike, GG_Q_PARTIAL_TEMPERATURE_RATIO), 2e-3);
+  assert_true(b.error[GG_Q_PARTIAL_TEMPERATURE_RATIO] < 1e-4);
+  gg_scene s = scene_of(GG_HCS, 0.1, 0.8, -1);
+  s.n_species = 3;
+  for (int i = 0; i < 3; i++) s.species[i] = (gg_species){1. / 3, 1, i == 1 ? 4 : 1, 0.4};
+  s.dsmc.particles = 300000;
+  gg_model three = model_of(&s), pair = mixture_for(GG_HCS, 0.1, 0.8, -1, 0.25, 1, 2);
+  b = answer_of(&gg_enskog_hermite, &three), a = answer_of(&gg_enskog_hermite, &pair);
+  assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE + 2], b.value[GG_Q_PARTIAL_TEMPERATURE], 1e-9);
+  assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], a.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1e-6);
+}
+
 static void refuses_what_it_does_not_describe(void **state)
 {
   (void)state;
@@ -111,7 +146,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(elastic_limit),          cmocka_unit_test(homogeneous_states),
       cmocka_unit_test(errors_are_honest),      cmocka_unit_test(energy_is_balanced),
-      cmocka_unit_test(limits_of_rough_grains), cmocka_unit_test(refuses_what_it_does_not_describe),
+      cmocka_unit_test(limits_of_rough_grains),
+      cmocka_unit_test(mixtures),
+      cmocka_unit_test(refuses_what_it_does_not_describe),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

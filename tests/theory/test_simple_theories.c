@@ -47,7 +47,7 @@ static void no_number_leaks(void **state)
             gg_theory_answer a;
             gg_error err = {0};
             /* This one takes some tenths of a second: one scene in 31 of those it describes. */
-            if (*t == &gg_enskog_hermite && m.rule != GG_FRICTIONAL && m.n_species == 1 && described++ % 31) continue;
+            if (*t == &gg_enskog_hermite && m.rule != GG_FRICTIONAL && described++ % 31) continue;
             gg_status status = gg_theory_evaluate(*t, &m, &a, &err);
             if (status != GG_OK) {
               assert_int_equal(status, GG_BAD_INPUT);
@@ -79,6 +79,7 @@ static void three_species(void **state)
     for (size_t k = 0; k < sizeof of_few / sizeof *of_few; k++) {
       gg_theory_answer a;
       gg_error err = {0};
+      if (flow == GG_HCS && of_few[k] == &gg_enskog_hermite) continue; /* few in shear alone */
       assert_int_equal(gg_theory_evaluate(of_few[k], &m, &a, &err), GG_BAD_INPUT);
       assert_non_null(strstr(err.message, "describes"));
     }

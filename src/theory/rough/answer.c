@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/gaussian_moments.h"
 #include "theory/hermite/state.h"
@@ -149,7 +150,7 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
 static gg_rough_heating heating_of(const gg_model *m)
 {
   if (m->flow == GG_HCS) return GG_ROUGH_COOLING;
-  return m->thermostat == GG_WHITE_NOISE ? GG_ROUGH_NOISE : GG_ROUGH_STRETCHED;
+  return gg_thermostat_of(m) == GG_WHITE_NOISE ? GG_ROUGH_NOISE : GG_ROUGH_STRETCHED;
 }
 
 /* At T = 1, in units of its own rates. */
@@ -208,12 +209,6 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
 
 gg_status gg_rough_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  if (m->flow == GG_USF) {
-    if (m->thermostat != GG_NO_THERMOSTAT || m->linear_response)
-      return gg_refuse(err, name, "has no linear response of rough grains");
-    return sheared(m, a, err);
-  }
-  if (m->flow != GG_HCS && m->flow != GG_HSS)
-    return gg_refuse(err, name, "describes uniform shear, free cooling and heated states of rough grains");
-  return homogeneous(m, a, err);
+  if (m->linear_response) return gg_refuse(err, name, "has no linear response of rough grains");
+  return m->flow == GG_USF ? sheared(m, a, err) : homogeneous(m, a, err);
 }

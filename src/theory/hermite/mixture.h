@@ -1,0 +1,26 @@
+/* Homogeneous cooling (and, by a Gaussian thermostat, heated) mixtures of smooth grains: of each species a sum of
+ * isotropic functions about a Gaussian of its own temperature; one cooling rate for all. */
+#ifndef GG_HERMITE_MIXTURE_H
+#define GG_HERMITE_MIXTURE_H
+
+#include "common/model.h"
+#include "theory/hermite/radial.h"
+
+typedef struct gg_hermite_mixture {
+  gg_radial radial;
+  double scale[GG_MAX_SPECIES]; /* of each species: C = scale c */
+  double alpha[GG_MAX_SPECIES][GG_RADIAL_MOST + 1];
+  double cooling_rate; /* of the temperatures, at sum_i x_i T_i = 1 */
+} gg_hermite_mixture;
+
+/* Degree 2 l of the expansion; from the scales given (all 0: from equal temperatures). */
+gg_status gg_hermite_mixture_solve(gg_hermite_mixture *mixture, const gg_model *model, int most, gg_error *err);
+
+/* <c^2>/3 and <c^4> of a species, over its own scale. */
+double gg_hermite_mixture_square(const gg_hermite_mixture *mixture, int species);
+double gg_hermite_mixture_fourth(const gg_hermite_mixture *mixture, int species);
+
+/* < g^power > of the approaching pairs of two species along one direction. */
+double gg_hermite_mixture_flux(const gg_hermite_mixture *mixture, int i, int j, int power);
+
+#endif

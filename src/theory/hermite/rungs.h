@@ -1,0 +1,23 @@
+/* Answers of one degree after another, and how far the last is from their limit. */
+#ifndef GG_HERMITE_RUNGS_H
+#define GG_HERMITE_RUNGS_H
+
+#include "theory/theory.h"
+
+/* Only the last three count. */
+typedef struct gg_rungs {
+  gg_theory_answer answer[3]; /* the last first */
+  int n;
+} gg_rungs;
+
+/* Room for the next answer, all of it NaN. */
+gg_theory_answer *gg_rungs_next(gg_rungs *rungs);
+
+double gg_rungs_error_of(const gg_rungs *rungs, gg_quantity q);
+double gg_rungs_error(const gg_rungs *rungs, gg_quantity q); /* relative; INFINITY of the first */
+
+/* The last answer with its errors; refused where that of `judge` is above 1 %. */
+gg_status gg_rungs_finish(const gg_rungs *rungs, const char *theory, gg_quantity judge, gg_theory_answer *answer,
+                          gg_error *err);
+
+#endif
