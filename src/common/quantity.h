@@ -103,7 +103,9 @@ enum {
   ONE(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", "η*^k", "", NONE, GG_REDUCED_VISCOSITY,                  \
       "kinetic part of eta*")                                                                                          \
   ONE(CLUSTERING_LENGTH, "clustering_length", "L_c", "", LENGTH, GG_NEEDS_THEORY,                                      \
-      "box length above which a cooling gas forms vortices and clusters")
+      "box length above which a cooling gas forms vortices and clusters")                                              \
+  ONE(RELAXATION_RATE, "relaxation_rate", "λ", "", RATE, GG_NEEDS_THEORY,                                              \
+      "rate at which the slowest disturbance of a homogeneous steady state dies out")
 
 #define GG_QUANTITY_ONE(id, ...) GG_Q_##id,
 #define GG_QUANTITY_EACH(id, ...) GG_Q_##id, GG_Q_LAST_##id = GG_Q_##id + GG_MAX_SPECIES - 1,

@@ -9,6 +9,7 @@
 #include "theory/hermite/mixture_answer.h"
 #include "theory/hermite/rungs.h"
 #include "theory/hermite/shear.h"
+#include "theory/hermite/spectrum.h"
 #include "theory/hermite/viscosity.h"
 #include "theory/rough/answer.h"
 #include "theory/theory_list.h"
@@ -16,7 +17,14 @@
 static const char name[] = "enskog_hermite";
 
 /* Degrees of shear and of the isotropic state. Shear goes beyond GOOD_DEGREE where errors are above `good` there. */
-enum { FIRST_DEGREE = 4, GOOD_DEGREE = 10, LAST_DEGREE = 12, ISOTROPIC_DEGREE = 18, VISCOSITY_DEGREE = 8 };
+enum {
+  FIRST_DEGREE = 4,
+  GOOD_DEGREE = 10,
+  LAST_DEGREE = 12,
+  ISOTROPIC_DEGREE = 18,
+  VISCOSITY_DEGREE = 8,
+  SPECTRUM_DEGREE = 8
+};
 static const double good = 1e-4, isotropic_good = 1e-8;
 
 static gg_stress stress_of(double factor, double P[3][3])
@@ -68,13 +76,24 @@ static void answer_shear(gg_hermite_shear *h, gg_theory_answer *a)
   answer_kurtoses(&h->op.basis, &h->state, M, a);
 }
 
-static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_error *err)
+/* The slowest of all modes: that of the temperature, mostly. */
+static void answer_relaxation(gg_hermite_shear *h, gg_theory_answer *a)
+{
+  gg_error ignored;
+  gg_hermite_mode mode[GG_HERMITE_MOST_FUNCTIONS];
+  if (gg_hermite_spectrum(&h->op, &h->gas, &h->state, mode, &ignored) == GG_OK)
+    a->value[GG_Q_RELAXATION_RATE] = mode[0].decay;
+}
+
+/* `slow`: answers of its own, of the relaxation alone, which a low degree knows well. */
+static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_error *err)
 {
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree += 2) {
     if (degree > GOOD_DEGREE && gg_rungs_error(rungs, GG_Q_TEMPERATURE) < good) break;
     gg_error why;
     if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
     answer_shear(h, gg_rungs_next(rungs));
+    if (degree <= SPECTRUM_DEGREE) answer_relaxation(h, gg_rungs_next(slow));
   }
   return GG_OK;
 }
@@ -82,13 +101,18 @@ static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_error *err)
 static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_hermite_shear h;
-  gg_rungs rungs = {.n = 0};
+  gg_rungs rungs = {.n = 0}, slow = {.n = 0};
   GG_TRY(gg_require_steady_shear(m, name, err));
   gg_error why;
   if (gg_hermite_shear_begin(&h, m, &why) != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
-  gg_status status = climb(&h, &rungs, err);
+  gg_status status = climb(&h, &rungs, &slow, err);
   gg_hermite_shear_end(&h);
-  return status == GG_OK ? gg_rungs_finish(&rungs, name, GG_Q_TEMPERATURE, a, err) : status;
+  if (status == GG_OK) status = gg_rungs_finish(&rungs, name, GG_Q_TEMPERATURE, a, err);
+  if (status == GG_OK) {
+    a->value[GG_Q_RELAXATION_RATE] = slow.answer[0].value[GG_Q_RELAXATION_RATE];
+    a->error[GG_Q_RELAXATION_RATE] = gg_rungs_error_of(&slow, GG_Q_RELAXATION_RATE);
+  }
+  return status;
 }
 
 static double fourth(const double C[3])

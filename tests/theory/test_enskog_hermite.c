@@ -93,6 +93,21 @@ static void limits_of_rough_grains(void **state)
   assert_true(fabs(e.value[GG_Q_COOLING_RATE]) < 1e-6);
 }
 
+/* Nearly elastic: heating and cooling both go as the speed, so that the temperature relaxes at the rate at which
+ * collisions cool, 2/3 of the dissipation over n T. Energy is the slowest; all other modes die out. */
+static void temperature_relaxes_at_the_cooling_rate(void **state)
+{
+  (void)state;
+  const double phi[] = {0, 0.3};
+  for (int i = 0; i < 2; i++) {
+    gg_model m = model_for(GG_USF, phi[i], 0.995, -1);
+    gg_theory_answer a = answer_of(&gg_enskog_hermite, &m);
+    double cooling = a.value[GG_Q_DISSIPATION] / (1.5 * m.density * m.stress_unit * a.value[GG_Q_TEMPERATURE]);
+    assert_close(a.value[GG_Q_RELAXATION_RATE], cooling, 0.02);
+    assert_true(a.error[GG_Q_RELAXATION_RATE] < 0.01 * cooling);
+  }
+}
+
 /* Mixtures: equal species are one; elastic ones are in equilibrium; unlike ones near what the first Sonine order says;
  * as many species as there are. */
 static void mixtures(void **state)
@@ -144,9 +159,12 @@ static void refuses_what_it_does_not_describe(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(elastic_limit),          cmocka_unit_test(homogeneous_states),
-      cmocka_unit_test(errors_are_honest),      cmocka_unit_test(energy_is_balanced),
+      cmocka_unit_test(elastic_limit),
+      cmocka_unit_test(homogeneous_states),
+      cmocka_unit_test(errors_are_honest),
+      cmocka_unit_test(energy_is_balanced),
       cmocka_unit_test(limits_of_rough_grains),
+      cmocka_unit_test(temperature_relaxes_at_the_cooling_rate),
       cmocka_unit_test(mixtures),
       cmocka_unit_test(refuses_what_it_does_not_describe),
   };

@@ -1,0 +1,16 @@
+/* How disturbances of a steady state die out: the eigenvalues of the Jacobian, as rates. */
+#ifndef GG_HERMITE_SPECTRUM_H
+#define GG_HERMITE_SPECTRUM_H
+
+#include "theory/hermite/state.h"
+
+/* A disturbance goes as exp(-decay t) cos(frequency t). */
+typedef struct gg_hermite_mode {
+  double decay, frequency;
+} gg_hermite_mode;
+
+/* All modes with the symmetries of the flow, the slowest first: basis.n - 1 of them. */
+gg_status gg_hermite_spectrum(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
+                              gg_hermite_mode *mode, gg_error *err);
+
+#endif
