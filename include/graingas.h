@@ -384,6 +384,22 @@ GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison
 GG_API gg_status gg_plot(const char *result_file, const char *picture, const char *format,
                          void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 
+enum {                        /* what gg_export writes */
+       GG_EXPORT_RESULTS = 1, /* PREFIX.csv: a line a quantity */
+       GG_EXPORT_CURVES =
+           2, /* PREFIX_<observable>_<curve>.csv, of comparisons PREFIX_<engine>_<observable>_<curve>.csv;
+                 PREFIX_numbers.csv: the numbers read off them */
+       GG_EXPORT_TRAJECTORY =
+           4, /* PREFIX.xyz: grains as extended XYZ, one frame after another, where they have positions */
+       GG_EXPORT_ALL = 7
+};
+/* A result file as tables and a trajectory for other programs; the command's documents tell of the columns. All files
+ * appear, each whole, or none: not if one could not be written (GG_BAD_FILE), is the result file (GG_BAD_INPUT), or if
+ * the result has nothing of what `parts` asks for (GG_FAILED). `written` (may be NULL) is called with the name of
+ * each. */
+GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
+                           void (*written)(void *context, const char *file), void *context, gg_error *err);
+
 /* ---- Tables to ask ---- */
 
 typedef enum gg_catalogue {

@@ -20,6 +20,16 @@ const gg_command gg_commands[] = {
      "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side "
      "by side. Beside it a snapshot, if there are positions, and a page for each observable that left curves.",
      GG_OPT_OUTPUT | GG_OPT_FORMAT | GG_OPT_QUIET, gg_cli_plot_main},
+    {"export", "RESULT.h5", "Tables and curves as CSV, trajectories as extended XYZ",
+     "PREFIX.csv: a line a quantity with mean, standard error, unit, samples, correlation time and whether the run was "
+     "steady; of a comparison with both engines, z and the theories.\n"
+     "PREFIX_<observable>_<curve>.csv: x, mean, standard error, and the law beside it if there is one; of a comparison "
+     "with the engine's name before the observable's. PREFIX_numbers.csv: exponents, coefficients and other numbers "
+     "read off the curves.\n"
+     "PREFIX.xyz: the grains of each frame, which OVITO and ASE open, with the cell of that instant, leaning under "
+     "shear; velocity (peculiar), spin (omega), radius, mass, number. The first species is called H, the second He, "
+     "and so on. Needs positions, which md has; without output.trajectory_every in the scene it is the last state.",
+     GG_OPT_PREFIX | GG_OPT_ONLY | GG_OPT_QUIET, gg_cli_export_main},
     {"info", "[FILE]", "What a result or a checkpoint holds, or every key of a scene and what it switches on and off",
      "Without a file: every key that a scene may have, with its default and what it takes.",
      GG_OPT_SET | GG_OPT_JSON | GG_OPT_QUIET, gg_cli_info_main},

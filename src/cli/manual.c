@@ -97,6 +97,8 @@ static void print_files(void)
       {"/graingas", NULL,
        "scene (YAML), document (the JSON of --json), seed, version, command, machine, date, verdict, warnings, window, "
        "averaging and total effort."},
+      {"RESULT.csv, RESULT_numbers.csv, RESULT_OBSERVABLE_CURVE.csv, RESULT.xyz", NULL,
+       "What export writes: quantities, numbers read off the curves, curves, grains as extended XYZ."},
       {"RESULT.checkpoint.h5", NULL,
        "The latest checkpoint; RESULT.checkpoint.h5.1 is the one before it, and is taken where the first is missing or "
        "damaged. All are removed when a run is done and its result in place."},
@@ -165,5 +167,6 @@ void gg_cli_print_manual(void)
   item("130", NULL, "Interrupted; with a checkpoint if one was asked for.");
   printf(".SH EXAMPLES\n.EX\ngraingas compare examples/usf.yaml\n"
          "graingas run examples/usf.yaml \\-\\-engine md \\-\\-set collision.e=0.8 \\-\\-json\n"
-         "graingas plot usf.h5 \\-\\-format png\n.EE\n");
+         "graingas plot usf.h5 \\-\\-format png\n"
+         "graingas export usf.h5 \\-\\-only results,trajectory\n.EE\n");
 }

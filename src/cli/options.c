@@ -15,6 +15,9 @@ const gg_option gg_options_table[] = {
     {GG_OPT_SEED, "seed", "N", "seed of the random streams (run.seed)"},
     {GG_OPT_THREADS, "threads", "N", "threads to use; results do not depend on it (default: all processors)"},
     {GG_OPT_OUTPUT, "output", "FILE", "file to write (default: the input's name, in the current folder)"},
+    {GG_OPT_PREFIX, "output", "PREFIX",
+     "how the files' names begin (default: the input's name, in the current folder)"},
+    {GG_OPT_ONLY, "only", "PARTS", "write these parts alone: results, curves, trajectory; several with commas"},
     {GG_OPT_PICTURE, "picture", "FILE", "picture to draw, .svg or .png, or none (default: beside the output, .svg)"},
     {GG_OPT_FORMAT, "format", "svg|png", "kind of picture (default: by the output's name, else svg)"},
     {GG_OPT_RESUME, "resume", "FILE", "go on from this checkpoint"},
@@ -41,11 +44,11 @@ void gg_print_command_help(const gg_command *c)
 }
 
 /* "compare, bench" */
-static void list_takers(unsigned flag, char *text, size_t size)
+static void list_takers(unsigned flags, char *text, size_t size)
 {
   size_t used = 0;
   for (const gg_command *c = gg_commands; c->name && used < size; c++)
-    if (c->options & flag) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", c->name);
+    if (c->options & flags) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", c->name);
 }
 
 static int refuse_option(const gg_command *c, const char *typed)
@@ -53,19 +56,21 @@ static int refuse_option(const gg_command *c, const char *typed)
   char word[48];
   const char *known[sizeof gg_options_table / sizeof *gg_options_table + 1] = {NULL};
   int n = 0;
+  unsigned others = 0; /* under the name, but not of this command */
   snprintf(word, sizeof word, "%.*s", (int)strcspn(typed, "="), typed);
   const char *name = word + strspn(word, "-");
   for (const gg_option *o = gg_options_table; o->flag; o++) {
     bool same = strcmp(o->name, name) == 0;
-    if (same && !(c->options & o->flag)) {
-      char takers[80] = "";
-      list_takers(o->flag, takers, sizeof takers);
-      return gg_cli_fail(GG_BAD_INPUT, "%s has no option '%s', which is for %s", c->name, word, takers);
-    }
+    if (same) others |= o->flag;
     if (!(c->options & o->flag)) continue;
     if (same)
       return gg_cli_fail(GG_BAD_INPUT, o->argument ? "option '%s' needs a value" : "option '%s' takes no value", word);
     known[n++] = o->name;
+  }
+  if (others) {
+    char takers[80] = "";
+    list_takers(others, takers, sizeof takers);
+    return gg_cli_fail(GG_BAD_INPUT, "%s has no option '%s', which is for %s", c->name, word, takers);
   }
   known[n] = "help";
   const char *nearest = gg_nearest_word(name, known);
@@ -133,7 +138,9 @@ static int take(gg_options *o, unsigned flag, const char *value)
   case GG_OPT_SEED: return add_override(o, "run.seed", value);
   case GG_OPT_ENGINE: return add_override(o, "engine", value);
   case GG_OPT_THREADS: return take_threads(o, value);
-  case GG_OPT_OUTPUT: o->output = value; break;
+  case GG_OPT_OUTPUT:
+  case GG_OPT_PREFIX: o->output = value; break;
+  case GG_OPT_ONLY: o->only = value; break;
   case GG_OPT_PICTURE: o->picture = value; break;
   case GG_OPT_FORMAT: o->format = value; break;
   case GG_OPT_RESUME: o->resume = value; break;

@@ -17,6 +17,8 @@ enum {
   GG_OPT_FORMAT = 1u << 9,
   GG_OPT_PICTURE = 1u << 10,
   GG_OPT_QUICK = 1u << 11,
+  GG_OPT_PREFIX = 1u << 12,
+  GG_OPT_ONLY = 1u << 13,
 };
 
 typedef struct gg_option {
@@ -29,7 +31,7 @@ enum { GG_MAX_OVERRIDES = 64 };
 
 typedef struct gg_options {
   const char *input; /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
-  const char *output, *resume, *format, *picture;
+  const char *output, *resume, *format, *picture, *only;
   bool json, quiet, all, quick;
   int threads;
   int n_overrides;

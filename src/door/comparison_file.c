@@ -1,10 +1,11 @@
-/* Comparisons to and from files and documents; pictures of files. */
+/* Comparisons to and from files and documents; pictures, tables and trajectories of files. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "door/door.h"
 #include "io/c_locale.h"
 #include "io/document.h"
+#include "io/export/export.h"
 #include "io/h5/result_file.h"
 #include "io/h5/result_restore.h"
 #include "io/plot/plot.h"
@@ -62,6 +63,23 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   if (status == GG_OK) status = gg_plot_result(&stored, picture, format, err);
   if (status == GG_OK && drawn) drawn(context, picture);
   if (status == GG_OK) status = gg_plot_pages(&stored, picture, format, drawn, context, err);
+  gg_stored_result_clear(&stored);
+  return status;
+}
+
+gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
+                    void (*written)(void *context, const char *file), void *context, gg_error *err)
+{
+  GG_NEED(result_file);
+  GG_NEED(prefix);
+  const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
+  if (!*name) return gg_fail(err, GG_BAD_INPUT, "'%s': the files need a prefix to their names", prefix);
+  if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)
+    return gg_fail(err, GG_BAD_INPUT, "%s: %u is no set of parts to export; allowed: sums of GG_EXPORT_...",
+                   result_file, parts);
+  gg_stored_result stored;
+  GG_TRY(gg_stored_result_read(&stored, result_file, err));
+  gg_status status = gg_export_result(&stored, result_file, prefix, parts, written, context, err);
   gg_stored_result_clear(&stored);
   return status;
 }

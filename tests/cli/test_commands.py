@@ -50,7 +50,7 @@ def test_help_and_version():
     check(run("--version").out.startswith("graingas "))
     top = run("--help")
     check(top.code == 0)
-    for command in "compare", "run", "theory", "plot", "info":
+    for command in "compare", "run", "theory", "plot", "export", "info":
         check(command in top.out)
         done = run(command, "--help")
         check(done.code == 0 and "Usage: graingas " + command in done.out and not done.err, command)
@@ -59,7 +59,7 @@ def test_help_and_version():
 def test_manual_is_whole():
     """Every paragraph of help, option, key and theory stands in the manual page to its end."""
     page = " ".join(run("--manual").out.replace("\\-", "-").replace("\\&", "").replace("\n.br\n", "\n").split())
-    for command in "compare", "run", "theory", "plot", "info", "bench":
+    for command in "compare", "run", "theory", "plot", "export", "info", "bench":
         text = run(command, "--help", columns=1000).out
         summary, *paragraphs = text.split("\n\n")[1:]
         for paragraph in [summary] + paragraphs[:-1]:

@@ -169,6 +169,8 @@ static void comparisons(void **state)
   assert_missing(gg_comparison_read("x", NULL, &err));
   assert_missing(gg_plot(NULL, "x.svg", NULL, NULL, NULL, &err));
   assert_missing(gg_plot("x", NULL, NULL, NULL, NULL, &err));
+  assert_missing(gg_export(NULL, "x", GG_EXPORT_ALL, NULL, NULL, &err));
+  assert_missing(gg_export("x", NULL, GG_EXPORT_ALL, NULL, NULL, &err));
   assert_null(other);
   gg_comparison_free(c);
   gg_comparison_free(NULL);

@@ -56,7 +56,8 @@ bool gg_h5_exists(gg_h5 *h, const char *path);
 /* Text or all numbers of an array, to be freed; NULL on failure. */
 char *gg_h5_read_text(gg_h5 *h, const char *path);
 void *gg_h5_read_array(gg_h5 *h, const char *path, hid_t type, size_t item, size_t *count);
-/* The last row of an array that grows, `items` of them; to be freed, NULL on failure. */
+/* The k-th row (from 0) or the last one of an array that grows, `items` of them; to be freed, NULL on failure. */
+void *gg_h5_read_row(gg_h5 *h, const char *path, hsize_t k, hid_t type, size_t item, size_t items);
 void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, size_t items);
 char *gg_h5_read_text_attribute(gg_h5 *h, const char *object, const char *name);
 bool gg_h5_has_attribute(gg_h5 *h, const char *object, const char *name);

@@ -68,7 +68,8 @@ void *gg_h5_read_array(gg_h5 *h, const char *path, hid_t type, size_t item, size
   return data;
 }
 
-void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, size_t items)
+/* `k`: which; NULL: the last. */
+static void *read_row(gg_h5 *h, const char *path, const hsize_t *k, hid_t type, size_t item, size_t items)
 {
   if (h->failed) return NULL;
   hsize_t size[3] = {0}, from[3] = {0}, row = 1;
@@ -76,8 +77,8 @@ void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, s
   int rank = space < 0 ? 0 : H5Sget_simple_extent_ndims(space);
   if (rank >= 1 && rank <= 3) H5Sget_simple_extent_dims(space, size, NULL);
   for (int a = 1; a < rank && a < 3; a++) row *= size[a];
-  void *data = size[0] && row == items ? calloc(items, item) : NULL;
-  from[0] = size[0] - 1, size[0] = 1;
+  void *data = (k ? *k < size[0] : size[0] > 0) && row == items ? calloc(items, item) : NULL;
+  from[0] = k ? *k : size[0] - 1, size[0] = 1;
   hid_t memory = data ? H5Screate_simple(rank, size, NULL) : -1;
   bool read = data && H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL) >= 0 &&
               H5Dread(dataset, type, memory, space, H5P_DEFAULT, data) >= 0;
@@ -88,6 +89,16 @@ void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, s
   gg_h5_failed(h, path);
   free(data);
   return NULL;
+}
+
+void *gg_h5_read_row(gg_h5 *h, const char *path, hsize_t k, hid_t type, size_t item, size_t items)
+{
+  return read_row(h, path, &k, type, item, items);
+}
+
+void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, size_t items)
+{
+  return read_row(h, path, NULL, type, item, items);
 }
 
 bool gg_h5_has_attribute(gg_h5 *h, const char *object, const char *name)

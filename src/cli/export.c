@@ -1,0 +1,85 @@
+/* graingas export: what a result file holds as tables and trajectories for other programs. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "cli/options.h"
+
+static const char *const words[] = {"results", "curves", "trajectory", NULL};
+static const unsigned part[] = {GG_EXPORT_RESULTS, GG_EXPORT_CURVES, GG_EXPORT_TRAJECTORY};
+
+static int refuse(const char *word)
+{
+  const char *nearest = gg_nearest_word(word, words);
+  return gg_cli_fail(GG_BAD_INPUT,
+                     "option '--only': value '%s' is not allowed; allowed: results, curves, trajectory%s%s", word,
+                     nearest ? "; did you mean " : "", nearest ? nearest : "");
+}
+
+/* "curves,trajectory"; NULL: all. */
+static int take_parts(const char *only, unsigned *parts)
+{
+  *parts = only ? 0 : GG_EXPORT_ALL;
+  for (const char *at = only; at;) {
+    char word[24];
+    size_t length = strcspn(at, ","), k = 0;
+    snprintf(word, sizeof word, "%.*s", (int)length, at);
+    while (words[k] && strcmp(words[k], word) != 0) k++;
+    if (!words[k]) return refuse(word);
+    *parts |= part[k];
+    at = at[length] ? at + length + 1 : NULL;
+  }
+  return GG_CLI_GO_ON;
+}
+
+/* As it was given, less an ending that the files have anyway; else the input's name, in the current folder. */
+static char *prefix_of(const gg_options *o)
+{
+  const char *slash = strrchr(o->input, '/'), *name = slash ? slash + 1 : o->input;
+  if (!o->output) return gg_with_suffix(name, "");
+  const char *dot = strrchr(o->output, '.');
+  bool ending = dot && (strcmp(dot, ".csv") == 0 || strcmp(dot, ".xyz") == 0);
+  return ending ? gg_with_suffix(o->output, "") : strdup(o->output);
+}
+
+/* The files go to standard output, for scripts. */
+static void tell(void *context, const char *file)
+{
+  if (!*(const bool *)context) printf("%s\n", file);
+}
+
+/* All files are open at once, with a lock each: a mixture of sixteen species has more curves than the usual limit. */
+static void allow_many_files(void)
+{
+  struct rlimit files;
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+}
+
+static int export_parts(const gg_options *o)
+{
+  gg_error err;
+  unsigned parts;
+  bool quiet = o->quiet;
+  int code = take_parts(o->only, &parts);
+  if (code != GG_CLI_GO_ON) return code;
+  if (o->output && strcmp(o->output, "-") == 0)
+    return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is not allowed: there are several files; give a prefix");
+  char *prefix = prefix_of(o);
+  if (!prefix) return gg_cli_fail(GG_FAILED, "out of memory");
+  allow_many_files();
+  code = gg_export(o->input, prefix, parts, tell, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
+  free(prefix);
+  return code;
+}
+
+int gg_cli_export_main(const gg_command *command, int argc, char **argv)
+{
+  gg_options o;
+  int code = gg_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON) code = export_parts(&o);
+  gg_options_clear(&o);
+  return code;
+}
