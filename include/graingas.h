@@ -162,13 +162,18 @@ typedef struct gg_grains {
 /* Copy the grains out. GG_BAD_INPUT where positions are asked of dsmc, which has none. */
 GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err);
 
+/* Walls come in the order of their list: the lower one, the upper one, others. Its name, as in wall_P_yy_lower; NULL:
+ * there are not so many. */
+enum { GG_WALLS = 6 };
+GG_API const char *gg_simulation_wall(const gg_simulation *simulation, int wall);
+
 typedef struct gg_simulation_sums { /* over the collisions since they were last asked for, or since the start */
   double time;                      /* that they are over */
   uint64_t collisions, wall_collisions;
-  double collisional_stress[3][3]; /* mean over the time, in units of stress; 0 in components that no flow here has */
-  double dissipation;              /* energy that collisions between grains destroyed, per volume and time */
-  double wall_impulse[2][3];       /* on the lower and the upper wall: m times velocity */
-  double wall_loss;                /* energy that collisions with walls destroyed */
+  double collisional_stress[3][3];  /* mean over the time, in units of stress; 0 in components that no flow here has */
+  double dissipation;               /* energy that collisions between grains destroyed, per volume and time */
+  double wall_impulse[GG_WALLS][3]; /* on each wall: m times velocity */
+  double wall_loss;                 /* energy that collisions with walls destroyed */
 } gg_simulation_sums;
 GG_API gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err);
 

@@ -8,6 +8,13 @@
 #include "common/archive.h"
 #include "common/model.h"
 
+/* Contacts of grains with a surface of the model; like the others, all but the number is kept while sums are on. */
+typedef struct gg_surface_sums {
+  double impulse[3]; /* on the surface */
+  double loss;       /* energy destroyed */
+  uint64_t collisions;
+} gg_surface_sums;
+
 /* Sums over collisions since they were last taken, by pair of species (gg_pair); a collision
  * counts once, k from 1 to 2, J the impulse on 2. Kept by the engine's own kernel; nothing of it is computed while the
  * sums are off, but for `collisions`. */
@@ -15,10 +22,20 @@ typedef struct gg_collision_sums {
   uint64_t collisions[GG_PAIRS];
   double stress[GG_PAIRS][3][3]; /* sigma k_a J_b of ab = xx, yy, zz, xy, yx (else 0); stress x volume x time */
   double loss[GG_PAIRS];         /* energy destroyed */
-  double wall_impulse[2][3];     /* impulse on the lower and upper wall */
-  double wall_loss;
-  uint64_t wall_collisions;
+  gg_surface_sums surface[GG_MOST_SURFACES];
 } gg_collision_sums;
+
+/* Contacts with all surfaces, and the energy lost there. */
+GG_INLINE gg_surface_sums gg_sums_of_surfaces(const gg_collision_sums *sums)
+{
+  gg_surface_sums all = {0};
+  for (int w = 0; w < GG_MOST_SURFACES; w++) {
+    all.collisions += sums->surface[w].collisions;
+    all.loss += sums->surface[w].loss;
+    for (int a = 0; a < 3; a++) all.impulse[a] += sums->surface[w].impulse[a];
+  }
+  return all;
+}
 
 /* How a run goes; counts since creation. */
 typedef struct gg_engine_state {

@@ -4,6 +4,7 @@
 
 #include "common/contact_value.h"
 #include "common/cube_root.h"
+#include "common/surface/surfaces.h"
 
 /* Whole numbers of grains: the largest remainders go up, of equal ones the first. */
 static void deal_grains(gg_model *m, const gg_scene *s)
@@ -131,20 +132,13 @@ static void set_pairs(gg_model *m, const gg_scene *s)
  * walls would have to cancel in a steady state, and with them the shear stress. */
 static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
 {
-  gg_partner wall = {INFINITY, 1};
-  m->walled = gg_flow_is_walled(s->flow);
-  m->open_top = gg_flow_of(s->flow)->may_be_open && s->walls.top == GG_OPEN_TOP;
+  bool spinless = m->rule == GG_SMOOTH;
+  gg_surfaces_make(s, !spinless, time_unit, m);
+  m->walled = m->n_surfaces > 0;
   m->wall_rule = m->walled ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
   if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;
-  bool spinless = m->rule == GG_SMOOTH;
   if (!spinless) m->rule = later_rule(m->rule, m->wall_rule);
-  for (int i = 0; i < GG_MAX_SPECIES; i++) {
-    gg_partner grain = {m->mass[i], spinless ? INFINITY : m->inertia[i]};
-    m->wall[i] = gg_contact_make(grain, wall, s->walls.e, s->walls.beta, s->walls.mu);
-    m->wall_treated[i] = gg_contact_make(grain, wall, 1, s->walls.beta, s->walls.mu);
-  }
-  m->wall_speed = gg_flow_has_moving_walls(s->flow) ? s->walls.speed * time_unit / s->species[0].diameter : 0;
 }
 
 /* Steady temperature in units of (d rate)^2 from the balance of dilute viscous heating and dissipation, to start near.

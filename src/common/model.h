@@ -13,6 +13,7 @@
 #include "common/restitution.h"
 #include "common/scene.h"
 #include "common/stop.h"
+#include "common/surface/surface.h"
 
 typedef struct gg_model {
   gg_flow flow;
@@ -43,11 +44,10 @@ typedef struct gg_model {
   gg_restitution_law law; /* of restitution between grains; with one, `e` and `contact` are those at the mean impact
                  speed of some temperature (gg_model_at), for estimates, and engines ask the law at every collision */
 
-  gg_contact wall[GG_MAX_SPECIES];         /* grain (1) against wall (2) */
-  gg_contact wall_treated[GG_MAX_SPECIES]; /* the same with e = 1 */
-  gg_rule wall_rule;                       /* of smooth grains, too, whose spins it leaves alone */
-  bool walled, open_top;                   /* walls at both ends of y, or below only */
-  double wall_speed;                       /* couette: +- this along x; 0 otherwise */
+  bool walled;       /* there are surfaces: the box is closed along y, and no flow is imposed */
+  gg_rule wall_rule; /* of smooth grains, too, whose spins it leaves alone */
+  int n_surfaces;    /* common/surface/surfaces.h */
+  gg_surface surface[GG_MOST_SURFACES];
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */

@@ -16,4 +16,14 @@ typedef struct gg_vec {
 #undef GG_VECTOR
 #undef GG_OF
 
+/* Component 0, 1 or 2 of a vector. */
+GG_INLINE double *gg_component(gg_vec *v, int axis)
+{
+  return (double *)v + axis;
+}
+GG_INLINE double gg_along(const gg_vec *v, int axis)
+{
+  return ((const double *)v)[axis];
+}
+
 #endif

@@ -153,6 +153,13 @@ gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_gra
   return GG_OK;
 }
 
+_Static_assert((int)GG_WALLS == (int)GG_MOST_SURFACES, "walls of the interface are the surfaces of the model");
+
+const char *gg_simulation_wall(const gg_simulation *s, int wall)
+{
+  return s && wall >= 0 && wall < s->model.n_surfaces ? s->model.surface[wall].word : NULL;
+}
+
 void gg_simulation_collect(gg_simulation *s)
 {
   gg_simulation_sums *sums = &s->clock.sums;
@@ -165,10 +172,11 @@ void gg_simulation_collect(gg_simulation *s)
     for (int a = 0; a < 3; a++)
       for (int b = 0; b < 3; b++) sums->collisional_stress[a][b] += t.stress[p][a][b] * unit;
   }
-  sums->wall_collisions += t.wall_collisions;
-  sums->wall_loss += t.wall_loss;
-  for (int w = 0; w < 2; w++)
-    for (int a = 0; a < 3; a++) sums->wall_impulse[w][a] += t.wall_impulse[w][a];
+  const gg_surface_sums walls = gg_sums_of_surfaces(&t);
+  sums->wall_collisions += walls.collisions;
+  sums->wall_loss += walls.loss;
+  for (int w = 0; w < GG_WALLS; w++)
+    for (int a = 0; a < 3; a++) sums->wall_impulse[w][a] += t.surface[w].impulse[a];
 }
 
 gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err)

@@ -1,6 +1,7 @@
 /* Which models the engine runs. */
 #include <math.h>
 
+#include "common/surface/surfaces.h"
 #include "md/accept.h"
 #include "md/state.h"
 
@@ -50,7 +51,7 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
   if (falls && gg_flow_of(m->flow)->falling == GG_NEVER_FALLS)
     return gg_fail(err, GG_BAD_INPUT, "gravity: not in flow: %s", gg_flow_of(m->flow)->word);
-  if (m->open_top && m->gravity[1] >= 0)
+  if (gg_is_open_above(m) && m->gravity[1] >= 0)
     return gg_fail(err, GG_BAD_INPUT,
                    "walls.top: open needs gravity towards the lower wall: gravity: [gx, gy < 0, gz]");
   GG_TRY(check_box(m, err));

@@ -1,6 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/surface/surfaces.h"
 #include "common/thermostat.h"
 #include "md/lines.h"
 #include "md/state.h"
@@ -49,7 +50,8 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
     e->box.edge[a] = model->box[a];
     e->box.inverse[a] = 1 / model->box[a];
   }
-  if (model->walled) e->box.inverse[1] = 0; /* no image across a wall */
+  for (int a = 0; a < 3; a++)
+    if (gg_is_closed(model, a)) e->box.inverse[a] = 0; /* no image across a wall */
   e->box.image_velocity = model->shear_rate * model->box[1];
   e->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
   e->falls = gg_dot(e->gravity, e->gravity) > 0;
@@ -80,5 +82,6 @@ void gg_md_free(gg_md *e)
   free(e->neighbour);
   free(e->id);
   free(e->candidates);
+  for (int a = 0; a < 3; a++) free(e->near[a]);
   free(e);
 }

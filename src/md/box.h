@@ -15,16 +15,6 @@ typedef struct gg_md_box {
   double offset0;        /* D_0, in [0, L_x): the offset at the epoch's start */
 } gg_md_box;
 
-/* Component 0, 1 or 2 of a vector. */
-GG_INLINE double *gg_component(gg_vec *v, int axis)
-{
-  return (double *)v + axis;
-}
-GG_INLINE double gg_along(const gg_vec *v, int axis)
-{
-  return ((const double *)v)[axis];
-}
-
 /* Largest integer <= x, without libm; |x| < 2^62. */
 GG_INLINE double gg_floor(double x)
 {

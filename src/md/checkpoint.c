@@ -67,6 +67,7 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   e->box.offset0 = b.offset0;
   e->overlapping = b.overlapping;
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.skin_radius, err));
+  GG_TRY(gg_md_note_surfaces(e, err));
   if (b.comoving) GG_TRY(gg_md_make_rows(e, err));
   if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   gg_md_queue_reset(&e->queue, b.bucket_width);

@@ -1,6 +1,7 @@
 /* What the engine makes of a model, in words. */
 #include <stdio.h>
 
+#include "common/surface/surfaces.h"
 #include "md/accept.h"
 #include "md/state.h"
 
@@ -39,18 +40,34 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
   tell(line, context, "crossings of cells", text);
 }
 
+/* "a wall below, a wall above, periodic along x, z" */
+static void tell_walls(const gg_model *m, void (*line)(void *, const char *), void *context)
+{
+  char text[160];
+  size_t used = 0;
+  for (int w = 0; w < m->n_surfaces && used < sizeof text; w++)
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s, ", m->surface[w].title);
+  if (gg_is_open_above(m) && used < sizeof text)
+    used += (size_t)snprintf(text + used, sizeof text - used, "open above, ");
+  const char *before = "periodic along ";
+  for (int a = 0; a < 3 && used < sizeof text; a++) {
+    if (gg_is_closed(m, a)) continue;
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s%c", before, "xyz"[a]);
+    before = ", ";
+  }
+  tell(line, context, "box", text);
+}
+
 void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
 {
   static const char *const rules[] = {"smooth: no spins, no tangential impulse", "rough, constant beta",
                                       "frictional (Coulomb)"};
   char timing[100];
   tell(line, context, "contact", rules[m->rule]);
-  const char *walls =
-      m->open_top ? "a lower wall, open above, periodic in x and z" : "walls below and above, periodic in x and z";
-  tell(line, context, "box",
-       m->walled            ? walls
-       : m->shear_rate != 0 ? "periodic, Lees-Edwards shear"
-                            : "periodic, no shear");
+  if (m->walled)
+    tell_walls(m, line, context);
+  else
+    tell(line, context, "box", m->shear_rate != 0 ? "periodic, Lees-Edwards shear" : "periodic, no shear");
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
   tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
   tell(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");

@@ -8,13 +8,13 @@
 #define GG_MD_EVENT_LOOP_H
 
 #include "md/search/simd_pairs.h"
-#include "md/search/walls.h"
+#include "md/search/surfaces.h"
 #include "md/search/way.h"
 
 GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
 {
   gg_md_node *node = &e->node[s->grain];
-  if (IS_WALLED) gg_md_try_walls(e, s);
+  if (IS_WALLED) gg_md_try_surfaces(e, s);
   if (s->partner != node->partner || s->collision != node->collision) {
     node->collision = s->collision;
     node->partner = s->partner;
@@ -79,10 +79,10 @@ GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
   gg_md_predict_two(e, i, j);
 }
 
-GG_INLINE void gg_md_hit_wall(gg_md *e, uint32_t i, int upper)
+GG_INLINE void gg_md_hit_surface(gg_md *e, uint32_t i, int surface)
 {
   gg_md_grain *g = gg_md_synchronise(e, i);
-  e->resolve_wall(e, i, upper);
+  e->resolve_surface(e, i, surface);
   g->counter++;
   gg_md_predict(e, i);
 }
@@ -143,7 +143,7 @@ GG_INLINE void gg_md_run_events(gg_md *e)
     if (node->time < node->collision)
       gg_md_cross(e, i);
     else if (IS_WALLED && GG_MD_NO_GRAIN(partner))
-      gg_md_hit_wall(e, i, partner == GG_MD_UPPER_WALL);
+      gg_md_hit_surface(e, i, GG_MD_SURFACE_OF(partner));
     else if (e->grain[partner].counter != node->counter)
       gg_md_re_predict(e, i);
     else

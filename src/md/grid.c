@@ -115,6 +115,7 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   if (where == GG_MD_NEIGHBOUR_LISTS) return gg_md_make_lists(e, radius, err);
   e->overlapping = where == GG_MD_OVERLAPPING_CELLS;
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err));
+  GG_TRY(gg_md_note_surfaces(e, err));
   if (e->box.image_velocity == 0 || where == GG_MD_PLAIN_CELLS) return GG_OK;
   GG_TRY(gg_md_make_rows(e, err));
   gg_md_align_rows(e);

@@ -7,6 +7,7 @@
 #define GG_MD_QUEUE_H
 
 #include "common/error.h"
+#include "common/surface/surface.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -31,11 +32,10 @@ typedef struct gg_md_node {
 /* The neighbouring cells across the sheared boundary have moved: search them again. */
 enum { GG_MD_IMAGES_MOVED = 8 };
 
-/* Partners that are no grains. */
-#define GG_MD_LOWER_WALL (UINT32_MAX - 1)
-#define GG_MD_UPPER_WALL (UINT32_MAX - 2)
-/* Is a partner a wall or nobody? */
-#define GG_MD_NO_GRAIN(partner) ((partner) >= GG_MD_UPPER_WALL)
+/* Partners that are no grains: the surfaces of the model, from 0. Of a partner: which is it? Is it one, or nobody? */
+#define GG_MD_SURFACE(w) (UINT32_MAX - 1 - (uint32_t)(w))
+#define GG_MD_SURFACE_OF(partner) ((int)(UINT32_MAX - 1 - (partner)))
+#define GG_MD_NO_GRAIN(partner) ((partner) >= GG_MD_SURFACE(GG_MOST_SURFACES - 1))
 
 typedef struct gg_md_due {
   double time;

@@ -14,19 +14,20 @@
   COLLISION(rule, mixture, contact_time, 0, 1)                                                                         \
   COLLISION(rule, mixture, contact_time, 1, 0)                                                                         \
   COLLISION(rule, mixture, contact_time, 1, 1)
-#define WALL(rule, contact_time, sums)                                                                                 \
-  static void rule##_wall##contact_time##sums(gg_md *e, uint32_t i, int upper)                                         \
+#define SURFACE(rule, contact_time, sums)                                                                              \
+  static void rule##_surface##contact_time##sums(gg_md *e, uint32_t i, int w)                                          \
   {                                                                                                                    \
-    gg_md_resolve_wall(e, (gg_md_resolve_features){rule, true, contact_time, sums, false, false, false}, i, upper);    \
+    gg_md_resolve_surface(e, (gg_md_resolve_features){rule, true, contact_time, sums, false, false, false}, i, w);     \
   }                                                                                                                    \
-  static void rule##_spinning##contact_time##sums(gg_md *e, uint32_t i, int upper)                                     \
+  static void rule##_spinning##contact_time##sums(gg_md *e, uint32_t i, int w)                                         \
   {                                                                                                                    \
-    gg_md_resolve_wall(e, (gg_md_resolve_features){rule, true, contact_time, sums, false, rule != GG_SMOOTH, false},   \
-                       i, upper);                                                                                      \
+    gg_md_resolve_surface(                                                                                             \
+        e, (gg_md_resolve_features){rule, true, contact_time, sums, false, rule != GG_SMOOTH, false}, i, w);           \
   }
 #define INSTANCES(rule)                                                                                                \
   FOUR(rule, 0, 0)                                                                                                     \
-  FOUR(rule, 0, 1) FOUR(rule, 1, 0) FOUR(rule, 1, 1) WALL(rule, 0, 0) WALL(rule, 0, 1) WALL(rule, 1, 0) WALL(rule, 1, 1)
+  FOUR(rule, 0, 1)                                                                                                     \
+  FOUR(rule, 1, 0) FOUR(rule, 1, 1) SURFACE(rule, 0, 0) SURFACE(rule, 0, 1) SURFACE(rule, 1, 0) SURFACE(rule, 1, 1)
 INSTANCES(GG_SMOOTH)
 INSTANCES(GG_ROUGH)
 INSTANCES(GG_FRICTIONAL)
@@ -61,11 +62,13 @@ static gg_md_resolution *const resolutions_by_law[] = {GG_SMOOTH_by_law, GG_ROUG
   }
 static gg_md_resolution *const resolutions[3][2][2][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
 #undef ROW
-#define ROW(rule) PAIR(rule##_wall)
-static gg_md_wall_resolution *const wall_resolutions[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+#define ROW(rule) PAIR(rule##_surface)
+static gg_md_surface_resolution *const surface_resolutions[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH),
+                                                                       ROW(GG_FRICTIONAL)};
 #undef ROW
 #define ROW(rule) PAIR(rule##_spinning)
-static gg_md_wall_resolution *const spinning_resolutions[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH), ROW(GG_FRICTIONAL)};
+static gg_md_surface_resolution *const spinning_resolutions[3][2][2] = {ROW(GG_SMOOTH), ROW(GG_ROUGH),
+                                                                        ROW(GG_FRICTIONAL)};
 
 void gg_md_select_resolution(gg_md *e)
 {
@@ -78,6 +81,6 @@ void gg_md_select_resolution(gg_md *e)
   if (gg_md_needs_parting(&e->model)) e->resolve = gg_md_resolve_parting;
   e->resolve_shown = e->resolve;
   if (e->callback) e->resolve = gg_md_show_collision;
-  e->resolve_wall =
-      e->spin ? spinning_resolutions[rule][timed][sums] : wall_resolutions[e->model.wall_rule][timed][sums];
+  e->resolve_surface =
+      e->spin ? spinning_resolutions[rule][timed][sums] : surface_resolutions[e->model.wall_rule][timed][sums];
 }

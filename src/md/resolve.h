@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "common/surface/shapes.h"
 #include "md/state.h"
 
 typedef struct gg_md_resolve_features {
@@ -103,31 +104,31 @@ GG_INLINE double gg_md_least_speed(const gg_md *e, bool contact_time, double tow
   return contact_time && towards > 0 ? 0.5 * towards * e->k.contact_time : 0;
 }
 
-/* The same rule with a partner of infinite mass without spin. */
-GG_INLINE void gg_md_resolve_wall(gg_md *e, gg_md_resolve_features f, uint32_t i, int upper)
+/* The same rule with a partner of infinite mass without spin: surface w of the model. */
+GG_INLINE void gg_md_resolve_surface(gg_md *e, gg_md_resolve_features f, uint32_t i, int w)
 {
   gg_md_grain *one = &e->grain[i];
   int a = gg_md_species_of(one);
-  const gg_contact *contact = &e->model.wall[a];
-  if (f.contact_time && gg_md_is_treated(e, i, i)) contact = &e->model.wall_treated[a];
-  double side = upper ? 1 : -1, gap = upper ? e->box.edge[1] - one->r.y : one->r.y;
-  double overlap = 0.5 * e->model.diameter[a] - gap;
+  const gg_surface *surface = &e->model.surface[w];
+  const gg_contact *contact = &surface->contact[a];
+  if (f.contact_time && gg_md_is_treated(e, i, i)) contact = &surface->treated[a];
+  double overlap = -gg_surface_clearance(surface, &one->r, 0.5 * e->model.diameter[a]);
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
-  gg_vec k = {0, side, 0}, wall = {side * e->model.wall_speed, 0, 0}, none = {0, 0, 0};
-  gg_vec wall_v = wall, still = {0, 0, 0}, *s1 = f.spins ? &e->spin[i] : &none;
-  gg_vec g = gg_contact_velocity(f.rule, k, gg_sub(one->v, wall), *s1, still);
+  gg_vec k = gg_surface_normal(surface, &one->r), none = {0, 0, 0};
+  gg_vec wall_v = surface->velocity, still = {0, 0, 0}, *s1 = f.spins ? &e->spin[i] : &none;
+  gg_vec g = gg_contact_velocity(f.rule, k, gg_sub(one->v, wall_v), *s1, still);
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
   gg_kick(f.rule, contact, k, J, &one->v, s1, &wall_v, &still);
-  double least = gg_md_least_speed(e, f.contact_time, side * e->gravity.y);
-  if (-side * one->v.y < least) {
-    J.y += side * (least + side * one->v.y) / contact->im1;
-    one->v.y = -side * least;
+  double least = gg_md_least_speed(e, f.contact_time, gg_dot(k, e->gravity)), towards = gg_dot(k, one->v);
+  if (-towards < least) {
+    J = gg_axpy((least + towards) / contact->im1, k, J);
+    one->v = gg_axpy(-least, k, gg_axpy(-towards, k, one->v));
   }
-  gg_collision_sums *t = &e->k.transfer;
-  t->wall_collisions++;
+  gg_surface_sums *t = &e->k.transfer.surface[w];
+  t->collisions++;
   if (!f.sums) return;
-  for (int c = 0; c < 3; c++) t->wall_impulse[upper][c] += gg_along(&J, c);
-  t->wall_loss += gg_energy_loss(contact, k, g, J);
+  for (int c = 0; c < 3; c++) t->impulse[c] += gg_along(&J, c);
+  t->loss += gg_energy_loss(contact, k, g, J);
 }
 
 #endif

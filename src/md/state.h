@@ -48,8 +48,8 @@ typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
 typedef void gg_md_resolution(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12);
-/* What happens to a grain in contact with the lower (0) or upper (1) wall. */
-typedef void gg_md_wall_resolution(gg_md *e, uint32_t i, int upper);
+/* What happens to a grain in contact with a surface of the model. */
+typedef void gg_md_surface_resolution(gg_md *e, uint32_t i, int surface);
 /* An instance of the event loop (kernels.h). */
 typedef struct gg_md_kernel {
   void (*run)(gg_md *e); /* handle events until k.stop, k.collisions_left or e->look_at */
@@ -103,6 +103,8 @@ struct gg_md {
   bool falls; /* gravity is not zero */
   gg_md_box box;
   gg_md_cells cells;
+  uint8_t *near[3]; /* by index of the cell along each axis, the surfaces whose reach it is in, a bit each; those whose
+                       bit is there along all three can be touched from the cell. NULL without surfaces */
   uint32_t *candidates; /* of two searches at a time, GG_MD_CANDIDATES_APART: whom to try (search/candidates.h) */
   gg_md_queue queue;
   gg_md_counts k;
@@ -115,7 +117,7 @@ struct gg_md {
   bool out_of_memory; /* a cell could not grow: the run is over */
   const gg_md_kernel *kernel;
   gg_md_resolution *resolve;
-  gg_md_wall_resolution *resolve_wall;
+  gg_md_surface_resolution *resolve_surface;
   gg_collision_callback *callback; /* told of every collision; NULL: none, and `resolve` is not wrapped */
   void *callback_context;
   gg_md_resolution *resolve_shown;  /* what `resolve` goes on to then */
@@ -148,6 +150,10 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
+
+/* surfaces.c: e->near for the cells that there are; and contacts with other shapes than planes, as seen from a cell. */
+gg_status gg_md_note_surfaces(gg_md *e, gg_error *err);
+double gg_md_shaped_delay(const gg_md *e, const gg_surface *surface, const gg_flight *flight, const int32_t *cell);
 
 /* rows.c: rows of cells that move with the flow, placed as e->k tells; as the images above stand at the epoch's start;
  * at the start of the next epoch; and after they have shifted by a cell. */

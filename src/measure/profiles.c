@@ -3,9 +3,11 @@
  * whole window: nothing has to be put back for the few grains of one instant. Where the walls are alike the profiles
  * are those of the flow and its image together: what wanders to and fro about the middle is not in them. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/surface/shapes.h"
 #include "measure/observable.h"
 #include "measure/wall_symmetry.h"
 
@@ -14,8 +16,8 @@ enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
 /* Sums over a slab: pi/6 d^3, mass, m C, m C^2, K m, K m s, K m s^2, grains, omega_z */
 enum { VOLUME, MASS, MOMENTUM, ENERGY = MOMENTUM + 3, INERTIA, SPIN, ROTATION = SPIN + 3, GRAINS, OMEGA, SLAB };
 
-/* Behind the slabs: time, and the impulses on the lower and the upper wall. */
-enum { TIME, LOWER, UPPER = LOWER + 3, WALLS = UPPER + 3, MOST_BINS = MOST_SLABS * SLAB + WALLS };
+/* Behind the slabs: time, and the impulses on the surfaces of the model. */
+enum { TIME, IMPULSE, WALLS = IMPULSE + 3 * GG_MOST_SURFACES, MOST_BINS = MOST_SLABS * SLAB + WALLS };
 
 typedef struct profiles {
   gg_model model;
@@ -57,10 +59,8 @@ static void add_interval(void *self, const gg_interval *in)
 {
   profiles *d = self;
   d->walls[TIME] += in->elapsed;
-  for (int a = 0; a < 3; a++) {
-    d->walls[LOWER + a] += in->transfer->wall_impulse[0][a];
-    d->walls[UPPER + a] += in->transfer->wall_impulse[1][a];
-  }
+  for (int w = 0; w < d->model.n_surfaces; w++)
+    for (int a = 0; a < 3; a++) d->walls[IMPULSE + 3 * w + a] += in->transfer->surface[w].impulse[a];
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
@@ -121,10 +121,9 @@ static void fold(const profiles *d, const double *bin, double *to)
     slab_image(symmetry, bin + (d->slabs - 1 - i) * SLAB, image);
     for (int k = 0; k < SLAB; k++) to[i * SLAB + k] = 0.5 * (bin[i * SLAB + k] + image[k]);
   }
-  for (int a = 0; a < 3; a++) {
-    double image = image_of(symmetry, false, a);
-    folded[LOWER + a] = 0.5 * (walls[LOWER + a] + image * walls[UPPER + a]);
-    folded[UPPER + a] = 0.5 * (walls[UPPER + a] + image * walls[LOWER + a]);
+  for (int w = 0; w < d->model.n_surfaces; w++) {
+    const double *own = walls + IMPULSE + 3 * w, *other = walls + IMPULSE + 3 * gg_surface_image(&d->model, w);
+    for (int a = 0; a < 3; a++) folded[IMPULSE + 3 * w + a] = 0.5 * (own[a] + image_of(symmetry, false, a) * other[a]);
   }
 }
 
@@ -176,45 +175,52 @@ static const struct {
     {"profile_spin_z", "spin", "ω_z", "spin", spin, true},
 };
 
-/* Velocity of the gas next to a wall, over that of the wall: the straight line through the outermost three slabs with
- * grains, at the height of a grain that touches. Centres are only beyond that height: the outermost slab stands for the
- * part of it where they can be, and every slab counts by its grains. */
-static void put_slip(const gg_model *m, const double *bin, gg_curve *c)
+/* Velocity of the gas next to a flat wall, over that of the wall: the straight line through the outermost three slabs
+ * with grains, at the height of a grain that touches. Centres are only beyond that height: the outermost slab stands
+ * for the part of it where they can be, and every slab counts by its grains. */
+static void put_slip(const gg_model *m, const gg_surface *wall, const double *bin, gg_curve *c)
 {
   double height = m->box[1] / (double)c->n;
-  for (int upper = 0; upper < 2; upper++) {
-    double from_wall[3], u[3], grains[3], all = 0, mx = 0, mu = 0, xx = 0, xu = 0;
-    int n = 0;
-    for (size_t i = 0; i < c->n && n < 3; i++) {
-      size_t k = upper ? c->n - 1 - i : i;
-      if (!isfinite(c->value[k])) continue;
-      from_wall[n] = 0.5 * (fmax((double)i * height, 0.5) + (double)(i + 1) * height);
-      grains[n] = bin[k * SLAB + GRAINS], u[n++] = c->value[k];
-    }
-    if (n < 3) continue;
-    for (int k = 0; k < 3; k++) all += grains[k], mx += grains[k] * from_wall[k], mu += grains[k] * u[k];
-    mx /= all, mu /= all;
-    for (int k = 0; k < 3; k++) {
-      xx += grains[k] * (from_wall[k] - mx) * (from_wall[k] - mx);
-      xu += grains[k] * (from_wall[k] - mx) * (u[k] - mu);
-    }
-    double slip = (upper ? 1 : -1) * m->wall_speed - (mu + xu / xx * (0.5 - mx));
-    gg_curve_put_number(c, upper ? "slip_upper" : "slip_lower", slip, gg_curve_unit(m, "velocity"));
+  double from_wall[3], u[3], grains[3], all = 0, mx = 0, mu = 0, xx = 0, xu = 0;
+  int n = 0;
+  for (size_t i = 0; i < c->n && n < 3; i++) {
+    size_t k = wall->side > 0 ? c->n - 1 - i : i;
+    if (!isfinite(c->value[k])) continue;
+    from_wall[n] = 0.5 * (fmax((double)i * height, 0.5) + (double)(i + 1) * height);
+    grains[n] = bin[k * SLAB + GRAINS], u[n++] = c->value[k];
+  }
+  if (n < 3) return;
+  for (int k = 0; k < 3; k++) all += grains[k], mx += grains[k] * from_wall[k], mu += grains[k] * u[k];
+  mx /= all, mu /= all;
+  for (int k = 0; k < 3; k++) {
+    xx += grains[k] * (from_wall[k] - mx) * (from_wall[k] - mx);
+    xu += grains[k] * (from_wall[k] - mx) * (u[k] - mu);
+  }
+  char name[40];
+  snprintf(name, sizeof name, "slip_%s", wall->word);
+  gg_curve_put_number(c, name, wall->velocity.x - (mu + xu / xx * (0.5 - mx)), gg_curve_unit(m, "velocity"));
+}
+
+/* What a wall feels is the flux of momentum through it, of what is across it and of what is along x: across y it equals
+ * the stress of the gas, which is the same at every height (but for gravity's share). */
+static void put_wall_stress(const gg_model *m, const gg_surface *wall, const double *impulse, double time, gg_curve *c)
+{
+  if (!(time > 0)) return;
+  int across = wall->axis;
+  double area = m->box[(across + 1) % 3] * m->box[(across + 2) % 3], unit = wall->side * m->stress_unit / (area * time);
+  const int along[2] = {across, 0};
+  for (int k = 0; k < 2; k++) {
+    char name[40];
+    snprintf(name, sizeof name, "wall_P_%c%c_%s", "xyz"[across], "xyz"[along[k]], wall -> word);
+    gg_curve_put_number(c, name, unit * impulse[along[k]], gg_quantity_unit(GG_Q_PRESSURE, m));
   }
 }
 
-/* What the walls feel is the flux of momentum through them: it equals the stress of the gas, which is the same at every
- * height (but for gravity's share). */
-static void put_wall_stress(const gg_model *m, const double *walls, gg_curve *c)
+static void put_walls(const gg_model *m, const double *bin, const double *walls, gg_curve *c)
 {
-  if (!(walls[TIME] > 0)) return;
-  double unit = m->stress_unit / (m->box[0] * m->box[2] * walls[TIME]);
-  const char *name = gg_quantity_unit(GG_Q_PRESSURE, m);
-  gg_curve_put_number(c, "wall_P_yy_lower", -unit * walls[LOWER + 1], name);
-  gg_curve_put_number(c, "wall_P_yx_lower", -unit * walls[LOWER], name);
-  if (m->open_top) return;
-  gg_curve_put_number(c, "wall_P_yy_upper", unit * walls[UPPER + 1], name);
-  gg_curve_put_number(c, "wall_P_yx_upper", unit * walls[UPPER], name);
+  for (int w = 0; w < m->n_surfaces; w++)
+    if (m->surface[w].axis == 1 && gg_surface_height(&m->surface[w]) == 0) put_slip(m, &m->surface[w], bin, c);
+  for (int w = 0; w < m->n_surfaces; w++) put_wall_stress(m, &m->surface[w], walls + IMPULSE + 3 * w, walls[TIME], c);
 }
 
 static void curves(const void *self, const double *mean, gg_curves *list)
@@ -235,8 +241,7 @@ static void curves(const void *self, const double *mean, gg_curves *list)
       c->value[i] = at[GRAINS] > 0 || table[t].of == solid_fraction ? table[t].of(at, volume) : NAN;
     }
     if (table[t].of != velocity) continue;
-    put_slip(m, bin, c);
-    put_wall_stress(m, bin + d->slabs * SLAB, c);
+    put_walls(m, bin, bin + d->slabs * SLAB, c);
   }
 }
 

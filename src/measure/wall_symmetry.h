@@ -2,7 +2,7 @@
 #ifndef GG_WALL_SYMMETRY_H
 #define GG_WALL_SYMMETRY_H
 
-#include "common/model.h"
+#include "common/surface/surfaces.h"
 
 typedef enum gg_wall_symmetry {
   GG_NO_SYMMETRY,
@@ -12,8 +12,13 @@ typedef enum gg_wall_symmetry {
 
 static inline gg_wall_symmetry gg_wall_symmetry_of(const gg_model *m)
 {
-  if (!m->walled || m->open_top || m->gravity[1] != 0) return GG_NO_SYMMETRY;
-  if (m->wall_speed == 0) return GG_MIRRORED;
+  bool still = true;
+  if (!m->walled || m->gravity[1] != 0) return GG_NO_SYMMETRY;
+  for (int w = 0; w < m->n_surfaces; w++) {
+    if (gg_surface_image(m, w) < 0) return GG_NO_SYMMETRY;
+    still &= m->surface[w].velocity.x == 0;
+  }
+  if (still) return GG_MIRRORED;
   return m->gravity[0] == 0 ? GG_TURNED : GG_NO_SYMMETRY;
 }
 

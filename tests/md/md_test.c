@@ -3,6 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/surface/shapes.h"
+#include "common/surface/surfaces.h"
+
 gg_scene md_scene(md_case c)
 {
   gg_scene s = gg_scene_defaults();
@@ -162,18 +165,86 @@ static long double next_touch(long double h, long double v, long double w)
   return first;
 }
 
-md_prediction md_oracle_walls(const gg_md *e)
+/* A grain in flight from now. */
+typedef struct flight {
+  const gg_md *e;
+  const gg_surface *surface;
+  long double r[3], v[3];
+  double radius;
+} flight;
+
+/* Any surface: all that is asked of it is how far away the grain is. */
+static double clearance_at(const flight *f, double t)
 {
-  md_prediction f = {.time = INFINITY};
-  for (uint32_t i = 0; e->model.walled && i < e->n; i++) {
-    long double r[3], v[3], w = e->gravity.y, a = e->model.diameter[gg_md_species_of(&e->grain[i])] / 2;
-    place_now(e, &e->grain[i], r, v);
-    long double lower = next_touch(r[1] - a, v[1], w);
-    long double upper = e->model.open_top ? INFINITY : next_touch(e->box.edge[1] - a - r[1], -v[1], -w);
-    if (lower < f.time) f = (md_prediction){lower, {i, GG_MD_LOWER_WALL}};
-    if (upper < f.time) f = (md_prediction){upper, {i, GG_MD_UPPER_WALL}};
+  gg_vec r;
+  for (int k = 0; k < 3; k++)
+    *gg_component(&r, k) = (double)(f->r[k] + f->v[k] * t + (long double)gg_along(&f->e->gravity, k) * t * t / 2);
+  return gg_surface_clearance(f->surface, &r, f->radius);
+}
+
+/* Where it is least (sign 1) or greatest (-1) between two times. */
+static double extreme_between(const flight *f, double a, double b, int sign)
+{
+  for (int k = 0; k < 80; k++) {
+    double m = a + 0.382 * (b - a), n = b - 0.382 * (b - a);
+    if (sign * clearance_at(f, m) < sign * clearance_at(f, n))
+      b = n;
+    else
+      a = m;
   }
-  return f;
+  return 0.5 * (a + b);
+}
+
+/* First time up to the horizon at which it falls below 0: looked for in steps of a hundredth of a diameter, and in
+ * every step where it does so, or comes near to it between. */
+static double next_touch_of(const flight *f, double horizon)
+{
+  double speed = 0;
+  for (int k = 0; k < 3; k++) speed += fabs((double)f->v[k]) + fabs(gg_along(&f->e->gravity, k)) * horizon;
+  int steps = 2 + (int)fmin(speed * horizon / 0.01, 1e6);
+  double step = horizon / steps, before = clearance_at(f, 0), now = before;
+  for (int k = 1; k <= steps; k++) {
+    double t = k * step, after = clearance_at(f, t), end = t;
+    if (after > 0 && now <= before && now <= after && now < 1e-3) {
+      end = extreme_between(f, fmax(t - 2 * step, 0), t, 1);
+      if (k > 1 && clearance_at(f, end) > 0) end = t;
+    }
+    before = now, now = after;
+    if (!(clearance_at(f, end) < 0)) continue;
+    double a = extreme_between(f, fmax(end - 2 * step, 0), end, -1), b = end;
+    if (clearance_at(f, a) < -1e-12) continue;
+    for (int m = 0; m < 100; m++) {
+      double middle = 0.5 * (a + b);
+      if (clearance_at(f, middle) > 0)
+        a = middle;
+      else
+        b = middle;
+    }
+    return b;
+  }
+  return INFINITY;
+}
+
+static long double next_contact(const flight *f, double horizon)
+{
+  const gg_surface *s = f->surface;
+  if (s->shape != GG_SHAPE_plane) return next_touch_of(f, horizon);
+  long double side = s->side, w = gg_along(&f->e->gravity, s->axis);
+  return next_touch(side * (s->place - f->r[s->axis]) - f->radius, -side * f->v[s->axis], -side * w);
+}
+
+md_prediction md_oracle_walls(const gg_md *e, double horizon)
+{
+  md_prediction first = {.time = INFINITY};
+  for (uint32_t i = 0; i < e->n; i++)
+    for (int w = 0; w < e->model.n_surfaces; w++) {
+      flight f = {.e = e, .surface = &e->model.surface[w]};
+      f.radius = 0.5 * e->model.diameter[gg_md_species_of(&e->grain[i])];
+      place_now(e, &e->grain[i], f.r, f.v);
+      long double t = next_contact(&f, horizon);
+      if (t < first.time) first = (md_prediction){t, {i, GG_MD_SURFACE(w)}};
+    }
+  return first;
 }
 
 long double md_closest(const gg_md *e)
@@ -203,7 +274,7 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
   }
   for (int a = 0; a < 3; a++) {
     double x = gg_along(&r, a), w = e->cells.width[a], lower = e->node[i].cell[a] * w;
-    bool above = e->model.open_top && a == 1 && e->node[i].cell[a] == e->cells.n[a] - 1;
+    bool above = gg_is_open_above(&e->model) && a == 1 && e->node[i].cell[a] == e->cells.n[a] - 1;
     if (x < lower - 1e-12 * e->box.edge[a] || (x > lower + w + 1e-12 * e->box.edge[a] && !above)) return false;
   }
   return true;
@@ -253,11 +324,12 @@ static bool is_in_skin(const gg_md *e, uint32_t i, gg_vec r)
   return true;
 }
 
-static bool is_between_walls(const gg_md *e, uint32_t i, gg_vec r)
+static bool is_off_surfaces(const gg_md *e, uint32_t i, gg_vec r)
 {
   double radius = 0.5 * e->model.diameter[gg_md_species_of(&e->grain[i])], room = 1e-11;
-  if (!e->model.walled) return true;
-  return r.y > radius - room && (e->model.open_top || r.y < e->box.edge[1] - radius + room);
+  for (int w = 0; w < e->model.n_surfaces; w++)
+    if (!(gg_surface_clearance(&e->model.surface[w], &r, radius) > -room)) return false;
+  return true;
 }
 
 uint32_t md_misplaced(const gg_md *e)
@@ -266,7 +338,7 @@ uint32_t md_misplaced(const gg_md *e)
   for (uint32_t i = 0; i < e->n; i++) {
     gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now);
     bool in = e->skin ? is_in_skin(e, i, r) : e->overlapping ? is_in_overlapping_cells(e, i, r) : is_in_cell(e, i, r);
-    count += !in || !is_between_walls(e, i, r);
+    count += !in || !is_off_surfaces(e, i, r);
   }
   return count;
 }

@@ -38,8 +38,8 @@ typedef struct md_prediction {
   uint32_t pair[2];
 } md_prediction;
 md_prediction md_oracle(const gg_md *e, double horizon);
-/* The same for collisions with walls alone; pair[1] is GG_MD_LOWER_WALL or GG_MD_UPPER_WALL. */
-md_prediction md_oracle_walls(const gg_md *e);
+/* The same for contacts with surfaces alone; pair[1] is GG_MD_SURFACE(which). */
+md_prediction md_oracle_walls(const gg_md *e, double horizon);
 /* Smallest distance of two centres over their contact distance. */
 long double md_closest(const gg_md *e);
 

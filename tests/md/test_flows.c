@@ -98,19 +98,22 @@ static void budgets_close(gg_scene s, uint64_t collisions)
   gg_md_ops.take_sums(&e->base, &t);
   gg_vec p = total_momentum(e);
   double M = total_mass(e), scale = 0;
-  for (int a = 0; a < 3; a++) scale += fabs(t.wall_impulse[0][a]) + fabs(t.wall_impulse[1][a]) + 1;
+  const gg_surface_sums walls = gg_sums_of_surfaces(&t);
+  for (int k = 0; k < m.n_surfaces; k++)
+    for (int a = 0; a < 3; a++) scale += fabs(t.surface[k].impulse[a]) + 1;
   for (int a = 0; a < 3; a++) {
-    double gained = gg_along(&p, a) - gg_along(&p0, a), wall = t.wall_impulse[0][a] + t.wall_impulse[1][a];
+    double gained = gg_along(&p, a) - gg_along(&p0, a), wall = walls.impulse[a];
     double given = M * gg_along(&e->gravity, a) * time;
     if (!(fabs(gained + wall - given) < 1e-10 * (scale + fabs(given))))
       fail_msg("flow %d axis %d: gained %g, walls %g, gravity %g", (int)m.flow, a, gained, wall, given);
   }
-  double pushed = -m.wall_speed * (t.wall_impulse[1][0] - t.wall_impulse[0][0]) + w.done;
-  double lost = t.wall_loss + t.loss[0] + t.loss[1] + t.loss[2], E = kinetic(e) + potential(e, e->k.now);
+  double pushed = w.done;
+  for (int k = 0; k < m.n_surfaces; k++) pushed -= m.surface[k].velocity.x * t.surface[k].impulse[0];
+  double lost = walls.loss + t.loss[0] + t.loss[1] + t.loss[2], E = kinetic(e) + potential(e, e->k.now);
   if (!(fabs(E - E0 - pushed + lost) < 1e-9 * (lost + E0)))
     fail_msg("flow %d rule %d: energy gained %g, work %g, lost %g", (int)m.flow, (int)m.rule, E - E0, pushed, lost);
-  if (!(t.wall_collisions > 100 && e->k.worst_overlap < 1e-11))
-    fail_msg("flow %d rule %d: %g wall contacts, overlap %g", (int)m.flow, (int)m.rule, (double)t.wall_collisions,
+  if (!(walls.collisions > 100 && e->k.worst_overlap < 1e-11))
+    fail_msg("flow %d rule %d: %g wall contacts, overlap %g", (int)m.flow, (int)m.rule, (double)walls.collisions,
              e->k.worst_overlap);
   md_destroy(e);
 }
@@ -171,8 +174,8 @@ static void check_wall_stress(double beta, double mu)
   }
   gg_md_ops.take_sums(&e->base, &t);
   moments(e, &last[0], &last[1]);
-  double wall[2] = {arm * (t.wall_impulse[1][0] - t.wall_impulse[0][0]) / time,
-                    arm * (t.wall_impulse[1][1] - t.wall_impulse[0][1]) / time};
+  double wall[2] = {arm * (t.surface[1].impulse[0] - t.surface[0].impulse[0]) / time,
+                    arm * (t.surface[1].impulse[1] - t.surface[0].impulse[1]) / time};
   double bulk[2] = {xy + (t.stress[0][1][0] - last[0] + first[0]) / time,
                     yy + (t.stress[0][1][1] - last[1] + first[1]) / time};
   if (!(fabs(wall[0] / bulk[0] - 1) < 0.02) || !(fabs(wall[1] / bulk[1] - 1) < 0.005))

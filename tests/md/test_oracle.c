@@ -39,7 +39,7 @@ static void advance(gg_md *e, double dt)
 static void check_next(gg_md *e, uint64_t seed)
 {
   double tolerance = 1e-10 * e->k.mean_free_time, horizon = 30 * e->k.mean_free_time / e->n;
-  md_prediction f = md_oracle(e, horizon), wall = md_oracle_walls(e);
+  md_prediction f = md_oracle(e, horizon), wall = md_oracle_walls(e, horizon);
   if (wall.time < f.time) f = wall;
   collided w;
   note_counters(&w, e);
@@ -54,7 +54,7 @@ static void check_next(gg_md *e, uint64_t seed)
   int64_t early = w.changed[0];
   advance(e, 2 * tolerance);
   find_changed(&w, e);
-  bool by_wall = f.pair[1] >= GG_MD_UPPER_WALL;
+  bool by_wall = GG_MD_NO_GRAIN(f.pair[1]);
   bool same = w.changed[0] == f.pair[0] && w.changed[1] == (by_wall ? -1 : (int64_t)f.pair[1]) && w.changed[2] == -1;
   if (early >= 0 || !same)
     fail_msg("n %u phi %g flow %d seed %d: plain search (%u, %u) after %.17Lg; engine (%d, %d, %d), %s", e->n,

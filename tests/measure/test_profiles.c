@@ -64,7 +64,7 @@ static void planted_profiles(void **state)
     assert_false(c->folded);
   }
   gg_curve_number p = ct_number(ct_find(&list, "profile_velocity"), "slip_upper");
-  ct_expect("slip", p.value, p.error, m.wall_speed - (3 * (L - 0.5) / L - 1), 0.1);
+  ct_expect("slip", p.value, p.error, m.surface[1].velocity.x - (3 * (L - 0.5) / L - 1), 0.1);
   gg_curves_clear(&list);
 }
 
@@ -161,14 +161,14 @@ static gg_curves pushed(const gg_model *m, int samples, double noise)
   void *self = gg_profiles.create(m, NULL);
   assert_int_equal(gg_snapshot_init(&s, m, true, NULL), GG_OK);
   assert_int_equal(gg_bins_init(&bins, gg_profiles.bins(self), NULL), GG_OK);
-  gg_collision_sums t = {.wall_impulse = {{1e6, 1e6, 1e6}, {1e6, 1e6, 1e6}}};
+  gg_collision_sums t = {.surface = {{.impulse = {1e6, 1e6, 1e6}}, {.impulse = {1e6, 1e6, 1e6}}}};
   gg_profiles.add_interval(self, &(gg_interval){m, &t, 1e3, 1});
   gg_profiles.restart(self);
   for (int k = 0; k < 2 * samples; k++) {
     double time = 0.5 + 0.1 * (k % 7);
     for (int wall = 0; wall < 2; wall++)
       for (int a = 0; a < 3; a++)
-        t.wall_impulse[wall][a] = P[wall][a] * m->box[0] * m->box[2] * time * (1 + noise * gg_rng_normal(&r));
+        t.surface[wall].impulse[a] = P[wall][a] * m->box[0] * m->box[2] * time * (1 + noise * gg_rng_normal(&r));
     gg_profiles.add_interval(self, &(gg_interval){m, &t, time, 1});
     if (k % 2 == 0) continue;
     gg_profiles.add_snapshot(self, &s, gg_bins_sample(&bins));
@@ -226,7 +226,7 @@ static void couette(void **state)
     variance += pow(u->error[i], 2) + pow(u->error[n - 1 - i], 2);
   }
   print_message("# u(y) + u(L - y): %.4f, errors %.4f; u from %.3f to %.3f, walls at +-%.3f\n", odd, sqrt(variance),
-                u->value[2], u->value[n - 3], r->model.wall_speed);
+                u->value[2], u->value[n - 3], r->model.surface[1].velocity.x);
   assert_true(u->value[n - 3] > 10 * u->error[n - 3] && u->value[2] < -10 * u->error[2]);
   gg_curve_number lower = ct_number(u, "slip_lower"), upper = ct_number(u, "slip_upper");
   print_message("# slip %.3f +- %.3f and %.3f +- %.3f\n", lower.value, lower.error, upper.value, upper.error);

@@ -77,7 +77,7 @@ static double value(gg_quantity q, const double *row, const gg_model *m)
 static gg_collision_sums planted_transfer(int species)
 {
   static const double collisions[] = {100, 20, 30}, loss[] = {7, 5, 3};
-  gg_collision_sums t = {.wall_loss = 0};
+  gg_collision_sums t = {.surface = {{.loss = 0}}};
   for (int q = 0; q < 3; q++) {
     int into = species > 1 ? q : GG_11;
     t.collisions[into] += (uint64_t)collisions[q], t.loss[into] += loss[q];

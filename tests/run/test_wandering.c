@@ -151,7 +151,7 @@ static void parities(void **state)
   for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_wall_mode_is_odd(&m, k), turned[k]);
   m.gravity[0] = 1;
   for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_wall_mode_is_odd(&m, k));
-  m.wall_speed = 0;
+  m.surface[0].velocity.x = m.surface[1].velocity.x = 0;
   for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_wall_mode_is_odd(&m, k), mirrored[k]);
   m.gravity[1] = -1;
   for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_wall_mode_is_odd(&m, k));

@@ -1,5 +1,7 @@
 #include "io/h5/particles.h"
 
+#include "common/surface/surfaces.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,11 +25,11 @@ static void start_vectors(gg_h5 *h, gg_h5_particles *p, gg_h5_rows *rows, const 
 static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
 {
   const int dimension = 3;
-  const char *walls = gg_flow_is_walled(model->flow) ? "none" : "periodic";
-  const char *const periodic[3] = {"periodic", walls, "periodic"}, *const nowhere[3] = {"none", "none", "none"};
+  const char *boundary[3];
+  for (int a = 0; a < dimension; a++) boundary[a] = !p->boxed || gg_is_closed(model, a) ? "none" : "periodic";
   gg_h5_group(h, GRAINS "box");
   gg_h5_ints_attribute(h, GRAINS "box", "dimension", &dimension, 0);
-  gg_h5_texts_attribute(h, GRAINS "box", "boundary", p->boxed ? periodic : nowhere, 3);
+  gg_h5_texts_attribute(h, GRAINS "box", "boundary", boundary, 3);
   if (!p->boxed) return;
   const hsize_t row[2] = {3, 3};
   gg_h5_rows_create(h, &p->edges, GRAINS "box/edges/value", H5T_NATIVE_DOUBLE, 2, row);

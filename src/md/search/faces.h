@@ -2,6 +2,7 @@
 #ifndef GG_MD_SEARCH_FACES_H
 #define GG_MD_SEARCH_FACES_H
 
+#include "common/surface/fall.h"
 #include "md/search/search.h"
 #include "simd/axes.h"
 
@@ -24,8 +25,8 @@ GG_INLINE double gg_md_fall_out(const gg_md *e, const gg_md_search *s, int axis,
   const int32_t *cell = e->node[s->grain].cell;
   bool bottom = axis == 1 && gg_md_is_wall_below(e, cell), top = axis == 1 && gg_md_is_wall_above(e, cell);
   double w = gg_along(&e->gravity, axis);
-  double down = bottom ? INFINITY : gg_md_fall_delay(x - cell[axis] * width, -v, -w);
-  double up = top ? INFINITY : gg_md_fall_delay((cell[axis] + 1) * width - x, v, w);
+  double down = bottom ? INFINITY : gg_fall_delay(x - cell[axis] * width, -v, -w);
+  double up = top ? INFINITY : gg_fall_delay((cell[axis] + 1) * width - x, v, w);
   *face = 2 * axis + (up < down);
   return up < down ? up : down;
 }

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "common/cube_root.h"
+#include "common/surface/shapes.h"
 #include "md/start/place.h"
 
 enum { BETWEEN_LOOKS = 1 << 13 }; /* grains: some milliseconds */
@@ -84,7 +85,7 @@ static void into_box(const gg_md_packing *p, uint32_t i)
 {
   for (int a = 0; a < 3; a++) {
     double *x = gg_component(&p->r[i], a), edge = p->box.edge[a], radius = 0.5 * p->diameter[i];
-    if (p->walled && a == 1) {
+    if (p->box.inverse[a] == 0) {
       if (*x < radius) *x = radius;
       if (*x > edge - radius) *x = edge - radius;
     } else {
@@ -92,6 +93,8 @@ static void into_box(const gg_md_packing *p, uint32_t i)
       if (!(*x < edge)) *x = 0;
     }
   }
+  for (int w = 0; w < p->model->n_surfaces; w++)
+    gg_surface_put_outside(&p->model->surface[w], 0.5 * p->diameter[i], &p->r[i]);
 }
 
 static gg_status sweep_once(gg_md_packing *p, double margin, bool pushing, bool *free, gg_error *err)

@@ -4,14 +4,15 @@
 
 #include <stdbool.h>
 
+#include "common/model.h"
 #include "common/rng.h"
 #include "common/stop.h"
 #include "md/cells.h"
 
 /* Centres and diameters in a box, on their way to a state without overlaps. */
 typedef struct gg_md_packing {
-  gg_md_box box; /* inverse[1] = 0 between walls */
-  bool walled;   /* no closer to the ends of y than a radius */
+  gg_md_box box;         /* inverse[a] = 0: closed along a, no closer to its ends than a radius */
+  const gg_model *model; /* whose surfaces keep the centres off */
   uint32_t n;
   gg_vec *r;
   const double *diameter;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/surface/surfaces.h"
 #include "md/start/place.h"
 #include "md/state.h"
 
@@ -56,7 +57,7 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_er
     for (int a = 0; a < 3; a++) *gg_component(&r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
   GG_TRY(gg_md_place_sort(&e->box, r, e->n, e->model.stop, err));
   deal_species(e, diameter, rng);
-  gg_md_packing p = {.box = e->box, .walled = e->model.walled, .n = e->n, .r = r, .diameter = diameter};
+  gg_md_packing p = {.box = e->box, .model = &e->model, .n = e->n, .r = r, .diameter = diameter};
   p.stop = e->model.stop;
   gg_status status = relax(e, &p, rng, err);
   gg_md_cells_free(&p.cells);
@@ -65,6 +66,13 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_er
     e->id[i] = i;
   }
   return status;
+}
+
+/* How much faster the upper wall is than the lower one. */
+static double wall_shear(const gg_md *e)
+{
+  const gg_surface *lower = gg_surface_at(&e->model, 1, -1), *upper = gg_surface_at(&e->model, 1, 1);
+  return lower && upper ? upper->velocity.x - lower->velocity.x : 0;
 }
 
 /* Gaussian velocities, at rest as a whole, and exactly at temperature T: sum m c^2 = 3 N T. */
@@ -87,7 +95,7 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   for (uint32_t i = 0; i < e->n; i++) {
     gg_md_grain *g = &e->grain[i];
     g->v = gg_scale(scale, g->v);
-    double rate = e->model.shear_rate + 2 * e->model.wall_speed / e->box.edge[1]; /* the laminar profile */
+    double rate = e->model.shear_rate + wall_shear(e) / e->box.edge[1]; /* the laminar profile */
     g->v.x += rate * (g->r.y - 0.5 * e->box.edge[1]);
   }
 }

@@ -1,0 +1,38 @@
+/* A surface that grains bounce off: what engine, sums, profiles and files know of a wall. The model holds a list of
+ * them (common/model.h), surfaces.c makes it from a scene, and shapes.h says what a shape can be asked.
+ *
+ * Surfaces bound the gas across y at least: there is no period along y where a model has any. */
+#ifndef GG_SURFACE_H
+#define GG_SURFACE_H
+
+#include "common/collision.h"
+#include "common/scene.h"
+#include "common/vec.h"
+
+enum { GG_MOST_SURFACES = 6 };
+
+/* Lengths, speeds and masses in the model's units. */
+typedef struct gg_surface {
+  const char *word;  /* in tables and files: "lower", as in wall_P_yy_lower */
+  const char *title; /* in text: "a wall below" */
+  int shape;         /* GG_SHAPE_... (shapes.h) */
+  int axis;          /* it lies across this axis, from 0 ... */
+  double side;     /* ... at the gas's upper (1) or lower (-1) end of it: the grain's way into it is side e_axis ... */
+  double place;    /* ... and begins there */
+  gg_vec velocity; /* of the material */
+  gg_contact contact[GG_MAX_SPECIES]; /* grain (1) against the surface (2) */
+  gg_contact treated[GG_MAX_SPECIES]; /* the same with e = 1, for the contact-time rule */
+} gg_surface;
+
+/* A grain in flight: centre, velocity, acceleration. */
+typedef struct gg_flight {
+  const gg_vec *r, *v, *g;
+  double radius;
+} gg_flight;
+
+/* A box in space. */
+typedef struct gg_region {
+  double from[3], to[3];
+} gg_region;
+
+#endif
