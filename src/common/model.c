@@ -130,15 +130,16 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 /* Smooth grains have no spin to take up what a rough wall gives: it acts on their centres (with beta_w = 0 the flat
  * wall of type A of Campbell, J. Fluid Mech. 247 (1993) 111). With spins that nothing else changes, the torques of both
  * walls would have to cancel in a steady state, and with them the shear stress. */
-static void set_walls(gg_model *m, const gg_scene *s, double time_unit)
+static gg_status set_walls(gg_model *m, const gg_scene *s, double time_unit, gg_error *err)
 {
   bool spinless = m->rule == GG_SMOOTH;
-  gg_surfaces_make(s, !spinless, time_unit, m);
+  GG_TRY(gg_surfaces_make(s, !spinless, time_unit, m, err));
   m->walled = m->n_surfaces > 0;
   m->wall_rule = m->walled ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
   if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;
   if (!spinless) m->rule = later_rule(m->rule, m->wall_rule);
+  return GG_OK;
 }
 
 /* Steady temperature in units of (d rate)^2 from the balance of dilute viscous heating and dissipation, to start near.
@@ -238,7 +239,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   double time_unit = 1;
   if (sheared) time_unit = 1 / s->shear_rate;
   if (gg_flow_has_moving_walls(s->flow)) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
-  set_walls(m, s, time_unit);
+  GG_TRY(set_walls(m, s, time_unit, err));
   for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
   m->contact_time = m->elastic                      ? 0
                     : s->md.contact_time != GG_AUTO ? s->md.contact_time

@@ -19,6 +19,7 @@ typedef struct gg_surface {
   int axis;          /* it lies across this axis, from 0 ... */
   double side;     /* ... at the gas's upper (1) or lower (-1) end of it: the grain's way into it is side e_axis ... */
   double place;    /* ... and begins there */
+  double radius;   /* of curved shapes */
   gg_vec velocity; /* of the material */
   gg_contact contact[GG_MAX_SPECIES]; /* grain (1) against the surface (2) */
   gg_contact treated[GG_MAX_SPECIES]; /* the same with e = 1, for the contact-time rule */

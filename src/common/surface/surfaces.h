@@ -5,8 +5,8 @@
 #include "common/model.h"
 
 /* Those of this scene; box, composition and gravity of the model are known. Grains without spins are acted on at their
- * centres. `time_unit` of the model in the user's. */
-void gg_surfaces_make(const gg_scene *scene, bool spins, double time_unit, gg_model *model);
+ * centres. `time_unit` of the model in the user's. GG_BAD_INPUT where they leave no room for the gas. */
+gg_status gg_surfaces_make(const gg_scene *scene, bool spins, double time_unit, gg_model *model, gg_error *err);
 
 /* The plain or other surface at the upper (1) or lower (-1) end of an axis; NULL: none. */
 const gg_surface *gg_surface_at(const gg_model *model, int axis, double side);

@@ -1,0 +1,168 @@
+/* Proves: every shape says when a grain in flight touches it, straight or on a parabola, as a search in small steps
+ * along its clearance does; at the contact the normal points along the clearance's gradient; a grain that was put
+ * outside touches or is clear, and touches nowhere else than its height says; what touches and leaves is not touched at
+ * once. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "common/rng.h"
+#include "common/surface/shapes.h"
+
+static const gg_surface surfaces[] = {
+    {.shape = GG_SHAPE_plane, .axis = 1, .side = -1, .place = 0},
+    {.shape = GG_SHAPE_plane, .axis = 1, .side = 1, .place = 9},
+    {.shape = GG_SHAPE_plane, .axis = 2, .side = 1, .place = 9},
+};
+enum { SURFACES = sizeof surfaces / sizeof *surfaces, FLIGHTS = 3000, STEPS = 4000 };
+static const double edge = 9, cell = 1.5, horizon = 6;
+
+static double within(gg_rng *r, double from, double to)
+{
+  return from + (to - from) * gg_rng_uniform(r);
+}
+
+static gg_vec at(const gg_flight *f, double t)
+{
+  return gg_axpy(0.5 * t * t, *f->g, gg_axpy(t, *f->v, *f->r));
+}
+
+static double clearance(const gg_surface *s, const gg_flight *f, double t)
+{
+  gg_vec r = at(f, t);
+  return gg_surface_clearance(s, &r, f->radius);
+}
+
+/* The first step in which it falls below 0, halved until nothing is left; `from` says where it is above. */
+static double search(const gg_surface *s, const gg_flight *f, double from, double to)
+{
+  for (int k = 1; k <= STEPS; k++) {
+    double a = from + (to - from) * (k - 1) / STEPS, b = from + (to - from) * k / STEPS;
+    if (!(clearance(s, f, b) < 0)) continue;
+    for (int m = 0; m < 100; m++) {
+      double middle = 0.5 * (a + b);
+      if (clearance(s, f, middle) > 0)
+        a = middle;
+      else
+        b = middle;
+    }
+    return b;
+  }
+  return INFINITY;
+}
+
+/* When the centre leaves the cell along x; STEPS are as fine as those of the search. */
+static double leaves(const gg_flight *f, const gg_region *where)
+{
+  for (int k = 1; k <= STEPS; k++) {
+    double t = horizon * k / STEPS, x = at(f, t).x;
+    if (x < where->from[0] || x > where->to[0]) return horizon * (k - 1) / STEPS;
+  }
+  return horizon;
+}
+
+/* A grain in a random cell, clear of the surface, in flight; gravity in half of the cases, along any direction. */
+static gg_region start(const gg_surface *s, gg_rng *r, gg_vec v[3], double radius)
+{
+  gg_region where;
+  do {
+    for (int a = 0; a < 3; a++) {
+      where.from[a] = cell * gg_rng_below(r, 6);
+      where.to[a] = where.from[a] + cell;
+      *gg_component(&v[0], a) = within(r, where.from[a], where.to[a]);
+    }
+  } while (gg_surface_clearance(s, &v[0], radius) < 1e-3);
+  v[1] = gg_rng_normal_vec(r);
+  v[2] = gg_scale(gg_rng_below(r, 2) ? 0.7 : 0, gg_rng_normal_vec(r));
+  return where;
+}
+
+/* Steps are 0.0015 long in time: two contacts in one of them, where it only just dips below 0, are missed by the
+ * search.
+ */
+static void contacts(void **state)
+{
+  (void)state;
+  gg_rng r = gg_rng_seed(1, 2);
+  for (int w = 0; w < SURFACES; w++) {
+    const gg_surface *s = &surfaces[w];
+    int met = 0, missed = 0;
+    for (int k = 0; k < FLIGHTS; k++) {
+      gg_vec v[3];
+      double radius = within(&r, 0.2, 0.5);
+      gg_region where = start(s, &r, v, radius);
+      const gg_flight f = {&v[0], &v[1], &v[2], radius};
+      double end = leaves(&f, &where), found = search(s, &f, 0, end), told = gg_surface_delay(s, &f, &where);
+      met += found < end;
+      if (told < found - 1e-3 && told < end && clearance(s, &f, told + 1e-6) < clearance(s, &f, told - 1e-6) &&
+          fabs(clearance(s, &f, told)) < 1e-12) {
+        missed++; /* it dips */
+        continue;
+      }
+      if (!(found < end ? fabs(told - found) < 1e-9 : told >= end - 1e-9))
+        fail_msg("surface %d, flight %d: searched %.15g, told %.15g, in the cell until %g", w, k, found, told, end);
+    }
+    print_message("# surface %d: %d contacts in %d flights, %d dips\n", w, met, (int)FLIGHTS, missed);
+    assert_true(met > FLIGHTS / 50 && missed < FLIGHTS / 100);
+  }
+}
+
+static void normals(void **state)
+{
+  (void)state;
+  gg_rng r = gg_rng_seed(1, 3);
+  for (int k = 0; k < FLIGHTS; k++) {
+    const gg_surface *s = &surfaces[k % SURFACES];
+    gg_vec p = {within(&r, 0, edge), within(&r, 0, edge), within(&r, 0, edge)};
+    double radius = within(&r, 0.2, 0.5), h = 1e-6;
+    gg_surface_put_outside(s, radius, &p);
+    assert_true(gg_surface_clearance(s, &p, radius) > -1e-14);
+    double depth = s->side * (s->place - gg_along(&p, s->axis));
+    if (gg_surface_clearance(s, &p, radius) < 1e-12) assert_true(depth < gg_surface_height(s) + radius + 1e-12);
+    gg_vec normal = gg_surface_normal(s, &p);
+    assert_true(fabs(gg_dot(normal, normal) - 1) < 1e-14);
+    for (int a = 0; a < 3; a++) {
+      gg_vec up = p, down = p;
+      *gg_component(&up, a) += h, *gg_component(&down, a) -= h;
+      double slope = (gg_surface_clearance(s, &up, radius) - gg_surface_clearance(s, &down, radius)) / (2 * h);
+      assert_true(fabs(slope + gg_along(&normal, a)) < 1e-8);
+    }
+  }
+}
+
+/* A grain that has just bounced off, and falls back: not now, and when a search from a little later says. */
+static void leaving(void **state)
+{
+  (void)state;
+  gg_rng r = gg_rng_seed(1, 4);
+  for (int k = 0; k < FLIGHTS; k++) {
+    const gg_surface *s = &surfaces[k % SURFACES];
+    const gg_region everywhere = {{0, 0, 0}, {edge, edge, edge}};
+    double radius = within(&r, 0.2, 0.5);
+    gg_vec p = {within(&r, 3, 6), within(&r, 3, 6), within(&r, 3, 6)}, v = gg_scale(0.2, gg_rng_normal_vec(&r));
+    *gg_component(&p, s->axis) = s->place;
+    gg_surface_put_outside(s, radius, &p);
+    gg_vec normal = gg_surface_normal(s, &p), g = gg_scale(0.5, normal);
+    v = gg_axpy(-gg_dot(v, normal) - 0.3, normal, v);
+    const gg_flight f = {&p, &v, &g, radius};
+    double told = gg_surface_delay(s, &f, &everywhere), early = 1e-4, found = search(s, &f, early, 2);
+    assert_true(told > 1e-9 && (told == INFINITY || fabs(clearance(s, &f, told)) < 1e-12));
+    if (told > early && found < 2 && fabs(told - found) > 1e-9)
+      fail_msg("surface %d: %g, not %g", k % SURFACES, told, found);
+    v = gg_axpy(1, normal, v); /* and one that comes: now */
+    assert_true(gg_surface_delay(s, &f, &everywhere) < 1e-12);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(contacts),
+      cmocka_unit_test(normals),
+      cmocka_unit_test(leaving),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
