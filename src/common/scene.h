@@ -41,7 +41,7 @@ struct gg_scene {
   int n_species;
   gg_species species[GG_MAX_SPECIES];
   struct {
-    double e, beta, mu, speed;
+    double e, beta, mu, speed, ridges;
     gg_top top; /* chute: is there an upper wall? */
   } walls;
   double gravity[3];

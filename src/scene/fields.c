@@ -77,6 +77,10 @@ const gg_field gg_scene_fields[] = {
      .when = {&gg_if_walled, &gg_if_openable}},
     {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), SMALL, LARGE, .unit = "velocity",
      .doc = "of walls that move: those at +-L_y/2 at +-speed", .when = {&gg_if_walled, &gg_if_moving_walls}},
+    {"walls.ridges", GG_FIELD_NUMBER, AT(walls.ridges), 0, LARGE, .unit = "length",
+     .doc = "diameter of half cylinders side by side on walls at rest, across the flow, so that a whole number stands "
+            "there; 0: flat walls",
+     .when = {&gg_if_walled}},
     {"gravity", GG_FIELD_VECTOR, AT(gravity), -1e12, 1e12, .unit = "acceleration",
      .doc = "body force per mass; in flows between walls, some of which have another default", .when = {&gg_if_walled},
      .also = "g"},

@@ -11,8 +11,9 @@
 #define GG_SURFACE_SHAPES_H
 
 #include "common/surface/plane.h"
+#include "common/surface/ridges.h"
 
-#define GG_EACH_SHAPE(X) X(plane)
+#define GG_EACH_SHAPE(X) X(plane) X(ridges)
 
 #define GG_SHAPE(name) GG_SHAPE_##name,
 enum { GG_EACH_SHAPE(GG_SHAPE) GG_SHAPES };

@@ -26,6 +26,16 @@ static gg_status check_room(const gg_model *m, gg_error *err)
                  room, m->box[1], 2 * widest);
 }
 
+/* Flat, or with half cylinders of so great a diameter that a whole number of them stands along x. */
+static void set_shape(gg_surface *wall, const gg_scene *s, const gg_model *m)
+{
+  if (s->walls.ridges == 0) return;
+  double number = fmax(1, round(m->box[0] * s->species[0].diameter / s->walls.ridges));
+  wall->shape = GG_SHAPE_ridges;
+  wall->radius = 0.5 * m->box[0] / number;
+  wall->title = wall->side > 0 ? "a ridged wall above" : "a ridged wall below";
+}
+
 static gg_surface end_of_gap(const gg_model *m, double side, double speed)
 {
   return (gg_surface){.word = side > 0 ? "upper" : "lower",
@@ -43,7 +53,15 @@ gg_status gg_surfaces_make(const gg_scene *s, bool spins, double time_unit, gg_m
   bool open = gg_flow_of(s->flow)->may_be_open && s->walls.top == GG_OPEN_TOP;
   m->n_surfaces = 0;
   if (!gg_flow_is_walled(s->flow)) return GG_OK;
-  for (double side = -1; side <= (open ? -1 : 1); side += 2) add(m, s, spins, end_of_gap(m, side, speed));
+  if (s->walls.ridges != 0 && (speed != 0 || s->walls.ridges < 0.1 * s->species[0].diameter))
+    return gg_fail(err, GG_BAD_INPUT,
+                   "walls.ridges: %g; allowed: 0 (flat), or on walls at rest at least a tenth of the diameter",
+                   s->walls.ridges);
+  for (double side = -1; side <= (open ? -1 : 1); side += 2) {
+    gg_surface wall = end_of_gap(m, side, speed);
+    set_shape(&wall, s, m);
+    add(m, s, spins, wall);
+  }
   return check_room(m, err);
 }
 
