@@ -16,6 +16,8 @@ static const gg_surface surfaces[] = {
     {.shape = GG_SHAPE_plane, .axis = 1, .side = -1, .place = 0},
     {.shape = GG_SHAPE_plane, .axis = 1, .side = 1, .place = 9},
     {.shape = GG_SHAPE_plane, .axis = 2, .side = 1, .place = 9},
+    {.shape = GG_SHAPE_ridges, .axis = 1, .side = -1, .place = 0, .radius = 0.5},
+    {.shape = GG_SHAPE_ridges, .axis = 1, .side = 1, .place = 9, .radius = 0.75},
 };
 enum { SURFACES = sizeof surfaces / sizeof *surfaces, FLIGHTS = 3000, STEPS = 4000 };
 static const double edge = 9, cell = 1.5, horizon = 6;

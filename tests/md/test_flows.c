@@ -118,20 +118,23 @@ static void budgets_close(gg_scene s, uint64_t collisions)
   md_destroy(e);
 }
 
-/* Couette, Poiseuille, chute under a lid and chute with an open top; smooth, rough, frictional; one and two species. */
+/* Couette, Poiseuille, chute under a lid and chute with an open top, Poiseuille between ridges; smooth, rough,
+ * frictional; one and two species. */
 static void budgets(void **state)
 {
   (void)state;
-  static const gg_flow flows[] = {GG_COUETTE, GG_POISEUILLE, GG_CHUTE, GG_CHUTE};
+  static const gg_flow flows[] = {GG_COUETTE, GG_POISEUILLE, GG_CHUTE, GG_CHUTE, GG_POISEUILLE};
   static const double betas[] = {-1, 0.5, 0.4}, mus[] = {INFINITY, INFINITY, 0.2};
   for (int two = 0; two < 2; two++)
-    for (int k = 0; k < 12; k++) {
+    for (int k = 0; k < 15; k++) {
       int flow = k / 3, rule = k % 3;
       gg_scene s = (two ? mixture : scene)(flows[flow], 200, 0.2, 0.9, betas[rule]);
       for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = mus[rule];
       s.walls.beta = 0.3, s.walls.mu = rule == 2 && flow != 1 ? 0.3 : INFINITY; /* sliding walls would let a plug go */
       if (flow > 0) s.gravity[0] = 0.1;
-      if (flow > 1) s.gravity[1] = -0.1, s.md.contact_time = 0.01; /* a thin layer slides down: mostly wall contacts */
+      if (flow == 4) s.walls.ridges = 1.2;
+      if (flow == 2 || flow == 3)
+        s.gravity[1] = -0.1, s.md.contact_time = 0.01; /* a thin layer slides down: mostly wall contacts */
       if (flow == 3) s.walls.top = GG_OPEN_TOP;
       budgets_close(s, 20000);
     }
@@ -182,6 +185,50 @@ static void check_wall_stress(double beta, double mu)
     fail_msg("beta %g: walls: xy %g, yy %g; bulk %g, %g", beta, wall[0], wall[1], bulk[0], bulk[1]);
   if (!(wall[0] < -0.1 * wall[1])) fail_msg("beta %g: no shear: xy %g, yy %g", beta, wall[0], wall[1]);
   md_destroy(e);
+}
+
+/* An elastic gas at rest presses on every surface as its density in the middle says, where no wall is near (Carnahan &
+ * Starling, exact to 10^-4 so dilute). The temperature is exact: the energy is what it was. */
+static void check_pressure(gg_scene s)
+{
+  enum { BLOCKS = 40, SAMPLES = 200 };
+  s.walls.e = 1, s.walls.beta = -1;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 4);
+  double area = m.box[0] * m.box[2], sum[GG_MOST_SURFACES] = {0}, squares[GG_MOST_SURFACES] = {0}, mean = 0;
+  gg_md_ops.keep_sums(&e->base, true);
+  for (int b = -2; b < BLOCKS; b++) { /* the first two: until it is in equilibrium */
+    gg_collision_sums t;
+    double middle = 0, time = 0, gone;
+    for (int k = 0; k < SAMPLES; k++) {
+      assert_int_equal(gg_md_ops.advance(&e->base, 0.7, UINT64_MAX, &gone, NULL), GG_OK);
+      time += gone;
+      for (uint32_t i = 0; i < e->n; i++)
+        middle += fabs(gg_md_position(e, e->falls, &e->grain[i], e->k.now).y / m.box[1] - 0.5) < 0.25;
+    }
+    gg_md_ops.take_sums(&e->base, &t);
+    double n = middle / SAMPLES / (m.volume / 2), phi = M_PI / 6 * n, free = 1 - phi;
+    double p = n * m.temperature0 * (1 + phi + phi * phi - phi * phi * phi) / (free * free * free);
+    for (int w = 0; b >= 0 && w < m.n_surfaces; w++) {
+      double d = m.surface[w].side * t.surface[w].impulse[1] / (area * time) - p;
+      sum[w] += d / BLOCKS, squares[w] += d * d / BLOCKS, mean += p / (BLOCKS * m.n_surfaces);
+    }
+  }
+  for (int w = 0; w < m.n_surfaces; w++) {
+    double error = sqrt((squares[w] - sum[w] * sum[w]) / (BLOCKS - 1));
+    print_message("# %s: %.5f of the pressure too much, error %.5f\n", m.surface[w].title, sum[w] / mean, error / mean);
+    assert_true(fabs(sum[w]) < 4 * error && error < 0.01 * mean);
+  }
+  md_destroy(e);
+}
+
+static void walls_feel_the_pressure(void **state)
+{
+  (void)state;
+  gg_scene s = scene(GG_POISEUILLE, 500, 0.05, 1, -1);
+  check_pressure(s);
+  s.walls.ridges = 2;
+  check_pressure(s);
 }
 
 /* Smooth grains, too, are driven: rough walls act on their centres. */
@@ -273,12 +320,13 @@ static void white_noise_keeps_warm(void **state)
 static void restarts(void **state)
 {
   (void)state;
-  gg_scene scenes[] = {mixture(GG_USF, 150, 0.2, 0.9, 0), mixture(GG_COUETTE, 150, 0.2, 0.9, 0),
+  gg_scene scenes[] = {mixture(GG_USF, 150, 0.2, 0.9, 0),   mixture(GG_COUETTE, 150, 0.2, 0.9, 0),
                        scene(GG_CHUTE, 150, 0.1, 0.9, 0.5), scene(GG_HSS, 150, 0.1, 0.9, -1),
-                       scene(GG_HSS, 150, 0.1, 0.9, -1)};
+                       scene(GG_HSS, 150, 0.1, 0.9, -1),    scene(GG_CHUTE, 150, 0.1, 0.9, 0.5)};
   scenes[2].gravity[1] = -0.1, scenes[2].walls.top = GG_OPEN_TOP;
   scenes[4].thermostat = GG_WHITE_NOISE;
-  for (int k = 0; k < 5; k++) {
+  scenes[5].gravity[0] = 0.05, scenes[5].gravity[1] = -0.1, scenes[5].walls.ridges = 1;
+  for (int k = 0; k < 6; k++) {
     gg_model m = md_model_of(&scenes[k]);
     gg_md *e = md_create(&m, 1), *cut = md_create(&m, 1);
     gg_engine *back = NULL;
@@ -307,6 +355,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(budgets),
       cmocka_unit_test(wall_stress_is_bulk_stress),
+      cmocka_unit_test(walls_feel_the_pressure),
       cmocka_unit_test(equipartition),
       cmocka_unit_test(gaussian_is_free_cooling),
       cmocka_unit_test(white_noise_keeps_warm),

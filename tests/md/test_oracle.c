@@ -159,6 +159,25 @@ static void under_gravity(void **state)
   many(GG_CHUTE, true, 20, 1100);
 }
 
+/* Half cylinders on the walls, met on parabolas; also grains that lie between two of them. */
+static void ridged(void **state)
+{
+  (void)state;
+  static const double ridges[] = {0.5, 1, 1.7}, betas[] = {-1, 0.5, 0.4}, mus[] = {INFINITY, INFINITY, 0.3};
+  for (int k = 0; k < 24; k++) {
+    gg_scene s = md_scene((md_case){k % 2 ? GG_CHUTE : GG_POISEUILLE, 40, 0.1, 0.8, betas[k % 3], mus[k % 3], {0}});
+    s.md.contact_time = 1e-3;
+    s.walls.ridges = ridges[k / 2 % 3], s.walls.beta = 0.5;
+    s.gravity[0] = 0.3, s.gravity[1] = k % 2 ? -0.5 : 0;
+    if (k % 4 == 3) s.walls.top = GG_OPEN_TOP;
+    if (k >= 12) {
+      s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5;
+      s.species[1].diameter = 0.6, s.species[1].mass = 0.4;
+    }
+    follow(&s, 1300 + (uint64_t)k, 60, 60);
+  }
+}
+
 static void one(md_case c, uint64_t seed, int warm, int events)
 {
   gg_scene s = md_scene(c);
@@ -306,6 +325,7 @@ int main(void)
       cmocka_unit_test(mixtures),
       cmocka_unit_test(between_walls),
       cmocka_unit_test(under_gravity),
+      cmocka_unit_test(ridged),
       cmocka_unit_test(dense),
       cmocka_unit_test(few_grains),
       cmocka_unit_test(listed),
