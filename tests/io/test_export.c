@@ -82,7 +82,8 @@ static void values(void **state)
 
 static void numbers(void **state)
 {
-  const double hard[] = {0.1, 1.0 / 3, 0.1 + 0.2, 1e-310, -1.7976931348623157e308, 123456789012345678, 0, -0.0, 5e-324};
+  const double hard[] = {0.1, 1.0 / 3, 0.1 + 0.2, 1e-310, -1.7976931348623157e308, 1.2345678901234567e17,
+                         0,   -0.0,    5e-324};
   char text[GG_NUMBER_TEXT];
   (void)state;
   for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
