@@ -179,7 +179,7 @@ const struct gg_theory *gg_extension_face(const gg_extension *x, int index)
 gg_restitution_law gg_extension_law(const gg_extension *x)
 {
   while (x && !x->is_law) x = x->before;
-  return x ? x->law : (gg_restitution_law){0};
+  return x && x->law.e ? x->law : (gg_restitution_law){0};
 }
 
 void gg_extension_signature(const gg_extension *x, char *text, size_t size)

@@ -89,7 +89,7 @@ static void set_restitution(gg_model *m, int i, int j, double e)
 
 void gg_model_at(gg_model *m, double T)
 {
-  for (int i = 0; m->law.e && i < m->n_species; i++)
+  for (int i = 0; m->law.name && i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       double speed = sqrt(M_PI / 2 * T * (1 / m->mass[i] + 1 / m->mass[j]));
       set_restitution(m, i, j, gg_law_at(&m->law, speed, i, j));
@@ -157,7 +157,7 @@ static double guess_sheared_temperature(const gg_model *m)
 static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
 {
   double speed = s->shear_rate * s->species[0].diameter;
-  for (int round = 0; round < (m->law.e ? 5 : 1); round++) {
+  for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
     m->temperature0 = gg_flow_is_timed_by_shear(s->flow) ? guess_sheared_temperature(m) : 0.5;
     if (sheared && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
     gg_model_at(m, m->temperature0);
@@ -217,14 +217,39 @@ static gg_status check_scales(const gg_scene *s, gg_error *err)
                  starts_within[1] * speed * speed);
 }
 
+/* collision.speed in units of results: `unit` times that of the user. */
+static void set_reference_speed(gg_model *m, const gg_scene *s, double unit)
+{
+  if (s->collision.speed == GG_AUTO) return;
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++) m->law.scale[p] /= s->collision.speed * unit;
+}
+
+/* The user's own law, or that of collision.law: its units of speed are such that e is collision.e at collision.speed.
+ */
+static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
+{
+  m->law = gg_extension_law(s->extension);
+  if (m->law.e || s->collision.law == GG_LAW_CONSTANT) return GG_OK;
+  m->law.kind = s->collision.law;
+  m->law.name = gg_law_name(m->law.kind);
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
+    const double e = s->collision.e[p];
+    if (e < GG_LAW_LEAST_E)
+      return gg_fail(err, GG_BAD_INPUT, "key 'collision.e': %g with collision.law %s; allowed: from %g to 1", e,
+                     m->law.name, GG_LAW_LEAST_E);
+    m->law.scale[p] = gg_law_speed_of(m->law.kind, 1 - e);
+  }
+  return GG_OK;
+}
+
 gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
 {
   if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   GG_TRY(check_scales(s, err));
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat, .extension = s->extension};
-  m->law = gg_extension_law(s->extension);
+  GG_TRY(set_law(m, s, err));
   m->linear_response = gg_flow_of(s->flow)->linear_response;
-  if (m->law.e && m->linear_response)
+  if (m->law.name && m->linear_response)
     return gg_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
                    gg_flow_of(s->flow)->word, m->law.name);
   bool sheared = gg_flow_is_sheared(s->flow);
@@ -240,6 +265,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   if (sheared) time_unit = 1 / s->shear_rate;
   if (gg_flow_has_moving_walls(s->flow)) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
   GG_TRY(set_walls(m, s, time_unit, err));
+  set_reference_speed(m, s, sheared || m->walled ? time_unit / s->species[0].diameter : 1);
   for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
   m->contact_time = m->elastic                      ? 0
                     : s->md.contact_time != GG_AUTO ? s->md.contact_time

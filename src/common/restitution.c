@@ -2,6 +2,44 @@
 
 #include <math.h>
 
+#define WORD(NAME, name, description) [GG_LAW_##NAME] = #name,
+static const char *const names[GG_N_LAWS] = {[GG_LAW_CONSTANT] = "constant", GG_LAWS(WORD)};
+#undef WORD
+#define LOSS(NAME, name, description) [GG_LAW_##NAME] = gg_loss_##name,
+static gg_loss *const losses[GG_N_LAWS] = {[GG_LAW_CONSTANT] = NULL, GG_LAWS(LOSS)};
+#undef LOSS
+
+const char *gg_law_name(gg_law_kind kind)
+{
+  return names[kind];
+}
+
+double gg_law_loss(gg_law_kind kind, double u)
+{
+  return u > 0 ? losses[kind](u) : 0;
+}
+
+double gg_law_speed_of(gg_law_kind kind, double loss)
+{
+  if (loss <= 0) return 0;
+  double low = -1000, high = 1000; /* of the logarithm to base 2 */
+  for (int k = 0; k < 100; k++) {
+    const double middle = 0.5 * (low + high);
+    if (losses[kind](exp2(middle)) < loss)
+      low = middle;
+    else
+      high = middle;
+  }
+  return exp2(0.5 * (low + high));
+}
+
+double gg_law_at(const gg_restitution_law *law, double speed, int species_1, int species_2)
+{
+  if (!law->e) return 1 - gg_law_loss(law->kind, law->scale[gg_pair(species_1, species_2)] * speed);
+  double e = law->e(law->context, speed, species_1, species_2);
+  return e < 1 ? (e > 0 ? e : 0) : e >= 1 ? 1 : 0;
+}
+
 double gg_law_from_table(void *context, double speed, int species_1, int species_2)
 {
   const gg_law_table *t = context;

@@ -1,23 +1,31 @@
-/* A law of normal restitution: e of the relative normal speed at contact, where a scene has one instead of constants.
- */
+/* A law of normal restitution: e of the relative normal speed at contact, where a scene has one instead of constants:
+ * one that is built in (common/laws/laws.h), or the callback of the user's program. */
 #ifndef GG_RESTITUTION_H
 #define GG_RESTITUTION_H
 
 #include "common/error.h"
+#include "common/laws/laws.h"
+#include "common/species.h"
 #include "common/vec.h"
 
 typedef struct gg_restitution_law {
-  const char *name;  /* borrowed, as `context` is */
-  gg_restitution *e; /* NULL: e is constant */
+  const char *name;  /* NULL: e is constant; borrowed, as `context` is */
+  gg_restitution *e; /* the user's; NULL: built in */
   void *context;
+  gg_law_kind kind;
+  double scale[GG_PAIRS]; /* the law's unit of speed over that of results, inverse: u = scale g; by gg_pair */
 } gg_restitution_law;
 
 /* e of two species at a speed in the units of results, within 0 and 1 whatever the law says. */
-GG_INLINE double gg_law_at(const gg_restitution_law *law, double normal_speed, int species_1, int species_2)
-{
-  double e = law->e(law->context, normal_speed, species_1, species_2);
-  return e < 1 ? (e > 0 ? e : 0) : e >= 1 ? 1 : 0;
-}
+double gg_law_at(const gg_restitution_law *law, double normal_speed, int species_1, int species_2);
+
+/* Of laws that are built in: the word; 1 - e at a speed in the law's units; the speed at which that is so much. */
+const char *gg_law_name(gg_law_kind kind);
+double gg_law_loss(gg_law_kind kind, double u);
+double gg_law_speed_of(gg_law_kind kind, double loss);
+
+/* A built-in law takes collision.e from here to 1. */
+#define GG_LAW_LEAST_E 0.01
 
 /* A law read off a table of ascending speeds: the `gg_restitution` of a `context` that is one of these. */
 typedef struct gg_law_table {

@@ -14,6 +14,7 @@ gg_scene gg_scene_defaults(void)
       .temperature = GG_AUTO,
       .aspect = {1, 1, 1},
       .n_species = 1,
+      .collision = {.speed = GG_AUTO},
       .walls = {.e = 0.9, .beta = 1, .mu = INFINITY, .speed = 1},
       .run = {.relative_error = GG_AUTO,
               .collisions = GG_AUTO,

@@ -37,6 +37,8 @@ struct gg_scene {
   double aspect[3];   /* shape of the box, relative edges */
   struct {            /* by pair of species: gg_pair */
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
+    gg_law_kind law;
+    double speed; /* at which e is e, with a law; in the user's units, or GG_AUTO */
   } collision;
   int n_species;
   gg_species species[GG_MAX_SPECIES];

@@ -150,7 +150,7 @@ static gg_status set_law(gg_scene *scene, const gg_restitution_law *law, const g
 
 gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *e, void *context, gg_error *err)
 {
-  const gg_restitution_law law = {e ? name : "", e, context};
+  const gg_restitution_law law = {.name = e ? name : "", .e = e, .context = context};
   if (!scene) return gg_fail(err, GG_BAD_INPUT, "restitution law: there is no scene");
   if (e) {
     GG_TRY(check_name("restitution law", name, err));

@@ -30,6 +30,7 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
     made->rounds = gg_dsmc_rounds_room_new(model->n_species, made->ensemble.segments, err);
     if (!made->schedule || !made->rounds) status = GG_FAILED;
   }
+  if (status == GG_OK) status = gg_loss_table_new(model->law.kind, &made->losses, err);
   if (status != GG_OK) {
     gg_dsmc_destroy(&made->base);
     return status;
@@ -44,6 +45,7 @@ void gg_dsmc_destroy(gg_engine *engine)
   gg_dsmc *d = (gg_dsmc *)engine;
   if (!d) return;
   gg_dsmc_ensemble_free(&d->ensemble);
+  free(d->losses);
   free(d->schedule);
   gg_dsmc_rounds_room_free(d->rounds);
   for (int i = 0; i < GG_MAX_SPECIES; i++) free(d->callback.last[i]);

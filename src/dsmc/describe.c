@@ -19,6 +19,7 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   line(context, segments > 1 ? text : "not enough for threads to share");
   line(context, rules[m->rule]);
   if (m->law.e) line(context, "a law of restitution: collisions one by one, the block kernels are left out");
+  if (m->law.name && !m->law.e) line(context, "e follows from the speed of each collision, by a table");
   line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, nothing of them computed"
                              : "Enskog: contact value and collisional stress");
   if (m->shear_rate == 0)

@@ -3,6 +3,7 @@
 #define GG_DSMC_DSMC_H
 
 #include "common/engine.h"
+#include "common/laws/loss_table.h"
 #include "dsmc/ensemble.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/kernel/pass.h"
@@ -38,6 +39,7 @@ typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_dsmc_ensemble ensemble;
+  gg_loss_table *losses;       /* of a built-in law of restitution; NULL: none */
   gg_dsmc_schedule *schedule;  /* NULL if the ensemble is one segment */
   gg_dsmc_rounds_room *rounds; /* likewise */
   gg_dsmc_path path[GG_PAIRS];

@@ -10,6 +10,7 @@ gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
   if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
   if (d->thermostat == GG_GAUSSIAN) f.sums = GG_DSMC_LOSS;
   if (d->now.sums) f.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
+  if (d->losses) f = gg_dsmc_features_by_law(f, m->boltzmann);
   return f;
 }
 
@@ -26,6 +27,8 @@ gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
                         .law = m->law.e ? &m->law : NULL,
                         .law_unit = ldexp(1, -d->now.power),
                         .bound_margin = 1,
+                        .losses = d->losses,
+                        .loss_scale = ldexp(m->law.scale[o], -d->now.power),
                         .sigma = m->sigma[o],
                         .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
 }

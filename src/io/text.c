@@ -76,6 +76,7 @@ void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
     add(text, size, ", law %s of e", law.name);
   else
     add_pairs(text, size, "e", s->collision.e, s->n_species);
+  if (!law.e && s->collision.law != GG_LAW_CONSTANT) add(text, size, " (%s)", gg_law_name(s->collision.law));
   bool smooth = true, frictional = false;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
     smooth &= s->collision.beta[p] == -1 || s->collision.mu[p] == 0;

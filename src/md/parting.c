@@ -13,7 +13,7 @@
 
 bool gg_md_needs_parting(const gg_model *m)
 {
-  if (m->law.e) return true; /* who knows */
+  if (m->law.name) return true; /* who knows */
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++)
       if (m->e[gg_pair(i, j)] < PARTS_FROM) return true;

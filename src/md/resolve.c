@@ -75,8 +75,8 @@ void gg_md_select_resolution(gg_md *e)
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, sums = e->k.keeps_sums;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  e->resolve =
-      e->model.law.e ? resolutions_by_law[rule] : resolutions[rule][mixture][timed][sums][e->thermostat == GG_GAUSSIAN];
+  e->resolve = e->model.law.name ? resolutions_by_law[rule]
+                                 : resolutions[rule][mixture][timed][sums][e->thermostat == GG_GAUSSIAN];
   e->resolve_parted = e->resolve;
   if (gg_md_needs_parting(&e->model)) e->resolve = gg_md_resolve_parting;
   e->resolve_shown = e->resolve;

@@ -59,7 +59,10 @@ GG_INLINE double gg_md_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was
 GG_INLINE gg_contact gg_md_contact_by_law(const gg_md *e, const gg_contact *contact, double gn, int a, int b)
 {
   gg_contact at = *contact;
-  double restitution = gg_law_at(&e->model.law, ldexp(gn * e->k.scale, -e->k.power), a, b);
+  const gg_restitution_law *law = &e->model.law;
+  double speed = ldexp(gn * e->k.scale, -e->k.power),
+         restitution =
+             law->e ? gg_law_at(law, speed, a, b) : 1 - gg_loss_at(e->losses->loss, law->scale[gg_pair(a, b)] * speed);
   at.jn = gg_md_contact_normal_coefficient(contact, restitution, e->k.collisions);
   return at;
 }

@@ -10,6 +10,7 @@
 #define GG_MD_STATE_H
 
 #include "common/engine.h"
+#include "common/laws/loss_table.h"
 #include "common/rng.h"
 #include "md/box.h"
 #include "md/cells.h"
@@ -89,9 +90,10 @@ struct gg_md {
   gg_md_contacts contacts;
   gg_md_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
   gg_md_node *node;
-  gg_vec *spin; /* surface velocities; NULL for smooth grains */
-  double *last; /* time of the last collision, for the contact-time rule or a callback; NULL without either */
-  uint32_t *id; /* the grain's number to the outside; grains stand in memory along a space-filling curve */
+  gg_vec *spin;          /* surface velocities; NULL for smooth grains */
+  gg_loss_table *losses; /* of a built-in law of restitution; NULL: none */
+  double *last;          /* time of the last collision, for the contact-time rule or a callback; NULL without either */
+  uint32_t *id;          /* the grain's number to the outside; grains stand in memory along a space-filling curve */
   /* Neighbour lists: NULL where the cells themselves are searched. */
   gg_md_skin *skin;
   uint32_t *neighbour;         /* GG_MD_LIST a grain */

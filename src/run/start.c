@@ -35,7 +35,7 @@ void gg_start_near_steady(gg_model *model)
 {
   if (model->linear_response) start_of_sweep(model);
   if (!model->steady || model->shear_rate == 0) return;
-  for (int round = 0; round < (model->law.e ? 5 : 1); round++) {
+  for (int round = 0; round < (model->law.name ? 5 : 1); round++) {
     start_at_theory(model);
     gg_model_at(model, model->temperature0);
   }

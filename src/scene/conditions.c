@@ -98,6 +98,12 @@ static bool is_lossy(const gg_scene *s, unsigned uses)
          (gg_flow_is_walled(s->flow) && loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
 }
 
+static bool has_law(const gg_scene *s, unsigned uses)
+{
+  (void)uses;
+  return s->collision.law != GG_LAW_CONSTANT;
+}
+
 static bool some_rough(const gg_scene *s, unsigned uses)
 {
   (void)uses;
@@ -144,6 +150,7 @@ const gg_condition gg_if_contact_value = {
     .holds = uses_contact_value, .otherwise = "but on theories and engine: dsmc, with one species and phi above 0"};
 const gg_condition gg_if_lossy = {.holds = is_lossy, .otherwise = "where no collision loses energy"};
 const gg_condition gg_if_rough = {.holds = some_rough, .otherwise = "on smooth grains, which do not spin"};
+const gg_condition gg_if_law = {.holds = has_law, .otherwise = "while collision.law is constant"};
 const gg_condition gg_if_sticking = {.holds = some_beta, .otherwise = "while collision.beta is -1: smooth grains"};
 const gg_condition gg_if_tangential = {.holds = some_friction, .otherwise = "while collision.mu is 0: smooth grains"};
 const gg_condition gg_if_wall_sticking = {.holds = wall_beta, .otherwise = "while walls.beta is -1: smooth walls"};

@@ -26,6 +26,9 @@ static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARL
 static const gg_word precisions[] = {{"double", GG_DOUBLE, "to 1e-16"},
                                      {"single", GG_SINGLE, "to 1e-7, in half the memory; up to 1.5 times as fast"},
                                      {0}};
+#define WORD(FLAG, word, description) {#word, GG_LAW_##FLAG, description},
+static const gg_word laws[] = {{"constant", GG_LAW_CONSTANT, "e does not depend on the speed"}, GG_LAWS(WORD){0}};
+#undef WORD
 static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one below"},
                                {"open", GG_OPEN_TOP, "none: grains fall back under gravity"},
                                {0}};
@@ -66,6 +69,12 @@ const gg_field gg_scene_fields[] = {
     {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY,
      .doc = "Coulomb friction coefficient; inf: constant beta; finite: with collision.beta", .when = {&gg_if_sticking},
      .also = "friction"},
+    {"collision.law", GG_FIELD_CHOICE, AT(collision.law), .words = laws,
+     .doc = "how e depends on the normal speed at contact, between grains", .also = "model"},
+    {"collision.speed", GG_FIELD_NUMBER, AT(collision.speed), SMALL, LARGE, false, AUTO, .unit = "velocity",
+     .doc = "with a law: the normal speed at which collision.e is e; auto: the unit of velocity of results, diameter x "
+            "shear_rate (couette: x mean shear rate) or, of cooling and heated gases, in which it is counted, v_0",
+     .when = {&gg_if_law}},
     {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "kinds of grains, up to 16"},
     {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls", .when = {&gg_if_walled}},
     {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1,

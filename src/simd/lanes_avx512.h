@@ -66,6 +66,16 @@ GG_INLINE void gg_pack(gg_real *list, gg_mask m, gg_vd v)
   GG_MM(storeu)(list, GG_MM(maskz_compress)(m, v));
 }
 
+/* Entries of a table. */
+GG_INLINE gg_vd gg_look_up(const gg_real *table, gg_vu at)
+{
+#ifdef GG_SINGLE_LANES
+  return _mm256_i32gather_ps(table, (__m256i)at, 4);
+#else
+  return _mm512_i64gather_pd((__m512i)at, table, 8);
+#endif
+}
+
 /* Lane l gets lane l ^ r (of r the low bits count). */
 #ifdef GG_SINGLE_LANES
 typedef __m256i gg_order;

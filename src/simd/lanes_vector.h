@@ -208,6 +208,14 @@ GG_INLINE void gg_pack(gg_real *list, gg_mask m, gg_vd v)
 }
 #endif
 
+/* Entries of a table. */
+GG_INLINE gg_vd gg_look_up(const gg_real *table, gg_vu at)
+{
+  gg_vd x = {0};
+  for (int l = 0; l < GG_WIDTH; l++) x[l] = table[at[l]];
+  return x;
+}
+
 GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
 {
   *(gg_vd *)p = gg_select(m, yes, no);

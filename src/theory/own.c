@@ -49,7 +49,7 @@ gg_status gg_own_theory_evaluate(const gg_theory_definition *t, const gg_model *
   describe_species(m, species, pairs);
   const gg_facts facts = {.flow = gg_flow_of(m->flow)->word,
                           .thermostat = word_of_thermostat(gg_thermostat_of(m)),
-                          .restitution_law = m->law.e ? m->law.name : NULL,
+                          .restitution_law = m->law.name,
                           .phi = m->phi,
                           .density = m->density,
                           .shear_rate = m->shear_rate,

@@ -49,7 +49,7 @@ static gg_status check_flow(const gg_theory *theory, const gg_model *m, gg_error
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
 {
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
-  if (model->law.e && !theory->own)
+  if (model->law.name && !theory->own)
     return gg_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
                    theory->name, model->law.name);
   GG_TRY(check_flow(theory, model, err));

@@ -23,6 +23,8 @@ typedef struct gg_dsmc_pass_state {
   bool any_odd; /* blocks that are not full: odd_one, odd_two, or UINT32_MAX */
   gg_vu odd_one, odd_two, first_one, first_two, n_one, n_two; /* in all lanes */
   gg_dsmc_lane_contact contact;
+  const gg_real *losses; /* of a law of restitution: its table, and the speed in its units over the present one */
+  gg_real loss_scale;
   bool sorts;              /* lanes are exchanged by speed, not at random */
   gg_real floor, majorant; /* the layer of |C12| */
   gg_real s0, shift;
@@ -57,7 +59,7 @@ typedef struct gg_dsmc_candidate {
 
 GG_INLINE bool gg_dsmc_needs_k(gg_dsmc_features f)
 {
-  return f.rule != GG_SMOOTH || f.shear == GG_DSMC_SHEARED_DENSE || f.sums == GG_DSMC_STRESS;
+  return f.rule != GG_SMOOTH || f.shear == GG_DSMC_SHEARED_DENSE || f.sums == GG_DSMC_STRESS || f.law;
 }
 
 /* Shear between the centres makes the second stage longer than the first: the scale moves to the first. */

@@ -1,6 +1,7 @@
 /* Collisions on blocks, a Monte Carlo pass: two random blocks, the lanes of one against those of the other in a random
- * order, eight candidates at once (candidate.h). Compiled once for each collision rule (GG_RULE), set of instructions
- * and precision (GG_SINGLE_LANES): GG_INSTANCES is what they are found by. All sets leave the same bits.
+ * order, eight candidates at once (candidate.h). Compiled once for each collision rule (GG_RULE), with and without a
+ * law of restitution (GG_LAW), set of instructions and precision (GG_SINGLE_LANES): GG_INSTANCES is what they are found
+ * by. All sets leave the same bits.
  *
  * No bias. Each lane of one block is paired with each lane of the other with probability 1/8, and every pair of grains
  * in different blocks is a candidate equally often. Pairs within one block, and the last block where it is not full, go
@@ -64,6 +65,7 @@ GG_INLINE void start(gg_dsmc_features f, gg_dsmc_pass_state *w, const gg_dsmc_pa
                             .n_one = gg_all_words(p->blocks[0].n),
                             .n_two = gg_all_words(p->blocks[1].n),
                             .contact = gg_dsmc_lane_contact_of(f.same, &p->contact),
+                            .loss_scale = (gg_real)p->loss_scale,
                             .floor = (gg_real)p->floor,
                             .shift = (gg_real)p->shift,
                             .s0 = f.shear == GG_DSMC_SHEARED_DENSE ? (gg_real)(GG_DSMC_SHEAR_SHARE * p->shift) : 0,
@@ -71,6 +73,11 @@ GG_INLINE void start(gg_dsmc_features f, gg_dsmc_pass_state *w, const gg_dsmc_pa
                             .margin = p->bound_margin,
                             .root = (gg_real)(sqrt(p->bound_scale) * (1 + 1e-6)),
                             .per_scale = (gg_real)gg_dsmc_per_bound(p->bound_scale)};
+#ifdef GG_SINGLE_LANES
+  if (f.law) w->losses = p->losses->single;
+#else
+  if (f.law) w->losses = p->losses->loss;
+#endif
   w->majorant = (gg_real)(p->floor + p->majorant - w->s0);
   w->layer = p->floor > 0;
   w->most = gg_all(w->majorant);
@@ -208,22 +215,28 @@ GG_INLINE void run(gg_dsmc_features f, gg_dsmc_pass *p, gg_dsmc_rng_lanes *lanes
   gg_dsmc_lane_rng_save(&samples.rng, lanes);
 }
 
-/* The instances: shear and sums x one or two species. What is not here, no scene needs. */
+/* The instances: shear and sums x one or two species. What is not here, no scene needs (gg_dsmc_features_by_law). */
 #define EACH_SAME(X, shear, sums) X(shear, sums, 0) X(shear, sums, 1)
-#define EACH(X)                                                                                                        \
-  EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_NO_SUMS)                                                                     \
+#define EACH_WITH_LAW(X)                                                                                               \
   EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_LOSS)                                                                        \
   EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_STRESS)                                                                      \
-  EACH_SAME(X, GG_DSMC_SHEARED_DILUTE, GG_DSMC_NO_SUMS)                                                                \
   EACH_SAME(X, GG_DSMC_SHEARED_DILUTE, GG_DSMC_LOSS)                                                                   \
-  EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_NO_SUMS)                                                                 \
-  EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_LOSS)                                                                    \
   EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_STRESS)
+#if GG_LAW
+#define EACH(X) EACH_WITH_LAW(X)
+#else
+#define EACH(X)                                                                                                        \
+  EACH_WITH_LAW(X)                                                                                                     \
+  EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_NO_SUMS)                                                                     \
+  EACH_SAME(X, GG_DSMC_SHEARED_DILUTE, GG_DSMC_NO_SUMS)                                                                \
+  EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_NO_SUMS)                                                                 \
+  EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_LOSS)
+#endif
 
 #define INSTANCE(shear, sums, same)                                                                                    \
   static void run_##shear##_##sums##_##same(gg_dsmc_pass *p, gg_dsmc_rng_lanes *lanes, gg_rng *rng)                    \
   {                                                                                                                    \
-    run((gg_dsmc_features){GG_RULE, shear, sums, same}, p, lanes, rng);                                                \
+    run((gg_dsmc_features){GG_RULE, shear, sums, same, GG_LAW}, p, lanes, rng);                                        \
   }
 EACH(INSTANCE)
 

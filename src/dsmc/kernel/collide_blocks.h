@@ -17,10 +17,12 @@ typedef struct gg_dsmc_instances {
 } gg_dsmc_instances;
 
 /* One object for each rule, precision and set of instructions (meson.build). */
+#define GG_DSMC_DECLARE_PRECISION(precision, name)                                                                     \
+  extern const gg_dsmc_instances gg_dsmc_collide_##precision##_smooth_##name,                                          \
+      gg_dsmc_collide_##precision##_rough_##name, gg_dsmc_collide_##precision##_frictional_##name,                     \
+      gg_dsmc_collide_##precision##_smooth_by_law_##name, gg_dsmc_collide_##precision##_frictional_by_law_##name;
 #define GG_DSMC_DECLARE_COLLIDE(set, name)                                                                             \
-  extern const gg_dsmc_instances gg_dsmc_collide_double_smooth_##name, gg_dsmc_collide_double_rough_##name,            \
-      gg_dsmc_collide_double_frictional_##name, gg_dsmc_collide_single_smooth_##name,                                  \
-      gg_dsmc_collide_single_rough_##name, gg_dsmc_collide_single_frictional_##name;
+  GG_DSMC_DECLARE_PRECISION(double, name) GG_DSMC_DECLARE_PRECISION(single, name)
 GG_EACH_COMPILED_SET(GG_DSMC_DECLARE_COLLIDE)
 
 #endif

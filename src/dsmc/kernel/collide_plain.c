@@ -47,7 +47,9 @@ static void sums(gg_dsmc_features f, gg_dsmc_pass *p, const gg_contact *contact,
 static gg_contact contact_at(const gg_dsmc_pass *p, double gn)
 {
   gg_contact c = p->contact;
-  c.jn = (1 + gg_law_at(p->law, gn * p->law_unit, p->species[0], p->species[1])) / gg_inverse_mr(&c);
+  double e = p->law ? gg_law_at(p->law, gn * p->law_unit, p->species[0], p->species[1])
+                    : 1 - gg_loss_at(p->losses->loss, gn * p->loss_scale);
+  c.jn = (1 + e) / gg_inverse_mr(&c);
   return c;
 }
 
@@ -65,7 +67,7 @@ static void collide(gg_dsmc_features f, gg_dsmc_pass *p, grain_pair *q, gg_vec k
   }
   gg_contact by_law;
   const gg_contact *contact = &p->contact;
-  if (p->law) by_law = contact_at(p, gn), contact = &by_law;
+  if (p->law || p->losses) by_law = contact_at(p, gn), contact = &by_law;
   gg_vec g = gg_contact_velocity(f.rule, k, c12, q->sa, q->sb), J = gg_impulse(f.rule, contact, k, g, gn);
   if (p->callback) call_back(p, q, k, c12, J);
   sums(f, p, contact, k, g, J);

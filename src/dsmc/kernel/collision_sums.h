@@ -24,14 +24,25 @@ typedef struct gg_dsmc_sums {
       Jg[GG_DSMC_LANES], Jn2[GG_DSMC_LANES], J2[GG_DSMC_LANES];
 } gg_dsmc_sums;
 
+/* Constant coefficients make terms of the loss follow from others (gg_dsmc_all_terms): of smooth grains all from one,
+ * of rough ones the third. With a law of restitution all are summed. */
+GG_INLINE bool gg_dsmc_sums_one(gg_dsmc_features f)
+{
+  return f.rule == GG_SMOOTH && !f.law;
+}
+GG_INLINE bool gg_dsmc_sums_all(gg_dsmc_features f)
+{
+  return f.rule == GG_FRICTIONAL || f.law;
+}
+
 /* The terms of the loss that k and J do not tell later. */
 GG_INLINE void gg_dsmc_note_loss(gg_dsmc_features f, gg_dsmc_note *note, gg_vd3 g, gg_vd3 J, gg_vd Jn)
 {
   if (f.sums == GG_DSMC_NO_SUMS) return;
-  const bool stress = f.sums == GG_DSMC_STRESS, smooth = f.rule == GG_SMOOTH;
-  if (!stress || !smooth) note->Jg = gg_vd3_dot(J, g);
-  if (!stress && !smooth) note->Jn = Jn;
-  if (!stress && f.rule == GG_FRICTIONAL) note->J2 = gg_vd3_dot(J, J);
+  const bool stress = f.sums == GG_DSMC_STRESS, one = gg_dsmc_sums_one(f);
+  if (!stress || !one) note->Jg = gg_vd3_dot(J, g);
+  if (!stress && !one) note->Jn = Jn;
+  if (!stress && gg_dsmc_sums_all(f)) note->J2 = gg_vd3_dot(J, J);
 }
 
 GG_INLINE void gg_dsmc_sums_add(double *sum, int part, gg_vd v)
@@ -50,18 +61,18 @@ GG_INLINE void gg_dsmc_sums_collect_loss(gg_dsmc_features f, gg_dsmc_sums *t, in
   for (unsigned i = 0; i < t->n; i++) {
     const gg_dsmc_note *note = &t->note[i][p];
     Jg += note->Jg;
-    if (f.rule != GG_SMOOTH) Jn2 += note->Jn * note->Jn;
-    if (f.rule == GG_FRICTIONAL) J2 += note->J2;
+    if (!gg_dsmc_sums_one(f)) Jn2 += note->Jn * note->Jn;
+    if (gg_dsmc_sums_all(f)) J2 += note->J2;
   }
   gg_dsmc_sums_add(t->Jg, p, Jg);
-  if (f.rule != GG_SMOOTH) gg_dsmc_sums_add(t->Jn2, p, Jn2);
-  if (f.rule == GG_FRICTIONAL) gg_dsmc_sums_add(t->J2, p, J2);
+  if (!gg_dsmc_sums_one(f)) gg_dsmc_sums_add(t->Jn2, p, Jn2);
+  if (gg_dsmc_sums_all(f)) gg_dsmc_sums_add(t->J2, p, J2);
 }
 
 /* Stress and loss; what is not kept need not be computed. */
 GG_INLINE void gg_dsmc_sums_collect_stress(gg_dsmc_features f, gg_dsmc_sums *t, int p)
 {
-  const bool smooth = f.rule == GG_SMOOTH;
+  const bool one = gg_dsmc_sums_one(f);
   const gg_vd none = gg_all(0);
   gg_vd xx = none, yy = none, zz = none, xy = none, yx = none, Jg = none, Jn2 = none, J2 = none;
   for (unsigned i = 0; i < t->n; i++) {
@@ -75,17 +86,17 @@ GG_INLINE void gg_dsmc_sums_collect_stress(gg_dsmc_features f, gg_dsmc_sums *t, 
     yx += k.y * J.x;
     Jn2 += Jn * Jn;
     J2 += gg_vd3_dot(J, J);
-    if (!smooth) Jg += note->Jg;
+    if (!one) Jg += note->Jg;
   }
   gg_dsmc_sums_add(t->xx, p, xx);
   gg_dsmc_sums_add(t->yy, p, yy);
   gg_dsmc_sums_add(t->zz, p, zz);
   gg_dsmc_sums_add(t->xy, p, xy);
   gg_dsmc_sums_add(t->Jn2, p, Jn2);
-  if (smooth) return;
+  if (one) return;
   gg_dsmc_sums_add(t->yx, p, yx);
   gg_dsmc_sums_add(t->Jg, p, Jg);
-  if (f.rule == GG_FRICTIONAL) gg_dsmc_sums_add(t->J2, p, J2);
+  if (gg_dsmc_sums_all(f)) gg_dsmc_sums_add(t->J2, p, J2);
 }
 
 GG_INLINE void gg_dsmc_sums_collect(gg_dsmc_features f, gg_dsmc_sums *t)
@@ -120,14 +131,15 @@ GG_INLINE void gg_dsmc_sums_finish(gg_dsmc_features f, gg_dsmc_sums *t, gg_dsmc_
   gg_loss_terms terms = {.Jg = mass * gg_dsmc_sum_of_lanes(t->Jg),
                          .Jn2 = mass * mass * gg_dsmc_sum_of_lanes(t->Jn2),
                          .J2 = mass * mass * gg_dsmc_sum_of_lanes(t->J2)};
-  if (f.sums == GG_DSMC_STRESS && f.rule == GG_SMOOTH) terms.Jg = terms.Jn2 / p->contact.jn;
-  p->loss += gg_loss_of_terms(&p->contact, gg_dsmc_all_terms(f.rule, &p->contact, terms));
+  if (f.sums == GG_DSMC_STRESS && gg_dsmc_sums_one(f)) terms.Jg = terms.Jn2 / p->contact.jn;
+  if (!gg_dsmc_sums_all(f)) terms = gg_dsmc_all_terms(f.rule, &p->contact, terms);
+  p->loss += gg_loss_of_terms(&p->contact, terms);
   if (f.sums == GG_DSMC_LOSS) return;
   p->stress[0][0] += stress * gg_dsmc_sum_of_lanes(t->xx);
   p->stress[1][1] += stress * gg_dsmc_sum_of_lanes(t->yy);
   p->stress[2][2] += stress * gg_dsmc_sum_of_lanes(t->zz);
   p->stress[0][1] += stress * gg_dsmc_sum_of_lanes(t->xy);
-  p->stress[1][0] += stress * gg_dsmc_sum_of_lanes(f.rule == GG_SMOOTH ? t->xy : t->yx);
+  p->stress[1][0] += stress * gg_dsmc_sum_of_lanes(gg_dsmc_sums_one(f) ? t->xy : t->yx);
 }
 
 #endif

@@ -2,11 +2,17 @@
 
 #include "dsmc/parallel/partition.h"
 
+#define PRECISION(precision, name)                                                                                     \
+  {                                                                                                                    \
+    {&gg_dsmc_collide_##precision##_smooth_##name, &gg_dsmc_collide_##precision##_rough_##name,                        \
+     &gg_dsmc_collide_##precision##_frictional_##name},                                                                \
+    {                                                                                                                  \
+      [GG_SMOOTH] = &gg_dsmc_collide_##precision##_smooth_by_law_##name,                                               \
+      [GG_FRICTIONAL] = &gg_dsmc_collide_##precision##_frictional_by_law_##name                                        \
+    }                                                                                                                  \
+  }
 #define KERNELS(set, name)                                                                                             \
-  [set] = {.collide = {{&gg_dsmc_collide_double_smooth_##name, &gg_dsmc_collide_double_rough_##name,                   \
-                        &gg_dsmc_collide_double_frictional_##name},                                                    \
-                       {&gg_dsmc_collide_single_smooth_##name, &gg_dsmc_collide_single_rough_##name,                   \
-                        &gg_dsmc_collide_single_frictional_##name}},                                                   \
+  [set] = {.collide = {PRECISION(double, name), PRECISION(single, name)},                                              \
            .synchronise = {gg_dsmc_synchronise_##name, gg_dsmc_synchronise_single_##name},                             \
            .kick = gg_dsmc_kick_##name},
 
@@ -49,5 +55,5 @@ void gg_dsmc_collide_pass(const gg_dsmc_kernels *kernels, gg_dsmc_path path, gg_
   if (path == GG_DSMC_PLAIN)
     gg_dsmc_collide_plain(f, p, rng);
   else
-    kernels->collide[p->one->single][f.rule]->of[f.shear][f.sums][f.same](p, lanes, rng);
+    kernels->collide[p->one->single][f.law][f.rule]->of[f.shear][f.sums][f.same](p, lanes, rng);
 }

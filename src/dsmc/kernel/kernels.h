@@ -10,9 +10,10 @@
 /* One pair of grains after another, or two blocks at a time. */
 typedef enum gg_dsmc_path { GG_DSMC_PLAIN, GG_DSMC_BLOCKS } gg_dsmc_path;
 
-/* What is compiled once for each set of instructions; by precision (double, single) and rule. */
+/* What is compiled once for each set of instructions; by precision (double, single), with a law of restitution, and
+ * rule. */
 typedef struct gg_dsmc_kernels {
-  const gg_dsmc_instances *collide[2][GG_FRICTIONAL + 1];
+  const gg_dsmc_instances *collide[2][2][GG_FRICTIONAL + 1];
   gg_dsmc_synchronise_blocks *synchronise[2];
   gg_dsmc_kick_blocks *kick;
 } gg_dsmc_kernels;

@@ -7,6 +7,7 @@
 /* A gg_contact in the lanes' precision. */
 typedef struct gg_dsmc_lane_contact {
   gg_real jn, jt, mu, im1, im2, ik1, ik2;
+  gg_real mr;           /* 1/(1/m1 + 1/m2) */
   gg_real push1, push2; /* velocity changes from 2 g_n k */
 } gg_dsmc_lane_contact;
 
@@ -32,6 +33,7 @@ GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_conta
                                 .im2 = (gg_real)(c->im2 * mass),
                                 .ik1 = (gg_real)(c->ik1 * mass),
                                 .ik2 = (gg_real)(c->ik2 * mass),
+                                .mr = (gg_real)(1 / (gg_inverse_mr(c) * mass)),
                                 .push1 = (gg_real)(0.5 * c->jn * c->im1),
                                 .push2 = (gg_real)(0.5 * c->jn * c->im2)};
 }
@@ -53,6 +55,36 @@ GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_conta
 #undef GG_ABS
 #undef GG_SQRT
 #undef GG_IF_LESS
+
+#define GG_NUMBER gg_vd
+#define GG_OF(name) gg_vd3_##name
+#define GG_REAL gg_real
+#define GG_WORDS gg_vu
+#ifdef GG_SINGLE_LANES
+#define GG_MANTISSA 23
+#define GG_BIAS UINT32_C(127)
+#define GG_ONE UINT32_C(1)
+#else
+#define GG_MANTISSA 52
+#define GG_BIAS UINT64_C(1023)
+#define GG_ONE UINT64_C(1)
+#endif
+#define GG_BETWEEN(x, low, high) gg_smaller(gg_larger(x, gg_all((gg_real)low)), gg_all((gg_real)high))
+#define GG_BITS(x) ((gg_vu)(x))
+#define GG_FROM_BITS(w) ((gg_vd)(w))
+#define GG_LOOK_UP(table, at) gg_look_up(table, at)
+#include "common/laws/loss_at_of.h"
+#undef GG_NUMBER
+#undef GG_OF
+#undef GG_REAL
+#undef GG_WORDS
+#undef GG_MANTISSA
+#undef GG_BIAS
+#undef GG_ONE
+#undef GG_BETWEEN
+#undef GG_BITS
+#undef GG_FROM_BITS
+#undef GG_LOOK_UP
 
 /* Which terms of the loss need not be summed, since they follow from the others: smooth grains need the first alone
  * (J.g = m_r (1+e) g_n^2), rough ones two (J_t^2 = m_t (1+beta) J_t.g_t). */

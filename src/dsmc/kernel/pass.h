@@ -13,6 +13,7 @@
 #define GG_DSMC_PASS_H
 
 #include "common/engine.h"
+#include "common/laws/loss_table.h"
 #include "dsmc/ensemble.h"
 
 typedef enum gg_dsmc_shear {
@@ -34,7 +35,17 @@ typedef struct gg_dsmc_features {
   gg_dsmc_shear shear;
   gg_dsmc_sums_kept sums;
   bool same; /* both grains of one species */
+  bool law;  /* of restitution, built in */
 } gg_dsmc_features;
+
+/* With a law there are fewer instances: rough grains go with frictional ones, and the sums there can be are kept. */
+GG_INLINE gg_dsmc_features gg_dsmc_features_by_law(gg_dsmc_features f, bool boltzmann)
+{
+  if (f.rule == GG_ROUGH) f.rule = GG_FRICTIONAL;
+  f.sums = boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
+  f.law = true;
+  return f;
+}
 
 /* Whom the plain path tells of each collision. */
 typedef struct gg_dsmc_callback {
@@ -59,6 +70,8 @@ typedef struct gg_dsmc_pass {
   gg_contact contact;
   const gg_restitution_law *law; /* which the plain path alone asks; NULL: `contact` as it is */
   double law_unit;               /* speed in units of the start over the present one */
+  const gg_loss_table *losses;   /* of a built-in law; NULL: `contact` as it is */
+  double loss_scale;             /* speed in units of the table over the present one */
   double shift;                  /* sigma x rate */
   double sigma;                  /* for the stress */
   double floor, majorant;        /* the layer of g_n */

@@ -185,6 +185,13 @@ GG_INLINE void gg_dsmc_load(gg_dsmc_features f, gg_dsmc_pass_state *w, const gg_
   }
 }
 
+/* J_n = m_r (1+e) g_n. */
+GG_INLINE gg_vd gg_dsmc_normal_impulse(gg_dsmc_features f, const gg_dsmc_pass_state *w, gg_vd gn)
+{
+  if (!f.law) return w->contact.jn * gn;
+  return w->contact.mr * gn * (2 - gg_vd3_loss_at(w->losses, w->loss_scale * gn));
+}
+
 /* Who is accepted, along which k, with what impulse? */
 GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc_samples *c,
                                    gg_dsmc_block_pair *at, int part)
@@ -199,14 +206,15 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features f, gg_dsmc_pass_state *w, gg
     gg_vd3 sa = gg_dsmc_lanes_load(&w->spin_one[at->one], part * GG_WIDTH);
     e.g = gg_vd3_contact_velocity(f.rule, e.k, e.g, sa, at->sb[part]);
   }
-  gg_vd3 J = gg_dsmc_needs_k(f) ? gg_vd3_impulse(f.rule, &w->contact, e.k, e.g, e.gn) : e.gn_k;
+  const gg_vd Jn = gg_dsmc_normal_impulse(f, w, e.gn);
+  gg_vd3 J = gg_dsmc_needs_k(f) ? gg_vd3_impulse_of(f.rule, &w->contact, e.k, e.g, e.gn, Jn) : e.gn_k;
   J = (gg_vd3){gg_where(e.hit, J.x), gg_where(e.hit, J.y), gg_where(e.hit, J.z)};
   if (gg_dsmc_needs_k(f)) *gg_dsmc_normals(f, at, part) = e.k;
   *gg_dsmc_impulses(f, at, part) = J;
   w->largest = gg_larger(w->largest, at->v2[part]);
   w->collisions += (unsigned)__builtin_popcount(gg_bits(e.hit));
   if (!gg_dsmc_needs_k(f)) J = gg_vd3_scale(gg_all(0.5 * w->contact.jn), J);
-  gg_dsmc_note_loss(f, &w->sums.note[w->sums.n][part], e.g, J, gg_where(e.hit, w->contact.jn * e.gn));
+  gg_dsmc_note_loss(f, &w->sums.note[w->sums.n][part], e.g, J, gg_where(e.hit, Jn));
 }
 
 /* Some directions more than are needed now. */
