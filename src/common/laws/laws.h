@@ -6,7 +6,8 @@
 #define GG_LAWS_H
 
 /* X(NAME, name, description): `name` is the word in scenes, gg_loss_<name> the function, in a file of its own. */
-#define GG_LAWS(X)
+#define GG_LAWS(X)                                                                                                     \
+  X(VISCOELASTIC, viscoelastic, "viscoelastic spheres: 1 - e grows as g^(1/5); collision.e is e at collision.speed")
 
 #define GG_LAW_VALUE(NAME, name, description) GG_LAW_##NAME,
 typedef enum gg_law_kind { GG_LAW_CONSTANT, GG_LAWS(GG_LAW_VALUE) GG_N_LAWS } gg_law_kind;
