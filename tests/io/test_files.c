@@ -382,6 +382,10 @@ static void checkpoint_of_another_layout(void **state)
              "the same can go on",
              GG_VERSION, cases[k].layout, GG_VERSION, GG_CHECKPOINT_LAYOUT);
     assert_string_equal(err.message, expected);
+    gg_stored_result result;
+    assert_int_equal(gg_stored_result_read(&result, "c.h5", &err),
+                     GG_BAD_FILE); /* nor is it advised to go on from it */
+    assert_string_equal(err.message, expected);
     gg_archive_clear(&one);
     remove_all();
   }

@@ -132,7 +132,7 @@ static gg_status read_item(gg_h5 *h, size_t i, gg_archive *a, gg_error *err)
 
 /* States are saved as they stand in memory, which another version may have laid out otherwise. The first layout did not
  * say its number. */
-static void check_version(gg_h5 *h)
+void gg_checkpoint_check_version(struct gg_h5 *h)
 {
   int layout = 1;
   char *version = gg_h5_read_text(h, "/checkpoint/version"), why[200];
@@ -154,7 +154,7 @@ static gg_status read_file(const char *path, gg_archive *a, gg_error *err)
   gg_status status = GG_OK;
   gg_h5_open(&h, path);
   if (!h.failed && !gg_h5_exists(&h, "/checkpoint")) gg_h5_failed(&h, "it is not a checkpoint of graingas");
-  check_version(&h);
+  gg_checkpoint_check_version(&h);
   gg_h5_read_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n);
   for (uint64_t i = 0; i < n && status == GG_OK && !h.failed; i++) status = read_item(&h, i, a, err);
   gg_h5_close(&h);

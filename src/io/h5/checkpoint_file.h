@@ -6,6 +6,8 @@
 #include "common/archive.h"
 #include "common/scene.h"
 
+struct gg_h5;
+
 /* How states are laid out in a checkpoint; to be raised with whatever is stored otherwise, so that a file from before
  * is refused by name. 2: the scene's keys one by one. */
 enum { GG_CHECKPOINT_LAYOUT = 2 };
@@ -28,6 +30,9 @@ bool gg_is_checkpoint_of(const char *file, const char *path);
 
 /* Fills an empty archive. *older: FILE.1 had to be taken. GG_BAD_FILE if neither can be read. */
 gg_status gg_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err);
+
+/* Fails the file, open, where another version or layout wrote its checkpoint. */
+void gg_checkpoint_check_version(struct gg_h5 *h);
 
 /* The scene of a checkpoint that was read, as YAML, to be freed; NULL where it cannot be read. */
 char *gg_checkpoint_scene(const char *path, bool older);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/h5/checkpoint_file.h"
 #include "io/h5/h5.h"
 
 static void read_series(gg_h5 *h, gg_stored_engine *e, const char *observables, const char *name)
@@ -114,7 +115,9 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   gg_h5 h;
   *s = (gg_stored_result){0};
   gg_h5_open(&h, path);
-  if (!h.failed && gg_h5_exists(&h, "/checkpoint"))
+  const bool checkpoint = !h.failed && gg_h5_exists(&h, "/checkpoint");
+  if (checkpoint) gg_checkpoint_check_version(&h);
+  if (checkpoint && !h.failed)
     gg_h5_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
   if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_failed(&h, "it holds no result of graingas");
   char *text = gg_h5_read_text(&h, "/graingas/document");
