@@ -131,10 +131,13 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 static void put(const local *d, gg_curves *list, int species, int vector, int j, const double *bin)
 {
   static const char *const plain[] = {"Cx", "Wz"}, *const written[] = {"C_x", "Ω_z"};
-  char name[48], panel[48], label[24], argument[24], tail[16] = "";
-  if (d->model.n_species > 1) snprintf(tail, sizeof tail, "_%d", species + 1);
+  char name[48], panel[48], label[24], argument[24], tail[16] = "", of[24] = "";
+  if (d->model.n_species > 1) {
+    snprintf(tail, sizeof tail, "_%d", species + 1);
+    snprintf(of, sizeof of, " of species %d", species + 1);
+  }
   snprintf(name, sizeof name, "local_distribution_%s%s_%g", plain[vector], tail, centre[j]);
-  snprintf(panel, sizeof panel, "%s%s, by local density", written[vector], tail);
+  snprintf(panel, sizeof panel, "%s%s, by local density", written[vector], of);
   snprintf(label, sizeof label, "φ %.3g", centre[j] * d->model.phi);
   snprintf(argument, sizeof argument, "%s/σ", written[vector]);
   double sigma = gg_histogram_sigma(bin); /* NaN where no cell was ever of this density */

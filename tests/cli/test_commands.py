@@ -208,6 +208,19 @@ def test_info_and_plot_of_a_result():
     check(run("plot", "scene.h5", "--output", "none/x.svg").code == 3)
 
 
+def test_pictures_of_many_species():
+    """No words that run into each other, and no curve left out in silence."""
+    for n, shown, wordy in (1, 3, True), (2, 6, True), (10, 8, False):
+        done = run("compare", "scene.yaml", "--quiet", "--set", "run.collisions=10",
+                   scene="flow: usf\nphi: 0.05\nparticles: 200\ndsmc: {particles: 200}\nrun: {warmup: 5}\n"
+                         f"measure: [rheology, velocity_distributions]\nspecies: [{', '.join(['{}'] * n)}]\n")
+        check(done.code == 0, done.err)
+        check((">viscosity<" in open("scene.svg").read()) == wordy, n)
+        page = open("scene_dsmc_velocity_distributions.svg").read()
+        told = f"the first {shown} of {3 * n} curves" in page
+        check(told == (3 * n > shown) and ("the first" in page) == told, n)
+
+
 def test_plot_without_gnuplot():
     """The comparison is not lost for want of a picture."""
     path, os.environ["PATH"] = os.environ["PATH"], "/nowhere"

@@ -11,7 +11,7 @@ typedef struct entry {
   char symbol[24]; /* as gnuplot writes it; empty: the name as it is */
 } entry;
 enum { MOST_OWN = 6, MOST_SELECTED = GG_N_QUANTITIES + MOST_OWN };
-enum { MOST_METHODS = 16 };
+enum { MOST_METHODS = 16, MOST_WORDY = 9 };
 
 typedef struct method {
   const char *name;
@@ -144,10 +144,11 @@ static void label_outliers(FILE *s, const method *m, const method *reference, co
   }
 }
 
-/* "word\nsymbol"; a name of one's own stands as it is: no subscripts in it. */
-static void print_label(FILE *s, const entry *e)
+/* "word\nsymbol"; a name of one's own stands as it is: no subscripts in it. Of many entries (species have one each) the
+ * symbols alone: words would run into each other. */
+static void print_label(FILE *s, const entry *e, bool wordy)
 {
-  if (*e->word) fprintf(s, "%s\\n", e->word);
+  if (*e->word && (wordy || !*e->symbol)) fprintf(s, "%s\\n", e->word);
   fputs(e->symbol, s);
   for (const char *c = e->name; !*e->symbol && *c; c++)
     if (*c == '_')
@@ -161,7 +162,7 @@ static void print_categories(FILE *s, const entry *selected, int n)
   fprintf(s, "set xtics (");
   for (int i = 0; i < n; i++) {
     fprintf(s, "%s\"", i ? ", " : "");
-    print_label(s, &selected[i]);
+    print_label(s, &selected[i], n <= MOST_WORDY);
     fprintf(s, "\" %d", i + 1);
   }
   fprintf(s, ") scale 0\nset xrange [0.45:%g]\n", n + 0.55);

@@ -10,7 +10,7 @@ enum { MOST_PANELS = 24, MOST_IN_PANEL = 8, COLUMNS = 3 };
 
 typedef struct panel {
   const char *title;
-  int n;
+  int n, more; /* curves drawn, and those for which there is no room */
   const json_t *curve[MOST_IN_PANEL];
 } panel;
 
@@ -45,7 +45,11 @@ static int panels_of(const json_t *document, const char *group, panel *panels)
     if (strcmp(text_of(curve, "group"), group) != 0) continue;
     for (k = 0; k < n && strcmp(panels[k].title, title) != 0; k++) continue;
     if (k == n && n < MOST_PANELS) panels[n++] = (panel){.title = title};
-    if (k < n && panels[k].n < MOST_IN_PANEL) panels[k].curve[panels[k].n++] = curve;
+    if (k == n) continue;
+    if (panels[k].n < MOST_IN_PANEL)
+      panels[k].curve[panels[k].n++] = curve;
+    else
+      panels[k].more++;
   }
   return n;
 }
@@ -146,11 +150,19 @@ static void draw_nothing(FILE *s)
              "textcolor rgb '#666666'\nplot NaN notitle\n");
 }
 
+/* A panel that leaves curves out says so: those of many species are too many to be told apart. */
+static void print_title(FILE *s, const panel *p)
+{
+  fprintf(s, "set label '%s", p->title);
+  if (p->more) fprintf(s, ": the first %d of %d curves", p->n, p->n + p->more);
+  fprintf(s, "' at graph 0,1.21 left\n");
+}
+
 static void draw_panel(FILE *s, const panel *p, gg_panel place)
 {
   const json_t *first = p->curve[0];
   gg_plot_place(s, place);
-  fprintf(s, "set label '%s' at graph 0,1.21 left\n", p->title);
+  print_title(s, p);
   axis_label(s, 'x', text_of(first, "x_name"), text_of(first, "x_unit"));
   axis_label(s, 'y', text_of(first, "y_name"), text_of(first, "unit"));
   extent all = {{INFINITY, -INFINITY}, INFINITY, {INFINITY, -INFINITY}};
