@@ -76,7 +76,7 @@ static const struct {
     {GG_NEEDS_NO_SHEAR, sheared, "see the kurtosis in sheared flows"},
     {GG_NEEDS_ONE_SPECIES, mixture, "see c_1 and c_2 for mixtures"},
     {GG_NEEDS_LINEAR_RESPONSE, nonlinear, "needs the linear response: flow: small_shear"},
-    {GG_NEEDS_THEORY, always, "a length of theory, not a mean; see graingas theory"},
+    {GG_NEEDS_THEORY, always, "told by theories alone, not a mean; see graingas theory"},
     {GG_NEEDS_MIXTURE, one_species, "there is one species only"},
 };
 
