@@ -1,0 +1,107 @@
+/* Are the stated numerical errors of enskog_hermite honest? Random scenes of uniform shear, phi from 0 to 0.5 (a fifth
+ * of them at 0) and e from 0.3 to 0.99, each answer beside the same expansion at degree 16: stated_errors [--scenes N]
+ * prints, for each scene, the true error of T, P_xy, N1 and N2 over the stated one, and how many exceed it. Exit code
+ * 0; 1 where more than a twentieth of the answers err by more than they state; 2: the command line is wrong. */
+#include <gsl/gsl_rng.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "theory/hermite/shear.h"
+#include "theory/theory_list.h"
+
+enum { REFERENCE_DEGREE = 16, QUANTITIES = 4 };
+
+static const gg_quantity quantities[QUANTITIES] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1, GG_Q_N2};
+
+static bool model_at(double phi, double e, gg_model *m)
+{
+  gg_scene s = gg_scene_defaults();
+  gg_error err;
+  s.flow = GG_USF, s.phi = phi;
+  s.collision.e[0] = e, s.collision.beta[0] = -1;
+  return gg_model_make(&s, GG_DSMC, m, &err) == GG_OK;
+}
+
+/* Whole stress, in the units of results. */
+static void numbers_of(gg_hermite_shear *h, double number[QUANTITIES])
+{
+  const gg_model *m = h->model;
+  double M[3][3], P[3][3];
+  gg_hermite_sums sums;
+  gg_hermite_second_moments(&h->op.basis, &h->state, M);
+  gg_hermite_sums_at(&h->op, &h->gas, m->sigma[0], h->state.L, h->state.a, &sums);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) P[i][j] = m->density * (M[i][j] + sums.transfer[i][j]);
+  double p = (P[0][0] + P[1][1] + P[2][2]) / 3;
+  number[0] = (M[0][0] + M[1][1] + M[2][2]) / 3;
+  number[1] = m->stress_unit * P[0][1];
+  number[2] = (P[0][0] - P[1][1]) / p;
+  number[3] = (P[1][1] - P[2][2]) / p;
+}
+
+static bool reference_of(const gg_model *m, double number[QUANTITIES])
+{
+  gg_hermite_shear h;
+  gg_error err;
+  if (gg_hermite_shear_begin(&h, m, &err) != GG_OK) return false;
+  bool good = true;
+  for (int degree = 4; good && degree <= REFERENCE_DEGREE; degree += 2)
+    good = gg_hermite_shear_solve(&h, degree, &err) == GG_OK;
+  if (good) numbers_of(&h, number);
+  gg_hermite_shear_end(&h);
+  return good;
+}
+
+typedef struct tally {
+  int answers, exceed, refused, without_reference;
+} tally;
+
+static void look_at(double phi, double e, tally *t)
+{
+  gg_model m;
+  gg_theory_answer a;
+  gg_error err;
+  double number[QUANTITIES];
+  if (!model_at(phi, e, &m)) return;
+  if (gg_theory_evaluate(&gg_enskog_hermite, &m, &a, &err) != GG_OK) {
+    t->refused++;
+    printf("%.5f %.4f  %s\n", phi, e, err.message);
+    return;
+  }
+  if (!reference_of(&m, number)) {
+    t->without_reference++;
+    printf("%.5f %.4f  no reference\n", phi, e);
+    return;
+  }
+  printf("%.5f %.4f ", phi, e);
+  for (int q = 0; q < QUANTITIES; q++) {
+    double stated = a.error[quantities[q]], share = fabs(a.value[quantities[q]] - number[q]) / stated;
+    t->answers++;
+    if (share > 1) t->exceed++;
+    printf("  %.7g %.1e %.2f", a.value[quantities[q]], stated, share);
+  }
+  printf("\n");
+  fflush(stdout);
+}
+
+int main(int argc, char **argv)
+{
+  int scenes = argc == 3 && strcmp(argv[1], "--scenes") == 0 ? atoi(argv[2]) : argc == 1 ? 200 : 0;
+  if (scenes < 1) {
+    fprintf(stderr, "stated_errors [--scenes N]\n");
+    return 2;
+  }
+  tally t = {0};
+  gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+  printf("# phi e, then T, P_xy, N1, N2: value, stated error, true error over stated\n");
+  for (int k = 0; k < scenes; k++) {
+    double phi = gsl_rng_uniform(random) < 0.2 ? 0 : 0.5 * gsl_rng_uniform(random);
+    look_at(phi, 0.3 + 0.69 * gsl_rng_uniform(random), &t);
+  }
+  gsl_rng_free(random);
+  printf("# %d answers in %d scenes: %d err by more than they state; %d scenes refused, %d without reference\n",
+         t.answers, scenes, t.exceed, t.refused, t.without_reference);
+  return 20 * t.exceed > t.answers;
+}
