@@ -173,7 +173,8 @@ void gg_md_set_skins(gg_md *e, double radius);
 /* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
  * False if nothing will ever happen again. */
 bool gg_md_next_epoch(gg_md *e);
-/* Take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same time. */
+/* centre_of_mass.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
+ * time. */
 void gg_md_follow_centre_of_mass(gg_md *e);
 /* Width of a calendar's bucket that suits a rate of events. */
 double gg_md_bucket_width(double events_per_time);
