@@ -1,0 +1,62 @@
+/* What follows from a model: how fast its grains collide, and how long what relaxes takes. */
+#include <math.h>
+
+#include "common/model.h"
+
+double gg_model_relaxation(const gg_model *m)
+{
+  double slowest = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    int o = gg_pair(i, i);
+    double K = m->inertia[i], eta1 = (1 + m->e[o]) / 2, eta2 = 0;
+    if (gg_rule_of(m->beta[o], m->mu[o]) != GG_SMOOTH) eta2 = (1 + m->beta[o]) * K / (2 * (1 + K));
+    double A = eta1 * (1 - eta1) + eta2 * (1 - eta2), C = eta2 / K * (1 - eta2 / K);
+    if (A > 0 && !m->elastic) slowest = fmax(slowest, 0.75 / A);
+    /* Sliding weakens the exchange with the spins by about mu over the friction that sticking would need. */
+    if (gg_rule_of(m->beta[o], m->mu[o]) == GG_FRICTIONAL) C *= fmin(1, m->mu[o] * eta1 / eta2);
+    if (C > 0) slowest = fmax(slowest, 0.75 / C);
+  }
+  return fmax(slowest, 1);
+}
+
+/* In diameters of a grain of the mean volume; n d^3 and n d^2 nu/rate are free of the temperature. */
+double gg_model_gap_relaxation(const gg_model *m)
+{
+  if (!m->walled) return 0;
+  double n = 6 * m->phi / M_PI, d = cbrt(n / m->density), gap = fmax(m->box[1] / d - 1, 0) / M_PI;
+  double chi = m->chi[0], b = 1 + 1.6 * m->phi * chi;
+  double viscosity = 5.0 / 16 * (b * b / chi + 768 / (25 * M_PI) * m->phi * m->phi * chi); /* sqrt(m T/pi)/d^2 */
+  return gap * gap * 4 * M_PI * n * n * chi / viscosity;
+}
+
+double gg_model_collision_rate(const gg_model *m, double T)
+{
+  double rate = 0;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) {
+      int o = gg_pair(i, j);
+      double xi = (double)m->n_of[i] / (double)m->n, nj = m->density * (double)m->n_of[j] / (double)m->n;
+      double spread = T * (1 / m->mass[i] + 1 / m->mass[j]); /* <c12_x^2> */
+      rate += xi * nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
+    }
+  return rate;
+}
+
+static double unlike_rate(const gg_model *m, int i, int j, double T)
+{
+  double v0 = sqrt(2 * T * (m->mass[i] + m->mass[j]) / (m->mass[i] * m->mass[j]));
+  return sqrt(M_PI) * m->density * m->sigma[gg_pair(i, j)] * m->sigma[gg_pair(i, j)] * v0;
+}
+
+double gg_model_nu0(const gg_model *m, double T)
+{
+  if (m->n_species == 1) return 3.2 * sqrt(M_PI) * m->density * sqrt(T);
+  if (m->n_species == 2) return unlike_rate(m, 0, 1, T);
+  double sum = 0, weight = 0;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < i; j++) {
+      double pairs = (double)m->n_of[i] * (double)m->n_of[j];
+      sum += pairs * unlike_rate(m, i, j, T), weight += pairs;
+    }
+  return sum / weight;
+}
