@@ -156,13 +156,15 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
   return status;
 }
 
-/* Of the last row; as if all were well where nobody measures it. */
+/* Of the last row, which tells it in units of the start; as if all were well where nobody measures it, or it has fallen
+ * below all numbers. */
 static double temperature_now(const gg_replica *r)
 {
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
   gg_function f;
   bool known = o && gg_derived_find(o->history, GG_Q_TEMPERATURE, &f);
-  return known ? gg_function_value(f, r->row + r->offset[0], &r->model) : r->model.temperature0;
+  const double T = known ? gg_function_value(f, r->row + r->offset[0], &r->model) : 0;
+  return !known || (r->clock.power && T == 0) ? r->model.temperature0 : ldexp(T, 2 * (int)r->clock.power);
 }
 
 /* What is no number is so for ever: better said at once. */

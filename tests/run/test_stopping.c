@@ -1,7 +1,7 @@
 /* Proves, with the real engines: a run that is stopped in the midst of an interval and resumed from the checkpoint it
  * left ends with the same numbers to the last bit, whatever stops it; replicas that were stopped at different samples
- * are reported as far as all of them came; the time limit is kept within an interval; a start in the cold, and a box of
- * a few diameters. */
+ * are reported as far as all of them came; the time limit is kept within an interval; a start in the cold, a gas that
+ * has cooled for long, and a box of a few diameters. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -218,11 +218,30 @@ static void narrow_box(void **state)
   }
 }
 
+/* However cold a gas is when averaging begins, and be it below all numbers: the collapse of which runs are warned is
+ * judged by its speeds, not by those of its start. */
+static void cold_end(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    gg_scene s = scene_of("{flow: hcs, phi: 0.02, particles: 100, dsmc: {particles: 100}, collision: {e: 0.5}, run: "
+                          "{collisions: 20}}");
+    s.engine = k % 2 ? GG_DSMC : GG_MD;
+    s.run.warmup = k < 2 ? 100 : 4000;
+    gg_result *r = NULL;
+    gg_error err = {0};
+    if (gg_run_scene(&s, NULL, 1, NULL, &r, &err) != GG_OK) fail_msg("%s", err.message);
+    assert_true(r->value[GG_Q_COOLING_RATE].mean > 0.3 && r->value[GG_Q_COOLING_RATE].mean < 0.5);
+    gg_result_free(r);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(in_the_midst_of_an_interval),
                                      cmocka_unit_test(time_limit),
                                      cmocka_unit_test(cold_start),
+                                     cmocka_unit_test(cold_end),
                                      cmocka_unit_test(collapse),
                                      cmocka_unit_test(unlike_rough_grains),
                                      cmocka_unit_test(narrow_box)};
