@@ -71,6 +71,7 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
   tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
   tell(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");
+  if (m->law.name) tell(line, context, "restitution", "from the speed of each collision");
   snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time,
            m->gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
