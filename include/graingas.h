@@ -349,10 +349,23 @@ GG_API const char *gg_comparison_refusal(const gg_comparison *comparison, const 
 GG_API const gg_scene *gg_comparison_scene(const gg_comparison *comparison);
 /* Keys that the scene gives and that have no effect on any part of it; NULL after the last. */
 GG_API const char *gg_comparison_warning(const gg_comparison *comparison, size_t i);
-/* *z: (md - dsmc) over their combined standard error, NaN if either is not known. *beyond: do they differ by more than
- * is expected of the two at this density and dissipation? Either may be NULL. */
+/* *z: (md - dsmc) over their combined standard error, NaN if either is not known. *beyond: does md differ from Enskog's
+ * equation by more than is expected at this density and dissipation? From its solution without random numbers where
+ * there is one (below), else from dsmc. Either may be NULL. */
 GG_API gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,
                                          gg_error *err);
+
+/* An engine's mean against Enskog's equation solved without random numbers, theory enskog_hermite. */
+typedef struct gg_departure {
+  double difference, error; /* engine - solution, in the unit of results; standard error: the engine's, and with it the
+                               numerical one of the solution, which is small */
+  double z;                 /* the one over the other */
+  double deviation, deviation_error; /* both over the solution; NaN of numbers about zero: N1, N2, a2 */
+  int headline;                      /* one of the main quantities, those of a comparison's picture */
+} gg_departure;
+/* Of "md" or "dsmc"; all NaN where there is no such solution, or no mean and error of the engine. */
+GG_API gg_status gg_comparison_departure(const gg_comparison *comparison, const char *engine, const char *quantity,
+                                         gg_departure *departure, gg_error *err);
 
 typedef struct gg_theory_info {
   const char *name, *title, *citation, *assumptions;
@@ -371,8 +384,8 @@ GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, con
                                             double *error, gg_error *err);
 
 typedef struct gg_remark { /* on what differs by more than is expected */
-  const char *theory;      /* NULL: md and dsmc; causes that apply to this scene */
-  const char *quantity;    /* in which it is off most; NULL for md and dsmc */
+  const char *theory;      /* NULL: md and Enskog's equation or dsmc; causes that apply to this scene */
+  const char *quantity;    /* in which it is off most; NULL for md and Enskog's equation */
   double deviation;
   const char *cause;
 } gg_remark;

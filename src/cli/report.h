@@ -17,6 +17,9 @@ void gg_print_warnings(const gg_result *result, const char *told); /* but for wh
 /* Numbers read off the curves of one result or two; nothing if there are none. */
 void gg_print_numbers(const gg_result *one, const gg_result *two, bool all);
 
+/* Each engine against Enskog's equation solved without random numbers; nothing where there is no solution. */
+void gg_print_verdicts(const gg_comparison *comparison);
+
 /* A quantity that is left to --all: parts and components that few look at first. */
 bool gg_is_minor_quantity(const char *name);
 

@@ -137,7 +137,8 @@ static void print_causes(const gg_comparison *c, bool all)
   }
   if (!marked) return;
   printf("\n");
-  gg_print_wrapped(stdout, "!: ", "md and dsmc differ by more than is expected here. Causes that apply to this scene:");
+  gg_print_wrapped(stdout, "!: ",
+                   "md differs from Enskog's equation by more than is expected here. Causes that apply to this scene:");
   for (size_t i = 0; gg_comparison_remark(c, i, &r, NULL) == GG_OK; i++)
     if (!r.theory) gg_print_wrapped(stdout, "  - ", r.cause);
 }
@@ -190,6 +191,7 @@ void gg_print_comparison(const gg_comparison *c, bool all)
   gg_table_print(t, stdout, 1);
   free(t);
   print_legend(c, n_theories);
+  gg_print_verdicts(c);
   print_causes(c, all);
   print_remarks(c);
   gg_print_numbers(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);

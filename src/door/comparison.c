@@ -133,6 +133,21 @@ gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *q
   return GG_OK;
 }
 
+gg_status gg_comparison_departure(const gg_comparison *comparison, const char *engine, const char *quantity,
+                                  gg_departure *departure, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(engine);
+  GG_NEED(quantity);
+  GG_NEED(departure);
+  gg_quantity q;
+  gg_engine_kind kind;
+  GG_TRY(gg_door_engine(engine, &kind, err));
+  GG_TRY(find(comparison, quantity, &q, err));
+  if (!gg_depart_from_enskog(comparison, kind, q, departure)) *departure = (gg_departure){NAN, NAN, NAN, NAN, NAN, 0};
+  return GG_OK;
+}
+
 gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err)
 {
   GG_NEED(comparison);

@@ -21,10 +21,15 @@ double gg_expected_agreement(const gg_model *m, gg_quantity q)
 
 bool gg_disagree(const gg_comparison *c, gg_quantity q)
 {
-  if (!c->by_engine[GG_MD] || !c->by_engine[GG_DSMC]) return false;
-  const gg_estimate *md = &c->by_engine[GG_MD]->value[q], *dsmc = &c->by_engine[GG_DSMC]->value[q];
-  double difference = fabs(md->mean - dsmc->mean), scale = is_difference(q) ? 1 : fabs(dsmc->mean);
-  return fabs(gg_z_score(md, dsmc)) > 4 && difference > gg_expected_agreement(&c->model, q) * scale;
+  gg_estimate enskog;
+  if (!c->by_engine[GG_MD]) return false;
+  if (!gg_enskog_solution(c, q, &enskog)) {
+    if (!c->by_engine[GG_DSMC]) return false;
+    enskog = c->by_engine[GG_DSMC]->value[q];
+  }
+  const gg_estimate *md = &c->by_engine[GG_MD]->value[q];
+  double difference = fabs(md->mean - enskog.mean), scale = is_difference(q) ? 1 : fabs(enskog.mean);
+  return fabs(gg_z_score(md, &enskog)) > 4 && difference > gg_expected_agreement(&c->model, q) * scale;
 }
 
 static bool denser_than_enskog(const gg_model *m)

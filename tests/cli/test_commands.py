@@ -154,6 +154,51 @@ def test_compare_table():
     check("results:" not in done.err, done.err)
 
 
+SMOOTH = ("flow: usf\nphi: 0.3\nparticles: 1000\ncollision: {e: 0.9}\ndsmc: {particles: 5000}\n"
+          "run: {collisions: 2000, warmup: 50, seed: 3}\n")
+
+
+def departure(of, theory, row, engine):
+    """What the keys of a comparison's row are to be."""
+    error = (of["stderr"] ** 2 + theory["error"] ** 2) ** 0.5
+    for key, value in (("z", (of["mean"] - theory["mean"]) / error), ("difference", of["mean"] - theory["mean"]),
+                       ("error", error), ("deviation", of["mean"] / theory["mean"] - 1)):
+        told = row[f"{engine}_enskog_{key}"]
+        check(abs(told - value) < 1e-9 * max(1, abs(value)), engine, key, told, value)
+
+
+def test_verdicts():
+    """md against Enskog's equation solved without random numbers: correlations at phi = 0.3 tell them apart, at 0.01
+    nothing does; nor dsmc at either. The words follow the numbers."""
+    main = ("temperature", "pressure", "compressibility_factor", "shear_viscosity", "N1", "N2", "collision_rate")
+    for phi in "0.3", "0.01":
+        args = "compare", "scene.yaml", "--picture", "none", "--set", f"phi={phi}"
+        d = loads(run(*args, "--json", scene=SMOOTH))
+        told = " ".join(run(*args, "--quiet", scene=SMOOTH).out.split())
+        rows = {row["quantity"]: row for row in d["comparison"]}
+        for engine in "md", "dsmc":
+            solution = d["theory"]["enskog_hermite"]["temperature"]
+            departure(d[engine]["results"]["temperature"], solution, rows["temperature"], engine)
+            z = {name: rows[name][f"{engine}_enskog_z"] for name in main}
+            if engine == "md" and phi == "0.3":
+                check(z["compressibility_factor"] < -4.5, z)
+                check(re.search(r" compressibility_factor by -0\.\d+\(\d+\) %", told), told)
+            else:
+                check(max(map(abs, z.values())) < 4.5, phi, engine, z)
+            far = [name for name in main if abs(z[name]) > 3]
+            words = re.search(engine + r" (differs from|agrees with) Enskog's equation \(enskog_hermite\) (.*?%)", told)
+            check(words.group(1) == ("differs from" if far else "agrees with"), phi, engine, z, told)
+            check(f"in {far[0]} by " in told if far else "in 7 main quantities" in words.group(2), far, told)
+        check("dsmc_enskog_z" in rows["N1"] and "dsmc_enskog_deviation" not in rows["N1"], rows["N1"])
+
+
+def test_no_solution_no_verdict():
+    scene = "flow: equilibrium\nphi: 0.1\nparticles: 200\ndsmc: {particles: 1000}\nrun: {collisions: 50}\n"
+    d = loads(run("compare", "scene.yaml", "--json", "--picture", "none", scene=scene))
+    check(not any("_enskog_" in key for row in d["comparison"] for key in row), d["comparison"])
+    check("enskog_hermite)" not in run("compare", "scene.yaml", "--quiet", "--picture", "none", scene=scene).out)
+
+
 def test_compare_at_phi_0():
     """The Boltzmann limit is for dsmc alone: md's column gives way with the reason."""
     d = loads(run("compare", "scene.yaml", "--json", "--set", "phi=0", scene=ROUGH))

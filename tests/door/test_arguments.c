@@ -139,6 +139,7 @@ static void comparisons(void **state)
   gg_scene *s = scene_of(SHEAR);
   gg_comparison *c = NULL, *other = NULL;
   gg_theory_info theory;
+  gg_departure departure;
   gg_remark remark;
   double x;
   char *text;
@@ -154,6 +155,12 @@ static void comparisons(void **state)
   assert_null(gg_comparison_scene(NULL));
   assert_missing(gg_comparison_agreement(NULL, "N1", &x, NULL, &err));
   assert_missing(gg_comparison_agreement(c, NULL, &x, NULL, &err));
+  assert_missing(gg_comparison_departure(NULL, "md", "N1", &departure, &err));
+  assert_missing(gg_comparison_departure(c, NULL, "N1", &departure, &err));
+  assert_missing(gg_comparison_departure(c, "md", NULL, &departure, &err));
+  assert_missing(gg_comparison_departure(c, "md", "N1", NULL, &err));
+  assert_ok(gg_comparison_departure(c, "md", "N1", &departure, &err));
+  assert_true(isnan(departure.z) && isnan(departure.difference));
   assert_missing(gg_comparison_theory(NULL, 0, &theory, &err));
   assert_missing(gg_comparison_theory(c, 0, NULL, &err));
   assert_missing(gg_comparison_theory_value(NULL, "grad", "N1", &x, NULL, &err));

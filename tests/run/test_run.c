@@ -411,6 +411,50 @@ static void agreement(void **state)
   }
 }
 
+/* Where Enskog's equation is solved without random numbers md is held against that, whatever dsmc's noise; so is dsmc.
+ * A number about zero has a difference and no ratio, and a numerical error adds to the engine's. */
+static void departures(void **state)
+{
+  (void)state;
+  gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
+  gg_comparison c = {.by_engine = {&md, &dsmc}, .n_theories = 1};
+  gg_scene s = scene_of(0);
+  gg_departure d;
+  assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+  c.model.phi = 0.2;
+  md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 2.2, .error = 0.008};
+  dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 2.1, .error = 0.1};
+  md.value[GG_Q_N1] = (gg_estimate){.mean = 0.11, .error = 0.01};
+  md.value[GG_Q_A2] = (gg_estimate){.mean = 0.11, .error = NAN};
+  assert_false(gg_depart_from_enskog(&c, GG_MD, GG_Q_TEMPERATURE, &d));
+  assert_false(gg_disagree(&c, GG_Q_TEMPERATURE)); /* dsmc's noise hides it */
+
+  c.theory[0].theory = &gg_enskog_hermite;
+  c.theory[0].applies = true;
+  gg_theory_answer *a = &c.theory[0].answer;
+  a->value[GG_Q_TEMPERATURE] = 2, a->error[GG_Q_TEMPERATURE] = 0.006;
+  a->value[GG_Q_N1] = 0.1, a->error[GG_Q_N1] = NAN;
+  a->value[GG_Q_A2] = 0.1, a->error[GG_Q_A2] = 0.001;
+  a->value[GG_Q_N2] = NAN;
+  assert_true(gg_depart_from_enskog(&c, GG_MD, GG_Q_TEMPERATURE, &d));
+  assert_true(fabs(d.difference - 0.2) < 1e-12 && fabs(d.error - 0.01) < 1e-12 && fabs(d.z - 20) < 1e-9);
+  assert_true(fabs(d.deviation - 0.1) < 1e-12 && fabs(d.deviation_error - 0.005) < 1e-12 && d.headline);
+  assert_true(gg_disagree(&c, GG_Q_TEMPERATURE));
+  assert_true(gg_depart_from_enskog(&c, GG_DSMC, GG_Q_TEMPERATURE, &d));
+  assert_true(fabs(d.z - 0.1 / hypot(0.1, 0.006)) < 1e-9);
+  assert_true(gg_depart_from_enskog(&c, GG_MD, GG_Q_N1, &d));
+  assert_true(fabs(d.difference - 0.01) < 1e-12 && fabs(d.z - 1) < 1e-9 && isnan(d.deviation));
+  assert_false(gg_depart_from_enskog(&c, GG_MD, GG_Q_A2, &d)); /* no error of md's */
+  assert_false(gg_depart_from_enskog(&c, GG_MD, GG_Q_N2, &d)); /* no solution */
+
+  dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 2.2, .error = 0.001}; /* biased as md */
+  assert_true(gg_disagree(&c, GG_Q_TEMPERATURE));
+  c.by_engine[GG_DSMC] = NULL;
+  assert_true(gg_disagree(&c, GG_Q_TEMPERATURE));
+  c.theory[0].applies = false;
+  assert_false(gg_disagree(&c, GG_Q_TEMPERATURE));
+}
+
 /* Theories are remarked on where they are off by more than four errors and more than expected: with the cause that
  * applies, be it the theory's range or, where it agrees with the Monte Carlo engine, what Enskog's equation leaves out.
  */
@@ -455,7 +499,7 @@ int main(void)
       cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(other_scene),
       cmocka_unit_test(trajectory),    cmocka_unit_test(time_limit),      cmocka_unit_test(comparison),
       cmocka_unit_test(agreement),     cmocka_unit_test(remarks),         cmocka_unit_test(hooks_one_at_a_time),
-      cmocka_unit_test(standstill),
+      cmocka_unit_test(standstill),    cmocka_unit_test(departures),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
