@@ -434,7 +434,7 @@ typedef struct gg_entry { /* NULL or "" where the list has no such thing */
   const char *name, *doc, *unit, *citation, *assumptions;
   const char *type;  /* "number", "integer", "choice", "set", "pairs", "vector", "species" */
   char allowed[256]; /* "a number from 0 to 1" */
-  char value[256];   /* in force in the scene; without a scene, the default, "" if there is none */
+  char value[4096];  /* in force in the scene; without a scene, the default, "" if there is none */
   int given;         /* in the scene */
 } gg_entry;
 /* The i-th entry, GG_BAD_INPUT after the last. `scene` (may be NULL) decides units and values. */
@@ -548,8 +548,8 @@ GG_API gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition
 /* Coefficient of normal restitution, 0 to 1, of two grains (species from 0) that meet with this relative speed along
  * their normal, instead of collision.e and collision.law (walls keep theirs). Asked at every collision of either
  * engine; the same arguments must have the same answer. It is tried at speeds from 1e-9 to 1e9 when it is registered;
- * what it returns out of range during a run is taken as the nearer end. dsmc leaves its fast kernels for it; theories of
- * constant e do not apply. A run that is resumed needs the same law; its name tells. NULL: back to collision.e. */
+ * what it returns out of range during a run is taken as the nearer end. dsmc leaves its fast kernels for it; theories
+ * of constant e do not apply. A run that is resumed needs the same law; its name tells. NULL: back to collision.e. */
 typedef double gg_restitution(void *context, double normal_speed, int species_1, int species_2);
 GG_API gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *law, void *context,
                                           gg_error *err);

@@ -240,6 +240,8 @@ def test_info_of_a_scene():
     text = json.dumps(json.loads(run("info", "scene.yaml", "--json").out))
     again = run("info", "again.yaml", "--json", scene=text, name="again.yaml")
     check(json.dumps(json.loads(again.out)) == text, "a scene written as JSON is a scene")
+    done = run("info", "scene.yaml", scene=f"flow: usf\nphi: 0.1\nspecies: [{', '.join(['{}'] * 16)}]\n")
+    check(done.code == 0 and done.out.count("inertia:") == 16, "all of sixteen species", done.out)
 
 
 def test_info_and_plot_of_a_result():

@@ -128,6 +128,11 @@ static void pairs_of_many_species(void **state)
   s.given = again.given;
   assert_memory_equal(&s, &again, sizeof s);
   free(yaml);
+  gg_scene last = parse("flow: usf\nphi: 0.3\ncollision: {e: {16-16: 0.4, 1-16: 0.6, other: 0.8}}\n"
+                        "species: [{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]\n");
+  assert_int_equal(gg_scene_get(&last, "collision.e", text, sizeof text, &err), GG_OK);
+  assert_string_equal(text,
+                      "{1-16: 0.6, 16-16: 0.4, other: 0.8}"); /* and not 134 pairs, with what the last has as other */
 }
 
 /* Written as YAML or as JSON and read again, a scene is the same to the last bit. */

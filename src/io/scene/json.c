@@ -34,11 +34,24 @@ static json_t *set_json(const gg_field *f, unsigned set)
   return list;
 }
 
-/* Up to two species: all three pairs. Of more: those unlike the rest, which the last pair that could be stands for. */
+/* What most pairs have, which goes by the name of other; with as many of several, what the last pair has. */
+static double commonest(const double *x)
+{
+  double best = x[GG_PAIRS - 1];
+  int most = 0;
+  for (int p = GG_PAIRS - 1; p >= 0; p--) {
+    int n = 0;
+    for (int q = 0; q < GG_PAIRS; q++) n += x[q] == x[p];
+    if (n > most) most = n, best = x[p];
+  }
+  return best;
+}
+
+/* Up to two species: all three pairs. Of more: those unlike the rest. */
 static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *scene)
 {
   const gg_scene defaults = gg_scene_defaults();
-  const double rest = x[GG_PAIRS - 1], usual = *(const double *)(const void *)((const char *)&defaults + f->offset);
+  const double rest = commonest(x), usual = *(const double *)(const void *)((const char *)&defaults + f->offset);
   const int used = gg_pairs_of(scene->n_species > 2 ? scene->n_species : 2), shown = scene->n_species > 2 ? 0 : used;
   bool alike = true;
   json_t *map = json_object();
