@@ -19,7 +19,9 @@ void gg_md_set_skins(gg_md *e, double radius)
 {
   const gg_model *m = &e->model;
   e->skin_radius = radius;
-  for (int q = 0; q < gg_pairs_of(m->n_species); q++) e->pair_reach[q] = m->sigma[q] + 2 * radius;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++)
+      e->pair_reach[gg_md_pair(&e->contacts, i, j)] = m->sigma[gg_pair(i, j)] + 2 * radius;
   e->shrinkage = 0.25 * m->shear_rate * (gg_md_reach(m) + 2 * radius) * (1 + 1e-9);
 }
 

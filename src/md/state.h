@@ -96,10 +96,10 @@ struct gg_md {
   uint32_t *id;          /* the grain's number to the outside; grains stand in memory along a space-filling curve */
   /* Neighbour lists: NULL where the cells themselves are searched. */
   gg_md_skin *skin;
-  uint32_t *neighbour;         /* GG_MD_LIST a grain */
-  double skin_radius;          /* s */
-  double shrinkage;            /* kappa */
-  double pair_reach[GG_PAIRS]; /* sigma + 2 s by pair of species */
+  uint32_t *neighbour;                                /* GG_MD_LIST a grain */
+  double skin_radius;                                 /* s */
+  double shrinkage;                                   /* kappa */
+  double pair_reach[GG_MAX_SPECIES * GG_MAX_SPECIES]; /* sigma + 2 s by ordered pair of species (gg_md_pair) */
   uint32_t n;
   gg_vec gravity;
   bool falls; /* gravity is not zero */

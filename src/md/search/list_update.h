@@ -126,13 +126,14 @@ GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found
   const gg_vec centre = e->skin[i].centre;
   const double *L = e->box.edge, *inverse = e->box.inverse;
   double strain = IS_SHEARED ? e->model.shear_rate * e->k.now : 0;
-  int species = IS_MIXTURE ? gg_md_species_of(&e->grain[i]) : 0;
+  const double *reaches =
+      e->pair_reach + (IS_MIXTURE ? gg_md_pair(&e->contacts, gg_md_species_of(&e->grain[i]), 0) : 0);
   for (int l = 0; l < GG_BATCH; l++) candidates[n + (uint32_t)l] = e->n;
   for (uint32_t k = 0; k < n && count <= GG_MD_LIST; k += GG_BATCH) {
-    gg_v8 x, y, z, reach = gg_all8(e->pair_reach[0]);
+    gg_v8 x, y, z, reach = gg_all8(reaches[0]);
     gg_md_gather_centres(e->skin, candidates + k, &x, &y, &z);
     for (int l = 0; IS_MIXTURE && l < GG_BATCH; l++)
-      reach[l] = e->pair_reach[gg_pair(species, gg_md_species_of(&e->grain[candidates[k + (uint32_t)l]]))];
+      reach[l] = reaches[gg_md_species_of(&e->grain[candidates[k + (uint32_t)l]])];
     x -= centre.x, y -= centre.y, z -= centre.z;
     gg_v8 layers = gg_nearest8(y * inverse[1]);
     y -= L[1] * layers;
