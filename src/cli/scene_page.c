@@ -76,10 +76,9 @@ void gg_cli_print_scene_page(void)
       "and times of a scene are in\nunits of the user's choice, the same throughout; where no unit stands, the number "
       "is pure. `graingas info SCENE.yaml`\nprints every key with its value and what the scene switches on.\n\n");
   print_keys(GG_CATALOGUE_KEYS, true);
-  printf(
-      "\n## Members of a species\n\nUnder `species`, a list of maps. Lengths and masses of results are in those of "
-      "the first. A pair of species is\ncalled by both numbers: `12`; with two digits `1-10`. A map by pair may name "
-      "all others `other`; pairs that it leaves out\nkeep what they have.\n\n");
+  printf("\n## Members of a species\n\nUnder `species`, a list of maps. Lengths and masses of results are in those of "
+         "the first. A pair of species is\ncalled by both numbers: `12`; with two digits `1-10`. A map by pair names "
+         "every pair, or gives `other` for\nthose it leaves out; with `--set` they keep what they have.\n\n");
   print_keys(GG_CATALOGUE_SPECIES_KEYS, false);
   printf("\n## Words\n");
   gg_entry f;

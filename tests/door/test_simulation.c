@@ -377,8 +377,9 @@ static void stopped(void **state)
 static void species_one_by_one(void **state)
 {
   (void)state;
-  gg_simulation *m = simulation_of("{flow: usf, phi: 0.1, particles: 100, collision: {beta: 0, e: {33: 0.8}}, species: "
-                                   "[{fraction: 0.5}, {fraction: 0.3, mass: 2}, {fraction: 0.2, diameter: 1.5}]}");
+  gg_simulation *m =
+      simulation_of("{flow: usf, phi: 0.1, particles: 100, collision: {beta: 0, e: {33: 0.8, other: 0.9}}, species: "
+                    "[{fraction: 0.5}, {fraction: 0.3, mass: 2}, {fraction: 0.2, diameter: 1.5}]}");
   gg_error err;
   gg_simulation_state now;
   gg_species_state one;

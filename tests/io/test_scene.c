@@ -102,12 +102,13 @@ static void overrides(void **state)
   gg_scene_free(s);
 }
 
-/* Pairs by their names, in either order; those left out take `other`, or what they had. */
+/* Pairs by their names, in either order; those left out take `other`. */
 static void pairs_of_many_species(void **state)
 {
   (void)state;
-  gg_scene s = parse("flow: usf\nphi: 0.3\ncollision: {e: {11: 0.9, 3-1: 0.8, 1-12: 0.6, other: 0.7}, mu: {23: 0.5}, "
-                     "beta: 0}\nspecies: [{},{},{},{},{},{},{},{},{},{},{},{}]\n");
+  gg_scene s = parse(
+      "flow: usf\nphi: 0.3\ncollision: {e: {11: 0.9, 3-1: 0.8, 1-12: 0.6, other: 0.7}, mu: {23: 0.5, other: inf}, "
+      "beta: 0}\nspecies: [{},{},{},{},{},{},{},{},{},{},{},{}]\n");
   assert_int_equal(s.n_species, 12);
   assert_true(s.species[11].fraction == 1.0 / 12 && s.species[11].mass == 1);
   assert_true(s.collision.e[GG_11] == 0.9 && s.collision.e[gg_pair(0, 2)] == 0.8 &&

@@ -62,6 +62,8 @@ static void refusals(void **state)
   assert_refused("flow: usf\nphi: 0.3\nmeasure: [rheologie]\n", "a list of rheology");
   assert_refused("flow: usf\nphi: 0.3\ncollision: 0.9\n", "s.yaml:3: key 'collision': is a section");
   assert_refused("flow: usf\nphi: 0.3\ncollision: {e: {11: 1, 12: 1, 22: 1, 21: 1}}\n", "or other, each pair once");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: [{}, {mass: 2}]\ncollision:\n  e: {11: 0.7}\n",
+                 "s.yaml:5: key 'collision.e': lacks the pair 12: name every pair of the 2 species, or give `other`");
   assert_refused("flow: usf\nphi: 0.3\ncollision: {e: {1-17: 1}}\n", "keys like 11, 12 or 1-10");
   assert_refused("flow: usf\nphi: 0.3\ncollision: {mu: -1}\n", "at least 0, or inf");
 }

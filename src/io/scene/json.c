@@ -60,7 +60,7 @@ static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *sc
     alike = alike && (p >= used || x[p] == x[GG_11]);
     if (p < shown || x[p] != rest) json_object_set_new(map, gg_pair_name(p, name), number_json(f, x[p]));
   }
-  if (rest != usual || json_object_size(map) == 0) json_object_set_new(map, "other", number_json(f, rest));
+  if (rest != usual || json_object_size(map) < (size_t)used) json_object_set_new(map, "other", number_json(f, rest));
   if (!alike) return map;
   json_decref(map);
   return number_json(f, x[GG_11]);

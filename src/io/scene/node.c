@@ -140,7 +140,33 @@ static gg_status read_vector(const gg_scene_reader *r, const gg_field *f, const 
   return GG_OK;
 }
 
-/* Pairs that a map leaves out take `other`; without that they stay what they are. */
+/* How many species the document itself lists; 0: it does not say, as what overrides a single key. */
+static int listed_species(const gg_scene_reader *r)
+{
+  const yaml_node_t *root = yaml_document_get_root_node(r->document);
+  if (!root || root->type != YAML_MAPPING_NODE) return 0;
+  for (yaml_node_pair_t *i = root->data.mapping.pairs.start; i < root->data.mapping.pairs.top; i++) {
+    const yaml_node_t *name = yaml_document_get_node(r->document, i->key);
+    const yaml_node_t *list = yaml_document_get_node(r->document, i->value);
+    if (scalar(name) && strcmp(scalar(name), "species") == 0 && list->type == YAML_SEQUENCE_NODE)
+      return (int)(list->data.sequence.items.top - list->data.sequence.items.start);
+  }
+  return 0;
+}
+
+/* A forgotten pair would silently have the default. */
+static gg_status check_pairs(const gg_scene_reader *r, const char *key, const yaml_node_t *node, const bool *given)
+{
+  int n = listed_species(r);
+  char name[GG_PAIR_NAME];
+  for (int p = 0; n <= GG_MAX_SPECIES && p < gg_pairs_of(n); p++)
+    if (!given[p])
+      return gg_scene_refuse(r, node, key, "lacks the pair %s: name every pair of the %d species, or give `other`",
+                             gg_pair_name(p, name), n);
+  return GG_OK;
+}
+
+/* Pairs that a map leaves out take `other`; where a single key is overridden, they stay what they are. */
 static gg_status read_pairs(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
                             double *value)
 {
@@ -161,7 +187,8 @@ static gg_status read_pairs(const gg_scene_reader *r, const gg_field *f, const c
     *(rest ? &others : &given[p]) = true;
     GG_TRY(gg_scene_read_number(r, f, key, yaml_document_get_node(r->document, i->value), rest ? &other : &value[p]));
   }
-  for (int p = 0; others && p < GG_PAIRS; p++)
+  if (!others) return check_pairs(r, key, node, given);
+  for (int p = 0; p < GG_PAIRS; p++)
     if (!given[p]) value[p] = other;
   return GG_OK;
 }
