@@ -33,7 +33,7 @@ static void numbers_of(gg_hermite_shear *h, double number[QUANTITIES])
   gg_hermite_second_moments(&h->op.basis, &h->state, M);
   gg_hermite_sums_at(&h->op, &h->gas, m->sigma[0], h->state.L, h->state.a, &sums);
   for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) P[i][j] = m->density * (M[i][j] + sums.transfer[i][j]);
+    for (int j = 0; j < 3; j++) P[i][j] = m->density * (M[i][j] + (m->boltzmann ? 0 : sums.transfer[i][j]));
   double p = (P[0][0] + P[1][1] + P[2][2]) / 3;
   number[0] = (M[0][0] + M[1][1] + M[2][2]) / 3;
   number[1] = m->stress_unit * P[0][1];
