@@ -16,7 +16,7 @@ SCENES = {
     "small steps": "{flow: usf, phi: 0.1, engine: dsmc, dsmc: {time_step: 1e-9}}",
     "masses": "{flow: usf, phi: 0.001, engine: dsmc, species: [{fraction: 0.5}, {fraction: 0.5, mass: 1.0e12}]}",
     "a million (md)": "{flow: usf, phi: 0.5, particles: 1000000}",
-    "a million (dsmc)": "{flow: usf, phi: 0.1, engine: dsmc, particles: 1000000}",
+    "a million (dsmc)": "{flow: usf, phi: 0.1, engine: dsmc, particles: 1000000, run: {relative_error: 1.0e-7}}",
 }
 
 
