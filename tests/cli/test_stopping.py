@@ -21,7 +21,7 @@ SCENES = {
 
 
 def stop(args, after, sig, ignore=False):
-    before = lambda: ignore and signal.signal(sig, signal.SIG_IGN)
+    before = lambda: signal.signal(sig, signal.SIG_IGN if ignore else signal.SIG_DFL)  # whatever we were started with
     child = subprocess.Popen([GRAINGAS, *args, "--quiet"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                              preexec_fn=before)
     time.sleep(after)
