@@ -412,9 +412,9 @@ enum {                        /* what gg_export writes */
        GG_EXPORT_ALL = 7
 };
 /* A result file as tables and a trajectory for other programs; the command's documents tell of the columns. All files
- * appear, each whole, or none: not if one could not be written (GG_BAD_FILE), is the result file (GG_BAD_INPUT), or if
- * the result has nothing of what `parts` asks for (GG_FAILED). `written` (may be NULL) is called with the name of
- * each. */
+ * are written whole before the first appears, and none does if one could not be written (GG_BAD_FILE), is the result
+ * file (GG_BAD_INPUT), or if the result has nothing of what `parts` asks for (GG_FAILED). `written` (may be NULL) is
+ * called with the name of each. */
 GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                            void (*written)(void *context, const char *file), void *context, gg_error *err);
 

@@ -64,14 +64,6 @@ GG_INLINE double gg_inverse_mt(const gg_contact *c)
 #define GG_SQRT(x) sqrt(x)
 #define GG_IF_LESS(a, b, yes, no) ((a) < (b) ? (yes) : (no))
 #include "common/collision_of.h"
-#undef GG_NUMBER
-#undef GG_VECTOR
-#undef GG_OF
-#undef GG_CONTACT
-#undef GG_ALL
-#undef GG_ABS
-#undef GG_SQRT
-#undef GG_IF_LESS
 
 GG_INLINE void gg_kick(gg_rule rule, const gg_contact *c, gg_vec k, gg_vec J, gg_vec *c1, gg_vec *s1, gg_vec *c2,
                        gg_vec *s2)

@@ -7,7 +7,7 @@
  *   GG_ABS(x), GG_SQRT(x), GG_IF_LESS(a, b, yes, no)
  *
  * Products and sums are those of the language, in the order written, for all kinds: so they leave the same bits. No
- * guard: each inclusion makes the functions of its own kind. */
+ * guard: each inclusion makes the functions of its own kind, and forgets what it was included with. */
 
 /* Relative velocity of the surfaces at contact, g = c12 - k x (s1 + s2). */
 GG_INLINE GG_VECTOR GG_OF(contact_velocity)(gg_rule rule, GG_VECTOR k, GG_VECTOR c12, GG_VECTOR s1, GG_VECTOR s2)
@@ -49,3 +49,12 @@ GG_INLINE void GG_OF(kick_spins)(GG_NUMBER ik1, GG_NUMBER ik2, GG_VECTOR k, GG_V
   *s1 = GG_OF(sub)(*s1, GG_OF(scale)(ik1, kJ));
   *s2 = GG_OF(sub)(*s2, GG_OF(scale)(ik2, kJ));
 }
+
+#undef GG_NUMBER
+#undef GG_VECTOR
+#undef GG_OF
+#undef GG_CONTACT
+#undef GG_ALL
+#undef GG_ABS
+#undef GG_SQRT
+#undef GG_IF_LESS

@@ -41,9 +41,9 @@ typedef struct gg_model {
   double sigma[GG_PAIRS]; /* (d_i + d_j)/2 */
   double chi[GG_PAIRS];   /* contact value; 1 in the Boltzmann limit */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
-  gg_restitution_law
-      law; /* of restitution between grains (name NULL: none); with one, `e` and `contact` are those at the mean impact
-  speed of some temperature (gg_model_at), for estimates, and engines ask the law at every collision */
+  /* Of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed of
+   * some temperature (gg_model_at), for estimates, and engines ask the law at every collision. */
+  gg_restitution_law law;
 
   bool walled;       /* there are surfaces: the box is closed along y, and no flow is imposed */
   gg_rule wall_rule; /* of smooth grains, too, whose spins it leaves alone */

@@ -12,9 +12,6 @@ typedef struct gg_vec {
 #define GG_VECTOR gg_vec
 #define GG_OF(name) gg_##name
 #include "common/vec_of.h"
-#undef GG_NUMBER
-#undef GG_VECTOR
-#undef GG_OF
 
 /* Component 0, 1 or 2 of a vector. */
 GG_INLINE double *gg_component(gg_vec *v, int axis)

@@ -4,7 +4,8 @@
  *   GG_VECTOR      a struct of three of them, x, y and z
  *   GG_OF(name)    what an operation is called for them
  *
- * Everything inlines. No guard: each inclusion makes the operations of its own kind. */
+ * Everything inlines. No guard: each inclusion makes the operations of its own kind, and forgets what it was included
+ * with. */
 
 GG_INLINE GG_VECTOR GG_OF(add)(GG_VECTOR a, GG_VECTOR b)
 {
@@ -31,3 +32,7 @@ GG_INLINE GG_VECTOR GG_OF(axpy)(GG_NUMBER f, GG_VECTOR b, GG_VECTOR a)
 {
   return (GG_VECTOR){a.x + f * b.x, a.y + f * b.y, a.z + f * b.z};
 }
+
+#undef GG_NUMBER
+#undef GG_VECTOR
+#undef GG_OF

@@ -92,8 +92,5 @@ typedef struct gg_vd3 {
 #define GG_VECTOR gg_vd3
 #define GG_OF(name) gg_vd3_##name
 #include "common/vec_of.h"
-#undef GG_NUMBER
-#undef GG_VECTOR
-#undef GG_OF
 
 #endif

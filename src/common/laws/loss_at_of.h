@@ -8,7 +8,7 @@
  *   GG_LOOK_UP(table, at)           entries
  *
  * Nodes divide each octave evenly: the leading bits of a number are its place in the table, the others how far it is
- * from there to the next node. */
+ * from there to the next node. Each inclusion forgets what it was included with. */
 GG_INLINE GG_NUMBER GG_OF(loss_at)(const GG_REAL *table, GG_NUMBER u)
 {
   const GG_WORDS bits = GG_BITS(GG_BETWEEN(u, GG_LOSS_LOWEST, GG_LOSS_HIGHEST));
@@ -18,3 +18,15 @@ GG_INLINE GG_NUMBER GG_OF(loss_at)(const GG_REAL *table, GG_NUMBER u)
   const GG_NUMBER low = GG_LOOK_UP(table, at), high = GG_LOOK_UP(table + 1, at);
   return low + share * (high - low);
 }
+
+#undef GG_NUMBER
+#undef GG_OF
+#undef GG_REAL
+#undef GG_WORDS
+#undef GG_MANTISSA
+#undef GG_BIAS
+#undef GG_ONE
+#undef GG_BETWEEN
+#undef GG_BITS
+#undef GG_FROM_BITS
+#undef GG_LOOK_UP

@@ -50,16 +50,5 @@ GG_INLINE double gg_double_of_bits(uint64_t bits)
 #define GG_FROM_BITS(w) gg_double_of_bits(w)
 #define GG_LOOK_UP(table, at) (table)[at]
 #include "common/laws/loss_at_of.h"
-#undef GG_NUMBER
-#undef GG_OF
-#undef GG_REAL
-#undef GG_WORDS
-#undef GG_MANTISSA
-#undef GG_BIAS
-#undef GG_ONE
-#undef GG_BETWEEN
-#undef GG_BITS
-#undef GG_FROM_BITS
-#undef GG_LOOK_UP
 
 #endif

@@ -47,14 +47,6 @@ GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_conta
 #define GG_SQRT(x) gg_sqrt(x)
 #define GG_IF_LESS(a, b, yes, no) gg_select(gg_less(a, b), yes, no)
 #include "common/collision_of.h"
-#undef GG_NUMBER
-#undef GG_VECTOR
-#undef GG_OF
-#undef GG_CONTACT
-#undef GG_ALL
-#undef GG_ABS
-#undef GG_SQRT
-#undef GG_IF_LESS
 
 #define GG_NUMBER gg_vd
 #define GG_OF(name) gg_vd3_##name
@@ -74,17 +66,6 @@ GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_conta
 #define GG_FROM_BITS(w) ((gg_vd)(w))
 #define GG_LOOK_UP(table, at) gg_look_up(table, at)
 #include "common/laws/loss_at_of.h"
-#undef GG_NUMBER
-#undef GG_OF
-#undef GG_REAL
-#undef GG_WORDS
-#undef GG_MANTISSA
-#undef GG_BIAS
-#undef GG_ONE
-#undef GG_BETWEEN
-#undef GG_BITS
-#undef GG_FROM_BITS
-#undef GG_LOOK_UP
 
 /* Which terms of the loss need not be summed, since they follow from the others: smooth grains need the first alone
  * (J.g = m_r (1+e) g_n^2), rough ones two (J_t^2 = m_t (1+beta) J_t.g_t). */
