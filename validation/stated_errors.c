@@ -30,8 +30,8 @@ static void numbers_of(gg_hermite_shear *h, double number[QUANTITIES])
   const gg_model *m = h->model;
   double M[3][3], P[3][3];
   gg_hermite_sums sums;
-  gg_hermite_second_moments(&h->op.basis, &h->state, M);
-  gg_hermite_sums_at(&h->op, &h->gas, m->sigma[0], h->state.L, h->state.a, &sums);
+  gg_hermite_second_moments(&h->op.basis, h->state, M);
+  gg_hermite_sums_at(&h->op, &h->gas, h->state, &sums);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) P[i][j] = m->density * (M[i][j] + (m->boltzmann ? 0 : sums.transfer[i][j]));
   double p = (P[0][0] + P[1][1] + P[2][2]) / 3;

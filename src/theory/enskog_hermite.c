@@ -6,6 +6,7 @@
 #include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/garzo_dufty1999.h"
+#include "theory/hermite/isotropic.h"
 #include "theory/hermite/mixture_answer.h"
 #include "theory/hermite/rungs.h"
 #include "theory/hermite/shear.h"
@@ -66,14 +67,14 @@ static void answer_shear(gg_hermite_shear *h, gg_theory_answer *a)
   const gg_model *m = h->model;
   double M[3][3];
   gg_hermite_sums sums;
-  gg_hermite_second_moments(&h->op.basis, &h->state, M);
-  gg_hermite_sums_at(&h->op, &h->gas, m->sigma[0], h->state.L, h->state.a, &sums);
+  gg_hermite_second_moments(&h->op.basis, h->state, M);
+  gg_hermite_sums_at(&h->op, &h->gas, h->state, &sums);
   double T = (M[0][0] + M[1][1] + M[2][2]) / 3;
   gg_answer_temperature(m, T, NAN, a);
   gg_answer_stress(m, T, stress_of(m->density, M), stress_of(m->density, sums.transfer), a);
   answer_flights(m, sums.rate, sums.speed, a);
   a->value[GG_Q_DISSIPATION] = -a->value[GG_Q_P_XY] * m->shear_rate;
-  answer_kurtoses(&h->op.basis, &h->state, M, a);
+  answer_kurtoses(&h->op.basis, h->state, M, a);
 }
 
 /* The slowest of all modes: that of the temperature, mostly. */
@@ -81,7 +82,7 @@ static void answer_relaxation(gg_hermite_shear *h, gg_theory_answer *a)
 {
   gg_error ignored;
   gg_hermite_mode mode[GG_HERMITE_MOST_FUNCTIONS];
-  if (gg_hermite_spectrum(&h->op, &h->gas, &h->state, mode, &ignored) == GG_OK)
+  if (gg_hermite_spectrum(&h->op, &h->gas, h->state, mode, &ignored) == GG_OK)
     a->value[GG_Q_RELAXATION_RATE] = mode[0].decay;
 }
 
@@ -131,7 +132,7 @@ static double temperature_of(const gg_model *m, double cooling, bool noise)
 static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, bool noise, gg_theory_answer *a)
 {
   gg_hermite_sums sums;
-  gg_hermite_sums_at(&h->op, &h->gas, m->sigma[0], h->state.L, h->state.a, &sums);
+  gg_hermite_sums_at(&h->op, &h->gas, &h->state, &sums);
   double a2 = gg_hermite_mean(&h->op.basis, &h->state, fourth) / 15 - 1;
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
@@ -147,7 +148,7 @@ static gg_status answer_viscosity(const gg_model *m, gg_hermite_isotropic *h, gg
 {
   gg_hermite_viscosity v;
   double fading = gg_thermostat_share(m) == 0.5 ? h->cooling_rate / 2 : 0, nu0 = gg_model_nu0(m, 1);
-  GG_TRY(gg_hermite_viscosity_of(h, m->boltzmann ? 0 : m->sigma[0], fading, &v, err));
+  GG_TRY(gg_hermite_viscosity_of(&h->gas, &h->state, h->op.basis.degree, !m->boltzmann, fading, &v, err));
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = v.total * nu0;
   return GG_OK;

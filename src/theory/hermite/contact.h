@@ -2,11 +2,19 @@
 #ifndef GG_HERMITE_CONTACT_H
 #define GG_HERMITE_CONTACT_H
 
-#include "theory/hermite/flux.h"
+#include "theory/hermite/operator.h"
 
-/* shear: sigma times shear rate. The three axes are rows. */
-gg_hermite_contact gg_hermite_contact_at(double eta, double shear, double L[3][3], const double k[3],
-                                         double axis[3][3]);
+/* One grain's. The three axes are rows. */
+typedef struct gg_hermite_frame {
+  double axis[3][3];
+  double s;      /* |L^T k| */
+  double b0, b1; /* L^-1 k along normal and tangent */
+} gg_hermite_frame;
+
+gg_hermite_frame gg_hermite_frame_at(double L[3][3], const double k[3]);
+
+gg_hermite_contact gg_hermite_contact_of(const gg_hermite_impact *impact, const gg_hermite_frame *grain,
+                                         const gg_hermite_frame *partner, const double k[3]);
 
 /* B = L^-1 A, L lower triangular. */
 void gg_hermite_left_divide(double L[3][3], double A[3][3], double B[3][3]);

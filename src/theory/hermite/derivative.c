@@ -1,11 +1,11 @@
-/* The Jacobian of one direction, in the rotated frame: what a test changes with the a_s of the grain itself, and with
- * those of its partner, which come in by the marginal alone. */
+/* The Jacobian of one direction: what a test changes with the a_s of the grain itself, and with those of its partner,
+ * which come in by the marginal alone. */
 #include <string.h>
 
 #include "theory/hermite/room.h"
 
 /* K and E for one Q: by each (j,p), W of all (J,P), and sum_q Z_Qq D_jpq,s. Returns how many (j,p). */
-static int factors_of(const gg_hermite_operator *op, int Q, int tests, int tall)
+static int factors_of(const gg_hermite_operator *op, const gg_hermite_view *own, int Q, int tests, int tall)
 {
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_room *r = op->room;
@@ -17,7 +17,7 @@ static int factors_of(const gg_hermite_operator *op, int Q, int tests, int tall)
       memset(E, 0, (size_t)r->wide * sizeof *E);
       for (int q = Q % 2; q <= N - j - p; q += 2) {
         const double z = f->Z[Q * f->trials + q];
-        const double *D = r->D + (size_t)gg_hermite_rotated_place(b, j, p, q) * (size_t)r->wide;
+        const double *D = own->D + (size_t)gg_hermite_rotated_place(b, j, p, q) * (size_t)r->wide;
         for (int s = 0; s < r->wide; s++) E[s] += z * D[s];
       }
       for (int i = 0; i < tall; i++)
@@ -27,11 +27,11 @@ static int factors_of(const gg_hermite_operator *op, int Q, int tests, int tall)
 }
 
 /* X = K^T E for the tests of one Q. Rows beyond them are of the next Q, which begins anew. */
-static void own_share(const gg_hermite_operator *op, int Q)
+static void own_share(const gg_hermite_operator *op, const gg_hermite_view *own, int Q)
 {
   const gg_hermite_room *r = op->room;
   int from = op->basis.rotated_from[Q], tests = op->basis.rotated_from[Q + 1] - from;
-  int tall = gg_padded(tests, GG_PRODUCT_ROWS), depth = factors_of(op, Q, tests, tall);
+  int tall = gg_padded(tests, GG_PRODUCT_ROWS), depth = factors_of(op, own, Q, tests, tall);
   double *X = r->X + (size_t)from * (size_t)r->wide;
   memset(X, 0, (size_t)tall * (size_t)r->wide * sizeof *X);
   gg_add_product(tall, r->wide, depth, r->K, tall, r->E, r->wide, X, r->wide);
@@ -43,13 +43,13 @@ static int pair_at(int N, int P, int Q)
 }
 
 /* V[(P,Q)] = sum_p Y[P,p] damped[Q][j,p], for one u and j */
-static void along_tangent(const gg_hermite_operator *op, const double *Y, int j, double sign, double *V)
+static void along_tangent(const gg_hermite_operator *op, const gg_hermite_view *own, const double *Y, int j,
+                          double sign, double *V)
 {
-  const gg_hermite_room *r = op->room;
   int N = op->basis.degree, trials = op->flux.trials;
   for (int Q = 0; Q <= N; Q++)
     for (int P = 0; P <= N - Q; P++) {
-      const double *t = r->damped + Q * r->box + j * (N + 1);
+      const double *t = own->damped + Q * op->room->box + j * (N + 1);
       double sum = 0;
       for (int p = (j + Q) % 2; p <= N - j; p += 2) sum += Y[P * trials + p] * t[p];
       V[pair_at(N, P, Q)] = sign * sum;
@@ -57,17 +57,17 @@ static void along_tangent(const gg_hermite_operator *op, const double *Y, int j,
 }
 
 /* S[(J,P,Q),l] = sum_ij V[(i,j),(P,Q)] X[(i,j),(J,l)], less the same of the loss. */
-static void partner_share(const gg_hermite_operator *op)
+static void partner_share(const gg_hermite_operator *op, const gg_hermite_view *own)
 {
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_room *r = op->room;
   const gg_hermite_flux *f = &op->flux;
   int N = b->degree, half = f->halves, rows = f->n_u * (N + 1);
   memset(r->VX, 0, (size_t)(r->pairs * f->width_X) * sizeof *r->VX);
-  for (int j = 0; j <= N; j++) along_tangent(op, f->Z, j, -1, r->V + (size_t)j * (size_t)r->pairs);
+  for (int j = 0; j <= N; j++) along_tangent(op, own, f->Z, j, -1, r->V + (size_t)j * (size_t)r->pairs);
   gg_add_product(r->pairs, f->width_X, N + 1, r->V, r->pairs, f->loss, f->width_X, r->VX, f->width_X);
   for (int i = 0; i < rows; i++)
-    along_tangent(op, f->Y + i / (N + 1) * f->width_Y, i % (N + 1), 1, r->V + (size_t)i * (size_t)r->pairs);
+    along_tangent(op, own, f->Y + i / (N + 1) * f->width_Y, i % (N + 1), 1, r->V + (size_t)i * (size_t)r->pairs);
   gg_add_product(r->pairs, f->width_X, rows, r->V, r->pairs, f->X, f->width_X, r->VX, f->width_X);
   for (int i = 0; i < b->n_rotated; i++) {
     const int *test = b->rotated[i].r;
@@ -76,43 +76,69 @@ static void partner_share(const gg_hermite_operator *op)
   }
 }
 
-/* Tests of degree 2, which do not decay: both shares anew. */
-static void low_share(const gg_hermite_operator *op, int i)
+/* Tests of degree 2, which do not decay, anew. */
+static void low_own_share(const gg_hermite_operator *op, const gg_hermite_view *own, int i)
 {
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_room *r = op->room;
+  int N = b->degree, J = b->rotated[i].r[0], P = b->rotated[i].r[1], Q = b->rotated[i].r[2];
+  double *X = r->X + (size_t)i * (size_t)r->wide;
+  memset(X, 0, (size_t)r->wide * sizeof *X);
+  for (int j = 0; j <= N - Q; j++)
+    for (int p = (j + Q) % 2; p <= N - Q - j; p += 2) {
+      const double W = gg_hermite_W(&op->low, J, P, j, p);
+      const double *D = own->D + (size_t)gg_hermite_rotated_place(b, j, p, Q) * (size_t)r->wide;
+      for (int s = 0; s < r->wide; s++) X[s] += W * D[s];
+    }
+}
+
+static void low_partner_share(const gg_hermite_operator *op, const gg_hermite_view *own, int i)
+{
+  const gg_hermite_basis *b = &op->basis;
   const gg_hermite_flux *f = &op->low;
   int N = b->degree, J = b->rotated[i].r[0], P = b->rotated[i].r[1], Q = b->rotated[i].r[2];
-  double *X = r->X + (size_t)i * (size_t)r->wide, *S = r->S + i * f->halves;
-  memset(X, 0, (size_t)r->wide * sizeof *X);
+  double *S = op->room->S + i * f->halves;
   memset(S, 0, (size_t)f->halves * sizeof *S);
   for (int j = 0; j <= N - Q; j++)
     for (int p = (j + Q) % 2; p <= N - Q - j; p += 2) {
-      int at = gg_hermite_rotated_place(b, j, p, Q);
-      const double W = gg_hermite_W(f, J, P, j, p), *D = r->D + (size_t)at * (size_t)r->wide;
-      for (int s = 0; s < r->wide; s++) X[s] += W * D[s];
+      double t = own->t[gg_hermite_rotated_place(b, j, p, Q)];
       for (int u = -1; u < f->n_u; u++) { /* -1: the loss */
         const double *row = u < 0 ? f->loss + j * f->width_X : f->X + (u * f->trials + j) * f->width_X;
-        double V = (u < 0 ? -f->Z[P * f->trials + p] : f->Y[u * f->width_Y + P * f->trials + p]) * r->t[at];
+        double V = (u < 0 ? -f->Z[P * f->trials + p] : f->Y[u * f->width_Y + P * f->trials + p]) * t;
         for (int l = 0; l < f->halves; l++) S[l] += V * row[J * f->halves + l];
       }
     }
 }
 
-void gg_hermite_differentiate(const gg_hermite_operator *op)
+void gg_hermite_differentiate_own(const gg_hermite_operator *op, const gg_hermite_view *own)
+{
+  const gg_hermite_basis *b = &op->basis;
+  for (int Q = 0; Q <= b->degree; Q++) own_share(op, own, Q);
+  for (int i = 0; i < b->n_rotated; i++)
+    if (gg_hermite_degree(b->rotated[i]) <= 2) low_own_share(op, own, i);
+}
+
+/* D^T S of the grain, then times the rows of the partner's D that are its marginal. */
+void gg_hermite_differentiate_partner(const gg_hermite_operator *op, const gg_hermite_view *own,
+                                      const gg_hermite_view *partner, double weight, double *jacobian, size_t stride)
 {
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_room *r = op->room;
   int half = op->flux.halves;
-  for (int Q = 0; Q <= b->degree; Q++) own_share(op, Q);
-  partner_share(op);
+  partner_share(op, own);
+  memset(r->back, 0, (size_t)(b->n * half) * sizeof *r->back);
   for (int i = 0; i < b->n_rotated; i++) {
-    if (gg_hermite_degree(b->rotated[i]) <= 2) low_share(op, i);
-    double *X = r->X + (size_t)i * (size_t)r->wide;
-    for (int l = 0; l < half; l++) { /* X += S D_l */
-      const double S = r->S[i * half + l];
-      const double *D = r->D + (size_t)gg_hermite_rotated_place(b, 2 * l, 0, 0) * (size_t)r->wide;
-      for (int s = 0; s < r->wide; s++) X[s] += S * D[s];
+    const double *D = own->D + (size_t)i * (size_t)r->wide, *S = r->S + i * half;
+    if (gg_hermite_degree(b->rotated[i]) <= 2) low_partner_share(op, own, i);
+    for (int s = 0; s < b->n; s++)
+      if (D[s] != 0) /* else another degree */
+        for (int l = 0; l < half; l++) r->back[s * half + l] += D[s] * S[l];
+  }
+  for (int l = 0; l < half; l++) {
+    const double *D = partner->D + (size_t)gg_hermite_rotated_place(b, 2 * l, 0, 0) * (size_t)r->wide;
+    for (int i = 0; i < b->n; i++) {
+      double d = weight * r->back[i * half + l], *restrict row = jacobian + (size_t)i * stride;
+      for (int s = 0; s < b->n; s++) row[s] += d * D[s];
     }
   }
 }

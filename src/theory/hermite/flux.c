@@ -68,39 +68,51 @@ static double density_at(const gg_hermite_flux *f, const double *marginal, doubl
   return sum;
 }
 
-/* For one u: < psi_J(x) Ho_j(x1) Ho_2l(x2) > over v, with x = x1 - shift; times `amount`, added to the rows j of `to`,
- * columns (J,l). exp(-v^2/2 - decay x^2/2) is a Gaussian in v again, and the rule is exact. */
-static void add_normal(const gg_hermite_flux *f, double u, double shift, double amount, double *to)
+/* A grain at one u that its test sees displaced: x = x1 - shift = other v + at. exp(-v^2/2 - decay x^2/2) is a Gaussian
+ * in v again, and the rule is exact. */
+typedef struct gg_sight {
+  double at, mean, spread, share;
+} gg_sight;
+
+static gg_sight sight_of(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift)
 {
-  double a = f->tangential.decay / 2, m = u - M_SQRT2 * shift; /* x = (v + m)/sqrt 2 */
-  double mean = -a * m / (1 + a), spread = 1 / sqrt(1 + a), x1[N1], x2[N1], test[N1], column[N1 * N1];
-  amount *= spread * exp(-a * m * m / (2 * (1 + a)));
+  double decay = f->tangential.decay, at = c->own * u - shift, all = 1 + decay * c->other * c->other;
+  return (gg_sight){at, -decay * c->other * at / all, 1 / sqrt(all), exp(-decay * at * at / (2 * all)) / sqrt(all)};
+}
+
+/* For one u: < psi_J(x) Ho_j(x1) Ho_2l(x2) > over v, times `amount`, added to the rows j of `to`, columns (J,l). */
+static void add_normal(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift, double amount,
+                       double *to)
+{
+  gg_sight s = sight_of(f, c, u, shift);
+  double x1[N1], x2[N1], test[N1], column[N1 * N1];
+  amount *= s.share;
   for (int k = 0; k < f->n_v; k++) {
-    double v = mean + spread * f->v[k], w = amount * f->wv[k];
-    gg_hermite_values(f->trials - 1, (v + u) * M_SQRT1_2, x1);
-    gg_hermite_values(f->trials - 1, (v - u) * M_SQRT1_2, x2);
-    gg_hermite_values(f->tests - 1, (v + m) * M_SQRT1_2, test);
+    double v = s.mean + s.spread * f->v[k], w = amount * f->wv[k];
+    gg_hermite_values(f->trials - 1, c->own * u + c->other * v, x1);
+    gg_hermite_values(f->trials - 1, c->own * v - c->other * u, x2);
+    gg_hermite_values(f->tests - 1, c->other * v + s.at, test);
     for (int J = 0; J < f->tests; J++)
       for (int l = 0; l < f->halves; l++) column[J * f->halves + l] = w * test[J] * x2[2 * l];
     for (int j = 0; j < f->trials; j++) {
       double *row = to + j * f->width_X;
-      for (int c = 0; c < f->tests * f->halves; c++) row[c] += x1[j] * column[c];
+      for (int i = 0; i < f->tests * f->halves; i++) row[i] += x1[j] * column[i];
     }
   }
 }
 
 /* The same with the partner contracted, by (J,j). */
-static void add_contracted(const gg_hermite_flux *f, double u, double shift, double amount, const double *marginal,
-                           double *to)
+static void add_contracted(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift, double amount,
+                           const double *marginal, double *to)
 {
-  double a = f->tangential.decay / 2, m = u - M_SQRT2 * shift;
-  double mean = -a * m / (1 + a), spread = 1 / sqrt(1 + a), x1[N1], test[N1];
-  amount *= spread * exp(-a * m * m / (2 * (1 + a)));
+  gg_sight s = sight_of(f, c, u, shift);
+  double x1[N1], test[N1];
+  amount *= s.share;
   for (int k = 0; k < f->n_v; k++) {
-    double v = mean + spread * f->v[k];
-    double w = amount * f->wv[k] * density_at(f, marginal, (v - u) * M_SQRT1_2);
-    gg_hermite_values(f->trials - 1, (v + u) * M_SQRT1_2, x1);
-    gg_hermite_values(f->tests - 1, (v + m) * M_SQRT1_2, test);
+    double v = s.mean + s.spread * f->v[k];
+    double w = amount * f->wv[k] * density_at(f, marginal, c->own * v - c->other * u);
+    gg_hermite_values(f->trials - 1, c->own * u + c->other * v, x1);
+    gg_hermite_values(f->tests - 1, c->other * v + s.at, test);
     for (int J = 0; J < f->tests; J++)
       for (int j = 0; j < f->trials; j++) to[J * f->trials + j] += w * test[J] * x1[j];
   }
@@ -118,38 +130,42 @@ static void contract(const gg_hermite_flux *f, const double *X, const double *ma
     }
 }
 
-/* Point i of the rule on (u0, farthest): u, and its weight with the Gaussian's. */
+/* Point i of the rule on (u0, farthest): u, and its weight with the Gaussian's and the frequency. */
 static double point(const gg_hermite_flux *f, const gg_hermite_contact *c, int i, double *u)
 {
   double from = fmax(c->u0, -farthest), width = fmax(farthest - from, 0);
   *u = from + width * f->u[i];
-  return width * f->wu[i] * exp(-*u * *u / 2) / sqrt(2 * M_PI);
+  return c->frequency * width * f->wu[i] * exp(-*u * *u / 2) / sqrt(2 * M_PI);
+}
+
+void gg_hermite_flux_begin(gg_hermite_flux *f)
+{
+  memset(f->W, 0, (size_t)f->width_along * (size_t)f->width_Y * sizeof *f->W);
 }
 
 /* W from `along` and Y, less the loss. */
 static void combine(gg_hermite_flux *f, const double *loss)
 {
-  memset(f->W, 0, (size_t)f->width_along * (size_t)f->width_Y * sizeof *f->W);
   gg_add_product(f->width_along, f->width_Y, f->n_u, f->along, f->width_along, f->Y, f->width_Y, f->W, f->width_Y);
   for (int row = 0; row < f->tests * f->trials; row++)
     for (int k = 0; k < f->width_Y; k++) f->W[row * f->width_Y + k] -= loss[row] * f->Z[k];
 }
 
-void gg_hermite_flux_at(gg_hermite_flux *f, const gg_hermite_contact *c, const double *marginal, bool partner)
+void gg_hermite_flux_add(gg_hermite_flux *f, const gg_hermite_contact *c, const double *marginal, bool partner)
 {
   double loss[N1 * N1] = {0}, u;
   size_t slice = (size_t)f->trials * (size_t)f->width_X;
   memset(f->along, 0, (size_t)(f->n_u * f->width_along) * sizeof *f->along);
   if (partner) memset(f->X, 0, (size_t)f->n_u * slice * sizeof *f->X), memset(f->loss, 0, slice * sizeof *f->loss);
   for (int i = 0; i < f->n_u; i++) {
-    double w = point(f, c, i, &u), g = M_SQRT2 * c->s * (u - c->u0), *along = f->along + i * f->width_along;
+    double w = point(f, c, i, &u), g = c->S * (u - c->u0), *along = f->along + i * f->width_along;
     if (partner) {
-      add_normal(f, u, c->eta * g * c->b0, g * w, f->X + (size_t)i * slice);
-      add_normal(f, u, 0, g * w, f->loss);
+      add_normal(f, c, u, c->eta * g * c->b0, g * w, f->X + (size_t)i * slice);
+      add_normal(f, c, u, 0, g * w, f->loss);
       contract(f, f->X + (size_t)i * slice, marginal, along);
     } else {
-      add_contracted(f, u, c->eta * g * c->b0, g * w, marginal, along);
-      add_contracted(f, u, 0, g * w, marginal, loss);
+      add_contracted(f, c, u, c->eta * g * c->b0, g * w, marginal, along);
+      add_contracted(f, c, u, 0, g * w, marginal, loss);
     }
     gg_hermite_overlap_at(&f->tangential, -c->eta * g * c->b1, f->Y + i * f->width_Y);
   }
@@ -157,15 +173,15 @@ void gg_hermite_flux_at(gg_hermite_flux *f, const gg_hermite_contact *c, const d
   combine(f, loss);
 }
 
-void gg_hermite_flux_powers(const gg_hermite_flux *f, const gg_hermite_contact *c, const double *marginal,
-                            double power[4])
+void gg_hermite_flux_powers(const gg_hermite_flux *f, const gg_hermite_contact *c, const double *own,
+                            const double *other, double power[4])
 {
   memset(power, 0, 4 * sizeof *power);
   for (int i = 0; i < f->n_u; i++) {
-    double u, w = point(f, c, i, &u), g = M_SQRT2 * c->s * (u - c->u0), both = 0;
+    double u, w = point(f, c, i, &u), g = c->S * (u - c->u0), both = 0;
     for (int k = 0; k < f->n_v; k++)
-      both += f->wv[k] * density_at(f, marginal, (f->v[k] + u) * M_SQRT1_2) *
-              density_at(f, marginal, (f->v[k] - u) * M_SQRT1_2);
+      both += f->wv[k] * density_at(f, own, c->own * u + c->other * f->v[k]) *
+              density_at(f, other, c->own * f->v[k] - c->other * u);
     for (int p = 0; p < 4; p++, w *= g) power[p] += w * both;
   }
 }

@@ -1,8 +1,9 @@
 /* The integrals of one collision direction k. The pair's velocities along the normal, x1 and x2, are standard normal
- * under the weight; u = (x1 - x2)/sqrt 2, v = (x1 + x2)/sqrt 2; g = sqrt2 s (u - u0) is the approach velocity, and
- * grains that approach (u > u0) leave with x1' = x1 - eta g b0 along the normal and y1' = y1 - eta g b1 along the
- * tangent: W[(J,j),(P,p)] = < g [psi_J(x1') psi_P(y1') - psi_J(x1) psi_P(y1)] Ho_j(x1) Ho_p(y1) sum_l marginal_l
- * Ho_2l(x2) > What is along the binormal z factors out: Z_Qq = < psi_Q(z) Ho_q(z) >. */
+ * under the weight, of widths s1 and s2; with S^2 = s1^2 + s2^2, u = (s1 x1 - s2 x2)/S and v = (s2 x1 + s1 x2)/S, too.
+ * g = S (u - u0) is the approach velocity, and grains that approach (u > u0) leave with x1' = x1 - eta g b0 along the
+ * normal and y1' = y1 - eta g b1 along the tangent: W[(J,j),(P,p)] = frequency < g [psi_J(x1') psi_P(y1') - psi_J(x1)
+ * psi_P(y1)] Ho_j(x1) Ho_p(y1) sum_l marginal_l Ho_2l(x2) >, summed over the partner's species. What is along the
+ * binormal z factors out: Z_Qq = < psi_Q(z) Ho_q(z) >. */
 #ifndef GG_HERMITE_FLUX_H
 #define GG_HERMITE_FLUX_H
 
@@ -11,10 +12,12 @@
 #include "theory/hermite/overlap.h"
 
 typedef struct gg_hermite_contact {
-  double eta;    /* (1+e)/2 */
-  double s;      /* |L^T k| */
-  double b0, b1; /* L^-1 k along normal and tangent */
-  double u0;     /* flow between the centres, in units of sqrt2 s */
+  double frequency;
+  double eta;        /* what the grain loses of g; (1+e)/2 among equals */
+  double S;          /* width of g */
+  double own, other; /* s1/S, s2/S */
+  double b0, b1;     /* L^-1 k of the grain along normal and tangent */
+  double u0;         /* flow between the centres, in units of S */
 } gg_hermite_contact;
 
 typedef struct gg_hermite_flux {
@@ -36,16 +39,18 @@ typedef struct gg_hermite_flux {
 gg_status gg_hermite_flux_make(gg_hermite_flux *flux, int N, int tests, double decay, gg_error *err);
 void gg_hermite_flux_clear(gg_hermite_flux *flux);
 
-/* W and Y; with `partner` also X and the loss of every l, from which derivatives are made. */
-void gg_hermite_flux_at(gg_hermite_flux *flux, const gg_hermite_contact *contact, const double *marginal, bool partner);
+/* W, added to what there is, and Y; with `partner` also X and the loss of every l, from which derivatives are made. */
+void gg_hermite_flux_begin(gg_hermite_flux *flux); /* W = 0 */
+void gg_hermite_flux_add(gg_hermite_flux *flux, const gg_hermite_contact *contact, const double *marginal,
+                         bool partner);
 
 static inline double gg_hermite_W(const gg_hermite_flux *f, int J, int P, int j, int p)
 {
   return f->W[(J * f->trials + j) * f->width_Y + P * f->trials + p];
 }
 
-/* <g^power> of both partners by their marginals, power 0 .. 3. */
-void gg_hermite_flux_powers(const gg_hermite_flux *flux, const gg_hermite_contact *contact, const double *marginal,
-                            double power[4]);
+/* frequency <g^power> of both partners by their marginals, power 0 .. 3. */
+void gg_hermite_flux_powers(const gg_hermite_flux *flux, const gg_hermite_contact *contact, const double *own,
+                            const double *other, double power[4]);
 
 #endif

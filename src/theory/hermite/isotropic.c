@@ -80,7 +80,7 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
   double projected[HALVES], basis[HALVES], most = 0;
   heat(&h->gas, *rate, noise);
   expand(b, alpha, h->state.a);
-  gg_hermite_operator_at(&h->op, &h->gas, h->state.L, h->state.a, w->R, w->jacobian);
+  gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, w->jacobian);
   project(b, w->R, projected);
   for (int l = 1; l <= half; l++) gsl_vector_set(w->x, (size_t)l - 1, projected[l]);
   for (int l = 1; l <= half; l++) {
@@ -88,7 +88,7 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
     if (l == 1) {
       gg_hermite_gas unit = {0};
       heat(&unit, 1, noise);
-      gg_hermite_add_streaming(&h->op, &unit, h->state.L, h->state.a, w->column, NULL);
+      gg_hermite_add_streaming(&h->op, &unit, &h->state, w->column, NULL, 0);
     } else {
       memset(basis, 0, sizeof basis);
       basis[l] = 1;
@@ -103,7 +103,7 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
   if (gsl_linalg_LU_decomp(w->J, w->order, &sign) != GSL_SUCCESS) return INFINITY;
   if (gsl_linalg_LU_svx(w->J, w->order, w->x) != GSL_SUCCESS) return INFINITY;
   *rate -= gsl_vector_get(w->x, 0);
-  most = fabs(gsl_vector_get(w->x, 0)) / h->gas.frequency;
+  most = fabs(gsl_vector_get(w->x, 0)) / h->gas.impact[0][0].frequency;
   for (int l = 2; l <= half; l++) {
     double step = gsl_vector_get(w->x, (size_t)l - 1);
     alpha[l] -= step;
@@ -130,7 +130,7 @@ gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double
                                      gg_error *err)
 {
   gg_isotropic_work w = {0};
-  *h = (gg_hermite_isotropic){.gas = {.frequency = frequency, .eta = eta}, .state.width = GG_HERMITE_WIDTH};
+  *h = (gg_hermite_isotropic){.gas = gg_hermite_one(frequency, eta, 0), .state.width = GG_HERMITE_WIDTH};
   for (int i = 0; i < 3; i++) h->state.L[i][i] = sqrt(h->state.width);
   gg_status status = gg_hermite_operator_make(&h->op, degree, GG_HERMITE_DECAY, true, err);
   if (status == GG_OK) h->state.a = calloc((size_t)h->op.basis.n, sizeof *h->state.a);

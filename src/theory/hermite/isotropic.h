@@ -4,7 +4,7 @@
 #ifndef GG_HERMITE_ISOTROPIC_H
 #define GG_HERMITE_ISOTROPIC_H
 
-#include "theory/hermite/state.h"
+#include "theory/hermite/operator.h"
 
 typedef struct gg_hermite_isotropic {
   gg_hermite_operator op;

@@ -10,17 +10,19 @@
 enum { MOST_ITERATIONS = 60, MOST_HALVINGS = 10 };
 static const double converged = 1e-10, fast = 0.25;
 
+/* Coefficients of all species one after another, the constants among them, which stay. */
 typedef struct gg_newton {
-  int n;
+  int n_species, functions, n;
   double *jacobian, *R, *trial;
   gsl_permutation *order;
 } gg_newton;
 
-static gg_status make(gg_newton *w, int n, gg_error *err)
+static gg_status make(gg_newton *w, int n_species, int functions, gg_error *err)
 {
-  size_t m = (size_t)n;
-  *w = (gg_newton){.n = n, .jacobian = malloc((m * m + 2 * m) * sizeof *w->jacobian)};
-  w->order = gsl_permutation_alloc(m - 1);
+  *w = (gg_newton){.n_species = n_species, .functions = functions, .n = n_species * functions};
+  size_t m = (size_t)w->n;
+  w->jacobian = malloc((m * m + 2 * m) * sizeof *w->jacobian);
+  w->order = gsl_permutation_alloc(m);
   if (!w->jacobian || !w->order) return gg_fail(err, GG_FAILED, "out of memory");
   w->R = w->jacobian + m * m, w->trial = w->R + m;
   return GG_OK;
@@ -34,17 +36,17 @@ static void clear(gg_newton *w)
 
 static gsl_matrix_view matrix_of(gg_newton *w)
 {
-  size_t m = (size_t)w->n - 1; /* all but the constant */
-  return gsl_matrix_view_array_with_tda(w->jacobian + w->n + 1, m, m, (size_t)w->n);
+  return gsl_matrix_view_array(w->jacobian, (size_t)w->n, (size_t)w->n);
 }
 
 /* R becomes the step J^-1 R. */
 static bool solve(gg_newton *w)
 {
   gsl_matrix_view J = matrix_of(w);
-  gsl_vector_view b = gsl_vector_view_array(w->R + 1, (size_t)w->n - 1);
+  gsl_vector_view b = gsl_vector_view_array(w->R, (size_t)w->n);
+  for (int i = 0; i < w->n; i += w->functions) w->R[i] = 0;
   bool fine = gsl_linalg_LU_svx(&J.matrix, w->order, &b.vector) == GSL_SUCCESS;
-  for (int i = 1; i < w->n; i++) fine = fine && isfinite(w->R[i]);
+  for (int i = 0; i < w->n; i++) fine = fine && isfinite(w->R[i]);
   return fine;
 }
 
@@ -52,6 +54,8 @@ static bool factorise(gg_newton *w)
 {
   int sign;
   gsl_matrix_view J = matrix_of(w);
+  for (int i = 0; i < w->n; i += w->functions)
+    for (int j = 0; j < w->n; j++) w->jacobian[i * w->n + j] = i == j;
   return gsl_linalg_LU_decomp(&J.matrix, w->order, &sign) == GSL_SUCCESS;
 }
 
@@ -64,16 +68,27 @@ static bool above(double A[3][3], double fraction, double B[3][3])
   return gg_hermite_cholesky(rest, ignored);
 }
 
-/* One step; halved until the second moments shrink to no less than a fifth. */
-static bool step(const gg_hermite_basis *b, gg_hermite_state *s, gg_newton *w, double L[3][3])
+/* Of one species; false where its second moments shrink to less than a fifth. */
+static bool move(const gg_hermite_basis *b, gg_hermite_state *s, const double *from, const double *step, double part,
+                 double L[3][3])
 {
-  double M[3][3], before[3][3], part = 1;
+  double M[3][3], before[3][3];
+  memcpy(s->a, from, (size_t)b->n * sizeof *s->a);
   gg_hermite_second_moments(b, s, before);
-  memcpy(w->trial, s->a, (size_t)w->n * sizeof *s->a);
+  for (int r = 1; r < b->n; r++) s->a[r] = from[r] - part * step[r];
+  gg_hermite_second_moments(b, s, M);
+  return above(M, 0.2, before) && gg_hermite_gaussian(s->width, M, L);
+}
+
+/* One step; halved until it is not too far. */
+static bool step(const gg_hermite_basis *b, gg_hermite_state *s, gg_newton *w, double L[][3][3])
+{
+  double part = 1;
+  for (int i = 0; i < w->n_species; i++) memcpy(w->trial + i * b->n, s[i].a, (size_t)b->n * sizeof *s->a);
   for (int half = 0; half < MOST_HALVINGS; half++, part /= 2) {
-    for (int r = 1; r < w->n; r++) s->a[r] = w->trial[r] - part * w->R[r];
-    gg_hermite_second_moments(b, s, M);
-    if (above(M, 0.2, before) && gg_hermite_gaussian(s->width, M, L)) return true;
+    int fine = 0;
+    for (int i = 0; i < w->n_species; i++) fine += move(b, &s[i], w->trial + i * b->n, w->R + i * b->n, part, L[i]);
+    if (fine == w->n_species) return true;
   }
   return false;
 }
@@ -81,19 +96,19 @@ static bool step(const gg_hermite_basis *b, gg_hermite_state *s, gg_newton *w, d
 static double length(const gg_newton *w)
 {
   double most = 0, norm = 1;
-  for (int r = 1; r < w->n; r++) most = fmax(most, fabs(w->R[r])), norm = fmax(norm, fabs(w->trial[r]));
+  for (int r = 0; r < w->n; r++) most = fmax(most, fabs(w->R[r])), norm = fmax(norm, fabs(w->trial[r]));
   return most / norm;
 }
 
 static gg_status iterate(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *s, gg_newton *w,
                          gg_error *err)
 {
-  double L[3][3], last = INFINITY;
+  double L[GG_MAX_SPECIES][3][3], last = INFINITY;
   bool anew = true;
   for (int i = 0; i < MOST_ITERATIONS; i++) {
-    gg_hermite_operator_at(op, gas, s->L, s->a, w->R, anew ? w->jacobian : NULL);
+    gg_hermite_operator_at(op, gas, s, w->R, anew ? w->jacobian : NULL);
     if ((anew && !factorise(w)) || !solve(w) || !step(&op->basis, s, w, L)) break;
-    GG_TRY(gg_hermite_expand_anew(&op->basis, s, L, err));
+    for (int k = 0; k < gas->n_species; k++) GG_TRY(gg_hermite_expand_anew(&op->basis, &s[k], L[k], err));
     double now = length(w);
     if (now < converged) return GG_OK;
     anew = !(now < fast * last);
@@ -106,7 +121,7 @@ gg_status gg_hermite_newton(gg_hermite_operator *op, const gg_hermite_gas *gas, 
 {
   gg_newton w;
   gsl_error_handler_t *handler = gsl_set_error_handler_off();
-  gg_status status = make(&w, op->basis.n, err);
+  gg_status status = make(&w, gas->n_species, op->basis.n, err);
   if (status == GG_OK) status = iterate(op, gas, s, &w, err);
   clear(&w);
   gsl_set_error_handler(handler);

@@ -2,9 +2,10 @@
 #ifndef GG_HERMITE_NEWTON_H
 #define GG_HERMITE_NEWTON_H
 
-#include "theory/hermite/state.h"
+#include "theory/hermite/operator.h"
 
-/* From the state given, whose width is kept. GG_FAILED where the iteration does not converge. */
+/* From the states given, one of each species, whose widths are kept. GG_FAILED where the iteration does not converge.
+ */
 gg_status gg_hermite_newton(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state, gg_error *err);
 
 #endif

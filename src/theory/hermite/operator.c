@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "theory/hermite/contact.h"
 #include "theory/hermite/room.h"
 
 /* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi): a quarter of the sphere stands for the whole. */
@@ -19,17 +18,15 @@ static gg_hermite_room *make_room(const gg_hermite_operator *op)
   gg_hermite_room *r = calloc(1, sizeof *r);
   if (!r) return NULL;
   *r = (gg_hermite_room){.wide = wide, .pairs = pairs, .box = box};
-  double **const part[] = {&r->D, &r->t, &r->damped, &r->q, &r->K, &r->E, &r->X, &r->V, &r->VX, &r->S, &r->work};
-  const int size[] = {b->n_rotated * wide,
-                      b->n_rotated,
-                      (N + 1) * box,
-                      b->n_rotated,
+  double **const part[] = {&r->q, &r->K, &r->E, &r->X, &r->V, &r->VX, &r->S, &r->back, &r->work};
+  const int size[] = {b->n_rotated,
                       box * pairs,
                       box * wide,
                       tall * wide,
                       f->n_u * (N + 1) * pairs,
                       pairs * f->width_X,
                       tall * (N / 2 + 1),
+                      b->n * (N / 2 + 1),
                       (int)gg_hermite_rotation_room(N)};
   enum { PARTS = sizeof size / sizeof *size };
   size_t total = 0;
@@ -39,6 +36,24 @@ static gg_hermite_room *make_room(const gg_hermite_operator *op)
   if (at) return r;
   free(r);
   return NULL;
+}
+
+static bool make_view(const gg_hermite_operator *op, gg_hermite_view *v)
+{
+  const gg_hermite_room *r = op->room;
+  int n = op->basis.n_rotated;
+  v->D = calloc((size_t)(n * r->wide + n + (op->basis.degree + 1) * r->box), sizeof *v->D);
+  if (!v->D) return false;
+  v->t = v->D + n * r->wide;
+  v->damped = v->t + n;
+  return true;
+}
+
+gg_status gg_hermite_operator_hold(gg_hermite_operator *op, int n_species, gg_error *err)
+{
+  for (; op->room->n_views < n_species; op->room->n_views++)
+    if (!make_view(op, &op->room->view[op->room->n_views])) return gg_fail(err, GG_FAILED, "out of memory");
+  return GG_OK;
 }
 
 static gg_status make_directions(gg_hermite_operator *op, bool isotropic, gg_error *err)
@@ -81,6 +96,7 @@ gg_status gg_hermite_operator_make(gg_hermite_operator *op, int degree, double d
   if (status == GG_OK) status = make_overlap(op, degree, err);
   if (status == GG_OK) status = make_directions(op, isotropic, err);
   if (status == GG_OK && !(op->room = make_room(op))) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK) status = gg_hermite_operator_hold(op, 1, err);
   if (status != GG_OK) gg_hermite_operator_clear(op);
   return status;
 }
@@ -93,69 +109,67 @@ void gg_hermite_operator_clear(gg_hermite_operator *op)
   free(op->overlap);
   free(op->direction);
   free(op->weight);
-  if (op->room) free(op->room->D);
+  for (int i = 0; op->room && i < op->room->n_views; i++) free(op->room->view[i].D);
+  if (op->room) free(op->room->q);
   free(op->room);
   *op = (gg_hermite_operator){0};
 }
 
 /* The coefficients in the rotated frame, t_q = sum_s D_qs a_s. */
-static void rotate(const gg_hermite_operator *op, double axis[3][3], const double *a)
+static void look_at(const gg_hermite_operator *op, gg_hermite_state *state, const double k[3], gg_hermite_view *v)
 {
-  const gg_hermite_room *r = op->room;
-  gg_hermite_rotation(&op->basis, axis, r->wide, r->D, r->work);
-  for (int q = 0; q < op->basis.n_rotated; q++) {
-    const double *row = r->D + (size_t)q * (size_t)r->wide;
+  const gg_hermite_basis *b = &op->basis;
+  v->frame = gg_hermite_frame_at(state->L, k);
+  gg_hermite_rotation(b, v->frame.axis, op->room->wide, v->D, op->room->work);
+  for (int q = 0; q < b->n_rotated; q++) {
+    const double *row = v->D + (size_t)q * (size_t)op->room->wide;
     double sum = 0;
-    for (int s = 0; s < op->basis.n; s++) sum += row[s] * a[s];
-    r->t[q] = sum;
+    for (int s = 0; s < b->n; s++) sum += row[s] * state->a[s];
+    v->t[q] = sum;
   }
+  for (int l = 0; l <= b->degree / 2; l++) v->marginal[l] = v->t[gg_hermite_rotated_place(b, 2 * l, 0, 0)];
 }
 
-/* t_(2l,0,0): the distribution of normal velocities. */
-static void marginal_of(const gg_hermite_operator *op, double *marginal)
+void gg_hermite_look(gg_hermite_operator *op, int n_species, gg_hermite_state *state, const double k[3])
 {
-  for (int l = 0; l <= op->basis.degree / 2; l++)
-    marginal[l] = op->room->t[gg_hermite_rotated_place(&op->basis, 2 * l, 0, 0)];
+  for (int i = 0; i < n_species; i++) look_at(op, &state[i], k, &op->room->view[i]);
 }
 
-double gg_hermite_marginal(gg_hermite_operator *op, double L[3][3], const double *a, const double k[3],
-                           double *marginal)
+double gg_hermite_marginal(gg_hermite_operator *op, gg_hermite_state *state, const double k[3], double *marginal)
 {
-  double axis[3][3];
-  gg_hermite_contact contact = gg_hermite_contact_at(1, 0, L, k, axis);
-  rotate(op, axis, a);
-  marginal_of(op, marginal);
-  return contact.s;
+  gg_hermite_view *v = &op->room->view[0];
+  look_at(op, state, k, v);
+  memcpy(marginal, v->marginal, (size_t)(op->basis.degree / 2 + 1) * sizeof *marginal);
+  return v->frame.s;
 }
 
 /* sum_q Z_Qq t_jpq, by Q and (j,p) */
-static void damp(const gg_hermite_operator *op)
+static void damp(const gg_hermite_operator *op, gg_hermite_view *v)
 {
   const gg_hermite_room *r = op->room;
   const gg_hermite_flux *f = &op->flux;
   int N = op->basis.degree;
-  memset(r->damped, 0, (size_t)((N + 1) * r->box) * sizeof *r->damped);
+  memset(v->damped, 0, (size_t)((N + 1) * r->box) * sizeof *v->damped);
   for (int i = 0; i < op->basis.n_rotated; i++) {
     const int *q = op->basis.rotated[i].r;
     for (int Q = q[2] % 2; Q <= N; Q += 2)
-      r->damped[Q * r->box + q[0] * (N + 1) + q[1]] += f->Z[Q * f->trials + q[2]] * r->t[i];
+      v->damped[Q * r->box + q[0] * (N + 1) + q[1]] += f->Z[Q * f->trials + q[2]] * v->t[i];
   }
 }
 
 /* A rotated test (J,P,Q): sum over trials (j,p) of W. */
-static double apply(const gg_hermite_operator *op, const int test[3])
+static double apply(const gg_hermite_operator *op, const gg_hermite_view *v, const int test[3])
 {
-  const gg_hermite_room *r = op->room;
   int N = op->basis.degree;
   double sum = 0;
   if (test[0] + test[1] + test[2] <= 2) {
     for (int j = 0; j <= N - test[2]; j++)
       for (int p = (j + test[2]) % 2; p <= N - test[2] - j; p += 2)
         sum +=
-            gg_hermite_W(&op->low, test[0], test[1], j, p) * r->t[gg_hermite_rotated_place(&op->basis, j, p, test[2])];
+            gg_hermite_W(&op->low, test[0], test[1], j, p) * v->t[gg_hermite_rotated_place(&op->basis, j, p, test[2])];
     return sum;
   }
-  const double *t = r->damped + test[2] * r->box;
+  const double *t = v->damped + test[2] * op->room->box;
   for (int j = 0; j <= N; j++)
     for (int p = (j + test[2]) % 2; p <= N - j; p += 2)
       sum += gg_hermite_W(&op->flux, test[0], test[1], j, p) * t[j * (N + 1) + p];
@@ -163,42 +177,55 @@ static double apply(const gg_hermite_operator *op, const int test[3])
 }
 
 /* Back from the rotated frame: R_r = sum_q D_qr q_q, and the same of the derivatives. */
-static void rotate_back(const gg_hermite_operator *op, double w, double *R, double *jacobian)
+static void rotate_back(const gg_hermite_operator *op, const gg_hermite_view *v, double w, double *R, double *jacobian,
+                        size_t stride)
 {
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_room *r = op->room;
   for (int q = 0; q < b->n_rotated; q++) {
-    const double *D = r->D + (size_t)q * (size_t)r->wide, *X = r->X + (size_t)q * (size_t)r->wide;
+    const double *D = v->D + (size_t)q * (size_t)r->wide, *X = r->X + (size_t)q * (size_t)r->wide;
     for (int i = 0; i < b->n; i++) {
       R[i] += w * D[i] * r->q[q];
       if (!jacobian || D[i] == 0) continue; /* another degree */
-      double d = w * D[i], *restrict row = jacobian + (size_t)i * (size_t)b->n;
+      double d = w * D[i], *restrict row = jacobian + (size_t)i * stride;
       for (int s = 0; s < b->n; s++) row[s] += d * X[s];
     }
   }
 }
 
-static void add_direction(gg_hermite_operator *op, const gg_hermite_gas *gas, double L[3][3], const double *a,
-                          int direction, double *R, double *jacobian)
+/* What one direction does to one species, by partners of every species. */
+static void add_species(gg_hermite_operator *op, const gg_hermite_gas *gas, int i, int direction, double *R,
+                        double *jacobian, size_t stride)
 {
-  double axis[3][3], marginal[N1];
-  gg_hermite_contact contact = gg_hermite_contact_at(gas->eta, gas->shear, L, op->direction[direction], axis);
-  rotate(op, axis, a);
-  marginal_of(op, marginal);
-  gg_hermite_flux_at(&op->flux, &contact, marginal, jacobian != NULL);
-  gg_hermite_flux_at(&op->low, &contact, marginal, jacobian != NULL);
-  damp(op);
-  for (int i = 0; i < op->basis.n_rotated; i++) op->room->q[i] = apply(op, op->basis.rotated[i].r);
-  if (jacobian) gg_hermite_differentiate(op);
-  rotate_back(op, gas->frequency * op->weight[direction], R, jacobian);
+  gg_hermite_view *own = &op->room->view[i];
+  double w = op->weight[direction];
+  gg_hermite_flux_begin(&op->flux);
+  gg_hermite_flux_begin(&op->low);
+  for (int j = 0; j < gas->n_species; j++) {
+    const gg_hermite_view *partner = &op->room->view[j];
+    gg_hermite_contact c =
+        gg_hermite_contact_of(&gas->impact[i][j], &own->frame, &partner->frame, op->direction[direction]);
+    gg_hermite_flux_add(&op->flux, &c, partner->marginal, jacobian != NULL);
+    gg_hermite_flux_add(&op->low, &c, partner->marginal, jacobian != NULL);
+    if (jacobian) gg_hermite_differentiate_partner(op, own, partner, w, jacobian + j * op->basis.n, stride);
+  }
+  for (int q = 0; q < op->basis.n_rotated; q++) op->room->q[q] = apply(op, own, op->basis.rotated[q].r);
+  if (jacobian) gg_hermite_differentiate_own(op, own);
+  rotate_back(op, own, w, R, jacobian ? jacobian + i * op->basis.n : NULL, stride);
 }
 
-void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, double L[3][3], const double *a,
-                            double *R, double *jacobian)
+void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state, double *R,
+                            double *jacobian)
 {
-  size_t n = (size_t)op->basis.n;
-  memset(R, 0, n * sizeof *R);
-  if (jacobian) memset(jacobian, 0, n * n * sizeof *jacobian);
-  for (int k = 0; k < op->n_directions; k++) add_direction(op, gas, L, a, k, R, jacobian);
-  gg_hermite_add_streaming(op, gas, L, a, R, jacobian);
+  size_t n = (size_t)op->basis.n, all = n * (size_t)gas->n_species;
+  memset(R, 0, all * sizeof *R);
+  if (jacobian) memset(jacobian, 0, all * all * sizeof *jacobian);
+  for (int k = 0; k < op->n_directions; k++) {
+    gg_hermite_look(op, gas->n_species, state, op->direction[k]);
+    for (int i = 0; i < gas->n_species; i++) damp(op, &op->room->view[i]);
+    for (size_t i = 0; i < (size_t)gas->n_species; i++)
+      add_species(op, gas, (int)i, k, R + i * n, jacobian ? jacobian + i * n * all : NULL, all);
+  }
+  for (size_t i = 0; i < (size_t)gas->n_species; i++)
+    gg_hermite_add_streaming(op, gas, &state[i], R + i * n, jacobian ? jacobian + i * n * (all + 1) : NULL, all);
 }

@@ -1,21 +1,35 @@
-/* Enskog's collision operator and streaming on an expansion about a Gaussian,
+/* Enskog's collision operator and streaming on an expansion about a Gaussian, of each species its own,
  *   f = n (2 pi)^(-3/2) |L|^-1 exp(-c^2/2) sum_s a_s Ho_s(c),   c = L^-1 C,
  * tested with psi_r = Ho_r(c) exp(-decay c^2/2): R_r = d<psi_r>/dt, and its derivatives with respect to the a_s. Tests
  * of degree 2 do not decay: energy and stress are balanced exactly. */
 #ifndef GG_HERMITE_OPERATOR_H
 #define GG_HERMITE_OPERATOR_H
 
-#include "theory/hermite/basis.h"
+#include "common/model.h"
 #include "theory/hermite/flux.h"
+#include "theory/hermite/state.h"
+
+/* How a grain of one species collides with those of another. */
+typedef struct gg_hermite_impact {
+  double frequency; /* n chi sigma^2, n of the other species */
+  double eta;       /* what it loses of g_n: (1+e) m_other/(m + m_other), (1+e)/2 among equals */
+  double e;
+  double sigma;
+  double shear; /* sigma times shear rate: the flow between two centres; 0 in the Boltzmann limit */
+} gg_hermite_impact;
 
 /* What collides and streams. */
 typedef struct gg_hermite_gas {
-  double frequency;    /* n chi sigma^2 */
-  double eta;          /* (1+e)/2 */
-  double shear;        /* sigma times shear rate: the flow between two centres; 0 in the Boltzmann limit */
-  double stream[3][3]; /* A of dC/dt = -A C between collisions; A_xy: shear rate */
-  double diffusion;    /* D of df/dt = D laplacian f between collisions: white noise */
+  int n_species;
+  double fraction[GG_MAX_SPECIES], mass[GG_MAX_SPECIES];
+  gg_hermite_impact impact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* of a grain of the first species */
+  double stream[3][3];                                      /* A of dC/dt = -A C between collisions; A_xy: shear rate */
+  double diffusion; /* D of df/dt = D laplacian f between collisions: white noise */
 } gg_hermite_gas;
+
+/* The smooth grains of a model, sheared at its rate; and one species of mass 1. */
+gg_hermite_gas gg_hermite_gas_of(const gg_model *model);
+gg_hermite_gas gg_hermite_one(double frequency, double eta, double shear);
 
 typedef struct gg_hermite_room gg_hermite_room;
 
@@ -33,27 +47,33 @@ typedef struct gg_hermite_operator {
 gg_status gg_hermite_operator_make(gg_hermite_operator *op, int degree, double decay, bool isotropic, gg_error *err);
 void gg_hermite_operator_clear(gg_hermite_operator *op);
 
-/* R, n long, and where `jacobian` is not NULL, n x n by rows, dR_r/da_s. a_0 is 1, R_0 means nothing. */
-void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, double L[3][3], const double *a,
-                            double *R, double *jacobian);
+/* Room for so many species; there is some for one. */
+gg_status gg_hermite_operator_hold(gg_hermite_operator *op, int n_species, gg_error *err);
 
-/* The share of streaming and diffusion in these, added. */
-void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, double L[3][3], const double *a,
-                              double *R, double *jacobian);
+/* R, n of each species one after another, and where `jacobian` is not NULL, by rows of n_species x n, dR_r/da_s. a_0
+ * is 1, R_0 means nothing. */
+void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state, double *R,
+                            double *jacobian);
+
+/* The share of streaming and diffusion in these of one species, added; rows of the Jacobian are `stride` apart. */
+void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
+                              double *R, double *jacobian, size_t stride);
+
+/* < psi_r Ho_s > */
+double gg_hermite_test_overlap(const gg_hermite_operator *op, int r, int s);
 
 /* Distribution of the velocity along k: s x with x of density exp(-x^2/2)/sqrt(2 pi) sum_l marginal[l] Ho_2l(x); s is
  * returned. */
-double gg_hermite_marginal(gg_hermite_operator *op, double L[3][3], const double *a, const double k[3],
-                           double *marginal);
+double gg_hermite_marginal(gg_hermite_operator *op, gg_hermite_state *state, const double k[3], double *marginal);
 
-/* What collisions do and carry. */
+/* What collisions do and carry, a mean over all grains. */
 typedef struct gg_hermite_sums {
   double rate;           /* collisions of a grain: frequency int dk <g> */
-  double transfer[3][3]; /* collisional stress over n m: (frequency sigma/2) eta int dk k k <g^2> */
-  double loss;           /* energy lost per grain and m: frequency (1-e^2)/8 int dk <g^3> */
+  double transfer[3][3]; /* collisional stress over n: m (frequency sigma/2) eta int dk k k <g^2> */
+  double loss;           /* energy lost per grain: m frequency eta (1-e)/4 int dk <g^3> */
   double speed;          /* <|C|> */
 } gg_hermite_sums;
-void gg_hermite_sums_at(gg_hermite_operator *op, const gg_hermite_gas *gas, double sigma, double L[3][3],
-                        const double *a, gg_hermite_sums *sums);
+void gg_hermite_sums_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
+                        gg_hermite_sums *sums);
 
 #endif

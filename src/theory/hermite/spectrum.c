@@ -8,15 +8,6 @@
 
 #include "theory/hermite/room.h"
 
-static double overlap(const gg_hermite_operator *op, int i, int j)
-{
-  const int *m = op->basis.function[i].r, *s = op->basis.function[j].r;
-  if (gg_hermite_degree(op->basis.function[i]) <= 2) return i == j;
-  double product = 1;
-  for (int x = 0; x < 3; x++) product *= (m[x] - s[x]) % 2 ? 0 : op->overlap[m[x] * (op->basis.degree + 1) + s[x]];
-  return product;
-}
-
 typedef struct gg_spectrum {
   double *R, *jacobian;
   gsl_matrix *mass;
@@ -51,7 +42,8 @@ static bool divide(gg_spectrum *s, const gg_hermite_operator *op, gsl_matrix *J)
 {
   int sign;
   for (size_t i = 0; i < J->size1; i++)
-    for (size_t j = 0; j < J->size2; j++) gsl_matrix_set(s->mass, i, j, overlap(op, (int)i + 1, (int)j + 1));
+    for (size_t j = 0; j < J->size2; j++)
+      gsl_matrix_set(s->mass, i, j, gg_hermite_test_overlap(op, (int)i + 1, (int)j + 1));
   if (gsl_linalg_LU_decomp(s->mass, s->order, &sign) != GSL_SUCCESS) return false;
   for (size_t j = 0; j < J->size2; j++) {
     gsl_vector_view column = gsl_matrix_column(J, j);
@@ -70,7 +62,7 @@ static bool find(gg_spectrum *s, gg_hermite_operator *op, const gg_hermite_gas *
                  gg_hermite_mode *mode)
 {
   size_t n = (size_t)op->basis.n, m = n - 1;
-  gg_hermite_operator_at(op, gas, state->L, state->a, s->R, s->jacobian);
+  gg_hermite_operator_at(op, gas, state, s->R, s->jacobian);
   gsl_matrix_view J = gsl_matrix_view_array_with_tda(s->jacobian + n + 1, m, m, n);
   if (!divide(s, op, &J.matrix) || gsl_eigen_nonsymm(&J.matrix, s->value, s->work) != GSL_SUCCESS) return false;
   for (size_t i = 0; i < m; i++) {

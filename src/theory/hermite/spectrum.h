@@ -2,7 +2,7 @@
 #ifndef GG_HERMITE_SPECTRUM_H
 #define GG_HERMITE_SPECTRUM_H
 
-#include "theory/hermite/state.h"
+#include "theory/hermite/operator.h"
 
 /* A disturbance goes as exp(-decay t) cos(frequency t). */
 typedef struct gg_hermite_mode {

@@ -2,7 +2,7 @@
 #ifndef GG_HERMITE_STATE_H
 #define GG_HERMITE_STATE_H
 
-#include "theory/hermite/operator.h"
+#include "theory/hermite/basis.h"
 
 /* The Gaussian is somewhat wider than f, and tests decay somewhat: tails of granular gases are longer than a
  * Gaussian's, and an expansion in moments (width 1, decay 0) diverges for dilute gases of e below .8. Of those tried,

@@ -81,15 +81,15 @@ static void frame(const gg_hermite_gas *gas, double L[3][3], double B[3][3], dou
       G[i][j] = inverse[i][0] * inverse[j][0] + inverse[i][1] * inverse[j][1] + inverse[i][2] * inverse[j][2];
 }
 
-void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, double L[3][3], const double *a,
-                              double *R, double *jacobian)
+void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
+                              double *R, double *jacobian, size_t stride)
 {
   const gg_hermite_basis *b = &op->basis;
-  double B[3][3], G[3][3];
-  frame(gas, L, B, G);
+  double B[3][3], G[3][3], *a = state->a;
+  frame(gas, state->L, B, G);
   for (int r = 1; r < b->n; r++) {
     const int *m = b->function[r].r;
-    double *row = jacobian ? jacobian + (size_t)r * (size_t)b->n : NULL;
+    double *row = jacobian ? jacobian + (size_t)r * stride : NULL;
     gg_tests psi = {.n = 1, .term = {{1, {m[0], m[1], m[2]}}}};
     psi.decay = gg_hermite_degree(b->function[r]) > 2 ? op->decay : 0;
     for (int i = 0; i < 3; i++)
@@ -100,4 +100,10 @@ void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_ga
         add(op, &spread, gas->diffusion * G[i][j], a, R + r, row);
       }
   }
+}
+
+double gg_hermite_test_overlap(const gg_hermite_operator *op, int r, int s)
+{
+  const gg_hermite_index *function = op->basis.function;
+  return overlap(op, gg_hermite_degree(function[r]) > 2 ? op->decay : 0, function[r].r, function[s].r);
 }

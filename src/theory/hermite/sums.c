@@ -2,8 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "theory/hermite/contact.h"
-#include "theory/hermite/operator.h"
+#include "theory/hermite/room.h"
 
 /* <|x|> under exp(-x^2/2)/sqrt(2 pi) sum_l marginal_l Ho_2l: <|x| He_2l> = sqrt(2/pi) (-1)^(l+1) (2l-3)!!. */
 static double mean_modulus(const double *marginal, int degree)
@@ -17,23 +16,33 @@ static double mean_modulus(const double *marginal, int degree)
   return sqrt(2 / M_PI) * sum;
 }
 
-void gg_hermite_sums_at(gg_hermite_operator *op, const gg_hermite_gas *gas, double sigma, double L[3][3],
-                        const double *a, gg_hermite_sums *sums)
+static void add_pair(const gg_hermite_operator *op, const gg_hermite_gas *gas, int i, int j, const double k[3],
+                     double weight, gg_hermite_sums *sums)
 {
-  double e = 2 * gas->eta - 1;
+  const gg_hermite_impact *x = &gas->impact[i][j];
+  const gg_hermite_view *one = &op->room->view[i], *two = &op->room->view[j];
+  gg_hermite_contact contact = gg_hermite_contact_of(x, &one->frame, &two->frame, k);
+  double power[4], w = weight * gas->fraction[i], momentum = w * gas->mass[i] * x->eta;
+  gg_hermite_flux_powers(&op->low, &contact, one->marginal, two->marginal, power);
+  sums->rate += w * power[1];
+  sums->loss += momentum * (1 - x->e) / 4 * power[3];
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++)
+      if ((a == 2) == (b == 2)) /* the others cancel between the quarters of the sphere */
+        sums->transfer[a][b] += momentum * x->sigma / 2 * power[2] * k[a] * k[b];
+}
+
+void gg_hermite_sums_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
+                        gg_hermite_sums *sums)
+{
   memset(sums, 0, sizeof *sums);
   for (int n = 0; n < op->n_directions; n++) {
-    double marginal[GG_HERMITE_MOST_DEGREE + 1], power[4], axis[3][3], *k = op->direction[n];
-    gg_hermite_contact contact = gg_hermite_contact_at(gas->eta, gas->shear, L, k, axis);
-    gg_hermite_marginal(op, L, a, k, marginal);
-    gg_hermite_flux_powers(&op->low, &contact, marginal, power);
-    double w = gas->frequency * op->weight[n];
-    sums->rate += w * power[1];
-    sums->loss += w * power[3] * (1 - e * e) / 8;
-    sums->speed += op->weight[n] * contact.s * mean_modulus(marginal, op->basis.degree) / (2 * M_PI);
-    for (int i = 0; i < 3; i++)
-      for (int j = 0; j < 3; j++)
-        if ((i == 2) == (j == 2)) /* the others cancel between the quarters of the sphere */
-          sums->transfer[i][j] += w * sigma / 2 * gas->eta * power[2] * k[i] * k[j];
+    gg_hermite_look(op, gas->n_species, state, op->direction[n]);
+    for (int i = 0; i < gas->n_species; i++) {
+      const gg_hermite_view *view = &op->room->view[i];
+      double modulus = view->frame.s * mean_modulus(view->marginal, op->basis.degree);
+      sums->speed += gas->fraction[i] * op->weight[n] * modulus / (2 * M_PI);
+      for (int j = 0; j < gas->n_species; j++) add_pair(op, gas, i, j, op->direction[n], op->weight[n], sums);
+    }
   }
 }

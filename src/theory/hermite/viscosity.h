@@ -1,17 +1,19 @@
 /* Shear viscosity of linear response about a homogeneous state: f = f0 + (shear rate) f1, f1 ~ the functions odd in x
- * and in y. Frequency and temperature are those of the isotropic state (T = 1). */
+ * and in y. Frequencies and temperature are those of the isotropic state (T = 1). */
 #ifndef GG_HERMITE_VISCOSITY_H
 #define GG_HERMITE_VISCOSITY_H
 
-#include "theory/hermite/isotropic.h"
+#include "theory/hermite/operator.h"
 
 typedef struct gg_hermite_viscosity {
-  double kinetic, total; /* -<stress xy>/(n m shear rate) */
+  double kinetic, total; /* -<stress xy>/(n shear rate) */
 } gg_hermite_viscosity;
 
-/* sigma: 0 in the Boltzmann limit. fading: rate at which f1 changes in time in the frame in which f0 does not: zeta/2
- * in a cooling gas, whose reduced shear rate grows so fast; 0 where the temperature is held. */
-gg_status gg_hermite_viscosity_of(gg_hermite_isotropic *state, double sigma, double fading,
-                                  gg_hermite_viscosity *viscosity, gg_error *err);
+/* About the isotropic states of all species, of this degree, which streaming and diffusion of the gas keep as they
+ * are. transfer: false in the Boltzmann limit, where there is no flow between centres. fading: rate at which f1 changes
+ * in time in the frame in which f0 does not: zeta/2 in a cooling gas, whose reduced shear rate grows so fast; 0 where
+ * the temperature is held. */
+gg_status gg_hermite_viscosity_of(const gg_hermite_gas *gas, gg_hermite_state *state, int degree, bool transfer,
+                                  double fading, gg_hermite_viscosity *viscosity, gg_error *err);
 
 #endif
