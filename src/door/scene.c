@@ -76,21 +76,6 @@ gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_e
   return status;
 }
 
-/* One member of what a key holds: "collision.e.12", "species.2.mass". NULL if there is no such thing. */
-static json_t *member_json(const gg_scene *scene, const char *key)
-{
-  int number, used = 0;
-  if (sscanf(key, "species.%d.%n", &number, &used) == 1 && used && number >= 1 && number <= scene->n_species)
-    for (const gg_field *f = gg_species_fields; f->key; f++)
-      if (strcmp(f->key, key + used) == 0) return gg_field_json(f, &scene->species[number - 1], scene);
-  int pair, id = gg_scene_field_of_pair(key, &pair);
-  if (id < 0) return NULL;
-  gg_field one = gg_scene_fields[id];
-  one.type = GG_FIELD_NUMBER;
-  one.offset += (size_t)pair * sizeof(double);
-  return gg_field_json(&one, scene, scene);
-}
-
 gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err)
 {
   GG_NEED(scene);
@@ -98,8 +83,7 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   GG_NEED(text);
   gg_scene filled = *scene;
   gg_scene_fill_in(&filled);
-  int id = gg_scene_field_find(key);
-  json_t *value = id >= 0 ? gg_field_json(&gg_scene_fields[id], &filled, &filled) : member_json(&filled, key);
+  json_t *value = gg_scene_key_json(&filled, key);
   if (!value) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   locale_t before = gg_c_locale_enter();
   gg_flow_style_text(value, text, size);

@@ -98,6 +98,27 @@ json_t *gg_field_json(const gg_field *f, const void *base, const gg_scene *scene
   return json_null();
 }
 
+/* One member of what a key holds: "collision.e.12", "species.2.mass". NULL if there is no such thing. */
+static json_t *member_json(const gg_scene *scene, const char *key)
+{
+  int number, used = 0;
+  if (sscanf(key, "species.%d.%n", &number, &used) == 1 && used && number >= 1 && number <= scene->n_species)
+    for (const gg_field *f = gg_species_fields; f->key; f++)
+      if (strcmp(f->key, key + used) == 0) return gg_field_json(f, &scene->species[number - 1], scene);
+  int pair, id = gg_scene_field_of_pair(key, &pair);
+  if (id < 0) return NULL;
+  gg_field one = gg_scene_fields[id];
+  one.type = GG_FIELD_NUMBER;
+  one.offset += (size_t)pair * sizeof(double);
+  return gg_field_json(&one, scene, scene);
+}
+
+json_t *gg_scene_key_json(const gg_scene *scene, const char *key)
+{
+  int id = gg_scene_field_find(key);
+  return id >= 0 ? gg_field_json(&gg_scene_fields[id], scene, scene) : member_json(scene, key);
+}
+
 json_t *gg_scene_json(const gg_scene *scene)
 {
   json_t *root = json_object();

@@ -11,6 +11,9 @@
 json_t *gg_scene_json(const gg_scene *scene);
 /* One value of it. */
 json_t *gg_field_json(const gg_field *field, const void *base, const gg_scene *scene);
+/* The value of one key: "collision.e", "collision.e.12", "species.2.mass". NULL: there is no such key,
+ * or out of memory. */
+json_t *gg_scene_key_json(const gg_scene *scene, const char *key);
 /* A JSON value on one line, as YAML flow style. */
 void gg_print_flow_style(FILE *out, const json_t *value);
 /* The same, cut to `size` bytes. */
