@@ -37,8 +37,14 @@ char *gg_plot_page_name(const char *picture, const char *engine, const char *gro
 
 #define GG_PLOT_PNG_SCALE 1.5 /* pixels of PNG for one of a page's size */
 
-/* Open a page of this size under the scene's title; to be ended by `unset multiplot`. */
+/* Open a page of this size under a title (plain text, may be NULL), or under the scene's; to be ended by `unset
+ * multiplot`. */
+void gg_plot_open_page(FILE *script, const char *title, bool png, int width, int height);
 void gg_plot_start_page(FILE *script, const gg_stored_result *stored, bool png, int width, int height);
+
+/* The inside of a text in single quotes: as it is, or where gnuplot takes text for enhanced, so that it shows as is. */
+void gg_plot_text(FILE *script, const char *text);
+void gg_plot_plain_text(FILE *script, const char *text);
 
 /* Run a gnuplot script, and put what it drew in place; `over` (may be NULL) is SVG that is put over an SVG page. */
 gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err);

@@ -49,24 +49,40 @@ static void start(FILE *s, bool png, int width, int height)
              "set grid ytics lc rgb '#e4e4e4' lt 1 lw 0.8\n");
 }
 
-/* The scene's title over the page, from its YAML. */
-static void set_title(FILE *s, const gg_stored_result *stored)
+void gg_plot_open_page(FILE *s, const char *title, bool png, int width, int height)
 {
-  gg_scene scene = gg_scene_defaults();
-  char title[240] = "", safe[300];
-  size_t used = 0;
-  if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) == GG_OK)
-    gg_title_of_scene(&scene, title, sizeof title);
-  for (const char *c = title; *c && used + 3 < sizeof safe; c++) {
-    if (*c == '\'') continue;
-    safe[used++] = *c;
+  start(s, png, width, height);
+  fprintf(s, "set multiplot");
+  if (title && *title) {
+    fprintf(s, " title '");
+    gg_plot_text(s, title);
+    fprintf(s, "' noenhanced font ',14'");
   }
-  safe[used] = '\0';
-  fprintf(s, "set multiplot title '%s' noenhanced font ',14'\n", safe);
+  fprintf(s, "\n");
 }
 
 void gg_plot_start_page(FILE *s, const gg_stored_result *stored, bool png, int width, int height)
 {
-  start(s, png, width, height);
-  set_title(s, stored);
+  gg_scene scene = gg_scene_defaults();
+  char title[240] = "";
+  if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) == GG_OK)
+    gg_title_of_scene(&scene, title, sizeof title);
+  gg_plot_open_page(s, title, png, width, height);
+}
+
+void gg_plot_text(FILE *s, const char *text)
+{
+  for (const char *c = text; *c; c++) {
+    if (*c == '\'') fputc('\'', s);
+    fputc(*c == '\n' ? ' ' : *c, s);
+  }
+}
+
+void gg_plot_plain_text(FILE *s, const char *text)
+{
+  for (const char *c = text; *c; c++) {
+    if (strchr("_^{}@&~\\", *c)) fputc('\\', s);
+    if (*c == '\'') fputc('\'', s);
+    fputc(*c == '\n' ? ' ' : *c, s);
+  }
 }
