@@ -198,6 +198,35 @@ GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_col
 GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, gg_error *err);
 GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulation **simulation, gg_error *err);
 
+/* ---- More than one process ----
+ * The replicas of runs and comparisons can be shared by several processes, on one machine or many. One of them, rank 0,
+ * calls gg_run or gg_compare with `workers` among its options; each of the others calls gg_work, and stays there. Bits
+ * depend neither on how many they are nor on who does what. The library only knows that they can send each other
+ * messages, and needs no MPI: `mpirun graingas` brings MPI's. All have to be the same build. Scenes with observables,
+ * theories or laws of one's own, and the replica that writes a trajectory, stay with rank 0. */
+
+typedef struct gg_messages { /* filled in by the caller; calls come one at a time, from any thread */
+  int rank, size;            /* this process, 0 to size - 1; how many they are */
+  void *context;
+  /* Take over a block from malloc, and see that it arrives: in order, later, without waiting. Not 0: it cannot. */
+  int (*send)(void *context, int to, void *block, size_t size);
+  /* The next message, in a block from malloc for the caller, and who sent it: 1; none at present: 0; nothing will ever
+   * come again: -1. */
+  int (*receive)(void *context, int *from, void **block, size_t *size);
+  /* Is that process known to be gone? NULL: nobody knows; then one that is silent for a minute counts as gone. */
+  int (*lost)(void *context, int rank);
+  /* Told to people, at rank 0: a process is lost, and its work done anew by others. NULL: nobody is told. */
+  void (*warn)(void *context, const char *message);
+} gg_messages;
+
+typedef struct gg_workers gg_workers;
+/* Rank 0: meet the others. Each process, this one included, uses so many threads. `messages` is copied. Freed, it sends
+ * the others home: gg_work returns there. Several runs, in threads of their own, may use it side by side. */
+GG_API gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err);
+GG_API void gg_workers_free(gg_workers *workers);
+/* The others: work until rank 0 has no more to do (GG_OK), or is gone (GG_FAILED). */
+GG_API gg_status gg_work(const gg_messages *messages, gg_error *err);
+
 /* ---- Runs: to the end that the scene asks for, means with their errors ---- */
 
 typedef struct gg_progress { /* where a run stands */
@@ -231,6 +260,7 @@ typedef struct gg_run_options {
   void (*warn)(void *context, const char *message); /* before the run begins: keys without effect, what was put right */
   const char *input;   /* the scene's file, which nothing written may replace; NULL: not known */
   const char *picture; /* that gg_plot is to draw of the output afterwards: looked at before the run, like the others */
+  gg_workers *workers; /* other processes that take part, with as many threads as was said there; NULL: none */
 } gg_run_options;
 
 typedef struct gg_result gg_result; /* what came out of one engine's run */

@@ -74,7 +74,7 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
   atomic_init(&r->stopped, false);
-  *hooks = (gg_hooks){.context = r, .progress = hear_progress, .interrupted = gg_door_run_stopped};
+  *hooks = (gg_hooks){.context = r, .progress = hear_progress, .interrupted = gg_door_run_stopped, .workers = r->options.workers};
   if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
   GG_TRY(gg_door_finished(scene, &r->scene, err));
   GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));

@@ -4,6 +4,7 @@
 
 #include "run/clock.h"
 #include "run/replicas.h"
+#include "run/workers/workers.h"
 
 static gg_status store_checkpoint(gg_replicas *all, gg_error *err)
 {
@@ -20,7 +21,7 @@ static bool checkpoints(const gg_replicas *all)
   return all->hooks && all->hooks->checkpoint;
 }
 
-static bool checkpoint_is_due(const gg_replicas *all)
+bool gg_replicas_checkpoint_is_due(const gg_replicas *all)
 {
   double every = all->scene.output.checkpoint_every;
   return checkpoints(all) && every > 0 && gg_wall_now() - all->last_checkpoint > every;
@@ -38,21 +39,28 @@ static bool is_over(const gg_replicas *all)
   return all->stopped == GG_OUT_OF_TIME || all->state.standstill > 0;
 }
 
+/* Samples between two looks at how it goes: some tens of milliseconds. Processes that share the work report by
+ * themselves, and have to wait for each other after each step: they go all the way, but where a standstill is looked
+ * for after each. */
+static uint64_t step(const gg_replicas *all, uint64_t way)
+{
+  if (all->share && all->model.gravity[1] == 0) return way;
+  uint64_t some = 1 + (uint64_t)(2e5 / (1000 + (double)all->model.n * all->n));
+  return some < way ? some : way;
+}
+
 /* Let every replica reach `due` samples, in short steps with progress and a checkpoint between them. */
 static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 {
   while (all->state.due < due || !gg_replicas_are_level(all)) {
-    if (gg_replicas_are_level(all)) {
-      uint64_t step = 1 + (uint64_t)(2e5 / (1000 + (double)all->model.n * all->n)); /* some tens of milliseconds */
-      all->state.due = all->state.due + step < due ? all->state.due + step : due;
-    }
+    if (gg_replicas_are_level(all)) all->state.due += step(all, due - all->state.due);
     gg_status status = gg_replicas_advance(all, adapts(all), err);
     if (status == GG_INTERRUPTED && is_over(all)) return GG_OK;
     if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, err));
     if (status != GG_OK) return status;
     gg_replicas_check_standstill(all);
     gg_replicas_report_progress(all, false);
-    if (checkpoint_is_due(all)) GG_TRY(store_checkpoint(all, err));
+    if (gg_replicas_checkpoint_is_due(all)) GG_TRY(store_checkpoint(all, err));
     if (is_over(all)) return GG_OK;
   }
   return GG_OK;
@@ -61,6 +69,7 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 static gg_status open_window(gg_replicas *all, gg_error *err)
 {
   for (int i = 0; i < all->n; i++) GG_TRY(gg_replica_open_window(&all->replica[i], err));
+  if (all->share) gg_share_changed(all->share);
   if (!all->state.averaging) gg_outlook_new_phase(&all->outlook);
   gg_outlook_open_window(&all->outlook);
   all->looked_at = 0;

@@ -94,6 +94,7 @@ static void *run_part(void *argument)
   if (p->hooks && p->hooks->progress) hooks.progress = locked_progress;
   if (p->hooks && (p->hooks->interrupted || p->hooks->checkpoint)) hooks.interrupted = locked_interrupted;
   if (p->hooks && p->hooks->checkpoint) hooks.checkpoint = locked_checkpoint;
+  if (p->hooks) hooks.workers = p->hooks->workers;
   p->scene.engine = p->kind;
   p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &hooks,
                            &p->comparison->by_engine[p->kind], &p->err);
@@ -160,7 +161,7 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};
   part parts[2];
-  bool beside = threads > 1, broken = false;
+  bool beside = threads > 1 || (hooks && hooks->workers), broken = false;
   gg_status status = GG_OK;
   for (int k = 0; k < 2; k++) {
     parts[k] = (part){.scene = *scene, .kind = (gg_engine_kind)k, .hooks = hooks, .comparison = c, .lock = &lock};

@@ -3,6 +3,7 @@
 
 #include "run/clock.h"
 #include "run/replicas.h"
+#include "run/workers/workers.h"
 
 /* Looks at the errors between two tests, for the outlook alone: of windows a quarter as long as is tested at least,
  * each longer by a twentieth than the last, and never more than a hundredth of the time. */
@@ -17,6 +18,26 @@ static void look(gg_replicas *all, double window)
   all->next_look = now + 100 * (now - before);
 }
 
+/* Of replica i, also while other processes have it. */
+static gg_replica_news news_of(const gg_replicas *all, int i)
+{
+  const gg_replica *r = &all->replica[i];
+  if (all->share && gg_share_is_busy(all->share)) return gg_share_news(all->share, i);
+  return (gg_replica_news){r->clock.samples, gg_replica_collisions_per_grain(r), r->clock.cpu};
+}
+
+/* That all replicas have, or will have once this step is over. */
+static double samples_so_far(const gg_replicas *all)
+{
+  uint64_t least = all->state.due;
+  if (!all->share || !gg_share_is_busy(all->share)) return (double)least;
+  for (int i = 0; i < all->n; i++) {
+    uint64_t has = gg_share_news(all->share, i).samples;
+    least = has < least ? has : least;
+  }
+  return (double)least;
+}
+
 /* When a run of usual noise, 3/sqrt(grains samples), ends: where nothing is known of the errors of this one. */
 static double usual_end(const gg_replicas *all)
 {
@@ -28,9 +49,9 @@ static double usual_end(const gg_replicas *all)
 }
 
 /* NaN: not known. What a sample takes where curves are measured is known only after some of the averaging. */
-static double time_left(const gg_replicas *all, gg_end end, double limit_in)
+static double time_left(const gg_replicas *all, double due, gg_end end, double limit_in)
 {
-  double left = (end.at - (double)all->state.due) * gg_outlook_pace(&all->outlook);
+  double left = (end.at - due) * gg_outlook_pace(&all->outlook);
   bool alike = all->state.averaging || all->replica[0].n_observables <= 1;
   return isfinite(left) && end.known && alike ? fmin(left, limit_in) : NAN;
 }
@@ -38,12 +59,14 @@ static double time_left(const gg_replicas *all, gg_end end, double limit_in)
 void gg_replicas_report_progress(gg_replicas *all, bool over)
 {
   if (!all->hooks || !all->hooks->progress) return;
-  double window = all->state.averaging ? (double)(all->state.due - all->state.window_at) : 0;
-  if (!over) look(all, window);
-  double collisions = 0, cpu = 0, due = (double)all->state.due, now = gg_wall_now();
+  double due = samples_so_far(all);
+  double window = all->state.averaging ? due - (double)all->state.window_at : 0;
+  if (!over && !(all->share && gg_share_is_busy(all->share))) look(all, window);
+  double collisions = 0, cpu = 0, now = gg_wall_now();
   for (int i = 0; i < all->n; i++) {
-    collisions += gg_replica_collisions_per_grain(&all->replica[i]) * (double)all->model.n / 2;
-    cpu += all->replica[i].clock.cpu;
+    gg_replica_news news = news_of(all, i);
+    collisions += news.collisions_per_grain * (double)all->model.n / 2;
+    cpu += news.cpu;
   }
   gg_outlook_note_time(&all->outlook, now, due);
   gg_end end = gg_outlook_end(&all->outlook, &all->plan, &all->state);
@@ -58,7 +81,7 @@ void gg_replicas_report_progress(gg_replicas *all, bool over)
       .collisions = (uint64_t)collisions,
       .rate = cpu > 0 ? collisions / cpu : 0,
       .relative_error = window >= (double)all->plan.least ? all->last.relative_error : NAN,
-      .time_left = over ? 0 : time_left(all, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
+      .time_left = over ? 0 : time_left(all, due, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
       .replicas = all->n,
   };
   all->hooks->progress(all->hooks->context, &p);

@@ -7,9 +7,11 @@
 #include "run/clock.h"
 #include "run/forecast.h"
 #include "run/start.h"
+#include "run/workers/workers.h"
 
 static gg_status create_replicas(gg_replicas *all, gg_error *err)
 {
+  if (all->share) return gg_share_create(all->share, err);
   for (int i = 0; i < all->n; i++) GG_TRY(gg_replica_create(&all->replica[i], &all->scene, &all->model, i, err));
   return GG_OK;
 }
@@ -29,28 +31,30 @@ gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_a
   *all = (gg_replicas){.scene = *scene, .threads = threads, .n = (int)scene->run.replicas, .hooks = hooks};
   all->started = all->last_checkpoint = gg_wall_now();
   all->last.relative_error = NAN; /* nothing is estimated yet */
-  GG_TRY(gg_model_make(scene, scene->engine, &all->model, err));
+  GG_TRY(gg_start_make(scene, &all->model, err));
   GG_TRY(gg_engine_ops_of(scene->engine)->accepts(&all->model, err));
-  if (scene->temperature == GG_AUTO) gg_start_near_steady(&all->model);
   all->plan = gg_plan_of(scene, &all->model);
   const gg_forecast forecast = gg_forecast_of(scene, &all->model, scene->engine);
   GG_TRY(gg_forecast_check_memory(&forecast, gg_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
   all->replica = gg_new_array((size_t)all->n, sizeof *all->replica, err);
   if (!all->replica) return GG_FAILED;
   gg_replicas_watch(all);
-  gg_status status = resume ? gg_replicas_restore(all, resume, err) : create_replicas(all, err);
+  gg_status status = gg_share_open(all, &all->share, err);
+  if (status == GG_OK) status = resume ? gg_replicas_restore(all, resume, err) : create_replicas(all, err);
   if (status == GG_INTERRUPTED && all->stopped == GG_OUT_OF_TIME)
     status = gg_fail(err, GG_FAILED, "%s: the time limit struck before the start was done",
                      gg_engine_ops_of(scene->engine)->name);
-  if (status == GG_OK)
-    share_threads(all);
-  else
+  if (status != GG_OK)
     gg_replicas_clear(all);
+  else if (!all->share)
+    share_threads(all);
   return status;
 }
 
 void gg_replicas_clear(gg_replicas *all)
 {
+  gg_share_close(all->share);
+  all->share = NULL;
   for (int i = 0; all->replica && i < all->n; i++) gg_replica_clear(&all->replica[i]);
   free(all->replica);
   all->replica = NULL;
@@ -88,6 +92,7 @@ static void *work(void *argument)
 gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err)
 {
   enum { MOST_THREADS = 64 };
+  if (all->share) return gg_share_advance(all->share, adapt, err);
   int n = all->threads < all->n ? all->threads : all->n;
   n = n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : n;
   worker workers[MOST_THREADS];

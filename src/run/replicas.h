@@ -40,17 +40,19 @@ typedef struct gg_replicas {
   int threads, n;
   gg_replica *replica; /* n of them */
   const gg_hooks *hooks;
-  pthread_mutex_t lock;                           /* one replica at a time calls a hook */
-  gg_stop stop;                                   /* what the model's points to (stopping.c) */
-  _Atomic int stopped;                            /* GG_GOES_ON ... */
-  struct gg_replicas_state {                      /* plain data: saved as bytes */
-    int64_t averaging;                            /* 0: warm-up */
-    uint64_t due;                                 /* samples that every replica is to have taken */
-    uint64_t window_at;                           /* samples when the window was opened */
-    uint64_t goal;                                /* samples at which the window is tested next */
-    uint64_t restarts;                            /* windows given up for a trend */
-    int64_t exact;                                /* at the last test, errors were as small as asked */
-    double wall;                                  /* seconds used before this process */
+  struct gg_share *share;    /* of other processes' work (workers/workers.h); NULL: threads do it */
+  pthread_mutex_t lock;      /* one replica at a time calls a hook */
+  gg_stop stop;              /* what the model's points to (stopping.c) */
+  _Atomic int stopped;       /* GG_GOES_ON ... */
+  _Atomic bool pausing;      /* all stop where they are, to go on later */
+  struct gg_replicas_state { /* plain data: saved as bytes */
+    int64_t averaging;       /* 0: warm-up */
+    uint64_t due;            /* samples that every replica is to have taken */
+    uint64_t window_at;      /* samples when the window was opened */
+    uint64_t goal;           /* samples at which the window is tested next */
+    uint64_t restarts;       /* windows given up for a trend */
+    int64_t exact;           /* at the last test, errors were as small as asked */
+    double wall;             /* seconds used before this process */
     uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began (standstill.c) */
     double standstill; /* share of contacts that last, if there was little else; 0: the grains move */
   } state;
@@ -74,11 +76,13 @@ uint64_t gg_plan_next_test(const gg_plan *plan, uint64_t restarts, bool exact, u
 gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                              const gg_hooks *hooks, gg_error *err);
 void gg_replicas_clear(gg_replicas *all);
-/* Every replica, on the threads that there are, takes samples until it has all->state.due of them. */
+/* Every replica, on the threads or processes that there are, takes samples until it has all->state.due of them; the
+ * latter may stop before, where a checkpoint is due. */
 gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err);
 
 /* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
 gg_status gg_replicas_run(gg_replicas *all, gg_error *err);
+bool gg_replicas_checkpoint_is_due(const gg_replicas *all);
 /* progress.c: tell the caller's hook, if there is one; `over`: the run is. */
 void gg_replicas_report_progress(gg_replicas *all, bool over);
 /* Has every replica all->state.due samples? Where a run was stopped, some may not. */

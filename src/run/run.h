@@ -16,6 +16,7 @@ typedef struct gg_hooks {
   /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole,
    * with all frames that came before. Items may be added. */
   gg_status (*checkpoint)(void *context, gg_archive *archive, gg_error *err);
+  gg_workers *workers; /* other processes that share the replicas, with threads of their own; borrowed */
 } gg_hooks;
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side

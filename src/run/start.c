@@ -40,3 +40,10 @@ void gg_start_near_steady(gg_model *model)
     gg_model_at(model, model->temperature0);
   }
 }
+
+gg_status gg_start_make(const gg_scene *scene, gg_model *model, gg_error *err)
+{
+  GG_TRY(gg_model_make(scene, scene->engine, model, err));
+  if (scene->temperature == GG_AUTO) gg_start_near_steady(model);
+  return GG_OK;
+}

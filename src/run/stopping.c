@@ -22,6 +22,7 @@ static bool asked(void *context)
 {
   gg_replicas *all = context;
   if (atomic_load(&all->stopped) != GG_GOES_ON) return true;
+  if (atomic_load(&all->pausing)) return true;
   int why = hook_asks(all) ? GG_STOP_ASKED : out_of_time(all) ? GG_OUT_OF_TIME : GG_GOES_ON, before = GG_GOES_ON;
   if (why != GG_GOES_ON) atomic_compare_exchange_strong(&all->stopped, &before, why);
   return why != GG_GOES_ON;
@@ -31,6 +32,7 @@ void gg_replicas_watch(gg_replicas *all)
 {
   pthread_mutex_init(&all->lock, NULL);
   atomic_init(&all->stopped, GG_GOES_ON);
+  atomic_init(&all->pausing, false);
   all->stop = (gg_stop){asked, all};
   all->model.stop = &all->stop;
 }
