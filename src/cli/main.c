@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "cli/options.h"
+#include "cli/processes.h"
 #include "cli/wrap.h"
 
 int gg_cli_report(const gg_error *err)
@@ -126,10 +127,15 @@ static int dispatch(int argc, char **argv)
   return unknown(word);
 }
 
+static int do_all(int argc, char **argv)
+{
+  return check_output(dispatch(argc, argv));
+}
+
 int main(int argc, char **argv)
 {
   signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of the write, not the end of the program */
   signal(SIGPIPE, SIG_IGN);
   H5dont_atexit(); /* we close what we open; HDF5 would insist on flushing to a full disk */
-  return check_output(dispatch(argc, argv));
+  return gg_cli_as_one_of_several(argc, argv, do_all);
 }

@@ -1,4 +1,5 @@
 #include "cli/options.h"
+#include "cli/processes.h"
 
 #include <getopt.h>
 #include <stdarg.h>
@@ -13,7 +14,8 @@ const gg_option gg_options_table[] = {
     {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run, instead of the scene's"},
     {GG_OPT_SET, "set", "KEY=VALUE", "override a key of the scene, e.g. collision.e=0.8; repeatable"},
     {GG_OPT_SEED, "seed", "N", "seed of the random streams (run.seed)"},
-    {GG_OPT_THREADS, "threads", "N", "threads to use; results do not depend on it (default: all processors)"},
+    {GG_OPT_THREADS, "threads", "N",
+     "threads to use; results do not depend on it (default: all processors; under mpirun one a process)"},
     {GG_OPT_OUTPUT, "output", "FILE", "file to write (default: the input's name, in the current folder)"},
     {GG_OPT_PREFIX, "output", "PREFIX",
      "how the files' names begin (default: the input's name, in the current folder)"},
@@ -162,7 +164,7 @@ int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
       known[n++] = (struct option){t->name, t->argument ? required_argument : no_argument, NULL,
                                    256 + (int)(t - gg_options_table)};
   known[n++] = (struct option){"help", no_argument, NULL, 'h'};
-  *o = (gg_options){.threads = gg_processors(), .command_line = join(argc, argv)};
+  *o = (gg_options){.threads = gg_cli_default_threads(), .command_line = join(argc, argv)};
   opterr = 0, optind = 0;
   for (int got; (got = getopt_long(argc, argv, "h", known, NULL)) != -1;) {
     if (got == 'h') return gg_print_command_help(c), GG_OK;

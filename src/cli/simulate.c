@@ -1,4 +1,5 @@
 #include "cli/simulate.h"
+#include "cli/processes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -70,6 +71,7 @@ static int simulate_scene(gg_simulating *s, gg_simulate *simulate)
   s->picture = picture_path(s);
   s->replaced = gg_file_exists(s->output) && !gg_is_device(s->output);
   s->run = (gg_run_options){.threads = o->threads,
+                            .workers = gg_cli_workers(o->threads),
                             .input = o->input,
                             .picture = s->picture,
                             .output = s->output,

@@ -1,0 +1,45 @@
+#include "cli/processes.h"
+
+#include <signal.h>
+#include <stddef.h>
+
+#include "cli/cli.h"
+#include "mpi/mpi.h"
+
+/* One to a program, as its processes are. */
+static gg_messages messages;
+static gg_workers *workers;
+
+gg_workers *gg_cli_workers(int threads)
+{
+  gg_error err;
+  if (messages.size > 1 && !workers && gg_workers_new(&messages, threads, &workers, &err) != GG_OK) gg_cli_report(&err);
+  return workers;
+}
+
+int gg_cli_default_threads(void)
+{
+  return messages.size > 1 ? 1 : gg_processors();
+}
+
+/* What rank 0 ends by, ends them. */
+static int work(void)
+{
+  gg_error err;
+  signal(SIGINT, SIG_IGN);
+  signal(SIGTERM, SIG_IGN);
+  signal(SIGHUP, SIG_IGN);
+  return gg_work(&messages, &err) == GG_OK ? GG_OK : GG_FAILED;
+}
+
+int gg_cli_as_one_of_several(int argc, char **argv, gg_cli_main *alone)
+{
+  gg_error err;
+  if (!gg_mpi_is_one_of_several()) return alone(argc, argv);
+  if (gg_mpi_begin(&messages, &err) != GG_OK) return gg_cli_report(&err);
+  int code = messages.rank > 0 ? work() : alone(argc, argv);
+  if (messages.rank == 0) gg_cli_workers(1); /* of a command that needs nobody: they have to be sent home */
+  gg_workers_free(workers);
+  gg_mpi_end(&messages, code);
+  return code;
+}

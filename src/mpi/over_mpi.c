@@ -1,0 +1,209 @@
+/* A message goes in parts that an int can count; the tag says whether more follow. Nothing here waits but the end. */
+#include <errno.h>
+#include <mpi.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "mpi/mpi.h"
+
+enum { LAST_PART, MORE_FOLLOWS };
+static const size_t largest_part = (size_t)1 << 30;
+enum { LONGEST_WAIT = 5 }; /* seconds, at the end, for those who do not come any more */
+
+typedef struct sending {
+  MPI_Request request;
+  void *block; /* freed with its last part; NULL in the others */
+  struct sending *next;
+} sending;
+
+typedef struct incoming { /* what has come of a message */
+  char *block;
+  size_t size;
+} incoming;
+
+typedef struct process {
+  char machine[120]; /* and what of it numbers processes */
+  long pid;
+} process;
+
+typedef struct post {
+  int rank, size;
+  sending *first;
+  incoming *from;
+  process *process;
+  bool *lost;
+} post;
+
+static void release(sending *s)
+{
+  free(s->block);
+  free(s);
+}
+
+/* Forget what has arrived. */
+static void push(post *p)
+{
+  for (sending **at = &p->first; *at;) {
+    int done = 0;
+    sending *s = *at;
+    if (MPI_Test(&s->request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS || done) {
+      *at = s->next;
+      release(s);
+    } else {
+      at = &s->next;
+    }
+  }
+}
+
+/* Parts are sent in order, and received so. */
+static int send_part(post *p, int to, const char *part, size_t size, int tag, void *block)
+{
+  sending *s = calloc(1, sizeof *s), **at = &p->first;
+  if (!s) {
+    free(block);
+    return 1;
+  }
+  s->block = block;
+  if (MPI_Isend(part, (int)size, MPI_BYTE, to, tag, MPI_COMM_WORLD, &s->request) != MPI_SUCCESS) {
+    release(s);
+    return 1;
+  }
+  while (*at) at = &(*at)->next;
+  *at = s;
+  return 0;
+}
+
+static int send(void *context, int to, void *block, size_t size)
+{
+  const char *part = block;
+  for (; size > largest_part; size -= largest_part, part += largest_part)
+    if (send_part(context, to, part, largest_part, MORE_FOLLOWS, NULL) != 0) return 1; /* others may still read it */
+  return send_part(context, to, part, size, LAST_PART, block);
+}
+
+static int receive_part(incoming *in, const MPI_Status *status)
+{
+  int count;
+  MPI_Get_count(status, MPI_BYTE, &count);
+  char *block = realloc(in->block, in->size + (size_t)count + 1);
+  if (!block) return -1;
+  in->block = block;
+  if (MPI_Recv(block + in->size, count, MPI_BYTE, status->MPI_SOURCE, status->MPI_TAG, MPI_COMM_WORLD,
+               MPI_STATUS_IGNORE) != MPI_SUCCESS)
+    return -1;
+  in->size += (size_t)count;
+  return 0;
+}
+
+static int receive(void *context, int *from, void **block, size_t *size)
+{
+  post *p = context;
+  push(p);
+  for (;;) {
+    int there = 0;
+    MPI_Status status;
+    if (MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status) != MPI_SUCCESS) return -1;
+    if (!there) return 0;
+    incoming *in = &p->from[status.MPI_SOURCE];
+    if (receive_part(in, &status) != 0) return -1;
+    if (status.MPI_TAG == MORE_FOLLOWS) continue;
+    *from = status.MPI_SOURCE;
+    *block = in->block, *size = in->size;
+    *in = (incoming){0};
+    return 1;
+  }
+}
+
+/* Of the same machine it can be seen; of others nobody knows. */
+static int is_lost(void *context, int rank)
+{
+  post *p = context;
+  const process *me = &p->process[p->rank], *other = &p->process[rank];
+  if (strcmp(me->machine, other->machine) == 0 && kill((pid_t)other->pid, 0) != 0 && errno == ESRCH)
+    p->lost[rank] = true;
+  return p->lost[rank];
+}
+
+static void warn(void *context, const char *message)
+{
+  (void)context;
+  fprintf(stderr, "warning: %s\n", message);
+}
+
+static process myself(void)
+{
+  process me = {.pid = getpid()};
+  char host[60] = "", numbers[50] = "";
+  gethostname(host, sizeof host - 1);
+  if (readlink("/proc/self/ns/pid", numbers, sizeof numbers - 1) < 0) numbers[0] = 0;
+  snprintf(me.machine, sizeof me.machine, "%s %s", host, numbers);
+  return me;
+}
+
+static void clear(post *p)
+{
+  if (!p) return;
+  for (int i = 0; p->from && i < p->size; i++) free(p->from[i].block);
+  free(p->from), free(p->process), free(p->lost), free(p);
+}
+
+static post *open_post(void)
+{
+  post *p = calloc(1, sizeof *p);
+  if (!p) return NULL;
+  MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+  MPI_Comm_rank(MPI_COMM_WORLD, &p->rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &p->size);
+  size_t n = (size_t)p->size;
+  p->from = calloc(n, sizeof *p->from);
+  p->process = calloc(n, sizeof *p->process);
+  p->lost = calloc(n, sizeof *p->lost);
+  process me = myself();
+  if (p->from && p->process && p->lost &&
+      MPI_Allgather(&me, sizeof me, MPI_BYTE, p->process, sizeof me, MPI_BYTE, MPI_COMM_WORLD) == MPI_SUCCESS)
+    return p;
+  clear(p);
+  return NULL;
+}
+
+gg_status gg_mpi_begin(gg_messages *messages, gg_error *err)
+{
+  int level;
+  post *p = NULL;
+  if (MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &level) == MPI_SUCCESS && level >= MPI_THREAD_SERIALIZED)
+    p = open_post();
+  if (!p) {
+    err->status = GG_FAILED;
+    snprintf(err->message, sizeof err->message, "MPI could not be started, or lets no threads send messages in turn");
+    return GG_FAILED;
+  }
+  *messages = (gg_messages){p->rank, p->size, p, send, receive, is_lost, warn};
+  return GG_OK;
+}
+
+static volatile int exit_code; /* a signal handler finds it nowhere else */
+
+static void leave(int number)
+{
+  (void)number;
+  _exit(exit_code);
+}
+
+/* MPI_Finalize waits for all. If one of them is lost on another machine, nobody may know: the alarm ends the wait. */
+void gg_mpi_end(gg_messages *messages, int code)
+{
+  post *p = messages->context;
+  bool all = true;
+  fflush(NULL);
+  exit_code = code;
+  for (int i = 0; i < p->size; i++) all &= !is_lost(p, i);
+  for (int i = 0; i < LONGEST_WAIT * 1000 && p->first; i++) push(p), usleep(p->first ? 1000 : 0);
+  signal(SIGALRM, leave);
+  alarm(LONGEST_WAIT);
+  if (!p->first && all) MPI_Finalize();
+  alarm(0);
+  clear(p);
+}
