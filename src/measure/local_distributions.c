@@ -1,7 +1,7 @@
 /* Distributions of C_x and Omega_z where the gas is thin and where it is dense: of the grains in cells whose density
- * lies within a tenth of a chosen one (Gayen's thesis, section 4.1). Cells hold about eight grains. Velocities are
- * about the mean of the cell; with the share m_i/M_c that a mean over few grains takes out of a variance put back they
- * are, for Gaussian grains, Gaussian again. */
+ * lies within a tenth of a chosen one (Gayen's thesis, section 4.1), and of the grains of all cells. Cells hold about
+ * eight grains. Velocities are about the mean of the cell; with the share m_i/M_c that a mean over few grains takes out
+ * of a variance put back they are, for Gaussian grains, Gaussian again. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,8 +12,8 @@
 #include "measure/needs.h"
 #include "measure/observable.h"
 
-enum { CLASSES = 5, VECTORS = 2 };
-static const double centre[CLASSES] = {0.5, 0.75, 1, 1.25, 1.5}; /* of the mean solid fraction */
+enum { DENSITIES = 5, ALL = DENSITIES, CLASSES, VECTORS = 2 };
+static const double centre[DENSITIES] = {0.5, 0.75, 1, 1.25, 1.5}; /* of the mean solid fraction */
 #define TOLERANCE 0.1
 
 typedef struct cell {
@@ -108,6 +108,11 @@ static void centre_values(local *d, const gg_snapshot *s, int v, double sigma[GG
   for (int k = 0; k < GG_MAX_SPECIES; k++) sigma[k] = sqrt(squares[k] / n[k]);
 }
 
+static bool belongs(double density, int class)
+{
+  return class == ALL || fabs(density / centre[class] - 1) <= TOLERANCE + 1e-9;
+}
+
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   local *d = self;
@@ -122,8 +127,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
       int k = gg_snapshot_species(s, i);
       if (!isfinite(d->value[v][i])) continue;
       for (int j = 0; j < CLASSES; j++)
-        if (fabs(density / centre[j] - 1) <= TOLERANCE + 1e-9)
-          gg_histogram_add(histogram_of(d, bin, k, v, j), d->value[v][i] / sigma[k]);
+        if (belongs(density, j)) gg_histogram_add(histogram_of(d, bin, k, v, j), d->value[v][i] / sigma[k]);
     }
   }
 }
@@ -131,20 +135,22 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 static void put(const local *d, gg_curves *list, int species, int vector, int j, const double *bin)
 {
   static const char *const plain[] = {"Cx", "Wz"}, *const written[] = {"C_x", "Ω_z"};
-  char name[48], panel[48], label[24], argument[24], tail[16] = "", of[24] = "";
+  char name[48], panel[48], label[24], argument[24], class[16] = "all", tail[16] = "", of[24] = "";
+  double phi = d->model.phi * (j == ALL ? 1 : centre[j]);
   if (d->model.n_species > 1) {
     snprintf(tail, sizeof tail, "_%d", species + 1);
     snprintf(of, sizeof of, " of species %d", species + 1);
   }
-  snprintf(name, sizeof name, "local_distribution_%s%s_%g", plain[vector], tail, centre[j]);
+  if (j != ALL) snprintf(class, sizeof class, "%g", centre[j]);
+  snprintf(name, sizeof name, "local_distribution_%s%s_%s", plain[vector], tail, class);
   snprintf(panel, sizeof panel, "%s%s, by local density", written[vector], of);
-  snprintf(label, sizeof label, "φ %.3g", centre[j] * d->model.phi);
+  snprintf(label, sizeof label, j == ALL ? "all cells" : "φ %.3g", phi);
   snprintf(argument, sizeof argument, "%s/σ", written[vector]);
   double sigma = gg_histogram_sigma(bin); /* NaN where no cell was ever of this density */
   gg_curve *c = gg_histogram_put(list, name, panel, label, bin, sigma, (double)list->samples);
   gg_curve_axes(c, argument, "1", "P/P(0)", "1");
   gg_curve_put_number(c, "temperature_over_mean", sigma * sigma, "1");
-  gg_curve_put_number(c, "solid_fraction", centre[j] * d->model.phi, "1");
+  gg_curve_put_number(c, "solid_fraction", phi, "1");
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)

@@ -1,5 +1,6 @@
 /* Distributions by local density: Gaussian grains of any cell flow are Gaussian at every density, at one temperature;
- * grains that are colder and of another law where it is dense show that there and only there; an elastic gas of rough
+ * grains that are colder and of another law where it is dense show that there and only there, and all cells together
+ * are the mixture; an elastic gas of rough
  * hard spheres has one Maxwellian at every density, and a sheared inelastic one is colder where it is dense. */
 #include <stdio.h>
 
@@ -25,7 +26,7 @@ static void gaussian(gg_snapshot *s, gg_rng *r, int sample)
   for (size_t i = 0; i < s->n; i++) s->c[0][i] += 3 * floor(s->r[0][i] / s->model->box[0] * cells);
 }
 
-static const char *const classes[] = {"0.5", "0.75", "1", "1.25", "1.5"};
+static const char *const classes[] = {"0.5", "0.75", "1", "1.25", "1.5", "all"};
 
 static void expect_number(const gg_curves *list, const char *name, const char *number, double expected, double sight)
 {
@@ -38,7 +39,7 @@ static void gaussian_cells(void **state)
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, 0, 4096, 1);
   gg_curves list = ct_curves(&gg_local_distributions, &m, 512, gaussian, 71);
-  for (int k = 0; k < 5; k++) {
+  for (int k = 0; k < 6; k++) {
     char name[64];
     snprintf(name, sizeof name, "local_distribution_Cx_%s", classes[k]);
     expect_number(&list, name, "kurtosis", 3, 0.15);
@@ -86,6 +87,10 @@ static void planted_halves(void **state)
   const gg_curve *thin = ct_find(&list, "local_distribution_Cx_0.5"),
                  *dense = ct_find(&list, "local_distribution_Cx_1.5");
   gg_curve_number p = ct_number(thin, "kurtosis"), q = ct_number(dense, "kurtosis");
+  /* Three of four grains have the variance 1/4, the others 1. */
+  double all = (0.75 * q.value / 16 + 0.25 * 3) / pow(0.75 / 4 + 0.25, 2);
+  expect_number(&list, "local_distribution_Cx_all", "kurtosis", all, 0.15);
+  expect_number(&list, "local_distribution_Cx_all", "temperature_over_mean", 1, 1e-9);
   print_message("# kurtosis thin %.3f +- %.3f, dense %.3f +- %.3f\n", p.value, p.error, q.value, q.error);
   assert_true(fabs(p.value - 3) < 4 * p.error + 0.05 && q.value < 1.8); /* of +-1/2: 1, and 3 where thin */
   p = ct_number(thin, "temperature_over_mean"), q = ct_number(dense, "temperature_over_mean");
