@@ -12,6 +12,7 @@
   X(SONINE, sonine, "deviation of speeds from a Maxwellian")                                                           \
   X(PAIR_CORRELATION, pair_correlation, "g(r) from contact outwards")                                                  \
   X(VELOCITY_CORRELATIONS, velocity_correlations, "between grains, over their distance")                               \
+  X(LOCAL_VELOCITY_CORRELATIONS, local_velocity_correlations, "the same, of velocities about means of cells")          \
   X(STRUCTURE, structure, "structure factor and velocity spectra")                                                     \
   X(CELLS, cells, "local density, shear rate, temperatures and spin")                                                  \
   X(PROFILES, profiles, "density, flow, temperatures and spin across the gap between walls")                           \

@@ -1,11 +1,13 @@
 /* Spatial velocity correlations G(r) = <zeta_a(R) zeta_b(R + r)>/<zeta_a^2>: C with C and Omega with Omega by
  * component, C_x with Omega_z (over the root of both), over all directions, and within half a diameter of the axes.
- * Without correlations G is a little below 0, for the total momentum is 0. Spins are about their mean, by species. */
+ * Without correlations G is a little below 0, for the total momentum is 0. Spins are about their mean, by species.
+ * The local ones are of velocities and spins about the means of cells (Gayen's thesis, appendix II). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "measure/cell_frame.h"
 #include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
@@ -31,7 +33,8 @@ typedef struct correlations {
   gg_model model;
   gg_pairs pairs;
   int bins;
-  bool spins;
+  bool spins, local;
+  gg_cell_frame cells; /* of local ones */
   motion *motion;
 } correlations;
 
@@ -39,11 +42,12 @@ static void destroy(void *self)
 {
   correlations *d = self;
   gg_pairs_clear(&d->pairs);
+  if (d->local) gg_cell_frame_clear(&d->cells);
   free(d->motion);
   free(d);
 }
 
-static void *create(const gg_model *m, gg_error *err)
+static void *create_of(const gg_model *m, bool local, gg_error *err)
 {
   correlations *d = gg_new_array(1, sizeof *d, err);
   if (!d) return NULL;
@@ -51,10 +55,21 @@ static void *create(const gg_model *m, gg_error *err)
   double reach = gg_pairs_longest_reach(m);
   d->bins = (int)fmin(floor(reach / SPACING), MOST_BINS);
   d->spins = m->rule != GG_SMOOTH;
+  d->local = local;
+  bool whole = !local || gg_cell_frame_init(&d->cells, m, err) == GG_OK;
   d->motion = gg_new_array((size_t)m->n, sizeof *d->motion, err);
-  if (d->motion && gg_pairs_init(&d->pairs, m, d->bins * SPACING, TRIES, FALL, err) == GG_OK) return d;
+  if (whole && d->motion && gg_pairs_init(&d->pairs, m, d->bins * SPACING, TRIES, FALL, err) == GG_OK) return d;
   destroy(d);
   return NULL;
+}
+
+static void *create(const gg_model *m, gg_error *err)
+{
+  return create_of(m, false, err);
+}
+static void *create_local(const gg_model *m, gg_error *err)
+{
+  return create_of(m, true, err);
 }
 
 static size_t bins(const void *self)
@@ -105,21 +120,40 @@ static void mean_spins(const correlations *d, const gg_snapshot *s, double mean[
     for (int a = 0; a < 3; a++) mean[k][a] /= (double)d->model.n_of[k];
 }
 
+static void take_motion(const correlations *d, const gg_snapshot *s, size_t i, double mean[GG_MAX_SPECIES][3],
+                        motion *m)
+{
+  for (int a = 0; a < 3; a++) {
+    m->c[a] = s->c[a][i];
+    if (d->spins) m->w[a] = s->s[a][i] - mean[gg_snapshot_species(s, i)][a];
+  }
+}
+
+static void take_local_motion(const correlations *d, const gg_snapshot *s, size_t i, motion *m)
+{
+  gg_vec c = gg_cell_frame_velocity(&d->cells, s, i);
+  m->c[0] = c.x, m->c[1] = c.y, m->c[2] = c.z;
+  if (!d->spins) return;
+  gg_vec w = gg_cell_frame_spin(&d->cells, s, i);
+  m->w[0] = w.x, m->w[1] = w.y, m->w[2] = w.z;
+}
+
 /* Velocities and spins in the order of the pairs, and the sums of their squares. */
 static void take_motions(correlations *d, const gg_snapshot *s, double *squares)
 {
   double mean[GG_MAX_SPECIES][3];
   if (d->spins) mean_spins(d, s, mean);
+  if (d->local) gg_cell_frame_take(&d->cells, s);
   squares[0] += (double)s->n;
   for (size_t k = 0; k < s->n; k++) {
-    const size_t i = d->pairs.grain[k];
     motion *m = &d->motion[k];
+    if (d->local)
+      take_local_motion(d, s, d->pairs.grain[k], m);
+    else
+      take_motion(d, s, d->pairs.grain[k], mean, m);
     for (int a = 0; a < 3; a++) {
-      m->c[a] = s->c[a][i];
       squares[1 + a] += m->c[a] * m->c[a];
-      if (!d->spins) continue;
-      m->w[a] = s->s[a][i] - mean[gg_snapshot_species(s, i)][a];
-      squares[4 + a] += m->w[a] * m->w[a];
+      if (d->spins) squares[4 + a] += m->w[a] * m->w[a];
     }
   }
 }
@@ -153,13 +187,16 @@ static void put(const correlations *d, gg_curves *list, const char *name, const 
   const gg_model *m = &d->model;
   int first = (int)(gg_model_narrowest(m) / SPACING);
   if (d->bins <= first) return;
-  gg_curve *c = gg_curve_add(list, (size_t)(d->bins - first), name, panel, label);
+  char full[64];
+  snprintf(full, sizeof full, "%svelocity_correlation_%s", d->local ? "local_" : "", name);
+  gg_curve *c = gg_curve_add(list, (size_t)(d->bins - first), full, panel, label);
   gg_curve_axes(c, "r", gg_curve_unit(m, "length"), "G", "1");
   for (size_t i = 0; i < c->n; i++) {
     const double *at = bin + ((int)i + first) * width;
     c->x[i] = ((double)i + first + 0.5) * SPACING;
     c->value[i] = at[COUNT] > 0 ? at[channel] / (at[COUNT] * norm) : NAN;
   }
+  if (d->local) return; /* less than nothing within a cell, and nothing beyond: no level */
   double level = strstr(name, "CxW") ? 0 : strchr(name, 'W') ? -1 / ((double)m->n - 1) : of_no_momentum(m);
   gg_curve_beside(c, "uncorrelated", gg_level, &level);
 }
@@ -169,14 +206,12 @@ static void put_radial(const correlations *d, const double *bin, const double *s
   char name[48], label[24];
   for (int vector = 0; vector < 1 + d->spins; vector++)
     for (int a = 0; a < 3; a++) {
-      snprintf(name, sizeof name, "velocity_correlation_%s%c", vector ? "W" : "C", "xyz"[a]);
+      snprintf(name, sizeof name, "%s%c", vector ? "W" : "C", "xyz"[a]);
       snprintf(label, sizeof label, "%s_%c", vector ? "Ω" : "C", "xyz"[a]);
       put(d, list, name, vector ? "G_{ΩΩ}(r)" : "G_{CC}(r)", label, bin, RADIAL_WIDTH, (vector ? WW : CC) + a,
           square[3 * vector + a]);
     }
-  if (d->spins)
-    put(d, list, "velocity_correlation_CxWz", "G_{CΩ}(r)", "radial", bin, RADIAL_WIDTH, CW,
-        sqrt(square[0] * square[5]));
+  if (d->spins) put(d, list, "CxWz", "G_{CΩ}(r)", "radial", bin, RADIAL_WIDTH, CW, sqrt(square[0] * square[5]));
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
@@ -190,12 +225,12 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   for (int a = 0; a < 3; a++) {
     const double *along = bin + d->bins * (RADIAL_WIDTH + a * AXIS_WIDTH);
     snprintf(label, sizeof label, "along %c", "xyz"[a]);
-    snprintf(name, sizeof name, "velocity_correlation_Cx_along_%c", "xyz"[a]);
+    snprintf(name, sizeof name, "Cx_along_%c", "xyz"[a]);
     put(d, list, name, "G_{CC}^{xx} along axes", label, along, AXIS_WIDTH, AXIS_CC, square[0]);
     if (!d->spins) continue;
-    snprintf(name, sizeof name, "velocity_correlation_Wz_along_%c", "xyz"[a]);
+    snprintf(name, sizeof name, "Wz_along_%c", "xyz"[a]);
     put(d, list, name, "G_{ΩΩ}^{zz} along axes", label, along, AXIS_WIDTH, AXIS_WW, square[5]);
-    snprintf(name, sizeof name, "velocity_correlation_CxWz_along_%c", "xyz"[a]);
+    snprintf(name, sizeof name, "CxWz_along_%c", "xyz"[a]);
     put(d, list, name, "G_{CΩ}(r)", label, along, AXIS_WIDTH, AXIS_CW, sqrt(square[0] * square[5]));
   }
 }
@@ -203,6 +238,18 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 const gg_observable gg_velocity_correlations = {
     GG_OBSERVABLE(VELOCITY_CORRELATIONS, velocity_correlations),
     .create = create,
+    .destroy = destroy,
+    .refuses = gg_needs_bulk,
+    .bins = bins,
+    .every = 8,
+    .positions = true,
+    .add_snapshot = add_snapshot,
+    .curves = curves,
+};
+
+const gg_observable gg_local_velocity_correlations = {
+    GG_OBSERVABLE(LOCAL_VELOCITY_CORRELATIONS, local_velocity_correlations),
+    .create = create_local,
     .destroy = destroy,
     .refuses = gg_needs_bulk,
     .bins = bins,

@@ -85,7 +85,8 @@ def test_bench_observables():
     done = run("bench", "observables", "--quick", "--json", "--quiet", timeout=600)
     check(done.code == 0, done.err)
     both = {"rheology", "velocity_distributions", "orientation", "sonine", "collisions", "impact_speed"}
-    md = {"pair_correlation", "velocity_correlations", "structure", "cells", "diffusion", "profiles", "local_distributions"}
+    md = {"pair_correlation", "velocity_correlations", "structure", "cells", "diffusion", "profiles", "local_distributions",
+          "local_velocity_correlations"}
     sizes = (500, 2000, 4000)
     expected = ({(o, "md", phi, n) for o in both | md for phi in (0.01, 0.3) for n in sizes}
                 | {(o, "dsmc", phi, n) for o in both | {"viscosity"} for phi in (0.01, 0.3) for n in sizes})

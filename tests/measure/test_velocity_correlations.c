@@ -1,7 +1,10 @@
 /* Spatial velocity correlations: a planted wave of velocity and spin gives its sine integral back, radially and along
- * each axis; pairs that are sampled say what all pairs say; an elastic gas in equilibrium has only what momentum
- * conservation leaves, -1/(N-1). */
+ * each axis; pairs that are sampled say what all pairs say, about cells, too; an elastic gas in equilibrium has only
+ * what momentum conservation leaves, -1/(N-1). */
+#include <string.h>
+
 #include "curve_test.h"
+#include "measure/cell_grid.h"
 #include "measure/pairs.h"
 
 /* C_x = 2 cos(kz + phase) + noise, Omega_z = -cos(kz + phase) + noise/2, everything else noise. */
@@ -81,14 +84,30 @@ typedef struct plain_sums {
   double count[PLAIN_BINS], cc[PLAIN_BINS], cw[PLAIN_BINS], square[2];
 } plain_sums;
 
+/* Take off the mean of a grain's cell, found by going over all grains again. */
+static void about_cells(gg_snapshot *s, double *value)
+{
+  gg_cell_grid grid = gg_cell_grid_of(s->model);
+  double *before = malloc(s->n * sizeof *before);
+  memcpy(before, value, s->n * sizeof *before);
+  for (size_t i = 0; i < s->n; i++) {
+    double sum = 0, n = 0;
+    for (size_t j = 0; j < s->n; j++)
+      if (gg_cell_grid_cell(&grid, s, i) == gg_cell_grid_cell(&grid, s, j)) sum += before[j], n++;
+    value[i] -= sum / n;
+  }
+  free(before);
+}
+
 /* Every pair of the grains that `held_wave` leaves, from the definition. */
-static plain_sums plain(const gg_model *m, uint64_t seed)
+static plain_sums plain(const gg_model *m, uint64_t seed, bool local)
 {
   plain_sums p = {.square = {0, 0}};
   gg_snapshot s;
   gg_rng r = gg_rng_seed(seed, 0);
   assert_int_equal(gg_snapshot_init(&s, m, true, NULL), GG_OK);
   held_wave(&s, &r, 0);
+  if (local) about_cells(&s, s.c[0]), about_cells(&s, s.s[2]);
   gg_images b = gg_images_of(&s);
   double spin = 0, n = (double)s.n;
   for (size_t i = 0; i < s.n; i++) spin += s.s[2][i] / n;
@@ -123,18 +142,17 @@ static double plain_cw(double r, const void *context)
 
 /* Dense and large enough that far pairs are sampled: each point within five errors of the one of all pairs (34 points,
  * errors from 32 blocks), chi^2 about 1, and the errors far smaller than what is there. */
-static void sampled_pairs(void **state)
+static void compare_pairs(const gg_observable *observable, bool local)
 {
-  (void)state;
   gg_model m = ct_model(GG_USF, 0.3, 0, 3000, 1);
-  gg_curves list = ct_curves(&gg_velocity_correlations, &m, 512, held_wave, 67);
-  plain_sums all = plain(&m, 67);
+  gg_curves list = ct_curves(observable, &m, 512, held_wave, 67);
+  plain_sums all = plain(&m, 67, local);
   const struct {
     const char *name;
     double (*f)(double, const void *);
-  } cases[] = {{"velocity_correlation_Cx", plain_cc}, {"velocity_correlation_CxWz", plain_cw}};
+  } cases[] = {{"local_velocity_correlation_Cx", plain_cc}, {"local_velocity_correlation_CxWz", plain_cw}};
   for (int k = 0; k < 2; k++) {
-    const gg_curve *c = ct_find(&list, cases[k].name);
+    const gg_curve *c = ct_find(&list, cases[k].name + (local ? 0 : strlen("local_")));
     double chi2 = ct_chi2(c, 0, c->n, cases[k].f, &all), worst = 0;
     for (size_t i = 0; i < c->n; i++)
       worst = fmax(worst, fabs(c->value[i] - cases[k].f(c->x[i], &all)) / (c->error[i] + 1e-9));
@@ -143,6 +161,17 @@ static void sampled_pairs(void **state)
     assert_true(c->error[c->n - 1] > 1e-6 && c->error[c->n - 1] < 0.002); /* it is sampled, and says something */
   }
   gg_curves_clear(&list);
+}
+
+static void sampled_pairs(void **state)
+{
+  (void)state;
+  compare_pairs(&gg_velocity_correlations, false);
+}
+static void sampled_pairs_about_cells(void **state)
+{
+  (void)state;
+  compare_pairs(&gg_local_velocity_correlations, true);
 }
 
 static double conserved(double x, const void *context)
@@ -193,10 +222,8 @@ static void sheared(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_wave),
-      cmocka_unit_test(sampled_pairs),
-      cmocka_unit_test(equilibrium),
-      cmocka_unit_test(sheared),
+      cmocka_unit_test(planted_wave), cmocka_unit_test(sampled_pairs), cmocka_unit_test(sampled_pairs_about_cells),
+      cmocka_unit_test(equilibrium),  cmocka_unit_test(sheared),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

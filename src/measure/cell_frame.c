@@ -1,0 +1,64 @@
+#include "measure/cell_frame.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct gg_cell_mean {
+  double mass, inertia; /* sums of m, K m; then what c and s are the means of under these weights */
+  gg_vec c, s;
+} gg_cell_mean;
+
+gg_status gg_cell_frame_init(gg_cell_frame *f, const gg_model *m, gg_error *err)
+{
+  f->grid = gg_cell_grid_of(m);
+  f->mean = gg_new_array(gg_cell_grid_cells(&f->grid), sizeof *f->mean, err);
+  f->at = f->mean ? gg_new_array((size_t)m->n, sizeof *f->at, err) : NULL;
+  return f->at ? GG_OK : GG_FAILED;
+}
+
+void gg_cell_frame_clear(gg_cell_frame *f)
+{
+  free(f->mean);
+  free(f->at);
+}
+
+static gg_vec of_grain(double *const field[3], size_t i)
+{
+  return (gg_vec){field[0][i], field[1][i], field[2][i]};
+}
+
+static void add(gg_vec *sum, double weight, gg_vec v)
+{
+  *sum = gg_add(*sum, gg_scale(weight, v));
+}
+
+void gg_cell_frame_take(gg_cell_frame *f, const gg_snapshot *s)
+{
+  const gg_model *m = s->model;
+  size_t cells = gg_cell_grid_cells(&f->grid);
+  memset(f->mean, 0, cells * sizeof *f->mean);
+  for (size_t i = 0; i < s->n; i++) {
+    int k = gg_snapshot_species(s, i);
+    double inertia = m->inertia[k] * m->mass[k];
+    f->at[i] = (uint32_t)gg_cell_grid_cell(&f->grid, s, i);
+    gg_cell_mean *cell = &f->mean[f->at[i]];
+    cell->mass += m->mass[k], cell->inertia += inertia;
+    add(&cell->c, m->mass[k], of_grain(s->c, i));
+    if (s->s[0]) add(&cell->s, inertia, of_grain(s->s, i));
+  }
+  for (size_t k = 0; k < cells; k++) {
+    gg_cell_mean *cell = &f->mean[k];
+    if (cell->mass > 0) cell->c = gg_scale(1 / cell->mass, cell->c);
+    if (cell->inertia > 0) cell->s = gg_scale(1 / cell->inertia, cell->s);
+  }
+}
+
+gg_vec gg_cell_frame_velocity(const gg_cell_frame *f, const gg_snapshot *s, size_t i)
+{
+  return gg_sub(of_grain(s->c, i), f->mean[f->at[i]].c);
+}
+
+gg_vec gg_cell_frame_spin(const gg_cell_frame *f, const gg_snapshot *s, size_t i)
+{
+  return gg_sub(of_grain(s->s, i), f->mean[f->at[i]].s);
+}
