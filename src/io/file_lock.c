@@ -72,7 +72,8 @@ static gg_status try_once(gg_file_lock *l, const char *path, gg_error *err)
   if (fd < 0) return gg_cannot_write(path, strerror(errno), err);
   gg_status status = GG_OK;
   if (flock(fd, LOCK_EX | LOCK_NB) != 0 && !cannot_lock(errno)) {
-    if (errno != EINTR) status = in_use(fd, path, err);
+    l->busy = errno != EINTR;
+    if (l->busy) status = in_use(fd, path, err);
   } else if (still_there(fd, l->path) && !(foreign && unlink(l->path) == 0)) {
     l->fd = fd; /* but a dead one's of another user gives way to one of one's own, where the folder lets it */
     return GG_OK;
@@ -93,7 +94,7 @@ gg_status gg_file_lock_take(gg_file_lock *l, const char *target, const char *pat
     return GG_OK;
   }
   free(l->path);
-  *l = GG_FILE_LOCK_NONE;
+  *l = (gg_file_lock){.fd = -1, .busy = l->busy};
   return status;
 }
 

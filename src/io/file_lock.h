@@ -3,11 +3,14 @@
 #ifndef GG_FILE_LOCK_H
 #define GG_FILE_LOCK_H
 
+#include <stdbool.h>
+
 #include "common/error.h"
 
 typedef struct gg_file_lock {
   char *path;
-  int fd; /* -1: not held */
+  int fd;    /* -1: not held ... */
+  bool busy; /* ... because another run holds it */
 } gg_file_lock;
 
 #define GG_FILE_LOCK_NONE ((gg_file_lock){.fd = -1})

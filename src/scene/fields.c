@@ -143,6 +143,8 @@ const gg_field gg_species_fields[] = {
 
 const gg_word gg_former_keys[] = {
     {"small_shear", 0, "is a flow of its own: write flow: small_shear instead of flow: usf, and leave this key out"},
+    {"vary", 0, "is for a sweep: graingas sweep FILE"},
+    {"sweep", 0, "is for a sweep: graingas sweep FILE"},
     {0},
 };
 

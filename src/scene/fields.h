@@ -41,10 +41,11 @@ typedef struct gg_field {
   bool may_change;  /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
 
-enum { GG_MAX_FIELDS = 48 };                  /* as many bits of gg_scene.given are used */
-extern const gg_field gg_scene_fields[];      /* ends with a NULL key */
-extern const gg_field gg_species_fields[];    /* likewise */
-extern const gg_word gg_former_keys[];        /* keys of earlier versions; what to write now; ends with a NULL name */
+enum { GG_MAX_FIELDS = 48 };               /* as many bits of gg_scene.given are used */
+extern const gg_field gg_scene_fields[];   /* ends with a NULL key */
+extern const gg_field gg_species_fields[]; /* likewise */
+extern const gg_word
+    gg_former_keys[]; /* keys of earlier versions and of other files; what to do now; ends with a NULL name */
 extern const char *const gg_scene_sections[]; /* first parts of dotted keys; ends with NULL */
 
 /* Index in gg_scene_fields, or -1. */

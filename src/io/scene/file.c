@@ -30,16 +30,32 @@ static gg_status read_text(int fd, const char *path, char *text, size_t *length,
   return GG_OK;
 }
 
-gg_status gg_scene_read_file(gg_scene *scene, const char *path, gg_error *err)
+gg_status gg_scene_file_text(const char *path, char **out, size_t *length, gg_error *err)
 {
   bool standard = strcmp(path, "-") == 0;
   int fd = standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
   if (fd < 0) return gg_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-  size_t length = 0;
   char *text = gg_new_array(MAX_BYTES, 1, err);
-  gg_status status = text ? read_text(fd, path, text, &length, err) : GG_FAILED;
+  gg_status status = text ? read_text(fd, path, text, length, err) : GG_FAILED;
   close(fd);
-  if (status == GG_OK) status = gg_scene_read(scene, text, length, standard ? "standard input" : path, err);
+  if (status == GG_OK)
+    *out = text;
+  else
+    free(text);
+  return status;
+}
+
+const char *gg_scene_file_name(const char *path)
+{
+  return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
+gg_status gg_scene_read_file(gg_scene *scene, const char *path, gg_error *err)
+{
+  char *text;
+  size_t length;
+  GG_TRY(gg_scene_file_text(path, &text, &length, err));
+  gg_status status = gg_scene_read(scene, text, length, gg_scene_file_name(path), err);
   free(text);
   return status;
 }

@@ -11,7 +11,8 @@ typedef struct gg_scene_reader {
   const char *name; /* file, for messages; or the override as it was typed */
   bool lines;       /* say the line, too */
   gg_scene *scene;
-  int seen[GG_MAX_FIELDS]; /* line on which this document gave the key, 0: not yet */
+  const char *const *others; /* keys of the root that others read, left out here; ends with NULL. NULL: none */
+  int seen[GG_MAX_FIELDS];   /* line on which this document gave the key, 0: not yet */
   gg_error *err;
 } gg_scene_reader;
 
@@ -24,6 +25,13 @@ gg_status gg_scene_refuse_text(const gg_scene_reader *r, size_t line, const char
 
 /* A word of the scene's as a message shows it: cut to `size` bytes, without what a terminal would act on. */
 void gg_scene_quote(const char *word, char *text, size_t size);
+
+/* Parse one document and hand its root (NULL: nothing there) on. */
+typedef gg_status gg_scene_use(gg_scene_reader *r, const char *key, const yaml_node_t *root);
+gg_status gg_scene_with_document(gg_scene_reader *r, const char *yaml, size_t length, const char *key,
+                                 gg_scene_use *use);
+/* A whole scene; `key` is "". */
+gg_status gg_scene_read_root(gg_scene_reader *r, const char *key, const yaml_node_t *root);
 
 /* Is the text small and shallow enough to be a scene? */
 gg_status gg_scene_check_limits(const gg_scene_reader *r, const char *yaml, size_t length);

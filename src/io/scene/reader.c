@@ -12,6 +12,13 @@ static void mark_given(gg_scene *scene, int id)
 
 static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *name, const yaml_node_t *value);
 
+static bool is_for_others(const gg_scene_reader *r, const char *key)
+{
+  for (const char *const *other = r->others; other && *other; other++)
+    if (strcmp(*other, key) == 0) return true;
+  return false;
+}
+
 static gg_status apply_members(gg_scene_reader *r, const char *section, const yaml_node_t *map)
 {
   for (yaml_node_pair_t *i = map->data.mapping.pairs.start; i < map->data.mapping.pairs.top; i++) {
@@ -19,6 +26,7 @@ static gg_status apply_members(gg_scene_reader *r, const char *section, const ya
     const yaml_node_t *value = yaml_document_get_node(r->document, i->value);
     if (name->type != YAML_SCALAR_NODE) return gg_scene_refuse(r, name, section, "a key must be a word");
     char key[96];
+    if (!*section && is_for_others(r, (const char *)name->data.scalar.value)) continue;
     snprintf(key, sizeof key, "%.30s%s%.60s", section, *section ? "." : "", (const char *)name->data.scalar.value);
     GG_TRY(apply(r, key, name, value));
   }
@@ -54,10 +62,8 @@ static gg_status refuse_syntax(const gg_scene_reader *r, const yaml_parser_t *pa
                               parser->context ? parser->context : "");
 }
 
-typedef gg_status use_root(gg_scene_reader *r, const char *key, const yaml_node_t *root);
-
-/* Parse one document and hand its root (NULL: nothing there) on. */
-static gg_status with_document(gg_scene_reader *r, const char *yaml, size_t length, const char *key, use_root *use)
+gg_status gg_scene_with_document(gg_scene_reader *r, const char *yaml, size_t length, const char *key,
+                                 gg_scene_use *use)
 {
   yaml_parser_t parser;
   yaml_document_t document, next;
@@ -85,7 +91,7 @@ static gg_status with_document(gg_scene_reader *r, const char *yaml, size_t leng
   return status;
 }
 
-static gg_status use_scene(gg_scene_reader *r, const char *key, const yaml_node_t *root)
+gg_status gg_scene_read_root(gg_scene_reader *r, const char *key, const yaml_node_t *root)
 {
   if (!root || (root->type == YAML_SCALAR_NODE && root->data.scalar.length == 0))
     return gg_scene_refuse_text(r, 0, "is empty; a scene needs at least flow and phi");
@@ -97,7 +103,7 @@ static gg_status use_scene(gg_scene_reader *r, const char *key, const yaml_node_
 gg_status gg_scene_read(gg_scene *scene, const char *yaml, size_t length, const char *name, gg_error *err)
 {
   gg_scene_reader r = {.name = name, .lines = true, .scene = scene, .err = err};
-  return with_document(&r, yaml, length, "", use_scene);
+  return gg_scene_with_document(&r, yaml, length, "", gg_scene_read_root);
 }
 
 /* "collision.e.12": one pair of a pair-wise coefficient. */
@@ -144,7 +150,7 @@ gg_status gg_scene_override(gg_scene *scene, const char *key, const char *value,
   gg_scene_quote(key, word, sizeof word);
   snprintf(name, sizeof name, "key '%s'", word);
   gg_scene_reader r = {.name = name, .scene = &changed, .err = err};
-  GG_TRY(with_document(&r, value, strlen(value), key, use_override));
+  GG_TRY(gg_scene_with_document(&r, value, strlen(value), key, use_override));
   *scene = changed;
   return GG_OK;
 }

@@ -10,6 +10,9 @@ enum { GG_SCENE_MAX_BYTES = 1 << 20 };
 gg_status gg_scene_read(gg_scene *scene, const char *yaml, size_t length, const char *name, gg_error *err);
 /* "-": standard input. */
 gg_status gg_scene_read_file(gg_scene *scene, const char *path, gg_error *err);
+/* The text of a file, at most a byte more than a scene may have; to be freed. And its name in messages. */
+gg_status gg_scene_file_text(const char *path, char **text, size_t *length, gg_error *err);
+const char *gg_scene_file_name(const char *path);
 
 /* One key: "collision.e", also "collision.e.12" and "species.2.mass"; value in YAML. The scene is unchanged on failure.
  */
