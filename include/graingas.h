@@ -426,6 +426,86 @@ GG_API gg_status gg_comparison_to_json(const gg_comparison *comparison, char **t
 GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err);
 GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err);
 
+/* ---- Sweeps: a scene, and keys of it that take other values from point to point ----
+ * Results of a sweep are a folder with a file a point, FOLDER/NAME.h5: an ordinary result or comparison file, whose
+ * name is a hash of the point's scene, complete as it was run, and of what was done there. It is there: the point is
+ * done. NAME.short.h5 is that of a point that ended short of what was asked (GG_FAILED of gg_run), and is done, too. */
+
+typedef struct gg_sweep gg_sweep;
+
+/* From a YAML file ("-": standard input) or YAML text: a scene that may also have `vary` and `sweep`; without them, a
+ * sweep of one point, to be varied. */
+GG_API gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err);
+GG_API gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, gg_error *err);
+GG_API void gg_sweep_free(gg_sweep *sweep);
+/* A key of the scene for all points, which must not be varied, or one of the map `sweep`: ("sweep.does", "compare"). */
+GG_API gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err);
+/* One key more that is varied, multiplied with the others: ("phi", "0.1:0.5:0.1"), ("engine", "md,dsmc"). */
+GG_API gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err);
+
+/* Can every point be simulated? GG_BAD_INPUT names the first one that cannot, and why. Whatever stands below asks that
+ * first; afterwards the sweep does not change any more (GG_BAD_INPUT). */
+GG_API gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err);
+GG_API size_t gg_sweep_points(const gg_sweep *sweep);    /* how many; 0 of one that was not checked */
+GG_API const char *gg_sweep_does(const gg_sweep *sweep); /* "run", "compare", "theory" */
+
+typedef struct gg_sweep_point {
+  char name[17];      /* of its file, without folder and ending */
+  double cpu_seconds; /* expected, as gg_scene_get_needs has it */
+  int64_t replicas;   /* the scene's, or chosen where it has none (sweep.longest) */
+  uint64_t seed;      /* its own, or the scene's (sweep.seeds) */
+} gg_sweep_point;
+/* The i-th point, from 0; GG_BAD_INPUT after the last. And its scene, complete, to be freed. */
+GG_API gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err);
+GG_API gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_error *err);
+/* The k-th varied key, and its value at point i, as YAML; NULL after the last. */
+GG_API const char *gg_sweep_key(const gg_sweep *sweep, size_t k);
+GG_API const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k);
+
+typedef enum gg_point_state {
+  GG_POINT_MISSING,
+  GG_POINT_DONE,
+  GG_POINT_SHORT /* done, but short of what was asked */
+} gg_point_state;
+/* What a folder has of point i, and in which file (may be NULL), to be freed. */
+GG_API gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_point_state *state, char **file,
+                               gg_error *err);
+
+/* Every point with its values, name, seed and what the folder has of it, as `graingas sweep --list --json` prints it.
+ */
+GG_API gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err);
+
+typedef struct gg_sweep_progress {
+  size_t points, done; /* done: whether in this call or before, those that ended short included */
+  size_t fell_short, failed;
+  size_t running;        /* in progress here ... */
+  size_t elsewhere;      /* ... and in other processes that work in this folder */
+  double time_left;      /* seconds; NaN: not known yet */
+  double relative_error; /* the largest among points in progress; NaN: not known */
+} gg_sweep_progress;
+
+/* All zero: one thread, nobody told. Files do not depend on any of it but for the times and dates in them. */
+typedef struct gg_sweep_options {
+  int threads;         /* for points and their replicas; 0: one */
+  const char *command; /* how files were made, for their record; NULL: "the graingas library" */
+  const char *input;   /* the sweep's file, which nothing written may replace; NULL: not known */
+  void *context;       /* for the callbacks, which come on the calling thread; each may be NULL */
+  void (*progress)(void *context, const gg_sweep_progress *progress); /* several times a second */
+  int (*stop)(void *context);                                         /* asked as often; not 0: stop */
+  /* Point i ended now: GG_OK, GG_FAILED (with `file`: short of what was asked) or GG_BAD_FILE, with the reason. */
+  void (*ended)(void *context, size_t i, gg_status status, const char *file, const char *message);
+  void (*warn)(void *context, const char *message); /* keys without effect; once, however many points say so */
+} gg_sweep_options;
+
+/* Do all points that are not done yet; the folder is made if it is not there. Several processes may work in one folder:
+ * none does what another is at, and all return when all is done. A point in progress keeps checkpoints if the scene has
+ * output.checkpoint_every, and goes on from them. GG_FAILED: some points failed or ended short, and `ended` told of
+ * them, or did so in an earlier call; GG_INTERRUPTED: `stop` said so. */
+GG_API gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err);
+/* The same of one point alone. */
+GG_API gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
+                                    gg_error *err);
+
 /* Pictures of a result file, by gnuplot: PICTURE, PICTURE_snapshot and one for each observable that left curves.
  * `format` is "svg", "png" or NULL: by PICTURE's name. `drawn` (may be NULL) is called with the name of each. Nothing
  * is drawn if one of them could not be written (GG_BAD_FILE) or is the result file (GG_BAD_INPUT). */

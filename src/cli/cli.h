@@ -22,6 +22,7 @@ extern const gg_command gg_commands[]; /* ends with a NULL name */
 int gg_cli_compare_main(const gg_command *command, int argc, char **argv);
 int gg_cli_run_main(const gg_command *command, int argc, char **argv);
 int gg_cli_theory_main(const gg_command *command, int argc, char **argv);
+int gg_cli_sweep_main(const gg_command *command, int argc, char **argv);
 int gg_cli_plot_main(const gg_command *command, int argc, char **argv);
 int gg_cli_export_main(const gg_command *command, int argc, char **argv);
 int gg_cli_info_main(const gg_command *command, int argc, char **argv);

@@ -16,6 +16,15 @@ const gg_command gg_commands[] = {
      SIMULATES | GG_OPT_ENGINE | GG_OPT_RESUME, gg_cli_run_main},
     {"theory", "SCENE.yaml", "The theories alone", NULL, GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_QUIET,
      gg_cli_theory_main},
+    {"sweep", "SWEEP.yaml", "A grid of scenes: run, compare or theory at every point of it",
+     "The file is a scene with two more maps. vary says which keys take which values: {phi: 0.1:0.5:0.1, collision.e: "
+     "[0.7, 0.9]} is every combination; a list of maps, in which keys of one map change together, is every combination "
+     "of these; {random: {points: 100}, phi: 0.1..0.5} draws. sweep says what is done: {does: run}, compare or theory. "
+     "Any scene and --vary do as well.\n"
+     "Results are a folder with a file a point, named by a hash of its scene: it is there when the point is done. A "
+     "sweep that was stopped, in whatever way, goes on with the same command; several processes may share the folder. "
+     "With output.checkpoint_every, points in progress go on from where they were.",
+     GG_OPT_SWEEP | GG_OPT_SET | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON | GG_OPT_QUIET, gg_cli_sweep_main},
     {"plot", "RESULT.h5", "A picture of what a result file holds",
      "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side "
      "by side. Beside it a snapshot, if there are positions, and a page for each observable that left curves.",

@@ -19,6 +19,12 @@ const gg_option gg_options_table[] = {
     {GG_OPT_OUTPUT, "output", "FILE", "file to write (default: the input's name, in the current folder)"},
     {GG_OPT_PREFIX, "output", "PREFIX",
      "how the files' names begin (default: the input's name, in the current folder)"},
+    {GG_OPT_SWEEP, "vary", "KEY=VALUES",
+     "vary one key more, FIRST:LAST:STEP or v1,v2,..., e.g. phi=0.1:0.5:0.1; repeatable, every combination is a point"},
+    {GG_OPT_SWEEP, "does", "WHAT", "what is done at each point: run, compare or theory (sweep.does)"},
+    {GG_OPT_SWEEP, "list", NULL, "list the points, what is there of them, and the time they will take; do nothing"},
+    {GG_OPT_SWEEP, "point", "K", "do the K-th point of the list alone"},
+    {GG_OPT_SWEEP, "output", "FOLDER", "folder of the points' files (default: NAME.sweep, in the current folder)"},
     {GG_OPT_ONLY, "only", "PARTS", "write these parts alone: results, curves, trajectory; several with commas"},
     {GG_OPT_PICTURE, "picture", "FILE", "picture to draw, .svg or .png, or none (default: beside the output, .svg)"},
     {GG_OPT_FORMAT, "format", "svg|png", "kind of picture (default: by the output's name, else svg)"},
@@ -133,7 +139,27 @@ static int take_threads(gg_options *o, const char *value)
   return GG_CLI_GO_ON;
 }
 
-static int take(gg_options *o, unsigned flag, const char *value)
+static int take_vary(gg_options *o, const char *value)
+{
+  if (o->n_vary == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d keys to vary", GG_MAX_OVERRIDES);
+  o->vary[o->n_vary++] = value;
+  return GG_CLI_GO_ON;
+}
+
+/* Options of sweeps alone, by name. */
+static int take_sweep(gg_options *o, const char *name, const char *value)
+{
+  if (strcmp(name, "vary") == 0) return take_vary(o, value);
+  if (strcmp(name, "does") == 0) o->does = value;
+  if (strcmp(name, "point") == 0) o->point = value;
+  if (strcmp(name, "output") == 0) o->output = value;
+  o->list |= strcmp(name, "list") == 0;
+  o->collect |= strcmp(name, "collect") == 0;
+  o->slurm |= strcmp(name, "slurm") == 0;
+  return GG_CLI_GO_ON;
+}
+
+static int take(gg_options *o, unsigned flag, const char *name, const char *value)
 {
   switch (flag) {
   case GG_OPT_SET: return add_override(o, NULL, value);
@@ -150,6 +176,7 @@ static int take(gg_options *o, unsigned flag, const char *value)
   case GG_OPT_JSON: o->json = true; break;
   case GG_OPT_QUICK: o->quick = true; break;
   case GG_OPT_QUIET: o->quiet = true; break;
+  case GG_OPT_SWEEP: return take_sweep(o, name, value);
   default: break;
   }
   return GG_CLI_GO_ON;
@@ -169,7 +196,8 @@ int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
   for (int got; (got = getopt_long(argc, argv, "h", known, NULL)) != -1;) {
     if (got == 'h') return gg_print_command_help(c), GG_OK;
     if (got < 256) return refuse_option(c, argv[optind - 1]);
-    int code = take(o, gg_options_table[got - 256].flag, optarg);
+    const gg_option *t = &gg_options_table[got - 256];
+    int code = take(o, t->flag, t->name, optarg);
     if (code != GG_CLI_GO_ON) return code;
   }
   if (optind == argc && c->arguments[0] == '[') return GG_CLI_GO_ON;
@@ -199,22 +227,29 @@ static gg_status refuse(gg_error *err, gg_status status, const char *format, ...
   return err->status = status;
 }
 
-static gg_status override(gg_scene *scene, const char *typed, gg_error *err)
+gg_status gg_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
+                         void *target, gg_error *err)
 {
   const char *equals = strchr(typed, '=');
   char key[96];
   if (!equals || equals == typed)
-    return refuse(err, GG_BAD_INPUT, "--set %s: KEY=VALUE is expected, e.g. --set collision.e=0.8", typed);
+    return refuse(err, GG_BAD_INPUT, "--%s %s: KEY=VALUE is expected, e.g. --%s %s", option, typed, option, example);
   snprintf(key, sizeof key, "%.*s", (int)(equals - typed), typed);
   gg_error why;
-  if (gg_scene_set(scene, key, equals + 1, &why) == GG_OK) return GG_OK;
-  return refuse(err, why.status, "--set %.200s: %.800s", typed, why.message);
+  if (set(target, key, equals + 1, &why) == GG_OK) return GG_OK;
+  return refuse(err, why.status, "--%s %.200s: %.800s", option, typed, why.message);
+}
+
+static gg_status set_scene(void *scene, const char *key, const char *value, gg_error *err)
+{
+  return gg_scene_set(scene, key, value, err);
 }
 
 gg_status gg_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
 {
   gg_status status = gg_scene_load(o->input, scene, err);
-  for (int i = 0; i < o->n_overrides && status == GG_OK; i++) status = override(*scene, o->override[i], err);
+  for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
+    status = gg_options_set("set", o->override[i], "collision.e=0.8", set_scene, *scene, err);
   return status;
 }
 

@@ -19,6 +19,7 @@ enum {
   GG_OPT_QUICK = 1u << 11,
   GG_OPT_PREFIX = 1u << 12,
   GG_OPT_ONLY = 1u << 13,
+  GG_OPT_SWEEP = 1u << 14, /* all that only sweeps have */
 };
 
 typedef struct gg_option {
@@ -32,12 +33,17 @@ enum { GG_MAX_OVERRIDES = 64 };
 typedef struct gg_options {
   const char *input; /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
   const char *output, *resume, *format, *picture, *only;
+  const char *does;  /* what a sweep does at its points; NULL: what its file says */
+  const char *point; /* the one of a sweep to do; NULL: all */
   bool json, quiet, all, quick;
+  bool list, collect, slurm; /* what else to do with a sweep */
   int threads;
   int n_overrides;
   const char *override[GG_MAX_OVERRIDES]; /* "key=value" */
   char *owned[GG_MAX_OVERRIDES];          /* those that options stand for; else NULL */
-  char *command_line;                     /* for the record */
+  int n_vary;
+  const char *vary[GG_MAX_OVERRIDES]; /* "key=values" */
+  char *command_line;                 /* for the record */
 } gg_options;
 
 enum { GG_CLI_GO_ON = -1 };
@@ -50,6 +56,11 @@ const char *gg_options_name(const gg_options *options);
 
 /* The scene of the input, overridden; to be freed. */
 gg_status gg_options_scene(const gg_options *options, gg_scene **scene, gg_error *err);
+
+/* Set what was typed after --OPTION, KEY=VALUE; `example` is one. */
+typedef gg_status gg_options_setter(void *target, const char *key, const char *value, gg_error *err);
+gg_status gg_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
+                         void *target, gg_error *err);
 
 /* --output, or the input's base name with `suffix` in the current folder; to be freed. NULL with the message when that
  * is the input itself. */

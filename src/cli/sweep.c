@@ -1,0 +1,129 @@
+/* graingas sweep: a run, a comparison or the theories at every point of a grid of scenes. */
+#include "cli/sweep.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/progress.h"
+
+static gg_status set(void *sweep, const char *key, const char *value, gg_error *err)
+{
+  return gg_sweep_set(sweep, key, value, err);
+}
+
+static gg_status vary(void *sweep, const char *key, const char *values, gg_error *err)
+{
+  return gg_sweep_vary(sweep, key, values, err);
+}
+
+static gg_status read_sweep(const gg_options *o, gg_sweep **sweep, gg_error *err)
+{
+  gg_status status = gg_sweep_load(o->input, sweep, err);
+  for (int i = 0; i < o->n_vary && status == GG_OK; i++)
+    status = gg_options_set("vary", o->vary[i], "phi=0.1:0.5:0.1", vary, *sweep, err);
+  for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
+    status = gg_options_set("set", o->override[i], "collision.e=0.8", set, *sweep, err);
+  if (status == GG_OK && o->does) status = gg_sweep_set(*sweep, "sweep.does", o->does, err);
+  return status == GG_OK ? gg_sweep_check(*sweep, err) : status;
+}
+
+static int is_interrupted(void *context)
+{
+  (void)context;
+  return gg_cli_interrupted();
+}
+
+/* What became of a point that did not come to its end. */
+static void tell_point(void *context, size_t i, gg_status status, const char *file, const char *message)
+{
+  const gg_sweep_command *c = context;
+  (void)file;
+  if (status == GG_OK) return;
+  fprintf(stderr, "point %zu", i + 1);
+  for (size_t k = 0; gg_sweep_key(c->sweep, k); k++)
+    fprintf(stderr, "%s%s %s", k ? ", " : " (", gg_sweep_key(c->sweep, k), gg_sweep_value(c->sweep, i, k));
+  fprintf(stderr, ")%s: %s\n", status == GG_FAILED ? "" : " failed", message);
+}
+
+static void warn(void *context, const char *message)
+{
+  (void)context;
+  fprintf(stderr, "warning: %s\n", message);
+}
+
+static int take_point(const gg_sweep_command *c, size_t *i)
+{
+  char *end;
+  size_t n = gg_sweep_points(c->sweep);
+  unsigned long k = strtoul(c->options->point, &end, 10);
+  *i = k - 1;
+  if (end != c->options->point && !*end && k >= 1 && k <= n) return GG_CLI_GO_ON;
+  return gg_cli_fail(GG_BAD_INPUT, "option '--point': value '%s' is not allowed; allowed: a whole number from 1 to %zu",
+                     c->options->point, n);
+}
+
+static int work(gg_sweep_command *c)
+{
+  gg_error err;
+  size_t i = 0;
+  const gg_options *o = c->options;
+  const gg_sweep_options options = {.threads = o->threads,
+                                    .command = o->command_line,
+                                    .input = o->input,
+                                    .context = c,
+                                    .stop = is_interrupted,
+                                    .ended = tell_point,
+                                    .warn = warn};
+  int code = o->point ? take_point(c, &i) : GG_CLI_GO_ON;
+  if (code != GG_CLI_GO_ON) return code;
+  gg_cli_catch_interrupts();
+  gg_status status = o->point ? gg_sweep_run_point(c->sweep, c->folder, i, &options, &err)
+                              : gg_sweep_run(c->sweep, c->folder, &options, &err);
+  return status == GG_OK ? GG_OK : gg_cli_report(&err);
+}
+
+static int print_json(const gg_sweep_command *c)
+{
+  gg_error err;
+  char *text = NULL;
+  if (gg_sweep_to_json(c->sweep, c->folder, &text, &err) != GG_OK) return gg_cli_report(&err);
+  gg_cli_print_text(text);
+  return GG_OK;
+}
+
+/* A scene alone has nothing to vary: most likely an oversight. */
+static int check_varied(const gg_sweep_command *c)
+{
+  if (gg_sweep_key(c->sweep, 0)) return GG_CLI_GO_ON;
+  return gg_cli_fail(GG_BAD_INPUT,
+                     "%s: no key is varied; give e.g. vary: {phi: [0.1, 0.2]} there, or --vary phi=0.1,0.2",
+                     gg_options_name(c->options));
+}
+
+static int sweep_points(gg_sweep_command *c)
+{
+  gg_error err;
+  const gg_options *o = c->options;
+  int code = check_varied(c);
+  if (code != GG_CLI_GO_ON) return code;
+  c->folder = gg_options_output(o, ".sweep", &err);
+  if (!c->folder) return gg_cli_report(&err);
+  if (o->list && !o->json) return gg_sweep_list(c);
+  code = o->list ? GG_OK : work(c);
+  return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;
+}
+
+int gg_cli_sweep_main(const gg_command *command, int argc, char **argv)
+{
+  gg_options o;
+  gg_error err;
+  gg_sweep_command c = {.options = &o};
+  int code = gg_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON && read_sweep(&o, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON) code = sweep_points(&c);
+  gg_sweep_free(c.sweep);
+  free(c.folder);
+  gg_options_clear(&o);
+  return code;
+}

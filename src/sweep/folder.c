@@ -1,0 +1,76 @@
+#include "sweep/folder.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/output_path.h"
+
+void gg_point_name(uint64_t id, char name[GG_POINT_NAME])
+{
+  snprintf(name, GG_POINT_NAME, "%016" PRIx64, id);
+}
+
+char *gg_point_path(const char *folder, uint64_t id, const char *ending)
+{
+  char *path = NULL;
+  return asprintf(&path, "%s/%016" PRIx64 "%s", folder, id, ending) < 0 ? NULL : path;
+}
+
+static bool is_there(const char *folder, uint64_t id, const char *ending)
+{
+  struct stat about;
+  char *path = gg_point_path(folder, id, ending);
+  bool yes = path && stat(path, &about) == 0 && S_ISREG(about.st_mode);
+  free(path);
+  return yes;
+}
+
+gg_point_state gg_point_look(const char *folder, uint64_t id)
+{
+  return is_there(folder, id, ".h5")         ? GG_POINT_DONE
+         : is_there(folder, id, ".short.h5") ? GG_POINT_SHORT
+                                             : GG_POINT_MISSING;
+}
+
+gg_status gg_sweep_folder_prepare(const char *folder, gg_error *err)
+{
+  struct stat about;
+  if (!*folder) return gg_fail(err, GG_BAD_INPUT, "the name of the sweep's folder is empty");
+  if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_cannot_write(folder, strerror(errno), err);
+  if (stat(folder, &about) != 0) return gg_cannot_write(folder, strerror(errno), err);
+  if (!S_ISDIR(about.st_mode))
+    return gg_cannot_write(folder, "it is no folder; results of a sweep are a folder with a file a point", err);
+  if (access(folder, W_OK | X_OK) != 0) return gg_cannot_write(folder, strerror(errno), err);
+  return GG_OK;
+}
+
+gg_status gg_point_claim(const char *folder, uint64_t id, gg_file_lock *lock, gg_error *err)
+{
+  *lock = GG_FILE_LOCK_NONE;
+  char *path = gg_point_path(folder, id, ".h5");
+  if (!path) return gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = gg_file_lock_take(lock, path, path, err);
+  free(path);
+  if (status != GG_OK && lock->busy) return GG_OK;
+  if (status == GG_OK && gg_point_look(folder, id) != GG_POINT_MISSING) gg_file_lock_release(lock);
+  return status;
+}
+
+gg_status gg_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err)
+{
+  char *from = gg_point_path(folder, id, ".work.h5");
+  char *to = gg_point_path(folder, id, fell_short ? ".short.h5" : ".h5");
+  gg_status status = GG_OK;
+  if (!from || !to)
+    status = gg_fail(err, GG_FAILED, "out of memory");
+  else if (rename(from, to) != 0)
+    status = gg_cannot_write(to, strerror(errno), err);
+  free(from);
+  free(to);
+  return status;
+}

@@ -1,0 +1,76 @@
+/* What makes a point the one that it is: a hash of its resolved scene. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/extension.h"
+#include "io/checksum.h"
+#include "io/scene/json.h"
+#include "sweep/sweep.h"
+
+static bool begins(const char *key, const char *const *with)
+{
+  for (; *with; with++)
+    if (strncmp(key, *with, strlen(*with)) == 0) return true;
+  return false;
+}
+
+/* Keys that no number in the file of a point depends on. */
+static bool is_left_out(const char *key, gg_does does)
+{
+  static const char *const never[] = {"output.checkpoint_every", NULL};
+  static const char *const of_run[] = {"engine", NULL};
+  static const char *const of_simulation[] = {"run.", "md.", "dsmc.", "output.", NULL};
+  return begins(key, never) || (does != GG_DOES_RUN && begins(key, of_run)) ||
+         (does == GG_DOES_THEORY && begins(key, of_simulation));
+}
+
+static uint64_t add_text(uint64_t sum, const char *text)
+{
+  return gg_checksum(sum, text, strlen(text) + 1);
+}
+
+static uint64_t add_field(uint64_t sum, const gg_field *f, const gg_scene *scene)
+{
+  json_t *value = gg_field_json(f, scene, scene);
+  char *text = json_dumps(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+  sum = add_text(add_text(sum, f->key), text ? text : "");
+  free(text);
+  json_decref(value);
+  return sum;
+}
+
+/* What the calling program added has no values: its names tell. */
+static uint64_t add_extension(uint64_t sum, const gg_scene *scene)
+{
+  char signature[2048] = "";
+  if (!scene->extension) return sum;
+  gg_extension_signature(scene->extension, signature, sizeof signature);
+  return add_text(sum, signature);
+}
+
+/* Every bit of the sum goes into every bit of the name (the finalizer of MurmurHash3). */
+static uint64_t mix(uint64_t x)
+{
+  x = (x ^ (x >> 33)) * UINT64_C(0xff51afd7ed558ccd);
+  x = (x ^ (x >> 33)) * UINT64_C(0xc4ceb9fe1a85ec53);
+  return x ^ (x >> 33);
+}
+
+uint64_t gg_point_id(const gg_scene *scene, gg_does does)
+{
+  const char *const words[] = {"run", "compare", "theory"};
+  uint64_t sum = add_text(GG_CHECKSUM_START, words[does]);
+  for (const gg_field *f = gg_scene_fields; f->key; f++)
+    if (!is_left_out(f->key, does)) sum = add_field(sum, f, scene);
+  return mix(add_extension(sum, scene));
+}
+
+/* 48 bits: a number of few digits, and whole in any reader's arithmetic. */
+uint64_t gg_point_seed(const gg_scene *scene, uint64_t seed)
+{
+  static const char *const none_of[] = {"engine", "run.", "output.", "measure", NULL};
+  uint64_t sum = gg_checksum(GG_CHECKSUM_START, &seed, sizeof seed);
+  for (const gg_field *f = gg_scene_fields; f->key; f++)
+    if (!begins(f->key, none_of)) sum = add_field(sum, f, scene);
+  return mix(add_extension(sum, scene)) >> 16;
+}

@@ -1,0 +1,147 @@
+/* The points of a sweep: which values each takes, its scene, and whether that can be simulated. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/engine.h"
+#include "io/scene/reader.h"
+#include "run/forecast.h"
+#include "run/replicas.h"
+#include "sweep/sweep.h"
+
+size_t gg_sweep_count(const gg_sweep *sweep)
+{
+  size_t n = 1;
+  for (size_t f = 0; f < sweep->n_varied && n; f++)
+    n = sweep->varied[f].n > GG_MOST_POINTS / n ? 0 : n * sweep->varied[f].n;
+  return n;
+}
+
+size_t gg_sweep_row(const gg_sweep *sweep, size_t i, size_t varied)
+{
+  for (size_t f = sweep->n_varied - 1; f > varied; f--) i /= sweep->varied[f].n;
+  return i % sweep->varied[varied].n;
+}
+
+void gg_sweep_name_point(const gg_sweep *sweep, size_t i, char *text, size_t size)
+{
+  size_t used = 0;
+  *text = '\0';
+  for (size_t f = 0; f < sweep->n_varied; f++) {
+    const gg_varied *v = &sweep->varied[f];
+    for (size_t k = 0; k < v->n_keys && used < size; k++)
+      used += (size_t)snprintf(text + used, size - used, "%s%s %s", used ? ", " : "", v->key[k],
+                               v->value[gg_sweep_row(sweep, i, f) * v->n_keys + k]);
+  }
+}
+
+static gg_status set_values(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
+{
+  for (size_t f = 0; f < sweep->n_varied; f++) {
+    const gg_varied *v = &sweep->varied[f];
+    char *const *value = &v->value[gg_sweep_row(sweep, i, f) * v->n_keys];
+    for (size_t k = 0; k < v->n_keys; k++) GG_TRY(gg_scene_override(scene, v->key[k], value[k], err));
+  }
+  return GG_OK;
+}
+
+/* What one engine needs for a scene; GG_BAD_INPUT where it cannot run it. */
+static gg_status forecast_of(const gg_scene *scene, gg_engine_kind engine, gg_forecast *forecast, double *warmup,
+                             gg_error *err)
+{
+  gg_model model;
+  GG_TRY(gg_model_make(scene, engine, &model, err));
+  GG_TRY(gg_engine_ops_of(engine)->accepts(&model, err));
+  *forecast = gg_forecast_of(scene, &model, engine);
+  *warmup = (double)gg_plan_of(scene, &model).warmup * GG_SAMPLING_INTERVAL;
+  return GG_OK;
+}
+
+/* A run that goes on until an error is shared among replicas: as many as keep each below `longest`, and warm-ups, which
+ * each of them has, below a fifth of the whole. By the scene alone: the same on every machine. */
+static int64_t replicas_for(const gg_forecast *f, double warmup, double longest)
+{
+  enum { MOST = 1000 };
+  if (!f->to_an_error || !(f->seconds > longest)) return 1;
+  double wanted = ceil(f->seconds / longest), worth = floor((f->collisions - warmup) / (4 * fmax(warmup, 1)));
+  return (int64_t)fmax(1, fmin(fmin(wanted, worth), MOST));
+}
+
+/* Seconds of all engines that take part, and the replicas that it is shared among. */
+static gg_status forecast_point(const gg_sweep *sweep, gg_scene *scene, double *seconds, gg_error *err)
+{
+  const gg_does does = sweep->settings.does;
+  *seconds = 0;
+  if (does == GG_DOES_THEORY) {
+    gg_model model;
+    return gg_model_make(scene, GG_MD, &model, err);
+  }
+  int64_t replicas = 1;
+  gg_status some = GG_BAD_INPUT;
+  const bool chosen = gg_scene_is_given(scene, "run.replicas");
+  for (int k = 0; k < 2; k++) {
+    gg_forecast f;
+    double warmup;
+    if (does == GG_DOES_RUN && scene->engine != (gg_engine_kind)k) continue;
+    if (forecast_of(scene, (gg_engine_kind)k, &f, &warmup, some == GG_OK ? NULL : err) != GG_OK) continue;
+    some = GG_OK;
+    *seconds += f.seconds;
+    int64_t n = replicas_for(&f, warmup, sweep->settings.longest);
+    if (n > replicas) replicas = n;
+  }
+  if (!chosen) scene->run.replicas = replicas;
+  return some;
+}
+
+static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, double *seconds, gg_error *err)
+{
+  *scene = sweep->base;
+  GG_TRY(set_values(sweep, i, scene, err));
+  GG_TRY(gg_scene_finish(scene, err));
+  GG_TRY(forecast_point(sweep, scene, seconds, err));
+  if (sweep->settings.seeds == GG_SEEDS_INDEPENDENT && !gg_sweep_varies(sweep, "run.seed"))
+    scene->run.seed = gg_point_seed(scene, scene->run.seed);
+  return GG_OK;
+}
+
+/* The same, with messages that name the point. */
+static gg_status resolve_named(const gg_sweep *sweep, size_t i, gg_scene *scene, double *seconds, gg_error *err)
+{
+  char name[200];
+  gg_status status = resolve(sweep, i, scene, seconds, err);
+  if (status == GG_OK || !sweep->n_varied) return status;
+  gg_sweep_name_point(sweep, i, name, sizeof name);
+  return gg_error_prefix(err, status, "%s: point %zu of %zu (%s)", sweep->name, i + 1, gg_sweep_count(sweep), name);
+}
+
+gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
+{
+  double seconds;
+  return resolve_named(sweep, i, scene, &seconds, err);
+}
+
+static void explain_number(const gg_sweep *sweep, gg_error *err)
+{
+  double n = 1;
+  for (size_t f = 0; f < sweep->n_varied; f++) n *= (double)sweep->varied[f].n;
+  gg_fail(err, GG_BAD_INPUT, "%s: the sweep would have %.0f points; allowed: up to %d", sweep->name, n, GG_MOST_POINTS);
+}
+
+gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err)
+{
+  const size_t n = gg_sweep_count(sweep);
+  if (sweep->n) return GG_OK;
+  if (!n) return explain_number(sweep, err), GG_BAD_INPUT;
+  gg_point *point = gg_new_array(n, sizeof *point, err);
+  if (!point) return GG_FAILED;
+  for (size_t i = 0; i < n; i++) {
+    gg_scene scene;
+    gg_status status = resolve_named(sweep, i, &scene, &point[i].seconds, err);
+    if (status != GG_OK) return free(point), status;
+    point[i].id = gg_point_id(&scene, sweep->settings.does);
+  }
+  sweep->point = point;
+  sweep->n = n;
+  return GG_OK;
+}

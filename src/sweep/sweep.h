@@ -1,0 +1,73 @@
+/* A sweep: a scene, and keys of it that take other values from point to point. Read from a scene file with two more
+ * maps, `vary` and `sweep`; what is done at a point is a run, a comparison or the theories. */
+#ifndef GG_SWEEP_H
+#define GG_SWEEP_H
+
+#include "common/error.h"
+#include "common/scene.h"
+
+typedef enum gg_does { GG_DOES_RUN, GG_DOES_COMPARE, GG_DOES_THEORY } gg_does;
+typedef enum gg_seeds { GG_SEEDS_INDEPENDENT, GG_SEEDS_COMMON } gg_seeds;
+
+/* The map `sweep`; its rows are in settings.c. */
+typedef struct gg_sweep_settings {
+  gg_does does;
+  gg_seeds seeds;
+  int64_t at_once; /* points in progress at a time; 0: by the number of threads */
+  double longest;  /* seconds of processor time that a replica is to take at most, where run.replicas is not given */
+} gg_sweep_settings;
+
+/* Keys that change together: a value of each in every row, as YAML. */
+typedef struct gg_varied {
+  size_t n_keys, n; /* n rows */
+  char **key;
+  char **value; /* of row i and key k: value[i*n_keys + k] */
+} gg_varied;
+
+/* What is known of a point once it was checked. */
+typedef struct gg_point {
+  uint64_t id;    /* hash of its scene and of what is done there: its file is called so */
+  double seconds; /* of processor time, expected */
+} gg_point;
+
+enum { GG_MOST_POINTS = 100000, GG_MOST_VARIED = 32 };
+
+struct gg_sweep {
+  char *name;    /* of its file, for messages */
+  gg_scene base; /* holds its extension */
+  gg_sweep_settings settings;
+  size_t n_varied; /* their rows are multiplied; those of the last one change fastest */
+  gg_varied varied[GG_MOST_VARIED];
+  size_t n;        /* points; 0: not checked yet */
+  gg_point *point; /* n of them */
+};
+
+/* settings.c: one key of the map, "sweep.does", from YAML. */
+gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, const char *value, gg_error *err);
+
+/* read.c */
+gg_status gg_sweep_read_text(gg_sweep *sweep, const char *yaml, size_t length, const char *name, gg_error *err);
+void gg_varied_clear(gg_varied *varied);
+/* Take it over, unless a key of it is varied already: then it is cleared, too. */
+gg_status gg_sweep_add(gg_sweep *sweep, gg_varied *varied, gg_error *err);
+/* Is the key varied? */
+bool gg_sweep_varies(const gg_sweep *sweep, const char *key);
+
+/* points.c: how many there are, 0: more than GG_MOST_POINTS; the row of one of the varied at point i. */
+size_t gg_sweep_count(const gg_sweep *sweep);
+size_t gg_sweep_row(const gg_sweep *sweep, size_t i, size_t varied);
+/* "collision.e 0.5, phi 0.3" of point i. */
+void gg_sweep_name_point(const gg_sweep *sweep, size_t i, char *text, size_t size);
+/* The scene of point i, resolved: complete and checked, with its own seed and replicas. It borrows the extension. */
+gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err);
+/* Resolve every point, and note what is known of each. */
+gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
+
+/* identity.c: hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the order
+ * of the field table, with its value in force. */
+uint64_t gg_point_id(const gg_scene *scene, gg_does does);
+/* The seed of a point with independent seeds: from `seed` and from what is simulated there, but not from how long or
+ * what is measured. */
+uint64_t gg_point_seed(const gg_scene *scene, uint64_t seed);
+
+#endif
