@@ -4,16 +4,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "simd/clones.h"
+
 static void number_functions(gg_hermite_basis *b)
 {
   int N = b->degree;
-  for (int degree = 0; degree <= N; degree += 2)
+  for (int degree = 0; degree <= N; degree += 2) {
+    b->from[degree] = b->n;
     for (int z = 0; z <= degree; z += 2)
       for (int x = degree - z; x >= 0; x--) {
         int y = degree - z - x;
         b->place[gg_hermite_cell(b, x, y, z)] = b->n;
         b->function[b->n++] = (gg_hermite_index){{x, y, z}};
       }
+    b->from[degree + 1] = b->n;
+  }
 }
 
 static void number_rotated(gg_hermite_basis *b)
@@ -126,6 +131,32 @@ void gg_hermite_values(int degree, double x, double *value)
   value[0] = 1;
   if (degree > 0) value[1] = x;
   for (int n = 1; n < degree; n++) value[n + 1] = (x * value[n] - root[n] * value[n - 1]) * inverse_root[n + 1];
+}
+
+/* Eight points at once: one by one they would wait for each other's products. */
+enum { LANES = 8 };
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
+
+GG_CLONES static void values_of_eight(int degree, const double at[LANES], int n, double *value, int stride)
+{
+  lanes before = {0}, now = before + 1, x;
+  memcpy(&x, at, sizeof x);
+  for (int m = 0; m <= degree; m++) {
+    for (int k = 0; k < n; k++) value[k * stride + m] = now[k];
+    lanes next = (x * now - root[m] * before) * inverse_root[m + 1];
+    before = now, now = next;
+  }
+}
+
+void gg_hermite_values_of(int degree, int n, const double *x, double *value, int stride)
+{
+  memset(value, 0, (size_t)(n * stride) * sizeof *value);
+  for (int from = 0; from < n; from += LANES) {
+    int many = n - from < LANES ? n - from : LANES;
+    double some[LANES] = {0};
+    for (int k = 0; k < many; k++) some[k] = x[from + k];
+    values_of_eight(degree, some, many, value + from * stride, stride);
+  }
 }
 
 /* Polynomials of one degree n in the rotated frame are numbered by (P, Q), J = n - P - Q. */

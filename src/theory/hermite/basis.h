@@ -18,6 +18,7 @@ typedef struct gg_hermite_basis {
   /* Functions even in z as well: those of a flow that is symmetric under reflection of z. The first is the constant. */
   int n;
   gg_hermite_index *function;
+  int from[GG_HERMITE_MOST_DEGREE + 2]; /* those of an even degree d lie between from[d] and from[d + 1] */
   /* All of even degree, seen in the frame of a collision (normal, tangent, binormal): ordered by the last index, so
    * that those of one last index Q lie between rotated_from[Q] and rotated_from[Q + 1]. */
   int n_rotated;
@@ -43,6 +44,9 @@ int gg_hermite_rotated_place(const gg_hermite_basis *basis, int J, int P, int Q)
 
 /* He_0 .. He_N at x, normalised. */
 void gg_hermite_values(int degree, double x, double *value);
+
+/* The same at n points, by rows of `stride`, 0 beyond He_N. */
+void gg_hermite_values_of(int degree, int n, const double *x, double *value, int stride);
 
 /* D, n_rotated rows of `wide` >= n: Ho_s(c) = sum_q D_qs Ho_q(c'), where c'_i = axis_i . c; orthogonal, degree by
  * degree. `work`: room for so many doubles. */

@@ -4,42 +4,71 @@
 
 #include "theory/hermite/room.h"
 
-/* K and E for one Q: by each (j,p), W of all (J,P), and sum_q Z_Qq D_jpq,s. Returns how many (j,p). */
-static int factors_of(const gg_hermite_operator *op, const gg_hermite_view *own, int Q, int tests, int tall)
+/* K and E for one Q: by each (j,p), W of all (J,P), and sum_q Z_Qq D_jpq,s. In the order of j + p; upto[d]: how many
+ * there are up to j + p = d, of which alone functions of degree d are made. */
+static void factors_of(const gg_hermite_operator *op, const gg_hermite_view *own, int Q, int tests, int tall,
+                       int upto[])
 {
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_room *r = op->room;
   const gg_hermite_flux *f = &op->flux;
-  int N = b->degree, depth = 0, from = b->rotated_from[Q];
-  for (int j = 0; j <= N; j++)
-    for (int p = (j + Q) % 2; p <= N - j; p += 2, depth++) {
+  int depth = 0, from = b->rotated_from[Q];
+  for (int m = Q % 2; m <= b->degree; m += 2) {
+    for (int j = 0; j <= m; j++, depth++) {
       double *E = r->E + (size_t)depth * (size_t)r->wide, *K = r->K + depth * tall;
       memset(E, 0, (size_t)r->wide * sizeof *E);
-      for (int q = Q % 2; q <= N - j - p; q += 2) {
+      for (int q = Q % 2; q <= b->degree - m; q += 2) {
         const double z = f->Z[Q * f->trials + q];
-        const double *D = own->D + (size_t)gg_hermite_rotated_place(b, j, p, q) * (size_t)r->wide;
-        for (int s = 0; s < r->wide; s++) E[s] += z * D[s];
+        const double *D = own->D + (size_t)gg_hermite_rotated_place(b, j, m - j, q) * (size_t)r->wide;
+        for (int s = b->from[m + q]; s < b->from[m + q + 1]; s++) E[s] = z * D[s];
       }
       for (int i = 0; i < tall; i++)
-        K[i] = i < tests ? gg_hermite_W(f, b->rotated[from + i].r[0], b->rotated[from + i].r[1], j, p) : 0;
+        K[i] = i < tests ? gg_hermite_W(f, b->rotated[from + i].r[0], b->rotated[from + i].r[1], j, m - j) : 0;
     }
-  return depth;
+    upto[m] = upto[m + 1] = depth;
+  }
 }
 
 /* X = K^T E for the tests of one Q. Rows beyond them are of the next Q, which begins anew. */
 static void own_share(const gg_hermite_operator *op, const gg_hermite_view *own, int Q)
 {
+  const gg_hermite_basis *b = &op->basis;
   const gg_hermite_room *r = op->room;
-  int from = op->basis.rotated_from[Q], tests = op->basis.rotated_from[Q + 1] - from;
-  int tall = gg_padded(tests, GG_PRODUCT_ROWS), depth = factors_of(op, own, Q, tests, tall);
+  int from = b->rotated_from[Q], tests = b->rotated_from[Q + 1] - from, upto[GG_HERMITE_MOST_DEGREE + 2] = {0};
+  int tall = gg_padded(tests, GG_PRODUCT_ROWS);
+  factors_of(op, own, Q, tests, tall, upto);
   double *X = r->X + (size_t)from * (size_t)r->wide;
   memset(X, 0, (size_t)tall * (size_t)r->wide * sizeof *X);
-  gg_add_product(tall, r->wide, depth, r->K, tall, r->E, r->wide, X, r->wide);
+  for (int s = 0; s < r->wide; s += GG_PRODUCT_COLUMNS) {
+    int last = s + GG_PRODUCT_COLUMNS > b->n ? b->n - 1 : s + GG_PRODUCT_COLUMNS - 1;
+    int depth = upto[gg_hermite_degree(b->function[last])];
+    gg_add_product(tall, GG_PRODUCT_COLUMNS, depth, r->K, tall, r->E + s, r->wide, X + s, r->wide);
+  }
 }
 
-static int pair_at(int N, int P, int Q)
+/* Rows (P,Q) of V: those of even P + Q first, in its order. */
+static int odd_rows(int N)
 {
-  return Q * (N + 1) - Q * (Q - 1) / 2 + P;
+  return gg_padded((N / 2 + 1) * (N / 2 + 1), GG_PRODUCT_ROWS);
+}
+
+int gg_hermite_partner_rows(int N)
+{
+  return odd_rows(N) + gg_padded(N / 2 * (N / 2 + 1), GG_PRODUCT_ROWS);
+}
+
+static int row_of(int N, int P, int Q)
+{
+  int half = (P + Q) / 2;
+  return P + ((P + Q) % 2 ? odd_rows(N) + half * (half + 1) : half * half);
+}
+
+/* P + Q of the first of a tile; more than N where it is padding. */
+static int least_sum(int N, int row)
+{
+  int odd = row >= odd_rows(N), sum = odd;
+  while (row_of(N, sum, 0) < row) sum += 2;
+  return sum;
 }
 
 /* V[(P,Q)] = sum_p Y[P,p] damped[Q][j,p], for one u and j */
@@ -52,8 +81,22 @@ static void along_tangent(const gg_hermite_operator *op, const gg_hermite_view *
       const double *t = own->damped + Q * op->room->box + j * (N + 1);
       double sum = 0;
       for (int p = (j + Q) % 2; p <= N - j; p += 2) sum += Y[P * trials + p] * t[p];
-      V[pair_at(N, P, Q)] = sign * sum;
+      V[row_of(N, P, Q)] = sign * sum;
     }
+}
+
+/* VX += V^T X, of the tests that there are: J + P + Q even and up to N. */
+static void multiply(const gg_hermite_operator *op, int depth, const double *X)
+{
+  const gg_hermite_room *r = op->room;
+  const gg_hermite_flux *f = &op->flux;
+  for (int row = 0; row < r->pairs; row += GG_PRODUCT_ROWS) {
+    int rest = op->basis.degree - least_sum(op->basis.degree, row), from = gg_hermite_X_column(f, rest % 2);
+    int columns = gg_padded((rest / 2 + 1) * f->halves, GG_PRODUCT_COLUMNS);
+    if (rest >= 0)
+      gg_add_product(GG_PRODUCT_ROWS, columns, depth, r->V + row, r->pairs, X + from, f->width_X,
+                     r->VX + row * f->width_X + from, f->width_X);
+  }
 }
 
 /* S[(J,P,Q),l] = sum_ij V[(i,j),(P,Q)] X[(i,j),(J,l)], less the same of the loss. */
@@ -65,14 +108,14 @@ static void partner_share(const gg_hermite_operator *op, const gg_hermite_view *
   int N = b->degree, half = f->halves, rows = f->n_u * (N + 1);
   memset(r->VX, 0, (size_t)(r->pairs * f->width_X) * sizeof *r->VX);
   for (int j = 0; j <= N; j++) along_tangent(op, own, f->Z, j, -1, r->V + (size_t)j * (size_t)r->pairs);
-  gg_add_product(r->pairs, f->width_X, N + 1, r->V, r->pairs, f->loss, f->width_X, r->VX, f->width_X);
+  multiply(op, N + 1, f->loss);
   for (int i = 0; i < rows; i++)
     along_tangent(op, own, f->Y + i / (N + 1) * f->width_Y, i % (N + 1), 1, r->V + (size_t)i * (size_t)r->pairs);
-  gg_add_product(r->pairs, f->width_X, rows, r->V, r->pairs, f->X, f->width_X, r->VX, f->width_X);
+  multiply(op, rows, f->X);
   for (int i = 0; i < b->n_rotated; i++) {
     const int *test = b->rotated[i].r;
-    const double *VX = r->VX + (size_t)pair_at(N, test[1], test[2]) * (size_t)f->width_X;
-    memcpy(r->S + i * half, VX + test[0] * half, (size_t)half * sizeof *r->S);
+    const double *VX = r->VX + (size_t)row_of(N, test[1], test[2]) * (size_t)f->width_X;
+    memcpy(r->S + i * half, VX + gg_hermite_X_column(f, test[0]), (size_t)half * sizeof *r->S);
   }
 }
 
@@ -105,7 +148,7 @@ static void low_partner_share(const gg_hermite_operator *op, const gg_hermite_vi
       for (int u = -1; u < f->n_u; u++) { /* -1: the loss */
         const double *row = u < 0 ? f->loss + j * f->width_X : f->X + (u * f->trials + j) * f->width_X;
         double V = (u < 0 ? -f->Z[P * f->trials + p] : f->Y[u * f->width_Y + P * f->trials + p]) * t;
-        for (int l = 0; l < f->halves; l++) S[l] += V * row[J * f->halves + l];
+        for (int l = 0; l < f->halves; l++) S[l] += V * row[gg_hermite_X_column(f, J) + l];
       }
     }
 }
@@ -129,16 +172,16 @@ void gg_hermite_differentiate_partner(const gg_hermite_operator *op, const gg_he
   memset(r->back, 0, (size_t)(b->n * half) * sizeof *r->back);
   for (int i = 0; i < b->n_rotated; i++) {
     const double *D = own->D + (size_t)i * (size_t)r->wide, *S = r->S + i * half;
-    if (gg_hermite_degree(b->rotated[i]) <= 2) low_partner_share(op, own, i);
-    for (int s = 0; s < b->n; s++)
-      if (D[s] != 0) /* else another degree */
-        for (int l = 0; l < half; l++) r->back[s * half + l] += D[s] * S[l];
+    int degree = gg_hermite_degree(b->rotated[i]);
+    if (degree <= 2) low_partner_share(op, own, i);
+    for (int s = b->from[degree]; s < b->from[degree + 1]; s++)
+      for (int l = 0; l < half; l++) r->back[s * half + l] += D[s] * S[l];
   }
   for (int l = 0; l < half; l++) {
     const double *D = partner->D + (size_t)gg_hermite_rotated_place(b, 2 * l, 0, 0) * (size_t)r->wide;
-    for (int i = 0; i < b->n; i++) {
+    for (int i = 0; i < b->n; i++) { /* of degree 2 l alone */
       double d = weight * r->back[i * half + l], *restrict row = jacobian + (size_t)i * stride;
-      for (int s = 0; s < b->n; s++) row[s] += d * D[s];
+      for (int s = b->from[2 * l]; s < b->from[2 * l + 1]; s++) row[s] += d * D[s];
     }
   }
 }

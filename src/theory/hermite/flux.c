@@ -10,18 +10,19 @@
 /* Beyond this the weight is below 1e-31. */
 static const double farthest = 12;
 
-enum { N1 = GG_HERMITE_MOST_DEGREE + 1 };
+/* Rows of the polynomials of a point, zero beyond the last; points over v. */
+enum { N1 = GG_HERMITE_MOST_DEGREE + 1, STRIDE = 32, POINTS = (3 * GG_HERMITE_MOST_DEGREE + 4) / 2 };
 
 static double *lay_out(gg_hermite_flux *f)
 {
-  int X = f->trials * f->width_X;
+  int X = gg_padded(f->trials, GG_PRODUCT_ROWS) * f->width_X;
   double **const part[] = {&f->u, &f->wu, &f->v, &f->wv, &f->Z, &f->X, &f->loss, &f->along, &f->Y, &f->W};
   const int size[] = {f->n_u,
                       f->n_u,
                       f->n_v,
                       f->n_v,
                       f->width_Y,
-                      f->n_u * X,
+                      f->n_u * f->trials * f->width_X + X, /* rows are written in fours */
                       X,
                       f->n_u * f->width_along,
                       f->n_u * f->width_Y,
@@ -38,7 +39,8 @@ gg_status gg_hermite_flux_make(gg_hermite_flux *f, int N, int tests, double deca
 {
   *f = (gg_hermite_flux){
       .tests = tests, .trials = N + 1, .halves = N / 2 + 1, .n_u = 24 + N / 2, .n_v = (3 * N + 4) / 2};
-  f->width_X = gg_padded(tests * f->halves, GG_PRODUCT_COLUMNS);
+  f->odd_X = gg_padded((tests + 1) / 2 * f->halves, GG_PRODUCT_COLUMNS);
+  f->width_X = f->odd_X + gg_padded(tests / 2 * f->halves, GG_PRODUCT_COLUMNS);
   f->width_along = gg_padded(tests * f->trials, GG_PRODUCT_ROWS);
   f->width_Y = gg_padded(tests * f->trials, GG_PRODUCT_COLUMNS);
   gg_status status = lay_out(f) ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
@@ -80,42 +82,63 @@ static gg_sight sight_of(const gg_hermite_flux *f, const gg_hermite_contact *c, 
   return (gg_sight){at, -decay * c->other * at / all, 1 / sqrt(all), exp(-decay * at * at / (2 * all)) / sqrt(all)};
 }
 
+/* All points of the rule over v at one u: weights, and polynomials of both grains and of the test by rows of STRIDE. */
+typedef struct gg_points {
+  double w[POINTS], x1[POINTS * STRIDE], x2[POINTS * STRIDE], test[POINTS * STRIDE];
+} gg_points;
+
+static void see(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift, double amount,
+                gg_points *p)
+{
+  gg_sight s = sight_of(f, c, u, shift);
+  double one[POINTS], two[POINTS], seen[POINTS];
+  for (int k = 0; k < f->n_v; k++) {
+    double v = s.mean + s.spread * f->v[k];
+    p->w[k] = amount * s.share * f->wv[k];
+    one[k] = c->own * u + c->other * v;
+    two[k] = c->own * v - c->other * u;
+    seen[k] = c->other * v + s.at;
+  }
+  gg_hermite_values_of(f->trials - 1, f->n_v, one, p->x1, STRIDE);
+  gg_hermite_values_of(f->trials - 1, f->n_v, two, p->x2, STRIDE);
+  gg_hermite_values_of(f->tests - 1, f->n_v, seen, p->test, STRIDE);
+}
+
 /* For one u: < psi_J(x) Ho_j(x1) Ho_2l(x2) > over v, times `amount`, added to the rows j of `to`, columns (J,l). */
 static void add_normal(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift, double amount,
                        double *to)
 {
-  gg_sight s = sight_of(f, c, u, shift);
-  double x1[N1], x2[N1], test[N1], column[N1 * N1];
-  amount *= s.share;
+  gg_points p;
+  double column[POINTS * GG_HERMITE_MOST_X];
+  see(f, c, u, shift, amount, &p);
   for (int k = 0; k < f->n_v; k++) {
-    double v = s.mean + s.spread * f->v[k], w = amount * f->wv[k];
-    gg_hermite_values(f->trials - 1, c->own * u + c->other * v, x1);
-    gg_hermite_values(f->trials - 1, c->own * v - c->other * u, x2);
-    gg_hermite_values(f->tests - 1, c->other * v + s.at, test);
-    for (int J = 0; J < f->tests; J++)
-      for (int l = 0; l < f->halves; l++) column[J * f->halves + l] = w * test[J] * x2[2 * l];
-    for (int j = 0; j < f->trials; j++) {
-      double *row = to + j * f->width_X;
-      for (int i = 0; i < f->tests * f->halves; i++) row[i] += x1[j] * column[i];
+    double *row = column + k * f->width_X;
+    memset(row, 0, (size_t)f->width_X * sizeof *row);
+    for (int J = 0; J < f->tests; J++) {
+      double factor = p.w[k] * p.test[k * STRIDE + J], *at = row + gg_hermite_X_column(f, J);
+      for (int l = 0; l < f->halves; l++) at[l] = factor * p.x2[k * STRIDE + 2 * l];
     }
   }
+  gg_add_product(gg_padded(f->trials, GG_PRODUCT_ROWS), f->width_X, f->n_v, p.x1, STRIDE, column, f->width_X, to,
+                 f->width_X);
 }
 
 /* The same with the partner contracted, by (J,j). */
 static void add_contracted(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift, double amount,
                            const double *marginal, double *to)
 {
-  gg_sight s = sight_of(f, c, u, shift);
-  double x1[N1], test[N1];
-  amount *= s.share;
+  gg_points p;
+  double sum[STRIDE * STRIDE] = {0};
+  see(f, c, u, shift, amount, &p);
   for (int k = 0; k < f->n_v; k++) {
-    double v = s.mean + s.spread * f->v[k];
-    double w = amount * f->wv[k] * density_at(f, marginal, c->own * v - c->other * u);
-    gg_hermite_values(f->trials - 1, c->own * u + c->other * v, x1);
-    gg_hermite_values(f->tests - 1, c->other * v + s.at, test);
-    for (int J = 0; J < f->tests; J++)
-      for (int j = 0; j < f->trials; j++) to[J * f->trials + j] += w * test[J] * x1[j];
+    double density = 0;
+    for (int l = 0; l < f->halves; l++) density += marginal[l] * p.x2[k * STRIDE + 2 * l];
+    for (int J = 0; J < f->tests; J++) p.test[k * STRIDE + J] *= p.w[k] * density;
   }
+  gg_add_product(gg_padded(f->tests, GG_PRODUCT_ROWS), gg_padded(f->trials, GG_PRODUCT_COLUMNS), f->n_v, p.test, STRIDE,
+                 p.x1, STRIDE, sum, STRIDE);
+  for (int J = 0; J < f->tests; J++)
+    for (int j = 0; j < f->trials; j++) to[J * f->trials + j] += sum[J * STRIDE + j];
 }
 
 /* By (J,j): the partner contracted with its distribution. */
@@ -123,7 +146,7 @@ static void contract(const gg_hermite_flux *f, const double *X, const double *ma
 {
   for (int J = 0; J < f->tests; J++)
     for (int j = 0; j < f->trials; j++) {
-      const double *row = X + j * f->width_X + J * f->halves;
+      const double *row = X + j * f->width_X + gg_hermite_X_column(f, J);
       double sum = 0;
       for (int l = 0; l < f->halves; l++) sum += row[l] * marginal[l];
       along[J * f->trials + j] = sum;
@@ -146,7 +169,11 @@ void gg_hermite_flux_begin(gg_hermite_flux *f)
 /* W from `along` and Y, less the loss. */
 static void combine(gg_hermite_flux *f, const double *loss)
 {
-  gg_add_product(f->width_along, f->width_Y, f->n_u, f->along, f->width_along, f->Y, f->width_Y, f->W, f->width_Y);
+  for (int row = 0; row < f->width_along; row += GG_PRODUCT_ROWS) {
+    int P = f->tests - row / f->trials; /* J + P are up to N */
+    gg_add_product(GG_PRODUCT_ROWS, gg_padded(P * f->trials, GG_PRODUCT_COLUMNS), f->n_u, f->along + row,
+                   f->width_along, f->Y, f->width_Y, f->W + row * f->width_Y, f->width_Y);
+  }
   for (int row = 0; row < f->tests * f->trials; row++)
     for (int k = 0; k < f->width_Y; k++) f->W[row * f->width_Y + k] -= loss[row] * f->Z[k];
 }

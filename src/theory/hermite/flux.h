@@ -9,7 +9,11 @@
 
 #include <stdbool.h>
 
+#include "theory/hermite/basis.h"
 #include "theory/hermite/overlap.h"
+
+/* Most columns of X. */
+enum { GG_HERMITE_MOST_X = (GG_HERMITE_MOST_DEGREE / 2 + 2) * (GG_HERMITE_MOST_DEGREE + 2) };
 
 typedef struct gg_hermite_contact {
   double frequency;
@@ -28,10 +32,11 @@ typedef struct gg_hermite_flux {
   int n_u, n_v;
   double *u, *wu, *v, *wv;           /* quadrature */
   double *Z;                         /* by Q, columns q */
-  double *X, *loss;                  /* by (i,j) at u_i, columns (J,l); the loss by j, summed over u */
+  double *X, *loss;                  /* by (i,j) at u_i, columns (J,l), even J first; the loss by j, summed over u */
   double *along;                     /* X with the partner contracted, by i, columns (J,j) */
   double *Y;                         /* by i, columns (P,p) */
   double *W;                         /* by (J,j), columns (P,p) */
+  int odd_X;                         /* where columns of odd J begin */
   int width_X, width_along, width_Y; /* of rows, padded for products */
 } gg_hermite_flux;
 
@@ -43,6 +48,12 @@ void gg_hermite_flux_clear(gg_hermite_flux *flux);
 void gg_hermite_flux_begin(gg_hermite_flux *flux); /* W = 0 */
 void gg_hermite_flux_add(gg_hermite_flux *flux, const gg_hermite_contact *contact, const double *marginal,
                          bool partner);
+
+/* First column of X of a test J. */
+static inline int gg_hermite_X_column(const gg_hermite_flux *f, int J)
+{
+  return (J % 2 ? f->odd_X : 0) + J / 2 * f->halves;
+}
 
 static inline double gg_hermite_W(const gg_hermite_flux *f, int J, int P, int j, int p)
 {

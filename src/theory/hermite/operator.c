@@ -14,7 +14,7 @@ static gg_hermite_room *make_room(const gg_hermite_operator *op)
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_flux *f = &op->flux;
   int N = b->degree, box = (N + 1) * (N + 1), wide = gg_padded(b->n, GG_PRODUCT_COLUMNS);
-  int pairs = gg_padded((N + 1) * (N + 2) / 2, GG_PRODUCT_ROWS), tall = b->n_rotated + GG_PRODUCT_ROWS;
+  int pairs = gg_hermite_partner_rows(N), tall = b->n_rotated + GG_PRODUCT_ROWS;
   gg_hermite_room *r = calloc(1, sizeof *r);
   if (!r) return NULL;
   *r = (gg_hermite_room){.wide = wide, .pairs = pairs, .box = box};
@@ -124,7 +124,8 @@ static void look_at(const gg_hermite_operator *op, gg_hermite_state *state, cons
   for (int q = 0; q < b->n_rotated; q++) {
     const double *row = v->D + (size_t)q * (size_t)op->room->wide;
     double sum = 0;
-    for (int s = 0; s < b->n; s++) sum += row[s] * state->a[s];
+    int degree = gg_hermite_degree(b->rotated[q]);
+    for (int s = b->from[degree]; s < b->from[degree + 1]; s++) sum += row[s] * state->a[s];
     v->t[q] = sum;
   }
   for (int l = 0; l <= b->degree / 2; l++) v->marginal[l] = v->t[gg_hermite_rotated_place(b, 2 * l, 0, 0)];
@@ -184,9 +185,10 @@ static void rotate_back(const gg_hermite_operator *op, const gg_hermite_view *v,
   const gg_hermite_room *r = op->room;
   for (int q = 0; q < b->n_rotated; q++) {
     const double *D = v->D + (size_t)q * (size_t)r->wide, *X = r->X + (size_t)q * (size_t)r->wide;
-    for (int i = 0; i < b->n; i++) {
+    int degree = gg_hermite_degree(b->rotated[q]);
+    for (int i = b->from[degree]; i < b->from[degree + 1]; i++) {
       R[i] += w * D[i] * r->q[q];
-      if (!jacobian || D[i] == 0) continue; /* another degree */
+      if (!jacobian) continue;
       double d = w * D[i], *restrict row = jacobian + (size_t)i * stride;
       for (int s = 0; s < b->n; s++) row[s] += d * X[s];
     }

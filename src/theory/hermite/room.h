@@ -35,6 +35,9 @@ static inline int gg_hermite_degree(gg_hermite_index index)
 /* Every species along k: the views. */
 void gg_hermite_look(gg_hermite_operator *op, int n_species, gg_hermite_state *state, const double k[3]);
 
+/* How many rows (P,Q) products with the partner have. */
+int gg_hermite_partner_rows(int N);
+
 /* Derivatives of all rotated tests of a species with respect to its own a_s: room->X. Of W as it is. */
 void gg_hermite_differentiate_own(const gg_hermite_operator *op, const gg_hermite_view *own);
 
