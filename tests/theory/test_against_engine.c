@@ -48,13 +48,17 @@ static void noise_free(void **state)
   mixed.n_species = 2;
   mixed.species[0] = (gg_species){0.5, 1, 1, 0.4};
   mixed.species[1] = (gg_species){0.5, 0.5, 0.5, 0.4};
+  gg_scene sheared = mixed;
+  sheared.flow = GG_USF, sheared.phi = 0.3;
+  sheared.species[1] = (gg_species){0.5, 0.5, 0.1, 0.4};
   const gg_scene scene[] = {scene_of(GG_USF, 0.3, 0.7, -1),
                             scene_of(GG_USF, 0, 0.6, -1),
                             scene_of(GG_HCS, 0.1, 0.5, -1),
                             scene_of(GG_USF, 0, 0.8, 0),
                             scene_of(GG_USF, 0.3, 0.7, 0.5),
                             scene_of(GG_HCS, 0, 0.9, 0.5),
-                            mixed};
+                            mixed,
+                            sheared};
   enum { SCENES = sizeof scene / sizeof *scene };
   const gg_quantity same[] = {GG_Q_TEMPERATURE,
                               GG_Q_PRESSURE,
@@ -68,6 +72,8 @@ static void noise_free(void **state)
                               GG_Q_A2,
                               GG_Q_CUMULANT,
                               GG_Q_CUMULANT + 1,
+                              GG_Q_PARTIAL_TEMPERATURE,
+                              GG_Q_PARTIAL_TEMPERATURE + 1,
                               GG_Q_PARTIAL_TEMPERATURE_RATIO,
                               GG_Q_TEMPERATURE_RATIO,
                               GG_Q_SPIN_Z,

@@ -25,8 +25,7 @@ static double coefficient(const int r[3])
   return product * gsl_sf_fact((unsigned)l) / sqrt(gsl_sf_fact(2 * (unsigned)l + 1));
 }
 
-/* Coefficients alpha of the Phi_l, and all. */
-static void expand(const gg_hermite_basis *b, const double *alpha, double *a)
+void gg_hermite_isotropic_expand(const gg_hermite_basis *b, const double *alpha, double *a)
 {
   for (int r = 0; r < b->n; r++) a[r] = alpha[gg_hermite_degree(b->function[r]) / 2] * coefficient(b->function[r].r);
 }
@@ -79,7 +78,7 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
   int half = b->degree / 2, sign;
   double projected[HALVES], basis[HALVES], most = 0;
   heat(&h->gas, *rate, noise);
-  expand(b, alpha, h->state.a);
+  gg_hermite_isotropic_expand(b, alpha, h->state.a);
   gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, w->jacobian);
   project(b, w->R, projected);
   for (int l = 1; l <= half; l++) gsl_vector_set(w->x, (size_t)l - 1, projected[l]);
@@ -92,7 +91,7 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
     } else {
       memset(basis, 0, sizeof basis);
       basis[l] = 1;
-      expand(b, basis, h->state.a);
+      gg_hermite_isotropic_expand(b, basis, h->state.a);
       for (int r = 0; r < b->n; r++)
         for (int s = 0; s < b->n; s++)
           w->column[r] += w->jacobian[(size_t)r * (size_t)b->n + (size_t)s] * h->state.a[s];
@@ -121,7 +120,7 @@ static gg_status iterate(gg_hermite_isotropic *h, gg_isotropic_work *w, bool noi
   }
   if (left > converged) return gg_fail(err, GG_FAILED, "no steady state was found");
   heat(&h->gas, rate, noise);
-  expand(&h->op.basis, alpha, h->state.a);
+  gg_hermite_isotropic_expand(&h->op.basis, alpha, h->state.a);
   h->cooling_rate = 2 * rate; /* d T/dt = 2 rate T, or 2 D, at T = 1 */
   return GG_OK;
 }

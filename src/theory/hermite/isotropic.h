@@ -16,6 +16,9 @@ typedef struct gg_hermite_isotropic {
 /* frequency = n chi sigma^2; noise: white noise instead of stretching. */
 gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double frequency, double eta, bool noise,
                                      gg_error *err);
+/* a of the Ho_r from alpha_l of the Phi_l. */
+void gg_hermite_isotropic_expand(const gg_hermite_basis *basis, const double *alpha, double *a);
+
 void gg_hermite_isotropic_end(gg_hermite_isotropic *h);
 
 #endif

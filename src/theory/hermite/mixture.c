@@ -75,7 +75,7 @@ static gg_status make_normal(gg_solver *s, int i, int j, gg_error *err)
   return GG_OK;
 }
 
-/* Column of an unknown; the first is the rate of growth that makes up for the cooling. */
+/* Column of an unknown; the first is the heating that makes up for the cooling. */
 static size_t column(const gg_solver *s, int species, int l)
 {
   return (size_t)(1 + species * s->l + l - 1);
@@ -107,12 +107,13 @@ static void add_collisions(gg_solver *s, int i, int j, int l)
       }
 }
 
-static void add_growth(gg_solver *s, int i, int l, double rate)
+static void add_heating(gg_solver *s, int i, int l, double rate)
 {
   const gg_radial *r = &s->mixture->radial;
   size_t row = column(s, i, l);
+  double square = s->mixture->scale[i] * s->mixture->scale[i];
   for (int m = 0; m <= r->most; m++) {
-    double value = r->growth[l][m], alpha = s->mixture->alpha[i][m];
+    double value = s->mixture->noise ? r->spread[l][m] / square : r->growth[l][m], alpha = s->mixture->alpha[i][m];
     gsl_vector_set(s->x, row, gsl_vector_get(s->x, row) + rate * value * alpha);
     add_to(s->J, row, 0, value * alpha);
     if (m > 0) add_to(s->J, row, column(s, i, m), rate * value);
@@ -143,7 +144,7 @@ static double step(gg_solver *s, double *rate)
   for (int i = 0; i < s->species; i++)
     for (int l = 1; l <= s->l; l++) {
       for (int j = 0; j < s->species; j++) add_collisions(s, i, j, l);
-      add_growth(s, i, l, *rate);
+      add_heating(s, i, l, *rate);
     }
   for (int i = 0; i < s->species; i++) unit = fmax(unit, share_of(s->model, i, i) * s->mixture->scale[i]);
   if (gsl_linalg_LU_decomp(s->J, s->order, &sign) != GSL_SUCCESS) return INFINITY;
@@ -175,7 +176,7 @@ static double follow(gg_hermite_mixture *x, int species)
 static gg_status iterate(gg_solver *s, gg_error *err)
 {
   gg_hermite_mixture *x = s->mixture;
-  double rate = x->cooling_rate / 2;
+  double rate = x->heating;
   for (int move = 0; move < MOST_MOVES; move++) {
     double left = INFINITY;
     for (int i = 0; i < s->species; i++)
@@ -185,7 +186,7 @@ static gg_status iterate(gg_solver *s, gg_error *err)
       if (left < converged || left == INFINITY) break;
     }
     if (!(left < converged)) break;
-    x->cooling_rate = 2 * rate;
+    x->heating = rate;
     gg_hermite_mixture before = *x;
     if (follow(x, s->species) < still) {
       *x = before;
@@ -215,6 +216,13 @@ gg_status gg_hermite_mixture_solve(gg_hermite_mixture *x, const gg_model *m, int
   gsl_permutation_free(s.order);
   gsl_set_error_handler(handler);
   return status;
+}
+
+double gg_hermite_mixture_cooling(const gg_hermite_mixture *x, const gg_model *m)
+{
+  double mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += gg_fraction(m, i) * m->mass[i];
+  return 2 * x->heating * (x->noise ? mass : 1);
 }
 
 /* Phi_1 = (c^2 - 3)/sqrt 6, Phi_2 = (c^4 - 10 c^2 + 15)/sqrt 120. */

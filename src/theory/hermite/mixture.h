@@ -1,5 +1,6 @@
-/* Homogeneous cooling (and, by a Gaussian thermostat, heated) mixtures of smooth grains: of each species a sum of
- * isotropic functions about a Gaussian of its own temperature; one cooling rate for all. */
+/* Homogeneous mixtures of smooth grains, cooling or heated: of each species a sum of isotropic functions about a
+ * Gaussian of its own temperature. In a cooling gas, and by a Gaussian thermostat, one cooling rate for all; white
+ * noise heats all velocities alike. */
 #ifndef GG_HERMITE_MIXTURE_H
 #define GG_HERMITE_MIXTURE_H
 
@@ -10,11 +11,16 @@ typedef struct gg_hermite_mixture {
   gg_radial radial;
   double scale[GG_MAX_SPECIES]; /* of each species: C = scale c */
   double alpha[GG_MAX_SPECIES][GG_RADIAL_MOST + 1];
-  double cooling_rate; /* of the temperatures, at sum_i x_i T_i = 1 */
+  bool noise;
+  double heating; /* at sum_i x_i T_i = 1: what makes up for the cooling. Rate of growth of velocities, or by noise the
+                     diffusion of all */
 } gg_hermite_mixture;
 
 /* Degree 2 l of the expansion; from the scales given (all 0: from equal temperatures). */
 gg_status gg_hermite_mixture_solve(gg_hermite_mixture *mixture, const gg_model *model, int most, gg_error *err);
+
+/* Rate of cooling of the temperature sum_i x_i T_i at 1. */
+double gg_hermite_mixture_cooling(const gg_hermite_mixture *mixture, const gg_model *model);
 
 /* <c^2>/3 and <c^4> of a species, over its own scale. */
 double gg_hermite_mixture_square(const gg_hermite_mixture *mixture, int species);

@@ -1,16 +1,20 @@
 #include "theory/hermite/mixture_answer.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "common/thermostat.h"
 #include "theory/answer.h"
+#include "theory/garzo_dufty1999.h"
+#include "theory/hermite/isotropic.h"
 #include "theory/hermite/mixture.h"
 #include "theory/hermite/rungs.h"
+#include "theory/hermite/viscosity.h"
 
 static const char name[] = "enskog_hermite";
 
-/* Degrees 4 to 14. */
-enum { FIRST = 2, LAST = 7 };
+/* Half the degrees, 4 to 14; of the viscosity to 8, for so many species as it takes a second. */
+enum { FIRST = 2, LAST = 7, LAST_VISCOSITY = 4, MOST_VISCOUS = 6 };
 static const double good = 1e-8;
 
 /* Collisions of a grain, and p_c over n T = (2 pi/3) sum_ij x_i n_j chi_ij sigma_ij^3 J_ij <g^2>/2, at T = 1. */
@@ -39,15 +43,22 @@ static double transfer(const gg_model *m, const gg_hermite_mixture *x)
   return sum;
 }
 
+/* White noise is set to balance Maxwellians at temperature0 (thermostat.h). */
+static double temperature_of(const gg_model *m, const gg_hermite_mixture *x)
+{
+  if (!x->noise || !(x->heating > 0)) return m->temperature0;
+  return pow(gg_thermostat_noise(m) / 2 / x->heating, 2. / 3);
+}
+
 static void answer_mixture(const gg_model *m, const gg_hermite_mixture *x, gg_theory_answer *a)
 {
-  double partial[GG_MAX_SPECIES], T = m->temperature0, p = m->density * T;
+  double partial[GG_MAX_SPECIES], T = temperature_of(m, x), p = m->density * T;
   for (int i = 0; i < m->n_species; i++) {
     double square = gg_hermite_mixture_square(x, i);
     partial[i] = T * m->mass[i] * x->scale[i] * x->scale[i] * square;
     a->value[GG_Q_CUMULANT + i] = 2 * (gg_hermite_mixture_fourth(x, i) / (15 * square * square) - 1);
   }
-  a->value[GG_Q_COOLING_RATE] = x->cooling_rate / gg_model_nu0(m, 1);
+  a->value[GG_Q_COOLING_RATE] = gg_hermite_mixture_cooling(x, m) / gg_model_nu0(m, 1);
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = partial[0] / partial[1];
   if (m->linear_response) return; /* no temperature of its own: it grows */
   gg_answer_temperature(m, T, NAN, a);
@@ -56,26 +67,64 @@ static void answer_mixture(const gg_model *m, const gg_hermite_mixture *x, gg_th
   a->value[GG_Q_COLLISION_RATE] = collision_rate(m, x) * sqrt(T);
 }
 
-static gg_status require(const gg_model *m, gg_error *err)
+/* At rest but for what heats it. */
+static gg_hermite_gas resting(const gg_model *m, const gg_hermite_mixture *x)
 {
-  GG_TRY(gg_require_smooth(m, name, err));
-  if (m->flow == GG_USF)
-    return gg_refuse(err, name, "describes sheared grains of one species; this scene has %d", m->n_species);
-  if (gg_thermostat_of(m) == GG_WHITE_NOISE)
-    return gg_refuse(err, name, "describes mixtures that cool or have a Gaussian thermostat; this one has white noise");
+  gg_hermite_gas gas = gg_hermite_gas_of(m);
+  gas.stream[0][1] = 0;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) gas.impact[i][j].shear = 0;
+  for (int i = 0; i < 3; i++) gas.stream[i][i] = x->noise ? 0 : -x->heating;
+  gas.diffusion = x->noise ? x->heating : 0;
+  return gas;
+}
+
+static gg_status expand(const gg_hermite_mixture *x, const gg_hermite_basis *b, int n_species, gg_hermite_state *state,
+                        gg_error *err)
+{
+  for (int i = 0; i < n_species; i++) {
+    state[i] = (gg_hermite_state){.a = malloc((size_t)b->n * sizeof(double)), .width = GG_HERMITE_WIDTH};
+    if (!state[i].a) return gg_fail(err, GG_FAILED, "out of memory");
+    for (int k = 0; k < 3; k++) state[i].L[k][k] = x->scale[i];
+    gg_hermite_isotropic_expand(b, x->alpha[i], state[i].a);
+  }
+  return GG_OK;
+}
+
+static gg_status answer_viscosity(const gg_model *m, const gg_hermite_mixture *x, int degree, gg_theory_answer *a,
+                                  gg_error *err)
+{
+  gg_hermite_state state[GG_MAX_SPECIES] = {{.a = NULL}};
+  gg_hermite_gas gas = resting(m, x);
+  gg_hermite_viscosity v;
+  gg_hermite_basis b;
+  double fading = gg_thermostat_share(m) == 0.5 ? gg_hermite_mixture_cooling(x, m) / 2 : 0, nu0 = gg_model_nu0(m, 1);
+  GG_TRY(gg_hermite_basis_make(&b, degree, err));
+  gg_status status = expand(x, &b, m->n_species, state, err);
+  if (status == GG_OK) status = gg_hermite_viscosity_of(&gas, state, degree, !m->boltzmann, fading, &v, err);
+  for (int i = 0; i < m->n_species; i++) free(state[i].a);
+  gg_hermite_basis_clear(&b);
+  GG_TRY(status);
+  a->value[GG_Q_VISCOSITY_REDUCED] = nu0 * v.total;
+  a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = nu0 * v.kinetic;
   return GG_OK;
 }
 
 gg_status gg_hermite_mixture_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  gg_rungs rungs = {.n = 0};
-  gg_hermite_mixture x = {.cooling_rate = 0};
+  gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
+  gg_hermite_mixture x = {.noise = gg_thermostat_of(m) == GG_WHITE_NOISE};
   gg_error why;
-  GG_TRY(require(m, err));
   for (int l = FIRST; l <= LAST; l++) {
-    if (gg_rungs_error(&rungs, GG_Q_COOLING_RATE) < good) break;
-    if (gg_hermite_mixture_solve(&x, m, l, &why) != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
-    answer_mixture(m, &x, gg_rungs_next(&rungs));
+    if (l > LAST_VISCOSITY && gg_rungs_error(&rungs, GG_Q_COOLING_RATE) < good) break;
+    gg_status status = gg_hermite_mixture_solve(&x, m, l, &why);
+    if (status == GG_OK) answer_mixture(m, &x, gg_rungs_next(&rungs));
+    if (status == GG_OK && l <= LAST_VISCOSITY && m->n_species <= MOST_VISCOUS)
+      status = answer_viscosity(m, &x, 2 * l, gg_rungs_next(&viscous), &why);
+    if (status != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
   }
-  return gg_rungs_finish(&rungs, name, GG_Q_PARTIAL_TEMPERATURE_RATIO, a, err);
+  GG_TRY(gg_rungs_finish(&rungs, name, GG_Q_PARTIAL_TEMPERATURE_RATIO, a, err));
+  if (viscous.n > 0)
+    gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED, a), gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
+  return GG_OK;
 }

@@ -45,6 +45,23 @@ static double slope(int l, double t)
   return l == 0 ? 0 : -sign(l) * gsl_sf_laguerre_n(l - 1, 1.5, t) / norm(l);
 }
 
+static double curvature(int l, double t)
+{
+  return l < 2 ? 0 : sign(l) * gsl_sf_laguerre_n(l - 2, 2.5, t) / norm(l);
+}
+
+/* Of psi_l = Phi_l exp(-decay t), without the exponential: c.grad = 2 t d/dt, laplacian = 3 d/dt + 2 t d^2/dt^2. */
+static double gradient(int l, double decay, double t)
+{
+  return 2 * t * (slope(l, t) - decay * phi(l, t));
+}
+
+static double laplacian(int l, double decay, double t)
+{
+  double second = curvature(l, t) - 2 * decay * slope(l, t) + decay * decay * phi(l, t);
+  return 3 * (slope(l, t) - decay * phi(l, t)) + 2 * t * second;
+}
+
 static bool rule(double power, double rate, double *t, double *w)
 {
   gsl_integration_fixed_workspace *x =
@@ -72,8 +89,10 @@ gg_status gg_radial_make(gg_radial *r, int most, double decay, gg_error *err)
     if (!rule(0.5, k ? 1 + decay : 1, t, w)) return gg_fail(err, GG_FAILED, "out of memory");
     for (int l = k ? 2 : 0; l <= (k ? most : 1); l++)
       for (int m = 0; m <= most; m++)
-        for (int i = 0; i < POINTS; i++)
-          r->growth[l][m] += w[i] * 2 * t[i] * (slope(l, t[i]) - (k ? decay : 0) * phi(l, t[i])) * phi(m, t[i]);
+        for (int i = 0; i < POINTS; i++) {
+          r->growth[l][m] += w[i] * gradient(l, k ? decay : 0, t[i]) * phi(m, t[i]);
+          r->spread[l][m] += w[i] * laplacian(l, k ? decay : 0, t[i]) * phi(m, t[i]);
+        }
   }
   return GG_OK;
 }

@@ -14,6 +14,7 @@ typedef struct gg_radial {
   double split[GG_RADIAL_MOST + 1][GG_RADIAL_MOST + 1];
   double across[2][GG_RADIAL_MOST + 1][GG_RADIAL_MOST + 1]; /* < Lambda_M exp(-decay c^2/2) Lambda_m >; [0]: no decay */
   double growth[GG_RADIAL_MOST + 1][GG_RADIAL_MOST + 1];    /* < c.grad psi_l Phi_m > */
+  double spread[GG_RADIAL_MOST + 1][GG_RADIAL_MOST + 1];    /* < laplacian psi_l Phi_m > */
 } gg_radial;
 
 gg_status gg_radial_make(gg_radial *radial, int most, double decay, gg_error *err);

@@ -28,6 +28,12 @@ double gg_rungs_error(const gg_rungs *r, gg_quantity q)
   return r->n < 2 ? INFINITY : gg_rungs_error_of(r, q) / fabs(r->answer[0].value[q]);
 }
 
+void gg_rungs_take(const gg_rungs *r, gg_quantity q, gg_theory_answer *a)
+{
+  a->value[q] = r->answer[0].value[q];
+  a->error[q] = gg_rungs_error_of(r, q);
+}
+
 gg_status gg_rungs_finish(const gg_rungs *r, const char *theory, gg_quantity judge, gg_theory_answer *a, gg_error *err)
 {
   *a = r->answer[0];

@@ -16,6 +16,9 @@ gg_theory_answer *gg_rungs_next(gg_rungs *rungs);
 double gg_rungs_error_of(const gg_rungs *rungs, gg_quantity q);
 double gg_rungs_error(const gg_rungs *rungs, gg_quantity q); /* relative; INFINITY of the first */
 
+/* One quantity of the last answer, with its error. */
+void gg_rungs_take(const gg_rungs *rungs, gg_quantity q, gg_theory_answer *answer);
+
 /* The last answer with its errors; refused where that of `judge` is above 1 %. */
 gg_status gg_rungs_finish(const gg_rungs *rungs, const char *theory, gg_quantity judge, gg_theory_answer *answer,
                           gg_error *err);

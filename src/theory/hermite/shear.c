@@ -4,14 +4,35 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/thermostat.h"
+#include "theory/answer.h"
 #include "theory/gaussian_moments.h"
 #include "theory/hermite/newton.h"
+
+/* Shear heats as T^(1/2), noise as it does, and collisions cool as T^(3/2): by how much it is warmer than by shear
+ * alone, where that has T = 1 and noise alone `noise`. */
+static double warmer(double noise)
+{
+  double T = fmax(1, noise);
+  for (int i = 0; i < 50; i++) T = pow(sqrt(T) + pow(noise, 1.5), 2. / 3);
+  return T;
+}
+
+static double factor_of(const gg_model *m, const gg_gaussian start[])
+{
+  double T = 0;
+  if (gg_thermostat_of(m) != GG_WHITE_NOISE) return 1;
+  for (int i = 0; i < m->n_species; i++) T += gg_fraction(m, i) * m->mass[i] * gg_trace(start[i].M) / 3;
+  return warmer(m->temperature0 / T);
+}
 
 gg_status gg_hermite_shear_begin(gg_hermite_shear *h, const gg_model *m, gg_error *err)
 {
   gg_gaussian start[GG_MAX_SPECIES];
   *h = (gg_hermite_shear){.model = m, .gas = gg_hermite_gas_of(m)};
   bool fine = gg_gaussian_steady(m, start) < 1e-6;
+  double factor = fine ? factor_of(m, start) : 1;
+  if (gg_thermostat_of(m) == GG_WHITE_NOISE) h->gas.diffusion = gg_thermostat_noise(m) / 2;
   for (int i = 0; i < m->n_species && fine; i++) {
     gg_hermite_state *s = &h->state[i];
     s->width = 1;
@@ -21,7 +42,7 @@ gg_status gg_hermite_shear_begin(gg_hermite_shear *h, const gg_model *m, gg_erro
       return gg_fail(err, GG_FAILED, "out of memory");
     }
     s->a[0] = 1;
-    fine = gg_hermite_gaussian(1, start[i].M.at, s->L);
+    fine = gg_hermite_gaussian(factor, start[i].M.at, s->L);
   }
   if (fine) return GG_OK;
   gg_hermite_shear_end(h);

@@ -1,4 +1,5 @@
-/* Steady uniform shear of smooth grains, each species about a Gaussian of its own: degree after degree. */
+/* Steady uniform shear of smooth grains, white noise heating them or not, each species about a Gaussian of its own:
+ * degree after degree. */
 #ifndef GG_HERMITE_SHEAR_H
 #define GG_HERMITE_SHEAR_H
 
@@ -11,7 +12,7 @@ typedef struct gg_hermite_shear {
   gg_hermite_state state[GG_MAX_SPECIES];
 } gg_hermite_shear;
 
-/* Begins with the anisotropic Gaussians of the second moments. */
+/* Begins with the anisotropic Gaussians of the second moments, warmer where noise heats. */
 gg_status gg_hermite_shear_begin(gg_hermite_shear *shear, const gg_model *model, gg_error *err);
 void gg_hermite_shear_end(gg_hermite_shear *shear);
 

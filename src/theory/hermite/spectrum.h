@@ -9,7 +9,7 @@ typedef struct gg_hermite_mode {
   double decay, frequency;
 } gg_hermite_mode;
 
-/* All modes with the symmetries of the flow, the slowest first: basis.n - 1 of them. */
+/* All modes with the symmetries of the flow, the slowest first: basis.n - 1 of them for each species. */
 gg_status gg_hermite_spectrum(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
                               gg_hermite_mode *mode, gg_error *err);
 

@@ -210,5 +210,6 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
 gg_status gg_rough_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   if (m->linear_response) return gg_refuse(err, name, "has no linear response of rough grains");
+  if (m->flow == GG_HEATED_SHEAR) return gg_refuse(err, name, "has no heated shear of rough grains");
   return m->flow == GG_USF ? sheared(m, a, err) : homogeneous(m, a, err);
 }

@@ -1,0 +1,124 @@
+#include "theory/hermite/shear_answer.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "theory/answer.h"
+#include "theory/hermite/rungs.h"
+#include "theory/hermite/shear.h"
+#include "theory/hermite/spectrum.h"
+
+static const char name[] = "enskog_hermite";
+
+/* Beyond GOOD_DEGREE only where errors are above `good` there. */
+enum { FIRST_DEGREE = 4, GOOD_DEGREE = 10, SPECTRUM_DEGREE = 8, MOST_SPECIES = 8 };
+static const double good = 1e-4;
+
+/* What takes some two seconds: species collide with all others. */
+static const int last_degree[MOST_SPECIES + 1] = {0, 12, 12, 10, 8, 8, 6, 6, 6};
+
+static gg_stress stress_of(double factor, double P[3][3])
+{
+  return (gg_stress){factor * P[0][0], factor * P[1][1], factor * P[2][2], factor * P[0][1], factor * P[1][0]};
+}
+
+static double fourth_x(const double C[3])
+{
+  return C[0] * C[0] * C[0] * C[0];
+}
+
+static double fourth_y(const double C[3])
+{
+  return C[1] * C[1] * C[1] * C[1];
+}
+
+static double fourth_z(const double C[3])
+{
+  return C[2] * C[2] * C[2] * C[2];
+}
+
+/* Of the velocities of all grains. */
+static void answer_kurtoses(gg_hermite_shear *h, double M[3][3], gg_theory_answer *a)
+{
+  static gg_hermite_function *const fourth[] = {fourth_x, fourth_y, fourth_z};
+  const gg_quantity kurtosis[] = {GG_Q_KURTOSIS_CX, GG_Q_KURTOSIS_CY, GG_Q_KURTOSIS_CZ};
+  for (int k = 0; k < 3; k++) {
+    double sum = 0;
+    for (int i = 0; i < h->gas.n_species; i++)
+      sum += h->gas.fraction[i] * gg_hermite_mean(&h->op.basis, &h->state[i], fourth[k]);
+    a->value[kurtosis[k]] = sum / (M[k][k] * M[k][k]);
+  }
+}
+
+static void answer_temperatures(gg_hermite_shear *h, const double T[], gg_theory_answer *a)
+{
+  double all = 0;
+  for (int i = 0; i < h->gas.n_species; i++) all += h->gas.fraction[i] * T[i];
+  gg_answer_temperature(h->model, all, NAN, a);
+  if (h->gas.n_species == 1) return;
+  for (int i = 0; i < h->gas.n_species; i++) a->value[GG_Q_PARTIAL_TEMPERATURE + i] = T[i];
+  a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = T[0] / T[1];
+}
+
+static void answer(gg_hermite_shear *h, gg_theory_answer *a)
+{
+  const gg_model *m = h->model;
+  double M[3][3], velocities[3][3] = {{0}}, P[3][3] = {{0}}, T[GG_MAX_SPECIES];
+  gg_hermite_sums sums;
+  for (int i = 0; i < m->n_species; i++) {
+    gg_hermite_second_moments(&h->op.basis, &h->state[i], M);
+    T[i] = m->mass[i] * (M[0][0] + M[1][1] + M[2][2]) / 3;
+    for (int k = 0; k < 9; k++) {
+      velocities[k / 3][k % 3] += h->gas.fraction[i] * M[k / 3][k % 3];
+      P[k / 3][k % 3] += h->gas.fraction[i] * m->mass[i] * M[k / 3][k % 3];
+    }
+  }
+  gg_hermite_sums_at(&h->op, &h->gas, h->state, &sums);
+  answer_temperatures(h, T, a);
+  gg_answer_stress(m, a->value[GG_Q_TEMPERATURE], stress_of(m->density, P), stress_of(m->density, sums.transfer), a);
+  a->value[GG_Q_COLLISION_RATE] = sums.rate;
+  a->value[GG_Q_MEAN_FREE_PATH] = sums.speed / sums.rate;
+  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = sums.speed / sums.rate / cbrt(m->volume);
+  a->value[GG_Q_DISSIPATION] = m->stress_unit * m->density * sums.loss;
+  answer_kurtoses(h, velocities, a);
+}
+
+/* The slowest of all modes: that of the temperature, mostly. */
+static void answer_relaxation(gg_hermite_shear *h, gg_theory_answer *a)
+{
+  gg_error ignored;
+  gg_hermite_mode *mode = malloc((size_t)(h->gas.n_species * h->op.basis.n) * sizeof *mode);
+  if (mode && gg_hermite_spectrum(&h->op, &h->gas, h->state, mode, &ignored) == GG_OK)
+    a->value[GG_Q_RELAXATION_RATE] = mode[0].decay;
+  free(mode);
+}
+
+/* `slow`: answers of its own, of the relaxation alone, which a low degree knows well. */
+static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_error *err)
+{
+  for (int degree = FIRST_DEGREE; degree <= last_degree[h->gas.n_species]; degree += 2) {
+    if (degree > GOOD_DEGREE && gg_rungs_error(rungs, GG_Q_TEMPERATURE) < good) break;
+    gg_error why;
+    if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
+    answer(h, gg_rungs_next(rungs));
+    if (degree <= SPECTRUM_DEGREE) answer_relaxation(h, gg_rungs_next(slow));
+  }
+  return GG_OK;
+}
+
+gg_status gg_hermite_shear_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  gg_hermite_shear h;
+  gg_rungs rungs = {.n = 0}, slow = {.n = 0};
+  GG_TRY(gg_require_steady_shear(m, name, err));
+  gg_error why;
+  if (m->n_species > MOST_SPECIES)
+    return gg_refuse(err, name, "describes sheared grains of up to %d species; this scene has %d", MOST_SPECIES,
+                     m->n_species);
+  if (gg_hermite_shear_begin(&h, m, &why) != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
+  gg_status status = climb(&h, &rungs, &slow, err);
+  gg_hermite_shear_end(&h);
+  if (status == GG_OK) status = gg_rungs_finish(&rungs, name, GG_Q_TEMPERATURE, a, err);
+  if (status == GG_OK) gg_rungs_take(&slow, GG_Q_RELAXATION_RATE, a);
+  return status;
+}

@@ -1,0 +1,9 @@
+/* What a steady shear flow of smooth grains answers. */
+#ifndef GG_HERMITE_SHEAR_ANSWER_H
+#define GG_HERMITE_SHEAR_ANSWER_H
+
+#include "theory/theory.h"
+
+gg_status gg_hermite_shear_answer(const gg_model *model, gg_theory_answer *answer, gg_error *err);
+
+#endif
