@@ -8,12 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "theory/hermite/shear.h"
+#include "reference.h"
 #include "theory/theory_list.h"
 
-enum { REFERENCE_DEGREE = 16, QUANTITIES = 4 };
-
-static const gg_quantity quantities[QUANTITIES] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1, GG_Q_N2};
+enum { REFERENCE_DEGREE = 16 };
 
 static bool model_at(double phi, double e, gg_model *m)
 {
@@ -22,36 +20,6 @@ static bool model_at(double phi, double e, gg_model *m)
   s.flow = GG_USF, s.phi = phi;
   s.collision.e[0] = e, s.collision.beta[0] = -1;
   return gg_model_make(&s, GG_DSMC, m, &err) == GG_OK;
-}
-
-/* Whole stress, in the units of results. */
-static void numbers_of(gg_hermite_shear *h, double number[QUANTITIES])
-{
-  const gg_model *m = h->model;
-  double M[3][3], P[3][3];
-  gg_hermite_sums sums;
-  gg_hermite_second_moments(&h->op.basis, h->state, M);
-  gg_hermite_sums_at(&h->op, &h->gas, h->state, &sums);
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 3; j++) P[i][j] = m->density * (M[i][j] + (m->boltzmann ? 0 : sums.transfer[i][j]));
-  double p = (P[0][0] + P[1][1] + P[2][2]) / 3;
-  number[0] = (M[0][0] + M[1][1] + M[2][2]) / 3;
-  number[1] = m->stress_unit * P[0][1];
-  number[2] = (P[0][0] - P[1][1]) / p;
-  number[3] = (P[1][1] - P[2][2]) / p;
-}
-
-static bool reference_of(const gg_model *m, double number[QUANTITIES])
-{
-  gg_hermite_shear h;
-  gg_error err;
-  if (gg_hermite_shear_begin(&h, m, &err) != GG_OK) return false;
-  bool good = true;
-  for (int degree = 4; good && degree <= REFERENCE_DEGREE; degree += 2)
-    good = gg_hermite_shear_solve(&h, degree, &err) == GG_OK;
-  if (good) numbers_of(&h, number);
-  gg_hermite_shear_end(&h);
-  return good;
 }
 
 typedef struct tally {
@@ -63,24 +31,25 @@ static void look_at(double phi, double e, tally *t)
   gg_model m;
   gg_theory_answer a;
   gg_error err;
-  double number[QUANTITIES];
+  double number[GG_REFERENCE_NUMBERS];
   if (!model_at(phi, e, &m)) return;
   if (gg_theory_evaluate(&gg_enskog_hermite, &m, &a, &err) != GG_OK) {
     t->refused++;
     printf("%.5f %.4f  %s\n", phi, e, err.message);
     return;
   }
-  if (!reference_of(&m, number)) {
+  if (!gg_reference_shear(&m, REFERENCE_DEGREE, number)) {
     t->without_reference++;
     printf("%.5f %.4f  no reference\n", phi, e);
     return;
   }
   printf("%.5f %.4f ", phi, e);
-  for (int q = 0; q < QUANTITIES; q++) {
-    double stated = a.error[quantities[q]], share = fabs(a.value[quantities[q]] - number[q]) / stated;
+  for (int q = 0; q < GG_REFERENCE_NUMBERS; q++) {
+    double stated = a.error[gg_reference_quantity[q]],
+           share = fabs(a.value[gg_reference_quantity[q]] - number[q]) / stated;
     t->answers++;
     if (share > 1) t->exceed++;
-    printf("  %.7g %.1e %.2f", a.value[quantities[q]], stated, share);
+    printf("  %.7g %.1e %.2f", a.value[gg_reference_quantity[q]], stated, share);
   }
   printf("\n");
   fflush(stdout);
