@@ -315,6 +315,7 @@ typedef struct gg_result_info {
   int steady;          /* was the steady state reached ... */
   const char *verdict; /* ... and how is that known */
   int64_t grains;
+  const char *grains_chosen;                      /* dsmc: why so many; NULL where the scene says how many */
   double window[2];                               /* averaged over these times */
   uint64_t collisions;                            /* between grains, while averaging ... */
   double cpu_seconds;                             /* ... in so much processor time */

@@ -39,9 +39,9 @@ void gg_print_effort(const gg_result *r)
   gg_format_count((double)a.collisions / a.cpu_seconds, rate, sizeof rate);
   gg_format_duration(a.cpu_seconds, seconds, sizeof seconds);
   if (a.cpu_seconds > 0) snprintf(pace, sizeof pace, " (%s/s)", rate);
-  gg_print_paragraph(stdout, 6, "%-5s %ld grains; %s collisions averaged over in %s of processor time%s\n%s: %s",
-                     a.engine, (long)a.grains, collisions, seconds, pace, a.steady ? "steady" : "not steady",
-                     a.verdict);
+  gg_print_paragraph(stdout, 6, "%-5s %ld grains%s%s; %s collisions averaged over in %s of processor time%s\n%s: %s",
+                     a.engine, (long)a.grains, a.grains_chosen ? ", " : "", a.grains_chosen ? a.grains_chosen : "",
+                     collisions, seconds, pace, a.steady ? "steady" : "not steady", a.verdict);
 }
 
 void gg_print_warnings(const gg_result *r, const char *told)

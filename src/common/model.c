@@ -4,6 +4,7 @@
 
 #include "common/contact_value.h"
 #include "common/cube_root.h"
+#include "common/ensemble.h"
 #include "common/surface/surfaces.h"
 
 /* Whole numbers of grains: the largest remainders go up, of equal ones the first. */
@@ -174,9 +175,7 @@ static double guess_ratio(const gg_model *m)
 
 static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
 {
-  if (engine == GG_MD) return s->particles;
-  if (s->dsmc.particles) return s->dsmc.particles;
-  return s->particles > GG_LEAST_ENSEMBLE ? s->particles : GG_LEAST_ENSEMBLE;
+  return engine == GG_MD ? s->particles : gg_ensemble_size(s);
 }
 
 /* Within these everything is far from where numbers end, in both engines; beyond them nothing is to be learnt. */
@@ -272,6 +271,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
                     : m->gravity[1] != 0            ? 1e-3
                                                     : 1e-5;
   m->time_step = s->dsmc.time_step;
+  m->asked_error = gg_asked_error(s);
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
   guess_temperature(m, s, sheared);
   m->ratio0 = guess_ratio(m);

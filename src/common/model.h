@@ -55,6 +55,7 @@ typedef struct gg_model {
   double contact_time; /* of the contact-time rule, in mean free times per grain, or sqrt(d/|g_y|) where there is g_y;
                         * 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
+  double asked_error;  /* relative, that the run goes on for; 0: not asked for. dsmc chooses its step by it */
   bool single;         /* dsmc: velocities kept in single precision */
 
   const gg_extension *extension; /* borrowed from the scene */

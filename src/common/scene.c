@@ -23,7 +23,7 @@ gg_scene gg_scene_defaults(void)
               .replicas = 1,
               .seed = 1},
       .md = {.contact_time = GG_AUTO},
-      .dsmc = {.time_step = GG_AUTO},
+      .dsmc = {.time_step = GG_AUTO, .chosen_for = GG_AUTO},
       .measure = GG_MEASURE_RHEOLOGY,
   };
   for (int i = 0; i < GG_MAX_SPECIES; i++) s.species[i] = (gg_species){i == 0, 1, 1, 0.4};

@@ -60,6 +60,8 @@ struct gg_scene {
     double time_step;  /* in mean free times, or GG_AUTO */
     int64_t particles; /* size of the ensemble, or 0: chosen */
     gg_precision precision;
+    double chosen_for; /* relative error (0: none) by which a size is chosen; GG_AUTO: that of the run. Of a run that is
+                        * resumed it is that of its start: no key, set from the checkpoint */
   } dsmc;
   unsigned measure; /* GG_MEASURE_... */
   struct {

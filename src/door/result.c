@@ -83,6 +83,7 @@ gg_status gg_result_about(const gg_result *result, gg_result_info *info, gg_erro
                            .steady = gg_result_is_steady(r),
                            .verdict = r->steadiness_text,
                            .grains = r->model.n,
+                           .grains_chosen = *r->ensemble_text ? r->ensemble_text : NULL,
                            .window = {r->history.window[0], r->history.window[1]},
                            .collisions = r->averaging.collisions,
                            .cpu_seconds = r->averaging.cpu_seconds,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/engine.h"
+#include "common/ensemble.h"
 #include "common/extension.h"
 #include "door/door.h"
 #include "io/c_locale.h"
@@ -169,6 +170,13 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_engine_kind kind;
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
   gg_engine_ops_of(kind)->describe(&model, line, context);
+  char chosen[200] = "";
+  if (model.homogeneous) gg_ensemble_reason(&finished, chosen, sizeof chosen);
+  if (*chosen) {
+    char text[240];
+    snprintf(text, sizeof text, "so many velocities are %s", chosen);
+    line(context, text);
+  }
   gg_forecast forecast = gg_forecast_of(&finished, &model, kind);
   gg_forecast_tell(&forecast, finished.run.replicas, line, context);
   return GG_OK;

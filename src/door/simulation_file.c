@@ -61,7 +61,9 @@ static gg_status load(const gg_archive *a, const char *path, const gg_scene *sce
   gg_scene stored;
   gg_simulation *s;
   GG_TRY(stored_scene(a, path, &stored, err));
-  GG_TRY(gg_simulation_prepare(scene ? scene : &stored, &s, err));
+  gg_scene settled = scene ? *scene : stored;
+  GG_TRY(gg_resumption_settle(&settled, a, err));
+  GG_TRY(gg_simulation_prepare(&settled, &s, err));
   gg_status status = take_all(s, a, err);
   if (status == GG_OK)
     *simulation = s;

@@ -31,5 +31,12 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   static const char *const thermostats[] = {"no thermostat", "Gaussian thermostat: returns what collisions destroy",
                                             "white-noise thermostat"};
   line(context, thermostats[gg_thermostat_of(m)]);
+  const gg_dsmc_time_step step = gg_dsmc_time_step_choose(m, m->temperature0);
+  if (step.bias > 0) {
+    snprintf(text, sizeof text, "step: %.2g mean free times%s; means lie about %.1g %% off by it",
+             step.splitting * gg_model_collision_rate(m, m->temperature0), m->time_step > 0 ? "" : ", chosen",
+             100 * step.bias);
+    line(context, text);
+  }
   line(context, m->n_species == 1 ? "one species: one majorant" : "several species: a majorant for each pair");
 }

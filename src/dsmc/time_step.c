@@ -1,16 +1,45 @@
 #include "dsmc/time_step.h"
 
+#include <math.h>
+
 #include "common/thermostat.h"
 
 /* Relative bias of the most affected mean for a step of one mean free time; it goes with the square of the step.
  * Measured in the Boltzmann limit: streaming and collisions split: viscosity .080 at e = .9, .072 at e = .6
- * (temperature: .047, .031); thermostat, or pairs of species, split from collisions: cooling rate .008 at e = .5,
- * temperature ratio .003. */
-static const double bias_of_splitting = 0.08, bias_of_alternation = 0.008;
+ * (temperature: .047, .031); pairs of species: temperature ratio .003; a thermostat split from collisions, over the
+ * square of the energy that a collision of smooth grains destroys, 1 - e^2: cooling rate .0139 at e = .5, .0128 at .8,
+ * Gaussian, and .0144, .0125 of white noise. */
+static const double bias_of_splitting = 0.08, bias_of_alternation = 0.008, bias_of_thermostat = 0.0145;
+
+/* A run that asks for an error takes steps whose bias is so small a share of it. */
+static const double share = 0.2;
 
 static double smaller(double a, double b)
 {
   return a < b ? a : b;
+}
+
+/* 1 - e^2, and what rough grains lose besides. */
+static double loss_of(const gg_model *m)
+{
+  const double eta1 = (1 + m->e[GG_11]) / 2, K = m->inertia[0];
+  const double eta2 = m->rule == GG_SMOOTH ? 0 : (1 + m->beta[GG_11]) * K / (2 * (1 + K));
+  return 4 * (eta1 * (1 - eta1) + eta2 * (1 - eta2));
+}
+
+/* Of means, over the square of the step: where a thermostat or pairs of species take turns with collisions. */
+static double alternation_of(const gg_model *m)
+{
+  if (m->n_species > 1) return bias_of_alternation;
+  const double loss = loss_of(m);
+  return gg_thermostat_of(m) != GG_NO_THERMOSTAT ? bias_of_thermostat * loss * loss : 0;
+}
+
+/* In mean free times. */
+static double alternate_every(const gg_model *m)
+{
+  const double bias = alternation_of(m);
+  return m->asked_error > 0 && bias > 0 ? smaller(0.25, sqrt(share * m->asked_error / bias)) : 0.25;
 }
 
 gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
@@ -18,15 +47,15 @@ gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
   bool heated = gg_thermostat_of(model) != GG_NO_THERMOSTAT;
   double free_time = 1 / gg_model_collision_rate(model, T);
   gg_dsmc_time_step step = {.synchronise = heated ? free_time : 3 * free_time,
-                            .length = heated ? 0.25 * free_time : free_time};
+                            .length = heated ? alternate_every(model) * free_time : free_time};
   if (!heated && model->shear_rate == 0) step.length = step.synchronise; /* the kernel needs no step at all */
   if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
-  step.splitting = model->n_species == 1 ? step.length : smaller(step.length, 0.25 * free_time);
+  step.splitting = model->n_species == 1 ? step.length : smaller(step.length, alternate_every(model) * free_time);
   if (model->time_step > 0) {
     step.splitting = step.length = model->time_step * free_time;
     step.split = model->shear_rate > 0;
   }
   double h = step.splitting / free_time;
-  step.bias = step.split ? bias_of_splitting * h * h : heated || model->n_species > 1 ? bias_of_alternation * h * h : 0;
+  step.bias = (step.split ? bias_of_splitting : alternation_of(model)) * h * h;
   return step;
 }

@@ -99,6 +99,7 @@ json_t *gg_run_document(const gg_result *r)
                 r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions",
                 (json_int_t)r->averaging.collisions, "cpu_seconds", real(r->averaging.cpu_seconds), "total",
                 effort_json(&r->total), "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
+  if (*r->ensemble_text) json_object_set_new(document, "particles_chosen", json_string(r->ensemble_text));
   if (r->curves.n) json_object_set_new(document, "curves", gg_curves_json(&r->curves));
   return document;
 }

@@ -76,25 +76,26 @@ static gg_status open_window(gg_replicas *all, gg_error *err)
   all->state.averaging = 1;
   all->state.exact = 0;
   all->state.window_at = all->state.due;
-  all->state.goal = all->state.due + gg_plan_next_test(&all->plan, all->state.restarts, false, 0);
+  all->state.goal = all->state.due + gg_plan_next_test(&all->plan, all->state.restarts, NULL);
   return GG_OK;
 }
 
-static bool exact_enough(const gg_replicas *all, const gg_convergence *c, uint64_t window)
+static gg_test test_of(const gg_replicas *all, const gg_convergence *c, uint64_t window)
 {
-  return all->plan.relative_error > 0 && window >= all->plan.least && c->trusted &&
-         c->relative_error <= all->plan.relative_error;
+  double asked = all->plan.relative_error;
+  gg_test t = {.window = window, .ratio = asked > 0 ? c->relative_error / asked : NAN};
+  t.exact = window >= all->plan.least && c->trusted && t.ratio <= 1;
+  t.sure = c->trusted && (double)window >= c->sure_at;
+  return t;
 }
 
-/* Is the window long and exact enough? A run that tests again and again, and stops as soon as its estimate of the error
- * is small, stops where the estimate is too small. So the window goes on for half its length after that, and the
- * estimate there is the one that counts. */
-static bool finished(gg_replicas *all, const gg_convergence *c, uint64_t window)
+/* Is the window long and exact enough? */
+static bool finished(gg_replicas *all, const gg_test *t)
 {
-  if (gg_plan_ends(&all->plan, all->state.restarts, window)) return true;
+  if (gg_plan_ends(&all->plan, all->state.restarts, t->window)) return true;
   bool before = all->state.exact;
-  all->state.exact = exact_enough(all, c, window);
-  return before && all->state.exact;
+  all->state.exact = t->exact;
+  return gg_plan_is_met(t, before);
 }
 
 static const gg_replica *unsettled(const gg_replicas *all)
@@ -134,15 +135,15 @@ gg_status gg_replicas_run(gg_replicas *all, gg_error *err)
     gg_convergence c;
     GG_TRY(gg_replicas_convergence(all, &c, err));
     gg_outlook_note_errors(&all->outlook, (double)window, &c);
+    gg_test test = test_of(all, &c, window);
     if (c.trending && gg_plan_restarts(&all->plan, all->state.restarts) && window >= all->plan.least) {
       all->state.restarts++;
       GG_TRY(open_window(all, err));
-    } else if (finished(all, &c, window)) {
+    } else if (finished(all, &test)) {
       gg_replicas_report_progress(all, true); /* with the errors of the end */
       return GG_OK;
     } else {
-      uint64_t next = gg_plan_next_test(&all->plan, all->state.restarts, all->state.exact, window);
-      all->state.goal = all->state.window_at + next;
+      all->state.goal = all->state.window_at + gg_plan_next_test(&all->plan, all->state.restarts, &test);
     }
   }
   gg_replicas_report_progress(all, true);

@@ -96,6 +96,7 @@ gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error 
     if (i < headline) {
       double relative = m.error / fabs(m.mean);
       if (!(relative <= c->relative_error)) c->relative_error = relative, c->worst = list[i];
+      c->sure_at = fmax(c->sure_at, 10 * GG_MAX_BLOCKS * m.correlation_rows * per_row / all->n);
       if (!m.trusted) c->trusted = false, c->untrusted = fmax(c->untrusted, m.correlation_rows * per_row / all->n);
     }
     if (all->model.linear_response) continue;

@@ -108,7 +108,7 @@ static void plan_time(gg_forecast *f, const gg_scene *scene, const gg_model *m)
   double window = (double)p.most * GG_SAMPLING_INTERVAL;
   if (p.relative_error > 0) {
     double least = (double)p.least * GG_SAMPLING_INTERVAL, needed = for_error(scene, m, p.relative_error);
-    needed = 1.5 * fmax(least, needed);
+    needed = fmax(1.5 * least, 1.15 * needed);
     window = p.most ? fmin(window, needed) : needed;
     f->to_an_error = true;
   }

@@ -16,7 +16,7 @@ void gg_outlook_open_window(gg_outlook *o)
 {
   o->n_errors = 0;
   o->trending = false;
-  o->trusted_at = 0;
+  o->trusted_at = o->sure_at = 0;
 }
 
 void gg_outlook_new_phase(gg_outlook *o)
@@ -28,6 +28,7 @@ void gg_outlook_note_errors(gg_outlook *o, double window, const gg_convergence *
 {
   o->trending = c->trending;
   o->trusted_at = c->trusted ? 0 : fmax(5 * GG_MIN_BLOCKS * c->untrusted, 1.25 * window);
+  o->sure_at = c->sure_at;
   if (!(c->relative_error > 0 && isfinite(c->relative_error))) return;
   if (o->n_errors == GG_OUTLOOK_ERRORS) memmove(o->errors, o->errors + 1, --o->n_errors * sizeof *o->errors);
   o->errors[o->n_errors].window = window;
@@ -68,13 +69,19 @@ static double log_scale(const gg_outlook *o)
   return sum / weights;
 }
 
-/* Is the error asked for met at a test, if it goes on as 1/sqrt(window), but for some doubts? */
-static bool exact_at(const gg_outlook *o, const gg_plan *plan, double window, double doubts)
+/* What a test will find, if the error goes on as 1/sqrt(window), but for some doubts. */
+static gg_test test_at(const gg_outlook *o, const gg_plan *plan, uint64_t window, double doubts)
 {
-  if (!o->n_errors || window < (double)plan->least || window < o->trusted_at) return false;
-  double ahead = fmax(1 / o->errors[o->n_errors - 1].window - 1 / window, 0);
+  const double length = (double)window;
+  gg_test t = {.window = window, .ratio = NAN};
+  if (!o->n_errors || !(plan->relative_error > 0)) return t;
+  double ahead = fmax(1 / o->errors[o->n_errors - 1].window - 1 / length, 0);
   double change = doubts * doubt * sqrt((double)plan->least * ahead);
-  return log_scale(o) + change <= log(plan->relative_error * sqrt(window));
+  t.ratio = exp(log_scale(o) + change) / (plan->relative_error * sqrt(length));
+  bool trusted = length >= o->trusted_at;
+  t.exact = trusted && length >= (double)plan->least && t.ratio <= 1;
+  t.sure = trusted && length >= o->sure_at;
+  return t;
 }
 
 /* Length at which a window ends whose next test is at `window`. */
@@ -82,10 +89,10 @@ static double last_test(const gg_outlook *o, const gg_plan *plan, uint64_t resta
                         double doubts)
 {
   while (!gg_plan_ends(plan, restarts, window)) {
-    bool now = plan->relative_error > 0 && exact_at(o, plan, (double)window, doubts);
-    if (now && exact) break;
-    exact = now;
-    window = gg_plan_next_test(plan, restarts, exact, window);
+    gg_test t = test_at(o, plan, window, doubts);
+    if (gg_plan_is_met(&t, exact)) break;
+    exact = t.exact;
+    window = gg_plan_next_test(plan, restarts, &t);
   }
   return (double)window;
 }
@@ -113,7 +120,7 @@ gg_end gg_outlook_end(const gg_outlook *o, const gg_plan *plan, const struct gg_
     gg_end end = mean_last_test(o, plan, restarts, s->exact, window, (double)(s->due - s->window_at));
     return (gg_end){(double)s->due + end.at, end.known};
   }
-  window = gg_plan_next_test(plan, restarts + anew, false, 0);
+  window = gg_plan_next_test(plan, restarts + anew, NULL);
   gg_end end = mean_last_test(o, plan, restarts + anew, false, window, 0);
   return (gg_end){begins + end.at, end.known && !anew};
 }

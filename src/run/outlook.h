@@ -20,6 +20,7 @@ typedef struct gg_outlook {
   } errors[GG_OUTLOOK_ERRORS];
   bool trending;     /* when last looked: the window would be given up */
   double trusted_at; /* samples that the window needs before its error can be trusted */
+  double sure_at;    /* and before it is sure */
   int n_marks;       /* of the present phase */
   struct {
     double wall, due; /* a clock reading, and how many samples every replica had taken */

@@ -42,7 +42,7 @@ static double samples_so_far(const gg_replicas *all)
 static double usual_end(const gg_replicas *all)
 {
   double noise = 3 / all->plan.relative_error, grains = (double)all->model.n * all->n;
-  double window = 1.5 * fmax((double)(all->plan.least << all->state.restarts), noise * noise / grains);
+  double window = fmax(1.5 * (double)(all->plan.least << all->state.restarts), 1.15 * noise * noise / grains);
   if (all->plan.most) window = fmin(window, (double)all->plan.most);
   double begins = (double)(all->state.averaging ? all->state.window_at : all->plan.warmup);
   return fmax(begins + window, 1.25 * (double)all->state.goal);

@@ -8,6 +8,7 @@
 #include "run/forecast.h"
 #include "run/start.h"
 #include "run/workers/workers.h"
+#include "scene/resumption.h"
 
 static gg_status create_replicas(gg_replicas *all, gg_error *err)
 {
@@ -31,6 +32,8 @@ gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_a
   *all = (gg_replicas){.scene = *scene, .threads = threads, .n = (int)scene->run.replicas, .hooks = hooks};
   all->started = all->last_checkpoint = gg_wall_now();
   all->last.relative_error = NAN; /* nothing is estimated yet */
+  if (resume) GG_TRY(gg_resumption_settle(&all->scene, resume, err));
+  scene = &all->scene;
   GG_TRY(gg_start_make(scene, &all->model, err));
   GG_TRY(gg_engine_ops_of(scene->engine)->accepts(&all->model, err));
   all->plan = gg_plan_of(scene, &all->model);

@@ -205,6 +205,7 @@ gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)
   GG_TRY(report_history(all, result, err));
   report_effort(all, result);
   gg_replicas_report_steadiness(all, &c, result);
+  gg_result_tell_ensemble(result);
   report_warnings(all, &c, result);
   GG_TRY(gg_replicas_report_curves(all, result, err));
   GG_TRY(gg_frame_take(all->replica[0].engine, &all->model, &result->final, err));

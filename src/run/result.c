@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "common/ensemble.h"
+
 void gg_result_warn(gg_result *result, const char *format, ...)
 {
   char *text = NULL;
@@ -12,6 +14,11 @@ void gg_result_warn(gg_result *result, const char *format, ...)
   if (vasprintf(&text, format, args) < 0) text = NULL;
   va_end(args);
   gg_text_list_take(&result->warnings, text);
+}
+
+void gg_result_tell_ensemble(gg_result *r)
+{
+  if (r->model.homogeneous) gg_ensemble_reason(&r->scene, r->ensemble_text, sizeof r->ensemble_text);
 }
 
 bool gg_counts_in_collisions(const gg_model *m)

@@ -60,6 +60,7 @@ struct gg_result {
   const char *engine; /* "md", "dsmc" */
   gg_steadiness steadiness;
   char steadiness_text[256];             /* which quantity decided, and how */
+  char ensemble_text[200];               /* why so many grains, where the program chose; else "" */
   gg_estimate value[GG_MOST_QUANTITIES]; /* those of gg_quantity_at(&model, ...) */
   gg_history history;
   gg_curves curves;
@@ -75,6 +76,9 @@ struct gg_result {
 };
 
 void gg_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);
+
+/* Fill ensemble_text. */
+void gg_result_tell_ensemble(gg_result *result);
 
 /* The headline quantities of a flow: what run.relative_error is asked of. Returns how many. */
 int gg_headline(const gg_model *model, gg_quantity headline[GG_N_QUANTITIES]);

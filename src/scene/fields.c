@@ -116,7 +116,9 @@ const gg_field gg_scene_fields[] = {
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
      .doc = "step of the Monte Carlo engine", .when = {&gg_if_dsmc}, .also = "dt"},
     {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
-     .doc = "size of the Monte Carlo ensemble; auto: particles, but at least 5000", .when = {&gg_if_dsmc}},
+     .doc = "size of the Monte Carlo ensemble; auto: particles if these are more than 5000; else 5000, or as many as "
+            "keep means within a quarter of run.relative_error of those of infinitely many",
+     .when = {&gg_if_dsmc}},
     {"dsmc.precision", GG_FIELD_CHOICE, AT(dsmc.precision), .words = precisions,
      .doc = "of the velocities and spins that the Monte Carlo engine keeps; sums are double in either; md is double",
      .when = {&gg_if_dsmc}},

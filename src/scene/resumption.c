@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/ensemble.h"
 #include "scene/fields.h"
 
 /* How the value of a key stands in memory, and so in an archive. */
@@ -22,6 +23,7 @@ static const struct {
 };
 
 static const char number_of_species[] = "scene/species.n", extension_item[] = "scene/extension";
+static const char ensemble_item[] = "scene/chosen_for";
 enum { SIGNATURE = 2048 };
 
 static const char *item_of(const gg_field *f, char name[64])
@@ -39,6 +41,8 @@ gg_status gg_resumption_put(const gg_scene *scene, gg_archive *a, gg_error *err)
     if (!f->may_change) GG_TRY(gg_archive_put(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
   }
   GG_TRY(gg_archive_put(a, number_of_species, GG_ITEM_I64, &n, 1, err));
+  const double chosen_for = gg_ensemble_error(scene);
+  GG_TRY(gg_archive_put(a, ensemble_item, GG_ITEM_F64, &chosen_for, 1, err));
   gg_extension_signature(scene->extension, signature, sizeof signature);
   return gg_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
 }
@@ -155,6 +159,12 @@ static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_e
                  "the run was extended by a program (%s), and this scene has %s: register the same law and observables "
                  "with the scene before it is resumed",
                  *there ? there : "nothing of its own", *here ? here : "nothing of its own");
+}
+
+gg_status gg_resumption_settle(gg_scene *scene, const gg_archive *a, gg_error *err)
+{
+  if (!gg_archive_find(a, ensemble_item)) return GG_OK; /* no archive of a run: gg_resumption_check says so */
+  return gg_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->dsmc.chosen_for, 1, err);
 }
 
 gg_status gg_resumption_check(const gg_scene *scene, const gg_archive *a, gg_error *err)

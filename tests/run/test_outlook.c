@@ -1,4 +1,4 @@
-/* What a run tells of its end: right where errors fall as 1/sqrt(window), the half of the window that it goes on for
+/* What a run tells of its end: right where errors fall as 1/sqrt(window), the half of the window that it may go on for
  * included; a fraction that never falls and is 1 at the end alone, whatever ends the run; no time where none is known.
  */
 #include <setjmp.h>
@@ -14,40 +14,48 @@
 
 static const gg_plan plan = {.warmup = 20, .least = 150, .longest = 75000, .relative_error = 0.01, .find_steady = true};
 
-static gg_convergence errors_of(double scale, double window)
+/* Of windows that are sure of their errors from `sure_at` samples on. */
+static gg_convergence errors_of(double scale, double window, double sure_at)
 {
-  return (gg_convergence){.relative_error = scale / sqrt(window), .trusted = true};
+  return (gg_convergence){.relative_error = scale / sqrt(window), .trusted = true, .sure_at = sure_at};
+}
+
+static gg_test test_of(double scale, uint64_t window, double sure_at)
+{
+  double ratio = scale / sqrt((double)window) / plan.relative_error;
+  return (gg_test){window, ratio, ratio <= 1, (double)window >= sure_at};
 }
 
 /* Where such a run ends: by the rules of averaging.c, test after test. */
-static double true_end(double scale)
+static double true_end(double scale, double sure_at)
 {
   bool exact = false;
-  uint64_t window = gg_plan_next_test(&plan, 0, false, 0);
+  uint64_t window = gg_plan_next_test(&plan, 0, NULL);
   for (;;) {
-    bool now = scale / sqrt((double)window) <= plan.relative_error;
-    if (exact && now) return (double)(plan.warmup + window);
-    exact = now;
-    window = gg_plan_next_test(&plan, 0, exact, window);
+    gg_test t = test_of(scale, window, sure_at);
+    if (gg_plan_is_met(&t, exact)) return (double)(plan.warmup + window);
+    exact = t.exact;
+    window = gg_plan_next_test(&plan, 0, &t);
   }
 }
 
 /* Follow it; from a quarter on the end is told to within three tenths, once errors are as small as asked, exactly. */
-static void follow(double scale, int *exactly)
+static void follow(double scale, double sure_at, int *exactly)
 {
   gg_outlook o = {0};
   struct gg_replicas_state s = {.averaging = 1, .due = plan.warmup, .window_at = plan.warmup};
-  double end = true_end(scale), window;
-  s.goal = s.window_at + gg_plan_next_test(&plan, 0, false, 0);
+  double end = true_end(scale, sure_at), window;
+  s.goal = s.window_at + gg_plan_next_test(&plan, 0, NULL);
   assert_false(gg_outlook_end(&o, &plan, &s).known);
   for (; (double)s.due < end; s.due++) {
     window = (double)(s.due - s.window_at);
     if (s.due >= s.goal) {
-      s.exact = scale / sqrt(window) <= plan.relative_error;
-      s.goal = s.window_at + gg_plan_next_test(&plan, 0, s.exact, (uint64_t)window);
+      gg_test t = test_of(scale, (uint64_t)window, sure_at);
+      s.exact = t.exact;
+      s.goal = s.window_at + gg_plan_next_test(&plan, 0, &t);
     }
     if (window < 40) continue;
-    gg_convergence c = errors_of(scale, window);
+    gg_convergence c = errors_of(scale, window, sure_at);
     gg_outlook_note_errors(&o, window, &c);
     gg_end told = gg_outlook_end(&o, &plan, &s);
     assert_true(told.at >= (double)s.due);
@@ -64,8 +72,22 @@ static void half_a_window_more(void **state)
 {
   (void)state;
   int exactly = 0;
-  for (double scale = 0.02; scale < 1; scale *= 1.07) follow(scale, &exactly);
+  for (double scale = 0.02; scale < 1; scale *= 1.07) follow(scale, INFINITY, &exactly);
   assert_true(exactly > 1000);
+}
+
+/* A window that is sure is tested where it should end, and ends there; never before it was exact enough. */
+static void to_where_it_should_end(void **state)
+{
+  (void)state;
+  int exactly = 0;
+  for (double scale = 0.15; scale < 1; scale *= 1.07) {
+    follow(scale, 150, &exactly);
+    double needed = scale * scale / (plan.relative_error * plan.relative_error);
+    double window = true_end(scale, 150) - (double)plan.warmup;
+    assert_true(window >= needed && window < 1.35 * needed);
+  }
+  assert_int_equal(exactly, 0); /* it ends at the first test that it passes */
 }
 
 /* Without an error that is asked for the end is known from the start, and nothing else ends such a run. */
@@ -91,7 +113,7 @@ static void trends_and_trust(void **state)
   (void)state;
   gg_outlook o = {0};
   struct gg_replicas_state s = {.averaging = 1, .due = 120, .window_at = 20, .goal = 170};
-  gg_convergence c = errors_of(0.05, 100);
+  gg_convergence c = errors_of(0.05, 100, INFINITY);
   gg_outlook_note_errors(&o, 100, &c);
   gg_end end = gg_outlook_end(&o, &plan, &s);
   assert_true(end.known && end.at == 20 + 225); /* the shortest test, and half as long again */
@@ -166,8 +188,11 @@ static void every_run(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(half_a_window_more), cmocka_unit_test(so_many_collisions),
-      cmocka_unit_test(trends_and_trust),   cmocka_unit_test(pace),
+      cmocka_unit_test(half_a_window_more),
+      cmocka_unit_test(to_where_it_should_end),
+      cmocka_unit_test(so_many_collisions),
+      cmocka_unit_test(trends_and_trust),
+      cmocka_unit_test(pace),
       cmocka_unit_test(every_run),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

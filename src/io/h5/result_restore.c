@@ -206,6 +206,8 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   bool steady = json_is_true(json_object_get(e->document, "steady"));
   r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.linear_response ? GG_NOT_STEADY : GG_HEATING;
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", text(e->document, "verdict"));
+  const char *chosen = text(e->document, "particles_chosen");
+  snprintf(r->ensemble_text, sizeof r->ensemble_text, "%s", chosen ? chosen : "");
   restore_warnings(r, e->document);
   restore_means(r, e->document);
   restore_effort(r, e->document);

@@ -1,0 +1,18 @@
+/* How many grains a Monte Carlo ensemble has, where the scene does not say: by the error that is asked for. */
+#ifndef GG_ENSEMBLE_H
+#define GG_ENSEMBLE_H
+
+#include <stddef.h>
+
+#include "common/scene.h"
+
+/* The relative error that a run goes on for; 0 where only collisions are asked for. */
+double gg_asked_error(const gg_scene *scene);
+
+/* That by which the size is chosen. */
+double gg_ensemble_error(const gg_scene *scene);
+int64_t gg_ensemble_size(const gg_scene *scene);
+/* Why so many, as a sentence's second half: "chosen: ..."; "" where the scene gives the number. */
+void gg_ensemble_reason(const gg_scene *scene, char *text, size_t size);
+
+#endif
