@@ -23,12 +23,19 @@ gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_co
 {
   GG_NEED(scene);
   GG_NEED(comparison);
+  return gg_door_compare_by(NULL, scene, options, comparison, err);
+}
+
+gg_status gg_door_compare_by(gg_crew *crew, const gg_scene *scene, const gg_run_options *options,
+                             gg_comparison **comparison, gg_error *err)
+{
   gg_comparison *c = new_comparison(err);
   if (!c) return GG_FAILED;
   gg_door_run run;
   gg_hooks hooks;
   gg_error why = {0};
   gg_status status = gg_door_run_begin(&run, scene, options, true, &hooks, err), written = GG_OK;
+  hooks.crew = crew;
   if (status == GG_OK) gg_door_run_foretell(&run, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY);
   if (status == GG_OK) /* without a trajectory */
     status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);

@@ -74,7 +74,8 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
   atomic_init(&r->stopped, false);
-  *hooks = (gg_hooks){.context = r, .progress = hear_progress, .interrupted = gg_door_run_stopped, .workers = r->options.workers};
+  *hooks = (gg_hooks){
+      .context = r, .progress = hear_progress, .interrupted = gg_door_run_stopped, .workers = r->options.workers};
   if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
   GG_TRY(gg_door_finished(scene, &r->scene, err));
   GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));
@@ -128,12 +129,19 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
 {
   GG_NEED(scene);
   GG_NEED(result);
+  return gg_door_run_by(NULL, scene, options, result, err);
+}
+
+gg_status gg_door_run_by(gg_crew *crew, const gg_scene *scene, const gg_run_options *options, gg_result **result,
+                         gg_error *err)
+{
   gg_door_run run;
   gg_hooks hooks;
   gg_error why = {0};
   gg_status status = gg_door_run_begin(&run, scene, options, false, &hooks, err), written = GG_OK;
   gg_result *made = NULL;
   gg_engine_kind engine = run.scene.engine;
+  hooks.crew = crew;
   if (status == GG_OK && gg_engine_ops_of(engine)->accepts(&run.model, NULL) == GG_OK)
     gg_door_run_foretell(&run, 1u << engine);
   if (status == GG_OK) status = gg_door_trajectory_begin(&run, &hooks, err);

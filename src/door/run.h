@@ -38,6 +38,11 @@ gg_status gg_door_check_files(const gg_door_run *run, gg_error *err);
 gg_status gg_door_check_picture(const gg_door_run *run, gg_error *err);
 /* Note and tell, once begun, which keys have no effect on what the scene is used for (io/scene/inert.h). */
 void gg_door_run_foretell(gg_door_run *run, unsigned uses);
+/* gg_run and gg_compare by a crew (run/crew.h), which the caller is one of; NULL: none. */
+gg_status gg_door_run_by(gg_crew *crew, const gg_scene *scene, const gg_run_options *options, gg_result **result,
+                         gg_error *err);
+gg_status gg_door_compare_by(gg_crew *crew, const gg_scene *scene, const gg_run_options *options,
+                             gg_comparison **comparison, gg_error *err);
 /* What to resume from, or NULL. */
 const gg_archive *gg_door_run_resume(const gg_door_run *run);
 /* trajectory.c: the frames of a run, to the result as they come, or where checkpoints are kept, to the log beside them

@@ -94,7 +94,7 @@ static void *run_part(void *argument)
   if (p->hooks && p->hooks->progress) hooks.progress = locked_progress;
   if (p->hooks && (p->hooks->interrupted || p->hooks->checkpoint)) hooks.interrupted = locked_interrupted;
   if (p->hooks && p->hooks->checkpoint) hooks.checkpoint = locked_checkpoint;
-  if (p->hooks) hooks.workers = p->hooks->workers;
+  if (p->hooks) hooks.workers = p->hooks->workers, hooks.crew = p->hooks->crew;
   p->scene.engine = p->kind;
   p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &hooks,
                            &p->comparison->by_engine[p->kind], &p->err);

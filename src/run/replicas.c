@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "run/clock.h"
+#include "run/crew.h"
 #include "run/forecast.h"
 #include "run/start.h"
 #include "run/workers/workers.h"
@@ -96,13 +97,14 @@ gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err)
 {
   enum { MOST_THREADS = 64 };
   if (all->share) return gg_share_advance(all->share, adapt, err);
+  gg_hooks hooks = {.context = all};
+  if (all->hooks && all->hooks->frame) hooks.frame = locked_frame;
+  if (all->hooks && all->hooks->crew) return gg_crew_advance(all->hooks->crew, all, adapt, &hooks, err);
   int n = all->threads < all->n ? all->threads : all->n;
   n = n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : n;
   worker workers[MOST_THREADS];
   pthread_t threads[MOST_THREADS];
   bool running[MOST_THREADS] = {false};
-  gg_hooks hooks = {.context = all};
-  if (all->hooks && all->hooks->frame) hooks.frame = locked_frame;
   for (int w = 0; w < n; w++) {
     workers[w] = (worker){.all = all, .first = w, .stride = n, .adapt = adapt, .hooks = &hooks, .status = GG_OK};
     if (w > 0) running[w] = pthread_create(&threads[w], NULL, work, &workers[w]) == 0;
