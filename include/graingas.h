@@ -496,6 +496,7 @@ typedef struct gg_sweep_options {
   /* Point i ended now: GG_OK, GG_FAILED (with `file`: short of what was asked) or GG_BAD_FILE, with the reason. */
   void (*ended)(void *context, size_t i, gg_status status, const char *file, const char *message);
   void (*warn)(void *context, const char *message); /* keys without effect; once, however many points say so */
+  gg_workers *workers; /* other processes that take part in the points done here; NULL: none */
 } gg_sweep_options;
 
 /* Do all points that are not done yet; the folder is made if it is not there. Several processes may work in one folder:
@@ -506,6 +507,18 @@ GG_API gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_swee
 /* The same of one point alone. */
 GG_API gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
                                     gg_error *err);
+
+/* What all points that are done came to, as files for other programs: PREFIX.csv and PREFIX.h5, a row a point, method
+ * ("md", "dsmc", or a theory) and quantity, and the picture PREFIX.svg. GG_FAILED if no point is there; the tables also
+ * if only the picture fails. `written` (may be NULL) is called with the name of each. */
+typedef struct gg_collecting {
+  const char *command; /* for their record; NULL: "the graingas library" */
+  const char *picture; /* instead of PREFIX.svg; "none": no picture */
+  const char *over;    /* key along x; NULL: of those with numbers the one with the most values */
+  const char *show;    /* quantities, with commas, a panel each; NULL: the main ones */
+} gg_collecting;
+GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
+                                  void (*written)(void *context, const char *file), void *context, gg_error *err);
 
 /* Pictures of a result file, by gnuplot: PICTURE, PICTURE_snapshot and one for each observable that left curves.
  * `format` is "svg", "png" or NULL: by PICTURE's name. `drawn` (may be NULL) is called with the name of each. Nothing

@@ -24,7 +24,8 @@ const gg_command gg_commands[] = {
      "Results are a folder with a file a point, named by a hash of its scene: it is there when the point is done. A "
      "sweep that was stopped, in whatever way, goes on with the same command; several processes may share the folder. "
      "With output.checkpoint_every, points in progress go on from where they were.",
-     GG_OPT_SWEEP | GG_OPT_SET | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON | GG_OPT_QUIET, gg_cli_sweep_main},
+     GG_OPT_SWEEP | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON | GG_OPT_QUIET,
+     gg_cli_sweep_main},
     {"plot", "RESULT.h5", "A picture of what a result file holds",
      "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side "
      "by side. Beside it a snapshot, if there are positions, and a page for each observable that left curves.",

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "cli/options.h"
+#include "cli/report.h"
 #include "cli/table.h"
 #include "cli/wrap.h"
 
@@ -173,7 +174,10 @@ static void print_file(const gg_options *o, const gg_comparison *c)
   gg_result_info about;
   char *scene = NULL;
   bool comparison = gg_comparison_theory(c, 0, &theory, NULL) == GG_OK;
-  if (gg_result_about(md ? md : dsmc, &about, NULL) != GG_OK) return;
+  if (gg_result_about(md ? md : dsmc, &about, NULL) != GG_OK) { /* a point of a sweep over theories */
+    gg_print_theories(c, true);
+    return;
+  }
   gg_scene_to_yaml(gg_comparison_scene(c), &scene, NULL);
   printf("%s: %s by graingas %s\ncommand: %s\ndate:    %s\nmachine: %s\n\nscene:\n%s", o->input,
          comparison ? "a comparison" : "a run", about.version, about.command, about.date, about.machine,

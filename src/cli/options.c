@@ -24,6 +24,14 @@ const gg_option gg_options_table[] = {
     {GG_OPT_SWEEP, "does", "WHAT", "what is done at each point: run, compare or theory (sweep.does)"},
     {GG_OPT_SWEEP, "list", NULL, "list the points, what is there of them, and the time they will take; do nothing"},
     {GG_OPT_SWEEP, "point", "K", "do the K-th point of the list alone"},
+    {GG_OPT_SWEEP, "collect", NULL,
+     "write what all points came to: NAME.csv, NAME.h5 and the picture NAME.svg; do nothing"},
+    {GG_OPT_SWEEP, "over", "KEY",
+     "with --collect: the key along the picture's axis (default: the one with most values)"},
+    {GG_OPT_SWEEP, "show", "QUANTITIES",
+     "with --collect: what the picture shows, several with commas (default: the main ones)"},
+    {GG_OPT_SWEEP, "slurm", NULL,
+     "print a script for an array of tasks on a cluster, each of which does points; do nothing"},
     {GG_OPT_SWEEP, "output", "FOLDER", "folder of the points' files (default: NAME.sweep, in the current folder)"},
     {GG_OPT_ONLY, "only", "PARTS", "write these parts alone: results, curves, trajectory; several with commas"},
     {GG_OPT_PICTURE, "picture", "FILE", "picture to draw, .svg or .png, or none (default: beside the output, .svg)"},
@@ -153,6 +161,8 @@ static int take_sweep(gg_options *o, const char *name, const char *value)
   if (strcmp(name, "does") == 0) o->does = value;
   if (strcmp(name, "point") == 0) o->point = value;
   if (strcmp(name, "output") == 0) o->output = value;
+  if (strcmp(name, "over") == 0) o->over = value;
+  if (strcmp(name, "show") == 0) o->show = value;
   o->list |= strcmp(name, "list") == 0;
   o->collect |= strcmp(name, "collect") == 0;
   o->slurm |= strcmp(name, "slurm") == 0;

@@ -33,8 +33,9 @@ enum { GG_MAX_OVERRIDES = 64 };
 typedef struct gg_options {
   const char *input; /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
   const char *output, *resume, *format, *picture, *only;
-  const char *does;  /* what a sweep does at its points; NULL: what its file says */
-  const char *point; /* the one of a sweep to do; NULL: all */
+  const char *does;        /* what a sweep does at its points; NULL: what its file says */
+  const char *over, *show; /* of the picture of a sweep: key along x, quantities; NULL: chosen */
+  const char *point;       /* the one of a sweep to do; NULL: all */
   bool json, quiet, all, quick;
   bool list, collect, slurm; /* what else to do with a sweep */
   int threads;

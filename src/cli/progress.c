@@ -42,6 +42,15 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
   if (g->next) snprintf(text + used, size - (size_t)used, ", then %s", g->next);
 }
 
+/* As much as there is room for. */
+static void put_live(const char *line)
+{
+  struct winsize window = {0};
+  int width = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col ? window.ws_col - 1 : 79;
+  fprintf(stderr, "\r%.*s\x1b[K", width, line);
+  fflush(stderr);
+}
+
 static void show_live(gg_cli_progress *p)
 {
   char line[400] = "", part[200];
@@ -52,10 +61,7 @@ static void show_live(gg_cli_progress *p)
     size_t used = strlen(line);
     snprintf(line + used, sizeof line - used, "%s%s", used ? "  |  " : "", part);
   }
-  struct winsize window = {0};
-  int width = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col ? window.ws_col - 1 : 79;
-  fprintf(stderr, "\r%.*s\x1b[K", width, line);
-  fflush(stderr);
+  put_live(line);
   p->live = true;
 }
 
@@ -95,4 +101,27 @@ void gg_cli_progress_end(gg_cli_progress *p)
     p->last[k].time_left = NAN; /* it is over */
     show_plain(p, k);
   }
+}
+
+void gg_cli_line_start(gg_cli_line *l, bool quiet)
+{
+  *l = (gg_cli_line){.quiet = quiet, .terminal = isatty(STDERR_FILENO) != 0, .shown = now_seconds()};
+}
+
+void gg_cli_line_show(gg_cli_line *l, const char *text, bool now)
+{
+  if (l->quiet || (!now && now_seconds() - l->shown < (l->terminal ? live_every : plain_every))) return;
+  l->shown = now_seconds();
+  l->live = l->terminal;
+  if (l->terminal)
+    put_live(text);
+  else if (strcmp(text, l->last) != 0)
+    fprintf(stderr, "%s\n", text);
+  snprintf(l->last, sizeof l->last, "%s", text);
+}
+
+void gg_cli_line_clear(gg_cli_line *l)
+{
+  if (l->live) fputs("\r\x1b[K", stderr);
+  l->live = false;
 }

@@ -19,6 +19,18 @@ void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *now);
 /* Take the live line away, or tell how it ended in a plain line; harmless again. */
 void gg_cli_progress_end(gg_cli_progress *p);
 
+/* A line of any kind of work, kept up to date likewise. */
+typedef struct gg_cli_line {
+  bool quiet, terminal, live;
+  double shown;
+  char last[240]; /* plain, that was told */
+} gg_cli_line;
+void gg_cli_line_start(gg_cli_line *line, bool quiet);
+/* `now`: worth a plain line whenever the last one was. */
+void gg_cli_line_show(gg_cli_line *line, const char *text, bool now);
+/* Take it away, as before something else is told; harmless again. */
+void gg_cli_line_clear(gg_cli_line *line);
+
 /* SIGINT, SIGTERM and SIGHUP end a run within half a second, with a checkpoint if one was asked for; a second one ends
  * it at once. */
 void gg_cli_catch_interrupts(void);

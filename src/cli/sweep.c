@@ -37,18 +37,18 @@ static int is_interrupted(void *context)
 /* What became of a point that did not come to its end. */
 static void tell_point(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
-  const gg_sweep_command *c = context;
-  (void)file;
+  gg_sweep_command *c = context;
   if (status == GG_OK) return;
+  gg_cli_line_clear(&c->line);
   fprintf(stderr, "point %zu", i + 1);
   for (size_t k = 0; gg_sweep_key(c->sweep, k); k++)
     fprintf(stderr, "%s%s %s", k ? ", " : " (", gg_sweep_key(c->sweep, k), gg_sweep_value(c->sweep, i, k));
-  fprintf(stderr, ")%s: %s\n", status == GG_FAILED ? "" : " failed", message);
+  fprintf(stderr, ")%s: %s\n", file ? " ended short" : " failed", message);
 }
 
 static void warn(void *context, const char *message)
 {
-  (void)context;
+  gg_cli_line_clear(&((gg_sweep_command *)context)->line);
   fprintf(stderr, "warning: %s\n", message);
 }
 
@@ -72,14 +72,36 @@ static int work(gg_sweep_command *c)
                                     .command = o->command_line,
                                     .input = o->input,
                                     .context = c,
+                                    .progress = gg_sweep_show,
                                     .stop = is_interrupted,
                                     .ended = tell_point,
                                     .warn = warn};
   int code = o->point ? take_point(c, &i) : GG_CLI_GO_ON;
   if (code != GG_CLI_GO_ON) return code;
   gg_cli_catch_interrupts();
+  gg_cli_line_start(&c->line, o->quiet);
   gg_status status = o->point ? gg_sweep_run_point(c->sweep, c->folder, i, &options, &err)
                               : gg_sweep_run(c->sweep, c->folder, &options, &err);
+  gg_cli_line_clear(&c->line);
+  if (status == GG_OK && !o->quiet) fprintf(stderr, "results: %s\n", c->folder);
+  return status == GG_OK ? GG_OK : gg_cli_report(&err);
+}
+
+/* The files go to standard output, for scripts. */
+static void tell_file(void *context, const char *file)
+{
+  if (!((const gg_sweep_command *)context)->options->quiet) printf("%s\n", file);
+}
+
+static int collect(gg_sweep_command *c)
+{
+  gg_error err;
+  const gg_options *o = c->options;
+  const gg_collecting options = {.command = o->command_line, .picture = o->picture, .over = o->over, .show = o->show};
+  char *prefix = gg_with_suffix(c->folder, "");
+  if (!prefix) return gg_cli_fail(GG_FAILED, "out of memory");
+  gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, tell_file, c, &err);
+  free(prefix);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
@@ -109,6 +131,8 @@ static int sweep_points(gg_sweep_command *c)
   if (code != GG_CLI_GO_ON) return code;
   c->folder = gg_options_output(o, ".sweep", &err);
   if (!c->folder) return gg_cli_report(&err);
+  if (o->slurm) return gg_sweep_print_slurm(c);
+  if (o->collect) return collect(c);
   if (o->list && !o->json) return gg_sweep_list(c);
   code = o->list ? GG_OK : work(c);
   return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;

@@ -2,6 +2,7 @@
 #ifndef GG_DOOR_SWEEP_H
 #define GG_DOOR_SWEEP_H
 
+#include "run/crew.h"
 #include "sweep/sweep.h"
 
 /* What a point needs to know of the sweep's call. The callbacks come from the thread that does the point. */
@@ -9,6 +10,7 @@ typedef struct gg_point_task {
   const gg_sweep *sweep;
   const char *folder;
   size_t i;
+  gg_crew *crew;          /* whose threads do the work, one of which the caller is; NULL: options.threads */
   gg_run_options options; /* threads, command, input, and the callbacks progress, stop, warn with their context */
 } gg_point_task;
 

@@ -14,18 +14,18 @@ typedef struct ended {
   bool some; /* there is a result, and it was written */
 } ended;
 
-static ended run(const gg_scene *scene, const gg_run_options *options, gg_error *err)
+static ended run(const gg_scene *scene, const gg_run_options *options, gg_crew *crew, gg_error *err)
 {
   gg_result *result = NULL;
-  ended e = {gg_run(scene, options, &result, err), result != NULL};
+  ended e = {gg_door_run_by(crew, scene, options, &result, err), result != NULL};
   gg_result_free(result);
   return e;
 }
 
-static ended compare(const gg_scene *scene, const gg_run_options *options, gg_error *err)
+static ended compare(const gg_scene *scene, const gg_run_options *options, gg_crew *crew, gg_error *err)
 {
   gg_comparison *c = NULL;
-  ended e = {gg_compare(scene, options, &c, err), c != NULL};
+  ended e = {gg_door_compare_by(crew, scene, options, &c, err), c != NULL};
   gg_comparison_free(c);
   return e;
 }
@@ -42,29 +42,29 @@ static ended evaluate(const gg_scene *scene, const gg_run_options *options, gg_e
   return (ended){status, status == GG_OK};
 }
 
-static ended do_it(const gg_sweep *sweep, const gg_scene *scene, const gg_run_options *options, gg_error *err)
+static ended do_it(const gg_point_task *t, const gg_scene *scene, const gg_run_options *options, gg_error *err)
 {
-  switch (sweep->settings.does) {
-  case GG_DOES_COMPARE: return compare(scene, options, err);
+  switch (t->sweep->settings.does) {
+  case GG_DOES_COMPARE: return compare(scene, options, t->crew, err);
   case GG_DOES_THEORY: return evaluate(scene, options, err);
-  default: return run(scene, options, err);
+  default: return run(scene, options, t->crew, err);
   }
 }
 
 /* A checkpoint that cannot be gone on from is none: the point begins anew, and comes to the same bits. */
-static ended from_checkpoint(const gg_sweep *sweep, const gg_scene *scene, gg_run_options *options, gg_error *err)
+static ended from_checkpoint(const gg_point_task *t, const gg_scene *scene, gg_run_options *options, gg_error *err)
 {
   char text[600];
   gg_status readable = gg_checkpoint_about(options->checkpoint, &(gg_checkpoint_info){0}, NULL, err);
   if (readable == GG_OK) {
     options->resume = options->checkpoint;
-    ended e = do_it(sweep, scene, options, err);
+    ended e = do_it(t, scene, options, err);
     if (e.some || (e.status != GG_BAD_INPUT && e.status != GG_BAD_FILE)) return e;
   }
   snprintf(text, sizeof text, "the point begins anew: %.500s", err->message);
   if (options->warn) options->warn(options->context, text);
   options->resume = NULL;
-  return do_it(sweep, scene, options, err);
+  return do_it(t, scene, options, err);
 }
 
 static gg_status do_point(const gg_point_task *t, gg_scene *scene, gg_run_options *options, bool *fell_short,
@@ -74,7 +74,7 @@ static gg_status do_point(const gg_point_task *t, gg_scene *scene, gg_run_option
   bool keeps = scene->output.checkpoint_every > 0 && t->sweep->settings.does != GG_DOES_THEORY;
   bool begun = keeps && access(options->checkpoint, F_OK) == 0;
   if (!keeps) options->checkpoint = NULL;
-  ended e = begun ? from_checkpoint(t->sweep, scene, options, err) : do_it(t->sweep, scene, options, err);
+  ended e = begun ? from_checkpoint(t, scene, options, err) : do_it(t, scene, options, err);
   *fell_short = e.status == GG_FAILED && e.some;
   if (e.status != GG_OK && !*fell_short) return e.status;
   GG_TRY(gg_point_publish(t->folder, id, *fell_short, err));

@@ -1,96 +1,151 @@
-/* Sweeps done: one point after another. */
+/* Sweeps done: what is still missing of a folder, side by side. */
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "door/door.h"
-#include "door/sweep.h"
+#include "door/sweep_courses.h"
+#include "run/clock.h"
 #include "sweep/folder.h"
 
-typedef struct sweeping {
-  gg_sweep *sweep;
-  const char *folder;
-  gg_sweep_options options;
-  gg_sweep_progress now;
-} sweeping;
-
-static int tell(void *context, const gg_progress *progress)
+/* Seconds of all points, by what the forecast says of each, and how far they are. */
+void gg_courses_tell_progress(gg_courses *all)
 {
-  sweeping *s = context;
-  s->now.relative_error = progress->relative_error;
-  if (s->options.progress) s->options.progress(s->options.context, &s->now);
-  return 0;
+  const gg_sweep_options *o = &all->options;
+  gg_sweep_progress p = {.points = all->n + all->done_before,
+                         .done = all->done_before,
+                         .fell_short = all->short_before,
+                         .time_left = NAN,
+                         .relative_error = NAN};
+  double left = 0, gone = 0;
+  if (!o->progress) return;
+  pthread_mutex_lock(&all->lock);
+  for (size_t k = 0; k < all->n; k++) {
+    const gg_sweep_item *item = &all->item[k];
+    const double seconds = all->sweep->point[item->i].seconds;
+    bool ended = item->state >= GG_ITEM_ENDED, good = item->status == GG_OK || item->fell_short;
+    p.done += ended && good;
+    p.failed += ended && !good && item->status != GG_INTERRUPTED;
+    p.fell_short += ended && item->fell_short;
+    p.running += item->state == GG_ITEM_RUNS;
+    p.elsewhere += item->state == GG_ITEM_ELSEWHERE;
+    if (item->state == GG_ITEM_RUNS) p.relative_error = fmax(p.relative_error, item->relative_error);
+    if (!ended && item->state != GG_ITEM_ELSEWHERE) left += seconds * (1 - item->fraction);
+    if (ended ? item->here : item->state == GG_ITEM_RUNS) gone += seconds * item->fraction;
+  }
+  pthread_mutex_unlock(&all->lock);
+  double elapsed = gg_wall_now() - all->started;
+  if (gone > 0 && elapsed > 1) p.time_left = left * elapsed / gone;
+  o->progress(o->context, &p);
 }
 
-static int stop(void *context)
+static gg_status sum_up(const gg_courses *all, gg_error *err)
 {
-  sweeping *s = context;
-  return s->options.stop ? s->options.stop(s->options.context) : 0;
+  size_t failed = 0, fell_short = all->short_before;
+  for (size_t k = 0; k < all->n; k++) {
+    fell_short += all->item[k].fell_short;
+    failed += all->item[k].status != GG_OK && all->item[k].status != GG_INTERRUPTED && !all->item[k].fell_short;
+  }
+  if (atomic_load(&all->stopped))
+    return gg_fail(err, GG_INTERRUPTED, "%s: interrupted; go on with the same command", all->folder);
+  if (!failed && !fell_short) return GG_OK;
+  return gg_fail(err, GG_FAILED, "%s: of %zu points %zu failed, and %zu ended short of what was asked (*.short.h5)",
+                 all->folder, all->n + all->done_before, failed, fell_short);
 }
 
-static gg_status do_claimed(sweeping *s, size_t i, gg_error *err)
+/* Longest first, so that none is left over at the end; as they are listed where they take as long. */
+static int by_length(const void *a, const void *b)
 {
-  gg_error why = {0};
-  bool fell_short;
-  gg_point_task task = {.sweep = s->sweep, .folder = s->folder, .i = i};
-  task.options = (gg_run_options){.threads = s->options.threads,
-                                  .command = s->options.command,
-                                  .input = s->options.input,
-                                  .context = s,
-                                  .progress = tell,
-                                  .stop = stop};
-  s->now.running = 1;
-  gg_status status = gg_point_do(&task, &fell_short, &why);
-  s->now.running = 0;
-  s->now.done += status == GG_OK || fell_short;
-  s->now.fell_short += fell_short;
-  s->now.failed += status != GG_OK && !fell_short;
-  if (status == GG_INTERRUPTED) return gg_fail(err, status, "%s", why.message);
-  char *file = NULL;
-  gg_point_state state;
-  gg_sweep_find(s->sweep, s->folder, i, &state, &file, NULL);
-  if (s->options.ended) s->options.ended(s->options.context, i, status, file, why.message);
+  const gg_sweep_item *one = a, *two = b;
+  if (one->looked != two->looked) return one->looked > two->looked ? -1 : 1;
+  return one->i < two->i ? -1 : 1;
+}
+
+typedef struct known {
+  uint64_t id;
+  size_t i;
+} known;
+
+static int by_id(const void *a, const void *b)
+{
+  const known *one = a, *two = b;
+  if (one->id != two->id) return one->id < two->id ? -1 : 1;
+  return one->i < two->i ? -1 : 1;
+}
+
+/* Points that are the same scene are one: the first of them. */
+static gg_status list_missing(gg_courses *all, size_t first, size_t end, gg_error *err)
+{
+  const gg_sweep *sweep = all->sweep;
+  known *ids = gg_new_array(end - first, sizeof *ids, err);
+  all->item = gg_new_array(end - first, sizeof *all->item, err);
+  if (!ids || !all->item) return free(ids), GG_FAILED;
+  for (size_t i = first; i < end; i++) ids[i - first] = (known){sweep->point[i].id, i};
+  qsort(ids, end - first, sizeof *ids, by_id);
+  for (size_t k = 0; k < end - first; k++) {
+    if (k && ids[k].id == ids[k - 1].id) continue;
+    gg_point_state state = gg_point_look(all->folder, ids[k].id);
+    all->done_before += state != GG_POINT_MISSING;
+    all->short_before += state == GG_POINT_SHORT;
+    if (state == GG_POINT_MISSING)
+      all->item[all->n++] = (gg_sweep_item){.i = ids[k].i, .looked = sweep->point[ids[k].i].seconds};
+  }
+  free(ids);
+  qsort(all->item, all->n, sizeof *all->item, by_length);
   return GG_OK;
 }
 
-static gg_status do_point(sweeping *s, size_t i, gg_error *err)
+/* Points in progress at a time: two a thread, so that none has to wait for the end of a window, and errors can be
+ * compared. */
+static size_t at_once(const gg_courses *all)
 {
-  gg_file_lock lock;
-  GG_TRY(gg_point_claim(s->folder, s->sweep->point[i].id, &lock, err));
-  if (lock.fd < 0) return GG_OK;
-  gg_status status = do_claimed(s, i, err);
-  gg_file_lock_release(&lock);
+  const gg_sweep_settings *s = &all->sweep->settings;
+  size_t n = s->at_once ? (size_t)s->at_once : all->options.workers ? 64 : 2 * (size_t)all->options.threads;
+  return n < all->n ? n : all->n;
+}
+
+static gg_status work(gg_courses *all, gg_error *err)
+{
+  size_t n = at_once(all);
+  all->threads_each = all->options.threads;
+  if (n > 1 && !all->options.workers) {
+    GG_TRY(gg_crew_new(all->options.threads, &all->crew, err));
+    all->threads_each = 1;
+  }
+  all->started = gg_wall_now();
+  gg_status status = n ? gg_courses_run(all, n, err) : GG_OK;
+  gg_courses_tell_progress(all);
+  return status == GG_OK ? sum_up(all, err) : status;
+}
+
+/* Points from `first` to the one before `end`. */
+static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t end, const gg_sweep_options *options,
+                     gg_error *err)
+{
+  gg_courses all = {.sweep = sweep, .folder = folder};
+  if (options) all.options = *options;
+  if (all.options.threads < 1) all.options.threads = 1;
+  if (!all.options.command) all.options.command = "the graingas library";
+  GG_TRY(gg_sweep_folder_prepare(folder, err));
+  pthread_mutex_init(&all.lock, NULL);
+  pthread_cond_init(&all.news, NULL);
+  atomic_init(&all.stopped, false);
+  gg_status status = list_missing(&all, first, end, err);
+  if (status == GG_OK) status = work(&all, err);
+  gg_crew_free(all.crew);
+  gg_text_list_clear(&all.warnings);
+  pthread_mutex_destroy(&all.lock);
+  pthread_cond_destroy(&all.news);
+  free(all.item);
   return status;
-}
-
-static gg_status sum_up(const sweeping *s, gg_error *err)
-{
-  if (!s->now.failed && !s->now.fell_short) return GG_OK;
-  return gg_fail(err, GG_FAILED, "%s: %zu of %zu points failed, and %zu ended short of what was asked", s->folder,
-                 s->now.failed, s->now.points, s->now.fell_short);
-}
-
-static gg_status begin(sweeping *s, gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err)
-{
-  *s = (sweeping){.sweep = sweep, .folder = folder, .now = {.time_left = NAN, .relative_error = NAN}};
-  if (options) s->options = *options;
-  GG_TRY(gg_sweep_check(sweep, err));
-  return gg_sweep_folder_prepare(folder, err);
 }
 
 gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err)
 {
   GG_NEED(sweep);
   GG_NEED(folder);
-  sweeping s;
-  GG_TRY(begin(&s, sweep, folder, options, err));
-  s.now.points = sweep->n;
-  for (size_t i = 0; i < sweep->n; i++) {
-    gg_point_state state = gg_point_look(folder, sweep->point[i].id);
-    s.now.done += state != GG_POINT_MISSING;
-    s.now.fell_short += state == GG_POINT_SHORT;
-    if (state == GG_POINT_MISSING) GG_TRY(do_point(&s, i, err));
-  }
-  return sum_up(&s, err);
+  GG_TRY(gg_sweep_check(sweep, err));
+  return run(sweep, folder, 0, sweep->n, options, err);
 }
 
 gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
@@ -98,11 +153,8 @@ gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, cons
 {
   GG_NEED(sweep);
   GG_NEED(folder);
-  sweeping s;
-  GG_TRY(begin(&s, sweep, folder, options, err));
+  GG_TRY(gg_sweep_check(sweep, err));
   if (i >= sweep->n)
     return gg_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1, sweep->n);
-  s.now.points = 1;
-  if (gg_point_look(folder, sweep->point[i].id) == GG_POINT_MISSING) GG_TRY(do_point(&s, i, err));
-  return sum_up(&s, err);
+  return run(sweep, folder, i, i + 1, options, err);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/engine.h"
+#include "io/scene/node.h"
 #include "io/scene/reader.h"
 #include "run/forecast.h"
 #include "run/replicas.h"
@@ -27,13 +28,14 @@ size_t gg_sweep_row(const gg_sweep *sweep, size_t i, size_t varied)
 void gg_sweep_name_point(const gg_sweep *sweep, size_t i, char *text, size_t size)
 {
   size_t used = 0;
-  *text = '\0';
+  char whole[400] = "";
   for (size_t f = 0; f < sweep->n_varied; f++) {
     const gg_varied *v = &sweep->varied[f];
-    for (size_t k = 0; k < v->n_keys && used < size; k++)
-      used += (size_t)snprintf(text + used, size - used, "%s%s %s", used ? ", " : "", v->key[k],
+    for (size_t k = 0; k < v->n_keys && used < sizeof whole; k++)
+      used += (size_t)snprintf(whole + used, sizeof whole - used, "%s%s %s", used ? ", " : "", v->key[k],
                                v->value[gg_sweep_row(sweep, i, f) * v->n_keys + k]);
   }
+  gg_scene_quote(whole, text, size);
 }
 
 static gg_status set_values(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)

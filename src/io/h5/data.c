@@ -75,18 +75,36 @@ void gg_h5_text_attribute(gg_h5 *h, const char *object, const char *name, const 
   H5Tclose(type);
 }
 
+/* All of the longest one's size, filled up with zeros. */
+static char *pack(gg_h5 *h, const char *const *texts, size_t n, size_t *longest)
+{
+  *longest = 1;
+  for (size_t i = 0; i < n; i++) *longest = strlen(texts[i]) > *longest ? strlen(texts[i]) : *longest;
+  char *packed = calloc(n ? n : 1, *longest);
+  if (!packed) gg_h5_failed(h, "out of memory");
+  for (size_t i = 0; packed && i < n; i++) memcpy(packed + i * *longest, texts[i], strlen(texts[i]));
+  return packed;
+}
+
 void gg_h5_texts_attribute(gg_h5 *h, const char *object, const char *name, const char *const *texts, size_t n)
 {
-  size_t longest = 1;
-  for (size_t i = 0; i < n; i++) longest = strlen(texts[i]) > longest ? strlen(texts[i]) : longest;
-  char *packed = calloc(n, longest);
-  if (!packed) {
-    gg_h5_failed(h, "out of memory");
-    return;
-  }
-  for (size_t i = 0; i < n; i++) memcpy(packed + i * longest, texts[i], strlen(texts[i]));
+  size_t longest;
+  char *packed = pack(h, texts, n, &longest);
+  if (!packed) return;
   hid_t type = text_type(longest);
   gg_h5_attribute(h, object, name, type, packed, n);
+  H5Tclose(type);
+  free(packed);
+}
+
+void gg_h5_texts(gg_h5 *h, const char *path, const char *const *texts, size_t n)
+{
+  size_t longest;
+  const hsize_t count = n;
+  char *packed = pack(h, texts, n, &longest);
+  if (!packed) return;
+  hid_t type = text_type(longest);
+  gg_h5_array(h, path, type, 1, &count, packed);
   H5Tclose(type);
   free(packed);
 }

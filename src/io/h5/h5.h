@@ -29,6 +29,8 @@ gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_er
 
 void gg_h5_group(gg_h5 *h, const char *path);
 void gg_h5_text(gg_h5 *h, const char *path, const char *text);
+/* n texts as an array of the longest one's size. */
+void gg_h5_texts(gg_h5 *h, const char *path, const char *const *texts, size_t n);
 void gg_h5_number(gg_h5 *h, const char *path, double value);
 void gg_h5_count(gg_h5 *h, const char *path, uint64_t value);
 /* An array; `type` of the numbers in memory, and in the file. */
