@@ -1,0 +1,190 @@
+"""graingas sweep as users meet it: what is listed, refused, done, killed and gone on with, shared between processes,
+collected, and handed to a cluster."""
+import csv
+import glob
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+
+from tap import GRAINGAS, check, main, run
+
+SWEEP = """flow: usf
+phi: 0.1
+particles: 100
+run: {collisions: 150, warmup: 20, replicas: 2}
+vary:
+  collision.e: [0.7, 0.8, 0.9]
+  phi: [0.05, 0.1]
+"""
+
+
+def write(text=SWEEP, name="s.yaml"):
+    with open(name, "w") as f:
+        f.write(text)
+
+
+def rows(name):
+    with open(name, newline="") as f:
+        return [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(f)]
+
+
+def collected(folder):
+    done = run("sweep", "s.yaml", "--collect", "--output", folder, "--picture", "none")
+    check(done.code == 0, done.err)
+    return rows(os.path.splitext(folder)[0] + ".csv")
+
+
+def test_list():
+    write()
+    done = run("sweep", "s.yaml", "--list", "--threads", "2")
+    check(done.code == 0 and not done.new and "run at 6 points, of which 0 are done" in done.out, done.out, done.err)
+    check([line.split()[:3] for line in done.out.splitlines()[1:3]] == [["1", "0.7", "0.05"], ["2", "0.7", "0.1"]])
+    points = json.loads(run("sweep", "s.yaml", "--list", "--json").out)["points"]
+    check(len({p["name"] for p in points}) == 6 and points[5]["keys"] == {"collision.e": 0.9, "phi": 0.1}, points)
+
+
+def test_refused_before_anything_runs():
+    write(SWEEP.replace("[0.05, 0.1]", "[0.05, 0.1, 0.7, 0.2, 0.3]"))
+    done = run("sweep", "s.yaml")
+    check(done.code == 2 and "point 3 of 15 (collision.e 0.7, phi 0.7): key 'phi'" in done.err, done.err)
+    check(not os.path.exists("s.sweep"))
+    write()
+    for args, words in ((("--vary", "phi=0.1,0.2"), "varied twice"), (("--set", "phi=0.1"), "is varied"),
+                        (("--point", "7"), "from 1 to 6"), (("--does", "dance"), "allowed: one of run"),
+                        (("--vary", "run.seed=1:1000000:1"), "1000000 values")):
+        done = run("sweep", "s.yaml", *args)
+        check(done.code == 2 and words in done.err and not done.new, args, done.err)
+    done = run("run", "s.yaml")
+    check(done.code == 2 and "graingas sweep FILE" in done.err, done.err)
+    done = run("sweep", "scene.yaml", scene="flow: usf\nphi: 0.1\n")
+    check(done.code == 2 and "no key is varied" in done.err, done.err)
+
+
+def test_places():
+    write()
+    open("taken", "w").close()
+    for output, code, words in (("taken", 3, "no folder"), ("/dev/null", 3, "no folder"), ("a/b", 3, "No such file"),
+                                ("", 2, "empty"), ("s.yaml", 2, "overwritten")):
+        done = run("sweep", "s.yaml", "--output", output)
+        check(done.code == code and words in done.err and not done.new, output, done.err)
+    done = run("sweep", "s.yaml", "--output", "a b.sweep", "--point", "2", "--json")
+    states = [p["state"] for p in json.loads(done.out)["points"]]
+    check(done.code == 0 and states == ["missing", "done"] + 4 * ["missing"], done.out, done.err)
+
+
+def test_collect():
+    write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: compare}"))
+    done = run("sweep", "s.yaml", "--quiet")
+    check(done.code == 0 and not done.out and not done.err and done.new == ["s.sweep"], done.out, done.err)
+    done = run("sweep", "s.yaml", "--collect", "--over", "phi", "--show", "N1,temperature")
+    check(done.out.split() == ["s.csv", "s.h5", "s.svg"], done.out, done.err)
+    table = rows("s.csv")
+    check({r["method"] for r in table} >= {"md", "dsmc", "lun1991", "enskog_hermite"})
+    check({(r["collision.e"], r["phi"]) for r in table} == {(e, p) for e in ("0.7", "0.8", "0.9")
+                                                            for p in ("0.05", "0.1")})
+    one = [r for r in table if r["point"] == "1" and r["quantity"] == "temperature"]
+    check(all(r["unit"] == "d^2 gamma^2" for r in one) and one[0]["steady"] in ("true", "false"), one)
+    read = json.loads(run("info", "s.sweep/" + one[0]["file"] + ".h5", "--json").out)
+    check(float(one[0]["mean"]) == read["md"]["results"]["temperature"]["mean"], one[0])
+    check(float(one[0]["error"]) == read["md"]["results"]["temperature"]["stderr"], one[0])
+    check(int(one[0]["seed"]) == read["scene"]["run"]["seed"] != 1, one[0])
+    for args, words in (("--over", "engine"), "none of the keys"), (("--show", "colour"), "no point has"):
+        done = run("sweep", "s.yaml", "--collect", *args)
+        check(done.code == 2 and words in done.err, done.err)
+
+
+def kill_and_go_on(folder, threads, rng, extra=()):
+    """Until it is through: kill -9 after a random time."""
+    kills = 0
+    while True:
+        child = subprocess.Popen([GRAINGAS, "sweep", "s.yaml", "--quiet", "--output", folder, "--threads", threads,
+                                  *extra], stderr=subprocess.PIPE, text=True)
+        try:
+            child.wait(timeout=rng.uniform(0.1, 0.8) * (1 + kills / 10))
+            check(child.returncode == 0, child.stderr.read())
+            return kills
+        except subprocess.TimeoutExpired:
+            child.kill()
+            child.wait()
+            kills += 1
+        finally:
+            child.stderr.close()
+
+
+def test_killed():
+    """kill -9 at any moment; then the same numbers as of a sweep that was left alone, and nothing but results."""
+    write(SWEEP.replace("150", "400"))
+    check(run("sweep", "s.yaml", "--output", "whole.sweep", "--threads", "2").code == 0)
+    whole = collected("whole.sweep")
+    rng = random.Random(18)
+    kills = kill_and_go_on("a.sweep", "2", rng)
+    check(kills > 1, kills)
+    check(collected("a.sweep") == whole)
+    check(all(name.endswith(".h5") and len(name) == 19 for name in os.listdir("a.sweep")), os.listdir("a.sweep"))
+    kill_and_go_on("b.sweep", "1", rng, ("--set", "output.checkpoint_every=0.05"))
+    check(collected("b.sweep") == whole)
+    check(all(len(name) == 19 for name in os.listdir("b.sweep")), os.listdir("b.sweep"))
+    before = {f: os.stat(f).st_mtime_ns for f in glob.glob("a.sweep/*")}
+    check(run("sweep", "s.yaml", "--output", "a.sweep").code == 0)
+    check(before == {f: os.stat(f).st_mtime_ns for f in glob.glob("a.sweep/*")}, "a point that is done was done again")
+
+
+def test_shared_folder():
+    """Two processes in one folder: neither does what the other is at, one is killed, the other does it all."""
+    write(SWEEP.replace("150", "600"))
+    args = [GRAINGAS, "sweep", "s.yaml", "--threads", "1", "--json"]
+    some = [subprocess.Popen(args, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(3)]
+    time.sleep(0.5)
+    some[2].kill()
+    out = [p.communicate(timeout=100) for p in some]
+    for p, (text, err) in list(zip(some, out))[:2]:
+        check(p.returncode == 0, err)
+        check([q["state"] for q in json.loads(text)["points"]] == 6 * ["done"], text)
+    check(all(len(name) == 19 for name in os.listdir("s.sweep")), os.listdir("s.sweep"))
+    table = collected("s.sweep")
+    check(run("sweep", "s.yaml", "--output", "alone.sweep").code == 0)
+    check(table == collected("alone.sweep"))
+
+
+def test_interrupted():
+    write(SWEEP.replace("150", "1e9"))
+    child = subprocess.Popen([GRAINGAS, "sweep", "s.yaml"], stderr=subprocess.PIPE, text=True,
+                             preexec_fn=lambda: signal.signal(signal.SIGTERM, signal.SIG_DFL))
+    time.sleep(1)
+    child.send_signal(signal.SIGTERM)
+    err = child.communicate(timeout=20)[1]
+    check(child.returncode == 130 and "interrupted; go on with the same command" in err, err)
+    check(os.listdir("s.sweep") == [], os.listdir("s.sweep"))
+
+
+def test_failing_point():
+    write("flow: hcs\nphi: 0.3\nparticles: 100\nmd: {contact_time: 0}\n"
+          "vary: [{collision.e: [0.9, 0.1, 0.95], run.collisions: [20, 1e6, 20]}]\n")
+    done = run("sweep", "s.yaml")
+    check(done.code == 1 and "point 2 (collision.e 0.1, run.collisions 1e6) failed: md: " in done.err, done.err)
+    check("of 3 points 1 failed" in done.err and len(os.listdir("s.sweep")) == 2, done.err)
+    check({r["collision.e"] for r in collected("s.sweep")} == {"0.9", "0.95"})
+
+
+def test_slurm():
+    """An array of one does all that its tasks would do."""
+    write()
+    script = run("sweep", "s.yaml", "--vary", "collision.beta=-1,0", "--slurm", "--output", "my runs")
+    check(script.code == 0 and "--array=1-12\n" in script.out and not script.new, script.out, script.err)
+    with open("array.sh", "w") as f:
+        f.write(script.out)
+    path = os.path.dirname(GRAINGAS) + ":" + os.environ["PATH"]
+    for task in range(2, 5):
+        done = subprocess.run(["bash", "array.sh"], capture_output=True, text=True,
+                              env=dict(os.environ, PATH=path, SLURM_ARRAY_TASK_ID=str(task), SLURM_CPUS_PER_TASK="2"))
+        check(done.returncode == 0 and len(os.listdir("my runs")) == task - 1, done.stderr)
+    done = subprocess.run(["bash", "array.sh"], capture_output=True, text=True, env=dict(os.environ, PATH=path))
+    check(done.returncode == 0 and len(os.listdir("my runs")) == 4, done.stderr)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])

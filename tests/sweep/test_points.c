@@ -1,0 +1,206 @@
+/* Which points a sweep has: grids, keys that go together, random draws; what is refused; and that a point's name
+ * depends on what its numbers depend on, and on nothing else. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "graingas.h"
+
+#define SCENE "flow: usf\nphi: 0.1\nparticles: 100\n"
+
+static gg_sweep *sweep_of(const char *yaml)
+{
+  gg_error err = {0};
+  gg_sweep *sweep = NULL;
+  if (gg_sweep_parse(yaml, "s.yaml", &sweep, &err) != GG_OK || gg_sweep_check(sweep, &err) != GG_OK)
+    fail_msg("%s", err.message);
+  return sweep;
+}
+
+/* "0.7 0.1|0.7 0.2|...": the values of all points. */
+static void check_values(const char *yaml, const char *expected)
+{
+  char text[1000] = "";
+  gg_sweep *sweep = sweep_of(yaml);
+  for (size_t i = 0; i < gg_sweep_points(sweep); i++)
+    for (size_t k = 0; gg_sweep_key(sweep, k); k++) {
+      size_t used = strlen(text);
+      snprintf(text + used, sizeof text - used, "%s%s", k ? " " : i ? "|" : "", gg_sweep_value(sweep, i, k));
+    }
+  assert_string_equal(text, expected);
+  gg_sweep_free(sweep);
+}
+
+static void grids(void **state)
+{
+  (void)state;
+  check_values(SCENE "vary: {collision.e: [0.7, 0.9], phi: 0.1:0.3:0.1}",
+               "0.7 0.1|0.7 0.2|0.7 0.3|0.9 0.1|0.9 0.2|0.9 0.3");
+  check_values(SCENE "vary: {collision: {e: 0.5, beta: [0, 0.25]}}", "0.5 0|0.5 0.25");
+  check_values(SCENE "vary: {phi: 0.3:0.1:-0.1}", "0.3|0.2|0.1");
+  check_values(SCENE "vary: {phi: [0.05, 0.1:0.2:0.05]}", "0.05|0.1|0.15|0.2");
+  check_values(SCENE "vary: {collision.beta: -0.3:0.3:0.1}", "-0.3|-0.2|-0.1|0|0.1|0.2|0.3");
+  check_values(SCENE "vary: {engine: [md, dsmc]}", "md|dsmc");
+  check_values(SCENE "vary: {measure: [[rheology], [rheology, cells]]}", "[rheology]|[rheology, cells]");
+}
+
+static void zipped(void **state)
+{
+  (void)state;
+  check_values(SCENE "vary: [{collision.e: [0.7, 0.9], phi: [0.1, 0.2]}, {particles: [100, 200]}]",
+               "0.7 0.1 100|0.7 0.1 200|0.9 0.2 100|0.9 0.2 200");
+}
+
+/* More points, or another key, leave the draws that there were. */
+static void drawn(void **state)
+{
+  (void)state;
+  gg_sweep *few = sweep_of(SCENE "vary: {random: {points: 20, seed: 7}, phi: 0.1..0.2, particles: 50..60}");
+  gg_sweep *many =
+      sweep_of(SCENE "vary: {random: {points: 30, seed: 7}, engine: [md, dsmc], particles: 50..60, phi: 0.1..0.2}");
+  gg_sweep *other = sweep_of(SCENE "vary: {random: {points: 20, seed: 8}, phi: 0.1..0.2, particles: 50..60}");
+  bool differs = false, low = false, high = false, dsmc = false;
+  assert_int_equal(gg_sweep_points(few), 20);
+  assert_int_equal(gg_sweep_points(many), 30);
+  for (size_t i = 0; i < 20; i++) {
+    const char *phi = gg_sweep_value(few, i, 0), *particles = gg_sweep_value(few, i, 1);
+    assert_string_equal(phi, gg_sweep_value(many, i, 2));
+    assert_string_equal(particles, gg_sweep_value(many, i, 1));
+    differs |= strcmp(phi, gg_sweep_value(other, i, 0)) != 0;
+    assert_true(strtod(phi, NULL) >= 0.1 && strtod(phi, NULL) <= 0.2);
+    assert_true(strtol(particles, NULL, 10) >= 50 && strtol(particles, NULL, 10) <= 60 && !strchr(particles, '.'));
+    low |= strtod(phi, NULL) < 0.13;
+    high |= strtod(phi, NULL) > 0.17;
+    dsmc |= strcmp(gg_sweep_value(many, i, 0), "dsmc") == 0;
+  }
+  assert_true(differs && low && high && dsmc);
+  gg_sweep_free(few);
+  gg_sweep_free(many);
+  gg_sweep_free(other);
+}
+
+static void name_of(const char *yaml, gg_sweep_point *point)
+{
+  gg_sweep *sweep = sweep_of(yaml);
+  assert_int_equal(gg_sweep_at(sweep, 0, point, NULL), GG_OK);
+  gg_sweep_free(sweep);
+}
+
+static void check_name(const char *yaml, bool same)
+{
+  gg_sweep_point one, two;
+  name_of("flow: usf\nphi: 0.1\nparticles: 100\nvary: {collision.e: [0.8]}", &one);
+  name_of(yaml, &two);
+  if ((strcmp(one.name, two.name) == 0) != same) fail_msg("%s: %s, %s", yaml, one.name, two.name);
+}
+
+/* The order of keys, defaults spelled out, where a value comes from, and what touches no number: all one. */
+static void names(void **state)
+{
+  (void)state;
+  check_name("vary: {collision.e: [0.8, 0.9]}\nparticles: 1.0e2\nphi: 0.10\nflow: usf", true);
+  check_name("flow: usf\nphi: 0.1\nparticles: 100\ncollision: {e: 0.8, beta: -1, mu: inf}\nengine: md\n"
+             "run: {relative_error: auto, seed: 1}\nvary: {walls.e: [0.9]}",
+             true);
+  check_name(SCENE "collision: {e: 0.8}\nvary: {phi: 0.1:0.3:0.1}\noutput: {checkpoint_every: 7}", true);
+  check_name(SCENE "collision: {e: 0.81}\nvary: {phi: [0.1]}", false);
+  check_name(SCENE "collision: {e: 0.8}\nvary: {particles: [101]}", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\nrun: {seed: 2}", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\nrun: {relative_error: 0.02}", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\nrun: {warmup: 10}", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\noutput: {trajectory_every: 7}", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\nmeasure: [rheology, cells]", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\nengine: dsmc", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\nsweep: {does: compare}", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\nsweep: {seeds: common}", false);
+  check_name(SCENE "vary: {collision.e: [0.8]}\nsweep: {at_once: 5}", true);
+}
+
+/* Each point its own, the same where only length or engine differ; or the scene's for all. */
+static void seeds(void **state)
+{
+  (void)state;
+  gg_sweep_point a, b;
+  gg_sweep *sweep = sweep_of(SCENE "vary: {collision.e: [0.7, 0.8]}");
+  gg_sweep_at(sweep, 0, &a, NULL);
+  gg_sweep_at(sweep, 1, &b, NULL);
+  assert_true(a.seed != b.seed && a.seed < UINT64_C(1) << 48);
+  gg_sweep_free(sweep);
+  name_of(SCENE "run: {relative_error: 0.001}\nengine: dsmc\nvary: {collision.e: [0.7]}", &b);
+  assert_true(a.seed == b.seed);
+  name_of(SCENE "run: {seed: 5}\nvary: {collision.e: [0.7]}\nsweep: {seeds: common}", &b);
+  assert_true(b.seed == 5);
+  name_of(SCENE "vary: {run.seed: [6]}", &b);
+  assert_true(b.seed == 6);
+}
+
+/* Points that would take long are shared among replicas, unless the scene says how many. */
+static void replicas(void **state)
+{
+  (void)state;
+  gg_sweep_point a;
+  name_of(SCENE "run: {relative_error: 0.0002}\nvary: {collision.e: [0.7]}", &a);
+  assert_true(a.replicas > 1 && a.cpu_seconds / (double)a.replicas < 660);
+  name_of(SCENE "run: {relative_error: 0.0002, replicas: 1}\nvary: {collision.e: [0.7]}", &a);
+  assert_int_equal(a.replicas, 1);
+  name_of(SCENE "run: {relative_error: 0.01}\nvary: {collision.e: [0.7]}", &a);
+  assert_int_equal(a.replicas, 1);
+}
+
+static void check_refused(const char *yaml, const char *key, const char *values, const char *words)
+{
+  gg_error err = {0};
+  gg_sweep *sweep = NULL;
+  gg_status status = gg_sweep_parse(yaml, "s.yaml", &sweep, &err);
+  if (status == GG_OK && key) status = gg_sweep_vary(sweep, key, values, &err);
+  if (status == GG_OK) status = gg_sweep_check(sweep, &err);
+  assert_int_equal(status, GG_BAD_INPUT);
+  if (!strstr(err.message, words)) fail_msg("%s: %s", yaml, err.message);
+  gg_sweep_free(sweep);
+}
+
+static void refusals(void **state)
+{
+  (void)state;
+  const char *five = SCENE "vary: {phi: [0.1, 0.2, 0.7, 0.3, 0.4]}";
+  check_refused(five, NULL, NULL, "s.yaml: point 3 of 5 (phi 0.7): key 'phi': value '0.7'");
+  check_refused(SCENE "vary: {phi: [0.1]}", "phi", "0.2", "varied twice");
+  check_refused(SCENE "vary: {phi: [0.1], phi: [0.2]}", NULL, NULL, "varied twice");
+  check_refused(SCENE "vary:", NULL, NULL, "vary");
+  check_refused(SCENE "vary: {phi: []}", NULL, NULL, "has no values");
+  check_refused(SCENE "vary: [{phi: [0.1, 0.2], collision.e: [0.5]}]", NULL, NULL, "has 1 values, and phi");
+  check_refused(SCENE "vary: {phi: 0.1..0.2}", NULL, NULL, "random draws");
+  check_refused(SCENE, "phi", "0.1..0.2", "random draws");
+  check_refused(SCENE, "phi", "0.1:0.2:-0.1", "does not lead");
+  check_refused(SCENE, "phi", "0.1,,0.2", "a value is missing");
+  check_refused(SCENE, "particles", "1:10000000:1", "10000000 values");
+  check_refused(SCENE "vary: {collision.e: 0:1:0.001}", "phi", "0:0.5:0.001", "501501 points");
+  check_refused(SCENE "vary: {collison.e: [0.5]}", NULL, NULL, "did you mean 'collision.e'");
+  check_refused(SCENE "sweep: {does: comparision}", NULL, NULL, "allowed: one of run, compare, theory");
+  check_refused("flow: usf\nvary: {phi: [0]}", NULL, NULL, "point 1 of 1 (phi 0)"); /* md has no Boltzmann limit */
+}
+
+/* What one engine cannot run, the other may: a comparison leaves it out. */
+static void engines(void **state)
+{
+  (void)state;
+  gg_sweep *sweep = sweep_of("flow: usf\nvary: {phi: [0, 0.1]}\nsweep: {does: compare}");
+  assert_int_equal(gg_sweep_points(sweep), 2);
+  assert_int_equal(gg_sweep_set(sweep, "collision.e", "0.5", NULL), GG_BAD_INPUT); /* it was checked */
+  gg_sweep_free(sweep);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(grids), cmocka_unit_test(zipped),   cmocka_unit_test(drawn),    cmocka_unit_test(names),
+      cmocka_unit_test(seeds), cmocka_unit_test(replicas), cmocka_unit_test(refusals), cmocka_unit_test(engines),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
