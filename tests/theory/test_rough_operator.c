@@ -186,6 +186,32 @@ static void degree_two_cools_like_two_maxwellians(void **state)
   gg_rough_steady_clear(&s);
 }
 
+/* About an isotropic weight the product is the matrix. */
+static void isotropic_weights_factor(void **state)
+{
+  (void)state;
+  gg_rough_gas gas = gas_of(0.7, -0.3, 0);
+  gg_rough_weight w = isotropic(0.6);
+  gg_rough_relative plain, product;
+  gg_error err;
+  assert_int_equal(gg_rough_relative_make(&plain, &gas, &w, 5, true, &err), GG_OK);
+  assert_int_equal(gg_rough_relative_isotropic(&product, &gas, &w, 5, &err), GG_OK);
+  double largest = 0;
+  for (int R = 1; R < plain.f.n; R++)
+    for (int S = 0; S < plain.f.n; S++) {
+      double one = gg_rough_relative_at(&plain, R, S), two = gg_rough_relative_at(&product, R, S);
+      if (!(fabs(one - two) < 1e-10 * (1 + fabs(one)))) fail_msg("W_%d,%d = %.12g, not %.12g", R, S, two, one);
+      largest = fmax(largest, fabs(one));
+    }
+  assert_true(largest > 1);
+  for (int S = 0; S < plain.f.n; S++) {
+    assert_true(fabs(plain.rate[S] - product.rate[S]) < 1e-11);
+    assert_true(fabs(plain.J[2][2][S] - product.J[2][2][S]) < 1e-11);
+  }
+  gg_rough_relative_clear(&plain);
+  gg_rough_relative_clear(&product);
+}
+
 /* Brute force, one direction: the collision rule itself on a grid of pairs. */
 enum { AXES = 11, POINTS = 3, APPROACH = 20 };
 
@@ -305,9 +331,13 @@ static void brute_force(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(maxwellian_is_a_fixed_point),           cmocka_unit_test(elastic_operator_is_symmetric),
-      cmocka_unit_test(elastic_collisions_keep_energy),        cmocka_unit_test(degree_two_is_the_gaussian_closure),
-      cmocka_unit_test(degree_two_cools_like_two_maxwellians), cmocka_unit_test(brute_force),
+      cmocka_unit_test(maxwellian_is_a_fixed_point),
+      cmocka_unit_test(elastic_operator_is_symmetric),
+      cmocka_unit_test(elastic_collisions_keep_energy),
+      cmocka_unit_test(degree_two_is_the_gaussian_closure),
+      cmocka_unit_test(degree_two_cools_like_two_maxwellians),
+      cmocka_unit_test(brute_force),
+      cmocka_unit_test(isotropic_weights_factor),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 
 #include "common/error.h"
 
-enum { GG_ROUGH_MOST_DEGREE = 8, GG_ROUGH_AXES = 6 };
+enum { GG_ROUGH_MOST_DEGREE = 14, GG_ROUGH_AXES = 6 };
 
 typedef struct gg_rough_index {
   int r[GG_ROUGH_AXES];

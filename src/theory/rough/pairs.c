@@ -101,7 +101,7 @@ static void add_term(const gg_spread *s, int S, int V, double amount)
   const gg_rough_relative *relative = s->relative;
   for (int c = s->covers->from[V]; c < s->covers->from[V + 1]; c++) {
     const gg_cover *test = s->covers->cover + c;
-    s->row[test->r] += amount * test->amount * relative->W[(size_t)test->R * (size_t)relative->f.n + (size_t)S];
+    s->row[test->r] += amount * test->amount * gg_rough_relative_at(relative, test->R, S);
   }
 }
 

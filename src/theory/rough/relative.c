@@ -24,9 +24,9 @@ static int cell(int side, int x, int y, int z)
   return (x * side + y) * side + z;
 }
 
-static gg_status make_work(gg_relative_work *w, const gg_rough_functions *f, gg_error *err)
+static gg_status make_work(gg_relative_work *w, const gg_rough_functions *f, bool factored, gg_error *err)
 {
-  size_t n = (size_t)f->n, n3 = (size_t)f->n3;
+  size_t n = factored ? 1 : (size_t)f->n, n3 = (size_t)f->n3;
   int most = 2 * f->degree, side = most + 1;
   *w = (gg_relative_work){.n_wide = gg_rough_count3(most)};
   w->E = malloc(n * n * sizeof *w->E);
@@ -206,10 +206,10 @@ static void add_direction(gg_rough_relative *r, gg_relative_work *w, const gg_ro
 }
 
 static gg_status add_all(gg_rough_relative *r, gg_relative_work *w, const gg_rough_gas *gas,
-                         const gg_rough_weight *weight, bool isotropic, gg_error *err)
+                         const gg_rough_weight *weight, bool one_direction, gg_error *err)
 {
   double z[2 * POLAR], wz[2 * POLAR], k[3] = {0, 0, 1};
-  if (isotropic) {
+  if (one_direction) {
     add_direction(r, w, gas, weight, k, 4 * M_PI);
     return GG_OK;
   }
@@ -225,19 +225,43 @@ static gg_status add_all(gg_rough_relative *r, gg_relative_work *w, const gg_rou
   return GG_OK;
 }
 
-gg_status gg_rough_relative_make(gg_rough_relative *r, const gg_rough_gas *gas, const gg_rough_weight *weight,
-                                 int degree, bool isotropic, gg_error *err)
+static gg_status make(gg_rough_relative *r, gg_relative_work *w, int degree, bool factored, gg_error *err)
 {
-  gg_relative_work w = {0};
   *r = (gg_rough_relative){0};
   GG_TRY(gg_rough_functions_make(&r->f, degree, err));
   size_t n = (size_t)r->f.n;
-  r->W = calloc(n * n + 10 * n, sizeof *r->W);
-  gg_status status = r->W ? make_work(&w, &r->f, err) : gg_fail(err, GG_FAILED, "out of memory");
+  r->rate = calloc(10 * n, sizeof *r->rate);
+  if (factored)
+    r->factors = malloc(sizeof *r->factors);
+  else
+    r->W = calloc(n * n, sizeof *r->W);
+  if (!r->rate || (!r->W && !r->factors)) return gg_fail(err, GG_FAILED, "out of memory");
+  for (size_t i = 0; i < 9; i++) r->J[i / 3][i % 3] = r->rate + (i + 1) * n;
+  return make_work(w, &r->f, factored, err);
+}
+
+gg_status gg_rough_relative_make(gg_rough_relative *r, const gg_rough_gas *gas, const gg_rough_weight *weight,
+                                 int degree, bool one_direction, gg_error *err)
+{
+  gg_relative_work w = {0};
+  gg_status status = make(r, &w, degree, false, err);
+  if (status == GG_OK) status = add_all(r, &w, gas, weight, one_direction, err);
+  clear_work(&w);
+  if (status != GG_OK) gg_rough_relative_clear(r);
+  return status;
+}
+
+gg_status gg_rough_relative_isotropic(gg_rough_relative *r, const gg_rough_gas *gas, const gg_rough_weight *weight,
+                                      int degree, gg_error *err)
+{
+  gg_relative_work w = {0};
+  double k[3] = {0, 0, 1};
+  gg_status status = make(r, &w, degree, true, err);
   if (status == GG_OK) {
-    r->rate = r->W + n * n;
-    for (size_t i = 0; i < 9; i++) r->J[i / 3][i % 3] = r->rate + (i + 1) * n;
-    status = add_all(r, &w, gas, weight, isotropic, err);
+    gg_rough_collision c = gg_rough_collision_at(gas, weight, k);
+    make_flux(&r->f, &w, &c);
+    add_impulse(r, &w, &c, k, 4 * M_PI);
+    status = gg_rough_factors_make(r->factors, &c, degree, err);
   }
   clear_work(&w);
   if (status != GG_OK) gg_rough_relative_clear(r);
@@ -248,5 +272,7 @@ void gg_rough_relative_clear(gg_rough_relative *r)
 {
   gg_rough_functions_clear(&r->f);
   free(r->W);
+  free(r->rate);
+  free(r->factors);
   *r = (gg_rough_relative){0};
 }

@@ -5,18 +5,29 @@
 #ifndef GG_ROUGH_RELATIVE_H
 #define GG_ROUGH_RELATIVE_H
 
-#include "theory/rough/collision.h"
+#include "theory/rough/factors.h"
 
 typedef struct gg_rough_relative {
   gg_rough_functions f;
-  double *W;       /* n x n by rows R; 0 between functions of different parities */
-  double *rate;    /* int dk < g_n Ho_S > */
-  double *J[3][3]; /* int dk k_i < g_n J_j Ho_S > */
+  double *W; /* n x n by rows R; 0 between functions of different parities; NULL where it is a product: */
+  gg_rough_factors *factors; /* of one direction */
+  double *rate;              /* int dk < g_n Ho_S > */
+  double *J[3][3];           /* int dk k_i < g_n J_j Ho_S > */
 } gg_rough_relative;
 
-/* One direction, of weight 4 pi along z, stands for all where everything is isotropic. */
+/* one_direction: k = z alone, of weight 4 pi, instead of the sphere. */
 gg_status gg_rough_relative_make(gg_rough_relative *relative, const gg_rough_gas *gas, const gg_rough_weight *weight,
-                                 int degree, bool isotropic, gg_error *err);
+                                 int degree, bool one_direction, gg_error *err);
+
+/* Where everything is isotropic one direction stands for all: W as a product. */
+gg_status gg_rough_relative_isotropic(gg_rough_relative *relative, const gg_rough_gas *gas,
+                                      const gg_rough_weight *weight, int degree, gg_error *err);
 void gg_rough_relative_clear(gg_rough_relative *relative);
+
+static inline double gg_rough_relative_at(const gg_rough_relative *r, int R, int S)
+{
+  if (r->W) return r->W[(size_t)R * (size_t)r->f.n + (size_t)S];
+  return gg_rough_factored(r->factors, &r->f.function[R], &r->f.function[S]);
+}
 
 #endif

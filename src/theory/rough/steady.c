@@ -23,7 +23,11 @@ static gg_status make(gg_rough_steady *s, int degree, bool isotropic, gg_error *
 {
   gg_rough_steady_clear(s);
   s->degree = degree;
-  GG_TRY(gg_rough_relative_make(&s->relative, &s->gas, &s->weight, degree + s->choice.extra, isotropic, err));
+  int relative = degree + s->choice.extra;
+  if (isotropic)
+    GG_TRY(gg_rough_relative_isotropic(&s->relative, &s->gas, &s->weight, relative, err));
+  else
+    GG_TRY(gg_rough_relative_make(&s->relative, &s->gas, &s->weight, relative, false, err));
   GG_TRY(gg_rough_form_make(&s->form, &s->relative, degree, isotropic, &s->choice, err));
   s->a = calloc((size_t)s->form.n, sizeof *s->a);
   if (!s->a) return gg_fail(err, GG_FAILED, "out of memory");
