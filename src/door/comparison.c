@@ -7,6 +7,7 @@
 #include "door/run.h"
 #include "io/scene/inert.h"
 #include "run/agreement.h"
+#include "run/crew.h"
 
 static gg_comparison *new_comparison(gg_error *err)
 {
@@ -42,8 +43,11 @@ gg_status gg_door_compare_by(gg_crew *crew, const gg_scene *scene, const gg_run_
   c->warnings = run.warnings;
   run.warnings = (gg_text_list){0};
   bool some = status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC];
-  if (some && run.options.output && (status == GG_OK || status == GG_FAILED))
+  if (some && run.options.output && (status == GG_OK || status == GG_FAILED)) {
+    gg_crew_pause(crew);
     written = gg_result_file_finish_comparison(&run.file, c, &why);
+    gg_crew_go_on(crew);
+  }
   gg_door_run_done(&run, status, written);
   gg_door_run_end(&run);
   if (some)

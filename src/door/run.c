@@ -9,6 +9,7 @@
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
 #include "io/scene/inert.h"
+#include "run/crew.h"
 
 static void hear_progress(void *context, const gg_progress *progress)
 {
@@ -149,8 +150,10 @@ gg_status gg_door_run_by(gg_crew *crew, const gg_scene *scene, const gg_run_opti
     status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);
   for (size_t i = 0; made && i < run.warnings.n; i++) gg_result_warn(made, "%s", run.warnings.text[i]);
   if (made && run.options.output && (status == GG_OK || status == GG_FAILED)) {
+    gg_crew_pause(crew); /* disks take their time */
     written = gg_door_trajectory_finish(&run, made, &why);
     if (written == GG_OK) written = gg_result_file_finish_run(&run.file, made, &why);
+    gg_crew_go_on(crew);
   }
   gg_door_run_done(&run, status, written);
   gg_door_run_end(&run);

@@ -10,8 +10,12 @@
 #include "run/clock.h"
 #include "sweep/folder.h"
 
-/* What others are at is looked at as often, in seconds. */
-static const double look_every = 0.5;
+/* What others are at is looked at as often, in seconds; less often where that is much, for the sake of file servers
+ * that many processes ask. */
+static double look_every(size_t elsewhere)
+{
+  return elsewhere < 8 ? 0.5 : 0.0625 * (double)elsewhere;
+}
 
 /* A thread that does one point after another. */
 typedef struct course {
@@ -90,19 +94,21 @@ static void do_item(course *c)
   pthread_mutex_unlock(&all->lock);
 }
 
-/* The next one that waits; of those that others are at, one that was not looked at for a while. *any: some are left. */
+/* The next one that waits; of those that others are at, the one that was not looked at for longest, if that is long
+ * enough. *any: some are left. */
 static gg_sweep_item *next_item(gg_courses *all, bool *any)
 {
   gg_sweep_item *old = NULL;
-  double now = gg_wall_now();
-  *any = false;
+  size_t elsewhere = 0;
   for (size_t k = 0; k < all->n && !atomic_load(&all->stopped); k++) {
     gg_sweep_item *item = &all->item[k];
     if (item->state == GG_ITEM_WAITS) return item;
-    *any |= item->state == GG_ITEM_ELSEWHERE;
-    if (item->state == GG_ITEM_ELSEWHERE && now - item->looked > look_every && !old) old = item;
+    if (item->state != GG_ITEM_ELSEWHERE) continue;
+    elsewhere++;
+    if (!old || item->looked < old->looked) old = item;
   }
-  return old;
+  *any = elsewhere > 0;
+  return old && gg_wall_now() - old->looked > look_every(elsewhere) ? old : NULL;
 }
 
 static void *work(void *argument)

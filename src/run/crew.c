@@ -132,6 +132,16 @@ void gg_crew_leave(gg_crew *c)
   pthread_mutex_unlock(&c->lock);
 }
 
+void gg_crew_pause(gg_crew *c)
+{
+  if (c) gg_crew_leave(c);
+}
+
+void gg_crew_go_on(gg_crew *c)
+{
+  if (c) gg_crew_enter(c);
+}
+
 static void hand_over(gg_crew *c, errand *e, piece *pieces)
 {
   pthread_mutex_lock(&c->lock);
