@@ -112,7 +112,7 @@ gg_curve *gg_histogram_put(gg_curves *list, const char *name, const char *panel,
   c->log_y = true;
   for (int i = 0; i < (int)c->n; i++) c->x[i] = (i - HALF) * WIDTH / sigma, c->value[i] = bin[i] / zero;
   gg_curve_beside(c, "Gaussian", gaussian, NULL);
-  put_tail(c, bin, sigma, samples);
+  if (samples > 0) put_tail(c, bin, sigma, samples);
   double n = bin[GG_HISTOGRAM_GRAINS];
   gg_curve_put_number(c, "kurtosis", bin[GG_HISTOGRAM_FOURTHS] / n / (variance * variance), "1");
   gg_curve_put_number(c, "skewness", bin[GG_HISTOGRAM_CUBES] / n / pow(variance, 1.5), "1");

@@ -37,7 +37,8 @@ gg_scale_of gg_scale_of_values(const double *x, size_t n);
 /* Standard deviation, in the unit of x; the counts that a bin at x = 0 has. */
 double gg_histogram_sigma(const double *bin);
 double gg_histogram_height(const double *bin, double sigma);
-/* P(x/sigma)/P(0), and the numbers: tail, kurtosis, skewness. `samples`: those that the bins are the mean over. */
+/* P(x/sigma)/P(0), and the numbers: tail, kurtosis, skewness. `samples`: those that the bins are the mean over; 0:
+ * they are probabilities, and there is no tail. */
 gg_curve *gg_histogram_put(gg_curves *list, const char *name, const char *panel, const char *label, const double *bin,
                            double sigma, double samples);
 

@@ -5,14 +5,13 @@
  * coefficient a_3 = 1 + 3 a_2 - (8/105) <x^6> (Brilliantov & Poschel, Europhys. Lett. 74 (2006) 424). Velocities are
  * scaled by T_i at each instant. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "measure/needs.h"
 #include "measure/observable.h"
+#include "measure/sonine_curves.h"
 
-enum { BINS = 60, FOURTH = BINS, SIXTH, SHARE, SET };
-#define WIDTH 0.05
+enum { BINS = GG_SONINE_BINS, FOURTH = BINS, SIXTH, SHARE, SET };
 
 typedef struct sonine {
   gg_model model;
@@ -49,7 +48,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   for (int k = 0; k < m->n_species; k++) total += m->mass[k] * T[k], T[k] /= (double)m->n_of[k];
   for (size_t i = 0; i < s->n; i++) {
     int k = gg_snapshot_species(s, i);
-    double xx = square(s, i) / (2 * T[k]), at = sqrt(xx) / WIDTH;
+    double xx = square(s, i) / (2 * T[k]), at = sqrt(xx) / GG_SONINE_WIDTH;
     if (at < BINS) bin[k * SET + (int)at]++;
     bin[k * SET + FOURTH] += xx * xx;
     bin[k * SET + SIXTH] += xx * xx * xx;
@@ -57,56 +56,16 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   for (int k = 0; k < m->n_species; k++) bin[k * SET + SHARE] += m->mass[k] * T[k] * (double)m->n / total;
 }
 
-/* Integral of 4/sqrt(pi) x^2 exp(-x^2) from 0. */
-static double maxwellian_below(double x)
-{
-  return erf(x) - M_2_SQRTPI * x * exp(-x * x);
-}
-
-/* 1/sqrt(lambda_i): v* = x/sqrt(lambda_i), lambda_i = T/(T_i mu_ji); of one species, and of more than two, whose mu are
- * several: v* = x. */
-static double reduced(const gg_model *m, int k, const double *bin)
-{
-  if (m->n_species != 2) return 1;
-  return sqrt(bin[SHARE] * m->mass[1 - k] / (m->mass[0] + m->mass[1]));
-}
-
-/* First Sonine approximation; parameters: its factor, and the unit of x. */
-static double first_sonine(double x, const double *p)
-{
-  double xx = x * x / (p[1] * p[1]);
-  return p[0] * (xx * xx / 2 - 2.5 * xx + 15.0 / 8);
-}
-
+/* A fixed total energy lowers <x^4> of Gaussian grains by D/(D+2), D = 3(N-1). */
 static void put_species(const gg_model *m, int k, const double *bin, gg_curves *list)
 {
-  char name[3][48], label[24] = "measured", theory[24] = "first Sonine";
-  static const char *const what[] = {"sonine_excess", "sonine_deviation", "sonine_polynomial"};
-  bool mixed = m->n_species > 1;
-  for (int i = 0; i < 3; i++) snprintf(name[i], sizeof name[i], mixed ? "%s_%d" : "%s", what[i], k + 1);
-  if (mixed)
-    snprintf(label, sizeof label, "species %d", k + 1), snprintf(theory, sizeof theory, "first Sonine, %d", k + 1);
-  double n = (double)m->n_of[k], unit = reduced(m, k, bin);
-  /* A fixed total energy lowers <x^4> of Gaussian grains by D/(D+2), D = 3(N-1). */
-  double D = 3 * ((double)m->n - 1), fourth = bin[FOURTH] / n * (D + 2) / D, cumulant = 8.0 / 15 * (fourth - 15.0 / 4);
-  double sixth = bin[SIXTH] / n * (D + 2) * (D + 4) / (D * D), a3 = 1 + 1.5 * cumulant - 8.0 / 105 * sixth;
-  gg_curve *excess = gg_curve_add(list, BINS, name[0], "excess over a Maxwellian", label);
-  gg_curve *delta = gg_curve_add(list, BINS, name[1], "Δ(v*)", label);
-  gg_curve *series = gg_curve_add(list, BINS, name[2], "Δ(v*)", theory);
-  gg_curve_axes(excess, "v*", "1", "Φ/Φ_M - 1", "1");
-  gg_curve_axes(delta, "v*", "1", "Δ", "1");
-  gg_curve_axes(series, "v*", "1", "Δ", "1");
-  gg_curve_put_number(excess, "c", cumulant, "1");
-  gg_curve_put_number(excess, "a3", a3, "1");
-  for (size_t i = 0; i < excess->n && i < delta->n && i < series->n; i++) {
-    double from = (double)i * WIDTH, x = from + WIDTH / 2, xx = x * x;
-    double expected = n * (maxwellian_below(from + WIDTH) - maxwellian_below(from));
-    excess->x[i] = delta->x[i] = series->x[i] = x * unit;
-    excess->value[i] = bin[i] / expected - 1;
-    delta->value[i] = 2 / cumulant * excess->value[i];
-    series->value[i] = xx * xx / 2 - 2.5 * xx + 15.0 / 8;
-  }
-  gg_curve_beside(excess, "first Sonine", first_sonine, (const double[]){cumulant / 2, unit});
+  double D = 3 * ((double)m->n - 1), n = (double)m->n_of[k];
+  gg_sonine_sums s = {.fourth = bin[FOURTH] / n * (D + 2) / D,
+                      .sixth = bin[SIXTH] / n * (D + 2) * (D + 4) / (D * D),
+                      .temperature_ratio = bin[SHARE]};
+  for (int i = 0; i < BINS; i++) s.share[i] = bin[i] / n;
+  gg_sonine_curves_put(list, m, k, &s);
+  gg_sonine_polynomial_put(list, m, k, s.temperature_ratio);
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)

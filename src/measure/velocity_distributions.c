@@ -1,15 +1,11 @@
 /* Distributions of the components of C and Omega, by species, about their mean and in units of their standard deviation
  * at each instant (so that a cooling gas has a steady one, too), scaled to P(0) = 1; their tails as stretched
  * exponentials; their deviation from a Gaussian at low velocity. */
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-#include "measure/histogram.h"
 #include "measure/needs.h"
 #include "measure/observable.h"
-
-enum { LOW = 20 }; /* bins |k| <= LOW about 0: the head */
+#include "measure/velocity_curves.h"
 
 typedef struct distributions {
   int species, vectors; /* vectors: C, and Omega if there are spins */
@@ -69,60 +65,14 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
       for (int a = 0; a < 3; a++, bin += GG_HISTOGRAM) count(d, s, vector ? s->s[a] : s->c[a], species, bin);
 }
 
-/* "C_x", "C_{x,2}": how gnuplot writes it; and "Cx", "Cx_2" for names. */
-typedef struct naming {
-  char plain[16], label[24], argument[24];
-} naming;
-
-static naming name_of(const distributions *d, int species, int vector, int a)
-{
-  naming n;
-  const char *what = vector ? "W" : "C", *greek = vector ? "Ω" : "C";
-  if (d->species > 1) {
-    snprintf(n.plain, sizeof n.plain, "%s%c_%d", what, "xyz"[a], species + 1);
-    snprintf(n.label, sizeof n.label, "%s_{%c,%d}", greek, "xyz"[a], species + 1);
-  } else {
-    snprintf(n.plain, sizeof n.plain, "%s%c", what, "xyz"[a]);
-    snprintf(n.label, sizeof n.label, "%s_%c", greek, "xyz"[a]);
-  }
-  snprintf(n.argument, sizeof n.argument, "%s/σ", greek);
-  return n;
-}
-
-static void put_distribution(gg_curves *list, const naming *n, int vector, const double *bin)
-{
-  char name[48];
-  snprintf(name, sizeof name, "velocity_distribution_%s", n->plain);
-  gg_curve *c = gg_histogram_put(list, name, vector ? "distribution of Ω" : "distribution of C", n->label, bin, 1,
-                                 (double)list->samples);
-  gg_curve_axes(c, n->argument, "1", "P/P(0)", "1");
-}
-
-static void put_deviation(gg_curves *list, const naming *n, int vector, const double *bin)
-{
-  char name[48];
-  double zero = gg_histogram_height(bin, 1);
-  snprintf(name, sizeof name, "velocity_deviation_%s", n->plain);
-  gg_curve *c = gg_curve_add(list, 2 * LOW + 1, name,
-                             vector ? "Ω: deviation from a Gaussian" : "C: deviation from a Gaussian", n->label);
-  gg_curve_axes(c, n->argument, "1", "P/P(0) - exp(-x^2/2)", "1");
-  for (int i = 0; i < (int)c->n; i++) {
-    double x = (i - LOW) * GG_HISTOGRAM_WIDTH;
-    c->x[i] = x, c->value[i] = bin[GG_HISTOGRAM_HALF - LOW + i] / zero - exp(-x * x / 2);
-  }
-  gg_curve_beside(c, "Gaussian", gg_level, &(double){0});
-}
-
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const distributions *d = self;
   for (int species = 0; species < d->species; species++)
     for (int vector = 0; vector < d->vectors; vector++)
-      for (int a = 0; a < 3; a++, bin += GG_HISTOGRAM) {
-        naming n = name_of(d, species, vector, a);
-        put_distribution(list, &n, vector, bin);
-        put_deviation(list, &n, vector, bin);
-      }
+      for (int a = 0; a < 3; a++, bin += GG_HISTOGRAM)
+        gg_velocity_curves_put(list, (gg_velocity_component){d->species, species, vector, a}, bin,
+                               (double)list->samples);
 }
 
 const gg_observable gg_velocity_distributions = {
