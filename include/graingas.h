@@ -413,6 +413,10 @@ GG_API gg_status gg_comparison_theory_value(const gg_comparison *comparison, con
  * exact, or nothing is said. */
 GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char *theory, const char *quantity,
                                             double *error, gg_error *err);
+/* The i-th curve that a theory has of what the scene measures, under the name and at the abscissae of the measured one;
+ * its errors are numerical ones, and where they are too large the values are NaN. GG_BAD_INPUT after the last. */
+GG_API gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
+                                            gg_curve_data *curve, gg_error *err);
 
 typedef struct gg_remark { /* on what differs by more than is expected */
   const char *theory;      /* NULL: md and Enskog's equation or dsmc; causes that apply to this scene */

@@ -225,6 +225,34 @@ static void print_numerical_error(const gg_comparison *c, const char *theory)
   gg_print_wrapped(stdout, "  Here: ", text);
 }
 
+/* The last x at which a curve is known, INFINITY if that is its end. */
+static double end_of(const gg_curve_data *curve)
+{
+  size_t n = curve->n;
+  while (n > 0 && isnan(curve->value[n - 1])) n--;
+  return n == curve->n ? INFINITY : n ? curve->x[n - 1] : NAN;
+}
+
+/* "Here: 6 curves of velocity_distributions ..." */
+static void print_curves(const gg_comparison *c, const char *theory)
+{
+  gg_curve_data curve, next;
+  double end = INFINITY;
+  int n = 0;
+  for (size_t i = 0; gg_comparison_theory_curve(c, theory, i, &curve, NULL) == GG_OK; i++) {
+    n++, end = fmin(end, end_of(&curve));
+    if (gg_comparison_theory_curve(c, theory, i + 1, &next, NULL) == GG_OK &&
+        strcmp(next.observable, curve.observable) == 0)
+      continue;
+    char text[240], known[80] = "";
+    if (isfinite(end))
+      snprintf(known, sizeof known, "; where the series converges, up to %s = %.3g", curve.x_name, end);
+    snprintf(text, sizeof text, "%d curves of %s (--json; compare and plot draw them)%s.", n, curve.observable, known);
+    gg_print_wrapped(stdout, "  Here: ", text);
+    n = 0, end = INFINITY;
+  }
+}
+
 void gg_print_theories(const gg_comparison *c, bool all)
 {
   int n_theories;
@@ -240,6 +268,7 @@ void gg_print_theories(const gg_comparison *c, bool all)
     gg_print_paragraph(stdout, 2, "%s: %s (%s)\n%s", theory.name, theory.title, theory.citation, theory.assumptions);
     if (theory.beyond) gg_print_wrapped(stdout, "  Here: ", theory.beyond);
     print_numerical_error(c, theory.name);
+    print_curves(c, theory.name);
   }
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
     if (theory.reason) gg_print_paragraph(stdout, 2, "%s", theory.reason);

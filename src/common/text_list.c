@@ -25,6 +25,13 @@ void gg_text_list_add(gg_text_list *list, const char *format, ...)
   gg_text_list_take(list, text);
 }
 
+void gg_text_list_move(gg_text_list *to, gg_text_list *from)
+{
+  for (size_t i = 0; i < from->n; i++) gg_text_list_take(to, from->text[i]);
+  free(from->text);
+  *from = (gg_text_list){0};
+}
+
 void gg_text_list_clear(gg_text_list *list)
 {
   for (size_t i = 0; i < list->n; i++) free(list->text[i]);

@@ -40,8 +40,8 @@ gg_status gg_door_compare_by(gg_crew *crew, const gg_scene *scene, const gg_run_
   if (status == GG_OK) gg_door_run_foretell(&run, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY);
   if (status == GG_OK) /* without a trajectory */
     status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);
-  c->warnings = run.warnings;
-  run.warnings = (gg_text_list){0};
+  gg_text_list_move(&run.warnings, &c->warnings);
+  gg_text_list_move(&c->warnings, &run.warnings);
   bool some = status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC];
   if (some && run.options.output && (status == GG_OK || status == GG_FAILED)) {
     gg_crew_pause(crew);
@@ -62,6 +62,8 @@ static gg_status keep_one(gg_comparison *c, const char *theory, gg_error *err)
 {
   for (int i = 0; i < c->n_theories; i++)
     if (strcmp(c->theory[i].theory->name, theory) == 0) {
+      for (int k = 0; k < c->n_theories; k++)
+        if (k != i) gg_curves_clear(&c->theory[k].curves);
       c->theory[0] = c->theory[i];
       c->n_theories = 1;
       return GG_OK;
@@ -214,6 +216,20 @@ gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char
   GG_TRY(find(comparison, quantity, &q, err));
   GG_TRY(find_theory(comparison, theory, &i, err));
   *error = comparison->theory[i].applies ? comparison->theory[i].answer.error[q] : NAN;
+  return GG_OK;
+}
+
+gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
+                                     gg_curve_data *curve, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(theory);
+  GG_NEED(curve);
+  int k;
+  GG_TRY(find_theory(comparison, theory, &k, err));
+  const gg_curves *curves = &comparison->theory[k].curves;
+  if (i >= (size_t)curves->n) return gg_fail(err, GG_BAD_INPUT, "%s has %d curves here", theory, curves->n);
+  *curve = gg_door_curve(&curves->curve[i]);
   return GG_OK;
 }
 

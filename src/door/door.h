@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "common/scene.h"
+#include "measure/curve.h"
 
 /* A missing argument is an answer, not a crash. */
 #define GG_NEED(argument)                                                                                              \
@@ -20,5 +21,8 @@ gg_status gg_door_finished(const gg_scene *scene, gg_scene *copy, gg_error *err)
 /* words.c: an engine by its name; a document as text, whose reference it takes. */
 gg_status gg_door_engine(const char *name, gg_engine_kind *kind, gg_error *err);
 gg_status gg_door_text(json_t *document, char **text, gg_error *err);
+
+/* result.c: what a user sees of a curve. */
+gg_curve_data gg_door_curve(const gg_curve *curve);
 
 #endif

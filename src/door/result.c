@@ -134,29 +134,34 @@ static const gg_curve *curve_at(const gg_result *r, size_t i, gg_error *err)
   return NULL;
 }
 
+gg_curve_data gg_door_curve(const gg_curve *c)
+{
+  return (gg_curve_data){.name = c->name,
+                         .observable = c->group,
+                         .panel = c->panel,
+                         .label = c->label,
+                         .x_name = c->x_name,
+                         .x_unit = c->x_unit,
+                         .y_name = c->y_name,
+                         .unit = c->unit,
+                         .log_x = c->log_x,
+                         .log_y = c->log_y,
+                         .n = c->n,
+                         .x = c->x,
+                         .value = c->value,
+                         .error = c->error,
+                         .law = c->reference,
+                         .law_label = c->reference ? c->reference_label : NULL,
+                         .samples = c->samples};
+}
+
 gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curve, gg_error *err)
 {
   GG_NEED(result);
   GG_NEED(curve);
   const gg_curve *c = curve_at(result, i, err);
   if (!c) return GG_BAD_INPUT;
-  *curve = (gg_curve_data){.name = c->name,
-                           .observable = c->group,
-                           .panel = c->panel,
-                           .label = c->label,
-                           .x_name = c->x_name,
-                           .x_unit = c->x_unit,
-                           .y_name = c->y_name,
-                           .unit = c->unit,
-                           .log_x = c->log_x,
-                           .log_y = c->log_y,
-                           .n = c->n,
-                           .x = c->x,
-                           .value = c->value,
-                           .error = c->error,
-                           .law = c->reference,
-                           .law_label = c->reference ? c->reference_label : NULL,
-                           .samples = c->samples};
+  *curve = gg_door_curve(c);
   return GG_OK;
 }
 

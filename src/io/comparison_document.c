@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "io/curves.h"
 #include "io/document.h"
 #include "io/scene/json.h"
 #include "run/agreement.h"
@@ -56,11 +57,24 @@ static json_t *about_json(const gg_comparison *c)
   return all;
 }
 
+/* {"enskog_hermite": {"velocity_distribution_Cx": a curve as those of a run}}; left out where no theory has any. */
+static void put_theory_curves(json_t *document, const gg_comparison *c)
+{
+  json_t *all = json_object();
+  for (int i = 0; i < c->n_theories; i++)
+    if (c->theory[i].curves.n)
+      json_object_set_new(all, c->theory[i].theory->name, gg_curves_json(&c->theory[i].curves));
+  if (json_object_size(all)) json_object_set(document, GG_THEORY_CURVES, all);
+  json_decref(all);
+}
+
 json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *c)
 {
   json_t *warnings = warnings_json(c), *theory = theories_json(c, warnings);
-  return json_pack("{s:s, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene), "theory", theory,
-                   "theories", about_json(c), "warnings", warnings);
+  json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene),
+                               "theory", theory, "theories", about_json(c), "warnings", warnings);
+  put_theory_curves(document, c);
+  return document;
 }
 
 static json_t *deviations_json(const gg_comparison *c, const gg_result *engine, gg_quantity q, json_t *warnings)
@@ -166,7 +180,9 @@ json_t *gg_comparison_document(const gg_comparison *c)
   }
   warn_causes(c, warnings);
   warn_remarks(c, warnings);
-  return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
-                   gg_scene_json(&c->scene), "md", md, "dsmc", dsmc, "theory", theory, "theories", about_json(c),
-                   "comparison", rows, "warnings", warnings);
+  json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
+                               gg_scene_json(&c->scene), "md", md, "dsmc", dsmc, "theory", theory, "theories",
+                               about_json(c), "comparison", rows, "warnings", warnings);
+  put_theory_curves(document, c);
+  return document;
 }

@@ -12,6 +12,10 @@
  * "value": [], "stderr": [], "numbers": {"alpha": {"mean", "stderr", "unit"}}, "reference": {"label", "value": []}}}:
  * the last only where there is a law to see the curve beside. */
 json_t *gg_curves_json(const gg_curves *curves);
+/* Those of one engine or theory, appended to a list. */
+gg_status gg_curves_from_json(gg_curves *list, const json_t *curves, gg_error *err);
+/* The key of documents that has those of theories, by their names. */
+#define GG_THEORY_CURVES "theory_curves"
 
 /* GROUP/curves/<name>/ x, value, stderr, reference if there is one; numbers/<name>: mean, stderr; units and the
  * reference's label are attributes. */
@@ -20,8 +24,9 @@ void gg_h5_write_curves(gg_h5 *h, const char *group, const gg_curves *curves);
 /* How many groups of curves an engine's document holds, and the k-th one's name. */
 int gg_curve_groups(const json_t *document, const char **names, int most);
 
-/* One group of curves (one observable) as a page of panels; `size` is the page's, in pixels. */
+/* One group of curves (one observable) as a page of panels; `size` is the page's, in pixels. `theories`: their curves,
+ * as under GG_THEORY_CURVES, drawn as lines through those of the same names; may be NULL. */
 void gg_plot_curves_size(const json_t *document, const char *group, int size[2]);
-void gg_plot_curves(FILE *script, const json_t *document, const char *group);
+void gg_plot_curves(FILE *script, const json_t *document, const json_t *theories, const char *group);
 
 #endif

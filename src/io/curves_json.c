@@ -48,3 +48,67 @@ json_t *gg_curves_json(const gg_curves *curves)
   for (int k = 0; k < curves->n; k++) json_object_set_new(all, curves->curve[k].name, curve_json(&curves->curve[k]));
   return all;
 }
+
+static double number(const json_t *object, const char *key)
+{
+  const json_t *value = json_object_get(object, key);
+  return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static const char *text(const json_t *object, const char *key)
+{
+  const char *value = json_string_value(json_object_get(object, key));
+  return value ? value : "";
+}
+
+static void fill(double *to, size_t n, const json_t *list)
+{
+  for (size_t i = 0; i < n; i++) {
+    const json_t *value = json_array_get(list, i);
+    to[i] = json_is_number(value) ? json_number_value(value) : NAN;
+  }
+}
+
+static void restore_numbers(gg_curve *c, const json_t *numbers)
+{
+  const char *name;
+  json_t *one;
+  json_object_foreach((json_t *)(uintptr_t)numbers, name, one)
+  {
+    int n = c->n_numbers;
+    gg_curve_put_number(c, name, number(one, "mean"), text(one, "unit"));
+    if (c->n_numbers > n) c->number[n].error = number(one, "stderr");
+    if (c->n_numbers > n) c->number[n].setting = c->number[n].error == 0;
+  }
+}
+
+static gg_status restore(gg_curves *list, const char *name, const json_t *stored, gg_error *err)
+{
+  const json_t *law = json_object_get(stored, "reference");
+  list->group = text(stored, "group");
+  list->samples = (uint64_t)json_integer_value(json_object_get(stored, "samples"));
+  gg_curve *c = gg_curve_add(list, json_array_size(json_object_get(stored, "x")), name, text(stored, "panel"),
+                             text(stored, "label"));
+  list->group = NULL; /* every curve has its own copy */
+  if (list->failed) return gg_fail(err, GG_FAILED, "out of memory for the curve %s", name);
+  gg_curve_axes(c, text(stored, "x_name"), text(stored, "x_unit"), text(stored, "y_name"), text(stored, "unit"));
+  c->folded = json_is_true(json_object_get(stored, "folded"));
+  c->log_x = json_is_true(json_object_get(stored, "log_x"));
+  c->log_y = json_is_true(json_object_get(stored, "log_y"));
+  fill(c->x, c->n, json_object_get(stored, "x"));
+  fill(c->value, c->n, json_object_get(stored, "value"));
+  fill(c->error, c->n, json_object_get(stored, "stderr"));
+  restore_numbers(c, json_object_get(stored, "numbers"));
+  if (!law) return GG_OK;
+  gg_curve_beside(c, text(law, "label"), gg_level, &(double){0});
+  if (c->reference) fill(c->reference, c->n, json_object_get(law, "value"));
+  return GG_OK;
+}
+
+gg_status gg_curves_from_json(gg_curves *list, const json_t *curves, gg_error *err)
+{
+  const char *name;
+  json_t *stored;
+  json_object_foreach((json_t *)(uintptr_t)curves, name, stored) GG_TRY(restore(list, name, stored, err));
+  return GG_OK;
+}

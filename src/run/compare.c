@@ -13,6 +13,16 @@ double gg_z_score(const gg_estimate *a, const gg_estimate *b)
   return error > 0 ? (a->mean - b->mean) / error : NAN;
 }
 
+/* Curves of what the scene measures, so that nobody pays for others. */
+static void draw_curves(gg_comparison *c, int i)
+{
+  gg_error err = {0};
+  const gg_theory *theory = c->theory[i].theory;
+  if (!c->theory[i].applies) return;
+  if (gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &err) != GG_OK)
+    gg_text_list_add(&c->warnings, "%s: no curves: %s", theory->name, err.message);
+}
+
 void gg_compare_theories(const gg_model *model, gg_comparison *c)
 {
   c->model = *model;
@@ -26,7 +36,7 @@ void gg_compare_theories(const gg_model *model, gg_comparison *c)
     c->theory[i].applies =
         gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &err) == GG_OK;
     snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", err.message);
-    c->n_theories++;
+    draw_curves(c, c->n_theories++);
   }
 }
 
@@ -187,6 +197,7 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
 void gg_comparison_clear(gg_comparison *c)
 {
   for (int k = 0; k < 2; k++) gg_result_free(c->by_engine[k]);
+  for (int i = 0; i < c->n_theories; i++) gg_curves_clear(&c->theory[i].curves);
   gg_extension_release(c->scene.extension);
   gg_extension_release(c->own);
   free(c->document);

@@ -141,10 +141,9 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
 {
   const gg_engine_state *s = &result->engine_state;
   if (all->model.law.e && gg_scene_is_given(&all->scene, "collision.e"))
-    gg_result_warn(result, "collision.e was not in force, but the calling program's restitution law '%s'",
-                   all->model.law.name);
+    gg_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
   else if (all->model.law.e)
-    gg_result_warn(result, "in force was the calling program's restitution law '%s'", all->model.law.name);
+    gg_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
   if (result->steadiness != GG_STEADY) gg_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (result->steadiness == GG_STEADY && !c->trusted)
     gg_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",

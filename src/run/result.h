@@ -83,4 +83,7 @@ void gg_result_tell_ensemble(gg_result *result);
 /* The headline quantities of a flow: what run.relative_error is asked of. Returns how many. */
 int gg_headline(const gg_model *model, gg_quantity headline[GG_N_QUANTITIES]);
 
+/* The warning of results whose restitution follows no scene says so in these words. */
+#define GG_OWN_LAW "the calling program's restitution law"
+
 #endif

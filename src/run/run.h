@@ -46,6 +46,7 @@ struct gg_comparison {
     bool applies;
     char reason[256]; /* why not */
     gg_theory_answer answer;
+    gg_curves curves; /* of what the scene measures; owned */
   } theory[GG_MOST_THEORIES];
   gg_text_list warnings; /* of the scene */
   char *document;        /* JSON as it was stored; NULL of a comparison that was not read from a file */
@@ -61,7 +62,8 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
 double gg_z_score(const gg_estimate *a, const gg_estimate *b);
 void gg_comparison_clear(gg_comparison *comparison);
 
-/* Evaluate the theories for the comparison's scene: fills only model and theory[], which borrow from it. */
+/* Evaluate the theories for the comparison's scene: fills only model and theory[], which borrow from it, and warns of
+ * curves that cannot be had. */
 void gg_compare_theories(const gg_model *model, gg_comparison *comparison);
 
 #endif

@@ -6,6 +6,7 @@
 #include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/garzo_dufty1999.h"
+#include "theory/hermite/curves.h"
 #include "theory/hermite/isotropic.h"
 #include "theory/hermite/mixture_answer.h"
 #include "theory/hermite/rungs.h"
@@ -112,4 +113,5 @@ const gg_theory gg_enskog_hermite = {
         "of "
         "e = 0.5), of rough ones 0.1 % for e from 0.7.",
     .evaluate = evaluate,
+    .curves = gg_hermite_curves,
 };

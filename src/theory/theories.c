@@ -46,15 +46,33 @@ static gg_status check_flow(const gg_theory *theory, const gg_model *m, gg_error
   return gg_refuse(err, theory->name, "describes %s; this scene is %s", states, gg_flow_of(m->flow)->state);
 }
 
+static gg_status check_law(const gg_theory *theory, const gg_model *model, gg_error *err)
+{
+  if (!model->law.name || theory->own) return GG_OK;
+  return gg_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
+                 theory->name, model->law.name);
+}
+
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
 {
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
-  if (model->law.name && !theory->own)
-    return gg_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
-                   theory->name, model->law.name);
+  GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
   gg_status status =
       theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err) : theory->evaluate(model, answer, err);
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
+  return status;
+}
+
+gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
+                           gg_error *err)
+{
+  *list = (gg_curves){.model = model};
+  if (!theory->curves) return GG_OK;
+  GG_TRY(check_law(theory, model, err));
+  GG_TRY(check_flow(theory, model, err));
+  gg_status status = theory->curves(model, measure, list, err);
+  list->group = NULL; /* every curve has its own copy */
+  if (status != GG_OK) gg_curves_clear(list);
   return status;
 }

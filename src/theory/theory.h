@@ -3,6 +3,7 @@
 #define GG_THEORY_H
 
 #include "common/quantity.h"
+#include "measure/curve.h"
 
 /* What a theory says: NaN where it has no answer. `error`: how far a number may be from what the theory's equations
  * have as their solution, where these are solved numerically; else NaN. */
@@ -22,6 +23,11 @@ typedef struct gg_theory {
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);
   /* Why this model is beyond what the theory was made for, though it answers; NULL (also the function) within it. */
   const char *(*beyond)(const gg_model *model);
+  /* Curves, under the names and at the abscissae of those of the observables in `measure` (GG_MEASURE_...); an error of
+   * a point is how far it may be from what the theory's equations have. Of models alone for which `evaluate` answers.
+   * GG_OK also where it has none of these; GG_BAD_INPUT with the reason why it has none here. NULL: it has no curves.
+   */
+  gg_status (*curves)(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
   /* A theory that the user's program brings (own.c): this instead of the two above; else NULL. */
   const gg_theory_definition *own;
 } gg_theory;
@@ -43,5 +49,9 @@ const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model);
 
 /* Evaluate with every value preset to NaN. */
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err);
+
+/* Its curves, if it has some, for a model that it describes; after a failure there are none. To be cleared. */
+gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
+                           gg_error *err);
 
 #endif

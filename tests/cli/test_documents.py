@@ -89,8 +89,8 @@ def test_rooms():
              "md": "dsmc statistics measure theory run io bench door cli",
              "dsmc": "md statistics measure theory run io bench door cli",
              "statistics": "md dsmc measure theory run io bench door cli",
-             "theory": "md dsmc statistics measure run io bench door cli",
-             "measure": "md dsmc run io bench door cli", "run": "io bench door cli", "io": "bench door cli",
+             "theory": "md dsmc statistics run io bench door cli",
+             "measure": "md dsmc theory run io bench door cli", "run": "io bench door cli", "io": "bench door cli",
              "bench": "door cli", "door": "cli"}
     backwards, files = set(), 0
     for room, later in after.items():

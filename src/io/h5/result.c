@@ -177,26 +177,31 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
   gg_h5_write_curves(h, group, &r->curves);
 }
 
-void gg_h5_write_theories(gg_h5 *h, const gg_comparison *c)
+static void write_numbers(gg_h5 *h, const char *group, const gg_model *m, const gg_theory_answer *a)
 {
   char path[160];
+  for (int k = 0; k < gg_quantities_of(m); k++) {
+    const gg_quantity q = gg_quantity_at(m, k);
+    const char *quantity = gg_quantity_name_in(m, q);
+    if (!isfinite(a->value[q])) continue;
+    snprintf(path, sizeof path, "%s/%s/mean", group, quantity);
+    gg_h5_number(h, path, a->value[q]);
+    snprintf(path, sizeof path, "%s/%s/error", group, quantity);
+    if (isfinite(a->error[q])) gg_h5_number(h, path, a->error[q]);
+    snprintf(path, sizeof path, "%s/%s/unit", group, quantity);
+    gg_h5_text(h, path, gg_quantity_unit(q, m));
+  }
+}
+
+void gg_h5_write_theories(gg_h5 *h, const gg_comparison *c)
+{
+  char group[96];
   for (int i = 0; i < c->n_theories; i++) {
     if (!c->theory[i].applies) continue;
-    const char *name = c->theory[i].theory->name;
-    snprintf(path, sizeof path, "/graingas/theory/%s", name);
-    gg_h5_group(h, path);
-    gg_h5_text_attribute(h, path, "citation", c->theory[i].theory->citation);
-    for (int k = 0; k < gg_quantities_of(&c->model); k++) {
-      const gg_quantity q = gg_quantity_at(&c->model, k);
-      const char *quantity = gg_quantity_name_in(&c->model, q);
-      double value = c->theory[i].answer.value[q];
-      if (!isfinite(value)) continue;
-      snprintf(path, sizeof path, "/graingas/theory/%s/%s/mean", name, quantity);
-      gg_h5_number(h, path, value);
-      snprintf(path, sizeof path, "/graingas/theory/%s/%s/error", name, quantity);
-      if (isfinite(c->theory[i].answer.error[q])) gg_h5_number(h, path, c->theory[i].answer.error[q]);
-      snprintf(path, sizeof path, "/graingas/theory/%s/%s/unit", name, quantity);
-      gg_h5_text(h, path, gg_quantity_unit(q, &c->model));
-    }
+    snprintf(group, sizeof group, "/graingas/theory/%s", c->theory[i].theory->name);
+    gg_h5_group(h, group);
+    gg_h5_text_attribute(h, group, "citation", c->theory[i].theory->citation);
+    write_numbers(h, group, &c->model, &c->theory[i].answer);
+    gg_h5_write_curves(h, group, &c->theory[i].curves);
   }
 }

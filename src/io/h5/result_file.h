@@ -8,7 +8,8 @@
  *   /graingas/results/<quantity>     mean, stderr, unit, samples, correlation_time; compare: /graingas/md/results/...
  *   /graingas/curves/<name>          x, value, stderr, numbers/<what>/mean, stderr; units are attributes; compare:
  *                                    /graingas/md/curves/...
- *   /graingas/theory/<name>/<quantity>   mean, unit */
+ *   /graingas/theory/<name>/<quantity>   mean, error where the theory is solved numerically, unit
+ *   /graingas/theory/<name>/curves/<name>   as those of engines; stderr is the numerical error */
 #ifndef GG_RESULT_FILE_H
 #define GG_RESULT_FILE_H
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/curves.h"
 #include "io/document.h"
 #include "io/h5/stored_extension.h"
 #include "io/scene/inert.h"
@@ -92,59 +93,6 @@ static gg_status restore_history(gg_result *r, const gg_stored_engine *e, gg_err
   return GG_OK;
 }
 
-static void fill(double *to, size_t n, const json_t *list)
-{
-  for (size_t i = 0; i < n; i++) {
-    const json_t *value = json_array_get(list, i);
-    to[i] = json_is_number(value) ? json_number_value(value) : NAN;
-  }
-}
-
-static void restore_numbers(gg_curve *c, const json_t *numbers)
-{
-  const char *name;
-  json_t *one;
-  json_object_foreach((json_t *)(uintptr_t)numbers, name, one)
-  {
-    int n = c->n_numbers;
-    gg_curve_put_number(c, name, number(one, "mean"), text(one, "unit"));
-    if (c->n_numbers > n) c->number[n].error = number(one, "stderr");
-    if (c->n_numbers > n) c->number[n].setting = c->number[n].error == 0;
-  }
-}
-
-static gg_status restore_curve(gg_result *r, const char *name, const json_t *stored, gg_error *err)
-{
-  const json_t *law = json_object_get(stored, "reference");
-  r->curves.group = text(stored, "group");
-  r->curves.samples = count(stored, "samples");
-  gg_curve *c = gg_curve_add(&r->curves, json_array_size(json_object_get(stored, "x")), name, text(stored, "panel"),
-                             text(stored, "label"));
-  r->curves.group = NULL; /* every curve has its own copy */
-  if (r->curves.failed) return gg_fail(err, GG_FAILED, "out of memory for the curve %s", name);
-  gg_curve_axes(c, text(stored, "x_name"), text(stored, "x_unit"), text(stored, "y_name"), text(stored, "unit"));
-  c->folded = json_is_true(json_object_get(stored, "folded"));
-  c->log_x = json_is_true(json_object_get(stored, "log_x"));
-  c->log_y = json_is_true(json_object_get(stored, "log_y"));
-  fill(c->x, c->n, json_object_get(stored, "x"));
-  fill(c->value, c->n, json_object_get(stored, "value"));
-  fill(c->error, c->n, json_object_get(stored, "stderr"));
-  restore_numbers(c, json_object_get(stored, "numbers"));
-  if (!law) return GG_OK;
-  gg_curve_beside(c, text(law, "label"), gg_level, &(double){0});
-  if (c->reference) fill(c->reference, c->n, json_object_get(law, "value"));
-  return GG_OK;
-}
-
-static gg_status restore_curves(gg_result *r, const json_t *document, gg_error *err)
-{
-  const char *name;
-  json_t *stored;
-  r->curves.model = &r->model;
-  json_object_foreach(json_object_get(document, "curves"), name, stored) GG_TRY(restore_curve(r, name, stored, err));
-  return GG_OK;
-}
-
 /* The file's frame is that of the run, or of a comparison's md where there was one. */
 static gg_status restore_frame(gg_result *r, const gg_stored_result *s, gg_error *err)
 {
@@ -212,7 +160,8 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   restore_means(r, e->document);
   restore_effort(r, e->document);
   GG_TRY(restore_history(r, e, err));
-  GG_TRY(restore_curves(r, e->document, err));
+  r->curves.model = &r->model;
+  GG_TRY(gg_curves_from_json(&r->curves, json_object_get(e->document, "curves"), err));
   GG_TRY(restore_frame(r, s, err));
   return restore_origin(r, s, e->document, err);
 }
@@ -239,14 +188,15 @@ static void restore_refusal(const json_t *document, const char *theory, char *re
 
 /* What the file's theories said, which those of today may not, nor of the stored scene: a restitution law of the
  * program's own is not in it. */
-static void restore_theories(gg_comparison *c, const json_t *document)
+static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_error *err)
 {
   const json_t *all = json_object_get(document, "theory");
   const gg_theory *theory;
   if (!json_is_object(all)) { /* a run's file: no theory was asked */
     gg_compare_theories(&c->model, c);
-    return;
+    return GG_OK;
   }
+  const json_t *curves = json_object_get(document, GG_THEORY_CURVES);
   c->n_theories = 0;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(&c->model, i)); i++, c->n_theories++) {
     const json_t *said = json_object_get(all, theory->name);
@@ -261,6 +211,11 @@ static void restore_theories(gg_comparison *c, const json_t *document)
       c->theory[i].answer.error[q] = number(one, "error");
     }
   }
+  for (int i = 0; i < c->n_theories; i++) {
+    c->theory[i].curves.model = &c->model;
+    GG_TRY(gg_curves_from_json(&c->theory[i].curves, json_object_get(curves, c->theory[i].theory->name), err));
+  }
+  return GG_OK;
 }
 
 /* The engines' own quantities are the same. */
@@ -299,7 +254,7 @@ gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_
       snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
   if (s->comparison) {
     GG_TRY(restore_own(c, s->document, err));
-    restore_theories(c, s->document);
+    GG_TRY(restore_theories(c, s->document, err));
   } else {
     const gg_result *one = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
     c->model.extension = one ? one->model.extension : NULL;

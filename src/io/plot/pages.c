@@ -20,8 +20,8 @@ typedef struct page_list {
   page page[1 + 2 * MOST_GROUPS];
 } page_list;
 
-static gg_status draw_page(const gg_stored_result *stored, const json_t *document, const char *group,
-                           const char *picture, bool png, gg_error *err)
+static gg_status draw_page(const gg_stored_result *stored, const page *p, const json_t *theories, bool png,
+                           gg_error *err)
 {
   char *script = NULL;
   size_t length;
@@ -29,13 +29,13 @@ static gg_status draw_page(const gg_stored_result *stored, const json_t *documen
   FILE *s = open_memstream(&script, &length);
   if (!s) return gg_fail(err, GG_FAILED, "out of memory");
   locale_t before = gg_c_locale_enter();
-  gg_plot_curves_size(document, group, size);
+  gg_plot_curves_size(p->document, p->group, size);
   gg_plot_start_page(s, stored, png, size[0], size[1]);
-  gg_plot_curves(s, document, group);
+  gg_plot_curves(s, p->document, theories, p->group);
   fprintf(s, "unset multiplot\n");
   gg_c_locale_leave(before);
   gg_status status = fclose(s) == 0 ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
-  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
+  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, p->path, err);
   free(script);
   return status;
 }
@@ -102,15 +102,18 @@ gg_status gg_plot_pages(const gg_stored_result *stored, const char *picture, con
   GG_TRY(gg_plot_format(picture, format, &png, err));
   gg_status status = list(&pages, stored, picture, png, err);
   if (status != GG_OK) clear(&pages);
+  json_t *theories = NULL;
   /* A page that fails keeps none of the others from being drawn; what is told is the first failure. */
   for (int i = 0; i < pages.n; i++) {
     const page *p = &pages.page[i];
     gg_error unheard, *told = status == GG_OK ? err : &unheard;
-    gg_status done = p->group ? draw_page(stored, p->document, p->group, p->path, png, told)
-                              : gg_plot_snapshot(stored, p->path, png, &there, told);
+    if (p->group && !theories) theories = gg_plot_theory_curves(stored);
+    gg_status done =
+        p->group ? draw_page(stored, p, theories, png, told) : gg_plot_snapshot(stored, p->path, png, &there, told);
     if (done == GG_OK && drawn) drawn(context, p->path);
     if (status == GG_OK) status = done;
   }
+  json_decref(theories);
   clear(&pages);
   return status;
 }

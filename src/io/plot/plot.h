@@ -63,6 +63,10 @@ bool gg_plot_has(const gg_stored_result *stored, bool ratios);
 void gg_plot_ratios(FILE *script, const gg_stored_result *stored, gg_panel panel);
 void gg_plot_differences(FILE *script, const gg_stored_result *stored, gg_panel panel);
 
+/* Curves of theories for what the result measured, as under GG_THEORY_CURVES of documents; a new reference. It may take
+ * a second or two where they are not stored. */
+json_t *gg_plot_theory_curves(const gg_stored_result *stored);
+
 /* A unit as gnuplot's enhanced text: "d^2 gamma^2" becomes "d^2 γ^2". */
 void gg_plot_unit(const char *unit, char *text, size_t size);
 

@@ -17,6 +17,11 @@ static const double good = 1e-4;
 /* What takes some two seconds: species collide with all others. */
 static const int last_degree[MOST_SPECIES + 1] = {0, 12, 12, 10, 8, 8, 6, 6, 6};
 
+int gg_hermite_shear_last_degree(int n_species)
+{
+  return n_species <= MOST_SPECIES ? last_degree[n_species] : 0;
+}
+
 static gg_stress stress_of(double factor, double P[3][3])
 {
   return (gg_stress){factor * P[0][0], factor * P[1][1], factor * P[2][2], factor * P[0][1], factor * P[1][0]};
