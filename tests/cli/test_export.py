@@ -195,6 +195,41 @@ def inside(found):
                 check(-1e-12 < f < 1 + 1e-12 or periodic == "F", keys, grain)
 
 
+SMOOTH = ("flow: usf\nphi: 0.2\nparticles: 200\ncollision: {e: 0.8}\ndsmc: {particles: 2000}\n"
+          "measure: [rheology, velocity_distributions]\nrun: {collisions: 60, warmup: 10}\n")
+
+
+def test_curves_of_theory():
+    """The noise-free distribution has the names and abscissae of the measured one, in JSON, CSV, HDF5 and pictures."""
+    theory = json.loads(run("theory", "scene.yaml", "--json", scene=SMOOTH).out)["theory_curves"]["enskog_hermite"]
+    document = simulated(SMOOTH, command="compare")
+    said, measured = document["theory_curves"]["enskog_hermite"], document["dsmc"]["curves"]
+    check(list(said) == list(measured) == list(theory) and len(said) == 6, list(said))
+    for name, curve in said.items():
+        check(max(abs(a - b) for a, b in zip(curve["x"], measured[name]["x"])) < 1e-9, name)
+        check(curve["value"] == theory[name]["value"], name)
+    exported("r.h5")
+    _, table = rows("r_enskog_hermite_velocity_distributions_velocity_distribution_Cy.csv")
+    check([line["P/P(0)"] == "" for line in table] ==
+          [value is None for value in said["velocity_distribution_Cy"]["value"]])
+    same(table[80]["P/P(0)"], said["velocity_distribution_Cy"]["value"][80])
+    done = run("plot", "r.h5")
+    check(done.code == 0, done.err)
+    with open("r_dsmc_velocity_distributions.svg", encoding="utf-8") as f:
+        check("enskog_hermite" in re.sub(r"<[^>]*>", "", f.read()))
+    simulated(SMOOTH, "--engine", "dsmc", output="one.h5")  # has asked no theory: its picture does
+    check(run("plot", "one.h5").code == 0)
+    with open("one_velocity_distributions.svg", encoding="utf-8") as f:
+        check("enskog_hermite" in re.sub(r"<[^>]*>", "", f.read()))
+    if not h5py:
+        return
+    with h5py.File("r.h5") as f:
+        for name, curve in said.items():
+            stored = f["graingas/theory/enskog_hermite/curves"][name]
+            for key in "x", "value", "stderr":
+                check([None if math.isnan(x) else x for x in stored[key][()].tolist()] == curve[key], name, key)
+
+
 def test_sheared_trajectory():
     """The cell leans by shear rate times height, counted from the nearest image, and every grain is in it."""
     simulated(SHEARED)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "io/c_locale.h"
+#include "io/curves.h"
 #include "io/export/tables.h"
 #include "io/export/xyz.h"
 
@@ -19,8 +20,8 @@ typedef struct target {
   gg_atomic_file file;
 } target;
 
-/* Curves of two engines, and the others. */
-enum { MOST_TARGETS = 2 * GG_MOST_CURVES + 3 };
+/* Curves of two engines and of theories, and the others. */
+enum { MOST_TARGETS = 3 * GG_MOST_CURVES + 3 };
 
 typedef struct job {
   const gg_stored_result *stored;
@@ -45,19 +46,28 @@ static void add(job *j, gg_export_content content, const json_t *curve, const ch
   j->failed |= !t->path;
 }
 
-static void add_curves(job *j)
+/* Of an engine or a theory; `whose` is "" where there is but one. */
+static void add_curves_of(job *j, const char *whose, json_t *curves)
 {
   const char *name;
   json_t *curve;
+  json_object_foreach(curves, name, curve)
+  {
+    const char *observable = json_string_value(json_object_get(curve, "group"));
+    add(j, CURVE, curve, (const char *const[]){whose, observable, name}, ".csv");
+  }
+}
+
+static void add_curves(job *j)
+{
+  const char *theory;
+  json_t *curves;
   for (int k = 0; k < 2; k++) {
     const gg_stored_engine *e = &j->stored->engine[k];
-    if (!e->name) continue;
-    json_object_foreach(json_object_get(e->document, "curves"), name, curve)
-    {
-      const char *observable = json_string_value(json_object_get(curve, "group"));
-      add(j, CURVE, curve, (const char *const[]){j->stored->comparison ? e->name : "", observable, name}, ".csv");
-    }
+    if (e->name) add_curves_of(j, j->stored->comparison ? e->name : "", json_object_get(e->document, "curves"));
   }
+  json_object_foreach(json_object_get(j->stored->document, GG_THEORY_CURVES), theory, curves)
+      add_curves_of(j, theory, curves);
   if (gg_csv_numbers(NULL, j->stored)) add(j, NUMBERS, NULL, (const char *const[]){"numbers", NULL, NULL}, ".csv");
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "common/engine.h"
+#include "io/curves.h"
 
 static void put_words(gg_csv *csv, const char *const *words, size_t n)
 {
@@ -140,19 +141,19 @@ void gg_csv_curve(gg_text_out *out, const json_t *curve)
   }
 }
 
-static bool put_numbers_of(gg_csv *csv, const gg_stored_engine *e)
+static bool put_numbers_of(gg_csv *csv, const char *whose, json_t *curves)
 {
   static const char *const keys[] = {"mean", "stderr", "unit"};
   const char *curve, *number;
   json_t *of, *one;
   bool any = false;
-  json_object_foreach(json_object_get(e->document, "curves"), curve, of)
+  json_object_foreach(curves, curve, of)
   {
     json_object_foreach(json_object_get(of, "numbers"), number, one)
     {
       any = true;
       if (!csv->out) return true;
-      put_words(csv, (const char *const[]){e->name, text_of(of, "group"), curve, number}, 4);
+      put_words(csv, (const char *const[]){whose, text_of(of, "group"), curve, number}, 4);
       put_members(csv, one, keys, COUNT(keys));
       gg_csv_end_row(csv);
     }
@@ -164,12 +165,17 @@ bool gg_csv_numbers(gg_text_out *out, const gg_stored_result *stored)
 {
   static const char *const head[] = {"engine", "observable", "curve", "number", "mean", "stderr", "unit"};
   gg_csv csv = {.out = out};
+  const char *theory;
+  json_t *curves;
   bool any = false;
   if (out) {
     put_words(&csv, head, COUNT(head));
     gg_csv_end_row(&csv);
   }
   for (int k = 0; k < 2; k++)
-    if (stored->engine[k].name) any |= put_numbers_of(&csv, &stored->engine[k]);
+    if (stored->engine[k].name)
+      any |= put_numbers_of(&csv, stored->engine[k].name, json_object_get(stored->engine[k].document, "curves"));
+  json_object_foreach(json_object_get(stored->document, GG_THEORY_CURVES), theory, curves) any |=
+      put_numbers_of(&csv, theory, curves);
   return any;
 }
