@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "io/plot/axis.h"
 #include "io/plot/plot.h"
 
 typedef struct curve {
@@ -28,16 +29,27 @@ static void print_data(FILE *s, int k, const curve *c)
   fprintf(s, "EOD\n");
 }
 
-static bool spans_decades(const curve *curves, int n)
+/* What is drawn: the blocks' means; over decades of time or value those above 0. */
+static gg_extent extent_of(const curve *curves, int n, bool log)
 {
-  double least = INFINITY, most = 0;
+  gg_extent all = GG_NO_EXTENT;
   for (int k = 0; k < n; k++)
-    for (size_t i = 0; i < curves[k].series->n; i++) {
-      double x = curves[k].sign * curves[k].series->value[i];
-      if (!isfinite(x)) continue;
-      least = fmin(least, x), most = fmax(most, x);
-    }
-  return least > 0 && most > 30 * least;
+    for (size_t i = 0; i < curves[k].series->n; i++)
+      gg_extent_add(&all, curves[k].sign * curves[k].series->value[i], log);
+  return all;
+}
+
+static bool spans_decades(gg_extent all)
+{
+  return all.least > 0 && all.most > 30 * all.least;
+}
+
+/* Two of them are seen from 0. */
+static gg_axis axis_of(const curve *curves, int n, bool decades)
+{
+  gg_axis axis = gg_axis_around(extent_of(curves, n, decades), decades);
+  if (n > 1 && !decades) axis.from = 0;
+  return axis;
 }
 
 static const char *unit_of(const gg_stored_engine *e, const char *name)
@@ -98,9 +110,8 @@ static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const
   if (!found) return;
   gg_plot_place(s, panel);
   for (int k = 0; k < found; k++) print_data(s, k, &curves[k]);
-  bool decades = spans_decades(curves, found);
-  if (decades) fprintf(s, "set logscale y\nset format y '10^{%%T}'\n");
-  if (found > 1 && !decades) fprintf(s, "set yrange [0:*]\n");
+  bool decades = spans_decades(extent_of(curves, found, false));
+  gg_axis_print(s, 'y', axis_of(curves, found, decades));
   gg_plot_unit(unit_of(e, curves[0].name), unit, sizeof unit);
   bool means = false;
   for (int k = 0; k < found; k++) means |= draw_mean(s, e, &curves[k]);
