@@ -4,7 +4,7 @@
  * are partitioned. monte_carlo_bias [--seconds S] [--scene K] takes S seconds of processor time a scene (400), and
  * prints a line a run: mean, error, and how far off the solution that is; then what follows for N without end. Exit
  * code 0; 1 where a run or a solution failed; 2: the command line is wrong. */
-#include <gsl/gsl_multifit.h>
+#include <gsl/gsl_fit.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -110,28 +110,23 @@ static gg_status fixed(const scene *c, gg_scene *s, double n, double seconds, co
   return GG_OK;
 }
 
-/* value(N) = limit + b/N + c/N^2, each point with its error. */
+/* value(N) = limit + b/N over the ensembles that collide by blocks, each point with its error: smaller ones collide one
+ * by one, and have a b of their own. */
 static void extrapolate(const scene *c, const double *n, const answer *a, const answer *exact)
 {
-  gsl_matrix *X = gsl_matrix_alloc(SIZES, 3), *cov = gsl_matrix_alloc(3, 3);
-  gsl_vector *y = gsl_vector_alloc(SIZES), *w = gsl_vector_alloc(SIZES), *fit = gsl_vector_alloc(3);
-  gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(SIZES, 3);
+  enum { FIRST = 2 };
+  double x[SIZES], y[SIZES], w[SIZES], limit, b, cov00, cov01, cov11, chi2;
   for (int q = 0; q < QUANTITIES; q++) {
-    double chi2, scale = fabs(exact->mean[q]);
-    for (int i = 0; i < SIZES; i++) {
-      for (int k = 0; k < 3; k++) gsl_matrix_set(X, (size_t)i, (size_t)k, pow(n[i], -k));
-      gsl_vector_set(y, (size_t)i, a[i].mean[q] / scale);
-      gsl_vector_set(w, (size_t)i, pow(scale / a[i].error[q], 2));
+    double scale = fabs(exact->mean[q]);
+    for (int i = FIRST; i < SIZES; i++) {
+      x[i] = 1 / n[i], y[i] = (a[i].mean[q] - exact->mean[q]) / scale;
+      w[i] = pow(scale / a[i].error[q], 2);
     }
-    gsl_multifit_wlinear(X, w, y, fit, cov, &chi2, work);
-    double off = gsl_vector_get(fit, 0) - exact->mean[q] / scale;
-    double error = hypot(sqrt(gsl_matrix_get(cov, 0, 0)), exact->error[q] / scale);
-    printf("# %s %s: N without end %+.2e +- %.1e, 1/N %+.3f +- %.3f, chi^2 %.1f of %d\n", c->yaml, c->quantity[q], off,
-           error, gsl_vector_get(fit, 1), sqrt(gsl_matrix_get(cov, 1, 1)), chi2, SIZES - 3);
+    gsl_fit_wlinear(x + FIRST, 1, w + FIRST, 1, y + FIRST, 1, SIZES - FIRST, &limit, &b, &cov00, &cov01, &cov11, &chi2);
+    printf("# %s %s: N without end %+.2e +- %.1e, 1/N %+.3f +- %.3f, chi^2 %.1f of %d; N %.0f: %+.3f +- %.3f\n",
+           c->yaml, c->quantity[q], limit, hypot(sqrt(cov00), exact->error[q] / scale), b, sqrt(cov11), chi2,
+           SIZES - FIRST - 2, n[0], n[0] * (a[0].mean[q] - exact->mean[q]) / scale, n[0] * a[0].error[q] / scale);
   }
-  gsl_multifit_linear_free(work);
-  gsl_vector_free(fit), gsl_vector_free(w), gsl_vector_free(y);
-  gsl_matrix_free(cov), gsl_matrix_free(X);
 }
 
 static gg_status by_size(const scene *c, double seconds, const answer *exact, gg_error *err)
