@@ -27,7 +27,7 @@ static const scene scenes[] = {
     {"{flow: usf, phi: 0.1, collision: {e: 0.8}}", 0.1, 0.8, GG_USF, {"temperature", "P_xy", "N1"}},
     {"{flow: usf, phi: 0.01, collision: {e: 0.9}}", 0.01, 0.9, GG_USF, {"temperature", "P_xy", "N1"}},
     {"{flow: usf, phi: 0, collision: {e: 0.9}}", 0, 0.9, GG_USF, {"temperature", "P_xy", "N1"}},
-    {"{flow: hcs, phi: 0, collision: {e: 0.8}}", 0, 0.8, GG_HCS, {"cooling_rate", "a2", "collision_rate"}},
+    {"{flow: hcs, phi: 0, collision: {e: 0.8}}", 0, 0.8, GG_HCS, {"cooling_rate", "a2", "kurtosis_Cx"}},
     {"{flow: hss, phi: 0.3, collision: {e: 0.8}}", 0.3, 0.8, GG_HSS, {"cooling_rate", "a2", "collision_rate"}},
 };
 enum { N_SCENES = sizeof scenes / sizeof *scenes };
@@ -51,8 +51,10 @@ static gg_status reference_of(const scene *c, answer *a, gg_error *err)
     return GG_OK;
   }
   GG_TRY(gg_theory_evaluate(&gg_enskog_hermite, &m, &t, err));
-  const gg_quantity q[QUANTITIES] = {GG_Q_COOLING_RATE, GG_Q_A2, GG_Q_COLLISION_RATE};
-  for (int i = 0; i < QUANTITIES; i++) a->mean[i] = t.value[q[i]], a->error[i] = t.error[q[i]];
+  for (int i = 0; i < QUANTITIES; i++) {
+    const gg_quantity q = gg_quantity_find(c->quantity[i]);
+    a->mean[i] = t.value[q], a->error[i] = t.error[q];
+  }
   return GG_OK;
 }
 

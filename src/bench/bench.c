@@ -13,10 +13,8 @@ static const struct {
   const char *name; /* the word typed; NULL: none */
   gg_bench_subject *run;
 } subjects[] = {
-    {NULL, gg_bench_overview},
-    {"md", gg_bench_md},
-    {"dsmc", gg_bench_dsmc},
-    {"observables", gg_bench_observables},
+    {NULL, gg_bench_overview}, {"md", gg_bench_md}, {"dsmc", gg_bench_dsmc}, {"observables", gg_bench_observables},
+    {"error", gg_bench_error},
 };
 enum { N_SUBJECTS = sizeof subjects / sizeof *subjects };
 
@@ -82,6 +80,8 @@ gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options 
   *b = (gg_bench){.options = options};
   while (i < N_SUBJECTS && (subject ? !subjects[i].name || strcmp(subject, subjects[i].name) != 0 : i > 0)) i++;
   if (i == N_SUBJECTS) return refuse(subject, err);
+  if (options->picture && subjects[i].run != gg_bench_error)
+    return gg_fail(err, GG_BAD_INPUT, "bench: --picture is for bench error, which has one");
   GG_TRY(take_seed(b, err));
   return subjects[i].run(b, err);
 }

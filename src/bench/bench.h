@@ -7,8 +7,9 @@
 #include "common/scene.h"
 
 typedef struct gg_bench_options {
-  bool quick;  /* fewer sizes, shorter stretches */
-  int threads; /* that one engine may use where threads are measured */
+  bool quick;          /* fewer sizes, shorter stretches */
+  const char *picture; /* of "error": file to draw, .svg or .png; NULL: none */
+  int threads;         /* that one engine may use where threads are measured */
   int n_overrides;
   const char *const *override; /* "KEY=VALUE" of a scene; only run.seed matters */
   void *context;
@@ -23,7 +24,7 @@ typedef struct gg_bench {
   gg_bench_sheet *sheet[GG_BENCH_SHEETS];
 } gg_bench;
 
-/* Measure a subject: "md", "dsmc", "observables"; NULL for the overview. Clear *bench whatever comes of it. */
+/* Measure a subject: "md", "dsmc", "observables", "error"; NULL for the overview. Clear *bench whatever comes of it. */
 gg_status gg_bench_run(gg_bench *bench, const char *subject, const gg_bench_options *options, gg_error *err);
 void gg_bench_clear(gg_bench *bench);
 /* All rows as one JSON document; to be freed. NULL if out of memory. */
@@ -31,7 +32,7 @@ char *gg_bench_document(const gg_bench *bench);
 
 /* For subjects. */
 typedef gg_status gg_bench_subject(gg_bench *bench, gg_error *err);
-gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc, gg_bench_observables;
+gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc, gg_bench_observables, gg_bench_error;
 
 /* A new, empty sheet, owned by the bench; NULL with the message if out of memory. Strings must be literals. */
 gg_bench_sheet *gg_bench_new_sheet(gg_bench *bench, const char *key, const char *caption, int keep, gg_error *err);

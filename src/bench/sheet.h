@@ -7,7 +7,7 @@
 
 #include "common/error.h"
 
-enum { GG_BENCH_COLUMNS = 16, GG_BENCH_ROWS = 24, GG_BENCH_CELL = 64 };
+enum { GG_BENCH_COLUMNS = 16, GG_BENCH_ROWS = 64, GG_BENCH_CELL = 64 };
 
 typedef struct gg_bench_sheet {
   const char *key;     /* of the rows in the JSON document; a literal, as the caption is */

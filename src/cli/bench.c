@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/options.h"
 #include "cli/table.h"
@@ -54,7 +55,9 @@ int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
   gg_options o;
   int code = gg_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) {
-    gg_bench_options asked = {.quick = o.quick, .threads = o.threads, .tell = o.quiet ? NULL : tell};
+    const char *picture = o.picture && strcmp(o.picture, "none") != 0 ? o.picture : NULL;
+    gg_bench_options asked = {
+        .quick = o.quick, .picture = picture, .threads = o.threads, .tell = o.quiet ? NULL : tell};
     asked.n_overrides = o.n_overrides, asked.override = o.override;
     gg_bench b;
     gg_error err;

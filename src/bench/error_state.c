@@ -1,0 +1,176 @@
+#include "bench/error_state.h"
+
+#include <math.h>
+
+#include "theory/theory_list.h"
+
+const gg_way gg_ways[GG_WAYS] = {
+    {GG_MD, "md N 250", 250, 0, false, 1},
+    {GG_MD, "md N 1000", 1000, 0, false, 1},
+    {GG_MD, "md N 4000", 4000, 0, false, 1},
+    {GG_DSMC, "dsmc N 100", 100, 0, false, 1},
+    {GG_DSMC, "dsmc N 500", 500, 0, false, 1},
+    {GG_DSMC, "dsmc N 2000", 2000, 0, false, 1},
+    {GG_DSMC, "dsmc N 10000", 10000, 0, false, 1},
+    {GG_DSMC, "dsmc N 80000", 80000, 0, false, 1},
+    {GG_DSMC, "dsmc N 10000, single", 10000, 0, true, 1},
+    {GG_DSMC, "dsmc N 10000, step 1", 10000, 1, false, 1},
+    {GG_DSMC, "dsmc N 10000, step 0.5", 10000, 0.5, false, 1},
+    {GG_DSMC, "dsmc N 2000, 5 replicas", 2000, 0, false, 5},
+};
+enum { STEP_1 = 9, STEP_HALF = 10 };
+/* The long run that is the truth where nothing better is: so many times the time of the others. */
+enum { LONGER = 100, TRUTH_N = 80000 };
+
+static gg_scene scene_of(const gg_bench *b, const gg_error_state *s, const gg_way *w)
+{
+  gg_scene scene = gg_bench_scene(b, w->engine, s->phi, w->n);
+  scene.collision.e[0] = s->e;
+  scene.collision.beta[0] = s->rough ? 0 : -1;
+  scene.run.replicas = w->replicas;
+  if (w->step > 0) scene.dsmc.time_step = w->step;
+  if (w->single) scene.dsmc.precision = GG_SINGLE;
+  return scene;
+}
+
+static bool by_itself(const gg_way *w)
+{
+  return w->step == 0 && !w->single;
+}
+
+/* Weighted straight line in 1/N; `at_limit` (error > 0) is a point at 1/N = 0. */
+static gg_by_size fit_size(const gg_error_state *s, gg_engine_kind engine, int q, double at_limit, double error)
+{
+  double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
+  if (error > 0) w = 1 / (error * error), wy = w * at_limit;
+  for (int i = 0; i < GG_WAYS; i++) {
+    if (!s->done[i] || gg_ways[i].engine != engine || !by_itself(&gg_ways[i])) continue;
+    const gg_course_end end = gg_course_last(&s->course[i], q);
+    const double x = 1 / (double)gg_ways[i].n, g = 1 / (end.error * end.error);
+    if (!(end.error > 0)) continue;
+    w += g, wx += g * x, wxx += g * x * x, wy += g * end.mean, wxy += g * x * end.mean;
+  }
+  const double det = w * wxx - wx * wx;
+  return (gg_by_size){(wxx * wy - wx * wxy) / det, sqrt(wxx / det), (w * wxy - wx * wy) / det, sqrt(w / det)};
+}
+
+static void take_truth(gg_error_state *s, gg_engine_kind engine, int q, double value, double error, const char *source)
+{
+  if (!isfinite(value) || !isfinite(error) || (s->source[engine][q] && error >= s->truth_error[engine][q])) return;
+  s->truth[engine][q] = value, s->truth_error[engine][q] = error, s->source[engine][q] = source;
+}
+
+static void ask_theory(gg_error_state *s, const gg_model *m)
+{
+  gg_theory_answer a;
+  if (gg_theory_evaluate(&gg_enskog_hermite, m, &a, NULL) != GG_OK) return;
+  for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
+    const gg_quantity name = gg_course_quantity[q];
+    take_truth(s, GG_DSMC, q, a.value[name], a.error[name], "solved without noise");
+  }
+}
+
+/* Is the solution ten times better than a run of this length? Smooth grains have no theta. */
+static bool wants_long_run(const gg_error_state *s, double seconds)
+{
+  bool wants = false;
+  for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
+    if (!s->rough && gg_course_quantity[q] == GG_Q_TEMPERATURE_RATIO) continue;
+    double best = INFINITY;
+    for (int i = 0; i < GG_WAYS; i++)
+      if (s->done[i] && gg_ways[i].engine == GG_DSMC)
+        best = fmin(best, gg_course_noise(&s->course[i], q) / sqrt(seconds));
+    wants |= !s->source[GG_DSMC][q] || s->truth_error[GG_DSMC][q] > best / 10;
+  }
+  return wants;
+}
+
+static gg_status find_truth(const gg_bench *b, gg_error_state *s, double seconds, gg_error *err)
+{
+  const gg_way long_one = {GG_DSMC, "long run", TRUTH_N, 0, false, 1};
+  const gg_scene scene = scene_of(b, s, &long_one);
+  gg_model m;
+  GG_TRY(gg_model_make(&scene, GG_DSMC, &m, err));
+  ask_theory(s, &m);
+  if (wants_long_run(s, seconds)) {
+    gg_course c;
+    GG_TRY(gg_course_measure(&scene, 1, LONGER * seconds, &c, err));
+    for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
+      const gg_course_end end = gg_course_last(&c, q);
+      take_truth(s, GG_DSMC, q, end.mean, end.error, "long run");
+    }
+  }
+  for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
+    const gg_by_size md = fit_size(s, GG_MD, q, 0, 0);
+    take_truth(s, GG_MD, q, md.limit, md.limit_error, "1/N to 0");
+    s->size[GG_MD][q] = md;
+    s->size[GG_DSMC][q] = fit_size(s, GG_DSMC, q, s->truth[GG_DSMC][q], s->truth_error[GG_DSMC][q]);
+    s->unit[q] = fabs(s->truth[GG_DSMC][q]);
+  }
+  return GG_OK;
+}
+
+/* What the longest steps add to the same ensemble. */
+static void fit_step(gg_error_state *s, int q)
+{
+  double shift[2], error[2];
+  const int way[2] = {STEP_1, STEP_HALF};
+  for (int i = 0; i < 2; i++) {
+    const gg_course_end end = gg_course_last(&s->course[way[i]], q);
+    const double size = s->size[GG_DSMC][q].per_grain / (double)gg_ways[way[i]].n;
+    shift[i] = (end.mean - s->truth[GG_DSMC][q] - size) / s->unit[q];
+    error[i] = hypot(end.error, s->truth_error[GG_DSMC][q]) / s->unit[q];
+  }
+  const double w1 = 1 / (error[0] * error[0]), w2 = 1 / (error[1] * error[1]);
+  s->step_coefficient[q] = (w1 * shift[0] + w2 * shift[1] / 4) / (w1 + w2 / 16);
+  s->step_coefficient_error[q] = 1 / sqrt(w1 + w2 / 16);
+  s->step_order[q] = shift[0] / shift[1] > 0 && fabs(shift[1]) > 2 * error[1] ? log2(shift[0] / shift[1]) : NAN;
+}
+
+static void find_errors(gg_error_state *s)
+{
+  for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
+    fit_step(s, q);
+    for (int i = 0; i < GG_WAYS; i++) {
+      if (!s->done[i]) continue;
+      const gg_way *w = &gg_ways[i];
+      const gg_by_size *size = &s->size[w->engine][q];
+      const double each = (double)w->n * s->unit[q], square = w->step * w->step;
+      const double floor = size->per_grain / each + s->step_coefficient[q] * square;
+      const double error = hypot(size->per_grain_error / each, s->step_coefficient_error[q] * square);
+      s->noise[i][q] = gg_course_noise(&s->course[i], q) / s->unit[q];
+      s->floor[i][q] = sqrt(fmax(floor * floor - error * error, 0));
+    }
+  }
+}
+
+gg_status gg_error_state_measure(const gg_bench *b, gg_error_state *s, int seeds, double seconds, gg_error *err)
+{
+  for (int i = 0; i < GG_WAYS; i++) {
+    if (s->phi == 0 && gg_ways[i].engine == GG_MD) continue;
+    const gg_scene scene = scene_of(b, s, &gg_ways[i]);
+    GG_TRY(gg_course_measure(&scene, seeds, seconds, &s->course[i], err));
+    s->done[i] = true;
+  }
+  GG_TRY(find_truth(b, s, seconds, err));
+  find_errors(s);
+  return GG_OK;
+}
+
+double gg_error_at(const gg_error_state *s, int way, int q, int mark, double *error)
+{
+  const gg_course *c = &s->course[way];
+  const double truth = s->truth[gg_ways[way].engine][q];
+  double square = 0;
+  for (int i = 0; i < c->seeds; i++) square += pow(c->mean[q][mark][i] - truth, 2) / c->seeds;
+  const double rms = sqrt(square) / s->unit[q];
+  *error = rms / sqrt(2.0 * c->seeds);
+  return rms;
+}
+
+double gg_seconds_to(const gg_error_state *s, int way, int q, double error)
+{
+  const double left = error * error - s->floor[way][q] * s->floor[way][q];
+  if (!(left > 0)) return INFINITY;
+  return fmax(s->noise[way][q] * s->noise[way][q] / left, s->course[way].seconds[0]);
+}

@@ -1,0 +1,75 @@
+/* bench error: of made-up runs whose noise and floors are known, the seconds to an error are those; and of a state that
+ * is really measured, briefly, all ways have errors, and the truth is the best there is. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "bench/error_state.h"
+
+enum { MARKS = 12, WAY = 5 };
+
+/* Means at 2 +- 0.1/sqrt(t): relative noise 0.05 a second and run. */
+static void make_up(gg_error_state *s)
+{
+  gg_course *c = &s->course[WAY];
+  c->seeds = 8, c->marks = MARKS;
+  for (int k = 0; k < MARKS; k++) {
+    c->seconds[k] = 0.001 * pow(2, k);
+    for (int i = 0; i < 8; i++)
+      for (int q = 0; q < GG_COURSE_QUANTITIES; q++)
+        c->mean[q][k][i] = 2 + (i % 2 ? 0.1 : -0.1) * sqrt(7.0 / 8) / sqrt(c->seconds[k]);
+  }
+}
+
+static void made_up_runs(void **state)
+{
+  (void)state;
+  gg_error_state *s = calloc(1, sizeof *s);
+  double of_error;
+  make_up(s);
+  assert_true(fabs(gg_course_noise(&s->course[WAY], 0) - 0.1) < 1e-12);
+  s->noise[WAY][0] = 0.05, s->unit[0] = 2, s->truth[GG_DSMC][0] = 2;
+  assert_true(fabs(gg_error_at(s, WAY, 0, 3, &of_error) - 0.05 * sqrt(7.0 / 8) / sqrt(0.008)) < 1e-12);
+  assert_true(fabs(gg_seconds_to(s, WAY, 0, 0.01) - 25) < 1e-9);
+  s->floor[WAY][0] = 0.006;
+  assert_true(fabs(gg_seconds_to(s, WAY, 0, 0.01) - 25 / (1 - 0.36)) < 1e-9);
+  assert_true(isinf(gg_seconds_to(s, WAY, 0, 0.006)));
+  assert_true(gg_seconds_to(s, WAY, 0, 100) == s->course[WAY].seconds[0]); /* not before it has warmed up */
+  free(s);
+}
+
+static void measured_state(void **state)
+{
+  (void)state;
+  gg_bench_options options = {.quick = true};
+  gg_bench b = {.options = &options, .seed = 1};
+  gg_error_state *s = calloc(1, sizeof *s);
+  gg_error err;
+  s->phi = 0.3, s->e = 0.9;
+  assert_int_equal(gg_error_state_measure(&b, s, 3, 0.01, &err), GG_OK);
+  for (int i = 0; i < GG_WAYS; i++) {
+    const gg_course *c = &s->course[i];
+    assert_true(s->done[i] && c->marks > 0 && c->seeds == 3);
+    for (int k = 1; k < c->marks; k++) assert_true(c->seconds[k] > c->seconds[k - 1]);
+    for (int q = 0; q < 3; q++) {
+      assert_true(s->noise[i][q] > 0 && s->floor[i][q] >= 0);
+      assert_true(gg_seconds_to(s, i, q, 0.5) <= gg_seconds_to(s, i, q, 0.1));
+    }
+    assert_true(isnan(s->noise[i][4])); /* smooth: no theta */
+    assert_true(s->noise[i][0] < 0.1);  /* of T, a second: some thousand times the noise of one grain a collision */
+  }
+  assert_string_equal(s->source[GG_DSMC][0], "solved without noise");
+  assert_true(fabs(s->truth[GG_DSMC][0] / 1.2 - 1) < 1); /* T is of order one at this density */
+  assert_true(s->truth_error[GG_DSMC][0] < 1e-4 * s->unit[0]);
+  free(s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(made_up_runs), cmocka_unit_test(measured_state)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
