@@ -546,6 +546,57 @@ enum {                        /* what gg_export writes */
 GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                            void (*written)(void *context, const char *file), void *context, gg_error *err);
 
+/* ---- Figures: those of two papers, simulated anew ----
+ * Gayen's thesis (2008) and Montanero's review (2003). A figure is a small entry of validation/figures that the library
+ * holds: sweeps, what of them is drawn over what, the theories beside, and the numbers that the paper states. */
+
+typedef struct gg_figure_needs {
+  size_t points;
+  double cpu_seconds; /* expected of all points, whether done or not */
+  int64_t particles;  /* of the largest box */
+  int md, dsmc;       /* which engines run */
+} gg_figure_needs;
+
+typedef struct gg_figure_info { /* texts last for the call */
+  const char *name, *file;      /* "thesis 3.5"; how its files are called: "thesis-3.05" */
+  const char *shows;
+  const char *cannot;           /* why it cannot be reproduced; NULL if it can */
+  const char *verdict, *because; /* "agrees", "differs", "cannot be told", "open": not judged yet */
+  gg_figure_needs quick, full;
+} gg_figure_info;
+typedef void gg_on_figure(void *context, const gg_figure_info *figure);
+/* All of them, in the order of papers and numbers. */
+GG_API gg_status gg_list_figures(gg_on_figure *figure, void *context, gg_error *err);
+
+typedef struct gg_figure_number { /* that the paper states, beside ours; NaN: there is none */
+  const char *figure, *what, *where;
+  double paper, paper_error; /* error: half a unit of its last digit where the paper gives none */
+  double md, md_error, md_z; /* z: (ours - paper's) over both errors */
+  double dsmc, dsmc_error, dsmc_z;
+} gg_figure_number;
+
+/* All zero: full precision, one thread, files in the current folder, nobody told. */
+typedef struct gg_reproduce_options {
+  int quick;           /* fewer points, larger errors: some ten to twenty times as fast */
+  int threads;         /* 0: one; results do not depend on it */
+  const char *folder;  /* where files go, which must be there; results of the runs lie in its figures.sweep, and serve
+                        * every figure that shows them; NULL: the current one */
+  const char *command; /* how files were made, for their record */
+  void *context;       /* for the callbacks, of which each may be NULL */
+  void (*progress)(void *context, const char *figure, const gg_sweep_progress *progress);
+  int (*stop)(void *context); /* asked several times a second; not 0: stop */
+  void (*warn)(void *context, const char *figure, const char *message);
+  void (*written)(void *context, const char *file);
+  void (*number)(void *context, const gg_figure_number *number);
+} gg_reproduce_options;
+/* One figure, "thesis 3.5" ("3.5" where one paper alone has it), or "all": NAME.h5, NAME.csv, NAME.svg and NAME.png,
+ * each whole or not there; NAME_numbers.csv where the paper states numbers. Points that are done are not run again.
+ * GG_FAILED: points fell short of what was asked (files are written from those there are), or it cannot be reproduced.
+ */
+GG_API gg_status gg_reproduce(const char *figure, const gg_reproduce_options *options, gg_error *err);
+/* docs/reproduction.md: every figure with its verdict, as Markdown; to be freed. */
+GG_API gg_status gg_reproduction_page(char **text, gg_error *err);
+
 /* ---- Tables to ask ---- */
 
 typedef enum gg_catalogue {

@@ -23,6 +23,7 @@ int gg_cli_compare_main(const gg_command *command, int argc, char **argv);
 int gg_cli_run_main(const gg_command *command, int argc, char **argv);
 int gg_cli_theory_main(const gg_command *command, int argc, char **argv);
 int gg_cli_sweep_main(const gg_command *command, int argc, char **argv);
+int gg_cli_reproduce_main(const gg_command *command, int argc, char **argv);
 int gg_cli_plot_main(const gg_command *command, int argc, char **argv);
 int gg_cli_export_main(const gg_command *command, int argc, char **argv);
 int gg_cli_info_main(const gg_command *command, int argc, char **argv);
@@ -42,5 +43,7 @@ void gg_cli_print_text(char *text);
 void gg_cli_print_manual(void);
 /* The page of scene keys, docs/scene.md. */
 void gg_cli_print_scene_page(void);
+/* The page of figures, docs/reproduction.md. */
+void gg_cli_print_reproduction_page(void);
 
 #endif

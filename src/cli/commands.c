@@ -26,6 +26,14 @@ const gg_command gg_commands[] = {
      "With output.checkpoint_every, points in progress go on from where they were.",
      GG_OPT_SWEEP | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON | GG_OPT_QUIET,
      gg_cli_sweep_main},
+    {"reproduce", "FIGURE|list|all", "A figure of the papers: data, theory lines, picture",
+     "Figures of Gayen's thesis and of Montanero's review, simulated anew: \"thesis 3.5\", \"review 3\"; 3.5 alone where "
+     "only one of them has it. Leaves thesis-3.05.h5, .csv, .svg and .png in the current folder, and the numbers that "
+     "the paper states beside ours in thesis-3.05_numbers.csv. list: all of them, with what they need, how long it takes "
+     "here, and the verdict.\n"
+     "Results of the runs lie in figures.sweep, where figures that show the same find them: interrupted, the same "
+     "command goes on. docs/reproduction.md says what came out.",
+     GG_OPT_QUICK | GG_OPT_FOLDER | GG_OPT_JSON | GG_OPT_THREADS | GG_OPT_QUIET, gg_cli_reproduce_main},
     {"plot", "RESULT.h5", "A picture of what a result file holds",
      "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side "
      "by side. Beside it a snapshot, if there are positions, and a page for each observable that left curves.",

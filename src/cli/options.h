@@ -20,6 +20,7 @@ enum {
   GG_OPT_PREFIX = 1u << 12,
   GG_OPT_ONLY = 1u << 13,
   GG_OPT_SWEEP = 1u << 14, /* all that only sweeps have */
+  GG_OPT_FOLDER = 1u << 15,
 };
 
 typedef struct gg_option {

@@ -92,6 +92,16 @@ void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *g)
   p->shown = now;
 }
 
+void gg_cli_progress_line(gg_cli_progress *p, const char *line)
+{
+  double now = now_seconds();
+  if (p->quiet || now - p->shown < (p->terminal ? live_every : plain_every)) return;
+  p->shown = now;
+  p->live = p->terminal;
+  fprintf(stderr, p->terminal ? "\r%s\x1b[K" : "%s\n", line);
+  fflush(stderr);
+}
+
 void gg_cli_progress_end(gg_cli_progress *p)
 {
   if (p->live) fputs("\r\x1b[K", stderr);

@@ -16,6 +16,8 @@ typedef struct gg_cli_progress {
 
 void gg_cli_progress_start(gg_cli_progress *p, bool quiet);
 void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *now);
+/* The same of what says it in its own words. */
+void gg_cli_progress_line(gg_cli_progress *p, const char *line);
 /* Take the live line away, or tell how it ended in a plain line; harmless again. */
 void gg_cli_progress_end(gg_cli_progress *p);
 

@@ -30,6 +30,16 @@ def test_scene_page():
           "it there")
 
 
+def test_reproduction_page():
+    """A figure's section is its entry's: graingas --reproduction-page > docs/reproduction.md; pictures are small."""
+    page = run("--reproduction-page")
+    check(page.code == 0 and not page.err and "## thesis 2.16" in page.out)
+    check(page.out == documents()["docs/reproduction.md"], "docs/reproduction.md is not what `graingas "
+          "--reproduction-page` prints: redirect it there")
+    sizes = {path: os.path.getsize(path) for path in glob.glob(os.path.join(SOURCE, "docs", "images", "*", "*"))}
+    check(not [p for p, size in sizes.items() if size > 100000] and sum(sizes.values()) < 10e6, "pictures are too large")
+
+
 def test_paths():
     """src/md/queue.h, examples/usf.yaml, src/dsmc/ ...; <name> stands for any name. A word may go on after a path
     ("tests/md"), so only what looks like a path is asked for: a known room, a slash, a name."""

@@ -50,7 +50,7 @@ static void one_species_numbers(void **state)
   assert_close(value_at(&gg_montanero_santos2000, GG_HCS, 0, 0, 0.4, GG_Q_COLLISION_RATE) / maxwell,
                1 - gg_a2_montanero_santos(0.4) / 16, 1e-12);
   /* The modified first Sonine: elastic Enskog, and at e = 0.6 nearer to Monte Carlo, 1.4045(20) heated and 1.184(3)
-   * cooling (linear response, validation/review_figures), than the standard one, which is 3 % and 2.3 % above. */
+   * cooling (linear response, validation/figures/review-06.yaml), than the standard one, which is 3 % and 2.3 % above. */
   assert_close(value_at(&gg_garzo_santos_montanero2007, GG_HCS, 0, 0.3, 1, GG_Q_VISCOSITY_REDUCED),
                value_at(&gg_enskog, GG_EQUILIBRIUM, 0, 0.3, 1, GG_Q_VISCOSITY_REDUCED), 1e-13);
   assert_close(value_at(&gg_garzo_santos_montanero2007, GG_HSS, GG_GAUSSIAN, 0, 0.6, GG_Q_VISCOSITY_REDUCED), 1.4045,

@@ -1,0 +1,194 @@
+#include "reproduce/panel.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const engines[] = {"md", "dsmc"};
+
+gg_drawn *gg_panel_add(gg_drawn_panel *p, const char *method, const char *group, gg_chart_style style)
+{
+  for (size_t i = 0; i < p->n; i++) {
+    gg_drawn *d = &p->drawn[i];
+    if (strcmp(d->method, method) == 0 && strcmp(d->group, group) == 0 && style == GG_CHART_POINTS) return d;
+  }
+  gg_drawn *more = realloc(p->drawn, (p->n + 1) * sizeof *more);
+  if (!more) return NULL;
+  p->drawn = more;
+  gg_drawn *d = &more[p->n++];
+  *d = (gg_drawn){.style = style};
+  snprintf(d->method, sizeof d->method, "%s", method);
+  snprintf(d->group, sizeof d->group, "%s", group);
+  return d;
+}
+
+gg_status gg_drawn_put(gg_drawn *d, double x, double x_error, double y, double error, gg_error *err)
+{
+  if (d && d->n == d->room) {
+    size_t room = d->room ? 2 * d->room : 32;
+    double **all[] = {&d->x, &d->y, &d->error, &d->x_error};
+    for (int k = 0; k < 4; k++) {
+      double *more = realloc(*all[k], room * sizeof *more);
+      if (!more) return gg_fail(err, GG_FAILED, "out of memory");
+      *all[k] = more;
+    }
+    d->room = room;
+  }
+  if (!d) return gg_fail(err, GG_FAILED, "out of memory");
+  d->x[d->n] = x, d->x_error[d->n] = x_error, d->y[d->n] = y, d->error[d->n++] = error;
+  return GG_OK;
+}
+
+static void swap(double *a, double *b)
+{
+  double c = *a;
+  *a = *b, *b = c;
+}
+
+void gg_drawn_sort(gg_drawn *d)
+{
+  for (size_t i = 1; i < d->n; i++)
+    for (size_t k = i; k > 0 && d->x[k] < d->x[k - 1]; k--) {
+      swap(&d->x[k], &d->x[k - 1]), swap(&d->y[k], &d->y[k - 1]);
+      swap(&d->error[k], &d->error[k - 1]), swap(&d->x_error[k], &d->x_error[k - 1]);
+    }
+}
+
+bool gg_panel_takes(const gg_figure_panel *of, const gg_figure_point *point)
+{
+  return gg_figure_point_of(point, &of->of) && gg_scene_meets(&point->scene, &of->where);
+}
+
+bool gg_panel_engine(const gg_figure_panel *of, const gg_figure_point *point, int engine)
+{
+  if (!point->stored.engine[engine].document) return false;
+  for (int i = 0; i < of->engines.n; i++)
+    if (strcmp(of->engines.text[i], engines[engine]) == 0) return true;
+  return of->engines.n == 0;
+}
+
+/* "m_1/m_2 = 10": the value itself, or what `as` makes of it. */
+static void line_text(const gg_figure_panel *of, const gg_figure_point *point, int k, char *text, size_t size)
+{
+  const char *key = of->lines.text[k];
+  char label[64], value[64];
+  if (of->line_labels.n)
+    snprintf(label, sizeof label, "%s", of->line_labels.text[k]);
+  else
+    gg_chart_key(key, label, sizeof label, NULL);
+  gg_key_text(&point->scene, key, value, sizeof value);
+  if (of->line_as.n) {
+    double v = gg_key_number(&point->scene, key);
+    snprintf(value, sizeof value, "%.6g", gg_expression_value(&of->line_as, (gg_variables){.v = v}));
+  }
+  if (strcmp(value, "inf") == 0) snprintf(value, sizeof value, "∞");
+  snprintf(text, size, *label ? "%s = %s" : "%s%s", label, value);
+}
+
+void gg_panel_group(const gg_figure_panel *of, const gg_figure_point *point, const char *name, char *text, size_t size)
+{
+  char line[128];
+  size_t used = (size_t)snprintf(text, size, "%s", of->source.names.n > 1 ? name : "");
+  for (int k = 0; k < of->lines.n && used < size; k++) {
+    line_text(of, point, k, line, sizeof line);
+    used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", line);
+  }
+}
+
+double gg_panel_x(const gg_figure_panel *of, double raw)
+{
+  return of->x.as.n ? gg_expression_value(&of->x.as, (gg_variables){.x = raw}) : raw;
+}
+
+/* A quantity's symbol, or the name of a curve as it is. */
+static void name_text(const gg_source *s, const char *name, char *text, size_t size)
+{
+  if (s->kind == GG_OF_QUANTITY || s->kind == GG_OF_SERIES)
+    gg_quantity_symbol(gg_quantity_find(name), text, size);
+  else
+    snprintf(text, size, "%s", name);
+}
+
+static gg_status points_of(gg_drawn_panel *p, const gg_figure_points *all, const gg_figure_point *point, int engine,
+                           gg_error *err)
+{
+  const gg_figure_panel *of = p->of;
+  char group[128], name[64];
+  for (int i = 0; i < of->source.names.n; i++) {
+    gg_asked asked = {.points = all, .source = &of->source, .name = of->source.names.text[i], .engine = engine};
+    double raw = of->key ? gg_key_number(&point->scene, of->key) : NAN, x_error = NAN;
+    if (of->number) {
+      gg_told over = gg_figure_curve_number(point, engine, asked.name, of->number, (double[2]){0, 0});
+      raw = over.mean, x_error = over.error;
+    }
+    double x = gg_panel_x(of, raw);
+    gg_told y = gg_figure_value(&asked, point, x);
+    name_text(&of->source, asked.name, name, sizeof name);
+    gg_panel_group(of, point, of->number ? "" : name, group, sizeof group); /* one line over all its curves */
+    if (y.unit && !*p->y_unit && !of->source.as.n && !of->source.relative_to.n && !of->source.relative_theory &&
+        !of->source.relative_number)
+      snprintf(p->y_unit, sizeof p->y_unit, "%s", y.unit);
+    if (!isfinite(y.mean) || !isfinite(x)) continue;
+    gg_drawn *d = gg_panel_add(p, engines[engine], group, GG_CHART_POINTS);
+    GG_TRY(gg_drawn_put(d, x, x_error, y.mean, y.error, err));
+  }
+  return GG_OK;
+}
+
+static gg_status over_points(gg_drawn_panel *p, const gg_figure_points *all, gg_error *err)
+{
+  for (int engine = 0; engine < 2; engine++)
+    for (size_t i = 0; i < all->n; i++)
+      if (gg_panel_takes(p->of, &all->point[i]) && gg_panel_engine(p->of, &all->point[i], engine))
+        GG_TRY(points_of(p, all, &all->point[i], engine, err));
+  for (size_t i = 0; i < p->n; i++) gg_drawn_sort(&p->drawn[i]);
+  return gg_panel_theories(p, all, err);
+}
+
+static void label_axes(gg_drawn_panel *p)
+{
+  const gg_figure_panel *of = p->of;
+  const char *unit = "";
+  if (of->x.label)
+    snprintf(p->x_label, sizeof p->x_label, "%s", of->x.label);
+  else if (of->key) {
+    gg_chart_key(of->key, p->x_label, sizeof p->x_label, &unit);
+    snprintf(p->x_unit, sizeof p->x_unit, "%s", unit ? unit : "");
+  } else if (of->number)
+    snprintf(p->x_label, sizeof p->x_label, "%s", of->number);
+  if (of->y.label)
+    snprintf(p->y_label, sizeof p->y_label, "%s", of->y.label);
+  else if (!*p->y_label)
+    name_text(&of->source, of->source.names.text[0], p->y_label, sizeof p->y_label);
+  if (!of->y.label && of->source.kind == GG_OF_NUMBER) snprintf(p->y_label, sizeof p->y_label, "%s", of->source.number);
+}
+
+gg_status gg_panel_make(gg_drawn_panel *p, const gg_figure_panel *of, const gg_figure_points *points, gg_error *err)
+{
+  gg_status status = GG_OK;
+  *p = (gg_drawn_panel){.of = of};
+  switch (of->source.kind) {
+  case GG_OF_QUANTITY:
+  case GG_OF_NUMBER: status = over_points(p, points, err); break;
+  case GG_OF_CURVE: status = gg_panel_curves(p, points, err); break;
+  case GG_OF_SERIES: status = gg_panel_series(p, points, err); break;
+  case GG_OF_FRAMES: status = gg_panel_frames(p, points, err); break;
+  case GG_OF_SNAPSHOT: break;
+  }
+  if (status == GG_OK) status = gg_panel_guides(p, err);
+  label_axes(p);
+  return status;
+}
+
+void gg_panel_clear(gg_drawn_panel *p)
+{
+  for (size_t i = 0; i < p->n; i++) {
+    free(p->drawn[i].x);
+    free(p->drawn[i].y);
+    free(p->drawn[i].error);
+    free(p->drawn[i].x_error);
+  }
+  free(p->drawn);
+  *p = (gg_drawn_panel){0};
+}

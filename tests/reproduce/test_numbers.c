@@ -1,0 +1,99 @@
+/* Numbers that are read off what was measured: where a quantity vanishes, where it is least, powers, tails; and figures
+ * found by name. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "reproduce/figures.h"
+#include "reproduce/tail.h"
+
+static void near_to(double value, double expected, double within)
+{
+  if (!(fabs(value - expected) <= within)) fail_msg("%g, expected %g", value, expected);
+}
+
+static void where_it_vanishes(void **state)
+{
+  (void)state;
+  const double x[] = {0.1, 0.2, 0.3}, y[] = {-0.02, -0.01, 0.03}, e[] = {0.001, 0.002, 0.002};
+  gg_told zero = gg_find_zero(3, x, y, e);
+  near_to(zero.mean, 0.225, 1e-12);
+  near_to(zero.error, 0.002 * hypot(0.75, 0.25) / 0.4, 1e-12);
+  assert_true(isnan(gg_find_zero(2, x, y, e).mean));
+}
+
+/* Of T = 1/x + x: least at 1, also between the points, in ln x where it is symmetric. */
+static void where_it_is_least(void **state)
+{
+  (void)state;
+  double x[5], y[5], e[5] = {0.01, 0.01, 0.01, 0.01, 0.01};
+  for (int i = 0; i < 5; i++) x[i] = exp(0.2 * i - 0.45), y[i] = x[i] + 1 / x[i];
+  gg_told least = gg_find_extreme(5, x, y, e, true);
+  near_to(least.mean, 1, 2e-3);
+  assert_true(least.error > 0.01 && least.error < 0.2);
+  assert_true(isnan(gg_find_extreme(5, x, y, e, false).mean)); /* at an end: nobody knows */
+}
+
+static void powers(void **state)
+{
+  (void)state;
+  double x[6], y[6], e[6];
+  for (int i = 0; i < 6; i++) x[i] = 0.1 * (i + 1), y[i] = 0.625 * pow(x[i], 2. / 3), e[i] = 0.01 * y[i];
+  near_to(gg_find_power(6, x, y, e, true).mean, 2. / 3, 1e-12);
+  near_to(gg_find_power(6, x, y, e, false).mean, 0.625, 1e-12);
+  assert_true(gg_find_power(6, x, y, e, true).error > 0);
+}
+
+/* A tail that is exp(-0.6 x^1.7), over any range. */
+static void tails(void **state)
+{
+  (void)state;
+  json_t *curve = json_object(), *x = json_array(), *value = json_array(), *error = json_array();
+  for (int i = -40; i <= 40; i++) {
+    double at = 0.1 * i, p = exp(-0.6 * pow(fabs(at), 1.7));
+    json_array_append_new(x, json_real(at));
+    json_array_append_new(value, json_real(p));
+    json_array_append_new(error, json_real(0.01 * sqrt(p)));
+  }
+  json_object_set_new(curve, "x", x);
+  json_object_set_new(curve, "value", value);
+  json_object_set_new(curve, "stderr", error);
+  const double range[2] = {1.5, 3.2};
+  near_to(gg_tail_fit(curve, range, true).mean, 1.7, 1e-9);
+  near_to(gg_tail_fit(curve, range, false).mean, 0.6, 1e-9);
+  json_decref(curve);
+}
+
+static void figures_by_name(void **state)
+{
+  (void)state;
+  static const char *const names[] = {"thesis 2.16", "Thesis-2.16", "2.16", "thesis 2.16.yaml", "thesis_2.16"};
+  size_t first, k;
+  gg_error err;
+  assert_int_equal(gg_figure_find("thesis-2.16", &first, &err), GG_OK);
+  assert_string_equal(gg_entry_files[first].file, "thesis-2.16.yaml");
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    if (gg_figure_find(names[i], &k, &err) != GG_OK) fail_msg("%s: %s", names[i], err.message);
+    assert_int_equal(k, first);
+  }
+  assert_int_equal(gg_figure_find("review 3", &k, &err), GG_OK);
+  assert_string_equal(gg_entry_files[k].file, "review-03.yaml");
+  assert_int_equal(gg_figure_find("review 33", &k, &err), GG_BAD_INPUT);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(where_it_vanishes),
+      cmocka_unit_test(where_it_is_least),
+      cmocka_unit_test(powers),
+      cmocka_unit_test(tails),
+      cmocka_unit_test(figures_by_name),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
