@@ -553,6 +553,7 @@ GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned
 typedef struct gg_figure_needs {
   size_t points;
   double cpu_seconds; /* expected of all points, whether done or not */
+  double shared;      /* the part of it for points that figures before it in the list have, too */
   int64_t particles;  /* of the largest box */
   int md, dsmc;       /* which engines run */
 } gg_figure_needs;

@@ -32,7 +32,7 @@ static void print_line(void *context, const gg_figure_info *f)
   print_needs(&f->quick);
   print_needs(&f->full);
   printf("  %-14s  %s\n", f->verdict, f->shows);
-  c->quick += f->quick.cpu_seconds, c->full += f->full.cpu_seconds;
+  c->quick += f->quick.cpu_seconds - f->quick.shared, c->full += f->full.cpu_seconds - f->full.shared;
 }
 
 static void print_text(const char *name, const char *text)
@@ -53,8 +53,10 @@ static void print_text(const char *name, const char *text)
 
 static void print_json_needs(const char *name, const gg_figure_needs *n)
 {
-  printf(", \"%s\": {\"points\": %zu, \"cpu_seconds\": %.6g, \"particles\": %ld, \"md\": %s, \"dsmc\": %s}", name,
-         n->points, n->cpu_seconds, (long)n->particles, n->md ? "true" : "false", n->dsmc ? "true" : "false");
+  printf(", \"%s\": {\"points\": %zu, \"cpu_seconds\": %.6g, \"shared\": %.6g, \"particles\": %ld, \"md\": %s, "
+         "\"dsmc\": %s}",
+         name, n->points, n->cpu_seconds, n->shared, (long)n->particles, n->md ? "true" : "false",
+         n->dsmc ? "true" : "false");
 }
 
 static void print_json(void *context, const gg_figure_info *f)
@@ -89,8 +91,8 @@ int gg_cli_list_figures(const gg_options *o)
   gg_format_duration(c.quick, quick, sizeof quick);
   gg_format_duration(c.full, full, sizeof full);
   if (!o->json)
-    printf("\n%d figures; times are of a processor of this machine: %s with --quick, %s in full, of which figures that "
-           "show the same runs share some\n",
+    printf("\n%d figures; times are those of one processor here; all of them, points that several show once: %s with "
+           "--quick, %s in full\n",
            c.figures, quick, full);
   return GG_OK;
 }

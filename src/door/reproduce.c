@@ -6,8 +6,33 @@
 #include "io/c_locale.h"
 #include "reproduce/figures.h"
 
+/* Names of the points that figures before had. */
+typedef struct seen {
+  size_t n, room;
+  char (*name)[sizeof((gg_sweep_point *)0)->name];
+} seen;
+
+static bool is_seen(const seen *s, const char *name)
+{
+  for (size_t i = 0; i < s->n; i++)
+    if (strcmp(s->name[i], name) == 0) return true;
+  return false;
+}
+
+static gg_status note(seen *s, const char *name, gg_error *err)
+{
+  if (s->n == s->room) {
+    size_t room = s->room ? 2 * s->room : 256;
+    void *more = realloc(s->name, room * sizeof *s->name);
+    if (!more) return gg_fail(err, GG_FAILED, "out of memory");
+    s->name = more, s->room = room;
+  }
+  strcpy(s->name[s->n++], name);
+  return GG_OK;
+}
+
 /* How many points, which engines, and how long they will take. */
-static gg_status needs_of(const gg_figure_entry *entry, bool quick, gg_figure_needs *needs, gg_error *err)
+static gg_status needs_of(const gg_figure_entry *entry, bool quick, gg_figure_needs *needs, seen *before, gg_error *err)
 {
   gg_sweep *sweeps[GG_MOST_SWEEPS];
   *needs = (gg_figure_needs){0};
@@ -22,6 +47,10 @@ static gg_status needs_of(const gg_figure_entry *entry, bool quick, gg_figure_ne
       if (status == GG_OK) status = gg_sweep_scene(sweeps[s], i, &scene, err);
       if (status != GG_OK) break;
       needs->points++, needs->cpu_seconds += point.cpu_seconds;
+      if (is_seen(before, point.name))
+        needs->shared += point.cpu_seconds;
+      else
+        status = note(before, point.name, err);
       needs->md |= both || scene->engine == GG_MD;
       needs->dsmc |= both || scene->engine == GG_DSMC;
       if (scene->particles > needs->particles) needs->particles = scene->particles;
@@ -32,7 +61,7 @@ static gg_status needs_of(const gg_figure_entry *entry, bool quick, gg_figure_ne
   return status;
 }
 
-static gg_status describe(const gg_figure_entry *e, gg_on_figure *figure, void *context, gg_error *err)
+static gg_status describe(const gg_figure_entry *e, gg_on_figure *figure, void *context, seen before[2], gg_error *err)
 {
   char file[64];
   gg_figure_info info = {.name = e->figure,
@@ -42,8 +71,8 @@ static gg_status describe(const gg_figure_entry *e, gg_on_figure *figure, void *
                          .verdict = e->cannot ? NULL : e->verdict,
                          .because = e->because};
   gg_figure_base(e, file, sizeof file);
-  if (!e->cannot) GG_TRY(needs_of(e, true, &info.quick, err));
-  if (!e->cannot) GG_TRY(needs_of(e, false, &info.full, err));
+  if (!e->cannot) GG_TRY(needs_of(e, true, &info.quick, &before[0], err));
+  if (!e->cannot) GG_TRY(needs_of(e, false, &info.full, &before[1], err));
   figure(context, &info);
   return GG_OK;
 }
@@ -52,14 +81,17 @@ gg_status gg_list_figures(gg_on_figure *figure, void *context, gg_error *err)
 {
   GG_NEED(figure);
   gg_status status = GG_OK;
+  seen points[2] = {{0}};
   locale_t before = gg_c_locale_enter();
   for (size_t k = 0; gg_entry_files[k].file && status == GG_OK; k++) {
     gg_figure_entry entry;
     status = gg_figure_read(k, &entry, err);
     if (status != GG_OK) break;
-    status = describe(&entry, figure, context, err);
+    status = describe(&entry, figure, context, points, err);
     gg_entry_clear(&entry);
   }
+  free(points[0].name);
+  free(points[1].name);
   gg_c_locale_leave(before);
   return status;
 }

@@ -5,7 +5,7 @@
 
 #include "reproduce/panel.h"
 
-enum { MOST_SERIES_POINTS = 200 };
+enum { MOST_SERIES_POINTS = 100 };
 static const char *const engines[] = {"md", "dsmc"};
 
 static double item(const json_t *curve, const char *key, size_t i)

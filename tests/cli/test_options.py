@@ -51,7 +51,7 @@ def test_ways_to_ask():
                         (("--verison",), "did you mean '--version'?"), (("simulate",), "see graingas --help"),
                         (("run", "--out-put", "x"), "did you mean '--output'?"),
                         (("run", "--verbose"), "see graingas run --help"),
-                        (("run", "--quick", "x"), "run has no option '--quick', which is for bench"),
+                        (("run", "--quick", "x"), "run has no option '--quick', which is for reproduce, bench"),
                         (("info", "--json"), "needs a FILE")):
         done = run(*args)
         check(done.code == 2 and words in done.err and not done.out, args, done.err)
