@@ -69,10 +69,7 @@ static void draw_one(FILE *s, const shown *one, int k, gg_panel place)
           one->of->title ? one->of->title : "", one->of->title || *group ? ", " : "", *group ? group : "", collisions);
   fprintf(s, "set size ratio -1\nset xrange [0:%g]\nset yrange [0:%g]\nset xlabel '%s [d]'\nset ylabel 'y [d]'\n",
           edge[across], edge[1], across == 2 ? "z" : "x");
-  fprintf(s,
-          "unset key\nplot $grains%d using 1:2:(0.5) with circles lc rgb '#0072B2' fs transparent solid 0.35 "
-          "noborder\n",
-          k);
+  fprintf(s, "unset key\nplot $grains%d using 1:2 with points pt 7 ps 0.2 lc rgb '#0072B2'\n", k);
 }
 
 gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *all, const char *picture, gg_error *err)

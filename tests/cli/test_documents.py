@@ -37,7 +37,7 @@ def test_reproduction_page():
     check(page.out == documents()["docs/reproduction.md"], "docs/reproduction.md is not what `graingas "
           "--reproduction-page` prints: redirect it there")
     sizes = {path: os.path.getsize(path) for path in glob.glob(os.path.join(SOURCE, "docs", "images", "*", "*"))}
-    check(not [p for p, size in sizes.items() if size > 100000] and sum(sizes.values()) < 10e6, "pictures are too large")
+    check(max(sizes.values()) < 3e5 and sum(sizes.values()) < 1e7, "pictures are too large")
 
 
 def test_paths():
