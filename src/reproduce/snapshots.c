@@ -8,7 +8,7 @@
 #include "io/plot/plot.h"
 #include "reproduce/figures.h"
 
-enum { MOST_SHOWN = 12, COLUMNS = 4, WIDTH = 300 };
+enum { MOST_SHOWN = 12, COLUMNS = 4, WIDTH = 230 };
 
 typedef struct shown {
   const gg_figure_panel *of;
