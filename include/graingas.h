@@ -224,6 +224,8 @@ typedef struct gg_workers gg_workers;
  * the others home: gg_work returns there. Several runs, in threads of their own, may use it side by side. */
 GG_API gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err);
 GG_API void gg_workers_free(gg_workers *workers);
+/* Of all of them together, now; 0 without workers. */
+GG_API int gg_workers_threads(const gg_workers *workers);
 /* The others: work until rank 0 has no more to do (GG_OK), or is gone (GG_FAILED). */
 GG_API gg_status gg_work(const gg_messages *messages, gg_error *err);
 

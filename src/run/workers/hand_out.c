@@ -1,5 +1,7 @@
 /* A run's replicas are handed out to the processes that take part, and come back. */
+#include <math.h>
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "run/clock.h"
@@ -9,6 +11,14 @@
  * post. */
 static const double look_every = 0.05;
 enum { LEAST_NAP = 20, MOST_NAP = 1000 };
+
+static void tell_ended(void *context)
+{
+  gg_share *s = context;
+  pthread_mutex_lock(&s->workers->lock);
+  pthread_cond_signal(&s->news);
+  pthread_mutex_unlock(&s->workers->lock);
+}
 
 static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *err)
 {
@@ -44,6 +54,7 @@ gg_status gg_share_open(gg_replicas *all, gg_share **share, gg_error *err)
     free(s->piece), free(s->told), free(s);
     return GG_FAILED;
   }
+  pthread_cond_init(&s->news, NULL);
   pthread_mutex_lock(&w->lock);
   s->run = ++w->runs;
   for (int i = 0; i < all->n; i++) own(s, i, owner_of(s, i));
@@ -72,6 +83,7 @@ void gg_share_close(gg_share *s)
   while (*at != s) at = &(*at)->next;
   *at = s->next;
   pthread_mutex_unlock(&w->lock);
+  pthread_cond_destroy(&s->news);
   free(s->piece), free(s->told), free(s);
 }
 
@@ -83,6 +95,7 @@ void gg_share_lose(gg_share *s, int rank)
     s->workers->rank[rank].replicas--;
     own(s, i, owner_of(s, i));
     if (p->state == GG_SENT) p->state = GG_LOST;
+    pthread_cond_signal(&s->news);
   }
 }
 
@@ -93,6 +106,13 @@ static int threads_each(const gg_share *s)
   for (int i = 0; i < s->workers->messages.size; i++) ranks += s->workers->rank[i].there && !s->workers->rank[i].lost;
   int replicas = (s->all->n + ranks - 1) / ranks;
   return threads >= 2 * replicas ? threads / replicas : 1;
+}
+
+/* The run that is least exact goes first, before all one of which nothing is known. */
+static double urgency_of(const gg_share *s)
+{
+  const double error = s->all->last.relative_error;
+  return isnan(error) ? INFINITY : error;
 }
 
 static void start_here(gg_share *s, int i)
@@ -107,7 +127,10 @@ static void start_here(gg_share *s, int i)
                     .due = s->due,
                     .adapt = s->adapt,
                     .hooks = &s->hooks,
-                    .processors = &s->workers->processors};
+                    .gate = &s->workers->gate,
+                    .urgency = urgency_of(s),
+                    .ended = tell_ended,
+                    .context = s};
   gg_job_start(&p->job);
 }
 
@@ -142,7 +165,8 @@ static void start_there(gg_share *s, int i)
                   .piece = p->number = ++s->workers->pieces,
                   .due = s->due,
                   .adapt = s->adapt,
-                  .threads = threads_each(s)};
+                  .threads = threads_each(s),
+                  .urgency = urgency_of(s)};
   size_t size;
   if (!s->told[p->owner]) tell_scene(s, p->owner);
   void *block = s->told[p->owner] ? pack(s, i, &m, &size, &p->err) : NULL;
@@ -248,34 +272,85 @@ static bool has_failed(const gg_share *s)
   return false;
 }
 
-/* While others work. True if a piece of work came in. */
-static bool attend(gg_share *s, double *looked)
+static bool is_back(const gg_share *s)
 {
-  bool any = false;
-  pthread_mutex_lock(&s->workers->lock);
-  gg_workers_attend(s->workers);
-  start_lost(s);
-  pthread_mutex_unlock(&s->workers->lock);
   for (int i = 0; i < s->all->n; i++) {
-    any |= s->piece[i].state == GG_BACK;
-    collect(s, i);
+    const gg_piece *p = &s->piece[i];
+    if (p->state == GG_BACK || p->state == GG_LOST || (p->state == GG_HERE && atomic_load(&p->job.over))) return true;
   }
+  return false;
+}
+
+/* Another run's thread takes the post over. */
+static void pass_the_post(gg_share *s)
+{
+  for (gg_share *other = s->workers->shares; other; other = other->next)
+    if (other != s && other->waits) {
+      pthread_cond_signal(&other->news);
+      return;
+    }
+}
+
+/* One thread at a time looks after the post, which nobody can wait for: with naps in between. */
+static void read_post(gg_share *s, int *nap)
+{
+  gg_workers *w = s->workers;
+  w->reading = true;
+  bool any = gg_workers_attend(w);
+  *nap = any ? LEAST_NAP : *nap < MOST_NAP ? *nap + *nap / 4 + 1 : MOST_NAP;
+  if (!is_back(s)) {
+    pthread_mutex_unlock(&w->lock);
+    usleep((useconds_t)*nap);
+    pthread_mutex_lock(&w->lock);
+  }
+  w->reading = false;
+}
+
+static void wait_for_news(gg_share *s)
+{
+  struct timespec until;
+  clock_gettime(CLOCK_REALTIME, &until);
+  until.tv_nsec += (long)(1e9 * look_every);
+  if (until.tv_nsec >= 1000000000) until.tv_sec++, until.tv_nsec -= 1000000000;
+  s->waits = true;
+  pthread_cond_timedwait(&s->news, &s->workers->lock, &until);
+  s->waits = false;
+}
+
+/* Until a piece of this run is back, or it is time to look around. */
+static void await(gg_share *s, double until)
+{
+  int nap = LEAST_NAP;
+  pthread_mutex_lock(&s->workers->lock);
+  while (!is_back(s) && gg_wall_now() < until)
+    if (s->workers->reading)
+      wait_for_news(s);
+    else
+      read_post(s, &nap);
+  start_lost(s);
+  if (!s->workers->reading) pass_the_post(s);
+  pthread_mutex_unlock(&s->workers->lock);
+}
+
+/* While others work. */
+static void attend(gg_share *s, double *looked)
+{
+  await(s, *looked + look_every);
+  for (int i = 0; i < s->all->n; i++) collect(s, i);
   double now = gg_wall_now();
-  if (now < *looked + look_every) return any;
+  if (now < *looked + look_every) return;
   *looked = now;
   bool ends = gg_stop_asked(&s->all->stop) || has_failed(s) || gg_replicas_checkpoint_is_due(s->all);
   pthread_mutex_lock(&s->workers->lock);
   if (ends && !s->stopping) stop(s);
   pthread_mutex_unlock(&s->workers->lock);
   if (s->due > 0 && !ends) gg_replicas_report_progress(s->all, false);
-  return any;
 }
 
 static gg_status work_off(gg_share *s, uint64_t due, bool adapt, gg_error *err)
 {
   gg_replicas *all = s->all;
   double looked = gg_wall_now();
-  int nap = LEAST_NAP;
   s->due = due, s->adapt = adapt, s->stopping = false;
   atomic_store(&all->pausing, false);
   pthread_mutex_lock(&s->workers->lock);
@@ -284,10 +359,7 @@ static gg_status work_off(gg_share *s, uint64_t due, bool adapt, gg_error *err)
     if (!all->replica[i].engine || all->replica[i].clock.samples < due) start(s, i);
   }
   pthread_mutex_unlock(&s->workers->lock);
-  while (gg_share_is_busy(s)) {
-    nap = attend(s, &looked) ? LEAST_NAP : nap < MOST_NAP ? nap + nap / 4 + 1 : MOST_NAP;
-    if (gg_share_is_busy(s)) usleep((useconds_t)nap);
-  }
+  while (gg_share_is_busy(s)) attend(s, &looked);
   atomic_store(&all->pausing, false);
   return outcome(s, err);
 }

@@ -1,7 +1,5 @@
 #include "run/workers/job.h"
 
-#include <errno.h>
-
 static void tell(gg_job *job)
 {
   const gg_replica *r = job->replica;
@@ -33,7 +31,7 @@ static gg_status make(gg_job *job)
 static void *work(void *argument)
 {
   gg_job *job = argument;
-  while (sem_wait(job->processors) != 0 && errno == EINTR) continue;
+  gg_gate_enter(job->gate, job->urgency);
   job->status = make(job);
   if (job->status == GG_OK) {
     const gg_engine_ops *ops = job->replica->engine->ops;
@@ -41,8 +39,9 @@ static void *work(void *argument)
     tell(job);
     job->status = advance(job);
   }
-  sem_post(job->processors);
+  gg_gate_leave(job->gate);
   atomic_store(&job->over, true);
+  if (job->ended) job->ended(job->context);
   return NULL;
 }
 
@@ -50,7 +49,9 @@ void gg_job_start(gg_job *job)
 {
   atomic_init(&job->over, false);
   job->has_thread = pthread_create(&job->thread, NULL, work, job) == 0;
-  if (!job->has_thread) work(job);
+  if (job->has_thread) return;
+  job->ended = NULL; /* who waits for that is the caller */
+  work(job);
 }
 
 void gg_job_finish(gg_job *job)

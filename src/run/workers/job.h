@@ -3,10 +3,10 @@
 #define GG_JOB_H
 
 #include <pthread.h>
-#include <semaphore.h>
 #include <stdatomic.h>
 
 #include "run/replica.h"
+#include "run/workers/gate.h"
 #include "run/workers/message.h"
 
 typedef struct gg_job {
@@ -19,7 +19,10 @@ typedef struct gg_job {
   uint64_t due;
   bool adapt;
   const gg_hooks *hooks;
-  sem_t *processors; /* not more jobs at once than there are of these */
+  gg_gate *gate; /* not more jobs at once than it lets pass, the most urgent first */
+  double urgency;
+  void (*ended)(void *context); /* called last, by the job's thread; NULL: nobody is told */
+  void *context;
   /* While it works, to be read by anyone; and then what came of it. */
   atomic_bool over;
   _Atomic uint64_t samples;

@@ -31,6 +31,7 @@ typedef struct gg_replica_news {
 typedef struct gg_message {
   int64_t kind, run, replica, piece; /* piece: number of a piece of work; each is told apart from those before */
   int64_t origin, adapt, threads, status;
+  double urgency; /* of the work: the relative error of its run */
   uint64_t due;
   gg_replica_news news;
   gg_error error;

@@ -36,7 +36,9 @@ struct gg_share {
   bool *told;      /* rank by rank: it has the scene */
   bool adapt;
   uint64_t due;
-  bool stopping;  /* all are asked to end where they are */
+  bool stopping;       /* all are asked to end where they are */
+  pthread_cond_t news; /* a piece is back, or it is this run's turn to look after the post */
+  bool waits;
   gg_hooks hooks; /* of the replicas of this process */
   gg_share *next;
 };
@@ -45,15 +47,16 @@ struct gg_workers {
   gg_messages messages;
   int threads;
   pthread_mutex_t lock; /* for all below, and for the messages */
-  sem_t processors;     /* of this process */
+  gg_gate gate;         /* of this process */
+  bool reading;         /* a run's thread looks after the post, for all */
   gg_rank *rank;
   gg_share *shares;
   int64_t runs, pieces; /* numbers given out */
   double looked;        /* when it was last seen who is lost */
 };
 
-/* With the lock held. Take in what has arrived, and see who is lost. */
-void gg_workers_attend(gg_workers *w);
+/* With the lock held. Take in what has arrived (true: something has), and see who is lost. */
+bool gg_workers_attend(gg_workers *w);
 /* Of those that are there, the one with the fewest replicas. */
 int gg_workers_least(const gg_workers *w);
 void gg_workers_send(gg_workers *w, int to, void *block, size_t size);

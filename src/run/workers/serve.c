@@ -34,8 +34,8 @@ typedef struct served { /* a run */
 typedef struct server {
   const gg_messages *messages;
   served *runs;
-  sem_t processors;
-  bool has_processors, left;
+  gg_gate gate;
+  bool has_gate, left;
   double told;
 } server;
 
@@ -60,8 +60,8 @@ static served *find(const server *s, int64_t run)
 /* A process has as many processors as rank 0 says. */
 static void note_processors(server *s, int64_t threads)
 {
-  if (!s->has_processors) sem_init(&s->processors, 0, threads > 1 ? (unsigned)threads : 1);
-  s->has_processors = true;
+  if (!s->has_gate) gg_gate_init(&s->gate, threads > 1 ? (int)threads : 1);
+  s->has_gate = true;
 }
 
 static gg_status begin(server *s, const gg_message *m, const void *block, size_t size, gg_error *err)
@@ -138,7 +138,8 @@ static void work(server *s, const gg_message *m, const void *block, size_t size)
                     .threads = m->origin == GG_STILL_THERE ? 0 : (int)m->threads,
                     .due = m->due,
                     .adapt = m->adapt,
-                    .processors = &s->processors};
+                    .gate = &s->gate,
+                    .urgency = m->urgency};
   t->busy = true;
   gg_job_start(&t->job);
 }
@@ -243,6 +244,6 @@ gg_status gg_work(const gg_messages *messages, gg_error *err)
     if (!any) usleep((useconds_t)nap);
   }
   while (s.runs) end(&s, s.runs);
-  if (s.has_processors) sem_destroy(&s.processors);
+  if (s.has_gate) gg_gate_clear(&s.gate);
   return status;
 }

@@ -44,12 +44,12 @@ static void greet(gg_workers *w, int from, const gg_message *hello)
   w->rank[from].there = true;
 }
 
-static gg_piece *find(gg_workers *w, const gg_message *m, int from)
+static gg_share *find(gg_workers *w, const gg_message *m, int from)
 {
   for (gg_share *s = w->shares; s; s = s->next) {
     if (s->run != m->run || m->replica < 0 || m->replica >= s->all->n) continue;
     gg_piece *p = &s->piece[m->replica];
-    return p->state == GG_SENT && p->owner == from && p->number == m->piece ? p : NULL;
+    return p->state == GG_SENT && p->owner == from && p->number == m->piece ? s : NULL;
   }
   return NULL; /* late news of a run that is over */
 }
@@ -61,14 +61,16 @@ static void *take(gg_workers *w, int from, void *block, size_t size)
   if (!gg_message_read(block, size, &m)) return block;
   w->rank[from].heard = gg_wall_now();
   if (m.kind == GG_HELLO) greet(w, from, &m);
-  gg_piece *p = find(w, &m, from);
-  if (!p || (m.kind != GG_NEWS && m.kind != GG_DONE)) return block;
+  gg_share *s = find(w, &m, from);
+  if (!s || (m.kind != GG_NEWS && m.kind != GG_DONE)) return block;
+  gg_piece *p = &s->piece[m.replica];
   p->news = m.news;
   if (m.kind == GG_NEWS) return block;
   w->rank[from].pieces--;
   p->status = (gg_status)m.status, p->err = m.error;
   p->block = block, p->size = size;
   p->state = GG_BACK; /* from here on it is the run's own thread's */
+  pthread_cond_signal(&s->news);
   return NULL;
 }
 
@@ -87,16 +89,19 @@ static void look_who_is_lost(gg_workers *w)
   }
 }
 
-void gg_workers_attend(gg_workers *w)
+bool gg_workers_attend(gg_workers *w)
 {
+  bool any = false;
   int from;
   void *block;
   size_t size;
   while (w->messages.receive(w->messages.context, &from, &block, &size) > 0) {
+    any = true;
     if (from > 0 && from < w->messages.size && !w->rank[from].lost) block = take(w, from, block, size);
     free(block);
   }
   look_who_is_lost(w);
+  return any;
 }
 
 int gg_workers_least(const gg_workers *w)
@@ -121,6 +126,13 @@ static void wait_for_all(gg_workers *w)
   }
 }
 
+int gg_workers_threads(const gg_workers *w)
+{
+  int threads = 0;
+  for (int i = 0; w && i < w->messages.size; i++) threads += w->rank[i].there && !w->rank[i].lost ? w->threads : 0;
+  return threads;
+}
+
 gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err)
 {
   if (!messages || !workers || !messages->send || !messages->receive || messages->rank != 0 || messages->size < 1)
@@ -136,7 +148,7 @@ gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **
   }
   w->rank[0].there = true;
   pthread_mutex_init(&w->lock, NULL);
-  sem_init(&w->processors, 0, (unsigned)w->threads);
+  gg_gate_init(&w->gate, w->threads);
   wait_for_all(w);
   *workers = w;
   return GG_OK;
@@ -150,7 +162,7 @@ void gg_workers_free(gg_workers *w)
     void *block = gg_message_pack(&(gg_message){.kind = GG_LEAVE}, NULL, 0, &size);
     if (block) w->messages.send(w->messages.context, i, block, size);
   }
-  sem_destroy(&w->processors);
+  gg_gate_clear(&w->gate);
   pthread_mutex_destroy(&w->lock);
   free(w->rank);
   free(w);
