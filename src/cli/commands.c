@@ -12,7 +12,8 @@ const gg_command gg_commands[] = {
      SIMULATES | GG_OPT_PICTURE | GG_OPT_RESUME, gg_cli_compare_main},
     {"run", "SCENE.yaml", "One engine: the scene's, or that of --engine",
      "With output.checkpoint_every above 0 in the scene, a checkpoint is kept beside the result (of usf.h5 "
-     "usf.checkpoint.h5) until the run is done; --resume goes on from it bit for bit.",
+     "usf.checkpoint.h5) until the run is done; --resume goes on from it bit for bit.\n"
+     "mpirun -n 4 graingas run SCENE.yaml shares the replicas among four processes, to the same bits; compare, too.",
      SIMULATES | GG_OPT_ENGINE | GG_OPT_RESUME, gg_cli_run_main},
     {"theory", "SCENE.yaml", "The theories alone", NULL, GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_QUIET,
      gg_cli_theory_main},
