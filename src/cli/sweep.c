@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/processes.h"
 #include "cli/progress.h"
 
 static gg_status set(void *sweep, const char *key, const char *value, gg_error *err)
@@ -69,6 +70,7 @@ static int work(gg_sweep_command *c)
   size_t i = 0;
   const gg_options *o = c->options;
   const gg_sweep_options options = {.threads = o->threads,
+                                    .workers = gg_cli_workers(o->threads),
                                     .command = o->command_line,
                                     .input = o->input,
                                     .context = c,

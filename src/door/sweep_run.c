@@ -95,12 +95,14 @@ static gg_status list_missing(gg_courses *all, size_t first, size_t end, gg_erro
   return GG_OK;
 }
 
-/* Points in progress at a time: two a thread, so that none has to wait for the end of a window, and errors can be
- * compared. */
+/* Points in progress at a time: two a thread, of all processes, so that none has to wait for the end of a window, and
+ * errors can be compared; but not more than one process can hold. */
 static size_t at_once(const gg_courses *all)
 {
+  enum { MOST_AT_ONCE = 512 };
   const gg_sweep_settings *s = &all->sweep->settings;
-  size_t n = s->at_once ? (size_t)s->at_once : all->options.workers ? 64 : 2 * (size_t)all->options.threads;
+  int threads = all->options.workers ? gg_workers_threads(all->options.workers) : all->options.threads;
+  size_t n = s->at_once ? (size_t)s->at_once : threads < MOST_AT_ONCE / 2 ? 2 * (size_t)threads : MOST_AT_ONCE;
   return n < all->n ? n : all->n;
 }
 
@@ -125,6 +127,7 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   gg_courses all = {.sweep = sweep, .folder = folder};
   if (options) all.options = *options;
   if (all.options.threads < 1) all.options.threads = 1;
+  if (sweep->settings.does == GG_DOES_THEORY) all.options.workers = NULL; /* who share replicas */
   if (!all.options.command) all.options.command = "the graingas library";
   GG_TRY(gg_sweep_folder_prepare(folder, err));
   pthread_mutex_init(&all.lock, NULL);

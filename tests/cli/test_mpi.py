@@ -1,5 +1,7 @@
 """graingas under mpirun: the bits of one process, one voice, one writer; processes that are killed; what a build without
 MPI says."""
+import csv
+import glob
 import json
 import os
 import shutil
@@ -145,6 +147,45 @@ def test_killed_and_done_again():
     out, err = job.communicate(timeout=BOUND)
     check("process 1 of 3 is gone" in err and os.path.exists("scene.h5"), err)
     check(numbers(out)["results"] == whole, err)
+
+
+SWEEP = """{flow: usf, phi: 0.1, particles: 100, run: {collisions: 150, warmup: 20, replicas: 2},
+vary: {collision.e: [0.7, 0.8, 0.9], engine: [md, dsmc]}}"""
+LONGER = "--set", "run.collisions=1000"
+
+
+def table_of(folder, *args):
+    """All that a sweep came to, but times."""
+    done = run("sweep", "sweep.yaml", *args, "--collect", "--output", folder, "--picture", "none")
+    check(done.code == 0, done.err)
+    with open(os.path.splitext(folder)[0] + ".csv", newline="") as f:
+        return [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(f)]
+
+
+def killed_sweep(folder, rank, options=()):
+    """The sweep whose rank was killed once the first point was done."""
+    job = start(3, "sweep", "sweep.yaml", "--quiet", *LONGER, "--output", folder, options=options)
+    until = time.time() + BOUND
+    while not glob.glob(folder + "/????????????????.h5") and job.poll() is None and time.time() < until:
+        time.sleep(0.01)
+    os.kill(process_of(job, rank), signal.SIGKILL)
+    err = job.communicate(timeout=BOUND)[1]
+    return job.returncode, err
+
+
+def test_sweep():
+    """Points and their replicas over ranks; a rank that is killed, with mpirun's default and with recovery."""
+    with open("sweep.yaml", "w") as f:
+        f.write(SWEEP)
+    check(run("sweep", "sweep.yaml", "--quiet", *LONGER, "--output", "one.sweep").code == 0)
+    whole = table_of("one.sweep", *LONGER)
+    check(len(whole) > 60, len(whole))
+    code, err = killed_sweep("killed.sweep", 2)
+    check(code != 0, "a process was killed, and all is well?")
+    done = several(2, "sweep", "sweep.yaml", "--quiet", *LONGER, "--output", "killed.sweep")
+    check(done.returncode == 0 and table_of("killed.sweep", *LONGER) == whole, done.stderr)
+    code, err = killed_sweep("whole.sweep", 1, ["--enable-recovery"])
+    check("process 1 of 3 is gone" in err and table_of("whole.sweep", *LONGER) == whole, err)
 
 
 def test_without_mpi():
