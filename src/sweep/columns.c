@@ -9,9 +9,13 @@ void gg_columns_clear(gg_columns *c)
   for (size_t k = 0; k < c->n; k++) gg_values_clear(&c->values[k]);
 }
 
-/* A node as YAML on one line. */
+/* Characters of a value: an alias may stand in what it stands for, and that has no end. */
+enum { LONGEST_VALUE = 10000 };
+
+/* A node as YAML on one line; cut where it is too long. */
 static void print_node(gg_scene_reader *r, const yaml_node_t *node, FILE *out)
 {
+  if (ftell(out) > LONGEST_VALUE) return;
   if (node->type == YAML_SCALAR_NODE) {
     const char *text = (const char *)node->data.scalar.value;
     bool plain = node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
@@ -38,14 +42,16 @@ static void print_node(gg_scene_reader *r, const yaml_node_t *node, FILE *out)
   }
 }
 
-static gg_status add_node(gg_scene_reader *r, gg_values *values, const yaml_node_t *node)
+static gg_status add_node(gg_scene_reader *r, const char *key, gg_values *values, const yaml_node_t *node)
 {
   char *text = NULL;
   size_t size;
   FILE *out = open_memstream(&text, &size);
   if (out) print_node(r, node, out);
-  gg_status status = out && fclose(out) == 0 ? gg_values_add(values, text, r->err)
-                                             : gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
+  gg_status status = out && fclose(out) == 0 ? GG_OK : gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
+  if (status == GG_OK && size > LONGEST_VALUE)
+    status = gg_scene_refuse(r, node, key, "a value is longer than %d characters", LONGEST_VALUE);
+  if (status == GG_OK) status = gg_values_add(values, text, r->err);
   free(text);
   return status;
 }
@@ -66,13 +72,13 @@ static gg_status read_values(gg_scene_reader *r, const char *key, const yaml_nod
 {
   if (is_plain(node))
     return gg_sweep_place(r, node, gg_values_parse(values, key, (const char *)node->data.scalar.value, r->err));
-  if (node->type != YAML_SEQUENCE_NODE) return add_node(r, values, node);
+  if (node->type != YAML_SEQUENCE_NODE) return add_node(r, key, values, node);
   for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {
     const yaml_node_t *item = yaml_document_get_node(r->document, *i);
     if (is_plain(item))
       GG_TRY(gg_sweep_place(r, item, gg_values_parse(values, key, (const char *)item->data.scalar.value, r->err)));
     else
-      GG_TRY(add_node(r, values, item));
+      GG_TRY(add_node(r, key, values, item));
   }
   if (values->range && values->n) return gg_scene_refuse(r, node, key, "is either drawn from LOW..HIGH or from a list");
   if (!values->n && !values->range) return gg_scene_refuse(r, node, key, "has no values");
