@@ -111,6 +111,16 @@ static void write_texts(column *c, const char *name)
   gg_h5_texts(c->h, path, c->text, c->n);
 }
 
+/* Texts of the points' names, which no row holds. */
+static void write_files(column *c, const gg_point_table *t, const gg_sweep *sweep, char (*name)[GG_POINT_NAME])
+{
+  for (size_t i = 0; i < t->n; i++) {
+    gg_point_name(sweep->point[t->row[i].point].id, name[i]);
+    c->text[i] = name[i];
+  }
+  write_texts(c, "file");
+}
+
 /* Numbers, where every point has one. */
 static void write_key(column *c, const gg_point_table *t, const gg_sweep *sweep, size_t f, size_t k)
 {
@@ -182,7 +192,8 @@ gg_status gg_point_table_write_h5(const gg_point_table *t, const gg_sweep *sweep
 {
   gg_h5 h;
   column c = {&h, t->n, gg_new_array(t->n, sizeof(double), err), gg_new_array(t->n, sizeof(char *), err)};
-  gg_status status = c.number && c.text ? GG_OK : GG_FAILED;
+  char(*name)[GG_POINT_NAME] = gg_new_array(t->n, sizeof *name, err);
+  gg_status status = c.number && c.text && name ? GG_OK : GG_FAILED;
   if (status == GG_OK) {
     gg_h5_create_in_memory(&h);
     gg_h5_group(&h, "/graingas/table");
@@ -190,9 +201,11 @@ gg_status gg_point_table_write_h5(const gg_point_table *t, const gg_sweep *sweep
     gg_h5_text(&h, "/graingas/command", command);
     gg_h5_text_attribute(&h, "/graingas", "kind", "sweep");
     write_columns(&c, t, sweep);
+    write_files(&c, t, sweep, name);
     status = write_image(&h, path, err);
   }
   free(c.number);
   free(c.text);
+  free(name);
   return status;
 }
