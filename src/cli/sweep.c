@@ -92,7 +92,8 @@ static int work(gg_sweep_command *c)
 /* The files go to standard output, for scripts. */
 static void tell_file(void *context, const char *file)
 {
-  if (!((const gg_sweep_command *)context)->options->quiet) printf("%s\n", file);
+  const gg_options *o = ((const gg_sweep_command *)context)->options;
+  if (!o->quiet && !o->json) printf("%s\n", file);
 }
 
 static int collect(gg_sweep_command *c)
@@ -125,6 +126,23 @@ static int check_varied(const gg_sweep_command *c)
                      gg_options_name(c->options));
 }
 
+/* One thing at a time, and nothing asked for in vain. */
+static int check_together(const gg_options *o)
+{
+  const char *does[] = {o->list ? "--list" : NULL, o->collect ? "--collect" : NULL, o->slurm ? "--slurm" : NULL,
+                        o->point ? "--point" : NULL};
+  const char *first = NULL, *drawing = o->over ? "--over" : o->show ? "--show" : o->picture ? "--picture" : NULL;
+  for (size_t k = 0; k < sizeof does / sizeof *does; k++) {
+    if (does[k] && first) return gg_cli_fail(GG_BAD_INPUT, "options '%s' and '%s' do not go together", first, does[k]);
+    if (does[k]) first = does[k];
+  }
+  if (drawing && !o->collect) return gg_cli_fail(GG_BAD_INPUT, "option '%s' goes with --collect", drawing);
+  if (o->slurm && o->json) return gg_cli_fail(GG_BAD_INPUT, "options '--slurm' and '--json' do not go together");
+  if (o->slurm && strcmp(o->input, "-") == 0)
+    return gg_cli_fail(GG_BAD_INPUT, "option '--slurm': the tasks need a file to read, not standard input");
+  return GG_CLI_GO_ON;
+}
+
 static int sweep_points(gg_sweep_command *c)
 {
   gg_error err;
@@ -134,9 +152,8 @@ static int sweep_points(gg_sweep_command *c)
   c->folder = gg_options_output(o, ".sweep", &err);
   if (!c->folder) return gg_cli_report(&err);
   if (o->slurm) return gg_sweep_print_slurm(c);
-  if (o->collect) return collect(c);
   if (o->list && !o->json) return gg_sweep_list(c);
-  code = o->list ? GG_OK : work(c);
+  code = o->list ? GG_OK : o->collect ? collect(c) : work(c);
   return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;
 }
 
@@ -146,6 +163,7 @@ int gg_cli_sweep_main(const gg_command *command, int argc, char **argv)
   gg_error err;
   gg_sweep_command c = {.options = &o};
   int code = gg_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON) code = check_together(&o);
   if (code == GG_CLI_GO_ON && read_sweep(&o, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = sweep_points(&c);
   gg_sweep_free(c.sweep);

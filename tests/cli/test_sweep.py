@@ -55,13 +55,22 @@ def test_refused_before_anything_runs():
     write()
     for args, words in ((("--vary", "phi=0.1,0.2"), "varied twice"), (("--set", "phi=0.1"), "is varied"),
                         (("--point", "7"), "from 1 to 6"), (("--does", "dance"), "allowed: one of run"),
-                        (("--vary", "run.seed=1:1000000:1"), "1000000 values")):
+                        (("--vary", "run.seed=1:1000000:1"), "1000000 values"),
+                        (("--show", "temperature"), "goes with --collect"), (("--list", "--collect"), "do not go together"),
+                        (("--slurm", "--point", "1"), "do not go together"), (("--slurm", "--json"), "do not go together")):
         done = run("sweep", "s.yaml", *args)
         check(done.code == 2 and words in done.err and not done.new, args, done.err)
     done = run("run", "s.yaml")
     check(done.code == 2 and "graingas sweep FILE" in done.err, done.err)
     done = run("sweep", "scene.yaml", scene="flow: usf\nphi: 0.1\n")
     check(done.code == 2 and "no key is varied" in done.err, done.err)
+
+
+def test_values_without_an_end():
+    """An alias within what it stands for."""
+    for vary in ("&a {phi: *a}", "{phi: &a [1, *a]}", "{phi: &a [[1, *a], *a, *a]}", "{run: &a {run: *a}}"):
+        done = run("sweep", "scene.yaml", "--list", scene="flow: usf\nphi: 0.1\nvary: " + vary + "\n")
+        check(done.code == 2 and done.err.startswith("graingas: scene.yaml:"), vary, done.code, done.err)
 
 
 def test_places():
@@ -92,6 +101,10 @@ def test_collect():
     check(float(one[0]["mean"]) == read["md"]["results"]["temperature"]["mean"], one[0])
     check(float(one[0]["error"]) == read["md"]["results"]["temperature"]["stderr"], one[0])
     check(int(one[0]["seed"]) == read["scene"]["run"]["seed"] != 1, one[0])
+    done = run("info", "s.h5")
+    check(done.code == 3 and "table of a sweep" in done.err, done.code, done.err)
+    done = run("sweep", "s.yaml", "--collect", "--json")
+    check(done.code == 0 and len(json.loads(done.out)["points"]) == 6, done.out, done.err)
     for args, words in (("--over", "engine"), "none of the keys"), (("--show", "colour"), "no point has"):
         done = run("sweep", "s.yaml", "--collect", *args)
         check(done.code == 2 and words in done.err, done.err)
