@@ -108,6 +108,8 @@ static gg_status put_series(gg_drawn_panel *p, const gg_figure_point *point, int
   const gg_stored_series *s = gg_stored_series_find(&point->stored.engine[engine], name);
   if (!s || !s->n) return GG_OK;
   gg_panel_group(p->of, point, gg_quantity_symbol(gg_quantity_find(name), symbol, sizeof symbol), group, sizeof group);
+  const char *unit = gg_figure_quantity(point, engine, name).unit; /* that of its mean */
+  if (unit && !*p->y_unit && !p->of->source.as.n) snprintf(p->y_unit, sizeof p->y_unit, "%s", unit);
   gg_drawn *d = gg_panel_add(p, engines[engine], group, GG_CHART_BAND);
   size_t first = 0, last = s->n, step;
   double to = p->of->x.to > p->of->x.from ? p->of->x.to : INFINITY, from = p->of->x.to > 0 ? p->of->x.from : -INFINITY;

@@ -32,6 +32,12 @@ def test_a_figure_from_beginning_to_end():
     check(again.code == 0 and len(before) == 1 and stamps("out/figures.sweep") == before, again.err)
 
 
+def test_units_of_what_changes_in_time():
+    check(run("reproduce", "thesis 2.14", "--quick", "--threads", "1").code == 0)
+    rows = list(csv.DictReader(open("thesis-2.14.csv", newline="")))
+    check({(r["panel"], r["y_unit"]) for r in rows} == {("1", "d^2 gamma^2"), ("2", "1"), ("3", "1")}, rows[:3])
+
+
 def test_the_list():
     """Every figure with what it needs, how long it takes, and its verdict."""
     table, document = run("reproduce", "list"), run("reproduce", "list", "--json")
