@@ -60,7 +60,9 @@ static gg_status choose_key(drawing *d, const char *over, gg_error *err)
       if (meant && over) return GG_OK;
     }
   if (over) return gg_fail(err, GG_BAD_INPUT, "'%.60s' is none of the keys that this sweep varies", over);
-  return most > 1 ? GG_OK : gg_fail(err, GG_FAILED, "no varied key has numbers for an axis");
+  return most > 1 ? GG_OK
+                  : gg_fail(err, GG_FAILED,
+                            "no varied key has numbers, which a picture's axis needs (picture none: the tables alone)");
 }
 
 /* "β = 0.5, φ = 0.1": the values of all keys that do not go with the axis. */
@@ -146,7 +148,10 @@ static gg_status fill_panel(drawing *d, size_t p, gg_error *err)
     for (size_t i = 0; i < t->n; i++) {
       if (strcmp(t->row[i].quantity, d->quantity[p]) != 0) continue;
       gg_chart_series *s = series_for(d, p, &t->row[i]);
-      if (!s) return gg_fail(err, GG_FAILED, "the picture would have more than %d lines", MOST_SERIES);
+      if (!s)
+        return gg_fail(err, GG_FAILED,
+                       "the picture would have more than %d lines: another key over, fewer values, or none",
+                       MOST_SERIES);
       if (round) {
         size_t at = (size_t)(s->x - d->x) + s->n;
         d->x[at] = value_of(d->sweep, t->row[i].point, d->over);
