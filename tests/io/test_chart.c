@@ -146,6 +146,20 @@ static void looks_follow_from_names(void **state)
   free(svg);
 }
 
+/* What is measured at many points is drawn through, in the legend too; a law beside it is dashed. */
+static void laws_beside_bands(void **state)
+{
+  (void)state;
+  const gg_chart_series series[] = {
+      {.method = "md", .group = "one", .style = GG_CHART_BAND, .n = 3, .x = x3, .y = y3, .error = e3},
+      {.method = "Gaussian", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = y3}};
+  const gg_chart_panel panel = {.n = 2, .series = series};
+  const gg_chart chart = {.n = 1, .panel = &panel};
+  char *svg = drawn(&chart);
+  assert_int_equal(count(svg, "stroke-dasharray"), 1 + 1); /* the law and its sample */
+  free(svg);
+}
+
 /* Labels of tics stay short, and round; those of a logarithmic axis are powers where it is long. */
 static void tics(void **state)
 {
@@ -232,6 +246,7 @@ int main(void)
       cmocka_unit_test(points_stand_where_they_are),
       cmocka_unit_test(what_is_not_there),
       cmocka_unit_test(looks_follow_from_names),
+      cmocka_unit_test(laws_beside_bands),
       cmocka_unit_test(tics),
       cmocka_unit_test(axes_have_room),
       cmocka_unit_test(keys),

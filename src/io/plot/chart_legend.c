@@ -59,15 +59,15 @@ static place place_of(const gg_chart_legend *g, int i, int top, const int page[2
   return (place){left + column_of(g, i) * g->column_width, page[1] - top - ROW * (row_of(g, i) + 0.5)};
 }
 
-/* What stands for an entry: a group by its points if it has some. */
+/* What stands for an entry: a group by its points if it has some, else by a line through, whatever its methods are. */
 static gg_chart_series sample_of(const gg_chart_looks *l, int i)
 {
   bool group = i < l->group.n;
   gg_chart_series s = group ? *l->group.first[i] : *l->method.first[i - l->group.n];
   s.n = 0;
   if (!group) s.group = NULL;
-  if (group) s.method = l->group.points[i] ? "md" : NULL;
-  if (group) s.style = l->group.points[i] ? GG_CHART_POINTS : GG_CHART_LINE;
+  if (group) s.method = "md";
+  if (group) s.style = l->group.points[i] ? GG_CHART_POINTS : GG_CHART_BAND;
   return s;
 }
 

@@ -34,6 +34,7 @@ static void note(gg_chart_names *names, const gg_chart_series *s, bool method)
   if (i < 0 && names->n == GG_LOOKS_MOST) return;
   if (i < 0) names->first[i = names->n++] = s;
   names->points[i] |= s->style == GG_CHART_POINTS;
+  names->bands |= s->style == GG_CHART_BAND;
 }
 
 void gg_chart_looks_of(const gg_chart *chart, gg_chart_looks *looks)
@@ -83,10 +84,11 @@ static void print_symbol(FILE *s, int symbol, int place, double size)
 void gg_chart_print_look(FILE *s, const gg_chart_looks *l, const gg_chart_series *series)
 {
   int place = place_of(l, series), group = series->group ? find(&l->group, series->group, false) : -1;
-  if (series->style != GG_CHART_POINTS)
-    fprintf(s, "lw 1.5 dt %s", series->style == GG_CHART_BAND ? "1" : dashes[place % N_DASHES]);
-  else
+  if (series->style == GG_CHART_BAND) fprintf(s, "lw 1.5 dt 1");
+  if (series->style == GG_CHART_LINE) fprintf(s, "lw 1.5 dt %s", dashes[(place + l->method.bands) % N_DASHES]);
+  if (series->style == GG_CHART_POINTS) {
     print_symbol(s, group >= 0 ? group : place < 2 ? place : 0, place, series->n > CROWD ? 0.6 : 1);
-  if (series->style == GG_CHART_POINTS) fprintf(s, " lw 1.2");
+    fprintf(s, " lw 1.2");
+  }
   fprintf(s, " lc rgb '%s'", gg_chart_colour(l, series));
 }

@@ -12,6 +12,7 @@ typedef struct gg_chart_names {
   int n;
   const gg_chart_series *first[GG_LOOKS_MOST]; /* with that name */
   bool points[GG_LOOKS_MOST];                  /* some with that name are points */
+  bool bands;                                  /* some are measured lines, which are drawn through */
 } gg_chart_names;
 
 /* In order of their first appearance. */
