@@ -124,7 +124,10 @@ static gg_status points_of(gg_drawn_panel *p, const gg_figure_points *all, const
     }
     double x = gg_panel_x(of, raw);
     gg_told y = gg_figure_value(&asked, point, x);
-    name_text(&of->source, asked.name, name, sizeof name);
+    if (of->source.kind == GG_OF_NUMBER)
+      gg_panel_curve_text(&of->source, i, point, engine, name, sizeof name);
+    else
+      name_text(&of->source, asked.name, name, sizeof name);
     gg_panel_group(of, point, of->number ? "" : name, group, sizeof group); /* one line over all its curves */
     if (y.unit && !*p->y_unit && !of->source.as.n && !of->source.relative_to.n && !of->source.relative_theory &&
         !of->source.relative_number)

@@ -34,6 +34,10 @@ void gg_drawn_sort(gg_drawn *drawn);
 bool gg_panel_takes(const gg_figure_panel *of, const gg_figure_point *point);
 bool gg_panel_engine(const gg_figure_panel *of, const gg_figure_point *point, int engine);
 void gg_panel_group(const gg_figure_panel *of, const gg_figure_point *point, const char *name, char *text, size_t size);
+/* The Kth curve of the source in few words: as its file calls it, where that tells it from the others; else its name.
+ */
+void gg_panel_curve_text(const gg_source *source, int k, const gg_figure_point *point, int engine, char *text,
+                         size_t size);
 double gg_panel_x(const gg_figure_panel *of, double raw);
 
 gg_status gg_panel_curves(gg_drawn_panel *panel, const gg_figure_points *points, gg_error *err);

@@ -20,6 +20,33 @@ static const char *text_of(const json_t *curve, const char *key)
   return text ? text : "";
 }
 
+/* Escaped: names of curves have underscores. */
+static void plain(const char *name, char *text, size_t size)
+{
+  size_t used = 0;
+  for (const char *c = name; *c && used + 2 < size; c++) {
+    if (*c == '_') text[used++] = '\\';
+    text[used++] = *c;
+  }
+  text[used] = '\0';
+}
+
+void gg_panel_curve_text(const gg_source *source, int k, const gg_figure_point *point, int engine, char *text,
+                         size_t size)
+{
+  static const char *const told[] = {"label", "x_name"};
+  for (int t = 0; t < 2; t++) {
+    const char *mine = text_of(gg_figure_curve(point, engine, source->names.text[k]), told[t]);
+    bool alone = *mine;
+    for (int i = 0; i < source->names.n; i++)
+      if (i != k && strcmp(mine, text_of(gg_figure_curve(point, engine, source->names.text[i]), told[t])) == 0)
+        alone = false;
+    snprintf(text, size, "%s", mine);
+    if (alone) return;
+  }
+  plain(source->names.text[k], text, size);
+}
+
 static gg_told transformed(const gg_figure_panel *of, double x, gg_told y)
 {
   if (!of->source.as.n) return y;

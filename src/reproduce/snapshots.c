@@ -8,7 +8,7 @@
 #include "io/plot/plot.h"
 #include "reproduce/figures.h"
 
-enum { MOST_SHOWN = 12, COLUMNS = 4, WIDTH = 230 };
+enum { MOST_SHOWN = 12, COLUMNS = 4, WIDTH = 230, HEIGHT = 260 };
 
 typedef struct shown {
   const gg_figure_panel *of;
@@ -67,8 +67,10 @@ static void draw_one(FILE *s, const shown *one, int k, gg_panel place)
   gg_plot_place(s, place);
   fprintf(s, "set label '%s%s%s%.0f collisions per grain' at graph 0,1.05 left font ',10'\n",
           one->of->title ? one->of->title : "", one->of->title || *group ? ", " : "", *group ? group : "", collisions);
-  fprintf(s, "set size ratio -1\nset xrange [0:%g]\nset yrange [0:%g]\nset xlabel '%s [d]'\nset ylabel 'y [d]'\n",
-          edge[across], edge[1], across == 2 ? "z" : "x");
+  fprintf(
+      s,
+      "set size ratio -1\nset xrange [0:%g]\nset yrange [0:%g]\nset xlabel '%s [d]'\nset ylabel 'y [d]' offset 0.4,0\n",
+      edge[across], edge[1], across == 2 ? "z" : "x");
   fprintf(s, "unset key\nplot $grains%d using 1:2 with points pt 7 ps 0.2 lc rgb '#0072B2'\n", k);
 }
 
@@ -83,12 +85,12 @@ gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *a
   GG_TRY(gg_plot_format(picture, NULL, &png, err));
   FILE *s = open_memstream(&script, &length);
   if (!s) return gg_fail(err, GG_FAILED, "out of memory");
-  int width = columns * WIDTH, height = 50 + rows * WIDTH;
+  int width = columns * WIDTH, height = 50 + rows * HEIGHT;
   gg_plot_open_page(s, f->entry->figure, png, width, height);
   for (int k = 0; k < n; k++) {
-    double left = (double)(k % columns) / columns, w = 1.0 / columns, h = (double)WIDTH / height;
+    double left = (double)(k % columns) / columns, w = 1.0 / columns, h = (double)HEIGHT / height;
     double top = 1 - 50.0 / height - (k / columns) * h;
-    draw_one(s, &list[k], k, (gg_panel){left + 0.2 * w, left + 0.97 * w, top - 0.80 * h, top - 0.08 * h});
+    draw_one(s, &list[k], k, (gg_panel){left + 0.2 * w, left + 0.97 * w, top - 0.77 * h, top - 0.08 * h});
   }
   fprintf(s, "unset multiplot\n");
   gg_status status =
