@@ -85,7 +85,8 @@ static int work(gg_sweep_command *c)
   gg_status status = o->point ? gg_sweep_run_point(c->sweep, c->folder, i, &options, &err)
                               : gg_sweep_run(c->sweep, c->folder, &options, &err);
   gg_cli_line_clear(&c->line);
-  if (status == GG_OK && !o->quiet) fprintf(stderr, "results: %s\n", c->folder);
+  if (status == GG_OK && !o->quiet)
+    fprintf(stderr, "results: %s; --collect makes one table and a picture of them\n", c->folder);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 

@@ -26,6 +26,7 @@ typedef struct drawing {
   gg_chart_series series[MOST_PANELS][MOST_SERIES];
   gg_chart_panel panel[MOST_PANELS];
   char quantity[MOST_PANELS][64], label[MOST_PANELS][64], x_label[96];
+  const char *unit[MOST_PANELS]; /* of its numbers: phi = 0 has other units than phi > 0 */
   size_t n;
 } drawing;
 
@@ -88,12 +89,36 @@ static bool has_rows(const gg_point_table *t, const char *quantity)
   return false;
 }
 
-static gg_status add_panel(drawing *d, const char *quantity, gg_error *err)
+static const char *unit_of(const gg_table_row *row)
 {
-  if (d->n == MOST_PANELS) return gg_fail(err, GG_BAD_INPUT, "a picture shows at most %d quantities", MOST_PANELS);
+  return row->unit ? row->unit : "";
+}
+
+/* Is this a row of panel p? */
+static bool belongs(const drawing *d, size_t p, const gg_table_row *row)
+{
+  return strcmp(row->quantity, d->quantity[p]) == 0 && strcmp(unit_of(row), d->unit[p]) == 0;
+}
+
+static bool is_shown(const drawing *d, const gg_table_row *row)
+{
+  for (size_t p = 0; p < d->n; p++)
+    if (belongs(d, p, row)) return true;
+  return false;
+}
+
+/* A panel for each unit that the quantity has at some point. */
+static gg_status add_panels(drawing *d, const char *quantity, gg_error *err)
+{
   if (!has_rows(d->table, quantity)) return gg_fail(err, GG_BAD_INPUT, "no point has a quantity '%.60s'", quantity);
-  snprintf(d->quantity[d->n], sizeof d->quantity[0], "%s", quantity);
-  d->n++;
+  for (size_t i = 0; i < d->table->n; i++) {
+    const gg_table_row *row = &d->table->row[i];
+    if (strcmp(row->quantity, quantity) != 0 || is_shown(d, row)) continue;
+    if (d->n == MOST_PANELS)
+      return gg_fail(err, GG_BAD_INPUT, "a picture has at most %d panels, one for each quantity and unit", MOST_PANELS);
+    snprintf(d->quantity[d->n], sizeof d->quantity[0], "%s", quantity);
+    d->unit[d->n++] = unit_of(row);
+  }
   return GG_OK;
 }
 
@@ -103,7 +128,7 @@ static gg_status add_named(drawing *d, const char *show, gg_error *err)
     char word[64];
     size_t length = strcspn(show, ",");
     snprintf(word, sizeof word, "%.*s", (int)length, show);
-    GG_TRY(add_panel(d, word, err));
+    GG_TRY(add_panels(d, word, err));
     show += length + (show[length] == ',');
   }
   return GG_OK;
@@ -120,9 +145,9 @@ static gg_status choose_quantities(drawing *d, gg_error *err)
   int n = gg_headline(&model, headline);
   for (int i = 0; i < n && d->n < 4; i++) {
     const char *name = gg_quantity_name_in(&model, headline[i]);
-    if (has_rows(d->table, name)) GG_TRY(add_panel(d, name, err));
+    if (has_rows(d->table, name)) GG_TRY(add_panels(d, name, err));
   }
-  return d->n || !d->table->n ? GG_OK : add_panel(d, d->table->row[0].quantity, err);
+  return d->n || !d->table->n ? GG_OK : add_panels(d, d->table->row[0].quantity, err);
 }
 
 static gg_chart_series *series_for(drawing *d, size_t p, const gg_table_row *row)
@@ -146,7 +171,7 @@ static gg_status fill_panel(drawing *d, size_t p, gg_error *err)
   const gg_point_table *t = d->table;
   for (int round = 0; round < 2; round++) {
     for (size_t i = 0; i < t->n; i++) {
-      if (strcmp(t->row[i].quantity, d->quantity[p]) != 0) continue;
+      if (!belongs(d, p, &t->row[i])) continue;
       gg_chart_series *s = series_for(d, p, &t->row[i]);
       if (!s)
         return gg_fail(err, GG_FAILED,
@@ -201,12 +226,11 @@ static gg_status fill(drawing *d, gg_error *err)
       gg_quantity_symbol(q, d->label[p], sizeof d->label[p]);
     else
       snprintf(d->label[p], sizeof d->label[p], "%s", d->quantity[p]);
-    d->panel[p] = (gg_chart_panel){.x = {.label = d->x_label, .unit = x_unit}, .y = {.label = d->label[p]}};
+    d->panel[p] =
+        (gg_chart_panel){.x = {.label = d->x_label, .unit = x_unit}, .y = {.label = d->label[p], .unit = d->unit[p]}};
     d->panel[p].series = d->series[p];
     GG_TRY(fill_panel(d, p, err));
     for (size_t k = 0; k < d->panel[p].n; k++) sort_series(d, &d->series[p][k]);
-    for (size_t i = 0; i < d->table->n && !d->panel[p].y.unit; i++)
-      if (strcmp(d->table->row[i].quantity, d->quantity[p]) == 0) d->panel[p].y.unit = d->table->row[i].unit;
   }
   return GG_OK;
 }
