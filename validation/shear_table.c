@@ -10,10 +10,11 @@
 #include "io/h5/h5.h"
 #include "theory/theory_list.h"
 
-enum { MOST_PHI = 16, MOST_E = 36, QUANTITIES = 4 };
+enum { MOST_PHI = 28, MOST_E = 36, QUANTITIES = 4 };
 
-static const double phis[MOST_PHI] = {0,   0.005, 0.01, 0.02, 0.05, 0.075, 0.1,   0.15,
-                                      0.2, 0.25,  0.3,  0.35, 0.4,  0.45,  0.475, 0.5};
+static const double phis[MOST_PHI] = {0,    0.0025, 0.005, 0.01,  0.02, 0.03,  0.04, 0.05,  0.06, 0.075,
+                                      0.1,  0.125,  0.15,  0.175, 0.2,  0.225, 0.25, 0.275, 0.3,  0.325,
+                                      0.35, 0.375,  0.4,   0.425, 0.45, 0.475, 0.49, 0.5};
 static const gg_quantity quantities[QUANTITIES] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1, GG_Q_N2};
 
 typedef struct table {

@@ -3,8 +3,8 @@
 #include "post.h"
 
 static const char *const scenes[] = {
-    "{flow: usf, phi: 0.1, particles: 100, measure: [rheology, velocity_distributions, diffusion], "
-    "run: {collisions: 100, replicas: 3}}",
+    ("{flow: usf, phi: 0.1, particles: 100, measure: [rheology, velocity_distributions, diffusion], "
+     "run: {collisions: 100, replicas: 3}}"),
     "{flow: hcs, engine: dsmc, phi: 0.1, dsmc: {particles: 500}, run: {collisions: 400, replicas: 3}}",
     "{flow: chute, phi: 0.2, particles: 100, gravity: [0.5, -1, 0], run: {collisions: 200, replicas: 2}}",
     "{flow: usf, engine: dsmc, phi: 0, dsmc: {particles: 300}, run: {relative_error: 0.03, replicas: 5}}",
