@@ -13,13 +13,14 @@ double gg_z_score(const gg_estimate *a, const gg_estimate *b)
   return error > 0 ? (a->mean - b->mean) / error : NAN;
 }
 
-/* Curves of what the scene measures, so that nobody pays for others. */
+/* Curves of what the scene measures, so that nobody pays for others. A theory that has none here, of rough grains for
+ * instance, is no reason for a warning: most have none at all. */
 static void draw_curves(gg_comparison *c, int i)
 {
   gg_error err = {0};
   const gg_theory *theory = c->theory[i].theory;
   if (!c->theory[i].applies) return;
-  if (gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &err) != GG_OK)
+  if (gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &err) == GG_FAILED)
     gg_text_list_add(&c->warnings, "%s: no curves: %s", theory->name, err.message);
 }
 

@@ -25,15 +25,20 @@ def a_second(deadline):
     return time.monotonic() > deadline - 59
 
 
+def averaging(deadline):
+    """Both engines average by then, also on a machine that has much else to do."""
+    return time.monotonic() > deadline - 55
+
+
 def test_interrupted_without_checkpoint():
     with open("scene.yaml", "w") as f:
         f.write(SCENE % 1e9)
     for command in ("run", "compare"):
-        code, out, err = interrupted(command, "scene.yaml", "--quiet", after=a_second)
+        code, out, err = interrupted(command, "scene.yaml", "--quiet", after=averaging)
         check(code == 130, code, err)
         check("interrupted" in err and os.listdir(".") == ["scene.yaml"], err, os.listdir("."))
         check("interrupted: the results so far" in out and "temperature " in out, out)
-    code, out, err = interrupted("run", "scene.yaml", "--quiet", "--json", after=a_second)
+    code, out, err = interrupted("run", "scene.yaml", "--quiet", "--json", after=averaging)
     d = json.loads(out)
     check(code == 130 and d["results"]["temperature"]["mean"] > 0, code, out)
     check(any("interrupted" in w for w in d["warnings"]), d["warnings"])
