@@ -522,6 +522,8 @@ typedef struct gg_collecting {
   const char *picture; /* instead of PREFIX.svg; "none": no picture */
   const char *over;    /* key along x; NULL: of those with numbers the one with the most values */
   const char *show;    /* quantities, with commas, a panel each; NULL: the main ones */
+  /* Told why there is no picture, where none of these three asked for one; NULL: that is a failure, too. */
+  void (*warn)(void *context, const char *message);
 } gg_collecting;
 GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
                                   void (*written)(void *context, const char *file), void *context, gg_error *err);

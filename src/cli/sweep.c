@@ -101,7 +101,8 @@ static int collect(gg_sweep_command *c)
 {
   gg_error err;
   const gg_options *o = c->options;
-  const gg_collecting options = {.command = o->command_line, .picture = o->picture, .over = o->over, .show = o->show};
+  const gg_collecting options = {
+      .command = o->command_line, .picture = o->picture, .over = o->over, .show = o->show, .warn = warn};
   char *prefix = gg_with_suffix(c->folder, "");
   if (!prefix) return gg_cli_fail(GG_FAILED, "out of memory");
   gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, tell_file, c, &err);
@@ -152,6 +153,8 @@ static int sweep_points(gg_sweep_command *c)
   if (code != GG_CLI_GO_ON) return code;
   c->folder = gg_options_output(o, ".sweep", &err);
   if (!c->folder) return gg_cli_report(&err);
+  for (size_t n = strlen(c->folder); n > 1 && c->folder[n - 1] == '/'; n--)
+    c->folder[n - 1] = '\0'; /* shells add it when they complete a name */
   if (o->slurm) return gg_sweep_print_slurm(c);
   if (o->list && !o->json) return gg_sweep_list(c);
   code = o->list ? GG_OK : o->collect ? collect(c) : work(c);

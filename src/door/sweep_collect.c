@@ -31,6 +31,15 @@ static gg_status check_places(const collecting *c, gg_error *err)
   return c->picture ? gg_check_writable(c->picture, "pictures are files", err) : GG_OK;
 }
 
+/* Values that are words have no axis, for instance: the tables are what there is to have. */
+static bool may_lack_picture(const collecting *c, gg_status status, const gg_error *err)
+{
+  const gg_collecting *o = &c->options;
+  if (!o->warn || o->picture || o->over || o->show || status == GG_BAD_FILE) return false;
+  o->warn(c->context, err ? err->message : "there is no picture");
+  return true;
+}
+
 static gg_status write_all(collecting *c, const char *folder, gg_error *err)
 {
   const gg_picture_choice choice = {c->options.over, c->options.show};
@@ -42,9 +51,9 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   GG_TRY(gg_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));
   tell(c, c->h5);
   if (!c->picture) return GG_OK;
-  GG_TRY(gg_point_table_draw(&c->table, c->sweep, &choice, c->picture, err));
-  tell(c, c->picture);
-  return GG_OK;
+  gg_status status = gg_point_table_draw(&c->table, c->sweep, &choice, c->picture, err);
+  if (status == GG_OK) tell(c, c->picture);
+  return status == GG_OK || !may_lack_picture(c, status, err) ? status : GG_OK;
 }
 
 static char *with(const char *prefix, const char *ending)

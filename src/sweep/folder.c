@@ -1,6 +1,7 @@
 #include "sweep/folder.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,12 +22,18 @@ char *gg_point_path(const char *folder, uint64_t id, const char *ending)
   return asprintf(&path, "%s/%016" PRIx64 "%s", folder, id, ending) < 0 ? NULL : path;
 }
 
+/* Files appear whole, under their name; something else that has the name (a full disk's, an editor's) is none. */
 static bool is_there(const char *folder, uint64_t id, const char *ending)
 {
+  static const char hdf5[] = "\211HDF\r\n\032\n";
+  char begins[sizeof hdf5 - 1];
   struct stat about;
   char *path = gg_point_path(folder, id, ending);
-  bool yes = path && stat(path, &about) == 0 && S_ISREG(about.st_mode);
+  int file = path && stat(path, &about) == 0 && S_ISREG(about.st_mode) ? open(path, O_RDONLY | O_CLOEXEC) : -1;
   free(path);
+  if (file < 0) return false;
+  bool yes = read(file, begins, sizeof begins) == (ssize_t)sizeof begins && memcmp(begins, hdf5, sizeof begins) == 0;
+  close(file);
   return yes;
 }
 

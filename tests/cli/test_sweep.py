@@ -85,6 +85,22 @@ def test_places():
     check(done.code == 0 and states == ["missing", "done"] + 4 * ["missing"], done.out, done.err)
 
 
+def test_foreign_files_and_words():
+    """A file that is none of ours is no point that is done; values without numbers make tables and no picture."""
+    write("flow: usf\nengine: dsmc\nphi: 0.1\ncollision: {e: 0.9}\nrun: {collisions: 30, warmup: 5}\n"
+          "vary: {flow: [usf, hcs]}\n")
+    check(run("sweep", "s.yaml", "--quiet").code in (0, 1))
+    name = sorted(f for f in os.listdir("s.sweep") if f.endswith(".h5"))[0]
+    with open(os.path.join("s.sweep", name), "w") as f:
+        f.write("garbage\n")
+    check("1 is done" in run("sweep", "s.yaml", "--list").out)
+    check(run("sweep", "s.yaml", "--quiet").code in (0, 1))
+    check("2 are done" in run("sweep", "s.yaml", "--list").out)
+    done = run("sweep", "s.yaml", "--collect")
+    check(done.code == 0 and done.out.split() == ["s.csv", "s.h5"] and "numbers" in done.err, done.out, done.err)
+    check(run("sweep", "s.yaml", "--collect", "--over", "flow").code != 0)
+
+
 def test_collect():
     write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: compare}"))
     done = run("sweep", "s.yaml", "--quiet")
@@ -101,6 +117,8 @@ def test_collect():
     check(float(one[0]["mean"]) == read["md"]["results"]["temperature"]["mean"], one[0])
     check(float(one[0]["error"]) == read["md"]["results"]["temperature"]["stderr"], one[0])
     check(int(one[0]["seed"]) == read["scene"]["run"]["seed"] != 1, one[0])
+    done = run("sweep", "s.yaml", "--collect", "--output", "s.sweep/", "--picture", "none")
+    check(done.out.split() == ["s.csv", "s.h5"], done.out, done.err)
     done = run("info", "s.h5")
     check(done.code == 3 and "table of a sweep" in done.err, done.code, done.err)
     done = run("sweep", "s.yaml", "--collect", "--json")
