@@ -1,8 +1,10 @@
 #include "io/h5/checkpoint_file.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/atomic_file.h"
@@ -65,13 +67,17 @@ static void *make_image(const char *path, const gg_archive *a, const gg_scene *s
   return NULL;
 }
 
-/* The one before gives way only once this one is safe on the disk. */
-static void keep_before(const gg_atomic_file *file)
+/* The one before gives way only once this one is safe on the disk. An error of the disk is told once: who asks again
+ * hears that all is well. */
+static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
 {
   char *before = NULL;
-  if (fsync(file->fd) != 0 || asprintf(&before, "%s.1", file->place.target) < 0) return;
-  rename(file->place.target, before); /* fails the first time: there is none */
+  if (fsync(file->fd) != 0) return gg_cannot_write(file->path, strerror(errno), err);
+  if (asprintf(&before, "%s.1", file->place.target) < 0) return gg_fail(err, GG_FAILED, "out of memory");
+  bool kept = rename(file->place.target, before) == 0 || errno == ENOENT; /* the first time there is none */
+  int number = errno;
   free(before);
+  return kept ? GG_OK : gg_cannot_write(file->path, strerror(number), err);
 }
 
 static gg_status write_image(gg_atomic_file *file, const void *image, size_t size, gg_error *err)
@@ -93,7 +99,7 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   void *image = make_image(path, a, scene, &size, err);
   gg_status status = image ? write_image(&file, image, size, err) : GG_BAD_FILE;
   free(image);
-  if (status == GG_OK && keep) keep_before(&file);
+  if (status == GG_OK && keep) status = keep_before(&file, err);
   if (status == GG_OK) return gg_atomic_commit(&file, err);
   gg_atomic_abandon(&file);
   return status;
@@ -211,9 +217,9 @@ void gg_checkpoint_remove_before(const char *path)
 
 void gg_checkpoint_remove(const char *path)
 {
-  gg_output_path place;
-  if (gg_output_path_find(&place, path, NULL) != GG_OK) return;
-  if (place.there) unlink(place.target);
-  gg_output_path_clear(&place);
+  struct stat about;
+  char *target = gg_follow_links(path);
+  if (target && stat(target, &about) == 0 && S_ISREG(about.st_mode)) unlink(target);
+  free(target);
   gg_checkpoint_remove_before(path);
 }

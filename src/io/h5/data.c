@@ -20,8 +20,8 @@ static hid_t new_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, hi
   hid_t links = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(links, 1);
   hid_t dataset = H5Dcreate2(h->file, path, type, space, links, properties, H5P_DEFAULT);
-  H5Pclose(links);
   if (dataset < 0) gg_h5_failed(h, path);
+  H5Pclose(links);
   return dataset;
 }
 

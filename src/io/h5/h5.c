@@ -41,8 +41,8 @@ static void create(gg_h5 *h, const char *path, bool in_memory)
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   if (in_memory) H5Pset_fapl_core(access, 1 << 20, 0);
   h->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (h->file < 0) gg_h5_failed(h, "HDF5 cannot create it"); /* before the next call clears HDF5's error stack */
   H5Pclose(access);
-  if (h->file < 0) gg_h5_failed(h, "HDF5 cannot create it");
 }
 
 /* HDF5 takes open files of one name for one file, those in memory, too: each has its own. */
