@@ -27,9 +27,10 @@ gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_co
   return gg_door_compare_by(NULL, scene, options, comparison, err);
 }
 
-gg_status gg_door_compare_by(gg_crew *crew, const gg_scene *scene, const gg_run_options *options,
+gg_status gg_door_compare_by(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
                              gg_comparison **comparison, gg_error *err)
 {
+  gg_crew *crew = point ? point->crew : NULL;
   gg_comparison *c = new_comparison(err);
   if (!c) return GG_FAILED;
   gg_door_run run;
@@ -38,6 +39,7 @@ gg_status gg_door_compare_by(gg_crew *crew, const gg_scene *scene, const gg_run_
   gg_status status = gg_door_run_begin(&run, scene, options, true, &hooks, err), written = GG_OK;
   hooks.crew = crew;
   if (status == GG_OK) gg_door_run_foretell(&run, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY);
+  run.ran = status == GG_OK;
   if (status == GG_OK) /* without a trajectory */
     status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);
   gg_text_list_move(&run.warnings, &c->warnings);
@@ -48,7 +50,7 @@ gg_status gg_door_compare_by(gg_crew *crew, const gg_scene *scene, const gg_run_
     written = gg_result_file_finish_comparison(&run.file, c, &why);
     gg_crew_go_on(crew);
   }
-  gg_door_run_done(&run, status, written);
+  written = gg_door_run_close(&run, point, some, status, written, &why);
   gg_door_run_end(&run);
   if (some)
     *comparison = c;

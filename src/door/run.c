@@ -45,7 +45,9 @@ static gg_status read_resume(gg_door_run *r, gg_error *err)
   bool older;
   char text[1024];
   const char *path = r->options.resume;
-  GG_TRY(gg_checkpoint_read(path, &r->resume, &older, err));
+  gg_status status = gg_checkpoint_read(path, &r->resume, &older, err);
+  r->resume_lost = status != GG_OK;
+  if (status != GG_OK) return status;
   snprintf(text, sizeof text, "%s cannot be read; going on from the one before, %s.1", path, path);
   if (older && r->options.warn) r->options.warn(r->options.context, text);
   return GG_OK;
@@ -101,13 +103,25 @@ const gg_archive *gg_door_run_resume(const gg_door_run *r)
   return r->resume.n_items ? &r->resume : NULL;
 }
 
-void gg_door_run_done(gg_door_run *r, gg_status run, gg_status written)
+/* All is done and the result in place: the run's own checkpoints have had their day. */
+static void remove_checkpoints(gg_door_run *r)
 {
   const gg_run_options *o = &r->options;
   bool own = r->stored || (o->resume && gg_is_checkpoint_of(o->resume, o->checkpoint));
-  if (run != GG_OK || written != GG_OK || !o->output || !o->checkpoint || !own) return;
+  if (!o->output || !o->checkpoint || !own) return;
   gg_checkpoint_remove(o->checkpoint);
   gg_door_trajectory_remove(r);
+}
+
+gg_status gg_door_run_close(gg_door_run *r, gg_door_point *point, bool some, gg_status status, gg_status written,
+                            gg_error *err)
+{
+  if (point && point->publish && some && (status == GG_OK || status == GG_FAILED) && written == GG_OK)
+    written = point->publish(point->context, status, err);
+  if (status == GG_OK && written == GG_OK) remove_checkpoints(r);
+  bool refused = gg_door_run_resume(r) && !some && (status == GG_BAD_FILE || status == GG_BAD_INPUT) && r->ran;
+  if (point) point->resume_lost = r->resume_lost || refused;
+  return written;
 }
 
 gg_status gg_door_run_status(gg_status run, gg_status written, const gg_error *why, gg_error *err)
@@ -133,9 +147,10 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   return gg_door_run_by(NULL, scene, options, result, err);
 }
 
-gg_status gg_door_run_by(gg_crew *crew, const gg_scene *scene, const gg_run_options *options, gg_result **result,
+gg_status gg_door_run_by(gg_door_point *point, const gg_scene *scene, const gg_run_options *options, gg_result **result,
                          gg_error *err)
 {
+  gg_crew *crew = point ? point->crew : NULL;
   gg_door_run run;
   gg_hooks hooks;
   gg_error why = {0};
@@ -146,6 +161,7 @@ gg_status gg_door_run_by(gg_crew *crew, const gg_scene *scene, const gg_run_opti
   if (status == GG_OK && gg_engine_ops_of(engine)->accepts(&run.model, NULL) == GG_OK)
     gg_door_run_foretell(&run, 1u << engine);
   if (status == GG_OK) status = gg_door_trajectory_begin(&run, &hooks, err);
+  run.ran = status == GG_OK;
   if (status == GG_OK)
     status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);
   for (size_t i = 0; made && i < run.warnings.n; i++) gg_result_warn(made, "%s", run.warnings.text[i]);
@@ -155,7 +171,7 @@ gg_status gg_door_run_by(gg_crew *crew, const gg_scene *scene, const gg_run_opti
     if (written == GG_OK) written = gg_result_file_finish_run(&run.file, made, &why);
     gg_crew_go_on(crew);
   }
-  gg_door_run_done(&run, status, written);
+  written = gg_door_run_close(&run, point, made != NULL, status, written, &why);
   gg_door_run_end(&run);
   if (made) *result = made;
   return gg_door_run_status(status, written, &why, err);

@@ -19,6 +19,8 @@ typedef struct gg_door_run {
   bool late;             /* frames before the resumption were not asked for */
   bool stored;           /* a checkpoint */
   bool comparison;       /* of both engines */
+  bool ran;              /* all before the run itself went well */
+  bool resume_lost;      /* what it was to go on from cannot be gone on from */
   gg_text_list warnings; /* of the scene, for what it is used for */
   atomic_bool stopped;
   gg_file_lock lock; /* of options.checkpoint */
@@ -29,8 +31,6 @@ typedef struct gg_door_run {
 gg_status gg_door_run_begin(gg_door_run *run, const gg_scene *scene, const gg_run_options *options, bool comparison,
                             gg_hooks *hooks, gg_error *err);
 void gg_door_run_end(gg_door_run *run);
-/* Before the end: if all is done and the result is in place, the run's own checkpoints have had their day. */
-void gg_door_run_done(gg_door_run *run, gg_status status, gg_status written);
 /* files.c: no two of the files that are read and written are one, and a result is not called like a picture; the
  * picture that is to be drawn could be, and all that may come beside it. What cannot be written is better known before
  * the run than after it. */
@@ -38,11 +38,22 @@ gg_status gg_door_check_files(const gg_door_run *run, gg_error *err);
 gg_status gg_door_check_picture(const gg_door_run *run, gg_error *err);
 /* Note and tell, once begun, which keys have no effect on what the scene is used for (io/scene/inert.h). */
 void gg_door_run_foretell(gg_door_run *run, unsigned uses);
-/* gg_run and gg_compare by a crew (run/crew.h), which the caller is one of; NULL: none. */
-gg_status gg_door_run_by(gg_crew *crew, const gg_scene *scene, const gg_run_options *options, gg_result **result,
+/* What is more about a run that is a point of a sweep. */
+typedef struct gg_door_point {
+  gg_crew *crew; /* that does it (run/crew.h), and the caller is one of; NULL: none */
+  /* Give the output, which is in place, the name that says how the run ended: before its checkpoints are removed. */
+  gg_status (*publish)(void *context, gg_status run, gg_error *err);
+  void *context;
+  bool resume_lost; /* set: what it was to go on from cannot be gone on from */
+} gg_door_point;
+/* gg_run and gg_compare for a point; NULL: they are none. */
+gg_status gg_door_run_by(gg_door_point *point, const gg_scene *scene, const gg_run_options *options, gg_result **result,
                          gg_error *err);
-gg_status gg_door_compare_by(gg_crew *crew, const gg_scene *scene, const gg_run_options *options,
+gg_status gg_door_compare_by(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
                              gg_comparison **comparison, gg_error *err);
+/* Once the result was written, GG_OK or not: publish it, if that is asked for, and see to the checkpoints. */
+gg_status gg_door_run_close(gg_door_run *run, gg_door_point *point, bool some, gg_status status, gg_status written,
+                            gg_error *err);
 /* What to resume from, or NULL. */
 const gg_archive *gg_door_run_resume(const gg_door_run *run);
 /* trajectory.c: the frames of a run, to the result as they come, or where checkpoints are kept, to the log beside them

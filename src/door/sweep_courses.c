@@ -140,7 +140,9 @@ static void tell_ended(gg_courses *all, gg_sweep_item *item)
   char *file = NULL;
   const gg_sweep_options *o = &all->options;
   item->state = GG_ITEM_TOLD;
-  if (!item->here || !o->ended || item->status == GG_INTERRUPTED) return;
+  /* What another process did, it tells; but that a point could not even be claimed, nobody else does. */
+  bool ours = item->here || item->status != GG_OK;
+  if (!ours || !o->ended || item->status == GG_INTERRUPTED) return;
   const char *ending = item->fell_short ? ".short.h5" : ".h5";
   bool some = item->status == GG_OK || item->fell_short;
   if (some) file = gg_point_path(all->folder, all->sweep->point[item->i].id, ending);

@@ -8,29 +8,38 @@
 #include "io/c_locale.h"
 #include "sweep/folder.h"
 
-/* The work's result, if there is one: what it is written to is called work until it is known how it ended. */
 typedef struct ended {
   gg_status status;
-  bool some; /* there is a result, and it was written */
+  bool some;        /* there is a result */
+  bool resume_lost; /* its checkpoint cannot be gone on from */
 } ended;
 
-static ended run(const gg_scene *scene, const gg_run_options *options, gg_crew *crew, gg_error *err)
+static ended run(const gg_scene *scene, const gg_run_options *options, gg_door_point *point, gg_error *err)
 {
   gg_result *result = NULL;
-  ended e = {gg_door_run_by(crew, scene, options, &result, err), result != NULL};
+  gg_status status = gg_door_run_by(point, scene, options, &result, err);
+  ended e = {status, result != NULL, point->resume_lost};
   gg_result_free(result);
   return e;
 }
 
-static ended compare(const gg_scene *scene, const gg_run_options *options, gg_crew *crew, gg_error *err)
+static ended compare(const gg_scene *scene, const gg_run_options *options, gg_door_point *point, gg_error *err)
 {
   gg_comparison *c = NULL;
-  ended e = {gg_door_compare_by(crew, scene, options, &c, err), c != NULL};
+  gg_status status = gg_door_compare_by(point, scene, options, &c, err);
+  ended e = {status, c != NULL, point->resume_lost};
   gg_comparison_free(c);
   return e;
 }
 
-static ended evaluate(const gg_scene *scene, const gg_run_options *options, gg_error *err)
+/* What it was written to is called work until it is known how it ended. */
+static gg_status publish(void *task, gg_status run, gg_error *err)
+{
+  const gg_point_task *t = task;
+  return gg_point_publish(t->folder, t->sweep->point[t->i].id, run == GG_FAILED, err);
+}
+
+static ended evaluate(gg_point_task *t, const gg_scene *scene, const gg_run_options *options, gg_error *err)
 {
   gg_comparison *c = NULL;
   gg_result_file file;
@@ -38,20 +47,24 @@ static ended evaluate(const gg_scene *scene, const gg_run_options *options, gg_e
   for (int k = 0; c && k < 2; k++) snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
   if (status == GG_OK) status = gg_result_file_open(&file, options->output, options->command, err);
   if (status == GG_OK) status = gg_result_file_finish_comparison(&file, c, err);
+  if (status == GG_OK) status = publish(t, GG_OK, err);
   gg_comparison_free(c);
-  return (ended){status, status == GG_OK};
+  return (ended){.status = status, .some = status == GG_OK};
 }
 
 static ended do_it(const gg_point_task *t, const gg_scene *scene, const gg_run_options *options, gg_error *err)
 {
+  gg_point_task task = *t;
+  gg_door_point point = {.crew = t->crew, .publish = publish, .context = &task};
   switch (t->sweep->settings.does) {
-  case GG_DOES_COMPARE: return compare(scene, options, t->crew, err);
-  case GG_DOES_THEORY: return evaluate(scene, options, err);
-  default: return run(scene, options, t->crew, err);
+  case GG_DOES_COMPARE: return compare(scene, options, &point, err);
+  case GG_DOES_THEORY: return evaluate(&task, scene, options, err);
+  default: return run(scene, options, &point, err);
   }
 }
 
-/* A checkpoint that cannot be gone on from is none: the point begins anew, and comes to the same bits. */
+/* A checkpoint that cannot be gone on from is none: the point begins anew, and comes to the same bits. Not where the
+ * disk cannot be written to: then the checkpoint waits for better times. */
 static ended from_checkpoint(const gg_point_task *t, const gg_scene *scene, gg_run_options *options, gg_error *err)
 {
   char text[600];
@@ -59,7 +72,7 @@ static ended from_checkpoint(const gg_point_task *t, const gg_scene *scene, gg_r
   if (readable == GG_OK) {
     options->resume = options->checkpoint;
     ended e = do_it(t, scene, options, err);
-    if (e.some || (e.status != GG_BAD_INPUT && e.status != GG_BAD_FILE)) return e;
+    if (!e.resume_lost) return e;
   }
   snprintf(text, sizeof text, "the point begins anew: %.500s", err->message);
   if (options->warn) options->warn(options->context, text);
@@ -67,17 +80,25 @@ static ended from_checkpoint(const gg_point_task *t, const gg_scene *scene, gg_r
   return do_it(t, scene, options, err);
 }
 
+/* Between two checkpoints there is a moment with the one before alone. */
+static bool is_begun(const char *checkpoint)
+{
+  char *before = NULL;
+  bool begun = access(checkpoint, F_OK) == 0;
+  if (begun || asprintf(&before, "%s.1", checkpoint) < 0) return begun;
+  begun = access(before, F_OK) == 0;
+  free(before);
+  return begun;
+}
+
 static gg_status do_point(const gg_point_task *t, gg_scene *scene, gg_run_options *options, bool *fell_short,
                           gg_error *err)
 {
-  const uint64_t id = t->sweep->point[t->i].id;
   bool keeps = scene->output.checkpoint_every > 0 && t->sweep->settings.does != GG_DOES_THEORY;
-  bool begun = keeps && access(options->checkpoint, F_OK) == 0;
+  bool begun = keeps && is_begun(options->checkpoint);
   if (!keeps) options->checkpoint = NULL;
   ended e = begun ? from_checkpoint(t, scene, options, err) : do_it(t, scene, options, err);
   *fell_short = e.status == GG_FAILED && e.some;
-  if (e.status != GG_OK && !*fell_short) return e.status;
-  GG_TRY(gg_point_publish(t->folder, id, *fell_short, err));
   return e.status;
 }
 

@@ -79,6 +79,7 @@ static gg_status open_earlier(gg_door_run *r, gg_frame_log *earlier, gg_error *e
   gg_status status = open_one_of_two(r, earlier, path, &mark, &why);
   free(path);
   if (status != GG_BAD_FILE) return status == GG_OK ? GG_OK : gg_fail(err, status, "%s", why.message);
+  r->resume_lost = true;
   return gg_fail(err, status,
                  "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it the "
                  "run can go on with output.trajectory_every: 0",

@@ -85,7 +85,7 @@ static gg_status try_once(gg_file_lock *l, const char *path, gg_error *err)
 gg_status gg_file_lock_take(gg_file_lock *l, const char *target, const char *path, gg_error *err)
 {
   *l = GG_FILE_LOCK_NONE;
-  if (asprintf(&l->path, "%s.graingas-lock", target) < 0) return gg_cannot_write(path, strerror(ENOMEM), err);
+  if (asprintf(&l->path, "%s" GG_LOCK_SUFFIX, target) < 0) return gg_cannot_write(path, strerror(ENOMEM), err);
   gg_status status = GG_OK;
   while (status == GG_OK && l->fd < 0) status = try_once(l, path, err);
   if (status == GG_OK) {

@@ -7,6 +7,8 @@
 
 #include "common/error.h"
 
+#define GG_LOCK_SUFFIX ".graingas-lock"
+
 typedef struct gg_file_lock {
   char *path;
   int fd;    /* -1: not held ... */

@@ -1,5 +1,6 @@
 #include "sweep/folder.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -68,6 +69,49 @@ gg_status gg_point_claim(const char *folder, uint64_t id, gg_file_lock *lock, gg
   return status;
 }
 
+/* Of "0123456789abcdef.checkpoint.h5" the number, where it is not the result itself; 0: it is something else. */
+static uint64_t point_of_litter(const char *name)
+{
+  static const char *const endings[] = {".checkpoint.h5", ".checkpoint.h5.1", ".checkpoint.frames",
+                                        ".checkpoint.frames.new", ".work.h5"};
+  char *end;
+  if (strspn(name, "0123456789abcdef") != 16) return 0;
+  uint64_t id = strtoull(name, &end, 16);
+  size_t length = strlen(end), cut = 0;
+  for (int i = 0; i < 2; i++) {
+    static const char *const own[] = {GG_TEMPORARY_SUFFIX, GG_LOCK_SUFFIX};
+    size_t n = strlen(own[i]);
+    if (length > n && strcmp(end + length - n, own[i]) == 0) cut = n;
+  }
+  for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+    if (strlen(endings[i]) == length - cut && strncmp(end, endings[i], length - cut) == 0) return id;
+  return cut && length - cut == 3 && strncmp(end, ".h5", 3) == 0 ? id : 0;
+}
+
+/* Not where somebody is still at it. */
+static void remove_litter(const char *folder, uint64_t id, const char *name)
+{
+  gg_file_lock lock;
+  char *path = NULL, *result = gg_point_path(folder, id, ".h5");
+  if (result && is_there(folder, id, ".h5") && gg_file_lock_take(&lock, result, result, NULL) == GG_OK) {
+    if (asprintf(&path, "%s/%s", folder, name) >= 0) unlink(path);
+    free(path);
+    gg_file_lock_release(&lock);
+  }
+  free(result);
+}
+
+void gg_sweep_folder_tidy(const char *folder)
+{
+  DIR *all = opendir(folder);
+  if (!all) return;
+  for (struct dirent *entry; (entry = readdir(all));) {
+    uint64_t id = point_of_litter(entry->d_name);
+    if (id) remove_litter(folder, id, entry->d_name);
+  }
+  closedir(all);
+}
+
 gg_status gg_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err)
 {
   char *from = gg_point_path(folder, id, ".work.h5");
@@ -75,8 +119,10 @@ gg_status gg_point_publish(const char *folder, uint64_t id, bool fell_short, gg_
   gg_status status = GG_OK;
   if (!from || !to)
     status = gg_fail(err, GG_FAILED, "out of memory");
-  else if (rename(from, to) != 0)
+  else if (rename(from, to) != 0) {
     status = gg_cannot_write(to, strerror(errno), err);
+    unlink(from); /* the point's checkpoint goes on from near its end */
+  }
   free(from);
   free(to);
   return status;
