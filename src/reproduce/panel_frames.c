@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "io/h5/h5.h"
+#include "io/h5/reader.h"
 #include "reproduce/panel.h"
 
 enum { SLABS = 20, BLOCKS = 10 };
@@ -25,14 +25,14 @@ static void add_frame(slabs *s, int block, const double *place, const double *ve
   }
 }
 
-static double *row(gg_h5 *h, const char *path, size_t k, size_t items)
+static double *row(gg_h5_in *h, const char *path, size_t k, size_t items)
 {
-  return gg_h5_read_row(h, path, k, H5T_NATIVE_DOUBLE, sizeof(double), items);
+  return gg_h5_read_row(h, path, k, GG_ITEM_F64, items);
 }
 
 static bool read_frames(slabs *s, const gg_figure_point *point)
 {
-  gg_h5 h;
+  gg_h5_in h;
   const gg_stored_result *r = &point->stored;
   gg_h5_open(&h, point->path);
   for (size_t k = 0; k < r->n_frames && !h.failed; k++) {
@@ -43,7 +43,7 @@ static bool read_frames(slabs *s, const gg_figure_point *point)
     free(place);
     free(velocity);
   }
-  gg_h5_close(&h);
+  gg_h5_in_close(&h);
   return !h.failed;
 }
 

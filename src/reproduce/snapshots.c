@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/h5/h5.h"
+#include "io/h5/reader.h"
 #include "io/plot/plot.h"
 #include "reproduce/figures.h"
 
@@ -30,17 +30,16 @@ static int collect(const gg_figure *f, const gg_figure_points *all, shown *list)
 /* Positions, box and collisions a grain of the frame that is so many before the last. */
 static double *frame_of(const shown *s, double edge[3], double *collisions)
 {
-  gg_h5 h;
+  gg_h5_in h;
   const gg_stored_result *r = &s->point->stored;
   size_t back = (size_t)s->of->source.frame, k = r->n_frames > back ? r->n_frames - 1 - back : 0;
   gg_h5_open(&h, s->point->path);
-  double *place =
-      gg_h5_read_row(&h, "/particles/grains/position/value", k, H5T_NATIVE_DOUBLE, sizeof *place, 3 * r->n_grains);
-  uint64_t *step = gg_h5_read_row(&h, "/particles/grains/position/step", k, H5T_NATIVE_UINT64, sizeof *step, 1);
+  double *place = gg_h5_read_row(&h, "/particles/grains/position/value", k, GG_ITEM_F64, 3 * r->n_grains);
+  uint64_t *step = gg_h5_read_row(&h, "/particles/grains/position/step", k, GG_ITEM_U64, 1);
   for (int a = 0; a < 3; a++) edge[a] = r->edge[a];
   *collisions = step ? 2 * (double)*step / (double)r->n_grains : NAN;
   free(step);
-  gg_h5_close(&h);
+  gg_h5_in_close(&h);
   if (h.failed) free(place), place = NULL;
   return place;
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/h5/h5.h"
+#include "io/h5/reader.h"
 #include "sweep/folder.h"
 
 void gg_point_table_clear(gg_point_table *t)
@@ -79,14 +79,14 @@ static gg_status add_document(gg_point_table *t, gg_table_row row, json_t *docum
 
 static gg_status read_document(const char *path, json_t **document, gg_error *err)
 {
-  gg_h5 h;
+  gg_h5_in h;
   gg_h5_open(&h, path);
   char *text = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/document");
   *document = text ? json_loads(text, 0, NULL) : NULL;
   free(text);
-  if (!*document && !h.failed) gg_h5_failed(&h, "its document is damaged");
-  gg_h5_close(&h);
-  return gg_h5_status(&h, path, "read", err);
+  if (!*document && !h.failed) gg_h5_in_failed(&h, "its document is damaged");
+  gg_h5_in_close(&h);
+  return gg_h5_in_status(&h, path, err);
 }
 
 static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char *folder, size_t i, gg_error *err)

@@ -15,6 +15,7 @@
 
 #include "io/h5/checkpoint_file.h"
 #include "io/h5/h5.h"
+#include "io/h5/reader.h"
 #include "io/h5/result_file.h"
 #include "io/h5/result_reader.h"
 #include "io/h5/seal.h"
@@ -53,10 +54,10 @@ static int count_files(void)
   return n;
 }
 
-static double read_number(gg_h5 *h, const char *path)
+static double read_number(gg_h5_in *h, const char *path)
 {
   size_t n;
-  double *x = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof *x, &n), value = x ? x[0] : NAN;
+  double *x = gg_h5_read_array(h, path, GG_ITEM_F64, &n), value = x ? x[0] : NAN;
   assert_int_equal(n, 1);
   free(x);
   return value;
@@ -88,7 +89,7 @@ static void run_round_trip(void **state)
   gg_scene_free(scene);
   gg_stored_result_clear(&s);
 
-  gg_h5 h;
+  gg_h5_in h;
   gg_h5_open(&h, "r.h5");
   assert_true(read_number(&h, "/graingas/results/pressure/mean") == 0.1 + 0.2);
   assert_true(read_number(&h, "/graingas/results/pressure/stderr") == 0.002);
@@ -98,7 +99,7 @@ static void run_round_trip(void **state)
   char *unit = gg_h5_read_text(&h, "/graingas/results/pressure/unit");
   assert_string_equal(unit, "rho_p d^2 gamma^2");
   free(unit);
-  gg_h5_close(&h);
+  gg_h5_in_close(&h);
   gg_result_free(r);
   remove_all();
 }
@@ -117,12 +118,12 @@ static void comparison_round_trip(void **state)
   assert_string_equal(s.command, "graingas compare x");
   for (int k = 0; k < 2; k++) assert_non_null(gg_stored_series_find(&s.engine[k], "pressure"));
   gg_stored_result_clear(&s);
-  gg_h5 h;
+  gg_h5_in h;
   gg_h5_open(&h, "c.h5");
   assert_true(read_number(&h, "/graingas/dsmc/results/temperature/mean") == 1.0 / 3 - 0.01);
   double lun = c->theory[0].answer.value[GG_Q_TEMPERATURE];
   assert_true(read_number(&h, "/graingas/theory/lun1991/temperature/mean") == lun);
-  gg_h5_close(&h);
+  gg_h5_in_close(&h);
   assert_int_equal(count_files(), 1);
   planted_comparison_free(c);
   remove_all();
@@ -143,19 +144,19 @@ static void trajectory(void **state)
     gg_frame_free(&frame);
   }
   assert_int_equal(gg_result_file_finish_run(&f, r, &err), GG_OK); /* the last state is frame 100 again: not doubled */
-  gg_h5 h;
+  gg_h5_in h;
   gg_h5_open(&h, "t.h5");
-  double *x = gg_h5_read_array(&h, "/particles/grains/position/value", H5T_NATIVE_DOUBLE, sizeof *x, &n);
+  double *x = gg_h5_read_array(&h, "/particles/grains/position/value", GG_ITEM_F64, &n);
   assert_int_equal(n, 3 * 3 * PLANTED_GRAINS);
   for (size_t k = 0; k < 3; k++)
     for (size_t i = 0; i < PLANTED_GRAINS; i++)
       assert_true(fabs(x[(k * PLANTED_GRAINS + i) * 3 + 1] - ((double)i + 0.1 + 0.05 * (double)k)) < 1e-12);
   free(x);
-  double *time = gg_h5_read_array(&h, "/particles/grains/box/edges/time", H5T_NATIVE_DOUBLE, sizeof *time, &n);
+  double *time = gg_h5_read_array(&h, "/particles/grains/box/edges/time", GG_ITEM_F64, &n);
   assert_int_equal(n, 3);
   assert_true(time[2] == 50);
   free(time);
-  gg_h5_close(&h);
+  gg_h5_in_close(&h);
   assert_int_equal(count_files(), 1);
   gg_result_free(r);
   remove_all();

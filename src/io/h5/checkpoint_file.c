@@ -9,6 +9,7 @@
 
 #include "io/atomic_file.h"
 #include "io/h5/h5.h"
+#include "io/h5/reader.h"
 #include "io/h5/seal.h"
 #include "io/scene/json.h"
 
@@ -117,7 +118,7 @@ gg_status gg_checkpoint_replace(const char *path, const gg_archive *a, const gg_
   return GG_OK;
 }
 
-static gg_status read_item(gg_h5 *h, size_t i, gg_archive *a, gg_error *err)
+static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
 {
   char path[48];
   snprintf(path, sizeof path, "/checkpoint/%zu", i);
@@ -127,7 +128,7 @@ static gg_status read_item(gg_h5 *h, size_t i, gg_archive *a, gg_error *err)
   while (!h->failed && type < GG_ITEM_TYPES && strcmp(item_types[type].name, word) != 0) type++;
   if (!h->failed && type < GG_ITEM_TYPES) {
     size_t count;
-    void *data = gg_h5_read_array(h, path, type_of((gg_item_type)type), gg_item_size((gg_item_type)type), &count);
+    void *data = gg_h5_read_array(h, path, (gg_item_type)type, &count);
     if (data) status = gg_archive_put(a, name, (gg_item_type)type, data, count, err);
     free(data);
   }
@@ -138,33 +139,34 @@ static gg_status read_item(gg_h5 *h, size_t i, gg_archive *a, gg_error *err)
 
 /* States are saved as they stand in memory, which another version may have laid out otherwise. The first layout did not
  * say its number. */
-void gg_checkpoint_check_version(struct gg_h5 *h)
+void gg_checkpoint_check_version(struct gg_h5_in *h)
 {
-  int layout = 1;
+  int64_t layout = 1;
   char *version = gg_h5_read_text(h, "/checkpoint/version"), why[200];
   if (version && gg_h5_has_attribute(h, "/checkpoint/version", "layout"))
-    gg_h5_read_attribute(h, "/checkpoint/version", "layout", H5T_NATIVE_INT, &layout);
+    gg_h5_read_attribute(h, "/checkpoint/version", "layout", GG_ITEM_I64, &layout);
   if (version && (strcmp(version, GG_VERSION) != 0 || layout != GG_CHECKPOINT_LAYOUT)) {
-    snprintf(why, sizeof why,
-             "graingas %.20s has written it (layout %d), and this is graingas %s (layout %d); only the same can go on",
-             version, layout, GG_VERSION, GG_CHECKPOINT_LAYOUT);
-    gg_h5_failed(h, why);
+    snprintf(
+        why, sizeof why,
+        "graingas %.20s has written it (layout %lld), and this is graingas %s (layout %d); only the same can go on",
+        version, (long long)layout, GG_VERSION, GG_CHECKPOINT_LAYOUT);
+    gg_h5_in_failed(h, why);
   }
   free(version);
 }
 
 static gg_status read_file(const char *path, gg_archive *a, gg_error *err)
 {
-  gg_h5 h;
+  gg_h5_in h;
   uint64_t n = 0;
   gg_status status = GG_OK;
   gg_h5_open(&h, path);
-  if (!h.failed && !gg_h5_exists(&h, "/checkpoint")) gg_h5_failed(&h, "it is not a checkpoint of graingas");
+  if (!h.failed && !gg_h5_exists(&h, "/checkpoint")) gg_h5_in_failed(&h, "it is not a checkpoint of graingas");
   gg_checkpoint_check_version(&h);
-  gg_h5_read_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n);
+  gg_h5_read_attribute(&h, "/checkpoint", "items", GG_ITEM_U64, &n);
   for (uint64_t i = 0; i < n && status == GG_OK && !h.failed; i++) status = read_item(&h, i, a, err);
-  gg_h5_close(&h);
-  if (status == GG_OK) status = gg_h5_status(&h, path, "read", err);
+  gg_h5_in_close(&h);
+  if (status == GG_OK) status = gg_h5_in_status(&h, path, err);
   if (status != GG_OK) gg_archive_clear(a);
   return status;
 }
@@ -195,12 +197,12 @@ bool gg_is_checkpoint_of(const char *file, const char *path)
 
 char *gg_checkpoint_scene(const char *path, bool older)
 {
-  gg_h5 h;
+  gg_h5_in h;
   char *before = NULL;
   if (older && asprintf(&before, "%s.1", path) < 0) return NULL;
   gg_h5_open(&h, older ? before : path);
   char *yaml = gg_h5_read_text(&h, "/checkpoint/scene");
-  gg_h5_close(&h);
+  gg_h5_in_close(&h);
   free(before);
   return yaml;
 }

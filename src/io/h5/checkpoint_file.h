@@ -6,7 +6,7 @@
 #include "common/archive.h"
 #include "common/scene.h"
 
-struct gg_h5;
+struct gg_h5_in;
 
 /* How states are laid out in a checkpoint; to be raised with whatever is stored otherwise, so that a file from before
  * is refused by name. 2: the scene's keys one by one. */
@@ -32,7 +32,7 @@ bool gg_is_checkpoint_of(const char *file, const char *path);
 gg_status gg_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err);
 
 /* Fails the file, open, where another version or layout wrote its checkpoint. */
-void gg_checkpoint_check_version(struct gg_h5 *h);
+void gg_checkpoint_check_version(struct gg_h5_in *h);
 
 /* The scene of a checkpoint that was read, as YAML, to be freed; NULL where it cannot be read. */
 char *gg_checkpoint_scene(const char *path, bool older);

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/h5/seal.h"
-
 /* The system's word for it ("No space left on device") stands at the bottom of HDF5's error stack. */
 static herr_t find_cause(unsigned n, const H5E_error2_t *entry, void *context)
 {
@@ -39,6 +37,7 @@ static void create(gg_h5 *h, const char *path, bool in_memory)
   start(h);
   hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST); /* the form that reader.h reads */
   if (in_memory) H5Pset_fapl_core(access, 1 << 20, 0);
   h->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (h->file < 0) gg_h5_failed(h, "HDF5 cannot create it"); /* before the next call clears HDF5's error stack */
@@ -56,18 +55,6 @@ void gg_h5_create_in_memory(gg_h5 *h)
 void gg_h5_create(gg_h5 *h, const char *path)
 {
   create(h, path, false);
-}
-
-void gg_h5_open(gg_h5 *h, const char *path)
-{
-  start(h);
-  const char *broken = gg_seal_broken(path);
-  if (broken) {
-    gg_h5_failed(h, broken);
-    return;
-  }
-  h->file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (h->file < 0) gg_h5_failed(h, "it is not an HDF5 file, or a damaged one");
 }
 
 void *gg_h5_image(gg_h5 *h, size_t *size)
@@ -96,7 +83,7 @@ gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_er
   return h->failed ? gg_fail(err, GG_BAD_FILE, "%s: cannot be %s: %s", path, verb, h->why) : GG_OK;
 }
 
-bool gg_h5_exists(gg_h5 *h, const char *path)
+static bool exists(gg_h5 *h, const char *path)
 {
   char part[256];
   if (h->failed) return false;
@@ -110,7 +97,7 @@ bool gg_h5_exists(gg_h5 *h, const char *path)
 
 void gg_h5_group(gg_h5 *h, const char *path)
 {
-  if (h->failed || gg_h5_exists(h, path)) return;
+  if (h->failed || exists(h, path)) return;
   hid_t links = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(links, 1);
   hid_t group = H5Gcreate2(h->file, path, links, H5P_DEFAULT, H5P_DEFAULT);

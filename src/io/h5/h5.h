@@ -1,5 +1,5 @@
-/* HDF5 in few words. The first failure sticks: later calls do nothing, and gg_h5_status reports it, so that a writer
- * reads as the layout of its file. Paths may name groups that are still to be made. */
+/* Writing HDF5 in few words (reading: reader.h). The first failure sticks: later calls do nothing, and gg_h5_status
+ * reports it, so that a writer reads as the layout of its file. Paths may name groups that are still to be made. */
 #ifndef GG_H5_H
 #define GG_H5_H
 
@@ -16,11 +16,9 @@ typedef struct gg_h5 {
   void *print_data;
 } gg_h5;
 
-/* A new file in memory, a new one on disk, or one to read, whose checksum is looked at first
- * (seal.h). */
+/* A new file in memory, or on disk. */
 void gg_h5_create_in_memory(gg_h5 *h);
 void gg_h5_create(gg_h5 *h, const char *path);
-void gg_h5_open(gg_h5 *h, const char *path);
 /* The bytes of a file made in memory, to be freed. */
 void *gg_h5_image(gg_h5 *h, size_t *size);
 void gg_h5_close(gg_h5 *h);
@@ -53,17 +51,6 @@ typedef struct gg_h5_rows {
 void gg_h5_rows_create(gg_h5 *h, gg_h5_rows *rows, const char *path, hid_t type, int row_rank, const hsize_t *row);
 void gg_h5_rows_append(gg_h5 *h, gg_h5_rows *rows, const void *data);
 void gg_h5_rows_close(gg_h5_rows *rows);
-
-bool gg_h5_exists(gg_h5 *h, const char *path);
-/* Text or all numbers of an array, to be freed; NULL on failure. */
-char *gg_h5_read_text(gg_h5 *h, const char *path);
-void *gg_h5_read_array(gg_h5 *h, const char *path, hid_t type, size_t item, size_t *count);
-/* The k-th row (from 0) or the last one of an array that grows, `items` of them; to be freed, NULL on failure. */
-void *gg_h5_read_row(gg_h5 *h, const char *path, hsize_t k, hid_t type, size_t item, size_t items);
-void *gg_h5_read_last_row(gg_h5 *h, const char *path, hid_t type, size_t item, size_t items);
-char *gg_h5_read_text_attribute(gg_h5 *h, const char *object, const char *name);
-bool gg_h5_has_attribute(gg_h5 *h, const char *object, const char *name);
-void gg_h5_read_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, void *value);
 
 /* Record a failure of one's own, or HDF5's latest one. */
 void gg_h5_failed(gg_h5 *h, const char *what);

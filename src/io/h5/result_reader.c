@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "io/h5/checkpoint_file.h"
-#include "io/h5/h5.h"
+#include "io/h5/reader.h"
 
-static void read_series(gg_h5 *h, gg_stored_engine *e, const char *observables, const char *name)
+static void read_series(gg_h5_in *h, gg_stored_engine *e, const char *observables, const char *name)
 {
   char path[160];
   size_t n_times;
@@ -15,24 +15,24 @@ static void read_series(gg_h5 *h, gg_stored_engine *e, const char *observables, 
   if (!gg_h5_exists(h, path)) return;
   gg_stored_series *s = &e->series[e->n_series++];
   snprintf(s->name, sizeof s->name, "%s", name);
-  s->value = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof(double), &s->n);
+  s->value = gg_h5_read_array(h, path, GG_ITEM_F64, &s->n);
   snprintf(path, sizeof path, "%s%s/time", observables, name);
-  s->time = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof(double), &n_times);
+  s->time = gg_h5_read_array(h, path, GG_ITEM_F64, &n_times);
   if (n_times < s->n) s->n = n_times;
 }
 
-static void read_engine(gg_h5 *h, gg_stored_engine *e, const char *group, const char *observables)
+static void read_engine(gg_h5_in *h, gg_stored_engine *e, const char *group, const char *observables)
 {
   char path[160];
   size_t n = 0;
   snprintf(path, sizeof path, "%s/window", group);
-  double *window = gg_h5_read_array(h, path, H5T_NATIVE_DOUBLE, sizeof(double), &n);
+  double *window = gg_h5_read_array(h, path, GG_ITEM_F64, &n);
   if (n == 2) memcpy(e->window, window, sizeof e->window);
   free(window);
   for (int q = 0; q < GG_N_QUANTITIES; q++) read_series(h, e, observables, gg_quantity_name((gg_quantity)q));
 }
 
-static void read_engines(gg_h5 *h, gg_stored_result *s)
+static void read_engines(gg_h5_in *h, gg_stored_result *s)
 {
   for (int k = 0; k < 2; k++) {
     const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
@@ -54,36 +54,36 @@ static void read_engines(gg_h5 *h, gg_stored_result *s)
   }
 }
 
-static size_t count_numbers(gg_h5 *h, const char *path)
+static size_t count_numbers(gg_h5_in *h, const char *path)
 {
   size_t n = 0;
-  if (gg_h5_exists(h, path)) free(gg_h5_read_array(h, path, H5T_NATIVE_INT64, sizeof(int64_t), &n));
+  if (gg_h5_exists(h, path)) n = gg_h5_count_of(h, path);
   return n;
 }
 
-static double *read_last_rows(gg_h5 *h, const char *what, size_t n)
+static double *read_last_rows(gg_h5_in *h, const char *what, size_t n)
 {
   char path[80];
   snprintf(path, sizeof path, "/particles/grains/%s/value", what);
-  return gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, H5T_NATIVE_DOUBLE, sizeof(double), 3 * n) : NULL;
+  return gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, GG_ITEM_F64, 3 * n) : NULL;
 }
 
-static void read_box(gg_h5 *h, double edge[3])
+static void read_box(gg_h5_in *h, double edge[3])
 {
   static const char path[] = "/particles/grains/box/edges/value";
-  double *edges = gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, H5T_NATIVE_DOUBLE, sizeof *edges, 9) : NULL;
+  double *edges = gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, GG_ITEM_F64, 9) : NULL;
   for (int a = 0; edges && a < 3; a++) edge[a] = edges[4 * a];
   free(edges);
 }
 
-static void read_last_frame(gg_h5 *h, gg_stored_result *s)
+static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
 {
   gg_frame *f = &s->last;
   size_t kinds = 0;
   if (!s->n_frames || !s->n_grains) return;
   f->n = s->n_grains;
-  uint64_t *step = gg_h5_read_last_row(h, "/particles/grains/velocity/step", H5T_NATIVE_UINT64, sizeof *step, 1);
-  double *time = gg_h5_read_last_row(h, "/particles/grains/velocity/time", H5T_NATIVE_DOUBLE, sizeof *time, 1);
+  uint64_t *step = gg_h5_read_last_row(h, "/particles/grains/velocity/step", GG_ITEM_U64, 1);
+  double *time = gg_h5_read_last_row(h, "/particles/grains/velocity/time", GG_ITEM_F64, 1);
   if (step) f->step = *step;
   if (time) f->time = *time;
   free(step);
@@ -92,8 +92,8 @@ static void read_last_frame(gg_h5 *h, gg_stored_result *s)
   read_box(h, s->edge);
   f->velocity = read_last_rows(h, "velocity", f->n);
   f->spin = read_last_rows(h, "spin", f->n);
-  f->species = gg_h5_read_array(h, "/particles/grains/species", H5T_NATIVE_UINT8, 1, &kinds);
-  if (!h->failed && kinds != f->n) gg_h5_failed(h, "its grains are not all of a known species");
+  f->species = gg_h5_read_array(h, "/particles/grains/species", GG_ITEM_U8, &kinds);
+  if (!h->failed && kinds != f->n) gg_h5_in_failed(h, "its grains are not all of a known species");
 }
 
 void gg_stored_scene_in_words_of_today(char *scene)
@@ -112,16 +112,16 @@ void gg_stored_scene_in_words_of_today(char *scene)
 
 gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
 {
-  gg_h5 h;
+  gg_h5_in h;
   *s = (gg_stored_result){0};
   gg_h5_open(&h, path);
   const bool checkpoint = !h.failed && gg_h5_exists(&h, "/checkpoint");
   if (checkpoint) gg_checkpoint_check_version(&h);
   if (checkpoint && !h.failed)
-    gg_h5_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
+    gg_h5_in_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
   if (!h.failed && gg_h5_exists(&h, "/graingas/table"))
-    gg_h5_failed(&h, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
-  if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_failed(&h, "it holds no result of graingas");
+    gg_h5_in_failed(&h, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
+  if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_in_failed(&h, "it holds no result of graingas");
   char *text = gg_h5_read_text(&h, "/graingas/document");
   s->version = gg_h5_read_text(&h, "/graingas/version");
   s->command = gg_h5_read_text(&h, "/graingas/command");
@@ -131,7 +131,7 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   gg_stored_scene_in_words_of_today(s->scene);
   s->document = text ? json_loads(text, 0, NULL) : NULL;
   free(text);
-  if (!s->document) gg_h5_failed(&h, "its document is damaged");
+  if (!s->document) gg_h5_in_failed(&h, "its document is damaged");
   if (!h.failed) {
     s->comparison = json_object_get(s->document, "comparison") != NULL;
     read_engines(&h, s);
@@ -139,8 +139,8 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
     s->n_grains = count_numbers(&h, "/particles/grains/id");
     read_last_frame(&h, s);
   }
-  gg_h5_close(&h);
-  gg_status status = gg_h5_status(&h, path, "read", err);
+  gg_h5_in_close(&h);
+  gg_status status = gg_h5_in_status(&h, path, err);
   if (status != GG_OK) gg_stored_result_clear(s);
   return status;
 }

@@ -64,7 +64,7 @@ int gg_seal_of_file(int fd, unsigned char seal[GG_SEAL_SIZE])
   return fstat(fd, &about) == 0 ? sum_up(fd, about.st_size, seal) : -1;
 }
 
-static const char *broken(int fd)
+static const char *broken(int fd, uint64_t *whole)
 {
   struct stat about;
   unsigned char there[GG_SEAL_SIZE], wanted[GG_SEAL_SIZE], start[sizeof hdf5];
@@ -77,15 +77,19 @@ static const char *broken(int fd)
     return "it does not end with its checksum: it is cut off or damaged, or another program has changed it (the manual "
            "page says how to vouch for a changed one)";
   if (sum_up(fd, size, wanted) != 0) return strerror(errno);
+  *whole = (uint64_t)size;
   return memcmp(there, wanted, sizeof there) == 0 ? NULL : "its checksum does not match: it is damaged";
 }
 
-const char *gg_seal_broken(const char *path)
+const char *gg_seal_open(const char *path, int *fd, uint64_t *size)
 {
   if (!*path) return "the name is empty";
-  int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) return strerror(errno);
-  const char *why = broken(fd);
-  close(fd);
+  int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (opened < 0) return strerror(errno);
+  const char *why = broken(opened, size);
+  if (why)
+    close(opened);
+  else
+    *fd = opened;
   return why;
 }

@@ -1,11 +1,12 @@
-/* The checksum at the end of result files and checkpoints. HDF5 is not safe from damaged files: it is shown only bytes
- * that are known to be those that were written. After the HDF5 file, which does not mind, follow
+/* The checksum at the end of result files and checkpoints. A damaged file is refused as a whole: only bytes
+ * are read that are known to be those that were written. After the HDF5 file, which does not mind, follow
  *
  *   8 bytes "gg-crc32" | its size, 8 bytes | zlib's crc32 of it, 4 bytes; lowest byte first */
 #ifndef GG_SEAL_H
 #define GG_SEAL_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "common/error.h"
 
@@ -15,7 +16,8 @@ enum { GG_SEAL_SIZE = 20 };
 void gg_seal_of(const void *data, size_t size, unsigned char seal[GG_SEAL_SIZE]);
 /* Of a whole file that can be read; errno tells on -1. One pass over it. */
 int gg_seal_of_file(int fd, unsigned char seal[GG_SEAL_SIZE]);
-/* NULL: the file is what was written. Otherwise why it cannot be read. */
-const char *gg_seal_broken(const char *path);
+/* NULL: the file is what was written; it is open, and *size says where its checksum begins. Otherwise why it cannot be
+ * read. */
+const char *gg_seal_open(const char *path, int *fd, uint64_t *size);
 
 #endif

@@ -2,11 +2,11 @@
 #ifndef GG_H5_TRAJECTORY_H
 #define GG_H5_TRAJECTORY_H
 
-#include "io/h5/h5.h"
+#include "io/h5/reader.h"
 #include "run/result.h"
 
 typedef struct gg_stored_trajectory {
-  gg_h5 h;
+  gg_h5_in h;
   char *path;
   size_t n_frames, n;      /* n_frames: 0 where the grains have no positions; n: grains */
   bool periodic[3];        /* along x, y, z; else a wall, or an open end */
