@@ -33,6 +33,13 @@ static gg_status store_in_log(void *context, const gg_frame *frame, gg_error *er
   return gg_frame_log_append(&((gg_door_run *)context)->log, frame, err);
 }
 
+/* From a log, which may be anybody's. */
+static gg_status store_from_log(void *context, const gg_frame *frame, gg_error *err)
+{
+  GG_TRY(gg_frame_check(frame, &((gg_door_run *)context)->model, err));
+  return store_in_result(context, frame, err);
+}
+
 /* The log that belongs to the checkpoint resumed from: beside it, under its name, or under the name that it was written
  * by, where the checkpoint alone was copied. To be freed. */
 static char *log_of_resume(const gg_door_run *r)
@@ -173,7 +180,7 @@ gg_status gg_door_trajectory_begin(gg_door_run *r, gg_hooks *hooks, gg_error *er
   if (status == GG_OK && r->options.checkpoint) status = open_log(r, &earlier, err);
   if (status == GG_OK && earlier.fd >= 0)
     status = r->log.fd >= 0 ? gg_frame_log_take_over(&r->log, &earlier, err)
-                            : gg_frame_log_replay(&earlier, store_in_result, r, err);
+                            : gg_frame_log_replay(&earlier, store_from_log, r, err);
   gg_frame_log_close(&earlier);
   return status;
 }
@@ -203,7 +210,7 @@ static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *
   gg_door_run *r = context;
   if (r->stored && gg_door_run_stopped(r))
     return gg_fail(err, GG_INTERRUPTED, "interrupted while the trajectory was put into %s", r->options.output);
-  return store_in_result(context, frame, err);
+  return store_from_log(context, frame, err);
 }
 
 gg_status gg_door_trajectory_finish(gg_door_run *r, gg_result *result, gg_error *err)

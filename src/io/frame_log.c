@@ -176,11 +176,14 @@ typedef struct reader {
 static const char *read_next(const gg_frame_log *log, reader *r)
 {
   record header;
-  if (!read_at(log, &header, sizeof header, r->at.bytes)) return "missing";
-  uint64_t left = log->mark.bytes - r->at.bytes;
-  bool fits = memcmp(header.word, word, sizeof word) == 0 && header.n <= left && header.holds < 8 &&
-              header.bytes == size_of(header.n, header.holds) && header.bytes <= left;
+  struct stat about;
+  if (!read_at(log, &header, sizeof header, r->at.bytes) || fstat(log->fd, &about) != 0) return "missing";
+  uint64_t left = log->mark.bytes - r->at.bytes, there = (uint64_t)about.st_size - r->at.bytes;
+  /* A mark that somebody made may claim more bytes than memory has, and more grains than can be counted in bytes. */
+  bool fits = memcmp(header.word, word, sizeof word) == 0 && header.n <= left && header.n <= INT64_MAX / 128 &&
+              header.holds < 8 && header.bytes == size_of(header.n, header.holds) && header.bytes <= left;
   if (!fits) return "damaged";
+  if (header.bytes > there) return "missing"; /* before memory is asked for it */
   if (header.bytes > r->room) {
     free(r->whole);
     r->whole = malloc(header.bytes);

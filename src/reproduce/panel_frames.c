@@ -19,6 +19,7 @@ static void add_frame(slabs *s, int block, const double *place, const double *ve
 {
   for (size_t i = 0; i < n; i++) {
     double height = place[3 * i + 1] / edge - floor(place[3 * i + 1] / edge);
+    if (!(height >= 0 && height <= 1)) continue; /* no number, of a file that is not ours */
     int k = (int)(height * SLABS) % SLABS;
     s->sum[block][k] += velocity[3 * i] / edge + height - 0.5;
     s->grains[block][k]++;

@@ -57,6 +57,14 @@ void gg_frame_free(gg_frame *frame)
   *frame = (gg_frame){0};
 }
 
+gg_status gg_frame_check(const gg_frame *frame, const gg_model *m, gg_error *err)
+{
+  bool fits = frame->n == (size_t)m->n && frame->velocity && !frame->position == m->homogeneous &&
+              !frame->spin == (m->rule == GG_SMOOTH) && !frame->species == (m->n_species == 1);
+  for (size_t i = 0; fits && frame->species && i < frame->n; i++) fits = frame->species[i] < m->n_species;
+  return fits ? GG_OK : gg_fail(err, GG_BAD_FILE, "a frame of the trajectory is not one of this scene");
+}
+
 size_t *gg_frame_order(const gg_frame *frame, gg_error *err)
 {
   size_t *order = gg_new_array(frame->n, sizeof *order, err);

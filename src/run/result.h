@@ -46,6 +46,8 @@ typedef struct gg_frame {
 } gg_frame;
 gg_status gg_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err);
 void gg_frame_free(gg_frame *frame);
+/* GG_BAD_FILE: it is of no run of this model, as one from a file that was made to be read astray. */
+gg_status gg_frame_check(const gg_frame *frame, const gg_model *model, gg_error *err);
 /* Places of the grains in the order of their numbers, so that a row is the same grain in every frame; to be freed. */
 size_t *gg_frame_order(const gg_frame *frame, gg_error *err);
 

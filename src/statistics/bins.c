@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "statistics/doubling.h"
+
 gg_status gg_bins_init(gg_bins *b, size_t width, gg_error *err)
 {
   *b = (gg_bins){.width = width, .per_block = 1};
@@ -73,6 +75,8 @@ gg_status gg_bins_restore(gg_bins *b, const char *name, const gg_archive *a, gg_
   GG_TRY(gg_archive_get(a, item, GG_ITEM_U64, head, 4, err));
   if (head[0] != b->width || head[1] >= GG_BINS_BLOCKS)
     return gg_fail(err, GG_BAD_FILE, "the checkpoint's %s has other bins than this scene's", name);
+  if (!gg_is_doubling(head[2], head[3]))
+    return gg_fail(err, GG_BAD_FILE, "the checkpoint's bins of %s are damaged", name);
   b->blocks = head[1], b->per_block = head[2], b->pending = head[3];
   snprintf(item, sizeof item, "bins/%s", name);
   return gg_archive_get(a, item, GG_ITEM_F64, b->sum, (b->blocks + 1) * b->width, err);

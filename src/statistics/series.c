@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "statistics/doubling.h"
+
 gg_status gg_series_init(gg_series *s, size_t width, gg_error *err)
 {
   *s = (gg_series){.width = width, .per_row = 1};
@@ -74,8 +76,10 @@ gg_status gg_series_restore(gg_series *s, const gg_archive *a, gg_error *err)
 {
   uint64_t head[5];
   GG_TRY(gg_archive_get(a, "series/head", GG_ITEM_U64, head, 5, err));
-  if (head[0] != s->width || head[1] > GG_SERIES_ROWS)
+  if (head[0] != s->width || head[1] >= GG_SERIES_ROWS)
     return gg_fail(err, GG_BAD_FILE, "the checkpoint's series has another width than this scene's");
+  if (!gg_is_doubling(head[2], head[3]) || head[4] > head[1] + 1)
+    return gg_fail(err, GG_BAD_FILE, "the checkpoint's series is damaged");
   s->n = head[1], s->per_row = head[2], s->pending = head[3], s->window = head[4];
   GG_TRY(gg_archive_get(a, "series/rows", GG_ITEM_F64, s->rows, s->n * s->width, err));
   GG_TRY(gg_archive_get(a, "series/end_time", GG_ITEM_F64, s->end_time, s->n, err));

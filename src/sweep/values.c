@@ -22,6 +22,13 @@ static gg_status out_of_memory(gg_error *err)
 
 gg_status gg_values_add(gg_values *v, const char *text, gg_error *err)
 {
+  if (v->n == GG_MOST_POINTS)
+    return gg_fail(err, GG_BAD_INPUT, "a key has more than %d values; a sweep has at most as many points",
+                   GG_MOST_POINTS);
+  v->characters += strlen(text);
+  if (v->characters > GG_MOST_VALUE_CHARACTERS)
+    return gg_fail(err, GG_BAD_INPUT, "the values of a key have more than %d characters together",
+                   GG_MOST_VALUE_CHARACTERS);
   if (v->n == v->room) {
     size_t room = v->room ? 2 * v->room : 8;
     char **grown = realloc(v->text, room * sizeof *grown);

@@ -10,14 +10,17 @@
 #include "common/rng.h"
 
 typedef struct gg_values {
-  size_t n, room;
-  char **text; /* YAML */
-  bool range;  /* not listed, but anything from low to high */
+  size_t n, room, characters; /* characters of all of them */
+  char **text;                /* YAML */
+  bool range;                 /* not listed, but anything from low to high */
   double low, high;
 } gg_values;
 
+/* Of all values of a key together, and of all that are drawn. */
+enum { GG_MOST_VALUE_CHARACTERS = 1 << 22, GG_MOST_DRAWN_CHARACTERS = 1 << 26 };
+
 void gg_values_clear(gg_values *values);
-/* One value, copied. */
+/* One value, copied; GG_BAD_INPUT where there are more than a sweep can have, or longer ones than anybody writes. */
 gg_status gg_values_add(gg_values *values, const char *text, gg_error *err);
 /* What a plain word says: "0.5", "0.1:0.5:0.1", "0.3..1", or several with commas, as on the command line. Messages
  * begin with the key. */

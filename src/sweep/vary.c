@@ -95,6 +95,7 @@ static gg_status add_random(gg_scene_reader *r, gg_sweep *sweep, gg_columns *c)
 {
   draws d;
   gg_varied v;
+  size_t characters = 0;
   GG_TRY(read_draws(r, c->random, &d));
   if (!c->n) return gg_scene_refuse(r, c->random, "vary", "no key is drawn");
   GG_TRY(new_varied(&v, c, 0, c->n, (size_t)d.points, r->err));
@@ -104,6 +105,10 @@ static gg_status add_random(gg_scene_reader *r, gg_sweep *sweep, gg_columns *c)
       if (!(v.value[i * c->n + k] = gg_values_draw(&c->values[k], c->key[k], &rng))) {
         gg_varied_clear(&v);
         return gg_fail(r->err, GG_FAILED, "out of memory");
+      } else if ((characters += strlen(v.value[i * c->n + k])) > GG_MOST_DRAWN_CHARACTERS) {
+        gg_varied_clear(&v);
+        return gg_scene_refuse(r, c->random, "vary.random", "the values drawn have more than %d characters together",
+                               GG_MOST_DRAWN_CHARACTERS);
       }
   }
   return gg_sweep_place(r, c->random, gg_sweep_add(sweep, &v, r->err));

@@ -5,11 +5,13 @@
 #include <stddef.h>
 
 #include <cmocka.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "io/checksum.h"
 #include "io/frame_log.h"
 
 enum { N = 7, FRAMES = 5 };
@@ -237,6 +239,28 @@ static void mark_of_another(void **state)
   refuse(&wrong, "frame 2 of 2 is damaged");
 }
 
+/* A mark and a record, checksums right, that claim more grains than bytes can be counted of: the size of the record,
+ * counted modulo 2^64, would be that of its header. */
+static void made_to_harm(void **state)
+{
+  (void)state;
+  const uint64_t grains[] = {UINT64_C(1) << 61, UINT64_C(1) << 40, 3};
+  for (size_t k = 0; k < sizeof grains / sizeof *grains; k++) {
+    struct {
+      char word[8];
+      uint64_t bytes, n, holds, step;
+      double time;
+      uint64_t checksum;
+    } r = {.bytes = sizeof r + grains[k] * 24, .n = grains[k]};
+    memcpy(r.word, "GGFRAME", 8);
+    r.checksum = gg_checksum(GG_CHECKSUM_START, &r, offsetof(__typeof__(r), checksum));
+    FILE *f = fopen(path, "wb");
+    assert_int_equal(fwrite(&r, sizeof r, 1, f), 1);
+    fclose(f);
+    refuse(&(gg_frame_mark){1, UINT64_MAX, r.checksum}, k == 0 ? "is damaged" : "is missing");
+  }
+}
+
 static bool at_the_third(void *context)
 {
   return ++*(int *)context == 3;
@@ -274,15 +298,11 @@ static void full(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(paths),
-      cmocka_unit_test(any_mark),
-      cmocka_unit_test(written_over),
-      cmocka_unit_test(taken_to_another_file),
-      cmocka_unit_test(put_in_place),
-      cmocka_unit_test(damage),
-      cmocka_unit_test(mark_of_another),
-      cmocka_unit_test(stopped),
-      cmocka_unit_test(full),
+      cmocka_unit_test(paths),           cmocka_unit_test(any_mark),
+      cmocka_unit_test(written_over),    cmocka_unit_test(taken_to_another_file),
+      cmocka_unit_test(put_in_place),    cmocka_unit_test(damage),
+      cmocka_unit_test(mark_of_another), cmocka_unit_test(made_to_harm),
+      cmocka_unit_test(stopped),         cmocka_unit_test(full),
   };
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   unlink(path), unlink(other);

@@ -1,4 +1,6 @@
 /* A series of any length within a bounded memory. */
+#include <stdlib.h>
+
 #include "planted.h"
 #include "statistics/series.h"
 
@@ -36,6 +38,33 @@ static void long_series(void **state)
   gg_archive_clear(&a), gg_series_clear(&s), gg_series_clear(&t);
 }
 
+/* Numbers that no series has are refused: they would lead out of its rows, or round and round. */
+static void made_to_harm(void **state)
+{
+  (void)state;
+  const uint64_t heads[][5] = {{2, GG_SERIES_ROWS, 1, 0, 0},
+                               {2, 3, 0, 0, 0},
+                               {2, 3, 3, 0, 0},
+                               {2, 3, 4, 4, 0},
+                               {2, 3, 1, 0, 5},
+                               {3, 3, 1, 0, 0},
+                               {2, 3, UINT64_C(1) << 63, 0, 0}};
+  for (size_t k = 0; k < sizeof heads / sizeof *heads; k++) {
+    gg_series s;
+    gg_archive a = {0};
+    const size_t n = heads[k][1];
+    double *rows = calloc(2 * n, sizeof *rows), partial[2] = {0};
+    assert_int_equal(gg_series_init(&s, 2, NULL), GG_OK);
+    assert_int_equal(gg_archive_put(&a, "series/head", GG_ITEM_U64, heads[k], 5, NULL), GG_OK);
+    assert_int_equal(gg_archive_put(&a, "series/rows", GG_ITEM_F64, rows, 2 * n, NULL), GG_OK);
+    assert_int_equal(gg_archive_put(&a, "series/end_time", GG_ITEM_F64, rows, n, NULL), GG_OK);
+    assert_int_equal(gg_archive_put(&a, "series/partial", GG_ITEM_F64, partial, 2, NULL), GG_OK);
+    assert_int_equal(gg_series_restore(&s, &a, NULL), GG_BAD_FILE);
+    gg_archive_clear(&a), gg_series_clear(&s);
+    free(rows);
+  }
+}
+
 /* Coarsened rows are means of neighbours; the window still begins behind what came before it. */
 static void coarsened(void **state)
 {
@@ -55,6 +84,7 @@ static void coarsened(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(long_series), cmocka_unit_test(coarsened)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(long_series), cmocka_unit_test(coarsened),
+                                     cmocka_unit_test(made_to_harm)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

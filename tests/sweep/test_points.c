@@ -183,6 +183,13 @@ static void refusals(void **state)
   check_refused(SCENE "vary: {collision.e: 0:1:0.001}", "phi", "0:0.5:0.001", "501501 points");
   check_refused(SCENE "vary: {collison.e: [0.5]}", NULL, NULL, "did you mean 'collision.e'");
   check_refused(SCENE "sweep: {does: comparision}", NULL, NULL, "allowed: one of run, compare, theory");
+  /* What would fill the memory, in few words. */
+  check_refused(SCENE, "phi", "0:0.5:0.00001,0:0.5:0.00001,0:0.5:0.00001", "more than 100000 values");
+  char *longest = calloc(1, 60000);
+  strcat(longest, SCENE "vary: {random: {points: 100000}, measure: [[rheology, ");
+  for (int i = 0; i < 900; i++) strcat(longest, "cells, ");
+  check_refused(strcat(longest, "cells]]}"), NULL, NULL, "characters together");
+  free(longest);
   check_refused("flow: usf\nvary: {phi: [0]}", NULL, NULL, "point 1 of 1 (phi 0)"); /* md has no Boltzmann limit */
 }
 
