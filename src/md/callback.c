@@ -22,9 +22,10 @@ void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c1
   gg_collision_record m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
   show_grain(e, i, 0, &m);
   show_grain(e, j, 1, &m);
-  gg_vec before = e->grain[j].v;
+  const gg_vec before = e->grain[j].v;
+  const double scale = e->k.scale; /* the thermostat's, as of the velocities: it changes with what is lost */
   e->resolve_shown(e, i, j, dr, c12);
-  m.J = gg_scale(e->k.scale * e->model.mass[m.species[1]], gg_sub(e->grain[j].v, before));
+  m.J = gg_scale(scale * e->model.mass[m.species[1]], gg_sub(e->grain[j].v, before));
   e->callback(e->callback_context, &m);
 }
 
