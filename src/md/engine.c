@@ -14,20 +14,6 @@ static double guess_event_rate(const gg_md *e, double T)
   return e->n * fmax(rate, 1e-300);
 }
 
-/* To guess by: a sheared gas that begins in the cold does not stay there. */
-static double early_temperature(const gg_md *e)
-{
-  double T = e->model.temperature0;
-  return e->model.shear_rate != 0 && T < 0.01 ? 0.01 : T;
-}
-
-/* Grains come to rest on a wall and on each other, where the mean free time shrinks to t_c itself: t_c is set by how
- * long it takes to fall a diameter instead. */
-static bool falls_across(const gg_md *e)
-{
-  return e->gravity.y != 0;
-}
-
 /* Of a large system it takes a while. */
 static gg_status predict_all(gg_md *e, gg_error *err)
 {
@@ -49,11 +35,12 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     gg_md_enter_grid(e);
     if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   }
-  e->k.mean_free_time = 1 / fmax(gg_model_collision_rate(&e->model, early_temperature(e)), 1e-300);
-  e->k.contact_time = e->model.contact_time * (falls_across(e) ? 1 / sqrt(fabs(e->gravity.y)) : e->k.mean_free_time);
+  const double early = gg_md_early_temperature(e, e->model.temperature0); /* to guess by */
+  e->k.mean_free_time = 1 / fmax(gg_model_collision_rate(&e->model, early), 1e-300);
+  gg_md_begin_contact_time(e);
   if (e->last)
     for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
-  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, early_temperature(e))));
+  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, early)));
   gg_md_select(e);
   gg_md_thermostat_begin(e);
   for (uint32_t i = 0; i < e->n; i++) {
@@ -98,6 +85,7 @@ static bool run_leg(gg_md *e)
     e->kernel->run(e);
     if (e->k.events < e->look_at) return true;
     e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+    if (!gg_md_check_numbers(e)) return true;
     if (gg_stop_asked(e->model.stop)) return false;
   }
 }
@@ -124,8 +112,11 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
   e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
-  bool ended = run_legs(e);
+  bool ended = !gg_md_check_numbers(e) || run_legs(e);
   if (e->out_of_memory) return gg_fail(err, GG_FAILED, "out of memory: a cell of the grid could not grow");
+  if (e->no_number)
+    return gg_fail(err, GG_FAILED, "md: what a grain does is no number any more, after %.3g collisions a grain",
+                   2 * (double)e->k.collisions / e->n);
   bool whole = ended && e->k.collisions_left && e->k.stop < INFINITY;
   if (whole) e->k.now = e->k.stop;
   *elapsed = whole ? e->k.asked : outer_now(e);

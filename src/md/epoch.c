@@ -21,9 +21,7 @@ static void measure_mean_free_time(gg_md *e, double span)
   gg_md_counts *k = &e->k;
   k->window_time += span;
   if (k->window_collisions < COLLISIONS_TO_MEASURE) return;
-  double old = k->mean_free_time;
   k->mean_free_time = k->window_time * e->n / (2.0 * (double)k->window_collisions);
-  if (e->gravity.y == 0) k->contact_time *= k->mean_free_time / old;
   k->window_time = 0;
   k->window_collisions = 0;
 }
@@ -80,6 +78,7 @@ bool gg_md_next_epoch(gg_md *e)
     span /= e->k.scale;
     gg_md_thermostat_fold(e);
   }
+  gg_md_follow_contact_time(e);
   double events = (double)(e->k.events - e->k.epoch_events);
   gg_md_queue_reset(&e->queue, gg_md_bucket_width(fmax(events, 1) / span));
   for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);

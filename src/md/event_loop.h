@@ -76,7 +76,7 @@ GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
   two->counter++;
   e->k.collisions++;
   e->k.collisions_left--;
-  gg_md_predict_two(e, i, j);
+  if (gg_md_is_velocity(e, one) && gg_md_is_velocity(e, two)) gg_md_predict_two(e, i, j);
 }
 
 GG_INLINE void gg_md_hit_surface(gg_md *e, uint32_t i, int surface)
@@ -84,7 +84,7 @@ GG_INLINE void gg_md_hit_surface(gg_md *e, uint32_t i, int surface)
   gg_md_grain *g = gg_md_synchronise(e, i);
   e->resolve_surface(e, i, surface);
   g->counter++;
-  gg_md_predict(e, i);
+  if (gg_md_is_velocity(e, g)) gg_md_predict(e, i);
 }
 
 /* Bring what the events of a new bucket will read into the cache while the first of them are handled. */

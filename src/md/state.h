@@ -117,6 +117,8 @@ struct gg_md {
   bool plain;         /* one pair at a time, the reference for the tests */
   bool overlapping;   /* the cells overlap (members.h) */
   bool out_of_memory; /* a cell could not grow: the run is over */
+  bool no_number;     /* nor does it go on with what is no number (numbers.c) */
+  uint64_t check_at;  /* events after which all grains are looked at again */
   const gg_md_kernel *kernel;
   gg_md_resolution *resolve;
   gg_md_surface_resolution *resolve_surface;
@@ -173,9 +175,16 @@ void gg_md_set_skins(gg_md *e, double radius);
 /* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
  * False if nothing will ever happen again. */
 bool gg_md_next_epoch(gg_md *e);
+/* numbers.c: look at all grains, if that is due; false: a place, velocity or spin is no number, and e->no_number. */
+bool gg_md_check_numbers(gg_md *e);
 /* centre_of_mass.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
  * time. */
 void gg_md_follow_centre_of_mass(gg_md *e);
+/* contact_time.c: a sheared gas that begins in the cold does not stay there; the contact time at the start, and
+ * at the start of an epoch, all grains at the same time. */
+double gg_md_early_temperature(const gg_md *e, double T);
+void gg_md_begin_contact_time(gg_md *e);
+void gg_md_follow_contact_time(gg_md *e);
 /* Width of a calendar's bucket that suits a rate of events. */
 double gg_md_bucket_width(double events_per_time);
 

@@ -40,6 +40,15 @@ GG_INLINE void gg_md_check_memory(gg_md *e, bool good)
   e->k.collisions_left = 0;
 }
 
+/* A contact has left this velocity: what is no number has no place in a cell. */
+GG_INLINE bool gg_md_is_velocity(gg_md *e, const gg_md_grain *g)
+{
+  if (__builtin_expect(fabs(g->v.x + g->v.y + g->v.z) < INFINITY, 1)) return true;
+  e->no_number = true;
+  e->k.collisions_left = 0;
+  return false;
+}
+
 GG_INLINE void gg_md_leave_cell(gg_md *e, uint32_t i)
 {
   gg_md_cell_remove(gg_md_cell_at(&e->cells, e->node[i].cell), i);

@@ -1,0 +1,52 @@
+/* The contact time, in units of the mean free time that is measured; but no less than half of what it is, by Enskog,
+ * for grains as fast as they are now. In a collapse collisions come ever faster, and a contact time that followed them
+ * would shrink with the time between them, and end nothing. */
+#include <math.h>
+
+#include "md/state.h"
+
+/* Grains come to rest on a wall and on each other, where the mean free time shrinks to t_c itself: t_c is set by how
+ * long it takes to fall a diameter instead. */
+static bool falls_across(const gg_md *e)
+{
+  return e->gravity.y != 0;
+}
+
+static gg_vec peculiar(const gg_md *e, const gg_md_grain *g)
+{
+  gg_vec c = g->v;
+  c.x -= e->model.shear_rate * (g->r.y - 0.5 * e->box.edge[1]);
+  return c;
+}
+
+/* T about the mean velocity, relative to the imposed shear; all grains at the same time. */
+static double temperature_of(const gg_md *e)
+{
+  gg_vec momentum = {0, 0, 0};
+  double mass = 0, energy = 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    const double m = e->model.mass[gg_md_species_of(&e->grain[i])];
+    const gg_vec c = peculiar(e, &e->grain[i]);
+    momentum = gg_axpy(m, c, momentum);
+    mass += m;
+    energy += m * gg_dot(c, c);
+  }
+  return fmax(energy - gg_dot(momentum, momentum) / mass, 0) / (3.0 * e->n);
+}
+
+double gg_md_early_temperature(const gg_md *e, double T)
+{
+  return e->model.shear_rate != 0 && T < 0.01 ? 0.01 : T;
+}
+
+void gg_md_begin_contact_time(gg_md *e)
+{
+  e->k.contact_time = e->model.contact_time * (falls_across(e) ? 1 / sqrt(fabs(e->gravity.y)) : e->k.mean_free_time);
+}
+
+void gg_md_follow_contact_time(gg_md *e)
+{
+  if (!(e->model.contact_time > 0) || falls_across(e)) return;
+  const double rate = gg_model_collision_rate(&e->model, gg_md_early_temperature(e, temperature_of(e)));
+  e->k.contact_time = e->model.contact_time * fmax(e->k.mean_free_time, rate > 0 ? 0.5 / rate : 0);
+}
