@@ -1,0 +1,98 @@
+#include "budget.h"
+
+#include <math.h>
+
+#include "common/thermostat.h"
+#include "rule.h"
+
+/* Work on the grains since `before`, which is exact where grains fly freely between. */
+static double work_of_shear(const gg_simulation *g, const sample *before, const sample *after)
+{
+  const double rate = g->model.shear_rate, dt = after->state.time - before->state.time;
+  if (g->model.homogeneous) return -rate * 0.5 * (before->xy + after->xy) * dt;
+  return -rate * (before->xy * dt - 0.5 * rate * before->yy * dt * dt);
+}
+
+/* Grains that cross the box along x or z come in on the other side. */
+static double work_of_gravity(const gg_simulation *g, const sample *before, const sample *after)
+{
+  double work = 0;
+  for (size_t i = 0; before->position && i < before->n; i++)
+    for (size_t a = 0; a < 3; a++) {
+      double way = after->position[3 * i + a] - before->position[3 * i + a];
+      if (a != 1) way -= g->model.box[a] * rint(way / g->model.box[a]);
+      work += g->model.mass[before->species[i]] * g->model.gravity[a] * way;
+    }
+  return work;
+}
+
+/* Collisional work of the shear, work of the walls, and what was lost. */
+static double gain_in_contacts(const gg_simulation *g, const gg_simulation_sums *sums)
+{
+  const double per = g->model.volume * sums->time / g->model.stress_unit;
+  double gain = -g->model.shear_rate * sums->collisional_stress[1][0] * per - sums->dissipation * per - sums->wall_loss;
+  for (int w = 0; w < g->model.n_surfaces; w++) {
+    const gg_vec v = g->model.surface[w].velocity;
+    const double *J = sums->wall_impulse[w];
+    gain -= J[0] * v.x + J[1] * v.y + J[2] * v.z;
+  }
+  return gain;
+}
+
+static void swap(sample *a, sample *b)
+{
+  const sample c = *a;
+  *a = *b;
+  *b = c;
+}
+
+/* What the work may be off by, squared, in one step. Monte Carlo collides in the midst of a step, and the work is taken
+ * from its ends: a collision changes sum m C_x C_y by some T, at random. */
+static double uncertainty(const gg_simulation *g, const sample *before, const sample *after)
+{
+  const double strain = g->model.shear_rate * (after->state.time - before->state.time);
+  const double energy = after->translation + after->rotation, each = 10 * strain * energy / (double)after->n;
+  return g->model.homogeneous ? each * each : 0;
+}
+
+/* Monte Carlo's Gaussian thermostat returns in a step what collisions destroyed in the one before. */
+static double rounding(const gg_simulation *g, int steps)
+{
+  if (g->model.homogeneous && gg_thermostat_of(&g->model) == GG_GAUSSIAN) return 1 / sqrt((double)g->model.n);
+  return g->model.single ? 1e-4 : 1e-12 * (1 + steps);
+}
+
+gg_status budget_follow(gg_simulation *g, sample *before, sample *after, int steps, budget *b, gg_error *err)
+{
+  const gg_thermostat thermostat = gg_thermostat_of(&g->model);
+  gg_simulation_sums sums;
+  rule_watch watch = {.model = &g->model};
+  GG_TRY(gg_simulation_take_sums(g, &sums, err));
+  if (!g->model.homogeneous) GG_TRY(gg_simulation_on_collision(g, rule_note, &watch, err));
+  sample_take(before, g);
+  const double energy = before->translation + before->rotation, kinetic = before->translation;
+  double work = 0, off = 0, most = energy;
+  *b = (budget){.in_time = true};
+  for (int k = 0; k < steps; k++) {
+    watch.seen = 0;
+    GG_TRY(gg_simulation_collide(g, 1, err));
+    sample_take(after, g);
+    work += work_of_shear(g, before, after) + work_of_gravity(g, before, after);
+    if (!(after->state.time >= before->state.time)) b->in_time = false;
+    if (!g->model.homogeneous && after->state.collisions != before->state.collisions + 1) b->in_time = false;
+    rule_check(&watch, before, after);
+    off += uncertainty(g, before, after);
+    most = fmax(most, after->translation + after->rotation);
+    swap(before, after);
+  }
+  GG_TRY(gg_simulation_take_sums(g, &sums, err));
+  if (!g->model.homogeneous) GG_TRY(gg_simulation_on_collision(g, NULL, NULL, err));
+  b->energy_allowed = rounding(g, steps) + 6 * sqrt(off) / most;
+  b->rule = watch.worst;
+  const double change = before->translation + before->rotation - energy;
+  if (thermostat == GG_NO_THERMOSTAT)
+    b->energy = fabs(change - work - gain_in_contacts(g, &sums)) / most;
+  else
+    b->energy = thermostat == GG_GAUSSIAN ? fabs(before->translation / kinetic - 1) : NAN;
+  return GG_OK;
+}

@@ -1,0 +1,93 @@
+/* md beside its reference path: plain cells, one pair at a time, from the same start. Rounding differs where the search
+ * does, and grows from collision to collision, the faster the farther grains fly: compared are collisions that have few
+ * others before them. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "corner.h"
+#include "md/state.h"
+
+enum { MOST = 2000 };
+
+typedef struct course {
+  int n;
+  size_t pair[MOST][2];
+} course;
+
+static void note(void *context, const gg_collision_record *collision)
+{
+  course *c = context;
+  if (c->n == MOST) return;
+  c->pair[c->n][0] = (size_t)collision->id[0];
+  c->pair[c->n++][1] = (size_t)collision->id[1];
+}
+
+/* As gg_md_ops.create makes it, but for the grid. */
+static gg_status make_reference(const gg_model *model, uint64_t seed, gg_md **engine, gg_error *err)
+{
+  GG_TRY(gg_md_allocate(model, engine, err));
+  gg_md *e = *engine;
+  int32_t n[3];
+  gg_md_cells_count(&e->box, fmax(gg_md_reach(model), cbrt(model->volume / e->n)), n);
+  e->plain = true;
+  gg_status status = gg_md_start(e, seed, 0, err);
+  if (status == GG_OK) status = gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(model), err);
+  if (status == GG_OK) status = gg_md_note_surfaces(e, err);
+  if (status == GG_OK) status = gg_md_begin(e, err);
+  if (status != GG_OK) gg_md_free(e);
+  return status;
+}
+
+static gg_status follow(gg_engine *e, uint64_t collisions, course *c, gg_error *err)
+{
+  double gone;
+  GG_TRY(e->ops->set_callback(e, note, c, err));
+  return e->ops->advance(e, INFINITY, collisions, &gone, err);
+}
+
+static bool is_same(const size_t a[2], const size_t b[2])
+{
+  return (a[0] == b[0] && a[1] == b[1]) || (a[0] == b[1] && a[1] == b[0]);
+}
+
+/* How many collisions in a row leave rounding small: each makes it larger by some free paths over a diameter. */
+static int longest_chain(const gg_model *m)
+{
+  return (int)fmax(1, 9 / log10(30 * (1 + 0.1 / m->phi)));
+}
+
+/* Of the first collisions, up to the first that is the end of a longer chain. */
+static int in_short_chains(const course *c, const gg_model *m)
+{
+  int *chain = calloc((size_t)m->n, sizeof *chain), k = 0;
+  for (; chain && k < c->n; k++) {
+    int *one = &chain[c->pair[k][0]], *two = &chain[c->pair[k][1]];
+    *one = *two = 1 + (*one > *two ? *one : *two);
+    if (*one > longest_chain(m)) break;
+  }
+  free(chain);
+  return k;
+}
+
+void corner_compare_plain(const gg_scene *scene, finding *f)
+{
+  gg_simulation *g = NULL;
+  gg_md *reference = NULL;
+  course *fast = calloc(2, sizeof *fast), *plain = fast ? fast + 1 : NULL;
+  if (!fast || gg_simulation_new(scene, 0, &g, NULL) != GG_OK ||
+      make_reference(&g->model, g->scene.run.seed, &reference, NULL) != GG_OK) {
+    gg_simulation_free(g);
+    free(fast);
+    return;
+  }
+  const uint64_t some = (uint64_t)fmin(MOST, fmax(3, (double)g->model.n));
+  if (follow(g->engine, some, fast, NULL) == GG_OK && follow(&reference->base, some, plain, NULL) == GG_OK) {
+    f->compared_pairs = in_short_chains(fast, &g->model);
+    while (f->same_pairs < f->compared_pairs && f->same_pairs < plain->n &&
+           is_same(fast->pair[f->same_pairs], plain->pair[f->same_pairs]))
+      f->same_pairs++;
+  }
+  gg_md_free(reference);
+  gg_simulation_free(g);
+  free(fast);
+}
