@@ -13,6 +13,8 @@
 #include "common/cube_root.h"
 #include "common/quantity.h"
 #include "common/rng.h"
+#include "common/thermostat.h"
+#include "theory/mixture.h"
 
 static void near(double a, double b, double tolerance)
 {
@@ -141,6 +143,55 @@ static void rates_and_units(void **state)
   assert_int_equal(gg_quantity_find("N3"), GG_N_QUANTITIES);
 }
 
+/* White noise replaces what Maxwellians lose by collisions: of mixtures sum_i x_i (3/2) T zeta_i, whose zeta_i the
+ * theories state on their own; of rough grains (3/2) G T [(A - B r) + (C r - B)], r = theta/T, with the A, B, C, G of
+ * Huthmann & Zippelius 1997. Shared out by mass. */
+static void noise_replaces_losses(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_HSS, s.thermostat = GG_WHITE_NOISE, s.phi = 0.2, s.particles = 1000;
+  s.n_species = 2;
+  s.species[0] = (gg_species){0.3, 1, 1, 0.4}, s.species[1] = (gg_species){0.7, 1.5, 4, 0.4};
+  for (int o = 0; o < 3; o++) s.collision.e[o] = 0.7 + 0.1 * o;
+  gg_model m = make(&s);
+  double T = m.temperature0, a[2] = {T / m.mass[0], T / m.mass[1]}, loss = 0, mass = 0;
+  for (int i = 0; i < 2; i++) {
+    loss += gg_fraction(&m, i) * 1.5 * T * gg_zeta(&m, i, a).at0;
+    mass += gg_fraction(&m, i) * m.mass[i];
+  }
+  near(gg_thermostat_noise(&m), loss / (1.5 * mass), 1e-13);
+  s.n_species = 1, s.collision.e[0] = 0.8, s.collision.beta[0] = 0.3;
+  m = make(&s);
+  double h1 = m.contact[0][0].jn, h2 = m.contact[0][0].jt, K = m.inertia[0], r = m.ratio0;
+  double A = h1 * (1 - h1) + h2 * (1 - h2), B = h2 * h2 / K, C = h2 / K * (1 - h2 / K);
+  double G = 4. / 3 * gg_model_collision_rate(&m, m.temperature0);
+  assert_true(r > 0.1);
+  near(gg_thermostat_noise(&m), G * m.temperature0 * (A - B * r + C * r - B), 1e-13);
+}
+
+/* nu_0, in which cooling rates are counted: (16/5) sqrt(pi) n d^2 sqrt(T), and of two species sqrt(pi) n sigma_12^2 v_0
+ * with v_0^2 = 2 T (m_1 + m_2)/(m_1 m_2); of three the mean of that over unlike pairs of grains. */
+static void units_of_rates(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_HCS, s.phi = 0.1, s.particles = 1000;
+  gg_model m = make(&s);
+  near(gg_model_nu0(&m, 3), 16 * sqrt(M_PI) / 5 * m.density * sqrt(3), 1e-14);
+  s.n_species = 2;
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4}, s.species[1] = (gg_species){0.5, 2, 4, 0.4};
+  m = make(&s);
+  const double unit = sqrt(M_PI);
+  near(gg_model_nu0(&m, 3), unit * m.density * 2.25 * sqrt(2 * 3 * 1.25), 1e-14);
+  s.n_species = 3;
+  s.species[0].fraction = 0.2, s.species[1].fraction = 0.3, s.species[2] = (gg_species){0.5, 3, 9, 0.4};
+  m = make(&s);
+  double pair[] = {2.25 * sqrt(6 * 1.25), 4 * sqrt(6 * 10. / 9), 6.25 * sqrt(6 * 13. / 36)};
+  double mean = (0.06 * pair[0] + 0.1 * pair[1] + 0.15 * pair[2]) / 0.31;
+  near(gg_model_nu0(&m, 3), unit * m.density * mean, 1e-14);
+}
+
 /* What is put in comes out; missing, misshapen and double items are refused; nesting keeps names apart. */
 static void archives(void **state)
 {
@@ -204,6 +255,8 @@ int main(void)
       cmocka_unit_test(equations_of_state),
       cmocka_unit_test(kinds),
       cmocka_unit_test(rates_and_units),
+      cmocka_unit_test(noise_replaces_losses),
+      cmocka_unit_test(units_of_rates),
       cmocka_unit_test(archives),
       cmocka_unit_test(scales),
   };

@@ -74,6 +74,17 @@ static void inverse(void **state)
   assert_true(gg_law_speed_of(GG_LAW_VISCOELASTIC, 0) == 0 && gg_law_loss(GG_LAW_VISCOELASTIC, 0) == 0);
 }
 
+/* A user's table: straight lines between its speeds, which need not be evenly spaced, and its ends beyond. */
+static void straight_between_speeds(void **state)
+{
+  (void)state;
+  const double speed[] = {1, 2, 6}, e[] = {0.9, 0.7, 0.3};
+  gg_law_table table = {3, speed, e};
+  const double at[] = {0.5, 1, 1.25, 1.75, 2, 3, 5.9, 6, 60},
+               value[] = {0.9, 0.9, 0.85, 0.75, 0.7, 0.6, 0.31, 0.3, 0.3};
+  for (int k = 0; k < 9; k++) assert_true(fabs(gg_law_from_table(&table, at[k], 0, 0) - value[k]) < 1e-15);
+}
+
 /* Every law: from 0 towards 1, rising, and its table within 2e-7; beyond the table its ends. */
 static void tables(void **state)
 {
@@ -157,6 +168,7 @@ int main(void)
                                      cmocka_unit_test(series),
                                      cmocka_unit_test(inverse),
                                      cmocka_unit_test(tables),
+                                     cmocka_unit_test(straight_between_speeds),
                                      cmocka_unit_test(reference_speed),
                                      cmocka_unit_test(refusals)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* Proves: every shape says when a grain in flight touches it, straight or on a parabola, as a search in small steps
  * along its clearance does; at the contact the normal points along the clearance's gradient; a grain that was put
  * outside touches or is clear, and touches nowhere else than its height says; what touches and leaves is not touched at
- * once. */
+ * once; which wall is the image of which. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,8 +9,10 @@
 
 #include <cmocka.h>
 
+#include "common/model.h"
 #include "common/rng.h"
 #include "common/surface/shapes.h"
+#include "common/surface/surfaces.h"
 
 static const gg_surface surfaces[] = {
     {.shape = GG_SHAPE_plane, .axis = 1, .side = -1, .place = 0},
@@ -159,12 +161,31 @@ static void leaving(void **state)
   }
 }
 
+/* Walls at both ends of the gap are images of each other, however they are shaped; a floor under an open top has none.
+ */
+static void images(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = gg_scene_defaults();
+    gg_model m;
+    gg_error err;
+    s.flow = GG_CHUTE, s.phi = 0.2, s.particles = 500;
+    s.walls.top = k == 2 ? GG_OPEN_TOP : s.walls.top;
+    s.walls.ridges = k == 1 ? 0.5 : 0;
+    assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_OK);
+    assert_int_equal(m.n_surfaces, k == 2 ? 1 : 2);
+    for (int w = 0; w < m.n_surfaces; w++) assert_int_equal(gg_surface_image(&m, w), k == 2 ? -1 : 1 - w);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(contacts),
       cmocka_unit_test(normals),
       cmocka_unit_test(leaving),
+      cmocka_unit_test(images),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
