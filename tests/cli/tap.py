@@ -6,6 +6,7 @@ import tempfile
 import traceback
 
 GRAINGAS = os.path.abspath(os.environ["GRAINGAS"])
+SANITIZERS = os.environ.get("SANITIZERS", "none")  # that it is built with
 
 
 class Skip(Exception):
