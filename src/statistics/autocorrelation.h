@@ -8,7 +8,9 @@
 typedef struct gg_correlation {
   double time;   /* integrated: 1/2 + sum_{t>=1} rho(t), in rows (1/2: uncorrelated); variance of the mean: 2 time
                     var/rows */
-  size_t window; /* the sum goes so far: to the first t > 8 tau(t) (Madras & Sokal, J. Stat. Phys. 50 (1988) 109) */
+  double slow;   /* mean lag of the sum, at least `time`: nearer to the slowest of several times */
+  size_t window; /* the sum goes so far: to the first t > 8 tau(t) (Madras & Sokal, J. Stat. Phys. 50 (1988) 109), or
+                    to where two neighbouring lags have nothing left between them */
   double *rho;   /* 0 .. window */
 } gg_correlation;
 
