@@ -5,8 +5,8 @@
 #include "run/replicas.h"
 #include "statistics/trend.h"
 
-/* A difference of the first and last third beyond this many errors is a trend: with five quantities tested a few times,
- * chance alone reaches it about once in a thousand runs. */
+/* A difference between earlier and later beyond this many errors is a trend: with five quantities tested a few times,
+ * chance alone reaches it in a few of a thousand runs. */
 #define TREND_Z 4.0
 /* ... unless it is too small to matter beside the error asked for. */
 #define TREND_NEGLIGIBLE 1e-4
@@ -105,7 +105,7 @@ gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error 
     if (fabs(t.z) > TREND_Z && fabs(t.relative) > TREND_NEGLIGIBLE && fabs(t.z) > fabs(c->trend_z)) {
       c->trending = true;
       c->trending_quantity = list[i];
-      c->trend_z = t.z, c->trend_relative = t.relative;
+      c->trend_z = t.z, c->trend_relative = t.relative, c->trend_share = t.share;
     }
   }
   GG_TRY(test_wandering(all, c, err));

@@ -30,6 +30,7 @@ typedef struct gg_convergence { /* of the present averaging window */
   bool trending;    /* some quantity still changes ... */
   gg_quantity trending_quantity;
   double trend_z, trend_relative; /* ... by so many errors, and by this share of its mean */
+  double trend_share;             /* of the window: the part that differs from later; its first third or less */
   int wanders;                    /* between walls: the slowest mode across the gap that shifts results; -1 without */
   double wandering;               /* over what time it forgets, in samples */
 } gg_convergence;

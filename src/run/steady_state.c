@@ -6,6 +6,19 @@
 #include "measure/wall_modes.h"
 #include "run/replicas.h"
 
+static void tell_trend(const gg_convergence *c, double window, char *text, size_t size)
+{
+  const char *name = gg_quantity_name(c->trending_quantity);
+  if (c->trend_share < 0.3)
+    snprintf(text, size,
+             "%s has a trend: the first %.0f collisions a grain of the averaging are off what follows by %.1f errors, "
+             "and shift its mean by %+.2g %%",
+             name, window * c->trend_share, fabs(c->trend_z), -100 * c->trend_relative);
+  else
+    snprintf(text, size, "%s has a trend: %+.2g %% from the first to the last third of the averaging, %.1f errors",
+             name, 100 * c->trend_relative, fabs(c->trend_z));
+}
+
 void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   uint64_t window = all->state.due - all->state.window_at;
@@ -23,8 +36,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
   } else if (!all->state.averaging) {
     snprintf(text, size, "the run ended in its warm-up");
   } else if (c->trending) {
-    snprintf(text, size, "%s has a trend: %+.2g %% from the first to the last third of the averaging, %.1f errors",
-             gg_quantity_name(c->trending_quantity), 100 * c->trend_relative, fabs(c->trend_z));
+    tell_trend(c, grain, text, size);
   } else if (window < all->plan.least) {
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
              grain, (double)all->plan.least * GG_SAMPLING_INTERVAL);

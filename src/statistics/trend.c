@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 
 /* Copy rows [from, from + m) of every run. */
@@ -12,9 +13,43 @@ static void cut(const double *y, size_t n, size_t n_runs, size_t from, size_t m,
     for (size_t i = 0; i < m; i++) to[r * m + i] = y[r * n + from + i];
 }
 
+/* Stretches at the beginning, as parts of all rows. The shortest is as long as the slowest mode that a window is
+ * planned for remembers. */
+static const size_t beginnings[] = {48, 12};
+
+/* The normal variable that is exceeded as seldom as Student's t; beyond 8, where neither has a number, t itself. */
+static double as_normal(double t, double degrees)
+{
+  double z = fabs(t) < 40 ? -gsl_cdf_ugaussian_Pinv(gsl_cdf_tdist_Q(fabs(t), degrees)) : INFINITY;
+  return copysign(z < 8 ? z : fmin(fabs(t), z), t);
+}
+
+/* Its first rows against the scatter of blocks as long from the latter two thirds. */
+static void compare_beginning(const double *y, size_t n, size_t n_runs, size_t length, gg_trend *out)
+{
+  size_t per_run = length ? (n - n / 3) / length : 0, count = per_run * n_runs;
+  double first = 0, mean = 0, squares = 0;
+  if (count < 3) return;
+  for (size_t r = 0; r < n_runs; r++) {
+    const double *run = y + r * n;
+    first += gsl_stats_mean(run, 1, length) / (double)n_runs;
+    for (size_t b = 0; b < per_run; b++) {
+      double block = gsl_stats_mean(run + n - (b + 1) * length, 1, length), before = mean;
+      mean += (block - mean) / (double)(r * per_run + b + 1);
+      squares += (block - before) * (block - mean);
+    }
+  }
+  double error = sqrt(squares / (double)(count - 1) * (1 / (double)n_runs + 1 / (double)count));
+  double z = error > 0 ? as_normal((mean - first) / error, (double)(count - 1)) : 0;
+  if (!(fabs(z) > fabs(out->z))) return;
+  out->z = z;
+  out->share = (double)length / (double)n;
+  out->relative = (mean - first) * out->share / fmax(fabs(mean), 1e-300);
+}
+
 gg_status gg_trend_test(const double *y, size_t n, size_t n_runs, gg_trend *out, gg_error *err)
 {
-  *out = (gg_trend){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
+  *out = (gg_trend){.z = NAN, .relative = NAN, .share = 1 / 3.0, .correlation_rows = 0.5};
   size_t third = n / 3;
   if (third < 8) return GG_OK;
   double *part = gg_new_array(third * n_runs, sizeof *part, err);
@@ -30,5 +65,7 @@ gg_status gg_trend_test(const double *y, size_t n, size_t n_runs, gg_trend *out,
   out->z = error > 0 ? change / error : change == 0 ? 0 : INFINITY * (change > 0 ? 1 : -1);
   out->relative = change / fmax(fabs(first.mean + last.mean) / 2, 1e-300);
   out->correlation_rows = fmax(first.correlation_rows, last.correlation_rows);
+  for (size_t k = 0; k < sizeof beginnings / sizeof *beginnings; k++)
+    compare_beginning(y, n, n_runs, n / beginnings[k], out);
   return GG_OK;
 }
