@@ -35,6 +35,8 @@ gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean,
   gg_status status = gg_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
                                       first->observable[k]->width(&all->model), f, &all->model, mean, err);
   free(series);
+  double rows = (double)gg_series_window_rows(&first->series) * all->n;
+  mean->error *= gg_plan_margin(&all->plan, mean->correlation_rows, rows);
   return status;
 }
 

@@ -101,3 +101,8 @@ uint64_t gg_plan_next_test(const gg_plan *plan, uint64_t restarts, const gg_test
                                            : last->window + last->window / 4;
   return plan->most && next > plan->most ? plan->most : next;
 }
+
+double gg_plan_margin(const gg_plan *plan, double correlation, double window)
+{
+  return plan->relative_error > 0 && window > 0 ? 1 + 6 * correlation / window : 1;
+}
