@@ -198,9 +198,45 @@ static void tables(void **state)
   gg_format_estimate(1, 1, NULL, 10);
 }
 
+static int nothing_sent(void *context, int to, void *block, size_t size)
+{
+  (void)context, (void)to, (void)size;
+  free(block);
+  return 0;
+}
+
+static int nothing_comes(void *context, int *from, void **block, size_t *size)
+{
+  (void)context, (void)from, (void)block, (void)size;
+  return -1;
+}
+
+/* Messages that are not whole, or of the other side, are refused before anything is sent. */
+static void messages(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_workers *w = NULL;
+  gg_messages m = {.rank = 0, .size = 2, .send = nothing_sent, .receive = nothing_comes};
+  assert_refused(gg_work(NULL, &err), "gg_work: messages of a rank above 0");
+  assert_refused(gg_work(&m, &err), "gg_work: messages of a rank above 0");
+  assert_refused(gg_workers_new(NULL, 1, &w, &err), "gg_workers_new: messages of rank 0");
+  assert_refused(gg_workers_new(&m, 1, NULL, &err), "gg_workers_new: messages of rank 0");
+  m.rank = 1;
+  assert_refused(gg_workers_new(&m, 1, &w, &err), "gg_workers_new: messages of rank 0");
+  assert_int_equal(gg_work(&m, &err), GG_FAILED); /* rank 0 is gone */
+  m.receive = NULL;
+  assert_refused(gg_work(&m, &err), "gg_work: messages of a rank above 0");
+  m.rank = 0;
+  assert_refused(gg_workers_new(&m, 1, &w, &err), "gg_workers_new: messages of rank 0");
+  assert_null(w);
+  assert_int_equal(gg_workers_threads(NULL), 0);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(scenes), cmocka_unit_test(simulations), cmocka_unit_test(results),
-                                     cmocka_unit_test(comparisons), cmocka_unit_test(tables)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(scenes),  cmocka_unit_test(simulations),
+                                     cmocka_unit_test(results), cmocka_unit_test(comparisons),
+                                     cmocka_unit_test(tables),  cmocka_unit_test(messages)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -257,11 +257,69 @@ static void spoiling(void **state)
   gg_scene_free(s);
 }
 
+static size_t entries(gg_catalogue catalogue, const gg_scene *s, gg_entry *last)
+{
+  gg_error err;
+  gg_entry entry;
+  size_t n = 0;
+  while (gg_catalogue_entry(catalogue, n, s, &entry, &err) == GG_OK) *last = entry, n++;
+  return n;
+}
+
+/* The catalogues of observables and theories end with the scene's own. */
+static void listed(void **state)
+{
+  (void)state;
+  gg_entry last;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1}");
+  const size_t observables = entries(GG_CATALOGUE_OBSERVABLES, s, &last);
+  const size_t theories = entries(GG_CATALOGUE_THEORIES, s, &last);
+  add_all(s);
+  assert_int_equal(entries(GG_CATALOGUE_OBSERVABLES, s, &last), observables + 1);
+  assert_string_equal(last.name, "thermometer");
+  assert_int_equal(entries(GG_CATALOGUE_THEORIES, s, &last), theories + 2);
+  assert_string_equal(last.name, "silent");
+  assert_int_equal(entries(GG_CATALOGUE_OBSERVABLES, NULL, &last), observables);
+  gg_scene_free(s);
+}
+
+/* A theory that is not whole is refused by what it lacks; so is the ninth. */
+static void theories_refused(void **state)
+{
+  (void)state;
+  gg_error err;
+  char name[16];
+  const char *const good[] = {"N1"}, *const unknown[] = {"N1", "warmth"}, *const none[] = {NULL};
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1}");
+  gg_theory_definition t = {"mine", NULL, NULL, NULL, 1, good, say_nothing, NULL};
+  assert_refused(gg_scene_add_theory(s, NULL, &err), "no definition");
+  t.n_quantities = 0;
+  assert_refused(gg_scene_add_theory(s, &t, &err), "at least one quantity");
+  t.n_quantities = 2, t.quantities = unknown;
+  assert_refused(gg_scene_add_theory(s, &t, &err), "no quantity called 'warmth'");
+  t.n_quantities = 1, t.quantities = none;
+  assert_refused(gg_scene_add_theory(s, &t, &err), "no quantity called ''");
+  t.quantities = good, t.evaluate = NULL;
+  assert_refused(gg_scene_add_theory(s, &t, &err), "`evaluate` is missing");
+  t.evaluate = say_nothing, t.name = "grad";
+  assert_refused(gg_scene_add_theory(s, &t, &err), "taken");
+  t.name = name;
+  for (int k = 0; k < 8; k++) {
+    snprintf(name, sizeof name, "mine_%d", k);
+    assert_ok(gg_scene_add_theory(s, &t, &err));
+    assert_refused(gg_scene_add_theory(s, &t, &err), "taken");
+  }
+  snprintf(name, sizeof name, "mine_9");
+  assert_refused(gg_scene_add_theory(s, &t, &err), "at most 8 theories");
+  gg_scene_free(s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(read_back), cmocka_unit_test(read_back_run), cmocka_unit_test(theories_under_a_law),
-      cmocka_unit_test(cooling),   cmocka_unit_test(spoiling),      cmocka_unit_test(law_noted),
+      cmocka_unit_test(read_back), cmocka_unit_test(read_back_run),    cmocka_unit_test(theories_under_a_law),
+      cmocka_unit_test(cooling),   cmocka_unit_test(spoiling),         cmocka_unit_test(law_noted),
+      cmocka_unit_test(listed),    cmocka_unit_test(theories_refused),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -401,6 +401,23 @@ static void species_one_by_one(void **state)
   gg_simulation_free(m);
 }
 
+/* Walls by the names that quantities carry; where there is none, or no simulation, there is no name. */
+static void walls_have_names(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: couette, engine: md, phi: 0.05, particles: 100}");
+  gg_simulation *m = NULL;
+  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_string_equal(gg_simulation_wall(m, 0), "lower");
+  assert_string_equal(gg_simulation_wall(m, 1), "upper");
+  assert_null(gg_simulation_wall(m, 2));
+  assert_null(gg_simulation_wall(m, -1));
+  assert_null(gg_simulation_wall(NULL, 0));
+  gg_simulation_free(m);
+  gg_scene_free(s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -415,6 +432,7 @@ int main(void)
       cmocka_unit_test(starts),
       cmocka_unit_test(facts_of_the_start),
       cmocka_unit_test(stopped),
+      cmocka_unit_test(walls_have_names),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

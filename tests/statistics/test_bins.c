@@ -1,4 +1,6 @@
 /* Blocks of bins: joined without loss, and restored from a checkpoint as they were. */
+#include <string.h>
+
 #include "planted.h"
 #include "statistics/bins.h"
 
@@ -68,9 +70,28 @@ static void checkpoint(void **state)
   gg_bins_clear(&b);
 }
 
+/* Bins of another width, or of another name, are not taken for these. */
+static void other_bins(void **state)
+{
+  (void)state;
+  gg_bins a, b;
+  gg_archive archive = {0};
+  gg_error err;
+  assert_int_equal(gg_bins_init(&a, WIDTH, NULL), GG_OK);
+  assert_int_equal(gg_bins_init(&b, WIDTH + 1, NULL), GG_OK);
+  assert_int_equal(gg_bins_save(&a, "x", &archive, NULL), GG_OK);
+  assert_int_equal(gg_bins_restore(&b, "x", &archive, &err), GG_BAD_FILE);
+  assert_non_null(strstr(err.message, "other bins"));
+  assert_int_equal(gg_bins_restore(&a, "y", &archive, &err), GG_BAD_FILE);
+  assert_non_null(strstr(err.message, "bins/y.head"));
+  gg_archive_clear(&archive);
+  gg_bins_clear(&a);
+  gg_bins_clear(&b);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(joined_blocks), cmocka_unit_test(coarsened),
-                                     cmocka_unit_test(checkpoint)};
+                                     cmocka_unit_test(checkpoint), cmocka_unit_test(other_bins)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
