@@ -171,10 +171,3 @@ double gg_expression_slope(const gg_expression *e, gg_variables at, char variabl
   *of = here - step;
   return (above - gg_expression_value(e, at)) / (2 * step);
 }
-
-bool gg_expression_has(const gg_expression *e, char variable)
-{
-  for (int i = 0; i < e->n; i++)
-    if (e->step[i].code == variable) return true;
-  return false;
-}

@@ -27,7 +27,5 @@ gg_status gg_expression_parse(gg_expression *e, const char *text, gg_error *err)
 double gg_expression_value(const gg_expression *e, gg_variables at);
 /* Its derivative with respect to y, and to r. */
 double gg_expression_slope(const gg_expression *e, gg_variables at, char variable);
-/* Does it name the variable? */
-bool gg_expression_has(const gg_expression *e, char variable);
 
 #endif

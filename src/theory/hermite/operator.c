@@ -136,14 +136,6 @@ void gg_hermite_look(gg_hermite_operator *op, int n_species, gg_hermite_state *s
   for (int i = 0; i < n_species; i++) look_at(op, &state[i], k, &op->room->view[i]);
 }
 
-double gg_hermite_marginal(gg_hermite_operator *op, gg_hermite_state *state, const double k[3], double *marginal)
-{
-  gg_hermite_view *v = &op->room->view[0];
-  look_at(op, state, k, v);
-  memcpy(marginal, v->marginal, (size_t)(op->basis.degree / 2 + 1) * sizeof *marginal);
-  return v->frame.s;
-}
-
 /* sum_q Z_Qq t_jpq, by Q and (j,p) */
 static void damp(const gg_hermite_operator *op, gg_hermite_view *v)
 {

@@ -62,10 +62,6 @@ void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_ga
 /* < psi_r Ho_s > */
 double gg_hermite_test_overlap(const gg_hermite_operator *op, int r, int s);
 
-/* Distribution of the velocity along k: s x with x of density exp(-x^2/2)/sqrt(2 pi) sum_l marginal[l] Ho_2l(x); s is
- * returned. */
-double gg_hermite_marginal(gg_hermite_operator *op, gg_hermite_state *state, const double k[3], double *marginal);
-
 /* What collisions do and carry, a mean over all grains. */
 typedef struct gg_hermite_sums {
   double rate;           /* collisions of a grain: frequency int dk <g> */
