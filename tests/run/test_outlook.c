@@ -178,7 +178,8 @@ static void every_run(void **state)
     gg_result *r = NULL;
     gg_status status = gg_run_scene(&s, NULL, 2, &hooks, &r, NULL);
     assert_int_equal(status, k == TIME || k == BOTH ? GG_FAILED : GG_OK); /* fell short of the error */
-    if (w.falls || w.early || w.fraction != 1 || w.left != 0 || w.calls < 5 || w.known < 3)
+    /* How often a run that the clock ends is told of depends on the machine. */
+    if (w.falls || w.early || w.fraction != 1 || w.left != 0 || w.calls < 5 || w.known < (k == TIME ? 1 : 3))
       fail_msg("%d: fell %d, early %d, ended %g %g, known %d of %d", k, w.falls, w.early, w.fraction, w.left, w.known,
                w.calls);
     gg_result_free(r);
