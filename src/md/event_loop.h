@@ -68,10 +68,11 @@ GG_INLINE void gg_md_predict_two(gg_md *e, uint32_t i, uint32_t j)
 
 GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
 {
+  const bool again = (e->grain[i].t == e->k.now) & (e->grain[j].t == e->k.now);
   gg_md_grain *one = gg_md_synchronise(e, i), *two = gg_md_synchronise(e, j);
   gg_vec dr = gg_sub(two->r, one->r), dv = gg_sub(two->v, one->v);
   gg_md_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
-  e->resolve(e, i, j, dr, gg_scale(-1, dv));
+  (__builtin_expect(again, 0) ? gg_md_resolve_again : e->resolve)(e, i, j, dr, gg_scale(-1, dv));
   one->counter++;
   two->counter++;
   e->k.collisions++;

@@ -1,7 +1,9 @@
 /* Grains whose restitution is 0, or nearly so, leave each other at a normal speed of 0, but for rounding. Where that
  * rounding says that they still approach they would collide again at once, with an impulse that is too small to change
  * their velocities: for ever. So such pairs part at a speed that is just above rounding; what it adds to the energy is
- * 10^-20 of it or less. */
+ * 10^-20 of it or less. The same is true, whatever their restitution, of grains that touch and move alike, as in a
+ * lattice that falls on a floor: a pair that meets at the very time at which both have just been predicted parts so,
+ * too. */
 #include <math.h>
 
 #include "md/state.h"
@@ -46,4 +48,12 @@ void gg_md_resolve_parting(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c
   double J = (approach + 2 * least) / (im1 + im2);
   one->v = gg_axpy(-im1 * J, k, one->v);
   two->v = gg_axpy(im2 * J, k, two->v);
+}
+
+void gg_md_resolve_again(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
+{
+  gg_md_resolution *const usual = e->resolve_shown;
+  e->resolve_shown = gg_md_resolve_parting;
+  (e->callback ? gg_md_show_collision : gg_md_resolve_parting)(e, i, j, dr, c12);
+  e->resolve_shown = usual;
 }

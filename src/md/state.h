@@ -193,8 +193,9 @@ double gg_md_bucket_width(double events_per_time);
 gg_md_resolution gg_md_show_collision;
 gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
 
-/* parting.c: a resolution after which the pair parts, whatever is lost in rounding; and does this model need it? */
-gg_md_resolution gg_md_resolve_parting;
+/* parting.c: a resolution after which the pair parts, whatever is lost in rounding; the same instead of e->resolve, for
+ * a pair that meets again at once; and does this model need it throughout? */
+gg_md_resolution gg_md_resolve_parting, gg_md_resolve_again;
 bool gg_md_needs_parting(const gg_model *model);
 
 /* kernels.c: choose the kernels that this model and its collision sums need; resolve.c: the part that concerns

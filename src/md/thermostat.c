@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Kicks a mean free time. */
+/* Between kicks, in mean free times, on average. */
 #define KICK_INTERVAL 0.1
 
 static double kinetic_energy(const gg_md *e)
@@ -44,9 +44,12 @@ void gg_md_thermostat_fold(gg_md *e)
   k->stop = k->mark + (k->asked - k->outer) * k->scale;
 }
 
+/* Each kick brings what the time to the next one takes. No two intervals are alike: between equal ones T falls by some
+ * percent, and a run whose samples keep in step with them would see the same part of that again and again (e = 0: means
+ * off by up to 1 %). */
 void gg_md_thermostat_kick(gg_md *e)
 {
-  double size = sqrt(3 * e->noise * kick_interval(e));
+  const double interval = kick_interval(e) * (0.5 + gg_rng_uniform(&e->k.rng)), size = sqrt(3 * e->noise * interval);
   for (uint32_t i = 0; i < e->n; i++) {
     gg_md_grain *g = &e->grain[i];
     g->r = gg_md_position(e, false, g, e->k.now);
@@ -56,5 +59,5 @@ void gg_md_thermostat_kick(gg_md *e)
   }
   gg_md_follow_centre_of_mass(e);
   e->kernel->predict(e, 0, e->n);
-  e->k.next_kick += kick_interval(e);
+  e->k.next_kick += interval;
 }
