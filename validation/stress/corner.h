@@ -23,6 +23,7 @@ typedef struct corner {
   const char *apart;  /* with `agrees`: why md is another problem, so that only dsmc is held against the solution */
   void (*start)(gg_simulation *simulation); /* puts the grains elsewhere first; NULL: as they are */
   bool quick;                               /* part of the short selection */
+  bool takes_long;                          /* more than some minutes: only where it is named */
 } corner;
 
 typedef struct corner_table {
@@ -42,8 +43,9 @@ typedef struct finding {
   double allowed_overlap;
   size_t escapes;
   double momentum, energy, rule; /* see sample.h, budget.h */
+  double drift;                  /* of the energy that nothing changes, over the whole course; in `energy`, too */
   double energy_allowed, momentum_allowed;
-  bool monotone, numbers;         /* time and collisions never fell; no number was NaN or infinite */
+  bool monotone, numbers;         /* time and collisions never fell, and time got on; no number was NaN or infinite */
   double cooled;                  /* T at the end over T at the start */
   int same_pairs, compared_pairs; /* md: first collisions that are those of the reference path; of so many */
   double z, departure;            /* md - dsmc; engine - solution, in combined errors; NAN: not known */

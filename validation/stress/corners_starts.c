@@ -1,4 +1,5 @@
-/* Starts that no scene asks for: grains that touch, grains at rest, and what is no number. */
+/* Starts that no scene asks for: grains that touch, grains at rest, and what is no number. A new one is a function that
+ * changes a fresh simulation, and its row. */
 #include <math.h>
 
 #include "corner.h"
@@ -136,8 +137,21 @@ static const corner corners[] = {
      .start = pairs_at_rest,
      .dsmc = NOT_RUN,
      .quick = true},
-    {.name = "touching and at rest, on a floor",
+    {.name = "touching, hot, e 1",
+     .scene = "{flow: equilibrium, phi: 0.1, particles: 343}",
+     .start = touching,
+     .dsmc = NOT_RUN,
+     .quick = true},
+    {.name = "touching and at rest, falls on a floor, elastic",
+     .scene = "{flow: chute, phi: 0.2, particles: 343, gravity: [0, -1, 0], walls: {top: open, e: 1}, collision: {e: "
+              "1}}",
+     .start = touching_at_rest,
+     .dsmc = NOT_RUN,
+     .collisions = 300,
+     .quick = true},
+    {.name = "touching and at rest, falls on a floor",
      .scene = "{flow: chute, phi: 0.2, particles: 343, gravity: [0, -1, 0], walls: {top: open}, collision: {e: 0.5}}",
+     .collisions = 300,
      .start = touching_at_rest,
      .dsmc = NOT_RUN,
      .quick = true},

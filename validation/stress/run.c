@@ -8,10 +8,11 @@
 #include "common/thermostat.h"
 #include "corner.h"
 
-enum { LOOKS = 30, LOOKS_OF_MANY = 3, MANY = 100000, STEPS = 400, STEPS_OF_MANY = 10 };
+enum { LOOKS = 30, LOOKS_OF_MANY = 2, MANY = 100000, STEPS = 400, STEPS_OF_MANY = 10 };
 
-/* Seconds of processor time after which a corner crawls. */
-#define CRAWLS 60.0
+/* A corner crawls that takes more processor time: seconds, and collisions in one of them. */
+#define CRAWLS_AFTER 60.0
+#define CRAWLS_BELOW 1e5
 
 static double cpu_now(void)
 {
@@ -26,11 +27,13 @@ static int is_crawling(void *context)
   return cpu_now() > *until;
 }
 
-static double momentum_of(const sample *s, const double expected[3])
+/* Between walls all grains may be at rest at a time. */
+static double momentum_of(const gg_simulation *g, const sample *s, const double expected[3], double *largest)
 {
   double off = 0;
+  *largest = g->model.walled ? fmax(*largest, s->scale) : s->scale;
   for (int a = 0; a < 3; a++) off = fmax(off, fabs(s->momentum[a] - expected[a]));
-  return off / s->scale;
+  return off / *largest;
 }
 
 /* Kicks of the Monte Carlo engine's white noise are taken off now and then alone. */
@@ -55,6 +58,17 @@ static gg_status expect_momentum(gg_simulation *g, double expected[3], gg_error 
   return GG_OK;
 }
 
+static double collisions_of(const corner *c, const gg_simulation *g)
+{
+  return (c->collisions > 0 ? c->collisions : 60) * (double)g->model.n / 2;
+}
+
+/* Does nothing but collisions change the energy, and these not either? */
+static bool keeps_energy(const gg_model *m)
+{
+  return m->elastic && m->shear_rate == 0 && !m->walled && gg_thermostat_of(m) == GG_NO_THERMOSTAT;
+}
+
 static void look_at(const gg_simulation *g, const sample *s, finding *f)
 {
   f->numbers &= s->numbers;
@@ -64,12 +78,12 @@ static void look_at(const gg_simulation *g, const sample *s, finding *f)
 
 static gg_status go_through(gg_simulation *g, const corner *c, sample *s, sample *other, finding *f, gg_error *err)
 {
-  const double n = (double)g->model.n, all = (c->collisions > 0 ? c->collisions : 60) * n / 2;
+  const double n = (double)g->model.n, all = collisions_of(c, g);
   const int looks = n < MANY ? LOOKS : LOOKS_OF_MANY;
-  double expected[3];
+  double expected[3], middle = 0, scale = 0;
   sample_take(s, g);
   for (int a = 0; a < 3; a++) expected[a] = g->model.walled ? s->momentum[a] : 0;
-  const double first = s->state.temperature;
+  const double first = s->state.temperature, energy = s->translation + s->rotation;
   if (!g->model.homogeneous) look_at(g, s, f);
   for (int k = 0; k < looks && f->numbers; k++) {
     const double time = s->state.time;
@@ -79,14 +93,16 @@ static gg_status go_through(gg_simulation *g, const corner *c, sample *s, sample
     sample_take(s, g);
     look_at(g, s, f);
     f->monotone &= s->state.time >= time && s->state.collisions > collisions;
-    f->momentum = fmax(f->momentum, momentum_of(s, expected));
+    if (2 * k == looks) middle = s->state.time;
+    f->momentum = fmax(f->momentum, momentum_of(g, s, expected, &scale));
     f->collisions = (double)s->state.collisions;
     f->cooled = s->state.temperature / first;
+    if (keeps_energy(&g->model)) f->drift = fmax(f->drift, fabs((s->translation + s->rotation) / energy - 1));
   }
   budget b = {.energy = NAN};
   GG_TRY(budget_follow(g, s, other, n < MANY ? STEPS : STEPS_OF_MANY, &b, err));
-  f->energy = b.energy, f->energy_allowed = b.energy_allowed, f->rule = b.rule;
-  f->monotone &= b.in_time;
+  f->energy = fmax(b.energy, f->drift), f->energy_allowed = b.energy_allowed, f->rule = b.rule;
+  f->monotone &= b.in_time && s->state.time > middle;
   f->momentum_allowed = allowed_momentum(g);
   return GG_OK;
 }
@@ -116,13 +132,16 @@ void corner_run(const corner *c, const char *engine, finding *f)
   sample s = {0}, other = {0};
   *f = (finding){.monotone = true, .numbers = true, .z = NAN, .departure = NAN, .energy = NAN};
   const double begin = cpu_now();
-  double until = begin + CRAWLS;
+  double until = INFINITY;
   gg_status status = prepare(c, engine, &scene, &err);
   if (status == GG_OK) status = gg_simulation_new(scene, 0, &g, &err);
   f->refused = status != GG_OK;
   if (status == GG_OK && c->start) c->start(g);
   if (status == GG_OK && !(sample_new(&s, g) && sample_new(&other, g))) status = gg_fail(&err, GG_FAILED, "no memory");
-  if (status == GG_OK) status = gg_simulation_on_stop(g, is_crawling, &until, &err);
+  if (status == GG_OK) {
+    until = begin + CRAWLS_AFTER + collisions_of(c, g) / CRAWLS_BELOW;
+    status = gg_simulation_on_stop(g, is_crawling, &until, &err);
+  }
   if (status == GG_OK) status = go_through(g, c, &s, &other, f, &err);
   f->ended = status != GG_OK && !f->refused;
   if (status != GG_OK) tell(f, &err);

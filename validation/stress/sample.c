@@ -65,8 +65,11 @@ static double overlap_of(const sample *s, const gg_simulation *g, size_t i, size
     r[1] -= layers * L[1];
     r[0] -= layers * s->state.image_offset;
   }
-  for (int x = 0; x < 3; x += 2) r[x] -= L[x] * rint(r[x] / L[x]);
   const double sigma = g->model.sigma[gg_pair(s->species[i], s->species[j])];
+  for (int x = 2; x >= 0; x -= 2) {
+    r[x] -= L[x] * rint(r[x] / L[x]);
+    if (fabs(r[x]) > sigma) return 0;
+  }
   return 1 - sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) / sigma;
 }
 

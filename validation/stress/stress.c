@@ -3,9 +3,9 @@
  * leaves the box or enters a wall; momentum; the budget of energy, collision by collision; each collision beside the
  * rule; the first collisions of md beside its reference path; means of both engines and of Enskog's equation solved.
  *
- * stress [--quick] [--list] [--tap] [NAME ...]: all corners, the quick ones, or those whose name has NAME in it, as a
- * table (Markdown), or as TAP for a test. Exit code 0; 1: one is neither right nor refused as it should be; 2: the
- * command line is wrong. */
+ * stress [--quick] [--list] [--tap] [NAME ...]: all corners but those that take long, the quick ones, or those whose
+ * name has NAME in it, as a table (Markdown), or as TAP for a test. Exit code 0; 1: one is neither right nor refused as
+ * it should be; 2: the command line is wrong. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,7 +30,7 @@ typedef struct tally {
 static bool is_meant(const options *o, const corner *c)
 {
   if (o->quick && !c->quick) return false;
-  bool named = o->n_names == 0;
+  bool named = o->n_names == 0 && !c->takes_long;
   for (int i = 0; i < o->n_names; i++) named |= strstr(c->name, o->name[i]) != NULL;
   return named;
 }
