@@ -1,7 +1,12 @@
 /* Storage of the engine: everything that a run needs to go on bit for bit. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "dsmc/dsmc.h"
 
 static const char schedule_item[] = "dsmc/schedule";
+#define DAMAGED "the checkpoint of dsmc is damaged: %s"
 
 gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *err)
 {
@@ -14,16 +19,91 @@ gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *e
   return gg_dsmc_save_callback(d, archive, err);
 }
 
+/* What was read may be anybody's: are these numbers that a step can be taken with? Bounds are far beyond any run's, and
+ * keep what is counted countable. */
+static bool is_between(double x, double least, double most)
+{
+  return x >= least && x <= most;
+}
+
+/* Temperature and largest speed of the ensemble, within what streaming and collisions make of it until it is next
+ * synchronised: candidates are counted by them. */
+static bool is_of_ensemble(const gg_dsmc *d)
+{
+  double energy = 0, fastest2 = 0, n = 0;
+  for (int i = 0; i < d->model.n_species; i++) {
+    const gg_dsmc_population *p = &d->ensemble.of[i];
+    for (uint32_t k = 0; k < (uint32_t)p->n; k++) {
+      gg_vec c = gg_dsmc_block_get(p, p->c, k);
+      c.x -= d->now.strain * c.y;
+      const double c2 = gg_dot(c, c);
+      energy += p->mass * c2;
+      fastest2 = fmax(fastest2, c2);
+    }
+    n += (double)p->n;
+  }
+  return is_between(d->now.temperature / (energy / (3 * n)), 1e-8, 1e8) &&
+         is_between(d->now.fastest / sqrt(fastest2), 1e-4, 1e4);
+}
+
+static bool is_step(const gg_dsmc *d, const gg_dsmc_time_step *s)
+{
+  const double most = 10 * gg_dsmc_time_step_choose(&d->model, d->now.temperature).length;
+  return is_between(s->length, 1e-12 * most, most) && is_between(s->splitting, 1e-18 * most, most) &&
+         s->synchronise > 0 && !isnan(s->bias);
+}
+
+/* `most`: a hundred times what two of the fastest could meet at, over the thermal speed. */
+static bool is_majorant(const gg_dsmc_majorant *m, double remainder, double most)
+{
+  return is_between(m->now, 0, most) && is_between(m->before, 0, most) && is_between(remainder, 0, 1);
+}
+
+static bool is_state(const gg_dsmc *d)
+{
+  const gg_dsmc_state *s = &d->now;
+  const double plain[] = {s->time, s->unsynchronised, s->centre.x, s->centre.y, s->centre.z, s->lost, s->gone};
+  bool good = is_between(s->temperature, 1e-200, 1e200) && is_between(s->fastest, 0, 1e200) && fabs(s->strain) <= 1e3 &&
+              abs(s->power) < 100000 && is_step(d, &s->step) && s->asked >= 0; /* without end, too */
+  for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
+  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) {
+    const double meeting = 2 * s->fastest + fabs(d->model.sigma[p] * d->model.shear_rate);
+    good = good && is_majorant(&s->majorant[p], s->remainder[p], 100 * meeting / sqrt(s->temperature));
+  }
+  return good;
+}
+
+/* Rounds are indices of segments. */
+static bool is_schedule(const gg_dsmc *d)
+{
+  const gg_dsmc_schedule *s = d->schedule;
+  bool good = !s || s->next <= (uint64_t)d->ensemble.segments;
+  for (int k = 0; good && s && k < d->ensemble.segments; k++) good = s->order[k] < d->ensemble.segments;
+  return good;
+}
+
+/* As bytes first: a truth that is neither yes nor no is no value of its type. */
+static gg_status get_state(gg_dsmc *d, const gg_archive *a, gg_error *err)
+{
+  unsigned char bytes[sizeof d->now];
+  GG_TRY(gg_archive_get(a, "dsmc/state", GG_ITEM_U8, bytes, sizeof bytes, err));
+  if (bytes[offsetof(gg_dsmc_state, sums)] > 1) return gg_fail(err, GG_BAD_FILE, DAMAGED, "what it sums");
+  memcpy(&d->now, bytes, sizeof bytes);
+  return is_state(d) ? GG_OK : gg_fail(err, GG_BAD_FILE, DAMAGED, "its state");
+}
+
 gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
 {
   GG_TRY(gg_dsmc_accepts(model, err));
   gg_dsmc *d;
   GG_TRY(gg_dsmc_allocate(model, &d, err));
-  gg_status status = gg_archive_get(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err);
+  gg_status status = get_state(d, archive, err);
   if (status == GG_OK) status = gg_dsmc_ensemble_restore(&d->ensemble, archive, err);
   if (status == GG_OK && d->schedule)
     status =
         gg_archive_get(archive, schedule_item, GG_ITEM_U8, d->schedule, gg_dsmc_schedule_size(d->model.n_species), err);
+  if (status == GG_OK && !is_of_ensemble(d)) status = gg_fail(err, GG_BAD_FILE, DAMAGED, "its temperature");
+  if (status == GG_OK && !is_schedule(d)) status = gg_fail(err, GG_BAD_FILE, DAMAGED, "its schedule");
   if (status == GG_OK) status = gg_dsmc_restore_callback(d, archive, err);
   if (status != GG_OK) {
     gg_dsmc_destroy(&d->base);

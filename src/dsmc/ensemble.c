@@ -1,5 +1,6 @@
 #include "dsmc/ensemble.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -271,6 +272,26 @@ gg_status gg_dsmc_ensemble_save(const gg_dsmc_ensemble *e, gg_archive *archive, 
   return gg_archive_put(archive, bound_scale_item, GG_ITEM_F64, bounds, 3, err);
 }
 
+static bool are_finite(const gg_dsmc_population *p, const void *blocks)
+{
+  for (size_t i = 0; i < p->n_blocks * COMPONENTS; i++)
+    if (!isfinite(p->single ? (double)((const float *)blocks)[i] : ((const double *)blocks)[i])) return false;
+  return true;
+}
+
+/* What was read may be anybody's: are these speeds, and bounds of them? */
+static bool is_ensemble(const gg_dsmc_ensemble *e)
+{
+  for (int i = 0; i < e->n_species; i++) {
+    const gg_dsmc_population *p = &e->of[i];
+    if (!are_finite(p, p->c) || (p->s && !are_finite(p, p->s))) return false;
+    for (size_t k = 0; k < p->n_blocks; k++)
+      if (!(p->speed_bound[k] >= 0)) return false;
+  }
+  return e->bound_scale > 0 && isfinite(e->bound_scale) && isfinite(e->bound_strain) && e->bound_width >= 0 &&
+         isfinite(e->bound_width);
+}
+
 gg_status gg_dsmc_ensemble_restore(gg_dsmc_ensemble *e, const gg_archive *archive, gg_error *err)
 {
   for (int i = 0; i < e->n_species; i++) {
@@ -285,5 +306,5 @@ gg_status gg_dsmc_ensemble_restore(gg_dsmc_ensemble *e, const gg_archive *archiv
   e->bound_scale = bounds[0];
   e->bound_strain = bounds[1];
   e->bound_width = bounds[2];
-  return GG_OK;
+  return is_ensemble(e) ? GG_OK : gg_fail(err, GG_BAD_FILE, "the checkpoint of dsmc is damaged: its velocities");
 }

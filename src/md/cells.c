@@ -71,6 +71,6 @@ void gg_md_cell_of(const gg_md_cells *c, gg_vec r, int32_t cell[3])
 {
   for (int a = 0; a < 3; a++) {
     int32_t k = (int32_t)(gg_along(&r, a) * c->inverse[a]);
-    cell[a] = k < c->n[a] ? k : c->n[a] - 1;
+    cell[a] = gg_md_within(k, c->n[a]);
   }
 }

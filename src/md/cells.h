@@ -32,6 +32,12 @@ void gg_md_cell_of(const gg_md_cells *cells, gg_vec r, int32_t cell[3]);
 /* Twice the room in every cell; false if there is no memory for it. */
 bool gg_md_cells_grow(gg_md_cells *cells);
 
+/* An index of n; the last one where rounding leads to n, or what is no number anywhere else. */
+GG_INLINE int32_t gg_md_within(int32_t k, int32_t n)
+{
+  return (uint32_t)k < (uint32_t)n ? k : n - 1;
+}
+
 GG_INLINE size_t gg_md_cell_index(const gg_md_cells *c, const int32_t at[3])
 {
   return ((size_t)at[2] * (size_t)c->n[1] + (size_t)at[1]) * (size_t)c->n[0] + (size_t)at[0];

@@ -2,7 +2,10 @@
  * its order never matters. */
 #include "md/checkpoint.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "md/verify.h"
 
 /* What stands beside the arrays, in one plain block. */
 typedef struct block {
@@ -47,10 +50,26 @@ static gg_status get(const gg_archive *a, const char *name, void *data, size_t b
   return gg_archive_get(a, name, GG_ITEM_U8, data, bytes, err);
 }
 
+static gg_status refuse(const char *what, gg_error *err)
+{
+  return gg_fail(err, GG_BAD_FILE, "the checkpoint of md is damaged: %s", what);
+}
+
+static gg_status get_block(const gg_md *e, const gg_archive *a, block *b, gg_error *err)
+{
+  GG_TRY(get(a, "md/state", b, sizeof *b, err));
+  if (!gg_md_is_way_of(&e->model, b->cells, b->skin_radius, b->overlapping, b->comoving))
+    return refuse("its cells are not those of this scene", err);
+  const bool good = gg_md_are_counts(&b->counts, b->cells) && fabs(b->offset0) <= 2 * e->box.edge[0] &&
+                    b->bucket_width > 1e-300 && b->bucket_width < 1e300 && b->current_bucket <= e->queue.n_buckets &&
+                    b->overlapping <= 1 && b->comoving <= 1;
+  return good ? GG_OK : refuse("its counts", err);
+}
+
 static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
 {
   block b;
-  GG_TRY(get(a, "md/state", &b, sizeof b, err));
+  GG_TRY(get_block(e, a, &b, err));
   GG_TRY(get(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
   GG_TRY(get(a, "md/events", e->node, e->n * sizeof *e->node, err));
   GG_TRY(get(a, "md/id", e->id, e->n * sizeof *e->id, err));
@@ -69,8 +88,10 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.skin_radius, err));
   GG_TRY(gg_md_note_surfaces(e, err));
   if (b.comoving) GG_TRY(gg_md_make_rows(e, err));
-  if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   gg_md_queue_reset(&e->queue, b.bucket_width);
+  const char *wrong = gg_md_wrong_grains(e);
+  if (wrong) return refuse(wrong, err);
+  if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   e->queue.current = b.current_bucket;
   for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
   gg_md_select(e);

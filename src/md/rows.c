@@ -124,5 +124,5 @@ int32_t gg_md_cell_in_row(const gg_md *e, int32_t y, double x)
 {
   double depth = gg_wrap(x - gg_md_row_begins(e, y), e->box.edge[0], e->box.inverse[0]);
   int32_t cell = (int32_t)(depth * e->cells.inverse[0]);
-  return cell < e->cells.n[0] ? cell : e->cells.n[0] - 1;
+  return gg_md_within(cell, e->cells.n[0]);
 }

@@ -80,6 +80,15 @@ static void *memory(void *self, size_t *bytes)
   return d->state;
 }
 
+/* Places are indices. */
+static bool is_memory(const void *self)
+{
+  const diffusion *d = self;
+  for (size_t i = 0; i < d->n; i++)
+    if (d->place[i] >= d->n) return false;
+  return true;
+}
+
 static void restart(void *self)
 {
   diffusion *d = self;
@@ -237,6 +246,7 @@ const gg_observable gg_diffusion = {
     .create = create,
     .destroy = destroy,
     .memory = memory,
+    .is_memory = is_memory,
     .refuses = refuses,
     .bins = bins,
     .every = 1,

@@ -40,6 +40,8 @@ typedef struct gg_observable {
   void (*destroy)(void *self);
   /* Plain bytes that one sample leaves for the next: what a checkpoint keeps. NULL if there are none. */
   void *(*memory)(void *self, size_t *bytes);
+  /* Can these bytes, read from a file, be its memory? Where it holds indices; NULL: all can. */
+  bool (*is_memory)(const void *self);
   /* Why this model cannot have it at all; NULL (also the function itself) if it can. */
   const char *(*refuses)(const gg_model *model);
 

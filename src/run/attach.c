@@ -80,6 +80,8 @@ gg_status gg_replica_restore_observables(gg_replica *r, const gg_archive *a, gg_
     char name[64];
     snprintf(name, sizeof name, "observable/%s", o->name);
     GG_TRY(gg_archive_get(a, name, GG_ITEM_U8, memory, bytes, err));
+    if (o->is_memory && !o->is_memory(r->self[k]))
+      return gg_fail(err, GG_BAD_FILE, "the checkpoint is damaged: what '%s' remembers", o->name);
   }
   return GG_OK;
 }

@@ -269,6 +269,17 @@ static void resume_frames(gg_replica *r)
   if (r->trajectory_every > 0 && r->clock.samples > 0) r->clock.next_frame = next_frame(r);
 }
 
+/* What was read may be anybody's: is it a clock that can go on? */
+static gg_status check_clock(const gg_replica *r, gg_error *err)
+{
+  const struct gg_replica_clock *c = &r->clock;
+  const double plain[] = {c->temperature, c->time, c->velocity_factor, c->gone, c->part_gone, c->cpu, c->window_cpu};
+  bool good = c->interval > 0 && c->interval < 1e300 && c->part >= 0 && c->part <= r->parts &&
+              llabs(c->power) < 100000 && !isnan(c->next_frame) && !isnan(c->frame_every);
+  for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
+  return good ? GG_OK : gg_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
+}
+
 gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
                              int index, gg_error *err)
 {
@@ -277,6 +288,7 @@ gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene 
   if (status == GG_OK) status = gg_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
   if (status == GG_OK) status = gg_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
+  if (status == GG_OK) status = check_clock(r, err);
   if (status == GG_OK) status = gg_replica_restore_observables(r, a, err);
   if (status == GG_OK) resume_frames(r);
   if (status != GG_OK) gg_replica_clear(r);

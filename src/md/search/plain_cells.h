@@ -175,7 +175,7 @@ GG_INLINE void gg_md_cross_sheared(gg_md *e, gg_md_grain *g, gg_md_node *node, i
   g->r.x = gg_wrap(g->r.x - side * gg_md_offset(&e->box, e->k.now), e->box.edge[0], e->box.inverse[0]);
   g->v.x -= side * e->box.image_velocity;
   int32_t x = (int32_t)(g->r.x * e->cells.inverse[0]);
-  node->cell[0] = x < e->cells.n[0] ? x : e->cells.n[0] - 1;
+  node->cell[0] = gg_md_within(x, e->cells.n[0]);
 }
 
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)

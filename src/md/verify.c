@@ -1,0 +1,146 @@
+#include "md/verify.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Boxes that a grain may lie or come from its own; far less than an index holds. */
+#define FAR 1000
+
+bool gg_md_is_way_of(const gg_model *m, const int32_t cells[3], double skin_radius, bool overlapping, bool comoving)
+{
+  double radius;
+  int32_t n[3];
+  const enum gg_md_search_way way = gg_md_choose_way(m, &radius, n);
+  const bool lists = way == GG_MD_NEIGHBOUR_LISTS, rows = m->shear_rate != 0 && !lists && way != GG_MD_PLAIN_CELLS;
+  if (lists != (skin_radius > 0) || overlapping != (way == GG_MD_OVERLAPPING_CELLS) || comoving != rows) return false;
+  return (!lists || skin_radius <= radius) && cells[0] == n[0] && cells[1] == n[1] && cells[2] == n[2];
+}
+
+static bool are_numbers(const double *x, size_t n)
+{
+  for (size_t i = 0; i < n; i++)
+    if (isnan(x[i])) return false;
+  return true;
+}
+
+bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3])
+{
+  const double finite[] = {k->now,   k->epoch_start, k->contact_time,     k->mean_free_time, k->window_time, k->scale,
+                           k->outer, k->kinetic,     k->fractional_shift, k->common_shift,   k->outer_time};
+  const double others[] = {k->worst_overlap, k->next_kick, k->kinetic0, k->mark, k->asked, k->stop, k->beyond_kick};
+  for (size_t i = 0; i < sizeof finite / sizeof *finite; i++)
+    if (!(fabs(finite[i]) < 1e300)) return false;
+  return are_numbers(others, sizeof others / sizeof *others) && k->row_shift >= 0 && k->row_shift < cells[0] &&
+         k->image_shift >= 0 && k->image_shift < cells[0] && k->keeps_sums <= 1 && abs(k->power) < 100000;
+}
+
+static bool is_in_box(const gg_md *e, gg_vec r, double boxes)
+{
+  for (int a = 0; a < 3; a++)
+    if (!(fabs(gg_along(&r, a)) <= boxes * e->box.edge[a])) return false;
+  return true;
+}
+
+/* Where the grain is at the time, as it flies now. */
+static gg_vec place_at(const gg_md *e, const gg_md_grain *g, double t)
+{
+  const double dt = t - g->t, half = 0.5 * dt * dt;
+  return (gg_vec){g->r.x + g->v.x * dt + e->gravity.x * half, g->r.y + g->v.y * dt + e->gravity.y * half,
+                  g->r.z + g->v.z * dt + e->gravity.z * half};
+}
+
+static bool is_grain(const gg_md *e, uint32_t i)
+{
+  const gg_md_grain *g = &e->grain[i];
+  return g->species < (uint32_t)e->model.n_species && is_in_box(e, g->r, FAR) && isfinite(g->v.x) && isfinite(g->v.y) &&
+         isfinite(g->v.z) && isfinite(g->t);
+}
+
+static bool is_partner(const gg_md *e, uint32_t i, uint32_t partner)
+{
+  if (GG_MD_NO_GRAIN(partner)) return partner == GG_MD_NONE || GG_MD_SURFACE_OF(partner) < e->model.n_surfaces;
+  return partner < e->n && partner != i;
+}
+
+/* Two grains that are about to collide have two centres. */
+static bool is_contact(const gg_md *e, uint32_t i, const gg_md_node *node)
+{
+  if (node->time != node->collision || !isfinite(node->time) || GG_MD_NO_GRAIN(node->partner)) return true;
+  const gg_md_grain *one = &e->grain[i], *other = &e->grain[node->partner];
+  gg_vec dr = gg_sub(place_at(e, one, node->time), place_at(e, other, node->time)), dv = {0, 0, 0};
+  if (!is_in_box(e, dr, 2 * FAR)) return false;
+  gg_md_nearest_image(&e->box, e->box.image_velocity != 0, node->time, &dr, &dv);
+  const double sigma = e->model.sigma[gg_pair((int)one->species, (int)other->species)];
+  return gg_dot(dr, dr) > 1e-6 * sigma * sigma;
+}
+
+static bool is_event(const gg_md *e, uint32_t i)
+{
+  const gg_md_node *n = &e->node[i];
+  for (int a = 0; a < 3; a++)
+    if (n->cell[a] < 0 || n->cell[a] >= e->cells.n[a]) return false;
+  const bool rows = e->overlapping && e->row;
+  if (rows && (n->upper < 0 || n->upper >= e->cells.n[0])) return false;
+  if (e->overlapping && n->neighbours > (rows ? 15u : 7u)) return false;
+  if (e->overlapping && rows && !(n->neighbours & 2) && n->neighbours & 8) return false;
+  if (n->face != GG_MD_IMAGES_MOVED && (n->face < 0 || n->face > 7)) return false;
+  if (isnan(n->time) || isnan(n->collision) || isnan(n->skin_time) || n->time < -0.5 * e->queue.width) return false;
+  if (!is_partner(e, i, n->partner)) return false;
+  return n->time == INFINITY || is_in_box(e, place_at(e, &e->grain[i], n->time), FAR);
+}
+
+/* As many of each species as the scene has, and every number once. */
+static bool are_all_there(const gg_md *e)
+{
+  int64_t of[GG_MAX_SPECIES] = {0};
+  uint8_t *seen = calloc(e->n, 1);
+  bool good = seen != NULL;
+  for (uint32_t i = 0; good && i < e->n; i++) {
+    of[e->grain[i].species]++;
+    good = e->id[i] < e->n && !seen[e->id[i]];
+    if (good) seen[e->id[i]] = 1;
+  }
+  for (int k = 0; good && k < e->model.n_species; k++) good = of[k] == e->model.n_of[k];
+  free(seen);
+  return good;
+}
+
+static bool is_listed(const gg_md *e, uint32_t i, uint32_t j)
+{
+  const uint32_t *list = e->neighbour + (size_t)i * GG_MD_LIST;
+  for (uint32_t k = 0; k < e->node[i].neighbours; k++)
+    if (list[k] == j) return true;
+  return false;
+}
+
+/* Each is in the lists of those in its own; beyond the end stands the grain at no place. */
+static bool are_lists(const gg_md *e)
+{
+  for (uint32_t i = 0; i < e->n; i++)
+    if (e->node[i].neighbours > GG_MD_LIST) return false;
+  for (uint32_t i = 0; i < e->n; i++) {
+    const uint32_t *list = e->neighbour + (size_t)i * GG_MD_LIST;
+    if (!is_in_box(e, e->skin[i].centre, 1 + 1e-9)) return false;
+    for (uint32_t k = 0; k < GG_MD_LIST; k++) {
+      const bool used = k < e->node[i].neighbours;
+      if (used ? list[k] >= e->n || list[k] == i || !is_listed(e, list[k], i) : list[k] != e->n) return false;
+      for (uint32_t l = 0; used && l < k; l++)
+        if (list[l] == list[k]) return false;
+    }
+  }
+  return true;
+}
+
+const char *gg_md_wrong_grains(const gg_md *e)
+{
+  for (uint32_t i = 0; i < e->n; i++) {
+    if (!is_grain(e, i)) return "a grain";
+    if (e->spin && !(isfinite(e->spin[i].x) && isfinite(e->spin[i].y) && isfinite(e->spin[i].z))) return "a spin";
+    if (e->last && isnan(e->last[i])) return "the time of a collision";
+  }
+  if (!are_all_there(e)) return "the grains' species or numbers";
+  if (e->skin && !are_lists(e)) return "a neighbour list";
+  for (uint32_t i = 0; i < e->n; i++)
+    if (!is_event(e, i) || !is_contact(e, i, &e->node[i])) return "an event";
+  return NULL;
+}

@@ -1,0 +1,18 @@
+/* A state that was read: is it one that the event loop can go on from? A checkpoint says what stands in every record,
+ * and somebody may have written it to lead the loop out of its arrays. What is looked at here is what the loop takes
+ * for granted: every index, every number that an index is made of, and that the events of a grain come before it has
+ * gone far. What a state means is not looked at. */
+#ifndef GG_MD_VERIFY_H
+#define GG_MD_VERIFY_H
+
+#include "md/state.h"
+
+/* How partners are looked for, as the model has it, and in how many cells. */
+bool gg_md_is_way_of(const gg_model *model, const int32_t cells[3], double skin_radius, bool overlapping,
+                     bool comoving);
+/* The counts, of a grid of so many cells. */
+bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3]);
+/* Grains, events, spins, numbers, lists; before they are put into cells and calendar. NULL, or what is wrong. */
+const char *gg_md_wrong_grains(const gg_md *e);
+
+#endif
