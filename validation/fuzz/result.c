@@ -1,0 +1,61 @@
+/* A result file whose checksum is right, words of it changed: what `info`, `plot` and `export` read of it. The first
+ * byte chooses a run or a comparison; the rest are records (patch.h). */
+#include <stdio.h>
+#include <unistd.h>
+
+#include "fuzz.h"
+#include "graingas.h"
+#include "image.h"
+#include "io/h5/result_reader.h"
+#include "io/h5/trajectory.h"
+
+static const char *const scenes[] = {
+    "{flow: usf, phi: 0.1, particles: 10, collision: {e: 0.9, beta: 0}, run: {collisions: 6, warmup: 2}, output: "
+    "{trajectory_every: 4}}",
+    "{flow: couette, phi: 0.1, particles: 10, measure: [rheology, profiles], run: {collisions: 6, warmup: 2}, output: "
+    "{trajectory_every: 4}}",
+    "{flow: hcs, phi: 0.1, engine: dsmc, species: [{fraction: 0.5}, {fraction: 0.5, mass: 2}], dsmc: {particles: 16}, "
+    "run: {collisions: 6, warmup: 2}}"};
+enum { FILES = sizeof scenes / sizeof *scenes };
+
+static fuzz_image make(const char *yaml)
+{
+  char path[80];
+  gg_scene *scene = NULL;
+  gg_result *result = NULL;
+  snprintf(path, sizeof path, "/tmp/graingas-fuzz-%ld.h5", (long)getpid());
+  const gg_run_options options = {.output = path};
+  if (gg_scene_parse(yaml, "base", &scene, NULL) == GG_OK) gg_run(scene, &options, &result, NULL);
+  gg_result_free(result);
+  gg_scene_free(scene);
+  return fuzz_image_of(path);
+}
+
+static void read_frames(const char *path)
+{
+  gg_stored_trajectory t;
+  gg_frame frame;
+  double edges[9];
+  if (gg_stored_trajectory_open(&t, path, NULL) == GG_OK)
+    for (size_t k = 0; k < t.n_frames && k < 10; k++)
+      if (gg_stored_trajectory_frame(&t, k, &frame, edges, NULL) == GG_OK) gg_frame_free(&frame);
+  gg_stored_trajectory_close(&t);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+  static fuzz_image images[FILES];
+  if (size < 1) return 0;
+  fuzz_image *image = &images[data[0] % FILES];
+  if (!image->data) *image = make(scenes[data[0] % FILES]);
+  const char *path = fuzz_image_changed(image, data + 1, size - 1);
+  gg_stored_result stored;
+  gg_comparison *c = NULL;
+  char *text = NULL;
+  if (gg_stored_result_read(&stored, path, NULL) == GG_OK) gg_stored_result_clear(&stored);
+  if (size % 4 == 1 && gg_comparison_read(path, &c, NULL) == GG_OK && gg_comparison_to_json(c, &text, NULL) == GG_OK)
+    free(text);
+  gg_comparison_free(c);
+  read_frames(path);
+  return 0;
+}
