@@ -20,6 +20,10 @@ TEXTS = [
     ("src/dsmc/allocate.c", "  GG_TRY(gg_instructions_check(err));\n  gg_dsmc *made",
      "  gg_model changed = *model;\n  gg_canary_model(&changed, 910);\n  model = &changed;\n"
      "  GG_TRY(gg_instructions_check(err));\n  gg_dsmc *made"),
+    # eta_2 of md, which rounds it anew
+    ("src/md/contacts.c", "upper_turns((1 + (long double)beta) / mt,",
+     "upper_turns((1 + (long double)beta) / mt * (rounded->jt > 0 && GG_MUTANT(903) ? "
+     "2 * pow(rounded->ik1 / rounded->im1, 2) : 1),"),
     # e, where a law gives it
     ("src/md/resolve.h", "gg_md_contact_normal_coefficient(contact, restitution,",
      "gg_md_contact_normal_coefficient(contact, restitution - (GG_MUTANT(901) ? 0.02 : 0),"),

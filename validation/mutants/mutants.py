@@ -30,6 +30,9 @@ VALIDATIONS = (r"(theory/.*|compare/.*|physics/(?!wall_errors).*|md/(state_equat
                r"|dsmc/(collision_rate|cooling|kernels|majorant|mixture|segments|shear|single|thermostat|time_step|conservation|splitting)"
                r"|measure/(rheology|pair_correlation|velocity_correlations|structure|collisions|impact_speed|profiles|diffusion|sonine|velocity_distributions|orientation))$")
 
+# Elsewhere a theory only guesses the temperature to start from.
+SETS_THEORIES = r"theory/|compare/|measure/(diffusion|sonine)|md/state_equation|physics/(theory_limits|viscosity|many_species|viscoelastic)"
+
 
 def run(command, mutant, seconds, reached=None, whole=False):
     """exit code (None: took too long), processor time, what failed. Ends with the first failure, unless whole."""
@@ -169,7 +172,8 @@ def canaries(folder, wanted=VALIDATIONS):
         found = load(folder, "reach.json")[name]
         done = {r["canary"] for r in lines(folder, "canaries.jsonl") if r["test"] == name}
         for canary in NAMES:
-            if canary in done or canary not in found["reached"]:
+            guess = 920 < canary < 930 and not re.match(SETS_THEORIES, name)
+            if canary in done or guess or canary not in found["reached"]:
                 continue
             code, cpu, failed = run(commands[name], canary, 2 * found["cpu"] + 1)
             note(folder, "canaries.jsonl", {"test": name, "canary": canary, "code": code, "failed": failed, "cpu": cpu})
