@@ -179,13 +179,35 @@ static void images(void **state)
   }
 }
 
+/* Ridges of a tenth of a diameter at least; and between those of both walls two diameters are left free. */
+static void room(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  gg_model m;
+  gg_error err;
+  s.flow = GG_CHUTE, s.phi = 0.2, s.particles = 200;
+  const double least[] = {0.0999, 0.1};
+  for (int k = 0; k < 2; k++) {
+    s.walls.ridges = least[k];
+    assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), k ? GG_OK : GG_BAD_INPUT);
+  }
+  const double length = m.box[0], gap = m.box[1];
+  int refused = 0;
+  for (s.walls.ridges = 0.5; s.walls.ridges < length; s.walls.ridges += 0.05) {
+    double height = 0.5 * length / round(length / s.walls.ridges);
+    bool fits = gap - 2 * height >= 2;
+    assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), fits ? GG_OK : GG_BAD_INPUT);
+    refused += !fits;
+  }
+  assert_true(refused > 5);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(contacts),
-      cmocka_unit_test(normals),
-      cmocka_unit_test(leaving),
-      cmocka_unit_test(images),
+      cmocka_unit_test(contacts), cmocka_unit_test(normals), cmocka_unit_test(leaving),
+      cmocka_unit_test(images),   cmocka_unit_test(room),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,6 +87,17 @@ static void collision_rates_of_mixtures(void **state)
   for (int i = 0; i < 2; i++) assert_close(gg_mean_free_path(&m, i, same), 1 / (6 * sqrt(2) * 0.2 * chi), 1e-12);
 }
 
+/* Elastic equimolar mixture, masses 1 and 0.1, n = sqrt(2)/3: Enskog's viscosity 0.29379 at T = 1 (Erpenbeck 1989); in
+ * this order 0.8 % below. */
+static void viscosity_of_a_mixture(void **state)
+{
+  (void)state;
+  gg_model m = mixture_for(GG_EQUILIBRIUM, M_PI / 6 * sqrt(2) / 3, 1, -1, 10, 1, 1);
+  m.temperature0 = 1;
+  double unit = m.density / (sqrt(M_PI) * m.density * sqrt(2 * 11)); /* n T/nu_0 */
+  assert_close(value_of(&gg_enskog, &m, GG_Q_VISCOSITY_REDUCED) * unit, 0.29379, 0.01);
+}
+
 /* Haff's law solves dT/dt = -zeta_0 sqrt(T/T_0) T with collisions dN/dt = nu_0 sqrt(T/T_0), by small steps. */
 static void haff_law(void **state)
 {
@@ -142,6 +153,7 @@ int main(void)
       cmocka_unit_test(virial_coefficients),
       cmocka_unit_test(mixture_equation_of_state),
       cmocka_unit_test(collision_rates_of_mixtures),
+      cmocka_unit_test(viscosity_of_a_mixture),
       cmocka_unit_test(haff_law),
       cmocka_unit_test(critical_size),
       cmocka_unit_test(critical_size_of_rough_grains),

@@ -102,6 +102,8 @@ static void theory_answers(void **state)
   double tr = 5. / 12 * (1 - 0.81 + K / (1 + K) + K / pow(1 + K, 2) * (1 - lambda)) * chi;
   assert_close(a.value[GG_Q_COOLING_RATE], tr, 1e-12);
   assert_close(a.value[GG_Q_TEMPERATURE], 0.5, 0);
+  assert_close(a.value[GG_Q_COMPRESSIBILITY], 1 + 2 * 1.9 * 0.2 * chi, 1e-14);
+  assert_close(a.value[GG_Q_PRESSURE], m.stress_unit * m.density * 0.5 * a.value[GG_Q_COMPRESSIBILITY], 1e-14);
   m = model_for(GG_USF, 0.2, 0.9, 0);
   assert_close(value_of(&gg_huthmann_zippelius1997, &m, GG_Q_TEMPERATURE_RATIO), 2. / 9, 1e-10);
   m = model_for(GG_HCS, 0.2, 0.9, -1);

@@ -112,7 +112,7 @@ def build(folder):
 def reach(folder, wanted=TESTS):
     """Tests are those of the tree as it is; one that fails without any mutant would be of no use."""
     found = load(folder, "reach.json", {})
-    for name, command in sorted(tree.targets(os.path.join(folder, "build"), TESTS).items()):
+    for name, command in sorted(tree.targets(os.path.join(folder, "build"), f"{TESTS}|compare/").items()):
         if name in found or not re.match(wanted, name):
             continue
         told = os.path.join(folder, f"told{os.getpid()}")
