@@ -1,6 +1,9 @@
 /* Heated gases: what the thermostats keep, and the viscosities that the literature measures with them. */
 #include "lab.h"
 
+#include "dsmc/dsmc.h"
+#include "dsmc/thermostat.h"
+
 static gg_model heated(gg_flow flow, gg_thermostat thermostat, double phi, double e, double beta, int64_t n)
 {
   gg_scene s = lab_scene(flow, phi, e, beta, n);
@@ -142,10 +145,45 @@ static void stays_put(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
+/* Grains at rest, kicked: each component of C is normal, of the variance asked for, and independent of the others,
+ * however far the ensemble has been strained; up to the fourth moments. */
+static void kicks(void **state)
+{
+  (void)state;
+  enum { GRAINS = 50000, ROUNDS = 10 };
+  gg_model m = heated(GG_HSS, GG_WHITE_NOISE, 0, 0.5, -1, GRAINS);
+  gg_engine *g = lab_engine(&m, 9);
+  gg_dsmc *d = (gg_dsmc *)g;
+  gg_dsmc_population *p = &d->ensemble.of[0];
+  const double strain = 0.7, variance = 2, n = (double)GRAINS * ROUNDS;
+  double second[3][3] = {{0}}, fourth[3] = {0};
+  for (int k = 0; k < ROUNDS; k++) {
+    for (uint32_t i = 0; i < GRAINS; i++) gg_dsmc_block_set(p, p->c, i, (gg_vec){0, 0, 0});
+    gg_dsmc_thermostat_kick(&d->ensemble, strain, variance, d->schedule ? d->schedule->lanes : &d->now.lanes);
+    for (uint32_t i = 0; i < GRAINS; i++) {
+      gg_vec v = gg_dsmc_block_get(p, p->c, i);
+      const double c[3] = {v.x - strain * v.y, v.y, v.z};
+      for (int a = 0; a < 3; a++) {
+        fourth[a] += pow(c[a], 4) / (variance * variance * n);
+        for (int b = 0; b < 3; b++) second[a][b] += c[a] * c[b] / (variance * n);
+      }
+    }
+  }
+  for (int a = 0; a < 3; a++) {
+    assert_true(fabs(fourth[a] - 3) < 4 * sqrt(96 / n));
+    for (int b = 0; b < 3; b++) assert_true(fabs(second[a][b] - (a == b)) < 4 * sqrt((a == b ? 2 : 1) / n));
+  }
+  gg_dsmc_ops.destroy(g);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian),         cmocka_unit_test(white_noise),
-                                     cmocka_unit_test(heated_viscosity), cmocka_unit_test(cooling_viscosity),
-                                     cmocka_unit_test(rough_viscosity),  cmocka_unit_test(stays_put)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian),
+                                     cmocka_unit_test(white_noise),
+                                     cmocka_unit_test(heated_viscosity),
+                                     cmocka_unit_test(cooling_viscosity),
+                                     cmocka_unit_test(rough_viscosity),
+                                     cmocka_unit_test(stays_put),
+                                     cmocka_unit_test(kicks)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,6 +55,34 @@ static void modes(void **state)
   gg_snapshot_clear(&s);
 }
 
+/* Stripes across x of wave number 2 pi/L_x, wherever the image above stands: they are in the first mode along x alone.
+ */
+static void stripes(gg_snapshot *s, gg_rng *r, int sample)
+{
+  thrown(s, r, sample);
+  const double edge = s->model->box[0];
+  for (size_t i = 0; i < s->n; i++)
+    while (2 * gg_rng_uniform(r) > 1 + cos(4 * M_PI * s->r[0][i] / edge)) s->r[0][i] = edge * gg_rng_uniform(r);
+}
+
+static void striped(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
+  gg_curves list = ct_curves(&gg_structure, &m, 64, stripes, 74);
+  double found[3], error[3];
+  for (int a = 0; a < 3; a++) {
+    char name[] = "structure_factor_x";
+    name[sizeof name - 2] = "xyz"[a];
+    const gg_curve *c = ct_find(&list, name);
+    found[a] = c->value[1], error[a] = c->error[1];
+  }
+  ct_expect("stripes along x", found[0], error[0], 1 + 0.7737 * 499 / 4, 20);
+  ct_expect("along y", found[1], error[1], 1, 1);
+  ct_expect("along z", found[2], error[2], 1, 1);
+  gg_curves_clear(&list);
+}
+
 static double level(double x, const void *context)
 {
   (void)x;
@@ -162,6 +190,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(modes),
+      cmocka_unit_test(striped),
       cmocka_unit_test(ideal_gas),
       cmocka_unit_test(hard_spheres),
   };

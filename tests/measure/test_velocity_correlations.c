@@ -203,6 +203,22 @@ static void equilibrium(void **state)
   gg_result_free(r);
 }
 
+/* What momentum conservation leaves in a mixture: the mean of <C_i C_j> = -T/M over all pairs, over that of <C_i^2> =
+ * T (1/m_i - 1/M), by a plain sum over the grains. */
+static void level_of_a_mixture(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_EQUILIBRIUM, 0.2, 1, 500, 2);
+  gg_curves list = ct_curves(&gg_velocity_correlations, &m, 20, wave, 5);
+  double mass = 0, square = 0;
+  for (int64_t i = 0; i < m.n; i++) mass += m.mass[i >= m.n_of[0]];
+  for (int64_t i = 0; i < m.n; i++) square += (1 / m.mass[i >= m.n_of[0]] - 1 / mass) / (double)m.n;
+  const gg_curve *c = ct_find(&list, "velocity_correlation_Cx");
+  if (!(fabs(c->reference[0] / (-1 / mass / square) - 1) < 1e-12))
+    fail_msg("%g, not %g", c->reference[0], -1 / mass / square);
+  gg_curves_clear(&list);
+}
+
 /* Inelastic shear: neighbours move together. */
 static void sheared(void **state)
 {
@@ -222,8 +238,8 @@ static void sheared(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_wave), cmocka_unit_test(sampled_pairs), cmocka_unit_test(sampled_pairs_about_cells),
-      cmocka_unit_test(equilibrium),  cmocka_unit_test(sheared),
+      cmocka_unit_test(planted_wave), cmocka_unit_test(sampled_pairs),      cmocka_unit_test(sampled_pairs_about_cells),
+      cmocka_unit_test(equilibrium),  cmocka_unit_test(level_of_a_mixture), cmocka_unit_test(sheared),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

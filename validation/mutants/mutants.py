@@ -4,8 +4,9 @@
   mutants.py FOLDER plant [SEED]   choose the mutants (from a build in ./build) and list them in FOLDER/mutants.json
   mutants.py FOLDER build          one build that holds them all
   mutants.py FOLDER reach [TESTS]  which test reaches which mutant, and how long each takes without any
-  mutants.py FOLDER try [SECONDS]  each mutant against the tests that reach it, quickest first, until one fails; only
-                                   tests that take at most so long (then `try` again, for those that are left)
+  mutants.py FOLDER try [SECONDS [ROOM]]  each mutant against the tests that reach it, quickest first, until one fails;
+                                   only tests of its room, of at most so long, and the quickest of the others (then
+                                   `try` again, for those that are left, against all)
   mutants.py FOLDER canaries [TESTS]  every validation against every canary (canaries.py)
   mutants.py FOLDER tables         the tables of docs/reliability.md, and validation/mutants/survivors.md's rows
 
@@ -29,6 +30,7 @@ TESTS = r"(common|scene|theory|md|dsmc|statistics|measure|run|physics|door)/(?!t
 VALIDATIONS = (r"(theory/.*|compare/.*|physics/(?!wall_errors).*|md/(state_equation|flows|conservation|contact_time)|common/(collision|model|restitution)"
                r"|dsmc/(collision_rate|cooling|kernels|majorant|mixture|segments|shear|single|thermostat|time_step|conservation|splitting)"
                r"|measure/(rheology|pair_correlation|velocity_correlations|structure|collisions|impact_speed|profiles|diffusion|sonine|velocity_distributions|orientation))$")
+ALL = 1e9  # seconds
 
 # Elsewhere a theory only guesses the temperature to start from.
 SETS_THEORIES = r"theory/|compare/|measure/(diffusion|sonine)|md/state_equation|physics/(theory_limits|viscosity|many_species|viscoelastic)"
@@ -132,7 +134,8 @@ def attempt(m, found, commands, most, before):
     """The tests that reach it and were not tried before, quickest first (those of its room earlier), until one fails;
     None: there is no such test."""
     at_home = m["room"].split("/")[0] + "/"
-    left = [n for n, t in found.items() if m["id"] in t["reached"] and t["code"] == 0 and t["cpu"] <= most]
+    left = [n for n, t in found.items() if m["id"] in t["reached"] and t["code"] == 0 and t["cpu"] <= most
+            and (n.startswith(at_home) or t["cpu"] <= 0.6 or most == ALL)]
     row = {"id": m["id"], "tried": list(before), "killer": None}
     for name in sorted(set(left) - set(before), key=lambda n: found[n]["cpu"] * (1 if n.startswith(at_home) else 3)):
         code, cpu, failed = run(commands[name], m["id"], 2 * found[name]["cpu"] + 1)
@@ -144,8 +147,8 @@ def attempt(m, found, commands, most, before):
     return row if len(row["tried"]) > len(before) else None
 
 
-def try_all(folder, most="1e9", *only):
-    """`only`: numbers of mutants that are tried anew."""
+def try_all(folder, most=ALL, *only):
+    """`only`: numbers of mutants that are tried anew, or the rooms (a pattern)."""
     found = load(folder, "reach.json")
     commands = tree.targets(os.path.join(folder, "build"), TESTS)
     done = {r["id"]: r for r in lines(folder, "results.jsonl")}
@@ -153,7 +156,8 @@ def try_all(folder, most="1e9", *only):
     for m in load(folder, "mutants.json"):
         anew, last = str(m["id"]) in only, done.get(m["id"])
         known = explained.get((m["file"], " ".join(m["old"].split()), m["what"]), [""])[0]
-        if m["id"] in without or known == "equivalent" or (only and not anew) or (last and last["killer"] and not anew):
+        elsewhere = only and not anew and not any(re.match(o, m["room"]) for o in only)
+        if m["id"] in without or known == "equivalent" or elsewhere or (last and last["killer"] and not anew):
             continue
         begin = time.time()
         row = attempt(m, found, commands, float(most), last["tried"] if last and not anew else [])
