@@ -62,6 +62,35 @@ static void elastic(void **state)
   lab_expect("T_1/T_2, elastic", &r.gamma, 1, 0, 0.01);
 }
 
+/* Unlike sizes and masses, elastic: p = n T [1 + (2 pi/3) n sum_ij x_i x_j sigma_ij^3 chi_ij], of which each pair of
+ * species has its own share. */
+static void pressure(void **state)
+{
+  (void)state;
+  gg_scene s =
+      mixture(GG_EQUILIBRIUM, 0.3, 1, -1, (gg_species){0.4, 1, 1, 0.4}, (gg_species){0.6, 0.5, 0.2, 0.4}, 20000);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 8);
+  lab_mean share[GG_PAIRS] = {0};
+  gg_collision_sums t;
+  lab_advance(g, INFINITY, 10 * (uint64_t)m.n);
+  gg_dsmc_ops.keep_sums(g, true);
+  for (int b = 0; b < 20; b++) {
+    gg_dsmc_ops.take_sums(g, &t);
+    double time = lab_advance(g, INFINITY, 5 * (uint64_t)m.n);
+    gg_dsmc_ops.take_sums(g, &t);
+    for (int q = 0; q < 3; q++)
+      lab_add(&share[q], (t.stress[q][0][0] + t.stress[q][1][1] + t.stress[q][2][2]) /
+                             (3 * m.volume * time * m.density * m.temperature0));
+  }
+  for (int q = 0; q < 3; q++) {
+    double one = (double)m.n_of[q == 2] / (double)m.n, two = (double)m.n_of[q > 0] / (double)m.n;
+    double expected = 2 * M_PI / 3 * m.density * (q == 1 ? 2 : 1) * one * two * pow(m.sigma[q], 3) * m.chi[q];
+    lab_expect(q == 0 ? "p_11" : q == 1 ? "p_12" : "p_22", &share[q], expected, 0, 0.01);
+  }
+  gg_dsmc_ops.destroy(g);
+}
+
 /* Two names for one kind of grains change nothing: rough grains in dense shear, as one species and as two. */
 static void relabelling(void **state)
 {
@@ -147,7 +176,8 @@ static void viscosity(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(relabelling),
-                                     cmocka_unit_test(cooling), cmocka_unit_test(viscosity)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(pressure),
+                                     cmocka_unit_test(relabelling), cmocka_unit_test(cooling),
+                                     cmocka_unit_test(viscosity)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,6 +83,30 @@ static void striped(void **state)
   gg_curves_clear(&list);
 }
 
+/* A wave of velocity along (1, 1, 0), in that direction: all of it is longitudinal. One of the nine modes of its bin.
+ */
+static void sound(gg_snapshot *s, gg_rng *r, int sample)
+{
+  thrown(s, r, sample);
+  s->offset = 0;
+  for (size_t i = 0; i < s->n; i++) {
+    double wave = 2 * cos(2 * M_PI * (s->r[0][i] / s->model->box[0] + s->r[1][i] / s->model->box[1]));
+    s->c[0][i] = gg_rng_normal(r) + wave, s->c[1][i] += wave;
+  }
+}
+
+static void longitudinal(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
+  gg_curves list = ct_curves(&gg_structure, &m, 64, sound, 75);
+  const double along = ct_find(&list, "velocity_spectrum_longitudinal")->value[0],
+               across = ct_find(&list, "velocity_spectrum_transverse")->value[0], scale = 7. / 3;
+  print_message("# longitudinal %.2f, transverse %.2f\n", along, across);
+  assert_true(fabs(along / ((500 * 2 / scale + 9 / scale) / 9) - 1) < 0.1 && across < 2);
+  gg_curves_clear(&list);
+}
+
 static double level(double x, const void *context)
 {
   (void)x;
@@ -189,10 +213,8 @@ static void hard_spheres(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(modes),
-      cmocka_unit_test(striped),
-      cmocka_unit_test(ideal_gas),
-      cmocka_unit_test(hard_spheres),
+      cmocka_unit_test(modes),     cmocka_unit_test(striped),      cmocka_unit_test(longitudinal),
+      cmocka_unit_test(ideal_gas), cmocka_unit_test(hard_spheres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
