@@ -33,7 +33,7 @@ def fates(folder):
     mutants = load(os.path.join(folder, "mutants.json"), [])
     results = {r["id"]: r for r in rows_of(folder, "results.jsonl")}  # the last word counts
     without = set(load(os.path.join(folder, "not_compiled.json"), []))
-    why = explained()
+    why, reach = explained(), load(os.path.join(folder, "reach.json"), {})
     for m in mutants:
         r = results.get(m["id"])
         m["why"] = ""
@@ -43,11 +43,12 @@ def fates(folder):
             m["fate"], m["killer"] = "killed", r["killer"]
             m["test"] = ", ".join(r.get("failed") or [r["how"]])
         else:
-            m["fate"], m["why"] = why.get((m["file"], " ".join(m["old"].split()), m["what"]), ("survived", "NOT YET EXPLAINED"))
-            if not r:
-                m["why"] = "NOT YET TRIED"
-            elif not r["tried"] and "NOT YET" in m["why"]:
-                m["why"] = "NO TEST REACHES IT"
+            m["fate"], m["why"] = why.get((m["file"], " ".join(m["old"].split()), m["what"]), ("survived", ""))
+            tried = set(r["tried"]) if r else set()
+            left = [n for n, t in reach.items() if m["id"] in t["reached"] and n not in tried]
+            if not m["why"]:
+                m["why"] = f"passed {len(tried)} tests that reach it; no explanation yet"
+                m["why"] += "; not tried: " + ", ".join(left[:4]) + (" and more" if left[4:] else "") if left else ""
     return mutants
 
 
@@ -90,7 +91,7 @@ def canaries_page(folder):
             code = found.get((test, c), "")
             word = "" if code == "" else "passes" if code == 0 else "fails"
             if word == "passes":
-                why = judged.get(f"{test} {c}") or judged.get(f"{test} *") or "SHOULD IT?"
+                why = judged.get(f"{test} {NAMES[c]}") or judged.get(f"{test} *") or "SHOULD IT?"
                 notes.append((test, NAMES[c], why))
                 word = "passes"
             count[word] += 1
