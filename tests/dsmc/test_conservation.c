@@ -68,18 +68,21 @@ static void momentum_stays_at_rounding(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* Over any interval the energy lost to collisions, as the collision sums have it, is what is missing. */
+/* Over any interval the energy lost to collisions, as the collision sums have it, is what is missing: pair by pair, in
+ * blocks, and in segments. */
 static void sums_account_for_the_loss(void **state)
 {
   (void)state;
-  for (int rough = 0; rough < 2; rough++) {
-    gg_scene s = lab_scene(GG_HCS, 0.2, 0.7, rough ? 0.3 : -1, 500);
+  const int64_t sizes[] = {500, 5000, 70000};
+  for (int k = 0; k < 6; k++) {
+    const bool rough = k % 2;
+    gg_scene s = lab_scene(GG_HCS, 0.2, 0.7, rough ? 0.3 : -1, sizes[k / 2]);
     if (rough) s.collision.mu[0] = 0.4;
     gg_model m = lab_model(&s);
     gg_engine *g = lab_engine(&m, 7);
     gg_dsmc_ops.keep_sums(g, true);
     double before = energy(g, &m);
-    lab_advance(g, INFINITY, 5000);
+    lab_advance(g, INFINITY, 10 * (uint64_t)m.n);
     gg_collision_sums t;
     gg_dsmc_ops.take_sums(g, &t);
     assert_true(fabs(before - energy(g, &m) - 2 * t.loss[GG_11]) < 1e-12 * before);
