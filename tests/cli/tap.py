@@ -29,6 +29,9 @@ def run(*args, scene=None, name="scene.yaml", limit=None, timeout=100, columns=N
             f.write(scene if isinstance(scene, bytes) else scene.encode())
     before = set(os.listdir("."))
 
+    if SANITIZERS != "none":
+        timeout *= 20
+
     def limited():
         import resource
 
