@@ -89,7 +89,7 @@ def canaries_page(folder):
         line = []
         for c in NAMES:
             code = found.get((test, c), "")
-            word = "" if code == "" else "passes" if code == 0 else "fails"
+            word = "" if code == "" else "too long" if code is None else "passes" if code == 0 else "fails"
             if word == "passes":
                 why = judged.get(f"{test} {NAMES[c]}") or judged.get(f"{test} *") or "SHOULD IT?"
                 notes.append((test, NAMES[c], why))
@@ -99,7 +99,8 @@ def canaries_page(folder):
         lines.append((test, line))
     with open(os.path.join(HERE, "canaries.md"), "w") as f:
         f.write("# Validations and canaries\n\nMade by `validation/mutants/mutants.py FOLDER tables`. An empty cell: the "
-                "validation does not go through what the canary changes, or the change is none there.\n\n| | " +
+                "validation does not go through what the canary changes, or the change is none there; too long: ended at more than about twice "
+                "its processor time.\n\n| | " +
                 " | ".join(NAMES.values()) + " |\n" + "| --- " * (len(NAMES) + 1) + "|\n")
         for test, line in lines:
             f.write(f"| {test} | " + " | ".join(line) + " |\n")
