@@ -1,11 +1,13 @@
 #include "measure/mesh.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "statistics/planner.h"
 
-enum { LEAST_MESH = 16, MOST_MESH = 96 };
+enum { LEAST_MESH = 16, MOST_MESH = 96, RESERVE = 1 << 22 };
 #define MESH_SPACING 0.25
 
 int gg_mesh_points_along(const gg_model *m)
@@ -20,13 +22,18 @@ gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err)
   *m = (gg_mesh){.n = n};
   m->field = fftw_alloc_real(plane * (size_t)n);
   m->modes = fftw_alloc_complex(plane * (size_t)(n / 2 + 1));
-  if (m->field && m->modes) {
+  /* FFTW ends the program where its planner gets no memory: there has to be some. */
+  void *reserve = malloc(RESERVE);
+  free(reserve);
+  if (m->field && m->modes && reserve) {
     gg_planner_lock();
     m->plan = fftw_plan_dft_r2c_3d(n, n, n, m->field, m->modes, FFTW_ESTIMATE);
     gg_planner_unlock();
   }
   if (m->plan) return GG_OK;
+  bool lacked = !m->field || !m->modes || !reserve;
   gg_mesh_clear(m);
+  if (lacked) return gg_fail(err, GG_FAILED, "out of memory for a mesh of %d^3", n);
   return gg_fail(err, GG_FAILED, "no Fourier transform on a mesh of %d^3 could be planned", n);
 }
 

@@ -1,56 +1,38 @@
 #include "statistics/autocorrelation.h"
 
-#include <fftw3.h>
+#include <gsl/gsl_fft_halfcomplex.h>
+#include <gsl/gsl_fft_real.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "statistics/planner.h"
-
+/* Transforms of powers of two in place, GSL's: nothing is planned, allocated or shared, as FFTW would (which ends the
+ * program where its planner gets no memory). Half-complex: the real parts from the front, the imaginary ones from the
+ * back. */
 typedef struct transform {
   size_t length; /* of the padded series: at least 2 n, so that nothing wraps around */
-  double *real;
-  fftw_complex *spectrum;
-  fftw_plan forward, backward;
+  double *data;
 } transform;
-
-static void transform_free(transform *f)
-{
-  gg_planner_lock();
-  if (f->forward) fftw_destroy_plan(f->forward);
-  if (f->backward) fftw_destroy_plan(f->backward);
-  gg_planner_unlock();
-  fftw_free(f->real);
-  fftw_free(f->spectrum);
-}
 
 static gg_status transform_make(transform *f, size_t n, gg_error *err)
 {
   size_t length = 2;
   while (length < 2 * n) length *= 2;
-  *f = (transform){.length = length};
-  f->real = fftw_alloc_real(length);
-  f->spectrum = fftw_alloc_complex(length / 2 + 1);
-  if (f->real && f->spectrum) {
-    gg_planner_lock();
-    f->forward = fftw_plan_dft_r2c_1d((int)length, f->real, f->spectrum, FFTW_ESTIMATE);
-    f->backward = fftw_plan_dft_c2r_1d((int)length, f->spectrum, f->real, FFTW_ESTIMATE);
-    gg_planner_unlock();
-  }
-  if (f->forward && f->backward) return GG_OK;
-  transform_free(f);
-  return gg_fail(err, GG_FAILED, "no Fourier transform of %zu points could be planned", length);
+  *f = (transform){.length = length, .data = gg_new_array(length, sizeof(double), err)};
+  return f->data ? GG_OK : GG_FAILED;
 }
 
 /* Leave sum over runs of |X(k)|^2 in `power`. */
 static void add_power(transform *f, const double *x, size_t n, double *power)
 {
-  memcpy(f->real, x, n * sizeof *x);
-  memset(f->real + n, 0, (f->length - n) * sizeof *x);
-  fftw_execute(f->forward);
-  for (size_t k = 0; k <= f->length / 2; k++)
-    power[k] += f->spectrum[k][0] * f->spectrum[k][0] + f->spectrum[k][1] * f->spectrum[k][1];
+  double *X = f->data;
+  memcpy(X, x, n * sizeof *x);
+  memset(X + n, 0, (f->length - n) * sizeof *x);
+  gsl_fft_real_radix2_transform(X, 1, f->length);
+  power[0] += X[0] * X[0];
+  power[f->length / 2] += X[f->length / 2] * X[f->length / 2];
+  for (size_t k = 1; k < f->length / 2; k++) power[k] += X[k] * X[k] + X[f->length - k] * X[f->length - k];
 }
 
 /* Five would do for a single exponential; where something fast is on top of something slow, 5 tau end too soon: of a
@@ -88,14 +70,15 @@ static gg_status correlate(transform *f, const double *x, size_t n, size_t n_run
   double *power = gg_new_array(f->length / 2 + 1, sizeof *power, err);
   if (!power) return GG_FAILED;
   for (size_t r = 0; r < n_runs; r++) add_power(f, x + r * n, n, power);
-  for (size_t k = 0; k <= f->length / 2; k++) f->spectrum[k][0] = power[k], f->spectrum[k][1] = 0;
+  memset(f->data, 0, f->length * sizeof *f->data);
+  memcpy(f->data, power, (f->length / 2 + 1) * sizeof *power);
   free(power);
-  fftw_execute(f->backward);
-  for (size_t t = 0; t < n; t++) f->real[t] /= (double)(n - t); /* pairs at a lag t */
-  double shift = 0;
+  gsl_fft_halfcomplex_radix2_backward(f->data, 1, f->length);
+  double *covariance = f->data, shift = 0;
+  for (size_t t = 0; t < n; t++) covariance[t] /= (double)(n - t); /* pairs at a lag t */
   for (int round = 0; round < ROUNDS; round++) {
-    sum_to_window(f->real, n, shift, c);
-    shift = 2 * c->time * (f->real[0] + shift) / (double)(n * n_runs);
+    sum_to_window(covariance, n, shift, c);
+    shift = 2 * c->time * (covariance[0] + shift) / (double)(n * n_runs);
   }
   return GG_OK;
 }
@@ -111,7 +94,7 @@ gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, gg_correla
   gg_status status = transform_make(&f, n, err);
   if (status == GG_OK) {
     status = correlate(&f, x, n, n_runs, c, err);
-    transform_free(&f);
+    free(f.data);
   }
   if (status != GG_OK) gg_correlation_clear(c);
   return status;
