@@ -39,7 +39,7 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
   gg_model model;
   s.measure = measure;
   GG_TRY(gg_model_make(&s, s.engine, &model, err));
-  gg_start_near_steady(&model);
+  GG_TRY(gg_start_near_steady(&model, err));
   GG_TRY(gg_replica_create(&c->replica, &s, &model, 0, err));
   GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
   return gg_replica_open_window(&c->replica, err);

@@ -99,7 +99,7 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   GG_TRY(gg_model_make(scene, scene->engine, &model, err));
   const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
   GG_TRY(ops->accepts(&model, err));
-  gg_start_near_steady(&model);
+  GG_TRY(gg_start_near_steady(&model, err));
   GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
   r->by_the_clock = c->by_the_clock;
   if (c->threads > 1 && ops->threads) ops->threads(r->engine, c->threads);

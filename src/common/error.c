@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
+
 gg_status gg_fail(gg_error *err, gg_status status, const char *format, ...)
 {
+  if (strstr(format, "out of memory")) gg_memory_lacked(); /* whoever makes do without it is not the last to know */
   if (err) {
     va_list args;
     va_start(args, format);

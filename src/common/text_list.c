@@ -4,10 +4,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "common/memory_note.h"
+
 void gg_text_list_take(gg_text_list *list, char *text)
 {
   char **more = text ? realloc(list->text, (list->n + 1) * sizeof *more) : NULL;
   if (!more) {
+    gg_memory_lacked();
     free(text);
     return;
   }

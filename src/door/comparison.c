@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/extension.h"
+#include "common/memory_note.h"
 #include "door/run.h"
 #include "io/scene/inert.h"
 #include "run/agreement.h"
@@ -33,6 +34,7 @@ gg_status gg_door_compare_by(gg_door_point *point, const gg_scene *scene, const 
   gg_crew *crew = point ? point->crew : NULL;
   gg_comparison *c = new_comparison(err);
   if (!c) return GG_FAILED;
+  bool before = gg_memory_begin();
   gg_door_run run;
   gg_hooks hooks;
   gg_error why = {0};
@@ -44,7 +46,9 @@ gg_status gg_door_compare_by(gg_door_point *point, const gg_scene *scene, const 
     status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);
   gg_text_list_move(&run.warnings, &c->warnings);
   gg_text_list_move(&c->warnings, &run.warnings);
-  bool some = status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC];
+  bool lacked = gg_memory_end(before) && status == GG_OK; /* a warning, or worse */
+  if (lacked) status = gg_fail(err, GG_FAILED, "out of memory");
+  bool some = !lacked && (status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC]);
   if (some && run.options.output && (status == GG_OK || status == GG_FAILED)) {
     gg_crew_pause(crew);
     written = gg_result_file_finish_comparison(&run.file, c, &why);
@@ -81,8 +85,10 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   c->scene = finished;
   gg_extension_hold(c->scene.extension);
   GG_TRY(gg_model_make(&c->scene, GG_MD, &model, err));
-  gg_compare_theories(&model, c);
+  GG_TRY(gg_compare_theories(&model, c, err));
+  bool before = gg_memory_begin();
   gg_scene_inert(&finished, GG_USE_THEORY, &c->warnings);
+  GG_TRY(gg_memory_check(before, GG_OK, err));
   return theory ? keep_one(c, theory, err) : GG_OK;
 }
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "door/door.h"
 #include "io/c_locale.h"
 #include "io/document.h"
@@ -59,12 +60,13 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
     return gg_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture", picture);
   gg_stored_result stored;
   GG_TRY(gg_stored_result_read(&stored, result_file, err));
+  bool before = gg_memory_begin();
   gg_status status = gg_plot_check_pages(&stored, result_file, picture, format, err);
   if (status == GG_OK) status = gg_plot_result(&stored, picture, format, err);
   if (status == GG_OK && drawn) drawn(context, picture);
   if (status == GG_OK) status = gg_plot_pages(&stored, picture, format, drawn, context, err);
   gg_stored_result_clear(&stored);
-  return status;
+  return gg_memory_check(before, status, err); /* a picture that lacks its title */
 }
 
 gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,

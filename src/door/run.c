@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/engine.h"
+#include "common/memory_note.h"
 
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
@@ -156,6 +157,7 @@ gg_status gg_door_run_by(gg_door_point *point, const gg_scene *scene, const gg_r
   gg_error why = {0};
   gg_status status = gg_door_run_begin(&run, scene, options, false, &hooks, err), written = GG_OK;
   gg_result *made = NULL;
+  const bool before = gg_memory_begin();
   gg_engine_kind engine = run.scene.engine;
   hooks.crew = crew;
   if (status == GG_OK && gg_engine_ops_of(engine)->accepts(&run.model, NULL) == GG_OK)
@@ -165,6 +167,11 @@ gg_status gg_door_run_by(gg_door_point *point, const gg_scene *scene, const gg_r
   if (status == GG_OK)
     status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);
   for (size_t i = 0; made && i < run.warnings.n; i++) gg_result_warn(made, "%s", run.warnings.text[i]);
+  if (gg_memory_end(before) && status == GG_OK) { /* it lacks a warning */
+    gg_result_free(made);
+    made = NULL;
+    status = gg_fail(err, GG_FAILED, "out of memory");
+  }
   if (made && run.options.output && (status == GG_OK || status == GG_FAILED)) {
     gg_crew_pause(crew); /* disks take their time */
     written = gg_door_trajectory_finish(&run, made, &why);

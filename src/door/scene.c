@@ -6,6 +6,7 @@
 #include "common/engine.h"
 #include "common/ensemble.h"
 #include "common/extension.h"
+#include "common/memory_note.h"
 #include "door/door.h"
 #include "io/c_locale.h"
 #include "io/scene/inert.h"
@@ -84,7 +85,9 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   GG_NEED(text);
   gg_scene filled = *scene;
   gg_scene_fill_in(&filled);
+  bool outer = gg_memory_begin();
   json_t *value = gg_scene_key_json(&filled, key);
+  if (gg_memory_end(outer)) return gg_fail(err, GG_FAILED, "out of memory");
   if (!value) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   locale_t before = gg_c_locale_enter();
   gg_flow_style_text(value, text, size);

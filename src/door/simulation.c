@@ -28,9 +28,12 @@ gg_status gg_simulation_prepare(const gg_scene *scene, gg_simulation **simulatio
   gg_extension_hold(s->scene.extension);
   s->stop = (gg_stop){asked_to_stop, s};
   s->model.stop = &s->stop;
-  if (s->scene.temperature == GG_AUTO) gg_start_near_steady(&s->model);
-  *simulation = s;
-  return GG_OK;
+  if (s->scene.temperature == GG_AUTO) status = gg_start_near_steady(&s->model, err);
+  if (status == GG_OK)
+    *simulation = s;
+  else
+    gg_simulation_free(s);
+  return status;
 }
 
 gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err)

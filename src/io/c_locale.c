@@ -2,7 +2,10 @@
 
 locale_t gg_c_locale_enter(void)
 {
-  locale_t c = newlocale(LC_NUMERIC_MASK, "C", duplocale(uselocale((locale_t)0)));
+  locale_t copy = duplocale(uselocale((locale_t)0));
+  locale_t c = copy ? newlocale(LC_NUMERIC_MASK, "C", copy) : (locale_t)0; /* which becomes the copy */
+  if (!c && copy) freelocale(copy);
+  if (!c) c = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* takes no memory */
   return c ? uselocale(c) : (locale_t)0;
 }
 

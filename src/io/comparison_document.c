@@ -5,6 +5,7 @@
 #include "io/curves.h"
 #include "io/document.h"
 #include "io/scene/json.h"
+#include "io/whole_json.h"
 #include "run/agreement.h"
 
 static json_t *warnings_json(const gg_comparison *c)
@@ -70,11 +71,12 @@ static void put_theory_curves(json_t *document, const gg_comparison *c)
 
 json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *c)
 {
+  bool before = gg_memory_begin();
   json_t *warnings = warnings_json(c), *theory = theories_json(c, warnings);
   json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene),
                                "theory", theory, "theories", about_json(c), "warnings", warnings);
   put_theory_curves(document, c);
-  return document;
+  return gg_json_end(before, document);
 }
 
 static json_t *deviations_json(const gg_comparison *c, const gg_result *engine, gg_quantity q, json_t *warnings)
@@ -167,7 +169,7 @@ static void warn_remarks(const gg_comparison *c, json_t *warnings)
                                        gg_quantity_name_in(&c->model, r[i].quantity), r[i].cause));
 }
 
-json_t *gg_comparison_document(const gg_comparison *c)
+static json_t *comparison_document(const gg_comparison *c)
 {
   if (c->document) return json_loads(c->document, 0, NULL); /* as it was stored */
   json_t *warnings = warnings_json(c), *rows = json_array();
@@ -185,4 +187,10 @@ json_t *gg_comparison_document(const gg_comparison *c)
                                about_json(c), "comparison", rows, "warnings", warnings);
   put_theory_curves(document, c);
   return document;
+}
+
+json_t *gg_comparison_document(const gg_comparison *c)
+{
+  bool before = gg_memory_begin();
+  return gg_json_end(before, comparison_document(c));
 }

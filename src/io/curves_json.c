@@ -1,6 +1,7 @@
 #include <math.h>
 
 #include "io/curves.h"
+#include "io/whole_json.h"
 
 static json_t *real(double x)
 {
@@ -44,9 +45,10 @@ static json_t *curve_json(const gg_curve *c)
 
 json_t *gg_curves_json(const gg_curves *curves)
 {
+  bool before = gg_memory_begin();
   json_t *all = json_object();
   for (int k = 0; k < curves->n; k++) json_object_set_new(all, curves->curve[k].name, curve_json(&curves->curve[k]));
-  return all;
+  return gg_json_end(before, all);
 }
 
 static double number(const json_t *object, const char *key)
@@ -101,6 +103,7 @@ static gg_status restore(gg_curves *list, const char *name, const json_t *stored
   restore_numbers(c, json_object_get(stored, "numbers"));
   if (!law) return GG_OK;
   gg_curve_beside(c, text(law, "label"), gg_level, &(double){0});
+  if (c->law_lost) return gg_fail(err, GG_FAILED, "out of memory for the curve %s", name);
   if (c->reference) fill(c->reference, c->n, json_object_get(law, "value"));
   return GG_OK;
 }

@@ -6,6 +6,7 @@
 
 #include "io/curves.h"
 #include "io/scene/json.h"
+#include "io/whole_json.h"
 
 static json_t *real(double x)
 {
@@ -23,12 +24,18 @@ void gg_reason_add(json_t *warnings, const char *who, const char *quantity, cons
   size_t i;
   json_t *line;
   char *head, *tail;
-  if (asprintf(&tail, " null: %s", reason) < 0) return;
+  if (asprintf(&tail, " null: %s", reason) < 0) {
+    gg_json_put(-1);
+    return;
+  }
   if (asprintf(&head, "%s%s", who, *who ? ": " : "") < 0) {
+    gg_json_put(-1);
     free(tail);
     return;
   }
   char *text = NULL;
+  int made = 0;
+  bool joined = false;
   json_array_foreach(warnings, i, line)
   {
     const char *old = json_string_value(line);
@@ -36,12 +43,15 @@ void gg_reason_add(json_t *warnings, const char *who, const char *quantity, cons
     if (strncmp(old, head, strlen(head)) != 0 || length < end || strcmp(old + length - end, tail) != 0) continue;
     int keep = (int)(length - end) - 3; /* less "is", "are" and the blank before */
     while (keep > 0 && old[keep] != ' ') keep--;
-    if (asprintf(&text, "%.*s, %s are%s", keep, old, quantity, tail) >= 0) json_string_set(line, text);
+    made = asprintf(&text, "%.*s, %s are%s", keep, old, quantity, tail);
+    joined = true;
+    if (made >= 0) json_string_set(line, text);
     break;
   }
-  if (!text && asprintf(&text, "%s%s is%s", head, quantity, tail) >= 0)
-    json_array_append_new(warnings, json_string(text));
-  free(text);
+  if (!joined) made = asprintf(&text, "%s%s is%s", head, quantity, tail);
+  if (!joined && made >= 0) json_array_append_new(warnings, json_string(text));
+  gg_json_put(made < 0);
+  if (made >= 0) free(text);
   free(head);
   free(tail);
 }
@@ -83,7 +93,7 @@ static json_t *engine_state_json(const gg_result *r)
   return state;
 }
 
-json_t *gg_run_document(const gg_result *r)
+static json_t *run_document(const gg_result *r)
 {
   if (r->origin.document) return json_loads(r->origin.document, 0, NULL); /* as it was stored */
   json_t *results = json_object(), *warnings = json_array();
@@ -104,7 +114,13 @@ json_t *gg_run_document(const gg_result *r)
   return document;
 }
 
+json_t *gg_run_document(const gg_result *r)
+{
+  bool before = gg_memory_begin();
+  return gg_json_end(before, run_document(r));
+}
+
 char *gg_document_text(const json_t *document)
 {
-  return json_dumps(document, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+  return gg_json_text(document, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
 }

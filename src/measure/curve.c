@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/gsl_quiet.h"
+#include "common/memory_note.h"
 #include "common/quantity.h"
 #include "statistics/jackknife.h"
 
@@ -19,6 +21,7 @@ static void clear_curve(gg_curve *c)
 void gg_curves_clear(gg_curves *list)
 {
   for (int i = 0; i < list->n; i++) clear_curve(&list->curve[i]);
+  clear_curve(&list->spare);
   free(list->curve);
   *list = (gg_curves){0};
 }
@@ -46,6 +49,7 @@ gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *
   if (!c) {
     list->failed = true;
     c = &list->spare;
+    clear_curve(c);
     *c = (gg_curve){0};
   }
   snprintf(c->name, sizeof c->name, "%s", name);
@@ -88,7 +92,8 @@ void gg_curve_put_setting(gg_curve *c, const char *name, double value, const cha
 void gg_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const double *parameters)
 {
   if (!c->reference) c->reference = calloc(c->n + 1, sizeof(double));
-  if (!c->reference) return; /* the curve itself is what matters */
+  c->law_lost = !c->reference;
+  if (c->law_lost) return;
   snprintf(c->reference_label, sizeof c->reference_label, "%s", label);
   for (size_t i = 0; i < c->n; i++) c->reference[i] = law(c->x[i], parameters);
 }
@@ -207,12 +212,17 @@ gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curve
   if (!p.total) return GG_FAILED;
   p.mean = p.total + p.width;
   gg_curves full = {.model = list->model, .group = group};
+  bool before = gg_memory_begin(); /* fits have no other way to say so */
+  gg_gsl_enter();
   sum_up(&p);
   evaluate(&p, NULL, of, self, &full);
   gg_jackknife j;
   bool whole =
       gg_jackknife_init(&j, shape(&full), err) == GG_OK && !full.failed && leave_one_out(&p, of, self, &full, &j);
+  for (int k = 0; k < full.n; k++) whole = whole && !full.curve[k].law_lost;
   if (whole) put_errors(&full, &j, memory / (double)p.per_block);
+  gg_gsl_leave();
+  if (gg_memory_end(before)) whole = false;
   whole = whole && (full.n == 0 || append(list, &full));
   gg_jackknife_clear(&j);
   gg_curves_clear(&full);

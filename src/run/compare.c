@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "run/run.h"
 #include "run/start.h"
 
@@ -15,30 +16,34 @@ double gg_z_score(const gg_estimate *a, const gg_estimate *b)
 
 /* Curves of what the scene measures, so that nobody pays for others. A theory that has none here, of rough grains for
  * instance, is no reason for a warning: most have none at all. */
-static void draw_curves(gg_comparison *c, int i)
+static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
 {
-  gg_error err = {0};
+  gg_error why = {0};
   const gg_theory *theory = c->theory[i].theory;
-  if (!c->theory[i].applies) return;
-  if (gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &err) == GG_FAILED)
-    gg_text_list_add(&c->warnings, "%s: no curves: %s", theory->name, err.message);
+  if (!c->theory[i].applies) return GG_OK;
+  gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
+  if (gg_is_out_of_memory(status, &why)) return gg_fail(err, status, "%s: %s", theory->name, why.message);
+  if (status == GG_FAILED) gg_text_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
+  return GG_OK;
 }
 
-void gg_compare_theories(const gg_model *model, gg_comparison *c)
+gg_status gg_compare_theories(const gg_model *model, gg_comparison *c, gg_error *err)
 {
   c->model = *model;
   c->n_theories = 0;
   gg_model start = *model; /* facts tell how engines start; theories of ours find their own temperature */
-  if (c->scene.temperature == GG_AUTO) gg_start_near_steady(&start);
+  if (c->scene.temperature == GG_AUTO) GG_TRY(gg_start_near_steady(&start, err));
   const gg_theory *theory;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
-    gg_error err = {0};
+    gg_error why = {0};
+    gg_status status = gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &why);
+    if (gg_is_out_of_memory(status, &why)) return gg_fail(err, status, "%s: %s", theory->name, why.message);
     c->theory[i].theory = theory;
-    c->theory[i].applies =
-        gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &err) == GG_OK;
-    snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", err.message);
-    draw_curves(c, c->n_theories++);
+    c->theory[i].applies = status == GG_OK;
+    snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", why.message);
+    GG_TRY(draw_curves(c, c->n_theories++, err));
   }
+  return GG_OK;
 }
 
 /* One engine's part, run beside or after the other's; hooks are called by one thread at a time. */
@@ -167,7 +172,7 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
   gg_extension_hold(c->scene.extension);
   gg_model model;
   GG_TRY(gg_model_make(scene, GG_MD, &model, err));
-  gg_compare_theories(&model, c);
+  GG_TRY(gg_compare_theories(&model, c, err));
 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};

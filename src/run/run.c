@@ -1,5 +1,6 @@
 #include "run/run.h"
 
+#include "common/memory_note.h"
 #include "run/replicas.h"
 
 /* Where the replicas stand as a result; it may fall short of what was asked. */
@@ -22,12 +23,17 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
 {
   gg_replicas all;
   *out = NULL;
-  GG_TRY(gg_replicas_create(&all, scene, resume, threads, hooks, err));
-  gg_status status = gg_replicas_run(&all, err);
+  bool before = gg_memory_begin();
+  gg_status status = gg_replicas_create(&all, scene, resume, threads, hooks, err);
+  if (status != GG_OK) return gg_memory_check(before, status, err);
+  status = gg_replicas_run(&all, err);
   if (status == GG_OK) status = report(&all, out, err);
   bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
   if (cut_short) report(&all, out, NULL);
   if (status == GG_INTERRUPTED && *out) gg_result_warn(*out, "interrupted: these are the results so far");
   gg_replicas_clear(&all);
-  return status;
+  if (!gg_memory_end(before) || status != GG_OK) return status;
+  gg_result_free(*out); /* it lacks a warning, or worse */
+  *out = NULL;
+  return gg_fail(err, GG_FAILED, "%s: out of memory", gg_engine_ops_of(scene->engine)->name);
 }

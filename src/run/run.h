@@ -64,6 +64,6 @@ void gg_comparison_clear(gg_comparison *comparison);
 
 /* Evaluate the theories for the comparison's scene: fills only model and theory[], which borrow from it, and warns of
  * curves that cannot be had. */
-void gg_compare_theories(const gg_model *model, gg_comparison *comparison);
+gg_status gg_compare_theories(const gg_model *model, gg_comparison *comparison, gg_error *err);
 
 #endif

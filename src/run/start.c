@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "common/linear_response.h"
+#include "common/memory_note.h"
 #include "theory/theory.h"
 
 /* Linear response: at the beginning of a sweep of the reduced shear rate. */
@@ -13,7 +14,7 @@ static void start_of_sweep(gg_model *model)
 }
 
 /* Theories know constant coefficients alone: for a law, its value at the mean impact speed. */
-static void start_at_theory(gg_model *model)
+static gg_status start_at_theory(gg_model *model, gg_error *err)
 {
   const char *const best_first[] = {"gaussian_closure", "lun1991"};
   for (int i = 0; i < 2; i++) {
@@ -21,29 +22,33 @@ static void start_at_theory(gg_model *model)
     gg_theory_answer answer;
     gg_model constant = *model;
     constant.law = (gg_restitution_law){0};
-    if (!theory || gg_theory_evaluate(theory, &constant, &answer, NULL) != GG_OK) continue;
+    gg_error why;
+    gg_status status = theory ? gg_theory_evaluate(theory, &constant, &answer, &why) : GG_BAD_INPUT;
+    if (theory && gg_is_out_of_memory(status, &why)) return gg_fail(err, status, "%s", why.message);
+    if (status != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
     if (!(T > 0)) continue;
     model->temperature0 = T;
     if (ratio > 0) model->ratio0 = ratio;
-    return;
+    return GG_OK;
   }
+  return GG_OK;
 }
 
 /* With a law, temperature and mean impact speed depend on each other: a few iterations. */
-void gg_start_near_steady(gg_model *model)
+gg_status gg_start_near_steady(gg_model *model, gg_error *err)
 {
   if (model->linear_response) start_of_sweep(model);
-  if (!model->steady || model->shear_rate == 0) return;
+  if (!model->steady || model->shear_rate == 0) return GG_OK;
   for (int round = 0; round < (model->law.name ? 5 : 1); round++) {
-    start_at_theory(model);
+    GG_TRY(start_at_theory(model, err));
     gg_model_at(model, model->temperature0);
   }
+  return GG_OK;
 }
 
 gg_status gg_start_make(const gg_scene *scene, gg_model *model, gg_error *err)
 {
   GG_TRY(gg_model_make(scene, scene->engine, model, err));
-  if (scene->temperature == GG_AUTO) gg_start_near_steady(model);
-  return GG_OK;
+  return scene->temperature == GG_AUTO ? gg_start_near_steady(model, err) : GG_OK;
 }

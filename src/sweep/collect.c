@@ -6,10 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "io/csv.h"
 #include "io/h5/h5.h"
 #include "io/h5/result_file.h"
 #include "io/h5/seal.h"
+#include "io/whole_json.h"
 #include "sweep/document.h"
 #include "sweep/folder.h"
 
@@ -77,11 +79,12 @@ gg_status gg_point_table_write_csv(const gg_point_table *t, const gg_sweep *swee
   GG_TRY(gg_atomic_open(&file, path, err));
   gg_text_out *out = gg_new_array(1, sizeof *out, err);
   if (!out) return gg_atomic_abandon(&file), GG_FAILED;
+  bool before = gg_memory_begin();
   gg_text_begin(out, &file, err);
   gg_csv csv = {.out = out};
   put_head(&csv, sweep);
   for (size_t i = 0; i < t->n; i++) put_row(&csv, sweep, &t->row[i]);
-  gg_status status = gg_text_end(out);
+  gg_status status = gg_memory_check(before, gg_text_end(out), err);
   free(out);
   if (status == GG_OK) return gg_atomic_commit(&file, err);
   gg_atomic_abandon(&file);

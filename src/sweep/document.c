@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "common/engine.h"
+#include "io/whole_json.h"
 #include "sweep/folder.h"
 
 json_t *gg_point_value(const gg_sweep *sweep, size_t i, size_t varied, size_t k)
@@ -24,7 +25,10 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
   gg_scene scene;
   json_t *keys = json_object();
   gg_point_name(sweep->point[i].id, name);
-  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) return keys; /* it was checked */
+  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* it was checked: there is no memory */
+    json_decref(keys);
+    return gg_json_made(NULL);
+  }
   for (size_t f = 0; f < sweep->n_varied; f++)
     for (size_t k = 0; k < sweep->varied[f].n_keys; k++)
       json_object_set_new(keys, sweep->varied[f].key[k], gg_point_value(sweep, i, f, k));
@@ -36,8 +40,9 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
 json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
 {
   static const char *const words[] = {"run", "compare", "theory"};
+  bool before = gg_memory_begin();
   json_t *points = json_array();
   for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
-  return json_pack("{s:s, s:s, s:s, s:o}", "graingas", GG_VERSION, "does", words[sweep->settings.does], "folder",
-                   folder, "points", points);
+  return gg_json_end(before, json_pack("{s:s, s:s, s:s, s:o}", "graingas", GG_VERSION, "does",
+                                       words[sweep->settings.does], "folder", folder, "points", points));
 }

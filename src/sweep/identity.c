@@ -5,6 +5,7 @@
 #include "common/extension.h"
 #include "io/checksum.h"
 #include "io/scene/json.h"
+#include "io/whole_json.h"
 #include "sweep/sweep.h"
 
 static bool begins(const char *key, const char *const *with)
@@ -32,8 +33,8 @@ static uint64_t add_text(uint64_t sum, const char *text)
 static uint64_t add_field(uint64_t sum, const gg_field *f, const gg_scene *scene)
 {
   json_t *value = gg_field_json(f, scene, scene);
-  char *text = json_dumps(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
-  sum = add_text(add_text(sum, f->key), text ? text : "");
+  char *text = gg_json_text(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+  sum = add_text(add_text(sum, f->key), text ? text : ""); /* without it: the name of another point, which is noted */
   free(text);
   json_decref(value);
   return sum;

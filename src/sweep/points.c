@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/engine.h"
+#include "common/memory_note.h"
 #include "io/scene/node.h"
 #include "io/scene/reader.h"
 #include "run/forecast.h"
@@ -120,7 +121,9 @@ static gg_status resolve_named(const gg_sweep *sweep, size_t i, gg_scene *scene,
 gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
 {
   double seconds;
-  return resolve_named(sweep, i, scene, &seconds, err);
+  bool before = gg_memory_begin();
+  gg_status status = resolve_named(sweep, i, scene, &seconds, err);
+  return gg_memory_end(before) ? gg_fail(err, GG_FAILED, "%s: out of memory", sweep->name) : status;
 }
 
 static void explain_number(const gg_sweep *sweep, gg_error *err)
@@ -139,9 +142,11 @@ gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err)
   if (!point) return GG_FAILED;
   for (size_t i = 0; i < n; i++) {
     gg_scene scene;
+    bool before = gg_memory_begin();
     gg_status status = resolve_named(sweep, i, &scene, &point[i].seconds, err);
+    if (status == GG_OK) point[i].id = gg_point_id(&scene, sweep->settings.does);
+    if (gg_memory_end(before)) status = gg_fail(err, GG_FAILED, "%s: out of memory", sweep->name);
     if (status != GG_OK) return free(point), status;
-    point[i].id = gg_point_id(&scene, sweep->settings.does);
   }
   sweep->point = point;
   sweep->n = n;

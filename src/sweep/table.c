@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "io/h5/reader.h"
+#include "io/whole_json.h"
 #include "sweep/folder.h"
 
 void gg_point_table_clear(gg_point_table *t)
@@ -82,9 +83,10 @@ static gg_status read_document(const char *path, json_t **document, gg_error *er
   gg_h5_in h;
   gg_h5_open(&h, path);
   char *text = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/document");
-  *document = text ? json_loads(text, 0, NULL) : NULL;
+  const char *why = "out of memory";
+  *document = text ? gg_json_read(text, &why) : NULL;
   free(text);
-  if (!*document && !h.failed) gg_h5_in_failed(&h, "its document is damaged");
+  if (!*document && !h.failed) gg_h5_in_failed(&h, why);
   gg_h5_in_close(&h);
   return gg_h5_in_status(&h, path, err);
 }

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "common/vec.h"
 
 /* Everything is even under k -> -k and under reflection at the shear plane: a quarter of the sphere is enough. */
@@ -203,6 +204,10 @@ void gg_gaussian_rates_at(const gg_model *m, const gg_gaussian *state, gg_gaussi
 {
   memset(r, 0, sizeof *r);
   gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POLAR);
+  if (!table) { /* whoever asked for the theory is told */
+    gg_memory_lacked();
+    return;
+  }
   for (size_t a = 0; a < POLAR; a++) {
     double z, wz;
     gsl_integration_glfixed_point(-1, 1, a, &z, &wz, table);

@@ -2,6 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/gsl_quiet.h"
+#include "common/memory_note.h"
 #include "theory/answer.h"
 #include "theory/theory_list.h"
 
@@ -58,8 +60,12 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
+  bool before = gg_memory_begin();
+  gg_gsl_enter();
   gg_status status =
       theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err) : theory->evaluate(model, answer, err);
+  gg_gsl_leave();
+  if (gg_memory_end(before)) status = gg_fail(err, GG_FAILED, "out of memory");
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
   return status;
 }
@@ -71,7 +77,11 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   if (!theory->curves) return GG_OK;
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
+  bool before = gg_memory_begin();
+  gg_gsl_enter();
   gg_status status = theory->curves(model, measure, list, err);
+  gg_gsl_leave();
+  if (gg_memory_end(before)) status = gg_fail(err, GG_FAILED, "out of memory");
   list->group = NULL; /* every curve has its own copy */
   if (status != GG_OK) gg_curves_clear(list);
   return status;

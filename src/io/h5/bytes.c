@@ -11,7 +11,7 @@ void gg_h5_in_failed(gg_h5_in *in, const char *why)
 {
   if (in->failed) return;
   in->failed = true;
-  snprintf(in->why, sizeof in->why, "%s", why);
+  snprintf(in->why, sizeof in->why, "%s", errno == ENOMEM ? "out of memory" : why);
 }
 
 bool gg_h5_refuse(gg_h5_in *in, const char *what, const char *why)
@@ -83,6 +83,7 @@ void gg_h5_open(gg_h5_in *in, const char *path)
 {
   memset(in, 0, sizeof *in);
   in->fd = -1;
+  errno = 0;
   const char *broken = gg_seal_open(path, &in->fd, &in->size);
   if (broken)
     gg_h5_in_failed(in, broken);

@@ -55,6 +55,7 @@ static void *make_image(const char *path, const gg_archive *a, const gg_scene *s
   const int layout = GG_CHECKPOINT_LAYOUT;
   char *yaml = gg_scene_yaml(scene);
   gg_h5_create_in_memory(&h);
+  if (!yaml) gg_h5_failed(&h, "out of memory");
   gg_h5_text(&h, "/checkpoint/scene", yaml ? yaml : "");
   gg_h5_text(&h, "/checkpoint/version", GG_VERSION);
   gg_h5_attribute(&h, "/checkpoint/version", "layout", H5T_NATIVE_INT, &layout, 0);

@@ -1,5 +1,6 @@
 #include "io/h5/h5.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,10 @@ static herr_t find_cause(unsigned n, const H5E_error2_t *entry, void *context)
   gg_h5 *h = context;
   const char *start = entry->desc ? strstr(entry->desc, "error message = '") : NULL;
   (void)n;
+  if (entry->maj_num == H5E_RESOURCE && entry->min_num == H5E_NOSPACE) {
+    snprintf(h->why, sizeof h->why, "out of memory");
+    return 1;
+  }
   if (!start) return 0;
   start += strlen("error message = '");
   const char *end = strchr(start, '\'');
@@ -21,13 +26,15 @@ void gg_h5_failed(gg_h5 *h, const char *what)
 {
   if (h->failed) return;
   h->failed = true;
-  snprintf(h->why, sizeof h->why, "%.200s", what);
+  /* HDF5 does not always say that it was memory that it lacked; what fails then ends before anything else can. */
+  snprintf(h->why, sizeof h->why, "%.200s", errno == ENOMEM ? "out of memory" : what);
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, find_cause, h);
 }
 
 static void start(gg_h5 *h)
 {
   *h = (gg_h5){.file = -1};
+  errno = 0;
   H5Eget_auto2(H5E_DEFAULT, &h->print, &h->print_data);
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }

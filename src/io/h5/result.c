@@ -143,10 +143,12 @@ static void write_warnings(gg_h5 *h, const char *group, const gg_result *r)
   char *text = NULL, path[160];
   size_t size;
   FILE *out = open_memstream(&text, &size);
-  if (!out) return;
-  for (size_t i = 0; i < r->warnings.n; i++) fprintf(out, "%s\n", r->warnings.text[i]);
+  for (size_t i = 0; out && i < r->warnings.n; i++) fprintf(out, "%s\n", r->warnings.text[i]);
   snprintf(path, sizeof path, "%s/warnings", group);
-  if (fclose(out) == 0) gg_h5_text(h, path, text);
+  if (out && fclose(out) == 0 && text)
+    gg_h5_text(h, path, text);
+  else
+    gg_h5_failed(h, "out of memory");
   free(text);
 }
 

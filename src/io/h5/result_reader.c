@@ -5,6 +5,7 @@
 
 #include "io/h5/checkpoint_file.h"
 #include "io/h5/reader.h"
+#include "io/whole_json.h"
 
 static void read_series(gg_h5_in *h, gg_stored_engine *e, const char *observables, const char *name)
 {
@@ -129,9 +130,10 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   s->date = gg_h5_read_text(&h, "/graingas/date");
   s->scene = gg_h5_read_text(&h, "/graingas/scene");
   gg_stored_scene_in_words_of_today(s->scene);
-  s->document = text ? json_loads(text, 0, NULL) : NULL;
+  const char *why = "out of memory";
+  s->document = text ? gg_json_read(text, &why) : NULL;
   free(text);
-  if (!s->document) gg_h5_in_failed(&h, "its document is damaged");
+  if (!s->document) gg_h5_in_failed(&h, why);
   if (!h.failed) {
     s->comparison = json_object_get(s->document, "comparison") != NULL;
     read_engines(&h, s);

@@ -193,8 +193,7 @@ static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_e
   const json_t *all = json_object_get(document, "theory");
   const gg_theory *theory;
   if (!json_is_object(all)) { /* a run's file: no theory was asked */
-    gg_compare_theories(&c->model, c);
-    return GG_OK;
+    return gg_compare_theories(&c->model, c, err);
   }
   const json_t *curves = json_object_get(document, GG_THEORY_CURVES);
   c->n_theories = 0;

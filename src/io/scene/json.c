@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/whole_json.h"
+
 static json_t *number_json(const gg_field *f, double value)
 {
   if (f->special && value == f->special_value) return json_string(f->special);
@@ -83,7 +85,7 @@ static json_t *species_json(const gg_scene *scene)
   return list;
 }
 
-json_t *gg_field_json(const gg_field *f, const void *base, const gg_scene *scene)
+static json_t *value_json(const gg_field *f, const void *base, const gg_scene *scene)
 {
   const void *at = (const char *)base + f->offset;
   switch (f->type) {
@@ -96,6 +98,12 @@ json_t *gg_field_json(const gg_field *f, const void *base, const gg_scene *scene
   case GG_FIELD_SPECIES: return species_json(scene);
   }
   return json_null();
+}
+
+json_t *gg_field_json(const gg_field *f, const void *base, const gg_scene *scene)
+{
+  bool before = gg_memory_begin();
+  return gg_json_end(before, value_json(f, base, scene));
 }
 
 /* One member of what a key holds: "collision.e.12", "species.2.mass". NULL if there is no such thing. */
@@ -119,8 +127,15 @@ json_t *gg_scene_key_json(const gg_scene *scene, const char *key)
   return id >= 0 ? gg_field_json(&gg_scene_fields[id], scene, scene) : member_json(scene, key);
 }
 
+static json_t *new_section(json_t *root, const char *name)
+{
+  json_t *section = json_object();
+  return json_object_set_new(root, name, section) == 0 ? section : NULL;
+}
+
 json_t *gg_scene_json(const gg_scene *scene)
 {
+  bool before = gg_memory_begin();
   json_t *root = json_object();
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     json_t *into = root;
@@ -129,11 +144,11 @@ json_t *gg_scene_json(const gg_scene *scene)
       char section[32];
       snprintf(section, sizeof section, "%.*s", (int)(dot - f->key), f->key);
       into = json_object_get(root, section);
-      if (!into) json_object_set_new(root, section, into = json_object());
+      if (!into) into = new_section(root, section);
     }
     json_object_set_new(into, name, gg_field_json(f, scene, scene));
   }
-  return root;
+  return gg_json_end(before, root);
 }
 
 void gg_print_flow_style(FILE *out, const json_t *value)
@@ -178,7 +193,7 @@ void gg_flow_style_text(const json_t *value, char *text, size_t size)
   size_t length;
   FILE *out = open_memstream(&whole, &length);
   if (out) gg_print_flow_style(out, value);
-  if (out && fclose(out) == 0) snprintf(text, size, "%s", whole);
+  if (out && fclose(out) == 0 && whole) snprintf(text, size, "%s", whole);
   free(whole);
 }
 
@@ -217,7 +232,10 @@ char *gg_scene_yaml(const gg_scene *scene)
   FILE *out = open_memstream(&text, &size);
   if (!out) return NULL;
   json_t *root = gg_scene_json(scene);
-  print_yaml(out, root);
+  if (root) print_yaml(out, root);
+  bool whole = root && !ferror(out);
   json_decref(root);
-  return fclose(out) == 0 ? text : NULL;
+  if (fclose(out) == 0 && whole) return text;
+  free(text);
+  return NULL;
 }

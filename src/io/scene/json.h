@@ -9,7 +9,7 @@
 
 /* Every key with its value; NULL only if out of memory. The caller owns the reference. */
 json_t *gg_scene_json(const gg_scene *scene);
-/* One value of it. */
+/* One value of it; the same. */
 json_t *gg_field_json(const gg_field *field, const void *base, const gg_scene *scene);
 /* The value of one key: "collision.e", "collision.e.12", "species.2.mass". NULL: there is no such key,
  * or out of memory. */

@@ -51,8 +51,9 @@ static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *n
 /* libyaml's word for what is wrong, with the line. */
 static gg_status refuse_syntax(const gg_scene_reader *r, const yaml_parser_t *parser)
 {
-  if (parser->error == YAML_MEMORY_ERROR) return gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
-  const char *problem = parser->problem ? parser->problem : "cannot be read";
+  if (parser->error == YAML_MEMORY_ERROR || !parser->problem)
+    return gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
+  const char *problem = parser->problem;
   size_t line = parser->problem_mark.line + 1;
   if (parser->error == YAML_READER_ERROR)
     return gg_scene_refuse_text(r, 0, "is not a scene: no YAML text (%s at byte %zu)", problem, parser->problem_offset);

@@ -74,7 +74,7 @@ static gg_status begin(server *s, const gg_message *m, const void *block, size_t
   atomic_init(&r->stopped, false);
   r->status = gg_message_scene(block, size, &r->scene, &r->err);
   if (r->status == GG_OK) r->status = gg_model_make(&r->scene, r->scene.engine, &r->model, &r->err);
-  if (r->status == GG_OK && r->scene.temperature == GG_AUTO) gg_start_near_steady(&r->model);
+  if (r->status == GG_OK && r->scene.temperature == GG_AUTO) r->status = gg_start_near_steady(&r->model, &r->err);
   r->stop = (gg_stop){asked, r};
   r->model.stop = &r->stop;
   r->task = gg_new_array((size_t)r->scene.run.replicas, sizeof *r->task, err);

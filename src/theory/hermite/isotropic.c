@@ -1,12 +1,12 @@
 #include "theory/hermite/isotropic.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/gsl_quiet.h"
 #include "theory/hermite/room.h"
 
 enum { MOST_ITERATIONS = 60, HALVES = GG_HERMITE_MOST_DEGREE / 2 + 1 };
@@ -133,11 +133,11 @@ gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double
   for (int i = 0; i < 3; i++) h->state.L[i][i] = sqrt(h->state.width);
   gg_status status = gg_hermite_operator_make(&h->op, degree, GG_HERMITE_DECAY, true, err);
   if (status == GG_OK) h->state.a = calloc((size_t)h->op.basis.n, sizeof *h->state.a);
-  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  gg_gsl_enter();
   if (status == GG_OK && (!h->state.a || !make(&w, h->op.basis.n, degree / 2)))
     status = gg_fail(err, GG_FAILED, "out of memory");
   if (status == GG_OK) status = iterate(h, &w, noise, err);
-  gsl_set_error_handler(handler);
+  gg_gsl_leave();
   clear(&w);
   if (status != GG_OK) gg_hermite_isotropic_end(h);
   return status;

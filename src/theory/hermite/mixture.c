@@ -1,11 +1,11 @@
 #include "theory/hermite/mixture.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/gsl_quiet.h"
 #include "theory/answer.h"
 #include "theory/hermite/basis.h"
 #include "theory/hermite/overlap.h"
@@ -206,7 +206,7 @@ gg_status gg_hermite_mixture_solve(gg_hermite_mixture *x, const gg_model *m, int
     if (x->alpha[i][1] == 0) x->alpha[i][1] = (1 / GG_HERMITE_WIDTH - 1) * 3 / sqrt(6);
   }
   GG_TRY(gg_radial_make(&x->radial, most, GG_HERMITE_DECAY, err));
-  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  gg_gsl_enter();
   s.normal = malloc((size_t)(m->n_species * m->n_species) * sizeof *s.normal);
   s.J = gsl_matrix_alloc(n, n), s.x = gsl_vector_alloc(n), s.order = gsl_permutation_alloc(n);
   gg_status status = s.normal && s.J && s.x && s.order ? iterate(&s, err) : gg_fail(err, GG_FAILED, "out of memory");
@@ -214,7 +214,7 @@ gg_status gg_hermite_mixture_solve(gg_hermite_mixture *x, const gg_model *m, int
   if (s.J) gsl_matrix_free(s.J);
   if (s.x) gsl_vector_free(s.x);
   gsl_permutation_free(s.order);
-  gsl_set_error_handler(handler);
+  gg_gsl_leave();
   return status;
 }
 

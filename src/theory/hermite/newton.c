@@ -1,10 +1,11 @@
 #include "theory/hermite/newton.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "common/gsl_quiet.h"
 
 /* A Jacobian costs as much as ten residuals: it is kept as long as steps with it shrink fast. */
 enum { MOST_ITERATIONS = 60, MOST_HALVINGS = 10 };
@@ -120,10 +121,10 @@ static gg_status iterate(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_
 gg_status gg_hermite_newton(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *s, gg_error *err)
 {
   gg_newton w;
-  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  gg_gsl_enter();
   gg_status status = make(&w, gas->n_species, op->basis.n, err);
   if (status == GG_OK) status = iterate(op, gas, s, &w, err);
   clear(&w);
-  gsl_set_error_handler(handler);
+  gg_gsl_leave();
   return status;
 }

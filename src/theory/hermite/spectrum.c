@@ -2,9 +2,10 @@
 #include "theory/hermite/spectrum.h"
 
 #include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <stdlib.h>
+
+#include "common/gsl_quiet.h"
 
 typedef struct gg_spectrum {
   double *R, *jacobian;
@@ -87,9 +88,9 @@ gg_status gg_hermite_spectrum(gg_hermite_operator *op, const gg_hermite_gas *gas
   gg_spectrum s;
   int all = gas->n_species * op->basis.n;
   gg_status status = make(&s, all - gas->n_species, all) ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
-  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  gg_gsl_enter();
   if (status == GG_OK && !find(&s, op, gas, state, mode)) status = gg_fail(err, GG_FAILED, "no eigenvalues were found");
-  gsl_set_error_handler(handler);
+  gg_gsl_leave();
   clear(&s);
   return status;
 }

@@ -1,11 +1,11 @@
 #include "theory/hermite/viscosity.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/gsl_quiet.h"
 #include "theory/hermite/room.h"
 
 /* Shear rate of the central difference, in units in which T = m = 1. */
@@ -140,11 +140,11 @@ gg_status gg_hermite_viscosity_of(const gg_hermite_gas *gas, gg_hermite_state *s
   gg_response r = {.gas = gas, .base = state, .transfer = transfers};
   gg_status status = make(&r, degree, err);
   if (status == GG_OK) {
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    gg_gsl_enter();
     gg_hermite_operator_at(&r.op, gas, state, r.other, r.jacobian);
     source(&r);
     if (!solve(&r, fading)) status = gg_fail(err, GG_FAILED, "no linear response was found");
-    gsl_set_error_handler(handler);
+    gg_gsl_leave();
   }
   if (status == GG_OK) v->kinetic = kinetic(&r), v->total = v->kinetic - transfer(&r);
   clear(&r);

@@ -1,11 +1,11 @@
 #include "theory/rough/steady.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/gsl_quiet.h"
 #include "theory/hermite/state.h"
 
 enum { MOST_ITERATIONS = 40 };
@@ -131,12 +131,12 @@ static gg_status iterate_shear(gg_rough_steady *s, gg_rough_newton *w, gg_error 
 gg_status gg_rough_shear_solve(gg_rough_steady *s, int degree, gg_error *err)
 {
   gg_rough_newton w = {0};
-  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  gg_gsl_enter();
   gg_status status = make(s, degree, false, err);
   if (status == GG_OK) status = begin(&w, s->form.n, s->form.n - 1, err);
   if (status == GG_OK) status = iterate_shear(s, &w, err);
   end(&w);
-  gsl_set_error_handler(handler);
+  gg_gsl_leave();
   return status;
 }
 
@@ -244,7 +244,7 @@ gg_status gg_rough_isotropic_solve(gg_rough_steady *s, int degree, gg_rough_heat
   double rate = 0;
   memset(s->weight.L, 0, sizeof s->weight.L);
   for (int i = 0; i < 3; i++) s->weight.L[i][i] = sqrt(s->choice.width);
-  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  gg_gsl_enter();
   gg_status status = make(s, degree, true, err);
   int m = status == GG_OK ? isotropic_functions(s, NULL) : 0;
   if (status == GG_OK) status = begin(&w, s->form.n, m, err);
@@ -255,6 +255,6 @@ gg_status gg_rough_isotropic_solve(gg_rough_steady *s, int degree, gg_rough_heat
   if (status == GG_OK) status = iterate_isotropic(s, &w, heating, &rate, err);
   *cooling_rate = 2 * rate;
   end(&w);
-  gsl_set_error_handler(handler);
+  gg_gsl_leave();
   return status;
 }

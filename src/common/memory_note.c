@@ -1,0 +1,36 @@
+#include "common/memory_note.h"
+
+#include <string.h>
+
+#include "common/error.h"
+
+static _Thread_local bool lacked; /* between a begin and its end; never read without */
+
+bool gg_memory_begin(void)
+{
+  bool before = lacked;
+  lacked = false;
+  return before;
+}
+
+bool gg_memory_end(bool before)
+{
+  bool now = lacked;
+  lacked = before || now;
+  return now;
+}
+
+void gg_memory_lacked(void)
+{
+  lacked = true;
+}
+
+gg_status gg_memory_check(bool before, gg_status status, gg_error *err)
+{
+  return gg_memory_end(before) && status == GG_OK ? gg_fail(err, GG_FAILED, "out of memory") : status;
+}
+
+bool gg_is_out_of_memory(gg_status status, const gg_error *err)
+{
+  return status == GG_FAILED && strstr(err->message, "out of memory");
+}
