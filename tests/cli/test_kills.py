@@ -11,7 +11,7 @@ SCENE = """flow: usf
 phi: 0.2
 particles: 60
 collision: {e: 0.9, beta: 0.3, mu: 0.4}
-run: {collisions: 800, warmup: 10}
+run: {collisions: 500, warmup: 10}
 output: {trajectory_every: 5, checkpoint_every: 1.0e-6}
 """
 RUN = ["run", "scene.yaml", "--quiet"]

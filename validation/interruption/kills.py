@@ -4,7 +4,7 @@
     GRAINGAS=build/src/cli/graingas FAILING_WRITES=build/tests/faults/failing_writes.so \\
         validation/interruption/kills.py [KILLS] [SEED] [LOG]
 
-Each run is killed up to six times in a row, each time after a random part of its processor time, every tenth time
+Each run is killed up to six times in a row, each time after a random part of its processor time, at least every tenth time
 inside a call that changes a file (before it, in its midst, after it), mostly of a checkpoint. After each kill what is
 there must be readable. In the end the result must have the bits of the run that was left alone, and nothing else may
 lie there. LOG keeps the tallies: the same command goes on with them. Files lie in TMPDIR. Needs h5py."""
@@ -21,6 +21,7 @@ sys.path.insert(0, os.path.join(HERE, "../../tests/cli"))
 from faults import GRAINGAS, Page, bits, difference, environment, kill_at, start  # noqa: E402
 
 EVERY = 0.005  # s between checkpoints
+AIMED = float(os.environ.get("AIMED", "0.2"))  # share of kills that are inside a write
 SCENE = """flow: usf
 phi: 0.2
 particles: 100
@@ -84,7 +85,7 @@ class Chain:
         self.page.clear()
         env = environment(self.page)
         if aimed:
-            env = environment(self.page, at=self.draw.randint(1, 45), on=self.draw.choice(["checkpoint"] * 3 + [".h5"]),
+            env = environment(self.page, at=self.draw.randint(1, 30), on=self.draw.choice(["checkpoint"] * 3 + [".h5"]),
                               fails=self.draw.choice(["kill-before", "kill-in", "kill-after"]))
         used, code, err = kill_at(start(self.args(), env), None if aimed else seconds)
         if code not in (0, -9):
@@ -104,7 +105,7 @@ class Chain:
         kills = self.draw.randint(1, 6)
         code = -9
         while code == -9 and self.tally["kills"] < kills:
-            code = self.once(self.draw.random() < 0.1, self.draw.uniform(0, 0.7 * self.whole["seconds"]))
+            code = self.once(self.draw.random() < AIMED, self.draw.uniform(0, 0.7 * self.whole["seconds"]))
         if code == -9:
             code = self.once(False, None)
         self.tally["runs"] = 1
