@@ -153,8 +153,9 @@ void gg_h5_rows_append(gg_h5 *h, gg_h5_rows *rows, const void *data)
   rows->n++;
 }
 
-void gg_h5_rows_close(gg_h5_rows *rows)
+/* What HDF5 kept of the rows is written only now: where that fails, zeros stand in its place. */
+void gg_h5_rows_close(gg_h5 *h, gg_h5_rows *rows)
 {
-  if (rows->dataset >= 0) H5Dclose(rows->dataset);
+  if (rows->dataset >= 0 && H5Dclose(rows->dataset) < 0) gg_h5_failed(h, "an array cannot be closed");
   rows->dataset = -1;
 }

@@ -90,9 +90,9 @@ void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model,
   free(sorted);
 }
 
-void gg_h5_particles_close(gg_h5_particles *p)
+void gg_h5_particles_close(gg_h5 *h, gg_h5_particles *p)
 {
   if (!p->started) return;
   gg_h5_rows *const all[] = {&p->step, &p->time, &p->edges, &p->position, &p->velocity, &p->spin};
-  for (size_t i = 0; i < sizeof all / sizeof *all; i++) gg_h5_rows_close(all[i]);
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) gg_h5_rows_close(h, all[i]);
 }

@@ -18,7 +18,7 @@ gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *c
 
 void gg_result_file_abandon(gg_result_file *f)
 {
-  gg_h5_particles_close(&f->particles);
+  gg_h5_particles_close(&f->h, &f->particles);
   if (f->h.file >= 0) gg_h5_close(&f->h);
   gg_atomic_abandon(&f->file);
 }
@@ -72,7 +72,7 @@ static gg_status seal_streamed(gg_result_file *f, gg_error *err)
 /* Close what was streamed, or write what was made in memory; then put it in place. */
 static gg_status finish(gg_result_file *f, gg_error *err)
 {
-  gg_h5_particles_close(&f->particles);
+  gg_h5_particles_close(&f->h, &f->particles);
   size_t size = 0;
   void *image = f->streaming ? NULL : gg_h5_image(&f->h, &size);
   gg_h5_close(&f->h);
