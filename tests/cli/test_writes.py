@@ -117,12 +117,14 @@ class Case:
             same = difference(now, expected) if isinstance(expected, dict) else None if now == expected else "bytes"
             check(same is None, self.page.what, path, same)
 
-    def check_clean(self, done, kind):
+    def check_clean(self, done, kind, last):
         """Nothing new, and nothing less; but a checkpoint that can be gone on from may be there, or gone on."""
         number = getattr(errno, kind)
         told = done.stderr
         check(done.returncode in (3, self.code), self.page.what, done.returncode, told)
-        check(os.strerror(number) in told and of_target(self.page.what) in told, self.page.what, told)
+        # Where all calls fail from there on, the first may be one that does not matter, and a later one be told.
+        named = of_target(self.page.what) in told or (last and ": cannot be written: " in told)
+        check(os.strerror(number) in told and named, self.page.what, told)
         now = files()
         kept = {f for f in now | set(self.before) if ".checkpoint." in f}
         ends = {f for f in now if f in self.expected and f not in self.before}  # whole files of a set, as of a sweep
@@ -138,7 +140,7 @@ class Case:
     def whole(self, path):
         return path in self.expected and self.bits(path) == self.expected[path]
 
-    def judge(self, done, what, kind):
+    def judge(self, done, what, kind, last=False):
         self.faults += 1
         try:
             check(done.returncode >= 0, self.page.what, "signal", -done.returncode)
@@ -149,7 +151,7 @@ class Case:
             else:
                 check(kind, self.page.what, done.stderr)
                 self.clean += 1
-                self.check_clean(done, kind)
+                self.check_clean(done, kind, last)
         except AssertionError as why:
             self.wrong.append(f"{self.name}, call {what}: {why}")
 
@@ -161,10 +163,10 @@ class Case:
                 done = self.run(at, kind, last)
                 if not self.page.faults:
                     break
-                self.judge(done, f"{at} {kind}{' and later' if last else ''}", kind)
+                self.judge(done, f"{at} {kind}{' and later' if last else ''}", kind, last)
                 self.calls = max(self.calls, at)
-                at += 1
-        for at in range(1, self.calls + 1) if FULL else [1]:
+                at += 1 if FULL or at < 20 else 19  # the first ones, and of hundreds of HDF5's a share
+        for at in range(1, self.calls + 1, 7) if FULL else [1]:
             self.restore()
             self.judge(self.run(at, "short", last=at == 1), f"{at} short", None)
         if FULL:
