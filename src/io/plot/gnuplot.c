@@ -50,9 +50,10 @@ static gg_status draw(const char *script, const char *target, gg_error *err)
   if (!in || !complaints) {
     result = gg_fail(err, GG_BAD_FILE, "no temporary file can be made: %s", strerror(errno));
   } else {
-    fprintf(in, "set output '%s'\n%s\nunset output\n", target, script);
+    bool whole = fprintf(in, "set output '%s'\n%s\nunset output\n", target, script) > 0 && fflush(in) == 0;
+    if (!whole) result = gg_fail(err, GG_BAD_FILE, "a temporary file cannot be written: %s", strerror(errno));
     rewind(in);
-    result = spawn(in, complaints, &child, err);
+    if (result == GG_OK) result = spawn(in, complaints, &child, err);
     if (result == GG_OK) {
       while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
       result = outcome(status, complaints, err);
@@ -78,8 +79,9 @@ static off_t end_of(int fd, const char *mark)
 static gg_status put_over(gg_atomic_file *file, const char *over, gg_error *err)
 {
   off_t end = end_of(file->fd, "</svg>");
-  if (end < 0 || ftruncate(file->fd, end) != 0 || lseek(file->fd, 0, SEEK_END) != end)
-    return gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", file->path);
+  if (end < 0) return gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", file->path);
+  if (ftruncate(file->fd, end) != 0 || lseek(file->fd, 0, SEEK_END) != end)
+    return gg_cannot_write(file->path, strerror(errno), err);
   GG_TRY(gg_atomic_write(file, over, strlen(over), err));
   return gg_atomic_write(file, "</svg>\n", 7, err);
 }
