@@ -584,7 +584,7 @@ typedef struct gg_figure_number { /* that the paper states, beside ours; NaN: th
 typedef struct gg_reproduce_options {
   int quick;           /* fewer points, larger errors: some ten to twenty times as fast */
   int threads;         /* 0: one; results do not depend on it */
-  const char *folder;  /* where files go, which must be there; results of the runs lie in its figures.sweep, and serve
+  const char *folder;  /* where files go, made if need be; results of the runs lie in its figures.sweep, and serve
                         * every figure that shows them; NULL: the current one */
   const char *command; /* how files were made, for their record */
   void *context;       /* for the callbacks, of which each may be NULL */

@@ -33,7 +33,7 @@ const gg_option gg_options_table[] = {
     {GG_OPT_SWEEP, "slurm", NULL,
      "print a script for an array of tasks on a cluster, each of which does points; do nothing"},
     {GG_OPT_SWEEP, "output", "FOLDER", "folder of the points' files (default: NAME.sweep, in the current folder)"},
-    {GG_OPT_FOLDER, "output", "FOLDER", "folder to write to, which must be there (default: the current one)"},
+    {GG_OPT_FOLDER, "output", "FOLDER", "folder to write to, made if need be (default: the current one)"},
     {GG_OPT_ONLY, "only", "PARTS", "write these parts alone: results, curves, trajectory; several with commas"},
     {GG_OPT_PICTURE, "picture", "FILE",
      "picture to draw, .svg or .png, or none (default: beside the output, .svg; of bench: none)"},

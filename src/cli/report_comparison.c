@@ -260,7 +260,7 @@ void gg_print_theories(const gg_comparison *c, bool all)
   gg_table *t = tabulate(c, all, &n_theories);
   if (!t) return;
   gg_print_head(gg_comparison_scene(c));
-  if (n_theories) gg_table_print(t, stdout, 1);
+  if (n_theories) gg_table_print(t, stdout, 2);
   free(t);
   printf("\n");
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++) {

@@ -129,7 +129,7 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   if (all.options.threads < 1) all.options.threads = 1;
   if (sweep->settings.does == GG_DOES_THEORY) all.options.workers = NULL; /* who share replicas */
   if (!all.options.command) all.options.command = "the graingas library";
-  GG_TRY(gg_sweep_folder_prepare(folder, err));
+  GG_TRY(gg_sweep_folder_prepare(folder, "results of a sweep are a folder with a file a point", err));
   gg_sweep_folder_tidy(folder);
   pthread_mutex_init(&all.lock, NULL);
   pthread_cond_init(&all.news, NULL);

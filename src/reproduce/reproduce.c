@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.h"
 #include "reproduce/figures.h"
+#include "sweep/folder.h"
 
 static const char *const endings[] = {".h5",  ".csv",           "_numbers.csv",  ".svg",
                                       ".png", "_snapshots.svg", "_snapshots.png"};
@@ -96,7 +97,9 @@ gg_status gg_figure_reproduce(const gg_figure_entry *entry, const gg_reproduce_o
   if (!f) return GG_FAILED;
   *f = (gg_figure){.entry = entry, .quick = options->quick};
   gg_figure_base(entry, o.base, sizeof o.base);
-  gg_status status = each_file(&o, f, NULL, err);
+  gg_status status = GG_OK;
+  if (options->folder) status = gg_sweep_folder_prepare(options->folder, "a figure is several files", err);
+  if (status == GG_OK) status = each_file(&o, f, NULL, err);
   if (status == GG_OK) status = gg_figure_run(entry, options, &points, err);
   if (status == GG_OK || (status == GG_FAILED && points.n)) {
     gg_status finished = finish(&o, f, &points, &later);

@@ -147,6 +147,8 @@ static void run_parts(part parts[2], bool beside)
 static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
 {
   for (int k = 0; k < 2; k++) GG_TRY(close_part(&parts[k], err));
+  if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC] && strcmp(c->refusal[GG_MD], c->refusal[GG_DSMC]) == 0)
+    return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: %s", c->refusal[GG_MD]);
   if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
     return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
                    c->refusal[GG_DSMC]);

@@ -45,14 +45,17 @@ gg_point_state gg_point_look(const char *folder, uint64_t id)
                                              : GG_POINT_MISSING;
 }
 
-gg_status gg_sweep_folder_prepare(const char *folder, gg_error *err)
+gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err)
 {
   struct stat about;
-  if (!*folder) return gg_fail(err, GG_BAD_INPUT, "the name of the sweep's folder is empty");
+  if (!*folder) return gg_fail(err, GG_BAD_INPUT, "the folder's name is empty: %s", holds);
   if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_cannot_write(folder, strerror(errno), err);
   if (stat(folder, &about) != 0) return gg_cannot_write(folder, strerror(errno), err);
-  if (!S_ISDIR(about.st_mode))
-    return gg_cannot_write(folder, "it is no folder; results of a sweep are a folder with a file a point", err);
+  if (!S_ISDIR(about.st_mode)) {
+    gg_error why;
+    gg_fail(&why, GG_BAD_INPUT, "it is no folder; %s", holds);
+    return gg_cannot_write(folder, why.message, err);
+  }
   if (access(folder, W_OK | X_OK) != 0) return gg_cannot_write(folder, strerror(errno), err);
   return GG_OK;
 }

@@ -14,8 +14,9 @@ char *gg_point_path(const char *folder, uint64_t id, const char *ending);
 /* What is there of a point. */
 gg_point_state gg_point_look(const char *folder, uint64_t id);
 
-/* Make it if it is not there (not what it stands in), and see that files can be made in it. */
-gg_status gg_sweep_folder_prepare(const char *folder, gg_error *err);
+/* Make it if it is not there (not what it stands in), and see that files can be made in it. `holds` ends the message
+ * where something else has its name. */
+gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err);
 /* Remove what a killed process left beside points that are done: checkpoints, locks, what was half written. */
 void gg_sweep_folder_tidy(const char *folder);
 /* Take the place of a point, so that no other process does it at the same time: GG_OK with lock->fd -1 says that one

@@ -13,9 +13,8 @@ def stamps(folder):
 
 def test_a_figure_from_beginning_to_end():
     """The distribution of collision angles: data, tables and pictures; a second time nothing is run again."""
-    os.mkdir("out")
     done = run("reproduce", "thesis 2.25", "--quick", "--output", "out", "--threads", "1")
-    check(done.code == 0, done.err)
+    check(done.code == 0, "the folder is made", done.err)
     check(sorted(done.out.split()) == [f"out/thesis-2.25.{e}" for e in ("csv", "h5", "png", "svg")], done.out)
     rows = list(csv.DictReader(open("out/thesis-2.25.csv", newline="")))
     check({r["method"] for r in rows} >= {"md"} and {r["panel"] for r in rows} == {"1"}, rows[:3])
@@ -58,7 +57,10 @@ def test_what_is_no_figure():
         done = run("reproduce", typed)
         check(done.code == 2 and said in done.err and not done.new, typed, done.err)
     check(run("reproduce").code == 2)
-    check(run("reproduce", "review 3", "--output", "nowhere").code == 3)
+    open("file", "w").close()
+    done = run("reproduce", "thesis 2.25", "--output", "file")
+    check(done.code != 0 and "file: cannot be written: it is no folder" in done.err, done.code, done.err)
+    check(run("reproduce", "review 3", "--output", "nowhere/out").code == 3)
     check(run("reproduce", "review 3", "--json").code == 2)
 
 
