@@ -27,11 +27,11 @@ static void test_theory(void **state)
   (void)state;
   int asked = 0;
   gg_error err;
-  const char *const quantities[] = {"pressure", "cooling_rate", "my_samples"};
+  const char *const quantities[] = {"pressure", "cooling_rate", "my_temperature"};
   const gg_theory_definition mine = {"mine", NULL, "a note of 2026", NULL, 3, quantities, pressure_of_enskog, &asked};
   const char yaml[] = "{flow: equilibrium, phi: 0.1, particles: 400, run: {collisions: 60, warmup: 20}}";
   gg_scene *scene = scene_of(yaml);
-  refused(gg_scene_add_theory(scene, &mine, &err), &err, "my_samples"); /* not yet */
+  refused(gg_scene_add_theory(scene, &mine, &err), &err, "my_temperature"); /* not yet */
   add(scene, &thermometer);
   assert_int_equal(gg_scene_add_theory(scene, &mine, &err), GG_OK);
   refused(gg_scene_add_theory(scene, &mine, &err), &err, "taken");
@@ -57,7 +57,7 @@ static void test_theory(void **state)
   json_array_foreach(json_object_get(document, "comparison"), i, row)
   {
     const char *quantity = json_string_value(json_object_get(row, "quantity"));
-    if (strcmp(quantity, "my_samples") == 0) found = row;
+    if (strcmp(quantity, "my_temperature") == 0) found = row;
     if (strcmp(quantity, "pressure") == 0)
       assert_true(json_is_real(json_object_get(json_object_get(row, "md_theory_deviation"), "mine")));
   }
