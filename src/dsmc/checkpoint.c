@@ -53,6 +53,12 @@ static bool is_step(const gg_dsmc *d, const gg_dsmc_time_step *s)
          s->synchronise > 0 && !isnan(s->bias);
 }
 
+/* Majorants are over the thermal speed, and were learned at that of then: of a gas that warms, at the start's. */
+static double coldest(const gg_dsmc *d)
+{
+  return fmin(d->now.temperature, ldexp(d->model.temperature0, 2 * (int)d->now.power));
+}
+
 /* `most`: a hundred times what two of the fastest could meet at, over the thermal speed. */
 static bool is_majorant(const gg_dsmc_majorant *m, double remainder, double most)
 {
@@ -64,11 +70,11 @@ static bool is_state(const gg_dsmc *d)
   const gg_dsmc_state *s = &d->now;
   const double plain[] = {s->time, s->unsynchronised, s->centre.x, s->centre.y, s->centre.z, s->lost, s->gone};
   bool good = is_between(s->temperature, 1e-200, 1e200) && is_between(s->fastest, 0, 1e200) && fabs(s->strain) <= 1e3 &&
-              abs(s->power) < 100000 && is_step(d, &s->step) && s->asked >= 0; /* without end, too */
+              is_between(s->power, -100000, 100000) && is_step(d, &s->step) && s->asked >= 0; /* without end, too */
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
   for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) {
     const double meeting = 2 * s->fastest + fabs(d->model.sigma[p] * d->model.shear_rate);
-    good = good && is_majorant(&s->majorant[p], s->remainder[p], 100 * meeting / sqrt(s->temperature));
+    good = good && is_majorant(&s->majorant[p], s->remainder[p], 100 * meeting / sqrt(coldest(d)));
   }
   return good;
 }

@@ -274,8 +274,8 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
 {
   const struct gg_replica_clock *c = &r->clock;
   const double plain[] = {c->temperature, c->time, c->velocity_factor, c->gone, c->part_gone, c->cpu, c->window_cpu};
-  bool good = c->interval > 0 && c->interval < 1e300 && c->part >= 0 && c->part <= r->parts &&
-              llabs(c->power) < 100000 && !isnan(c->next_frame) && !isnan(c->frame_every);
+  bool good = c->interval > 0 && c->interval < 1e300 && c->part >= 0 && c->part <= r->parts && c->power > -100000 &&
+              c->power < 100000 && !isnan(c->next_frame) && !isnan(c->frame_every);
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
   return good ? GG_OK : gg_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
 }

@@ -55,6 +55,29 @@ static void restarts_bit_for_bit(void **state)
   }
 }
 
+/* A sheared gas that begins in the cold has majorants that were learned there, over speeds of then: a state like any
+ * other. */
+static void restarts_while_it_warms(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_USF, 0.3, 1, -1, 100);
+  s.temperature = 1e-6;
+  gg_model m = lab_model(&s);
+  gg_engine *e = lab_engine(&m, 11);
+  gg_error err = {0};
+  for (int k = 0; k < 200; k++) {
+    gg_engine *resumed = NULL;
+    gg_archive archive = {0};
+    lab_advance(e, INFINITY, 10);
+    assert_int_equal(gg_dsmc_ops.save(e, &archive, &err), GG_OK);
+    assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_OK);
+    gg_archive_clear(&archive);
+    gg_dsmc_ops.destroy(e);
+    e = resumed;
+  }
+  gg_dsmc_ops.destroy(e);
+}
+
 static void count(void *context, const gg_collision_record *collision)
 {
   *(uint64_t *)context += collision->c12.x == collision->c12.x;
@@ -190,8 +213,8 @@ static void stopped(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(without_its_callback),
-                                     cmocka_unit_test(rescaling_is_exact), cmocka_unit_test(precision_is_kept),
-                                     cmocka_unit_test(stopped)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(restarts_while_it_warms),
+                                     cmocka_unit_test(without_its_callback), cmocka_unit_test(rescaling_is_exact),
+                                     cmocka_unit_test(precision_is_kept),    cmocka_unit_test(stopped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

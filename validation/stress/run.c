@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "budget.h"
+#include "common/archive.h"
 #include "common/thermostat.h"
 #include "corner.h"
 
@@ -76,6 +77,18 @@ static void look_at(const gg_simulation *g, const sample *s, finding *f)
   f->escapes += sample_escapes(s, g);
 }
 
+/* What is saved is read as if anybody had made it: whatever state this is, a run can go on from it. */
+static gg_status save_and_restore(const gg_simulation *g, gg_error *err)
+{
+  gg_archive archive = {0};
+  gg_engine *restored = NULL;
+  gg_status status = g->engine->ops->save(g->engine, &archive, err);
+  if (status == GG_OK) status = g->engine->ops->restore(&g->model, &archive, &restored, err);
+  gg_archive_clear(&archive);
+  if (restored) restored->ops->destroy(restored);
+  return status;
+}
+
 static gg_status go_through(gg_simulation *g, const corner *c, sample *s, sample *other, finding *f, gg_error *err)
 {
   const double n = (double)g->model.n, all = collisions_of(c, g);
@@ -92,6 +105,7 @@ static gg_status go_through(gg_simulation *g, const corner *c, sample *s, sample
     GG_TRY(expect_momentum(g, expected, err));
     sample_take(s, g);
     look_at(g, s, f);
+    if (f->numbers) GG_TRY(save_and_restore(g, err));
     f->monotone &= s->state.time >= time && s->state.collisions > collisions;
     if (2 * k == looks) middle = s->state.time;
     f->momentum = fmax(f->momentum, momentum_of(g, s, expected, &scale));
