@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "door/run.h"
 #include "door/simulation.h"
 #include "io/h5/checkpoint_file.h"
@@ -51,9 +52,12 @@ static gg_status tell(const gg_archive *a, const char *path, const gg_scene *sce
 static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)
 {
   gg_scene *stored = NULL;
+  bool before = gg_memory_begin();
   char *yaml = gg_checkpoint_scene(path, info->older);
-  gg_status status =
-      yaml ? gg_scene_parse(yaml, path, &stored, err) : gg_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
+  bool lacked = gg_memory_end(before);
+  gg_status status = yaml     ? gg_scene_parse(yaml, path, &stored, err)
+                     : lacked ? gg_fail(err, GG_FAILED, "%s: out of memory", path)
+                              : gg_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
   free(yaml);
   info->frames = gg_door_trajectory_frames(a);
   if (status == GG_OK) status = tell(a, path, stored, info, err);

@@ -87,11 +87,14 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   gg_scene_fill_in(&filled);
   bool outer = gg_memory_begin();
   json_t *value = gg_scene_key_json(&filled, key);
-  if (gg_memory_end(outer)) return gg_fail(err, GG_FAILED, "out of memory");
-  if (!value) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   locale_t before = gg_c_locale_enter();
-  gg_flow_style_text(value, text, size);
+  if (value) gg_flow_style_text(value, text, size);
   gg_c_locale_leave(before);
+  if (gg_memory_end(outer)) {
+    json_decref(value);
+    return gg_fail(err, GG_FAILED, "out of memory");
+  }
+  if (!value) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   json_decref(value);
   return GG_OK;
 }
@@ -202,8 +205,10 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
     uses = 1u << kind;
   }
   GG_TRY(gg_door_finished(scene, &finished, err));
+  bool before = gg_memory_begin();
   gg_scene_inert(&finished, uses, &lines);
-  for (size_t i = 0; i < lines.n; i++) line(context, lines.text[i]);
+  gg_status status = gg_memory_check(before, GG_OK, err);
+  for (size_t i = 0; status == GG_OK && i < lines.n; i++) line(context, lines.text[i]);
   gg_text_list_clear(&lines);
-  return GG_OK;
+  return status;
 }

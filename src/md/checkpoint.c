@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "md/verify.h"
 
 /* What stands beside the arrays, in one plain block. */
@@ -89,7 +90,9 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(gg_md_note_surfaces(e, err));
   if (b.comoving) GG_TRY(gg_md_make_rows(e, err));
   gg_md_queue_reset(&e->queue, b.bucket_width);
+  const bool before = gg_memory_begin();
   const char *wrong = gg_md_wrong_grains(e);
+  if (gg_memory_end(before)) return gg_fail(err, GG_FAILED, "out of memory to look at the checkpoint of md");
   if (wrong) return refuse(wrong, err);
   if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
   e->queue.current = b.current_bucket;

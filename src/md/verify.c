@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/memory_note.h"
+
 /* Boxes that a grain may lie or come from its own; far less than an index holds. */
 #define FAR 1000
 
@@ -99,6 +101,7 @@ static bool are_all_there(const gg_md *e)
   int64_t of[GG_MAX_SPECIES] = {0};
   uint8_t *seen = calloc(e->n, 1);
   bool good = seen != NULL;
+  if (!good) gg_memory_lacked(); /* it is not known */
   for (uint32_t i = 0; good && i < e->n; i++) {
     of[e->grain[i].species]++;
     good = e->id[i] < e->n && !seen[e->id[i]];

@@ -435,14 +435,15 @@ static void try_one(const struct op *op, uint64_t at, bool last, const char *in,
   o->clean = !whole, o->harmless = whole;
 }
 
-/* HDF5, FFTW and GSL's linear algebra end the program where they lack memory in some places, which nobody can keep them
- * from; elsewhere it is our mistake. */
+/* HDF5, FFTW, GSL's linear algebra and its solvers end the program where they lack memory in some places, which nobody
+ * can keep them from; elsewhere it is our mistake. */
 static outcome *ending;
 
 static void end(void)
 {
   ending->ended = failing_malloc_was_in("libhdf5") || failing_malloc_was_in("libfftw") ||
-                  failing_malloc_was_in("gsl_linalg_") || failing_malloc_was_in("gsl_eigen_");
+                  failing_malloc_was_in("gsl_linalg_") || failing_malloc_was_in("gsl_eigen_") ||
+                  failing_malloc_was_in("gsl_multiroot_");
   if (ending->ended) return;
   printf("#   ended; failed was");
   failing_malloc_where(stdout);

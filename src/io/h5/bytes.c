@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "common/memory_note.h"
 #include "io/h5/format.h"
 #include "io/h5/seal.h"
 
@@ -11,6 +12,7 @@ void gg_h5_in_failed(gg_h5_in *in, const char *why)
 {
   if (in->failed) return;
   in->failed = true;
+  if (errno == ENOMEM) gg_memory_lacked();
   snprintf(in->why, sizeof in->why, "%s", errno == ENOMEM ? "out of memory" : why);
 }
 

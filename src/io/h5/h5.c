@@ -43,10 +43,12 @@ static void create(gg_h5 *h, const char *path, bool in_memory)
 {
   start(h);
   hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-  H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST); /* the form that reader.h reads */
-  if (in_memory) H5Pset_fapl_core(access, 1 << 20, 0);
-  h->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  bool ready = H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
+               /* the form that reader.h reads */
+               H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST) >= 0 &&
+               (!in_memory || H5Pset_fapl_core(access, 1 << 20, 0) >= 0);
+  if (!ready) gg_h5_failed(h, "out of memory");
+  if (ready) h->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (h->file < 0) gg_h5_failed(h, "HDF5 cannot create it"); /* before the next call clears HDF5's error stack */
   H5Pclose(access);
 }

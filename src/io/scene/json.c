@@ -193,7 +193,10 @@ void gg_flow_style_text(const json_t *value, char *text, size_t size)
   size_t length;
   FILE *out = open_memstream(&whole, &length);
   if (out) gg_print_flow_style(out, value);
-  if (out && fclose(out) == 0 && whole) snprintf(text, size, "%s", whole);
+  if (out && fclose(out) == 0 && whole)
+    snprintf(text, size, "%s", whole);
+  else
+    gg_memory_lacked();
   free(whole);
 }
 

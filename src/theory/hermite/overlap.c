@@ -34,7 +34,9 @@ gg_status gg_hermite_overlap_make(gg_hermite_overlap *o, int tests, int trials, 
   o->x = malloc(2 * (size_t)o->n * sizeof *o->x);
   if (!o->x) return gg_fail(err, GG_FAILED, "out of memory");
   o->w = o->x + o->n;
-  return gg_hermite_rule(o->n, o->x, o->w, err);
+  gg_status status = gg_hermite_rule(o->n, o->x, o->w, err);
+  if (status != GG_OK) gg_hermite_overlap_clear(o);
+  return status;
 }
 
 void gg_hermite_overlap_clear(gg_hermite_overlap *o)
