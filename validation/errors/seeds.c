@@ -119,14 +119,14 @@ static void add_number(const campaign *c, const item *t, size_t number, sums *s)
     if (usable(c, seed, number)) mean += c->value[i] / n, error2 += c->error[i] * c->error[i] / n;
   }
   bool known = isfinite(t->truth);
-  double truth = known ? t->truth : mean, z2 = 0;
+  double truth = known ? t->truth : mean;
   for (int seed = 0; seed < c->seeds; seed++) {
     size_t i = (size_t)seed * MOST_NUMBERS + number;
     if (!usable(c, seed, number)) continue;
     double d = (c->value[i] - truth) * (known ? 1 : sqrt(n / (n - 1))), z = fabs(d) / c->error[i];
     s->n++, s->in68 += z <= 1, s->in95 += z <= 1.959964;
-    z2 += z * z / n, s->z4 += z * z * z * z;
-    s->z2 += z * z, s->deviation2 += d * d / error2, s->error2++;
+    s->z2 += z * z, s->z4 += z * z * z * z;
+    s->deviation2 += d * d / error2, s->error2++;
     s->wrong += z > 4 && c->called_steady[seed];
   }
   s->bias += (mean - truth) / sqrt(error2) * n;
