@@ -74,6 +74,13 @@ static int by_value(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
+static double least_memory(const row *from, const row *to)
+{
+  double least = from->memory;
+  for (const row *r = from; r < to; r++) least = fmin(least, r->memory);
+  return least;
+}
+
 /* The second to the last tenth: the first has the warm-up in it. */
 static int verdict(const watch *w)
 {
@@ -88,10 +95,10 @@ static int verdict(const watch *w)
   qsort(sorted, PARTS - 1, sizeof *sorted, by_value);
   for (int k = 0; k < PARTS - 1; k++) worst = fmax(worst, fabs(rate[k] / sorted[PARTS / 2 - 1] - 1));
   for (const row *r = first; r <= last; r++) other += r->files != first->files;
-  double growth = last->memory - first->memory;
+  double before = least_memory(first, &w->rows[ROWS / 2]), growth = least_memory(&w->rows[ROWS / 2], last + 1) - before;
   printf("memory %+.0f kB (%+.2f %%); rate %.4g /s, of a tenth within %.2f %%; open files %d, other in %d rows\n",
-         growth / 1e3, 100 * growth / first->memory, sorted[PARTS / 2 - 1], 100 * worst, first->files, other);
-  return (growth > 0.01 * first->memory && growth > 256e3) || worst > 0.05 || other;
+         growth / 1e3, 100 * growth / before, sorted[PARTS / 2 - 1], 100 * worst, first->files, other);
+  return (growth > 0.01 * before && growth > 256e3) || worst > 0.05 || other;
 }
 
 int main(int argc, char **argv)
