@@ -1,14 +1,26 @@
 #include "measure/mesh.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "statistics/planner.h"
-
 enum { LEAST_MESH = 16, MOST_MESH = 96, RESERVE = 1 << 22 };
 #define MESH_SPACING 0.25
+
+/* FFTW plans with one planner for the whole process: only execution is free of locks. */
+static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
+
+/* FFTW ends the program where its planner gets no memory: there has to be some. (Volatile: a compiler may leave out
+ * what is asked for and given back.) */
+static bool is_room_to_plan(void)
+{
+  void *volatile reserve = malloc(RESERVE);
+  const bool room = reserve != NULL;
+  free(reserve);
+  return room;
+}
 
 int gg_mesh_points_along(const gg_model *m)
 {
@@ -22,16 +34,13 @@ gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err)
   *m = (gg_mesh){.n = n};
   m->field = fftw_alloc_real(plane * (size_t)n);
   m->modes = fftw_alloc_complex(plane * (size_t)(n / 2 + 1));
-  /* FFTW ends the program where its planner gets no memory: there has to be some. */
-  void *reserve = malloc(RESERVE);
-  free(reserve);
-  if (m->field && m->modes && reserve) {
-    gg_planner_lock();
+  const bool lacked = !m->field || !m->modes || !is_room_to_plan();
+  if (!lacked) {
+    pthread_mutex_lock(&planner);
     m->plan = fftw_plan_dft_r2c_3d(n, n, n, m->field, m->modes, FFTW_ESTIMATE);
-    gg_planner_unlock();
+    pthread_mutex_unlock(&planner);
   }
   if (m->plan) return GG_OK;
-  bool lacked = !m->field || !m->modes || !reserve;
   gg_mesh_clear(m);
   if (lacked) return gg_fail(err, GG_FAILED, "out of memory for a mesh of %d^3", n);
   return gg_fail(err, GG_FAILED, "no Fourier transform on a mesh of %d^3 could be planned", n);
@@ -39,9 +48,9 @@ gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err)
 
 void gg_mesh_clear(gg_mesh *m)
 {
-  gg_planner_lock();
+  pthread_mutex_lock(&planner);
   if (m->plan) fftw_destroy_plan(m->plan);
-  gg_planner_unlock();
+  pthread_mutex_unlock(&planner);
   fftw_free(m->field);
   fftw_free(m->modes);
   *m = (gg_mesh){0};
