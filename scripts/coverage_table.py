@@ -1,4 +1,5 @@
-"""Lines and branches that were run, from gcovr's JSON: coverage_table.py COUNTS [FILE]. See scripts/coverage."""
+"""Lines and branches that were run, from what coverage_count.py added up: coverage_table.py COUNTS [FILE]. See
+scripts/coverage."""
 import json
 import sys
 
@@ -9,11 +10,11 @@ class Count:
     def __init__(self):
         self.lines = self.lines_run = self.branches = self.branches_taken = 0
 
-    def add(self, line):
+    def add(self, ran, ways):
         self.lines += 1
-        self.lines_run += line["count"] > 0
-        self.branches += len(line["branches"])
-        self.branches_taken += taken(line)
+        self.lines_run += ran
+        self.branches += len(ways)
+        self.branches_taken += sum(ways)
 
     def missed(self):
         return self.lines - self.lines_run + self.branches - self.branches_taken
@@ -24,22 +25,13 @@ class Count:
         print(f"{name:36} {share(self.lines_run, self.lines)}  {share(self.branches_taken, self.branches)}")
 
 
-def taken(line):
-    return sum(branch["count"] > 0 for branch in line["branches"])
-
-
-def code_of(entry):
-    return [line for line in entry["lines"] if not line.get("gcovr/noncode")]
-
-
 def table(files):
     whole, rooms, each = Count(), {}, {}
-    for entry in files:
-        name = entry["file"]
+    for name, lines in files.items():
         counts = whole, rooms.setdefault("/".join(name.split("/")[:2]), Count()), each.setdefault(name, Count())
-        for line in code_of(entry):
+        for _, ran, ways in lines:
             for count in counts:
-                count.add(line)
+                count.add(ran, ways)
     print(f"{'':36} {'lines':>24}  {'branches':>24}")
     for room in sorted(rooms):
         rooms[room].row(room)
@@ -52,19 +44,15 @@ def table(files):
 def show(files, name):
     """Its lines that nothing ran (-), and those with a way out that nothing took (?, taken of all)."""
     text = open(name).read().splitlines()
-    for entry in files:
-        if entry["file"] != name:
-            continue
-        for line in code_of(entry):
-            number, ways = line["line_number"], len(line["branches"])
-            if line["count"] == 0:
-                print(f"{number:5} -      {text[number - 1]}")
-            elif taken(line) < ways:
-                print(f"{number:5} ? {taken(line)}/{ways:<3}{text[number - 1]}")
+    for number, ran, ways in files.get(name, []):
+        if not ran:
+            print(f"{number:5} -      {text[number - 1]}")
+        elif not all(ways):
+            print(f"{number:5} ? {sum(ways)}/{len(ways):<3}{text[number - 1]}")
 
 
 def main():
-    files = json.load(open(sys.argv[1]))["files"]
+    files = json.load(open(sys.argv[1]))
     if len(sys.argv) > 2:
         show(files, sys.argv[2])
     else:

@@ -91,10 +91,12 @@ static void *real(const char *name)
 }
 #define REAL(name) (__extension__(__typeof__(&name)) real(#name))
 
-/* Terminals, null, full: not the memory that is mounted there. */
-static bool is_device(const char *path)
+/* Terminals, null, full: not the memory that is mounted there. Nor are a compiler's counts of lines (scripts/coverage)
+ * files of the program. */
+static bool is_no_file(const char *path)
 {
-  return strncmp(path, "/dev/", 5) == 0 && strncmp(path, "/dev/shm/", 9) != 0;
+  const char *end = strrchr(path, '.');
+  return (strncmp(path, "/dev/", 5) == 0 && strncmp(path, "/dev/shm/", 9) != 0) || (end && strcmp(end, ".gcda") == 0);
 }
 
 static bool path_of(int fd, char path[PATH_MAX])
@@ -103,7 +105,7 @@ static bool path_of(int fd, char path[PATH_MAX])
   snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
   ssize_t n = readlink(link, path, PATH_MAX - 1);
   path[n > 0 ? n : 0] = '\0';
-  return n > 0 && path[0] == '/' && !is_device(path);
+  return n > 0 && path[0] == '/' && !is_no_file(path);
 }
 
 /* What is to become of this call. */
@@ -146,7 +148,7 @@ static int opened(int folder, const char *path, int flags, mode_t mode)
 {
   /* HDF5 looks for a file that nobody has made before it makes one in memory */
   bool changes = for_writing(flags) && (flags & O_CREAT || access(path, F_OK) == 0);
-  int does = changes && !is_device(path) && strncmp(path, "/proc/", 6) != 0 ? count("open", path) : NOTHING;
+  int does = changes && !is_no_file(path) && strncmp(path, "/proc/", 6) != 0 ? count("open", path) : NOTHING;
   if (does == FAILS) return -1;
   int fd = REAL(openat)(folder, path, flags, mode);
   after(does);
