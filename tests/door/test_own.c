@@ -314,12 +314,107 @@ static void theories_refused(void **state)
   gg_scene_free(s);
 }
 
+/* An observable that is not whole, in the order in which it is looked at. */
+static void observables_refused(void **state)
+{
+  (void)state;
+  gg_error err;
+  char long_name[42], long_text[502], name[16];
+  memset(long_name, 'a', 41), long_name[41] = 0;
+  memset(long_text, 'a', 501), long_text[501] = 0;
+  const gg_quantity_definition same[] = {{"x", NULL, NULL}, {"x", NULL, NULL}}, shared = {"N1", NULL, NULL},
+                               nameless = {NULL, NULL, NULL}, long_unit = {"x", long_name, NULL},
+                               long_doc = {"x", NULL, long_text};
+  const struct {
+    gg_observable_definition o;
+    const char *said;
+  } bad[] = {{{NULL, NULL, 1, same, 0, sample_T, NULL, NULL}, "observable: a name is missing"},
+             {{"", NULL, 1, same, 0, sample_T, NULL, NULL}, "observable: a name is missing"},
+             {{"1st", NULL, 1, same, 0, sample_T, NULL, NULL}, "'1st' is no name"},
+             {{"[x", NULL, 1, same, 0, sample_T, NULL, NULL}, "'[x' is no name"},
+             {{"a-b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a-b' is no name"},
+             {{"a:b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a:b' is no name"},
+             {{"a{b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a{b' is no name"},
+             {{long_name, NULL, 1, same, 0, sample_T, NULL, NULL}, "at most 40"},
+             {{"x", long_text, 1, same, 0, sample_T, NULL, NULL}, "at most 500 bytes"},
+             {{"x", NULL, 1, same, 0, NULL, NULL, NULL}, "`sample` is missing"},
+             {{"x", NULL, 0, same, 0, sample_T, NULL, NULL}, "at least one quantity"},
+             {{"x", NULL, 1, NULL, 0, sample_T, NULL, NULL}, "at least one quantity"},
+             {{"x", NULL, 1000, same, 0, sample_T, NULL, NULL}, "quantities of its own"},
+             {{"x", NULL, 1, same, (1u << 24) + 1, sample_T, NULL, NULL}, "16 MiB"},
+             {{"x", NULL, 2, same, 0, sample_T, NULL, NULL}, "quantity: the name 'x' is taken"},
+             {{"x", NULL, 1, &shared, 0, sample_T, NULL, NULL}, "quantity: the name 'N1' is taken"},
+             {{"x", NULL, 1, &nameless, 0, sample_T, NULL, NULL}, "quantity: a name is missing"},
+             {{"x", NULL, 1, &long_unit, 0, sample_T, NULL, NULL}, "at most 40 bytes"},
+             {{"x", NULL, 1, &long_doc, 0, sample_T, NULL, NULL}, "at most 500 bytes"}};
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1}");
+  assert_refused(gg_scene_add_observable(s, NULL, &err), "no definition");
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+    assert_refused(gg_scene_add_observable(s, &bad[k].o, &err), bad[k].said);
+  assert_refused(gg_scene_add_observable(NULL, &bad[9].o, &err), "no scene");
+  assert_refused(gg_scene_add_theory(NULL, NULL, &err), "no scene");
+  /* Once there is one, its names are taken; and there is room for so many quantities. */
+  gg_quantity_definition q = {name, NULL, NULL};
+  gg_observable_definition o = {name, NULL, 1, &q, 0, sample_T, NULL, NULL};
+  int n = 0;
+  for (gg_status status = GG_OK; status == GG_OK; n += status == GG_OK) {
+    snprintf(name, sizeof name, "own_%d", n);
+    status = gg_scene_add_observable(s, &o, &err);
+    if (status == GG_OK) assert_refused(gg_scene_add_observable(s, &o, &err), "observable: the name");
+  }
+  assert_true(n >= 8 && strstr(err.message, "quantities of its own"));
+  gg_scene_free(s);
+}
+
+/* A law, and a table of one: speeds ascend, e is from 0 to 1. */
+static void laws_refused(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1}");
+  const struct {
+    double speed[2], e[2];
+    const char *said;
+  } bad[] = {{{-1, 1}, {1, 1}, "speed 1 of the table is -1; speeds must ascend from 0 on"},
+             {{0, INFINITY}, {1, 1}, "speed 2 of the table is inf"},
+             {{0, NAN}, {1, 1}, "speed 2 of the table is nan"},
+             {{1, 1}, {1, 1}, "speed 2 of the table is 1"},
+             {{0, 1}, {1.1, 1}, "e 1 of the table is 1.1; it must be from 0 to 1"},
+             {{0, 1}, {1, -0.1}, "e 2 of the table is -0.1"},
+             {{0, 1}, {1, NAN}, "e 2 of the table is nan"}};
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+    assert_refused(gg_scene_set_restitution_table(s, "soft", 2, bad[k].speed, bad[k].e, &err), bad[k].said);
+  const double *speed = bad[0].speed;
+  assert_refused(gg_scene_set_restitution_table(NULL, "soft", 2, speed, speed, &err), "no scene");
+  assert_refused(gg_scene_set_restitution_table(s, NULL, 2, speed, speed, &err), "a name is missing");
+  assert_refused(gg_scene_set_restitution_table(s, "soft", 0, speed, speed, &err), "a table has 1 to");
+  assert_refused(gg_scene_set_restitution_table(s, "soft", (1u << 20) + 1, speed, speed, &err), "a table has 1 to");
+  assert_refused(gg_scene_set_restitution_table(s, "soft", 2, NULL, speed, &err), "a table has 1 to");
+  assert_refused(gg_scene_set_restitution_table(s, "soft", 2, speed, NULL, &err), "a table has 1 to");
+  assert_refused(gg_scene_set_restitution(NULL, "soft", softening, NULL, &err), "no scene");
+  assert_refused(gg_scene_set_restitution(s, "so ft", softening, NULL, &err), "is no name");
+  /* Taken away again, collision.e is in force: the bits of a scene that never had one. */
+  gg_simulation *m[2] = {NULL};
+  gg_simulation_state now[2];
+  for (int k = 0; k < 2; k++) {
+    if (k) assert_ok(gg_scene_set_restitution(s, "softening", softening, NULL, &err));
+    if (k) assert_ok(gg_scene_set_restitution(s, NULL, NULL, NULL, &err));
+    assert_ok(gg_simulation_new(s, 0, &m[k], &err));
+    assert_ok(gg_simulation_collide(m[k], 500, &err));
+    assert_ok(gg_simulation_get_state(m[k], &now[k], &err));
+    gg_simulation_free(m[k]);
+  }
+  assert_true(now[0].temperature == now[1].temperature);
+  gg_scene_free(s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(read_back), cmocka_unit_test(read_back_run),    cmocka_unit_test(theories_under_a_law),
-      cmocka_unit_test(cooling),   cmocka_unit_test(spoiling),         cmocka_unit_test(law_noted),
-      cmocka_unit_test(listed),    cmocka_unit_test(theories_refused),
+      cmocka_unit_test(read_back),    cmocka_unit_test(read_back_run),    cmocka_unit_test(theories_under_a_law),
+      cmocka_unit_test(cooling),      cmocka_unit_test(spoiling),         cmocka_unit_test(law_noted),
+      cmocka_unit_test(listed),       cmocka_unit_test(theories_refused), cmocka_unit_test(observables_refused),
+      cmocka_unit_test(laws_refused),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
