@@ -16,7 +16,7 @@ static const struct {
     {NULL, gg_bench_overview}, {"md", gg_bench_md}, {"dsmc", gg_bench_dsmc}, {"observables", gg_bench_observables},
     {"error", gg_bench_error},
 };
-enum { N_SUBJECTS = sizeof subjects / sizeof *subjects };
+enum { N_SUBJECTS = sizeof subjects / sizeof *subjects, LEAST_GRAINS = 500 };
 
 gg_bench_sheet *gg_bench_new_sheet(gg_bench *b, const char *key, const char *caption, int keep, gg_error *err)
 {
@@ -40,12 +40,23 @@ void gg_bench_tell(const gg_bench *b, const char *format, ...)
   b->options->tell(b->options->context, line);
 }
 
+static double smaller(const gg_bench *b)
+{
+  return b->options->smaller > 1 ? b->options->smaller : 1;
+}
+
+double gg_bench_seconds(const gg_bench *b, double seconds)
+{
+  return seconds / smaller(b);
+}
+
 gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, int64_t n)
 {
   gg_scene s = gg_scene_defaults();
   s.engine = engine;
   s.phi = phi;
-  s.particles = s.dsmc.particles = n;
+  const int64_t fewer = (int64_t)((double)n / smaller(b));
+  s.particles = s.dsmc.particles = fewer < n && fewer < LEAST_GRAINS ? LEAST_GRAINS : fewer;
   s.run.seed = b->seed;
   return s;
 }

@@ -10,6 +10,7 @@ typedef struct gg_bench_options {
   bool quick;          /* fewer sizes, shorter stretches */
   const char *picture; /* of "error": file to draw, .svg or .png; NULL: none */
   int threads;         /* that one engine may use where threads are measured */
+  double smaller; /* so many times fewer grains and shorter stretches: what is measured says little; 0: as they are */
   int n_overrides;
   const char *const *override; /* "KEY=VALUE" of a scene; only run.seed matters */
   void *context;
@@ -37,7 +38,8 @@ gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc, gg_bench_observa
 /* A new, empty sheet, owned by the bench; NULL with the message if out of memory. Strings must be literals. */
 gg_bench_sheet *gg_bench_new_sheet(gg_bench *bench, const char *key, const char *caption, int keep, gg_error *err);
 void gg_bench_tell(const gg_bench *bench, const char *format, ...) GG_PRINTF(2, 3);
-/* The defaults with this bench's seed. */
+/* The defaults with this bench's seed; and seconds of a stretch: less where the options say so. */
 gg_scene gg_bench_scene(const gg_bench *bench, gg_engine_kind engine, double phi, int64_t n);
+double gg_bench_seconds(const gg_bench *bench, double seconds);
 
 #endif

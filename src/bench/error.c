@@ -193,7 +193,7 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
   gg_bench_sheet *sheet[2];
   GG_TRY(new_sheets(b, sheet, err));
   for (int i = 0; i < n; i++) {
-    GG_TRY(gg_error_state_measure(b, &s[i], quick ? 4 : 6, quick ? 0.3 : 1.5, err));
+    GG_TRY(gg_error_state_measure(b, &s[i], quick ? 4 : 6, gg_bench_seconds(b, quick ? 0.3 : 1.5), err));
     note(sheet[0], sheet[1], &s[i]);
     gg_bench_tell(b, "phi %g e %g %s done", s[i].phi, s[i].e, s[i].rough ? "rough" : "smooth");
   }

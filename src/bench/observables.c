@@ -61,7 +61,7 @@ static gg_status measure(gg_bench *b, gg_bench_sheet *sheet, int row, int i, con
   gg_bench_sheet_put(sheet, row, 1 + i, "-");
   if (!find_scene(b, &c, o, &scene)) return GG_OK;
   GG_TRY(gg_observable_cost_measure(&scene, o, b->options->quick ? 10 : 30, repeats_of(b, c.n),
-                                    b->options->quick ? 0.01 : 0.15, &cost, err));
+                                    gg_bench_seconds(b, b->options->quick ? 0.01 : 0.15), &cost, err));
   gg_bench_sheet_put(sheet, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * cost.overhead, 100 * cost.lowest,
                      100 * cost.highest);
   json_array_append_new(sheet->rows,

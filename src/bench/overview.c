@@ -50,7 +50,7 @@ static gg_status measure(gg_bench *b, gg_bench_sheet *sheet, gg_engine_kind engi
       gg_throughput t[N_KERNELS];
       for (int k = 0; k < N_KERNELS; k++) {
         gg_scene s = scene_of(b, engine, k, densities[d], sizes[i]);
-        GG_TRY(gg_throughput_measure(&s, true, 20, quick ? 3 : 5, quick ? 0.2 : 0.6, &t[k], err));
+        GG_TRY(gg_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &t[k], err));
       }
       note(sheet, name, densities[d], sizes[i], t);
       gg_bench_tell(b, "%s phi %g N %lld done", name, densities[d], (long long)sizes[i]);

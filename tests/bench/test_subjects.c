@@ -1,0 +1,203 @@
+/* Every table of graingas bench, of small systems and short stretches: whole, its numbers what they say; and what is
+ * refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "bench/bench.h"
+
+static int told;
+
+static void tell(void *context, const char *line)
+{
+  (void)context;
+  assert_true(*line && !strchr(line, '\n'));
+  told++;
+}
+
+static double of(const json_t *row, const char *key)
+{
+  const json_t *value = json_object_get(row, key);
+  if (!json_is_number(value)) fail_msg("%s is missing", key);
+  return json_number_value(value);
+}
+
+/* Each cell of the table is filled, and each row of the document has what was measured between its bounds. */
+static void assert_whole(const gg_bench_sheet *s, const char *middle, const char *least, const char *largest)
+{
+  size_t i;
+  json_t *row;
+  assert_true(s->n_rows > 0 && s->n_columns > 1 && json_array_size(s->rows) > 0);
+  for (int c = 0; c < s->n_columns; c++) {
+    int filled = 0;
+    assert_true(strlen(s->head[c]) > 0 && strlen(s->head[c]) < GG_BENCH_CELL - 1);
+    for (int r = 0; r < s->n_rows; r++) filled += s->cell[r][c][0] != 0;
+    if (strcmp(s->head[c], "against") != 0 && filled < s->n_rows) fail_msg("%s: %s", s->key, s->head[c]);
+  }
+  json_array_foreach(s->rows, i, row)
+  {
+    const double m = of(row, middle), low = of(row, least), high = of(row, largest);
+    if (!(low <= m && m <= high)) fail_msg("%s: %g is not from %g to %g", s->key, m, low, high);
+    assert_non_null(json_object_get(row, "unit"));
+  }
+}
+
+static const gg_bench_sheet *sheet_of(const gg_bench *b, const char *key)
+{
+  for (int i = 0; i < b->n_sheets; i++)
+    if (strcmp(b->sheet[i]->key, key) == 0) return b->sheet[i];
+  fail_msg("there is no sheet '%s'", key);
+  return NULL;
+}
+
+static void begin(gg_bench *b, gg_bench_options *o, const char *subject)
+{
+  gg_error err;
+  told = 0;
+  if (gg_bench_run(b, subject, o, &err) != GG_OK) fail_msg("%s", err.message);
+}
+
+/* As JSON it has the same sheets under the same names. */
+static void end(gg_bench *b)
+{
+  char *text = gg_bench_document(b);
+  json_t *document = json_loads(text, 0, NULL);
+  assert_non_null(json_object_get(document, "graingas"));
+  for (int i = 0; i < b->n_sheets; i++)
+    assert_true(json_equal(json_object_get(document, b->sheet[i]->key), b->sheet[i]->rows));
+  json_decref(document);
+  free(text);
+  gg_bench_clear(b);
+  assert_int_equal(b->n_sheets, 0);
+}
+
+static void overview(void **state)
+{
+  (void)state;
+  gg_bench b;
+  for (int quick = 0; quick < 2; quick++) {
+    gg_bench_options o = {.quick = quick, .smaller = 200, .tell = tell};
+    begin(&b, &o, NULL);
+    const gg_bench_sheet *s = sheet_of(&b, "throughput");
+    assert_whole(s, "mean", "slowest", "fastest");
+    assert_int_equal(s->n_rows, 2 * 2 * (quick ? 2 : 3)); /* engines, densities, sizes */
+    assert_int_equal(told, s->n_rows);
+    assert_int_equal(json_array_size(s->rows), 3 * s->n_rows);
+    end(&b);
+  }
+}
+
+static void md(void **state)
+{
+  (void)state;
+  gg_bench b;
+  for (int quick = 0; quick < 2; quick++) {
+    gg_bench_options o = {.quick = quick, .smaller = 1000};
+    begin(&b, &o, "md");
+    assert_whole(sheet_of(&b, "collisions"), "mean", "slowest", "fastest");
+    assert_int_equal(sheet_of(&b, "collisions")->n_rows, quick ? 2 : 4);
+    assert_whole(sheet_of(&b, "ratios"), "ratio", "least", "largest");
+    assert_true(of(json_array_get(sheet_of(&b, "ratios")->rows, 0), "ratio") == 1); /* against itself */
+    end(&b);
+  }
+}
+
+static void dsmc(void **state)
+{
+  (void)state;
+  gg_bench b;
+  for (int quick = 0; quick < 2; quick++)
+    for (int threads = 1; threads <= (quick ? 2 : 1); threads++) {
+      gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = threads, .tell = tell};
+      begin(&b, &o, "dsmc");
+      assert_whole(sheet_of(&b, "times"), "mean", "least", "largest");
+      assert_whole(sheet_of(&b, "ratios"), "ratio", "least", "largest");
+      assert_whole(sheet_of(&b, "precision"), "ratio", "least", "largest");
+      assert_whole(sheet_of(&b, "paths"), "ratio", "least", "largest");
+      assert_int_equal(b.n_sheets, threads > 1 ? 5 : 4);
+      if (threads > 1) assert_whole(sheet_of(&b, "threads"), "ratio", "least", "largest");
+      end(&b);
+    }
+}
+
+/* A number, or null where there is none. */
+static bool is_null_or_number(const json_t *row, const char *key)
+{
+  const json_t *value = json_object_get(row, key);
+  return json_is_null(value) || (json_is_real(value) && isfinite(json_real_value(value)));
+}
+
+static void error(void **state)
+{
+  (void)state;
+  gg_bench b;
+  const char *picture = system("command -v gnuplot >/dev/null") == 0 ? "error.svg" : NULL;
+  gg_bench_options o = {.quick = true, .smaller = 100, .tell = tell, .picture = picture};
+  begin(&b, &o, "error");
+  assert_int_equal(told, 3);
+  const gg_bench_sheet *seconds = sheet_of(&b, "seconds"), *floors = sheet_of(&b, "floors");
+  assert_int_equal(seconds->n_rows, 14); /* smooth grains have no theta */
+  assert_int_equal(floors->n_rows, 14);
+  size_t i;
+  json_t *row;
+  json_array_foreach(seconds->rows, i, row)
+  {
+    assert_true(is_null_or_number(row, "error_of_a_second") && is_null_or_number(row, "floor"));
+    const json_t *until = json_object_get(row, "seconds_to_0.01_0.001_0.0001");
+    assert_int_equal(json_array_size(until), 3);
+    assert_int_equal(json_array_size(json_object_get(row, "seconds")), json_array_size(json_object_get(row, "stderr")));
+  }
+  assert_int_equal(i, 14 * 12); /* by every way */
+  json_array_foreach(floors->rows, i, row)
+  {
+    assert_true(is_null_or_number(row, "truth") && is_null_or_number(row, "step_order"));
+    assert_true(strlen(json_string_value(json_object_get(row, "source"))) > 0);
+  }
+  for (int r = 0; r < seconds->n_rows; r++) {
+    const char *cell = seconds->cell[r][2], *first = seconds->cell[r][8];
+    assert_true(strcmp(cell, "never") == 0 || strstr(cell, " s, N "));
+    assert_true(strncmp(first, "md", 2) == 0 || strncmp(first, "dsmc", 4) == 0);
+  }
+  if (picture) assert_int_equal(access(picture, R_OK), 0);
+  remove("error.svg");
+  end(&b);
+}
+
+static void refuse(const char *subject, gg_bench_options o, const char *said)
+{
+  gg_bench b;
+  gg_error err = {0};
+  assert_int_equal(gg_bench_run(&b, subject, &o, &err), GG_BAD_INPUT);
+  if (!strstr(err.message, said)) fail_msg("'%s' lacks '%s'", err.message, said);
+  assert_int_equal(b.n_sheets, 0);
+  gg_bench_clear(&b);
+}
+
+static void refused(void **state)
+{
+  (void)state;
+  static const char *const bad[] = {"run.seed=-1"};
+  refuse("rubbish", (gg_bench_options){0}, "'rubbish' is not known; allowed: md, dsmc, observables, error");
+  refuse("md", (gg_bench_options){.picture = "x.svg"}, "--picture is for bench error");
+  refuse(NULL, (gg_bench_options){.picture = "x.svg"}, "--picture is for bench error");
+  refuse("error", (gg_bench_options){.picture = "x.gif", .smaller = 100}, "x.gif");
+  refuse("md", (gg_bench_options){.n_overrides = 1, .override = bad}, "run.seed");
+}
+
+int main(void)
+{
+  char folder[] = "/tmp/graingas-bench-XXXXXX";
+  const struct CMUnitTest tests[] = {cmocka_unit_test(overview), cmocka_unit_test(md), cmocka_unit_test(dsmc),
+                                     cmocka_unit_test(error), cmocka_unit_test(refused)};
+  if (!mkdtemp(folder) || chdir(folder) != 0) return 1;
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  if (chdir("/") != 0 || rmdir(folder) != 0) return 1;
+  return failed;
+}
