@@ -261,10 +261,32 @@ static void no_bias(void **state)
   no_bias_in("white noise", &s, 10);
 }
 
+/* One species of a large ensemble that has few grains: no part of it would be large enough to stand for it. */
+static void no_segments_of_few(void **state)
+{
+  (void)state;
+  for (int first = 0; first < 2; first++) {
+    gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.1, 1, -1, 100000);
+    const double few = 0.02;
+    s.n_species = 2;
+    s.species[0] = (gg_species){first ? few : 1 - few, 1, 1, 0.4};
+    s.species[1] = (gg_species){first ? 1 - few : few, 1, 1, 0.4};
+    gg_model m = lab_model(&s);
+    gg_engine *g = lab_engine(&m, 3);
+    const gg_dsmc *d = (const gg_dsmc *)g;
+    assert_non_null(d->schedule);
+    uint64_t next = d->schedule->next;
+    lab_advance(g, INFINITY, 20000);
+    assert_int_equal(d->schedule->next, next);
+    gg_dsmc_ops.destroy(g);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(everyone_meets), cmocka_unit_test(cut_and_shuffled),
-                                     cmocka_unit_test(halves_stay),    cmocka_unit_test(planted_rates),
-                                     cmocka_unit_test(segments_mix),   cmocka_unit_test(no_bias)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(everyone_meets),    cmocka_unit_test(cut_and_shuffled),
+                                     cmocka_unit_test(halves_stay),       cmocka_unit_test(planted_rates),
+                                     cmocka_unit_test(segments_mix),      cmocka_unit_test(no_bias),
+                                     cmocka_unit_test(no_segments_of_few)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

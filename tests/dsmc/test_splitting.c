@@ -1,6 +1,7 @@
 /* Symmetric splitting over species pairs: all have had the same time, the second half of the list mirrors the first,
  * and both orders together take no longer than the step allows: in the list, and as the collision callback of a mixture
  * has it. */
+#include "dsmc/ensemble.h"
 #include "dsmc/splitting.h"
 #include "lab.h"
 
@@ -115,14 +116,35 @@ static void collisions_come_in_their_time(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
+/* The square of a velocity that is fixed in the laboratory grows by this at most while the strain grows by s. */
+static double largest_growth(double s)
+{
+  return 1 + s * s / 2 + s * sqrt(1 + s * s / 4);
+}
+
+/* Bounds of speeds that hold at one strain are made to hold at others, over the strains that a substep goes back and
+ * forth by. */
+static void bounds_hold_over_a_sweep(void **state)
+{
+  (void)state;
+  for (double width = 0; width < 0.5; width += 0.07)
+    for (double strain = -0.6; strain < 0.6; strain += 0.13) {
+      gg_dsmc_ensemble e = {.bound_scale = 1, .bound_strain = 0.1, .bound_width = 0.05};
+      gg_dsmc_ensemble_strain_bounds(&e, strain, width);
+      double down = 0.1 - strain, up = strain + width - 0.15, far = fmax(fmax(down, up), 0);
+      assert_true(e.bound_scale >= largest_growth(far) && e.bound_scale < 1.2 * largest_growth(far));
+      double before = e.bound_scale;
+      gg_dsmc_ensemble_strain_bounds(&e, strain + 0.3 * width, 0.7 * width); /* within: nothing to do */
+      assert_true(fabs(e.bound_scale / before - 1) < 1e-12);
+    }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(substeps_cover_all),
-      cmocka_unit_test(symmetric_is_symmetric),
-      cmocka_unit_test(backward_is_reversed),
-      cmocka_unit_test(as_often_as_the_step_asks),
-      cmocka_unit_test(collisions_come_in_their_time),
+      cmocka_unit_test(substeps_cover_all),       cmocka_unit_test(symmetric_is_symmetric),
+      cmocka_unit_test(backward_is_reversed),     cmocka_unit_test(as_often_as_the_step_asks),
+      cmocka_unit_test(bounds_hold_over_a_sweep), cmocka_unit_test(collisions_come_in_their_time),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -231,6 +231,22 @@ static void walls_feel_the_pressure(void **state)
   check_pressure(s);
 }
 
+/* Ridges several cells high: grains are held against them in every cell that they reach into. */
+static void high_ridges(void **state)
+{
+  (void)state;
+  gg_scene s = scene(GG_POISEUILLE, 3000, 0.1, 0.9, -1);
+  s.walls.ridges = 6;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 9);
+  assert_true(e->cells.width[1] < 2);
+  for (int k = 0; k < 10; k++) {
+    md_collide(e, 2000);
+    assert_int_equal(md_misplaced(e), 0);
+  }
+  md_destroy(e);
+}
+
 /* Smooth grains, too, are driven: rough walls act on their centres. */
 static void wall_stress_is_bulk_stress(void **state)
 {
@@ -356,6 +372,7 @@ int main(void)
       cmocka_unit_test(budgets),
       cmocka_unit_test(wall_stress_is_bulk_stress),
       cmocka_unit_test(walls_feel_the_pressure),
+      cmocka_unit_test(high_ridges),
       cmocka_unit_test(equipartition),
       cmocka_unit_test(gaussian_is_free_cooling),
       cmocka_unit_test(white_noise_keeps_warm),

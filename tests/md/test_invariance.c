@@ -1,6 +1,7 @@
 /* Proves: the same first hundred collisions (pairs in order, and times to 10^-8 of a mean free time) wherever the
  * sheared boundary lies, under translations, under half a turn about the vorticity, for images displaced by whole
  * boxes, and for any grid of cells, at rest or co-moving, or neighbour lists; and the same averages of long runs. */
+#include <stdio.h>
 #include <string.h>
 
 #include "md/rows.h"
@@ -228,9 +229,60 @@ static void long_averages(void **state)
   md_destroy(e);
 }
 
+/* Places as they are shown: of grains, and of those that have left the box since they were last looked at. */
+typedef struct shown {
+  const gg_md *e;
+  gg_vec r[200];
+  uint32_t n, wrapped;
+} shown;
+
+static void take(void *context, const gg_chunk *c)
+{
+  shown *x = context;
+  for (size_t i = 0; i < c->n; i++) {
+    const gg_md_grain *g = &x->e->grain[x->n];
+    double y = gg_md_position(x->e, x->e->falls, g, x->e->k.now).y;
+    x->wrapped += y < 0 || y >= x->e->box.edge[1];
+    x->r[x->n++] = (gg_vec){c->r[0][i], c->r[1][i], c->r[2][i]};
+  }
+}
+
+static double nearest_pair(const shown *x)
+{
+  double least = INFINITY;
+  for (uint32_t i = 0; i < x->n; i++)
+    for (uint32_t j = 0; j < i; j++) {
+      gg_vec dr = gg_sub(x->r[i], x->r[j]), dv = {0, 0, 0};
+      gg_md_nearest_image(&x->e->box, 1, x->e->k.now, &dr, &dv);
+      least = fmin(least, gg_dot(dr, dr));
+    }
+  return sqrt(least);
+}
+
+/* In the box, and no two too near: an image of a sheared box is shifted by the offset once for each layer. */
+static void places_are_shown_in_the_box(void **state)
+{
+  (void)state;
+  gg_model m = md_model((md_case){GG_USF, 200, 0.4, 0.8, -1, INFINITY, {0}});
+  gg_md *e = md_create(&m, 6);
+  uint32_t wrapped = 0;
+  for (int k = 0; k < 200; k++) {
+    shown x = {.e = e};
+    md_collide(e, 53);
+    gg_md_ops.snapshot(&e->base, true, take, &x);
+    for (uint32_t i = 0; i < x.n; i++)
+      for (int a = 0; a < 3; a++) assert_true(gg_along(&x.r[i], a) >= 0 && gg_along(&x.r[i], a) < m.box[a]);
+    assert_true(nearest_pair(&x) > 1 - 1e-9);
+    wrapped += x.wrapped;
+  }
+  printf("# %d times a grain was shown at its image\n", (int)wrapped);
+  assert_true(wrapped > 100);
+  md_destroy(e);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(periodic), cmocka_unit_test(sheared),
-                                     cmocka_unit_test(long_averages)};
+                                     cmocka_unit_test(long_averages), cmocka_unit_test(places_are_shown_in_the_box)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
  * long and flat boxes run; grains above an open top are where they are. */
 #include <string.h>
 
+#include "md/start/place.h"
 #include "md_test.h"
 
 static void check_start(md_case c)
@@ -164,6 +165,34 @@ static void too_dilute(void **state)
   md_destroy(e);
 }
 
+/* The lattice has a site for each grain, the nearest two as far apart as cubes of this box can be. */
+static void check_lattice(const double edge[3], uint32_t n, double nearest)
+{
+  gg_vec r[500] = {{0, 0, 0}};
+  gg_md_box box = {.edge = {edge[0], edge[1], edge[2]}};
+  for (int a = 0; a < 3; a++) box.inverse[a] = 1 / edge[a];
+  gg_rng rng = gg_rng_seed(4, 0);
+  gg_md_place_lattice(&box, n, &rng, r);
+  double least = INFINITY;
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t j = 0; j < i; j++) {
+      gg_vec dr = gg_sub(r[i], r[j]), dv = {0, 0, 0};
+      gg_md_nearest_image(&box, 0, 0, &dr, &dv);
+      least = fmin(least, sqrt(gg_dot(dr, dr)));
+    }
+  if (!(fabs(least / nearest - 1) < 1e-12)) fail_msg("%d grains: nearest %g, not %g", (int)n, least, nearest);
+}
+
+static void lattices(void **state)
+{
+  (void)state;
+  check_lattice((double[]){3, 3, 3}, 4 * 27, sqrt(0.5));
+  check_lattice((double[]){3, 3, 3}, 4 * 27 - 5, sqrt(0.5)); /* some sites empty */
+  check_lattice((double[]){2, 5, 3}, 4 * 30, sqrt(0.5));
+  check_lattice((double[]){4, 1.2, 2.4}, 4 * 8,
+                0.5 * sqrt(1 + 1.2 * 1.2)); /* 4 x 1 x 2 cubes, stretched along two edges */
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -171,6 +200,7 @@ int main(void)
       cmocka_unit_test(dense_mixtures_and_walls),
       cmocka_unit_test(long_and_flat_boxes),
       cmocka_unit_test(above_an_open_top),
+      cmocka_unit_test(lattices),
       cmocka_unit_test(refused),
       cmocka_unit_test(too_dilute),
   };

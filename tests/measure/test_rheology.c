@@ -46,12 +46,12 @@ static gg_model model_of(gg_flow flow, double beta, int species)
 }
 
 /* One row from the planted grains; `factor` scales all velocities (a cooling gas). */
-static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, double elapsed, double factor,
-                     double *row)
+static void take_row_of(const gg_observable *o, void *self, const gg_model *m, const gg_collision_sums *t,
+                        double elapsed, double factor, double *row)
 {
   static double scaled[6][GG_CHUNK];
   const double *from[6] = {cx, cy, cz, sx, sy, sz};
-  gg_rheology.begin(self);
+  o->begin(self);
   for (int start = 0; start < N; start += 200) { /* unequal chunks: 200, 200, 100 */
     int n = start + 200 < N ? 200 : N - start;
     for (int k = 0; k < 6; k++)
@@ -60,10 +60,16 @@ static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, 
     if (m->rule != GG_SMOOTH)
       for (int a = 0; a < 3; a++) c.s[a] = scaled[3 + a];
     if (m->n_species == 2) c.species = kind + start;
-    gg_rheology.add_chunk(self, &c);
+    o->add_chunk(self, &c);
   }
   gg_interval in = {m, t, elapsed, 1};
-  gg_rheology.finish(self, &in, row);
+  o->finish(self, &in, row);
+}
+
+static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, double elapsed, double factor,
+                     double *row)
+{
+  take_row_of(&gg_rheology, self, m, t, elapsed, factor, row);
 }
 
 static double value(gg_quantity q, const double *row, const gg_model *m)
@@ -183,6 +189,56 @@ static void cooling(void **state)
   gg_rheology.destroy(self);
 }
 
+/* Sums for least squares of y on a and a^3. */
+typedef struct cubic {
+  double a2, a4, a6, y1, y3;
+} cubic;
+
+static void add_point(cubic *c, double a, double y)
+{
+  c->a2 += a * a, c->a4 += pow(a, 4), c->a6 += pow(a, 6), c->y1 += y * a, c->y3 += y * a * a * a;
+}
+
+static double slope(const cubic *c)
+{
+  return (c->y1 * c->a6 - c->y3 * c->a4) / (c->a2 * c->a6 - c->a4 * c->a4);
+}
+
+/* A gas that cools while it is sheared slowly: of the samples in the range of a*, the slope at 0 of -P_xy/(n T), whose
+ * collisional part belongs to the square of the mean of sqrt(T) between the samples. */
+static void viscosity_at_no_shear(void **state)
+{
+  (void)state;
+  plant(4);
+  gg_model m = model_of(GG_SMALL_SHEAR, -1, 2);
+  gg_collision_sums t = planted_transfer(m.n_species);
+  double row[64], sum[64] = {0}, T0 = 0, xy = 0, last = 0, elapsed = 0.5;
+  for (int i = 0; i < N; i++) {
+    double mass = m.mass[kind[i]];
+    T0 += mass * (cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i]) / (3.0 * N), xy += mass * cx[i] * cy[i] / N;
+  }
+  double impulse = (1.7 + 2.7 + 3.7) / (m.volume * m.density * elapsed), first = m.shear_rate / gg_model_nu0(&m, T0);
+  cubic moving = {0}, touching = {0};
+  void *self = gg_viscosity.create(&m, NULL);
+  for (int k = 0; k < 40; k++) {
+    double a = 0.02 + 0.0025 * k, factor = first / a, T = T0 * factor * factor; /* a* goes as T^(-1/2) */
+    take_row_of(&gg_viscosity, self, &m, &t, k ? elapsed : 0, factor, row);
+    for (size_t c = 0; c < gg_viscosity.width(&m); c++) sum[c] += row[c];
+    if (k && a >= 0.03) {
+      double b0 = 1 / sqrt(last), b1 = 1 / sqrt(T), root = log(b1 / b0) / (b1 - b0);
+      add_point(&moving, a, -xy / T0);
+      add_point(&touching, m.shear_rate / gg_model_nu0(&m, root * root), -impulse / (root * root));
+    }
+    last = T;
+  }
+  gg_function f;
+  assert_true(gg_derived_find(gg_viscosity.derived, GG_Q_VISCOSITY_REDUCED_KINETIC, &f));
+  near(gg_function_value(f, sum, &m), slope(&moving));
+  assert_true(gg_derived_find(gg_viscosity.derived, GG_Q_VISCOSITY_REDUCED, &f));
+  near(gg_function_value(f, sum, &m) / (slope(&moving) + slope(&touching)), 1);
+  gg_viscosity.destroy(self);
+}
+
 /* What a scene lacks is said, and only that. */
 static void missing(void **state)
 {
@@ -199,10 +255,8 @@ static void missing(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sheared_rough),
-      cmocka_unit_test(mixture),
-      cmocka_unit_test(cooling),
-      cmocka_unit_test(missing),
+      cmocka_unit_test(sheared_rough),         cmocka_unit_test(mixture), cmocka_unit_test(cooling),
+      cmocka_unit_test(viscosity_at_no_shear), cmocka_unit_test(missing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
