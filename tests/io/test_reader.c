@@ -107,6 +107,7 @@ static void chunks(void **state)
     for (int a = 1; a < rank; a++) row *= cases[k].dims[a];
     gg_h5_in in;
     gg_h5_open(&in, "f.h5");
+    assert_non_null(in.whole);
     check(&in, "/x", row * cases[k].dims[0]);
     for (size_t i = 0; i < cases[k].dims[0]; i++) {
       double *one = gg_h5_read_row(&in, "/x", i, GG_ITEM_F64, row);
@@ -130,9 +131,15 @@ static void names(void **state)
     snprintf(name, sizeof name, "/%d", i);
     put(file, name, H5T_NATIVE_INT32, 1, &(hsize_t){(hsize_t)(i % 3)}, NULL);
   }
+  for (int i = 0; i < 14; i++) { /* larger than what is kept in memory */
+    snprintf(name, sizeof name, "/long%d", i);
+    put(file, name, H5T_NATIVE_DOUBLE, 1, &(hsize_t){10000}, NULL);
+  }
   close_and_seal(file);
   gg_h5_in in;
   gg_h5_open(&in, "f.h5");
+  assert_null(in.whole);
+  check(&in, "/long13", 10000);
   for (int i = 0; i < MANY; i++) {
     snprintf(name, sizeof name, "/%d", i);
     check(&in, name, (size_t)i % 3);
@@ -276,8 +283,8 @@ static void refusals(void **state)
   expect_refusal("/x", "of a form of HDF5 that graingas does not write");
 }
 
-/* A whole result, every 13th of its words in turn replaced: it is read or refused, and nothing else happens. (validation/fuzz
- * goes on from there.) */
+/* A whole result, every 13th of its words in turn replaced: it is read or refused, and nothing else happens.
+ * (validation/fuzz goes on from there.) */
 static void words(void **state)
 {
   (void)state;

@@ -99,21 +99,58 @@ static uint64_t find_in_leaf(gg_h5_in *in, const group *g, const char *word, uin
   return 0;
 }
 
+static bool open_group(gg_h5_in *in, uint64_t header, group *g)
+{
+  gg_h5_trail *t = &in->trail;
+  if (header == t->group) {
+    *g = (group){t->tree, t->names, t->names_bytes};
+    return true;
+  }
+  if (!gg_h5_messages(in, header, find_table, g) || !g->tree) return false; /* an array has no members */
+  if (!open_heap(in, g)) return false;
+  t->group = header, t->tree = g->tree, t->names = g->names, t->names_bytes = g->names_bytes;
+  return true;
+}
+
 static uint64_t find_member(gg_h5_in *in, uint64_t header, const char *word)
 {
   group g = {0};
-  if (!gg_h5_messages(in, header, find_table, &g) || !g.tree) return 0; /* an array has no members */
-  if (!open_heap(in, &g)) return 0;
+  if (!open_group(in, header, &g)) return 0;
   const uint64_t leaf = find_leaf(in, &g, word);
   const uint64_t found = leaf ? find_in_leaf(in, &g, word, leaf) : 0;
   return found == GG_H5_NOWHERE ? 0 : found; /* a link to elsewhere */
 }
 
+/* Forgets what the path has not in common with the last; returns where the rest of it begins. */
+static const char *follow_trail(gg_h5_trail *t, const char *path)
+{
+  size_t same = 0;
+  while (path[same] && path[same] == t->path[same]) same++;
+  while (t->depth > 0) {
+    const size_t end = t->end[t->depth - 1];
+    if (end <= same && (path[end] == '/' || path[end] == '\0')) return path + end;
+    t->depth--;
+  }
+  return path;
+}
+
+/* Where the k-th object of the path is, which ends at `end`. */
+static void note(gg_h5_trail *t, const char *path, size_t end, uint64_t at)
+{
+  if (end >= sizeof t->path || t->depth == GG_H5_DEEPEST) return;
+  memcpy(t->path, path, end);
+  t->path[end] = '\0';
+  t->end[t->depth] = end;
+  t->at[t->depth++] = at;
+}
+
 uint64_t gg_h5_find(gg_h5_in *in, const char *path)
 {
   char word[LONGEST_NAME];
-  uint64_t at = in->root;
-  for (const char *from = path; at && !in->failed;) {
+  gg_h5_trail *t = &in->trail;
+  const char *from = follow_trail(t, path);
+  uint64_t at = t->depth ? t->at[t->depth - 1] : in->root;
+  while (at && !in->failed) {
     from += strspn(from, "/");
     const size_t length = strcspn(from, "/");
     if (length == 0) return at;
@@ -121,6 +158,7 @@ uint64_t gg_h5_find(gg_h5_in *in, const char *path)
     snprintf(word, sizeof word, "%.*s", (int)length, from);
     at = find_member(in, at, word);
     from += length;
+    if (at) note(t, path, (size_t)(from - path), at);
   }
   return 0;
 }

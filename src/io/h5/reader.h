@@ -16,16 +16,27 @@
 #include "common/archive.h"
 #include "common/error.h"
 
-enum { GG_H5_WINDOW = 4096 };
+enum { GG_H5_WINDOW = 4096, GG_H5_LONGEST = 160, GG_H5_DEEPEST = 8 };
+
+/* What was looked up last: most of the next lies in the same group. */
+typedef struct gg_h5_trail {
+  char path[GG_H5_LONGEST];
+  int depth;
+  size_t end[GG_H5_DEEPEST];                /* of the path up to its k-th object */
+  uint64_t at[GG_H5_DEEPEST];               /* the header of that */
+  uint64_t group, tree, names, names_bytes; /* the last group that was opened: its header, and what that says */
+} gg_h5_trail;
 
 typedef struct gg_h5_in {
   int fd;
   uint64_t size, root; /* of the HDF5 file; the header of its root group */
   bool failed;
   char why[256];
-  uint64_t window_at; /* what was read last of what is small */
+  unsigned char *whole; /* all of it; NULL: it is too large for that */
+  uint64_t window_at;   /* what was read last of what is small */
   size_t window_n;
   unsigned char window[GG_H5_WINDOW];
+  gg_h5_trail trail;
 } gg_h5_in;
 
 /* The file's checksum is looked at first (seal.h). To be closed, also after a failure. */

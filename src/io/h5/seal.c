@@ -10,7 +10,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-enum { BLOCK = 1 << 20 };
+enum { BLOCK = GG_SEAL_SMALL };
 static const char hdf5[8] = "\x89HDF\r\n\x1a\n", mark[8] = {'g', 'g', '-', 'c', 'r', 'c', '3', '2'};
 
 static void put(unsigned char *to, uint64_t value, int bytes)
@@ -36,35 +36,37 @@ void gg_seal_of(const void *data, size_t size, unsigned char seal[GG_SEAL_SIZE])
   fill(seal, size, sum);
 }
 
-/* Of the first `size` bytes. */
-static int sum_up(int fd, off_t size, unsigned char *seal)
+/* Of the first `size` bytes. The block that they were read into, of as many if they are few, is left to be freed. */
+static int sum_up(int fd, off_t size, unsigned char *seal, unsigned char **block)
 {
   uLong sum = crc32(0, NULL, 0);
-  unsigned char *block = malloc(BLOCK);
   off_t at = 0;
-  bool failed = !block;
-  while (!failed && at < size) {
-    ssize_t got = pread(fd, block, size - at < BLOCK ? (size_t)(size - at) : BLOCK, at);
+  *block = malloc(size >= BLOCK ? BLOCK : size ? (size_t)size : 1);
+  while (*block && at < size) {
+    const off_t from = at % BLOCK, now = size - at < BLOCK - from ? size - at : BLOCK - from;
+    ssize_t got = pread(fd, *block + from, (size_t)now, at);
     if (got > 0) {
-      sum = crc32(sum, block, (uInt)got);
+      sum = crc32(sum, *block + from, (uInt)got);
       at += got;
     } else if (got == 0 || errno != EINTR) {
       if (got == 0) errno = EIO; /* it became shorter while it was read */
-      failed = true;
+      break;
     }
   }
-  free(block);
   fill(seal, (uint64_t)size, sum);
-  return failed ? -1 : 0;
+  return *block && at == size ? 0 : -1;
 }
 
 int gg_seal_of_file(int fd, unsigned char seal[GG_SEAL_SIZE])
 {
   struct stat about;
-  return fstat(fd, &about) == 0 ? sum_up(fd, about.st_size, seal) : -1;
+  unsigned char *block = NULL;
+  const int failed = fstat(fd, &about) == 0 ? sum_up(fd, about.st_size, seal, &block) : -1;
+  free(block);
+  return failed;
 }
 
-static const char *broken(int fd, uint64_t *whole)
+static const char *broken(int fd, uint64_t *size_of, unsigned char **block)
 {
   struct stat about;
   unsigned char there[GG_SEAL_SIZE], wanted[GG_SEAL_SIZE], start[sizeof hdf5];
@@ -76,20 +78,26 @@ static const char *broken(int fd, uint64_t *whole)
   if (size < 0 || pread(fd, there, sizeof there, size) != sizeof there || memcmp(there, mark, sizeof mark) != 0)
     return "it does not end with its checksum: it is cut off or damaged, or another program has changed it (the manual "
            "page says how to vouch for a changed one)";
-  if (sum_up(fd, size, wanted) != 0) return strerror(errno);
-  *whole = (uint64_t)size;
+  if (sum_up(fd, size, wanted, block) != 0) return strerror(errno);
+  *size_of = (uint64_t)size;
   return memcmp(there, wanted, sizeof there) == 0 ? NULL : "its checksum does not match: it is damaged";
 }
 
-const char *gg_seal_open(const char *path, int *fd, uint64_t *size)
+const char *gg_seal_open(const char *path, int *fd, uint64_t *size, unsigned char **whole)
 {
+  unsigned char *block = NULL;
+  *whole = NULL;
   if (!*path) return "the name is empty";
   int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (opened < 0) return strerror(errno);
-  const char *why = broken(opened, size);
+  const char *why = broken(opened, size, &block);
   if (why)
     close(opened);
   else
     *fd = opened;
+  if (!why && *size <= GG_SEAL_SMALL)
+    *whole = block;
+  else
+    free(block);
   return why;
 }
