@@ -41,7 +41,7 @@ static double commonest(const double *x)
 {
   double best = x[GG_PAIRS - 1];
   int most = 0;
-  for (int p = GG_PAIRS - 1; p >= 0; p--) {
+  for (int p = GG_PAIRS - 1; p >= 0 && 2 * most < GG_PAIRS; p--) {
     int n = 0;
     for (int q = 0; q < GG_PAIRS; q++) n += x[q] == x[p];
     if (n > most) most = n, best = x[p];
