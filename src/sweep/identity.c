@@ -1,4 +1,5 @@
-/* What makes a point the one that it is: a hash of its resolved scene. */
+/* What makes a point the one that it is: a hash of its resolved scene; and whether a file holds that scene. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,6 +65,42 @@ uint64_t gg_point_id(const gg_scene *scene, gg_does does)
   for (const gg_field *f = gg_scene_fields; f->key; f++)
     if (!is_left_out(f->key, does)) sum = add_field(sum, f, scene);
   return mix(add_extension(sum, scene));
+}
+
+/* Of a scene as JSON. */
+static const json_t *value_in(const json_t *scene, const char *key)
+{
+  char section[32];
+  const char *dot = strchr(key, '.');
+  if (!dot) return json_object_get(scene, key);
+  snprintf(section, sizeof section, "%.*s", (int)(dot - key), key);
+  return json_object_get(json_object_get(scene, section), dot + 1);
+}
+
+static void value_text(const json_t *value, char *text, size_t size)
+{
+  snprintf(text, size, "no value");
+  if (value) gg_flow_style_text(value, text, size);
+}
+
+gg_status gg_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path, gg_error *err)
+{
+  char there[40], here[40];
+  gg_status status = GG_OK;
+  json_t *own = gg_scene_json(scene);
+  if (!own) return gg_fail(err, GG_FAILED, "out of memory");
+  for (const gg_field *f = gg_scene_fields; f->key && status == GG_OK; f++) {
+    const json_t *value = value_in(stored, f->key), *wanted = value_in(own, f->key);
+    if (is_left_out(f->key, does) || (value && json_equal(value, wanted))) continue;
+    value_text(value, there, sizeof there);
+    value_text(wanted, here, sizeof here);
+    status = gg_fail(err, GG_BAD_FILE,
+                     "%s: holds another point: %s is %s there, and %s at the point of this name; "
+                     "remove it, and the point is done again",
+                     path, f->key, there, here);
+  }
+  json_decref(own);
+  return status;
 }
 
 /* 48 bits: a number of few digits, and whole in any reader's arithmetic. */

@@ -3,6 +3,8 @@
 #ifndef GG_SWEEP_H
 #define GG_SWEEP_H
 
+#include <jansson.h>
+
 #include "common/error.h"
 #include "common/scene.h"
 
@@ -66,6 +68,9 @@ gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
 /* identity.c: hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the order
  * of the field table, with its value in force. */
 uint64_t gg_point_id(const gg_scene *scene, gg_does does);
+/* Is the scene that a file at `path` holds, a JSON object, that of this point? GG_BAD_FILE names the first key that is
+ * not. Keys that no number depends on may differ. */
+gg_status gg_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path, gg_error *err);
 /* The seed of a point with independent seeds: from `seed` and from what is simulated there, but not from how long or
  * what is measured. */
 uint64_t gg_point_seed(const gg_scene *scene, uint64_t seed);

@@ -102,8 +102,10 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   char *path = gg_point_path(folder, id, row.fell_short ? ".short.h5" : ".h5");
   json_t *document = NULL;
   gg_status status = path ? read_document(path, &document, err) : gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK)
+    status = gg_point_check(&scene, sweep->settings.does, json_object_get(document, "scene"), path, err);
   free(path);
-  if (status != GG_OK) return status;
+  if (status != GG_OK) return json_decref(document), status;
   t->document[t->n_documents++] = document;
   t->n_points++;
   return add_document(t, row, document, err);

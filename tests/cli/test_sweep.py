@@ -5,6 +5,7 @@ import glob
 import json
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -126,6 +127,12 @@ def test_collect():
     for args, words in (("--over", "engine"), "none of the keys"), (("--show", "colour"), "no point has"):
         done = run("sweep", "s.yaml", "--collect", *args)
         check(done.code == 2 and words in done.err, done.err)
+    of = {r["point"]: "s.sweep/" + r["file"] + ".h5" for r in table}
+    before = rows("s.csv")
+    shutil.copy(of["1"], of["6"])
+    done = run("sweep", "s.yaml", "--collect")
+    check(done.code == 3 and of["6"] + ": holds another point: phi is 0.05 there, and 0.1 at" in done.err, done.err)
+    check(not done.out and not done.new and rows("s.csv") == before, done.out)
 
 
 def kill_and_go_on(folder, threads, rng, extra=()):
