@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -15,37 +16,48 @@ static void fail(const char *what, const char *path)
   abort();
 }
 
-fuzz_image fuzz_image_of(const char *path)
+/* A file in memory, to be read by its path and changed in place: what is copied for an input is what it changes. */
+static void view(fuzz_image *image)
 {
-  fuzz_image image = {0};
-  struct stat about;
-  FILE *in = fopen(path, "rb");
-  if (!in || fstat(fileno(in), &about) != 0 || about.st_size < GG_SEAL_SIZE) fail("cannot be read", path);
-  const size_t whole = (size_t)about.st_size;
-  image.size = whole - GG_SEAL_SIZE;
-  image.data = malloc(whole);
-  image.listed = malloc(whole);
-  if (!image.data || !image.listed || fread(image.data, 1, whole, in) != whole) fail("cannot be read", path);
-  image.words = fuzz_list_words(image.data, image.size, image.listed, whole / sizeof *image.listed);
-  fclose(in);
-  unlink(path);
+  const size_t whole = image->size + GG_SEAL_SIZE;
+  const int fd = memfd_create("graingas-fuzz", MFD_CLOEXEC);
+  snprintf(image->path, sizeof image->path, "/proc/self/fd/%d", fd);
+  if (fd < 0 || ftruncate(fd, (off_t)whole) != 0) fail("cannot be made", image->path);
+  image->changed = mmap(NULL, whole, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  if (image->changed == MAP_FAILED) fail("cannot be made", image->path);
+  memcpy(image->changed, image->data, image->size);
+}
+
+fuzz_image fuzz_image_of_bytes(void *data, size_t size)
+{
+  fuzz_image image = {.data = data, .size = size, .listed = malloc(size + 1)};
+  if (!data || !image.listed) fail("cannot be had", "a file");
+  image.words = fuzz_list_words(image.data, size, image.listed, size / sizeof *image.listed);
+  view(&image);
   return image;
 }
 
-const char *fuzz_image_changed(const fuzz_image *image, const uint8_t *data, size_t size)
+fuzz_image fuzz_image_of(const char *path)
 {
-  static int fd = -1;
-  static char path[64];
-  const size_t whole = image->size + GG_SEAL_SIZE;
-  if (fd < 0) fd = memfd_create("graingas-fuzz", MFD_CLOEXEC);
-  snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-  uint8_t *changed = malloc(whole);
-  if (!changed || fd < 0) fail("out of memory", path);
-  memcpy(changed, image->data, image->size);
-  fuzz_patch(changed, image->size, image->listed, image->words, data, size);
-  gg_seal_of(changed, image->size, changed + image->size);
-  if (ftruncate(fd, (off_t)whole) != 0 || pwrite(fd, changed, whole, 0) != (ssize_t)whole)
-    fail("cannot be written", path);
-  free(changed);
-  return path;
+  struct stat about;
+  FILE *in = fopen(path, "rb");
+  if (!in || fstat(fileno(in), &about) != 0 || about.st_size <= GG_SEAL_SIZE) fail("cannot be read", path);
+  const size_t size = (size_t)about.st_size - GG_SEAL_SIZE;
+  void *data = malloc(size);
+  if (!data || fread(data, 1, size, in) != size) fail("cannot be read", path);
+  fclose(in);
+  unlink(path);
+  return fuzz_image_of_bytes(data, size);
+}
+
+const char *fuzz_image_change(fuzz_image *image, const uint8_t *data, size_t size)
+{
+  fuzz_patch(image->changed, image->size, image->listed, image->words, data, size);
+  gg_seal_of(image->changed, image->size, image->changed + image->size);
+  return image->path;
+}
+
+void fuzz_image_take_back(fuzz_image *image, const uint8_t *data, size_t size)
+{
+  fuzz_unpatch(image->changed, image->data, image->size, image->listed, image->words, data, size);
 }

@@ -8,14 +8,20 @@
 #include "base.h"
 
 typedef struct fuzz_image {
-  uint8_t *data; /* of an HDF5 file, without its seal; room for one behind it */
+  uint8_t *data, *changed; /* of an HDF5 file, without its seal; and that file, where it is changed */
   size_t size, words;
   uint32_t *listed; /* its words that are not 0 */
+  char path[32];    /* of a file in memory, of which `changed` is a view */
 } fuzz_image;
 
-/* The file at the path, which is removed. Ends the program if it cannot be had. */
+/* The file at the path, which is removed, or bytes without a seal, which are taken over. Ends the program if there are
+ * none. */
 fuzz_image fuzz_image_of(const char *path);
-/* The image with records of an input put into it, sealed; returns a path that holds until the next call. */
-const char *fuzz_image_changed(const fuzz_image *image, const uint8_t *data, size_t size);
+fuzz_image fuzz_image_of_bytes(void *data, size_t size);
+/* small_result.c: of a result at the path, which is removed, what readers look at. */
+fuzz_image fuzz_small_result(const char *path);
+/* The image with records of an input put into it, sealed; its path. To be taken back before the next change. */
+const char *fuzz_image_change(fuzz_image *image, const uint8_t *data, size_t size);
+void fuzz_image_take_back(fuzz_image *image, const uint8_t *data, size_t size);
 
 #endif

@@ -60,4 +60,14 @@ static inline void fuzz_patch(uint8_t *whole, size_t size, const uint32_t *liste
   }
 }
 
+/* Each place that a patch changed, as it was. */
+static inline void fuzz_unpatch(uint8_t *whole, const uint8_t *was, size_t size, const uint32_t *listed, size_t words,
+                                const uint8_t *data, size_t length)
+{
+  for (size_t k = 0; k < FUZZ_MOST_RECORDS && length >= FUZZ_RECORD; k++, data += FUZZ_RECORD, length -= FUZZ_RECORD) {
+    const size_t at = size ? fuzz_place(data, listed, words, size) : 0;
+    if (at < size) memcpy(whole + at, was + at, size - at < 8 ? size - at : 8);
+  }
+}
+
 #endif

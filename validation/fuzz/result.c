@@ -1,5 +1,5 @@
 /* A result file whose checksum is right, words of it changed: what `info`, `plot` and `export` read of it. The first
- * byte chooses a run or a comparison; the rest are records (patch.h). */
+ * byte chooses a run or a comparison, and who reads it; the rest are records (patch.h). */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -15,20 +15,27 @@ static const char *const scenes[] = {
     "{flow: couette, phi: 0.1, particles: 10, measure: [rheology, profiles], run: {collisions: 6, warmup: 2}, output: "
     "{trajectory_every: 4}}",
     "{flow: hcs, phi: 0.1, engine: dsmc, species: [{fraction: 0.5}, {fraction: 0.5, mass: 2}], dsmc: {particles: 16}, "
-    "run: {collisions: 6, warmup: 2}}"};
-enum { FILES = sizeof scenes / sizeof *scenes };
+    "run: {collisions: 6, warmup: 2}}",
+    "{flow: equilibrium, phi: 0.1, particles: 10, dsmc: {particles: 16}, run: {collisions: 6, warmup: 2}}"};
+enum { FILES = sizeof scenes / sizeof *scenes, COMPARED = 3 };
 
-static fuzz_image make(const char *yaml)
+static fuzz_image make(size_t which)
 {
   char path[80];
   gg_scene *scene = NULL;
   gg_result *result = NULL;
+  gg_comparison *comparison = NULL;
   snprintf(path, sizeof path, "/tmp/graingas-fuzz-%ld.h5", (long)getpid());
   const gg_run_options options = {.output = path};
-  if (gg_scene_parse(yaml, "base", &scene, NULL) == GG_OK) gg_run(scene, &options, &result, NULL);
+  if (gg_scene_parse(scenes[which], "base", &scene, NULL) != GG_OK) abort();
+  if (which == COMPARED)
+    gg_compare(scene, &options, &comparison, NULL);
+  else
+    gg_run(scene, &options, &result, NULL);
+  gg_comparison_free(comparison);
   gg_result_free(result);
   gg_scene_free(scene);
-  return fuzz_image_of(path);
+  return fuzz_small_result(path);
 }
 
 static void read_frames(const char *path)
@@ -42,20 +49,28 @@ static void read_frames(const char *path)
   gg_stored_trajectory_close(&t);
 }
 
+static void read_comparison(const char *path)
+{
+  gg_comparison *c = NULL;
+  char *text = NULL;
+  if (gg_comparison_read(path, &c, NULL) == GG_OK && gg_comparison_to_json(c, &text, NULL) == GG_OK) free(text);
+  gg_comparison_free(c);
+}
+
+static void read_stored(const char *path)
+{
+  gg_stored_result stored;
+  if (gg_stored_result_read(&stored, path, NULL) == GG_OK) gg_stored_result_clear(&stored);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
   static fuzz_image images[FILES];
+  static void (*const readers[])(const char *) = {read_stored, read_comparison, read_frames};
   if (size < 1) return 0;
   fuzz_image *image = &images[data[0] % FILES];
-  if (!image->data) *image = make(scenes[data[0] % FILES]);
-  const char *path = fuzz_image_changed(image, data + 1, size - 1);
-  gg_stored_result stored;
-  gg_comparison *c = NULL;
-  char *text = NULL;
-  if (gg_stored_result_read(&stored, path, NULL) == GG_OK) gg_stored_result_clear(&stored);
-  if (size % 4 == 1 && gg_comparison_read(path, &c, NULL) == GG_OK && gg_comparison_to_json(c, &text, NULL) == GG_OK)
-    free(text);
-  gg_comparison_free(c);
-  read_frames(path);
+  if (!image->data) *image = make(data[0] % FILES);
+  readers[data[0] / FILES % 3](fuzz_image_change(image, data + 1, size - 1));
+  fuzz_image_take_back(image, data + 1, size - 1);
   return 0;
 }

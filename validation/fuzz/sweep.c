@@ -4,7 +4,7 @@
 #include "graingas.h"
 #include "text.h"
 
-enum { MOST_POINTS = 40 }; /* that are checked here; a sweep may have a hundred thousand */
+enum { MOST_POINTS = 12 }; /* that are checked here; a sweep may have a hundred thousand */
 
 static void look(const gg_sweep *sweep)
 {
