@@ -176,6 +176,40 @@ static void kicks(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
+/* C^2 of a grain whose velocity is stored with this strain. */
+static double square(const gg_dsmc_population *p, uint32_t a, double strain)
+{
+  gg_vec c = gg_dsmc_block_get(p, p->c, a);
+  c.x -= strain * c.y;
+  return gg_dot(c, c);
+}
+
+static double energy(const gg_dsmc_ensemble *e, double strain)
+{
+  double sum = 0;
+  for (uint32_t a = 0; a < (uint32_t)e->of[0].n; a++) sum += 0.5 * e->of[0].mass * square(&e->of[0], a, strain);
+  return sum;
+}
+
+/* In the middle of a step velocities are stored with the strain so far: what is given back is energy of peculiar
+ * velocities, and the speed bounds are theirs, after kicks. */
+static void strained(void **state)
+{
+  (void)state;
+  const double strain = 0.7;
+  gg_model m = heated(GG_HSS, GG_WHITE_NOISE, 0, 0.5, -1, 4000);
+  gg_engine *g = lab_engine(&m, 6);
+  gg_dsmc *d = (gg_dsmc *)g;
+  const gg_dsmc_population *p = &d->ensemble.of[0];
+  double before = energy(&d->ensemble, strain);
+  assert_true(gg_dsmc_thermostat_return(&d->ensemble, strain, 0.1 * before, 0) == 0);
+  assert_true(fabs(energy(&d->ensemble, strain) / (1.1 * before) - 1) < 1e-12);
+  gg_dsmc_thermostat_kick(&d->ensemble, strain, 4, &d->now.lanes);
+  for (uint32_t a = 0; a < (uint32_t)p->n; a++)
+    assert_true((double)p->speed_bound[a / GG_DSMC_LANES] * d->ensemble.bound_scale >= square(p, a, strain));
+  gg_dsmc_ops.destroy(g);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian),
@@ -184,6 +218,7 @@ int main(void)
                                      cmocka_unit_test(cooling_viscosity),
                                      cmocka_unit_test(rough_viscosity),
                                      cmocka_unit_test(stays_put),
-                                     cmocka_unit_test(kicks)};
+                                     cmocka_unit_test(kicks),
+                                     cmocka_unit_test(strained)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

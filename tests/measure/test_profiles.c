@@ -61,6 +61,7 @@ static void planted_profiles(void **state)
     double chi2 = ct_chi2(c, 0, c->n, cases[k].f, cases[k].context);
     assert_true(chi2 > 0.4 && chi2 < 2);
     assert_true(c->error[5] < 0.02);
+    assert_int_equal(c->n, 2 * round(L)); /* slabs of half a diameter, a pair of them for each */
     assert_false(c->folded);
   }
   gg_curve_number p = ct_number(ct_find(&list, "profile_velocity"), "slip_upper");
