@@ -60,6 +60,7 @@ gg_status gg_entry_keys(const gg_entry_reader *r, const yaml_node_t *map, const 
   for (yaml_node_pair_t *i = map->data.mapping.pairs.start; i < map->data.mapping.pairs.top; i++) {
     const yaml_node_t *node = yaml_document_get_node(r->document, i->key);
     const char *name = scalar(node);
+    *nearest = '\0';
     if (name && among(name, keys, nearest, sizeof nearest)) {
       if (gg_entry_get(r, map, name) != yaml_document_get_node(r->document, i->value))
         return gg_entry_refuse(r, node, name, "is given twice");
