@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "io/curves.h"
 #include "io/document.h"
 #include "io/h5/stored_extension.h"
@@ -170,7 +171,8 @@ gg_status gg_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg
 {
   gg_result *r = gg_new_array(1, sizeof *r, err);
   if (!r) return GG_FAILED;
-  gg_status status = restore_all(r, s, engine, err);
+  bool before = gg_memory_begin(); /* for a warning that is lost */
+  gg_status status = gg_memory_check(before, restore_all(r, s, engine, err), err);
   if (status == GG_OK)
     *result = r;
   else
@@ -242,9 +244,8 @@ static void restore_refusals(gg_comparison *c, const json_t *document)
   }
 }
 
-gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_error *err)
+static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c, gg_error *err)
 {
-  *c = (gg_comparison){0};
   GG_TRY(restore_scene(s, GG_MD, &c->scene, &c->model, err));
   for (int k = 0; k < 2; k++)
     if (s->engine[k].name)
@@ -263,4 +264,11 @@ gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_
   c->of_one = !s->comparison;
   c->document = gg_document_text(s->document);
   return c->document ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+}
+
+gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_error *err)
+{
+  *c = (gg_comparison){0};
+  bool before = gg_memory_begin();
+  return gg_memory_check(before, restore_comparison(s, c, err), err);
 }
