@@ -198,6 +198,166 @@ static void tables(void **state)
   gg_format_estimate(1, 1, NULL, 10);
 }
 
+static const char sweep_text[] = "{flow: usf, phi: 0.1, particles: 100, vary: {phi: [0.1, 0.2]}}";
+
+static void file(void *context, const char *path)
+{
+  (void)context, (void)path;
+}
+
+static void sweeps(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_sweep *s = NULL, *other = NULL;
+  gg_sweep_point point;
+  gg_point_state found;
+  gg_scene *scene = NULL;
+  char *text = NULL, *path = NULL;
+  assert_ok(gg_sweep_parse(sweep_text, NULL, &s, &err));
+  assert_missing(gg_sweep_load(NULL, &other, &err));
+  assert_missing(gg_sweep_load("x", NULL, &err));
+  assert_missing(gg_sweep_parse(NULL, "x", &other, &err));
+  assert_missing(gg_sweep_parse(sweep_text, "x", NULL, &err));
+  assert_missing(gg_sweep_set(NULL, "phi", "1", &err));
+  assert_missing(gg_sweep_set(s, NULL, "1", &err));
+  assert_missing(gg_sweep_set(s, "phi", NULL, &err));
+  assert_missing(gg_sweep_vary(NULL, "phi", "1", &err));
+  assert_missing(gg_sweep_vary(s, NULL, "1", &err));
+  assert_missing(gg_sweep_vary(s, "phi", NULL, &err));
+  assert_missing(gg_sweep_check(NULL, &err));
+  assert_refused(gg_sweep_at(s, 0, &point, &err), "was not checked yet");
+  assert_refused(gg_sweep_to_json(s, "x", &text, &err), "was not checked yet");
+  assert_ok(gg_sweep_check(s, &err));
+  assert_missing(gg_sweep_at(NULL, 0, &point, &err));
+  assert_missing(gg_sweep_at(s, 0, NULL, &err));
+  assert_refused(gg_sweep_at(s, 2, &point, &err), "there is no point 3; the sweep has 2");
+  assert_missing(gg_sweep_scene(NULL, 0, &scene, &err));
+  assert_missing(gg_sweep_scene(s, 0, NULL, &err));
+  assert_refused(gg_sweep_scene(s, 2, &scene, &err), "there is no point 3");
+  assert_missing(gg_sweep_find(NULL, "x", 0, &found, &path, &err));
+  assert_missing(gg_sweep_find(s, NULL, 0, &found, &path, &err));
+  assert_missing(gg_sweep_find(s, "x", 0, NULL, &path, &err));
+  assert_refused(gg_sweep_find(s, "x", 7, &found, &path, &err), "there is no point 8");
+  assert_missing(gg_sweep_to_json(NULL, "x", &text, &err));
+  assert_missing(gg_sweep_to_json(s, "x", NULL, &err));
+  assert_missing(gg_sweep_run(NULL, "x", NULL, &err));
+  assert_missing(gg_sweep_run(s, NULL, NULL, &err));
+  assert_missing(gg_sweep_run_point(NULL, "x", 0, NULL, &err));
+  assert_missing(gg_sweep_run_point(s, NULL, 0, NULL, &err));
+  assert_refused(gg_sweep_run_point(s, "x", 2, NULL, &err), "there is no point 3");
+  assert_missing(gg_sweep_collect(NULL, "x", "y", NULL, file, NULL, &err));
+  assert_missing(gg_sweep_collect(s, NULL, "y", NULL, file, NULL, &err));
+  assert_missing(gg_sweep_collect(s, "x", NULL, NULL, file, NULL, &err));
+  assert_int_equal(gg_sweep_points(NULL), 0);
+  assert_null(gg_sweep_does(NULL));
+  assert_null(gg_sweep_key(NULL, 0));
+  assert_null(gg_sweep_key(s, 1));
+  assert_null(gg_sweep_value(NULL, 0, 0));
+  assert_null(gg_sweep_value(s, 2, 0));
+  assert_null(gg_sweep_value(s, 0, 1));
+  assert_string_equal(gg_sweep_value(s, 1, 0), "0.2");
+  assert_true(!other && !scene && !text && !path);
+  gg_sweep_free(s);
+  gg_sweep_free(NULL);
+  gg_reproduce_options none = {0};
+  assert_missing(gg_list_figures(NULL, NULL, &err));
+  assert_missing(gg_reproduce(NULL, &none, &err));
+  assert_missing(gg_reproduction_page(NULL, &err));
+}
+
+/* Names that are nobody's, of theories, quantities and engines; and what there is nothing of. */
+static void unknown_names(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_comparison *c = NULL, *other = NULL;
+  gg_result *r = NULL;
+  gg_curve_data curve;
+  gg_departure departure;
+  gg_measurement m;
+  gg_theory_info theory;
+  gg_remark remark;
+  double x;
+  size_t n;
+  assert_refused(gg_evaluate_theories(s, "grade", &other, &err), "there is no theory called 'grade'");
+  assert_null(other);
+  assert_ok(gg_evaluate_theories(s, "lun1991", &other, &err)); /* that one alone */
+  assert_ok(gg_comparison_theory(other, 0, &theory, &err));
+  assert_string_equal(theory.name, "lun1991");
+  assert_refused(gg_comparison_theory(other, 1, &theory, &err), "");
+  assert_refused(gg_comparison_write(other, "none.h5", &err), "nothing was simulated");
+  gg_comparison_free(other);
+  assert_ok(gg_evaluate_theories(s, NULL, &c, &err));
+  assert_refused(gg_comparison_theory_value(c, "grade", "N1", &x, NULL, &err),
+                 "there is no theory called 'grade' here");
+  assert_refused(gg_comparison_theory_value(c, "grad", "N7", &x, NULL, &err), "there is no quantity called 'N7'");
+  assert_refused(gg_comparison_theory_error(c, "grade", "N1", &x, &err), "there is no theory called 'grade' here");
+  assert_refused(gg_comparison_theory_error(c, "grad", "N7", &x, &err), "there is no quantity called 'N7'");
+  assert_refused(gg_comparison_theory_curve(c, "grade", 0, &curve, &err), "there is no theory called 'grade' here");
+  assert_refused(gg_comparison_theory_curve(c, "grad", 99, &curve, &err), "has 0 curves here");
+  assert_missing(gg_comparison_theory_error(NULL, "grad", "N1", &x, &err));
+  assert_missing(gg_comparison_theory_error(c, NULL, "N1", &x, &err));
+  assert_missing(gg_comparison_theory_error(c, "grad", NULL, &x, &err));
+  assert_missing(gg_comparison_theory_error(c, "grad", "N1", NULL, &err));
+  assert_missing(gg_comparison_theory_curve(NULL, "grad", 0, &curve, &err));
+  assert_missing(gg_comparison_theory_curve(c, NULL, 0, &curve, &err));
+  assert_missing(gg_comparison_theory_curve(c, "grad", 0, NULL, &err));
+  assert_refused(gg_comparison_agreement(c, "N7", &x, NULL, &err), "there is no quantity called 'N7'");
+  assert_refused(gg_comparison_departure(c, "mc", "N1", &departure, &err), "mc");
+  assert_refused(gg_comparison_departure(c, "md", "N7", &departure, &err), "there is no quantity called 'N7'");
+  assert_refused(gg_comparison_remark(c, 1000, &remark, &err), "");
+  assert_null(gg_comparison_result(c, "mc"));
+  assert_null(gg_comparison_result(c, "md"));
+  assert_null(gg_comparison_refusal(c, "mc"));
+  assert_null(gg_comparison_refusal(c, "md"));
+  assert_null(gg_comparison_warning(NULL, 0));
+  gg_comparison_free(c);
+  assert_missing(gg_scene_warnings(NULL, "md", line, NULL, &err));
+  assert_missing(gg_scene_warnings(s, NULL, line, NULL, &err));
+  assert_missing(gg_scene_warnings(s, "md", NULL, NULL, &err));
+  assert_ok(gg_scene_set(s, "run", "{collisions: 200}", &err));
+  assert_ok(gg_run(s, NULL, &r, &err));
+  assert_refused(gg_result_get(r, "N7", &x, NULL, &err), "there is no quantity called 'N7'");
+  assert_refused(gg_result_find(r, "N7", &m, &err), "there is no quantity called 'N7'");
+  assert_refused(gg_result_history(r, "N7", &n, NULL, NULL, &err), "there is no quantity called 'N7'");
+  assert_refused(gg_result_curve_number(r, 0, 0, &m, &err), "");
+  assert_null(gg_result_unit(r, "N7"));
+  gg_result_free(r);
+  assert_refused(gg_plot("same.svg", "same.svg", NULL, NULL, NULL, &err), "would be both the result and its picture");
+  assert_refused(gg_export("x.h5", "x", 0, NULL, NULL, &err), "0 is no set of parts to export");
+  assert_refused(gg_export("x.h5", "x", ~0u, NULL, NULL, &err), "is no set of parts to export");
+  assert_refused(gg_export("x.h5", "folder/", GG_EXPORT_ALL, NULL, NULL, &err), "need a prefix to their names");
+  gg_scene_free(s);
+}
+
+/* Species of a simulation, and times that cannot be advanced by. */
+static void beyond_the_ends(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_simulation *m = NULL;
+  gg_species_state species;
+  gg_simulation_state now;
+  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_int_equal(gg_simulation_species(NULL), 0);
+  assert_int_equal(gg_simulation_species(m), 1);
+  assert_missing(gg_simulation_get_species(NULL, 0, &species, &err));
+  assert_missing(gg_simulation_get_species(m, 0, NULL, &err));
+  assert_refused(gg_simulation_get_species(m, 1, &species, &err), "");
+  assert_refused(gg_simulation_get_species(m, -1, &species, &err), "");
+  assert_ok(gg_simulation_get_species(m, 0, &species, &err));
+  const double bad[] = {-1, NAN, INFINITY};
+  for (int i = 0; i < 3; i++) assert_refused(gg_simulation_advance(m, bad[i], &err), "");
+  assert_ok(gg_simulation_advance(m, 0, &err));
+  assert_ok(gg_simulation_get_state(m, &now, &err));
+  assert_true(now.time == 0);
+  gg_simulation_free(m);
+  gg_scene_free(s);
+}
+
 static int nothing_sent(void *context, int to, void *block, size_t size)
 {
   (void)context, (void)to, (void)size;
@@ -235,8 +395,9 @@ static void messages(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(scenes),  cmocka_unit_test(simulations),
-                                     cmocka_unit_test(results), cmocka_unit_test(comparisons),
-                                     cmocka_unit_test(tables),  cmocka_unit_test(messages)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(scenes),      cmocka_unit_test(simulations),   cmocka_unit_test(results),
+      cmocka_unit_test(comparisons), cmocka_unit_test(tables),        cmocka_unit_test(messages),
+      cmocka_unit_test(sweeps),      cmocka_unit_test(unknown_names), cmocka_unit_test(beyond_the_ends)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
