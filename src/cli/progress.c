@@ -98,8 +98,10 @@ void gg_cli_progress_line(gg_cli_progress *p, const char *line)
   if (p->quiet || now - p->shown < (p->terminal ? live_every : plain_every)) return;
   p->shown = now;
   p->live = p->terminal;
-  fprintf(stderr, p->terminal ? "\r%s\x1b[K" : "%s\n", line);
-  fflush(stderr);
+  if (p->terminal)
+    put_live(line);
+  else
+    fprintf(stderr, "%s\n", line);
 }
 
 void gg_cli_progress_end(gg_cli_progress *p)
