@@ -31,7 +31,7 @@ static double *row(gg_h5_in *h, const char *path, size_t k, size_t items)
   return gg_h5_read_row(h, path, k, GG_ITEM_F64, items);
 }
 
-static bool read_frames(slabs *s, const gg_figure_point *point)
+static gg_status read_frames(slabs *s, const gg_figure_point *point, gg_error *err)
 {
   gg_h5_in h;
   const gg_stored_result *r = &point->stored;
@@ -45,7 +45,7 @@ static bool read_frames(slabs *s, const gg_figure_point *point)
     free(velocity);
   }
   gg_h5_in_close(&h);
-  return !h.failed;
+  return gg_h5_in_status(&h, point->path, err);
 }
 
 /* Mean of the blocks' means, and the standard error from their scatter. */
@@ -67,7 +67,7 @@ static gg_status frames_of(gg_drawn_panel *p, const gg_figure_point *point, int 
   char group[128];
   slabs s = {0};
   if (!(point->stored.edge[1] > 0)) return GG_OK;
-  if (!read_frames(&s, point)) return gg_fail(err, GG_BAD_FILE, "%s: its frames cannot be read", point->path);
+  GG_TRY(read_frames(&s, point, err));
   gg_panel_group(p->of, point, "", group, sizeof group);
   gg_drawn *d = gg_panel_add(p, engines[engine], group, GG_CHART_POINTS);
   for (int k = 0; k < SLABS; k++) {

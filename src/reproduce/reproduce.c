@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "io/atomic_file.h"
 #include "reproduce/figures.h"
 #include "sweep/folder.h"
@@ -79,10 +80,16 @@ static void tell_numbers(const gg_reproduce_options *o, const gg_figure *f)
   }
 }
 
-static gg_status finish(const outputs *o, gg_figure *f, const gg_figure_points *points, gg_error *err)
+static gg_status fill(gg_figure *f, const gg_figure_points *points, gg_error *err)
 {
   for (int i = 0; i < f->entry->n_panels; i++) GG_TRY(gg_panel_make(&f->panel[i], &f->entry->panel[i], points, err));
-  GG_TRY(gg_stated_rows(f->entry, points, f->row, err));
+  return gg_stated_rows(f->entry, points, f->row, err);
+}
+
+static gg_status finish(const outputs *o, gg_figure *f, const gg_figure_points *points, gg_error *err)
+{
+  bool before = gg_memory_begin(); /* a value that lacks memory is like one that is not there */
+  GG_TRY(gg_memory_check(before, fill(f, points, err), err));
   GG_TRY(each_file(o, f, points, err));
   tell_numbers(o->options, f);
   return GG_OK;

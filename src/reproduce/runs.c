@@ -199,7 +199,10 @@ gg_status gg_figure_run(const gg_figure_entry *entry, const gg_reproduce_options
   if (status == GG_OK || (status == GG_FAILED && folder)) {
     gg_error reading;
     gg_status read = read_points(entry, sweeps, folder, all, &reading);
-    if (read != GG_OK) status = gg_fail(err, read, "%s", reading.message);
+    if (read != GG_OK) {
+      gg_figure_points_clear(all); /* a part of them is no figure */
+      status = gg_fail(err, read, "%s", reading.message);
+    }
   }
   free(folder);
   free_sweeps(sweeps);

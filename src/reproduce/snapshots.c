@@ -28,7 +28,7 @@ static int collect(const gg_figure *f, const gg_figure_points *all, shown *list)
 }
 
 /* Positions, box and collisions a grain of the frame that is so many before the last. */
-static double *frame_of(const shown *s, double edge[3], double *collisions)
+static double *frame_of(const shown *s, double edge[3], double *collisions, gg_error *err)
 {
   gg_h5_in h;
   const gg_stored_result *r = &s->point->stored;
@@ -40,7 +40,7 @@ static double *frame_of(const shown *s, double edge[3], double *collisions)
   *collisions = step ? 2 * (double)*step / (double)r->n_grains : NAN;
   free(step);
   gg_h5_in_close(&h);
-  if (h.failed) free(place), place = NULL;
+  if (gg_h5_in_status(&h, s->point->path, err) != GG_OK) free(place), place = NULL;
   return place;
 }
 
@@ -50,13 +50,13 @@ static double fold(double x, double edge)
   return x - edge * floor(x / edge);
 }
 
-static void draw_one(FILE *s, const shown *one, int k, gg_panel place)
+static gg_status draw_one(FILE *s, const shown *one, int k, gg_panel place, gg_error *err)
 {
   double edge[3], collisions;
-  double *at = frame_of(one, edge, &collisions);
+  double *at = frame_of(one, edge, &collisions, err);
   int across = one->of->source.names.text[0][0] == 'z' ? 2 : 0;
   char group[128];
-  if (!at) return;
+  if (!at) return GG_BAD_FILE;
   gg_panel_group(one->of, one->point, "", group, sizeof group);
   fprintf(s, "$grains%d << EOD\n", k);
   for (size_t i = 0; i < one->point->stored.n_grains; i++)
@@ -71,6 +71,7 @@ static void draw_one(FILE *s, const shown *one, int k, gg_panel place)
       "set size ratio -1\nset xrange [0:%g]\nset yrange [0:%g]\nset xlabel '%s [d]'\nset ylabel 'y [d]' offset 0.4,0\n",
       edge[across], edge[1], across == 2 ? "z" : "x");
   fprintf(s, "unset key\nplot $grains%d using 1:2 with points pt 7 ps 0.2 lc rgb '#0072B2'\n", k);
+  return GG_OK;
 }
 
 gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *all, const char *picture, gg_error *err)
@@ -86,14 +87,16 @@ gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *a
   if (!s) return gg_fail(err, GG_FAILED, "out of memory");
   int width = columns * WIDTH, height = 50 + rows * HEIGHT;
   gg_plot_open_page(s, f->entry->figure, png, width, height);
-  for (int k = 0; k < n; k++) {
+  gg_status status = GG_OK;
+  for (int k = 0; k < n && status == GG_OK; k++) {
     double left = (double)(k % columns) / columns, w = 1.0 / columns, h = (double)HEIGHT / height;
     double top = 1 - 50.0 / height - (k / columns) * h;
-    draw_one(s, &list[k], k, (gg_panel){left + 0.2 * w, left + 0.97 * w, top - 0.77 * h, top - 0.08 * h});
+    const gg_panel place = {left + 0.2 * w, left + 0.97 * w, top - 0.77 * h, top - 0.08 * h};
+    status = draw_one(s, &list[k], k, place, err);
   }
   fprintf(s, "unset multiplot\n");
-  gg_status status =
-      fclose(s) == 0 ? gg_gnuplot_run(script, NULL, picture, err) : gg_fail(err, GG_FAILED, "out of memory");
+  if (fclose(s) != 0 && status == GG_OK) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;
 }

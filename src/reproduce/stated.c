@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
 #include "reproduce/panel.h"
 #include "reproduce/tail.h"
 
@@ -51,7 +52,10 @@ gg_told gg_find_power(size_t n, const double *x, const double *y, const double *
 {
   gg_straight line;
   double *all = malloc(3 * n * sizeof *all + 1);
-  if (!all) return GG_NO_VALUE;
+  if (!all) {
+    gg_memory_lacked();
+    return GG_NO_VALUE;
+  }
   for (size_t i = 0; i < n; i++) {
     bool told = x[i] > 0 && y[i] > 0;
     all[i] = told ? log(x[i]) : NAN, all[n + i] = told ? log(y[i]) : NAN, all[2 * n + i] = e[i] / y[i];
