@@ -130,7 +130,8 @@ static gg_status read_point(gg_sweep *sweep, const char *name, const char *folde
     if (!(p->varied[p->n_varied] = strdup(key))) return gg_fail(err, GG_FAILED, "out of memory");
     p->n_varied++;
   }
-  return gg_stored_result_read(&p->stored, path, err);
+  GG_TRY(gg_stored_result_read(&p->stored, path, err));
+  return gg_point_check(&p->scene, sweep->settings.does, json_object_get(p->stored.document, "scene"), path, err);
 }
 
 static gg_status read_points(const gg_figure_entry *entry, gg_sweep **sweeps, const char *folder, gg_figure_points *all,

@@ -29,6 +29,12 @@ def test_a_figure_from_beginning_to_end():
     before = stamps("out/figures.sweep")
     again = run("reproduce", "2.25", "--quick", "--output", "out")
     check(again.code == 0 and len(before) == 1 and stamps("out/figures.sweep") == before, again.err)
+    point = "out/figures.sweep/" + next(iter(before))
+    with open("other.yaml", "w") as f:
+        f.write("flow: usf\nphi: 0.1\nparticles: 20\nrun: {collisions: 10, warmup: 2}\n")
+    check(run("run", "other.yaml", "--output", point, "--quiet").code in (0, 1))
+    again = run("reproduce", "2.25", "--quick", "--output", "out")
+    check(again.code == 3 and point + ": holds another point: " in again.err, "a result under a point's name", again.err)
 
 
 def test_units_of_what_changes_in_time():

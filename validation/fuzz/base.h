@@ -5,7 +5,7 @@
 
 #include "run/run.h"
 
-enum { FUZZ_BASES = 5 };
+enum { FUZZ_BASES = 6 };
 
 typedef struct fuzz_base {
   gg_scene scene;
