@@ -9,7 +9,8 @@
 enum { LOOKS = 12 }; /* at whether to stop, until it does: a few samples */
 
 /* Cells and lists, shear and walls, spins and species, every observable with a memory; both engines. Velocity
- * distributions and collisions of sheared grains stand beside a theory that takes longer than all of the run. */
+ * distributions and collisions of sheared grains stand beside a theory that takes longer than all of the
+ * run. */
 static const char *const scenes[FUZZ_BASES] = {
     "flow: usf\nphi: 0.1\nparticles: 14\ncollision: {e: 0.9, beta: 0, mu: 0.5}\n"
     "measure: [rheology, pair_correlation]\nrun: {collisions: 40, warmup: 2}\n",
