@@ -18,8 +18,8 @@ typedef struct fuzz_image {
  * none. */
 fuzz_image fuzz_image_of(const char *path);
 fuzz_image fuzz_image_of_bytes(void *data, size_t size);
-/* small_result.c: of a result at the path, which is removed, what readers look at. */
-fuzz_image fuzz_small_result(const char *path);
+/* small_result.c: of a result at the path, which is removed, what readers look at; with the scene as it was given. */
+fuzz_image fuzz_small_result(const char *path, const char *scene);
 /* The image with records of an input put into it, sealed; its path. To be taken back before the next change. */
 const char *fuzz_image_change(fuzz_image *image, const uint8_t *data, size_t size);
 void fuzz_image_take_back(fuzz_image *image, const uint8_t *data, size_t size);

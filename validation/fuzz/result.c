@@ -35,7 +35,7 @@ static fuzz_image make(size_t which)
   gg_comparison_free(comparison);
   gg_result_free(result);
   gg_scene_free(scene);
-  return fuzz_small_result(path);
+  return fuzz_small_result(path, scenes[which]);
 }
 
 static void read_frames(const char *path)

@@ -26,14 +26,34 @@ static void thin_quantities(json_t *quantities)
   json_object_foreach_safe(quantities, next, name, one) if (!is_kept(name)) json_object_del(quantities, name);
 }
 
+/* All but the first so many. */
+static void thin_map(json_t *map, size_t most)
+{
+  const char *name;
+  json_t *one;
+  void *next;
+  size_t n = 0;
+  json_object_foreach_safe(map, next, name, one) if (++n > most) json_object_del(map, name);
+}
+
+static void thin_run(json_t *run)
+{
+  json_t *warnings = json_object_get(run, "warnings");
+  thin_quantities(json_object_get(run, "results"));
+  json_object_del(run, "scene"); /* which stands beside the document, too, and is read there */
+  while (json_array_size(warnings) > 1) json_array_remove(warnings, 1);
+}
+
 static void thin_document(json_t *document)
 {
   const char *name;
   json_t *theory;
-  thin_quantities(json_object_get(document, "results"));
-  thin_quantities(json_object_get(json_object_get(document, "md"), "results"));
-  thin_quantities(json_object_get(json_object_get(document, "dsmc"), "results"));
+  thin_run(document);
+  thin_run(json_object_get(document, "md"));
+  thin_run(json_object_get(document, "dsmc"));
   json_object_foreach(json_object_get(document, "theory"), name, theory) thin_quantities(theory);
+  thin_map(json_object_get(document, "theory"), 3);
+  thin_map(json_object_get(document, "theories"), 3);
 }
 
 static char *small_document(const char *path)
@@ -63,6 +83,7 @@ static void cut_copies(const char *path)
     }
   H5Ldelete(file, "/graingas/document", H5P_DEFAULT);
   H5Ldelete(file, "/graingas/theory", H5P_DEFAULT);
+  H5Ldelete(file, "/graingas/scene", H5P_DEFAULT);
   H5Fclose(file);
 }
 
@@ -72,7 +93,7 @@ static herr_t copy(hid_t from, const char *name, const H5L_info_t *about, void *
   return H5Ocopy(from, name, *(hid_t *)to, name, H5P_DEFAULT, H5P_DEFAULT);
 }
 
-fuzz_image fuzz_small_result(const char *path)
+fuzz_image fuzz_small_result(const char *path, const char *scene)
 {
   gg_h5 h;
   size_t size = 0;
@@ -82,6 +103,7 @@ fuzz_image fuzz_small_result(const char *path)
   hid_t from = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   if (!document || H5Literate(from, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, copy, &h.file) < 0) abort();
   gg_h5_text(&h, "/graingas/document", document);
+  gg_h5_text(&h, "/graingas/scene", scene);
   void *data = gg_h5_image(&h, &size);
   gg_h5_close(&h);
   H5Fclose(from);
