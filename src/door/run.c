@@ -70,7 +70,7 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
                             gg_hooks *hooks, gg_error *err)
 {
   memset(r, 0, sizeof *r);
-  r->file = (gg_result_file){.h.file = -1, .file = GG_ATOMIC_NONE};
+  r->file = (gg_result_file){.file = GG_ATOMIC_NONE};
   r->lock = GG_FILE_LOCK_NONE;
   r->log.fd = -1;
   r->comparison = comparison;

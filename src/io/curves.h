@@ -5,8 +5,9 @@
 #include <jansson.h>
 #include <stdio.h>
 
-#include "io/h5/h5.h"
 #include "measure/curve.h"
+
+struct gg_h5;
 
 /* {"name": {"group", "panel", "label", "x_name", "x_unit", "y_name", "unit", "log_x", "log_y", "samples", "x": [],
  * "value": [], "stderr": [], "numbers": {"alpha": {"mean", "stderr", "unit"}}, "reference": {"label", "value": []}}}:
@@ -19,7 +20,7 @@ gg_status gg_curves_from_json(gg_curves *list, const json_t *curves, gg_error *e
 
 /* GROUP/curves/<name>/ x, value, stderr, reference if there is one; numbers/<name>: mean, stderr; units and the
  * reference's label are attributes. */
-void gg_h5_write_curves(gg_h5 *h, const char *group, const gg_curves *curves);
+void gg_h5_write_curves(struct gg_h5 *h, const char *group, const gg_curves *curves);
 
 /* How many groups of curves an engine's document holds, and the k-th one's name. */
 int gg_curve_groups(const json_t *document, const char **names, int most);

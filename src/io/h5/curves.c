@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "io/curves.h"
+#include "io/h5/h5.h"
 
 static void write_numbers(gg_h5 *h, const char *base, const gg_curve *c)
 {

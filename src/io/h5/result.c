@@ -10,6 +10,7 @@
 
 #include "io/curves.h"
 #include "io/document.h"
+#include "io/h5/h5.h"
 #include "io/h5/result_file.h"
 #include "io/scene/json.h"
 

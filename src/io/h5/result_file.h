@@ -14,15 +14,15 @@
 #define GG_RESULT_FILE_H
 
 #include "io/atomic_file.h"
-#include "io/h5/particles.h"
 #include "run/run.h"
 
+struct gg_h5;
+
+/* Nothing that includes this needs HDF5: the page of a browser is built without (none.c). */
 typedef struct gg_result_file {
   gg_atomic_file file;
-  const char *command; /* the command line, for the record */
-  bool streaming;      /* frames go to the disk as they come; otherwise the file is made in memory */
-  gg_h5 h;
-  gg_h5_particles particles;
+  const char *command;          /* the command line, for the record */
+  struct gg_result_writer *now; /* what was begun of the file (result_file.c); NULL: nothing */
 } gg_result_file;
 
 /* `path` is checked to be writable and left untouched until the end; nobody else can open it in between. */
@@ -36,9 +36,9 @@ gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_compariso
 void gg_result_file_abandon(gg_result_file *f);
 
 /* The inner layouts, for the writers above. */
-void gg_h5_write_header(gg_h5 *h, const char *command, const gg_scene *scene, const char *document);
+void gg_h5_write_header(struct gg_h5 *h, const char *command, const gg_scene *scene, const char *document);
 /* `observables` is what the names of its series begin with: "/observables/md_". */
-void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, const gg_result *result);
-void gg_h5_write_theories(gg_h5 *h, const gg_comparison *comparison);
+void gg_h5_write_engine(struct gg_h5 *h, const char *group, const char *observables, const gg_result *result);
+void gg_h5_write_theories(struct gg_h5 *h, const gg_comparison *comparison);
 
 #endif
