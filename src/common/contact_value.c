@@ -1,7 +1,8 @@
 #include "common/contact_value.h"
 
-#include <math.h>
 #include <stddef.h>
+
+#include "common/agreed.h"
 
 /* Z - 1 in powers of x = phi/(1-phi): Kolafa, Labik & Malijevsky, PCCP 6 (2004) 2335, refitted by Pieprzyk, Bannerman,
  * Branka, Chudak & Heyes, PCCP 21 (2019) 6886. */
@@ -14,7 +15,8 @@ static const struct {
 static double kolafa_excess(double phi)
 {
   double x = phi / (1 - phi), sum = 0;
-  for (size_t i = 0; i < sizeof kolafa / sizeof *kolafa; i++) sum += kolafa[i].coefficient * pow(x, kolafa[i].power);
+  for (size_t i = 0; i < sizeof kolafa / sizeof *kolafa; i++)
+    sum += kolafa[i].coefficient * gg_power(x, kolafa[i].power);
   return sum;
 }
 
@@ -22,9 +24,9 @@ double gg_contact_value_of(gg_contact_value kind, double phi)
 {
   if (phi == 0) return 1;
   switch (kind) {
-  case GG_LUN_SAVAGE: return pow(1 - phi / 0.64, -2.5 * 0.64);
+  case GG_LUN_SAVAGE: return gg_power(1 / gg_root(1 - phi / 0.64, 5), 8); /* to the power -2.5 x 0.64 */
   case GG_KOLAFA: return kolafa_excess(phi) / (4 * phi);
-  default: return (1 - phi / 2) / pow(1 - phi, 3);
+  default: return (1 - phi / 2) / gg_power(1 - phi, 3);
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
+#include "common/agreed.h"
 #include "common/contact_value.h"
-#include "common/cube_root.h"
 #include "common/ensemble.h"
 #include "common/surface/surfaces.h"
 
@@ -57,7 +57,7 @@ static void set_composition(gg_model *m, const gg_scene *s)
 static double mean_power(const gg_model *m, int p)
 {
   double sum = 0;
-  for (int i = 0; i < m->n_species; i++) sum += (double)m->n_of[i] / (double)m->n * pow(m->diameter[i], p);
+  for (int i = 0; i < m->n_species; i++) sum += (double)m->n_of[i] / (double)m->n * gg_power(m->diameter[i], p);
   return sum;
 }
 
@@ -68,7 +68,7 @@ static void set_box(gg_model *m, const gg_scene *s)
   m->density = m->boltzmann ? 1 : 6 * s->phi / (M_PI * mean_power(m, 3));
   m->volume = (double)m->n / m->density;
   double shape = s->aspect[0] * s->aspect[1] * s->aspect[2];
-  for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * gg_cube_root(m->volume / shape);
+  for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * gg_root(m->volume / shape, 3);
 }
 
 static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)

@@ -1,6 +1,7 @@
 /* What follows from a model: how fast its grains collide, and how long what relaxes takes. */
 #include <math.h>
 
+#include "common/agreed.h"
 #include "common/model.h"
 
 double gg_model_relaxation(const gg_model *m)
@@ -23,7 +24,7 @@ double gg_model_relaxation(const gg_model *m)
 double gg_model_gap_relaxation(const gg_model *m)
 {
   if (!m->walled) return 0;
-  double n = 6 * m->phi / M_PI, d = cbrt(n / m->density), gap = fmax(m->box[1] / d - 1, 0) / M_PI;
+  double n = 6 * m->phi / M_PI, d = gg_root(n / m->density, 3), gap = fmax(m->box[1] / d - 1, 0) / M_PI;
   double chi = m->chi[0], b = 1 + 1.6 * m->phi * chi;
   double viscosity = 5.0 / 16 * (b * b / chi + 768 / (25 * M_PI) * m->phi * m->phi * chi); /* sqrt(m T/pi)/d^2 */
   return gap * gap * 4 * M_PI * n * n * chi / viscosity;

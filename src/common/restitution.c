@@ -22,15 +22,15 @@ double gg_law_loss(gg_law_kind kind, double u)
 double gg_law_speed_of(gg_law_kind kind, double loss)
 {
   if (loss <= 0) return 0;
-  double low = -1000, high = 1000; /* of the logarithm to base 2 */
+  double low = 0x1p-1000, high = 0x1p1000; /* halved by square roots, which are rounded alike everywhere */
   for (int k = 0; k < 100; k++) {
-    const double middle = 0.5 * (low + high);
-    if (losses[kind](exp2(middle)) < loss)
+    const double middle = sqrt(low * high);
+    if (losses[kind](middle) < loss)
       low = middle;
     else
       high = middle;
   }
-  return exp2(0.5 * (low + high));
+  return sqrt(low * high);
 }
 
 double gg_law_at(const gg_restitution_law *law, double speed, int species_1, int species_2)

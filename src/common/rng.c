@@ -4,6 +4,8 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
+#include "common/agreed.h"
+
 gg_rng gg_rng_seed(uint64_t seed, uint64_t stream)
 {
   philox4x64_key_t key = {{seed, 0x677261696e676173u}}; /* "graingas" */
@@ -31,10 +33,14 @@ static void gsl_set(void *state, unsigned long seed)
 static const gsl_rng_type stream_type = {"xoshiro256++", 0xffffffffu,   0, sizeof(gg_rng), gsl_set,
                                          gsl_get,        gsl_get_double};
 
+/* Further out, one number in 1700, the ziggurat takes a logarithm. */
+#define TAIL 3.44
+
 double gg_rng_normal(gg_rng *r)
 {
   gsl_rng adapter = {&stream_type, r};
-  return gsl_ran_gaussian_ziggurat(&adapter, 1.0);
+  const double x = gsl_ran_gaussian_ziggurat(&adapter, 1.0);
+  return fabs(x) > TAIL ? gg_agreed(x, GG_AGREED_FUNCTION) : x;
 }
 
 gg_vec gg_rng_normal_vec(gg_rng *r)

@@ -1,6 +1,7 @@
 /* The grid that suits a model, and the grains' places in it. */
 #include <math.h>
 
+#include "common/agreed.h"
 #include "md/members_in_rows.h"
 
 /* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists,
@@ -58,7 +59,7 @@ static bool fit_overlapping(const gg_model *m, int32_t n[3])
 {
   if (m->walled || m->phi >= OVERLAPPING_BELOW) return false;
   double narrowest = 3 * gg_md_reach(m);
-  count_cells(m, fmax(narrowest, cbrt(GRAINS_PER_OVERLAPPING_CELL * m->volume / (double)m->n)), n);
+  count_cells(m, fmax(narrowest, gg_root(GRAINS_PER_OVERLAPPING_CELL * m->volume / (double)m->n, 3)), n);
   for (int a = 0; a < 3; a++) {
     if (n[a] < FEWEST_OVERLAPPING) n[a] = FEWEST_OVERLAPPING;
     if (m->box[a] < narrowest * n[a]) return false;
@@ -69,7 +70,7 @@ static bool fit_overlapping(const gg_model *m, int32_t n[3])
 static void fit_cells(const gg_model *m, int32_t n[3])
 {
   double width = gg_md_reach(m);
-  if (m->phi < NARROW_FROM) width = fmax(width, cbrt(GRAINS_PER_CELL * m->volume / (double)m->n));
+  if (m->phi < NARROW_FROM) width = fmax(width, gg_root(GRAINS_PER_CELL * m->volume / (double)m->n, 3));
   count_cells(m, width, n);
 }
 

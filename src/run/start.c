@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "common/agreed.h"
 #include "common/linear_response.h"
 #include "common/memory_note.h"
 #include "theory/theory.h"
@@ -28,8 +29,8 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
     if (status != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
     if (!(T > 0)) continue;
-    model->temperature0 = T;
-    if (ratio > 0) model->ratio0 = ratio;
+    model->temperature0 = gg_agreed(T, GG_AGREED_SOLUTION);
+    if (ratio > 0) model->ratio0 = gg_agreed(ratio, GG_AGREED_SOLUTION);
     return GG_OK;
   }
   return GG_OK;

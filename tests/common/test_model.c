@@ -10,7 +10,6 @@
 
 #include "common/archive.h"
 #include "common/contact_value.h"
-#include "common/cube_root.h"
 #include "common/quantity.h"
 #include "common/rng.h"
 #include "common/thermostat.h"
@@ -27,21 +26,6 @@ static gg_model make(const gg_scene *s)
   gg_error err;
   assert_int_equal(gg_model_make(s, s->engine, &m, &err), GG_OK);
   return m;
-}
-
-/* Correctly rounded: x lies between the cubes of the midpoints to the neighbours; cubes give their root. */
-static void cube_roots_are_rounded(void **state)
-{
-  (void)state;
-  gg_rng rng = gg_rng_seed(1, 0);
-  for (int i = 0; i < 100000; i++) {
-    double x = ldexp(1 + gg_rng_uniform(&rng), i % 60 - 30), y = gg_cube_root(x);
-    long double above = ((long double)y + nextafter(y, INFINITY)) / 2, below = ((long double)y + nextafter(y, 0)) / 2;
-    long double slack = 4 * LDBL_EPSILON * x; /* of the cubes, where a long double is short */
-    assert_true(below * below * below <= x + slack && x - slack <= above * above * above);
-    double whole = (double)(1 + gg_rng_below(&rng, 100000));
-    assert_true(gg_cube_root(whole * whole * whole) == whole);
-  }
 }
 
 /* The same physics in other units of length, mass and time is the same model. */
@@ -249,7 +233,6 @@ static void scales(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cube_roots_are_rounded),
       cmocka_unit_test(units_drop_out),
       cmocka_unit_test(mixture),
       cmocka_unit_test(equations_of_state),

@@ -6,14 +6,13 @@
  * (R. Ramirez, T. Poeschel, N.V. Brilliantov & T. Schwager, Phys. Rev. E 60 (1999) 4465); summed by the Pade form of P.
  * Mueller & T. Poeschel, Phys. Rev. E 84 (2011) 021302, as A.K. Dubey, A. Bodrova, S. Puri & N. Brilliantov, Phys. Rev.
  * E 87 (2013) 062202, took it. It is within 4e-4 of the equation of motion where e > 0.75, within 0.009 everywhere. */
-#include <math.h>
-
+#include "common/agreed.h"
 #include "common/laws/laws.h"
 
 /* The unit of speed is that at which x = 1. */
 double gg_loss_viscoelastic(double u)
 {
-  const double c1 = 0.501086, b2 = 1.15345, b3 = 0.577977, b4 = 0.532178, x = pow(u, 0.1);
+  const double c1 = 0.501086, b2 = 1.15345, b3 = 0.577977, b4 = 0.532178, x = gg_root(u, 10);
   const double numerator = 1 + c1 * x, rest = x * x * (b2 + x * (b3 + x * b4));
   return rest / (numerator + rest);
 }

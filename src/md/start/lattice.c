@@ -1,6 +1,7 @@
 /* Centres on a face-centred lattice stretched to the box, some sites left empty at random. */
 #include <math.h>
 
+#include "common/agreed.h"
 #include "md/start/place.h"
 
 static const double basis[4][3] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
@@ -20,7 +21,7 @@ static double spacing(const gg_md_box *box, const uint32_t m[3])
 /* The numbers of cubes that leave the sites farthest apart. */
 static void choose_cubes(const gg_md_box *box, uint32_t n, uint32_t best[3])
 {
-  double widest = 0, edge = cbrt(4 * box->edge[0] * box->edge[1] * box->edge[2] / n);
+  double widest = 0, edge = gg_root(4 * box->edge[0] * box->edge[1] * box->edge[2] / n, 3);
   uint32_t most[3];
   for (int k = 0; k < 3; k++) most[k] = 2 + (uint32_t)(2 * box->edge[k] / edge);
   for (uint32_t x = 1; x <= most[0]; x++)

@@ -4,7 +4,7 @@
  */
 #include <math.h>
 
-#include "common/cube_root.h"
+#include "common/agreed.h"
 #include "common/surface/shapes.h"
 #include "md/start/place.h"
 
@@ -114,7 +114,7 @@ static gg_status sweep_once(gg_md_packing *p, double margin, bool pushing, bool 
 /* Denser systems leave less room to aim for than touching. */
 static double margin_for(double phi)
 {
-  double room = gg_cube_root(0.64 / phi) - 1;
+  double room = gg_root(0.64 / phi, 3) - 1;
   return fmin(0.02, fmax(0.25 * room, 1e-4));
 }
 

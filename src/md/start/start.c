@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/agreed.h"
 #include "common/surface/surfaces.h"
 #include "md/start/place.h"
 #include "md/state.h"
@@ -13,7 +14,7 @@ static gg_status make_cells(const gg_md *e, gg_md_packing *p, gg_error *err)
 {
   double widest = gg_model_widest(&e->model) * 1.05;
   int32_t n[3];
-  gg_md_cells_count(&e->box, fmax(widest, cbrt(e->model.volume / e->n)), n); /* not most of them empty */
+  gg_md_cells_count(&e->box, fmax(widest, gg_root(e->model.volume / e->n, 3)), n); /* not most of them empty */
   if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
   GG_TRY(gg_md_cells_make(&p->cells, &e->box, n, widest, err));
   return GG_OK;
