@@ -162,6 +162,11 @@ typedef struct gg_grains {
 /* Copy the grains out. GG_BAD_INPUT where positions are asked of dsmc, which has none. */
 GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err);
 
+/* The state as one number: two simulations have the same if the count of their collisions and all that
+ * gg_simulation_get_grains tells are the same to the last bit, and else but by one chance in 2^64. It is the same on
+ * every processor, and in a browser, after as many collisions of the same scene and seed. */
+GG_API gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg_error *err);
+
 /* Walls come in the order of their list: the lower one, the upper one, others. Its name, as in wall_P_yy_lower; NULL:
  * there are not so many. */
 enum { GG_WALLS = 6 };
@@ -274,6 +279,24 @@ typedef struct gg_result gg_result; /* what came out of one engine's run */
  * results so far, or the output could not be at the end. */
 GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
 
+/* ---- Runs in pieces ----
+ * A run of one replica whose caller takes it further for a while at a time, asks it for its means in between, and does
+ * something else meanwhile: an interface of buttons, a notebook, a page. However it is cut, in the end its result has
+ * the bits of gg_run's. */
+
+typedef struct gg_session gg_session;
+/* GG_BAD_INPUT where the scene asks for replicas. */
+GG_API gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err);
+GG_API void gg_session_free(gg_session *session);
+/* Go on for about so many seconds by the clock on the wall, within a few milliseconds for some thousand grains. *over
+ * (may be NULL): all is done, and nothing will change any more. GG_FAILED, then and from then on: ended short of what
+ * was asked, or for good. */
+GG_API gg_status gg_session_go_on(gg_session *session, double seconds, int *over, gg_error *err);
+GG_API gg_status gg_session_get_progress(const gg_session *session, gg_progress *progress, gg_error *err);
+/* Means, errors, history, curves and the grains as of now, to be freed; what cannot be had yet says why. The session
+ * goes on as if it had not been asked. */
+GG_API gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *err);
+
 typedef struct gg_checkpoint_part { /* one engine's */
   const char *engine;               /* "md", "dsmc"; NULL: none */
   const char *phase;                /* "warm-up", "averaging"; "stepped": a saved simulation */
@@ -375,6 +398,10 @@ GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options
 GG_API gg_status gg_evaluate_theories(const gg_scene *scene, const char *theory, gg_comparison **comparison,
                                       gg_error *err);
 GG_API void gg_comparison_free(gg_comparison *comparison);
+
+/* Put a result of the same scene beside the theories, in place of the one that the comparison has of its engine: so a
+ * table is filled from two sessions, and theories are evaluated once. Taken over on success. */
+GG_API gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_error *err);
 
 /* The part of "md" or "dsmc", which belongs to the comparison; NULL if there is none, for this reason. */
 GG_API const gg_result *gg_comparison_result(const gg_comparison *comparison, const char *engine);
@@ -565,7 +592,7 @@ typedef struct gg_figure_needs {
 typedef struct gg_figure_info { /* texts last for the call */
   const char *name, *file;      /* "thesis 3.5"; how its files are called: "thesis-3.05" */
   const char *shows;
-  const char *cannot;           /* why it cannot be reproduced; NULL if it can */
+  const char *cannot;            /* why it cannot be reproduced; NULL if it can */
   const char *verdict, *because; /* "agrees", "differs", "cannot be told", "open": not judged yet */
   gg_figure_needs quick, full;
 } gg_figure_info;

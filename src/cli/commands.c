@@ -28,9 +28,11 @@ const gg_command gg_commands[] = {
      GG_OPT_SWEEP | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON | GG_OPT_QUIET,
      gg_cli_sweep_main},
     {"reproduce", "FIGURE|list|all", "A figure of the papers: data, theory lines, picture",
-     "Figures of Gayen's thesis and of Montanero's review, simulated anew: \"thesis 3.5\", \"review 3\"; 3.5 alone where "
+     "Figures of Gayen's thesis and of Montanero's review, simulated anew: \"thesis 3.5\", \"review 3\"; 3.5 alone "
+     "where "
      "only one of them has it. Leaves thesis-3.05.h5, .csv, .svg and .png in the current folder, and the numbers that "
-     "the paper states beside ours in thesis-3.05_numbers.csv. list: all of them, with what they need, how long it takes "
+     "the paper states beside ours in thesis-3.05_numbers.csv. list: all of them, with what they need, how long it "
+     "takes "
      "here, and the verdict.\n"
      "Results of the runs lie in figures.sweep, where figures that show the same find them: interrupted, the same "
      "command goes on. docs/reproduction.md says what came out.",
@@ -52,6 +54,13 @@ const gg_command gg_commands[] = {
     {"info", "[FILE]", "What a result or a checkpoint holds, or every key of a scene and what it switches on and off",
      "Without a file: every key that a scene may have, with its default and what it takes.",
      GG_OPT_SET | GG_OPT_JSON | GG_OPT_QUIET, gg_cli_info_main},
+    {"fingerprint", "SCENE.yaml", "One number for the grains' state after so many collisions, to compare machines by",
+     "Simulates the scene's engine, or that of --engine, from its start, and prints a hash of all positions, "
+     "velocities "
+     "and spins. The same scene and seed have the same on every processor, from every compiler, and in the browser; "
+     "after --collisions of the whole gas (100 000), for dsmc the first end of a step beyond.",
+     GG_OPT_SET | GG_OPT_ENGINE | GG_OPT_COLLISIONS | GG_OPT_SEED | GG_OPT_JSON | GG_OPT_QUIET,
+     gg_cli_fingerprint_main},
     {"bench", "[md|dsmc|observables|error]",
      "How fast the engines are: collisions per second by kernel, density and size; run time against error",
      "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "

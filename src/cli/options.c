@@ -13,6 +13,7 @@
 const gg_option gg_options_table[] = {
     {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run, instead of the scene's"},
     {GG_OPT_SET, "set", "KEY=VALUE", "override a key of the scene, e.g. collision.e=0.8; repeatable"},
+    {GG_OPT_COLLISIONS, "collisions", "N", "collisions between grains to go through (default: 100000)"},
     {GG_OPT_SEED, "seed", "N", "seed of the random streams (run.seed)"},
     {GG_OPT_THREADS, "threads", "N",
      "threads to use; results do not depend on it (default: all processors; under mpirun one a process)"},
@@ -149,6 +150,20 @@ static int take_threads(gg_options *o, const char *value)
   return GG_CLI_GO_ON;
 }
 
+#define MOST_COLLISIONS 1000000000000LL
+
+static int take_collisions(gg_options *o, const char *value)
+{
+  char *end;
+  long long n = strtoll(value, &end, 10);
+  if (end == value || *end || n < 1 || n > MOST_COLLISIONS)
+    return gg_cli_fail(GG_BAD_INPUT,
+                       "option '--collisions': value '%s' is not allowed; allowed: a whole number from 1 to %lld",
+                       value, MOST_COLLISIONS);
+  o->collisions = (uint64_t)n;
+  return GG_CLI_GO_ON;
+}
+
 static int take_vary(gg_options *o, const char *value)
 {
   if (o->n_vary == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d keys to vary", GG_MAX_OVERRIDES);
@@ -178,6 +193,7 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_SEED: return add_override(o, "run.seed", value);
   case GG_OPT_ENGINE: return add_override(o, "engine", value);
   case GG_OPT_THREADS: return take_threads(o, value);
+  case GG_OPT_COLLISIONS: return take_collisions(o, value);
   case GG_OPT_OUTPUT:
   case GG_OPT_FOLDER:
   case GG_OPT_PREFIX: o->output = value; break;

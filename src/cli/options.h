@@ -21,6 +21,7 @@ enum {
   GG_OPT_ONLY = 1u << 13,
   GG_OPT_SWEEP = 1u << 14, /* all that only sweeps have */
   GG_OPT_FOLDER = 1u << 15,
+  GG_OPT_COLLISIONS = 1u << 16,
 };
 
 typedef struct gg_option {
@@ -39,6 +40,7 @@ typedef struct gg_options {
   const char *point;       /* the one of a sweep to do; NULL: all */
   bool json, quiet, all, quick;
   bool list, collect, slurm; /* what else to do with a sweep */
+  uint64_t collisions;       /* 0: not said */
   int threads;
   int n_overrides;
   const char *override[GG_MAX_OVERRIDES]; /* "key=value" */

@@ -9,6 +9,7 @@
 #include "io/scene/inert.h"
 #include "run/agreement.h"
 #include "run/crew.h"
+#include "scene/resumption.h"
 
 static gg_comparison *new_comparison(gg_error *err)
 {
@@ -104,6 +105,31 @@ gg_status gg_evaluate_theories(const gg_scene *scene, const char *theory, gg_com
   else
     gg_comparison_free(c);
   return status;
+}
+
+/* But for the engine, and for what may change when a run is resumed. */
+static bool same_scene(const gg_scene *one, gg_scene other)
+{
+  gg_archive keys = {0};
+  other.engine = one->engine;
+  bool same = gg_resumption_put(&other, &keys, NULL) == GG_OK && gg_resumption_check(one, &keys, NULL) == GG_OK;
+  gg_archive_clear(&keys);
+  return same;
+}
+
+gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(result);
+  gg_engine_kind kind;
+  GG_TRY(gg_door_engine(result->engine, &kind, err));
+  if (comparison->document)
+    return gg_fail(err, GG_BAD_INPUT, "gg_comparison_take: a comparison from a file is what it was");
+  if (!same_scene(&comparison->scene, result->scene))
+    return gg_fail(err, GG_BAD_INPUT, "gg_comparison_take: the result is of another scene than the comparison");
+  gg_result_free(comparison->by_engine[kind]);
+  comparison->by_engine[kind] = result;
+  return GG_OK;
 }
 
 const gg_result *gg_comparison_result(const gg_comparison *comparison, const char *engine)

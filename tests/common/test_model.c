@@ -233,15 +233,9 @@ static void scales(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(units_drop_out),
-      cmocka_unit_test(mixture),
-      cmocka_unit_test(equations_of_state),
-      cmocka_unit_test(kinds),
-      cmocka_unit_test(rates_and_units),
-      cmocka_unit_test(noise_replaces_losses),
-      cmocka_unit_test(units_of_rates),
-      cmocka_unit_test(archives),
-      cmocka_unit_test(scales),
+      cmocka_unit_test(units_drop_out), cmocka_unit_test(mixture),         cmocka_unit_test(equations_of_state),
+      cmocka_unit_test(kinds),          cmocka_unit_test(rates_and_units), cmocka_unit_test(noise_replaces_losses),
+      cmocka_unit_test(units_of_rates), cmocka_unit_test(archives),        cmocka_unit_test(scales),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,6 +49,48 @@ static void stopped_and_resumed(void **state)
   gg_scene_free(s);
 }
 
+/* In pieces of a millisecond, asked in between, it ends with the bits of the whole; beside theories it fills the
+ * table. */
+static void in_pieces(void **state)
+{
+  (void)state;
+  gg_error err;
+  int over = 0, pieces = 0;
+  gg_scene *s = scene_of(SHORT), *other = scene_of("{flow: usf, phi: 0.2, run: {replicas: 2}}");
+  gg_result *whole = NULL, *now = NULL;
+  gg_session *session = NULL;
+  gg_comparison *table = NULL;
+  assert_ok(gg_run(s, NULL, &whole, &err));
+  assert_ok(gg_session_new(s, &session, &err));
+  for (; !over; pieces++) {
+    assert_ok(gg_session_go_on(session, 0.001, &over, &err));
+    gg_result_free(now);
+    assert_ok(gg_session_result(session, &now, &err));
+  }
+  assert_true(pieces > 3);
+  assert_true(mean_of(now, "temperature") == mean_of(whole, "temperature") &&
+              mean_of(now, "N1") == mean_of(whole, "N1"));
+  gg_progress progress;
+  assert_ok(gg_session_get_progress(session, &progress, &err));
+  assert_true(progress.fraction == 1);
+  assert_ok(gg_evaluate_theories(s, "enskog_hermite", &table, &err));
+  assert_ok(gg_comparison_take(table, now, &err));
+  assert_true(gg_comparison_result(table, "dsmc") == now && !gg_comparison_result(table, "md"));
+  gg_comparison *another = NULL;
+  assert_ok(gg_evaluate_theories(other, "lun1991", &another, &err));
+  assert_refused(gg_comparison_take(another, whole, &err), "another scene");
+  gg_session *refused = NULL;
+  assert_refused(gg_session_new(other, &refused, &err), "run.replicas");
+  assert_refused(gg_session_go_on(session, 0, NULL, &err), "0 seconds");
+  gg_comparison_free(table);
+  gg_comparison_free(another);
+  gg_session_free(session);
+  gg_session_free(NULL);
+  gg_result_free(whole);
+  gg_scene_free(s);
+  gg_scene_free(other);
+}
+
 static int at_once(void *context)
 {
   (void)context;
@@ -347,9 +389,10 @@ static void correlation_times(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(stopped_and_resumed), cmocka_unit_test(replicas_stopped),  cmocka_unit_test(written_and_read),
-      cmocka_unit_test(missing_quantities),  cmocka_unit_test(unwritable_output), cmocka_unit_test(comparisons),
-      cmocka_unit_test(part_comparisons),    cmocka_unit_test(theories),          cmocka_unit_test(correlation_times),
+      cmocka_unit_test(stopped_and_resumed), cmocka_unit_test(in_pieces),          cmocka_unit_test(replicas_stopped),
+      cmocka_unit_test(written_and_read),    cmocka_unit_test(missing_quantities), cmocka_unit_test(unwritable_output),
+      cmocka_unit_test(comparisons),         cmocka_unit_test(part_comparisons),   cmocka_unit_test(theories),
+      cmocka_unit_test(correlation_times),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

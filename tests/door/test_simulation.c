@@ -63,6 +63,40 @@ static void state_and_grains(void **state)
   gg_simulation_free(m);
 }
 
+static uint64_t hash_of(const gg_simulation *m)
+{
+  gg_error err;
+  uint64_t hash;
+  assert_ok(gg_simulation_hash(m, &hash, &err));
+  return hash;
+}
+
+/* Another seed, another engine or one collision more is another number; the same is the same. */
+static void hashes(void **state)
+{
+  (void)state;
+  gg_error err;
+  const char *const scenes[] = {ROUGH,
+                                "{flow: usf, phi: 0.2, particles: 200, collision: {e: 0.9, beta: 0}, run: {seed: 2}}",
+                                "{flow: usf, phi: 0.2, engine: dsmc, dsmc: {particles: 200}, collision: {e: 0.9}}"};
+  uint64_t found[4];
+  for (int i = 0; i < 3; i++) {
+    gg_simulation *m = simulation_of(scenes[i]), *again = simulation_of(scenes[i]);
+    assert_ok(gg_simulation_collide(m, 1000, &err));
+    assert_ok(gg_simulation_collide(again, 1000, &err));
+    found[i] = hash_of(m);
+    assert_true(hash_of(again) == found[i]);
+    if (i == 0) {
+      assert_ok(gg_simulation_collide(again, 1, &err));
+      found[3] = hash_of(again);
+    }
+    gg_simulation_free(m);
+    gg_simulation_free(again);
+  }
+  for (int i = 0; i < 4; i++)
+    for (int j = 0; j < i; j++) assert_true(found[i] != found[j]);
+}
+
 /* Just so many collisions in md; cutting an advance into pieces changes nothing. */
 static void cut_into_steps(void **state)
 {
@@ -72,6 +106,7 @@ static void cut_into_steps(void **state)
   assert_ok(gg_simulation_collide(one, 12345, &err));
   for (int i = 0; i < 5; i++) assert_ok(gg_simulation_collide(two, 2469, &err));
   gg_simulation_state a = state_of(one), b = state_of(two);
+  assert_true(hash_of(one) == hash_of(two));
   assert_int_equal(a.collisions, 12345);
   assert_int_equal(b.collisions, 12345);
   assert_true(fabs(a.time - b.time) < 1e-9);
@@ -423,6 +458,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(species_one_by_one),
       cmocka_unit_test(state_and_grains),
+      cmocka_unit_test(hashes),
       cmocka_unit_test(cut_into_steps),
       cmocka_unit_test(collisions_of_md),
       cmocka_unit_test(collisions_of_dsmc),

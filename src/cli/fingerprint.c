@@ -1,0 +1,67 @@
+/* graingas fingerprint: the state after so many collisions as one number. */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "cli/options.h"
+
+enum { COLLISIONS = 100000 };
+
+typedef struct fingerprint {
+  char title[200], engine[16], seed[32];
+  gg_simulation_state state;
+  uint64_t hash;
+} fingerprint;
+
+static gg_status take(gg_simulation *simulation, uint64_t collisions, fingerprint *f, gg_error *err)
+{
+  gg_status status = gg_simulation_collide(simulation, collisions, err);
+  if (status == GG_OK) status = gg_simulation_get_state(simulation, &f->state, err);
+  return status == GG_OK ? gg_simulation_hash(simulation, &f->hash, err) : status;
+}
+
+static gg_status fingerprint_of(const gg_scene *scene, uint64_t collisions, fingerprint *f, gg_error *err)
+{
+  gg_simulation *simulation = NULL;
+  gg_status status = gg_scene_title(scene, f->title, sizeof f->title, err);
+  if (status == GG_OK) status = gg_scene_get(scene, "engine", f->engine, sizeof f->engine, err);
+  if (status == GG_OK) status = gg_scene_get(scene, "run.seed", f->seed, sizeof f->seed, err);
+  if (status == GG_OK) status = gg_simulation_new(scene, 0, &simulation, err);
+  if (status == GG_OK) status = take(simulation, collisions, f, err);
+  gg_simulation_free(simulation);
+  return status;
+}
+
+static void print(const fingerprint *f, bool json)
+{
+  const gg_simulation_state *s = &f->state;
+  if (json)
+    printf(
+        "{\"graingas\": \"%s\", \"engine\": \"%s\", \"seed\": %s, \"particles\": %zu, \"collisions\": %" PRIu64
+        ", \"time\": %.17g, \"temperature\": %.17g, \"rotational_temperature\": %.17g, \"fingerprint\": \"%016" PRIx64
+        "\"}\n",
+        gg_version(), f->engine, f->seed, s->grains, s->collisions, s->time, s->temperature, s->rotational_temperature,
+        f->hash);
+  else
+    printf("%s\n%s, %zu grains, seed %s, after %" PRIu64 " collisions: T = %.6g, theta = %.6g\nfingerprint %016" PRIx64
+           "\n",
+           f->title, f->engine, s->grains, f->seed, s->collisions, s->temperature, s->rotational_temperature, f->hash);
+}
+
+int gg_cli_fingerprint_main(const gg_command *command, int argc, char **argv)
+{
+  gg_options o;
+  gg_error err;
+  fingerprint found = {0};
+  gg_scene *scene = NULL;
+  int code = gg_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON && gg_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON && fingerprint_of(scene, o.collisions ? o.collisions : COLLISIONS, &found, &err) != GG_OK)
+    code = err.status == GG_BAD_INPUT ? gg_cli_report_of(gg_options_name(&o), &err) : gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON) {
+    print(&found, o.json);
+    code = GG_OK;
+  }
+  gg_scene_free(scene);
+  gg_options_clear(&o);
+  return code;
+}
