@@ -242,6 +242,9 @@ static double thread_cpu(pthread_t thread)
     return 0;
   return used.user_time.seconds + used.system_time.seconds +
          1e-6 * (used.user_time.microseconds + used.system_time.microseconds);
+#elif defined(__EMSCRIPTEN__) /* where there are no threads */
+  (void)thread;
+  return 0;
 #else
   clockid_t clock;
   struct timespec t;

@@ -13,6 +13,9 @@ gg_status gg_dsmc_accepts(const gg_model *m, gg_error *err)
   for (int i = 0; i < m->n_species; i++)
     if (m->n_of[i] < (m->n_species == 1 ? 2 : 1))
       return gg_fail(err, GG_BAD_INPUT, "dsmc.particles: at least 2 are needed, for collisions");
+#ifdef GG_DOUBLE_ALONE
+  if (m->single) return gg_fail(err, GG_BAD_INPUT, "dsmc.precision: this build of graingas has double alone");
+#endif
   if (m->n > UINT32_MAX / 2) return gg_fail(err, GG_BAD_INPUT, "dsmc.particles: at most %u", UINT32_MAX / 2);
   if (m->time_step == 0 || m->time_step > 10)
     return gg_fail(err, GG_BAD_INPUT, "dsmc.time_step: in mean free times, above 0 and up to 10, or auto");

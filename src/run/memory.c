@@ -67,6 +67,9 @@ static double left_of_limit(int resource, const char *status)
 
 double gg_memory_available(void)
 {
+#ifdef __EMSCRIPTEN__
+  return INFINITY; /* there are no files to ask, and a browser does not tell */
+#endif
   double least = 1024 * number_in("/proc/meminfo", "MemAvailable:");
   least = fmin(least, left_in_groups());
   least = fmin(least, left_of_limit(RLIMIT_AS, "VmSize:"));

@@ -101,7 +101,7 @@ def test_rooms():
              "statistics": "md dsmc measure theory run io bench door cli",
              "theory": "md dsmc statistics run io bench door cli",
              "measure": "md dsmc theory run io bench door cli", "run": "io bench door cli", "io": "bench door cli",
-             "bench": "door cli", "door": "cli"}
+             "bench": "door cli", "door": "cli", "page": "common scene md dsmc statistics measure theory run io bench door cli"}
     backwards, files = set(), 0
     for room, later in after.items():
         for path in glob.glob(os.path.join(SOURCE, "src", room, "**", "*.[hc]"), recursive=True):

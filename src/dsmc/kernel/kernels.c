@@ -11,10 +11,16 @@
       [GG_FRICTIONAL] = &gg_dsmc_collide_##precision##_frictional_by_law_##name                                        \
     }                                                                                                                  \
   }
+#ifdef GG_DOUBLE_ALONE
+#define KERNELS(set, name)                                                                                             \
+  [set] = {                                                                                                            \
+      .collide = {PRECISION(double, name)}, .synchronise = {gg_dsmc_synchronise_##name}, .kick = gg_dsmc_kick_##name},
+#else
 #define KERNELS(set, name)                                                                                             \
   [set] = {.collide = {PRECISION(double, name), PRECISION(single, name)},                                              \
            .synchronise = {gg_dsmc_synchronise_##name, gg_dsmc_synchronise_single_##name},                             \
            .kick = gg_dsmc_kick_##name},
+#endif
 
 const gg_dsmc_kernels *gg_dsmc_kernels_for(gg_instructions set)
 {

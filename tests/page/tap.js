@@ -1,0 +1,39 @@
+/* TAP, as the tests of the command print it; and the two that are compared: the terminal and the engines in node. */
+"use strict";
+const fs = require("fs"), path = require("path"), { execFileSync } = require("child_process");
+
+const module_file = process.env.ENGINES, command = process.env.GRAINGAS;
+
+async function engines() {
+  if (!fs.existsSync(module_file)) {
+    console.log("1..0 # SKIP the page was not built (ninja page)");
+    process.exit(0);
+  }
+  const { openEngines } = require(path.resolve(__dirname, "../../src/page/engines.js"));
+  return openEngines(require(module_file));
+}
+
+const terminal = (scene, ...args) =>
+  execFileSync(command, args.concat("-"), { input: scene, encoding: "utf8", maxBuffer: 1 << 26 });
+/* What it says on standard error when it refuses. */
+const refusal = (scene, ...args) => {
+  try { execFileSync(command, args.concat("-"), { input: scene, encoding: "utf8", stdio: ["pipe", "pipe", "pipe"] }); } catch (e) { return e.stderr; }
+  return "";
+};
+
+async function run(tests) {
+  const g = await engines(), names = Object.keys(tests);
+  console.log(`1..${names.length}`);
+  for (const [i, name] of names.entries()) {
+    try {
+      await tests[name](g);
+      console.log(`ok ${i + 1} - ${name}`);
+    } catch (e) {
+      console.log(`not ok ${i + 1} - ${name}`);
+      console.error(`# ${e.stack}`);
+      process.exitCode = 1;
+    }
+  }
+}
+
+module.exports = { run, terminal, refusal };
