@@ -385,6 +385,11 @@ GG_API gg_status gg_result_write(const gg_result *result, const char *path, gg_e
 GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *err);
 GG_API void gg_result_free(gg_result *result);
 
+/* The teaching page that was built with the library's sources (./check-page), one HTML file for a browser, written to
+ * `path`: it begins with the scene, or with its own (NULL). GG_BAD_FILE where no page was built: the message says how.
+ */
+GG_API gg_status gg_page_write(const gg_scene *scene, const char *path, gg_error *err);
+
 /* ---- Comparisons and theories ----
  * Both engines and every theory on one scene; also the theories alone, and a file of one engine's run read back. */
 

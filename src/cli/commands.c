@@ -61,6 +61,13 @@ const gg_command gg_commands[] = {
      "after --collisions of the whole gas (100 000), for dsmc the first end of a step beyond.",
      GG_OPT_SET | GG_OPT_ENGINE | GG_OPT_COLLISIONS | GG_OPT_SEED | GG_OPT_JSON | GG_OPT_QUIET,
      gg_cli_fingerprint_main},
+    {"page", "[SCENE.yaml]", "The teaching page: one file for a browser, with the engines live in it",
+     "Writes one HTML file that needs no network and no installation: both engines, the theories and the measurements "
+     "as "
+     "WebAssembly, the box in three dimensions beside live curves, and six lessons. It begins with the scene. The page "
+     "has "
+     "to be built once from the sources of graingas: ./check-page does it.",
+     GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_SEED | GG_OPT_QUIET, gg_cli_page_main},
     {"bench", "[md|dsmc|observables|error]",
      "How fast the engines are: collisions per second by kernel, density and size; run time against error",
      "Without a word: both engines in uniform shear at e = 0.9 with the stress measured, one core, the median of "

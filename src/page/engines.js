@@ -111,7 +111,7 @@ async function openEngines(make, options) {
     return found;
   }
 
-  return { Scene, Simulation, Session, Comparison, catalogue, version: c.UTF8ToString(c._gg_version()),
+  return { Scene, Simulation, Session, Comparison, catalogue, memory: () => c.HEAPU8.length, version: c.UTF8ToString(c._gg_version()),
     run: (scene) => JSON.parse(take(c._page_run_json(scene.at))) };
 }
 

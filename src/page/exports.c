@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define PAGE EMSCRIPTEN_KEEPALIVE
+#pragma clang diagnostic ignored "-Wmissing-prototypes" /* their callers are in engines.js */
 
 static gg_error why; /* of the last call that failed */
 

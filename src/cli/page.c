@@ -1,0 +1,32 @@
+/* graingas page: the teaching page, with a scene of one's own in it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/options.h"
+
+static int write_page(const gg_options *o, const gg_scene *scene)
+{
+  gg_error err;
+  char *output = o->input ? gg_options_output(o, ".html", &err) : strdup(o->output ? o->output : "page.html");
+  if (!output && o->input) return gg_cli_report(&err);
+  if (!output) return gg_cli_fail(GG_FAILED, "out of memory");
+  const bool replaced = gg_file_exists(output);
+  gg_status status = gg_page_write(scene, output, &err);
+  if (status == GG_OK) gg_tell_written(o, "page", output, replaced);
+  free(output);
+  if (status == GG_OK) return GG_OK;
+  return status == GG_BAD_INPUT && o->input ? gg_cli_report_of(gg_options_name(o), &err) : gg_cli_report(&err);
+}
+
+int gg_cli_page_main(const gg_command *command, int argc, char **argv)
+{
+  gg_options o;
+  gg_error err;
+  gg_scene *scene = NULL;
+  int code = gg_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON && o.input && gg_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON) code = write_page(&o, scene);
+  gg_scene_free(scene);
+  gg_options_clear(&o);
+  return code;
+}

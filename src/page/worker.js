@@ -1,0 +1,61 @@
+/* The worker's side of the page: messages in, answers out. One worker shows the gas, another measures it. */
+let g = null, live = null, measuring = null, timer = 0, told = 0;
+
+const JOBS = {
+  open: async ({ wasm }) => {
+    g = await openEngines(graingas, { wasmBinary: wasm });
+    return { version: g.version };
+  },
+  start: ({ scene, sets }) => {
+    const next = new LiveGas(g, scene, sets);
+    if (live) live.free();
+    live = next;
+    return { about: live.about, refusal: live.refusal, dsmcRefusal: live.dsmcRefusal };
+  },
+  frame: (job) => (live ? live.frame(job) : {}),
+  measure: ({ scene, sets, id }) => {
+    if (measuring) measuring.free();
+    measuring = null;
+    measuring = new Measuring(g, scene, sets);
+    measuring.id = id;
+    told = 0;
+    later();
+    return measuring.means();
+  },
+  hash: ({ scene, collisions }) => {
+    const made = new g.Scene(scene), simulation = new g.Simulation(made);
+    simulation.collide(collisions);
+    const hash = simulation.hash();
+    simulation.free();
+    made.free();
+    return { hash };
+  },
+  memory: () => ({ bytes: g.memory() }),
+};
+
+function later() {
+  clearTimeout(timer);
+  timer = setTimeout(goOn, 0);
+}
+
+/* A few milliseconds of measuring, and then whatever the page wants. */
+function goOn() {
+  const id = measuring.id, over = measuring.goOn(25), now = Date.now();
+  if (over || now - told > 900) {
+    told = now;
+    postMessage({ job: "means", id, answer: measuring.means() });
+  }
+  if (!over) later();
+}
+
+const transfers = (answer) => (answer.picture ? [answer.picture.position, answer.picture.value, answer.picture.marks]
+  .filter(Boolean).map((array) => array.buffer) : []);
+
+onmessage = async ({ data }) => {
+  try {
+    const answer = await JOBS[data.job](data);
+    postMessage({ job: data.job, id: data.id, answer }, transfers(answer));
+  } catch (e) {
+    postMessage({ job: data.job, id: data.id, refused: e.message, status: e.status || 1 });
+  }
+};
