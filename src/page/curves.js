@@ -5,7 +5,7 @@ const LINES = [{ colour: "#00785a", dash: "8 4" }, { colour: "#8e3a9a", dash: "2
 const FIRST = ["enskog_hermite", "gaussian_closure", "lun1991", "haff1983", "huthmann_zippelius1997", "garzo_dufty1999", "enskog", "sela_goldhirsch1998", "grad"];
 
 /* Points of the past, ever fewer of the older ones: a bounded memory. Cooling gases are seen on logarithmic axes. */
-class History {
+class Past {
   constructor(logarithmic) {
     this.rows = [];
     this.gap = 0.02;
@@ -39,9 +39,9 @@ function temperatureChart(figure, history, means, values) {
   if (rough) series.push(line("theta", `${t("md")}: θ`, MD, "4 3"), line("theta2", `${t("dsmc")}: θ`, DSMC, "4 3"));
   if (means && x.length) series.push(...(cooling ? haffLine(means, values, x) : steadyLines(means, x, rough)));
   plot(figure, { title: t(rough ? "temperature" : "temperatureOnly"), series, summary: figureSummary(means, "temperature"),
-    x: { label: cooling ? t("time", { unit: "d/v₀" }) : t("collisionsAGrain"), log: cooling }, y: { log: cooling, range: cooling ? null : [0, 1.12 * top(series)] } });
+    x: { label: cooling ? t("time", { unit: "d/v₀" }) : t("collisionsAGrain"), log: cooling }, y: { log: cooling, range: cooling ? null : [0, 1.12 * highest(series)] } });
 }
-function top(series) {
+function highest(series) {
   const all = series.flatMap((s) => Array.from(s.y)).filter(Number.isFinite);
   return all.length ? Math.max(...all) || 1 : 1;
 }
@@ -98,7 +98,7 @@ function stressChart(figure, means) {
   theoriesWith(means, ["N1"]).forEach((name, i) => add(means.theory[name], 0, { colour: LINES[i].colour, shape: "dash", label: name + beyondMark(means, name) }));
   add(means.md && means.md.results, -0.12, { colour: MD, shape: "circle", label: t("md") });
   add(means.dsmc && means.dsmc.results, 0.12, { colour: DSMC, shape: "square", label: t("dsmc") });
-  plot(figure, { title: t("stress"), series, summary: figureSummary(means, "N1"), x: { names: ["P_xx/p", "P_yy/p", "P_zz/p"], range: [-0.5, 2.5] }, y: { range: [0, Math.max(2, 1.12 * top(series))] } });
+  plot(figure, { title: t("stress"), series, summary: figureSummary(means, "N1"), x: { names: ["P_xx/p", "P_yy/p", "P_zz/p"], range: [-0.5, 2.5] }, y: { range: [0, Math.max(2, 1.12 * highest(series))] } });
 }
 
 function figureSummary(means, name) {

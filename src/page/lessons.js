@@ -1,6 +1,6 @@
 /* Six lessons: a paragraph, a question that the controls answer, a scene, and how fast it is first shown. [en, de] */
 const LESSONS = [
-  { name: "haff", speed: 1, colour: "speed",
+  { name: "haff", speed: 10, colour: "speed",
     scene: "{flow: hcs, phi: 0.1, particles: 1000, collision: {e: 0.9}}",
     title: ["Haff's law", "Haffs Gesetz"],
     text: ["Nobody heats this gas. Each collision takes a share 1 − e² of the energy of approach, so the gas cools, and the colder it is, the rarer it collides. Haff (1983) put the two together: T = T₀/(1 + ζt/2)². On logarithmic axes that is first flat, then a straight line of slope −2.",

@@ -93,7 +93,7 @@ async function start(scene, sets, keepMessage = false) {
   if (mine !== page.starts) return true;
   if (!keepMessage) byId("refused").textContent = "";
   Object.assign(page, { scene, sets, about: answer.about, refusal: answer.refusal, dsmcRefusal: answer.dsmcRefusal, means: null, frame: null, behind: 0 });
-  page.history = new History(answer.about.values.flow === "hcs");
+  page.history = new Past(answer.about.values.flow === "hcs");
   page.controls.show(answer.about.values);
   byId("yaml").value = page.scene;
   byId("title").textContent = answer.about.title;
@@ -230,7 +230,7 @@ function notices() {
   const length = mean(means.theory && means.theory.goldhirsch_zanetti1993, "clustering_length");
   if (about.values.flow === "hcs" && frame && frame.md && Math.max(...frame.md.box) > length) add("clusters", { l: number(length, 3) });
   const caught = means.md && means.md.engine_state && means.md.engine_state.contact_time_collisions;
-  if (caught > 0) add("collapse", { n: caught });
+  if (caught > 1e-3 * means.md.collisions) add("collapse", { n: caught });
   const ratio = mean(means.md && means.md.results, "temperature_ratio");
   if (frame && frame.md && ratio > 0 && Math.abs(frame.md.rotationalTemperature / frame.md.temperature / ratio - 1) > 4 * Math.sqrt(4 / (3 * frame.md.grains))) add("spins");
   for (const [engine, p] of Object.entries(means.progress)) {

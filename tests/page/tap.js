@@ -21,13 +21,14 @@ const refusal = (scene, ...args) => {
   return "";
 };
 
-async function run(tests) {
-  const g = await engines(), names = Object.keys(tests);
+/* One line a test; a test that returns "SKIP why" was not done. */
+async function list(tests, g) {
+  const names = Object.keys(tests);
   console.log(`1..${names.length}`);
   for (const [i, name] of names.entries()) {
     try {
-      await tests[name](g);
-      console.log(`ok ${i + 1} - ${name}`);
+      const note = await tests[name](g);
+      console.log(`ok ${i + 1} - ${name}${note ? ` # ${note}` : ""}`);
     } catch (e) {
       console.log(`not ok ${i + 1} - ${name}`);
       console.error(`# ${e.stack}`);
@@ -35,5 +36,6 @@ async function run(tests) {
     }
   }
 }
+const run = async (tests) => list(tests, await engines());
 
-module.exports = { run, terminal, refusal };
+module.exports = { run, list, terminal, refusal };
