@@ -274,6 +274,7 @@ function showLanguage() {
   document.documentElement.lang = LANGUAGES[language];
   byId("language").value = LANGUAGES[language];
   for (const one of document.querySelectorAll("[data-t]")) one.textContent = t(one.dataset.t);
+  for (const one of document.querySelectorAll("[data-label]")) one.setAttribute("aria-label", t(one.dataset.label));
   byId("transport").setAttribute("aria-label", t("transport"));
   byId("box").setAttribute("aria-label", t("view"));
   page.controls.name();

@@ -72,6 +72,7 @@ const STRINGS = {
   z: ["z", "z"],
   caption: ["md: molecular dynamics. dsmc: Enskog Monte Carlo. In brackets the standard error of the last digits; z: the difference over the combined error. † a theory out of its range: the reason is below.",
     "md: Molekulardynamik. dsmc: Enskog-Monte-Carlo. In Klammern der Standardfehler der letzten Ziffern; z: Unterschied durch den gemeinsamen Fehler. † Theorie außerhalb ihres Bereichs: der Grund steht unten."],
+  tableName: ["The table, to be scrolled", "Die Tabelle, zum Rollen"],
   everything: ["every quantity and theory", "alle Größen und Theorien"],
   progress: ["Measured: md {md}, dsmc {dsmc}", "Gemessen: md {md}, dsmc {dsmc}"],
   phaseWarm: ["{p} %, warming up", "{p} %, läuft ein"],
