@@ -1,37 +1,12 @@
-/* The box in three dimensions, on a canvas: x to the right along the flow, y up along its gradient. Grains are pictures
- * of spheres, painted once a colour and then copied, the far ones first. */
-const LEVELS = 32;
-
-/* Dark blue to light yellow through grey, equally well told apart without red or green (after cividis). */
-const COLOUR_MAP = [[0, 45, 110], [70, 90, 125], [124, 123, 120], [186, 165, 100], [255, 234, 70]];
-function colourAt(x) {
-  const at = Math.min(Math.max(x, 0), 1) * (COLOUR_MAP.length - 1), i = Math.min(Math.floor(at), COLOUR_MAP.length - 2), f = at - i;
-  return COLOUR_MAP[i].map((c, k) => Math.round(c + f * (COLOUR_MAP[i + 1][k] - c)));
-}
-const rgb = (c, lighter = 0) => `rgb(${c.map((x) => Math.round(x + (255 - x) * lighter)).join(",")})`;
-
-/* A sphere of that colour, lit from above left. */
-function sphere(colour, size) {
-  const canvas = document.createElement("canvas"), r = size / 2;
-  canvas.width = canvas.height = size;
-  const to = canvas.getContext("2d"), light = to.createRadialGradient(r * 0.65, r * 0.6, r * 0.1, r, r, r);
-  light.addColorStop(0, rgb(colour, 0.65));
-  light.addColorStop(0.45, rgb(colour, 0.15));
-  light.addColorStop(1, rgb(colour.map((c) => c * 0.55)));
-  to.fillStyle = light;
-  to.beginPath();
-  to.arc(r, r, r - 0.5, 0, 2 * Math.PI);
-  to.fill();
-  return canvas;
-}
-
+/* The box in three dimensions, on a canvas: x to the right along the flow, y up along its gradient; the far grains are
+ * painted first. */
 class BoxView {
   constructor(canvas) {
     this.canvas = canvas;
     this.yaw = 0.45;
     this.pitch = 0.22;
     this.zoom = 1;
-    this.spheres = Array.from({ length: LEVELS }, (_, i) => sphere(colourAt(i / (LEVELS - 1)), 48));
+    this.spheres = new Spheres();
     this.listen();
   }
 
@@ -120,26 +95,21 @@ class BoxView {
     return found.sort((a, b) => a[3] - b[3]);
   }
 
-  grains(to, found, picture) {
+  grains(found, picture) {
     for (const [x, y, r, , i, faint] of found) {
       if (r <= 0 || x < -r || y < -r || x > this.w + r || y > this.h + r) continue;
-      to.globalAlpha = faint ? 0.28 : 1;
-      to.drawImage(this.spheres[Math.min(LEVELS - 1, Math.max(0, Math.round(picture.value[i] * (LEVELS - 1))))], x - r, y - r, 2 * r, 2 * r);
-      if (picture.marks && !faint && r > 3) this.mark(to, x, y, r, picture.marks, 3 * i);
+      this.spheres.paint(x, y, r, picture.value[i], faint);
+      if (picture.marks && !faint && r > 3) this.mark(x, y, r, picture.marks, 3 * i);
     }
-    to.globalAlpha = 1;
   }
 
   /* Two dots on opposite sides of a grain, which turn with it: the one that is seen. */
-  mark(to, x, y, r, marks, at) {
+  mark(x, y, r, marks, at) {
     const cy = Math.cos(this.yaw), sy = Math.sin(this.yaw), cp = Math.cos(this.pitch), sp = Math.sin(this.pitch);
     const a = marks[at], b = marks[at + 1], c = marks[at + 2];
     const u = a * cy - c * sy, v = a * sy + c * cy, up = b * cp - v * sp, depth = b * sp + v * cp, side = depth < 0 ? -1 : 1;
-    const flat = Math.abs(depth), angle = Math.atan2(-up * side, u * side);
-    to.fillStyle = depth < 0 ? "#ffffff" : "#101418";
-    to.beginPath();
-    to.ellipse(x + side * u * r * 0.8, y - side * up * r * 0.8, Math.max(0.4, r * 0.26 * flat), r * 0.26, angle, 0, 2 * Math.PI);
-    to.fill();
+    const flat = Math.hypot(u, up) || 1;
+    this.spheres.dot(x + side * u * r * 0.8, y - side * up * r * 0.8, r * 0.28, Math.max(0.5, r * 0.28 * Math.abs(depth)), u / flat, -up / flat, depth < 0 ? [255, 255, 255] : [10, 12, 14]);
   }
 
   /* The two of the last collision, and the line k between their centres. */
@@ -174,14 +144,14 @@ class BoxView {
     this.fit();
     const to = this.canvas.getContext("2d"), box = state.box, flow = about.values.flow;
     const sheared = /shear|usf/.test(flow), walled = /couette|poiseuille|chute/.test(flow), strips = sheared && options.images;
-    to.fillStyle = "#10151a";
-    to.fillRect(0, 0, this.w, this.h);
-    if (!picture) return;
+    this.spheres.begin(this.w, this.h);
+    if (!picture) { to.putImageData(this.spheres.image, 0, 0); return; }
     this.aim(box, strips);
-    if (walled) for (const y of [0, box[1]]) this.wall(to, box, y);
-    this.edges(to, box, 0, box[1], 0, "#8fa3b5", []);
     const found = this.collect(picture, about, box, state.imageOffset, strips);
-    this.grains(to, found, picture);
+    this.grains(found, picture);
+    to.putImageData(this.spheres.image, 0, 0);
+    if (walled) for (const y of [0, box[1]]) this.wall(to, box, y);
+    this.edges(to, box, 0, box[1], 0, "rgba(160, 185, 205, 0.75)", []);
     if (strips) this.arrows(to, box);
     if (options.event) this.pair(to, options.event, found);
   }

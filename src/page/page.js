@@ -95,6 +95,7 @@ async function start(scene, sets, keepMessage = false) {
   Object.assign(page, { scene, sets, about: answer.about, refusal: answer.refusal, dsmcRefusal: answer.dsmcRefusal, means: null, frame: null, behind: 0 });
   page.history = new Past(answer.about.values.flow === "hcs");
   page.controls.show(answer.about.values);
+  byId("images-row").hidden = !sheared();
   byId("yaml").value = page.scene;
   byId("title").textContent = answer.about.title;
   byId("event").textContent = "";
@@ -237,7 +238,7 @@ function notices() {
     if (p.why) add("ended", { engine, why: p.why });
     else if (p.over && means[engine] && means[engine].steady === false) add("steady_no", { engine, why: means[engine].verdict });
   }
-  for (const engine of ["md", "dsmc"]) for (const w of (means[engine] && means[engine].warnings) || []) if (!/null|not a steady mean|has no error/.test(w)) out.push(`${engine}: ${w}`);
+  for (const engine of ["md", "dsmc"]) for (const w of (means[engine] && means[engine].warnings) || []) if (!/null|not a steady mean|has no error|too short for errors/.test(w)) out.push(`${engine}: ${w}`);
   return [...new Set(out)].slice(0, 7);
 }
 function showNotices() {

@@ -10,7 +10,7 @@ async function engines() {
     process.exit(0);
   }
   const { openEngines } = require(path.resolve(__dirname, "../../src/page/engines.js"));
-  return openEngines(require(module_file));
+  return openEngines(require(module_file), { wasmBinary: fs.readFileSync(module_file.replace(/js$/, "wasm")) });
 }
 
 const terminal = (scene, ...args) =>
