@@ -20,11 +20,15 @@ class Controls {
 
   element(kind, attributes, ...children) {
     const made = document.createElement(kind);
-    Object.entries(attributes).forEach(([name, value]) => { if (value !== undefined) made.setAttribute(name, value); });
+    Object.entries(attributes).forEach(([name, value]) => {
+      if (value !== undefined) made.setAttribute(name, value);
+    });
     made.append(...children);
     return made;
   }
-  label(target, key) { return this.element("label", { for: target, "data-t": key }); }
+  label(target, key) {
+    return this.element("label", { for: target, "data-t": key });
+  }
 
   build() {
     const flow = this.element("select", { id: "flow" });
@@ -35,14 +39,18 @@ class Controls {
   }
 
   one(c) {
-    const { min, max, step } = c, box = this.element("div", { class: "control" }, this.label(c.plain ? `${c.name}-number` : c.name, c.name));
+    const { min, max, step } = c,
+      box = this.element("div", { class: "control" }, this.label(c.plain ? `${c.name}-number` : c.name, c.name));
     const number = this.element("input", { type: "number", id: `${c.name}-number`, min, max, step: "any" });
     c.number = number;
     number.addEventListener("change", () => this.moved(c, number.value));
     if (!c.plain) {
       const range = this.element("input", { type: "range", id: c.name, min, max, step });
       c.range = range;
-      range.addEventListener("input", () => { number.value = range.value; this.moved(c, range.value); });
+      range.addEventListener("input", () => {
+        number.value = range.value;
+        this.moved(c, range.value);
+      });
       box.append(range);
     }
     box.append(number);
@@ -50,24 +58,30 @@ class Controls {
       const on = this.element("input", { type: "checkbox", id: c.box });
       c.on = on;
       on.addEventListener("change", () => this.moved(c, on.checked ? 0.3 : c.off));
-      box.append(this.element("label", { for: c.box, class: "wide" }, on, " ", this.element("span", { "data-t": c.box })));
+      box.append(
+        this.element("label", { for: c.box, class: "wide" }, on, " ", this.element("span", { "data-t": c.box })),
+      );
     }
     return box;
   }
-  moved(c, value) { this.change(c.key, String(value)); }
+  moved(c, value) {
+    this.change(c.key, String(value));
+  }
 
   /* As the scene in force has it. */
   show(values) {
     const flow = document.getElementById("flow");
     let other = flow.querySelector("option[data-other]");
     if (!FLOWS.includes(values.flow)) {
-      if (!other) flow.append(other = this.element("option", { "data-other": "" }));
+      if (!other) flow.append((other = this.element("option", { "data-other": "" })));
       other.value = values.flow;
       other.textContent = t("flow_other", { name: values.flow });
     } else if (other) other.remove();
     flow.value = values.flow;
     for (const c of CONTROLS) {
-      const value = valueOf(values, c.key), off = c.off !== undefined && String(value) === c.off, plain = typeof value === "number";
+      const value = valueOf(values, c.key),
+        off = c.off !== undefined && String(value) === c.off,
+        plain = typeof value === "number";
       for (const input of [c.range, c.number]) {
         if (!input) continue;
         input.disabled = !plain;
@@ -81,7 +95,8 @@ class Controls {
 
   /* Which one the library refused, by the key that its message names. */
   refuse(key) {
-    for (const c of CONTROLS) for (const input of [c.range, c.number]) if (input && c.key === key) input.setAttribute("aria-invalid", "true");
+    for (const c of CONTROLS)
+      for (const input of [c.range, c.number]) if (input && c.key === key) input.setAttribute("aria-invalid", "true");
     if (key === "flow") document.getElementById("flow").setAttribute("aria-invalid", "true");
   }
 

@@ -2,8 +2,16 @@
  * node. `make` is the function that the module engines.js was built as (graingas). */
 "use strict";
 
-const STATE = ["time", "collisions", "collisionsPerGrain", "grains", "temperature", "rotationalTemperature", "strain",
-  "imageOffset"];
+const STATE = [
+  "time",
+  "collisions",
+  "collisionsPerGrain",
+  "grains",
+  "temperature",
+  "rotationalTemperature",
+  "strain",
+  "imageOffset",
+];
 const SPECIES = ["grains", "diameter", "mass", "inertia", "temperature", "rotationalTemperature"];
 const PROGRESS = ["fraction", "averaging", "collisions", "relativeError", "secondsLeft"];
 const ENTRY = ["name", "doc", "unit", "type", "allowed", "value"];
@@ -20,47 +28,87 @@ class GraingasError extends Error {
 
 async function openEngines(make, options) {
   const c = await make(options);
-  const fail = () => { throw new GraingasError(c.UTF8ToString(c._page_error()), c._page_status()); };
+  const fail = () => {
+    throw new GraingasError(c.UTF8ToString(c._page_error()), c._page_status());
+  };
   const need = (answer) => answer || fail();
   const doubles = (at, n) => c.HEAPF64.subarray(at >> 3, (at >> 3) + n);
   const numbers = (at, n) => Array.from(doubles(need(at), n));
   const named = (names, values) => Object.fromEntries(names.map((name, i) => [name, values[i]]));
-  const take = (at) => { const text = c.UTF8ToString(need(at)); c._free(at); return text; };
+  const take = (at) => {
+    const text = c.UTF8ToString(need(at));
+    c._free(at);
+    return text;
+  };
   const withText = (texts, call) => {
     const at = texts.map((text) => {
-      const size = c.lengthBytesUTF8(text) + 1, block = need(c._malloc(size));
+      const size = c.lengthBytesUTF8(text) + 1,
+        block = need(c._malloc(size));
       c.stringToUTF8(text, block, size);
       return block;
     });
-    try { return call(...at); } finally { at.forEach((block) => c._free(block)); }
+    try {
+      return call(...at);
+    } finally {
+      at.forEach((block) => c._free(block));
+    }
   };
   const matrix = (v) => [v.slice(0, 3), v.slice(3, 6), v.slice(6, 9)];
   const outcome = (code) => need(code) === 1;
 
   class Scene {
-    constructor(yaml) { this.at = need(withText([yaml], (text) => c._page_scene(text))); }
-    set(key, value) { need(withText([key, String(value)], (k, v) => c._page_scene_set(this.at, k, v))); return this; }
-    check() { need(c._page_scene_check(this.at)); return this; }
-    yaml() { return take(c._page_scene_yaml(this.at)); }
-    values() { return JSON.parse(take(c._page_scene_json(this.at))); }
-    title() { return take(c._page_scene_title(this.at)); }
-    warnings(use) {
-      return take(withText([use], (u) => c._page_scene_warnings(this.at, u))).split("\n").filter(Boolean);
+    constructor(yaml) {
+      this.at = need(withText([yaml], (text) => c._page_scene(text)));
     }
-    free() { c._gg_scene_free(this.at); this.at = 0; }
+    set(key, value) {
+      need(withText([key, String(value)], (k, v) => c._page_scene_set(this.at, k, v)));
+      return this;
+    }
+    check() {
+      need(c._page_scene_check(this.at));
+      return this;
+    }
+    yaml() {
+      return take(c._page_scene_yaml(this.at));
+    }
+    values() {
+      return JSON.parse(take(c._page_scene_json(this.at)));
+    }
+    title() {
+      return take(c._page_scene_title(this.at));
+    }
+    warnings(use) {
+      return take(withText([use], (u) => c._page_scene_warnings(this.at, u)))
+        .split("\n")
+        .filter(Boolean);
+    }
+    free() {
+      c._gg_scene_free(this.at);
+      this.at = 0;
+    }
   }
 
   /* A gas step by step. advance and collide go on for at most so many milliseconds, and say whether they are done. */
   class Simulation {
-    constructor(scene, stream = 0) { this.at = need(c._page_simulation_new(scene.at, stream)); }
-    advance(time, milliseconds = Infinity) { return outcome(c._page_advance(this.at, time, milliseconds)); }
+    constructor(scene, stream = 0) {
+      this.at = need(c._page_simulation_new(scene.at, stream));
+    }
+    advance(time, milliseconds = Infinity) {
+      return outcome(c._page_advance(this.at, time, milliseconds));
+    }
     collide(collisions, milliseconds = Infinity) {
       return outcome(c._page_collide(this.at, collisions, milliseconds));
     }
     step() {
       const v = numbers(c._page_step(this.at), 14);
-      return { grain: v.slice(0, 2), species: v.slice(2, 4), k: v.slice(4, 7), velocity: v.slice(7, 10),
-        normalSpeed: v[10], impulse: v.slice(11, 14) };
+      return {
+        grain: v.slice(0, 2),
+        species: v.slice(2, 4),
+        k: v.slice(4, 7),
+        velocity: v.slice(7, 10),
+        normalSpeed: v[10],
+        impulse: v.slice(11, 14),
+      };
     }
     state() {
       const v = numbers(c._page_state(this.at), 20);
@@ -68,40 +116,81 @@ async function openEngines(make, options) {
     }
     sums() {
       const v = numbers(c._page_sums(this.at), 13);
-      return { time: v[0], collisions: v[1], wallCollisions: v[2], dissipation: v[3],
-        collisionalStress: matrix(v.slice(4)) };
+      return {
+        time: v[0],
+        collisions: v[1],
+        wallCollisions: v[2],
+        dissipation: v[3],
+        collisionalStress: matrix(v.slice(4)),
+      };
     }
     /* Views of the module's own memory, good until the next call of anything here: copy what is to stay. */
     grains() {
       need(c._page_take_grains(this.at));
       const n = doubles(need(c._page_state(this.at)), 4)[3];
-      const array = (which) => { const at = c._page_array(this.at, which); return at ? doubles(at, 3 * n) : null; };
+      const array = (which) => {
+        const at = c._page_array(this.at, which);
+        return at ? doubles(at, 3 * n) : null;
+      };
       const species = c._page_array(this.at, 3) >> 2;
-      return { n, position: array(0), velocity: array(1), spin: array(2), species: c.HEAP32.subarray(species, species + n) };
+      return {
+        n,
+        position: array(0),
+        velocity: array(1),
+        spin: array(2),
+        species: c.HEAP32.subarray(species, species + n),
+      };
     }
     species() {
-      return Array.from({ length: c._page_species(this.at) },
-        (_, i) => named(SPECIES, numbers(c._page_species_state(this.at, i), 6)));
+      return Array.from({ length: c._page_species(this.at) }, (_, i) =>
+        named(SPECIES, numbers(c._page_species_state(this.at, i), 6)),
+      );
     }
-    hash() { return c.UTF8ToString(need(c._page_hash(this.at))); }
-    free() { c._page_simulation_free(this.at); this.at = 0; }
+    hash() {
+      return c.UTF8ToString(need(c._page_hash(this.at)));
+    }
+    free() {
+      c._page_simulation_free(this.at);
+      this.at = 0;
+    }
   }
 
   /* A run in pieces: means with errors, so far. */
   class Session {
-    constructor(scene) { this.at = need(c._page_session(scene.at)); }
-    goOn(milliseconds) { return outcome(c._page_session_go_on(this.at, milliseconds)); }
-    progress() { return named(PROGRESS, numbers(c._page_session_progress(this.at), 5)); }
-    result() { return JSON.parse(take(c._page_session_json(this.at))); }
-    free() { c._page_session_free(this.at); this.at = 0; }
+    constructor(scene) {
+      this.at = need(c._page_session(scene.at));
+    }
+    goOn(milliseconds) {
+      return outcome(c._page_session_go_on(this.at, milliseconds));
+    }
+    progress() {
+      return named(PROGRESS, numbers(c._page_session_progress(this.at), 5));
+    }
+    result() {
+      return JSON.parse(take(c._page_session_json(this.at)));
+    }
+    free() {
+      c._page_session_free(this.at);
+      this.at = 0;
+    }
   }
 
   /* The theories, and what sessions of the same scene have found, beside each other. */
   class Comparison {
-    constructor(scene) { this.at = need(c._page_comparison(scene.at)); }
-    take(session) { need(c._page_comparison_take(this.at, session.at)); return this; }
-    document() { return JSON.parse(take(c._page_comparison_json(this.at))); }
-    free() { c._page_comparison_free(this.at); this.at = 0; }
+    constructor(scene) {
+      this.at = need(c._page_comparison(scene.at));
+    }
+    take(session) {
+      need(c._page_comparison_take(this.at, session.at));
+      return this;
+    }
+    document() {
+      return JSON.parse(take(c._page_comparison_json(this.at)));
+    }
+    free() {
+      c._page_comparison_free(this.at);
+      this.at = 0;
+    }
   }
 
   function catalogue(list, scene = null) {
@@ -111,8 +200,16 @@ async function openEngines(make, options) {
     return found;
   }
 
-  return { Scene, Simulation, Session, Comparison, catalogue, memory: () => c.HEAPU8.length, version: c.UTF8ToString(c._gg_version()),
-    run: (scene) => JSON.parse(take(c._page_run_json(scene.at))) };
+  return {
+    Scene,
+    Simulation,
+    Session,
+    Comparison,
+    catalogue,
+    memory: () => c.HEAPU8.length,
+    version: c.UTF8ToString(c._gg_version()),
+    run: (scene) => JSON.parse(take(c._page_run_json(scene.at))),
+  };
 }
 
 if (typeof module !== "undefined") module.exports = { openEngines, GraingasError };

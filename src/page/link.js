@@ -22,5 +22,9 @@ function linkOf(state) {
 
 /* Without an entry in the history for each movement of a slider. */
 function writeLink(state) {
-  try { history.replaceState(null, "", linkOf(state)); } catch (e) { /* an address too long for this browser */ }
+  try {
+    history.replaceState(null, "", linkOf(state));
+  } catch (e) {
+    /* an address too long for this browser */
+  }
 }

@@ -19,8 +19,15 @@ function turnMarks(marks, spin, time) {
   for (let i = 0; i < marks.length; i += 3) {
     const w = Math.hypot(spin[i], spin[i + 1], spin[i + 2]);
     if (!(w > 0)) continue;
-    const x = spin[i] / w, y = spin[i + 1] / w, z = spin[i + 2] / w, c = Math.cos(w * time), s = Math.sin(w * time);
-    const a = marks[i], b = marks[i + 1], d = marks[i + 2], along = (x * a + y * b + z * d) * (1 - c);
+    const x = spin[i] / w,
+      y = spin[i + 1] / w,
+      z = spin[i + 2] / w,
+      c = Math.cos(w * time),
+      s = Math.sin(w * time);
+    const a = marks[i],
+      b = marks[i + 1],
+      d = marks[i + 2],
+      along = (x * a + y * b + z * d) * (1 - c);
     marks[i] = a * c + (y * d - z * b) * s + x * along;
     marks[i + 1] = b * c + (z * a - x * d) * s + y * along;
     marks[i + 2] = d * c + (x * b - y * a) * s + z * along;
@@ -30,7 +37,8 @@ function turnMarks(marks, spin, time) {
 class LiveGas {
   constructor(g, text, sets) {
     this.refusal = this.dsmcRefusal = this.event = null;
-    const scene = sceneOf(g, text, sets), values = scene.values();
+    const scene = sceneOf(g, text, sets),
+      values = scene.values();
     this.about = { values, title: scene.title(), yaml: scene.yaml() };
     scene.free();
     this.md = this.make(g, text, sets, { engine: "md" }, "refusal");
@@ -44,8 +52,15 @@ class LiveGas {
 
   make(g, text, sets, more, why) {
     let scene = null;
-    try { scene = sceneOf(g, text, sets, more); return new g.Simulation(scene); } catch (e) { this[why] = e.message; return null; }
-    finally { if (scene) scene.free(); }
+    try {
+      scene = sceneOf(g, text, sets, more);
+      return new g.Simulation(scene);
+    } catch (e) {
+      this[why] = e.message;
+      return null;
+    } finally {
+      if (scene) scene.free();
+    }
   }
 
   /* Collisions a grain in the unit of time, of a gas like this one that is thrown away. */
@@ -59,12 +74,16 @@ class LiveGas {
   }
 
   prepareView() {
-    const { n, species, velocity } = this.md.grains(), kinds = this.md.species();
+    const { n, species, velocity } = this.md.grains(),
+      kinds = this.md.species();
     this.about.species = Uint8Array.from(species);
     this.about.diameters = kinds.map((k) => k.diameter);
     this.marks = new Float32Array(3 * n);
-    for (let i = 0; i < n; i++) { /* evenly over the sphere */
-      const z = 1 - 2 * ((i * 0.754877666) % 1), r = Math.sqrt(1 - z * z), a = 2 * Math.PI * ((i * 0.569840291) % 1);
+    for (let i = 0; i < n; i++) {
+      /* evenly over the sphere */
+      const z = 1 - 2 * ((i * 0.754877666) % 1),
+        r = Math.sqrt(1 - z * z),
+        a = 2 * Math.PI * ((i * 0.569840291) % 1);
       this.marks.set([r * Math.cos(a), r * Math.sin(a), z], 3 * i);
     }
     this.lastVz = Float64Array.from({ length: n }, (_, i) => velocity[3 * i + 2]);
@@ -83,12 +102,20 @@ class LiveGas {
   goOn(collisions) {
     const leader = this.md || this.dsmc;
     let done = true;
-    try { if (!this.ended && collisions > 0) done = leader.advance(collisions / this.rate, 12); } catch (e) { this.ended = e.message; }
+    try {
+      if (!this.ended && collisions > 0) done = leader.advance(collisions / this.rate, 12);
+    } catch (e) {
+      this.ended = e.message;
+    }
     const state = leader.state();
     this.followRate(state);
     if (this.md && this.dsmc && !this.dsmcEnded && !this.ended) {
       const lack = state.time - this.dsmc.state().time;
-      try { if (lack > 0) this.dsmc.advance(lack, 6); } catch (e) { this.dsmcEnded = e.message; }
+      try {
+        if (lack > 0) this.dsmc.advance(lack, 6);
+      } catch (e) {
+        this.dsmcEnded = e.message;
+      }
     }
     return done;
   }
@@ -96,21 +123,36 @@ class LiveGas {
   step() {
     this.event = null;
     if (!this.md || this.ended) return;
-    try { this.event = this.md.step(); } catch (e) { this.ended = e.message; }
+    try {
+      this.event = this.md.step();
+    } catch (e) {
+      this.ended = e.message;
+    }
     this.goOn(0);
   }
 
   /* What is drawn: places, colours from 0 to 1, marks that turn. */
   picture(by) {
-    const state = this.md.state(), { n, position, velocity, spin } = this.md.grains(), value = new Float32Array(n);
-    const T = state.temperature, theta = state.rotationalTemperature, [kind] = this.md.species();
-    const speed0 = COLOURS_END.speed * Math.sqrt(2 * T), spin0 = COLOURS_END.spin * Math.sqrt(3 * theta / (kind.inertia / 4)) || 1;
+    const state = this.md.state(),
+      { n, position, velocity, spin } = this.md.grains(),
+      value = new Float32Array(n);
+    const T = state.temperature,
+      theta = state.rotationalTemperature,
+      [kind] = this.md.species();
+    const speed0 = COLOURS_END.speed * Math.sqrt(2 * T),
+      spin0 = COLOURS_END.spin * Math.sqrt((3 * theta) / (kind.inertia / 4)) || 1;
     const since0 = COLOURS_END.since / this.rate;
     for (let i = 0; i < n; i++) {
-      if (velocity[3 * i + 2] !== this.lastVz[i]) { this.lastVz[i] = velocity[3 * i + 2]; this.lastHit[i] = state.time; }
-      value[i] = by === "since" ? (state.time - this.lastHit[i]) / since0
-        : by === "spin" ? Math.hypot(spin[3 * i], spin[3 * i + 1], spin[3 * i + 2]) / spin0
-          : Math.hypot(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]) / speed0;
+      if (velocity[3 * i + 2] !== this.lastVz[i]) {
+        this.lastVz[i] = velocity[3 * i + 2];
+        this.lastHit[i] = state.time;
+      }
+      value[i] =
+        by === "since"
+          ? (state.time - this.lastHit[i]) / since0
+          : by === "spin"
+            ? Math.hypot(spin[3 * i], spin[3 * i + 1], spin[3 * i + 2]) / spin0
+            : Math.hypot(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]) / speed0;
     }
     if (theta > 0) turnMarks(this.marks, spin, state.time - (this.markTime || 0));
     this.markTime = state.time;
@@ -121,9 +163,18 @@ class LiveGas {
     const done = step ? (this.step(), true) : this.goOn(collisions);
     if (!step && collisions > 0) this.event = null;
     const short = (s) => s && s.state();
-    return { md: short(this.md), dsmc: short(this.dsmc), picture: this.md ? this.picture(colour) : null, event: this.event,
-      behind: !done, ended: this.ended, dsmcEnded: this.dsmcEnded };
+    return {
+      md: short(this.md),
+      dsmc: short(this.dsmc),
+      picture: this.md ? this.picture(colour) : null,
+      event: this.event,
+      behind: !done,
+      ended: this.ended,
+      dsmcEnded: this.dsmcEnded,
+    };
   }
 
-  free() { for (const s of [this.md, this.dsmc]) if (s) s.free(); }
+  free() {
+    for (const s of [this.md, this.dsmc]) if (s) s.free();
+  }
 }

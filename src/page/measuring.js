@@ -1,9 +1,12 @@
 /* The means, in a worker of their own: a run of each engine in pieces, with the theories, until the scene's own end. */
 class Measuring {
   constructor(g, text, sets) {
-    const scene = sceneOf(g, text, sets), values = scene.values();
+    const scene = sceneOf(g, text, sets),
+      values = scene.values();
     scene.free();
-    const measure = values.measure.includes("velocity_distributions") ? {} : { measure: `[${values.measure}, velocity_distributions]` };
+    const measure = values.measure.includes("velocity_distributions")
+      ? {}
+      : { measure: `[${values.measure}, velocity_distributions]` };
     const one = { ...measure, "run.replicas": 1 };
     const beside = sceneOf(g, text, sets, one);
     this.comparison = new g.Comparison(beside);
@@ -18,14 +21,23 @@ class Measuring {
     try {
       scene = sceneOf(g, text, sets, { ...one, engine });
       this.sessions[engine] = { session: new g.Session(scene), over: false, why: null };
-    } catch (e) { this.refused[engine] = e.message; } finally { if (scene) scene.free(); }
+    } catch (e) {
+      this.refused[engine] = e.message;
+    } finally {
+      if (scene) scene.free();
+    }
   }
 
   /* So many milliseconds each; is there nothing left to do? */
   goOn(milliseconds) {
     for (const one of Object.values(this.sessions)) {
       if (one.over) continue;
-      try { one.over = one.session.goOn(milliseconds); } catch (e) { one.over = true; one.why = e.message; }
+      try {
+        one.over = one.session.goOn(milliseconds);
+      } catch (e) {
+        one.over = true;
+        one.why = e.message;
+      }
     }
     return Object.values(this.sessions).every((one) => one.over);
   }
@@ -35,7 +47,11 @@ class Measuring {
     const progress = {};
     for (const [engine, one] of Object.entries(this.sessions)) {
       progress[engine] = { ...one.session.progress(), over: one.over, why: one.why };
-      try { this.comparison.take(one.session); } catch (e) { progress[engine].lack = e.message; }
+      try {
+        this.comparison.take(one.session);
+      } catch (e) {
+        progress[engine].lack = e.message;
+      }
     }
     return { ...this.comparison.document(), progress, refused: this.refused };
   }

@@ -10,12 +10,22 @@ function save(name, blob) {
 
 /* One row a point: which curve, x, value, error (empty: none). */
 function curvesCsv(history, means, title) {
-  const rows = [["curve", "x_name", "x", "value", "error"]], add = (...row) => rows.push(row);
-  for (const [column, name] of [["T", "md_temperature"], ["theta", "md_rotational_temperature"], ["T2", "dsmc_temperature"], ["theta2", "dsmc_rotational_temperature"]])
-    for (const row of history.rows) if (Number.isFinite(row[column])) add(name, "collisions_per_grain", row.clock, row[column], "");
+  const rows = [["curve", "x_name", "x", "value", "error"]],
+    add = (...row) => rows.push(row);
+  for (const [column, name] of [
+    ["T", "md_temperature"],
+    ["theta", "md_rotational_temperature"],
+    ["T2", "dsmc_temperature"],
+    ["theta2", "dsmc_rotational_temperature"],
+  ])
+    for (const row of history.rows)
+      if (Number.isFinite(row[column])) add(name, "collisions_per_grain", row.clock, row[column], "");
   for (const row of history.rows) add("time", "collisions_per_grain", row.clock, row.time, "");
   for (const engine of ["md", "dsmc"])
     for (const [name, c] of Object.entries((means && means[engine] && means[engine].curves) || {}))
-      c.x.forEach((x, i) => { if (c.value[i] !== null) add(`${engine}_${name}`, c.x_name, x, c.value[i], c.stderr[i] === null ? "" : c.stderr[i]); });
+      c.x.forEach((x, i) => {
+        if (c.value[i] !== null)
+          add(`${engine}_${name}`, c.x_name, x, c.value[i], c.stderr[i] === null ? "" : c.stderr[i]);
+      });
   return `# ${title}\n${rows.map((row) => row.map((one) => (/[",\n]/.test(one) ? `"${String(one).replace(/"/g, '""')}"` : one)).join(",")).join("\n")}\n`;
 }

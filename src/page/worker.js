@@ -1,5 +1,9 @@
 /* The worker's side of the page: messages in, answers out. One worker shows the gas, another measures it. */
-let g = null, live = null, measuring = null, timer = 0, told = 0;
+let g = null,
+  live = null,
+  measuring = null,
+  timer = 0,
+  told = 0;
 
 const JOBS = {
   open: async ({ wasm }) => {
@@ -23,7 +27,8 @@ const JOBS = {
     return measuring.means();
   },
   hash: ({ scene, collisions }) => {
-    const made = new g.Scene(scene), simulation = new g.Simulation(made);
+    const made = new g.Scene(scene),
+      simulation = new g.Simulation(made);
     simulation.collide(collisions);
     const hash = simulation.hash();
     simulation.free();
@@ -40,7 +45,9 @@ function later() {
 
 /* A few milliseconds of measuring, and then whatever the page wants. */
 function goOn() {
-  const id = measuring.id, over = measuring.goOn(25), now = Date.now();
+  const id = measuring.id,
+    over = measuring.goOn(25),
+    now = Date.now();
   if (over || now - told > 900) {
     told = now;
     postMessage({ job: "means", id, answer: measuring.means() });
@@ -48,8 +55,10 @@ function goOn() {
   if (!over) later();
 }
 
-const transfers = (answer) => (answer.picture ? [answer.picture.position, answer.picture.value, answer.picture.marks]
-  .filter(Boolean).map((array) => array.buffer) : []);
+const transfers = (answer) =>
+  answer.picture
+    ? [answer.picture.position, answer.picture.value, answer.picture.marks].filter(Boolean).map((array) => array.buffer)
+    : [];
 
 onmessage = async ({ data }) => {
   try {

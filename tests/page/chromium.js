@@ -1,19 +1,40 @@
 /* A page in headless Chromium, driven over its debugging pipe: no package is needed. */
 "use strict";
-const { spawn, execFileSync } = require("child_process"), fs = require("fs"), os = require("os"), path = require("path");
+const { spawn, execFileSync } = require("child_process"),
+  fs = require("fs"),
+  os = require("os"),
+  path = require("path");
 
 function find() {
   for (const name of ["chromium", "chromium-browser", "google-chrome"])
-    try { return execFileSync("which", [name], { encoding: "utf8" }).trim(); } catch (e) { /* the next one */ }
+    try {
+      return execFileSync("which", [name], { encoding: "utf8" }).trim();
+    } catch (e) {
+      /* the next one */
+    }
   return null;
 }
 
 class Browser {
   constructor() {
     this.home = fs.mkdtempSync(path.join(os.tmpdir(), "graingas-page-"));
-    this.child = spawn(find(), ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run", "--remote-debugging-pipe",
-      "--disable-extensions", "--disable-background-networking", "--enable-precise-memory-info", `--user-data-dir=${this.home}`, "about:blank"],
-    { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+    this.child = spawn(
+      find(),
+      [
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-dev-shm-usage",
+        "--no-first-run",
+        "--remote-debugging-pipe",
+        "--disable-extensions",
+        "--disable-background-networking",
+        "--enable-precise-memory-info",
+        `--user-data-dir=${this.home}`,
+        "about:blank",
+      ],
+      { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] },
+    );
     this.waiting = new Map();
     this.listeners = [];
     this.count = 0;
@@ -26,9 +47,13 @@ class Browser {
   }
   take(message) {
     const one = this.waiting.get(message.id);
-    if (!one) { for (const listener of this.listeners) listener(message); return; }
+    if (!one) {
+      for (const listener of this.listeners) listener(message);
+      return;
+    }
     this.waiting.delete(message.id);
-    if (message.error) one.reject(new Error(message.error.message)); else one.resolve(message.result);
+    if (message.error) one.reject(new Error(message.error.message));
+    else one.resolve(message.result);
   }
   send(method, params = {}, sessionId = undefined) {
     const id = ++this.count;
@@ -48,7 +73,12 @@ class Browser {
     const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
     const tab = new Tab(this, sessionId, targetId);
     for (const domain of ["Page", "Runtime", "Log", "Network"]) await tab.send(`${domain}.enable`);
-    await tab.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: scale, mobile: width < 600 });
+    await tab.send("Emulation.setDeviceMetricsOverride", {
+      width,
+      height,
+      deviceScaleFactor: scale,
+      mobile: width < 600,
+    });
     if (media.length) await tab.send("Emulation.setEmulatedMedia", { features: media });
     await tab.send("Page.navigate", { url: `file://${file}${hash}` });
     return tab;
@@ -60,16 +90,25 @@ class Tab {
     Object.assign(this, { browser, session, target, said: [], fetched: [] });
     browser.listeners.push((m) => {
       if (m.sessionId !== session) return;
-      if (m.method === "Runtime.consoleAPICalled") this.said.push(m.params.args.map((a) => a.value || a.description).join(" "));
-      if (m.method === "Runtime.exceptionThrown") this.said.push(JSON.stringify(m.params.exceptionDetails).slice(0, 900));
+      if (m.method === "Runtime.consoleAPICalled")
+        this.said.push(m.params.args.map((a) => a.value || a.description).join(" "));
+      if (m.method === "Runtime.exceptionThrown")
+        this.said.push(JSON.stringify(m.params.exceptionDetails).slice(0, 900));
       if (m.method === "Log.entryAdded") this.said.push(m.params.entry.text);
       if (m.method === "Network.requestWillBeSent") this.fetched.push(m.params.request.url);
     });
   }
-  send(method, params) { return this.browser.send(method, params, this.session); }
+  send(method, params) {
+    return this.browser.send(method, params, this.session);
+  }
   async value(expression) {
-    const { result, exceptionDetails } = await this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
-    if (exceptionDetails) throw new Error(exceptionDetails.exception ? exceptionDetails.exception.description : exceptionDetails.text);
+    const { result, exceptionDetails } = await this.send("Runtime.evaluate", {
+      expression,
+      awaitPromise: true,
+      returnByValue: true,
+    });
+    if (exceptionDetails)
+      throw new Error(exceptionDetails.exception ? exceptionDetails.exception.description : exceptionDetails.text);
     return result.value;
   }
   /* Until it is true, or so many seconds are over. */
@@ -84,7 +123,9 @@ class Tab {
     const { data } = await this.send("Page.captureScreenshot", { format: "png", captureBeyondViewport: false });
     fs.writeFileSync(file, Buffer.from(data, "base64"));
   }
-  close() { return this.browser.send("Target.closeTarget", { targetId: this.target }); }
+  close() {
+    return this.browser.send("Target.closeTarget", { targetId: this.target });
+  }
 }
 
 module.exports = { find, Browser };

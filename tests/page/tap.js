@@ -1,8 +1,11 @@
 /* TAP, as the tests of the command print it; and the two that are compared: the terminal and the engines in node. */
 "use strict";
-const fs = require("fs"), path = require("path"), { execFileSync } = require("child_process");
+const fs = require("fs"),
+  path = require("path"),
+  { execFileSync } = require("child_process");
 
-const module_file = process.env.ENGINES, command = process.env.GRAINGAS;
+const module_file = process.env.ENGINES,
+  command = process.env.GRAINGAS;
 
 async function engines() {
   if (!fs.existsSync(module_file)) {
@@ -17,7 +20,11 @@ const terminal = (scene, ...args) =>
   execFileSync(command, args.concat("-"), { input: scene, encoding: "utf8", maxBuffer: 1 << 26 });
 /* What it says on standard error when it refuses. */
 const refusal = (scene, ...args) => {
-  try { execFileSync(command, args.concat("-"), { input: scene, encoding: "utf8", stdio: ["pipe", "pipe", "pipe"] }); } catch (e) { return e.stderr; }
+  try {
+    execFileSync(command, args.concat("-"), { input: scene, encoding: "utf8", stdio: ["pipe", "pipe", "pipe"] });
+  } catch (e) {
+    return e.stderr;
+  }
   return "";
 };
 

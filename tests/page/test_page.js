@@ -1,10 +1,15 @@
 /* The page in headless Chromium: it loads without a word on the console, and without the network; lessons run; controls
  * act; the same seed gives the same trajectory; what is hostile is refused in the terminal's words. */
 "use strict";
-const assert = require("assert"), fs = require("fs"), path = require("path");
-const { find, Browser } = require("./chromium.js"), { terminal, refusal, list } = require("./tap.js"), scenes = require("./scenes.js");
+const assert = require("assert"),
+  fs = require("fs"),
+  path = require("path");
+const { find, Browser } = require("./chromium.js"),
+  { terminal, refusal, list } = require("./tap.js"),
+  scenes = require("./scenes.js");
 
-const file = process.env.PAGE, quick = 40;
+const file = process.env.PAGE,
+  quick = 120;
 const wait = (ms) => new Promise((r) => setTimeout(r, ms));
 let browser;
 
@@ -15,7 +20,10 @@ async function open(hash = "", more = {}) {
 }
 async function silent(tab) {
   assert.deepStrictEqual(tab.said, []);
-  assert.deepStrictEqual(tab.fetched.filter((url) => !/^(file|blob|data):/.test(url)), []);
+  assert.deepStrictEqual(
+    tab.fetched.filter((url) => !/^(file|blob|data):/.test(url)),
+    [],
+  );
   await tab.close();
 }
 const link = (scene) => `#scene=${encodeURIComponent(scene)}`;
@@ -40,11 +48,15 @@ const tests = {
   },
 
   "a page with a scene in it begins with that": async () => {
-    const out = path.join(browser.home, "own.html"), before = file;
+    const out = path.join(browser.home, "own.html"),
+      before = file;
     terminal("{flow: chute, phi: 0.2, particles: 300, collision: {e: 0.8}}", "page", "--quiet", "--output", out);
     const tab = await browser.open(out);
     await tab.until("typeof page === 'object' && page.about !== null", quick);
-    assert.deepStrictEqual(await tab.value("[page.about.values.flow, page.about.values.particles, page.about.values.collision.e]"), ["chute", 300, 0.8]);
+    assert.deepStrictEqual(
+      await tab.value("[page.about.values.flow, page.about.values.particles, page.about.values.collision.e]"),
+      ["chute", 300, 0.8],
+    );
     assert.ok(fs.statSync(before).size < 1.5e6);
     await silent(tab);
   },
@@ -53,7 +65,10 @@ const tests = {
     const tab = await open("#lesson=haff");
     for (const name of await tab.value("LESSONS.map((one) => one.name)")) {
       await tab.value(`byId("lesson-${name}").click()`);
-      await tab.until(`page.lesson === "${name}" && page.frame && page.frame.md.collisions > 100 && page.means && page.means.progress.md && page.means.progress.dsmc`, quick);
+      await tab.until(
+        `page.lesson === "${name}" && page.frame && page.frame.md.collisions > 100 && page.means && page.means.progress.md && page.means.progress.dsmc`,
+        quick,
+      );
       assert.strictEqual(await tab.value("byId('refused').textContent"), "");
       assert.ok((await tab.value("byId('lesson-text').innerText")).length > 150);
       assert.ok((await tab.value(DRAWN)).share > 0.02, name);
@@ -64,7 +79,9 @@ const tests = {
   "every control acts": async () => {
     const tab = await open();
     const set = async (id, value, test) => {
-      await tab.value(`{ const c = byId("${id}"); c.value = "${value}"; c.dispatchEvent(new Event(c.type === "range" ? "input" : "change", { bubbles: true })); }`);
+      await tab.value(
+        `{ const c = byId("${id}"); c.value = "${value}"; c.dispatchEvent(new Event(c.type === "range" ? "input" : "change", { bubbles: true })); }`,
+      );
       await tab.until(test, quick);
     };
     await set("phi", 0.2, "page.about.values.phi === 0.2");
@@ -76,7 +93,8 @@ const tests = {
     await set("particles", 300, "page.about.values.particles === 300");
     await set("seed-number", 7, "page.about.values.run.seed === 7");
     await set("phi-number", 0.15, "page.about.values.phi === 0.15");
-    for (const flow of await tab.value("FLOWS")) await set("flow", flow, `page.about.values.flow === "${flow}" && page.frame`);
+    for (const flow of await tab.value("FLOWS"))
+      await set("flow", flow, `page.about.values.flow === "${flow}" && page.frame`);
     assert.strictEqual(await tab.value("byId('refused').textContent"), "");
     await set("language", "de", "document.documentElement.lang === 'de' && byId('step').textContent === 'Ein Stoß'");
     await set("colour", "since", "byId('scale-text').textContent.includes('freie')");
@@ -108,15 +126,21 @@ const tests = {
     const tab = await open();
     for (const name of ["smooth, sheared", "rough, sheared", "frictional, sheared", "cooling", "monte carlo, rough"]) {
       const there = JSON.parse(terminal(scenes[name], "fingerprint", "--json")).fingerprint;
-      assert.strictEqual((await tab.value(`page.live.ask("hash", { scene: ${JSON.stringify(scenes[name])}, collisions: 100000 })`)).hash, there, name);
+      assert.strictEqual(
+        (await tab.value(`page.live.ask("hash", { scene: ${JSON.stringify(scenes[name])}, collisions: 100000 })`)).hash,
+        there,
+        name,
+      );
     }
     await silent(tab);
   },
 
   "what is seen does not depend on how often it is drawn": async () => {
-    const scene = JSON.stringify("{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9}}"), tab = await open();
+    const scene = JSON.stringify("{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9}}"),
+      tab = await open();
     await tab.value("page.playing = false");
-    const walk = async (pieces) => tab.value(`(async () => { await page.live.ask("start", { scene: ${scene}, sets: {} }); let f;
+    const walk = async (pieces) =>
+      tab.value(`(async () => { await page.live.ask("start", { scene: ${scene}, sets: {} }); let f;
       for (let k = 0; k < ${pieces}; k++) f = await page.live.ask("frame", { collisions: 1e-9, colour: "speed" });
       for (;;) { f = await page.live.ask("frame", { colour: "speed", step: true }); if (f.md.collisions >= 300) break; }
       return [f.md.collisions, f.md.temperature, ...f.event.k]; })()`);
@@ -125,13 +149,20 @@ const tests = {
   },
 
   "curves pass through the terminal's means": async () => {
-    const scene = "{flow: usf, phi: 0.1, particles: 500, collision: {e: 0.9, beta: 0}, run: {collisions: 2000, warmup: 200}}";
-    const there = JSON.parse(terminal(scene, "compare", "--json", "--quiet", "--output", "/dev/null", "--picture", "none"));
+    const scene =
+      "{flow: usf, phi: 0.1, particles: 500, collision: {e: 0.9, beta: 0}, run: {collisions: 2000, warmup: 200}}";
+    const there = JSON.parse(
+      terminal(scene, "compare", "--json", "--quiet", "--output", "/dev/null", "--picture", "none"),
+    );
     const tab = await open(link(scene));
-    await tab.until("page.means && page.means.progress.md && page.means.progress.md.over && page.means.progress.dsmc.over", 120);
+    await tab.until(
+      "page.means && page.means.progress.md && page.means.progress.md.over && page.means.progress.dsmc.over",
+      120,
+    );
     for (const engine of ["md", "dsmc"]) {
       const { mean, stderr } = there[engine].results.temperature;
-      const drawn = await tab.value(`(() => { const f = byId("chart-temperature"), { yr } = JSON.parse(f.dataset.scales), line = f.querySelector("[data-name='mean ${engine} temperature']");
+      const drawn =
+        await tab.value(`(() => { const f = byId("chart-temperature"), { yr } = JSON.parse(f.dataset.scales), line = f.querySelector("[data-name='mean ${engine} temperature']");
         const y = +line.getAttribute("points").split(" ")[0].split(",")[1]; return yr[0] + (HIGH - BOTTOM - y) / (HIGH - BOTTOM - TOP) * (yr[1] - yr[0]); })()`);
       assert.ok(Math.abs(drawn - mean) < 4 * stderr + 0.01, `${engine}: drawn ${drawn}, terminal ${mean} +- ${stderr}`);
       assert.strictEqual(await tab.value(`page.means.${engine}.results.temperature.mean`), mean);
@@ -140,10 +171,19 @@ const tests = {
   },
 
   "hostile links are refused in the terminal's words": async () => {
-    for (const scene of ["<script>alert(1)</script>", "{flow: usf, phi: 7}", "{flow: usf, phi: 0.1, collision: {e: -3}}", "{flow: <img src=x onerror=alert(1)>, phi: 0.1}", "{flow: usf, phi: 0.1, particles: 1e99}",
-      "{flow: usf, phi: [", "x".repeat(1 << 20)]) {
-      const tab = await open(link(scene)), said = await tab.value("byId('refused').textContent");
-      const there = refusal(scene, "fingerprint").trim(), end = there.slice(there.lastIndexOf(": ") + 2).slice(0, 60);
+    for (const scene of [
+      "<script>alert(1)</script>",
+      "{flow: usf, phi: 7}",
+      "{flow: usf, phi: 0.1, collision: {e: -3}}",
+      "{flow: <img src=x onerror=alert(1)>, phi: 0.1}",
+      "{flow: usf, phi: 0.1, particles: 1e99}",
+      "{flow: usf, phi: [",
+      "x".repeat(1 << 20),
+    ]) {
+      const tab = await open(link(scene)),
+        said = await tab.value("byId('refused').textContent");
+      const there = refusal(scene, "fingerprint").trim(),
+        end = there.slice(there.lastIndexOf(": ") + 2).slice(0, 60);
       assert.ok(said.length > 10 && said.includes(end.slice(0, 40)), `${said}\n${there}`);
       assert.strictEqual(await tab.value("document.querySelectorAll('img, main script').length"), 0);
       assert.strictEqual(await tab.value("page.about.values.flow"), "usf");
@@ -157,31 +197,57 @@ const tests = {
   "keyboard, and nothing moves for those who asked for that": async () => {
     const tab = await open("", { media: [{ name: "prefers-reduced-motion", value: "reduce" }] });
     assert.strictEqual(await tab.value("page.playing"), false);
-    assert.ok(await tab.value("[...document.querySelectorAll('button, input, select, textarea, canvas, summary')].every((e) => e.disabled || e.tabIndex >= 0 || e.ariaHidden === 'true' || e.getAttribute('aria-hidden') === 'true')"));
+    assert.ok(
+      await tab.value(
+        "[...document.querySelectorAll('button, input, select, textarea, canvas, summary')].every((e) => e.disabled || e.tabIndex >= 0 || e.ariaHidden === 'true' || e.getAttribute('aria-hidden') === 'true')",
+      ),
+    );
     await tab.value("byId('box').focus()");
     const yaw = await tab.value("page.view.yaw");
-    for (const type of ["keyDown", "keyUp"]) await tab.send("Input.dispatchKeyEvent", { type, key: "ArrowRight", code: "ArrowRight", windowsVirtualKeyCode: 39 });
-    assert.ok(await tab.value("page.view.yaw") > yaw);
+    for (const type of ["keyDown", "keyUp"])
+      await tab.send("Input.dispatchKeyEvent", {
+        type,
+        key: "ArrowRight",
+        code: "ArrowRight",
+        windowsVirtualKeyCode: 39,
+      });
+    assert.ok((await tab.value("page.view.yaw")) > yaw);
     await silent(tab);
   },
 
   "each text in both languages": async () => {
     const tab = await open("#language=de");
-    assert.ok(await tab.value("Object.values(STRINGS).every((two) => two.length === LANGUAGES.length && two.every((one) => one.length)) && LESSONS.every((l) => [l.title, l.text, l.question].every((two) => two.length === 2))"));
-    assert.deepStrictEqual(await tab.value("[...document.querySelectorAll('[data-t]')].filter((e) => !STRINGS[e.dataset.t]).map((e) => e.dataset.t)"), []);
+    assert.ok(
+      await tab.value(
+        "Object.values(STRINGS).every((two) => two.length === LANGUAGES.length && two.every((one) => one.length)) && LESSONS.every((l) => [l.title, l.text, l.question].every((two) => two.length === 2))",
+      ),
+    );
+    assert.deepStrictEqual(
+      await tab.value(
+        "[...document.querySelectorAll('[data-t]')].filter((e) => !STRINGS[e.dataset.t]).map((e) => e.dataset.t)",
+      ),
+      [],
+    );
     await silent(tab);
   },
 
   "axe-core finds nothing": async () => {
-    const at = [process.env.AXE, path.join(__dirname, "node_modules/axe-core/axe.min.js")].find((one) => one && fs.existsSync(one));
+    const at = [process.env.AXE, path.join(__dirname, "node_modules/axe-core/axe.min.js")].find(
+      (one) => one && fs.existsSync(one),
+    );
     if (!at) return "SKIP axe-core is not there (npm install in tests/page; ./check-page does it)";
     const axe = fs.readFileSync(at, "utf8");
-    for (const [width, height] of [[390, 844], [1366, 768]])
+    for (const [width, height] of [
+      [390, 844],
+      [1366, 768],
+    ])
       for (const hash of ["#lesson=equipartition", "#lesson=clustering&language=de"]) {
         const tab = await open(hash, { width, height });
         await tab.until("page.means && page.means.md && page.means.md.results.N1", quick);
         await tab.value(`${axe}; 0`);
-        const found = await tab.value("axe.run(document).then((r) => r.violations.map((v) => `${v.id}: ${v.help}: ${v.nodes.map((n) => n.target).join(' ')}`))");
+        const found = await tab.value(
+          "axe.run(document).then((r) => r.violations.map((v) => `${v.id}: ${v.help}: ${v.nodes.map((n) => n.target).join(' ')}`))",
+        );
         assert.deepStrictEqual(found, []);
         await tab.close();
       }
@@ -190,37 +256,62 @@ const tests = {
 
   "sixty frames a second with 1000 grains": async () => {
     const tab = await open(link("{flow: usf, phi: 0.1, particles: 1000, collision: {e: 0.9, beta: 0}}"));
-    const { cost, shown } = await tab.value(`(async () => { const wait = (ms) => new Promise((r) => setTimeout(r, ms)); await wait(1500);
+    const { cost, shown } =
+      await tab.value(`(async () => { const wait = (ms) => new Promise((r) => setTimeout(r, ms)); await wait(1500);
       const from = page.frames, begin = performance.now(); await wait(3000); const shown = (page.frames - from) / (performance.now() - begin) * 1000;
       const f = page.frame, o = { images: true, event: null }, all = []; page.playing = false;
       for (let k = 0; k < 60; k++) { const a = performance.now(); page.view.draw(f.picture, f.md, page.about, o); all.push(performance.now() - a); await wait(5); }
       return { cost: all.sort((a, b) => a - b)[20], shown }; })()`);
-    console.log(`# 1000 grains, without a graphics processor: ${shown.toFixed(0)} frames a second; ${cost.toFixed(1)} ms of the page's own for each`);
+    console.log(
+      `# 1000 grains, without a graphics processor: ${shown.toFixed(0)} frames a second; ${cost.toFixed(1)} ms of the page's own for each`,
+    );
     assert.ok(shown >= +(process.env.FRAMES || 1) && cost < 100);
     await silent(tab);
   },
 
   "memory does not grow": async () => {
-    const tab = await open(link("{flow: usf, phi: 0.1, particles: 500, collision: {e: 0.9, beta: 0}, run: {relative_error: 0.0001}}")), seconds = +(process.env.SECONDS || 12);
+    const tab = await open(
+        link("{flow: usf, phi: 0.1, particles: 500, collision: {e: 0.9, beta: 0}, run: {relative_error: 0.0001}}"),
+      ),
+      seconds = +(process.env.SECONDS || 12);
     await tab.value("page.speed = 100");
     const used = async () => {
       await tab.send("HeapProfiler.collectGarbage");
       const heap = (await tab.send("Runtime.getHeapUsage")).usedSize;
-      return [heap, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`page.${who}.ask("memory").then((a) => a.bytes)`))))];
+      return [
+        heap,
+        ...(await Promise.all(
+          ["live", "measure"].map((who) => tab.value(`page.${who}.ask("memory").then((a) => a.bytes)`)),
+        )),
+      ];
     };
-    await wait(1000 * seconds / 3);
+    await wait((1000 * seconds) / 3);
     const before = await used();
-    await wait(1000 * 2 * seconds / 3);
+    await wait((1000 * 2 * seconds) / 3);
     const after = await used();
-    console.log(`# bytes of the page's heap, of both modules: ${before} and, after ${(2 * seconds / 3).toFixed(0)} s more, ${after}`);
-    assert.ok(after[0] - before[0] < 4e6 && after[1] === before[1] && after[2] - before[2] < 20e6 /* while series fill up */);
+    console.log(
+      `# bytes of the page's heap, of both modules: ${before} and, after ${((2 * seconds) / 3).toFixed(0)} s more, ${after}`,
+    );
+    assert.ok(
+      after[0] - before[0] < 4e6 && after[1] === before[1] && after[2] - before[2] < 20e6 /* while series fill up */,
+    );
     await silent(tab);
   },
 };
 
 (async () => {
-  if (!find()) { console.log("1..0 # SKIP chromium is not installed"); return; }
-  if (!fs.existsSync(file)) { console.log("1..0 # SKIP the page was not built (ninja page)"); return; }
+  if (!find()) {
+    console.log("1..0 # SKIP chromium is not installed");
+    return;
+  }
+  if (!fs.existsSync(file)) {
+    console.log("1..0 # SKIP the page was not built (ninja page)");
+    return;
+  }
   browser = new Browser();
-  try { await list(process.argv[2] ? { [process.argv[2]]: tests[process.argv[2]] } : tests, null); } finally { await browser.close(); }
+  try {
+    await list(process.argv[2] ? { [process.argv[2]]: tests[process.argv[2]] } : tests, null);
+  } finally {
+    await browser.close();
+  }
 })();

@@ -1,0 +1,43 @@
+/* What the page says of itself: where the model stops being true, what the library warns of, a summary in words. */
+/* Where the model stops being true, and what the library warns of. */
+function notices() {
+  const out = [],
+    { means, about, frame } = page,
+    add = (key, values) => out.push(t(key, values));
+  if (page.refusal) add("noBox", { why: page.refusal });
+  if (page.dsmcRefusal) out.push(`dsmc: ${page.dsmcRefusal}`);
+  if (frame && frame.ended) add("ended", { engine: frame.md ? "md" : "dsmc", why: frame.ended });
+  if (frame && frame.dsmcEnded) add("ended", { engine: "dsmc", why: frame.dsmcEnded });
+  if (page.behind > 40) add("behind");
+  if (!means) return out;
+  const length = mean(means.theory && means.theory.goldhirsch_zanetti1993, "clustering_length");
+  if (about.values.flow === "hcs" && frame && frame.md && Math.max(...frame.md.box) > length)
+    add("clusters", { l: number(length, 3) });
+  const caught = means.md && means.md.engine_state && means.md.engine_state.contact_time_collisions;
+  if (caught > 1e-3 * means.md.collisions) add("collapse", { n: caught });
+  const ratio = mean(means.md && means.md.results, "temperature_ratio");
+  if (
+    frame &&
+    frame.md &&
+    ratio > 0 &&
+    Math.abs(frame.md.rotationalTemperature / frame.md.temperature / ratio - 1) >
+      4 * Math.sqrt(4 / (3 * frame.md.grains))
+  )
+    add("spins");
+  for (const [engine, p] of Object.entries(means.progress)) {
+    if (p.why) add("ended", { engine, why: p.why });
+    else if (p.over && means[engine] && means[engine].steady === false)
+      add("steady_no", { engine, why: means[engine].verdict });
+  }
+  for (const engine of ["md", "dsmc"])
+    for (const w of (means[engine] && means[engine].warnings) || [])
+      if (!/null|not a steady mean|has no error|too short for errors/.test(w)) out.push(`${engine}: ${w}`);
+  return [...new Set(out)].slice(0, 7);
+}
+function showNotices() {
+  const now = notices(),
+    text = now.join("\n");
+  if (text === page.noticed) return;
+  page.noticed = text;
+  byId("notices").replaceChildren(...now.map((one) => cell("li", one)));
+}

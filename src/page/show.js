@@ -1,0 +1,135 @@
+/* Where the answers of the workers are shown: clock, curves, table, words; and the lessons. */
+const sheared = () => /usf|shear/.test(page.about.values.flow);
+const timeUnit = () => (sheared() ? "1/γ" : "d/v₀");
+
+function showClock(s) {
+  byId("clock").textContent =
+    t("clock", {
+      c: s.collisionsPerGrain.toFixed(s.collisionsPerGrain < 100 ? 2 : 0),
+      t: number(s.time),
+      unit: timeUnit(),
+      n: s.collisions,
+    }) + (sheared() ? t("clockStrain", { s: s.strain.toFixed(2) }) : "");
+}
+
+function showEvent(event) {
+  byId("event").textContent = event
+    ? t("event", {
+        a: event.grain[0] + 1,
+        b: event.grain[1] + 1,
+        g: number(event.normalSpeed, 3),
+        unit: sheared() ? "d γ" : "v₀",
+        k: event.k.map((x) => x.toFixed(2)).join(", "),
+      })
+    : "";
+}
+
+function showCharts() {
+  temperatureChart(byId("chart-temperature"), page.history, page.means, page.about.values);
+  showNotices();
+}
+
+function showMeans(means) {
+  page.means = means;
+  velocityChart(byId("chart-velocities"), means);
+  stressChart(byId("chart-stress"), means);
+  fillTable(byId("table"), means, byId("everything").checked);
+  fillRanges(byId("ranges"), means);
+  const phase = (engine) => {
+    const p = means.progress[engine];
+    if (!p) return t("phaseNone");
+    return p.over ? t("phaseDone") : t(p.averaging ? "phaseAverage" : "phaseWarm", { p: Math.floor(100 * p.fraction) });
+  };
+  byId("progress").textContent = t("progress", { md: phase("md"), dsmc: phase("dsmc") });
+  page.changed = true;
+}
+
+/* For those who hear the page: every few seconds what it shows. */
+function say() {
+  const s = page.frame.md || page.frame.dsmc,
+    means = page.means,
+    of = (engine) => means[engine] && means[engine].results;
+  const both =
+    means && Number.isFinite(mean(of("md"), "temperature"))
+      ? t("summaryMeans", {
+          md: withError(mean(of("md"), "temperature"), error(of("md"), "temperature")),
+          dsmc: withError(mean(of("dsmc"), "temperature"), error(of("dsmc"), "temperature")),
+        })
+      : "";
+  byId("summary").textContent = t("summary", {
+    title: page.about.title,
+    c: number(s.collisionsPerGrain, 3),
+    T: number(s.temperature),
+    theta: s.rotationalTemperature > 0 ? t("summaryTheta", { theta: number(s.rotationalTemperature) }) : "",
+    means: both,
+  });
+  byId("box").setAttribute("aria-label", t("boxLabel", { n: s.grains, by: t(`${byId("colour").value}Of`) }));
+}
+
+function showScale() {
+  const to = byId("scale").getContext("2d");
+  for (let i = 0; i < 120; i++) {
+    to.fillStyle = rgb(colourAt(i / 119));
+    to.fillRect(i, 0, 1, 10);
+  }
+  byId("scale-text").textContent = t(`scale_${byId("colour").value}`);
+}
+
+function showPlaying() {
+  byId("play").textContent = t(page.playing ? "pause" : "play");
+  byId("speed").textContent = t("speed", { x: page.speed });
+  byId("slower").disabled = page.speed <= SPEEDS[0];
+  byId("faster").disabled = page.speed >= SPEEDS[SPEEDS.length - 1];
+}
+
+function showLanguage() {
+  document.documentElement.lang = LANGUAGES[language];
+  byId("language").value = LANGUAGES[language];
+  for (const one of document.querySelectorAll("[data-t]")) one.textContent = t(one.dataset.t);
+  for (const one of document.querySelectorAll("[data-label]")) one.setAttribute("aria-label", t(one.dataset.label));
+  byId("transport").setAttribute("aria-label", t("transport"));
+  byId("box").setAttribute("aria-label", t("view"));
+  page.controls.name();
+  showLesson();
+  showScale();
+  showPlaying();
+  if (page.about) {
+    page.controls.show(page.about.values);
+    page.noticed = null;
+    showCharts();
+    writeLink(page);
+  }
+  if (page.means) showMeans(page.means);
+  if (page.frame) say();
+}
+
+/* ---- Lessons ---- */
+
+function lessonButtons() {
+  for (const lesson of LESSONS) {
+    const button = cell("button", "", { type: "button", id: `lesson-${lesson.name}` });
+    button.addEventListener("click", () => follow({ scene: null, sets: {}, lesson: lesson.name }));
+    byId("lesson-buttons").append(button);
+  }
+}
+function takeLook(lesson) {
+  page.speed = SPEEDS.reduce((best, one) =>
+    Math.abs(Math.log(one / lesson.speed)) < Math.abs(Math.log(best / lesson.speed)) ? one : best,
+  );
+  byId("colour").value = lesson.colour;
+  showScale();
+  showPlaying();
+}
+function showLesson() {
+  for (const [i, lesson] of LESSONS.entries()) {
+    const button = byId(`lesson-${lesson.name}`),
+      now = page.lesson === lesson.name;
+    button.textContent = `${i + 1}. ${lesson.title[language]}`;
+    button.setAttribute("aria-pressed", String(now));
+    if (!now) continue;
+    const [text, question] = byId("lesson-text").children;
+    text.textContent = lesson.text[language];
+    question.textContent = lesson.question[language];
+  }
+  byId("lesson-text").hidden = !page.lesson;
+}
