@@ -202,6 +202,77 @@ static void stopped_at_the_end(void **state)
   gg_scene_free(s);
 }
 
+static int stop_late(void *context, const gg_progress *now)
+{
+  (void)context;
+  return now->phase[0] == 'a' && now->fraction > 0.6;
+}
+
+/* Until it is stopped with frames in its log. */
+static void begin_trajectory(const gg_scene *s, const char *checkpoint)
+{
+  gg_error err;
+  gg_result *r = NULL;
+  const gg_run_options options = {.output = "t_frames.h5", .checkpoint = checkpoint, .progress = stop_late};
+  assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
+  gg_result_free(r);
+}
+
+static size_t frames_of(const char *path)
+{
+  gg_error err;
+  gg_result *r = NULL;
+  gg_result_info about;
+  assert_ok(gg_result_read(path, &r, &err));
+  assert_ok(gg_result_about(r, &about, &err));
+  gg_result_free(r);
+  return about.frames;
+}
+
+/* The log of frames beside a checkpoint: found where the checkpoint is called otherwise, taken over into another log,
+ * or put into the result of a run that keeps no checkpoints; and if it is lost, or one piece short, that is said. */
+static void logs_of_frames(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_result *r = NULL;
+  const char *const on[] = {"t_log.h5", "t_moved.h5", NULL}; /* gone on with: the same, another, none */
+  assert_ok(gg_scene_set(s, "output.trajectory_every", "100", &err));
+  assert_ok(gg_scene_set(s, "output.checkpoint_every", "0.001", &err));
+  gg_run(s, &(gg_run_options){.output = "t_frames.h5"}, &r, &err);
+  gg_result_free(r);
+  const size_t whole = frames_of("t_frames.h5");
+  assert_true(whole > 30);
+  for (int k = 0; k < 3; k++) {
+    gg_run_options options = {.output = "t_frames.h5", .checkpoint = on[k], .resume = k ? "t_other.h5" : "t_log.h5"};
+    begin_trajectory(s, "t_log.h5");
+    if (k) assert_int_equal(rename("t_log.h5", "t_other.h5"), 0); /* its log keeps the name it had */
+    r = NULL;
+    gg_run(s, &options, &r, &err);
+    assert_non_null(r);
+    gg_result_free(r);
+    assert_int_equal(frames_of("t_frames.h5"), whole);
+    assert_true(access("t_log.frames", F_OK) != 0 || k);
+    unlink("t_log.frames"), unlink("t_other.h5");
+  }
+  const gg_run_options options = {.output = "t_frames.h5", .checkpoint = "t_log.h5", .resume = "t_log.h5"};
+  for (int k = 0; k < 2; k++) {
+    begin_trajectory(s, "t_log.h5");
+    assert_int_equal(k ? truncate("t_log.frames", 100) : unlink("t_log.frames"), 0);
+    r = NULL;
+    assert_int_equal(gg_run(s, &options, &r, &err), GG_BAD_FILE);
+    assert_true(!r && strstr(err.message, "t_log.frames") && strstr(err.message, "output.trajectory_every: 0"));
+    unlink("t_log.h5"), unlink("t_log.h5.1"), unlink("t_log.frames");
+  }
+  /* A pipe keeps no frames. */
+  assert_int_equal(mkfifo("t_log.frames", 0666), 0);
+  assert_int_equal(gg_run(s, &(gg_run_options){.checkpoint = "t_log.h5", .output = "t_frames.h5"}, &r, &err),
+                   GG_BAD_FILE);
+  assert_non_null(strstr(err.message, "frames are kept in files"));
+  gg_scene_free(s);
+}
+
 static uint64_t last_count;
 static int note_count(void *context, const gg_progress *now)
 {
@@ -257,6 +328,7 @@ int main(void)
       cmocka_unit_test(unwritable_checkpoints), cmocka_unit_test(one_path_for_two),
       cmocka_unit_test(checkpoints_of_others),  cmocka_unit_test(progress_counts_all_replicas),
       cmocka_unit_test(decimal_comma),          cmocka_unit_test(stopped_at_the_end),
+      cmocka_unit_test(logs_of_frames),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
