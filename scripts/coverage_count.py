@@ -32,7 +32,7 @@ def answers(folder):
 
 
 def add(lines, line):
-    """Threads count beside each other without waiting, so a count may be wrong, even negative; but none at all is none."""
+    """Threads count beside each other without waiting, so a count may be wrong, even negative; but none is none."""
     ran, ways = lines.get(line["line_number"], (False, []))
     taken = [way["count"] != 0 for way in line["branches"]]
     lines[line["line_number"]] = (ran or line["count"] != 0,

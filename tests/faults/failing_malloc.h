@@ -23,4 +23,12 @@ int failing_malloc_was_in(const char *library);
  * some for the next time, are counted apart. */
 size_t failing_malloc_left(FILE *to, size_t *cached);
 
+/* A build that counts what was run (scripts/coverage) writes its counts at exit; before _exit they have to be kept. */
+#ifdef COUNTS_LINES
+extern void __gcov_dump(void);
+#define failing_malloc_keep_counts() __gcov_dump()
+#else
+#define failing_malloc_keep_counts() (void)0
+#endif
+
 #endif

@@ -14,11 +14,8 @@
 #include "reproduce/figures.h"
 
 #ifdef COUNTS_LINES
-extern void __gcov_dump(void);
-#define keep_counts() __gcov_dump()
 enum { TRIES = 250 };
 #else
-#define keep_counts() (void)0
 enum { TRIES = 40 };
 #endif
 
@@ -103,7 +100,7 @@ static void try_one(uint64_t at)
     wrong(at, "leaks", err.message);
   }
   if (!are_files_whole(false)) wrong(at, "files", err.message);
-  keep_counts();
+  failing_malloc_keep_counts();
   _exit(0);
 }
 
