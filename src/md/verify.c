@@ -5,8 +5,10 @@
 
 #include "common/memory_note.h"
 
-/* Boxes that a grain may lie or come from its own; far less than an index holds. */
+/* Boxes that a grain may lie or come from its own; far less than an index holds. Boxes that those above may have moved
+ * within an epoch, which a whole number holds. */
 #define FAR 1000
+#define MOVED 1e15
 
 bool gg_md_is_way_of(const gg_model *m, const int32_t cells[3], double skin_radius, bool overlapping, bool comoving)
 {
@@ -56,7 +58,7 @@ static bool is_grain(const gg_md *e, uint32_t i)
 {
   const gg_md_grain *g = &e->grain[i];
   return g->species < (uint32_t)e->model.n_species && is_in_box(e, g->r, FAR) && isfinite(g->v.x) && isfinite(g->v.y) &&
-         isfinite(g->v.z) && isfinite(g->t);
+         isfinite(g->v.z) && isfinite(g->t) && is_in_box(e, place_at(e, g, e->k.now), FAR);
 }
 
 static bool is_partner(const gg_md *e, uint32_t i, uint32_t partner)
@@ -140,6 +142,7 @@ static bool are_lists(const gg_md *e)
 
 const char *gg_md_wrong_grains(const gg_md *e)
 {
+  if (!(fabs(e->box.image_velocity * e->k.now) < MOVED * e->box.edge[0])) return "the time";
   for (uint32_t i = 0; i < e->n; i++) {
     if (!is_grain(e, i)) return "a grain";
     if (e->spin && !(isfinite(e->spin[i].x) && isfinite(e->spin[i].y) && isfinite(e->spin[i].z))) return "a spin";

@@ -52,6 +52,25 @@ static void saved_and_restored(void **state)
   }
 }
 
+/* A state that was made up: a clock so far from its grains' that they are nowhere now. */
+static void clock_far_off(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2 * CASES; k++) {
+    gg_model m = model_of(k / 2, k % 2);
+    gg_md *e = md_create(&m, 1);
+    gg_engine *back = NULL;
+    gg_archive a = {0};
+    gg_error err;
+    md_collide(e, 1000);
+    e->k.now = k % 3 ? -1e34 : 1e34;
+    assert_int_equal(gg_md_ops.save(&e->base, &a, &err), GG_OK);
+    assert_int_equal(gg_md_ops.restore(&m, &a, &back, &err), GG_BAD_FILE);
+    gg_archive_clear(&a);
+    md_destroy(e);
+  }
+}
+
 static void cut_anywhere(void **state)
 {
   (void)state;
@@ -200,11 +219,9 @@ static void stopped_and_left(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(saved_and_restored),
-                                     cmocka_unit_test(cut_anywhere),
-                                     cmocka_unit_test(rescaled),
-                                     cmocka_unit_test(stopped),
-                                     cmocka_unit_test(stopped_while_heated),
-                                     cmocka_unit_test(stopped_and_left)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(saved_and_restored), cmocka_unit_test(clock_far_off), cmocka_unit_test(cut_anywhere),
+      cmocka_unit_test(rescaled),           cmocka_unit_test(stopped),       cmocka_unit_test(stopped_while_heated),
+      cmocka_unit_test(stopped_and_left)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
