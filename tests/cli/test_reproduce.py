@@ -26,6 +26,8 @@ def test_a_figure_from_beginning_to_end():
     check(open("out/thesis-2.25.svg").read().rstrip().endswith("</svg>"))
     check(open("out/thesis-2.25.png", "rb").read(4) == b"\x89PNG")
     check(open("out/thesis-2.25.h5", "rb").read(4) == b"\x89HDF")
+    asked = run("info", "out/thesis-2.25.h5")
+    check(asked.code == 3 and "it is a reproduced figure" in asked.err and ".csv" in asked.err, asked.err)
     before = stamps("out/figures.sweep")
     again = run("reproduce", "2.25", "--quick", "--output", "out")
     check(again.code == 0 and len(before) == 1 and stamps("out/figures.sweep") == before, again.err)

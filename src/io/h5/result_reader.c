@@ -122,6 +122,8 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
     gg_h5_in_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
   if (!h.failed && gg_h5_exists(&h, "/graingas/table"))
     gg_h5_in_failed(&h, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
+  if (!h.failed && gg_h5_exists(&h, "/figure"))
+    gg_h5_in_failed(&h, "it is a reproduced figure, for h5py; its curves are in the .csv beside it, too");
   if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_in_failed(&h, "it holds no result of graingas");
   char *text = gg_h5_read_text(&h, "/graingas/document");
   s->version = gg_h5_read_text(&h, "/graingas/version");
