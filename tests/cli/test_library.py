@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-from tap import GRAINGAS, SANITIZERS, Skip, check, main
+from tap import GRAINGAS, PATIENCE, SANITIZERS, Skip, check, main
 
 SOURCE, BUILD = os.environ["SOURCE"], os.environ["BUILD"]
 
@@ -62,7 +62,7 @@ def test_examples_build_against_it():
             sh("c++", "-x", "c++", "-std=c++11", *strict, example, "-o", program, "-x", "none", *flags)
         sh("cc", "-std=c99", *strict, example, "-o", program, *flags)
         sh("cc", "-std=c17", *strict, example, "-o", program, *flags)
-        out = sh(program, env=env, timeout=60)
+        out = sh(program, env=env, timeout=60 * PATIENCE)
         check(len(out.splitlines()) >= 1, out)
 
 
