@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,18 +116,14 @@ void gg_sweep_folder_tidy(const char *folder)
   closedir(all);
 }
 
+/* Without memory of its own: a result that is written is not left under its working name for want of some bytes. */
 gg_status gg_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err)
 {
-  char *from = gg_point_path(folder, id, ".work.h5");
-  char *to = gg_point_path(folder, id, fell_short ? ".short.h5" : ".h5");
-  gg_status status = GG_OK;
-  if (!from || !to)
-    status = gg_fail(err, GG_FAILED, "out of memory");
-  else if (rename(from, to) != 0) {
-    status = gg_cannot_write(to, strerror(errno), err);
-    unlink(from); /* the point's checkpoint goes on from near its end */
-  }
-  free(from);
-  free(to);
+  char from[PATH_MAX], to[PATH_MAX];
+  snprintf(from, sizeof from, "%s/%016" PRIx64 ".work.h5", folder, id);
+  snprintf(to, sizeof to, "%s/%016" PRIx64 "%s", folder, id, fell_short ? ".short.h5" : ".h5");
+  if (rename(from, to) == 0) return GG_OK;
+  gg_status status = gg_cannot_write(to, strerror(errno), err);
+  unlink(from); /* the point's checkpoint goes on from near its end */
   return status;
 }
