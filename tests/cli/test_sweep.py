@@ -155,7 +155,7 @@ def kill_and_go_on(folder, threads, rng, extra=()):
 
 def test_killed():
     """kill -9 at any moment; then the same numbers as of a sweep that was left alone, and nothing but results."""
-    write(SWEEP.replace("150", "400"))
+    write(SWEEP.replace("150", "900"))
     check(run("sweep", "s.yaml", "--output", "whole.sweep", "--threads", "2").code == 0)
     whole = collected("whole.sweep")
     rng = random.Random(18)
