@@ -1,4 +1,4 @@
-/* The engines as a page sees them: objects with methods, around the exports of page.c. Runs in a worker, a window and
+/* The engines as a page sees them: objects with methods, around the exports of exports.c. Runs in a worker, a window and
  * node. `make` is the function that the module engines.js was built as (graingas). */
 "use strict";
 

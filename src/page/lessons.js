@@ -11,8 +11,8 @@ const LESSONS = [
       "Niemand heizt dieses Gas. Jeder Stoß nimmt den Anteil 1 − e² der Annäherungsenergie, das Gas kühlt ab, und je kälter es ist, desto seltener stößt es. Haff (1983) verband beides: T = T₀/(1 + ζt/2)². Auf logarithmischen Achsen ist das erst flach, dann eine Gerade mit Steigung −2.",
     ],
     question: [
-      "At which e is T a hundred times lower after half as many collisions? Does the slope at late times depend on e?",
-      "Bei welchem e ist T nach halb so vielen Stößen hundertmal kleiner? Hängt die späte Steigung von e ab?",
+      "At which e is T a hundred times lower after half as many collisions as at e = 0.9 (see the clock)? Does the slope at late times depend on e?",
+      "Bei welchem e ist T nach halb so vielen Stößen wie bei e = 0,9 hundertmal kleiner (siehe die Uhr)? Hängt die späte Steigung von e ab?",
     ],
   },
   {
@@ -41,8 +41,8 @@ const LESSONS = [
       "Wasser drückt in Ruhe und bei langsamer Scherung in alle Richtungen gleich. Ein dünnes geschertes granulares Gas nicht: Wer quer zur Strömung fliegt, kommt dorthin, wo sie schneller ist, und so sind Geschwindigkeiten entlang x größer. P_xx liegt weit über P_yy und P_zz. Theorien für fast elastische Körner, wie die von Lun, sagen alle drei gleich voraus.",
     ],
     question: [
-      "What makes the three stresses more alike: larger e, or larger φ?",
-      "Was macht die drei Spannungen gleicher: größeres e oder größeres φ?",
+      "What makes the three stresses more alike: larger e, larger φ, or both?",
+      "Was macht die drei Spannungen gleicher: größeres e, größeres φ oder beides?",
     ],
   },
   {
@@ -86,8 +86,8 @@ const LESSONS = [
       "Ein abkühlendes Gas bleibt nicht homogen. Unelastische Körner verlassen einen Stoß gleichläufiger, als sie kamen; Nachbarn bewegen sich bald gemeinsam, Wirbel wachsen, Körner sammeln sich in Klumpen. Dort folgen Stöße immer schneller aufeinander: Ohne Ende wäre das ein Kollaps, den die Kontaktzeit verhindert (sie macht solche Stöße elastisch, und die Seite zählt sie). Kleine Kästen haben dafür keinen Platz.",
     ],
     question: [
-      "At which e do clusters no longer come? And with which N is the box too small for them at e = 0.6?",
-      "Ab welchem e bleiben die Klumpen aus? Und bei welchem N ist der Kasten bei e = 0,6 zu klein?",
+      "At which e do clusters no longer come? And with which N is the box too small for them at e = 0.9?",
+      "Ab welchem e bleiben die Klumpen aus? Und bei welchem N ist der Kasten bei e = 0,9 zu klein?",
     ],
   },
 ];

@@ -1,12 +1,12 @@
 /* The state of the page in its address: #scene=...&set=key=value&seed=7. Also read after a question mark. */
 function readLink() {
   const given = new URLSearchParams(location.hash.length > 1 ? location.hash.slice(1) : location.search.slice(1));
-  const sets = {};
-  for (const one of given.getAll("set")) {
+  const pairs = given.getAll("set").map((one) => {
     const at = one.indexOf("=");
-    sets[at < 0 ? one : one.slice(0, at)] = at < 0 ? "" : one.slice(at + 1);
-  }
-  if (given.has("seed")) sets["run.seed"] = given.get("seed");
+    return at < 0 ? [one, ""] : [one.slice(0, at), one.slice(at + 1)];
+  });
+  if (given.has("seed")) pairs.push(["run.seed", given.get("seed")]);
+  const sets = Object.fromEntries(pairs); /* whatever a key is called */
   return { scene: given.get("scene"), sets, lesson: given.get("lesson"), language: given.get("language") };
 }
 
@@ -14,7 +14,9 @@ function linkOf(state) {
   const to = new URLSearchParams();
   to.set("scene", state.scene);
   for (const [key, value] of Object.entries(state.sets)) if (key !== "run.seed") to.append("set", `${key}=${value}`);
-  to.set("seed", state.sets["run.seed"] || "1");
+  const given = state.sets["run.seed"],
+    seed = given !== undefined ? given : state.about && state.about.values.run.seed;
+  if (Number(seed) <= Number.MAX_SAFE_INTEGER) to.set("seed", seed); /* a larger one stays in the scene */
   if (state.lesson) to.set("lesson", state.lesson);
   if (language) to.set("language", LANGUAGES[language]);
   return `#${to}`;

@@ -66,11 +66,14 @@ class LiveGas {
   /* Collisions a grain in the unit of time, of a gas like this one that is thrown away. */
   firstRate(g, text, sets) {
     const trial = this.make(g, text, sets, { engine: this.md ? "md" : "dsmc" }, "trial");
-    trial.collide(Math.max(2, Math.floor(trial.state().grains / 10)), 500);
-    const state = trial.state();
-    trial.free();
     this.since = { time: 0, collisionsPerGrain: 0 };
-    return state.collisionsPerGrain / state.time || 1;
+    try {
+      trial.collide(Math.max(2, Math.floor(trial.state().grains / 10)), 500);
+      const state = trial.state();
+      return state.collisionsPerGrain / state.time || 1;
+    } finally {
+      trial.free();
+    }
   }
 
   prepareView() {
@@ -86,8 +89,15 @@ class LiveGas {
         a = 2 * Math.PI * ((i * 0.569840291) % 1);
       this.marks.set([r * Math.cos(a), r * Math.sin(a), z], 3 * i);
     }
-    this.lastVz = Float64Array.from({ length: n }, (_, i) => velocity[3 * i + 2]);
+    this.lastWay = Float64Array.from({ length: n }, (_, i) => this.way(velocity, i));
     this.lastHit = new Float64Array(n).fill(-Infinity);
+  }
+
+  /* What collisions alone change: of the velocity, a part that shear leaves as it is; where a thermostat rescales all,
+   * its direction. */
+  way(velocity, i) {
+    const z = velocity[3 * i + 2];
+    return this.about.values.thermostat === "none" ? z : velocity[3 * i + 1] / z;
   }
 
   /* How often they collide now: over the last tenth of a collision a grain. */
@@ -143,10 +153,9 @@ class LiveGas {
       spin0 = COLOURS_END.spin * Math.sqrt((3 * theta) / (kind.inertia / 4)) || 1;
     const since0 = COLOURS_END.since / this.rate;
     for (let i = 0; i < n; i++) {
-      if (velocity[3 * i + 2] !== this.lastVz[i]) {
-        this.lastVz[i] = velocity[3 * i + 2];
-        this.lastHit[i] = state.time;
-      }
+      const way = this.way(velocity, i);
+      if (Math.abs(way - this.lastWay[i]) > 1e-9 * Math.abs(way)) this.lastHit[i] = state.time;
+      this.lastWay[i] = way;
       value[i] =
         by === "since"
           ? (state.time - this.lastHit[i]) / since0

@@ -6,7 +6,7 @@ class Measuring {
     scene.free();
     const measure = values.measure.includes("velocity_distributions")
       ? {}
-      : { measure: `[${values.measure}, velocity_distributions]` };
+      : { measure: `[${[...values.measure, "velocity_distributions"]}]` };
     const one = { ...measure, "run.replicas": 1 };
     const beside = sceneOf(g, text, sets, one);
     this.comparison = new g.Comparison(beside);

@@ -90,7 +90,6 @@ async function start(scene, sets, keepMessage = false) {
     if (mine === page.starts) refuse(e.message, sets);
     return false;
   }
-  if (mine !== page.starts) return true;
   if (!keepMessage) byId("refused").textContent = "";
   Object.assign(page, {
     scene,
@@ -100,6 +99,7 @@ async function start(scene, sets, keepMessage = false) {
     dsmcRefusal: answer.dsmcRefusal,
     means: null,
     frame: null,
+    newFrame: false,
     behind: 0,
   });
   page.history = new Past(answer.about.values.flow === "hcs");
@@ -127,19 +127,19 @@ function askMeans() {
       return;
     }
     page.asking = true;
-    const mine = page.starts;
+    const mine = (page.measured = page.about);
     page.measuringId = page.measure.count + 1;
     try {
       const answer = await page.measure.ask("measure", { scene: page.scene, sets: page.sets });
-      if (mine === page.starts) showMeans(answer);
+      if (mine === page.about) showMeans(answer);
     } catch (e) {
-      if (mine === page.starts) byId("progress").textContent = e.message;
+      if (mine === page.about) byId("progress").textContent = e.message;
     }
     page.asking = false;
   }, 300);
 }
 function takeMeans(data) {
-  if (data.id === page.measuringId && !page.asking) showMeans(data.answer);
+  if (data.id === page.measuringId && !page.asking && page.measured === page.about) showMeans(data.answer);
 }
 
 function refuse(message, sets) {
@@ -147,9 +147,15 @@ function refuse(message, sets) {
   for (const key of Object.keys(sets)) if (message.includes(key)) page.controls.refuse(key);
 }
 
-/* An elastic gas needs e = 1, and so do those keys that would cost energy; the others get theirs back. */
+/* What a flow needs, and others refuse. An elastic gas needs e = 1, and so do those keys that would cost energy; a flow
+ * that comes after an elastic gas begins with 0.9. */
 function changeKey(key, value) {
   const sets = { ...page.sets, ...page.pending, [key]: value };
+  if (key === "flow")
+    Object.assign(sets, {
+      thermostat: value === "hss" ? "gaussian" : "none",
+      gravity: value === "chute" ? "[0.1, -0.1, 0]" : "[0, 0, 0]",
+    });
   if (key === "flow" && value === "equilibrium")
     Object.assign(sets, { "collision.e": "1", "collision.beta": "-1", "collision.mu": "inf" });
   else if (key === "flow" && page.about && page.about.values.collision.e === 1) sets["collision.e"] = "0.9";

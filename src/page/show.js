@@ -1,6 +1,7 @@
 /* Where the answers of the workers are shown: clock, curves, table, words; and the lessons. */
 const sheared = () => /usf|shear/.test(page.about.values.flow);
-const timeUnit = () => (sheared() ? "1/γ" : "d/v₀");
+const hasRate = () => sheared() || page.about.values.flow === "couette";
+const timeUnit = () => (hasRate() ? "1/γ" : "d/v₀");
 
 function showClock(s) {
   byId("clock").textContent =
@@ -18,7 +19,7 @@ function showEvent(event) {
         a: event.grain[0] + 1,
         b: event.grain[1] + 1,
         g: number(event.normalSpeed, 3),
-        unit: sheared() ? "d γ" : "v₀",
+        unit: hasRate() ? "d γ" : "v₀",
         k: event.k.map((x) => x.toFixed(2)).join(", "),
       })
     : "";

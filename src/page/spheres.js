@@ -80,7 +80,11 @@ class Spheres {
     const q = Math.max(2, Math.round(4 * r)),
       key = (q * 4 + fx) * 4 + fy;
     if (!this.shapes.has(key)) {
-      if (this.shapes.size > 6000) this.shapes.clear();
+      this.kept = (this.kept || 0) + q * q; /* pixels, some; all together a few megabytes */
+      if (this.kept > 4e7) {
+        this.shapes.clear();
+        this.kept = q * q;
+      }
       this.shapes.set(key, shadesOf(q / 4, (fx + 0.5) / 4, (fy + 0.5) / 4));
     }
     return this.shapes.get(key);

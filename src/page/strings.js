@@ -55,7 +55,7 @@ const STRINGS = {
   sinceOf: ["time since the last collision", "Zeit seit dem letzten Stoß"],
   images: ["sheared neighbours of the box", "gescherte Nachbarn des Kastens"],
   scale_speed: ["0 to 2.5 thermal speeds", "0 bis 2,5 thermische Geschwindigkeiten"],
-  scale_spin: ["0 to 2.5 root mean square spins", "0 bis 2,5 mittlere Drehgeschwindigkeiten"],
+  scale_spin: ["0 to 2.5 root mean square spins", "0 bis 2,5 quadratisch gemittelte Drehgeschwindigkeiten"],
   scale_since: ["0 to 3 mean free times", "0 bis 3 mittlere freie Zeiten"],
   event: [
     "Grains {a} and {b} met at {g} {unit} along k = ({k}).",
@@ -87,7 +87,7 @@ const STRINGS = {
     "md: molecular dynamics. dsmc: Enskog Monte Carlo. In brackets the standard error of the last digits; z: the difference over the combined error. † a theory out of its range: the reason is below.",
     "md: Molekulardynamik. dsmc: Enskog-Monte-Carlo. In Klammern der Standardfehler der letzten Ziffern; z: Unterschied durch den gemeinsamen Fehler. † Theorie außerhalb ihres Bereichs: der Grund steht unten.",
   ],
-  tableName: ["The table, to be scrolled", "Die Tabelle, zum Rollen"],
+  tableName: ["The table, to be scrolled", "Die Tabelle, zum Scrollen"],
   everything: ["every quantity and theory", "alle Größen und Theorien"],
   progress: ["Measured: md {md}, dsmc {dsmc}", "Gemessen: md {md}, dsmc {dsmc}"],
   phaseWarm: ["{p} %, warming up", "{p} %, läuft ein"],

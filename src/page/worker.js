@@ -18,6 +18,7 @@ const JOBS = {
   },
   frame: (job) => (live ? live.frame(job) : {}),
   measure: ({ scene, sets, id }) => {
+    clearTimeout(timer);
     if (measuring) measuring.free();
     measuring = null;
     measuring = new Measuring(g, scene, sets);

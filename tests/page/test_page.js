@@ -95,7 +95,18 @@ const tests = {
     await set("phi-number", 0.15, "page.about.values.phi === 0.15");
     for (const flow of await tab.value("FLOWS"))
       await set("flow", flow, `page.about.values.flow === "${flow}" && page.frame`);
+    /* and from a scene with every key, as a page has that was written with one */
+    for (const from of ["hss", "chute"]) {
+      await set("flow", from, `page.about.values.flow === "${from}" && page.frame`);
+      await tab.value("void start(page.about.yaml, {})");
+      await tab.until("Object.keys(page.sets).length === 0 && page.frame", quick);
+      for (const flow of await tab.value("FLOWS"))
+        await set("flow", flow, `page.about.values.flow === "${flow}" && page.frame`);
+    }
     assert.strictEqual(await tab.value("byId('refused').textContent"), "");
+    await tab.value("void start('{flow: usf, phi: 0.1, particles: 200, run: {seed: 5}}', {})");
+    await tab.until("page.about.values.run.seed === 5", quick);
+    assert.match(await tab.value("location.hash"), /seed=5\b/);
     await set("language", "de", "document.documentElement.lang === 'de' && byId('step').textContent === 'Ein Stoß'");
     await set("colour", "since", "byId('scale-text').textContent.includes('freie')");
     await silent(tab);
