@@ -83,6 +83,8 @@ async function follow(link) {
 /* Whether the scene is one; if not, the gas that there was goes on, and the message says why. */
 async function start(scene, sets, keepMessage = false) {
   const mine = ++page.starts;
+  clearTimeout(page.changeTimer); /* whatever a control was about to change was of the gas before */
+  page.pending = {};
   let answer;
   try {
     answer = await page.live.ask("start", { scene, sets });
@@ -161,10 +163,7 @@ function changeKey(key, value) {
   else if (key === "flow" && page.about && page.about.values.collision.e === 1) sets["collision.e"] = "0.9";
   page.pending = sets;
   clearTimeout(page.changeTimer);
-  page.changeTimer = setTimeout(() => {
-    page.pending = {};
-    start(page.scene, sets);
-  }, 120);
+  page.changeTimer = setTimeout(() => start(page.scene, sets), 120);
 }
 
 /* ---- Frames: the gas is asked to go on as far as the clock on the wall says ---- */
