@@ -24,6 +24,8 @@ int gg_cli_page_main(const gg_command *command, int argc, char **argv)
   gg_error err;
   gg_scene *scene = NULL;
   int code = gg_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON && !o.input && o.n_overrides > 0)
+    code = gg_cli_fail(GG_BAD_INPUT, "--set and --seed are for a scene: graingas page SCENE.yaml");
   if (code == GG_CLI_GO_ON && o.input && gg_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = write_page(&o, scene);
   gg_scene_free(scene);

@@ -131,6 +131,13 @@ def test_command_line():
     refused("one too many", 2, "run", "a.yaml", "b.yaml")
 
 
+def test_page_without_a_scene():
+    """What is asked of a scene that is not there is not passed over."""
+    for option in (("--set", "phi=3"), ("--seed", "7")):
+        done = run("page", *option, "--output", "page.html")
+        check(done.code == 2 and "are for a scene" in done.err and not done.new, done.err)
+
+
 def test_flow_of_another_engine():
     refused("flow", 2, scene="flow: couette\nphi: 0.3\n", *("run", "scene.yaml", "--engine", "dsmc"))
 
