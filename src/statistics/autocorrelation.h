@@ -9,15 +9,17 @@ typedef struct gg_correlation {
   double time;   /* integrated: 1/2 + sum_{t>=1} rho(t), in rows (1/2: uncorrelated); variance of the mean: 2 time
                     var/rows */
   double slow;   /* mean lag of the sum, at least `time`: nearer to the slowest of several times */
+  double memory; /* of what the series is made of, if that is longer and the sum went on for it; else 0 */
   size_t window; /* the sum goes so far: to the first t > 8 tau(t) (Madras & Sokal, J. Stat. Phys. 50 (1988) 109), or
-                    to where two neighbouring lags have nothing left between them */
+                    to where two neighbouring lags have nothing left between them, but over 2.5 memories at least */
   double *rho;   /* 0 .. window */
 } gg_correlation;
 
 /* That the mean is itself taken from the series makes every covariance too small by the variance of the mean: it is put
  * back (Wolff, Comput. Phys. Commun. 156 (2004) 143, eq. 49). Still, a series too short for its time gives too little:
- * ask for 50 times as many rows. */
-gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, gg_correlation *c, gg_error *err);
+ * ask for 50 times as many rows. `memory`: correlation time, in rows, of a slower series that this one is made of, and
+ * may remember with the opposite sign; 0 if there is none. */
+gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c, gg_error *err);
 void gg_correlation_clear(gg_correlation *c);
 
 /* Variance of the mean of `length` successive rows, over that of as many independent ones. */

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <gsl/gsl_statistics_double.h>
 
@@ -27,12 +28,16 @@ static size_t block_length(size_t n, size_t n_runs, double tau)
   return length < 1 ? 1 : length > (double)n ? n : (size_t)length;
 }
 
+#define LEAST_OF_VARIANCE 0.25 /* of blocks that the mean of all keeps: below, it would be noise that says so */
+
 /* Blocks that are not much longer than the correlation time depend on their neighbours, and scatter less than their
- * mean is uncertain: by how much follows from the correlation function itself. */
+ * mean is uncertain (or more, if what comes back has the opposite sign): by how much follows from the correlation
+ * function itself. */
 static double neighbours(const gg_correlation *c, size_t n, size_t length)
 {
   double whole = gg_correlation_inflation(c, n), block = gg_correlation_inflation(c, length);
-  return whole > block && block > 0 ? sqrt(whole / block) : 1;
+  if (!(block > 0)) return 1;
+  return sqrt(fmax(whole / block, c->memory > 0 ? LEAST_OF_VARIANCE : 1));
 }
 
 /* An error from few blocks is itself uncertain: within one of them lies the truth less often than for a normal
@@ -44,7 +49,8 @@ static double small_sample(const gg_correlation *c, size_t blocks, size_t total)
   return 1 + fmax(1 / (double)(blocks - 1), 2.5 * c->slow / (double)total);
 }
 
-gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err)
+/* `memory`: as gg_correlation_of has it. */
+static gg_status estimate(const double *y, size_t n, size_t n_runs, double memory, gg_mean *out, gg_error *err)
 {
   *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
   size_t total = n * n_runs;
@@ -55,9 +61,9 @@ gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *
   if (!work) return GG_FAILED;
   for (size_t i = 0; i < total; i++) work[i] = y[i] - out->mean;
   gg_correlation c;
-  gg_status status = gg_correlation_of(work, n, n_runs, &c, err);
+  gg_status status = gg_correlation_of(work, n, n_runs, memory, &c, err);
   if (status == GG_OK) {
-    size_t length = block_length(n, n_runs, c.time);
+    size_t length = block_length(n, n_runs, fmax(c.time, c.memory));
     out->correlation_rows = c.time;
     out->blocks = block_means(y, n, n_runs, length, work);
     if (out->blocks >= 2) out->scatter = gsl_stats_sd(work, 1, out->blocks) / sqrt((double)out->blocks);
@@ -67,6 +73,11 @@ gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *
   }
   free(work);
   return status;
+}
+
+gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err)
+{
+  return estimate(y, n, n_runs, 0, out, err);
 }
 
 static void channel_means(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
@@ -91,6 +102,45 @@ static double slope(gg_function f, const gg_model *model, double *mean, size_t k
   return up == down ? 0 : (up - down) / (2 * step); /* also of a channel that is no number */
 }
 
+/* The rows of the means that f is made of, all of equal length. */
+typedef struct rows {
+  const gg_series *const *series;
+  size_t n_runs, begin, n, offset, channels;
+} rows;
+
+/* df_k (a_k - mean_k) of every row is added to y. */
+static void add_response(const rows *a, size_t k, const double *mean, const double *df, double *y)
+{
+  for (size_t r = 0; df[k] != 0 && r < a->n_runs; r++)
+    for (size_t i = 0; i < a->n; i++)
+      y[r * a->n + i] += df[k] * (gg_series_row(a->series[r], a->begin + i)[a->offset + k] - mean[k]);
+}
+
+/* Correlation time, in rows, of the channel that would move f most on its own; 0 if f is made of one only. `y` is
+ * scratch for as many rows. */
+static gg_status memory_of_parts(const rows *a, const double *mean, const double *df, double *y, double *memory,
+                                 gg_error *err)
+{
+  size_t total = a->n * a->n_runs, loudest = 0, parts = 0;
+  double most = 0;
+  for (size_t k = 0; k < a->channels; k++) {
+    memset(y, 0, total * sizeof *y);
+    add_response(a, k, mean, df, y);
+    double squares = gsl_stats_tss_m(y, 1, total, 0);
+    parts += squares > 0;
+    if (squares > most) most = squares, loudest = k;
+  }
+  *memory = 0;
+  if (parts < 2) return GG_OK;
+  memset(y, 0, total * sizeof *y);
+  add_response(a, loudest, mean, df, y);
+  gg_correlation c;
+  GG_TRY(gg_correlation_of(y, a->n, a->n_runs, 0, &c, err));
+  *memory = c.time;
+  gg_correlation_clear(&c);
+  return GG_OK;
+}
+
 gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
                            size_t channels, gg_function f, const gg_model *model, gg_mean *out, gg_error *err)
 {
@@ -105,15 +155,12 @@ gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t
   gg_status status = GG_OK;
   if (isfinite(value)) {
     for (size_t k = 0; k < channels; k++) df[k] = slope(f, model, mean, k);
-    for (size_t r = 0; r < n_runs; r++)
-      for (size_t i = 0; i < n; i++) {
-        const double *row = gg_series_row(series[r], begin + i) + offset;
-        double sum = value;
-        for (size_t k = 0; k < channels; k++)
-          if (df[k] != 0) sum += df[k] * (row[k] - mean[k]);
-        y[r * n + i] = sum;
-      }
-    status = gg_estimate_scalar(y, n, n_runs, out, err);
+    rows a = {series, n_runs, begin, n, offset, channels};
+    double memory;
+    status = memory_of_parts(&a, mean, df, y, &memory, err);
+    memset(y, 0, total * sizeof *y);
+    for (size_t k = 0; k < channels; k++) add_response(&a, k, mean, df, y);
+    if (status == GG_OK) status = estimate(y, n, n_runs, memory, out, err);
     out->mean = value;
   }
   free(work);

@@ -16,7 +16,7 @@ static void correlation_time(void **state)
     planted_autoregressive(&r, p, x, N);
     for (size_t runs = 1; runs <= 10; runs += 9) {
       gg_correlation c;
-      assert_int_equal(gg_correlation_of(x, N / runs, runs, &c, NULL), GG_OK);
+      assert_int_equal(gg_correlation_of(x, N / runs, runs, 0, &c, NULL), GG_OK);
       assert_true(fabs(c.time / expected - 1) < (runs == 1 ? 0.1 : 0.15));
       assert_true(fabs(gg_correlation_inflation(&c, N) / (2 * c.time) - 1) < 0.01);
       for (size_t L = 1; L < 300; L *= 4) {

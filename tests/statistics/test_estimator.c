@@ -116,6 +116,35 @@ static void ratios(void **state)
   assert_true(sum / 100 > 0.5 && sum / 100 < 1.8);
 }
 
+/* Two channels of which one follows the other, as spins follow T: both are slow, the ratio is fast and comes back with
+ * the opposite sign. Mean square of deviation over error in windows of 400 rows, 60 times of the slow one (before the
+ * sum went on for what the ratio is made of: 0.81). */
+static void followers(void **state)
+{
+  (void)state;
+  enum { SERIES = 3000, N = 400, BEFORE = 100 };
+  gg_rng r = gg_rng_seed(20, 0);
+  gg_model model = {0};
+  double z2 = 0;
+  for (int k = 0; k < SERIES; k++) {
+    double first = 0, second = 0;
+    gg_series s;
+    assert_int_equal(gg_series_init(&s, 2, NULL), GG_OK);
+    for (int i = 0; i < BEFORE + N; i++) {
+      second += 0.5 * (0.8 * first - second) + 0.008 * gg_rng_normal(&r);
+      first = 0.8 * first + 0.01 * gg_rng_normal(&r);
+      if (i >= BEFORE) gg_series_add(&s, i, (double[]){1 + second, 1 + first});
+    }
+    const gg_series *list[] = {&s};
+    gg_mean m;
+    assert_int_equal(gg_estimate_mean(list, 1, 0, N, 0, 2, (gg_function){.of = ratio}, &model, &m, NULL), GG_OK);
+    z2 += pow((m.mean - 1) / m.error, 2) / SERIES;
+    gg_series_clear(&s);
+  }
+  print_message("# followers: z^2 %.3f\n", z2);
+  assert_true(fabs(z2 - 1) < 0.05 + 4 * sqrt(2.0 / SERIES));
+}
+
 /* Replicas: the pooled error is that of all rows together. */
 static void replicas(void **state)
 {
@@ -135,6 +164,7 @@ static void replicas(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(honest_errors), cmocka_unit_test(short_windows),
-                                     cmocka_unit_test(coverage), cmocka_unit_test(ratios), cmocka_unit_test(replicas)};
+                                     cmocka_unit_test(coverage),      cmocka_unit_test(ratios),
+                                     cmocka_unit_test(followers),     cmocka_unit_test(replicas)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static bool store(const char *folder, const char *prefix, const char *name, doub
   snprintf(whole, sizeof whole, "%.100s_%s", prefix, name);
   for (size_t i = 0; i < n; i++) mean += y[i] / (double)n;
   for (size_t i = 0; i < n; i++) y[i] -= mean;
-  if (gg_correlation_of(y, n, 1, &c, NULL) != GG_OK) return false;
+  if (gg_correlation_of(y, n, 1, 0, &c, NULL) != GG_OK) return false;
   double time = c.time;
   gg_correlation_clear(&c);
   printf("%-24s mean %.6g, correlation time %.2f rows\n", whole, mean, time);
