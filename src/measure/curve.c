@@ -179,12 +179,12 @@ static void put_errors(gg_curves *full, const gg_jackknife *j, double memory)
   size_t at = 0;
   for (int k = 0; k < full->n; k++) {
     gg_curve *c = &full->curve[k];
-    c->block_correlation = gg_jackknife_errors(j, at, c->n, memory, c->error);
+    c->block_correlation = gg_jackknife_errors(j, at, c->n, memory, NAN, c->error);
     for (size_t i = 0; i < c->n; i++)
       if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was ever counted: unknown, not exact */
     at += c->n;
     for (int i = 0; i < c->n_numbers; i++, at++) {
-      gg_jackknife_errors(j, at, 1, memory, &c->number[i].error);
+      gg_jackknife_errors(j, at, 1, memory, c->block_correlation, &c->number[i].error);
       c->number[i].error = hypot(c->number[i].error, c->number[i].truncation);
       if (c->number[i].setting) c->number[i].error = 0;
     }

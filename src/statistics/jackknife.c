@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ARRAYS = 6, NEIGHBOURS = 4 };
+/* How many points of its curve a number has beside it: four would make errors of exponents a little better, and of
+ * moments, which remember longer than most points, too small. */
+enum { ARRAYS = 6, NEIGHBOURS = 4, BESIDE = 2 };
 #define STRONGEST 0.9        /* beyond, a block says nothing new */
 #define LEAST_MEMORY 0.02    /* of a block: what is forgotten sooner makes no difference */
 #define MOST_OF_VARIANCE 0.9 /* of a block that the mean of all may have: beyond, nothing is known */
@@ -86,12 +88,12 @@ static double with_slow_mode(const gg_jackknife *j, double r, double memory)
   return (n - 1) * V / (1 - V);
 }
 
-double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double *error)
+double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double beside, double *error)
 {
   double blocks = (double)j->blocks, all = 0;
   size_t known = 0;
   for (size_t i = 0; i < n; i++) {
-    double sum = 0, count = 0, own = correlation(j, from + i);
+    double count = isfinite(beside) ? BESIDE : 0, sum = count > 0 ? count * beside : 0, own = correlation(j, from + i);
     for (size_t k = i < NEIGHBOURS ? 0 : i - NEIGHBOURS; k < n && k <= i + NEIGHBOURS; k++) {
       double r = correlation(j, from + k);
       if (isfinite(r)) sum += r, count++;

@@ -28,8 +28,9 @@ void gg_jackknife_add(gg_jackknife *j);
 /* Errors of n numbers from `from` on, points of one curve: correlations are averaged over nine neighbours, for each by
  * itself is uncertain by 1/sqrt(blocks). `memory` (0: not known): the decay time, in blocks, of a slow mode that the
  * numbers may depend on, beside fast noise. Neighbouring blocks are then less correlated than in a chain, but for
- * longer: the correlation tells the share of the mode, its decay the rest. NaN with fewer than two blocks. Returns the
- * mean correlation. */
-double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double *error);
+ * longer: the correlation tells the share of the mode, its decay the rest. `beside`
+ * (NaN: there is none): the mean correlation of the curve that a number was read off, which counts as two more. NaN
+ * with fewer than two blocks. Returns the mean correlation. */
+double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double beside, double *error);
 
 #endif

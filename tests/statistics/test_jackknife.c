@@ -27,7 +27,7 @@ static void textbook_error(void **state)
   for (int b = 0; b < BLOCKS; b++) sum += x[b], squares += x[b] * x[b];
   assert_int_equal(gg_jackknife_init(&j, 1, NULL), GG_OK);
   add_mean(&j, x, BLOCKS);
-  double correlation = gg_jackknife_errors(&j, 0, 1, 0, &error);
+  double correlation = gg_jackknife_errors(&j, 0, 1, 0, NAN, &error);
   double textbook = sqrt((squares - sum * sum / BLOCKS) / BLOCKS / (BLOCKS - 1));
   assert_true(fabs(error / textbook - 1) < 1e-12);
   assert_true(correlation < -0.8 && correlation > -1.1);
@@ -55,12 +55,35 @@ static void correlated_blocks(void **state)
       for (int a = 0; a < WIDTH; a++) d[a] = (mean[a] - x[a][b]) / (n - 1);
       gg_jackknife_add(&j);
     }
-    gg_jackknife_errors(&j, 0, WIDTH, 0, error);
+    gg_jackknife_errors(&j, 0, WIDTH, 0, NAN, error);
     for (int a = 0; a < WIDTH; a++) sum += error[a] * error[a] / (REPEATS * WIDTH);
     gg_jackknife_clear(&j);
   }
   print_message("# error^2 %.3f of the variance of the mean, scatter alone %.3f\n", sum / exact, (1 - rho) / (1 + rho));
   assert_true(sum / exact > 0.85 && sum / exact < 1.25);
+}
+
+/* One number of independent blocks: what chance makes of its own correlation enlarges the error, as only what is above
+ * zero counts; less so with the correlation of the curve that the number was read off. */
+static void beside_a_curve(void **state)
+{
+  (void)state;
+  enum { REPEATS = 4000 };
+  double alone = 0, beside = 0;
+  gg_rng r = gg_rng_seed(23, 0);
+  for (int k = 0; k < REPEATS; k++) {
+    double x[BLOCKS], error[2];
+    gg_jackknife j;
+    assert_int_equal(gg_jackknife_init(&j, 1, NULL), GG_OK);
+    for (int b = 0; b < BLOCKS; b++) x[b] = gg_rng_normal(&r);
+    add_mean(&j, x, BLOCKS);
+    gg_jackknife_errors(&j, 0, 1, 0, NAN, &error[0]);
+    gg_jackknife_errors(&j, 0, 1, 0, 0, &error[1]);
+    alone += error[0] * error[0] * BLOCKS / REPEATS, beside += error[1] * error[1] * BLOCKS / REPEATS;
+    gg_jackknife_clear(&j);
+  }
+  print_message("# error^2 %.3f of the variance of the mean, %.3f beside a curve\n", alone, beside);
+  assert_true(beside > 1 && beside < 1.12 && alone > beside + 0.1);
 }
 
 /* A slow mode of 20 decay times in fast noise of some times its variance, in 32 blocks: the correlation of neighbours
@@ -90,8 +113,8 @@ static void slow_mode_in_noise(void **state)
         for (int a = 0; a < WIDTH; a++) d[a] = (mean[a] - x[a][b]) / (N - 1);
         gg_jackknife_add(&j);
       }
-      gg_jackknife_errors(&j, 0, WIDTH, 0, error[0]);
-      gg_jackknife_errors(&j, 0, WIDTH, tau / LENGTH, error[1]);
+      gg_jackknife_errors(&j, 0, WIDTH, 0, NAN, error[0]);
+      gg_jackknife_errors(&j, 0, WIDTH, tau / LENGTH, NAN, error[1]);
       for (int a = 0; a < WIDTH; a++) {
         unknown += error[0][a] * error[0][a] / (REPEATS * WIDTH * variance);
         all += error[1][a] * error[1][a] / (WIDTH * variance);
@@ -131,7 +154,7 @@ static void too_few(void **state)
   assert_int_equal(gg_jackknife_init(&j, 1, NULL), GG_OK);
   *gg_jackknife_next(&j) = 1;
   gg_jackknife_add(&j);
-  gg_jackknife_errors(&j, 0, 1, 0, &error);
+  gg_jackknife_errors(&j, 0, 1, 0, NAN, &error);
   assert_true(isnan(error));
   gg_jackknife_clear(&j);
 }
@@ -139,7 +162,7 @@ static void too_few(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(textbook_error), cmocka_unit_test(correlated_blocks),
-                                     cmocka_unit_test(slow_mode_in_noise), cmocka_unit_test(runs_apart),
-                                     cmocka_unit_test(too_few)};
+                                     cmocka_unit_test(beside_a_curve), cmocka_unit_test(slow_mode_in_noise),
+                                     cmocka_unit_test(runs_apart),     cmocka_unit_test(too_few)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
