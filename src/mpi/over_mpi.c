@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "mpi/mpi.h"
@@ -15,6 +16,7 @@ enum { LONGEST_WAIT = 5 }; /* seconds, at the end, for those who do not come any
 
 typedef struct sending {
   MPI_Request request;
+  int to;
   void *block; /* freed with its last part; NULL in the others */
   struct sending *next;
 } sending;
@@ -66,7 +68,7 @@ static int send_part(post *p, int to, const char *part, size_t size, int tag, vo
     free(block);
     return 1;
   }
-  s->block = block;
+  s->to = to, s->block = block;
   if (MPI_Isend(part, (int)size, MPI_BYTE, to, tag, MPI_COMM_WORLD, &s->request) != MPI_SUCCESS) {
     release(s);
     return 1;
@@ -192,6 +194,36 @@ static void leave(int number)
   _exit(exit_code);
 }
 
+/* Is anything on its way to somebody who can still get it? */
+static bool owes(post *p)
+{
+  for (const sending *s = p->first; s; s = s->next)
+    if (!is_lost(p, s->to)) return true;
+  return false;
+}
+
+/* Until all has arrived that can, but not for ever. */
+static void wait_for_arrival(post *p)
+{
+  struct timespec start, now;
+  clock_gettime(CLOCK_MONOTONIC, &start);
+  for (now = start; push(p), owes(p) && now.tv_sec - start.tv_sec <= LONGEST_WAIT; usleep(1000))
+    clock_gettime(CLOCK_MONOTONIC, &now);
+}
+
+/* What never arrives stays MPI's, with its block, which MPI may read as long as the process lives. */
+static bool give_up(post *p)
+{
+  bool any = p->first;
+  for (sending *s = p->first, *next; s; s = next) {
+    next = s->next;
+    MPI_Request_free(&s->request);
+    free(s);
+  }
+  p->first = NULL;
+  return any;
+}
+
 /* MPI_Finalize waits for all. If one of them is lost on another machine, nobody may know: the alarm ends the wait. */
 void gg_mpi_end(gg_messages *messages, int code)
 {
@@ -199,11 +231,12 @@ void gg_mpi_end(gg_messages *messages, int code)
   bool all = true;
   fflush(NULL);
   exit_code = code;
+  wait_for_arrival(p);
   for (int i = 0; i < p->size; i++) all &= !is_lost(p, i);
-  for (int i = 0; i < LONGEST_WAIT * 1000 && p->first; i++) push(p), usleep(p->first ? 1000 : 0);
+  all &= !give_up(p);
   signal(SIGALRM, leave);
   alarm(LONGEST_WAIT);
-  if (!p->first && all) MPI_Finalize();
+  if (all) MPI_Finalize();
   alarm(0);
   clear(p);
 }

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 
-from tap import GRAINGAS, Skip, check, main, run
+from tap import GRAINGAS, SANITIZERS, Skip, check, main, run
 
 BARE = os.environ["GRAINGAS_WITHOUT_MPI"]
 BOUND = 100  # s
@@ -19,11 +19,19 @@ measure: [rheology, velocity_distributions], output: {checkpoint_every: 0}}"""
 LONG = ("--set", "run.collisions=2000", "--set", "output.checkpoint_every=0.2")
 
 
-def mpirun(ranks, *args, options=()):
+def mpirun(ranks, *args, options=(), program=GRAINGAS):
     if os.environ["WITH_MPI"] != "true" or not shutil.which("mpirun"):
         raise Skip("built without MPI, or no mpirun")
     root = ("--allow-run-as-root",) if os.geteuid() == 0 else ()
-    return ["mpirun", "--oversubscribe", "-q", *root, *options, "-n", str(ranks), GRAINGAS, *args]
+    return ["mpirun", "--oversubscribe", "-q", *root, *watched(), *options, "-n", str(ranks), program, *args]
+
+
+def watched():
+    """With the leak sanitizer: so that scripts/leaks.txt can name the libraries that forgot something."""
+    if "address" not in SANITIZERS:
+        return ()
+    how = os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0:fast_unwind_on_malloc=0"
+    return "-x", "LD_PRELOAD=" + os.environ["KEEP_LOADED"], "-x", "ASAN_OPTIONS=" + how
 
 
 def several(ranks, *args, options=()):
@@ -148,6 +156,13 @@ def test_killed_and_done_again():
     out, err = job.communicate(timeout=BOUND)
     check("process 1 of 3 is gone" in err and os.path.exists("scene.h5"), err)
     check(numbers(out)["results"] == whole, err)
+
+
+def test_killed_with_messages_under_way():
+    """Who sent them gives them up, and ends at once; with the leak sanitizer, nothing of them is left."""
+    job = mpirun(3, options=["--enable-recovery"], program=os.environ.get("LOST_RANK"))
+    done = subprocess.run(job, capture_output=True, text=True, timeout=BOUND)
+    check(done.returncode == 0 and float(done.stdout) < 3, done)
 
 
 SWEEP = """{flow: usf, phi: 0.1, particles: 100, run: {collisions: 150, warmup: 20, replicas: 2},

@@ -1,0 +1,61 @@
+/* The post between processes, when one of them is killed with messages under way to it: the others still get theirs,
+ * and come to their end at once. cli/mpi starts it under mpirun --enable-recovery; rank 1 is the one that is killed.
+ * Rank 0 prints the seconds that its end took. */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "mpi/mpi.h"
+
+enum { LARGE = 8 << 20 }; /* bytes, more than MPI takes before it is asked for them */
+
+static double now(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void post(gg_messages *m, int to, size_t size)
+{
+  char *block = malloc(size);
+  if (!block) abort();
+  memset(block, to, size);
+  if (m->send(m->context, to, block, size) != 0) abort();
+}
+
+/* The size of the next message, whose every byte is the rank's number. */
+static size_t await(gg_messages *m)
+{
+  int from, got;
+  void *block;
+  size_t size;
+  while ((got = m->receive(m->context, &from, &block, &size)) == 0) usleep(1000);
+  if (got < 0) abort();
+  for (size_t i = 0; i < size; i++)
+    if (((char *)block)[i] != m->rank) abort();
+  free(block);
+  return size;
+}
+
+int main(void)
+{
+  gg_messages m;
+  gg_error err;
+  if (gg_mpi_begin(&m, &err) != GG_OK) return 1;
+  if (m.rank == 1) raise(SIGKILL);
+  if (m.rank == 0) {
+    for (int to = 1; to < m.size; to++) post(&m, to, LARGE), post(&m, to, 1);
+    while (!m.lost(m.context, 1)) usleep(1000);
+  } else if (await(&m) != LARGE || await(&m) != 1) {
+    return 1;
+  }
+  double start = now();
+  int rank = m.rank;
+  gg_mpi_end(&m, 0);
+  if (rank == 0) printf("%.2f\n", now() - start);
+  return 0;
+}
