@@ -1,7 +1,5 @@
 #include "common/memory_note.h"
 
-#include <string.h>
-
 #include "common/error.h"
 
 static _Thread_local bool lacked; /* between a begin and its end; never read without */
@@ -28,9 +26,4 @@ void gg_memory_lacked(void)
 gg_status gg_memory_check(bool before, gg_status status, gg_error *err)
 {
   return gg_memory_end(before) && status == GG_OK ? gg_fail(err, GG_FAILED, "out of memory") : status;
-}
-
-bool gg_is_out_of_memory(gg_status status, const gg_error *err)
-{
-  return status == GG_FAILED && strstr(err->message, "out of memory");
 }

@@ -1,7 +1,8 @@
 /* Memory that lacked deep inside, where there is no way to say so (a residual of GSL's solvers, a warning, a JSON
- * document that leaves out what it has no room for), or where somebody makes do without what failed: gg_fail with "out
- * of memory" counts. It is noted for the thread, and whoever began asks at the end: what was made in between is not the
- * answer then. Begins and ends nest; what an inner one finds, the outer one finds, too. */
+ * document that leaves out what it has no room for), or where somebody makes do without what failed, a theory or its
+ * curves: gg_fail with "out of memory" counts. It is noted for the thread, and whoever began asks at the end: what was
+ * made in between is not the answer then, which is not to depend on how much memory there was. Begins and ends nest;
+ * what an inner one finds, the outer one finds, too. */
 #ifndef GG_MEMORY_NOTE_H
 #define GG_MEMORY_NOTE_H
 
@@ -15,9 +16,5 @@ bool gg_memory_end(bool before);
 void gg_memory_lacked(void);
 /* The end of a call: its status, or GG_FAILED if it was GG_OK and memory lacked. */
 gg_status gg_memory_check(bool before, gg_status status, gg_error *err);
-
-/* Was it memory that a call lacked? Then who would make do without what it failed to do passes the failure on: the
- * answer is not to depend on how much memory there was. */
-bool gg_is_out_of_memory(gg_status status, const gg_error *err);
 
 #endif

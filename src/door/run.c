@@ -87,6 +87,7 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   if (r->options.checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (r->options.resume) GG_TRY(read_resume(r, err));
   if (r->options.output) GG_TRY(gg_result_file_open(&r->file, r->options.output, r->options.command, err));
+  r->file.file.stop = (gg_stop){gg_door_run_stopped, r};
   return gg_door_check_picture(r, err);
 }
 

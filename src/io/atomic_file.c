@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <libgen.h>
+#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -28,8 +29,7 @@ static gg_status open_stream(gg_atomic_file *f, gg_error *err)
     nanosleep(&moment, NULL);
   }
   if (f->fd < 0 && errno == ENXIO) return gg_cannot_write(f->path, "nobody reads from this pipe", err);
-  if (f->fd < 0 || fcntl(f->fd, F_SETFL, fcntl(f->fd, F_GETFL) & ~O_NONBLOCK) != 0) return cannot(f, errno, err);
-  return GG_OK;
+  return f->fd >= 0 ? GG_OK : cannot(f, errno, err);
 }
 
 static gg_status open_temporary(gg_atomic_file *f, gg_error *err)
@@ -88,12 +88,26 @@ static ssize_t write_calmly(int fd, const void *data, size_t size)
   return done;
 }
 
+/* The reader of a pipe takes its time, but who is told to stop gives it a second. */
+static bool wait_for_reader(const gg_atomic_file *f)
+{
+  struct pollfd out = {.fd = f->fd, .events = POLLOUT};
+  for (int ready = 0; ready <= 0;) {
+    ready = poll(&out, 1, 1000);
+    if (ready < 0 && errno != EINTR) return true; /* writing tells why */
+    if (ready == 0 && f->stop.asked && gg_stop_asked(&f->stop)) return false;
+  }
+  return true;
+}
+
 gg_status gg_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_error *err)
 {
   const char *from = data;
   while (size > 0) {
+    if (f->place.stream && !wait_for_reader(f))
+      return gg_cannot_write(f->path, "its reader takes nothing, and the run was told to stop", err);
     ssize_t done = f->place.stream ? write_calmly(f->fd, from, size) : write(f->fd, from, size);
-    if (done < 0 && errno == EINTR) continue;
+    if (done < 0 && (errno == EINTR || (errno == EAGAIN && f->place.stream))) continue;
     if (done < 0) return cannot(f, errno, err);
     from += done, size -= (size_t)done;
   }

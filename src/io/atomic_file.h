@@ -5,6 +5,7 @@
 #define GG_ATOMIC_FILE_H
 
 #include "common/error.h"
+#include "common/stop.h"
 #include "io/file_lock.h"
 #include "io/output_path.h"
 
@@ -13,6 +14,7 @@ typedef struct gg_atomic_file {
   gg_output_path place;
   char *temporary;   /* NULL of a device or pipe */
   int fd;            /* of the temporary file, which others may open by name and write, too; or of the device or pipe */
+  gg_stop stop;      /* of a device or pipe: whoever is told to stop waits no longer for a reader who takes nothing */
   gg_file_lock lock; /* of the place, held until the end; not of a device or pipe */
 } gg_atomic_file;
 

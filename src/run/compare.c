@@ -21,8 +21,9 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
   gg_error why = {0};
   const gg_theory *theory = c->theory[i].theory;
   if (!c->theory[i].applies) return GG_OK;
+  bool before = gg_memory_begin();
   gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
-  if (gg_is_out_of_memory(status, &why)) return gg_fail(err, status, "%s: %s", theory->name, why.message);
+  if (gg_memory_end(before)) return gg_fail(err, GG_FAILED, "%s: out of memory", theory->name);
   if (status == GG_FAILED) gg_text_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
   return GG_OK;
 }
@@ -36,8 +37,9 @@ gg_status gg_compare_theories(const gg_model *model, gg_comparison *c, gg_error 
   const gg_theory *theory;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error why = {0};
+    bool before = gg_memory_begin();
     gg_status status = gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &why);
-    if (gg_is_out_of_memory(status, &why)) return gg_fail(err, status, "%s: %s", theory->name, why.message);
+    if (gg_memory_end(before)) return gg_fail(err, GG_FAILED, "%s: out of memory", theory->name);
     c->theory[i].theory = theory;
     c->theory[i].applies = status == GG_OK;
     snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", why.message);

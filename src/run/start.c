@@ -24,8 +24,9 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
     gg_model constant = *model;
     constant.law = (gg_restitution_law){0};
     gg_error why;
+    bool before = gg_memory_begin();
     gg_status status = theory ? gg_theory_evaluate(theory, &constant, &answer, &why) : GG_BAD_INPUT;
-    if (theory && gg_is_out_of_memory(status, &why)) return gg_fail(err, status, "%s", why.message);
+    if (gg_memory_end(before)) return gg_fail(err, GG_FAILED, "out of memory for %s", best_first[i]);
     if (status != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
     if (!(T > 0)) continue;

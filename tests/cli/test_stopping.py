@@ -1,5 +1,6 @@
 """Signals and the time limit are honoured at once, whatever the run is at: the start, an interval that would take
 minutes, a million grains. The bound is far above what it takes, and far below what it took."""
+import fcntl
 import json
 import os
 import signal
@@ -7,7 +8,7 @@ import subprocess
 import sys
 import time
 
-from tap import GRAINGAS, check, main, run
+from tap import GRAINGAS, PATIENCE, check, main, run
 
 BOUND = 10  # s
 
@@ -82,6 +83,55 @@ def test_stopped_within_an_interval():
     check(code == 130, code, err)
     done = run(*args, "--resume", "scene.checkpoint.h5")
     check(json.loads(done.out)["results"] == whole["results"], done.err)
+
+
+PIPE_SIZE = 1031  # F_SETPIPE_SZ, of Linux
+
+
+def full_pipe():
+    """Somebody holds its reading end, and reads nothing."""
+    reader, writer = os.pipe()
+    fcntl.fcntl(writer, PIPE_SIZE, 4096)
+    os.set_blocking(writer, False)
+    os.write(writer, b"x" * 4096)
+    os.set_blocking(writer, True)
+    return reader, writer
+
+
+def stopped(child, after):
+    """Its exit code, told to stop once after so many seconds."""
+    time.sleep(after)
+    check(child.poll() is None, "it did not wait", child.returncode)
+    child.terminate()
+    try:
+        return child.wait(timeout=BOUND)
+    except subprocess.TimeoutExpired:
+        child.kill()
+        raise AssertionError("not within %g s" % BOUND)
+
+
+def test_reader_that_stalls():
+    """A pager that was left, a terminal that was halted: who is told to stop does not wait for it."""
+    with open("long.yaml", "w") as f:
+        f.write("{flow: usf, phi: 0.1, run: {collisions: 1e7}, output: {checkpoint_every: 1000}}")
+    with open("short.yaml", "w") as f:
+        f.write("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 20}, output: {checkpoint_every: 0}}")
+    reader, writer = full_pipe()
+    for name, streams in (("long", {"stderr": writer, "stdout": subprocess.DEVNULL}),
+                          ("short", {"stdout": writer, "stderr": subprocess.DEVNULL})):
+        child = subprocess.Popen([GRAINGAS, "run", name + ".yaml"], **streams)
+        check(stopped(child, 2 * PATIENCE) == 130, name, child.returncode)
+    check(os.path.exists("long.checkpoint.h5") and os.path.exists("short.h5"), os.listdir("."))
+    os.mkfifo("pipe")
+    end = os.open("pipe", os.O_RDONLY | os.O_NONBLOCK)
+    fcntl.fcntl(end, PIPE_SIZE, 4096)
+    child = subprocess.Popen([GRAINGAS, "run", "short.yaml", "--quiet", "--output", "pipe"], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, text=True)
+    code = stopped(child, 2 * PATIENCE)
+    err = child.communicate()[1]
+    check(code == 3 and "its reader takes nothing" in err, code, err)
+    for fd in reader, writer, end:
+        os.close(fd)
 
 
 if __name__ == "__main__":
