@@ -9,7 +9,9 @@
 
 #include <cmocka.h>
 
+#include "io/scene/reader.h"
 #include "reproduce/figures.h"
+#include "reproduce/points.h"
 #include "reproduce/tail.h"
 
 static void near_to(double value, double expected, double within)
@@ -25,6 +27,9 @@ static void where_it_vanishes(void **state)
   near_to(zero.mean, 0.225, 1e-12);
   near_to(zero.error, 0.002 * hypot(0.75, 0.25) / 0.4, 1e-12);
   assert_true(isnan(gg_find_zero(2, x, y, e).mean));
+  const double twice[] = {0, 0, 0.01}, unknown[] = {NAN, -0.01, 0.03};
+  near_to(gg_find_zero(3, x, twice, e).mean, 0.2, 1e-12); /* where it is 0 all along, nobody can say */
+  near_to(gg_find_zero(3, x, unknown, e).mean, 0.225, 1e-12);
 }
 
 /* Of T = 1/x + x: least at 1, also between the points, in ln x where it is symmetric. */
@@ -36,7 +41,10 @@ static void where_it_is_least(void **state)
   gg_told least = gg_find_extreme(5, x, y, e, true);
   near_to(least.mean, 1, 2e-3);
   assert_true(least.error > 0.01 && least.error < 0.2);
-  assert_true(isnan(gg_find_extreme(5, x, y, e, false).mean)); /* at an end: nobody knows */
+  assert_true(isnan(gg_find_extreme(5, x, y, e, false).mean));          /* at an end: nobody knows */
+  for (int i = 0; i < 5; i++) x[i] = 0.1 * i - 0.1, y[i] = x[i] * x[i]; /* not above 0: as it is */
+  near_to(gg_find_extreme(5, x, y, e, true).mean, 0, 1e-12);
+  assert_true(isnan(gg_find_extreme(2, x, y, e, true).mean));
 }
 
 static void powers(void **state)
@@ -66,7 +74,25 @@ static void tails(void **state)
   const double range[2] = {1.5, 3.2};
   near_to(gg_tail_fit(curve, range, true).mean, 1.7, 1e-9);
   near_to(gg_tail_fit(curve, range, false).mean, 0.6, 1e-9);
+  const double nowhere[2] = {50, 60}, two[2] = {1.45, 1.55};
+  assert_true(isnan(gg_tail_fit(curve, nowhere, true).mean));
+  for (size_t i = 0; i < 3; i++) json_array_set_new(value, 58 + i, json_null()); /* no samples in these */
+  near_to(gg_tail_fit(curve, range, true).mean, 1.7, 1e-9);
+  assert_true(isnan(gg_tail_fit(curve, two, true).mean));
   json_decref(curve);
+}
+
+static void straight_lines(void **state)
+{
+  (void)state;
+  const double x[] = {1, NAN, 2, 3, 4}, y[] = {3, 1, INFINITY, 7, 9}, e[] = {0.1, 0.1, 0.1, 0.1, 0};
+  gg_straight line;
+  assert_true(gg_straight_fit(5, x, y, e, &line)); /* two of them are known */
+  near_to(line.a, 1, 1e-12);
+  near_to(line.b, 2, 1e-12);
+  assert_false(gg_straight_fit(3, x, y, e, &line));
+  const double same[] = {2, 2};
+  assert_false(gg_straight_fit(2, same, y, e, &line));
 }
 
 static void figures_by_name(void **state)
@@ -84,6 +110,41 @@ static void figures_by_name(void **state)
   assert_int_equal(gg_figure_find("review 3", &k, &err), GG_OK);
   assert_string_equal(gg_entry_files[k].file, "review-03.yaml");
   assert_int_equal(gg_figure_find("review 33", &k, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_figure_find(" - thesis :2.016 _", &k, &err), GG_OK);
+  assert_int_equal(k, first);
+  char longest[200];
+  memset(longest, 'x', sizeof longest - 1);
+  longest[sizeof longest - 1] = '\0';
+  assert_int_equal(gg_figure_find(longest, &k, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_figure_find("", &k, &err), GG_BAD_INPUT);
+  gg_figure_entry entry;
+  assert_int_equal(gg_figure_read(10000, &entry, &err), GG_BAD_INPUT);
+}
+
+/* {key: [values]}: does the scene meet it? */
+static bool meets(const gg_scene *scene, const char *key, const char *one, const char *other)
+{
+  gg_conditions c = {.n = 1, .of = {{.key = key, .values = {.n = other ? 2 : 1, .text = {one, other}}}}};
+  return gg_scene_meets(scene, &c);
+}
+
+static void conditions(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  assert_int_equal(gg_scene_override(&s, "phi", "0.3", NULL), GG_OK);
+  assert_int_equal(gg_scene_override(&s, "flow", "usf", NULL), GG_OK);
+  assert_int_equal(gg_scene_override(&s, "measure", "[rheology, cells]", NULL), GG_OK);
+  assert_true(meets(&s, "phi", "0.3", NULL) && meets(&s, "phi", "0.1", "3e-1") && !meets(&s, "phi", "0.1", "0.2"));
+  assert_true(meets(&s, "flow", "usf", NULL) && !meets(&s, "flow", "hcs", NULL) && !meets(&s, "flow", "usd", NULL));
+  assert_true(meets(&s, "measure", "[rheology, cells]", NULL) && !meets(&s, "measure", "[cells]", NULL));
+  assert_true(meets(&s, "collision.mu", "inf", NULL) && !meets(&s, "collision.mu", "0.1", NULL));
+  assert_false(meets(&s, "phi", "0.3 or so", ""));
+  char text[80];
+  gg_key_text(&s, "flow", text, sizeof text);
+  assert_string_equal(text, "usf");
+  gg_key_text(&s, "species.3.mass", text, sizeof text);
+  assert_string_equal(text, "");
 }
 
 int main(void)
@@ -93,6 +154,8 @@ int main(void)
       cmocka_unit_test(where_it_is_least),
       cmocka_unit_test(powers),
       cmocka_unit_test(tails),
+      cmocka_unit_test(straight_lines),
+      cmocka_unit_test(conditions),
       cmocka_unit_test(figures_by_name),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

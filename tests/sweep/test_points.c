@@ -183,6 +183,20 @@ static void refusals(void **state)
   check_refused(SCENE "vary: {collision.e: 0:1:0.001}", "phi", "0:0.5:0.001", "501501 points");
   check_refused(SCENE "vary: {collison.e: [0.5]}", NULL, NULL, "did you mean 'collision.e'");
   check_refused(SCENE "sweep: {does: comparision}", NULL, NULL, "allowed: one of run, compare, theory");
+  check_refused(SCENE "vary: {phi: [0.1, 0.2..0.3]}", NULL, NULL, "either drawn from LOW..HIGH or from a list");
+  check_refused(SCENE "vary: {[phi]: 0.1}", NULL, NULL, "a key must be a word");
+  check_refused(SCENE "vary: {collision: 0.5}", NULL, NULL, "collision");
+  check_refused(SCENE "vary: {collision.e: [{of: 'a law'}]}", NULL, NULL, "collision.e");
+  check_refused(SCENE "vary: [{phi: 0.1..0.2}]", NULL, NULL, "random draws");
+  check_refused(SCENE "vary: [{phi: [0.1], phi: [0.2]}]", NULL, NULL, "varied twice");
+  check_refused(SCENE "vary: [{}]", NULL, NULL, "no key is varied");
+  check_refused(SCENE "vary: {random: 3, phi: 0.1..0.2}", NULL, NULL, "say how many points");
+  check_refused(SCENE "vary: {random: {seed: 3}, phi: 0.1..0.2}", NULL, NULL, "say how many points");
+  check_refused(SCENE "vary: {random: {[seed]: 3}, phi: 0.1..0.2}", NULL, NULL, "no such key");
+  check_refused(SCENE "vary: {random: {points: 3}}", NULL, NULL, "no key is drawn");
+  check_refused(SCENE "sweep: run", NULL, NULL, "is a section");
+  check_refused(SCENE "sweep: {[does]: run}", NULL, NULL, "a key must be a word");
+  check_refused(SCENE "sweep: {does: run, does: run}", NULL, NULL, "is given twice");
   /* What would fill the memory, in few words. */
   check_refused(SCENE, "phi", "0:0.5:0.00001,0:0.5:0.00001,0:0.5:0.00001", "more than 100000 values");
   char *longest = calloc(1, 60000);
@@ -191,6 +205,35 @@ static void refusals(void **state)
   check_refused(strcat(longest, "cells]]}"), NULL, NULL, "characters together");
   free(longest);
   check_refused("flow: usf\nvary: {phi: [0]}", NULL, NULL, "point 1 of 1 (phi 0)"); /* md has no Boltzmann limit */
+}
+
+/* A grid of one map, and maps that go together. */
+static void too_many_keys(void **state)
+{
+  (void)state;
+  char one[2000] = SCENE "vary: {", several[2000] = SCENE "vary: [";
+  for (int i = 0; i < 33; i++) {
+    size_t a = strlen(one), b = strlen(several);
+    snprintf(one + a, sizeof one - a, "species.%d.mass: [1, 2], ", i + 1);
+    snprintf(several + b, sizeof several - b, "{species.%d.mass: [1]}, ", i + 1);
+  }
+  check_refused(strcat(one, "}"), NULL, NULL, "more than 32 keys are varied");
+  check_refused(strcat(several, "]"), NULL, NULL, "more than 32 keys are varied");
+}
+
+/* Numbers are numbers in JSON, whole ones whole. */
+static void values_in_json(void **state)
+{
+  (void)state;
+  char *text = NULL;
+  gg_sweep *sweep =
+      sweep_of(SCENE "vary: [{run.time_limit: [none, 0.5, 3], collision.law: [constant, constant, constant]}]");
+  assert_int_equal(gg_sweep_to_json(sweep, "there_is_none.sweep", &text, NULL), GG_OK);
+  const char *said[] = {"\"none\"", "0.5", ": 3", "\"constant\"", "\"missing\""};
+  for (int i = 0; i < 5; i++)
+    if (!strstr(text, said[i])) fail_msg("no %s in %s", said[i], text);
+  free(text);
+  gg_sweep_free(sweep);
 }
 
 /* What one engine cannot run, the other may: a comparison leaves it out. */
@@ -206,8 +249,10 @@ static void engines(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(grids), cmocka_unit_test(zipped),   cmocka_unit_test(drawn),    cmocka_unit_test(names),
-      cmocka_unit_test(seeds), cmocka_unit_test(replicas), cmocka_unit_test(refusals), cmocka_unit_test(engines),
+      cmocka_unit_test(grids),          cmocka_unit_test(zipped),  cmocka_unit_test(drawn),
+      cmocka_unit_test(names),          cmocka_unit_test(seeds),   cmocka_unit_test(replicas),
+      cmocka_unit_test(refusals),       cmocka_unit_test(engines), cmocka_unit_test(too_many_keys),
+      cmocka_unit_test(values_in_json),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
