@@ -15,6 +15,7 @@
 
 #include "io/plot/axis.h"
 #include "io/plot/chart.h"
+#include "io/plot/plot.h"
 
 enum { MOST = 64, FILLED_CIRCLE = 6, OPEN_SQUARE = 3, FILLED_SQUARE = 4 }; /* gnuplot's svg counts from 0 */
 
@@ -240,16 +241,35 @@ static void refused(void **state)
   if (gg_chart_draw(&chart, "c.png", NULL, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
+/* By the name, by what is asked for, or by both if they agree. */
+static void kinds_of_pictures(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *picture, *format, *said;
+  } bad[] = {{"a.svg", "gif", "not 'gif'"},     {"a", NULL, "ends with .svg or .png"},
+             {"a/.svg", NULL, "ends with"},     {"b.d/a", NULL, "ends with"},
+             {"a.pdf", NULL, "not .pdf"},       {"a.svg", "png", "its name says svg"},
+             {"folder/", "svg", "needs a name"}};
+  gg_error err;
+  bool png = true;
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    assert_int_equal(gg_plot_format(bad[i].picture, bad[i].format, &png, &err), GG_BAD_INPUT);
+    if (!strstr(err.message, bad[i].said)) fail_msg("'%s' is not in '%s'", bad[i].said, err.message);
+  }
+  assert_true(gg_plot_format("b.d/a", "svg", &png, &err) == GG_OK && !png);
+  assert_true(gg_plot_format("a.png", NULL, &png, &err) == GG_OK && png);
+  assert_true(gg_plot_format("a.png", "png", &png, &err) == GG_OK && png);
+  assert_true(gg_plot_format("a", "png", &png, &err) == GG_OK && png);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(points_stand_where_they_are),
-      cmocka_unit_test(what_is_not_there),
-      cmocka_unit_test(looks_follow_from_names),
-      cmocka_unit_test(laws_beside_bands),
-      cmocka_unit_test(tics),
-      cmocka_unit_test(axes_have_room),
-      cmocka_unit_test(keys),
+      cmocka_unit_test(kinds_of_pictures), cmocka_unit_test(points_stand_where_they_are),
+      cmocka_unit_test(what_is_not_there), cmocka_unit_test(looks_follow_from_names),
+      cmocka_unit_test(laws_beside_bands), cmocka_unit_test(tics),
+      cmocka_unit_test(axes_have_room),    cmocka_unit_test(keys),
       cmocka_unit_test(refused),
   };
   return cmocka_run_group_tests(tests, enter, leave);

@@ -143,8 +143,16 @@ static void conditions(void **state)
   char text[80];
   gg_key_text(&s, "flow", text, sizeof text);
   assert_string_equal(text, "usf");
-  gg_key_text(&s, "species.3.mass", text, sizeof text);
-  assert_string_equal(text, "");
+  assert_int_equal(gg_scene_override(&s, "species", "[{fraction: 0.5}, {fraction: 0.5, mass: 4}]", NULL), GG_OK);
+  assert_int_equal(gg_scene_override(&s, "collision.e", "{11: 0.9, 12: 0.8, other: 0.7}", NULL), GG_OK);
+  assert_true(meets(&s, "species.2.mass", "4", NULL) && !meets(&s, "species.1.mass", "4", NULL));
+  assert_true(meets(&s, "collision.e.12", "0.8", NULL) && meets(&s, "collision.e.22", "0.7", NULL));
+  static const char *const nothing[] = {"species.3.mass", "species.0.mass",   "species.2.colour",
+                                        "species.2mass",  "species.two.mass", "no.such.key"};
+  for (int i = 0; i < 6; i++) {
+    gg_key_text(&s, nothing[i], text, sizeof text);
+    assert_string_equal(text, "");
+  }
 }
 
 int main(void)
