@@ -128,6 +128,34 @@ def test_same_seed_same_numbers():
     check(a == b and a != c, a, b, c)
 
 
+def test_fingerprint():
+    """The same state is the same number, of either engine; after more collisions or from another seed, another one."""
+    scene, found = ROUGH.replace("1000", "500"), set()
+    for engine in "md", "dsmc":
+        words = "fingerprint", "scene.yaml", "--engine", engine, "--json"
+        one, again, other, later = (loads(run(*words, *more, scene=scene)) for more in (
+            ("--collisions", "2000"), ("--collisions", "2000"), ("--collisions", "2000", "--seed", "8"),
+            ("--collisions", "3000")))
+        check(one == again and one["engine"] == engine and 2000 <= one["collisions"] < later["collisions"], one, again)
+        found |= {f["fingerprint"] for f in (one, other, later)}
+    check(len(found) == 6, found)
+    told = run("fingerprint", "scene.yaml", "--collisions", "3000", "--engine", "dsmc").out
+    check("fingerprint " + later["fingerprint"] in told, told)
+    for more, code in (("--collisions", "0"), 2), (("--set", "phi=3"), 2), (("--engine", "mc"), 2):
+        check(run("fingerprint", "scene.yaml", *more).code == code, more)
+
+
+def test_page():
+    """The page with the scene in it; where it was not built, the reason and no file."""
+    done = run("page", "scene.yaml", "--output", "p.html", scene="flow: usf\nphi: 0.2\n")
+    if done.code == 0:
+        with open("p.html", encoding="utf-8") as f:
+            text = f.read()
+        check("usf" in text and '"@given@"' not in text, len(text))
+    else:
+        check(done.code == 3 and "was not built" in done.err and not os.path.exists("p.html"), done.code, done.err)
+
+
 def test_compare():
     done = run("compare", "scene.yaml", "--json", scene=ROUGH)
     d = loads(done)

@@ -2,8 +2,9 @@
 """Commands with less and less memory (the limit of the address space, as `ulimit -v` sets it): each ends well, or with an
 error that says so.
 
-    GRAINGAS=build/src/cli/graingas validation/interruption/limits.py [STEP in kB]
-"""
+    GRAINGAS=build/src/cli/graingas validation/interruption/limits.py [STEP in kB [COMMAND...]]
+
+COMMAND is one of the names below; all without."""
 import os
 import resource
 import subprocess
@@ -58,11 +59,12 @@ def least(command):
     return enough
 
 
-def main(step):
+def main(step, names):
     bad = 0
     print("| command | enough (MB) | limits tried | done | out of memory, said | not started | ended otherwise |")
     print("|---|---|---|---|---|---|---|")
-    for name, command in COMMANDS.items():
+    for name in names or COMMANDS:
+        command = COMMANDS[name]
         enough = least(command)
         tally = {"done": 0, "said": 0, "not started": 0, "otherwise": 0}
         limits = range(enough - 60 * step, enough + 2 * step, step)
@@ -92,4 +94,4 @@ if __name__ == "__main__":
         with open("scene.yaml", "w") as f:
             f.write(SCENE)
         subprocess.run([GRAINGAS, "run", "scene.yaml", "--quiet", "--output", "there.h5"], capture_output=True)
-        sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 250))
+        sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 250, sys.argv[2:]))
