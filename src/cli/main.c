@@ -135,10 +135,20 @@ static int do_all(int argc, char **argv)
   return check_output(dispatch(argc, argv));
 }
 
+/* HDF5's first call uses some bytes without a look at whether it got them. */
+static bool has_memory(void)
+{
+  void *volatile room = malloc(1 << 20);
+  const bool got = room;
+  free(room);
+  return got;
+}
+
 int main(int argc, char **argv)
 {
   signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of the write, not the end of the program */
   signal(SIGPIPE, SIG_IGN);
+  if (!has_memory()) return gg_cli_fail(GG_FAILED, "out of memory");
   H5dont_atexit(); /* we close what we open; HDF5 would insist on flushing to a full disk */
   return gg_cli_as_one_of_several(argc, argv, do_all);
 }
