@@ -10,10 +10,10 @@ import subprocess
 import sys
 import time
 
-from tap import GRAINGAS, SANITIZERS, Skip, check, main, run
+from tap import GRAINGAS, PATIENCE, SANITIZERS, Skip, check, main, run
 
 BARE = os.environ["GRAINGAS_WITHOUT_MPI"]
-BOUND = 100  # s
+BOUND = 100 * PATIENCE  # s
 SCENE = """{flow: usf, phi: 0.1, particles: 200, run: {collisions: 600, replicas: 4},
 measure: [rheology, velocity_distributions], output: {checkpoint_every: 0}}"""
 LONG = ("--set", "run.collisions=2000", "--set", "output.checkpoint_every=0.2")
