@@ -1,5 +1,6 @@
 #include "scene/fields.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -223,11 +224,20 @@ void gg_format_number(double value, char *text, size_t size)
   }
 }
 
+/* Whole numbers in full; the largest of 64 bits is none of those that a double can be. */
+static void format_limit(const gg_field *f, double value, char *text, size_t size)
+{
+  if (f->type == GG_FIELD_INTEGER && isfinite(value))
+    snprintf(text, size, "%" PRId64, value >= 0x1p63 ? INT64_MAX : (int64_t)value);
+  else
+    gg_format_number(value, text, size);
+}
+
 static void number_allowed(const gg_field *f, const char *what, char *text, size_t size)
 {
   char min[32], max[32];
-  gg_format_number(f->min, min, sizeof min);
-  gg_format_number(f->max, max, sizeof max);
+  format_limit(f, f->min, min, sizeof min);
+  format_limit(f, f->max, max, sizeof max);
   if (f->max == INFINITY)
     snprintf(text, size, "%s of at least %s, or inf", what, min);
   else if (f->above_min)
