@@ -6,12 +6,26 @@
 #include "run/replicas.h"
 #include "run/workers/workers.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+/* What a checkpoint took goes back to the system: the C library would keep up to twice its size, or not, as chance has
+ * it. */
+static void give_back(void)
+{
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 static gg_status store_checkpoint(gg_replicas *all, gg_error *err)
 {
   gg_archive archive = {0};
   gg_status status = gg_replicas_save(all, &archive, err);
   if (status == GG_OK) status = all->hooks->checkpoint(all->hooks->context, &archive, err);
   gg_archive_clear(&archive);
+  give_back();
   all->last_checkpoint = gg_wall_now();
   return status;
 }
