@@ -189,6 +189,7 @@ typedef struct gg_collision_event {
   double velocity[3];  /* of the first relative to the second, flow included, before the collision */
   double normal_speed; /* of approach: k . velocity, > 0 */
   double impulse[3];   /* J on the second grain, -J on the first; m times velocity */
+  double time;         /* since the start; of Monte Carlo, that of the step which it is in */
 } gg_collision_event;
 typedef void gg_on_collision(void *context, const gg_collision_event *event);
 /* Show every collision between grains to `callback` from now on (NULL: no longer), as it happens, during advances. It
@@ -385,6 +386,24 @@ GG_API gg_status gg_result_write(const gg_result *result, const char *path, gg_e
 GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *err);
 GG_API void gg_result_free(gg_result *result);
 
+/* ---- Trajectories ----
+ * What a run has stored of its grains (output.trajectory_every; without that, the last state), a frame at a time: one
+ * is in memory, however many there are. In the units of results. Of a comparison's file they are md's. */
+
+typedef struct gg_trajectory gg_trajectory;
+/* GG_BAD_FILE: it cannot be read, or is no result. GG_FAILED: it holds no positions of grains, as of Monte Carlo. */
+GG_API gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_error *err);
+GG_API void gg_trajectory_free(gg_trajectory *trajectory);
+GG_API const gg_scene *gg_trajectory_scene(const gg_trajectory *trajectory); /* as it was run; NULL without one */
+GG_API size_t gg_trajectory_frames(const gg_trajectory *trajectory);         /* 0 without one */
+/* The k-th frame from 0, GG_BAD_INPUT after the last: its state, and its grains in the order of their numbers (arrays
+ * as for gg_simulation_get_grains); `state` and `into` may be NULL. And what is known of a species there, in the frame
+ * that was read last. */
+GG_API gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation_state *state,
+                                     const gg_grains *into, gg_error *err);
+GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species, gg_species_state *state,
+                                           gg_error *err);
+
 /* The teaching page that was built with the library's sources (./check-page), one HTML file for a browser, written to
  * `path`: it begins with the scene, or with its own (NULL). GG_BAD_FILE where no page was built: the message says how.
  */
@@ -443,6 +462,10 @@ typedef struct gg_theory_info {
 GG_API gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err);
 GG_API gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
                                             double *value, double *deviation, gg_error *err);
+/* T at a time since the start of a gas of equal smooth grains with a constant e that cools freely: by Haff's law with
+ * the theory's own rate of cooling. GG_BAD_INPUT where it says none, or the gas is another. */
+GG_API gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const char *theory, double time,
+                                              double *temperature, gg_error *err);
 /* How far that may be from the solution of the theory's own equations, where these are solved numerically; NaN: it is
  * exact, or nothing is said. */
 GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char *theory, const char *quantity,

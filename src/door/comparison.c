@@ -10,6 +10,7 @@
 #include "run/agreement.h"
 #include "run/crew.h"
 #include "scene/resumption.h"
+#include "theory/haff1983.h"
 
 static gg_comparison *new_comparison(gg_error *err)
 {
@@ -235,6 +236,26 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
   double said = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
   if (value) *value = isfinite(said) ? said : NAN;
   if (deviation) *deviation = against && isfinite(said) ? gg_deviation(&against->value[q], said) : NAN;
+  return GG_OK;
+}
+
+gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const char *theory, double time,
+                                       double *temperature, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(theory);
+  GG_NEED(temperature);
+  const gg_model *m = &comparison->model;
+  int i;
+  GG_TRY(find_theory(comparison, theory, &i, err));
+  const double rate = comparison->theory[i].answer.value[GG_Q_COOLING_RATE];
+  if (!gg_flow_cools(m->flow) || m->rule != GG_SMOOTH || m->n_species > 1 || m->law.name)
+    return gg_fail(err, GG_BAD_INPUT, "Haff's law is of equal smooth grains that cool freely, with a constant e");
+  if (!comparison->theory[i].applies || !isfinite(rate))
+    return gg_fail(err, GG_BAD_INPUT, "%s says no rate of cooling here", theory);
+  if (!(time >= 0)) return gg_fail(err, GG_BAD_INPUT, "%s: the time %g is before the start", theory, time);
+  const double T0 = m->temperature0;
+  *temperature = gg_haff_temperature(T0, rate * gg_model_nu0(m, T0), time);
   return GG_OK;
 }
 

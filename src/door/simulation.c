@@ -88,7 +88,10 @@ static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most,
   double T = gg_simulation_temperature(s), unit = gg_simulation_unit(s), gone = 0;
   double free_time = 1 / gg_model_collision_rate(&s->model, T > 0 ? T : s->model.temperature0);
   double stretch = fmin(*time * unit, STRETCH * free_time);
-  uint64_t before = collisions(s), pile = (uint64_t)(COLLAPSE * STRETCH * (double)s->model.n / 2) + 1000000;
+  gg_engine_state engine;
+  s->engine->ops->state(s->engine, &engine);
+  s->stretch_from = engine.time;
+  uint64_t before = engine.collisions, pile = (uint64_t)(COLLAPSE * STRETCH * (double)s->model.n / 2) + 1000000;
   gg_status status = s->engine->ops->advance(s->engine, stretch, *most < pile ? *most : pile, &gone, err);
   uint64_t happened = collisions(s) - before;
   s->clock.time += gone / unit;
@@ -158,9 +161,12 @@ static void show(void *context, const gg_collision_record *collision)
 {
   const gg_simulation *s = context;
   double unit = gg_simulation_unit(s);
+  gg_engine_state engine;
+  s->engine->ops->state(s->engine, &engine);
   gg_collision_event event = {.grain = {(size_t)collision->id[0], (size_t)collision->id[1]},
                               .species = {collision->species[0], collision->species[1]},
-                              .normal_speed = gg_dot(collision->k, collision->c12) * unit};
+                              .normal_speed = gg_dot(collision->k, collision->c12) * unit,
+                              .time = s->clock.time + (engine.time - s->stretch_from) / unit};
   put(event.k, collision->k, 1);
   put(event.velocity, collision->c12, unit);
   put(event.impulse, collision->J, unit);

@@ -20,7 +20,8 @@ struct gg_simulation {
   void *context;
   int (*asks)(void *context); /* whether to stop; NULL: nobody does */
   void *asks_context;
-  gg_stop stop; /* what the model's points to */
+  gg_stop stop;        /* what the model's points to */
+  double stretch_from; /* the engine's time at the start of the stretch that clock.time is the start of */
 };
 
 /* Asked of it (simulation_state.c). Velocities of the start over those of the engine. */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "door/moments.h"
 #include "door/simulation.h"
 
 double gg_simulation_unit(const gg_simulation *s)
@@ -9,60 +10,17 @@ double gg_simulation_unit(const gg_simulation *s)
   return ldexp(1, -(int)s->clock.power);
 }
 
-/* Sums over grains, mass by mass. */
-typedef struct moments {
-  const gg_model *model;
-  double cc[3][3], energy[GG_MAX_SPECIES];               /* m C C; m C.C */
-  double spin[GG_MAX_SPECIES][3], spin2[GG_MAX_SPECIES]; /* of surface velocities */
-} moments;
-
-static void add(void *context, const gg_chunk *chunk)
+static gg_moments sum_up(const gg_simulation *s)
 {
-  moments *m = context;
-  for (size_t i = 0; i < chunk->n; i++) {
-    int species = chunk->species ? chunk->species[i] : 0;
-    const double c[3] = {chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]};
-    for (int a = 0; a < 3; a++) {
-      for (int b = 0; b < 3; b++) m->cc[a][b] += m->model->mass[species] * c[a] * c[b];
-      m->energy[species] += m->model->mass[species] * c[a] * c[a];
-      if (!chunk->s[0]) continue;
-      m->spin[species][a] += chunk->s[a][i];
-      m->spin2[species] += chunk->s[a][i] * chunk->s[a][i];
-    }
-  }
-}
-
-static moments sum_up(const gg_simulation *s)
-{
-  moments m = {.model = &s->model};
-  s->engine->ops->snapshot(s->engine, false, add, &m);
+  gg_moments m = {.model = &s->model};
+  s->engine->ops->snapshot(s->engine, false, gg_moments_add, &m);
   return m;
-}
-
-static double temperature_of(const moments *m)
-{
-  return (m->cc[0][0] + m->cc[1][1] + m->cc[2][2]) / (3 * (double)m->model->n);
 }
 
 double gg_simulation_temperature(const gg_simulation *s)
 {
-  const moments m = sum_up(s);
-  return temperature_of(&m);
-}
-
-/* sum I Omega^2 / 3 with I Omega^2 = K m s^2 for surface velocities s, about the mean of each species. */
-static double rotation_of(const moments *m, int i)
-{
-  const double *s = m->spin[i], n = (double)m->model->n_of[i];
-  double about_mean = m->spin2[i] - (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / n;
-  return m->model->inertia[i] * m->model->mass[i] * about_mean;
-}
-
-static double rotational_temperature_of(const moments *m)
-{
-  double sum = 0;
-  for (int i = 0; i < m->model->n_species; i++) sum += rotation_of(m, i);
-  return sum / (3 * (double)m->model->n);
+  const gg_moments m = sum_up(s);
+  return gg_moments_temperature(&m);
 }
 
 int gg_simulation_species(const gg_simulation *simulation)
@@ -75,19 +33,8 @@ gg_status gg_simulation_get_species(const gg_simulation *simulation, int species
 {
   GG_NEED(simulation);
   GG_NEED(state);
-  const gg_model *model = &simulation->model;
-  if (species < 0 || species >= model->n_species)
-    return gg_fail(err, GG_BAD_INPUT, "there is no species %d: this scene has %d, counted from 0", species,
-                   model->n_species);
-  const moments m = sum_up(simulation);
-  const double unit = gg_simulation_unit(simulation), per = unit * unit / (3 * (double)model->n_of[species]);
-  *state = (gg_species_state){.grains = (size_t)model->n_of[species],
-                              .diameter = model->diameter[species],
-                              .mass = model->mass[species],
-                              .inertia = model->inertia[species],
-                              .temperature = m.energy[species] * per,
-                              .rotational_temperature = rotation_of(&m, species) * per};
-  return GG_OK;
+  const gg_moments m = sum_up(simulation);
+  return gg_moments_species(&m, species, gg_simulation_unit(simulation), state, err);
 }
 
 gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err)
@@ -95,23 +42,13 @@ gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation
   GG_NEED(simulation);
   GG_NEED(state);
   const gg_model *model = &simulation->model;
-  const moments m = sum_up(simulation);
-  double unit = gg_simulation_unit(simulation), n = (double)model->n;
+  const gg_moments m = sum_up(simulation);
   gg_engine_state engine;
   simulation->engine->ops->state(simulation->engine, &engine);
-  *state = (gg_simulation_state){.time = simulation->clock.time,
-                                 .collisions = engine.collisions,
-                                 .collisions_per_grain = 2 * (double)engine.collisions / n,
-                                 .grains = (size_t)model->n,
-                                 .temperature = temperature_of(&m) * unit * unit,
-                                 .rotational_temperature = rotational_temperature_of(&m) * unit * unit,
-                                 .strain = model->shear_rate * simulation->clock.time,
-                                 .image_offset = engine.offset};
-  double stress = model->density * model->stress_unit * unit * unit / n;
-  for (int a = 0; a < 3; a++) {
-    for (int b = 0; b < 3; b++) state->kinetic_stress[a][b] = stress * m.cc[a][b];
-    state->box[a] = model->homogeneous ? 0 : model->box[a];
-  }
+  *state = (gg_simulation_state){
+      .time = simulation->clock.time, .collisions = engine.collisions, .image_offset = engine.offset};
+  gg_moments_state(&m, gg_simulation_unit(simulation), state);
+  for (int a = 0; a < 3; a++) state->box[a] = model->homogeneous ? 0 : model->box[a];
   return GG_OK;
 }
 

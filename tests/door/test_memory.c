@@ -32,6 +32,7 @@ typedef struct things {
   gg_scene *scene, *other; /* scene is there before */
   gg_result *result;
   gg_comparison *comparison;
+  gg_trajectory *trajectory;
   gg_simulation *simulation;
   gg_sweep *sweep;
   char *text[3];
@@ -196,6 +197,7 @@ static gg_status save(things *t, gg_error *err)
   STEP(steps(t, err));
   STEP(gg_simulation_save(t->simulation, "saved.h5", err));
   gg_simulation_free(t->simulation);
+  gg_trajectory_free(t->trajectory);
   t->simulation = NULL;
   STEP(gg_simulation_load("saved.h5", NULL, &t->simulation, err));
   return gg_checkpoint_about("saved.h5", &(gg_checkpoint_info){0}, NULL, err);
@@ -296,6 +298,13 @@ static gg_status read_comparison(things *t, gg_error *err)
   return gg_comparison_to_json(t->comparison, &t->text[0], err);
 }
 
+static gg_status play(things *t, gg_error *err)
+{
+  gg_simulation_state state;
+  STEP(gg_trajectory_open("both.h5", &t->trajectory, err));
+  return gg_trajectory_frame(t->trajectory, 0, &state, NULL, err);
+}
+
 static gg_status export(things *t, gg_error *err)
 {
   return gg_export("there.h5", "new", GG_EXPORT_ALL, tell_file, t, err);
@@ -339,6 +348,7 @@ static const struct op {
            {"collect", collect},
            {"read a result", read_result},
            {"read a comparison", read_comparison},
+           {"read a trajectory", play},
            {"export", export},
            {"plot", plot}};
 enum { OPS = sizeof ops / sizeof *ops };
@@ -350,6 +360,7 @@ static void clear(things *t)
   gg_result_free(t->result);
   gg_comparison_free(t->comparison);
   gg_simulation_free(t->simulation);
+  gg_trajectory_free(t->trajectory);
   gg_sweep_free(t->sweep);
   for (size_t i = 0; i < sizeof t->text / sizeof *t->text; i++) free(t->text[i]);
 }

@@ -167,6 +167,34 @@ static void collisions_and_sums(const char *yaml, double volume)
   gg_simulation_free(m);
 }
 
+static void note_time(void *context, const gg_collision_event *e)
+{
+  double *last = context;
+  assert_true(e->time >= *last);
+  *last = e->time;
+}
+
+/* Each has its time, by the clock of the state, also in units of a start that is long ago, and where a thermostat has a
+ * clock of its own. */
+static void times_of_collisions(void **state)
+{
+  (void)state;
+  const char *const scenes[] = {ROUGH, "{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.5}}",
+                                "{flow: hss, phi: 0.1, particles: 200, thermostat: gaussian}",
+                                "{flow: hss, phi: 0.1, particles: 200, thermostat: white_noise}"};
+  for (int i = 0; i < 4; i++) {
+    gg_error err;
+    double last = 0;
+    gg_simulation *m = simulation_of(scenes[i]);
+    assert_ok(gg_simulation_on_collision(m, note_time, &last, &err));
+    for (uint64_t step = 1; step < 20000; step *= 3) {
+      assert_ok(gg_simulation_collide(m, step, &err));
+      if (fabs(last / state_of(m).time - 1) > 1e-12) fail_msg("scene %d: %g, %g", i, last, state_of(m).time);
+    }
+    gg_simulation_free(m);
+  }
+}
+
 static void collisions_of_md(void **state)
 {
   (void)state;
@@ -460,6 +488,7 @@ int main(void)
       cmocka_unit_test(state_and_grains),
       cmocka_unit_test(hashes),
       cmocka_unit_test(cut_into_steps),
+      cmocka_unit_test(times_of_collisions),
       cmocka_unit_test(collisions_of_md),
       cmocka_unit_test(collisions_of_dsmc),
       cmocka_unit_test(energy_balance),

@@ -73,7 +73,7 @@ static void add_curves(job *j)
 
 static const char *lack(unsigned parts)
 {
-  return parts == GG_EXPORT_TRAJECTORY ? "it holds no positions of grains"
+  return parts == GG_EXPORT_TRAJECTORY ? GG_NO_POSITIONS
          : parts == GG_EXPORT_CURVES   ? "it holds no curves"
                                        : "it holds neither curves nor positions of grains";
 }

@@ -1,13 +1,13 @@
-/* What stands in for this room where there are no files: the page of a browser. Whoever asks for one is told so. */
+/* What stands in for the writing half of this room where there is no HDF5: the page of a browser, which reads results
+ * and writes none. Whoever asks for that is told so. */
 #include <stdlib.h>
 
 #include "io/h5/checkpoint_file.h"
 #include "io/h5/result_file.h"
-#include "io/h5/result_restore.h"
 
 static gg_status refuse(const char *path, gg_error *err)
 {
-  return gg_fail(err, GG_BAD_FILE, "%s: this build of graingas has no files", path);
+  return gg_fail(err, GG_BAD_FILE, "%s: this build of graingas writes no files", path);
 }
 
 gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
@@ -33,26 +33,6 @@ gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_compariso
 void gg_result_file_abandon(gg_result_file *f)
 {
   (void)f;
-}
-
-gg_status gg_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err)
-{
-  *stored = (gg_stored_result){0};
-  return refuse(path, err);
-}
-void gg_stored_result_clear(gg_stored_result *stored)
-{
-  (void)stored;
-}
-gg_status gg_result_restore(const gg_stored_result *stored, gg_engine_kind engine, gg_result **result, gg_error *err)
-{
-  (void)stored, (void)engine, (void)result;
-  return refuse("the result", err);
-}
-gg_status gg_comparison_restore(const gg_stored_result *stored, gg_comparison *comparison, gg_error *err)
-{
-  (void)stored, (void)comparison;
-  return refuse("the comparison", err);
 }
 
 gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,

@@ -136,8 +136,8 @@ static gg_status restore_origin(gg_result *r, const gg_stored_result *s, const j
   return r->origin.document ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
 }
 
-static gg_status restore_scene(const gg_stored_result *s, gg_engine_kind engine, gg_scene *scene, gg_model *model,
-                               gg_error *err)
+gg_status gg_stored_scene(const gg_stored_result *s, gg_engine_kind engine, gg_scene *scene, gg_model *model,
+                          gg_error *err)
 {
   *scene = gg_scene_defaults();
   GG_TRY(gg_scene_read(scene, s->scene, strlen(s->scene), "the stored scene", err));
@@ -147,7 +147,7 @@ static gg_status restore_scene(const gg_stored_result *s, gg_engine_kind engine,
 static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_kind engine, gg_error *err)
 {
   const gg_stored_engine *e = &s->engine[engine];
-  GG_TRY(restore_scene(s, engine, &r->scene, &r->model, err));
+  GG_TRY(gg_stored_scene(s, engine, &r->scene, &r->model, err));
   GG_TRY(gg_stored_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
   r->model.extension = r->own;
   r->scene.engine = engine;
@@ -246,7 +246,7 @@ static void restore_refusals(gg_comparison *c, const json_t *document)
 
 static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c, gg_error *err)
 {
-  GG_TRY(restore_scene(s, GG_MD, &c->scene, &c->model, err));
+  GG_TRY(gg_stored_scene(s, GG_MD, &c->scene, &c->model, err));
   for (int k = 0; k < 2; k++)
     if (s->engine[k].name)
       GG_TRY(gg_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));

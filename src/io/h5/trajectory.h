@@ -5,6 +5,9 @@
 #include "io/h5/reader.h"
 #include "run/result.h"
 
+/* Why a file that is read has none. */
+#define GG_NO_POSITIONS "it holds no positions of grains"
+
 typedef struct gg_stored_trajectory {
   gg_h5_in h;
   char *path;
