@@ -1,21 +1,63 @@
-/* The controls of the scene: each a key of it, as the library names it. */
+/* The controls of the scene, a row each: a key of it, as the library names it, and how it is chosen. A row has
+ *   min, max, step    a slider and a number; without min and max a number alone (plain)
+ *   words             a list to choose from; their names are the strings NAME_WORD
+ *   box, on, off      a box that switches it on, to the text `on`, and off, to `off`
+ *   get, put          where it is not the key's own value: a number (null: none) of the scene's values; and the text for
+ *                     the key of a number and those values
+ *   flows             where it has an effect; everywhere without */
 const FLOWS = ["usf", "hcs", "hss", "equilibrium", "couette", "chute"];
+const WALLED = ["couette", "poiseuille", "chute"];
+
+/* The second species beside the first: its diameter or mass over that one's. */
+const ratioOf = (part) => ({
+  key: "species",
+  get: ({ species }) => (species.length === 2 ? species[1][part] / species[0][part] : null),
+  put: (ratio, { species: [one, two] }) => JSON.stringify([one, { ...two, [part]: ratio * one[part] }]),
+});
+const alone = ({ species: [one] }) => JSON.stringify([{ ...one, fraction: 1 }]);
+const inTwo = ({ species: [one] }) =>
+  JSON.stringify([
+    { ...one, fraction: 0.5 },
+    { ...one, fraction: 0.5, diameter: 2 * one.diameter, mass: 8 * one.mass },
+  ]);
+
+/* How steep a chute is, in degrees, its pull being as strong as before. */
+const tilt = {
+  key: "gravity",
+  get: ({ gravity: [along, down] }) => +((Math.atan2(along, -down) * 180) / Math.PI).toFixed(2),
+  put: (degrees, { gravity: [along, down] }) => {
+    const pull = Math.hypot(along, down),
+      angle = (degrees * Math.PI) / 180;
+    return `[${(pull * Math.sin(angle)).toPrecision(6)}, ${(-pull * Math.cos(angle)).toPrecision(6)}, 0]`;
+  },
+};
+
 const CONTROLS = [
+  { key: "flow", name: "flow", words: FLOWS },
+  { key: "thermostat", name: "thermostat", words: ["gaussian", "white_noise"], flows: ["hss"] },
+  { name: "tilt", ...tilt, min: 0, max: 60, step: 1, flows: ["chute"] },
   { key: "phi", name: "phi", min: 0.005, max: 0.5, step: 0.005 },
   { key: "collision.e", name: "e", min: 0, max: 1, step: 0.01 },
+  { key: "collision.law", name: "law", words: ["constant", "viscoelastic"] },
   { key: "collision.beta", name: "beta", min: -1, max: 1, step: 0.05 },
-  { key: "collision.mu", name: "mu", min: 0, max: 1, step: 0.01, box: "friction", off: "inf" },
+  { key: "collision.mu", name: "mu", min: 0, max: 1, step: 0.01, box: "friction", on: () => "0.3", off: () => "inf" },
+  { key: "walls.e", name: "wallE", min: 0, max: 1, step: 0.01, flows: WALLED },
+  { key: "walls.beta", name: "wallBeta", min: -1, max: 1, step: 0.05, flows: WALLED },
+  { name: "diameter", ...ratioOf("diameter"), min: 0.25, max: 4, step: 0.05, box: "mixture", on: inTwo, off: alone },
+  { name: "mass", ...ratioOf("mass"), min: 0.1, max: 20, step: 0.1 },
   { key: "particles", name: "particles", min: 100, max: 4000, step: 100 },
   { key: "run.seed", name: "seed", min: 0, step: 1, plain: true },
 ];
 const valueOf = (values, key) => key.split(".").reduce((at, part) => (at == null ? at : at[part]), values);
+const asText = (value) => (typeof value === "object" ? JSON.stringify(value) : String(value));
+const shownValue = (row, values) => (row.get ? row.get(values) : valueOf(values, row.key));
 
 class Controls {
   /* `change(key, value)`: somebody moved one. */
   constructor(rows, change) {
     this.rows = rows;
     this.change = change;
-    this.build();
+    for (const row of CONTROLS) this.rows.append((row.all = row.words ? this.choice(row) : this.number(row)));
   }
 
   element(kind, attributes, ...children) {
@@ -30,78 +72,92 @@ class Controls {
     return this.element("label", { for: target, "data-t": key });
   }
 
-  build() {
-    const flow = this.element("select", { id: "flow" });
-    for (const one of FLOWS) flow.append(this.element("option", { value: one, "data-t": `flow_${one}` }));
-    flow.addEventListener("change", () => this.change("flow", flow.value));
-    this.rows.append(this.element("div", { class: "control" }, this.label("flow", "flow"), flow));
-    for (const c of CONTROLS) this.rows.append(this.one(c));
+  choice(row) {
+    const select = this.element("select", { id: row.name });
+    for (const one of row.words) select.append(this.element("option", { value: one, "data-t": `${row.name}_${one}` }));
+    select.addEventListener("change", () => this.change(row.key, select.value));
+    row.inputs = [select];
+    return this.element("div", { class: "control" }, this.label(row.name, row.name), select);
   }
 
-  one(c) {
-    const { min, max, step } = c,
-      box = this.element("div", { class: "control" }, this.label(c.plain ? `${c.name}-number` : c.name, c.name));
-    const number = this.element("input", { type: "number", id: `${c.name}-number`, min, max, step: "any" });
-    c.number = number;
-    number.addEventListener("change", () => this.moved(c, number.value));
-    if (!c.plain) {
-      const range = this.element("input", { type: "range", id: c.name, min, max, step });
-      c.range = range;
+  number(row) {
+    const { min, max, step, name } = row,
+      box = this.element("div", { class: "control" }, this.label(row.plain ? `${name}-number` : name, name));
+    row.number = this.element("input", { type: "number", id: `${name}-number`, min, max, step: "any" });
+    row.inputs = [row.number];
+    row.number.addEventListener("change", () => this.moved(row, row.number.value));
+    if (!row.plain) {
+      const range = this.element("input", { type: "range", id: name, min, max, step });
+      row.inputs.unshift(range);
       range.addEventListener("input", () => {
-        number.value = range.value;
-        this.moved(c, range.value);
+        row.number.value = range.value;
+        this.moved(row, range.value);
       });
-      box.append(range);
     }
-    box.append(number);
-    if (c.box) {
-      const on = this.element("input", { type: "checkbox", id: c.box });
-      c.on = on;
-      on.addEventListener("change", () => this.moved(c, on.checked ? 0.3 : c.off));
-      box.append(
-        this.element("label", { for: c.box, class: "wide" }, on, " ", this.element("span", { "data-t": c.box })),
-      );
-    }
+    box.append(...row.inputs);
+    if (row.box) box.prepend(this.switch(row));
     return box;
   }
-  moved(c, value) {
-    this.change(c.key, String(value));
+  switch(row) {
+    row.on_off = this.element("input", { type: "checkbox", id: row.box });
+    row.on_off.addEventListener("change", () =>
+      this.change(row.key, (row.on_off.checked ? row.on : row.off)(this.values)),
+    );
+    return this.element(
+      "label",
+      { for: row.box, class: "wide" },
+      row.on_off,
+      " ",
+      this.element("span", { "data-t": row.box }),
+    );
+  }
+  moved(row, value) {
+    this.change(row.key, row.put && value !== "" ? row.put(Number(value), this.values) : String(value));
   }
 
   /* As the scene in force has it. */
   show(values) {
-    const flow = document.getElementById("flow");
-    let other = flow.querySelector("option[data-other]");
-    if (!FLOWS.includes(values.flow)) {
-      if (!other) flow.append((other = this.element("option", { "data-other": "" })));
-      other.value = values.flow;
-      other.textContent = t("flow_other", { name: values.flow });
-    } else if (other) other.remove();
-    flow.value = values.flow;
-    for (const c of CONTROLS) {
-      const value = valueOf(values, c.key),
-        off = c.off !== undefined && String(value) === c.off,
-        plain = typeof value === "number";
-      for (const input of [c.range, c.number]) {
-        if (!input) continue;
-        input.disabled = !plain;
-        if (plain && document.activeElement !== input) input.value = value;
-        input.removeAttribute("aria-invalid");
-      }
-      if (c.on) c.on.checked = !off;
+    this.values = values;
+    for (const row of CONTROLS) {
+      row.all.hidden = !!row.flows && !row.flows.includes(values.flow);
+      for (const input of row.inputs) input.removeAttribute("aria-invalid");
+      if (row.words) this.showChoice(row, values);
+      else this.showNumber(row, shownValue(row, values));
     }
-    flow.removeAttribute("aria-invalid");
+  }
+  showNumber(row, value) {
+    const plain = typeof value === "number";
+    for (const input of row.inputs) {
+      input.disabled = !plain;
+      if (plain && document.activeElement !== input) input.value = value;
+    }
+    if (row.get && !row.box && !plain) row.all.hidden = true;
+    if (!row.on_off) return;
+    row.on_off.checked = plain || (value !== null && String(value) !== row.off(this.values));
+    row.all.classList.toggle("off", !row.on_off.checked);
+  }
+  /* A word that the list has not comes with the scene. */
+  showChoice(row, values) {
+    const [select] = row.inputs,
+      value = valueOf(values, row.key);
+    let other = select.querySelector("option[data-other]");
+    if (!row.words.includes(value)) {
+      if (!other) select.append((other = this.element("option", { "data-other": "" })));
+      other.value = value;
+      other.textContent = t("word_other", { name: value });
+    } else if (other) other.remove();
+    select.value = value;
   }
 
   /* Which one the library refused, by the key that its message names. */
   refuse(key) {
-    for (const c of CONTROLS)
-      for (const input of [c.range, c.number]) if (input && c.key === key) input.setAttribute("aria-invalid", "true");
-    if (key === "flow") document.getElementById("flow").setAttribute("aria-invalid", "true");
+    for (const row of CONTROLS)
+      if (row.key === key) for (const input of row.inputs) input.setAttribute("aria-invalid", "true");
   }
 
   /* Names for those who do not see where a number stands. */
   name() {
-    for (const c of CONTROLS) if (!c.plain) c.number.setAttribute("aria-label", t("number", { name: t(c.name) }));
+    for (const row of CONTROLS)
+      if (row.number && !row.plain) row.number.setAttribute("aria-label", t("number", { name: t(row.name) }));
   }
 }

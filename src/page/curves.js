@@ -6,6 +6,10 @@ const LINES = [
   { colour: "#8e3a9a", dash: "2 3" },
   { colour: "#555555", dash: "10 3 2 3" },
   { colour: "#8a6a00", dash: "5 5" },
+  { colour: "#a3004c", dash: "12 2" },
+  { colour: "#2f6f00", dash: "1 4" },
+  { colour: "#004c6d", dash: "6 2 1 2 1 2" },
+  { colour: "#6b4a3a", dash: "3 6" },
 ];
 /* Which theories are drawn first where there are many. */
 const FIRST = [
@@ -47,37 +51,78 @@ class Past {
   column(name) {
     return this.rows.map((row) => row[name]);
   }
+  get key() {
+    return this.logarithmic ? "time" : "clock";
+  }
+  course(name) {
+    return { x: this.column(this.key), y: this.column(name) };
+  }
 }
+
+/* Of a result, which tells it by time; up to where it is played a line stands across. */
+class StoredPast {
+  constructor(logarithmic, courses = {}) {
+    this.logarithmic = logarithmic;
+    this.courses = courses;
+    this.key = "time";
+    this.now = 0;
+  }
+  course(name) {
+    const of = this.courses[name.endsWith("2") ? "dsmc" : "md"],
+      one = of && of[name.replace("2", "")];
+    return one ? { x: one.time, y: one.value } : { x: [], y: [] };
+  }
+}
+const COURSES = [
+  ["T", "md_temperature"],
+  ["theta", "md_rotational_temperature"],
+  ["T2", "dsmc_temperature"],
+  ["theta2", "dsmc_rotational_temperature"],
+];
 
 const mean = (part, name) => (part && part[name] && Number.isFinite(part[name].mean) ? part[name].mean : NaN);
 const error = (part, name) => (part && part[name] && Number.isFinite(part[name].stderr) ? part[name].stderr : 0);
 
 /* Theories with an answer to one of these quantities, the best known first. */
-function theoriesWith(means, names, most = 4) {
-  const all = Object.keys(means.theory || {}).filter((name) =>
-    names.some((q) => Number.isFinite(mean(means.theory[name], q))),
+function theoriesWith(means, names) {
+  return ranked(
+    Object.keys(means.theory || {}).filter((name) => names.some((q) => Number.isFinite(mean(means.theory[name], q)))),
   );
+}
+function ranked(names) {
   const rank = (name) => (FIRST.indexOf(name) + FIRST.length + 1) % (FIRST.length + 1);
-  return all.sort((a, b) => rank(a) - rank(b)).slice(0, most);
+  return [...names].sort((a, b) => rank(a) - rank(b));
+}
+/* Of those, the ones that are drawn: the first four, or what the student has chosen. */
+function chosenTheories(means, names) {
+  const all = ranked(names);
+  return page.drawnTheories ? all.filter((name) => page.drawnTheories.has(name)) : all.slice(0, 4);
 }
 const beyondMark = (means, name) => (means.theories[name] && means.theories[name].beyond ? " †" : "");
 
 function temperatureChart(figure, history, means, values) {
   const cooling = values.flow === "hcs",
-    key = cooling ? "time" : "clock",
-    x = history.column(key),
-    rough = history.rows.some((r) => r.theta > 0 || r.theta2 > 0);
-  const line = (name, label, colour, dash, width) => ({ x, y: history.column(name), label, colour, dash, width });
-  const series = [line("T", `${t("md")}: T`, MD), line("T2", `${t("dsmc")}: T`, DSMC)];
-  if (rough) series.push(line("theta", `${t("md")}: θ`, MD, "4 3"), line("theta2", `${t("dsmc")}: θ`, DSMC, "4 3"));
-  if (means && x.length) series.push(...(cooling ? haffLine(means, values, x) : steadyLines(means, x, rough)));
+    rough = ["theta", "theta2"].some((name) => history.course(name).y.some((y) => y > 0));
+  const line = (name, label, colour, dash) => ({ ...history.course(name), label, colour, dash });
+  const drawn = [line("T", `${t("md")}: T`, MD), line("T2", `${t("dsmc")}: T`, DSMC)];
+  if (rough) drawn.push(line("theta", `${t("md")}: θ`, MD, "4 3"), line("theta2", `${t("dsmc")}: θ`, DSMC, "4 3"));
+  const series = drawn.filter((one) => one.x.length || history instanceof Past),
+    x = series.flatMap((one) => one.x).sort((a, b) => a - b);
+  if (means && x.length) series.push(...(cooling ? coolingLines(means, x) : steadyLines(means, x, rough)));
+  if (history.now > 0) series.push(nowLine(history.now, series));
   plot(figure, {
     title: t(rough ? "temperature" : "temperatureOnly"),
     series,
     summary: figureSummary(means, "temperature"),
-    x: { label: cooling ? t("time", { unit: "d/v₀" }) : t("collisionsAGrain"), log: cooling },
+    x: { label: history.key === "time" ? t("time", { unit: timeUnit() }) : t("collisionsAGrain"), log: cooling },
     y: { log: cooling, range: cooling ? null : [0, 1.12 * highest(series)] },
   });
+}
+/* Where a result that is played stands. */
+function nowLine(now, series) {
+  const good = series.flatMap((s) => s.y).filter((y) => y > 0),
+    y = good.length ? [Math.min(...good), Math.max(...good)] : [0, 1];
+  return { x: [now, now], y, colour: "#222222", dash: "2 3", width: 1.5, label: t("playedNow"), name: "now" };
 }
 function highest(series) {
   const all = series.flatMap((s) => Array.from(s.y)).filter(Number.isFinite);
@@ -108,7 +153,7 @@ function steadyLines(means, x, rough) {
           quiet: name !== "temperature",
         });
     }
-  theoriesWith(means, ["temperature"]).forEach((name, i) => {
+  chosenTheories(means, theoriesWith(means, ["temperature"])).forEach((name, i) => {
     const about = means.theories[name],
       label = name + beyondMark(means, name),
       add = (q, quiet) => {
@@ -117,7 +162,7 @@ function steadyLines(means, x, rough) {
           out.push({
             x: across,
             y: [m, m],
-            ...LINES[i],
+            ...LINES[i % LINES.length],
             width: 1.6,
             label,
             title: about.title,
@@ -131,23 +176,21 @@ function steadyLines(means, x, rough) {
   return out;
 }
 
-/* Haff's law through the theory's rate, which results count in nu = 16/5 sqrt(pi) n d^2 sqrt(T/m) (docs/theory.md). */
-function haffLine(means, values, x) {
-  const theory = means.theory && means.theory.haff1983,
-    rate = mean(theory, "cooling_rate"),
-    T0 = mean(theory, "temperature");
-  if (!Number.isFinite(rate)) return [];
-  const zeta = ((rate * 16) / 5) * Math.sqrt(Math.PI) * ((6 * values.phi) / Math.PI) * Math.sqrt(T0);
-  return [
-    {
-      x,
-      y: x.map((time) => T0 / (1 + (zeta * time) / 2) ** 2),
-      ...LINES[0],
-      width: 1.6,
-      label: t("haff") + beyondMark(means, "haff1983"),
-      name: "haff1983 temperature",
-    },
-  ];
+/* Theories of free cooling, each with its own rate, as far as the gas has come. */
+function coolingLines(means, x) {
+  const { time, T } = means.cooling,
+    last = x[x.length - 1],
+    first = x.find((one) => one > 0);
+  const inside = time.map((_, i) => i).filter((i) => time[i] >= first / 1.3 && time[i] <= last * 1.3);
+  return chosenTheories(means, Object.keys(T)).map((name, i) => ({
+    x: inside.map((k) => time[k]),
+    y: inside.map((k) => T[name][k]),
+    ...LINES[i % LINES.length],
+    width: 1.6,
+    label: (name === "haff1983" ? t("haff") : name) + beyondMark(means, name),
+    title: means.theories[name].title,
+    name: `${name} temperature`,
+  }));
 }
 
 function velocityChart(figure, means) {
@@ -179,6 +222,7 @@ function velocityChart(figure, means) {
         gauss = { x: c.x, y: c.reference.value, colour: "#222222", dash: "1 3", width: 2, label: t("gaussian") };
     }
   if (gauss) series.push(gauss);
+  figure.hidden = !!means.stored && !series.length; /* it was not measured */
   plot(figure, {
     title: t("velocities"),
     series,
@@ -188,34 +232,36 @@ function velocityChart(figure, means) {
   });
 }
 
-/* P_xx/p, P_yy/p and P_zz/p from the two differences. */
-function stresses(part) {
-  const a = mean(part, "N1"),
-    b = mean(part, "N2"),
-    ea = error(part, "N1"),
-    eb = error(part, "N2");
-  return {
-    y: [1 + (2 * a + b) / 3, 1 + (b - a) / 3, 1 - (a + 2 * b) / 3],
-    error: [Math.hypot(2 * ea, eb) / 3, Math.hypot(ea, eb) / 3, Math.hypot(ea, 2 * eb) / 3],
-  };
-}
+/* N1 and N2, as they are measured and said. */
 function stressChart(figure, means) {
   const series = [],
+    names = ["N1", "N2"],
     add = (part, at, rest) => {
       if (Number.isFinite(mean(part, "N1")))
-        series.push({ x: [0, 1, 2].map((i) => i + at), points: true, ...stresses(part), ...rest });
+        series.push({
+          x: names.map((_, i) => i + at),
+          y: names.map((name) => mean(part, name)),
+          error: names.map((name) => error(part, name)),
+          points: true,
+          ...rest,
+        });
     };
-  theoriesWith(means, ["N1"]).forEach((name, i) =>
-    add(means.theory[name], 0, { colour: LINES[i].colour, shape: "dash", label: name + beyondMark(means, name) }),
+  chosenTheories(means, theoriesWith(means, ["N1"])).forEach((name, i) =>
+    add(means.theory[name], 0, {
+      colour: LINES[i % LINES.length].colour,
+      shape: "dash",
+      label: name + beyondMark(means, name),
+    }),
   );
   add(means.md && means.md.results, -0.12, { colour: MD, shape: "circle", label: t("md") });
   add(means.dsmc && means.dsmc.results, 0.12, { colour: DSMC, shape: "square", label: t("dsmc") });
+  const all = series.flatMap((s) => s.y).filter(Number.isFinite);
   plot(figure, {
     title: t("stress"),
     series,
-    summary: figureSummary(means, "N1"),
-    x: { names: ["P_xx/p", "P_yy/p", "P_zz/p"], range: [-0.5, 2.5] },
-    y: { range: [0, Math.max(2, 1.12 * highest(series))] },
+    summary: `${figureSummary(means, "N1")}. ${figureSummary(means, "N2")}`,
+    x: { names: ["N1 = (P_xx − P_yy)/p", "N2 = (P_yy − P_zz)/p"], range: [-0.5, 1.5] },
+    y: { range: [Math.min(-0.1, 1.2 * Math.min(0, ...all)), Math.max(0.5, 1.2 * Math.max(0, ...all))] },
   });
 }
 
@@ -225,7 +271,7 @@ function figureSummary(means, name) {
     engine,
     withError(mean(means[engine] && means[engine].results, name), error(means[engine] && means[engine].results, name)),
   ]);
-  const theories = theoriesWith(means, [name]).map((one) => [one, number(mean(means.theory[one], name))]);
+  const theories = chosenTheories(means, theoriesWith(means, [name])).map((one) => [one, number(mean(means.theory[one], name))]);
   return `${name}: ${parts
     .concat(theories)
     .map(([who, what]) => `${who} ${what}`)

@@ -1,4 +1,4 @@
-/* The engines as a page sees them: objects with methods, around the exports of exports.c. Runs in a worker, a window and
+/* The engines as a page sees them: objects with methods, around the exports of exports_*.c. Runs in a worker, a window and
  * node. `make` is the function that the module engines.js was built as (graingas). */
 "use strict";
 
@@ -55,6 +55,32 @@ async function openEngines(make, options) {
   };
   const matrix = (v) => [v.slice(0, 3), v.slice(3, 6), v.slice(6, 9)];
   const outcome = (code) => need(code) === 1;
+  const withPath = (path, call) => need(withText([path], call));
+  /* Views of the module's own memory, good until the next call of anything here: copy what is to stay. */
+  const viewsOf = (at, n) => {
+    const array = (which, per) => {
+      const from = c._page_array(at, which);
+      return from ? doubles(from, per * n) : null;
+    };
+    const species = c._page_array(at, 3) >> 2;
+    return {
+      n,
+      position: array(0, 3),
+      velocity: array(1, 3),
+      spin: array(2, 3),
+      species: c.HEAP32.subarray(species, species + n),
+      hit: array(4, 1),
+    };
+  };
+  const stateAt = (at) => {
+    const v = numbers(at, 20);
+    return { ...named(STATE, v), box: v.slice(8, 11), kineticStress: matrix(v.slice(11)) };
+  };
+  const allSpecies = (ask) => {
+    const found = [];
+    for (let i = 0, at; (at = ask(i)); i++) found.push(named(SPECIES, numbers(at, 6)));
+    return found;
+  };
 
   class Scene {
     constructor(yaml) {
@@ -100,7 +126,7 @@ async function openEngines(make, options) {
       return outcome(c._page_collide(this.at, collisions, milliseconds));
     }
     step() {
-      const v = numbers(c._page_step(this.at), 14);
+      const v = numbers(c._page_step(this.at), 15);
       return {
         grain: v.slice(0, 2),
         species: v.slice(2, 4),
@@ -108,11 +134,15 @@ async function openEngines(make, options) {
         velocity: v.slice(7, 10),
         normalSpeed: v[10],
         impulse: v.slice(11, 14),
+        time: v[14],
       };
     }
     state() {
-      const v = numbers(c._page_state(this.at), 20);
-      return { ...named(STATE, v), box: v.slice(8, 11), kineticStress: matrix(v.slice(11)) };
+      return stateAt(c._page_state(this.at));
+    }
+    /* From now on grains() tells when each last collided. Of md. */
+    follow() {
+      need(c._page_follow(this.at));
     }
     sums() {
       const v = numbers(c._page_sums(this.at), 13);
@@ -124,33 +154,41 @@ async function openEngines(make, options) {
         collisionalStress: matrix(v.slice(4)),
       };
     }
-    /* Views of the module's own memory, good until the next call of anything here: copy what is to stay. */
     grains() {
       need(c._page_take_grains(this.at));
-      const n = doubles(need(c._page_state(this.at)), 4)[3];
-      const array = (which) => {
-        const at = c._page_array(this.at, which);
-        return at ? doubles(at, 3 * n) : null;
-      };
-      const species = c._page_array(this.at, 3) >> 2;
-      return {
-        n,
-        position: array(0),
-        velocity: array(1),
-        spin: array(2),
-        species: c.HEAP32.subarray(species, species + n),
-      };
+      return viewsOf(this.at, doubles(need(c._page_state(this.at)), 4)[3]);
     }
     species() {
-      return Array.from({ length: c._page_species(this.at) }, (_, i) =>
-        named(SPECIES, numbers(c._page_species_state(this.at, i), 6)),
-      );
+      return allSpecies((i) => c._page_species_state(this.at, i));
     }
     hash() {
       return c.UTF8ToString(need(c._page_hash(this.at)));
     }
     free() {
       c._page_simulation_free(this.at);
+      this.at = 0;
+    }
+  }
+
+  /* The frames of a result file. */
+  class Trajectory {
+    constructor(path) {
+      this.at = withPath(path, (at) => c._page_trajectory_new(at));
+      this.frames = c._page_trajectory_frames(this.at);
+    }
+    scene() {
+      return new Scene(take(c._page_scene_yaml(c._page_trajectory_scene(this.at))));
+    }
+    /* The k-th, from 0: its state and grains. */
+    frame(k) {
+      const state = stateAt(c._page_trajectory_frame(this.at, k));
+      return { state, grains: viewsOf(this.at, state.grains) };
+    }
+    species() {
+      return allSpecies((i) => c._page_trajectory_species(this.at, i));
+    }
+    free() {
+      c._page_trajectory_free(this.at);
       this.at = 0;
     }
   }
@@ -175,10 +213,10 @@ async function openEngines(make, options) {
     }
   }
 
-  /* The theories, and what sessions of the same scene have found, beside each other. */
+  /* The theories, and what sessions of the same scene have found, beside each other; or a result file, by its path. */
   class Comparison {
     constructor(scene) {
-      this.at = need(c._page_comparison(scene.at));
+      this.at = typeof scene === "string" ? withPath(scene, (at) => c._page_comparison_read(at)) : need(c._page_comparison(scene.at));
     }
     take(session) {
       need(c._page_comparison_take(this.at, session.at));
@@ -186,6 +224,19 @@ async function openEngines(make, options) {
     }
     document() {
       return JSON.parse(take(c._page_comparison_json(this.at)));
+    }
+    /* T after these times of a gas that cools freely; NaN where the theory does not say. */
+    cooling(theory, times) {
+      return withText([theory], (at) => times.map((time) => c._page_cooling(this.at, at, time)));
+    }
+    /* How a quantity of "md" or "dsmc" went; null: it was not followed. */
+    history(engine, quantity) {
+      const at = withText([engine, quantity], (e, q) => c._page_history(this.at, e, q));
+      if (!at) return null;
+      const [n] = doubles(at, 1),
+        all = Array.from(doubles(at, 2 * n + 1));
+      c._free(at);
+      return { time: all.slice(1, n + 1), value: all.slice(n + 1) };
     }
     free() {
       c._page_comparison_free(this.at);
@@ -200,9 +251,34 @@ async function openEngines(make, options) {
     return found;
   }
 
+  /* A file, or {name, bytes}, is read under its name, wherever it was. Nothing of it is copied in a worker. */
+  let folders = 0;
+  function withFile(file, call) {
+    const folder = `/file${++folders}`,
+      inPlace = typeof Blob !== "undefined" && file instanceof Blob,
+      gone = () => {
+        c.FS.chdir("/");
+        if (inPlace) c.FS.unmount(folder);
+        else c.FS.unlink(`${folder}/${file.name}`);
+        c.FS.rmdir(folder);
+      };
+    c.FS.mkdir(folder);
+    if (inPlace) c.FS.mount(c.WORKERFS, { files: [file] }, folder);
+    else c.FS.writeFile(`${folder}/${file.name}`, file.bytes);
+    c.FS.chdir(folder);
+    try {
+      return { answer: call(file.name), gone };
+    } catch (e) {
+      gone();
+      throw e;
+    }
+  }
+
   return {
     Scene,
     Simulation,
+    Trajectory,
+    withFile,
     Session,
     Comparison,
     catalogue,

@@ -1,19 +1,45 @@
+/* Times for the lines of theories of free cooling: decades, few enough. The page draws lines between them. */
+const COOLING_TIMES = Array.from({ length: 121 }, (_, i) => 10 ** (i / 12 - 4));
+function courseOfTheories(comparison) {
+  const T = {};
+  for (const name of Object.keys(comparison.document().theory || {})) {
+    const said = comparison.cooling(name, COOLING_TIMES);
+    if (Number.isFinite(said[0])) T[name] = said;
+  }
+  return { cooling: { time: COOLING_TIMES, T } };
+}
+
 /* The means, in a worker of their own: a run of each engine in pieces, with the theories, until the scene's own end. */
 class Measuring {
   constructor(g, text, sets) {
-    const scene = sceneOf(g, text, sets),
+    this.sessions = {};
+    this.refused = {};
+    const scene = sceneOf(g, text, sets);
+    let values;
+    try {
       values = scene.values();
-    scene.free();
+    } finally {
+      scene.free();
+    }
     const measure = values.measure.includes("velocity_distributions")
       ? {}
       : { measure: `[${[...values.measure, "velocity_distributions"]}]` };
     const one = { ...measure, "run.replicas": 1 };
-    const beside = sceneOf(g, text, sets, one);
-    this.comparison = new g.Comparison(beside);
-    beside.free();
-    this.refused = {};
-    this.sessions = {};
-    for (const engine of ["md", "dsmc"]) this.begin(g, text, sets, engine, one);
+    try {
+      this.compare(sceneOf(g, text, sets, one), g);
+      for (const engine of ["md", "dsmc"]) this.begin(g, text, sets, engine, one);
+    } catch (e) {
+      this.free();
+      throw e;
+    }
+  }
+  compare(scene, g) {
+    try {
+      this.comparison = new g.Comparison(scene);
+    } finally {
+      scene.free();
+    }
+    this.course = courseOfTheories(this.comparison);
   }
 
   begin(g, text, sets, engine, one) {
@@ -53,11 +79,11 @@ class Measuring {
         progress[engine].lack = e.message;
       }
     }
-    return { ...this.comparison.document(), progress, refused: this.refused };
+    return { ...this.comparison.document(), ...this.course, progress, refused: this.refused };
   }
 
   free() {
     for (const one of Object.values(this.sessions)) one.session.free();
-    this.comparison.free();
+    if (this.comparison) this.comparison.free();
   }
 }

@@ -9,7 +9,9 @@ function notices() {
   if (frame && frame.ended) add("ended", { engine: frame.md ? "md" : "dsmc", why: frame.ended });
   if (frame && frame.dsmcEnded) add("ended", { engine: "dsmc", why: frame.dsmcEnded });
   if (page.behind > 40) add("behind");
+  if (page.player && page.player.frames === 1) add("oneFrame");
   if (!means) return out;
+  if (page.player) return [...new Set([...out, ...storedNotices(means)])].slice(0, 7);
   const length = mean(means.theory && means.theory.goldhirsch_zanetti1993, "clustering_length");
   if (about.values.flow === "hcs" && frame && frame.md && Math.max(...frame.md.box) > length)
     add("clusters", { l: number(length, 3) });
@@ -29,10 +31,21 @@ function notices() {
     else if (p.over && means[engine] && means[engine].steady === false)
       add("steady_no", { engine, why: means[engine].verdict });
   }
+  out.push(...warningsOf(means));
+  return [...new Set(out)].slice(0, 7);
+}
+/* What the library warns of, less what an unfinished run says of itself. */
+function warningsOf(means) {
+  const out = [];
   for (const engine of ["md", "dsmc"])
     for (const w of (means[engine] && means[engine].warnings) || [])
       if (!/null|not a steady mean|has no error|too short for errors/.test(w)) out.push(`${engine}: ${w}`);
-  return [...new Set(out)].slice(0, 7);
+  return out;
+}
+/* Of a result: whether its run was steady, too. */
+function storedNotices(means) {
+  const unsteady = ["md", "dsmc"].filter((engine) => means[engine] && means[engine].steady === false);
+  return [...unsteady.map((engine) => t("steady_no", { engine, why: means[engine].verdict })), ...warningsOf(means)];
 }
 function showNotices() {
   const now = notices(),

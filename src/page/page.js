@@ -11,6 +11,9 @@ const page = {
   speed: 1,
   frames: 0,
   starts: 0,
+  files: 0,
+  player: null,
+  drawnTheories: null,
   about: null,
   frame: null,
   means: null,
@@ -93,6 +96,10 @@ async function start(scene, sets, keepMessage = false) {
     return false;
   }
   if (!keepMessage) byId("refused").textContent = "";
+  if (page.player) {
+    leavePlaying();
+    page.playing = page.shelf.playing;
+  }
   Object.assign(page, {
     scene,
     sets,
@@ -105,19 +112,28 @@ async function start(scene, sets, keepMessage = false) {
     behind: 0,
   });
   page.history = new Past(answer.about.values.flow === "hcs");
-  page.controls.show(answer.about.values);
-  byId("images-row").hidden = !sheared();
-  byId("yaml").value = page.scene;
-  byId("title").textContent = answer.about.title;
-  byId("event").textContent = "";
-  document.title = `${answer.about.title} – graingas`;
+  showGas();
   writeLink(page);
   page.wantFrame = true;
-  showCharts();
-  byId("table").tBodies[0].replaceChildren();
   byId("progress").textContent = t("waiting");
   askMeans();
   return true;
+}
+
+/* What is known of the gas that is seen, before it moves. */
+function showGas() {
+  const { about } = page,
+    title = page.player ? `${page.player.name}: ${about.title}` : about.title;
+  page.controls.show(about.values);
+  byId("images-row").hidden = !sheared();
+  byId("yaml").value = page.scene;
+  byId("title").textContent = title;
+  byId("event").textContent = "";
+  document.title = `${title} – graingas`;
+  page.noticed = null;
+  showPlaying();
+  showCharts();
+  byId("table").tBodies[0].replaceChildren();
 }
 
 /* Theories take a second: only the newest scene is measured, after the sliders rest. */
@@ -149,8 +165,11 @@ function refuse(message, sets) {
   for (const key of Object.keys(sets)) if (message.includes(key)) page.controls.refuse(key);
 }
 
-/* What a flow needs, and others refuse. An elastic gas needs e = 1, and so do those keys that would cost energy; a flow
- * that comes after an elastic gas begins with 0.9. */
+/* Keys that would cost energy, and what they are in an elastic gas. */
+const ELASTIC = { "collision.e": "1", "collision.beta": "-1", "collision.mu": "inf", "collision.law": "constant" };
+
+/* What a flow needs, and others refuse. An elastic gas needs e = 1; the flow that comes after it has again what was
+ * there before, or 0.9 where nothing was. */
 function changeKey(key, value) {
   const sets = { ...page.sets, ...page.pending, [key]: value };
   if (key === "flow")
@@ -158,9 +177,15 @@ function changeKey(key, value) {
       thermostat: value === "hss" ? "gaussian" : "none",
       gravity: value === "chute" ? "[0.1, -0.1, 0]" : "[0, 0, 0]",
     });
-  if (key === "flow" && value === "equilibrium")
-    Object.assign(sets, { "collision.e": "1", "collision.beta": "-1", "collision.mu": "inf" });
-  else if (key === "flow" && page.about && page.about.values.collision.e === 1) sets["collision.e"] = "0.9";
+  const now = page.about.values;
+  if (key === "flow" && value === "equilibrium") {
+    if (now.flow !== "equilibrium")
+      page.inelastic = Object.fromEntries(Object.keys(ELASTIC).map((one) => [one, asText(valueOf(now, one))]));
+    Object.assign(sets, ELASTIC);
+  } else if (key === "flow" && now.flow === "equilibrium") {
+    Object.assign(sets, page.inelastic || { "collision.e": "0.9" });
+    page.inelastic = null;
+  }
   page.pending = sets;
   clearTimeout(page.changeTimer);
   page.changeTimer = setTimeout(() => start(page.scene, sets), 120);
@@ -175,7 +200,8 @@ function tick(now) {
     page.newFrame = false;
     drawFrame();
   }
-  if (page.about && !page.inFlight && (page.playing || page.wantFrame || page.wantStep)) ask(seconds);
+  if (page.player) tickPlaying(seconds);
+  else if (page.about && !page.inFlight && (page.playing || page.wantFrame || page.wantStep)) ask(seconds);
   if (now - (page.slow || 0) > 300 && page.changed) {
     page.slow = now;
     page.changed = false;
@@ -227,23 +253,24 @@ function drawFrame() {
 
 function listen() {
   const on = (id, what, kind = "click") => byId(id).addEventListener(kind, what);
-  const faster = (by) => {
-    page.speed = SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, SPEEDS.indexOf(page.speed) + by))];
-    showPlaying();
-  };
   const play = (yes) => {
     page.playing = yes;
     if (yes) showEvent(null);
+    if (yes && page.player && page.player.at >= page.player.frames - 1) page.player.at = 0;
     showPlaying();
   };
   on("play", () => play(!page.playing));
   on("step", () => {
+    if (page.player) {
+      goTo(Math.floor(page.player.at) + 1);
+      return;
+    }
     play(false);
     page.wantStep = true;
   });
   on("slower", () => faster(-1));
   on("faster", () => faster(1));
-  on("restart", () => start(page.scene, page.sets));
+  on("restart", () => (page.player ? goTo(0) : start(page.scene, page.sets)));
   on("reseed", () => start(page.scene, { ...page.sets, "run.seed": String(1 + Math.floor(Math.random() * 999999)) }));
   on(
     "colour",
@@ -286,6 +313,7 @@ function listen() {
   );
   on("save-yaml", () => save("scene.yaml", new Blob([page.about.yaml], { type: "text/yaml" })));
   on("copy-link", copyLink);
+  listenForFiles();
   window.addEventListener("hashchange", () => follow(readLink()));
   window.addEventListener("resize", () => {
     page.newFrame = !!page.frame;

@@ -12,15 +12,14 @@ function save(name, blob) {
 function curvesCsv(history, means, title) {
   const rows = [["curve", "x_name", "x", "value", "error"]],
     add = (...row) => rows.push(row);
-  for (const [column, name] of [
-    ["T", "md_temperature"],
-    ["theta", "md_rotational_temperature"],
-    ["T2", "dsmc_temperature"],
-    ["theta2", "dsmc_rotational_temperature"],
-  ])
-    for (const row of history.rows)
-      if (Number.isFinite(row[column])) add(name, "collisions_per_grain", row.clock, row[column], "");
-  for (const row of history.rows) add("time", "collisions_per_grain", row.clock, row.time, "");
+  const axis = history.key === "time" ? "time" : "collisions_per_grain";
+  for (const [column, name] of COURSES) {
+    const { x, y } = history.course(column);
+    x.forEach((at, i) => {
+      if (Number.isFinite(y[i])) add(name, axis, at, y[i], "");
+    });
+  }
+  for (const row of history.rows || []) add("time", "collisions_per_grain", row.clock, row.time, "");
   for (const engine of ["md", "dsmc"])
     for (const [name, c] of Object.entries((means && means[engine] && means[engine].curves) || {}))
       c.x.forEach((x, i) => {

@@ -36,14 +36,19 @@ function showMeans(means) {
   stressChart(byId("chart-stress"), means);
   fillTable(byId("table"), means, byId("everything").checked);
   fillRanges(byId("ranges"), means);
+  showTheories(means);
   const phase = (engine) => {
     const p = means.progress[engine];
     if (!p) return t("phaseNone");
     return p.over ? t("phaseDone") : t(p.averaging ? "phaseAverage" : "phaseWarm", { p: Math.floor(100 * p.fraction) });
   };
-  byId("progress").textContent = t("progress", { md: phase("md"), dsmc: phase("dsmc") });
+  byId("progress").textContent = page.player
+    ? t("progressStored", { name: page.player.name })
+    : t("progress", { md: phase("md"), dsmc: phase("dsmc") });
   page.changed = true;
 }
+
+const whichFrame = () => ({ k: Math.max(0, page.player.shown) + 1, n: page.player.frames });
 
 /* For those who hear the page: every few seconds what it shows. */
 function say() {
@@ -58,7 +63,9 @@ function say() {
         })
       : "";
   byId("summary").textContent = t("summary", {
-    title: page.about.title,
+    title: page.player
+      ? t("summaryPlayed", { name: page.player.name, title: page.about.title, ...whichFrame() })
+      : page.about.title,
     c: number(s.collisionsPerGrain, 3),
     T: number(s.temperature),
     theta: s.rotationalTemperature > 0 ? t("summaryTheta", { theta: number(s.rotationalTemperature) }) : "",
@@ -77,10 +84,16 @@ function showScale() {
 }
 
 function showPlaying() {
+  const [speed, all] = page.player ? [page.player.rate, FRAMES_A_SECOND] : [page.speed, SPEEDS];
   byId("play").textContent = t(page.playing ? "pause" : "play");
-  byId("speed").textContent = t("speed", { x: page.speed });
-  byId("slower").disabled = page.speed <= SPEEDS[0];
-  byId("faster").disabled = page.speed >= SPEEDS[SPEEDS.length - 1];
+  byId("speed").textContent = t(page.player ? "frameRate" : "speed", { x: speed });
+  byId("slower").disabled = speed <= all[0];
+  byId("faster").disabled = speed >= all[all.length - 1];
+  byId("step").textContent = t(page.player ? "nextFrame" : "step");
+  byId("restart").textContent = t(page.player ? "firstFrame" : "restart");
+  byId("reseed").hidden = !!page.player;
+  byId("player").hidden = !page.player;
+  byId("colour").querySelector("[value=since]").disabled = !!page.player;
 }
 
 function showLanguage() {
@@ -94,6 +107,7 @@ function showLanguage() {
   showLesson();
   showScale();
   showPlaying();
+  if (page.player) byId("frame-number").textContent = t("frameOf", whichFrame());
   if (page.about) {
     page.controls.show(page.about.values);
     page.noticed = null;

@@ -61,7 +61,7 @@ function fillTable(table, means, everything) {
       (!everything && Object.values(means.theory).some((one) => Number.isFinite(mean(one, name)))) ||
       everything,
   );
-  const theories = theoriesWith(means, shown, everything ? 99 : 4),
+  const theories = everything ? theoriesWith(means, shown) : chosenTheories(means, theoriesWith(means, shown)),
     z = Object.fromEntries((means.comparison || []).map((row) => [row.quantity, row.md_dsmc_z]));
   const head = document.createElement("tr");
   for (const text of [

@@ -1,6 +1,7 @@
 /* The worker's side of the page: messages in, answers out. One worker shows the gas, another measures it. */
 let g = null,
   live = null,
+  replay = null,
   measuring = null,
   timer = 0,
   told = 0;
@@ -17,6 +18,19 @@ const JOBS = {
     return { about: live.about, refusal: live.refusal, dsmcRefusal: live.dsmcRefusal };
   },
   frame: (job) => (live ? live.frame(job) : {}),
+  play: ({ file }) => {
+    const next = new Replay(g, file);
+    if (replay) replay.free();
+    replay = next;
+    return { about: replay.about };
+  },
+  played: (job) => replay.frame(job),
+  close: () => {
+    if (replay) replay.free();
+    replay = null;
+    return {};
+  },
+  read: ({ file }) => readResult(g, file),
   measure: ({ scene, sets, id }) => {
     clearTimeout(timer);
     if (measuring) measuring.free();

@@ -119,6 +119,17 @@ class Tab {
       if (Date.now() > end) throw new Error(`after ${seconds} s still not: ${expression}`);
     }
   }
+  async press(key) {
+    const windowsVirtualKeyCode = { Home: 36, ArrowRight: 39, Enter: 13 }[key];
+    for (const type of ["keyDown", "keyUp"])
+      await this.send("Input.dispatchKeyEvent", { type, key, code: key, windowsVirtualKeyCode });
+  }
+  /* A file for an input, as its dialogue would give it. */
+  async choose(selector, file) {
+    const { root } = await this.send("DOM.getDocument", {});
+    const { nodeId } = await this.send("DOM.querySelector", { nodeId: root.nodeId, selector });
+    await this.send("DOM.setFileInputFiles", { nodeId, files: [file] });
+  }
   async picture(file) {
     const { data } = await this.send("Page.captureScreenshot", { format: "png", captureBeyondViewport: false });
     fs.writeFileSync(file, Buffer.from(data, "base64"));

@@ -1,6 +1,7 @@
 /* TAP, as the tests of the command print it; and the two that are compared: the terminal and the engines in node. */
 "use strict";
 const fs = require("fs"),
+  os = require("os"),
   path = require("path"),
   { execFileSync } = require("child_process");
 
@@ -28,6 +29,29 @@ const refusal = (scene, ...args) => {
   return "";
 };
 
+/* A result file of the terminal's: its bytes, and what the command printed of it. */
+function resultOf(scene, use = "run", more = []) {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), "graingas-result-")),
+    file = path.join(folder, "result.h5");
+  const printed = JSON.parse(terminal(scene, use, "--json", "--quiet", "--output", file, ...more));
+  const bytes = fs.readFileSync(file);
+  fs.rmSync(folder, { recursive: true });
+  return { printed, bytes };
+}
+/* What the terminal says of a file with these bytes. */
+function refusalOf(bytes, name = "given.h5") {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), "graingas-result-"));
+  fs.writeFileSync(path.join(folder, name), bytes);
+  try {
+    execFileSync(path.resolve(command), ["info", name], { cwd: folder, encoding: "utf8", stdio: ["pipe", "pipe", "pipe"] });
+  } catch (e) {
+    return e.stderr.trim();
+  } finally {
+    fs.rmSync(folder, { recursive: true });
+  }
+  return "";
+}
+
 /* One line a test; a test that returns "SKIP why" was not done. */
 async function list(tests, g) {
   const names = Object.keys(tests);
@@ -45,4 +69,4 @@ async function list(tests, g) {
 }
 const run = async (tests) => list(tests, await engines());
 
-module.exports = { run, list, terminal, refusal };
+module.exports = { run, list, terminal, refusal, resultOf, refusalOf };

@@ -1,7 +1,7 @@
 /* What a page is given is what the library says: states, grains, collisions, means so far, theories, refusals. */
 "use strict";
 const assert = require("assert"),
-  { run, terminal, refusal } = require("./tap.js");
+  { run, terminal, refusal, resultOf, refusalOf } = require("./tap.js");
 
 const ROUGH = "{flow: usf, phi: 0.2, particles: 500, collision: {e: 0.9, beta: 0}}";
 const SHORT =
@@ -130,6 +130,101 @@ run({
         .trim();
       assert.ok(said.message.replace(/-/g, "").includes(words.slice(-40)), `${said.message}\n${words}`);
     }
+  },
+  "the time of each grain's last collision": (g) => {
+    for (const yaml of [ROUGH, "{flow: hss, phi: 0.1, particles: 300, thermostat: white_noise, collision: {e: 0.8}}"]) {
+      const s = open(g, yaml),
+        plain = open(g, yaml);
+      s.follow();
+      assert.ok(s.grains().hit.every((time) => time === -Infinity));
+      assert.strictEqual(plain.grains().hit, null);
+      let events = [];
+      for (let i = 0; i < 40; i++) events.push(s.step());
+      plain.collide(40);
+      assert.strictEqual(s.hash(), plain.hash()); /* to be followed changes nothing */
+      const { hit } = s.grains(),
+        last = new Map();
+      for (const e of events) e.grain.forEach((i) => last.set(i, e.time));
+      hit.forEach((time, i) => assert.strictEqual(time, last.has(i) ? last.get(i) : -Infinity));
+      assert.strictEqual(events[39].time, s.state().time);
+      s.free();
+      plain.free();
+    }
+  },
+  "Haff's law is the library's": (g) => {
+    const scene = new g.Scene("{flow: hcs, phi: 0.1, particles: 500, collision: {e: 0.9}}"),
+      c = new g.Comparison(scene);
+    const [start, late, later] = c.cooling("haff1983", [0, 1e6, 2e6]);
+    assert.strictEqual(start, c.document().theory.haff1983.temperature.mean);
+    near(late / later, 4, 1e-3);
+    assert.ok(c.cooling("goldhirsch_zanetti1993", [1]).every(Number.isNaN));
+    c.free();
+    scene.free();
+  },
+  "a result of the terminal": (g) => {
+    const scene =
+      "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9, beta: 0}, output: {trajectory_every: 1}, run: {collisions: 40, warmup: 5}}";
+    const { printed, bytes } = resultOf(scene),
+      file = { name: "a result.h5", bytes };
+    const { answer: t, gone } = g.withFile(file, (path) => new g.Trajectory(path));
+    const made = t.scene();
+    assert.strictEqual(made.values().particles, 300);
+    assert.ok(t.frames > 15);
+    let before = -1;
+    for (let k = 0; k < t.frames; k++) {
+      const { state, grains } = t.frame(k);
+      let T = 0;
+      for (const v of grains.velocity) T += (v * v) / 900;
+      near(T, state.temperature, 1e-12);
+      assert.ok(state.time > before && state.rotationalTemperature > 0);
+      assert.ok(grains.position.every((x, i) => x >= 0 && x <= state.box[i % 3]));
+      before = state.time;
+    }
+    assert.deepStrictEqual(
+      t.species().map((k) => [k.grains, k.diameter]),
+      [[300, 1]],
+    );
+    assert.throws(() => t.frame(t.frames), /there is no frame/);
+    const { answer: c, gone: goneToo } = g.withFile(file, (path) => new g.Comparison(path));
+    const document = c.document();
+    assert.deepStrictEqual(document.md.results.temperature.mean, printed.results.temperature.mean);
+    assert.ok(document.theory.lun1991.temperature.mean > 0);
+    const { time, value } = c.history("md", "temperature");
+    assert.ok(time.length === value.length && time.length > 10 && value.every((T) => T > 0));
+    assert.strictEqual(c.history("dsmc", "temperature"), null);
+    made.free();
+    t.free();
+    c.free();
+    gone();
+    goneToo();
+  },
+  "a comparison of the terminal": (g) => {
+    const { printed, bytes } = resultOf(SHORT, "compare", ["--picture", "none"]);
+    const { answer: c, gone } = g.withFile({ name: "both.h5", bytes }, (path) => new g.Comparison(path));
+    for (const engine of ["md", "dsmc"])
+      assert.strictEqual(c.document()[engine].results.pressure.mean, printed[engine].results.pressure.mean);
+    assert.ok(c.history("dsmc", "temperature").value.length > 10);
+    c.free();
+    gone();
+  },
+  "files are refused in the terminal's words": (g) => {
+    const { bytes } = resultOf(SHORT),
+      damaged = Buffer.from(bytes);
+    damaged[5000] ^= 1;
+    for (const given of [Buffer.alloc(0), Buffer.from("these are no grains"), damaged, bytes.subarray(0, 9000)]) {
+      const said = refusalOf(given);
+      for (const read of [(path) => new g.Trajectory(path), (path) => new g.Comparison(path)]) {
+        let mine = "";
+        try {
+          g.withFile({ name: "given.h5", bytes: given }, read);
+        } catch (e) {
+          mine = e.message;
+        }
+        assert.ok(mine.startsWith("given.h5: ") && said.endsWith(mine), `${mine}\n${said}`);
+      }
+    }
+    const dsmc = resultOf(SHORT.replace("usf", "usf, engine: dsmc, dsmc: {particles: 200}")).bytes;
+    assert.throws(() => g.withFile({ name: "d.h5", bytes: dsmc }, (path) => new g.Trajectory(path)), /^GraingasError: d\.h5: .*it holds no positions of grains/);
   },
   "no files": (g) => {
     const names = g.catalogue("flows").map((flow) => flow.name);

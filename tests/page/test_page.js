@@ -5,7 +5,7 @@ const assert = require("assert"),
   fs = require("fs"),
   path = require("path");
 const { find, Browser } = require("./chromium.js"),
-  { terminal, refusal, list } = require("./tap.js"),
+  { terminal, refusal, resultOf, refusalOf, list } = require("./tap.js"),
   scenes = require("./scenes.js");
 
 const file = process.env.PAGE,
@@ -27,6 +27,11 @@ async function silent(tab) {
   await tab.close();
 }
 const link = (scene) => `#scene=${encodeURIComponent(scene)}`;
+
+/* As somebody drops it from a folder. */
+const drop = (tab, name, bytes) =>
+  tab.value(`(() => { byId("file-refused").textContent = ""; const data = new DataTransfer(), bytes = Uint8Array.from(atob("${bytes.toString("base64")}"), (c) => c.charCodeAt(0));
+  data.items.add(new File([bytes], "${name}")); for (const kind of ["dragover", "drop"]) byId("box").dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true })); })()`);
 
 /* Of the box: how many of its pixels differ from the darkness around, and how many colours they have. */
 const DRAWN = `(() => { const c = byId("box"), copy = document.createElement("canvas"), to = copy.getContext("2d", { willReadFrequently: true });
@@ -90,11 +95,35 @@ const tests = {
     await tab.value("byId('friction').click()");
     await tab.until("page.about.values.collision.mu === 0.3", quick);
     await set("mu", 0.1, "page.about.values.collision.mu === 0.1");
+    await set("law", "viscoelastic", "page.about.values.collision.law === 'viscoelastic'");
+    await set("law", "constant", "page.about.values.collision.law === 'constant'");
+    await tab.value("byId('mixture').click()");
+    await tab.until("page.about.values.species.length === 2 && page.about.values.species[1].mass === 8", quick);
+    await set("diameter", 1.5, "page.about.values.species[1].diameter === 1.5");
+    await set("mass-number", 3, "page.about.values.species[1].mass === 3 && page.about.values.species[1].diameter === 1.5");
+    await tab.until("page.frame && page.about.diameters.length === 2", quick);
+    await tab.value("byId('mixture').click()");
+    await tab.until("page.about.values.species.length === 1", quick);
     await set("particles", 300, "page.about.values.particles === 300");
     await set("seed-number", 7, "page.about.values.run.seed === 7");
     await set("phi-number", 0.15, "page.about.values.phi === 0.15");
     for (const flow of await tab.value("FLOWS"))
       await set("flow", flow, `page.about.values.flow === "${flow}" && page.frame`);
+    /* what an elastic gas took away comes back */
+    await set("flow", "usf", "page.about.values.flow === 'usf'");
+    await set("e", 0.7, "page.about.values.collision.e === 0.7");
+    await set("flow", "equilibrium", "page.about.values.collision.e === 1 && page.about.values.collision.beta === -1");
+    await set("flow", "hcs", "page.about.values.flow === 'hcs'");
+    assert.deepStrictEqual(await tab.value("[page.about.values.collision.e, page.about.values.collision.beta, page.about.values.collision.mu]"), [0.7, 0.5, 0.1]);
+    /* rows that some flows have */
+    const shown = (id) => tab.value(`byId("${id}").offsetWidth > 0`);
+    assert.deepStrictEqual([await shown("wallE"), await shown("thermostat"), await shown("tilt")], [false, false, false]);
+    await set("flow", "hss", "page.about.values.flow === 'hss'");
+    await set("thermostat", "white_noise", "page.about.values.thermostat === 'white_noise'");
+    await set("flow", "chute", "page.about.values.flow === 'chute'");
+    await set("tilt", 30, "Math.abs(page.about.values.gravity[0] / page.about.values.gravity[1] + Math.tan(Math.PI / 6)) < 1e-4");
+    await set("wallE", 0.5, "page.about.values.walls.e === 0.5");
+    await set("wallBeta", 0, "page.about.values.walls.beta === 0");
     /* and from a scene with every key, as a page has that was written with one */
     for (const from of ["hss", "chute"]) {
       await set("flow", from, `page.about.values.flow === "${from}" && page.frame`);
@@ -130,6 +159,68 @@ const tests = {
     assert.strictEqual(await tab.value("page.speed"), 0.001);
     await tab.value("byId('restart').click()");
     await tab.until("page.frame && page.frame.md.collisions === 0", quick);
+    await silent(tab);
+  },
+
+  "a result is dropped, played, scrubbed, and left": async () => {
+    const scene =
+        "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9, beta: 0}, output: {trajectory_every: 1}, run: {collisions: 40, warmup: 5}}",
+      { printed, bytes } = resultOf(scene),
+      tab = await open(link("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}"));
+    const file = path.join(browser.home, "class.h5");
+    fs.writeFileSync(file, bytes);
+    await tab.until("page.means", quick);
+    await drop(tab, "class.h5", bytes);
+    await tab.until("page.player && page.player.shown >= 0", quick);
+    const last = (await tab.value("page.player.frames")) - 1;
+    assert.ok(last > 10);
+    assert.match(await tab.value("document.title"), /class\.h5: .*shear/);
+    assert.deepStrictEqual(await tab.value("[page.about.values.flow, byId('flow').value]"), ["usf", "usf"]);
+    /* forwards by itself, to the end; colours, spins */
+    await tab.value("for (let k = 0; k < 9; k++) byId('faster').click()");
+    assert.match(await tab.value("byId('speed').textContent"), /60 frames/);
+    await tab.until(`page.player.shown === ${last} && !page.playing`, quick);
+    assert.ok((await tab.value(DRAWN)).share > 0.1);
+    assert.ok(await tab.value("page.frame.picture.marks !== null && byId('colour').querySelector('[value=since]').disabled"));
+    /* by hand, with the keyboard */
+    await tab.value("byId('scrub').focus()");
+    await tab.press("Home");
+    await tab.until("page.player.shown === 0", quick);
+    const first = await tab.value("page.frame.md.time");
+    await tab.value("byId('step').click()");
+    await tab.until(`page.player.shown === 1 && page.frame.md.time > ${first}`, quick);
+    assert.match(await tab.value("byId('frame-number').textContent"), new RegExp(`^2 of ${last + 1}$`));
+    /* its means in the table and in the text */
+    await tab.until("page.means && page.means.stored", quick);
+    assert.strictEqual(await tab.value("page.means.md.results.temperature.mean"), printed.results.temperature.mean);
+    assert.match(await tab.value("byId('table').innerText"), /temperature/);
+    await tab.value("say()");
+    assert.match(await tab.value("byId('summary').textContent"), /class\.h5, frame 2 of .*Mean so far|class\.h5, frame 2 of/);
+    await tab.until("byId('chart-temperature').querySelector('[data-name=now]')", quick);
+    /* files that are refused leave it as it is */
+    const damaged = Buffer.from(bytes);
+    damaged[5000] ^= 1;
+    const without = resultOf("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 200}, run: {collisions: 9, warmup: 1}}");
+    for (const [given, words] of [
+      [Buffer.from("no result"), refusalOf(Buffer.from("no result"))],
+      [damaged, refusalOf(damaged)],
+      [without.bytes, "given.h5: nothing to play: it holds no positions of grains"],
+    ]) {
+      await drop(tab, "given.h5", given);
+      await tab.until("byId('file-refused').textContent", quick);
+      const said = await tab.value("byId('file-refused').textContent");
+      assert.ok(said.startsWith("given.h5: ") && words.endsWith(said), `${said}\n${words}`);
+      assert.strictEqual(await tab.value("page.player.name"), "class.h5");
+    }
+    /* back to the gas that waited */
+    await tab.value("byId('back').click()");
+    await tab.until("!page.player && page.about.values.flow === 'hcs' && page.frame && !byId('player').offsetWidth", quick);
+    /* chosen by its button; and from there a live gas of that scene */
+    await tab.choose("#file", file);
+    await tab.until("page.player && page.player.shown >= 0", quick);
+    await tab.value("byId('run-live').click()");
+    await tab.until("!page.player && page.about.values.flow === 'usf' && page.frame && page.frame.dsmc", quick);
+    assert.strictEqual(await tab.value("byId('refused').textContent + byId('file-refused').textContent"), "");
     await silent(tab);
   },
 

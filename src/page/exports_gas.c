@@ -1,0 +1,255 @@
+/* Simulations step by step, and trajectories of runs: both have a state, grains and species. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exports.h"
+
+/* Grains in arrays that stay where they are, and are filled anew when the page asks. */
+typedef struct page_grains {
+  gg_grains into;
+  size_t n;
+  double *hit; /* the time of each one's last collision; NULL: it is not followed */
+} page_grains;
+
+static void free_arrays(page_grains *g)
+{
+  free(g->into.position);
+  free(g->into.velocity);
+  free(g->into.spin);
+  free(g->into.species);
+  free(g->hit);
+}
+
+static int make_arrays(page_grains *g, size_t n, int positions)
+{
+  g->n = n;
+  if (positions) g->into.position = calloc(3 * n, sizeof(double));
+  g->into.velocity = calloc(3 * n, sizeof(double));
+  g->into.spin = calloc(3 * n, sizeof(double));
+  g->into.species = calloc(n, sizeof(int));
+  if (g->into.velocity && g->into.spin && g->into.species && (g->into.position || !positions)) return 1;
+  page_fail("out of memory");
+  return 0;
+}
+
+/* Where the arrays are: 0 positions (NULL in dsmc), 1 velocities, 2 spins, 3 species, 4 times of collisions. Of a
+ * simulation or a trajectory, which begin with them. */
+PAGE void *page_array(page_grains *g, int which)
+{
+  void *const arrays[] = {g->into.position, g->into.velocity, g->into.spin, g->into.species, g->hit};
+  return arrays[which];
+}
+
+static const double *told_state(const gg_simulation_state *s)
+{
+  static double numbers[20];
+  const double head[] = {s->time,           (double)s->collisions, s->collisions_per_grain,
+                         (double)s->grains, s->temperature,        s->rotational_temperature,
+                         s->strain,         s->image_offset};
+  memcpy(numbers, head, sizeof head);
+  memcpy(numbers + 8, s->box, sizeof s->box);
+  memcpy(numbers + 11, s->kinetic_stress, sizeof s->kinetic_stress);
+  return numbers;
+}
+
+static const double *told_species(const gg_species_state *s)
+{
+  static double numbers[6];
+  const double all[] = {(double)s->grains, s->diameter, s->mass, s->inertia, s->temperature, s->rotational_temperature};
+  return memcpy(numbers, all, sizeof all);
+}
+
+/* ---- Simulations ---- */
+
+typedef struct page_simulation {
+  page_grains grains;
+  gg_simulation *simulation;
+  double until; /* when an advance in slices is to stop, in milliseconds */
+  uint64_t caught;
+  gg_collision_event event; /* the last one shown */
+} page_simulation;
+
+static int time_is_up(void *context)
+{
+  return emscripten_get_now() >= ((page_simulation *)context)->until;
+}
+
+PAGE void page_simulation_free(page_simulation *p)
+{
+  if (!p) return;
+  gg_simulation_free(p->simulation);
+  free_arrays(&p->grains);
+  free(p);
+}
+
+static int make(page_simulation *p, const gg_scene *scene, uint64_t stream)
+{
+  gg_simulation_state state;
+  return gg_simulation_new(scene, stream, &p->simulation, &page_why) == GG_OK &&
+         gg_simulation_get_state(p->simulation, &state, &page_why) == GG_OK &&
+         gg_simulation_on_stop(p->simulation, time_is_up, p, &page_why) == GG_OK &&
+         make_arrays(&p->grains, state.grains, state.box[0] > 0);
+}
+
+PAGE page_simulation *page_simulation_new(const gg_scene *scene, int stream)
+{
+  page_simulation *p = calloc(1, sizeof *p);
+  if (!p) return page_fail("out of memory");
+  p->until = INFINITY;
+  if (make(p, scene, (uint64_t)stream)) return p;
+  page_simulation_free(p);
+  return NULL;
+}
+
+static void catch_event(void *context, const gg_collision_event *event)
+{
+  page_simulation *p = context;
+  p->event = *event;
+  p->caught++;
+  for (int i = 0; i < 2 && p->grains.hit; i++) p->grains.hit[event->grain[i]] = event->time;
+}
+
+/* From now on the time of each grain's last collision is known, -infinity until it has one. Of md. */
+PAGE int page_follow(page_simulation *p)
+{
+  p->grains.hit = malloc(p->grains.n * sizeof(double));
+  if (!p->grains.hit) return page_fail("out of memory"), 0;
+  for (size_t i = 0; i < p->grains.n; i++) p->grains.hit[i] = -INFINITY;
+  return gg_simulation_on_collision(p->simulation, catch_event, p, &page_why) == GG_OK;
+}
+
+/* 1: done; 2: stopped as so many milliseconds were over, to be gone on with; 0: failed. */
+static int outcome(gg_status status)
+{
+  return status == GG_OK ? 1 : status == GG_INTERRUPTED ? 2 : 0;
+}
+PAGE int page_advance(page_simulation *p, double time, double milliseconds)
+{
+  p->until = emscripten_get_now() + milliseconds;
+  return outcome(gg_simulation_advance(p->simulation, time, &page_why));
+}
+PAGE int page_collide(page_simulation *p, double collisions, double milliseconds)
+{
+  p->until = emscripten_get_now() + milliseconds;
+  return outcome(gg_simulation_collide(p->simulation, (uint64_t)collisions, &page_why));
+}
+
+/* What is not followed is shown for this step alone. */
+static gg_status show(page_simulation *p, gg_on_collision *callback)
+{
+  return p->grains.hit ? GG_OK : gg_simulation_on_collision(p->simulation, callback, p, &page_why);
+}
+
+/* One collision, or in dsmc one step with at least one: the last one of it, as engines.js names its numbers; NULL:
+ * failed. */
+PAGE const double *page_step(page_simulation *p)
+{
+  static double numbers[15];
+  p->caught = 0;
+  p->until = INFINITY;
+  gg_status status = show(p, catch_event);
+  if (status == GG_OK) status = gg_simulation_collide(p->simulation, 1, &page_why);
+  if (status == GG_OK) status = show(p, NULL);
+  if (status == GG_OK && !p->caught) return page_fail("no collision was shown");
+  if (status != GG_OK) return NULL;
+  const gg_collision_event *e = &p->event;
+  double *to = numbers;
+  for (int i = 0; i < 2; i++) *to++ = (double)e->grain[i];
+  for (int i = 0; i < 2; i++) *to++ = e->species[i];
+  for (int a = 0; a < 3; a++) *to++ = e->k[a];
+  for (int a = 0; a < 3; a++) *to++ = e->velocity[a];
+  *to++ = e->normal_speed;
+  for (int a = 0; a < 3; a++) *to++ = e->impulse[a];
+  *to = e->time;
+  return numbers;
+}
+
+PAGE const double *page_state(page_simulation *p)
+{
+  gg_simulation_state s;
+  return gg_simulation_get_state(p->simulation, &s, &page_why) == GG_OK ? told_state(&s) : NULL;
+}
+
+PAGE const double *page_sums(page_simulation *p)
+{
+  static double numbers[4 + 9];
+  gg_simulation_sums s;
+  if (gg_simulation_take_sums(p->simulation, &s, &page_why) != GG_OK) return NULL;
+  const double head[] = {s.time, (double)s.collisions, (double)s.wall_collisions, s.dissipation};
+  memcpy(numbers, head, sizeof head);
+  memcpy(numbers + 4, s.collisional_stress, sizeof s.collisional_stress);
+  return numbers;
+}
+
+/* Fill the arrays. */
+PAGE int page_take_grains(page_simulation *p)
+{
+  return gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) == GG_OK;
+}
+
+/* NULL after the last. */
+PAGE const double *page_species_state(const page_simulation *p, int species)
+{
+  gg_species_state s;
+  return gg_simulation_get_species(p->simulation, species, &s, &page_why) == GG_OK ? told_species(&s) : NULL;
+}
+
+PAGE const char *page_hash(const page_simulation *p)
+{
+  static char text[17];
+  uint64_t hash;
+  if (gg_simulation_hash(p->simulation, &hash, &page_why) != GG_OK) return NULL;
+  snprintf(text, sizeof text, "%016llx", (unsigned long long)hash);
+  return text;
+}
+
+/* ---- Trajectories ---- */
+
+typedef struct page_trajectory {
+  page_grains grains;
+  gg_trajectory *trajectory;
+} page_trajectory;
+
+PAGE void page_trajectory_free(page_trajectory *p)
+{
+  if (!p) return;
+  gg_trajectory_free(p->trajectory);
+  free_arrays(&p->grains);
+  free(p);
+}
+
+PAGE page_trajectory *page_trajectory_new(const char *path)
+{
+  gg_simulation_state state;
+  page_trajectory *p = calloc(1, sizeof *p);
+  if (!p) return page_fail("out of memory");
+  if (gg_trajectory_open(path, &p->trajectory, &page_why) == GG_OK &&
+      gg_trajectory_frame(p->trajectory, 0, &state, NULL, &page_why) == GG_OK &&
+      make_arrays(&p->grains, state.grains, 1))
+    return p;
+  page_trajectory_free(p);
+  return NULL;
+}
+
+PAGE const gg_scene *page_trajectory_scene(const page_trajectory *p)
+{
+  return gg_trajectory_scene(p->trajectory);
+}
+PAGE int page_trajectory_frames(const page_trajectory *p)
+{
+  return (int)gg_trajectory_frames(p->trajectory);
+}
+/* The k-th: the arrays filled, and its state. */
+PAGE const double *page_trajectory_frame(page_trajectory *p, int k)
+{
+  gg_simulation_state s;
+  return gg_trajectory_frame(p->trajectory, (size_t)k, &s, &p->grains.into, &page_why) == GG_OK ? told_state(&s) : NULL;
+}
+/* NULL after the last. */
+PAGE const double *page_trajectory_species(const page_trajectory *p, int species)
+{
+  gg_species_state s;
+  return gg_trajectory_get_species(p->trajectory, species, &s, &page_why) == GG_OK ? told_species(&s) : NULL;
+}

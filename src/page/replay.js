@@ -1,0 +1,49 @@
+/* A result of the terminal, in a worker: its frames as they are asked for, by their numbers. */
+class Replay {
+  constructor(g, file) {
+    const { answer, gone } = g.withFile(file, (path) => new g.Trajectory(path));
+    this.trajectory = answer;
+    this.gone = gone;
+    try {
+      this.begin();
+    } catch (e) {
+      this.free();
+      throw e;
+    }
+  }
+  begin() {
+    const scene = this.trajectory.scene();
+    try {
+      this.about = { values: scene.values(), title: scene.title(), yaml: scene.yaml() };
+    } finally {
+      scene.free();
+    }
+    this.about.frames = this.trajectory.frames;
+    this.view = new Picture(this.trajectory.frame(0).grains, this.trajectory.species(), this.about);
+  }
+  frame({ k, colour }) {
+    const { state, grains } = this.trajectory.frame(k);
+    return { md: state, dsmc: null, picture: this.view.of(state, grains, colour, 0), event: null };
+  }
+  free() {
+    this.trajectory.free();
+    this.gone();
+  }
+}
+
+/* Its means and curves beside the theories, as a comparison has them, and how its temperatures went. */
+function readResult(g, file) {
+  const { answer, gone } = g.withFile(file, (path) => new g.Comparison(path));
+  try {
+    const courses = {};
+    for (const engine of ["md", "dsmc"])
+      courses[engine] = {
+        T: answer.history(engine, "temperature"),
+        theta: answer.history(engine, "rotational_temperature"),
+      };
+    return { ...answer.document(), ...courseOfTheories(answer), courses, progress: {}, refused: {}, stored: true };
+  } finally {
+    answer.free();
+    gone();
+  }
+}
