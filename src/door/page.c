@@ -13,7 +13,7 @@ static const char *const marker = "\"@given@\"";
 
 static FILE *open_page(void)
 {
-  const char *const places[] = {GG_PAGE_INSTALLED, GG_PAGE_BUILT};
+  const char *const places[] = {GG_PAGE_BUILT, GG_PAGE_INSTALLED};
   FILE *in = NULL;
   for (int k = 0; k < 2 && !in; k++) in = fopen(places[k], "rb");
   return in;
@@ -38,7 +38,7 @@ static gg_status read_page(char **text, gg_error *err)
     return gg_fail(err, GG_BAD_FILE,
                    "the page was not built: it is neither %s nor %s; in the sources of graingas ./check-page builds it "
                    "(ninja -C build page, where emscripten is installed)",
-                   GG_PAGE_INSTALLED, GG_PAGE_BUILT);
+                   GG_PAGE_BUILT, GG_PAGE_INSTALLED);
   gg_status status = read_all(in, text, err);
   fclose(in);
   return status;

@@ -32,6 +32,8 @@ def test_installed_files():
     found = install()
     check("graingas" in sh(found("bin/graingas"), "--version"))
     check("#ifndef GRAINGAS_H" in open(found("graingas.h")).read())
+    if os.path.exists(os.path.join(SOURCE, "build-page", "page.html")):
+        check("<title>graingas</title>" in open(found("graingas/page.html"), encoding="utf-8").read())
     manual = open(found("graingas.1")).read()
     for word in ".TH GRAINGAS", "collision.e", "shear_viscosity", "lun1991", "\\-\\-resume":
         check(word in manual, word)

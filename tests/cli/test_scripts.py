@@ -51,6 +51,25 @@ def test_what_is_there_is_not_asked_for():
         check(word not in done.stderr.split(), word, done.stderr)
 
 
+TOOLS = ("gcc", "clang", "cc", "meson", "ninja", "pkg-config", "gnuplot", "python3", "man")
+
+
+def test_the_page_is_built_where_it_can_be():
+    """check says why the page's tests are skipped; where all is there but the sources, too; else it builds the page."""
+    done = without_apt("check", fake=TOOLS)
+    check("The page's tests are skipped: emcc is not installed (./check-page installs it), node" in done.stderr,
+          done.stderr)
+    check("chromium is not installed" in done.stderr and not os.path.exists("tree/built"), done.stderr)
+    for fetched in 1, 0:
+        for name, line in ("fetch-sources", f"exit {fetched}"), ("build-page", 'echo >"${0%/*}/../built"'):
+            with open(f"tree/scripts/{name}", "w") as f:
+                f.write(f"#!/bin/sh\n{line}\n")
+            os.chmod(f"tree/scripts/{name}", 0o755)
+        done = without_apt("check", fake=(*TOOLS, "emcc", "node", "chromium-browser"))
+        skipped = "skipped: the sources of its libraries could not be had" in done.stderr
+        check(skipped == bool(fetched) and os.path.exists("tree/built") == (not fetched), fetched, done.stderr)
+
+
 def test_steps_ask_for_what_they_need():
     unit, whole = without_apt("check", "--suite", "unit"), without_apt("check")
     check(unit.returncode == 1 and whole.returncode == 1)
