@@ -375,7 +375,7 @@ const tests = {
     const tab = await open(
         link("{flow: usf, phi: 0.1, particles: 500, collision: {e: 0.9, beta: 0}, run: {relative_error: 0.0001}}"),
       ),
-      seconds = +(process.env.SECONDS || 12);
+      seconds = +(process.env.PAGE_SECONDS || 12);
     await tab.value("page.speed = 100");
     const used = async () => {
       await tab.send("HeapProfiler.collectGarbage");
