@@ -222,7 +222,8 @@ function velocityChart(figure, means) {
         gauss = { x: c.x, y: c.reference.value, colour: "#222222", dash: "1 3", width: 2, label: t("gaussian") };
     }
   if (gauss) series.push(gauss);
-  figure.hidden = !!means.stored && !series.length; /* it was not measured */
+  const measured = [means.md, means.dsmc].some((part) => part && Number.isFinite(mean(part.results, "N1")));
+  figure.hidden = !series.length && (measured || !!means.stored); /* not here: between walls it depends on the place */
   plot(figure, {
     title: t("velocities"),
     series,

@@ -26,6 +26,8 @@ async function silent(tab) {
   );
   await tab.close();
 }
+const PLAYED =
+  "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9, beta: 0}, output: {trajectory_every: 1}, run: {collisions: 40, warmup: 5}}";
 const link = (scene) => `#scene=${encodeURIComponent(scene)}`;
 
 /* As somebody drops it from a folder. */
@@ -163,9 +165,7 @@ const tests = {
   },
 
   "a result is dropped, played, scrubbed, and left": async () => {
-    const scene =
-        "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9, beta: 0}, output: {trajectory_every: 1}, run: {collisions: 40, warmup: 5}}",
-      { printed, bytes } = resultOf(scene),
+    const { printed, bytes } = resultOf(PLAYED),
       tab = await open(link("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}"));
     const file = path.join(browser.home, "class.h5");
     fs.writeFileSync(file, bytes);
@@ -195,7 +195,7 @@ const tests = {
     assert.strictEqual(await tab.value("page.means.md.results.temperature.mean"), printed.results.temperature.mean);
     assert.match(await tab.value("byId('table').innerText"), /temperature/);
     await tab.value("say()");
-    assert.match(await tab.value("byId('summary').textContent"), /class\.h5, frame 2 of .*Mean so far|class\.h5, frame 2 of/);
+    assert.match(await tab.value("byId('summary').textContent"), /class\.h5, frame 2 of .*Mean so far: md 0\.\d/);
     await tab.until("byId('chart-temperature').querySelector('[data-name=now]')", quick);
     /* files that are refused leave it as it is */
     const damaged = Buffer.from(bytes);
@@ -296,6 +296,30 @@ const tests = {
     await silent(tab);
   },
 
+  "theories are drawn as chosen": async () => {
+    const tab = await open(link("{flow: hcs, phi: 0.1, particles: 300, collision: {e: 0.9}}"));
+    await tab.until("page.means && byId('theory-boxes').querySelectorAll('input').length > 4", quick);
+    const lines = () =>
+      tab.value(
+        "[...byId('chart-temperature').querySelectorAll('polyline')].map((l) => l.dataset.name).filter((n) => / temperature$/.test(n)).map((n) => n.split(' ')[0])",
+      );
+    await tab.until("byId('chart-temperature').querySelector(\"[data-name='haff1983 temperature']\")", quick);
+    assert.strictEqual((await lines()).length, 4);
+    const all = await tab.value(
+      "for (const box of byId('theory-boxes').querySelectorAll('input')) { if (!box.checked) box.click(); } [...page.drawnTheories]",
+    );
+    await tab.until(`byId('chart-temperature').querySelectorAll('polyline').length >= ${all.length}`, quick);
+    assert.ok((await lines()).length > 4 && all.length > 4);
+    /* Haff's line, by the library, through the gas it is of: the first point of both */
+    const [T, haff] = await tab.value(
+      "[page.history.rows[0].T, page.means.cooling.T.haff1983[0]]",
+    );
+    assert.ok(Math.abs(T / haff - 1) < 0.1, `${T} and ${haff}`);
+    await tab.value("byId('theory-boxes').querySelector('[value=haff1983]').click()");
+    await tab.until("!byId('chart-temperature').querySelector(\"[data-name='haff1983 temperature']\")", quick);
+    await silent(tab);
+  },
+
   "keyboard, and nothing moves for those who asked for that": async () => {
     const tab = await open("", { media: [{ name: "prefers-reduced-motion", value: "reduce" }] });
     assert.strictEqual(await tab.value("page.playing"), false);
@@ -338,7 +362,8 @@ const tests = {
       (one) => one && fs.existsSync(one),
     );
     if (!at) return "SKIP axe-core is not there (npm install in tests/page; ./check-page does it)";
-    const axe = fs.readFileSync(at, "utf8");
+    const axe = fs.readFileSync(at, "utf8"),
+      { bytes } = resultOf(PLAYED);
     for (const [width, height] of [
       [390, 844],
       [1366, 768],
@@ -346,11 +371,18 @@ const tests = {
       for (const hash of ["#lesson=equipartition", "#lesson=clustering&language=de"]) {
         const tab = await open(hash, { width, height });
         await tab.until("page.means && page.means.md && page.means.md.results.N1", quick);
-        await tab.value(`${axe}; 0`);
-        const found = await tab.value(
-          "axe.run(document).then((r) => r.violations.map((v) => `${v.id}: ${v.help}: ${v.nodes.map((n) => n.target).join(' ')}`))",
-        );
-        assert.deepStrictEqual(found, []);
+        await tab.value(`${axe}; byId("theories").open = true; 0`);
+        const found = async () =>
+          tab.value(
+            "axe.run(document).then((r) => r.violations.map((v) => `${v.id}: ${v.help}: ${v.nodes.map((n) => n.target).join(' ')}`))",
+          );
+        assert.deepStrictEqual(await found(), []);
+        await drop(tab, "class.h5", bytes);
+        await tab.until("page.means && page.means.stored && page.player.shown >= 0", quick);
+        assert.deepStrictEqual(await found(), []);
+        await drop(tab, "none.h5", Buffer.from("no result"));
+        await tab.until("byId('file-refused').textContent", quick);
+        assert.deepStrictEqual(await found(), []);
         await tab.close();
       }
     return "";
