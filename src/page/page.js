@@ -100,6 +100,7 @@ async function start(scene, sets, keepMessage = false) {
     leavePlaying();
     page.playing = page.shelf.playing;
   }
+  if (page.about && page.about.values.flow !== answer.about.values.flow) page.drawnTheories = null;
   Object.assign(page, {
     scene,
     sets,

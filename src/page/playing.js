@@ -3,7 +3,8 @@
 const FRAMES_A_SECOND = [0.5, 1, 2, 5, 10, 20, 30, 60];
 const LARGEST_FILE = 2 ** 31; /* bytes: where reading in place ends (emscripten) */
 /* What belongs to the gas that is seen, and comes back with it. */
-const SHELVED = ["scene", "sets", "about", "refusal", "dsmcRefusal", "means", "frame", "history", "behind", "playing"];
+const SHELVED =
+  "scene sets about refusal dsmcRefusal means frame history behind playing lesson drawnTheories".split(" ");
 
 async function playFile(file) {
   const mine = ++page.files,
@@ -34,7 +35,10 @@ async function playFile(file) {
 }
 
 function beginPlaying(file, about) {
-  page.starts++; /* answers that are under way are of another gas */
+  page.starts++; /* answers that are under way are of another gas, and so is what a control was about to change */
+  clearTimeout(page.changeTimer);
+  clearTimeout(page.meansTimer);
+  page.pending = {};
   if (!page.player) page.shelf = Object.fromEntries(SHELVED.map((name) => [name, page[name]]));
   page.player = { name: file.name, frames: about.frames, at: 0, shown: -1, rate: 10 };
   Object.assign(page, {
@@ -48,6 +52,7 @@ function beginPlaying(file, about) {
     newFrame: false,
     behind: 0,
     lesson: null,
+    drawnTheories: null,
     playing: about.frames > 1 && !matchMedia("(prefers-reduced-motion: reduce)").matches,
   });
   page.history = new StoredPast(about.values.flow === "hcs");
@@ -72,6 +77,7 @@ function endPlaying() {
   leavePlaying();
   page.starts++;
   Object.assign(page, page.shelf, { newFrame: !!page.shelf.frame, wantFrame: true });
+  showLesson();
   showGas();
   if (page.means) showMeans(page.means);
   else askMeans();
