@@ -17,4 +17,8 @@ void gg_memory_lacked(void);
 /* The end of a call: its status, or GG_FAILED if it was GG_OK and memory lacked. */
 gg_status gg_memory_check(bool before, gg_status status, gg_error *err);
 
+/* Could some megabytes be had? Asked before libraries are called that do not look at what they get: FFTW ends the
+ * program where its planner gets no memory, HDF5 where it lacks it in the midst of a file. */
+bool gg_memory_is_room(void);
+
 #endif

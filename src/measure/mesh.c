@@ -6,21 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_MESH = 16, MOST_MESH = 96, RESERVE = 1 << 22 };
+#include "common/memory_note.h"
+
+enum { LEAST_MESH = 16, MOST_MESH = 96 };
 #define MESH_SPACING 0.25
 
 /* FFTW plans with one planner for the whole process: only execution is free of locks. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
-
-/* FFTW ends the program where its planner gets no memory: there has to be some. (Volatile: a compiler may leave out
- * what is asked for and given back.) */
-static bool is_room_to_plan(void)
-{
-  void *volatile reserve = malloc(RESERVE);
-  const bool room = reserve != NULL;
-  free(reserve);
-  return room;
-}
 
 int gg_mesh_points_along(const gg_model *m)
 {
@@ -34,7 +26,7 @@ gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err)
   *m = (gg_mesh){.n = n};
   m->field = fftw_alloc_real(plane * (size_t)n);
   m->modes = fftw_alloc_complex(plane * (size_t)(n / 2 + 1));
-  const bool lacked = !m->field || !m->modes || !is_room_to_plan();
+  const bool lacked = !m->field || !m->modes || !gg_memory_is_room();
   if (!lacked) {
     pthread_mutex_lock(&planner);
     m->plan = fftw_plan_dft_r2c_3d(n, n, n, m->field, m->modes, FFTW_ESTIMATE);

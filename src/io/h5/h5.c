@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory_note.h"
+
 /* The system's word for it ("No space left on device") stands at the bottom of HDF5's error stack. */
 static herr_t find_cause(unsigned n, const H5E_error2_t *entry, void *context)
 {
@@ -42,6 +44,10 @@ static void start(gg_h5 *h)
 static void create(gg_h5 *h, const char *path, bool in_memory)
 {
   start(h);
+  if (!gg_memory_is_room()) {
+    gg_h5_failed(h, "out of memory");
+    return;
+  }
   hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   bool ready = H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
                /* the form that reader.h reads */
