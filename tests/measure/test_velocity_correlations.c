@@ -1,6 +1,6 @@
 /* Spatial velocity correlations: a planted wave of velocity and spin gives its sine integral back, radially and along
  * each axis; pairs that are sampled say what all pairs say, about cells, too; an elastic gas in equilibrium has only
- * what momentum conservation leaves, -1/(N-1). */
+ * what momentum conservation leaves, -1/(N-1), and keeps its energy. */
 #include <string.h>
 
 #include "curve_test.h"
@@ -198,6 +198,10 @@ static void equilibrium(void **state)
     for (size_t i = 4; i < c->n; i++) mean += c->value[i] / (double)(2 * (c->n - 4));
     error += c->error[c->n - 1] / 2;
   }
+  double energy = r->value[GG_Q_TEMPERATURE].mean + r->value[GG_Q_ROTATIONAL_TEMPERATURE].mean;
+  energy /= (1 + r->model.ratio0) * r->model.temperature0;
+  print_message("# energy %.6f of what it was\n", energy);
+  assert_true(fabs(energy - 1) < 2 / n); /* of random spins, but for 1/N */
   print_message("# mean beyond two diameters %.5f, one bin's error %.5f\n", mean, error);
   assert_true(fabs(mean + 1 / (n - 1)) < error && error < 0.01);
   gg_result_free(r);
