@@ -29,11 +29,12 @@ TESTS = r"(common|scene|theory|md|dsmc|statistics|measure|run|physics|door)/(?!t
 # What claims to validate physics, for the canaries; report.BLIND says of others why they cannot.
 VALIDATIONS = (r"(theory/.*|compare/.*|physics/(?!wall_errors|stopping).*|md/(state_equation|flows)|common/(collision|model|restitution)"
                r"|dsmc/(collision_rate|cooling|mixture|shear|single|thermostat|conservation)"
-               r"|measure/(rheology|pair_correlation|velocity_correlations|structure|collisions|impact_speed|profiles|diffusion|sonine|velocity_distributions|orientation))$")
+               r"|measure/(rheology|pair_correlation|velocity_correlations|structure|cells|local_distributions|collisions|impact_speed"
+               r"|profiles|diffusion|sonine|velocity_distributions|orientation))$")
 ALL = 1e9  # seconds
 
 # Elsewhere a theory only guesses the temperature to start from.
-SETS_THEORIES = r"theory/|compare/|measure/(diffusion|sonine)|md/state_equation|physics/(theory_limits|viscosity|many_species|viscoelastic)"
+SETS_THEORIES = r"theory/|compare/|measure/(diffusion|sonine)|md/state_equation|physics/(theory_limits|viscosity)"
 
 
 def run(command, mutant, seconds, reached=None, whole=False):

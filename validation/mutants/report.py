@@ -8,10 +8,19 @@ from canaries import NAMES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 # Not in the table of canaries.
-BLIND = """Not tried, as they cannot see what both sides of them share: tests that hold one path of an engine against another
-(dsmc/kernels, segments, splitting, threads, time_step, majorant; md/kernels, oracle, trajectory, invariance,
-contact_time), a run against itself (restarts, physics/stopping, physics/wall_errors), or a state against what it was
-(md/conservation).
+BLIND = """Not tried, as they cannot see what both sides of them share, or validate no physics:
+
+- one path of an engine against another: dsmc/kernels, segments, splitting, threads, time_step, majorant; md/kernels,
+  oracle, trajectory, invariance, queue; measure/blocks; run/own_law (a law of the user's that is a constant e);
+- a run against itself: md/restart, dsmc/restart, measure/curve_resume, scene/resumption, physics/stopping,
+  physics/wall_errors (errors against scatter), all of run/ but own_law;
+- a state against what it was: md/conservation; how slow collisions are treated: md/contact_time;
+- the collision rule itself: common/collision; the tables of flows, species and walls: common/flow, species, surfaces;
+- planted numbers alone: measure/curves, local_frame; statistics/*; files, the door, the command line;
+- programs that print tables and judge nothing (validation/shear_table, monte_carlo_bias, wall_errors, errors,
+  definitions.py, time_left.py), or hold a theory against itself (stated_errors); validation/figures, which hold both
+  engines and the theories against papers and take hours; validation/stress, fuzz, interruption and soak, which ask
+  whether the program holds.
 """
 FATES = ["killed", "equivalent", "survived", "does not compile"]
 
