@@ -21,10 +21,22 @@ SCENES = {
 }
 
 
+def wait_until_it_listens(child, sig):
+    """A slow start is not what is asked about."""
+    until = time.time() + BOUND
+    while os.path.exists("/proc/self/status") and time.time() < until and child.poll() is None:
+        with open(f"/proc/{child.pid}/status") as f:
+            caught = next(int(line.split()[1], 16) for line in f if line.startswith("SigCgt:"))
+        if caught >> (sig - 1) & 1:
+            return
+        time.sleep(0.01)
+
+
 def stop(args, after, sig, ignore=False):
     before = lambda: signal.signal(sig, signal.SIG_IGN if ignore else signal.SIG_DFL)  # whatever we were started with
     child = subprocess.Popen([GRAINGAS, *args, "--quiet"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                              preexec_fn=before)
+    wait_until_it_listens(child, signal.SIGTERM)
     time.sleep(after)
     child.send_signal(sig)
     try:
@@ -100,6 +112,7 @@ def full_pipe():
 
 def stopped(child, after):
     """Its exit code, told to stop once after so many seconds."""
+    wait_until_it_listens(child, signal.SIGTERM)
     time.sleep(after)
     check(child.poll() is None, "it did not wait", child.returncode)
     child.terminate()
