@@ -158,7 +158,9 @@ function askMeans() {
   }, 300);
 }
 function takeMeans(data) {
-  if (data.id === page.measuringId && !page.asking && page.measured === page.about) showMeans(data.answer);
+  if (data.id !== page.measuringId || page.asking) return;
+  if (page.measured === page.about) showMeans(data.answer);
+  else if (page.player && page.measured === page.shelf.about) page.shelf.means = data.answer; /* the gas that waits */
 }
 
 function refuse(message, sets) {
