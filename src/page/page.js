@@ -230,8 +230,10 @@ async function ask(seconds) {
     });
     if (mine === page.starts) takeFrame(answer, step);
   } catch (e) {
-    byId("refused").textContent = e.message;
-    page.playing = false;
+    if (mine === page.starts) {
+      byId("refused").textContent = e.message;
+      page.playing = false;
+    }
   }
   page.inFlight = false;
 }

@@ -113,9 +113,11 @@ async function askPlayed(k) {
     const frame = await page.live.ask("played", { k, colour: byId("colour").value });
     if (mine === page.starts && page.player) takePlayed(frame, k);
   } catch (e) {
-    byId("file-refused").textContent = e.message.slice(0, 600);
-    page.playing = false;
-    if (page.player) page.player.shown = k;
+    if (mine === page.starts && page.player) {
+      byId("file-refused").textContent = e.message.slice(0, 600);
+      page.playing = false;
+      page.player.shown = k;
+    }
   }
   page.inFlight = false;
 }
