@@ -132,9 +132,10 @@ function showGas() {
   byId("event").textContent = "";
   document.title = `${title} – graingas`;
   page.noticed = null;
+  page.said = -Infinity; /* with its first frame */
   showPlaying();
   showCharts();
-  byId("table").tBodies[0].replaceChildren();
+  clearMeans();
 }
 
 /* Theories take a second: only the newest scene is measured, after the sliders rest. */

@@ -48,6 +48,15 @@ function showMeans(means) {
   page.changed = true;
 }
 
+/* Nothing is known of this gas: what was of another goes. */
+function clearMeans() {
+  velocityChart(byId("chart-velocities"), {});
+  stressChart(byId("chart-stress"), {});
+  byId("table").tBodies[0].replaceChildren();
+  byId("ranges").replaceChildren();
+  byId("theories").hidden = true;
+}
+
 const whichFrame = () => ({ k: Math.max(0, page.player.shown) + 1, n: page.player.frames });
 
 /* For those who hear the page: every few seconds what it shows. */

@@ -29,7 +29,7 @@ function theoryBox(name, means) {
     page.drawnTheories = new Set(
       [...byId("theory-boxes").querySelectorAll("input:checked")].map((checked) => checked.value),
     );
-    showMeans(page.means);
+    if (page.means) showMeans(page.means);
   });
   label.append(box, ` ${name}`, cell("small", ` ${means.theories[name].title}`));
   return label;
