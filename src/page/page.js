@@ -60,14 +60,15 @@ async function begin() {
   lessonButtons();
   listen();
   showLanguage();
-  byId("summary").textContent = t("loading");
+  byId("title").textContent = t("loading");
   try {
     await openWorkers();
   } catch (e) {
-    byId("summary").textContent = t("broken", { why: e.message });
+    byId("title").textContent = t("broken", { why: e.message });
     return;
   }
   await follow(link);
+  byId("main").inert = false; /* until now there was no gas that controls could act on */
   requestAnimationFrame(tick);
 }
 
