@@ -117,8 +117,8 @@ const STRINGS = {
   unit: ["unit", "Einheit"],
   z: ["z", "z"],
   caption: [
-    "md: molecular dynamics. dsmc: Enskog Monte Carlo. In brackets the standard error of the last digits; z: the difference over the combined error. † a theory out of its range: the reason is below.",
-    "md: Molekulardynamik. dsmc: Enskog-Monte-Carlo. In Klammern der Standardfehler der letzten Ziffern; z: Unterschied durch den gemeinsamen Fehler. † Theorie außerhalb ihres Bereichs: der Grund steht unten.",
+    "md: molecular dynamics. dsmc: Enskog Monte Carlo. In brackets the standard error of the last digits; z: the difference over the combined error, ! where md is further from Enskog's equation than expected. † a theory out of its range: the reason is below.",
+    "md: Molekulardynamik. dsmc: Enskog-Monte-Carlo. In Klammern der Standardfehler der letzten Ziffern; z: Unterschied durch den gemeinsamen Fehler, ! wo md weiter als erwartet von Enskogs Gleichung abweicht. † Theorie außerhalb ihres Bereichs: der Grund steht unten.",
   ],
   tableName: ["The table, to be scrolled", "Die Tabelle, zum Scrollen"],
   everything: ["every quantity and theory", "alle Größen und Theorien"],

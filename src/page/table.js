@@ -62,7 +62,7 @@ function fillTable(table, means, everything) {
       everything,
   );
   const theories = everything ? theoriesWith(means, shown) : chosenTheories(means, theoriesWith(means, shown)),
-    z = Object.fromEntries((means.comparison || []).map((row) => [row.quantity, row.md_dsmc_z]));
+    compared = Object.fromEntries((means.comparison || []).map((one) => [one.quantity, one]));
   const head = document.createElement("tr");
   for (const text of [
     t("quantity"),
@@ -74,10 +74,10 @@ function fillTable(table, means, everything) {
   ])
     head.append(cell("th", text, { scope: "col" }));
   table.tHead.replaceChildren(head);
-  table.tBodies[0].replaceChildren(...shown.map((name) => row(name, parts, theories, means, z[name])));
+  table.tBodies[0].replaceChildren(...shown.map((name) => row(name, parts, theories, means, compared[name] || {})));
 }
 
-function row(name, parts, theories, means, z) {
+function row(name, parts, theories, means, { md_dsmc_z: z, beyond_expected: far }) {
   const line = document.createElement("tr"),
     known = [...parts, ...theories.map((one) => means.theory[one])].find(
       (part) => part && part[name] && part[name].unit,
@@ -89,7 +89,6 @@ function row(name, parts, theories, means, z) {
         title: (part && part[name] && part[name].reason) || "",
       }),
     );
-  const far = Number.isFinite(z) && Math.abs(z) > 3;
   line.append(
     cell("td", Number.isFinite(z) ? `${z > 0 ? "+" : ""}${z.toFixed(1)}${far ? " !" : ""}` : "", {
       className: far ? "far" : "",
