@@ -16,7 +16,7 @@ function linkOf(state) {
   for (const [key, value] of Object.entries(state.sets)) if (key !== "run.seed") to.append("set", `${key}=${value}`);
   const given = state.sets["run.seed"],
     seed = given !== undefined ? given : state.about && state.about.values.run.seed;
-  if (Number(seed) <= Number.MAX_SAFE_INTEGER) to.set("seed", seed); /* a larger one stays in the scene */
+  if (given !== undefined || Number(seed) <= Number.MAX_SAFE_INTEGER) to.set("seed", seed); /* else in the scene */
   if (state.lesson) to.set("lesson", state.lesson);
   if (language) to.set("language", LANGUAGES[language]);
   return `#${to}`;
