@@ -46,8 +46,8 @@ async function openWorkers() {
 }
 
 function givenScene() {
-  const text = byId("given").textContent;
-  return text.includes("@given") ? null : JSON.parse(text);
+  const given = JSON.parse(byId("given").textContent);
+  return /^@given@$/.test(given) ? null : given;
 }
 
 async function begin() {
