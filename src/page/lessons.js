@@ -37,8 +37,8 @@ const LESSONS = [
     scene: "{flow: usf, phi: 0.02, particles: 1000, collision: {e: 0.7}}",
     title: ["Normal stress differences", "Normalspannungsdifferenzen"],
     text: [
-      "Water at rest or in slow shear presses equally in all directions. A dilute sheared granular gas does not: a grain that moves across the flow comes where the flow is faster, and so speeds are larger along x. P_xx is far above P_yy and P_zz, and so their differences over the pressure, N1 and N2, are not zero. Theories made for nearly elastic grains, such as Lun's, say that all three are equal.",
-      "Wasser drückt in Ruhe und bei langsamer Scherung in alle Richtungen gleich. Ein dünnes geschertes granulares Gas nicht: Wer quer zur Strömung fliegt, kommt dorthin, wo sie schneller ist, und so sind Geschwindigkeiten entlang x größer. P_xx liegt weit über P_yy und P_zz; ihre Differenzen durch den Druck, N1 und N2, sind nicht null. Theorien für fast elastische Körner, wie die von Lun, sagen alle drei gleich voraus.",
+      "Water at rest or in slow shear presses equally in all directions. A dilute sheared granular gas does not: a grain that moves across the flow comes where the flow is faster, and so speeds are larger along x. P_xx is far above P_yy and P_zz, and so their differences over the pressure, N1 and N2, are not zero. Theories of first order in the shear rate, such as Lun's, say that all three are equal.",
+      "Wasser drückt in Ruhe und bei langsamer Scherung in alle Richtungen gleich. Ein dünnes geschertes granulares Gas nicht: Wer quer zur Strömung fliegt, kommt dorthin, wo sie schneller ist, und so sind Geschwindigkeiten entlang x größer. P_xx liegt weit über P_yy und P_zz; ihre Differenzen durch den Druck, N1 und N2, sind nicht null. Theorien erster Ordnung in der Scherrate, wie die von Lun, sagen alle drei gleich voraus.",
     ],
     question: [
       "What makes the three stresses more alike: larger e, larger φ, or both?",
