@@ -101,6 +101,7 @@ function showPlaying() {
   byId("step").textContent = t(page.player ? "nextFrame" : "step");
   byId("restart").textContent = t(page.player ? "firstFrame" : "restart");
   byId("reseed").hidden = !!page.player;
+  if (!page.player && byId("player").contains(document.activeElement)) byId("play").focus(); /* who pressed goes on */
   byId("player").hidden = !page.player;
   byId("colour").querySelector("[value=since]").disabled = !!page.player;
 }
