@@ -34,12 +34,17 @@ function notices() {
   out.push(...warningsOf(means));
   return [...new Set(out)].slice(0, 7);
 }
-/* What the library warns of, less what an unfinished run says of itself. */
+/* What the library warns of, less what an unfinished run says of itself, and what is said elsewhere: reasons of numbers
+ * that lack, whether the mean is steady. */
 function warningsOf(means) {
   const out = [];
-  for (const engine of ["md", "dsmc"])
+  for (const engine of ["md", "dsmc"]) {
+    const now = means.progress[engine],
+      unfinished = now && !now.over,
+      elsewhere = unfinished ? /null|not a steady mean|has no error|too short for errors/ : /null|not a steady mean/;
     for (const w of (means[engine] && means[engine].warnings) || [])
-      if (!/null|not a steady mean|has no error|too short for errors/.test(w)) out.push(`${engine}: ${w}`);
+      if (!elsewhere.test(w)) out.push(`${engine}: ${w}`);
+  }
   return out;
 }
 /* Of a result: whether its run was steady, too. */
