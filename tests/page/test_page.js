@@ -296,6 +296,82 @@ const tests = {
     await silent(tab);
   },
 
+  "controls wait for the gas, and nothing of one stands beside the next": async () => {
+    const tab = await browser.open(file, { hash: link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}}") });
+    await tab.until("typeof page === 'object' && page.controls", quick);
+    assert.ok(await tab.value("page.about !== null || byId('main').inert"));
+    await tab.until("page.means && page.frame && byId('theory-boxes').querySelector('input')", quick);
+    assert.strictEqual(await tab.value("byId('main').inert"), false);
+    const shown = `["chart-stress", "chart-velocities", "table", "ranges"].map((id) =>
+      byId(id).querySelectorAll("g path, polyline, tbody tr, li:not(.legend li)").length)`;
+    await tab.until(`${shown}[0] > 0 && ${shown}[2] > 0 && ${shown}[3] > 0`, quick);
+    await tab.until("/^Uniform shear/.test(byId('summary').textContent)", 4);
+    const emptied = await tab.value(`(async () => { await start("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}", {});
+      const left = ${shown}; byId("theory-boxes").querySelector("input").click(); return left; })()`);
+    assert.deepStrictEqual(emptied, [0, 0, 0, 0]);
+    await tab.until("/^Homogeneous cooling/.test(byId('summary').textContent)", 4);
+    await silent(tab);
+  },
+
+  "the gas that waits is measured to its end": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}, run: {collisions: 300, warmup: 20}}"));
+    const { bytes } = resultOf(PLAYED),
+      brief = resultOf(PLAYED.replace("trajectory_every: 1", "trajectory_every: 8")).bytes;
+    await tab.until("page.means", quick);
+    const over = "Object.values(page.means.progress).every((p) => p.over)";
+    const waits = !(await tab.value(over));
+    await drop(tab, "long.h5", bytes);
+    await tab.until("page.player && page.player.shown > 10", quick);
+    /* another while it plays: what is under way of the first is not the second's */
+    await tab.value("byId('faster').click(), byId('faster').click()");
+    await drop(tab, "brief.h5", brief);
+    await tab.until("page.player.name === 'brief.h5' && page.player.shown === page.player.frames - 1", quick);
+    assert.strictEqual(await tab.value("byId('file-refused').textContent"), "");
+    if (waits) await tab.until("Object.values(page.shelf.means.progress).every((p) => p.over)", quick);
+    await tab.value("byId('back').focus(), byId('back').click()");
+    assert.strictEqual(await tab.value("document.activeElement.id"), "play");
+    await tab.until(`!page.player && page.means && ${over} && /md done, dsmc done/.test(byId('progress').textContent)`, 10);
+    await silent(tab);
+  },
+
+  "the mark ! is the library's": async () => {
+    const tab = await open();
+    await tab.until("page.means && page.means.comparison", quick);
+    assert.deepStrictEqual(
+      await tab.value(`(() => { const body = document.createElement("table"); body.append(document.createElement("thead"), document.createElement("tbody"));
+      const results = { temperature: { mean: 1, stderr: 0.1, unit: "" }, pressure: { mean: 1, stderr: 0.1, unit: "" } };
+      fillTable(body, { md: { results }, dsmc: { results }, theory: {}, theories: {}, comparison: [
+        { quantity: "temperature", md_dsmc_z: 3.5, beyond_expected: false }, { quantity: "pressure", md_dsmc_z: -2, beyond_expected: true }] }, false);
+      return [...body.tBodies[0].rows].map((row) => row.cells[4].textContent); })()`),
+      ["+3.5", "-2.0 !"],
+    );
+    assert.ok(await tab.value("page.means.comparison.every((row) => typeof row.beyond_expected === 'boolean')"));
+    await silent(tab);
+  },
+
+  "what is taken along: picture, curves, scene, link": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}, run: {collisions: 200, warmup: 20}}"));
+    await tab.until("page.history.rows.length > 3 && page.means && page.means.md && page.means.md.curves", quick);
+    await tab.value("page.taken = {}; save = (name, blob) => { page.taken[name] = blob; }; 0");
+    for (const id of ["save-png", "save-csv", "save-yaml"]) await tab.value(`byId("${id}").click()`);
+    await tab.until("Object.keys(page.taken).length === 3", quick);
+    const head = await tab.value("page.taken['graingas.png'].arrayBuffer().then((b) => [...new Uint8Array(b, 0, 8)])");
+    assert.deepStrictEqual(head, [137, 80, 78, 71, 13, 10, 26, 10]);
+    const [title, columns, ...rows] = (await tab.value("page.taken['graingas.csv'].text()")).trim().split("\n");
+    assert.match(title, /^# Uniform shear flow/);
+    assert.strictEqual(columns, "curve,x_name,x,value,error");
+    assert.ok(rows.every((row) => /^[^,]+,[^,]+,-?[\d.e+-]+,-?[\d.e+-]+,[\d.e+-]*$/.test(row)), rows.join("\n"));
+    for (const curve of ["md_temperature", "dsmc_temperature", "md_velocity_distribution_Cx"])
+      assert.ok(rows.some((row) => row.startsWith(`${curve},`)), curve);
+    const yaml = await tab.value("page.taken['scene.yaml'].text()");
+    const hash = (scene) => JSON.parse(terminal(scene, "fingerprint", "--json", "--set", "engine=md")).fingerprint;
+    assert.strictEqual(hash(yaml), hash(await tab.value("page.scene")));
+    /* seeds that are no double go with the link */
+    await tab.value("void start(page.scene, { 'run.seed': '9007199254740993' })");
+    await tab.until("page.sets['run.seed'] && /seed=9007199254740993&?/.test(location.hash)", quick);
+    await silent(tab);
+  },
+
   "theories are drawn as chosen": async () => {
     const tab = await open(link("{flow: hcs, phi: 0.1, particles: 300, collision: {e: 0.9}}"));
     await tab.until("page.means && byId('theory-boxes').querySelectorAll('input').length > 4", quick);
