@@ -56,8 +56,8 @@ const LESSONS = [
       "Nach Coulomb gleitet ein Kontakt, wenn die Körner sich streifend treffen; dann ist die Reibung μ mal der Normalstoß. Sonst haftet er, wie bei rauen Körnern mit diesem β. Kleines μ: fast glatte Körner. Großes μ: raue.",
     ],
     question: [
-      "Does T fall all the way as μ grows, or is there a μ at which friction costs most energy?",
-      "Fällt T mit wachsendem μ immer weiter, oder gibt es ein μ, bei dem Reibung die meiste Energie kostet?",
+      "Does T fall all the way as μ grows, or is there a μ at which friction costs most energy? And at β = 1?",
+      "Fällt T mit wachsendem μ immer weiter, oder gibt es ein μ, bei dem Reibung die meiste Energie kostet? Und bei β = 1?",
     ],
   },
   {
