@@ -394,11 +394,13 @@ typedef struct gg_trajectory gg_trajectory;
 /* GG_BAD_FILE: it cannot be read, or is no result. GG_FAILED: it holds no positions of grains, as of Monte Carlo. */
 GG_API gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_error *err);
 GG_API void gg_trajectory_free(gg_trajectory *trajectory);
-GG_API const gg_scene *gg_trajectory_scene(const gg_trajectory *trajectory); /* as it was run; NULL without one */
-GG_API size_t gg_trajectory_frames(const gg_trajectory *trajectory);         /* 0 without one */
-/* The k-th frame from 0, GG_BAD_INPUT after the last: its state, and its grains in the order of their numbers (arrays
- * as for gg_simulation_get_grains); `state` and `into` may be NULL. And what is known of a species there, in the frame
- * that was read last. */
+/* As it was run; it belongs to the trajectory. NULL and 0 without one. */
+GG_API const gg_scene *gg_trajectory_scene(const gg_trajectory *trajectory);
+GG_API size_t gg_trajectory_frames(const gg_trajectory *trajectory);
+/* The k-th frame from 0, GG_BAD_INPUT after the last, GG_BAD_FILE where it is damaged: its state, and its grains in the
+ * order of their numbers, copied into arrays of as many as its `grains` (as for gg_simulation_get_grains), the same in
+ * every frame; `state` and `into` may be NULL. And what is known of a species, from 0, in the frame that was read last;
+ * GG_BAD_INPUT before the first, and after the last species. */
 GG_API gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation_state *state,
                                      const gg_grains *into, gg_error *err);
 GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species, gg_species_state *state,
@@ -462,8 +464,9 @@ typedef struct gg_theory_info {
 GG_API gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err);
 GG_API gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
                                             double *value, double *deviation, gg_error *err);
-/* T at a time since the start of a gas of equal smooth grains with a constant e that cools freely: by Haff's law with
- * the theory's own rate of cooling. GG_BAD_INPUT where it says none, or the gas is another. */
+/* T at a time since the start, both in the units of results, of a gas of equal smooth grains with a constant e that
+ * cools freely: by Haff's law with the theory's own rate of cooling. GG_BAD_INPUT where it says none, the gas is
+ * another, or the time is before the start. */
 GG_API gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const char *theory, double time,
                                               double *temperature, gg_error *err);
 /* How far that may be from the solution of the theory's own equations, where these are solved numerically; NaN: it is
