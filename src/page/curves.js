@@ -98,6 +98,20 @@ function chosenTheories(means, names) {
   const all = ranked(names);
   return page.drawnTheories ? all.filter((name) => page.drawnTheories.has(name)) : all.slice(0, 4);
 }
+/* All that any diagram draws; and how: a theory looks the same in each of them. */
+function drawnTheories(means) {
+  const cooling = Object.keys((means.cooling && means.cooling.T) || {});
+  return ranked([
+    ...new Set(
+      [theoriesWith(means, ["temperature"]), theoriesWith(means, ["N1"]), cooling].flatMap((names) =>
+        chosenTheories(means, names),
+      ),
+    ),
+  ]);
+}
+const placeOf = (means, name) => drawnTheories(means).indexOf(name);
+const lineOf = (means, name) => LINES[placeOf(means, name) % LINES.length];
+const MARKS = ["dash", "cross", "plus"];
 const beyondMark = (means, name) => (means.theories[name] && means.theories[name].beyond ? " †" : "");
 
 function temperatureChart(figure, history, means, values) {
@@ -153,7 +167,7 @@ function steadyLines(means, x, rough) {
           quiet: name !== "temperature",
         });
     }
-  chosenTheories(means, theoriesWith(means, ["temperature"])).forEach((name, i) => {
+  chosenTheories(means, theoriesWith(means, ["temperature"])).forEach((name) => {
     const about = means.theories[name],
       label = name + beyondMark(means, name),
       add = (q, quiet) => {
@@ -162,7 +176,7 @@ function steadyLines(means, x, rough) {
           out.push({
             x: across,
             y: [m, m],
-            ...LINES[i % LINES.length],
+            ...lineOf(means, name),
             width: 1.6,
             label,
             title: about.title,
@@ -182,10 +196,10 @@ function coolingLines(means, x) {
     last = x[x.length - 1],
     first = x.find((one) => one > 0);
   const inside = time.map((_, i) => i).filter((i) => time[i] >= first / 1.3 && time[i] <= last * 1.3);
-  return chosenTheories(means, Object.keys(T)).map((name, i) => ({
+  return chosenTheories(means, Object.keys(T)).map((name) => ({
     x: inside.map((k) => time[k]),
     y: inside.map((k) => T[name][k]),
-    ...LINES[i % LINES.length],
+    ...lineOf(means, name),
     width: 1.6,
     label: (name === "haff1983" ? t("haff") : name) + beyondMark(means, name),
     title: means.theories[name].title,
@@ -247,15 +261,16 @@ function stressChart(figure, means) {
           ...rest,
         });
     };
-  chosenTheories(means, theoriesWith(means, ["N1"])).forEach((name, i) =>
-    add(means.theory[name], 0, {
-      colour: LINES[i % LINES.length].colour,
-      shape: "dash",
+  const theories = chosenTheories(means, theoriesWith(means, ["N1"]));
+  theories.forEach((name, i) =>
+    add(means.theory[name], (0.36 * (i + 0.5)) / theories.length - 0.18, {
+      colour: lineOf(means, name).colour,
+      shape: MARKS[placeOf(means, name) % MARKS.length],
       label: name + beyondMark(means, name),
     }),
   );
-  add(means.md && means.md.results, -0.12, { colour: MD, shape: "circle", label: t("md") });
-  add(means.dsmc && means.dsmc.results, 0.12, { colour: DSMC, shape: "square", label: t("dsmc") });
+  add(means.md && means.md.results, -0.26, { colour: MD, shape: "circle", label: t("md") });
+  add(means.dsmc && means.dsmc.results, 0.26, { colour: DSMC, shape: "square", label: t("dsmc") });
   const all = series.flatMap((s) => s.y).filter(Number.isFinite);
   plot(figure, {
     title: t("stress"),

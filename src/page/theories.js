@@ -6,11 +6,7 @@ function drawableTheories(means) {
 
 function showTheories(means) {
   const names = ranked(drawableTheories(means)),
-    first = new Set([
-      ...chosenTheories(means, theoriesWith(means, ["temperature"])),
-      ...chosenTheories(means, theoriesWith(means, ["N1"])),
-      ...chosenTheories(means, Object.keys((means.cooling && means.cooling.T) || {})),
-    ]);
+    first = new Set(drawnTheories(means));
   byId("theories").hidden = names.length === 0;
   const list = byId("theory-boxes");
   if (list.dataset.names !== names.join()) {
