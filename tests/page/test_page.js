@@ -306,7 +306,8 @@ const tests = {
       byId(id).querySelectorAll("g path, polyline, tbody tr, li:not(.legend li)").length)`;
     await tab.until(`${shown}[0] > 0 && ${shown}[2] > 0 && ${shown}[3] > 0`, quick);
     await tab.until("/^Uniform shear/.test(byId('summary').textContent)", 4);
-    const emptied = await tab.value(`(async () => { await start("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}", {});
+    const emptied = await tab.value(`(async () => {
+      await start("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}", {});
       const left = ${shown}; byId("theory-boxes").querySelector("input").click(); return left; })()`);
     assert.deepStrictEqual(emptied, [0, 0, 0, 0]);
     await tab.until("/^Homogeneous cooling/.test(byId('summary').textContent)", 4);
@@ -314,7 +315,9 @@ const tests = {
   },
 
   "the gas that waits is measured to its end": async () => {
-    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}, run: {collisions: 300, warmup: 20}}"));
+    const tab = await open(
+      link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}, run: {collisions: 300, warmup: 20}}"),
+    );
     const { bytes } = resultOf(PLAYED),
       brief = resultOf(PLAYED.replace("trajectory_every: 1", "trajectory_every: 8")).bytes;
     await tab.until("page.means", quick);
@@ -330,7 +333,8 @@ const tests = {
     if (waits) await tab.until("Object.values(page.shelf.means.progress).every((p) => p.over)", quick);
     await tab.value("byId('back').focus(), byId('back').click()");
     assert.strictEqual(await tab.value("document.activeElement.id"), "play");
-    await tab.until(`!page.player && page.means && ${over} && /md done, dsmc done/.test(byId('progress').textContent)`, 10);
+    const done = "/md done, dsmc done/.test(byId('progress').textContent)";
+    await tab.until(`!page.player && page.means && ${over} && ${done}`, 10);
     await silent(tab);
   },
 
@@ -338,10 +342,12 @@ const tests = {
     const tab = await open();
     await tab.until("page.means && page.means.comparison", quick);
     assert.deepStrictEqual(
-      await tab.value(`(() => { const body = document.createElement("table"); body.append(document.createElement("thead"), document.createElement("tbody"));
+      await tab.value(`(() => { const body = document.createElement("table");
+      body.append(document.createElement("thead"), document.createElement("tbody"));
       const results = { temperature: { mean: 1, stderr: 0.1, unit: "" }, pressure: { mean: 1, stderr: 0.1, unit: "" } };
       fillTable(body, { md: { results }, dsmc: { results }, theory: {}, theories: {}, comparison: [
-        { quantity: "temperature", md_dsmc_z: 3.5, beyond_expected: false }, { quantity: "pressure", md_dsmc_z: -2, beyond_expected: true }] }, false);
+        { quantity: "temperature", md_dsmc_z: 3.5, beyond_expected: false },
+        { quantity: "pressure", md_dsmc_z: -2, beyond_expected: true }] }, false);
       return [...body.tBodies[0].rows].map((row) => row.cells[4].textContent); })()`),
       ["+3.5", "-2.0 !"],
     );
@@ -350,7 +356,9 @@ const tests = {
   },
 
   "what is taken along: picture, curves, scene, link": async () => {
-    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}, run: {collisions: 200, warmup: 20}}"));
+    const tab = await open(
+      link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}, run: {collisions: 200, warmup: 20}}"),
+    );
     await tab.until("page.history.rows.length > 3 && page.means && page.means.md && page.means.md.curves", quick);
     await tab.value("page.taken = {}; save = (name, blob) => { page.taken[name] = blob; }; 0");
     for (const id of ["save-png", "save-csv", "save-yaml"]) await tab.value(`byId("${id}").click()`);
@@ -386,6 +394,17 @@ const tests = {
     );
     assert.ok(all.length > 4);
     await tab.until(`[...byId('chart-temperature').querySelectorAll('polyline')].filter((l) => / temperature$/.test(l.dataset.name)).length === ${all.length}`, quick);
+    /* of a sheared gas: a theory has its colour in both diagrams, and no two share one */
+    const sheared = await open("#lesson=normal_stress");
+    for (const at of ["#chart-temperature", "#chart-stress"])
+      await sheared.until(`document.querySelectorAll("${at} .legend li").length > 5`, quick);
+    const keys = await sheared.value(`[...document.querySelectorAll("#chart-temperature li, #chart-stress li")]
+      .map((li) => [li.textContent, li.querySelector("line, path").getAttribute("stroke")])
+      .filter(([name]) => name.replace(" †", "") in page.means.theory)`);
+    assert.ok(keys.length > 5);
+    assert.strictEqual(new Set(keys.map(String)).size, new Set(keys.map(([name]) => name)).size);
+    assert.strictEqual(new Set(keys.map(String)).size, new Set(keys.map(([, colour]) => colour)).size);
+    await silent(sheared);
     /* Haff's line, by the library, through the gas it is of: the first point of both */
     const [T, haff] = await tab.value(
       "[page.history.rows[0].T, page.means.cooling.T.haff1983[0]]",
