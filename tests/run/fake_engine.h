@@ -4,6 +4,7 @@
 #define FAKE_ENGINE_H
 
 #include "common/engine.h"
+#include "common/scene.h"
 
 typedef struct fake_plan {
   double T, theta;   /* steady values */
@@ -16,5 +17,8 @@ typedef struct fake_plan {
 } fake_plan;
 
 extern fake_plan fake;
+
+/* A scene of 512 grains, and a plan for it: T = 2, theta = 0.5, relaxed after 10 collisions a grain, noise of 2 %. */
+gg_scene planted_scene(double beta);
 
 #endif

@@ -11,20 +11,11 @@
 #include "fake_engine.h"
 #include "run/agreement.h"
 
-static gg_scene scene_of(double beta)
-{
-  fake = (fake_plan){.T = 2, .theta = 0.5, .relaxation = 10, .noise = 0.02};
-  gg_scene s = gg_scene_defaults();
-  s.phi = 0.2, s.particles = 512;
-  s.collision.beta[0] = beta;
-  return s;
-}
-
 /* A comparison puts both columns and the theories side by side; z is the difference over the combined error. */
 static void comparison(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   s.dsmc.particles = 512; /* one chunk */
   gg_comparison c;
   gg_error err;
@@ -43,7 +34,7 @@ static void agreement(void **state)
   (void)state;
   gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
   gg_comparison c = {.by_engine = {&md, &dsmc}};
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
   const struct {
     double phi, md, error;
@@ -67,7 +58,7 @@ static void departures(void **state)
   (void)state;
   gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
   gg_comparison c = {.by_engine = {&md, &dsmc}, .n_theories = 1};
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   gg_departure d;
   assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
   c.model.phi = 0.2;
@@ -120,7 +111,7 @@ static void remarks(void **state)
                {0.98, 1, 1.2, 1.2, 0.001, "agrees with dsmc"}};
   gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
   gg_comparison c = {.by_engine = {&md, &dsmc}};
-  gg_scene s = scene_of(-1);
+  gg_scene s = planted_scene(-1);
   for (int i = 0; i < 5; i++) {
     gg_theory_remark r[GG_MOST_THEORIES];
     for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = cases[i].e;

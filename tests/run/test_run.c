@@ -13,15 +13,6 @@
 #include "fake_engine.h"
 #include "run/run.h"
 
-static gg_scene scene_of(double beta)
-{
-  fake = (fake_plan){.T = 2, .theta = 0.5, .relaxation = 10, .noise = 0.02};
-  gg_scene s = gg_scene_defaults();
-  s.phi = 0.2, s.particles = 512;
-  s.collision.beta[0] = beta;
-  return s;
-}
-
 static gg_result *run(const gg_scene *s, gg_status expected)
 {
   gg_result *r = NULL;
@@ -43,7 +34,7 @@ static void within(const gg_result *r, gg_quantity q, double expected)
 static void planted_means(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   s.run.relative_error = 0.002;
   gg_result *r = run(&s, GG_OK);
   assert_int_equal(r->steadiness, GG_STEADY);
@@ -62,7 +53,7 @@ static void planted_means(void **state)
 static void standstill(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   s.run.relative_error = 0.002;
   const struct {
     double gravity, treated;
@@ -83,7 +74,7 @@ static void standstill(void **state)
 static void slow_relaxation(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   fake.start = -0.9, fake.relaxation = 400;
   s.run.relative_error = 0.005;
   gg_result *r = run(&s, GG_OK);
@@ -102,7 +93,7 @@ static void slow_relaxation(void **state)
 static void nearly_smooth(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(-0.99);
+  gg_scene s = planted_scene(-0.99);
   s.run.collisions = 300;
   gg_result *r = run(&s, GG_OK);
   assert_int_equal(r->steadiness, GG_NOT_STEADY);
@@ -114,7 +105,7 @@ static void nearly_smooth(void **state)
 static void endless_trend(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(-1);
+  gg_scene s = planted_scene(-1);
   fake.trend = 1e-4, fake.noise = 0.005;
   s.run.collisions = 2000;
   gg_result *r = run(&s, GG_OK);
@@ -127,7 +118,7 @@ static void endless_trend(void **state)
 static void heating(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(-1);
+  gg_scene s = planted_scene(-1);
   s.collision.e[0] = 1;
   gg_result *r = run(&s, GG_OK);
   assert_int_equal(r->steadiness, GG_HEATING);
@@ -141,13 +132,13 @@ static void heating(void **state)
 static void ends(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(-1);
+  gg_scene s = planted_scene(-1);
   s.run.collisions = 600;
   gg_result *r = run(&s, GG_OK);
   double per_grain = 2.0 * (double)r->averaging.collisions / 512;
   assert_true(fabs(per_grain - 600) < 30);
   gg_result_free(r);
-  s = scene_of(-1);
+  s = planted_scene(-1);
   s.run.relative_error = 1e-9, s.run.time_limit = 0.3;
   r = run(&s, GG_FAILED);
   assert_non_null(r);
@@ -168,7 +159,7 @@ static void same_results(const gg_result *a, const gg_result *b)
 static void replicas(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   s.run.collisions = 1000;
   gg_result *single = run(&s, GG_OK), *one = NULL, *two = NULL;
   s.run.replicas = 4;
@@ -231,7 +222,7 @@ static void resume(void **state)
 {
   (void)state;
   for (int mode = 0; mode < 2; mode++) {
-    gg_scene s = scene_of(0);
+    gg_scene s = planted_scene(0);
     fake.start = 0.5, fake.relaxation = 60; /* windows are given up for their trend */
     s.run.replicas = 2, s.run.seed = 3;
     if (mode == 0)
@@ -258,7 +249,7 @@ static void resume(void **state)
 static void other_scene(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   s.run.collisions = 400, s.output.checkpoint_every = 1e6;
   s.run.seed = 9007199254740992;
   gg_archive archive = {0};
@@ -298,7 +289,7 @@ static gg_status see_frame(void *context, const gg_frame *frame, gg_error *err)
 static void trajectory(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(-1);
+  gg_scene s = planted_scene(-1);
   s.run.collisions = 400, s.run.replicas = 3, s.output.trajectory_every = 20, s.output.checkpoint_every = 1e6;
   gg_archive archive = {0};
   frames whole = {0, -1}, rest = {0, -1};
@@ -343,7 +334,7 @@ static gg_status show(void *context, const gg_frame *frame, gg_error *err)
 static void hooks_one_at_a_time(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(-1);
+  gg_scene s = planted_scene(-1);
   s.run.collisions = 200, s.run.replicas = 4, s.output.trajectory_every = 10;
   crowd c = {0};
   gg_hooks hooks = {.context = &c, .interrupted = ask, .frame = show};
@@ -358,7 +349,7 @@ static void hooks_one_at_a_time(void **state)
 static void time_limit(void **state)
 {
   (void)state;
-  gg_scene s = scene_of(0);
+  gg_scene s = planted_scene(0);
   fake.seconds = 2e-3;
   s.run.collisions = 1e5, s.run.warmup = 1e5, s.run.time_limit = 0.1, s.output.checkpoint_every = 1e6;
   keeper k = {.stop_at = 1 << 30};
