@@ -53,6 +53,7 @@ static void refusals(void **state)
   assert_refused("flow: usf\nphi: 0.3\nparticles: 1\n", "a whole number from 2");
   assert_refused("flow: usf\nphi: 0.3\nrun: {seed: 99999999999999999999}\n", "run.seed");
   assert_refused("flow: usf\nphi: 0.3\nrun: {seed: 9223372036854775808}\n", "run.seed");
+  assert_refused("flow: usf\nphi: 0.3\nrun: {seed: 9223372036854775808.0}\n", "run.seed");
   assert_refused("flow: usf\nphi: 0.3\nshear_rate: 0\n", "a number from 1e-30 to 1e+30");
   assert_refused("flow: usf\nphi: 0.3\nshear_rate: 5e-324\n",
                  "s.yaml:3: key 'shear_rate': value '5e-324' is not allowed; allowed: a number from 1e-30 to 1e+30");

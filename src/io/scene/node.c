@@ -91,8 +91,9 @@ static gg_status read_integer(const gg_scene_reader *r, const gg_field *f, const
   char *end;
   errno = 0;
   long long exact = strtoll(scalar(node), &end, 10); /* a seed has more digits than a double */
-  if (*end == '\0' && errno) return refuse_value(r, f, key, node);
-  *value = *end == '\0' ? exact : (int64_t)x;
+  const bool whole = *end == '\0'; /* else written as 1e6 or 5.0; the largest that are allowed round up to 2^63 */
+  if (whole ? errno != 0 : x >= 0x1p63) return refuse_value(r, f, key, node);
+  *value = whole ? exact : (int64_t)x;
   return GG_OK;
 }
 
