@@ -5,6 +5,7 @@
 
 #include "bench/error_chart.h"
 #include "bench/error_state.h"
+#include "common/memory.h"
 #include "io/plot/plot.h"
 
 static const char seconds_caption[] =

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
+
 gg_bench_sheet *gg_bench_sheet_new(const char *key, const char *caption, int keep, gg_error *err)
 {
   gg_bench_sheet *s = gg_new_array(1, sizeof *s, err);
@@ -12,7 +14,7 @@ gg_bench_sheet *gg_bench_sheet_new(const char *key, const char *caption, int kee
   s->rows = json_array();
   if (s->rows) return s;
   free(s);
-  gg_fail(err, GG_FAILED, "out of memory");
+  gg_out_of_memory(err);
   return NULL;
 }
 

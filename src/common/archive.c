@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 size_t gg_item_size(gg_item_type type)
 {
   return type == GG_ITEM_U8 ? 1 : type == GG_ITEM_F32 ? 4 : 8;
@@ -14,7 +16,7 @@ static gg_status grow(gg_archive *a, gg_error *err)
   if (a->n_items < a->capacity) return GG_OK;
   size_t capacity = a->capacity ? 2 * a->capacity : 16;
   gg_item *items = realloc(a->items, capacity * sizeof *items);
-  if (!items) return gg_fail(err, GG_FAILED, "out of memory for a checkpoint of %zu items", capacity);
+  if (!items) return gg_out_of_memory_for(err, "a checkpoint of %zu items", capacity);
   a->items = items;
   a->capacity = capacity;
   return GG_OK;

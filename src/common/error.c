@@ -2,14 +2,10 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-#include "common/memory_note.h"
 
 gg_status gg_fail(gg_error *err, gg_status status, const char *format, ...)
 {
-  if (strstr(format, "out of memory")) gg_memory_lacked(); /* whoever makes do without it is not the last to know */
   if (err) {
     va_list args;
     va_start(args, format);
@@ -34,11 +30,4 @@ gg_status gg_error_prefix(gg_error *err, gg_status status, const char *format, .
     err->status = status;
   }
   return status;
-}
-
-void *gg_new_array(size_t count, size_t size, gg_error *err)
-{
-  void *block = calloc(count ? count : 1, size);
-  if (!block) gg_fail(err, GG_FAILED, "out of memory: %zu items of %zu bytes were asked for", count, size);
-  return block;
 }

@@ -19,7 +19,4 @@ gg_status gg_error_prefix(gg_error *err, gg_status status, const char *format, .
     if (gg_try_status != GG_OK) return gg_try_status;                                                                  \
   } while (0)
 
-/* calloc with an overflow check; NULL only with the message already written. */
-void *gg_new_array(size_t count, size_t size, gg_error *err);
-
 #endif

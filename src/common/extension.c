@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 struct gg_extension {
   atomic_int holders;
   gg_extension *before;

@@ -3,7 +3,7 @@
 #include <gsl/gsl_errno.h>
 #include <pthread.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 
 /* GSL's handler is one for the process, and so is this. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

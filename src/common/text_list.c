@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 
 void gg_text_list_take(gg_text_list *list, char *text)
 {

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "door/run.h"
 #include "door/simulation.h"
 #include "io/h5/checkpoint_file.h"
@@ -56,7 +56,7 @@ static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info
   char *yaml = gg_checkpoint_scene(path, info->older);
   bool lacked = gg_memory_end(before);
   gg_status status = yaml     ? gg_scene_parse(yaml, path, &stored, err)
-                     : lacked ? gg_fail(err, GG_FAILED, "%s: out of memory", path)
+                     : lacked ? gg_error_prefix(err, gg_out_of_memory(err), "%s", path)
                               : gg_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
   free(yaml);
   info->frames = gg_door_trajectory_frames(a);

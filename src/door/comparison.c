@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "common/extension.h"
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "door/run.h"
 #include "io/scene/inert.h"
 #include "run/agreement.h"
@@ -49,7 +49,7 @@ gg_status gg_door_compare_by(gg_door_point *point, const gg_scene *scene, const 
   gg_text_list_move(&run.warnings, &c->warnings);
   gg_text_list_move(&c->warnings, &run.warnings);
   bool lacked = gg_memory_end(before) && status == GG_OK; /* a warning, or worse */
-  if (lacked) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (lacked) status = gg_out_of_memory(err);
   bool some = !lacked && (status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC]);
   if (some && run.options.output && (status == GG_OK || status == GG_FAILED)) {
     gg_crew_pause(crew);

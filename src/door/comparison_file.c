@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "door/door.h"
 #include "io/c_locale.h"
 #include "io/document.h"

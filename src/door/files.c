@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "common/engine.h"
+#include "common/memory.h"
 #include "door/run.h"
 #include "io/plot/plot.h"
 #include "measure/observable.h"
@@ -43,7 +44,7 @@ static gg_status ask(const char *picture, const char *engine, const char *group,
                      const void *context, gg_error *err)
 {
   char *page = gg_plot_page_name(picture, engine, group, png);
-  gg_status status = page ? check(page, picture, context, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = page ? check(page, picture, context, err) : gg_out_of_memory(err);
   free(page);
   return status;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "door/door.h"
 #include "door/page_places.h"
 #include "io/atomic_file.h"
@@ -57,7 +58,7 @@ static gg_status scene_literal(const gg_scene *scene, char **literal, gg_error *
   json_decref(string);
   free(plain);
   free(yaml);
-  return *literal ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  return *literal ? GG_OK : gg_out_of_memory(err);
 }
 
 static gg_status write_parts(const char *path, const char *page, const char *scene, gg_error *err)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "door/door.h"
 #include "door/moments.h"
 #include "io/c_locale.h"

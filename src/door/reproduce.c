@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "door/door.h"
 #include "io/c_locale.h"
 #include "reproduce/figures.h"
@@ -24,7 +25,7 @@ static gg_status note(seen *s, const char *name, gg_error *err)
   if (s->n == s->room) {
     size_t room = s->room ? 2 * s->room : 256;
     void *more = realloc(s->name, room * sizeof *s->name);
-    if (!more) return gg_fail(err, GG_FAILED, "out of memory");
+    if (!more) return gg_out_of_memory(err);
     s->name = more, s->room = room;
   }
   strcpy(s->name[s->n++], name);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "common/engine.h"
-#include "common/memory_note.h"
+#include "common/memory.h"
 
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
@@ -171,7 +171,7 @@ gg_status gg_door_run_by(gg_door_point *point, const gg_scene *scene, const gg_r
   if (gg_memory_end(before) && status == GG_OK) { /* it lacks a warning */
     gg_result_free(made);
     made = NULL;
-    status = gg_fail(err, GG_FAILED, "out of memory");
+    status = gg_out_of_memory(err);
   }
   if (made && run.options.output && (status == GG_OK || status == GG_FAILED)) {
     gg_crew_pause(crew); /* disks take their time */

@@ -6,7 +6,7 @@
 #include "common/engine.h"
 #include "common/ensemble.h"
 #include "common/extension.h"
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "door/door.h"
 #include "io/c_locale.h"
 #include "io/scene/inert.h"
@@ -92,7 +92,7 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   gg_c_locale_leave(before);
   if (gg_memory_end(outer)) {
     json_decref(value);
-    return gg_fail(err, GG_FAILED, "out of memory");
+    return gg_out_of_memory(err);
   }
   if (!value) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   json_decref(value);
@@ -115,7 +115,7 @@ gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
   locale_t before = gg_c_locale_enter();
   char *yaml = gg_scene_yaml(&filled);
   gg_c_locale_leave(before);
-  if (!yaml) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!yaml) return gg_out_of_memory(err);
   *text = yaml;
   return GG_OK;
 }

@@ -4,6 +4,7 @@
 
 #include "common/engine.h"
 #include "common/extension.h"
+#include "common/memory.h"
 #include "door/door.h"
 #include "run/clock.h"
 #include "run/replicas.h"

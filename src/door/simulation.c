@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "common/extension.h"
+#include "common/memory.h"
 #include "common/rng.h"
 #include "run/start.h"
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "door/simulation.h"
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
@@ -12,7 +13,7 @@
 static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 {
   char *yaml = gg_scene_yaml(&s->scene);
-  if (!yaml) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!yaml) return gg_out_of_memory(err);
   gg_status status = gg_archive_put(a, "simulation/scene", GG_ITEM_U8, yaml, strlen(yaml), err);
   free(yaml);
   if (status == GG_OK) status = gg_resumption_put(&s->scene, a, err);

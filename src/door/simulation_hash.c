@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "door/simulation.h"
 
 /* Every bit of the word turns half of those of the hash: the finaliser of MurmurHash3 (A. Appleby, public domain). */

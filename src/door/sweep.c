@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/extension.h"
+#include "common/memory.h"
 #include "door/door.h"
 #include "io/c_locale.h"
 #include "io/scene/reader.h"
@@ -20,7 +21,7 @@ static gg_sweep *new_sweep(const char *name, gg_error *err)
   sweep->settings = gg_sweep_settings_defaults();
   sweep->name = strdup(name);
   if (sweep->name) return sweep;
-  gg_fail(err, GG_FAILED, "out of memory");
+  gg_out_of_memory(err);
   return free(sweep), NULL;
 }
 
@@ -94,7 +95,7 @@ static gg_status add_key(gg_sweep *sweep, const char *key, gg_values *values, gg
   if (one.key) one.key[0] = strdup(key);
   if (!one.key || !one.key[0]) {
     free(one.key);
-    return gg_fail(err, GG_FAILED, "out of memory");
+    return gg_out_of_memory(err);
   }
   *values = (gg_values){0};
   return gg_sweep_add(sweep, &one, err);
@@ -213,7 +214,7 @@ gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_
   *state = gg_point_look(folder, sweep->point[i].id);
   if (!file) return GG_OK;
   *file = gg_point_path(folder, sweep->point[i].id, *state == GG_POINT_SHORT ? ".short.h5" : ".h5");
-  return *file ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  return *file ? GG_OK : gg_out_of_memory(err);
 }
 
 gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "door/door.h"
 #include "io/atomic_file.h"
 #include "io/c_locale.h"
@@ -75,7 +76,7 @@ gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *pref
   c.picture = c.options.picture ? c.options.picture : c.svg;
   if (strcmp(c.picture ? c.picture : "", "none") == 0) c.picture = NULL;
   locale_t before = gg_c_locale_enter();
-  gg_status status = c.csv && c.h5 && c.svg ? write_all(&c, folder, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = c.csv && c.h5 && c.svg ? write_all(&c, folder, err) : gg_out_of_memory(err);
   gg_c_locale_leave(before);
   gg_point_table_clear(&c.table);
   free(c.csv), free(c.h5), free(c.svg);

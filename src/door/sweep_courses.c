@@ -7,6 +7,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "common/memory.h"
 #include "run/clock.h"
 #include "sweep/folder.h"
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "common/extension.h"
+#include "common/memory.h"
 #include "door/run.h"
 #include "door/sweep.h"
 #include "io/c_locale.h"
@@ -112,8 +113,7 @@ gg_status gg_point_do(const gg_point_task *t, bool *fell_short, gg_error *err)
   options.checkpoint = checkpoint;
   *fell_short = false;
   locale_t before = gg_c_locale_enter();
-  gg_status status =
-      work && checkpoint ? gg_sweep_resolve(t->sweep, t->i, &scene, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = work && checkpoint ? gg_sweep_resolve(t->sweep, t->i, &scene, err) : gg_out_of_memory(err);
   gg_c_locale_leave(before);
   if (status == GG_OK) status = do_point(t, &scene, &options, fell_short, err);
   free(work);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "door/door.h"
 #include "door/sweep_courses.h"
 #include "run/clock.h"

@@ -16,6 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "door/run.h"
 #include "io/h5/checkpoint_file.h"
 
@@ -82,7 +83,7 @@ static gg_status open_earlier(gg_door_run *r, gg_frame_log *earlier, gg_error *e
   GG_TRY(gg_archive_get(&r->resume, mark_item, GG_ITEM_U8, &mark, sizeof mark, err));
   if (!mark.frames) return GG_OK;
   char *path = log_of_resume(r);
-  if (!path) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!path) return gg_out_of_memory(err);
   gg_status status = open_one_of_two(r, earlier, path, &mark, &why);
   free(path);
   if (status != GG_BAD_FILE) return status == GG_OK ? GG_OK : gg_fail(err, status, "%s", why.message);
@@ -119,7 +120,7 @@ static bool goes_on_there(const gg_door_run *r)
 static gg_status open_log(gg_door_run *r, const gg_frame_log *earlier, gg_error *err)
 {
   char *path = gg_frame_log_path(r->options.checkpoint), *target = path ? gg_follow_links(path) : NULL;
-  gg_status status = target ? check_place(path, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = target ? check_place(path, err) : gg_out_of_memory(err);
   if (status == GG_OK) {
     bool there = earlier->fd >= 0 ? gg_frame_log_is_at(earlier, target) : goes_on_there(r);
     status = there ? gg_frame_log_open(&r->log, target, err) : gg_frame_log_open_new(&r->log, target, err);
@@ -161,7 +162,7 @@ static gg_status settle_new(gg_door_run *r, gg_error *err)
 {
   char *path = gg_frame_log_path(r->options.checkpoint), *target = path ? gg_follow_links(path) : NULL;
   char *fresh = target ? gg_frame_log_new_path(target) : NULL;
-  gg_status status = fresh ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = fresh ? GG_OK : gg_out_of_memory(err);
   if (fresh && access(fresh, F_OK) == 0) status = settle(r, target, fresh, err);
   free(fresh);
   free(target);
@@ -197,7 +198,7 @@ gg_status gg_door_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_
   if (r->log.fd < 0) return GG_OK;
   GG_TRY(gg_frame_log_sync(&r->log, err));
   char *path = gg_frame_log_path(r->options.checkpoint);
-  if (!path) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!path) return gg_out_of_memory(err);
   snprintf(name, sizeof name, "%s", base_of(path));
   free(path);
   GG_TRY(gg_archive_put(archive, name_item, GG_ITEM_U8, name, sizeof name, err));

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "common/engine.h"
+#include "common/memory.h"
 #include "door/door.h"
 #include "io/c_locale.h"
 #include "io/document.h"
@@ -27,7 +28,7 @@ gg_status gg_door_text(json_t *document, char **text, gg_error *err)
   char *made = document ? gg_document_text(document) : NULL;
   gg_c_locale_leave(before);
   json_decref(document);
-  if (!made) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!made) return gg_out_of_memory(err);
   *text = made;
   return GG_OK;
 }

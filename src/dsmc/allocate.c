@@ -1,6 +1,7 @@
 /* Life of the engine: memory and the choice of kernels. */
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "common/thermostat.h"
 #include "dsmc/dsmc.h"
 

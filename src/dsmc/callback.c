@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "dsmc/dsmc.h"
 
 static gg_status allocate(gg_dsmc *d, gg_error *err)

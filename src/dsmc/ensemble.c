@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "common/memory.h"
 #include "common/thread_pool.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/schedule.h"
@@ -18,7 +19,7 @@ static void *new_blocks(const gg_dsmc_population *p, gg_error *err)
   size_t unit = bytes >= 2 * huge ? huge : 64, rounded = (bytes + unit - 1) / unit * unit;
   void *b = aligned_alloc(unit, rounded);
   if (!b) {
-    gg_fail(err, GG_FAILED, "out of memory for an ensemble of %zu grains: lower dsmc.particles", n * GG_DSMC_LANES);
+    gg_out_of_memory_for(err, "an ensemble of %zu grains: lower dsmc.particles", n * GG_DSMC_LANES);
     return NULL;
   }
 #ifdef MADV_HUGEPAGE

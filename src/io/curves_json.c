@@ -1,5 +1,6 @@
 #include <math.h>
 
+#include "common/memory.h"
 #include "io/curves.h"
 #include "io/whole_json.h"
 
@@ -92,7 +93,7 @@ static gg_status restore(gg_curves *list, const char *name, const json_t *stored
   gg_curve *c = gg_curve_add(list, json_array_size(json_object_get(stored, "x")), name, text(stored, "panel"),
                              text(stored, "label"));
   list->group = NULL; /* every curve has its own copy */
-  if (list->failed) return gg_fail(err, GG_FAILED, "out of memory for the curve %s", name);
+  if (list->failed) return gg_out_of_memory_for(err, "the curve %s", name);
   gg_curve_axes(c, text(stored, "x_name"), text(stored, "x_unit"), text(stored, "y_name"), text(stored, "unit"));
   c->folded = json_is_true(json_object_get(stored, "folded"));
   c->log_x = json_is_true(json_object_get(stored, "log_x"));
@@ -103,7 +104,7 @@ static gg_status restore(gg_curves *list, const char *name, const json_t *stored
   restore_numbers(c, json_object_get(stored, "numbers"));
   if (!law) return GG_OK;
   gg_curve_beside(c, text(law, "label"), gg_level, &(double){0});
-  if (c->law_lost) return gg_fail(err, GG_FAILED, "out of memory for the curve %s", name);
+  if (c->law_lost) return gg_out_of_memory_for(err, "the curve %s", name);
   if (c->reference) fill(c->reference, c->n, json_object_get(law, "value"));
   return GG_OK;
 }

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "io/checksum.h"
 #include "io/output_path.h"
 
@@ -71,7 +72,7 @@ gg_status gg_frame_log_open(gg_frame_log *log, const char *path, gg_error *err)
     log->created = !there;
     return GG_OK;
   }
-  gg_status status = log->path ? cannot_write(log, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = log->path ? cannot_write(log, err) : gg_out_of_memory(err);
   gg_frame_log_close(log);
   return status;
 }

@@ -3,6 +3,8 @@
 #include <errno.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
+
 json_t *gg_json_end(bool before, json_t *document)
 {
   bool lacked = gg_memory_end(before);

@@ -1,12 +1,12 @@
 /* JSON that is whole or not there. jansson's makers return NULL where there is no memory, and its containers leave out
  * what is NULL: nobody would tell a document that lacks a number from a whole one. In files that include this every
- * maker that gets nothing is noted (common/memory_note.h); who makes a document begins, and ends with gg_json_end. */
+ * maker that gets nothing is noted (common/memory.h); who makes a document begins, and ends with gg_json_end. */
 #ifndef GG_WHOLE_JSON_H
 #define GG_WHOLE_JSON_H
 
 #include <jansson.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 
 /* The document, or NULL if anything was lost since gg_memory_begin, which returned `before`. */
 json_t *gg_json_end(bool before, json_t *document);

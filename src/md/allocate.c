@@ -1,6 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "common/surface/surfaces.h"
 #include "common/thermostat.h"
 #include "md/lines.h"

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "md/lines.h"
 
 enum { FEWEST_WORDS = 8, MOST_BEHIND = 16 }; /* the latter: what may be read behind the last */

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "md/verify.h"
 
 /* What stands beside the arrays, in one plain block. */
@@ -92,9 +92,9 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   gg_md_queue_reset(&e->queue, b.bucket_width);
   const bool before = gg_memory_begin();
   const char *wrong = gg_md_wrong_grains(e);
-  if (gg_memory_end(before)) return gg_fail(err, GG_FAILED, "out of memory to look at the checkpoint of md");
+  if (gg_memory_end(before)) return gg_out_of_memory_for(err, "a look at the checkpoint of md");
   if (wrong) return refuse(wrong, err);
-  if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
+  if (!gg_md_fill_grid(e)) return gg_out_of_memory_for(err, "the grid of cells");
   e->queue.current = b.current_bucket;
   for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
   gg_md_select(e);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "md/accept.h"
 #include "md/checkpoint.h"
 #include "md/thermostat.h"
@@ -33,7 +34,7 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     gg_md_build_lists(e);
   } else {
     gg_md_enter_grid(e);
-    if (!gg_md_fill_grid(e)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
+    if (!gg_md_fill_grid(e)) return gg_out_of_memory_for(err, "the grid of cells");
   }
   const double early = gg_md_early_temperature(e, e->model.temperature0); /* to guess by */
   e->k.mean_free_time = 1 / fmax(gg_model_collision_rate(&e->model, early), 1e-300);
@@ -113,7 +114,7 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
   gg_md *e = (gg_md *)engine;
   e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
   bool ended = !gg_md_check_numbers(e) || run_legs(e);
-  if (e->out_of_memory) return gg_fail(err, GG_FAILED, "out of memory: a cell of the grid could not grow");
+  if (e->out_of_memory) return gg_out_of_memory_for(err, "a cell of the grid");
   if (e->no_number)
     return gg_fail(err, GG_FAILED, "md: what a grain does is no number any more, after %.3g collisions a grain",
                    2 * (double)e->k.collisions / e->n);

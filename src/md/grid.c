@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "common/agreed.h"
+#include "common/memory.h"
 #include "md/members_in_rows.h"
 
 /* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists,
@@ -102,7 +103,7 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
   if (!fit_lists(&e->model, radius, n)) return GG_OK;
   /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
-  if (!gg_md_cells_grow(&e->cells)) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
+  if (!gg_md_cells_grow(&e->cells)) return gg_out_of_memory_for(err, "the grid of cells");
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_skins(e, radius);
   return GG_OK;

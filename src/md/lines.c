@@ -5,6 +5,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "common/memory.h"
+
 #define PAGE ((size_t)4096)
 #define HUGE_PAGE ((size_t)2 << 20)
 
@@ -13,7 +15,7 @@ static void *new_block(size_t bytes, size_t alignment, gg_error *err)
 {
   void *block = aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
   if (!block) {
-    gg_fail(err, GG_FAILED, "out of memory: %zu bytes were asked for", bytes);
+    gg_out_of_memory_for(err, "%zu bytes", bytes);
     return NULL;
   }
 #ifdef MADV_HUGEPAGE

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "md/lines.h"
 
 enum { FEWEST_BUCKETS = 64 };

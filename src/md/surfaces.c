@@ -1,6 +1,7 @@
 /* Which surfaces can be touched from which cells, and contacts with those that are no planes. */
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "common/surface/shapes.h"
 #include "md/state.h"
 

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 typedef struct gg_cell_mean {
   double mass, inertia; /* sums of m, K m; then what c and s are the means of under these weights */
   gg_vec c, s;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "measure/cell_grid.h"
 #include "measure/needs.h"
 #include "measure/observable.h"

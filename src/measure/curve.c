@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "common/gsl_quiet.h"
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "common/quantity.h"
 #include "statistics/jackknife.h"
 
@@ -227,5 +227,5 @@ gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curve
   gg_jackknife_clear(&j);
   gg_curves_clear(&full);
   free(p.total);
-  return whole ? GG_OK : gg_fail(err, GG_FAILED, "%s: out of memory for its curves", group);
+  return whole ? GG_OK : gg_out_of_memory_for(err, "the curves of %s", group);
 }

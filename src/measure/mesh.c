@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 
 enum { LEAST_MESH = 16, MOST_MESH = 96 };
 #define MESH_SPACING 0.25
@@ -34,7 +34,7 @@ gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err)
   }
   if (m->plan) return GG_OK;
   gg_mesh_clear(m);
-  if (lacked) return gg_fail(err, GG_FAILED, "out of memory for a mesh of %d^3", n);
+  if (lacked) return gg_out_of_memory_for(err, "a mesh of %d^3", n);
   return gg_fail(err, GG_FAILED, "no Fourier transform on a mesh of %d^3 could be planned", n);
 }
 

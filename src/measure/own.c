@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 typedef double triple[3];
 
 /* What one sample leaves for the next; the observables' states follow. */

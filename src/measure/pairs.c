@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 #define GRAINS_PER_CELL 2.0 /* on average: fewer cost more lookups, more cost pairs that are out of reach */
 
 double gg_pairs_longest_reach(const gg_model *m)

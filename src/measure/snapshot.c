@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 gg_status gg_snapshot_init(gg_snapshot *s, const gg_model *model, bool positions, gg_error *err)
 {
   size_t n = (size_t)model->n;

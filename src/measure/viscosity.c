@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "common/linear_response.h"
+#include "common/memory.h"
 #include "measure/by_species.h"
 #include "measure/observable.h"
 

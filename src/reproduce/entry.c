@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "reproduce/node.h"
 
 static const char *const verdicts[] = {"agrees", "differs", "cannot be told", "open", NULL};
@@ -44,7 +45,7 @@ static gg_status read_sweep(const gg_entry_reader *r, const yaml_node_t *node, c
   if (node->type == YAML_SCALAR_NODE) {
     sweep->figure = (const char *)node->data.scalar.value;
   } else if (node->type == YAML_MAPPING_NODE) {
-    if (!(sweep->yaml = text_of_map(r, node))) return gg_fail(r->err, GG_FAILED, "out of memory");
+    if (!(sweep->yaml = text_of_map(r, node))) return gg_out_of_memory(r->err);
   } else {
     return gg_entry_refuse(r, node, "sweep", "is a map, a sweep file, or the name of the figure that has it");
   }
@@ -75,7 +76,7 @@ static gg_status take_sets(const gg_entry_reader *r, const yaml_node_t *map, gg_
     if (!gg_is_scene_key(key)) return gg_entry_refuse(r, name, key, "is no key of a scene");
     if (*n == GG_MOST_SETS) return gg_entry_refuse(r, name, key, "one too many");
     char *text = copy_of(r, value, 0, 0);
-    if (!text) return gg_fail(r->err, GG_FAILED, "out of memory");
+    if (!text) return gg_out_of_memory(r->err);
     sets[(*n)++] = (gg_set){key, text};
   }
   return GG_OK;
@@ -157,7 +158,7 @@ static gg_status load(gg_figure_entry *e, const char *yaml, gg_error *err)
 {
   yaml_parser_t parser;
   gg_status status = GG_OK;
-  if (!yaml_parser_initialize(&parser)) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!yaml_parser_initialize(&parser)) return gg_out_of_memory(err);
   yaml_parser_set_input_string(&parser, (const unsigned char *)yaml, strlen(yaml));
   e->read = yaml_parser_load(&parser, &e->document);
   if (!e->read)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "reproduce/figures.h"
 
 static const char *const verdicts[] = {"agrees", "differs", "cannot be told", "open"};
@@ -73,7 +74,7 @@ gg_status gg_figure_page(char **text, gg_error *err)
   size_t length;
   gg_figure_entry e;
   FILE *out = open_memstream(text, &length);
-  if (!out) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!out) return gg_out_of_memory(err);
   fputs(gg_reproduction_head, out);
   gg_status status = print_counts(out, err);
   for (size_t k = 0; gg_entry_files[k].file && status == GG_OK; k++) {
@@ -82,7 +83,7 @@ gg_status gg_figure_page(char **text, gg_error *err)
     print_section(out, &e);
     gg_entry_clear(&e);
   }
-  if (fclose(out) != 0) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (fclose(out) != 0) status = gg_out_of_memory(err);
   if (status != GG_OK) free(*text);
   return status;
 }

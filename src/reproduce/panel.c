@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 static const char *const engines[] = {"md", "dsmc"};
 
 gg_drawn *gg_panel_add(gg_drawn_panel *p, const char *method, const char *group, gg_chart_style style)
@@ -30,12 +32,12 @@ gg_status gg_drawn_put(gg_drawn *d, double x, double x_error, double y, double e
     double **all[] = {&d->x, &d->y, &d->error, &d->x_error};
     for (int k = 0; k < 4; k++) {
       double *more = realloc(*all[k], room * sizeof *more);
-      if (!more) return gg_fail(err, GG_FAILED, "out of memory");
+      if (!more) return gg_out_of_memory(err);
       *all[k] = more;
     }
     d->room = room;
   }
-  if (!d) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!d) return gg_out_of_memory(err);
   d->x[d->n] = x, d->x_error[d->n] = x_error, d->y[d->n] = y, d->error[d->n++] = error;
   return GG_OK;
 }

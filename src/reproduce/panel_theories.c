@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/scene/json.h"
 #include "io/scene/reader.h"
 #include "reproduce/panel.h"
@@ -106,7 +107,7 @@ static gg_status draw_line(gg_drawn_panel *p, const gg_figure_points *all, const
             .group = group,
             .ends = {INFINITY, -INFINITY}};
   gg_drawn *d = gg_panel_add(p, theory, group, GG_CHART_LINE);
-  if (!d) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!d) return gg_out_of_memory(err);
   GG_TRY(at_points(&l, d, err));
   GG_TRY(finely(&l, d, err));
   gg_drawn_sort(d);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "io/atomic_file.h"
 #include "reproduce/figures.h"
 #include "sweep/folder.h"
@@ -51,7 +51,7 @@ static gg_status each_file(const outputs *o, const gg_figure *f, const gg_figure
   for (int file = 0; file < FILES; file++) {
     if (!is_wanted(f, file)) continue;
     char *path = path_of(o, file);
-    gg_status status = path ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+    gg_status status = path ? GG_OK : gg_out_of_memory(err);
     if (status == GG_OK && !points) status = gg_check_writable(path, "a figure's files are files", err);
     if (status == GG_OK && points) status = write_one(o, f, points, file, path, err);
     if (status == GG_OK && points && o->options->written) o->options->written(o->options->context, path);

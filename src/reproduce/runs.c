@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "reproduce/figures.h"
 #include "sweep/sweep.h"
 
@@ -33,7 +34,7 @@ static gg_status vary_anew(gg_sweep *sweep, const gg_set *set, gg_error *err)
   while (length && strchr(" \n]", set->value[length - 1])) length--;
   if (*set->value == '[') skip = 1;
   char *values = strndup(set->value + skip, length - skip);
-  if (!values) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!values) return gg_out_of_memory(err);
   vary_no_more(sweep, set->key);
   gg_status status = gg_sweep_vary(sweep, set->key, values, err);
   free(values);
@@ -119,7 +120,7 @@ static gg_status read_point(gg_sweep *sweep, const char *name, const char *folde
   GG_TRY(gg_sweep_find(sweep, folder, i, &state, &path, err));
   if (state == GG_POINT_MISSING) return free(path), GG_OK;
   gg_figure_point *more = realloc(all->point, (all->n + 1) * sizeof *more);
-  if (!more) return free(path), gg_fail(err, GG_FAILED, "out of memory");
+  if (!more) return free(path), gg_out_of_memory(err);
   all->point = more;
   gg_figure_point *p = &all->point[all->n++];
   *p = (gg_figure_point){.sweep = name, .path = path};
@@ -127,7 +128,7 @@ static gg_status read_point(gg_sweep *sweep, const char *name, const char *folde
   p->scene = *scene;
   gg_scene_free(scene);
   for (const char *key; p->n_varied < GG_MOST_VARIED_KEYS && (key = gg_sweep_key(sweep, p->n_varied));) {
-    if (!(p->varied[p->n_varied] = strdup(key))) return gg_fail(err, GG_FAILED, "out of memory");
+    if (!(p->varied[p->n_varied] = strdup(key))) return gg_out_of_memory(err);
     p->n_varied++;
   }
   GG_TRY(gg_stored_result_read(&p->stored, path, err));
@@ -196,7 +197,7 @@ gg_status gg_figure_run(const gg_figure_entry *entry, const gg_reproduce_options
   *all = (gg_figure_points){0};
   GG_TRY(gg_figure_sweeps(entry, options->quick, sweeps, err));
   char *folder = folder_of(options);
-  gg_status status = folder ? run_all(entry, sweeps, folder, options, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = folder ? run_all(entry, sweeps, folder, options, err) : gg_out_of_memory(err);
   if (status == GG_OK || (status == GG_FAILED && folder)) {
     gg_error reading;
     gg_status read = read_points(entry, sweeps, folder, all, &reading);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/h5/reader.h"
 #include "io/plot/plot.h"
 #include "reproduce/figures.h"
@@ -84,7 +85,7 @@ gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *a
   if (!n) return gg_fail(err, GG_FAILED, "%s: no grains with positions were stored", f->entry->figure);
   GG_TRY(gg_plot_format(picture, NULL, &png, err));
   FILE *s = open_memstream(&script, &length);
-  if (!s) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!s) return gg_out_of_memory(err);
   int width = columns * WIDTH, height = 50 + rows * HEIGHT;
   gg_plot_open_page(s, f->entry->figure, png, width, height);
   gg_status status = GG_OK;
@@ -95,7 +96,7 @@ gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *a
     status = draw_one(s, &list[k], k, place, err);
   }
   fprintf(s, "unset multiplot\n");
-  if (fclose(s) != 0 && status == GG_OK) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (fclose(s) != 0 && status == GG_OK) status = gg_out_of_memory(err);
   if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "reproduce/panel.h"
 #include "reproduce/tail.h"
 
@@ -107,7 +107,7 @@ static gg_status ask(const gg_stated *s, const gg_figure_points *all, int engine
   gg_drawn_panel holder = {0};
   gg_asked asked = {.engine = engine, .theory = theory};
   gg_drawn *d = gg_panel_add(&holder, "", "", GG_CHART_POINTS);
-  gg_status status = d ? gather(s, all, &asked, d, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = d ? gather(s, all, &asked, d, err) : gg_out_of_memory(err);
   if (status == GG_OK) *value = found(s, d);
   gg_panel_clear(&holder);
   return status;

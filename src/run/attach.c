@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "measure/own.h"
 #include "measure/wall_modes.h"
 #include "run/replica.h"

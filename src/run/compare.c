@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "run/run.h"
 #include "run/start.h"
 
@@ -23,7 +23,7 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
   if (!c->theory[i].applies) return GG_OK;
   bool before = gg_memory_begin();
   gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
-  if (gg_memory_end(before)) return gg_fail(err, GG_FAILED, "%s: out of memory", theory->name);
+  if (gg_memory_end(before)) return gg_error_prefix(err, gg_out_of_memory(err), "%s", theory->name);
   if (status == GG_FAILED) gg_text_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
   return GG_OK;
 }
@@ -39,7 +39,7 @@ gg_status gg_compare_theories(const gg_model *model, gg_comparison *c, gg_error 
     gg_error why = {0};
     bool before = gg_memory_begin();
     gg_status status = gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &why);
-    if (gg_memory_end(before)) return gg_fail(err, GG_FAILED, "%s: out of memory", theory->name);
+    if (gg_memory_end(before)) return gg_error_prefix(err, gg_out_of_memory(err), "%s", theory->name);
     c->theory[i].theory = theory;
     c->theory[i].applies = status == GG_OK;
     snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", why.message);

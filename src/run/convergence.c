@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "run/replicas.h"
 #include "statistics/trend.h"
 

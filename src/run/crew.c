@@ -4,6 +4,8 @@
 #include <pthread.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
+
 /* One replica's part of what a course waits for. */
 typedef struct piece {
   struct errand *errand;

@@ -1,5 +1,6 @@
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "run/result.h"
 
 typedef struct filling {

@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "run/clock.h"
 #include "run/crew.h"
 #include "run/forecast.h"

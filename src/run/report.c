@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "common/linear_response.h"
+#include "common/memory.h"
 #include "run/clock.h"
 #include "run/replicas.h"
 #include "scene/fields.h"

@@ -1,6 +1,6 @@
 #include "run/run.h"
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "run/replicas.h"
 
 /* Where the replicas stand as a result; it may fall short of what was asked. */
@@ -35,5 +35,5 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   if (!gg_memory_end(before) || status != GG_OK) return status;
   gg_result_free(*out); /* it lacks a warning, or worse */
   *out = NULL;
-  return gg_fail(err, GG_FAILED, "%s: out of memory", gg_engine_ops_of(scene->engine)->name);
+  return gg_error_prefix(err, gg_out_of_memory(err), "%s", gg_engine_ops_of(scene->engine)->name);
 }

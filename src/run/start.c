@@ -4,7 +4,7 @@
 
 #include "common/agreed.h"
 #include "common/linear_response.h"
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "theory/theory.h"
 
 /* Linear response: at the beginning of a sweep of the reduced shear rate. */
@@ -26,7 +26,7 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
     gg_error why;
     bool before = gg_memory_begin();
     gg_status status = theory ? gg_theory_evaluate(theory, &constant, &answer, &why) : GG_BAD_INPUT;
-    if (gg_memory_end(before)) return gg_fail(err, GG_FAILED, "out of memory for %s", best_first[i]);
+    if (gg_memory_end(before)) return gg_out_of_memory_for(err, "%s", best_first[i]);
     if (status != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
     if (!(T > 0)) continue;

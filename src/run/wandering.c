@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "measure/wall_modes.h"
 #include "run/replicas.h"
 #include "statistics/decay_time.h"

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "statistics/doubling.h"
 
 gg_status gg_bins_init(gg_bins *b, size_t width, gg_error *err)

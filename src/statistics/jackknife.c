@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 /* How many points of its curve a number has beside it: four would make errors of exponents a little better, and of
  * moments, which remember longer than most points, too small. */
 enum { ARRAYS = 6, NEIGHBOURS = 4, BESIDE = 2 };

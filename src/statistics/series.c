@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "statistics/doubling.h"
 
 gg_status gg_series_init(gg_series *s, size_t width, gg_error *err)

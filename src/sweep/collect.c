@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "io/csv.h"
 #include "io/h5/h5.h"
 #include "io/h5/result_file.h"

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 void gg_columns_clear(gg_columns *c)
 {
   for (size_t k = 0; k < c->n; k++) gg_values_clear(&c->values[k]);
@@ -48,7 +50,7 @@ static gg_status add_node(gg_scene_reader *r, const char *key, gg_values *values
   size_t size;
   FILE *out = open_memstream(&text, &size);
   if (out) print_node(r, node, out);
-  gg_status status = out && fclose(out) == 0 ? GG_OK : gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
+  gg_status status = out && fclose(out) == 0 ? GG_OK : gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
   if (status == GG_OK && size > LONGEST_VALUE)
     status = gg_scene_refuse(r, node, key, "a value is longer than %d characters", LONGEST_VALUE);
   if (status == GG_OK) status = gg_values_add(values, text, r->err);

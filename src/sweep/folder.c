@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "io/output_path.h"
 
 void gg_point_name(uint64_t id, char name[GG_POINT_NAME])
@@ -65,7 +66,7 @@ gg_status gg_point_claim(const char *folder, uint64_t id, gg_file_lock *lock, gg
 {
   *lock = GG_FILE_LOCK_NONE;
   char *path = gg_point_path(folder, id, ".h5");
-  if (!path) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!path) return gg_out_of_memory(err);
   gg_status status = gg_file_lock_take(lock, path, path, err);
   free(path);
   if (status != GG_OK && lock->busy) return GG_OK;

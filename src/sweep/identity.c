@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/extension.h"
+#include "common/memory.h"
 #include "io/checksum.h"
 #include "io/scene/json.h"
 #include "io/whole_json.h"
@@ -88,7 +89,7 @@ gg_status gg_point_check(const gg_scene *scene, gg_does does, const json_t *stor
   char there[40], here[40];
   gg_status status = GG_OK;
   json_t *own = gg_scene_json(scene);
-  if (!own) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!own) return gg_out_of_memory(err);
   for (const gg_field *f = gg_scene_fields; f->key && status == GG_OK; f++) {
     const json_t *value = value_in(stored, f->key), *wanted = value_in(own, f->key);
     if (is_left_out(f->key, does) || (value && json_equal(value, wanted))) continue;

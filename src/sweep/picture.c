@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/engine.h"
+#include "common/memory.h"
 #include "io/plot/chart.h"
 #include "run/result.h"
 #include "sweep/collect.h"

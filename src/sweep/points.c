@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "common/engine.h"
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "io/scene/node.h"
 #include "io/scene/reader.h"
 #include "run/forecast.h"
@@ -123,7 +123,7 @@ gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_
   double seconds;
   bool before = gg_memory_begin();
   gg_status status = resolve_named(sweep, i, scene, &seconds, err);
-  return gg_memory_end(before) ? gg_fail(err, GG_FAILED, "%s: out of memory", sweep->name) : status;
+  return gg_memory_end(before) ? gg_error_prefix(err, gg_out_of_memory(err), "%s", sweep->name) : status;
 }
 
 static void explain_number(const gg_sweep *sweep, gg_error *err)
@@ -145,7 +145,7 @@ gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err)
     bool before = gg_memory_begin();
     gg_status status = resolve_named(sweep, i, &scene, &point[i].seconds, err);
     if (status == GG_OK) point[i].id = gg_point_id(&scene, sweep->settings.does);
-    if (gg_memory_end(before)) status = gg_fail(err, GG_FAILED, "%s: out of memory", sweep->name);
+    if (gg_memory_end(before)) status = gg_error_prefix(err, gg_out_of_memory(err), "%s", sweep->name);
     if (status != GG_OK) return free(point), status;
   }
   sweep->point = point;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/h5/reader.h"
 #include "io/whole_json.h"
 #include "sweep/folder.h"
@@ -21,7 +22,7 @@ static gg_status add_row(gg_point_table *t, const gg_table_row *row, gg_error *e
   if (t->n == t->room) {
     size_t room = t->room ? 2 * t->room : 256;
     gg_table_row *grown = realloc(t->row, room * sizeof *grown);
-    if (!grown) return gg_fail(err, GG_FAILED, "out of memory");
+    if (!grown) return gg_out_of_memory(err);
     t->row = grown;
     t->room = room;
   }
@@ -101,7 +102,7 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   const gg_table_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
   char *path = gg_point_path(folder, id, row.fell_short ? ".short.h5" : ".h5");
   json_t *document = NULL;
-  gg_status status = path ? read_document(path, &document, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = path ? read_document(path, &document, err) : gg_out_of_memory(err);
   if (status == GG_OK)
     status = gg_point_check(&scene, sweep->settings.does, json_object_get(document, "scene"), path, err);
   free(path);

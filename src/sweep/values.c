@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "scene/fields.h"
 #include "sweep/sweep.h"
 
@@ -17,7 +18,7 @@ void gg_values_clear(gg_values *v)
 
 static gg_status out_of_memory(gg_error *err)
 {
-  return gg_fail(err, GG_FAILED, "out of memory");
+  return gg_out_of_memory(err);
 }
 
 gg_status gg_values_add(gg_values *v, const char *text, gg_error *err)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/checksum.h"
 #include "sweep/columns.h"
 
@@ -17,7 +18,7 @@ static gg_status new_varied(gg_varied *v, const gg_columns *c, size_t first, siz
   for (size_t k = 0; good && k < n_keys; k++) good = (v->key[k] = strdup(c->key[first + k]));
   if (good) return GG_OK;
   gg_varied_clear(v);
-  return gg_fail(err, GG_FAILED, "out of memory");
+  return gg_out_of_memory(err);
 }
 
 /* Keys of the map from `first` on, row by row. */
@@ -104,7 +105,7 @@ static gg_status add_random(gg_scene_reader *r, gg_sweep *sweep, gg_columns *c)
     for (size_t i = 0; i < v.n; i++)
       if (!(v.value[i * c->n + k] = gg_values_draw(&c->values[k], c->key[k], &rng))) {
         gg_varied_clear(&v);
-        return gg_fail(r->err, GG_FAILED, "out of memory");
+        return gg_out_of_memory(r->err);
       } else if ((characters += strlen(v.value[i * c->n + k])) > GG_MOST_DRAWN_CHARACTERS) {
         gg_varied_clear(&v);
         return gg_scene_refuse(r, c->random, "vary.random", "the values drawn have more than %d characters together",

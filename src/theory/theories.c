@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "common/gsl_quiet.h"
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "theory/answer.h"
 #include "theory/theory_list.h"
 
@@ -65,7 +65,7 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
   gg_status status =
       theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err) : theory->evaluate(model, answer, err);
   gg_gsl_leave();
-  if (gg_memory_end(before)) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (gg_memory_end(before)) status = gg_out_of_memory(err);
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
   return status;
 }
@@ -81,7 +81,7 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   gg_gsl_enter();
   gg_status status = theory->curves(model, measure, list, err);
   gg_gsl_leave();
-  if (gg_memory_end(before)) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (gg_memory_end(before)) status = gg_out_of_memory(err);
   list->group = NULL; /* every curve has its own copy */
   if (status != GG_OK) gg_curves_clear(list);
   return status;

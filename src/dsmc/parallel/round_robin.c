@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "common/thread_pool.h"
 #include "dsmc/dsmc.h"
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/c_locale.h"
 #include "io/curves.h"
 #include "io/export/tables.h"
@@ -85,7 +86,7 @@ static gg_status plan(job *j, const char *path, unsigned parts, gg_error *err)
   if (parts & GG_EXPORT_CURVES) add_curves(j);
   if (parts & GG_EXPORT_TRAJECTORY) GG_TRY(gg_stored_trajectory_open(&j->trajectory, path, err));
   if (j->trajectory.n_frames) add(j, TRAJECTORY, NULL, nothing, ".xyz");
-  if (j->failed) return gg_fail(err, GG_FAILED, "out of memory");
+  if (j->failed) return gg_out_of_memory(err);
   return j->n ? GG_OK : gg_fail(err, GG_FAILED, "%s: nothing to export: %s", path, lack(parts));
 }
 

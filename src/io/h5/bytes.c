@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "io/h5/format.h"
 #include "io/h5/seal.h"
 

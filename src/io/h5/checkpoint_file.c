@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "io/atomic_file.h"
 #include "io/h5/h5.h"
 #include "io/h5/reader.h"
@@ -75,7 +76,7 @@ static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
 {
   char *before = NULL;
   if (fsync(file->fd) != 0) return gg_cannot_write(file->path, strerror(errno), err);
-  if (asprintf(&before, "%s.1", file->place.target) < 0) return gg_fail(err, GG_FAILED, "out of memory");
+  if (asprintf(&before, "%s.1", file->place.target) < 0) return gg_out_of_memory(err);
   bool kept = rename(file->place.target, before) == 0 || errno == ENOENT; /* the first time there is none */
   int number = errno;
   free(before);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 
 /* The system's word for it ("No space left on device") stands at the bottom of HDF5's error stack. */
 static herr_t find_cause(unsigned n, const H5E_error2_t *entry, void *context)

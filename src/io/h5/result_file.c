@@ -6,6 +6,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "io/c_locale.h"
 #include "io/document.h"
 #include "io/h5/particles.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory_note.h"
+#include "common/memory.h"
 #include "io/curves.h"
 #include "io/document.h"
 #include "io/h5/stored_extension.h"
@@ -130,10 +130,10 @@ static gg_status restore_origin(gg_result *r, const gg_stored_result *s, const j
   char **const to[] = {&r->origin.version, &r->origin.command, &r->origin.machine, &r->origin.date};
   const char *const from[] = {s->version, s->command, s->machine, s->date};
   for (int i = 0; i < 4; i++)
-    if (!(*to[i] = strdup(from[i] ? from[i] : ""))) return gg_fail(err, GG_FAILED, "out of memory");
+    if (!(*to[i] = strdup(from[i] ? from[i] : ""))) return gg_out_of_memory(err);
   r->origin.document = gg_document_text(document);
   r->origin.frames = s->n_frames;
-  return r->origin.document ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  return r->origin.document ? GG_OK : gg_out_of_memory(err);
 }
 
 gg_status gg_stored_scene(const gg_stored_result *s, gg_engine_kind engine, gg_scene *scene, gg_model *model,
@@ -263,7 +263,7 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
   if (s->comparison) gg_scene_inert(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
   c->of_one = !s->comparison;
   c->document = gg_document_text(s->document);
-  return c->document ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  return c->document ? GG_OK : gg_out_of_memory(err);
 }
 
 gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_error *err)

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 #define GRAINS "/particles/grains"
 
 /* Three texts: "periodic" or "none". */
@@ -38,7 +40,7 @@ static void read_kinds(gg_stored_trajectory *t)
 gg_status gg_stored_trajectory_open(gg_stored_trajectory *t, const char *path, gg_error *err)
 {
   *t = (gg_stored_trajectory){.path = strdup(path)};
-  if (!t->path) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!t->path) return gg_out_of_memory(err);
   gg_h5_open(&t->h, path);
   if (gg_h5_exists(&t->h, GRAINS "/position/value")) {
     t->n_frames = gg_h5_count_of(&t->h, GRAINS "/velocity/step");

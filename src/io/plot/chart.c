@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "io/c_locale.h"
 #include "io/plot/axis.h"
 #include "io/plot/chart_looks.h"
@@ -186,7 +187,7 @@ gg_status gg_chart_draw(const gg_chart *c, const char *picture, const char *form
   GG_TRY(gg_plot_format(picture, format, &png, err));
   if (!c->n) return gg_fail(err, GG_BAD_INPUT, "%s: there is nothing to draw", picture);
   FILE *s = open_memstream(&script, &size);
-  if (!s) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!s) return gg_out_of_memory(err);
   locale_t before = gg_c_locale_enter();
   gg_chart_looks looks;
   gg_chart_looks_of(c, &looks);
@@ -196,7 +197,7 @@ gg_status gg_chart_draw(const gg_chart *c, const char *picture, const char *form
   gg_chart_print_legend(s, &looks, &l.legend, title_of(c), l.page);
   fprintf(s, "unset multiplot\n");
   gg_c_locale_leave(before);
-  gg_status status = fclose(s) == 0 ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = fclose(s) == 0 ? GG_OK : gg_out_of_memory(err);
   if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;

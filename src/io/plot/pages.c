@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/atomic_file.h"
 #include "io/c_locale.h"
 #include "io/curves.h"
@@ -27,14 +28,14 @@ static gg_status draw_page(const gg_stored_result *stored, const page *p, const 
   size_t length;
   int size[2];
   FILE *s = open_memstream(&script, &length);
-  if (!s) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!s) return gg_out_of_memory(err);
   locale_t before = gg_c_locale_enter();
   gg_plot_curves_size(p->document, p->group, size);
   gg_plot_start_page(s, stored, png, size[0], size[1]);
   gg_plot_curves(s, p->document, theories, p->group);
   fprintf(s, "unset multiplot\n");
   gg_c_locale_leave(before);
-  gg_status status = fclose(s) == 0 ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = fclose(s) == 0 ? GG_OK : gg_out_of_memory(err);
   if (status == GG_OK) status = gg_gnuplot_run(script, NULL, p->path, err);
   free(script);
   return status;
@@ -71,7 +72,7 @@ static gg_status list(page_list *pages, const gg_stored_result *stored, const ch
       pages->page[pages->n++] = (page){gg_plot_page_name(picture, engine, groups[i], png), groups[i], e->document};
   }
   for (int i = 0; i < pages->n; i++) whole &= pages->page[i].path != NULL;
-  return whole ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  return whole ? GG_OK : gg_out_of_memory(err);
 }
 
 static gg_status check_page(const char *path, const char *picture, const char *file, gg_error *err)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/c_locale.h"
 
 gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_error *err)
@@ -53,7 +54,7 @@ static gg_status draw(const gg_stored_result *stored, const char *picture, bool 
   char *script = NULL;
   size_t size;
   FILE *s = open_memstream(&script, &size);
-  if (!s) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!s) return gg_out_of_memory(err);
   locale_t before = gg_c_locale_enter();
   if (stored->comparison)
     draw_comparison(s, stored, png);
@@ -61,7 +62,7 @@ static gg_status draw(const gg_stored_result *stored, const char *picture, bool 
     draw_run(s, stored, &stored->engine[stored->engine[GG_MD].name ? GG_MD : GG_DSMC], png);
   gg_c_locale_leave(before);
   gg_status status = GG_OK;
-  if (fclose(s) != 0) status = gg_fail(err, GG_FAILED, "out of memory");
+  if (fclose(s) != 0) status = gg_out_of_memory(err);
   if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/c_locale.h"
 #include "io/plot/layer.h"
 #include "io/plot/plot.h"
@@ -151,7 +152,7 @@ static gg_status draw_page(const gg_stored_result *stored, const gg_plot_grains 
   }
   if (p.script) drawn &= fclose(p.script) == 0;
   if (p.over) drawn &= fclose(p.over) == 0;
-  gg_status status = drawn ? gg_gnuplot_run(script, over, picture, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = drawn ? gg_gnuplot_run(script, over, picture, err) : gg_out_of_memory(err);
   free(script);
   free(over);
   return status;

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "io/scene/reader.h"
 
 enum { MAX_BYTES = GG_SCENE_MAX_BYTES + 1 }; /* enough to see that it is too large */

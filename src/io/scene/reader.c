@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/scene/node.h"
 
 static void mark_given(gg_scene *scene, int id)
@@ -52,7 +53,7 @@ static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *n
 static gg_status refuse_syntax(const gg_scene_reader *r, const yaml_parser_t *parser)
 {
   if (parser->error == YAML_MEMORY_ERROR || !parser->problem)
-    return gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
+    return gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
   const char *problem = parser->problem;
   size_t line = parser->problem_mark.line + 1;
   if (parser->error == YAML_READER_ERROR)
@@ -69,7 +70,7 @@ gg_status gg_scene_with_document(gg_scene_reader *r, const char *yaml, size_t le
   yaml_parser_t parser;
   yaml_document_t document, next;
   GG_TRY(gg_scene_check_limits(r, yaml, length));
-  if (!yaml_parser_initialize(&parser)) return gg_fail(r->err, GG_FAILED, "%s: out of memory", r->name);
+  if (!yaml_parser_initialize(&parser)) return gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
   yaml_parser_set_input_string(&parser, (const unsigned char *)yaml, length);
   gg_status status;
   if (!yaml_parser_load(&parser, &document)) {

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "common/agreed.h"
+#include "common/memory.h"
 #include "common/surface/shapes.h"
 #include "md/start/place.h"
 
@@ -107,7 +108,7 @@ static gg_status sweep_once(gg_md_packing *p, double margin, bool pushing, bool 
     sweep_small(&s);
   *free = s.overlaps == 0;
   if (s.status == GG_INTERRUPTED) return gg_fail(err, GG_INTERRUPTED, "md: stopped while grains were placed");
-  if (s.status == GG_FAILED) return gg_fail(err, GG_FAILED, "out of memory for the grid of cells");
+  if (s.status == GG_FAILED) return gg_out_of_memory_for(err, "the grid of cells");
   return GG_OK;
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "common/agreed.h"
+#include "common/memory.h"
 #include "common/surface/surfaces.h"
 #include "md/start/place.h"
 #include "md/state.h"

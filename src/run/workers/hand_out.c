@@ -4,6 +4,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "run/clock.h"
 #include "run/workers/pool.h"
 
@@ -172,7 +173,7 @@ static void start_there(gg_share *s, int i)
   void *block = s->told[p->owner] ? pack(s, i, &m, &size, &p->err) : NULL;
   if (!block) {
     p->state = GG_BACK;
-    p->status = gg_fail(&p->err, GG_FAILED, "out of memory for a message of replica %d", i);
+    p->status = gg_out_of_memory_for(&p->err, "a message of replica %d", i);
     return;
   }
   p->state = GG_SENT;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "run/clock.h"
 #include "run/start.h"
 #include "run/workers/job.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "run/clock.h"
 #include "run/workers/pool.h"
 

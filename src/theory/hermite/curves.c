@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "common/memory.h"
 #include "common/thermostat.h"
 #include "measure/velocity_curves.h"
 #include "theory/answer.h"
@@ -137,7 +138,7 @@ static gg_status write(const gg_model *m, unsigned measure, const series *s, gg_
   bool failed = list->failed || before[0].failed || before[1].failed;
   if (!failed) gg_curves_converge(list, &before[0], &before[1]);
   for (int k = 0; k < 2; k++) gg_curves_clear(&before[k]);
-  return failed ? gg_fail(err, GG_FAILED, "out of memory") : GG_OK;
+  return failed ? gg_out_of_memory(err) : GG_OK;
 }
 
 gg_status gg_hermite_curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)

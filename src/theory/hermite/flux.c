@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "theory/hermite/basis.h"
 #include "theory/hermite/product.h"
 
@@ -43,7 +44,7 @@ gg_status gg_hermite_flux_make(gg_hermite_flux *f, int N, int tests, double deca
   f->width_X = f->odd_X + gg_padded(tests / 2 * f->halves, GG_PRODUCT_COLUMNS);
   f->width_along = gg_padded(tests * f->trials, GG_PRODUCT_ROWS);
   f->width_Y = gg_padded(tests * f->trials, GG_PRODUCT_COLUMNS);
-  gg_status status = lay_out(f) ? GG_OK : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = lay_out(f) ? GG_OK : gg_out_of_memory(err);
   if (status == GG_OK) status = gg_hermite_overlap_make(&f->tangential, tests, N + 1, decay, err);
   if (status == GG_OK) status = gg_legendre_rule(f->n_u, f->u, f->wu, err);
   if (status == GG_OK) status = gg_hermite_rule(f->n_v, f->v, f->wv, err);

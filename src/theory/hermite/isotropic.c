@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "common/gsl_quiet.h"
+#include "common/memory.h"
 #include "theory/hermite/room.h"
 
 enum { MOST_ITERATIONS = 60, HALVES = GG_HERMITE_MOST_DEGREE / 2 + 1 };
@@ -134,8 +135,7 @@ gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double
   gg_status status = gg_hermite_operator_make(&h->op, degree, GG_HERMITE_DECAY, true, err);
   if (status == GG_OK) h->state.a = calloc((size_t)h->op.basis.n, sizeof *h->state.a);
   gg_gsl_enter();
-  if (status == GG_OK && (!h->state.a || !make(&w, h->op.basis.n, degree / 2)))
-    status = gg_fail(err, GG_FAILED, "out of memory");
+  if (status == GG_OK && (!h->state.a || !make(&w, h->op.basis.n, degree / 2))) status = gg_out_of_memory(err);
   if (status == GG_OK) status = iterate(h, &w, noise, err);
   gg_gsl_leave();
   clear(&w);

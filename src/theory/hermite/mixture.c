@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/gsl_quiet.h"
+#include "common/memory.h"
 #include "theory/answer.h"
 #include "theory/hermite/basis.h"
 #include "theory/hermite/overlap.h"
@@ -209,7 +210,7 @@ gg_status gg_hermite_mixture_solve(gg_hermite_mixture *x, const gg_model *m, int
   gg_gsl_enter();
   s.normal = malloc((size_t)(m->n_species * m->n_species) * sizeof *s.normal);
   s.J = gsl_matrix_alloc(n, n), s.x = gsl_vector_alloc(n), s.order = gsl_permutation_alloc(n);
-  gg_status status = s.normal && s.J && s.x && s.order ? iterate(&s, err) : gg_fail(err, GG_FAILED, "out of memory");
+  gg_status status = s.normal && s.J && s.x && s.order ? iterate(&s, err) : gg_out_of_memory(err);
   free(s.normal);
   if (s.J) gsl_matrix_free(s.J);
   if (s.x) gsl_vector_free(s.x);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/memory.h"
 #include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/garzo_dufty1999.h"
@@ -84,7 +85,7 @@ static gg_status expand(const gg_hermite_mixture *x, const gg_hermite_basis *b, 
 {
   for (int i = 0; i < n_species; i++) {
     state[i] = (gg_hermite_state){.a = malloc((size_t)b->n * sizeof(double)), .width = GG_HERMITE_WIDTH};
-    if (!state[i].a) return gg_fail(err, GG_FAILED, "out of memory");
+    if (!state[i].a) return gg_out_of_memory(err);
     for (int k = 0; k < 3; k++) state[i].L[k][k] = x->scale[i];
     gg_hermite_isotropic_expand(b, x->alpha[i], state[i].a);
   }

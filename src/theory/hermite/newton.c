@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/gsl_quiet.h"
+#include "common/memory.h"
 
 /* A Jacobian costs as much as ten residuals: it is kept as long as steps with it shrink fast. */
 enum { MOST_ITERATIONS = 60, MOST_HALVINGS = 10 };
@@ -24,7 +25,7 @@ static gg_status make(gg_newton *w, int n_species, int functions, gg_error *err)
   size_t m = (size_t)w->n;
   w->jacobian = malloc((m * m + 2 * m) * sizeof *w->jacobian);
   w->order = gsl_permutation_alloc(m);
-  if (!w->jacobian || !w->order) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!w->jacobian || !w->order) return gg_out_of_memory(err);
   w->R = w->jacobian + m * m, w->trial = w->R + m;
   return GG_OK;
 }

@@ -5,13 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "theory/hermite/basis.h"
 
 static gg_status rule(const gsl_integration_fixed_type *type, int n, double scale, double norm, double *x, double *w,
                       gg_error *err)
 {
   gsl_integration_fixed_workspace *r = gsl_integration_fixed_alloc(type, (size_t)n, 0, scale, 0, 0);
-  if (!r) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!r) return gg_out_of_memory(err);
   memcpy(x, gsl_integration_fixed_nodes(r), (size_t)n * sizeof *x);
   for (int i = 0; i < n; i++) w[i] = gsl_integration_fixed_weights(r)[i] / norm;
   gsl_integration_fixed_free(r);
@@ -32,7 +33,7 @@ gg_status gg_hermite_overlap_make(gg_hermite_overlap *o, int tests, int trials, 
 {
   *o = (gg_hermite_overlap){.tests = tests, .trials = trials, .decay = decay, .n = (tests + trials) / 2};
   o->x = malloc(2 * (size_t)o->n * sizeof *o->x);
-  if (!o->x) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!o->x) return gg_out_of_memory(err);
   o->w = o->x + o->n;
   gg_status status = gg_hermite_rule(o->n, o->x, o->w, err);
   if (status != GG_OK) gg_hermite_overlap_clear(o);

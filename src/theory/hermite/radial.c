@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "common/memory.h"
+
 enum { POINTS = 2 * GG_RADIAL_MOST + 2 };
 
 static double factorial(int n)
@@ -81,12 +83,12 @@ gg_status gg_radial_make(gg_radial *r, int most, double decay, gg_error *err)
   *r = (gg_radial){.most = most, .decay = decay};
   make_split(r);
   for (int k = 0; k < 2; k++) {
-    if (!rule(0, k ? 1 + decay : 1, t, w)) return gg_fail(err, GG_FAILED, "out of memory");
+    if (!rule(0, k ? 1 + decay : 1, t, w)) return gg_out_of_memory(err);
     for (int M = 0; M <= most; M++)
       for (int m = 0; m <= most; m++)
         for (int i = 0; i < POINTS; i++)
           r->across[k][M][m] += w[i] * sign(M + m) * gsl_sf_laguerre_n(M, 0, t[i]) * gsl_sf_laguerre_n(m, 0, t[i]);
-    if (!rule(0.5, k ? 1 + decay : 1, t, w)) return gg_fail(err, GG_FAILED, "out of memory");
+    if (!rule(0.5, k ? 1 + decay : 1, t, w)) return gg_out_of_memory(err);
     for (int l = k ? 2 : 0; l <= (k ? most : 1); l++)
       for (int m = 0; m <= most; m++)
         for (int i = 0; i < POINTS; i++) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/gaussian_moments.h"
@@ -39,7 +40,7 @@ gg_status gg_hermite_shear_begin(gg_hermite_shear *h, const gg_model *m, gg_erro
     s->a = calloc((size_t)GG_HERMITE_MOST_FUNCTIONS, sizeof *s->a);
     if (!s->a) {
       gg_hermite_shear_end(h);
-      return gg_fail(err, GG_FAILED, "out of memory");
+      return gg_out_of_memory(err);
     }
     s->a[0] = 1;
     fine = gg_hermite_gaussian(factor, start[i].M.at, s->L);

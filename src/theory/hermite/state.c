@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
+
 enum { N1 = GG_HERMITE_MOST_DEGREE + 1, MOST_POINTS = GG_HERMITE_MOST_DEGREE + 3 };
 
 /* <c_i c_j> = delta_ij + a_(e_i + e_j), times sqrt 2 on the diagonal. */
@@ -111,7 +113,7 @@ gg_status gg_hermite_expand_anew(const gg_hermite_basis *b, gg_hermite_state *s,
   double G[3][3], *a = calloc((size_t)b->n, sizeof *a);
   if (!a || !make_grid(&g, b->degree)) {
     free(a);
-    return gg_fail(err, GG_FAILED, "out of memory");
+    return gg_out_of_memory(err);
   }
   change_of_frame(L, s->L, G);
   for (int i = 0; i < g.n; i++)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/gsl_quiet.h"
+#include "common/memory.h"
 #include "theory/hermite/room.h"
 
 /* Shear rate of the central difference, in units in which T = m = 1. */
@@ -30,7 +31,7 @@ static gg_status make(gg_response *r, int degree, gg_error *err)
   size_t n = (size_t)r->all;
   r->function = malloc(n * sizeof *r->function);
   r->R = calloc(n * n + 3 * n, sizeof *r->R);
-  if (!r->function || !r->R) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!r->function || !r->R) return gg_out_of_memory(err);
   r->other = r->R + n, r->a = r->other + n, r->jacobian = r->a + n;
   for (int i = 0; i < r->gas->n_species; i++) {
     r->state[i] = r->base[i];

@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "common/memory.h"
+
 static int cell(int degree, const int r[3])
 {
   return (r[0] * (degree + 1) + r[1]) * (degree + 1) + r[2];
@@ -81,7 +83,7 @@ gg_status gg_rough_functions_make(gg_rough_functions *f, int degree, gg_error *e
   f->place3 = malloc(side * side * side * sizeof *f->place3);
   if (!f->function || !f->by_degree || !f->up || !f->down || !f->three || !f->from || !f->place3) {
     gg_rough_functions_clear(f);
-    return gg_fail(err, GG_FAILED, "out of memory");
+    return gg_out_of_memory(err);
   }
   number_three(f);
   number_all(f);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "theory/hermite/overlap.h"
 
 /* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi), to 1e-6: a quarter of the sphere stands for the
@@ -37,7 +38,7 @@ static gg_status make_work(gg_relative_work *w, const gg_rough_functions *f, boo
   w->wide = malloc((size_t)w->n_wide * sizeof *w->wide);
   w->place = malloc((size_t)(side * side * side) * sizeof *w->place);
   if (!w->E || !w->flux || !w->by_kind || !w->sorted || !w->ladder || !w->wide || !w->place)
-    return gg_fail(err, GG_FAILED, "out of memory");
+    return gg_out_of_memory(err);
   for (int k = 0, at = 0; k <= most; k++)
     for (int x = k; x >= 0; x--)
       for (int y = k - x; y >= 0; y--, at++) {
@@ -235,7 +236,7 @@ static gg_status make(gg_rough_relative *r, gg_relative_work *w, int degree, boo
     r->factors = malloc(sizeof *r->factors);
   else
     r->W = calloc(n * n, sizeof *r->W);
-  if (!r->rate || (!r->W && !r->factors)) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!r->rate || (!r->W && !r->factors)) return gg_out_of_memory(err);
   for (size_t i = 0; i < 9; i++) r->J[i / 3][i % 3] = r->rate + (i + 1) * n;
   return make_work(w, &r->f, factored, err);
 }

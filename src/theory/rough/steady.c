@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/gsl_quiet.h"
+#include "common/memory.h"
 #include "theory/hermite/state.h"
 
 enum { MOST_ITERATIONS = 40 };
@@ -30,7 +31,7 @@ static gg_status make(gg_rough_steady *s, int degree, bool isotropic, gg_error *
     GG_TRY(gg_rough_relative_make(&s->relative, &s->gas, &s->weight, relative, false, err));
   GG_TRY(gg_rough_form_make(&s->form, &s->relative, degree, isotropic, &s->choice, err));
   s->a = calloc((size_t)s->form.n, sizeof *s->a);
-  if (!s->a) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!s->a) return gg_out_of_memory(err);
   s->a[0] = 1;
   for (int x = 0; x < GG_ROUGH_AXES; x++) {
     double width = x < 3 ? s->choice.width : s->choice.spin_width;
@@ -75,7 +76,7 @@ static gg_status begin(gg_rough_newton *w, int n, int m, gg_error *err)
   w->A = gsl_matrix_alloc(unknowns, unknowns);
   w->x = gsl_vector_alloc(unknowns);
   w->order = gsl_permutation_alloc(unknowns);
-  if (!w->R || !w->A || !w->x || !w->order) return gg_fail(err, GG_FAILED, "out of memory");
+  if (!w->R || !w->A || !w->x || !w->order) return gg_out_of_memory(err);
   w->extra = w->R + n, w->J = w->extra + n;
   return GG_OK;
 }
@@ -250,7 +251,7 @@ gg_status gg_rough_isotropic_solve(gg_rough_steady *s, int degree, gg_rough_heat
   if (status == GG_OK) status = begin(&w, s->form.n, m, err);
   if (status == GG_OK) {
     w.direction = calloc((size_t)m * (size_t)w.n, sizeof *w.direction);
-    if (!w.direction || isotropic_functions(s, w.direction) != m) status = gg_fail(err, GG_FAILED, "out of memory");
+    if (!w.direction || isotropic_functions(s, w.direction) != m) status = gg_out_of_memory(err);
   }
   if (status == GG_OK) status = iterate_isotropic(s, &w, heating, &rate, err);
   *cooling_rate = 2 * rate;
