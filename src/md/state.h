@@ -141,19 +141,24 @@ gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err);
 /* engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. */
 gg_status gg_md_begin(gg_md *e, gg_error *err);
 
-/* grid.c: the grid that suits the model; the cells that the grains' positions lie in; the cells filled with them. */
+/* choose_way.c: the largest distance at which two grains touch. */
 double gg_md_reach(const gg_model *model);
 /* Where partners are best looked for: plain cells, neighbour lists (search/lists.h; *radius: of their skins) or cells
  * that overlap (members.h) or move with the flow (search/comoving_rows.h); and how many cells. */
 enum gg_md_search_way { GG_MD_PLAIN_CELLS, GG_MD_NEIGHBOUR_LISTS, GG_MD_OVERLAPPING_CELLS, GG_MD_COMOVING_ROWS };
+enum gg_md_search_way gg_md_choose_way(const gg_model *model, double *radius, int32_t n[3]);
+/* Cells for the centres of lists: only in boxes of at least three cells, no nearest image in doubt. */
+bool gg_md_fit_lists(const gg_model *model, double radius, int32_t n[3]);
 /* Cells that are crossed in a collision's time, all grains together. */
 double gg_md_crossings_per_collision(const gg_model *model);
-enum gg_md_search_way gg_md_choose_way(const gg_model *model, double *radius, int32_t n[3]);
+
+/* grid.c: the grid that suits the model. */
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 /* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
+/* fill_grid.c: the cells that the grains' positions lie in; the cells filled with them (false: out of memory). */
 void gg_md_enter_grid(gg_md *e);
-bool gg_md_fill_grid(gg_md *e); /* false: out of memory */
+bool gg_md_fill_grid(gg_md *e);
 
 /* surfaces.c: e->near for the cells that there are; and contacts with other shapes than planes, as seen from a cell. */
 gg_status gg_md_note_surfaces(gg_md *e, gg_error *err);
