@@ -60,15 +60,6 @@ gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callbac
   return GG_OK;
 }
 
-void gg_dsmc_call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *p)
-{
-  p->callback = &d->callback;
-  p->species[0] = i;
-  p->species[1] = j;
-  p->time_step = p->candidates ? dt / (double)p->candidates : 0;
-  p->time = d->interval_begin + 0.5 * p->time_step;
-}
-
 static const char *name_of(int species, char name[32])
 {
   snprintf(name, 32, "dsmc/last_%d", species + 1);

@@ -1,18 +1,5 @@
-/* The collision half of a step: how many candidates each pair of species gets, under which majorant. */
+/* The collision half of a step: candidates for each pair of species, under its majorant. */
 #include "dsmc/dsmc.h"
-
-void gg_dsmc_start_majorants(gg_dsmc *d)
-{
-  const gg_model *m = &d->model;
-  double thermal = sqrt(d->now.temperature);
-  for (int i = 0; i < m->n_species; i++)
-    for (int j = i; j < m->n_species; j++) {
-      double shift = m->sigma[gg_pair(i, j)] * m->shear_rate;
-      double sure =
-          gg_dsmc_sure_majorant(d->path[gg_pair(i, j)], gg_dsmc_features_of(d, i, j), 2 * d->now.fastest, shift);
-      gg_dsmc_majorant_start(&d->now.majorant[gg_pair(i, j)], sure, thermal);
-    }
-}
 
 /* Candidates per unit time and unit of the majorant. */
 static double candidate_rate(const gg_dsmc *d, gg_dsmc_features f, int i, int j)
@@ -21,12 +8,14 @@ static double candidate_rate(const gg_dsmc *d, gg_dsmc_features f, int i, int j)
   return gg_dsmc_candidates_per_unit(d->path[gg_pair(i, j)], f, one, two) * gg_dsmc_cross_section(d, i, j);
 }
 
-uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_rng *rng)
+/* These candidates, over `dt` from d->interval_begin, are to be told of. */
+static void call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *p)
 {
-  if (one_by_one) return gg_rng_poisson(rng, mean);
-  double due = *remainder + mean, whole = floor(due);
-  *remainder = due - whole;
-  return (uint64_t)whole;
+  p->callback = &d->callback;
+  p->species[0] = i;
+  p->species[1] = j;
+  p->time_step = p->candidates ? dt / (double)p->candidates : 0;
+  p->time = d->interval_begin + 0.5 * p->time_step;
 }
 
 /* `hold`: strains from `strain` on at which the speed bounds are to hold, or 0: they follow. */
@@ -44,7 +33,7 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
     p.majorant = majorant;
     p.candidates = gg_dsmc_candidates(path == GG_DSMC_PLAIN || floor > 0, rate * majorant,
                                       &d->now.remainder[gg_pair(i, j)], &d->now.rng);
-    if (d->callback.call) gg_dsmc_call_back(d, i, j, dt, &p);
+    if (d->callback.call) call_back(d, i, j, dt, &p);
     p.strain_step = p.candidates ? span / (double)p.candidates : 0;
     p.strain = strain + 0.5 * p.strain_step;
     gg_dsmc_ensemble_strain_bounds(&d->ensemble, strain, hold);

@@ -66,12 +66,13 @@ uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
 /* Add to the sums what the collisions of a pair of species came to. */
 void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *p);
 
-/* collisions.c: majorants that hold for sure, to start from. */
+/* candidates.c: majorants that hold for sure, to start from. */
 void gg_dsmc_start_majorants(gg_dsmc *d);
 /* How many candidates, `mean` on average, whatever the step: a Poisson number where they come one by one, or as a
  * correction. Eight at a time that would vary too much; there the fractional remainder is carried over instead. */
 uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_rng *rng);
-/* All collisions of an interval `dt`, candidates at strains `strain` + (0..1) x `span` (a constant one if span is 0).
+/* collisions.c: all collisions of an interval `dt`, candidates at strains `strain` + (0..1) x `span` (a constant one if
+ * span is 0).
  */
 void gg_dsmc_collide(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting);
 
@@ -90,8 +91,6 @@ void gg_dsmc_take_paths(gg_dsmc *d);
 /* callback.c: the collision callback; where it keeps when each grain last collided. */
 gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
 bool gg_dsmc_callback_slows(const gg_engine *engine);
-/* These candidates, over `dt` from d->interval_begin, are to be told of. */
-void gg_dsmc_call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *pass);
 gg_status gg_dsmc_save_callback(const gg_dsmc *d, gg_archive *archive, gg_error *err);
 gg_status gg_dsmc_restore_callback(gg_dsmc *d, const gg_archive *archive, gg_error *err);
 void gg_dsmc_rescale_callback(gg_dsmc *d, double factor);

@@ -1,7 +1,7 @@
+/* Life of the ensemble, and what is done to all of it. */
 #include "dsmc/ensemble.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -64,56 +64,9 @@ void gg_dsmc_ensemble_free(gg_dsmc_ensemble *e)
   *e = (gg_dsmc_ensemble){0};
 }
 
-/* Exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever. To them comes the
- * spin of the vorticity, s = (d/2) omega. */
-static void start_spins(const gg_model *model, gg_dsmc_ensemble *e)
-{
-  double energy = 0, grains = 0;
-  for (int i = 0; i < e->n_species; i++) {
-    const gg_dsmc_population *p = &e->of[i];
-    grains += p->n;
-    for (uint32_t a = 0; p->s && a < p->n; a++) {
-      gg_vec s = gg_dsmc_block_get(p, p->s, a);
-      energy += p->inertia * p->mass * gg_dot(s, s);
-    }
-  }
-  double factor = energy > 0 ? sqrt(3 * grains * model->ratio0 * model->temperature0 / energy) : 0;
-  for (int i = 0; i < e->n_species; i++) {
-    gg_dsmc_population *p = &e->of[i];
-    double mean_spin = model->boltzmann ? 0 : -model->shear_rate * model->diameter[i] / 4;
-    for (uint32_t a = 0; p->s && a < p->n; a++) {
-      gg_vec s = gg_scale(factor, gg_dsmc_block_get(p, p->s, a));
-      s.z += mean_spin;
-      gg_dsmc_block_set(p, p->s, a, s);
-    }
-  }
-}
-
-void gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *rng)
-{
-  for (int i = 0; i < e->n_species; i++) {
-    gg_dsmc_population *p = &e->of[i];
-    double speed = sqrt(model->temperature0 / p->mass), spin = sqrt(model->ratio0 * model->temperature0 / p->mass);
-    for (uint32_t a = 0; a < p->n; a++) {
-      gg_dsmc_block_set(p, p->c, a, gg_scale(speed, gg_rng_normal_vec(rng)));
-      if (p->s) gg_dsmc_block_set(p, p->s, a, gg_scale(spin / sqrt(p->inertia), gg_rng_normal_vec(rng)));
-    }
-  }
-  start_spins(model, e);
-  gg_vec none = {0, 0, 0};
-  gg_dsmc_moments m = gg_dsmc_ensemble_synchronise(e, 0, 1, gg_dsmc_ensemble_synchronise(e, 0, 1, none, 1).centre, 1);
-  double factor = sqrt(model->temperature0 / m.temperature);
-  for (int i = 0; i < e->n_species; i++) {
-    gg_dsmc_population *p = &e->of[i];
-    for (uint32_t a = 0; a < p->n; a++) gg_dsmc_block_set(p, p->c, a, gg_scale(factor, gg_dsmc_block_get(p, p->c, a)));
-  }
-}
-
-enum { COMPONENTS = sizeof(gg_dsmc_block) / sizeof(double) }; /* of a block */
-
 static void scale_blocks(const gg_dsmc_population *p, void *blocks, gg_dsmc_range r, double factor)
 {
-  const size_t n = (size_t)r.n * COMPONENTS;
+  const size_t n = (size_t)r.n * GG_DSMC_COMPONENTS;
   if (p->single) {
     float *v = gg_dsmc_blocks_at(p, blocks, r.first);
     for (size_t i = 0; i < n; i++) v[i] = (float)(v[i] * factor);
@@ -121,16 +74,6 @@ static void scale_blocks(const gg_dsmc_population *p, void *blocks, gg_dsmc_rang
     double *v = gg_dsmc_blocks_at(p, blocks, r.first);
     for (size_t i = 0; i < n; i++) v[i] *= factor;
   }
-}
-
-const gg_dsmc_block *gg_dsmc_blocks_in_double(const gg_dsmc_population *p, const void *blocks, size_t first, size_t n,
-                                              gg_dsmc_block *room)
-{
-  if (!p->single) return (const gg_dsmc_block *)blocks + first;
-  const float *from = (const float *)((const gg_dsmc_block_single *)blocks + first);
-  double *to = (double *)room;
-  for (size_t i = 0; i < n * COMPONENTS; i++) to[i] = from[i];
-  return room;
 }
 
 typedef struct scaling {
@@ -234,78 +177,4 @@ void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain, double w
   e->bound_scale *= part;
   e->bound_strain = strain;
   e->bound_width = width;
-}
-
-/* "dsmc/velocity_1": what is kept of a species. */
-typedef struct item {
-  char name[32];
-} item;
-static item item_of(const char *what, int species)
-{
-  item i;
-  snprintf(i.name, sizeof i.name, "dsmc/%s_%d", what, species + 1);
-  return i;
-}
-static const char bound_scale_item[] = "dsmc/bound_scale";
-
-static gg_status put_blocks(const gg_dsmc_population *p, const char *name, const void *blocks, gg_archive *a,
-                            gg_error *err)
-{
-  return gg_archive_put(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, p->n_blocks * COMPONENTS, err);
-}
-
-static gg_status get_blocks(const gg_dsmc_population *p, const char *name, void *blocks, const gg_archive *a,
-                            gg_error *err)
-{
-  return gg_archive_get(a, name, p->single ? GG_ITEM_F32 : GG_ITEM_F64, blocks, p->n_blocks * COMPONENTS, err);
-}
-
-gg_status gg_dsmc_ensemble_save(const gg_dsmc_ensemble *e, gg_archive *archive, gg_error *err)
-{
-  for (int i = 0; i < e->n_species; i++) {
-    const gg_dsmc_population *p = &e->of[i];
-    GG_TRY(put_blocks(p, item_of("velocity", i).name, p->c, archive, err));
-    if (p->s) GG_TRY(put_blocks(p, item_of("spin", i).name, p->s, archive, err));
-    GG_TRY(gg_archive_put(archive, item_of("speed_bound", i).name, GG_ITEM_U8, p->speed_bound,
-                          p->n_blocks * sizeof *p->speed_bound, err));
-  }
-  double bounds[] = {e->bound_scale, e->bound_strain, e->bound_width};
-  return gg_archive_put(archive, bound_scale_item, GG_ITEM_F64, bounds, 3, err);
-}
-
-static bool are_finite(const gg_dsmc_population *p, const void *blocks)
-{
-  for (size_t i = 0; i < p->n_blocks * COMPONENTS; i++)
-    if (!isfinite(p->single ? (double)((const float *)blocks)[i] : ((const double *)blocks)[i])) return false;
-  return true;
-}
-
-/* What was read may be anybody's: are these speeds, and bounds of them? */
-static bool is_ensemble(const gg_dsmc_ensemble *e)
-{
-  for (int i = 0; i < e->n_species; i++) {
-    const gg_dsmc_population *p = &e->of[i];
-    if (!are_finite(p, p->c) || (p->s && !are_finite(p, p->s))) return false;
-    for (size_t k = 0; k < p->n_blocks; k++)
-      if (!(p->speed_bound[k] >= 0)) return false;
-  }
-  return e->bound_scale > 0 && isfinite(e->bound_scale) && isfinite(e->bound_strain) && e->bound_width >= 0 &&
-         isfinite(e->bound_width);
-}
-
-gg_status gg_dsmc_ensemble_restore(gg_dsmc_ensemble *e, const gg_archive *archive, gg_error *err)
-{
-  for (int i = 0; i < e->n_species; i++) {
-    gg_dsmc_population *p = &e->of[i];
-    GG_TRY(get_blocks(p, item_of("velocity", i).name, p->c, archive, err));
-    if (p->s) GG_TRY(get_blocks(p, item_of("spin", i).name, p->s, archive, err));
-    GG_TRY(gg_archive_get(archive, item_of("speed_bound", i).name, GG_ITEM_U8, p->speed_bound,
-                          p->n_blocks * sizeof *p->speed_bound, err));
-  }
-  double bounds[3];
-  GG_TRY(gg_archive_get(archive, bound_scale_item, GG_ITEM_F64, bounds, 3, err));
-  e->bound_scale = bounds[0];
-  e->bound_strain = bounds[1];
-  e->bound_width = bounds[2];
-  return is_ensemble(e) ? GG_OK : gg_fail(err, GG_BAD_FILE, "the checkpoint of dsmc is damaged: its velocities");
 }

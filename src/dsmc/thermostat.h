@@ -7,6 +7,7 @@
 #ifndef GG_DSMC_THERMOSTAT_H
 #define GG_DSMC_THERMOSTAT_H
 
+#include "dsmc/ensemble.h"
 #include "dsmc/kernel/pass.h"
 
 /* In the middle of a step: give back the energy that is missing and, in advance, what the second half will destroy if

@@ -14,7 +14,8 @@
 
 #include "common/engine.h"
 #include "common/laws/loss_table.h"
-#include "dsmc/ensemble.h"
+#include "common/rng.h"
+#include "dsmc/block.h"
 
 typedef enum gg_dsmc_shear {
   GG_DSMC_UNSHEARED,
