@@ -13,7 +13,7 @@ static void on_signal(int number)
 
 void gg_cli_catch_interrupts(void)
 {
-  gg_cli_be_patient();
+  gg_cli_be_patient(gg_cli_interrupted);
   struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART}, before;
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);

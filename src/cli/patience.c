@@ -16,6 +16,7 @@ bool gg_cli_lost_patience(void)
 
 #ifdef __GLIBC__
 /* A pipe that poll says has room takes so much at once. */
+static bool (*told_to_stop)(void);
 enum { AT_ONCE = 4096, PATIENCE = 1000 /* ms */ };
 
 static bool wait_for_reader(int fd)
@@ -24,7 +25,7 @@ static bool wait_for_reader(int fd)
   for (;;) {
     int ready = poll(&out, 1, atomic_load(&lost) ? 0 : PATIENCE);
     if (ready > 0 || (ready < 0 && errno != EINTR)) return true; /* what is wrong, writing tells */
-    if (ready == 0 && gg_cli_interrupted()) return false;
+    if (ready == 0 && told_to_stop()) return false;
   }
 }
 
@@ -54,8 +55,9 @@ static FILE *patient(int fd)
   return fopencookie(&number[fd], "w", (cookie_io_functions_t){.write = write_patiently});
 }
 
-void gg_cli_be_patient(void)
+void gg_cli_be_patient(bool (*stopped)(void))
 {
+  told_to_stop = stopped;
   fflush(NULL);
   FILE *out = patient(STDOUT_FILENO), *err = patient(STDERR_FILENO);
   if (out && isatty(STDOUT_FILENO)) setvbuf(out, NULL, _IOLBF, BUFSIZ);
@@ -65,5 +67,8 @@ void gg_cli_be_patient(void)
 }
 #else
 /* Elsewhere a signal waits for the reader, and the second one ends the program. */
-void gg_cli_be_patient(void) {}
+void gg_cli_be_patient(bool (*stopped)(void))
+{
+  (void)stopped;
+}
 #endif

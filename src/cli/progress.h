@@ -38,8 +38,8 @@ void gg_cli_line_clear(gg_cli_line *line);
 void gg_cli_catch_interrupts(void);
 bool gg_cli_interrupted(void);
 /* Standard output and error wait for a reader who takes nothing (a pager, a terminal that was halted), but once
- * interrupted only a second: what is told then is lost, and the run comes to its end. */
-void gg_cli_be_patient(void);
+ * `stopped()` only a second: what is told then is lost, and the run comes to its end. */
+void gg_cli_be_patient(bool (*stopped)(void));
 /* Was something lost so? */
 bool gg_cli_lost_patience(void);
 
