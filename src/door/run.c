@@ -6,7 +6,6 @@
 
 #include "common/engine.h"
 #include "common/memory.h"
-
 #include "io/c_locale.h"
 #include "io/h5/checkpoint_file.h"
 #include "io/scene/inert.h"
@@ -18,7 +17,8 @@ static void hear_progress(void *context, const gg_progress *progress)
   if (r->options.progress && r->options.progress(r->options.context, progress)) atomic_store(&r->stopped, true);
 }
 
-bool gg_door_run_stopped(void *context)
+/* Does the caller want the run to end? */
+static bool is_stopped(void *context)
 {
   gg_door_run *r = context;
   if (r->options.stop && r->options.stop(r->options.context)) atomic_store(&r->stopped, true);
@@ -78,8 +78,8 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
   atomic_init(&r->stopped, false);
-  *hooks = (gg_hooks){
-      .context = r, .progress = hear_progress, .interrupted = gg_door_run_stopped, .workers = r->options.workers};
+  *hooks =
+      (gg_hooks){.context = r, .progress = hear_progress, .interrupted = is_stopped, .workers = r->options.workers};
   if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
   GG_TRY(gg_door_finished(scene, &r->scene, err));
   GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));
@@ -87,7 +87,7 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   if (r->options.checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (r->options.resume) GG_TRY(read_resume(r, err));
   if (r->options.output) GG_TRY(gg_result_file_open(&r->file, r->options.output, r->options.command, err));
-  r->file.file.stop = (gg_stop){gg_door_run_stopped, r};
+  r->file.file.stop = (gg_stop){is_stopped, r};
   return gg_door_check_picture(r, err);
 }
 

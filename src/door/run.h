@@ -68,8 +68,6 @@ gg_status gg_door_trajectory_finish(gg_door_run *run, gg_result *result, gg_erro
 /* The log, of a run that is done. */
 void gg_door_trajectory_remove(const gg_door_run *run);
 void gg_door_trajectory_end(gg_door_run *run);
-/* Does the caller want the run to end? */
-bool gg_door_run_stopped(void *run);
 /* The status of a run whose output was or was not written: the worse of the two, with both messages. */
 gg_status gg_door_run_status(gg_status run, gg_status written, const gg_error *why, gg_error *err);
 

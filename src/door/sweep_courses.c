@@ -135,33 +135,6 @@ static void *work(void *argument)
   return NULL;
 }
 
-/* With the lock held, but not while the caller is told. */
-static void tell_ended(gg_courses *all, gg_sweep_item *item)
-{
-  char *file = NULL;
-  const gg_sweep_options *o = &all->options;
-  item->state = GG_ITEM_TOLD;
-  /* What another process did, it tells; but that a point could not even be claimed, nobody else does. */
-  bool ours = item->here || item->status != GG_OK;
-  if (!ours || !o->ended || item->status == GG_INTERRUPTED) return;
-  const char *ending = item->fell_short ? ".short.h5" : ".h5";
-  bool some = item->status == GG_OK || item->fell_short;
-  if (some) file = gg_point_path(all->folder, all->sweep->point[item->i].id, ending);
-  pthread_mutex_unlock(&all->lock);
-  o->ended(o->context, item->i, item->status, file, item->message);
-  free(file);
-  pthread_mutex_lock(&all->lock);
-}
-
-static void tell_news(gg_courses *all)
-{
-  const gg_sweep_options *o = &all->options;
-  for (; all->warned < all->warnings.n; all->warned++)
-    if (o->warn) o->warn(o->context, all->warnings.text[all->warned]);
-  for (size_t k = 0; k < all->n; k++)
-    if (all->item[k].state == GG_ITEM_ENDED) tell_ended(all, &all->item[k]);
-}
-
 static void wait_for_news(gg_courses *all)
 {
   struct timespec until;
@@ -181,13 +154,13 @@ gg_status gg_courses_run(gg_courses *all, size_t at_once, gg_error *err)
   while (n < at_once && pthread_create(&thread[n], NULL, work, all) == 0) n++, all->at_work++;
   while (all->at_work) {
     wait_for_news(all);
-    tell_news(all);
+    gg_sweep_tell_news(all);
     pthread_mutex_unlock(&all->lock);
     if (o->stop && o->stop(o->context)) atomic_store(&all->stopped, true);
-    gg_courses_tell_progress(all);
+    gg_sweep_tell_progress(all);
     pthread_mutex_lock(&all->lock);
   }
-  tell_news(all);
+  gg_sweep_tell_news(all);
   pthread_mutex_unlock(&all->lock);
   for (size_t k = 0; k < n; k++) pthread_join(thread[k], NULL);
   free(thread);

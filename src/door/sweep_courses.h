@@ -44,8 +44,10 @@ typedef struct gg_courses {
   size_t warned; /* of them the caller was told */
 } gg_courses;
 
-/* sweep_run.c: tell the caller where all stands. */
-void gg_courses_tell_progress(gg_courses *courses);
+/* sweep_news.c: tell the caller where all stands; and, with the lock held, but not while the caller is told, of
+ * warnings and of points that have ended. */
+void gg_sweep_tell_progress(gg_courses *courses);
+void gg_sweep_tell_news(gg_courses *courses);
 
 /* Work off all items, `at_once` at a time, and tell the caller meanwhile; GG_OK whatever became of each. */
 gg_status gg_courses_run(gg_courses *courses, size_t at_once, gg_error *err);

@@ -1,5 +1,4 @@
 /* Sweeps done: what is still missing of a folder, side by side. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,37 +7,6 @@
 #include "door/sweep_courses.h"
 #include "run/clock.h"
 #include "sweep/folder.h"
-
-/* Seconds of all points, by what the forecast says of each, and how far they are. */
-void gg_courses_tell_progress(gg_courses *all)
-{
-  const gg_sweep_options *o = &all->options;
-  gg_sweep_progress p = {.points = all->n + all->done_before,
-                         .done = all->done_before,
-                         .fell_short = all->short_before,
-                         .time_left = NAN,
-                         .relative_error = NAN};
-  double left = 0, gone = 0;
-  if (!o->progress) return;
-  pthread_mutex_lock(&all->lock);
-  for (size_t k = 0; k < all->n; k++) {
-    const gg_sweep_item *item = &all->item[k];
-    const double seconds = all->sweep->point[item->i].seconds;
-    bool ended = item->state >= GG_ITEM_ENDED, good = item->status == GG_OK || item->fell_short;
-    p.done += ended && good;
-    p.failed += ended && !good && item->status != GG_INTERRUPTED;
-    p.fell_short += ended && item->fell_short;
-    p.running += item->state == GG_ITEM_RUNS;
-    p.elsewhere += item->state == GG_ITEM_ELSEWHERE;
-    if (item->state == GG_ITEM_RUNS) p.relative_error = fmax(p.relative_error, item->relative_error);
-    if (!ended && item->state != GG_ITEM_ELSEWHERE) left += seconds * (1 - item->fraction);
-    if (ended ? item->here : item->state == GG_ITEM_RUNS) gone += seconds * item->fraction;
-  }
-  pthread_mutex_unlock(&all->lock);
-  double elapsed = gg_wall_now() - all->started;
-  if (gone > 0 && elapsed > 1) p.time_left = left * elapsed / gone;
-  o->progress(o->context, &p);
-}
 
 static gg_status sum_up(const gg_courses *all, gg_error *err)
 {
@@ -117,7 +85,7 @@ static gg_status work(gg_courses *all, gg_error *err)
   }
   all->started = gg_wall_now();
   gg_status status = n ? gg_courses_run(all, n, err) : GG_OK;
-  gg_courses_tell_progress(all);
+  gg_sweep_tell_progress(all);
   return status == GG_OK ? sum_up(all, err) : status;
 }
 

@@ -64,10 +64,10 @@ static char *log_of_resume(const gg_door_run *r)
 static gg_status open_one_of_two(gg_door_run *r, gg_frame_log *log, const char *path, const gg_frame_mark *mark,
                                  gg_error *err)
 {
-  gg_status status = gg_frame_log_open_at(log, path, mark, gg_door_run_stopped, r, err);
+  gg_status status = gg_frame_log_open_at(log, path, mark, &r->file.file.stop, err);
   char *fresh = status == GG_BAD_FILE ? gg_frame_log_new_path(path) : NULL;
   if (fresh) {
-    gg_status other = gg_frame_log_open_at(log, fresh, mark, gg_door_run_stopped, r, NULL);
+    gg_status other = gg_frame_log_open_at(log, fresh, mark, &r->file.file.stop, NULL);
     if (other == GG_INTERRUPTED) gg_fail(err, other, "interrupted");
     if (other != GG_BAD_FILE) status = other;
   }
@@ -209,7 +209,7 @@ gg_status gg_door_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_
 static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *err)
 {
   gg_door_run *r = context;
-  if (r->stored && gg_door_run_stopped(r))
+  if (r->stored && gg_stop_asked(&r->file.file.stop))
     return gg_fail(err, GG_INTERRUPTED, "interrupted while the trajectory was put into %s", r->options.output);
   return store_from_log(context, frame, err);
 }

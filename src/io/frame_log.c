@@ -228,27 +228,21 @@ gg_status gg_frame_log_replay(const gg_frame_log *log, gg_frame_visit *visit, vo
   return status;
 }
 
-typedef struct asking {
-  bool (*stop)(void *context);
-  void *context;
-} asking;
-
-static gg_status ask(void *context, const gg_frame *frame, gg_error *err)
+static gg_status ask(void *stop, const gg_frame *frame, gg_error *err)
 {
-  const asking *a = context;
   (void)frame;
-  return a->stop && a->stop(a->context) ? gg_fail(err, GG_INTERRUPTED, "interrupted") : GG_OK;
+  return gg_stop_asked(*(const gg_stop **)stop) ? gg_fail(err, GG_INTERRUPTED, "interrupted") : GG_OK;
 }
 
-gg_status gg_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark,
-                               bool (*stop)(void *context), void *context, gg_error *err)
+gg_status gg_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark, const gg_stop *stop,
+                               gg_error *err)
 {
   gg_status status = open_file(log, path, O_RDONLY);
   log->mark = *mark;
   if (status != GG_OK)
     gg_fail(err, status, "%s: cannot be read: %s", path, strerror(errno));
   else
-    status = gg_frame_log_replay(log, ask, &(asking){stop, context}, err);
+    status = gg_frame_log_replay(log, ask, &stop, err);
   if (status != GG_OK) gg_frame_log_close(log);
   return status;
 }

@@ -11,6 +11,7 @@
 
 #include <stdbool.h>
 
+#include "common/stop.h"
 #include "run/result.h"
 
 typedef struct gg_frame_mark { /* plain data: saved as bytes */
@@ -37,9 +38,9 @@ gg_status gg_frame_log_open(gg_frame_log *log, const char *path, gg_error *err);
 gg_status gg_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err);
 gg_status gg_frame_log_put_in_place(gg_frame_log *log, gg_error *err);
 /* To read the frames up to the mark, each of which is looked at: GG_BAD_FILE where one is missing or damaged. `stop`
- * (may be NULL) is asked in between: GG_INTERRUPTED. */
-gg_status gg_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark,
-                               bool (*stop)(void *context), void *context, gg_error *err);
+ * is asked in between: GG_INTERRUPTED. */
+gg_status gg_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark, const gg_stop *stop,
+                               gg_error *err);
 /* Does the log stand at this path? */
 bool gg_frame_log_is_at(const gg_frame_log *log, const char *path);
 /* The frames of `from` before any of one's own; nothing to do where both are one file. */

@@ -88,7 +88,7 @@ static void write_log(const char *at, gg_frame_mark mark[FRAMES + 1])
 
 static gg_status open_at(gg_frame_log *log, const gg_frame_mark *mark, gg_error *err)
 {
-  return gg_frame_log_open_at(log, path, mark, NULL, NULL, err);
+  return gg_frame_log_open_at(log, path, mark, NULL, err);
 }
 
 static void paths(void **state)
@@ -273,7 +273,8 @@ static void stopped(void **state)
   gg_frame_mark mark[FRAMES + 1];
   gg_frame_log log;
   write_log(path, mark);
-  assert_int_equal(gg_frame_log_open_at(&log, path, &mark[FRAMES], at_the_third, &asked, NULL), GG_INTERRUPTED);
+  assert_int_equal(gg_frame_log_open_at(&log, path, &mark[FRAMES], &(gg_stop){at_the_third, &asked}, NULL),
+                   GG_INTERRUPTED);
   assert_true(asked == 3 && log.fd == -1);
 }
 
