@@ -6,6 +6,7 @@
 
 #include "common/memory.h"
 #include "reproduce/node.h"
+#include "scene/fields.h"
 
 static const char *const verdicts[] = {"agrees", "differs", "cannot be told", "open", NULL};
 

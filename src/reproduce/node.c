@@ -1,4 +1,5 @@
 #include "reproduce/node.h"
+#include "scene/fields.h"
 
 #include <math.h>
 #include <stdarg.h>

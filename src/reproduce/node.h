@@ -32,8 +32,6 @@ gg_status gg_entry_conditions(const gg_entry_reader *r, const yaml_node_t *map, 
 gg_status gg_entry_read_source(const gg_entry_reader *r, const yaml_node_t *map, gg_source *source);
 gg_status gg_entry_read_panel(const gg_entry_reader *r, const yaml_node_t *map, gg_figure_panel *panel);
 gg_status gg_entry_read_stated(const gg_entry_reader *r, const yaml_node_t *map, gg_stated *stated);
-/* Is there such a scene key: collision.e, species.2.mass, collision.e.12? */
-bool gg_is_scene_key(const char *key);
 gg_status gg_entry_check_theories(const gg_entry_reader *r, const yaml_node_t *map, const gg_texts *names);
 
 #endif

@@ -25,7 +25,7 @@ gg_status gg_panel_make(gg_drawn_panel *panel, const gg_figure_panel *of, const 
                         gg_error *err);
 void gg_panel_clear(gg_drawn_panel *panel);
 
-/* For its parts (panel_curves.c, panel_theories.c). NULL, GG_FAILED: out of memory. */
+/* drawn.c: for the parts of a panel (panel_curves.c, panel_theories.c). NULL, GG_FAILED: out of memory. */
 gg_drawn *gg_panel_add(gg_drawn_panel *panel, const char *method, const char *group, gg_chart_style style);
 gg_status gg_drawn_put(gg_drawn *drawn, double x, double x_error, double y, double error, gg_error *err);
 /* In the order of x. */
@@ -34,12 +34,13 @@ void gg_drawn_sort(gg_drawn *drawn);
 bool gg_panel_takes(const gg_figure_panel *of, const gg_figure_point *point);
 bool gg_panel_engine(const gg_figure_panel *of, const gg_figure_point *point, int engine);
 void gg_panel_group(const gg_figure_panel *of, const gg_figure_point *point, const char *name, char *text, size_t size);
-/* The Kth curve of the source in few words: as its file calls it, where that tells it from the others; else its name.
+double gg_panel_x(const gg_figure_panel *of, double raw);
+
+/* panel_curves.c: the Kth curve of the source in few words: as its file calls it, where that tells it from the others;
+ * else its name.
  */
 void gg_panel_curve_text(const gg_source *source, int k, const gg_figure_point *point, int engine, char *text,
                          size_t size);
-double gg_panel_x(const gg_figure_panel *of, double raw);
-
 gg_status gg_panel_curves(gg_drawn_panel *panel, const gg_figure_points *points, gg_error *err);
 gg_status gg_panel_series(gg_drawn_panel *panel, const gg_figure_points *points, gg_error *err);
 gg_status gg_panel_frames(gg_drawn_panel *panel, const gg_figure_points *points, gg_error *err);

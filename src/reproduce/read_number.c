@@ -4,6 +4,7 @@
 
 #include "common/quantity.h"
 #include "reproduce/node.h"
+#include "scene/fields.h"
 
 /* Half a unit of the last digit: 0.2401 is known to 0.00005. */
 static double last_digit(const char *text)

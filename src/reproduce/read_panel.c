@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "reproduce/node.h"
+#include "scene/fields.h"
 
 static gg_status read_axis(const gg_entry_reader *r, const yaml_node_t *map, gg_figure_axis *axis)
 {

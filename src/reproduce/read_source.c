@@ -4,18 +4,7 @@
 
 #include "common/quantity.h"
 #include "reproduce/node.h"
-#include "scene/fields.h"
 #include "theory/theory.h"
-
-bool gg_is_scene_key(const char *key)
-{
-  int pair, number, used = 0;
-  if (gg_scene_field_find(key) >= 0 || gg_scene_field_of_pair(key, &pair) >= 0) return true;
-  if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return false;
-  for (const gg_field *f = gg_species_fields; f->key; f++)
-    if (strcmp(f->key, key + used) == 0) return true;
-  return false;
-}
 
 gg_status gg_entry_check_theories(const gg_entry_reader *r, const yaml_node_t *map, const gg_texts *names)
 {

@@ -172,6 +172,16 @@ int gg_scene_field_of_pair(const char *key, int *pair)
   return *pair >= 0 && id >= 0 && gg_scene_fields[id].type == GG_FIELD_PAIRS ? id : -1;
 }
 
+bool gg_is_scene_key(const char *key)
+{
+  int pair, number, used = 0;
+  if (gg_scene_field_find(key) >= 0 || gg_scene_field_of_pair(key, &pair) >= 0) return true;
+  if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return false;
+  for (const gg_field *f = gg_species_fields; f->key; f++)
+    if (strcmp(f->key, key + used) == 0) return true;
+  return false;
+}
+
 bool gg_scene_is_given(const gg_scene *scene, const char *key)
 {
   int id = gg_scene_field_find(key);

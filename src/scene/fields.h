@@ -52,6 +52,8 @@ extern const char *const gg_scene_sections[]; /* first parts of dotted keys; end
 int gg_scene_field_find(const char *key);
 /* "collision.e.12": index of collision.e, and the pair; else -1. */
 int gg_scene_field_of_pair(const char *key, int *pair);
+/* Is there such a key: collision.e, species.2.mass, collision.e.12? */
+bool gg_is_scene_key(const char *key);
 /* Did the user give this key? */
 bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */

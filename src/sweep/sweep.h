@@ -49,6 +49,7 @@ gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, co
 
 /* read.c */
 gg_status gg_sweep_read_text(gg_sweep *sweep, const char *yaml, size_t length, const char *name, gg_error *err);
+/* varied.c */
 void gg_varied_clear(gg_varied *varied);
 /* Take it over, unless a key of it is varied already: then it is cleared, too. */
 gg_status gg_sweep_add(gg_sweep *sweep, gg_varied *varied, gg_error *err);
