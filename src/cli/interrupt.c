@@ -1,13 +1,16 @@
+#include <assert.h>
 #include <signal.h>
+#include <stdatomic.h>
 
 #include "cli/progress.h"
 
-/* A signal handler has nowhere else to leave its word. */
-static volatile sig_atomic_t caught;
+/* A signal handler has nowhere else to leave its word; threads read it. */
+static atomic_int caught;
+static_assert(ATOMIC_INT_LOCK_FREE == 2, "a handler may not wait for a lock");
 
 static void on_signal(int number)
 {
-  caught = 1;
+  atomic_store(&caught, 1);
   signal(number, SIG_DFL);
 }
 
@@ -23,5 +26,5 @@ void gg_cli_catch_interrupts(void)
 
 bool gg_cli_interrupted(void)
 {
-  return caught != 0;
+  return atomic_load(&caught) != 0;
 }
