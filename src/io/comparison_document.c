@@ -171,7 +171,7 @@ static void warn_remarks(const gg_comparison *c, json_t *warnings)
 
 static json_t *comparison_document(const gg_comparison *c)
 {
-  if (c->document) return json_loads(c->document, 0, NULL); /* as it was stored */
+  if (c->document) return gg_json_read(c->document, NULL); /* as it was stored */
   json_t *warnings = warnings_json(c), *rows = json_array();
   json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
   json_t *theory = theories_json(c, warnings);

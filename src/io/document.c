@@ -95,7 +95,7 @@ static json_t *engine_state_json(const gg_result *r)
 
 static json_t *run_document(const gg_result *r)
 {
-  if (r->origin.document) return json_loads(r->origin.document, 0, NULL); /* as it was stored */
+  if (r->origin.document) return gg_json_read(r->origin.document, NULL); /* as it was stored */
   json_t *results = json_object(), *warnings = json_array();
   for (size_t i = 0; i < r->warnings.n; i++) json_array_append_new(warnings, json_string(r->warnings.text[i]));
   for (int i = 0; i < gg_quantities_of(&r->model); i++) {

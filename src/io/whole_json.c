@@ -1,6 +1,5 @@
 #include "io/whole_json.h"
 
-#include <errno.h>
 #include <stdlib.h>
 
 #include "common/memory.h"
@@ -26,21 +25,53 @@ int gg_json_put(int failed)
   return failed;
 }
 
+/* Some lacks jansson passes over: reading, it leaves out letters that it has no room for; writing, the rest of a text.
+ * So its memory comes through here, unless the program has given it another source before. */
+static void *noted_malloc(size_t size)
+{
+  void *block = malloc(size);
+  if (!block) gg_memory_lacked();
+  return block;
+}
+
+static bool is_source(json_malloc_t from, json_free_t to)
+{
+  json_malloc_t now;
+  json_free_t back;
+  json_get_alloc_funcs(&now, &back);
+  return now == from && back == to;
+}
+
+__attribute__((constructor)) static void note_what_jansson_lacks(void)
+{
+  if (is_source(malloc, free)) json_set_alloc_funcs(noted_malloc, free);
+}
+
+/* The library may be unloaded, and jansson go on. */
+__attribute__((destructor)) static void note_no_more(void)
+{
+  if (is_source(noted_malloc, free)) json_set_alloc_funcs(malloc, free);
+}
+
 json_t *gg_json_read(const char *text, const char **why)
 {
-  errno = 0; /* jansson's own code does not always know */
-  json_t *document = (json_loads)(text, 0, NULL);
-  bool memory = !document && errno == ENOMEM;
-  if (!document) *why = memory ? "out of memory" : "its document is damaged";
+  const bool before = gg_memory_begin();
+  json_t *document = json_loads(text, 0, NULL);
+  const bool lacked = gg_memory_end(before);
+  if (lacked) {
+    json_decref(document);
+    document = NULL;
+  }
+  if (!document && why) *why = lacked ? "out of memory" : "its document is damaged";
   return document;
 }
 
 char *gg_json_text(const json_t *value, size_t flags)
 {
-  errno = 0;
+  const bool before = gg_memory_begin();
   char *text = value ? json_dumps(value, flags) : NULL;
-  if (text && errno != ENOMEM) return text;
+  if (!text) gg_memory_lacked();
+  if (!gg_memory_end(before)) return text;
   free(text);
-  gg_memory_lacked();
   return NULL;
 }

@@ -14,7 +14,7 @@ json_t *gg_json_end(bool before, json_t *document);
 json_t *gg_json_made(json_t *value);
 int gg_json_put(int failed);
 
-/* A text read; NULL with the reason in *why. */
+/* A text read; NULL with the reason in *why (which may be NULL). */
 json_t *gg_json_read(const char *text, const char **why);
 
 /* json_dumps, which cuts the text off where it has no room for it; to be freed, NULL: out of memory. */
@@ -27,7 +27,6 @@ char *gg_json_text(const json_t *value, size_t flags);
 #define json_string(x) gg_json_made(json_string(x))
 #define json_sprintf(...) gg_json_made(json_sprintf(__VA_ARGS__))
 #define json_pack(...) gg_json_made(json_pack(__VA_ARGS__))
-#define json_loads(...) gg_json_made(json_loads(__VA_ARGS__))
 #define json_object_set(...) gg_json_put(json_object_set(__VA_ARGS__))
 #define json_object_set_new(...) gg_json_put(json_object_set_new(__VA_ARGS__))
 #define json_array_append_new(...) gg_json_put(json_array_append_new(__VA_ARGS__))
