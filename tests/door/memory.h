@@ -39,6 +39,9 @@ void say_nothing(void);
 void say_things(const things *t);
 void say_file(const char *path);
 
+/* memory_folder.c: a folder as another one is; what was there is removed. */
+void make_copy(const char *from, const char *to);
+
 enum { MOST_SAID = 1 << 21 };
 
 #endif
