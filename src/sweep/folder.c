@@ -25,17 +25,20 @@ char *gg_point_path(const char *folder, uint64_t id, const char *ending)
   return asprintf(&path, "%s/%016" PRIx64 "%s", folder, id, ending) < 0 ? NULL : path;
 }
 
-/* Files appear whole, under their name; something else that has the name (a full disk's, an editor's) is none. */
+/* Files appear whole, under their name; something else that has the name (a full disk's, an editor's) is none. Without
+ * memory, whose lack would make points look as if they were missing. */
 static bool is_there(const char *folder, uint64_t id, const char *ending)
 {
   static const char hdf5[] = "\211HDF\r\n\032\n";
-  char begins[sizeof hdf5 - 1];
+  char name[GG_POINT_NAME + 16], begins[sizeof hdf5 - 1];
   struct stat about;
-  char *path = gg_point_path(folder, id, ending);
-  int file = path && stat(path, &about) == 0 && S_ISREG(about.st_mode) ? open(path, O_RDONLY | O_CLOEXEC) : -1;
-  free(path);
+  snprintf(name, sizeof name, "%016" PRIx64 "%s", id, ending);
+  const int where = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int file = where >= 0 ? openat(where, name, O_RDONLY | O_NONBLOCK | O_CLOEXEC) : -1;
+  if (where >= 0) close(where);
   if (file < 0) return false;
-  bool yes = read(file, begins, sizeof begins) == (ssize_t)sizeof begins && memcmp(begins, hdf5, sizeof begins) == 0;
+  bool yes = fstat(file, &about) == 0 && S_ISREG(about.st_mode) &&
+             read(file, begins, sizeof begins) == (ssize_t)sizeof begins && memcmp(begins, hdf5, sizeof begins) == 0;
   close(file);
   return yes;
 }
