@@ -83,7 +83,7 @@ gg_status gg_figure_page(char **text, gg_error *err)
     print_section(out, &e);
     gg_entry_clear(&e);
   }
-  if (fclose(out) != 0) status = gg_out_of_memory(err);
+  if (!gg_close_text(out, text)) status = gg_out_of_memory(err);
   if (status != GG_OK) free(*text);
   return status;
 }

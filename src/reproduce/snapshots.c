@@ -96,7 +96,7 @@ gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *a
     status = draw_one(s, &list[k], k, place, err);
   }
   fprintf(s, "unset multiplot\n");
-  if (fclose(s) != 0 && status == GG_OK) status = gg_out_of_memory(err);
+  if (!gg_close_text(s, &script) && status == GG_OK) status = gg_out_of_memory(err);
   if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;

@@ -50,7 +50,8 @@ static gg_status add_node(gg_scene_reader *r, const char *key, gg_values *values
   size_t size;
   FILE *out = open_memstream(&text, &size);
   if (out) print_node(r, node, out);
-  gg_status status = out && fclose(out) == 0 ? GG_OK : gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
+  gg_status status =
+      gg_close_text(out, &text) ? GG_OK : gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
   if (status == GG_OK && size > LONGEST_VALUE)
     status = gg_scene_refuse(r, node, key, "a value is longer than %d characters", LONGEST_VALUE);
   if (status == GG_OK) status = gg_values_add(values, text, r->err);

@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "io/curves.h"
 #include "io/document.h"
 #include "io/h5/h5.h"
@@ -146,7 +147,7 @@ static void write_warnings(gg_h5 *h, const char *group, const gg_result *r)
   FILE *out = open_memstream(&text, &size);
   for (size_t i = 0; out && i < r->warnings.n; i++) fprintf(out, "%s\n", r->warnings.text[i]);
   snprintf(path, sizeof path, "%s/warnings", group);
-  if (out && fclose(out) == 0 && text)
+  if (gg_close_text(out, &text))
     gg_h5_text(h, path, text);
   else
     gg_h5_failed(h, "out of memory");

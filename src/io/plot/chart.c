@@ -197,7 +197,7 @@ gg_status gg_chart_draw(const gg_chart *c, const char *picture, const char *form
   gg_chart_print_legend(s, &looks, &l.legend, title_of(c), l.page);
   fprintf(s, "unset multiplot\n");
   gg_c_locale_leave(before);
-  gg_status status = fclose(s) == 0 ? GG_OK : gg_out_of_memory(err);
+  gg_status status = gg_close_text(s, &script) ? GG_OK : gg_out_of_memory(err);
   if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/memory.h"
 #include "io/atomic_file.h"
 #include "io/plot/plot.h"
 
@@ -17,13 +18,15 @@ extern char **environ;
 static gg_status spawn(FILE *in, FILE *complaints, pid_t *child, gg_error *err)
 {
   char *const arguments[] = {(char[]){"gnuplot"}, (char[]){"-"}, NULL};
+  const int from[] = {fileno(in), fileno(complaints), fileno(complaints)}; /* STDIN, STDOUT, STDERR */
   posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, fileno(in), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(complaints), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(complaints), STDERR_FILENO);
-  int failed = posix_spawnp(child, "gnuplot", &actions, NULL, arguments, environ);
+  int failed = posix_spawn_file_actions_init(&actions);
+  if (failed) return gg_out_of_memory(err);
+  for (int to = STDIN_FILENO; to <= STDERR_FILENO && !failed; to++)
+    failed = posix_spawn_file_actions_adddup2(&actions, from[to], to);
+  if (!failed) failed = posix_spawnp(child, "gnuplot", &actions, NULL, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
+  if (failed == ENOMEM) return gg_out_of_memory(err);
   if (failed == ENOENT) return gg_fail(err, GG_FAILED, "gnuplot is not installed (Debian: apt install gnuplot-nox)");
   return failed ? gg_fail(err, GG_FAILED, "gnuplot cannot be started: %s", strerror(failed)) : GG_OK;
 }

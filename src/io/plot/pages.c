@@ -35,7 +35,7 @@ static gg_status draw_page(const gg_stored_result *stored, const page *p, const 
   gg_plot_curves(s, p->document, theories, p->group);
   fprintf(s, "unset multiplot\n");
   gg_c_locale_leave(before);
-  gg_status status = fclose(s) == 0 ? GG_OK : gg_out_of_memory(err);
+  gg_status status = gg_close_text(s, &script) ? GG_OK : gg_out_of_memory(err);
   if (status == GG_OK) status = gg_gnuplot_run(script, NULL, p->path, err);
   free(script);
   return status;

@@ -62,7 +62,7 @@ static gg_status draw(const gg_stored_result *stored, const char *picture, bool 
     draw_run(s, stored, &stored->engine[stored->engine[GG_MD].name ? GG_MD : GG_DSMC], png);
   gg_c_locale_leave(before);
   gg_status status = GG_OK;
-  if (fclose(s) != 0) status = gg_out_of_memory(err);
+  if (!gg_close_text(s, &script)) status = gg_out_of_memory(err);
   if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;

@@ -150,8 +150,8 @@ static gg_status draw_page(const gg_stored_result *stored, const gg_plot_grains 
     drawn = draw(&p, stored, s);
     gg_c_locale_leave(before);
   }
-  if (p.script) drawn &= fclose(p.script) == 0;
-  if (p.over) drawn &= fclose(p.over) == 0;
+  drawn &= gg_close_text(p.script, &script);
+  if (!png) drawn &= gg_close_text(p.over, &over);
   gg_status status = drawn ? gg_gnuplot_run(script, over, picture, err) : gg_out_of_memory(err);
   free(script);
   free(over);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/memory.h"
 #include "io/whole_json.h"
 
 static json_t *number_json(const gg_field *f, double value)
@@ -193,10 +194,7 @@ void gg_flow_style_text(const json_t *value, char *text, size_t size)
   size_t length;
   FILE *out = open_memstream(&whole, &length);
   if (out) gg_print_flow_style(out, value);
-  if (out && fclose(out) == 0 && whole)
-    snprintf(text, size, "%s", whole);
-  else
-    gg_memory_lacked();
+  if (gg_close_text(out, &whole)) snprintf(text, size, "%s", whole);
   free(whole);
 }
 
@@ -238,7 +236,7 @@ char *gg_scene_yaml(const gg_scene *scene)
   if (root) print_yaml(out, root);
   bool whole = root && !ferror(out);
   json_decref(root);
-  if (fclose(out) == 0 && whole) return text;
+  if (gg_close_text(out, &text) && whole) return text;
   free(text);
   return NULL;
 }
