@@ -127,7 +127,7 @@ static bool has_numbers(const double *x, size_t n)
 /* What was written into memory, as a paragraph. */
 static void print_and_free(FILE *out, char **text)
 {
-  if (out && fclose(out) == 0 && **text) print_line(NULL, *text);
+  if (out && fclose(out) == 0 && *text && **text) print_line(NULL, *text);
   free(*text);
 }
 
