@@ -27,7 +27,10 @@ def mpirun(ranks, *args, options=(), program=GRAINGAS):
 
 
 def watched():
-    """With the leak sanitizer: so that scripts/leaks.txt can name the libraries that forgot something."""
+    """With sanitizers libraries stay: so that scripts/leaks.txt can name those that forgot something; and the thread
+    sanitizer ends the process where one that scripts/races.txt names is unloaded."""
+    if SANITIZERS == "thread":
+        return "-x", "LD_PRELOAD=" + os.environ["KEEP_LOADED"]
     if "address" not in SANITIZERS:
         return ()
     how = os.environ.get("ASAN_OPTIONS", "") + ":verify_asan_link_order=0:fast_unwind_on_malloc=0"
