@@ -1,6 +1,7 @@
 /* A figure as tables. */
 #include <math.h>
 
+#include "common/memory.h"
 #include "io/c_locale.h"
 #include "io/csv.h"
 #include "reproduce/figures.h"
@@ -75,11 +76,12 @@ static gg_status write(const gg_figure *f, const char *path, void (*rows)(gg_csv
   gg_atomic_file file;
   gg_text_out out;
   GG_TRY(gg_atomic_open(&file, path, err));
+  const bool lacked = gg_memory_begin(); /* a number that JSON had no room for would be an empty cell */
   locale_t before = gg_c_locale_enter();
   gg_text_begin(&out, &file, err);
   gg_csv csv = {.out = &out};
   rows(&csv, f);
-  gg_status status = gg_text_end(&out);
+  gg_status status = gg_memory_check(lacked, gg_text_end(&out), err);
   gg_c_locale_leave(before);
   if (status == GG_OK) return gg_atomic_commit(&file, err);
   gg_atomic_abandon(&file);
