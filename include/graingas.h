@@ -13,7 +13,8 @@
  * Threads: there is no global state. One thread at a time may use a handle, many may where it is `const`. Simulations
  * and runs in different threads do not know of each other. Where HDF5 was not built to be thread-safe (Debian's is),
  * one thread at a time may read or write files. Callbacks come on the calling thread, unless it is said otherwise, and
- * must not use the handle that they are called for.
+ * must not use the handle that they are called for. One thing is of the process: while the library is loaded, jansson
+ * asks malloc through it, so that what JSON lacks is noted; a program that gave jansson other functions keeps them.
  *
  * Units are those of results (gg_catalogue_entry tells them): lengths in the diameter d and masses in the mass m of
  * species 1; sheared flows in units of the shear rate gamma, others in the initial thermal speed v_0 = sqrt(2T/m).

@@ -1,5 +1,6 @@
 #include "io/whole_json.h"
 
+#include <errno.h>
 #include <stdlib.h>
 
 #include "common/memory.h"
@@ -56,7 +57,9 @@ __attribute__((destructor)) static void note_no_more(void)
 json_t *gg_json_read(const char *text, const char **why)
 {
   const bool before = gg_memory_begin();
+  errno = 0;
   json_t *document = json_loads(text, 0, NULL);
+  if (!document && errno == ENOMEM) gg_memory_lacked(); /* of another source */
   const bool lacked = gg_memory_end(before);
   if (lacked) {
     json_decref(document);
@@ -69,8 +72,9 @@ json_t *gg_json_read(const char *text, const char **why)
 char *gg_json_text(const json_t *value, size_t flags)
 {
   const bool before = gg_memory_begin();
+  errno = 0;
   char *text = value ? json_dumps(value, flags) : NULL;
-  if (!text) gg_memory_lacked();
+  if (!text || errno == ENOMEM) gg_memory_lacked();
   if (!gg_memory_end(before)) return text;
   free(text);
   return NULL;

@@ -37,8 +37,7 @@ void gg_panel_group(const gg_figure_panel *of, const gg_figure_point *point, con
 double gg_panel_x(const gg_figure_panel *of, double raw);
 
 /* panel_curves.c: the Kth curve of the source in few words: as its file calls it, where that tells it from the others;
- * else its name.
- */
+ * else its name. */
 void gg_panel_curve_text(const gg_source *source, int k, const gg_figure_point *point, int engine, char *text,
                          size_t size);
 gg_status gg_panel_curves(gg_drawn_panel *panel, const gg_figure_points *points, gg_error *err);
