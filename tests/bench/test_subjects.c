@@ -49,6 +49,34 @@ static void assert_whole(const gg_bench_sheet *s, const char *middle, const char
   }
 }
 
+static bool is_word(const json_t *row, const char *key, const char *word)
+{
+  return strcmp(json_string_value(json_object_get(row, key)), word) == 0;
+}
+
+/* Ratios: every scene once at each density, the one that it is set beside among them; one beside itself is 1. */
+static void assert_beside(const gg_bench_sheet *s, const char *unit)
+{
+  size_t i, k;
+  json_t *row, *other;
+  assert_whole(s, "ratio", "least", "largest");
+  assert_int_equal(json_array_size(s->rows), s->n_rows * (s->n_columns - 2));
+  json_array_foreach(s->rows, i, row)
+  {
+    const char *against = json_string_value(json_object_get(row, "against"));
+    int itself = 0, beside = 0;
+    json_array_foreach(s->rows, k, other)
+    {
+      if (of(other, "phi") != of(row, "phi")) continue;
+      itself += is_word(other, "scene", json_string_value(json_object_get(row, "scene")));
+      beside += is_word(other, "scene", against);
+    }
+    if (itself != 1 || beside != 1) fail_msg("%s: row %zu: %d, %d of '%s'", s->key, i, itself, beside, against);
+    assert_true(is_word(row, "unit", unit) && of(row, "least") > 0 && of(row, "mean") > 0);
+    assert_true(!is_word(row, "scene", against) || of(row, "ratio") == 1);
+  }
+}
+
 static const gg_bench_sheet *sheet_of(const gg_bench *b, const char *key)
 {
   for (int i = 0; i < b->n_sheets; i++)
@@ -103,8 +131,7 @@ static void md(void **state)
     begin(&b, &o, "md");
     assert_whole(sheet_of(&b, "collisions"), "mean", "slowest", "fastest");
     assert_int_equal(sheet_of(&b, "collisions")->n_rows, quick ? 2 : 4);
-    assert_whole(sheet_of(&b, "ratios"), "ratio", "least", "largest");
-    assert_true(of(json_array_get(sheet_of(&b, "ratios")->rows, 0), "ratio") == 1); /* against itself */
+    assert_beside(sheet_of(&b, "ratios"), "collisions per CPU-second");
     end(&b);
   }
 }
@@ -118,13 +145,44 @@ static void dsmc(void **state)
       gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = threads, .tell = tell};
       begin(&b, &o, "dsmc");
       assert_whole(sheet_of(&b, "times"), "mean", "least", "largest");
-      assert_whole(sheet_of(&b, "ratios"), "ratio", "least", "largest");
+      assert_beside(sheet_of(&b, "ratios"), "ns per collision");
       assert_whole(sheet_of(&b, "precision"), "ratio", "least", "largest");
       assert_whole(sheet_of(&b, "paths"), "ratio", "least", "largest");
       assert_int_equal(b.n_sheets, threads > 1 ? 5 : 4);
       if (threads > 1) assert_whole(sheet_of(&b, "threads"), "ratio", "least", "largest");
       end(&b);
     }
+}
+
+/* A row for each observable, engine, density and size that can have it: each a filled cell; "-" where none can. */
+static void observables(void **state)
+{
+  (void)state;
+  static const char *const md_alone[] = {
+      "pair_correlation",    "velocity_correlations",      "structure", "cells", "diffusion", "profiles",
+      "local_distributions", "local_velocity_correlations"};
+  gg_bench b;
+  gg_bench_options o = {.quick = true, .smaller = 20, .tell = tell};
+  begin(&b, &o, "observables");
+  const gg_bench_sheet *s = sheet_of(&b, "observables");
+  assert_whole(s, "overhead", "least", "largest");
+  assert_int_equal(told, s->n_rows);
+  assert_int_equal(s->n_columns, 1 + 2 * 2 * 3); /* engines, densities, sizes */
+  size_t next = 0;
+  for (int r = 0; r < s->n_rows; r++) {
+    bool of_md = strcmp(s->cell[r][0], "viscosity") != 0, of_dsmc = true;
+    for (size_t k = 0; k < sizeof md_alone / sizeof *md_alone; k++) of_dsmc &= strcmp(s->cell[r][0], md_alone[k]) != 0;
+    for (int c = 1; c < s->n_columns; c++) {
+      bool dsmc = strncmp(s->head[c], "dsmc", 4) == 0, there = strcmp(s->cell[r][c], "-") != 0;
+      if (there != (dsmc ? of_dsmc : of_md)) fail_msg("%s, %s: %s", s->cell[r][0], s->head[c], s->cell[r][c]);
+      if (!there) continue;
+      const json_t *row = json_array_get(s->rows, next++);
+      assert_true(is_word(row, "observable", s->cell[r][0]) && is_word(row, "engine", dsmc ? "dsmc" : "md"));
+      assert_true(of(row, "ns") > 0 && of(row, "particles") > 0);
+    }
+  }
+  assert_int_equal(next, json_array_size(s->rows));
+  end(&b);
 }
 
 /* A number, or null where there is none. */
@@ -194,8 +252,8 @@ static void refused(void **state)
 int main(void)
 {
   char folder[] = "/tmp/graingas-bench-XXXXXX";
-  const struct CMUnitTest tests[] = {cmocka_unit_test(overview), cmocka_unit_test(md), cmocka_unit_test(dsmc),
-                                     cmocka_unit_test(error), cmocka_unit_test(refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(overview),    cmocka_unit_test(md),    cmocka_unit_test(dsmc),
+                                     cmocka_unit_test(observables), cmocka_unit_test(error), cmocka_unit_test(refused)};
   if (!mkdtemp(folder) || chdir(folder) != 0) return 1;
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   if (chdir("/") != 0 || rmdir(folder) != 0) return 1;
