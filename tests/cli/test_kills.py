@@ -69,7 +69,7 @@ def every_call(command):
             for path, now in results().items():
                 different = difference(now, whole[path])
                 check(different is None, page.what, how, path, different)
-            at += 1 if at < 20 or "EVERY_KIND" in os.environ else 7
+            at += 1 if at < 20 or "EVERY_KIND" in os.environ else 13
             clear()
         check(at > 25, at)
 
