@@ -11,7 +11,9 @@
 #include "mpi/mpi.h"
 
 enum { LAST_PART, MORE_FOLLOWS };
-static const size_t largest_part = (size_t)1 << 30;
+#ifndef GG_LARGEST_PART /* bytes; a test sends smaller ones */
+#define GG_LARGEST_PART ((size_t)1 << 30)
+#endif
 enum { LONGEST_WAIT = 5 }; /* seconds, at the end, for those who do not come any more */
 
 typedef struct sending {
@@ -45,13 +47,22 @@ static void release(sending *s)
   free(s);
 }
 
-/* Forget what has arrived. */
+/* Is something on its way there that was sent before? */
+static bool is_behind(const post *p, const sending *s)
+{
+  const sending *before = p->first;
+  while (before != s && before->to != s->to) before = before->next;
+  return before != s;
+}
+
+/* Forget what has arrived, in the order in which it was sent: MPI takes a short last part at once, with whose block go
+ * those that it still reads. */
 static void push(post *p)
 {
   for (sending **at = &p->first; *at;) {
     int done = 0;
     sending *s = *at;
-    if (MPI_Test(&s->request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS || done) {
+    if (!is_behind(p, s) && (MPI_Test(&s->request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS || done)) {
       *at = s->next;
       release(s);
     } else {
@@ -81,8 +92,8 @@ static int send_part(post *p, int to, const char *part, size_t size, int tag, vo
 static int send(void *context, int to, void *block, size_t size)
 {
   const char *part = block;
-  for (; size > largest_part; size -= largest_part, part += largest_part)
-    if (send_part(context, to, part, largest_part, MORE_FOLLOWS, NULL) != 0) return 1; /* others may still read it */
+  for (; size > GG_LARGEST_PART; size -= GG_LARGEST_PART, part += GG_LARGEST_PART)
+    if (send_part(context, to, part, GG_LARGEST_PART, MORE_FOLLOWS, NULL) != 0) return 1; /* others may still read it */
   return send_part(context, to, part, size, LAST_PART, block);
 }
 

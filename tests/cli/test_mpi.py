@@ -168,6 +168,13 @@ def test_killed_with_messages_under_way():
     check(done.returncode == 0 and float(done.stdout) < 3, done)
 
 
+def test_message_in_parts():
+    """Above a gigabyte a message goes in parts; the block that they are in lives until the last of them was read."""
+    job = mpirun(2, program=os.environ.get("MESSAGE_PARTS"))
+    done = subprocess.run(job, capture_output=True, text=True, timeout=BOUND)
+    check(done.returncode == 0, done)
+
+
 SWEEP = """{flow: usf, phi: 0.1, particles: 100, run: {collisions: 150, warmup: 20, replicas: 2},
 vary: {collision.e: [0.7, 0.8, 0.9], engine: [md, dsmc]}}"""
 LONGER = "--set", "run.collisions=1000"
