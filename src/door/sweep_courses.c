@@ -135,15 +135,6 @@ static void *work(void *argument)
   return NULL;
 }
 
-static void wait_for_news(gg_courses *all)
-{
-  struct timespec until;
-  clock_gettime(CLOCK_REALTIME, &until);
-  until.tv_nsec += 100 * 1000 * 1000;
-  if (until.tv_nsec >= 1000 * 1000 * 1000) until.tv_sec++, until.tv_nsec -= 1000 * 1000 * 1000;
-  pthread_cond_timedwait(&all->news, &all->lock, &until);
-}
-
 gg_status gg_courses_run(gg_courses *all, size_t at_once, gg_error *err)
 {
   const gg_sweep_options *o = &all->options;
@@ -153,7 +144,7 @@ gg_status gg_courses_run(gg_courses *all, size_t at_once, gg_error *err)
   size_t n = 0;
   while (n < at_once && pthread_create(&thread[n], NULL, work, all) == 0) n++, all->at_work++;
   while (all->at_work) {
-    wait_for_news(all);
+    gg_news_wait(&all->news, &all->lock, 0.1);
     gg_sweep_tell_news(all);
     pthread_mutex_unlock(&all->lock);
     if (o->stop && o->stop(o->context)) atomic_store(&all->stopped, true);

@@ -101,7 +101,7 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   GG_TRY(gg_sweep_folder_prepare(folder, "results of a sweep are a folder with a file a point", err));
   gg_sweep_folder_tidy(folder);
   pthread_mutex_init(&all.lock, NULL);
-  pthread_cond_init(&all.news, NULL);
+  gg_news_init(&all.news);
   atomic_init(&all.stopped, false);
   gg_status status = list_missing(&all, first, end, err);
   if (status == GG_OK) status = work(&all, err);

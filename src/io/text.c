@@ -68,6 +68,7 @@ static void add_pairs(char *text, size_t size, const char *name, const double *x
 
 void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
 {
+  if (!size) return;
   const char *flow = gg_flow_of(s->flow)->title;
   bool as_well = gg_flow_takes(s->flow, GG_NO_THERMOSTAT) && s->thermostat != GG_NO_THERMOSTAT;
   snprintf(text, size, "%s%s, phi %g", flow, as_well ? ", heated" : "", s->phi);

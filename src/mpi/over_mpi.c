@@ -75,13 +75,10 @@ static void push(post *p)
 static int send_part(post *p, int to, const char *part, size_t size, int tag, void *block)
 {
   sending *s = calloc(1, sizeof *s), **at = &p->first;
-  if (!s) {
-    free(block);
-    return 1;
-  }
+  if (!s) return 1;
   s->to = to, s->block = block;
   if (MPI_Isend(part, (int)size, MPI_BYTE, to, tag, MPI_COMM_WORLD, &s->request) != MPI_SUCCESS) {
-    release(s);
+    free(s);
     return 1;
   }
   while (*at) at = &(*at)->next;
@@ -89,12 +86,15 @@ static int send_part(post *p, int to, const char *part, size_t size, int tag, vo
   return 0;
 }
 
+/* Of a message that breaks off the parts before may still be read: the block stays theirs. */
 static int send(void *context, int to, void *block, size_t size)
 {
   const char *part = block;
   for (; size > GG_LARGEST_PART; size -= GG_LARGEST_PART, part += GG_LARGEST_PART)
-    if (send_part(context, to, part, GG_LARGEST_PART, MORE_FOLLOWS, NULL) != 0) return 1; /* others may still read it */
-  return send_part(context, to, part, size, LAST_PART, block);
+    if (send_part(context, to, part, GG_LARGEST_PART, MORE_FOLLOWS, NULL) != 0) break;
+  if (size <= GG_LARGEST_PART && send_part(context, to, part, size, LAST_PART, block) == 0) return 0;
+  if (part == block) free(block);
+  return 1;
 }
 
 static int receive_part(incoming *in, const MPI_Status *status)

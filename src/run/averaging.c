@@ -63,16 +63,24 @@ static uint64_t step(const gg_replicas *all, uint64_t way)
   return some < way ? some : way;
 }
 
+/* How far to go now. Replicas that were left on different ways by processes that shared them, and that nobody shares
+ * now, catch up in steps, too: the first ones wait. */
+static uint64_t next_of(const gg_replicas *all)
+{
+  uint64_t least = gg_replicas_least(all);
+  return all->share ? all->state.due : least + step(all, all->state.due - least);
+}
+
 /* Let every replica reach `due` samples, in short steps with progress and a checkpoint between them. */
 static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 {
   while (all->state.due < due || !gg_replicas_are_level(all)) {
     if (gg_replicas_are_level(all)) all->state.due += step(all, due - all->state.due);
-    gg_status status = gg_replicas_advance(all, adapts(all), err);
+    gg_status status = gg_replicas_advance(all, next_of(all), adapts(all), err);
     if (status == GG_INTERRUPTED && is_over(all)) return GG_OK;
     if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, err));
     if (status != GG_OK) return status;
-    gg_replicas_check_standstill(all);
+    if (gg_replicas_are_level(all)) gg_replicas_check_standstill(all);
     gg_replicas_report_progress(all, false);
     if (gg_replicas_checkpoint_is_due(all)) GG_TRY(store_checkpoint(all, err));
     if (is_over(all)) return GG_OK;

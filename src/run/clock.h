@@ -1,8 +1,14 @@
-/* Clocks, in seconds: the wall's, and the calling thread's CPU time. */
+/* Clocks, in seconds: the wall's, which nobody sets back, and the calling thread's CPU time. */
 #ifndef GG_CLOCK_H
 #define GG_CLOCK_H
 
+#include <pthread.h>
+
 double gg_wall_now(void);
 double gg_cpu_now(void);
+
+/* A condition that is waited for by the first of these clocks; so many seconds at the most, less than one. */
+void gg_news_init(pthread_cond_t *news);
+void gg_news_wait(pthread_cond_t *news, pthread_mutex_t *lock, double seconds);
 
 #endif

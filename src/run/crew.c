@@ -160,12 +160,12 @@ static void hand_over(gg_crew *c, errand *e, piece *pieces)
   pthread_mutex_unlock(&c->lock);
 }
 
-gg_status gg_crew_advance(gg_crew *c, gg_replicas *all, bool adapt, const gg_hooks *hooks, gg_error *err)
+gg_status gg_crew_advance(gg_crew *c, gg_replicas *all, uint64_t due, bool adapt, const gg_hooks *hooks, gg_error *err)
 {
   const double error = all->last.relative_error;
   piece *pieces = gg_new_array((size_t)all->n, sizeof *pieces, err);
   if (!pieces) return GG_FAILED;
-  errand e = {all->state.due, adapt, hooks, isnan(error) ? INFINITY : error, all->n, PTHREAD_COND_INITIALIZER};
+  errand e = {due, adapt, hooks, isnan(error) ? INFINITY : error, all->n, PTHREAD_COND_INITIALIZER};
   for (int i = 0; i < all->n; i++) pieces[i] = (piece){.errand = &e, .replica = &all->replica[i]};
   hand_over(c, &e, pieces);
   pthread_cond_destroy(&e.done);

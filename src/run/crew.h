@@ -19,7 +19,8 @@ void gg_crew_leave(gg_crew *crew);
 void gg_crew_pause(gg_crew *crew);
 void gg_crew_go_on(gg_crew *crew);
 
-/* Every replica takes samples until it has all->state.due of them; called by a course. */
-gg_status gg_crew_advance(gg_crew *crew, gg_replicas *all, bool adapt, const gg_hooks *hooks, gg_error *err);
+/* Every replica takes samples until it has `due` of them; called by a course. */
+gg_status gg_crew_advance(gg_crew *crew, gg_replicas *all, uint64_t due, bool adapt, const gg_hooks *hooks,
+                          gg_error *err);
 
 #endif

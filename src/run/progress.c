@@ -30,7 +30,7 @@ static gg_replica_news news_of(const gg_replicas *all, int i)
 static double samples_so_far(const gg_replicas *all)
 {
   uint64_t least = all->state.due;
-  if (!all->share || !gg_share_is_busy(all->share)) return (double)least;
+  if (!all->share || !gg_share_is_busy(all->share)) return (double)gg_replicas_least(all);
   for (int i = 0; i < all->n; i++) {
     uint64_t has = gg_share_news(all->share, i).samples;
     least = has < least ? has : least;
@@ -61,7 +61,7 @@ void gg_replicas_report_progress(gg_replicas *all, bool over)
   if (!all->hooks || !all->hooks->progress) return;
   double due = samples_so_far(all);
   double window = all->state.averaging ? due - (double)all->state.window_at : 0;
-  if (!over && !(all->share && gg_share_is_busy(all->share))) look(all, window);
+  if (!over && !(all->share && gg_share_is_busy(all->share)) && gg_replicas_are_level(all)) look(all, window);
   double collisions = 0, cpu = 0, now = gg_wall_now();
   for (int i = 0; i < all->n; i++) {
     gg_replica_news news = news_of(all, i);
@@ -84,5 +84,7 @@ void gg_replicas_report_progress(gg_replicas *all, bool over)
       .time_left = over ? 0 : time_left(all, due, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
       .replicas = all->n,
   };
+  pthread_mutex_lock(&all->lock); /* of those who share the work, some may ask just now whether to stop */
   all->hooks->progress(all->hooks->context, &p);
+  pthread_mutex_unlock(&all->lock);
 }

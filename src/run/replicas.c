@@ -79,6 +79,7 @@ static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *er
 typedef struct worker {
   gg_replicas *all;
   int first, stride;
+  uint64_t due;
   bool adapt;
   const gg_hooks *hooks;
   gg_status status;
@@ -90,24 +91,25 @@ static void *work(void *argument)
   worker *w = argument;
   gg_replicas *all = w->all;
   for (int i = w->first; i < all->n && w->status == GG_OK; i += w->stride)
-    w->status = gg_replica_advance(&all->replica[i], all->state.due, w->adapt, w->hooks, &w->err);
+    w->status = gg_replica_advance(&all->replica[i], w->due, w->adapt, w->hooks, &w->err);
   return NULL;
 }
 
-gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err)
+gg_status gg_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err)
 {
   enum { MOST_THREADS = 64 };
-  if (all->share) return gg_share_advance(all->share, adapt, err);
+  if (all->share) return gg_share_advance(all->share, due, adapt, err);
   gg_hooks hooks = {.context = all};
   if (all->hooks && all->hooks->frame) hooks.frame = locked_frame;
-  if (all->hooks && all->hooks->crew) return gg_crew_advance(all->hooks->crew, all, adapt, &hooks, err);
+  if (all->hooks && all->hooks->crew) return gg_crew_advance(all->hooks->crew, all, due, adapt, &hooks, err);
   int n = all->threads < all->n ? all->threads : all->n;
   n = n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : n;
   worker workers[MOST_THREADS];
   pthread_t threads[MOST_THREADS];
   bool running[MOST_THREADS] = {false};
   for (int w = 0; w < n; w++) {
-    workers[w] = (worker){.all = all, .first = w, .stride = n, .adapt = adapt, .hooks = &hooks, .status = GG_OK};
+    workers[w] =
+        (worker){.all = all, .first = w, .stride = n, .due = due, .adapt = adapt, .hooks = &hooks, .status = GG_OK};
     if (w > 0) running[w] = pthread_create(&threads[w], NULL, work, &workers[w]) == 0;
   }
   for (int w = 0; w < n; w++)
@@ -122,11 +124,17 @@ gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err)
   return GG_OK;
 }
 
+uint64_t gg_replicas_least(const gg_replicas *all)
+{
+  uint64_t least = all->state.due;
+  for (int i = 0; i < all->n; i++)
+    if (all->replica[i].clock.samples < least) least = all->replica[i].clock.samples;
+  return least;
+}
+
 bool gg_replicas_are_level(const gg_replicas *all)
 {
-  for (int i = 0; i < all->n; i++)
-    if (all->replica[i].clock.samples < all->state.due) return false;
-  return true;
+  return gg_replicas_least(all) == all->state.due;
 }
 
 static void level_bins(gg_replicas *all, int k)

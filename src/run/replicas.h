@@ -99,9 +99,9 @@ double gg_plan_margin(const gg_plan *plan, double correlation, double window);
 gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                              const gg_hooks *hooks, gg_error *err);
 void gg_replicas_clear(gg_replicas *all);
-/* Every replica, on the threads or processes that there are, takes samples until it has all->state.due of them; the
- * latter may stop before, where a checkpoint is due. */
-gg_status gg_replicas_advance(gg_replicas *all, bool adapt, gg_error *err);
+/* Every replica, on the threads or processes that there are, takes samples until it has `due` of them; the latter may
+ * stop before, where a checkpoint is due. */
+gg_status gg_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err);
 
 /* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
 gg_status gg_replicas_run(gg_replicas *all, gg_error *err);
@@ -110,6 +110,8 @@ bool gg_replicas_checkpoint_is_due(const gg_replicas *all);
 void gg_replicas_report_progress(gg_replicas *all, bool over);
 /* Has every replica all->state.due samples? Where a run was stopped, some may not. */
 bool gg_replicas_are_level(const gg_replicas *all);
+/* Samples that every replica has, of those that it is to have. */
+uint64_t gg_replicas_least(const gg_replicas *all);
 /* Of a run that is over: forget the samples that not every replica has, so that what there is can be reported. */
 void gg_replicas_level(gg_replicas *all);
 

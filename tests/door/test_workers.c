@@ -157,6 +157,75 @@ static void checkpoints_on_the_way(void **state)
   gg_scene_free(scene);
 }
 
+/* One falls due while replicas are being made: it waits until they are all there. */
+static void checkpoint_due_at_the_start(void **state)
+{
+  (void)state;
+  post p = {0};
+  gg_scene *scene = scene_of("{flow: usf, phi: 0.5, particles: 20000, run: {collisions: 1, warmup: 1, replicas: 2}, "
+                             "output: {checkpoint_every: 1.0e-3}}");
+  gg_result *several = NULL;
+  gg_run_options options = {.checkpoint = "t_start.h5"};
+  assert_int_equal(run(&p, 2, 1, scene, options, &several), GG_OK);
+  gg_result_free(several);
+  gg_scene_free(scene);
+}
+
+typedef struct watcher {
+  bool warming;
+  int stored, stop_at; /* in the warm-up; after so many */
+  atomic_bool inside;  /* the progress hook */
+  atomic_int overlaps, asked;
+} watcher;
+
+static int watch(void *context, const gg_progress *now)
+{
+  watcher *w = context;
+  w->warming = now->phase[0] == 'w';
+  atomic_store(&w->inside, true);
+  nanosleep(&(struct timespec){0, 20000000}, NULL);
+  atomic_store(&w->inside, false);
+  return 0;
+}
+
+static void note_stored(void *context, const char *checkpoint)
+{
+  (void)checkpoint;
+  watcher *w = context;
+  w->stored += w->warming;
+}
+
+static int ask(void *context)
+{
+  watcher *w = context;
+  w->asked++;
+  w->overlaps += atomic_load(&w->inside);
+  return w->stop_at && w->stored >= w->stop_at;
+}
+
+/* Processes leave replicas on different ways. Who goes on with them alone stores and tells all along, as ever; and with
+ * them or alone, hooks are called one at a time. */
+static void goes_on_alone(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 300, warmup: 12000, replicas: 4}, "
+                             "output: {checkpoint_every: 0.15}}");
+  post p = {0};
+  watcher shared = {.stop_at = 3}, alone = {0};
+  gg_result *part = NULL, *rest = NULL;
+  gg_run_options options = {.checkpoint = "t_alone.h5", .progress = watch, .stop = ask, .stored = note_stored};
+  options.context = &shared;
+  assert_int_equal(run(&p, 2, 1, scene, options, &part), GG_INTERRUPTED);
+  options.context = &alone, options.resume = "t_alone.h5";
+  assert_ok(gg_run(scene, &options, &rest, &err));
+  assert_true(alone.stored > 2 && shared.asked > 50);
+  assert_int_equal(shared.overlaps + alone.overlaps, 0);
+  gg_result_free(part);
+  gg_result_free(rest);
+  gg_scene_free(scene);
+}
+
 /* Both engines at once share the same processes. */
 static void comparison(void **state)
 {
@@ -248,6 +317,8 @@ int main(void)
       cmocka_unit_test(lost),
       cmocka_unit_test(resumed),
       cmocka_unit_test(checkpoints_on_the_way),
+      cmocka_unit_test(checkpoint_due_at_the_start),
+      cmocka_unit_test(goes_on_alone),
       cmocka_unit_test(comparison),
       cmocka_unit_test(other_builds_do_not_work),
       cmocka_unit_test(failures_come_home),

@@ -1,7 +1,6 @@
 /* A run's replicas are handed out to the processes that take part, and come back. */
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "common/memory.h"
@@ -55,7 +54,7 @@ gg_status gg_share_open(gg_replicas *all, gg_share **share, gg_error *err)
     free(s->piece), free(s->told), free(s);
     return GG_FAILED;
   }
-  pthread_cond_init(&s->news, NULL);
+  gg_news_init(&s->news);
   pthread_mutex_lock(&w->lock);
   s->run = ++w->runs;
   for (int i = 0; i < all->n; i++) own(s, i, owner_of(s, i));
@@ -309,12 +308,8 @@ static void read_post(gg_share *s, int *nap)
 
 static void wait_for_news(gg_share *s)
 {
-  struct timespec until;
-  clock_gettime(CLOCK_REALTIME, &until);
-  until.tv_nsec += (long)(1e9 * look_every);
-  if (until.tv_nsec >= 1000000000) until.tv_sec++, until.tv_nsec -= 1000000000;
   s->waits = true;
-  pthread_cond_timedwait(&s->news, &s->workers->lock, &until);
+  gg_news_wait(&s->news, &s->workers->lock, look_every);
   s->waits = false;
 }
 
@@ -341,7 +336,9 @@ static void attend(gg_share *s, double *looked)
   double now = gg_wall_now();
   if (now < *looked + look_every) return;
   *looked = now;
-  bool ends = gg_stop_asked(&s->all->stop) || has_failed(s) || gg_replicas_checkpoint_is_due(s->all);
+  /* before all replicas are there, there is nothing that a checkpoint could hold */
+  bool pauses = s->due > 0 && gg_replicas_checkpoint_is_due(s->all);
+  bool ends = pauses || gg_stop_asked(&s->all->stop) || has_failed(s);
   pthread_mutex_lock(&s->workers->lock);
   if (ends && !s->stopping) stop(s);
   pthread_mutex_unlock(&s->workers->lock);
@@ -370,9 +367,9 @@ gg_status gg_share_create(gg_share *s, gg_error *err)
   return work_off(s, 0, false, err);
 }
 
-gg_status gg_share_advance(gg_share *s, bool adapt, gg_error *err)
+gg_status gg_share_advance(gg_share *s, uint64_t due, bool adapt, gg_error *err)
 {
-  return work_off(s, s->all->state.due, adapt, err);
+  return work_off(s, due, adapt, err);
 }
 
 void gg_share_changed(gg_share *s)

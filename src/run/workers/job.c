@@ -48,6 +48,7 @@ static void *work(void *argument)
 void gg_job_start(gg_job *job)
 {
   atomic_init(&job->over, false);
+  if (job->replica->engine) tell(job); /* before its turn comes */
   job->has_thread = pthread_create(&job->thread, NULL, work, job) == 0;
   if (job->has_thread) return;
   job->ended = NULL; /* who waits for that is the caller */

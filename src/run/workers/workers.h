@@ -16,9 +16,9 @@ void gg_share_close(gg_share *share);
 
 /* Replicas that are not there are made, by those to whom they will belong. */
 gg_status gg_share_create(gg_share *share, gg_error *err);
-/* All replicas take samples until they have all->state.due. Meanwhile progress is reported; where a checkpoint is due,
+/* All replicas take samples until they have `due`. Meanwhile progress is reported; where a checkpoint is due,
  * all stop where they are, and this is GG_OK before its time. */
-gg_status gg_share_advance(gg_share *share, bool adapt, gg_error *err);
+gg_status gg_share_advance(gg_share *share, uint64_t due, bool adapt, gg_error *err);
 /* The replicas here were changed since they came back: who works on them needs them anew. */
 void gg_share_changed(gg_share *share);
 /* Of a replica, wherever it is. */
