@@ -32,15 +32,30 @@ static gg_status open_stream(gg_atomic_file *f, gg_error *err)
   return f->fd >= 0 ? GG_OK : cannot(f, errno, err);
 }
 
-static gg_status open_temporary(gg_atomic_file *f, gg_error *err)
+/* PATH, whose it is, and how temporary files end. 0, or the number of an error. */
+static int create(gg_atomic_file *f, const char *whose)
 {
-  if (asprintf(&f->temporary, "%s" GG_TEMPORARY_SUFFIX, f->place.target) < 0) {
+  free(f->temporary);
+  if (asprintf(&f->temporary, "%s%s" GG_TEMPORARY_SUFFIX, f->place.target, whose) < 0) {
     f->temporary = NULL;
-    return cannot(f, ENOMEM, err);
+    return ENOMEM;
   }
   /* What was private is not shown while it is written anew. */
   f->fd = open(f->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, f->place.there ? 0600 : 0666);
-  return f->fd >= 0 ? GG_OK : cannot(f, errno, err);
+  return f->fd >= 0 ? 0 : errno;
+}
+
+/* Where no lock could tell whether one that stands there is of somebody who lives, there is a second name. */
+static gg_status open_temporary(gg_atomic_file *f, gg_error *err)
+{
+  int number = create(f, "");
+  if (number == EEXIST) {
+    char host[65] = "", own[100];
+    gethostname(host, sizeof host - 1);
+    snprintf(own, sizeof own, ".%s-%ld", host, (long)getpid());
+    number = create(f, own);
+  }
+  return number ? cannot(f, number, err) : GG_OK;
 }
 
 static gg_status begin(gg_atomic_file *f, const char *path, bool locked, gg_error *err)

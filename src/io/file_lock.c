@@ -42,7 +42,7 @@ static bool still_there(int fd, const char *path)
   return fstat(fd, &mine) == 0 && stat(path, &there) == 0 && mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
 }
 
-/* File systems without locks: go on as if there were nobody else. */
+/* File systems without locks: go on, and let be what may be somebody else's. */
 static bool cannot_lock(int number)
 {
   return number == ENOLCK || number == ENOSYS || number == EOPNOTSUPP || number == EINVAL;
@@ -65,13 +65,14 @@ static int open_lock(const char *path, bool *foreign)
 }
 
 /* One try: GG_OK with l->fd still -1 means another one. */
-static gg_status try_once(gg_file_lock *l, const char *path, gg_error *err)
+static gg_status try_once(gg_file_lock *l, const char *path, bool *sure, gg_error *err)
 {
   bool foreign;
   int fd = open_lock(l->path, &foreign);
   if (fd < 0) return gg_cannot_write(path, strerror(errno), err);
   gg_status status = GG_OK;
-  if (flock(fd, LOCK_EX | LOCK_NB) != 0 && !cannot_lock(errno)) {
+  *sure = flock(fd, LOCK_EX | LOCK_NB) == 0;
+  if (!*sure && !cannot_lock(errno)) {
     l->busy = errno != EINTR;
     if (l->busy) status = in_use(fd, path, err);
   } else if (still_there(fd, l->path) && !(foreign && unlink(l->path) == 0)) {
@@ -87,10 +88,11 @@ gg_status gg_file_lock_take(gg_file_lock *l, const char *target, const char *pat
   *l = GG_FILE_LOCK_NONE;
   if (asprintf(&l->path, "%s" GG_LOCK_SUFFIX, target) < 0) return gg_cannot_write(path, strerror(ENOMEM), err);
   gg_status status = GG_OK;
-  while (status == GG_OK && l->fd < 0) status = try_once(l, path, err);
+  bool sure = false;
+  while (status == GG_OK && l->fd < 0) status = try_once(l, path, &sure, err);
   if (status == GG_OK) {
     sign(l->fd);
-    clean_up(target);
+    if (sure) clean_up(target);
     return GG_OK;
   }
   free(l->path);

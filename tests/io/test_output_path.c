@@ -5,11 +5,14 @@
 #include <stddef.h>
 
 #include <cmocka.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/sysmacros.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -103,6 +106,34 @@ static void one_writer_at_a_time(void **state)
   unlink("file"), unlink("link");
 }
 
+/* In place of the C library's: a file system without locks, where asked for. */
+static bool no_locks;
+int flock(int fd, int how)
+{
+  if (no_locks) errno = ENOSYS;
+  return no_locks ? -1 : (int)syscall(SYS_flock, fd, how);
+}
+
+/* Nobody can be told of another there: each writes a file of its own, and the last to end stays. */
+static void without_locks(void **state)
+{
+  (void)state;
+  gg_atomic_file one, two;
+  gg_error err;
+  no_locks = true;
+  assert_int_equal(gg_atomic_open(&one, "file", &err), GG_OK);
+  assert_int_equal(gg_atomic_write(&one, "half", 4, &err), GG_OK);
+  assert_int_equal(gg_atomic_open(&two, "file", &err), GG_OK);
+  assert_int_equal(gg_atomic_write(&two, "other", 5, &err), GG_OK);
+  assert_int_equal(gg_atomic_write(&one, "whole", 5, &err), GG_OK);
+  assert_int_equal(gg_atomic_commit(&one, &err), GG_OK);
+  assert_holds("file", "halfwhole");
+  assert_int_equal(gg_atomic_commit(&two, &err), GG_OK);
+  assert_holds("file", "other");
+  no_locks = false;
+  unlink("file");
+}
+
 /* Killed in the middle, its lock and its half of a file stand there; the next run goes on as if they did not. */
 static void what_the_dead_left(void **state)
 {
@@ -157,8 +188,9 @@ static void streams(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(links_are_followed), cmocka_unit_test(mode_is_kept), cmocka_unit_test(one_writer_at_a_time),
-      cmocka_unit_test(what_the_dead_left), cmocka_unit_test(streams),
+      cmocka_unit_test(links_are_followed),   cmocka_unit_test(mode_is_kept),
+      cmocka_unit_test(one_writer_at_a_time), cmocka_unit_test(without_locks),
+      cmocka_unit_test(what_the_dead_left),   cmocka_unit_test(streams),
   };
   return cmocka_run_group_tests(tests, enter, leave);
 }
