@@ -91,10 +91,31 @@ static void channel_means(const gg_series *const *series, size_t n_runs, size_t 
   for (size_t k = 0; k < channels; k++) mean[k] /= (double)(n_runs * (end - begin));
 }
 
-/* df/da_k by a central difference: f is smooth on the scale of a mean's error. */
-static double slope(gg_function f, const gg_model *model, double *mean, size_t k)
+/* The rows of the means that f is made of, all of equal length. */
+typedef struct rows {
+  const gg_series *const *series;
+  size_t n_runs, begin, n, offset, channels;
+} rows;
+
+/* How far a channel is to be moved to see what f does: little of it, but seen. Quantities come in any units, and those
+ * of dilute gases or heavy grains are small: so is the step then, by what the channel is and scatters. */
+static double step_of(const rows *a, size_t k, double at)
 {
-  double at = mean[k], step = 1e-6 * (fabs(at) + 1e-3);
+  double squares = 0, least = 1e-3;
+  if (fabs(at) < 1e-6) {
+    for (size_t r = 0; r < a->n_runs; r++)
+      for (size_t i = 0; i < a->n; i++)
+        squares += pow(gg_series_row(a->series[r], a->begin + i)[a->offset + k] - at, 2);
+    double size = fabs(at) + sqrt(squares / (double)(a->n * a->n_runs));
+    if (size > 0 && size < 1e-6) least = 1e3 * size;
+  }
+  return 1e-6 * (fabs(at) + least);
+}
+
+/* df/da_k by a central difference: f is smooth on the scale of a mean's error. */
+static double slope(gg_function f, const gg_model *model, const rows *a, double *mean, size_t k)
+{
+  double at = mean[k], step = step_of(a, k, at);
   mean[k] = at + step;
   double up = gg_function_value(f, mean, model);
   mean[k] = at - step;
@@ -102,12 +123,6 @@ static double slope(gg_function f, const gg_model *model, double *mean, size_t k
   mean[k] = at;
   return up == down ? 0 : (up - down) / (2 * step); /* also of a channel that is no number */
 }
-
-/* The rows of the means that f is made of, all of equal length. */
-typedef struct rows {
-  const gg_series *const *series;
-  size_t n_runs, begin, n, offset, channels;
-} rows;
 
 /* df_k (a_k - mean_k) of every row is added to y. */
 static void add_response(const rows *a, size_t k, const double *mean, const double *df, double *y)
@@ -155,8 +170,8 @@ gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t
   double value = gg_function_value(f, mean, model);
   gg_status status = GG_OK;
   if (isfinite(value)) {
-    for (size_t k = 0; k < channels; k++) df[k] = slope(f, model, mean, k);
     rows a = {series, n_runs, begin, n, offset, channels};
+    for (size_t k = 0; k < channels; k++) df[k] = slope(f, model, &a, mean, k);
     double memory;
     status = memory_of_parts(&a, mean, df, y, &memory, err);
     memset(y, 0, total * sizeof *y);

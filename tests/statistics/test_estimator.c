@@ -116,6 +116,41 @@ static void ratios(void **state)
   assert_true(sum / 100 > 0.5 && sum / 100 < 1.8);
 }
 
+static double inverse(const double *a, const gg_model *m)
+{
+  (void)m;
+  return 1 / a[1];
+}
+
+/* Units do not matter: of channels as small as the collision rates of a gas at phi = 10^-20, the error is the same
+ * share of the mean. */
+static void small_channels(void **state)
+{
+  (void)state;
+  gg_rng r = gg_rng_seed(14, 0);
+  gg_model model = {0};
+  gg_series s = planted_ratio(&r, 2000), t;
+  gg_mean m, n;
+  for (double unit = 1; unit > 1e-30; unit *= 1e-4) {
+    assert_int_equal(gg_series_init(&t, 3, NULL), GG_OK);
+    for (size_t i = 0; i < s.n; i++) {
+      const double *x = gg_series_row(&s, i);
+      gg_series_add(&t, i, (double[]){x[0], unit * x[1], unit * x[2]});
+    }
+    const gg_series *one[] = {&s}, *other[] = {&t};
+    for (int k = 0; k < 2; k++) {
+      const gg_function f = {.of = k ? inverse : ratio};
+      const size_t offset = k ? 0 : 1;
+      assert_int_equal(gg_estimate_mean(one, 1, 0, s.n, offset, 2, f, &model, &m, NULL), GG_OK);
+      assert_int_equal(gg_estimate_mean(other, 1, 0, t.n, offset, 2, f, &model, &n, NULL), GG_OK);
+      if (fabs(n.error / n.mean / (m.error / m.mean) - 1) > 1e-4)
+        fail_msg("in units of %g: %g of %g, %g of %g", unit, n.error, n.mean, m.error, m.mean);
+    }
+    gg_series_clear(&t);
+  }
+  gg_series_clear(&s);
+}
+
 /* Two channels of which one follows the other, as spins follow T: both are slow, the ratio is fast and comes back with
  * the opposite sign. Mean square of deviation over error in windows of 400 rows, 60 times of the slow one (before the
  * sum went on for what the ratio is made of: 0.81). */
@@ -163,8 +198,9 @@ static void replicas(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(honest_errors), cmocka_unit_test(short_windows),
-                                     cmocka_unit_test(coverage),      cmocka_unit_test(ratios),
-                                     cmocka_unit_test(followers),     cmocka_unit_test(replicas)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(honest_errors),  cmocka_unit_test(short_windows),
+                                     cmocka_unit_test(coverage),       cmocka_unit_test(ratios),
+                                     cmocka_unit_test(small_channels), cmocka_unit_test(followers),
+                                     cmocka_unit_test(replicas)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
