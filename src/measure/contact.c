@@ -7,7 +7,7 @@
 /* Sums over the bins of the gap: pairs that approach, that part, normal speeds of the approaching; over the bins of y:
  * pairs that part. */
 enum { APPROACHING = 0, PARTING = GG_NEAR_BINS, SPEED = 2 * GG_NEAR_BINS, WAYS = 3 * GG_NEAR_BINS };
-enum { ITERATIONS = 12 };
+enum { ITERATIONS = 12, ENOUGH = 20 /* pairs for each number of a fit */ };
 #define OVERLAP 1e-4 /* by rounding: a contact */
 
 /* ln g falls over the length (1 + phi/2)(1 - phi)/(4.5 phi (1 + phi)) next to contact (Percus & Yevick's equation:
@@ -105,7 +105,7 @@ static double density_at_contact(const double *x, const double *volume, const do
   double total = 0, value = NAN;
   bool good = start(&f, x, GG_NEAR_BINS, order);
   for (int i = 0; i < GG_NEAR_BINS; i++) total += counts[i];
-  good = good && total > 20 * (order + 1);
+  good = good && total > ENOUGH * (order + 1);
   for (int iteration = 0; good && iteration < ITERATIONS; iteration++) {
     for (size_t i = 0; i < GG_NEAR_BINS; i++) {
       double expected = iteration ? volume[i] * exp(at_point(&f, i)) : counts[i] + 0.5;
@@ -159,11 +159,12 @@ gg_contact_density gg_near_read(const gg_near *n, const double *bin, double pair
     y[i] = (i + 0.5) * n->way / GG_NEAR_BINS;
     way[i] = 4 * M_PI * n->sigma * n->sigma * n->way / GG_NEAR_BINS;
   }
-  double one = pairs_per_volume * samples;
+  double one = pairs_per_volume * samples, seen = 0;
+  for (int i = 0; i < GG_NEAR_BINS; i++) seen += in[i];
   return (gg_contact_density){
       .approaching = 2 * density_at_contact(x, shell, in, n->order) / one,
       .parting = 2 * density_at_contact(y, way, out, n->order) / one,
       .alike = density_at_contact(x, shell, all, n->order) / one,
-      .speed = mean_at_contact(x, bin + SPEED, bin + APPROACHING),
+      .speed = seen > ENOUGH * 3 ? mean_at_contact(x, bin + SPEED, bin + APPROACHING) : NAN, /* of a parabola */
   };
 }
