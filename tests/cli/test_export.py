@@ -416,5 +416,19 @@ def test_damaged():
     refused("r.h5: cannot be read", 3, "r.h5")
 
 
+def test_cools_for_ever():
+    """Times beyond all numbers, where a gas has cooled by a thousand decades: its grains are somewhere all the same, and
+    its course is drawn as far as there is a time."""
+    simulated("{flow: hcs, phi: 0.1, particles: 64, collision: {e: 0.5}, run: {collisions: 9000}}")
+    exported("r.h5", "--quiet")
+    with open("r.xyz", encoding="utf-8") as f:
+        head, *grains = f.read().splitlines()[1:]
+    check("Time=inf" in head and "nan" not in head.lower() and len(grains) == 64, head)
+    check(all(math.isfinite(float(x)) for line in grains for x in line.split()[1:4]), grains[0])
+    if shutil.which("gnuplot"):
+        done = run("plot", "r.h5", "--output", "r.svg")
+        check(done.code == 0 and os.path.getsize("r.svg") > 1000, done.err)
+
+
 if __name__ == "__main__":
     main(sys.modules[__name__])

@@ -52,10 +52,11 @@ static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_
 }
 
 /* Under shear the image above has slid by rate L_y t (Lees & Edwards 1972): the second edge leans by as much, counted
- * from the nearest image, so that periodic images of the stored box are those of the simulation. */
+ * from the nearest image, so that periodic images of the stored box are those of the simulation. (A gas that cools
+ * without shear comes to times beyond all numbers.) */
 static double tilt_at(const gg_model *model, double time)
 {
-  return remainder(model->shear_rate * model->box[1] * time, model->box[0]);
+  return model->shear_rate == 0 ? 0 : remainder(model->shear_rate * model->box[1] * time, model->box[0]);
 }
 
 static void append_vectors(gg_h5 *h, gg_h5_rows *rows, const double *data, const size_t *order, double *sorted,

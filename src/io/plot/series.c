@@ -24,7 +24,7 @@ static void print_data(FILE *s, int k, const curve *c)
     double time = 0, value = 0;
     size_t n = 0;
     for (; n < block && i + n < d->n; n++) time += d->time[i + n], value += d->value[i + n];
-    if (isfinite(value)) fprintf(s, "%.9g %.9g\n", time / (double)n, c->sign * value / (double)n);
+    if (isfinite(value) && isfinite(time)) fprintf(s, "%.9g %.9g\n", time / (double)n, c->sign * value / (double)n);
   }
   fprintf(s, "EOD\n");
 }
@@ -67,14 +67,22 @@ static const char *time_unit(const gg_stored_engine *e)
   return strstr(unit_of(e, "mean_free_path"), "n d^2") ? "1/(n d^2 v_0)" : "d/v_0";
 }
 
-static bool draw_mean(FILE *s, const gg_stored_engine *e, const curve *c)
+/* A gas that cools for ever comes to times beyond all numbers: the last one before. */
+static double end_of(const gg_stored_series *d)
+{
+  size_t n = d->n;
+  while (n > 1 && !isfinite(d->time[n - 1])) n--;
+  return d->time[n - 1];
+}
+
+static bool draw_mean(FILE *s, const gg_stored_engine *e, const curve *c, double end)
 {
   const json_t *result = json_object_get(json_object_get(e->document, "results"), c->name);
   const json_t *mean = json_object_get(result, "mean");
   if (!json_is_number(mean)) return false;
   double y = c->sign * json_number_value(mean);
-  fprintf(s, "set arrow from %.9g,%.9g to %.9g,%.9g nohead front dt 2 lw 1.2 lc rgb '#222222'\n", e->window[0], y,
-          e->window[1], y);
+  fprintf(s, "set arrow from %.9g,%.9g to %.9g,%.9g nohead front dt 2 lw 1.2 lc rgb '#222222'\n",
+          fmin(e->window[0], end), y, fmin(e->window[1], end), y);
   return true;
 }
 
@@ -114,7 +122,9 @@ static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const
   gg_axis_print(s, 'y', axis_of(curves, found, decades));
   gg_plot_unit(unit_of(e, curves[0].name), unit, sizeof unit);
   bool means = false;
-  for (int k = 0; k < found; k++) means |= draw_mean(s, e, &curves[k]);
+  double end = 0;
+  for (int k = 0; k < found; k++) end = fmax(end, end_of(curves[k].series));
+  for (int k = 0; k < found; k++) means |= draw_mean(s, e, &curves[k], end);
   fprintf(s, "set label '%s: %s (shaded: averaged over%s)' at graph 0,1.08 left\n", e->name, what,
           means ? "; dashed: mean" : "");
   fprintf(s, "set xlabel 'time [%s]'\nset ylabel '%s%s%s [%s]' offset 0.5,0\n", time_unit(e), curves[0].label,
@@ -122,10 +132,8 @@ static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const
   fprintf(s, "unset key\n");
   if (e->window[1] > e->window[0])
     fprintf(s, "set object 1 rectangle from %.9g,graph 0 to %.9g,graph 1 behind fc rgb '#eef2f5' fs solid noborder\n",
-            e->window[0], e->window[1]);
+            fmin(e->window[0], end), fmin(e->window[1], end));
   bool md = strcmp(e->name, "md") == 0;
-  double end = 0;
-  for (int k = 0; k < found; k++) end = fmax(end, curves[k].series->time[curves[k].series->n - 1]);
   set_time_axis(s, curves[0].series, end, decades);
   for (int k = 0; k < found; k++) {
     const char *colour = colours[md ? 0 : 1][k];
