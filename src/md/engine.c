@@ -7,6 +7,15 @@
 #include "md/checkpoint.h"
 #include "md/thermostat.h"
 
+/* A fall gives its grains a temperature of its own, whatever they start from: m g times some of the height, where that
+ * is much more. Events that come much faster than guessed wait in one bucket, all of them, for the whole first epoch.
+ */
+static double soon_temperature(const gg_md *e, double T)
+{
+  const double *g = e->model.gravity;
+  return fmax(T, 0.01 * e->model.mass[0] * hypot(g[0], g[1]) * e->model.box[1]);
+}
+
 /* Events expected per time at the start: collisions (each predicted about 1.25 times) and crossings. */
 static double guess_event_rate(const gg_md *e, double T)
 {
@@ -41,7 +50,7 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
   gg_md_begin_contact_time(e);
   if (e->last)
     for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
-  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, early)));
+  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, soon_temperature(e, early))));
   gg_md_select(e);
   gg_md_thermostat_begin(e);
   for (uint32_t i = 0; i < e->n; i++) {

@@ -333,6 +333,25 @@ static void white_noise_keeps_warm(void **state)
   md_destroy(e);
 }
 
+/* In whatever units gravity is given, few grains wait in the calendar's present bucket, which is searched in order. */
+static void gravity_in_any_unit(void **state)
+{
+  (void)state;
+  for (double g = 1; g < 1e13; g *= 1e4) {
+    gg_scene s = scene(GG_CHUTE, 2000, 0.2, 0.7, -1);
+    s.gravity[0] = 0.5 * g, s.gravity[1] = -g;
+    gg_model m = md_model_of(&s);
+    gg_md *e = md_create(&m, 1);
+    uint32_t most = 0;
+    for (int k = 0; k < 50; k++) {
+      md_collide(e, 1000);
+      most = e->queue.n_due > most ? e->queue.n_due : most;
+    }
+    if (most > 100) fail_msg("gravity %g: %u grains in a bucket", g, most);
+    md_destroy(e);
+  }
+}
+
 static void restarts(void **state)
 {
   (void)state;
@@ -376,6 +395,7 @@ int main(void)
       cmocka_unit_test(equipartition),
       cmocka_unit_test(gaussian_is_free_cooling),
       cmocka_unit_test(white_noise_keeps_warm),
+      cmocka_unit_test(gravity_in_any_unit),
       cmocka_unit_test(restarts),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
