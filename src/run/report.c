@@ -183,6 +183,12 @@ gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err)
     return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
                    (double)all->state.due * GG_SAMPLING_INTERVAL,
                    all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
+  const bool short_window = window < all->plan.least || !c->trusted;
+  if (by_error && atomic_load(&all->stopped) == GG_OUT_OF_TIME && short_window)
+    return gg_fail(err, GG_FAILED,
+                   "%s: the time limit struck after %.0f collisions a grain of averaging, too few to know how exact the "
+                   "means are",
+                   engine, (double)window * GG_SAMPLING_INTERVAL);
   if (!by_error || c->relative_error <= all->plan.relative_error) return GG_OK;
   const char *why = atomic_load(&all->stopped) == GG_OUT_OF_TIME ? "the time limit struck; " : "";
   if (isnan(c->relative_error))
