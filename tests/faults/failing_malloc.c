@@ -215,13 +215,14 @@ int failing_malloc_was_in(const char *library)
   return 0;
 }
 
-/* HDF5 and FFTW keep blocks for the next time; GSL's matrices leave their head behind where their body fails; libyaml
+/* HDF5 and FFTW keep blocks for the next time, and the loader a library that the C library turns to where the file of
+ * users' names cannot be read; GSL's matrices leave their head behind where their body fails; libyaml
  * 0.2.5 the members of a map or list where its list of nodes cannot grow for it, and the document that it gives up is
  * nobody else's. */
 static bool is_of_a_cache(const void *caller)
 {
   const char *const loads = "yaml_parser_load";
-  return is_in(caller, "libhdf5") || is_in(caller, "libfftw") || is_in(caller, "libgsl") ||
+  return is_in(caller, "ld-linux") || is_in(caller, "libhdf5") || is_in(caller, "libfftw") || is_in(caller, "libgsl") ||
          (is_called(caller, loads) && failing_malloc_was_in(loads));
 }
 
