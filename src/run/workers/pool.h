@@ -9,6 +9,7 @@ typedef struct gg_rank {
   bool there, lost; /* it said hello; it is gone */
   int replicas;     /* that belong to it, of all runs */
   int pieces;       /* it has to do */
+  bool cut_off;     /* something could not be sent to it, which it will never answer */
   double heard;     /* when; or when it was given the first of its pieces */
 } gg_rank;
 

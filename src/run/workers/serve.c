@@ -98,6 +98,7 @@ static void answer(server *s, task *t, gg_status status, const gg_error *why)
   m.status = status;
   void *block = gg_message_pack_archive(&m, &archive, &size);
   gg_archive_clear(&archive);
+  if (!block) s->left = true; /* who cannot answer goes, so that nobody waits for it: others do it again */
   send(s, block, size);
 }
 

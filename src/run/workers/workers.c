@@ -19,8 +19,7 @@ static void warn(const gg_workers *w, const char *text)
 
 void gg_workers_send(gg_workers *w, int to, void *block, size_t size)
 {
-  /* What cannot be sent is not answered either: whoever does not answer is lost. */
-  if (block && w->messages.send(w->messages.context, to, block, size) != 0) w->rank[to].heard = -longest_silence;
+  if (block && w->messages.send(w->messages.context, to, block, size) != 0) w->rank[to].cut_off = true;
 }
 
 static void lose(gg_workers *w, int rank, const char *why)
@@ -85,7 +84,7 @@ static void look_who_is_lost(gg_workers *w)
     if (r->lost) continue;
     if (w->messages.lost && w->messages.lost(w->messages.context, i))
       lose(w, i, "is gone");
-    else if (r->pieces && now > r->heard + longest_silence)
+    else if (r->cut_off || (r->pieces && now > r->heard + longest_silence))
       lose(w, i, "does not answer");
   }
 }
