@@ -19,6 +19,7 @@ enum { LONGEST_WAIT = 5 }; /* seconds, at the end, for those who do not come any
 typedef struct sending {
   MPI_Request request;
   int to;
+  bool more;   /* a part, and not the last one of its message */
   void *block; /* freed with its last part; NULL in the others */
   struct sending *next;
 } sending;
@@ -47,16 +48,16 @@ static void release(sending *s)
   free(s);
 }
 
-/* Is something on its way there that was sent before? */
+/* Is a part on its way there that was sent before? */
 static bool is_behind(const post *p, const sending *s)
 {
   const sending *before = p->first;
-  while (before != s && before->to != s->to) before = before->next;
+  while (before != s && !(before->more && before->to == s->to)) before = before->next;
   return before != s;
 }
 
-/* Forget what has arrived, in the order in which it was sent: MPI takes a short last part at once, with whose block go
- * those that it still reads. */
+/* Forget what has arrived; of a message in parts the last one at the end: MPI takes a short one at once, with whose
+ * block go those that it still reads. */
 static void push(post *p)
 {
   for (sending **at = &p->first; *at;) {
@@ -76,7 +77,7 @@ static int send_part(post *p, int to, const char *part, size_t size, int tag, vo
 {
   sending *s = calloc(1, sizeof *s), **at = &p->first;
   if (!s) return 1;
-  s->to = to, s->block = block;
+  s->to = to, s->more = tag == MORE_FOLLOWS, s->block = block;
   if (MPI_Isend(part, (int)size, MPI_BYTE, to, tag, MPI_COMM_WORLD, &s->request) != MPI_SUCCESS) {
     free(s);
     return 1;
