@@ -338,8 +338,9 @@ static void attend(gg_share *s, double *looked)
   *looked = now;
   /* before all replicas are there, there is nothing that a checkpoint could hold */
   bool pauses = s->due > 0 && gg_replicas_checkpoint_is_due(s->all);
-  bool ends = pauses || gg_stop_asked(&s->all->stop) || has_failed(s);
+  bool ends = pauses || gg_stop_asked(&s->all->stop);
   pthread_mutex_lock(&s->workers->lock);
+  ends = ends || has_failed(s); /* another run's thread may just be taking in an answer */
   if (ends && !s->stopping) stop(s);
   pthread_mutex_unlock(&s->workers->lock);
   if (s->due > 0 && !ends) gg_replicas_report_progress(s->all, false);
