@@ -26,7 +26,7 @@ static gg_replica_news news_of(const gg_replicas *all, int i)
   return (gg_replica_news){r->clock.samples, gg_replica_collisions_per_grain(r), r->clock.cpu};
 }
 
-/* That all replicas have, or will have once this step is over. */
+/* That all replicas have, also while other processes are at them. */
 static double samples_so_far(const gg_replicas *all)
 {
   uint64_t least = all->state.due;

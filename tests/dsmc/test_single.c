@@ -24,8 +24,7 @@ static void elastic_energy(void **state)
   }
 }
 
-/* Share of the energy that is gone after 1500 collisions a grain of a gas whose thermostat gives back what they take.
- */
+/* Share of the energy that is gone after 1500 collisions a grain, of which a thermostat gives back what they take. */
 static double gone(double e)
 {
   gg_scene s = lab_scene(GG_HSS, 0.1, e, -1, 1000);

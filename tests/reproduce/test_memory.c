@@ -1,6 +1,6 @@
-/* A figure whose points are done, read and drawn with each of our own allocations, and of jansson's, which come
- * through ours, failing in turn (some of them; more where lines are counted): it ends well, or says that memory lacked; nothing leaks, and its files are whole. Each try
- * is a process of its own. */
+/* A figure whose points are done, read and drawn with each of our own allocations, and of jansson's, which come through
+ * ours, failing in turn (some of them; more where lines are counted): it ends well, or says that memory lacked; nothing
+ * leaks, and its files are whole. Each try is a process of its own. */
 #include <dirent.h>
 #include <signal.h>
 #include <stdio.h>

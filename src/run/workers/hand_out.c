@@ -336,7 +336,7 @@ static void attend(gg_share *s, double *looked)
   double now = gg_wall_now();
   if (now < *looked + look_every) return;
   *looked = now;
-  /* before all replicas are there, there is nothing that a checkpoint could hold */
+  /* Before all replicas are there, there is nothing that a checkpoint could hold. */
   bool pauses = s->due > 0 && gg_replicas_checkpoint_is_due(s->all);
   bool ends = pauses || gg_stop_asked(&s->all->stop);
   pthread_mutex_lock(&s->workers->lock);
