@@ -1,5 +1,6 @@
 #include "io/plot/axis.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -17,8 +18,8 @@ gg_axis gg_axis_around(gg_extent e, bool log)
 {
   if (!(e.least <= e.most)) return log ? (gg_axis){true, 0.1, 1} : (gg_axis){false, 0, 1};
   if (log) {
-    double room = fmax(pow(e.most / e.least, 0.05), 1.05);
-    return (gg_axis){true, e.least / room, e.most * room};
+    double room = fmax(pow(e.most, 0.05) / pow(e.least, 0.05), 1.05);
+    return (gg_axis){true, fmax(e.least / room, DBL_MIN), fmin(e.most * room, DBL_MAX)};
   }
   double size = fmax(fabs(e.least), fabs(e.most)), room = fmax(0.05 * (e.most - e.least), 1e-3 * size);
   if (room == 0) room = 1;
@@ -26,6 +27,12 @@ gg_axis gg_axis_around(gg_extent e, bool log)
   if (e.least > 0 && e.least < 0.3 * e.most) a.from = fmin(0, a.from);
   if (e.most < 0 && e.most > 0.3 * e.least) a.to = fmax(0, a.to);
   return a;
+}
+
+double gg_axis_share(gg_axis a, double x)
+{
+  if (!a.log) return (x - a.from) / (a.to - a.from);
+  return (log10(x) - log10(a.from)) / (log10(a.to) - log10(a.from));
 }
 
 /* Width of what gnuplot makes of enhanced text: braces and marks take no room. */
@@ -92,17 +99,30 @@ static void linear(tics *t, gg_axis a)
   for (double k = first; k <= last; k++) put(t, k * step, step, false);
 }
 
+/* The quotient of its ends may be more than a number holds. */
+static double decades_of(gg_axis a)
+{
+  return log10(a.to) - log10(a.from);
+}
+
 static bool is_within(gg_axis a, double x)
 {
   return x >= a.from * (1 - 1e-9) && x <= a.to * (1 + 1e-9);
 }
 
+/* From one named decade to the next: every second or third, or in round steps where there are hundreds. */
+static int decades_apart(double decades)
+{
+  int every = 1 + (int)(decades / MOST_DECADES);
+  return every < 10 ? every : (int)round_step(decades);
+}
+
 /* Whole decades; where there are few of them also their double and fivefold; else small tics between them. */
 static void logarithmic(tics *t, gg_axis a)
 {
-  double decades = log10(a.to / a.from);
+  double decades = decades_of(a);
   bool powers = a.from < 0.9e-3 || a.to > 1.1e4;
-  int every = 1 + (int)(decades / MOST_DECADES);
+  int every = decades_apart(decades);
   for (int k = (int)floor(log10(a.from)); k <= (int)ceil(log10(a.to)); k++)
     for (int i = 1; i < 10; i++) {
       double unit = pow(10, k), x = i * unit;
@@ -110,14 +130,14 @@ static void logarithmic(tics *t, gg_axis a)
       if (!is_within(a, x)) continue;
       if (named)
         put(t, x, unit, powers);
-      else if (t->script && (every == 1 || i == 1))
+      else if (t->script && (every == 1 || (i == 1 && every < 10)))
         fprintf(t->script, "%s'' %.12g 1", t->n++ ? ", " : "", x);
     }
 }
 
 static void place(tics *t, gg_axis a)
 {
-  if (a.log && log10(a.to / a.from) > no_decade)
+  if (a.log && decades_of(a) > no_decade)
     logarithmic(t, a);
   else
     linear(t, a);

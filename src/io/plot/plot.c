@@ -24,9 +24,10 @@ gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_
 
 static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_engine *e, bool png)
 {
-  gg_plot_start_page(s, stored, png, 1000, 440);
-  gg_plot_relaxation(s, e, (gg_panel){0.085, 0.455, 0.15, 0.80});
-  gg_plot_stresses(s, e, (gg_panel){0.585, 0.94, 0.15, 0.80});
+  bool stresses = gg_plot_has_stresses(e);
+  gg_plot_start_page(s, stored, png, stresses ? 1000 : 560, 440);
+  gg_plot_relaxation(s, e, (gg_panel){stresses ? 0.085 : 0.15, stresses ? 0.455 : 0.88, 0.15, 0.80});
+  if (stresses) gg_plot_stresses(s, e, (gg_panel){0.585, 0.94, 0.15, 0.80});
   fprintf(s, "unset multiplot\n");
 }
 

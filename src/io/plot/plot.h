@@ -58,6 +58,8 @@ void gg_plot_place(FILE *script, gg_panel panel);
 /* One engine's temperatures (or stresses) from start to end, with the averaging window. */
 void gg_plot_relaxation(FILE *script, const gg_stored_engine *engine, gg_panel panel);
 void gg_plot_stresses(FILE *script, const gg_stored_engine *engine, gg_panel panel);
+/* Not of gases that cool. */
+bool gg_plot_has_stresses(const gg_stored_engine *engine);
 /* md, dsmc and the theories: ratios to md, and the numbers that have no scale to be divided by (N1, N2 ...). */
 bool gg_plot_has(const gg_stored_result *stored, bool ratios);
 void gg_plot_ratios(FILE *script, const gg_stored_result *stored, gg_panel panel);
