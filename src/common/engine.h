@@ -84,6 +84,7 @@ typedef struct gg_collision_record {
   gg_vec c[2];      /* peculiar velocities */
   double height[2]; /* y over the middle of the box; NaN where there are no positions */
   gg_vec J;         /* impulse on grain 2, -J on grain 1 */
+  double time;      /* in the clock of gg_engine_state; in dsmc the candidate's, and pairs of species take turns */
   double since[2];  /* time since the last contact of each, walls included; INFINITY: none since the callback was set */
 } gg_collision_record;
 typedef void gg_collision_callback(void *context, const gg_collision_record *collision);

@@ -19,7 +19,8 @@ static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_recor
 
 void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
 {
-  gg_collision_record m = {.k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12)};
+  gg_collision_record m = {
+      .k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12), .time = gg_md_time(e)};
   show_grain(e, i, 0, &m);
   show_grain(e, j, 1, &m);
   const gg_vec before = e->grain[j].v;

@@ -85,6 +85,12 @@ static double outer_now(const gg_md *e)
   return e->k.outer + (e->k.now - e->k.mark) / e->k.scale;
 }
 
+/* Of a Gaussian thermostat outside. */
+double gg_md_time(const gg_md *e)
+{
+  return e->thermostat == GG_GAUSSIAN ? e->k.outer_time + outer_now(e) : e->k.epoch_start + e->k.now;
+}
+
 /* Between looks at whether to stop: some milliseconds. */
 enum { EVENTS_BETWEEN_LOOKS = 1 << 14 };
 
@@ -169,8 +175,7 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
 static void state(const gg_engine *engine, gg_engine_state *s)
 {
   const gg_md *e = (const gg_md *)engine;
-  *s = (gg_engine_state){.time = e->thermostat == GG_GAUSSIAN ? e->k.outer_time + outer_now(e)
-                                                              : e->k.epoch_start + e->k.now,
+  *s = (gg_engine_state){.time = gg_md_time(e),
                          .collisions = e->k.collisions,
                          .events = e->k.events,
                          .treated = e->k.treated,

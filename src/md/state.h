@@ -196,6 +196,9 @@ double gg_md_bucket_width(double events_per_time);
 /* callback.c: a resolution that shows the collision to the callback, then goes on to e->resolve_shown; and the engine's
  * operation that sets it. */
 gg_md_resolution gg_md_show_collision;
+/* engine.c: the present time since the engine's creation, outside. */
+double gg_md_time(const gg_md *e);
+
 gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
 
 /* parting.c: a resolution after which the pair parts, whatever is lost in rounding; the same instead of e->resolve, for

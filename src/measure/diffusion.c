@@ -4,7 +4,9 @@
  * collisions a grain, in levels: each is four times as long as the one before, in steps four times as wide. The
  * integral is had from <C(0) r(t)>, r the displacement, which needs no steps. Under shear displacements are peculiar:
  * what the flow has carried along x is taken off, the grain's height between two snapshots being taken as the mean of
- * both. */
+ * both. A grain's way from snapshot to snapshot leads to one of the images of its new place: to which say its
+ * velocities at both, or, where free paths are so long beside the box that it may have crossed half of it and collided,
+ * those of all its flights. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,6 +34,7 @@ typedef struct diffusion {
   } * state;
   uint32_t *place;                /* of each grain by its number: species 1 first */
   double *r[3], *c[3], *moved[3]; /* at the last snapshot, by place; moved: displacement since the start */
+  double *flown[3], *until;       /* since the last snapshot, up to the last collision; NULL in long boxes */
   origin origin[GG_LAG_ORIGINS];  /* of the levels, one after the other */
 } diffusion;
 
@@ -49,13 +52,24 @@ static void destroy(void *self)
   free(self);
 }
 
+/* Can a fast grain go half the shortest edge between two snapshots? */
+static bool is_short_of_paths(const gg_model *m)
+{
+  double lightest = m->mass[0], fast, way;
+  for (int k = 1; k < m->n_species; k++) lightest = fmin(lightest, m->mass[k]);
+  fast = 5 * sqrt(m->temperature0 / lightest);
+  way = fast / (GG_LAG_SNAPSHOTS / 2.0 * gg_model_collision_rate(m, m->temperature0));
+  return way > 0.5 * fmin(m->box[0], fmin(m->box[1], m->box[2]));
+}
+
 static void *create(const gg_model *m, gg_error *err)
 {
   diffusion *d = gg_new_array(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
   d->n = (size_t)m->n;
-  d->bytes = sizeof *d->state + 9 * d->n * sizeof(double) + 6 * GG_LAG_ORIGINS * d->n * sizeof(float) +
+  size_t doubles = is_short_of_paths(m) ? 13 : 9;
+  d->bytes = sizeof *d->state + doubles * d->n * sizeof(double) + 6 * GG_LAG_ORIGINS * d->n * sizeof(float) +
              d->n * sizeof *d->place;
   d->state = gg_new_array(1, d->bytes, err);
   if (!d->state) {
@@ -66,6 +80,11 @@ static void *create(const gg_model *m, gg_error *err)
   for (int a = 0; a < 3; a++) {
     double **arrays[] = {&d->r[a], &d->c[a], &d->moved[a]};
     for (int k = 0; k < 3; k++, at += d->n) *arrays[k] = at;
+  }
+  if (is_short_of_paths(m)) {
+    for (int a = 0; a < 3; a++, at += d->n) d->flown[a] = at;
+    d->until = at;
+    at += d->n;
   }
   float *next = (float *)at;
   for (int o = 0; o < GG_LAG_ORIGINS; o++)
@@ -102,17 +121,44 @@ static size_t bins(const void *self)
   return (size_t)((const diffusion *)self)->model.n_species * GG_LAGS * GG_LAG_WIDTH;
 }
 
-/* Displacement since the snapshot before: of all images of the new place the one that the velocity leads to. */
-static gg_vec displacement(const diffusion *d, const gg_images *b, gg_vec from, gg_vec to, gg_vec c, double dt)
+/* Displacement since the snapshot before, `dt` ago: of all images of the new place the one next to `way`. */
+static gg_vec displacement(const diffusion *d, const gg_images *b, gg_vec from, gg_vec to, gg_vec way, double dt)
 {
   double rate = d->model.shear_rate;
   gg_vec move = gg_sub(to, from);
-  double layers = gg_round_half((move.y - c.y * dt) * b->inverse[1]);
+  double layers = gg_round_half((move.y - way.y) * b->inverse[1]);
   move.y -= layers * b->edge[1];
   move.x -= layers * b->offset + rate * (from.y + 0.5 * move.y - 0.5 * b->edge[1]) * dt;
-  move.x -= b->edge[0] * gg_round_half((move.x - c.x * dt) * b->inverse[0]);
-  move.z -= b->edge[2] * gg_round_half((move.z - c.z * dt) * b->inverse[2]);
+  move.x -= b->edge[0] * gg_round_half((move.x - way.x) * b->inverse[0]);
+  move.z -= b->edge[2] * gg_round_half((move.z - way.z) * b->inverse[2]);
   return move;
+}
+
+/* The peculiar way of a flight that ends with `c`: back from there C_x grows by the shear rate times C_y. */
+static void fly(diffusion *d, size_t g, gg_vec c, double now)
+{
+  double t = now - d->until[g];
+  d->flown[0][g] += (c.x + 0.5 * d->model.shear_rate * c.y * t) * t;
+  d->flown[1][g] += c.y * t;
+  d->flown[2][g] += c.z * t;
+  d->until[g] = now;
+}
+
+static void add_collision(void *self, const gg_collision_record *collision)
+{
+  diffusion *d = self;
+  if (!d->until || d->state->snapshots == 0) return;
+  for (int i = 0; i < 2; i++) fly(d, d->place[collision->id[i]], collision->c[i], collision->time);
+}
+
+/* What the velocities say of the way since the last snapshot. */
+static gg_vec way_of(diffusion *d, size_t g, gg_vec c, const gg_snapshot *s)
+{
+  if (d->until) {
+    fly(d, g, c, s->time);
+    return (gg_vec){d->flown[0][g], d->flown[1][g], d->flown[2][g]};
+  }
+  return gg_scale(0.5 * s->elapsed, gg_add((gg_vec){d->c[0][g], d->c[1][g], d->c[2][g]}, c));
 }
 
 static void give_places(diffusion *d, const gg_snapshot *s)
@@ -129,17 +175,17 @@ static void follow(diffusion *d, const gg_snapshot *s)
   if (first) give_places(d, s);
   for (size_t i = 0; i < s->n; i++) {
     size_t g = d->place[s->id[i]];
-    gg_vec to = {s->r[0][i], s->r[1][i], s->r[2][i]}, move = {0, 0, 0};
-    if (!first) {
-      gg_vec mean = {0.5 * (d->c[0][g] + s->c[0][i]), 0.5 * (d->c[1][g] + s->c[1][i]), 0.5 * (d->c[2][g] + s->c[2][i])};
-      move = displacement(d, &b, (gg_vec){d->r[0][g], d->r[1][g], d->r[2][g]}, to, mean, s->elapsed);
-    }
+    gg_vec to = {s->r[0][i], s->r[1][i], s->r[2][i]}, c = {s->c[0][i], s->c[1][i], s->c[2][i]}, move = {0, 0, 0};
+    if (!first)
+      move = displacement(d, &b, (gg_vec){d->r[0][g], d->r[1][g], d->r[2][g]}, to, way_of(d, g, c, s), s->elapsed);
     const double step[3] = {move.x, move.y, move.z};
     for (int a = 0; a < 3; a++) {
       d->r[a][g] = s->r[a][i];
       d->c[a][g] = s->c[a][i];
       d->moved[a][g] = first ? 0 : d->moved[a][g] + step[a];
+      if (d->until) d->flown[a][g] = 0;
     }
+    if (d->until) d->until[g] = s->time;
   }
   d->state->time = first ? 0 : d->state->time + s->elapsed;
 }
@@ -254,6 +300,8 @@ const gg_observable gg_diffusion = {
     .parts = GG_LAG_SNAPSHOTS,
     .positions = true,
     .add_snapshot = add_snapshot,
+    .add_collision = add_collision,
+    .wants_collisions = is_short_of_paths,
     .restart = restart,
     .curves = curves,
 };

@@ -71,6 +71,7 @@ typedef struct gg_observable {
   void (*add_interval)(void *self, const gg_interval *interval);
   /* Called with every collision while averaging; goes into the bins with the next snapshot. NULL: not needed. */
   gg_collision_callback *add_collision;
+  bool (*wants_collisions)(const gg_model *model); /* does it want them of this model? NULL: of all */
   /* It does with the collisions of some episodes, where showing them slows the engine down many times over; told when
    * one begins. Snapshots are then added in episodes only. NULL: it is to have every collision. */
   void (*begin_episode)(void *self);
@@ -80,6 +81,9 @@ typedef struct gg_observable {
                                 */
   gg_curves_of *curves;
 } gg_observable;
+
+/* Is it to be shown the collisions of this model? */
+bool gg_observable_wants_collisions(const gg_observable *o, const gg_model *model);
 
 /* The function that gives a quantity, from such a table; false if it has none. */
 bool gg_derived_find(const gg_derived *table, gg_quantity q, gg_function *f);

@@ -4,6 +4,11 @@
 const gg_observable *const gg_observables[] = {GG_OBSERVABLES(PLUG_IN) NULL};
 _Static_assert(GG_N_OBSERVABLES <= 32, "a bit of gg_scene.measure for each");
 
+bool gg_observable_wants_collisions(const gg_observable *o, const gg_model *model)
+{
+  return o->add_collision && (!o->wants_collisions || o->wants_collisions(model));
+}
+
 bool gg_derived_find(const gg_derived *table, gg_quantity q, gg_function *f)
 {
   gg_quantity family = gg_quantity_family(q);

@@ -17,7 +17,7 @@ static bool are_asked_for(const gg_replica *r, bool *some_will_do)
   bool any = false;
   *some_will_do = r->engine->ops->callback_slows && r->engine->ops->callback_slows(r->engine);
   for (int k = 0; k < r->n_observables; k++) {
-    if (!r->observable[k]->add_collision) continue;
+    if (!gg_observable_wants_collisions(r->observable[k], &r->model)) continue;
     any = true;
     if (!r->observable[k]->begin_episode) *some_will_do = false;
   }

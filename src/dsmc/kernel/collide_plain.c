@@ -30,6 +30,7 @@ static void call_back(gg_dsmc_pass *p, const grain_pair *q, gg_vec k, gg_vec c12
                            .c = {q->ca, q->cb},
                            .height = {NAN, NAN},
                            .J = J,
+                           .time = p->time,
                            .since = {p->time - *one, p->time - *two}};
   p->callback->call(p->callback->context, &m);
   *one = *two = p->time;
