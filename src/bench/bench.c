@@ -94,7 +94,9 @@ gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options 
   if (options->picture && subjects[i].run != gg_bench_error)
     return gg_fail(err, GG_BAD_INPUT, "bench: --picture is for bench error, which has one");
   GG_TRY(take_seed(b, err));
-  return subjects[i].run(b, err);
+  const gg_status status = subjects[i].run(b, err);
+  b->measured |= status == GG_OK;
+  return status;
 }
 
 void gg_bench_clear(gg_bench *b)

@@ -21,6 +21,7 @@ enum { GG_BENCH_SHEETS = 8 };
 typedef struct gg_bench {
   const gg_bench_options *options;
   uint64_t seed;
+  bool measured; /* the sheets are whole, whatever became of the picture */
   int n_sheets;
   gg_bench_sheet *sheet[GG_BENCH_SHEETS];
 } gg_bench;

@@ -190,7 +190,7 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
   const int n = list_states(s, quick);
   bool png;
   if (b->options->picture)
-    GG_TRY(gg_plot_format(b->options->picture, NULL, &png, err)); /* before it has taken an hour */
+    GG_TRY(gg_plot_could(b->options->picture, NULL, &png, err)); /* before it has taken an hour */
   gg_bench_sheet *sheet[2];
   GG_TRY(new_sheets(b, sheet, err));
   for (int i = 0; i < n; i++) {
@@ -198,6 +198,7 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
     note(sheet[0], sheet[1], &s[i]);
     gg_bench_tell(b, "phi %g e %g %s done", s[i].phi, s[i].e, s[i].rough ? "rough" : "smooth");
   }
+  b->measured = true;
   return b->options->picture ? gg_error_chart_draw(s, n, b->options->picture, err) : GG_OK;
 }
 

@@ -61,7 +61,9 @@ int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
     asked.n_overrides = o.n_overrides, asked.override = o.override;
     gg_bench b;
     gg_error err;
-    code = gg_bench_run(&b, o.input, &asked, &err) == GG_OK ? print(&b, o.json) : gg_cli_report(&err);
+    const gg_status status = gg_bench_run(&b, o.input, &asked, &err);
+    code = b.measured ? print(&b, o.json) : GG_OK;
+    if (status != GG_OK) code = gg_cli_report(&err);
     gg_bench_clear(&b);
   }
   gg_options_clear(&o);

@@ -5,6 +5,7 @@
 
 #include "common/memory.h"
 #include "io/atomic_file.h"
+#include "io/plot/plot.h"
 #include "reproduce/figures.h"
 #include "sweep/folder.h"
 
@@ -48,6 +49,7 @@ static gg_status write_one(const outputs *o, const gg_figure *f, const gg_figure
 /* Could all of them be written? Asked before the run, and then they are. */
 static gg_status each_file(const outputs *o, const gg_figure *f, const gg_figure_points *points, gg_error *err)
 {
+  if (!points) GG_TRY(gg_gnuplot_is_there(err));
   for (int file = 0; file < FILES; file++) {
     if (!is_wanted(f, file)) continue;
     char *path = path_of(o, file);

@@ -1,12 +1,16 @@
 """What stands where an output is to go is written to, replaced by a whole file, or refused before the run."""
 import os
+import re
+import shlex
 import shutil
 import signal
 import stat
+import struct
 import subprocess
 import sys
 import threading
 import time
+import zlib
 
 from tap import GRAINGAS, Skip, check, main, run
 
@@ -276,6 +280,80 @@ def test_results_called_like_pictures():
         for output in "q.pdf", "o.svg", "o.png", "o.PNG":
             untouched(f"{output}: is called like a picture, and a result is HDF5", 2, command, "long.yaml", "--output",
                       output, *(("--picture", "none") if command == "compare" else ()))
+
+
+def test_names_that_are_commands():
+    """Of gnuplot or the shell: they are names."""
+    scenes()
+    written("--output", "r.h5")
+    for name in ("it's", "|touch harm #", "p\nsystem 'touch harm'\n", "`touch harm`", "phi_0.1"):
+        os.link("r.h5", name + ".h5")
+        done = run("plot", name + ".h5")
+        check(done.code == 0 and sorted(done.new) == [name + ".svg", name + "_snapshot.svg"], name, done.new, done.err)
+    os.symlink("other's.svg", "link.svg")
+    done = run("plot", "r.h5", "--output", "link.svg")
+    check(done.code == 0 and os.path.exists("other's.svg"), done.err)
+    check("phi_0.2.svg" in run("compare", "scene.yaml", "--quiet", "--output", "phi_0.2").new)
+
+
+def sealed(body):
+    return body + b"gg-crc32" + struct.pack("<QI", len(body), zlib.crc32(body))
+
+
+def test_texts_that_are_commands():
+    """A result may come from anybody: what it says is drawn, and not done by gnuplot."""
+    scenes()
+    written("--output", "r.h5", "--set", "measure=[rheology, velocity_distributions]", command="compare")
+    whole = open("r.h5", "rb").read()
+    body = whole[:whole.rindex(b"gg-crc32")]
+    check(sealed(body) == whole)
+    theory = body.replace(b'"gaussian_closure"', b'"`touch harm_abc`"')
+    panel = re.sub(rb'"panel": "([^"]{20,})"', lambda m: b'"panel": "' + b"'\\n!touch harm\\n#".ljust(len(m[1])) + b'"', body)
+    for i, hostile in enumerate((theory, panel)):
+        check(hostile != body and len(hostile) == len(body), i)
+        with open("h.h5", "wb") as f:
+            f.write(sealed(hostile))
+        done = run("plot", "h.h5")
+        check(done.code == 0 and not [f for f in os.listdir(".") if f.startswith("harm")], i, done.code, done.err)
+
+
+def test_start_of_gnuplot_is_ours():
+    """What users have gnuplot do when it starts changes no picture; nor does a parent that waits for nobody."""
+    scenes()
+    written("--output", "r.h5")
+    with open(".gnuplot", "w") as f:
+        f.write("set datafile separator ','\nset logscale y\n")
+    check(run("plot", "r.h5", "--output", "a.svg").code == 0)
+    done = subprocess.run([GRAINGAS, "plot", "r.h5", "--output", "b.svg", "--quiet"], env=dict(os.environ, HOME=os.getcwd()),
+                          preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+    check(done.returncode == 0 and open("a.svg").read() == open("b.svg").read())
+
+
+def test_closed_streams():
+    """Their numbers go to no file of ours."""
+    scenes()
+    for streams, code in (("<&- 2>&-", 0), ("<&-", 0), ("2>&-", 0), (">&- 2>&-", 3)):
+        done = subprocess.run(["sh", "-c", f'"$0" run scene.yaml --output r.h5 {streams}', GRAINGAS], capture_output=True)
+        check(done.returncode == code, streams, done.returncode)
+        readable("r.h5")
+        os.remove("r.h5")
+
+
+def test_how_to_go_on():
+    """What is said after an interruption can be typed."""
+    scenes()
+    os.rename("long.yaml", "my long.yaml")
+    keeps = ["--set", "output.checkpoint_every=0.02"]
+    for words, expected in ((["my long.yaml", *keeps, "--output", "my.h5"], ["my.checkpoint.h5"]),
+                            ([*keeps, "--output", "x.h5", "--", "my long.yaml"], ["x.checkpoint.h5", "--", "my long.yaml"])):
+        child = subprocess.Popen([GRAINGAS, "run", "--quiet", *words], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
+        wait_for(words[words.index("--output") + 1].replace(".h5", ".checkpoint.h5"))
+        child.send_signal(signal.SIGINT)
+        said = child.communicate(timeout=60)[1].decode()
+        again = shlex.split(said.split("go on with: ")[1].splitlines()[0])
+        before = ["graingas", "run", "--quiet", *words]
+        there = before.index("--") if "--" in before else len(before)
+        check(again == before[:there] + ["--resume", expected[0]] + before[there:], said)
 
 
 def test_picture_that_fails():

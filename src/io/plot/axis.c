@@ -22,7 +22,7 @@ gg_axis gg_axis_around(gg_extent e, bool log)
     return (gg_axis){true, fmax(e.least / room, DBL_MIN), fmin(e.most * room, DBL_MAX)};
   }
   double size = fmax(fabs(e.least), fabs(e.most)), room = fmax(0.05 * (e.most - e.least), 1e-3 * size);
-  if (room == 0) room = 1;
+  if (room < 1e-290) room = 1; /* beside numbers that small there are none to make tics of */
   gg_axis a = {false, e.least - room, e.most + room};
   if (e.least > 0 && e.least < 0.3 * e.most) a.from = fmin(0, a.from);
   if (e.most < 0 && e.most > 0.3 * e.least) a.to = fmax(0, a.to);
@@ -96,6 +96,7 @@ static void linear(tics *t, gg_axis a)
 {
   double step = round_step(a.to - a.from);
   double first = ceil(a.from / step - 1e-6), last = floor(a.to / step + 1e-6);
+  if (!(step > 0 && last - first < 10 * TICS)) return;
   for (double k = first; k <= last; k++) put(t, k * step, step, false);
 }
 

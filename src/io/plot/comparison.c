@@ -1,5 +1,6 @@
 /* md, dsmc and the theories side by side. Quantities with a scale are shown as ratios to md (to dsmc where md did not
  * run), so that all fit on one axis; those around zero as they are. */
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -144,8 +145,8 @@ static void label_outliers(FILE *s, const method *m, const method *reference, co
   }
 }
 
-/* "word\nsymbol"; a name of one's own stands as it is: no subscripts in it. Of many entries (species have one each) the
- * symbols alone: words would run into each other. */
+/* "word\nsymbol", in double quotes; a name of one's own stands as it is: no subscripts in it, and nothing that gnuplot
+ * would do. Of many entries (species have one each) the symbols alone: words would run into each other. */
 static void print_label(FILE *s, const entry *e, bool wordy)
 {
   if (*e->word && (wordy || !*e->symbol)) fprintf(s, "%s\\n", e->word);
@@ -154,7 +155,7 @@ static void print_label(FILE *s, const entry *e, bool wordy)
     if (*c == '_')
       fputs("\\\\_", s);
     else
-      fputc(*c, s);
+      fputc(isalnum((unsigned char)*c) || strchr(" .-+/()", *c) || (*c & 0x80) ? *c : '?', s);
 }
 
 static void print_categories(FILE *s, const entry *selected, int n)
@@ -185,7 +186,10 @@ static void plot_methods(FILE *s, const method *methods, int n, bool legend)
              engine ? shapes[colour] : shapes[theories++ % N_SHAPES], engine ? 0.6 : 0.9, gg_plot_colours[colour]);
     fprintf(s, "%s$method%d using 1:2%s %s notitle", k ? ", " : "", k, engine ? ":3 with yerrorbars" : " with points",
             style);
-    if (legend) fprintf(s, ", keyentry with points %s title \"%s\"", style, methods[k].name);
+    if (!legend) continue;
+    fprintf(s, ", keyentry with points %s title '", style);
+    gg_plot_text(s, methods[k].name);
+    fputc('\'', s);
   }
   fprintf(s, "\n");
 }

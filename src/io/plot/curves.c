@@ -209,6 +209,13 @@ static bool print_reference(FILE *s, const panel *p, int k)
   return true;
 }
 
+static void print_curve_title(FILE *s, const char *title)
+{
+  fprintf(s, " title '");
+  gg_plot_text(s, title);
+  fputc('\'', s);
+}
+
 /* Over the curves, dashed; in their own colours where there are several laws. */
 static void draw_references(FILE *s, const panel *p, const bool *there)
 {
@@ -218,7 +225,10 @@ static void draw_references(FILE *s, const panel *p, const bool *there)
     if (!there[k]) continue;
     fprintf(s, ", $law%d using 1:2 with lines lw 1.2 dt (6,4) lc rgb '%s' ", k,
             n > 1 ? gg_plot_colours[k % GG_PLOT_COLOURS] : "#444444");
-    fprintf(s, named++ ? "notitle" : "title '%s'", text_of(json_object_get(p->curve[k], "reference"), "label"));
+    if (named++)
+      fprintf(s, "notitle");
+    else
+      print_curve_title(s, text_of(json_object_get(p->curve[k], "reference"), "label"));
   }
 }
 
@@ -235,10 +245,12 @@ static void axis_label(FILE *s, char axis, const char *name, const char *raw)
 {
   char unit[96];
   gg_plot_unit(raw, unit, sizeof unit);
+  fprintf(s, "set %clabel '", axis);
+  gg_plot_text(s, name);
   if (strcmp(raw, "1") == 0 || !*raw)
-    fprintf(s, "set %clabel '%s'\n", axis, name);
+    fprintf(s, "'\n");
   else
-    fprintf(s, "set %clabel '%s [%s]'\n", axis, name, unit);
+    fprintf(s, " [%s]'\n", unit);
 }
 
 /* Nothing but a frame: gnuplot makes no axes of no points. */
@@ -251,7 +263,8 @@ static void draw_nothing(FILE *s)
 /* A panel that leaves curves out says so: those of many species are too many to be told apart. */
 static void print_title(FILE *s, const panel *p, int above)
 {
-  fprintf(s, "set label '%s", p->title);
+  fprintf(s, "set label '");
+  gg_plot_text(s, p->title);
   if (p->more) fprintf(s, ": the first %d of %d curves", p->n, p->n + p->more);
   if (p->theory_name) {
     fprintf(s, "; lines: ");
@@ -273,7 +286,7 @@ static void draw_curve(FILE *s, const panel *p, int k)
             "$curve%d using 1:3:4 with filledcurves notitle fc rgb '%s' fs transparent solid 0.25 noborder, "
             "$curve%d using 1:2 with lines lw 1.3 lc rgb '%s'",
             k, colour, k, colour);
-  fprintf(s, " title '%s'", *label ? label : "measured");
+  print_curve_title(s, *label ? label : "measured");
 }
 
 static bool is_empty(const panel *p)

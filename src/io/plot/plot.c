@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/memory.h"
+#include "io/atomic_file.h"
 #include "io/c_locale.h"
 
 gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_error *err)
@@ -20,6 +21,13 @@ gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_
     return gg_fail(err, GG_BAD_INPUT, "%s: is to be %s, and its name says %s", picture, format, ending);
   *png = strcmp(ending ? ending : format, "png") == 0;
   return GG_OK;
+}
+
+gg_status gg_plot_could(const char *picture, const char *format, bool *png, gg_error *err)
+{
+  GG_TRY(gg_plot_format(picture, format, png, err));
+  GG_TRY(gg_check_writable(picture, GG_PICTURES_ARE, err));
+  return gg_gnuplot_is_there(err);
 }
 
 static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_engine *e, bool png)

@@ -12,6 +12,10 @@
  * not the same. */
 gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_error *err);
 
+/* And could it be drawn there? Asked before long runs: GG_BAD_FILE if it could not be written, GG_FAILED without
+ * gnuplot. */
+gg_status gg_plot_could(const char *picture, const char *format, bool *png, gg_error *err);
+
 /* Draw a result to a picture, whole or not at all. format: "svg", "png", or NULL: by the picture's name. */
 gg_status gg_plot_result(const gg_stored_result *stored, const char *picture, const char *format, gg_error *err);
 
@@ -46,6 +50,8 @@ void gg_plot_start_page(FILE *script, const gg_stored_result *stored, bool png, 
 void gg_plot_text(FILE *script, const char *text);
 void gg_plot_plain_text(FILE *script, const char *text);
 
+/* Is there a gnuplot? */
+gg_status gg_gnuplot_is_there(gg_error *err);
 /* Run a gnuplot script, and put what it drew in place; `over` (may be NULL) is SVG that is put over an SVG page. */
 gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err);
 

@@ -18,6 +18,12 @@ void gg_plot_place(FILE *s, gg_panel p)
           p.left, p.right, p.bottom, p.top);
 }
 
+/* A line's end would end the text, and what comes next be a command. */
+static bool is_harmless(char c)
+{
+  return (unsigned char)c >= ' ';
+}
+
 void gg_plot_unit(const char *unit, char *text, size_t size)
 {
   size_t used = 0;
@@ -29,7 +35,8 @@ void gg_plot_unit(const char *unit, char *text, size_t size)
       used += (size_t)snprintf(text + used, size - used, "ρ");
       unit += 3;
     } else {
-      text[used++] = *unit++;
+      text[used++] = is_harmless(*unit) && *unit != '\'' ? *unit : ' ';
+      unit++;
     }
   }
   text[used] = '\0';
@@ -70,19 +77,24 @@ void gg_plot_start_page(FILE *s, const gg_stored_result *stored, bool png, int w
   gg_plot_open_page(s, title, png, width, height);
 }
 
+/* Within single quotes; gnuplot does not read a doubled one at a text's beginning. */
+static void put(FILE *s, char c)
+{
+  if (c == '\'')
+    fputs("’", s);
+  else
+    fputc(is_harmless(c) ? c : ' ', s);
+}
+
 void gg_plot_text(FILE *s, const char *text)
 {
-  for (const char *c = text; *c; c++) {
-    if (*c == '\'') fputc('\'', s);
-    fputc(*c == '\n' ? ' ' : *c, s);
-  }
+  for (const char *c = text; *c; c++) put(s, *c);
 }
 
 void gg_plot_plain_text(FILE *s, const char *text)
 {
   for (const char *c = text; *c; c++) {
     if (strchr("_^{}@&~\\", *c)) fputc('\\', s);
-    if (*c == '\'') fputc('\'', s);
-    fputc(*c == '\n' ? ' ' : *c, s);
+    put(s, *c);
   }
 }
