@@ -1,4 +1,5 @@
 /* graingas: dispatch to the subcommands. */
+#include <fcntl.h>
 #include <hdf5.h>
 #include <poll.h>
 #include <signal.h>
@@ -115,8 +116,17 @@ static bool has_memory(void)
   return got;
 }
 
+/* A file that is opened while a standard stream is closed takes its number, and what is said there would go into it.
+ * The wrong way round: whoever reads or writes there is told that it cannot be. */
+static void keep_standard_streams(void)
+{
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+    if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
+}
+
 int main(int argc, char **argv)
 {
+  keep_standard_streams();
   signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of the write, not the end of the program */
   signal(SIGPIPE, SIG_IGN);
   if (!has_memory()) return gg_cli_fail(GG_FAILED, "out of memory");

@@ -1,6 +1,7 @@
 #include "cli/options.h"
 #include "cli/processes.h"
 
+#include <ctype.h>
 #include <getopt.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -26,7 +27,7 @@ const gg_option gg_options_table[] = {
     {GG_OPT_SWEEP, "list", NULL, "list the points, what is there of them, and the time they will take; do nothing"},
     {GG_OPT_SWEEP, "point", "K", "do the K-th point of the list alone"},
     {GG_OPT_SWEEP, "collect", NULL,
-     "write what all points came to: NAME.csv, NAME.h5 and the picture NAME.svg; do nothing"},
+     "write what all points came to: FOLDER.csv, FOLDER.h5 and the picture FOLDER.svg; do nothing"},
     {GG_OPT_SWEEP, "over", "KEY",
      "with --collect: the key along the picture's axis (default: the one with most values)"},
     {GG_OPT_SWEEP, "show", "QUANTITIES",
@@ -70,6 +71,7 @@ static void list_takers(unsigned flags, char *text, size_t size)
     if (c->options & flags) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", c->name);
 }
 
+/* "-json" is no option, whatever its letters are. */
 static int refuse_option(const gg_command *c, const char *typed)
 {
   char word[48];
@@ -79,7 +81,7 @@ static int refuse_option(const gg_command *c, const char *typed)
   snprintf(word, sizeof word, "%.*s", (int)strcspn(typed, "="), typed);
   const char *name = word + strspn(word, "-");
   for (const gg_option *o = gg_options_table; o->flag; o++) {
-    bool same = strcmp(o->name, name) == 0;
+    bool same = word[1] == '-' && strcmp(o->name, name) == 0;
     if (same) others |= o->flag;
     if (!(c->options & o->flag)) continue;
     if (same)
@@ -95,34 +97,6 @@ static int refuse_option(const gg_command *c, const char *typed)
   const char *nearest = gg_nearest_word(name, known);
   if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; did you mean '--%s'?", word, nearest);
   return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; see graingas %s --help", word, c->name);
-}
-
-/* An argument as a shell reads it back. */
-static void put_quoted(FILE *out, const char *text)
-{
-  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%";
-  if (*text && text[strspn(text, plain)] == '\0') {
-    fputs(text, out);
-    return;
-  }
-  fputc('\'', out);
-  for (; *text; text++) fputs(*text == '\'' ? "'\\''" : (char[]){*text, '\0'}, out);
-  fputc('\'', out);
-}
-
-/* The command line as it can be typed again. */
-static char *join(int argc, char **argv)
-{
-  char *text = NULL;
-  size_t size;
-  FILE *out = open_memstream(&text, &size);
-  if (!out) return NULL;
-  fputs("graingas", out);
-  for (int i = 0; i < argc; i++) {
-    fputc(' ', out);
-    put_quoted(out, argv[i]);
-  }
-  return fclose(out) == 0 ? text : NULL;
 }
 
 /* "--seed 7" is "--set run.seed=7", "--engine md" is "--set engine=md". */
@@ -211,30 +185,59 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   return GG_CLI_GO_ON;
 }
 
-int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
+static void list_known(const gg_command *c, struct option *known)
 {
-  struct option known[sizeof gg_options_table / sizeof *gg_options_table + 1] = {{0}};
   int n = 0;
   for (const gg_option *t = gg_options_table; t->flag; t++)
     if (c->options & t->flag)
       known[n++] = (struct option){t->name, t->argument ? required_argument : no_argument, NULL,
                                    256 + (int)(t - gg_options_table)};
-  known[n++] = (struct option){"help", no_argument, NULL, 'h'};
-  *o = (gg_options){.threads = gg_cli_default_threads(), .command_line = join(argc, argv)};
+  known[n] = (struct option){"help", no_argument, NULL, 'h'};
+}
+
+/* The one argument. */
+static int take_input(const gg_command *c, gg_options *o, const char *word)
+{
+  if (o->input) return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, word);
+  o->input = word;
+  return GG_CLI_GO_ON;
+}
+
+/* Words in the order in which they were typed, also where POSIXLY_CORRECT would have options first: "-". */
+static int take_words(const gg_command *c, const struct option *known, gg_options *o)
+{
+  const char *value = NULL;
+  int code = GG_CLI_GO_ON, argc = o->typed.n;
+  char **argv = o->typed.word;
   opterr = 0, optind = 0;
-  for (int got; (got = getopt_long(argc, argv, "h", known, NULL)) != -1;) {
+  for (int got, at = 1; code == GG_CLI_GO_ON && (got = getopt_long(argc, argv, "-h", known, NULL)) != -1; at = optind) {
     if (got == 'h') return gg_print_command_help(c), GG_OK;
-    if (got < 256) return refuse_option(c, argv[optind - 1]);
-    const gg_option *t = &gg_options_table[got - 256];
-    int code = take(o, t->flag, t->name, optarg);
-    if (code != GG_CLI_GO_ON) return code;
+    if (got != 1 && got < 256) return refuse_option(c, argv[at]);
+    value = optarg;
+    if (got == 1) {
+      code = take_input(c, o, optarg);
+    } else {
+      const gg_option *t = &gg_options_table[got - 256];
+      code = take(o, t->flag, t->name, optarg);
+      if (o->slurm && o->slurm_at == 0) o->slurm_at = at;
+    }
   }
-  if (optind == argc && c->arguments[0] == '[') return GG_CLI_GO_ON;
-  if (optind == argc)
+  if (code == GG_CLI_GO_ON && strcmp(argv[optind - 1], "--") == 0 && argv[optind - 1] != value)
+    o->typed.options_end = optind - 1;
+  for (; optind < argc && code == GG_CLI_GO_ON; optind++) code = take_input(c, o, argv[optind]);
+  return code;
+}
+
+int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
+{
+  struct option known[sizeof gg_options_table / sizeof *gg_options_table + 1] = {{0}};
+  *o = (gg_options){.threads = gg_cli_default_threads(), .typed = {argc, argv, argc}};
+  o->command_line = gg_typed_again(&o->typed, -1, "");
+  list_known(c, known);
+  int code = take_words(c, known, o);
+  if (code != GG_CLI_GO_ON || (!o->input && c->arguments[0] == '[')) return code;
+  if (!o->input)
     return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
-  if (optind + 1 < argc)
-    return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, argv[optind + 1]);
-  o->input = argv[optind];
   if (strcmp(o->input, "help") == 0 && !gg_file_exists(o->input)) return gg_print_command_help(c), GG_OK;
   return GG_CLI_GO_ON;
 }
@@ -292,12 +295,19 @@ const char *gg_options_name(const gg_options *o)
   return is_standard_input(o) ? "standard input" : o->input;
 }
 
+/* ".h5" is an ending, the ".1" of "phi_0.1" none. */
 char *gg_with_suffix(const char *path, const char *suffix)
 {
-  const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
-  size_t length = dot && (!slash || dot > slash + 1) && dot != path ? (size_t)(dot - path) : strlen(path);
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+  bool ends = dot && dot > name && isalpha((unsigned char)dot[1]);
   char *result = NULL;
-  return asprintf(&result, "%.*s%s", (int)length, path, suffix) < 0 ? NULL : result;
+  return asprintf(&result, "%.*s%s", (int)(ends ? dot - path : (long)strlen(path)), path, suffix) < 0 ? NULL : result;
+}
+
+char *gg_options_beside(const gg_options *o, const char *suffix)
+{
+  const char *slash = strrchr(o->input, '/');
+  return gg_with_suffix(is_standard_input(o) ? "stdin" : slash ? slash + 1 : o->input, suffix);
 }
 
 static bool same_file(const char *a, const char *b)
@@ -308,8 +318,7 @@ static bool same_file(const char *a, const char *b)
 
 char *gg_options_output(const gg_options *o, const char *suffix, gg_error *err)
 {
-  const char *slash = strrchr(o->input, '/'), *base = is_standard_input(o) ? "stdin" : slash ? slash + 1 : o->input;
-  char *output = o->output ? strdup(o->output) : gg_with_suffix(base, suffix);
+  char *output = o->output ? strdup(o->output) : gg_options_beside(o, suffix);
   if (!output) refuse(err, GG_FAILED, "out of memory");
   if (!output || !same_file(output, o->input)) return output;
   refuse(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);

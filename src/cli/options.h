@@ -3,6 +3,7 @@
 #define GG_CLI_OPTIONS_H
 
 #include "cli/cli.h"
+#include "cli/typed.h"
 
 enum {
   GG_OPT_SET = 1u << 0,
@@ -48,6 +49,8 @@ typedef struct gg_options {
   int n_vary;
   const char *vary[GG_MAX_OVERRIDES]; /* "key=values" */
   char *command_line;                 /* for the record */
+  gg_typed typed;
+  int slurm_at; /* the word that said so */
 } gg_options;
 
 enum { GG_CLI_GO_ON = -1 };
@@ -69,12 +72,14 @@ gg_status gg_options_set(const char *option, const char *typed, const char *exam
 /* --output, or the input's base name with `suffix` in the current folder; to be freed. NULL with the message when that
  * is the input itself. */
 char *gg_options_output(const gg_options *options, const char *suffix, gg_error *err);
+/* The input's base name with that ending, in the current folder; to be freed. */
+char *gg_options_beside(const gg_options *options, const char *suffix);
 /* "results: usf.h5", and whether an older one was there. */
 void gg_tell_written(const gg_options *options, const char *what, const char *path, bool replaced);
 bool gg_file_exists(const char *path);
 /* A device or a pipe: what is written there stands nowhere, and nothing beside it. */
 bool gg_is_device(const char *path);
-/* `path` with another ending; to be freed. */
+/* `path` with another ending, or with one where it had none; to be freed. */
 char *gg_with_suffix(const char *path, const char *suffix);
 
 void gg_print_command_help(const gg_command *command);

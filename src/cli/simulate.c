@@ -12,8 +12,7 @@ static char *checkpoint_path(const gg_options *o, const char *output)
 {
   char *path = NULL;
   if (gg_is_device(output)) {
-    const char *slash = strrchr(o->input, '/');
-    return gg_with_suffix(slash ? slash + 1 : o->input, ".checkpoint.h5");
+    return gg_options_beside(o, ".checkpoint.h5");
   }
   size_t length = strlen(output);
   if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
@@ -105,18 +104,27 @@ int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simula
   return code;
 }
 
-/* How to go on. */
+/* How to go on: with a command that can be typed as it stands, if there is room for it. */
+static void tell_stored(const gg_simulating *s, gg_error *err)
+{
+  const size_t size = sizeof err->message;
+  char *file = gg_quoted(s->checkpoint), *resume = NULL, *again = NULL;
+  if (file && asprintf(&resume, " --resume %s", file) < 0) resume = NULL;
+  if (resume && !s->options->resume) again = gg_typed_again(&s->options->typed, -1, resume);
+  if (!again || snprintf(err->message, size, "interrupted; go on with: %s", again) >= (int)size)
+    snprintf(err->message, size, "interrupted; go on with the same command and%s", resume ? resume : " --resume");
+  free(file);
+  free(resume);
+  free(again);
+}
+
 static void tell_interrupted(const gg_simulating *s, gg_error *err)
 {
   const char *hint = s->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)";
-  char *to = err->message;
-  size_t size = sizeof err->message;
-  if (!s->stored)
-    snprintf(to, size, "interrupted; nothing was stored%s", hint);
-  else if (s->options->resume)
-    snprintf(to, size, "interrupted; go on with the same command and --resume %s", s->checkpoint);
+  if (s->stored)
+    tell_stored(s, err);
   else
-    snprintf(to, size, "interrupted; go on with: %.700s --resume %s", s->options->command_line, s->checkpoint);
+    snprintf(err->message, sizeof err->message, "interrupted; nothing was stored%s", hint);
 }
 
 /* Was anything averaged? */

@@ -1,7 +1,7 @@
 /* graingas sweep --slurm: an array script in which every task does points of its own. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "cli/sweep.h"
 
@@ -23,34 +23,25 @@ static long hours(const gg_sweep_command *c, size_t tasks)
   return (long)ceil(4 * longest / 3600 + 1e-9);
 }
 
-/* The command as it was typed, without --slurm. */
-static void print_command(const char *typed)
-{
-  static const char word[] = " --slurm";
-  const char *at = typed;
-  for (const char *found; (found = strstr(at, word)); at = found + strlen(word)) {
-    bool whole = found[strlen(word)] == ' ' || !found[strlen(word)];
-    printf("%.*s", (int)(found - at + (whole ? 0 : (long)strlen(word))), at);
-  }
-  printf("%s", at);
-}
-
 int gg_sweep_print_slurm(const gg_sweep_command *c)
 {
   size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
   long h = hours(c, tasks);
+  char *command = gg_typed_again(&c->options->typed, c->options->slurm_at,
+                                 " --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet");
+  if (!command) return gg_cli_fail(GG_FAILED, "out of memory");
   printf("#!/bin/bash\n"
-         "# %zu points of %s; points that are done already cost a task a moment.\n"
+         "# %zu points; those that are done already cost a task a moment.\n"
          "#SBATCH --job-name=graingas-sweep\n"
          "#SBATCH --array=1-%zu\n"
          "#SBATCH --cpus-per-task=1\n"
          "#SBATCH --time=%ld:00:00\n"
          "status=0\n"
-         "for ((point = ${SLURM_ARRAY_TASK_ID:-1}; point <= %zu; point += %zu)); do\n  ",
-         n, gg_options_name(c->options), tasks, h > 0 ? h : 1, n, tasks);
-  print_command(c->options->command_line);
-  printf(" --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet || status=$?\n"
+         "for ((point = ${SLURM_ARRAY_TASK_ID:-1}; point <= %zu; point += %zu)); do\n"
+         "  %s || status=$?\n"
          "done\n"
-         "exit \"$status\"\n");
+         "exit \"$status\"\n",
+         n, tasks, h > 0 ? h : 1, n, tasks, command);
+  free(command);
   return GG_OK;
 }

@@ -1,6 +1,7 @@
 """The command line itself: which command takes which option, the ways to ask for help, where a scene comes from, how
 numbers may be written, and lines no wider than the terminal."""
 import json
+import os
 import re
 import sys
 
@@ -24,6 +25,18 @@ def test_options_of_commands():
         for name in set(TAKEN) - has:
             done = run(command, "x", f"--{name}")
             check(done.code == 2 and f"{command} has no option '--{name}', which is for" in done.err, done.err)
+
+
+def test_order():
+    """Options may stand anywhere, whatever POSIX asks for; after -- there are none."""
+    os.environ["POSIXLY_CORRECT"] = "1"
+    for args in ("scene.yaml", "--json"), ("--json", "scene.yaml"), ("--json", "--", "scene.yaml"):
+        done = run("info", *args, scene=SCENE)
+        check(done.code == 0 and json.loads(done.out), args, done.err)
+    for args in ("scene.yaml", "--", "--json"), ("scene.yaml", "more.yaml"):
+        done = run("info", *args)
+        check(done.code == 2 and "one too many" in done.err, args, done.err)
+    del os.environ["POSIXLY_CORRECT"]
 
 
 def test_quiet():
@@ -52,6 +65,9 @@ def test_ways_to_ask():
                         (("run", "--out-put", "x"), "did you mean '--output'?"),
                         (("run", "--verbose"), "see graingas run --help"),
                         (("run", "--quick", "x"), "run has no option '--quick', which is for reproduce, bench"),
+                        (("run", "scene.yaml", "-json"), "unknown option '-json'; did you mean '--json'?"),
+                        (("run", "-seed", "7", "scene.yaml"), "unknown option '-seed'; did you mean '--seed'?"),
+                        (("run", "--output=x.h5", "-v", "scene.yaml"), "unknown option '-v'"),
                         (("info", "--json"), "needs a FILE")):
         done = run(*args)
         check(done.code == 2 and words in done.err and not done.out, args, done.err)
