@@ -1,6 +1,7 @@
 /* graingas sweep: a run, a comparison or the theories at every point of a grid of scenes. */
 #include "cli/sweep.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,14 +98,21 @@ static void tell_file(void *context, const char *file)
   if (!o->quiet && !o->json) printf("%s\n", file);
 }
 
+/* Beside the folder, and by its name: a run of the same scene has files that are named by the scene. */
+static char *tables_of(const char *folder)
+{
+  const char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder;
+  return strcmp(name, ".") == 0 || strcmp(name, "..") == 0 ? realpath(folder, NULL) : strdup(folder);
+}
+
 static int collect(gg_sweep_command *c)
 {
   gg_error err;
   const gg_options *o = c->options;
   const gg_collecting options = {
       .command = o->command_line, .picture = o->picture, .over = o->over, .show = o->show, .warn = warn};
-  char *prefix = gg_with_suffix(c->folder, "");
-  if (!prefix) return gg_cli_fail(GG_FAILED, "out of memory");
+  char *prefix = tables_of(c->folder);
+  if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
   gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, tell_file, c, &err);
   free(prefix);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);

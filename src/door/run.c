@@ -120,7 +120,8 @@ gg_status gg_door_run_close(gg_door_run *r, gg_door_point *point, bool some, gg_
 {
   if (point && point->publish && some && (status == GG_OK || status == GG_FAILED) && written == GG_OK)
     written = point->publish(point->context, status, err);
-  if (status == GG_OK && written == GG_OK) remove_checkpoints(r);
+  bool short_point = point && point->publish && some && status == GG_FAILED; /* it counts as done */
+  if ((status == GG_OK || short_point) && written == GG_OK) remove_checkpoints(r);
   bool refused = gg_door_run_resume(r) && !some && (status == GG_BAD_FILE || status == GG_BAD_INPUT) && r->ran;
   if (point) point->resume_lost = r->resume_lost || refused;
   return written;

@@ -222,8 +222,9 @@ gg_status gg_door_trajectory_finish(gg_door_run *r, gg_result *result, gg_error 
 
 void gg_door_trajectory_remove(const gg_door_run *r)
 {
-  char *path = gg_frame_log_path(r->options.checkpoint);
-  if (path) unlink(path);
+  char *path = gg_frame_log_path(r->options.checkpoint), *real = path ? gg_follow_links(path) : NULL;
+  if (real) unlink(real);
+  free(real);
   free(path);
 }
 

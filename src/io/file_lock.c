@@ -61,7 +61,10 @@ static int open_lock(const char *path, bool *foreign)
 {
   int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   *foreign = fd < 0 && errno == EACCES;
-  return *foreign ? open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW) : fd;
+  if (!*foreign) return fd;
+  fd = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (fd < 0 && errno == ENOENT) errno = EACCES; /* there is none, and none may be made */
+  return fd;
 }
 
 /* One try: GG_OK with l->fd still -1 means another one. */

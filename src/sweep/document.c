@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "common/engine.h"
 #include "io/whole_json.h"
@@ -37,12 +38,25 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
                    "replicas", (json_int_t)scene.run.replicas, "seed", (json_int_t)scene.run.seed);
 }
 
+/* A name of bytes that are no text loses them; that it is none is no lack of memory, and not noted as such. */
+static json_t *name_as_text(const char *name)
+{
+  json_t *text = (json_string)(name);
+  if (text) return text;
+  char *plain = strdup(name);
+  for (char *c = plain; c && *c; c++)
+    if (*c & 0x80) *c = '?';
+  text = plain ? json_string(plain) : gg_json_made(NULL);
+  free(plain);
+  return text;
+}
+
 json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
 {
   static const char *const words[] = {"run", "compare", "theory"};
   bool before = gg_memory_begin();
   json_t *points = json_array();
   for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
-  return gg_json_end(before, json_pack("{s:s, s:s, s:s, s:o}", "graingas", GG_VERSION, "does",
-                                       words[sweep->settings.does], "folder", folder, "points", points));
+  return gg_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", GG_VERSION, "does",
+                                       words[sweep->settings.does], "folder", name_as_text(folder), "points", points));
 }

@@ -101,7 +101,8 @@ static void remove_litter(const char *folder, uint64_t id, const char *name)
 {
   gg_file_lock lock;
   char *path = NULL, *result = gg_point_path(folder, id, ".h5");
-  if (result && is_there(folder, id, ".h5") && gg_file_lock_take(&lock, result, result, NULL) == GG_OK) {
+  if (result && gg_point_look(folder, id) != GG_POINT_MISSING &&
+      gg_file_lock_take(&lock, result, result, NULL) == GG_OK) {
     if (asprintf(&path, "%s/%s", folder, name) >= 0) unlink(path);
     free(path);
     gg_file_lock_release(&lock);

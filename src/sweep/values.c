@@ -53,14 +53,16 @@ static bool is_number(const char *text, size_t length, double *value)
   return !*end && isfinite(*value);
 }
 
-/* Steps are added up in decimal digits, as people write them: 0.1 + 2*0.1 is 0.3, the number of a list. */
+/* Steps are added up in decimal digits, as people write them: 0.1 + 2*0.1 is 0.3, the number of a list. Whole numbers
+ * are exact. */
 static gg_status add_steps(gg_values *v, double first, double step, size_t n, gg_error *err)
 {
+  const bool whole = first == floor(first) && step == floor(step);
   for (size_t i = 0; i < n; i++) {
     char text[40];
     double x = first + (double)i * step;
     if (fabs(x) < 1e-12 * fabs(step)) x = 0;
-    snprintf(text, sizeof text, "%.12g", x);
+    snprintf(text, sizeof text, "%.*g", whole ? 17 : 12, x);
     gg_format_number(strtod(text, NULL), text, sizeof text);
     GG_TRY(gg_values_add(v, text, err));
   }
@@ -86,6 +88,9 @@ static gg_status add_range(gg_values *v, const char *key, const char *text, bool
   if (!(steps >= 0))
     return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step does not lead from the first to the last", key,
                    text);
+  const bool whole = x[0] == floor(x[0]) && x[2] == floor(x[2]);
+  if (fabs(x[2]) < (whole ? 0x1p-53 : 1e-11) * fmax(fabs(x[0]), fabs(x[1])))
+    return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step is lost in the digits of the numbers", key, text);
   if (steps >= GG_MOST_POINTS)
     return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': these are %.0f values; a sweep has at most %d points", key,
                    text, floor(steps) + 1, GG_MOST_POINTS);

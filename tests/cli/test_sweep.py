@@ -36,7 +36,7 @@ def rows(name):
 def collected(folder):
     done = run("sweep", "s.yaml", "--collect", "--output", folder, "--picture", "none")
     check(done.code == 0, done.err)
-    return rows(os.path.splitext(folder)[0] + ".csv")
+    return rows(folder + ".csv")
 
 
 def test_list():
@@ -98,7 +98,7 @@ def test_foreign_files_and_words():
     check(run("sweep", "s.yaml", "--quiet").code in (0, 1))
     check("2 are done" in run("sweep", "s.yaml", "--list").out)
     done = run("sweep", "s.yaml", "--collect")
-    check(done.code == 0 and done.out.split() == ["s.csv", "s.h5"] and "numbers" in done.err, done.out, done.err)
+    check(done.code == 0 and done.out.split() == ["s.sweep.csv", "s.sweep.h5"] and "numbers" in done.err, done.out, done.err)
     check(run("sweep", "s.yaml", "--collect", "--over", "flow").code != 0)
 
 
@@ -107,8 +107,8 @@ def test_collect():
     done = run("sweep", "s.yaml", "--quiet")
     check(done.code == 0 and not done.out and not done.err and done.new == ["s.sweep"], done.out, done.err)
     done = run("sweep", "s.yaml", "--collect", "--over", "phi", "--show", "N1,temperature")
-    check(done.out.split() == ["s.csv", "s.h5", "s.svg"], done.out, done.err)
-    table = rows("s.csv")
+    check(done.out.split() == ["s.sweep.csv", "s.sweep.h5", "s.sweep.svg"], done.out, done.err)
+    table = rows("s.sweep.csv")
     check({r["method"] for r in table} >= {"md", "dsmc", "lun1991", "enskog_hermite"})
     check({(r["collision.e"], r["phi"]) for r in table} == {(e, p) for e in ("0.7", "0.8", "0.9")
                                                             for p in ("0.05", "0.1")})
@@ -119,8 +119,8 @@ def test_collect():
     check(float(one[0]["error"]) == read["md"]["results"]["temperature"]["stderr"], one[0])
     check(int(one[0]["seed"]) == read["scene"]["run"]["seed"] != 1, one[0])
     done = run("sweep", "s.yaml", "--collect", "--output", "s.sweep/", "--picture", "none")
-    check(done.out.split() == ["s.csv", "s.h5"], done.out, done.err)
-    done = run("info", "s.h5")
+    check(done.out.split() == ["s.sweep.csv", "s.sweep.h5"], done.out, done.err)
+    done = run("info", "s.sweep.h5")
     check(done.code == 3 and "table of a sweep" in done.err, done.code, done.err)
     done = run("sweep", "s.yaml", "--collect", "--json")
     check(done.code == 0 and len(json.loads(done.out)["points"]) == 6, done.out, done.err)
@@ -128,11 +128,11 @@ def test_collect():
         done = run("sweep", "s.yaml", "--collect", *args)
         check(done.code == 2 and words in done.err, done.err)
     of = {r["point"]: "s.sweep/" + r["file"] + ".h5" for r in table}
-    before = rows("s.csv")
+    before = rows("s.sweep.csv")
     shutil.copy(of["1"], of["6"])
     done = run("sweep", "s.yaml", "--collect")
     check(done.code == 3 and of["6"] + ": holds another point: phi is 0.05 there, and 0.1 at" in done.err, done.err)
-    check(not done.out and not done.new and rows("s.csv") == before, done.out)
+    check(not done.out and not done.new and rows("s.sweep.csv") == before, done.out)
 
 
 def kill_and_go_on(folder, threads, rng, extra=()):
@@ -222,6 +222,40 @@ def test_slurm():
         check(done.returncode == 0 and len(os.listdir("my runs")) == task - 1, done.stderr)
     done = subprocess.run(["bash", "array.sh"], capture_output=True, text=True, env=dict(os.environ, PATH=path))
     check(done.returncode == 0 and len(os.listdir("my runs")) == 4, done.stderr)
+
+
+def test_slurm_typed_otherwise():
+    """An abbreviated option, a line's end in the scene's name, options that end with --."""
+    write()
+    os.rename("s.yaml", "a\ntouch harm;#.yaml")
+    path = os.path.dirname(GRAINGAS) + ":" + os.environ["PATH"]
+    for i, words in enumerate((("a\ntouch harm;#.yaml", "--slu", "--output", "out0"),
+                               ("--output", "out1", "--slurm", "--", "a\ntouch harm;#.yaml"))):
+        script = run("sweep", *words)
+        check(script.code == 0, script.err)
+        done = subprocess.run(["bash", "-c", script.out], capture_output=True, text=True,
+                              env=dict(os.environ, PATH=path, SLURM_ARRAY_TASK_ID="2"))
+        check(done.returncode == 0 and len(os.listdir("out%d" % i)) == 1 and not os.path.exists("harm"), done.stderr)
+
+
+def test_whole_numbers():
+    """Seeds of thirteen digits are as many runs; steps that vanish are refused."""
+    write()
+    done = run("sweep", "s.yaml", "--vary", "run.seed=1000000000001:1000000000004:1", "--list", "--json")
+    check(len({p["keys"]["run.seed"] for p in json.loads(done.out)["points"]}) == 4, done.out)
+    done = run("sweep", "s.yaml", "--vary", "collision.e=0.5:0.500000000001:1e-13", "--list")
+    check(done.code == 2 and "lost in the digits" in done.err, done.err)
+    done = run("sweep", "s.yaml", "--list", "--json", "--output", b"\xff")
+    check(done.code == 0 and json.loads(done.out)["folder"] == "?", done.out, done.err)
+
+
+def test_short_points():
+    """A point that ended short keeps no checkpoint: removed, it is done again from its beginning."""
+    write()
+    args = ("sweep", "s.yaml", "--set", "run.collisions=1e9", "--set", "run.time_limit=0.3",
+            "--set", "output.checkpoint_every=0.05")
+    check(run(*args).code == 1)
+    check({f.split(".", 1)[1] for f in os.listdir("s.sweep")} == {"short.h5"}, os.listdir("s.sweep"))
 
 
 if __name__ == "__main__":
