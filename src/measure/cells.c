@@ -224,9 +224,13 @@ static void put_averages(gg_curve *c, const gg_model *m, const double *T, double
                                           {"rotational_temperature_box", "rotational_temperature_slabs",
                                            "rotational_temperature_slabs_corrected", "rotational_temperature_cells",
                                            "rotational_temperature_cells_corrected"}};
+  static const char *const ratios[2][2] = {
+      {"temperature_slabs_over_box", "temperature_cells_over_box"},
+      {"rotational_temperature_slabs_over_box", "rotational_temperature_cells_over_box"}};
   if (!gg_model_keeps_temperature(m)) return; /* no mean of what cools down or heats up */
   for (int k = 0; k < 5; k++)
     gg_curve_put_number(c, names[spins][k], T[k] / snapshots, gg_curve_unit(m, "temperature"));
+  for (int k = 0; k < 2; k++) gg_curve_put_number(c, ratios[spins][k], T[2 * k + 2] / T[0], "1");
 }
 
 /* Grains thrown anywhere fall into a cell binomially; parameters: N, share of a cell, solid fraction of one grain in

@@ -58,7 +58,6 @@ typedef struct gg_source {
   bool beside;        /* of GG_OF_CURVE: the law */
   gg_conditions relative_to;
   const char *relative_theory; /* or NULL */
-  const char *relative_number; /* of the same curve; or NULL */
   gg_expression as;
 } gg_source;
 

@@ -29,6 +29,7 @@ static gg_status points_of(gg_drawn_panel *p, const gg_figure_points *all, const
     if (of->number) {
       gg_told over = gg_figure_curve_number(point, engine, asked.name, of->number, (double[2]){0, 0});
       raw = over.mean, x_error = over.error;
+      if (of->x.as.n) x_error *= fabs(gg_expression_slope(&of->x.as, (gg_variables){.x = raw}, 'x'));
     }
     double x = gg_panel_x(of, raw);
     gg_told y = gg_figure_value(&asked, point, x);
@@ -37,8 +38,7 @@ static gg_status points_of(gg_drawn_panel *p, const gg_figure_points *all, const
     else
       name_text(&of->source, asked.name, name, sizeof name);
     gg_panel_group(of, point, of->number ? "" : name, group, sizeof group); /* one line over all its curves */
-    if (y.unit && !*p->y_unit && !of->source.as.n && !of->source.relative_to.n && !of->source.relative_theory &&
-        !of->source.relative_number)
+    if (y.unit && !*p->y_unit && !of->source.as.n && !of->source.relative_to.n && !of->source.relative_theory)
       snprintf(p->y_unit, sizeof p->y_unit, "%s", y.unit);
     if (!isfinite(y.mean) || !isfinite(x)) continue;
     gg_drawn *d = gg_panel_add(p, engines[engine], group, GG_CHART_POINTS);

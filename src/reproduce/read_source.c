@@ -23,16 +23,11 @@ static gg_status check_quantities(const gg_entry_reader *r, const yaml_node_t *m
   return GG_OK;
 }
 
-/* {theory: lun1991}, {number: temperature_box}, or scene keys. */
+/* {theory: lun1991}, or scene keys. */
 static gg_status read_relative(const gg_entry_reader *r, const yaml_node_t *map, gg_source *s)
 {
   const yaml_node_t *to = gg_entry_get(r, map, "relative_to");
   if (!to) return GG_OK;
-  if (gg_entry_get(r, to, "number")) {
-    GG_TRY(gg_entry_keys(r, to, "relative_to", "number"));
-    if (s->kind != GG_OF_NUMBER) return gg_entry_refuse(r, to, "number", "goes with a number of a curve");
-    return gg_entry_text(r, to, "number", &s->relative_number);
-  }
   if (!gg_entry_get(r, to, "theory")) return gg_entry_conditions(r, map, "relative_to", &s->relative_to);
   GG_TRY(gg_entry_keys(r, to, "relative_to", "theory"));
   GG_TRY(gg_entry_text(r, to, "theory", &s->relative_theory));

@@ -110,8 +110,6 @@ static const gg_figure_point *relative(const gg_figure_points *all, const gg_fig
 static gg_told reference_of(const gg_asked *a, const gg_figure_point *point)
 {
   const gg_source *s = a->source;
-  if (s->relative_number)
-    return gg_figure_curve_number(point, a->engine, a->name, s->relative_number, (double[2]){0, 0});
   if (s->relative_theory) return gg_figure_theory(point, s->relative_theory, a->name, a->key, a->at);
   const gg_figure_point *other = relative(a->points, point, &s->relative_to);
   gg_asked same = *a;
@@ -123,7 +121,7 @@ gg_told gg_figure_value(const gg_asked *a, const gg_figure_point *point, double 
 {
   static const gg_expression ratio = {3, {{'y', 0}, {'r', 0}, {'/', 0}}};
   const gg_source *s = a->source;
-  bool is_relative = s->relative_theory || s->relative_number || s->relative_to.n;
+  bool is_relative = s->relative_theory || s->relative_to.n;
   gg_told value = raw(a, point), reference = {0, 0, NULL};
   const gg_expression *as = s->as.n ? &s->as : is_relative ? &ratio : NULL;
   if (!as) return value;

@@ -100,6 +100,9 @@ static void engine(void **state)
   const gg_curve *T = ct_find(&r->curves, "cell_temperature");
   gg_curve_number p = ct_number(T, "temperature_cells_corrected"), box = ct_number(T, "temperature_box");
   ct_expect("temperature of cells", p.value, p.error, box.value * 1000 / 999, 0.02 * p.value);
+  gg_curve_number over = ct_number(T, "temperature_cells_over_box");
+  ct_expect("over that of the box", over.value, over.error, 1000.0 / 999, 0.004);
+  assert_true(fabs(over.value * box.value / p.value - 1) < 1e-12 && over.error < 0.6 * p.error / p.value);
   gg_result_free(r);
 }
 

@@ -129,7 +129,7 @@ static void parts_are_refused(void **state)
       {"panels: [{x: {key: phi}, y: {quantity: N1, frame: one}}]\n", "key 'frame': is a number"},
       {"panels: [{x: {key: phi}, y: {quantity: N1, beside: 1}}]\n", "key 'beside': is true or false"},
       {"panels: [{x: {key: phi}, y: {quantity: N1, relative_to: {theory: none}}}]\n", "there is no theory 'none'"},
-      {"panels: [{x: {key: phi}, y: {quantity: N1, relative_to: {number: n}}}]\n", "goes with a number of a curve"},
+      {"panels: [{x: {key: phi}, y: {quantity: N1, relative_to: {number: n}}}]\n", "number"},
       {"panels: [{x: {key: phi}, y: {quantity: N1, relative_to: {theory: lun1991, phi: 1}}}]\n", "'phi': unknown in"},
       {"panels: [{x: {key: phi}, y: {quantity: N1}, of: [a]}]\n", "there is no sweep 'a'"},
       {PANEL "numbers: 3\n", "key 'numbers': is a list"},

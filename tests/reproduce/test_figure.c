@@ -46,7 +46,7 @@ static const char yaml[] =
     "     lines: {by: collision.e}, where: {collision.e: [0.7, 0.9]}, guides: [{label: straight, as: x/0.1}]}\n"
     "  - {of: means, x: {key: collision.e}, y: {number: alpha, curve: velocity_distribution_Cx, tail: [0.4, 2.5]}}\n"
     "  - {of: means, x: {number: kurtosis}, y: {number: kurtosis, curve: [velocity_distribution_Cx,\n"
-    "     velocity_distribution_Cy], relative_to: {number: kurtosis}}}\n"
+    "     velocity_distribution_Cy], as: y/3}}\n"
     "  - {of: means, x: {bins: 2, from: -3, to: 3}, y: {curve: velocity_distribution_Cx, log: true, as: 2*y},\n"
     "     lines: {by: collision.e}, where: {phi: 0.1}}\n"
     "  - {of: frames, x: {from: 0, to: 60}, y: {series: [temperature, N1]}, guides: [{label: ln, as: ln(-x)}]}\n"
