@@ -11,7 +11,8 @@
 static const char seconds_caption[] =
     "Uniform shear: seconds of processor time, one core, warm-up included, until the true error (root of the mean "
     "square over seeds, against the truth of the next table) is 1, 0.1 and 0.01 %, with the way that is quickest; "
-    "never: its floors are above. Beyond the times that were run by noise falling as 1/sqrt(time). kurtosis_Cx: the "
+    "never: its floors are above; ?: they are not known so well. Beyond the times that were run by noise falling as "
+    "1/sqrt(time). kurtosis_Cx: the "
     "fourth moment. first: the engine that has it first at 1 %, and how many times sooner";
 static const char floors_caption[] =
     "The truth, its relative error and where it is from; what the number of grains shifts a mean by, relative, times "
@@ -32,16 +33,35 @@ static bool has(const gg_error_state *s, int q)
   return isfinite(s->unit[q]) && s->unit[q] > 0;
 }
 
+/* -1 where no way has it: *seconds is INFINITY where that is sure of all of them, else NaN. */
 static int quickest(const gg_error_state *s, gg_engine_kind engine, int q, double error, double *seconds)
 {
   int best = -1;
+  bool unsure = false;
   *seconds = INFINITY;
   for (int i = 0; i < GG_WAYS; i++) {
     if (!s->done[i] || gg_ways[i].engine != engine) continue;
     const double t = gg_seconds_to(s, i, q, error);
+    unsure |= isnan(t);
     if (t < *seconds) *seconds = t, best = i;
   }
+  if (best < 0 && unsure) *seconds = NAN;
   return best;
+}
+
+static bool is_run(const gg_error_state *s, int engine)
+{
+  return engine == GG_DSMC || s->done[0];
+}
+
+static void put_first(gg_bench_sheet *sheet, int row, int column, const double first[2])
+{
+  const int one = first[GG_MD] < first[GG_DSMC] ? GG_MD : GG_DSMC;
+  const char *name = one == GG_MD ? "md" : "dsmc";
+  if (isfinite(first[0]) && isfinite(first[1]))
+    gg_bench_sheet_put(sheet, row, column, "%s, %.2g x", name, first[1 - one] / first[one]);
+  else
+    gg_bench_sheet_put(sheet, row, column, "%s", isfinite(first[one]) && !isnan(first[1 - one]) ? name : "?");
 }
 
 static void put_seconds(gg_bench_sheet *sheet, int row, const gg_error_state *s, int q)
@@ -54,7 +74,7 @@ static void put_seconds(gg_bench_sheet *sheet, int row, const gg_error_state *s,
       const int column = 2 + engine * N_TARGETS + k;
       if (k == 0) first[engine] = t;
       if (way < 0)
-        gg_bench_sheet_put(sheet, row, column, "%s", s->done[0] || engine == GG_DSMC ? "never" : "-");
+        gg_bench_sheet_put(sheet, row, column, "%s", isnan(t) ? "?" : is_run(s, engine) ? "never" : "-");
       else
         gg_bench_sheet_put(sheet, row, column, "%.2g s, N %lld%s%s", t, (long long)gg_ways[way].n,
                            gg_ways[way].single     ? ", single"
@@ -62,12 +82,7 @@ static void put_seconds(gg_bench_sheet *sheet, int row, const gg_error_state *s,
                                                    : "",
                            gg_ways[way].replicas > 1 ? ", replicas" : "");
     }
-  const int one = first[GG_MD] < first[GG_DSMC] ? GG_MD : GG_DSMC;
-  if (isfinite(first[1 - one]))
-    gg_bench_sheet_put(sheet, row, 2 + 2 * N_TARGETS, "%s, %.2g x", one == GG_MD ? "md" : "dsmc",
-                       first[1 - one] / first[one]);
-  else
-    gg_bench_sheet_put(sheet, row, 2 + 2 * N_TARGETS, "%s", one == GG_MD ? "md" : "dsmc");
+  put_first(sheet, row, 2 + 2 * N_TARGETS, first);
 }
 
 static json_t *number(double x)
@@ -98,6 +113,7 @@ static void add_course(json_t *rows, const gg_error_state *s, int q, int i)
   json_object_set_new(row, "seeds", json_integer(c->seeds));
   json_object_set_new(row, "error_of_a_second", number(s->noise[i][q]));
   json_object_set_new(row, "floor", number(s->floor[i][q]));
+  json_object_set_new(row, "floor_stderr", number(s->shift_error[i][q]));
   json_object_set_new(row, "seconds", t);
   json_object_set_new(row, "relative_error", error);
   json_object_set_new(row, "stderr", uncertain);

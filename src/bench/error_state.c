@@ -139,6 +139,8 @@ static void find_errors(gg_error_state *s)
       const double floor = size->per_grain / each + s->step_coefficient[q] * square;
       const double error = hypot(size->per_grain_error / each, s->step_coefficient_error[q] * square);
       s->noise[i][q] = gg_course_noise(&s->course[i], q) / s->unit[q];
+      s->shift[i][q] = fabs(floor);
+      s->shift_error[i][q] = error;
       s->floor[i][q] = sqrt(fmax(floor * floor - error * error, 0));
     }
   }
@@ -170,7 +172,8 @@ double gg_error_at(const gg_error_state *s, int way, int q, int mark, double *er
 
 double gg_seconds_to(const gg_error_state *s, int way, int q, double error)
 {
-  const double left = error * error - s->floor[way][q] * s->floor[way][q];
-  if (!(left > 0)) return INFINITY;
+  const double left = error * error - s->floor[way][q] * s->floor[way][q], unsure = s->shift_error[way][q];
+  if (s->shift[way][q] - 2 * unsure > error) return INFINITY;
+  if (!(left > 0) || unsure > error) return NAN;
   return fmax(s->noise[way][q] * s->noise[way][q] / left, s->course[way].seconds[0]);
 }

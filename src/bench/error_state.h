@@ -27,8 +27,10 @@ typedef struct gg_error_state {
   bool done[GG_WAYS];
   gg_course course[GG_WAYS];
   double noise[GG_WAYS][GG_COURSE_QUANTITIES]; /* relative, of a run of one second */
-  double floor[GG_WAYS][GG_COURSE_QUANTITIES]; /* relative: what no time brings down, as far as it can be told from 0 */
-  double unit[GG_COURSE_QUANTITIES];           /* errors are relative to this: the truth's size */
+  /* Relative: what no time brings down, with its standard error; and as far as it can be told from 0. */
+  double shift[GG_WAYS][GG_COURSE_QUANTITIES], shift_error[GG_WAYS][GG_COURSE_QUANTITIES];
+  double floor[GG_WAYS][GG_COURSE_QUANTITIES];
+  double unit[GG_COURSE_QUANTITIES]; /* errors are relative to this: the truth's size */
   /* Of each engine: what it would have in the limit, by the solution without random numbers, a long run or its own
    * larger systems; and by how much the number of grains shifts it. */
   double truth[2][GG_COURSE_QUANTITIES], truth_error[2][GG_COURSE_QUANTITIES];
@@ -43,7 +45,8 @@ gg_status gg_error_state_measure(const gg_bench *bench, gg_error_state *state, i
                                  gg_error *err);
 /* Relative error at a mark, the root of the mean square over runs; *error: how well that is known. */
 double gg_error_at(const gg_error_state *state, int way, int quantity, int mark, double *error);
-/* Seconds until the error is this small; INFINITY: never. */
+/* Seconds until the error is this small; INFINITY: never, the floor is surely above; NaN: not told, the floor is not
+ * known well enough. */
 double gg_seconds_to(const gg_error_state *state, int way, int quantity, double error);
 
 #endif

@@ -165,7 +165,10 @@ double gg_expression_value(const gg_expression *e, gg_variables at)
 
 double gg_expression_slope(const gg_expression *e, gg_variables at, char variable)
 {
-  double *of = variable == 'r' ? &at.r : variable == 'x' ? &at.x : &at.y, here = *of, step = 1e-5 * (here == 0 ? 1 : fabs(here));
+  double *of = variable == 'r'   ? &at.r
+               : variable == 'x' ? &at.x
+                                 : &at.y,
+         here = *of, step = 1e-5 * (here == 0 ? 1 : fabs(here));
   *of = here + step;
   double above = gg_expression_value(e, at);
   *of = here - step;

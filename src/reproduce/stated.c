@@ -122,8 +122,10 @@ gg_status gg_stated_rows(const gg_figure_entry *entry, const gg_figure_points *a
       GG_TRY(ask(s, all, k, NULL, &rows[i].engine[k], err));
       rows[i].z[k] = (rows[i].engine[k].mean - s->paper) / hypot(rows[i].engine[k].error, s->error);
     }
-    for (int k = 0; k < s->theories.n; k++)
+    for (int k = 0; k < s->theories.n; k++) {
+      rows[i].theory[k] = GG_NO_VALUE;
       if (s->of.kind == GG_OF_QUANTITY) GG_TRY(ask(s, all, -1, s->theories.text[k], &rows[i].theory[k], err));
+    }
   }
   return GG_OK;
 }
