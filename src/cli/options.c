@@ -318,6 +318,10 @@ static bool same_file(const char *a, const char *b)
 
 char *gg_options_output(const gg_options *o, const char *suffix, gg_error *err)
 {
+  if (o->output && strcmp(o->output, "-") == 0) {
+    refuse(err, GG_BAD_INPUT, "option '--output': '-' is no file to write; --json prints to standard output");
+    return NULL;
+  }
   char *output = o->output ? strdup(o->output) : gg_options_beside(o, suffix);
   if (!output) refuse(err, GG_FAILED, "out of memory");
   if (!output || !same_file(output, o->input)) return output;

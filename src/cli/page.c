@@ -10,7 +10,7 @@ static int write_page(const gg_options *o, const gg_scene *scene)
   char *output = o->input ? gg_options_output(o, ".html", &err) : strdup(o->output ? o->output : "page.html");
   if (!output && o->input) return gg_cli_report(&err);
   if (!output) return gg_cli_fail(GG_FAILED, "out of memory");
-  const bool replaced = gg_file_exists(output);
+  const bool replaced = gg_file_exists(output) && !gg_is_device(output);
   gg_status status = gg_page_write(scene, output, &err);
   if (status == GG_OK) gg_tell_written(o, "page", output, replaced);
   free(output);

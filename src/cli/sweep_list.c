@@ -6,7 +6,7 @@
 #include "cli/format.h"
 #include "cli/sweep.h"
 
-enum { MOST_KEYS = 32 };
+enum { MOST_KEYS = 256 };
 
 typedef struct widths {
   size_t n;
