@@ -184,7 +184,7 @@ def table_of(folder, *args):
     """All that a sweep came to, but times."""
     done = run("sweep", "sweep.yaml", *args, "--collect", "--output", folder, "--picture", "none")
     check(done.code == 0, done.err)
-    with open(os.path.splitext(folder)[0] + ".csv", newline="") as f:
+    with open(folder + ".csv", newline="") as f:
         return [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(f)]
 
 
