@@ -34,9 +34,10 @@ class Past {
   add(md, dsmc) {
     const of = md || dsmc,
       last = this.rows[this.rows.length - 1];
+    if (this.logarithmic && !(inLog(of.time) && inLog(of.temperature))) return;
     if (
       last &&
-      (this.logarithmic ? of.time < 1.03 * last.time || of.time <= 0 : of.collisionsPerGrain < last.clock + this.gap)
+      (this.logarithmic ? of.time < 1.03 * last.time : of.collisionsPerGrain < last.clock + this.gap)
     )
       return;
     const pick = (s) => (s ? [s.temperature, s.rotationalTemperature] : [NaN, NaN]),
@@ -134,7 +135,7 @@ function temperatureChart(figure, history, means, values) {
 }
 /* Where a result that is played stands. */
 function nowLine(now, series) {
-  const good = series.flatMap((s) => s.y).filter((y) => y > 0),
+  const good = series.flatMap((s) => s.y).filter(inLog),
     y = good.length ? [Math.min(...good), Math.max(...good)] : [0, 1];
   return { x: [now, now], y, colour: "#222222", dash: "2 3", width: 1.5, label: t("playedNow"), name: "now" };
 }

@@ -8,11 +8,15 @@ function make(name, attributes, ...children) {
   return made;
 }
 
+/* What logarithmic axes show: beyond it doubles end, and quotients of such numbers too. */
+const inLog = (x) => x >= 1e-300 && x <= 1e300;
+
 /* About five round numbers between two, or the decades and what lies between them. */
 function ticks(from, to, log) {
   const found = [];
+  if (!(Number.isFinite(from) && Number.isFinite(to) && from < to && (!log || from > 0))) return found;
   if (log) {
-    const many = Math.log10(to / from),
+    const many = Math.log10(to) - Math.log10(from),
       every = Math.max(1, Math.ceil(many / 6));
     for (let p = Math.ceil(Math.log10(from) - 1e-9); p <= Math.log10(to) + 1e-9; p++)
       if (p % every === 0) found.push(10 ** p);
@@ -24,8 +28,9 @@ function ticks(from, to, log) {
   }
   const raw = (to - from) / 5,
     ten = 10 ** Math.floor(Math.log10(raw)),
-    step = [1, 2, 5, 10].find((m) => m * ten >= raw) * ten;
-  for (let i = Math.ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; i++) found.push(i * step);
+    step = [1, 2, 5, 10].find((m) => m * ten >= raw) * ten,
+    first = Math.ceil(from / step - 1e-9);
+  for (let i = 0; i < 12 && (first + i) * step <= to + 1e-9 * step; i++) found.push((first + i) * step);
   return found;
 }
 const nice = (x) =>
@@ -36,7 +41,7 @@ const nice = (x) =>
       : String(+x.toPrecision(3));
 
 function range(values, log) {
-  const good = values.filter((x) => Number.isFinite(x) && (!log || x > 0));
+  const good = values.filter((x) => Number.isFinite(x) && (!log || inLog(x)));
   if (!good.length) return log ? [0.1, 1] : [0, 1];
   let a = Math.min(...good),
     b = Math.max(...good);
@@ -64,7 +69,7 @@ function plot(figure, { title, x, y, series, summary }) {
   const xr = x.range || range(all("x"), x.log),
     yr = y.range || range(all("y").concat(around), y.log);
   const scale = (v, [a, b], log, from, to) =>
-    from + (log ? Math.log(v / a) / Math.log(b / a) : (v - a) / (b - a)) * (to - from);
+    from + (log ? (Math.log(v) - Math.log(a)) / (Math.log(b) - Math.log(a)) : (v - a) / (b - a)) * (to - from);
   const X = (v) => scale(v, xr, x.log, LEFT, WIDE - RIGHT),
     Y = (v) => Math.min(2 * HIGH, Math.max(-HIGH, scale(v, yr, y.log, HIGH - BOTTOM, TOP)));
   const svg = make("svg", { viewBox: `0 0 ${WIDE} ${HIGH}`, role: "img", "aria-label": summary || title });
@@ -113,7 +118,7 @@ function axes(svg, X, Y, xr, yr, x, y) {
 
 function drawn(s, X, Y, xlog, ylog) {
   const good = (i) =>
-    Number.isFinite(s.x[i]) && Number.isFinite(s.y[i]) && (!xlog || s.x[i] > 0) && (!ylog || s.y[i] > 0);
+    Number.isFinite(s.x[i]) && Number.isFinite(s.y[i]) && (!xlog || inLog(s.x[i])) && (!ylog || inLog(s.y[i]));
   const at = Array.from(s.x, (_, i) => i).filter(good),
     out = [];
   if (s.band && at.length) {
