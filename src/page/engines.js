@@ -72,6 +72,10 @@ async function openEngines(make, options) {
       hit: array(4, 1),
     };
   };
+  const localTemperature = (at, n, height) => {
+    const [position, velocity, , species, , mass] = [0, 1, 2, 3, 4, 5].map((which) => c._page_array(at, which));
+    return c._page_local_temperature(n, position, velocity, species, mass, height);
+  };
   const stateAt = (at) => {
     const v = numbers(at, 20);
     return { ...named(STATE, v), box: v.slice(8, 11), kineticStress: matrix(v.slice(11)) };
@@ -158,6 +162,11 @@ async function openEngines(make, options) {
       need(c._page_take_grains(this.at));
       return viewsOf(this.at, doubles(need(c._page_state(this.at)), 4)[3]);
     }
+    /* Between walls, of so many grains and this height: T about the mean velocity at each place, as results have it. */
+    localTemperature(grains, height) {
+      need(c._page_take_grains(this.at));
+      return localTemperature(this.at, grains, height);
+    }
     species() {
       return allSpecies((i) => c._page_species_state(this.at, i));
     }
@@ -183,6 +192,10 @@ async function openEngines(make, options) {
     frame(k) {
       const state = stateAt(c._page_trajectory_frame(this.at, k));
       return { state, grains: viewsOf(this.at, state.grains) };
+    }
+    /* The same of the frame that was asked for last. */
+    localTemperature(grains, height) {
+      return localTemperature(this.at, grains, height);
     }
     species() {
       return allSpecies((i) => c._page_trajectory_species(this.at, i));

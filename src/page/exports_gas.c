@@ -6,11 +6,14 @@
 
 #include "exports.h"
 
+enum { MOST_SPECIES = 16 };
+
 /* Grains in arrays that stay where they are, and are filled anew when the page asks. */
 typedef struct page_grains {
   gg_grains into;
   size_t n;
   double *hit; /* the time of each one's last collision; NULL: it is not followed */
+  double mass[MOST_SPECIES];
 } page_grains;
 
 static void free_arrays(page_grains *g)
@@ -34,11 +37,11 @@ static int make_arrays(page_grains *g, size_t n, int positions)
   return 0;
 }
 
-/* Where the arrays are: 0 positions (NULL in dsmc), 1 velocities, 2 spins, 3 species, 4 times of collisions. Of a
- * simulation or a trajectory, which begin with them. */
+/* Where the arrays are: 0 positions (NULL in dsmc), 1 velocities, 2 spins, 3 species, 4 times of collisions, 5 masses
+ * of species. Of a simulation or a trajectory, which begin with them. */
 PAGE void *page_array(page_grains *g, int which)
 {
-  void *const arrays[] = {g->into.position, g->into.velocity, g->into.spin, g->into.species, g->hit};
+  void *const arrays[] = {g->into.position, g->into.velocity, g->into.spin, g->into.species, g->hit, g->mass};
   return arrays[which];
 }
 
@@ -84,6 +87,13 @@ PAGE void page_simulation_free(page_simulation *p)
   free(p);
 }
 
+static void take_masses(page_simulation *p)
+{
+  gg_species_state s;
+  for (int i = 0; i < MOST_SPECIES && gg_simulation_get_species(p->simulation, i, &s, NULL) == GG_OK; i++)
+    p->grains.mass[i] = s.mass;
+}
+
 static int make(page_simulation *p, const gg_scene *scene, uint64_t stream)
 {
   gg_simulation_state state;
@@ -98,7 +108,10 @@ PAGE page_simulation *page_simulation_new(const gg_scene *scene, int stream)
   page_simulation *p = calloc(1, sizeof *p);
   if (!p) return page_fail("out of memory");
   p->until = INFINITY;
-  if (make(p, scene, (uint64_t)stream)) return p;
+  if (make(p, scene, (uint64_t)stream)) {
+    take_masses(p);
+    return p;
+  }
   page_simulation_free(p);
   return NULL;
 }
@@ -220,6 +233,13 @@ PAGE void page_trajectory_free(page_trajectory *p)
   free(p);
 }
 
+static void masses_of_trajectory(page_trajectory *p)
+{
+  gg_species_state s;
+  for (int i = 0; i < MOST_SPECIES && gg_trajectory_get_species(p->trajectory, i, &s, NULL) == GG_OK; i++)
+    p->grains.mass[i] = s.mass;
+}
+
 PAGE page_trajectory *page_trajectory_new(const char *path)
 {
   gg_simulation_state state;
@@ -227,8 +247,10 @@ PAGE page_trajectory *page_trajectory_new(const char *path)
   if (!p) return page_fail("out of memory");
   if (gg_trajectory_open(path, &p->trajectory, &page_why) == GG_OK &&
       gg_trajectory_frame(p->trajectory, 0, &state, NULL, &page_why) == GG_OK &&
-      make_arrays(&p->grains, state.grains, 1))
+      make_arrays(&p->grains, state.grains, 1)) {
+    masses_of_trajectory(p);
     return p;
+  }
   page_trajectory_free(p);
   return NULL;
 }

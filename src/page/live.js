@@ -13,6 +13,12 @@ function sceneOf(g, text, sets, more = {}) {
   }
 }
 
+/* What is shown of a state. Between walls T is the one that results have: the state's is of whole velocities. */
+const isWalled = ({ flow }) => /couette|poiseuille|chute/.test(flow);
+function shownState(gas, state, values) {
+  return isWalled(values) ? { ...state, temperature: gas.localTemperature(state.grains, state.box[1]) } : state;
+}
+
 class LiveGas {
   constructor(g, text, sets) {
     this.refusal = this.dsmcRefusal = this.event = this.ended = this.dsmcEnded = null;
@@ -112,7 +118,7 @@ class LiveGas {
   frame({ collisions, colour, step }) {
     const done = step ? (this.step(), true) : this.goOn(collisions);
     if (!step && collisions > 0) this.event = null;
-    const short = (s) => s && s.state();
+    const short = (s) => s && shownState(s, s.state(), this.about.values);
     return {
       md: short(this.md),
       dsmc: short(this.dsmc),

@@ -23,7 +23,8 @@ class Replay {
   }
   frame({ k, colour }) {
     const { state, grains } = this.trajectory.frame(k);
-    return { md: state, dsmc: null, picture: this.view.of(state, grains, colour, 0), event: null };
+    const md = shownState(this.trajectory, state, this.about.values);
+    return { md, dsmc: null, picture: this.view.of(state, grains, colour, 0), event: null };
   }
   free() {
     this.trajectory.free();

@@ -161,6 +161,28 @@ run({
     c.free();
     scene.free();
   },
+  "between walls T is about the local mean, as in results": (g) => {
+    for (const yaml of [
+      "{flow: couette, phi: 0.2, particles: 1000, collision: {e: 0.9}, run: {collisions: 400, warmup: 200}}",
+      "{flow: couette, phi: 0.2, particles: 600, collision: {e: 0.9}, species: [{fraction: 0.5}, {fraction: 0.5, diameter: 1, mass: 3}], run: {collisions: 400, warmup: 200}}",
+    ]) {
+      const scene = new g.Scene(yaml),
+        there = g.run(scene).results.temperature.mean,
+        s = new g.Simulation(scene);
+      s.collide(300 * s.state().grains / 2);
+      let T = 0,
+        whole = 0;
+      for (let k = 0; k < 200; k++) {
+        s.collide(s.state().grains);
+        T += s.localTemperature(s.state().grains, s.state().box[1]) / 200;
+        whole += s.state().temperature / 200;
+      }
+      near(T, there, 0.06);
+      assert.ok(whole > 1.15 * T, `${whole} of whole velocities, ${T} about the mean`);
+      s.free();
+      scene.free();
+    }
+  },
   "a result of the terminal": (g) => {
     const scene =
       "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9, beta: 0}, output: {trajectory_every: 1}, run: {collisions: 40, warmup: 5}}";
