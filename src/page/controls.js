@@ -53,10 +53,9 @@ const asText = (value) => (typeof value === "object" ? JSON.stringify(value) : S
 const shownValue = (row, values) => (row.get ? row.get(values) : valueOf(values, row.key));
 
 class Controls {
-  /* `change(key, value)`: somebody moved one. */
-  constructor(rows, change) {
-    this.rows = rows;
-    this.change = change;
+  /* `change(key, value)`: somebody moved one. `wanted()`: the values that its new one is put into. */
+  constructor(rows, change, wanted) {
+    Object.assign(this, { rows, change, wanted });
     for (const row of CONTROLS) this.rows.append((row.all = row.words ? this.choice(row) : this.number(row)));
   }
 
@@ -101,7 +100,7 @@ class Controls {
   switch(row) {
     row.on_off = this.element("input", { type: "checkbox", id: row.box });
     row.on_off.addEventListener("change", () =>
-      this.change(row.key, (row.on_off.checked ? row.on : row.off)(this.values)),
+      this.change(row.key, (row.on_off.checked ? row.on : row.off)(this.wanted())),
     );
     return this.element(
       "label",
@@ -112,7 +111,7 @@ class Controls {
     );
   }
   moved(row, value) {
-    this.change(row.key, row.put && value !== "" ? row.put(Number(value), this.values) : String(value));
+    this.change(row.key, row.put && value !== "" ? row.put(Number(value), this.wanted()) : String(value));
   }
 
   /* As the scene in force has it. */

@@ -6,6 +6,7 @@ const SPEEDS = [0.001, 0.01, 0.1, 1, 10, 100, 1000];
 const page = {
   scene: START,
   sets: {},
+  asked: { scene: START, sets: {} },
   lesson: null,
   playing: true,
   speed: 1,
@@ -55,7 +56,7 @@ async function begin() {
     wanted = LANGUAGES.indexOf(link.language || (navigator.language || "en").slice(0, 2));
   language = Math.max(0, wanted);
   page.view = new BoxView(byId("box"));
-  page.controls = new Controls(byId("control-rows"), changeKey);
+  page.controls = new Controls(byId("control-rows"), changeKey, wantedValues);
   page.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
   lessonButtons();
   listen();
@@ -75,27 +76,36 @@ async function begin() {
 /* What a link, the command or nobody asks for. A lesson's name alone is its scene. */
 async function follow(link) {
   const lesson = LESSONS.find((one) => one.name === link.lesson);
-  page.lesson = lesson ? lesson.name : null;
   const scene = link.scene !== null ? link.scene : lesson ? lesson.scene : givenScene() || START;
+  if (!(await start(scene, link.sets, { lesson: lesson || null })) && !page.about)
+    await start(START, {}, { keepMessage: true });
+}
+/* Its words stand beside its own gas alone: null takes them away. */
+function showLessonOf(lesson) {
+  page.lesson = lesson && lesson.name;
   if (lesson) takeLook(lesson);
   showLesson();
-  if (!(await start(scene, link.sets)) && !page.about) await start(START, {}, true);
 }
 
 /* ---- A new gas ---- */
 
 /* Whether the scene is one; if not, the gas that there was goes on, and the message says why. */
-async function start(scene, sets, keepMessage = false) {
+async function start(scene, sets, { keepMessage = false, lesson } = {}) {
   const mine = ++page.starts;
-  clearTimeout(page.changeTimer); /* whatever a control was about to change was of the gas before */
+  clearTimeout(page.changeTimer); /* whatever a control was about to change is in it, or was of the gas before */
   page.pending = {};
+  page.asked = { scene, sets, mine };
   let answer;
   try {
     answer = await page.live.ask("start", { scene, sets });
   } catch (e) {
-    if (mine === page.starts) refuse(e.message, sets);
+    if (mine === page.starts) {
+      page.asked = { scene: page.scene, sets: page.sets };
+      refuse(e.message, sets);
+    }
     return false;
   }
+  if (!(page.asked.mine > mine)) page.asked = { scene, sets, mine };
   if (!keepMessage) byId("refused").textContent = "";
   if (page.player) {
     leavePlaying();
@@ -114,6 +124,7 @@ async function start(scene, sets, keepMessage = false) {
     behind: 0,
   });
   page.history = new Past(answer.about.values.flow === "hcs");
+  if (lesson !== undefined) showLessonOf(lesson);
   showGas();
   writeLink(page);
   page.wantFrame = true;
@@ -128,7 +139,7 @@ function showGas() {
     title = page.player ? `${page.player.name}: ${about.title}` : about.title;
   page.controls.show(about.values);
   byId("images-row").hidden = !sheared();
-  byId("yaml").value = page.scene;
+  if (document.activeElement !== byId("yaml")) byId("yaml").value = about.yaml; /* nobody's typing is written over */
   byId("title").textContent = title;
   byId("event").textContent = "";
   document.title = `${title} – graingas`;
@@ -170,30 +181,48 @@ function refuse(message, sets) {
   for (const key of Object.keys(sets)) if (message.includes(key)) page.controls.refuse(key);
 }
 
+/* What is asked of the gas by now: the keys set over its scene, those a control is about to change among them; a key as
+ * text; and the values that controls build on. What is in force lags behind until the answer. */
+const wantedSets = () => ({ ...page.asked.sets, ...page.pending });
+function wantedText(key) {
+  const wanted = wantedSets()[key];
+  return wanted === undefined || wanted === page.sets[key] ? asText(valueOf(page.about.values, key)) : wanted;
+}
+function wantedValues() {
+  const values = { ...page.about.values };
+  for (const key of ["species", "gravity"])
+    try {
+      values[key] = JSON.parse(wantedText(key));
+    } catch (e) {
+      /* a link's own way to write it: what is in force */
+    }
+  return values;
+}
+
 /* Keys that would cost energy, and what they are in an elastic gas. */
 const ELASTIC = { "collision.e": "1", "collision.beta": "-1", "collision.mu": "inf", "collision.law": "constant" };
 
 /* What a flow needs, and others refuse. An elastic gas needs e = 1; the flow that comes after it has again what was
  * there before, or 0.9 where nothing was. */
 function changeKey(key, value) {
-  const sets = { ...page.sets, ...page.pending, [key]: value };
+  const before = wantedText("flow"),
+    sets = { [key]: value };
   if (key === "flow")
     Object.assign(sets, {
       thermostat: value === "hss" ? "gaussian" : "none",
       gravity: value === "chute" ? "[0.1, -0.1, 0]" : "[0, 0, 0]",
     });
-  const now = page.about.values;
   if (key === "flow" && value === "equilibrium") {
-    if (now.flow !== "equilibrium")
-      page.inelastic = Object.fromEntries(Object.keys(ELASTIC).map((one) => [one, asText(valueOf(now, one))]));
+    if (before !== "equilibrium")
+      page.inelastic = Object.fromEntries(Object.keys(ELASTIC).map((one) => [one, wantedText(one)]));
     Object.assign(sets, ELASTIC);
-  } else if (key === "flow" && now.flow === "equilibrium") {
+  } else if (key === "flow" && before === "equilibrium") {
     Object.assign(sets, page.inelastic || { "collision.e": "0.9" });
     page.inelastic = null;
   }
-  page.pending = sets;
+  page.pending = { ...page.pending, ...sets };
   clearTimeout(page.changeTimer);
-  page.changeTimer = setTimeout(() => start(page.scene, sets), 120);
+  page.changeTimer = setTimeout(() => start(page.asked.scene, wantedSets()), 120);
 }
 
 /* ---- Frames: the gas is asked to go on as far as the clock on the wall says ---- */
@@ -277,8 +306,8 @@ function listen() {
   });
   on("slower", () => faster(-1));
   on("faster", () => faster(1));
-  on("restart", () => (page.player ? goTo(0) : start(page.scene, page.sets)));
-  on("reseed", () => start(page.scene, { ...page.sets, "run.seed": String(1 + Math.floor(Math.random() * 999999)) }));
+  on("restart", () => (page.player ? goTo(0) : start(page.asked.scene, wantedSets())));
+  on("reseed", () => start(page.asked.scene, { ...wantedSets(), "run.seed": String(1 + Math.floor(Math.random() * 999999)) }));
   on(
     "colour",
     () => {

@@ -39,6 +39,7 @@ function beginPlaying(file, about) {
   clearTimeout(page.changeTimer);
   clearTimeout(page.meansTimer);
   page.pending = {};
+  page.asked = { scene: about.yaml, sets: {} };
   if (!page.player) page.shelf = Object.fromEntries(SHELVED.map((name) => [name, page[name]]));
   page.player = { name: file.name, frames: about.frames, at: 0, shown: -1, rate: 10 };
   Object.assign(page, {
@@ -77,6 +78,7 @@ function endPlaying() {
   leavePlaying();
   page.starts++;
   Object.assign(page, page.shelf, { newFrame: !!page.shelf.frame, wantFrame: true });
+  page.asked = { scene: page.scene, sets: page.sets };
   showLesson();
   showGas();
   if (page.means) showMeans(page.means);

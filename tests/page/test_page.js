@@ -143,6 +143,53 @@ const tests = {
     await silent(tab);
   },
 
+  "changes while a gas is awaited add up": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.8}}"));
+    const move = `const move = (id, value) => { const c = byId(id); c.value = value;
+      c.dispatchEvent(new Event(c.type === "range" ? "input" : "change", { bubbles: true })); };
+      const asked = () => new Promise((r) => { const from = page.starts, look = () => page.starts > from ? r() : setTimeout(look, 1); look(); });`;
+    /* one is asked for, and not answered, when the next is moved */
+    await tab.value(`(async () => { ${move} move("phi", 0.2); await asked(); move("e", 0.7); })()`);
+    await tab.until("page.about.values.collision.e === 0.7", quick);
+    assert.strictEqual(await tab.value("page.about.values.phi"), 0.2);
+    await tab.value(`(async () => { ${move} move("phi", 0.15); await asked(); byId("restart").click(); })()`);
+    await tab.until("page.about.values.phi === 0.15 && page.frame", quick);
+    await wait(500);
+    assert.strictEqual(await tab.value("page.about.values.phi"), 0.15);
+    await tab.value(`(async () => { ${move} move("phi", 0.25); byId("reseed").click(); })()`);
+    await tab.until("page.about.values.phi === 0.25 && page.sets['run.seed']", quick);
+    /* both rows of one key */
+    await tab.value("byId('mixture').click()");
+    await tab.until("page.about.values.species.length === 2", quick);
+    await tab.value(`(async () => { ${move} move("diameter", 1.5); move("mass", 3); })()`);
+    await tab.until("page.about.values.species[1].mass === 3", quick);
+    assert.strictEqual(await tab.value("page.about.values.species[1].diameter"), 1.5);
+    await tab.value("byId('mixture').click()");
+    await tab.until("page.about.values.species.length === 1", quick);
+    /* over "equilibrium" in the list */
+    await tab.value(`(async () => { ${move} move("flow", "equilibrium"); move("flow", "couette"); })()`);
+    await tab.until("page.about.values.flow === 'couette'", quick);
+    assert.strictEqual(await tab.value("page.about.values.collision.e"), 0.7);
+    /* what is refused is not built on */
+    await tab.value(`(async () => { ${move} move("e-number", 7); await asked(); })()`);
+    await tab.until("byId('refused').textContent.includes('collision.e')", quick);
+    await tab.value(`(async () => { ${move} move("phi", 0.2); })()`);
+    await tab.until("page.about.values.phi === 0.2 && byId('refused').textContent === ''", quick);
+    await silent(tab);
+  },
+
+  "the scene as text is the one that runs": async () => {
+    const tab = await open("#scene=" + encodeURIComponent("{flow: usf, phi: 0.1, particles: 200}") + "&set=collision.e=0.8");
+    assert.match(await tab.value("byId('yaml').value"), /\n  e: 0\.8\n/);
+    await tab.value("byId('yaml').closest('details').open = true; byId('yaml').focus(); byId('yaml').value = '{flow: hcs, '; 0");
+    await tab.value("void start(page.scene, { phi: '0.2' })");
+    await tab.until("page.about.values.phi === 0.2", quick);
+    assert.strictEqual(await tab.value("byId('yaml').value"), "{flow: hcs, ");
+    await tab.value("byId('use-yaml').focus(); void start(page.scene, { phi: '0.3' })");
+    await tab.until("page.about.values.phi === 0.3 && byId('yaml').value.includes('phi: 0.3')", quick);
+    await silent(tab);
+  },
+
   "pause, one collision, faster and slower, restart": async () => {
     const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}}"));
     await tab.value("byId('play').click()");
