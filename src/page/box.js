@@ -19,13 +19,16 @@ class BoxView {
       this.again();
     };
     c.addEventListener("pointerdown", (e) => {
+      if (e.button !== 0) return;
       from = [e.clientX, e.clientY];
       c.setPointerCapture(e.pointerId);
     });
-    c.addEventListener("pointerup", () => {
-      from = null;
-    });
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+      c.addEventListener(end, () => {
+        from = null;
+      });
     c.addEventListener("pointermove", (e) => {
+      if (!(e.buttons & 1)) from = null; /* it was let go where nobody saw it */
       if (!from) return;
       turn((e.clientX - from[0]) * 0.008, (e.clientY - from[1]) * 0.008);
       from = [e.clientX, e.clientY];
@@ -232,6 +235,7 @@ class BoxView {
   draw(picture, state, about, options) {
     this.last = [picture, state, about, options];
     this.fit();
+    if (!this.w || !this.h) return; /* it is not shown */
     const to = this.canvas.getContext("2d"),
       box = state.box,
       flow = about.values.flow;
