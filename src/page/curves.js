@@ -24,6 +24,9 @@ const FIRST = [
   "grad",
 ];
 
+/* Monte Carlo that has not come to md's time, or stopped before it: what it shows is of another time. */
+const isLate = (dsmc, md) => !!dsmc && !!md && dsmc.time < md.time * (1 - 1e-9);
+
 /* Points of the past, ever fewer of the older ones: a bounded memory. Cooling gases are seen on logarithmic axes. */
 class Past {
   constructor(logarithmic) {
@@ -42,7 +45,7 @@ class Past {
       return;
     const pick = (s) => (s ? [s.temperature, s.rotationalTemperature] : [NaN, NaN]),
       [T, theta] = pick(md),
-      [T2, theta2] = pick(dsmc);
+      [T2, theta2] = pick(isLate(dsmc, md) ? null : dsmc);
     this.rows.push({ clock: of.collisionsPerGrain, time: of.time, T, theta, T2, theta2 });
     if (this.rows.length > 480) {
       this.rows = this.rows.filter((_, i) => i % 2 === 0);
@@ -191,15 +194,24 @@ function steadyLines(means, x, rough) {
   return out;
 }
 
+/* Of a line on logarithmic axes the part between two x, with its end there. */
+function pieceOf(x, y, from, to) {
+  const end = x.findIndex((one) => one > to),
+    inside = x.map((_, i) => i).filter((i) => x[i] >= from && x[i] <= to),
+    piece = { x: inside.map((i) => x[i]), y: inside.map((i) => y[i]) };
+  if (end < 1 || !(y[end] > 0)) return piece;
+  const part = Math.log(to / x[end - 1]) / Math.log(x[end] / x[end - 1]);
+  piece.x.push(to);
+  piece.y.push(y[end - 1] * (y[end] / y[end - 1]) ** part);
+  return piece;
+}
+
 /* Theories of free cooling, each with its own rate, as far as the gas has come. */
 function coolingLines(means, x) {
   const { time, T } = means.cooling,
-    last = x[x.length - 1],
-    first = x.find((one) => one > 0);
-  const inside = time.map((_, i) => i).filter((i) => time[i] >= first / 1.3 && time[i] <= last * 1.3);
+    shown = x.filter(inLog);
   return chosenTheories(means, Object.keys(T)).map((name) => ({
-    x: inside.map((k) => time[k]),
-    y: inside.map((k) => T[name][k]),
+    ...pieceOf(time, T[name], shown[0] / 1.3, shown[shown.length - 1] * 1.3),
     ...lineOf(means, name),
     width: 1.6,
     label: (name === "haff1983" ? t("haff") : name) + beyondMark(means, name),

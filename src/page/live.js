@@ -93,15 +93,19 @@ class LiveGas {
     }
     const state = leader.state();
     this.followRate(state);
-    if (this.md && this.dsmc && !this.dsmcEnded && !this.ended) {
-      const lack = state.time - this.dsmc.state().time;
-      try {
-        if (lack > 0) this.dsmc.advance(lack, 6);
-      } catch (e) {
-        this.dsmcEnded = e.message;
-      }
+    return this.takeAlong(state.time) && done;
+  }
+
+  /* dsmc to the time of md, for 6 ms of work at most; is it there? */
+  takeAlong(time) {
+    if (!this.md || !this.dsmc || this.dsmcEnded || this.ended) return true;
+    const lack = time - this.dsmc.state().time;
+    try {
+      return !(lack > 0) || this.dsmc.advance(lack, 6);
+    } catch (e) {
+      this.dsmcEnded = e.message;
+      return true;
     }
-    return done;
   }
 
   step() {

@@ -1,5 +1,9 @@
-/* Times for the lines of theories of free cooling: decades, few enough. The page draws lines between them. */
-const COOLING_TIMES = Array.from({ length: 121 }, (_, i) => 10 ** (i / 12 - 4));
+/* Times for the lines of theories of free cooling: decades, few enough, as far as diagrams go. The page draws lines
+ * between them, which at late times are straight. */
+const COOLING_TIMES = [
+  ...Array.from({ length: 120 }, (_, i) => 10 ** (i / 12 - 4)),
+  ...Array.from({ length: 589 }, (_, i) => 10 ** (6 + i / 2)),
+];
 function courseOfTheories(comparison) {
   const T = {};
   for (const name of Object.keys(comparison.document().theory || {})) {
