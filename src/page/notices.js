@@ -8,7 +8,7 @@ function notices() {
   if (page.dsmcRefusal) out.push(`dsmc: ${page.dsmcRefusal}`);
   if (frame && frame.ended) add("ended", { engine: frame.md ? "md" : "dsmc", why: frame.ended });
   if (frame && frame.dsmcEnded) add("ended", { engine: "dsmc", why: frame.dsmcEnded });
-  if (page.behind > 40) add("behind");
+  if (page.behind > MOST_BEHIND) add("behind");
   if (page.player && page.player.frames === 1) add("oneFrame");
   if (!means) return out;
   if (page.player) return [...new Set([...out, ...storedNotices(means)])].slice(0, 7);

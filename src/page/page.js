@@ -11,6 +11,9 @@ const page = {
   playing: true,
   speed: 1,
   frames: 0,
+  owed: 0,
+  lost: 0,
+  behind: 0,
   starts: 0,
   files: 0,
   player: null,
@@ -121,6 +124,8 @@ async function start(scene, sets, { keepMessage = false, lesson } = {}) {
     means: null,
     frame: null,
     newFrame: false,
+    owed: 0,
+    lost: 0,
     behind: 0,
   });
   page.history = new Past(answer.about.values.flow === "hcs");
@@ -172,6 +177,10 @@ function askMeans() {
 }
 function takeMeans(data) {
   if (data.id !== page.measuringId || page.asking) return;
+  if (data.refused !== undefined) {
+    if (page.measured === page.about) byId("progress").textContent = data.refused;
+    return;
+  }
   if (page.measured === page.about) showMeans(data.answer);
   else if (page.player && page.measured === page.shelf.about) page.shelf.means = data.answer; /* the gas that waits */
 }
@@ -228,14 +237,16 @@ function changeKey(key, value) {
 /* ---- Frames: the gas is asked to go on as far as the clock on the wall says ---- */
 
 function tick(now) {
+  requestAnimationFrame(tick); /* first: whatever goes wrong in one frame, the next is drawn */
   const seconds = Math.min((now - (page.last || now)) / 1000, 0.25);
   page.last = now;
   if (page.newFrame) {
     page.newFrame = false;
     drawFrame();
   }
+  owe(page.about ? seconds : 0);
   if (page.player) tickPlaying(seconds);
-  else if (page.about && !page.inFlight && (page.playing || page.wantFrame || page.wantStep)) ask(seconds);
+  else if (page.about && !page.inFlight && (page.playing || page.wantFrame || page.wantStep)) ask();
   if (now - (page.slow || 0) > 300 && page.changed) {
     page.slow = now;
     page.changed = false;
@@ -245,35 +256,51 @@ function tick(now) {
     page.said = now;
     say();
   }
-  requestAnimationFrame(tick);
 }
 
-async function ask(seconds) {
+/* Seconds that the gas has yet to go on for are kept while it is not asked; above so many they are lost. `behind` are
+ * those lost in frames one after another; from some on that is said. */
+const MOST_OWED = 1,
+  MOST_BEHIND = 0.7;
+function owe(seconds) {
+  if (!page.playing || page.player) page.owed = 0;
+  else page.owed += seconds;
+  page.lost += Math.max(0, page.owed - MOST_OWED);
+  page.owed = Math.min(page.owed, MOST_OWED);
+}
+
+async function ask() {
   const mine = page.starts,
-    step = page.wantStep;
+    step = page.wantStep,
+    seconds = step ? 0 : page.owed;
   page.inFlight = true;
+  page.owed = 0;
   page.wantFrame = page.wantStep = false;
   try {
     const answer = await page.live.ask("frame", {
-      collisions: page.playing && !step ? page.speed * seconds : 0,
+      collisions: page.speed * seconds,
       colour: byId("colour").value,
       step,
     });
-    if (mine === page.starts) takeFrame(answer, step);
+    if (mine === page.starts) takeFrame(answer, step, seconds);
+    else page.wantFrame = true; /* a start came between; if it is refused, the gas before is to be seen */
   } catch (e) {
     if (mine === page.starts) {
       byId("refused").textContent = e.message;
       page.playing = false;
+      showPlaying();
     }
   }
   page.inFlight = false;
 }
 
-function takeFrame(frame, step) {
+function takeFrame(frame, step, seconds) {
   page.frame = frame;
   page.newFrame = page.changed = true;
   page.frames++;
-  page.behind = frame.behind ? page.behind + 1 : 0;
+  const lost = page.lost + (frame.behind ? seconds : 0);
+  page.behind = lost > 0 ? page.behind + lost : 0;
+  page.lost = 0;
   page.history.add(frame.md, frame.dsmc);
   if (step) showEvent(frame.event);
 }

@@ -89,7 +89,7 @@ function leavePlaying() {
   if (!page.player) return;
   page.player = null;
   page.files++;
-  page.live.ask("close");
+  page.live.ask("close").catch(() => {}); /* a worker that is gone has closed it */
   byId("file-refused").textContent = "";
 }
 
@@ -119,6 +119,7 @@ async function askPlayed(k) {
       byId("file-refused").textContent = e.message.slice(0, 600);
       page.playing = false;
       page.player.shown = k;
+      showPlaying();
     }
   }
   page.inFlight = false;

@@ -60,8 +60,15 @@ function later() {
 
 /* A few milliseconds of measuring, and then whatever the page wants. */
 function goOn() {
-  const id = measuring.id,
-    over = measuring.goOn(25),
+  const { id } = measuring;
+  try {
+    measureOn(id);
+  } catch (e) {
+    postMessage({ job: "means", id, refused: e.message });
+  }
+}
+function measureOn(id) {
+  const over = measuring.goOn(25),
     now = Date.now();
   if (over || now - told > 900) {
     told = now;

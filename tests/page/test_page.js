@@ -30,6 +30,11 @@ const PLAYED =
   "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9, beta: 0}, output: {trajectory_every: 1}, run: {collisions: 40, warmup: 5}}";
 const link = (scene) => `#scene=${encodeURIComponent(scene)}`;
 
+/* Frames come so many milliseconds later, as on a slow machine. */
+const slower = (ms) => `{ const ask = page.live.ask.bind(page.live); page.slower = ${ms};
+  page.live.ask = async (job, ...rest) => { const answer = await ask(job, ...rest);
+    if (job === "frame") await new Promise((r) => setTimeout(r, page.slower)); return answer; }; }`;
+
 /* As somebody drops it from a folder. */
 const drop = (tab, name, bytes) =>
   tab.value(`(() => { byId("file-refused").textContent = ""; const data = new DataTransfer(), bytes = Uint8Array.from(atob("${bytes.toString("base64")}"), (c) => c.charCodeAt(0));
@@ -187,6 +192,70 @@ const tests = {
     assert.strictEqual(await tab.value("byId('yaml').value"), "{flow: hcs, ");
     await tab.value("byId('use-yaml').focus(); void start(page.scene, { phi: '0.3' })");
     await tab.until("page.about.values.phi === 0.3 && byId('yaml').value.includes('phi: 0.3')", quick);
+    await silent(tab);
+  },
+
+  "a frame that fails is not the last; a box that is not shown is not drawn": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}}"));
+    await tab.value("byId('box').style.display = 'none'; 0");
+    const more = "(async () => { const from = page.frames; await new Promise((r) => setTimeout(r, 1000)); return page.frames - from; })()";
+    assert.ok((await tab.value(more)) > 5);
+    await tab.value("byId('box').style.display = ''; page.drawn = BoxView.prototype.draw; BoxView.prototype.draw = () => { throw new Error('a test'); }; 0");
+    await wait(300);
+    await tab.value("BoxView.prototype.draw = page.drawn; 0");
+    assert.ok((await tab.value(more)) > 5);
+    assert.ok(tab.said.every((one) => one.includes("a test")), tab.said.join());
+    await tab.close();
+  },
+
+  "the speed that is shown is kept": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 100, collision: {e: 0.9}}"));
+    /* answers that take a fifth of a second, as on a slow machine: nothing of the time between is lost */
+    await tab.value(slower(200));
+    await wait(1500);
+    const clock = "[performance.now() / 1000, page.frame.md.collisionsPerGrain]";
+    const [t0, c0] = await tab.value(clock);
+    await wait(6000);
+    const [t1, c1] = await tab.value(clock);
+    const speed = (c1 - c0) / (t1 - t0);
+    assert.ok(speed > 0.7 && speed < 1.35, `1 shown, ${speed} kept`);
+    assert.strictEqual(await tab.value("page.behind"), 0);
+    /* what cannot be kept is said */
+    await tab.value("page.slower = 2200; 0");
+    await tab.until("byId('notices').textContent.includes('cannot go faster')", 20);
+    await silent(tab);
+  },
+
+  "paused: a start that is refused leaves the picture of the gas before": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}}"));
+    await tab.value("byId('play').click()");
+    await tab.value(slower(500));
+    await tab.value('start("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}", {})');
+    await tab.until("page.inFlight && !page.wantFrame", 10);
+    await tab.value('start("{flow: usf, phi: 7}", {})');
+    await tab.until("page.frame && page.about.values.flow === 'hcs'", 10);
+    await silent(tab);
+  },
+
+  "the box turns with a button that is held, no longer": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}}"));
+    await tab.value("byId('box').scrollIntoView(); 0");
+    const [x, y] = await tab.value("(({ x, y, width, height }) => [x + width / 2, y + height / 2])(byId('box').getBoundingClientRect())");
+    const mouse = (type, more) => tab.send("Input.dispatchMouseEvent", { type, x, y, ...more });
+    const yaw = () => tab.value("page.view.yaw"),
+      before = await yaw();
+    await mouse("mousePressed", { button: "right", buttons: 2, clickCount: 1 });
+    await mouse("mouseMoved", { x: x + 30, buttons: 0 });
+    await mouse("mouseMoved", { x: x + 60, buttons: 0 });
+    assert.strictEqual(await yaw(), before);
+    await mouse("mouseReleased", { button: "right", clickCount: 1 });
+    await mouse("mousePressed", { button: "left", buttons: 1, clickCount: 1 });
+    await mouse("mouseMoved", { x: x + 60, button: "left", buttons: 1 });
+    const turned = await yaw();
+    assert.ok(turned > before);
+    await tab.value("byId('box').dispatchEvent(new PointerEvent('pointercancel'))");
+    await mouse("mouseMoved", { x: x + 90, button: "left", buttons: 1 });
+    assert.strictEqual(await yaw(), turned);
     await silent(tab);
   },
 

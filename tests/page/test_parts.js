@@ -44,6 +44,76 @@ const tests = {
       past.add(at(time, T), null);
     assert.deepStrictEqual(past.column("time"), [1, 1e100]);
   },
+  "lines of theories go as far as the gas": () => {
+    const { coolingLines } = drawing(["coolingLines"]),
+      { COOLING_TIMES: time } = parts(["measuring.js"], ["COOLING_TIMES"]),
+      means = { cooling: { time, T: { haff1983: time.map((t) => (1 + t) ** -2) } }, theories: { haff1983: {} }, theory: {} };
+    for (const last of [1e-3, 40, 1e7, 3e80, 9e299]) {
+      const [{ x, y }] = coolingLines(means, [0, 1e-4, last]);
+      assert.ok(x[x.length - 1] >= last && x[x.length - 1] <= 1.31 * last, `${last}: to ${x[x.length - 1]}`);
+      if (last < 1e100) assert.ok(Math.abs(y[y.length - 1] * (1 + x[x.length - 1]) ** 2 - 1) < 1e-3);
+    }
+  },
+  "Monte Carlo that is late is not drawn at the time of md": () => {
+    const { Past } = drawing(["Past"]),
+      past = new Past(false),
+      at = (time, temperature) => ({ time, temperature, rotationalTemperature: 0, collisionsPerGrain: time });
+    past.add(at(1, 2), at(1.01, 3));
+    past.add(at(2, 2), at(1.5, 3));
+    past.add(null, at(3, 4));
+    assert.deepStrictEqual(past.column("T2"), [3, NaN, 4]);
+    assert.deepStrictEqual(past.column("T"), [2, 2, NaN]);
+  },
+  "a gas whose Monte Carlo lags is behind": () => {
+    const { LiveGas } = parts(["live.js"], ["LiveGas"]),
+      engine = (time, done) => ({
+        advance: () => done,
+        state: () => ({ time, collisionsPerGrain: 0, grains: 9 }),
+        grains: () => null,
+      });
+    const behind = (md, dsmc) => {
+      const gas = Object.create(LiveGas.prototype),
+        since = { time: 0, collisionsPerGrain: 0 };
+      Object.assign(gas, { md, dsmc, since, about: { values: { flow: "usf" } }, view: { of: () => null } });
+      return gas.frame({ collisions: 1 }).behind;
+    };
+    assert.strictEqual(behind(engine(2, true), engine(1, true)), false);
+    assert.strictEqual(behind(engine(2, true), engine(1, false)), true);
+    assert.strictEqual(behind(engine(2, false), engine(2, true)), true);
+  },
+  "a worker that fails tells whoever waits": async () => {
+    class Worker {
+      postMessage() {}
+    }
+    const { Helper } = parts(["helper.js"], ["Helper"], { Worker }),
+      helper = new Helper("source"),
+      waiting = helper.ask("frame");
+    helper.worker.onerror({ message: "out of memory" });
+    await assert.rejects(waiting, /out of memory/);
+    await assert.rejects(helper.ask("frame"), /out of memory/);
+  },
+  "what fails while it is measured is told": () => {
+    const said = [],
+      later = [];
+    class Measuring {
+      means() {
+        return {};
+      }
+      goOn() {
+        throw new Error("broken");
+      }
+    }
+    const { JOBS } = parts(["worker.js"], ["JOBS"], {
+      Measuring,
+      onmessage: null,
+      postMessage: (message) => said.push(message),
+      setTimeout: (call) => later.push(call),
+      clearTimeout: () => {},
+    });
+    JOBS.measure({ scene: "", sets: {}, id: 7 });
+    later.pop()();
+    assert.deepStrictEqual(said, [{ job: "means", id: 7, refused: "broken" }]);
+  },
 };
 
 list(tests, null);
