@@ -85,7 +85,7 @@ const COURSES = [
 ];
 
 const mean = (part, name) => (part && part[name] && Number.isFinite(part[name].mean) ? part[name].mean : NaN);
-const error = (part, name) => (part && part[name] && Number.isFinite(part[name].stderr) ? part[name].stderr : 0);
+const error = (part, name) => (part && part[name] && Number.isFinite(part[name].stderr) ? part[name].stderr : NaN);
 
 /* Theories with an answer to one of these quantities, the best known first. */
 function theoriesWith(means, names) {
@@ -158,7 +158,7 @@ function steadyLines(means, x, rough) {
     for (const name of rough ? ["temperature", "rotational_temperature"] : ["temperature"]) {
       const part = means[engine] && means[engine].results,
         m = mean(part, name),
-        e = error(part, name);
+        e = error(part, name) || 0;
       if (Number.isFinite(m))
         out.push({
           x: across,
@@ -222,27 +222,26 @@ function coolingLines(means, x) {
 
 function velocityChart(figure, means) {
   const series = [],
-    curve = (engine, which) =>
-      means[engine] && means[engine].curves && means[engine].curves[`velocity_distribution_${which}`];
+    /* Cx and Cy, of mixtures those of each species */
+    curves = (engine) =>
+      Object.entries((means[engine] && means[engine].curves) || {})
+        .map(([name, c]) => [c, /^velocity_distribution_(C([xy])(?:_(\d+))?)$/.exec(name)])
+        .filter(([, found]) => found);
   let gauss = null;
   for (const [engine, colour] of [
     ["md", MD],
     ["dsmc", DSMC],
   ])
-    for (const [which, dash] of [
-      ["Cx", ""],
-      ["Cy", "4 3"],
-    ]) {
-      const c = curve(engine, which);
-      if (!c) continue;
+    for (const [c, [, which, axis, species]] of curves(engine)) {
       const numbers = (list) => list.map((v) => (v === null ? NaN : v));
       series.push({
         x: c.x,
         y: numbers(c.value),
         band: numbers(c.stderr).map((v) => v || 0),
         colour,
-        dash,
-        label: `${engine}: ${c.label.replace("_", "")}`,
+        dash: axis === "x" ? "" : "4 3",
+        width: species > 1 ? 1 : 2,
+        label: `${engine}: ${c.label.replace(/[_{}]/g, "")}`,
         name: `velocities ${engine} ${which}`,
       });
       if (!gauss && c.reference)

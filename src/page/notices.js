@@ -16,7 +16,8 @@ function notices() {
   if (about.values.flow === "hcs" && frame && frame.md && Math.max(...frame.md.box) > length)
     add("clusters", { l: number(length, 3) });
   const caught = means.md && means.md.engine_state && means.md.engine_state.contact_time_collisions;
-  if (caught > (about.values.flow === "hcs" ? 1e-4 : 1e-3) * means.md.collisions) add("collapse", { n: caught });
+  /* both since the start */
+  if (caught > (about.values.flow === "hcs" ? 1e-4 : 1e-3) * means.md.total.collisions) add("collapse", { n: caught });
   const ratio = mean(means.md && means.md.results, "temperature_ratio");
   if (
     frame &&

@@ -24,10 +24,11 @@ const number = (x, digits = 4) =>
       ? x.toExponential(digits - 1)
       : String(+x.toPrecision(digits));
 
-/* 138.82(40): the error in units of the last digits. */
+/* 138.82(40): the error in units of the last digits; (?): it is not known. What is conserved has none but rounding. */
 function withError(x, e) {
   if (!Number.isFinite(x)) return "–";
-  if (!(e > 0)) return number(x);
+  if (!Number.isFinite(e)) return `${number(x, 3)}(?)`;
+  if (e < 1e-9 * Math.abs(x) || !(e > 0)) return number(x, 6);
   const first = Math.floor(Math.log10(e)),
     places = Math.max(0, 1 - first),
     far = Math.floor(Math.log10(Math.abs(x) || e));
