@@ -251,7 +251,8 @@ class BoxView {
     const found = this.collect(picture, about, box, state.imageOffset, strips);
     this.grains(found, picture);
     to.putImageData(this.spheres.image, 0, 0);
-    if (walled) for (const y of [0, box[1]]) this.wall(to, box, y);
+    if (walled) this.wall(to, box, 0);
+    if (walled && about.values.walls.top !== "open") this.wall(to, box, box[1]);
     this.edges(to, box, 0, box[1], 0, "rgba(160, 185, 205, 0.75)", []);
     if (strips) this.arrows(to, box);
     if (options.event) this.pair(to, options.event, found);

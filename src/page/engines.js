@@ -26,6 +26,14 @@ class GraingasError extends Error {
   }
 }
 
+/* In C it would end the text, and what follows would be left out unseen. In the words of the library's reader of YAML. */
+function refuseNul(text) {
+  const at = text.indexOf("\0");
+  if (at < 0) return;
+  const bytes = new TextEncoder().encode(text.slice(0, at)).length;
+  throw new GraingasError(`no YAML text (control characters are not allowed at byte ${bytes})`, 2);
+}
+
 async function openEngines(make, options) {
   const c = await make(options);
   const fail = () => {
@@ -41,6 +49,7 @@ async function openEngines(make, options) {
     return text;
   };
   const withText = (texts, call) => {
+    texts.forEach(refuseNul);
     const at = texts.map((text) => {
       const size = c.lengthBytesUTF8(text) + 1,
         block = need(c._malloc(size));

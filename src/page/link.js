@@ -1,3 +1,6 @@
+/* The language that a page begins in where its address names none. */
+const ownLanguage = () => Math.max(0, LANGUAGES.indexOf((navigator.language || "en").slice(0, 2)));
+
 /* The state of the page in its address: #scene=...&set=key=value&seed=7. Also read after a question mark. */
 function readLink() {
   const given = new URLSearchParams(location.hash.length > 1 ? location.hash.slice(1) : location.search.slice(1));
@@ -18,7 +21,7 @@ function linkOf(state) {
     seed = given !== undefined ? given : state.about && state.about.values.run.seed;
   if (given !== undefined || Number(seed) <= Number.MAX_SAFE_INTEGER) to.set("seed", seed); /* else in the scene */
   if (state.lesson) to.set("lesson", state.lesson);
-  if (language) to.set("language", LANGUAGES[language]);
+  if (language || ownLanguage()) to.set("language", LANGUAGES[language]);
   return `#${to}`;
 }
 

@@ -55,9 +55,8 @@ function givenScene() {
 }
 
 async function begin() {
-  const link = readLink(),
-    wanted = LANGUAGES.indexOf(link.language || (navigator.language || "en").slice(0, 2));
-  language = Math.max(0, wanted);
+  const link = readLink();
+  language = LANGUAGES.includes(link.language) ? LANGUAGES.indexOf(link.language) : ownLanguage();
   page.view = new BoxView(byId("box"));
   page.controls = new Controls(byId("control-rows"), changeKey, wantedValues);
   page.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -352,10 +351,7 @@ function listen() {
   );
   on(
     "language",
-    () => {
-      language = LANGUAGES.indexOf(byId("language").value);
-      showLanguage();
-    },
+    () => speak(byId("language").value),
     "change",
   );
   on(
@@ -377,10 +373,19 @@ function listen() {
   on("save-yaml", () => save("scene.yaml", new Blob([page.about.yaml], { type: "text/yaml" })));
   on("copy-link", copyLink);
   listenForFiles();
-  window.addEventListener("hashchange", () => follow(readLink()));
+  window.addEventListener("hashchange", () => {
+    const link = readLink();
+    if (LANGUAGES.includes(link.language)) speak(link.language);
+    follow(link);
+  });
   window.addEventListener("resize", () => {
     page.newFrame = !!page.frame;
   });
+}
+
+function speak(name) {
+  language = LANGUAGES.indexOf(name);
+  showLanguage();
 }
 
 async function copyLink() {

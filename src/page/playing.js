@@ -81,6 +81,7 @@ function endPlaying() {
   page.asked = { scene: page.scene, sets: page.sets };
   showLesson();
   showGas();
+  writeLink(page);
   if (page.means) showMeans(page.means);
   else askMeans();
 }

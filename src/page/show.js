@@ -1,7 +1,7 @@
 /* Where the answers of the workers are shown: clock, curves, table, words; and the lessons. */
 const sheared = () => /usf|shear/.test(page.about.values.flow);
 const hasRate = () => sheared() || page.about.values.flow === "couette";
-const timeUnit = () => (hasRate() ? "1/γ" : "d/v₀");
+const timeUnit = () => (hasRate() ? "1/γ" : page.about.values.phi === 0 ? "1/(n d² v₀)" : "d/v₀");
 
 function showClock(s) {
   byId("clock").textContent =
@@ -122,7 +122,7 @@ function showLanguage() {
     page.controls.show(page.about.values);
     page.noticed = null;
     showCharts();
-    writeLink(page);
+    if (!page.player) writeLink(page); /* the address is of the gas that waits */
   }
   if (page.means) showMeans(page.means);
   if (page.frame) say();
