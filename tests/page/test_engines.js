@@ -115,6 +115,7 @@ run({
       "{flow: <script>, phi: 0.3}",
       "{flow: usf, phi: [",
       "{flow: usf}",
+      "{flow: usf, phi: 0.1}\0{flow: hcs}",
       "x".repeat(1 << 20),
     ]) {
       let said = null;

@@ -237,6 +237,51 @@ const tests = {
     await silent(tab);
   },
 
+  "links: lessons beside their own gas, languages, the gas that waits": async () => {
+    const bad = encodeURIComponent("{flow: usf, phi: 7}"),
+      good = encodeURIComponent("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}");
+    const tab = await open(`#scene=${bad}&lesson=haff`);
+    assert.deepStrictEqual(await tab.value("[page.lesson, byId('lesson-text').hidden, page.speed]"), [null, true, 1]);
+    await tab.value("byId('lesson-friction').click()");
+    await tab.until("page.lesson === 'friction' && page.about.values.collision.mu === 0.2", quick);
+    await tab.value(`location.hash = "#scene=${bad}&lesson=haff"; 0`);
+    await tab.until("byId('refused').textContent", quick);
+    assert.strictEqual(await tab.value("page.lesson"), "friction");
+    await tab.value(`location.hash = "#scene=${encodeURIComponent("{flow: usf, phi: 0.1}\0x")}"; 0`);
+    await tab.until("byId('refused').textContent.includes('control characters')", quick);
+    await tab.value(`location.hash = "#scene=${good}&seed=5&language=de"; 0`);
+    await tab.until("page.about.values.flow === 'hcs' && document.documentElement.lang === 'de'", quick);
+    /* while a result is played the address is of the gas that waits, in the language that is chosen */
+    await drop(tab, "class.h5", resultOf(PLAYED).bytes);
+    await tab.until("page.player && page.player.shown >= 0", quick);
+    await tab.value("byId('language').value = 'en'; byId('language').dispatchEvent(new Event('change')); 0");
+    assert.match(await tab.value("location.hash"), /hcs.*seed=5.*language=de/);
+    await tab.value("byId('back').click()");
+    assert.match(await tab.value("location.hash"), /hcs.*seed=5$/);
+    await silent(tab);
+  },
+
+  "mixtures: velocities of each species": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}, species: [{fraction: 0.5}, {fraction: 0.5, diameter: 2, mass: 8}], run: {collisions: 100, warmup: 10}}"));
+    for (const which of ["Cx_1", "Cy_1", "Cx_2", "Cy_2"])
+      await tab.until(`byId("chart-velocities").querySelector("[data-name='velocities md ${which}']")`, quick);
+    assert.match(await tab.value("byId('chart-velocities').querySelector('.legend').textContent"), /md: Cx,2/);
+    await silent(tab);
+  },
+
+  "between walls: T beside its mean, an open top without a lid": async () => {
+    const tab = await open(link("{flow: couette, phi: 0.2, particles: 500, collision: {e: 0.9, beta: 0}, run: {collisions: 300, warmup: 100}}"));
+    await tab.value("page.speed = 100; 0");
+    await tab.until("page.means && page.means.progress.md.over && page.frame.md.collisionsPerGrain > 300", quick);
+    const [mean, live] = await tab.value("[page.means.md.results.temperature.mean, page.history.column('T').slice(-20).reduce((a, b) => a + b) / 20]");
+    assert.ok(Math.abs(live / mean - 1) < 0.15, `live ${live}, mean ${mean}`);
+    const lids = (top) => tab.value(`(async () => { await start("{flow: chute, phi: 0.2, particles: 300, collision: {e: 0.8}, walls: {top: ${top}}}", {});
+      while (!page.frame) await new Promise((r) => setTimeout(r, 20));
+      let n = 0; const wall = page.view.wall; page.view.wall = () => n++; drawFrame(); page.view.wall = wall; return n; })()`);
+    assert.deepStrictEqual([await lids("open"), await lids("closed")], [1, 2]);
+    await silent(tab);
+  },
+
   "the box turns with a button that is held, no longer": async () => {
     const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}}"));
     await tab.value("byId('box').scrollIntoView(); 0");

@@ -114,6 +114,44 @@ const tests = {
     later.pop()();
     assert.deepStrictEqual(said, [{ job: "means", id: 7, refused: "broken" }]);
   },
+  "errors that are not known, and those of what is conserved": () => {
+    const { withError, error } = drawing(["withError", "error"]),
+      of = (mean, stderr) => withError(mean, error({ q: { mean, stderr } }, "q"));
+    assert.strictEqual(of(1.23456, null), "1.23(?)");
+    assert.strictEqual(of(1.2345678, 1e-12), "1.23457");
+    assert.strictEqual(of(2, 0), "2");
+    assert.strictEqual(of(0.1388, 0.0004), "0.13880(40)");
+  },
+  "a collapse is told by contacts and collisions of the same time": () => {
+    const told = (caught, collisions, since) => {
+      const results = {},
+        md = { collisions, total: { collisions: since }, engine_state: { contact_time_collisions: caught }, results },
+        page = { about: { values: { flow: "usf" } }, means: { md, progress: {} } };
+      const { notices } = parts(["curves.js", "notices.js"], ["notices"], { page, t: (key) => key, MOST_BEHIND: 1 });
+      return notices().includes("collapse");
+    };
+    assert.strictEqual(told(500, 1e3, 1e6), false);
+    assert.strictEqual(told(2000, 1e6, 1e6), true);
+  },
+  "units of time": () => {
+    const unit = (flow, phi) =>
+      parts(["show.js"], ["timeUnit"], { page: { about: { values: { flow, phi } } } }).timeUnit();
+    assert.deepStrictEqual(
+      [unit("usf", 0), unit("couette", 0.1), unit("hcs", 0.1), unit("hcs", 0)],
+      ["1/γ", "1/γ", "d/v₀", "1/(n d² v₀)"],
+    );
+  },
+  "a link keeps the language": () => {
+    const link = (own, language) => {
+      const { linkOf } = parts(["link.js"], ["linkOf"], {
+        navigator: { language: own },
+        LANGUAGES: ["en", "de"],
+        language,
+      });
+      return new URLSearchParams(linkOf({ scene: "", sets: { "run.seed": "1" } }).slice(1)).get("language");
+    };
+    assert.deepStrictEqual([link("en-GB", 0), link("en-GB", 1), link("de-AT", 0), link("de-AT", 1)], [null, "de", "en", "de"]);
+  },
 };
 
 list(tests, null);
