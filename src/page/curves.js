@@ -24,59 +24,6 @@ const FIRST = [
   "grad",
 ];
 
-/* Monte Carlo that has not come to md's time, or stopped before it: what it shows is of another time. */
-const isLate = (dsmc, md) => !!dsmc && !!md && dsmc.time < md.time * (1 - 1e-9);
-
-/* Points of the past, ever fewer of the older ones: a bounded memory. Cooling gases are seen on logarithmic axes. */
-class Past {
-  constructor(logarithmic) {
-    this.rows = [];
-    this.gap = 0.02;
-    this.logarithmic = logarithmic;
-  }
-  add(md, dsmc) {
-    const of = md || dsmc,
-      last = this.rows[this.rows.length - 1];
-    if (this.logarithmic && !(inLog(of.time) && inLog(of.temperature))) return;
-    if (
-      last &&
-      (this.logarithmic ? of.time < 1.03 * last.time : of.collisionsPerGrain < last.clock + this.gap)
-    )
-      return;
-    const pick = (s) => (s ? [s.temperature, s.rotationalTemperature] : [NaN, NaN]),
-      [T, theta] = pick(md),
-      [T2, theta2] = pick(isLate(dsmc, md) ? null : dsmc);
-    this.rows.push({ clock: of.collisionsPerGrain, time: of.time, T, theta, T2, theta2 });
-    if (this.rows.length > 480) {
-      this.rows = this.rows.filter((_, i) => i % 2 === 0);
-      this.gap *= 2;
-    }
-  }
-  column(name) {
-    return this.rows.map((row) => row[name]);
-  }
-  get key() {
-    return this.logarithmic ? "time" : "clock";
-  }
-  course(name) {
-    return { x: this.column(this.key), y: this.column(name) };
-  }
-}
-
-/* Of a result, which tells it by time; up to where it is played a line stands across. */
-class StoredPast {
-  constructor(logarithmic, courses = {}) {
-    this.logarithmic = logarithmic;
-    this.courses = courses;
-    this.key = "time";
-    this.now = 0;
-  }
-  course(name) {
-    const of = this.courses[name.endsWith("2") ? "dsmc" : "md"],
-      one = of && of[name.replace("2", "")];
-    return one ? { x: one.time, y: one.value } : { x: [], y: [] };
-  }
-}
 const COURSES = [
   ["T", "md_temperature"],
   ["theta", "md_rotational_temperature"],

@@ -12,7 +12,7 @@ function parts(files, names, given = {}) {
     source = files.map((name) => fs.readFileSync(path.join(folder, name), "utf8")).join("\n");
   return new Function(...Object.keys(given), `"use strict";${source}\nreturn { ${names} };`)(...Object.values(given));
 }
-const drawing = (names) => parts(["plot.js", "curves.js", "table.js"], names, { page: {}, t: (key) => key });
+const drawing = (names) => parts(["plot.js", "past.js", "curves.js", "table.js"], names, { page: {}, t: (key) => key });
 
 const tests = {
   "axes of gases that cool for ever": () => {
