@@ -179,10 +179,23 @@ run({
         whole += s.state().temperature / 200;
       }
       near(T, there, 0.06);
-      assert.ok(whole > 1.15 * T, `${whole} of whole velocities, ${T} about the mean`);
       s.free();
+      assert.ok(whole > 1.15 * T, `${whole} of whole velocities, ${T} about the mean`);
       scene.free();
     }
+    /* of frames that are played */
+    const { printed, bytes } = resultOf(
+      "{flow: couette, phi: 0.2, particles: 500, collision: {e: 0.9}, output: {trajectory_every: 4}, run: {collisions: 300, warmup: 200}}",
+    );
+    const { answer: t, gone } = g.withFile({ name: "walls.h5", bytes }, (path) => new g.Trajectory(path));
+    let T = 0;
+    for (let k = 0; k < t.frames; k++) {
+      const { state } = t.frame(k);
+      T += t.localTemperature(state.grains, state.box[1]) / t.frames;
+    }
+    near(T, printed.results.temperature.mean, 0.1);
+    t.free();
+    gone();
   },
   "a result of the terminal": (g) => {
     const scene =
