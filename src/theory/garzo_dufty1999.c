@@ -41,9 +41,15 @@ double gg_thermostat_share(const gg_model *m)
   return share[gg_thermostat_of(m)];
 }
 
+/* White noise is set to balance Maxwellians at temperature0 (thermostat.h), which lose less by 1 + 3c/32. */
+static double temperature_of(const gg_model *m, double a2)
+{
+  return m->temperature0 * (gg_thermostat_of(m) == GG_WHITE_NOISE ? pow(1 + 3. / 16 * a2, -2. / 3) : 1);
+}
+
 static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
 {
-  double e = m->e[0], T = m->temperature0, p = m->density * T, pc = p * 2 * (1 + e) * gg_phi_chi(m);
+  double e = m->e[0], T = temperature_of(m, a2), p = m->density * T, pc = p * 2 * (1 + e) * gg_phi_chi(m);
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
   a->value[GG_Q_COOLING_RATE] = 5. / 12 * m->chi[0] * (1 - e * e) * (1 + 3. / 16 * a2);

@@ -4,6 +4,7 @@
  * the cooling rate zeta = -(nu/3) dE_tr, nu = 4 n d^2 chi sqrt(pi T). */
 #include <math.h>
 
+#include "common/thermostat.h"
 #include "theory/range.h"
 #include "theory/theory_list.h"
 #include "theory/two_maxwellian.h"
@@ -19,6 +20,16 @@ static gg_status ratio_of(const gg_model *m, gg_grain grain, double mu, double *
                    "for ever");
 }
 
+/* White noise is set to balance contacts of Maxwellians that all stick, at the ratio a run starts from (thermostat.h).
+ * Where some slide another energy is lost, at another ratio: of grains of mass 1, 3/2 xi^2 = -(nu/2) dE_tr T, nu as
+ * sqrt(T). */
+static double temperature_of(const gg_model *m, double translation)
+{
+  double T0 = m->temperature0, noise = gg_thermostat_of(m) == GG_WHITE_NOISE ? gg_thermostat_noise(m) : 0;
+  double loss = -translation * gg_model_collision_rate(m, T0) / 3 * T0;
+  return noise > 0 && loss > 0 ? T0 * pow(noise / loss, 2. / 3) : T0;
+}
+
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_require_one_species(m, name, err));
@@ -29,11 +40,12 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   GG_TRY(ratio_of(m, grain, mu, &ratio, err));
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   if (m->shear_rate != 0) return GG_OK; /* of sheared states it knows no more */
-  double T = m->temperature0, p = m->density * T, pc = p * 4 * grain.eta1 * gg_phi_chi(m);
+  double translation = gg_exchange_at(grain, mu, ratio).translation;
+  double T = temperature_of(m, translation), p = m->density * T, pc = p * 4 * grain.eta1 * gg_phi_chi(m);
   gg_answer_temperature(m, T, ratio, a);
   gg_answer_pressure(m, T, p, pc, a);
   gg_answer_collisions_one(m, T, a);
-  double zeta = -a->value[GG_Q_COLLISION_RATE] / 3 * gg_exchange_at(grain, mu, ratio).translation;
+  double zeta = -a->value[GG_Q_COLLISION_RATE] / 3 * translation;
   a->value[GG_Q_COOLING_RATE] = zeta / gg_model_nu0(m, T);
   return GG_OK;
 }

@@ -114,6 +114,31 @@ static void theory_answers(void **state)
   assert_refused(&gg_huthmann_zippelius1997, &m, "no steady theta/T");
 }
 
+/* White noise balances contacts that all stick: where grains slide the temperature is that at which their own loss
+ * does, not the one given. Monte Carlo (phi = 0.1, e = 0.9): 0.696(3), 0.668(2), 0.2989(7), 0.2435(6); and where all
+ * stick, or nothing heats by noise, it is the one given. */
+static void heated_by_noise(void **state)
+{
+  (void)state;
+  const double mu[] = {0.05, 0.1, 0.1, 0.3}, beta[] = {0.5, 0, 1, 1}, T[] = {0.6946, 0.6667, 0.2977, 0.2427};
+  for (int i = 0; i < 4; i++) {
+    gg_scene s = scene_of(GG_HSS, 0.1, 0.9, beta[i]);
+    s.thermostat = GG_WHITE_NOISE;
+    gg_model sticks = model_of(&s);
+    assert_close(value_of(&gg_huthmann_zippelius1997, &sticks, GG_Q_TEMPERATURE), 0.5, 1e-12);
+    for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = mu[i];
+    gg_model m = model_of(&s);
+    gg_theory_answer a = answer_of(&gg_huthmann_zippelius1997, &m);
+    assert_close(a.value[GG_Q_TEMPERATURE], T[i], 2e-4);
+    assert_close(a.value[GG_Q_PRESSURE], m.stress_unit * m.density * T[i] * a.value[GG_Q_COMPRESSIBILITY], 2e-4);
+    assert_close(a.value[GG_Q_COLLISION_RATE], gg_model_collision_rate(&m, T[i]), 1e-4);
+    assert_close(a.value[GG_Q_ROTATIONAL_TEMPERATURE], T[i] * a.value[GG_Q_TEMPERATURE_RATIO], 2e-4);
+    s.thermostat = GG_GAUSSIAN;
+    m = model_of(&s);
+    assert_close(value_of(&gg_huthmann_zippelius1997, &m, GG_Q_TEMPERATURE), 0.5, 0);
+  }
+}
+
 /* Viscosity of rough grains that cool: elastic and perfectly rough is Pidduck's; without the cooling term it is Lun's
  * at the ratio of the cooling state, whose integrals were done elsewhere; theta/T and zeta are those of Maxwellians. */
 static void rough_viscosity(void **state)
@@ -151,7 +176,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cooling_ratio),   cmocka_unit_test(rates_of_santos),        cmocka_unit_test(equipartition),
       cmocka_unit_test(friction_limits), cmocka_unit_test(friction_by_quadrature), cmocka_unit_test(theory_answers),
-      cmocka_unit_test(rough_viscosity),
+      cmocka_unit_test(rough_viscosity), cmocka_unit_test(heated_by_noise),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
