@@ -43,7 +43,9 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   GG_TRY(gg_require_one_species(m, name, err));
   GG_TRY(gg_require_constant_beta(m, name, err));
   if (m->elastic) return gg_refuse(err, name, "describes gases that lose energy; collisions of this scene do not");
-  a->value[GG_Q_CLUSTERING_LENGTH] = gg_clustering_length(m);
+  double length = gg_clustering_length(m);
+  if (!isfinite(length)) return gg_refuse(err, name, "finds no viscosity and cooling rate to make a length of");
+  a->value[GG_Q_CLUSTERING_LENGTH] = length;
   return GG_OK;
 }
 

@@ -32,8 +32,9 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   GG_TRY(check(m, err));
   const gg_grain g = gg_grain_of(m);
   double ratio = gg_ratio_cooling(g, INFINITY), h = g.eta1 + g.eta2, chi = m->chi[0];
-  double zeta = -5. / 12 * gg_exchange_at(g, INFINITY, ratio).translation;
+  double zeta = 5. / 12 * gg_cooling_at(g, INFINITY, ratio);
   double nu = h * (2 - h) + g.eta2 * g.eta2 * ratio / (6 * g.K);
+  if (!(nu > zeta / 2)) return gg_refuse(err, name, "finds no viscosity: grains cool faster than stress relaxes");
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   a->value[GG_Q_COOLING_RATE] = chi * zeta;
   a->value[GG_Q_VISCOSITY_REDUCED] = a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = 1 / (chi * (nu - zeta / 2));

@@ -11,7 +11,9 @@
  *   <J_t g_t> = 2 eta_2 V sin^4 psi_0 + mu eta_1 sqrt(2V) (pi/2 - psi_0 + sin(4 psi_0)/4)
  *   <J_t^2>   = 2 eta_2^2 V sin^4 psi_0 + 4 mu^2 eta_1^2 cos^4 psi_0
  *   dE_tr  = -4 eta_1 (1 - eta_1) - <J_t g_t>/(1 + r/K) + <J_t^2>
- *   dE_rot = -(r/K) <J_t g_t>/(1 + r/K) + <J_t^2>/K,    P(slide) = cos^2 psi_0 */
+ *   dE_rot = -(r/K) <J_t g_t>/(1 + r/K) + <J_t^2>/K,    P(slide) = cos^2 psi_0
+ * With delta = pi/2 - psi_0 = atan(u), and mu eta_1 = eta_2 sqrt(V/2)/u, no large mu multiplies a small difference:
+ *   <J_t g_t> = eta_2 V [2 cos^4 delta + (delta - sin(4 delta)/4)/u],   <J_t^2> = 2 eta_2^2 V cos^2 delta */
 #include "theory/two_maxwellian.h"
 
 #include <math.h>
@@ -28,33 +30,57 @@ static double contact_spread(gg_grain g, double ratio)
   return 2 * (1 + ratio / g.K);
 }
 
-static double critical_angle(gg_grain g, double mu, double ratio)
+/* u: a contact slides where its tangent of the angle of impact, in units of the mean, is above it; > 0. */
+static double sliding_tangent(gg_grain g, double mu, double ratio)
 {
-  return atan2(1, g.eta2 / (mu * g.eta1) * sqrt(contact_spread(g, ratio) / 2));
+  return g.eta2 / (mu * g.eta1) * sqrt(contact_spread(g, ratio) / 2);
 }
 
 double gg_sliding_share(gg_grain g, double mu, double ratio)
 {
   if (isinf(mu)) return 0;
-  double c = cos(critical_angle(g, mu, ratio));
-  return c * c;
+  double u = sliding_tangent(g, mu, ratio);
+  return 1 / (1 + 1 / (u * u));
+}
+
+/* A, B, C of constant beta. */
+typedef struct rough_rates {
+  double A, B, C;
+} rough_rates;
+
+static rough_rates rates_of(gg_grain g)
+{
+  double turned = g.eta2 / g.K;
+  return (rough_rates){g.eta1 * (1 - g.eta1) + g.eta2 * (1 - g.eta2), g.eta2 * turned, turned * (1 - turned)};
 }
 
 static gg_exchange constant_beta(gg_grain g, double r)
 {
-  double A = g.eta1 * (1 - g.eta1) + g.eta2 * (1 - g.eta2), B = g.eta2 * g.eta2 / g.K;
-  double C = g.eta2 / g.K * (1 - g.eta2 / g.K);
-  return (gg_exchange){-4 * (A - B * r), 4 * (B - C * r)};
+  rough_rates x = rates_of(g);
+  return (gg_exchange){-4 * (x.A - x.B * r), 4 * (x.B - x.C * r)};
+}
+
+/* delta - sin(4 delta)/4, (8/3) delta^3 where it is small: there by the series of the sine. */
+static double cubic_excess(double delta)
+{
+  double x = 4 * delta, x2 = x * x;
+  if (x > 0.2) return delta - sin(x) / 4;
+  return x * x2 / 24 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72 * (1 - x2 / 110))));
 }
 
 gg_exchange gg_exchange_at(gg_grain g, double mu, double r)
 {
   if (isinf(mu)) return constant_beta(g, r);
-  double V = contact_spread(g, r), psi = critical_angle(g, mu, r), s4 = pow(sin(psi), 4), c4 = pow(cos(psi), 4);
-  double Jg = 2 * g.eta2 * V * s4 + mu * g.eta1 * sqrt(2 * V) * (M_PI_2 - psi + sin(4 * psi) / 4);
-  double JJ = 2 * g.eta2 * g.eta2 * V * s4 + 4 * mu * mu * g.eta1 * g.eta1 * c4;
+  double V = contact_spread(g, r), u = sliding_tangent(g, mu, r), delta = atan(u), c2 = 1 / (1 + u * u);
+  double Jg = g.eta2 * V * (2 * c2 * c2 + (u > 0 ? cubic_excess(delta) / u : 0)), JJ = 2 * g.eta2 * g.eta2 * V * c2;
   double lost = Jg / (1 + r / g.K);
   return (gg_exchange){-4 * g.eta1 * (1 - g.eta1) - lost + JJ, -r / g.K * lost + JJ / g.K};
+}
+
+double gg_cooling_at(gg_grain g, double mu, double r)
+{
+  gg_exchange x = gg_exchange_at(g, mu, r);
+  return r > 1 ? -x.rotation / r : -x.translation;
 }
 
 /* Signs are those of d(theta/T)/dt: a root where it falls through zero attracts. */
@@ -75,17 +101,25 @@ static double growth_cooling(double ratio, void *law)
 static double attractor(double (*growth)(double, void *), gg_grain grain, double mu)
 {
   contact_law law = {grain, mu};
-  for (double low = 1e-12; low < 1e12; low *= 1.5)
+  for (double low = 1e-40; low < 1e40; low *= 1.5)
     if (growth(low, &law) >= 0 && growth(1.5 * low, &law) < 0) return gg_root_between(growth, &law, low, 1.5 * low);
   return NAN;
 }
 
 double gg_ratio_driven(gg_grain grain, double mu)
 {
-  return attractor(growth_driven, grain, mu);
+  rough_rates x = rates_of(grain);
+  return isinf(mu) ? x.B / x.C : attractor(growth_driven, grain, mu);
+}
+
+/* Constant beta: the positive root of B r^2 - (A - C) r - B = 0, by whichever form has no difference. */
+static double positive_root(rough_rates x)
+{
+  double d = x.A - x.C, root = hypot(d, 2 * x.B);
+  return d > 0 ? (d + root) / (2 * x.B) : 2 * x.B / (root - d);
 }
 
 double gg_ratio_cooling(gg_grain grain, double mu)
 {
-  return attractor(growth_cooling, grain, mu);
+  return isinf(mu) ? positive_root(rates_of(grain)) : attractor(growth_cooling, grain, mu);
 }

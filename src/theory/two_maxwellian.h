@@ -11,6 +11,10 @@ typedef struct gg_exchange {
 } gg_exchange;
 gg_exchange gg_exchange_at(gg_grain grain, double mu, double ratio);
 
+/* -dE_tr in free cooling, where it is -dE_rot/r as well, from whichever is the greater: spins that hardly cool feed
+ * translation with nearly all it loses. */
+double gg_cooling_at(gg_grain grain, double mu, double ratio);
+
 /* Share of collisions that slide. */
 double gg_sliding_share(gg_grain grain, double mu, double ratio);
 

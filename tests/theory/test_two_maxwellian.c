@@ -25,6 +25,50 @@ static void cooling_ratio(void **state)
   assert_close(gg_ratio_cooling(grain(0.8, 0.5, 0.4), INFINITY), 1.043, 5e-4);
 }
 
+/* Nearly smooth grains: spins feed translation with nearly all it loses, at theta/T = (A - C)/B, and hold most of the
+ * energy; driven they have next to none. Grains lose 4C of their energy in a collision, whatever rounding leaves of A -
+ * B r. */
+static void nearly_smooth_ratios(void **state)
+{
+  (void)state;
+  for (double rough = 1e-5; rough > 1e-13; rough /= 100) {
+    double beta = -1 + rough, K = 0.4, e = 0.9;
+    gg_grain g = grain(e, beta, K);
+    double A = g.eta1 * (1 - g.eta1) + g.eta2 * (1 - g.eta2), B = g.eta2 * g.eta2 / K, C = g.eta2 / K;
+    double ratio = gg_ratio_cooling(g, INFINITY);
+    assert_close(ratio, (A - C) / B, 20 * rough);
+    assert_close(gg_cooling_at(g, INFINITY, ratio), 4 * C, 20 * rough + 1e-9);
+    assert_close(gg_ratio_driven(g, INFINITY), g.eta2, 20 * rough);
+    assert_close(gg_ratio_driven(g, 10), g.eta2, 20 * rough); /* with so much friction nothing slides */
+  }
+  gg_model m = model_for(GG_HCS, 0.01, 0.9, -0.9999999);
+  const gg_theory *const all[] = {&gg_huthmann_zippelius1997, &gg_kremer_santos_garzo2014};
+  for (int i = 0; i < 2; i++) assert_close(value_of(all[i], &m, GG_Q_TEMPERATURE_RATIO), 9.31e13, 1e-3);
+  assert_true(isfinite(value_of(&gg_goldhirsch_zanetti1993, &m, GG_Q_CLUSTERING_LENGTH)));
+  assert_true(value_of(&gg_enskog_hermite, &m, GG_Q_TEMPERATURE_RATIO) > 8e13);
+}
+
+/* Friction so strong that nothing slides is constant beta, at any size of it. */
+static void strong_friction(void **state)
+{
+  (void)state;
+  gg_grain g = grain(0.9, 0.3, 0.4);
+  const double mu[] = {1e6, 1e10, 1e13, 1e15, 1e16, 1e300};
+  gg_exchange rough = gg_exchange_at(g, INFINITY, 0.5);
+  for (int i = 0; i < 6; i++) {
+    gg_exchange x = gg_exchange_at(g, mu[i], 0.5);
+    assert_close(x.translation, rough.translation, 1e-11);
+    assert_close(x.rotation, rough.rotation, 1e-11);
+    assert_close(gg_ratio_driven(g, mu[i]), gg_ratio_driven(g, INFINITY), 1e-11);
+    assert_close(gg_ratio_cooling(g, mu[i]), gg_ratio_cooling(g, INFINITY), 1e-11);
+  }
+  for (double small = 1e-4; small < 1; small *= 1.01) { /* where one form of delta - sin(4 delta)/4 ends */
+    gg_exchange a = gg_exchange_at(g, 0.2 / small, 0.5), b = gg_exchange_at(g, 0.2 / small * (1 + 1e-9), 0.5);
+    assert_close(a.translation, b.translation, 1e-9);
+    assert_close(a.rotation + 1, b.rotation + 1, 1e-9);
+  }
+}
+
 /* The rates in the form of Santos, Kremer & Garzo 2010, eq. (39): nu' = (16/5) n d^2 chi sqrt(pi T). */
 static void rates_of_santos(void **state)
 {
@@ -174,9 +218,11 @@ static void rough_viscosity(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cooling_ratio),   cmocka_unit_test(rates_of_santos),        cmocka_unit_test(equipartition),
-      cmocka_unit_test(friction_limits), cmocka_unit_test(friction_by_quadrature), cmocka_unit_test(theory_answers),
-      cmocka_unit_test(rough_viscosity), cmocka_unit_test(heated_by_noise),
+      cmocka_unit_test(cooling_ratio),          cmocka_unit_test(rates_of_santos),
+      cmocka_unit_test(equipartition),          cmocka_unit_test(friction_limits),
+      cmocka_unit_test(friction_by_quadrature), cmocka_unit_test(theory_answers),
+      cmocka_unit_test(rough_viscosity),        cmocka_unit_test(heated_by_noise),
+      cmocka_unit_test(nearly_smooth_ratios),   cmocka_unit_test(strong_friction),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
