@@ -14,7 +14,12 @@ static double least_restitution(const gg_model *m)
 /* Roughness between smooth and perfectly rough dissipates whatever e is. */
 static bool half_rough(const gg_model *m)
 {
-  return m->rule != GG_SMOOTH && fabs(m->beta[0]) < 0.9;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) {
+      int pair = gg_pair(i, j);
+      if (gg_rule_of(m->beta[pair], m->mu[pair]) != GG_SMOOTH && fabs(m->beta[pair]) < 0.9) return true;
+    }
+  return false;
 }
 
 const char *gg_beyond_quasi_elastic(const gg_model *m)

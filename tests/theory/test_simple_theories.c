@@ -94,6 +94,24 @@ static void three_species(void **state)
   }
 }
 
+/* Half-rough contacts take a theory beyond its range whichever species they are between; contacts that are smooth or
+ * perfectly rough do not. */
+static void range_looks_at_all_pairs(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_USF, 0.1, 0.95, -1);
+  s.n_species = 2;
+  s.species[0].fraction = 0.5, s.species[1] = s.species[0];
+  gg_model m = model_of(&s);
+  assert_null(gg_theory_beyond(&gg_gaussian_closure, &m));
+  s.collision.beta[gg_pair(0, 1)] = s.collision.beta[gg_pair(1, 1)] = 0;
+  m = model_of(&s);
+  assert_non_null(gg_theory_beyond(&gg_gaussian_closure, &m));
+  s.collision.beta[gg_pair(0, 1)] = s.collision.beta[gg_pair(1, 1)] = 1;
+  m = model_of(&s);
+  assert_null(gg_theory_beyond(&gg_gaussian_closure, &m));
+}
+
 /* The example printed with the formulas: N1 = 0.24, N2 = -0.0203 at e = 0.9; leading coefficients are those of the
  * elastic Burnett equations, N1 = w2 x and N2 = (w6/4 - w2) x with x = 5/8 1.016034 eps, w2 = 2.028, w6 = 7.424. */
 static void sela_goldhirsch(void **state)
@@ -170,7 +188,8 @@ int main(void)
       cmocka_unit_test(list_is_complete),         cmocka_unit_test(three_species),
       cmocka_unit_test(no_number_leaks),          cmocka_unit_test(sela_goldhirsch),
       cmocka_unit_test(enskog_equation_of_state), cmocka_unit_test(enskog_mean_free_time),
-      cmocka_unit_test(enskog_knudsen),           cmocka_unit_test(enskog_refuses),
+      cmocka_unit_test(range_looks_at_all_pairs), cmocka_unit_test(enskog_knudsen),
+      cmocka_unit_test(enskog_refuses),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
