@@ -11,14 +11,26 @@
 
 static const char name[] = "enskog";
 
-static double compressibility(const gg_model *m)
+/* Z - 1 */
+static double excess(const gg_model *m)
 {
   double sum = 0;
-  if (m->boltzmann) return 1;
+  if (m->boltzmann) return 0;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++)
       sum += gg_fraction(m, i) * gg_fraction(m, j) * pow(m->sigma[gg_pair(i, j)], 3) * m->chi[gg_pair(i, j)];
-  return 1 + 2 * M_PI / 3 * m->density * sum;
+  return 2 * M_PI / 3 * m->density * sum;
+}
+
+/* Of a component of all velocities: <v_x^4>/<v_x^2>^2 of Maxwellians of unlike masses. */
+static double kurtosis(const gg_model *m)
+{
+  double second = 0, fourth = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    second += gg_fraction(m, i) / m->mass[i];
+    fourth += 3 * gg_fraction(m, i) / (m->mass[i] * m->mass[i]);
+  }
+  return fourth / (second * second);
 }
 
 static void answer_viscosity(const gg_model *m, double T, gg_theory_answer *a)
@@ -40,12 +52,12 @@ static void answer_viscosity(const gg_model *m, double T, gg_theory_answer *a)
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   if (!m->elastic) return gg_refuse(err, name, "describes elastic grains; collisions of this scene lose energy");
-  double T = m->temperature0, p = m->density * T, pc = p * (compressibility(m) - 1);
+  double T = m->temperature0, p = m->density * T, pc = p * excess(m);
   gg_answer_temperature(m, T, 1, a);
   gg_answer_pressure(m, T, p, pc, a);
   gg_answer_collisions_one(m, T, a);
   if (m->rule == GG_SMOOTH) answer_viscosity(m, T, a);
-  a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3;
+  a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = kurtosis(m);
   a->value[GG_Q_A2] = 0;
   return GG_OK;
 }

@@ -35,9 +35,11 @@ gg_lun_functions gg_lun_functions_at(gg_lun_state s)
   double loss = 8 * sqrt(M_PI) * s.n * s.n * s.chi, transfer = 12 * s.phi * y / pow(M_PI, 1.5);
   gg_lun_functions f;
   f.f1_kinetic = s.n;
-  f.f1 = s.n * (1 + 4 * h1 * y);
+  f.f1_transfer = s.n * 4 * h1 * y;
+  f.f1 = f.f1_kinetic + f.f1_transfer;
   f.f2_kinetic = 5 / (16 * sqrt(M_PI) * s.chi) * (1 + 1.6 * y * N) / Dn;
-  f.f2 = f.f2_kinetic * (1 + 0.8 * y * (2 * h1 + 3 * h2)) + transfer * (4 * h1 + 3 * h2) / 5;
+  f.f2_transfer = f.f2_kinetic * 0.8 * y * (2 * h1 + 3 * h2) + transfer * (4 * h1 + 3 * h2) / 5;
+  f.f2 = f.f2_kinetic + f.f2_transfer;
   f.f2r = transfer * h2;
   f.f3 = transfer * 4 / 3 * h1;
   f.f5 = loss * (h1 * (1 - h1) + h2 * (1 - h2) - h2 * h2 * r / K);
@@ -55,12 +57,10 @@ gg_status gg_lun_shear(const gg_model *m, double chi, const char *theory, gg_the
   gg_lun_state state = {m->density, m->phi, chi, grain, gg_lun_ratio(grain)};
   gg_lun_functions f = gg_lun_functions_at(state);
   double rate = m->shear_rate, T = rate * rate * f.f2 / f.f5;
-  double p = T * f.f1, p_kinetic = T * f.f1_kinetic, shear = -sqrt(T) * f.f2 * rate;
-  double shear_kinetic = -sqrt(T) * f.f2_kinetic * rate;
-  double pc = p - p_kinetic, shear_c = shear - shear_kinetic;
+  double pk = T * f.f1_kinetic, pc = T * f.f1_transfer;
+  double shear_k = -sqrt(T) * f.f2_kinetic * rate, shear_c = -sqrt(T) * f.f2_transfer * rate;
   gg_answer_temperature(m, T, state.ratio, a);
-  gg_answer_stress(m, T, (gg_stress){p_kinetic, p_kinetic, p_kinetic, shear_kinetic, shear_kinetic},
-                   (gg_stress){pc, pc, pc, shear_c, shear_c}, a);
+  gg_answer_stress(m, T, (gg_stress){pk, pk, pk, shear_k, shear_k}, (gg_stress){pc, pc, pc, shear_c, shear_c}, a);
   gg_answer_collisions_one(m, T, a);
   a->value[GG_Q_COLLISION_RATE] *= chi / m->chi[0];
   a->value[GG_Q_MEAN_FREE_PATH] *= m->chi[0] / chi;

@@ -14,8 +14,8 @@ typedef struct gg_lun_state {
 /* p = T f1, mu_s = T^1/2 f2, mu_r = T^1/2 f2r, xi = T^1/2 f3, D = T^3/2 f5, rotational gain = T^3/2 f5r: per volume
  * with m = d = 1; times pi/6 in units of rho_p. */
 typedef struct gg_lun_functions {
-  double f1, f1_kinetic;
-  double f2, f2_kinetic;
+  double f1, f1_kinetic, f1_transfer; /* the sum and its parts */
+  double f2, f2_kinetic, f2_transfer;
   double f2r, f3, f5, f5r;
 } gg_lun_functions;
 

@@ -123,6 +123,21 @@ static void boltzmann_is_the_dilute_limit(void **state)
   }
 }
 
+/* Stress by transfer is phi times smaller than that of flights, and told as well: Pc = 4 eta_1 phi chi nT. */
+static void transfer_of_dilute_gases(void **state)
+{
+  (void)state;
+  double first = 0;
+  for (double phi = 1e-6; phi > 1e-19; phi /= 10) {
+    gg_model m = model_for(GG_USF, phi, 0.9, -1);
+    gg_theory_answer a = answer_of(&gg_lun1991, &m);
+    assert_close(a.value[GG_Q_P_XX_COLLISIONAL] / a.value[GG_Q_P_XX_KINETIC], 3.8 * phi, 1e-5);
+    if (first == 0) first = a.value[GG_Q_P_XY_COLLISIONAL];
+    assert_close(a.value[GG_Q_P_XY_COLLISIONAL], first, 1e-5);
+  }
+  assert_true(first < -0.01);
+}
+
 /* Smooth grains in the Boltzmann limit, by hand: T = f2/f5. */
 static void boltzmann_by_hand(void **state)
 {
@@ -196,15 +211,11 @@ static void refuses_politely(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(smooth_is_lun_1984),
-      cmocka_unit_test(elastic_is_enskog),
-      cmocka_unit_test(perfectly_rough_is_pidduck),
-      cmocka_unit_test(ratio_makes_rotation_steady),
-      cmocka_unit_test(steady_state_balances),
-      cmocka_unit_test(boltzmann_is_the_dilute_limit),
-      cmocka_unit_test(boltzmann_by_hand),
-      cmocka_unit_test(pressure_minimum),
-      cmocka_unit_test(contact_values),
+      cmocka_unit_test(smooth_is_lun_1984),         cmocka_unit_test(elastic_is_enskog),
+      cmocka_unit_test(perfectly_rough_is_pidduck), cmocka_unit_test(ratio_makes_rotation_steady),
+      cmocka_unit_test(steady_state_balances),      cmocka_unit_test(boltzmann_is_the_dilute_limit),
+      cmocka_unit_test(transfer_of_dilute_gases),   cmocka_unit_test(boltzmann_by_hand),
+      cmocka_unit_test(pressure_minimum),           cmocka_unit_test(contact_values),
       cmocka_unit_test(refuses_politely),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
