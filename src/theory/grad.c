@@ -39,9 +39,11 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   GG_TRY(gg_require_constant_beta(m, name, err));
   GG_TRY(gg_require_steady_shear(m, name, err));
   GG_TRY(gg_require_dilute(m, name, err));
-  if (m->n_species == 1) return one_species(m, a, err);
+  gg_model dilute = *m; /* Boltzmann's equation: chi = 1, in collision rates as well */
+  for (int pair = 0; pair < GG_PAIRS; pair++) dilute.chi[pair] = 1;
+  if (m->n_species == 1) return one_species(&dilute, a, err);
   GG_TRY(gg_require_smooth(m, name, err));
-  return gg_grad_mixture(m, name, a, err);
+  return gg_grad_mixture(&dilute, name, a, err);
 }
 
 const gg_theory gg_grad = {

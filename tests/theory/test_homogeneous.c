@@ -221,6 +221,22 @@ static void grad_mixture(void **state)
                value_of(&gg_gaussian_closure, &m, GG_Q_PARTIAL_TEMPERATURE_RATIO), 1e-4);
 }
 
+/* Boltzmann's equation at any solid fraction: no contact value, neither of one species nor between two, in the rate of
+ * collisions as in the temperature. */
+static void grad_knows_no_contact_value(void **state)
+{
+  (void)state;
+  gg_model one = model_for(GG_USF, 0.05, 0.9, -1), two = mixture_for(GG_USF, 0.05, 0.9, -1, 1, 1, 0.5);
+  gg_model zero = model_for(GG_USF, 0, 0.9, -1);
+  gg_theory_answer a = answer_of(&gg_grad, &one), b = answer_of(&gg_grad, &two), c = answer_of(&gg_grad, &zero);
+  const gg_quantity q[] = {GG_Q_TEMPERATURE, GG_Q_PRESSURE,    GG_Q_P_XY,           GG_Q_P_YY,
+                           GG_Q_N1,          GG_Q_DISSIPATION, GG_Q_COLLISION_RATE, GG_Q_MEAN_FREE_PATH};
+  for (size_t i = 0; i < sizeof q / sizeof *q; i++) assert_close(b.value[q[i]], a.value[q[i]], 1e-11);
+  assert_close(a.value[GG_Q_TEMPERATURE], 26.494, 1e-4);
+  assert_close(a.value[GG_Q_TEMPERATURE] * pow(one.density, 2), c.value[GG_Q_TEMPERATURE], 1e-12);
+  assert_close(a.value[GG_Q_COLLISION_RATE], c.value[GG_Q_COLLISION_RATE], 1e-12);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -235,6 +251,7 @@ int main(void)
       cmocka_unit_test(grad_smooth),
       cmocka_unit_test(grad_mixture),
       cmocka_unit_test(white_noise_temperature),
+      cmocka_unit_test(grad_knows_no_contact_value),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
