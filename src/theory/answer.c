@@ -56,6 +56,16 @@ gg_status gg_require_dilute(const gg_model *m, const char *theory, gg_error *err
                    m->phi);
 }
 
+bool gg_hardly_loses(const gg_model *m)
+{
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) {
+      int pair = gg_pair(i, j);
+      if (1 - m->e[pair] > 5e-7 || (m->contact[i][j].jt > 0 && 1 - fabs(m->beta[pair]) > 5e-7)) return false;
+    }
+  return true;
+}
+
 gg_grain gg_grain_of(const gg_model *m)
 {
   const gg_contact *c = &m->contact[0][0]; /* unit masses: m_r (1+e) = eta_1, m_t (1+beta) = eta_2 */

@@ -15,6 +15,8 @@ gg_status gg_require_one_species(const gg_model *model, const char *theory, gg_e
 gg_status gg_require_at_most_two_species(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_require_smooth(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_require_constant_beta(const gg_model *model, const char *theory, gg_error *err);
+/* Does every collision lose so little of its energy (10^-6) that a steady state may be beyond what numbers resolve? */
+bool gg_hardly_loses(const gg_model *model);
 gg_status gg_require_dilute(const gg_model *model, const char *theory, gg_error *err);
 
 /* The collision rule of one species of unit mass: J = 2 m eta_1 ... in the notation of Lun (1991). */

@@ -20,8 +20,9 @@ enum { POLAR = 24, AZIMUTH = 16 };
 typedef struct pair {
   const gg_gaussian *one, *two;
   const gg_contact *contact;
-  double shear;     /* sigma * shear rate; 0 in the Boltzmann limit */
-  double frequency; /* n_j sigma^2 chi */
+  double shear;          /* sigma * shear rate; 0 in the Boltzmann limit */
+  double frequency;      /* n_j sigma^2 chi */
+  double loss_n, loss_t; /* energy lost over g_n^2 and g_t^2 */
 } pair;
 
 /* Part of z, say a: <u+ a> and <u+ a b^T> follow from B_a, R_a and the covariance of a and b. */
@@ -33,6 +34,7 @@ typedef struct part {
  * much the larger one for weakly rough grains, has no share in it. */
 typedef struct impulse {
   double u;            /* <u+>, the flux itself */
+  double loss;         /* <u+ loss> */
   gg_vec J, kJ;        /* <u+ J>, <u+ k x J> */
   gg_tensor JC, JJ;    /* <u+ J C_1^T>, <u+ J J^T> */
   gg_tensor kJs, kJkJ; /* <u+ (k x J) s_1^T>, <u+ (k x J)(k x J)^T> */
@@ -135,10 +137,12 @@ static impulse impulse_at(const pair *p, gg_vec k)
   if (jt > 0) S = plus(S, -1, product(product(X, plus(p->one->Theta, 1, p->two->Theta)), X));
   gg_vec ug = gg_axpy(I[2], g.R, gg_scale(I[1], g.B));
   gg_tensor ugg = moment(I, v, g, g, S);
-  impulse f = {.u = I[1], .J = times(L, ug)};
+  double normal = gg_dot(k, times(ugg, k));
+  impulse f = {.u = I[1], .J = times(L, ug), .loss = p->loss_n * normal};
   f.JC = product(L, moment(I, v, g, C, p->one->M));
   f.JJ = product(product(L, ugg), L);
   if (jt == 0) return f;
+  f.loss += p->loss_t * (gg_trace(ugg) - normal);
   gg_tensor Sgs = product(X, scaled(-1, p->one->Theta));
   f.kJ = gg_scale(jt, gg_cross(k, ug));
   f.kJs = scaled(jt, product(X, moment(I, v, g, s, Sgs)));
@@ -174,13 +178,19 @@ static void add_pair(const gg_model *m, const gg_gaussian *state, int i, int j, 
 {
   int o = gg_pair(i, j);
   double sigma = m->sigma[o];
-  pair p = {&state[i], &state[j], &m->contact[i][j], .shear = m->boltzmann ? 0 : sigma * m->shear_rate,
-            .frequency = number_density(m, j) * m->chi[o] * sigma * sigma};
+  pair p = {&state[i],
+            &state[j],
+            &m->contact[i][j],
+            .shear = m->boltzmann ? 0 : sigma * m->shear_rate,
+            .frequency = number_density(m, j) * m->chi[o] * sigma * sigma,
+            .loss_n = 0.5 * (1 - m->e[o]) * (1 + m->e[o]) / gg_inverse_mr(&m->contact[i][j]),
+            .loss_t = 0.5 * (1 - m->beta[o]) * (1 + m->beta[o]) / gg_inverse_mt(&m->contact[i][j])};
   impulse f = impulse_at(&p, k);
   w *= p.frequency;
   r->frequency[i] += w * f.u;
   add_velocity(&p, &f, w, &r->change[i]);
   if (p.contact->jt > 0) add_spin(&p, &f, w, &r->change[i]);
+  r->loss += 0.5 * number_density(m, i) * w * f.loss;
   if (!m->boltzmann) r->Pc = plus(r->Pc, 0.5 * number_density(m, i) * w * sigma, outer(k, f.J));
 }
 

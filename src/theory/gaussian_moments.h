@@ -20,6 +20,7 @@ typedef struct gg_gaussian {
 typedef struct gg_gaussian_rates {
   gg_gaussian change[GG_MAX_SPECIES]; /* d/dt of each moment, by collisions alone */
   gg_tensor Pc;                       /* collisional stress per volume; 0 in the Boltzmann limit */
+  double loss;                        /* energy per volume that collisions destroy; no difference of large numbers */
   double frequency[GG_MAX_SPECIES];   /* collisions per grain of the species */
   double speed[GG_MAX_SPECIES];       /* <|C|> */
 } gg_gaussian_rates;
@@ -28,7 +29,8 @@ typedef struct gg_gaussian_rates {
  * species; the spins of one that never spins are ignored. */
 void gg_gaussian_rates_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates);
 
-/* The steady state of uniform shear: the largest residual left, of changes per mean free time (NaN: no memory). */
+/* The steady state of uniform shear: the largest residual left, of changes per mean free time, and of the balance of
+ * energy and of shear stresses a thousandth of the relative ones, which small stresses do not hide (NaN: no memory). */
 double gg_gaussian_steady(const gg_model *model, gg_gaussian *state);
 
 double gg_trace(gg_tensor A);

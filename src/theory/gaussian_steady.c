@@ -1,6 +1,7 @@
 /* The steady state of uniform shear for anisotropic Gaussians: zero of the production terms of gaussian_moments.c plus
  * streaming. The unknowns are M = L L^T and Theta = L L^T by the logarithms of the diagonal of L, so that every trial
- * state is a distribution; and the mean spins, which vanish in the Boltzmann limit. */
+ * state is a distribution; and the mean spins, but where they are nothing beside thermal ones. The solver steps by a
+ * share of an unknown to differentiate: each is counted from -1, so that none is next to nothing. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multiroots.h>
 #include <math.h>
@@ -11,29 +12,58 @@
 
 enum { PER_TENSOR = 4, MAX_STEPS = 200, MAX_ATTEMPTS = 4, RELAXATION_STEPS = 100 };
 
-/* Residual aimed at; step of relaxation, in the same times. */
-static const double converged = 1e-13, relaxation_step = 0.3;
+/* Residual aimed at; one that is close to it; step of relaxation, in the same times. */
+static const double converged = 1e-13, close = 1e-5, relaxation_step = 0.3;
+
+/* Weight of relative residuals, of the balance of energy and of shear stresses. Nearly elastic grains do not shear
+ * fast: with s the ratio of the shear rate to that of collisions these equations are, in units of T, of order s^2 and
+ * s. */
+static const double relative = 1e-3;
+
+/* Thermal speed, in units of the shear rate times the diameter, above which what mean spins do to collisions is lost in
+ * rounding: they are left rolling with the flow (and 0 in the Boltzmann limit, where the thermal speed is infinite). */
+static const double fast = 1e8;
 
 typedef struct closure {
   const gg_model *model;
-  double T; /* scale of the temperature, from the starting guess */
+  double T, ratio, shear; /* of the start: temperature, theta/T, -P_xy/p */
+  int most;               /* species of most grains, whose equation of energy gives way to that of all */
+  bool turns;             /* mean spins are unknowns */
+  double off_unit,
+      spin_unit; /* of the off-diagonal elements and mean spins: between what they are and 1, thermal spins */
 } closure;
 
-static gg_tensor unpack_tensor(const gsl_vector *x, size_t at, double scale)
+static double unknown(const gsl_vector *x, size_t at)
 {
-  double lx = exp(gsl_vector_get(x, at)), ly = exp(gsl_vector_get(x, at + 1)), lz = exp(gsl_vector_get(x, at + 3));
-  double off = gsl_vector_get(x, at + 2) * ly, xy = scale * lx * off;
+  return gsl_vector_get(x, at) - 1;
+}
+
+static void set_unknown(gsl_vector *x, size_t at, double value)
+{
+  gsl_vector_set(x, at, 1 + value);
+}
+
+static gg_tensor unpack_tensor(const closure *c, const gsl_vector *x, size_t at, double scale)
+{
+  double lx = exp(unknown(x, at)), ly = exp(unknown(x, at + 1)), lz = exp(unknown(x, at + 3));
+  double off = c->off_unit * unknown(x, at + 2) * ly, xy = scale * lx * off;
   return (gg_tensor){{{scale * lx * lx, xy, 0}, {xy, scale * (off * off + ly * ly), 0}, {0, 0, scale * lz * lz}}};
 }
 
-static void pack_tensor(gg_tensor A, double scale, gsl_vector *x, size_t at)
+static void pack_tensor(const closure *c, gg_tensor A, double scale, gsl_vector *x, size_t at)
 {
   double xx = A.at[0][0] / scale, xy = A.at[0][1] / scale, zz = A.at[2][2] / scale;
   double ly2 = A.at[1][1] / scale - xy * xy / xx;
-  gsl_vector_set(x, at, 0.5 * log(xx));
-  gsl_vector_set(x, at + 1, 0.5 * log(ly2));
-  gsl_vector_set(x, at + 2, xy / sqrt(xx * ly2));
-  gsl_vector_set(x, at + 3, 0.5 * log(zz));
+  set_unknown(x, at, 0.5 * log(xx));
+  set_unknown(x, at + 1, 0.5 * log(ly2));
+  set_unknown(x, at + 2, xy / sqrt(xx * ly2) / c->off_unit);
+  set_unknown(x, at + 3, 0.5 * log(zz));
+}
+
+/* Of grains that roll with the flow. */
+static double rolling(const gg_model *m, int i)
+{
+  return -m->shear_rate * m->diameter[i] / 4;
 }
 
 static void unpack(const closure *c, const gsl_vector *x, gg_gaussian *state)
@@ -41,12 +71,13 @@ static void unpack(const closure *c, const gsl_vector *x, gg_gaussian *state)
   size_t at = 0;
   for (int i = 0; i < c->model->n_species; i++) {
     double scale = c->T / c->model->mass[i];
-    state[i] = (gg_gaussian){.M = unpack_tensor(x, at, scale)};
+    state[i] = (gg_gaussian){.M = unpack_tensor(c, x, at, scale)};
     at += PER_TENSOR;
     if (!gg_species_spins(c->model, i)) continue;
-    state[i].Theta = unpack_tensor(x, at, scale);
+    state[i].Theta = unpack_tensor(c, x, at, scale);
     at += PER_TENSOR;
-    if (!c->model->boltzmann) state[i].spin = gsl_vector_get(x, at++) * c->model->diameter[i] / 2;
+    if (!c->model->boltzmann) state[i].spin = rolling(c->model, i);
+    if (c->turns) state[i].spin += unknown(x, at++) * c->spin_unit;
   }
 }
 
@@ -55,12 +86,12 @@ static void pack(const closure *c, const gg_gaussian *state, gsl_vector *x)
   size_t at = 0;
   for (int i = 0; i < c->model->n_species; i++) {
     double scale = c->T / c->model->mass[i];
-    pack_tensor(state[i].M, scale, x, at);
+    pack_tensor(c, state[i].M, scale, x, at);
     at += PER_TENSOR;
     if (!gg_species_spins(c->model, i)) continue;
-    pack_tensor(state[i].Theta, scale, x, at);
+    pack_tensor(c, state[i].Theta, scale, x, at);
     at += PER_TENSOR;
-    if (!c->model->boltzmann) gsl_vector_set(x, at++, state[i].spin * 2 / c->model->diameter[i]);
+    if (c->turns) set_unknown(x, at++, (state[i].spin - rolling(c->model, i)) / c->spin_unit);
   }
 }
 
@@ -79,86 +110,132 @@ static void scale_tensor(gg_tensor *A, double factor)
     for (int j = 0; j < 3; j++) A->at[i][j] *= factor;
 }
 
-/* d/dt of all moments, streaming included, per mean free time or shear time, whichever is shorter (of spins: per time
- * in which collisions change them). */
-static void production(const gg_model *m, const gg_gaussian *state, gg_gaussian change[GG_MAX_SPECIES])
+/* Mean free time or shear time, whichever is shorter. */
+static double time_of(const gg_model *m, const gg_gaussian_rates *r, int i)
+{
+  return 1 / (r->frequency[i] + 3 * m->shear_rate);
+}
+
+/* d/dt of all moments, streaming included, per that time (of spins: per time in which collisions change them); the
+ * excess of the work of shear over the loss, relative to that; and by species the shear in that time. */
+typedef struct gg_production {
+  gg_gaussian change[GG_MAX_SPECIES];
+  double excess, shear[GG_MAX_SPECIES];
+} gg_production;
+
+static void production(const gg_model *m, const gg_gaussian *state, gg_production *p)
 {
   gg_gaussian_rates r;
+  gg_gaussian *change = p->change;
   gg_gaussian_rates_at(m, state, &r);
+  double stress = r.Pc.at[1][0];
   for (int i = 0; i < m->n_species; i++) {
     double xy = state[i].M.at[0][1], yy = state[i].M.at[1][1];
     change[i] = r.change[i];
     change[i].M.at[0][0] -= 2 * m->shear_rate * xy;
     change[i].M.at[0][1] -= m->shear_rate * yy;
     change[i].M.at[1][0] -= m->shear_rate * yy;
-    double time = 1 / (r.frequency[i] + 3 * m->shear_rate);
+    stress += m->density * gg_fraction(m, i) * m->mass[i] * xy;
+    double time = time_of(m, &r, i);
+    p->shear[i] = 3 * m->shear_rate * time;
     scale_tensor(&change[i].M, time);
     if (!gg_species_spins(m, i)) continue;
     time /= grip_of(m, i);
     scale_tensor(&change[i].Theta, time);
     change[i].spin *= time;
   }
+  p->excess = -m->shear_rate * stress / r.loss - 1;
 }
 
-/* Trace and deviations apart: energy is the slow equation. */
-static void put_tensor(gg_tensor A, double unit, gsl_vector *f, size_t at)
+/* Trace and deviations apart: energy is the slow equation. `shear`: what drives the last. */
+static void put_tensor(gg_tensor A, double unit, double shear, gsl_vector *f, size_t at)
 {
   gsl_vector_set(f, at, gg_trace(A) / unit);
   gsl_vector_set(f, at + 1, (A.at[1][1] - A.at[0][0]) / unit);
   gsl_vector_set(f, at + 2, (A.at[2][2] - A.at[0][0]) / unit);
-  gsl_vector_set(f, at + 3, A.at[0][1] / unit);
+  gsl_vector_set(f, at + 3, relative * A.at[0][1] / (unit * shear));
 }
 
-/* The moment equations, in units of T, theta and the spin of rolling. */
+/* The moment equations, in units of T, theta and the spin of rolling. The loss of energy is next to nothing beside what
+ * nearly elastic grains exchange, and comes from one equation for all of them. */
 static int residual(const gsl_vector *x, void *params, gsl_vector *f)
 {
   const closure *c = params;
-  gg_gaussian state[GG_MAX_SPECIES], change[GG_MAX_SPECIES];
+  gg_gaussian state[GG_MAX_SPECIES];
+  gg_production p;
   unpack(c, x, state);
-  production(c->model, state, change);
+  production(c->model, state, &p);
+  const gg_gaussian *change = p.change;
   size_t at = 0;
   for (int i = 0; i < c->model->n_species; i++) {
-    put_tensor(change[i].M, gg_trace(state[i].M) / 3, f, at);
+    put_tensor(change[i].M, gg_trace(state[i].M) / 3, p.shear[i], f, at);
+    if (i == c->most) gsl_vector_set(f, at, relative * p.excess);
     at += PER_TENSOR;
     if (!gg_species_spins(c->model, i)) continue;
-    put_tensor(change[i].Theta, gg_trace(state[i].Theta) / 3, f, at);
+    put_tensor(change[i].Theta, gg_trace(state[i].Theta) / 3, p.shear[i], f, at);
     at += PER_TENSOR;
-    if (!c->model->boltzmann) gsl_vector_set(f, at++, change[i].spin * 2 / c->model->diameter[i]);
+    if (c->turns) gsl_vector_set(f, at++, relative * change[i].spin / rolling(c->model, i));
   }
   for (size_t i = 0; i < f->size; i++)
     if (!isfinite(gsl_vector_get(f, i))) return GSL_EBADFUNC;
   return GSL_SUCCESS;
 }
 
-/* Isotropic Gaussians at the temperature that Lun's theory gives grains of species 1, with his spins. */
-static void start(closure *c, gsl_vector *x)
+/* Scales from Lun's theory of grains of species 1: the work of his shear stress is about the loss. */
+static closure closure_of(const gg_model *m)
+{
+  closure c = {.model = m};
+  gg_grain grain = gg_grain_of(m);
+  double ratio = gg_lun_ratio(grain), mass = 0;
+  gg_lun_functions lun = gg_lun_functions_at((gg_lun_state){m->density, m->phi, m->chi[0], grain, ratio});
+  for (int i = 0; i < m->n_species; i++) {
+    mass += gg_fraction(m, i) * m->mass[i];
+    if (m->n_of[i] > m->n_of[c.most]) c.most = i;
+  }
+  c.T = mass * lun.f2 / lun.f5;
+  if (!(c.T > 0 && isfinite(c.T))) c.T = m->temperature0;
+  double thermal = sqrt(c.T / mass), rate = m->shear_rate * m->diameter[0];
+  c.ratio = fmax(ratio, 1e-6);
+  c.shear = fmin(fabs(lun.f2_kinetic) * m->shear_rate / (m->density * thermal), 0.5); /* < 0 where dense, e small */
+  c.turns = !m->boltzmann && thermal < fast * rate;
+  c.off_unit = sqrt(c.shear);
+  c.spin_unit = sqrt(thermal * rate);
+  return c;
+}
+
+/* Gaussians at that temperature, with that shear stress; spins isotropic, rolling with the flow. */
+static void start(const closure *c, gsl_vector *x)
 {
   const gg_model *m = c->model;
-  gg_grain grain = gg_grain_of(m);
-  double ratio = gg_lun_ratio(grain);
-  gg_lun_functions lun = gg_lun_functions_at((gg_lun_state){m->density, m->phi, m->chi[0], grain, ratio});
-  c->T = lun.f2 / lun.f5;
-  double mass = 0;
-  for (int i = 0; i < m->n_species; i++) mass += gg_fraction(m, i) * m->mass[i];
-  c->T *= mass;
-  if (!(c->T > 0 && isfinite(c->T))) c->T = m->temperature0;
   gg_gaussian state[GG_MAX_SPECIES];
   for (int i = 0; i < m->n_species; i++) {
-    double T = c->T / m->mass[i], theta = T * fmax(ratio, 1e-6) / m->inertia[i];
-    state[i].M = (gg_tensor){{{T, 0, 0}, {0, T, 0}, {0, 0, T}}};
+    double T = c->T / m->mass[i], xy = -c->shear * T, theta = T * c->ratio / m->inertia[i];
+    state[i].M = (gg_tensor){{{T, xy, 0}, {xy, T, 0}, {0, 0, T}}};
     state[i].Theta = (gg_tensor){{{theta, 0, 0}, {0, theta, 0}, {0, 0, theta}}};
-    state[i].spin = m->boltzmann ? 0 : -m->shear_rate * m->diameter[i] / 4;
+    state[i].spin = m->boltzmann ? 0 : rolling(m, i);
   }
   pack(c, state, x);
 }
 
-/* Let the moments relax, as they would in the gas. */
+/* Warm or cool all by a tenth of what the work of shear, over the loss, asks for. */
+static void follow_energy(const gg_model *m, double excess, gg_gaussian state[])
+{
+  double factor = exp(0.1 * fmin(fmax(log(fmax(1 + excess, 1e-3)), -3), 3));
+  for (int i = 0; i < m->n_species; i++) {
+    scale_tensor(&state[i].M, factor);
+    scale_tensor(&state[i].Theta, factor);
+  }
+}
+
+/* Let the moments relax, as they would in the gas, but that energy does not wait for the loss of many collisions. */
 static void relax(const closure *c, gsl_vector *x, int steps)
 {
-  gg_gaussian state[GG_MAX_SPECIES], change[GG_MAX_SPECIES];
+  gg_gaussian state[GG_MAX_SPECIES];
+  gg_production p;
+  const gg_gaussian *change = p.change;
   unpack(c, x, state);
   for (int step = 0; step < steps; step++) {
-    production(c->model, state, change);
+    production(c->model, state, &p);
     for (int i = 0; i < c->model->n_species; i++) {
       for (int a = 0; a < 9; a++) {
         state[i].M.at[a / 3][a % 3] += relaxation_step * change[i].M.at[a / 3][a % 3];
@@ -166,6 +243,7 @@ static void relax(const closure *c, gsl_vector *x, int steps)
       }
       state[i].spin += relaxation_step * change[i].spin;
     }
+    follow_energy(c->model, p.excess, state);
   }
   pack(c, state, x);
 }
@@ -190,17 +268,18 @@ static double improve(gsl_multiroot_fsolver *solver, gsl_multiroot_function *f, 
   return largest(solver->f);
 }
 
-static size_t unknowns(const gg_model *m)
+static size_t unknowns(const closure *c)
 {
-  size_t n = 0, mean_spin = m->boltzmann ? 0 : 1;
+  const gg_model *m = c->model;
+  size_t n = 0, mean_spin = c->turns ? 1 : 0;
   for (int i = 0; i < m->n_species; i++) n += PER_TENSOR + (gg_species_spins(m, i) ? PER_TENSOR + mean_spin : 0);
   return n;
 }
 
 double gg_gaussian_steady(const gg_model *model, gg_gaussian *state)
 {
-  closure c = {.model = model};
-  size_t size = unknowns(model);
+  closure c = closure_of(model);
+  size_t size = unknowns(&c);
   gsl_multiroot_function f = {residual, size, &c};
   gsl_multiroot_fsolver *solver = gsl_multiroot_fsolver_alloc(gsl_multiroot_fsolver_hybrids, size);
   gsl_vector *x = gsl_vector_alloc(size);
@@ -210,7 +289,7 @@ double gg_gaussian_steady(const gg_model *model, gg_gaussian *state)
     left = improve(solver, &f, x);
     /* A stall close by is a stale Jacobian: go on from there. Far away the start was too far off: relax first. */
     for (int attempt = 1; attempt <= MAX_ATTEMPTS && !(left < converged); attempt++) {
-      if (!(left < 1e-3)) start(&c, x), relax(&c, x, attempt * RELAXATION_STEPS);
+      if (!(left < close)) start(&c, x), relax(&c, x, attempt * RELAXATION_STEPS);
       left = improve(solver, &f, x);
     }
     unpack(&c, x, state);

@@ -24,6 +24,63 @@ static void is_steady_everywhere(void **state)
   }
 }
 
+static gg_model unlike(double phi, double e, double mass, double diameter)
+{
+  gg_scene s = scene_of(GG_USF, phi, e, -1);
+  s.n_species = 2;
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4}, s.species[1] = (gg_species){0.5, diameter, mass, 0.4};
+  return model_of(&s);
+}
+
+/* As e -> 1 T goes as 1/(1-e), and N1 as 1-e, down to the last bit of e: the loss of energy is 10^-16 of what
+ * collisions exchange. Also of perfectly rough grains, to whose viscosity anisotropic spins add. */
+static void nearly_elastic(void **state)
+{
+  (void)state;
+  double first[4][2];
+  for (int k = 0; k < 5; k++) {
+    const double less[] = {1e-7, 1e-9, 1e-10, 1e-12, 1e-15}, e = 1 - less[k];
+    gg_model model[] = {unlike(0, e, 100, 2), unlike(0.1, e, 10, 1), model_for(GG_USF, 0, e, 1),
+                        model_for(GG_USF, 0.3, e, -1)};
+    for (int i = 0; i < 4; i++) {
+      gg_theory_answer a = answer_of(&gg_gaussian_closure, &model[i]);
+      double T = a.value[GG_Q_TEMPERATURE] * (1 - e), N1 = a.value[GG_Q_N1] / (1 - e);
+      if (k == 0) first[i][0] = T, first[i][1] = N1;
+      assert_close(T, first[i][0], 1e-5);
+      if (k < 4) assert_close(N1, first[i][1], 0.005);
+    }
+  }
+  const double right[] = {0.05346, 2.0316, 0.027515, 0.12580};
+  for (int i = 0; i < 4; i++) assert_close(first[i][0], right[i], 2e-4);
+}
+
+/* Rough grains as dilute as can be: thermal spins are 1/phi times those of rolling. */
+static void dilute_rough_grains(void **state)
+{
+  (void)state;
+  gg_theory_answer zero = closure(0, 0.9, 0.5);
+  for (double phi = 1e-7; phi > 1e-19; phi /= 10) {
+    double n = 6 * phi / M_PI;
+    gg_theory_answer a = closure(phi, 0.9, 0.5);
+    assert_close(a.value[GG_Q_TEMPERATURE] * n * n, zero.value[GG_Q_TEMPERATURE], 1e-5);
+    assert_close(a.value[GG_Q_TEMPERATURE_RATIO], zero.value[GG_Q_TEMPERATURE_RATIO], 1e-5);
+    assert_close(a.value[GG_Q_N1], zero.value[GG_Q_N1], 1e-5);
+  }
+}
+
+/* A first species that hardly loses energy tells nothing of the temperature of one that does. */
+static void unlike_losses(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_USF, 0.416624, 0.9999881646604375, 1);
+  s.n_species = 2;
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4}, s.species[1] = (gg_species){0.5, 0.36, 30, 0.2};
+  s.collision.beta[gg_pair(0, 1)] = -0.6, s.collision.beta[gg_pair(1, 1)] = -1;
+  gg_model m = model_of(&s);
+  gg_gaussian g[2];
+  assert_true(gg_gaussian_steady(&m, g) < 1e-9);
+}
+
 /* Angular momentum: the stress of a steady state is symmetric, spins or not; no net torque. */
 static void stress_is_symmetric(void **state)
 {
@@ -139,6 +196,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(is_steady_everywhere),
+      cmocka_unit_test(nearly_elastic),
+      cmocka_unit_test(dilute_rough_grains),
+      cmocka_unit_test(unlike_losses),
       cmocka_unit_test(stress_is_symmetric),
       cmocka_unit_test(quasi_elastic_is_navier_stokes),
       cmocka_unit_test(boltzmann_is_the_dilute_limit),

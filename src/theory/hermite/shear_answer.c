@@ -98,13 +98,20 @@ static void answer_relaxation(gg_hermite_shear *h, gg_theory_answer *a)
   free(mode);
 }
 
+/* Newton's method has the balance of energy as one equation among those of all that collisions exchange. */
+static gg_status refuse(const gg_model *m, const char *why, gg_error *err)
+{
+  if (gg_hardly_loses(m)) return gg_refuse(err, name, "fails here: the loss of energy is below numerical resolution");
+  return gg_refuse(err, name, "fails here: %s", why);
+}
+
 /* `slow`: answers of its own, of the relaxation alone, which a low degree knows well. */
 static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_error *err)
 {
   for (int degree = FIRST_DEGREE; degree <= last_degree[h->gas.n_species]; degree += 2) {
     if (degree > GOOD_DEGREE && gg_rungs_error(rungs, GG_Q_TEMPERATURE) < good) break;
     gg_error why;
-    if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
+    if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return refuse(h->model, why.message, err);
     answer(h, gg_rungs_next(rungs));
     if (degree <= SPECTRUM_DEGREE) answer_relaxation(h, gg_rungs_next(slow));
   }
@@ -120,7 +127,7 @@ gg_status gg_hermite_shear_answer(const gg_model *m, gg_theory_answer *a, gg_err
   if (m->n_species > MOST_SPECIES)
     return gg_refuse(err, name, "describes sheared grains of up to %d species; this scene has %d", MOST_SPECIES,
                      m->n_species);
-  if (gg_hermite_shear_begin(&h, m, &why) != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
+  if (gg_hermite_shear_begin(&h, m, &why) != GG_OK) return refuse(m, why.message, err);
   gg_status status = climb(&h, &rungs, &slow, err);
   gg_hermite_shear_end(&h);
   if (status == GG_OK) status = gg_rungs_finish(&rungs, name, GG_Q_TEMPERATURE, a, err);
