@@ -21,6 +21,10 @@ static const char name[] = "enskog_hermite";
 enum { FIRST_DEGREE = 4, GOOD_DEGREE = 10, LAST_DEGREE = 18, VISCOSITY_DEGREE = 8 };
 static const double good = 1e-8;
 
+/* Cooling rate, in units of the collision frequency, below which its error is not counted in its own units: of elastic
+ * grains it is 0. */
+static const double hardly = 1e-6;
+
 static void answer_flights(const gg_model *m, double rate, double speed, gg_theory_answer *a)
 {
   a->value[GG_Q_COLLISION_RATE] = rate;
@@ -38,7 +42,7 @@ static double fourth(const double C[3])
 static double temperature_of(const gg_model *m, double cooling, bool noise)
 {
   double e = m->e[0], maxwellian = 5. / 12 * m->chi[0] * (1 - e * e) * gg_model_nu0(m, 1);
-  return m->temperature0 * (noise && cooling > 0 ? pow(maxwellian / cooling, 2. / 3) : 1);
+  return m->temperature0 * (noise && cooling > 0 && !m->elastic ? pow(maxwellian / cooling, 2. / 3) : 1);
 }
 
 static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, bool noise, gg_theory_answer *a)
@@ -48,7 +52,7 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, bool no
   double a2 = gg_hermite_mean(&h->op.basis, &h->state, fourth) / 15 - 1;
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
-  a->value[GG_Q_COOLING_RATE] = h->cooling_rate / gg_model_nu0(m, 1);
+  a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : h->cooling_rate / gg_model_nu0(m, 1);
   if (m->linear_response) return; /* no temperature of its own: it grows */
   double T = temperature_of(m, h->cooling_rate, noise), p = m->density * T;
   gg_answer_temperature(m, T, NAN, a);
@@ -84,7 +88,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
     gg_hermite_isotropic_end(&h);
     if (status != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
   }
-  GG_TRY(gg_rungs_finish(&rungs, name, GG_Q_COOLING_RATE, a, err));
+  GG_TRY(gg_rungs_finish(&rungs, name, GG_Q_COOLING_RATE, hardly, a, err));
   gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED, a);
   gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
   return GG_OK;

@@ -20,6 +20,35 @@ static void elastic_limit(void **state)
   gg_hermite_isotropic_end(&h);
 }
 
+/* ... and by the theory: elastic gases at rest do not cool, which is no failure, keep the temperature given, and have
+ * the viscosity that those have which hardly lose energy. */
+static void elastic_gases_at_rest(void **state)
+{
+  (void)state;
+  const gg_flow flow[] = {GG_HCS, GG_HSS, GG_HSS, GG_SMALL_SHEAR};
+  for (int i = 0; i < 4; i++) {
+    gg_scene s = scene_of(flow[i], 0.1, 1, -1);
+    if (flow[i] == GG_HSS) s.thermostat = i == 1 ? GG_GAUSSIAN : GG_WHITE_NOISE;
+    gg_model m = model_of(&s);
+    gg_theory_answer a = answer_of(&gg_enskog_hermite, &m);
+    assert_close(a.value[GG_Q_COOLING_RATE], 0, 0);
+    assert_close(a.value[GG_Q_A2], 0, 1e-9);
+    if (flow[i] != GG_SMALL_SHEAR) assert_close(a.value[GG_Q_TEMPERATURE], 0.5, 1e-12);
+    gg_model nearly = model_for(GG_HCS, 0.1, 1 - 1e-12, -1);
+    assert_close(a.value[GG_Q_VISCOSITY_REDUCED], value_of(&gg_enskog_hermite, &nearly, GG_Q_VISCOSITY_REDUCED), 1e-6);
+  }
+}
+
+/* Nearer to elastic than numbers resolve, sheared: the reason is told. */
+static void loss_below_resolution(void **state)
+{
+  (void)state;
+  for (double less = 1e-10; less > 1e-15; less /= 100) {
+    gg_model m = model_for(GG_USF, 0.1, 1 - less, -1);
+    assert_refused(&gg_enskog_hermite, &m, "the loss of energy is below numerical resolution");
+  }
+}
+
 /* A cooling gas, near what the first Sonine order says, and a state heated by a Gaussian thermostat is the same. */
 static void homogeneous_states(void **state)
 {
@@ -170,6 +199,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(elastic_limit),
+      cmocka_unit_test(elastic_gases_at_rest),
+      cmocka_unit_test(loss_below_resolution),
       cmocka_unit_test(homogeneous_states),
       cmocka_unit_test(errors_are_honest),
       cmocka_unit_test(energy_is_balanced),

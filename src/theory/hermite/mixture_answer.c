@@ -47,7 +47,7 @@ static double transfer(const gg_model *m, const gg_hermite_mixture *x)
 /* White noise is set to balance Maxwellians at temperature0 (thermostat.h). */
 static double temperature_of(const gg_model *m, const gg_hermite_mixture *x)
 {
-  if (!x->noise || !(x->heating > 0)) return m->temperature0;
+  if (m->elastic || !x->noise || !(x->heating > 0)) return m->temperature0;
   return pow(gg_thermostat_noise(m) / 2 / x->heating, 2. / 3);
 }
 
@@ -59,7 +59,7 @@ static void answer_mixture(const gg_model *m, const gg_hermite_mixture *x, gg_th
     partial[i] = T * m->mass[i] * x->scale[i] * x->scale[i] * square;
     a->value[GG_Q_CUMULANT + i] = 2 * (gg_hermite_mixture_fourth(x, i) / (15 * square * square) - 1);
   }
-  a->value[GG_Q_COOLING_RATE] = gg_hermite_mixture_cooling(x, m) / gg_model_nu0(m, 1);
+  a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : gg_hermite_mixture_cooling(x, m) / gg_model_nu0(m, 1);
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = partial[0] / partial[1];
   if (m->linear_response) return; /* no temperature of its own: it grows */
   gg_answer_temperature(m, T, NAN, a);
@@ -124,7 +124,7 @@ gg_status gg_hermite_mixture_answer(const gg_model *m, gg_theory_answer *a, gg_e
       status = answer_viscosity(m, &x, 2 * l, gg_rungs_next(&viscous), &why);
     if (status != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
   }
-  GG_TRY(gg_rungs_finish(&rungs, name, GG_Q_PARTIAL_TEMPERATURE_RATIO, a, err));
+  GG_TRY(gg_rungs_finish(&rungs, name, GG_Q_PARTIAL_TEMPERATURE_RATIO, 0, a, err));
   if (viscous.n > 0)
     gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED, a), gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
   return GG_OK;

@@ -34,11 +34,12 @@ void gg_rungs_take(const gg_rungs *r, gg_quantity q, gg_theory_answer *a)
   a->error[q] = gg_rungs_error_of(r, q);
 }
 
-gg_status gg_rungs_finish(const gg_rungs *r, const char *theory, gg_quantity judge, gg_theory_answer *a, gg_error *err)
+gg_status gg_rungs_finish(const gg_rungs *r, const char *theory, gg_quantity judge, double least, gg_theory_answer *a,
+                          gg_error *err)
 {
   *a = r->answer[0];
   for (int q = 0; q < GG_N_QUANTITIES; q++) a->error[q] = gg_rungs_error_of(r, (gg_quantity)q);
-  double left = gg_rungs_error(r, judge);
+  double left = r->n < 2 ? INFINITY : a->error[judge] / fmax(fabs(a->value[judge]), least);
   if (left < poor) return GG_OK;
   return gg_refuse(err, theory, "does not converge here: it is still %.1g %% off", 100 * left);
 }

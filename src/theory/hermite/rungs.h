@@ -19,8 +19,8 @@ double gg_rungs_error(const gg_rungs *rungs, gg_quantity q); /* relative; INFINI
 /* One quantity of the last answer, with its error. */
 void gg_rungs_take(const gg_rungs *rungs, gg_quantity q, gg_theory_answer *answer);
 
-/* The last answer with its errors; refused where that of `judge` is above 1 %. */
-gg_status gg_rungs_finish(const gg_rungs *rungs, const char *theory, gg_quantity judge, gg_theory_answer *answer,
-                          gg_error *err);
+/* The last answer with its errors; refused where that of `judge` is above 1 % of it, and of `least`: some vanish. */
+gg_status gg_rungs_finish(const gg_rungs *rungs, const char *theory, gg_quantity judge, double least,
+                          gg_theory_answer *answer, gg_error *err);
 
 #endif

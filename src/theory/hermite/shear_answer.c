@@ -130,7 +130,7 @@ gg_status gg_hermite_shear_answer(const gg_model *m, gg_theory_answer *a, gg_err
   if (gg_hermite_shear_begin(&h, m, &why) != GG_OK) return refuse(m, why.message, err);
   gg_status status = climb(&h, &rungs, &slow, err);
   gg_hermite_shear_end(&h);
-  if (status == GG_OK) status = gg_rungs_finish(&rungs, name, GG_Q_TEMPERATURE, a, err);
+  if (status == GG_OK) status = gg_rungs_finish(&rungs, name, GG_Q_TEMPERATURE, 0, a, err);
   if (status == GG_OK) gg_rungs_take(&slow, GG_Q_RELAXATION_RATE, a);
   return status;
 }
