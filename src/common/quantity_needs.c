@@ -63,7 +63,8 @@ static const struct {
 } rules[] = {
     {GG_NEEDS_SPINS, smooth, "smooth grains do not spin"},
     {GG_NEEDS_MEAN_SPIN, unsheared, "without shear there is no mean spin"},
-    {GG_NEEDS_MEAN_SPIN, boltzmann, "in the Boltzmann limit collisions do not feel the shear: no mean spin"},
+    {GG_NEEDS_MEAN_SPIN, boltzmann,
+     "in the Boltzmann limit the mean spin, a share of thermal ones, is infinite in units of the shear rate"},
     {GG_NEEDS_TRANSFER, boltzmann, "no collisional transfer in the Boltzmann limit"},
     {GG_NEEDS_VOLUME, boltzmann, "an ideal gas in the Boltzmann limit: Z = 1 by definition"},
     {GG_NEEDS_SCALE_SHOWN, cooling, "decays in free cooling; see the history"},

@@ -130,6 +130,11 @@ void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_
   a->value[GG_Q_ROTATIONAL_TEMPERATURE] = ratio * T;
 }
 
+void gg_answer_rolling(const gg_model *m, double spin, gg_theory_answer *a)
+{
+  if (m->rule != GG_SMOOTH && m->phi >= GG_ROLLING_PHI) a->value[GG_Q_SPIN_Z] = spin;
+}
+
 void gg_answer_collisions(const gg_model *m, const double T[], gg_theory_answer *a)
 {
   double rate = 0, speed = 0;

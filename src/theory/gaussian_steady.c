@@ -21,7 +21,8 @@ static const double converged = 1e-13, close = 1e-5, relaxation_step = 0.3;
 static const double relative = 1e-3;
 
 /* Thermal speed, in units of the shear rate times the diameter, above which what mean spins do to collisions is lost in
- * rounding: they are left rolling with the flow (and 0 in the Boltzmann limit, where the thermal speed is infinite). */
+ * rounding: they are left rolling with the flow (and 0 in the Boltzmann limit, where the thermal speed is infinite: of
+ * independent velocities and spins; see GG_ROLLING_PHI). */
 static const double fast = 1e8;
 
 typedef struct closure {

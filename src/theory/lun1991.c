@@ -1,6 +1,7 @@
 /* Kinetic theory of slightly inelastic, slightly rough (or nearly perfectly rough) spheres: C.K.K. Lun, J. Fluid Mech.
- * 233 (1991) 539. First Sonine order, first order in gradients, isotropic spins with mean curl(u)/2; the dependence of
- * the collision integrals on e and beta is kept in full. Steady shear: Gayen & Alam, J. Fluid Mech. 567 (2006) 195.
+ * 233 (1991) 539. First Sonine order, first order in gradients, isotropic spins, independent of velocities, with mean
+ * curl(u)/2; the dependence of the collision integrals on e and beta is kept in full. Steady shear: Gayen & Alam, J.
+ * Fluid Mech. 567 (2006) 195.
  *
  * With y = phi chi, r = theta/T, per volume, m = d = 1:
  *   f1  = n (1 + 4 eta_1 y)
@@ -66,7 +67,7 @@ gg_status gg_lun_shear(const gg_model *m, double chi, const char *theory, gg_the
   a->value[GG_Q_MEAN_FREE_PATH] *= m->chi[0] / chi;
   a->value[GG_Q_KNUDSEN] *= m->chi[0] / chi;
   a->value[GG_Q_DISSIPATION] = m->stress_unit * pow(T, 1.5) * f.f5;
-  if (m->rule != GG_SMOOTH && !m->boltzmann) a->value[GG_Q_SPIN_Z] = -0.5;
+  gg_answer_rolling(m, -0.5, a);
   return GG_OK;
 }
 

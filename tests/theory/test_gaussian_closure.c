@@ -81,6 +81,22 @@ static void unlike_losses(void **state)
   assert_true(gg_gaussian_steady(&m, g) < 1e-9);
 }
 
+/* Spins independent of velocities roll, which is all the mean spin there is but where dilute: nothing is told there. */
+static void mean_spin(void **state)
+{
+  (void)state;
+  const double phi[] = {0, 1e-6, 0.009, 0.01, 0.3};
+  for (int i = 0; i < 5; i++) {
+    gg_model m = model_for(GG_USF, phi[i], 0.7, -0.5);
+    double spin = value_of(&gg_gaussian_closure, &m, GG_Q_SPIN_Z), lun = value_of(&gg_lun1991, &m, GG_Q_SPIN_Z);
+    assert_int_equal(isnan(spin), phi[i] < 0.01);
+    assert_int_equal(isnan(lun), phi[i] < 0.01);
+    if (phi[i] == 0.01) assert_close(spin, -0.5495, 1e-3);
+  }
+  gg_model m = model_for(GG_USF, 0, 0.7, -0.5);
+  assert_non_null(strstr(gg_quantity_missing(&m, GG_Q_SPIN_Z), "infinite in units of the shear rate"));
+}
+
 /* Angular momentum: the stress of a steady state is symmetric, spins or not; no net torque. */
 static void stress_is_symmetric(void **state)
 {
@@ -196,6 +212,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(is_steady_everywhere),
+      cmocka_unit_test(mean_spin),
       cmocka_unit_test(nearly_elastic),
       cmocka_unit_test(dilute_rough_grains),
       cmocka_unit_test(unlike_losses),
