@@ -13,7 +13,7 @@
 enum { PER_TENSOR = 4, MAX_STEPS = 200, MAX_ATTEMPTS = 4, RELAXATION_STEPS = 100 };
 
 /* Residual aimed at; one that is close to it; step of relaxation, in the same times. */
-static const double converged = 1e-13, close = 1e-5, relaxation_step = 0.3;
+static const double converged = 1e-13, nearby = 1e-5, relaxation_step = 0.3;
 
 /* Weight of relative residuals, of the balance of energy and of shear stresses. Nearly elastic grains do not shear
  * fast: with s the ratio of the shear rate to that of collisions these equations are, in units of T, of order s^2 and
@@ -30,8 +30,8 @@ typedef struct closure {
   double T, ratio, shear; /* of the start: temperature, theta/T, -P_xy/p */
   int most;               /* species of most grains, whose equation of energy gives way to that of all */
   bool turns;             /* mean spins are unknowns */
-  double off_unit,
-      spin_unit; /* of the off-diagonal elements and mean spins: between what they are and 1, thermal spins */
+  double off_unit;        /* of off-diagonal elements: between their size and 1 */
+  double spin_unit;       /* of mean spins less those of rolling: between rolling and thermal spins */
 } closure;
 
 static double unknown(const gsl_vector *x, size_t at)
@@ -290,7 +290,7 @@ double gg_gaussian_steady(const gg_model *model, gg_gaussian *state)
     left = improve(solver, &f, x);
     /* A stall close by is a stale Jacobian: go on from there. Far away the start was too far off: relax first. */
     for (int attempt = 1; attempt <= MAX_ATTEMPTS && !(left < converged); attempt++) {
-      if (!(left < close)) start(&c, x), relax(&c, x, attempt * RELAXATION_STEPS);
+      if (!(left < nearby)) start(&c, x), relax(&c, x, attempt * RELAXATION_STEPS);
       left = improve(solver, &f, x);
     }
     unpack(&c, x, state);
