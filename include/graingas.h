@@ -655,8 +655,8 @@ typedef struct gg_reproduce_options {
 } gg_reproduce_options;
 /* One figure, "thesis 3.5" ("3.5" where one paper alone has it), or "all": NAME.h5, NAME.csv, NAME.svg and NAME.png,
  * each whole or not there; NAME_numbers.csv where the paper states numbers. Points that are done are not run again.
- * GG_FAILED: points fell short of what was asked (files are written from those there are), or it cannot be reproduced.
- */
+ * GG_FAILED: points fell short of what was asked (files are written from those there are), it cannot be reproduced, or
+ * there is no gnuplot, which is looked for before anything is run. */
 GG_API gg_status gg_reproduce(const char *figure, const gg_reproduce_options *options, gg_error *err);
 /* docs/reproduction.md: every figure with its verdict, as Markdown; to be freed. */
 GG_API gg_status gg_reproduction_page(char **text, gg_error *err);

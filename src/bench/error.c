@@ -61,7 +61,10 @@ static void put_first(gg_bench_sheet *sheet, int row, int column, const double f
   if (isfinite(first[0]) && isfinite(first[1]))
     gg_bench_sheet_put(sheet, row, column, "%s, %.2g x", name, first[1 - one] / first[one]);
   else
-    gg_bench_sheet_put(sheet, row, column, "%s", isfinite(first[one]) && !isnan(first[1 - one]) ? name : "?");
+    gg_bench_sheet_put(sheet, row, column, "%s",
+                       isnan(first[0]) || isnan(first[1]) ? "?"
+                       : isfinite(first[one])             ? name
+                                                          : "-");
 }
 
 static void put_seconds(gg_bench_sheet *sheet, int row, const gg_error_state *s, int q)

@@ -195,18 +195,20 @@ static void list_known(const gg_command *c, struct option *known)
   known[n] = (struct option){"help", no_argument, NULL, 'h'};
 }
 
-/* The one argument. */
-static int take_input(const gg_command *c, gg_options *o, const char *word)
+/* The one argument, and the first of those that are too many. */
+static void take_input(gg_options *o, const char *word)
 {
-  if (o->input) return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, word);
-  o->input = word;
-  return GG_CLI_GO_ON;
+  if (!o->input)
+    o->input = word;
+  else if (!o->surplus)
+    o->surplus = word;
 }
 
-/* Words in the order in which they were typed, also where POSIXLY_CORRECT would have options first: "-". */
+/* Words in the order in which they were typed, also where POSIXLY_CORRECT would have options first: "-". The tasks of
+ * an array script have something else to do than to print it. */
 static int take_words(const gg_command *c, const struct option *known, gg_options *o)
 {
-  const char *value = NULL;
+  const char *value = NULL, *last;
   int code = GG_CLI_GO_ON, argc = o->typed.n;
   char **argv = o->typed.word;
   opterr = 0, optind = 0;
@@ -215,29 +217,38 @@ static int take_words(const gg_command *c, const struct option *known, gg_option
     if (got != 1 && got < 256) return refuse_option(c, argv[at]);
     value = optarg;
     if (got == 1) {
-      code = take_input(c, o, optarg);
+      take_input(o, optarg);
     } else {
       const gg_option *t = &gg_options_table[got - 256];
       code = take(o, t->flag, t->name, optarg);
-      if (o->slurm && o->slurm_at == 0) o->slurm_at = at;
+      if (strcmp(t->name, "slurm") == 0) argv[at] = NULL;
     }
   }
-  if (code == GG_CLI_GO_ON && strcmp(argv[optind - 1], "--") == 0 && argv[optind - 1] != value)
-    o->typed.options_end = optind - 1;
-  for (; optind < argc && code == GG_CLI_GO_ON; optind++) code = take_input(c, o, argv[optind]);
+  last = argv[optind - 1];
+  if (last && last != value && strcmp(last, "--") == 0) o->typed.options_end = optind - 1;
+  for (; optind < argc; optind++) take_input(o, argv[optind]);
   return code;
+}
+
+static int check_words(const gg_command *c, const gg_options *o)
+{
+  if (o->surplus)
+    return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, o->surplus);
+  if (o->output && strcmp(o->output, "-") == 0)
+    return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is no file to write; --json prints to standard output");
+  if (o->input || c->arguments[0] == '[') return GG_CLI_GO_ON;
+  return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
 }
 
 int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
 {
   struct option known[sizeof gg_options_table / sizeof *gg_options_table + 1] = {{0}};
   *o = (gg_options){.threads = gg_cli_default_threads(), .typed = {argc, argv, argc}};
-  o->command_line = gg_typed_again(&o->typed, -1, "");
+  o->command_line = gg_typed_again(&o->typed, "");
   list_known(c, known);
   int code = take_words(c, known, o);
-  if (code != GG_CLI_GO_ON || (!o->input && c->arguments[0] == '[')) return code;
-  if (!o->input)
-    return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
+  if (code == GG_CLI_GO_ON) code = check_words(c, o);
+  if (code != GG_CLI_GO_ON || !o->input) return code;
   if (strcmp(o->input, "help") == 0 && !gg_file_exists(o->input)) return gg_print_command_help(c), GG_OK;
   return GG_CLI_GO_ON;
 }
@@ -318,10 +329,6 @@ static bool same_file(const char *a, const char *b)
 
 char *gg_options_output(const gg_options *o, const char *suffix, gg_error *err)
 {
-  if (o->output && strcmp(o->output, "-") == 0) {
-    refuse(err, GG_BAD_INPUT, "option '--output': '-' is no file to write; --json prints to standard output");
-    return NULL;
-  }
   char *output = o->output ? strdup(o->output) : gg_options_beside(o, suffix);
   if (!output) refuse(err, GG_FAILED, "out of memory");
   if (!output || !same_file(output, o->input)) return output;

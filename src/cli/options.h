@@ -35,6 +35,7 @@ enum { GG_MAX_OVERRIDES = 64 };
 
 typedef struct gg_options {
   const char *input; /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
+  const char *surplus; /* a second one */
   const char *output, *resume, *format, *picture, *only;
   const char *does;        /* what a sweep does at its points; NULL: what its file says */
   const char *over, *show; /* of the picture of a sweep: key along x, quantities; NULL: chosen */
@@ -50,7 +51,6 @@ typedef struct gg_options {
   const char *vary[GG_MAX_OVERRIDES]; /* "key=values" */
   char *command_line;                 /* for the record */
   gg_typed typed;
-  int slurm_at; /* the word that said so */
 } gg_options;
 
 enum { GG_CLI_GO_ON = -1 };

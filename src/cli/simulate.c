@@ -110,7 +110,7 @@ static void tell_stored(const gg_simulating *s, gg_error *err)
   const size_t size = sizeof err->message;
   char *file = gg_quoted(s->checkpoint), *resume = NULL, *again = NULL;
   if (file && asprintf(&resume, " --resume %s", file) < 0) resume = NULL;
-  if (resume && !s->options->resume) again = gg_typed_again(&s->options->typed, -1, resume);
+  if (resume && !s->options->resume) again = gg_typed_again(&s->options->typed, resume);
   if (!again || snprintf(err->message, size, "interrupted; go on with: %s", again) >= (int)size)
     snprintf(err->message, size, "interrupted; go on with the same command and%s", resume ? resume : " --resume");
   free(file);

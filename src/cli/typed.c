@@ -28,7 +28,7 @@ char *gg_quoted(const char *text)
   return NULL;
 }
 
-char *gg_typed_again(const gg_typed *typed, int without, const char *added)
+char *gg_typed_again(const gg_typed *typed, const char *added)
 {
   char *text = NULL;
   size_t size;
@@ -37,7 +37,7 @@ char *gg_typed_again(const gg_typed *typed, int without, const char *added)
   fputs("graingas", out);
   for (int i = 0; i < typed->n; i++) {
     if (i == typed->options_end) fputs(added, out);
-    if (i == without) continue;
+    if (!typed->word[i]) continue;
     fputc(' ', out);
     put_quoted(out, typed->word[i]);
   }

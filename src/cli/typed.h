@@ -4,13 +4,13 @@
 
 typedef struct gg_typed {
   int n;
-  char **word;     /* the subcommand first; borrowed from main */
+  char **word;     /* the subcommand first; borrowed from main; NULL: one that is not to be typed again */
   int options_end; /* the word "--"; n where there is none */
 } gg_typed;
 
-/* As a shell reads it back: all words but that at `without` (-1: none), with `added`, which is quoted already ("":
+/* As a shell reads it back: all words, with `added`, which is quoted already ("":
  * none), where options end. To be freed; NULL: out of memory. */
-char *gg_typed_again(const gg_typed *typed, int without, const char *added);
+char *gg_typed_again(const gg_typed *typed, const char *added);
 /* One argument as a shell reads it back; to be freed. */
 char *gg_quoted(const char *text);
 

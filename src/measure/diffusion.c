@@ -134,7 +134,8 @@ static gg_vec displacement(const diffusion *d, const gg_images *b, gg_vec from, 
   return move;
 }
 
-/* The peculiar way of a flight that ends with `c`: back from there C_x grows by the shear rate times C_y. */
+/* The peculiar way of a flight that ends with `c`: back from there C_x grows by the shear rate times C_y. Kicks of
+ * white noise within a flight are left out: what is off by less than half an edge leads to the right image. */
 static void fly(diffusion *d, size_t g, gg_vec c, double now)
 {
   double t = now - d->until[g];

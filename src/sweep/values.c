@@ -89,7 +89,8 @@ static gg_status add_range(gg_values *v, const char *key, const char *text, bool
     return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step does not lead from the first to the last", key,
                    text);
   const bool whole = x[0] == floor(x[0]) && x[2] == floor(x[2]);
-  if (fabs(x[2]) < (whole ? 0x1p-53 : 1e-11) * fmax(fabs(x[0]), fabs(x[1])))
+  const double largest = fmax(fabs(x[0]), fabs(x[1]));
+  if (whole ? largest >= 0x1p53 : fabs(x[2]) < 1e-11 * largest)
     return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step is lost in the digits of the numbers", key, text);
   if (steps >= GG_MOST_POINTS)
     return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': these are %.0f values; a sweep has at most %d points", key,

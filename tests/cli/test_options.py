@@ -33,6 +33,7 @@ def test_order():
     for args in ("scene.yaml", "--json"), ("--json", "scene.yaml"), ("--json", "--", "scene.yaml"):
         done = run("info", *args, scene=SCENE)
         check(done.code == 0 and json.loads(done.out), args, done.err)
+    check(run("info", "scene.yaml", "more.yaml", "--help").out == run("info", "--help").out)
     for args in ("scene.yaml", "--", "--json"), ("scene.yaml", "more.yaml"):
         done = run("info", *args)
         check(done.code == 2 and "one too many" in done.err, args, done.err)
