@@ -12,7 +12,7 @@ import threading
 import time
 import zlib
 
-from tap import GRAINGAS, Skip, check, main, run
+from tap import GRAINGAS, PATIENCE, Skip, check, main, run
 
 SCENE = ("flow: usf\nphi: 0.2\nparticles: 100\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 500}\n"
          "run: {collisions: 20, warmup: 10}\n")
@@ -96,7 +96,7 @@ def test_devices():
                              stderr=subprocess.PIPE)
     wait_for("there/long.checkpoint.h5")
     child.send_signal(signal.SIGTERM)
-    child.communicate(timeout=60)
+    child.communicate(timeout=60 * PATIENCE)
     check(child.returncode == 130 and "long.checkpoint.h5" in os.listdir("there"), os.listdir("there"))
 
 
@@ -349,7 +349,7 @@ def test_how_to_go_on():
         child = subprocess.Popen([GRAINGAS, "run", "--quiet", *words], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
         wait_for(words[words.index("--output") + 1].replace(".h5", ".checkpoint.h5"))
         child.send_signal(signal.SIGINT)
-        said = child.communicate(timeout=60)[1].decode()
+        said = child.communicate(timeout=60 * PATIENCE)[1].decode()
         again = shlex.split(said.split("go on with: ")[1].splitlines()[0])
         before = ["graingas", "run", "--quiet", *words]
         there = before.index("--") if "--" in before else len(before)
@@ -369,7 +369,7 @@ def test_picture_that_fails():
 
 
 def wait_for(path):
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 60 * PATIENCE
     while not os.path.exists(path) and time.monotonic() < deadline:
         time.sleep(0.01)
     check(os.path.exists(path), path, "does not come")
@@ -382,7 +382,7 @@ def started(*args):
 
 def ended(child, sig):
     child.send_signal(sig)
-    child.communicate(timeout=60)
+    child.communicate(timeout=60 * PATIENCE)
 
 
 def test_two_runs_at_once():
@@ -424,7 +424,7 @@ def test_one_checkpoint_for_two():
     ended(first, signal.SIGKILL)
     resume = (*keep, "--resume", "long.checkpoint.h5")
     first = started(*resume)
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 60 * PATIENCE
     while f"process {first.pid} " not in open("long.h5.graingas-lock").read() and time.monotonic() < deadline:
         time.sleep(0.01)  # until then it is the dead one's
     done = run("run", "long.yaml", "--quiet", *resume, timeout=20)

@@ -178,7 +178,7 @@ def test_shared_folder():
     some = [subprocess.Popen(args, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(3)]
     time.sleep(0.5)
     some[2].kill()
-    out = [p.communicate(timeout=100) for p in some]
+    out = [p.communicate(timeout=100 * PATIENCE) for p in some]
     for p, (text, err) in list(zip(some, out))[:2]:
         check(p.returncode == 0, err)
         check([q["state"] for q in json.loads(text)["points"]] == 6 * ["done"], text)
@@ -194,7 +194,7 @@ def test_interrupted():
                              preexec_fn=lambda: signal.signal(signal.SIGTERM, signal.SIG_DFL))
     time.sleep(1)
     child.send_signal(signal.SIGTERM)
-    err = child.communicate(timeout=20)[1]
+    err = child.communicate(timeout=20 * PATIENCE)[1]
     check(child.returncode == 130 and "interrupted; go on with the same command" in err, err)
     check(os.listdir("s.sweep") == [], os.listdir("s.sweep"))
 

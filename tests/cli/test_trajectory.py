@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 
-from tap import GRAINGAS, Skip, check, main, run
+from tap import GRAINGAS, PATIENCE, Skip, check, main, run
 
 try:
     import h5py
@@ -62,7 +62,7 @@ def cut(args, after, how):
         _, err = child.communicate(timeout=after)
     except subprocess.TimeoutExpired:
         child.send_signal(how)
-        _, err = child.communicate(timeout=60)
+        _, err = child.communicate(timeout=60 * PATIENCE)
     check(child.returncode in (0, 130, -how), child.returncode, err)
     return child.returncode == 0
 
