@@ -65,8 +65,6 @@ static int export_parts(const gg_options *o)
   bool quiet = o->quiet;
   int code = take_parts(o->only, &parts);
   if (code != GG_CLI_GO_ON) return code;
-  if (o->output && strcmp(o->output, "-") == 0)
-    return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is not allowed: there are several files; give a prefix");
   char *prefix = prefix_of(o);
   if (!prefix) return gg_cli_fail(GG_FAILED, "out of memory");
   allow_many_files();

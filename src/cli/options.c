@@ -235,7 +235,8 @@ static int check_words(const gg_command *c, const gg_options *o)
   if (o->surplus)
     return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, o->surplus);
   if (o->output && strcmp(o->output, "-") == 0)
-    return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is no file to write; --json prints to standard output");
+    return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is no file to write%s",
+                       c->options & GG_OPT_JSON ? "; --json prints to standard output" : "");
   if (o->input || c->arguments[0] == '[') return GG_CLI_GO_ON;
   return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
 }

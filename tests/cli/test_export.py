@@ -347,7 +347,7 @@ def test_refused():
     refused("export needs RESULT.h5", 2)
     refused("did you mean trajectory", 2, "r.h5", "--only", "trajectry")
     refused("allowed: results, curves, trajectory", 2, "r.h5", "--only", "")
-    refused("'-' is not allowed", 2, "r.h5", "--output", "-")
+    refused("'-' is no file to write", 2, "r.h5", "--output", "-")
     refused("need a prefix", 2, "r.h5", "--output", "")
     refused("need a prefix", 2, "r.h5", "--output", "there/")
     refused("export has no option '--json'", 2, "r.h5", "--json")
