@@ -34,7 +34,7 @@ extern const gg_option gg_options_table[]; /* ends with flag 0 */
 enum { GG_MAX_OVERRIDES = 64 };
 
 typedef struct gg_options {
-  const char *input; /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
+  const char *input;   /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
   const char *surplus; /* a second one */
   const char *output, *resume, *format, *picture, *only;
   const char *does;        /* what a sweep does at its points; NULL: what its file says */

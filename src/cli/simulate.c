@@ -11,9 +11,7 @@
 static char *checkpoint_path(const gg_options *o, const char *output)
 {
   char *path = NULL;
-  if (gg_is_device(output)) {
-    return gg_options_beside(o, ".checkpoint.h5");
-  }
+  if (gg_is_device(output)) return gg_options_beside(o, ".checkpoint.h5");
   size_t length = strlen(output);
   if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
   return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;

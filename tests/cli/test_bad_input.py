@@ -129,6 +129,7 @@ def test_command_line():
     refused("option '--output' needs a value", 2, "run", "--output")
     refused("'-' is no file to write", 2, "run", "scene.yaml", "--output", "-", scene="flow: usf\nphi: 0.1\n")
     refused("run needs SCENE.yaml", 2, "run")
+    refused("nofolder/x.svg: cannot be written", 3, "bench", "error", "--picture", "nofolder/x.svg", timeout=20)
     refused("one too many", 2, "run", "a.yaml", "b.yaml")
 
 
