@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include "cli/options.h"
+#include "cli/outputs.h"
 
 static const char *const words[] = {"results", "curves", "trajectory", NULL};
 static const unsigned part[] = {GG_EXPORT_RESULTS, GG_EXPORT_CURVES, GG_EXPORT_TRAJECTORY};

@@ -1,14 +1,12 @@
 #include "cli/options.h"
-#include "cli/processes.h"
 
-#include <ctype.h>
 #include <getopt.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "cli/outputs.h"
+#include "cli/processes.h"
 #include "cli/wrap.h"
 
 const gg_option gg_options_table[] = {
@@ -261,27 +259,17 @@ void gg_options_clear(gg_options *o)
   *o = (gg_options){0};
 }
 
-static gg_status refuse(gg_error *err, gg_status status, const char *format, ...) GG_CLI_PRINTF(3, 4);
-static gg_status refuse(gg_error *err, gg_status status, const char *format, ...)
-{
-  va_list args;
-  va_start(args, format);
-  vsnprintf(err->message, sizeof err->message, format, args);
-  va_end(args);
-  return err->status = status;
-}
-
 gg_status gg_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
                          void *target, gg_error *err)
 {
   const char *equals = strchr(typed, '=');
   char key[96];
   if (!equals || equals == typed)
-    return refuse(err, GG_BAD_INPUT, "--%s %s: KEY=VALUE is expected, e.g. --%s %s", option, typed, option, example);
+    return gg_cli_refuse(err, GG_BAD_INPUT, "--%s %s: KEY=VALUE is expected, e.g. --%s %s", option, typed, option, example);
   snprintf(key, sizeof key, "%.*s", (int)(equals - typed), typed);
   gg_error why;
   if (set(target, key, equals + 1, &why) == GG_OK) return GG_OK;
-  return refuse(err, why.status, "--%s %.200s: %.800s", option, typed, why.message);
+  return gg_cli_refuse(err, why.status, "--%s %.200s: %.800s", option, typed, why.message);
 }
 
 static gg_status set_scene(void *scene, const char *key, const char *value, gg_error *err)
@@ -297,61 +285,7 @@ gg_status gg_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
   return status;
 }
 
-static bool is_standard_input(const gg_options *o)
-{
-  return strcmp(o->input, "-") == 0;
-}
-
 const char *gg_options_name(const gg_options *o)
 {
-  return is_standard_input(o) ? "standard input" : o->input;
-}
-
-/* ".h5" is an ending, the ".1" of "phi_0.1" none. */
-char *gg_with_suffix(const char *path, const char *suffix)
-{
-  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
-  bool ends = dot && dot > name && isalpha((unsigned char)dot[1]);
-  char *result = NULL;
-  return asprintf(&result, "%.*s%s", (int)(ends ? dot - path : (long)strlen(path)), path, suffix) < 0 ? NULL : result;
-}
-
-char *gg_options_beside(const gg_options *o, const char *suffix)
-{
-  const char *slash = strrchr(o->input, '/');
-  return gg_with_suffix(is_standard_input(o) ? "stdin" : slash ? slash + 1 : o->input, suffix);
-}
-
-static bool same_file(const char *a, const char *b)
-{
-  struct stat one, two;
-  return stat(a, &one) == 0 && stat(b, &two) == 0 && one.st_dev == two.st_dev && one.st_ino == two.st_ino;
-}
-
-char *gg_options_output(const gg_options *o, const char *suffix, gg_error *err)
-{
-  char *output = o->output ? strdup(o->output) : gg_options_beside(o, suffix);
-  if (!output) refuse(err, GG_FAILED, "out of memory");
-  if (!output || !same_file(output, o->input)) return output;
-  refuse(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);
-  free(output);
-  return NULL;
-}
-
-bool gg_file_exists(const char *path)
-{
-  struct stat about;
-  return stat(path, &about) == 0;
-}
-
-bool gg_is_device(const char *path)
-{
-  struct stat about;
-  return stat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode);
-}
-
-void gg_tell_written(const gg_options *o, const char *what, const char *path, bool replaced)
-{
-  fflush(stdout);
-  if (!o->quiet) fprintf(stderr, "%s: %s%s\n", what, path, replaced ? " (in place of an older one)" : "");
+  return strcmp(o->input, "-") == 0 ? "standard input" : o->input;
 }

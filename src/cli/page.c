@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/options.h"
+#include "cli/outputs.h"
 
 static int write_page(const gg_options *o, const gg_scene *scene)
 {

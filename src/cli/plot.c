@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/options.h"
+#include "cli/outputs.h"
 
 /* The pictures go to standard output, for scripts. */
 static void tell(void *context, const char *picture)

@@ -27,6 +27,15 @@ int gg_cli_fail(gg_status status, const char *format, ...)
   return gg_cli_report(&err);
 }
 
+gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  vsnprintf(err->message, sizeof err->message, format, args);
+  va_end(args);
+  return err->status = status;
+}
+
 void gg_cli_print_text(char *text)
 {
   if (text) puts(text);

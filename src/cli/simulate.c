@@ -1,11 +1,12 @@
 #include "cli/simulate.h"
-#include "cli/processes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/outputs.h"
+#include "cli/processes.h"
 /* usf.h5 -> usf.checkpoint.h5; beside a device there is no place for it: then by the scene's name, as without --output.
  */
 static char *checkpoint_path(const gg_options *o, const char *output)
