@@ -54,13 +54,6 @@ void *gg_new_array(size_t count, size_t size, gg_error *err)
   return block;
 }
 
-bool gg_close_text(FILE *out, char *const *text)
-{
-  const bool whole = out && fclose(out) == 0 && *text;
-  if (!whole) gg_memory_lacked();
-  return whole;
-}
-
 /* Volatile: a compiler may leave out what is asked for and given back. */
 bool gg_memory_is_room(void)
 {

@@ -29,10 +29,6 @@ void gg_memory_lacked(void);
 /* The end of a call: its status, or GG_FAILED if it was GG_OK and memory lacked. */
 gg_status gg_memory_check(bool before, gg_status status, gg_error *err);
 
-/* Close a text made by open_memstream. False, and noted: it is not whole; or not there, of which the C library says
- * nothing. `out` may be NULL: there was no memory to begin with. */
-bool gg_close_text(FILE *out, char *const *text);
-
 /* Could some megabytes be had? Asked before libraries are called that do not look at what they get: FFTW ends the
  * program where its planner gets no memory, HDF5 where it lacks it in the midst of a file. */
 bool gg_memory_is_room(void);

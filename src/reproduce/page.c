@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/memory.h"
+#include "common/text_stream.h"
 #include "reproduce/figures.h"
 
 static const char *const verdicts[] = {"agrees", "differs", "cannot be told", "open"};
@@ -71,9 +72,8 @@ static gg_status print_counts(FILE *out, gg_error *err)
 
 gg_status gg_figure_page(char **text, gg_error *err)
 {
-  size_t length;
   gg_figure_entry e;
-  FILE *out = open_memstream(text, &length);
+  FILE *out = gg_open_text(text);
   if (!out) return gg_out_of_memory(err);
   fputs(gg_reproduction_head, out);
   gg_status status = print_counts(out, err);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/memory.h"
+#include "common/text_stream.h"
 #include "io/h5/reader.h"
 #include "io/plot/plot.h"
 #include "reproduce/figures.h"
@@ -81,10 +82,9 @@ gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *a
   int n = collect(f, all, list), columns = n < COLUMNS ? n : COLUMNS, rows = n ? (n + columns - 1) / columns : 1;
   bool png;
   char *script = NULL;
-  size_t length;
   if (!n) return gg_fail(err, GG_FAILED, "%s: no grains with positions were stored", f->entry->figure);
   GG_TRY(gg_plot_format(picture, NULL, &png, err));
-  FILE *s = open_memstream(&script, &length);
+  FILE *s = gg_open_text(&script);
   if (!s) return gg_out_of_memory(err);
   int width = columns * WIDTH, height = 50 + rows * HEIGHT;
   gg_plot_open_page(s, f->entry->figure, png, width, height);

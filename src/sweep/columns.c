@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/memory.h"
+#include "common/text_stream.h"
 
 void gg_columns_clear(gg_columns *c)
 {
@@ -47,12 +48,11 @@ static void print_node(gg_scene_reader *r, const yaml_node_t *node, FILE *out)
 static gg_status add_node(gg_scene_reader *r, const char *key, gg_values *values, const yaml_node_t *node)
 {
   char *text = NULL;
-  size_t size;
-  FILE *out = open_memstream(&text, &size);
+  FILE *out = gg_open_text(&text);
   if (out) print_node(r, node, out);
   gg_status status =
       gg_close_text(out, &text) ? GG_OK : gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
-  if (status == GG_OK && size > LONGEST_VALUE)
+  if (status == GG_OK && strlen(text) > LONGEST_VALUE)
     status = gg_scene_refuse(r, node, key, "a value is longer than %d characters", LONGEST_VALUE);
   if (status == GG_OK) status = gg_values_add(values, text, r->err);
   free(text);

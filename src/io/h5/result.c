@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "common/memory.h"
+#include "common/text_stream.h"
 #include "io/curves.h"
 #include "io/document.h"
 #include "io/h5/h5.h"
@@ -143,8 +143,7 @@ static bool has_values(const gg_history *history, int k)
 static void write_warnings(gg_h5 *h, const char *group, const gg_result *r)
 {
   char *text = NULL, path[160];
-  size_t size;
-  FILE *out = open_memstream(&text, &size);
+  FILE *out = gg_open_text(&text);
   for (size_t i = 0; out && i < r->warnings.n; i++) fprintf(out, "%s\n", r->warnings.text[i]);
   snprintf(path, sizeof path, "%s/warnings", group);
   if (gg_close_text(out, &text))

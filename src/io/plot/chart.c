@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "common/memory.h"
+#include "common/text_stream.h"
 #include "io/c_locale.h"
 #include "io/plot/axis.h"
 #include "io/plot/chart_looks.h"
@@ -183,10 +184,9 @@ gg_status gg_chart_draw(const gg_chart *c, const char *picture, const char *form
 {
   bool png;
   char *script = NULL;
-  size_t size;
   GG_TRY(gg_plot_format(picture, format, &png, err));
   if (!c->n) return gg_fail(err, GG_BAD_INPUT, "%s: there is nothing to draw", picture);
-  FILE *s = open_memstream(&script, &size);
+  FILE *s = gg_open_text(&script);
   if (!s) return gg_out_of_memory(err);
   locale_t before = gg_c_locale_enter();
   gg_chart_looks looks;

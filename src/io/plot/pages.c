@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "common/memory.h"
+#include "common/text_stream.h"
 #include "io/atomic_file.h"
 #include "io/c_locale.h"
 #include "io/curves.h"
@@ -25,9 +26,8 @@ static gg_status draw_page(const gg_stored_result *stored, const page *p, const 
                            gg_error *err)
 {
   char *script = NULL;
-  size_t length;
   int size[2];
-  FILE *s = open_memstream(&script, &length);
+  FILE *s = gg_open_text(&script);
   if (!s) return gg_out_of_memory(err);
   locale_t before = gg_c_locale_enter();
   gg_plot_curves_size(p->document, p->group, size);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/memory.h"
+#include "common/text_stream.h"
 #include "io/atomic_file.h"
 #include "io/c_locale.h"
 
@@ -61,8 +62,7 @@ static void draw_comparison(FILE *s, const gg_stored_result *stored, bool png)
 static gg_status draw(const gg_stored_result *stored, const char *picture, bool png, gg_error *err)
 {
   char *script = NULL;
-  size_t size;
-  FILE *s = open_memstream(&script, &size);
+  FILE *s = gg_open_text(&script);
   if (!s) return gg_out_of_memory(err);
   locale_t before = gg_c_locale_enter();
   if (stored->comparison)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/memory.h"
+#include "common/text_stream.h"
 #include "io/c_locale.h"
 #include "io/plot/layer.h"
 #include "io/plot/plot.h"
@@ -142,8 +143,7 @@ static gg_status draw_page(const gg_stored_result *stored, const gg_plot_grains 
                            gg_error *err)
 {
   char *script = NULL, *over = NULL;
-  size_t length;
-  page p = {.script = open_memstream(&script, &length), .over = png ? NULL : open_memstream(&over, &length)};
+  page p = {.script = gg_open_text(&script), .over = png ? NULL : gg_open_text(&over)};
   bool drawn = p.script && (png || p.over);
   if (drawn) {
     locale_t before = gg_c_locale_enter();

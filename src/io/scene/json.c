@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/memory.h"
+#include "common/text_stream.h"
 #include "io/whole_json.h"
 
 static json_t *number_json(const gg_field *f, double value)
@@ -191,8 +192,7 @@ void gg_print_flow_style(FILE *out, const json_t *value)
 void gg_flow_style_text(const json_t *value, char *text, size_t size)
 {
   char *whole = NULL;
-  size_t length;
-  FILE *out = open_memstream(&whole, &length);
+  FILE *out = gg_open_text(&whole);
   if (out) gg_print_flow_style(out, value);
   if (gg_close_text(out, &whole)) snprintf(text, size, "%s", whole);
   free(whole);
@@ -229,8 +229,7 @@ static void print_yaml(FILE *out, const json_t *root)
 char *gg_scene_yaml(const gg_scene *scene)
 {
   char *text = NULL;
-  size_t size;
-  FILE *out = open_memstream(&text, &size);
+  FILE *out = gg_open_text(&text);
   if (!out) return NULL;
   json_t *root = gg_scene_json(scene);
   if (root) print_yaml(out, root);

@@ -1,0 +1,69 @@
+#include "common/text_stream.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+
+#include "common/memory.h"
+
+enum { FIRST_ROOM = 1024 };
+
+typedef struct stream {
+  char **place, *text;
+  size_t length, room; /* an end beside them */
+  bool lacked;
+} stream;
+
+static bool make_room(stream *s, size_t more)
+{
+  size_t room = s->room;
+  if (s->length + more < room) return true;
+  while (room <= s->length + more) room *= 2;
+  char *larger = realloc(s->text, room);
+  if (!larger) return false;
+  s->text = larger, s->room = room;
+  return true;
+}
+
+/* Less than all is an error; the C library does not tell each of them when it closes. */
+static ssize_t add(void *cookie, const char *piece, size_t n)
+{
+  stream *s = cookie;
+  s->lacked |= !make_room(s, n);
+  if (s->lacked) return 0;
+  memcpy(s->text + s->length, piece, n);
+  s->length += n;
+  return (ssize_t)n;
+}
+
+static int end(void *cookie)
+{
+  stream *s = cookie;
+  const int failed = s->lacked ? EOF : 0;
+  if (s->lacked)
+    free(s->text);
+  else
+    s->text[s->length] = '\0', *s->place = s->text;
+  free(s);
+  return failed;
+}
+
+FILE *gg_open_text(char **text)
+{
+  stream *s = calloc(1, sizeof *s);
+  FILE *out = NULL;
+  *text = NULL;
+  if (s) *s = (stream){.place = text, .text = malloc(FIRST_ROOM), .room = FIRST_ROOM};
+  if (s && s->text) out = fopencookie(s, "w", (cookie_io_functions_t){.write = add, .close = end});
+  if (out) return out;
+  if (s) free(s->text);
+  free(s);
+  return NULL;
+}
+
+bool gg_close_text(FILE *out, char *const *text)
+{
+  const bool whole = out && fclose(out) == 0 && *text;
+  if (!whole) gg_memory_lacked();
+  return whole;
+}

@@ -1,0 +1,14 @@
+/* A text that is written piece by piece, as to a file, into memory. */
+#ifndef GG_TEXT_STREAM_H
+#define GG_TEXT_STREAM_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* As open_memstream, which leaves out what it finds no room for and does not say so (glibc 2.36). *text is there when
+ * it is closed; to be freed. NULL: no memory. It has no places to seek or tell. */
+FILE *gg_open_text(char **text);
+/* False, and noted (gg_memory_lacked): it is not whole, and *text is NULL. `out` may be NULL. */
+bool gg_close_text(FILE *out, char *const *text);
+
+#endif
