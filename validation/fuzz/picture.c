@@ -1,0 +1,85 @@
+/* The JSON document of a result (stored.h), to the pictures of it: the scripts that gnuplot would be given, which must
+ * do nothing but draw. Its member `series` holds lists by quantity, `frame` the last frame of a trajectory: `position`,
+ * `species`, `edge`. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/quantity.h"
+#include "fuzz.h"
+#include "io/plot/plot.h"
+#include "script.h"
+#include "stored.h"
+
+/* In the place of the library's, of which nothing is linked then. */
+gg_status gg_gnuplot_is_there(gg_error *err)
+{
+  (void)err;
+  return GG_OK;
+}
+
+gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err)
+{
+  (void)over, (void)picture, (void)err;
+  fuzz_check_script(script);
+  return GG_OK;
+}
+
+enum { MOST_NUMBERS = 300 };
+
+/* To be freed; NULL and 0: it is no list. */
+static double *numbers_of(const json_t *list, size_t *n)
+{
+  *n = json_array_size(list);
+  if (*n > MOST_NUMBERS) *n = MOST_NUMBERS;
+  double *numbers = *n ? malloc(*n * sizeof *numbers) : NULL;
+  for (size_t i = 0; numbers && i < *n; i++) numbers[i] = json_number_value(json_array_get(list, i));
+  if (!numbers) *n = 0;
+  return numbers;
+}
+
+static void add_series(gg_stored_engine *e, const json_t *all)
+{
+  for (int q = 0; e->name && q < GG_N_QUANTITIES && e->n_series < GG_MAX_STORED_SERIES; q++) {
+    const char *name = gg_quantity_name((gg_quantity)q);
+    const json_t *list = json_object_get(all, name);
+    size_t n, n_times;
+    if (!list) continue;
+    gg_stored_series *s = &e->series[e->n_series];
+    snprintf(s->name, sizeof s->name, "%s", name);
+    s->value = numbers_of(list, &n);
+    s->time = numbers_of(json_object_get(all, "time"), &n_times);
+    s->n = n < n_times ? n : n_times;
+    e->n_series++;
+  }
+}
+
+/* Of the n grains that have a place and a species. */
+static void add_frame(gg_stored_result *s, const json_t *frame)
+{
+  size_t n_positions, n_edges;
+  double *edge = numbers_of(json_object_get(frame, "edge"), &n_edges);
+  const json_t *species = json_object_get(frame, "species");
+  s->last.position = numbers_of(json_object_get(frame, "position"), &n_positions);
+  s->last.n = s->n_grains = n_positions / 3 < json_array_size(species) ? n_positions / 3 : json_array_size(species);
+  s->last.species = s->last.n ? malloc(s->last.n) : NULL;
+  for (size_t i = 0; s->last.species && i < s->last.n; i++)
+    s->last.species[i] = (uint8_t)json_integer_value(json_array_get(species, i));
+  for (size_t a = 0; a < 3 && a < n_edges; a++) s->edge[a] = edge[a];
+  free(edge);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+  static const char *const names[] = {"x.svg", "x.png"};
+  gg_stored_result s;
+  gg_error err;
+  if (fuzz_stored(&s, data, size)) {
+    for (int k = 0; k < 2; k++) add_series(&s.engine[k], json_object_get(s.document, "series"));
+    add_frame(&s, json_object_get(s.document, "frame"));
+    const char *name = names[data[0] / 3 % 2];
+    if (gg_plot_result(&s, name, NULL, &err) == GG_OK) gg_plot_pages(&s, name, NULL, NULL, NULL, &err);
+  }
+  gg_stored_result_clear(&s);
+  return 0;
+}
