@@ -57,10 +57,20 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   for (int k = 0; k < m->n_species; k++) bin[k * SET + SHARE] += m->mass[k] * T[k] * (double)m->n / total;
 }
 
-/* A fixed total energy lowers <x^4> of Gaussian grains by D/(D+2), D = 3(N-1). */
+/* Velocities over the T_i of the same instant share a fixed energy, that of the species: <x^4> of Gaussian grains is
+ * lower by D/(D + 2), D the species' degrees of freedom. Momentum leaves those of the species' own mean the share of
+ * the others in the mass: so D = 3(N_i - 1) of all grains, 3 N_i of few light ones, 3 of one grain however heavy. */
+static double freedom_of(const gg_model *m, int k)
+{
+  double mass = 0, n = (double)m->n_of[k];
+  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i];
+  double left = 1 - n * m->mass[k] / mass, sum = n - 1 + left;
+  return 3 * sum * sum / (n - 1 + left * left);
+}
+
 static void put_species(const gg_model *m, int k, const double *bin, gg_curves *list)
 {
-  double D = 3 * ((double)m->n - 1), n = (double)m->n_of[k];
+  double D = freedom_of(m, k), n = (double)m->n_of[k];
   gg_sonine_sums s = {.fourth = bin[FOURTH] / n * (D + 2) / D,
                       .sixth = bin[SIXTH] / n * (D + 2) * (D + 4) / (D * D),
                       .temperature_ratio = bin[SHARE]};

@@ -91,6 +91,29 @@ static void mixture(void **state)
   gg_curves_clear(&list);
 }
 
+static void gaussian(gg_snapshot *s, gg_rng *r, int sample)
+{
+  (void)sample;
+  for (size_t i = 0; i < s->n; i++) {
+    gg_vec v = gg_rng_normal_vec(r);
+    s->c[0][i] = v.x, s->c[1][i] = v.y, s->c[2][i] = v.z;
+  }
+}
+
+/* Nine Gaussian grains among 15: their <x^4>, in units of their own energy, is lower by 27/29, which is put back. */
+static void few_of_a_species(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_EQUILIBRIUM, 0.01, -1, 15, 2);
+  m.mass[1] = 1e6; /* takes up all momentum: grains of species 1 are free */
+  gg_curves list = ct_curves(&gg_sonine, &m, 200000, gaussian, 44);
+  gg_curve_number c = ct_number(ct_find(&list, "sonine_excess_1"), "c");
+  gg_curve_number a3 = ct_number(ct_find(&list, "sonine_excess_1"), "a3");
+  ct_expect("c_1 of few", c.value, c.error, 0, 0.02);
+  ct_expect("a3_1 of few", a3.value, a3.error, 0, 0.02);
+  gg_curves_clear(&list);
+}
+
 /* Free cooling at e = 0.5: c = 2 a_2 = 0.0948(6) (Brey, Cubero & Ruiz-Montero 1996 and many since), and Delta follows
  * the first Sonine polynomial where most grains are. */
 static void cooling(void **state)
@@ -117,10 +140,8 @@ static void cooling(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_form),
-      cmocka_unit_test(planted_moments),
-      cmocka_unit_test(mixture),
-      cmocka_unit_test(cooling),
+      cmocka_unit_test(planted_form),     cmocka_unit_test(planted_moments), cmocka_unit_test(mixture),
+      cmocka_unit_test(few_of_a_species), cmocka_unit_test(cooling),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
