@@ -159,6 +159,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   row[CH_LN_T] = log(T) - 2 * log(r->memory.scale);
   haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
   put_rates(r, in, h, row);
+  row[CH_T2] = cooling ? 1 : T * T;
   for (int i = 0; i < r->model.n_species; i++)
     put_moments(r, i, cooling ? T : 1, row + CH_SPECIES + (size_t)i * gg_rheology_species_width(&r->model));
 }

@@ -16,6 +16,7 @@ enum {
   CH_PC_ZZ,
   CH_PC_XY,
   CH_PC_YX,  /* collisional stress, stress units */
+  CH_T2,     /* square of the temperature of the sample */
   CH_SPECIES /* where the moments of species 1 begin; those of species 2 follow */
 };
 enum {

@@ -165,11 +165,13 @@ static double skewness_wz(const double *a, const gg_model *m)
 }
 
 /* Fourth cumulant of one species. Where N grains share a fixed energy, even Gaussian ones have <c^4>/T^2 lower than 15
- * by the factor D/(D+2), D = 3(N-1) degrees of freedom: taken out. */
+ * by the factor D/(D+2), D = 3(N-1) degrees of freedom: taken out. That goes for every instant; where T fluctuates, as
+ * kicks make it or spins, <c^4> goes as the mean of T^2. */
 static double cumulant(const double *a, const gg_model *m, int i)
 {
+  double all = temperature(a, m), fluctuation = a[CH_T2] / (all * all);
   double T = partial_temperature(a, m, i) / m->mass[i], D = 3 * ((double)m->n - 1);
-  return of(a, m, i, CH_CCCC) / (15 * T * T) * (D + 2) / D - 1;
+  return of(a, m, i, CH_CCCC) / (15 * T * T * fluctuation) * (D + 2) / D - 1;
 }
 static double a2(const double *a, const gg_model *m)
 {

@@ -167,6 +167,25 @@ static void mixture(void **state)
   gg_rheology.destroy(self);
 }
 
+/* The cumulants are those of every instant, however the temperature fluctuates between samples. */
+static void fluctuating(void **state)
+{
+  (void)state;
+  plant(5);
+  for (int species = 1; species <= 2; species++) {
+    gg_model m = model_of(GG_HSS, -1, species);
+    gg_quantity q = species == 1 ? GG_Q_A2 : GG_Q_CUMULANT + 1;
+    double row[2][64] = {{0}}, mean[64];
+    gg_collision_sums t = planted_transfer(species);
+    void *self = gg_rheology.create(&m, NULL);
+    take_row(self, &m, &t, 0.5, 1, row[0]);
+    take_row(self, &m, &t, 0.5, 1.3, row[1]);
+    for (size_t c = 0; c < 64; c++) mean[c] = 0.5 * (row[0][c] + row[1][c]);
+    near(value(q, mean, &m), value(q, row[0], &m));
+    gg_rheology.destroy(self);
+  }
+}
+
 /* Free cooling by Haff's law between two samples: zeta* and the rate in units of the moment's temperature come out
  * exactly, however fast the gas cools. */
 static void cooling(void **state)
@@ -255,8 +274,12 @@ static void missing(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sheared_rough),         cmocka_unit_test(mixture), cmocka_unit_test(cooling),
-      cmocka_unit_test(viscosity_at_no_shear), cmocka_unit_test(missing),
+      cmocka_unit_test(sheared_rough),
+      cmocka_unit_test(mixture),
+      cmocka_unit_test(cooling),
+      cmocka_unit_test(fluctuating),
+      cmocka_unit_test(viscosity_at_no_shear),
+      cmocka_unit_test(missing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
