@@ -45,11 +45,16 @@ static double temperature_ratio(const double *a, const gg_model *m)
 {
   return rotational_temperature(a, m) / temperature(a, m);
 }
-static double spin_z(const double *a, const gg_model *m)
+/* sum_i x_i <omega^p>_i from the channel of s^p, s = (d/2) omega. */
+static double spin_moment(const double *a, const gg_model *m, int channel, int power)
 {
   double sum = 0;
-  for (int i = 0; i < m->n_species; i++) sum += share(m, i) * of(a, m, i, CH_SPIN_Z) * 2 / m->diameter[i];
+  for (int i = 0; i < m->n_species; i++) sum += share(m, i) * of(a, m, i, channel) * pow(2 / m->diameter[i], power);
   return sum;
+}
+static double spin_z(const double *a, const gg_model *m)
+{
+  return spin_moment(a, m, CH_SPIN_Z, 1);
 }
 
 #define KINETIC(name, channel)                                                                                         \
@@ -135,6 +140,11 @@ static double flatness(const double *a, const gg_model *m, int fourth, int secon
   double c2 = mean_over(a, m, second, false);
   return mean_over(a, m, fourth, false) / (c2 * c2);
 }
+static double spin_flatness(const double *a, const gg_model *m, int fourth, int second)
+{
+  double w2 = spin_moment(a, m, second, 2);
+  return spin_moment(a, m, fourth, 4) / (w2 * w2);
+}
 static double kurtosis_cx(const double *a, const gg_model *m)
 {
   return flatness(a, m, CH_C4X, CH_C2X);
@@ -149,19 +159,19 @@ static double kurtosis_cz(const double *a, const gg_model *m)
 }
 static double kurtosis_wx(const double *a, const gg_model *m)
 {
-  return flatness(a, m, CH_W4X, CH_W2X);
+  return spin_flatness(a, m, CH_W4X, CH_W2X);
 }
 static double kurtosis_wy(const double *a, const gg_model *m)
 {
-  return flatness(a, m, CH_W4Y, CH_W2Y);
+  return spin_flatness(a, m, CH_W4Y, CH_W2Y);
 }
 static double kurtosis_wz(const double *a, const gg_model *m)
 {
-  return flatness(a, m, CH_W4Z, CH_W2Z);
+  return spin_flatness(a, m, CH_W4Z, CH_W2Z);
 }
 static double skewness_wz(const double *a, const gg_model *m)
 {
-  return mean_over(a, m, CH_W3Z, false) / pow(mean_over(a, m, CH_W2Z, false), 1.5);
+  return spin_moment(a, m, CH_W3Z, 3) / pow(spin_moment(a, m, CH_W2Z, 2), 1.5);
 }
 
 /* Fourth cumulant of one species. Where N grains share a fixed energy, even Gaussian ones have <c^4>/T^2 lower than 15

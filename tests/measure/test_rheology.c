@@ -167,6 +167,28 @@ static void mixture(void **state)
   gg_rheology.destroy(self);
 }
 
+/* Two sizes, rough: moments of omega, not of surface velocities; about each species' own mean. */
+static void two_sizes(void **state)
+{
+  (void)state;
+  plant(6);
+  gg_model m = model_of(GG_USF, 0, 2);
+  double row[64], mean[2] = {0}, w2 = 0, w3 = 0, w4 = 0;
+  gg_collision_sums t = planted_transfer(m.n_species);
+  void *self = gg_rheology.create(&m, NULL);
+  take_row(self, &m, &t, 0, 1, row);
+  take_row(self, &m, &t, 0.5, 1, row);
+  for (int i = 0; i < N; i++) mean[kind[i]] += sz[i] / (kind[i] ? 167 : 333);
+  for (int i = 0; i < N; i++) {
+    double omega = 2 / m.diameter[kind[i]] * (sz[i] - mean[kind[i]]);
+    w2 += pow(omega, 2) / N, w3 += pow(omega, 3) / N, w4 += pow(omega, 4) / N;
+  }
+  near(value(GG_Q_SPIN_Z, row, &m), 2 * (333 * mean[0] + 167 / 1.5 * mean[1]) / N);
+  near(value(GG_Q_KURTOSIS_WZ, row, &m), w4 / (w2 * w2));
+  near(value(GG_Q_SKEWNESS_WZ, row, &m), w3 / pow(w2, 1.5));
+  gg_rheology.destroy(self);
+}
+
 /* The cumulants are those of every instant, however the temperature fluctuates between samples. */
 static void fluctuating(void **state)
 {
@@ -274,11 +296,8 @@ static void missing(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sheared_rough),
-      cmocka_unit_test(mixture),
-      cmocka_unit_test(cooling),
-      cmocka_unit_test(fluctuating),
-      cmocka_unit_test(viscosity_at_no_shear),
+      cmocka_unit_test(sheared_rough), cmocka_unit_test(mixture),   cmocka_unit_test(cooling),
+      cmocka_unit_test(fluctuating),   cmocka_unit_test(two_sizes), cmocka_unit_test(viscosity_at_no_shear),
       cmocka_unit_test(missing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
