@@ -6,8 +6,8 @@
 #include "common/memory.h"
 
 typedef struct gg_cell_mean {
-  double mass, inertia; /* sums of m, K m; then what c and s are the means of under these weights */
-  gg_vec c, s;
+  double mass, inertia; /* sums of m, I; then what c and omega are the means of under these weights */
+  gg_vec c, omega;
 } gg_cell_mean;
 
 gg_status gg_cell_frame_init(gg_cell_frame *f, const gg_model *m, gg_error *err)
@@ -29,6 +29,11 @@ static gg_vec of_grain(double *const field[3], size_t i)
   return (gg_vec){field[0][i], field[1][i], field[2][i]};
 }
 
+static gg_vec omega_of(const gg_snapshot *s, size_t i)
+{
+  return (gg_vec){gg_snapshot_omega(s, 0, i), gg_snapshot_omega(s, 1, i), gg_snapshot_omega(s, 2, i)};
+}
+
 static void add(gg_vec *sum, double weight, gg_vec v)
 {
   *sum = gg_add(*sum, gg_scale(weight, v));
@@ -41,17 +46,17 @@ void gg_cell_frame_take(gg_cell_frame *f, const gg_snapshot *s)
   memset(f->mean, 0, cells * sizeof *f->mean);
   for (size_t i = 0; i < s->n; i++) {
     int k = gg_snapshot_species(s, i);
-    double inertia = m->inertia[k] * m->mass[k];
+    double inertia = gg_moment_of_inertia(m, k);
     f->at[i] = (uint32_t)gg_cell_grid_cell(&f->grid, s, i);
     gg_cell_mean *cell = &f->mean[f->at[i]];
     cell->mass += m->mass[k], cell->inertia += inertia;
     add(&cell->c, m->mass[k], of_grain(s->c, i));
-    if (s->s[0]) add(&cell->s, inertia, of_grain(s->s, i));
+    if (s->s[0]) add(&cell->omega, inertia, omega_of(s, i));
   }
   for (size_t k = 0; k < cells; k++) {
     gg_cell_mean *cell = &f->mean[k];
     if (cell->mass > 0) cell->c = gg_scale(1 / cell->mass, cell->c);
-    if (cell->inertia > 0) cell->s = gg_scale(1 / cell->inertia, cell->s);
+    if (cell->inertia > 0) cell->omega = gg_scale(1 / cell->inertia, cell->omega);
   }
 }
 
@@ -62,5 +67,5 @@ gg_vec gg_cell_frame_velocity(const gg_cell_frame *f, const gg_snapshot *s, size
 
 gg_vec gg_cell_frame_spin(const gg_cell_frame *f, const gg_snapshot *s, size_t i)
 {
-  return gg_sub(of_grain(s->s, i), f->mean[f->at[i]].s);
+  return gg_sub(omega_of(s, i), f->mean[f->at[i]].omega);
 }

@@ -37,8 +37,8 @@ enum {
 
 typedef struct cell {                  /* sums over its grains */
   double n, mass, momentum[3], energy; /* m, m C, m C^2 */
-  double inertia, spin[3], rotation;   /* K m, K m s, K m s^2; and omega_z */
-  double omega, volume;
+  double inertia, spin[3], rotation;   /* I, I omega, I omega^2 */
+  double omega, omega_squared, volume; /* omega_z, omega.omega, pi/6 d^3 */
 } cell;
 
 typedef struct cells {
@@ -84,15 +84,19 @@ static cell *cell_at(const cells *d, int x, int y, int z)
 static void add_grain(const gg_model *m, const gg_snapshot *s, size_t i, cell *c)
 {
   int k = gg_snapshot_species(s, i);
-  double mass = m->mass[k], K = m->inertia[k] * mass, diameter = m->diameter[k];
+  double mass = m->mass[k], I = gg_moment_of_inertia(m, k), diameter = m->diameter[k];
   c->n++;
   c->mass += mass;
   c->volume += M_PI / 6 * diameter * diameter * diameter;
   for (int a = 0; a < 3; a++) c->momentum[a] += mass * s->c[a][i], c->energy += mass * s->c[a][i] * s->c[a][i];
   if (!s->s[0]) return;
-  c->inertia += K;
-  for (int a = 0; a < 3; a++) c->spin[a] += K * s->s[a][i], c->rotation += K * s->s[a][i] * s->s[a][i];
-  c->omega += s->s[2][i] * 2 / diameter;
+  c->inertia += I;
+  for (int a = 0; a < 3; a++) {
+    double omega = gg_snapshot_omega(s, a, i);
+    c->spin[a] += I * omega, c->rotation += I * omega * omega;
+    c->omega_squared += omega * omega;
+  }
+  c->omega += gg_snapshot_omega(s, 2, i);
 }
 
 static void sort_grains(cells *d, const gg_snapshot *s)
@@ -179,11 +183,10 @@ static void add_shear_rate(const cells *d, int x, int y, int z, double root_T, d
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   cells *d = self;
-  const gg_model *m = &d->model;
   sort_grains(d, s);
   cell box = add_averages(d, bin);
   double T = thermal(&box) / (3 * box.n), theta = rotational(&box) / (3 * box.n), squares = 0;
-  double rms = sqrt(box.rotation / (3 * fmax(box.inertia, 1e-300))) * 2 / m->diameter[0]; /* omega of a component */
+  double rms = sqrt(box.omega_squared / (3 * box.n)); /* of a component of omega */
   double unit = box.volume / box.n;
   for (int z = 0; z < d->grid.n[2]; z++)
     for (int y = 0; y < d->grid.n[1]; y++)

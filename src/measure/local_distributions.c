@@ -18,7 +18,7 @@ static const double centre[DENSITIES] = {0.5, 0.75, 1, 1.25, 1.5}; /* of the mea
 #define TOLERANCE 0.1
 
 typedef struct cell {
-  double volume, weight[VECTORS], sum[VECTORS]; /* of grains; m, m C_x; K m, K m s_z */
+  double volume, weight[VECTORS], sum[VECTORS]; /* of grains; m, m C_x; I, I omega_z */
 } cell;
 
 typedef struct local {
@@ -69,12 +69,12 @@ static double *histogram_of(const local *d, double *bin, int species, int vector
 
 static double weight_of(const gg_model *m, int species, int vector)
 {
-  return vector ? m->inertia[species] * m->mass[species] : m->mass[species];
+  return vector ? gg_moment_of_inertia(m, species) : m->mass[species];
 }
 
 static double component(const gg_snapshot *s, int vector, size_t i)
 {
-  return vector ? s->s[2][i] : s->c[0][i];
+  return vector ? gg_snapshot_omega(s, 2, i) : s->c[0][i];
 }
 
 static void sort_grains(local *d, const gg_snapshot *s)

@@ -14,7 +14,7 @@
 
 enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
 #define THICKNESS 0.5
-/* Sums over a slab: pi/6 d^3, mass, m C, m C^2, K m, K m s, K m s^2, grains, omega_z */
+/* Sums over a slab: pi/6 d^3, mass, m C, m C^2, I, I omega, I omega^2, grains, omega_z */
 enum { VOLUME, MASS, MOMENTUM, ENERGY = MOMENTUM + 3, INERTIA, SPIN, ROTATION = SPIN + 3, GRAINS, OMEGA, SLAB };
 
 /* Behind the slabs: time, and the impulses on the surfaces of the model. */
@@ -73,7 +73,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   for (size_t i = 0; i < s->n; i++) {
     int slab = (int)floor(s->r[1][i] / m->box[1] * d->slabs), k = gg_snapshot_species(s, i);
     if (slab < 0 || slab >= d->slabs) continue; /* above an open top */
-    double *at = bin + slab * SLAB, mass = m->mass[k], K = mass * m->inertia[k], diameter = m->diameter[k];
+    double *at = bin + slab * SLAB, mass = m->mass[k], I = gg_moment_of_inertia(m, k), diameter = m->diameter[k];
     at[VOLUME] += M_PI / 6 * diameter * diameter * diameter;
     at[MASS] += mass;
     at[GRAINS]++;
@@ -82,11 +82,11 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
       at[MOMENTUM + a] += mass * c, at[ENERGY] += mass * c * c;
     }
     if (!s->s[0]) continue;
-    at[INERTIA] += K;
-    at[OMEGA] += s->s[2][i] * 2 / diameter;
+    at[INERTIA] += I;
+    at[OMEGA] += gg_snapshot_omega(s, 2, i);
     for (int a = 0; a < 3; a++) {
-      double w = s->s[a][i];
-      at[SPIN + a] += K * w, at[ROTATION] += K * w * w;
+      double omega = gg_snapshot_omega(s, a, i);
+      at[SPIN + a] += I * omega, at[ROTATION] += I * omega * omega;
     }
   }
 }

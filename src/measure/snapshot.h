@@ -29,5 +29,15 @@ static inline int gg_snapshot_species(const gg_snapshot *s, size_t i)
 {
   return s->species ? s->species[i] : 0;
 }
+/* Component a of omega of a grain, of which s[a] has the surface velocity; and of a species I = K m d^2/4. Means over
+ * grains of several sizes are of these: at one omega surfaces of larger ones are faster. */
+static inline double gg_snapshot_omega(const gg_snapshot *s, int a, size_t i)
+{
+  return s->s[a][i] * 2 / s->model->diameter[gg_snapshot_species(s, i)];
+}
+static inline double gg_moment_of_inertia(const gg_model *m, int species)
+{
+  return m->inertia[species] * m->mass[species] * m->diameter[species] * m->diameter[species] / 4;
+}
 
 #endif

@@ -116,7 +116,7 @@ static void mean_spins(const correlations *d, const gg_snapshot *s, double mean[
 {
   memset(mean, 0, GG_MAX_SPECIES * sizeof *mean);
   for (size_t i = 0; i < s->n; i++)
-    for (int a = 0; a < 3; a++) mean[gg_snapshot_species(s, i)][a] += s->s[a][i];
+    for (int a = 0; a < 3; a++) mean[gg_snapshot_species(s, i)][a] += gg_snapshot_omega(s, a, i);
   for (int k = 0; k < d->model.n_species; k++)
     for (int a = 0; a < 3; a++) mean[k][a] /= (double)d->model.n_of[k];
 }
@@ -126,7 +126,7 @@ static void take_motion(const correlations *d, const gg_snapshot *s, size_t i, d
 {
   for (int a = 0; a < 3; a++) {
     m->c[a] = s->c[a][i];
-    if (d->spins) m->w[a] = s->s[a][i] - mean[gg_snapshot_species(s, i)][a];
+    if (d->spins) m->w[a] = gg_snapshot_omega(s, a, i) - mean[gg_snapshot_species(s, i)][a];
   }
 }
 

@@ -80,6 +80,35 @@ static void mixture(void **state)
   gg_curves_clear(&list);
 }
 
+/* Grains of two sizes that all turn at one mean rate, all components of I^(1/2) omega about it alike. */
+static void turning(gg_snapshot *s, gg_rng *r, int sample)
+{
+  thrown(s, r, sample);
+  for (size_t i = 0; i < s->n; i++) {
+    int k = gg_snapshot_species(s, i);
+    double d = s->model->diameter[k], I = s->model->inertia[k] * s->model->mass[k] * d * d / 4;
+    for (int a = 0; a < 3; a++) s->s[a][i] = d / 2 * (0.5 * gg_rng_normal(r) / sqrt(I) - 4 * (a == 2));
+  }
+}
+
+/* Their mean is one of omega, not of surface velocities; local spins are over the rms of omega. */
+static void two_sizes(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
+  gg_curves list = ct_curves(&gg_cells, &m, 96, turning, 83);
+  const gg_curve *W = ct_find(&list, "cell_rotational_temperature"), *c = ct_find(&list, "cell_spin");
+  expect_number(W, "rotational_temperature_box", 0.25, 0.01);
+  expect_number(W, "rotational_temperature_cells_corrected", 0.25, 0.02);
+  double mean = 0, width = c->x[1] - c->x[0], squares = 16.0 / 3;
+  for (size_t i = 0; i < c->n; i++) mean += c->value[i] * c->x[i] * width;
+  for (int k = 0; k < 2; k++)
+    squares += (k ? 0.4 : 0.6) * 0.25 / (m.inertia[k] * m.mass[k] * pow(m.diameter[k], 2) / 4);
+  print_message("# mean local spin over rms %.4f, expected %.4f\n", mean, -4 / sqrt(squares));
+  assert_true(fabs(mean * sqrt(squares) / -4 - 1) < 0.01);
+  gg_curves_clear(&list);
+}
+
 /* Every distribution integrates to one, and an elastic engine's cells have the temperature of the box. */
 static void engine(void **state)
 {
@@ -111,6 +140,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted),
       cmocka_unit_test(mixture),
+      cmocka_unit_test(two_sizes),
       cmocka_unit_test(engine),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -34,6 +34,33 @@ static void expect_number(const gg_curves *list, const char *name, const char *n
   ct_expect(number, p.value, p.error, expected, sight);
 }
 
+/* Two sizes that turn at one mean rate. */
+static void turning(gg_snapshot *s, gg_rng *r, int sample)
+{
+  gaussian(s, r, sample);
+  for (size_t i = 0; i < s->n; i++)
+    for (int a = 0; a < 3; a++) s->s[a][i] = s->model->diameter[gg_snapshot_species(s, i)] / 2 * (gg_rng_normal(r) - 4);
+}
+
+/* Omega is about the mean omega of a cell, whoever is in it. */
+static void two_sizes(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_HCS, 0.1, 0, 4096, 2);
+  gg_curves list = ct_curves(&gg_local_distributions, &m, 128, turning, 75);
+  for (int k = 1; k <= 2; k++) {
+    char name[64];
+    double mean = 0, all = 0;
+    snprintf(name, sizeof name, "local_distribution_Wz_%d_all", k);
+    const gg_curve *c = ct_find(&list, name);
+    for (size_t i = 0; i < c->n; i++) mean += c->value[i] * c->x[i], all += c->value[i];
+    print_message("# mean Omega_z of species %d over sigma: %.5f\n", k, mean / all);
+    assert_true(fabs(mean / all) < 0.01);
+    expect_number(&list, name, "skewness", 0, 0.05);
+  }
+  gg_curves_clear(&list);
+}
+
 static void gaussian_cells(void **state)
 {
   (void)state;
@@ -134,10 +161,8 @@ static void engines(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(gaussian_cells),
-      cmocka_unit_test(mixed_cells),
-      cmocka_unit_test(planted_halves),
-      cmocka_unit_test(engines),
+      cmocka_unit_test(gaussian_cells), cmocka_unit_test(mixed_cells), cmocka_unit_test(two_sizes),
+      cmocka_unit_test(planted_halves), cmocka_unit_test(engines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
