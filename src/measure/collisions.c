@@ -199,8 +199,10 @@ static void put_flight(const collisions *d, gg_curves *list, int kind, int speci
     c->value[i] = at[FLIGHT_FIRST + i] / (at[COUNT] * (to - from));
   }
   put_numbers(c, m, kind, at);
-  double mean = at[SUM] / at[COUNT];
-  gg_curve_beside(c, "Maxwellian gas", kind == TIME ? gg_free_time_law : gg_free_path_law, &mean);
+  double law[GG_FLIGHT_LAW];
+  gg_free_flight_of(m, species, law);
+  law[GG_FLIGHT_MEAN] = at[SUM] / at[COUNT];
+  gg_curve_beside(c, "Maxwellian gas", kind == TIME ? gg_free_time_law : gg_free_path_law, law);
 }
 
 static double twice(double x, const double *none)

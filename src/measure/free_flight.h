@@ -5,9 +5,16 @@
 #ifndef GG_FREE_FLIGHT_H
 #define GG_FREE_FLIGHT_H
 
+#include "common/model.h"
 #include "measure/curve.h"
 
-/* Probability density at x; the parameter is the mean. */
+/* What laws have as parameters: the mean, to be set, and nu at the speeds of their integral, in any unit. Of mixtures
+ * every species has its own law: heavy grains are slow among light ones, which collide with them at one rate. All
+ * species are taken at one temperature. */
+enum { GG_FLIGHT_SPEEDS = 60, GG_FLIGHT_MEAN = 0, GG_FLIGHT_LAW = 1 + GG_FLIGHT_SPEEDS };
+void gg_free_flight_of(const gg_model *model, int species, double law[GG_FLIGHT_LAW]);
+
+/* Probability density at x. */
 gg_curve_law gg_free_time_law, gg_free_path_law;
 
 #endif

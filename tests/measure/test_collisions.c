@@ -218,8 +218,12 @@ static void laws_beside(void **state)
   (void)state;
   const gas times = {2.5, 0}, paths = {2.5, 0.7};
   double time = 1 / (2.5 * 2 * M_SQRT2), path = 0.7 / (2.5 * M_SQRT2 * sqrt(M_PI)), sum[2][2] = {{0}}, step = 0.001;
+  gg_model like = ct_model(GG_EQUILIBRIUM, 0.1, -1, 1000, 1);
+  double of_times[GG_FLIGHT_LAW], of_paths[GG_FLIGHT_LAW];
+  gg_free_flight_of(&like, 0, of_times), gg_free_flight_of(&like, 0, of_paths);
   for (double x = step / 2; x < 40; x += step) {
-    double p[2] = {gg_free_time_law(x * time, &time), gg_free_path_law(x * path, &path)};
+    of_times[GG_FLIGHT_MEAN] = time, of_paths[GG_FLIGHT_MEAN] = path;
+    double p[2] = {gg_free_time_law(x * time, of_times), gg_free_path_law(x * path, of_paths)};
     for (int k = 0; k < 2; k++)
       sum[k][0] += p[k] * (k ? path : time) * step, sum[k][1] += p[k] * x * (k ? path : time) * step;
     if (x > 0.3 && x < 0.3 + step) {
