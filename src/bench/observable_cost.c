@@ -43,7 +43,7 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
   GG_TRY(gg_replica_create(&c->replica, &s, &model, 0, err));
   GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
   GG_TRY(gg_replica_open_window(&c->replica, err));
-  c->replica.clock.window_samples = GG_EPISODES_SETTLED; /* the cost is that of long runs */
+  c->replica.clock.window_samples = gg_episodes_of(&model).settled; /* the cost is that of long runs */
   return GG_OK;
 }
 
@@ -65,7 +65,7 @@ static uint64_t cycle_of(const gg_replica *r)
   for (int k = 0; k < r->n_observables; k++) {
     if (r->every[k] > cycle) cycle = r->every[k];
     if (r->observable[k]->begin_episode && ops->callback_slows && ops->callback_slows(r->engine))
-      return GG_EPISODES_APART;
+      return gg_episodes_of(&r->model).apart;
   }
   return (uint64_t)cycle;
 }

@@ -99,6 +99,9 @@ double gg_treated_beta(const gg_model *model, int i, int j);
 /* Boltzmann-Enskog collision rate per grain at temperature T: 4 n d^2 chi sqrt(pi T) for one species. */
 double gg_model_collision_rate(const gg_model *model, double T);
 
+/* The same of a grain of species i, all species at the temperature T. */
+double gg_model_species_rate(const gg_model *model, int i, double T);
+
 /* nu_0 that the cooling rate zeta* is counted in: (16/5) sqrt(pi) n d^2 sqrt(T) (Garzo & Dufty 1999), T = <C.C>/3, for
  * one species; sqrt(pi) n sigma_12^2 v_0, v_0^2 = 2T(m1+m2)/(m1 m2) for two (Montanero & Garzo 2003); of more the mean
  * of that over all unlike pairs of grains. */

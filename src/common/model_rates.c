@@ -43,6 +43,17 @@ double gg_model_collision_rate(const gg_model *m, double T)
   return rate;
 }
 
+double gg_model_species_rate(const gg_model *m, int i, double T)
+{
+  double rate = 0;
+  for (int j = 0; j < m->n_species; j++) {
+    int o = gg_pair(i, j);
+    double nj = m->density * (double)m->n_of[j] / (double)m->n, spread = T * (1 / m->mass[i] + 1 / m->mass[j]);
+    rate += nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
+  }
+  return rate;
+}
+
 static double unlike_rate(const gg_model *m, int i, int j, double T)
 {
   double v0 = sqrt(2 * T * (m->mass[i] + m->mass[j]) / (m->mass[i] * m->mass[j]));

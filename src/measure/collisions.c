@@ -28,8 +28,8 @@ typedef struct collisions {
   double unit[KINDS]; /* one over the expected mean time and path between collisions */
   bool has[KINDS];
   size_t width;
-  uint64_t first; /* collisions since averaging began, counted until flights are */
-  double sums[];  /* since the last snapshot: angles, then the flights of each species */
+  uint64_t first[GG_MAX_SPECIES]; /* contacts of grains of a species since averaging began, until its flights count */
+  double sums[];                  /* since the last snapshot: angles, then the flights of each species */
 } collisions;
 
 static void *create(const gg_model *m, gg_error *err)
@@ -90,14 +90,15 @@ static double peculiar_path(gg_vec c, double rate, double t)
 }
 
 /* Flights are counted where they end. Of those that end soon after averaging began, the long ones began before it and
- * are not known. So nothing counts until hardly a grain is left that has not collided: else means would be too small by
- * one part in the number of collisions a grain. */
+ * are not known. So nothing counts until hardly a grain of the species is left that has not collided: else means would
+ * be too small by one part in the number of collisions of such a grain. */
 #define FIRST_COLLISIONS 12 /* a grain; exp(-12) of the grains have had none */
-static bool flights_count(collisions *d)
+static bool flights_count(collisions *d, int species)
 {
-  uint64_t enough = FIRST_COLLISIONS * (uint64_t)d->model.n / 2;
-  d->first += d->first < enough;
-  return d->first == enough;
+  uint64_t enough = FIRST_COLLISIONS * (uint64_t)d->model.n_of[species];
+  if (d->first[species] == enough) return true;
+  d->first[species]++;
+  return false;
 }
 
 static void add_flights(collisions *d, const gg_collision_record *m, int which)
@@ -130,15 +131,14 @@ static void add_collision(void *self, const gg_collision_record *m)
   fabric[0] += k.x * k.x, fabric[1] += k.y * k.y, fabric[2] += k.z * k.z, fabric[3] += k.x * k.y;
   d->sums[COSINES + (cosine < 0 ? 0 : cosine < COS_BINS ? cosine : COS_BINS - 1)]++;
   d->sums[PLANE + plane_bin(k)]++;
-  if (!flights_count(d)) return;
-  add_flights(d, m, 0);
-  add_flights(d, m, 1);
+  for (int i = 0; i < 2; i++)
+    if (flights_count(d, m->species[i])) add_flights(d, m, i);
 }
 
 static void begin_episode(void *self)
 {
   collisions *d = self;
-  d->first = 0;
+  memset(d->first, 0, sizeof d->first);
   memset(d->sums, 0, d->width * sizeof *d->sums);
 }
 
@@ -146,7 +146,7 @@ static void *memory(void *self, size_t *bytes)
 {
   collisions *d = self;
   *bytes = sizeof d->first + d->width * sizeof *d->sums; /* one behind the other; a run may be stopped in an interval */
-  return &d->first;
+  return d->first;
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)

@@ -75,15 +75,12 @@ void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
 void gg_replica_restart_curves(gg_replica *r);
 
 /* episodes.c: before an interval of the window: does the engine show its collisions to the observables that ask for
- * them? Always, but where that slows it down many times over, and they do with less: there for GG_EPISODE samples at
- * the beginning of every GG_EPISODES_APART, but closer together in the first GG_EPISODES_SETTLED of the window. */
-enum {
-  GG_EPISODE = 12,
-  GG_EPISODES_ALIKE = 16,
-  GG_EPISODES_APART_FIRST = 32,
-  GG_EPISODES_APART = 1024,
-  GG_EPISODES_SETTLED = GG_EPISODES_ALIKE * (GG_EPISODES_APART - GG_EPISODES_APART_FIRST)
-};
+ * them? Always, but where that slows it down many times over, and they do with less: there for so many samples at the
+ * beginning of every `apart`, but closer together before the window is `settled` samples long. */
+typedef struct gg_episodes {
+  uint64_t length, first, apart, settled; /* samples; first: how far apart the first ones begin */
+} gg_episodes;
+gg_episodes gg_episodes_of(const gg_model *model);
 gg_status gg_replica_show_collisions(gg_replica *r, gg_error *err);
 /* Has the present sample of observable k others of its episode to follow? All of one are a single sample of its bins,
  * so that errors know of what changes from one episode to the next alone. */

@@ -269,6 +269,40 @@ static void kinetic_theory(void **state)
   }
 }
 
+/* What stands beside a curve, at its points. */
+static double beside(double x, const void *context)
+{
+  const gg_curve *c = context;
+  size_t i = 0;
+  while (i + 1 < c->n && c->x[i] < x) i++;
+  return c->reference[i];
+}
+
+/* Large light grains, and a tenth of small heavy ones that collide a quarter as often: in equilibrium flights of either
+ * are those of kinetic theory, of its own mean and law, also where collisions are shown in episodes. */
+static void unlike_grains(void **state)
+{
+  (void)state;
+  gg_scene s = sheared(GG_DSMC, 2, 0.05);
+  s.species[0] = (gg_species){0.9, 1, 1, 0.4}, s.species[1] = (gg_species){0.1, 0.2, 100, 0.4};
+  s.flow = GG_EQUILIBRIUM, s.run.collisions = 12000, s.run.warmup = 100, s.measure |= GG_MEASURE_COLLISIONS;
+  s.dsmc.time_step = 0.02; /* within a step pairs of species collide in turn */
+  for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
+  gg_result *r = ct_run(s);
+  for (int i = 0; i < 2; i++) {
+    const gg_curve *time = ct_find(&r->curves, i ? "free_time_2" : "free_time_1");
+    const gg_curve *path = ct_find(&r->curves, i ? "free_path_2" : "free_path_1");
+    double t = 1 / gg_model_species_rate(&r->model, i, 0.5), l = t * sqrt(4 / M_PI / r->model.mass[i]);
+    gg_curve_number p = ct_number(time, "mean_free_time");
+    ct_expect("mean free time", p.value, hypot(p.error, 0.001 * t), t, 0.03 * t);
+    p = ct_number(path, "mean_free_path");
+    ct_expect("mean free path", p.value, hypot(p.error, 0.001 * l), l, 0.03 * l);
+    assert_true(ct_chi2(time, 50, 210, beside, time) < 1.6);
+    assert_true(ct_chi2(path, 50, 210, beside, path) < 1.6);
+  }
+  gg_result_free(r);
+}
+
 /* Sheared, phi = 0.01, e = 0.8: grains meet where the flow presses them together (k_x k_y < 0), equally often in both
  * engines, and mean free time times collision rate is one. */
 static void sheared_engines(void **state)
@@ -320,7 +354,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(laws_beside),        cmocka_unit_test(heated),        cmocka_unit_test(adds_up),
       cmocka_unit_test(flights_and_angles), cmocka_unit_test(sheared_paths), cmocka_unit_test(kinetic_theory),
-      cmocka_unit_test(sheared_engines),
+      cmocka_unit_test(sheared_engines),    cmocka_unit_test(unlike_grains),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
