@@ -86,8 +86,10 @@ gg_status gg_dsmc_restore_callback(gg_dsmc *d, const gg_archive *a, gg_error *er
   return GG_OK;
 }
 
-void gg_dsmc_rescale_callback(gg_dsmc *d, double factor)
+void gg_dsmc_rescale_callback(gg_dsmc *d, double factor, double origin)
 {
-  for (int i = 0; i < d->model.n_species; i++)
-    for (size_t k = 0; d->callback.last[i] && k < (size_t)d->ensemble.of[i].n; k++) d->callback.last[i][k] /= factor;
+  for (int i = 0; i < d->model.n_species; i++) {
+    double *last = d->callback.last[i];
+    for (size_t k = 0; last && k < (size_t)d->ensemble.of[i].n; k++) last[k] = origin + (last[k] - origin) / factor;
+  }
 }

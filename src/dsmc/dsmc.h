@@ -93,7 +93,8 @@ gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callbac
 bool gg_dsmc_callback_slows(const gg_engine *engine);
 gg_status gg_dsmc_save_callback(const gg_dsmc *d, gg_archive *archive, gg_error *err);
 gg_status gg_dsmc_restore_callback(gg_dsmc *d, const gg_archive *archive, gg_error *err);
-void gg_dsmc_rescale_callback(gg_dsmc *d, double factor);
+/* Velocities are multiplied by the factor, and times before or after the origin divided: flights keep their paths. */
+void gg_dsmc_rescale_callback(gg_dsmc *d, double factor, double origin);
 
 gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *err);
 gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);

@@ -187,10 +187,10 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   double factor = ldexp(1, power);
   d->now.power += power;
   gg_dsmc_ensemble_scale(&d->ensemble, factor);
+  gg_dsmc_rescale_callback(d, factor, next_sweep ? d->now.time : 0);
   if (!next_sweep) {
     d->now.time /= factor;
     d->now.unsynchronised /= factor;
-    gg_dsmc_rescale_callback(d, factor);
   }
   d->now.lost *= factor * factor;
   d->now.fastest *= factor;

@@ -324,6 +324,21 @@ static void sheared_engines(void **state)
   assert_true(xy[0].value < -0.03);
 }
 
+/* Sweeps of the shear rate multiply all velocities again and again: paths are those of the gas all the same. */
+static void swept(void **state)
+{
+  (void)state;
+  gg_scene s = sheared(GG_DSMC, 1, 0.1);
+  s.flow = GG_SMALL_SHEAR, s.collision.e[0] = 0.8, s.run.collisions = 4000, s.measure |= GG_MEASURE_COLLISIONS;
+  gg_result *r = ct_run(s);
+  gg_curve_number p = ct_number(ct_find(&r->curves, "free_path"), "mean_free_path");
+  double l = gg_model_collision_rate(&r->model, 0.5), maxwellian = sqrt(4 / M_PI) / l;
+  ct_expect("mean free path, swept", p.value, hypot(p.error, 0.003 * maxwellian), maxwellian, 0.03 * maxwellian);
+  p = ct_number(ct_find(&r->curves, "free_path"), "second_moment_over_mean_squared");
+  ct_expect("second moment", p.value, p.error, 2.15, 0.1); /* of the cooling gas, whose speeds spread more */
+  gg_result_free(r);
+}
+
 /* Heated gases: times in both engines where kicks heat them; with the Gaussian thermostat, in dsmc alone. No paths. */
 static void heated(void **state)
 {
@@ -354,7 +369,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(laws_beside),        cmocka_unit_test(heated),        cmocka_unit_test(adds_up),
       cmocka_unit_test(flights_and_angles), cmocka_unit_test(sheared_paths), cmocka_unit_test(kinetic_theory),
-      cmocka_unit_test(sheared_engines),    cmocka_unit_test(unlike_grains),
+      cmocka_unit_test(sheared_engines),    cmocka_unit_test(unlike_grains), cmocka_unit_test(swept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
