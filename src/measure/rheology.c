@@ -144,6 +144,14 @@ static void put_rates(const rheology *r, const gg_interval *in, haff h, double *
   row[CH_PC_XY] = p[0][1] * unit, row[CH_PC_YX] = p[1][0] * unit;
 }
 
+/* The mean speed over an interval, over that at its end: the rate is that of the interval, and a free path the one over
+ * the other. 1 where the temperature stays, and in free cooling, where both are scaled by that of their own time. */
+static double speed_during(const rheology *r, double T0, double T1, double dt)
+{
+  if (gg_model_keeps_temperature(&r->model) || gg_flow_cools(r->model.flow) || !(T0 > 0 && T1 > 0)) return 1;
+  return haff_integrals(T0, T1, dt).root / (dt * sqrt(T1));
+}
+
 static void finish(void *self, const gg_interval *in, double *row)
 {
   rheology *r = self;
@@ -160,8 +168,12 @@ static void finish(void *self, const gg_interval *in, double *row)
   haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
   put_rates(r, in, h, row);
   row[CH_T2] = cooling ? 1 : T * T;
-  for (int i = 0; i < r->model.n_species; i++)
-    put_moments(r, i, cooling ? T : 1, row + CH_SPECIES + (size_t)i * gg_rheology_species_width(&r->model));
+  double during = speed_during(r, T0, T, in->elapsed);
+  for (int i = 0; i < r->model.n_species; i++) {
+    double *ch = row + CH_SPECIES + (size_t)i * gg_rheology_species_width(&r->model);
+    put_moments(r, i, cooling ? T : 1, ch);
+    ch[CH_SPEED] *= during;
+  }
 }
 
 const gg_observable gg_rheology = {

@@ -230,6 +230,24 @@ static void cooling(void **state)
   gg_rheology.destroy(self);
 }
 
+/* A gas that cools within an interval as fast as it is sheared slowly: the mean free path is the mean speed of the
+ * interval over its rate, not the speed at its end. */
+static void path_of_interval(void **state)
+{
+  (void)state;
+  plant(7);
+  gg_model m = model_of(GG_SMALL_SHEAR, -1, 1);
+  gg_collision_sums none = {0}, t = planted_transfer(1);
+  double row[64], speed = 0, dt = 0.5, rate = 2 * 150.0 / (N * dt);
+  void *self = gg_rheology.create(&m, NULL);
+  take_row(self, &m, &none, 0, 1, row);
+  take_row(self, &m, &t, dt, 0.8, row); /* T^(-1/2) from 1 to 1/0.8 */
+  for (int i = 0; i < N; i++) speed += (double)sqrtf((float)(cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i])) / N;
+  double expected = speed * log(1 / 0.8) / (1 / 0.8 - 1) / rate;
+  assert_true(fabs(value(GG_Q_MEAN_FREE_PATH, row, &m) / expected - 1) < 1e-7);
+  gg_rheology.destroy(self);
+}
+
 /* Sums for least squares of y on a and a^3. */
 typedef struct cubic {
   double a2, a4, a6, y1, y3;
@@ -296,9 +314,9 @@ static void missing(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sheared_rough), cmocka_unit_test(mixture),   cmocka_unit_test(cooling),
-      cmocka_unit_test(fluctuating),   cmocka_unit_test(two_sizes), cmocka_unit_test(viscosity_at_no_shear),
-      cmocka_unit_test(missing),
+      cmocka_unit_test(sheared_rough),         cmocka_unit_test(mixture),   cmocka_unit_test(cooling),
+      cmocka_unit_test(fluctuating),           cmocka_unit_test(two_sizes), cmocka_unit_test(path_of_interval),
+      cmocka_unit_test(viscosity_at_no_shear), cmocka_unit_test(missing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
