@@ -39,6 +39,8 @@ typedef struct cell {                  /* sums over its grains */
   double n, mass, momentum[3], energy; /* m, m C, m C^2 */
   double inertia, spin[3], rotation;   /* I, I omega, I omega^2 */
   double omega, omega_squared, volume; /* omega_z, omega.omega, pi/6 d^3 */
+  double heat, heat_mass;              /* T_i/T of the grain's species in the box, times 1 and m */
+  double turning, turning_inertia;     /* theta_i/theta, times 1 and I */
 } cell;
 
 typedef struct cells {
@@ -81,16 +83,52 @@ static cell *cell_at(const cells *d, int x, int y, int z)
   return &d->cell[(z * d->grid.n[1] + y) * d->grid.n[0] + x];
 }
 
-static void add_grain(const gg_model *m, const gg_snapshot *s, size_t i, cell *c)
+/* Temperatures of the species over that of all, translational and rotational. */
+typedef struct shares {
+  double heat[GG_MAX_SPECIES], turning[GG_MAX_SPECIES];
+} shares;
+
+static void divide(const gg_model *m, const double sum[GG_MAX_SPECIES], double *share)
+{
+  double all = 0;
+  for (int k = 0; k < m->n_species; k++) all += sum[k] / (double)m->n;
+  for (int k = 0; k < m->n_species; k++) share[k] = all > 0 ? sum[k] / (double)m->n_of[k] / all : 1;
+  if (m->n_species == 1) share[0] = 1;
+}
+
+static shares shares_of(const gg_model *m, const gg_snapshot *s)
+{
+  shares of;
+  double energy[GG_MAX_SPECIES] = {0}, rotation[GG_MAX_SPECIES] = {0}, spin[GG_MAX_SPECIES][3] = {{0}};
+  for (size_t i = 0; i < s->n && m->n_species > 1; i++) {
+    int k = gg_snapshot_species(s, i);
+    for (int a = 0; a < 3; a++) {
+      double omega = s->s[0] ? gg_snapshot_omega(s, a, i) : 0;
+      energy[k] += m->mass[k] * s->c[a][i] * s->c[a][i];
+      rotation[k] += gg_moment_of_inertia(m, k) * omega * omega;
+      spin[k][a] += omega;
+    }
+  }
+  for (int k = 0; k < m->n_species; k++) /* about the species' mean spin */
+    for (int a = 0; a < 3; a++)
+      rotation[k] -= gg_moment_of_inertia(m, k) * spin[k][a] * spin[k][a] / (double)m->n_of[k];
+  divide(m, energy, of.heat);
+  divide(m, rotation, of.turning);
+  return of;
+}
+
+static void add_grain(const gg_model *m, const gg_snapshot *s, const shares *of, size_t i, cell *c)
 {
   int k = gg_snapshot_species(s, i);
   double mass = m->mass[k], I = gg_moment_of_inertia(m, k), diameter = m->diameter[k];
   c->n++;
   c->mass += mass;
+  c->heat += of->heat[k], c->heat_mass += of->heat[k] * mass;
   c->volume += M_PI / 6 * diameter * diameter * diameter;
   for (int a = 0; a < 3; a++) c->momentum[a] += mass * s->c[a][i], c->energy += mass * s->c[a][i] * s->c[a][i];
   if (!s->s[0]) return;
   c->inertia += I;
+  c->turning += of->turning[k], c->turning_inertia += of->turning[k] * I;
   for (int a = 0; a < 3; a++) {
     double omega = gg_snapshot_omega(s, a, i);
     c->spin[a] += I * omega, c->rotation += I * omega * omega;
@@ -102,7 +140,8 @@ static void add_grain(const gg_model *m, const gg_snapshot *s, size_t i, cell *c
 static void sort_grains(cells *d, const gg_snapshot *s)
 {
   memset(d->cell, 0, (size_t)count_of(d) * sizeof *d->cell);
-  for (size_t i = 0; i < s->n; i++) add_grain(&d->model, s, i, &d->cell[gg_cell_grid_cell(&d->grid, s, i)]);
+  shares of = shares_of(&d->model, s);
+  for (size_t i = 0; i < s->n; i++) add_grain(&d->model, s, &of, i, &d->cell[gg_cell_grid_cell(&d->grid, s, i)]);
 }
 
 static void merge(cell *to, const cell *from)
@@ -124,16 +163,27 @@ static double rotational(const cell *c)
   return c->inertia > 0 ? c->rotation - (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / c->inertia : 0;
 }
 
+/* What energies about a mean are to be divided by: a mean over n grains takes the share m_i/M of grain i's out of them.
+ * That is n - 1 where all species have one temperature, else each counts by its own over that of the box. */
+static double free_grains(const cell *c)
+{
+  return c->mass > 0 ? fmax(c->heat - c->heat_mass / c->mass, 0) : 0;
+}
+static double free_spins(const cell *c)
+{
+  return c->inertia > 0 ? fmax(c->turning - c->turning_inertia / c->inertia, 0) : 0;
+}
+
 /* Temperatures about the means of these parts: as they come, and with the share 1/n_c put back. */
 static void put_temperatures(const cell *part, int n, double *T, double *W)
 {
-  double energy = 0, spins = 0, grains = 0, free_grains = 0;
+  double energy = 0, spins = 0, grains = 0, moving = 0, turning = 0;
   for (int k = 0; k < n; k++) {
     energy += thermal(&part[k]), spins += rotational(&part[k]);
-    grains += part[k].n, free_grains += fmax(part[k].n - 1, 0);
+    grains += part[k].n, moving += free_grains(&part[k]), turning += free_spins(&part[k]);
   }
   T[0] += energy / (3 * grains), W[0] += spins / (3 * grains);
-  if (n > 1) T[1] += energy / (3 * free_grains), W[1] += spins / (3 * free_grains);
+  if (n > 1) T[1] += energy / (3 * moving), W[1] += turning > 0 ? spins / (3 * turning) : 0;
 }
 
 static cell add_averages(const cells *d, double *bin)
@@ -196,9 +246,10 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
         drop(c->volume / unit + 0.5, 1, DENSITY_BINS, bin + DENSITY, &bin[N_DENSITY]);
         add_shear_rate(d, x, y, z, sqrt(T), bin);
         if (c->n < 2) continue;
-        drop(thermal(c) / (3 * (c->n - 1) * T), RATIO_WIDTH, RATIO_BINS, bin + TEMPERATURE, &bin[N_TEMPERATURE]);
+        drop(thermal(c) / (3 * free_grains(c) * T), RATIO_WIDTH, RATIO_BINS, bin + TEMPERATURE, &bin[N_TEMPERATURE]);
         if (!s->s[0]) continue;
-        drop(rotational(c) / (3 * (c->n - 1) * theta), RATIO_WIDTH, RATIO_BINS, bin + ROTATIONAL, &bin[N_ROTATIONAL]);
+        drop(rotational(c) / (3 * free_spins(c) * theta), RATIO_WIDTH, RATIO_BINS, bin + ROTATIONAL,
+             &bin[N_ROTATIONAL]);
         drop(c->omega / (c->n * rms) + SIGNED_BINS * SIGNED_WIDTH / 2, SIGNED_WIDTH, SIGNED_BINS, bin + SPIN,
              &bin[N_SPIN]);
       }
@@ -252,7 +303,8 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   double unit = m->phi * count_of(d) / (double)m->n, snapshots = bin[SNAPSHOTS];
   gg_curve *c =
       put(list, "cell_density", "local solid fraction", "φ", DENSITY_BINS, 0, unit, bin + DENSITY, bin[N_DENSITY]);
-  gg_curve_beside(c, "ideal gas", thrown, (const double[]){(double)m->n, 1.0 / count_of(d), unit});
+  if (gg_model_widest(m) == gg_model_narrowest(m)) /* else a solid fraction is no number of grains */
+    gg_curve_beside(c, "ideal gas", thrown, (const double[]){(double)m->n, 1.0 / count_of(d), unit});
   gg_curve_put_number(c, "cells", count_of(d), "1");
   gg_curve_put_number(c, "count_variance_over_mean", bin[COUNT_SQUARED] / snapshots, "1");
   c = put(list, "cell_temperature", "local temperature", "T_{cell}/T", RATIO_BINS, RATIO_WIDTH / 2, RATIO_WIDTH,

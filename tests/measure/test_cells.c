@@ -109,6 +109,42 @@ static void two_sizes(void **state)
   gg_curves_clear(&list);
 }
 
+/* Masses 1 and 3, the heavy grains five times as hot: what a cell's mean, which is mostly theirs, takes out of either
+ * is put back. */
+static void unlike(gg_snapshot *s, gg_rng *r, int sample)
+{
+  turning(s, r, sample);
+  for (size_t i = 0; i < s->n; i++)
+    for (int a = 0; a < 3; a++) {
+      int k = gg_snapshot_species(s, i);
+      double d = s->model->diameter[k], mean = a == 2 ? -4 : 0;
+      s->c[a][i] = sqrt(k ? 5 : 1) * gg_rng_normal(r) / sqrt(s->model->mass[k]);
+      if (k) s->s[a][i] = d / 2 * (mean + sqrt(5) * (s->s[a][i] * 2 / d - mean));
+    }
+}
+
+static void two_temperatures(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
+  gg_curves list = ct_curves(&gg_cells, &m, 96, unlike, 84);
+  const gg_curve *T = ct_find(&list, "cell_temperature"), *W = ct_find(&list, "cell_rotational_temperature");
+  double box[2], x[2] = {0.6, 0.4}, hot[2] = {1 / 2.6, 5 / 2.6}; /* a mean over the box, too, takes a share out */
+  for (int spins = 0; spins < 2; spins++) {
+    double all = 0, share = 0;
+    for (int k = 0; k < 2; k++) {
+      double weight = spins ? m.inertia[k] * m.mass[k] * m.diameter[k] * m.diameter[k] / 4 : m.mass[k];
+      all += x[k] * weight, share += x[k] * weight * hot[k];
+    }
+    box[spins] = 1 / (1 - share / all / (double)m.n);
+  }
+  expect_number(T, "temperature_slabs_over_box", box[0], 0.002);
+  expect_number(T, "temperature_cells_over_box", box[0], 0.01);
+  expect_number(W, "rotational_temperature_cells_over_box", box[1], 0.01);
+  assert_null(ct_find(&list, "cell_density")->reference); /* sizes differ */
+  gg_curves_clear(&list);
+}
+
 /* Every distribution integrates to one, and an elastic engine's cells have the temperature of the box. */
 static void engine(void **state)
 {
@@ -138,10 +174,8 @@ static void engine(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted),
-      cmocka_unit_test(mixture),
-      cmocka_unit_test(two_sizes),
-      cmocka_unit_test(engine),
+      cmocka_unit_test(planted),          cmocka_unit_test(mixture), cmocka_unit_test(two_sizes),
+      cmocka_unit_test(two_temperatures), cmocka_unit_test(engine),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
