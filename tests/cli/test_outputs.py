@@ -309,7 +309,13 @@ def test_texts_that_are_commands():
     check(sealed(body) == whole)
     theory = body.replace(b'"gaussian_closure"', b'"`touch harm_abc`"')
     panel = re.sub(rb'"panel": "([^"]{20,})"', lambda m: b'"panel": "' + b"'\\n!touch harm\\n#".ljust(len(m[1])) + b'"', body)
-    for i, hostile in enumerate((theory, panel)):
+    # Without engines ratios are to the first theory, whose name then stands beside the axis.
+    alone = body.replace(b'"md": {', b'"m_": {').replace(b'"dsmc": {', b'"dsm_": {')
+    first = b'"lun1991": {\n   "temperature": {\n    "mean"'
+    name = rb'''"'\n!touch harm #":{"temperature":{'''
+    axis = alone.replace(first, name.ljust(len(first) - 6) + b'"mean"')
+    check(alone != body and axis != alone)
+    for i, hostile in enumerate((theory, panel, axis)):
         check(hostile != body and len(hostile) == len(body), i)
         with open("h.h5", "wb") as f:
             f.write(sealed(hostile))

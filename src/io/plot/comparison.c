@@ -214,8 +214,9 @@ static void draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel p
   fprintf(s, "set xlabel ''\n");
   fprintf(s, "set key at screen 0.5,0.935 center top vertical maxrows 2 noenhanced samplen 0.6 width 1.5\n");
   if (ratio) {
-    fprintf(s, "set ylabel 'value / %s' offset 0.5,0\nset yrange [%g:%g]\n", methods[0].name, 1 - reach[0],
-            1 + reach[1]);
+    fprintf(s, "set ylabel 'value / ");
+    gg_plot_text(s, methods[0].name);
+    fprintf(s, "' offset 0.5,0\nset yrange [%g:%g]\n", 1 - reach[0], 1 + reach[1]);
     fprintf(s, "set arrow from graph 0,first 1 to graph 1,first 1 nohead back lc rgb '#888888' lw 1\n");
   } else {
     fprintf(s, "set ylabel 'value' offset 0.5,0\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n");
