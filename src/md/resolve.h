@@ -48,6 +48,12 @@ GG_INLINE void gg_md_return_energy(gg_md *e, double lost)
   k->stop = k->now + (k->asked - k->outer) * k->scale;
 }
 
+/* That thermostat acts on centres alone: spins are kept as they are outside, whatever the scale. What one is inside. */
+GG_INLINE gg_vec gg_md_spin_inside(gg_md_resolve_features f, double scale, gg_vec spin)
+{
+  return f.gaussian ? gg_scale(1 / scale, spin) : spin;
+}
+
 /* Kinetic energy lost, from the changes of velocity. */
 GG_INLINE double gg_md_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was2, gg_vec is1, gg_vec is2)
 {
@@ -81,9 +87,10 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   double r2 = gg_dot(dr, dr), overlap = 0.5 * (contacts->sigma2[pair] - r2) * contacts->inverse[pair];
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
   gg_vec k = gg_md_contact_normal(contacts, pair, dr, r2, e->k.collisions);
-  gg_vec none = {0, 0, 0}, *s1 = f.rule == GG_SMOOTH ? &none : &e->spin[i],
-         *s2 = f.rule == GG_SMOOTH ? &none : &e->spin[j];
-  gg_vec g = gg_contact_velocity(f.rule, k, c12, *s1, *s2);
+  const double scale = f.gaussian ? e->k.scale : 1;
+  gg_vec s1 = {0, 0, 0}, s2 = s1;
+  if (f.rule != GG_SMOOTH) s1 = gg_md_spin_inside(f, scale, e->spin[i]), s2 = gg_md_spin_inside(f, scale, e->spin[j]);
+  gg_vec g = gg_contact_velocity(f.rule, k, c12, s1, s2);
   gg_contact by_law;
   if (f.law && !treated) {
     by_law = gg_md_contact_by_law(e, contact, gg_dot(k, g), a, b);
@@ -91,8 +98,8 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   }
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
   gg_vec v1 = one->v, v2 = two->v;
-  gg_kick(f.rule, contact, k, J, &one->v, s1, &two->v, s2);
-  double scale = f.gaussian ? e->k.scale : 1;
+  gg_kick_centres(contact->im1, contact->im2, J, &one->v, &two->v);
+  if (f.rule != GG_SMOOTH) gg_kick_spins(contact->ik1 * scale, contact->ik2 * scale, k, J, &e->spin[i], &e->spin[j]);
   e->k.transfer.collisions[q]++;
   if (f.sums)
     gg_md_sum_pair(&e->k.transfer, q, e->model.sigma[q] * scale, k, J,

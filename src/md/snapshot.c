@@ -31,7 +31,7 @@ static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, 
   for (int a = 0; a < 3; a++) {
     out->r[a][slot] = gg_along(&r, a);
     out->c[a][slot] = gg_along(&c, a);
-    if (e->spin) out->s[a][slot] = e->k.scale * gg_along(&e->spin[i], a);
+    if (e->spin) out->s[a][slot] = gg_along(&e->spin[i], a);
   }
   out->species[slot] = (uint8_t)gg_md_species_of(g);
   out->id[slot] = e->id[i];

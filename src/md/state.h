@@ -90,7 +90,7 @@ struct gg_md {
   gg_md_contacts contacts;
   gg_md_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
   gg_md_node *node;
-  gg_vec *spin;          /* surface velocities; NULL for smooth grains */
+  gg_vec *spin;          /* surface velocities, those outside of a Gaussian thermostat; NULL for smooth grains */
   gg_loss_table *losses; /* of a built-in law of restitution; NULL: none */
   double *last;          /* time of the last collision, for the contact-time rule or a callback; NULL without either */
   uint32_t *id;          /* the grain's number to the outside; grains stand in memory along a space-filling curve */

@@ -33,7 +33,6 @@ void gg_md_thermostat_fold(gg_md *e)
     e->grain[i].v = gg_scale(v, e->grain[i].v);
     e->node[i].time *= t;
     e->node[i].collision *= t;
-    if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
     if (e->last) e->last[i] *= t;
     e->node[i].skin_time *= t;
   }

@@ -16,10 +16,12 @@ static gg_word flow_word(int i)
 
 static const gg_word engines[] = {
     {"md", GG_MD, "event-driven molecular dynamics"}, {"dsmc", GG_DSMC, "Enskog Monte Carlo"}, {0}};
-static const gg_word thermostats[] = {{"none", GG_NO_THERMOSTAT, "the default, but of flows that need one"},
-                                      {"gaussian", GG_GAUSSIAN, "anti-drag that keeps the energy constant"},
-                                      {"white_noise", GG_WHITE_NOISE, "random kicks"},
-                                      {0}};
+static const gg_word thermostats[] = {
+    {"none", GG_NO_THERMOSTAT, "the default, but of flows that need one"},
+    {"gaussian", GG_GAUSSIAN,
+     "anti-drag that gives centres back the energy that collisions destroy; spins are left alone"},
+    {"white_noise", GG_WHITE_NOISE, "random kicks"},
+    {0}};
 static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
                                          {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
                                          {"kolafa", GG_KOLAFA, "from the accurate equation of state"},

@@ -1,7 +1,7 @@
 /* Proves, in walled, driven and mixed systems: energy and momentum budgets close (what walls, gravity and collisions
  * give and take is what the grains have); wall stress equals bulk stress in walled shear; equal temperatures of an
- * elastic mixture; the Gaussian thermostat is free cooling seen through another clock; white noise keeps the gas warm
- * near the balance; restarts are bit for bit everywhere. */
+ * elastic mixture; the Gaussian thermostat is free cooling seen through another clock, and turns no grain; white noise
+ * keeps the gas warm near the balance; restarts are bit for bit everywhere. */
 #include <string.h>
 
 #include "md_test.h"
@@ -315,6 +315,43 @@ static void gaussian_is_free_cooling(void **state)
   md_destroy(k);
 }
 
+typedef struct shown_spins {
+  gg_vec s[300];
+} shown_spins;
+
+static void show_spins(void *context, const gg_chunk *chunk)
+{
+  shown_spins *to = context;
+  for (size_t k = 0; k < chunk->n; k++) to->s[chunk->id[k]] = (gg_vec){chunk->s[0][k], chunk->s[1][k], chunk->s[2][k]};
+}
+
+/* The thermostat pushes centres and turns nobody: a collision changes the spins of two, as they are seen outside. Their
+ * temperature becomes that of Enskog's equation without a torque (enskog_hermite: 0.293 T); spins that were heated as
+ * the centres are would have that of free cooling, 1.1 T. */
+static void gaussian_leaves_spins_alone(void **state)
+{
+  (void)state;
+  gg_scene s = scene(GG_HSS, 300, 0.02, 0.7, 0.2);
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 4);
+  shown_spins before, after;
+  double ratio = 0;
+  md_collide(e, 20000);
+  for (int k = 0; k < 300; k++) {
+    int changed = 0;
+    gg_md_ops.snapshot(&e->base, true, show_spins, &before);
+    md_collide(e, 1);
+    gg_md_ops.snapshot(&e->base, true, show_spins, &after);
+    for (int i = 0; i < 300; i++) changed += memcmp(&before.s[i], &after.s[i], sizeof after.s[i]) != 0;
+    assert_true(changed <= 2);
+    for (int i = 0; i < 300; i++)
+      ratio += m.inertia[0] * gg_dot(after.s[i], after.s[i]) / (3 * 300 * m.temperature0) / 300;
+    md_collide(e, 500);
+  }
+  assert_true(fabs(ratio / 0.293 - 1) < 0.03);
+  md_destroy(e);
+}
+
 static void white_noise_keeps_warm(void **state)
 {
   (void)state;
@@ -394,6 +431,7 @@ int main(void)
       cmocka_unit_test(high_ridges),
       cmocka_unit_test(equipartition),
       cmocka_unit_test(gaussian_is_free_cooling),
+      cmocka_unit_test(gaussian_leaves_spins_alone),
       cmocka_unit_test(white_noise_keeps_warm),
       cmocka_unit_test(gravity_in_any_unit),
       cmocka_unit_test(restarts),
