@@ -94,12 +94,16 @@ double gg_md_time(const gg_md *e)
 /* Between looks at whether to stop: some milliseconds. */
 enum { EVENTS_BETWEEN_LOOKS = 1 << 14 };
 
-/* Events up to k.stop; false if it was stopped on the way. */
+/* Events up to k.stop; false if it was stopped on the way. So many events at one and the same time are a grain that
+ * comes to rest on a wall without the contact-time rule: no time will go by any more. */
 static bool run_leg(gg_md *e)
 {
   for (;;) {
+    const double before = e->k.now;
     e->kernel->run(e);
     if (e->k.events < e->look_at) return true;
+    e->stands_still = e->k.now == before && e->model.walled && e->model.contact_time == 0;
+    if (e->stands_still) return true;
     e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
     if (!gg_md_check_numbers(e)) return true;
     if (gg_stop_asked(e->model.stop)) return false;
@@ -133,6 +137,11 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
   if (e->no_number)
     return gg_fail(err, GG_FAILED, "md: what a grain does is no number any more, after %.3g collisions a grain",
                    2 * (double)e->k.collisions / e->n);
+  if (e->stands_still)
+    return gg_fail(err, GG_FAILED,
+                   "md: contacts with a wall accumulate without end near time %g: a grain comes to rest there; give "
+                   "md.contact_time a value above 0",
+                   gg_md_time(e));
   bool whole = ended && e->k.collisions_left && e->k.stop < INFINITY;
   if (whole) e->k.now = e->k.stop;
   *elapsed = whole ? e->k.asked : outer_now(e);

@@ -118,6 +118,7 @@ struct gg_md {
   bool overlapping;   /* the cells overlap (members.h) */
   bool out_of_memory; /* a cell could not grow: the run is over */
   bool no_number;     /* nor does it go on with what is no number (numbers.c) */
+  bool stands_still;  /* nor where one grain's contacts never end */
   uint64_t check_at;  /* events after which all grains are looked at again */
   const gg_md_kernel *kernel;
   gg_md_resolution *resolve;

@@ -1,5 +1,8 @@
 /* Proves: an inelastic collapse ends in finite time, and the share of treated collisions is told; a cooling gas does
- * not feel the contact time while it is short; grains at rest on a floor cost a bounded number of collisions. */
+ * not feel the contact time while it is short; grains at rest on a floor cost a bounded number of collisions, and without the
+ * rule an end that is told. */
+#include <string.h>
+
 #include "md_test.h"
 
 /* A line of three grains, the outer two closing in on the middle one. */
@@ -193,10 +196,31 @@ static void heap_at_rest(void **state)
   md_destroy(e);
 }
 
+/* Without the rule grains that come to rest on a floor have contacts without end: said, not gone through. */
+static void no_rule_on_a_floor(void **state)
+{
+  (void)state;
+  gg_scene s = md_scene((md_case){GG_CHUTE, 10, 0.02, 0.8, -1, INFINITY, {0}});
+  s.md.contact_time = 0;
+  s.walls.top = GG_OPEN_TOP, s.walls.e = 0.7, s.walls.beta = 0;
+  s.gravity[0] = 0, s.gravity[1] = -1;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 4);
+  gg_error err;
+  double elapsed;
+  assert_int_equal(gg_md_ops.advance(&e->base, 1000, UINT64_MAX, &elapsed, &err), GG_FAILED);
+  assert_non_null(strstr(err.message, "md.contact_time"));
+  md_destroy(e);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(three_in_a_line),      cmocka_unit_test(cooling_cluster),
-                                     cmocka_unit_test(no_restitution),       cmocka_unit_test(no_restitution_plain),
-                                     cmocka_unit_test(gas_does_not_feel_it), cmocka_unit_test(heap_at_rest)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(three_in_a_line),
+                                     cmocka_unit_test(cooling_cluster),
+                                     cmocka_unit_test(no_restitution),
+                                     cmocka_unit_test(no_restitution_plain),
+                                     cmocka_unit_test(gas_does_not_feel_it),
+                                     cmocka_unit_test(heap_at_rest),
+                                     cmocka_unit_test(no_rule_on_a_floor)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
