@@ -5,13 +5,6 @@
 
 #include "md/state.h"
 
-/* Grains come to rest on a wall and on each other, where the mean free time shrinks to t_c itself: t_c is set by how
- * long it takes to fall a diameter instead. */
-static bool falls_across(const gg_md *e)
-{
-  return e->gravity.y != 0;
-}
-
 static gg_vec peculiar(const gg_md *e, const gg_md_grain *g)
 {
   gg_vec c = g->v;
@@ -39,14 +32,30 @@ double gg_md_early_temperature(const gg_md *e, double T)
   return e->model.shear_rate != 0 && T < 0.01 ? 0.01 : T;
 }
 
+/* What gravity along y has to lift a grain across the box, over the temperature, below which it holds nobody down. */
+#define LIGHT 0.01
+
+/* Grains come to rest on a wall and on each other, where the mean free time shrinks to t_c itself: t_c is set by how
+ * long it takes to fall a diameter instead. But under a gravity so weak that it stirs none of them that is longer than
+ * all free times, and no collision would lose any energy: there both limit it. */
+static double unit_of(const gg_md *e, double free_time, double T)
+{
+  const double g = fabs(e->gravity.y), fall = 1 / sqrt(g);
+  double mass = 0;
+  if (g == 0) return free_time;
+  for (int k = 0; k < e->model.n_species; k++) mass += e->model.mass[k] * (double)e->model.n_of[k] / e->n;
+  return mass * g * e->box.edge[1] < LIGHT * T && free_time < fall ? free_time : fall;
+}
+
 void gg_md_begin_contact_time(gg_md *e)
 {
-  e->k.contact_time = e->model.contact_time * (falls_across(e) ? 1 / sqrt(fabs(e->gravity.y)) : e->k.mean_free_time);
+  e->k.contact_time = e->model.contact_time * unit_of(e, e->k.mean_free_time, e->model.temperature0);
 }
 
 void gg_md_follow_contact_time(gg_md *e)
 {
-  if (!(e->model.contact_time > 0) || falls_across(e)) return;
-  const double rate = gg_model_collision_rate(&e->model, gg_md_early_temperature(e, temperature_of(e)));
-  e->k.contact_time = e->model.contact_time * fmax(e->k.mean_free_time, rate > 0 ? 0.5 / rate : 0);
+  if (!(e->model.contact_time > 0)) return;
+  const double T = temperature_of(e), rate = gg_model_collision_rate(&e->model, gg_md_early_temperature(e, T));
+  const double free_time = fmax(e->k.mean_free_time, rate > 0 ? 0.5 / rate : 0);
+  e->k.contact_time = e->model.contact_time * unit_of(e, free_time, T);
 }

@@ -1,6 +1,6 @@
 /* Proves: an inelastic collapse ends in finite time, and the share of treated collisions is told; a cooling gas does
- * not feel the contact time while it is short; grains at rest on a floor cost a bounded number of collisions, and without the
- * rule an end that is told. */
+ * not feel the contact time while it is short; grains at rest on a floor cost a bounded number of collisions; without
+ * the rule they end the run; gravity that nobody feels makes no difference. */
 #include <string.h>
 
 #include "md_test.h"
@@ -196,6 +196,25 @@ static void heap_at_rest(void **state)
   md_destroy(e);
 }
 
+/* Gravity so weak that nobody feels it leaves a gas between walls as it is: its collisions go on losing energy. */
+static void gravity_that_nobody_feels(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = md_scene((md_case){GG_COUETTE, 200, 0.1, 0.8, -1, INFINITY, {0}});
+    s.md.contact_time = GG_AUTO;
+    s.walls.beta = 0;
+    s.gravity[1] = -(const double[]){1e-4, 1e-8, 1e-12}[k];
+    gg_model m = md_model_of(&s);
+    gg_md *e = md_create(&m, 4);
+    md_collide(e, 2000);
+    const uint64_t treated = e->k.treated, before = e->k.collisions;
+    md_collide(e, 20000);
+    assert_true((double)(e->k.treated - treated) < 0.01 * (double)(e->k.collisions - before));
+    md_destroy(e);
+  }
+}
+
 /* Without the rule grains that come to rest on a floor have contacts without end: said, not gone through. */
 static void no_rule_on_a_floor(void **state)
 {
@@ -221,6 +240,7 @@ int main(void)
                                      cmocka_unit_test(no_restitution_plain),
                                      cmocka_unit_test(gas_does_not_feel_it),
                                      cmocka_unit_test(heap_at_rest),
+                                     cmocka_unit_test(gravity_that_nobody_feels),
                                      cmocka_unit_test(no_rule_on_a_floor)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
