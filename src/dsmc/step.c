@@ -14,10 +14,18 @@ void gg_dsmc_synchronise(gg_dsmc *d)
   s->step = gg_dsmc_time_step_choose(&d->model, s->temperature);
 }
 
+/* The energy of centres that the thermostat keeps, where it is not the one that collisions change: rough grains without
+ * shear; else 0. */
+static double kept_by_centres(const gg_dsmc *d)
+{
+  const gg_model *m = &d->model;
+  return m->rule != GG_SMOOTH && m->shear_rate == 0 ? 1.5 * (double)m->n * m->temperature0 : 0;
+}
+
 static void heat(gg_dsmc *d, double dt, double strain, double half)
 {
   if (d->thermostat == GG_GAUSSIAN) {
-    d->now.lost = -gg_dsmc_thermostat_return(&d->ensemble, strain, d->now.lost, half);
+    d->now.lost = -gg_dsmc_thermostat_return(&d->ensemble, strain, kept_by_centres(d), d->now.lost, half);
   } else {
     gg_dsmc_rng_lanes *lanes = d->schedule ? d->schedule->lanes : &d->now.lanes;
     gg_dsmc_thermostat_kick(&d->ensemble, strain, d->noise * dt, lanes);

@@ -56,9 +56,10 @@ static double twice_kinetic_energy(const gg_dsmc_ensemble *e, double strain)
 /* Eight of single precision's last places; a quarter of a free time takes more where e < 1 - 6e-6. */
 #define LEAST_GAIN 1e-6
 
-double gg_dsmc_thermostat_return(gg_dsmc_ensemble *e, double strain, double missing, double half)
+double gg_dsmc_thermostat_return(gg_dsmc_ensemble *e, double strain, double kept, double missing, double half)
 {
   double energy = 0.5 * twice_kinetic_energy(e, strain);
+  if (kept > 0) missing = kept - energy;
   /* The loss goes as T^(3/2), and the second half is hotter than the first by what it destroyed. */
   double advance = half * (1 + 1.5 * half / energy);
   double gain = (missing + advance) / energy, factor = gain > -1 ? sqrt(1 + gain) : 0;

@@ -27,6 +27,19 @@ static void gaussian(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
+/* It keeps the temperature of rough grains, too, while spins that began elsewhere come to theirs. */
+static void gaussian_rough(void **state)
+{
+  (void)state;
+  gg_model m = heated(GG_HSS, GG_NO_THERMOSTAT, 0.02, 0.7, 0.2, 20000);
+  m.ratio0 = 0.6;
+  gg_engine *g = lab_engine(&m, 1);
+  lab_flow f = {0};
+  lab_average(g, &m, 20, 40, 20, &f);
+  lab_expect("temperature, rough", &f.T, 0.5, 1e-4, 0.002);
+  gg_dsmc_ops.destroy(g);
+}
+
 /* White noise: a2 = 16 (1-e)(1-2e^2)/(241 - 177 e + 30 e^2 (1-e)) to 3 % (van Noije & Ernst 1998, first Sonine order);
  * the gas settles where noise and collisions balance. */
 static void white_noise(void **state)
@@ -202,7 +215,7 @@ static void strained(void **state)
   gg_dsmc *d = (gg_dsmc *)g;
   const gg_dsmc_population *p = &d->ensemble.of[0];
   double before = energy(&d->ensemble, strain);
-  assert_true(gg_dsmc_thermostat_return(&d->ensemble, strain, 0.1 * before, 0) == 0);
+  assert_true(gg_dsmc_thermostat_return(&d->ensemble, strain, 0, 0.1 * before, 0) == 0);
   assert_true(fabs(energy(&d->ensemble, strain) / (1.1 * before) - 1) < 1e-12);
   gg_dsmc_thermostat_kick(&d->ensemble, strain, 4, &d->now.lanes);
   for (uint32_t a = 0; a < (uint32_t)p->n; a++)
@@ -212,13 +225,10 @@ static void strained(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian),
-                                     cmocka_unit_test(white_noise),
-                                     cmocka_unit_test(heated_viscosity),
-                                     cmocka_unit_test(cooling_viscosity),
-                                     cmocka_unit_test(rough_viscosity),
-                                     cmocka_unit_test(stays_put),
-                                     cmocka_unit_test(kicks),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian),          cmocka_unit_test(gaussian_rough),
+                                     cmocka_unit_test(white_noise),       cmocka_unit_test(heated_viscosity),
+                                     cmocka_unit_test(cooling_viscosity), cmocka_unit_test(rough_viscosity),
+                                     cmocka_unit_test(stays_put),         cmocka_unit_test(kicks),
                                      cmocka_unit_test(strained)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
