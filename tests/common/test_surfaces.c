@@ -201,6 +201,12 @@ static void room(void **state)
     refused += !fits;
   }
   assert_true(refused > 5);
+  s.aspect[1] = 9, s.walls.ridges = 0; /* one ridge is as wide as the box, no less than half of what was asked for */
+  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_OK);
+  s.walls.ridges = 1.99 * m.box[0];
+  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_OK);
+  s.walls.ridges = 2.01 * m.box[0];
+  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
 }
 
 int main(void)

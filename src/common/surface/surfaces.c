@@ -57,6 +57,13 @@ gg_status gg_surfaces_make(const gg_scene *s, bool spins, double time_unit, gg_m
     return gg_fail(err, GG_BAD_INPUT,
                    "walls.ridges: %g; allowed: 0 (flat), or on walls at rest at least a tenth of the diameter",
                    s->walls.ridges);
+  const double length = m->box[0] * s->species[0].diameter;
+  if (s->walls.ridges > 2 * length)
+    return gg_fail(
+        err, GG_BAD_INPUT,
+        "walls.ridges: %g in a box that is %.4g long along x; allowed: up to %.4g, of which one is made that "
+        "is as wide as the box",
+        s->walls.ridges, length, 2 * length);
   for (double side = -1; side <= (open ? -1 : 1); side += 2) {
     gg_surface wall = end_of_gap(m, side, speed);
     set_shape(&wall, s, m);
