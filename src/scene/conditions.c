@@ -44,9 +44,16 @@ static bool uses_one_engine(const gg_scene *s, unsigned uses)
   return !(uses & GG_USE_MD) || !(uses & GG_USE_DSMC);
 }
 
+/* White noise makes up for what Enskog's collision rate would lose: in md, too, its strength goes with the key. */
+static bool has_noise(const gg_scene *s)
+{
+  gg_thermostat given = s->thermostat;
+  return (gg_flow_takes(s->flow, given) ? given : gg_flow_of(s->flow)->thermostat) == GG_WHITE_NOISE;
+}
+
 static bool uses_contact_value(const gg_scene *s, unsigned uses)
 {
-  return s->n_species == 1 && s->phi > 0 && (uses & (GG_USE_DSMC | GG_USE_THEORY));
+  return s->n_species == 1 && s->phi > 0 && ((uses & (GG_USE_DSMC | GG_USE_THEORY)) || has_noise(s));
 }
 
 typedef bool pair_test(double e, double beta, double mu);
@@ -147,7 +154,8 @@ const gg_condition gg_if_boxed = {.holds = uses_md, .otherwise = "with engine: d
 const gg_condition gg_if_one_engine = {.holds = uses_one_engine,
                                        .otherwise = "in a comparison; graingas run keeps a trajectory"};
 const gg_condition gg_if_contact_value = {
-    .holds = uses_contact_value, .otherwise = "but on theories and engine: dsmc, with one species and phi above 0"};
+    .holds = uses_contact_value,
+    .otherwise = "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0"};
 const gg_condition gg_if_lossy = {.holds = is_lossy, .otherwise = "where no collision loses energy"};
 const gg_condition gg_if_rough = {.holds = some_rough, .otherwise = "on smooth grains, which do not spin"};
 const gg_condition gg_if_law = {.holds = has_law, .otherwise = "while collision.law is constant"};

@@ -5,8 +5,8 @@
 #include <stddef.h>
 
 #include <cmocka.h>
-#include <stdlib.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "io/scene/inert.h"
@@ -82,11 +82,15 @@ static void engines(void **state)
   assert_line("{flow: usf, phi: 0.1, particles: 20000, dsmc: {particles: 700}}", GG_USE_DSMC, ensemble);
   assert_line("{flow: usf, phi: 0.1, particles: 2000}", BOTH, NULL);
   const char contact[] =
-      "contact_value has no effect but on theories and engine: dsmc, with one species and phi above 0";
+      "contact_value has no effect but on theories, engine: dsmc and the strength of white noise, with one species and "
+      "phi above 0";
   assert_line("{flow: usf, phi: 0.1, contact_value: kolafa}", GG_USE_MD, contact);
   assert_line("{flow: usf, phi: 0, contact_value: kolafa}", GG_USE_DSMC, contact);
   assert_line("{flow: usf, phi: 0.1, contact_value: kolafa, species: [{}, {}]}", BOTH, contact);
   assert_line("{flow: usf, phi: 0.1, contact_value: kolafa}", BOTH, NULL);
+  assert_line("{flow: hss, phi: 0.1, contact_value: kolafa}", GG_USE_MD, contact);
+  assert_line("{flow: hss, thermostat: white_noise, phi: 0.1, contact_value: kolafa}", GG_USE_MD, NULL);
+  assert_line("{flow: heated_shear, temperature: 9, phi: 0.1, contact_value: kolafa}", GG_USE_MD, NULL);
 }
 
 static void grains(void **state)
