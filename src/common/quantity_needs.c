@@ -26,6 +26,10 @@ static bool conserving(const gg_model *m)
 {
   return m->elastic;
 }
+static bool walled(const gg_model *m)
+{
+  return m->walled;
+}
 static bool homogeneous(const gg_model *m)
 {
   return m->homogeneous;
@@ -62,6 +66,7 @@ static const struct {
   const char *reason;
 } rules[] = {
     {GG_NEEDS_SPINS, smooth, "smooth grains do not spin"},
+    {GG_NEEDS_MEAN_SPIN, walled, "between walls it goes with the height; see profile_spin_z"},
     {GG_NEEDS_MEAN_SPIN, unsheared, "without shear there is no mean spin"},
     {GG_NEEDS_MEAN_SPIN, boltzmann,
      "in the Boltzmann limit the mean spin, a share of thermal ones, is infinite in units of the shear rate"},

@@ -21,6 +21,13 @@ static void start(gg_local_frame *f, const gg_model *model)
 {
   *f = (gg_local_frame){.n_slabs = slabs_of(model)};
   f->inverse_width = f->n_slabs / model->box[1];
+  for (int i = 0; i < model->n_species; i++) f->radius[i] = model->diameter[i] / 2;
+}
+
+static void add_spin(gg_local_frame *f, double y, gg_vec s, int species)
+{
+  double *sum = f->spin[slab_of(f, y)], radius = f->radius[species];
+  sum[0] += s.x / radius, sum[1] += s.y / radius, sum[2] += s.z / radius;
 }
 
 static void add(gg_local_frame *f, double y, gg_vec c, int species)
@@ -37,17 +44,29 @@ static void finish(gg_local_frame *f)
   for (int k = 0; k < f->n_slabs; k++) {
     double n = f->count[k], of_mean = 0;
     for (int a = 0; a < 3; a++) f->mean[k][a] = n > 0 ? f->mean[k][a] / n : 0;
+    for (int a = 0; a < 3; a++) f->spin[k][a] = n > 0 ? f->spin[k][a] / n : 0;
     for (int a = 0; a < 3; a++) of_mean += n * f->mean[k][a] * f->mean[k][a];
     f->stretch[k] = n > 1 ? sqrt(n / (n - 1)) : 1;
     f->temperature[k] = n > 1 ? (f->temperature[k] - of_mean) / (3 * (n - 1)) : 0;
   }
 }
 
+static gg_vec at(const double *const x[3], size_t i)
+{
+  return (gg_vec){x[0][i], x[1][i], x[2][i]};
+}
+
+static int species_of(const gg_chunk *chunk, size_t i)
+{
+  return chunk->species ? chunk->species[i] : 0;
+}
+
 static void add_chunk(void *context, const gg_chunk *chunk)
 {
-  for (size_t i = 0; i < chunk->n; i++)
-    add(context, chunk->r[1][i], (gg_vec){chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]},
-        chunk->species ? chunk->species[i] : 0);
+  for (size_t i = 0; i < chunk->n; i++) {
+    add(context, chunk->r[1][i], at(chunk->c, i), species_of(chunk, i));
+    if (chunk->s[0]) add_spin(context, chunk->r[1][i], at(chunk->s, i), species_of(chunk, i));
+  }
 }
 
 void gg_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *engine)
@@ -60,8 +79,11 @@ void gg_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *en
 void gg_local_frame_of_snapshot(gg_local_frame *f, const gg_snapshot *s)
 {
   start(f, s->model);
-  for (size_t i = 0; i < s->n; i++)
-    add(f, s->r[1][i], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]}, gg_snapshot_species(s, i));
+  for (size_t i = 0; i < s->n; i++) {
+    int species = gg_snapshot_species(s, i);
+    add(f, s->r[1][i], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]}, species);
+    if (s->s[0]) add_spin(f, s->r[1][i], (gg_vec){s->s[0][i], s->s[1][i], s->s[2][i]}, species);
+  }
   finish(f);
 }
 
@@ -72,23 +94,39 @@ gg_vec gg_local_frame_velocity(const gg_local_frame *f, double y, gg_vec c)
   return gg_scale(f->stretch[k], gg_sub(c, mean));
 }
 
+gg_vec gg_local_frame_spin(const gg_local_frame *f, double y, gg_vec s, int species)
+{
+  int k = slab_of(f, y);
+  gg_vec mean = {f->spin[k][0], f->spin[k][1], f->spin[k][2]};
+  return gg_scale(f->stretch[k], gg_sub(s, gg_scale(f->radius[species], mean)));
+}
+
 typedef struct shifting {
   const gg_local_frame *frame;
   gg_visit *visit;
   void *context;
 } shifting;
 
+static void put(double *const x[3], size_t i, gg_vec v)
+{
+  x[0][i] = v.x, x[1][i] = v.y, x[2][i] = v.z;
+}
+
 static void shift_chunk(void *context, const gg_chunk *chunk)
 {
   const shifting *s = context;
-  double c[3][GG_CHUNK];
-  for (size_t i = 0; i < chunk->n; i++) {
-    gg_vec v = {chunk->c[0][i], chunk->c[1][i], chunk->c[2][i]};
-    v = gg_local_frame_velocity(s->frame, chunk->r[1][i], v);
-    c[0][i] = v.x, c[1][i] = v.y, c[2][i] = v.z;
-  }
+  double c[3][GG_CHUNK], w[3][GG_CHUNK];
+  double *const to_c[3] = {c[0], c[1], c[2]}, *const to_w[3] = {w[0], w[1], w[2]};
   gg_chunk local = *chunk;
-  for (int a = 0; a < 3; a++) local.c[a] = c[a];
+  for (size_t i = 0; i < chunk->n; i++) {
+    double y = chunk->r[1][i];
+    put(to_c, i, gg_local_frame_velocity(s->frame, y, at(chunk->c, i)));
+    if (chunk->s[0]) put(to_w, i, gg_local_frame_spin(s->frame, y, at(chunk->s, i), species_of(chunk, i)));
+  }
+  for (int a = 0; a < 3; a++) {
+    local.c[a] = c[a], local.whole_s[a] = chunk->s[a];
+    if (chunk->s[a]) local.s[a] = w[a];
+  }
   s->visit(s->context, &local);
 }
 

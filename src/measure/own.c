@@ -98,6 +98,7 @@ static void begin(void *self)
 static void add_chunk(void *self, const gg_chunk *chunk)
 {
   own *o = self;
+  const double *const *spin = chunk->whole_s[0] ? chunk->whole_s : chunk->s;
   for (size_t i = 0; i < chunk->n && o->n < (size_t)o->model.n; i++) {
     size_t at = chunk->id ? (size_t)chunk->id[i] : o->n;
     o->n++;
@@ -105,7 +106,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
     for (int a = 0; a < 3; a++) {
       o->velocity[at][a] = chunk->c[a][i];
       if (o->position && chunk->r[a]) o->position[at][a] = chunk->r[a][i];
-      if (o->spin) o->spin[at][a] = chunk->s[a][i];
+      if (o->spin) o->spin[at][a] = spin[a][i];
     }
   }
 }
