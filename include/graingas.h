@@ -17,9 +17,11 @@
  * asks malloc through it, so that what JSON lacks is noted; a program that gave jansson other functions keeps them.
  *
  * Units are those of results (gg_catalogue_entry tells them): lengths in the diameter d and masses in the mass m of
- * species 1; sheared flows in units of the shear rate gamma, others in the initial thermal speed v_0 = sqrt(2T/m).
- * Stresses are in rho_p d^2 gamma^2 or rho_p v_0^2 with rho_p = 6m/(pi d^3). Temperatures are <C.C>/3, C the velocity
- * relative to the imposed flow. Where phi = 0, n d^2 = 1 sets the length.
+ * species 1; sheared flows in units of the shear rate gamma (couette: of 2 walls.speed/L_y, its mean), others in the
+ * initial thermal speed v_0 = sqrt(2T/m), which between walls at rest is a diameter per unit of time of the scene.
+ * Stresses, and energies per volume, are in rho_p d^2 gamma^2 or rho_p v_0^2 with rho_p = 6m/(pi d^3). Temperatures are
+ * <C.C>/3, C the velocity relative to the imposed flow; of mixtures m<C.C>/3, m in that of species 1. Where phi = 0,
+ * n d^2 = 1 sets the length.
  *
  * Structs grow at their end only; those that the caller fills in are to be zeroed first. */
 #ifndef GRAINGAS_H
@@ -134,7 +136,8 @@ typedef struct gg_simulation_state {
   size_t grains;
   double temperature;            /* T; of mixtures sum x_i m_i <C.C>_i / 3; between walls, where no flow is imposed,
                                   * of whole velocities (results are about the local mean), the stress likewise */
-  double rotational_temperature; /* theta = I <omega^2>/(3m) about the mean spin; 0 for smooth grains */
+  double rotational_temperature; /* theta = I <omega^2>/(3m) about the mean spin (results between walls: about that at
+                                  * each height); 0 for smooth grains */
   double kinetic_stress[3][3];   /* in units of stress; x along the flow, y along its gradient */
   double strain;                 /* shear rate times time; 0 without shear */
   double image_offset;           /* md, sheared: the box above is displaced so far along x, from 0 to box[0] */
@@ -176,8 +179,10 @@ GG_API const char *gg_simulation_wall(const gg_simulation *simulation, int wall)
 typedef struct gg_simulation_sums { /* over the collisions since they were last asked for, or since the start */
   double time;                      /* that they are over */
   uint64_t collisions, wall_collisions;
-  double collisional_stress[3][3];  /* mean over the time, in units of stress; 0 in components that no flow here has */
-  double dissipation;               /* energy that collisions between grains destroyed, per volume and time */
+  double collisional_stress[3][3];  /* mean over the time, in units of stress; 0 in components that no flow here has;
+                                     * [1][0]: flux along y of momentum along x */
+  double dissipation;               /* energy that collisions between grains destroyed, per volume and time, in units
+                                     * of stress over time */
   double wall_impulse[GG_WALLS][3]; /* on each wall: m times velocity */
   double wall_loss;                 /* energy that collisions with walls destroyed */
 } gg_simulation_sums;
