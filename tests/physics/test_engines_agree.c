@@ -98,6 +98,29 @@ static void no_restitution(void **state)
   gg_result_free(md), gg_result_free(dsmc);
 }
 
+/* The Gaussian thermostat keeps T and leaves spins alone, in both engines: of sticking, nearly smooth and sliding
+ * grains, whose spins are far from theta/T of free cooling. */
+static void heated_spins(void **state)
+{
+  (void)state;
+  const double beta[] = {0, -0.9, 0.5}, mu[] = {INFINITY, INFINITY, 0.05};
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = scene_of(0.9, beta[k], mu[k]);
+    s.flow = GG_HSS, s.thermostat = GG_GAUSSIAN;
+    s.particles = 500, s.run.relative_error = 0.02;
+    gg_result *md = run(s, GG_MD), *dsmc = run(s, GG_DSMC);
+    const gg_estimate *a = &md->value[GG_Q_TEMPERATURE_RATIO], *b = &dsmc->value[GG_Q_TEMPERATURE_RATIO];
+    const gg_estimate *T = &dsmc->value[GG_Q_TEMPERATURE];
+    double z = gg_z_score(a, b);
+    print_message("# theta/T: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f; T of dsmc: %.6g +- %.2g\n", a->mean,
+                  a->error, b->mean, b->error, z, T->mean, T->error);
+    assert_true(fabs(z) < 4 && a->error < 0.03 * a->mean);
+    assert_true(fabs(md->value[GG_Q_TEMPERATURE].mean - 0.5) < 1e-9);
+    assert_true(fabs(T->mean - 0.5) < 4 * T->error && T->error < 5e-4);
+    gg_result_free(md), gg_result_free(dsmc);
+  }
+}
+
 /* Shear of a gas that white noise heats as well, and of one that it heats so much that shear hardly bends it. */
 static void heated_shear(void **state)
 {
@@ -127,7 +150,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(smooth),     cmocka_unit_test(rough),        cmocka_unit_test(no_restitution),
-      cmocka_unit_test(frictional), cmocka_unit_test(heated_shear), cmocka_unit_test(canary),
+      cmocka_unit_test(frictional), cmocka_unit_test(heated_shear), cmocka_unit_test(heated_spins),
+      cmocka_unit_test(canary),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
