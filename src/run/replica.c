@@ -9,7 +9,7 @@
 
 gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
 {
-  *r = (gg_replica){.model = *model};
+  *r = (gg_replica){.model = *model, .clock.temperature = model->temperature0};
   r->trajectory_every = r->clock.frame_every = index == 0 ? scene->output.trajectory_every : 0;
   r->clock.velocity_factor = 1;
   const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);

@@ -1,0 +1,49 @@
+/* Proves, with the real engines: samples are as many collisions a grain apart as they are said to be, from the first
+ * one on: a run that is told not to warm up does not. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <string.h>
+
+#include "io/scene/reader.h"
+#include "run/replica.h"
+
+static void create(gg_replica *r, const char *yaml, gg_engine_kind engine)
+{
+  gg_scene s = gg_scene_defaults();
+  gg_model m;
+  gg_error err = {0};
+  if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK)
+    fail_msg("%s", err.message);
+  s.engine = engine;
+  if (gg_model_make(&s, engine, &m, &err) != GG_OK || gg_replica_create(r, &s, &m, 0, &err) != GG_OK)
+    fail_msg("%s: %s", yaml, err.message);
+}
+
+/* The warm-up goes on for as long as the interval is not that of grains as fast as these are. */
+static void settled_at_the_start(void **state)
+{
+  (void)state;
+  static const char *const scenes[] = {
+      "{flow: usf, phi: 0.1, particles: 300}",
+      "{flow: hcs, phi: 0.1, particles: 300, collision: {beta: 0}}",
+      "{flow: equilibrium, phi: 0.1, particles: 300}",
+  };
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++)
+    for (gg_engine_kind engine = 0; engine <= GG_DSMC; engine++) {
+      gg_replica r;
+      create(&r, scenes[k], engine);
+      if (!gg_replica_settled(&r)) fail_msg("%s: has to warm up", scenes[k]);
+      gg_replica_clear(&r);
+    }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(settled_at_the_start),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
