@@ -157,12 +157,13 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
 }
 
 /* Of the last row, which tells it in units of the start; as if all were well where nobody measures it, or it has fallen
- * below all numbers. */
+ * below all numbers. In linear response, whose sweeps go on beyond all numbers in those units, that of the grains as
+ * the engine has them. */
 static double temperature_now(const gg_replica *r)
 {
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
   gg_function f;
-  bool known = o && gg_derived_find(o->history, GG_Q_TEMPERATURE, &f);
+  bool known = o && gg_derived_find(r->model.linear_response ? o->derived : o->history, GG_Q_TEMPERATURE, &f);
   const double T = known ? gg_function_value(f, r->row + r->offset[0], &r->model) : 0;
   return !known || (r->clock.power && T == 0) ? r->model.temperature0 : ldexp(T, 2 * (int)r->clock.power);
 }

@@ -1,5 +1,5 @@
-/* Proves, with the real engines: samples are as many collisions a grain apart as they are said to be, from the first
- * one on: a run that is told not to warm up does not. */
+/* Proves, with the real engines: a run that is told not to warm up does not; the temperature by which the sampling
+ * interval is looked at is that of the grains as the engine has them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,10 +40,33 @@ static void settled_at_the_start(void **state)
     }
 }
 
+/* Each sweep of the reduced shear rate heats by 16 or cools by 256, and the next begins where the last did: in units of
+ * the start the temperature of the heated gas is infinite after 256. */
+static void sweeps_without_end(void **state)
+{
+  (void)state;
+  static const char *const scenes[] = {
+      "{flow: small_shear, thermostat: gaussian, phi: 0.1, particles: 100, collision: {e: 0.8}}",
+      "{flow: small_shear, phi: 0.1, particles: 100, collision: {e: 0.8}}",
+  };
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+    gg_replica r;
+    gg_error err = {0};
+    create(&r, scenes[k], GG_DSMC);
+    assert_int_equal(gg_replica_advance(&r, 1, true, NULL, &err), GG_OK);
+    const double first = r.clock.temperature;
+    assert_int_equal(gg_replica_advance(&r, 4000, true, NULL, &err), GG_OK);
+    const double risen = r.clock.temperature / first;
+    if (!(risen > 1e-3 && risen < 1e3)) fail_msg("%s: %g times that of the start", scenes[k], risen);
+    gg_replica_clear(&r);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(settled_at_the_start),
+      cmocka_unit_test(sweeps_without_end),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
