@@ -92,11 +92,15 @@ static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, ui
   return GG_OK;
 }
 
-/* Follow the rate, by at most a factor of four a time. */
-static void adapt_interval(gg_replica *r, double elapsed, uint64_t happened)
+/* Follow the rate, by at most a factor of four a time. What was counted is the rate in the middle of the interval. A
+ * gas that cools or heats up for ever is slower or faster in the middle of the next one, by as much as it changed from
+ * its beginning (temperature `before`) to now: late by that, samples at e = 0 would be 1.5 collisions a grain apart.
+ * Elsewhere a difference of temperatures is noise. */
+static void adapt_interval(gg_replica *r, double elapsed, uint64_t happened, double before)
 {
-  double per_grain = 2 * (double)happened / (double)r->model.n;
+  double per_grain = 2 * (double)happened / (double)r->model.n, now = r->clock.temperature;
   double factor = per_grain > 0 ? GG_SAMPLING_INTERVAL / per_grain : 4;
+  if (!gg_model_keeps_temperature(&r->model) && before > 0 && now > 0) factor *= sqrt(before / now);
   r->clock.interval = elapsed * fmin(fmax(factor, 0.25), 4);
 }
 
@@ -208,6 +212,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
 {
   double elapsed;
   uint64_t happened;
+  const double before = r->clock.temperature;
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
   gg_replica_sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
@@ -216,7 +221,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   GG_TRY(check_collapse(r, adapt, elapsed, happened, err));
   gg_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
-  if (adapt) adapt_interval(r, elapsed, happened);
+  if (adapt) adapt_interval(r, elapsed, happened, before);
   return rescale_if_due(r, err);
 }
 

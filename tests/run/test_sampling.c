@@ -1,10 +1,12 @@
 /* Proves, with the real engines: a run that is told not to warm up does not; the temperature by which the sampling
- * interval is looked at is that of the grains as the engine has them. */
+ * interval is looked at is that of the grains as the engine has them; samples of a gas that cools or heats up for ever
+ * are as many collisions a grain apart as they are said to be. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 
 #include <cmocka.h>
+#include <math.h>
 #include <string.h>
 
 #include "io/scene/reader.h"
@@ -62,11 +64,40 @@ static void sweeps_without_end(void **state)
   }
 }
 
+/* Where the temperature never stands still, the rate changes from one interval to the next by as much as it falls in
+ * two collisions a grain. */
+static void two_collisions_apart(void **state)
+{
+  (void)state;
+  static const char *const scenes[] = {
+      "{flow: hcs, phi: 0.1, particles: 2000, collision: {e: 0}}",
+      "{flow: hcs, phi: 0.1, particles: 2000, collision: {e: 0.8, beta: 0}}",
+      "{flow: hcs, phi: 0, particles: 2000, collision: {e: 0.5, law: viscoelastic}}",
+      "{flow: hcs, phi: 0.1, particles: 2000, collision: {e: 0.5}, "
+      "species: [{fraction: 0.5}, {fraction: 0.5, diameter: 2, mass: 8}]}",
+      "{flow: usf, phi: 0.1, particles: 2000, collision: {e: 1}}",
+      "{flow: small_shear, phi: 0.1, particles: 2000, collision: {e: 0.5}}",
+  };
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+    enum { BEGIN = 20, END = 120 };
+    gg_replica r;
+    gg_error err = {0};
+    create(&r, scenes[k], GG_DSMC);
+    assert_int_equal(gg_replica_advance(&r, BEGIN, true, NULL, &err), GG_OK);
+    const double begin = gg_replica_collisions_per_grain(&r);
+    assert_int_equal(gg_replica_advance(&r, END, true, NULL, &err), GG_OK);
+    const double apart = (gg_replica_collisions_per_grain(&r) - begin) / (END - BEGIN);
+    if (fabs(apart / GG_SAMPLING_INTERVAL - 1) > 0.03) fail_msg("%s: %g collisions a grain apart", scenes[k], apart);
+    gg_replica_clear(&r);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(settled_at_the_start),
       cmocka_unit_test(sweeps_without_end),
+      cmocka_unit_test(two_collisions_apart),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
