@@ -83,7 +83,8 @@ double gg_model_widest(const gg_model *model);
 double gg_model_narrowest(const gg_model *model);
 
 /* Collisions per grain that the slowest of T, theta, mean spin needs to relax by a factor 1/e, estimated from two-
- * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); INFINITY where nothing relaxes. */
+ * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); and, of elastic mixtures, the temperatures of the
+ * species. At least 1. */
 double gg_model_relaxation(const gg_model *model);
 
 /* Collisions per grain that momentum needs to diffuse across the gap between walls, the slowest wave of it by a factor

@@ -79,6 +79,22 @@ static void equations_of_state(void **state)
   near(gg_contact_value_of(GG_LUN_SAVAGE, 0), 1, 0);
 }
 
+/* Elastic species of unlike masses share their energy slowly: equal grains, half of them called otherwise, in 3/2
+ * collisions; half of them m times as heavy in (3 m/16) (1 + 1/sqrt(2)), for large m. */
+static void sharing_of_energy(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_EQUILIBRIUM, s.phi = 0.1, s.n_species = 2, s.collision.e[0] = 1;
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
+  for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
+  gg_model m = make(&s);
+  near(gg_model_relaxation(&m), 1.5, 1e-12);
+  s.species[1].mass = 1e8;
+  m = make(&s);
+  near(gg_model_relaxation(&m) / 1e8, 3 / 16.0 * (1 + sqrt(0.5)), 1e-3);
+}
+
 /* Elastic and steady are seen as such; relaxation slows down towards beta = -1 and e = 1. */
 static void kinds(void **state)
 {
@@ -233,9 +249,16 @@ static void scales(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(units_drop_out), cmocka_unit_test(mixture),         cmocka_unit_test(equations_of_state),
-      cmocka_unit_test(kinds),          cmocka_unit_test(rates_and_units), cmocka_unit_test(noise_replaces_losses),
-      cmocka_unit_test(units_of_rates), cmocka_unit_test(archives),        cmocka_unit_test(scales),
+      cmocka_unit_test(units_drop_out),
+      cmocka_unit_test(mixture),
+      cmocka_unit_test(equations_of_state),
+      cmocka_unit_test(kinds),
+      cmocka_unit_test(sharing_of_energy),
+      cmocka_unit_test(rates_and_units),
+      cmocka_unit_test(noise_replaces_losses),
+      cmocka_unit_test(units_of_rates),
+      cmocka_unit_test(archives),
+      cmocka_unit_test(scales),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
