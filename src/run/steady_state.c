@@ -24,8 +24,9 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
   uint64_t window = all->state.due - all->state.window_at;
   char *text = result->steadiness_text;
   size_t size = sizeof result->steadiness_text;
-  double sampled = (double)window * all->n; /* by all replicas */
-  double grain = (double)window * GG_SAMPLING_INTERVAL;
+  double sampled = (double)window * all->n;             /* by all replicas */
+  double grain = (double)window * GG_SAMPLING_INTERVAL; /* as planned */
+  double happened = 2 * (double)result->averaging.collisions / ((double)all->model.n * all->n);
   result->steadiness = GG_NOT_STEADY;
   if (!all->model.steady && !all->model.linear_response) {
     result->steadiness = GG_HEATING;
@@ -58,7 +59,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
              GG_LEAST_CORRELATION_TIMES);
   } else {
     result->steadiness = GG_STEADY;
-    snprintf(text, size, "no trend over %.0f collisions a grain, %.0f correlation times of the slowest quantity", grain,
-             (double)window / c->slowest);
+    snprintf(text, size, "no trend over %.0f collisions a grain, %.0f correlation times of the slowest quantity",
+             happened, (double)window / c->slowest);
   }
 }

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "io/scene/reader.h"
@@ -92,12 +93,32 @@ static void two_collisions_apart(void **state)
   }
 }
 
+/* The interval of a steady state is as uncertain as one count of few grains; what is told of it is what happened. */
+static void told_as_it_was(void **state)
+{
+  (void)state;
+  static const char yaml[] =
+      "{flow: equilibrium, engine: dsmc, phi: 0.2, dsmc: {particles: 50}, run: {collisions: 1200}}";
+  gg_scene s = gg_scene_defaults();
+  gg_error err = {0};
+  gg_result *result = NULL;
+  double told = 0;
+  if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK ||
+      gg_run_scene(&s, NULL, 1, NULL, &result, &err) != GG_OK)
+    fail_msg("%s", err.message);
+  assert_int_equal(sscanf(result->steadiness_text, "no trend over %lf collisions", &told), 1);
+  const double happened = 2 * (double)result->averaging.collisions / 50;
+  if (fabs(told - happened) > 0.51) fail_msg("%s, and there were %g", result->steadiness_text, happened);
+  gg_result_free(result);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(settled_at_the_start),
       cmocka_unit_test(sweeps_without_end),
       cmocka_unit_test(two_collisions_apart),
+      cmocka_unit_test(told_as_it_was),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
