@@ -109,7 +109,7 @@ gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, double mem
   c->rho = gg_new_array(n ? n : 1, sizeof *c->rho, err);
   if (!c->rho) return GG_FAILED;
   c->rho[0] = 1;
-  if (n < 4) return GG_OK;
+  if (n < 2 || n * n_runs < 4) return GG_OK;
   transform f;
   gg_status status = transform_make(&f, n, err);
   if (status == GG_OK) {
