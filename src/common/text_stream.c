@@ -36,6 +36,15 @@ static ssize_t add(void *cookie, const char *piece, size_t n)
   return (ssize_t)n;
 }
 
+/* Told only: `out` writes at the end. */
+static int tell(void *cookie, off64_t *offset, int from)
+{
+  const stream *s = cookie;
+  if (*offset != 0 || from != SEEK_CUR) return -1;
+  *offset = (off64_t)s->length;
+  return 0;
+}
+
 static int end(void *cookie)
 {
   stream *s = cookie;
@@ -54,7 +63,7 @@ FILE *gg_open_text(char **text)
   FILE *out = NULL;
   *text = NULL;
   if (s) *s = (stream){.place = text, .text = malloc(FIRST_ROOM), .room = FIRST_ROOM};
-  if (s && s->text) out = fopencookie(s, "w", (cookie_io_functions_t){.write = add, .close = end});
+  if (s && s->text) out = fopencookie(s, "w", (cookie_io_functions_t){.write = add, .seek = tell, .close = end});
   if (out) return out;
   if (s) free(s->text);
   free(s);

@@ -34,6 +34,21 @@ static void whole(void **state)
   free(text);
 }
 
+static void length_by_now(void **state)
+{
+  (void)state;
+  char *text;
+  FILE *out = gg_open_text(&text);
+  for (long i = 0; i < PIECES; i++) {
+    assert_int_equal(ftell(out), i * LENGTH);
+    fprintf(out, "%.*s", LENGTH, "123456789 123456789");
+  }
+  assert_true(fseek(out, 3, SEEK_SET) != 0);
+  assert_true(gg_close_text(out, &text));
+  assert_int_equal(strlen(text), PIECES * LENGTH);
+  free(text);
+}
+
 static void allocations_that_fail(void **state)
 {
   (void)state;
@@ -60,6 +75,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(whole),
+      cmocka_unit_test(length_by_now),
       cmocka_unit_test(allocations_that_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
