@@ -4,7 +4,7 @@
 #include "common/agreed.h"
 #include "common/model.h"
 
-/* Collisions of species i with j per unit time, all of temperature T = m <c.c>/3, of `share` grains of i. */
+/* Collisions of species i with j per unit time, all of temperature T = m <c^2>/3, of `share` grains of i. */
 static double rate_of(const gg_model *m, double share, int i, int j, double T)
 {
   int o = gg_pair(i, j);
