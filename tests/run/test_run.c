@@ -48,6 +48,19 @@ static void planted_means(void **state)
   gg_result_free(r);
 }
 
+/* Where nothing is measured nobody can tell. */
+static void nothing_measured(void **state)
+{
+  (void)state;
+  gg_scene s = planted_scene(0);
+  s.measure = 0;
+  s.run.collisions = 4000;
+  gg_result *r = run(&s, GG_OK);
+  assert_int_equal(r->steadiness, GG_NOT_STEADY);
+  assert_non_null(strstr(r->steadiness_text, "nothing is measured"));
+  gg_result_free(r);
+}
+
 /* Under gravity a run ends, and says why, when nearly all collisions are contacts that last; in the flow before, and
  * without gravity, it goes on. */
 static void standstill(void **state)
@@ -364,10 +377,19 @@ static void time_limit(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_means), cmocka_unit_test(slow_relaxation), cmocka_unit_test(nearly_smooth),
-      cmocka_unit_test(endless_trend), cmocka_unit_test(heating),         cmocka_unit_test(ends),
-      cmocka_unit_test(replicas),      cmocka_unit_test(resume),          cmocka_unit_test(other_scene),
-      cmocka_unit_test(trajectory),    cmocka_unit_test(time_limit),      cmocka_unit_test(hooks_one_at_a_time),
+      cmocka_unit_test(planted_means),
+      cmocka_unit_test(nothing_measured),
+      cmocka_unit_test(slow_relaxation),
+      cmocka_unit_test(nearly_smooth),
+      cmocka_unit_test(endless_trend),
+      cmocka_unit_test(heating),
+      cmocka_unit_test(ends),
+      cmocka_unit_test(replicas),
+      cmocka_unit_test(resume),
+      cmocka_unit_test(other_scene),
+      cmocka_unit_test(trajectory),
+      cmocka_unit_test(time_limit),
+      cmocka_unit_test(hooks_one_at_a_time),
       cmocka_unit_test(standstill),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
