@@ -39,6 +39,7 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
   /* Symmetric splitting: the second half mirrors the first. */
   if (d->thermostat == GG_NO_THERMOSTAT) {
     gg_dsmc_collide(d, dt, strain, span, d->model.n_species == 1 ? GG_DSMC_FORWARD : GG_DSMC_SYMMETRIC);
+    d->now.lost = 0; /* nobody gives it back, and the units may change for ever */
     return;
   }
   double lost = d->now.lost;

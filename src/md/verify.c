@@ -35,8 +35,8 @@ bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3])
   for (size_t i = 0; i < sizeof finite / sizeof *finite; i++)
     if (!(fabs(finite[i]) < 1e300)) return false;
   return are_numbers(others, sizeof others / sizeof *others) && k->row_shift >= 0 && k->row_shift < cells[0] &&
-         k->image_shift >= 0 && k->image_shift < cells[0] && k->keeps_sums <= 1 && k->power > -100000 &&
-         k->power < 100000;
+         k->image_shift >= 0 && k->image_shift < cells[0] && k->keeps_sums <= 1 && k->power > -1000000000 &&
+         k->power < 1000000000;
 }
 
 static bool is_in_box(const gg_md *e, gg_vec r, double boxes)

@@ -1,5 +1,6 @@
 /* A restored engine goes on bit for bit; so does one whose velocities were multiplied by a power of two. */
 #include "common/rng.h"
+#include "dsmc/dsmc.h"
 #include "lab.h"
 
 static void same_archive(gg_engine *a, gg_engine *b)
@@ -111,6 +112,27 @@ static void without_its_callback(void **state)
   gg_dsmc_ops.destroy(resumed);
 }
 
+/* A gas that has cooled beyond all numbers of the units it began in has a state like any other. */
+static void restarts_far_below(void **state)
+{
+  (void)state;
+  gg_scene s = lab_scene(GG_HCS, 0.1, 0.1, -1, 50);
+  gg_model m = lab_model(&s);
+  gg_engine *e = lab_engine(&m, 12), *resumed = NULL;
+  gg_archive archive = {0};
+  gg_error err = {0};
+  gg_dsmc_ops.keep_sums(e, true);
+  for (int rescaled = 0; rescaled < 600; rescaled++) { /* T down by 4^600 */
+    while (((gg_dsmc *)e)->now.temperature > m.temperature0 / 4) lab_advance(e, INFINITY, 25);
+    assert_int_equal(gg_dsmc_ops.rescale(e, 1, &err), GG_OK);
+  }
+  assert_int_equal(gg_dsmc_ops.save(e, &archive, &err), GG_OK);
+  assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_OK);
+  gg_archive_clear(&archive);
+  gg_dsmc_ops.destroy(e);
+  gg_dsmc_ops.destroy(resumed);
+}
+
 /* Rounding does not depend on the exponent, so neither does a cooling run. */
 static void rescale_in(gg_precision precision)
 {
@@ -213,8 +235,12 @@ static void stopped(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit), cmocka_unit_test(restarts_while_it_warms),
-                                     cmocka_unit_test(without_its_callback), cmocka_unit_test(rescaling_is_exact),
-                                     cmocka_unit_test(precision_is_kept),    cmocka_unit_test(stopped)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit),
+                                     cmocka_unit_test(restarts_while_it_warms),
+                                     cmocka_unit_test(restarts_far_below),
+                                     cmocka_unit_test(without_its_callback),
+                                     cmocka_unit_test(rescaling_is_exact),
+                                     cmocka_unit_test(precision_is_kept),
+                                     cmocka_unit_test(stopped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
