@@ -56,6 +56,8 @@ typedef struct gg_observable {
   /* What followed quantities (GG_FOLLOWED) are in a single row, where it is something else than `derived` has; NULL: no
    * history is asked of this observable. */
   const gg_derived *history;
+  /* ln T of a row in units of the start, where T itself may be below all numbers; NULL: not told. */
+  double (*log_temperature)(const double *row);
 
   /* Curves: while averaging, a snapshot at the end of every `every`-th sampling interval is added to bins. An
    * observable without curves has bins NULL. */

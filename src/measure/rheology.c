@@ -12,7 +12,7 @@
 /* What one sample leaves for the next. */
 typedef struct memory {
   double last_temperature; /* at the previous sample, engine's scale */
-  double scale;            /* engine's velocities over those of the start */
+  double log2_scale;       /* engine's velocities are 2^this times those of the start: beyond all numbers at last */
   double mean_spin[GG_MAX_SPECIES][3];
 } memory;
 
@@ -34,7 +34,6 @@ static void *create(const gg_model *model, gg_error *err)
   rheology *r = gg_new_array(1, sizeof *r, err);
   if (!r) return NULL;
   r->model = *model;
-  r->memory.scale = 1;
   return r;
 }
 
@@ -162,9 +161,9 @@ static void finish(void *self, const gg_interval *in, double *row)
   }
   double T = temperature(r), T0 = r->memory.last_temperature * in->velocity_factor * in->velocity_factor;
   r->memory.last_temperature = T;
-  r->memory.scale *= in->velocity_factor;
+  r->memory.log2_scale += log2(in->velocity_factor);
   if (!(in->elapsed > 0)) return;
-  row[CH_LN_T] = log(T) - 2 * log(r->memory.scale);
+  row[CH_LN_T] = log(T) - 2 * M_LN2 * r->memory.log2_scale;
   haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
   put_rates(r, in, h, row);
   row[CH_T2] = cooling ? 1 : T * T;
@@ -174,6 +173,11 @@ static void finish(void *self, const gg_interval *in, double *row)
     put_moments(r, i, cooling ? T : 1, ch);
     ch[CH_SPEED] *= during;
   }
+}
+
+static double log_temperature(const double *row)
+{
+  return row[CH_LN_T];
 }
 
 const gg_observable gg_rheology = {
@@ -188,4 +192,5 @@ const gg_observable gg_rheology = {
     .finish = finish,
     .derived = gg_rheology_derived,
     .history = gg_rheology_history,
+    .log_temperature = log_temperature,
 };

@@ -160,16 +160,17 @@ static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
   return status;
 }
 
-/* Of the last row, which tells it in units of the start; as if all were well where nobody measures it, or it has fallen
- * below all numbers. In linear response, whose sweeps go on beyond all numbers in those units, that of the grains as
- * the engine has them. */
+/* Of the grains as the engine has them: of the last row, which tells its logarithm in units of the start, or in linear
+ * response, whose sweeps go on beyond all units, T itself. As if all were well where nobody measures it. */
 static double temperature_now(const gg_replica *r)
 {
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
+  const double *row = o ? r->row + r->offset[0] : NULL;
   gg_function f;
-  bool known = o && gg_derived_find(r->model.linear_response ? o->derived : o->history, GG_Q_TEMPERATURE, &f);
-  const double T = known ? gg_function_value(f, r->row + r->offset[0], &r->model) : 0;
-  return !known || (r->clock.power && T == 0) ? r->model.temperature0 : ldexp(T, 2 * (int)r->clock.power);
+  if (r->model.linear_response && o && gg_derived_find(o->derived, GG_Q_TEMPERATURE, &f))
+    return gg_function_value(f, row, &r->model);
+  if (!o || !o->log_temperature) return r->model.temperature0;
+  return exp(o->log_temperature(row) + 2 * M_LN2 * (double)r->clock.power);
 }
 
 /* What is no number is so for ever: better said at once. */
@@ -279,9 +280,10 @@ static void resume_frames(gg_replica *r)
 static gg_status check_clock(const gg_replica *r, gg_error *err)
 {
   const struct gg_replica_clock *c = &r->clock;
-  const double plain[] = {c->temperature, c->time, c->velocity_factor, c->gone, c->part_gone, c->cpu, c->window_cpu};
-  bool good = c->interval > 0 && c->interval < 1e300 && c->part >= 0 && c->part <= r->parts && c->power > -100000 &&
-              c->power < 100000 && !isnan(c->next_frame) && !isnan(c->frame_every);
+  const double plain[] = {c->temperature, c->velocity_factor, c->gone, c->part_gone, c->cpu, c->window_cpu};
+  bool good = c->time >= 0 /* or infinite */ && c->interval > 0 && c->interval < 1e300 && c->part >= 0 &&
+              c->part <= r->parts && c->power > -1000000000 && c->power < 1000000000 && !isnan(c->next_frame) &&
+              !isnan(c->frame_every);
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
   return good ? GG_OK : gg_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
 }

@@ -65,6 +65,19 @@ static void sweeps_without_end(void **state)
   }
 }
 
+static void expect_two(const char *scene, int begin, int end)
+{
+  gg_replica r;
+  gg_error err = {0};
+  create(&r, scene, GG_DSMC);
+  assert_int_equal(gg_replica_advance(&r, (uint64_t)begin, true, NULL, &err), GG_OK);
+  const double before = gg_replica_collisions_per_grain(&r);
+  assert_int_equal(gg_replica_advance(&r, (uint64_t)end, true, NULL, &err), GG_OK);
+  const double apart = (gg_replica_collisions_per_grain(&r) - before) / (end - begin);
+  if (fabs(apart / GG_SAMPLING_INTERVAL - 1) > 0.03) fail_msg("%s: %g collisions a grain apart", scene, apart);
+  gg_replica_clear(&r);
+}
+
 /* Where the temperature never stands still, the rate changes from one interval to the next by as much as it falls in
  * two collisions a grain. */
 static void two_collisions_apart(void **state)
@@ -79,18 +92,15 @@ static void two_collisions_apart(void **state)
       "{flow: usf, phi: 0.1, particles: 2000, collision: {e: 1}}",
       "{flow: small_shear, phi: 0.1, particles: 2000, collision: {e: 0.5}}",
   };
-  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
-    enum { BEGIN = 20, END = 120 };
-    gg_replica r;
-    gg_error err = {0};
-    create(&r, scenes[k], GG_DSMC);
-    assert_int_equal(gg_replica_advance(&r, BEGIN, true, NULL, &err), GG_OK);
-    const double begin = gg_replica_collisions_per_grain(&r);
-    assert_int_equal(gg_replica_advance(&r, END, true, NULL, &err), GG_OK);
-    const double apart = (gg_replica_collisions_per_grain(&r) - begin) / (END - BEGIN);
-    if (fabs(apart / GG_SAMPLING_INTERVAL - 1) > 0.03) fail_msg("%s: %g collisions a grain apart", scenes[k], apart);
-    gg_replica_clear(&r);
-  }
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) expect_two(scenes[k], 20, 120);
+}
+
+/* Also where the temperature is below all numbers in units of the start. */
+static void far_below(void **state)
+{
+  (void)state;
+  expect_two("{flow: hcs, phi: 0.1, particles: 500, collision: {e: 0}, dsmc: {particles: 500}}", 1300, 1700);
+  expect_two("{flow: hcs, phi: 0.1, particles: 500, collision: {e: 0}, dsmc: {particles: 500}}", 3000, 3400);
 }
 
 /* The interval of a steady state is as uncertain as one count of few grains; what is told of it is what happened. */
@@ -115,9 +125,8 @@ static void told_as_it_was(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(settled_at_the_start),
-      cmocka_unit_test(sweeps_without_end),
-      cmocka_unit_test(two_collisions_apart),
+      cmocka_unit_test(settled_at_the_start), cmocka_unit_test(sweeps_without_end),
+      cmocka_unit_test(two_collisions_apart), cmocka_unit_test(far_below),
       cmocka_unit_test(told_as_it_was),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
