@@ -33,7 +33,7 @@ double gg_md_early_temperature(const gg_md *e, double T)
 }
 
 /* What gravity along y has to lift a grain across the box, over the temperature, below which it holds nobody down. */
-#define LIGHT 0.01
+#define LIGHT 1.0
 
 /* Grains come to rest on a wall and on each other, where the mean free time shrinks to t_c itself: t_c is set by how
  * long it takes to fall a diameter instead. But under a gravity so weak that it stirs none of them that is longer than

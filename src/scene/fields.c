@@ -116,7 +116,7 @@ const gg_field gg_scene_fields[] = {
      .doc = "collisions closer in time than this have e = 1, of unlike grains no loss at all (against inelastic "
             "collapse); "
             "0: off. With gravity along y in units of sqrt(d/g) instead, or of the shorter of both where gravity is "
-            "too weak to hold grains down (lifts them across the box by less than T/100); auto: 1e-5, with gravity "
+            "too weak to hold grains down (lifts them across the box by less than T); auto: 1e-5, with gravity "
             "along y 1e-3",
      .when = {&gg_if_md, &gg_if_lossy}},
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
