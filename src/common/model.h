@@ -86,6 +86,8 @@ double gg_model_narrowest(const gg_model *model);
  * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); and, of elastic mixtures, the temperatures of the
  * species. At least 1. */
 double gg_model_relaxation(const gg_model *model);
+/* The same of the temperatures of elastic species, if nothing else went on; 0 of one species. */
+double gg_model_sharing(const gg_model *model);
 
 /* Collisions per grain that momentum needs to diffuse across the gap between walls, the slowest wave of it by a factor
  * 1/e: (H/pi)^2/nu, nu the kinematic viscosity of elastic Enskog theory (Chapman & Cowling 1970, 16.41). A dense core

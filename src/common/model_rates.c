@@ -13,26 +13,9 @@ static double rate_of(const gg_model *m, double share, int i, int j, double T)
   return share * nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
 }
 
-/* Elastic species share their energy, and the more slowly the less alike their masses are: of Maxwellians
- * dT_i/dt = (8/3) sum_j nu_ij m_i m_j/(m_i + m_j)^2 (T_j - T_i), nu_ij the rate at which a grain of i meets those of j.
- * In collisions per grain, for one species and all others at one temperature; of two species that is exact. */
-static double sharing(const gg_model *m)
-{
-  double slowest = 0;
-  for (int i = 0; i < m->n_species && m->n_species > 1; i++) {
-    double rate = 0, others = (double)(m->n - m->n_of[i]) / (double)m->n;
-    for (int j = 0; j < m->n_species; j++) {
-      double both = m->mass[i] + m->mass[j];
-      if (j != i) rate += 8 / 3.0 * m->mass[i] * m->mass[j] / (both * both) * rate_of(m, 1, i, j, 1);
-    }
-    slowest = fmax(slowest, gg_model_collision_rate(m, 1) * others / rate);
-  }
-  return slowest;
-}
-
 double gg_model_relaxation(const gg_model *m)
 {
-  double slowest = m->elastic ? sharing(m) : 0;
+  double slowest = m->elastic && m->steady ? gg_model_sharing(m) : 0;
   for (int i = 0; i < m->n_species; i++) {
     int o = gg_pair(i, i);
     double K = m->inertia[i], eta1 = (1 + m->e[o]) / 2, eta2 = 0;
@@ -67,11 +50,7 @@ double gg_model_collision_rate(const gg_model *m, double T)
 double gg_model_species_rate(const gg_model *m, int i, double T)
 {
   double rate = 0;
-  for (int j = 0; j < m->n_species; j++) {
-    int o = gg_pair(i, j);
-    double nj = m->density * (double)m->n_of[j] / (double)m->n, spread = T * (1 / m->mass[i] + 1 / m->mass[j]);
-    rate += nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
-  }
+  for (int j = 0; j < m->n_species; j++) rate += rate_of(m, 1, i, j, T);
   return rate;
 }
 

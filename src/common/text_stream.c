@@ -6,6 +6,7 @@
 
 #include "common/memory.h"
 
+#ifdef __GLIBC__
 enum { FIRST_ROOM = 1024 };
 
 typedef struct stream {
@@ -69,6 +70,14 @@ FILE *gg_open_text(char **text)
   free(s);
   return NULL;
 }
+#else
+FILE *gg_open_text(char **text)
+{
+  static _Thread_local size_t length; /* nobody asks for it */
+  *text = NULL;
+  return open_memstream(text, &length);
+}
+#endif
 
 bool gg_close_text(FILE *out, char *const *text)
 {
