@@ -124,10 +124,10 @@ static bool has_numbers(const double *x, size_t n)
   return false;
 }
 
-/* What was written into memory, as a paragraph. */
-static void print_and_free(FILE *out, char **text)
+/* What was written into memory, as a paragraph; `whole`: there was room for every piece. */
+static void print_and_free(FILE *out, char **text, bool whole)
 {
-  if (out && fclose(out) == 0 && *text && **text) print_line(NULL, *text);
+  if (out && fclose(out) == 0 && whole && *text && **text) print_line(NULL, *text);
   free(*text);
 }
 
@@ -138,16 +138,17 @@ static void print_series(const gg_result *r)
   const double *value;
   char *text = NULL;
   size_t n, size;
+  bool whole = true;
   if (gg_result_about(r, &about, NULL) != GG_OK) return;
   FILE *out = open_memstream(&text, &size);
   for (size_t i = 0; out && gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
     if (gg_result_history(r, q.name, &n, NULL, &value, NULL) != GG_OK || !has_numbers(value, n)) continue;
     if (ftell(out) == 0)
-      fprintf(out, "%s series of %zu samples, averaged from %g to %g:", about.engine, n, about.window[0],
-              about.window[1]);
-    fprintf(out, " %s", q.name);
+      whole &= fprintf(out, "%s series of %zu samples, averaged from %g to %g:", about.engine, n, about.window[0],
+                       about.window[1]) > 0;
+    whole &= fprintf(out, " %s", q.name) > 0;
   }
-  print_and_free(out, &text);
+  print_and_free(out, &text, whole);
 }
 
 /* Series, frames and theories: what there is to plot or to read with other tools. */
@@ -156,6 +157,7 @@ static void print_contents(const gg_comparison *c, const gg_result_info *about)
   gg_theory_info theory;
   char *text = NULL;
   size_t size;
+  bool whole = true;
   printf("\nalso in the file:\n");
   for (int k = 0; k < 2; k++) print_series(gg_comparison_result(c, engines[k]));
   if (about->frames)
@@ -163,8 +165,8 @@ static void print_contents(const gg_comparison *c, const gg_result_info *about)
            (long)about->grains);
   FILE *out = open_memstream(&text, &size);
   for (size_t i = 0; out && gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
-    if (!theory.reason) fprintf(out, "%s%s", ftell(out) ? ", " : "theories: ", theory.name);
-  print_and_free(out, &text);
+    if (!theory.reason) whole &= fprintf(out, "%s%s", ftell(out) ? ", " : "theories: ", theory.name) > 0;
+  print_and_free(out, &text, whole);
 }
 
 static void print_file(const gg_options *o, const gg_comparison *c)
