@@ -87,8 +87,7 @@ static void two_collisions_apart(void **state)
       "{flow: hcs, phi: 0.1, particles: 2000, collision: {e: 0}}",
       "{flow: hcs, phi: 0.1, particles: 2000, collision: {e: 0.8, beta: 0}}",
       "{flow: hcs, phi: 0, particles: 2000, collision: {e: 0.5, law: viscoelastic}}",
-      "{flow: hcs, phi: 0.1, particles: 2000, collision: {e: 0.5}, "
-      "species: [{fraction: 0.5}, {fraction: 0.5, diameter: 2, mass: 8}]}",
+      "{flow: hcs, phi: 0.1, collision: {e: 0.5}, species: [{fraction: 0.5}, {fraction: 0.5, diameter: 2, mass: 8}]}",
       "{flow: usf, phi: 0.1, particles: 2000, collision: {e: 1}}",
       "{flow: small_shear, phi: 0.1, particles: 2000, collision: {e: 0.5}}",
   };
