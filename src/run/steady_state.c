@@ -36,7 +36,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
              100 * all->state.standstill);
   } else if (!all->state.averaging) {
     snprintf(text, size, "the run ended in its warm-up");
-  } else if (all->replica[0].n_observables == 0) {
+  } else if (all->replica[0].series.width == 0) { /* not even modes of the gap */
     snprintf(text, size, "nobody can tell: nothing is measured, rheology would say");
   } else if (c->trending) {
     tell_trend(c, grain, text, size);
