@@ -265,7 +265,8 @@ gg_status gg_options_set(const char *option, const char *typed, const char *exam
   const char *equals = strchr(typed, '=');
   char key[96];
   if (!equals || equals == typed)
-    return gg_cli_refuse(err, GG_BAD_INPUT, "--%s %s: KEY=VALUE is expected, e.g. --%s %s", option, typed, option, example);
+    return gg_cli_refuse(err, GG_BAD_INPUT, "--%s %s: KEY=VALUE is expected, e.g. --%s %s", option, typed, option,
+                         example);
   snprintf(key, sizeof key, "%.*s", (int)(equals - typed), typed);
   gg_error why;
   if (set(target, key, equals + 1, &why) == GG_OK) return GG_OK;
