@@ -280,6 +280,11 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   return GG_OK;
 }
 
+const char *gg_model_contact_unit(const gg_model *m)
+{
+  return m->gravity[1] != 0 ? "sqrt(d/g), or mean free times where gravity is weak" : "mean free times";
+}
+
 double gg_model_widest(const gg_model *m)
 {
   double widest = m->diameter[0];

@@ -52,8 +52,7 @@ typedef struct gg_model {
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */
-  double contact_time; /* of the contact-time rule, in mean free times per grain, or sqrt(d/|g_y|) where there is g_y;
-                        * 0: off */
+  double contact_time; /* of the contact-time rule, in units of gg_model_contact_unit; 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
   double asked_error;  /* relative, that the run goes on for; 0: not asked for. dsmc chooses its step by it */
   bool single;         /* dsmc: velocities kept in single precision */
@@ -77,6 +76,9 @@ gg_status gg_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *
 
 /* With a restitution law: e and contacts at the mean normal speed at impact of Maxwellians at temperature T. */
 void gg_model_at(gg_model *model, double T);
+
+/* What contact times count in, in words: under gravity that of a fall, unless it is too weak (md/contact_time.c). */
+const char *gg_model_contact_unit(const gg_model *model);
 
 /* Largest and smallest diameter of a species. */
 double gg_model_widest(const gg_model *model);

@@ -74,8 +74,7 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
   tell(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");
   if (m->law.name) tell(line, context, "restitution", "from the speed of each collision");
-  snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time,
-           m->gravity[1] != 0 ? "sqrt(d/g)" : "mean free times");
+  snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time, gg_model_contact_unit(m));
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
   tell_search(m, line, context);
   tell(line, context, "collision sums", "while stresses are measured; else only counts");

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/linear_response.h"
 #include "measure/mesh.h"
 #include "measure/observable.h"
 #include "run/memory.h"
@@ -92,13 +93,24 @@ static void add_observables(gg_forecast *f, const gg_scene *scene, const gg_mode
   f->observables += vectors * sizeof(gg_vec) * (double)m->n;
 }
 
-/* Collisions a grain until the least exact headline quantity is known. The stress: what runs of 1000 to 4000 grains
- * took, which is some fifty times the variance of a grain's; the temperature of all: sqrt(2/3N), forgotten in a
- * relaxation time. */
+/* What the stress needs, times N error^2: what runs of 1000 to 4000 grains took, which is some fifty times the variance
+ * of a grain's. eta* of a linear response is a slope over a*, fitted beside that of a*^3; half of each sweep of a gas
+ * that cools is its beginning. */
+static double for_stress(const gg_model *m)
+{
+  if (m->linear_response) {
+    const gg_linear_response range = gg_linear_response_of(m);
+    return (range.cools ? 60 : 30) / (range.high * range.high);
+  }
+  return m->shear_rate != 0 || m->walled ? 130 : 5;
+}
+
+/* Collisions a grain until the least exact headline quantity is known: the stress, or the temperature of all, which
+ * fluctuates by sqrt(2/3N) and is forgotten in a relaxation time. */
 static double for_error(const gg_scene *scene, const gg_model *m, double error)
 {
   const double grains = (double)m->n * (double)scene->run.replicas;
-  const double stress = m->shear_rate != 0 || m->walled ? 130 : 5, slow = 2 * gg_model_relaxation(m) * 2 / 3.0;
+  const double stress = for_stress(m), slow = 2 * gg_model_relaxation(m) * 2 / 3.0;
   return fmax(stress, slow) / (grains * error * error);
 }
 

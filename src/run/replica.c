@@ -183,7 +183,7 @@ static gg_status check_numbers(const gg_replica *r, gg_error *err)
 
 gg_status gg_replica_collapsed(const gg_replica *r, gg_error *err)
 {
-  const char *unit = r->model.gravity[1] != 0 ? "sqrt(d/g)" : "mean free times", *name = r->engine->ops->name;
+  const char *unit = gg_model_contact_unit(&r->model), *name = r->engine->ops->name;
   return gg_fail(err, GG_FAILED,
                  "%s: collisions accumulate without end (inelastic collapse) near time %g; "
                  "give md.contact_time a larger value (it is %g %s)",
