@@ -21,6 +21,10 @@ enum { GG_LEAST_ENSEMBLE = 5000 };
 
 #define GG_AUTO (-1.0) /* a number that the program is to choose */
 
+/* Collisions a grain for which a gas that cools by a law of restitution is followed: no error can be asked of a rate
+ * that is never the same again. */
+enum { GG_COLLISIONS_FOLLOWED = 400 };
+
 typedef struct gg_species {
   double fraction, diameter, mass, inertia; /* mole fraction; user's units; K = 4I/(m d^2) */
 } gg_species;

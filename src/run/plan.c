@@ -46,6 +46,12 @@ static double shortest_window(const gg_model *m)
   return m->homogeneous ? 1000 : 300;
 }
 
+/* Heating, or cooling with a law of restitution, whose rate changes as the gas slows down. */
+static bool never_the_same(const gg_model *m)
+{
+  return !m->steady || (m->law.name && gg_flow_cools(m->flow));
+}
+
 gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
 {
   gg_plan p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
@@ -59,9 +65,9 @@ gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
   if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
   if (model->linear_response) {
     plan_linear_response(&p, scene, model);
-  } else if (!model->steady) { /* heating: nothing to wait for; follow it for as long as asked, or for a while */
+  } else if (never_the_same(model)) { /* nothing to wait for; follow it for as long as asked, or for a while */
     p.relative_error = 0;
-    if (!p.most) p.most = samples_for(1000);
+    if (!p.most) p.most = samples_for(model->steady ? GG_COLLISIONS_FOLLOWED : 1000);
   }
   return p;
 }

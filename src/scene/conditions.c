@@ -111,6 +111,17 @@ static bool has_law(const gg_scene *s, unsigned uses)
   return s->collision.law != GG_LAW_CONSTANT;
 }
 
+/* Is there a mean to know so well? Not of a gas that heats up for ever, nor of one that cools with a law of restitution
+ * and is never the same again; and where nothing is lost there is no rate of loss. */
+static bool has_error(const gg_scene *s, unsigned uses)
+{
+  const bool own = gg_extension_law(s->extension).e != NULL, lossy = own || gg_scene_loses_energy(s);
+  if (uses == GG_USE_THEORY || lossy) return !(gg_flow_cools(s->flow) && (own || has_law(s, uses)));
+  if (gg_flow_is_sheared(s->flow)) return gg_flow_of(s->flow)->linear_response;
+  const bool shares = s->n_species > 1 || any_pair(s, is_rough); /* temperatures, whose ratio is known */
+  return shares || !(gg_flow_cools(s->flow) || gg_flow_is_heated(s->flow));
+}
+
 static bool some_rough(const gg_scene *s, unsigned uses)
 {
   (void)uses;
@@ -157,6 +168,10 @@ const gg_condition gg_if_contact_value = {
     .holds = uses_contact_value,
     .otherwise = "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0"};
 const gg_condition gg_if_lossy = {.holds = is_lossy, .otherwise = "where no collision loses energy"};
+const gg_condition gg_if_error = {
+    .holds = has_error,
+    .otherwise = "on a gas without such means: elastic and sheared, elastic and left alone, or cooling by a law of "
+                 "restitution"};
 const gg_condition gg_if_rough = {.holds = some_rough, .otherwise = "on smooth grains, which do not spin"};
 const gg_condition gg_if_law = {.holds = has_law, .otherwise = "while collision.law is constant"};
 const gg_condition gg_if_sticking = {.holds = some_beta, .otherwise = "while collision.beta is -1: smooth grains"};

@@ -20,7 +20,7 @@ bool gg_condition_holds(const gg_condition *condition, const gg_scene *scene, un
 void gg_condition_otherwise(const gg_condition *condition, char *text, size_t size);
 
 extern const gg_condition gg_if_sheared, gg_if_moving_walls, gg_if_openable, gg_if_walled, gg_if_md, gg_if_dsmc,
-    gg_if_counted, gg_if_boxed, gg_if_one_engine, gg_if_contact_value, gg_if_lossy, gg_if_law, gg_if_rough,
+    gg_if_counted, gg_if_error, gg_if_boxed, gg_if_one_engine, gg_if_contact_value, gg_if_lossy, gg_if_law, gg_if_rough,
     gg_if_sticking, gg_if_tangential, gg_if_wall_sticking, gg_if_wall_tangential;
 
 /* Does some collision between grains lose energy, by the coefficients that the scene has? */

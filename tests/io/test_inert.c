@@ -111,6 +111,26 @@ static void grains(void **state)
               "md.contact_time has no effect where no collision loses energy");
 }
 
+/* Where there is no mean to know, no error can be asked of it. */
+static void asked_errors(void **state)
+{
+  (void)state;
+  static const char none[] =
+      "run.relative_error has no effect on a gas without such means: elastic and sheared, elastic "
+      "and left alone, or cooling by a law of restitution";
+  assert_line("{flow: usf, phi: 0.1, collision: {e: 1}, run: {relative_error: 0.1}}", BOTH, none);
+  assert_line("{flow: hcs, phi: 0.1, collision: {e: 1}, run: {relative_error: 0.1}}", BOTH, none);
+  assert_line("{flow: hcs, phi: 0.1, collision: {law: viscoelastic}, run: {relative_error: 0.1}}", BOTH, none);
+  static const char *const some[] = {
+      "{flow: hcs, phi: 0.1, collision: {e: 1, beta: 1}, run: {relative_error: 0.1}}",
+      "{flow: hcs, phi: 0.1, collision: {e: 0.9}, run: {relative_error: 0.1}}",
+      "{flow: usf, phi: 0.1, collision: {law: viscoelastic}, run: {relative_error: 0.1}}",
+      "{flow: equilibrium, phi: 0.1, run: {relative_error: 0.1}}",
+      "{flow: small_shear, phi: 0.1, collision: {e: 1}, run: {relative_error: 0.1}}",
+  };
+  for (size_t i = 0; i < sizeof some / sizeof *some; i++) assert_line(some[i], GG_USE_DSMC, NULL);
+}
+
 /* A scene as results and checkpoints hold it gives every key, and is told of no more than the one that was typed. */
 static void defaults_are_not_told(void **state)
 {
@@ -135,6 +155,6 @@ static void defaults_are_not_told(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(flows), cmocka_unit_test(engines), cmocka_unit_test(grains),
-                                     cmocka_unit_test(defaults_are_not_told)};
+                                     cmocka_unit_test(asked_errors), cmocka_unit_test(defaults_are_not_told)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

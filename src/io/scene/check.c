@@ -16,9 +16,8 @@ void gg_scene_fill_in(gg_scene *s)
     for (int p = 0; p < GG_PAIRS; p++) s->collision.e[p] = e;
   }
   /* With a law a cooling gas has no state whose cooling rate an error could be asked of: it is followed for a while. */
-  if (s->collision.law != GG_LAW_CONSTANT && gg_flow_cools(s->flow) && s->run.collisions == GG_AUTO &&
-      !gg_scene_is_given(s, "run.relative_error"))
-    s->run.collisions = 400;
+  if (s->collision.law != GG_LAW_CONSTANT && gg_flow_cools(s->flow) && s->run.collisions == GG_AUTO)
+    s->run.collisions = GG_COLLISIONS_FOLLOWED;
   if (!gg_scene_is_given(s, "thermostat")) s->thermostat = flow->thermostat;
   if (!gg_scene_is_given(s, "gravity")) memcpy(s->gravity, flow->gravity, sizeof s->gravity);
   s->measure |= flow->measure;
