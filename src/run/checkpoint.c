@@ -49,13 +49,28 @@ gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *a, gg_error *e
   return GG_OK;
 }
 
+/* Samples that every replica has taken: they are not level where the run was stopped within a stretch. */
+static gg_status least_samples(const gg_archive *a, uint64_t *least, gg_error *err)
+{
+  for (int i = 0;; i++) {
+    char name[48];
+    struct gg_replica_clock clock;
+    snprintf(name, sizeof name, "replica%d/replica/clock", i);
+    if (!gg_archive_find(a, name)) return GG_OK;
+    GG_TRY(gg_archive_get(a, name, GG_ITEM_U8, &clock, sizeof clock, err));
+    if (clock.samples < *least) *least = clock.samples;
+  }
+}
+
 gg_status gg_run_how_far(const gg_archive *a, gg_checkpoint_part *part, gg_error *err)
 {
   struct gg_replicas_state state;
   GG_TRY(gg_archive_get(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
-  double window = state.averaging ? (double)(state.due - state.window_at) : 0;
+  uint64_t taken = state.due;
+  GG_TRY(least_samples(a, &taken, err));
+  double window = state.averaging && taken > state.window_at ? (double)(taken - state.window_at) : 0;
   part->phase = state.averaging ? "averaging" : "warm-up";
-  part->collisions_per_grain = (double)state.due * GG_SAMPLING_INTERVAL;
+  part->collisions_per_grain = (double)taken * GG_SAMPLING_INTERVAL;
   part->averaged = window * GG_SAMPLING_INTERVAL;
   part->seconds = state.wall;
   return GG_OK;

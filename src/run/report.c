@@ -14,6 +14,8 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
   if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned something that is no number";
   if (!all->state.averaging) return "nothing was averaged: the run ended in its warm-up";
   if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
+  if (all->model.linear_response && (gg_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE))
+    return "too short: the averaging has less than a sweep of the reduced shear rate";
   const char *reason = gg_quantity_missing(&all->model, q);
   return reason ? reason : "not measured in this scene";
 }
@@ -93,7 +95,10 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     const gg_replica *r = &all->replica[i];
     gg_engine_state s;
     r->engine->ops->state(r->engine, &s);
-    sum->time = s.time, sum->time_step = s.time_step, sum->time_step_bias = s.time_step_bias;
+    if (i == 0) { /* in units of the start, whatever the engine's velocities have been multiplied by since */
+      sum->time = r->clock.time, sum->time_step_bias = s.time_step_bias;
+      sum->time_step = ldexp(s.time_step, (int)r->clock.power);
+    }
     sum->collisions += s.collisions, sum->events += s.events;
     sum->treated += s.treated, sum->wall_treated += s.wall_treated, sum->overflows += s.overflows;
     sum->worst_overlap = fmax(sum->worst_overlap, s.worst_overlap);
@@ -164,38 +169,6 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_result_warn(result,
                    "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the asked error",
                    100 * s->time_step_bias);
-}
-
-/* Did the run reach what was asked? An error that was asked for counts even where run.collisions ended the run first.
- */
-gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err)
-{
-  const gg_convergence *c = &all->last;
-  const char *engine = all->replica[0].engine->ops->name;
-  uint64_t window = all->state.averaging ? all->state.due - all->state.window_at : 0;
-  bool by_error = all->plan.relative_error > 0;
-  if (all->state.standstill > 0)
-    return gg_fail(err, GG_FAILED,
-                   "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
-                   "last, and fall under the contact-time rule; hard spheres need a flow",
-                   engine, 100 * all->state.standstill);
-  if (!all->state.averaging || (!by_error && all->plan.most && window < all->plan.most))
-    return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
-                   (double)all->state.due * GG_SAMPLING_INTERVAL,
-                   all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
-  const bool short_window = window < all->plan.least || !c->trusted;
-  if (by_error && atomic_load(&all->stopped) == GG_OUT_OF_TIME && short_window)
-    return gg_fail(err, GG_FAILED,
-                   "%s: the time limit struck after %.0f collisions a grain of averaging, too few to know how exact the "
-                   "means are",
-                   engine, (double)window * GG_SAMPLING_INTERVAL);
-  if (!by_error || c->relative_error <= all->plan.relative_error) return GG_OK;
-  const char *why = atomic_load(&all->stopped) == GG_OUT_OF_TIME ? "the time limit struck; " : "";
-  if (isnan(c->relative_error))
-    return gg_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
-                   gg_quantity_name(c->worst));
-  return gg_fail(err, GG_FAILED, "%s: %sthe asked relative error %g was not reached: %s has %.3g", engine, why,
-                 all->plan.relative_error, gg_quantity_name(c->worst), c->relative_error);
 }
 
 gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)

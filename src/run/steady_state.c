@@ -24,8 +24,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
   uint64_t window = all->state.due - all->state.window_at;
   char *text = result->steadiness_text;
   size_t size = sizeof result->steadiness_text;
-  double sampled = (double)window * all->n;             /* by all replicas */
-  double grain = (double)window * GG_SAMPLING_INTERVAL; /* as planned */
+  double sampled = (double)window * all->n; /* by all replicas */
   double happened = 2 * (double)result->averaging.collisions / ((double)all->model.n * all->n);
   result->steadiness = GG_NOT_STEADY;
   if (!all->model.steady && !all->model.linear_response) {
@@ -39,10 +38,10 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
   } else if (all->replica[0].series.width == 0) { /* not even modes of the gap */
     snprintf(text, size, "nobody can tell: nothing is measured, rheology would say");
   } else if (c->trending) {
-    tell_trend(c, grain, text, size);
+    tell_trend(c, happened, text, size);
   } else if (window < all->plan.least) {
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
-             grain, (double)all->plan.least * GG_SAMPLING_INTERVAL);
+             happened, (double)all->plan.least * GG_SAMPLING_INTERVAL);
   } else if (all->model.linear_response) {
     result->steadiness = GG_STEADY;
     gg_linear_response s = gg_linear_response_of(&all->model);

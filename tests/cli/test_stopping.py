@@ -82,6 +82,20 @@ def test_time_limit():
         check(done.code == 1 and "the time limit struck" in done.err, name, done.code, done.err)
 
 
+def test_time_limit_before_a_checkpoint():
+    """The limit counts from the first start, and says so; how far the run is are the collisions that there were."""
+    with open("scene.yaml", "w") as f:
+        f.write("{flow: usf, phi: 0.3, particles: 4000, run: {relative_error: 1e-5, time_limit: 1.5}, "
+                "output: {checkpoint_every: 1000}}")
+    done = run("run", "scene.yaml", "--json", "--quiet")
+    check(done.code == 1 and "the time limit struck" in done.err, done.code, done.err)
+    there = 2 * json.loads(done.out)["total"]["collisions"] / 4000
+    told = float(run("info", "scene.checkpoint.h5").out.split("after ")[1].split()[0])
+    check(abs(told - there) < 3 + 0.04 * there, told, there)
+    done = run("run", "scene.yaml", "--json", "--quiet", "--resume", "scene.checkpoint.h5")
+    check(done.code == 1 and "counts from the run's first start" in done.err, done.code, done.err)
+
+
 def test_stopped_within_an_interval():
     """What a checkpoint from the midst of an interval goes on to is the run that was left alone."""
     with open("scene.yaml", "w") as f:

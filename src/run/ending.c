@@ -1,0 +1,76 @@
+/* Did the run reach what was asked, and why not? */
+#include <math.h>
+
+#include "run/replicas.h"
+
+/* Collisions a grain and replica: of all the run, or of the averaging. */
+static double collisions_a_grain(const gg_replicas *all, bool averaging)
+{
+  double sum = 0;
+  for (int i = 0; i < all->n; i++) {
+    const gg_replica *r = &all->replica[i];
+    sum += gg_replica_collisions_per_grain(r);
+    if (averaging) sum -= 2 * (double)r->clock.window_collisions / (double)all->model.n;
+  }
+  return sum / all->n;
+}
+
+static uint64_t window_of(const gg_replicas *all)
+{
+  return all->state.averaging ? all->state.due - all->state.window_at : 0;
+}
+
+static bool out_of_time(const gg_replicas *all)
+{
+  return atomic_load(&all->stopped) == GG_OUT_OF_TIME;
+}
+
+/* The error that was asked for is told of means over a window long enough to know it. */
+static gg_status check_error(const gg_replicas *all, const char *engine, gg_error *err)
+{
+  const gg_convergence *c = &all->last;
+  const gg_plan *plan = &all->plan;
+  const uint64_t window = window_of(all);
+  if (all->replica[0].n_observables == 0)
+    return gg_fail(err, GG_FAILED,
+                   "%s: nothing is measured: nobody can tell whether the asked relative error %g is "
+                   "reached",
+                   engine, plan->relative_error);
+  if (window < plan->least || !c->trusted)
+    return gg_fail(err, GG_FAILED,
+                   "%s: %s after %.0f collisions a grain of averaging, too few to know how exact the means are", engine,
+                   out_of_time(all)                     ? "the time limit struck"
+                   : plan->most && window >= plan->most ? "run.collisions ended the run"
+                                                        : "no end was found",
+                   collisions_a_grain(all, true));
+  if (c->relative_error <= plan->relative_error) return GG_OK;
+  const char *why = out_of_time(all) ? "the time limit struck; " : "";
+  if (isnan(c->relative_error))
+    return gg_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
+                   gg_quantity_name(c->worst));
+  return gg_fail(err, GG_FAILED, "%s: %sthe asked relative error %g was not reached: %s has %.3g", engine, why,
+                 plan->relative_error, gg_quantity_name(c->worst), c->relative_error);
+}
+
+/* An error that was asked for counts even where run.collisions ended the run first. */
+gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err)
+{
+  const char *engine = all->replica[0].engine->ops->name;
+  const gg_plan *plan = &all->plan;
+  const bool by_error = plan->relative_error > 0;
+  if (all->state.standstill > 0)
+    return gg_fail(err, GG_FAILED,
+                   "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
+                   "last, and fall under the contact-time rule; hard spheres need a flow",
+                   engine, 100 * all->state.standstill);
+  if (out_of_time(all) && all->state.wall > plan->time_limit)
+    return gg_fail(err, GG_FAILED,
+                   "%s: the time limit of %g s was over before: it counts from the run's first start; to go on, give "
+                   "run.time_limit a larger value",
+                   engine, plan->time_limit);
+  if (!all->state.averaging || (!by_error && plan->most && window_of(all) < plan->most))
+    return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
+                   collisions_a_grain(all, false),
+                   all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
+  return by_error ? check_error(all, engine, err) : GG_OK;
+}
