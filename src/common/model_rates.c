@@ -13,17 +13,28 @@ static double rate_of(const gg_model *m, double share, int i, int j, double T)
   return share * nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
 }
 
+/* What the collisions of i with j add to the loss A and to the exchange with the spins C, of each collision of i. */
+static void add_shares(const gg_model *m, int i, int j, double *A, double *C)
+{
+  const int o = gg_pair(i, j);
+  const gg_rule rule = gg_rule_of(m->beta[o], m->mu[o]);
+  const double share = m->n_species > 1 ? rate_of(m, 1, i, j, 1) / gg_model_species_rate(m, i, 1) : 1;
+  double K = m->inertia[i], eta1 = (1 + m->e[o]) / 2, eta2 = 0;
+  if (rule != GG_SMOOTH) eta2 = (1 + m->beta[o]) * K / (2 * (1 + K));
+  double exchange = eta2 / K * (1 - eta2 / K);
+  /* Sliding weakens the exchange with the spins by about mu over the friction that sticking would need. */
+  if (rule == GG_FRICTIONAL) exchange *= fmin(1, m->mu[o] * eta1 / eta2);
+  *A += share * (eta1 * (1 - eta1) + eta2 * (1 - eta2));
+  *C += share * exchange;
+}
+
 double gg_model_relaxation(const gg_model *m)
 {
   double slowest = m->elastic && m->steady ? gg_model_sharing(m) : 0;
   for (int i = 0; i < m->n_species; i++) {
-    int o = gg_pair(i, i);
-    double K = m->inertia[i], eta1 = (1 + m->e[o]) / 2, eta2 = 0;
-    if (gg_rule_of(m->beta[o], m->mu[o]) != GG_SMOOTH) eta2 = (1 + m->beta[o]) * K / (2 * (1 + K));
-    double A = eta1 * (1 - eta1) + eta2 * (1 - eta2), C = eta2 / K * (1 - eta2 / K);
+    double A = 0, C = 0;
+    for (int j = 0; j < m->n_species; j++) add_shares(m, i, j, &A, &C);
     if (A > 0 && !m->elastic) slowest = fmax(slowest, 0.75 / A);
-    /* Sliding weakens the exchange with the spins by about mu over the friction that sticking would need. */
-    if (gg_rule_of(m->beta[o], m->mu[o]) == GG_FRICTIONAL) C *= fmin(1, m->mu[o] * eta1 / eta2);
     if (C > 0) slowest = fmax(slowest, 0.75 / C);
   }
   return fmax(slowest, 1);

@@ -47,14 +47,31 @@ static bool is_measured(const gg_observable *o, const gg_scene *scene, const gg_
   return (scene->measure & o->flag) && !(o->refuses && o->refuses(m));
 }
 
-/* Nanoseconds a collision. md: the thinner the gas the more cells are crossed between two; out of cache beyond some
- * thousand grains. dsmc: small ensembles, and those with a law of restitution, take collisions one by one. */
-static double pace(const gg_model *m, gg_engine_kind engine)
+/* Cells are as wide as the largest grain: how many more grains there are in one than of equal ones. */
+static double crowding(const gg_model *m)
 {
-  const double n = (double)m->n;
-  if (engine == GG_MD) return (180 + 115 / sqrt(fmax(m->phi, 1e-12))) * (1 + 0.2 * fmax(0, log(n / 2000)));
+  double cubes = 0;
+  for (int i = 0; i < m->n_species; i++) cubes += pow(m->diameter[i], 3) * (double)m->n_of[i] / (double)m->n;
+  return pow(gg_model_widest(m), 3) / cubes;
+}
+
+/* Nanoseconds a collision. The thinner the gas the more cells are crossed between two; out of cache beyond some
+ * thousand grains; after each kick of white noise all grains are predicted anew; walls are met, too. */
+static double pace_of_md(const gg_model *m)
+{
+  const double cells = 180 + 115 / sqrt(fmax(m->phi, 1e-12)), cache = 1 + 0.2 * fmax(0, log((double)m->n / 2000));
+  const double kicks = m->thermostat == GG_WHITE_NOISE ? 3 : 1, walls = m->walled ? 2 : 1;
+  return cells * cache * crowding(m) * kicks * walls;
+}
+
+/* Small ensembles, and those with a law of restitution, take collisions one by one; each pair of species is a sweep of
+ * its own; noise is drawn. */
+static double pace_of_dsmc(const gg_model *m)
+{
+  const double n = (double)m->n, pairs = 0.5 + 0.5 * m->n_species;
   if (n < 320 * m->n_species || m->law.e) return 330;
-  return (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-n / 1000));
+  return (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-n / 1000)) * pairs +
+         (m->thermostat == GG_WHITE_NOISE ? 30 : 0);
 }
 
 static double mesh_points(const gg_model *m)
@@ -102,7 +119,9 @@ static double for_stress(const gg_model *m)
     const gg_linear_response range = gg_linear_response_of(m);
     return (range.cools ? 60 : 30) / (range.high * range.high);
   }
-  return m->shear_rate != 0 || m->walled ? 130 : 5;
+  if (m->thermostat == GG_WHITE_NOISE && m->shear_rate != 0) return 650; /* the stress is small beside the pressure */
+  if (m->walled) return 400; /* fluctuates along with the slow waves across the gap */
+  return m->shear_rate != 0 ? 130 : 5;
 }
 
 /* Collisions a grain until the least exact headline quantity is known: the stress, or the temperature of all, which
@@ -139,7 +158,7 @@ static double bytes_of_series(const gg_forecast *f, const gg_model *m)
 
 gg_forecast gg_forecast_of(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
-  gg_forecast f = {.engine = gg_engine_bytes(engine, m), .ns = pace(m, engine)};
+  gg_forecast f = {.engine = gg_engine_bytes(engine, m), .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
   add_observables(&f, scene, m, engine);
   plan_time(&f, scene, m);
   f.series = bytes_of_series(&f, m);

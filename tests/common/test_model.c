@@ -102,6 +102,19 @@ static void sharing_of_energy(void **state)
   near(gg_model_relaxation(&m) / two, 1, 1e-6);
 }
 
+/* Like grains that lose nothing among themselves cool by what they lose to the others: half of the collisions. */
+static void loss_to_others(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_HCS, s.phi = 0.1, s.n_species = 2;
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
+  for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
+  s.collision.e[gg_pair(0, 1)] = 0.8;
+  gg_model m = make(&s);
+  near(gg_model_relaxation(&m), 2 * 0.75 / (0.9 * 0.1), 1e-12);
+}
+
 /* Elastic and steady are seen as such; relaxation slows down towards beta = -1 and e = 1. */
 static void kinds(void **state)
 {
@@ -261,6 +274,7 @@ int main(void)
       cmocka_unit_test(equations_of_state),
       cmocka_unit_test(kinds),
       cmocka_unit_test(sharing_of_energy),
+      cmocka_unit_test(loss_to_others),
       cmocka_unit_test(rates_and_units),
       cmocka_unit_test(noise_replaces_losses),
       cmocka_unit_test(units_of_rates),
