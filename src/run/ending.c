@@ -37,12 +37,15 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
                    "reached",
                    engine, plan->relative_error);
   if (window < plan->least || !c->trusted)
-    return gg_fail(err, GG_FAILED,
-                   "%s: %s after %.0f collisions a grain of averaging, too few to know how exact the means are", engine,
-                   out_of_time(all)                     ? "the time limit struck"
-                   : plan->most && window >= plan->most ? "run.collisions ended the run"
-                                                        : "no end was found",
-                   collisions_a_grain(all, true));
+    return gg_fail(
+        err, GG_FAILED,
+        "%s: %s after %.0f collisions a grain of averaging, too few to know whether the asked relative error %g is "
+        "reached",
+        engine,
+        out_of_time(all)                     ? "the time limit struck"
+        : plan->most && window >= plan->most ? "run.collisions ended the run"
+                                             : "no end was found",
+        collisions_a_grain(all, true), plan->relative_error);
   if (c->relative_error <= plan->relative_error) return GG_OK;
   const char *why = out_of_time(all) ? "the time limit struck; " : "";
   if (isnan(c->relative_error))
