@@ -80,22 +80,48 @@ double gg_histogram_height(const double *bin, double sigma)
   return (y * x4 - x2 * x2y) / (n * x4 - x2 * x2);
 }
 
-static void put_tail(gg_curve *c, const double *bin, double sigma, double samples)
+/* The bins of |x| from the one that `from` lies in to that of `to`, or to the last one before the first of few counts.
+ */
+static gg_tail_data tail_of(const double *bin, double sigma, double samples, const double range[2], double folded[HALF])
 {
-  double folded[HALF], width = WIDTH / sigma;
-  int from = (int)fmin(round(TAIL_FROM / width), HALF), n = 0;
-  for (; from + n < HALF; n++) {
+  const double width = WIDTH / sigma;
+  int from = (int)fmin(round(range[0] / width), HALF), n = 0;
+  for (; from + n < HALF && (from + n) * width <= range[1]; n++) {
     folded[n] = (bin[HALF - from - n] + bin[HALF + from + n]) * samples;
     if (folded[n] < LEAST_COUNT) break;
   }
-  gg_tail_data data = {folded, (size_t)n, (from - 0.5) * width, width, 2 * gg_histogram_height(bin, sigma) * samples};
+  return (gg_tail_data){folded, (size_t)n, (from - 0.5) * width, width, 2 * gg_histogram_height(bin, sigma) * samples};
+}
+
+/* Over the thesis's ranges. The bins have sigma, P(0) and what is slow in common: as numbers of the curve the fits have
+ * errors that know of it. */
+static void put_ranges(gg_curve *c, const double *bin, double sigma, double samples)
+{
+  double folded[HALF];
+  for (int k = 0; k < GG_TAIL_RANGES; k++) {
+    char name[sizeof c->number[0].name];
+    const gg_tail_data data = tail_of(bin, sigma, samples, gg_tail_range[k], folded);
+    const gg_tail fit = gg_tail_double_log(&data);
+    gg_tail_name(name, sizeof name, "alpha", gg_tail_range[k]);
+    gg_curve_put_number(c, name, fit.alpha, "1");
+    gg_tail_name(name, sizeof name, "gamma", gg_tail_range[k]);
+    gg_curve_put_number(c, name, fit.gamma, "1");
+  }
+}
+
+static void put_tail(gg_curve *c, const double *bin, double sigma, double samples)
+{
+  static const double whole[2] = {TAIL_FROM, INFINITY};
+  double folded[HALF];
+  const gg_tail_data data = tail_of(bin, sigma, samples, whole, folded);
   gg_tail least = gg_tail_double_log(&data), likely = gg_tail_likelihood(&data);
   gg_curve_put_number(c, "alpha", least.alpha, "1");
   gg_curve_put_number(c, "gamma", least.gamma, "1");
   gg_curve_put_number(c, "alpha_likelihood", likely.alpha, "1");
   gg_curve_put_number(c, "gamma_likelihood", likely.gamma, "1");
   gg_curve_put_setting(c, "fit_from", data.first, "1");
-  gg_curve_put_setting(c, "fit_to", data.first + n * width, "1");
+  gg_curve_put_setting(c, "fit_to", data.first + (double)data.n * data.width, "1");
+  put_ranges(c, bin, sigma, samples);
 }
 
 static double gaussian(double x, const double *none)

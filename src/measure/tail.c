@@ -1,6 +1,7 @@
 #include "measure/tail.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static const gg_tail nothing = {NAN, NAN};
 
@@ -73,4 +74,11 @@ gg_tail gg_tail_likelihood(const gg_tail_data *d)
     if (fabs(share * da) + fabs(share * db) < 1e-11) break;
   }
   return (gg_tail){alpha, exp(a)};
+}
+
+const double gg_tail_range[GG_TAIL_RANGES][2] = {{2, 4.5}, {3.3, 5.5}};
+
+void gg_tail_name(char *name, size_t size, const char *number, const double range[2])
+{
+  snprintf(name, size, "%s_%g_%g", number, range[0], range[1]);
 }

@@ -6,7 +6,7 @@
 
 #include "common/memory.h"
 #include "reproduce/panel.h"
-#include "reproduce/tail.h"
+#include "reproduce/straight.h"
 
 gg_told gg_find_zero(size_t n, const double *x, const double *y, const double *e)
 {

@@ -6,8 +6,8 @@
 
 #include "io/scene/json.h"
 #include "io/scene/reader.h"
+#include "measure/tail.h"
 #include "reproduce/points.h"
-#include "reproduce/tail.h"
 #include "theory/theory.h"
 
 static double real(const json_t *object, const char *key)
@@ -36,7 +36,8 @@ gg_told gg_figure_curve_number(const gg_figure_point *point, int engine, const c
                                const double tail[2])
 {
   const json_t *of = gg_figure_curve(point, engine, curve);
-  if (tail[0] < tail[1]) return gg_tail_fit(of, tail, strcmp(number, "alpha") == 0);
+  char over_range[40];
+  if (tail[0] < tail[1]) gg_tail_name(over_range, sizeof over_range, number, tail), number = over_range;
   return value_of(json_object_get(json_object_get(of, "numbers"), number));
 }
 

@@ -56,8 +56,9 @@ static void gaussian_grains(void **state)
     const struct {
       const char *name;
       double expected;
-    } numbers[] = {{"alpha", 2}, {"alpha_likelihood", 2}, {"gamma", 0.5}, {"gamma_likelihood", 0.5}};
-    for (int i = 0; i < 4; i++) {
+    } numbers[] = {{"alpha", 2},       {"alpha_likelihood", 2}, {"gamma", 0.5}, {"gamma_likelihood", 0.5},
+                   {"alpha_2_4.5", 2}, {"gamma_2_4.5", 0.5}};
+    for (int i = 0; i < 6; i++) {
       gg_curve_number p = ct_number(c, numbers[i].name);
       ct_expect(numbers[i].name, p.value, p.error, numbers[i].expected, 0.06);
     }

@@ -12,7 +12,7 @@
 #include "io/scene/reader.h"
 #include "reproduce/figures.h"
 #include "reproduce/points.h"
-#include "reproduce/tail.h"
+#include "reproduce/straight.h"
 
 static void near_to(double value, double expected, double within)
 {
@@ -55,31 +55,6 @@ static void powers(void **state)
   near_to(gg_find_power(6, x, y, e, true).mean, 2. / 3, 1e-12);
   near_to(gg_find_power(6, x, y, e, false).mean, 0.625, 1e-12);
   assert_true(gg_find_power(6, x, y, e, true).error > 0);
-}
-
-/* A tail that is exp(-0.6 x^1.7), over any range. */
-static void tails(void **state)
-{
-  (void)state;
-  json_t *curve = json_object(), *x = json_array(), *value = json_array(), *error = json_array();
-  for (int i = -40; i <= 40; i++) {
-    double at = 0.1 * i, p = exp(-0.6 * pow(fabs(at), 1.7));
-    json_array_append_new(x, json_real(at));
-    json_array_append_new(value, json_real(p));
-    json_array_append_new(error, json_real(0.01 * sqrt(p)));
-  }
-  json_object_set_new(curve, "x", x);
-  json_object_set_new(curve, "value", value);
-  json_object_set_new(curve, "stderr", error);
-  const double range[2] = {1.5, 3.2};
-  near_to(gg_tail_fit(curve, range, true).mean, 1.7, 1e-9);
-  near_to(gg_tail_fit(curve, range, false).mean, 0.6, 1e-9);
-  const double nowhere[2] = {50, 60}, two[2] = {1.45, 1.55};
-  assert_true(isnan(gg_tail_fit(curve, nowhere, true).mean));
-  for (size_t i = 0; i < 3; i++) json_array_set_new(value, 58 + i, json_null()); /* no samples in these */
-  near_to(gg_tail_fit(curve, range, true).mean, 1.7, 1e-9);
-  assert_true(isnan(gg_tail_fit(curve, two, true).mean));
-  json_decref(curve);
 }
 
 static void straight_lines(void **state)
@@ -158,13 +133,9 @@ static void conditions(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(where_it_vanishes),
-      cmocka_unit_test(where_it_is_least),
-      cmocka_unit_test(powers),
-      cmocka_unit_test(tails),
-      cmocka_unit_test(straight_lines),
-      cmocka_unit_test(conditions),
-      cmocka_unit_test(figures_by_name),
+      cmocka_unit_test(where_it_vanishes), cmocka_unit_test(where_it_is_least), cmocka_unit_test(powers),
+
+      cmocka_unit_test(straight_lines),    cmocka_unit_test(conditions),        cmocka_unit_test(figures_by_name),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
