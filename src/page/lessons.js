@@ -22,8 +22,8 @@ const LESSONS = [
     scene: "{flow: usf, phi: 0.1, particles: 1000, collision: {e: 0.9, beta: 0}}",
     title: ["Broken equipartition", "Gebrochene Gleichverteilung"],
     text: [
-      "Rough grains spin. In a gas at equilibrium every degree of freedom would hold the same energy, and θ would equal T. Here shear feeds only the motion of the centres, collisions pass some of it on to the spins, and lose some of both. So θ stays well below T: a thermometer of spins and one of speeds disagree.",
-      "Raue Körner drehen sich. Im Gleichgewicht hätte jeder Freiheitsgrad gleich viel Energie, θ wäre gleich T. Hier speist die Scherung nur die Bewegung der Mittelpunkte, Stöße geben einen Teil an die Drehungen weiter und verlieren von beidem. Darum bleibt θ weit unter T: Ein Thermometer für Drehungen zeigt anderes als eines für Geschwindigkeiten.",
+      "Rough grains spin. In a gas at equilibrium every degree of freedom would hold the same energy, and θ would equal T. Here shear feeds only the motion of the centres, collisions pass some of it on to the spins, and lose some of both. So θ is not T, and for most β far below it: a thermometer of spins and one of speeds disagree.",
+      "Raue Körner drehen sich. Im Gleichgewicht hätte jeder Freiheitsgrad gleich viel Energie, θ wäre gleich T. Hier speist die Scherung nur die Bewegung der Mittelpunkte, Stöße geben einen Teil an die Drehungen weiter und verlieren von beidem. Darum ist θ nicht T und liegt für die meisten β weit darunter: Ein Thermometer für Drehungen zeigt anderes als eines für Geschwindigkeiten.",
     ],
     question: [
       "For which β do spins and speeds come closest to the same temperature? Try β = 1, and then −0.9.",
@@ -67,12 +67,12 @@ const LESSONS = [
     scene: "{flow: usf, phi: 0.3, particles: 1000, collision: {e: 0.7}}",
     title: ["Where Enskog fails", "Wo Enskog versagt"],
     text: [
-      "Enskog's equation assumes molecular chaos: two grains that meet know nothing of each other. dsmc solves just that; md has no such assumption. In the dilute gas both agree. At φ = 0.3 and e = 0.7 grains that have met stay near each other and meet again, their velocities are alike, and md parts from dsmc: look at z.",
-      "Enskogs Gleichung nimmt molekulares Chaos an: Zwei Körner, die sich treffen, wissen nichts voneinander. dsmc löst genau das; md nimmt nichts an. Im dünnen Gas stimmen beide überein. Bei φ = 0,3 und e = 0,7 bleiben Körner nach dem Stoß beieinander und treffen sich wieder, ihre Geschwindigkeiten gleichen sich, und md trennt sich von dsmc: siehe z.",
+      "Enskog's equation assumes molecular chaos: two grains that meet know nothing of each other. dsmc solves just that; md has no such assumption. In the dilute gas, from φ = 0.01 down, both agree. At φ = 0.3 and e = 0.7 grains that have met stay near each other and meet again, their velocities are alike, and md parts from dsmc: look at z of the compressibility factor and of the viscosity. That of the temperature tells little there: shear heats md less, its collisions lose less, and in T the two nearly cancel.",
+      "Enskogs Gleichung nimmt molekulares Chaos an: Zwei Körner, die sich treffen, wissen nichts voneinander. dsmc löst genau das; md nimmt nichts an. Im dünnen Gas, ab φ = 0,01 abwärts, stimmen beide überein. Bei φ = 0,3 und e = 0,7 bleiben Körner nach dem Stoß beieinander und treffen sich wieder, ihre Geschwindigkeiten gleichen sich, und md trennt sich von dsmc: siehe z von Kompressibilitätsfaktor (compressibility_factor) und Viskosität (shear_viscosity). Das der Temperatur sagt dort wenig: Scherung heizt md weniger, seine Stöße kosten weniger, und in T hebt sich beides fast auf.",
     ],
     question: [
-      "How far must you lower φ, or raise e, until |z| of the temperature stays below 3?",
-      "Wie weit muss φ sinken oder e steigen, bis |z| der Temperatur unter 3 bleibt?",
+      "How far must you lower φ until |z| of the compressibility factor stays below 3? What does the temperature do on the way? And how far must you raise e, at φ = 0.3, until |z| of the viscosity does?",
+      "Wie weit muss φ sinken, bis |z| des Kompressibilitätsfaktors unter 3 bleibt? Was tut unterwegs die Temperatur? Und wie weit muss e bei φ = 0,3 steigen, bis |z| der Viskosität es tut?",
     ],
   },
   {
