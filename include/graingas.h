@@ -609,8 +609,8 @@ enum {                        /* what gg_export writes */
 };
 /* A result file as tables and a trajectory for other programs; the command's documents tell of the columns. All files
  * are written whole before the first appears, and none does if one could not be written (GG_BAD_FILE), is the result
- * file (GG_BAD_INPUT), or if the result has nothing of what `parts` asks for (GG_FAILED). `written` (may be NULL) is
- * called with the name of each. */
+ * file, if the prefix itself is a device or a pipe (both GG_BAD_INPUT), or if the result has nothing of what `parts`
+ * asks for (GG_FAILED). `written` (may be NULL) is called with the name of each. */
 GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                            void (*written)(void *context, const char *file), void *context, gg_error *err);
 

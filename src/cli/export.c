@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "cli/options.h"
 #include "cli/outputs.h"
@@ -44,6 +45,16 @@ static char *prefix_of(const gg_options *o)
   return ending ? gg_with_suffix(o->output, "") : strdup(o->output);
 }
 
+/* As it was typed: "x.csv" beside a folder x is a file's name, and x.h5 beside it is exported without --output. */
+static int check_output(const char *output)
+{
+  struct stat about;
+  if (!output || stat(output, &about) != 0 || !S_ISDIR(about.st_mode)) return GG_CLI_GO_ON;
+  const char *slash = output[strlen(output) - 1] == '/' ? "" : "/";
+  return gg_cli_fail(GG_BAD_INPUT, "%s: is a folder; give %s%sNAME, how the names of the files begin", output, output,
+                     slash);
+}
+
 /* The files go to standard output, for scripts. */
 static void tell(void *context, const char *file)
 {
@@ -65,6 +76,7 @@ static int export_parts(const gg_options *o)
   unsigned parts;
   bool quiet = o->quiet;
   int code = take_parts(o->only, &parts);
+  if (code == GG_CLI_GO_ON) code = check_output(o->output);
   if (code != GG_CLI_GO_ON) return code;
   char *prefix = prefix_of(o);
   if (!prefix) return gg_cli_fail(GG_FAILED, "out of memory");

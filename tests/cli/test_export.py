@@ -350,6 +350,21 @@ def test_refused():
     refused("'-' is no file to write", 2, "r.h5", "--output", "-")
     refused("need a prefix", 2, "r.h5", "--output", "")
     refused("need a prefix", 2, "r.h5", "--output", "there/")
+    os.mkdir("there")
+    refused("there: is a folder; give there/NAME", 2, "r.h5", "--output", "there")
+    refused("there/: is a folder; give there/NAME", 2, "r.h5", "--output", "there/")
+    os.mkdir("r")  # no prefix was asked for
+    check(exported("r.h5", "--only", "results").new == ["r.csv"])
+    check(exported("r.h5", "--only", "results", "--output", "there.csv").new == ["there.csv"])
+    for name in "there.csv", "r.csv":
+        os.remove(name)
+    for name in "r", "there":
+        os.rmdir(name)
+    os.mkfifo("pipe")  # nothing beside it; root could also leave files in /dev
+    os.symlink("/dev/null", "null")
+    for name in "pipe", "null":
+        refused(f"{name}: is a device or a pipe", 2, "r.h5", "--output", name)
+        os.remove(name)
     refused("export has no option '--json'", 2, "r.h5", "--json")
     refused("option '--output' needs a value", 2, "r.h5", "--output")
     refused("none.h5: cannot be read", 3, "none.h5")

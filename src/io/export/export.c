@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "common/memory.h"
 #include "io/c_locale.h"
@@ -90,6 +91,15 @@ static gg_status plan(job *j, const char *path, unsigned parts, gg_error *err)
   return j->n ? GG_OK : gg_fail(err, GG_FAILED, "%s: nothing to export: %s", path, lack(parts));
 }
 
+/* Who names a device or a pipe wants all to go there, and nothing beside it: in /dev it would stay. */
+static gg_status check_prefix(const char *prefix, gg_error *err)
+{
+  struct stat about;
+  if (stat(prefix, &about) != 0 || S_ISREG(about.st_mode) || S_ISDIR(about.st_mode)) return GG_OK;
+  return gg_fail(err, GG_BAD_INPUT,
+                 "%s: is a device or a pipe; tables and trajectories are files, whose names the prefix begins", prefix);
+}
+
 /* What stands there already, which is to be one file for each. */
 static gg_status look_at(job *j, size_t i, gg_error *err)
 {
@@ -175,7 +185,8 @@ gg_status gg_export_result(const gg_stored_result *stored, const char *path, con
   job *j = gg_new_array(1, sizeof *j, err);
   if (!j) return GG_FAILED;
   j->stored = stored, j->prefix = prefix;
-  gg_status status = plan(j, path, parts, err);
+  gg_status status = check_prefix(prefix, err);
+  if (status == GG_OK) status = plan(j, path, parts, err);
   if (status == GG_OK) status = open_all(j, path, err);
   if (status == GG_OK) status = write_all(j, err);
   for (size_t i = 0; i < j->n && status == GG_OK && written; i++) written(context, j->target[i].path);
