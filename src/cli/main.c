@@ -37,6 +37,12 @@ static bool ends_with(const char *text, const char *end)
   return length > tail && strcmp(text + length - tail, end) == 0;
 }
 
+static bool has_value(const char *word, const char *option)
+{
+  size_t length = strlen(option);
+  return strncmp(word, option, length) == 0 && word[length] == '=';
+}
+
 static int unknown(const char *word)
 {
   const char *known[16] = {"--help", "--version", NULL};
@@ -46,6 +52,8 @@ static int unknown(const char *word)
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is no command; for this scene, e.g. graingas compare %s", word, word);
   if (ends_with(word, ".h5"))
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is no command; for this result, e.g. graingas info %s", word, word);
+  for (int i = 0; i < 2; i++)
+    if (has_value(word, known[i])) return gg_cli_fail(GG_BAD_INPUT, "option '%s' takes no value", known[i]);
   for (const gg_option *o = gg_options_table; o->flag; o++)
     if (strncmp(word, "--", 2) == 0 && strcmp(o->name, word + 2) == 0)
       return gg_cli_fail(GG_BAD_INPUT, "options come after the command: graingas COMMAND %s ...", word);

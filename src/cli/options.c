@@ -91,6 +91,7 @@ static int refuse_option(const gg_command *c, const char *typed)
     list_takers(others, takers, sizeof takers);
     return gg_cli_fail(GG_BAD_INPUT, "%s has no option '%s', which is for %s", c->name, word, takers);
   }
+  if (strcmp(word, "--help") == 0) return gg_cli_fail(GG_BAD_INPUT, "option '--help' takes no value");
   known[n] = "help";
   const char *nearest = gg_nearest_word(name, known);
   if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; did you mean '--%s'?", word, nearest);
@@ -235,6 +236,8 @@ static int check_words(const gg_command *c, const gg_options *o)
   if (o->output && strcmp(o->output, "-") == 0)
     return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is no file to write%s",
                        c->options & GG_OPT_JSON ? "; --json prints to standard output" : "");
+  if (o->input && !*o->input)
+    return gg_cli_fail(GG_BAD_INPUT, "%s: the name given is empty; see graingas %s --help", c->name, c->name);
   if (o->input || c->arguments[0] == '[') return GG_CLI_GO_ON;
   return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
 }

@@ -69,9 +69,18 @@ def test_ways_to_ask():
                         (("run", "scene.yaml", "-json"), "unknown option '-json'; did you mean '--json'?"),
                         (("run", "-seed", "7", "scene.yaml"), "unknown option '-seed'; did you mean '--seed'?"),
                         (("run", "--output=x.h5", "-v", "scene.yaml"), "unknown option '-v'"),
+                        (("--help=1",), "option '--help' takes no value"),
+                        (("--version=1",), "option '--version' takes no value"),
+                        (("run", "--json=1"), "option '--json' takes no value"),
+                        (("run", "--helq=1"), "unknown option '--helq'; did you mean '--help'?"),
+                        (("run", "--set"), "option '--set' needs a value"),
                         (("info", "--json"), "needs a FILE")):
         done = run(*args)
         check(done.code == 2 and words in done.err and not done.out, args, done.err)
+    for command in COMMANDS:
+        check("option '--help' takes no value" in run(command, "--help=1").err, command)
+        done = run(command, "")
+        check(done.code == 2 and f"{command}: the name given is empty" in done.err, command, done.err)
     every = run("info")
     check(every.code == 0 and "dsmc.precision" in every.out and "default" not in every.out.split("\n")[0], every.err)
 
