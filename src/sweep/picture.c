@@ -9,8 +9,9 @@
 #include "io/plot/chart.h"
 #include "run/result.h"
 #include "sweep/collect.h"
+#include "sweep/combination.h"
 
-enum { MOST_PANELS = 6, MOST_SERIES = 64, GROUP = 160 };
+enum { MOST_PANELS = 6, MOST_SERIES = 64 };
 
 typedef struct axis_key {
   size_t varied, k;
@@ -21,10 +22,11 @@ typedef struct drawing {
   const gg_point_table *table;
   const gg_sweep *sweep;
   axis_key over;
-  char (*group)[GROUP];  /* of each point */
   double *x, *y, *error; /* room for every row */
   size_t used;
   gg_chart_series series[MOST_PANELS][MOST_SERIES];
+  size_t combination[MOST_PANELS][MOST_SERIES]; /* what tells series apart; names are for the legend */
+  char group[MOST_PANELS][MOST_SERIES][GG_COMBINATION_NAME];
   gg_chart_panel panel[MOST_PANELS];
   char quantity[MOST_PANELS][64], label[MOST_PANELS][64], x_label[96];
   const char *unit[MOST_PANELS]; /* of its numbers: phi = 0 has other units than phi > 0 */
@@ -65,22 +67,6 @@ static gg_status choose_key(drawing *d, const char *over, gg_error *err)
   return most > 1 ? GG_OK
                   : gg_fail(err, GG_FAILED,
                             "no varied key has numbers, which a picture's axis needs (picture none: the tables alone)");
-}
-
-/* "β = 0.5, φ = 0.1": the values of all keys that do not go with the axis. */
-static void name_group(const drawing *d, size_t point, char *text)
-{
-  size_t used = 0;
-  char symbol[64];
-  *text = '\0';
-  for (size_t f = 0; f < d->sweep->n_varied; f++) {
-    const gg_varied *v = &d->sweep->varied[f];
-    for (size_t k = 0; f != d->over.varied && k < v->n_keys && used < GROUP; k++) {
-      gg_chart_key(v->key[k], symbol, sizeof symbol, NULL);
-      used += (size_t)snprintf(text + used, GROUP - used, "%s%s = %s", used ? ", " : "", symbol,
-                               v->value[gg_sweep_row(d->sweep, point, f) * v->n_keys + k]);
-    }
-  }
 }
 
 static bool has_rows(const gg_point_table *t, const char *quantity)
@@ -153,17 +139,18 @@ static gg_status choose_quantities(drawing *d, gg_error *err)
 
 static gg_chart_series *series_for(drawing *d, size_t p, const gg_table_row *row)
 {
-  gg_chart_panel *panel = &d->panel[p];
-  const char *group = d->group[row->point];
-  for (size_t k = 0; k < panel->n; k++) {
-    gg_chart_series *s = &d->series[p][k];
-    if (strcmp(s->method, row->method) == 0 && strcmp(s->group ? s->group : "", group) == 0) return s;
-  }
-  if (panel->n == MOST_SERIES) return NULL;
-  gg_chart_series *s = &d->series[p][panel->n++];
-  *s = (gg_chart_series){
-      .method = row->method, .group = *group ? group : NULL, .style = row->theory ? GG_CHART_LINE : GG_CHART_POINTS};
-  return s;
+  const size_t n = d->panel[p].n, combination = gg_combination_of(d->sweep, row->point, d->over.varied);
+  for (size_t k = 0; k < n; k++)
+    if (d->combination[p][k] == combination && strcmp(d->series[p][k].method, row->method) == 0)
+      return &d->series[p][k];
+  if (n == MOST_SERIES) return NULL;
+  d->panel[p].n++;
+  d->combination[p][n] = combination;
+  gg_combination_name(d->sweep, combination, d->over.varied, d->group[p][n]);
+  d->series[p][n] = (gg_chart_series){.method = row->method,
+                                      .group = *d->group[p][n] ? d->group[p][n] : NULL,
+                                      .style = row->theory ? GG_CHART_LINE : GG_CHART_POINTS};
+  return &d->series[p][n];
 }
 
 /* Rows of one panel, counted first, so that each series has its stretch. */
@@ -219,7 +206,6 @@ static gg_status fill(drawing *d, gg_error *err)
 {
   const gg_varied *v = &d->sweep->varied[d->over.varied];
   const char *x_unit;
-  for (size_t i = 0; i < d->sweep->n; i++) name_group(d, i, d->group[i]);
   gg_chart_key(v->key[d->over.k], d->x_label, sizeof d->x_label, &x_unit);
   for (size_t p = 0; p < d->n; p++) {
     gg_quantity q = gg_quantity_find(d->quantity[p]);
@@ -253,12 +239,10 @@ gg_status gg_point_table_draw(const gg_point_table *t, const gg_sweep *sweep, co
   size_t room = t->n * MOST_PANELS;
   d->table = t;
   d->sweep = sweep;
-  d->group = gg_new_array(sweep->n, sizeof *d->group, err);
   d->x = gg_new_array(room, sizeof *d->x, err);
   d->y = gg_new_array(room, sizeof *d->y, err);
   d->error = gg_new_array(room, sizeof *d->error, err);
-  gg_status status = d->group && d->x && d->y && d->error ? draw(d, choice, picture, err) : GG_FAILED;
-  free(d->group);
+  gg_status status = d->x && d->y && d->error ? draw(d, choice, picture, err) : GG_FAILED;
   free(d->x);
   free(d->y);
   free(d->error);

@@ -5,6 +5,7 @@ import glob
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -133,6 +134,35 @@ def test_collect():
     done = run("sweep", "s.yaml", "--collect")
     check(done.code == 3 and of["6"] + ": holds another point: phi is 0.05 there, and 0.1 at" in done.err, done.err)
     check(not done.out and not done.new and rows("s.sweep.csv") == before, done.out)
+
+
+SPECIES = """[{fraction: 0.3333, diameter: 1.0, mass: 1.0, inertia: 0.4},
+   {fraction: 0.3333, diameter: 0.8, mass: 0.8, inertia: 0.4},
+   {fraction: 0.3334, diameter: 0.5, mass: %g, inertia: 0.4}]"""
+
+
+def drawn(vary, *args):
+    """The picture of a sweep of theories that take no time."""
+    write("flow: equilibrium\nsweep: {does: theory}\nvary: " + vary)
+    shutil.rmtree("s.sweep", ignore_errors=True)
+    done = run("sweep", "s.yaml", "--quiet")
+    check(done.code == 0, done.err)
+    done = run("sweep", "s.yaml", "--collect", "--show", "pressure", *args)
+    check(done.code == 0 and done.out.split()[-1] == "s.sweep.svg", done.out, done.err)
+    with open("s.sweep.svg") as f:
+        return f.read()
+
+
+def symbols(picture):
+    return len(re.findall("<use [^>]* transform='translate", picture))
+
+
+def test_lines_of_a_picture():
+    """One for each combination of the other keys, however long their values are; none through unrelated scenes."""
+    picture = drawn("\n species:\n  - %s\n  - %s\n phi: [0.1, 0.2]\n" % (SPECIES % 0.5, SPECIES % 0.25))
+    check("species = …mass: 0.5…<" in picture and "species = …mass: 0.25…<" in picture,
+          re.findall("species[^<]*", picture))
+    check(symbols(picture) == 0, "lines have no symbols")
 
 
 def kill_and_go_on(folder, threads, rng, extra=()):

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "graingas.h"
+#include "sweep/combination.h"
 
 #define SCENE "flow: usf\nphi: 0.1\nparticles: 100\n"
 
@@ -153,6 +154,36 @@ static void replicas(void **state)
   assert_int_equal(a.replicas, 1);
 }
 
+static void check_combination(const char *yaml, size_t i, size_t first, const char *name)
+{
+  char text[GG_COMBINATION_NAME];
+  gg_sweep *sweep = sweep_of(yaml);
+  assert_int_equal(gg_combination_of(sweep, i, 1), first);
+  gg_combination_name(sweep, first, 1, text);
+  assert_string_equal(text, name);
+  gg_sweep_free(sweep);
+}
+
+#define LONG "rheology, velocity_distributions, pair_correlation, "
+
+/* Of the keys beside the second one: told apart by rows, whatever of them there is room for. */
+static void combinations(void **state)
+{
+  (void)state;
+  const char *three = SCENE "vary: {collision.e: [0.7, 0.9], particles: [100, 200], phi: [0.1, 0.2, 0.3]}";
+  check_combination(three, 4, 1, "e = 0.7, φ = 0.2");
+  check_combination(three, 11, 8, "e = 0.9, φ = 0.3");
+  const char *lists = SCENE "vary: {measure: [[" LONG "cells], [" LONG "sonine]], phi: [0.1, 0.2]}";
+  check_combination(lists, 1, 0, "measure = …cells…");
+  check_combination(lists, 3, 2, "measure = …sonine…");
+  const char *cut = SCENE "vary: {measure: [[" LONG "cells], [cells, " LONG "sonine]], phi: [0.1, 0.2]}";
+  check_combination(cut, 1, 0, "measure = …rheology, velocity\\_distributions… (point 1)");
+  check_combination(cut, 3, 2, "measure = …cells, rheology, velocity\\_distri… (point 3)");
+  check_combination(SCENE "vary: [{collision.e: [0.7], collision.beta: [0]}, {phi: [0.1, 0.2]}, "
+                          "{md.contact_time: [0.0001], walls.e: [0.9], run.replicas: [2], run.warmup: [123456789]}]",
+                    1, 0, "e = 0.7, β = 0, md.contact\\_time = 0.0001, e_w = 0.9… (point 1)");
+}
+
 static void check_refused(const char *yaml, const char *key, const char *values, const char *words)
 {
   gg_error err = {0};
@@ -249,10 +280,10 @@ static void engines(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(grids),          cmocka_unit_test(zipped),  cmocka_unit_test(drawn),
-      cmocka_unit_test(names),          cmocka_unit_test(seeds),   cmocka_unit_test(replicas),
-      cmocka_unit_test(refusals),       cmocka_unit_test(engines), cmocka_unit_test(too_many_keys),
-      cmocka_unit_test(values_in_json),
+      cmocka_unit_test(grids),          cmocka_unit_test(zipped),       cmocka_unit_test(drawn),
+      cmocka_unit_test(names),          cmocka_unit_test(seeds),        cmocka_unit_test(replicas),
+      cmocka_unit_test(refusals),       cmocka_unit_test(engines),      cmocka_unit_test(too_many_keys),
+      cmocka_unit_test(values_in_json), cmocka_unit_test(combinations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
