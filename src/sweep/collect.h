@@ -15,7 +15,8 @@ typedef struct gg_picture_choice { /* NULL: chosen */
   const char *show;                /* quantities, with commas: a panel each */
 } gg_picture_choice;
 /* picture.c: a panel a quantity; over one key, a line for each combination of the others; engines as points, theories
- * as lines. GG_BAD_INPUT if no key has numbers, or one that is named is not there. */
+ * as lines, unless keys go together with that one. GG_BAD_INPUT if no key has numbers, or one that is named is not
+ * there. */
 gg_status gg_point_table_draw(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
                               const char *picture, gg_error *err);
 

@@ -22,6 +22,7 @@ typedef struct drawing {
   const gg_point_table *table;
   const gg_sweep *sweep;
   axis_key over;
+  bool neighbours;       /* points of a combination that are next to each other on the axis differ in that key alone */
   double *x, *y, *error; /* room for every row */
   size_t used;
   gg_chart_series series[MOST_PANELS][MOST_SERIES];
@@ -67,6 +68,16 @@ static gg_status choose_key(drawing *d, const char *over, gg_error *err)
   return most > 1 ? GG_OK
                   : gg_fail(err, GG_FAILED,
                             "no varied key has numbers, which a picture's axis needs (picture none: the tables alone)");
+}
+
+/* Rows and random draws: other keys may change with that of the axis, from one scene to an unrelated one. */
+static bool are_neighbours(const drawing *d)
+{
+  const gg_varied *v = &d->sweep->varied[d->over.varied];
+  for (size_t i = 1; i < v->n; i++)
+    for (size_t k = 0; k < v->n_keys; k++)
+      if (k != d->over.k && strcmp(v->value[i * v->n_keys + k], v->value[k]) != 0) return false;
+  return true;
 }
 
 static bool has_rows(const gg_point_table *t, const char *quantity)
@@ -149,7 +160,7 @@ static gg_chart_series *series_for(drawing *d, size_t p, const gg_table_row *row
   gg_combination_name(d->sweep, combination, d->over.varied, d->group[p][n]);
   d->series[p][n] = (gg_chart_series){.method = row->method,
                                       .group = *d->group[p][n] ? d->group[p][n] : NULL,
-                                      .style = row->theory ? GG_CHART_LINE : GG_CHART_POINTS};
+                                      .style = row->theory && d->neighbours ? GG_CHART_LINE : GG_CHART_POINTS};
   return &d->series[p][n];
 }
 
@@ -206,6 +217,7 @@ static gg_status fill(drawing *d, gg_error *err)
 {
   const gg_varied *v = &d->sweep->varied[d->over.varied];
   const char *x_unit;
+  d->neighbours = are_neighbours(d);
   gg_chart_key(v->key[d->over.k], d->x_label, sizeof d->x_label, &x_unit);
   for (size_t p = 0; p < d->n; p++) {
     gg_quantity q = gg_quantity_find(d->quantity[p]);

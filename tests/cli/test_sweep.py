@@ -163,6 +163,9 @@ def test_lines_of_a_picture():
     check("species = …mass: 0.5…<" in picture and "species = …mass: 0.25…<" in picture,
           re.findall("species[^<]*", picture))
     check(symbols(picture) == 0, "lines have no symbols")
+    for rows in "{random: {points: 4}, phi: 0.1..0.4, particles: 100..200}", "[{phi: [0.1, 0.2], particles: [9, 4]}]":
+        check(symbols(drawn(rows, "--over", "phi")) >= 2, "theories are points:", rows)
+    check(symbols(drawn("[{phi: [0.1, 0.2], particles: [100, 100]}]", "--over", "phi")) == 0)
 
 
 def kill_and_go_on(folder, threads, rng, extra=()):
