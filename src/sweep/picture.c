@@ -53,7 +53,7 @@ static bool has_numbers(const gg_sweep *sweep, axis_key a)
 /* The key that was asked for, or of those with numbers the one with the most values. */
 static gg_status choose_key(drawing *d, const char *over, gg_error *err)
 {
-  size_t most = 1;
+  size_t most = 0;
   const gg_sweep *s = d->sweep;
   for (size_t f = 0; f < s->n_varied; f++)
     for (size_t k = 0; k < s->varied[f].n_keys; k++) {
@@ -65,7 +65,7 @@ static gg_status choose_key(drawing *d, const char *over, gg_error *err)
       if (meant && over) return GG_OK;
     }
   if (over) return gg_fail(err, GG_BAD_INPUT, "'%.60s' is none of the keys that this sweep varies", over);
-  return most > 1 ? GG_OK
+  return most > 0 ? GG_OK
                   : gg_fail(err, GG_FAILED,
                             "no varied key has numbers, which a picture's axis needs (picture none: the tables alone)");
 }

@@ -168,6 +168,10 @@ def test_lines_of_a_picture():
     check(symbols(drawn("[{phi: [0.1, 0.2], particles: [100, 100]}]", "--over", "phi")) == 0)
 
 
+def test_an_axis_of_one_value():
+    check("φ" in drawn("{phi: 0.05}"))
+
+
 def kill_and_go_on(folder, threads, rng, extra=()):
     """Until it is through: kill -9 after a random time."""
     kills = 0
