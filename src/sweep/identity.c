@@ -104,12 +104,20 @@ gg_status gg_point_check(const gg_scene *scene, gg_does does, const json_t *stor
   return status;
 }
 
-/* 48 bits: a number of few digits, and whole in any reader's arithmetic. */
-uint64_t gg_point_seed(const gg_scene *scene, uint64_t seed)
+/* A length that is varied tells points apart; one that is not, and the replicas that follow from forecasts, may be
+ * changed, and the same run is longer. */
+static bool is_of_seed(const gg_field *f, const gg_sweep *sweep)
 {
   static const char *const none_of[] = {"engine", "run.", "output.", "measure", NULL};
+  return !begins(f->key, none_of) || (strncmp(f->key, "run.", 4) == 0 && gg_sweep_varies(sweep, f->key));
+}
+
+/* 48 bits: a number of few digits, and whole in any reader's arithmetic. */
+uint64_t gg_point_seed(const gg_sweep *sweep, const gg_scene *scene)
+{
+  const uint64_t seed = scene->run.seed;
   uint64_t sum = gg_checksum(GG_CHECKSUM_START, &seed, sizeof seed);
   for (const gg_field *f = gg_scene_fields; f->key; f++)
-    if (!begins(f->key, none_of)) sum = add_field(sum, f, scene);
+    if (is_of_seed(f, sweep)) sum = add_field(sum, f, scene);
   return mix(add_extension(sum, scene)) >> 16;
 }

@@ -72,8 +72,8 @@ uint64_t gg_point_id(const gg_scene *scene, gg_does does);
 /* Is the scene that a file at `path` holds, a JSON object, that of this point? GG_BAD_FILE names the first key that is
  * not. Keys that no number depends on may differ. */
 gg_status gg_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path, gg_error *err);
-/* The seed of a point with independent seeds: from `seed` and from what is simulated there, but not from how long or
- * what is measured. */
-uint64_t gg_point_seed(const gg_scene *scene, uint64_t seed);
+/* The seed of a point with independent seeds: from run.seed and from what is simulated there, but not from how long,
+ * unless that is varied, or what is measured. */
+uint64_t gg_point_seed(const gg_sweep *sweep, const gg_scene *scene);
 
 #endif

@@ -123,6 +123,32 @@ static void names(void **state)
   check_name(SCENE "vary: {collision.e: [0.8]}\nsweep: {at_once: 5}", true);
 }
 
+static void check_seeds(const char *vary, bool same)
+{
+  char yaml[200];
+  gg_sweep_point a, b;
+  snprintf(yaml, sizeof yaml, SCENE "vary: {%s}", vary);
+  gg_sweep *sweep = sweep_of(yaml);
+  gg_sweep_at(sweep, 0, &a, NULL);
+  gg_sweep_at(sweep, 1, &b, NULL);
+  if ((a.seed == b.seed) != same) fail_msg("%s: %llu, %llu", vary, (unsigned long long)a.seed, (long long)b.seed);
+  gg_sweep_free(sweep);
+}
+
+/* Points that differ in how long they run are runs of their own; not those where more is looked at. */
+static void seeds_of_lengths(void **state)
+{
+  (void)state;
+  check_seeds("run.replicas: [1, 2]", false);
+  check_seeds("run.collisions: [400, 800]", false);
+  check_seeds("run.warmup: [0, 2]", false);
+  check_seeds("run.relative_error: [0.01, 0.02]", false);
+  check_seeds("run.time_limit: [1, 2]", false);
+  check_seeds("measure: [[rheology], [cells]]", true);
+  check_seeds("engine: [md, dsmc]", true);
+  check_seeds("output.trajectory_every: [10, 20]", true);
+}
+
 /* Each point its own, the same where only length or engine differ; or the scene's for all. */
 static void seeds(void **state)
 {
@@ -283,7 +309,7 @@ int main(void)
       cmocka_unit_test(grids),          cmocka_unit_test(zipped),       cmocka_unit_test(drawn),
       cmocka_unit_test(names),          cmocka_unit_test(seeds),        cmocka_unit_test(replicas),
       cmocka_unit_test(refusals),       cmocka_unit_test(engines),      cmocka_unit_test(too_many_keys),
-      cmocka_unit_test(values_in_json), cmocka_unit_test(combinations),
+      cmocka_unit_test(values_in_json), cmocka_unit_test(combinations), cmocka_unit_test(seeds_of_lengths),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
