@@ -12,8 +12,8 @@ static const char seconds_caption[] =
     "Uniform shear: seconds of processor time, one core, warm-up included, until the true error (root of the mean "
     "square over seeds, against the truth of the next table) is 1, 0.1 and 0.01 %, with the way that is quickest; "
     "never: its floors are above; ?: they are not known so well. Beyond the times that were run by noise falling as "
-    "1/sqrt(time). kurtosis_Cx: the fourth moment. first: the engine that has it first at 1 %, and how many times "
-    "sooner";
+    "1/sqrt(time after the warm-up). kurtosis_Cx: the fourth moment. first: the engine that has it first at 1 %, and "
+    "how many times sooner";
 static const char floors_caption[] =
     "The truth, its relative error and where it is from; what the number of grains shifts a mean by, relative, times "
     "N (dsmc and md); a split step of h mean free times, times h^2, with the order that steps 1 and 0.5 give; and "
@@ -114,6 +114,7 @@ static void add_course(json_t *rows, const gg_error_state *s, int q, int i)
   json_object_set_new(row, "engine", json_string(gg_ways[i].engine == GG_MD ? "md" : "dsmc"));
   json_object_set_new(row, "particles", json_integer((json_int_t)gg_ways[i].n));
   json_object_set_new(row, "seeds", json_integer(c->seeds));
+  json_object_set_new(row, "warmup_seconds", number(c->warmup));
   json_object_set_new(row, "error_of_a_second", number(s->noise[i][q]));
   json_object_set_new(row, "floor", number(s->floor[i][q]));
   json_object_set_new(row, "floor_stderr", number(s->shift_error[i][q]));

@@ -46,6 +46,7 @@ static gg_status follow(gg_replicas *all, gg_course *c, int seed, double seconds
 {
   uint64_t window = 8;
   GG_TRY(warm_up(all, err));
+  c->warmup += seconds_of(all) / c->seeds;
   for (int k = 0; k < (seed ? c->marks : GG_COURSE_MARKS); k++, window += window / 2) {
     GG_TRY(advance_to(all, all->state.window_at + window, false, err));
     GG_TRY(note(all, c, k, seed, err));
@@ -92,7 +93,7 @@ double gg_course_noise(const gg_course *c, int q)
   for (int k = c->marks / 2; k < c->marks; k++, n++) {
     double mean, variance;
     moments(c, q, k, &mean, &variance);
-    sum += variance * c->seconds[k];
+    sum += variance * (c->seconds[k] - c->warmup);
   }
   return sqrt(sum / n);
 }

@@ -11,6 +11,7 @@ extern const gg_quantity gg_course_quantity[GG_COURSE_QUANTITIES];
 
 typedef struct gg_course {
   int seeds, marks;
+  double warmup;                                                       /* seconds, mean over seeds */
   double seconds[GG_COURSE_MARKS];                                     /* since the start, mean over seeds */
   double mean[GG_COURSE_QUANTITIES][GG_COURSE_MARKS][GG_COURSE_SEEDS]; /* over the window until then; NaN: none */
   double error[GG_COURSE_QUANTITIES]; /* that the first run claims of itself at its end */
@@ -26,8 +27,8 @@ typedef struct gg_course_end {
   double mean, error, scatter;
 } gg_course_end;
 gg_course_end gg_course_last(const gg_course *course, int quantity);
-/* Error of a run of one second whose only error is noise: scatter times the root of the time, over the later half of
- * the marks. */
+/* Error of a mean over one second, the warm-up apart, whose only error is noise: scatter times the root of the time
+ * averaged over, of the later half of the marks. */
 double gg_course_noise(const gg_course *course, int quantity);
 
 #endif

@@ -77,9 +77,11 @@ static bool wants_long_run(const gg_error_state *s, double seconds)
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     if (!s->rough && gg_course_quantity[q] == GG_Q_TEMPERATURE_RATIO) continue;
     double best = INFINITY;
-    for (int i = 0; i < GG_WAYS; i++)
-      if (s->done[i] && gg_ways[i].engine == GG_DSMC)
-        best = fmin(best, gg_course_noise(&s->course[i], q) / sqrt(seconds));
+    for (int i = 0; i < GG_WAYS; i++) {
+      const gg_course *c = &s->course[i];
+      if (s->done[i] && gg_ways[i].engine == GG_DSMC && seconds > c->warmup)
+        best = fmin(best, gg_course_noise(c, q) / sqrt(seconds - c->warmup));
+    }
     wants |= !s->source[GG_DSMC][q] || s->truth_error[GG_DSMC][q] > best / 10;
   }
   return wants;
@@ -175,5 +177,6 @@ double gg_seconds_to(const gg_error_state *s, int way, int q, double error)
   const double left = error * error - s->floor[way][q] * s->floor[way][q], unsure = s->shift_error[way][q];
   if (s->shift[way][q] - 2 * unsure > error) return INFINITY;
   if (!(left > 0) || unsure > error) return NAN;
-  return fmax(s->noise[way][q] * s->noise[way][q] / left, s->course[way].seconds[0]);
+  const gg_course *c = &s->course[way];
+  return fmax(c->warmup + s->noise[way][q] * s->noise[way][q] / left, c->seconds[0]);
 }

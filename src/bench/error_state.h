@@ -26,7 +26,7 @@ typedef struct gg_error_state {
   bool rough;
   bool done[GG_WAYS];
   gg_course course[GG_WAYS];
-  double noise[GG_WAYS][GG_COURSE_QUANTITIES]; /* relative, of a run of one second */
+  double noise[GG_WAYS][GG_COURSE_QUANTITIES]; /* relative, of a second without warm-up */
   /* Relative: what no time brings down, with its standard error; and as far as it can be told from 0. */
   double shift[GG_WAYS][GG_COURSE_QUANTITIES], shift_error[GG_WAYS][GG_COURSE_QUANTITIES];
   double floor[GG_WAYS][GG_COURSE_QUANTITIES];

@@ -46,6 +46,24 @@ static void made_up_runs(void **state)
   free(s);
 }
 
+/* Noise falls with the time that is averaged over, and the warm-up comes once: the same runs 0.05 s later, which is
+ * most of the first marks and 2 % of the last one. */
+static void warm_up(void **state)
+{
+  (void)state;
+  gg_error_state *s = calloc(1, sizeof *s);
+  gg_course *c = &s->course[WAY];
+  make_up(s);
+  c->warmup = 0.05;
+  for (int k = 0; k < MARKS; k++) c->seconds[k] += c->warmup;
+  assert_true(fabs(gg_course_noise(c, 0) - 0.1) < 1e-12);
+  s->noise[WAY][0] = 0.05, s->unit[0] = 2, s->truth[GG_DSMC][0] = 2;
+  assert_true(fabs(gg_seconds_to(s, WAY, 0, 0.01) - 25.05) < 1e-9);
+  assert_true(fabs(gg_seconds_to(s, WAY, 0, 1) - 0.0525) < 1e-9);
+  assert_true(gg_seconds_to(s, WAY, 0, 100) == c->seconds[0]);
+  free(s);
+}
+
 static void measured_state(void **state)
 {
   (void)state;
@@ -58,6 +76,7 @@ static void measured_state(void **state)
   for (int i = 0; i < GG_WAYS; i++) {
     const gg_course *c = &s->course[i];
     assert_true(s->done[i] && c->marks > 0 && c->seeds == 3);
+    assert_true(c->warmup > 0 && c->warmup < c->seconds[0]);
     for (int k = 1; k < c->marks; k++) assert_true(c->seconds[k] > c->seconds[k - 1]);
     for (int q = 0; q < 3; q++) {
       assert_true(s->noise[i][q] > 0 && s->floor[i][q] >= 0);
@@ -75,6 +94,7 @@ static void measured_state(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(made_up_runs), cmocka_unit_test(measured_state)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(made_up_runs), cmocka_unit_test(warm_up),
+                                     cmocka_unit_test(measured_state)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
