@@ -9,6 +9,7 @@
 #include "measure/observable.h"
 #include "run/memory.h"
 #include "run/replicas.h"
+#include "theory/theory_list.h"
 
 #define PROGRAM 18e6 /* bytes: the program and its libraries */
 #define BLOCKS 0.5e6 /* of the bins of an observable, in blocks */
@@ -147,6 +148,20 @@ static void plan_time(gg_forecast *f, const gg_scene *scene, const gg_model *m)
   for (int i = 0; i < f->n_costs; i++) added += f->cost[i].percent / 100;
   f->collisions = (double)p.warmup * GG_SAMPLING_INTERVAL + window;
   f->seconds = f->collisions * (double)m->n / 2 * (double)scene->run.replicas * f->ns * (1 + added) * 1e-9;
+}
+
+/* Enskog's equation solved without random numbers: quadratures over pairs of species, of which shear has the more; the
+ * viscosity of mixtures up to six species. All others are formulas, or small equations. */
+double gg_forecast_theories(const gg_model *m)
+{
+  enum { MOST_SHEARED = 8, MOST_VISCOUS = 6 };
+  const double formulas = 0.02, n = m->n_species;
+  const bool sheared = m->flow == GG_USF || m->flow == GG_HEATED_SHEAR;
+  if (!(gg_enskog_hermite.flows & GG_FLOW_BIT(m->flow)) || m->law.name) return formulas;
+  if (m->rule == GG_ROUGH && n == 1) return 0.9;
+  if (m->rule != GG_SMOOTH || (sheared && n > MOST_SHEARED)) return formulas;
+  if (sheared) return 1.5 * pow(n, 1.5);
+  return n > MOST_VISCOUS ? 1 : 0.5 + 0.4 * n * n;
 }
 
 /* Rows of the series that a run fills. */

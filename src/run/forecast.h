@@ -26,6 +26,10 @@ typedef struct gg_forecast {
 /* Of a finished scene, and the model of its engine. */
 gg_forecast gg_forecast_of(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
 
+/* Seconds of processor time for all theories of a model, right within a factor of three; longest where
+ * the program was built without the machine's own instructions. */
+double gg_forecast_theories(const gg_model *model);
+
 /* GG_FAILED, with what is needed and what is there, if this machine has not the memory. */
 gg_status gg_forecast_check_memory(const gg_forecast *forecast, const char *engine, int64_t replicas, gg_error *err);
 

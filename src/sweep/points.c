@@ -71,15 +71,20 @@ static int64_t replicas_for(const gg_forecast *f, double warmup, double longest)
   return (int64_t)fmax(1, fmin(fmin(wanted, worth), MOST));
 }
 
-/* Seconds of all engines that take part, and the replicas that it is shared among. */
+static gg_status add_theories(const gg_scene *scene, double *seconds, gg_error *err)
+{
+  gg_model model;
+  GG_TRY(gg_model_make(scene, GG_MD, &model, err));
+  *seconds += gg_forecast_theories(&model);
+  return GG_OK;
+}
+
+/* Seconds of all engines and theories that take part, and the replicas that it is shared among. */
 static gg_status forecast_point(const gg_sweep *sweep, gg_scene *scene, double *seconds, gg_error *err)
 {
   const gg_does does = sweep->settings.does;
   *seconds = 0;
-  if (does == GG_DOES_THEORY) {
-    gg_model model;
-    return gg_model_make(scene, GG_MD, &model, err);
-  }
+  if (does == GG_DOES_THEORY) return add_theories(scene, seconds, err);
   int64_t replicas = 1;
   gg_status some = GG_BAD_INPUT;
   const bool chosen = gg_scene_is_given(scene, "run.replicas");
@@ -94,6 +99,7 @@ static gg_status forecast_point(const gg_sweep *sweep, gg_scene *scene, double *
     if (n > replicas) replicas = n;
   }
   if (!chosen) scene->run.replicas = replicas;
+  if (some == GG_OK && does == GG_DOES_COMPARE) GG_TRY(add_theories(scene, seconds, err));
   return some;
 }
 

@@ -210,6 +210,30 @@ static void combinations(void **state)
                     1, 0, "e = 0.7, β = 0, md.contact\\_time = 0.0001, e_w = 0.9… (point 1)");
 }
 
+static double seconds_of(const char *yaml)
+{
+  gg_sweep_point a;
+  name_of(yaml, &a);
+  return a.cpu_seconds;
+}
+
+/* Theories take time, alone and in comparisons: that of the longest, and next to none where it does not apply. */
+static void theories_take_time(void **state)
+{
+  (void)state;
+  const double rough = seconds_of(SCENE "collision: {beta: 0}\nvary: {collision.e: [0.9]}\nsweep: {does: theory}");
+  assert_true(rough > 0.3 && rough < 3);
+  const double md = seconds_of(SCENE "run: {collisions: 10}\ncollision: {beta: 0}\nvary: {collision.e: [0.9]}");
+  const double all = seconds_of(SCENE "run: {collisions: 10}\ncollision: {beta: 0}\nvary: {collision.e: [0.9]}\n"
+                                      "sweep: {does: compare}");
+  assert_true(all > md + rough);
+  const char *species =
+      "flow: hss\nphi: 0.1\nvary: {species: [[{fraction: 0.5}, {fraction: 0.5, mass: 2}]]}\nsweep: {does: theory}";
+  assert_true(seconds_of(species) >
+              seconds_of("flow: hss\nphi: 0.1\nvary: {collision.e: [0.9]}\nsweep: {does: theory}"));
+  assert_true(seconds_of("flow: couette\nphi: 0.1\nvary: {collision.e: [0.9]}\nsweep: {does: theory}") < 0.1);
+}
+
 static void check_refused(const char *yaml, const char *key, const char *values, const char *words)
 {
   gg_error err = {0};
@@ -306,10 +330,19 @@ static void engines(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(grids),          cmocka_unit_test(zipped),       cmocka_unit_test(drawn),
-      cmocka_unit_test(names),          cmocka_unit_test(seeds),        cmocka_unit_test(replicas),
-      cmocka_unit_test(refusals),       cmocka_unit_test(engines),      cmocka_unit_test(too_many_keys),
-      cmocka_unit_test(values_in_json), cmocka_unit_test(combinations), cmocka_unit_test(seeds_of_lengths),
+      cmocka_unit_test(grids),
+      cmocka_unit_test(zipped),
+      cmocka_unit_test(drawn),
+      cmocka_unit_test(names),
+      cmocka_unit_test(seeds),
+      cmocka_unit_test(replicas),
+      cmocka_unit_test(refusals),
+      cmocka_unit_test(engines),
+      cmocka_unit_test(too_many_keys),
+      cmocka_unit_test(values_in_json),
+      cmocka_unit_test(combinations),
+      cmocka_unit_test(theories_take_time),
+      cmocka_unit_test(seeds_of_lengths),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
