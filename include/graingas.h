@@ -622,7 +622,7 @@ typedef struct gg_figure_needs {
   size_t points;
   double cpu_seconds; /* expected of all points, whether done or not */
   double shared;      /* the part of it for points that figures before it in the list have, too */
-  int64_t particles;  /* of the largest box */
+  int64_t particles;  /* of the largest box or ensemble */
   int md, dsmc;       /* which engines run */
 } gg_figure_needs;
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/engine.h"
 #include "common/memory.h"
 #include "door/door.h"
 #include "io/c_locale.h"
@@ -32,6 +33,25 @@ static gg_status note(seen *s, const char *name, gg_error *err)
   return GG_OK;
 }
 
+static int64_t larger(int64_t a, int64_t b)
+{
+  return a > b ? a : b;
+}
+
+/* Which engines a point asks for, and how many grains of each. */
+static void note_engines(gg_figure_needs *needs, const gg_scene *scene, bool both)
+{
+  gg_model m;
+  if (both || scene->engine == GG_MD) {
+    needs->md = true;
+    needs->particles = larger(needs->particles, scene->particles);
+  }
+  if (both || scene->engine == GG_DSMC) {
+    needs->dsmc = true;
+    if (gg_model_make(scene, GG_DSMC, &m, NULL) == GG_OK) needs->particles = larger(needs->particles, m.n);
+  }
+}
+
 /* How many points, which engines, and how long they will take. */
 static gg_status needs_of(const gg_figure_entry *entry, bool quick, gg_figure_needs *needs, seen *before, gg_error *err)
 {
@@ -52,9 +72,7 @@ static gg_status needs_of(const gg_figure_entry *entry, bool quick, gg_figure_ne
         needs->shared += point.cpu_seconds;
       else
         status = note(before, point.name, err);
-      needs->md |= both || scene->engine == GG_MD;
-      needs->dsmc |= both || scene->engine == GG_DSMC;
-      if (scene->particles > needs->particles) needs->particles = scene->particles;
+      note_engines(needs, scene, both);
       gg_scene_free(scene);
     }
     gg_sweep_free(sweeps[s]);
