@@ -1,5 +1,6 @@
 #include "sweep/document.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,10 +9,21 @@
 #include "io/whole_json.h"
 #include "sweep/folder.h"
 
+/* Digits alone, beyond the whole numbers that a double holds: seeds. */
+static bool is_whole(const char *text, long long *n)
+{
+  char *end;
+  errno = 0;
+  *n = strtoll(text, &end, 10);
+  return end != text && !*end && errno == 0;
+}
+
 json_t *gg_point_value(const gg_sweep *sweep, size_t i, size_t varied, size_t k)
 {
   const gg_varied *v = &sweep->varied[varied];
   const char *text = v->value[gg_sweep_row(sweep, i, varied) * v->n_keys + k];
+  long long n;
+  if (is_whole(text, &n)) return json_integer(n);
   char *end;
   double x = strtod(text, &end);
   if (*end || end == text || !isfinite(x)) return json_string(text);

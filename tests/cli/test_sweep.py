@@ -283,6 +283,8 @@ def test_whole_numbers():
     for vary in "collision.e=0.5:0.500000000001:1e-13", "run.seed=9007199254740990:9007199254740993:1":
         done = run("sweep", "s.yaml", "--vary", vary, "--list")
         check(done.code == 2 and "lost in the digits" in done.err, done.err)
+    done = run("sweep", "s.yaml", "--vary", "run.seed=9007199254740993,1e3", "--list", "--json")
+    check({p["keys"]["run.seed"] for p in json.loads(done.out)["points"]} == {9007199254740993, 1000}, done.out)
     done = run("sweep", "s.yaml", "--list", "--json", "--output", b"\xff")
     check(done.code == 0 and json.loads(done.out)["folder"] == "?", done.out, done.err)
 
