@@ -42,7 +42,7 @@ static bool rough_and_moderate(const gg_model *m)
 }
 static bool moderate(const gg_model *m)
 {
-  return m->shear_rate != 0 && m->phi > 0.02 && m->phi <= 0.3;
+  return m->shear_rate != 0 && m->phi > 0.01 && m->phi <= 0.3;
 }
 static bool clusters(const gg_model *m)
 {
@@ -51,7 +51,7 @@ static bool clusters(const gg_model *m)
 }
 static bool unsteady_beyond_theory(const gg_model *m)
 {
-  return m->phi <= 0.02;
+  return m->phi <= 0.01;
 }
 
 static const struct {
