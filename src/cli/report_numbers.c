@@ -10,9 +10,9 @@
 /* Left to --all: where a fit began, second ways to the same number, what stands among the quantities already. */
 static bool is_minor(const char *name)
 {
-  static const char *const minor[] = {"fit_",    "_likelihood",   "kurtosis",       "skewness",   "rate_unit",
-                                      "knudsen", "cells",         "solid_fraction", "_corrected", "_slabs",
-                                      "_box",    "second_moment", "long_time_tail"};
+  static const char *const minor[] = {"fit_",       "_likelihood", "kurtosis", "skewness",      "rate_unit",
+                                      "_2_4.5",     "_3.3_5.5",    "knudsen",  "cells",         "solid_fraction",
+                                      "_corrected", "_slabs",      "_box",     "second_moment", "long_time_tail"};
   for (size_t i = 0; i < sizeof minor / sizeof *minor; i++)
     if (strstr(name, minor[i])) return true;
   return false;
