@@ -80,5 +80,6 @@ const double gg_tail_range[GG_TAIL_RANGES][2] = {{2, 4.5}, {3.3, 5.5}};
 
 void gg_tail_name(char *name, size_t size, const char *number, const double range[2])
 {
-  snprintf(name, size, "%s_%g_%g", number, range[0], range[1]);
+  const char *of = range[0] == gg_tail_range[0][0] ? "2_4.5" : "3.3_5.5"; /* whatever the locale's point */
+  snprintf(name, size, "%s_%s", number, of);
 }

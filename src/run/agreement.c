@@ -51,7 +51,7 @@ static bool clusters(const gg_model *m)
 }
 static bool unsteady_beyond_theory(const gg_model *m)
 {
-  return m->phi <= 0.01;
+  return m->phi <= 0.02 && !moderate(m);
 }
 
 static const struct {

@@ -49,16 +49,16 @@ gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *a, gg_error *e
   return GG_OK;
 }
 
-/* Samples that every replica has taken: they are not level where the run was stopped within a stretch. */
-static gg_status least_samples(const gg_archive *a, uint64_t *least, gg_error *err)
+/* Samples that every replica has taken, at most `due`: they are not level where a run was stopped within a stretch. */
+static uint64_t least_samples(const gg_archive *a, uint64_t due)
 {
+  uint64_t least = due;
   for (int i = 0;; i++) {
     char name[48];
     struct gg_replica_clock clock;
     snprintf(name, sizeof name, "replica%d/replica/clock", i);
-    if (!gg_archive_find(a, name)) return GG_OK;
-    GG_TRY(gg_archive_get(a, name, GG_ITEM_U8, &clock, sizeof clock, err));
-    if (clock.samples < *least) *least = clock.samples;
+    if (gg_archive_get(a, name, GG_ITEM_U8, &clock, sizeof clock, NULL) != GG_OK) return least;
+    if (clock.samples < least) least = clock.samples;
   }
 }
 
@@ -66,8 +66,7 @@ gg_status gg_run_how_far(const gg_archive *a, gg_checkpoint_part *part, gg_error
 {
   struct gg_replicas_state state;
   GG_TRY(gg_archive_get(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
-  uint64_t taken = state.due;
-  GG_TRY(least_samples(a, &taken, err));
+  const uint64_t taken = least_samples(a, state.due);
   double window = state.averaging && taken > state.window_at ? (double)(taken - state.window_at) : 0;
   part->phase = state.averaging ? "averaging" : "warm-up";
   part->collisions_per_grain = (double)taken * GG_SAMPLING_INTERVAL;

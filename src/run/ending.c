@@ -36,15 +36,13 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
                    "%s: nothing is measured: nobody can tell whether the asked relative error %g is "
                    "reached",
                    engine, plan->relative_error);
-  if (window < plan->least || !c->trusted)
+  const bool cut = out_of_time(all) || (plan->most && window >= plan->most);
+  if (cut && (window < plan->least || !c->trusted))
     return gg_fail(
         err, GG_FAILED,
         "%s: %s after %.0f collisions a grain of averaging, too few to know whether the asked relative error %g is "
         "reached",
-        engine,
-        out_of_time(all)                     ? "the time limit struck"
-        : plan->most && window >= plan->most ? "run.collisions ended the run"
-                                             : "no end was found",
+        engine, out_of_time(all) ? "the time limit struck" : "run.collisions ended the run",
         collisions_a_grain(all, true), plan->relative_error);
   if (c->relative_error <= plan->relative_error) return GG_OK;
   const char *why = out_of_time(all) ? "the time limit struck; " : "";
@@ -56,24 +54,29 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
 }
 
 /* An error that was asked for counts even where run.collisions ended the run first. */
-gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err)
+static gg_status check_goal(const gg_replicas *all, const char *engine, gg_error *err)
 {
-  const char *engine = all->replica[0].engine->ops->name;
   const gg_plan *plan = &all->plan;
   const bool by_error = plan->relative_error > 0;
-  if (all->state.standstill > 0)
-    return gg_fail(err, GG_FAILED,
-                   "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
-                   "last, and fall under the contact-time rule; hard spheres need a flow",
-                   engine, 100 * all->state.standstill);
-  if (out_of_time(all) && all->state.wall > plan->time_limit)
-    return gg_fail(err, GG_FAILED,
-                   "%s: the time limit of %g s was over before: it counts from the run's first start; to go on, give "
-                   "run.time_limit a larger value",
-                   engine, plan->time_limit);
   if (!all->state.averaging || (!by_error && plan->most && window_of(all) < plan->most))
     return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
                    collisions_a_grain(all, false),
                    all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
   return by_error ? check_error(all, engine, err) : GG_OK;
+}
+
+gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err)
+{
+  const char *engine = all->replica[0].engine->ops->name;
+  if (all->state.standstill > 0)
+    return gg_fail(err, GG_FAILED,
+                   "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
+                   "last, and fall under the contact-time rule; hard spheres need a flow",
+                   engine, 100 * all->state.standstill);
+  gg_status status = check_goal(all, engine, err);
+  if (status == GG_OK || !out_of_time(all) || !(all->state.wall > all->plan.time_limit)) return status;
+  return gg_fail(err, GG_FAILED,
+                 "%s: the time limit of %g s was over before: it counts from the run's first start; to go on, give "
+                 "run.time_limit a larger value",
+                 engine, all->plan.time_limit);
 }

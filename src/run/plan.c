@@ -52,6 +52,12 @@ static bool never_the_same(const gg_model *m)
   return !m->steady || (m->law.name && gg_flow_cools(m->flow));
 }
 
+static bool has_headline(const gg_model *m)
+{
+  gg_quantity list[GG_N_QUANTITIES];
+  return gg_headline(m, list) > 0;
+}
+
 gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
 {
   gg_plan p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
@@ -68,6 +74,9 @@ gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
   } else if (never_the_same(model)) { /* nothing to wait for; follow it for as long as asked, or for a while */
     p.relative_error = 0;
     if (!p.most) p.most = samples_for(model->steady ? GG_COLLISIONS_FOLLOWED : 1000);
+  } else if (!has_headline(model)) { /* nothing whose error could be asked for: the shortest window */
+    p.relative_error = 0;
+    if (!p.most) p.most = p.least;
   }
   return p;
 }

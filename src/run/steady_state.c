@@ -41,7 +41,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
     tell_trend(c, happened, text, size);
   } else if (window < all->plan.least) {
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
-             happened, (double)all->plan.least * GG_SAMPLING_INTERVAL);
+             happened, (double)all->plan.least * happened / (double)window);
   } else if (all->model.linear_response) {
     result->steadiness = GG_STEADY;
     gg_linear_response s = gg_linear_response_of(&all->model);

@@ -170,8 +170,8 @@ const gg_condition gg_if_contact_value = {
 const gg_condition gg_if_lossy = {.holds = is_lossy, .otherwise = "where no collision loses energy"};
 const gg_condition gg_if_error = {
     .holds = has_error,
-    .otherwise = "on a gas without such means: elastic and sheared, elastic and left alone, or cooling by a law of "
-                 "restitution"};
+    .otherwise = "but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, or "
+                 "cooling by a law"};
 const gg_condition gg_if_rough = {.holds = some_rough, .otherwise = "on smooth grains, which do not spin"};
 const gg_condition gg_if_law = {.holds = has_law, .otherwise = "while collision.law is constant"};
 const gg_condition gg_if_sticking = {.holds = some_beta, .otherwise = "while collision.beta is -1: smooth grains"};

@@ -109,7 +109,7 @@ gg_status gg_point_check(const gg_scene *scene, gg_does does, const json_t *stor
 static bool is_of_seed(const gg_field *f, const gg_sweep *sweep)
 {
   static const char *const none_of[] = {"engine", "run.", "output.", "measure", NULL};
-  return !begins(f->key, none_of) || (strncmp(f->key, "run.", 4) == 0 && gg_sweep_varies(sweep, f->key));
+  return !begins(f->key, none_of) || (strncmp(f->key, "run.", 4) == 0 && gg_sweep_sets(sweep, f->key));
 }
 
 /* 48 bits: a number of few digits, and whole in any reader's arithmetic. */

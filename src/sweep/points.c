@@ -109,7 +109,7 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, doubl
   GG_TRY(set_values(sweep, i, scene, err));
   GG_TRY(gg_scene_finish(scene, err));
   GG_TRY(forecast_point(sweep, scene, seconds, err));
-  if (sweep->settings.seeds == GG_SEEDS_INDEPENDENT && !gg_sweep_varies(sweep, "run.seed"))
+  if (sweep->settings.seeds == GG_SEEDS_INDEPENDENT && !gg_sweep_sets(sweep, "run.seed"))
     scene->run.seed = gg_point_seed(sweep, scene);
   return GG_OK;
 }

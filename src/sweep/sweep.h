@@ -55,6 +55,8 @@ void gg_varied_clear(gg_varied *varied);
 gg_status gg_sweep_add(gg_sweep *sweep, gg_varied *varied, gg_error *err);
 /* Is the key varied? */
 bool gg_sweep_varies(const gg_sweep *sweep, const char *key);
+/* The same, also as a member of its section: vary: {run: [{seed: 1}, {seed: 2}]} sets run.seed. */
+bool gg_sweep_sets(const gg_sweep *sweep, const char *key);
 
 /* points.c: how many there are, 0: more than GG_MOST_POINTS; the row of one of the varied at point i. */
 size_t gg_sweep_count(const gg_sweep *sweep);

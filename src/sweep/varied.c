@@ -21,6 +21,28 @@ bool gg_sweep_varies(const gg_sweep *sweep, const char *key)
   return false;
 }
 
+/* Is the member among those that a value of the section names? */
+static bool names_member(const gg_varied *v, size_t k, const char *member)
+{
+  for (size_t i = 0; i < v->n; i++)
+    if (strstr(v->value[i * v->n_keys + k], member)) return true;
+  return false;
+}
+
+bool gg_sweep_sets(const gg_sweep *sweep, const char *key)
+{
+  const char *dot = strchr(key, '.');
+  if (gg_sweep_varies(sweep, key)) return true;
+  if (!dot) return false;
+  const size_t length = (size_t)(dot - key);
+  for (size_t f = 0; f < sweep->n_varied; f++) {
+    const gg_varied *v = &sweep->varied[f];
+    for (size_t k = 0; k < v->n_keys; k++)
+      if (strncmp(v->key[k], key, length) == 0 && !v->key[k][length] && names_member(v, k, dot + 1)) return true;
+  }
+  return false;
+}
+
 static gg_status check_new(const gg_sweep *sweep, const gg_varied *v, gg_error *err)
 {
   if (sweep->n_varied == GG_MOST_VARIED)

@@ -85,8 +85,8 @@ def test_time_limit():
 def test_time_limit_before_a_checkpoint():
     """The limit counts from the first start, and says so; how far the run is are the collisions that there were."""
     with open("scene.yaml", "w") as f:
-        f.write("{flow: usf, phi: 0.3, particles: 4000, run: {relative_error: 1e-5, time_limit: 1.5}, "
-                "output: {checkpoint_every: 1000}}")
+        f.write("{flow: usf, phi: 0.3, particles: 4000, run: {relative_error: 1e-5, time_limit: %g}, "
+                "output: {checkpoint_every: 1000}}" % (1.5 * PATIENCE))
     done = run("run", "scene.yaml", "--json", "--quiet")
     check(done.code == 1 and "the time limit struck" in done.err, done.code, done.err)
     there = 2 * json.loads(done.out)["total"]["collisions"] / 4000

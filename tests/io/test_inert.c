@@ -116,8 +116,8 @@ static void asked_errors(void **state)
 {
   (void)state;
   static const char none[] =
-      "run.relative_error has no effect on a gas without such means: elastic and sheared, elastic "
-      "and left alone, or cooling by a law of restitution";
+      "run.relative_error has no effect but on the ensemble's size, in a gas without such means: "
+      "elastic and sheared, elastic and alone, or cooling by a law";
   assert_line("{flow: usf, phi: 0.1, collision: {e: 1}, run: {relative_error: 0.1}}", BOTH, none);
   assert_line("{flow: hcs, phi: 0.1, collision: {e: 1}, run: {relative_error: 0.1}}", BOTH, none);
   assert_line("{flow: hcs, phi: 0.1, collision: {law: viscoelastic}, run: {relative_error: 0.1}}", BOTH, none);

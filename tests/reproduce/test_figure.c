@@ -159,6 +159,7 @@ static void every_kind(void **state)
     assert_string_equal(t.number[1].where, "table 1");
     assert_true(isnan(t.number[2].md)); /* least at an end: T rises with e */
     assert_true(t.number[4].md < -0.3 && t.number[4].md > -3);
+    assert_true(fabs(t.number[6].md - 2) < 1.5);
     assert_true(isnan(t.number[7].md) && isnan(t.number[7].md_z));
     const char *table = text_of("out/thesis-9.09.csv");
     for (int panel = 1; panel <= 8; panel++) {

@@ -144,6 +144,7 @@ static void seeds_of_lengths(void **state)
   check_seeds("run.warmup: [0, 2]", false);
   check_seeds("run.relative_error: [0.01, 0.02]", false);
   check_seeds("run.time_limit: [1, 2]", false);
+  check_seeds("run: [{collisions: 10}, {collisions: 20}]", false);
   check_seeds("measure: [[rheology], [cells]]", true);
   check_seeds("engine: [md, dsmc]", true);
   check_seeds("output.trajectory_every: [10, 20]", true);

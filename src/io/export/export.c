@@ -95,7 +95,8 @@ static gg_status plan(job *j, const char *path, unsigned parts, gg_error *err)
 static gg_status check_prefix(const char *prefix, gg_error *err)
 {
   struct stat about;
-  if (stat(prefix, &about) != 0 || S_ISREG(about.st_mode) || S_ISDIR(about.st_mode)) return GG_OK;
+  const bool in_dev = strncmp(prefix, "/dev/", 5) == 0 || strncmp(prefix, "/proc/", 6) == 0; /* /dev/stdout > file */
+  if (stat(prefix, &about) != 0 || (!in_dev && S_ISREG(about.st_mode)) || S_ISDIR(about.st_mode)) return GG_OK;
   return gg_fail(err, GG_BAD_INPUT,
                  "%s: is a device or a pipe; tables and trajectories are files, whose names the prefix begins", prefix);
 }
