@@ -9,7 +9,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_LINKS = 40 }; /* as many as the system follows */
+enum {
+  MOST_LINKS = 40, /* as many as the system follows */
+  MOST_LOOKS = 20  /* that another writer may spoil, one after the other */
+};
 
 gg_status gg_cannot_write(const char *path, const char *why, gg_error *err)
 {
@@ -79,9 +82,6 @@ static bool is_pinned(const char *target, const struct stat *about)
  * root, too, who could write all the same. */
 static gg_status check_file(const gg_output_path *place, const char *path, gg_error *err)
 {
-  struct stat target;
-  if (stat(place->target, &target) != 0 || !is_one(&target, &place->about))
-    return gg_cannot_write(path, "it is an open file without a name", err);
   if (!(place->about.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)))
     return gg_cannot_write(path, "it is write-protected", err);
   int fd = open(place->target, O_WRONLY | O_CLOEXEC);
@@ -92,7 +92,7 @@ static gg_status check_file(const gg_output_path *place, const char *path, gg_er
   return GG_OK;
 }
 
-static gg_status check(gg_output_path *place, const char *path, gg_error *err)
+static gg_status check(gg_output_path *place, const char *path, bool named, gg_error *err)
 {
   const mode_t mode = place->about.st_mode;
   if (S_ISDIR(mode)) return gg_cannot_write(path, strerror(EISDIR), err);
@@ -101,18 +101,35 @@ static gg_status check(gg_output_path *place, const char *path, gg_error *err)
     return gg_cannot_write(path, "standard output is for tables and messages; choose a file", err);
   place->stream = !S_ISREG(mode);
   place->there = !place->stream;
-  return place->there ? check_file(place, path, err) : GG_OK;
+  if (!place->there) return GG_OK;
+  return named ? check_file(place, path, err) : gg_cannot_write(path, "it is an open file without a name", err);
 }
 
+/* What is there, and is it what stands at the end of the links? */
+static gg_status look(gg_output_path *place, const char *path, bool *something, bool *named, gg_error *err)
+{
+  struct stat target;
+  *something = stat(path, &place->about) == 0;
+  if (!*something && errno != ENOENT) return gg_cannot_write(path, strerror(errno), err);
+  place->target = gg_follow_links(path);
+  if (!place->target) return gg_cannot_write(path, strerror(ENOMEM), err);
+  *named = *something &&
+           (!S_ISREG(place->about.st_mode) || (stat(place->target, &target) == 0 && is_one(&target, &place->about)));
+  return GG_OK;
+}
+
+/* Between the two looks at a name another writer may have put a new file there: then both are taken again. */
 gg_status gg_output_path_find(gg_output_path *place, const char *path, gg_error *err)
 {
   *place = (gg_output_path){0};
   if (!*path) return gg_fail(err, GG_BAD_INPUT, "a file to write has an empty name");
-  bool something = stat(path, &place->about) == 0;
-  if (!something && errno != ENOENT) return gg_cannot_write(path, strerror(errno), err);
-  place->target = gg_follow_links(path);
-  if (!place->target) return gg_cannot_write(path, strerror(ENOMEM), err);
-  gg_status status = something ? check(place, path, err) : GG_OK;
+  bool something = true, named = false;
+  gg_status status = GG_OK;
+  for (int i = 0; i < MOST_LOOKS && status == GG_OK && something && !named; i++) {
+    gg_output_path_clear(place);
+    status = look(place, path, &something, &named, err);
+  }
+  if (status == GG_OK && something) status = check(place, path, named, err);
   if (status != GG_OK) gg_output_path_clear(place);
   return status;
 }

@@ -7,6 +7,8 @@
 #include <cmocka.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +20,7 @@
 #include <unistd.h>
 
 #include "io/atomic_file.h"
+#include "io/output_path.h"
 
 static char folder[] = "/tmp/graingas-output-XXXXXX";
 
@@ -185,12 +188,47 @@ static void streams(void **state)
   unlink("pipe");
 }
 
+static atomic_bool found_all;
+
+/* Another writer: a new file takes the place of the last, all the time. */
+static void *replace(void *unused)
+{
+  while (!found_all) {
+    int fd = open("new", O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0 || close(fd) != 0 || rename("new", "file") != 0) return &found_all;
+  }
+  return unused;
+}
+
+/* What stands at a name is looked at twice, and may have been replaced between: that is no reason to refuse it. */
+static void replaced_while_looked_at(void **state)
+{
+  (void)state;
+  pthread_t other;
+  void *failed;
+  gg_output_path place;
+  gg_error err;
+  int refused = 0;
+  put("file", "one");
+  assert_int_equal(pthread_create(&other, NULL, replace, NULL), 0);
+  for (int i = 0; i < 20000; i++) {
+    if (gg_output_path_find(&place, "file", &err) != GG_OK) refused++;
+    gg_output_path_clear(&place);
+  }
+  found_all = true;
+  assert_int_equal(pthread_join(other, &failed), 0);
+  assert_null(failed);
+  if (refused > 0) fail_msg("%d times of 20000: %s", refused, err.message);
+  unlink("file"), unlink("new");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(links_are_followed),   cmocka_unit_test(mode_is_kept),
-      cmocka_unit_test(one_writer_at_a_time), cmocka_unit_test(without_locks),
-      cmocka_unit_test(what_the_dead_left),   cmocka_unit_test(streams),
+      cmocka_unit_test(links_are_followed),       cmocka_unit_test(mode_is_kept),
+      cmocka_unit_test(one_writer_at_a_time),     cmocka_unit_test(without_locks),
+      cmocka_unit_test(what_the_dead_left),       cmocka_unit_test(streams),
+      cmocka_unit_test(replaced_while_looked_at),
   };
   return cmocka_run_group_tests(tests, enter, leave);
 }
