@@ -12,7 +12,7 @@ import threading
 from tap import GRAINGAS, PATIENCE, check, main
 
 SCENE = ("flow: usf\nphi: 0.2\nparticles: 300\ndsmc: {particles: 2000}\ncollision: {e: 0.9}\n"
-         "run: {collisions: 1e8, warmup: 20, time_limit: 1.2, replicas: 2}\n")
+         f"run: {{collisions: 1e8, warmup: 20, time_limit: {1.2 * PATIENCE}, replicas: 2}}\n")
 SWEEP = "flow: usf\nphi: 0.2\nparticles: 200\nrun: {collisions: 3000}\nvary: {phi: [0.1, 0.2, 0.3]}\n"
 WIDTH = 44
 

@@ -12,7 +12,11 @@
 enum { LOOKS = 30, LOOKS_OF_MANY = 2, MANY = 100000, STEPS = 400, STEPS_OF_MANY = 10 };
 
 /* A corner crawls that takes more processor time: seconds, and collisions in one of them. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define CRAWLS_AFTER 1200.0
+#else
 #define CRAWLS_AFTER 60.0
+#endif
 #define CRAWLS_BELOW 1e5
 
 static double cpu_now(void)
