@@ -85,9 +85,11 @@ double gg_model_widest(const gg_model *model);
 double gg_model_narrowest(const gg_model *model);
 
 /* Collisions per grain that the slowest of T, theta, mean spin needs to relax by a factor 1/e, estimated from two-
- * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); and, of elastic mixtures, the temperatures of the
- * species. At least 1. */
+ * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); and, where T is scaled or conserved and so does not
+ * relax, the temperatures of the species. At least 1. */
 double gg_model_relaxation(const gg_model *model);
+/* The same of a gas that cools: the larger of 3/(4A) and 3/(4C), be T scaled or not. */
+double gg_model_cooling(const gg_model *model);
 /* The same of the temperatures of elastic species, if nothing else went on; 0 of one species. */
 double gg_model_sharing(const gg_model *model);
 

@@ -28,16 +28,42 @@ static void add_shares(const gg_model *m, int i, int j, double *A, double *C)
   *C += share * exchange;
 }
 
-double gg_model_relaxation(const gg_model *m)
+/* Collisions per grain in which what a species loses, and what it shares with its spins, falls to 1/e: the slowest. */
+static void slowest_of(const gg_model *m, double *loss, double *spins)
 {
-  double slowest = m->elastic && m->steady ? gg_model_sharing(m) : 0;
+  *loss = *spins = 0;
   for (int i = 0; i < m->n_species; i++) {
     double A = 0, C = 0;
     for (int j = 0; j < m->n_species; j++) add_shares(m, i, j, &A, &C);
-    if (A > 0 && !m->elastic) slowest = fmax(slowest, 0.75 / A);
-    if (C > 0) slowest = fmax(slowest, 0.75 / C);
+    if (A > 0 && !m->elastic) *loss = fmax(*loss, 0.75 / A);
+    if (C > 0) *spins = fmax(*spins, 0.75 / C);
   }
-  return fmax(slowest, 1);
+}
+
+double gg_model_cooling(const gg_model *m)
+{
+  double loss, spins;
+  slowest_of(m, &loss, &spins);
+  return fmax(fmax(loss, spins), 1);
+}
+
+/* Scaled, T itself does not relax. What is left of the loss is that of some species being larger than that of others,
+ * beside the exchange between them: the rates add up. */
+static double of_temperatures(const gg_model *m, double loss)
+{
+  const bool scaled = gg_flow_cools(m->flow) || m->thermostat == GG_GAUSSIAN;
+  if (m->elastic || scaled) {
+    const double sharing = m->steady ? gg_model_sharing(m) : 0;
+    return sharing > 0 && loss > 0 ? 1 / (1 / sharing + 1 / loss) : sharing;
+  }
+  return loss;
+}
+
+double gg_model_relaxation(const gg_model *m)
+{
+  double loss, spins;
+  slowest_of(m, &loss, &spins);
+  return fmax(fmax(of_temperatures(m, loss), spins), 1);
 }
 
 /* In diameters of a grain of the mean volume; n d^3 and n d^2 nu/rate are free of the temperature. */

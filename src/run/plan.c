@@ -27,7 +27,7 @@ static uint64_t samples_for(double collisions)
 static double sweep_length(const gg_model *m)
 {
   gg_linear_response s = gg_linear_response_of(m);
-  if (s.cools) return 2 * M_LN2 * s.power * gg_model_relaxation(m);
+  if (s.cools) return 2 * M_LN2 * s.power * gg_model_cooling(m);
   return 1.25 * m->chi[0] * 1.5 * (1 / (s.low * s.low) - 1 / (s.high * s.high));
 }
 

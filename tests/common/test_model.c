@@ -107,12 +107,37 @@ static void loss_to_others(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
-  s.flow = GG_HCS, s.phi = 0.1, s.n_species = 2;
+  s.flow = GG_USF, s.phi = 0.1, s.n_species = 2;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
   s.collision.e[gg_pair(0, 1)] = 0.8;
   gg_model m = make(&s);
   near(gg_model_relaxation(&m), 2 * 0.75 / (0.9 * 0.1), 1e-12);
+}
+
+/* Where T is scaled it does not relax: a smooth gas has nothing slow, and equal species share as elastic ones do, only
+ * faster; how fast it cools, which a sweep of the shear rate counts in, is as before. */
+static void scaled_temperature(void **state)
+{
+  (void)state;
+  const double e = 0.9999, loss = 0.75 / ((1 - e * e) / 4);
+  gg_scene s = gg_scene_defaults();
+  s.phi = 0.1, s.collision.e[0] = e;
+  s.flow = GG_HCS;
+  gg_model m = make(&s);
+  near(gg_model_relaxation(&m), 1, 0);
+  near(gg_model_cooling(&m), loss, 1e-9);
+  s.flow = GG_HSS, s.thermostat = GG_GAUSSIAN;
+  m = make(&s);
+  near(gg_model_relaxation(&m), 1, 0);
+  s.thermostat = GG_WHITE_NOISE; /* T is what the noise makes it */
+  m = make(&s);
+  near(gg_model_relaxation(&m), loss, 1e-9);
+  s.flow = GG_HCS, s.thermostat = GG_NO_THERMOSTAT, s.n_species = 2;
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
+  for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = e;
+  m = make(&s);
+  near(gg_model_relaxation(&m), 1 / (1 / 1.5 + 1 / loss), 1e-9);
 }
 
 /* Elastic and steady are seen as such; relaxation slows down towards beta = -1 and e = 1. */
@@ -275,6 +300,7 @@ int main(void)
       cmocka_unit_test(kinds),
       cmocka_unit_test(sharing_of_energy),
       cmocka_unit_test(loss_to_others),
+      cmocka_unit_test(scaled_temperature),
       cmocka_unit_test(rates_and_units),
       cmocka_unit_test(noise_replaces_losses),
       cmocka_unit_test(units_of_rates),
