@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "common/engine.h"
 #include "common/memory.h"
@@ -66,6 +68,27 @@ static gg_status lock_checkpoint(gg_door_run *r, gg_error *err)
   return status;
 }
 
+/* Before the run: at its end, with the results in place, there may be no memory for a name. */
+static gg_status name_passing(gg_door_run *r, gg_error *err)
+{
+  const char *path = r->options.checkpoint;
+  char *frames = gg_frame_log_path(path);
+  r->passing[0] = gg_follow_links(path);
+  r->passing[1] = gg_checkpoint_before(path);
+  r->passing[2] = frames ? gg_follow_links(frames) : NULL;
+  free(frames);
+  return r->passing[0] && r->passing[1] && r->passing[2] ? GG_OK : gg_out_of_memory(err);
+}
+
+static gg_status begin_checkpoints(gg_door_run *r, gg_error *err)
+{
+  const gg_run_options *o = &r->options;
+  if (o->checkpoint) GG_TRY(lock_checkpoint(r, err));
+  if (o->resume) GG_TRY(read_resume(r, err));
+  r->goes_on_there = o->checkpoint && r->resume.n_items > 0 && gg_is_checkpoint_of(o->resume, o->checkpoint);
+  return o->checkpoint ? name_passing(r, err) : GG_OK;
+}
+
 gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
                             gg_hooks *hooks, gg_error *err)
 {
@@ -84,8 +107,7 @@ gg_status gg_door_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_
   GG_TRY(gg_door_finished(scene, &r->scene, err));
   GG_TRY(gg_model_make(&r->scene, r->scene.engine, &r->model, err));
   GG_TRY(gg_door_check_files(r, err));
-  if (r->options.checkpoint) GG_TRY(lock_checkpoint(r, err));
-  if (r->options.resume) GG_TRY(read_resume(r, err));
+  GG_TRY(begin_checkpoints(r, err));
   if (r->options.output) GG_TRY(gg_result_file_open(&r->file, r->options.output, r->options.command, err));
   r->file.file.stop = (gg_stop){is_stopped, r};
   return gg_door_check_picture(r, err);
@@ -97,6 +119,7 @@ void gg_door_run_end(gg_door_run *r)
   gg_door_trajectory_end(r);
   gg_file_lock_release(&r->lock);
   gg_archive_clear(&r->resume);
+  for (size_t i = 0; i < sizeof r->passing / sizeof *r->passing; i++) free(r->passing[i]);
   gg_text_list_clear(&r->warnings);
 }
 
@@ -108,11 +131,10 @@ const gg_archive *gg_door_run_resume(const gg_door_run *r)
 /* All is done and the result in place: the run's own checkpoints have had their day. */
 static void remove_checkpoints(gg_door_run *r)
 {
-  const gg_run_options *o = &r->options;
-  bool own = r->stored || (o->resume && gg_is_checkpoint_of(o->resume, o->checkpoint));
-  if (!o->output || !o->checkpoint || !own) return;
-  gg_checkpoint_remove(o->checkpoint);
-  gg_door_trajectory_remove(r);
+  struct stat about;
+  if (!r->options.output || !r->options.checkpoint || !(r->stored || r->goes_on_there)) return;
+  for (size_t i = 0; i < sizeof r->passing / sizeof *r->passing; i++)
+    if (stat(r->passing[i], &about) == 0 && S_ISREG(about.st_mode)) unlink(r->passing[i]);
 }
 
 gg_status gg_door_run_close(gg_door_run *r, gg_door_point *point, bool some, gg_status status, gg_status written,
@@ -157,9 +179,9 @@ gg_status gg_door_run_by(gg_door_point *point, const gg_scene *scene, const gg_r
   gg_door_run run;
   gg_hooks hooks;
   gg_error why = {0};
-  gg_status status = gg_door_run_begin(&run, scene, options, false, &hooks, err), written = GG_OK;
   gg_result *made = NULL;
   const bool before = gg_memory_begin();
+  gg_status status = gg_door_run_begin(&run, scene, options, false, &hooks, err), written = GG_OK;
   gg_engine_kind engine = run.scene.engine;
   hooks.crew = crew;
   if (status == GG_OK && gg_engine_ops_of(engine)->accepts(&run.model, NULL) == GG_OK)
@@ -169,7 +191,7 @@ gg_status gg_door_run_by(gg_door_point *point, const gg_scene *scene, const gg_r
   if (status == GG_OK)
     status = gg_run_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, &made, err);
   for (size_t i = 0; made && i < run.warnings.n; i++) gg_result_warn(made, "%s", run.warnings.text[i]);
-  if (gg_memory_end(before) && status == GG_OK) { /* it lacks a warning */
+  if (gg_memory_end(before) && status == GG_OK) { /* it lacks a warning, or worse */
     gg_result_free(made);
     made = NULL;
     status = gg_out_of_memory(err);

@@ -21,6 +21,8 @@ typedef struct gg_door_run {
   bool comparison;       /* of both engines */
   bool ran;              /* all before the run itself went well */
   bool resume_lost;      /* what it was to go on from cannot be gone on from */
+  bool goes_on_there;    /* from what is beside its own checkpoint */
+  char *passing[3];      /* to be removed once it is done: its checkpoint, the one before, the log of its frames */
   gg_text_list warnings; /* of the scene, for what it is used for */
   atomic_bool stopped;
   gg_file_lock lock; /* of options.checkpoint */
@@ -65,8 +67,6 @@ gg_status gg_door_trajectory_mark(const gg_door_run *run, gg_archive *archive, g
 uint64_t gg_door_trajectory_frames(const gg_archive *archive);
 /* Before the result is written. */
 gg_status gg_door_trajectory_finish(gg_door_run *run, gg_result *result, gg_error *err);
-/* The log, of a run that is done. */
-void gg_door_trajectory_remove(const gg_door_run *run);
 void gg_door_trajectory_end(gg_door_run *run);
 /* The status of a run whose output was or was not written: the worse of the two, with both messages. */
 gg_status gg_door_run_status(gg_status run, gg_status written, const gg_error *why, gg_error *err);

@@ -111,18 +111,12 @@ static gg_status check_place(const char *path, gg_error *err)
   return stream ? gg_cannot_write(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
 }
 
-/* Does the run go on from what is beside its checkpoint? */
-static bool goes_on_there(const gg_door_run *r)
-{
-  return r->resume.n_items > 0 && gg_is_checkpoint_of(r->options.resume, r->options.checkpoint);
-}
-
 static gg_status open_log(gg_door_run *r, const gg_frame_log *earlier, gg_error *err)
 {
   char *path = gg_frame_log_path(r->options.checkpoint), *target = path ? gg_follow_links(path) : NULL;
   gg_status status = target ? check_place(path, err) : gg_out_of_memory(err);
   if (status == GG_OK) {
-    bool there = earlier->fd >= 0 ? gg_frame_log_is_at(earlier, target) : goes_on_there(r);
+    bool there = earlier->fd >= 0 ? gg_frame_log_is_at(earlier, target) : r->goes_on_there;
     status = there ? gg_frame_log_open(&r->log, target, err) : gg_frame_log_open_new(&r->log, target, err);
   }
   free(target);
@@ -135,7 +129,7 @@ static gg_frame_mark mark_there(const gg_door_run *r)
 {
   gg_frame_mark mark = {0};
   gg_archive there = {0};
-  bool older, on = goes_on_there(r);
+  bool older, on = r->goes_on_there;
   if (!on && gg_checkpoint_read(r->options.checkpoint, &there, &older, NULL) != GG_OK) return mark;
   if (gg_archive_get(on ? &r->resume : &there, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) != GG_OK)
     mark = (gg_frame_mark){0};
@@ -153,7 +147,7 @@ static gg_status settle(gg_door_run *r, const char *path, const char *fresh, gg_
   bool needed = log.fd >= 0 && gg_frame_log_is_at(&log, fresh);
   gg_frame_log_close(&log);
   if (status == GG_INTERRUPTED) return status;
-  if (needed) gg_checkpoint_remove_before(r->options.checkpoint);
+  if (needed) GG_TRY(gg_checkpoint_remove_before(r->options.checkpoint, err));
   if ((needed ? rename(fresh, path) : unlink(fresh)) != 0) return gg_cannot_write(fresh, strerror(errno), err);
   return GG_OK;
 }
@@ -218,14 +212,6 @@ gg_status gg_door_trajectory_finish(gg_door_run *r, gg_result *result, gg_error 
 {
   if (r->late) gg_result_warn(result, "the trajectory begins where the run was resumed: it was not asked for before");
   return r->log.fd >= 0 ? gg_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
-}
-
-void gg_door_trajectory_remove(const gg_door_run *r)
-{
-  char *path = gg_frame_log_path(r->options.checkpoint), *real = path ? gg_follow_links(path) : NULL;
-  if (real) unlink(real);
-  free(real);
-  free(path);
 }
 
 void gg_door_trajectory_end(gg_door_run *r)

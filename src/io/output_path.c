@@ -9,6 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "common/memory.h"
+
 enum {
   MOST_LINKS = 40, /* as many as the system follows */
   MOST_LOOKS = 20  /* that another writer may spoil, one after the other */
@@ -44,12 +46,14 @@ static char *follow_one(const char *link)
 char *gg_follow_links(const char *path)
 {
   struct stat about;
+  errno = 0;
   char *at = strdup(path);
   for (int i = 0; at && lstat(at, &about) == 0 && S_ISLNK(about.st_mode); i++) {
     char *next = i < MOST_LINKS ? follow_one(at) : NULL;
     free(at);
     at = next;
   }
+  if (!at && errno == ENOMEM) gg_memory_lacked();
   return at;
 }
 
@@ -149,6 +153,7 @@ static bool same_name(const char *a, const char *b)
   for (int i = 0; same && i < 2; i++) {
     folder[i] = folder_of(target[i]), copy[i] = strdup(target[i]);
     same = folder[i] && copy[i];
+    if (!same) gg_memory_lacked();
   }
   same = same && stat(folder[0], &one) == 0 && stat(folder[1], &two) == 0 && is_one(&one, &two) &&
          strcmp(basename(copy[0]), basename(copy[1])) == 0;

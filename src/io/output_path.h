@@ -20,13 +20,15 @@ typedef struct gg_output_path {
 gg_status gg_output_path_find(gg_output_path *place, const char *path, gg_error *err);
 void gg_output_path_clear(gg_output_path *place);
 
-/* Where symbolic links lead in the end, also if nothing stands there; to be freed. NULL: nowhere, or out of memory. */
+/* Where symbolic links lead in the end, also if nothing stands there; to be freed. NULL: nowhere, or out of memory,
+ * which is noted. */
 char *gg_follow_links(const char *path);
 
 /* "PATH: cannot be written: WHY", GG_BAD_FILE. */
 gg_status gg_cannot_write(const char *path, const char *why, gg_error *err);
 
-/* Would both be one file? By what stands there, or where nothing does, by folder and name. Devices are never one. */
+/* Would both be one file? By what stands there, or where nothing does, by folder and name. Devices are never one.
+ * Not for want of memory, which is noted. */
 bool gg_same_file(const char *a, const char *b);
 
 #endif

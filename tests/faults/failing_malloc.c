@@ -34,6 +34,7 @@ static struct {
   bool last;
   uint64_t at;
   const char *in;
+  bool (*begun)(void);
   _Atomic uint64_t calls, faults;
   void *trace[FRAMES];
   int depth;
@@ -80,9 +81,16 @@ void failing_malloc_arm(uint64_t at, int last, const char *in)
   atomic_store(&state.armed, true);
 }
 
+void failing_malloc_arm_from(bool (*begun)(void))
+{
+  failing_malloc_arm(1, true, NULL);
+  state.begun = begun;
+}
+
 uint64_t failing_malloc_disarm(uint64_t *faults)
 {
   atomic_store(&state.armed, false);
+  state.begun = NULL;
   if (faults) *faults = atomic_load(&state.faults);
   return atomic_load(&state.calls);
 }
@@ -127,6 +135,7 @@ static bool count(const void *caller, uint64_t *number)
 {
   *number = 0;
   if (!atomic_load(&state.armed) || (state.in && !is_in(caller, state.in))) return false;
+  if (state.begun && !state.begun()) return false;
   *number = atomic_fetch_add(&state.calls, 1) + 1;
   if (*number != state.at && !(state.last && *number > state.at)) return false;
   if (atomic_fetch_add(&state.faults, 1) == 0) state.depth = backtrace(state.trace, FRAMES);

@@ -8,11 +8,14 @@
 #ifndef GG_FAILING_MALLOC_H
 #define GG_FAILING_MALLOC_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
 /* From now on allocations count; `in` as above, or NULL. */
 void failing_malloc_arm(uint64_t at, int last, const char *in);
+/* All allocations fail from the one on at which `begun` is true; before it none counts. */
+void failing_malloc_arm_from(bool (*begun)(void));
 /* No longer. How many there were, and of these how many failed. */
 uint64_t failing_malloc_disarm(uint64_t *faults);
 /* Where the first one failed: library+offset(name) ..., from the innermost call on. */

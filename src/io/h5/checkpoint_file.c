@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "common/memory.h"
@@ -116,8 +115,7 @@ gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *a
 gg_status gg_checkpoint_replace(const char *path, const gg_archive *a, const gg_scene *scene, gg_error *err)
 {
   GG_TRY(write_it(path, true, false, a, scene, err));
-  gg_checkpoint_remove_before(path);
-  return GG_OK;
+  return gg_checkpoint_remove_before(path, err);
 }
 
 static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
@@ -160,20 +158,27 @@ gg_status gg_checkpoint_read(const char *path, gg_archive *a, bool *older, gg_er
   gg_status status = read_file(path, a, err);
   *older = false;
   if (status != GG_BAD_FILE) return status;
+  char *before = gg_checkpoint_before(path);
+  if (before) *older = read_file(before, a, NULL) == GG_OK;
+  free(before);
+  return *older ? GG_OK : status;
+}
+
+char *gg_checkpoint_before(const char *path)
+{
   char *target = gg_follow_links(path), *before = NULL;
-  if (target && asprintf(&before, "%s.1", target) >= 0) {
-    *older = read_file(before, a, NULL) == GG_OK;
-    free(before);
+  if (target && asprintf(&before, "%s.1", target) < 0) {
+    gg_memory_lacked();
+    before = NULL;
   }
   free(target);
-  return *older ? GG_OK : status;
+  return before;
 }
 
 bool gg_is_checkpoint_of(const char *file, const char *path)
 {
-  char *before;
   if (gg_same_file(file, path)) return true;
-  if (asprintf(&before, "%s.1", path) < 0) return false;
+  char *before = gg_checkpoint_before(path);
   bool is = gg_same_file(file, before);
   free(before);
   return is;
@@ -191,21 +196,11 @@ char *gg_checkpoint_scene(const char *path, bool older)
   return yaml;
 }
 
-void gg_checkpoint_remove_before(const char *path)
+gg_status gg_checkpoint_remove_before(const char *path, gg_error *err)
 {
-  char *target = gg_follow_links(path), *before = NULL;
-  if (target && asprintf(&before, "%s.1", target) >= 0) {
-    unlink(before);
-    free(before);
-  }
-  free(target);
-}
-
-void gg_checkpoint_remove(const char *path)
-{
-  struct stat about;
-  char *target = gg_follow_links(path);
-  if (target && stat(target, &about) == 0 && S_ISREG(about.st_mode)) unlink(target);
-  free(target);
-  gg_checkpoint_remove_before(path);
+  char *before = gg_checkpoint_before(path);
+  if (!before) return gg_out_of_memory(err);
+  unlink(before);
+  free(before);
+  return GG_OK;
 }

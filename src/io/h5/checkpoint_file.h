@@ -18,12 +18,12 @@ gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *a
 /* The first of a run that does not go on from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was
  * there is removed, since neither is a fall-back of this run. The caller holds the lock. */
 gg_status gg_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene, gg_error *err);
+/* What FILE.1 is called where links lead from FILE; to be freed. NULL: nowhere, or out of memory, which is noted. */
+char *gg_checkpoint_before(const char *path);
 /* Remove FILE.1. */
-void gg_checkpoint_remove_before(const char *path);
-/* Remove FILE and FILE.1: the run that they were of is done. */
-void gg_checkpoint_remove(const char *path);
+gg_status gg_checkpoint_remove_before(const char *path, gg_error *err);
 
-/* Is it FILE or FILE.1 of this path? */
+/* Is it FILE or FILE.1 of this path? Not for want of memory, which is noted. */
 bool gg_is_checkpoint_of(const char *file, const char *path);
 
 #define GG_CHECKPOINTS_ARE "checkpoints take each other's place, and are files"

@@ -46,13 +46,14 @@ gg_status gg_checkpoint_replace(const char *path, const gg_archive *archive, con
   (void)archive, (void)scene;
   return refuse(path, err);
 }
-void gg_checkpoint_remove_before(const char *path)
+char *gg_checkpoint_before(const char *path)
 {
   (void)path;
+  return NULL;
 }
-void gg_checkpoint_remove(const char *path)
+gg_status gg_checkpoint_remove_before(const char *path, gg_error *err)
 {
-  (void)path;
+  return refuse(path, err);
 }
 bool gg_is_checkpoint_of(const char *file, const char *path)
 {
