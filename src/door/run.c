@@ -73,11 +73,13 @@ static gg_status name_passing(gg_door_run *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
   char *frames = gg_frame_log_path(path);
-  r->passing[0] = gg_follow_links(path);
-  r->passing[1] = gg_checkpoint_before(path);
-  r->passing[2] = frames ? gg_follow_links(frames) : NULL;
+  r->passing[GG_PASSING_CHECKPOINT] = gg_follow_links(path);
+  r->passing[GG_PASSING_BEFORE] = gg_checkpoint_before(path);
+  r->passing[GG_PASSING_FRAMES] = frames ? gg_follow_links(frames) : NULL;
   free(frames);
-  return r->passing[0] && r->passing[1] && r->passing[2] ? GG_OK : gg_out_of_memory(err);
+  for (int i = 0; i < GG_PASSINGS; i++)
+    if (!r->passing[i]) return gg_out_of_memory(err);
+  return GG_OK;
 }
 
 static gg_status begin_checkpoints(gg_door_run *r, gg_error *err)
@@ -119,7 +121,7 @@ void gg_door_run_end(gg_door_run *r)
   gg_door_trajectory_end(r);
   gg_file_lock_release(&r->lock);
   gg_archive_clear(&r->resume);
-  for (size_t i = 0; i < sizeof r->passing / sizeof *r->passing; i++) free(r->passing[i]);
+  for (int i = 0; i < GG_PASSINGS; i++) free(r->passing[i]);
   gg_text_list_clear(&r->warnings);
 }
 
@@ -133,7 +135,7 @@ static void remove_checkpoints(gg_door_run *r)
 {
   struct stat about;
   if (!r->options.output || !r->options.checkpoint || !(r->stored || r->goes_on_there)) return;
-  for (size_t i = 0; i < sizeof r->passing / sizeof *r->passing; i++)
+  for (int i = 0; i < GG_PASSINGS; i++)
     if (stat(r->passing[i], &about) == 0 && S_ISREG(about.st_mode)) unlink(r->passing[i]);
 }
 

@@ -9,21 +9,24 @@
 #include "io/h5/result_file.h"
 #include "run/run.h"
 
+/* Files that are to be removed once the run is done, by where links lead. */
+enum { GG_PASSING_CHECKPOINT, GG_PASSING_BEFORE, GG_PASSING_FRAMES, GG_PASSINGS };
+
 typedef struct gg_door_run {
   gg_run_options options;
-  gg_scene scene;        /* finished */
-  gg_archive resume;     /* empty: from the start */
-  gg_result_file file;   /* of options.output */
-  gg_model model;        /* of the frames */
-  gg_frame_log log;      /* of the frames of a run that keeps checkpoints */
-  bool late;             /* frames before the resumption were not asked for */
-  bool stored;           /* a checkpoint */
-  bool comparison;       /* of both engines */
-  bool ran;              /* all before the run itself went well */
-  bool resume_lost;      /* what it was to go on from cannot be gone on from */
-  bool goes_on_there;    /* from what is beside its own checkpoint */
-  char *passing[3];      /* to be removed once it is done: its checkpoint, the one before, the log of its frames */
-  gg_text_list warnings; /* of the scene, for what it is used for */
+  gg_scene scene;             /* finished */
+  gg_archive resume;          /* empty: from the start */
+  gg_result_file file;        /* of options.output */
+  gg_model model;             /* of the frames */
+  gg_frame_log log;           /* of the frames of a run that keeps checkpoints */
+  bool late;                  /* frames before the resumption were not asked for */
+  bool stored;                /* a checkpoint */
+  bool comparison;            /* of both engines */
+  bool ran;                   /* all before the run itself went well */
+  bool resume_lost;           /* what it was to go on from cannot be gone on from */
+  bool goes_on_there;         /* from what is beside its own checkpoint */
+  char *passing[GG_PASSINGS]; /* of a run that keeps checkpoints */
+  gg_text_list warnings;      /* of the scene, for what it is used for */
   atomic_bool stopped;
   gg_file_lock lock; /* of options.checkpoint */
 } gg_door_run;

@@ -113,13 +113,13 @@ static gg_status check_place(const char *path, gg_error *err)
 
 static gg_status open_log(gg_door_run *r, const gg_frame_log *earlier, gg_error *err)
 {
-  char *path = gg_frame_log_path(r->options.checkpoint), *target = path ? gg_follow_links(path) : NULL;
-  gg_status status = target ? check_place(path, err) : gg_out_of_memory(err);
+  const char *target = r->passing[GG_PASSING_FRAMES];
+  char *path = gg_frame_log_path(r->options.checkpoint);
+  gg_status status = path ? check_place(path, err) : gg_out_of_memory(err);
   if (status == GG_OK) {
     bool there = earlier->fd >= 0 ? gg_frame_log_is_at(earlier, target) : r->goes_on_there;
     status = there ? gg_frame_log_open(&r->log, target, err) : gg_frame_log_open_new(&r->log, target, err);
   }
-  free(target);
   free(path);
   return status;
 }
@@ -154,13 +154,11 @@ static gg_status settle(gg_door_run *r, const char *path, const char *fresh, gg_
 
 static gg_status settle_new(gg_door_run *r, gg_error *err)
 {
-  char *path = gg_frame_log_path(r->options.checkpoint), *target = path ? gg_follow_links(path) : NULL;
-  char *fresh = target ? gg_frame_log_new_path(target) : NULL;
+  const char *path = r->passing[GG_PASSING_FRAMES];
+  char *fresh = gg_frame_log_new_path(path);
   gg_status status = fresh ? GG_OK : gg_out_of_memory(err);
-  if (fresh && access(fresh, F_OK) == 0) status = settle(r, target, fresh, err);
+  if (fresh && access(fresh, F_OK) == 0) status = settle(r, path, fresh, err);
   free(fresh);
-  free(target);
-  free(path);
   return status;
 }
 

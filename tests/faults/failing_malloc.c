@@ -83,8 +83,8 @@ void failing_malloc_arm(uint64_t at, int last, const char *in)
 
 void failing_malloc_arm_from(bool (*begun)(void))
 {
-  failing_malloc_arm(1, true, NULL);
   state.begun = begun;
+  failing_malloc_arm(1, true, NULL);
 }
 
 uint64_t failing_malloc_disarm(uint64_t *faults)
