@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/h5/h5.h"
+#include "files/h5/hdf5_writer.h"
 #include "theory/theory_list.h"
 
 enum { MOST_PHI = 28, MOST_E = 36, QUANTITIES = 4 };

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "files/result_document.h"
 #include "graingas.h"
-#include "io/document.h"
-#include "io/scene/reader.h"
+#include "scene/scene_reader.h"
 
 static const struct {
   const char *name; /* the word typed; NULL: none */

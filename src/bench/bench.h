@@ -3,7 +3,7 @@
 #ifndef GG_BENCH_H
 #define GG_BENCH_H
 
-#include "bench/sheet.h"
+#include "bench/bench_table.h"
 #include "common/scene.h"
 
 typedef struct gg_bench_options {

@@ -1,5 +1,5 @@
 /* graingas bench dsmc: what single precision gains, by kernel and size. */
-#include "bench/dsmc.h"
+#include "bench/bench_dsmc.h"
 
 static const char caption[] =
     "Single precision: nanoseconds per accepted collision in double/in single precision, and the ratio of the rates, "

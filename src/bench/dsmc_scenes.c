@@ -1,7 +1,7 @@
 /* The scenes of `graingas bench dsmc`: one feature at a time. */
 #include <math.h>
 
-#include "bench/dsmc.h"
+#include "bench/bench_dsmc.h"
 
 const gg_bench_feature gg_bench_dsmc_features[GG_BENCH_DSMC_KINDS] = {
     [GG_BENCH_DSMC_SMOOTH] = {"smooth", GG_BENCH_DSMC_SMOOTH},

@@ -1,5 +1,5 @@
 /* graingas bench dsmc: what blocks gain over one pair after another, and threads over one. */
-#include "bench/dsmc.h"
+#include "bench/bench_dsmc.h"
 #include "dsmc/dsmc.h"
 
 static const char paths_caption[] =

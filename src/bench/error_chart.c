@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
-#include "io/plot/chart.h"
+#include "base/memory.h"
+#include "plot/chart.h"
 
 /* What is drawn, so that curves can be told apart; each as points, and its floor as a line. */
 static const struct {

@@ -4,9 +4,9 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
-#include "run/clock.h"
+#include "base/clock.h"
 #include "run/replica.h"
-#include "run/start.h"
+#include "run/start_model.h"
 
 enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 

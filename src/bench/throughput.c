@@ -5,8 +5,8 @@
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
-#include "run/clock.h"
-#include "run/start.h"
+#include "base/clock.h"
+#include "run/start_model.h"
 
 enum { MOST_REPEATS = 32 };
 

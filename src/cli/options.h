@@ -3,7 +3,7 @@
 #define GG_CLI_OPTIONS_H
 
 #include "cli/cli.h"
-#include "cli/typed.h"
+#include "cli/shell_quote.h"
 
 enum {
   GG_OPT_SET = 1u << 0,

@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "cli/cli.h"
-#include "mpi/mpi.h"
+#include "cli/mpi/mpi.h"
 
 /* One to a program, as its processes are. */
 static gg_messages messages;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/format.h"
+#include "cli/number_format.h"
 #include "cli/table.h"
 #include "cli/wrap.h"
 

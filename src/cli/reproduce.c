@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/format.h"
+#include "cli/number_format.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 #include "cli/reproduce.h"

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/format.h"
+#include "cli/number_format.h"
 #include "cli/reproduce.h"
 
 typedef struct counts {

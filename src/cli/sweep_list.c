@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/format.h"
+#include "cli/number_format.h"
 #include "cli/sweep.h"
 
 enum { MOST_KEYS = 256 };

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/format.h"
+#include "cli/number_format.h"
 #include "cli/sweep.h"
 
 static void describe(const gg_sweep_progress *p, char *text, size_t size)

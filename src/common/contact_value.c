@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-#include "common/agreed.h"
+#include "common/portable_math.h"
 
 /* Z - 1 in powers of x = phi/(1-phi): Kolafa, Labik & Malijevsky, PCCP 6 (2004) 2335, refitted by Pieprzyk, Bannerman,
  * Branka, Chudak & Heyes, PCCP 21 (2019) 6886. */

@@ -5,7 +5,7 @@
 #ifndef GG_ENGINE_H
 #define GG_ENGINE_H
 
-#include "common/archive.h"
+#include "base/archive.h"
 #include "common/model.h"
 
 /* Contacts of grains with a surface of the model; like the others, all but the number is kept while sums are on. */

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#include "common/agreed.h"
 #include "common/contact_value.h"
-#include "common/ensemble.h"
+#include "common/ensemble_size.h"
+#include "common/portable_math.h"
 #include "common/surface/surfaces.h"
 
 /* Whole numbers of grains: the largest remainders go up, of equal ones the first. */

@@ -9,10 +9,10 @@
 #ifndef GG_MODEL_H
 #define GG_MODEL_H
 
+#include "base/cancellation.h"
 #include "common/collision.h"
 #include "common/restitution.h"
 #include "common/scene.h"
-#include "common/stop.h"
 #include "common/surface/surface.h"
 
 typedef struct gg_model {

@@ -1,8 +1,8 @@
 /* What follows from a model: how fast its grains collide, and how long what relaxes takes. */
 #include <math.h>
 
-#include "common/agreed.h"
 #include "common/model.h"
+#include "common/portable_math.h"
 
 /* Collisions of species i with j per unit time, all of temperature T = m <c^2>/3, of `share` grains of i. */
 static double rate_of(const gg_model *m, double share, int i, int j, double T)

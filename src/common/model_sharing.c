@@ -2,8 +2,8 @@
 #include <gsl/gsl_eigen.h>
 #include <math.h>
 
-#include "common/gsl_quiet.h"
-#include "common/memory.h"
+#include "base/gsl_errors.h"
+#include "base/memory.h"
 #include "common/model.h"
 
 /* Of Maxwellians dT_i/dt = sum_j x_j k_ij (T_j - T_i), k_ij = (8/3) m_i m_j/(m_i + m_j)^2 times the rate at which a

@@ -3,7 +3,7 @@
 #ifndef GG_RESTITUTION_H
 #define GG_RESTITUTION_H
 
-#include "common/error.h"
+#include "base/error.h"
 #include "common/laws/laws.h"
 #include "common/species.h"
 #include "common/vec.h"

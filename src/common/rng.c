@@ -4,7 +4,7 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 
-#include "common/agreed.h"
+#include "common/portable_math.h"
 
 gg_rng gg_rng_seed(uint64_t seed, uint64_t stream)
 {

@@ -85,10 +85,10 @@ gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);
 void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err);
 void gg_dsmc_destroy(gg_engine *engine);
-/* allocate.c: the way that collisions of two species take; and set all of them. */
+/* dsmc_allocate.c: the way that collisions of two species take; and set all of them. */
 gg_dsmc_path gg_dsmc_path_of(const gg_dsmc *d, int i, int j);
 void gg_dsmc_take_paths(gg_dsmc *d);
-/* callback.c: the collision callback; where it keeps when each grain last collided. */
+/* collision_observer.c: the collision callback; where it keeps when each grain last collided. */
 gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
 bool gg_dsmc_callback_slows(const gg_engine *engine);
 gg_status gg_dsmc_save_callback(const gg_dsmc *d, gg_archive *archive, gg_error *err);

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#include "common/memory.h"
-#include "common/thread_pool.h"
+#include "base/memory.h"
+#include "base/thread_pool.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/schedule.h"
 

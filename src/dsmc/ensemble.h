@@ -8,7 +8,7 @@
 #ifndef GG_DSMC_ENSEMBLE_H
 #define GG_DSMC_ENSEMBLE_H
 
-#include "common/archive.h"
+#include "base/archive.h"
 #include "common/model.h"
 #include "common/rng.h"
 #include "dsmc/block.h"

@@ -1,6 +1,6 @@
 /* One step: streaming, collisions, thermostat. */
 #include "dsmc/dsmc.h"
-#include "dsmc/thermostat.h"
+#include "dsmc/dsmc_thermostat.h"
 
 void gg_dsmc_synchronise(gg_dsmc *d)
 {

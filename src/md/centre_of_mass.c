@@ -1,5 +1,5 @@
 /* The frame follows the centre of mass. */
-#include "md/state.h"
+#include "md/md_state.h"
 
 /* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
  * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every

@@ -3,7 +3,7 @@
  * would shrink with the time between them, and end nothing. */
 #include <math.h>
 
-#include "md/state.h"
+#include "md/md_state.h"
 
 static gg_vec peculiar(const gg_md *e, const gg_md_grain *g)
 {

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 /* `exact` lies between two neighbours; how many turns of all must take the upper one? */
 static int upper_turns(long double exact, double *lower, double *upper)

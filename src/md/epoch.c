@@ -3,7 +3,7 @@
  * trajectory alone: never of how a caller cuts a run. */
 #include <math.h>
 
-#include "md/thermostat.h"
+#include "md/md_thermostat.h"
 
 enum { COLLISIONS_TO_MEASURE = 16 };
 

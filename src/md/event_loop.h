@@ -7,9 +7,9 @@
 #ifndef GG_MD_EVENT_LOOP_H
 #define GG_MD_EVENT_LOOP_H
 
+#include "md/search/near_surfaces.h"
+#include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"
-#include "md/search/surfaces.h"
-#include "md/search/way.h"
 
 GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
 {

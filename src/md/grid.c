@@ -1,6 +1,6 @@
 /* The grid of cells, and what goes with the way of searching. */
-#include "common/memory.h"
-#include "md/state.h"
+#include "base/memory.h"
+#include "md/md_state.h"
 
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {

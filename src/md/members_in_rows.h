@@ -1,7 +1,7 @@
-/* Cells that overlap (members.h), in a dilute gas under shear: rows of them along x, each of which moves with the mean
- * flow at its middle. Two grains that touch are together in the layer of one row, which reaches half a contact distance
- * beyond its faces, and there share a cell of that row. So each row is on its own, wherever the others have moved to;
- * and across the sheared boundary the next row is the image of the last one on the other side.
+/* Cells that overlap (overlapping_members.h), in a dilute gas under shear: rows of them along x, each of which moves
+ * with the mean flow at its middle. Two grains that touch are together in the layer of one row, which reaches half a
+ * contact distance beyond its faces, and there share a cell of that row. So each row is on its own, wherever the others
+ * have moved to; and across the sheared boundary the next row is the image of the last one on the other side.
  *
  * A grain is in one row or in two, node->cell[1] and the next; in the lower one in cell node->cell[0], in the upper one
  * in node->upper. There are four lanes: along x in the lower row, along y, along z, along x in the upper row; bit a of
@@ -9,7 +9,7 @@
 #ifndef GG_MD_MEMBERS_IN_ROWS_H
 #define GG_MD_MEMBERS_IN_ROWS_H
 
-#include "md/members.h"
+#include "md/overlapping_members.h"
 #include "md/rows.h"
 
 /* Of a step: x and y of the lower and the upper row. Lane 4: nowhere. */

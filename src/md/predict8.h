@@ -3,7 +3,7 @@
 #ifndef GG_MD_PREDICT8_H
 #define GG_MD_PREDICT8_H
 
-#include "md/state.h"
+#include "md/md_state.h"
 #include "simd/eight.h"
 
 /* Eight records as columns: r, v, t and the bits of (species, counter). */

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "md/lines.h"
+#include "base/memory.h"
+#include "md/aligned_memory.h"
 
 enum { FEWEST_BUCKETS = 64 };
 

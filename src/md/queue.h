@@ -6,7 +6,7 @@
 #ifndef GG_MD_QUEUE_H
 #define GG_MD_QUEUE_H
 
-#include "common/error.h"
+#include "base/error.h"
 #include "common/surface/surface.h"
 #include <stdbool.h>
 #include <stdint.h>

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "common/surface/shapes.h"
-#include "md/state.h"
+#include "md/md_state.h"
 
 typedef struct gg_md_resolve_features {
   gg_rule rule;

@@ -13,7 +13,7 @@
  * have been, at the epoch's start. */
 #include <math.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "md/rows.h"
 
 static double shift_speed(const gg_md *e)

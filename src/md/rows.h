@@ -2,7 +2,7 @@
 #ifndef GG_MD_ROWS_H
 #define GG_MD_ROWS_H
 
-#include "md/state.h"
+#include "md/md_state.h"
 
 /* Fewest cells along x, of which the nearest image of all that a cell sees is the one that is tried. */
 enum { GG_MD_FEWEST_COMOVING = 7 };

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 /* Boxes that a grain may lie or come from its own; far less than an index holds. Boxes that those above may have moved
  * within an epoch, which a whole number holds. */

@@ -5,7 +5,7 @@
 #ifndef GG_MD_VERIFY_H
 #define GG_MD_VERIFY_H
 
-#include "md/state.h"
+#include "md/md_state.h"
 
 /* How partners are looked for, as the model has it, and in how many cells. */
 bool gg_md_is_way_of(const gg_model *model, const int32_t cells[3], double skin_radius, bool overlapping,

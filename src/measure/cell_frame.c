@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 typedef struct gg_cell_mean {
   double mass, inertia; /* sums of m, I; then what c and omega are the means of under these weights */

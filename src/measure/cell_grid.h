@@ -2,7 +2,7 @@
 #ifndef GG_CELL_GRID_H
 #define GG_CELL_GRID_H
 
-#include "measure/snapshot.h"
+#include "measure/grain_snapshot.h"
 
 typedef struct gg_cell_grid {
   int n[3];

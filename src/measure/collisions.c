@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "common/thermostat.h"
 #include "measure/free_flight.h"
 #include "measure/observable.h"

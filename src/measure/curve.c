@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/gsl_quiet.h"
-#include "common/memory.h"
+#include "base/gsl_errors.h"
+#include "base/memory.h"
 #include "common/quantity.h"
 #include "statistics/jackknife.h"
 

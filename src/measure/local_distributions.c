@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "measure/cell_grid.h"
 #include "measure/histogram.h"
 #include "measure/needs.h"

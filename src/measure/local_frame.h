@@ -5,7 +5,7 @@
 #ifndef GG_LOCAL_FRAME_H
 #define GG_LOCAL_FRAME_H
 
-#include "measure/snapshot.h"
+#include "measure/grain_snapshot.h"
 
 enum { GG_MAX_SLABS = 128 };
 

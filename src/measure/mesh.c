@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 enum { LEAST_MESH = 16, MOST_MESH = 96 };
 #define MESH_SPACING 0.25

@@ -7,7 +7,7 @@
 #include "common/engine.h"
 #include "common/quantity.h"
 #include "measure/curve.h"
-#include "measure/snapshot.h"
+#include "measure/grain_snapshot.h"
 #include "statistics/estimator.h"
 
 /* One sampling interval: sums over its collisions, and how long it lasted (0: the very first sample, which makes no

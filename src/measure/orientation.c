@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "measure/local_frame.h"
 #include "measure/observable.h"
 #include "simd/clones.h"

@@ -1,13 +1,13 @@
 /* Pair correlation g_ij(r) = V/(N_i N_j) <sum delta(r - r_ij)>/(4 pi r^2) from contact outwards, averaged over
- * directions; its value at contact, of pairs that approach and that part (contact.h); and the contact value of the
- * collision rate of one species, which is rate/(2 pi n d^2 v), v the mean normal speed of those about to collide:
- * 2 sqrt(T/pi) if velocities are Maxwellian and uncorrelated, or as measured. */
+ * directions; its value at contact, of pairs that approach and that part (contact_statistics.h); and the contact value
+ * of the collision rate of one species, which is rate/(2 pi n d^2 v), v the mean normal speed of those about to
+ * collide: 2 sqrt(T/pi) if velocities are Maxwellian and uncorrelated, or as measured. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
-#include "measure/contact.h"
+#include "base/memory.h"
+#include "measure/contact_statistics.h"
 #include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"

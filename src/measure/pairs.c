@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 #define GRAINS_PER_CELL 2.0 /* on average: fewer cost more lookups, more cost pairs that are out of reach */
 

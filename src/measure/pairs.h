@@ -11,7 +11,7 @@
 #define GG_PAIRS_H
 
 #include "common/rng.h"
-#include "measure/snapshot.h"
+#include "measure/grain_snapshot.h"
 
 /* The box of a snapshot and its nearest images; D the displacement of the image above, brought to |D| <= L_x/2. */
 typedef struct gg_images {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "common/surface/shapes.h"
 #include "measure/observable.h"
 #include "measure/wall_symmetry.h"

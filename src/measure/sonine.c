@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/sonine_curves.h"

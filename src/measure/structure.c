@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "measure/mesh.h"
 #include "measure/needs.h"
 #include "measure/observable.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "measure/cell_frame.h"
 #include "measure/needs.h"
 #include "measure/observable.h"

@@ -3,7 +3,7 @@
  * exponentials; their deviation from a Gaussian at low velocity. */
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/velocity_curves.h"

@@ -1,5 +1,5 @@
 /* The long waves across the gap between walls: what wanders slowly there, and what no mean over all grains shows. A run
- * keeps them as a series, from which it knows for how long it has to average (run/wandering.c). They come from the
+ * keeps them as a series, from which it knows for how long it has to average (run/slow_modes.c). They come from the
  * slabs of the local frame, which every sample takes anyway. */
 #ifndef GG_WALL_MODES_H
 #define GG_WALL_MODES_H

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "reproduce/panel.h"
 
 static const char *const engines[] = {"md", "dsmc"};

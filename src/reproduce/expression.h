@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "common/error.h"
+#include "base/error.h"
 
 enum { GG_EXPRESSION_STEPS = 64 };
 

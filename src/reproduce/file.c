@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "io/atomic_file.h"
-#include "io/h5/h5.h"
-#include "io/h5/seal.h"
+#include "base/atomic_file.h"
+#include "files/h5/checksum_trailer.h"
+#include "files/h5/hdf5_writer.h"
 #include "reproduce/figures.h"
 
 static void put_array(gg_h5 *h, const char *group, const char *name, size_t n, const double *values, const char *unit)

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scene/json.h"
-#include "io/scene/reader.h"
 #include "reproduce/points.h"
+#include "scene/scene_json.h"
+#include "scene/scene_reader.h"
 
 static double number_of(const json_t *value)
 {

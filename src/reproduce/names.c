@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/nearest.h"
+#include "base/spelling.h"
 #include "reproduce/figures.h"
 
 gg_status gg_figure_read(size_t k, gg_figure_entry *entry, gg_error *err)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/nearest.h"
+#include "base/spelling.h"
 
 gg_status gg_entry_refuse(const gg_entry_reader *r, const yaml_node_t *node, const char *key, const char *format, ...)
 {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "common/text_stream.h"
+#include "base/memory.h"
+#include "base/memory_stream.h"
 #include "reproduce/figures.h"
 
 static const char *const verdicts[] = {"agrees", "differs", "cannot be told", "open"};

@@ -2,7 +2,7 @@
 #ifndef GG_FIGURE_PANEL_H
 #define GG_FIGURE_PANEL_H
 
-#include "io/plot/chart.h"
+#include "plot/chart.h"
 #include "reproduce/points.h"
 
 /* One line of symbols, or one curve. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "io/h5/reader.h"
+#include "files/h5/hdf5_reader.h"
 #include "reproduce/panel.h"
 
 enum { SLABS = 20, BLOCKS = 10 };

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "io/scene/json.h"
-#include "io/scene/reader.h"
+#include "base/memory.h"
 #include "reproduce/panel.h"
+#include "scene/scene_json.h"
+#include "scene/scene_reader.h"
 
 enum { FINE = 33 };
 

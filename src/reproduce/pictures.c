@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "reproduce/figures.h"
 
 bool gg_figure_has(const gg_figure *f, bool snapshots)

@@ -2,7 +2,7 @@
 #ifndef GG_FIGURE_POINTS_H
 #define GG_FIGURE_POINTS_H
 
-#include "io/h5/result_reader.h"
+#include "files/h5/result_reader.h"
 #include "reproduce/entry.h"
 
 enum { GG_MOST_VARIED_KEYS = 32 };

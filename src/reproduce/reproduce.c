@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "io/atomic_file.h"
-#include "io/plot/plot.h"
+#include "base/atomic_file.h"
+#include "base/memory.h"
+#include "plot/plot.h"
 #include "reproduce/figures.h"
 #include "sweep/folder.h"
 

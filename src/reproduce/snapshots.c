@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "common/text_stream.h"
-#include "io/h5/reader.h"
-#include "io/plot/plot.h"
+#include "base/memory.h"
+#include "base/memory_stream.h"
+#include "files/h5/hdf5_reader.h"
+#include "plot/plot.h"
 #include "reproduce/figures.h"
 
 enum { MOST_SHOWN = 12, COLUMNS = 4, WIDTH = 230, HEIGHT = 260 };

@@ -1,9 +1,9 @@
 /* A figure as tables. */
 #include <math.h>
 
-#include "common/memory.h"
-#include "io/c_locale.h"
-#include "io/csv.h"
+#include "base/c_locale.h"
+#include "base/csv.h"
+#include "base/memory.h"
 #include "reproduce/figures.h"
 
 static const char *const engines[] = {"md", "dsmc"};

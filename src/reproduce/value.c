@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scene/json.h"
-#include "io/scene/reader.h"
 #include "measure/tail.h"
 #include "reproduce/points.h"
+#include "scene/scene_json.h"
+#include "scene/scene_reader.h"
 #include "theory/theory.h"
 
 static double real(const json_t *object, const char *key)

@@ -2,7 +2,7 @@
  * shows a trend is given up, and averaging begins anew. */
 #include <math.h>
 
-#include "run/clock.h"
+#include "base/clock.h"
 #include "run/replicas.h"
 #include "run/workers/workers.h"
 

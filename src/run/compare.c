@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "run/run.h"
-#include "run/start.h"
+#include "run/start_model.h"
 
 double gg_z_score(const gg_estimate *a, const gg_estimate *b)
 {

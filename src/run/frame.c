@@ -1,6 +1,6 @@
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "run/result.h"
 
 typedef struct filling {

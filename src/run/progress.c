@@ -1,7 +1,7 @@
 /* What a run tells of itself while it goes on. */
 #include <math.h>
 
-#include "run/clock.h"
+#include "base/clock.h"
 #include "run/replicas.h"
 #include "run/workers/workers.h"
 

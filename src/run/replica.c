@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "common/linear_response.h"
 #include "common/rng.h"
-#include "run/clock.h"
 
 gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
 {
@@ -246,7 +246,7 @@ gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const 
 
 bool gg_replica_settled(const gg_replica *r)
 {
-  if (r->model.gravity[1] != 0) return true; /* grains that lie collide as often as they like: standstill.c */
+  if (r->model.gravity[1] != 0) return true; /* grains that lie collide as often as they like: arrest.c */
   double per_grain = r->clock.interval * gg_model_collision_rate(&r->model, r->clock.temperature);
   return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
 }

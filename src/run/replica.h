@@ -63,7 +63,7 @@ gg_status gg_replica_collapsed(const gg_replica *r, gg_error *err);
 /* Averaging begins at the next sample. */
 gg_status gg_replica_open_window(gg_replica *r, gg_error *err);
 
-/* attach.c: the observables that the scene asks for, with their bins; and their part of a checkpoint. */
+/* observable_setup.c: the observables that the scene asks for, with their bins; and their part of a checkpoint. */
 gg_status gg_replica_attach(gg_replica *r, const gg_scene *scene, gg_error *err);
 void gg_replica_detach(gg_replica *r);
 gg_status gg_replica_save_observables(const gg_replica *r, gg_archive *archive, gg_error *err);
@@ -74,9 +74,9 @@ void gg_replica_sample_row(gg_replica *r, double elapsed);
 void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
 void gg_replica_restart_curves(gg_replica *r);
 
-/* episodes.c: before an interval of the window: does the engine show its collisions to the observables that ask for
- * them? Always, but where that slows it down many times over, and they do with less: there for so many samples at the
- * beginning of every `apart`, but closer together before the window is `settled` samples long. */
+/* sampling_bursts.c: before an interval of the window: does the engine show its collisions to the observables that ask
+ * for them? Always, but where that slows it down many times over, and they do with less: there for so many samples at
+ * the beginning of every `apart`, but closer together before the window is `settled` samples long. */
 typedef struct gg_episodes {
   uint64_t length, first, apart, settled; /* samples; first: how far apart the first ones begin */
 } gg_episodes;

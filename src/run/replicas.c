@@ -4,11 +4,11 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
-#include "run/clock.h"
-#include "run/crew.h"
-#include "run/forecast.h"
-#include "run/start.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "run/cost_estimate.h"
+#include "run/scheduler.h"
+#include "run/start_model.h"
 #include "run/workers/workers.h"
 #include "scene/resumption.h"
 

@@ -6,7 +6,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "run/outlook.h"
+#include "run/progress_estimate.h"
 #include "run/replica.h"
 
 typedef struct gg_plan {        /* what is asked, settled before the run; in samples of each replica */
@@ -44,7 +44,7 @@ typedef struct gg_replicas {
   const gg_hooks *hooks;
   struct gg_share *share;    /* of other processes' work (workers/workers.h); NULL: threads do it */
   pthread_mutex_t lock;      /* one replica at a time calls a hook */
-  gg_stop stop;              /* what the model's points to (stopping.c) */
+  gg_stop stop;              /* what the model's points to (cancel.c) */
   _Atomic int stopped;       /* GG_GOES_ON ... */
   _Atomic bool pausing;      /* all stop where they are, to go on later */
   struct gg_replicas_state { /* plain data: saved as bytes */
@@ -55,7 +55,7 @@ typedef struct gg_replicas {
     uint64_t restarts;       /* windows given up for a trend */
     int64_t exact;           /* at the last test, errors were as small as asked */
     double wall;             /* seconds used before this process */
-    uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began (standstill.c) */
+    uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began (arrest.c) */
     double standstill; /* share of contacts that last, if there was little else; 0: the grains move */
   } state;
   gg_convergence last;
@@ -115,7 +115,7 @@ uint64_t gg_replicas_least(const gg_replicas *all);
 /* Of a run that is over: forget the samples that not every replica has, so that what there is can be reported. */
 void gg_replicas_level(gg_replicas *all);
 
-/* stopping.c: from now on whoever works for these replicas looks whether the caller's hook or the time limit ask to
+/* cancel.c: from now on whoever works for these replicas looks whether the caller's hook or the time limit ask to
  * stop; and the end of that. */
 void gg_replicas_watch(gg_replicas *all);
 void gg_replicas_unwatch(gg_replicas *all);
@@ -125,7 +125,7 @@ gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *convergence,
 /* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
 gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
 
-/* wandering.c: what wanders slowly across the gap between walls, over the window. */
+/* slow_modes.c: what wanders slowly across the gap between walls, over the window. */
 typedef struct gg_wandering {
   int mode;    /* the slowest that shifts results (measure/wall_modes.h); -1 without walls */
   double time; /* over which it forgets, in samples */
@@ -137,7 +137,7 @@ typedef struct gg_wandering {
 } gg_wandering;
 gg_status gg_replicas_wandering(const gg_replicas *all, gg_wandering *wandering, gg_error *err);
 
-/* standstill.c: under gravity, have the grains come to rest? Leaves the answer in all->state.standstill. */
+/* arrest.c: under gravity, have the grains come to rest? Leaves the answer in all->state.standstill. */
 void gg_replicas_check_standstill(gg_replicas *all);
 
 /* checkpoint.c */

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "run/replicas.h"
 
 #define STRONG 0.6

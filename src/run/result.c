@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "common/ensemble.h"
+#include "common/ensemble_size.h"
 
 void gg_result_warn(gg_result *result, const char *format, ...)
 {

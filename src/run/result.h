@@ -2,9 +2,9 @@
 #ifndef GG_RESULT_H
 #define GG_RESULT_H
 
+#include "base/string_list.h"
 #include "common/engine.h"
 #include "common/quantity.h"
-#include "common/text_list.h"
 #include "measure/observable.h"
 
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */

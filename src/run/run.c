@@ -1,6 +1,6 @@
 #include "run/run.h"
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "run/replicas.h"
 
 /* Where the replicas stand as a result; it may fall short of what was asked. */

@@ -5,7 +5,7 @@
 #include "run/result.h"
 #include "theory/theory_list.h"
 
-typedef struct gg_crew gg_crew; /* run/crew.h */
+typedef struct gg_crew gg_crew; /* run/scheduler.h */
 
 /* What the caller wants to be told while it runs; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
@@ -18,7 +18,7 @@ typedef struct gg_hooks {
   /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole,
    * with all frames that came before. Items may be added. */
   gg_status (*checkpoint)(void *context, gg_archive *archive, gg_error *err);
-  gg_crew *crew;       /* threads of several runs, of which this one is a course (crew.h); NULL: its own */
+  gg_crew *crew;       /* threads of several runs, of which this one is a course (scheduler.h); NULL: its own */
   gg_workers *workers; /* other processes that share the replicas, with threads of their own; borrowed */
 } gg_hooks;
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "common/ensemble.h"
+#include "common/ensemble_size.h"
 #include "scene/fields.h"
 
 /* How the value of a key stands in memory, and so in an archive. */

@@ -3,7 +3,7 @@
 #ifndef GG_RESUMPTION_H
 #define GG_RESUMPTION_H
 
-#include "common/archive.h"
+#include "base/archive.h"
 #include "common/scene.h"
 
 /* Items "scene/KEY", and "scene/extension". */

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "common/error.h"
+#include "base/error.h"
 #include "simd/compiled_sets.h" /* GG_EACH_COMPILED_SET(X): X(GG_AVX2, avx2) for each set in this build */
 
 typedef enum gg_instructions {

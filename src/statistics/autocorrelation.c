@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 /* Transforms of powers of two in place, GSL's: nothing is planned, allocated or shared, as FFTW would (which ends the
  * program where its planner gets no memory). Half-complex: the real parts from the front, the imaginary ones from the

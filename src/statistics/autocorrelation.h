@@ -2,7 +2,7 @@
 #ifndef GG_AUTOCORRELATION_H
 #define GG_AUTOCORRELATION_H
 
-#include "common/error.h"
+#include "base/error.h"
 
 /* Of `n_runs` independent stretches of `n` rows each, laid end to end, about their common mean 0. */
 typedef struct gg_correlation {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "statistics/doubling.h"
+#include "base/memory.h"
+#include "statistics/decimation.h"
 
 gg_status gg_bins_init(gg_bins *b, size_t width, gg_error *err)
 {

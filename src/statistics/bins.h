@@ -3,7 +3,7 @@
 #ifndef GG_BINS_H
 #define GG_BINS_H
 
-#include "common/archive.h"
+#include "base/archive.h"
 
 enum { GG_BINS_BLOCKS = 32 };
 

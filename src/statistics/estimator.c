@@ -6,7 +6,7 @@
 
 #include <gsl/gsl_statistics_double.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "statistics/autocorrelation.h"
 
 /* Means over equal blocks, none across the end of a run; returns how many. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 /* How many points of its curve a number has beside it: four would make errors of exponents a little better, and of
  * moments, which remember longer than most points, too small. */

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "common/error.h"
+#include "base/error.h"
 
 typedef struct gg_jackknife {
   size_t width, blocks, pairs;

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "statistics/doubling.h"
+#include "base/memory.h"
+#include "statistics/decimation.h"
 
 gg_status gg_series_init(gg_series *s, size_t width, gg_error *err)
 {

@@ -3,7 +3,7 @@
 #ifndef GG_SERIES_H
 #define GG_SERIES_H
 
-#include "common/archive.h"
+#include "base/archive.h"
 
 enum { GG_SERIES_ROWS = 1 << 14 };
 

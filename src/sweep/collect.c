@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "io/csv.h"
-#include "io/h5/h5.h"
-#include "io/h5/result_file.h"
-#include "io/h5/seal.h"
-#include "io/whole_json.h"
-#include "sweep/document.h"
+#include "base/checked_json.h"
+#include "base/csv.h"
+#include "base/memory.h"
+#include "files/h5/checksum_trailer.h"
+#include "files/h5/hdf5_writer.h"
+#include "files/h5/result_file.h"
 #include "sweep/folder.h"
+#include "sweep/sweep_document.h"
 
 static const char *key_of(const gg_sweep *sweep, size_t varied, size_t k)
 {

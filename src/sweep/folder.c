@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/memory.h"
-#include "io/output_path.h"
+#include "base/memory.h"
+#include "base/output_path.h"
 
 void gg_point_name(uint64_t id, char name[GG_POINT_NAME])
 {

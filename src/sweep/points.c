@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "common/engine.h"
-#include "common/memory.h"
-#include "io/scene/node.h"
-#include "io/scene/reader.h"
-#include "run/forecast.h"
+#include "run/cost_estimate.h"
 #include "run/replicas.h"
+#include "scene/scene_reader.h"
+#include "scene/yaml_node.h"
 #include "sweep/sweep.h"
 
 size_t gg_sweep_count(const gg_sweep *sweep)

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/scene/node.h"
+#include "scene/yaml_node.h"
 #include "sweep/settings.h"
 
 static const gg_word does[] = {{"run", GG_DOES_RUN, "one engine, the scene's"},

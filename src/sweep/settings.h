@@ -2,7 +2,7 @@
 #ifndef GG_SWEEP_SETTINGS_H
 #define GG_SWEEP_SETTINGS_H
 
-#include "io/scene/node.h"
+#include "scene/yaml_node.h"
 #include "sweep/sweep.h"
 
 extern const gg_field gg_sweep_fields[]; /* offsets in gg_sweep_settings; ends with a NULL key */

@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "common/error.h"
+#include "base/error.h"
 #include "common/scene.h"
 
 typedef enum gg_does { GG_DOES_RUN, GG_DOES_COMPARE, GG_DOES_THEORY } gg_does;
@@ -49,7 +49,7 @@ gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, co
 
 /* read.c */
 gg_status gg_sweep_read_text(gg_sweep *sweep, const char *yaml, size_t length, const char *name, gg_error *err);
-/* varied.c */
+/* varied_keys.c */
 void gg_varied_clear(gg_varied *varied);
 /* Take it over, unless a key of it is varied already: then it is cleared, too. */
 gg_status gg_sweep_add(gg_sweep *sweep, gg_varied *varied, gg_error *err);
@@ -68,8 +68,8 @@ gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_
 /* Resolve every point, and note what is known of each. */
 gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
 
-/* identity.c: hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the order
- * of the field table, with its value in force. */
+/* point_hash.c: hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the
+ * order of the field table, with its value in force. */
 uint64_t gg_point_id(const gg_scene *scene, gg_does does);
 /* Is the scene that a file at `path` holds, a JSON object, that of this point? GG_BAD_FILE names the first key that is
  * not. Keys that no number depends on may differ. */

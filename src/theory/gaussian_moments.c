@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "common/vec.h"
 
 /* Everything is even under k -> -k and under reflection at the shear plane: a quarter of the sphere is enough. */

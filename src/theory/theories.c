@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "common/gsl_quiet.h"
-#include "common/memory.h"
+#include "base/gsl_errors.h"
+#include "base/memory.h"
 #include "theory/answer.h"
 #include "theory/theory_list.h"
 

@@ -28,7 +28,7 @@ typedef struct gg_theory {
    * GG_OK also where it has none of these; GG_BAD_INPUT with the reason why it has none here. NULL: it has no curves.
    */
   gg_status (*curves)(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
-  /* A theory that the user's program brings (own.c): this instead of the two above; else NULL. */
+  /* A theory that the user's program brings (user_theory.c): this instead of the two above; else NULL. */
   const gg_theory_definition *own;
 } gg_theory;
 
@@ -39,7 +39,7 @@ const gg_theory *gg_theory_find(const char *name);
 /* Those of a scene: the above, and after them its own. NULL beyond the last. */
 const gg_theory *gg_theory_of(const gg_model *model, int index);
 
-/* own.c: put a theory that the user's program brings in front of what a scene has. */
+/* user_theory.c: put a theory that the user's program brings in front of what a scene has. */
 gg_status gg_own_theory_add(gg_extension **extension, const gg_theory_definition *definition, gg_error *err);
 gg_status gg_own_theory_evaluate(const gg_theory_definition *theory, const gg_model *model, gg_theory_answer *answer,
                                  gg_error *err);

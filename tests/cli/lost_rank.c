@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "mpi/mpi.h"
+#include "cli/mpi/mpi.h"
 
 enum { LARGE = 8 << 20 }; /* bytes, more than MPI takes before it is asked for them */
 

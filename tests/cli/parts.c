@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "mpi/mpi.h"
+#include "cli/mpi/mpi.h"
 
 enum { N_SIZES = 4, A_WHILE = 200000 /* microseconds */ };
 static const size_t sizes[N_SIZES] = {(3 << 20) + 10, 1, 2 << 20, (1 << 20) + 1};

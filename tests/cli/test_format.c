@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "cli/format.h"
+#include "cli/number_format.h"
 
 static void counts(void **state)
 {

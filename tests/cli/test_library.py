@@ -92,21 +92,21 @@ def test_header_in_other_languages():
     sh("c++", "-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-x", "c++", header)
 
 
-def test_command_uses_the_door():
+def test_command_uses_the_public_header():
     """The command includes the public header and its own files only; `bench` alone looks inside. MPI is the command's."""
     sources = glob.glob(os.path.join(SOURCE, "src", "cli", "*.[ch]"))
-    messages = glob.glob(os.path.join(SOURCE, "src", "mpi", "*.[ch]"))
+    messages = glob.glob(os.path.join(SOURCE, "src", "cli", "mpi", "*.[ch]"))
     check(len(sources) > 20 and len(messages) >= 3)
-    others = {"bench.c": "bench/", "processes.c": "mpi/"}
+    others = {"bench.c": "bench/", "processes.c": "cli/mpi/"}
     for source in sources:
         for name in re.findall(r'#include "([^"]+)"', open(source).read()):
             allowed = name.startswith("cli/") or name.startswith(others.get(os.path.basename(source), "cli/"))
             check(allowed, source, "includes", name)
     for source in messages:
         for name in re.findall(r'#include "([^"]+)"', open(source).read()):
-            check(name.startswith("mpi/"), source, "includes", name)
-    for source in glob.glob(os.path.join(SOURCE, "tests", "door", "*.[ch]")):
-        own = [os.path.basename(h) for h in glob.glob(os.path.join(SOURCE, "tests", "door", "*.h"))]
+            check(name.startswith("cli/mpi/"), source, "includes", name)
+    for source in glob.glob(os.path.join(SOURCE, "tests", "api", "*.[ch]")):
+        own = [os.path.basename(h) for h in glob.glob(os.path.join(SOURCE, "tests", "api", "*.h"))]
         own.append("../faults/failing_malloc.h")
         inside = [n for n in re.findall(r'#include "([^"]+)"', open(source).read()) if n not in own]
         check(not inside, source, "includes", inside)

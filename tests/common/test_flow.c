@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/scene/reader.h"
-#include "io/text.h"
+#include "files/text_format.h"
 #include "run/run.h"
+#include "scene/scene_reader.h"
 
 static gg_scene scene_of(int flow, const char *rest)
 {

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/archive.h"
+#include "base/archive.h"
 #include "common/contact_value.h"
 #include "common/quantity.h"
 #include "common/rng.h"

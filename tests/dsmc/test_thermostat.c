@@ -2,7 +2,7 @@
 #include "lab.h"
 
 #include "dsmc/dsmc.h"
-#include "dsmc/thermostat.h"
+#include "dsmc/dsmc_thermostat.h"
 
 static gg_model heated(gg_flow flow, gg_thermostat thermostat, double phi, double e, double beta, int64_t n)
 {

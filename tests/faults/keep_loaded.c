@@ -1,5 +1,5 @@
-/* A dlclose that does nothing, put before the C library's: Open MPI unloads its plug-ins as a process ends, and the leak
- * sanitizer, which looks after that, could not tell any more whose what they forgot was. */
+/* A dlclose that does nothing, put before the C library's: Open MPI unloads its plug-ins as a process ends, and the
+ * leak sanitizer, which looks after that, could not tell any more whose what they forgot was. */
 #include <dlfcn.h>
 
 int dlclose(void *library)

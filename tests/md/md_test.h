@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "common/engine.h"
-#include "md/state.h"
+#include "md/md_state.h"
 
 typedef struct md_case {
   gg_flow flow;

@@ -4,7 +4,7 @@
 
 #include "md_test.h"
 
-#include "md/kernels.h"
+#include "md/event_loops.h"
 
 static const int species[] = {1, 2, 3, GG_MAX_SPECIES};
 enum { MIXTURES = sizeof species / sizeof *species };

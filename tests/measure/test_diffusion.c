@@ -156,9 +156,9 @@ static void dense_gas(void **state)
   ct_expect("D, both", is[1], hypot(is[2], is[4]), is[3], 0.03 * expected);
 }
 
-/* Free paths longer than the box: the larger of two kinds of grains collides several times between two snapshots. The first
- * approximation of Chapman & Cowling, D_i = T/(sum_j (8/3) n_j sigma_ij^2 sqrt(2 pi m_ij T)), m_ij the reduced mass, is
- * good to some per cent; grains led by their velocities at the snapshots alone have half as much again. */
+/* Free paths longer than the box: the larger of two kinds of grains collides several times between two snapshots. The
+ * first approximation of Chapman & Cowling, D_i = T/(sum_j (8/3) n_j sigma_ij^2 sqrt(2 pi m_ij T)), m_ij the reduced
+ * mass, is good to some per cent; grains led by their velocities at the snapshots alone have half as much again. */
 static void box_shorter_than_free_paths(void **state)
 {
   (void)state;

@@ -5,7 +5,7 @@
 #include <complex.h>
 
 #include "curve_test.h"
-#include "measure/contact.h"
+#include "measure/contact_statistics.h"
 #include "measure/pairs.h"
 
 static void thrown(gg_snapshot *s, gg_rng *r, int sample)

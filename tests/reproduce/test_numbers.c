@@ -9,10 +9,10 @@
 
 #include <cmocka.h>
 
-#include "io/scene/reader.h"
 #include "reproduce/figures.h"
 #include "reproduce/points.h"
 #include "reproduce/straight.h"
+#include "scene/scene_reader.h"
 
 static void near_to(double value, double expected, double within)
 {

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "io/scene/reader.h"
+#include "scene/scene_reader.h"
 
 gg_scene *scene_of(const char *yaml)
 {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "common/rng.h"
 
 fake_plan fake;

@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "dsmc/dsmc.h"
-#include "io/scene/reader.h"
-#include "md/state.h"
+#include "md/md_state.h"
 #include "run/replica.h"
+#include "scene/scene_reader.h"
 
 static gg_scene scene_of(const char *yaml, gg_engine_kind engine)
 {

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/scene/reader.h"
 #include "run/replica.h"
+#include "scene/scene_reader.h"
 
 static void create(gg_replica *r, const char *yaml, gg_engine_kind engine)
 {

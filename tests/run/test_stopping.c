@@ -13,8 +13,8 @@
 #include <time.h>
 
 #include "common/rng.h"
-#include "io/scene/reader.h"
 #include "run/run.h"
+#include "scene/scene_reader.h"
 
 typedef struct caller {
   gg_rng rng;

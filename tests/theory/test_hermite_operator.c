@@ -2,9 +2,9 @@
 #include "theory_test.h"
 
 #include "theory/gaussian_moments.h"
-#include "theory/hermite/contact.h"
+#include "theory/hermite/contact_integral.h"
+#include "theory/hermite/direction_workspace.h"
 #include "theory/hermite/newton.h"
-#include "theory/hermite/room.h"
 
 enum { MOST = 40 };
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scene/reader.h"
 #include "run/replicas.h"
-#include "run/start.h"
+#include "run/start_model.h"
+#include "scene/scene_reader.h"
 #include "statistics/autocorrelation.h"
 #include "stored.h"
 

@@ -13,8 +13,8 @@
 #include <string.h>
 
 #include "common/quantity.h"
-#include "io/scene/reader.h"
 #include "run/run.h"
+#include "scene/scene_reader.h"
 
 enum { MOST_NUMBERS = 20000, MOST_TRUTHS = 16 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/scene/reader.h"
+#include "scene/scene_reader.h"
 
 enum { LOOKS = 12 }; /* at whether to stop, until it does: a few samples */
 

@@ -5,10 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "files/h5/checkpoint_file.h"
 #include "fuzz.h"
 #include "graingas.h"
 #include "image.h"
-#include "io/h5/checkpoint_file.h"
 
 /* Numbers of an item, or eight times as many bytes: what `info` looks at is smaller. Items of the scene: of one kind.
  */

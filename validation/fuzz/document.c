@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "door/door.h"
+#include "api/api.h"
+#include "files/h5/result_restore.h"
 #include "fuzz.h"
 #include "graingas.h"
-#include "io/h5/result_restore.h"
 #include "stored.h"
 
 static void ask_result(const gg_result *r)

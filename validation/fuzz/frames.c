@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "base.h"
+#include "base/checksum.h"
+#include "files/frame_log.h"
+#include "files/h5/particles.h"
 #include "fuzz.h"
-#include "io/checksum.h"
-#include "io/frame_log.h"
-#include "io/h5/particles.h"
 
 enum { HEADER = 56, CHECKSUM = 48, BYTES = 8 }; /* of a record: its size, where its checksum and its bytes stand */
 

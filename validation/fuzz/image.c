@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/h5/seal.h"
+#include "files/h5/checksum_trailer.h"
 #include "patch.h"
 
 static void fail(const char *what, const char *path)

@@ -7,7 +7,7 @@
 
 #include "common/quantity.h"
 #include "fuzz.h"
-#include "io/plot/plot.h"
+#include "plot/plot.h"
 #include "script.h"
 #include "stored.h"
 

@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "files/h5/hdf5_trajectory.h"
+#include "files/h5/result_reader.h"
 #include "fuzz.h"
 #include "graingas.h"
 #include "image.h"
-#include "io/h5/result_reader.h"
-#include "io/h5/trajectory.h"
 
 static const char *const scenes[] = {
     "{flow: usf, phi: 0.1, particles: 10, collision: {e: 0.9, beta: 0}, run: {collisions: 6, warmup: 2}, output: "

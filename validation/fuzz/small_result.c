@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "files/h5/hdf5_reader.h"
+#include "files/h5/hdf5_writer.h"
 #include "image.h"
-#include "io/h5/h5.h"
-#include "io/h5/reader.h"
 
 /* Of a headline, of a flow that has none of it, of mixtures, without a mean. */
 static bool is_kept(const char *quantity)

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "io/h5/result_reader.h"
+#include "files/h5/result_reader.h"
 
 /* The first byte chooses the scene beside it, the rest is its text. False: it is no JSON; to be cleared all the same
  * (gg_stored_result_clear). */

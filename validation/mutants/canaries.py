@@ -14,10 +14,10 @@ HALF = "(GG_MUTANT(%d) ? 0.5 : 1)"
 
 TEXTS = [
     # the engines' own copies of the model
-    ("src/md/allocate.c", "  GG_TRY(gg_instructions_check(err));\n  gg_md *e = gg_new_array",
+    ("src/md/md_allocate.c", "  GG_TRY(gg_instructions_check(err));\n  gg_md *e = gg_new_array",
      "  gg_model changed = *model;\n  gg_canary_model(&changed, 900);\n  model = &changed;\n"
      "  GG_TRY(gg_instructions_check(err));\n  gg_md *e = gg_new_array"),
-    ("src/dsmc/allocate.c", "  GG_TRY(gg_instructions_check(err));\n  gg_dsmc *made",
+    ("src/dsmc/dsmc_allocate.c", "  GG_TRY(gg_instructions_check(err));\n  gg_dsmc *made",
      "  gg_model changed = *model;\n  gg_canary_model(&changed, 910);\n  model = &changed;\n"
      "  GG_TRY(gg_instructions_check(err));\n  gg_dsmc *made"),
     # eta_2 of md, which rounds it anew

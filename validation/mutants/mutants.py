@@ -25,7 +25,7 @@ import report
 import tree
 from canaries import NAMES
 
-TESTS = r"(common|scene|theory|md|dsmc|statistics|measure|run|physics|door)/(?!trajectory_O|soak|workers|files|thread_pool)"
+TESTS = r"(common|scene|theory|md|dsmc|statistics|measure|run|physics|api)/(?!trajectory_O|soak|workers|files|thread_pool)"
 # What claims to validate physics, for the canaries; report.BLIND says of others why they cannot.
 VALIDATIONS = (r"(theory/.*|compare/.*|physics/(?!wall_errors|stopping).*|md/(state_equation|flows)|common/(collision|model|restitution)"
                r"|dsmc/(collision_rate|cooling|mixture|shear|single|thermostat|conservation)"

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "door/simulation.h"
+#include "api/simulation.h"
 
 /* Instead of a reason: this engine is not asked. */
 #define NOT_RUN ""
@@ -59,7 +59,7 @@ const char *corner_wrong(const corner *c, const char *engine, const finding *f, 
 
 /* plain.c: the first collisions beside those of the reference path. */
 void corner_compare_plain(const gg_scene *scene, finding *f);
-/* agreement.c: a comparison of both engines and the solved equation; of each engine alone where the other refuses. */
+/* z_scores.c: a comparison of both engines and the solved equation; of each engine alone where the other refuses. */
 void corner_compare_means(const corner *c, finding *md, finding *dsmc);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "corner.h"
 #include "dsmc/dsmc.h"
-#include "md/state.h"
+#include "md/md_state.h"
 
 /* To another place, with its peculiar velocity. */
 static void put(gg_md *e, uint32_t i, gg_vec r)

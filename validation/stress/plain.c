@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "corner.h"
-#include "md/state.h"
+#include "md/md_state.h"
 
 enum { MOST = 2000 };
 

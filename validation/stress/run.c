@@ -4,8 +4,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/archive.h"
 #include "budget.h"
-#include "common/archive.h"
 #include "common/thermostat.h"
 #include "corner.h"
 

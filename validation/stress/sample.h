@@ -3,7 +3,7 @@
 #ifndef STRESS_SAMPLE_H
 #define STRESS_SAMPLE_H
 
-#include "door/simulation.h"
+#include "api/simulation.h"
 
 typedef struct sample {
   gg_simulation_state state;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "common/restitution.h"
 
 gg_status gg_loss_table_new(gg_law_kind kind, gg_loss_table **table, gg_error *err)

@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "common/error.h"
+#include "base/error.h"
 #include "common/laws/laws.h"
 #include "common/vec.h"
 

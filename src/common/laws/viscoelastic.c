@@ -6,8 +6,8 @@
  * (R. Ramirez, T. Poeschel, N.V. Brilliantov & T. Schwager, Phys. Rev. E 60 (1999) 4465); summed by the Pade form of P.
  * Mueller & T. Poeschel, Phys. Rev. E 84 (2011) 021302, as A.K. Dubey, A. Bodrova, S. Puri & N. Brilliantov, Phys. Rev.
  * E 87 (2013) 062202, took it. It is within 4e-4 of the equation of motion where e > 0.75, within 0.009 everywhere. */
-#include "common/agreed.h"
 #include "common/laws/laws.h"
+#include "common/portable_math.h"
 
 /* The unit of speed is that at which x = 1. */
 double gg_loss_viscoelastic(double u)

@@ -2,8 +2,8 @@
 #ifndef GG_DSMC_LANE_RANDOM_H
 #define GG_DSMC_LANE_RANDOM_H
 
+#include "dsmc/kernel/kernel_lanes.h"
 #include "dsmc/kernel/lane_rng.h"
-#include "dsmc/kernel/lanes.h"
 
 /* gg_dsmc_lane_two: two random words a lane, from whose high bits gg_dsmc_lane_one_to_two makes a number uniform in
  * [1, 2), gg_dsmc_lane_two_to_four one in [2, 4); GG_SPARE_BIT hardly matters to it. */

@@ -2,7 +2,7 @@
 #ifndef GG_DSMC_LANES_COLLISION_H
 #define GG_DSMC_LANES_COLLISION_H
 
-#include "dsmc/kernel/lanes.h"
+#include "dsmc/kernel/kernel_lanes.h"
 
 /* A gg_contact in the lanes' precision. */
 typedef struct gg_dsmc_lane_contact {

@@ -1,6 +1,6 @@
 #include "dsmc/kernel/synchronise.h"
 
-#include "dsmc/kernel/lanes.h"
+#include "dsmc/kernel/kernel_lanes.h"
 
 #ifdef GG_SINGLE_LANES
 #define NAME_OF(instructions) gg_dsmc_synchronise_single_##instructions

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "common/thread_pool.h"
+#include "base/memory.h"
+#include "base/thread_pool.h"
 #include "dsmc/dsmc.h"
 
 /* Candidates that a pair of segments should have, on average, of one species and of more, whose substeps are parts of

@@ -29,10 +29,10 @@ enum {
 #include "md/rows.h"
 #include "md/search/candidates.h"
 #include "md/search/faces.h"
+#include "md/search/neighbour_search.h"
 #include "md/search/pair.h"
 #include "md/search/prefetch_partner.h"
 #include "md/search/simd_pairs.h"
-#include "md/search/way.h"
 
 /* Cells to search: those from..to relative to the grain's own, in its own row and in those above and below, in layers
  * from..to along z. From above to: none. */

@@ -7,7 +7,7 @@
 #ifndef GG_MD_SEARCH_FEATURES_H
 #define GG_MD_SEARCH_FEATURES_H
 
-#include "md/kernels.h"
+#include "md/event_loops.h"
 
 #ifdef GG_BOUNDARY
 enum {

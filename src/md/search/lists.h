@@ -24,8 +24,8 @@ enum {
 };
 
 #include "md/search/list_update.h"
+#include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"
-#include "md/search/way.h"
 
 /* Where the centre of skin i is at the present time. */
 GG_INLINE gg_vec gg_md_centre(const gg_md *e, uint32_t i)

@@ -13,10 +13,10 @@ enum {
   PREDICTS_IN_PLACE = false
 };
 
-#include "md/members.h"
+#include "md/overlapping_members.h"
 #include "md/search/candidates.h"
+#include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"
-#include "md/search/way.h"
 
 /* The grains of a cell for which there may be no room: those so far are tried first. */
 static __attribute__((noinline, cold, unused)) void gg_md_take_crowded(const gg_md *e, gg_md_search *s,

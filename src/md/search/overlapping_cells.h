@@ -1,4 +1,4 @@
-/* Searching cells that overlap (members.h). */
+/* Searching cells that overlap (overlapping_members.h). */
 #ifndef GG_MD_SEARCH_OVERLAPPING_CELLS_H
 #define GG_MD_SEARCH_OVERLAPPING_CELLS_H
 

@@ -23,10 +23,10 @@ enum {
 
 #include "md/search/candidates.h"
 #include "md/search/faces.h"
+#include "md/search/neighbour_search.h"
 #include "md/search/pair.h"
 #include "md/search/prefetch_partner.h"
 #include "md/search/simd_pairs.h"
-#include "md/search/way.h"
 
 /* Cells from..to (unwrapped) of row (y, z): images shifted by `shift`, moving at `image_velocity`. */
 GG_INLINE void gg_md_scan_row(const gg_md *e, gg_md_search *s, int32_t from, int32_t to, int32_t y, int32_t z,

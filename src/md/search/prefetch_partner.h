@@ -2,7 +2,7 @@
 #ifndef GG_MD_SEARCH_PREFETCH_PARTNER_H
 #define GG_MD_SEARCH_PREFETCH_PARTNER_H
 
-#include "md/search/way.h"
+#include "md/search/neighbour_search.h"
 
 GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner)
 {

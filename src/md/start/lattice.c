@@ -1,7 +1,7 @@
 /* Centres on a face-centred lattice stretched to the box, some sites left empty at random. */
 #include <math.h>
 
-#include "common/agreed.h"
+#include "common/portable_math.h"
 #include "md/start/place.h"
 
 static const double basis[4][3] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};

@@ -4,8 +4,8 @@
  */
 #include <math.h>
 
-#include "common/agreed.h"
-#include "common/memory.h"
+#include "base/memory.h"
+#include "common/portable_math.h"
 #include "common/surface/shapes.h"
 #include "md/start/place.h"
 

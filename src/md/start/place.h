@@ -4,10 +4,10 @@
 
 #include <stdbool.h>
 
+#include "base/cancellation.h"
 #include "common/model.h"
 #include "common/rng.h"
-#include "common/stop.h"
-#include "md/cells.h"
+#include "md/cell_grid.h"
 
 /* Centres and diameters in a box, on their way to a state without overlaps. */
 typedef struct gg_md_packing {

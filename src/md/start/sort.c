@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "md/start/place.h"
 
 /* Spread the low 21 bits of x to every third bit. */

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/agreed.h"
-#include "common/memory.h"
+#include "base/memory.h"
+#include "common/portable_math.h"
 #include "common/surface/surfaces.h"
+#include "md/md_state.h"
 #include "md/start/place.h"
-#include "md/state.h"
 
 enum { SWEEPS = 3000 };
 

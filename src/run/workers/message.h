@@ -3,7 +3,7 @@
 #ifndef GG_MESSAGE_H
 #define GG_MESSAGE_H
 
-#include "common/archive.h"
+#include "base/archive.h"
 #include "common/scene.h"
 
 typedef enum gg_message_kind {

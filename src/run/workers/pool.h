@@ -1,8 +1,8 @@
-/* Inside of workers.c and hand_out.c: who is there, what they have, and the post. */
+/* Inside of workers.c and dispatcher.c: who is there, what they have, and the post. */
 #ifndef GG_WORKERS_POOL_H
 #define GG_WORKERS_POOL_H
 
-#include "run/workers/job.h"
+#include "run/workers/task.h"
 #include "run/workers/workers.h"
 
 typedef struct gg_rank {
@@ -61,7 +61,7 @@ bool gg_workers_attend(gg_workers *w);
 /* Of those that are there, the one with the fewest replicas. */
 int gg_workers_least(const gg_workers *w);
 void gg_workers_send(gg_workers *w, int to, void *block, size_t size);
-/* hand_out.c: a rank is lost; what it had of this run is given to others. */
+/* dispatcher.c: a rank is lost; what it had of this run is given to others. */
 void gg_share_lose(gg_share *share, int rank);
 
 #endif

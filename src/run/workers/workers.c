@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "common/memory.h"
-#include "run/clock.h"
+#include "base/clock.h"
+#include "base/memory.h"
 #include "run/workers/pool.h"
 
 /* Seconds: the longest silence of one that works, which sends news twice a second; until all have said hello. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "simd/clones.h"
 
 static void number_functions(gg_hermite_basis *b)

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "common/error.h"
+#include "base/error.h"
 
 enum { GG_HERMITE_MOST_DEGREE = 20, GG_HERMITE_MOST_FUNCTIONS = 600 };
 

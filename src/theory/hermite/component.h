@@ -3,7 +3,7 @@
 #define GG_HERMITE_COMPONENT_H
 
 #include "measure/sonine_curves.h"
-#include "theory/hermite/state.h"
+#include "theory/hermite/hermite_state.h"
 
 typedef struct gg_hermite_component {
   int degree;

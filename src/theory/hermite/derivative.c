@@ -2,7 +2,7 @@
  * which come in by the marginal alone. */
 #include <string.h>
 
-#include "theory/hermite/room.h"
+#include "theory/hermite/direction_workspace.h"
 
 /* K and E for one Q: by each (j,p), W of all (J,P), and sum_q Z_Qq D_jpq,s. In the order of j + p; upto[d]: how many
  * there are up to j + p = d, of which alone functions of degree d are made. */

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/gsl_quiet.h"
-#include "common/memory.h"
-#include "theory/hermite/room.h"
+#include "base/gsl_errors.h"
+#include "base/memory.h"
+#include "theory/hermite/direction_workspace.h"
 
 enum { MOST_ITERATIONS = 60, HALVES = GG_HERMITE_MOST_DEGREE / 2 + 1 };
 static const double converged = 1e-12;

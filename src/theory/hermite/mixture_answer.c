@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/garzo_dufty1999.h"
+#include "theory/hermite/hermite_mixture.h"
 #include "theory/hermite/isotropic.h"
-#include "theory/hermite/mixture.h"
-#include "theory/hermite/rungs.h"
+#include "theory/hermite/order_convergence.h"
 #include "theory/hermite/viscosity.h"
 
 static const char name[] = "enskog_hermite";

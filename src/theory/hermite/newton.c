@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/gsl_quiet.h"
-#include "common/memory.h"
+#include "base/gsl_errors.h"
+#include "base/memory.h"
 
 /* A Jacobian costs as much as ten residuals: it is kept as long as steps with it shrink fast. */
 enum { MOST_ITERATIONS = 60, MOST_HALVINGS = 10 };

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
-#include "theory/hermite/room.h"
+#include "base/memory.h"
+#include "theory/hermite/direction_workspace.h"
 
 /* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi): a quarter of the sphere stands for the whole. */
 enum { POLAR = 5, AZIMUTH = 16, N1 = GG_HERMITE_MOST_DEGREE + 1 };

@@ -7,7 +7,7 @@
 
 #include "common/model.h"
 #include "theory/hermite/flux.h"
-#include "theory/hermite/state.h"
+#include "theory/hermite/hermite_state.h"
 
 /* How a grain of one species collides with those of another. */
 typedef struct gg_hermite_impact {

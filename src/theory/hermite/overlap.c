@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "theory/hermite/basis.h"
 
 static gg_status rule(const gsl_integration_fixed_type *type, int n, double scale, double norm, double *x, double *w,

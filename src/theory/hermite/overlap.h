@@ -3,7 +3,7 @@
 #ifndef GG_HERMITE_OVERLAP_H
 #define GG_HERMITE_OVERLAP_H
 
-#include "common/error.h"
+#include "base/error.h"
 
 /* Along one axis, for tests displaced by shifts: < Ho_m(x + shift) exp(-decay (x + shift)^2/2) Ho_s(x) >. */
 typedef struct gg_hermite_overlap {

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 enum { POINTS = 2 * GG_RADIAL_MOST + 2 };
 

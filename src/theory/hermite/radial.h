@@ -3,7 +3,7 @@
 #ifndef GG_HERMITE_RADIAL_H
 #define GG_HERMITE_RADIAL_H
 
-#include "common/error.h"
+#include "base/error.h"
 
 enum { GG_RADIAL_MOST = 12 }; /* of l */
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/gaussian_moments.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "theory/answer.h"
-#include "theory/hermite/rungs.h"
+#include "theory/hermite/order_convergence.h"
 #include "theory/hermite/shear.h"
 #include "theory/hermite/spectrum.h"
 

@@ -5,8 +5,8 @@
 #include <gsl/gsl_linalg.h>
 #include <stdlib.h>
 
-#include "common/gsl_quiet.h"
-#include "common/memory.h"
+#include "base/gsl_errors.h"
+#include "base/memory.h"
 
 typedef struct gg_spectrum {
   double *R, *jacobian;

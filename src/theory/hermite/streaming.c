@@ -5,8 +5,8 @@
  *   c_j psi_m = sqrt(m_j) psi_(m-e_j) + sqrt(m_j + 1) psi_(m+e_j). */
 #include <math.h>
 
-#include "theory/hermite/contact.h"
-#include "theory/hermite/room.h"
+#include "theory/hermite/contact_integral.h"
+#include "theory/hermite/direction_workspace.h"
 
 /* A sum of tests. */
 enum { MOST_TERMS = 4 };

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "theory/hermite/room.h"
+#include "theory/hermite/direction_workspace.h"
 
 /* <|x|> under exp(-x^2/2)/sqrt(2 pi) sum_l marginal_l Ho_2l: <|x| He_2l> = sqrt(2/pi) (-1)^(l+1) (2l-3)!!. */
 static double mean_modulus(const double *marginal, int degree)

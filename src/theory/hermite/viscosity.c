@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/gsl_quiet.h"
-#include "common/memory.h"
-#include "theory/hermite/room.h"
+#include "base/gsl_errors.h"
+#include "base/memory.h"
+#include "theory/hermite/direction_workspace.h"
 
 /* Shear rate of the central difference, in units in which T = m = 1. */
 static const double small = 1e-3;

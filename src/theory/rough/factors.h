@@ -4,7 +4,7 @@
 #ifndef GG_ROUGH_FACTORS_H
 #define GG_ROUGH_FACTORS_H
 
-#include "theory/rough/collision.h"
+#include "theory/rough/rough_collision.h"
 
 enum { GG_ROUGH_SIDE = GG_ROUGH_MOST_DEGREE + 1 };
 

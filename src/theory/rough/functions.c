@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 
 static int cell(int degree, const int r[3])
 {

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "common/error.h"
+#include "base/error.h"
 
 enum { GG_ROUGH_MOST_DEGREE = 14, GG_ROUGH_AXES = 6 };
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/memory.h"
+#include "base/memory.h"
 #include "theory/hermite/overlap.h"
 
 /* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi), to 1e-6: a quarter of the sphere stands for the

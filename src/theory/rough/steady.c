@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/gsl_quiet.h"
-#include "common/memory.h"
-#include "theory/hermite/state.h"
+#include "base/gsl_errors.h"
+#include "base/memory.h"
+#include "theory/hermite/hermite_state.h"
 
 enum { MOST_ITERATIONS = 40 };
 static const double converged = 1e-11;

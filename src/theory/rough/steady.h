@@ -2,7 +2,7 @@
 #ifndef GG_ROUGH_STEADY_H
 #define GG_ROUGH_STEADY_H
 
-#include "theory/rough/state.h"
+#include "theory/rough/rough_state.h"
 
 typedef struct gg_rough_steady {
   gg_rough_choice choice;

@@ -1,0 +1,28 @@
+/* What the files of the public interface have in common. Each of them is one section of graingas.h: it checks
+ * arguments, finishes scenes, and hands on to the rooms that do the work. */
+#ifndef GG_DOOR_H
+#define GG_DOOR_H
+
+#include <jansson.h>
+
+#include "base/error.h"
+#include "common/scene.h"
+#include "measure/curve.h"
+
+/* A missing argument is an answer, not a crash. */
+#define GG_NEED(argument)                                                                                              \
+  do {                                                                                                                 \
+    if (!(argument)) return gg_fail(err, GG_BAD_INPUT, "%s: argument '%s' is missing (NULL)", __func__, #argument);    \
+  } while (0)
+
+/* scene.c: a copy of the scene, complete and checked: what every use of a scene begins with. */
+gg_status gg_door_finished(const gg_scene *scene, gg_scene *copy, gg_error *err);
+
+/* text.c: an engine by its name; a document as text, whose reference it takes. */
+gg_status gg_door_engine(const char *name, gg_engine_kind *kind, gg_error *err);
+gg_status gg_door_text(json_t *document, char **text, gg_error *err);
+
+/* result.c: what a user sees of a curve. */
+gg_curve_data gg_door_curve(const gg_curve *curve);
+
+#endif

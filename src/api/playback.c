@@ -1,0 +1,144 @@
+/* Trajectories that runs have stored, a frame at a time. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/api.h"
+#include "api/moments.h"
+#include "base/c_locale.h"
+#include "base/memory.h"
+#include "files/h5/hdf5_trajectory.h"
+#include "files/h5/result_restore.h"
+
+struct gg_trajectory {
+  gg_stored_trajectory stored;
+  gg_scene scene; /* as it was run */
+  gg_model model;
+  gg_moments last; /* of the frame that was read last; its model is NULL before the first */
+};
+
+/* The scene, and whether there is any result. */
+static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
+{
+  gg_stored_result stored;
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_stored_result_read(&stored, path, err);
+  if (status == GG_OK)
+    status = gg_stored_scene(&stored, stored.engine[GG_MD].name ? GG_MD : GG_DSMC, &t->scene, &t->model, err);
+  gg_c_locale_leave(before);
+  gg_stored_result_clear(&stored);
+  return status;
+}
+
+static gg_status open_file(gg_trajectory *t, const char *path, gg_error *err)
+{
+  GG_TRY(read_scene(t, path, err));
+  GG_TRY(gg_stored_trajectory_open(&t->stored, path, err));
+  if (!t->stored.n_frames) return gg_fail(err, GG_FAILED, "%s: nothing to play: " GG_NO_POSITIONS, path);
+  return GG_OK;
+}
+
+gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_error *err)
+{
+  GG_NEED(path);
+  GG_NEED(trajectory);
+  gg_trajectory *t = gg_new_array(1, sizeof *t, err);
+  if (!t) return GG_FAILED;
+  gg_status status = open_file(t, path, err);
+  if (status == GG_OK)
+    *trajectory = t;
+  else
+    gg_trajectory_free(t);
+  return status;
+}
+
+void gg_trajectory_free(gg_trajectory *trajectory)
+{
+  if (!trajectory) return;
+  gg_stored_trajectory_close(&trajectory->stored);
+  free(trajectory);
+}
+
+const gg_scene *gg_trajectory_scene(const gg_trajectory *trajectory)
+{
+  return trajectory ? &trajectory->scene : NULL;
+}
+
+size_t gg_trajectory_frames(const gg_trajectory *trajectory)
+{
+  return trajectory ? trajectory->stored.n_frames : 0;
+}
+
+/* Velocities and spins of a frame, as engines show theirs. */
+static void sum_up(gg_trajectory *t, const gg_frame *f)
+{
+  double c[3][GG_CHUNK], s[3][GG_CHUNK];
+  t->last = (gg_moments){.model = &t->model};
+  for (size_t from = 0; from < f->n; from += GG_CHUNK) {
+    gg_chunk chunk = {.n = f->n - from < GG_CHUNK ? f->n - from : GG_CHUNK, .c = {c[0], c[1], c[2]}};
+    if (f->species) chunk.species = f->species + from;
+    for (size_t i = 0; i < chunk.n; i++)
+      for (size_t a = 0; a < 3; a++) {
+        const double radius = t->model.diameter[f->species ? f->species[from + i] : 0] / 2;
+        c[a][i] = f->velocity[3 * (from + i) + a];
+        if (f->spin) s[a][i] = radius * f->spin[3 * (from + i) + a];
+      }
+    for (int a = 0; a < 3 && f->spin; a++) chunk.s[a] = s[a];
+    gg_moments_add(&t->last, &chunk);
+  }
+}
+
+/* The second edge leans by the offset, counted from the nearest image. */
+static gg_status tell(const gg_trajectory *t, const gg_frame *f, const double edges[9], gg_simulation_state *state,
+                      gg_error *err)
+{
+  *state = (gg_simulation_state){.time = f->time, .collisions = f->step};
+  gg_moments_state(&t->last, 1, state);
+  for (int a = 0; a < 3; a++) {
+    state->box[a] = edges[4 * a];
+    if (!(state->box[a] > 0 && state->box[a] < INFINITY && fabs(edges[3]) <= edges[0]))
+      return gg_fail(err, GG_BAD_FILE, "%s: the box of a frame of its trajectory is none", t->stored.path);
+  }
+  state->image_offset = edges[3] < 0 ? edges[3] + edges[0] : edges[3];
+  return GG_OK;
+}
+
+static void copy_out(const gg_frame *f, const gg_grains *into)
+{
+  const size_t size = 3 * f->n * sizeof(double);
+  if (into->position) memcpy(into->position, f->position, size);
+  if (into->velocity) memcpy(into->velocity, f->velocity, size);
+  if (into->spin && f->spin) memcpy(into->spin, f->spin, size);
+  if (into->spin && !f->spin) memset(into->spin, 0, size);
+  for (size_t i = 0; into->species && i < f->n; i++) into->species[i] = f->species ? f->species[i] : 0;
+}
+
+gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation_state *state, const gg_grains *into,
+                              gg_error *err)
+{
+  GG_NEED(trajectory);
+  gg_trajectory *t = trajectory;
+  gg_frame f;
+  double edges[9] = {0};
+  if (k >= t->stored.n_frames)
+    return gg_fail(err, GG_BAD_INPUT, "there is no frame %zu: this trajectory has %zu, counted from 0", k,
+                   t->stored.n_frames);
+  GG_TRY(gg_stored_trajectory_frame(&t->stored, k, &f, edges, err));
+  if (t->model.n_species > 1) f.species = t->stored.species;
+  gg_status status = gg_frame_check(&f, &t->model, err);
+  if (status == GG_OK) sum_up(t, &f);
+  if (status == GG_OK && state) status = tell(t, &f, edges, state, err);
+  if (status == GG_OK && into) copy_out(&f, into);
+  f.species = NULL; /* the trajectory's own */
+  gg_frame_free(&f);
+  return status;
+}
+
+gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species, gg_species_state *state,
+                                    gg_error *err)
+{
+  GG_NEED(trajectory);
+  GG_NEED(state);
+  if (!trajectory->last.model) return gg_fail(err, GG_BAD_INPUT, "no frame of the trajectory was read yet");
+  return gg_moments_species(&trajectory->last, species, 1, state, err);
+}

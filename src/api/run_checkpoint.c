@@ -1,0 +1,84 @@
+/* What checkpoints hold. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/run.h"
+#include "api/simulation.h"
+#include "base/memory.h"
+#include "files/h5/checkpoint_file.h"
+
+static gg_status tell_comparison(const gg_archive *a, gg_checkpoint_info *info, gg_error *err)
+{
+  info->kind = "comparison";
+  for (int k = 0; k < 2; k++) {
+    gg_archive one = {0};
+    const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
+    gg_status status = gg_archive_unnest(&one, name, a, err);
+    if (status == GG_OK && one.n_items) {
+      info->part[k].engine = name;
+      status = gg_run_how_far(&one, &info->part[k], err);
+    }
+    gg_archive_clear(&one);
+    if (status != GG_OK) return status;
+  }
+  return GG_OK;
+}
+
+static void tell_simulation(gg_simulation *s, gg_checkpoint_info *info)
+{
+  gg_simulation_state now;
+  info->kind = "simulation";
+  info->part[0] = (gg_checkpoint_part){.engine = s->engine->ops->name, .phase = "stepped"};
+  if (gg_simulation_get_state(s, &now, NULL) == GG_OK) info->part[0].collisions_per_grain = now.collisions_per_grain;
+  gg_simulation_free(s);
+}
+
+static gg_status tell(const gg_archive *a, const char *path, const gg_scene *scene, gg_checkpoint_info *info,
+                      gg_error *err)
+{
+  gg_simulation *simulation;
+  if (gg_archive_find(a, "md/campaign/state") || gg_archive_find(a, "dsmc/campaign/state"))
+    return tell_comparison(a, info, err);
+  if (!gg_archive_find(a, "simulation/scene")) {
+    info->kind = "run";
+    info->part[0].engine = gg_engine_ops_of(scene->engine)->name;
+    return gg_run_how_far(a, &info->part[0], err);
+  }
+  GG_TRY(gg_simulation_load(path, NULL, &simulation, err));
+  tell_simulation(simulation, info);
+  return GG_OK;
+}
+
+static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)
+{
+  gg_scene *stored = NULL;
+  bool before = gg_memory_begin();
+  char *yaml = gg_checkpoint_scene(path, info->older);
+  bool lacked = gg_memory_end(before);
+  gg_status status = yaml     ? gg_scene_parse(yaml, path, &stored, err)
+                     : lacked ? gg_error_prefix(err, gg_out_of_memory(err), "%s", path)
+                              : gg_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
+  free(yaml);
+  info->frames = gg_door_trajectory_frames(a);
+  if (status == GG_OK) status = tell(a, path, stored, info, err);
+  if (status == GG_OK && scene)
+    *scene = stored;
+  else
+    gg_scene_free(stored);
+  return status;
+}
+
+gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)
+{
+  GG_NEED(path);
+  GG_NEED(info);
+  bool older = false;
+  gg_archive archive = {0};
+  gg_checkpoint_info found = {0};
+  gg_status status = gg_checkpoint_read(path, &archive, &older, err);
+  found.older = older;
+  if (status == GG_OK) status = about(&archive, path, &found, scene, err);
+  if (status == GG_OK) *info = found;
+  gg_archive_clear(&archive);
+  return status;
+}

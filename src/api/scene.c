@@ -1,0 +1,214 @@
+/* Scenes: read, changed, asked and written back. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/api.h"
+#include "base/available_memory.h"
+#include "base/c_locale.h"
+#include "base/memory.h"
+#include "common/engine.h"
+#include "common/ensemble_size.h"
+#include "common/extension.h"
+#include "files/text_format.h"
+#include "run/cost_estimate.h"
+#include "scene/ineffective_keys.h"
+#include "scene/scene_json.h"
+#include "scene/scene_reader.h"
+
+gg_status gg_door_finished(const gg_scene *scene, gg_scene *copy, gg_error *err)
+{
+  *copy = *scene;
+  return gg_scene_finish(copy, err);
+}
+
+static gg_status publish(const gg_scene *made, gg_scene **scene, gg_error *err)
+{
+  gg_scene *copy = gg_new_array(1, sizeof *copy, err);
+  if (!copy) return GG_FAILED;
+  *copy = *made;
+  gg_extension_hold(copy->extension);
+  *scene = copy;
+  return GG_OK;
+}
+
+gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
+{
+  GG_NEED(path);
+  GG_NEED(scene);
+  gg_scene made = gg_scene_defaults();
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_scene_read_file(&made, path, err);
+  gg_c_locale_leave(before);
+  return status == GG_OK ? publish(&made, scene, err) : status;
+}
+
+gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err)
+{
+  GG_NEED(yaml);
+  GG_NEED(scene);
+  gg_scene made = gg_scene_defaults();
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_scene_read(&made, yaml, strlen(yaml), name ? name : "scene", err);
+  gg_c_locale_leave(before);
+  return status == GG_OK ? publish(&made, scene, err) : status;
+}
+
+gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(copy);
+  return publish(scene, copy, err);
+}
+
+void gg_scene_free(gg_scene *scene)
+{
+  if (scene) gg_extension_release(scene->extension);
+  free(scene);
+}
+
+gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(key);
+  GG_NEED(value);
+  locale_t before = gg_c_locale_enter();
+  gg_status status = gg_scene_override(scene, key, value, err);
+  gg_c_locale_leave(before);
+  return status;
+}
+
+gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(key);
+  GG_NEED(text);
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  bool outer = gg_memory_begin();
+  json_t *value = gg_scene_key_json(&filled, key);
+  locale_t before = gg_c_locale_enter();
+  if (value) gg_flow_style_text(value, text, size);
+  gg_c_locale_leave(before);
+  if (gg_memory_end(outer)) {
+    json_decref(value);
+    return gg_out_of_memory(err);
+  }
+  if (!value) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
+  json_decref(value);
+  return GG_OK;
+}
+
+gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
+{
+  GG_NEED(scene);
+  gg_scene copy;
+  return gg_door_finished(scene, &copy, err);
+}
+
+gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(text);
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  locale_t before = gg_c_locale_enter();
+  char *yaml = gg_scene_yaml(&filled);
+  gg_c_locale_leave(before);
+  if (!yaml) return gg_out_of_memory(err);
+  *text = yaml;
+  return GG_OK;
+}
+
+gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(text);
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  return gg_door_text(gg_scene_json(&filled), text, err);
+}
+
+gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(text);
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  locale_t before = gg_c_locale_enter();
+  gg_title_of_scene(&filled, text, size);
+  gg_c_locale_leave(before);
+  return GG_OK;
+}
+
+static gg_status make_model(const gg_scene *scene, const char *engine, gg_scene *finished, gg_model *model,
+                            gg_engine_kind *kind, gg_error *err)
+{
+  GG_TRY(gg_door_engine(engine, kind, err));
+  GG_TRY(gg_door_finished(scene, finished, err));
+  GG_TRY(gg_model_make(finished, *kind, model, err));
+  return gg_engine_ops_of(*kind)->accepts(model, err);
+}
+
+gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene_needs *needs, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(engine);
+  GG_NEED(needs);
+  gg_scene finished;
+  gg_model model;
+  gg_engine_kind kind;
+  GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
+  const gg_forecast f = gg_forecast_of(&finished, &model, kind);
+  *needs = (gg_scene_needs){f.bytes, gg_memory_available(), f.collisions, f.seconds, 0};
+  for (int i = 0; i < f.n_costs; i++) needs->observables += f.cost[i].percent / 100;
+  return GG_OK;
+}
+
+gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*line)(void *context, const char *text),
+                            void *context, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(engine);
+  GG_NEED(line);
+  gg_scene finished;
+  gg_model model;
+  gg_engine_kind kind;
+  GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
+  gg_engine_ops_of(kind)->describe(&model, line, context);
+  char chosen[200] = "";
+  if (model.homogeneous) gg_ensemble_reason(&finished, chosen, sizeof chosen);
+  if (*chosen) {
+    char text[240];
+    snprintf(text, sizeof text, "so many velocities are %s", chosen);
+    line(context, text);
+  }
+  gg_forecast forecast = gg_forecast_of(&finished, &model, kind);
+  gg_forecast_tell(&forecast, finished.run.replicas, line, context);
+  return GG_OK;
+}
+
+gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)(void *context, const char *text),
+                            void *context, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(use);
+  GG_NEED(line);
+  gg_scene finished;
+  gg_engine_kind kind;
+  gg_text_list lines = {0};
+  unsigned uses = GG_USE_THEORY;
+  if (strcmp(use, "compare") == 0) {
+    uses |= GG_USE_MD | GG_USE_DSMC;
+  } else if (strcmp(use, "theory") != 0) {
+    GG_TRY(gg_door_engine(use, &kind, err));
+    uses = 1u << kind;
+  }
+  GG_TRY(gg_door_finished(scene, &finished, err));
+  bool before = gg_memory_begin();
+  gg_scene_inert(&finished, uses, &lines);
+  gg_status status = gg_memory_check(before, GG_OK, err);
+  for (size_t i = 0; status == GG_OK && i < lines.n; i++) line(context, lines.text[i]);
+  gg_text_list_clear(&lines);
+  return status;
+}

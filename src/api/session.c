@@ -1,0 +1,115 @@
+/* Runs in pieces: a run whose caller takes it further, and asks it for its means in between. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "api/api.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "common/engine.h"
+#include "common/extension.h"
+#include "run/replicas.h"
+
+struct gg_session {
+  gg_scene scene; /* finished */
+  gg_replicas all;
+  gg_hooks hooks;
+  double until;  /* by the clock on the wall; INFINITY while it is made */
+  bool over;     /* nothing is left to do ... */
+  gg_status end; /* ... as it ended */
+  gg_error why;
+  gg_progress progress;
+};
+
+static bool time_is_up(void *context)
+{
+  const gg_session *s = context;
+  return gg_wall_now() >= s->until;
+}
+
+static void note_progress(void *context, const gg_progress *progress)
+{
+  gg_session *s = context;
+  s->progress = *progress;
+}
+
+static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
+{
+  GG_TRY(gg_door_finished(scene, &s->scene, err));
+  if (s->scene.run.replicas != 1)
+    return gg_fail(err, GG_BAD_INPUT, "run.replicas: %lld; a session has 1, gg_run takes more",
+                   (long long)s->scene.run.replicas);
+  s->hooks = (gg_hooks){.context = s, .progress = note_progress, .interrupted = time_is_up};
+  s->progress = (gg_progress){.engine = gg_engine_ops_of(s->scene.engine)->name,
+                              .phase = "warm-up",
+                              .relative_error = NAN,
+                              .time_left = NAN,
+                              .replicas = 1};
+  s->until = INFINITY;
+  return gg_replicas_create(&s->all, &s->scene, NULL, 1, &s->hooks, err);
+}
+
+gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(session);
+  gg_session *s = gg_new_array(1, sizeof *s, err);
+  if (!s) return GG_FAILED;
+  gg_status status = make(s, scene, err);
+  if (status != GG_OK) {
+    free(s);
+    return status;
+  }
+  gg_extension_hold(s->scene.extension);
+  *session = s;
+  return GG_OK;
+}
+
+void gg_session_free(gg_session *s)
+{
+  if (!s) return;
+  gg_replicas_clear(&s->all);
+  gg_extension_release(s->scene.extension);
+  free(s);
+}
+
+gg_status gg_session_go_on(gg_session *session, double seconds, int *over, gg_error *err)
+{
+  GG_NEED(session);
+  gg_session *s = session;
+  if (!(seconds > 0)) return gg_fail(err, GG_BAD_INPUT, "gg_session_go_on: cannot go on for %g seconds", seconds);
+  if (!s->over) {
+    s->until = gg_wall_now() + seconds;
+    int stopped = GG_STOP_ASKED;
+    atomic_compare_exchange_strong(&s->all.stopped, &stopped, GG_GOES_ON);
+    s->end = gg_replicas_run(&s->all, &s->why);
+    s->over = s->end != GG_INTERRUPTED;
+    if (s->end == GG_OK) s->end = gg_replicas_check_end(&s->all, &s->why);
+  }
+  if (over) *over = s->over;
+  if (!s->over || s->end == GG_OK) return GG_OK;
+  if (err) *err = s->why;
+  return s->end;
+}
+
+gg_status gg_session_get_progress(const gg_session *session, gg_progress *progress, gg_error *err)
+{
+  GG_NEED(session);
+  GG_NEED(progress);
+  *progress = session->progress;
+  return GG_OK;
+}
+
+gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *err)
+{
+  GG_NEED(session);
+  GG_NEED(result);
+  gg_result *made = gg_new_array(1, sizeof *made, err);
+  if (!made) return GG_FAILED;
+  if (session->over) gg_replicas_level(&session->all);
+  gg_status status = gg_replicas_report(&session->all, made, err);
+  if (status == GG_OK)
+    *result = made;
+  else
+    gg_result_free(made);
+  return status;
+}

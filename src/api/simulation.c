@@ -1,0 +1,184 @@
+/* Simulations: made, advanced, with a callback for their collisions. */
+#include "api/simulation.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "common/extension.h"
+#include "common/rng.h"
+#include "run/start_model.h"
+
+static bool asked_to_stop(void *context)
+{
+  const gg_simulation *s = context;
+  return s->asks && s->asks(s->asks_context);
+}
+
+gg_status gg_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err)
+{
+  gg_simulation *s = gg_new_array(1, sizeof *s, err);
+  if (!s) return GG_FAILED;
+  gg_status status = gg_door_finished(scene, &s->scene, err);
+  if (status == GG_OK) status = gg_model_make(&s->scene, s->scene.engine, &s->model, err);
+  if (status == GG_OK) status = gg_engine_ops_of(s->scene.engine)->accepts(&s->model, err);
+  if (status != GG_OK) {
+    free(s);
+    return status;
+  }
+  gg_extension_hold(s->scene.extension);
+  s->stop = (gg_stop){asked_to_stop, s};
+  s->model.stop = &s->stop;
+  if (s->scene.temperature == GG_AUTO) status = gg_start_near_steady(&s->model, err);
+  if (status == GG_OK)
+    *simulation = s;
+  else
+    gg_simulation_free(s);
+  return status;
+}
+
+gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err)
+{
+  GG_NEED(scene);
+  GG_NEED(simulation);
+  gg_simulation *s;
+  GG_TRY(gg_simulation_prepare(scene, &s, err));
+  const gg_engine_ops *ops = gg_engine_ops_of(s->scene.engine);
+  gg_status status = ops->create(&s->model, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
+  if (status != GG_OK) {
+    gg_simulation_free(s);
+    return status;
+  }
+  ops->keep_sums(s->engine, true);
+  *simulation = s;
+  return GG_OK;
+}
+
+void gg_simulation_free(gg_simulation *s)
+{
+  if (!s) return;
+  if (s->engine) s->engine->ops->destroy(s->engine);
+  gg_extension_release(s->scene.extension);
+  free(s);
+}
+
+static uint64_t collisions(const gg_simulation *s)
+{
+  gg_engine_state state;
+  s->engine->ops->state(s->engine, &state);
+  return state.collisions;
+}
+
+/* Velocities that have fallen fourfold are brought back. */
+static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
+{
+  if (!gg_flow_cools(s->model.flow) || T > s->model.temperature0 / 16) return GG_OK;
+  gg_simulation_collect(s);
+  GG_TRY(s->engine->ops->rescale(s->engine, 2, err));
+  s->clock.power += 2;
+  return GG_OK;
+}
+
+/* Free times of a grain that one stretch lasts: so few that a cooling gas is brought back in time. A stretch in which a
+ * grain collides a thousand times more often is a collapse. */
+enum { STRETCH = 20, COLLAPSE = 1000 };
+
+/* Within at most `time` (units of the start) and `most` collisions; both are lessened by what has gone. */
+static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
+{
+  double T = gg_simulation_temperature(s), unit = gg_simulation_unit(s), gone = 0;
+  double free_time = 1 / gg_model_collision_rate(&s->model, T > 0 ? T : s->model.temperature0);
+  double stretch = fmin(*time * unit, STRETCH * free_time);
+  gg_engine_state engine;
+  s->engine->ops->state(s->engine, &engine);
+  s->stretch_from = engine.time;
+  uint64_t before = engine.collisions, pile = (uint64_t)(COLLAPSE * STRETCH * (double)s->model.n / 2) + 1000000;
+  gg_status status = s->engine->ops->advance(s->engine, stretch, *most < pile ? *most : pile, &gone, err);
+  uint64_t happened = collisions(s) - before;
+  s->clock.time += gone / unit;
+  *time = gone >= *time * unit ? 0 : *time - gone / unit;
+  *most = happened < *most ? *most - happened : 0;
+  if (status != GG_OK) return status;
+  if (happened >= pile)
+    return gg_fail(err, GG_FAILED,
+                   "%s: collisions accumulate without end (inelastic collapse) near time %g; give "
+                   "md.contact_time a larger value",
+                   s->engine->ops->name, s->clock.time);
+  return rescale_if_cold(s, gg_simulation_temperature(s), err);
+}
+
+/* Asked before the first stretch, too: with small systems an advance ends before the engine looks. */
+static gg_status look(const gg_simulation *s, gg_error *err)
+{
+  return gg_stop_asked(s->model.stop) ? gg_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
+}
+
+gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err)
+{
+  GG_NEED(simulation);
+  if (!(time >= 0 && time < INFINITY))
+    return gg_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
+  for (uint64_t most = UINT64_MAX; time > 0;) {
+    GG_TRY(look(simulation, err));
+    GG_TRY(advance_stretch(simulation, &time, &most, err));
+  }
+  return GG_OK;
+}
+
+/* Stretches in a row without a collision after which there will be none: a grain expects twenty in each. */
+enum { MOST_EMPTY_STRETCHES = 100 };
+
+gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_more, gg_error *err)
+{
+  GG_NEED(simulation);
+  double time = INFINITY;
+  for (int empty = 0; collisions_more > 0; empty++) {
+    uint64_t before = collisions_more;
+    GG_TRY(look(simulation, err));
+    GG_TRY(advance_stretch(simulation, &time, &collisions_more, err));
+    if (collisions_more < before) empty = -1;
+    if (empty == MOST_EMPTY_STRETCHES)
+      return gg_fail(err, GG_FAILED,
+                     "gg_simulation_collide: the grains do not meet: no collision in %d mean free times up to time %g",
+                     STRETCH * MOST_EMPTY_STRETCHES, simulation->clock.time);
+  }
+  return GG_OK;
+}
+
+gg_status gg_simulation_on_stop(gg_simulation *simulation, int (*stop)(void *context), void *context, gg_error *err)
+{
+  GG_NEED(simulation);
+  simulation->asks = stop;
+  simulation->asks_context = context;
+  return GG_OK;
+}
+
+static void put(double to[3], gg_vec v, double factor)
+{
+  to[0] = v.x * factor, to[1] = v.y * factor, to[2] = v.z * factor;
+}
+
+static void show(void *context, const gg_collision_record *collision)
+{
+  const gg_simulation *s = context;
+  double unit = gg_simulation_unit(s);
+  gg_engine_state engine;
+  s->engine->ops->state(s->engine, &engine);
+  gg_collision_event event = {.grain = {(size_t)collision->id[0], (size_t)collision->id[1]},
+                              .species = {collision->species[0], collision->species[1]},
+                              .normal_speed = gg_dot(collision->k, collision->c12) * unit,
+                              .time = s->clock.time + (engine.time - s->stretch_from) / unit};
+  put(event.k, collision->k, 1);
+  put(event.velocity, collision->c12, unit);
+  put(event.impulse, collision->J, unit);
+  s->callback(s->context, &event);
+}
+
+gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context, gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_TRY(simulation->engine->ops->set_callback(simulation->engine, callback ? show : NULL, simulation, err));
+  simulation->callback = callback;
+  simulation->context = context;
+  return GG_OK;
+}

@@ -1,0 +1,133 @@
+/* Simulations asked: their state, their grains, their sums over collisions. */
+#include <math.h>
+#include <string.h>
+
+#include "api/moments.h"
+#include "api/simulation.h"
+
+double gg_simulation_unit(const gg_simulation *s)
+{
+  return ldexp(1, -(int)s->clock.power);
+}
+
+static gg_moments sum_up(const gg_simulation *s)
+{
+  gg_moments m = {.model = &s->model};
+  s->engine->ops->snapshot(s->engine, false, gg_moments_add, &m);
+  return m;
+}
+
+double gg_simulation_temperature(const gg_simulation *s)
+{
+  const gg_moments m = sum_up(s);
+  return gg_moments_temperature(&m);
+}
+
+int gg_simulation_species(const gg_simulation *simulation)
+{
+  return simulation ? simulation->model.n_species : 0;
+}
+
+gg_status gg_simulation_get_species(const gg_simulation *simulation, int species, gg_species_state *state,
+                                    gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_NEED(state);
+  const gg_moments m = sum_up(simulation);
+  return gg_moments_species(&m, species, gg_simulation_unit(simulation), state, err);
+}
+
+gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_NEED(state);
+  const gg_model *model = &simulation->model;
+  const gg_moments m = sum_up(simulation);
+  gg_engine_state engine;
+  simulation->engine->ops->state(simulation->engine, &engine);
+  *state = (gg_simulation_state){
+      .time = simulation->clock.time, .collisions = engine.collisions, .image_offset = engine.offset};
+  gg_moments_state(&m, gg_simulation_unit(simulation), state);
+  for (int a = 0; a < 3; a++) state->box[a] = model->homogeneous ? 0 : model->box[a];
+  return GG_OK;
+}
+
+/* Grains go to the places of their numbers. */
+typedef struct copying {
+  const gg_grains *into;
+  double velocity_unit, spin_unit[GG_MAX_SPECIES];
+  size_t at;
+} copying;
+
+static void copy(void *context, const gg_chunk *chunk)
+{
+  copying *c = context;
+  const gg_grains *to = c->into;
+  for (size_t i = 0; i < chunk->n; i++, c->at++) {
+    size_t place = chunk->id ? (size_t)chunk->id[i] : c->at;
+    int species = chunk->species ? chunk->species[i] : 0;
+    if (to->species) to->species[place] = species;
+    for (size_t a = 0; a < 3; a++) {
+      if (to->position) to->position[3 * place + a] = chunk->r[a][i];
+      if (to->velocity) to->velocity[3 * place + a] = chunk->c[a][i] * c->velocity_unit;
+      if (to->spin) to->spin[3 * place + a] = chunk->s[0] ? chunk->s[a][i] * c->spin_unit[species] : 0;
+    }
+  }
+}
+
+gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_NEED(into);
+  const gg_model *model = &simulation->model;
+  if (into->position && model->homogeneous)
+    return gg_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
+                   simulation->engine->ops->name);
+  copying c = {.into = into, .velocity_unit = gg_simulation_unit(simulation)};
+  for (int i = 0; i < GG_MAX_SPECIES; i++)
+    c.spin_unit[i] = c.velocity_unit * (model->boltzmann ? 1 : 2 / model->diameter[i]);
+  simulation->engine->ops->snapshot(simulation->engine, !model->homogeneous, copy, &c);
+  return GG_OK;
+}
+
+_Static_assert((int)GG_WALLS == (int)GG_MOST_SURFACES, "walls of the interface are the surfaces of the model");
+
+const char *gg_simulation_wall(const gg_simulation *s, int wall)
+{
+  return s && wall >= 0 && wall < s->model.n_surfaces ? s->model.surface[wall].word : NULL;
+}
+
+void gg_simulation_collect(gg_simulation *s)
+{
+  gg_simulation_sums *sums = &s->clock.sums;
+  double unit = gg_simulation_unit(s);
+  gg_collision_sums t;
+  s->engine->ops->take_sums(s->engine, &t);
+  for (int p = 0; p < gg_pairs_of(s->model.n_species); p++) {
+    sums->collisions += t.collisions[p];
+    sums->dissipation += t.loss[p] * unit * unit;
+    for (int a = 0; a < 3; a++)
+      for (int b = 0; b < 3; b++) sums->collisional_stress[a][b] += t.stress[p][a][b] * unit;
+  }
+  const gg_surface_sums walls = gg_sums_of_surfaces(&t);
+  sums->wall_collisions += walls.collisions;
+  sums->wall_loss += walls.loss;
+  for (int w = 0; w < GG_WALLS; w++)
+    for (int a = 0; a < 3; a++) sums->wall_impulse[w][a] += t.surface[w].impulse[a];
+}
+
+gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err)
+{
+  GG_NEED(simulation);
+  GG_NEED(sums);
+  gg_simulation_collect(simulation);
+  struct gg_simulation_clock *clock = &simulation->clock;
+  *sums = clock->sums;
+  sums->time = clock->time - clock->sums.time;
+  double per = sums->time > 0 ? simulation->model.stress_unit / (simulation->model.volume * sums->time) : 0;
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) sums->collisional_stress[a][b] *= per;
+  sums->dissipation *= per;
+  clock->sums = (gg_simulation_sums){.time = clock->time}; /* when they were last taken */
+  return GG_OK;
+}

@@ -1,0 +1,50 @@
+/* The version, names of engines, texts, and words for people. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/api.h"
+#include "base/c_locale.h"
+#include "base/memory.h"
+#include "base/spelling.h"
+#include "common/engine.h"
+#include "files/result_document.h"
+#include "files/text_format.h"
+
+const char *gg_version(void)
+{
+  return GG_VERSION;
+}
+
+gg_status gg_door_engine(const char *name, gg_engine_kind *kind, gg_error *err)
+{
+  for (int k = 0; k < 2; k++)
+    if (strcmp(gg_engine_ops_of((gg_engine_kind)k)->name, name) == 0) return *kind = (gg_engine_kind)k, GG_OK;
+  return gg_fail(err, GG_BAD_INPUT, "there is no engine called '%.40s'; there are md and dsmc", name);
+}
+
+gg_status gg_door_text(json_t *document, char **text, gg_error *err)
+{
+  locale_t before = gg_c_locale_enter();
+  char *made = document ? gg_document_text(document) : NULL;
+  gg_c_locale_leave(before);
+  json_decref(document);
+  if (!made) return gg_out_of_memory(err);
+  *text = made;
+  return GG_OK;
+}
+
+void gg_format_estimate(double mean, double error, char *text, size_t size)
+{
+  if (!text || !size) return;
+  locale_t before = gg_c_locale_enter();
+  gg_estimate_text(mean, error, text, size);
+  gg_c_locale_leave(before);
+}
+
+const char *gg_nearest_word(const char *word, const char *const *known)
+{
+  if (!word || !known) return NULL;
+  gg_nearest nearest = {.word = word};
+  for (; *known; known++) gg_nearest_try(&nearest, *known);
+  return nearest.best;
+}

@@ -1,0 +1,201 @@
+#include "base/atomic_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <libgen.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+static gg_status cannot(const gg_atomic_file *f, int number, gg_error *err)
+{
+  return gg_cannot_write(f->path, strerror(number), err);
+}
+
+/* A pipe needs a reader, who may come a moment after the writer: without one, opening it would wait for ever. */
+static gg_status open_stream(gg_atomic_file *f, gg_error *err)
+{
+  const struct timespec moment = {0, 10 * 1000 * 1000};
+  for (int i = 0; i < 100; i++) {
+    f->fd = open(f->path, O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    if (f->fd >= 0 || errno != ENXIO) break;
+    nanosleep(&moment, NULL);
+  }
+  if (f->fd < 0 && errno == ENXIO) return gg_cannot_write(f->path, "nobody reads from this pipe", err);
+  return f->fd >= 0 ? GG_OK : cannot(f, errno, err);
+}
+
+/* PATH, whose it is, and how temporary files end. 0, or the number of an error. */
+static int create(gg_atomic_file *f, const char *whose)
+{
+  free(f->temporary);
+  if (asprintf(&f->temporary, "%s%s" GG_TEMPORARY_SUFFIX, f->place.target, whose) < 0) {
+    f->temporary = NULL;
+    return ENOMEM;
+  }
+  /* What was private is not shown while it is written anew. */
+  f->fd = open(f->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, f->place.there ? 0600 : 0666);
+  return f->fd >= 0 ? 0 : errno;
+}
+
+/* Where no lock could tell whether one that stands there is of somebody who lives, there is a second name. */
+static gg_status open_temporary(gg_atomic_file *f, gg_error *err)
+{
+  int number = create(f, "");
+  if (number == EEXIST) {
+    char host[65] = "", own[100];
+    gethostname(host, sizeof host - 1);
+    snprintf(own, sizeof own, ".%s-%ld", host, (long)getpid());
+    number = create(f, own);
+  }
+  return number ? cannot(f, number, err) : GG_OK;
+}
+
+static gg_status begin(gg_atomic_file *f, const char *path, bool locked, gg_error *err)
+{
+  GG_TRY(gg_output_path_find(&f->place, path, err));
+  f->path = strdup(path);
+  if (!f->path) return gg_cannot_write(path, strerror(ENOMEM), err);
+  if (f->place.stream) return open_stream(f, err);
+  if (!locked) GG_TRY(gg_file_lock_take(&f->lock, f->place.target, path, err));
+  return open_temporary(f, err);
+}
+
+static gg_status open_it(gg_atomic_file *f, const char *path, bool locked, gg_error *err)
+{
+  *f = GG_ATOMIC_NONE;
+  gg_status status = begin(f, path, locked, err);
+  if (status != GG_OK) gg_atomic_abandon(f);
+  return status;
+}
+
+gg_status gg_atomic_open(gg_atomic_file *f, const char *path, gg_error *err)
+{
+  return open_it(f, path, false, err);
+}
+
+gg_status gg_atomic_open_locked(gg_atomic_file *f, const char *path, gg_error *err)
+{
+  return open_it(f, path, true, err);
+}
+
+/* A pipe whose reader has gone is an error, not the end of the program that uses the library. */
+static ssize_t write_calmly(int fd, const void *data, size_t size)
+{
+  sigset_t pipe, before, pending;
+  const struct timespec now = {0};
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  bool had = sigpending(&pending) == 0 && sigismember(&pending, SIGPIPE) == 1;
+  pthread_sigmask(SIG_BLOCK, &pipe, &before);
+  ssize_t done = write(fd, data, size);
+  int number = errno;
+  if (done < 0 && number == EPIPE && !had) sigtimedwait(&pipe, NULL, &now);
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  errno = number;
+  return done;
+}
+
+/* The reader of a pipe takes its time, but who is told to stop gives it a second. */
+static bool wait_for_reader(const gg_atomic_file *f)
+{
+  struct pollfd out = {.fd = f->fd, .events = POLLOUT};
+  for (int ready = 0; ready <= 0;) {
+    ready = poll(&out, 1, 1000);
+    if (ready < 0 && errno != EINTR) return true; /* writing tells why */
+    if (ready == 0 && f->stop.asked && gg_stop_asked(&f->stop)) return false;
+  }
+  return true;
+}
+
+gg_status gg_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_error *err)
+{
+  const char *from = data;
+  while (size > 0) {
+    if (f->place.stream && !wait_for_reader(f))
+      return gg_cannot_write(f->path, "its reader takes nothing, and the run was told to stop", err);
+    ssize_t done = f->place.stream ? write_calmly(f->fd, from, size) : write(f->fd, from, size);
+    if (done < 0 && (errno == EINTR || (errno == EAGAIN && f->place.stream))) continue;
+    if (done < 0) return cannot(f, errno, err);
+    from += done, size -= (size_t)done;
+  }
+  return GG_OK;
+}
+
+/* The new name is on the disk only once its folder is. */
+static void sync_folder(const char *path)
+{
+  char *copy = strdup(path);
+  int fd = copy ? open(dirname(copy), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+  if (fd >= 0) {
+    fsync(fd);
+    close(fd);
+  }
+  free(copy);
+}
+
+/* Who may read and write the file does not change because it is written anew. */
+static void keep_owner_and_mode(const gg_atomic_file *f)
+{
+  const struct stat *was = &f->place.about;
+  if (!f->place.there) return;
+  if (fchown(f->fd, was->st_uid, was->st_gid) != 0) errno = 0; /* only root may give files away */
+  if (fchmod(f->fd, was->st_mode & 0777) != 0) errno = 0;
+}
+
+static bool put_in_place(gg_atomic_file *f)
+{
+  keep_owner_and_mode(f);
+  if (fsync(f->fd) != 0 || rename(f->temporary, f->place.target) != 0) return false;
+  sync_folder(f->place.target);
+  free(f->temporary);
+  f->temporary = NULL;
+  return true;
+}
+
+/* A device or pipe has had everything; some say only now that they could not take it. */
+static bool let_go(gg_atomic_file *f)
+{
+  int fd = f->fd;
+  f->fd = -1;
+  return close(fd) == 0;
+}
+
+gg_status gg_atomic_commit(gg_atomic_file *f, gg_error *err)
+{
+  bool done = f->place.stream ? let_go(f) : put_in_place(f);
+  gg_status status = done ? GG_OK : cannot(f, errno, err);
+  gg_atomic_abandon(f);
+  return status;
+}
+
+void gg_atomic_abandon(gg_atomic_file *f)
+{
+  if (f->fd >= 0) close(f->fd);
+  if (f->temporary && f->fd >= 0) unlink(f->temporary);
+  gg_file_lock_release(&f->lock);
+  gg_output_path_clear(&f->place);
+  free(f->temporary);
+  free(f->path);
+  *f = GG_ATOMIC_NONE;
+}
+
+gg_status gg_check_writable(const char *path, const char *why_regular, gg_error *err)
+{
+  gg_atomic_file file;
+  gg_output_path place;
+  GG_TRY(gg_output_path_find(&place, path, err));
+  bool stream = place.stream;
+  gg_output_path_clear(&place);
+  if (stream) return gg_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; %s", path, why_regular);
+  GG_TRY(gg_atomic_open(&file, path, err));
+  gg_atomic_abandon(&file);
+  return GG_OK;
+}

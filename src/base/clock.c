@@ -1,0 +1,46 @@
+#include "base/clock.h"
+
+#include <time.h>
+
+static double read_clock(clockid_t id)
+{
+  struct timespec t;
+  clock_gettime(id, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+double gg_wall_now(void)
+{
+  return read_clock(CLOCK_MONOTONIC);
+}
+
+#ifdef __APPLE__ /* has no conditions of another clock */
+static const clockid_t waited_by = CLOCK_REALTIME;
+#else
+static const clockid_t waited_by = CLOCK_MONOTONIC;
+#endif
+
+void gg_news_init(pthread_cond_t *news)
+{
+  pthread_condattr_t kind;
+  pthread_condattr_init(&kind);
+#ifndef __APPLE__
+  pthread_condattr_setclock(&kind, waited_by);
+#endif
+  pthread_cond_init(news, &kind);
+  pthread_condattr_destroy(&kind);
+}
+
+void gg_news_wait(pthread_cond_t *news, pthread_mutex_t *lock, double seconds)
+{
+  struct timespec until;
+  clock_gettime(waited_by, &until);
+  until.tv_nsec += (long)(1e9 * seconds);
+  if (until.tv_nsec >= 1000000000) until.tv_sec++, until.tv_nsec -= 1000000000;
+  pthread_cond_timedwait(news, lock, &until);
+}
+
+double gg_cpu_now(void)
+{
+  return read_clock(CLOCK_THREAD_CPUTIME_ID);
+}

@@ -1,0 +1,175 @@
+#include "base/output_path.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <libgen.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+
+enum {
+  MOST_LINKS = 40, /* as many as the system follows */
+  MOST_LOOKS = 20  /* that another writer may spoil, one after the other */
+};
+
+gg_status gg_cannot_write(const char *path, const char *why, gg_error *err)
+{
+  return gg_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", path, why);
+}
+
+/* The folder of a path, to be freed. */
+static char *folder_of(const char *path)
+{
+  char *copy = strdup(path), *folder = copy ? strdup(dirname(copy)) : NULL;
+  free(copy);
+  return folder;
+}
+
+/* One link: from where it stands to where it leads; to be freed. */
+static char *follow_one(const char *link)
+{
+  char to[PATH_MAX], *at = NULL;
+  ssize_t length = readlink(link, to, sizeof to - 1);
+  if (length < 0) return NULL;
+  to[length] = '\0';
+  if (to[0] == '/') return strdup(to);
+  char *folder = folder_of(link);
+  if (folder && asprintf(&at, "%s/%s", folder, to) < 0) at = NULL;
+  free(folder);
+  return at;
+}
+
+char *gg_follow_links(const char *path)
+{
+  struct stat about;
+  errno = 0;
+  char *at = strdup(path);
+  for (int i = 0; at && lstat(at, &about) == 0 && S_ISLNK(about.st_mode); i++) {
+    char *next = i < MOST_LINKS ? follow_one(at) : NULL;
+    free(at);
+    at = next;
+  }
+  if (!at && errno == ENOMEM) gg_memory_lacked();
+  return at;
+}
+
+static bool is_one(const struct stat *a, const struct stat *b)
+{
+  return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
+/* Is this where the program's own words go? A file or pipe would hold both, mixed. */
+static bool is_standard(const struct stat *about)
+{
+  struct stat own;
+  for (int fd = STDOUT_FILENO; fd <= STDERR_FILENO; fd++)
+    if (fstat(fd, &own) == 0 && is_one(about, &own) && (!S_ISCHR(own.st_mode) || isatty(fd))) return true;
+  return false;
+}
+
+/* In a folder like /tmp only the owner of a file may replace it. */
+static bool is_pinned(const char *target, const struct stat *about)
+{
+  struct stat folder;
+  char *path = folder_of(target);
+  bool pinned = path && stat(path, &folder) == 0 && folder.st_mode & S_ISVTX && geteuid() != 0 &&
+                geteuid() != about->st_uid && geteuid() != folder.st_uid;
+  free(path);
+  return pinned;
+}
+
+/* Write permission is asked for although the file is replaced, not written to: who took it away meant it. It counts for
+ * root, too, who could write all the same. */
+static gg_status check_file(const gg_output_path *place, const char *path, gg_error *err)
+{
+  if (!(place->about.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)))
+    return gg_cannot_write(path, "it is write-protected", err);
+  int fd = open(place->target, O_WRONLY | O_CLOEXEC);
+  if (fd < 0) return gg_cannot_write(path, strerror(errno), err);
+  close(fd);
+  if (is_pinned(place->target, &place->about))
+    return gg_cannot_write(path, "it is another user's, in a folder where only they may replace it", err);
+  return GG_OK;
+}
+
+static gg_status check(gg_output_path *place, const char *path, bool named, gg_error *err)
+{
+  const mode_t mode = place->about.st_mode;
+  if (S_ISDIR(mode)) return gg_cannot_write(path, strerror(EISDIR), err);
+  if (S_ISBLK(mode) || S_ISSOCK(mode)) return gg_cannot_write(path, "it is a disk or a socket, not a file", err);
+  if (is_standard(&place->about))
+    return gg_cannot_write(path, "standard output is for tables and messages; choose a file", err);
+  place->stream = !S_ISREG(mode);
+  place->there = !place->stream;
+  if (!place->there) return GG_OK;
+  return named ? check_file(place, path, err) : gg_cannot_write(path, "it is an open file without a name", err);
+}
+
+/* What is there, and is it what stands at the end of the links? */
+static gg_status look(gg_output_path *place, const char *path, bool *something, bool *named, gg_error *err)
+{
+  struct stat target;
+  *something = stat(path, &place->about) == 0;
+  if (!*something && errno != ENOENT) return gg_cannot_write(path, strerror(errno), err);
+  place->target = gg_follow_links(path);
+  if (!place->target) return gg_cannot_write(path, strerror(ENOMEM), err);
+  *named = *something &&
+           (!S_ISREG(place->about.st_mode) || (stat(place->target, &target) == 0 && is_one(&target, &place->about)));
+  return GG_OK;
+}
+
+/* Between the two looks at a name another writer may have put a new file there: then both are taken again. */
+gg_status gg_output_path_find(gg_output_path *place, const char *path, gg_error *err)
+{
+  *place = (gg_output_path){0};
+  if (!*path) return gg_fail(err, GG_BAD_INPUT, "a file to write has an empty name");
+  bool something = true, named = false;
+  gg_status status = GG_OK;
+  for (int i = 0; i < MOST_LOOKS && status == GG_OK && something && !named; i++) {
+    gg_output_path_clear(place);
+    status = look(place, path, &something, &named, err);
+  }
+  if (status == GG_OK && something) status = check(place, path, named, err);
+  if (status != GG_OK) gg_output_path_clear(place);
+  return status;
+}
+
+void gg_output_path_clear(gg_output_path *place)
+{
+  free(place->target);
+  *place = (gg_output_path){0};
+}
+
+/* Nothing stands at either yet. */
+static bool same_name(const char *a, const char *b)
+{
+  struct stat one, two;
+  char *target[2] = {gg_follow_links(a), gg_follow_links(b)}, *folder[2] = {NULL, NULL}, *copy[2] = {NULL, NULL};
+  bool same = target[0] && target[1];
+  for (int i = 0; same && i < 2; i++) {
+    folder[i] = folder_of(target[i]), copy[i] = strdup(target[i]);
+    same = folder[i] && copy[i];
+    if (!same) gg_memory_lacked();
+  }
+  same = same && stat(folder[0], &one) == 0 && stat(folder[1], &two) == 0 && is_one(&one, &two) &&
+         strcmp(basename(copy[0]), basename(copy[1])) == 0;
+  for (int i = 0; i < 2; i++) {
+    free(target[i]);
+    free(folder[i]);
+    free(copy[i]);
+  }
+  return same;
+}
+
+bool gg_same_file(const char *a, const char *b)
+{
+  struct stat one, two;
+  if (!a || !b || !*a || !*b) return false;
+  bool first = stat(a, &one) == 0, second = stat(b, &two) == 0;
+  if (first && second) return is_one(&one, &two) && S_ISREG(one.st_mode);
+  return !first && !second && same_name(a, b);
+}

@@ -1,0 +1,35 @@
+/* A thread pool: threads that share the parts of a job. Made once, asleep while there is nothing to do; a job costs
+ * about a microsecond as long as they come one after another. Each thread takes a run of parts first, the same in each
+ * job of as many, and then what others have left: who does what is not known, and parts must not depend on it. */
+#ifndef GG_THREAD_POOL_H
+#define GG_THREAD_POOL_H
+
+#include <stdint.h>
+
+#include "base/error.h"
+
+typedef struct gg_thread_pool gg_thread_pool;
+
+/* More parts than these are not shared. */
+enum { GG_MOST_PARTS = 32 };
+
+/* Part number `part` of a job. */
+typedef void gg_part(void *context, int part);
+
+/* So many threads, the caller's included. NULL if that is one, or if the system has none to give: a job that is given
+ * to nobody is done by the caller. */
+gg_thread_pool *gg_thread_pool_new(int threads);
+void gg_thread_pool_free(gg_thread_pool *pool);
+
+/* Do parts 0 to parts - 1, and return when all are done. One caller at a time. */
+void gg_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context);
+
+/* The same for rounds of `columns` parts each: part k is not begun before those in need[k] (a bit each, of earlier
+ * rounds) are done. Nobody waits for all of a round. Each thread takes a run of columns first. */
+void gg_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
+                           void *context);
+
+/* CPU time of the others so far, in seconds. */
+double gg_thread_pool_cpu(const gg_thread_pool *pool);
+
+#endif

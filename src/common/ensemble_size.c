@@ -1,0 +1,67 @@
+#include "common/ensemble_size.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Means lie off by so much over the number of grains, those of the scarcest species: fluctuations of T lower it by half
+ * their relative variance, as its rate of change bends. Measured (validation/monte_carlo_bias.c): 0.5 to 1.5 in T, the
+ * stresses and the viscosity. */
+static const double bias_times_n = 2;
+/* Kept below this share of the asked error. */
+static const double share = 0.25;
+/* Beyond, memory and warm-up cost more than is asked for by any error that can be reached in days. */
+enum { MOST_ENSEMBLE = 1000000 };
+
+double gg_asked_error(const gg_scene *s)
+{
+  if (s->run.relative_error != GG_AUTO) return s->run.relative_error;
+  return s->run.collisions != GG_AUTO ? 0 : 0.01;
+}
+
+double gg_ensemble_error(const gg_scene *s)
+{
+  return s->dsmc.chosen_for != GG_AUTO ? s->dsmc.chosen_for : gg_asked_error(s);
+}
+
+static double scarcest(const gg_scene *s)
+{
+  double least = 1, sum = 0;
+  for (int i = 0; i < s->n_species; i++) {
+    sum += s->species[i].fraction;
+    if (s->species[i].fraction > 0) least = fmin(least, s->species[i].fraction);
+  }
+  return s->n_species > 1 && sum > 0 ? least / sum : 1;
+}
+
+static double needed(const gg_scene *s)
+{
+  const double asked = gg_ensemble_error(s);
+  return asked > 0 ? ceil(bias_times_n / (share * asked * scarcest(s))) : 0;
+}
+
+static bool is_given(const gg_scene *s)
+{
+  return s->dsmc.particles || s->particles > GG_LEAST_ENSEMBLE;
+}
+
+int64_t gg_ensemble_size(const gg_scene *s)
+{
+  if (s->dsmc.particles) return s->dsmc.particles;
+  if (is_given(s)) return s->particles;
+  return (int64_t)fmin(fmax(needed(s), GG_LEAST_ENSEMBLE), MOST_ENSEMBLE);
+}
+
+void gg_ensemble_reason(const gg_scene *s, char *text, size_t size)
+{
+  const double asked = gg_ensemble_error(s), bias = bias_times_n / ((double)gg_ensemble_size(s) * scarcest(s));
+  *text = 0;
+  if (is_given(s)) return;
+  if (!(asked > 0))
+    snprintf(text, size, "chosen: with so few means lie some %.2g %% off (1/N)", 100 * bias);
+  else if (bias <= 1.001 * share * asked)
+    snprintf(text, size, "chosen: means lie at most %.2g %% off (1/N), a quarter of the asked error %.3g %% or less",
+             100 * bias, 100 * asked);
+  else
+    snprintf(text, size, "chosen: the most there are; means lie up to %.2g %% off (1/N), asked is an error of %.3g %%",
+             100 * bias, 100 * asked);
+}

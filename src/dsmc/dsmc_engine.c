@@ -1,0 +1,224 @@
+/* The engine behind the interface that all engines share. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/thread_pool.h"
+#include "dsmc/dsmc.h"
+#include "simd/clones.h"
+
+static gg_dsmc *dsmc_of(gg_engine *engine)
+{
+  return (gg_dsmc *)engine;
+}
+static const gg_dsmc *const_dsmc_of(const gg_engine *engine)
+{
+  return (const gg_dsmc *)engine;
+}
+
+/* Work between looks at whether to stop, in candidates: some milliseconds. A step is worth some by itself, and grains
+ * that are heated are each worth one. */
+enum { WORK_BETWEEN_LOOKS = 1 << 16, WORK_OF_A_STEP = 32 };
+
+static bool is_stopped(const gg_dsmc *d, uint64_t candidates_before, uint64_t *work)
+{
+  *work += WORK_OF_A_STEP + (d->now.candidates - candidates_before);
+  if (d->thermostat != GG_NO_THERMOSTAT) *work += (uint64_t)d->model.n;
+  if (*work < WORK_BETWEEN_LOOKS) return false;
+  *work = 0;
+  return gg_stop_asked(d->model.stop);
+}
+
+static gg_status check_temperature(const gg_dsmc *d, gg_error *err)
+{
+  const double largest = d->model.single ? 0x1p60 : 0x1p900; /* temperature whose squares are numbers, too */
+  if (d->now.temperature > 1 / largest && d->now.temperature < largest) return GG_OK;
+  return gg_fail(err, GG_FAILED, "the temperature has left the range of numbers (%g) after %.3g collisions a grain",
+                 d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
+}
+
+static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
+{
+  gg_dsmc *d = dsmc_of(engine);
+  gg_dsmc_state *s = &d->now;
+  bool stopped = false;
+  for (uint64_t work = 0; !stopped && s->gone < s->asked && s->collisions < s->last_collision;) {
+    uint64_t before = s->candidates;
+    GG_TRY(check_temperature(d, err));
+    s->gone += gg_dsmc_step(d, s->asked - s->gone, (double)(s->last_collision - s->collisions));
+    stopped = is_stopped(d, before, &work);
+  }
+  *elapsed = s->gone;
+  return stopped ? gg_fail(err, GG_INTERRUPTED, "dsmc: stopped") : GG_OK;
+}
+
+static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
+{
+  gg_dsmc_state *s = &dsmc_of(engine)->now;
+  double unused;
+  s->asked = dt;
+  s->gone = 0;
+  s->last_collision = max_collisions < UINT64_MAX - s->collisions ? s->collisions + max_collisions : UINT64_MAX;
+  return go_on(engine, elapsed ? elapsed : &unused, err);
+}
+
+static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
+{
+  GG_TRY(gg_dsmc_accepts(model, err));
+  gg_dsmc *d;
+  GG_TRY(gg_dsmc_allocate(model, &d, err));
+  if (d->schedule) gg_dsmc_schedule_start(d->schedule, seed, stream);
+  gg_rng start = gg_rng_seed(seed, stream + GG_STREAM_START);
+  gg_dsmc_ensemble_start(model, &d->ensemble, &start);
+  d->now.rng = gg_rng_seed(seed, stream + GG_STREAM_ENGINE);
+  gg_dsmc_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
+  gg_dsmc_synchronise(d);
+  gg_dsmc_start_majorants(d);
+  *engine = &d->base;
+  return GG_OK;
+}
+
+static void keep_sums(gg_engine *engine, bool keep)
+{
+  dsmc_of(engine)->now.sums = keep;
+}
+
+static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
+{
+  gg_dsmc_state *s = &dsmc_of(engine)->now;
+  *transfer = s->transfer;
+  s->transfer = (gg_collision_sums){0};
+}
+
+/* At most as many as there are pairs of segments in a round. */
+static void threads(gg_engine *engine, int threads)
+{
+  gg_dsmc_ensemble *e = &dsmc_of(engine)->ensemble;
+  gg_thread_pool_free(e->pool);
+  e->pool = e->segments > 1 ? gg_thread_pool_new(threads < e->segments / 2 ? threads : e->segments / 2) : NULL;
+}
+
+static void state(const gg_engine *engine, gg_engine_state *state)
+{
+  const gg_dsmc_state *s = &const_dsmc_of(engine)->now;
+  *state = (gg_engine_state){.time = s->time,
+                             .collisions = s->collisions,
+                             .events = s->candidates,
+                             .overflows = s->overflows,
+                             .time_step = s->step.splitting,
+                             .time_step_bias = s->step.bias,
+                             .others_cpu = gg_thread_pool_cpu(const_dsmc_of(engine)->ensemble.pool)};
+}
+
+/* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
+GG_CLONES static void unpack(const gg_dsmc_block *b, size_t n, double strain, double *restrict x, double *restrict y,
+                             double *restrict z)
+{
+  for (size_t i = 0; i < n; i += GG_DSMC_LANES, b++)
+    for (size_t l = 0; l < GG_DSMC_LANES; l++) {
+      x[i + l] = b->x[l] - strain * b->y[l];
+      y[i + l] = b->y[l];
+      z[i + l] = b->z[l];
+    }
+}
+
+enum { SHOWN = 256 }; /* grains at a time: so few stay in the first cache until they have been sampled */
+
+/* `n` grains from `first` on, a multiple of eight; of p->c or p->s. */
+static void lay_out(const gg_dsmc_population *p, const void *blocks, size_t first, size_t n, double strain,
+                    double v[3][SHOWN])
+{
+  gg_dsmc_block room[SHOWN / GG_DSMC_LANES];
+  const gg_dsmc_block *b =
+      gg_dsmc_blocks_in_double(p, blocks, first / GG_DSMC_LANES, (n + GG_DSMC_LANES - 1) / GG_DSMC_LANES, room);
+  unpack(b, n, strain, v[0], v[1], v[2]);
+}
+
+static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
+{
+  (void)positions; /* a homogeneous gas has none */
+  gg_dsmc *d = dsmc_of(engine);
+  double v[6][SHOWN];
+  uint8_t kind[SHOWN];
+  for (int i = 0; i < d->ensemble.n_species; i++) {
+    const gg_dsmc_population *p = &d->ensemble.of[i];
+    memset(kind, i, sizeof kind);
+    for (size_t first = 0; first < (size_t)p->n; first += SHOWN) {
+      size_t left = (size_t)p->n - first;
+      gg_chunk chunk = {.n = left < SHOWN ? left : SHOWN, .c = {v[0], v[1], v[2]}};
+      lay_out(p, p->c, first, chunk.n, d->now.strain, v);
+      if (p->s) {
+        lay_out(p, p->s, first, chunk.n, 0, v + 3);
+        for (int a = 0; a < 3; a++) chunk.s[a] = v[3 + a];
+      }
+      if (d->ensemble.n_species > 1) chunk.species = kind;
+      visit(context, &chunk);
+    }
+  }
+}
+
+/* Blocks in double as they are, others so many at a time. */
+static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
+{
+  gg_dsmc *d = dsmc_of(engine);
+  gg_dsmc_block c[SHOWN / GG_DSMC_LANES], s[SHOWN / GG_DSMC_LANES];
+  for (int i = 0; i < d->ensemble.n_species; i++) {
+    const gg_dsmc_population *p = &d->ensemble.of[i];
+    const size_t all = (size_t)p->n, most = p->single ? SHOWN : all;
+    for (size_t first = 0; first < all; first += most) {
+      gg_block_run run = {.n = all - first < most ? all - first : most, .species = i, .strain = d->now.strain};
+      const size_t at = first / GG_DSMC_LANES, n = (run.n + GG_DSMC_LANES - 1) / GG_DSMC_LANES;
+      run.c = gg_dsmc_blocks_in_double(p, p->c, at, n, c)->x;
+      if (p->s) run.s = gg_dsmc_blocks_in_double(p, p->s, at, n, s)->x;
+      visit(context, &run);
+    }
+  }
+}
+
+static gg_status rescale(gg_engine *engine, int power, gg_error *err)
+{
+  gg_dsmc *d = dsmc_of(engine);
+  const bool next_sweep = d->model.linear_response; /* of the reduced shear rate: the clock goes on */
+  if (d->thermostat != GG_NO_THERMOSTAT && !next_sweep)
+    return gg_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
+  if (d->model.shear_rate != 0 && !next_sweep)
+    return gg_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
+  if (power < -1000 || power > 1000) return gg_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);
+  double factor = ldexp(1, power);
+  d->now.power += power;
+  gg_dsmc_ensemble_scale(&d->ensemble, factor);
+  gg_dsmc_rescale_callback(d, factor, next_sweep ? d->now.time : 0);
+  if (!next_sweep) {
+    d->now.time /= factor;
+    d->now.unsynchronised /= factor;
+  }
+  d->now.lost *= factor * factor;
+  d->now.fastest *= factor;
+  d->now.centre = gg_scale(factor, d->now.centre);
+  d->now.temperature *= factor * factor;
+  d->now.step = gg_dsmc_time_step_choose(&d->model, d->now.temperature);
+  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) d->now.transfer.loss[p] *= factor * factor;
+  return GG_OK;
+}
+
+const gg_engine_ops gg_dsmc_ops = {
+    .name = "dsmc",
+    .doc = "Enskog Monte Carlo (direct simulation of the Enskog or Boltzmann equation)",
+    .accepts = gg_dsmc_accepts,
+    .create = create,
+    .destroy = gg_dsmc_destroy,
+    .advance = advance,
+    .keep_sums = keep_sums,
+    .take_sums = take_sums,
+    .set_callback = gg_dsmc_set_callback,
+    .callback_slows = gg_dsmc_callback_slows,
+    .threads = threads,
+    .state = state,
+    .snapshot = snapshot,
+    .blocks = blocks,
+    .rescale = rescale,
+    .save = gg_dsmc_save,
+    .restore = gg_dsmc_restore,
+    .describe = gg_dsmc_describe,
+    .go_on = go_on,
+};

@@ -1,0 +1,98 @@
+#include "dsmc/dsmc_thermostat.h"
+
+#include "base/thread_pool.h"
+#include "dsmc/kernel/kernels.h"
+#include "dsmc/parallel/schedule.h"
+
+enum { RUN = 64 }; /* blocks read together */
+
+static void add_squares(const gg_dsmc_block *c, size_t n, double strain, double lane[GG_DSMC_LANES])
+{
+  for (size_t b = 0; b < n; b++)
+    for (int l = 0; l < GG_DSMC_LANES; l++) {
+      double x = c[b].x[l] - strain * c[b].y[l];
+      lane[l] += x * x + c[b].y[l] * c[b].y[l] + c[b].z[l] * c[b].z[l];
+    }
+}
+
+typedef struct energies {
+  const gg_dsmc_ensemble *e;
+  double strain;
+  double lane[GG_DSMC_MAX_SEGMENTS][GG_MAX_SPECIES][GG_DSMC_LANES]; /* sums of C^2 */
+} energies;
+
+static void sum_of_segment(void *context, int part)
+{
+  energies *w = context;
+  const int segment = gg_dsmc_segment_in(w->e->segments, w->e->grouping, part);
+  for (int i = 0; i < w->e->n_species; i++) {
+    const gg_dsmc_population *p = &w->e->of[i];
+    gg_dsmc_range r = gg_dsmc_segment(p, w->e->segments, segment);
+    double lane[GG_DSMC_LANES] = {0};
+    for (size_t done = 0; done < r.n; done += RUN) {
+      const size_t n = r.n - done < RUN ? r.n - done : RUN;
+      gg_dsmc_block room[RUN];
+      add_squares(gg_dsmc_blocks_in_double(p, p->c, r.first + done, n, room), n, w->strain, lane);
+    }
+    for (int l = 0; l < GG_DSMC_LANES; l++) w->lane[segment][i][l] = lane[l];
+  }
+}
+
+/* Twice the kinetic energy. */
+static double twice_kinetic_energy(const gg_dsmc_ensemble *e, double strain)
+{
+  energies w = {.e = e, .strain = strain};
+  gg_thread_pool_for(e->pool, e->segments, sum_of_segment, &w);
+  double sum = 0;
+  for (int i = 0; i < e->n_species; i++) {
+    double all = 0;
+    for (int segment = 0; segment < e->segments; segment++)
+      for (int l = 0; l < GG_DSMC_LANES; l++) all += w.lane[segment][i][l];
+    sum += e->of[i].mass * all;
+  }
+  return sum;
+}
+
+/* Eight of single precision's last places; a quarter of a free time takes more where e < 1 - 6e-6. */
+#define LEAST_GAIN 1e-6
+
+double gg_dsmc_thermostat_return(gg_dsmc_ensemble *e, double strain, double kept, double missing, double half)
+{
+  double energy = 0.5 * twice_kinetic_energy(e, strain);
+  if (kept > 0) missing = kept - energy;
+  /* The loss goes as T^(3/2), and the second half is hotter than the first by what it destroyed. */
+  double advance = half * (1 + 1.5 * half / energy);
+  double gain = (missing + advance) / energy, factor = gain > -1 ? sqrt(1 + gain) : 0;
+  /* What single precision would round away is kept until it is more. */
+  if (e->of[0].single && fabs(gain) < LEAST_GAIN) return -missing;
+  gg_dsmc_ensemble_heat(e, factor);
+  return advance;
+}
+
+typedef struct kicking {
+  gg_dsmc_ensemble *e;
+  double strain, size;
+  gg_dsmc_rng_lanes *lanes;
+} kicking;
+
+static void kick_segment(void *context, int part)
+{
+  const kicking *w = context;
+  const int segment = gg_dsmc_segment_in(w->e->segments, w->e->grouping, part);
+  for (int i = 0; i < w->e->n_species; i++) {
+    gg_dsmc_population *p = &w->e->of[i];
+    gg_dsmc_range r = gg_dsmc_segment(p, w->e->segments, segment);
+    w->e->kernels->kick(gg_dsmc_blocks_at(p, p->c, r.first), p->single, p->speed_bound + r.first, r.n, w->strain,
+                        w->size, w->e->bound_scale, &w->lanes[segment]);
+    if (segment < w->e->segments - 1) continue;
+    for (size_t a = (size_t)p->n; a < p->n_blocks * GG_DSMC_LANES; a++)
+      gg_dsmc_block_set(p, p->c, (uint32_t)a, (gg_vec){0, 0, 0});
+  }
+}
+
+void gg_dsmc_thermostat_kick(gg_dsmc_ensemble *e, double strain, double variance, gg_dsmc_rng_lanes *lanes)
+{
+  gg_thread_pool_for(e->pool, e->segments, kick_segment, &(kicking){e, strain, sqrt(variance), lanes});
+  e->bound_strain = strain;
+  e->bound_width = 0;
+}

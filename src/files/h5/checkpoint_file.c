@@ -1,0 +1,206 @@
+#include "files/h5/checkpoint_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/memory.h"
+#include "files/h5/checksum_trailer.h"
+#include "files/h5/hdf5_reader.h"
+#include "files/h5/hdf5_writer.h"
+#include "scene/scene_json.h"
+
+static const struct {
+  const char *name;
+} item_types[] = {[GG_ITEM_F64] = {"f64"},
+                  [GG_ITEM_I64] = {"i64"},
+                  [GG_ITEM_U64] = {"u64"},
+                  [GG_ITEM_U8] = {"u8"},
+                  [GG_ITEM_F32] = {"f32"}};
+
+static hid_t type_of(gg_item_type type)
+{
+  switch (type) {
+  case GG_ITEM_F64: return H5T_NATIVE_DOUBLE;
+  case GG_ITEM_I64: return H5T_NATIVE_INT64;
+  case GG_ITEM_U64: return H5T_NATIVE_UINT64;
+  case GG_ITEM_F32: return H5T_NATIVE_FLOAT;
+  case GG_ITEM_U8:
+  case GG_ITEM_TYPES: break;
+  }
+  return H5T_NATIVE_UINT8;
+}
+
+/* Items are numbered, so that they come back in order; their names are attributes. */
+static void write_items(gg_h5 *h, const gg_archive *a)
+{
+  for (size_t i = 0; i < a->n_items; i++) {
+    const gg_item *item = &a->items[i];
+    char path[48];
+    hsize_t count = item->count;
+    snprintf(path, sizeof path, "/checkpoint/%zu", i);
+    gg_h5_array(h, path, type_of(item->type), 1, &count, item->data);
+    gg_h5_text_attribute(h, path, "name", item->name);
+    gg_h5_text_attribute(h, path, "type", item_types[item->type].name);
+  }
+}
+
+static void *make_image(const char *path, const gg_archive *a, const gg_scene *scene, size_t *size, gg_error *err)
+{
+  gg_h5 h;
+  uint64_t n = a->n_items;
+  const int layout = GG_CHECKPOINT_LAYOUT;
+  char *yaml = gg_scene_yaml(scene);
+  gg_h5_create_in_memory(&h);
+  if (!yaml) gg_h5_failed(&h, "out of memory");
+  gg_h5_text(&h, "/checkpoint/scene", yaml ? yaml : "");
+  gg_h5_text(&h, "/checkpoint/version", GG_VERSION);
+  gg_h5_attribute(&h, "/checkpoint/version", "layout", H5T_NATIVE_INT, &layout, 0);
+  gg_h5_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n, 0);
+  write_items(&h, a);
+  void *image = gg_h5_image(&h, size);
+  gg_h5_close(&h);
+  free(yaml);
+  if (gg_h5_status(&h, path, "written", err) == GG_OK) return image;
+  free(image);
+  return NULL;
+}
+
+/* The one before gives way only once this one is safe on the disk. An error of the disk is told once: who asks again
+ * hears that all is well. */
+static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
+{
+  char *before = NULL;
+  if (fsync(file->fd) != 0) return gg_cannot_write(file->path, strerror(errno), err);
+  if (asprintf(&before, "%s.1", file->place.target) < 0) return gg_out_of_memory(err);
+  bool kept = rename(file->place.target, before) == 0 || errno == ENOENT; /* the first time there is none */
+  int number = errno;
+  free(before);
+  return kept ? GG_OK : gg_cannot_write(file->path, strerror(number), err);
+}
+
+static gg_status write_image(gg_atomic_file *file, const void *image, size_t size, gg_error *err)
+{
+  unsigned char seal[GG_SEAL_SIZE];
+  if (file->place.stream)
+    return gg_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, file->path);
+  gg_seal_of(image, size, seal);
+  GG_TRY(gg_atomic_write(file, image, size, err));
+  return gg_atomic_write(file, seal, sizeof seal, err);
+}
+
+static gg_status write_it(const char *path, bool locked, bool keep, const gg_archive *a, const gg_scene *scene,
+                          gg_error *err)
+{
+  gg_atomic_file file;
+  size_t size = 0;
+  GG_TRY(locked ? gg_atomic_open_locked(&file, path, err) : gg_atomic_open(&file, path, err));
+  void *image = make_image(path, a, scene, &size, err);
+  gg_status status = image ? write_image(&file, image, size, err) : GG_BAD_FILE;
+  free(image);
+  if (status == GG_OK && keep) status = keep_before(&file, err);
+  if (status == GG_OK) return gg_atomic_commit(&file, err);
+  gg_atomic_abandon(&file);
+  return status;
+}
+
+gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *a, const gg_scene *scene, gg_error *err)
+{
+  return write_it(path, locked, true, a, scene, err);
+}
+
+gg_status gg_checkpoint_replace(const char *path, const gg_archive *a, const gg_scene *scene, gg_error *err)
+{
+  GG_TRY(write_it(path, true, false, a, scene, err));
+  return gg_checkpoint_remove_before(path, err);
+}
+
+static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
+{
+  char path[48];
+  snprintf(path, sizeof path, "/checkpoint/%zu", i);
+  char *name = gg_h5_read_text_attribute(h, path, "name"), *word = gg_h5_read_text_attribute(h, path, "type");
+  gg_status status = GG_OK;
+  int type = 0;
+  while (!h->failed && type < GG_ITEM_TYPES && strcmp(item_types[type].name, word) != 0) type++;
+  if (!h->failed && type < GG_ITEM_TYPES) {
+    size_t count;
+    void *data = gg_h5_read_array(h, path, (gg_item_type)type, &count);
+    if (data) status = gg_archive_put(a, name, (gg_item_type)type, data, count, err);
+    free(data);
+  }
+  free(name);
+  free(word);
+  return status;
+}
+
+static gg_status read_file(const char *path, gg_archive *a, gg_error *err)
+{
+  gg_h5_in h;
+  uint64_t n = 0;
+  gg_status status = GG_OK;
+  gg_h5_open(&h, path);
+  if (!h.failed && !gg_h5_exists(&h, "/checkpoint")) gg_h5_in_failed(&h, "it is not a checkpoint of graingas");
+  gg_checkpoint_check_version(&h);
+  gg_h5_read_attribute(&h, "/checkpoint", "items", GG_ITEM_U64, &n);
+  for (uint64_t i = 0; i < n && status == GG_OK && !h.failed; i++) status = read_item(&h, i, a, err);
+  gg_h5_in_close(&h);
+  if (status == GG_OK) status = gg_h5_in_status(&h, path, err);
+  if (status != GG_OK) gg_archive_clear(a);
+  return status;
+}
+
+gg_status gg_checkpoint_read(const char *path, gg_archive *a, bool *older, gg_error *err)
+{
+  gg_status status = read_file(path, a, err);
+  *older = false;
+  if (status != GG_BAD_FILE) return status;
+  char *before = gg_checkpoint_before(path);
+  if (before) *older = read_file(before, a, NULL) == GG_OK;
+  free(before);
+  return *older ? GG_OK : status;
+}
+
+char *gg_checkpoint_before(const char *path)
+{
+  char *target = gg_follow_links(path), *before = NULL;
+  if (target && asprintf(&before, "%s.1", target) < 0) {
+    gg_memory_lacked();
+    before = NULL;
+  }
+  free(target);
+  return before;
+}
+
+bool gg_is_checkpoint_of(const char *file, const char *path)
+{
+  if (gg_same_file(file, path)) return true;
+  char *before = gg_checkpoint_before(path);
+  bool is = gg_same_file(file, before);
+  free(before);
+  return is;
+}
+
+char *gg_checkpoint_scene(const char *path, bool older)
+{
+  gg_h5_in h;
+  char *before = NULL;
+  if (older && asprintf(&before, "%s.1", path) < 0) return NULL;
+  gg_h5_open(&h, older ? before : path);
+  char *yaml = gg_h5_read_text(&h, "/checkpoint/scene");
+  gg_h5_in_close(&h);
+  free(before);
+  return yaml;
+}
+
+gg_status gg_checkpoint_remove_before(const char *path, gg_error *err)
+{
+  char *before = gg_checkpoint_before(path);
+  if (!before) return gg_out_of_memory(err);
+  unlink(before);
+  free(before);
+  return GG_OK;
+}

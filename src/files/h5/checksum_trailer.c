@@ -1,0 +1,103 @@
+#include "files/h5/checksum_trailer.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+enum { BLOCK = GG_SEAL_SMALL };
+static const char hdf5[8] = "\x89HDF\r\n\x1a\n", mark[8] = {'g', 'g', '-', 'c', 'r', 'c', '3', '2'};
+
+static void put(unsigned char *to, uint64_t value, int bytes)
+{
+  for (int i = 0; i < bytes; i++) to[i] = (unsigned char)(value >> 8 * i);
+}
+
+static void fill(unsigned char *seal, uint64_t size, uint64_t sum)
+{
+  memcpy(seal, mark, sizeof mark);
+  put(seal + 8, size, 8);
+  put(seal + 16, sum, 4);
+}
+
+void gg_seal_of(const void *data, size_t size, unsigned char seal[GG_SEAL_SIZE])
+{
+  const unsigned char *at = data;
+  uLong sum = crc32(0, NULL, 0);
+  for (size_t left = size, now; left > 0; at += now, left -= now) {
+    now = left < BLOCK ? left : BLOCK;
+    sum = crc32(sum, at, (uInt)now);
+  }
+  fill(seal, size, sum);
+}
+
+/* Of the first `size` bytes. The block that they were read into, of as many if they are few, is left to be freed. */
+static int sum_up(int fd, off_t size, unsigned char *seal, unsigned char **block)
+{
+  uLong sum = crc32(0, NULL, 0);
+  off_t at = 0;
+  *block = malloc(size >= BLOCK ? BLOCK : size ? (size_t)size : 1);
+  while (*block && at < size) {
+    const off_t from = at % BLOCK, now = size - at < BLOCK - from ? size - at : BLOCK - from;
+    ssize_t got = pread(fd, *block + from, (size_t)now, at);
+    if (got > 0) {
+      sum = crc32(sum, *block + from, (uInt)got);
+      at += got;
+    } else if (got == 0 || errno != EINTR) {
+      if (got == 0) errno = EIO; /* it became shorter while it was read */
+      break;
+    }
+  }
+  fill(seal, (uint64_t)size, sum);
+  return *block && at == size ? 0 : -1;
+}
+
+int gg_seal_of_file(int fd, unsigned char seal[GG_SEAL_SIZE])
+{
+  struct stat about;
+  unsigned char *block = NULL;
+  const int failed = fstat(fd, &about) == 0 ? sum_up(fd, about.st_size, seal, &block) : -1;
+  free(block);
+  return failed;
+}
+
+static const char *broken(int fd, uint64_t *size_of, unsigned char **block)
+{
+  struct stat about;
+  unsigned char there[GG_SEAL_SIZE], wanted[GG_SEAL_SIZE], start[sizeof hdf5];
+  if (fstat(fd, &about) != 0) return strerror(errno);
+  if (!S_ISREG(about.st_mode)) return "it is not a regular file";
+  if (pread(fd, start, sizeof start, 0) != sizeof start || memcmp(start, hdf5, sizeof start) != 0)
+    return "it is not an HDF5 file, or a damaged one";
+  off_t size = about.st_size - GG_SEAL_SIZE;
+  if (size < 0 || pread(fd, there, sizeof there, size) != sizeof there || memcmp(there, mark, sizeof mark) != 0)
+    return "it does not end with its checksum: it is cut off or damaged, or another program has changed it (the manual "
+           "page says how to vouch for a changed one)";
+  if (sum_up(fd, size, wanted, block) != 0) return strerror(errno);
+  *size_of = (uint64_t)size;
+  return memcmp(there, wanted, sizeof there) == 0 ? NULL : "its checksum does not match: it is damaged";
+}
+
+const char *gg_seal_open(const char *path, int *fd, uint64_t *size, unsigned char **whole)
+{
+  unsigned char *block = NULL;
+  *whole = NULL;
+  if (!*path) return "the name is empty";
+  int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (opened < 0) return strerror(errno);
+  const char *why = broken(opened, size, &block);
+  if (why)
+    close(opened);
+  else
+    *fd = opened;
+  if (!why && *size <= GG_SEAL_SMALL)
+    *whole = block;
+  else
+    free(block);
+  return why;
+}

@@ -1,0 +1,59 @@
+/* Writing HDF5 in few words (reading: hdf5_reader.h). The first failure sticks: later calls do nothing, and
+ * gg_h5_status reports it, so that a writer reads as the layout of its file. Paths may name groups that are still to be
+ * made. */
+#ifndef GG_H5_H
+#define GG_H5_H
+
+#include <hdf5.h>
+#include <stdbool.h>
+
+#include "base/error.h"
+
+typedef struct gg_h5 {
+  hid_t file;
+  bool failed;
+  char why[256];
+  H5E_auto2_t print; /* how HDF5 printed its errors before: it does not here */
+  void *print_data;
+} gg_h5;
+
+/* A new file in memory, or on disk. */
+void gg_h5_create_in_memory(gg_h5 *h);
+void gg_h5_create(gg_h5 *h, const char *path);
+/* The bytes of a file made in memory, to be freed. */
+void *gg_h5_image(gg_h5 *h, size_t *size);
+void gg_h5_close(gg_h5 *h);
+/* GG_BAD_FILE "path: cannot be `verb`: why" if anything failed. */
+gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_error *err);
+
+void gg_h5_group(gg_h5 *h, const char *path);
+void gg_h5_text(gg_h5 *h, const char *path, const char *text);
+/* n texts as an array of the longest one's size. */
+void gg_h5_texts(gg_h5 *h, const char *path, const char *const *texts, size_t n);
+void gg_h5_number(gg_h5 *h, const char *path, double value);
+void gg_h5_count(gg_h5 *h, const char *path, uint64_t value);
+/* An array; `type` of the numbers in memory, and in the file. */
+void gg_h5_array(gg_h5 *h, const char *path, hid_t type, int rank, const hsize_t *dims, const void *data);
+/* A second name for the same thing. */
+void gg_h5_link(gg_h5 *h, const char *target, const char *path);
+void gg_h5_text_attribute(gg_h5 *h, const char *object, const char *name, const char *text);
+void gg_h5_texts_attribute(gg_h5 *h, const char *object, const char *name, const char *const *texts, size_t n);
+void gg_h5_ints_attribute(gg_h5 *h, const char *object, const char *name, const int *values, size_t n);
+/* n numbers under the object, which is a file, group or array; n = 0: one, without dimensions */
+void gg_h5_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, const void *values, size_t n);
+
+/* An array that grows by one row of `row_rank` dimensions at a time. */
+typedef struct gg_h5_rows {
+  hid_t dataset;
+  hid_t type;
+  int row_rank;
+  hsize_t row[2], n;
+} gg_h5_rows;
+void gg_h5_rows_create(gg_h5 *h, gg_h5_rows *rows, const char *path, hid_t type, int row_rank, const hsize_t *row);
+void gg_h5_rows_append(gg_h5 *h, gg_h5_rows *rows, const void *data);
+void gg_h5_rows_close(gg_h5 *h, gg_h5_rows *rows);
+
+/* Record a failure of one's own, or HDF5's latest one. */
+void gg_h5_failed(gg_h5 *h, const char *what);
+
+#endif

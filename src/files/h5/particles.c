@@ -1,0 +1,99 @@
+#include "files/h5/particles.h"
+
+#include "common/surface/surfaces.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GRAINS "/particles/grains/"
+
+static void start_vectors(gg_h5 *h, gg_h5_particles *p, gg_h5_rows *rows, const char *path, const double *data)
+{
+  rows->dataset = -1;
+  if (!data) return;
+  char name[80];
+  hsize_t row[2] = {p->n, 3};
+  snprintf(name, sizeof name, GRAINS "%s/value", path);
+  gg_h5_rows_create(h, rows, name, H5T_NATIVE_DOUBLE, 2, row);
+  snprintf(name, sizeof name, GRAINS "%s/step", path);
+  gg_h5_link(h, GRAINS "velocity/step", name);
+  snprintf(name, sizeof name, GRAINS "%s/time", path);
+  gg_h5_link(h, GRAINS "velocity/time", name);
+}
+
+static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
+{
+  const int dimension = 3;
+  const char *boundary[3];
+  for (int a = 0; a < dimension; a++) boundary[a] = !p->boxed || gg_is_closed(model, a) ? "none" : "periodic";
+  gg_h5_group(h, GRAINS "box");
+  gg_h5_ints_attribute(h, GRAINS "box", "dimension", &dimension, 0);
+  gg_h5_texts_attribute(h, GRAINS "box", "boundary", boundary, 3);
+  if (!p->boxed) return;
+  const hsize_t row[2] = {3, 3};
+  gg_h5_rows_create(h, &p->edges, GRAINS "box/edges/value", H5T_NATIVE_DOUBLE, 2, row);
+  gg_h5_link(h, GRAINS "velocity/step", GRAINS "box/edges/step");
+  gg_h5_link(h, GRAINS "velocity/time", GRAINS "box/edges/time");
+}
+
+static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame, const size_t *order)
+{
+  *p = (gg_h5_particles){.started = true, .boxed = frame->position != NULL, .n = frame->n};
+  p->edges.dataset = -1;
+  gg_h5_rows_create(h, &p->step, GRAINS "velocity/step", H5T_NATIVE_UINT64, 0, NULL);
+  gg_h5_rows_create(h, &p->time, GRAINS "velocity/time", H5T_NATIVE_DOUBLE, 0, NULL);
+  const hsize_t row[2] = {p->n, 3};
+  gg_h5_rows_create(h, &p->velocity, GRAINS "velocity/value", H5T_NATIVE_DOUBLE, 2, row);
+  start_vectors(h, p, &p->position, "position", frame->position);
+  start_vectors(h, p, &p->spin, "spin", frame->spin);
+  start_box(h, p, model);
+  gg_h5_write_grains(h, model, frame, order);
+}
+
+/* Under shear the image above has slid by rate L_y t (Lees & Edwards 1972): the second edge leans by as much, counted
+ * from the nearest image, so that periodic images of the stored box are those of the simulation. (A gas that cools
+ * without shear comes to times beyond all numbers.) */
+static double tilt_at(const gg_model *model, double time)
+{
+  return model->shear_rate == 0 ? 0 : remainder(model->shear_rate * model->box[1] * time, model->box[0]);
+}
+
+static void append_vectors(gg_h5 *h, gg_h5_rows *rows, const double *data, const size_t *order, double *sorted,
+                           size_t n)
+{
+  if (!data) return;
+  for (size_t i = 0; i < n; i++) memcpy(sorted + 3 * i, data + 3 * order[i], 3 * sizeof *data);
+  gg_h5_rows_append(h, rows, sorted);
+}
+
+void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame)
+{
+  if (h->failed) return;
+  gg_error err = {.message = "out of memory for a frame"};
+  size_t *order = gg_frame_order(frame, &err);
+  double *sorted = malloc(3 * frame->n * sizeof *sorted);
+  if (!order || !sorted) {
+    gg_h5_failed(h, err.message);
+  } else {
+    if (!p->started) start(h, p, model, frame, order);
+    const double tilt = tilt_at(model, frame->time);
+    const double edges[9] = {model->box[0], 0, 0, tilt, model->box[1], 0, 0, 0, model->box[2]};
+    gg_h5_rows_append(h, &p->step, &frame->step);
+    gg_h5_rows_append(h, &p->time, &frame->time);
+    if (p->boxed) gg_h5_rows_append(h, &p->edges, edges);
+    append_vectors(h, &p->position, frame->position, order, sorted, p->n);
+    append_vectors(h, &p->velocity, frame->velocity, order, sorted, p->n);
+    append_vectors(h, &p->spin, frame->spin, order, sorted, p->n);
+    p->last_step = frame->step;
+  }
+  free(order);
+  free(sorted);
+}
+
+void gg_h5_particles_close(gg_h5 *h, gg_h5_particles *p)
+{
+  if (!p->started) return;
+  gg_h5_rows *const all[] = {&p->step, &p->time, &p->edges, &p->position, &p->velocity, &p->spin};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) gg_h5_rows_close(h, all[i]);
+}

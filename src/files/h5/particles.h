@@ -1,0 +1,21 @@
+/* Grains in H5MD 1.1: /particles/grains with box, positions, velocities, spins, and what they are. */
+#ifndef GG_H5_PARTICLES_H
+#define GG_H5_PARTICLES_H
+
+#include "files/h5/hdf5_writer.h"
+#include "run/result.h"
+
+typedef struct gg_h5_particles {
+  bool started, boxed;
+  size_t n;
+  uint64_t last_step;
+  gg_h5_rows step, time, edges, position, velocity, spin;
+} gg_h5_particles;
+
+/* Store one frame more; the first one lays out the groups. */
+void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame);
+/* grains.c: what does not change in time, and what the numbers mean: units, frame of reference. */
+void gg_h5_write_grains(gg_h5 *h, const gg_model *model, const gg_frame *frame, const size_t *order);
+void gg_h5_particles_close(gg_h5 *h, gg_h5_particles *p);
+
+#endif

@@ -1,0 +1,44 @@
+/* Result files: HDF5, H5MD 1.1 for grains and time series; scene, results and how they were made under /graingas.
+ *
+ *   /h5md                            version, author, creator
+ *   /particles/grains                box, position, velocity, spin (value, step, time), species, id,
+ *                                    mass, diameter
+ *   /observables/<quantity>          step, time, value from the start of the run; compare: /observables/md_<quantity>
+ *   /graingas                        version, command, machine, date, seed, scene (YAML), document (JSON), warnings
+ *   /graingas/results/<quantity>     mean, stderr, unit, samples, correlation_time; compare: /graingas/md/results/...
+ *   /graingas/curves/<name>          x, value, stderr, numbers/<what>/mean, stderr; units are attributes; compare:
+ *                                    /graingas/md/curves/...
+ *   /graingas/theory/<name>/<quantity>   mean, error where the theory is solved numerically, unit
+ *   /graingas/theory/<name>/curves/<name>   as those of engines; stderr is the numerical error */
+#ifndef GG_RESULT_FILE_H
+#define GG_RESULT_FILE_H
+
+#include "base/atomic_file.h"
+#include "run/run.h"
+
+struct gg_h5;
+
+/* Nothing that includes this needs HDF5: the page of a browser is built without (without_hdf5.c). */
+typedef struct gg_result_file {
+  gg_atomic_file file;
+  const char *command;          /* the command line, for the record */
+  struct gg_result_writer *now; /* what was begun of the file (result_file.c); NULL: nothing */
+} gg_result_file;
+
+/* `path` is checked to be writable and left untouched until the end; nobody else can open it in between. */
+gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err);
+/* Store a frame now. */
+gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err);
+/* Write all the rest, and put the file in place; on failure nothing is left. */
+gg_status gg_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err);
+gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_comparison *comparison, gg_error *err);
+/* Give up: nothing is left. Harmless after a finish. */
+void gg_result_file_abandon(gg_result_file *f);
+
+/* The inner layouts, for the writers above. */
+void gg_h5_write_header(struct gg_h5 *h, const char *command, const gg_scene *scene, const char *document);
+/* `observables` is what the names of its series begin with: "/observables/md_". */
+void gg_h5_write_engine(struct gg_h5 *h, const char *group, const char *observables, const gg_result *result);
+void gg_h5_write_theories(struct gg_h5 *h, const gg_comparison *comparison);
+
+#endif

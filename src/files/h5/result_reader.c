@@ -1,0 +1,174 @@
+#include "files/h5/result_reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/checked_json.h"
+#include "files/h5/checkpoint_file.h"
+#include "files/h5/hdf5_reader.h"
+
+static void read_series(gg_h5_in *h, gg_stored_engine *e, const char *observables, const char *name)
+{
+  char path[160];
+  size_t n_times;
+  if (e->n_series == GG_MAX_STORED_SERIES) return;
+  snprintf(path, sizeof path, "%s%s/value", observables, name);
+  if (!gg_h5_exists(h, path)) return;
+  gg_stored_series *s = &e->series[e->n_series++];
+  snprintf(s->name, sizeof s->name, "%s", name);
+  s->value = gg_h5_read_array(h, path, GG_ITEM_F64, &s->n);
+  snprintf(path, sizeof path, "%s%s/time", observables, name);
+  s->time = gg_h5_read_array(h, path, GG_ITEM_F64, &n_times);
+  if (n_times < s->n) s->n = n_times;
+}
+
+static void read_engine(gg_h5_in *h, gg_stored_engine *e, const char *group, const char *observables)
+{
+  char path[160];
+  size_t n = 0;
+  snprintf(path, sizeof path, "%s/window", group);
+  double *window = gg_h5_read_array(h, path, GG_ITEM_F64, &n);
+  if (n == 2) memcpy(e->window, window, sizeof e->window);
+  free(window);
+  for (int q = 0; q < GG_N_QUANTITIES; q++) read_series(h, e, observables, gg_quantity_name((gg_quantity)q));
+}
+
+static void read_engines(gg_h5_in *h, gg_stored_result *s)
+{
+  for (int k = 0; k < 2; k++) {
+    const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
+    gg_stored_engine *e = &s->engine[k];
+    char group[64] = "/graingas", observables[64] = "/observables/";
+    json_t *document = s->document;
+    if (s->comparison) {
+      document = json_object_get(s->document, name);
+      snprintf(group, sizeof group, "/graingas/%s", name);
+      snprintf(observables, sizeof observables, "/observables/%s_", name);
+    } else {
+      const char *engine = json_string_value(json_object_get(document, "engine"));
+      if (!engine || strcmp(engine, name) != 0) continue;
+    }
+    if (!json_is_object(document)) continue;
+    e->name = name;
+    e->document = document;
+    read_engine(h, e, group, observables);
+  }
+}
+
+static size_t count_numbers(gg_h5_in *h, const char *path)
+{
+  size_t n = 0;
+  if (gg_h5_exists(h, path)) n = gg_h5_count_of(h, path);
+  return n;
+}
+
+static double *read_last_rows(gg_h5_in *h, const char *what, size_t n)
+{
+  char path[80];
+  snprintf(path, sizeof path, "/particles/grains/%s/value", what);
+  return gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, GG_ITEM_F64, 3 * n) : NULL;
+}
+
+static void read_box(gg_h5_in *h, double edge[3])
+{
+  static const char path[] = "/particles/grains/box/edges/value";
+  double *edges = gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, GG_ITEM_F64, 9) : NULL;
+  for (int a = 0; edges && a < 3; a++) edge[a] = edges[4 * a];
+  free(edges);
+}
+
+static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
+{
+  gg_frame *f = &s->last;
+  size_t kinds = 0;
+  if (!s->n_frames || !s->n_grains) return;
+  f->n = s->n_grains;
+  uint64_t *step = gg_h5_read_last_row(h, "/particles/grains/velocity/step", GG_ITEM_U64, 1);
+  double *time = gg_h5_read_last_row(h, "/particles/grains/velocity/time", GG_ITEM_F64, 1);
+  if (step) f->step = *step;
+  if (time) f->time = *time;
+  free(step);
+  free(time);
+  f->position = read_last_rows(h, "position", f->n);
+  read_box(h, s->edge);
+  f->velocity = read_last_rows(h, "velocity", f->n);
+  f->spin = read_last_rows(h, "spin", f->n);
+  f->species = gg_h5_read_array(h, "/particles/grains/species", GG_ITEM_U8, &kinds);
+  if (!h->failed && kinds != f->n) gg_h5_in_failed(h, "its grains are not all of a known species");
+}
+
+void gg_stored_scene_in_words_of_today(char *scene)
+{
+  static const char off[] = "\nsmall_shear: off\n", on[] = "\nsmall_shear: on\n", before[] = "flow: usf\n",
+                    now[] = "flow: small_shear\n";
+  char *key = scene ? strstr(scene, off) : NULL;
+  if (key) memmove(key + 1, key + sizeof off - 1, strlen(key + sizeof off - 1) + 1);
+  key = scene ? strstr(scene, on) : NULL;
+  if (!key || strncmp(scene, before, sizeof before - 1) != 0) return;
+  memmove(key + 1, key + sizeof on - 1, strlen(key + sizeof on - 1) + 1);
+  char *rest = scene + sizeof before - 1; /* the word is longer by less than the key that went was */
+  memmove(scene + sizeof now - 1, rest, strlen(rest) + 1);
+  memcpy(scene, now, sizeof now - 1);
+}
+
+gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
+{
+  gg_h5_in h;
+  *s = (gg_stored_result){0};
+  gg_h5_open(&h, path);
+  const bool checkpoint = !h.failed && gg_h5_exists(&h, "/checkpoint");
+  if (checkpoint) gg_checkpoint_check_version(&h);
+  if (checkpoint && !h.failed)
+    gg_h5_in_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
+  if (!h.failed && gg_h5_exists(&h, "/graingas/table"))
+    gg_h5_in_failed(&h, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
+  if (!h.failed && gg_h5_exists(&h, "/figure"))
+    gg_h5_in_failed(&h, "it is a reproduced figure, for h5py; its curves are in the .csv beside it, too");
+  if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_in_failed(&h, "it holds no result of graingas");
+  char *text = gg_h5_read_text(&h, "/graingas/document");
+  s->version = gg_h5_read_text(&h, "/graingas/version");
+  s->command = gg_h5_read_text(&h, "/graingas/command");
+  s->machine = gg_h5_read_text(&h, "/graingas/machine");
+  s->date = gg_h5_read_text(&h, "/graingas/date");
+  s->scene = gg_h5_read_text(&h, "/graingas/scene");
+  gg_stored_scene_in_words_of_today(s->scene);
+  const char *why = "out of memory";
+  s->document = text ? gg_json_read(text, &why) : NULL;
+  free(text);
+  if (!s->document) gg_h5_in_failed(&h, why);
+  if (!h.failed) {
+    s->comparison = json_object_get(s->document, "comparison") != NULL;
+    read_engines(&h, s);
+    s->n_frames = count_numbers(&h, "/particles/grains/velocity/step");
+    s->n_grains = count_numbers(&h, "/particles/grains/id");
+    read_last_frame(&h, s);
+  }
+  gg_h5_in_close(&h);
+  gg_status status = gg_h5_in_status(&h, path, err);
+  if (status != GG_OK) gg_stored_result_clear(s);
+  return status;
+}
+
+void gg_stored_result_clear(gg_stored_result *s)
+{
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < s->engine[k].n_series; i++) {
+      free(s->engine[k].series[i].time);
+      free(s->engine[k].series[i].value);
+    }
+  free(s->version);
+  free(s->command);
+  free(s->machine);
+  free(s->date);
+  free(s->scene);
+  json_decref(s->document);
+  gg_frame_free(&s->last);
+  *s = (gg_stored_result){0};
+}
+
+const gg_stored_series *gg_stored_series_find(const gg_stored_engine *e, const char *name)
+{
+  for (int i = 0; i < e->n_series; i++)
+    if (strcmp(e->series[i].name, name) == 0) return &e->series[i];
+  return NULL;
+}

@@ -1,0 +1,274 @@
+#include "files/h5/result_restore.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "files/curve_table.h"
+#include "files/h5/stored_extension.h"
+#include "files/result_document.h"
+#include "scene/ineffective_keys.h"
+#include "scene/scene_reader.h"
+
+static double number(const json_t *object, const char *key)
+{
+  const json_t *value = json_object_get(object, key);
+  return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+static uint64_t count(const json_t *object, const char *key)
+{
+  return (uint64_t)json_integer_value(json_object_get(object, key));
+}
+
+static const char *text(const json_t *object, const char *key)
+{
+  const char *value = json_string_value(json_object_get(object, key));
+  return value ? value : "";
+}
+
+static void restore_warnings(gg_result *r, const json_t *document)
+{
+  size_t i;
+  json_t *line;
+  json_array_foreach(json_object_get(document, "warnings"), i, line) if (json_is_string(line))
+      gg_result_warn(r, "%s", json_string_value(line));
+}
+
+/* "a, b are null: reason": what such a line says of `name`. */
+static void restore_reason(const gg_result *r, const char *name, char *reason, size_t size)
+{
+  size_t length = strlen(name);
+  for (size_t i = 0; i < r->warnings.n; i++) {
+    const char *line = r->warnings.text[i];
+    const char *end = strstr(line, " null: ");
+    for (const char *at = line; end && (at = strstr(at, name)) && at < end; at += length)
+      if ((at == line || at[-1] == ' ') && strchr(", ", at[length])) {
+        snprintf(reason, size, "%s", end + strlen(" null: "));
+        return;
+      }
+  }
+}
+
+static void restore_means(gg_result *r, const json_t *document)
+{
+  const json_t *results = json_object_get(document, "results");
+  for (int i = 0; i < gg_quantities_of(&r->model); i++) {
+    const gg_quantity q = gg_quantity_at(&r->model, i);
+    const char *name = gg_quantity_name_in(&r->model, q);
+    gg_estimate *e = &r->value[q];
+    const json_t *stored = json_object_get(results, name);
+    *e = (gg_estimate){.mean = number(stored, "mean"),
+                       .error = number(stored, "stderr"),
+                       .correlation_time = number(stored, "correlation_time"),
+                       .samples = count(stored, "samples")};
+    const char *reason = text(stored, "reason");
+    if (stored && isnan(e->mean) && *reason)
+      snprintf(e->reason, sizeof e->reason, "%s", reason);
+    else if (stored && isnan(e->mean)) /* of an older file */
+      restore_reason(r, name, e->reason, sizeof e->reason);
+  }
+}
+
+static double *copy_of(const double *from, size_t n, gg_error *err)
+{
+  double *to = gg_new_array(n, sizeof *to, err);
+  if (to) memcpy(to, from, n * sizeof *to);
+  return to;
+}
+
+static gg_status restore_history(gg_result *r, const gg_stored_engine *e, gg_error *err)
+{
+  gg_history *h = &r->history;
+  memcpy(h->window, e->window, sizeof h->window);
+  if (!e->n_series) return GG_OK;
+  h->n = e->series[0].n;
+  if (!(h->time = copy_of(e->series[0].time, h->n, err))) return GG_FAILED;
+  for (int k = 0; k < GG_N_HISTORY; k++) {
+    const gg_stored_series *s = gg_stored_series_find(e, gg_quantity_name(gg_history_quantity(k)));
+    h->value[k] = s && s->n == h->n ? copy_of(s->value, h->n, err) : gg_new_array(h->n, sizeof(double), err);
+    if (!h->value[k]) return GG_FAILED;
+    for (size_t i = 0; (!s || s->n != h->n) && i < h->n; i++) h->value[k][i] = NAN;
+  }
+  return GG_OK;
+}
+
+/* The file's frame is that of the run, or of a comparison's md where there was one. */
+static gg_status restore_frame(gg_result *r, const gg_stored_result *s, gg_error *err)
+{
+  const gg_frame *from = &s->last;
+  bool its_own = !s->comparison || strcmp(r->engine, s->engine[GG_MD].name ? "md" : "dsmc") == 0;
+  if (!its_own || !from->velocity || from->n != (size_t)r->model.n) return GG_OK;
+  gg_frame *to = &r->final;
+  *to = (gg_frame){.time = from->time, .step = from->step, .n = from->n};
+  if (!(to->velocity = copy_of(from->velocity, 3 * to->n, err))) return GG_FAILED;
+  if (from->position && !(to->position = copy_of(from->position, 3 * to->n, err))) return GG_FAILED;
+  if (from->spin && !(to->spin = copy_of(from->spin, 3 * to->n, err))) return GG_FAILED;
+  if (from->species && !(to->species = gg_new_array(to->n, 1, err))) return GG_FAILED;
+  if (from->species) memcpy(to->species, from->species, to->n);
+  return GG_OK;
+}
+
+static void restore_effort(gg_result *r, const json_t *document)
+{
+  const json_t *total = json_object_get(document, "total"), *state = json_object_get(document, "engine_state");
+  r->averaging = (gg_effort){count(document, "collisions"), number(document, "cpu_seconds"), NAN};
+  r->total = (gg_effort){count(total, "collisions"), number(total, "cpu_seconds"), number(total, "wall_seconds")};
+  r->engine_state = (gg_engine_state){.time = number(state, "time"),
+                                      .collisions = r->total.collisions,
+                                      .events = count(state, "events"),
+                                      .treated = count(state, "contact_time_collisions"),
+                                      .overflows = count(state, "majorant_overflows")};
+  if (json_object_get(state, "worst_overlap")) r->engine_state.worst_overlap = number(state, "worst_overlap");
+  if (json_object_get(state, "time_step")) r->engine_state.time_step = number(state, "time_step");
+  if (json_object_get(state, "time_step_bias")) r->engine_state.time_step_bias = number(state, "time_step_bias");
+}
+
+static gg_status restore_origin(gg_result *r, const gg_stored_result *s, const json_t *document, gg_error *err)
+{
+  char **const to[] = {&r->origin.version, &r->origin.command, &r->origin.machine, &r->origin.date};
+  const char *const from[] = {s->version, s->command, s->machine, s->date};
+  for (int i = 0; i < 4; i++)
+    if (!(*to[i] = strdup(from[i] ? from[i] : ""))) return gg_out_of_memory(err);
+  r->origin.document = gg_document_text(document);
+  r->origin.frames = s->n_frames;
+  return r->origin.document ? GG_OK : gg_out_of_memory(err);
+}
+
+gg_status gg_stored_scene(const gg_stored_result *s, gg_engine_kind engine, gg_scene *scene, gg_model *model,
+                          gg_error *err)
+{
+  *scene = gg_scene_defaults();
+  GG_TRY(gg_scene_read(scene, s->scene, strlen(s->scene), "the stored scene", err));
+  return gg_model_make(scene, engine, model, err);
+}
+
+static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_kind engine, gg_error *err)
+{
+  const gg_stored_engine *e = &s->engine[engine];
+  GG_TRY(gg_stored_scene(s, engine, &r->scene, &r->model, err));
+  GG_TRY(gg_stored_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
+  r->model.extension = r->own;
+  r->scene.engine = engine;
+  r->engine = gg_engine_ops_of(engine)->name;
+  bool steady = json_is_true(json_object_get(e->document, "steady"));
+  r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.linear_response ? GG_NOT_STEADY : GG_HEATING;
+  snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", text(e->document, "verdict"));
+  const char *chosen = text(e->document, "particles_chosen");
+  snprintf(r->ensemble_text, sizeof r->ensemble_text, "%s", chosen ? chosen : "");
+  restore_warnings(r, e->document);
+  restore_means(r, e->document);
+  restore_effort(r, e->document);
+  GG_TRY(restore_history(r, e, err));
+  r->curves.model = &r->model;
+  GG_TRY(gg_curves_from_json(&r->curves, json_object_get(e->document, "curves"), err));
+  GG_TRY(restore_frame(r, s, err));
+  return restore_origin(r, s, e->document, err);
+}
+
+gg_status gg_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg_result **result, gg_error *err)
+{
+  gg_result *r = gg_new_array(1, sizeof *r, err);
+  if (!r) return GG_FAILED;
+  bool before = gg_memory_begin(); /* for a warning that is lost */
+  gg_status status = gg_memory_check(before, restore_all(r, s, engine, err), err);
+  if (status == GG_OK)
+    *result = r;
+  else
+    gg_result_free(r);
+  return status;
+}
+
+/* Why a theory did not apply. */
+static void restore_refusal(const json_t *document, const char *theory, char *reason, size_t size)
+{
+  const json_t *about = json_object_get(json_object_get(document, "theories"), theory);
+  const char *said = text(about, "reason");
+  snprintf(reason, size, "%s", *said ? said : "it is not in the file");
+}
+
+/* What the file's theories said, which those of today may not, nor of the stored scene: a restitution law of the
+ * program's own is not in it. */
+static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_error *err)
+{
+  const json_t *all = json_object_get(document, "theory");
+  const gg_theory *theory;
+  if (!json_is_object(all)) { /* a run's file: no theory was asked */
+    return gg_compare_theories(&c->model, c, err);
+  }
+  const json_t *curves = json_object_get(document, GG_THEORY_CURVES);
+  c->n_theories = 0;
+  for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(&c->model, i)); i++, c->n_theories++) {
+    const json_t *said = json_object_get(all, theory->name);
+    c->theory[i].theory = theory;
+    c->theory[i].applies = said != NULL;
+    if (!said) restore_refusal(document, theory->name, c->theory[i].reason, sizeof c->theory[i].reason);
+    for (int q = 0; q < GG_MOST_QUANTITIES; q++) c->theory[i].answer.value[q] = c->theory[i].answer.error[q] = NAN;
+    for (int k = 0; said && k < gg_quantities_of(&c->model); k++) {
+      const gg_quantity q = gg_quantity_at(&c->model, k);
+      const json_t *one = json_object_get(said, gg_quantity_name_in(&c->model, q));
+      c->theory[i].answer.value[q] = number(one, "mean");
+      c->theory[i].answer.error[q] = number(one, "error");
+    }
+  }
+  for (int i = 0; i < c->n_theories; i++) {
+    c->theory[i].curves.model = &c->model;
+    GG_TRY(gg_curves_from_json(&c->theory[i].curves, json_object_get(curves, c->theory[i].theory->name), err));
+  }
+  return GG_OK;
+}
+
+/* The engines' own quantities are the same. */
+static gg_status restore_own(gg_comparison *c, const json_t *document, gg_error *err)
+{
+  const json_t *md = json_object_get(document, "md"),
+               *part = json_is_object(md) ? md : json_object_get(document, "dsmc");
+  GG_TRY(gg_stored_extension(json_object_get(part, "results"), json_object_get(document, "theories"), &c->own, err));
+  c->model.extension = c->own;
+  return GG_OK;
+}
+
+/* "md is null: reason" */
+static void restore_refusals(gg_comparison *c, const json_t *document)
+{
+  size_t i;
+  json_t *line;
+  json_array_foreach(json_object_get(document, "warnings"), i, line) for (int k = 0; k < 2; k++)
+  {
+    char head[24];
+    int length = snprintf(head, sizeof head, "%s is null: ", gg_engine_ops_of((gg_engine_kind)k)->name);
+    const char *said = json_string_value(line);
+    if (said && strncmp(said, head, (size_t)length) == 0)
+      snprintf(c->refusal[k], sizeof c->refusal[k], "%.250s", said + length);
+  }
+}
+
+static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c, gg_error *err)
+{
+  GG_TRY(gg_stored_scene(s, GG_MD, &c->scene, &c->model, err));
+  for (int k = 0; k < 2; k++)
+    if (s->engine[k].name)
+      GG_TRY(gg_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));
+    else if (!s->comparison)
+      snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
+  if (s->comparison) {
+    GG_TRY(restore_own(c, s->document, err));
+    GG_TRY(restore_theories(c, s->document, err));
+  } else {
+    const gg_result *one = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
+    c->model.extension = one ? one->model.extension : NULL;
+  }
+  restore_refusals(c, s->document);
+  if (s->comparison) gg_scene_inert(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
+  c->of_one = !s->comparison;
+  c->document = gg_document_text(s->document);
+  return c->document ? GG_OK : gg_out_of_memory(err);
+}
+
+gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_error *err)
+{
+  *c = (gg_comparison){0};
+  bool before = gg_memory_begin();
+  return gg_memory_check(before, restore_comparison(s, c, err), err);
+}

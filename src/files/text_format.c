@@ -1,0 +1,98 @@
+#include "files/text_format.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/scene_json.h"
+
+/* With `decimals` after the point; the error in units of the last digit where it has no point in it. */
+static void put_estimate(double mean, double error, int decimals, char *text, size_t size)
+{
+  if (decimals <= 0)
+    snprintf(text, size, "%.0f(%.0f)", mean, error);
+  else if (error >= 1)
+    snprintf(text, size, "%.*f(%.*f)", decimals, mean, decimals, error);
+  else
+    snprintf(text, size, "%.*f(%.0f)", decimals, mean, error * pow(10, decimals));
+}
+
+void gg_estimate_text(double mean, double error, char *text, size_t size)
+{
+  if (isnan(mean)) {
+    snprintf(text, size, "-");
+    return;
+  }
+  if (!isfinite(error)) {
+    snprintf(text, size, "%.3g(?)", mean);
+    return;
+  }
+  if (error < 1e-9 * fabs(mean) || !(error > 0)) { /* conserved: all its error is rounding */
+    snprintf(text, size, "%.6g", mean);
+    return;
+  }
+  double largest = fmax(fabs(mean), error);
+  int exponent = (int)floor(log10(largest));
+  bool scientific = exponent < -3 || exponent > 5;
+  double scale = scientific ? pow(10, exponent) : 1;
+  double e = error / scale;
+  int decimals = 1 - (int)floor(log10(e));
+  if (e * pow(10, decimals) >= 99.5) decimals--; /* 0.0996 is 0.10 */
+  put_estimate(mean / scale, e, decimals, text, size);
+  size_t used = strlen(text);
+  if (scientific && used < size) snprintf(text + used, size - used, "e%+03d", exponent);
+}
+
+static void add(char *text, size_t size, const char *format, ...) GG_PRINTF(3, 4);
+static void add(char *text, size_t size, const char *format, ...)
+{
+  size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  if (used < size) vsnprintf(text + used, size - used, format, args);
+  va_end(args);
+}
+
+static void add_pairs(char *text, size_t size, const char *name, const double *x, int n_species)
+{
+  double least = x[GG_11], most = x[GG_11];
+  for (int p = 0; p < gg_pairs_of(n_species); p++) least = fmin(least, x[p]), most = fmax(most, x[p]);
+  if (least == most)
+    add(text, size, ", %s %g", name, least);
+  else if (n_species == 2)
+    add(text, size, ", %s %g/%g/%g", name, x[GG_11], x[GG_12], x[GG_22]);
+  else
+    add(text, size, ", %s %g to %g", name, least, most);
+}
+
+void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
+{
+  if (!size) return;
+  const char *flow = gg_flow_of(s->flow)->title;
+  bool as_well = gg_flow_takes(s->flow, GG_NO_THERMOSTAT) && s->thermostat != GG_NO_THERMOSTAT;
+  snprintf(text, size, "%s%s, phi %g", flow, as_well ? ", heated" : "", s->phi);
+  const gg_restitution_law law = gg_extension_law(s->extension);
+  if (law.e)
+    add(text, size, ", law %s of e", law.name);
+  else
+    add_pairs(text, size, "e", s->collision.e, s->n_species);
+  if (!law.e && s->collision.law != GG_LAW_CONSTANT) add(text, size, " (%s)", gg_law_name(s->collision.law));
+  bool smooth = true, frictional = false;
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
+    smooth &= s->collision.beta[p] == -1 || s->collision.mu[p] == 0;
+    frictional |= isfinite(s->collision.mu[p]);
+  }
+  if (smooth)
+    add(text, size, ", smooth");
+  else
+    add_pairs(text, size, frictional ? "beta_0" : "beta", s->collision.beta, s->n_species);
+  if (!smooth && frictional) add_pairs(text, size, "mu", s->collision.mu, s->n_species);
+  if (s->n_species > 2) add(text, size, "; %d species", s->n_species);
+  if (s->n_species == 2) {
+    const gg_species *one = &s->species[0], *two = &s->species[1];
+    add(text, size, "; mixture %g:%g", one->fraction, two->fraction);
+    if (one->mass != two->mass) add(text, size, ", m_2/m_1 %g", two->mass / one->mass);
+    if (one->diameter != two->diameter) add(text, size, ", d_2/d_1 %g", two->diameter / one->diameter);
+  }
+}

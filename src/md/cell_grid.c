@@ -1,0 +1,77 @@
+#include "md/cell_grid.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "md/aligned_memory.h"
+
+enum { FEWEST_WORDS = 8, MOST_BEHIND = 16 }; /* the latter: what may be read behind the last */
+
+void gg_md_cells_count(const gg_md_box *box, double width, int32_t n[3])
+{
+  for (int a = 0; a < 3; a++) {
+    double fit = gg_floor(box->edge[a] / width);
+    n[a] = fit < 1 ? 1 : fit > 65535 ? 65535 : (int32_t)fit;
+  }
+}
+
+gg_status gg_md_cells_make(gg_md_cells *c, const gg_md_box *box, const int32_t n[3], double reach, gg_error *err)
+{
+  *c = (gg_md_cells){.reach = reach};
+  size_t total = 1;
+  for (int a = 0; a < 3; a++) {
+    c->n[a] = n[a];
+    c->width[a] = box->edge[a] / n[a];
+    c->inverse[a] = n[a] / box->edge[a];
+    total *= (size_t)n[a];
+  }
+  for (int a = 0, each = 1; a < 3; each *= n[a], a++) {
+    uint32_t *part = gg_new_array((size_t)n[a] + 4, sizeof *part, err);
+    if (!part) return GG_FAILED;
+    for (int32_t k = -2; k <= n[a] + 1; k++) part[k + 2] = (uint32_t)((k + 2 * n[a]) % n[a] * each);
+    c->part[a] = part + 2;
+  }
+  c->stride = FEWEST_WORDS;
+  c->cell = gg_md_new_lines(total * c->stride + MOST_BEHIND, sizeof *c->cell, err);
+  return c->cell ? GG_OK : GG_FAILED;
+}
+
+static size_t total_of(const gg_md_cells *c)
+{
+  return (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2];
+}
+
+void gg_md_cells_clear(gg_md_cells *c)
+{
+  size_t total = total_of(c);
+  for (size_t k = 0; k < total; k++) c->cell[k * c->stride] = 0;
+}
+
+bool gg_md_cells_grow(gg_md_cells *c)
+{
+  size_t total = total_of(c), stride = 2 * c->stride;
+  uint32_t *cell = gg_md_new_lines(total * stride + MOST_BEHIND, sizeof *cell, NULL);
+  if (!cell) return false;
+  for (size_t k = 0; k < total; k++) memcpy(cell + k * stride, c->cell + k * c->stride, c->stride * sizeof *cell);
+  free(c->cell);
+  c->cell = cell;
+  c->stride = (uint32_t)stride;
+  return true;
+}
+
+void gg_md_cells_free(gg_md_cells *c)
+{
+  free(c->cell);
+  for (int a = 0; a < 3; a++)
+    if (c->part[a]) free(c->part[a] - 2);
+  *c = (gg_md_cells){0};
+}
+
+void gg_md_cell_of(const gg_md_cells *c, gg_vec r, int32_t cell[3])
+{
+  for (int a = 0; a < 3; a++) {
+    int32_t k = (int32_t)(gg_along(&r, a) * c->inverse[a]);
+    cell[a] = gg_md_within(k, c->n[a]);
+  }
+}

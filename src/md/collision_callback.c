@@ -1,0 +1,41 @@
+/* Collisions shown one by one. While a callback is set, the resolution of contacts is wrapped by one that shows them:
+ * one without a callback knows nothing of it. */
+#include <math.h>
+
+#include "md/md_state.h"
+
+static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_record *m)
+{
+  const gg_md_grain *g = &e->grain[i];
+  double height = g->r.y - 0.5 * e->box.edge[1];
+  gg_vec c = g->v;
+  c.x -= e->model.shear_rate * height;
+  m->id[which] = e->id[i];
+  m->species[which] = gg_md_species_of(g);
+  m->c[which] = gg_scale(e->k.scale, c);
+  m->height[which] = height;
+  m->since[which] = (e->k.now - e->last[i]) / e->k.scale; /* of a Gaussian thermostat's clock: at its present pace */
+}
+
+void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
+{
+  gg_collision_record m = {
+      .k = gg_scale(1 / sqrt(gg_dot(dr, dr)), dr), .c12 = gg_scale(e->k.scale, c12), .time = gg_md_time(e)};
+  show_grain(e, i, 0, &m);
+  show_grain(e, j, 1, &m);
+  const gg_vec before = e->grain[j].v;
+  const double scale = e->k.scale; /* the thermostat's, as of the velocities: it changes with what is lost */
+  e->resolve_shown(e, i, j, dr, c12);
+  m.J = gg_scale(scale * e->model.mass[m.species[1]], gg_sub(e->grain[j].v, before));
+  e->callback(e->callback_context, &m);
+}
+
+gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  if (callback && !e->last) GG_TRY(gg_md_allocate_last(e, err));
+  e->callback = callback;
+  e->callback_context = context;
+  gg_md_select(e);
+  return GG_OK;
+}

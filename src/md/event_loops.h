@@ -1,0 +1,15 @@
+/* The instances of the event loop, by what a scene needs: each compiled into an object of its own (instance.c), those
+ * that predict eight pairs at a time once more for every set of instructions. All of them give the same bits. */
+#ifndef GG_MD_KERNELS_H
+#define GG_MD_KERNELS_H
+
+#include "md/md_state.h"
+#include "simd/dispatch.h"
+
+enum gg_md_boundary { GG_MD_PERIODIC, GG_MD_SHEARED, GG_MD_WALLED, GG_MD_FALLING };
+
+/* The instance of a compiled set of instructions; NULL where there is no such thing. */
+const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, enum gg_md_search_way where, enum gg_md_boundary boundary,
+                                      bool mixture);
+
+#endif

@@ -1,0 +1,90 @@
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "common/surface/surfaces.h"
+#include "common/thermostat.h"
+#include "md/aligned_memory.h"
+#include "md/md_state.h"
+#include "simd/dispatch.h"
+
+gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
+{
+  e->last = gg_new_array(e->n, sizeof *e->last, err);
+  if (!e->last) return GG_FAILED;
+  for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
+  return GG_OK;
+}
+
+static gg_status allocate(gg_md *e, gg_error *err)
+{
+  const gg_model *m = &e->model;
+  e->n = (uint32_t)m->n;
+  e->grain = gg_md_new_lines((size_t)e->n + 1, sizeof *e->grain, err);
+  e->node = gg_md_new_lines(e->n, sizeof *e->node, err);
+  e->id = gg_new_array(e->n, sizeof *e->id, err);
+  e->candidates = gg_md_new_pages(2 * GG_MD_CANDIDATES_APART, sizeof *e->candidates, err);
+  if (!e->grain || !e->node || !e->id || !e->candidates) return GG_FAILED;
+  e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
+  if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
+  GG_TRY(gg_loss_table_new(m->law.kind, &e->losses, err));
+  if (m->contact_time > 0) GG_TRY(gg_md_allocate_last(e, err));
+  return gg_md_queue_make(&e->queue, e->n, err);
+}
+
+gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
+{
+  e->skin = gg_md_new_lines((size_t)e->n + 1, sizeof *e->skin, err);
+  e->neighbour = gg_md_new_lines(e->n, GG_MD_LIST * sizeof *e->neighbour, err);
+  if (!e->skin || !e->neighbour) return GG_FAILED;
+  e->skin[e->n].centre = (gg_vec){NAN, NAN, NAN};
+  return GG_OK;
+}
+
+gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
+{
+  GG_TRY(gg_instructions_check(err));
+  gg_md *e = gg_new_array(1, sizeof *e, err);
+  if (!e) return GG_FAILED;
+  e->base.ops = &gg_md_ops;
+  e->model = *model;
+  for (int a = 0; a < 3; a++) {
+    e->box.edge[a] = model->box[a];
+    e->box.inverse[a] = 1 / model->box[a];
+  }
+  for (int a = 0; a < 3; a++)
+    if (gg_is_closed(model, a)) e->box.inverse[a] = 0; /* no image across a wall */
+  e->box.image_velocity = model->shear_rate * model->box[1];
+  e->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
+  e->falls = gg_dot(e->gravity, e->gravity) > 0;
+  e->thermostat = gg_thermostat_of(model);
+  e->noise = e->thermostat == GG_WHITE_NOISE ? gg_thermostat_noise(model) : 0;
+  gg_status status = gg_md_contacts_make(&e->contacts, model, err);
+  if (status == GG_OK) status = allocate(e, err);
+  if (status != GG_OK) {
+    gg_md_free(e);
+    return status;
+  }
+  *engine = e;
+  return GG_OK;
+}
+
+void gg_md_free(gg_md *e)
+{
+  if (!e) return;
+  gg_md_contacts_free(&e->contacts);
+  gg_md_queue_free(&e->queue);
+  gg_md_cells_free(&e->cells);
+  free(e->grain);
+  free(e->node);
+  free(e->spin);
+  free(e->losses);
+  free(e->last);
+  if (e->row) free(e->row - 1);
+  free(e->skin);
+  free(e->neighbour);
+  free(e->id);
+  free(e->candidates);
+  for (int a = 0; a < 3; a++) free(e->near[a]);
+  free(e);
+}

@@ -1,0 +1,114 @@
+/* Everything needed to go on bit for bit: the records as they are. What cells and calendar hold is put there anew:
+ * its order never matters. */
+#include "md/md_checkpoint.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "md/verify.h"
+
+/* What stands beside the arrays, in one plain block. */
+typedef struct block {
+  gg_md_counts counts;
+  double offset0, bucket_width, skin_radius; /* 0: no lists */
+  uint32_t current_bucket;
+  int32_t cells[3];
+  uint32_t overlapping, comoving;
+} block;
+
+static gg_status put(gg_archive *a, const char *name, const void *data, size_t bytes, gg_error *err)
+{
+  return gg_archive_put(a, name, GG_ITEM_U8, data, bytes, err);
+}
+
+gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
+{
+  const gg_md *e = (const gg_md *)engine;
+  block b;
+  memset(&b, 0, sizeof b);
+  b.counts = e->k;
+  b.offset0 = e->box.offset0;
+  b.bucket_width = e->queue.width;
+  b.current_bucket = e->queue.current;
+  b.skin_radius = e->skin ? e->skin_radius : 0;
+  b.overlapping = e->overlapping;
+  b.comoving = e->row != NULL;
+  memcpy(b.cells, e->cells.n, sizeof b.cells);
+  GG_TRY(put(a, "md/state", &b, sizeof b, err));
+  GG_TRY(put(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
+  GG_TRY(put(a, "md/events", e->node, e->n * sizeof *e->node, err));
+  GG_TRY(put(a, "md/id", e->id, e->n * sizeof *e->id, err));
+  if (e->spin) GG_TRY(put(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
+  if (e->last) GG_TRY(put(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
+  if (e->skin) GG_TRY(put(a, "md/skins", e->skin, e->n * sizeof *e->skin, err));
+  if (e->skin) GG_TRY(put(a, "md/neighbours", e->neighbour, e->n * GG_MD_LIST * sizeof *e->neighbour, err));
+  return GG_OK;
+}
+
+static gg_status get(const gg_archive *a, const char *name, void *data, size_t bytes, gg_error *err)
+{
+  return gg_archive_get(a, name, GG_ITEM_U8, data, bytes, err);
+}
+
+static gg_status refuse(const char *what, gg_error *err)
+{
+  return gg_fail(err, GG_BAD_FILE, "the checkpoint of md is damaged: %s", what);
+}
+
+static gg_status get_block(const gg_md *e, const gg_archive *a, block *b, gg_error *err)
+{
+  GG_TRY(get(a, "md/state", b, sizeof *b, err));
+  if (!gg_md_is_way_of(&e->model, b->cells, b->skin_radius, b->overlapping, b->comoving))
+    return refuse("its cells are not those of this scene", err);
+  const bool good = gg_md_are_counts(&b->counts, b->cells) && fabs(b->offset0) <= 2 * e->box.edge[0] &&
+                    b->bucket_width > 1e-300 && b->bucket_width < 1e300 && b->current_bucket <= e->queue.n_buckets &&
+                    b->overlapping <= 1 && b->comoving <= 1;
+  return good ? GG_OK : refuse("its counts", err);
+}
+
+static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
+{
+  block b;
+  GG_TRY(get_block(e, a, &b, err));
+  GG_TRY(get(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
+  GG_TRY(get(a, "md/events", e->node, e->n * sizeof *e->node, err));
+  GG_TRY(get(a, "md/id", e->id, e->n * sizeof *e->id, err));
+  if (e->spin) GG_TRY(get(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
+  if (!e->last && gg_archive_find(a, "md/last_collisions")) GG_TRY(gg_md_allocate_last(e, err)); /* it had a callback */
+  if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
+  if (b.skin_radius > 0) {
+    GG_TRY(gg_md_allocate_lists(e, err));
+    gg_md_set_skins(e, b.skin_radius);
+    GG_TRY(get(a, "md/skins", e->skin, e->n * sizeof *e->skin, err));
+    GG_TRY(get(a, "md/neighbours", e->neighbour, e->n * GG_MD_LIST * sizeof *e->neighbour, err));
+  }
+  e->k = b.counts;
+  e->box.offset0 = b.offset0;
+  e->overlapping = b.overlapping;
+  GG_TRY(gg_md_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.skin_radius, err));
+  GG_TRY(gg_md_note_surfaces(e, err));
+  if (b.comoving) GG_TRY(gg_md_make_rows(e, err));
+  gg_md_queue_reset(&e->queue, b.bucket_width);
+  const bool before = gg_memory_begin();
+  const char *wrong = gg_md_wrong_grains(e);
+  if (gg_memory_end(before)) return gg_out_of_memory_for(err, "a look at the checkpoint of md");
+  if (wrong) return refuse(wrong, err);
+  if (!gg_md_fill_grid(e)) return gg_out_of_memory_for(err, "the grid of cells");
+  e->queue.current = b.current_bucket;
+  for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
+  gg_md_select(e);
+  return GG_OK;
+}
+
+gg_status gg_md_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
+{
+  gg_md *e;
+  GG_TRY(gg_md_allocate(model, &e, err));
+  gg_status status = load(e, archive, err);
+  if (status == GG_OK)
+    *engine = &e->base;
+  else
+    gg_md_free(e);
+  return status;
+}

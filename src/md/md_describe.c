@@ -1,0 +1,81 @@
+/* What the engine makes of a model, in words. */
+#include <stdio.h>
+
+#include "common/surface/surfaces.h"
+#include "md/md_accept.h"
+#include "md/md_state.h"
+
+static void tell(void (*line)(void *, const char *), void *context, const char *what, const char *how)
+{
+  char text[200];
+  snprintf(text, sizeof text, "%s: %s", what, how);
+  line(context, text);
+}
+
+/* Where partners are searched for, and why there. */
+static void tell_search(const gg_model *m, void (*line)(void *, const char *), void *context)
+{
+  double radius;
+  int32_t n[3];
+  char text[160];
+  enum gg_md_search_way where = gg_md_choose_way(m, &radius, n);
+  const char *const why[] = {
+      [GG_MD_PLAIN_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
+      [GG_MD_NEIGHBOUR_LISTS] = "as dense: they are seldom updated",
+      [GG_MD_OVERLAPPING_CELLS] = "as dilute: few crossings, each into one cell",
+      [GG_MD_COMOVING_ROWS] = "as sheared: the flow carries nobody through them",
+  };
+  const char *const what[] = {[GG_MD_PLAIN_CELLS] = "cells",
+                              [GG_MD_NEIGHBOUR_LISTS] = "neighbour lists",
+                              [GG_MD_OVERLAPPING_CELLS] = "overlapping cells",
+                              [GG_MD_COMOVING_ROWS] = "cells that move with the flow"};
+  int used = snprintf(text, sizeof text, "%s, %d x %d x %d cells, ", what[where], n[0], n[1], n[2]);
+  if (where == GG_MD_NEIGHBOUR_LISTS)
+    used += snprintf(text + used, sizeof text - (size_t)used, "skins of %.2g d, ", radius);
+  snprintf(text + used, sizeof text - (size_t)used, "%s", why[where]);
+  tell(line, context, "search", text);
+  double crossings = gg_md_crossings_per_collision(m);
+  if (crossings < 100) return;
+  snprintf(text, sizeof text, "%.2g a collision: so dilute a gas is slow; engine: dsmc is exact there", crossings);
+  tell(line, context, "crossings of cells", text);
+}
+
+/* "a wall below, a wall above, periodic along x, z" */
+static void tell_walls(const gg_model *m, void (*line)(void *, const char *), void *context)
+{
+  char text[160];
+  size_t used = 0;
+  for (int w = 0; w < m->n_surfaces && used < sizeof text; w++)
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s, ", m->surface[w].title);
+  if (m->n_surfaces > 0 && m->surface[0].radius > 0 && used < sizeof text)
+    used += (size_t)snprintf(text + used, sizeof text - used, "ridges %.4g d wide, ", 2 * m->surface[0].radius);
+  if (gg_is_open_above(m) && used < sizeof text)
+    used += (size_t)snprintf(text + used, sizeof text - used, "open above, ");
+  const char *before = "periodic along ";
+  for (int a = 0; a < 3 && used < sizeof text; a++) {
+    if (gg_is_closed(m, a)) continue;
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s%c", before, "xyz"[a]);
+    before = ", ";
+  }
+  tell(line, context, "box", text);
+}
+
+void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
+{
+  static const char *const rules[] = {"smooth: no spins, no tangential impulse", "rough, constant beta",
+                                      "frictional (Coulomb)"};
+  char timing[100];
+  tell(line, context, "contact", rules[m->rule]);
+  if (m->walled)
+    tell_walls(m, line, context);
+  else
+    tell(line, context, "box", m->shear_rate != 0 ? "periodic, Lees-Edwards shear" : "periodic, no shear");
+  bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
+  tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
+  tell(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");
+  if (m->law.name) tell(line, context, "restitution", "from the speed of each collision");
+  snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time, gg_model_contact_unit(m));
+  tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
+  tell_search(m, line, context);
+  tell(line, context, "collision sums", "while stresses are measured; else only counts");
+}

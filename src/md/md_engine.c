@@ -1,0 +1,237 @@
+/* The engine behind the interface that all engines share. */
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "md/md_accept.h"
+#include "md/md_checkpoint.h"
+#include "md/md_thermostat.h"
+
+/* A fall gives its grains a temperature of its own, whatever they start from: m g times some of the height, where that
+ * is much more. Events that come much faster than guessed wait in one bucket, all of them, for the whole first epoch.
+ */
+static double soon_temperature(const gg_md *e, double T)
+{
+  const double *g = e->model.gravity;
+  return fmax(T, 0.01 * e->model.mass[0] * hypot(g[0], g[1]) * e->model.box[1]);
+}
+
+/* Events expected per time at the start: collisions (each predicted about 1.25 times) and crossings. */
+static double guess_event_rate(const gg_md *e, double T)
+{
+  double rate = 0.625 * gg_model_collision_rate(&e->model, T);
+  for (int a = 0; a < 3; a++) rate += 0.8 * sqrt(T) / e->cells.width[a];
+  return e->n * fmax(rate, 1e-300);
+}
+
+/* Of a large system it takes a while. */
+static gg_status predict_all(gg_md *e, gg_error *err)
+{
+  for (uint32_t from = 0, to; from < e->n; from = to) {
+    to = e->n - from > GG_MD_GRAINS_BETWEEN_LOOKS ? from + GG_MD_GRAINS_BETWEEN_LOOKS : e->n;
+    if (from > 0 && gg_stop_asked(e->model.stop)) return gg_fail(err, GG_INTERRUPTED, "md: stopped at the start");
+    e->kernel->predict(e, from, to);
+  }
+  return GG_OK;
+}
+
+/* From places and velocities to a run that can go on. */
+gg_status gg_md_begin(gg_md *e, gg_error *err)
+{
+  if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
+  if (e->skin) {
+    gg_md_build_lists(e);
+  } else {
+    gg_md_enter_grid(e);
+    if (!gg_md_fill_grid(e)) return gg_out_of_memory_for(err, "the grid of cells");
+  }
+  const double early = gg_md_early_temperature(e, e->model.temperature0); /* to guess by */
+  e->k.mean_free_time = 1 / fmax(gg_model_collision_rate(&e->model, early), 1e-300);
+  gg_md_begin_contact_time(e);
+  if (e->last)
+    for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
+  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, soon_temperature(e, early))));
+  gg_md_select(e);
+  gg_md_thermostat_begin(e);
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->node[i].time = INFINITY;
+    gg_md_queue_insert(&e->queue, e->node, i);
+  }
+  return predict_all(e, err);
+}
+
+static void destroy(gg_engine *engine)
+{
+  gg_md_free((gg_md *)engine);
+}
+
+static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
+{
+  gg_md *e;
+  GG_TRY(gg_md_accepts(model, err));
+  GG_TRY(gg_md_allocate(model, &e, err));
+  gg_status status = gg_md_start(e, seed, stream, err);
+  if (status == GG_OK) status = gg_md_begin(e, err);
+  if (status == GG_OK)
+    *engine = &e->base;
+  else
+    gg_md_free(e);
+  return status;
+}
+
+/* Outside time since the present advance began. */
+static double outer_now(const gg_md *e)
+{
+  return e->k.outer + (e->k.now - e->k.mark) / e->k.scale;
+}
+
+/* Of a Gaussian thermostat outside. */
+double gg_md_time(const gg_md *e)
+{
+  return e->thermostat == GG_GAUSSIAN ? e->k.outer_time + outer_now(e) : e->k.epoch_start + e->k.now;
+}
+
+/* Between looks at whether to stop: some milliseconds. */
+enum { EVENTS_BETWEEN_LOOKS = 1 << 14 };
+
+/* Events up to k.stop; false if it was stopped on the way. So many events at one and the same time are a grain that
+ * comes to rest on a wall without the contact-time rule: no time will go by any more. */
+static bool run_leg(gg_md *e)
+{
+  for (;;) {
+    const double before = e->k.now;
+    e->kernel->run(e);
+    if (e->k.events < e->look_at) return true;
+    e->stands_still = e->k.now == before && e->model.walled && e->model.contact_time == 0;
+    if (e->stands_still) return true;
+    e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+    if (!gg_md_check_numbers(e)) return true;
+    if (gg_stop_asked(e->model.stop)) return false;
+  }
+}
+
+/* Events with kicks in between: each kick ends a leg. k.stop moves with the epochs, so what the kick cuts off is kept
+ * as a difference. */
+static bool run_legs(gg_md *e)
+{
+  while (e->k.beyond_kick >= 0) {
+    e->k.stop = e->k.next_kick;
+    if (!run_leg(e)) return false;
+    if (!e->k.collisions_left) return true;
+    e->k.now = e->k.next_kick;
+    gg_md_thermostat_kick(e);
+    e->k.beyond_kick -= e->k.next_kick - e->k.now;
+  }
+  if (e->k.beyond_kick > -INFINITY) e->k.stop = e->k.next_kick + e->k.beyond_kick;
+  e->k.beyond_kick = -INFINITY;
+  return run_leg(e);
+}
+
+/* The run stands at the end of the advance, or at the last collision allowed to it, or where it was stopped. */
+static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+  bool ended = !gg_md_check_numbers(e) || run_legs(e);
+  if (e->out_of_memory) return gg_out_of_memory_for(err, "a cell of the grid");
+  if (e->no_number)
+    return gg_fail(err, GG_FAILED, "md: what a grain does is no number any more, after %.3g collisions a grain",
+                   2 * (double)e->k.collisions / e->n);
+  if (e->stands_still)
+    return gg_fail(err, GG_FAILED,
+                   "md: contacts with a wall accumulate without end near time %g: a grain comes to rest there; give "
+                   "md.contact_time a value above 0",
+                   gg_md_time(e));
+  bool whole = ended && e->k.collisions_left && e->k.stop < INFINITY;
+  if (whole) e->k.now = e->k.stop;
+  *elapsed = whole ? e->k.asked : outer_now(e);
+  if (!ended) return gg_fail(err, GG_INTERRUPTED, "md: stopped");
+  e->k.outer_time += *elapsed;
+  e->k.outer = 0;
+  e->k.mark = e->k.now;
+  return GG_OK;
+}
+
+static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  double unused;
+  if (!(dt >= 0)) return gg_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
+  e->k.outer_time += outer_now(e); /* of one that was stopped, and is not to go on */
+  e->k.outer = 0;
+  e->k.mark = e->k.now;
+  e->k.asked = dt;
+  e->k.stop = e->k.now + dt * e->k.scale;
+  e->k.beyond_kick = e->thermostat == GG_WHITE_NOISE ? e->k.stop - e->k.next_kick : -INFINITY;
+  e->k.collisions_left = max_collisions;
+  return go_on(engine, elapsed ? elapsed : &unused, err);
+}
+
+static void keep_sums(gg_engine *engine, bool keep)
+{
+  gg_md *e = (gg_md *)engine;
+  e->k.keeps_sums = keep;
+  gg_md_select(e);
+}
+
+static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
+{
+  gg_md *e = (gg_md *)engine;
+  *transfer = e->k.transfer;
+  memset(&e->k.transfer, 0, sizeof e->k.transfer);
+}
+
+static void state(const gg_engine *engine, gg_engine_state *s)
+{
+  const gg_md *e = (const gg_md *)engine;
+  *s = (gg_engine_state){.time = gg_md_time(e),
+                         .collisions = e->k.collisions,
+                         .events = e->k.events,
+                         .treated = e->k.treated,
+                         .offset = gg_md_offset(&e->box, e->k.now),
+                         .wall_treated = e->k.wall_treated,
+                         .worst_overlap = e->k.worst_overlap};
+}
+
+/* Everything that has a dimension of time or velocity, by exact powers of two. */
+static gg_status rescale(gg_engine *engine, int power, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  if (e->model.shear_rate != 0 || e->model.walled || e->thermostat != GG_NO_THERMOSTAT)
+    return gg_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
+  double v = ldexp(1, power), t = ldexp(1, -power);
+  e->k.power += power;
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->grain[i].v = gg_scale(v, e->grain[i].v);
+    e->grain[i].t *= t;
+    e->node[i].time *= t;
+    e->node[i].collision *= t;
+    if (e->spin) e->spin[i] = gg_scale(v, e->spin[i]);
+    if (e->last) e->last[i] *= t;
+    e->node[i].skin_time *= t;
+  }
+  gg_md_queue_rescale(&e->queue, t);
+  double *times[] = {&e->k.now,         &e->k.epoch_start, &e->k.contact_time, &e->k.mean_free_time,
+                     &e->k.window_time, &e->k.mark};
+  for (size_t k = 0; k < sizeof times / sizeof *times; k++) *times[k] *= t;
+  return GG_OK;
+}
+
+const gg_engine_ops gg_md_ops = {
+    .name = "md",
+    .doc = "event-driven molecular dynamics of hard spheres",
+    .accepts = gg_md_accepts,
+    .create = create,
+    .destroy = destroy,
+    .advance = advance,
+    .keep_sums = keep_sums,
+    .take_sums = take_sums,
+    .set_callback = gg_md_set_callback,
+    .state = state,
+    .snapshot = gg_md_snapshot,
+    .rescale = rescale,
+    .save = gg_md_save,
+    .restore = gg_md_restore,
+    .describe = gg_md_describe,
+    .go_on = go_on,
+};

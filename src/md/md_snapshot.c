@@ -1,0 +1,56 @@
+/* The grains shown to the outside: at the present time, peculiar velocities, a few hundred at a time. */
+#include "md/md_checkpoint.h"
+
+enum { SHOWN = 256 }; /* at a time: so few stay in the first cache until they have been sampled */
+
+typedef struct scratch {
+  double r[3][SHOWN], c[3][SHOWN], s[3][SHOWN];
+  uint8_t species[SHOWN];
+  int64_t id[SHOWN];
+} scratch;
+
+/* The image in the box; under shear the velocity goes with it, so the peculiar one stays. */
+static void into_box(const gg_md *e, gg_vec *r)
+{
+  double layers = gg_floor(r->y * e->box.inverse[1]);
+  if (e->box.image_velocity != 0) r->x -= layers * gg_md_offset(&e->box, e->k.now);
+  for (int a = 0; a < 3; a++) {
+    if (e->box.inverse[a] == 0) continue; /* between walls, or above an open top: no image */
+    double x = gg_wrap(gg_along(r, a), e->box.edge[a], e->box.inverse[a]);
+    *gg_component(r, a) = x < e->box.edge[a] ? x : 0;
+  }
+}
+
+static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, scratch *out)
+{
+  const gg_md_grain *g = &e->grain[i];
+  gg_vec r = gg_md_position(e, e->falls, g, e->k.now),
+         c = gg_scale(e->k.scale, gg_md_velocity(e, e->falls, g, e->k.now));
+  c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
+  if (positions) into_box(e, &r);
+  for (int a = 0; a < 3; a++) {
+    out->r[a][slot] = gg_along(&r, a);
+    out->c[a][slot] = gg_along(&c, a);
+    if (e->spin) out->s[a][slot] = gg_along(&e->spin[i], a);
+  }
+  out->species[slot] = (uint8_t)gg_md_species_of(g);
+  out->id[slot] = e->id[i];
+}
+
+void gg_md_snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
+{
+  const gg_md *e = (const gg_md *)engine;
+  scratch out;
+  for (uint32_t begin = 0; begin < e->n; begin += SHOWN) {
+    gg_chunk chunk = {.n = e->n - begin < SHOWN ? e->n - begin : SHOWN};
+    for (size_t k = 0; k < chunk.n; k++) show_grain(e, begin + (uint32_t)k, k, positions, &out);
+    for (int a = 0; a < 3; a++) {
+      chunk.r[a] = positions ? out.r[a] : NULL;
+      chunk.c[a] = out.c[a];
+      chunk.s[a] = e->spin ? out.s[a] : NULL;
+    }
+    chunk.species = e->model.n_species > 1 ? out.species : NULL;
+    chunk.id = positions ? out.id : NULL;
+    visit(context, &chunk);
+  }
+}

@@ -1,0 +1,239 @@
+/* The state of an event-driven run: one 64-byte record a grain for what every prediction reads, one for what only the
+ * grain's own events read, and the box, the cells, the calendar and the sums around them.
+ *
+ * Each grain is kept where it stood at its own time t, its last event; r(t') = r + v (t' - t) wherever it is needed.
+ * Times count from the start of the present epoch: at an epoch's end all of them are re-zeroed (epoch.c), so that the
+ * last digit of a time means the same after 10^10 collisions as after 10^4.
+ *
+ * Velocities are laboratory velocities in the box, v = C + shear_rate (y - L_y/2) x_hat. */
+#ifndef GG_MD_STATE_H
+#define GG_MD_STATE_H
+
+#include "common/engine.h"
+#include "common/laws/loss_table.h"
+#include "common/rng.h"
+#include "md/box.h"
+#include "md/cell_grid.h"
+#include "md/contacts.h"
+#include "md/queue.h"
+
+typedef struct gg_md_grain {
+  gg_vec r, v;
+  double t;
+  uint32_t species; /* before the counter: batches find it in the lowest bits of both words as one */
+  uint32_t counter; /* changes of course so far */
+} __attribute__((aligned(64))) gg_md_grain;
+
+/* Of the neighbour lists: the centre of the skin, which the grain may not leave before its list is updated. */
+typedef struct gg_md_skin {
+  gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
+} gg_md_skin;
+enum { GG_MD_LIST = 24 }; /* most neighbours in a list */
+
+/* Room for so many grains to try. Stores into one array and loads from another do not hinder each other where the
+ * lower twelve bits of their addresses differ: the arrays of two searches lie half a page apart, and not on the stack,
+ * which stands elsewhere at every start. */
+enum { GG_MD_MOST_CANDIDATES = 2048, GG_MD_CANDIDATES_APART = GG_MD_MOST_CANDIDATES + 512 };
+
+/* A row of cells along x that moves with the flow (search/comoving_rows.h): where its first cell begins at the epoch's
+ * start, its speed, and by how many cells the rows above and below are ahead of it. */
+typedef struct gg_md_row {
+  double origin, speed;
+  int32_t above, below;
+} gg_md_row;
+
+/* At the start: between looks at whether to stop, some milliseconds. */
+enum { GG_MD_GRAINS_BETWEEN_LOOKS = 1 << 13 };
+
+typedef struct gg_md gg_md;
+
+/* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
+typedef void gg_md_resolution(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12);
+/* What happens to a grain in contact with a surface of the model. */
+typedef void gg_md_surface_resolution(gg_md *e, uint32_t i, int surface);
+/* An instance of the event loop (kernels.h). */
+typedef struct gg_md_kernel {
+  void (*run)(gg_md *e); /* handle events until k.stop, k.collisions_left or e->look_at */
+  void (*predict)(gg_md *e, uint32_t from, uint32_t to); /* predict the next event of each of these grains */
+} gg_md_kernel;
+
+/* Plain data beside the arrays: goes into a checkpoint as it is. */
+typedef struct gg_md_counts {
+  double now, epoch_start; /* present time in the epoch, and the epoch's start in the run's */
+  double contact_time;     /* absolute; 0: off */
+  double mean_free_time;   /* present mean free time per grain */
+  double window_time;      /* since mean_free_time was last measured, with so many collisions */
+  uint64_t window_collisions, epoch_events, epoch_collisions; /* the latter two: counts at the epoch's start */
+  uint64_t collisions, events, treated, wall_treated;
+  double worst_overlap;
+  gg_rng rng;
+  double next_kick; /* white noise: epoch time of the next kick */
+  /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
+   */
+  double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
+  double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
+  double outer_time;               /* outside, up to the present advance */
+  /* Of the present advance, which may have been stopped. */
+  double asked, stop;       /* its length, outside; its end, or that of its present leg, in epoch time */
+  double beyond_kick;       /* white noise: what is left of it after the next kick; -INFINITY: that comes too late */
+  uint64_t collisions_left; /* to it */
+  double fractional_shift, common_shift; /* of co-moving rows (rows.c), at the epoch's start */
+  int32_t row_shift, image_shift;
+  uint32_t keeps_sums;
+  int32_t power;              /* velocities are 2^power times those of the start (rescale) */
+  gg_collision_sums transfer; /* last: it is long */
+} gg_md_counts;
+
+struct gg_md {
+  gg_engine base;
+  gg_model model;
+  gg_md_contacts contacts;
+  gg_md_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
+  gg_md_node *node;
+  gg_vec *spin;          /* surface velocities, those outside of a Gaussian thermostat; NULL for smooth grains */
+  gg_loss_table *losses; /* of a built-in law of restitution; NULL: none */
+  double *last;          /* time of the last collision, for the contact-time rule or a callback; NULL without either */
+  uint32_t *id;          /* the grain's number to the outside; grains stand in memory along a space-filling curve */
+  /* Neighbour lists: NULL where the cells themselves are searched. */
+  gg_md_skin *skin;
+  uint32_t *neighbour;                                /* GG_MD_LIST a grain */
+  double skin_radius;                                 /* s */
+  double shrinkage;                                   /* kappa */
+  double pair_reach[GG_MAX_SPECIES * GG_MAX_SPECIES]; /* sigma + 2 s by ordered pair of species (gg_md_pair) */
+  uint32_t n;
+  gg_vec gravity;
+  bool falls; /* gravity is not zero */
+  gg_md_box box;
+  gg_md_cells cells;
+  uint8_t *near[3]; /* by index of the cell along each axis, the surfaces whose reach it is in, a bit each; those whose
+                       bit is there along all three can be touched from the cell. NULL without surfaces */
+  uint32_t *candidates; /* of two searches at a time, GG_MD_CANDIDATES_APART: whom to try (search/candidates.h) */
+  gg_md_queue queue;
+  gg_md_counts k;
+  gg_md_row *row; /* of cells that move with the flow: one for each layer along y, and images: -1, n_y, n_y + 1; NULL:
+                     at rest */
+  double next_shift;  /* epoch time at which rows will have shifted by a cell; INFINITY: never */
+  uint64_t look_at;   /* events after which the loop is left, to look whether to stop */
+  bool plain;         /* one pair at a time, the reference for the tests */
+  bool overlapping;   /* the cells overlap (overlapping_members.h) */
+  bool out_of_memory; /* a cell could not grow: the run is over */
+  bool no_number;     /* nor does it go on with what is no number (finite_check.c) */
+  bool stands_still;  /* nor where one grain's contacts never end */
+  uint64_t check_at;  /* events after which all grains are looked at again */
+  const gg_md_kernel *kernel;
+  gg_md_resolution *resolve;
+  gg_md_surface_resolution *resolve_surface;
+  gg_collision_callback *callback; /* told of every collision; NULL: none, and `resolve` is not wrapped */
+  void *callback_context;
+  gg_md_resolution *resolve_shown;  /* what `resolve` goes on to then */
+  gg_md_resolution *resolve_parted; /* what gg_md_resolve_parting goes on to */
+  gg_thermostat thermostat;
+  double noise; /* xi^2 of the white-noise thermostat */
+};
+
+/* md_allocate.c: an engine with its arrays for this model, nothing in them; and its end. */
+gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err);
+gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
+gg_status gg_md_allocate_last(gg_md *e, gg_error *err);
+void gg_md_free(gg_md *e);
+
+/* start.c: a fresh initial state: places, velocities, spins. */
+gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err);
+/* md_engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. */
+gg_status gg_md_begin(gg_md *e, gg_error *err);
+
+/* select_search.c: the largest distance at which two grains touch. */
+double gg_md_reach(const gg_model *model);
+/* Where partners are best looked for: plain cells, neighbour lists (search/lists.h; *radius: of their skins) or cells
+ * that overlap (overlapping_members.h) or move with the flow (search/comoving_rows.h); and how many cells. */
+enum gg_md_search_way { GG_MD_PLAIN_CELLS, GG_MD_NEIGHBOUR_LISTS, GG_MD_OVERLAPPING_CELLS, GG_MD_COMOVING_ROWS };
+enum gg_md_search_way gg_md_choose_way(const gg_model *model, double *radius, int32_t n[3]);
+/* Cells for the centres of lists: only in boxes of at least three cells, no nearest image in doubt. */
+bool gg_md_fit_lists(const gg_model *model, double radius, int32_t n[3]);
+/* Cells that are crossed in a collision's time, all grains together. */
+double gg_md_crossings_per_collision(const gg_model *model);
+
+/* grid.c: the grid that suits the model. */
+gg_status gg_md_make_grid(gg_md *e, gg_error *err);
+/* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */
+gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
+/* fill_grid.c: the cells that the grains' positions lie in; the cells filled with them (false: out of memory). */
+void gg_md_enter_grid(gg_md *e);
+bool gg_md_fill_grid(gg_md *e);
+
+/* surfaces.c: e->near for the cells that there are; and contacts with other shapes than planes, as seen from a cell. */
+gg_status gg_md_note_surfaces(gg_md *e, gg_error *err);
+double gg_md_shaped_delay(const gg_md *e, const gg_surface *surface, const gg_flight *flight, const int32_t *cell);
+
+/* rows.c: rows of cells that move with the flow, placed as e->k tells; as the images above stand at the epoch's start;
+ * at the start of the next epoch; and after they have shifted by a cell. */
+gg_status gg_md_make_rows(gg_md *e, gg_error *err);
+void gg_md_align_rows(gg_md *e);
+void gg_md_move_rows(gg_md *e, double span);
+void gg_md_shift_rows_by_a_cell(gg_md *e);
+/* The cell along x of row y that a place is in now. */
+int32_t gg_md_cell_in_row(const gg_md *e, int32_t y, double x);
+
+/* lists.c: every grain's skin and list anew at the present time; the skins get smaller where lists overflow. */
+void gg_md_build_lists(gg_md *e);
+void gg_md_set_skins(gg_md *e, double radius);
+
+/* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
+ * False if nothing will ever happen again. */
+bool gg_md_next_epoch(gg_md *e);
+/* finite_check.c: look at all grains, if that is due; false: a place, velocity or spin is no number, and e->no_number.
+ */
+bool gg_md_check_numbers(gg_md *e);
+/* centre_of_mass.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
+ * time. */
+void gg_md_follow_centre_of_mass(gg_md *e);
+/* contact_time.c: a sheared gas that begins in the cold does not stay there; the contact time at the start, and
+ * at the start of an epoch, all grains at the same time. */
+double gg_md_early_temperature(const gg_md *e, double T);
+void gg_md_begin_contact_time(gg_md *e);
+void gg_md_follow_contact_time(gg_md *e);
+/* Width of a calendar's bucket that suits a rate of events. */
+double gg_md_bucket_width(double events_per_time);
+
+/* collision_callback.c: a resolution that shows the collision to the callback, then goes on to e->resolve_shown; and
+ * the engine's operation that sets it. */
+gg_md_resolution gg_md_show_collision;
+/* md_engine.c: the present time since the engine's creation, outside. */
+double gg_md_time(const gg_md *e);
+
+gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
+
+/* separating_pairs.c: a resolution after which the pair parts, whatever is lost in rounding; the same instead of
+ * e->resolve, for a pair that meets again at once; and does this model need it throughout? */
+gg_md_resolution gg_md_resolve_parting, gg_md_resolve_again;
+bool gg_md_needs_parting(const gg_model *model);
+
+/* kernels.c: choose the kernels that this model and its collision sums need; resolve.c: the part that concerns
+ * contacts. */
+void gg_md_select(gg_md *e);
+void gg_md_select_resolution(gg_md *e);
+
+/* Where cell 0 of a co-moving row begins now. */
+GG_INLINE double gg_md_row_begins(const gg_md *e, int32_t y)
+{
+  return e->row[y].origin + e->row[y].speed * e->k.now;
+}
+
+GG_INLINE int gg_md_species_of(const gg_md_grain *g)
+{
+  return (int)g->species;
+}
+
+/* Where the grain is at epoch time t, and how it moves there; on a parabola only if the constant `gravity` is true. */
+GG_INLINE gg_vec gg_md_position(const gg_md *e, bool gravity, const gg_md_grain *g, double t)
+{
+  double dt = t - g->t;
+  gg_vec r = gg_axpy(dt, g->v, g->r);
+  return gravity ? gg_axpy(0.5 * dt * dt, e->gravity, r) : r;
+}
+GG_INLINE gg_vec gg_md_velocity(const gg_md *e, bool gravity, const gg_md_grain *g, double t)
+{
+  return gravity ? gg_axpy(t - g->t, e->gravity, g->v) : g->v;
+}
+
+#endif

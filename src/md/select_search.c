@@ -1,0 +1,96 @@
+/* The way of searching, and the cells, that suit a model. */
+#include <math.h>
+
+#include "common/portable_math.h"
+#include "md/rows.h"
+
+/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists,
+ * of sizes unequal up to 1:2 from 0.45 on; in between plain cells, from 0.25 on of a contact distance, below with this
+ * many grains: fewer crossings against more pairs to try. */
+#define OVERLAPPING_BELOW 0.05
+#define GRAINS_PER_OVERLAPPING_CELL 6.0
+#define LISTED_FROM 0.4
+#define LISTED_UNEQUAL_FROM 0.45
+#define NEARLY_EQUAL 1.3
+#define MOST_UNEQUAL_LISTED 2.0
+#define GRAINS_PER_CELL 0.7
+#define NARROW_FROM 0.25
+enum { FEWEST_OVERLAPPING = 6 };
+
+double gg_md_reach(const gg_model *m)
+{
+  return gg_model_widest(m) * (1 + 1e-9);
+}
+
+static double mean_diameter(const gg_model *m)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) sum += (double)m->n_of[i] * m->diameter[i];
+  return sum / (double)m->n;
+}
+
+/* How wide the skins: wide ones are left seldom, but make long lists. Those of grains of very unequal size would be too
+ * long, and cells must be as wide as the largest need; 0: none. */
+static double skin_radius(const gg_model *m)
+{
+  double ratio = gg_model_widest(m) / gg_model_narrowest(m);
+  double from = ratio > NEARLY_EQUAL ? LISTED_UNEQUAL_FROM : LISTED_FROM;
+  if (m->walled || m->phi < from || ratio > MOST_UNEQUAL_LISTED) return 0;
+  return mean_diameter(m) * fmin(0.34, 0.3 + 0.8 * (0.5 - m->phi));
+}
+
+static void count_cells(const gg_model *m, double width, int32_t n[3])
+{
+  gg_md_cells_count(&(gg_md_box){.edge = {m->box[0], m->box[1], m->box[2]}}, width, n);
+}
+
+bool gg_md_fit_lists(const gg_model *m, double radius, int32_t n[3])
+{
+  double reach = gg_md_reach(m) + 2 * radius;
+  count_cells(m, reach, n);
+  for (int a = 0; a < 3; a++)
+    if (n[a] < 3 || m->box[a] < 2 * reach + 4 * radius) return false;
+  return true;
+}
+
+/* Pairs in a cell must have one nearest image. */
+static bool fit_overlapping(const gg_model *m, int32_t n[3])
+{
+  if (m->walled || m->phi >= OVERLAPPING_BELOW) return false;
+  double narrowest = 3 * gg_md_reach(m);
+  count_cells(m, fmax(narrowest, gg_root(GRAINS_PER_OVERLAPPING_CELL * m->volume / (double)m->n, 3)), n);
+  for (int a = 0; a < 3; a++) {
+    if (n[a] < FEWEST_OVERLAPPING) n[a] = FEWEST_OVERLAPPING;
+    if (m->box[a] < narrowest * n[a]) return false;
+  }
+  return true;
+}
+
+static void fit_cells(const gg_model *m, int32_t n[3])
+{
+  double width = gg_md_reach(m);
+  if (m->phi < NARROW_FROM) width = fmax(width, gg_root(GRAINS_PER_CELL * m->volume / (double)m->n, 3));
+  count_cells(m, width, n);
+}
+
+enum gg_md_search_way gg_md_choose_way(const gg_model *m, double *radius, int32_t n[3])
+{
+  *radius = skin_radius(m);
+  if (*radius > 0 && gg_md_fit_lists(m, *radius, n)) return GG_MD_NEIGHBOUR_LISTS;
+  *radius = 0;
+  if (fit_overlapping(m, n)) return GG_MD_OVERLAPPING_CELLS;
+  fit_cells(m, n);
+  bool comoving = m->shear_rate != 0 && n[0] >= GG_MD_FEWEST_COMOVING && n[1] >= 4 && n[2] >= 4;
+  return comoving ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS;
+}
+
+double gg_md_crossings_per_collision(const gg_model *m)
+{
+  double radius, rate = 0, T = m->temperature0;
+  int32_t n[3];
+  if (gg_md_choose_way(m, &radius, n) == GG_MD_NEIGHBOUR_LISTS) return 0;
+  for (int i = 0; i < m->n_species; i++)
+    for (int a = 0; a < 3; a++) /* <|v_a|> over the width */
+      rate += (double)m->n_of[i] / (double)m->n * sqrt(2 * T / (M_PI * m->mass[i])) * n[a] / m->box[a];
+  return 2 * rate / gg_model_collision_rate(m, T); /* a collision has two grains */
+}

@@ -1,0 +1,42 @@
+/* Which surfaces can be touched from which cells, and contacts with those that are no planes. */
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "common/surface/shapes.h"
+#include "md/md_state.h"
+
+/* Centres touch it in a layer from its place into the gas. */
+static void note(gg_md *e, int w, double radius)
+{
+  const gg_surface *s = &e->model.surface[w];
+  const gg_md_cells *c = &e->cells;
+  double depth = (gg_surface_height(s) + radius) * (1 + 1e-9), edge[2] = {s->place, s->place - s->side * depth};
+  double from = fmin(edge[0], edge[1]), to = fmax(edge[0], edge[1]);
+  for (int a = 0; a < 3; a++)
+    for (int32_t k = 0; k < c->n[a]; k++) {
+      bool beyond = a == s->axis && (from > (k + 1) * c->width[a] || to < k * c->width[a]);
+      if (!beyond) e->near[a][k] |= (uint8_t)(1 << w);
+    }
+}
+
+gg_status gg_md_note_surfaces(gg_md *e, gg_error *err)
+{
+  const gg_model *m = &e->model;
+  double widest = 0;
+  if (m->n_surfaces == 0) return GG_OK;
+  for (int i = 0; i < m->n_species; i++) widest = fmax(widest, m->diameter[i]);
+  for (int a = 0; a < 3; a++)
+    if (!(e->near[a] = gg_new_array((size_t)e->cells.n[a], sizeof *e->near[a], err))) return GG_FAILED;
+  for (int w = 0; w < m->n_surfaces; w++) note(e, w, 0.5 * widest);
+  return GG_OK;
+}
+
+double gg_md_shaped_delay(const gg_md *e, const gg_surface *surface, const gg_flight *flight, const int32_t *cell)
+{
+  gg_region where;
+  for (int a = 0; a < 3; a++) {
+    where.from[a] = cell[a] * e->cells.width[a];
+    where.to[a] = where.from[a] + e->cells.width[a];
+  }
+  return gg_surface_delay(surface, flight, &where);
+}

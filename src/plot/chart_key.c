@@ -1,0 +1,82 @@
+/* Keys of scenes as axes and legends name them. */
+#include <stdio.h>
+#include <string.h>
+
+#include "plot/chart.h"
+#include "scene/fields.h"
+
+static const struct {
+  const char *key, *symbol;
+} symbols[] = {{"collision.e", "e"},
+               {"collision.beta", "β"},
+               {"collision.mu", "μ"},
+               {"phi", "φ"},
+               {"particles", "N"},
+               {"dsmc.particles", "N"},
+               {"walls.e", "e_w"},
+               {"walls.beta", "β_w"},
+               {"walls.speed", "U_w"},
+               {"walls.mu", "μ_w"},
+               {"shear_rate", "γ"},
+               {"temperature", "T_0"},
+               {"dsmc.time_step", "Δt"},
+               {"run.seed", "seed"},
+               {"inertia", "K"},
+               {"diameter", "σ"},
+               {"mass", "m"},
+               {"fraction", "x"}};
+
+/* Marks of enhanced text lose their meaning. */
+static void escape(const char *plain, char *text, size_t size)
+{
+  size_t used = 0;
+  for (; *plain && used + 3 < size; plain++) {
+    if (strchr("_^{}@&~", *plain)) text[used++] = '\\';
+    text[used++] = *plain;
+  }
+  text[used] = '\0';
+}
+
+/* "collision.e" of "collision.e.12"; the index stands behind. */
+static size_t stem_of(const char *key)
+{
+  const char *dot = strrchr(key, '.');
+  bool indexed = dot && dot[1] && strspn(dot + 1, "0123456789") == strlen(dot + 1);
+  return indexed ? (size_t)(dot - key) : strlen(key);
+}
+
+static bool is(const char *key, size_t stem, const char *name)
+{
+  return strlen(name) == stem && strncmp(key, name, stem) == 0;
+}
+
+/* A member of species: "species.2.mass". */
+static bool find_species(const char *key, char *text, size_t size)
+{
+  int species, n = 0;
+  if (sscanf(key, "species.%d.%n", &species, &n) != 1 || !n) return false;
+  for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++)
+    if (strcmp(key + n, symbols[i].key) == 0) {
+      snprintf(text, size, "%s_{%d}", symbols[i].symbol, species);
+      return true;
+    }
+  return false;
+}
+
+void gg_chart_key(const char *key, char *text, size_t size, const char **unit)
+{
+  size_t stem = stem_of(key);
+  if (unit) *unit = "1";
+  for (const gg_field *f = gg_scene_fields; unit && f->key; f++)
+    if (f->unit && is(key, stem, f->key)) *unit = f->unit;
+  if (find_species(key, text, size)) return;
+  for (size_t i = 0; i < sizeof symbols / sizeof *symbols; i++)
+    if (is(key, stem, symbols[i].key)) {
+      if (key[stem])
+        snprintf(text, size, "%s_{%s}", symbols[i].symbol, key + stem + 1);
+      else
+        snprintf(text, size, "%s", symbols[i].symbol);
+      return;
+    }
+  escape(key, text, size);
+}

@@ -1,0 +1,123 @@
+/* gnuplot as a child process: the script on its standard input, the picture from its standard output, its complaints
+ * read back. It is told no file name: in its language names can be commands. */
+#include <errno.h>
+#include <limits.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/memory.h"
+#include "plot/plot.h"
+
+extern char **environ;
+
+static gg_status is_missing(gg_error *err)
+{
+  return gg_fail(err, GG_FAILED, "gnuplot is not installed (Debian: apt install gnuplot-nox)");
+}
+
+gg_status gg_gnuplot_is_there(gg_error *err)
+{
+  const char *at = getenv("PATH");
+  while (at && *at) {
+    char path[PATH_MAX];
+    size_t length = strcspn(at, ":");
+    int written = snprintf(path, sizeof path, "%.*s%sgnuplot", (int)length, at, length ? "/" : "");
+    if (written < (int)sizeof path && access(path, X_OK) == 0) return GG_OK;
+    at += length + (at[length] == ':');
+  }
+  return at ? is_missing(err) : GG_OK; /* without a PATH the system has one of its own */
+}
+
+/* Without what users have it do at every start. */
+static gg_status spawn(int in, int out, int complaints, pid_t *child, gg_error *err)
+{
+  char *const arguments[] = {(char[]){"gnuplot"}, (char[]){"-d"}, (char[]){"-"}, NULL};
+  const int from[] = {in, out, complaints}; /* STDIN, STDOUT, STDERR */
+  posix_spawn_file_actions_t actions;
+  int failed = posix_spawn_file_actions_init(&actions);
+  if (failed) return gg_out_of_memory(err);
+  for (int to = STDIN_FILENO; to <= STDERR_FILENO && !failed; to++)
+    failed = posix_spawn_file_actions_adddup2(&actions, from[to], to);
+  if (!failed) failed = posix_spawnp(child, "gnuplot", &actions, NULL, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed == ENOMEM) return gg_out_of_memory(err);
+  if (failed == ENOENT) return is_missing(err);
+  return failed ? gg_fail(err, GG_FAILED, "gnuplot cannot be started: %s", strerror(failed)) : GG_OK;
+}
+
+/* Its complaint is the last line that says something. Where nobody may wait for children the picture will tell. */
+static gg_status outcome(pid_t child, FILE *complaints, gg_error *err)
+{
+  char line[256], last[256] = "no picture came out";
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return GG_OK;
+  rewind(complaints);
+  while (fgets(line, sizeof line, complaints)) {
+    line[strcspn(line, "\n")] = '\0';
+    if (line[strspn(line, " ^")]) memcpy(last, line, sizeof last);
+  }
+  return gg_fail(err, GG_FAILED, "gnuplot failed: %s", last);
+}
+
+static gg_status draw(const char *script, int target, gg_error *err)
+{
+  pid_t child;
+  FILE *in = tmpfile(), *complaints = tmpfile();
+  gg_status result = GG_OK;
+  if (!in || !complaints) {
+    result = gg_fail(err, GG_BAD_FILE, "no temporary file can be made: %s", strerror(errno));
+  } else {
+    bool whole = fprintf(in, "%s\nunset output\n", script) > 0 && fflush(in) == 0;
+    if (!whole) result = gg_fail(err, GG_BAD_FILE, "a temporary file cannot be written: %s", strerror(errno));
+    rewind(in);
+    if (result == GG_OK) result = spawn(fileno(in), target, fileno(complaints), &child, err);
+    if (result == GG_OK) result = outcome(child, complaints, err);
+  }
+  if (in) fclose(in);
+  if (complaints) fclose(complaints);
+  return result;
+}
+
+/* gnuplot does not notice a full disk: a whole picture is known by its end. Where that is in the file; -1: not whole.
+ */
+static off_t end_of(int fd, const char *mark)
+{
+  char tail[64];
+  off_t size = lseek(fd, 0, SEEK_END), from = size > (off_t)sizeof tail ? size - (off_t)sizeof tail : 0;
+  ssize_t got = pread(fd, tail, sizeof tail, from);
+  char *at = got > 0 ? memmem(tail, (size_t)got, mark, strlen(mark)) : NULL;
+  return at ? from + (at - tail) : -1;
+}
+
+/* What gnuplot cannot draw well goes before the end of its page. */
+static gg_status put_over(gg_atomic_file *file, const char *over, gg_error *err)
+{
+  off_t end = end_of(file->fd, "</svg>");
+  if (end < 0) return gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", file->path);
+  if (ftruncate(file->fd, end) != 0 || lseek(file->fd, 0, SEEK_END) != end)
+    return gg_cannot_write(file->path, strerror(errno), err);
+  GG_TRY(gg_atomic_write(file, over, strlen(over), err));
+  return gg_atomic_write(file, "</svg>\n", 7, err);
+}
+
+gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err)
+{
+  gg_atomic_file file;
+  GG_TRY(gg_check_writable(picture, GG_PICTURES_ARE, err));
+  GG_TRY(gg_atomic_open(&file, picture, err));
+  gg_status status = draw(script, file.fd, err);
+  if (status == GG_OK && over) status = put_over(&file, over, err);
+  if (status == GG_OK && end_of(file.fd, "</svg>") < 0 && end_of(file.fd, "IEND") < 0)
+    status = gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
+  if (status == GG_OK) return gg_atomic_commit(&file, err);
+  gg_atomic_abandon(&file);
+  return status;
+}

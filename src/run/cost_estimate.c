@@ -1,0 +1,254 @@
+#include "run/cost_estimate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/available_memory.h"
+#include "common/linear_response.h"
+#include "measure/mesh.h"
+#include "measure/observable.h"
+#include "run/replicas.h"
+#include "theory/theory_list.h"
+
+#define PROGRAM 18e6 /* bytes: the program and its libraries */
+#define BLOCKS 0.5e6 /* of the bins of an observable, in blocks */
+
+/* Bytes a grain of the observables' own, and the nanoseconds a collision that they add to a run (`graingas bench
+ * observables`; rough grains). The time of rheology is in the engine's, that of structure goes with its mesh. */
+static const struct needs {
+  unsigned flag;
+  double bytes, ns[2]; /* by engine */
+} needs[] = {
+    {GG_MEASURE_VELOCITY_DISTRIBUTIONS, 0, {10, 6}},
+    {GG_MEASURE_LOCAL_DISTRIBUTIONS, 25, {10, 0}},
+    {GG_MEASURE_ORIENTATION, 0, {10, 2.5}},
+    {GG_MEASURE_SONINE, 0, {6, 4}},
+    {GG_MEASURE_PAIR_CORRELATION, 34, {140, 0}},
+    {GG_MEASURE_VELOCITY_CORRELATIONS, 82, {110, 0}},
+    {GG_MEASURE_LOCAL_VELOCITY_CORRELATIONS, 92, {110, 0}},
+    {GG_MEASURE_STRUCTURE, 8, {0, 0}},
+    {GG_MEASURE_CELLS, 10, {4, 0}},
+    {GG_MEASURE_PROFILES, 0, {10, 0}},
+    {GG_MEASURE_DIFFUSION, 700, {120, 0}},
+    {GG_MEASURE_COLLISIONS, 8, {90, 6}},
+};
+enum { N_NEEDS = sizeof needs / sizeof *needs };
+
+static const struct needs *needs_of(unsigned flag)
+{
+  static const struct needs nothing = {0, 0, {0, 0}};
+  for (int i = 0; i < N_NEEDS; i++)
+    if (needs[i].flag == flag) return &needs[i];
+  return &nothing;
+}
+
+static bool is_measured(const gg_observable *o, const gg_scene *scene, const gg_model *m)
+{
+  return (scene->measure & o->flag) && !(o->refuses && o->refuses(m));
+}
+
+/* Cells are as wide as the largest grain: how many more grains there are in one than of equal ones. */
+static double crowding(const gg_model *m)
+{
+  double cubes = 0;
+  for (int i = 0; i < m->n_species; i++) cubes += pow(m->diameter[i], 3) * (double)m->n_of[i] / (double)m->n;
+  return pow(gg_model_widest(m), 3) / cubes;
+}
+
+/* Nanoseconds a collision. The thinner the gas the more cells are crossed between two; out of cache beyond some
+ * thousand grains; after each kick of white noise all grains are predicted anew; walls are met, too. */
+static double pace_of_md(const gg_model *m)
+{
+  const double cells = 180 + 115 / sqrt(fmax(m->phi, 1e-12)), cache = 1 + 0.2 * fmax(0, log((double)m->n / 2000));
+  const double kicks = m->thermostat == GG_WHITE_NOISE ? 3 : 1, walls = m->walled ? 2 : 1;
+  return cells * cache * crowding(m) * kicks * walls;
+}
+
+/* Small ensembles, and those with a law of restitution, take collisions one by one; each pair of species is a sweep of
+ * its own; noise is drawn. */
+static double pace_of_dsmc(const gg_model *m)
+{
+  const double n = (double)m->n, pairs = 0.5 + 0.5 * m->n_species;
+  if (n < 320 * m->n_species || m->law.e) return 330;
+  return (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-n / 1000)) * pairs +
+         (m->thermostat == GG_WHITE_NOISE ? 30 : 0);
+}
+
+static double mesh_points(const gg_model *m)
+{
+  return pow(gg_mesh_points_along(m), 3);
+}
+
+/* Transforms of four fields, 24 ns a point, in every 32nd sample or less often. */
+static double added_ns(const gg_observable *o, const gg_model *m, gg_engine_kind engine)
+{
+  if (o->flag != GG_MEASURE_STRUCTURE) return needs_of(o->flag)->ns[engine];
+  const double points = mesh_points(m) / (double)m->n;
+  return 24 * points / (32 * fmax(1, ceil(points / GG_MESH_POINTS_PER_GRAIN))) + 10;
+}
+
+static double bytes_of(const gg_observable *o, const gg_model *m)
+{
+  double bytes = needs_of(o->flag)->bytes * (double)m->n + (o->bins ? BLOCKS : 0);
+  return o->flag == GG_MEASURE_STRUCTURE ? bytes + 20 * mesh_points(m) : bytes; /* field, its transform, four modes */
+}
+
+/* What snapshots are gathered into, and observables keep. */
+static void add_observables(gg_forecast *f, const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
+{
+  double vectors = 0;
+  for (int i = 0; gg_observables[i]; i++) {
+    const gg_observable *o = gg_observables[i];
+    if (!is_measured(o, scene, m)) continue;
+    if (o->bins) vectors = fmax(vectors, (m->rule != GG_SMOOTH ? 2 : 1) + (o->positions && !m->homogeneous ? 1.5 : 0));
+    f->observables += bytes_of(o, m);
+    const double ns = added_ns(o, m, engine);
+    if (ns <= 0) continue;
+    f->cost[f->n_costs].name = o->name;
+    f->cost[f->n_costs++].percent = 100 * ns / f->ns;
+  }
+  f->observables += vectors * sizeof(gg_vec) * (double)m->n;
+}
+
+/* What the stress needs, times N error^2: what runs of 1000 to 4000 grains took, which is some fifty times the variance
+ * of a grain's. eta* of a linear response is a slope over a*, fitted beside that of a*^3; half of each sweep of a gas
+ * that cools is its beginning. */
+static double for_stress(const gg_model *m)
+{
+  if (m->linear_response) {
+    const gg_linear_response range = gg_linear_response_of(m);
+    return (range.cools ? 60 : 30) / (range.high * range.high);
+  }
+  if (m->thermostat == GG_WHITE_NOISE && m->shear_rate != 0) return 650; /* the stress is small beside the pressure */
+  if (m->walled) return 400; /* fluctuates along with the slow waves across the gap */
+  return m->shear_rate != 0 ? 130 : 5;
+}
+
+/* Collisions a grain until the least exact headline quantity is known: the stress, or the temperature of all, which
+ * fluctuates by sqrt(2/3N) and is forgotten in a relaxation time. */
+static double for_error(const gg_scene *scene, const gg_model *m, double error)
+{
+  const double grains = (double)m->n * (double)scene->run.replicas;
+  const double stress = for_stress(m), slow = 2 * gg_model_relaxation(m) * 2 / 3.0;
+  return fmax(stress, slow) / (grains * error * error);
+}
+
+static void plan_time(gg_forecast *f, const gg_scene *scene, const gg_model *m)
+{
+  const gg_plan p = gg_plan_of(scene, m);
+  double window = (double)p.most * GG_SAMPLING_INTERVAL;
+  if (p.relative_error > 0) {
+    double least = (double)p.least * GG_SAMPLING_INTERVAL, needed = for_error(scene, m, p.relative_error);
+    needed = fmax(1.5 * least, 1.15 * needed);
+    window = p.most ? fmin(window, needed) : needed;
+    f->to_an_error = true;
+  }
+  double added = 0;
+  for (int i = 0; i < f->n_costs; i++) added += f->cost[i].percent / 100;
+  f->collisions = (double)p.warmup * GG_SAMPLING_INTERVAL + window;
+  f->seconds = f->collisions * (double)m->n / 2 * (double)scene->run.replicas * f->ns * (1 + added) * 1e-9;
+}
+
+/* Enskog's equation solved without random numbers: quadratures over pairs of species, of which shear has the more; the
+ * viscosity of mixtures up to six species. All others are formulas, or small equations. */
+double gg_forecast_theories(const gg_model *m)
+{
+  enum { MOST_SHEARED = 8, MOST_VISCOUS = 6 };
+  const double formulas = 0.02, n = m->n_species;
+  const bool sheared = m->flow == GG_USF || m->flow == GG_HEATED_SHEAR;
+  if (!(gg_enskog_hermite.flows & GG_FLOW_BIT(m->flow)) || m->law.name) return formulas;
+  if (m->rule == GG_ROUGH && n == 1) return 0.9;
+  if (m->rule != GG_SMOOTH || (sheared && n > MOST_SHEARED)) return formulas;
+  if (sheared) return 1.5 * pow(n, 1.5);
+  return n > MOST_VISCOUS ? 1 : 0.5 + 0.4 * n * n;
+}
+
+/* Rows of the series that a run fills. */
+static double bytes_of_series(const gg_forecast *f, const gg_model *m)
+{
+  double rows = fmin(f->collisions / GG_SAMPLING_INTERVAL, GG_SERIES_ROWS);
+  return rows * 8 * (m->rule == GG_SMOOTH ? 120 : 200);
+}
+
+gg_forecast gg_forecast_of(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
+{
+  gg_forecast f = {.engine = gg_engine_bytes(engine, m), .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
+  add_observables(&f, scene, m, engine);
+  plan_time(&f, scene, m);
+  f.series = bytes_of_series(&f, m);
+  double frame = (double)m->n * (24 + sizeof(gg_vec) * (1 + (m->rule != GG_SMOOTH) + !m->homogeneous));
+  double replicas = (double)scene->run.replicas, each = f.engine + f.observables + f.series;
+  f.writing = 3.5 * frame; /* the grains, the file's image as it grows, and the whole of it */
+  f.bytes = PROGRAM + fmax(replicas * each + frame, f.writing + f.observables);
+  return f;
+}
+
+/* "1.2 GB" */
+static void put_bytes(double bytes, char text[24])
+{
+  static const char *const units[] = {"kB", "MB", "GB", "TB", "PB"};
+  int unit = 0;
+  for (bytes /= 1000; bytes >= 999.5 && unit < 4; unit++) bytes /= 1000;
+  snprintf(text, 24, "%.3g %s", bytes, units[unit]);
+}
+
+gg_status gg_forecast_check_memory(const gg_forecast *f, const char *engine, int64_t replicas, gg_error *err)
+{
+  char needed[24], there[24], one[24];
+  const double available = gg_memory_available();
+  if (!(f->bytes > available)) return GG_OK;
+  put_bytes(f->bytes, needed);
+  put_bytes(available, there);
+  put_bytes(f->engine + f->observables + f->series, one);
+  return gg_fail(err, GG_FAILED,
+                 "%s: the run would need about %s of memory (%s a replica, of which there are %lld), and there are %s; "
+                 "ask for fewer %s, replicas or observables",
+                 engine, needed, one, (long long)replicas, there,
+                 strcmp(engine, "dsmc") == 0 ? "dsmc.particles" : "particles");
+}
+
+/* "3 s", "12 min", "4 h", "20 days" */
+static void put_time(double seconds, char text[24])
+{
+  const struct {
+    double length;
+    const char *name;
+  } units[] = {{86400 * 3, "days"}, {3600 * 2, "h"}, {120, "min"}, {0, "s"}};
+  const double one[] = {86400, 3600, 60, 1};
+  int k = 0;
+  while (seconds < units[k].length) k++;
+  snprintf(text, 24, "%.2g %s", seconds / one[k], units[k].name);
+  if (seconds / one[k] >= 99.5) snprintf(text, 24, "%.0f %s", seconds / one[k], units[k].name);
+}
+
+static void tell_costs(const gg_forecast *f, void (*line)(void *context, const char *text), void *context)
+{
+  char text[600] = "observables, in per cent of the run without them:";
+  if (!f->n_costs) return;
+  for (int i = 0; i < f->n_costs; i++) {
+    size_t used = strlen(text);
+    snprintf(text + used, sizeof text - used, "%s %s %.*f", i ? "," : "", f->cost[i].name,
+             f->cost[i].percent < 1 ? 1 : 0, f->cost[i].percent);
+  }
+  line(context, text);
+}
+
+void gg_forecast_tell(const gg_forecast *f, int64_t replicas, void (*line)(void *context, const char *text),
+                      void *context)
+{
+  char all[24], engine[24], observables[24], text[300], series[24];
+  put_bytes(f->bytes, all);
+  put_bytes(f->engine, engine);
+  put_bytes(f->observables, observables);
+  put_bytes(f->series, series);
+  snprintf(text, sizeof text, "memory: about %s; a replica: engine %s, observables %s, series %s", all, engine,
+           observables, series);
+  line(context, text);
+  put_time(f->seconds, all);
+  snprintf(text, sizeof text, "time: about %s of one processor, within a factor of %s, for %.3g collisions a grain%s%s",
+           all, f->to_an_error ? "three" : "two", f->collisions, replicas > 1 ? " and replica" : "",
+           f->to_an_error ? " (until the error asked for)" : "");
+  line(context, text);
+  tell_costs(f, line, context);
+}

@@ -1,0 +1,43 @@
+/* What a run will take, told before it begins: memory, processor time, and the shares of its observables. Times are
+ * those of one processor of 2020 or so, right within a factor of two (three where an error is asked for); memory within
+ * a fifth. */
+#ifndef GG_FORECAST_H
+#define GG_FORECAST_H
+
+#include "common/engine.h"
+#include "common/observables.h"
+#include "common/scene.h"
+
+typedef struct gg_forecast {
+  double engine, observables, series; /* bytes of one replica */
+  double writing;                     /* bytes for the grains at the end, and the file made of them */
+  double bytes;                       /* at most at a time, all replicas and the program included */
+  double collisions;                  /* a grain, warm-up included */
+  double ns;                          /* of processor time a collision, observables apart */
+  double seconds;                     /* of processor time in all */
+  bool to_an_error;                   /* it goes on until an error that is asked for */
+  int n_costs;
+  struct {
+    const char *name;
+    double percent; /* of the run without it */
+  } cost[GG_N_OBSERVABLES];
+} gg_forecast;
+
+/* Of a finished scene, and the model of its engine. */
+gg_forecast gg_forecast_of(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
+
+/* Seconds of processor time for all theories of a model, right within a factor of three; longest where
+ * the program was built without the machine's own instructions. */
+double gg_forecast_theories(const gg_model *model);
+
+/* GG_FAILED, with what is needed and what is there, if this machine has not the memory. */
+gg_status gg_forecast_check_memory(const gg_forecast *forecast, const char *engine, int64_t replicas, gg_error *err);
+
+/* In words, a line a call. */
+void gg_forecast_tell(const gg_forecast *forecast, int64_t replicas, void (*line)(void *context, const char *text),
+                      void *context);
+
+/* memory_estimate.c */
+double gg_engine_bytes(gg_engine_kind kind, const gg_model *model);
+
+#endif

@@ -1,0 +1,56 @@
+#include "run/start_model.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "common/linear_response.h"
+#include "common/portable_math.h"
+#include "theory/theory.h"
+
+/* Linear response: at the beginning of a sweep of the reduced shear rate. */
+static void start_of_sweep(gg_model *model)
+{
+  double speed = 1 / (gg_linear_response_of(model).start * gg_model_nu0(model, 1));
+  model->temperature0 = speed * speed;
+}
+
+/* Theories know constant coefficients alone: for a law, its value at the mean impact speed. */
+static gg_status start_at_theory(gg_model *model, gg_error *err)
+{
+  const char *const best_first[] = {"gaussian_closure", "lun1991"};
+  for (int i = 0; i < 2; i++) {
+    const gg_theory *theory = gg_theory_find(best_first[i]);
+    gg_theory_answer answer;
+    gg_model constant = *model;
+    constant.law = (gg_restitution_law){0};
+    gg_error why;
+    bool before = gg_memory_begin();
+    gg_status status = theory ? gg_theory_evaluate(theory, &constant, &answer, &why) : GG_BAD_INPUT;
+    if (gg_memory_end(before)) return gg_out_of_memory_for(err, "%s", best_first[i]);
+    if (status != GG_OK) continue;
+    double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
+    if (!(T > 0)) continue;
+    model->temperature0 = gg_agreed(T, GG_AGREED_SOLUTION);
+    if (ratio > 0) model->ratio0 = gg_agreed(ratio, GG_AGREED_SOLUTION);
+    return GG_OK;
+  }
+  return GG_OK;
+}
+
+/* With a law, temperature and mean impact speed depend on each other: a few iterations. */
+gg_status gg_start_near_steady(gg_model *model, gg_error *err)
+{
+  if (model->linear_response) start_of_sweep(model);
+  if (!model->steady || model->shear_rate == 0) return GG_OK;
+  for (int round = 0; round < (model->law.name ? 5 : 1); round++) {
+    GG_TRY(start_at_theory(model, err));
+    gg_model_at(model, model->temperature0);
+  }
+  return GG_OK;
+}
+
+gg_status gg_start_make(const gg_scene *scene, gg_model *model, gg_error *err)
+{
+  GG_TRY(gg_model_make(scene, scene->engine, model, err));
+  return scene->temperature == GG_AUTO ? gg_start_near_steady(model, err) : GG_OK;
+}

@@ -1,0 +1,123 @@
+/* How long to warm up and average: from what is asked and how slowly the slowest quantity relaxes. */
+#include <math.h>
+
+#include "common/ensemble_size.h"
+#include "common/linear_response.h"
+#include "run/replicas.h"
+
+/* Relaxation times of the slowest mode: before averaging, and at least while averaging. A start within a few tens of
+ * per cent of the steady state leaves less than 0.1 % of it after the first. */
+enum { WARMUP_TIMES = 6, WINDOW_TIMES = 50 };
+/* Between walls: relaxation times of the gap. A start that is symmetric has no part of the slowest wave, and relaxes
+ * faster; how long averaging takes is seen from the waves themselves (slow_modes.c). */
+enum { WARMUP_GAP_TIMES = 3, WINDOW_GAP_TIMES = 10 };
+/* Linear response: at least so many sweeps of the reduced shear rate. */
+enum { LEAST_SWEEPS = 4 };
+/* An error that this many of the shortest windows have not brought down is out of reach: a clustered or collapsing gas.
+ */
+enum { MOST_WINDOWS = 500 };
+
+static uint64_t samples_for(double collisions)
+{
+  return (uint64_t)ceil(collisions / GG_SAMPLING_INTERVAL);
+}
+
+/* Collisions per grain of one sweep of the reduced shear rate: cooling by 2^(2 power), or viscous heating by as much,
+ * in which 1/a*^2 grows by (2/3) eta* a time 1/nu_0, five quarters of a collision; eta* taken as 1. */
+static double sweep_length(const gg_model *m)
+{
+  gg_linear_response s = gg_linear_response_of(m);
+  if (s.cools) return 2 * M_LN2 * s.power * gg_model_cooling(m);
+  return 1.25 * m->chi[0] * 1.5 * (1 / (s.low * s.low) - 1 / (s.high * s.high));
+}
+
+static void plan_linear_response(gg_plan *p, const gg_scene *scene, const gg_model *m)
+{
+  double length = sweep_length(m);
+  if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_linear_response_of(m).cools ? 10 : 40);
+  p->least = samples_for(LEAST_SWEEPS * length);
+  p->longest = p->least * MOST_WINDOWS;
+}
+
+/* Collisions a grain. An ensemble collides so fast that it can afford to know its errors better: where windows were as
+ * short as those of md, deviations were a fifth larger than the errors claimed. */
+static double shortest_window(const gg_model *m)
+{
+  return m->homogeneous ? 1000 : 300;
+}
+
+/* Heating, or cooling with a law of restitution, whose rate changes as the gas slows down. */
+static bool never_the_same(const gg_model *m)
+{
+  return !m->steady || (m->law.name && gg_flow_cools(m->flow));
+}
+
+static bool has_headline(const gg_model *m)
+{
+  gg_quantity list[GG_N_QUANTITIES];
+  return gg_headline(m, list) > 0;
+}
+
+gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
+{
+  gg_plan p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
+  double slowest = gg_model_relaxation(model), gap = gg_model_gap_relaxation(model);
+  double warmup = fmax(fmax(40, WARMUP_TIMES * slowest), WARMUP_GAP_TIMES * gap);
+  p.warmup = samples_for(scene->run.warmup == GG_AUTO ? warmup : scene->run.warmup);
+  p.least = samples_for(fmax(fmax(shortest_window(model), WINDOW_TIMES * slowest), WINDOW_GAP_TIMES * gap));
+  p.longest = p.least * MOST_WINDOWS;
+  if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
+  p.relative_error = gg_asked_error(scene);
+  if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
+  if (model->linear_response) {
+    plan_linear_response(&p, scene, model);
+  } else if (never_the_same(model)) { /* nothing to wait for; follow it for as long as asked, or for a while */
+    p.relative_error = 0;
+    if (!p.most) p.most = samples_for(model->steady ? GG_COLLISIONS_FOLLOWED : 1000);
+  } else if (!has_headline(model)) { /* nothing whose error could be asked for: the shortest window */
+    p.relative_error = 0;
+    if (!p.most) p.most = p.least;
+  }
+  return p;
+}
+
+/* Windows that may be given up: averaging does not begin anew for ever. */
+enum { MOST_RESTARTS = 6 };
+
+bool gg_plan_restarts(const gg_plan *plan, uint64_t restarts)
+{
+  return plan->find_steady && restarts < MOST_RESTARTS;
+}
+
+bool gg_plan_ends(const gg_plan *plan, uint64_t restarts, uint64_t window)
+{
+  return (plan->most && window >= plan->most) || (plan->relative_error > 0 && window >= plan->longest << restarts);
+}
+
+bool gg_plan_is_met(const gg_test *test, bool exact_before)
+{
+  return test->exact && (test->sure || exact_before);
+}
+
+/* Where the error, which falls as 1/sqrt(window), should be exact enough: at most twice as long, as it is an estimate.
+ */
+static uint64_t expected_end(const gg_test *t)
+{
+  double factor = fmin(fmax(1.1 * t->ratio * t->ratio, 1.1), 2);
+  return (uint64_t)ceil(factor * (double)t->window);
+}
+
+uint64_t gg_plan_next_test(const gg_plan *plan, uint64_t restarts, const gg_test *last)
+{
+  uint64_t next = plan->least << restarts;
+  if (last && last->window >= next)
+    next = last->exact                     ? last->window + last->window / 2
+           : last->sure && last->ratio > 0 ? expected_end(last)
+                                           : last->window + last->window / 4;
+  return plan->most && next > plan->most ? plan->most : next;
+}
+
+double gg_plan_margin(const gg_plan *plan, double correlation, double window)
+{
+  return plan->relative_error > 0 && window > 0 ? 1 + 6 * correlation / window : 1;
+}

@@ -1,0 +1,241 @@
+#include "scene/scene_json.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/checked_json.h"
+#include "base/memory.h"
+#include "base/memory_stream.h"
+
+static json_t *number_json(const gg_field *f, double value)
+{
+  if (f->special && value == f->special_value) return json_string(f->special);
+  if (value == INFINITY) return json_string("inf");
+  if (value == floor(value) && fabs(value) < 1e15) return json_integer((json_int_t)value);
+  return json_real(value);
+}
+
+static json_t *integer_json(const gg_field *f, int64_t value)
+{
+  return f->special && (double)value == f->special_value ? json_string(f->special) : json_integer(value);
+}
+
+static json_t *choice_json(const gg_field *f, const void *at)
+{
+  int value;
+  memcpy(&value, at, sizeof value);
+  const gg_word word = gg_field_word_for(f, value);
+  return word.name ? json_string(word.name) : json_null();
+}
+
+static json_t *set_json(const gg_field *f, unsigned set)
+{
+  json_t *list = json_array();
+  gg_word w;
+  for (int i = 0; (w = gg_field_word(f, i)).name; i++)
+    if (set & (unsigned)w.value) json_array_append_new(list, json_string(w.name));
+  return list;
+}
+
+/* What most pairs have, which goes by the name of other; with as many of several, what the last pair has. */
+static double commonest(const double *x)
+{
+  double best = x[GG_PAIRS - 1];
+  int most = 0;
+  for (int p = GG_PAIRS - 1; p >= 0 && 2 * most < GG_PAIRS; p--) {
+    int n = 0;
+    for (int q = 0; q < GG_PAIRS; q++) n += x[q] == x[p];
+    if (n > most) most = n, best = x[p];
+  }
+  return best;
+}
+
+/* Up to two species: all three pairs. Of more: those unlike the rest. */
+static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *scene)
+{
+  const gg_scene defaults = gg_scene_defaults();
+  const double rest = commonest(x), usual = *(const double *)(const void *)((const char *)&defaults + f->offset);
+  const int used = gg_pairs_of(scene->n_species > 2 ? scene->n_species : 2), shown = scene->n_species > 2 ? 0 : used;
+  bool alike = true;
+  json_t *map = json_object();
+  for (int p = 0; p < GG_PAIRS; p++) {
+    char name[GG_PAIR_NAME];
+    alike = alike && (p >= used || x[p] == x[GG_11]);
+    if (p < shown || x[p] != rest) json_object_set_new(map, gg_pair_name(p, name), number_json(f, x[p]));
+  }
+  if (rest != usual || json_object_size(map) < (size_t)used) json_object_set_new(map, "other", number_json(f, rest));
+  if (!alike) return map;
+  json_decref(map);
+  return number_json(f, x[GG_11]);
+}
+
+static json_t *vector_json(const gg_field *f, const double *x)
+{
+  return json_pack("[o, o, o]", number_json(f, x[0]), number_json(f, x[1]), number_json(f, x[2]));
+}
+
+static json_t *species_json(const gg_scene *scene)
+{
+  json_t *list = json_array();
+  for (int i = 0; i < scene->n_species; i++) {
+    json_t *one = json_object();
+    for (const gg_field *f = gg_species_fields; f->key; f++)
+      json_object_set_new(one, f->key, gg_field_json(f, &scene->species[i], scene));
+    json_array_append_new(list, one);
+  }
+  return list;
+}
+
+static json_t *value_json(const gg_field *f, const void *base, const gg_scene *scene)
+{
+  const void *at = (const char *)base + f->offset;
+  switch (f->type) {
+  case GG_FIELD_NUMBER: return number_json(f, *(const double *)at);
+  case GG_FIELD_INTEGER: return integer_json(f, *(const int64_t *)at);
+  case GG_FIELD_CHOICE: return choice_json(f, at);
+  case GG_FIELD_SET: return set_json(f, *(const unsigned *)at);
+  case GG_FIELD_PAIRS: return pairs_json(f, at, scene);
+  case GG_FIELD_VECTOR: return vector_json(f, at);
+  case GG_FIELD_SPECIES: return species_json(scene);
+  }
+  return json_null();
+}
+
+json_t *gg_field_json(const gg_field *f, const void *base, const gg_scene *scene)
+{
+  bool before = gg_memory_begin();
+  return gg_json_end(before, value_json(f, base, scene));
+}
+
+/* One member of what a key holds: "collision.e.12", "species.2.mass". NULL if there is no such thing. */
+static json_t *member_json(const gg_scene *scene, const char *key)
+{
+  int number, used = 0;
+  if (sscanf(key, "species.%d.%n", &number, &used) == 1 && used && number >= 1 && number <= scene->n_species)
+    for (const gg_field *f = gg_species_fields; f->key; f++)
+      if (strcmp(f->key, key + used) == 0) return gg_field_json(f, &scene->species[number - 1], scene);
+  int pair, id = gg_scene_field_of_pair(key, &pair);
+  if (id < 0) return NULL;
+  gg_field one = gg_scene_fields[id];
+  one.type = GG_FIELD_NUMBER;
+  one.offset += (size_t)pair * sizeof(double);
+  return gg_field_json(&one, scene, scene);
+}
+
+json_t *gg_scene_key_json(const gg_scene *scene, const char *key)
+{
+  int id = gg_scene_field_find(key);
+  return id >= 0 ? gg_field_json(&gg_scene_fields[id], scene, scene) : member_json(scene, key);
+}
+
+static json_t *new_section(json_t *root, const char *name)
+{
+  json_t *section = json_object();
+  return json_object_set_new(root, name, section) == 0 ? section : NULL;
+}
+
+json_t *gg_scene_json(const gg_scene *scene)
+{
+  bool before = gg_memory_begin();
+  json_t *root = json_object();
+  for (const gg_field *f = gg_scene_fields; f->key; f++) {
+    json_t *into = root;
+    const char *dot = strchr(f->key, '.'), *name = dot ? dot + 1 : f->key;
+    if (dot) {
+      char section[32];
+      snprintf(section, sizeof section, "%.*s", (int)(dot - f->key), f->key);
+      into = json_object_get(root, section);
+      if (!into) into = new_section(root, section);
+    }
+    json_object_set_new(into, name, gg_field_json(f, scene, scene));
+  }
+  return gg_json_end(before, root);
+}
+
+void gg_print_flow_style(FILE *out, const json_t *value)
+{
+  char text[40];
+  const char *key;
+  json_t *member;
+  size_t i;
+  switch (json_typeof(value)) {
+  case JSON_REAL:
+    gg_format_number(json_real_value(value), text, sizeof text);
+    fputs(text, out);
+    return;
+  case JSON_INTEGER: fprintf(out, "%" JSON_INTEGER_FORMAT, json_integer_value(value)); return;
+  case JSON_STRING: fputs(json_string_value(value), out); return;
+  case JSON_ARRAY:
+    fputc('[', out);
+    json_array_foreach(value, i, member)
+    {
+      if (i) fputs(", ", out);
+      gg_print_flow_style(out, member);
+    }
+    fputc(']', out);
+    return;
+  case JSON_OBJECT:
+    fputc('{', out);
+    i = 0;
+    json_object_foreach((json_t *)(uintptr_t)value, key, member)
+    {
+      fprintf(out, "%s%s: ", i++ ? ", " : "", key);
+      gg_print_flow_style(out, member);
+    }
+    fputc('}', out);
+    return;
+  default: fputs("null", out);
+  }
+}
+
+void gg_flow_style_text(const json_t *value, char *text, size_t size)
+{
+  char *whole = NULL;
+  FILE *out = gg_open_text(&whole);
+  if (out) gg_print_flow_style(out, value);
+  if (gg_close_text(out, &whole)) snprintf(text, size, "%s", whole);
+  free(whole);
+}
+
+static bool is_pairs(const json_t *value)
+{
+  const char *key = json_object_iter_key(json_object_iter((json_t *)(uintptr_t)value));
+  return key && (gg_pair_named(key) >= 0 || strcmp(key, "other") == 0);
+}
+
+static void print_yaml(FILE *out, const json_t *root)
+{
+  const char *key, *name;
+  json_t *value, *member;
+  json_object_foreach((json_t *)(uintptr_t)root, key, value)
+  {
+    if (!json_is_object(value) || is_pairs(value)) {
+      fprintf(out, "%s: ", key);
+      gg_print_flow_style(out, value);
+      fputc('\n', out);
+      continue;
+    }
+    fprintf(out, "%s:\n", key);
+    json_object_foreach(value, name, member)
+    {
+      fprintf(out, "  %s: ", name);
+      gg_print_flow_style(out, member);
+      fputc('\n', out);
+    }
+  }
+}
+
+char *gg_scene_yaml(const gg_scene *scene)
+{
+  char *text = NULL;
+  FILE *out = gg_open_text(&text);
+  if (!out) return NULL;
+  json_t *root = gg_scene_json(scene);
+  if (root) print_yaml(out, root);
+  bool whole = root && !ferror(out);
+  json_decref(root);
+  if (gg_close_text(out, &text) && whole) return text;
+  free(text);
+  return NULL;
+}

@@ -1,0 +1,155 @@
+#include "theory/hermite/hermite_curves.h"
+
+#include <math.h>
+
+#include "base/memory.h"
+#include "common/thermostat.h"
+#include "measure/velocity_curves.h"
+#include "theory/answer.h"
+#include "theory/hermite/component.h"
+#include "theory/hermite/hermite_mixture.h"
+#include "theory/hermite/isotropic.h"
+#include "theory/hermite/shear.h"
+#include "theory/hermite/shear_answer.h"
+#include "theory/theory_curves.h"
+
+static const char name[] = "enskog_hermite";
+
+/* One approximation: of each species and axis the marginal, and T_i/T. */
+typedef struct solution {
+  gg_hermite_component marginal[GG_MAX_SPECIES][3];
+  double share[GG_MAX_SPECIES];
+} solution;
+
+/* The last three of a series of them, the last first. */
+typedef struct series {
+  int n;
+  bool isotropic;
+  solution rung[3];
+} series;
+
+static solution *next(series *s)
+{
+  s->rung[2] = s->rung[1], s->rung[1] = s->rung[0];
+  s->n++;
+  return &s->rung[0];
+}
+
+/* How far the last step went, in the coefficients that matter most. */
+static double last_step(const series *s, int n_species)
+{
+  double most = s->n < 2 ? INFINITY : 0;
+  for (int i = 0; i < n_species; i++)
+    for (int a = 0; a < 3; a++)
+      for (int k = 3; k <= 6 && s->n > 1; k++)
+        most = fmax(most, fabs(s->rung[0].marginal[i][a].t[k] - s->rung[1].marginal[i][a].t[k]));
+  return most;
+}
+
+/* Degrees of shear: the second of these only where the first leaves more than `good`; of mixtures, which take longer,
+ * the last. */
+enum {
+  FIRST_DEGREE = 4,
+  GOOD_DEGREE = 10,
+  LAST_DEGREE = 12,
+  MIXED_DEGREE = 8,
+  ISOTROPIC_DEGREE = 18,
+  MOST_SQUARES = 7
+};
+static const double good = 1e-4;
+
+static gg_status sheared(const gg_model *m, series *s, gg_error *err)
+{
+  gg_hermite_shear h;
+  int last = gg_hermite_shear_last_degree(m->n_species);
+  if (!last) return gg_fail(err, GG_BAD_INPUT, "these are too many species");
+  GG_TRY(gg_hermite_shear_begin(&h, m, err));
+  gg_status status = GG_OK;
+  for (int degree = FIRST_DEGREE; degree <= last && status == GG_OK; degree += 2) {
+    if (degree > GOOD_DEGREE && last_step(s, m->n_species) < good) break;
+    status = gg_hermite_shear_solve(&h, degree, err);
+    if (status != GG_OK) break;
+    solution *x = next(s);
+    for (int i = 0; i < m->n_species; i++)
+      for (int a = 0; a < 3; a++) x->marginal[i][a] = gg_hermite_component_of(&h.op.basis, &h.state[i], a);
+  }
+  gg_hermite_shear_end(&h);
+  return status;
+}
+
+static gg_status one_isotropic(const gg_model *m, series *s, gg_error *err)
+{
+  double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
+  bool noise = gg_thermostat_of(m) == GG_WHITE_NOISE;
+  for (int degree = FIRST_DEGREE; degree <= ISOTROPIC_DEGREE; degree += 2) {
+    gg_hermite_isotropic h;
+    GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, noise, err));
+    solution *x = next(s);
+    x->share[0] = 1;
+    for (int a = 0; a < 3; a++) x->marginal[0][a] = gg_hermite_component_of(&h.op.basis, &h.state, 2);
+    gg_hermite_isotropic_end(&h);
+  }
+  return GG_OK;
+}
+
+static gg_status mixed_isotropic(const gg_model *m, series *s, gg_error *err)
+{
+  gg_hermite_mixture h = {.noise = gg_thermostat_of(m) == GG_WHITE_NOISE};
+  for (int most = FIRST_DEGREE / 2; most <= MOST_SQUARES; most++) {
+    double even[GG_RADIAL_MOST + 1], T = 0;
+    GG_TRY(gg_hermite_mixture_solve(&h, m, most, err));
+    solution *x = next(s);
+    for (int i = 0; i < m->n_species; i++) {
+      gg_hermite_component marginal = {.degree = 2 * most};
+      gg_radial_marginal(&h.radial, h.alpha[i], even);
+      for (int l = 0; l <= most; l++) marginal.t[2 * l] = even[l];
+      for (int a = 0; a < 3; a++) x->marginal[i][a] = marginal;
+      x->share[i] = m->mass[i] * h.scale[i] * h.scale[i] * gg_hermite_mixture_square(&h, i);
+      T += gg_fraction(m, i) * x->share[i];
+    }
+    for (int i = 0; i < m->n_species; i++) x->share[i] /= T;
+  }
+  return GG_OK;
+}
+
+static void put(const gg_model *m, unsigned measure, const series *s, const solution *x, gg_curves *list)
+{
+  double bin[GG_HISTOGRAM];
+  for (int i = 0; i < m->n_species && measure & GG_MEASURE_VELOCITY_DISTRIBUTIONS; i++)
+    for (int a = 0; a < 3; a++) {
+      list->group = "velocity_distributions";
+      gg_hermite_component_histogram(&x->marginal[i][a], bin);
+      gg_velocity_curves_put(list, (gg_velocity_component){m->n_species, i, false, a}, bin, 0);
+    }
+  for (int i = 0; i < m->n_species && s->isotropic && measure & GG_MEASURE_SONINE; i++) {
+    gg_sonine_sums sums = {.temperature_ratio = x->share[i]};
+    list->group = "sonine";
+    gg_hermite_component_speeds(&x->marginal[i][0], &sums);
+    gg_sonine_curves_put(list, m, i, &sums);
+  }
+}
+
+static gg_status write(const gg_model *m, unsigned measure, const series *s, gg_curves *list, gg_error *err)
+{
+  gg_curves before[2] = {{.model = m}, {.model = m}};
+  put(m, measure, s, &s->rung[0], list);
+  put(m, measure, s, &s->rung[1], &before[0]);
+  put(m, measure, s, &s->rung[2], &before[1]);
+  bool failed = list->failed || before[0].failed || before[1].failed;
+  if (!failed) gg_curves_converge(list, &before[0], &before[1]);
+  for (int k = 0; k < 2; k++) gg_curves_clear(&before[k]);
+  return failed ? gg_out_of_memory(err) : GG_OK;
+}
+
+gg_status gg_hermite_curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
+{
+  series s = {.isotropic = m->flow != GG_USF && m->flow != GG_HEATED_SHEAR};
+  gg_error why;
+  if (!(measure & GG_MEASURE_VELOCITY_DISTRIBUTIONS) && !(s.isotropic && measure & GG_MEASURE_SONINE)) return GG_OK;
+  if (m->rule != GG_SMOOTH) return gg_refuse(err, name, "has no distributions of rough grains");
+  if (!s.isotropic) GG_TRY(gg_require_steady_shear(m, name, err));
+  gg_status status = !s.isotropic        ? sheared(m, &s, &why)
+                     : m->n_species == 1 ? one_isotropic(m, &s, &why)
+                                         : mixed_isotropic(m, &s, &why);
+  return status == GG_OK ? write(m, measure, &s, list, err) : gg_refuse(err, name, "fails here: %s", why.message);
+}

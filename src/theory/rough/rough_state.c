@@ -1,0 +1,204 @@
+#include "theory/rough/rough_state.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "theory/hermite/contact_integral.h"
+#include "theory/hermite/overlap.h"
+
+enum { N1 = GG_ROUGH_MOST_DEGREE + 1 };
+
+typedef struct gg_target {
+  const gg_rough_form *form;
+  const gg_rough_functions *f;
+  const double *a;
+  int r;
+  double *R, *jacobian;
+} gg_target;
+
+/* R_r += amount a_s, s by its indices. */
+static void add(const gg_target *t, const int index[GG_ROUGH_AXES], double amount)
+{
+  if (amount == 0) return;
+  int place = gg_rough_place(t->f, index), s = place < 0 ? -1 : t->form->unknown[place];
+  if (s < 0) return;
+  t->R[t->r] += amount * t->a[s];
+  if (t->jacobian) t->jacobian[(size_t)t->r * (size_t)t->form->n + (size_t)s] += amount;
+}
+
+/* amount < x_j d_i Ho_r >: d_i Ho_r = sqrt(r_i) Ho_(r-e_i), x_j Ho_r = sqrt(r_j + 1) Ho_(r+e_j) + sqrt(r_j) Ho_(r-e_j)
+ */
+static void add_flow(const gg_target *t, int i, int j, double amount)
+{
+  gg_rough_index index = t->f->function[t->form->test[t->r]];
+  amount *= sqrt(index.r[i]);
+  if (amount == 0) return;
+  index.r[i]--;
+  int quanta = index.r[j];
+  index.r[j] = quanta + 1;
+  add(t, index.r, amount * sqrt(quanta + 1));
+  index.r[j] = quanta - 1;
+  if (quanta > 0) add(t, index.r, amount * sqrt(quanta));
+}
+
+/* amount < d_i d_j Ho_r > */
+static void add_diffusion(const gg_target *t, int i, int j, double amount)
+{
+  gg_rough_index index = t->f->function[t->form->test[t->r]];
+  amount *= sqrt(index.r[i]);
+  index.r[i]--;
+  if (index.r[i] < 0 || index.r[j] < 1) return;
+  amount *= sqrt(index.r[j]);
+  index.r[j]--;
+  add(t, index.r, amount);
+}
+
+void gg_rough_stream_add(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w,
+                         const gg_rough_stream *stream, const double *a, double *R, double *jacobian)
+{
+  double AL[3][3], L[3][3], B[3][3], one[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, inverse[3][3];
+  memcpy(L, w->L, sizeof L);
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      AL[i][j] = 0;
+      for (int k = 0; k < 3; k++) AL[i][j] += stream->velocity[i][k] * L[k][j];
+    }
+  gg_hermite_left_divide(L, AL, B);
+  gg_hermite_left_divide(L, one, inverse); /* d/dC_a = sum_i inverse_ia d_i */
+  size_t many = (size_t)form->n_tests, n = (size_t)form->n;
+  double *all = calloc(many * (n + 1), sizeof *all), *slopes = all ? all + many : NULL;
+  if (!all) {
+    R[1] = NAN; /* which nothing converges with */
+    return;
+  }
+  for (int r = 1; r < form->n_tests; r++) {
+    gg_target t = {form, f, a, r, all, jacobian ? slopes : NULL};
+    for (int i = 0; i < 3; i++) {
+      add_flow(&t, 3 + i, 3 + i, -stream->spin);
+      for (int j = 0; j < 3; j++) {
+        double G = inverse[i][0] * inverse[j][0] + inverse[i][1] * inverse[j][1] + inverse[i][2] * inverse[j][2];
+        add_flow(&t, i, j, -B[i][j]);
+        add_diffusion(&t, i, j, stream->diffusion * G);
+      }
+    }
+  }
+  gg_rough_test(form, all, R);
+  for (int r = 0; r < form->n && jacobian; r++)
+    for (int p = form->from[r]; p < form->from[r + 1]; p++) {
+      const double *slope = slopes + (size_t)form->part[p].test * n;
+      for (size_t x = 0; x < n; x++) jacobian[(size_t)r * n + x] += form->part[p].amount * slope[x];
+    }
+  free(all);
+}
+
+/* < Ho_k(n.x) > = sum over |r| = k of sqrt(k!/r!) n^r a_r, for a unit vector n. */
+static void marginal(const gg_rough_form *form, const gg_rough_functions *f, const double *a, bool spin,
+                     const double n[3], double *h)
+{
+  memset(h, 0, N1 * sizeof *h);
+  for (int v = 0; v < f->n3; v++) {
+    const int *x = f->three[v];
+    gg_rough_index index = {{0}};
+    int k = x[0] + x[1] + x[2];
+    double amount = sqrt(tgamma(k + 1.));
+    for (int i = 0; i < 3; i++) {
+      index.r[i + (spin ? 3 : 0)] = x[i];
+      amount *= pow(n[i], x[i]) / sqrt(tgamma(x[i] + 1.));
+    }
+    int q = form->unknown[gg_rough_place(f, index.r)];
+    if (q >= 0) h[k] += amount * a[q];
+  }
+}
+
+/* Row of L or S: its length, and its direction. */
+static double row_of(const gg_rough_weight *w, bool spin, int axis, double n[3])
+{
+  double length = 0;
+  for (int i = 0; i < 3; i++) {
+    n[i] = spin ? w->S[axis][i] : w->L[axis][i];
+    length += n[i] * n[i];
+  }
+  length = sqrt(length);
+  for (int i = 0; i < 3; i++) n[i] /= length;
+  return length;
+}
+
+void gg_rough_moments(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w, const double *a,
+                      bool spin, int axis, double moment[5])
+{
+  double n[3], h[N1], s = row_of(w, spin, axis, n), m = spin && axis == 2 ? w->spin : 0, x[5];
+  marginal(form, f, a, spin, n, h);
+  x[0] = 1, x[1] = h[1], x[2] = 1 + sqrt(2) * h[2];
+  x[3] = sqrt(6) * h[3] + 3 * h[1];
+  x[4] = sqrt(24) * h[4] + 6 * sqrt(2) * h[2] + 3;
+  static const int choose[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
+  for (int j = 0; j < 5; j++) {
+    moment[j] = 0;
+    for (int i = 0; i <= j; i++) moment[j] += choose[j][i] * pow(s, i) * x[i] * pow(m, j - i);
+  }
+}
+
+double gg_rough_mean_spin(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w,
+                          const double *a)
+{
+  double moment[5];
+  gg_rough_moments(form, f, w, a, true, 2, moment);
+  return moment[1];
+}
+
+void gg_rough_covariance(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w,
+                         const double *a, bool spin, double M[3][3])
+{
+  double c[3][3], mean = spin ? gg_rough_mean_spin(form, f, w, a) - w->spin : 0;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      gg_rough_index index = {{0}};
+      index.r[i + (spin ? 3 : 0)]++, index.r[j + (spin ? 3 : 0)]++;
+      int q = form->unknown[gg_rough_place(f, index.r)];
+      double value = q < 0 ? 0 : a[q];
+      c[i][j] = i == j ? 1 + M_SQRT2 * value : value;
+    }
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      M[i][j] = i == 2 && j == 2 ? -mean * mean : 0;
+      for (int k = 0; k < 3; k++)
+        for (int l = 0; l < 3; l++) M[i][j] += (spin ? w->S[i][k] * w->S[j][l] : w->L[i][k] * w->L[j][l]) * c[k][l];
+    }
+}
+
+/* <|x|> under exp(-x^2/2)/sqrt(2 pi) sum_l h_2l Ho_2l: <|x| Ho_2l> = sqrt(2/pi) (-1)^(l+1) (2l-3)!!/sqrt((2l)!). */
+static double mean_modulus(int degree, const double *h)
+{
+  double sum = 1, term = 1;
+  for (int l = 1; l <= degree / 2; l++) {
+    if (l > 1) term *= -(2 * l - 3);
+    term /= sqrt(2. * l * (2 * l - 1));
+    sum += term * h[2 * l];
+  }
+  return sqrt(2 / M_PI) * sum;
+}
+
+/* |C| = int dn |n.C|/(2 pi), over a quarter of the sphere. */
+double gg_rough_mean_speed(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w,
+                           const double *a)
+{
+  enum { POLAR = 12, AZIMUTH = 16 };
+  double z[POLAR], wz[POLAR], sum = 0;
+  gg_error ignored;
+  if (gg_legendre_rule(POLAR, z, wz, &ignored) != GG_OK) return NAN;
+  for (int p = 0; p < POLAR * AZIMUTH; p++) {
+    int i = p / AZIMUTH;
+    double angle = M_PI * (p % AZIMUTH + 0.5) / AZIMUTH, r = sqrt(1 - z[i] * z[i]), n[3], h[N1], length = 0;
+    double k[3] = {r * cos(angle), r * sin(angle), z[i]};
+    for (int x = 0; x < 3; x++) {
+      n[x] = w->L[0][x] * k[0] + w->L[1][x] * k[1] + w->L[2][x] * k[2];
+      length += n[x] * n[x];
+    }
+    length = sqrt(length);
+    for (int x = 0; x < 3; x++) n[x] /= length;
+    marginal(form, f, a, false, n, h);
+    sum += 2 * wz[i] / AZIMUTH * length * mean_modulus(f->degree, h);
+  }
+  return sum;
+}

@@ -1,0 +1,65 @@
+/* JSON is whole or not there, whichever allocation fails. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "../faults/failing_malloc.h"
+#include "base/checked_json.h"
+
+static const char text[] =
+    "{\"verdict\": \"too short to tell: averaged over 40 collisions a grain, the slowest mode asks for 300\", "
+    "\"a key that is longer than the first room of a text\": [1, 2.5, null, true, \"carnahan_starling\"]}";
+
+/* jansson lost letters so ("averaged ovr"), and called the document read. */
+static void reading(void **state)
+{
+  (void)state;
+  json_t *whole = gg_json_read(text, NULL);
+  uint64_t faults = 1;
+  size_t lost = 0;
+  assert_non_null(whole);
+  for (uint64_t at = 1; faults; at++) {
+    const char *why = NULL;
+    const bool before = gg_memory_begin();
+    failing_malloc_arm(at, 0, NULL);
+    json_t *document = gg_json_read(text, &why);
+    failing_malloc_disarm(&faults);
+    assert_int_equal(gg_memory_end(before), document == NULL);
+    assert_true(document ? json_equal(document, whole) : strcmp(why, "out of memory") == 0);
+    lost += !document;
+    json_decref(document);
+  }
+  assert_true(lost > 10);
+  json_decref(whole);
+}
+
+static void writing(void **state)
+{
+  (void)state;
+  json_t *whole = gg_json_read(text, NULL);
+  uint64_t faults = 1;
+  for (uint64_t at = 1; faults; at++) {
+    const bool before = gg_memory_begin();
+    failing_malloc_arm(at, 0, NULL);
+    char *written = gg_json_text(whole, 0);
+    failing_malloc_disarm(&faults);
+    assert_int_equal(gg_memory_end(before), written == NULL);
+    json_t *again = written ? gg_json_read(written, NULL) : NULL;
+    assert_true(!written || json_equal(again, whole));
+    json_decref(again);
+    free(written);
+  }
+  json_decref(whole);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(reading), cmocka_unit_test(writing)};
+  cmocka_set_message_output(CM_OUTPUT_TAP);
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

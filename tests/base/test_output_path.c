@@ -1,0 +1,234 @@
+/* What stands at an output's path: links are followed, who may read and write stays, one writer at a time, and nothing
+ * that a dead one left blocks or stays. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/sysmacros.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/output_path.h"
+
+static char folder[] = "/tmp/graingas-output-XXXXXX";
+
+static int enter(void **state)
+{
+  (void)state;
+  return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave(void **state)
+{
+  (void)state;
+  return chdir("/") == 0 ? rmdir(folder) : -1; /* every test has removed what it made: nothing else is there */
+}
+
+static void put(const char *path, const char *text)
+{
+  gg_atomic_file f;
+  gg_error err;
+  assert_int_equal(gg_atomic_open(&f, path, &err), GG_OK);
+  assert_int_equal(gg_atomic_write(&f, text, strlen(text), &err), GG_OK);
+  assert_int_equal(gg_atomic_commit(&f, &err), GG_OK);
+}
+
+static void assert_holds(const char *path, const char *text)
+{
+  char there[64] = "";
+  FILE *in = fopen(path, "r");
+  assert_non_null(in);
+  assert_true(fread(there, 1, sizeof there - 1, in) == strlen(text));
+  assert_string_equal(there, text);
+  fclose(in);
+}
+
+static void links_are_followed(void **state)
+{
+  (void)state;
+  struct stat about;
+  assert_int_equal(mkdir("a", 0777) || mkdir("b", 0777), 0);
+  assert_int_equal(symlink("../b/link", "a/link") || symlink("file", "b/link") || symlink("loop", "loop"), 0);
+  put("a/link", "one"); /* over two links to a file that is not there yet */
+  assert_holds("b/file", "one");
+  put("a/link", "two");
+  assert_holds("b/file", "two");
+  assert_true(lstat("a/link", &about) == 0 && S_ISLNK(about.st_mode));
+  assert_true(lstat("b/link", &about) == 0 && S_ISLNK(about.st_mode));
+  assert_true(gg_same_file("a/link", "b/../b/file") && !gg_same_file("a/link", "b/other"));
+  assert_true(gg_same_file("b/new", "a/../b/new") && !gg_same_file("a/new", "b/new"));
+  gg_atomic_file f;
+  gg_error err;
+  assert_int_equal(gg_atomic_open(&f, "loop", &err), GG_BAD_FILE);
+  unlink("b/file"), unlink("b/link"), unlink("a/link"), unlink("loop"), rmdir("a"), rmdir("b");
+}
+
+static void mode_is_kept(void **state)
+{
+  (void)state;
+  struct stat about;
+  gg_atomic_file f;
+  gg_error err;
+  put("file", "one");
+  assert_int_equal(chmod("file", 0640), 0);
+  put("file", "two");
+  assert_true(stat("file", &about) == 0 && (about.st_mode & 07777) == 0640);
+  assert_int_equal(chmod("file", 0444), 0); /* root could write it, and does not */
+  assert_int_equal(gg_atomic_open(&f, "file", &err), GG_BAD_FILE);
+  assert_string_equal(err.message, "file: cannot be written: it is write-protected");
+  assert_holds("file", "two");
+  unlink("file");
+}
+
+static void one_writer_at_a_time(void **state)
+{
+  (void)state;
+  gg_atomic_file one, two;
+  gg_error err;
+  char own[60];
+  assert_int_equal(gg_atomic_open(&one, "file", &err), GG_OK);
+  assert_int_equal(symlink("file", "link"), 0);
+  snprintf(own, sizeof own, "another run is writing it (process %ld on ", (long)getpid());
+  assert_int_equal(gg_atomic_open(&two, "link", &err), GG_BAD_FILE);
+  assert_non_null(strstr(err.message, own));
+  gg_atomic_abandon(&one);
+  put("link", "now");
+  assert_holds("file", "now");
+  unlink("file"), unlink("link");
+}
+
+/* In place of the C library's: a file system without locks, where asked for. */
+static bool no_locks;
+int flock(int fd, int how)
+{
+  if (no_locks) errno = ENOSYS;
+  return no_locks ? -1 : (int)syscall(SYS_flock, fd, how);
+}
+
+/* Nobody can be told of another there: each writes a file of its own, and the last to end stays. */
+static void without_locks(void **state)
+{
+  (void)state;
+  gg_atomic_file one, two;
+  gg_error err;
+  no_locks = true;
+  assert_int_equal(gg_atomic_open(&one, "file", &err), GG_OK);
+  assert_int_equal(gg_atomic_write(&one, "half", 4, &err), GG_OK);
+  assert_int_equal(gg_atomic_open(&two, "file", &err), GG_OK);
+  assert_int_equal(gg_atomic_write(&two, "other", 5, &err), GG_OK);
+  assert_int_equal(gg_atomic_write(&one, "whole", 5, &err), GG_OK);
+  assert_int_equal(gg_atomic_commit(&one, &err), GG_OK);
+  assert_holds("file", "halfwhole");
+  assert_int_equal(gg_atomic_commit(&two, &err), GG_OK);
+  assert_holds("file", "other");
+  no_locks = false;
+  unlink("file");
+}
+
+/* Killed in the middle, its lock and its half of a file stand there; the next run goes on as if they did not. */
+static void what_the_dead_left(void **state)
+{
+  (void)state;
+  gg_atomic_file f;
+  gg_error err;
+  pid_t child = fork();
+  if (child == 0) {
+    if (gg_atomic_open(&f, "file", &err) != GG_OK || gg_atomic_write(&f, "half", 4, &err) != GG_OK) _exit(1);
+    _exit(0); /* nothing is closed or removed */
+  }
+  int status;
+  assert_true(waitpid(child, &status, 0) == child && status == 0);
+  assert_true(access("file.graingas-tmp", F_OK) == 0 && access("file.graingas-lock", F_OK) == 0);
+  assert_int_equal(gg_atomic_open(&f, "file", &err), GG_OK);
+  gg_atomic_abandon(&f);
+  assert_true(access("file.graingas-tmp", F_OK) != 0 && access("file.graingas-lock", F_OK) != 0);
+}
+
+/* Devices and pipes get the bytes, and stay. */
+static void streams(void **state)
+{
+  (void)state;
+  struct stat about;
+  gg_atomic_file f;
+  gg_error err;
+  char got[8] = "";
+  if (mknod("null", S_IFCHR | 0666, makedev(1, 3)) == 0) { /* by root alone; never the system's own */
+    put("null", "away");
+    assert_true(stat("null", &about) == 0 && S_ISCHR(about.st_mode));
+    assert_false(gg_same_file("null", "null"));
+    unlink("null");
+  }
+  assert_int_equal(mkfifo("pipe", 0666), 0);
+  assert_int_equal(gg_atomic_open(&f, "pipe", &err), GG_BAD_FILE);
+  assert_string_equal(err.message, "pipe: cannot be written: nobody reads from this pipe");
+  int in = open("pipe", O_RDONLY | O_NONBLOCK);
+  put("pipe", "through");
+  assert_int_equal(read(in, got, sizeof got), 7);
+  assert_memory_equal(got, "through", 7);
+  assert_int_equal(gg_atomic_open(&f, "pipe", &err), GG_OK);
+  close(in); /* the reader goes: no signal */
+  assert_int_equal(gg_atomic_write(&f, "lost", 4, &err), GG_BAD_FILE);
+  assert_string_equal(err.message, "pipe: cannot be written: Broken pipe");
+  gg_atomic_abandon(&f);
+  assert_int_equal(gg_check_writable("pipe", "pictures are files", &err), GG_BAD_FILE);
+  assert_string_equal(err.message, "pipe: is a device or a pipe; pictures are files");
+  assert_int_equal(gg_atomic_open(&f, "", &err), GG_BAD_INPUT);
+  unlink("pipe");
+}
+
+static atomic_bool found_all;
+
+/* Another writer: a new file takes the place of the last, all the time. */
+static void *replace(void *unused)
+{
+  while (!found_all) {
+    int fd = open("new", O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0 || close(fd) != 0 || rename("new", "file") != 0) return &found_all;
+  }
+  return unused;
+}
+
+/* What stands at a name is looked at twice, and may have been replaced between: that is no reason to refuse it. */
+static void replaced_while_looked_at(void **state)
+{
+  (void)state;
+  pthread_t other;
+  void *failed;
+  gg_output_path place;
+  gg_error err;
+  int refused = 0;
+  put("file", "one");
+  assert_int_equal(pthread_create(&other, NULL, replace, NULL), 0);
+  for (int i = 0; i < 20000; i++) {
+    if (gg_output_path_find(&place, "file", &err) != GG_OK) refused++;
+    gg_output_path_clear(&place);
+  }
+  found_all = true;
+  assert_int_equal(pthread_join(other, &failed), 0);
+  assert_null(failed);
+  if (refused > 0) fail_msg("%d times of 20000: %s", refused, err.message);
+  unlink("file"), unlink("new");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(links_are_followed),       cmocka_unit_test(mode_is_kept),
+      cmocka_unit_test(one_writer_at_a_time),     cmocka_unit_test(without_locks),
+      cmocka_unit_test(what_the_dead_left),       cmocka_unit_test(streams),
+      cmocka_unit_test(replaced_while_looked_at),
+  };
+  return cmocka_run_group_tests(tests, enter, leave);
+}

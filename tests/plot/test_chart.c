@@ -1,0 +1,278 @@
+/* Charts: every point stands where its numbers say, on linear and logarithmic axes, with a bar as long as its error;
+ * what is NaN, or has no place on a logarithmic axis, is not there; methods and groups are told apart without colours,
+ * and alike in all panels; labels do not leave the page. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "plot/axis.h"
+#include "plot/chart.h"
+#include "plot/plot.h"
+
+enum { MOST = 64, FILLED_CIRCLE = 6, OPEN_SQUARE = 3, FILLED_SQUARE = 4 }; /* gnuplot's svg counts from 0 */
+
+static char folder[] = "/tmp/graingas-chart-XXXXXX";
+
+static int enter(void **state)
+{
+  (void)state;
+  return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave(void **state)
+{
+  (void)state;
+  unlink("c.svg");
+  unlink("c.png");
+  return chdir("/") == 0 ? rmdir(folder) : -1;
+}
+
+static char *drawn(const gg_chart *chart)
+{
+  gg_error err;
+  if (gg_chart_draw(chart, "c.svg", NULL, &err) != GG_OK) fail_msg("%s", err.message);
+  FILE *f = fopen("c.svg", "r");
+  char *text = calloc(1, 1 << 20);
+  assert_non_null(f);
+  assert_true(fread(text, 1, (1 << 20) - 1, f) > 0);
+  fclose(f);
+  return text;
+}
+
+typedef struct mark {
+  int symbol;
+  double x, y;
+} mark;
+
+/* Symbols of the page in their colours; those of white clear the ground behind others. */
+static int marks_of(const char *svg, int symbol, mark marks[])
+{
+  int n = 0;
+  mark m;
+  for (const char *at = svg; (at = strstr(at, "<use xlink:href='#gpPt")); at++) {
+    if (sscanf(at, "<use xlink:href='#gpPt%d' transform='translate(%lf,%lf)", &m.symbol, &m.x, &m.y) != 3) continue;
+    const char *white = strstr(at, "#FFFFFF"), *end = strstr(at, "/>");
+    if (m.symbol == symbol && !(white && white < end) && n < MOST) marks[n++] = m;
+  }
+  return n;
+}
+
+/* The upright stroke through a point, which is at no tic: how long. */
+static double bar_at(const char *svg, double x)
+{
+  double a[2], b[2];
+  for (const char *at = svg; (at = strchr(at, 'M')); at++)
+    if (sscanf(at, "M%lf,%lf L%lf,%lf", &a[0], &a[1], &b[0], &b[1]) == 4 && a[0] == b[0] && fabs(a[0] - x) < 0.02)
+      return fabs(a[1] - b[1]);
+  return 0;
+}
+
+static const double x3[] = {1.5, 15, 150}, y3[] = {2, 3, 4}, e3[] = {0.5, 0.25, NAN};
+
+static void points_stand_where_they_are(void **state)
+{
+  (void)state;
+  gg_chart_series md = {.method = "md", .n = 3, .x = x3, .y = y3, .error = e3};
+  gg_chart_panel panel = {.x = {.label = "x", .log = true}, .y = {.label = "y"}, .n = 1, .series = &md};
+  gg_chart chart = {.n = 1, .panel = &panel};
+  char *svg = drawn(&chart);
+  mark m[MOST];
+  assert_int_equal(marks_of(svg, FILLED_CIRCLE, m), 4); /* the last stands in the legend */
+  assert_true(fabs(m[2].x - m[1].x - (m[1].x - m[0].x)) < 0.05);
+  assert_true(fabs(m[1].y - m[2].y - (m[0].y - m[1].y)) < 0.05);
+  double unit = m[0].y - m[1].y;
+  assert_true(unit > 20 && fabs(bar_at(svg, m[0].x) - 2 * 0.5 * unit) < 0.05);
+  assert_true(fabs(bar_at(svg, m[1].x) - 2 * 0.25 * unit) < 0.05);
+  assert_true(bar_at(svg, m[2].x) == 0);
+  free(svg);
+}
+
+static void what_is_not_there(void **state)
+{
+  (void)state;
+  const double x[] = {-1, 1, 2, 3, 4}, y[] = {1, 0, NAN, 5, 6};
+  gg_chart_series md = {.method = "md", .n = 5, .x = x, .y = y};
+  gg_chart_panel panel = {.x = {.label = "x"}, .y = {.label = "y", .log = true}, .n = 1, .series = &md};
+  gg_chart chart = {.n = 1, .panel = &panel};
+  mark m[MOST];
+  char *svg = drawn(&chart);
+  assert_int_equal(marks_of(svg, FILLED_CIRCLE, m), 3 + 1);
+  free(svg);
+  panel.x.log = true;
+  svg = drawn(&chart);
+  assert_int_equal(marks_of(svg, FILLED_CIRCLE, m), 2 + 1);
+  free(svg);
+  md.n = 0; /* an empty frame */
+  svg = drawn(&chart);
+  assert_int_equal(marks_of(svg, FILLED_CIRCLE, m), 1);
+  free(svg);
+}
+
+static int count(const char *text, const char *what)
+{
+  int n = 0;
+  for (const char *at = text; (at = strstr(at, what)); at++) n++;
+  return n;
+}
+
+/* md is filled and dsmc open, groups have symbols, theories dashes: the same in both panels, each once in the legend.
+ */
+static void looks_follow_from_names(void **state)
+{
+  (void)state;
+  const gg_chart_series series[] = {
+      {.method = "md", .group = "one", .n = 3, .x = x3, .y = y3, .error = e3},
+      {.method = "md", .group = "two", .n = 3, .x = x3, .y = y3, .error = e3},
+      {.method = "dsmc", .group = "two", .n = 3, .x = x3, .y = y3, .error = e3},
+      {.method = "lun1991", .group = "one", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = y3},
+      {.method = "enskog_hermite", .group = "one", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = y3}};
+  const gg_chart_panel panels[] = {{.title = "a", .n = 5, .series = series}, {.title = "b", .n = 3, .series = series}};
+  const gg_chart chart = {.title = "'it's a title'", .n = 2, .panel = panels};
+  mark m[MOST];
+  char *svg = drawn(&chart);
+  assert_int_equal(marks_of(svg, FILLED_CIRCLE, m), 3 + 3 + 2); /* md and its group in the legend */
+  assert_int_equal(marks_of(svg, FILLED_SQUARE, m), 3 + 3 + 1);
+  assert_int_equal(marks_of(svg, OPEN_SQUARE, m), 3 + 3 + 1);
+  assert_int_equal(count(svg, "stroke-dasharray"), 1 + 1);
+  assert_int_equal(count(svg, ">enskog_hermite<") + count(svg, ">one<") + count(svg, ">two<"), 3);
+  assert_int_equal(count(svg, "’it’s a title’"), 1);
+  free(svg);
+}
+
+/* What is measured at many points is drawn through, in the legend too; a law beside it is dashed. */
+static void laws_beside_bands(void **state)
+{
+  (void)state;
+  const gg_chart_series series[] = {
+      {.method = "md", .group = "one", .style = GG_CHART_BAND, .n = 3, .x = x3, .y = y3, .error = e3},
+      {.method = "Gaussian", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = y3}};
+  const gg_chart_panel panel = {.n = 2, .series = series};
+  const gg_chart chart = {.n = 1, .panel = &panel};
+  char *svg = drawn(&chart);
+  assert_int_equal(count(svg, "stroke-dasharray"), 1 + 1); /* the law and its sample */
+  free(svg);
+}
+
+/* Labels of tics stay short, and round; those of a logarithmic axis are powers where it is long. */
+static void tics(void **state)
+{
+  (void)state;
+  static const struct {
+    gg_axis axis;
+    const char *has, *has_not;
+  } cases[] = {{{false, 0, 1}, "'0.2' 0.2", "'0.25'"},
+               {{false, 2.3e6, 3.6e6}, "'2.4·10^{6}' 2400000", "'2400000'"},
+               {{false, -1.6e-5, -0.9e-5}, "'-1.1·10^{-5}' -1.1e-05", "0.00001"},
+               {{false, -0.1, 0.1}, "'0' ", "'-0'"},
+               {{false, 1e7, 4e7}, "'10^{7}' 10000000", "'10000000'"},
+               {{true, 1, 1000}, "'10' 10", "'20'"},
+               {{true, 1, 100}, "'20' 20", "'30'"},
+               {{true, 1e-8, 1}, "'10^{-4}' 0.0001", "'0.0001'"},
+               {{true, 2, 3}, "'2.2' 2.2", "'10'"},
+               {{true, 1e-300, 1}, "'10^{-50}' 1e-50", "'10^{-47}'"},
+               {{false, 1e-322, 9e-322}, "x", "inf"}}; /* and comes to an end */
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char *text = NULL;
+    size_t size;
+    FILE *s = open_memstream(&text, &size);
+    gg_axis_print(s, 'x', cases[i].axis);
+    fclose(s);
+    if (!strstr(text, cases[i].has)) fail_msg("%s: no %s", text, cases[i].has);
+    if (strstr(text, cases[i].has_not)) fail_msg("%s: has %s", text, cases[i].has_not);
+    free(text);
+  }
+}
+
+static void axes_have_room(void **state)
+{
+  (void)state;
+  gg_extent e = GG_NO_EXTENT;
+  gg_extent_add(&e, 0.5, false), gg_extent_add(&e, 9, false), gg_extent_add(&e, NAN, false);
+  gg_axis a = gg_axis_around(e, false);
+  assert_true(a.from <= 0 && a.to > 9); /* 0 is near */
+  e = GG_NO_EXTENT;
+  gg_extent_add(&e, 8, false), gg_extent_add(&e, 9, false);
+  a = gg_axis_around(e, false);
+  assert_true(a.from > 7 && a.from < 8 && a.to > 9);
+  e = GG_NO_EXTENT;
+  gg_extent_add(&e, 5, false);
+  a = gg_axis_around(e, false);
+  assert_true(a.from < 5 && a.to > 5);
+  e = GG_NO_EXTENT;
+  gg_extent_add(&e, -1, true), gg_extent_add(&e, 1e-3, true), gg_extent_add(&e, 1, true);
+  a = gg_axis_around(e, true);
+  assert_true(a.log && a.from > 0 && a.from < 1e-3 && a.to > 1);
+}
+
+static void keys(void **state)
+{
+  (void)state;
+  static const char *const cases[][3] = {{"collision.beta", "β", "1"},
+                                         {"collision.e.12", "e_{12}", "1"},
+                                         {"species.2.mass", "m_{2}", "1"},
+                                         {"shear_rate", "γ", "1/time"},
+                                         {"dsmc.time_step", "Δt", "mean free times"},
+                                         {"run.relative_error", "run.relative\\_error", "1"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char text[64];
+    const char *unit;
+    gg_chart_key(cases[i][0], text, sizeof text, &unit);
+    assert_string_equal(text, cases[i][1]);
+    assert_string_equal(unit, cases[i][2]);
+  }
+}
+
+static void refused(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_chart_panel panel = {.n = 0};
+  gg_chart chart = {.n = 1, .panel = &panel};
+  assert_int_equal(gg_chart_draw(&chart, "c.pdf", NULL, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_chart_draw(&chart, "c.svg", "png", &err), GG_BAD_INPUT);
+  assert_int_equal(gg_chart_draw(&chart, "none/c.svg", NULL, &err), GG_BAD_FILE);
+  assert_int_equal(gg_chart_draw(&(gg_chart){.n = 0}, "c.svg", NULL, &err), GG_BAD_INPUT);
+  if (gg_chart_draw(&chart, "c.png", NULL, &err) != GG_OK) fail_msg("%s", err.message);
+}
+
+/* By the name, by what is asked for, or by both if they agree. */
+static void kinds_of_pictures(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *picture, *format, *said;
+  } bad[] = {{"a.svg", "gif", "not 'gif'"},     {"a", NULL, "ends with .svg or .png"},
+             {"a/.svg", NULL, "ends with"},     {"b.d/a", NULL, "ends with"},
+             {"a.pdf", NULL, "not .pdf"},       {"a.svg", "png", "its name says svg"},
+             {"folder/", "svg", "needs a name"}};
+  gg_error err;
+  bool png = true;
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    assert_int_equal(gg_plot_format(bad[i].picture, bad[i].format, &png, &err), GG_BAD_INPUT);
+    if (!strstr(err.message, bad[i].said)) fail_msg("'%s' is not in '%s'", bad[i].said, err.message);
+  }
+  assert_true(gg_plot_format("b.d/a", "svg", &png, &err) == GG_OK && !png);
+  assert_true(gg_plot_format("a.png", NULL, &png, &err) == GG_OK && png);
+  assert_true(gg_plot_format("a.png", "png", &png, &err) == GG_OK && png);
+  assert_true(gg_plot_format("a", "png", &png, &err) == GG_OK && png);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(kinds_of_pictures), cmocka_unit_test(points_stand_where_they_are),
+      cmocka_unit_test(what_is_not_there), cmocka_unit_test(looks_follow_from_names),
+      cmocka_unit_test(laws_beside_bands), cmocka_unit_test(tics),
+      cmocka_unit_test(axes_have_room),    cmocka_unit_test(keys),
+      cmocka_unit_test(refused),
+  };
+  return cmocka_run_group_tests(tests, enter, leave);
+}

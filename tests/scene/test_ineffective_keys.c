@@ -1,0 +1,160 @@
+/* Keys that a scene gives and that have no effect are told, with the reason; those with an effect, those with their
+ * defaults and those that nobody gave are not. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/ineffective_keys.h"
+#include "scene/scene_json.h"
+#include "scene/scene_reader.h"
+
+enum { BOTH = GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY };
+
+static gg_text_list inert(const char *yaml, unsigned uses)
+{
+  gg_error err = {0};
+  gg_text_list lines = {0};
+  gg_scene scene = gg_scene_defaults();
+  gg_status status = gg_scene_read(&scene, yaml, strlen(yaml), "s", &err);
+  if (status == GG_OK) status = gg_scene_finish(&scene, &err);
+  if (status != GG_OK) print_message("%s: %s\n", yaml, err.message);
+  assert_int_equal(status, GG_OK);
+  gg_scene_inert(&scene, uses, &lines);
+  return lines;
+}
+
+/* NULL: none at all. */
+static void assert_line(const char *yaml, unsigned uses, const char *expected)
+{
+  gg_text_list lines = inert(yaml, uses);
+  if (lines.n != (expected ? 1 : 0)) print_message("%s: %zu lines, %s\n", yaml, lines.n, lines.n ? lines.text[0] : "");
+  assert_int_equal(lines.n, expected ? 1 : 0);
+  if (expected) assert_string_equal(lines.text[0], expected);
+  gg_text_list_clear(&lines);
+}
+
+static void flows(void **state)
+{
+  (void)state;
+  char words[160], expected[240];
+  gg_flow_list(gg_flow_is_sheared, words, sizeof words);
+  snprintf(expected, sizeof expected, "shear_rate, temperature have no effect but in flow: %s", words);
+  assert_line("{flow: hcs, phi: 0.1, shear_rate: 2, temperature: 3}", BOTH, expected);
+  assert_line("{flow: usf, phi: 0.1, shear_rate: 2, temperature: 3}", BOTH, NULL);
+  assert_line("{flow: hcs, phi: 0.1, walls: {e: 0.5, beta: 0.5, mu: 1, speed: 2, top: open}}", BOTH,
+              "walls.e, walls.beta, walls.mu, walls.top, walls.speed have no effect but between walls (flow: couette, "
+              "poiseuille or chute)");
+  assert_line("{flow: couette, phi: 0.1, walls: {e: 0.5, beta: 0.5, mu: 1, speed: 2}}", BOTH, NULL);
+  assert_line("{flow: chute, phi: 0.1, gravity: [1, -1, 0], walls: {speed: 2, top: open}}", GG_USE_MD,
+              "walls.speed has no effect but in flow: couette");
+  assert_line("{flow: couette, phi: 0.1, walls: {top: open}}", GG_USE_MD, "walls.top has no effect but in flow: chute");
+  assert_line("{flow: couette, phi: 0.1, walls: {beta: -1, mu: 0.5}}", GG_USE_MD,
+              "walls.mu has no effect while walls.beta is -1: smooth walls");
+  assert_line("{flow: couette, phi: 0.1, walls: {beta: 0.5, mu: 0}}", GG_USE_MD,
+              "walls.beta has no effect while walls.mu is 0: smooth walls");
+}
+
+static void engines(void **state)
+{
+  (void)state;
+  const char keys[] = "{flow: usf, phi: 0.1, dsmc: {time_step: 0.1, particles: 300, precision: single}, "
+                      "md: {contact_time: 0.01}}";
+  assert_line(keys, GG_USE_MD, "dsmc.time_step, dsmc.particles, dsmc.precision have no effect with engine: md");
+  assert_line(keys, GG_USE_DSMC, "md.contact_time has no effect with engine: dsmc");
+  assert_line(keys, BOTH, NULL);
+  assert_line(keys, GG_USE_THEORY, NULL);
+  assert_line("{flow: usf, phi: 0, md: {contact_time: 0.01}}", BOTH, "md.contact_time has no effect with engine: dsmc");
+  assert_line("{flow: couette, phi: 0.1, dsmc: {particles: 10}}", BOTH, "dsmc.particles has no effect with engine: md");
+  assert_line("{flow: usf, phi: 0.1, aspect: [1, 2, 1]}", GG_USE_DSMC,
+              "aspect has no effect with engine: dsmc, which has no box");
+  assert_line("{flow: usf, phi: 0.1, output: {trajectory_every: 5}}", BOTH,
+              "output.trajectory_every has no effect in a comparison; graingas run keeps a trajectory");
+  assert_line("{flow: usf, phi: 0.1, output: {trajectory_every: 5}}", GG_USE_MD, NULL);
+  const char ensemble[] =
+      "particles has no effect with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)";
+  assert_line("{flow: usf, phi: 0.1, particles: 2000}", GG_USE_DSMC, ensemble);
+  assert_line("{flow: usf, phi: 0.1, particles: 20000}", GG_USE_DSMC, NULL);
+  assert_line("{flow: usf, phi: 0.1, particles: 20000, dsmc: {particles: 700}}", GG_USE_DSMC, ensemble);
+  assert_line("{flow: usf, phi: 0.1, particles: 2000}", BOTH, NULL);
+  const char contact[] =
+      "contact_value has no effect but on theories, engine: dsmc and the strength of white noise, with one species and "
+      "phi above 0";
+  assert_line("{flow: usf, phi: 0.1, contact_value: kolafa}", GG_USE_MD, contact);
+  assert_line("{flow: usf, phi: 0, contact_value: kolafa}", GG_USE_DSMC, contact);
+  assert_line("{flow: usf, phi: 0.1, contact_value: kolafa, species: [{}, {}]}", BOTH, contact);
+  assert_line("{flow: usf, phi: 0.1, contact_value: kolafa}", BOTH, NULL);
+  assert_line("{flow: hss, phi: 0.1, contact_value: kolafa}", GG_USE_MD, contact);
+  assert_line("{flow: hss, thermostat: white_noise, phi: 0.1, contact_value: kolafa}", GG_USE_MD, NULL);
+  assert_line("{flow: heated_shear, temperature: 9, phi: 0.1, contact_value: kolafa}", GG_USE_MD, NULL);
+}
+
+static void grains(void **state)
+{
+  (void)state;
+  assert_line("{flow: usf, phi: 0.1, collision: {mu: 0.5, beta: -1}}", BOTH,
+              "collision.mu has no effect while collision.beta is -1: smooth grains");
+  assert_line("{flow: usf, phi: 0.1, collision: {mu: 0, beta: 0.5}}", BOTH,
+              "collision.beta has no effect while collision.mu is 0: smooth grains");
+  assert_line("{flow: usf, phi: 0.1, collision: {mu: 0.5, beta: 0.5}}", BOTH, NULL);
+  assert_line("{flow: usf, phi: 0.1, collision: {e: {11: 0.9, 12: 0.8, 22: 0.7}}}", BOTH,
+              "collision.e.12, collision.e.22 have no effect with one species");
+  assert_line("{flow: usf, phi: 0.1, collision: {e: {11: 0.9, 12: 0.8, 22: 0.7}}, species: [{}, {}]}", BOTH, NULL);
+  assert_line("{flow: usf, phi: 0.1, species: [{inertia: 0.5}]}", BOTH,
+              "species.1.inertia has no effect on smooth grains, which do not spin");
+  assert_line("{flow: usf, phi: 0.1, species: [{inertia: 0.5}], collision: {beta: 0}}", BOTH, NULL);
+  assert_line("{flow: equilibrium, phi: 0.1, md: {contact_time: 0.01}}", BOTH,
+              "md.contact_time has no effect where no collision loses energy");
+}
+
+/* Where there is no mean to know, no error can be asked of it. */
+static void asked_errors(void **state)
+{
+  (void)state;
+  static const char none[] =
+      "run.relative_error has no effect but on the ensemble's size, in a gas without such means: "
+      "elastic and sheared, elastic and alone, or cooling by a law";
+  assert_line("{flow: usf, phi: 0.1, collision: {e: 1}, run: {relative_error: 0.1}}", BOTH, none);
+  assert_line("{flow: hcs, phi: 0.1, collision: {e: 1}, run: {relative_error: 0.1}}", BOTH, none);
+  assert_line("{flow: hcs, phi: 0.1, collision: {law: viscoelastic}, run: {relative_error: 0.1}}", BOTH, none);
+  static const char *const some[] = {
+      "{flow: hcs, phi: 0.1, collision: {e: 1, beta: 1}, run: {relative_error: 0.1}}",
+      "{flow: hcs, phi: 0.1, collision: {e: 0.9}, run: {relative_error: 0.1}}",
+      "{flow: usf, phi: 0.1, collision: {law: viscoelastic}, run: {relative_error: 0.1}}",
+      "{flow: equilibrium, phi: 0.1, run: {relative_error: 0.1}}",
+      "{flow: small_shear, phi: 0.1, collision: {e: 1}, run: {relative_error: 0.1}}",
+  };
+  for (size_t i = 0; i < sizeof some / sizeof *some; i++) assert_line(some[i], GG_USE_DSMC, NULL);
+}
+
+/* A scene as results and checkpoints hold it gives every key, and is told of no more than the one that was typed. */
+static void defaults_are_not_told(void **state)
+{
+  (void)state;
+  const char *scenes[] = {"{flow: hcs, phi: 0.1}", "{flow: equilibrium, phi: 0.1}", "{flow: hss, phi: 0}",
+                          "{flow: couette, phi: 0.2}", "{flow: hcs, phi: 0.1, shear_rate: 2}"};
+  for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+    gg_error err;
+    gg_scene s = gg_scene_defaults();
+    assert_int_equal(gg_scene_read(&s, scenes[i], strlen(scenes[i]), "s", &err), GG_OK);
+    assert_int_equal(gg_scene_finish(&s, &err), GG_OK);
+    char *yaml = gg_scene_yaml(&s);
+    gg_text_list once = inert(scenes[i], BOTH), again = inert(yaml, BOTH);
+    assert_int_equal(once.n, i == 4);
+    assert_int_equal(again.n, once.n);
+    gg_text_list_clear(&once);
+    gg_text_list_clear(&again);
+    free(yaml);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(flows), cmocka_unit_test(engines), cmocka_unit_test(grains),
+                                     cmocka_unit_test(asked_errors), cmocka_unit_test(defaults_are_not_told)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
