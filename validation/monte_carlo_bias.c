@@ -38,21 +38,21 @@ typedef struct answer {
 
 static gg_status reference_of(const scene *c, answer *a, gg_error *err)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_model m;
   gg_theory_answer t;
   s.flow = c->flow, s.phi = c->phi, s.collision.e[0] = c->e;
-  GG_TRY(gg_model_make(&s, GG_DSMC, &m, err));
+  GG_TRY(gg_common_model_make(&s, GG_DSMC, &m, err));
   double last[GG_REFERENCE_NUMBERS], other[GG_REFERENCE_NUMBERS];
   if (c->flow == GG_USF) {
     if (!gg_reference_shear(&m, 16, last) || !gg_reference_shear(&m, 14, other))
-      return gg_fail(err, GG_FAILED, "%s: no solution", c->yaml);
+      return gg_base_fail(err, GG_FAILED, "%s: no solution", c->yaml);
     for (int q = 0; q < QUANTITIES; q++) a->mean[q] = last[q], a->error[q] = fabs(last[q] - other[q]);
     return GG_OK;
   }
-  GG_TRY(gg_theory_evaluate(&gg_enskog_hermite, &m, &t, err));
+  GG_TRY(gg_theory_evaluate(&gg_theory_enskog_hermite, &m, &t, err));
   for (int i = 0; i < QUANTITIES; i++) {
-    const gg_quantity q = gg_quantity_find(c->quantity[i]);
+    const gg_quantity q = gg_common_quantity_find(c->quantity[i]);
     a->mean[i] = t.value[q], a->error[i] = t.error[q];
   }
   return GG_OK;

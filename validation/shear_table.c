@@ -24,12 +24,12 @@ typedef struct table {
 
 static gg_model model_at(double phi, double e)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_model m;
   gg_error err;
   s.flow = GG_USF, s.phi = phi;
   s.collision.e[0] = e, s.collision.beta[0] = -1;
-  if (gg_model_make(&s, GG_DSMC, &m, &err) == GG_OK) return m;
+  if (gg_common_model_make(&s, GG_DSMC, &m, &err) == GG_OK) return m;
   fprintf(stderr, "%s\n", err.message);
   exit(1);
 }
@@ -41,7 +41,7 @@ static bool fill(table *t)
       gg_model m = model_at(phis[phi], t->e[e]);
       gg_theory_answer a;
       gg_error err;
-      if (gg_theory_evaluate(&gg_enskog_hermite, &m, &a, &err) != GG_OK) {
+      if (gg_theory_evaluate(&gg_theory_enskog_hermite, &m, &a, &err) != GG_OK) {
         fprintf(stderr, "phi %g e %g: %s\n", phis[phi], t->e[e], err.message);
         return false;
       }
@@ -59,7 +59,7 @@ static bool write_csv(const table *t, const char *path)
   if (!f) return false;
   fprintf(f, "phi,e");
   for (int q = 0; q < QUANTITIES; q++)
-    fprintf(f, ",%s,%s_error", gg_quantity_name(quantities[q]), gg_quantity_name(quantities[q]));
+    fprintf(f, ",%s,%s_error", gg_common_quantity_name(quantities[q]), gg_common_quantity_name(quantities[q]));
   for (int p = 0; p < t->n_phi; p++)
     for (int e = 0; e < t->n_e; e++) {
       fprintf(f, "\n%g,%g", phis[p], t->e[e]);
@@ -90,9 +90,9 @@ static bool write_h5(const table *t, const char *path)
   gg_h5_array(&h, "/e", H5T_NATIVE_DOUBLE, 1, &n_e, t->e);
   for (int q = 0; q < QUANTITIES; q++) {
     char name[32];
-    snprintf(name, sizeof name, "/%s", gg_quantity_name(quantities[q]));
+    snprintf(name, sizeof name, "/%s", gg_common_quantity_name(quantities[q]));
     put(&h, name, t, t->value[q], units[q]);
-    snprintf(name, sizeof name, "/%s_error", gg_quantity_name(quantities[q]));
+    snprintf(name, sizeof name, "/%s_error", gg_common_quantity_name(quantities[q]));
     put(&h, name, t, t->error[q], units[q]);
   }
   gg_h5_close(&h);

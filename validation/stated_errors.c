@@ -15,11 +15,11 @@ enum { REFERENCE_DEGREE = 16 };
 
 static bool model_at(double phi, double e, gg_model *m)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_error err;
   s.flow = GG_USF, s.phi = phi;
   s.collision.e[0] = e, s.collision.beta[0] = -1;
-  return gg_model_make(&s, GG_DSMC, m, &err) == GG_OK;
+  return gg_common_model_make(&s, GG_DSMC, m, &err) == GG_OK;
 }
 
 typedef struct tally {
@@ -33,7 +33,7 @@ static void look_at(double phi, double e, tally *t)
   gg_error err;
   double number[GG_REFERENCE_NUMBERS];
   if (!model_at(phi, e, &m)) return;
-  if (gg_theory_evaluate(&gg_enskog_hermite, &m, &a, &err) != GG_OK) {
+  if (gg_theory_evaluate(&gg_theory_enskog_hermite, &m, &a, &err) != GG_OK) {
     t->refused++;
     printf("%.5f %.4f  %s\n", phi, e, err.message);
     return;

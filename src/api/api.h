@@ -12,17 +12,18 @@
 /* A missing argument is an answer, not a crash. */
 #define GG_NEED(argument)                                                                                              \
   do {                                                                                                                 \
-    if (!(argument)) return gg_fail(err, GG_BAD_INPUT, "%s: argument '%s' is missing (NULL)", __func__, #argument);    \
+    if (!(argument))                                                                                                   \
+      return gg_base_fail(err, GG_BAD_INPUT, "%s: argument '%s' is missing (NULL)", __func__, #argument);              \
   } while (0)
 
 /* scene.c: a copy of the scene, complete and checked: what every use of a scene begins with. */
-gg_status gg_door_finished(const gg_scene *scene, gg_scene *copy, gg_error *err);
+gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err);
 
 /* text.c: an engine by its name; a document as text, whose reference it takes. */
-gg_status gg_door_engine(const char *name, gg_engine_kind *kind, gg_error *err);
-gg_status gg_door_text(json_t *document, char **text, gg_error *err);
+gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err);
+gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err);
 
 /* result.c: what a user sees of a curve. */
-gg_curve_data gg_door_curve(const gg_curve *curve);
+gg_curve_data gg_api_curve_view(const gg_curve *curve);
 
 #endif

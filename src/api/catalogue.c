@@ -17,7 +17,7 @@ static const char *const type_names[] = {
 
 static gg_status no_more(gg_error *err)
 {
-  return gg_fail(err, GG_BAD_INPUT, "there are no more entries");
+  return gg_base_fail(err, GG_BAD_INPUT, "there are no more entries");
 }
 
 /* A row of a table that ends with a NULL key. */
@@ -31,10 +31,10 @@ static const gg_field *field_at(const gg_field *fields, size_t i)
 /* What a key holds; without a scene its default, which flow and phi have not. */
 static void put_value(const gg_field *f, const void *base, const gg_scene *scene, gg_entry *entry)
 {
-  json_t *value = gg_field_json(f, base, scene);
-  locale_t before = gg_c_locale_enter();
-  gg_flow_style_text(value, entry->value, sizeof entry->value);
-  gg_c_locale_leave(before);
+  json_t *value = gg_scene_field_json(f, base, scene);
+  locale_t before = gg_base_c_locale_enter();
+  gg_scene_flow_style_text(value, entry->value, sizeof entry->value);
+  gg_base_c_locale_leave(before);
   json_decref(value);
 }
 
@@ -42,7 +42,7 @@ static gg_status field_entry(const gg_field *f, gg_entry *entry, gg_error *err)
 {
   if (!f) return no_more(err);
   *entry = (gg_entry){.name = f->key, .doc = f->doc, .unit = f->unit, .type = type_names[f->type]};
-  gg_field_allowed(f, entry->allowed, sizeof entry->allowed);
+  gg_scene_field_allowed(f, entry->allowed, sizeof entry->allowed);
   return GG_OK;
 }
 
@@ -50,7 +50,7 @@ static gg_status key_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_
 {
   const gg_field *f = field_at(gg_scene_fields, i);
   GG_TRY(field_entry(f, entry, err));
-  gg_scene filled = scene ? *scene : gg_scene_defaults();
+  gg_scene filled = scene ? *scene : gg_common_scene_defaults();
   if (scene) gg_scene_fill_in(&filled);
   entry->given = gg_scene_is_given(&filled, f->key);
   bool required = strcmp(f->key, "flow") == 0 || strcmp(f->key, "phi") == 0;
@@ -60,8 +60,8 @@ static gg_status key_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_
 
 static gg_status species_key_entry(size_t i, gg_entry *entry, gg_error *err)
 {
-  const gg_scene defaults = gg_scene_defaults();
-  const gg_field *f = field_at(gg_species_fields, i);
+  const gg_scene defaults = gg_common_scene_defaults();
+  const gg_field *f = field_at(gg_scene_species_fields, i);
   GG_TRY(field_entry(f, entry, err));
   put_value(f, &defaults.species[0], &defaults, entry);
   return GG_OK;
@@ -71,10 +71,10 @@ static gg_status species_key_entry(size_t i, gg_entry *entry, gg_error *err)
 static gg_status word_entry(const char *key, size_t i, gg_entry *entry, gg_error *err)
 {
   int id = gg_scene_field_find(key);
-  if (id < 0 || !gg_field_word(&gg_scene_fields[id], 0).name)
-    return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s' that takes words", key);
-  gg_word word = gg_field_word(&gg_scene_fields[id], 0);
-  for (int k = 0; word.name && (size_t)k < i;) word = gg_field_word(&gg_scene_fields[id], ++k);
+  if (id < 0 || !gg_scene_field_word(&gg_scene_fields[id], 0).name)
+    return gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s' that takes words", key);
+  gg_word word = gg_scene_field_word(&gg_scene_fields[id], 0);
+  for (int k = 0; word.name && (size_t)k < i;) word = gg_scene_field_word(&gg_scene_fields[id], ++k);
   if (!word.name) return no_more(err);
   return *entry = (gg_entry){.name = word.name, .doc = word.doc}, GG_OK;
 }
@@ -89,16 +89,16 @@ gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error
 /* The unit depends on the flow: without a scene it is that of uniform shear. */
 static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
-  gg_scene filled = scene ? *scene : gg_scene_defaults();
+  gg_scene filled = scene ? *scene : gg_common_scene_defaults();
   gg_model model;
   if (filled.phi < 0) filled.phi = 0.1;
   gg_scene_fill_in(&filled);
-  GG_TRY(gg_model_make(&filled, filled.engine, &model, err));
-  if (i >= (size_t)gg_quantities_of(&model)) return no_more(err);
-  gg_quantity q = gg_quantity_at(&model, (int)i);
-  *entry = (gg_entry){.name = gg_quantity_name_in(&model, q),
-                      .doc = gg_quantity_doc_in(&model, q),
-                      .unit = gg_quantity_unit(q, &model),
+  GG_TRY(gg_common_model_make(&filled, filled.engine, &model, err));
+  if (i >= (size_t)gg_common_quantity_set_of(&model)) return no_more(err);
+  gg_quantity q = gg_common_quantity_at(&model, (int)i);
+  *entry = (gg_entry){.name = gg_common_quantity_name_in(&model, q),
+                      .doc = gg_common_quantity_doc_in(&model, q),
+                      .unit = gg_common_quantity_unit(q, &model),
                       .type = "number"};
   return GG_OK;
 }
@@ -108,9 +108,9 @@ static gg_status theory_entry(size_t i, const gg_scene *scene, gg_entry *entry, 
 {
   const gg_extension *own = scene ? scene->extension : NULL;
   size_t n = 0;
-  while (gg_theories[n] && n < i) n++;
-  const gg_theory *t = gg_theories[n];
-  if (!t && i - n < (size_t)gg_extension_theories(own)) t = gg_extension_face(own, (int)(i - n));
+  while (gg_theory_theories[n] && n < i) n++;
+  const gg_theory *t = gg_theory_theories[n];
+  if (!t && i - n < (size_t)gg_common_extension_theories(own)) t = gg_common_extension_face(own, (int)(i - n));
   if (!t) return no_more(err);
   *entry = (gg_entry){.name = t->name, .doc = t->title, .citation = t->citation, .assumptions = t->assumptions};
   return GG_OK;
@@ -122,11 +122,11 @@ static gg_status observable_entry(size_t i, const gg_scene *scene, gg_entry *ent
   const gg_extension *own = scene ? scene->extension : NULL;
   const gg_field *measure = &gg_scene_fields[gg_scene_field_find("measure")];
   size_t n = 0;
-  gg_word word = gg_field_word(measure, 0);
-  while (word.name && n < i) word = gg_field_word(measure, (int)++n);
+  gg_word word = gg_scene_field_word(measure, 0);
+  while (word.name && n < i) word = gg_scene_field_word(measure, (int)++n);
   if (word.name) return *entry = (gg_entry){.name = word.name, .doc = word.doc}, GG_OK;
-  if (i - n >= (size_t)gg_extension_observables(own)) return no_more(err);
-  const gg_observable_definition *o = gg_extension_observable(own, (int)(i - n));
+  if (i - n >= (size_t)gg_common_extension_observables(own)) return no_more(err);
+  const gg_observable_definition *o = gg_common_extension_observable(own, (int)(i - n));
   *entry = (gg_entry){.name = o->name, .doc = o->doc};
   return GG_OK;
 }
@@ -143,5 +143,5 @@ gg_status gg_catalogue_entry(gg_catalogue catalogue, size_t i, const gg_scene *s
   case GG_CATALOGUE_QUANTITIES: return quantity_entry(i, scene, entry, err);
   case GG_CATALOGUE_THEORIES: return theory_entry(i, scene, entry, err);
   }
-  return gg_fail(err, GG_BAD_INPUT, "gg_catalogue_entry: there is no such catalogue");
+  return gg_base_fail(err, GG_BAD_INPUT, "gg_catalogue_entry: there is no such catalogue");
 }

@@ -14,12 +14,12 @@
 
 static gg_comparison *new_comparison(gg_error *err)
 {
-  return gg_new_array(1, sizeof(gg_comparison), err);
+  return gg_base_array_new(1, sizeof(gg_comparison), err);
 }
 
 void gg_comparison_free(gg_comparison *c)
 {
-  if (c) gg_comparison_clear(c);
+  if (c) gg_run_comparison_clear(c);
   free(c);
 }
 
@@ -27,42 +27,42 @@ gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_co
 {
   GG_NEED(scene);
   GG_NEED(comparison);
-  return gg_door_compare_by(NULL, scene, options, comparison, err);
+  return gg_api_compare_with(NULL, scene, options, comparison, err);
 }
 
-gg_status gg_door_compare_by(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
-                             gg_comparison **comparison, gg_error *err)
+gg_status gg_api_compare_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
+                              gg_comparison **comparison, gg_error *err)
 {
   gg_crew *crew = point ? point->crew : NULL;
   gg_comparison *c = new_comparison(err);
   if (!c) return GG_FAILED;
-  bool before = gg_memory_begin();
+  bool before = gg_base_memory_begin();
   gg_door_run run;
   gg_hooks hooks;
   gg_error why = {0};
-  gg_status status = gg_door_run_begin(&run, scene, options, true, &hooks, err), written = GG_OK;
+  gg_status status = gg_api_run_begin(&run, scene, options, true, &hooks, err), written = GG_OK;
   hooks.crew = crew;
-  if (status == GG_OK) gg_door_run_foretell(&run, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY);
+  if (status == GG_OK) gg_api_run_estimate(&run, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY);
   run.ran = status == GG_OK;
   if (status == GG_OK) /* without a trajectory */
-    status = gg_compare_scene(&run.scene, gg_door_run_resume(&run), run.options.threads, &hooks, c, err);
-  gg_text_list_move(&run.warnings, &c->warnings);
-  gg_text_list_move(&c->warnings, &run.warnings);
-  bool lacked = gg_memory_end(before) && status == GG_OK; /* a warning, or worse */
-  if (lacked) status = gg_out_of_memory(err);
+    status = gg_run_compare_scene(&run.scene, gg_api_run_resume(&run), run.options.threads, &hooks, c, err);
+  gg_base_string_list_move(&run.warnings, &c->warnings);
+  gg_base_string_list_move(&c->warnings, &run.warnings);
+  bool lacked = gg_base_memory_end(before) && status == GG_OK; /* a warning, or worse */
+  if (lacked) status = gg_base_out_of_memory(err);
   bool some = !lacked && (status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC]);
   if (some && run.options.output && (status == GG_OK || status == GG_FAILED)) {
-    gg_crew_pause(crew);
-    written = gg_result_file_finish_comparison(&run.file, c, &why);
-    gg_crew_go_on(crew);
+    gg_run_crew_pause(crew);
+    written = gg_files_result_file_finish_comparison(&run.file, c, &why);
+    gg_run_crew_go_on(crew);
   }
-  written = gg_door_run_close(&run, point, some, status, written, &why);
-  gg_door_run_end(&run);
+  written = gg_api_run_close(&run, point, some, status, written, &why);
+  gg_api_run_end(&run);
   if (some)
     *comparison = c;
   else
     gg_comparison_free(c);
-  return gg_door_run_status(status, written, &why, err);
+  return gg_api_run_status(status, written, &why, err);
 }
 
 /* Leave only the theory of that name. */
@@ -71,26 +71,26 @@ static gg_status keep_one(gg_comparison *c, const char *theory, gg_error *err)
   for (int i = 0; i < c->n_theories; i++)
     if (strcmp(c->theory[i].theory->name, theory) == 0) {
       for (int k = 0; k < c->n_theories; k++)
-        if (k != i) gg_curves_clear(&c->theory[k].curves);
+        if (k != i) gg_measure_curves_clear(&c->theory[k].curves);
       c->theory[0] = c->theory[i];
       c->n_theories = 1;
       return GG_OK;
     }
-  return gg_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s'", theory);
+  return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s'", theory);
 }
 
 static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, gg_error *err)
 {
   gg_model model;
   gg_scene finished;
-  GG_TRY(gg_door_finished(scene, &finished, err));
+  GG_TRY(gg_api_scene_finish(scene, &finished, err));
   c->scene = finished;
-  gg_extension_hold(c->scene.extension);
-  GG_TRY(gg_model_make(&c->scene, GG_MD, &model, err));
-  GG_TRY(gg_compare_theories(&model, c, err));
-  bool before = gg_memory_begin();
+  gg_common_extension_hold(c->scene.extension);
+  GG_TRY(gg_common_model_make(&c->scene, GG_MD, &model, err));
+  GG_TRY(gg_run_compare_theories(&model, c, err));
+  bool before = gg_base_memory_begin();
   gg_scene_inert(&finished, GG_USE_THEORY, &c->warnings);
-  GG_TRY(gg_memory_check(before, GG_OK, err));
+  GG_TRY(gg_base_memory_check(before, GG_OK, err));
   return theory ? keep_one(c, theory, err) : GG_OK;
 }
 
@@ -113,8 +113,9 @@ static bool same_scene(const gg_scene *one, gg_scene other)
 {
   gg_archive keys = {0};
   other.engine = one->engine;
-  bool same = gg_resumption_put(&other, &keys, NULL) == GG_OK && gg_resumption_check(one, &keys, NULL) == GG_OK;
-  gg_archive_clear(&keys);
+  bool same =
+      gg_scene_resumption_put(&other, &keys, NULL) == GG_OK && gg_scene_resumption_check(one, &keys, NULL) == GG_OK;
+  gg_base_archive_clear(&keys);
   return same;
 }
 
@@ -123,11 +124,11 @@ gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_er
   GG_NEED(comparison);
   GG_NEED(result);
   gg_engine_kind kind;
-  GG_TRY(gg_door_engine(result->engine, &kind, err));
+  GG_TRY(gg_api_engine_find(result->engine, &kind, err));
   if (comparison->document)
-    return gg_fail(err, GG_BAD_INPUT, "gg_comparison_take: a comparison from a file is what it was");
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: a comparison from a file is what it was");
   if (!same_scene(&comparison->scene, result->scene))
-    return gg_fail(err, GG_BAD_INPUT, "gg_comparison_take: the result is of another scene than the comparison");
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: the result is of another scene than the comparison");
   gg_result_free(comparison->by_engine[kind]);
   comparison->by_engine[kind] = result;
   return GG_OK;
@@ -136,20 +137,20 @@ gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_er
 const gg_result *gg_comparison_result(const gg_comparison *comparison, const char *engine)
 {
   gg_engine_kind kind;
-  if (!comparison || !engine || gg_door_engine(engine, &kind, NULL) != GG_OK) return NULL;
+  if (!comparison || !engine || gg_api_engine_find(engine, &kind, NULL) != GG_OK) return NULL;
   return comparison->by_engine[kind];
 }
 
 const char *gg_comparison_refusal(const gg_comparison *comparison, const char *engine)
 {
   gg_engine_kind kind;
-  if (!comparison || !engine || gg_door_engine(engine, &kind, NULL) != GG_OK) return NULL;
+  if (!comparison || !engine || gg_api_engine_find(engine, &kind, NULL) != GG_OK) return NULL;
   return comparison->refusal[kind][0] ? comparison->refusal[kind] : NULL;
 }
 
 const char *gg_comparison_warning(const gg_comparison *comparison, size_t i)
 {
-  return comparison ? gg_text_list_at(&comparison->warnings, i) : NULL;
+  return comparison ? gg_base_string_list_at(&comparison->warnings, i) : NULL;
 }
 
 const gg_scene *gg_comparison_scene(const gg_comparison *comparison)
@@ -159,8 +160,9 @@ const gg_scene *gg_comparison_scene(const gg_comparison *comparison)
 
 static gg_status find(const gg_comparison *c, const char *name, gg_quantity *q, gg_error *err)
 {
-  *q = gg_quantity_find_in(&c->model, name);
-  return *q == GG_MOST_QUANTITIES ? gg_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name) : GG_OK;
+  *q = gg_common_quantity_find_in(&c->model, name);
+  return *q == GG_MOST_QUANTITIES ? gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name)
+                                  : GG_OK;
 }
 
 static bool has(const gg_result *r, gg_quantity q)
@@ -176,8 +178,8 @@ gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *q
   gg_quantity q;
   GG_TRY(find(comparison, quantity, &q, err));
   const gg_result *md = comparison->by_engine[GG_MD], *dsmc = comparison->by_engine[GG_DSMC];
-  if (z) *z = has(md, q) && has(dsmc, q) ? gg_z_score(&md->value[q], &dsmc->value[q]) : NAN;
-  if (beyond) *beyond = gg_disagree(comparison, q);
+  if (z) *z = has(md, q) && has(dsmc, q) ? gg_run_z_score(&md->value[q], &dsmc->value[q]) : NAN;
+  if (beyond) *beyond = gg_run_results_disagree(comparison, q);
   return GG_OK;
 }
 
@@ -190,9 +192,9 @@ gg_status gg_comparison_departure(const gg_comparison *comparison, const char *e
   GG_NEED(departure);
   gg_quantity q;
   gg_engine_kind kind;
-  GG_TRY(gg_door_engine(engine, &kind, err));
+  GG_TRY(gg_api_engine_find(engine, &kind, err));
   GG_TRY(find(comparison, quantity, &q, err));
-  if (!gg_depart_from_enskog(comparison, kind, q, departure)) *departure = (gg_departure){NAN, NAN, NAN, NAN, NAN, 0};
+  if (!gg_run_enskog_deviation(comparison, kind, q, departure)) *departure = (gg_departure){NAN, NAN, NAN, NAN, NAN, 0};
   return GG_OK;
 }
 
@@ -201,7 +203,8 @@ gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_the
   GG_NEED(comparison);
   GG_NEED(theory);
   const gg_comparison *c = comparison;
-  if (i >= (size_t)c->n_theories) return gg_fail(err, GG_BAD_INPUT, "this comparison has %d theories", c->n_theories);
+  if (i >= (size_t)c->n_theories)
+    return gg_base_fail(err, GG_BAD_INPUT, "this comparison has %d theories", c->n_theories);
   const gg_theory *t = c->theory[i].theory;
   bool applies = c->theory[i].applies;
   *theory = (gg_theory_info){.name = t->name,
@@ -217,7 +220,7 @@ static gg_status find_theory(const gg_comparison *c, const char *theory, int *i,
 {
   for (*i = 0; *i < c->n_theories; ++*i)
     if (strcmp(c->theory[*i].theory->name, theory) == 0) return GG_OK;
-  return gg_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s' here", theory);
+  return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s' here", theory);
 }
 
 gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
@@ -235,7 +238,7 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
   const gg_result *against = has(md, q) ? md : has(dsmc, q) ? dsmc : NULL;
   double said = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
   if (value) *value = isfinite(said) ? said : NAN;
-  if (deviation) *deviation = against && isfinite(said) ? gg_deviation(&against->value[q], said) : NAN;
+  if (deviation) *deviation = against && isfinite(said) ? gg_run_deviation(&against->value[q], said) : NAN;
   return GG_OK;
 }
 
@@ -250,12 +253,12 @@ gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const ch
   GG_TRY(find_theory(comparison, theory, &i, err));
   const double rate = comparison->theory[i].answer.value[GG_Q_COOLING_RATE];
   if (!gg_flow_cools(m->flow) || m->rule != GG_SMOOTH || m->n_species > 1 || m->law.name)
-    return gg_fail(err, GG_BAD_INPUT, "Haff's law is of equal smooth grains that cool freely, with a constant e");
+    return gg_base_fail(err, GG_BAD_INPUT, "Haff's law is of equal smooth grains that cool freely, with a constant e");
   if (!comparison->theory[i].applies || !isfinite(rate))
-    return gg_fail(err, GG_BAD_INPUT, "%s says no rate of cooling here", theory);
-  if (!(time >= 0)) return gg_fail(err, GG_BAD_INPUT, "%s: the time %g is before the start", theory, time);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s says no rate of cooling here", theory);
+  if (!(time >= 0)) return gg_base_fail(err, GG_BAD_INPUT, "%s: the time %g is before the start", theory, time);
   const double T0 = m->temperature0;
-  *temperature = gg_haff_temperature(T0, rate * gg_model_nu0(m, T0), time);
+  *temperature = gg_theory_haff_temperature(T0, rate * gg_common_model_nu0(m, T0), time);
   return GG_OK;
 }
 
@@ -283,8 +286,8 @@ gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char
   int k;
   GG_TRY(find_theory(comparison, theory, &k, err));
   const gg_curves *curves = &comparison->theory[k].curves;
-  if (i >= (size_t)curves->n) return gg_fail(err, GG_BAD_INPUT, "%s has %d curves here", theory, curves->n);
-  *curve = gg_door_curve(&curves->curve[i]);
+  if (i >= (size_t)curves->n) return gg_base_fail(err, GG_BAD_INPUT, "%s has %d curves here", theory, curves->n);
+  *curve = gg_api_curve_view(&curves->curve[i]);
   return GG_OK;
 }
 
@@ -297,16 +300,17 @@ gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_rem
   gg_theory_remark theories[GG_MOST_THEORIES];
   bool marked = false;
   const gg_model *m = &comparison->model;
-  for (int k = 0; k < gg_quantities_of(m); k++) marked |= gg_disagree(comparison, gg_quantity_at(m, k));
-  size_t causes = marked ? (size_t)gg_causes_of_disagreement(comparison, cause, MOST_CAUSES) : 0;
-  size_t n = causes + (size_t)gg_theory_remarks(comparison, theories);
-  if (i >= n) return gg_fail(err, GG_BAD_INPUT, "there are %zu remarks on this comparison", n);
+  for (int k = 0; k < gg_common_quantity_set_of(m); k++)
+    marked |= gg_run_results_disagree(comparison, gg_common_quantity_at(m, k));
+  size_t causes = marked ? (size_t)gg_run_disagreement_causes(comparison, cause, MOST_CAUSES) : 0;
+  size_t n = causes + (size_t)gg_run_theory_remarks(comparison, theories);
+  if (i >= n) return gg_base_fail(err, GG_BAD_INPUT, "there are %zu remarks on this comparison", n);
   if (i < causes) {
     *remark = (gg_remark){.deviation = NAN, .cause = cause[i]};
   } else {
     const gg_theory_remark *r = &theories[i - causes];
-    *remark =
-        (gg_remark){r->theory->name, gg_quantity_name_in(&comparison->model, r->quantity), r->deviation, r->cause};
+    *remark = (gg_remark){r->theory->name, gg_common_quantity_name_in(&comparison->model, r->quantity), r->deviation,
+                          r->cause};
   }
   return GG_OK;
 }

@@ -19,12 +19,12 @@ static bool is_letter(char c)
 /* `what` is "observable" ... */
 static gg_status check_name(const char *what, const char *name, gg_error *err)
 {
-  if (!name || !*name) return gg_fail(err, GG_BAD_INPUT, "%s: a name is missing", what);
+  if (!name || !*name) return gg_base_fail(err, GG_BAD_INPUT, "%s: a name is missing", what);
   bool good = is_letter(*name) && strlen(name) <= MOST_LETTERS;
   for (const char *c = name; *c; c++) good &= is_letter(*c) || (*c >= '0' && *c <= '9') || *c == '_';
   if (good) return GG_OK;
-  return gg_fail(err, GG_BAD_INPUT, "%s: '%.60s' is no name: a letter, then letters, digits and _, at most %d", what,
-                 name, MOST_LETTERS);
+  return gg_base_fail(err, GG_BAD_INPUT, "%s: '%.60s' is no name: a letter, then letters, digits and _, at most %d",
+                      what, name, MOST_LETTERS);
 }
 
 /* Bytes of the UTF-8 character that begins here, 0 if none does. */
@@ -49,19 +49,20 @@ static gg_status check_text(const char *name, const char *text, size_t most, gg_
   bool good = strlen(text) <= most;
   for (const unsigned char *c = (const unsigned char *)text; good && *c; c += character(c))
     good = character(c) > 0 && *c >= ' ' && *c != 0x7f;
-  return good ? GG_OK
-              : gg_fail(err, GG_BAD_INPUT, "%s: a text must be one line of UTF-8 of at most %zu bytes", name, most);
+  return good
+             ? GG_OK
+             : gg_base_fail(err, GG_BAD_INPUT, "%s: a text must be one line of UTF-8 of at most %zu bytes", name, most);
 }
 
 static bool is_shared(const char *quantity)
 {
-  return gg_quantity_find(quantity) != GG_N_QUANTITIES;
+  return gg_common_quantity_find(quantity) != GG_N_QUANTITIES;
 }
 
 static bool is_own(const gg_extension *x, const char *quantity)
 {
-  for (int k = 0; k < gg_extension_quantities(x); k++)
-    if (strcmp(gg_extension_quantity(x, k)->name, quantity) == 0) return true;
+  for (int k = 0; k < gg_common_extension_quantities(x); k++)
+    if (strcmp(gg_common_extension_quantity(x, k)->name, quantity) == 0) return true;
   return false;
 }
 
@@ -73,39 +74,39 @@ static gg_status check_quantity(const gg_extension *x, const gg_observable_defin
   GG_TRY(check_text(q->name, q->doc, MOST_TEXT, err));
   bool taken = is_shared(q->name) || is_own(x, q->name);
   for (int k = 0; k < index; k++) taken |= strcmp(o->quantities[k].name, q->name) == 0;
-  return taken ? gg_fail(err, GG_BAD_INPUT, "quantity: the name '%s' is taken", q->name) : GG_OK;
+  return taken ? gg_base_fail(err, GG_BAD_INPUT, "quantity: the name '%s' is taken", q->name) : GG_OK;
 }
 
 static bool is_word_of_measure(const char *name)
 {
-  return gg_field_find_word(&gg_scene_fields[gg_scene_field_find("measure")], name).name != NULL;
+  return gg_scene_field_find_word(&gg_scene_fields[gg_scene_field_find("measure")], name).name != NULL;
 }
 
 static gg_status check_observable(const gg_extension *x, const gg_observable_definition *o, gg_error *err)
 {
-  if (!o) return gg_fail(err, GG_BAD_INPUT, "observable: there is no definition");
+  if (!o) return gg_base_fail(err, GG_BAD_INPUT, "observable: there is no definition");
   GG_TRY(check_name("observable", o->name, err));
   GG_TRY(check_text(o->name, o->doc, MOST_TEXT, err));
   bool taken = is_word_of_measure(o->name);
-  for (int k = 0; k < gg_extension_observables(x); k++)
-    taken |= strcmp(gg_extension_observable(x, k)->name, o->name) == 0;
-  if (taken) return gg_fail(err, GG_BAD_INPUT, "observable: the name '%s' is taken", o->name);
-  if (!o->sample) return gg_fail(err, GG_BAD_INPUT, "%s: the callback `sample` is missing", o->name);
+  for (int k = 0; k < gg_common_extension_observables(x); k++)
+    taken |= strcmp(gg_common_extension_observable(x, k)->name, o->name) == 0;
+  if (taken) return gg_base_fail(err, GG_BAD_INPUT, "observable: the name '%s' is taken", o->name);
+  if (!o->sample) return gg_base_fail(err, GG_BAD_INPUT, "%s: the callback `sample` is missing", o->name);
   if (!o->quantities || o->n_quantities < 1)
-    return gg_fail(err, GG_BAD_INPUT, "%s: an observable has at least one quantity", o->name);
-  if (o->n_quantities > GG_MOST_OWN_QUANTITIES - gg_extension_quantities(x))
-    return gg_fail(err, GG_BAD_INPUT, "%s: a scene has at most %d quantities of its own", o->name,
-                   GG_MOST_OWN_QUANTITIES);
-  if (o->state_size > 1u << 24) return gg_fail(err, GG_BAD_INPUT, "%s: state_size is above 16 MiB", o->name);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: an observable has at least one quantity", o->name);
+  if (o->n_quantities > GG_MOST_OWN_QUANTITIES - gg_common_extension_quantities(x))
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a scene has at most %d quantities of its own", o->name,
+                        GG_MOST_OWN_QUANTITIES);
+  if (o->state_size > 1u << 24) return gg_base_fail(err, GG_BAD_INPUT, "%s: state_size is above 16 MiB", o->name);
   for (int k = 0; k < o->n_quantities; k++) GG_TRY(check_quantity(x, o, k, err));
   return GG_OK;
 }
 
 gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definition *o, gg_error *err)
 {
-  if (!scene) return gg_fail(err, GG_BAD_INPUT, "observable: there is no scene");
+  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "observable: there is no scene");
   GG_TRY(check_observable(scene->extension, o, err));
-  gg_extension *x = gg_extension_with_observable(scene->extension, o, err);
+  gg_extension *x = gg_common_extension_with_observable(scene->extension, o, err);
   if (!x) return GG_FAILED;
   scene->extension = x;
   return GG_OK;
@@ -113,36 +114,38 @@ gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definitio
 
 static gg_status check_theory(const gg_extension *x, const gg_theory_definition *t, gg_error *err)
 {
-  if (!t) return gg_fail(err, GG_BAD_INPUT, "theory: there is no definition");
+  if (!t) return gg_base_fail(err, GG_BAD_INPUT, "theory: there is no definition");
   GG_TRY(check_name("theory", t->name, err));
   const char *const texts[] = {t->title, t->citation, t->assumptions};
   for (int k = 0; k < 3; k++) GG_TRY(check_text(t->name, texts[k], MOST_TEXT, err));
   bool taken = gg_theory_find(t->name) != NULL;
-  for (int k = 0; k < gg_extension_theories(x); k++) taken |= strcmp(gg_extension_theory(x, k)->name, t->name) == 0;
-  if (taken) return gg_fail(err, GG_BAD_INPUT, "theory: the name '%s' is taken", t->name);
-  if (gg_extension_theories(x) == GG_MOST_OWN_THEORIES)
-    return gg_fail(err, GG_BAD_INPUT, "%s: a scene has at most %d theories of its own", t->name, GG_MOST_OWN_THEORIES);
-  if (!t->evaluate) return gg_fail(err, GG_BAD_INPUT, "%s: the callback `evaluate` is missing", t->name);
+  for (int k = 0; k < gg_common_extension_theories(x); k++)
+    taken |= strcmp(gg_common_extension_theory(x, k)->name, t->name) == 0;
+  if (taken) return gg_base_fail(err, GG_BAD_INPUT, "theory: the name '%s' is taken", t->name);
+  if (gg_common_extension_theories(x) == GG_MOST_OWN_THEORIES)
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a scene has at most %d theories of its own", t->name,
+                        GG_MOST_OWN_THEORIES);
+  if (!t->evaluate) return gg_base_fail(err, GG_BAD_INPUT, "%s: the callback `evaluate` is missing", t->name);
   if (!t->quantities || t->n_quantities < 1 || t->n_quantities > GG_MOST_QUANTITIES)
-    return gg_fail(err, GG_BAD_INPUT, "%s: a theory answers for at least one quantity", t->name);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a theory answers for at least one quantity", t->name);
   for (int k = 0; k < t->n_quantities; k++) {
     const char *q = t->quantities[k];
     if (!q || !(is_shared(q) || is_own(x, q)))
-      return gg_fail(err, GG_BAD_INPUT, "%s: there is no quantity called '%.60s'", t->name, q ? q : "");
+      return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no quantity called '%.60s'", t->name, q ? q : "");
   }
   return GG_OK;
 }
 
 gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *t, gg_error *err)
 {
-  if (!scene) return gg_fail(err, GG_BAD_INPUT, "theory: there is no scene");
+  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "theory: there is no scene");
   GG_TRY(check_theory(scene->extension, t, err));
-  return gg_own_theory_add(&scene->extension, t, err);
+  return gg_theory_user_theory_add(&scene->extension, t, err);
 }
 
 static gg_status set_law(gg_scene *scene, const gg_restitution_law *law, const gg_law_table *table, gg_error *err)
 {
-  gg_extension *x = gg_extension_with_law(scene->extension, law, table, err);
+  gg_extension *x = gg_common_extension_with_law(scene->extension, law, table, err);
   if (!x) return GG_FAILED;
   scene->extension = x;
   return GG_OK;
@@ -151,10 +154,10 @@ static gg_status set_law(gg_scene *scene, const gg_restitution_law *law, const g
 gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *e, void *context, gg_error *err)
 {
   const gg_restitution_law law = {.name = e ? name : "", .e = e, .context = context};
-  if (!scene) return gg_fail(err, GG_BAD_INPUT, "restitution law: there is no scene");
+  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "restitution law: there is no scene");
   if (e) {
     GG_TRY(check_name("restitution law", name, err));
-    GG_TRY(gg_law_check(&law, scene->n_species, err));
+    GG_TRY(gg_common_law_check(&law, scene->n_species, err));
   }
   return set_law(scene, &law, NULL, err);
 }
@@ -162,19 +165,19 @@ gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitu
 gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size_t n, const double *speed,
                                          const double *e, gg_error *err)
 {
-  if (!scene) return gg_fail(err, GG_BAD_INPUT, "restitution law: there is no scene");
+  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "restitution law: there is no scene");
   GG_TRY(check_name("restitution law", name, err));
   if (n < 1 || n > 1u << 20 || !speed || !e)
-    return gg_fail(err, GG_BAD_INPUT, "restitution law '%s': a table has 1 to %u speeds, and as many e", name,
-                   1u << 20);
+    return gg_base_fail(err, GG_BAD_INPUT, "restitution law '%s': a table has 1 to %u speeds, and as many e", name,
+                        1u << 20);
   for (size_t k = 0; k < n; k++) {
     if (!(speed[k] >= 0 && isfinite(speed[k])) || (k && !(speed[k] > speed[k - 1])))
-      return gg_fail(err, GG_BAD_INPUT,
-                     "restitution law '%s': speed %zu of the table is %g; speeds must ascend from 0 on", name, k + 1,
-                     speed[k]);
+      return gg_base_fail(err, GG_BAD_INPUT,
+                          "restitution law '%s': speed %zu of the table is %g; speeds must ascend from 0 on", name,
+                          k + 1, speed[k]);
     if (!(e[k] >= 0 && e[k] <= 1))
-      return gg_fail(err, GG_BAD_INPUT, "restitution law '%s': e %zu of the table is %g; it must be from 0 to 1", name,
-                     k + 1, e[k]);
+      return gg_base_fail(err, GG_BAD_INPUT, "restitution law '%s': e %zu of the table is %g; it must be from 0 to 1",
+                          name, k + 1, e[k]);
   }
   const gg_restitution_law law = {.name = name};
   const gg_law_table table = {n, speed, e};

@@ -1,6 +1,6 @@
 #include "api/moments.h"
 
-void gg_moments_add(void *moments, const gg_chunk *chunk)
+void gg_api_moments_add(void *moments, const gg_chunk *chunk)
 {
   gg_moments *m = moments;
   for (size_t i = 0; i < chunk->n; i++) {
@@ -16,7 +16,7 @@ void gg_moments_add(void *moments, const gg_chunk *chunk)
   }
 }
 
-double gg_moments_temperature(const gg_moments *m)
+double gg_api_moments_temperature(const gg_moments *m)
 {
   return (m->cc[0][0] + m->cc[1][1] + m->cc[2][2]) / (3 * (double)m->model->n);
 }
@@ -36,25 +36,25 @@ static double rotational_temperature_of(const gg_moments *m)
   return sum / (3 * (double)m->model->n);
 }
 
-void gg_moments_state(const gg_moments *m, double unit, gg_simulation_state *state)
+void gg_api_moments_state(const gg_moments *m, double unit, gg_simulation_state *state)
 {
   const gg_model *model = m->model;
   const double n = (double)model->n, stress = model->density * model->stress_unit * unit * unit / n;
   state->grains = (size_t)model->n;
   state->collisions_per_grain = 2 * (double)state->collisions / n;
-  state->temperature = gg_moments_temperature(m) * unit * unit;
+  state->temperature = gg_api_moments_temperature(m) * unit * unit;
   state->rotational_temperature = rotational_temperature_of(m) * unit * unit;
   state->strain = model->shear_rate * state->time;
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) state->kinetic_stress[a][b] = stress * m->cc[a][b];
 }
 
-gg_status gg_moments_species(const gg_moments *m, int species, double unit, gg_species_state *state, gg_error *err)
+gg_status gg_api_moments_species(const gg_moments *m, int species, double unit, gg_species_state *state, gg_error *err)
 {
   const gg_model *model = m->model;
   if (species < 0 || species >= model->n_species)
-    return gg_fail(err, GG_BAD_INPUT, "there is no species %d: this scene has %d, counted from 0", species,
-                   model->n_species);
+    return gg_base_fail(err, GG_BAD_INPUT, "there is no species %d: this scene has %d, counted from 0", species,
+                        model->n_species);
   const double per = unit * unit / (3 * (double)model->n_of[species]);
   *state = (gg_species_state){.grains = (size_t)model->n_of[species],
                               .diameter = model->diameter[species],

@@ -13,12 +13,12 @@ typedef struct gg_moments {
 } gg_moments;
 
 /* A gg_visit. */
-void gg_moments_add(void *moments, const gg_chunk *chunk);
-double gg_moments_temperature(const gg_moments *m);
+void gg_api_moments_add(void *moments, const gg_chunk *chunk);
+double gg_api_moments_temperature(const gg_moments *m);
 /* Where time and collisions are filled in: temperatures, stress, strain, and the collisions a grain. `unit`: velocities
  * handed out over those that were added. */
-void gg_moments_state(const gg_moments *m, double unit, gg_simulation_state *state);
+void gg_api_moments_state(const gg_moments *m, double unit, gg_simulation_state *state);
 /* GG_BAD_INPUT: there are not so many. */
-gg_status gg_moments_species(const gg_moments *m, int species, double unit, gg_species_state *state, gg_error *err);
+gg_status gg_api_moments_species(const gg_moments *m, int species, double unit, gg_species_state *state, gg_error *err);
 
 #endif

@@ -27,9 +27,9 @@ static gg_status check_pairs(const file *all, int n, gg_error *err)
 {
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++)
-      if (!may_be_one(&all[i], &all[j]) && gg_same_file(all[i].path, all[j].path))
-        return gg_fail(err, GG_BAD_INPUT, "%s: would be both %s and %s; choose another %s", all[i].path, all[i].role,
-                       all[j].role, all[i].option);
+      if (!may_be_one(&all[i], &all[j]) && gg_base_path_is_same_file(all[i].path, all[j].path))
+        return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and %s; choose another %s", all[i].path,
+                            all[i].role, all[j].role, all[i].option);
   return GG_OK;
 }
 
@@ -44,7 +44,7 @@ static gg_status ask(const char *picture, const char *engine, const char *group,
                      const void *context, gg_error *err)
 {
   char *page = gg_plot_page_name(picture, engine, group, png);
-  gg_status status = page ? check(page, picture, context, err) : gg_out_of_memory(err);
+  gg_status status = page ? check(page, picture, context, err) : gg_base_out_of_memory(err);
   free(page);
   return status;
 }
@@ -58,9 +58,9 @@ static gg_status for_pages(const gg_door_run *r, page_check *check, const void *
   GG_TRY(gg_plot_format(picture, NULL, &png, err));
   GG_TRY(ask(picture, "", GG_SNAPSHOT_PAGE, png, check, context, err));
   for (int k = 0; k < (r->comparison ? 2 : 1); k++)
-    for (int i = 0; gg_observables[i]; i++) {
-      const gg_observable *o = gg_observables[i];
-      const char *engine = r->comparison ? gg_engine_ops_of((gg_engine_kind)k)->name : "";
+    for (int i = 0; gg_measure_observables[i]; i++) {
+      const gg_observable *o = gg_measure_observables[i];
+      const char *engine = r->comparison ? gg_run_engine_ops_of((gg_engine_kind)k)->name : "";
       if (o->bins && r->scene.measure & o->flag) GG_TRY(ask(picture, engine, o->name, png, check, context, err));
     }
   return GG_OK;
@@ -70,16 +70,16 @@ static gg_status for_pages(const gg_door_run *r, page_check *check, const void *
 static gg_status check_apart(const char *page, const char *picture, const void *context, gg_error *err)
 {
   for (const file *f = context; f->role; f++)
-    if (gg_same_file(page, f->path))
-      return gg_fail(err, GG_BAD_INPUT, "%s: would be both %s and " GG_PAGE_BESIDE "; choose another picture", page,
-                     f->role, picture);
+    if (gg_base_path_is_same_file(page, f->path))
+      return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and " GG_PAGE_BESIDE "; choose another picture",
+                          page, f->role, picture);
   return GG_OK;
 }
 
 static gg_status check_page_writable(const char *page, const char *picture, const void *context, gg_error *err)
 {
   (void)picture, (void)context;
-  return gg_check_writable(page, GG_PICTURES_ARE, err);
+  return gg_base_atomic_check_writable(page, GG_PICTURES_ARE, err);
 }
 
 /* Whoever asks for such a name means a picture. */
@@ -89,37 +89,39 @@ static gg_status check_ending(const char *output, gg_error *err)
   const char *ending = output ? strrchr(output, '.') : NULL;
   for (size_t i = 0; ending && i < sizeof pictures / sizeof *pictures; i++)
     if (strcasecmp(ending, pictures[i]) == 0)
-      return gg_fail(err, GG_BAD_INPUT,
-                     "%s: is called like a picture, and a result is HDF5: choose FILE.h5 for the output; pictures are "
-                     "drawn by `compare --picture` and `graingas plot`",
-                     output);
+      return gg_base_fail(
+          err, GG_BAD_INPUT,
+          "%s: is called like a picture, and a result is HDF5: choose FILE.h5 for the output; pictures are "
+          "drawn by `compare --picture` and `graingas plot`",
+          output);
   return GG_OK;
 }
 
 /* It is drawn from the result when that is in place. */
-gg_status gg_door_check_picture(const gg_door_run *r, gg_error *err)
+gg_status gg_api_picture_check(const gg_door_run *r, gg_error *err)
 {
   bool png;
   const gg_run_options *o = &r->options;
   if (!o->picture) return GG_OK;
   gg_output_path place;
   GG_TRY(gg_plot_format(o->picture, NULL, &png, err));
-  if (!o->output) return gg_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: name one", o->picture);
-  GG_TRY(gg_output_path_find(&place, o->output, err));
+  if (!o->output)
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: name one", o->picture);
+  GG_TRY(gg_base_output_path_find(&place, o->output, err));
   bool stream = place.stream;
-  gg_output_path_clear(&place);
+  gg_base_output_path_clear(&place);
   if (stream)
-    return gg_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from the output file, and %s keeps none", o->picture,
-                   o->output);
-  GG_TRY(gg_check_writable(o->picture, GG_PICTURES_ARE, err));
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from the output file, and %s keeps none", o->picture,
+                        o->output);
+  GG_TRY(gg_base_atomic_check_writable(o->picture, GG_PICTURES_ARE, err));
   return for_pages(r, check_page_writable, NULL, err);
 }
 
-gg_status gg_door_check_files(const gg_door_run *r, gg_error *err)
+gg_status gg_api_files_check(const gg_door_run *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
   char *second = before(o->checkpoint), *third = before(o->resume);
-  char *frames = o->checkpoint ? gg_frame_log_path(o->checkpoint) : NULL;
+  char *frames = o->checkpoint ? gg_files_frame_log_path(o->checkpoint) : NULL;
   const file all[] = {{o->output, "the result", "output"},
                       {o->picture, "the picture", "picture"},
                       {o->checkpoint, "the checkpoint", "checkpoint"},

@@ -21,20 +21,20 @@ struct gg_trajectory {
 static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
 {
   gg_stored_result stored;
-  locale_t before = gg_c_locale_enter();
-  gg_status status = gg_stored_result_read(&stored, path, err);
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_files_stored_result_read(&stored, path, err);
   if (status == GG_OK)
-    status = gg_stored_scene(&stored, stored.engine[GG_MD].name ? GG_MD : GG_DSMC, &t->scene, &t->model, err);
-  gg_c_locale_leave(before);
-  gg_stored_result_clear(&stored);
+    status = gg_files_stored_scene(&stored, stored.engine[GG_MD].name ? GG_MD : GG_DSMC, &t->scene, &t->model, err);
+  gg_base_c_locale_leave(before);
+  gg_files_stored_result_clear(&stored);
   return status;
 }
 
 static gg_status open_file(gg_trajectory *t, const char *path, gg_error *err)
 {
   GG_TRY(read_scene(t, path, err));
-  GG_TRY(gg_stored_trajectory_open(&t->stored, path, err));
-  if (!t->stored.n_frames) return gg_fail(err, GG_FAILED, "%s: nothing to play: " GG_NO_POSITIONS, path);
+  GG_TRY(gg_files_stored_trajectory_open(&t->stored, path, err));
+  if (!t->stored.n_frames) return gg_base_fail(err, GG_FAILED, "%s: nothing to play: " GG_NO_POSITIONS, path);
   return GG_OK;
 }
 
@@ -42,7 +42,7 @@ gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_er
 {
   GG_NEED(path);
   GG_NEED(trajectory);
-  gg_trajectory *t = gg_new_array(1, sizeof *t, err);
+  gg_trajectory *t = gg_base_array_new(1, sizeof *t, err);
   if (!t) return GG_FAILED;
   gg_status status = open_file(t, path, err);
   if (status == GG_OK)
@@ -55,7 +55,7 @@ gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_er
 void gg_trajectory_free(gg_trajectory *trajectory)
 {
   if (!trajectory) return;
-  gg_stored_trajectory_close(&trajectory->stored);
+  gg_files_stored_trajectory_close(&trajectory->stored);
   free(trajectory);
 }
 
@@ -84,7 +84,7 @@ static void sum_up(gg_trajectory *t, const gg_frame *f)
         if (f->spin) s[a][i] = radius * f->spin[3 * (from + i) + a];
       }
     for (int a = 0; a < 3 && f->spin; a++) chunk.s[a] = s[a];
-    gg_moments_add(&t->last, &chunk);
+    gg_api_moments_add(&t->last, &chunk);
   }
 }
 
@@ -93,11 +93,11 @@ static gg_status tell(const gg_trajectory *t, const gg_frame *f, const double ed
                       gg_error *err)
 {
   *state = (gg_simulation_state){.time = f->time, .collisions = f->step};
-  gg_moments_state(&t->last, 1, state);
+  gg_api_moments_state(&t->last, 1, state);
   for (int a = 0; a < 3; a++) {
     state->box[a] = edges[4 * a];
     if (!(state->box[a] > 0 && state->box[a] < INFINITY && fabs(edges[3]) <= edges[0]))
-      return gg_fail(err, GG_BAD_FILE, "%s: the box of a frame of its trajectory is none", t->stored.path);
+      return gg_base_fail(err, GG_BAD_FILE, "%s: the box of a frame of its trajectory is none", t->stored.path);
   }
   state->image_offset = edges[3] < 0 ? edges[3] + edges[0] : edges[3];
   return GG_OK;
@@ -121,16 +121,16 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
   gg_frame f;
   double edges[9] = {0};
   if (k >= t->stored.n_frames)
-    return gg_fail(err, GG_BAD_INPUT, "there is no frame %zu: this trajectory has %zu, counted from 0", k,
-                   t->stored.n_frames);
-  GG_TRY(gg_stored_trajectory_frame(&t->stored, k, &f, edges, err));
+    return gg_base_fail(err, GG_BAD_INPUT, "there is no frame %zu: this trajectory has %zu, counted from 0", k,
+                        t->stored.n_frames);
+  GG_TRY(gg_files_stored_trajectory_frame(&t->stored, k, &f, edges, err));
   if (t->model.n_species > 1) f.species = t->stored.species;
-  gg_status status = gg_frame_check(&f, &t->model, err);
+  gg_status status = gg_run_frame_check(&f, &t->model, err);
   if (status == GG_OK) sum_up(t, &f);
   if (status == GG_OK && state) status = tell(t, &f, edges, state, err);
   if (status == GG_OK && into) copy_out(&f, into);
   f.species = NULL; /* the trajectory's own */
-  gg_frame_free(&f);
+  gg_run_frame_free(&f);
   return status;
 }
 
@@ -139,6 +139,6 @@ gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species
 {
   GG_NEED(trajectory);
   GG_NEED(state);
-  if (!trajectory->last.model) return gg_fail(err, GG_BAD_INPUT, "no frame of the trajectory was read yet");
-  return gg_moments_species(&trajectory->last, species, 1, state, err);
+  if (!trajectory->last.model) return gg_base_fail(err, GG_BAD_INPUT, "no frame of the trajectory was read yet");
+  return gg_api_moments_species(&trajectory->last, species, 1, state, err);
 }

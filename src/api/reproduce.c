@@ -26,7 +26,7 @@ static gg_status note(seen *s, const char *name, gg_error *err)
   if (s->n == s->room) {
     size_t room = s->room ? 2 * s->room : 256;
     void *more = realloc(s->name, room * sizeof *s->name);
-    if (!more) return gg_out_of_memory(err);
+    if (!more) return gg_base_out_of_memory(err);
     s->name = more, s->room = room;
   }
   strcpy(s->name[s->n++], name);
@@ -48,7 +48,7 @@ static void note_engines(gg_figure_needs *needs, const gg_scene *scene, bool bot
   }
   if (both || scene->engine == GG_DSMC) {
     needs->dsmc = true;
-    if (gg_model_make(scene, GG_DSMC, &m, NULL) == GG_OK) needs->particles = larger(needs->particles, m.n);
+    if (gg_common_model_make(scene, GG_DSMC, &m, NULL) == GG_OK) needs->particles = larger(needs->particles, m.n);
   }
 }
 
@@ -57,7 +57,7 @@ static gg_status needs_of(const gg_figure_entry *entry, bool quick, gg_figure_ne
 {
   gg_sweep *sweeps[GG_MOST_SWEEPS];
   *needs = (gg_figure_needs){0};
-  GG_TRY(gg_figure_sweeps(entry, quick, sweeps, err));
+  GG_TRY(gg_reproduce_figure_sweeps(entry, quick, sweeps, err));
   gg_status status = GG_OK;
   for (int s = 0; s < entry->n_sweeps; s++) {
     bool both = strcmp(gg_sweep_does(sweeps[s]), "compare") == 0;
@@ -89,7 +89,7 @@ static gg_status describe(const gg_figure_entry *e, gg_on_figure *figure, void *
                          .cannot = e->cannot,
                          .verdict = e->cannot ? NULL : e->verdict,
                          .because = e->because};
-  gg_figure_base(e, file, sizeof file);
+  gg_reproduce_figure_base(e, file, sizeof file);
   if (!e->cannot) GG_TRY(needs_of(e, true, &info.quick, &before[0], err));
   if (!e->cannot) GG_TRY(needs_of(e, false, &info.full, &before[1], err));
   figure(context, &info);
@@ -101,30 +101,30 @@ gg_status gg_list_figures(gg_on_figure *figure, void *context, gg_error *err)
   GG_NEED(figure);
   gg_status status = GG_OK;
   seen points[2] = {{0}};
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   for (size_t k = 0; gg_entry_files[k].file && status == GG_OK; k++) {
     gg_figure_entry entry;
-    status = gg_figure_read(k, &entry, err);
+    status = gg_reproduce_figure_read(k, &entry, err);
     if (status != GG_OK) break;
     status = describe(&entry, figure, context, points, err);
-    gg_entry_clear(&entry);
+    gg_reproduce_entry_clear(&entry);
   }
   free(points[0].name);
   free(points[1].name);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status;
 }
 
 static gg_status reproduce(size_t k, const gg_reproduce_options *options, gg_error *err)
 {
   gg_figure_entry entry;
-  GG_TRY(gg_figure_read(k, &entry, err));
+  GG_TRY(gg_reproduce_figure_read(k, &entry, err));
   gg_status status;
   if (entry.cannot)
-    status = gg_fail(err, GG_FAILED, "%s cannot be reproduced: %s", entry.figure, entry.cannot);
+    status = gg_base_fail(err, GG_FAILED, "%s cannot be reproduced: %s", entry.figure, entry.cannot);
   else
-    status = gg_figure_reproduce(&entry, options, err);
-  gg_entry_clear(&entry);
+    status = gg_reproduce_figure_reproduce(&entry, options, err);
+  gg_reproduce_entry_clear(&entry);
   return status;
 }
 
@@ -135,15 +135,15 @@ static gg_status reproduce_all(const gg_reproduce_options *options, gg_error *er
   for (size_t k = 0; gg_entry_files[k].file; k++) {
     gg_error why;
     gg_figure_entry entry;
-    GG_TRY(gg_figure_read(k, &entry, err));
+    GG_TRY(gg_reproduce_figure_read(k, &entry, err));
     bool cannot = entry.cannot;
-    gg_status status = cannot ? GG_OK : gg_figure_reproduce(&entry, options, &why);
+    gg_status status = cannot ? GG_OK : gg_reproduce_figure_reproduce(&entry, options, &why);
     if (status == GG_FAILED && options->warn) options->warn(options->context, entry.figure, why.message);
-    gg_entry_clear(&entry);
+    gg_reproduce_entry_clear(&entry);
     failed += status == GG_FAILED;
-    if (status != GG_OK && status != GG_FAILED) return gg_fail(err, status, "%s", why.message);
+    if (status != GG_OK && status != GG_FAILED) return gg_base_fail(err, status, "%s", why.message);
   }
-  return failed ? gg_fail(err, GG_FAILED, "%d figures fell short of what was asked", failed) : GG_OK;
+  return failed ? gg_base_fail(err, GG_FAILED, "%d figures fell short of what was asked", failed) : GG_OK;
 }
 
 gg_status gg_reproduce(const char *figure, const gg_reproduce_options *options, gg_error *err)
@@ -151,20 +151,20 @@ gg_status gg_reproduce(const char *figure, const gg_reproduce_options *options, 
   GG_NEED(figure);
   const gg_reproduce_options none = {0};
   size_t k;
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = GG_OK;
   if (strcmp(figure, "all") != 0) {
-    status = gg_figure_find(figure, &k, err);
+    status = gg_reproduce_figure_find(figure, &k, err);
     if (status == GG_OK) status = reproduce(k, options ? options : &none, err);
   } else {
     status = reproduce_all(options ? options : &none, err);
   }
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status;
 }
 
 gg_status gg_reproduction_page(char **text, gg_error *err)
 {
   GG_NEED(text);
-  return gg_figure_page(text, err);
+  return gg_reproduce_figure_page(text, err);
 }

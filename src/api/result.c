@@ -10,8 +10,9 @@
 
 static gg_status find(const gg_result *r, const char *name, gg_quantity *q, gg_error *err)
 {
-  *q = gg_quantity_find_in(&r->model, name);
-  return *q == GG_MOST_QUANTITIES ? gg_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name) : GG_OK;
+  *q = gg_common_quantity_find_in(&r->model, name);
+  return *q == GG_MOST_QUANTITIES ? gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name)
+                                  : GG_OK;
 }
 
 gg_status gg_result_get(const gg_result *result, const char *quantity, double *mean, double *error, gg_error *err)
@@ -21,7 +22,7 @@ gg_status gg_result_get(const gg_result *result, const char *quantity, double *m
   gg_quantity q;
   GG_TRY(find(result, quantity, &q, err));
   const gg_estimate *e = &result->value[q];
-  if (isnan(e->mean)) return gg_fail(err, GG_BAD_INPUT, "'%s' cannot be had here: %s", quantity, e->reason);
+  if (isnan(e->mean)) return gg_base_fail(err, GG_BAD_INPUT, "'%s' cannot be had here: %s", quantity, e->reason);
   if (mean) *mean = e->mean;
   if (error) *error = e->error;
   return GG_OK;
@@ -30,14 +31,14 @@ gg_status gg_result_get(const gg_result *result, const char *quantity, double *m
 static void tell(const gg_result *r, gg_quantity q, gg_measurement *m)
 {
   const gg_estimate *e = &r->value[q];
-  *m = (gg_measurement){.name = gg_quantity_name_in(&r->model, q),
+  *m = (gg_measurement){.name = gg_common_quantity_name_in(&r->model, q),
                         .mean = e->mean,
                         .error = e->error,
                         .correlation_time = e->correlation_time,
                         .samples = e->samples,
-                        .unit = gg_quantity_unit(q, &r->model),
+                        .unit = gg_common_quantity_unit(q, &r->model),
                         .reason = isnan(e->mean) ? e->reason : NULL,
-                        .correlation_time_unit = gg_correlation_time_unit(&r->model)};
+                        .correlation_time_unit = gg_run_correlation_time_unit(&r->model)};
 }
 
 gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err)
@@ -55,18 +56,18 @@ gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found,
 {
   GG_NEED(result);
   GG_NEED(found);
-  int n = gg_quantities_of(&result->model);
-  if (i >= (size_t)n) return gg_fail(err, GG_BAD_INPUT, "gg_result_at: there are %d quantities", n);
-  tell(result, gg_quantity_at(&result->model, (int)i), found);
+  int n = gg_common_quantity_set_of(&result->model);
+  if (i >= (size_t)n) return gg_base_fail(err, GG_BAD_INPUT, "gg_result_at: there are %d quantities", n);
+  tell(result, gg_common_quantity_at(&result->model, (int)i), found);
   return GG_OK;
 }
 
 const char *gg_result_unit(const gg_result *result, const char *quantity)
 {
   if (!result || !quantity) return NULL;
-  gg_quantity q = gg_quantity_find_in(&result->model, quantity);
+  gg_quantity q = gg_common_quantity_find_in(&result->model, quantity);
   bool missing = q == GG_MOST_QUANTITIES || isnan(result->value[q].mean);
-  return missing ? NULL : gg_quantity_unit(q, &result->model);
+  return missing ? NULL : gg_common_quantity_unit(q, &result->model);
 }
 
 int gg_result_is_steady(const gg_result *result)
@@ -105,7 +106,7 @@ const gg_scene *gg_result_scene(const gg_result *result)
 
 const char *gg_result_warning(const gg_result *result, size_t i)
 {
-  return result ? gg_text_list_at(&result->warnings, i) : NULL;
+  return result ? gg_base_string_list_at(&result->warnings, i) : NULL;
 }
 
 gg_status gg_result_history(const gg_result *result, const char *quantity, size_t *n, const double **time,
@@ -117,24 +118,24 @@ gg_status gg_result_history(const gg_result *result, const char *quantity, size_
   gg_quantity q;
   GG_TRY(find(result, quantity, &q, err));
   for (int k = 0; k < GG_N_HISTORY; k++) {
-    if (gg_history_quantity(k) != q || !result->history.value[k]) continue;
+    if (gg_common_quantity_of_history(k) != q || !result->history.value[k]) continue;
     *n = result->history.n;
     if (time) *time = result->history.time;
     if (value) *value = result->history.value[k];
     return GG_OK;
   }
-  return gg_fail(err, GG_BAD_INPUT, "'%s' is not followed in time", quantity);
+  return gg_base_fail(err, GG_BAD_INPUT, "'%s' is not followed in time", quantity);
 }
 
 /* NULL with the message after the last. */
 static const gg_curve *curve_at(const gg_result *r, size_t i, gg_error *err)
 {
   if (i < (size_t)r->curves.n) return &r->curves.curve[i];
-  gg_fail(err, GG_BAD_INPUT, "this result has %d curves", r->curves.n);
+  gg_base_fail(err, GG_BAD_INPUT, "this result has %d curves", r->curves.n);
   return NULL;
 }
 
-gg_curve_data gg_door_curve(const gg_curve *c)
+gg_curve_data gg_api_curve_view(const gg_curve *c)
 {
   return (gg_curve_data){.name = c->name,
                          .observable = c->group,
@@ -161,7 +162,7 @@ gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curv
   GG_NEED(curve);
   const gg_curve *c = curve_at(result, i, err);
   if (!c) return GG_BAD_INPUT;
-  *curve = gg_door_curve(c);
+  *curve = gg_api_curve_view(c);
   return GG_OK;
 }
 
@@ -172,7 +173,7 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
   const gg_curve *c = curve_at(result, i, err);
   if (!c) return GG_BAD_INPUT;
   if (k >= (size_t)c->n_numbers)
-    return gg_fail(err, GG_BAD_INPUT, "%d numbers were read off the curve %s", c->n_numbers, c->name);
+    return gg_base_fail(err, GG_BAD_INPUT, "%d numbers were read off the curve %s", c->n_numbers, c->name);
   const gg_curve_number *p = &c->number[k];
   *number = (gg_measurement){.name = p->name,
                              .mean = p->value,
@@ -181,7 +182,7 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
                              .samples = c->samples,
                              .unit = p->unit,
                              .reason = isnan(p->value) ? "it cannot be read off this curve" : NULL,
-                             .correlation_time_unit = gg_correlation_time_unit(&result->model)};
+                             .correlation_time_unit = gg_run_correlation_time_unit(&result->model)};
   return GG_OK;
 }
 
@@ -190,10 +191,10 @@ gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_er
   GG_NEED(result);
   GG_NEED(into);
   const gg_frame *f = &result->final;
-  if (!f->velocity) return gg_fail(err, GG_BAD_INPUT, "this result holds no grains");
+  if (!f->velocity) return gg_base_fail(err, GG_BAD_INPUT, "this result holds no grains");
   if (into->position && !f->position)
-    return gg_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
-                   result->engine);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
+                        result->engine);
   for (size_t i = 0; i < f->n; i++) {
     size_t place = f->id ? (size_t)f->id[i] : i;
     if (into->species) into->species[place] = f->species ? f->species[i] : 0;

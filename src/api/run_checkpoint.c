@@ -12,13 +12,13 @@ static gg_status tell_comparison(const gg_archive *a, gg_checkpoint_info *info, 
   info->kind = "comparison";
   for (int k = 0; k < 2; k++) {
     gg_archive one = {0};
-    const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
-    gg_status status = gg_archive_unnest(&one, name, a, err);
+    const char *name = gg_run_engine_ops_of((gg_engine_kind)k)->name;
+    gg_status status = gg_base_archive_unnest(&one, name, a, err);
     if (status == GG_OK && one.n_items) {
       info->part[k].engine = name;
       status = gg_run_how_far(&one, &info->part[k], err);
     }
-    gg_archive_clear(&one);
+    gg_base_archive_clear(&one);
     if (status != GG_OK) return status;
   }
   return GG_OK;
@@ -37,11 +37,11 @@ static gg_status tell(const gg_archive *a, const char *path, const gg_scene *sce
                       gg_error *err)
 {
   gg_simulation *simulation;
-  if (gg_archive_find(a, "md/campaign/state") || gg_archive_find(a, "dsmc/campaign/state"))
+  if (gg_base_archive_find(a, "md/campaign/state") || gg_base_archive_find(a, "dsmc/campaign/state"))
     return tell_comparison(a, info, err);
-  if (!gg_archive_find(a, "simulation/scene")) {
+  if (!gg_base_archive_find(a, "simulation/scene")) {
     info->kind = "run";
-    info->part[0].engine = gg_engine_ops_of(scene->engine)->name;
+    info->part[0].engine = gg_run_engine_ops_of(scene->engine)->name;
     return gg_run_how_far(a, &info->part[0], err);
   }
   GG_TRY(gg_simulation_load(path, NULL, &simulation, err));
@@ -52,14 +52,14 @@ static gg_status tell(const gg_archive *a, const char *path, const gg_scene *sce
 static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)
 {
   gg_scene *stored = NULL;
-  bool before = gg_memory_begin();
-  char *yaml = gg_checkpoint_scene(path, info->older);
-  bool lacked = gg_memory_end(before);
+  bool before = gg_base_memory_begin();
+  char *yaml = gg_files_checkpoint_scene(path, info->older);
+  bool lacked = gg_base_memory_end(before);
   gg_status status = yaml     ? gg_scene_parse(yaml, path, &stored, err)
-                     : lacked ? gg_error_prefix(err, gg_out_of_memory(err), "%s", path)
-                              : gg_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
+                     : lacked ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", path)
+                              : gg_base_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
   free(yaml);
-  info->frames = gg_door_trajectory_frames(a);
+  info->frames = gg_api_trajectory_frames(a);
   if (status == GG_OK) status = tell(a, path, stored, info, err);
   if (status == GG_OK && scene)
     *scene = stored;
@@ -75,10 +75,10 @@ gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_sce
   bool older = false;
   gg_archive archive = {0};
   gg_checkpoint_info found = {0};
-  gg_status status = gg_checkpoint_read(path, &archive, &older, err);
+  gg_status status = gg_files_checkpoint_read(path, &archive, &older, err);
   found.older = older;
   if (status == GG_OK) status = about(&archive, path, &found, scene, err);
   if (status == GG_OK) *info = found;
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
   return status;
 }

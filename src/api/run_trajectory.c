@@ -26,18 +26,18 @@ enum { NAME = 256 };
 static gg_status store_in_result(void *context, const gg_frame *frame, gg_error *err)
 {
   gg_door_run *r = context;
-  return gg_result_file_frame(&r->file, &r->model, frame, err);
+  return gg_files_result_file_frame(&r->file, &r->model, frame, err);
 }
 
 static gg_status store_in_log(void *context, const gg_frame *frame, gg_error *err)
 {
-  return gg_frame_log_append(&((gg_door_run *)context)->log, frame, err);
+  return gg_files_frame_log_append(&((gg_door_run *)context)->log, frame, err);
 }
 
 /* From a log, which may be anybody's. */
 static gg_status store_from_log(void *context, const gg_frame *frame, gg_error *err)
 {
-  GG_TRY(gg_frame_check(frame, &((gg_door_run *)context)->model, err));
+  GG_TRY(gg_run_frame_check(frame, &((gg_door_run *)context)->model, err));
   return store_in_result(context, frame, err);
 }
 
@@ -45,9 +45,9 @@ static gg_status store_from_log(void *context, const gg_frame *frame, gg_error *
  * by, where the checkpoint alone was copied. To be freed. */
 static char *log_of_resume(const gg_door_run *r)
 {
-  char *path = gg_frame_log_path(r->options.resume), *copy = NULL, *other = NULL, name[NAME];
+  char *path = gg_files_frame_log_path(r->options.resume), *copy = NULL, *other = NULL, name[NAME];
   bool there = path && access(path, F_OK) == 0;
-  if (!there && path && gg_archive_get(&r->resume, name_item, GG_ITEM_U8, name, NAME, NULL) == GG_OK) {
+  if (!there && path && gg_base_archive_get(&r->resume, name_item, GG_ITEM_U8, name, NAME, NULL) == GG_OK) {
     copy = strdup(r->options.resume);
     if (!copy || asprintf(&other, "%s/%.*s", dirname(copy), NAME, name) < 0) other = NULL;
   }
@@ -64,11 +64,11 @@ static char *log_of_resume(const gg_door_run *r)
 static gg_status open_one_of_two(gg_door_run *r, gg_frame_log *log, const char *path, const gg_frame_mark *mark,
                                  gg_error *err)
 {
-  gg_status status = gg_frame_log_open_at(log, path, mark, &r->file.file.stop, err);
-  char *fresh = status == GG_BAD_FILE ? gg_frame_log_new_path(path) : NULL;
+  gg_status status = gg_files_frame_log_open_at(log, path, mark, &r->file.file.stop, err);
+  char *fresh = status == GG_BAD_FILE ? gg_files_frame_log_new_path(path) : NULL;
   if (fresh) {
-    gg_status other = gg_frame_log_open_at(log, fresh, mark, &r->file.file.stop, NULL);
-    if (other == GG_INTERRUPTED) gg_fail(err, other, "interrupted");
+    gg_status other = gg_files_frame_log_open_at(log, fresh, mark, &r->file.file.stop, NULL);
+    if (other == GG_INTERRUPTED) gg_base_fail(err, other, "interrupted");
     if (other != GG_BAD_FILE) status = other;
   }
   free(fresh);
@@ -80,18 +80,19 @@ static gg_status open_earlier(gg_door_run *r, gg_frame_log *earlier, gg_error *e
 {
   gg_frame_mark mark;
   gg_error why;
-  GG_TRY(gg_archive_get(&r->resume, mark_item, GG_ITEM_U8, &mark, sizeof mark, err));
+  GG_TRY(gg_base_archive_get(&r->resume, mark_item, GG_ITEM_U8, &mark, sizeof mark, err));
   if (!mark.frames) return GG_OK;
   char *path = log_of_resume(r);
-  if (!path) return gg_out_of_memory(err);
+  if (!path) return gg_base_out_of_memory(err);
   gg_status status = open_one_of_two(r, earlier, path, &mark, &why);
   free(path);
-  if (status != GG_BAD_FILE) return status == GG_OK ? GG_OK : gg_fail(err, status, "%s", why.message);
+  if (status != GG_BAD_FILE) return status == GG_OK ? GG_OK : gg_base_fail(err, status, "%s", why.message);
   r->resume_lost = true;
-  return gg_fail(err, status,
-                 "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it the "
-                 "run can go on with output.trajectory_every: 0",
-                 why.message, (unsigned long long)mark.frames);
+  return gg_base_fail(
+      err, status,
+      "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it the "
+      "run can go on with output.trajectory_every: 0",
+      why.message, (unsigned long long)mark.frames);
 }
 
 /* The last part of the path, which a checkpoint remembers. */
@@ -105,20 +106,20 @@ static const char *base_of(const char *path)
 static gg_status check_place(const char *path, gg_error *err)
 {
   gg_output_path place;
-  GG_TRY(gg_output_path_find(&place, path, err));
+  GG_TRY(gg_base_output_path_find(&place, path, err));
   bool stream = place.stream;
-  gg_output_path_clear(&place);
-  return stream ? gg_cannot_write(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
+  gg_base_output_path_clear(&place);
+  return stream ? gg_base_path_write_error(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
 }
 
 static gg_status open_log(gg_door_run *r, const gg_frame_log *earlier, gg_error *err)
 {
   const char *target = r->passing[GG_PASSING_FRAMES];
-  char *path = gg_frame_log_path(r->options.checkpoint);
-  gg_status status = path ? check_place(path, err) : gg_out_of_memory(err);
+  char *path = gg_files_frame_log_path(r->options.checkpoint);
+  gg_status status = path ? check_place(path, err) : gg_base_out_of_memory(err);
   if (status == GG_OK) {
-    bool there = earlier->fd >= 0 ? gg_frame_log_is_at(earlier, target) : r->goes_on_there;
-    status = there ? gg_frame_log_open(&r->log, target, err) : gg_frame_log_open_new(&r->log, target, err);
+    bool there = earlier->fd >= 0 ? gg_files_frame_log_is_at(earlier, target) : r->goes_on_there;
+    status = there ? gg_files_frame_log_open(&r->log, target, err) : gg_files_frame_log_open_new(&r->log, target, err);
   }
   free(path);
   return status;
@@ -130,10 +131,10 @@ static gg_frame_mark mark_there(const gg_door_run *r)
   gg_frame_mark mark = {0};
   gg_archive there = {0};
   bool older, on = r->goes_on_there;
-  if (!on && gg_checkpoint_read(r->options.checkpoint, &there, &older, NULL) != GG_OK) return mark;
-  if (gg_archive_get(on ? &r->resume : &there, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) != GG_OK)
+  if (!on && gg_files_checkpoint_read(r->options.checkpoint, &there, &older, NULL) != GG_OK) return mark;
+  if (gg_base_archive_get(on ? &r->resume : &there, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) != GG_OK)
     mark = (gg_frame_mark){0};
-  gg_archive_clear(&there);
+  gg_base_archive_clear(&there);
   return mark;
 }
 
@@ -144,57 +145,57 @@ static gg_status settle(gg_door_run *r, const char *path, const char *fresh, gg_
   gg_frame_log log = {.fd = -1};
   gg_frame_mark mark = mark_there(r);
   gg_status status = mark.frames ? open_one_of_two(r, &log, path, &mark, err) : GG_BAD_FILE;
-  bool needed = log.fd >= 0 && gg_frame_log_is_at(&log, fresh);
-  gg_frame_log_close(&log);
+  bool needed = log.fd >= 0 && gg_files_frame_log_is_at(&log, fresh);
+  gg_files_frame_log_close(&log);
   if (status == GG_INTERRUPTED) return status;
-  if (needed) GG_TRY(gg_checkpoint_remove_before(r->options.checkpoint, err));
-  if ((needed ? rename(fresh, path) : unlink(fresh)) != 0) return gg_cannot_write(fresh, strerror(errno), err);
+  if (needed) GG_TRY(gg_files_checkpoint_remove_before(r->options.checkpoint, err));
+  if ((needed ? rename(fresh, path) : unlink(fresh)) != 0) return gg_base_path_write_error(fresh, strerror(errno), err);
   return GG_OK;
 }
 
 static gg_status settle_new(gg_door_run *r, gg_error *err)
 {
   const char *path = r->passing[GG_PASSING_FRAMES];
-  char *fresh = gg_frame_log_new_path(path);
-  gg_status status = fresh ? GG_OK : gg_out_of_memory(err);
+  char *fresh = gg_files_frame_log_new_path(path);
+  gg_status status = fresh ? GG_OK : gg_base_out_of_memory(err);
   if (fresh && access(fresh, F_OK) == 0) status = settle(r, path, fresh, err);
   free(fresh);
   return status;
 }
 
-gg_status gg_door_trajectory_begin(gg_door_run *r, gg_hooks *hooks, gg_error *err)
+gg_status gg_api_trajectory_begin(gg_door_run *r, gg_hooks *hooks, gg_error *err)
 {
   if (r->options.checkpoint) GG_TRY(settle_new(r, err));
   if (!r->options.output || !(r->scene.output.trajectory_every > 0)) return GG_OK;
   gg_frame_log earlier = {.fd = -1};
-  r->late = r->resume.n_items > 0 && !gg_archive_find(&r->resume, mark_item);
+  r->late = r->resume.n_items > 0 && !gg_base_archive_find(&r->resume, mark_item);
   hooks->frame = r->options.checkpoint ? store_in_log : store_in_result;
   gg_status status = r->resume.n_items > 0 && !r->late ? open_earlier(r, &earlier, err) : GG_OK;
   if (status == GG_OK && r->options.checkpoint) status = open_log(r, &earlier, err);
   if (status == GG_OK && earlier.fd >= 0)
-    status = r->log.fd >= 0 ? gg_frame_log_take_over(&r->log, &earlier, err)
-                            : gg_frame_log_replay(&earlier, store_from_log, r, err);
-  gg_frame_log_close(&earlier);
+    status = r->log.fd >= 0 ? gg_files_frame_log_take_over(&r->log, &earlier, err)
+                            : gg_files_frame_log_replay(&earlier, store_from_log, r, err);
+  gg_files_frame_log_close(&earlier);
   return status;
 }
 
-uint64_t gg_door_trajectory_frames(const gg_archive *a)
+uint64_t gg_api_trajectory_frames(const gg_archive *a)
 {
   gg_frame_mark mark = {0};
-  return gg_archive_get(a, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) == GG_OK ? mark.frames : 0;
+  return gg_base_archive_get(a, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) == GG_OK ? mark.frames : 0;
 }
 
-gg_status gg_door_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_error *err)
+gg_status gg_api_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_error *err)
 {
   char name[NAME] = "";
   if (r->log.fd < 0) return GG_OK;
-  GG_TRY(gg_frame_log_sync(&r->log, err));
-  char *path = gg_frame_log_path(r->options.checkpoint);
-  if (!path) return gg_out_of_memory(err);
+  GG_TRY(gg_files_frame_log_sync(&r->log, err));
+  char *path = gg_files_frame_log_path(r->options.checkpoint);
+  if (!path) return gg_base_out_of_memory(err);
   snprintf(name, sizeof name, "%s", base_of(path));
   free(path);
-  GG_TRY(gg_archive_put(archive, name_item, GG_ITEM_U8, name, sizeof name, err));
-  return gg_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
+  GG_TRY(gg_base_archive_put(archive, name_item, GG_ITEM_U8, name, sizeof name, err));
+  return gg_base_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
 }
 
 /* Gigabytes take seconds: a run that can be gone on from is stopped here, too. */
@@ -202,18 +203,19 @@ static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *
 {
   gg_door_run *r = context;
   if (r->stored && gg_stop_asked(&r->file.file.stop))
-    return gg_fail(err, GG_INTERRUPTED, "interrupted while the trajectory was put into %s", r->options.output);
+    return gg_base_fail(err, GG_INTERRUPTED, "interrupted while the trajectory was put into %s", r->options.output);
   return store_from_log(context, frame, err);
 }
 
-gg_status gg_door_trajectory_finish(gg_door_run *r, gg_result *result, gg_error *err)
+gg_status gg_api_trajectory_finish(gg_door_run *r, gg_result *result, gg_error *err)
 {
-  if (r->late) gg_result_warn(result, "the trajectory begins where the run was resumed: it was not asked for before");
-  return r->log.fd >= 0 ? gg_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
+  if (r->late)
+    gg_run_result_warn(result, "the trajectory begins where the run was resumed: it was not asked for before");
+  return r->log.fd >= 0 ? gg_files_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
 }
 
-void gg_door_trajectory_end(gg_door_run *r)
+void gg_api_trajectory_end(gg_door_run *r)
 {
   if (r->log.fd >= 0 && r->log.created && !r->stored) unlink(r->log.path);
-  gg_frame_log_close(&r->log);
+  gg_files_frame_log_close(&r->log);
 }

@@ -16,7 +16,7 @@
 #include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 
-gg_status gg_door_finished(const gg_scene *scene, gg_scene *copy, gg_error *err)
+gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err)
 {
   *copy = *scene;
   return gg_scene_finish(copy, err);
@@ -24,10 +24,10 @@ gg_status gg_door_finished(const gg_scene *scene, gg_scene *copy, gg_error *err)
 
 static gg_status publish(const gg_scene *made, gg_scene **scene, gg_error *err)
 {
-  gg_scene *copy = gg_new_array(1, sizeof *copy, err);
+  gg_scene *copy = gg_base_array_new(1, sizeof *copy, err);
   if (!copy) return GG_FAILED;
   *copy = *made;
-  gg_extension_hold(copy->extension);
+  gg_common_extension_hold(copy->extension);
   *scene = copy;
   return GG_OK;
 }
@@ -36,10 +36,10 @@ gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
 {
   GG_NEED(path);
   GG_NEED(scene);
-  gg_scene made = gg_scene_defaults();
-  locale_t before = gg_c_locale_enter();
+  gg_scene made = gg_common_scene_defaults();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_scene_read_file(&made, path, err);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status == GG_OK ? publish(&made, scene, err) : status;
 }
 
@@ -47,10 +47,10 @@ gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, g
 {
   GG_NEED(yaml);
   GG_NEED(scene);
-  gg_scene made = gg_scene_defaults();
-  locale_t before = gg_c_locale_enter();
+  gg_scene made = gg_common_scene_defaults();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_scene_read(&made, yaml, strlen(yaml), name ? name : "scene", err);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status == GG_OK ? publish(&made, scene, err) : status;
 }
 
@@ -63,7 +63,7 @@ gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
 
 void gg_scene_free(gg_scene *scene)
 {
-  if (scene) gg_extension_release(scene->extension);
+  if (scene) gg_common_extension_release(scene->extension);
   free(scene);
 }
 
@@ -72,9 +72,9 @@ gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_e
   GG_NEED(scene);
   GG_NEED(key);
   GG_NEED(value);
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_scene_override(scene, key, value, err);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status;
 }
 
@@ -85,16 +85,16 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   GG_NEED(text);
   gg_scene filled = *scene;
   gg_scene_fill_in(&filled);
-  bool outer = gg_memory_begin();
+  bool outer = gg_base_memory_begin();
   json_t *value = gg_scene_key_json(&filled, key);
-  locale_t before = gg_c_locale_enter();
-  if (value) gg_flow_style_text(value, text, size);
-  gg_c_locale_leave(before);
-  if (gg_memory_end(outer)) {
+  locale_t before = gg_base_c_locale_enter();
+  if (value) gg_scene_flow_style_text(value, text, size);
+  gg_base_c_locale_leave(before);
+  if (gg_base_memory_end(outer)) {
     json_decref(value);
-    return gg_out_of_memory(err);
+    return gg_base_out_of_memory(err);
   }
-  if (!value) return gg_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
+  if (!value) return gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   json_decref(value);
   return GG_OK;
 }
@@ -103,7 +103,7 @@ gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
 {
   GG_NEED(scene);
   gg_scene copy;
-  return gg_door_finished(scene, &copy, err);
+  return gg_api_scene_finish(scene, &copy, err);
 }
 
 gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
@@ -112,10 +112,10 @@ gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
   GG_NEED(text);
   gg_scene filled = *scene;
   gg_scene_fill_in(&filled);
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   char *yaml = gg_scene_yaml(&filled);
-  gg_c_locale_leave(before);
-  if (!yaml) return gg_out_of_memory(err);
+  gg_base_c_locale_leave(before);
+  if (!yaml) return gg_base_out_of_memory(err);
   *text = yaml;
   return GG_OK;
 }
@@ -126,7 +126,7 @@ gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
   GG_NEED(text);
   gg_scene filled = *scene;
   gg_scene_fill_in(&filled);
-  return gg_door_text(gg_scene_json(&filled), text, err);
+  return gg_api_text_copy(gg_scene_json(&filled), text, err);
 }
 
 gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err)
@@ -135,19 +135,19 @@ gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_erro
   GG_NEED(text);
   gg_scene filled = *scene;
   gg_scene_fill_in(&filled);
-  locale_t before = gg_c_locale_enter();
-  gg_title_of_scene(&filled, text, size);
-  gg_c_locale_leave(before);
+  locale_t before = gg_base_c_locale_enter();
+  gg_files_scene_title(&filled, text, size);
+  gg_base_c_locale_leave(before);
   return GG_OK;
 }
 
 static gg_status make_model(const gg_scene *scene, const char *engine, gg_scene *finished, gg_model *model,
                             gg_engine_kind *kind, gg_error *err)
 {
-  GG_TRY(gg_door_engine(engine, kind, err));
-  GG_TRY(gg_door_finished(scene, finished, err));
-  GG_TRY(gg_model_make(finished, *kind, model, err));
-  return gg_engine_ops_of(*kind)->accepts(model, err);
+  GG_TRY(gg_api_engine_find(engine, kind, err));
+  GG_TRY(gg_api_scene_finish(scene, finished, err));
+  GG_TRY(gg_common_model_make(finished, *kind, model, err));
+  return gg_run_engine_ops_of(*kind)->accepts(model, err);
 }
 
 gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene_needs *needs, gg_error *err)
@@ -159,8 +159,8 @@ gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene
   gg_model model;
   gg_engine_kind kind;
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
-  const gg_forecast f = gg_forecast_of(&finished, &model, kind);
-  *needs = (gg_scene_needs){f.bytes, gg_memory_available(), f.collisions, f.seconds, 0};
+  const gg_forecast f = gg_run_cost_estimate(&finished, &model, kind);
+  *needs = (gg_scene_needs){f.bytes, gg_base_memory_available(), f.collisions, f.seconds, 0};
   for (int i = 0; i < f.n_costs; i++) needs->observables += f.cost[i].percent / 100;
   return GG_OK;
 }
@@ -175,16 +175,16 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_model model;
   gg_engine_kind kind;
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
-  gg_engine_ops_of(kind)->describe(&model, line, context);
+  gg_run_engine_ops_of(kind)->describe(&model, line, context);
   char chosen[200] = "";
-  if (model.homogeneous) gg_ensemble_reason(&finished, chosen, sizeof chosen);
+  if (model.homogeneous) gg_common_ensemble_size_reason(&finished, chosen, sizeof chosen);
   if (*chosen) {
     char text[240];
     snprintf(text, sizeof text, "so many velocities are %s", chosen);
     line(context, text);
   }
-  gg_forecast forecast = gg_forecast_of(&finished, &model, kind);
-  gg_forecast_tell(&forecast, finished.run.replicas, line, context);
+  gg_forecast forecast = gg_run_cost_estimate(&finished, &model, kind);
+  gg_run_cost_report(&forecast, finished.run.replicas, line, context);
   return GG_OK;
 }
 
@@ -201,14 +201,14 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
   if (strcmp(use, "compare") == 0) {
     uses |= GG_USE_MD | GG_USE_DSMC;
   } else if (strcmp(use, "theory") != 0) {
-    GG_TRY(gg_door_engine(use, &kind, err));
+    GG_TRY(gg_api_engine_find(use, &kind, err));
     uses = 1u << kind;
   }
-  GG_TRY(gg_door_finished(scene, &finished, err));
-  bool before = gg_memory_begin();
+  GG_TRY(gg_api_scene_finish(scene, &finished, err));
+  bool before = gg_base_memory_begin();
   gg_scene_inert(&finished, uses, &lines);
-  gg_status status = gg_memory_check(before, GG_OK, err);
+  gg_status status = gg_base_memory_check(before, GG_OK, err);
   for (size_t i = 0; status == GG_OK && i < lines.n; i++) line(context, lines.text[i]);
-  gg_text_list_clear(&lines);
+  gg_base_string_list_clear(&lines);
   return status;
 }

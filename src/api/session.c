@@ -23,7 +23,7 @@ struct gg_session {
 static bool time_is_up(void *context)
 {
   const gg_session *s = context;
-  return gg_wall_now() >= s->until;
+  return gg_base_clock_wall() >= s->until;
 }
 
 static void note_progress(void *context, const gg_progress *progress)
@@ -34,32 +34,32 @@ static void note_progress(void *context, const gg_progress *progress)
 
 static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
 {
-  GG_TRY(gg_door_finished(scene, &s->scene, err));
+  GG_TRY(gg_api_scene_finish(scene, &s->scene, err));
   if (s->scene.run.replicas != 1)
-    return gg_fail(err, GG_BAD_INPUT, "run.replicas: %lld; a session has 1, gg_run takes more",
-                   (long long)s->scene.run.replicas);
+    return gg_base_fail(err, GG_BAD_INPUT, "run.replicas: %lld; a session has 1, gg_run takes more",
+                        (long long)s->scene.run.replicas);
   s->hooks = (gg_hooks){.context = s, .progress = note_progress, .interrupted = time_is_up};
-  s->progress = (gg_progress){.engine = gg_engine_ops_of(s->scene.engine)->name,
+  s->progress = (gg_progress){.engine = gg_run_engine_ops_of(s->scene.engine)->name,
                               .phase = "warm-up",
                               .relative_error = NAN,
                               .time_left = NAN,
                               .replicas = 1};
   s->until = INFINITY;
-  return gg_replicas_create(&s->all, &s->scene, NULL, 1, &s->hooks, err);
+  return gg_run_replicas_create(&s->all, &s->scene, NULL, 1, &s->hooks, err);
 }
 
 gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err)
 {
   GG_NEED(scene);
   GG_NEED(session);
-  gg_session *s = gg_new_array(1, sizeof *s, err);
+  gg_session *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
   gg_status status = make(s, scene, err);
   if (status != GG_OK) {
     free(s);
     return status;
   }
-  gg_extension_hold(s->scene.extension);
+  gg_common_extension_hold(s->scene.extension);
   *session = s;
   return GG_OK;
 }
@@ -67,8 +67,8 @@ gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *
 void gg_session_free(gg_session *s)
 {
   if (!s) return;
-  gg_replicas_clear(&s->all);
-  gg_extension_release(s->scene.extension);
+  gg_run_replicas_clear(&s->all);
+  gg_common_extension_release(s->scene.extension);
   free(s);
 }
 
@@ -76,14 +76,14 @@ gg_status gg_session_go_on(gg_session *session, double seconds, int *over, gg_er
 {
   GG_NEED(session);
   gg_session *s = session;
-  if (!(seconds > 0)) return gg_fail(err, GG_BAD_INPUT, "gg_session_go_on: cannot go on for %g seconds", seconds);
+  if (!(seconds > 0)) return gg_base_fail(err, GG_BAD_INPUT, "gg_session_go_on: cannot go on for %g seconds", seconds);
   if (!s->over) {
-    s->until = gg_wall_now() + seconds;
+    s->until = gg_base_clock_wall() + seconds;
     int stopped = GG_STOP_ASKED;
     atomic_compare_exchange_strong(&s->all.stopped, &stopped, GG_GOES_ON);
-    s->end = gg_replicas_run(&s->all, &s->why);
+    s->end = gg_run_replicas_run(&s->all, &s->why);
     s->over = s->end != GG_INTERRUPTED;
-    if (s->end == GG_OK) s->end = gg_replicas_check_end(&s->all, &s->why);
+    if (s->end == GG_OK) s->end = gg_run_replicas_check_end(&s->all, &s->why);
   }
   if (over) *over = s->over;
   if (!s->over || s->end == GG_OK) return GG_OK;
@@ -103,10 +103,10 @@ gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *e
 {
   GG_NEED(session);
   GG_NEED(result);
-  gg_result *made = gg_new_array(1, sizeof *made, err);
+  gg_result *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
-  if (session->over) gg_replicas_level(&session->all);
-  gg_status status = gg_replicas_report(&session->all, made, err);
+  if (session->over) gg_run_replicas_level(&session->all);
+  gg_status status = gg_run_replicas_report(&session->all, made, err);
   if (status == GG_OK)
     *result = made;
   else

@@ -15,21 +15,21 @@ static bool asked_to_stop(void *context)
   return s->asks && s->asks(s->asks_context);
 }
 
-gg_status gg_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err)
+gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err)
 {
-  gg_simulation *s = gg_new_array(1, sizeof *s, err);
+  gg_simulation *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
-  gg_status status = gg_door_finished(scene, &s->scene, err);
-  if (status == GG_OK) status = gg_model_make(&s->scene, s->scene.engine, &s->model, err);
-  if (status == GG_OK) status = gg_engine_ops_of(s->scene.engine)->accepts(&s->model, err);
+  gg_status status = gg_api_scene_finish(scene, &s->scene, err);
+  if (status == GG_OK) status = gg_common_model_make(&s->scene, s->scene.engine, &s->model, err);
+  if (status == GG_OK) status = gg_run_engine_ops_of(s->scene.engine)->accepts(&s->model, err);
   if (status != GG_OK) {
     free(s);
     return status;
   }
-  gg_extension_hold(s->scene.extension);
+  gg_common_extension_hold(s->scene.extension);
   s->stop = (gg_stop){asked_to_stop, s};
   s->model.stop = &s->stop;
-  if (s->scene.temperature == GG_AUTO) status = gg_start_near_steady(&s->model, err);
+  if (s->scene.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
   if (status == GG_OK)
     *simulation = s;
   else
@@ -42,8 +42,8 @@ gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulatio
   GG_NEED(scene);
   GG_NEED(simulation);
   gg_simulation *s;
-  GG_TRY(gg_simulation_prepare(scene, &s, err));
-  const gg_engine_ops *ops = gg_engine_ops_of(s->scene.engine);
+  GG_TRY(gg_api_simulation_prepare(scene, &s, err));
+  const gg_engine_ops *ops = gg_run_engine_ops_of(s->scene.engine);
   gg_status status = ops->create(&s->model, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
   if (status != GG_OK) {
     gg_simulation_free(s);
@@ -58,7 +58,7 @@ void gg_simulation_free(gg_simulation *s)
 {
   if (!s) return;
   if (s->engine) s->engine->ops->destroy(s->engine);
-  gg_extension_release(s->scene.extension);
+  gg_common_extension_release(s->scene.extension);
   free(s);
 }
 
@@ -73,7 +73,7 @@ static uint64_t collisions(const gg_simulation *s)
 static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
 {
   if (!gg_flow_cools(s->model.flow) || T > s->model.temperature0 / 16) return GG_OK;
-  gg_simulation_collect(s);
+  gg_api_simulation_collect(s);
   GG_TRY(s->engine->ops->rescale(s->engine, 2, err));
   s->clock.power += 2;
   return GG_OK;
@@ -86,8 +86,8 @@ enum { STRETCH = 20, COLLAPSE = 1000 };
 /* Within at most `time` (units of the start) and `most` collisions; both are lessened by what has gone. */
 static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
-  double T = gg_simulation_temperature(s), unit = gg_simulation_unit(s), gone = 0;
-  double free_time = 1 / gg_model_collision_rate(&s->model, T > 0 ? T : s->model.temperature0);
+  double T = gg_api_simulation_temperature(s), unit = gg_api_simulation_unit(s), gone = 0;
+  double free_time = 1 / gg_common_model_collision_rate(&s->model, T > 0 ? T : s->model.temperature0);
   double stretch = fmin(*time * unit, STRETCH * free_time);
   gg_engine_state engine;
   s->engine->ops->state(s->engine, &engine);
@@ -100,24 +100,24 @@ static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most,
   *most = happened < *most ? *most - happened : 0;
   if (status != GG_OK) return status;
   if (happened >= pile)
-    return gg_fail(err, GG_FAILED,
-                   "%s: collisions accumulate without end (inelastic collapse) near time %g; give "
-                   "md.contact_time a larger value",
-                   s->engine->ops->name, s->clock.time);
-  return rescale_if_cold(s, gg_simulation_temperature(s), err);
+    return gg_base_fail(err, GG_FAILED,
+                        "%s: collisions accumulate without end (inelastic collapse) near time %g; give "
+                        "md.contact_time a larger value",
+                        s->engine->ops->name, s->clock.time);
+  return rescale_if_cold(s, gg_api_simulation_temperature(s), err);
 }
 
 /* Asked before the first stretch, too: with small systems an advance ends before the engine looks. */
 static gg_status look(const gg_simulation *s, gg_error *err)
 {
-  return gg_stop_asked(s->model.stop) ? gg_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
+  return gg_stop_asked(s->model.stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
 }
 
 gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err)
 {
   GG_NEED(simulation);
   if (!(time >= 0 && time < INFINITY))
-    return gg_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
   for (uint64_t most = UINT64_MAX; time > 0;) {
     GG_TRY(look(simulation, err));
     GG_TRY(advance_stretch(simulation, &time, &most, err));
@@ -138,9 +138,10 @@ gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_m
     GG_TRY(advance_stretch(simulation, &time, &collisions_more, err));
     if (collisions_more < before) empty = -1;
     if (empty == MOST_EMPTY_STRETCHES)
-      return gg_fail(err, GG_FAILED,
-                     "gg_simulation_collide: the grains do not meet: no collision in %d mean free times up to time %g",
-                     STRETCH * MOST_EMPTY_STRETCHES, simulation->clock.time);
+      return gg_base_fail(
+          err, GG_FAILED,
+          "gg_simulation_collide: the grains do not meet: no collision in %d mean free times up to time %g",
+          STRETCH * MOST_EMPTY_STRETCHES, simulation->clock.time);
   }
   return GG_OK;
 }
@@ -161,7 +162,7 @@ static void put(double to[3], gg_vec v, double factor)
 static void show(void *context, const gg_collision_record *collision)
 {
   const gg_simulation *s = context;
-  double unit = gg_simulation_unit(s);
+  double unit = gg_api_simulation_unit(s);
   gg_engine_state engine;
   s->engine->ops->state(s->engine, &engine);
   gg_collision_event event = {.grain = {(size_t)collision->id[0], (size_t)collision->id[1]},

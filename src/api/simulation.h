@@ -25,13 +25,13 @@ struct gg_simulation {
 };
 
 /* Asked of it (simulation_state.c). Velocities of the start over those of the engine. */
-double gg_simulation_unit(const gg_simulation *s);
+double gg_api_simulation_unit(const gg_simulation *s);
 /* T of the engine's grains, in the engine's units. */
-double gg_simulation_temperature(const gg_simulation *s);
+double gg_api_simulation_temperature(const gg_simulation *s);
 /* Take the engine's sums over collisions into the clock's. */
-void gg_simulation_collect(gg_simulation *s);
+void gg_api_simulation_collect(gg_simulation *s);
 
 /* An empty one for a finished scene, without an engine yet. */
-gg_status gg_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err);
+gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err);
 
 #endif

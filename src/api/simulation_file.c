@@ -13,11 +13,11 @@
 static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 {
   char *yaml = gg_scene_yaml(&s->scene);
-  if (!yaml) return gg_out_of_memory(err);
-  gg_status status = gg_archive_put(a, "simulation/scene", GG_ITEM_U8, yaml, strlen(yaml), err);
+  if (!yaml) return gg_base_out_of_memory(err);
+  gg_status status = gg_base_archive_put(a, "simulation/scene", GG_ITEM_U8, yaml, strlen(yaml), err);
   free(yaml);
-  if (status == GG_OK) status = gg_resumption_put(&s->scene, a, err);
-  if (status == GG_OK) status = gg_archive_put(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err);
+  if (status == GG_OK) status = gg_scene_resumption_put(&s->scene, a, err);
+  if (status == GG_OK) status = gg_base_archive_put(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err);
   return status == GG_OK ? s->engine->ops->save(s->engine, a, err) : status;
 }
 
@@ -26,34 +26,34 @@ gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, 
   GG_NEED(simulation);
   GG_NEED(path);
   gg_archive archive = {0};
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = put_all(simulation, &archive, err);
-  if (status == GG_OK) status = gg_checkpoint_write(path, false, &archive, &simulation->scene, err);
-  gg_c_locale_leave(before);
-  gg_archive_clear(&archive);
+  if (status == GG_OK) status = gg_files_checkpoint_write(path, false, &archive, &simulation->scene, err);
+  gg_base_c_locale_leave(before);
+  gg_base_archive_clear(&archive);
   return status;
 }
 
 static gg_status stored_scene(const gg_archive *a, const char *path, gg_scene *scene, gg_error *err)
 {
-  const gg_item *yaml = gg_archive_find(a, "simulation/scene");
+  const gg_item *yaml = gg_base_archive_find(a, "simulation/scene");
   if (!yaml)
-    return gg_fail(err, GG_BAD_INPUT,
-                   "%s: is not a saved simulation (a run goes on from a checkpoint: "
-                   "gg_run_options.resume)",
-                   path);
-  *scene = gg_scene_defaults();
-  locale_t before = gg_c_locale_enter();
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "%s: is not a saved simulation (a run goes on from a checkpoint: "
+                        "gg_run_options.resume)",
+                        path);
+  *scene = gg_common_scene_defaults();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_scene_read(scene, yaml->data, yaml->count, path, err);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status;
 }
 
 static gg_status take_all(gg_simulation *s, const gg_archive *a, gg_error *err)
 {
-  GG_TRY(gg_resumption_check(&s->scene, a, err));
-  GG_TRY(gg_archive_get(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err));
-  return gg_engine_ops_of(s->scene.engine)->restore(&s->model, a, &s->engine, err);
+  GG_TRY(gg_scene_resumption_check(&s->scene, a, err));
+  GG_TRY(gg_base_archive_get(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err));
+  return gg_run_engine_ops_of(s->scene.engine)->restore(&s->model, a, &s->engine, err);
 }
 
 static gg_status load(const gg_archive *a, const char *path, const gg_scene *scene, gg_simulation **simulation,
@@ -63,8 +63,8 @@ static gg_status load(const gg_archive *a, const char *path, const gg_scene *sce
   gg_simulation *s;
   GG_TRY(stored_scene(a, path, &stored, err));
   gg_scene settled = scene ? *scene : stored;
-  GG_TRY(gg_resumption_settle(&settled, a, err));
-  GG_TRY(gg_simulation_prepare(&settled, &s, err));
+  GG_TRY(gg_scene_resumption_settle(&settled, a, err));
+  GG_TRY(gg_api_simulation_prepare(&settled, &s, err));
   gg_status status = take_all(s, a, err);
   if (status == GG_OK)
     *simulation = s;
@@ -79,10 +79,10 @@ gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulat
   GG_NEED(simulation);
   gg_archive archive = {0};
   bool older = false;
-  gg_status status = gg_checkpoint_read(path, &archive, &older, err);
+  gg_status status = gg_files_checkpoint_read(path, &archive, &older, err);
   if (status == GG_OK && older)
-    status = gg_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the one before it is whole: %s.1", path, path);
+    status = gg_base_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the one before it is whole: %s.1", path, path);
   if (status == GG_OK) status = load(&archive, path, scene, simulation, err);
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
   return status;
 }

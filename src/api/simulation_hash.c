@@ -42,9 +42,9 @@ gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg
   GG_NEED(hash);
   gg_simulation_state state;
   GG_TRY(gg_simulation_get_state(simulation, &state, err));
-  double *numbers = gg_new_array(9 * state.grains, sizeof *numbers, err);
+  double *numbers = gg_base_array_new(9 * state.grains, sizeof *numbers, err);
   if (!numbers) return GG_FAILED;
-  int *species = gg_new_array(state.grains, sizeof *species, err);
+  int *species = gg_base_array_new(state.grains, sizeof *species, err);
   const gg_grains grains = {.position = simulation->model.homogeneous ? NULL : numbers,
                             .velocity = numbers + 3 * state.grains,
                             .spin = numbers + 6 * state.grains,

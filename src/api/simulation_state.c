@@ -5,7 +5,7 @@
 #include "api/moments.h"
 #include "api/simulation.h"
 
-double gg_simulation_unit(const gg_simulation *s)
+double gg_api_simulation_unit(const gg_simulation *s)
 {
   return ldexp(1, -(int)s->clock.power);
 }
@@ -13,14 +13,14 @@ double gg_simulation_unit(const gg_simulation *s)
 static gg_moments sum_up(const gg_simulation *s)
 {
   gg_moments m = {.model = &s->model};
-  s->engine->ops->snapshot(s->engine, false, gg_moments_add, &m);
+  s->engine->ops->snapshot(s->engine, false, gg_api_moments_add, &m);
   return m;
 }
 
-double gg_simulation_temperature(const gg_simulation *s)
+double gg_api_simulation_temperature(const gg_simulation *s)
 {
   const gg_moments m = sum_up(s);
-  return gg_moments_temperature(&m);
+  return gg_api_moments_temperature(&m);
 }
 
 int gg_simulation_species(const gg_simulation *simulation)
@@ -34,7 +34,7 @@ gg_status gg_simulation_get_species(const gg_simulation *simulation, int species
   GG_NEED(simulation);
   GG_NEED(state);
   const gg_moments m = sum_up(simulation);
-  return gg_moments_species(&m, species, gg_simulation_unit(simulation), state, err);
+  return gg_api_moments_species(&m, species, gg_api_simulation_unit(simulation), state, err);
 }
 
 gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err)
@@ -47,7 +47,7 @@ gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation
   simulation->engine->ops->state(simulation->engine, &engine);
   *state = (gg_simulation_state){
       .time = simulation->clock.time, .collisions = engine.collisions, .image_offset = engine.offset};
-  gg_moments_state(&m, gg_simulation_unit(simulation), state);
+  gg_api_moments_state(&m, gg_api_simulation_unit(simulation), state);
   for (int a = 0; a < 3; a++) state->box[a] = model->homogeneous ? 0 : model->box[a];
   return GG_OK;
 }
@@ -81,9 +81,9 @@ gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_gra
   GG_NEED(into);
   const gg_model *model = &simulation->model;
   if (into->position && model->homogeneous)
-    return gg_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
-                   simulation->engine->ops->name);
-  copying c = {.into = into, .velocity_unit = gg_simulation_unit(simulation)};
+    return gg_base_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
+                        simulation->engine->ops->name);
+  copying c = {.into = into, .velocity_unit = gg_api_simulation_unit(simulation)};
   for (int i = 0; i < GG_MAX_SPECIES; i++)
     c.spin_unit[i] = c.velocity_unit * (model->boltzmann ? 1 : 2 / model->diameter[i]);
   simulation->engine->ops->snapshot(simulation->engine, !model->homogeneous, copy, &c);
@@ -97,10 +97,10 @@ const char *gg_simulation_wall(const gg_simulation *s, int wall)
   return s && wall >= 0 && wall < s->model.n_surfaces ? s->model.surface[wall].word : NULL;
 }
 
-void gg_simulation_collect(gg_simulation *s)
+void gg_api_simulation_collect(gg_simulation *s)
 {
   gg_simulation_sums *sums = &s->clock.sums;
-  double unit = gg_simulation_unit(s);
+  double unit = gg_api_simulation_unit(s);
   gg_collision_sums t;
   s->engine->ops->take_sums(s->engine, &t);
   for (int p = 0; p < gg_pairs_of(s->model.n_species); p++) {
@@ -120,7 +120,7 @@ gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums 
 {
   GG_NEED(simulation);
   GG_NEED(sums);
-  gg_simulation_collect(simulation);
+  gg_api_simulation_collect(simulation);
   struct gg_simulation_clock *clock = &simulation->clock;
   *sums = clock->sums;
   sums->time = clock->time - clock->sums.time;

@@ -15,21 +15,21 @@
 
 static gg_sweep *new_sweep(const char *name, gg_error *err)
 {
-  gg_sweep *sweep = gg_new_array(1, sizeof *sweep, err);
+  gg_sweep *sweep = gg_base_array_new(1, sizeof *sweep, err);
   if (!sweep) return NULL;
-  sweep->base = gg_scene_defaults();
+  sweep->base = gg_common_scene_defaults();
   sweep->settings = gg_sweep_settings_defaults();
   sweep->name = strdup(name);
   if (sweep->name) return sweep;
-  gg_out_of_memory(err);
+  gg_base_out_of_memory(err);
   return free(sweep), NULL;
 }
 
 void gg_sweep_free(gg_sweep *sweep)
 {
   if (!sweep) return;
-  for (size_t f = 0; f < sweep->n_varied; f++) gg_varied_clear(&sweep->varied[f]);
-  gg_extension_release(sweep->base.extension);
+  for (size_t f = 0; f < sweep->n_varied; f++) gg_sweep_varied_clear(&sweep->varied[f]);
+  gg_common_extension_release(sweep->base.extension);
   free(sweep->point);
   free(sweep->name);
   free(sweep);
@@ -39,9 +39,9 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, gg
 {
   gg_sweep *made = new_sweep(name, err);
   if (!made) return GG_FAILED;
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_sweep_read_text(made, yaml, length, name, err);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   if (status == GG_OK)
     *sweep = made;
   else
@@ -70,8 +70,9 @@ gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, g
 
 static gg_status check_open(const gg_sweep *sweep, gg_error *err)
 {
-  return sweep->n ? gg_fail(err, GG_BAD_INPUT, "%s: the sweep was checked, and does not change any more", sweep->name)
-                  : GG_OK;
+  return sweep->n
+             ? gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep was checked, and does not change any more", sweep->name)
+             : GG_OK;
 }
 
 gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err)
@@ -81,21 +82,22 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
   GG_NEED(value);
   GG_TRY(check_open(sweep, err));
   if (gg_sweep_varies(sweep, key))
-    return gg_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: every point has its own", key);
-  locale_t before = gg_c_locale_enter();
+    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: every point has its own", key);
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
                                                     : gg_scene_override(&sweep->base, key, value, err);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status;
 }
 
 static gg_status add_key(gg_sweep *sweep, const char *key, gg_values *values, gg_error *err)
 {
-  gg_varied one = {.n_keys = 1, .n = values->n, .key = gg_new_array(1, sizeof *one.key, err), .value = values->text};
+  gg_varied one = {
+      .n_keys = 1, .n = values->n, .key = gg_base_array_new(1, sizeof *one.key, err), .value = values->text};
   if (one.key) one.key[0] = strdup(key);
   if (!one.key || !one.key[0]) {
     free(one.key);
-    return gg_out_of_memory(err);
+    return gg_base_out_of_memory(err);
   }
   *values = (gg_values){0};
   return gg_sweep_add(sweep, &one, err);
@@ -108,25 +110,26 @@ gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg
   GG_NEED(values);
   gg_values list = {0};
   GG_TRY(check_open(sweep, err));
-  locale_t before = gg_c_locale_enter();
-  gg_status status = gg_values_parse(&list, key, values, err);
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_sweep_values_parse(&list, key, values, err);
   if (status == GG_OK && list.range)
-    status = gg_fail(err, GG_BAD_INPUT,
+    status =
+        gg_base_fail(err, GG_BAD_INPUT,
                      "key '%.60s': LOW..HIGH is for random draws, which a sweep's file asks for; here first:last:step "
                      "or v1,v2,...",
                      key);
   if (status == GG_OK) status = add_key(sweep, key, &list, err);
-  gg_values_clear(&list);
-  gg_c_locale_leave(before);
+  gg_sweep_values_clear(&list);
+  gg_base_c_locale_leave(before);
   return status;
 }
 
 gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err)
 {
   GG_NEED(sweep);
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_sweep_check_points(sweep, err);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status;
 }
 
@@ -143,18 +146,20 @@ const char *gg_sweep_does(const gg_sweep *sweep)
 
 static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)
 {
-  if (!sweep->n) return gg_fail(err, GG_BAD_INPUT, "%s: the sweep was not checked yet: gg_sweep_check", sweep->name);
+  if (!sweep->n)
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep was not checked yet: gg_sweep_check", sweep->name);
   if (i >= sweep->n)
-    return gg_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1, sweep->n);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
+                        sweep->n);
   return GG_OK;
 }
 
 static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
 {
   GG_TRY(check_point(sweep, i, err));
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_sweep_resolve(sweep, i, scene, err);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return status;
 }
 
@@ -166,7 +171,7 @@ gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg
   GG_TRY(resolve(sweep, i, &scene, err));
   *point =
       (gg_sweep_point){.cpu_seconds = sweep->point[i].seconds, .replicas = scene.run.replicas, .seed = scene.run.seed};
-  gg_point_name(sweep->point[i].id, point->name);
+  gg_sweep_point_name(sweep->point[i].id, point->name);
   return GG_OK;
 }
 
@@ -211,10 +216,10 @@ gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_
   GG_NEED(folder);
   GG_NEED(state);
   GG_TRY(check_point(sweep, i, err));
-  *state = gg_point_look(folder, sweep->point[i].id);
+  *state = gg_sweep_point_status(folder, sweep->point[i].id);
   if (!file) return GG_OK;
-  *file = gg_point_path(folder, sweep->point[i].id, *state == GG_POINT_SHORT ? ".short.h5" : ".h5");
-  return *file ? GG_OK : gg_out_of_memory(err);
+  *file = gg_sweep_point_path(folder, sweep->point[i].id, *state == GG_POINT_SHORT ? ".short.h5" : ".h5");
+  return *file ? GG_OK : gg_base_out_of_memory(err);
 }
 
 gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err)
@@ -223,8 +228,8 @@ gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **tex
   GG_NEED(folder);
   GG_NEED(text);
   GG_TRY(check_point(sweep, 0, err));
-  locale_t before = gg_c_locale_enter();
+  locale_t before = gg_base_c_locale_enter();
   json_t *document = gg_sweep_document(sweep, folder);
-  gg_c_locale_leave(before);
-  return gg_door_text(document, text, err);
+  gg_base_c_locale_leave(before);
+  return gg_api_text_copy(document, text, err);
 }

@@ -16,6 +16,6 @@ typedef struct gg_point_task {
 
 /* Do point i, whose place the caller has claimed, from its checkpoint if there is one. GG_OK and GG_FAILED with
  * *fell_short: its file is in place; *err has why it fell short or failed. */
-gg_status gg_point_do(const gg_point_task *task, bool *fell_short, gg_error *err);
+gg_status gg_api_point_run(const gg_point_task *task, bool *fell_short, gg_error *err);
 
 #endif

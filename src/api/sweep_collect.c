@@ -27,9 +27,9 @@ static void tell(const collecting *c, const char *file)
 /* Better known before than after. */
 static gg_status check_places(const collecting *c, gg_error *err)
 {
-  GG_TRY(gg_check_writable(c->csv, "tables are files", err));
-  GG_TRY(gg_check_writable(c->h5, "tables are files", err));
-  return c->picture ? gg_check_writable(c->picture, "pictures are files", err) : GG_OK;
+  GG_TRY(gg_base_atomic_check_writable(c->csv, "tables are files", err));
+  GG_TRY(gg_base_atomic_check_writable(c->h5, "tables are files", err));
+  return c->picture ? gg_base_atomic_check_writable(c->picture, "pictures are files", err) : GG_OK;
 }
 
 /* Values that are words have no axis, for instance: the tables are what there is to have. */
@@ -46,13 +46,13 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   const gg_picture_choice choice = {c->options.over, c->options.show};
   const char *command = c->options.command ? c->options.command : "the graingas library";
   GG_TRY(check_places(c, err));
-  GG_TRY(gg_point_table_read(&c->table, c->sweep, folder, err));
-  GG_TRY(gg_point_table_write_csv(&c->table, c->sweep, c->csv, err));
+  GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, err));
+  GG_TRY(gg_sweep_point_table_write_csv(&c->table, c->sweep, c->csv, err));
   tell(c, c->csv);
-  GG_TRY(gg_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));
+  GG_TRY(gg_sweep_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));
   tell(c, c->h5);
   if (!c->picture) return GG_OK;
-  gg_status status = gg_point_table_draw(&c->table, c->sweep, &choice, c->picture, err);
+  gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, err);
   if (status == GG_OK) tell(c, c->picture);
   return status == GG_OK || !may_lack_picture(c, status, err) ? status : GG_OK;
 }
@@ -75,10 +75,10 @@ gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *pref
   c.csv = with(prefix, ".csv"), c.h5 = with(prefix, ".h5"), c.svg = with(prefix, ".svg");
   c.picture = c.options.picture ? c.options.picture : c.svg;
   if (strcmp(c.picture ? c.picture : "", "none") == 0) c.picture = NULL;
-  locale_t before = gg_c_locale_enter();
-  gg_status status = c.csv && c.h5 && c.svg ? write_all(&c, folder, err) : gg_out_of_memory(err);
-  gg_c_locale_leave(before);
-  gg_point_table_clear(&c.table);
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = c.csv && c.h5 && c.svg ? write_all(&c, folder, err) : gg_base_out_of_memory(err);
+  gg_base_c_locale_leave(before);
+  gg_sweep_point_table_clear(&c.table);
   free(c.csv), free(c.h5), free(c.svg);
   return status;
 }

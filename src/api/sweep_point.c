@@ -18,7 +18,7 @@ typedef struct ended {
 static ended run(const gg_scene *scene, const gg_run_options *options, gg_door_point *point, gg_error *err)
 {
   gg_result *result = NULL;
-  gg_status status = gg_door_run_by(point, scene, options, &result, err);
+  gg_status status = gg_api_run_with(point, scene, options, &result, err);
   ended e = {status, result != NULL, point->resume_lost};
   gg_result_free(result);
   return e;
@@ -27,7 +27,7 @@ static ended run(const gg_scene *scene, const gg_run_options *options, gg_door_p
 static ended compare(const gg_scene *scene, const gg_run_options *options, gg_door_point *point, gg_error *err)
 {
   gg_comparison *c = NULL;
-  gg_status status = gg_door_compare_by(point, scene, options, &c, err);
+  gg_status status = gg_api_compare_with(point, scene, options, &c, err);
   ended e = {status, c != NULL, point->resume_lost};
   gg_comparison_free(c);
   return e;
@@ -37,7 +37,7 @@ static ended compare(const gg_scene *scene, const gg_run_options *options, gg_do
 static gg_status publish(void *task, gg_status run, gg_error *err)
 {
   const gg_point_task *t = task;
-  return gg_point_publish(t->folder, t->sweep->point[t->i].id, run == GG_FAILED, err);
+  return gg_sweep_point_publish(t->folder, t->sweep->point[t->i].id, run == GG_FAILED, err);
 }
 
 static ended evaluate(gg_point_task *t, const gg_scene *scene, const gg_run_options *options, gg_error *err)
@@ -46,8 +46,8 @@ static ended evaluate(gg_point_task *t, const gg_scene *scene, const gg_run_opti
   gg_result_file file;
   gg_status status = gg_evaluate_theories(scene, NULL, &c, err);
   for (int k = 0; c && k < 2; k++) snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
-  if (status == GG_OK) status = gg_result_file_open(&file, options->output, options->command, err);
-  if (status == GG_OK) status = gg_result_file_finish_comparison(&file, c, err);
+  if (status == GG_OK) status = gg_files_result_file_open(&file, options->output, options->command, err);
+  if (status == GG_OK) status = gg_files_result_file_finish_comparison(&file, c, err);
   if (status == GG_OK) status = publish(t, GG_OK, err);
   gg_comparison_free(c);
   return (ended){.status = status, .some = status == GG_OK};
@@ -103,18 +103,19 @@ static gg_status do_point(const gg_point_task *t, gg_scene *scene, gg_run_option
   return e.status;
 }
 
-gg_status gg_point_do(const gg_point_task *t, bool *fell_short, gg_error *err)
+gg_status gg_api_point_run(const gg_point_task *t, bool *fell_short, gg_error *err)
 {
   gg_scene scene;
   const uint64_t id = t->sweep->point[t->i].id;
   gg_run_options options = t->options;
-  char *work = gg_point_path(t->folder, id, ".work.h5"), *checkpoint = gg_point_path(t->folder, id, ".checkpoint.h5");
+  char *work = gg_sweep_point_path(t->folder, id, ".work.h5"),
+       *checkpoint = gg_sweep_point_path(t->folder, id, ".checkpoint.h5");
   options.output = work;
   options.checkpoint = checkpoint;
   *fell_short = false;
-  locale_t before = gg_c_locale_enter();
-  gg_status status = work && checkpoint ? gg_sweep_resolve(t->sweep, t->i, &scene, err) : gg_out_of_memory(err);
-  gg_c_locale_leave(before);
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = work && checkpoint ? gg_sweep_resolve(t->sweep, t->i, &scene, err) : gg_base_out_of_memory(err);
+  gg_base_c_locale_leave(before);
   if (status == GG_OK) status = do_point(t, &scene, &options, fell_short, err);
   free(work);
   free(checkpoint);

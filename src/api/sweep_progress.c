@@ -7,7 +7,7 @@
 #include "sweep/folder.h"
 
 /* Seconds of all points, by what the forecast says of each, and how far they are. */
-void gg_sweep_tell_progress(gg_courses *all)
+void gg_api_sweep_report_progress(gg_courses *all)
 {
   const gg_sweep_options *o = &all->options;
   gg_sweep_progress p = {.points = all->n + all->done_before,
@@ -32,7 +32,7 @@ void gg_sweep_tell_progress(gg_courses *all)
     if (ended ? item->here : item->state == GG_ITEM_RUNS) gone += seconds * item->fraction;
   }
   pthread_mutex_unlock(&all->lock);
-  double elapsed = gg_wall_now() - all->started;
+  double elapsed = gg_base_clock_wall() - all->started;
   if (gone > 0 && elapsed > 1) p.time_left = left * elapsed / gone;
   o->progress(o->context, &p);
 }
@@ -48,14 +48,14 @@ static void tell_ended(gg_courses *all, gg_sweep_item *item)
   if (!ours || !o->ended || item->status == GG_INTERRUPTED) return;
   const char *ending = item->fell_short ? ".short.h5" : ".h5";
   bool some = item->status == GG_OK || item->fell_short;
-  if (some) file = gg_point_path(all->folder, all->sweep->point[item->i].id, ending);
+  if (some) file = gg_sweep_point_path(all->folder, all->sweep->point[item->i].id, ending);
   pthread_mutex_unlock(&all->lock);
   o->ended(o->context, item->i, item->status, file, item->message);
   free(file);
   pthread_mutex_lock(&all->lock);
 }
 
-void gg_sweep_tell_news(gg_courses *all)
+void gg_api_sweep_report_status(gg_courses *all)
 {
   const gg_sweep_options *o = &all->options;
   for (; all->warned < all->warnings.n; all->warned++)

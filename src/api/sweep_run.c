@@ -16,10 +16,11 @@ static gg_status sum_up(const gg_courses *all, gg_error *err)
     failed += all->item[k].status != GG_OK && all->item[k].status != GG_INTERRUPTED && !all->item[k].fell_short;
   }
   if (atomic_load(&all->stopped))
-    return gg_fail(err, GG_INTERRUPTED, "%s: interrupted; go on with the same command", all->folder);
+    return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted; go on with the same command", all->folder);
   if (!failed && !fell_short) return GG_OK;
-  return gg_fail(err, GG_FAILED, "%s: of %zu points %zu failed, and %zu ended short of what was asked (*.short.h5)",
-                 all->folder, all->n + all->done_before, failed, fell_short);
+  return gg_base_fail(err, GG_FAILED,
+                      "%s: of %zu points %zu failed, and %zu ended short of what was asked (*.short.h5)", all->folder,
+                      all->n + all->done_before, failed, fell_short);
 }
 
 /* Longest first, so that none is left over at the end; as they are listed where they take as long. */
@@ -46,14 +47,14 @@ static int by_id(const void *a, const void *b)
 static gg_status list_missing(gg_courses *all, size_t first, size_t end, gg_error *err)
 {
   const gg_sweep *sweep = all->sweep;
-  known *ids = gg_new_array(end - first, sizeof *ids, err);
-  all->item = gg_new_array(end - first, sizeof *all->item, err);
+  known *ids = gg_base_array_new(end - first, sizeof *ids, err);
+  all->item = gg_base_array_new(end - first, sizeof *all->item, err);
   if (!ids || !all->item) return free(ids), GG_FAILED;
   for (size_t i = first; i < end; i++) ids[i - first] = (known){sweep->point[i].id, i};
   qsort(ids, end - first, sizeof *ids, by_id);
   for (size_t k = 0; k < end - first; k++) {
     if (k && ids[k].id == ids[k - 1].id) continue;
-    gg_point_state state = gg_point_look(all->folder, ids[k].id);
+    gg_point_state state = gg_sweep_point_status(all->folder, ids[k].id);
     all->done_before += state != GG_POINT_MISSING;
     all->short_before += state == GG_POINT_SHORT;
     if (state == GG_POINT_MISSING)
@@ -80,12 +81,12 @@ static gg_status work(gg_courses *all, gg_error *err)
   size_t n = at_once(all);
   all->threads_each = all->options.threads;
   if (n > 1 && !all->options.workers) {
-    GG_TRY(gg_crew_new(all->options.threads, &all->crew, err));
+    GG_TRY(gg_run_crew_new(all->options.threads, &all->crew, err));
     all->threads_each = 1;
   }
-  all->started = gg_wall_now();
-  gg_status status = n ? gg_courses_run(all, n, err) : GG_OK;
-  gg_sweep_tell_progress(all);
+  all->started = gg_base_clock_wall();
+  gg_status status = n ? gg_api_sweep_runs_advance(all, n, err) : GG_OK;
+  gg_api_sweep_report_progress(all);
   return status == GG_OK ? sum_up(all, err) : status;
 }
 
@@ -101,12 +102,12 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   GG_TRY(gg_sweep_folder_prepare(folder, "results of a sweep are a folder with a file a point", err));
   gg_sweep_folder_tidy(folder);
   pthread_mutex_init(&all.lock, NULL);
-  gg_news_init(&all.news);
+  gg_base_condition_init(&all.news);
   atomic_init(&all.stopped, false);
   gg_status status = list_missing(&all, first, end, err);
   if (status == GG_OK) status = work(&all, err);
-  gg_crew_free(all.crew);
-  gg_text_list_clear(&all.warnings);
+  gg_run_crew_free(all.crew);
+  gg_base_string_list_clear(&all.warnings);
   pthread_mutex_destroy(&all.lock);
   pthread_cond_destroy(&all.news);
   free(all.item);
@@ -128,6 +129,7 @@ gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, cons
   GG_NEED(folder);
   GG_TRY(gg_sweep_check(sweep, err));
   if (i >= sweep->n)
-    return gg_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1, sweep->n);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
+                        sweep->n);
   return run(sweep, folder, i, i + 1, options, err);
 }

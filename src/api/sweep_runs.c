@@ -45,7 +45,7 @@ static void warn(void *context, const char *message)
   bool known = false;
   pthread_mutex_lock(&all->lock);
   for (size_t i = 0; i < all->warnings.n && !known; i++) known = strcmp(all->warnings.text[i], message) == 0;
-  if (!known) gg_text_list_add(&all->warnings, "%s", message);
+  if (!known) gg_base_string_list_add(&all->warnings, "%s", message);
   pthread_mutex_unlock(&all->lock);
 }
 
@@ -61,9 +61,9 @@ static gg_status do_point(course *c, bool *fell_short, gg_error *err)
                                   .progress = hear,
                                   .stop = is_stopped,
                                   .warn = warn};
-  if (all->crew) gg_crew_enter(all->crew);
-  gg_status status = gg_point_do(&task, fell_short, err);
-  if (all->crew) gg_crew_leave(all->crew);
+  if (all->crew) gg_run_crew_enter(all->crew);
+  gg_status status = gg_api_point_run(&task, fell_short, err);
+  if (all->crew) gg_run_crew_leave(all->crew);
   return status;
 }
 
@@ -77,18 +77,18 @@ static void do_item(course *c)
   gg_sweep_item *item = c->item;
   const uint64_t id = all->sweep->point[item->i].id;
   gg_point_state there = GG_POINT_MISSING;
-  gg_status status = gg_point_claim(all->folder, id, &lock, &err);
+  gg_status status = gg_sweep_point_claim(all->folder, id, &lock, &err);
   claimed = status == GG_OK && lock.fd >= 0;
   if (claimed) status = do_point(c, &fell_short, &err);
-  if (status == GG_OK && !claimed) there = gg_point_look(all->folder, id);
-  gg_file_lock_release(&lock);
+  if (status == GG_OK && !claimed) there = gg_sweep_point_status(all->folder, id);
+  gg_base_file_lock_release(&lock);
   pthread_mutex_lock(&all->lock);
   bool busy = status == GG_OK && !claimed && there == GG_POINT_MISSING;
   item->status = status;
   item->here = claimed;
   item->fell_short = fell_short || there == GG_POINT_SHORT;
   item->fraction = 1;
-  item->looked = gg_wall_now();
+  item->looked = gg_base_clock_wall();
   snprintf(item->message, sizeof item->message, "%.500s", err.message);
   item->state = busy ? GG_ITEM_ELSEWHERE : GG_ITEM_ENDED;
   pthread_cond_signal(&all->news);
@@ -109,7 +109,7 @@ static gg_sweep_item *next_item(gg_courses *all, bool *any)
     if (!old || item->looked < old->looked) old = item;
   }
   *any = elsewhere > 0;
-  return old && gg_wall_now() - old->looked > look_every(elsewhere) ? old : NULL;
+  return old && gg_base_clock_wall() - old->looked > look_every(elsewhere) ? old : NULL;
 }
 
 static void *work(void *argument)
@@ -135,25 +135,25 @@ static void *work(void *argument)
   return NULL;
 }
 
-gg_status gg_courses_run(gg_courses *all, size_t at_once, gg_error *err)
+gg_status gg_api_sweep_runs_advance(gg_courses *all, size_t at_once, gg_error *err)
 {
   const gg_sweep_options *o = &all->options;
-  pthread_t *thread = gg_new_array(at_once, sizeof *thread, err);
+  pthread_t *thread = gg_base_array_new(at_once, sizeof *thread, err);
   if (!thread) return GG_FAILED;
   pthread_mutex_lock(&all->lock);
   size_t n = 0;
   while (n < at_once && pthread_create(&thread[n], NULL, work, all) == 0) n++, all->at_work++;
   while (all->at_work) {
-    gg_news_wait(&all->news, &all->lock, 0.1);
-    gg_sweep_tell_news(all);
+    gg_base_condition_wait(&all->news, &all->lock, 0.1);
+    gg_api_sweep_report_status(all);
     pthread_mutex_unlock(&all->lock);
     if (o->stop && o->stop(o->context)) atomic_store(&all->stopped, true);
-    gg_sweep_tell_progress(all);
+    gg_api_sweep_report_progress(all);
     pthread_mutex_lock(&all->lock);
   }
-  gg_sweep_tell_news(all);
+  gg_api_sweep_report_status(all);
   pthread_mutex_unlock(&all->lock);
   for (size_t k = 0; k < n; k++) pthread_join(thread[k], NULL);
   free(thread);
-  return n ? GG_OK : gg_fail(err, GG_FAILED, "no thread could be started");
+  return n ? GG_OK : gg_base_fail(err, GG_FAILED, "no thread could be started");
 }

@@ -46,10 +46,10 @@ typedef struct gg_courses {
 
 /* sweep_progress.c: tell the caller where all stands; and, with the lock held, but not while the caller is told, of
  * warnings and of points that have ended. */
-void gg_sweep_tell_progress(gg_courses *courses);
-void gg_sweep_tell_news(gg_courses *courses);
+void gg_api_sweep_report_progress(gg_courses *courses);
+void gg_api_sweep_report_status(gg_courses *courses);
 
 /* Work off all items, `at_once` at a time, and tell the caller meanwhile; GG_OK whatever became of each. */
-gg_status gg_courses_run(gg_courses *courses, size_t at_once, gg_error *err);
+gg_status gg_api_sweep_runs_advance(gg_courses *courses, size_t at_once, gg_error *err);
 
 #endif

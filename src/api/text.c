@@ -15,20 +15,20 @@ const char *gg_version(void)
   return GG_VERSION;
 }
 
-gg_status gg_door_engine(const char *name, gg_engine_kind *kind, gg_error *err)
+gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err)
 {
   for (int k = 0; k < 2; k++)
-    if (strcmp(gg_engine_ops_of((gg_engine_kind)k)->name, name) == 0) return *kind = (gg_engine_kind)k, GG_OK;
-  return gg_fail(err, GG_BAD_INPUT, "there is no engine called '%.40s'; there are md and dsmc", name);
+    if (strcmp(gg_run_engine_ops_of((gg_engine_kind)k)->name, name) == 0) return *kind = (gg_engine_kind)k, GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT, "there is no engine called '%.40s'; there are md and dsmc", name);
 }
 
-gg_status gg_door_text(json_t *document, char **text, gg_error *err)
+gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err)
 {
-  locale_t before = gg_c_locale_enter();
-  char *made = document ? gg_document_text(document) : NULL;
-  gg_c_locale_leave(before);
+  locale_t before = gg_base_c_locale_enter();
+  char *made = document ? gg_files_document_text(document) : NULL;
+  gg_base_c_locale_leave(before);
   json_decref(document);
-  if (!made) return gg_out_of_memory(err);
+  if (!made) return gg_base_out_of_memory(err);
   *text = made;
   return GG_OK;
 }
@@ -36,15 +36,15 @@ gg_status gg_door_text(json_t *document, char **text, gg_error *err)
 void gg_format_estimate(double mean, double error, char *text, size_t size)
 {
   if (!text || !size) return;
-  locale_t before = gg_c_locale_enter();
-  gg_estimate_text(mean, error, text, size);
-  gg_c_locale_leave(before);
+  locale_t before = gg_base_c_locale_enter();
+  gg_files_estimate_format(mean, error, text, size);
+  gg_base_c_locale_leave(before);
 }
 
 const char *gg_nearest_word(const char *word, const char *const *known)
 {
   if (!word || !known) return NULL;
   gg_nearest nearest = {.word = word};
-  for (; *known; known++) gg_nearest_try(&nearest, *known);
+  for (; *known; known++) gg_base_spelling_try(&nearest, *known);
   return nearest.best;
 }

@@ -16,7 +16,7 @@
 
 static gg_status cannot(const gg_atomic_file *f, int number, gg_error *err)
 {
-  return gg_cannot_write(f->path, strerror(number), err);
+  return gg_base_path_write_error(f->path, strerror(number), err);
 }
 
 /* A pipe needs a reader, who may come a moment after the writer: without one, opening it would wait for ever. */
@@ -28,7 +28,7 @@ static gg_status open_stream(gg_atomic_file *f, gg_error *err)
     if (f->fd >= 0 || errno != ENXIO) break;
     nanosleep(&moment, NULL);
   }
-  if (f->fd < 0 && errno == ENXIO) return gg_cannot_write(f->path, "nobody reads from this pipe", err);
+  if (f->fd < 0 && errno == ENXIO) return gg_base_path_write_error(f->path, "nobody reads from this pipe", err);
   return f->fd >= 0 ? GG_OK : cannot(f, errno, err);
 }
 
@@ -60,11 +60,11 @@ static gg_status open_temporary(gg_atomic_file *f, gg_error *err)
 
 static gg_status begin(gg_atomic_file *f, const char *path, bool locked, gg_error *err)
 {
-  GG_TRY(gg_output_path_find(&f->place, path, err));
+  GG_TRY(gg_base_output_path_find(&f->place, path, err));
   f->path = strdup(path);
-  if (!f->path) return gg_cannot_write(path, strerror(ENOMEM), err);
+  if (!f->path) return gg_base_path_write_error(path, strerror(ENOMEM), err);
   if (f->place.stream) return open_stream(f, err);
-  if (!locked) GG_TRY(gg_file_lock_take(&f->lock, f->place.target, path, err));
+  if (!locked) GG_TRY(gg_base_file_lock_take(&f->lock, f->place.target, path, err));
   return open_temporary(f, err);
 }
 
@@ -72,16 +72,16 @@ static gg_status open_it(gg_atomic_file *f, const char *path, bool locked, gg_er
 {
   *f = GG_ATOMIC_NONE;
   gg_status status = begin(f, path, locked, err);
-  if (status != GG_OK) gg_atomic_abandon(f);
+  if (status != GG_OK) gg_base_atomic_abandon(f);
   return status;
 }
 
-gg_status gg_atomic_open(gg_atomic_file *f, const char *path, gg_error *err)
+gg_status gg_base_atomic_open(gg_atomic_file *f, const char *path, gg_error *err)
 {
   return open_it(f, path, false, err);
 }
 
-gg_status gg_atomic_open_locked(gg_atomic_file *f, const char *path, gg_error *err)
+gg_status gg_base_atomic_open_locked(gg_atomic_file *f, const char *path, gg_error *err)
 {
   return open_it(f, path, true, err);
 }
@@ -115,12 +115,12 @@ static bool wait_for_reader(const gg_atomic_file *f)
   return true;
 }
 
-gg_status gg_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_error *err)
+gg_status gg_base_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_error *err)
 {
   const char *from = data;
   while (size > 0) {
     if (f->place.stream && !wait_for_reader(f))
-      return gg_cannot_write(f->path, "its reader takes nothing, and the run was told to stop", err);
+      return gg_base_path_write_error(f->path, "its reader takes nothing, and the run was told to stop", err);
     ssize_t done = f->place.stream ? write_calmly(f->fd, from, size) : write(f->fd, from, size);
     if (done < 0 && (errno == EINTR || (errno == EAGAIN && f->place.stream))) continue;
     if (done < 0) return cannot(f, errno, err);
@@ -168,34 +168,34 @@ static bool let_go(gg_atomic_file *f)
   return close(fd) == 0;
 }
 
-gg_status gg_atomic_commit(gg_atomic_file *f, gg_error *err)
+gg_status gg_base_atomic_commit(gg_atomic_file *f, gg_error *err)
 {
   bool done = f->place.stream ? let_go(f) : put_in_place(f);
   gg_status status = done ? GG_OK : cannot(f, errno, err);
-  gg_atomic_abandon(f);
+  gg_base_atomic_abandon(f);
   return status;
 }
 
-void gg_atomic_abandon(gg_atomic_file *f)
+void gg_base_atomic_abandon(gg_atomic_file *f)
 {
   if (f->fd >= 0) close(f->fd);
   if (f->temporary && f->fd >= 0) unlink(f->temporary);
-  gg_file_lock_release(&f->lock);
-  gg_output_path_clear(&f->place);
+  gg_base_file_lock_release(&f->lock);
+  gg_base_output_path_clear(&f->place);
   free(f->temporary);
   free(f->path);
   *f = GG_ATOMIC_NONE;
 }
 
-gg_status gg_check_writable(const char *path, const char *why_regular, gg_error *err)
+gg_status gg_base_atomic_check_writable(const char *path, const char *why_regular, gg_error *err)
 {
   gg_atomic_file file;
   gg_output_path place;
-  GG_TRY(gg_output_path_find(&place, path, err));
+  GG_TRY(gg_base_output_path_find(&place, path, err));
   bool stream = place.stream;
-  gg_output_path_clear(&place);
-  if (stream) return gg_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; %s", path, why_regular);
-  GG_TRY(gg_atomic_open(&file, path, err));
-  gg_atomic_abandon(&file);
+  gg_base_output_path_clear(&place);
+  if (stream) return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; %s", path, why_regular);
+  GG_TRY(gg_base_atomic_open(&file, path, err));
+  gg_base_atomic_abandon(&file);
   return GG_OK;
 }

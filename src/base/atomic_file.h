@@ -20,21 +20,21 @@ typedef struct gg_atomic_file {
 
 /* GG_BAD_FILE says why the file could not be written there, or which run is writing it. What a dead run left beside it
  * is gone after this call. */
-gg_status gg_atomic_open(gg_atomic_file *file, const char *path, gg_error *err);
+gg_status gg_base_atomic_open(gg_atomic_file *file, const char *path, gg_error *err);
 /* The same of a file whose lock the caller holds. */
-gg_status gg_atomic_open_locked(gg_atomic_file *file, const char *path, gg_error *err);
+gg_status gg_base_atomic_open_locked(gg_atomic_file *file, const char *path, gg_error *err);
 /* Append to it. */
-gg_status gg_atomic_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
+gg_status gg_base_atomic_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
 /* Flush, rename, and free; on failure nothing is left. A file that is replaced leaves its mode, and its owner where the
  * system allows it. */
-gg_status gg_atomic_commit(gg_atomic_file *file, gg_error *err);
+gg_status gg_base_atomic_commit(gg_atomic_file *file, gg_error *err);
 /* Remove the temporary file and free; harmless after a commit. */
-void gg_atomic_abandon(gg_atomic_file *file);
+void gg_base_atomic_abandon(gg_atomic_file *file);
 
 #define GG_ATOMIC_NONE ((gg_atomic_file){.fd = -1, .lock.fd = -1})
 
 /* Could a regular file be written there, not a device or pipe? Asked before a long run, so that it does not end in
  * vain. `why_regular` says what it is for: "pictures are files". */
-gg_status gg_check_writable(const char *path, const char *why_regular, gg_error *err);
+gg_status gg_base_atomic_check_writable(const char *path, const char *why_regular, gg_error *err);
 
 #endif

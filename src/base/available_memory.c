@@ -65,7 +65,7 @@ static double left_of_limit(int resource, const char *status)
   return fmax((double)limit.rlim_cur - (isfinite(used) ? used : 0), 0);
 }
 
-double gg_memory_available(void)
+double gg_base_memory_available(void)
 {
 #ifdef __EMSCRIPTEN__
   return INFINITY; /* there are no files to ask, and a browser does not tell */

@@ -4,6 +4,6 @@
 
 /* Bytes that this process can still have: what the system has, what its control groups and its own limits leave.
  * INFINITY where nothing tells. */
-double gg_memory_available(void);
+double gg_base_memory_available(void);
 
 #endif

@@ -1,6 +1,6 @@
 #include "base/c_locale.h"
 
-locale_t gg_c_locale_enter(void)
+locale_t gg_base_c_locale_enter(void)
 {
   locale_t copy = duplocale(uselocale((locale_t)0));
   locale_t c = copy ? newlocale(LC_NUMERIC_MASK, "C", copy) : (locale_t)0; /* which becomes the copy */
@@ -9,7 +9,7 @@ locale_t gg_c_locale_enter(void)
   return c ? uselocale(c) : (locale_t)0;
 }
 
-void gg_c_locale_leave(locale_t before)
+void gg_base_c_locale_leave(locale_t before)
 {
   if (!before) return;
   locale_t c = uselocale(before);

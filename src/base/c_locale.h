@@ -7,8 +7,8 @@
 #include <xlocale.h>
 #endif
 
-/* Switch this thread to the C locale; hand the returned value to gg_c_locale_leave. */
-locale_t gg_c_locale_enter(void);
-void gg_c_locale_leave(locale_t before);
+/* Switch this thread to the C locale; hand the returned value to gg_base_c_locale_leave. */
+locale_t gg_base_c_locale_enter(void);
+void gg_base_c_locale_leave(locale_t before);
 
 #endif

@@ -5,24 +5,24 @@
 
 #include "base/memory.h"
 
-json_t *gg_json_end(bool before, json_t *document)
+json_t *gg_base_json_end(bool before, json_t *document)
 {
-  bool lacked = gg_memory_end(before);
+  bool lacked = gg_base_memory_end(before);
   if (document && !lacked) return document;
-  gg_memory_lacked();
+  gg_base_memory_lacked();
   json_decref(document);
   return NULL;
 }
 
-json_t *gg_json_made(json_t *value)
+json_t *gg_base_json_made(json_t *value)
 {
-  if (!value) gg_memory_lacked();
+  if (!value) gg_base_memory_lacked();
   return value;
 }
 
-int gg_json_put(int failed)
+int gg_base_json_put(int failed)
 {
-  if (failed) gg_memory_lacked();
+  if (failed) gg_base_memory_lacked();
   return failed;
 }
 
@@ -31,7 +31,7 @@ int gg_json_put(int failed)
 static void *noted_malloc(size_t size)
 {
   void *block = malloc(size);
-  if (!block) gg_memory_lacked();
+  if (!block) gg_base_memory_lacked();
   return block;
 }
 
@@ -54,13 +54,13 @@ __attribute__((destructor)) static void note_no_more(void)
   if (is_source(noted_malloc, free)) json_set_alloc_funcs(malloc, free);
 }
 
-json_t *gg_json_read(const char *text, const char **why)
+json_t *gg_base_json_read(const char *text, const char **why)
 {
-  const bool before = gg_memory_begin();
+  const bool before = gg_base_memory_begin();
   errno = 0;
   json_t *document = json_loads(text, 0, NULL);
-  if (!document && errno == ENOMEM) gg_memory_lacked(); /* of another source */
-  const bool lacked = gg_memory_end(before);
+  if (!document && errno == ENOMEM) gg_base_memory_lacked(); /* of another source */
+  const bool lacked = gg_base_memory_end(before);
   if (lacked) {
     json_decref(document);
     document = NULL;
@@ -69,13 +69,13 @@ json_t *gg_json_read(const char *text, const char **why)
   return document;
 }
 
-char *gg_json_text(const json_t *value, size_t flags)
+char *gg_base_json_text(const json_t *value, size_t flags)
 {
-  const bool before = gg_memory_begin();
+  const bool before = gg_base_memory_begin();
   errno = 0;
   char *text = value ? json_dumps(value, flags) : NULL;
-  if (!text || errno == ENOMEM) gg_memory_lacked();
-  if (!gg_memory_end(before)) return text;
+  if (!text || errno == ENOMEM) gg_base_memory_lacked();
+  if (!gg_base_memory_end(before)) return text;
   free(text);
   return NULL;
 }

@@ -1,6 +1,6 @@
 /* JSON that is whole or not there. jansson's makers return NULL where there is no memory, and its containers leave out
  * what is NULL: nobody would tell a document that lacks a number from a whole one. In files that include this every
- * maker that gets nothing is noted (base/memory.h); who makes a document begins, and ends with gg_json_end. */
+ * maker that gets nothing is noted (base/memory.h); who makes a document begins, and ends with gg_base_json_end. */
 #ifndef GG_WHOLE_JSON_H
 #define GG_WHOLE_JSON_H
 
@@ -8,28 +8,28 @@
 
 #include "base/memory.h"
 
-/* The document, or NULL if anything was lost since gg_memory_begin, which returned `before`. */
-json_t *gg_json_end(bool before, json_t *document);
+/* The document, or NULL if anything was lost since gg_base_memory_begin, which returned `before`. */
+json_t *gg_base_json_end(bool before, json_t *document);
 
-json_t *gg_json_made(json_t *value);
-int gg_json_put(int failed);
+json_t *gg_base_json_made(json_t *value);
+int gg_base_json_put(int failed);
 
 /* A text read; NULL with the reason in *why (which may be NULL). */
-json_t *gg_json_read(const char *text, const char **why);
+json_t *gg_base_json_read(const char *text, const char **why);
 
 /* json_dumps, which cuts the text off where it has no room for it; to be freed, NULL: out of memory. */
-char *gg_json_text(const json_t *value, size_t flags);
+char *gg_base_json_text(const json_t *value, size_t flags);
 
-#define json_object() gg_json_made(json_object())
-#define json_array() gg_json_made(json_array())
-#define json_real(x) gg_json_made(json_real(x))
-#define json_integer(x) gg_json_made(json_integer(x))
-#define json_string(x) gg_json_made(json_string(x))
-#define json_sprintf(...) gg_json_made(json_sprintf(__VA_ARGS__))
-#define json_pack(...) gg_json_made(json_pack(__VA_ARGS__))
-#define json_object_set(...) gg_json_put(json_object_set(__VA_ARGS__))
-#define json_object_set_new(...) gg_json_put(json_object_set_new(__VA_ARGS__))
-#define json_array_append_new(...) gg_json_put(json_array_append_new(__VA_ARGS__))
-#define json_string_set(...) gg_json_put(json_string_set(__VA_ARGS__))
+#define json_object() gg_base_json_made(json_object())
+#define json_array() gg_base_json_made(json_array())
+#define json_real(x) gg_base_json_made(json_real(x))
+#define json_integer(x) gg_base_json_made(json_integer(x))
+#define json_string(x) gg_base_json_made(json_string(x))
+#define json_sprintf(...) gg_base_json_made(json_sprintf(__VA_ARGS__))
+#define json_pack(...) gg_base_json_made(json_pack(__VA_ARGS__))
+#define json_object_set(...) gg_base_json_put(json_object_set(__VA_ARGS__))
+#define json_object_set_new(...) gg_base_json_put(json_object_set_new(__VA_ARGS__))
+#define json_array_append_new(...) gg_base_json_put(json_array_append_new(__VA_ARGS__))
+#define json_string_set(...) gg_base_json_put(json_string_set(__VA_ARGS__))
 
 #endif

@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* 64-bit FNV-1a over words where it can: megabytes take milliseconds. */
-uint64_t gg_checksum(uint64_t sum, const void *data, size_t size)
+uint64_t gg_base_checksum(uint64_t sum, const void *data, size_t size)
 {
   const unsigned char *at = data;
   for (; size >= 8; at += 8, size -= 8) {

@@ -8,6 +8,6 @@
 #define GG_CHECKSUM_START UINT64_C(0xcbf29ce484222325)
 
 /* `sum` with `size` bytes more; begin with GG_CHECKSUM_START. A change of any one word of eight bytes shows. */
-uint64_t gg_checksum(uint64_t sum, const void *data, size_t size);
+uint64_t gg_base_checksum(uint64_t sum, const void *data, size_t size);
 
 #endif

@@ -9,7 +9,7 @@ static double read_clock(clockid_t id)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-double gg_wall_now(void)
+double gg_base_clock_wall(void)
 {
   return read_clock(CLOCK_MONOTONIC);
 }
@@ -20,7 +20,7 @@ static const clockid_t waited_by = CLOCK_REALTIME;
 static const clockid_t waited_by = CLOCK_MONOTONIC;
 #endif
 
-void gg_news_init(pthread_cond_t *news)
+void gg_base_condition_init(pthread_cond_t *news)
 {
   pthread_condattr_t kind;
   pthread_condattr_init(&kind);
@@ -31,7 +31,7 @@ void gg_news_init(pthread_cond_t *news)
   pthread_condattr_destroy(&kind);
 }
 
-void gg_news_wait(pthread_cond_t *news, pthread_mutex_t *lock, double seconds)
+void gg_base_condition_wait(pthread_cond_t *news, pthread_mutex_t *lock, double seconds)
 {
   struct timespec until;
   clock_gettime(waited_by, &until);
@@ -40,7 +40,7 @@ void gg_news_wait(pthread_cond_t *news, pthread_mutex_t *lock, double seconds)
   pthread_cond_timedwait(news, lock, &until);
 }
 
-double gg_cpu_now(void)
+double gg_base_clock_cpu(void)
 {
   return read_clock(CLOCK_THREAD_CPUTIME_ID);
 }

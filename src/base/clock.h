@@ -4,11 +4,11 @@
 
 #include <pthread.h>
 
-double gg_wall_now(void);
-double gg_cpu_now(void);
+double gg_base_clock_wall(void);
+double gg_base_clock_cpu(void);
 
 /* A condition that is waited for by the first of these clocks; so many seconds at the most, less than one. */
-void gg_news_init(pthread_cond_t *news);
-void gg_news_wait(pthread_cond_t *news, pthread_mutex_t *lock, double seconds);
+void gg_base_condition_init(pthread_cond_t *news);
+void gg_base_condition_wait(pthread_cond_t *news, pthread_mutex_t *lock, double seconds);
 
 #endif

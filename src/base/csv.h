@@ -12,11 +12,11 @@ typedef struct gg_csv {
   int column;
 } gg_csv;
 
-void gg_csv_text(gg_csv *csv, const char *text); /* NULL: an empty cell */
+void gg_base_csv_text(gg_csv *csv, const char *text); /* NULL: an empty cell */
 /* "NAME [UNIT]", of a number without one "NAME". */
-void gg_csv_head(gg_csv *csv, const char *name, const char *unit);
+void gg_base_csv_head(gg_csv *csv, const char *name, const char *unit);
 /* A number, text or truth of a document; empty if it is null or not there. */
-void gg_csv_json(gg_csv *csv, const json_t *value);
-void gg_csv_end_row(gg_csv *csv);
+void gg_base_csv_json(gg_csv *csv, const json_t *value);
+void gg_base_csv_end_row(gg_csv *csv);
 
 #endif

@@ -27,7 +27,7 @@ static void put(gg_error *err, const char *whole)
   snprintf(err->message, sizeof err->message, "%.*s%s%s", (int)head, whole, between, whole + from);
 }
 
-gg_status gg_fail(gg_error *err, gg_status status, const char *format, ...)
+gg_status gg_base_fail(gg_error *err, gg_status status, const char *format, ...)
 {
   if (err) {
     char whole[LONGEST];
@@ -41,7 +41,7 @@ gg_status gg_fail(gg_error *err, gg_status status, const char *format, ...)
   return status;
 }
 
-gg_status gg_error_prefix(gg_error *err, gg_status status, const char *format, ...)
+gg_status gg_base_error_prefix(gg_error *err, gg_status status, const char *format, ...)
 {
   if (err) {
     char whole[LONGEST];

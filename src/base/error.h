@@ -6,11 +6,11 @@
 
 #define GG_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
 
-/* Write the message (err may be NULL) and return the status, so that a call site reads `return gg_fail(...)`. */
-gg_status gg_fail(gg_error *err, gg_status status, const char *format, ...) GG_PRINTF(3, 4);
+/* Write the message (err may be NULL) and return the status, so that a call site reads `return gg_base_fail(...)`. */
+gg_status gg_base_fail(gg_error *err, gg_status status, const char *format, ...) GG_PRINTF(3, 4);
 
 /* Put `prefix: ` before a message already there (a file name, a scene key), and pass the status on. */
-gg_status gg_error_prefix(gg_error *err, gg_status status, const char *format, ...) GG_PRINTF(3, 4);
+gg_status gg_base_error_prefix(gg_error *err, gg_status status, const char *format, ...) GG_PRINTF(3, 4);
 
 /* Propagate: leave the calling function with the status of a failed call. */
 #define GG_TRY(call)                                                                                                   \

@@ -31,8 +31,8 @@ static gg_status in_use(int fd, const char *path, gg_error *err)
   char who[160] = "";
   ssize_t length = pread(fd, who, sizeof who - 1, 0);
   who[length > 0 ? strcspn(who, "\n") : 0] = '\0';
-  return gg_fail(err, GG_BAD_FILE, "%s: cannot be written: another run is writing it (%s)", path,
-                 *who ? who : "it has just begun");
+  return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: another run is writing it (%s)", path,
+                      *who ? who : "it has just begun");
 }
 
 /* Does what was opened still stand there? Who held it before may have taken it away in between. */
@@ -72,7 +72,7 @@ static gg_status try_once(gg_file_lock *l, const char *path, bool *sure, gg_erro
 {
   bool foreign;
   int fd = open_lock(l->path, &foreign);
-  if (fd < 0) return gg_cannot_write(path, strerror(errno), err);
+  if (fd < 0) return gg_base_path_write_error(path, strerror(errno), err);
   gg_status status = GG_OK;
   *sure = flock(fd, LOCK_EX | LOCK_NB) == 0;
   if (!*sure && !cannot_lock(errno)) {
@@ -86,10 +86,10 @@ static gg_status try_once(gg_file_lock *l, const char *path, bool *sure, gg_erro
   return status;
 }
 
-gg_status gg_file_lock_take(gg_file_lock *l, const char *target, const char *path, gg_error *err)
+gg_status gg_base_file_lock_take(gg_file_lock *l, const char *target, const char *path, gg_error *err)
 {
   *l = GG_FILE_LOCK_NONE;
-  if (asprintf(&l->path, "%s" GG_LOCK_SUFFIX, target) < 0) return gg_cannot_write(path, strerror(ENOMEM), err);
+  if (asprintf(&l->path, "%s" GG_LOCK_SUFFIX, target) < 0) return gg_base_path_write_error(path, strerror(ENOMEM), err);
   gg_status status = GG_OK;
   bool sure = false;
   while (status == GG_OK && l->fd < 0) status = try_once(l, path, &sure, err);
@@ -103,7 +103,7 @@ gg_status gg_file_lock_take(gg_file_lock *l, const char *target, const char *pat
   return status;
 }
 
-void gg_file_lock_release(gg_file_lock *l)
+void gg_base_file_lock_release(gg_file_lock *l)
 {
   if (l->fd >= 0) {
     unlink(l->path); /* while it is still held: nobody else's is removed */

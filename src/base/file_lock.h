@@ -22,8 +22,8 @@ typedef struct gg_file_lock {
 /* `target` is locked, `path` stands in messages. GG_BAD_FILE if another run holds it, or if its folder takes no files.
  * The temporary file that a dead run left beside it is removed, unless the file system has no locks: it may be that of
  * one that lives. */
-gg_status gg_file_lock_take(gg_file_lock *lock, const char *target, const char *path, gg_error *err);
+gg_status gg_base_file_lock_take(gg_file_lock *lock, const char *target, const char *path, gg_error *err);
 /* Harmless if it is not held. */
-void gg_file_lock_release(gg_file_lock *lock);
+void gg_base_file_lock_release(gg_file_lock *lock);
 
 #endif

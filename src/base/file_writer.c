@@ -4,18 +4,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-void gg_text_begin(gg_text_out *out, gg_atomic_file *file, gg_error *err)
+void gg_base_file_writer_begin(gg_text_out *out, gg_atomic_file *file, gg_error *err)
 {
   out->file = file, out->err = err, out->status = GG_OK, out->used = 0;
 }
 
 static void flush(gg_text_out *out)
 {
-  if (out->status == GG_OK) out->status = gg_atomic_write(out->file, out->buffer, out->used, out->err);
+  if (out->status == GG_OK) out->status = gg_base_atomic_write(out->file, out->buffer, out->used, out->err);
   out->used = 0;
 }
 
-void gg_text_put(gg_text_out *out, const char *text)
+void gg_base_file_writer_put(gg_text_out *out, const char *text)
 {
   for (size_t left = strlen(text); left > 0;) {
     size_t room = sizeof out->buffer - out->used, now = left < room ? left : room;
@@ -25,7 +25,7 @@ void gg_text_put(gg_text_out *out, const char *text)
   }
 }
 
-void gg_number_text(double value, char text[GG_NUMBER_TEXT])
+void gg_base_number_format(double value, char text[GG_NUMBER_TEXT])
 {
   for (int digits = 15; digits <= 17; digits++) {
     snprintf(text, GG_NUMBER_TEXT, "%.*g", digits, value);
@@ -33,14 +33,14 @@ void gg_number_text(double value, char text[GG_NUMBER_TEXT])
   }
 }
 
-void gg_text_put_number(gg_text_out *out, double value)
+void gg_base_file_writer_put_number(gg_text_out *out, double value)
 {
   char text[GG_NUMBER_TEXT];
-  gg_number_text(value, text);
-  gg_text_put(out, text);
+  gg_base_number_format(value, text);
+  gg_base_file_writer_put(out, text);
 }
 
-gg_status gg_text_end(gg_text_out *out)
+gg_status gg_base_file_writer_end(gg_text_out *out)
 {
   flush(out);
   return out->status;

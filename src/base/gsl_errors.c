@@ -13,17 +13,17 @@ static gsl_error_handler_t *before;
 static void note(const char *reason, const char *file, int line, int number)
 {
   (void)reason, (void)file, (void)line;
-  if (number == GSL_ENOMEM) gg_memory_lacked();
+  if (number == GSL_ENOMEM) gg_base_memory_lacked();
 }
 
-void gg_gsl_enter(void)
+void gg_base_gsl_enter(void)
 {
   pthread_mutex_lock(&lock);
   if (inside++ == 0) before = gsl_set_error_handler(note);
   pthread_mutex_unlock(&lock);
 }
 
-void gg_gsl_leave(void)
+void gg_base_gsl_leave(void)
 {
   pthread_mutex_lock(&lock);
   if (--inside == 0) gsl_set_error_handler(before);

@@ -4,7 +4,7 @@
 #ifndef GG_GSL_QUIET_H
 #define GG_GSL_QUIET_H
 
-void gg_gsl_enter(void);
-void gg_gsl_leave(void);
+void gg_base_gsl_enter(void);
+void gg_base_gsl_leave(void);
 
 #endif

@@ -6,56 +6,56 @@
 
 static _Thread_local bool lacked; /* between a begin and its end; never read without */
 
-bool gg_memory_begin(void)
+bool gg_base_memory_begin(void)
 {
   bool before = lacked;
   lacked = false;
   return before;
 }
 
-bool gg_memory_end(bool before)
+bool gg_base_memory_end(bool before)
 {
   bool now = lacked;
   lacked = before || now;
   return now;
 }
 
-void gg_memory_lacked(void)
+void gg_base_memory_lacked(void)
 {
   lacked = true;
 }
 
-gg_status gg_memory_check(bool before, gg_status status, gg_error *err)
+gg_status gg_base_memory_check(bool before, gg_status status, gg_error *err)
 {
-  return gg_memory_end(before) && status == GG_OK ? gg_out_of_memory(err) : status;
+  return gg_base_memory_end(before) && status == GG_OK ? gg_base_out_of_memory(err) : status;
 }
 
-gg_status gg_out_of_memory(gg_error *err)
+gg_status gg_base_out_of_memory(gg_error *err)
 {
-  gg_memory_lacked();
-  return gg_fail(err, GG_FAILED, "out of memory");
+  gg_base_memory_lacked();
+  return gg_base_fail(err, GG_FAILED, "out of memory");
 }
 
-gg_status gg_out_of_memory_for(gg_error *err, const char *format, ...)
+gg_status gg_base_out_of_memory_for(gg_error *err, const char *format, ...)
 {
   gg_error what;
   va_list args;
   va_start(args, format);
   vsnprintf(what.message, sizeof what.message, format, args);
   va_end(args);
-  gg_memory_lacked();
-  return gg_fail(err, GG_FAILED, "out of memory for %s", what.message);
+  gg_base_memory_lacked();
+  return gg_base_fail(err, GG_FAILED, "out of memory for %s", what.message);
 }
 
-void *gg_new_array(size_t count, size_t size, gg_error *err)
+void *gg_base_array_new(size_t count, size_t size, gg_error *err)
 {
   void *block = calloc(count ? count : 1, size);
-  if (!block) gg_out_of_memory_for(err, "%zu items of %zu bytes", count, size);
+  if (!block) gg_base_out_of_memory_for(err, "%zu items of %zu bytes", count, size);
   return block;
 }
 
 /* Volatile: a compiler may leave out what is asked for and given back. */
-bool gg_memory_is_room(void)
+bool gg_base_memory_is_room(void)
 {
   void *volatile reserve = malloc(1 << 22);
   const bool room = reserve != NULL;

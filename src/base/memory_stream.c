@@ -58,7 +58,7 @@ static int end(void *cookie)
   return failed;
 }
 
-FILE *gg_open_text(char **text)
+FILE *gg_base_memory_stream_open(char **text)
 {
   stream *s = calloc(1, sizeof *s);
   FILE *out = NULL;
@@ -71,7 +71,7 @@ FILE *gg_open_text(char **text)
   return NULL;
 }
 #else
-FILE *gg_open_text(char **text)
+FILE *gg_base_memory_stream_open(char **text)
 {
   static _Thread_local size_t length; /* nobody asks for it */
   *text = NULL;
@@ -79,9 +79,9 @@ FILE *gg_open_text(char **text)
 }
 #endif
 
-bool gg_close_text(FILE *out, char *const *text)
+bool gg_base_memory_stream_close(FILE *out, char *const *text)
 {
   const bool whole = out && fclose(out) == 0 && *text;
-  if (!whole) gg_memory_lacked();
+  if (!whole) gg_base_memory_lacked();
   return whole;
 }

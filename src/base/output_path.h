@@ -17,18 +17,18 @@ typedef struct gg_output_path {
 } gg_output_path;
 
 /* GG_BAD_INPUT for an empty name, GG_BAD_FILE with the reason where nothing can be written. */
-gg_status gg_output_path_find(gg_output_path *place, const char *path, gg_error *err);
-void gg_output_path_clear(gg_output_path *place);
+gg_status gg_base_output_path_find(gg_output_path *place, const char *path, gg_error *err);
+void gg_base_output_path_clear(gg_output_path *place);
 
 /* Where symbolic links lead in the end, also if nothing stands there; to be freed. NULL: nowhere, or out of memory,
  * which is noted. */
-char *gg_follow_links(const char *path);
+char *gg_base_path_follow_links(const char *path);
 
 /* "PATH: cannot be written: WHY", GG_BAD_FILE. */
-gg_status gg_cannot_write(const char *path, const char *why, gg_error *err);
+gg_status gg_base_path_write_error(const char *path, const char *why, gg_error *err);
 
 /* Would both be one file? By what stands there, or where nothing does, by folder and name. Devices are never one.
  * Not for want of memory, which is noted. */
-bool gg_same_file(const char *a, const char *b);
+bool gg_base_path_is_same_file(const char *a, const char *b);
 
 #endif

@@ -51,7 +51,7 @@ static size_t distance(const char *a, const char *b, size_t most)
   return distance_up_to(small[0], n, small[1], m, most);
 }
 
-size_t gg_edit_distance(const char *a, const char *b)
+size_t gg_base_spelling_distance(const char *a, const char *b)
 {
   return distance(a, b, LONGEST);
 }
@@ -74,7 +74,7 @@ static bool is_beginning(const char *word, const char *candidate)
   return length < other ? length >= 3 : other >= 4;
 }
 
-void gg_nearest_try(gg_nearest *nearest, const char *candidate)
+void gg_base_spelling_try(gg_nearest *nearest, const char *candidate)
 {
   const size_t limit = limit_of(nearest->word, candidate);
   size_t off = distance(nearest->word, candidate, limit);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /* Insertions, deletions, substitutions and swaps of neighbours between two words; capitals are no others. */
-size_t gg_edit_distance(const char *a, const char *b);
+size_t gg_base_spelling_distance(const char *a, const char *b);
 
 /* Keeps the best of the candidates shown to it; start with {.word = ...}. */
 typedef struct gg_nearest {
@@ -13,6 +13,6 @@ typedef struct gg_nearest {
   const char *best; /* NULL: nothing near enough to be worth naming */
   size_t distance;
 } gg_nearest;
-void gg_nearest_try(gg_nearest *nearest, const char *candidate);
+void gg_base_spelling_try(gg_nearest *nearest, const char *candidate);
 
 #endif

@@ -6,11 +6,11 @@
 
 #include "base/memory.h"
 
-void gg_text_list_take(gg_text_list *list, char *text)
+void gg_base_string_list_take(gg_text_list *list, char *text)
 {
   char **more = text ? realloc(list->text, (list->n + 1) * sizeof *more) : NULL;
   if (!more) {
-    gg_memory_lacked();
+    gg_base_memory_lacked();
     free(text);
     return;
   }
@@ -18,31 +18,31 @@ void gg_text_list_take(gg_text_list *list, char *text)
   list->text[list->n++] = text;
 }
 
-void gg_text_list_add(gg_text_list *list, const char *format, ...)
+void gg_base_string_list_add(gg_text_list *list, const char *format, ...)
 {
   char *text = NULL;
   va_list args;
   va_start(args, format);
   if (vasprintf(&text, format, args) < 0) text = NULL;
   va_end(args);
-  gg_text_list_take(list, text);
+  gg_base_string_list_take(list, text);
 }
 
-void gg_text_list_move(gg_text_list *to, gg_text_list *from)
+void gg_base_string_list_move(gg_text_list *to, gg_text_list *from)
 {
-  for (size_t i = 0; i < from->n; i++) gg_text_list_take(to, from->text[i]);
+  for (size_t i = 0; i < from->n; i++) gg_base_string_list_take(to, from->text[i]);
   free(from->text);
   *from = (gg_text_list){0};
 }
 
-void gg_text_list_clear(gg_text_list *list)
+void gg_base_string_list_clear(gg_text_list *list)
 {
   for (size_t i = 0; i < list->n; i++) free(list->text[i]);
   free(list->text);
   *list = (gg_text_list){0};
 }
 
-const char *gg_text_list_at(const gg_text_list *list, size_t i)
+const char *gg_base_string_list_at(const gg_text_list *list, size_t i)
 {
   return i < list->n ? list->text[i] : NULL;
 }

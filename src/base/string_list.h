@@ -12,11 +12,12 @@ typedef struct gg_text_list {
 } gg_text_list;
 
 /* Out of memory: the list stays as it is. */
-void gg_text_list_add(gg_text_list *list, const char *format, ...) GG_PRINTF(2, 3);
-void gg_text_list_take(gg_text_list *list, char *text); /* from malloc, and the list's from now on; NULL: nothing */
-void gg_text_list_move(gg_text_list *to, gg_text_list *from); /* behind the others; nothing stays there */
-void gg_text_list_clear(gg_text_list *list);
+void gg_base_string_list_add(gg_text_list *list, const char *format, ...) GG_PRINTF(2, 3);
+void gg_base_string_list_take(gg_text_list *list,
+                              char *text); /* from malloc, and the list's from now on; NULL: nothing */
+void gg_base_string_list_move(gg_text_list *to, gg_text_list *from); /* behind the others; nothing stays there */
+void gg_base_string_list_clear(gg_text_list *list);
 /* NULL after the last. */
-const char *gg_text_list_at(const gg_text_list *list, size_t i);
+const char *gg_base_string_list_at(const gg_text_list *list, size_t i);
 
 #endif

@@ -152,7 +152,7 @@ static void *run_worker(void *argument)
   return NULL;
 }
 
-gg_thread_pool *gg_thread_pool_new(int threads)
+gg_thread_pool *gg_base_thread_pool_new(int threads)
 {
   if (threads < 2) return NULL;
   gg_thread_pool *pool = aligned_alloc(64, (sizeof *pool + 63) / 64 * 64);
@@ -170,7 +170,7 @@ gg_thread_pool *gg_thread_pool_new(int threads)
   }
   if (made == pool->n) return pool;
   pool->n = made;
-  gg_thread_pool_free(pool);
+  gg_base_thread_pool_free(pool);
   return NULL;
 }
 
@@ -181,7 +181,7 @@ static void wake(gg_thread_pool *pool)
   pthread_mutex_unlock(&pool->mutex);
 }
 
-void gg_thread_pool_free(gg_thread_pool *pool)
+void gg_base_thread_pool_free(gg_thread_pool *pool)
 {
   if (!pool) return;
   atomic_store(&pool->quit, 1);
@@ -205,8 +205,8 @@ static void wait_for_all(gg_thread_pool *pool)
   }
 }
 
-void gg_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
-                           void *context)
+void gg_base_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
+                                void *context)
 {
   const int parts = rounds * columns;
   if (!pool || parts < 2 || parts > GG_MOST_PARTS) {
@@ -227,9 +227,9 @@ void gg_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const 
   wait_for_all(pool);
 }
 
-void gg_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context)
+void gg_base_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context)
 {
-  gg_thread_pool_rounds(pool, 1, parts, NULL, part, context);
+  gg_base_thread_pool_rounds(pool, 1, parts, NULL, part, context);
 }
 
 /* Seconds of processor time that a thread has had. */
@@ -253,7 +253,7 @@ static double thread_cpu(pthread_t thread)
 #endif
 }
 
-double gg_thread_pool_cpu(const gg_thread_pool *pool)
+double gg_base_thread_pool_cpu(const gg_thread_pool *pool)
 {
   double sum = 0;
   for (int i = 0; pool && i < pool->n; i++) sum += thread_cpu(pool->workers[i].thread);

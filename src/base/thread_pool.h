@@ -18,18 +18,18 @@ typedef void gg_part(void *context, int part);
 
 /* So many threads, the caller's included. NULL if that is one, or if the system has none to give: a job that is given
  * to nobody is done by the caller. */
-gg_thread_pool *gg_thread_pool_new(int threads);
-void gg_thread_pool_free(gg_thread_pool *pool);
+gg_thread_pool *gg_base_thread_pool_new(int threads);
+void gg_base_thread_pool_free(gg_thread_pool *pool);
 
 /* Do parts 0 to parts - 1, and return when all are done. One caller at a time. */
-void gg_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context);
+void gg_base_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context);
 
 /* The same for rounds of `columns` parts each: part k is not begun before those in need[k] (a bit each, of earlier
  * rounds) are done. Nobody waits for all of a round. Each thread takes a run of columns first. */
-void gg_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
-                           void *context);
+void gg_base_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
+                                void *context);
 
 /* CPU time of the others so far, in seconds. */
-double gg_thread_pool_cpu(const gg_thread_pool *pool);
+double gg_base_thread_pool_cpu(const gg_thread_pool *pool);
 
 #endif

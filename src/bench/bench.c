@@ -21,7 +21,7 @@ enum { N_SUBJECTS = sizeof subjects / sizeof *subjects, LEAST_GRAINS = 500 };
 gg_bench_sheet *gg_bench_new_sheet(gg_bench *b, const char *key, const char *caption, int keep, gg_error *err)
 {
   if (b->n_sheets == GG_BENCH_SHEETS) {
-    gg_fail(err, GG_FAILED, "too many sheets");
+    gg_base_fail(err, GG_FAILED, "too many sheets");
     return NULL;
   }
   gg_bench_sheet *s = gg_bench_sheet_new(key, caption, keep, err);
@@ -52,7 +52,7 @@ double gg_bench_seconds(const gg_bench *b, double seconds)
 
 gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, int64_t n)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = engine;
   s.phi = phi;
   const int64_t fewer = (int64_t)((double)n / smaller(b));
@@ -64,7 +64,7 @@ gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, in
 /* The overrides that options stand for (--seed), checked as a scene's are. */
 static gg_status take_seed(gg_bench *b, gg_error *err)
 {
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   for (int i = 0; i < b->options->n_overrides; i++) {
     const char *equals = strchr(b->options->override[i], '=');
     char key[96];
@@ -82,7 +82,8 @@ static gg_status refuse(const char *word, gg_error *err)
     if (subjects[i].name)
       snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed), "%s%s", *allowed ? ", " : "",
                subjects[i].name);
-  return gg_fail(err, GG_BAD_INPUT, "bench: '%s' is not known; allowed: %s, or nothing for an overview", word, allowed);
+  return gg_base_fail(err, GG_BAD_INPUT, "bench: '%s' is not known; allowed: %s, or nothing for an overview", word,
+                      allowed);
 }
 
 gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options *options, gg_error *err)
@@ -92,7 +93,7 @@ gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options 
   while (i < N_SUBJECTS && (subject ? !subjects[i].name || strcmp(subject, subjects[i].name) != 0 : i > 0)) i++;
   if (i == N_SUBJECTS) return refuse(subject, err);
   if (options->picture && subjects[i].run != gg_bench_error)
-    return gg_fail(err, GG_BAD_INPUT, "bench: --picture is for bench error, which has one");
+    return gg_base_fail(err, GG_BAD_INPUT, "bench: --picture is for bench error, which has one");
   GG_TRY(take_seed(b, err));
   const gg_status status = subjects[i].run(b, err);
   b->measured |= status == GG_OK;
@@ -109,7 +110,7 @@ char *gg_bench_document(const gg_bench *b)
 {
   json_t *document = json_pack("{s:s}", "graingas", gg_version());
   for (int i = 0; i < b->n_sheets; i++) json_object_set(document, b->sheet[i]->key, b->sheet[i]->rows);
-  char *text = document ? gg_document_text(document) : NULL;
+  char *text = document ? gg_files_document_text(document) : NULL;
   json_decref(document);
   return text;
 }

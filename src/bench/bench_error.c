@@ -24,7 +24,7 @@ enum { N_TARGETS = 3, MOST_STATES = 12, SINGLE = 8, DOUBLE = 6 };
 
 static const char *name_of(int q)
 {
-  return gg_quantity_name(gg_course_quantity[q]);
+  return gg_common_quantity_name(gg_bench_error_course_quantity[q]);
 }
 
 /* Smooth grains have no spins. */
@@ -40,8 +40,8 @@ static int quickest(const gg_error_state *s, gg_engine_kind engine, int q, doubl
   bool unsure = false;
   *seconds = INFINITY;
   for (int i = 0; i < GG_WAYS; i++) {
-    if (!s->done[i] || gg_ways[i].engine != engine) continue;
-    const double t = gg_seconds_to(s, i, q, error);
+    if (!s->done[i] || gg_bench_error_methods[i].engine != engine) continue;
+    const double t = gg_bench_seconds_to(s, i, q, error);
     unsure |= isnan(t);
     if (t < *seconds) *seconds = t, best = i;
   }
@@ -79,11 +79,11 @@ static void put_seconds(gg_bench_sheet *sheet, int row, const gg_error_state *s,
       if (way < 0)
         gg_bench_sheet_put(sheet, row, column, "%s", isnan(t) ? "?" : is_run(s, engine) ? "never" : "-");
       else
-        gg_bench_sheet_put(sheet, row, column, "%.2g s, N %lld%s%s", t, (long long)gg_ways[way].n,
-                           gg_ways[way].single     ? ", single"
-                           : gg_ways[way].step > 0 ? ", split"
-                                                   : "",
-                           gg_ways[way].replicas > 1 ? ", replicas" : "");
+        gg_bench_sheet_put(sheet, row, column, "%.2g s, N %lld%s%s", t, (long long)gg_bench_error_methods[way].n,
+                           gg_bench_error_methods[way].single     ? ", single"
+                           : gg_bench_error_methods[way].step > 0 ? ", split"
+                                                                  : "",
+                           gg_bench_error_methods[way].replicas > 1 ? ", replicas" : "");
     }
   put_first(sheet, row, 2 + 2 * N_TARGETS, first);
 }
@@ -103,16 +103,16 @@ static void add_course(json_t *rows, const gg_error_state *s, int q, int i)
   const gg_course *c = &s->course[i];
   json_t *row = state_json(s, q), *t = json_array(), *error = json_array(), *uncertain = json_array();
   for (int k = 0; k < c->marks; k++) {
-    double of_error, e = gg_error_at(s, i, q, k, &of_error);
+    double of_error, e = gg_bench_error_at(s, i, q, k, &of_error);
     json_array_append_new(t, number(c->seconds[k]));
     json_array_append_new(error, number(e));
     json_array_append_new(uncertain, number(of_error));
   }
   json_t *until = json_array();
-  for (int k = 0; k < N_TARGETS; k++) json_array_append_new(until, number(gg_seconds_to(s, i, q, targets[k])));
-  json_object_set_new(row, "way", json_string(gg_ways[i].name));
-  json_object_set_new(row, "engine", json_string(gg_ways[i].engine == GG_MD ? "md" : "dsmc"));
-  json_object_set_new(row, "particles", json_integer((json_int_t)gg_ways[i].n));
+  for (int k = 0; k < N_TARGETS; k++) json_array_append_new(until, number(gg_bench_seconds_to(s, i, q, targets[k])));
+  json_object_set_new(row, "way", json_string(gg_bench_error_methods[i].name));
+  json_object_set_new(row, "engine", json_string(gg_bench_error_methods[i].engine == GG_MD ? "md" : "dsmc"));
+  json_object_set_new(row, "particles", json_integer((json_int_t)gg_bench_error_methods[i].n));
   json_object_set_new(row, "seeds", json_integer(c->seeds));
   json_object_set_new(row, "warmup_seconds", number(c->warmup));
   json_object_set_new(row, "error_of_a_second", number(s->noise[i][q]));
@@ -128,7 +128,8 @@ static void add_course(json_t *rows, const gg_error_state *s, int q, int i)
 static void put_floors(gg_bench_sheet *sheet, int row, const gg_error_state *s, int q)
 {
   const gg_by_size *md = &s->size[GG_MD][q], *dsmc = &s->size[GG_DSMC][q];
-  const gg_course_end one = gg_course_last(&s->course[DOUBLE], q), two = gg_course_last(&s->course[SINGLE], q);
+  const gg_course_end one = gg_bench_error_course_last(&s->course[DOUBLE], q),
+                      two = gg_bench_error_course_last(&s->course[SINGLE], q);
   const double unit = s->unit[q], single = (two.mean - one.mean) / unit, e = hypot(one.error, two.error) / unit;
   gg_bench_sheet_put(sheet, row, 2, "%.6g", s->truth[GG_DSMC][q]);
   gg_bench_sheet_put(sheet, row, 3, "%.1e", s->truth_error[GG_DSMC][q] / unit);
@@ -214,17 +215,17 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
   gg_bench_sheet *sheet[2];
   GG_TRY(new_sheets(b, sheet, err));
   for (int i = 0; i < n; i++) {
-    GG_TRY(gg_error_state_measure(b, &s[i], quick ? 4 : 6, gg_bench_seconds(b, quick ? 0.3 : 1.5), err));
+    GG_TRY(gg_bench_error_state_measure(b, &s[i], quick ? 4 : 6, gg_bench_seconds(b, quick ? 0.3 : 1.5), err));
     note(sheet[0], sheet[1], &s[i]);
     gg_bench_tell(b, "phi %g e %g %s done", s[i].phi, s[i].e, s[i].rough ? "rough" : "smooth");
   }
   b->measured = true;
-  return b->options->picture ? gg_error_chart_draw(s, n, b->options->picture, err) : GG_OK;
+  return b->options->picture ? gg_bench_error_chart_draw(s, n, b->options->picture, err) : GG_OK;
 }
 
 gg_status gg_bench_error(gg_bench *b, gg_error *err)
 {
-  gg_error_state *s = gg_new_array(MOST_STATES, sizeof *s, err);
+  gg_error_state *s = gg_base_array_new(MOST_STATES, sizeof *s, err);
   if (!s) return GG_FAILED;
   gg_status status = measure(b, s, err);
   free(s);

@@ -40,8 +40,8 @@ static bool find_scene(const gg_bench *b, const setting *c, const gg_observable 
     if (gg_flow_of(scene->flow)->conserves) continue;
     memcpy(scene->gravity, gg_flow_of(scene->flow)->gravity, sizeof scene->gravity);
     for (int p = 0; p < GG_PAIRS; p++) scene->collision.beta[p] = 0;
-    if (gg_model_make(scene, c->engine, &model, NULL) != GG_OK) continue;
-    if (gg_engine_ops_of(c->engine)->accepts(&model, NULL) != GG_OK) continue;
+    if (gg_common_model_make(scene, c->engine, &model, NULL) != GG_OK) continue;
+    if (gg_run_engine_ops_of(c->engine)->accepts(&model, NULL) != GG_OK) continue;
     if (!o->refuses || !o->refuses(&model)) return true;
   }
   return false;
@@ -60,13 +60,13 @@ static gg_status measure(gg_bench *b, gg_bench_sheet *sheet, int row, int i, con
   setting c = setting_of(b, i);
   gg_bench_sheet_put(sheet, row, 1 + i, "-");
   if (!find_scene(b, &c, o, &scene)) return GG_OK;
-  GG_TRY(gg_observable_cost_measure(&scene, o, b->options->quick ? 10 : 30, repeats_of(b, c.n),
-                                    gg_bench_seconds(b, b->options->quick ? 0.01 : 0.15), &cost, err));
+  GG_TRY(gg_bench_observable_cost_measure(&scene, o, b->options->quick ? 10 : 30, repeats_of(b, c.n),
+                                          gg_bench_seconds(b, b->options->quick ? 0.01 : 0.15), &cost, err));
   gg_bench_sheet_put(sheet, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * cost.overhead, 100 * cost.lowest,
                      100 * cost.highest);
   json_array_append_new(sheet->rows,
                         json_pack("{s:s, s:s, s:f, s:I, s:f, s:f, s:f, s:f, s:s}", "observable", o->name, "engine",
-                                  gg_engine_ops_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n,
+                                  gg_run_engine_ops_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n,
                                   "overhead", cost.overhead, "least", cost.lowest, "largest", cost.highest, "ns",
                                   cost.ns, "unit", "over the CPU time of the run without it; ns a collision with it"));
   return GG_OK;
@@ -79,13 +79,13 @@ gg_status gg_bench_observables(gg_bench *b, gg_error *err)
   gg_bench_sheet_column(sheet, false, "observable");
   for (int i = 0; i < N_CASES; i++) {
     setting c = setting_of(b, i);
-    gg_bench_sheet_column(sheet, true, "%s phi %g N %lld", gg_engine_ops_of(c.engine)->name, c.phi, (long long)c.n);
+    gg_bench_sheet_column(sheet, true, "%s phi %g N %lld", gg_run_engine_ops_of(c.engine)->name, c.phi, (long long)c.n);
   }
-  for (int k = 0; gg_observables[k]; k++) {
+  for (int k = 0; gg_measure_observables[k]; k++) {
     int row = gg_bench_sheet_row(sheet);
-    gg_bench_sheet_put(sheet, row, 0, "%s", gg_observables[k]->name);
-    for (int i = 0; i < N_CASES; i++) GG_TRY(measure(b, sheet, row, i, gg_observables[k], err));
-    gg_bench_tell(b, "%s done", gg_observables[k]->name);
+    gg_bench_sheet_put(sheet, row, 0, "%s", gg_measure_observables[k]->name);
+    for (int i = 0; i < N_CASES; i++) GG_TRY(measure(b, sheet, row, i, gg_measure_observables[k], err));
+    gg_bench_tell(b, "%s done", gg_measure_observables[k]->name);
   }
   return GG_OK;
 }

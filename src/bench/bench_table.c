@@ -8,13 +8,13 @@
 
 gg_bench_sheet *gg_bench_sheet_new(const char *key, const char *caption, int keep, gg_error *err)
 {
-  gg_bench_sheet *s = gg_new_array(1, sizeof *s, err);
+  gg_bench_sheet *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return NULL;
   s->key = key, s->caption = caption, s->keep = keep;
   s->rows = json_array();
   if (s->rows) return s;
   free(s);
-  gg_out_of_memory(err);
+  gg_base_out_of_memory(err);
   return NULL;
 }
 

@@ -41,8 +41,8 @@ gg_status gg_bench_dsmc_precision(gg_bench *b, gg_error *err)
       c[0] = c[1] = gg_bench_dsmc_scene(b, timed[k], 0.3, sizes[i]);
       c[0].against = c[1].against = 0;
       c[1].scene.dsmc.precision = GG_SINGLE;
-      GG_TRY(
-          gg_throughput_compare(c, 2, quick ? 3 : 10, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.05 : 0.3), r, err));
+      GG_TRY(gg_bench_throughput_compare(c, 2, quick ? 3 : 10, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.05 : 0.3),
+                                         r, err));
       note(sheet, k, column, sizes[i], r);
     }
     gg_bench_tell(b, "single precision, N %lld done", (long long)sizes[i]);

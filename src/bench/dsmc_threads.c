@@ -65,7 +65,8 @@ gg_status gg_bench_dsmc_paths(gg_bench *b, gg_error *err)
       c[0].against = 0;
       c[1] = c[0];
       c[0].prepare = take_plain_path;
-      GG_TRY(gg_throughput_compare(c, 2, quick ? 3 : 5, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.1 : 0.5), r, err));
+      GG_TRY(gg_bench_throughput_compare(c, 2, quick ? 3 : 5, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.1 : 0.5), r,
+                                         err));
       gg_bench_sheet_put(sheet, k, at, "%.1f (%.1f - %.1f) %.0f/%.1f ns", r[1].ratio, r[1].lowest, r[1].highest,
                          1e9 / r[0].own.rate, 1e9 / r[1].own.rate);
       note(sheet, path_scenes[k], sizes[i], 1, r);
@@ -94,7 +95,7 @@ gg_status gg_bench_dsmc_threads(gg_bench *b, gg_error *err)
       c[0].by_the_clock = true;
       c[1] = c[0];
       c[1].threads = threads;
-      GG_TRY(gg_throughput_compare(c, 2, 5, quick ? 5 : 9, gg_bench_seconds(b, quick ? 0.1 : 0.4), r, err));
+      GG_TRY(gg_bench_throughput_compare(c, 2, 5, quick ? 5 : 9, gg_bench_seconds(b, quick ? 0.1 : 0.4), r, err));
       gg_bench_sheet_put(sheet, k, at, "%.2f (%.2f - %.2f) %.2f of %d", r[1].ratio, r[1].lowest, r[1].highest,
                          r[1].own.processors, threads);
       note(sheet, thread_scenes[k], sizes[i], threads, r);

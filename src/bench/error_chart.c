@@ -35,10 +35,10 @@ static void add_points(const gg_error_state *s, int q, int k, curve *c, gg_chart
   for (int i = 0; i < course->marks; i++) {
     if (n && course->seconds[i] < 2 * c->x[n - 1]) continue;
     c->x[n] = course->seconds[i];
-    c->y[n] = gg_error_at(s, drawn[k].way, q, i, &c->error[n]);
+    c->y[n] = gg_bench_error_at(s, drawn[k].way, q, i, &c->error[n]);
     n++;
   }
-  const char *method = gg_ways[drawn[k].way].engine == GG_MD ? "md" : "dsmc";
+  const char *method = gg_bench_error_methods[drawn[k].way].engine == GG_MD ? "md" : "dsmc";
   *series = (gg_chart_series){method, drawn[k].group, GG_CHART_POINTS, n, c->x, c->y, c->error, NULL};
 }
 
@@ -70,15 +70,15 @@ static void fill(const gg_error_state *s, int q, int i, page *p)
     n++;
   }
   char symbol[32];
-  gg_quantity_symbol(gg_course_quantity[q], symbol, sizeof symbol);
+  gg_common_quantity_symbol(gg_bench_error_course_quantity[q], symbol, sizeof symbol);
   snprintf(p->title[i], sizeof p->title[i], "%s, φ = %g", symbol, s->phi);
   p->panel[i] = (gg_chart_panel){
       p->title[i], {"processor time", "s", true, 0, 0}, {"relative error", NULL, true, 0, 0}, n, p->series[i]};
 }
 
-gg_status gg_error_chart_draw(const gg_error_state *states, int n, const char *picture, gg_error *err)
+gg_status gg_bench_error_chart_draw(const gg_error_state *states, int n, const char *picture, gg_error *err)
 {
-  page *p = gg_new_array(1, sizeof *p, err);
+  page *p = gg_base_array_new(1, sizeof *p, err);
   if (!p) return GG_FAILED;
   int panels = 0, columns = 0;
   for (int i = 0; i < n; i++) columns += states[i].rough && states[i].e == 0.9;
@@ -86,7 +86,7 @@ gg_status gg_error_chart_draw(const gg_error_state *states, int n, const char *p
     for (int i = 0; i < n; i++)
       if (states[i].rough && states[i].e == 0.9 && panels < MOST_PANELS) fill(&states[i], q, panels++, p);
   gg_chart chart = {"Uniform shear of rough grains, e = 0.9, β = 0", (size_t)panels, p->panel, columns};
-  gg_status status = gg_chart_draw(&chart, picture, NULL, err);
+  gg_status status = gg_plot_chart_draw(&chart, picture, NULL, err);
   free(p);
   return status;
 }

@@ -4,8 +4,8 @@
 
 #include "run/replicas.h"
 
-const gg_quantity gg_course_quantity[GG_COURSE_QUANTITIES] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1, GG_Q_KURTOSIS_CX,
-                                                              GG_Q_TEMPERATURE_RATIO};
+const gg_quantity gg_bench_error_course_quantity[GG_COURSE_QUANTITIES] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1,
+                                                                          GG_Q_KURTOSIS_CX, GG_Q_TEMPERATURE_RATIO};
 
 static double seconds_of(const gg_replicas *all)
 {
@@ -17,13 +17,13 @@ static double seconds_of(const gg_replicas *all)
 static gg_status advance_to(gg_replicas *all, uint64_t due, bool adapt, gg_error *err)
 {
   all->state.due = due;
-  return gg_replicas_advance(all, due, adapt, err);
+  return gg_run_replicas_advance(all, due, adapt, err);
 }
 
 static gg_status warm_up(gg_replicas *all, gg_error *err)
 {
   GG_TRY(advance_to(all, all->plan.warmup, true, err));
-  for (int i = 0; i < all->n; i++) GG_TRY(gg_replica_open_window(&all->replica[i], err));
+  for (int i = 0; i < all->n; i++) GG_TRY(gg_run_replica_open_window(&all->replica[i], err));
   all->state.averaging = 1;
   all->state.window_at = all->state.due;
   return GG_OK;
@@ -33,7 +33,7 @@ static gg_status note(const gg_replicas *all, gg_course *c, int mark, int seed, 
 {
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     gg_mean m;
-    GG_TRY(gg_replicas_mean(all, gg_course_quantity[q], &m, err));
+    GG_TRY(gg_run_replicas_mean(all, gg_bench_error_course_quantity[q], &m, err));
     c->mean[q][mark][seed] = m.mean;
     if (seed == 0) c->error[q] = m.error;
   }
@@ -56,15 +56,15 @@ static gg_status follow(gg_replicas *all, gg_course *c, int seed, double seconds
   return GG_OK;
 }
 
-gg_status gg_course_measure(const gg_scene *scene, int seeds, double seconds, gg_course *c, gg_error *err)
+gg_status gg_bench_error_course_measure(const gg_scene *scene, int seeds, double seconds, gg_course *c, gg_error *err)
 {
   *c = (gg_course){.seeds = seeds < GG_COURSE_SEEDS ? seeds : GG_COURSE_SEEDS};
   gg_scene s = *scene;
   for (int seed = 0; seed < c->seeds; seed++, s.run.seed++) {
     gg_replicas all;
-    GG_TRY(gg_replicas_create(&all, &s, NULL, 1, NULL, err));
+    GG_TRY(gg_run_replicas_create(&all, &s, NULL, 1, NULL, err));
     gg_status status = follow(&all, c, seed, seconds, err);
-    gg_replicas_clear(&all);
+    gg_run_replicas_clear(&all);
     GG_TRY(status);
   }
   return GG_OK;
@@ -77,7 +77,7 @@ static void moments(const gg_course *c, int q, int mark, double *mean, double *v
   for (int i = 0; i < c->seeds; i++) *variance += pow(c->mean[q][mark][i] - *mean, 2) / (c->seeds - 1);
 }
 
-gg_course_end gg_course_last(const gg_course *c, int q)
+gg_course_end gg_bench_error_course_last(const gg_course *c, int q)
 {
   double mean, variance;
   moments(c, q, c->marks - 1, &mean, &variance);
@@ -86,7 +86,7 @@ gg_course_end gg_course_last(const gg_course *c, int q)
   return (gg_course_end){mean, scatter / sqrt(c->seeds), scatter};
 }
 
-double gg_course_noise(const gg_course *c, int q)
+double gg_bench_error_course_noise(const gg_course *c, int q)
 {
   double sum = 0;
   int n = 0;

@@ -4,7 +4,7 @@
 
 #include "theory/theory_list.h"
 
-const gg_way gg_ways[GG_WAYS] = {
+const gg_way gg_bench_error_methods[GG_WAYS] = {
     {GG_MD, "md N 250", 250, 0, false, 1},
     {GG_MD, "md N 1000", 1000, 0, false, 1},
     {GG_MD, "md N 4000", 4000, 0, false, 1},
@@ -44,9 +44,9 @@ static gg_by_size fit_size(const gg_error_state *s, gg_engine_kind engine, int q
   double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
   if (error > 0) w = 1 / (error * error), wy = w * at_limit;
   for (int i = 0; i < GG_WAYS; i++) {
-    if (!s->done[i] || gg_ways[i].engine != engine || !by_itself(&gg_ways[i])) continue;
-    const gg_course_end end = gg_course_last(&s->course[i], q);
-    const double x = 1 / (double)gg_ways[i].n, g = 1 / (end.error * end.error);
+    if (!s->done[i] || gg_bench_error_methods[i].engine != engine || !by_itself(&gg_bench_error_methods[i])) continue;
+    const gg_course_end end = gg_bench_error_course_last(&s->course[i], q);
+    const double x = 1 / (double)gg_bench_error_methods[i].n, g = 1 / (end.error * end.error);
     if (!(end.error > 0)) continue;
     w += g, wx += g * x, wxx += g * x * x, wy += g * end.mean, wxy += g * x * end.mean;
   }
@@ -63,9 +63,9 @@ static void take_truth(gg_error_state *s, gg_engine_kind engine, int q, double v
 static void ask_theory(gg_error_state *s, const gg_model *m)
 {
   gg_theory_answer a;
-  if (gg_theory_evaluate(&gg_enskog_hermite, m, &a, NULL) != GG_OK) return;
+  if (gg_theory_evaluate(&gg_theory_enskog_hermite, m, &a, NULL) != GG_OK) return;
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
-    const gg_quantity name = gg_course_quantity[q];
+    const gg_quantity name = gg_bench_error_course_quantity[q];
     take_truth(s, GG_DSMC, q, a.value[name], a.error[name], "solved without noise");
   }
 }
@@ -75,12 +75,12 @@ static bool wants_long_run(const gg_error_state *s, double seconds)
 {
   bool wants = false;
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
-    if (!s->rough && gg_course_quantity[q] == GG_Q_TEMPERATURE_RATIO) continue;
+    if (!s->rough && gg_bench_error_course_quantity[q] == GG_Q_TEMPERATURE_RATIO) continue;
     double best = INFINITY;
     for (int i = 0; i < GG_WAYS; i++) {
       const gg_course *c = &s->course[i];
-      if (s->done[i] && gg_ways[i].engine == GG_DSMC && seconds > c->warmup)
-        best = fmin(best, gg_course_noise(c, q) / sqrt(seconds - c->warmup));
+      if (s->done[i] && gg_bench_error_methods[i].engine == GG_DSMC && seconds > c->warmup)
+        best = fmin(best, gg_bench_error_course_noise(c, q) / sqrt(seconds - c->warmup));
     }
     wants |= !s->source[GG_DSMC][q] || s->truth_error[GG_DSMC][q] > best / 10;
   }
@@ -92,13 +92,13 @@ static gg_status find_truth(const gg_bench *b, gg_error_state *s, double seconds
   const gg_way long_one = {GG_DSMC, "long run", TRUTH_N, 0, false, 1};
   const gg_scene scene = scene_of(b, s, &long_one);
   gg_model m;
-  GG_TRY(gg_model_make(&scene, GG_DSMC, &m, err));
+  GG_TRY(gg_common_model_make(&scene, GG_DSMC, &m, err));
   ask_theory(s, &m);
   if (wants_long_run(s, seconds)) {
     gg_course c;
-    GG_TRY(gg_course_measure(&scene, 1, LONGER * seconds, &c, err));
+    GG_TRY(gg_bench_error_course_measure(&scene, 1, LONGER * seconds, &c, err));
     for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
-      const gg_course_end end = gg_course_last(&c, q);
+      const gg_course_end end = gg_bench_error_course_last(&c, q);
       take_truth(s, GG_DSMC, q, end.mean, end.error, "long run");
     }
   }
@@ -118,8 +118,8 @@ static void fit_step(gg_error_state *s, int q)
   double shift[2], error[2];
   const int way[2] = {STEP_1, STEP_HALF};
   for (int i = 0; i < 2; i++) {
-    const gg_course_end end = gg_course_last(&s->course[way[i]], q);
-    const double size = s->size[GG_DSMC][q].per_grain / (double)gg_ways[way[i]].n;
+    const gg_course_end end = gg_bench_error_course_last(&s->course[way[i]], q);
+    const double size = s->size[GG_DSMC][q].per_grain / (double)gg_bench_error_methods[way[i]].n;
     shift[i] = (end.mean - s->truth[GG_DSMC][q] - size) / s->unit[q];
     error[i] = hypot(end.error, s->truth_error[GG_DSMC][q]) / s->unit[q];
   }
@@ -135,12 +135,12 @@ static void find_errors(gg_error_state *s)
     fit_step(s, q);
     for (int i = 0; i < GG_WAYS; i++) {
       if (!s->done[i]) continue;
-      const gg_way *w = &gg_ways[i];
+      const gg_way *w = &gg_bench_error_methods[i];
       const gg_by_size *size = &s->size[w->engine][q];
       const double each = (double)w->n * s->unit[q], square = w->step * w->step;
       const double floor = size->per_grain / each + s->step_coefficient[q] * square;
       const double error = hypot(size->per_grain_error / each, s->step_coefficient_error[q] * square);
-      s->noise[i][q] = gg_course_noise(&s->course[i], q) / s->unit[q];
+      s->noise[i][q] = gg_bench_error_course_noise(&s->course[i], q) / s->unit[q];
       s->shift[i][q] = fabs(floor);
       s->shift_error[i][q] = error;
       s->floor[i][q] = sqrt(fmax(floor * floor - error * error, 0));
@@ -148,12 +148,12 @@ static void find_errors(gg_error_state *s)
   }
 }
 
-gg_status gg_error_state_measure(const gg_bench *b, gg_error_state *s, int seeds, double seconds, gg_error *err)
+gg_status gg_bench_error_state_measure(const gg_bench *b, gg_error_state *s, int seeds, double seconds, gg_error *err)
 {
   for (int i = 0; i < GG_WAYS; i++) {
-    if (s->phi == 0 && gg_ways[i].engine == GG_MD) continue;
-    const gg_scene scene = scene_of(b, s, &gg_ways[i]);
-    GG_TRY(gg_course_measure(&scene, seeds, seconds, &s->course[i], err));
+    if (s->phi == 0 && gg_bench_error_methods[i].engine == GG_MD) continue;
+    const gg_scene scene = scene_of(b, s, &gg_bench_error_methods[i]);
+    GG_TRY(gg_bench_error_course_measure(&scene, seeds, seconds, &s->course[i], err));
     s->done[i] = true;
   }
   GG_TRY(find_truth(b, s, seconds, err));
@@ -161,10 +161,10 @@ gg_status gg_error_state_measure(const gg_bench *b, gg_error_state *s, int seeds
   return GG_OK;
 }
 
-double gg_error_at(const gg_error_state *s, int way, int q, int mark, double *error)
+double gg_bench_error_at(const gg_error_state *s, int way, int q, int mark, double *error)
 {
   const gg_course *c = &s->course[way];
-  const double truth = s->truth[gg_ways[way].engine][q];
+  const double truth = s->truth[gg_bench_error_methods[way].engine][q];
   double square = 0;
   for (int i = 0; i < c->seeds; i++) square += pow(c->mean[q][mark][i] - truth, 2) / c->seeds;
   const double rms = sqrt(square) / s->unit[q];
@@ -172,7 +172,7 @@ double gg_error_at(const gg_error_state *s, int way, int q, int mark, double *er
   return rms;
 }
 
-double gg_seconds_to(const gg_error_state *s, int way, int q, double error)
+double gg_bench_seconds_to(const gg_error_state *s, int way, int q, double error)
 {
   const double left = error * error - s->floor[way][q] * s->floor[way][q], unsure = s->shift_error[way][q];
   if (s->shift[way][q] - 2 * unsure > error) return INFINITY;

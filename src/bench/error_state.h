@@ -14,7 +14,7 @@ typedef struct gg_way { /* to simulate it */
   int replicas;
 } gg_way;
 enum { GG_WAYS = 12 };
-extern const gg_way gg_ways[GG_WAYS];
+extern const gg_way gg_bench_error_methods[GG_WAYS];
 
 /* limit + per_grain/N over the ways of an engine whose step and precision are its own. */
 typedef struct gg_by_size {
@@ -41,12 +41,12 @@ typedef struct gg_error_state {
 } gg_error_state;
 
 /* `seconds` of each run, warm-up included. */
-gg_status gg_error_state_measure(const gg_bench *bench, gg_error_state *state, int seeds, double seconds,
-                                 gg_error *err);
+gg_status gg_bench_error_state_measure(const gg_bench *bench, gg_error_state *state, int seeds, double seconds,
+                                       gg_error *err);
 /* Relative error at a mark, the root of the mean square over runs; *error: how well that is known. */
-double gg_error_at(const gg_error_state *state, int way, int quantity, int mark, double *error);
+double gg_bench_error_at(const gg_error_state *state, int way, int quantity, int mark, double *error);
 /* Seconds until the error is this small; INFINITY: never, the floor is surely above; NaN: not told, the floor is not
  * known well enough. */
-double gg_seconds_to(const gg_error_state *state, int way, int quantity, double error);
+double gg_bench_seconds_to(const gg_error_state *state, int way, int quantity, double error);
 
 #endif

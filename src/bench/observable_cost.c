@@ -27,7 +27,7 @@ static gg_status go_on(timed_run *c, uint64_t samples, bool adapt, gg_error *err
   gg_replica *r = &c->replica;
   double gone;
   adapt = adapt || !gg_model_keeps_temperature(&r->model);
-  if (!c->bare) return gg_replica_advance(r, r->clock.samples + samples, adapt, NULL, err);
+  if (!c->bare) return gg_run_replica_advance(r, r->clock.samples + samples, adapt, NULL, err);
   for (uint64_t k = 0; k < samples; k++)
     GG_TRY(r->engine->ops->advance(r->engine, r->clock.interval, UINT64_MAX, &gone, err));
   return GG_OK;
@@ -38,12 +38,12 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
   gg_scene s = *scene;
   gg_model model;
   s.measure = measure;
-  GG_TRY(gg_model_make(&s, s.engine, &model, err));
-  GG_TRY(gg_start_near_steady(&model, err));
-  GG_TRY(gg_replica_create(&c->replica, &s, &model, 0, err));
+  GG_TRY(gg_common_model_make(&s, s.engine, &model, err));
+  GG_TRY(gg_run_start_near_steady(&model, err));
+  GG_TRY(gg_run_replica_create(&c->replica, &s, &model, 0, err));
   GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
-  GG_TRY(gg_replica_open_window(&c->replica, err));
-  c->replica.clock.window_samples = gg_episodes_of(&model).settled; /* the cost is that of long runs */
+  GG_TRY(gg_run_replica_open_window(&c->replica, err));
+  c->replica.clock.window_samples = gg_run_sampling_bursts_of(&model).settled; /* the cost is that of long runs */
   return GG_OK;
 }
 
@@ -51,9 +51,9 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
 static gg_status time_stretch(timed_run *c, uint64_t samples, double *ns, gg_error *err)
 {
   uint64_t before = collisions(c);
-  double began = gg_cpu_now();
+  double began = gg_base_clock_cpu();
   GG_TRY(go_on(c, samples, false, err));
-  *ns = 1e9 * (gg_cpu_now() - began) / (double)(collisions(c) - before);
+  *ns = 1e9 * (gg_base_clock_cpu() - began) / (double)(collisions(c) - before);
   return GG_OK;
 }
 
@@ -65,18 +65,18 @@ static uint64_t cycle_of(const gg_replica *r)
   for (int k = 0; k < r->n_observables; k++) {
     if (r->every[k] > cycle) cycle = r->every[k];
     if (r->observable[k]->begin_episode && ops->callback_slows && ops->callback_slows(r->engine))
-      return gg_episodes_of(&r->model).apart;
+      return gg_run_sampling_bursts_of(&r->model).apart;
   }
   return (uint64_t)cycle;
 }
 
 static gg_status compare(timed_run c[2], int repeats, double seconds, gg_observable_cost *cost, gg_error *err)
 {
-  double over[MOST_REPEATS], ns[2][MOST_REPEATS], began = gg_cpu_now();
+  double over[MOST_REPEATS], ns[2][MOST_REPEATS], began = gg_base_clock_cpu();
   uint64_t cycles = 1, cycle = cycle_of(&c[1].replica);
   GG_TRY(go_on(&c[0], cycle, false, err));
   GG_TRY(go_on(&c[1], cycle, false, err));
-  cycles += (uint64_t)(2 * seconds / fmax(gg_cpu_now() - began, 1e-6));
+  cycles += (uint64_t)(2 * seconds / fmax(gg_base_clock_cpu() - began, 1e-6));
   for (int i = 0; i < repeats; i++) {
     for (int k = 0; k < 2; k++) GG_TRY(time_stretch(&c[k], cycles * cycle, &ns[k][i], err));
     over[i] = ns[1][i] / ns[0][i] - 1;
@@ -91,8 +91,8 @@ static gg_status compare(timed_run c[2], int repeats, double seconds, gg_observa
   return GG_OK;
 }
 
-gg_status gg_observable_cost_measure(const gg_scene *scene, const gg_observable *o, double warmup, int repeats,
-                                     double seconds, gg_observable_cost *cost, gg_error *err)
+gg_status gg_bench_observable_cost_measure(const gg_scene *scene, const gg_observable *o, double warmup, int repeats,
+                                           double seconds, gg_observable_cost *cost, gg_error *err)
 {
   timed_run c[2] = {0};
   bool itself = o->flag == GG_MEASURE_RHEOLOGY;
@@ -104,6 +104,6 @@ gg_status gg_observable_cost_measure(const gg_scene *scene, const gg_observable 
   }
   if (status == GG_OK) status = compare(c, repeats < MOST_REPEATS ? repeats : MOST_REPEATS, seconds, cost, err);
   for (int k = 0; k < 2; k++)
-    if (c[k].replica.engine) gg_replica_clear(&c[k].replica);
+    if (c[k].replica.engine) gg_run_replica_clear(&c[k].replica);
   return status;
 }

@@ -44,13 +44,14 @@ static void note(gg_bench_sheet *sheet, const char *engine, double phi, int64_t 
 static gg_status measure(gg_bench *b, gg_bench_sheet *sheet, gg_engine_kind engine, gg_error *err)
 {
   bool quick = b->options->quick;
-  const char *name = gg_engine_ops_of(engine)->name;
+  const char *name = gg_run_engine_ops_of(engine)->name;
   for (int d = 0; d < N_DENSITIES; d++)
     for (int i = 0; i < (quick ? N_SIZES - 1 : N_SIZES); i++) {
       gg_throughput t[N_KERNELS];
       for (int k = 0; k < N_KERNELS; k++) {
         gg_scene s = scene_of(b, engine, k, densities[d], sizes[i]);
-        GG_TRY(gg_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &t[k], err));
+        GG_TRY(gg_bench_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &t[k],
+                                           err));
       }
       note(sheet, name, densities[d], sizes[i], t);
       gg_bench_tell(b, "%s phi %g N %lld done", name, densities[d], (long long)sizes[i]);

@@ -13,8 +13,8 @@ gg_status gg_bench_rates(gg_bench *b, gg_bench_sheet *sheet, const gg_bench_grid
     for (int d = 0; d < grid->n_densities; d++) {
       gg_throughput t;
       gg_scene s = grid->scene(b, 0, grid->densities[d], sizes[i]).scene;
-      GG_TRY(gg_throughput_measure(&s, false, grid->warmup(sizes[i], quick), quick ? 3 : 7,
-                                   gg_bench_seconds(b, quick ? 0.3 : 1), &t, err));
+      GG_TRY(gg_bench_throughput_measure(&s, false, grid->warmup(sizes[i], quick), quick ? 3 : 7,
+                                         gg_bench_seconds(b, quick ? 0.3 : 1), &t, err));
       note(sheet, row, 1 + d, grid->densities[d], sizes[i], &t);
       gg_bench_tell(b, "phi %g N %lld: %.3g M/s", grid->densities[d], (long long)sizes[i], t.rate * 1e-6);
     }
@@ -49,8 +49,8 @@ gg_status gg_bench_ratios(gg_bench *b, const char *caption, const gg_bench_grid 
     gg_timed_scene c[GG_MOST_TIMED];
     gg_timing r[GG_MOST_TIMED];
     for (int k = 0; k < n_features; k++) c[k] = grid->scene(b, k, phi, n);
-    GG_TRY(gg_throughput_compare(c, n_features, grid->warmup(n, quick), quick ? 5 : 9,
-                                 gg_bench_seconds(b, quick ? 0.1 : seconds), r, err));
+    GG_TRY(gg_bench_throughput_compare(c, n_features, grid->warmup(n, quick), quick ? 5 : 9,
+                                       gg_bench_seconds(b, quick ? 0.1 : seconds), r, err));
     for (int k = 0; k < n_features; k++) note(sheet, column, phi, n, k, &r[k]);
     gg_bench_tell(b, "ratios at phi %g N %lld done", phi, (long long)n);
   }

@@ -44,12 +44,12 @@ static double cpu_used(const gg_engine *e)
 {
   gg_engine_state s;
   e->ops->state(e, &s);
-  return gg_cpu_now() + s.others_cpu;
+  return gg_base_clock_cpu() + s.others_cpu;
 }
 
 static double read_clock(const timed *r)
 {
-  return r->by_the_clock ? gg_wall_now() : cpu_used(r->engine);
+  return r->by_the_clock ? gg_base_clock_wall() : cpu_used(r->engine);
 }
 
 static void add_squares(void *context, const gg_chunk *chunk)
@@ -75,7 +75,7 @@ static gg_status restore_temperature(gg_engine *e, gg_error *err)
 static gg_status time_stretch(timed *r, double seconds, double *rate, gg_error *err)
 {
   GG_TRY(restore_temperature(r->engine, err));
-  double start = read_clock(r), gone, wall = gg_wall_now(), cpu = cpu_used(r->engine);
+  double start = read_clock(r), gone, wall = gg_base_clock_wall(), cpu = cpu_used(r->engine);
   uint64_t sum = 0;
   do {
     uint64_t done;
@@ -85,7 +85,7 @@ static gg_status time_stretch(timed *r, double seconds, double *rate, gg_error *
     if (gone < seconds / 4) r->guess *= 2;
   } while (gone < seconds);
   *rate = (double)sum / gone;
-  r->wall += gg_wall_now() - wall;
+  r->wall += gg_base_clock_wall() - wall;
   r->cpu += cpu_used(r->engine) - cpu;
   r->timed += sum;
   return GG_OK;
@@ -96,10 +96,10 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   const gg_scene *scene = &c->scene;
   gg_model model;
   uint64_t done;
-  GG_TRY(gg_model_make(scene, scene->engine, &model, err));
-  const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
+  GG_TRY(gg_common_model_make(scene, scene->engine, &model, err));
+  const gg_engine_ops *ops = gg_run_engine_ops_of(scene->engine);
   GG_TRY(ops->accepts(&model, err));
-  GG_TRY(gg_start_near_steady(&model, err));
+  GG_TRY(gg_run_start_near_steady(&model, err));
   GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
   r->by_the_clock = c->by_the_clock;
   if (c->threads > 1 && ops->threads) ops->threads(r->engine, c->threads);
@@ -142,11 +142,11 @@ static gg_status time_all(const gg_timed_scene *c, int n, double warmup, int rep
   return GG_OK;
 }
 
-gg_status gg_throughput_compare(const gg_timed_scene *c, int n, double warmup, int repeats, double seconds,
-                                gg_timing *out, gg_error *err)
+gg_status gg_bench_throughput_compare(const gg_timed_scene *c, int n, double warmup, int repeats, double seconds,
+                                      gg_timing *out, gg_error *err)
 {
   timed r[GG_MOST_TIMED] = {0};
-  if (n > GG_MOST_TIMED) return gg_fail(err, GG_FAILED, "%d scenes at once; at most %d", n, GG_MOST_TIMED);
+  if (n > GG_MOST_TIMED) return gg_base_fail(err, GG_FAILED, "%d scenes at once; at most %d", n, GG_MOST_TIMED);
   if (repeats > MOST_REPEATS) repeats = MOST_REPEATS;
   gg_status status = time_all(c, n, warmup, repeats, seconds, r, err);
   for (int k = 0; k < n; k++) {
@@ -156,13 +156,13 @@ gg_status gg_throughput_compare(const gg_timed_scene *c, int n, double warmup, i
   return status;
 }
 
-gg_status gg_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
-                                gg_throughput *out, gg_error *err)
+gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
+                                      gg_throughput *out, gg_error *err)
 {
   gg_timed_scene only = {.scene = *scene, .sums = sums, .against = 0};
   gg_timing result;
   *out = (gg_throughput){0};
-  GG_TRY(gg_throughput_compare(&only, 1, warmup, repeats, seconds, &result, err));
+  GG_TRY(gg_bench_throughput_compare(&only, 1, warmup, repeats, seconds, &result, err));
   *out = result.own;
   return GG_OK;
 }

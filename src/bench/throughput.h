@@ -14,8 +14,8 @@ typedef struct gg_throughput {
 
 /* Start the scene near its steady state, let it forget the start for `warmup` collisions per grain, then time `repeats`
  * stretches of at least `seconds` CPU each. */
-gg_status gg_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
-                                gg_throughput *out, gg_error *err);
+gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
+                                      gg_throughput *out, gg_error *err);
 
 /* Several scenes side by side. A repeat times a stretch of each in turn, so that what else the machine does meets all
  * alike: the ratios within a repeat mean more than the rates. */
@@ -33,7 +33,7 @@ typedef struct gg_timing {
   double ratio, lowest, highest; /* own rate over that of `against`: median, least and largest of the repeats */
 } gg_timing;
 
-gg_status gg_throughput_compare(const gg_timed_scene *scenes, int n, double warmup, int repeats, double seconds,
-                                gg_timing *out, gg_error *err);
+gg_status gg_bench_throughput_compare(const gg_timed_scene *scenes, int n, double warmup, int repeats, double seconds,
+                                      gg_timing *out, gg_error *err);
 
 #endif

@@ -17,16 +17,16 @@ static void tell(void *context, const char *line)
 
 static int print_sheet(const gg_bench_sheet *s)
 {
-  gg_table *t = gg_table_new();
+  gg_table *t = gg_cli_table_new();
   if (!t) return gg_cli_fail(GG_FAILED, "out of memory");
-  for (int c = 0; c < s->n_columns; c++) gg_table_column(t, s->head[c], s->right[c]);
+  for (int c = 0; c < s->n_columns; c++) gg_cli_table_column(t, s->head[c], s->right[c]);
   for (int r = 0; r < s->n_rows; r++) {
-    int row = gg_table_row(t);
-    for (int c = 0; c < s->n_columns; c++) snprintf(gg_table_cell(t, row, c), GG_TABLE_CELL, "%s", s->cell[r][c]);
+    int row = gg_cli_table_row(t);
+    for (int c = 0; c < s->n_columns; c++) snprintf(gg_cli_table_cell(t, row, c), GG_TABLE_CELL, "%s", s->cell[r][c]);
   }
-  gg_print_wrapped(stdout, "", s->caption);
+  gg_cli_print_wrapped(stdout, "", s->caption);
   putchar('\n');
-  gg_table_print(t, stdout, s->keep);
+  gg_cli_table_print(t, stdout, s->keep);
   free(t);
   return GG_OK;
 }
@@ -53,7 +53,7 @@ static int print(const gg_bench *b, bool json)
 int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
-  int code = gg_options_parse(command, argc, argv, &o);
+  int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) {
     const char *picture = o.picture && strcmp(o.picture, "none") != 0 ? o.picture : NULL;
     gg_bench_options asked = {
@@ -66,6 +66,6 @@ int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
     if (status != GG_OK) code = gg_cli_report(&err);
     gg_bench_clear(&b);
   }
-  gg_options_clear(&o);
+  gg_cli_options_clear(&o);
   return code;
 }

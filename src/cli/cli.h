@@ -17,7 +17,7 @@ typedef struct gg_command {
   int (*run)(const struct gg_command *command, int argc, char **argv);
 } gg_command;
 
-extern const gg_command gg_commands[]; /* ends with a NULL name */
+extern const gg_command gg_cli_commands[]; /* ends with a NULL name */
 
 int gg_cli_compare_main(const gg_command *command, int argc, char **argv);
 int gg_cli_run_main(const gg_command *command, int argc, char **argv);

@@ -4,7 +4,7 @@
 enum {
   SIMULATES = GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_JSON | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUIET | GG_OPT_ALL
 };
-const gg_command gg_commands[] = {
+const gg_command gg_cli_commands[] = {
     {"compare", "SCENE.yaml", "Both engines and the theories: one table, with standard errors and z-scores",
      "Runs event-driven molecular dynamics (md) and Enskog Monte Carlo (dsmc) on the scene, evaluates every theory "
      "that applies, and prints them side by side. Writes an HDF5 result file and a picture. Checkpoints and --resume "

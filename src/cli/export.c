@@ -39,10 +39,10 @@ static int take_parts(const char *only, unsigned *parts)
 static char *prefix_of(const gg_options *o)
 {
   const char *slash = strrchr(o->input, '/'), *name = slash ? slash + 1 : o->input;
-  if (!o->output) return gg_with_suffix(name, "");
+  if (!o->output) return gg_cli_path_with_suffix(name, "");
   const char *dot = strrchr(o->output, '.');
   bool ending = dot && (strcmp(dot, ".csv") == 0 || strcmp(dot, ".xyz") == 0);
-  return ending ? gg_with_suffix(o->output, "") : strdup(o->output);
+  return ending ? gg_cli_path_with_suffix(o->output, "") : strdup(o->output);
 }
 
 /* As it was typed: "x.csv" beside a folder x is a file's name, and x.h5 beside it is exported without --output. */
@@ -89,8 +89,8 @@ static int export_parts(const gg_options *o)
 int gg_cli_export_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
-  int code = gg_options_parse(command, argc, argv, &o);
+  int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) code = export_parts(&o);
-  gg_options_clear(&o);
+  gg_cli_options_clear(&o);
   return code;
 }

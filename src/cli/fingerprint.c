@@ -53,15 +53,15 @@ int gg_cli_fingerprint_main(const gg_command *command, int argc, char **argv)
   gg_error err;
   fingerprint found = {0};
   gg_scene *scene = NULL;
-  int code = gg_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && gg_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
+  int code = gg_cli_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON && gg_cli_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON && fingerprint_of(scene, o.collisions ? o.collisions : COLLISIONS, &found, &err) != GG_OK)
-    code = err.status == GG_BAD_INPUT ? gg_cli_report_of(gg_options_name(&o), &err) : gg_cli_report(&err);
+    code = err.status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(&o), &err) : gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) {
     print(&found, o.json);
     code = GG_OK;
   }
   gg_scene_free(scene);
-  gg_options_clear(&o);
+  gg_cli_options_clear(&o);
   return code;
 }

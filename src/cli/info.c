@@ -13,7 +13,7 @@
 static void print_line(void *context, const char *text)
 {
   (void)context;
-  gg_print_paragraph(stdout, 4, "  %s", text);
+  gg_cli_print_paragraph(stdout, 4, "  %s", text);
 }
 
 static void print_inert(void *context, const char *text)
@@ -43,12 +43,12 @@ static void print_field(const gg_entry *f, const char *origin)
   const int columns = snprintf(lead, sizeof lead, "%-24s %-17s %-7s  ", f->name, f->value, origin);
   snprintf(meaning, sizeof meaning, "%s%s%s%s%s%s", f->doc, f->unit ? " (" : "", f->unit ? f->unit : "",
            f->unit ? ")" : "", *origin ? "" : "; ", *origin ? "" : f->allowed);
-  if (strlen(f->value) <= 17 && gg_terminal_width() >= 100 && columns < (int)sizeof lead) {
-    gg_print_wrapped(stdout, lead, meaning);
+  if (strlen(f->value) <= 17 && gg_cli_terminal_width() >= 100 && columns < (int)sizeof lead) {
+    gg_cli_print_wrapped(stdout, lead, meaning);
     return;
   }
   snprintf(lead, sizeof lead, "%-24s ", f->name);
-  gg_print_paragraph(stdout, 4, "%s%s%s%s\n%s", lead, f->value, *origin ? "  " : "", origin, meaning);
+  gg_cli_print_paragraph(stdout, 4, "%s%s%s%s\n%s", lead, f->value, *origin ? "  " : "", origin, meaning);
 }
 
 /* Of no scene: with the defaults. */
@@ -64,9 +64,9 @@ static int inform_scene(const gg_options *o)
   gg_error err;
   char *text = NULL;
   gg_scene *scene = NULL;
-  gg_status status = gg_options_scene(o, &scene, &err);
+  gg_status status = gg_cli_options_scene(o, &scene, &err);
   int code = status == GG_OK ? GG_OK : gg_cli_report(&err);
-  if (code == GG_OK && gg_scene_check(scene, &err) != GG_OK) code = gg_cli_report_of(gg_options_name(o), &err);
+  if (code == GG_OK && gg_scene_check(scene, &err) != GG_OK) code = gg_cli_report_of(gg_cli_options_name(o), &err);
   if (code == GG_OK && o->json) {
     if (gg_scene_to_json(scene, &text, &err) != GG_OK) code = gg_cli_report(&err);
     gg_cli_print_text(text);
@@ -86,24 +86,24 @@ static void print_means(const gg_comparison *c)
   int column[2] = {-1, -1};
   gg_measurement q, m;
   const gg_result *md = gg_comparison_result(c, "md"), *one = md ? md : gg_comparison_result(c, "dsmc");
-  gg_table *t = gg_table_new();
+  gg_table *t = gg_cli_table_new();
   if (!t) return;
-  gg_table_column(t, "quantity", false);
+  gg_cli_table_column(t, "quantity", false);
   for (int k = 0; k < 2; k++)
-    if (gg_comparison_result(c, engines[k])) column[k] = gg_table_column(t, engines[k], true);
-  int unit = gg_table_column(t, "unit", false);
+    if (gg_comparison_result(c, engines[k])) column[k] = gg_cli_table_column(t, engines[k], true);
+  int unit = gg_cli_table_column(t, "unit", false);
   for (size_t i = 0; gg_result_at(one, i, &q, NULL) == GG_OK; i++) {
     int row = -1;
     for (int k = 0; k < 2; k++) {
       if (gg_result_find(gg_comparison_result(c, engines[k]), q.name, &m, NULL) != GG_OK || isnan(m.mean)) continue;
-      if (row < 0) row = gg_table_row(t);
-      gg_format_estimate(m.mean, m.error, gg_table_cell(t, row, column[k]), GG_TABLE_CELL);
-      snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", m.name);
-      snprintf(gg_table_cell(t, row, unit), GG_TABLE_CELL, "%s", m.unit);
+      if (row < 0) row = gg_cli_table_row(t);
+      gg_format_estimate(m.mean, m.error, gg_cli_table_cell(t, row, column[k]), GG_TABLE_CELL);
+      snprintf(gg_cli_table_cell(t, row, 0), GG_TABLE_CELL, "%s", m.name);
+      snprintf(gg_cli_table_cell(t, row, unit), GG_TABLE_CELL, "%s", m.unit);
     }
   }
   printf("\n");
-  gg_table_print(t, stdout, 1);
+  gg_cli_table_print(t, stdout, 1);
   free(t);
 }
 
@@ -113,7 +113,7 @@ static void print_verdict(const gg_result *r)
   const char *warning;
   if (gg_result_about(r, &about, NULL) != GG_OK) return;
   printf("\n");
-  gg_print_paragraph(stdout, 2, "%s: %s: %s", about.engine, about.steady ? "steady" : "not steady", about.verdict);
+  gg_cli_print_paragraph(stdout, 2, "%s: %s: %s", about.engine, about.steady ? "steady" : "not steady", about.verdict);
   for (size_t i = 0; (warning = gg_result_warning(r, i)); i++) print_line(NULL, warning);
 }
 
@@ -177,7 +177,7 @@ static void print_file(const gg_options *o, const gg_comparison *c)
   char *scene = NULL;
   bool comparison = gg_comparison_theory(c, 0, &theory, NULL) == GG_OK;
   if (gg_result_about(md ? md : dsmc, &about, NULL) != GG_OK) { /* a point of a sweep over theories */
-    gg_print_theories(c, true);
+    gg_cli_print_theories(c, true);
     return;
   }
   gg_scene_to_yaml(gg_comparison_scene(c), &scene, NULL);
@@ -259,8 +259,8 @@ static int inform(const gg_options *o)
 int gg_cli_info_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
-  int code = gg_options_parse(command, argc, argv, &o);
+  int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) code = inform(&o);
-  gg_options_clear(&o);
+  gg_cli_options_clear(&o);
   return code;
 }

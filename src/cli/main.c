@@ -16,19 +16,21 @@
 
 static void print_help(void)
 {
-  gg_print_paragraph(stdout, 0,
-                     "graingas %s: granular gases of hard spheres, by event-driven molecular dynamics, Enskog Monte "
-                     "Carlo and theory\n\nUsage: graingas COMMAND ...\n",
-                     gg_version());
-  for (const gg_command *c = gg_commands; c->name; c++) {
+  gg_cli_print_paragraph(
+      stdout, 0,
+      "graingas %s: granular gases of hard spheres, by event-driven molecular dynamics, Enskog Monte "
+      "Carlo and theory\n\nUsage: graingas COMMAND ...\n",
+      gg_version());
+  for (const gg_command *c = gg_cli_commands; c->name; c++) {
     char left[64], lead[80];
     snprintf(left, sizeof left, "%s %s", c->name, c->arguments);
     if (strlen(left) > 20) printf("  %s\n", left), *left = '\0'; /* more than there is room for beside it */
     snprintf(lead, sizeof lead, "  %-20s  ", left);
-    gg_print_wrapped(stdout, lead, c->summary);
+    gg_cli_print_wrapped(stdout, lead, c->summary);
   }
   printf("\n");
-  gg_print_wrapped(stdout, "", "graingas COMMAND --help tells more. Begin with: graingas compare examples/usf.yaml");
+  gg_cli_print_wrapped(stdout, "",
+                       "graingas COMMAND --help tells more. Begin with: graingas compare examples/usf.yaml");
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -46,7 +48,7 @@ static bool has_value(const char *word, const char *option)
 static int unknown(const char *word)
 {
   const char *known[16] = {"--help", "--version", NULL};
-  for (int i = 0; gg_commands[i].name && i < 13; i++) known[i + 2] = gg_commands[i].name;
+  for (int i = 0; gg_cli_commands[i].name && i < 13; i++) known[i + 2] = gg_cli_commands[i].name;
   const char *nearest = gg_nearest_word(word, known);
   if (ends_with(word, ".yaml") || ends_with(word, ".yml"))
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is no command; for this scene, e.g. graingas compare %s", word, word);
@@ -54,7 +56,7 @@ static int unknown(const char *word)
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is no command; for this result, e.g. graingas info %s", word, word);
   for (int i = 0; i < 2; i++)
     if (has_value(word, known[i])) return gg_cli_fail(GG_BAD_INPUT, "option '%s' takes no value", known[i]);
-  for (const gg_option *o = gg_options_table; o->flag; o++)
+  for (const gg_option *o = gg_cli_options_table; o->flag; o++)
     if (strncmp(word, "--", 2) == 0 && strcmp(o->name, word + 2) == 0)
       return gg_cli_fail(GG_BAD_INPUT, "options come after the command: graingas COMMAND %s ...", word);
   if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; did you mean '%s'?", word, nearest);
@@ -79,7 +81,7 @@ static int check_output(int code)
 
 static const gg_command *find(const char *name)
 {
-  for (const gg_command *c = gg_commands; c->name; c++)
+  for (const gg_command *c = gg_cli_commands; c->name; c++)
     if (strcmp(c->name, name) == 0) return c;
   return NULL;
 }
@@ -89,7 +91,7 @@ static int help(const char *name)
   const gg_command *c = name ? find(name) : NULL;
   if (name && !c) return unknown(name);
   if (c)
-    gg_print_command_help(c);
+    gg_cli_command_print_help(c);
   else
     print_help();
   return GG_OK;

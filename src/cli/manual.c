@@ -129,7 +129,7 @@ void gg_cli_print_manual(void)
       ".SH DESCRIPTION\nA scene, a small YAML file, describes a granular gas. graingas runs event\\-driven molecular\n"
       "dynamics and Enskog Monte Carlo on it, evaluates kinetic theories, and gives every number with its standard\n"
       "error and unit.\n.SH COMMANDS\n");
-  for (const gg_command *c = gg_commands; c->name; c++) {
+  for (const gg_command *c = gg_cli_commands; c->name; c++) {
     begin_item(c->name, c->arguments);
     put(c->summary);
     printf(".\n");
@@ -138,13 +138,13 @@ void gg_cli_print_manual(void)
     printf("\n");
   }
   printf(".SH OPTIONS\n");
-  for (const gg_option *o = gg_options_table; o->flag; o++) {
+  for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
     char name[32];
     snprintf(name, sizeof name, "--%s", o->name);
     begin_item(name, o->argument);
     put(o->doc);
     printf(". Taken by:");
-    for (const gg_command *c = gg_commands; c->name; c++)
+    for (const gg_command *c = gg_cli_commands; c->name; c++)
       if (c->options & o->flag) printf(" %s", c->name);
     printf("\n");
   }

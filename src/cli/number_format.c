@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-void gg_format_count(double count, char *text, size_t size)
+void gg_cli_format_count(double count, char *text, size_t size)
 {
   static const char *const prefixes[] = {"", " k", " M", " G", " T"};
   int k = 0;
@@ -14,7 +14,7 @@ void gg_format_count(double count, char *text, size_t size)
     snprintf(text, size, "%.3g%s", count, prefixes[k]);
 }
 
-void gg_format_duration(double seconds, char *text, size_t size)
+void gg_cli_format_duration(double seconds, char *text, size_t size)
 {
   long whole = lround(seconds);
   if (seconds < 0.0995)

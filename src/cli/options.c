@@ -9,7 +9,7 @@
 #include "cli/processes.h"
 #include "cli/wrap.h"
 
-const gg_option gg_options_table[] = {
+const gg_option gg_cli_options_table[] = {
     {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run, instead of the scene's"},
     {GG_OPT_SET, "set", "KEY=VALUE", "override a key of the scene, e.g. collision.e=0.8; repeatable"},
     {GG_OPT_COLLISIONS, "collisions", "N", "collisions between grains to go through (default: 100000)"},
@@ -46,26 +46,26 @@ const gg_option gg_options_table[] = {
     {0},
 };
 
-void gg_print_command_help(const gg_command *c)
+void gg_cli_command_print_help(const gg_command *c)
 {
   printf("Usage: graingas %s %s [OPTION...]\n\n", c->name, c->arguments);
-  gg_print_paragraph(stdout, 0, "%s.%s%s\n", c->summary, c->help ? "\n\n" : "", c->help ? c->help : "");
+  gg_cli_print_paragraph(stdout, 0, "%s.%s%s\n", c->summary, c->help ? "\n\n" : "", c->help ? c->help : "");
   printf("Options:\n");
-  for (const gg_option *o = gg_options_table; o->flag; o++) {
+  for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
     if (!(c->options & o->flag)) continue;
     char name[40], left[60];
     snprintf(name, sizeof name, "--%s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
     snprintf(left, sizeof left, "  %-18s  ", name);
-    gg_print_wrapped(stdout, left, o->doc);
+    gg_cli_print_wrapped(stdout, left, o->doc);
   }
-  gg_print_wrapped(stdout, "  --help              ", "this text");
+  gg_cli_print_wrapped(stdout, "  --help              ", "this text");
 }
 
 /* "compare, bench" */
 static void list_takers(unsigned flags, char *text, size_t size)
 {
   size_t used = 0;
-  for (const gg_command *c = gg_commands; c->name && used < size; c++)
+  for (const gg_command *c = gg_cli_commands; c->name && used < size; c++)
     if (c->options & flags) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", c->name);
 }
 
@@ -73,12 +73,12 @@ static void list_takers(unsigned flags, char *text, size_t size)
 static int refuse_option(const gg_command *c, const char *typed)
 {
   char word[48];
-  const char *known[sizeof gg_options_table / sizeof *gg_options_table + 1] = {NULL};
+  const char *known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {NULL};
   int n = 0;
   unsigned others = 0; /* under the name, but not of this command */
   snprintf(word, sizeof word, "%.*s", (int)strcspn(typed, "="), typed);
   const char *name = word + strspn(word, "-");
-  for (const gg_option *o = gg_options_table; o->flag; o++) {
+  for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
     bool same = word[1] == '-' && strcmp(o->name, name) == 0;
     if (same) others |= o->flag;
     if (!(c->options & o->flag)) continue;
@@ -187,10 +187,10 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
 static void list_known(const gg_command *c, struct option *known)
 {
   int n = 0;
-  for (const gg_option *t = gg_options_table; t->flag; t++)
+  for (const gg_option *t = gg_cli_options_table; t->flag; t++)
     if (c->options & t->flag)
       known[n++] = (struct option){t->name, t->argument ? required_argument : no_argument, NULL,
-                                   256 + (int)(t - gg_options_table)};
+                                   256 + (int)(t - gg_cli_options_table)};
   known[n] = (struct option){"help", no_argument, NULL, 'h'};
 }
 
@@ -212,13 +212,13 @@ static int take_words(const gg_command *c, const struct option *known, gg_option
   char **argv = o->typed.word;
   opterr = 0, optind = 0;
   for (int got, at = 1; code == GG_CLI_GO_ON && (got = getopt_long(argc, argv, "-h", known, NULL)) != -1; at = optind) {
-    if (got == 'h') return gg_print_command_help(c), GG_OK;
+    if (got == 'h') return gg_cli_command_print_help(c), GG_OK;
     if (got != 1 && got < 256) return refuse_option(c, argv[at]);
     value = optarg;
     if (got == 1) {
       take_input(o, optarg);
     } else {
-      const gg_option *t = &gg_options_table[got - 256];
+      const gg_option *t = &gg_cli_options_table[got - 256];
       code = take(o, t->flag, t->name, optarg);
       if (strcmp(t->name, "slurm") == 0) argv[at] = NULL;
     }
@@ -242,28 +242,28 @@ static int check_words(const gg_command *c, const gg_options *o)
   return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
 }
 
-int gg_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
+int gg_cli_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
 {
-  struct option known[sizeof gg_options_table / sizeof *gg_options_table + 1] = {{0}};
+  struct option known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {{0}};
   *o = (gg_options){.threads = gg_cli_default_threads(), .typed = {argc, argv, argc}};
-  o->command_line = gg_typed_again(&o->typed, "");
+  o->command_line = gg_cli_command_line_quote(&o->typed, "");
   list_known(c, known);
   int code = take_words(c, known, o);
   if (code == GG_CLI_GO_ON) code = check_words(c, o);
   if (code != GG_CLI_GO_ON || !o->input) return code;
-  if (strcmp(o->input, "help") == 0 && !gg_file_exists(o->input)) return gg_print_command_help(c), GG_OK;
+  if (strcmp(o->input, "help") == 0 && !gg_cli_file_exists(o->input)) return gg_cli_command_print_help(c), GG_OK;
   return GG_CLI_GO_ON;
 }
 
-void gg_options_clear(gg_options *o)
+void gg_cli_options_clear(gg_options *o)
 {
   free(o->command_line);
   for (int i = 0; i < o->n_overrides; i++) free(o->owned[i]);
   *o = (gg_options){0};
 }
 
-gg_status gg_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
-                         void *target, gg_error *err)
+gg_status gg_cli_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
+                             void *target, gg_error *err)
 {
   const char *equals = strchr(typed, '=');
   char key[96];
@@ -281,15 +281,15 @@ static gg_status set_scene(void *scene, const char *key, const char *value, gg_e
   return gg_scene_set(scene, key, value, err);
 }
 
-gg_status gg_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
+gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
 {
   gg_status status = gg_scene_load(o->input, scene, err);
   for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
-    status = gg_options_set("set", o->override[i], "collision.e=0.8", set_scene, *scene, err);
+    status = gg_cli_options_set("set", o->override[i], "collision.e=0.8", set_scene, *scene, err);
   return status;
 }
 
-const char *gg_options_name(const gg_options *o)
+const char *gg_cli_options_name(const gg_options *o)
 {
   return strcmp(o->input, "-") == 0 ? "standard input" : o->input;
 }

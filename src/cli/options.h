@@ -29,7 +29,7 @@ typedef struct gg_option {
   unsigned flag;
   const char *name, *argument, *doc; /* argument: NULL if it takes none */
 } gg_option;
-extern const gg_option gg_options_table[]; /* ends with flag 0 */
+extern const gg_option gg_cli_options_table[]; /* ends with flag 0 */
 
 enum { GG_MAX_OVERRIDES = 64 };
 
@@ -55,20 +55,20 @@ typedef struct gg_options {
 
 enum { GG_CLI_GO_ON = -1 };
 /* GG_CLI_GO_ON, or the exit code to leave with (--help printed, or a mistake reported). */
-int gg_options_parse(const gg_command *command, int argc, char **argv, gg_options *options);
-void gg_options_clear(gg_options *options);
+int gg_cli_options_parse(const gg_command *command, int argc, char **argv, gg_options *options);
+void gg_cli_options_clear(gg_options *options);
 
 /* The input as messages name it. */
-const char *gg_options_name(const gg_options *options);
+const char *gg_cli_options_name(const gg_options *options);
 
 /* The scene of the input, overridden; to be freed. */
-gg_status gg_options_scene(const gg_options *options, gg_scene **scene, gg_error *err);
+gg_status gg_cli_options_scene(const gg_options *options, gg_scene **scene, gg_error *err);
 
 /* Set what was typed after --OPTION, KEY=VALUE; `example` is one. */
 typedef gg_status gg_options_setter(void *target, const char *key, const char *value, gg_error *err);
-gg_status gg_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
-                         void *target, gg_error *err);
+gg_status gg_cli_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
+                             void *target, gg_error *err);
 
-void gg_print_command_help(const gg_command *command);
+void gg_cli_command_print_help(const gg_command *command);
 
 #endif

@@ -6,15 +6,15 @@
 
 /* --output, or the input's base name with `suffix` in the current folder; to be freed. NULL with the message when that
  * is the input itself. */
-char *gg_options_output(const gg_options *options, const char *suffix, gg_error *err);
+char *gg_cli_options_output(const gg_options *options, const char *suffix, gg_error *err);
 /* The input's base name with that ending, in the current folder; to be freed. */
-char *gg_options_beside(const gg_options *options, const char *suffix);
+char *gg_cli_options_beside(const gg_options *options, const char *suffix);
 /* "results: usf.h5", and whether an older one was there. */
-void gg_tell_written(const gg_options *options, const char *what, const char *path, bool replaced);
-bool gg_file_exists(const char *path);
+void gg_cli_report_written(const gg_options *options, const char *what, const char *path, bool replaced);
+bool gg_cli_file_exists(const char *path);
 /* A device or a pipe: what is written there stands nowhere, and nothing beside it. */
-bool gg_is_device(const char *path);
+bool gg_cli_file_is_device(const char *path);
 /* `path` with another ending, or with one where it had none; to be freed. */
-char *gg_with_suffix(const char *path, const char *suffix);
+char *gg_cli_path_with_suffix(const char *path, const char *suffix);
 
 #endif

@@ -8,15 +8,15 @@
 static int write_page(const gg_options *o, const gg_scene *scene)
 {
   gg_error err;
-  char *output = o->input ? gg_options_output(o, ".html", &err) : strdup(o->output ? o->output : "page.html");
+  char *output = o->input ? gg_cli_options_output(o, ".html", &err) : strdup(o->output ? o->output : "page.html");
   if (!output && o->input) return gg_cli_report(&err);
   if (!output) return gg_cli_fail(GG_FAILED, "out of memory");
-  const bool replaced = gg_file_exists(output) && !gg_is_device(output);
+  const bool replaced = gg_cli_file_exists(output) && !gg_cli_file_is_device(output);
   gg_status status = gg_page_write(scene, output, &err);
-  if (status == GG_OK) gg_tell_written(o, "page", output, replaced);
+  if (status == GG_OK) gg_cli_report_written(o, "page", output, replaced);
   free(output);
   if (status == GG_OK) return GG_OK;
-  return status == GG_BAD_INPUT && o->input ? gg_cli_report_of(gg_options_name(o), &err) : gg_cli_report(&err);
+  return status == GG_BAD_INPUT && o->input ? gg_cli_report_of(gg_cli_options_name(o), &err) : gg_cli_report(&err);
 }
 
 int gg_cli_page_main(const gg_command *command, int argc, char **argv)
@@ -24,12 +24,12 @@ int gg_cli_page_main(const gg_command *command, int argc, char **argv)
   gg_options o;
   gg_error err;
   gg_scene *scene = NULL;
-  int code = gg_options_parse(command, argc, argv, &o);
+  int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON && !o.input && o.n_overrides > 0)
     code = gg_cli_fail(GG_BAD_INPUT, "--set and --seed are for a scene: graingas page SCENE.yaml");
-  if (code == GG_CLI_GO_ON && o.input && gg_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON && o.input && gg_cli_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = write_page(&o, scene);
   gg_scene_free(scene);
-  gg_options_clear(&o);
+  gg_cli_options_clear(&o);
   return code;
 }

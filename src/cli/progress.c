@@ -27,8 +27,8 @@ void gg_cli_progress_start(gg_cli_progress *p, bool quiet)
 static void describe(const gg_progress *g, bool brief, char *text, size_t size)
 {
   char collisions[24], rate[24], left[24] = "";
-  gg_format_count((double)g->collisions, collisions, sizeof collisions);
-  gg_format_count(g->rate, rate, sizeof rate);
+  gg_cli_format_count((double)g->collisions, collisions, sizeof collisions);
+  gg_cli_format_count(g->rate, rate, sizeof rate);
   int used = snprintf(text, size, "%s %s %.0f %%", g->engine, g->phase, floor(100 * g->fraction));
   if (g->replicas > 1 && !brief)
     used += snprintf(text + used, size - (size_t)used, ", %ld replicas", (long)g->replicas);
@@ -36,7 +36,7 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
   if (g->relative_error > 0 && isfinite(g->relative_error))
     used += snprintf(text + used, size - (size_t)used, ", error %.2g %%", 100 * g->relative_error);
   if (isfinite(g->time_left)) {
-    gg_format_duration(g->time_left, left, sizeof left);
+    gg_cli_format_duration(g->time_left, left, sizeof left);
     used += snprintf(text + used, size - (size_t)used, ", %s left", left);
   }
   if (g->next) snprintf(text + used, size - (size_t)used, ", then %s", g->next);

@@ -39,7 +39,7 @@ static double value_of(const gg_comparison *c, const char *theory, const char *q
 static bool shown(const gg_comparison *c, const char *quantity, bool all)
 {
   gg_theory_info t;
-  if (gg_is_minor_quantity(quantity) && !all) return false;
+  if (gg_cli_quantity_is_minor(quantity) && !all) return false;
   if (reference(c))
     return has(gg_comparison_result(c, "md"), quantity) || has(gg_comparison_result(c, "dsmc"), quantity);
   for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK; i++)
@@ -59,7 +59,7 @@ static void put_theory(gg_table *t, int row, int column, const gg_comparison *c,
                        const char *quantity)
 {
   double deviation = NAN, value = value_of(c, theory, quantity, &deviation);
-  char *cell = gg_table_cell(t, row, column);
+  char *cell = gg_cli_table_cell(t, row, column);
   if (isnan(value)) return;
   if (isnan(deviation))
     snprintf(cell, GG_TABLE_CELL, reference(c) ? "%.4g        " : "%.5g", value);
@@ -79,7 +79,7 @@ static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int col
     column[i] = -1;
     if (gg_comparison_theory(c, i, &theory, NULL) != GG_OK) continue;
     for (size_t k = 0; column[i] < 0 && next_shown(c, all, &k, &q);)
-      if (!isnan(value_of(c, theory.name, q.name, NULL))) column[i] = gg_table_column(t, theory.name, true), n++;
+      if (!isnan(value_of(c, theory.name, q.name, NULL))) column[i] = gg_cli_table_column(t, theory.name, true), n++;
   }
   return n;
 }
@@ -93,11 +93,11 @@ static void put_engines(gg_table *t, int row, const gg_comparison *c, const char
     const gg_result *r = gg_comparison_result(c, engines[k]);
     if (!r) continue;
     if (gg_result_find(r, quantity, &m, NULL) == GG_OK && !isnan(m.mean))
-      gg_format_estimate(m.mean, m.error, gg_table_cell(t, row, column), GG_TABLE_CELL);
+      gg_format_estimate(m.mean, m.error, gg_cli_table_cell(t, row, column), GG_TABLE_CELL);
     column++;
   }
   gg_comparison_agreement(c, quantity, &z, &beyond, NULL);
-  if (isfinite(z)) snprintf(gg_table_cell(t, row, column), GG_TABLE_CELL, "%+.1f%s", z, beyond ? "!" : " ");
+  if (isfinite(z)) snprintf(gg_cli_table_cell(t, row, column), GG_TABLE_CELL, "%+.1f%s", z, beyond ? "!" : " ");
 }
 
 static gg_table *tabulate(const gg_comparison *c, bool all, int *n_theories)
@@ -105,18 +105,18 @@ static gg_table *tabulate(const gg_comparison *c, bool all, int *n_theories)
   int column[MOST_THEORIES];
   gg_entry q;
   gg_theory_info theory;
-  gg_table *t = gg_table_new();
+  gg_table *t = gg_cli_table_new();
   if (!t) return NULL;
-  gg_table_column(t, "quantity", false);
-  gg_table_column(t, "unit", false);
+  gg_cli_table_column(t, "quantity", false);
+  gg_cli_table_column(t, "unit", false);
   for (int k = 0; k < 2; k++)
-    if (gg_comparison_result(c, engines[k])) gg_table_column(t, engines[k], true);
-  if (both_ran(c)) gg_table_column(t, "z", true);
+    if (gg_comparison_result(c, engines[k])) gg_cli_table_column(t, engines[k], true);
+  if (both_ran(c)) gg_cli_table_column(t, "z", true);
   *n_theories = theory_columns(t, c, all, column);
   for (size_t i = 0; next_shown(c, all, &i, &q);) {
-    int row = gg_table_row(t);
-    snprintf(gg_table_cell(t, row, 0), GG_TABLE_CELL, "%s", q.name);
-    snprintf(gg_table_cell(t, row, 1), GG_TABLE_CELL, "%s", q.unit);
+    int row = gg_cli_table_row(t);
+    snprintf(gg_cli_table_cell(t, row, 0), GG_TABLE_CELL, "%s", q.name);
+    snprintf(gg_cli_table_cell(t, row, 1), GG_TABLE_CELL, "%s", q.unit);
     if (reference(c)) put_engines(t, row, c, q.name);
     for (size_t k = 0; k < MOST_THEORIES && gg_comparison_theory(c, k, &theory, NULL) == GG_OK; k++)
       if (column[k] >= 0) put_theory(t, row, column[k], c, theory.name, q.name);
@@ -137,10 +137,11 @@ static void print_causes(const gg_comparison *c, bool all)
   }
   if (!marked) return;
   printf("\n");
-  gg_print_wrapped(stdout, "!: ",
-                   "md differs from Enskog's equation by more than is expected here. Causes that apply to this scene:");
+  gg_cli_print_wrapped(
+      stdout,
+      "!: ", "md differs from Enskog's equation by more than is expected here. Causes that apply to this scene:");
   for (size_t i = 0; gg_comparison_remark(c, i, &r, NULL) == GG_OK; i++)
-    if (!r.theory) gg_print_wrapped(stdout, "  - ", r.cause);
+    if (!r.theory) gg_cli_print_wrapped(stdout, "  - ", r.cause);
 }
 
 /* What stands behind theories' deviations. */
@@ -153,10 +154,10 @@ static void print_remarks(const gg_comparison *c)
     if (!r.theory) continue;
     if (!any) printf("\n");
     if (!any)
-      gg_print_wrapped(stdout, "", "Theories further off than is expected of solutions of one problem, and why:");
+      gg_cli_print_wrapped(stdout, "", "Theories further off than is expected of solutions of one problem, and why:");
     any = true;
     snprintf(text, sizeof text, "%s, %s %+.1f %%: %s", r.theory, r.quantity, 100 * r.deviation, r.cause);
-    gg_print_wrapped(stdout, "  - ", text);
+    gg_cli_print_wrapped(stdout, "  - ", text);
   }
 }
 
@@ -168,7 +169,7 @@ static void print_inapplicable(const gg_comparison *c)
     if (t.reason) used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", t.name);
   if (!*list) return;
   printf("\n");
-  gg_print_paragraph(stdout, 2, "Theories for other scenes (graingas theory says why): %s", list);
+  gg_cli_print_paragraph(stdout, 2, "Theories for other scenes (graingas theory says why): %s", list);
 }
 
 static void print_legend(const gg_comparison *c, int n_theories)
@@ -178,32 +179,32 @@ static void print_legend(const gg_comparison *c, int n_theories)
   if (n_theories && gg_result_about(reference(c), &against, NULL) == GG_OK)
     snprintf(deviation, sizeof deviation, "; %%: deviation of a theory from %s", against.engine);
   printf("\n");
-  gg_print_paragraph(stdout, 0, "(..): standard error of the last digits%s%s",
-                     both_ran(c) ? "; z: (md - dsmc) over their combined standard error" : "", deviation);
+  gg_cli_print_paragraph(stdout, 0, "(..): standard error of the last digits%s%s",
+                         both_ran(c) ? "; z: (md - dsmc) over their combined standard error" : "", deviation);
 }
 
-void gg_print_comparison(const gg_comparison *c, bool all)
+void gg_cli_print_comparison(const gg_comparison *c, bool all)
 {
   int n_theories;
   gg_table *t = tabulate(c, all, &n_theories);
   if (!t) return;
-  gg_print_head(gg_comparison_scene(c));
-  gg_table_print(t, stdout, 1);
+  gg_cli_print_head(gg_comparison_scene(c));
+  gg_cli_table_print(t, stdout, 1);
   free(t);
   print_legend(c, n_theories);
-  gg_print_verdicts(c);
+  gg_cli_print_verdicts(c);
   print_causes(c, all);
   print_remarks(c);
-  gg_print_numbers(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
+  gg_cli_print_numbers(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
   printf("\n");
   for (int k = 0; k < 2; k++) {
     const char *refusal = gg_comparison_refusal(c, engines[k]);
-    if (gg_comparison_result(c, engines[k])) gg_print_effort(gg_comparison_result(c, engines[k]));
-    if (refusal) gg_print_paragraph(stdout, 6, "%-5s not run: %s", engines[k], refusal);
+    if (gg_comparison_result(c, engines[k])) gg_cli_print_effort(gg_comparison_result(c, engines[k]));
+    if (refusal) gg_cli_print_paragraph(stdout, 6, "%-5s not run: %s", engines[k], refusal);
   }
   print_inapplicable(c);
   for (int k = 0; k < 2; k++)
-    if (gg_comparison_result(c, engines[k])) gg_print_warnings(gg_comparison_result(c, engines[k]), NULL);
+    if (gg_comparison_result(c, engines[k])) gg_cli_print_warnings(gg_comparison_result(c, engines[k]), NULL);
 }
 
 /* Of theories that are solved numerically: the largest relative error, and whose. */
@@ -222,7 +223,7 @@ static void print_numerical_error(const gg_comparison *c, const char *theory)
   }
   if (!*worst) return;
   snprintf(text, sizeof text, "solved numerically, to %.1g %% of %s and better of all others.", 100 * most, worst);
-  gg_print_wrapped(stdout, "  Here: ", text);
+  gg_cli_print_wrapped(stdout, "  Here: ", text);
 }
 
 /* The last x at which a curve is known, INFINITY if that is its end. */
@@ -248,28 +249,29 @@ static void print_curves(const gg_comparison *c, const char *theory)
     if (isfinite(end))
       snprintf(known, sizeof known, "; where the series converges, up to %s = %.3g", curve.x_name, end);
     snprintf(text, sizeof text, "%d curves of %s (--json; compare and plot draw them)%s.", n, curve.observable, known);
-    gg_print_wrapped(stdout, "  Here: ", text);
+    gg_cli_print_wrapped(stdout, "  Here: ", text);
     n = 0, end = INFINITY;
   }
 }
 
-void gg_print_theories(const gg_comparison *c, bool all)
+void gg_cli_print_theories(const gg_comparison *c, bool all)
 {
   int n_theories;
   gg_theory_info theory;
   gg_table *t = tabulate(c, all, &n_theories);
   if (!t) return;
-  gg_print_head(gg_comparison_scene(c));
-  if (n_theories) gg_table_print(t, stdout, 2);
+  gg_cli_print_head(gg_comparison_scene(c));
+  if (n_theories) gg_cli_table_print(t, stdout, 2);
   free(t);
   printf("\n");
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++) {
     if (theory.reason) continue;
-    gg_print_paragraph(stdout, 2, "%s: %s (%s)\n%s", theory.name, theory.title, theory.citation, theory.assumptions);
-    if (theory.beyond) gg_print_wrapped(stdout, "  Here: ", theory.beyond);
+    gg_cli_print_paragraph(stdout, 2, "%s: %s (%s)\n%s", theory.name, theory.title, theory.citation,
+                           theory.assumptions);
+    if (theory.beyond) gg_cli_print_wrapped(stdout, "  Here: ", theory.beyond);
     print_numerical_error(c, theory.name);
     print_curves(c, theory.name);
   }
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
-    if (theory.reason) gg_print_paragraph(stdout, 2, "%s", theory.reason);
+    if (theory.reason) gg_cli_print_paragraph(stdout, 2, "%s", theory.reason);
 }

@@ -41,20 +41,20 @@ static void put_row(listing *l, const char *curve, const gg_measurement *number)
   gg_measurement by[2];
   bool there[2];
   if (l->table->n_rows == GG_TABLE_ROWS) return;
-  int row = gg_table_row(l->table), column = 2;
-  if (strcmp(l->curve, curve) != 0) snprintf(gg_table_cell(l->table, row, 0), GG_TABLE_CELL, "%s", curve);
+  int row = gg_cli_table_row(l->table), column = 2;
+  if (strcmp(l->curve, curve) != 0) snprintf(gg_cli_table_cell(l->table, row, 0), GG_TABLE_CELL, "%s", curve);
   snprintf(l->curve, sizeof l->curve, "%s", curve);
   bool pure = strcmp(number->unit, "1") == 0;
-  snprintf(gg_table_cell(l->table, row, 1), GG_TABLE_CELL, pure ? "%s" : "%s [%s]", number->name, number->unit);
+  snprintf(gg_cli_table_cell(l->table, row, 1), GG_TABLE_CELL, pure ? "%s" : "%s [%s]", number->name, number->unit);
   for (int k = 0; k < 2; k++) {
     there[k] = find(l->result[k], curve, number->name, &by[k]);
     if (!l->result[k]) continue;
-    if (there[k]) gg_format_estimate(by[k].mean, by[k].error, gg_table_cell(l->table, row, column), GG_TABLE_CELL);
+    if (there[k]) gg_format_estimate(by[k].mean, by[k].error, gg_cli_table_cell(l->table, row, column), GG_TABLE_CELL);
     column++;
   }
   if (!there[0] || !there[1]) return;
   double error = hypot(by[0].error, by[1].error), z = (by[0].mean - by[1].mean) / error; /* a setting has no error */
-  if (error > 0 && isfinite(z)) snprintf(gg_table_cell(l->table, row, column), GG_TABLE_CELL, "%+.1f", z);
+  if (error > 0 && isfinite(z)) snprintf(gg_cli_table_cell(l->table, row, column), GG_TABLE_CELL, "%+.1f", z);
 }
 
 /* Of the first result; and of the second what the first has not. */
@@ -69,20 +69,20 @@ static void put_rows(listing *l, int which, bool all)
         put_row(l, c.name, &p);
 }
 
-void gg_print_numbers(const gg_result *one, const gg_result *two, bool all)
+void gg_cli_print_numbers(const gg_result *one, const gg_result *two, bool all)
 {
-  listing l = {.result = {one, two}, .table = gg_table_new()};
+  listing l = {.result = {one, two}, .table = gg_cli_table_new()};
   gg_result_info about;
   if (!l.table) return;
-  gg_table_column(l.table, "read off", false);
-  gg_table_column(l.table, "", false);
+  gg_cli_table_column(l.table, "read off", false);
+  gg_cli_table_column(l.table, "", false);
   for (int k = 0; k < 2; k++)
-    if (gg_result_about(l.result[k], &about, NULL) == GG_OK) gg_table_column(l.table, about.engine, true);
-  if (one && two) gg_table_column(l.table, "z", true);
+    if (gg_result_about(l.result[k], &about, NULL) == GG_OK) gg_cli_table_column(l.table, about.engine, true);
+  if (one && two) gg_cli_table_column(l.table, "z", true);
   for (int k = 0; k < 2; k++) put_rows(&l, k, all);
   if (l.table->n_rows) {
     printf("\n");
-    gg_table_print(l.table, stdout, 2);
+    gg_cli_table_print(l.table, stdout, 2);
     if (l.table->n_rows == GG_TABLE_ROWS) printf("... and more than fit here: see the result file or --json\n");
   }
   free(l.table);

@@ -47,15 +47,15 @@ static void weigh(const gg_comparison *c, const char *engine, verdict *v)
 static void print(const char *engine, const verdict *v)
 {
   if (v->off)
-    gg_print_paragraph(stdout, 2, "%s differs from Enskog's equation (enskog_hermite) in %s", engine, v->list);
+    gg_cli_print_paragraph(stdout, 2, "%s differs from Enskog's equation (enskog_hermite) in %s", engine, v->list);
   else
-    gg_print_paragraph(stdout, 2,
-                       "%s agrees with Enskog's equation (enskog_hermite) within %g standard errors in %d main "
-                       "quantities, %s",
-                       engine, far, v->compared, v->first);
+    gg_cli_print_paragraph(stdout, 2,
+                           "%s agrees with Enskog's equation (enskog_hermite) within %g standard errors in %d main "
+                           "quantities, %s",
+                           engine, far, v->compared, v->first);
 }
 
-void gg_print_verdicts(const gg_comparison *c)
+void gg_cli_print_verdicts(const gg_comparison *c)
 {
   static const char *const engines[] = {"md", "dsmc"};
   bool any = false;

@@ -26,7 +26,7 @@ static void show(void *context, const char *figure, const gg_sweep_progress *now
 {
   told *t = context;
   char line[160], left[24] = "";
-  if (isfinite(now->time_left)) gg_format_duration(now->time_left, left, sizeof left);
+  if (isfinite(now->time_left)) gg_cli_format_duration(now->time_left, left, sizeof left);
   snprintf(line, sizeof line, "%s: %zu of %zu points%s%s%s", figure, now->done, now->points, *left ? ", " : "", left,
            *left ? " left" : "");
   gg_cli_progress_line(&t->progress, line);
@@ -88,13 +88,13 @@ static int reproduce(const gg_options *o)
 int gg_cli_reproduce_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
-  int code = gg_options_parse(command, argc, argv, &o);
+  int code = gg_cli_options_parse(command, argc, argv, &o);
   bool list = code == GG_CLI_GO_ON && strcmp(o.input, "list") == 0;
   if (code == GG_CLI_GO_ON && o.json && !list)
     code =
         gg_cli_fail(GG_BAD_INPUT, "option '--json' goes with reproduce list alone: a figure leaves CSV and HDF5 files");
   if (code == GG_CLI_GO_ON) code = list ? gg_cli_list_figures(&o) : reproduce(&o);
-  gg_options_clear(&o);
+  gg_cli_options_clear(&o);
   return code;
 }
 

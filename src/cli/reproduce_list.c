@@ -13,7 +13,7 @@ typedef struct counts {
 static void print_needs(const gg_figure_needs *n)
 {
   char time[24];
-  gg_format_duration(n->cpu_seconds, time, sizeof time);
+  gg_cli_format_duration(n->cpu_seconds, time, sizeof time);
   printf("  %9s", time);
 }
 
@@ -88,8 +88,8 @@ int gg_cli_list_figures(const gg_options *o)
   gg_status status = gg_list_figures(o->json ? print_json : print_line, &c, &err);
   if (o->json) printf("\n]\n");
   if (status != GG_OK) return gg_cli_report(&err);
-  gg_format_duration(c.quick, quick, sizeof quick);
-  gg_format_duration(c.full, full, sizeof full);
+  gg_cli_format_duration(c.quick, quick, sizeof quick);
+  gg_cli_format_duration(c.full, full, sizeof full);
   if (!o->json)
     printf("\n%d figures; times are those of one processor here; all of them, points that several show once: %s with "
            "--quick, %s in full\n",

@@ -29,7 +29,7 @@ static char *taken(FILE *out, bool whole, char **text)
   return NULL;
 }
 
-char *gg_quoted(const char *text)
+char *gg_cli_shell_quote(const char *text)
 {
   char *quoted = NULL;
   size_t size;
@@ -39,7 +39,7 @@ char *gg_quoted(const char *text)
   return taken(out, whole, &quoted);
 }
 
-char *gg_typed_again(const gg_typed *typed, const char *added)
+char *gg_cli_command_line_quote(const gg_typed *typed, const char *added)
 {
   char *text = NULL;
   size_t size;

@@ -10,8 +10,8 @@ typedef struct gg_typed {
 
 /* As a shell reads it back: all words, with `added`, which is quoted already ("": none), where options end. To be
  * freed; NULL: out of memory. */
-char *gg_typed_again(const gg_typed *typed, const char *added);
+char *gg_cli_command_line_quote(const gg_typed *typed, const char *added);
 /* One argument as a shell reads it back; to be freed. */
-char *gg_quoted(const char *text);
+char *gg_cli_shell_quote(const char *text);
 
 #endif

@@ -12,7 +12,7 @@
 static char *checkpoint_path(const gg_options *o, const char *output)
 {
   char *path = NULL;
-  if (gg_is_device(output)) return gg_options_beside(o, ".checkpoint.h5");
+  if (gg_cli_file_is_device(output)) return gg_cli_options_beside(o, ".checkpoint.h5");
   size_t length = strlen(output);
   if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
   return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
@@ -52,7 +52,7 @@ static char *picture_path(const gg_simulating *s)
   const gg_options *o = s->options;
   if (!s->draws || (o->picture && strcmp(o->picture, "none") == 0)) return NULL;
   if (o->picture) return strdup(o->picture);
-  return gg_is_device(s->output) ? NULL : gg_with_suffix(s->output, ".svg");
+  return gg_cli_file_is_device(s->output) ? NULL : gg_cli_path_with_suffix(s->output, ".svg");
 }
 
 static int simulate_scene(gg_simulating *s, gg_simulate *simulate)
@@ -62,12 +62,12 @@ static int simulate_scene(gg_simulating *s, gg_simulate *simulate)
   char every[40] = "0";
   gg_scene_get(s->scene, "output.checkpoint_every", every, sizeof every, NULL);
   s->keeps_checkpoints = strtod(every, NULL) > 0;
-  s->output = gg_options_output(o, ".h5", &err);
+  s->output = gg_cli_options_output(o, ".h5", &err);
   if (!s->output) return gg_cli_report(&err);
   s->checkpoint = checkpoint_path(o, s->output);
   if (!s->checkpoint) return gg_cli_fail(GG_FAILED, "out of memory");
   s->picture = picture_path(s);
-  s->replaced = gg_file_exists(s->output) && !gg_is_device(s->output);
+  s->replaced = gg_cli_file_exists(s->output) && !gg_cli_file_is_device(s->output);
   s->run = (gg_run_options){.threads = o->threads,
                             .workers = gg_cli_workers(o->threads),
                             .input = o->input,
@@ -86,20 +86,20 @@ static int simulate_scene(gg_simulating *s, gg_simulate *simulate)
   return simulate(s);
 }
 
-int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simulate *simulate)
+int gg_cli_simulate_main(const gg_command *command, int argc, char **argv, gg_simulate *simulate)
 {
   gg_options o;
   gg_error err;
   gg_simulating s = {.options = &o, .draws = command->options & GG_OPT_PICTURE};
-  int code = gg_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && gg_options_scene(&o, &s.scene, &err) != GG_OK) code = gg_cli_report(&err);
+  int code = gg_cli_options_parse(command, argc, argv, &o);
+  if (code == GG_CLI_GO_ON && gg_cli_options_scene(&o, &s.scene, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = simulate_scene(&s, simulate);
   free(s.output);
   free(s.checkpoint);
   free(s.picture);
   free(s.told);
   gg_scene_free(s.scene);
-  gg_options_clear(&o);
+  gg_cli_options_clear(&o);
   return code;
 }
 
@@ -107,9 +107,9 @@ int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simula
 static void tell_stored(const gg_simulating *s, gg_error *err)
 {
   const size_t size = sizeof err->message;
-  char *file = gg_quoted(s->checkpoint), *resume = NULL, *again = NULL;
+  char *file = gg_cli_shell_quote(s->checkpoint), *resume = NULL, *again = NULL;
   if (file && asprintf(&resume, " --resume %s", file) < 0) resume = NULL;
-  if (resume && !s->options->resume) again = gg_typed_again(&s->options->typed, resume);
+  if (resume && !s->options->resume) again = gg_cli_command_line_quote(&s->options->typed, resume);
   if (!again || snprintf(err->message, size, "interrupted; go on with: %s", again) >= (int)size)
     snprintf(err->message, size, "interrupted; go on with the same command and%s", resume ? resume : " --resume");
   free(file);
@@ -135,7 +135,7 @@ static bool has_means(const gg_result *result)
   return false;
 }
 
-bool gg_simulating_shows(gg_simulating *s, gg_status status, const gg_result *one, const gg_result *other)
+bool gg_cli_simulation_has_output(gg_simulating *s, gg_status status, const gg_result *one, const gg_result *other)
 {
   gg_cli_progress_end(&s->progress);
   if (status != GG_INTERRUPTED) return one || other;
@@ -144,16 +144,16 @@ bool gg_simulating_shows(gg_simulating *s, gg_status status, const gg_result *on
   return some;
 }
 
-bool gg_simulating_tell(const gg_simulating *s, gg_status status)
+bool gg_cli_simulation_report(const gg_simulating *s, gg_status status)
 {
   if (status == GG_BAD_FILE || status == GG_INTERRUPTED) return false;
-  gg_tell_written(s->options, "results", s->output, s->replaced);
+  gg_cli_report_written(s->options, "results", s->output, s->replaced);
   return true;
 }
 
-int gg_simulating_end(const gg_simulating *s, gg_status status, gg_error *err)
+int gg_cli_simulation_finish(const gg_simulating *s, gg_status status, gg_error *err)
 {
   if (status == GG_OK) return GG_OK;
   if (status == GG_INTERRUPTED) tell_interrupted(s, err);
-  return status == GG_BAD_INPUT ? gg_cli_report_of(gg_options_name(s->options), err) : gg_cli_report(err);
+  return status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(s->options), err) : gg_cli_report(err);
 }

@@ -22,13 +22,14 @@ typedef struct gg_simulating {
 typedef int gg_simulate(gg_simulating *simulating);
 
 /* The whole of a simulating subcommand around its `simulate`. */
-int gg_simulate_main(const gg_command *command, int argc, char **argv, gg_simulate *simulate);
+int gg_cli_simulate_main(const gg_command *command, int argc, char **argv, gg_simulate *simulate);
 
 /* After the run: is there a result to show? Of an interrupted one, if anything was averaged; either may be NULL. */
-bool gg_simulating_shows(gg_simulating *simulating, gg_status status, const gg_result *one, const gg_result *other);
+bool gg_cli_simulation_has_output(gg_simulating *simulating, gg_status status, const gg_result *one,
+                                  const gg_result *other);
 /* After it was shown: tell where it was written. False if it was not. */
-bool gg_simulating_tell(const gg_simulating *simulating, gg_status status);
+bool gg_cli_simulation_report(const gg_simulating *simulating, gg_status status);
 /* Report what the run fell short of; returns the exit code. */
-int gg_simulating_end(const gg_simulating *simulating, gg_status status, gg_error *err);
+int gg_cli_simulation_finish(const gg_simulating *simulating, gg_status status, gg_error *err);
 
 #endif

@@ -24,9 +24,9 @@ static gg_status read_sweep(const gg_options *o, gg_sweep **sweep, gg_error *err
 {
   gg_status status = gg_sweep_load(o->input, sweep, err);
   for (int i = 0; i < o->n_vary && status == GG_OK; i++)
-    status = gg_options_set("vary", o->vary[i], "phi=0.1:0.5:0.1", vary, *sweep, err);
+    status = gg_cli_options_set("vary", o->vary[i], "phi=0.1:0.5:0.1", vary, *sweep, err);
   for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
-    status = gg_options_set("set", o->override[i], "collision.e=0.8", set, *sweep, err);
+    status = gg_cli_options_set("set", o->override[i], "collision.e=0.8", set, *sweep, err);
   if (status == GG_OK && o->does) status = gg_sweep_set(*sweep, "sweep.does", o->does, err);
   return status == GG_OK ? gg_sweep_check(*sweep, err) : status;
 }
@@ -76,7 +76,7 @@ static int work(gg_sweep_command *c)
                                     .command = o->command_line,
                                     .input = o->input,
                                     .context = c,
-                                    .progress = gg_sweep_show,
+                                    .progress = gg_cli_sweep_show_progress,
                                     .stop = is_interrupted,
                                     .ended = tell_point,
                                     .warn = warn};
@@ -134,7 +134,7 @@ static int check_varied(const gg_sweep_command *c)
   if (gg_sweep_key(c->sweep, 0)) return GG_CLI_GO_ON;
   return gg_cli_fail(GG_BAD_INPUT,
                      "%s: no key is varied; give e.g. vary: {phi: [0.1, 0.2]} there, or --vary phi=0.1,0.2",
-                     gg_options_name(c->options));
+                     gg_cli_options_name(c->options));
 }
 
 /* One thing at a time, and nothing asked for in vain. */
@@ -160,12 +160,12 @@ static int sweep_points(gg_sweep_command *c)
   const gg_options *o = c->options;
   int code = check_varied(c);
   if (code != GG_CLI_GO_ON) return code;
-  c->folder = gg_options_output(o, ".sweep", &err);
+  c->folder = gg_cli_options_output(o, ".sweep", &err);
   if (!c->folder) return gg_cli_report(&err);
   for (size_t n = strlen(c->folder); n > 1 && c->folder[n - 1] == '/'; n--)
     c->folder[n - 1] = '\0'; /* shells add it when they complete a name */
-  if (o->slurm) return gg_sweep_print_slurm(c);
-  if (o->list && !o->json) return gg_sweep_list(c);
+  if (o->slurm) return gg_cli_sweep_print_slurm(c);
+  if (o->list && !o->json) return gg_cli_sweep_list(c);
   code = o->list ? GG_OK : o->collect ? collect(c) : work(c);
   return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;
 }
@@ -175,12 +175,12 @@ int gg_cli_sweep_main(const gg_command *command, int argc, char **argv)
   gg_options o;
   gg_error err;
   gg_sweep_command c = {.options = &o};
-  int code = gg_options_parse(command, argc, argv, &o);
+  int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) code = check_together(&o);
   if (code == GG_CLI_GO_ON && read_sweep(&o, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = sweep_points(&c);
   gg_sweep_free(c.sweep);
   free(c.folder);
-  gg_options_clear(&o);
+  gg_cli_options_clear(&o);
   return code;
 }

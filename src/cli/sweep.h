@@ -14,10 +14,10 @@ typedef struct gg_sweep_command {
 } gg_sweep_command;
 
 /* sweep_list.c: the points as a table; returns the exit code. */
-int gg_sweep_list(const gg_sweep_command *command);
+int gg_cli_sweep_list(const gg_sweep_command *command);
 /* sweep_slurm.c: the array script. */
-int gg_sweep_print_slurm(const gg_sweep_command *command);
+int gg_cli_sweep_print_slurm(const gg_sweep_command *command);
 /* sweep_progress.c: for gg_sweep_options.progress, with the command as its context. */
-void gg_sweep_show(void *command, const gg_sweep_progress *progress);
+void gg_cli_sweep_show_progress(void *command, const gg_sweep_progress *progress);
 
 #endif

@@ -44,14 +44,14 @@ static double print_point(const gg_sweep_command *c, const widths *w, size_t i, 
   char time[24];
   gg_sweep_point p;
   if (gg_sweep_at(c->sweep, i, &p, NULL) != GG_OK) return 0;
-  gg_format_duration(p.cpu_seconds, time, sizeof time);
+  gg_cli_format_duration(p.cpu_seconds, time, sizeof time);
   printf("%5zu  ", i + 1);
   for (size_t k = 0; k < w->n; k++) printf("%-*s  ", w->of[k], gg_sweep_value(c->sweep, i, k));
   printf("%-16s  %-7s  %8ld  %s\n", p.name, states[state], (long)p.replicas, time);
   return state == GG_POINT_MISSING ? p.cpu_seconds : 0;
 }
 
-int gg_sweep_list(const gg_sweep_command *c)
+int gg_cli_sweep_list(const gg_sweep_command *c)
 {
   size_t done = 0, n = gg_sweep_points(c->sweep);
   double seconds = 0;
@@ -65,7 +65,7 @@ int gg_sweep_list(const gg_sweep_command *c)
   }
   char time[24];
   int threads = c->options->threads;
-  gg_format_duration(seconds / threads, time, sizeof time);
+  gg_cli_format_duration(seconds / threads, time, sizeof time);
   printf("\n%s at %zu point%s, of which %zu %s done; about %s on %d thread%s for the others\n", gg_sweep_does(c->sweep),
          n, n == 1 ? "" : "s", done, done == 1 ? "is" : "are", time, threads, threads == 1 ? "" : "s");
   return GG_OK;

@@ -17,11 +17,11 @@ static void describe(const gg_sweep_progress *p, char *text, size_t size)
   if (p->relative_error > 0 && isfinite(p->relative_error) && used < size)
     used += (size_t)snprintf(text + used, size - used, ", error up to %.2g %%", 100 * p->relative_error);
   if (!isfinite(p->time_left) || p->done + p->failed == p->points || used >= size) return;
-  gg_format_duration(p->time_left, left, sizeof left);
+  gg_cli_format_duration(p->time_left, left, sizeof left);
   snprintf(text + used, size - used, ", %s left", left);
 }
 
-void gg_sweep_show(void *context, const gg_sweep_progress *p)
+void gg_cli_sweep_show_progress(void *context, const gg_sweep_progress *p)
 {
   char line[240];
   gg_sweep_command *c = context;

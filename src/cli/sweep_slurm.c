@@ -23,12 +23,12 @@ static long hours(const gg_sweep_command *c, size_t tasks)
   return (long)ceil(4 * longest / 3600 + 1e-9);
 }
 
-int gg_sweep_print_slurm(const gg_sweep_command *c)
+int gg_cli_sweep_print_slurm(const gg_sweep_command *c)
 {
   size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
   long h = hours(c, tasks);
-  char *command =
-      gg_typed_again(&c->options->typed, " --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet");
+  char *command = gg_cli_command_line_quote(&c->options->typed,
+                                            " --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet");
   if (!command) return gg_cli_fail(GG_FAILED, "out of memory");
   printf("#!/bin/bash\n"
          "# %zu points; those that are done already cost a task a moment.\n"

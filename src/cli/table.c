@@ -7,12 +7,12 @@
 
 enum { GAP = 2 };
 
-gg_table *gg_table_new(void)
+gg_table *gg_cli_table_new(void)
 {
   return calloc(1, sizeof(gg_table));
 }
 
-int gg_table_column(gg_table *t, const char *head, bool right)
+int gg_cli_table_column(gg_table *t, const char *head, bool right)
 {
   int c = t->n_columns < GG_TABLE_COLUMNS ? t->n_columns++ : GG_TABLE_COLUMNS - 1;
   snprintf(t->head[c], GG_TABLE_CELL, "%s", head);
@@ -20,12 +20,12 @@ int gg_table_column(gg_table *t, const char *head, bool right)
   return c;
 }
 
-int gg_table_row(gg_table *t)
+int gg_cli_table_row(gg_table *t)
 {
   return t->n_rows < GG_TABLE_ROWS ? t->n_rows++ : GG_TABLE_ROWS - 1;
 }
 
-char *gg_table_cell(gg_table *t, int row, int column)
+char *gg_cli_table_cell(gg_table *t, int row, int column)
 {
   return t->cell[row][column];
 }
@@ -70,9 +70,9 @@ static void print_block(const gg_table *t, FILE *out, const int *columns, int n,
     if (!row_is_empty(t, columns, n, keep, r)) print_line(t, out, columns, n, r);
 }
 
-void gg_table_print(const gg_table *t, FILE *out, int keep)
+void gg_cli_table_print(const gg_table *t, FILE *out, int keep)
 {
-  int width = gg_terminal_width();
+  int width = gg_cli_terminal_width();
   int columns[GG_TABLE_COLUMNS], next = keep;
   do {
     int n = 0, used = 0;

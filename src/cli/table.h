@@ -15,12 +15,12 @@ typedef struct gg_table {
 } gg_table;
 
 /* A new, empty table; free() it. NULL if out of memory. */
-gg_table *gg_table_new(void);
-int gg_table_column(gg_table *table, const char *head, bool right);
+gg_table *gg_cli_table_new(void);
+int gg_cli_table_column(gg_table *table, const char *head, bool right);
 /* The cell to write into: GG_TABLE_CELL bytes. */
-char *gg_table_cell(gg_table *table, int row, int column);
-int gg_table_row(gg_table *table);
+char *gg_cli_table_cell(gg_table *table, int row, int column);
+int gg_cli_table_row(gg_table *table);
 /* Columns that do not fit into the terminal follow in further blocks, which repeat the first `keep` columns. */
-void gg_table_print(const gg_table *table, FILE *out, int keep);
+void gg_cli_table_print(const gg_table *table, FILE *out, int keep);
 
 #endif

@@ -9,7 +9,7 @@
 
 enum { USUAL = 80, LEAST = 40, MOST = 1000 };
 
-int gg_terminal_width(void)
+int gg_cli_terminal_width(void)
 {
   struct winsize window = {0};
   const char *said = getenv("COLUMNS");
@@ -35,7 +35,7 @@ static int columns_of(const char *text, size_t bytes)
 /* Words from column `used` on, in lines that begin with `indent` blanks; the blanks between words stay. */
 static void put_words(FILE *out, const char *text, int used, int indent)
 {
-  int width = gg_terminal_width();
+  int width = gg_cli_terminal_width();
   bool begun = false;
   while (*text) {
     int gap = (int)strspn(text, " ");
@@ -58,14 +58,14 @@ static void put_words(FILE *out, const char *text, int used, int indent)
   fputc('\n', out);
 }
 
-void gg_print_wrapped(FILE *out, const char *lead, const char *text)
+void gg_cli_print_wrapped(FILE *out, const char *lead, const char *text)
 {
   fputs(lead, out);
   int indent = columns_of(lead, strlen(lead));
   put_words(out, text, indent, indent);
 }
 
-void gg_print_paragraph(FILE *out, int indent, const char *format, ...)
+void gg_cli_print_paragraph(FILE *out, int indent, const char *format, ...)
 {
   char *text = NULL;
   va_list args;

@@ -27,7 +27,7 @@ typedef enum gg_rule {
   GG_FRICTIONAL /* Coulomb: beta_0 while sticking, mu while sliding */
 } gg_rule;
 
-/* What two partners of given kinds need at contact; made once by gg_contact_make. Units: mass. */
+/* What two partners of given kinds need at contact; made once by gg_common_contact_make. Units: mass. */
 typedef struct gg_contact {
   double jn;       /* m_r (1+e) */
   double jt;       /* m_t (1+beta); 0 if smooth */
@@ -41,10 +41,10 @@ typedef struct gg_partner {
   double mass, inertia; /* m; K = 4I/(m d^2) */
 } gg_partner;
 
-gg_contact gg_contact_make(gg_partner one, gg_partner two, double e, double beta, double mu);
+gg_contact gg_common_contact_make(gg_partner one, gg_partner two, double e, double beta, double mu);
 
 /* The simplest rule that does for these coefficients. */
-gg_rule gg_rule_of(double beta, double mu);
+gg_rule gg_common_rule_select(double beta, double mu);
 
 GG_INLINE double gg_inverse_mr(const gg_contact *c)
 {

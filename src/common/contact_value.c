@@ -20,7 +20,7 @@ static double kolafa_excess(double phi)
   return sum;
 }
 
-double gg_contact_value_of(gg_contact_value kind, double phi)
+double gg_common_contact_value_of(gg_contact_value kind, double phi)
 {
   if (phi == 0) return 1;
   switch (kind) {
@@ -30,13 +30,13 @@ double gg_contact_value_of(gg_contact_value kind, double phi)
   }
 }
 
-double gg_contact_value_mixture(double phi, double phi_hat, double d_red)
+double gg_common_contact_value_mixture(double phi, double phi_hat, double d_red)
 {
   double y = phi_hat * d_red, f = 1 - phi;
   return 1 / f + 1.5 * y / (f * f) + 0.5 * y * y / (f * f * f);
 }
 
-double gg_compressibility(gg_contact_value kind, double phi)
+double gg_common_compressibility(gg_contact_value kind, double phi)
 {
-  return 1 + 4 * phi * gg_contact_value_of(kind, phi);
+  return 1 + 4 * phi * gg_common_contact_value_of(kind, phi);
 }

@@ -6,13 +6,13 @@
 
 /* One species. Carnahan & Starling, J. Chem. Phys. 51 (1969) 635: (1 - phi/2)/(1-phi)^3;
  * Lun & Savage 1987: (1 - phi/0.64)^(-1.6); Kolafa, Labik & Malijevsky 2004 in the refit of Pieprzyk et al. 2019. */
-double gg_contact_value_of(gg_contact_value kind, double phi);
+double gg_common_contact_value_of(gg_contact_value kind, double phi);
 
 /* Boublik-Mansoori-Carnahan-Starling-Leland value for additive mixtures (Grundke & Henderson 1972; Montanero's review,
  * eq. 3): phi_hat = (pi n/6) sum x_i d_i^2, d_red = d_i d_j/sigma_ij. */
-double gg_contact_value_mixture(double phi, double phi_hat, double d_red);
+double gg_common_contact_value_mixture(double phi, double phi_hat, double d_red);
 
 /* Compressibility factor Z = p/(nT) of the elastic fluid: 1 + 4 phi chi for the first two, the fit for the third. */
-double gg_compressibility(gg_contact_value kind, double phi);
+double gg_common_compressibility(gg_contact_value kind, double phi);
 
 #endif

@@ -143,6 +143,6 @@ struct gg_engine {
 };
 
 extern const gg_engine_ops gg_md_ops, gg_dsmc_ops;
-const gg_engine_ops *gg_engine_ops_of(gg_engine_kind kind);
+const gg_engine_ops *gg_run_engine_ops_of(gg_engine_kind kind);
 
 #endif

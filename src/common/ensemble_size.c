@@ -12,15 +12,15 @@ static const double share = 0.25;
 /* Beyond, memory and warm-up cost more than is asked for by any error that can be reached in days. */
 enum { MOST_ENSEMBLE = 1000000 };
 
-double gg_asked_error(const gg_scene *s)
+double gg_common_ensemble_requested_error(const gg_scene *s)
 {
   if (s->run.relative_error != GG_AUTO) return s->run.relative_error;
   return s->run.collisions != GG_AUTO ? 0 : 0.01;
 }
 
-double gg_ensemble_error(const gg_scene *s)
+double gg_common_ensemble_size_error(const gg_scene *s)
 {
-  return s->dsmc.chosen_for != GG_AUTO ? s->dsmc.chosen_for : gg_asked_error(s);
+  return s->dsmc.chosen_for != GG_AUTO ? s->dsmc.chosen_for : gg_common_ensemble_requested_error(s);
 }
 
 static double scarcest(const gg_scene *s)
@@ -35,7 +35,7 @@ static double scarcest(const gg_scene *s)
 
 static double needed(const gg_scene *s)
 {
-  const double asked = gg_ensemble_error(s);
+  const double asked = gg_common_ensemble_size_error(s);
   return asked > 0 ? ceil(bias_times_n / (share * asked * scarcest(s))) : 0;
 }
 
@@ -44,16 +44,17 @@ static bool is_given(const gg_scene *s)
   return s->dsmc.particles || s->particles > GG_LEAST_ENSEMBLE;
 }
 
-int64_t gg_ensemble_size(const gg_scene *s)
+int64_t gg_common_ensemble_size(const gg_scene *s)
 {
   if (s->dsmc.particles) return s->dsmc.particles;
   if (is_given(s)) return s->particles;
   return (int64_t)fmin(fmax(needed(s), GG_LEAST_ENSEMBLE), MOST_ENSEMBLE);
 }
 
-void gg_ensemble_reason(const gg_scene *s, char *text, size_t size)
+void gg_common_ensemble_size_reason(const gg_scene *s, char *text, size_t size)
 {
-  const double asked = gg_ensemble_error(s), bias = bias_times_n / ((double)gg_ensemble_size(s) * scarcest(s));
+  const double asked = gg_common_ensemble_size_error(s),
+               bias = bias_times_n / ((double)gg_common_ensemble_size(s) * scarcest(s));
   *text = 0;
   if (is_given(s)) return;
   if (!(asked > 0))

@@ -7,12 +7,12 @@
 #include "common/scene.h"
 
 /* The relative error that a run goes on for; 0 where only collisions are asked for. */
-double gg_asked_error(const gg_scene *scene);
+double gg_common_ensemble_requested_error(const gg_scene *scene);
 
 /* That by which the size is chosen. */
-double gg_ensemble_error(const gg_scene *scene);
-int64_t gg_ensemble_size(const gg_scene *scene);
+double gg_common_ensemble_size_error(const gg_scene *scene);
+int64_t gg_common_ensemble_size(const gg_scene *scene);
 /* Why so many, as a sentence's second half: "chosen: ..."; "" where the scene gives the number. */
-void gg_ensemble_reason(const gg_scene *scene, char *text, size_t size);
+void gg_common_ensemble_size_reason(const gg_scene *scene, char *text, size_t size);
 
 #endif

@@ -43,9 +43,9 @@ static const char *copy_text(gg_extension *x, const char *s)
 
 static gg_extension *new_link(gg_extension *before, size_t bytes, gg_error *err)
 {
-  gg_extension *x = gg_new_array(1, sizeof *x, err);
+  gg_extension *x = gg_base_array_new(1, sizeof *x, err);
   if (!x) return NULL;
-  x->text = gg_new_array(bytes + 8, 1, err);
+  x->text = gg_base_array_new(bytes + 8, 1, err);
   if (!x->text) {
     free(x);
     return NULL;
@@ -59,7 +59,8 @@ static gg_extension *new_link(gg_extension *before, size_t bytes, gg_error *err)
   return x;
 }
 
-gg_extension *gg_extension_with_observable(gg_extension *before, const gg_observable_definition *o, gg_error *err)
+gg_extension *gg_common_extension_with_observable(gg_extension *before, const gg_observable_definition *o,
+                                                  gg_error *err)
 {
   size_t n = (size_t)o->n_quantities, bytes = room(o->name) + room(o->doc) + n * sizeof *o->quantities;
   for (size_t k = 0; k < n; k++)
@@ -81,8 +82,8 @@ gg_extension *gg_extension_with_observable(gg_extension *before, const gg_observ
   return x;
 }
 
-gg_extension *gg_extension_with_theory(gg_extension *before, const gg_theory_definition *t, struct gg_theory *face,
-                                       gg_error *err)
+gg_extension *gg_common_extension_with_theory(gg_extension *before, const gg_theory_definition *t,
+                                              struct gg_theory *face, gg_error *err)
 {
   size_t n = (size_t)t->n_quantities, bytes = n * sizeof *t->quantities;
   bytes += room(t->name) + room(t->title) + room(t->citation) + room(t->assumptions);
@@ -102,8 +103,8 @@ gg_extension *gg_extension_with_theory(gg_extension *before, const gg_theory_def
   return x;
 }
 
-gg_extension *gg_extension_with_law(gg_extension *before, const gg_restitution_law *law, const gg_law_table *table,
-                                    gg_error *err)
+gg_extension *gg_common_extension_with_law(gg_extension *before, const gg_restitution_law *law,
+                                           const gg_law_table *table, gg_error *err)
 {
   size_t numbers = table ? table->n * sizeof(double) : 0;
   gg_extension *x = new_link(before, room(law->name) + 2 * numbers, err);
@@ -113,18 +114,18 @@ gg_extension *gg_extension_with_law(gg_extension *before, const gg_restitution_l
   x->law.name = copy_text(x, law->name);
   if (!table) return x;
   x->table = (gg_law_table){table->n, copy(x, table->speed, numbers), copy(x, table->e, numbers)};
-  x->law.e = gg_law_from_table;
+  x->law.e = gg_common_law_from_table;
   x->law.context = &x->table;
   return x;
 }
 
-gg_extension *gg_extension_hold(gg_extension *x)
+gg_extension *gg_common_extension_hold(gg_extension *x)
 {
   if (x) atomic_fetch_add(&x->holders, 1);
   return x;
 }
 
-void gg_extension_release(gg_extension *x)
+void gg_common_extension_release(gg_extension *x)
 {
   while (x && atomic_fetch_sub(&x->holders, 1) == 1) {
     gg_extension *before = x->before;
@@ -135,26 +136,26 @@ void gg_extension_release(gg_extension *x)
   }
 }
 
-int gg_extension_observables(const gg_extension *x)
+int gg_common_extension_observables(const gg_extension *x)
 {
   return x ? x->n_observables : 0;
 }
-int gg_extension_quantities(const gg_extension *x)
+int gg_common_extension_quantities(const gg_extension *x)
 {
   return x ? x->n_quantities : 0;
 }
-int gg_extension_theories(const gg_extension *x)
+int gg_common_extension_theories(const gg_extension *x)
 {
   return x ? x->n_theories : 0;
 }
 
-const gg_observable_definition *gg_extension_observable(const gg_extension *x, int index)
+const gg_observable_definition *gg_common_extension_observable(const gg_extension *x, int index)
 {
   while (x && !(x->observable.sample && x->n_observables == index + 1)) x = x->before;
   return x ? &x->observable : NULL;
 }
 
-const gg_quantity_definition *gg_extension_quantity(const gg_extension *x, int index)
+const gg_quantity_definition *gg_common_extension_quantity(const gg_extension *x, int index)
 {
   while (x && !(x->observable.sample && x->n_quantities - x->observable.n_quantities <= index)) x = x->before;
   return x ? &x->observable.quantities[index - (x->n_quantities - x->observable.n_quantities)] : NULL;
@@ -166,32 +167,32 @@ static const gg_extension *theory_link(const gg_extension *x, int index)
   return x;
 }
 
-const gg_theory_definition *gg_extension_theory(const gg_extension *x, int index)
+const gg_theory_definition *gg_common_extension_theory(const gg_extension *x, int index)
 {
   x = theory_link(x, index);
   return x ? &x->theory : NULL;
 }
 
-const struct gg_theory *gg_extension_face(const gg_extension *x, int index)
+const struct gg_theory *gg_common_extension_face(const gg_extension *x, int index)
 {
   x = theory_link(x, index);
   return x ? x->face : NULL;
 }
 
-gg_restitution_law gg_extension_law(const gg_extension *x)
+gg_restitution_law gg_common_extension_law(const gg_extension *x)
 {
   while (x && !x->is_law) x = x->before;
   return x && x->law.e ? x->law : (gg_restitution_law){0};
 }
 
-void gg_extension_signature(const gg_extension *x, char *text, size_t size)
+void gg_common_extension_signature(const gg_extension *x, char *text, size_t size)
 {
-  gg_restitution_law law = gg_extension_law(x);
+  gg_restitution_law law = gg_common_extension_law(x);
   size_t used = 0;
   text[0] = 0;
   if (law.e) used += (size_t)snprintf(text, size, "law %s", law.name);
-  for (int k = 0; k < gg_extension_observables(x) && used < size; k++) {
-    const gg_observable_definition *o = gg_extension_observable(x, k);
+  for (int k = 0; k < gg_common_extension_observables(x) && used < size; k++) {
+    const gg_observable_definition *o = gg_common_extension_observable(x, k);
     used += (size_t)snprintf(text + used, size - used, "%sobservable %s/%d/%zu", used ? "; " : "", o->name,
                              o->n_quantities, o->state_size);
   }

@@ -14,31 +14,32 @@ struct gg_theory; /* of src/theory */
 
 /* A link in front of `before`, whose hold goes over to it (on failure it stays with the caller). Definitions are taken
  * to be right: src/door checks them. NULL: out of memory. */
-gg_extension *gg_extension_with_observable(gg_extension *before, const gg_observable_definition *o, gg_error *err);
+gg_extension *gg_common_extension_with_observable(gg_extension *before, const gg_observable_definition *o,
+                                                  gg_error *err);
 /* `face` (from malloc, and the link's from now on) is what src/theory makes of the definition. */
-gg_extension *gg_extension_with_theory(gg_extension *before, const gg_theory_definition *t, struct gg_theory *face,
-                                       gg_error *err);
+gg_extension *gg_common_extension_with_theory(gg_extension *before, const gg_theory_definition *t,
+                                              struct gg_theory *face, gg_error *err);
 /* With a table, `law` has neither callback nor context; the table is copied. */
-gg_extension *gg_extension_with_law(gg_extension *before, const gg_restitution_law *law, const gg_law_table *table,
-                                    gg_error *err);
+gg_extension *gg_common_extension_with_law(gg_extension *before, const gg_restitution_law *law,
+                                           const gg_law_table *table, gg_error *err);
 
 /* Both take NULL, too: a scene without extension. */
-gg_extension *gg_extension_hold(gg_extension *x);
-void gg_extension_release(gg_extension *x);
+gg_extension *gg_common_extension_hold(gg_extension *x);
+void gg_common_extension_release(gg_extension *x);
 
 /* In the order of registration; the index of a quantity counts over all observables. */
-int gg_extension_observables(const gg_extension *x);
-const gg_observable_definition *gg_extension_observable(const gg_extension *x, int index);
-int gg_extension_quantities(const gg_extension *x);
-const gg_quantity_definition *gg_extension_quantity(const gg_extension *x, int index);
-int gg_extension_theories(const gg_extension *x);
-const gg_theory_definition *gg_extension_theory(const gg_extension *x, int index);
-const struct gg_theory *gg_extension_face(const gg_extension *x, int index);
+int gg_common_extension_observables(const gg_extension *x);
+const gg_observable_definition *gg_common_extension_observable(const gg_extension *x, int index);
+int gg_common_extension_quantities(const gg_extension *x);
+const gg_quantity_definition *gg_common_extension_quantity(const gg_extension *x, int index);
+int gg_common_extension_theories(const gg_extension *x);
+const gg_theory_definition *gg_common_extension_theory(const gg_extension *x, int index);
+const struct gg_theory *gg_common_extension_face(const gg_extension *x, int index);
 /* The latest law; e NULL if there is none. */
-gg_restitution_law gg_extension_law(const gg_extension *x);
+gg_restitution_law gg_common_extension_law(const gg_extension *x);
 
 /* A line that tells whether two scenes have the same law and observables: "law viscoelastic; observable heat/2" (as far
  * as names and numbers of quantities tell); empty without any. */
-void gg_extension_signature(const gg_extension *x, char *text, size_t size);
+void gg_common_extension_signature(const gg_extension *x, char *text, size_t size);
 
 #endif

@@ -13,7 +13,7 @@ enum { UNHEATED = 1u << GG_NO_THERMOSTAT, GAUSSIAN = 1u << GG_GAUSSIAN, WHITE_NO
 #define BY_LOSS KNOWN_BY(GG_Q_COOLING_RATE, GG_Q_TEMPERATURE_RATIO, GG_Q_PARTIAL_TEMPERATURE_RATIO)
 #define BY_WALLS KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_TEMPERATURE_RATIO)
 
-const gg_flow_row gg_flows[GG_N_FLOWS] = {
+const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
     [GG_EQUILIBRIUM] = {.word = "equilibrium",
                         .title = "Equilibrium",
                         .doc = "elastic gas at rest",
@@ -101,7 +101,7 @@ const gg_flow_row gg_flows[GG_N_FLOWS] = {
 };
 
 /* Separated by commas, before the last one by "or". */
-void gg_flow_list(bool (*test)(gg_flow flow), char *text, size_t size)
+void gg_common_flow_list(bool (*test)(gg_flow flow), char *text, size_t size)
 {
   int left = 0;
   size_t used = 0;
@@ -110,6 +110,6 @@ void gg_flow_list(bool (*test)(gg_flow flow), char *text, size_t size)
   for (int f = 0; f < GG_N_FLOWS && used < size; f++) {
     if (!test((gg_flow)f)) continue;
     const char *after = --left > 1 ? ", " : left ? " or " : "";
-    used += (size_t)snprintf(text + used, size - used, "%s%s", gg_flows[f].word, after);
+    used += (size_t)snprintf(text + used, size - used, "%s%s", gg_common_flows[f].word, after);
   }
 }

@@ -53,15 +53,15 @@ typedef struct gg_flow_row {
   gg_thermostat thermostat;
   double gravity[3];
   /* Headline quantities, which it is known by and a run's errors are asked of: gg_quantity, ends with
-   * GG_N_QUANTITIES. A scene has those that it does not lack (gg_quantity_missing). */
+   * GG_N_QUANTITIES. A scene has those that it does not lack (gg_common_quantity_missing). */
   const int *headline;
 } gg_flow_row;
 
-extern const gg_flow_row gg_flows[GG_N_FLOWS];
+extern const gg_flow_row gg_common_flows[GG_N_FLOWS];
 
 static inline const gg_flow_row *gg_flow_of(gg_flow flow)
 {
-  return &gg_flows[flow];
+  return &gg_common_flows[flow];
 }
 
 static inline bool gg_flow_is_sheared(gg_flow flow)
@@ -104,6 +104,6 @@ static inline bool gg_flow_is_heated(gg_flow flow)
 #define GG_FLOW_BIT(flow) (1u << (flow))
 
 /* The words of those for which `test` holds, "couette, poiseuille or chute", cut to `size` bytes. */
-void gg_flow_list(bool (*test)(gg_flow flow), char *text, size_t size);
+void gg_common_flow_list(bool (*test)(gg_flow flow), char *text, size_t size);
 
 #endif

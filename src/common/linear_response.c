@@ -4,7 +4,7 @@
  * sweep spans a factor of four in a*, which fixes its slope. */
 static const double low = 0.03, high = 0.12;
 
-gg_linear_response gg_linear_response_of(const gg_model *m)
+gg_linear_response gg_common_linear_response_of(const gg_model *m)
 {
   bool cools = m->thermostat == GG_NO_THERMOSTAT && !m->elastic;
   /* The stress left over from a* = high is forgotten while a* grows fourfold from `low`/4 to `low`. */
@@ -12,14 +12,14 @@ gg_linear_response gg_linear_response_of(const gg_model *m)
   return (gg_linear_response){.start = high, .low = low, .high = high, .power = -2};
 }
 
-double gg_reduced_shear_rate(const gg_model *m, double T)
+double gg_common_reduced_shear_rate(const gg_model *m, double T)
 {
-  return m->shear_rate / gg_model_nu0(m, T);
+  return m->shear_rate / gg_common_model_nu0(m, T);
 }
 
-bool gg_linear_response_ends(const gg_model *m, double T)
+bool gg_common_linear_response_ends(const gg_model *m, double T)
 {
   if (!m->linear_response) return false;
-  double a = gg_reduced_shear_rate(m, T);
-  return gg_linear_response_of(m).cools ? a > high : a < low;
+  double a = gg_common_reduced_shear_rate(m, T);
+  return gg_common_linear_response_of(m).cools ? a > high : a < low;
 }

@@ -17,12 +17,12 @@ typedef struct gg_linear_response {
   bool cools;              /* no thermostat: a* grows; else it falls */
 } gg_linear_response;
 
-gg_linear_response gg_linear_response_of(const gg_model *model);
+gg_linear_response gg_common_linear_response_of(const gg_model *model);
 
 /* a* = rate/nu_0(T). */
-double gg_reduced_shear_rate(const gg_model *model, double T);
+double gg_common_reduced_shear_rate(const gg_model *model, double T);
 
 /* Is a sweep at its end at this temperature? */
-bool gg_linear_response_ends(const gg_model *model, double T);
+bool gg_common_linear_response_ends(const gg_model *model, double T);
 
 #endif

@@ -32,11 +32,12 @@ static gg_status check_grains(const gg_model *m, const gg_scene *s, gg_error *er
 {
   for (int i = 0; m->n_species > 1 && i < m->n_species; i++)
     if (m->n_of[i] < 2)
-      return gg_fail(err, GG_BAD_INPUT,
-                     "species: the fraction %g of species %d is %lld of %lld grains; each species needs two: give %s a "
-                     "larger value",
-                     s->species[i].fraction, i + 1, (long long)m->n_of[i], (long long)m->n,
-                     m->homogeneous ? "dsmc.particles" : "particles");
+      return gg_base_fail(
+          err, GG_BAD_INPUT,
+          "species: the fraction %g of species %d is %lld of %lld grains; each species needs two: give %s a "
+          "larger value",
+          s->species[i].fraction, i + 1, (long long)m->n_of[i], (long long)m->n,
+          m->homogeneous ? "dsmc.particles" : "particles");
   return GG_OK;
 }
 
@@ -74,26 +75,26 @@ static void set_box(gg_model *m, const gg_scene *s)
 static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)
 {
   if (m->boltzmann) return 1;
-  if (m->n_species == 1) return gg_contact_value_of(s->contact_value, m->phi);
+  if (m->n_species == 1) return gg_common_contact_value_of(s->contact_value, m->phi);
   double phi_hat = M_PI / 6 * m->density * mean_power(m, 2);
   double d_red = 2 * m->diameter[i] * m->diameter[j] / (m->diameter[i] + m->diameter[j]);
-  return gg_contact_value_mixture(m->phi, phi_hat, d_red);
+  return gg_common_contact_value_mixture(m->phi, phi_hat, d_red);
 }
 
 static void set_restitution(gg_model *m, int i, int j, double e)
 {
   int o = gg_pair(i, j);
   gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
-  m->contact[i][j] = gg_contact_make(one, two, e, m->beta[o], m->mu[o]);
+  m->contact[i][j] = gg_common_contact_make(one, two, e, m->beta[o], m->mu[o]);
   m->e[o] = e;
 }
 
-void gg_model_at(gg_model *m, double T)
+void gg_common_model_at(gg_model *m, double T)
 {
   for (int i = 0; m->law.name && i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       double speed = sqrt(M_PI / 2 * T * (1 / m->mass[i] + 1 / m->mass[j]));
-      set_restitution(m, i, j, gg_law_at(&m->law, speed, i, j));
+      set_restitution(m, i, j, gg_common_law_at(&m->law, speed, i, j));
     }
 }
 
@@ -102,7 +103,7 @@ static gg_rule later_rule(gg_rule a, gg_rule b)
   return a > b ? a : b;
 }
 
-double gg_treated_beta(const gg_model *m, int i, int j)
+double gg_common_treated_beta(const gg_model *m, int i, int j)
 {
   double beta = m->beta[gg_pair(i, j)];
   return i == j || beta == 1 ? beta : -1;
@@ -119,10 +120,10 @@ static void set_pairs(gg_model *m, const gg_scene *s)
       gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
       m->beta[o] = beta, m->mu[o] = mu;
       set_restitution(m, i, j, e);
-      m->treated[i][j] = gg_contact_make(one, two, 1, gg_treated_beta(m, i, j), i == j ? mu : INFINITY);
+      m->treated[i][j] = gg_common_contact_make(one, two, 1, gg_common_treated_beta(m, i, j), i == j ? mu : INFINITY);
       m->sigma[o] = (m->diameter[i] + m->diameter[j]) / 2;
       m->chi[o] = chi_of(m, s, i, j);
-      gg_rule rule = gg_rule_of(beta, mu);
+      gg_rule rule = gg_common_rule_select(beta, mu);
       m->rule = later_rule(m->rule, rule);
       if (e < 1 || m->law.e || rule == GG_FRICTIONAL || (rule == GG_ROUGH && beta < 1)) m->elastic = false;
     }
@@ -134,9 +135,9 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 static gg_status set_walls(gg_model *m, const gg_scene *s, double time_unit, gg_error *err)
 {
   bool spinless = m->rule == GG_SMOOTH;
-  GG_TRY(gg_surfaces_make(s, !spinless, time_unit, m, err));
+  GG_TRY(gg_common_surfaces_make(s, !spinless, time_unit, m, err));
   m->walled = m->n_surfaces > 0;
-  m->wall_rule = m->walled ? gg_rule_of(s->walls.beta, s->walls.mu) : GG_SMOOTH;
+  m->wall_rule = m->walled ? gg_common_rule_select(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
   if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;
   if (!spinless) m->rule = later_rule(m->rule, m->wall_rule);
@@ -161,7 +162,7 @@ static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
     m->temperature0 = gg_flow_is_timed_by_shear(s->flow) ? guess_sheared_temperature(m) : 0.5;
     if (sheared && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
-    gg_model_at(m, m->temperature0);
+    gg_common_model_at(m, m->temperature0);
   }
 }
 
@@ -175,7 +176,7 @@ static double guess_ratio(const gg_model *m)
 
 static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
 {
-  return engine == GG_MD ? s->particles : gg_ensemble_size(s);
+  return engine == GG_MD ? s->particles : gg_common_ensemble_size(s);
 }
 
 /* Within these everything is far from where numbers end, in both engines; beyond them nothing is to be learnt. */
@@ -188,16 +189,17 @@ static gg_status check_unequal(const char *key, double least, double greatest, d
 {
   double ratio = greatest / least;
   if (ratio <= most) return GG_OK;
-  return gg_fail(err, GG_BAD_INPUT, "species: values of %s as unequal as 1 : %g are not allowed; allowed: up to 1 : %g",
-                 key, ratio, most);
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "species: values of %s as unequal as 1 : %g are not allowed; allowed: up to 1 : %g", key, ratio,
+                      most);
 }
 
 static gg_status check_scales(const gg_scene *s, gg_error *err)
 {
   if (s->phi > 0 && s->phi < LEAST_PHI)
-    return gg_fail(err, GG_BAD_INPUT,
-                   "phi: %g is too small a solid fraction; allowed: from %g to 0.6, or 0, the Boltzmann limit", s->phi,
-                   LEAST_PHI);
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "phi: %g is too small a solid fraction; allowed: from %g to 0.6, or 0, the Boltzmann limit",
+                        s->phi, LEAST_PHI);
   double mass[2] = {INFINITY, 0}, diameter[2] = {INFINITY, 0};
   for (int i = 0; i < s->n_species; i++) {
     const gg_species *one = &s->species[i];
@@ -209,11 +211,12 @@ static gg_status check_scales(const gg_scene *s, gg_error *err)
   if (!gg_flow_is_sheared(s->flow) || s->temperature == GG_AUTO) return GG_OK;
   double speed = s->shear_rate * s->species[0].diameter, T = s->temperature / (speed * speed);
   if (T >= starts_within[0] && T <= starts_within[1]) return GG_OK;
-  return gg_fail(err, GG_BAD_INPUT,
-                 "temperature: %g is %.3g (diameter x shear_rate)^2; allowed in sheared flows: from %g to %g of that, "
-                 "here %.3g to %.3g, or auto",
-                 s->temperature, T, starts_within[0], starts_within[1], starts_within[0] * speed * speed,
-                 starts_within[1] * speed * speed);
+  return gg_base_fail(
+      err, GG_BAD_INPUT,
+      "temperature: %g is %.3g (diameter x shear_rate)^2; allowed in sheared flows: from %g to %g of that, "
+      "here %.3g to %.3g, or auto",
+      s->temperature, T, starts_within[0], starts_within[1], starts_within[0] * speed * speed,
+      starts_within[1] * speed * speed);
 }
 
 /* collision.speed in units of results: `unit` times that of the user. */
@@ -227,30 +230,30 @@ static void set_reference_speed(gg_model *m, const gg_scene *s, double unit)
  */
 static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
 {
-  m->law = gg_extension_law(s->extension);
+  m->law = gg_common_extension_law(s->extension);
   if (m->law.e || s->collision.law == GG_LAW_CONSTANT) return GG_OK;
   m->law.kind = s->collision.law;
-  m->law.name = gg_law_name(m->law.kind);
+  m->law.name = gg_common_law_name(m->law.kind);
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
     const double e = s->collision.e[p];
     if (e < GG_LAW_LEAST_E)
-      return gg_fail(err, GG_BAD_INPUT, "key 'collision.e': %g with collision.law %s; allowed: from %g to 1", e,
-                     m->law.name, GG_LAW_LEAST_E);
-    m->law.scale[p] = gg_law_speed_of(m->law.kind, 1 - e);
+      return gg_base_fail(err, GG_BAD_INPUT, "key 'collision.e': %g with collision.law %s; allowed: from %g to 1", e,
+                          m->law.name, GG_LAW_LEAST_E);
+    m->law.scale[p] = gg_common_law_speed_of(m->law.kind, 1 - e);
   }
   return GG_OK;
 }
 
-gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
+gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
 {
-  if (s->phi < 0) return gg_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
+  if (s->phi < 0) return gg_base_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   GG_TRY(check_scales(s, err));
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat, .extension = s->extension};
   GG_TRY(set_law(m, s, err));
   m->linear_response = gg_flow_of(s->flow)->linear_response;
   if (m->law.name && m->linear_response)
-    return gg_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
-                   gg_flow_of(s->flow)->word, m->law.name);
+    return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
+                        gg_flow_of(s->flow)->word, m->law.name);
   bool sheared = gg_flow_is_sheared(s->flow);
   m->homogeneous = engine == GG_DSMC;
   m->n = grains_of(s, engine);
@@ -271,7 +274,7 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
                     : m->gravity[1] != 0            ? 1e-3
                                                     : 1e-5;
   m->time_step = s->dsmc.time_step;
-  m->asked_error = gg_asked_error(s);
+  m->asked_error = gg_common_ensemble_requested_error(s);
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
   guess_temperature(m, s, sheared);
   m->ratio0 = guess_ratio(m);
@@ -280,19 +283,19 @@ gg_status gg_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, g
   return GG_OK;
 }
 
-const char *gg_model_contact_unit(const gg_model *m)
+const char *gg_common_model_contact_unit(const gg_model *m)
 {
   return m->gravity[1] != 0 ? "sqrt(d/g), or mean free times where gravity is weak" : "mean free times";
 }
 
-double gg_model_widest(const gg_model *m)
+double gg_common_model_widest(const gg_model *m)
 {
   double widest = m->diameter[0];
   for (int i = 1; i < m->n_species; i++) widest = fmax(widest, m->diameter[i]);
   return widest;
 }
 
-double gg_model_narrowest(const gg_model *m)
+double gg_common_model_narrowest(const gg_model *m)
 {
   double narrowest = m->diameter[0];
   for (int i = 1; i < m->n_species; i++) narrowest = fmin(narrowest, m->diameter[i]);

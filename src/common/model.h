@@ -36,13 +36,13 @@ typedef struct gg_model {
   double gravity[3];
 
   gg_contact contact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* grain 1 of the first species, grain 2 of the second */
-  gg_contact treated[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* for the contact-time rule: e = 1, see gg_treated_beta */
+  gg_contact treated[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* for the contact-time rule: e = 1, see gg_common_treated_beta */
   /* By pair of species: gg_pair. */
   double sigma[GG_PAIRS]; /* (d_i + d_j)/2 */
   double chi[GG_PAIRS];   /* contact value; 1 in the Boltzmann limit */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   /* Of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed of
-   * some temperature (gg_model_at), for estimates, and engines ask the law at every collision. */
+   * some temperature (gg_common_model_at), for estimates, and engines ask the law at every collision. */
   gg_restitution_law law;
 
   bool walled;       /* there are surfaces: the box is closed along y, and no flow is imposed */
@@ -52,7 +52,7 @@ typedef struct gg_model {
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */
-  double contact_time; /* of the contact-time rule, in units of gg_model_contact_unit; 0: off */
+  double contact_time; /* of the contact-time rule, in units of gg_common_model_contact_unit; 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
   double asked_error;  /* relative, that the run goes on for; 0: not asked for. dsmc chooses its step by it */
   bool single;         /* dsmc: velocities kept in single precision */
@@ -72,46 +72,46 @@ static inline bool gg_model_keeps_temperature(const gg_model *model)
 
 /* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get
  * order-of- magnitude guesses, which a caller may improve before creating an engine. */
-gg_status gg_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
+gg_status gg_common_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
 
 /* With a restitution law: e and contacts at the mean normal speed at impact of Maxwellians at temperature T. */
-void gg_model_at(gg_model *model, double T);
+void gg_common_model_at(gg_model *model, double T);
 
 /* What contact times count in, in words: under gravity that of a fall, unless it is too weak (md/contact_time.c). */
-const char *gg_model_contact_unit(const gg_model *model);
+const char *gg_common_model_contact_unit(const gg_model *model);
 
 /* Largest and smallest diameter of a species. */
-double gg_model_widest(const gg_model *model);
-double gg_model_narrowest(const gg_model *model);
+double gg_common_model_widest(const gg_model *model);
+double gg_common_model_narrowest(const gg_model *model);
 
 /* Collisions per grain that the slowest of T, theta, mean spin needs to relax by a factor 1/e, estimated from two-
  * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); and, where T is scaled or conserved and so does not
  * relax, the temperatures of the species. At least 1. */
-double gg_model_relaxation(const gg_model *model);
+double gg_common_model_relaxation(const gg_model *model);
 /* The same of a gas that cools: the larger of 3/(4A) and 3/(4C), be T scaled or not. */
-double gg_model_cooling(const gg_model *model);
+double gg_common_model_cooling(const gg_model *model);
 /* The same of the temperatures of elastic species, if nothing else went on; 0 of one species. */
-double gg_model_sharing(const gg_model *model);
+double gg_common_model_sharing(const gg_model *model);
 
 /* Collisions per grain that momentum needs to diffuse across the gap between walls, the slowest wave of it by a factor
  * 1/e: (H/pi)^2/nu, nu the kinematic viscosity of elastic Enskog theory (Chapman & Cowling 1970, 16.41). A dense core
  * takes up to some times as long to form. 0 without walls. */
-double gg_model_gap_relaxation(const gg_model *model);
+double gg_common_model_gap_relaxation(const gg_model *model);
 
 /* Tangential restitution of contacts that the contact-time rule treats, whose e is 1. Unlike grains lose nothing at
  * all: smooth, or perfectly rough where they are. (With friction left a light grain is rolled to rest between heavy
  * ones, by collisions without end: masses 1:100 did, at any contact time.) */
-double gg_treated_beta(const gg_model *model, int i, int j);
+double gg_common_treated_beta(const gg_model *model, int i, int j);
 
 /* Boltzmann-Enskog collision rate per grain at temperature T: 4 n d^2 chi sqrt(pi T) for one species. */
-double gg_model_collision_rate(const gg_model *model, double T);
+double gg_common_model_collision_rate(const gg_model *model, double T);
 
 /* The same of a grain of species i, all species at the temperature T. */
-double gg_model_species_rate(const gg_model *model, int i, double T);
+double gg_common_model_species_rate(const gg_model *model, int i, double T);
 
 /* nu_0 that the cooling rate zeta* is counted in: (16/5) sqrt(pi) n d^2 sqrt(T) (Garzo & Dufty 1999), T = <C.C>/3, for
  * one species; sqrt(pi) n sigma_12^2 v_0, v_0^2 = 2T(m1+m2)/(m1 m2) for two (Montanero & Garzo 2003); of more the mean
  * of that over all unlike pairs of grains. */
-double gg_model_nu0(const gg_model *model, double T);
+double gg_common_model_nu0(const gg_model *model, double T);
 
 #endif

@@ -17,8 +17,8 @@ static double rate_of(const gg_model *m, double share, int i, int j, double T)
 static void add_shares(const gg_model *m, int i, int j, double *A, double *C)
 {
   const int o = gg_pair(i, j);
-  const gg_rule rule = gg_rule_of(m->beta[o], m->mu[o]);
-  const double share = m->n_species > 1 ? rate_of(m, 1, i, j, 1) / gg_model_species_rate(m, i, 1) : 1;
+  const gg_rule rule = gg_common_rule_select(m->beta[o], m->mu[o]);
+  const double share = m->n_species > 1 ? rate_of(m, 1, i, j, 1) / gg_common_model_species_rate(m, i, 1) : 1;
   double K = m->inertia[i], eta1 = (1 + m->e[o]) / 2, eta2 = 0;
   if (rule != GG_SMOOTH) eta2 = (1 + m->beta[o]) * K / (2 * (1 + K));
   double exchange = eta2 / K * (1 - eta2 / K);
@@ -40,7 +40,7 @@ static void slowest_of(const gg_model *m, double *loss, double *spins)
   }
 }
 
-double gg_model_cooling(const gg_model *m)
+double gg_common_model_cooling(const gg_model *m)
 {
   double loss, spins;
   slowest_of(m, &loss, &spins);
@@ -53,13 +53,13 @@ static double of_temperatures(const gg_model *m, double loss)
 {
   const bool scaled = gg_flow_cools(m->flow) || m->thermostat == GG_GAUSSIAN;
   if (m->elastic || scaled) {
-    const double sharing = m->steady ? gg_model_sharing(m) : 0;
+    const double sharing = m->steady ? gg_common_model_sharing(m) : 0;
     return sharing > 0 && loss > 0 ? 1 / (1 / sharing + 1 / loss) : sharing;
   }
   return loss;
 }
 
-double gg_model_relaxation(const gg_model *m)
+double gg_common_model_relaxation(const gg_model *m)
 {
   double loss, spins;
   slowest_of(m, &loss, &spins);
@@ -67,7 +67,7 @@ double gg_model_relaxation(const gg_model *m)
 }
 
 /* In diameters of a grain of the mean volume; n d^3 and n d^2 nu/rate are free of the temperature. */
-double gg_model_gap_relaxation(const gg_model *m)
+double gg_common_model_gap_relaxation(const gg_model *m)
 {
   if (!m->walled) return 0;
   double n = 6 * m->phi / M_PI, d = gg_root(n / m->density, 3), gap = fmax(m->box[1] / d - 1, 0) / M_PI;
@@ -76,7 +76,7 @@ double gg_model_gap_relaxation(const gg_model *m)
   return gap * gap * 4 * M_PI * n * n * chi / viscosity;
 }
 
-double gg_model_collision_rate(const gg_model *m, double T)
+double gg_common_model_collision_rate(const gg_model *m, double T)
 {
   double rate = 0;
   for (int i = 0; i < m->n_species; i++)
@@ -84,7 +84,7 @@ double gg_model_collision_rate(const gg_model *m, double T)
   return rate;
 }
 
-double gg_model_species_rate(const gg_model *m, int i, double T)
+double gg_common_model_species_rate(const gg_model *m, int i, double T)
 {
   double rate = 0;
   for (int j = 0; j < m->n_species; j++) rate += rate_of(m, 1, i, j, T);
@@ -97,7 +97,7 @@ static double unlike_rate(const gg_model *m, int i, int j, double T)
   return sqrt(M_PI) * m->density * m->sigma[gg_pair(i, j)] * m->sigma[gg_pair(i, j)] * v0;
 }
 
-double gg_model_nu0(const gg_model *m, double T)
+double gg_common_model_nu0(const gg_model *m, double T)
 {
   if (m->n_species == 1) return 3.2 * sqrt(M_PI) * m->density * sqrt(T);
   if (m->n_species == 2) return unlike_rate(m, 0, 1, T);

@@ -37,11 +37,11 @@ static double slowest_rate(const gg_model *m)
   const size_t n = (size_t)m->n_species;
   gsl_matrix_view S = gsl_matrix_view_array(elements, n, n);
   gsl_vector_view rates = gsl_vector_view_array(values, n);
-  gg_gsl_enter();
+  gg_base_gsl_enter();
   gsl_eigen_symm_workspace *w = gsl_eigen_symm_alloc(n);
-  gg_gsl_leave();
+  gg_base_gsl_leave();
   if (!w) {
-    gg_memory_lacked();
+    gg_base_memory_lacked();
     return INFINITY;
   }
   fill(m, &S.matrix);
@@ -56,7 +56,7 @@ static double slowest_rate(const gg_model *m)
   return next;
 }
 
-double gg_model_sharing(const gg_model *m)
+double gg_common_model_sharing(const gg_model *m)
 {
-  return m->n_species > 1 ? gg_model_collision_rate(m, 1) / slowest_rate(m) : 0;
+  return m->n_species > 1 ? gg_common_model_collision_rate(m, 1) / slowest_rate(m) : 0;
 }

@@ -61,20 +61,20 @@ static const row *row_of(gg_quantity q)
   return r;
 }
 
-const char *gg_quantity_name(gg_quantity q)
+const char *gg_common_quantity_name(gg_quantity q)
 {
   const row *r = row_of(q);
   return r->names[q - r->first];
 }
-const char *gg_quantity_doc(gg_quantity q)
+const char *gg_common_quantity_doc(gg_quantity q)
 {
   return row_of(q)->doc;
 }
-const char *gg_quantity_word(gg_quantity q)
+const char *gg_common_quantity_word(gg_quantity q)
 {
   return row_of(q)->word;
 }
-const char *gg_quantity_symbol(gg_quantity q, char *text, size_t size)
+const char *gg_common_quantity_symbol(gg_quantity q, char *text, size_t size)
 {
   const row *r = row_of(q);
   if (r->members == 1)
@@ -84,33 +84,33 @@ const char *gg_quantity_symbol(gg_quantity q, char *text, size_t size)
   return text;
 }
 
-gg_quantity gg_quantity_find(const char *name)
+gg_quantity gg_common_quantity_find(const char *name)
 {
   int q = 0;
-  while (q < GG_N_QUANTITIES && strcmp(gg_quantity_name((gg_quantity)q), name) != 0) q++;
+  while (q < GG_N_QUANTITIES && strcmp(gg_common_quantity_name((gg_quantity)q), name) != 0) q++;
   return (gg_quantity)q;
 }
 
-unsigned gg_quantity_mask(gg_quantity q)
+unsigned gg_common_quantity_mask(gg_quantity q)
 {
   return q < GG_N_QUANTITIES ? row_of(q)->mask : 0;
 }
-gg_quantity gg_quantity_family(gg_quantity q)
+gg_quantity gg_common_quantity_family(gg_quantity q)
 {
   return q < GG_N_QUANTITIES ? row_of(q)->first : GG_N_QUANTITIES;
 }
 
-gg_quantity gg_quantity_next(int q, unsigned mask)
+gg_quantity gg_common_quantity_next(int q, unsigned mask)
 {
   for (q++; q < GG_N_QUANTITIES; q++)
-    if (gg_quantity_mask((gg_quantity)q) & mask) break;
+    if (gg_common_quantity_mask((gg_quantity)q) & mask) break;
   return (gg_quantity)q;
 }
 
-gg_quantity gg_history_quantity(int k)
+gg_quantity gg_common_quantity_of_history(int k)
 {
   int q = -1;
-  while (k-- >= 0) q = (int)gg_quantity_next(q, GG_FOLLOWED);
+  while (k-- >= 0) q = (int)gg_common_quantity_next(q, GG_FOLLOWED);
   return (gg_quantity)q;
 }
 
@@ -121,14 +121,14 @@ static int members_in(const row *r, const gg_model *m)
   return r->members < species ? r->members : species;
 }
 
-int gg_quantities_of(const gg_model *m)
+int gg_common_quantity_set_of(const gg_model *m)
 {
-  int n = gg_extension_quantities(m->extension);
+  int n = gg_common_extension_quantities(m->extension);
   for (int i = 0; i < ROWS; i++) n += members_in(&table[i], m);
   return n;
 }
 
-gg_quantity gg_quantity_at(const gg_model *m, int index)
+gg_quantity gg_common_quantity_at(const gg_model *m, int index)
 {
   for (int i = 0; i < ROWS; i++) {
     int members = members_in(&table[i], m);
@@ -140,28 +140,28 @@ gg_quantity gg_quantity_at(const gg_model *m, int index)
 
 static const gg_quantity_definition *own(const gg_model *m, gg_quantity q)
 {
-  return gg_extension_quantity(m->extension, (int)q - GG_N_QUANTITIES);
+  return gg_common_extension_quantity(m->extension, (int)q - GG_N_QUANTITIES);
 }
 
-const char *gg_quantity_name_in(const gg_model *m, gg_quantity q)
+const char *gg_common_quantity_name_in(const gg_model *m, gg_quantity q)
 {
-  return q < GG_N_QUANTITIES ? gg_quantity_name(q) : own(m, q)->name;
+  return q < GG_N_QUANTITIES ? gg_common_quantity_name(q) : own(m, q)->name;
 }
-const char *gg_quantity_doc_in(const gg_model *m, gg_quantity q)
+const char *gg_common_quantity_doc_in(const gg_model *m, gg_quantity q)
 {
-  return q < GG_N_QUANTITIES ? gg_quantity_doc(q) : own(m, q)->doc;
+  return q < GG_N_QUANTITIES ? gg_common_quantity_doc(q) : own(m, q)->doc;
 }
 
-gg_quantity gg_quantity_find_in(const gg_model *m, const char *name)
+gg_quantity gg_common_quantity_find_in(const gg_model *m, const char *name)
 {
-  for (int i = 0; i < gg_quantities_of(m); i++) {
-    gg_quantity q = gg_quantity_at(m, i);
-    if (strcmp(gg_quantity_name_in(m, q), name) == 0) return q;
+  for (int i = 0; i < gg_common_quantity_set_of(m); i++) {
+    gg_quantity q = gg_common_quantity_at(m, i);
+    if (strcmp(gg_common_quantity_name_in(m, q), name) == 0) return q;
   }
   return GG_MOST_QUANTITIES;
 }
 
-const char *gg_quantity_unit(gg_quantity q, const gg_model *model)
+const char *gg_common_quantity_unit(gg_quantity q, const gg_model *model)
 {
   if (q >= GG_N_QUANTITIES) return own(model, q)->unit;
   bool sheared = gg_flow_is_timed_by_shear(model->flow);

@@ -118,40 +118,41 @@ typedef enum gg_quantity {
 
 /* The quantities of a scene, in the order in which they are shown: the shared ones, of families the members that it
  * has; then its own (extension.h), numbered from GG_N_QUANTITIES on. */
-int gg_quantities_of(const gg_model *model); /* how many in all */
-gg_quantity gg_quantity_at(const gg_model *model, int index);
-const char *gg_quantity_name_in(const gg_model *model, gg_quantity q);
-const char *gg_quantity_doc_in(const gg_model *model, gg_quantity q);
+int gg_common_quantity_set_of(const gg_model *model); /* how many in all */
+gg_quantity gg_common_quantity_at(const gg_model *model, int index);
+const char *gg_common_quantity_name_in(const gg_model *model, gg_quantity q);
+const char *gg_common_quantity_doc_in(const gg_model *model, gg_quantity q);
 /* Quantity of that name, or GG_MOST_QUANTITIES. */
-gg_quantity gg_quantity_find_in(const gg_model *model, const char *name);
+gg_quantity gg_common_quantity_find_in(const gg_model *model, const char *name);
 
 /* Shared quantities alone. */
-const char *gg_quantity_name(gg_quantity q);
-const char *gg_quantity_doc(gg_quantity q);
-const char *gg_quantity_symbol(gg_quantity q, char *text, size_t size); /* "T", "T_2" of a family; returns text */
-const char *gg_quantity_word(gg_quantity q);                            /* for pictures: "temperature"; or "" */
+const char *gg_common_quantity_name(gg_quantity q);
+const char *gg_common_quantity_doc(gg_quantity q);
+const char *gg_common_quantity_symbol(gg_quantity q, char *text,
+                                      size_t size); /* "T", "T_2" of a family; returns text */
+const char *gg_common_quantity_word(gg_quantity q); /* for pictures: "temperature"; or "" */
 /* Quantity of that name, or GG_N_QUANTITIES. */
-gg_quantity gg_quantity_find(const char *name);
+gg_quantity gg_common_quantity_find(const char *name);
 /* The next one after q (first: start with -1) whose mask holds any of these; GG_N_QUANTITIES after the last. Of
  * families every member. */
-gg_quantity gg_quantity_next(int q, unsigned mask);
+gg_quantity gg_common_quantity_next(int q, unsigned mask);
 
 /* The mask of the row; 0 of the scene's own. */
-unsigned gg_quantity_mask(gg_quantity q);
+unsigned gg_common_quantity_mask(gg_quantity q);
 /* The first of the family that q belongs to: itself if it is none of a family. The scene's own are one family. */
-gg_quantity gg_quantity_family(gg_quantity q);
+gg_quantity gg_common_quantity_family(gg_quantity q);
 /* Unit of the quantity in this model's flow, as printed beside every number: "d^2 gamma^2", "1", "rho_p v_0^2" ... */
-const char *gg_quantity_unit(gg_quantity q, const gg_model *model);
+const char *gg_common_quantity_unit(gg_quantity q, const gg_model *model);
 
 /* Why this model has none of what the GG_NEEDS_ bits of the mask ask for; NULL if it has it all. */
-const char *gg_model_lacks(const gg_model *model, unsigned needs);
+const char *gg_common_model_missing(const gg_model *model, unsigned needs);
 /* The same of a quantity's mask: the reason why its mean cannot be had. */
-const char *gg_quantity_missing(const gg_model *model, gg_quantity q);
+const char *gg_common_quantity_missing(const gg_model *model, gg_quantity q);
 
 #define GG_COUNT_FOLLOWED(id, name, symbol, word, unit, mask, doc) +(((mask)&GG_FOLLOWED) ? 1 : 0)
 enum { GG_N_HISTORY = 0 GG_QUANTITIES(GG_COUNT_FOLLOWED, GG_COUNT_FOLLOWED) };
 #undef GG_COUNT_FOLLOWED
 /* The quantities followed from start to end of a run: those of GG_FOLLOWED, k from 0 to GG_N_HISTORY - 1. */
-gg_quantity gg_history_quantity(int k);
+gg_quantity gg_common_quantity_of_history(int k);
 
 #endif

@@ -86,14 +86,14 @@ static const struct {
     {GG_NEEDS_MIXTURE, one_species, "there is one species only"},
 };
 
-const char *gg_model_lacks(const gg_model *model, unsigned needs)
+const char *gg_common_model_missing(const gg_model *model, unsigned needs)
 {
   for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
     if ((needs & rules[i].need) && rules[i].unmet(model)) return rules[i].reason;
   return NULL;
 }
 
-const char *gg_quantity_missing(const gg_model *model, gg_quantity q)
+const char *gg_common_quantity_missing(const gg_model *model, gg_quantity q)
 {
-  return gg_model_lacks(model, gg_quantity_mask(q));
+  return gg_common_model_missing(model, gg_common_quantity_mask(q));
 }

@@ -17,12 +17,12 @@ typedef struct gg_restitution_law {
 } gg_restitution_law;
 
 /* e of two species at a speed in the units of results, within 0 and 1 whatever the law says. */
-double gg_law_at(const gg_restitution_law *law, double normal_speed, int species_1, int species_2);
+double gg_common_law_at(const gg_restitution_law *law, double normal_speed, int species_1, int species_2);
 
 /* Of laws that are built in: the word; 1 - e at a speed in the law's units; the speed at which that is so much. */
-const char *gg_law_name(gg_law_kind kind);
-double gg_law_loss(gg_law_kind kind, double u);
-double gg_law_speed_of(gg_law_kind kind, double loss);
+const char *gg_common_law_name(gg_law_kind kind);
+double gg_common_law_loss(gg_law_kind kind, double u);
+double gg_common_law_speed_of(gg_law_kind kind, double loss);
 
 /* A built-in law takes collision.e from here to 1. */
 #define GG_LAW_LEAST_E 0.01
@@ -32,9 +32,9 @@ typedef struct gg_law_table {
   size_t n;
   const double *speed, *e;
 } gg_law_table;
-double gg_law_from_table(void *table, double normal_speed, int species_1, int species_2);
+double gg_common_law_from_table(void *table, double normal_speed, int species_1, int species_2);
 
 /* Is it a number from 0 to 1 at speeds of all sizes? */
-gg_status gg_law_check(const gg_restitution_law *law, int n_species, gg_error *err);
+gg_status gg_common_law_check(const gg_restitution_law *law, int n_species, gg_error *err);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "common/portable_math.h"
 
-gg_rng gg_rng_seed(uint64_t seed, uint64_t stream)
+gg_rng gg_common_rng_seed(uint64_t seed, uint64_t stream)
 {
   philox4x64_key_t key = {{seed, 0x677261696e676173u}}; /* "graingas" */
   philox4x64_ctr_t counter = {{stream, 0, 0, 0}};
@@ -28,7 +28,7 @@ static double gsl_get_double(void *state)
 }
 static void gsl_set(void *state, unsigned long seed)
 {
-  *(gg_rng *)state = gg_rng_seed(seed, 0);
+  *(gg_rng *)state = gg_common_rng_seed(seed, 0);
 }
 static const gsl_rng_type stream_type = {"xoshiro256++", 0xffffffffu,   0, sizeof(gg_rng), gsl_set,
                                          gsl_get,        gsl_get_double};
@@ -36,20 +36,20 @@ static const gsl_rng_type stream_type = {"xoshiro256++", 0xffffffffu,   0, sizeo
 /* Further out, one number in 1700, the ziggurat takes a logarithm. */
 #define TAIL 3.44
 
-double gg_rng_normal(gg_rng *r)
+double gg_common_rng_normal(gg_rng *r)
 {
   gsl_rng adapter = {&stream_type, r};
   const double x = gsl_ran_gaussian_ziggurat(&adapter, 1.0);
   return fabs(x) > TAIL ? gg_agreed(x, GG_AGREED_FUNCTION) : x;
 }
 
-gg_vec gg_rng_normal_vec(gg_rng *r)
+gg_vec gg_common_rng_normal_vec(gg_rng *r)
 {
-  double x = gg_rng_normal(r), y = gg_rng_normal(r), z = gg_rng_normal(r);
+  double x = gg_common_rng_normal(r), y = gg_common_rng_normal(r), z = gg_common_rng_normal(r);
   return (gg_vec){x, y, z};
 }
 
-uint64_t gg_rng_poisson(gg_rng *r, double mean)
+uint64_t gg_common_rng_poisson(gg_rng *r, double mean)
 {
   gsl_rng adapter = {&stream_type, r};
   return gsl_ran_poisson(&adapter, mean);

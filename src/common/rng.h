@@ -21,7 +21,7 @@ enum {
   GG_STREAMS_PER_REPLICA = 1024
 };
 
-gg_rng gg_rng_seed(uint64_t seed, uint64_t stream);
+gg_rng gg_common_rng_seed(uint64_t seed, uint64_t stream);
 
 GG_INLINE uint64_t gg_rotl(uint64_t x, int k)
 {
@@ -71,9 +71,9 @@ GG_INLINE gg_vec gg_rng_direction(gg_rng *r)
 }
 
 /* Standard normal (GSL's ziggurat on this stream). */
-double gg_rng_normal(gg_rng *r);
-gg_vec gg_rng_normal_vec(gg_rng *r);
+double gg_common_rng_normal(gg_rng *r);
+gg_vec gg_common_rng_normal_vec(gg_rng *r);
 /* Poisson count of this mean, up to 2^31 (GSL's). */
-uint64_t gg_rng_poisson(gg_rng *r, double mean);
+uint64_t gg_common_rng_poisson(gg_rng *r, double mean);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-gg_scene gg_scene_defaults(void)
+gg_scene gg_common_scene_defaults(void)
 {
   gg_scene s = {
       .flow = GG_USF,

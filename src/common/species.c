@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-gg_species_pair gg_species_of_pair(int pair)
+gg_species_pair gg_common_pair_species(int pair)
 {
   gg_species_pair p = {0, 0};
   while (gg_pair(0, p.j + 1) <= pair) p.j++;
@@ -12,9 +12,9 @@ gg_species_pair gg_species_of_pair(int pair)
   return p;
 }
 
-const char *gg_pair_name(int pair, char name[GG_PAIR_NAME])
+const char *gg_common_pair_name(int pair, char name[GG_PAIR_NAME])
 {
-  const gg_species_pair p = gg_species_of_pair(pair);
+  const gg_species_pair p = gg_common_pair_species(pair);
   snprintf(name, GG_PAIR_NAME, p.j < 9 ? "%d%d" : "%d-%d", p.i + 1, p.j + 1);
   return name;
 }
@@ -31,7 +31,7 @@ static int number(const char *text, size_t digits)
   return value;
 }
 
-int gg_pair_named(const char *name)
+int gg_common_pair_find(const char *name)
 {
   const char *dash = strchr(name, '-');
   size_t length = strlen(name);

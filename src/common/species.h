@@ -24,12 +24,12 @@ static inline int gg_pairs_of(int n_species)
 typedef struct gg_species_pair {
   int i, j;
 } gg_species_pair;
-gg_species_pair gg_species_of_pair(int pair);
+gg_species_pair gg_common_pair_species(int pair);
 
 /* A pair as scenes and results name it: "12"; from the tenth species on "1-10". */
 enum { GG_PAIR_NAME = 16 };
-const char *gg_pair_name(int pair, char name[GG_PAIR_NAME]);
+const char *gg_common_pair_name(int pair, char name[GG_PAIR_NAME]);
 /* The pair of such a name, in either order of its species; "1-2" is 12, too. -1: the pair of no two species. */
-int gg_pair_named(const char *name);
+int gg_common_pair_find(const char *name);
 
 #endif

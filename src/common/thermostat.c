@@ -1,6 +1,6 @@
 #include "common/thermostat.h"
 
-gg_thermostat gg_thermostat_of(const gg_model *model)
+gg_thermostat gg_common_thermostat_of(const gg_model *model)
 {
   return gg_flow_takes(model->flow, model->thermostat) ? model->thermostat : gg_flow_of(model->flow)->thermostat;
 }
@@ -11,12 +11,12 @@ static double loss_per_collision(const gg_model *m, int i, int j)
   const int o = gg_pair(i, j);
   const gg_contact *c = &m->contact[i][j];
   double T = m->temperature0, normal = T * (1 - m->e[o] * m->e[o]);
-  if (gg_rule_of(m->beta[o], m->mu[o]) == GG_SMOOTH) return normal;
+  if (gg_common_rule_select(m->beta[o], m->mu[o]) == GG_SMOOTH) return normal;
   double spread = T * (c->im1 + c->im2) + m->ratio0 * T * (c->ik1 + c->ik2);
   return normal + (1 - m->beta[o] * m->beta[o]) * spread / gg_inverse_mt(c);
 }
 
-double gg_thermostat_noise(const gg_model *m)
+double gg_common_thermostat_noise(const gg_model *m)
 {
   double loss = 0, mass = 0, n = (double)m->n;
   for (int i = 0; i < m->n_species; i++) {

@@ -5,9 +5,9 @@
 #include "common/model.h"
 
 /* The thermostat in force: that of the scene, or the flow's own where it cannot do without. */
-gg_thermostat gg_thermostat_of(const gg_model *model);
+gg_thermostat gg_common_thermostat_of(const gg_model *model);
 
 /* xi^2 at which white noise balances the collisions of Maxwellians at temperature0 and ratio0. */
-double gg_thermostat_noise(const gg_model *model);
+double gg_common_thermostat_noise(const gg_model *model);
 
 #endif

@@ -16,7 +16,7 @@ void gg_dsmc_start_majorants(gg_dsmc *d)
 
 uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_rng *rng)
 {
-  if (one_by_one) return gg_rng_poisson(rng, mean);
+  if (one_by_one) return gg_common_rng_poisson(rng, mean);
   double due = *remainder + mean, whole = floor(due);
   *remainder = due - whole;
   return (uint64_t)whole;

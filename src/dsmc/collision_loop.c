@@ -76,7 +76,7 @@ void gg_dsmc_collide(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_
   const double begin = d->interval_begin, each = 1.0 / sweeps;
   const double hold = gg_dsmc_strains_to_hold(d->model.n_species, each * span);
   for (const gg_dsmc_substep *t = substep; t < substep + n; t++) {
-    const gg_species_pair s = gg_species_of_pair(t->pair);
+    const gg_species_pair s = gg_common_pair_species(t->pair);
     const double from = t->begin * each, part = t->length * each;
     d->interval_begin = begin + from * dt;
     collide_pair(d, s.i, s.j, part * dt, strain + from * span, part * span, hold);

@@ -13,7 +13,7 @@ static gg_status allocate(gg_dsmc *d, gg_error *err)
     d->callback.first[i] = i ? d->callback.first[i - 1] + d->ensemble.of[i - 1].n : 0;
     if (d->callback.last[i]) continue;
     size_t n = (size_t)d->ensemble.of[i].n;
-    double *last = d->callback.last[i] = gg_new_array(n, sizeof *last, err);
+    double *last = d->callback.last[i] = gg_base_array_new(n, sizeof *last, err);
     if (!last) return GG_FAILED;
     for (size_t k = 0; k < n; k++) last[k] = -INFINITY;
   }
@@ -71,18 +71,20 @@ gg_status gg_dsmc_save_callback(const gg_dsmc *d, gg_archive *a, gg_error *err)
   char name[32];
   for (int i = 0; i < d->model.n_species; i++)
     if (d->callback.last[i])
-      GG_TRY(gg_archive_put(a, name_of(i, name), GG_ITEM_F64, d->callback.last[i], (size_t)d->ensemble.of[i].n, err));
+      GG_TRY(
+          gg_base_archive_put(a, name_of(i, name), GG_ITEM_F64, d->callback.last[i], (size_t)d->ensemble.of[i].n, err));
   return GG_OK;
 }
 
 gg_status gg_dsmc_restore_callback(gg_dsmc *d, const gg_archive *a, gg_error *err)
 {
   char name[32];
-  if (!gg_archive_find(a, name_of(0, name))) return GG_OK;
+  if (!gg_base_archive_find(a, name_of(0, name))) return GG_OK;
   GG_TRY(allocate(d, err));
   take_plain_path(d);
   for (int i = 0; i < d->model.n_species; i++)
-    GG_TRY(gg_archive_get(a, name_of(i, name), GG_ITEM_F64, d->callback.last[i], (size_t)d->ensemble.of[i].n, err));
+    GG_TRY(
+        gg_base_archive_get(a, name_of(i, name), GG_ITEM_F64, d->callback.last[i], (size_t)d->ensemble.of[i].n, err));
   return GG_OK;
 }
 

@@ -18,20 +18,20 @@ void gg_dsmc_take_paths(gg_dsmc *d)
 
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
 {
-  GG_TRY(gg_instructions_check(err));
-  gg_dsmc *made = gg_new_array(1, sizeof *made, err);
+  GG_TRY(gg_simd_instructions_check(err));
+  gg_dsmc *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
   made->base.ops = &gg_dsmc_ops;
   made->model = *model;
-  made->thermostat = gg_thermostat_of(model);
-  made->noise = gg_thermostat_noise(model);
+  made->thermostat = gg_common_thermostat_of(model);
+  made->noise = gg_common_thermostat_noise(model);
   gg_status status = gg_dsmc_ensemble_new(model, &made->ensemble, err);
   if (status == GG_OK && made->ensemble.segments > 1) {
-    made->schedule = gg_new_array(1, gg_dsmc_schedule_size(model->n_species), err);
+    made->schedule = gg_base_array_new(1, gg_dsmc_schedule_size(model->n_species), err);
     made->rounds = gg_dsmc_rounds_room_new(model->n_species, made->ensemble.segments, err);
     if (!made->schedule || !made->rounds) status = GG_FAILED;
   }
-  if (status == GG_OK) status = gg_loss_table_new(model->law.kind, &made->losses, err);
+  if (status == GG_OK) status = gg_common_loss_table_new(model->law.kind, &made->losses, err);
   if (status != GG_OK) {
     gg_dsmc_destroy(&made->base);
     return status;

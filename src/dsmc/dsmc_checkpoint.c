@@ -11,11 +11,11 @@ static const char schedule_item[] = "dsmc/schedule";
 gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *err)
 {
   const gg_dsmc *d = (const gg_dsmc *)engine;
-  GG_TRY(gg_archive_put(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err));
+  GG_TRY(gg_base_archive_put(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err));
   GG_TRY(gg_dsmc_ensemble_save(&d->ensemble, archive, err));
   if (d->schedule)
-    GG_TRY(gg_archive_put(archive, schedule_item, GG_ITEM_U8, d->schedule, gg_dsmc_schedule_size(d->model.n_species),
-                          err));
+    GG_TRY(gg_base_archive_put(archive, schedule_item, GG_ITEM_U8, d->schedule,
+                               gg_dsmc_schedule_size(d->model.n_species), err));
   return gg_dsmc_save_callback(d, archive, err);
 }
 
@@ -92,10 +92,10 @@ static bool is_schedule(const gg_dsmc *d)
 static gg_status get_state(gg_dsmc *d, const gg_archive *a, gg_error *err)
 {
   unsigned char bytes[sizeof d->now];
-  GG_TRY(gg_archive_get(a, "dsmc/state", GG_ITEM_U8, bytes, sizeof bytes, err));
-  if (bytes[offsetof(gg_dsmc_state, sums)] > 1) return gg_fail(err, GG_BAD_FILE, DAMAGED, "what it sums");
+  GG_TRY(gg_base_archive_get(a, "dsmc/state", GG_ITEM_U8, bytes, sizeof bytes, err));
+  if (bytes[offsetof(gg_dsmc_state, sums)] > 1) return gg_base_fail(err, GG_BAD_FILE, DAMAGED, "what it sums");
   memcpy(&d->now, bytes, sizeof bytes);
-  return is_state(d) ? GG_OK : gg_fail(err, GG_BAD_FILE, DAMAGED, "its state");
+  return is_state(d) ? GG_OK : gg_base_fail(err, GG_BAD_FILE, DAMAGED, "its state");
 }
 
 gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
@@ -106,10 +106,10 @@ gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_e
   gg_status status = get_state(d, archive, err);
   if (status == GG_OK) status = gg_dsmc_ensemble_restore(&d->ensemble, archive, err);
   if (status == GG_OK && d->schedule)
-    status =
-        gg_archive_get(archive, schedule_item, GG_ITEM_U8, d->schedule, gg_dsmc_schedule_size(d->model.n_species), err);
-  if (status == GG_OK && !is_of_ensemble(d)) status = gg_fail(err, GG_BAD_FILE, DAMAGED, "its temperature");
-  if (status == GG_OK && !is_schedule(d)) status = gg_fail(err, GG_BAD_FILE, DAMAGED, "its schedule");
+    status = gg_base_archive_get(archive, schedule_item, GG_ITEM_U8, d->schedule,
+                                 gg_dsmc_schedule_size(d->model.n_species), err);
+  if (status == GG_OK && !is_of_ensemble(d)) status = gg_base_fail(err, GG_BAD_FILE, DAMAGED, "its temperature");
+  if (status == GG_OK && !is_schedule(d)) status = gg_base_fail(err, GG_BAD_FILE, DAMAGED, "its schedule");
   if (status == GG_OK) status = gg_dsmc_restore_callback(d, archive, err);
   if (status != GG_OK) {
     gg_dsmc_destroy(&d->base);

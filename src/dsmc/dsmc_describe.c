@@ -30,11 +30,11 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
     line(context, "shear: streaming followed exactly between collisions");
   static const char *const thermostats[] = {"no thermostat", "Gaussian thermostat: returns what collisions destroy",
                                             "white-noise thermostat"};
-  line(context, thermostats[gg_thermostat_of(m)]);
+  line(context, thermostats[gg_common_thermostat_of(m)]);
   const gg_dsmc_time_step step = gg_dsmc_time_step_choose(m, m->temperature0);
   if (step.bias > 0) {
     snprintf(text, sizeof text, "step: %.2g mean free times%s; means lie about %.1g %% off by it",
-             step.splitting * gg_model_collision_rate(m, m->temperature0), m->time_step > 0 ? "" : ", chosen",
+             step.splitting * gg_common_model_collision_rate(m, m->temperature0), m->time_step > 0 ? "" : ", chosen",
              100 * step.bias);
     line(context, text);
   }

@@ -33,8 +33,9 @@ static gg_status check_temperature(const gg_dsmc *d, gg_error *err)
 {
   const double largest = d->model.single ? 0x1p60 : 0x1p900; /* temperature whose squares are numbers, too */
   if (d->now.temperature > 1 / largest && d->now.temperature < largest) return GG_OK;
-  return gg_fail(err, GG_FAILED, "the temperature has left the range of numbers (%g) after %.3g collisions a grain",
-                 d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
+  return gg_base_fail(err, GG_FAILED,
+                      "the temperature has left the range of numbers (%g) after %.3g collisions a grain",
+                      d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
 }
 
 static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
@@ -49,7 +50,7 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
     stopped = is_stopped(d, before, &work);
   }
   *elapsed = s->gone;
-  return stopped ? gg_fail(err, GG_INTERRUPTED, "dsmc: stopped") : GG_OK;
+  return stopped ? gg_base_fail(err, GG_INTERRUPTED, "dsmc: stopped") : GG_OK;
 }
 
 static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
@@ -68,9 +69,9 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   gg_dsmc *d;
   GG_TRY(gg_dsmc_allocate(model, &d, err));
   if (d->schedule) gg_dsmc_schedule_start(d->schedule, seed, stream);
-  gg_rng start = gg_rng_seed(seed, stream + GG_STREAM_START);
+  gg_rng start = gg_common_rng_seed(seed, stream + GG_STREAM_START);
   gg_dsmc_ensemble_start(model, &d->ensemble, &start);
-  d->now.rng = gg_rng_seed(seed, stream + GG_STREAM_ENGINE);
+  d->now.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
   gg_dsmc_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
   gg_dsmc_synchronise(d);
   gg_dsmc_start_majorants(d);
@@ -94,8 +95,8 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
 static void threads(gg_engine *engine, int threads)
 {
   gg_dsmc_ensemble *e = &dsmc_of(engine)->ensemble;
-  gg_thread_pool_free(e->pool);
-  e->pool = e->segments > 1 ? gg_thread_pool_new(threads < e->segments / 2 ? threads : e->segments / 2) : NULL;
+  gg_base_thread_pool_free(e->pool);
+  e->pool = e->segments > 1 ? gg_base_thread_pool_new(threads < e->segments / 2 ? threads : e->segments / 2) : NULL;
 }
 
 static void state(const gg_engine *engine, gg_engine_state *state)
@@ -107,7 +108,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .overflows = s->overflows,
                              .time_step = s->step.splitting,
                              .time_step_bias = s->step.bias,
-                             .others_cpu = gg_thread_pool_cpu(const_dsmc_of(engine)->ensemble.pool)};
+                             .others_cpu = gg_base_thread_pool_cpu(const_dsmc_of(engine)->ensemble.pool)};
 }
 
 /* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
@@ -180,10 +181,10 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   gg_dsmc *d = dsmc_of(engine);
   const bool next_sweep = d->model.linear_response; /* of the reduced shear rate: the clock goes on */
   if (d->thermostat != GG_NO_THERMOSTAT && !next_sweep)
-    return gg_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
+    return gg_base_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
   if (d->model.shear_rate != 0 && !next_sweep)
-    return gg_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
-  if (power < -1000 || power > 1000) return gg_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);
+    return gg_base_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");
+  if (power < -1000 || power > 1000) return gg_base_fail(err, GG_BAD_INPUT, "rescaling by 2^%d is out of range", power);
   double factor = ldexp(1, power);
   d->now.power += power;
   gg_dsmc_ensemble_scale(&d->ensemble, factor);

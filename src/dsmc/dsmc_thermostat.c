@@ -42,7 +42,7 @@ static void sum_of_segment(void *context, int part)
 static double twice_kinetic_energy(const gg_dsmc_ensemble *e, double strain)
 {
   energies w = {.e = e, .strain = strain};
-  gg_thread_pool_for(e->pool, e->segments, sum_of_segment, &w);
+  gg_base_thread_pool_for(e->pool, e->segments, sum_of_segment, &w);
   double sum = 0;
   for (int i = 0; i < e->n_species; i++) {
     double all = 0;
@@ -92,7 +92,7 @@ static void kick_segment(void *context, int part)
 
 void gg_dsmc_thermostat_kick(gg_dsmc_ensemble *e, double strain, double variance, gg_dsmc_rng_lanes *lanes)
 {
-  gg_thread_pool_for(e->pool, e->segments, kick_segment, &(kicking){e, strain, sqrt(variance), lanes});
+  gg_base_thread_pool_for(e->pool, e->segments, kick_segment, &(kicking){e, strain, sqrt(variance), lanes});
   e->bound_strain = strain;
   e->bound_width = 0;
 }

@@ -19,7 +19,7 @@ static void *new_blocks(const gg_dsmc_population *p, gg_error *err)
   size_t unit = bytes >= 2 * huge ? huge : 64, rounded = (bytes + unit - 1) / unit * unit;
   void *b = aligned_alloc(unit, rounded);
   if (!b) {
-    gg_out_of_memory_for(err, "an ensemble of %zu grains: lower dsmc.particles", n * GG_DSMC_LANES);
+    gg_base_out_of_memory_for(err, "an ensemble of %zu grains: lower dsmc.particles", n * GG_DSMC_LANES);
     return NULL;
   }
 #ifdef MADV_HUGEPAGE
@@ -31,7 +31,7 @@ static void *new_blocks(const gg_dsmc_population *p, gg_error *err)
 
 gg_status gg_dsmc_ensemble_new(const gg_model *model, gg_dsmc_ensemble *e, gg_error *err)
 {
-  *e = (gg_dsmc_ensemble){.n_species = model->n_species, .kernels = gg_dsmc_kernels_for(gg_instructions_best())};
+  *e = (gg_dsmc_ensemble){.n_species = model->n_species, .kernels = gg_dsmc_kernels_for(gg_simd_instructions_best())};
   size_t blocks = 0;
   for (int i = 0; i < e->n_species; i++) {
     gg_dsmc_population *p = &e->of[i];
@@ -43,7 +43,7 @@ gg_status gg_dsmc_ensemble_new(const gg_model *model, gg_dsmc_ensemble *e, gg_er
     p->single = model->single;
     p->c = new_blocks(p, err);
     if (p->c && model->rule != GG_SMOOTH) p->s = new_blocks(p, err);
-    p->speed_bound = gg_new_array(p->n_blocks, sizeof *p->speed_bound, err);
+    p->speed_bound = gg_base_array_new(p->n_blocks, sizeof *p->speed_bound, err);
     if (!p->c || !p->speed_bound || (model->rule != GG_SMOOTH && !p->s)) {
       gg_dsmc_ensemble_free(e);
       return GG_FAILED;
@@ -60,7 +60,7 @@ void gg_dsmc_ensemble_free(gg_dsmc_ensemble *e)
     free(e->of[i].s);
     free(e->of[i].speed_bound);
   }
-  gg_thread_pool_free(e->pool);
+  gg_base_thread_pool_free(e->pool);
   *e = (gg_dsmc_ensemble){0};
 }
 
@@ -93,7 +93,7 @@ static void heat_segment(void *context, int part)
 
 void gg_dsmc_ensemble_heat(gg_dsmc_ensemble *e, double factor)
 {
-  gg_thread_pool_for(e->pool, e->segments, heat_segment, &(scaling){e, factor});
+  gg_base_thread_pool_for(e->pool, e->segments, heat_segment, &(scaling){e, factor});
   e->bound_scale *= factor * factor * (1 + 1e-15);
 }
 
@@ -150,7 +150,7 @@ gg_dsmc_moments gg_dsmc_ensemble_synchronise(gg_dsmc_ensemble *e, double strain,
   double n = 0, mass = 0, energy = 0, most = 0;
   gg_vec momentum = {0, 0, 0};
   synchronising w = {.e = e, .strain = strain, .scale = scale, .bound_scale = bound_scale, .centre = centre};
-  gg_thread_pool_for(e->pool, e->segments, synchronise_segment, &w);
+  gg_base_thread_pool_for(e->pool, e->segments, synchronise_segment, &w);
   for (int i = 0; i < e->n_species; i++) {
     gg_dsmc_population *p = &e->of[i];
     for (int segment = 0; segment < e->segments; segment++)

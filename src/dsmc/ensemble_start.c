@@ -34,8 +34,8 @@ void gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *
     gg_dsmc_population *p = &e->of[i];
     double speed = sqrt(model->temperature0 / p->mass), spin = sqrt(model->ratio0 * model->temperature0 / p->mass);
     for (uint32_t a = 0; a < p->n; a++) {
-      gg_dsmc_block_set(p, p->c, a, gg_scale(speed, gg_rng_normal_vec(rng)));
-      if (p->s) gg_dsmc_block_set(p, p->s, a, gg_scale(spin / sqrt(p->inertia), gg_rng_normal_vec(rng)));
+      gg_dsmc_block_set(p, p->c, a, gg_scale(speed, gg_common_rng_normal_vec(rng)));
+      if (p->s) gg_dsmc_block_set(p, p->s, a, gg_scale(spin / sqrt(p->inertia), gg_common_rng_normal_vec(rng)));
     }
   }
   start_spins(model, e);

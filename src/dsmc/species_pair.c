@@ -4,7 +4,7 @@
 gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
-  gg_dsmc_features f = {.rule = gg_rule_of(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]), .same = i == j};
+  gg_dsmc_features f = {.rule = gg_common_rule_select(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]), .same = i == j};
   /* Grains that have spins keep them with their velocities, whichever pair of species is smooth. */
   if (m->rule != GG_SMOOTH && f.rule == GG_SMOOTH) f.rule = GG_ROUGH;
   if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;

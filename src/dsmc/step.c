@@ -54,7 +54,7 @@ static double next_length(const gg_dsmc *d, double left, double wanted)
 {
   double dt = d->now.step.length;
   if (d->model.time_step > 0) return dt;
-  double rate = 0.5 * (double)d->model.n * gg_model_collision_rate(&d->model, d->now.temperature);
+  double rate = 0.5 * (double)d->model.n * gg_common_model_collision_rate(&d->model, d->now.temperature);
   return fmin(fmin(dt, left), fmax(wanted / rate, 1e-3 * dt));
 }
 

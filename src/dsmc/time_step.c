@@ -32,7 +32,7 @@ static double alternation_of(const gg_model *m)
 {
   if (m->n_species > 1) return bias_of_alternation;
   const double loss = loss_of(m);
-  return gg_thermostat_of(m) != GG_NO_THERMOSTAT ? bias_of_thermostat * loss * loss : 0;
+  return gg_common_thermostat_of(m) != GG_NO_THERMOSTAT ? bias_of_thermostat * loss * loss : 0;
 }
 
 /* In mean free times. */
@@ -44,8 +44,8 @@ static double alternate_every(const gg_model *m)
 
 gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
 {
-  bool heated = gg_thermostat_of(model) != GG_NO_THERMOSTAT;
-  double free_time = 1 / gg_model_collision_rate(model, T);
+  bool heated = gg_common_thermostat_of(model) != GG_NO_THERMOSTAT;
+  double free_time = 1 / gg_common_model_collision_rate(model, T);
   gg_dsmc_time_step step = {.synchronise = heated ? free_time : 3 * free_time,
                             .length = heated ? alternate_every(model) * free_time : free_time};
   if (!heated && model->shear_rate == 0) step.length = step.synchronise; /* the kernel needs no step at all */

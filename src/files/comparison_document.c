@@ -27,14 +27,14 @@ static json_t *theories_json(const gg_comparison *c, json_t *warnings)
       continue;
     }
     json_t *one = json_object();
-    for (int k = 0; k < gg_quantities_of(&c->model); k++) {
-      const gg_quantity q = gg_quantity_at(&c->model, k);
+    for (int k = 0; k < gg_common_quantity_set_of(&c->model); k++) {
+      const gg_quantity q = gg_common_quantity_at(&c->model, k);
       double value = c->theory[i].answer.value[q];
       if (!isfinite(value)) continue;
       double error = c->theory[i].answer.error[q];
-      json_t *said = json_pack("{s:f, s:s}", "mean", value, "unit", gg_quantity_unit(q, &c->model));
+      json_t *said = json_pack("{s:f, s:s}", "mean", value, "unit", gg_common_quantity_unit(q, &c->model));
       if (isfinite(error)) json_object_set_new(said, "error", json_real(error));
-      json_object_set_new(one, gg_quantity_name_in(&c->model, q), said);
+      json_object_set_new(one, gg_common_quantity_name_in(&c->model, q), said);
     }
     json_object_set_new(all, name, one);
   }
@@ -64,19 +64,19 @@ static void put_theory_curves(json_t *document, const gg_comparison *c)
   json_t *all = json_object();
   for (int i = 0; i < c->n_theories; i++)
     if (c->theory[i].curves.n)
-      json_object_set_new(all, c->theory[i].theory->name, gg_curves_json(&c->theory[i].curves));
+      json_object_set_new(all, c->theory[i].theory->name, gg_files_curves_json(&c->theory[i].curves));
   if (json_object_size(all)) json_object_set(document, GG_THEORY_CURVES, all);
   json_decref(all);
 }
 
-json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *c)
+json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *c)
 {
-  bool before = gg_memory_begin();
+  bool before = gg_base_memory_begin();
   json_t *warnings = warnings_json(c), *theory = theories_json(c, warnings);
   json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene),
                                "theory", theory, "theories", about_json(c), "warnings", warnings);
   put_theory_curves(document, c);
-  return gg_json_end(before, document);
+  return gg_base_json_end(before, document);
 }
 
 static json_t *deviations_json(const gg_comparison *c, const gg_result *engine, gg_quantity q, json_t *warnings)
@@ -86,13 +86,13 @@ static json_t *deviations_json(const gg_comparison *c, const gg_result *engine, 
   for (int i = 0; i < c->n_theories; i++) {
     double value = c->theory[i].answer.value[q];
     if (!c->theory[i].applies || !isfinite(value)) continue;
-    double deviation = gg_deviation(&engine->value[q], value);
+    double deviation = gg_run_deviation(&engine->value[q], value);
     small |= isnan(deviation);
     json_object_set_new(all, c->theory[i].theory->name, isnan(deviation) ? json_null() : json_real(deviation));
   }
   if (small)
-    gg_reason_add(warnings, engine->engine, gg_quantity_name_in(&c->model, q),
-                  "the relative deviation of theories, since the mean is within three standard errors of zero");
+    gg_files_reason_add(warnings, engine->engine, gg_common_quantity_name_in(&c->model, q),
+                        "the relative deviation of theories, since the mean is within three standard errors of zero");
   return all;
 }
 
@@ -106,7 +106,7 @@ static void put_departure(json_t *row, const gg_comparison *c, gg_engine_kind ki
 {
   gg_departure d;
   char key[64];
-  if (!gg_depart_from_enskog(c, kind, q, &d)) return;
+  if (!gg_run_enskog_deviation(c, kind, q, &d)) return;
   const struct {
     const char *word;
     double value;
@@ -116,7 +116,7 @@ static void put_departure(json_t *row, const gg_comparison *c, gg_engine_kind ki
               {"deviation", d.deviation},
               {"deviation_error", d.deviation_error}};
   for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
-    snprintf(key, sizeof key, "%s_enskog_%s", gg_engine_ops_of(kind)->name, told[i].word);
+    snprintf(key, sizeof key, "%s_enskog_%s", gg_run_engine_ops_of(kind)->name, told[i].word);
     if (isfinite(told[i].value)) json_object_set_new(row, key, json_real(told[i].value));
   }
 }
@@ -124,14 +124,14 @@ static void put_departure(json_t *row, const gg_comparison *c, gg_engine_kind ki
 static json_t *row_json(const gg_comparison *c, gg_quantity q, json_t *warnings)
 {
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
-  json_t *row =
-      json_pack("{s:s, s:s}", "quantity", gg_quantity_name_in(&c->model, q), "unit", gg_quantity_unit(q, &c->model));
-  double z = md && dsmc ? gg_z_score(&md->value[q], &dsmc->value[q]) : NAN;
+  json_t *row = json_pack("{s:s, s:s}", "quantity", gg_common_quantity_name_in(&c->model, q), "unit",
+                          gg_common_quantity_unit(q, &c->model));
+  double z = md && dsmc ? gg_run_z_score(&md->value[q], &dsmc->value[q]) : NAN;
   json_object_set_new(row, "md_dsmc_z", isfinite(z) ? json_real(z) : json_null());
   if (!isfinite(z))
-    gg_reason_add(warnings, "md_dsmc_z", gg_quantity_name_in(&c->model, q),
-                  "the mean or error of an engine is not known");
-  json_object_set_new(row, "beyond_expected", json_boolean(gg_disagree(c, q)));
+    gg_files_reason_add(warnings, "md_dsmc_z", gg_common_quantity_name_in(&c->model, q),
+                        "the mean or error of an engine is not known");
+  json_object_set_new(row, "beyond_expected", json_boolean(gg_run_results_disagree(c, q)));
   if (has(md, q)) json_object_set_new(row, "md_theory_deviation", deviations_json(c, md, q, warnings));
   if (has(dsmc, q)) json_object_set_new(row, "dsmc_theory_deviation", deviations_json(c, dsmc, q, warnings));
   put_departure(row, c, GG_MD, q);
@@ -142,8 +142,8 @@ static json_t *row_json(const gg_comparison *c, gg_quantity q, json_t *warnings)
 static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *warnings)
 {
   const gg_result *r = c->by_engine[kind];
-  if (r) return gg_run_document(r);
-  json_array_append_new(warnings, json_sprintf("%s is null: %s", gg_engine_ops_of(kind)->name, c->refusal[kind]));
+  if (r) return gg_files_run_document(r);
+  json_array_append_new(warnings, json_sprintf("%s is null: %s", gg_run_engine_ops_of(kind)->name, c->refusal[kind]));
   return json_null();
 }
 
@@ -152,8 +152,9 @@ static void warn_causes(const gg_comparison *c, json_t *warnings)
 {
   const char *cause[8];
   int marked = 0;
-  for (int i = 0; i < gg_quantities_of(&c->model); i++) marked += gg_disagree(c, gg_quantity_at(&c->model, i));
-  int n = marked ? gg_causes_of_disagreement(c, cause, 8) : 0;
+  for (int i = 0; i < gg_common_quantity_set_of(&c->model); i++)
+    marked += gg_run_results_disagree(c, gg_common_quantity_at(&c->model, i));
+  int n = marked ? gg_run_disagreement_causes(c, cause, 8) : 0;
   for (int i = 0; i < n; i++)
     json_array_append_new(warnings,
                           json_sprintf("md differs from Enskog's equation beyond what is expected: %s", cause[i]));
@@ -162,21 +163,21 @@ static void warn_causes(const gg_comparison *c, json_t *warnings)
 static void warn_remarks(const gg_comparison *c, json_t *warnings)
 {
   gg_theory_remark r[GG_MOST_THEORIES];
-  int n = gg_theory_remarks(c, r);
+  int n = gg_run_theory_remarks(c, r);
   for (int i = 0; i < n; i++)
     json_array_append_new(warnings,
                           json_sprintf("%s is off by %+.1f %% in %s: %s", r[i].theory->name, 100 * r[i].deviation,
-                                       gg_quantity_name_in(&c->model, r[i].quantity), r[i].cause));
+                                       gg_common_quantity_name_in(&c->model, r[i].quantity), r[i].cause));
 }
 
 static json_t *comparison_document(const gg_comparison *c)
 {
-  if (c->document) return gg_json_read(c->document, NULL); /* as it was stored */
+  if (c->document) return gg_base_json_read(c->document, NULL); /* as it was stored */
   json_t *warnings = warnings_json(c), *rows = json_array();
   json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
   json_t *theory = theories_json(c, warnings);
-  for (int i = 0; i < gg_quantities_of(&c->model); i++) {
-    gg_quantity q = gg_quantity_at(&c->model, i);
+  for (int i = 0; i < gg_common_quantity_set_of(&c->model); i++) {
+    gg_quantity q = gg_common_quantity_at(&c->model, i);
     if (has(c->by_engine[GG_MD], q) || has(c->by_engine[GG_DSMC], q))
       json_array_append_new(rows, row_json(c, q, warnings));
   }
@@ -189,8 +190,8 @@ static json_t *comparison_document(const gg_comparison *c)
   return document;
 }
 
-json_t *gg_comparison_document(const gg_comparison *c)
+json_t *gg_files_comparison_document(const gg_comparison *c)
 {
-  bool before = gg_memory_begin();
-  return gg_json_end(before, comparison_document(c));
+  bool before = gg_base_memory_begin();
+  return gg_base_json_end(before, comparison_document(c));
 }

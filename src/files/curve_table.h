@@ -12,9 +12,9 @@ struct gg_h5;
 /* {"name": {"group", "panel", "label", "x_name", "x_unit", "y_name", "unit", "log_x", "log_y", "samples", "x": [],
  * "value": [], "stderr": [], "numbers": {"alpha": {"mean", "stderr", "unit"}}, "reference": {"label", "value": []}}}:
  * the last only where there is a law to see the curve beside. */
-json_t *gg_curves_json(const gg_curves *curves);
+json_t *gg_files_curves_json(const gg_curves *curves);
 /* Those of one engine or theory, appended to a list. */
-gg_status gg_curves_from_json(gg_curves *list, const json_t *curves, gg_error *err);
+gg_status gg_files_curves_from_json(gg_curves *list, const json_t *curves, gg_error *err);
 /* The key of documents that has those of theories, by their names. */
 #define GG_THEORY_CURVES "theory_curves"
 
@@ -23,7 +23,7 @@ gg_status gg_curves_from_json(gg_curves *list, const json_t *curves, gg_error *e
 void gg_h5_write_curves(struct gg_h5 *h, const char *group, const gg_curves *curves);
 
 /* How many groups of curves an engine's document holds, and the k-th one's name. */
-int gg_curve_groups(const json_t *document, const char **names, int most);
+int gg_plot_curve_groups(const json_t *document, const char **names, int most);
 
 /* One group of curves (one observable) as a page of panels; `size` is the page's, in pixels. `theories`: their curves,
  * as under GG_THEORY_CURVES, drawn as lines through those of the same names; may be NULL. */

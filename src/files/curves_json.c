@@ -44,12 +44,12 @@ static json_t *curve_json(const gg_curve *c)
   return o;
 }
 
-json_t *gg_curves_json(const gg_curves *curves)
+json_t *gg_files_curves_json(const gg_curves *curves)
 {
-  bool before = gg_memory_begin();
+  bool before = gg_base_memory_begin();
   json_t *all = json_object();
   for (int k = 0; k < curves->n; k++) json_object_set_new(all, curves->curve[k].name, curve_json(&curves->curve[k]));
-  return gg_json_end(before, all);
+  return gg_base_json_end(before, all);
 }
 
 static double number(const json_t *object, const char *key)
@@ -79,7 +79,7 @@ static void restore_numbers(gg_curve *c, const json_t *numbers)
   json_object_foreach((json_t *)(uintptr_t)numbers, name, one)
   {
     int n = c->n_numbers;
-    gg_curve_put_number(c, name, number(one, "mean"), text(one, "unit"));
+    gg_measure_curve_put_number(c, name, number(one, "mean"), text(one, "unit"));
     if (c->n_numbers > n) c->number[n].error = number(one, "stderr");
     if (c->n_numbers > n) c->number[n].setting = c->number[n].error == 0;
   }
@@ -90,11 +90,12 @@ static gg_status restore(gg_curves *list, const char *name, const json_t *stored
   const json_t *law = json_object_get(stored, "reference");
   list->group = text(stored, "group");
   list->samples = (uint64_t)json_integer_value(json_object_get(stored, "samples"));
-  gg_curve *c = gg_curve_add(list, json_array_size(json_object_get(stored, "x")), name, text(stored, "panel"),
-                             text(stored, "label"));
+  gg_curve *c = gg_measure_curve_add(list, json_array_size(json_object_get(stored, "x")), name, text(stored, "panel"),
+                                     text(stored, "label"));
   list->group = NULL; /* every curve has its own copy */
-  if (list->failed) return gg_out_of_memory_for(err, "the curve %s", name);
-  gg_curve_axes(c, text(stored, "x_name"), text(stored, "x_unit"), text(stored, "y_name"), text(stored, "unit"));
+  if (list->failed) return gg_base_out_of_memory_for(err, "the curve %s", name);
+  gg_measure_curve_axes(c, text(stored, "x_name"), text(stored, "x_unit"), text(stored, "y_name"),
+                        text(stored, "unit"));
   c->folded = json_is_true(json_object_get(stored, "folded"));
   c->log_x = json_is_true(json_object_get(stored, "log_x"));
   c->log_y = json_is_true(json_object_get(stored, "log_y"));
@@ -103,13 +104,13 @@ static gg_status restore(gg_curves *list, const char *name, const json_t *stored
   fill(c->error, c->n, json_object_get(stored, "stderr"));
   restore_numbers(c, json_object_get(stored, "numbers"));
   if (!law) return GG_OK;
-  gg_curve_beside(c, text(law, "label"), gg_level, &(double){0});
-  if (c->law_lost) return gg_out_of_memory_for(err, "the curve %s", name);
+  gg_measure_curve_beside(c, text(law, "label"), gg_measure_curve_level, &(double){0});
+  if (c->law_lost) return gg_base_out_of_memory_for(err, "the curve %s", name);
   if (c->reference) fill(c->reference, c->n, json_object_get(law, "value"));
   return GG_OK;
 }
 
-gg_status gg_curves_from_json(gg_curves *list, const json_t *curves, gg_error *err)
+gg_status gg_files_curves_from_json(gg_curves *list, const json_t *curves, gg_error *err)
 {
   const char *name;
   json_t *stored;

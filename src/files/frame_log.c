@@ -31,11 +31,11 @@ static uint64_t size_of(uint64_t n, uint64_t holds)
 static uint64_t checksum_of(const void *whole, uint64_t before)
 {
   const record *r = whole;
-  uint64_t sum = gg_checksum(before, r, offsetof(record, checksum));
-  return gg_checksum(sum, r + 1, r->bytes - sizeof *r);
+  uint64_t sum = gg_base_checksum(before, r, offsetof(record, checksum));
+  return gg_base_checksum(sum, r + 1, r->bytes - sizeof *r);
 }
 
-char *gg_frame_log_path(const char *checkpoint)
+char *gg_files_frame_log_path(const char *checkpoint)
 {
   static const char *const endings[] = {".1", ".h5"};
   size_t length = strlen(checkpoint);
@@ -47,7 +47,7 @@ char *gg_frame_log_path(const char *checkpoint)
   return asprintf(&path, "%.*s.frames", (int)length, checkpoint) < 0 ? NULL : path;
 }
 
-char *gg_frame_log_new_path(const char *path)
+char *gg_files_frame_log_new_path(const char *path)
 {
   char *fresh = NULL;
   return asprintf(&fresh, "%s.new", path) < 0 ? NULL : fresh;
@@ -62,35 +62,35 @@ static gg_status open_file(gg_frame_log *log, const char *path, int flags)
 
 static gg_status cannot_write(const gg_frame_log *log, gg_error *err)
 {
-  return gg_cannot_write(log->place ? log->place : log->path, strerror(errno), err);
+  return gg_base_path_write_error(log->place ? log->place : log->path, strerror(errno), err);
 }
 
-gg_status gg_frame_log_open(gg_frame_log *log, const char *path, gg_error *err)
+gg_status gg_files_frame_log_open(gg_frame_log *log, const char *path, gg_error *err)
 {
   bool there = access(path, F_OK) == 0;
   if (open_file(log, path, O_RDWR | O_CREAT) == GG_OK) {
     log->created = !there;
     return GG_OK;
   }
-  gg_status status = log->path ? cannot_write(log, err) : gg_out_of_memory(err);
-  gg_frame_log_close(log);
+  gg_status status = log->path ? cannot_write(log, err) : gg_base_out_of_memory(err);
+  gg_files_frame_log_close(log);
   return status;
 }
 
-gg_status gg_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err)
+gg_status gg_files_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err)
 {
-  char *fresh = gg_frame_log_new_path(path), *place = strdup(path);
+  char *fresh = gg_files_frame_log_new_path(path), *place = strdup(path);
   bool made = fresh && place && open_file(log, fresh, O_RDWR | O_CREAT | O_EXCL) == GG_OK;
-  gg_status status = made ? GG_OK : gg_cannot_write(path, strerror(errno), err);
+  gg_status status = made ? GG_OK : gg_base_path_write_error(path, strerror(errno), err);
   if (!fresh || !place) *log = (gg_frame_log){.fd = -1};
   log->place = place;
   log->created = made;
-  if (!made) gg_frame_log_close(log);
+  if (!made) gg_files_frame_log_close(log);
   free(fresh);
   return status;
 }
 
-gg_status gg_frame_log_put_in_place(gg_frame_log *log, gg_error *err)
+gg_status gg_files_frame_log_put_in_place(gg_frame_log *log, gg_error *err)
 {
   if (!log->place) return GG_OK;
   if (rename(log->path, log->place) != 0) return cannot_write(log, err);
@@ -141,14 +141,14 @@ static void fill(record *r, const gg_frame *frame, const size_t *order, uint64_t
   r->checksum = checksum_of(r, before);
 }
 
-gg_status gg_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg_error *err)
+gg_status gg_files_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg_error *err)
 {
   uint64_t holds = (frame->position ? POSITIONS : 0u) | (frame->spin ? SPINS : 0u) | (frame->species ? SPECIES : 0u);
   record header = {.n = frame->n, .holds = holds, .step = frame->step, .time = frame->time};
   header.bytes = size_of(frame->n, holds);
   memcpy(header.word, word, sizeof word);
-  size_t *order = gg_frame_order(frame, err);
-  record *r = order ? gg_new_array(header.bytes, 1, err) : NULL;
+  size_t *order = gg_run_frame_order(frame, err);
+  record *r = order ? gg_base_array_new(header.bytes, 1, err) : NULL;
   gg_status status = GG_FAILED;
   if (r) {
     *r = header;
@@ -161,7 +161,7 @@ gg_status gg_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg_error
   return status;
 }
 
-gg_status gg_frame_log_sync(const gg_frame_log *log, gg_error *err)
+gg_status gg_files_frame_log_sync(const gg_frame_log *log, gg_error *err)
 {
   return fdatasync(log->fd) == 0 ? GG_OK : cannot_write(log, err);
 }
@@ -209,7 +209,7 @@ static gg_frame frame_of(record *r)
   return frame;
 }
 
-gg_status gg_frame_log_replay(const gg_frame_log *log, gg_frame_visit *visit, void *context, gg_error *err)
+gg_status gg_files_frame_log_replay(const gg_frame_log *log, gg_frame_visit *visit, void *context, gg_error *err)
 {
   reader r = {.at.checksum = GG_CHECKSUM_START};
   gg_status status = GG_OK;
@@ -221,9 +221,9 @@ gg_status gg_frame_log_replay(const gg_frame_log *log, gg_frame_visit *visit, vo
   if (!wrong && status == GG_OK && (r.at.bytes != log->mark.bytes || r.at.checksum != log->mark.checksum))
     wrong = "of another run";
   if (wrong)
-    status = gg_fail(err, GG_BAD_FILE, "%s: frame %llu of %llu is %s", log->path,
-                     (unsigned long long)r.at.frames + (r.at.frames < log->mark.frames),
-                     (unsigned long long)log->mark.frames, wrong);
+    status = gg_base_fail(err, GG_BAD_FILE, "%s: frame %llu of %llu is %s", log->path,
+                          (unsigned long long)r.at.frames + (r.at.frames < log->mark.frames),
+                          (unsigned long long)log->mark.frames, wrong);
   free(r.whole);
   return status;
 }
@@ -231,23 +231,23 @@ gg_status gg_frame_log_replay(const gg_frame_log *log, gg_frame_visit *visit, vo
 static gg_status ask(void *stop, const gg_frame *frame, gg_error *err)
 {
   (void)frame;
-  return gg_stop_asked(*(const gg_stop **)stop) ? gg_fail(err, GG_INTERRUPTED, "interrupted") : GG_OK;
+  return gg_stop_asked(*(const gg_stop **)stop) ? gg_base_fail(err, GG_INTERRUPTED, "interrupted") : GG_OK;
 }
 
-gg_status gg_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark, const gg_stop *stop,
-                               gg_error *err)
+gg_status gg_files_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark,
+                                     const gg_stop *stop, gg_error *err)
 {
   gg_status status = open_file(log, path, O_RDONLY);
   log->mark = *mark;
   if (status != GG_OK)
-    gg_fail(err, status, "%s: cannot be read: %s", path, strerror(errno));
+    gg_base_fail(err, status, "%s: cannot be read: %s", path, strerror(errno));
   else
-    status = gg_frame_log_replay(log, ask, &stop, err);
-  if (status != GG_OK) gg_frame_log_close(log);
+    status = gg_files_frame_log_replay(log, ask, &stop, err);
+  if (status != GG_OK) gg_files_frame_log_close(log);
   return status;
 }
 
-bool gg_frame_log_is_at(const gg_frame_log *log, const char *path)
+bool gg_files_frame_log_is_at(const gg_frame_log *log, const char *path)
 {
   struct stat mine, there;
   return fstat(log->fd, &mine) == 0 && stat(path, &there) == 0 && mine.st_dev == there.st_dev &&
@@ -258,26 +258,26 @@ static gg_status copy_bytes(gg_frame_log *log, const gg_frame_log *from, gg_erro
 {
   enum { PIECE = 1 << 20 };
   gg_status status = GG_OK;
-  char *piece = gg_new_array(PIECE, 1, err);
+  char *piece = gg_base_array_new(PIECE, 1, err);
   if (!piece) return GG_FAILED;
   for (uint64_t at = 0; at < from->mark.bytes && status == GG_OK; at += PIECE) {
     uint64_t left = from->mark.bytes - at;
     size_t size = left < PIECE ? (size_t)left : PIECE;
     status = read_at(from, piece, size, at) ? write_at(log, piece, size, at, err)
-                                            : gg_fail(err, GG_BAD_FILE, "%s: cannot be read", from->path);
+                                            : gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read", from->path);
   }
   free(piece);
   return status;
 }
 
-gg_status gg_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err)
+gg_status gg_files_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err)
 {
-  if (!gg_frame_log_is_at(from, log->path)) GG_TRY(copy_bytes(log, from, err));
+  if (!gg_files_frame_log_is_at(from, log->path)) GG_TRY(copy_bytes(log, from, err));
   log->mark = from->mark;
   return GG_OK;
 }
 
-void gg_frame_log_close(gg_frame_log *log)
+void gg_files_frame_log_close(gg_frame_log *log)
 {
   if (log->fd >= 0) close(log->fd);
   free(log->path);

@@ -27,31 +27,31 @@ typedef struct gg_frame_log {
 } gg_frame_log;
 
 /* "usf.checkpoint.h5", "usf.checkpoint.h5.1" -> "usf.checkpoint.frames"; to be freed. */
-char *gg_frame_log_path(const char *checkpoint);
+char *gg_files_frame_log_path(const char *checkpoint);
 /* "usf.checkpoint.frames" -> "usf.checkpoint.frames.new"; to be freed. */
-char *gg_frame_log_new_path(const char *path);
+char *gg_files_frame_log_new_path(const char *path);
 
 /* To write there from the first frame on; a file that is there stays as it is until then. */
-gg_status gg_frame_log_open(gg_frame_log *log, const char *path, gg_error *err);
+gg_status gg_files_frame_log_open(gg_frame_log *log, const char *path, gg_error *err);
 /* The log of a run that does not go on from what is there: written as PATH.new, where none may be, until it is put in
  * the place of the log of another run. Messages name PATH. */
-gg_status gg_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err);
-gg_status gg_frame_log_put_in_place(gg_frame_log *log, gg_error *err);
+gg_status gg_files_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err);
+gg_status gg_files_frame_log_put_in_place(gg_frame_log *log, gg_error *err);
 /* To read the frames up to the mark, each of which is looked at: GG_BAD_FILE where one is missing or damaged. `stop`
  * is asked in between: GG_INTERRUPTED. */
-gg_status gg_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark, const gg_stop *stop,
-                               gg_error *err);
+gg_status gg_files_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark,
+                                     const gg_stop *stop, gg_error *err);
 /* Does the log stand at this path? */
-bool gg_frame_log_is_at(const gg_frame_log *log, const char *path);
+bool gg_files_frame_log_is_at(const gg_frame_log *log, const char *path);
 /* The frames of `from` before any of one's own; nothing to do where both are one file. */
-gg_status gg_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err);
-gg_status gg_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg_error *err);
+gg_status gg_files_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err);
+gg_status gg_files_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg_error *err);
 /* Wait until the disk has all of it. */
-gg_status gg_frame_log_sync(const gg_frame_log *log, gg_error *err);
+gg_status gg_files_frame_log_sync(const gg_frame_log *log, gg_error *err);
 /* Show every frame; each lasts for the call. */
 typedef gg_status gg_frame_visit(void *context, const gg_frame *frame, gg_error *err);
-gg_status gg_frame_log_replay(const gg_frame_log *log, gg_frame_visit *visit, void *context, gg_error *err);
+gg_status gg_files_frame_log_replay(const gg_frame_log *log, gg_frame_visit *visit, void *context, gg_error *err);
 /* Harmless again, and of one that is all zero but fd = -1. */
-void gg_frame_log_close(gg_frame_log *log);
+void gg_files_frame_log_close(gg_frame_log *log);
 
 #endif

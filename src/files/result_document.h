@@ -7,17 +7,17 @@
 
 #include "run/run.h"
 
-json_t *gg_run_document(const gg_result *result);
-json_t *gg_comparison_document(const gg_comparison *comparison);
-json_t *gg_theory_document(const gg_scene *scene, const gg_comparison *theories);
+json_t *gg_files_run_document(const gg_result *result);
+json_t *gg_files_comparison_document(const gg_comparison *comparison);
+json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *theories);
 
 /* Indented text, 17 digits; to be freed. */
-char *gg_document_text(const json_t *document);
+char *gg_files_document_text(const json_t *document);
 
 /* Is there anything to say about this quantity: a mean, or a reason why there is none? */
-bool gg_is_measured(const gg_estimate *estimate);
+bool gg_files_quantity_is_measured(const gg_estimate *estimate);
 
 /* Add "who: quantity is null: reason" to the warnings; quantities with the same reason share a line. */
-void gg_reason_add(json_t *warnings, const char *who, const char *quantity, const char *reason);
+void gg_files_reason_add(json_t *warnings, const char *who, const char *quantity, const char *reason);
 
 #endif

@@ -18,7 +18,7 @@ static void put_estimate(double mean, double error, int decimals, char *text, si
     snprintf(text, size, "%.*f(%.0f)", decimals, mean, error * pow(10, decimals));
 }
 
-void gg_estimate_text(double mean, double error, char *text, size_t size)
+void gg_files_estimate_format(double mean, double error, char *text, size_t size)
 {
   if (isnan(mean)) {
     snprintf(text, size, "-");
@@ -66,18 +66,18 @@ static void add_pairs(char *text, size_t size, const char *name, const double *x
     add(text, size, ", %s %g to %g", name, least, most);
 }
 
-void gg_title_of_scene(const gg_scene *s, char *text, size_t size)
+void gg_files_scene_title(const gg_scene *s, char *text, size_t size)
 {
   if (!size) return;
   const char *flow = gg_flow_of(s->flow)->title;
   bool as_well = gg_flow_takes(s->flow, GG_NO_THERMOSTAT) && s->thermostat != GG_NO_THERMOSTAT;
   snprintf(text, size, "%s%s, phi %g", flow, as_well ? ", heated" : "", s->phi);
-  const gg_restitution_law law = gg_extension_law(s->extension);
+  const gg_restitution_law law = gg_common_extension_law(s->extension);
   if (law.e)
     add(text, size, ", law %s of e", law.name);
   else
     add_pairs(text, size, "e", s->collision.e, s->n_species);
-  if (!law.e && s->collision.law != GG_LAW_CONSTANT) add(text, size, " (%s)", gg_law_name(s->collision.law));
+  if (!law.e && s->collision.law != GG_LAW_CONSTANT) add(text, size, " (%s)", gg_common_law_name(s->collision.law));
   bool smooth = true, frictional = false;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
     smooth &= s->collision.beta[p] == -1 || s->collision.mu[p] == 0;

@@ -15,7 +15,7 @@ static void *new_block(size_t bytes, size_t alignment, gg_error *err)
 {
   void *block = aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
   if (!block) {
-    gg_out_of_memory_for(err, "%zu bytes", bytes);
+    gg_base_out_of_memory_for(err, "%zu bytes", bytes);
     return NULL;
   }
 #ifdef MADV_HUGEPAGE

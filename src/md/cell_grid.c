@@ -27,7 +27,7 @@ gg_status gg_md_cells_make(gg_md_cells *c, const gg_md_box *box, const int32_t n
     total *= (size_t)n[a];
   }
   for (int a = 0, each = 1; a < 3; each *= n[a], a++) {
-    uint32_t *part = gg_new_array((size_t)n[a] + 4, sizeof *part, err);
+    uint32_t *part = gg_base_array_new((size_t)n[a] + 4, sizeof *part, err);
     if (!part) return GG_FAILED;
     for (int32_t k = -2; k <= n[a] + 1; k++) part[k + 2] = (uint32_t)((k + 2 * n[a]) % n[a] * each);
     c->part[a] = part + 2;

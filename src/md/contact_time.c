@@ -55,7 +55,7 @@ void gg_md_begin_contact_time(gg_md *e)
 void gg_md_follow_contact_time(gg_md *e)
 {
   if (!(e->model.contact_time > 0)) return;
-  const double T = temperature_of(e), rate = gg_model_collision_rate(&e->model, gg_md_early_temperature(e, T));
+  const double T = temperature_of(e), rate = gg_common_model_collision_rate(&e->model, gg_md_early_temperature(e, T));
   const double free_time = fmax(e->k.mean_free_time, rate > 0 ? 0.5 / rate : 0);
   e->k.contact_time = e->model.contact_time * unit_of(e, free_time, T);
 }

@@ -50,15 +50,15 @@ static void make_pair(gg_md_contacts *c, const gg_model *m, int i, int j)
   c->inverse[o] = 1 / sqrt(c->sigma2[o]);
   c->residue[o] = (double)((long double)c->sigma2[o] * c->inverse[o] * c->inverse[o] - 1);
   make_turns(c, c->contact + o, &m->contact[i][j], m->e[q], m->beta[q]);
-  make_turns(c, c->treated + o, &m->treated[i][j], 1, gg_treated_beta(m, i, j));
+  make_turns(c, c->treated + o, &m->treated[i][j], 1, gg_common_treated_beta(m, i, j));
 }
 
 gg_status gg_md_contacts_make(gg_md_contacts *c, const gg_model *m, gg_error *err)
 {
   c->n_species = m->n_species;
   c->n_pairs = m->n_species * m->n_species;
-  c->contact = gg_new_array((size_t)c->n_pairs * GG_MD_DITHERS, sizeof *c->contact, err);
-  c->treated = gg_new_array((size_t)c->n_pairs * GG_MD_DITHERS, sizeof *c->treated, err);
+  c->contact = gg_base_array_new((size_t)c->n_pairs * GG_MD_DITHERS, sizeof *c->contact, err);
+  c->treated = gg_base_array_new((size_t)c->n_pairs * GG_MD_DITHERS, sizeof *c->treated, err);
   if (!c->contact || !c->treated) return GG_FAILED;
   for (int k = 0; k < GG_MD_DITHERS; k++)
     c->tilt[k] = (13 * k % GG_MD_DITHERS - 0.5 * (GG_MD_DITHERS - 1)) * (0x1p-53 / GG_MD_DITHERS);

@@ -73,7 +73,7 @@ void gg_md_select(gg_md *e)
   if (takes_plain_path(e, where))
     e->kernel = e->row ? &gg_md_kernel_plain_rows : &gg_md_kernel_plain_cells;
   else
-    e->kernel = gg_md_simd_kernel(gg_instructions_best(), where, boundary_of(e), e->model.n_species > 1);
+    e->kernel = gg_md_simd_kernel(gg_simd_instructions_best(), where, boundary_of(e), e->model.n_species > 1);
   assert(e->kernel);
   gg_md_select_resolution(e);
 }

@@ -8,7 +8,7 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
   if (!gg_md_fit_lists(&e->model, radius, n)) return GG_OK;
   /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
-  if (!gg_md_cells_grow(&e->cells)) return gg_out_of_memory_for(err, "the grid of cells");
+  if (!gg_md_cells_grow(&e->cells)) return gg_base_out_of_memory_for(err, "the grid of cells");
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_skins(e, radius);
   return GG_OK;

@@ -10,7 +10,7 @@
 
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
 {
-  e->last = gg_new_array(e->n, sizeof *e->last, err);
+  e->last = gg_base_array_new(e->n, sizeof *e->last, err);
   if (!e->last) return GG_FAILED;
   for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
   return GG_OK;
@@ -22,12 +22,12 @@ static gg_status allocate(gg_md *e, gg_error *err)
   e->n = (uint32_t)m->n;
   e->grain = gg_md_new_lines((size_t)e->n + 1, sizeof *e->grain, err);
   e->node = gg_md_new_lines(e->n, sizeof *e->node, err);
-  e->id = gg_new_array(e->n, sizeof *e->id, err);
+  e->id = gg_base_array_new(e->n, sizeof *e->id, err);
   e->candidates = gg_md_new_pages(2 * GG_MD_CANDIDATES_APART, sizeof *e->candidates, err);
   if (!e->grain || !e->node || !e->id || !e->candidates) return GG_FAILED;
   e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
-  if (m->rule != GG_SMOOTH && !(e->spin = gg_new_array(e->n, sizeof *e->spin, err))) return GG_FAILED;
-  GG_TRY(gg_loss_table_new(m->law.kind, &e->losses, err));
+  if (m->rule != GG_SMOOTH && !(e->spin = gg_base_array_new(e->n, sizeof *e->spin, err))) return GG_FAILED;
+  GG_TRY(gg_common_loss_table_new(m->law.kind, &e->losses, err));
   if (m->contact_time > 0) GG_TRY(gg_md_allocate_last(e, err));
   return gg_md_queue_make(&e->queue, e->n, err);
 }
@@ -43,8 +43,8 @@ gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
 
 gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
 {
-  GG_TRY(gg_instructions_check(err));
-  gg_md *e = gg_new_array(1, sizeof *e, err);
+  GG_TRY(gg_simd_instructions_check(err));
+  gg_md *e = gg_base_array_new(1, sizeof *e, err);
   if (!e) return GG_FAILED;
   e->base.ops = &gg_md_ops;
   e->model = *model;
@@ -53,12 +53,12 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
     e->box.inverse[a] = 1 / model->box[a];
   }
   for (int a = 0; a < 3; a++)
-    if (gg_is_closed(model, a)) e->box.inverse[a] = 0; /* no image across a wall */
+    if (gg_common_surface_is_closed(model, a)) e->box.inverse[a] = 0; /* no image across a wall */
   e->box.image_velocity = model->shear_rate * model->box[1];
   e->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
   e->falls = gg_dot(e->gravity, e->gravity) > 0;
-  e->thermostat = gg_thermostat_of(model);
-  e->noise = e->thermostat == GG_WHITE_NOISE ? gg_thermostat_noise(model) : 0;
+  e->thermostat = gg_common_thermostat_of(model);
+  e->noise = e->thermostat == GG_WHITE_NOISE ? gg_common_thermostat_noise(model) : 0;
   gg_status status = gg_md_contacts_make(&e->contacts, model, err);
   if (status == GG_OK) status = allocate(e, err);
   if (status != GG_OK) {

@@ -19,7 +19,7 @@ typedef struct block {
 
 static gg_status put(gg_archive *a, const char *name, const void *data, size_t bytes, gg_error *err)
 {
-  return gg_archive_put(a, name, GG_ITEM_U8, data, bytes, err);
+  return gg_base_archive_put(a, name, GG_ITEM_U8, data, bytes, err);
 }
 
 gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
@@ -48,12 +48,12 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
 
 static gg_status get(const gg_archive *a, const char *name, void *data, size_t bytes, gg_error *err)
 {
-  return gg_archive_get(a, name, GG_ITEM_U8, data, bytes, err);
+  return gg_base_archive_get(a, name, GG_ITEM_U8, data, bytes, err);
 }
 
 static gg_status refuse(const char *what, gg_error *err)
 {
-  return gg_fail(err, GG_BAD_FILE, "the checkpoint of md is damaged: %s", what);
+  return gg_base_fail(err, GG_BAD_FILE, "the checkpoint of md is damaged: %s", what);
 }
 
 static gg_status get_block(const gg_md *e, const gg_archive *a, block *b, gg_error *err)
@@ -75,7 +75,8 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(get(a, "md/events", e->node, e->n * sizeof *e->node, err));
   GG_TRY(get(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(get(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
-  if (!e->last && gg_archive_find(a, "md/last_collisions")) GG_TRY(gg_md_allocate_last(e, err)); /* it had a callback */
+  if (!e->last && gg_base_archive_find(a, "md/last_collisions"))
+    GG_TRY(gg_md_allocate_last(e, err)); /* it had a callback */
   if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
   if (b.skin_radius > 0) {
     GG_TRY(gg_md_allocate_lists(e, err));
@@ -90,11 +91,11 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(gg_md_note_surfaces(e, err));
   if (b.comoving) GG_TRY(gg_md_make_rows(e, err));
   gg_md_queue_reset(&e->queue, b.bucket_width);
-  const bool before = gg_memory_begin();
+  const bool before = gg_base_memory_begin();
   const char *wrong = gg_md_wrong_grains(e);
-  if (gg_memory_end(before)) return gg_out_of_memory_for(err, "a look at the checkpoint of md");
+  if (gg_base_memory_end(before)) return gg_base_out_of_memory_for(err, "a look at the checkpoint of md");
   if (wrong) return refuse(wrong, err);
-  if (!gg_md_fill_grid(e)) return gg_out_of_memory_for(err, "the grid of cells");
+  if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   e->queue.current = b.current_bucket;
   for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
   gg_md_select(e);

@@ -49,11 +49,11 @@ static void tell_walls(const gg_model *m, void (*line)(void *, const char *), vo
     used += (size_t)snprintf(text + used, sizeof text - used, "%s, ", m->surface[w].title);
   if (m->n_surfaces > 0 && m->surface[0].radius > 0 && used < sizeof text)
     used += (size_t)snprintf(text + used, sizeof text - used, "ridges %.4g d wide, ", 2 * m->surface[0].radius);
-  if (gg_is_open_above(m) && used < sizeof text)
+  if (gg_common_surface_is_open_above(m) && used < sizeof text)
     used += (size_t)snprintf(text + used, sizeof text - used, "open above, ");
   const char *before = "periodic along ";
   for (int a = 0; a < 3 && used < sizeof text; a++) {
-    if (gg_is_closed(m, a)) continue;
+    if (gg_common_surface_is_closed(m, a)) continue;
     used += (size_t)snprintf(text + used, sizeof text - used, "%s%c", before, "xyz"[a]);
     before = ", ";
   }
@@ -74,7 +74,7 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
   tell(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");
   if (m->law.name) tell(line, context, "restitution", "from the speed of each collision");
-  snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time, gg_model_contact_unit(m));
+  snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time, gg_common_model_contact_unit(m));
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
   tell_search(m, line, context);
   tell(line, context, "collision sums", "while stresses are measured; else only counts");

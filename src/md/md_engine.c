@@ -19,7 +19,7 @@ static double soon_temperature(const gg_md *e, double T)
 /* Events expected per time at the start: collisions (each predicted about 1.25 times) and crossings. */
 static double guess_event_rate(const gg_md *e, double T)
 {
-  double rate = 0.625 * gg_model_collision_rate(&e->model, T);
+  double rate = 0.625 * gg_common_model_collision_rate(&e->model, T);
   for (int a = 0; a < 3; a++) rate += 0.8 * sqrt(T) / e->cells.width[a];
   return e->n * fmax(rate, 1e-300);
 }
@@ -29,7 +29,7 @@ static gg_status predict_all(gg_md *e, gg_error *err)
 {
   for (uint32_t from = 0, to; from < e->n; from = to) {
     to = e->n - from > GG_MD_GRAINS_BETWEEN_LOOKS ? from + GG_MD_GRAINS_BETWEEN_LOOKS : e->n;
-    if (from > 0 && gg_stop_asked(e->model.stop)) return gg_fail(err, GG_INTERRUPTED, "md: stopped at the start");
+    if (from > 0 && gg_stop_asked(e->model.stop)) return gg_base_fail(err, GG_INTERRUPTED, "md: stopped at the start");
     e->kernel->predict(e, from, to);
   }
   return GG_OK;
@@ -43,10 +43,10 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     gg_md_build_lists(e);
   } else {
     gg_md_enter_grid(e);
-    if (!gg_md_fill_grid(e)) return gg_out_of_memory_for(err, "the grid of cells");
+    if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   }
   const double early = gg_md_early_temperature(e, e->model.temperature0); /* to guess by */
-  e->k.mean_free_time = 1 / fmax(gg_model_collision_rate(&e->model, early), 1e-300);
+  e->k.mean_free_time = 1 / fmax(gg_common_model_collision_rate(&e->model, early), 1e-300);
   gg_md_begin_contact_time(e);
   if (e->last)
     for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
@@ -133,19 +133,20 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
   gg_md *e = (gg_md *)engine;
   e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
   bool ended = !gg_md_check_numbers(e) || run_legs(e);
-  if (e->out_of_memory) return gg_out_of_memory_for(err, "a cell of the grid");
+  if (e->out_of_memory) return gg_base_out_of_memory_for(err, "a cell of the grid");
   if (e->no_number)
-    return gg_fail(err, GG_FAILED, "md: what a grain does is no number any more, after %.3g collisions a grain",
-                   2 * (double)e->k.collisions / e->n);
+    return gg_base_fail(err, GG_FAILED, "md: what a grain does is no number any more, after %.3g collisions a grain",
+                        2 * (double)e->k.collisions / e->n);
   if (e->stands_still)
-    return gg_fail(err, GG_FAILED,
-                   "md: contacts with a wall accumulate without end near time %g: a grain comes to rest there; give "
-                   "md.contact_time a value above 0",
-                   gg_md_time(e));
+    return gg_base_fail(
+        err, GG_FAILED,
+        "md: contacts with a wall accumulate without end near time %g: a grain comes to rest there; give "
+        "md.contact_time a value above 0",
+        gg_md_time(e));
   bool whole = ended && e->k.collisions_left && e->k.stop < INFINITY;
   if (whole) e->k.now = e->k.stop;
   *elapsed = whole ? e->k.asked : outer_now(e);
-  if (!ended) return gg_fail(err, GG_INTERRUPTED, "md: stopped");
+  if (!ended) return gg_base_fail(err, GG_INTERRUPTED, "md: stopped");
   e->k.outer_time += *elapsed;
   e->k.outer = 0;
   e->k.mark = e->k.now;
@@ -156,7 +157,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
 {
   gg_md *e = (gg_md *)engine;
   double unused;
-  if (!(dt >= 0)) return gg_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
+  if (!(dt >= 0)) return gg_base_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
   e->k.outer_time += outer_now(e); /* of one that was stopped, and is not to go on */
   e->k.outer = 0;
   e->k.mark = e->k.now;
@@ -198,7 +199,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
   if (e->model.shear_rate != 0 || e->model.walled || e->thermostat != GG_NO_THERMOSTAT)
-    return gg_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
+    return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
   double v = ldexp(1, power), t = ldexp(1, -power);
   e->k.power += power;
   for (uint32_t i = 0; i < e->n; i++) {

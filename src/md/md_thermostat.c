@@ -15,7 +15,7 @@ static double kinetic_energy(const gg_md *e)
 
 static double kick_interval(const gg_md *e)
 {
-  return KICK_INTERVAL / gg_model_collision_rate(&e->model, e->model.temperature0);
+  return KICK_INTERVAL / gg_common_model_collision_rate(&e->model, e->model.temperature0);
 }
 
 void gg_md_thermostat_begin(gg_md *e)

@@ -13,7 +13,7 @@ gg_status gg_md_queue_make(gg_md_queue *q, uint32_t n, gg_error *err)
 {
   *q = (gg_md_queue){.n_buckets = n > 4 * FEWEST_BUCKETS ? n / 4 : FEWEST_BUCKETS};
   q->bucket = gg_md_new_lines(q->n_buckets, sizeof *q->bucket, err);
-  q->due = gg_new_array((size_t)n + GG_MD_BUCKET, sizeof *q->due, err);
+  q->due = gg_base_array_new((size_t)n + GG_MD_BUCKET, sizeof *q->due, err);
   if (!q->bucket || !q->due) return GG_FAILED;
   gg_md_queue_reset(q, 1);
   return GG_OK;

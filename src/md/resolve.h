@@ -67,8 +67,8 @@ GG_INLINE gg_contact gg_md_contact_by_law(const gg_md *e, const gg_contact *cont
   gg_contact at = *contact;
   const gg_restitution_law *law = &e->model.law;
   double speed = ldexp(gn * e->k.scale, -e->k.power),
-         restitution =
-             law->e ? gg_law_at(law, speed, a, b) : 1 - gg_loss_at(e->losses->loss, law->scale[gg_pair(a, b)] * speed);
+         restitution = law->e ? gg_common_law_at(law, speed, a, b)
+                              : 1 - gg_loss_at(e->losses->loss, law->scale[gg_pair(a, b)] * speed);
   at.jn = gg_md_contact_normal_coefficient(contact, restitution, e->k.collisions);
   return at;
 }

@@ -68,7 +68,7 @@ static void place_rows(gg_md *e)
 
 gg_status gg_md_make_rows(gg_md *e, gg_error *err)
 {
-  gg_md_row *row = gg_new_array((size_t)e->cells.n[1] + 3, sizeof *row, err);
+  gg_md_row *row = gg_base_array_new((size_t)e->cells.n[1] + 3, sizeof *row, err);
   if (!row) return GG_FAILED;
   e->row = row + 1;
   place_rows(e);

@@ -19,7 +19,7 @@ enum { FEWEST_OVERLAPPING = 6 };
 
 double gg_md_reach(const gg_model *m)
 {
-  return gg_model_widest(m) * (1 + 1e-9);
+  return gg_common_model_widest(m) * (1 + 1e-9);
 }
 
 static double mean_diameter(const gg_model *m)
@@ -33,7 +33,7 @@ static double mean_diameter(const gg_model *m)
  * long, and cells must be as wide as the largest need; 0: none. */
 static double skin_radius(const gg_model *m)
 {
-  double ratio = gg_model_widest(m) / gg_model_narrowest(m);
+  double ratio = gg_common_model_widest(m) / gg_common_model_narrowest(m);
   double from = ratio > NEARLY_EQUAL ? LISTED_UNEQUAL_FROM : LISTED_FROM;
   if (m->walled || m->phi < from || ratio > MOST_UNEQUAL_LISTED) return 0;
   return mean_diameter(m) * fmin(0.34, 0.3 + 0.8 * (0.5 - m->phi));
@@ -92,5 +92,5 @@ double gg_md_crossings_per_collision(const gg_model *m)
   for (int i = 0; i < m->n_species; i++)
     for (int a = 0; a < 3; a++) /* <|v_a|> over the width */
       rate += (double)m->n_of[i] / (double)m->n * sqrt(2 * T / (M_PI * m->mass[i])) * n[a] / m->box[a];
-  return 2 * rate / gg_model_collision_rate(m, T); /* a collision has two grains */
+  return 2 * rate / gg_common_model_collision_rate(m, T); /* a collision has two grains */
 }

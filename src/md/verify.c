@@ -103,7 +103,7 @@ static bool are_all_there(const gg_md *e)
   int64_t of[GG_MAX_SPECIES] = {0};
   uint8_t *seen = calloc(e->n, 1);
   bool good = seen != NULL;
-  if (!good) gg_memory_lacked(); /* it is not known */
+  if (!good) gg_base_memory_lacked(); /* it is not known */
   for (uint32_t i = 0; good && i < e->n; i++) {
     of[e->grain[i].species]++;
     good = e->id[i] < e->n && !seen[e->id[i]];

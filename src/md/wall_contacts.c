@@ -26,7 +26,7 @@ gg_status gg_md_note_surfaces(gg_md *e, gg_error *err)
   if (m->n_surfaces == 0) return GG_OK;
   for (int i = 0; i < m->n_species; i++) widest = fmax(widest, m->diameter[i]);
   for (int a = 0; a < 3; a++)
-    if (!(e->near[a] = gg_new_array((size_t)e->cells.n[a], sizeof *e->near[a], err))) return GG_FAILED;
+    if (!(e->near[a] = gg_base_array_new((size_t)e->cells.n[a], sizeof *e->near[a], err))) return GG_FAILED;
   for (int w = 0; w < m->n_surfaces; w++) note(e, w, 0.5 * widest);
   return GG_OK;
 }

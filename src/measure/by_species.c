@@ -1,6 +1,6 @@
 #include "measure/by_species.h"
 
-gg_species_view gg_chunk_of_species(const gg_chunk *chunk, int species, gg_species_scratch *scratch)
+gg_species_view gg_measure_species_chunk(const gg_chunk *chunk, int species, gg_species_scratch *scratch)
 {
   gg_species_view v = {0};
   if (!chunk->species) {

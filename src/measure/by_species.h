@@ -14,6 +14,6 @@ typedef struct gg_species_view {
   const double *c[3], *s[3]; /* s[0] NULL without spins */
 } gg_species_view;
 
-gg_species_view gg_chunk_of_species(const gg_chunk *chunk, int species, gg_species_scratch *scratch);
+gg_species_view gg_measure_species_chunk(const gg_chunk *chunk, int species, gg_species_scratch *scratch);
 
 #endif

@@ -10,15 +10,15 @@ typedef struct gg_cell_mean {
   gg_vec c, omega;
 } gg_cell_mean;
 
-gg_status gg_cell_frame_init(gg_cell_frame *f, const gg_model *m, gg_error *err)
+gg_status gg_measure_cell_frame_init(gg_cell_frame *f, const gg_model *m, gg_error *err)
 {
-  f->grid = gg_cell_grid_of(m);
-  f->mean = gg_new_array(gg_cell_grid_cells(&f->grid), sizeof *f->mean, err);
-  f->at = f->mean ? gg_new_array((size_t)m->n, sizeof *f->at, err) : NULL;
+  f->grid = gg_measure_cell_grid_of(m);
+  f->mean = gg_base_array_new(gg_measure_cell_grid_cells(&f->grid), sizeof *f->mean, err);
+  f->at = f->mean ? gg_base_array_new((size_t)m->n, sizeof *f->at, err) : NULL;
   return f->at ? GG_OK : GG_FAILED;
 }
 
-void gg_cell_frame_clear(gg_cell_frame *f)
+void gg_measure_cell_frame_clear(gg_cell_frame *f)
 {
   free(f->mean);
   free(f->at);
@@ -39,15 +39,15 @@ static void add(gg_vec *sum, double weight, gg_vec v)
   *sum = gg_add(*sum, gg_scale(weight, v));
 }
 
-void gg_cell_frame_take(gg_cell_frame *f, const gg_snapshot *s)
+void gg_measure_cell_frame_take(gg_cell_frame *f, const gg_snapshot *s)
 {
   const gg_model *m = s->model;
-  size_t cells = gg_cell_grid_cells(&f->grid);
+  size_t cells = gg_measure_cell_grid_cells(&f->grid);
   memset(f->mean, 0, cells * sizeof *f->mean);
   for (size_t i = 0; i < s->n; i++) {
     int k = gg_snapshot_species(s, i);
     double inertia = gg_moment_of_inertia(m, k);
-    f->at[i] = (uint32_t)gg_cell_grid_cell(&f->grid, s, i);
+    f->at[i] = (uint32_t)gg_measure_cell_grid_cell(&f->grid, s, i);
     gg_cell_mean *cell = &f->mean[f->at[i]];
     cell->mass += m->mass[k], cell->inertia += inertia;
     add(&cell->c, m->mass[k], of_grain(s->c, i));
@@ -60,12 +60,12 @@ void gg_cell_frame_take(gg_cell_frame *f, const gg_snapshot *s)
   }
 }
 
-gg_vec gg_cell_frame_velocity(const gg_cell_frame *f, const gg_snapshot *s, size_t i)
+gg_vec gg_measure_cell_frame_velocity(const gg_cell_frame *f, const gg_snapshot *s, size_t i)
 {
   return gg_sub(of_grain(s->c, i), f->mean[f->at[i]].c);
 }
 
-gg_vec gg_cell_frame_spin(const gg_cell_frame *f, const gg_snapshot *s, size_t i)
+gg_vec gg_measure_cell_frame_spin(const gg_cell_frame *f, const gg_snapshot *s, size_t i)
 {
   return gg_sub(omega_of(s, i), f->mean[f->at[i]].omega);
 }

@@ -4,7 +4,7 @@
 
 enum { GRAINS_PER_CELL = 8, LEAST_CELLS = 3 };
 
-gg_cell_grid gg_cell_grid_of(const gg_model *m)
+gg_cell_grid gg_measure_cell_grid_of(const gg_model *m)
 {
   gg_cell_grid g;
   double edge = cbrt(GRAINS_PER_CELL * m->volume / (double)m->n);
@@ -15,12 +15,12 @@ gg_cell_grid gg_cell_grid_of(const gg_model *m)
   return g;
 }
 
-size_t gg_cell_grid_cells(const gg_cell_grid *g)
+size_t gg_measure_cell_grid_cells(const gg_cell_grid *g)
 {
   return (size_t)g->n[0] * (size_t)g->n[1] * (size_t)g->n[2];
 }
 
-size_t gg_cell_grid_cell(const gg_cell_grid *g, const gg_snapshot *s, size_t i)
+size_t gg_measure_cell_grid_cell(const gg_cell_grid *g, const gg_snapshot *s, size_t i)
 {
   int at[3];
   for (int a = 0; a < 3; a++) {

@@ -9,9 +9,9 @@ typedef struct gg_cell_grid {
   double box[3];
 } gg_cell_grid;
 
-gg_cell_grid gg_cell_grid_of(const gg_model *model);
-size_t gg_cell_grid_cells(const gg_cell_grid *grid);
+gg_cell_grid gg_measure_cell_grid_of(const gg_model *model);
+size_t gg_measure_cell_grid_cells(const gg_cell_grid *grid);
 /* The cell of grain i; x runs fastest. */
-size_t gg_cell_grid_cell(const gg_cell_grid *grid, const gg_snapshot *s, size_t i);
+size_t gg_measure_cell_grid_cell(const gg_cell_grid *grid, const gg_snapshot *s, size_t i);
 
 #endif

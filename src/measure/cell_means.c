@@ -57,16 +57,16 @@ static void destroy(void *self)
 
 static int count_of(const cells *d)
 {
-  return (int)gg_cell_grid_cells(&d->grid);
+  return (int)gg_measure_cell_grid_cells(&d->grid);
 }
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  cells *d = gg_new_array(1, sizeof *d, err);
+  cells *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
-  d->grid = gg_cell_grid_of(m);
-  d->cell = gg_new_array((size_t)count_of(d), sizeof *d->cell, err);
+  d->grid = gg_measure_cell_grid_of(m);
+  d->cell = gg_base_array_new((size_t)count_of(d), sizeof *d->cell, err);
   if (d->cell) return d;
   free(d);
   return NULL;
@@ -141,7 +141,8 @@ static void sort_grains(cells *d, const gg_snapshot *s)
 {
   memset(d->cell, 0, (size_t)count_of(d) * sizeof *d->cell);
   shares of = shares_of(&d->model, s);
-  for (size_t i = 0; i < s->n; i++) add_grain(&d->model, s, &of, i, &d->cell[gg_cell_grid_cell(&d->grid, s, i)]);
+  for (size_t i = 0; i < s->n; i++)
+    add_grain(&d->model, s, &of, i, &d->cell[gg_measure_cell_grid_cell(&d->grid, s, i)]);
 }
 
 static void merge(cell *to, const cell *from)
@@ -262,8 +263,8 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 static gg_curve *put(gg_curves *list, const char *name, const char *title, const char *axis, int n, double first,
                      double width, const double *bin, double count)
 {
-  gg_curve *c = gg_curve_add(list, (size_t)n, name, title, "cells");
-  gg_curve_axes(c, axis, "1", "P", "1");
+  gg_curve *c = gg_measure_curve_add(list, (size_t)n, name, title, "cells");
+  gg_measure_curve_axes(c, axis, "1", "P", "1");
   for (size_t i = 0; i < c->n; i++) {
     c->x[i] = first + (double)i * width;
     c->value[i] = bin[i] / (count * width);
@@ -283,8 +284,8 @@ static void put_averages(gg_curve *c, const gg_model *m, const double *T, double
       {"rotational_temperature_slabs_over_box", "rotational_temperature_cells_over_box"}};
   if (!gg_model_keeps_temperature(m)) return; /* no mean of what cools down or heats up */
   for (int k = 0; k < 5; k++)
-    gg_curve_put_number(c, names[spins][k], T[k] / snapshots, gg_curve_unit(m, "temperature"));
-  for (int k = 0; k < 2; k++) gg_curve_put_number(c, ratios[spins][k], T[2 * k + 2] / T[0], "1");
+    gg_measure_curve_put_number(c, names[spins][k], T[k] / snapshots, gg_measure_curve_unit(m, "temperature"));
+  for (int k = 0; k < 2; k++) gg_measure_curve_put_number(c, ratios[spins][k], T[2 * k + 2] / T[0], "1");
 }
 
 /* Grains thrown anywhere fall into a cell binomially; parameters: N, share of a cell, solid fraction of one grain in
@@ -303,19 +304,20 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   double unit = m->phi * count_of(d) / (double)m->n, snapshots = bin[SNAPSHOTS];
   gg_curve *c =
       put(list, "cell_density", "local solid fraction", "φ", DENSITY_BINS, 0, unit, bin + DENSITY, bin[N_DENSITY]);
-  if (gg_model_widest(m) == gg_model_narrowest(m)) /* else a solid fraction is no number of grains */
-    gg_curve_beside(c, "ideal gas", thrown, (const double[]){(double)m->n, 1.0 / count_of(d), unit});
-  gg_curve_put_number(c, "cells", count_of(d), "1");
-  gg_curve_put_number(c, "count_variance_over_mean", bin[COUNT_SQUARED] / snapshots, "1");
+  if (gg_common_model_widest(m) == gg_common_model_narrowest(m)) /* else a solid fraction is no number of grains */
+    gg_measure_curve_beside(c, "ideal gas", thrown, (const double[]){(double)m->n, 1.0 / count_of(d), unit});
+  gg_measure_curve_put_number(c, "cells", count_of(d), "1");
+  gg_measure_curve_put_number(c, "count_variance_over_mean", bin[COUNT_SQUARED] / snapshots, "1");
   c = put(list, "cell_temperature", "local temperature", "T_{cell}/T", RATIO_BINS, RATIO_WIDTH / 2, RATIO_WIDTH,
           bin + TEMPERATURE, bin[N_TEMPERATURE]);
   put_averages(c, m, bin + T_BOX, snapshots, false);
   c = put(list, "cell_shear_rate", "local shear rate, less the imposed", "h Δγ/√T", SIGNED_BINS,
           -SIGNED_BINS * SIGNED_WIDTH / 4 + SIGNED_WIDTH / 4, SIGNED_WIDTH / 2, bin + SHEAR, bin[N_SHEAR]);
-  const char *rate = gg_curve_unit(m, "spin");
-  if (m->shear_rate != 0 || m->walled) gg_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
+  const char *rate = gg_measure_curve_unit(m, "spin");
+  if (m->shear_rate != 0 || m->walled)
+    gg_measure_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
   if (gg_model_keeps_temperature(m))
-    gg_curve_put_number(c, "rate_unit", bin[ROOT_T] / snapshots * d->grid.n[1] / m->box[1], rate);
+    gg_measure_curve_put_number(c, "rate_unit", bin[ROOT_T] / snapshots * d->grid.n[1] / m->box[1], rate);
   if (m->rule == GG_SMOOTH) return;
   c = put(list, "cell_rotational_temperature", "local rotational temperature", "θ_{cell}/θ", RATIO_BINS,
           RATIO_WIDTH / 2, RATIO_WIDTH, bin + ROTATIONAL, bin[N_ROTATIONAL]);
@@ -324,11 +326,11 @@ static void curves(const void *self, const double *bin, gg_curves *list)
       SIGNED_WIDTH, bin + SPIN, bin[N_SPIN]);
 }
 
-const gg_observable gg_cells = {
+const gg_observable gg_measure_cells = {
     GG_OBSERVABLE(CELLS, cells),
     .create = create,
     .destroy = destroy,
-    .refuses = gg_needs_positions,
+    .refuses = gg_measure_needs_positions,
     .bins = bins,
     .every = 8,
     .positions = true,

@@ -35,9 +35,9 @@ typedef struct collisions {
 static void *create(const gg_model *m, gg_error *err)
 {
   size_t width = ANGLES + (size_t)(m->n_species * KINDS * FLIGHT);
-  collisions *d = gg_new_array(1, sizeof *d + width * sizeof *d->sums, err);
+  collisions *d = gg_base_array_new(1, sizeof *d + width * sizeof *d->sums, err);
   if (!d) return NULL;
-  double rate = gg_model_collision_rate(m, m->temperature0), speed = sqrt(8 * m->temperature0 / M_PI);
+  double rate = gg_common_model_collision_rate(m, m->temperature0), speed = sqrt(8 * m->temperature0 / M_PI);
   d->model = *m;
   d->width = width;
   d->unit[TIME] = rate;
@@ -46,7 +46,7 @@ static void *create(const gg_model *m, gg_error *err)
    * the gas. A path is known from the velocity at its end where nothing but shear changes it in flight. */
   bool other_clock = m->thermostat == GG_GAUSSIAN && !m->homogeneous;
   d->has[TIME] = gg_model_keeps_temperature(m) && !other_clock; /* else it changes with T */
-  d->has[PATH] = gg_thermostat_of(m) == GG_NO_THERMOSTAT && !gg_flow_is_walled(m->flow);
+  d->has[PATH] = gg_common_thermostat_of(m) == GG_NO_THERMOSTAT && !gg_flow_is_walled(m->flow);
   d->has[LABORATORY] = d->has[PATH] && m->steady && m->shear_rate != 0 && !m->homogeneous;
   return d;
 }
@@ -167,15 +167,15 @@ static void restart(void *self)
 static void put_numbers(gg_curve *c, const gg_model *m, int kind, const double *at)
 {
   double mean = at[SUM] / at[COUNT], dispersion = at[SQUARES] / at[COUNT] / (mean * mean);
-  const char *length = gg_curve_unit(m, "length");
+  const char *length = gg_measure_curve_unit(m, "length");
   if (kind == TIME) {
-    gg_curve_put_number(c, "mean_free_time", mean, gg_curve_unit(m, "time"));
+    gg_measure_curve_put_number(c, "mean_free_time", mean, gg_measure_curve_unit(m, "time"));
   } else {
-    gg_curve_put_number(c, kind == PATH ? "mean_free_path" : "mean_free_path_laboratory", mean, length);
+    gg_measure_curve_put_number(c, kind == PATH ? "mean_free_path" : "mean_free_path_laboratory", mean, length);
     if (!m->homogeneous) /* an ensemble without a box has no width */
-      gg_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / cbrt(m->volume), "1");
+      gg_measure_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / cbrt(m->volume), "1");
   }
-  gg_curve_put_number(c, "second_moment_over_mean_squared", dispersion, "1");
+  gg_measure_curve_put_number(c, "second_moment_over_mean_squared", dispersion, "1");
 }
 
 static void put_flight(const collisions *d, gg_curves *list, int kind, int species, const double *at)
@@ -184,14 +184,15 @@ static void put_flight(const collisions *d, gg_curves *list, int kind, int speci
   static const char *const panels[] = {"time between collisions", "free path", "free path"};
   static const char *const labels[] = {"", "peculiar", "laboratory"};
   const gg_model *m = &d->model;
-  const char *unit = gg_curve_unit(m, kind == TIME ? "time" : "length");
+  const char *unit = gg_measure_curve_unit(m, kind == TIME ? "time" : "length");
   char name[48], label[24], inverse[40];
   bool two = m->n_species > 1;
   snprintf(name, sizeof name, two ? "%s_%d" : "%s", names[kind], species + 1);
   snprintf(label, sizeof label, two ? "%s %d" : "%s", labels[kind], species + 1);
-  snprintf(inverse, sizeof inverse, kind == TIME ? "%.30s" : "1/%.30s", kind == TIME ? gg_curve_unit(m, "spin") : unit);
-  gg_curve *c = gg_curve_add(list, FLIGHT_BINS, name, panels[kind], label);
-  gg_curve_axes(c, kind == TIME ? "t" : "l", unit, "P", inverse);
+  snprintf(inverse, sizeof inverse, kind == TIME ? "%.30s" : "1/%.30s",
+           kind == TIME ? gg_measure_curve_unit(m, "spin") : unit);
+  gg_curve *c = gg_measure_curve_add(list, FLIGHT_BINS, name, panels[kind], label);
+  gg_measure_curve_axes(c, kind == TIME ? "t" : "l", unit, "P", inverse);
   c->log_y = true;
   for (int i = 0; i < (int)c->n; i++) {
     double from = lower_edge(i) / d->unit[kind], to = lower_edge(i + 1) / d->unit[kind];
@@ -200,9 +201,9 @@ static void put_flight(const collisions *d, gg_curves *list, int kind, int speci
   }
   put_numbers(c, m, kind, at);
   double law[GG_FLIGHT_LAW];
-  gg_free_flight_of(m, species, law);
+  gg_measure_free_flight_of(m, species, law);
   law[GG_FLIGHT_MEAN] = at[SUM] / at[COUNT];
-  gg_curve_beside(c, "Maxwellian gas", kind == TIME ? gg_free_time_law : gg_free_path_law, law);
+  gg_measure_curve_beside(c, "Maxwellian gas", kind == TIME ? gg_measure_free_time_law : gg_measure_free_path_law, law);
 }
 
 static double twice(double x, const double *none)
@@ -214,22 +215,23 @@ static double twice(double x, const double *none)
 static void put_angles(const collisions *d, gg_curves *list, const double *bin)
 {
   static const char *const fabric[] = {"fabric_xx", "fabric_yy", "fabric_zz", "fabric_xy"};
-  gg_curve *c = gg_curve_add(list, COS_BINS, "impact_cos", "impact angle", "");
-  gg_curve_axes(c, "cos χ", "1", "P", "1");
+  gg_curve *c = gg_measure_curve_add(list, COS_BINS, "impact_cos", "impact angle", "");
+  gg_measure_curve_axes(c, "cos χ", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) / COS_BINS;
     c->value[i] = bin[COSINES + i] * COS_BINS / bin[COLLISIONS];
   }
-  gg_curve_beside(c, "molecular chaos", twice, NULL);
-  c = gg_curve_add(list, PLANE_BINS, "collision_angle",
-                   d->model.shear_rate != 0 ? "angle of k in the plane of shear" : "angle of k in the plane xy", "");
-  gg_curve_axes(c, "θ_c/π", "1", "P", "1");
+  gg_measure_curve_beside(c, "molecular chaos", twice, NULL);
+  c = gg_measure_curve_add(list, PLANE_BINS, "collision_angle",
+                           d->model.shear_rate != 0 ? "angle of k in the plane of shear" : "angle of k in the plane xy",
+                           "");
+  gg_measure_curve_axes(c, "θ_c/π", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) / PLANE_BINS;
     c->value[i] = bin[PLANE + i] * PLANE_BINS / bin[COLLISIONS];
   }
-  gg_curve_beside(c, "no direction", gg_level, &(double){1});
-  for (int a = 0; a < 4; a++) gg_curve_put_number(c, fabric[a], bin[FABRIC + a] / bin[COLLISIONS], "1");
+  gg_measure_curve_beside(c, "no direction", gg_measure_curve_level, &(double){1});
+  for (int a = 0; a < 4; a++) gg_measure_curve_put_number(c, fabric[a], bin[FABRIC + a] / bin[COLLISIONS], "1");
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
@@ -241,7 +243,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
       put_flight(d, list, kind, k, bin + ANGLES + (k * KINDS + kind) * FLIGHT);
 }
 
-const gg_observable gg_collisions = {
+const gg_observable gg_measure_collisions = {
     GG_OBSERVABLE(COLLISIONS, collisions),
     .create = create,
     .destroy = free,

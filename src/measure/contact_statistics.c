@@ -13,9 +13,9 @@ enum { ITERATIONS = 12, ENOUGH = 20 /* pairs for each number of a fit */ };
 /* ln g falls over the length (1 + phi/2)(1 - phi)/(4.5 phi (1 + phi)) next to contact (Percus & Yevick's equation:
  * Wertheim 1963), in units of the smallest diameter; over half of it a cubic is within 1e-4 at contact, of the same
  * equation's g, at every density. In dilute gases third grains interfere little, and a parabola over 1 does. */
-gg_near gg_near_of(const gg_model *m, double sigma, double longest_reach)
+gg_near gg_measure_contact_setup(const gg_model *m, double sigma, double longest_reach)
 {
-  double phi = m->phi, smallest = gg_model_narrowest(m);
+  double phi = m->phi, smallest = gg_common_model_narrowest(m);
   double length = (1 + phi / 2) * (1 - phi) / (4.5 * phi * (1 + phi));
   gg_near n = {.sigma = sigma, .order = length > 10 ? 2 : 3};
   double gap = smallest * fmin(0.5 * length, n.order == 2 ? 1 : 0.6);
@@ -42,7 +42,8 @@ static void count_parting(const gg_near *n, double *bin, double square, double a
   if (k >= 0) bin[WAYS + k] += weight;
 }
 
-void gg_near_count(const gg_near *n, double *bin, gg_vec r, double square, gg_vec g, double speed, double weight)
+void gg_measure_contact_count(const gg_near *n, double *bin, gg_vec r, double square, gg_vec g, double speed,
+                              double weight)
 {
   double distance = sqrt(square), gap = distance - n->sigma, along = gg_dot(r, g);
   if (gap > n->reach || gap < -OVERLAP * n->sigma) return;
@@ -147,7 +148,8 @@ static void shells(const gg_near *n, double *x, double *volume)
   }
 }
 
-gg_contact_density gg_near_read(const gg_near *n, const double *bin, double pairs_per_volume, double samples)
+gg_contact_density gg_measure_contact_estimate(const gg_near *n, const double *bin, double pairs_per_volume,
+                                               double samples)
 {
   double x[GG_NEAR_BINS], y[GG_NEAR_BINS], shell[GG_NEAR_BINS], way[GG_NEAR_BINS];
   double in[GG_NEAR_BINS], out[GG_NEAR_BINS], all[GG_NEAR_BINS];

@@ -25,11 +25,12 @@ typedef struct gg_near {
   int order;           /* of the polynomials in ln g */
 } gg_near;
 
-gg_near gg_near_of(const gg_model *model, double sigma, double longest_reach);
+gg_near gg_measure_contact_setup(const gg_model *model, double sigma, double longest_reach);
 
 /* Count a pair; r from the first to the second, g the second's velocity less the first's, flow included; `speed` is by
  * what normal speeds are divided. `bin`: GG_NEAR_WIDTH sums. */
-void gg_near_count(const gg_near *near, double *bin, gg_vec r, double square, gg_vec g, double speed, double weight);
+void gg_measure_contact_count(const gg_near *near, double *bin, gg_vec r, double square, gg_vec g, double speed,
+                              double weight);
 
 /* Read off the means over samples: 2 g at contact of the approaching, of the parting, of both taken as alike (all pairs
  * by their gap); and the mean normal speed of the approaching at contact, in units of `speed`. pairs_per_volume: number
@@ -37,6 +38,7 @@ void gg_near_count(const gg_near *near, double *bin, gg_vec r, double square, gg
 typedef struct gg_contact_density {
   double approaching, parting, alike, speed;
 } gg_contact_density;
-gg_contact_density gg_near_read(const gg_near *near, const double *bin, double pairs_per_volume, double samples);
+gg_contact_density gg_measure_contact_estimate(const gg_near *near, const double *bin, double pairs_per_volume,
+                                               double samples);
 
 #endif

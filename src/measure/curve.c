@@ -18,7 +18,7 @@ static void clear_curve(gg_curve *c)
   free(c->reference);
 }
 
-void gg_curves_clear(gg_curves *list)
+void gg_measure_curves_clear(gg_curves *list)
 {
   for (int i = 0; i < list->n; i++) clear_curve(&list->curve[i]);
   clear_curve(&list->spare);
@@ -42,7 +42,7 @@ static gg_curve *new_curve(gg_curves *list, size_t n)
   return NULL;
 }
 
-gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label)
+gg_curve *gg_measure_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label)
 {
   gg_curve *c = new_curve(list, n);
   if (c) list->n++;
@@ -58,7 +58,7 @@ gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *
   return c;
 }
 
-void gg_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit)
+void gg_measure_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit)
 {
   snprintf(c->x_name, sizeof c->x_name, "%s", x_name);
   snprintf(c->x_unit, sizeof c->x_unit, "%s", x_unit);
@@ -66,7 +66,7 @@ void gg_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const ch
   snprintf(c->unit, sizeof c->unit, "%s", unit);
 }
 
-void gg_curve_put_number(gg_curve *c, const char *name, double value, const char *unit)
+void gg_measure_curve_put_number(gg_curve *c, const char *name, double value, const char *unit)
 {
   if (c->n_numbers == GG_CURVE_NUMBERS) return;
   gg_curve_number *p = &c->number[c->n_numbers++];
@@ -75,21 +75,21 @@ void gg_curve_put_number(gg_curve *c, const char *name, double value, const char
   snprintf(p->unit, sizeof p->unit, "%s", unit);
 }
 
-void gg_curve_put_truncated(gg_curve *c, const char *name, double value, double truncation, const char *unit)
+void gg_measure_curve_put_truncated(gg_curve *c, const char *name, double value, double truncation, const char *unit)
 {
   int n = c->n_numbers;
-  gg_curve_put_number(c, name, value, unit);
+  gg_measure_curve_put_number(c, name, value, unit);
   if (c->n_numbers > n) c->number[n].truncation = truncation;
 }
 
-void gg_curve_put_setting(gg_curve *c, const char *name, double value, const char *unit)
+void gg_measure_curve_put_setting(gg_curve *c, const char *name, double value, const char *unit)
 {
   int n = c->n_numbers;
-  gg_curve_put_number(c, name, value, unit);
+  gg_measure_curve_put_number(c, name, value, unit);
   if (c->n_numbers > n) c->number[n].setting = true;
 }
 
-void gg_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const double *parameters)
+void gg_measure_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const double *parameters)
 {
   if (!c->reference) c->reference = calloc(c->n + 1, sizeof(double));
   c->law_lost = !c->reference;
@@ -98,18 +98,18 @@ void gg_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const do
   for (size_t i = 0; i < c->n; i++) c->reference[i] = law(c->x[i], parameters);
 }
 
-double gg_level(double x, const double *parameters)
+double gg_measure_curve_level(double x, const double *parameters)
 {
   (void)x;
   return *parameters;
 }
 
-const char *gg_curve_unit(const gg_model *m, const char *what)
+const char *gg_measure_curve_unit(const gg_model *m, const char *what)
 {
   bool sheared = gg_flow_is_timed_by_shear(m->flow);
-  if (strcmp(what, "length") == 0) return gg_quantity_unit(GG_Q_MEAN_FREE_PATH, m);
-  if (strcmp(what, "temperature") == 0) return gg_quantity_unit(GG_Q_TEMPERATURE, m);
-  if (strcmp(what, "spin") == 0) return gg_quantity_unit(GG_Q_SPIN_Z, m);
+  if (strcmp(what, "length") == 0) return gg_common_quantity_unit(GG_Q_MEAN_FREE_PATH, m);
+  if (strcmp(what, "temperature") == 0) return gg_common_quantity_unit(GG_Q_TEMPERATURE, m);
+  if (strcmp(what, "spin") == 0) return gg_common_quantity_unit(GG_Q_SPIN_Z, m);
   if (strcmp(what, "velocity") == 0) return sheared ? m->boltzmann ? "gamma/(n d^2)" : "d gamma" : "v_0";
   if (strcmp(what, "time") == 0) return sheared ? "1/gamma" : m->boltzmann ? "1/(n d^2 v_0)" : "d/v_0";
   return "1";
@@ -158,16 +158,16 @@ static void evaluate(const pooled *p, const double *without, gg_curves_of *of, c
 static bool leave_one_out(const pooled *p, gg_curves_of *of, const void *self, const gg_curves *full, gg_jackknife *j)
 {
   for (size_t r = 0; r < p->n_runs; r++) {
-    gg_jackknife_cut(j);
+    gg_statistics_jackknife_cut(j);
     for (size_t b = 0; b < p->bins[r]->blocks; b++) {
       gg_curves part = {.model = full->model, .group = full->group};
       evaluate(p, gg_bins_block(p->bins[r], b), of, self, &part);
       bool whole = !part.failed;
       if (whole) {
-        differences(full, &part, gg_jackknife_next(j));
-        gg_jackknife_add(j);
+        differences(full, &part, gg_statistics_jackknife_next(j));
+        gg_statistics_jackknife_add(j);
       }
-      gg_curves_clear(&part);
+      gg_measure_curves_clear(&part);
       if (!whole) return false;
     }
   }
@@ -179,12 +179,12 @@ static void put_errors(gg_curves *full, const gg_jackknife *j, double memory)
   size_t at = 0;
   for (int k = 0; k < full->n; k++) {
     gg_curve *c = &full->curve[k];
-    c->block_correlation = gg_jackknife_errors(j, at, c->n, memory, NAN, c->error);
+    c->block_correlation = gg_statistics_jackknife_errors(j, at, c->n, memory, NAN, c->error);
     for (size_t i = 0; i < c->n; i++)
       if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was ever counted: unknown, not exact */
     at += c->n;
     for (int i = 0; i < c->n_numbers; i++, at++) {
-      gg_jackknife_errors(j, at, 1, memory, c->block_correlation, &c->number[i].error);
+      gg_statistics_jackknife_errors(j, at, 1, memory, c->block_correlation, &c->number[i].error);
       c->number[i].error = hypot(c->number[i].error, c->number[i].truncation);
       if (c->number[i].setting) c->number[i].error = 0;
     }
@@ -202,30 +202,30 @@ static bool append(gg_curves *to, gg_curves *from)
   return true;
 }
 
-gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curves_of *of, const void *self,
-                             const char *group, double memory, gg_curves *list, gg_error *err)
+gg_status gg_measure_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curves_of *of, const void *self,
+                                     const char *group, double memory, gg_curves *list, gg_error *err)
 {
   pooled p = {.bins = bins, .n_runs = n_runs, .width = bins[0]->width, .per_block = bins[0]->per_block};
   for (size_t r = 0; r < n_runs; r++) p.blocks += bins[r]->blocks;
   if (p.blocks == 0) return GG_OK;
-  p.total = gg_new_array(2 * p.width, sizeof(double), err);
+  p.total = gg_base_array_new(2 * p.width, sizeof(double), err);
   if (!p.total) return GG_FAILED;
   p.mean = p.total + p.width;
   gg_curves full = {.model = list->model, .group = group};
-  bool before = gg_memory_begin(); /* fits have no other way to say so */
-  gg_gsl_enter();
+  bool before = gg_base_memory_begin(); /* fits have no other way to say so */
+  gg_base_gsl_enter();
   sum_up(&p);
   evaluate(&p, NULL, of, self, &full);
   gg_jackknife j;
-  bool whole =
-      gg_jackknife_init(&j, shape(&full), err) == GG_OK && !full.failed && leave_one_out(&p, of, self, &full, &j);
+  bool whole = gg_statistics_jackknife_init(&j, shape(&full), err) == GG_OK && !full.failed &&
+               leave_one_out(&p, of, self, &full, &j);
   for (int k = 0; k < full.n; k++) whole = whole && !full.curve[k].law_lost;
   if (whole) put_errors(&full, &j, memory / (double)p.per_block);
-  gg_gsl_leave();
-  if (gg_memory_end(before)) whole = false;
+  gg_base_gsl_leave();
+  if (gg_base_memory_end(before)) whole = false;
   whole = whole && (full.n == 0 || append(list, &full));
-  gg_jackknife_clear(&j);
-  gg_curves_clear(&full);
+  gg_statistics_jackknife_clear(&j);
+  gg_measure_curves_clear(&full);
   free(p.total);
-  return whole ? GG_OK : gg_out_of_memory_for(err, "the curves of %s", group);
+  return whole ? GG_OK : gg_base_out_of_memory_for(err, "the curves of %s", group);
 }

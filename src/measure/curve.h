@@ -44,31 +44,31 @@ typedef struct gg_curves {
   gg_curve spare;  /* what is written after a failure */
 } gg_curves;
 
-void gg_curves_clear(gg_curves *list);
+void gg_measure_curves_clear(gg_curves *list);
 
 /* A new curve of n points, x and value for the caller to fill in; a curve of no points after a failure. */
-gg_curve *gg_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label);
-void gg_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit);
-void gg_curve_put_number(gg_curve *c, const char *name, double value, const char *unit);
+gg_curve *gg_measure_curve_add(gg_curves *list, size_t n, const char *name, const char *panel, const char *label);
+void gg_measure_curve_axes(gg_curve *c, const char *x_name, const char *x_unit, const char *y_name, const char *unit);
+void gg_measure_curve_put_number(gg_curve *c, const char *name, double value, const char *unit);
 /* The same with a standard error that comes from elsewhere beside that of the samples. */
-void gg_curve_put_truncated(gg_curve *c, const char *name, double value, double truncation, const char *unit);
-void gg_curve_put_setting(gg_curve *c, const char *name, double value, const char *unit);
+void gg_measure_curve_put_truncated(gg_curve *c, const char *name, double value, double truncation, const char *unit);
+void gg_measure_curve_put_setting(gg_curve *c, const char *name, double value, const char *unit);
 
 /* Draw a law beside the curve, whose x are in place: f(x, parameters). */
 typedef double gg_curve_law(double x, const double *parameters);
-void gg_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const double *parameters);
+void gg_measure_curve_beside(gg_curve *c, const char *label, gg_curve_law *law, const double *parameters);
 /* The same number everywhere: its only parameter. */
-gg_curve_law gg_level;
+gg_curve_law gg_measure_curve_level;
 
 /* Units of results for curves: "length", "time", "velocity", "temperature", "spin" of this model. */
-const char *gg_curve_unit(const gg_model *model, const char *what);
+const char *gg_measure_curve_unit(const gg_model *model, const char *what);
 
 /* Curves from the mean of the bins over `list->samples` samples. */
 typedef void gg_curves_of(const void *self, const double *mean, gg_curves *list);
 
 /* Pool replicas' bins into curves with errors, appended to the list. `memory`: the decay time, in samples of the bins,
  * of a slow mode that they may depend on; 0: none is known. */
-gg_status gg_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curves_of *of, const void *self,
-                             const char *group, double memory, gg_curves *list, gg_error *err);
+gg_status gg_measure_curves_estimate(const gg_bins *const *bins, size_t n_runs, gg_curves_of *of, const void *self,
+                                     const char *group, double memory, gg_curves *list, gg_error *err);
 
 #endif

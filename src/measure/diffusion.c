@@ -43,7 +43,7 @@ static const char *refuses(const gg_model *m)
   if (m->homogeneous) return "the grains of the Monte Carlo ensemble have neither positions nor names";
   if (gg_flow_cools(m->flow)) return "a cooling gas has no stationary velocity correlation";
   if (!m->steady) return "a gas that heats up has no stationary velocity correlation";
-  return gg_needs_homogeneity(m);
+  return gg_measure_needs_homogeneity(m);
 }
 
 static void destroy(void *self)
@@ -58,20 +58,20 @@ static bool is_short_of_paths(const gg_model *m)
   double lightest = m->mass[0], fast, way;
   for (int k = 1; k < m->n_species; k++) lightest = fmin(lightest, m->mass[k]);
   fast = 5 * sqrt(m->temperature0 / lightest);
-  way = fast / (GG_LAG_SNAPSHOTS / 2.0 * gg_model_collision_rate(m, m->temperature0));
+  way = fast / (GG_LAG_SNAPSHOTS / 2.0 * gg_common_model_collision_rate(m, m->temperature0));
   return way > 0.5 * fmin(m->box[0], fmin(m->box[1], m->box[2]));
 }
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  diffusion *d = gg_new_array(1, sizeof *d, err);
+  diffusion *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
   d->n = (size_t)m->n;
   size_t doubles = is_short_of_paths(m) ? 13 : 9;
   d->bytes = sizeof *d->state + doubles * d->n * sizeof(double) + 6 * GG_LAG_ORIGINS * d->n * sizeof(float) +
              d->n * sizeof *d->place;
-  d->state = gg_new_array(1, d->bytes, err);
+  d->state = gg_base_array_new(1, d->bytes, err);
   if (!d->state) {
     free(d);
     return NULL;
@@ -171,7 +171,7 @@ static void give_places(diffusion *d, const gg_snapshot *s)
 
 static void follow(diffusion *d, const gg_snapshot *s)
 {
-  gg_images b = gg_images_of(s);
+  gg_images b = gg_measure_pairs_images(s);
   bool first = d->state->snapshots == 0;
   if (first) give_places(d, s);
   for (size_t i = 0; i < s->n; i++) {
@@ -256,30 +256,30 @@ static void put_component(const diffusion *d, int species, int a, const double *
 {
   const gg_model *m = &d->model;
   char name[48], label[24], unit[40], tail[16] = "", subscript[16] = "";
-  const char *time = gg_curve_unit(m, "time");
+  const char *time = gg_measure_curve_unit(m, "time");
   if (m->n_species > 1)
     snprintf(tail, sizeof tail, "_%d", species + 1), snprintf(subscript, sizeof subscript, ",%d", species + 1);
   snprintf(name, sizeof name, "velocity_autocorrelation_C%c%s", "xyz"[a], tail);
   snprintf(label, sizeof label, "C_{%c%s}", "xyz"[a], subscript);
-  gg_curve *c = gg_curve_add(list, GG_LAGS, name, "velocity autocorrelation", label);
-  gg_curve_axes(c, "t", time, "<C(0)C(t)>", gg_curve_unit(m, "temperature"));
+  gg_curve *c = gg_measure_curve_add(list, GG_LAGS, name, "velocity autocorrelation", label);
+  gg_measure_curve_axes(c, "t", time, "<C(0)C(t)>", gg_measure_curve_unit(m, "temperature"));
   snprintf(name, sizeof name, "displacement_squared_%c%s", "xyz"[a], tail);
   snprintf(label, sizeof label, "%c%s", "xyz"[a], *tail ? tail : "");
-  gg_curve *r = gg_curve_add(list, GG_LAGS, name, "mean-square displacement", label);
+  gg_curve *r = gg_measure_curve_add(list, GG_LAGS, name, "mean-square displacement", label);
   c->log_x = r->log_x = r->log_y = true;
-  snprintf(unit, sizeof unit, "%.30s^2", gg_curve_unit(m, "length"));
-  gg_curve_axes(r, "t", time, "<(Δr)^2>", unit);
+  snprintf(unit, sizeof unit, "%.30s^2", gg_measure_curve_unit(m, "length"));
+  gg_measure_curve_axes(r, "t", time, "<(Δr)^2>", unit);
   double step = gg_lag_mean(bin, 1, GG_LAG_TIME);
   for (int i = 0; i < GG_LAGS && c->n && r->n; i++) {
     c->x[i] = r->x[i] = gg_lag_steps(i) * step; /* also where no sample has come so far */
     c->value[i] = gg_lag_mean(bin, i, GG_LAG_CC + a);
     r->value[i] = gg_lag_mean(bin, i, GG_LAG_RR + a);
   }
-  gg_diffusion_coefficients D = gg_diffusion_read(m, species, a, bin, (double)list->samples);
+  gg_diffusion_coefficients D = gg_measure_diffusion_read(m, species, a, bin, (double)list->samples);
   const char *coefficient = m->shear_rate != 0 ? "d^2 gamma" : "d v_0";
-  gg_curve_put_truncated(c, "diffusion_green_kubo", D.green_kubo.D, D.green_kubo.unsure, coefficient);
-  gg_curve_put_truncated(c, "long_time_tail", D.green_kubo.tail, D.green_kubo.unsure, coefficient);
-  gg_curve_put_truncated(r, "diffusion_einstein", D.einstein.D, D.einstein.unsure, coefficient);
+  gg_measure_curve_put_truncated(c, "diffusion_green_kubo", D.green_kubo.D, D.green_kubo.unsure, coefficient);
+  gg_measure_curve_put_truncated(c, "long_time_tail", D.green_kubo.tail, D.green_kubo.unsure, coefficient);
+  gg_measure_curve_put_truncated(r, "diffusion_einstein", D.einstein.D, D.einstein.unsure, coefficient);
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
@@ -289,7 +289,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
     for (int a = 0; a < 3; a++) put_component(d, k, a, bin + k * GG_LAGS * GG_LAG_WIDTH, list);
 }
 
-const gg_observable gg_diffusion = {
+const gg_observable gg_measure_diffusion = {
     GG_OBSERVABLE(DIFFUSION, diffusion),
     .create = create,
     .destroy = destroy,

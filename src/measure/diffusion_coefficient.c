@@ -18,7 +18,7 @@ static double kinetic_collisions(const gg_model *m, int species)
            n = (double)m->n_of[j] / m->volume;
     friction += 8.0 / 3 * n * m->sigma[q] * m->sigma[q] * m->chi[q] * sqrt(2 * M_PI * reduced) * (1 + m->e[q]) / 2;
   }
-  return 9.7 * m->mass[species] / friction * gg_model_collision_rate(m, 1);
+  return 9.7 * m->mass[species] / friction * gg_common_model_collision_rate(m, 1);
 }
 
 typedef struct node {
@@ -50,7 +50,7 @@ static gg_coefficient green_kubo(const gg_tail *tail, const double *bin, int a, 
     at[k] = (gg_running){.t = gg_lag_mean(bin, lag, GG_LAG_TIME), .D = gg_lag_mean(bin, lag, GG_LAG_CR + a)};
     at[k].noise = T * fabs(at[0].D) / (bin[lag * GG_LAG_WIDTH + GG_LAG_COUNT] * samples);
   }
-  return gg_coefficient_of(tail, at, n);
+  return gg_measure_tail_coefficient(tail, at, n);
 }
 
 /* Half the slope between two nodes stands for the middle. Displacements of many origins share their way: the slope
@@ -65,7 +65,7 @@ static gg_coefficient einstein(const gg_tail *tail, const double *bin, int a, co
     at[k].D = 0.5 * (gg_lag_mean(bin, two, GG_LAG_RR + a) - gg_lag_mean(bin, one, GG_LAG_RR + a)) / (to - from);
     at[k].noise = 4 * at[0].D * at[0].D / (bin[one * GG_LAG_WIDTH + GG_LAG_COUNT] * samples * list[k].spacing);
   }
-  return gg_coefficient_of(tail, at, n - 1);
+  return gg_measure_tail_coefficient(tail, at, n - 1);
 }
 
 /* In a driven gas the correlation fades otherwise than in equilibrium. Under shear (phi = 0.3, e = 0.9) a tenth of D_xx
@@ -74,17 +74,18 @@ static gg_coefficient einstein(const gg_tail *tail, const double *bin, int a, co
 #define DRIVEN 4
 #define LEFT 0.05
 
-gg_diffusion_coefficients gg_diffusion_read(const gg_model *m, int species, int a, const double *bin, double samples)
+gg_diffusion_coefficients gg_measure_diffusion_read(const gg_model *m, int species, int a, const double *bin,
+                                                    double samples)
 {
   double T = 0;
   for (int b = 0; b < 3; b++) T += m->mass[species] * gg_lag_mean(bin, 0, GG_LAG_CC + b) / 3;
   bool driven = !gg_flow_of(m->flow)->conserves;
   node list[NODES];
   int n = nodes_of(bin, kinetic_collisions(m, species) * (driven ? DRIVEN : 1), list);
-  gg_tail tail = gg_tail_of(m, T);
+  gg_tail tail = gg_measure_tail_of(m, T);
   if (driven && n > 0)
-    tail = gg_tail_driven(LEFT * m->phi * fabs(gg_lag_mean(bin, list[0].lag, GG_LAG_CR + a)),
-                          gg_lag_mean(bin, list[0].lag, GG_LAG_TIME));
+    tail = gg_measure_tail_driven(LEFT * m->phi * fabs(gg_lag_mean(bin, list[0].lag, GG_LAG_CR + a)),
+                                  gg_lag_mean(bin, list[0].lag, GG_LAG_TIME));
   return (gg_diffusion_coefficients){green_kubo(&tail, bin, a, list, n, samples),
                                      einstein(&tail, bin, a, list, n, samples)};
 }

@@ -52,7 +52,7 @@ static inline double gg_lag_mean(const double *bin, int lag, int channel)
 typedef struct gg_diffusion_coefficients {
   gg_coefficient green_kubo, einstein;
 } gg_diffusion_coefficients;
-gg_diffusion_coefficients gg_diffusion_read(const gg_model *model, int species, int component, const double *bin,
-                                            double samples);
+gg_diffusion_coefficients gg_measure_diffusion_read(const gg_model *model, int species, int component,
+                                                    const double *bin, double samples);
 
 #endif

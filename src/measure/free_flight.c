@@ -16,7 +16,7 @@ static double speed_at(int i)
   return 6 * (i + 0.5) / SPEEDS;
 }
 
-void gg_free_flight_of(const gg_model *m, int species, double law[GG_FLIGHT_LAW])
+void gg_measure_free_flight_of(const gg_model *m, int species, double law[GG_FLIGHT_LAW])
 {
   double own = m->mass[species];
   for (int i = 0; i < GG_FLIGHT_LAW; i++) law[i] = 0;
@@ -45,12 +45,12 @@ static double density(double at, const double *law, bool by_length)
   return sum / flights * unit;
 }
 
-double gg_free_time_law(double t, const double *law)
+double gg_measure_free_time_law(double t, const double *law)
 {
   return density(t, law, false);
 }
 
-double gg_free_path_law(double l, const double *law)
+double gg_measure_free_path_law(double l, const double *law)
 {
   return density(l, law, true);
 }

@@ -12,9 +12,9 @@
  * every species has its own law: heavy grains are slow among light ones, which collide with them at one rate. All
  * species are taken at one temperature. */
 enum { GG_FLIGHT_SPEEDS = 60, GG_FLIGHT_MEAN = 0, GG_FLIGHT_LAW = 1 + GG_FLIGHT_SPEEDS };
-void gg_free_flight_of(const gg_model *model, int species, double law[GG_FLIGHT_LAW]);
+void gg_measure_free_flight_of(const gg_model *model, int species, double law[GG_FLIGHT_LAW]);
 
 /* Probability density at x. */
-gg_curve_law gg_free_time_law, gg_free_path_law;
+gg_curve_law gg_measure_free_time_law, gg_measure_free_path_law;
 
 #endif

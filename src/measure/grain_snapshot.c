@@ -5,23 +5,23 @@
 
 #include "base/memory.h"
 
-gg_status gg_snapshot_init(gg_snapshot *s, const gg_model *model, bool positions, gg_error *err)
+gg_status gg_measure_snapshot_init(gg_snapshot *s, const gg_model *model, bool positions, gg_error *err)
 {
   size_t n = (size_t)model->n;
   *s = (gg_snapshot){.model = model, .n = n, .velocity_factor = 1};
   double **vectors[] = {s->c, model->rule != GG_SMOOTH ? s->s : NULL, positions ? s->r : NULL};
   for (int k = 0; k < 3; k++)
     for (int a = 0; vectors[k] && a < 3; a++)
-      if (!(vectors[k][a] = gg_new_array(n, sizeof(double), err))) goto failed;
-  if (model->n_species > 1 && !(s->species = gg_new_array(n, 1, err))) goto failed;
-  if (positions && !(s->id = gg_new_array(n, sizeof *s->id, err))) goto failed;
+      if (!(vectors[k][a] = gg_base_array_new(n, sizeof(double), err))) goto failed;
+  if (model->n_species > 1 && !(s->species = gg_base_array_new(n, 1, err))) goto failed;
+  if (positions && !(s->id = gg_base_array_new(n, sizeof *s->id, err))) goto failed;
   return GG_OK;
 failed:
-  gg_snapshot_clear(s);
+  gg_measure_snapshot_clear(s);
   return GG_FAILED;
 }
 
-void gg_snapshot_clear(gg_snapshot *s)
+void gg_measure_snapshot_clear(gg_snapshot *s)
 {
   for (int a = 0; a < 3; a++) {
     free(s->r[a]);
@@ -53,7 +53,7 @@ static void gather(void *context, const gg_chunk *chunk)
   g->at += chunk->n;
 }
 
-void gg_snapshot_take(gg_snapshot *s, gg_engine *engine)
+void gg_measure_snapshot_take(gg_snapshot *s, gg_engine *engine)
 {
   gathering g = {s, 0};
   gg_engine_state state;

@@ -20,10 +20,10 @@ typedef struct gg_snapshot {
       velocity_factor; /* all velocities were multiplied by this since the snapshot before (1, but in free cooling) */
 } gg_snapshot;
 
-gg_status gg_snapshot_init(gg_snapshot *s, const gg_model *model, bool positions, gg_error *err);
-void gg_snapshot_clear(gg_snapshot *s);
+gg_status gg_measure_snapshot_init(gg_snapshot *s, const gg_model *model, bool positions, gg_error *err);
+void gg_measure_snapshot_clear(gg_snapshot *s);
 /* Fill it with the engine's present state. */
-void gg_snapshot_take(gg_snapshot *s, gg_engine *engine);
+void gg_measure_snapshot_take(gg_snapshot *s, gg_engine *engine);
 
 static inline int gg_snapshot_species(const gg_snapshot *s, size_t i)
 {

@@ -45,7 +45,7 @@ static size_t width(const gg_model *m)
 
 static void *create(const gg_model *model, gg_error *err)
 {
-  viscosity *v = gg_new_array(1, sizeof *v, err);
+  viscosity *v = gg_base_array_new(1, sizeof *v, err);
   if (v) v->model = *model;
   return v;
 }
@@ -67,7 +67,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
 {
   viscosity *v = self;
   for (int i = 0; i < v->model.n_species; i++) {
-    gg_species_view g = gg_chunk_of_species(chunk, i, &v->scratch);
+    gg_species_view g = gg_measure_species_chunk(chunk, i, &v->scratch);
     double cc = 0, cxcy = 0;
     for (size_t k = 0; k < g.n; k++) {
       double x = g.c[0][k], y = g.c[1][k], z = g.c[2][k];
@@ -107,15 +107,15 @@ static void finish(void *self, const gg_interval *in, double *row)
   v->memory.last_temperature = T;
   v->memory.since = in->velocity_factor == 1 ? v->memory.since + 1 : 0;
   for (int k = 0; k < CHANNELS; k++) row[k] = 0;
-  gg_linear_response range = gg_linear_response_of(m);
-  double a = gg_reduced_shear_rate(m, T);
+  gg_linear_response range = gg_common_linear_response_of(m);
+  double a = gg_common_reduced_shear_rate(m, T);
   if (!(in->elapsed > 0) || !counts(v, &range, a)) return;
   put(&range, a, -v->cxcy / ((double)m->n * T), row + KINETIC);
   if (m->boltzmann) return;
   double impulse = 0, root = mean_root(T0, T), mean_T = root * root;
   for (int q = 0; q < gg_pairs_of(v->model.n_species); q++) impulse += in->transfer->stress[q][0][1];
   double stress = impulse / (m->volume * in->elapsed * m->density * mean_T);
-  put(&range, gg_reduced_shear_rate(m, mean_T), -stress, row + COLLISIONAL);
+  put(&range, gg_common_reduced_shear_rate(m, mean_T), -stress, row + COLLISIONAL);
 }
 
 /* Of a whole sweep the determinant of both powers is 0.2 (cooling) or 0.36 (heated) of A2 A6; of a part of one it is so
@@ -146,7 +146,7 @@ static const gg_derived derived[] = {
     GG_DERIVED_END,
 };
 
-const gg_observable gg_viscosity = {
+const gg_observable gg_measure_viscosity = {
     GG_OBSERVABLE(VISCOSITY, viscosity),
     .width = width,
     .create = create,

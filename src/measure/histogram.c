@@ -24,7 +24,7 @@ GG_CLONES static void add_moments(const double *restrict x, size_t n, double *re
     for (size_t l = 0; l < LANES; l++) one[l] += x[i + l], two[l] += x[i + l] * x[i + l];
 }
 
-gg_scale_of gg_scale_of_values(const double *x, size_t n)
+gg_scale_of gg_measure_scale_of_values(const double *x, size_t n)
 {
   double one[LANES] = {0}, two[LANES] = {0}, whole = (double)n;
   size_t even = n - n % LANES;
@@ -48,7 +48,7 @@ GG_CLONES static void place(const double *restrict x, double mean, double invers
     }
 }
 
-void gg_histogram_add_all(double *bin, const double *x, size_t n, double mean, double unit)
+void gg_measure_histogram_add_all(double *bin, const double *x, size_t n, double mean, double unit)
 {
   double power[3][LANES] = {{0}}, inverse = 1 / unit;
   uint32_t counts[2][BEYOND + 1] = {{0}}; /* in turn: equal neighbours would wait for one another */
@@ -64,13 +64,13 @@ void gg_histogram_add_all(double *bin, const double *x, size_t n, double mean, d
   for (; i < n; i++) gg_histogram_add(bin, (x[i] - mean) * inverse);
 }
 
-double gg_histogram_sigma(const double *bin)
+double gg_measure_histogram_sigma(const double *bin)
 {
   return sqrt(bin[GG_HISTOGRAM_SQUARES] / bin[GG_HISTOGRAM_GRAINS]);
 }
 
 /* Counts over a Gaussian's in the bins |x| < 1/2 by least squares as A + B x^2, taken at x = 0. */
-double gg_histogram_height(const double *bin, double sigma)
+double gg_measure_histogram_height(const double *bin, double sigma)
 {
   double n = 0, x2 = 0, x4 = 0, y = 0, x2y = 0;
   for (int k = -4; k <= 4; k++) {
@@ -90,7 +90,8 @@ static gg_tail_data tail_of(const double *bin, double sigma, double samples, con
     folded[n] = (bin[HALF - from - n] + bin[HALF + from + n]) * samples;
     if (folded[n] < LEAST_COUNT) break;
   }
-  return (gg_tail_data){folded, (size_t)n, (from - 0.5) * width, width, 2 * gg_histogram_height(bin, sigma) * samples};
+  return (gg_tail_data){folded, (size_t)n, (from - 0.5) * width, width,
+                        2 * gg_measure_histogram_height(bin, sigma) * samples};
 }
 
 /* Over the thesis's ranges. The bins have sigma, P(0) and what is slow in common: as numbers of the curve the fits have
@@ -100,12 +101,12 @@ static void put_ranges(gg_curve *c, const double *bin, double sigma, double samp
   double folded[HALF];
   for (int k = 0; k < GG_TAIL_RANGES; k++) {
     char name[sizeof c->number[0].name];
-    const gg_tail_data data = tail_of(bin, sigma, samples, gg_tail_range[k], folded);
-    const gg_tail fit = gg_tail_double_log(&data);
-    gg_tail_name(name, sizeof name, "alpha", gg_tail_range[k]);
-    gg_curve_put_number(c, name, fit.alpha, "1");
-    gg_tail_name(name, sizeof name, "gamma", gg_tail_range[k]);
-    gg_curve_put_number(c, name, fit.gamma, "1");
+    const gg_tail_data data = tail_of(bin, sigma, samples, gg_measure_tail_range[k], folded);
+    const gg_tail fit = gg_measure_tail_double_log(&data);
+    gg_measure_tail_name(name, sizeof name, "alpha", gg_measure_tail_range[k]);
+    gg_measure_curve_put_number(c, name, fit.alpha, "1");
+    gg_measure_tail_name(name, sizeof name, "gamma", gg_measure_tail_range[k]);
+    gg_measure_curve_put_number(c, name, fit.gamma, "1");
   }
 }
 
@@ -114,13 +115,13 @@ static void put_tail(gg_curve *c, const double *bin, double sigma, double sample
   static const double whole[2] = {TAIL_FROM, INFINITY};
   double folded[HALF];
   const gg_tail_data data = tail_of(bin, sigma, samples, whole, folded);
-  gg_tail least = gg_tail_double_log(&data), likely = gg_tail_likelihood(&data);
-  gg_curve_put_number(c, "alpha", least.alpha, "1");
-  gg_curve_put_number(c, "gamma", least.gamma, "1");
-  gg_curve_put_number(c, "alpha_likelihood", likely.alpha, "1");
-  gg_curve_put_number(c, "gamma_likelihood", likely.gamma, "1");
-  gg_curve_put_setting(c, "fit_from", data.first, "1");
-  gg_curve_put_setting(c, "fit_to", data.first + (double)data.n * data.width, "1");
+  gg_tail least = gg_measure_tail_double_log(&data), likely = gg_measure_tail_likelihood(&data);
+  gg_measure_curve_put_number(c, "alpha", least.alpha, "1");
+  gg_measure_curve_put_number(c, "gamma", least.gamma, "1");
+  gg_measure_curve_put_number(c, "alpha_likelihood", likely.alpha, "1");
+  gg_measure_curve_put_number(c, "gamma_likelihood", likely.gamma, "1");
+  gg_measure_curve_put_setting(c, "fit_from", data.first, "1");
+  gg_measure_curve_put_setting(c, "fit_to", data.first + (double)data.n * data.width, "1");
   put_ranges(c, bin, sigma, samples);
 }
 
@@ -130,17 +131,18 @@ static double gaussian(double x, const double *none)
   return exp(-x * x / 2);
 }
 
-gg_curve *gg_histogram_put(gg_curves *list, const char *name, const char *panel, const char *label, const double *bin,
-                           double sigma, double samples)
+gg_curve *gg_measure_histogram_put(gg_curves *list, const char *name, const char *panel, const char *label,
+                                   const double *bin, double sigma, double samples)
 {
-  double zero = gg_histogram_height(bin, sigma), variance = gg_histogram_sigma(bin) * gg_histogram_sigma(bin);
-  gg_curve *c = gg_curve_add(list, GG_HISTOGRAM_BINS, name, panel, label);
+  double zero = gg_measure_histogram_height(bin, sigma),
+         variance = gg_measure_histogram_sigma(bin) * gg_measure_histogram_sigma(bin);
+  gg_curve *c = gg_measure_curve_add(list, GG_HISTOGRAM_BINS, name, panel, label);
   c->log_y = true;
   for (int i = 0; i < (int)c->n; i++) c->x[i] = (i - HALF) * WIDTH / sigma, c->value[i] = bin[i] / zero;
-  gg_curve_beside(c, "Gaussian", gaussian, NULL);
+  gg_measure_curve_beside(c, "Gaussian", gaussian, NULL);
   if (samples > 0) put_tail(c, bin, sigma, samples);
   double n = bin[GG_HISTOGRAM_GRAINS];
-  gg_curve_put_number(c, "kurtosis", bin[GG_HISTOGRAM_FOURTHS] / n / (variance * variance), "1");
-  gg_curve_put_number(c, "skewness", bin[GG_HISTOGRAM_CUBES] / n / pow(variance, 1.5), "1");
+  gg_measure_curve_put_number(c, "kurtosis", bin[GG_HISTOGRAM_FOURTHS] / n / (variance * variance), "1");
+  gg_measure_curve_put_number(c, "skewness", bin[GG_HISTOGRAM_CUBES] / n / pow(variance, 1.5), "1");
   return c;
 }

@@ -27,19 +27,19 @@ GG_INLINE void gg_histogram_add(double *bin, double x)
 }
 
 /* Many at once, of x about a mean over a unit. */
-void gg_histogram_add_all(double *bin, const double *x, size_t n, double mean, double unit);
+void gg_measure_histogram_add_all(double *bin, const double *x, size_t n, double mean, double unit);
 /* Mean and standard deviation of x. */
 typedef struct gg_scale_of {
   double mean, sigma;
 } gg_scale_of;
-gg_scale_of gg_scale_of_values(const double *x, size_t n);
+gg_scale_of gg_measure_scale_of_values(const double *x, size_t n);
 
 /* Standard deviation, in the unit of x; the counts that a bin at x = 0 has. */
-double gg_histogram_sigma(const double *bin);
-double gg_histogram_height(const double *bin, double sigma);
+double gg_measure_histogram_sigma(const double *bin);
+double gg_measure_histogram_height(const double *bin, double sigma);
 /* P(x/sigma)/P(0), and the numbers: tail, kurtosis, skewness. `samples`: those that the bins are the mean over; 0:
  * they are probabilities, and there is no tail. */
-gg_curve *gg_histogram_put(gg_curves *list, const char *name, const char *panel, const char *label, const double *bin,
-                           double sigma, double samples);
+gg_curve *gg_measure_histogram_put(gg_curves *list, const char *name, const char *panel, const char *label,
+                                   const double *bin, double sigma, double samples);
 
 #endif

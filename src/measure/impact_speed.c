@@ -33,12 +33,12 @@ typedef struct impact_speed {
 static const char *refuses(const gg_model *m)
 {
   if (m->linear_response) return "its temperature goes up and down";
-  return gg_needs_homogeneity(m);
+  return gg_measure_needs_homogeneity(m);
 }
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  impact_speed *d = gg_new_array(1, sizeof *d, err);
+  impact_speed *d = gg_base_array_new(1, sizeof *d, err);
   if (d) d->model = *m;
   return d;
 }
@@ -119,18 +119,18 @@ static double maxwellian(double x, const double *none)
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const bool mixture = ((const impact_speed *)self)->model.n_species > 1;
-  gg_curve *c = gg_curve_add(list, BINS, "impact_speed", "normal speed at impact", "");
-  gg_curve_axes(c, mixture ? "√2 g_n/s" : "g_n/√T", "1", "P", "1");
+  gg_curve *c = gg_measure_curve_add(list, BINS, "impact_speed", "normal speed at impact", "");
+  gg_measure_curve_axes(c, mixture ? "√2 g_n/s" : "g_n/√T", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) * WIDTH;
     c->value[i] = bin[i] / (bin[COUNT] * WIDTH);
   }
-  gg_curve_beside(c, "Maxwellian gas", maxwellian, NULL);
-  gg_curve_put_number(c, "mean_impact_speed", bin[SUM] / bin[COUNT], "1");
-  gg_curve_put_number(c, "mean_square_impact_speed", bin[SQUARES] / bin[COUNT], "1");
+  gg_measure_curve_beside(c, "Maxwellian gas", maxwellian, NULL);
+  gg_measure_curve_put_number(c, "mean_impact_speed", bin[SUM] / bin[COUNT], "1");
+  gg_measure_curve_put_number(c, "mean_square_impact_speed", bin[SQUARES] / bin[COUNT], "1");
 }
 
-const gg_observable gg_impact_speed = {
+const gg_observable gg_measure_impact_speed = {
     GG_OBSERVABLE(IMPACT_SPEED, impact_speed),
     .refuses = refuses,
     .create = create,

@@ -41,16 +41,16 @@ static void destroy(void *self)
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  local *d = gg_new_array(1, sizeof *d, err);
+  local *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
   d->vectors = m->rule == GG_SMOOTH ? 1 : VECTORS;
-  d->grid = gg_cell_grid_of(m);
-  d->cell = gg_new_array(gg_cell_grid_cells(&d->grid), sizeof *d->cell, err);
-  d->at = gg_new_array((size_t)m->n, sizeof *d->at, err);
+  d->grid = gg_measure_cell_grid_of(m);
+  d->cell = gg_base_array_new(gg_measure_cell_grid_cells(&d->grid), sizeof *d->cell, err);
+  d->at = gg_base_array_new((size_t)m->n, sizeof *d->at, err);
   bool whole = d->cell && d->at;
   for (int v = 0; v < d->vectors; v++)
-    if (!(d->value[v] = gg_new_array((size_t)m->n, sizeof(double), err))) whole = false;
+    if (!(d->value[v] = gg_base_array_new((size_t)m->n, sizeof(double), err))) whole = false;
   if (whole) return d;
   destroy(d);
   return NULL;
@@ -80,10 +80,10 @@ static double component(const gg_snapshot *s, int vector, size_t i)
 static void sort_grains(local *d, const gg_snapshot *s)
 {
   const gg_model *m = &d->model;
-  memset(d->cell, 0, gg_cell_grid_cells(&d->grid) * sizeof *d->cell);
+  memset(d->cell, 0, gg_measure_cell_grid_cells(&d->grid) * sizeof *d->cell);
   for (size_t i = 0; i < s->n; i++) {
     int k = gg_snapshot_species(s, i);
-    d->at[i] = (uint32_t)gg_cell_grid_cell(&d->grid, s, i);
+    d->at[i] = (uint32_t)gg_measure_cell_grid_cell(&d->grid, s, i);
     cell *c = &d->cell[d->at[i]];
     c->volume += m->diameter[k] * m->diameter[k] * m->diameter[k];
     for (int v = 0; v < d->vectors; v++) {
@@ -118,7 +118,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   local *d = self;
   const gg_model *m = &d->model;
-  double mean = 6 / M_PI * m->phi * m->volume / (double)gg_cell_grid_cells(&d->grid); /* sum of d^3 in a cell */
+  double mean = 6 / M_PI * m->phi * m->volume / (double)gg_measure_cell_grid_cells(&d->grid); /* sum of d^3 in a cell */
   sort_grains(d, s);
   for (int v = 0; v < d->vectors; v++) {
     double sigma[GG_MAX_SPECIES];
@@ -147,11 +147,11 @@ static void put(const local *d, gg_curves *list, int species, int vector, int j,
   snprintf(panel, sizeof panel, "%s%s, by local density", written[vector], of);
   snprintf(label, sizeof label, j == ALL ? "all cells" : "φ %.3g", phi);
   snprintf(argument, sizeof argument, "%s/σ", written[vector]);
-  double sigma = gg_histogram_sigma(bin); /* NaN where no cell was ever of this density */
-  gg_curve *c = gg_histogram_put(list, name, panel, label, bin, sigma, (double)list->samples);
-  gg_curve_axes(c, argument, "1", "P/P(0)", "1");
-  gg_curve_put_number(c, "temperature_over_mean", sigma * sigma, "1");
-  gg_curve_put_number(c, "solid_fraction", phi, "1");
+  double sigma = gg_measure_histogram_sigma(bin); /* NaN where no cell was ever of this density */
+  gg_curve *c = gg_measure_histogram_put(list, name, panel, label, bin, sigma, (double)list->samples);
+  gg_measure_curve_axes(c, argument, "1", "P/P(0)", "1");
+  gg_measure_curve_put_number(c, "temperature_over_mean", sigma * sigma, "1");
+  gg_measure_curve_put_number(c, "solid_fraction", phi, "1");
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
@@ -162,11 +162,11 @@ static void curves(const void *self, const double *bin, gg_curves *list)
       for (int j = 0; j < CLASSES; j++, bin += GG_HISTOGRAM) put(d, list, k, v, j, bin);
 }
 
-const gg_observable gg_local_distributions = {
+const gg_observable gg_measure_local_distributions = {
     GG_OBSERVABLE(LOCAL_DISTRIBUTIONS, local_distributions),
     .create = create,
     .destroy = destroy,
-    .refuses = gg_needs_bulk,
+    .refuses = gg_measure_needs_bulk,
     .bins = bins,
     .every = 4,
     .positions = true,

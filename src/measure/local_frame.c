@@ -69,14 +69,14 @@ static void add_chunk(void *context, const gg_chunk *chunk)
   }
 }
 
-void gg_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *engine)
+void gg_measure_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *engine)
 {
   start(f, model);
   engine->ops->snapshot(engine, true, add_chunk, f);
   finish(f);
 }
 
-void gg_local_frame_of_snapshot(gg_local_frame *f, const gg_snapshot *s)
+void gg_measure_local_frame_of_snapshot(gg_local_frame *f, const gg_snapshot *s)
 {
   start(f, s->model);
   for (size_t i = 0; i < s->n; i++) {
@@ -87,14 +87,14 @@ void gg_local_frame_of_snapshot(gg_local_frame *f, const gg_snapshot *s)
   finish(f);
 }
 
-gg_vec gg_local_frame_velocity(const gg_local_frame *f, double y, gg_vec c)
+gg_vec gg_measure_local_frame_velocity(const gg_local_frame *f, double y, gg_vec c)
 {
   int k = slab_of(f, y);
   gg_vec mean = {f->mean[k][0], f->mean[k][1], f->mean[k][2]};
   return gg_scale(f->stretch[k], gg_sub(c, mean));
 }
 
-gg_vec gg_local_frame_spin(const gg_local_frame *f, double y, gg_vec s, int species)
+gg_vec gg_measure_local_frame_spin(const gg_local_frame *f, double y, gg_vec s, int species)
 {
   int k = slab_of(f, y);
   gg_vec mean = {f->spin[k][0], f->spin[k][1], f->spin[k][2]};
@@ -120,8 +120,8 @@ static void shift_chunk(void *context, const gg_chunk *chunk)
   gg_chunk local = *chunk;
   for (size_t i = 0; i < chunk->n; i++) {
     double y = chunk->r[1][i];
-    put(to_c, i, gg_local_frame_velocity(s->frame, y, at(chunk->c, i)));
-    if (chunk->s[0]) put(to_w, i, gg_local_frame_spin(s->frame, y, at(chunk->s, i), species_of(chunk, i)));
+    put(to_c, i, gg_measure_local_frame_velocity(s->frame, y, at(chunk->c, i)));
+    if (chunk->s[0]) put(to_w, i, gg_measure_local_frame_spin(s->frame, y, at(chunk->s, i), species_of(chunk, i)));
   }
   for (int a = 0; a < 3; a++) {
     local.c[a] = c[a], local.whole_s[a] = chunk->s[a];
@@ -130,7 +130,7 @@ static void shift_chunk(void *context, const gg_chunk *chunk)
   s->visit(s->context, &local);
 }
 
-void gg_local_frame_snapshot(const gg_local_frame *frame, gg_engine *engine, gg_visit *visit, void *context)
+void gg_measure_local_frame_snapshot(const gg_local_frame *frame, gg_engine *engine, gg_visit *visit, void *context)
 {
   shifting s = {frame, visit, context};
   engine->ops->snapshot(engine, true, shift_chunk, &s);

@@ -20,13 +20,13 @@ typedef struct gg_local_frame {
 } gg_local_frame;
 
 /* Measure the mean velocity and spin of every slab now. */
-void gg_local_frame_take(gg_local_frame *frame, const gg_model *model, gg_engine *engine);
+void gg_measure_local_frame_take(gg_local_frame *frame, const gg_model *model, gg_engine *engine);
 
-void gg_local_frame_of_snapshot(gg_local_frame *frame, const gg_snapshot *snapshot);
-gg_vec gg_local_frame_velocity(const gg_local_frame *frame, double y, gg_vec c);
-gg_vec gg_local_frame_spin(const gg_local_frame *frame, double y, gg_vec s, int species);
+void gg_measure_local_frame_of_snapshot(gg_local_frame *frame, const gg_snapshot *snapshot);
+gg_vec gg_measure_local_frame_velocity(const gg_local_frame *frame, double y, gg_vec c);
+gg_vec gg_measure_local_frame_spin(const gg_local_frame *frame, double y, gg_vec s, int species);
 
 /* Show every grain with its velocity and spin in the local frame. */
-void gg_local_frame_snapshot(const gg_local_frame *frame, gg_engine *engine, gg_visit *visit, void *context);
+void gg_measure_local_frame_snapshot(const gg_local_frame *frame, gg_engine *engine, gg_visit *visit, void *context);
 
 #endif

@@ -21,7 +21,7 @@ static double vorticity_diffusion(const gg_model *m, double T, double mass)
   return D + nu0 * ((1 + 1.6 * x) * (1 + 1.6 * x) / chi + 768 / (25 * M_PI) * x * m->phi);
 }
 
-gg_tail gg_tail_of(const gg_model *m, double T)
+gg_tail gg_measure_tail_of(const gg_model *m, double T)
 {
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i];
@@ -31,7 +31,7 @@ gg_tail gg_tail_of(const gg_model *m, double T)
   return tail;
 }
 
-gg_tail gg_tail_driven(double left, double t)
+gg_tail gg_measure_tail_driven(double left, double t)
 {
   return (gg_tail){.driven = true, .strength = left * pow(t, 1.5), .amplitude = 1, .tolerance = 1};
 }
@@ -54,7 +54,7 @@ static double modes(const gg_tail *tail, double t)
 }
 
 /* In ln t by Simpson's rule, to where the slowest mode has gone. */
-double gg_tail_beyond(const gg_tail *tail, double t)
+double gg_measure_tail_beyond(const gg_tail *tail, double t)
 {
   enum { STEPS = 64 };
   if (tail->driven) return tail->strength * pow(t, -1.5);
@@ -67,13 +67,13 @@ double gg_tail_beyond(const gg_tail *tail, double t)
   return tail->strength * sum * step / 3;
 }
 
-gg_coefficient gg_coefficient_of(const gg_tail *tail, const gg_running *at, int n)
+gg_coefficient gg_measure_tail_coefficient(const gg_tail *tail, const gg_running *at, int n)
 {
   if (n < 1) return (gg_coefficient){NAN, NAN, NAN};
-  double first = gg_tail_beyond(tail, at[0].t), before = first;
+  double first = gg_measure_tail_beyond(tail, at[0].t), before = first;
   double expected = 1 / (tail->tolerance * tail->tolerance), weights = expected, sum = expected * tail->amplitude;
   for (int j = 1; j < n; j++) {
-    double now = gg_tail_beyond(tail, at[j].t), fall = before - now;
+    double now = gg_measure_tail_beyond(tail, at[j].t), fall = before - now;
     double variance = at[j].noise * (at[j].t - at[j - 1].t);
     sum += fall * (at[j].D - at[j - 1].D) / variance;
     weights += fall * fall / variance;

@@ -14,31 +14,31 @@ enum { LEAST_MESH = 16, MOST_MESH = 96 };
 /* FFTW plans with one planner for the whole process: only execution is free of locks. */
 static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
-int gg_mesh_points_along(const gg_model *m)
+int gg_measure_mesh_points_along(const gg_model *m)
 {
   double longest = fmax(fmax(m->box[0], m->box[1]), m->box[2]);
   return 4 * (int)ceil(fmin(fmax(longest / MESH_SPACING, LEAST_MESH), MOST_MESH) / 4);
 }
 
-gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err)
+gg_status gg_measure_mesh_init(gg_mesh *m, int n, gg_error *err)
 {
   size_t plane = (size_t)n * (size_t)n;
   *m = (gg_mesh){.n = n};
   m->field = fftw_alloc_real(plane * (size_t)n);
   m->modes = fftw_alloc_complex(plane * (size_t)(n / 2 + 1));
-  const bool lacked = !m->field || !m->modes || !gg_memory_is_room();
+  const bool lacked = !m->field || !m->modes || !gg_base_memory_is_room();
   if (!lacked) {
     pthread_mutex_lock(&planner);
     m->plan = fftw_plan_dft_r2c_3d(n, n, n, m->field, m->modes, FFTW_ESTIMATE);
     pthread_mutex_unlock(&planner);
   }
   if (m->plan) return GG_OK;
-  gg_mesh_clear(m);
-  if (lacked) return gg_out_of_memory_for(err, "a mesh of %d^3", n);
-  return gg_fail(err, GG_FAILED, "no Fourier transform on a mesh of %d^3 could be planned", n);
+  gg_measure_mesh_clear(m);
+  if (lacked) return gg_base_out_of_memory_for(err, "a mesh of %d^3", n);
+  return gg_base_fail(err, GG_FAILED, "no Fourier transform on a mesh of %d^3 could be planned", n);
 }
 
-void gg_mesh_clear(gg_mesh *m)
+void gg_measure_mesh_clear(gg_mesh *m)
 {
   pthread_mutex_lock(&planner);
   if (m->plan) fftw_destroy_plan(m->plan);
@@ -67,7 +67,7 @@ static spread spread_over(double x, int n)
   return s;
 }
 
-void gg_mesh_transform(gg_mesh *m, const gg_snapshot *s, const gg_images *b, const double *f)
+void gg_measure_mesh_transform(gg_mesh *m, const gg_snapshot *s, const gg_images *b, const double *f)
 {
   size_t n = (size_t)m->n;
   memset(m->field, 0, n * n * n * sizeof *m->field);
@@ -91,7 +91,7 @@ static double window(int k, int n)
   return sinc * sinc * sinc * sinc;
 }
 
-gg_mode gg_mesh_mode(const gg_mesh *m, int nx, int ny, int nz)
+gg_mode gg_measure_mesh_mode(const gg_mesh *m, int nx, int ny, int nz)
 {
   int n = m->n;
   size_t at = ((size_t)((nz + n) % n) * (size_t)n + (size_t)((ny + n) % n)) * (size_t)(n / 2 + 1) + (size_t)nx;
@@ -99,7 +99,7 @@ gg_mode gg_mesh_mode(const gg_mesh *m, int nx, int ny, int nz)
   return (gg_mode){m->modes[at][0] / w, m->modes[at][1] / w};
 }
 
-gg_vec gg_mesh_wave_vector(const gg_images *b, int nx, int ny, int nz)
+gg_vec gg_measure_mesh_wave_vector(const gg_images *b, int nx, int ny, int nz)
 {
   return (gg_vec){2 * M_PI * nx * b->inverse[0], 2 * M_PI * (ny - nx * b->offset * b->inverse[0]) * b->inverse[1],
                   2 * M_PI * nz * b->inverse[2]};

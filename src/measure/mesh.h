@@ -19,20 +19,20 @@ typedef struct gg_mesh {
 /* So many points along each edge that suit a model; and how many of them for each grain are worth a transform in every
  * 32nd sample. */
 enum { GG_MESH_POINTS_PER_GRAIN = 480 };
-int gg_mesh_points_along(const gg_model *model);
-gg_status gg_mesh_init(gg_mesh *m, int n, gg_error *err);
-void gg_mesh_clear(gg_mesh *m);
+int gg_measure_mesh_points_along(const gg_model *model);
+gg_status gg_measure_mesh_init(gg_mesh *m, int n, gg_error *err);
+void gg_measure_mesh_clear(gg_mesh *m);
 
 /* Transform f (1 for every grain if NULL). */
-void gg_mesh_transform(gg_mesh *m, const gg_snapshot *s, const gg_images *box, const double *f);
+void gg_measure_mesh_transform(gg_mesh *m, const gg_snapshot *s, const gg_images *box, const double *f);
 
 /* F of the mode (nx, ny, nz), |n_a| <= n/4, nx >= 0, by reference to `modes` of the same size. */
 typedef struct gg_mode {
   double re, im;
 } gg_mode;
-gg_mode gg_mesh_mode(const gg_mesh *m, int nx, int ny, int nz);
+gg_mode gg_measure_mesh_mode(const gg_mesh *m, int nx, int ny, int nz);
 
 /* Its wave vector. */
-gg_vec gg_mesh_wave_vector(const gg_images *box, int nx, int ny, int nz);
+gg_vec gg_measure_mesh_wave_vector(const gg_images *box, int nx, int ny, int nz);
 
 #endif

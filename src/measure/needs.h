@@ -4,10 +4,10 @@
 
 #include "common/model.h"
 
-const char *gg_needs_positions(const gg_model *model);
+const char *gg_measure_needs_positions(const gg_model *model);
 /* The same gas everywhere: no walls. */
-const char *gg_needs_homogeneity(const gg_model *model);
+const char *gg_measure_needs_homogeneity(const gg_model *model);
 /* Both. */
-const char *gg_needs_bulk(const gg_model *model);
+const char *gg_measure_needs_bulk(const gg_model *model);
 
 #endif

@@ -85,17 +85,17 @@ typedef struct gg_observable {
 } gg_observable;
 
 /* Is it to be shown the collisions of this model? */
-bool gg_observable_wants_collisions(const gg_observable *o, const gg_model *model);
+bool gg_measure_observable_wants_collisions(const gg_observable *o, const gg_model *model);
 
 /* The function that gives a quantity, from such a table; false if it has none. */
-bool gg_derived_find(const gg_derived *table, gg_quantity q, gg_function *f);
+bool gg_measure_derived_find(const gg_derived *table, gg_quantity q, gg_function *f);
 
 /* Name and flag of an observable of the list in common/observables.h. */
 #define GG_OBSERVABLE(FLAG, word) .name = #word, .flag = GG_MEASURE_##FLAG
 
-/* Every observable of that list, NULL-terminated; and each by its name, gg_rheology and so on. */
-extern const gg_observable *const gg_observables[];
-#define GG_OBSERVABLE_PLUG_IN(FLAG, word, description) extern const gg_observable gg_##word;
+/* Every observable of that list, NULL-terminated; and each by its name, gg_measure_rheology and so on. */
+extern const gg_observable *const gg_measure_observables[];
+#define GG_OBSERVABLE_PLUG_IN(FLAG, word, description) extern const gg_observable gg_measure_##word;
 GG_OBSERVABLES(GG_OBSERVABLE_PLUG_IN)
 #undef GG_OBSERVABLE_PLUG_IN
 

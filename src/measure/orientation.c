@@ -20,7 +20,7 @@ static const char *refuses(const gg_model *m)
 static void *create(const gg_model *m, gg_error *err)
 {
   (void)m;
-  return gg_new_array(1, 1, err);
+  return gg_base_array_new(1, 1, err);
 }
 
 static size_t bins(const void *self)
@@ -77,7 +77,7 @@ static gg_vec at(double *const x[3], size_t i)
 static gg_vec spin_of(const gg_snapshot *s, const gg_local_frame *frame, size_t i)
 {
   if (!s->model->walled) return at(s->s, i);
-  return gg_local_frame_spin(frame, s->r[1][i], at(s->s, i), gg_snapshot_species(s, i));
+  return gg_measure_local_frame_spin(frame, s->r[1][i], at(s->s, i), gg_snapshot_species(s, i));
 }
 
 /* By species: grains of two sizes spin at different mean rates. */
@@ -97,7 +97,7 @@ static void take_peculiar(const gg_snapshot *s, size_t from, size_t n, const gg_
   for (size_t k = 0; k < n; k++) {
     size_t i = from + k;
     gg_vec C = at(s->c, i), W = gg_sub(spin_of(s, frame, i), mean[gg_snapshot_species(s, i)]);
-    if (s->model->walled) C = gg_local_frame_velocity(frame, s->r[1][i], C);
+    if (s->model->walled) C = gg_measure_local_frame_velocity(frame, s->r[1][i], C);
     c->x[0][k] = C.x, c->x[1][k] = C.y, c->x[2][k] = C.z;
     w->x[0][k] = W.x, w->x[1][k] = W.y, w->x[2][k] = W.z;
   }
@@ -124,7 +124,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   gg_vec mean[GG_MAX_SPECIES];
   gg_local_frame frame;
   vectors c = {{{0}}}, w = {{{0}}};
-  if (m->walled) gg_local_frame_of_snapshot(&frame, s);
+  if (m->walled) gg_measure_local_frame_of_snapshot(&frame, s);
   for (int k = 0; k < m->n_species; k++) mean[k] = mean_spin(s, &frame, k);
   for (size_t from = 0; from < s->n; from += GRAINS) {
     size_t n = s->n - from < GRAINS ? s->n - from : GRAINS;
@@ -139,7 +139,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 static gg_curve *histogram(gg_curves *list, const char *name, const char *panel, const char *label, const double *bin,
                            double grains, double from, double to)
 {
-  gg_curve *c = gg_curve_add(list, BINS, name, panel, label);
+  gg_curve *c = gg_measure_curve_add(list, BINS, name, panel, label);
   double width = (to - from) / BINS;
   for (size_t i = 0; i < c->n; i++) {
     c->x[i] = from + ((double)i + 0.5) * width;
@@ -162,17 +162,17 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   static const char *const labels[] = {"peculiar", "instantaneous"};
   for (int k = 0; k < 1 + has_both(list->model); k++, bin += SET) {
     gg_curve *c = histogram(list, names[k][0], "P(cos Ψ)", labels[k], bin + COS, bin[COUNT], -1, 1);
-    gg_curve_axes(c, "cos Ψ", "1", "P", "1");
-    gg_curve_beside(c, "no correlation", gg_level, &(double){0.5});
-    gg_curve_put_number(c, "Lambda", bin[SUM] / bin[COUNT], "1");
+    gg_measure_curve_axes(c, "cos Ψ", "1", "P", "1");
+    gg_measure_curve_beside(c, "no correlation", gg_measure_curve_level, &(double){0.5});
+    gg_measure_curve_put_number(c, "Lambda", bin[SUM] / bin[COUNT], "1");
     c = histogram(list, names[k][1], "P(cos^2 Ψ)", labels[k], bin + SQUARE, bin[COUNT], 0, 1);
-    gg_curve_axes(c, "cos^2 Ψ", "1", "P", "1");
-    gg_curve_beside(c, "no correlation", squares_of_uniform, &(double){1.0 / (double)c->n});
+    gg_measure_curve_axes(c, "cos^2 Ψ", "1", "P", "1");
+    gg_measure_curve_beside(c, "no correlation", squares_of_uniform, &(double){1.0 / (double)c->n});
     c->log_y = true;
   }
 }
 
-const gg_observable gg_orientation = {
+const gg_observable gg_measure_orientation = {
     GG_OBSERVABLE(ORIENTATION, orientation),
     .create = create,
     .destroy = free,

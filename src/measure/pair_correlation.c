@@ -35,26 +35,26 @@ enum { COLLISIONS, TIME, TEMPERATURE, SNAPSHOTS, EXTRA }; /* behind the bins and
 
 static void destroy(void *self)
 {
-  gg_pairs_clear(&((pair_correlation *)self)->pairs);
+  gg_measure_pairs_clear(&((pair_correlation *)self)->pairs);
   free(self);
 }
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  pair_correlation *d = gg_new_array(1, sizeof *d, err);
+  pair_correlation *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
   d->n_pairs = gg_pairs_of(m->n_species);
-  double widest = gg_model_widest(m), reach = gg_pairs_longest_reach(m);
+  double widest = gg_common_model_widest(m), reach = gg_measure_pairs_longest_reach(m);
   d->bins = (int)fmin(floor((reach - widest) / WIDTH), MOST_BINS);
   if (d->bins < 1) d->bins = 1;
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       int q = gg_pair(i, j);
       d->sigma[q] = m->sigma[q];
-      d->near[q] = gg_near_of(m, d->sigma[q], reach);
+      d->near[q] = gg_measure_contact_setup(m, d->sigma[q], reach);
     }
-  if (gg_pairs_init(&d->pairs, m, fmin(reach, widest + d->bins * WIDTH), TRIES, FALL, err) == GG_OK) return d;
+  if (gg_measure_pairs_init(&d->pairs, m, fmin(reach, widest + d->bins * WIDTH), TRIES, FALL, err) == GG_OK) return d;
   free(d);
   return NULL;
 }
@@ -96,8 +96,8 @@ GG_INLINE void count(void *context, uint32_t one, uint32_t two, gg_vec separatio
   if (gap > d->near[q].reach) return;
   gg_vec g = {s->c[0][j] - s->c[0][i] + d->model.shear_rate * separation.y, s->c[1][j] - s->c[1][i],
               s->c[2][j] - s->c[2][i]};
-  gg_near_count(&d->near[q], c->bin + d->n_pairs * d->bins + q * GG_NEAR_WIDTH, separation, square, g, d->speed[q],
-                weight);
+  gg_measure_contact_count(&d->near[q], c->bin + d->n_pairs * d->bins + q * GG_NEAR_WIDTH, separation, square, g,
+                           d->speed[q], weight);
 }
 
 /* Of each species; returns that of all, sum C^2/(3N). */
@@ -120,10 +120,10 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   pair_correlation *d = self;
   counting c = {d, s, bin};
-  gg_images box = gg_images_of(s);
+  gg_images box = gg_measure_pairs_images(s);
   double *extra = bin + d->n_pairs * (d->bins + GG_NEAR_WIDTH);
   extra[TEMPERATURE] += take_temperatures(d, s);
-  gg_pairs_sort(&d->pairs, s, &box);
+  gg_measure_pairs_sort(&d->pairs, s, &box);
   gg_pairs_each(&d->pairs, s, &box, count, &c);
   extra[SNAPSHOTS]++;
   if (d->since.known) {
@@ -140,8 +140,8 @@ static void put_rate(const pair_correlation *d, gg_curve *c, const double *extra
   if (m->n_species > 1 || !gg_model_keeps_temperature(m)) return;
   double rate = 2 * extra[COLLISIONS] / ((double)m->n * extra[TIME]), T = extra[TEMPERATURE] / extra[SNAPSHOTS];
   double others = (double)(m->n - 1) / m->volume, value = rate / (4 * others * sqrt(M_PI * T));
-  gg_curve_put_number(c, "contact_value_of_rate", value, "1");
-  gg_curve_put_number(c, "contact_value_of_flux", value / speed, "1");
+  gg_measure_curve_put_number(c, "contact_value_of_rate", value, "1");
+  gg_measure_curve_put_number(c, "contact_value_of_flux", value / speed, "1");
 }
 
 /* In equilibrium motion reversed is as likely, and all pairs are alike. */
@@ -149,12 +149,12 @@ static void put_contact(const pair_correlation *d, int q, gg_curve *c, const dou
 {
   const gg_model *m = &d->model;
   const double *near = bin + d->n_pairs * d->bins + q * GG_NEAR_WIDTH;
-  gg_contact_density g = gg_near_read(&d->near[q], near, pairs / m->volume, samples);
+  gg_contact_density g = gg_measure_contact_estimate(&d->near[q], near, pairs / m->volume, samples);
   double all = gg_flow_of(m->flow)->conserves ? g.alike : 0.5 * (g.approaching + g.parting);
-  gg_curve_put_number(c, "contact_value", all, "1");
-  gg_curve_put_number(c, "contact_value_before", g.approaching, "1");
-  gg_curve_put_number(c, "contact_value_after", g.parting, "1");
-  gg_curve_put_number(c, "approach_speed", g.speed, "1");
+  gg_measure_curve_put_number(c, "contact_value", all, "1");
+  gg_measure_curve_put_number(c, "contact_value_before", g.approaching, "1");
+  gg_measure_curve_put_number(c, "contact_value_after", g.parting, "1");
+  gg_measure_curve_put_number(c, "approach_speed", g.speed, "1");
   put_rate(d, c, bin + d->n_pairs * (d->bins + GG_NEAR_WIDTH), g.speed);
 }
 
@@ -167,29 +167,29 @@ static void curves(const void *self, const double *bin, gg_curves *list)
       int q = gg_pair(i, j);
       char name[48] = "pair_correlation", label[24] = "g", both[GG_PAIR_NAME];
       if (m->n_species > 1) {
-        snprintf(name, sizeof name, "pair_correlation_%s", gg_pair_name(q, both));
+        snprintf(name, sizeof name, "pair_correlation_%s", gg_common_pair_name(q, both));
         snprintf(label, sizeof label, "g_{%s}", both);
       }
       double a = (double)m->n_of[i], b = (double)m->n_of[j], pairs = i == j ? a * (a - 1) / 2 : a * b;
-      gg_curve *c = gg_curve_add(list, (size_t)d->bins, name, "pair correlation", label);
-      gg_curve_axes(c, "r", gg_curve_unit(m, "length"), "g", "1");
+      gg_curve *c = gg_measure_curve_add(list, (size_t)d->bins, name, "pair correlation", label);
+      gg_measure_curve_axes(c, "r", gg_measure_curve_unit(m, "length"), "g", "1");
       for (size_t k = 0; k < c->n; k++) {
         double from = d->sigma[q] + (double)k * WIDTH, to = from + WIDTH;
         double shell = 4.0 / 3 * M_PI * (to * to * to - from * from * from);
         c->x[k] = from + WIDTH / 2;
         c->value[k] = bin[(size_t)(q * d->bins) + k] / (pairs * shell / m->volume);
       }
-      gg_curve_beside(c, "ideal gas", gg_level, &(double){1});
+      gg_measure_curve_beside(c, "ideal gas", gg_measure_curve_level, &(double){1});
       if (c->n) put_contact(d, q, c, bin, pairs, (double)list->samples);
     }
 }
 
-const gg_observable gg_pair_correlation = {
+const gg_observable gg_measure_pair_correlation = {
     GG_OBSERVABLE(PAIR_CORRELATION, pair_correlation),
     .create = create,
     .destroy = destroy,
     .memory = memory,
-    .refuses = gg_needs_bulk,
+    .refuses = gg_measure_needs_bulk,
     .bins = bins,
     .every = 5,
     .positions = true,

@@ -8,7 +8,7 @@
 
 #define GRAINS_PER_CELL 2.0 /* on average: fewer cost more lookups, more cost pairs that are out of reach */
 
-double gg_pairs_longest_reach(const gg_model *m)
+double gg_measure_pairs_longest_reach(const gg_model *m)
 {
   return fmin(fmin(m->box[0], m->box[1]), m->box[2]) / 2;
 }
@@ -20,7 +20,7 @@ static double tries(gg_pairs *p, const gg_images *b, double whole)
   double sum = 0;
   p->whole = whole;
   for (size_t i = 0; i < cells; i++) {
-    gg_pairs_offset o = gg_pairs_offset_of(p, b, i);
+    gg_pairs_offset o = gg_measure_pairs_offset_of(p, b, i);
     sum += i ? o.share : 0.5;
   }
   return sum * (double)p->n / (double)cells;
@@ -29,7 +29,7 @@ static double tries(gg_pairs *p, const gg_images *b, double whole)
 static void choose_radius(gg_pairs *p, const gg_model *m, double budget)
 {
   gg_snapshot none = {.model = m};
-  gg_images b = gg_images_of(&none);
+  gg_images b = gg_measure_pairs_images(&none);
   double low = 0, high = b.edge[0] + b.edge[1] + b.edge[2];
   if (tries(p, &b, INFINITY) <= budget) return;
   for (int k = 0; k < 16; k++) {
@@ -39,25 +39,25 @@ static void choose_radius(gg_pairs *p, const gg_model *m, double budget)
   p->whole = low;
 }
 
-gg_status gg_pairs_init(gg_pairs *p, const gg_model *m, double reach, double budget, double fall, gg_error *err)
+gg_status gg_measure_pairs_init(gg_pairs *p, const gg_model *m, double reach, double budget, double fall, gg_error *err)
 {
   double slant = m->shear_rate != 0 ? hypot(1, 0.5 * m->box[0] / m->box[1]) : 1;
   double width = cbrt(GRAINS_PER_CELL * m->volume / (double)m->n);
   *p = (gg_pairs){.reach = reach, .fall = fall, .n = (size_t)m->n};
   for (int a = 0; a < 3; a++) p->cells[a] = (int)fmax(fmin(floor(m->box[a] / (a == 0 ? slant : 1) / width), 1024), 1);
-  p->start = gg_new_array(gg_pairs_cells(p) + 1, sizeof *p->start, err);
-  p->grain = gg_new_array(p->n, sizeof *p->grain, err);
-  p->cell = gg_new_array(p->n, sizeof *p->cell, err);
-  p->at = gg_new_array(p->n, sizeof *p->at, err);
+  p->start = gg_base_array_new(gg_pairs_cells(p) + 1, sizeof *p->start, err);
+  p->grain = gg_base_array_new(p->n, sizeof *p->grain, err);
+  p->cell = gg_base_array_new(p->n, sizeof *p->cell, err);
+  p->at = gg_base_array_new(p->n, sizeof *p->at, err);
   if (p->start && p->grain && p->cell && p->at) {
     choose_radius(p, m, budget);
     return GG_OK;
   }
-  gg_pairs_clear(p);
+  gg_measure_pairs_clear(p);
   return GG_FAILED;
 }
 
-void gg_pairs_clear(gg_pairs *p)
+void gg_measure_pairs_clear(gg_pairs *p)
 {
   free(p->start);
   free(p->grain);
@@ -66,7 +66,7 @@ void gg_pairs_clear(gg_pairs *p)
   *p = (gg_pairs){0};
 }
 
-gg_images gg_images_of(const gg_snapshot *s)
+gg_images gg_measure_pairs_images(const gg_snapshot *s)
 {
   gg_images b = {.offset = s->model->shear_rate != 0 ? s->offset : 0};
   for (int a = 0; a < 3; a++) b.edge[a] = s->model->box[a], b.inverse[a] = 1 / b.edge[a];
@@ -80,7 +80,7 @@ static int index_of(double share, int n)
   return k < n ? k : n - 1;
 }
 
-void gg_pairs_sort(gg_pairs *p, const gg_snapshot *s, const gg_images *b)
+void gg_measure_pairs_sort(gg_pairs *p, const gg_snapshot *s, const gg_images *b)
 {
   size_t cells = gg_pairs_cells(p);
   memset(p->start, 0, (cells + 1) * sizeof *p->start);
@@ -103,12 +103,12 @@ void gg_pairs_sort(gg_pairs *p, const gg_snapshot *s, const gg_images *b)
   }
 }
 
-gg_rng gg_pairs_stream(const gg_snapshot *s)
+gg_rng gg_measure_pairs_stream(const gg_snapshot *s)
 {
   uint64_t time, place;
   memcpy(&time, &s->time, sizeof time);
   memcpy(&place, s->r[0], sizeof place);
-  return gg_rng_seed(time ^ gg_rotl(place, 32), s->collisions);
+  return gg_common_rng_seed(time ^ gg_rotl(place, 32), s->collisions);
 }
 
 /* The shortest of the vectors between the middles of two such cells. */
@@ -143,7 +143,7 @@ static double share_at(const gg_pairs *p, gg_vec d, gg_vec width)
   return fmax(pow(p->whole / r, along ? p->fall - 1 : p->fall), 1e-6);
 }
 
-gg_pairs_offset gg_pairs_offset_of(const gg_pairs *p, const gg_images *b, size_t index)
+gg_pairs_offset gg_measure_pairs_offset_of(const gg_pairs *p, const gg_images *b, size_t index)
 {
   const int *n = p->cells;
   gg_pairs_offset o = {

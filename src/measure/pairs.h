@@ -29,16 +29,17 @@ typedef struct gg_pairs {
 } gg_pairs;
 
 /* Reach: at most half the shortest edge. */
-double gg_pairs_longest_reach(const gg_model *model);
+double gg_measure_pairs_longest_reach(const gg_model *model);
 /* `tries`: pairs a grain that a snapshot may look at; INFINITY: all there are. `fall`: as above. */
-gg_status gg_pairs_init(gg_pairs *p, const gg_model *model, double reach, double tries, double fall, gg_error *err);
-void gg_pairs_clear(gg_pairs *p);
+gg_status gg_measure_pairs_init(gg_pairs *p, const gg_model *model, double reach, double tries, double fall,
+                                gg_error *err);
+void gg_measure_pairs_clear(gg_pairs *p);
 
-gg_images gg_images_of(const gg_snapshot *s);
+gg_images gg_measure_pairs_images(const gg_snapshot *s);
 /* Put the grains into their cells. */
-void gg_pairs_sort(gg_pairs *p, const gg_snapshot *s, const gg_images *box);
+void gg_measure_pairs_sort(gg_pairs *p, const gg_snapshot *s, const gg_images *box);
 /* A stream of this snapshot's own: a resumed run draws what the uninterrupted one does. */
-gg_rng gg_pairs_stream(const gg_snapshot *s);
+gg_rng gg_measure_pairs_stream(const gg_snapshot *s);
 
 /* Cells at an offset from others, round the box: 0 <= offset < cells. An offset and its inverse are the same pairs. */
 typedef struct gg_pairs_offset {
@@ -46,7 +47,7 @@ typedef struct gg_pairs_offset {
   double share;  /* of such pairs of cells that are taken; 0: out of reach, or found from the other side */
   double weight; /* of their pairs */
 } gg_pairs_offset;
-gg_pairs_offset gg_pairs_offset_of(const gg_pairs *p, const gg_images *b, size_t index);
+gg_pairs_offset gg_measure_pairs_offset_of(const gg_pairs *p, const gg_images *b, size_t index);
 static inline size_t gg_pairs_cells(const gg_pairs *p)
 {
   return (size_t)p->cells[0] * (size_t)p->cells[1] * (size_t)p->cells[2];
@@ -94,11 +95,11 @@ GG_INLINE int gg_pairs_wrap(int x, int n)
 GG_INLINE void gg_pairs_each(const gg_pairs *p, const gg_snapshot *s, const gg_images *b, gg_pair_visit *visit,
                              void *context)
 {
-  gg_rng rng = gg_pairs_stream(s);
+  gg_rng rng = gg_measure_pairs_stream(s);
   const int *n = p->cells;
   const size_t cells = gg_pairs_cells(p);
   for (size_t index = 0; index < cells; index++) {
-    const gg_pairs_offset o = gg_pairs_offset_of(p, b, index);
+    const gg_pairs_offset o = gg_measure_pairs_offset_of(p, b, index);
     if (o.share == 0) continue;
     const double step = 1 / o.share;
     for (double at = o.share < 1 ? step * gg_rng_uniform(&rng) : 0; at < (double)cells; at += step) {

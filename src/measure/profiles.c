@@ -33,7 +33,7 @@ static const char *refuses(const gg_model *m)
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  profiles *d = gg_new_array(1, sizeof *d, err);
+  profiles *d = gg_base_array_new(1, sizeof *d, err);
   double pairs = fmin(fmax(round(m->box[1] / (2 * THICKNESS)), LEAST_SLABS / 2), MOST_SLABS / 2);
   if (d) *d = (profiles){.model = *m, .slabs = 2 * (int)pairs}; /* no slab is its own mirror image */
   return d;
@@ -199,7 +199,8 @@ static void put_slip(const gg_model *m, const gg_surface *wall, const double *bi
   }
   char name[40];
   snprintf(name, sizeof name, "slip_%s", wall->word);
-  gg_curve_put_number(c, name, wall->velocity.x - (mu + xu / xx * (0.5 - mx)), gg_curve_unit(m, "velocity"));
+  gg_measure_curve_put_number(c, name, wall->velocity.x - (mu + xu / xx * (0.5 - mx)),
+                              gg_measure_curve_unit(m, "velocity"));
 }
 
 /* What a wall feels is the flux of momentum through it, of what is across it and of what is along x: across y it equals
@@ -213,7 +214,7 @@ static void put_wall_stress(const gg_model *m, const gg_surface *wall, const dou
   for (int k = 0; k < 2; k++) {
     char name[40];
     snprintf(name, sizeof name, "wall_P_%c%c_%s", "xyz"[across], "xyz"[along[k]], wall -> word);
-    gg_curve_put_number(c, name, unit * impulse[along[k]], gg_quantity_unit(GG_Q_PRESSURE, m));
+    gg_measure_curve_put_number(c, name, unit * impulse[along[k]], gg_common_quantity_unit(GG_Q_PRESSURE, m));
   }
 }
 
@@ -233,9 +234,10 @@ static void curves(const void *self, const double *mean, gg_curves *list)
   double height = m->box[1] / d->slabs, volume = m->box[0] * m->box[2] * height;
   for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
     if (table[t].spins && m->rule == GG_SMOOTH) continue;
-    gg_curve *c = gg_curve_add(list, (size_t)d->slabs, table[t].name, table[t].panel, table[t].label);
+    gg_curve *c = gg_measure_curve_add(list, (size_t)d->slabs, table[t].name, table[t].panel, table[t].label);
     c->folded = gg_wall_symmetry_of(m) != GG_NO_SYMMETRY;
-    gg_curve_axes(c, "y", gg_curve_unit(m, "length"), table[t].label, gg_curve_unit(m, table[t].unit));
+    gg_measure_curve_axes(c, "y", gg_measure_curve_unit(m, "length"), table[t].label,
+                          gg_measure_curve_unit(m, table[t].unit));
     for (size_t i = 0; i < c->n; i++) {
       const double *at = bin + i * SLAB;
       c->x[i] = ((double)i + 0.5) * height;
@@ -246,7 +248,7 @@ static void curves(const void *self, const double *mean, gg_curves *list)
   }
 }
 
-const gg_observable gg_profiles = {
+const gg_observable gg_measure_profiles = {
     GG_OBSERVABLE(PROFILES, profiles),
     .create = create,
     .destroy = free,

@@ -31,7 +31,7 @@ static size_t width(const gg_model *m)
 
 static void *create(const gg_model *model, gg_error *err)
 {
-  rheology *r = gg_new_array(1, sizeof *r, err);
+  rheology *r = gg_base_array_new(1, sizeof *r, err);
   if (!r) return NULL;
   r->model = *model;
   return r;
@@ -45,8 +45,8 @@ static void *memory_of(void *self, size_t *bytes)
 }
 
 /* Spins are taken about their mean of the sample before, so that one pass over the grains is enough: moments are put
- * right afterwards (gg_velocity_moments_centre); the angles to C feel the shift to second order, as they do that of any
- * mean over N grains. */
+ * right afterwards (gg_measure_velocity_moments_centre); the angles to C feel the shift to second order, as they do
+ * that of any mean over N grains. */
 static void begin(void *self)
 {
   rheology *r = self;
@@ -62,10 +62,10 @@ static void add_chunk(void *self, const gg_chunk *chunk)
 {
   rheology *r = self;
   for (int i = 0; i < r->model.n_species; i++) {
-    gg_species_view v = gg_chunk_of_species(chunk, i, &r->scratch);
+    gg_species_view v = gg_measure_species_chunk(chunk, i, &r->scratch);
     gg_velocity_moment_view grains = {
         v.n, GG_VELOCITY_MOMENT_LANES, 0, {v.c[0], v.c[1], v.c[2]}, {v.s[0], v.s[1], v.s[2]}};
-    gg_velocity_moments_add(&r->moments[i], r->quick, &grains);
+    gg_measure_velocity_moments_add(&r->moments[i], r->quick, &grains);
   }
 }
 
@@ -77,7 +77,7 @@ static void add_blocks(void *self, const gg_block_run *run)
     grains.c[a] = run->c + a * GG_VELOCITY_MOMENT_LANES;
     if (run->s) grains.s[a] = run->s + a * GG_VELOCITY_MOMENT_LANES;
   }
-  gg_velocity_moments_add(&r->moments[run->species], r->quick, &grains);
+  gg_measure_velocity_moments_add(&r->moments[run->species], r->quick, &grains);
 }
 
 /* T = sum x_i m_i <C.C>_i/3 of this instant. */
@@ -137,7 +137,7 @@ static void put_rates(const rheology *r, const gg_interval *in, haff h, double *
   }
   row[CH_RATE] = 2 * collisions / ((double)m->n * h.root);
   row[CH_LOSS] = loss * m->stress_unit / (m->volume * in->elapsed);
-  row[CH_ZETA] = 2 * h.growth / gg_model_nu0(m, 1);
+  row[CH_ZETA] = 2 * h.growth / gg_common_model_nu0(m, 1);
   double unit = m->stress_unit / (m->volume * h.first);
   row[CH_PC_XX] = p[0][0] * unit, row[CH_PC_YY] = p[1][1] * unit, row[CH_PC_ZZ] = p[2][2] * unit;
   row[CH_PC_XY] = p[0][1] * unit, row[CH_PC_YX] = p[1][0] * unit;
@@ -156,7 +156,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   rheology *r = self;
   bool cooling = gg_flow_cools(r->model.flow);
   for (int i = 0; i < r->model.n_species; i++) {
-    gg_velocity_moments_centre(&r->moments[i]);
+    gg_measure_velocity_moments_centre(&r->moments[i]);
     memcpy(r->memory.mean_spin[i], r->moments[i].mean_spin, sizeof r->memory.mean_spin[i]);
   }
   double T = temperature(r), T0 = r->memory.last_temperature * in->velocity_factor * in->velocity_factor;
@@ -180,7 +180,7 @@ static double log_temperature(const double *row)
   return row[CH_LN_T];
 }
 
-const gg_observable gg_rheology = {
+const gg_observable gg_measure_rheology = {
     GG_OBSERVABLE(RHEOLOGY, rheology),
     .width = width,
     .create = create,
@@ -190,7 +190,7 @@ const gg_observable gg_rheology = {
     .add_chunk = add_chunk,
     .add_blocks = add_blocks,
     .finish = finish,
-    .derived = gg_rheology_derived,
-    .history = gg_rheology_history,
+    .derived = gg_measure_rheology_derived,
+    .history = gg_measure_rheology_history,
     .log_temperature = log_temperature,
 };

@@ -47,7 +47,7 @@ static inline size_t gg_rheology_species_width(const gg_model *m)
   return m->rule == GG_SMOOTH ? CH_SMOOTH_WIDTH : CH_ROUGH_WIDTH;
 }
 
-extern const gg_derived gg_rheology_derived[];
-extern const gg_derived gg_rheology_history[];
+extern const gg_derived gg_measure_rheology_derived[];
+extern const gg_derived gg_measure_rheology_history[];
 
 #endif

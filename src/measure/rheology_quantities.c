@@ -128,7 +128,7 @@ static double cooling_rate(const double *a, const gg_model *m)
 {
   if (gg_flow_cools(m->flow)) return a[CH_ZETA];
   double T = temperature(a, m); /* heated: -dT/dt by collisions alone, smooth grains */
-  return a[CH_LOSS] / (1.5 * m->density * m->stress_unit * T * gg_model_nu0(m, T));
+  return a[CH_LOSS] / (1.5 * m->density * m->stress_unit * T * gg_common_model_nu0(m, T));
 }
 
 static double cos2_psi(const double *a, const gg_model *m)
@@ -196,7 +196,7 @@ static double partial_ratio(const double *a, const gg_model *m)
   return partial_temperature(a, m, 0) / partial_temperature(a, m, 1);
 }
 
-const gg_derived gg_rheology_derived[] = {
+const gg_derived gg_measure_rheology_derived[] = {
     {GG_Q_TEMPERATURE, .of = temperature},
     {GG_Q_ROTATIONAL_TEMPERATURE, .of = rotational_temperature},
     {GG_Q_TEMPERATURE_RATIO, .of = temperature_ratio},
@@ -253,7 +253,7 @@ static double history_rotational(const double *a, const gg_model *m)
   return history_temperature(a, m) * temperature_ratio(a, m);
 }
 
-const gg_derived gg_rheology_history[] = {
+const gg_derived gg_measure_rheology_history[] = {
     {GG_Q_TEMPERATURE, .of = history_temperature},
     {GG_Q_ROTATIONAL_TEMPERATURE, .of = history_rotational},
     GG_DERIVED_END,

@@ -21,12 +21,12 @@ typedef struct sonine {
 static const char *refuses(const gg_model *m)
 {
   if (m->shear_rate != 0) return "under shear the distribution is not isotropic; see velocity_distributions";
-  return gg_needs_homogeneity(m);
+  return gg_measure_needs_homogeneity(m);
 }
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  sonine *d = gg_new_array(1, sizeof *d, err);
+  sonine *d = gg_base_array_new(1, sizeof *d, err);
   if (d) d->model = *m;
   return d;
 }
@@ -75,8 +75,8 @@ static void put_species(const gg_model *m, int k, const double *bin, gg_curves *
                       .sixth = bin[SIXTH] / n * (D + 2) * (D + 4) / (D * D),
                       .temperature_ratio = bin[SHARE]};
   for (int i = 0; i < BINS; i++) s.share[i] = bin[i] / n;
-  gg_sonine_curves_put(list, m, k, &s);
-  gg_sonine_polynomial_put(list, m, k, s.temperature_ratio);
+  gg_measure_sonine_curves_put(list, m, k, &s);
+  gg_measure_sonine_polynomial_put(list, m, k, s.temperature_ratio);
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
@@ -85,7 +85,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   for (int k = 0; k < m->n_species; k++) put_species(m, k, bin + k * SET, list);
 }
 
-const gg_observable gg_sonine = {
+const gg_observable gg_measure_sonine = {
     GG_OBSERVABLE(SONINE, sonine), .create = create, .destroy = free, .refuses = refuses, .bins = bins, .every = 2,
     .add_snapshot = add_snapshot,  .curves = curves,
 };

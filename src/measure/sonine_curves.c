@@ -38,29 +38,32 @@ static gg_curve *add(gg_curves *list, const gg_model *m, int k, const char *what
   char name[48], of_species[24];
   snprintf(name, sizeof name, m->n_species > 1 ? "%s_%d" : "%s", what, k + 1);
   snprintf(of_species, sizeof of_species, "species %d", k + 1);
-  gg_curve *c = gg_curve_add(list, BINS, name, panel, label ? label : m->n_species > 1 ? of_species : "measured");
-  gg_curve_axes(c, "v*", "1", y_name, "1");
+  gg_curve *c = gg_measure_curve_add(list, BINS, name, panel,
+                                     label              ? label
+                                     : m->n_species > 1 ? of_species
+                                                        : "measured");
+  gg_measure_curve_axes(c, "v*", "1", y_name, "1");
   return c;
 }
 
-void gg_sonine_curves_put(gg_curves *list, const gg_model *m, int k, const gg_sonine_sums *s)
+void gg_measure_sonine_curves_put(gg_curves *list, const gg_model *m, int k, const gg_sonine_sums *s)
 {
   double cumulant = 8.0 / 15 * (s->fourth - 15.0 / 4), a3 = 1 + 1.5 * cumulant - 8.0 / 105 * s->sixth;
   double unit = reduced(m, k, s->temperature_ratio);
   gg_curve *excess = add(list, m, k, "sonine_excess", "excess over a Maxwellian", NULL, "Φ/Φ_M - 1");
   gg_curve *delta = add(list, m, k, "sonine_deviation", "Δ(v*)", NULL, "Δ");
-  gg_curve_put_number(excess, "c", cumulant, "1");
-  gg_curve_put_number(excess, "a3", a3, "1");
+  gg_measure_curve_put_number(excess, "c", cumulant, "1");
+  gg_measure_curve_put_number(excess, "a3", a3, "1");
   for (size_t i = 0; i < excess->n && i < delta->n; i++) {
     double from = (double)i * width, expected = maxwellian_below(from + width) - maxwellian_below(from);
     excess->x[i] = delta->x[i] = (from + width / 2) * unit;
     excess->value[i] = s->share[i] / expected - 1;
     delta->value[i] = 2 / cumulant * excess->value[i];
   }
-  gg_curve_beside(excess, "first Sonine", first_sonine, (const double[]){cumulant / 2, unit});
+  gg_measure_curve_beside(excess, "first Sonine", first_sonine, (const double[]){cumulant / 2, unit});
 }
 
-void gg_sonine_polynomial_put(gg_curves *list, const gg_model *m, int k, double temperature_ratio)
+void gg_measure_sonine_polynomial_put(gg_curves *list, const gg_model *m, int k, double temperature_ratio)
 {
   char label[32] = "first Sonine";
   if (m->n_species > 1) snprintf(label, sizeof label, "first Sonine, %d", k + 1);

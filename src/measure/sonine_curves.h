@@ -14,8 +14,8 @@ typedef struct gg_sonine_sums {
 } gg_sonine_sums;
 
 /* Excess over a Maxwellian, and Delta(v*), of species k. */
-void gg_sonine_curves_put(gg_curves *list, const gg_model *model, int k, const gg_sonine_sums *sums);
+void gg_measure_sonine_curves_put(gg_curves *list, const gg_model *model, int k, const gg_sonine_sums *sums);
 /* Delta of the first Sonine approximation, at the same v*. */
-void gg_sonine_polynomial_put(gg_curves *list, const gg_model *model, int k, double temperature_ratio);
+void gg_measure_sonine_polynomial_put(gg_curves *list, const gg_model *model, int k, double temperature_ratio);
 
 #endif

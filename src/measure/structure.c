@@ -25,7 +25,7 @@ typedef struct structure {
 static void destroy(void *self)
 {
   structure *d = self;
-  gg_mesh_clear(&d->mesh);
+  gg_measure_mesh_clear(&d->mesh);
   for (int f = 0; f < 4; f++) free(d->mode[f]);
   free(d->momentum);
   free(d);
@@ -39,14 +39,15 @@ static size_t modes_of(const structure *d)
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  structure *d = gg_new_array(1, sizeof *d, err);
+  structure *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
-  int n = gg_mesh_points_along(m);
+  int n = gg_measure_mesh_points_along(m);
   d->most = n / 4;
-  bool whole = gg_mesh_init(&d->mesh, n, err) == GG_OK;
-  for (int f = 0; f < 4 && whole; f++) whole = (d->mode[f] = gg_new_array(modes_of(d), sizeof(gg_mode), err)) != NULL;
-  if (whole) d->momentum = gg_new_array((size_t)m->n, sizeof(double), err);
+  bool whole = gg_measure_mesh_init(&d->mesh, n, err) == GG_OK;
+  for (int f = 0; f < 4 && whole; f++)
+    whole = (d->mode[f] = gg_base_array_new(modes_of(d), sizeof(gg_mode), err)) != NULL;
+  if (whole) d->momentum = gg_base_array_new((size_t)m->n, sizeof(double), err);
   if (whole && d->momentum) return d;
   destroy(d);
   return NULL;
@@ -71,7 +72,7 @@ static void keep_modes(structure *d, int field)
   gg_mode *to = d->mode[field];
   for (int z = -d->most; z <= d->most; z++)
     for (int y = -d->most; y <= d->most; y++)
-      for (int x = 0; x <= d->most; x++) *to++ = gg_mesh_mode(&d->mesh, x, y, z);
+      for (int x = 0; x <= d->most; x++) *to++ = gg_measure_mesh_mode(&d->mesh, x, y, z);
 }
 
 static double square(gg_mode a)
@@ -104,14 +105,14 @@ static void add_mode(const structure *d, size_t at, gg_vec k, int nx, double sca
 static double transform_fields(structure *d, const gg_snapshot *s, const gg_images *box)
 {
   double sum = 0;
-  gg_mesh_transform(&d->mesh, s, box, NULL);
+  gg_measure_mesh_transform(&d->mesh, s, box, NULL);
   keep_modes(d, 0);
   for (int a = 0; a < 3; a++) {
     for (size_t i = 0; i < s->n; i++) {
       d->momentum[i] = d->model.mass[gg_snapshot_species(s, i)] * s->c[a][i];
       sum += d->momentum[i] * d->momentum[i];
     }
-    gg_mesh_transform(&d->mesh, s, box, d->momentum);
+    gg_measure_mesh_transform(&d->mesh, s, box, d->momentum);
     keep_modes(d, 1 + a);
   }
   return sum / (3 * (double)s->n);
@@ -139,23 +140,23 @@ static void add_axes(const structure *d, const gg_images *box, double *bin)
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   structure *d = self;
-  gg_images box = gg_images_of(s);
+  gg_images box = gg_measure_pairs_images(s);
   double scale = transform_fields(d, s, &box);
   size_t at = 0;
   for (int z = -d->most; z <= d->most; z++)
     for (int y = -d->most; y <= d->most; y++)
       for (int x = 0; x <= d->most; x++, at++)
-        if (x || y || z) add_mode(d, at, gg_mesh_wave_vector(&box, x, y, z), x, scale, bin);
+        if (x || y || z) add_mode(d, at, gg_measure_mesh_wave_vector(&box, x, y, z), x, scale, bin);
   add_axes(d, &box, bin + d->most * RADIAL);
 }
 
 static gg_curve *start(const structure *d, gg_curves *list, const char *name, const char *panel, const char *label,
                        const char *y_name)
 {
-  gg_curve *c = gg_curve_add(list, (size_t)d->most, name, panel, label);
+  gg_curve *c = gg_measure_curve_add(list, (size_t)d->most, name, panel, label);
   char unit[40];
-  snprintf(unit, sizeof unit, "1/%.30s", gg_curve_unit(&d->model, "length"));
-  gg_curve_axes(c, "k", unit, y_name, "1");
+  snprintf(unit, sizeof unit, "1/%.30s", gg_measure_curve_unit(&d->model, "length"));
+  gg_measure_curve_axes(c, "k", unit, y_name, "1");
   return c;
 }
 
@@ -175,7 +176,8 @@ static void curves(const void *self, const double *bin, gg_curves *list)
       c->x[i] = at[COUNT] > 0 ? at[WAVE] / at[COUNT] : ((double)i + 1) * spacing(&d->model);
       c->value[i] = at[COUNT] > 0 ? at[radial[r].channel] / at[COUNT] : NAN;
     }
-    if (radial[r].channel != DENSITY) gg_curve_beside(c, "no correlation", gg_level, &(double){1});
+    if (radial[r].channel != DENSITY)
+      gg_measure_curve_beside(c, "no correlation", gg_measure_curve_level, &(double){1});
   }
   for (int a = 0; a < 3; a++) {
     char name[48], label[24];
@@ -190,11 +192,11 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   }
 }
 
-const gg_observable gg_structure = {
+const gg_observable gg_measure_structure = {
     GG_OBSERVABLE(STRUCTURE, structure),
     .create = create,
     .destroy = destroy,
-    .refuses = gg_needs_bulk,
+    .refuses = gg_measure_needs_bulk,
     .bins = bins,
     .every = EVERY,
     .every_of = every_of,

@@ -5,7 +5,7 @@
 
 static const gg_tail nothing = {NAN, NAN};
 
-gg_tail gg_tail_double_log(const gg_tail_data *d)
+gg_tail gg_measure_tail_double_log(const gg_tail_data *d)
 {
   double w = 0, x = 0, y = 0, xx = 0, xy = 0;
   int used = 0;
@@ -52,9 +52,9 @@ static double log_likelihood(const gg_tail_data *d, double a, double alpha)
 }
 
 /* Fisher scoring from the least-squares line: Newton's step with the expected curvature, halved until it climbs. */
-gg_tail gg_tail_likelihood(const gg_tail_data *d)
+gg_tail gg_measure_tail_likelihood(const gg_tail_data *d)
 {
-  gg_tail start = gg_tail_double_log(d);
+  gg_tail start = gg_measure_tail_double_log(d);
   double a = log(start.gamma), alpha = start.alpha;
   if (!isfinite(a) || !isfinite(alpha)) return nothing;
   for (int round = 0; round < 100; round++) {
@@ -76,10 +76,10 @@ gg_tail gg_tail_likelihood(const gg_tail_data *d)
   return (gg_tail){alpha, exp(a)};
 }
 
-const double gg_tail_range[GG_TAIL_RANGES][2] = {{2, 4.5}, {3.3, 5.5}};
+const double gg_measure_tail_range[GG_TAIL_RANGES][2] = {{2, 4.5}, {3.3, 5.5}};
 
-void gg_tail_name(char *name, size_t size, const char *number, const double range[2])
+void gg_measure_tail_name(char *name, size_t size, const char *number, const double range[2])
 {
-  const char *of = range[0] == gg_tail_range[0][0] ? "2_4.5" : "3.3_5.5"; /* whatever the locale's point */
+  const char *of = range[0] == gg_measure_tail_range[0][0] ? "2_4.5" : "3.3_5.5"; /* whatever the locale's point */
   snprintf(name, size, "%s_%s", number, of);
 }

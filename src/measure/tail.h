@@ -18,16 +18,16 @@ typedef struct gg_tail_data {
 } gg_tail_data;
 
 /* Weighted least squares of ln(-ln P) on ln x, weights from Poisson statistics; NaN if fewer than four bins count. */
-gg_tail gg_tail_double_log(const gg_tail_data *data);
+gg_tail gg_measure_tail_double_log(const gg_tail_data *data);
 
 /* Maximum likelihood of the counts themselves (Poisson, the law integrated over each bin), which also uses bins that
  * are nearly empty. */
-gg_tail gg_tail_likelihood(const gg_tail_data *data);
+gg_tail gg_measure_tail_likelihood(const gg_tail_data *data);
 
 /* Ranges of |x| that the thesis fits tails over (sections 3.1.1 and 4.1.2), and the name of a number of such a fit:
  * "alpha_2_4.5". */
 enum { GG_TAIL_RANGES = 2 };
-extern const double gg_tail_range[GG_TAIL_RANGES][2];
-void gg_tail_name(char *name, size_t size, const char *number, const double range[2]);
+extern const double gg_measure_tail_range[GG_TAIL_RANGES][2];
+void gg_measure_tail_name(char *name, size_t size, const char *number, const double range[2]);
 
 #endif

@@ -27,7 +27,7 @@ typedef struct own {
 
 static const gg_observable_definition *definition(const own *o, int k)
 {
-  return gg_extension_observable(o->model.extension, k);
+  return gg_common_extension_observable(o->model.extension, k);
 }
 
 /* On a boundary where anything may stand. */
@@ -57,17 +57,18 @@ static void destroy(void *self)
 
 static void *create(const gg_model *model, gg_error *err)
 {
-  own *o = gg_new_array(1, sizeof *o, err);
+  own *o = gg_base_array_new(1, sizeof *o, err);
   if (!o) return NULL;
   o->model = *model;
   size_t n = (size_t)model->n, bytes = rounded(sizeof *o->memory);
-  for (int k = 0; k < gg_extension_observables(model->extension); k++) bytes += rounded(definition(o, k)->state_size);
+  for (int k = 0; k < gg_common_extension_observables(model->extension); k++)
+    bytes += rounded(definition(o, k)->state_size);
   o->memory_bytes = bytes;
-  o->memory = gg_new_array(bytes, 1, err);
-  o->velocity = gg_new_array(n, sizeof *o->velocity, err);
-  o->species = gg_new_array(n, 1, err);
-  if (!model->homogeneous) o->position = gg_new_array(n, sizeof *o->position, err);
-  if (model->rule != GG_SMOOTH) o->spin = gg_new_array(n, sizeof *o->spin, err);
+  o->memory = gg_base_array_new(bytes, 1, err);
+  o->velocity = gg_base_array_new(n, sizeof *o->velocity, err);
+  o->species = gg_base_array_new(n, 1, err);
+  if (!model->homogeneous) o->position = gg_base_array_new(n, sizeof *o->position, err);
+  if (model->rule != GG_SMOOTH) o->spin = gg_base_array_new(n, sizeof *o->spin, err);
   bool all = o->memory && o->velocity && o->species && (o->position || model->homogeneous) &&
              (o->spin || model->rule == GG_SMOOTH);
   if (!all) {
@@ -87,7 +88,7 @@ static void *memory_of(void *self, size_t *bytes)
 
 static size_t width(const gg_model *m)
 {
-  return (size_t)gg_extension_quantities(m->extension);
+  return (size_t)gg_common_extension_quantities(m->extension);
 }
 
 static void begin(void *self)
@@ -159,7 +160,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   if (!(in->elapsed > 0)) return; /* the very first sample makes no row */
   convert(o);
   const gg_sample sample = sample_of(o, in);
-  for (int k = 0; k < gg_extension_observables(o->model.extension); k++) {
+  for (int k = 0; k < gg_common_extension_observables(o->model.extension); k++) {
     const gg_observable_definition *d = definition(o, k);
     for (int i = 0; i < d->n_quantities; i++) row[i] = NAN;
     d->sample(d->context, state_of(o, k), &sample, row);
@@ -188,7 +189,7 @@ static void add_collision(void *self, const gg_collision_record *collision)
   put(view.normal, collision->k, 1);
   put(view.relative_velocity, collision->c12, 1 / scale);
   for (int i = 0; i < 2; i++) put(view.velocity[i], collision->c[i], 1 / scale);
-  for (int k = 0; k < gg_extension_observables(o->model.extension); k++) {
+  for (int k = 0; k < gg_common_extension_observables(o->model.extension); k++) {
     const gg_observable_definition *d = definition(o, k);
     if (d->collision) d->collision(d->context, state_of(o, k), &view);
   }
@@ -208,10 +209,10 @@ static const gg_derived derived[] = {{GG_N_QUANTITIES, .each = channel}, GG_DERI
   .add_chunk = add_chunk, .finish = finish, .derived = derived, .positions = true, .rescaled = rescaled
 static const gg_observable quiet = {COMMON}, with_collisions = {COMMON, .add_collision = add_collision};
 
-const gg_observable *gg_own_observables(const gg_model *model)
+const gg_observable *gg_measure_user_observables(const gg_model *model)
 {
-  int n = gg_extension_observables(model->extension);
+  int n = gg_common_extension_observables(model->extension);
   for (int k = 0; k < n; k++)
-    if (gg_extension_observable(model->extension, k)->collision) return &with_collisions;
+    if (gg_common_extension_observable(model->extension, k)->collision) return &with_collisions;
   return n ? &quiet : NULL;
 }

@@ -5,6 +5,6 @@
 #include "measure/observable.h"
 
 /* The plug-in for what the model has; NULL without any. */
-const gg_observable *gg_own_observables(const gg_model *model);
+const gg_observable *gg_measure_user_observables(const gg_model *model);
 
 #endif

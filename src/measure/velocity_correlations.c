@@ -42,24 +42,24 @@ typedef struct correlations {
 static void destroy(void *self)
 {
   correlations *d = self;
-  gg_pairs_clear(&d->pairs);
-  if (d->local) gg_cell_frame_clear(&d->cells);
+  gg_measure_pairs_clear(&d->pairs);
+  if (d->local) gg_measure_cell_frame_clear(&d->cells);
   free(d->motion);
   free(d);
 }
 
 static void *create_of(const gg_model *m, bool local, gg_error *err)
 {
-  correlations *d = gg_new_array(1, sizeof *d, err);
+  correlations *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = *m;
-  double reach = gg_pairs_longest_reach(m);
+  double reach = gg_measure_pairs_longest_reach(m);
   d->bins = (int)fmin(floor(reach / SPACING), MOST_BINS);
   d->spins = m->rule != GG_SMOOTH;
   d->local = local;
-  bool whole = !local || gg_cell_frame_init(&d->cells, m, err) == GG_OK;
-  d->motion = gg_new_array((size_t)m->n, sizeof *d->motion, err);
-  if (whole && d->motion && gg_pairs_init(&d->pairs, m, d->bins * SPACING, TRIES, FALL, err) == GG_OK) return d;
+  bool whole = !local || gg_measure_cell_frame_init(&d->cells, m, err) == GG_OK;
+  d->motion = gg_base_array_new((size_t)m->n, sizeof *d->motion, err);
+  if (whole && d->motion && gg_measure_pairs_init(&d->pairs, m, d->bins * SPACING, TRIES, FALL, err) == GG_OK) return d;
   destroy(d);
   return NULL;
 }
@@ -132,10 +132,10 @@ static void take_motion(const correlations *d, const gg_snapshot *s, size_t i, d
 
 static void take_local_motion(const correlations *d, const gg_snapshot *s, size_t i, motion *m)
 {
-  gg_vec c = gg_cell_frame_velocity(&d->cells, s, i);
+  gg_vec c = gg_measure_cell_frame_velocity(&d->cells, s, i);
   m->c[0] = c.x, m->c[1] = c.y, m->c[2] = c.z;
   if (!d->spins) return;
-  gg_vec w = gg_cell_frame_spin(&d->cells, s, i);
+  gg_vec w = gg_measure_cell_frame_spin(&d->cells, s, i);
   m->w[0] = w.x, m->w[1] = w.y, m->w[2] = w.z;
 }
 
@@ -144,7 +144,7 @@ static void take_motions(correlations *d, const gg_snapshot *s, double *squares)
 {
   double mean[GG_MAX_SPECIES][3];
   if (d->spins) mean_spins(d, s, mean);
-  if (d->local) gg_cell_frame_take(&d->cells, s);
+  if (d->local) gg_measure_cell_frame_take(&d->cells, s);
   squares[0] += (double)s->n;
   for (size_t k = 0; k < s->n; k++) {
     motion *m = &d->motion[k];
@@ -163,8 +163,8 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   correlations *d = self;
   summing to = {d, bin};
-  gg_images box = gg_images_of(s);
-  gg_pairs_sort(&d->pairs, s, &box);
+  gg_images box = gg_measure_pairs_images(s);
+  gg_measure_pairs_sort(&d->pairs, s, &box);
   take_motions(d, s, bin + d->bins * (RADIAL_WIDTH + 3 * AXIS_WIDTH));
   gg_pairs_each(&d->pairs, s, &box, add_pair, &to);
 }
@@ -186,12 +186,12 @@ static void put(const correlations *d, gg_curves *list, const char *name, const 
                 const double *bin, int width, int channel, double norm)
 {
   const gg_model *m = &d->model;
-  int first = (int)(gg_model_narrowest(m) / SPACING);
+  int first = (int)(gg_common_model_narrowest(m) / SPACING);
   if (d->bins <= first) return;
   char full[64];
   snprintf(full, sizeof full, "%svelocity_correlation_%s", d->local ? "local_" : "", name);
-  gg_curve *c = gg_curve_add(list, (size_t)(d->bins - first), full, panel, label);
-  gg_curve_axes(c, "r", gg_curve_unit(m, "length"), "G", "1");
+  gg_curve *c = gg_measure_curve_add(list, (size_t)(d->bins - first), full, panel, label);
+  gg_measure_curve_axes(c, "r", gg_measure_curve_unit(m, "length"), "G", "1");
   for (size_t i = 0; i < c->n; i++) {
     const double *at = bin + ((int)i + first) * width;
     c->x[i] = ((double)i + first + 0.5) * SPACING;
@@ -199,7 +199,7 @@ static void put(const correlations *d, gg_curves *list, const char *name, const 
   }
   if (d->local) return; /* less than nothing within a cell, and nothing beyond: no level */
   double level = strstr(name, "CxW") ? 0 : strchr(name, 'W') ? -1 / ((double)m->n - 1) : of_no_momentum(m);
-  gg_curve_beside(c, "uncorrelated", gg_level, &level);
+  gg_measure_curve_beside(c, "uncorrelated", gg_measure_curve_level, &level);
 }
 
 static void put_radial(const correlations *d, const double *bin, const double *square, gg_curves *list)
@@ -236,11 +236,11 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   }
 }
 
-const gg_observable gg_velocity_correlations = {
+const gg_observable gg_measure_velocity_correlations = {
     GG_OBSERVABLE(VELOCITY_CORRELATIONS, velocity_correlations),
     .create = create,
     .destroy = destroy,
-    .refuses = gg_needs_bulk,
+    .refuses = gg_measure_needs_bulk,
     .bins = bins,
     .every = 8,
     .positions = true,
@@ -248,11 +248,11 @@ const gg_observable gg_velocity_correlations = {
     .curves = curves,
 };
 
-const gg_observable gg_local_velocity_correlations = {
+const gg_observable gg_measure_local_velocity_correlations = {
     GG_OBSERVABLE(LOCAL_VELOCITY_CORRELATIONS, local_velocity_correlations),
     .create = create_local,
     .destroy = destroy,
-    .refuses = gg_needs_bulk,
+    .refuses = gg_measure_needs_bulk,
     .bins = bins,
     .every = 8,
     .positions = true,

@@ -30,26 +30,26 @@ static void put_distribution(gg_curves *list, const naming *n, bool spin, const 
   char name[48];
   snprintf(name, sizeof name, "velocity_distribution_%s", n->plain);
   gg_curve *c =
-      gg_histogram_put(list, name, spin ? "distribution of Ω" : "distribution of C", n->label, bin, 1, samples);
-  gg_curve_axes(c, n->argument, "1", "P/P(0)", "1");
+      gg_measure_histogram_put(list, name, spin ? "distribution of Ω" : "distribution of C", n->label, bin, 1, samples);
+  gg_measure_curve_axes(c, n->argument, "1", "P/P(0)", "1");
 }
 
 static void put_deviation(gg_curves *list, const naming *n, bool spin, const double *bin)
 {
   char name[48];
-  double zero = gg_histogram_height(bin, 1);
+  double zero = gg_measure_histogram_height(bin, 1);
   snprintf(name, sizeof name, "velocity_deviation_%s", n->plain);
-  gg_curve *c = gg_curve_add(list, 2 * LOW + 1, name,
-                             spin ? "Ω: deviation from a Gaussian" : "C: deviation from a Gaussian", n->label);
-  gg_curve_axes(c, n->argument, "1", "P/P(0) - exp(-x^2/2)", "1");
+  gg_curve *c = gg_measure_curve_add(list, 2 * LOW + 1, name,
+                                     spin ? "Ω: deviation from a Gaussian" : "C: deviation from a Gaussian", n->label);
+  gg_measure_curve_axes(c, n->argument, "1", "P/P(0) - exp(-x^2/2)", "1");
   for (int i = 0; i < (int)c->n; i++) {
     double x = (i - LOW) * GG_HISTOGRAM_WIDTH;
     c->x[i] = x, c->value[i] = bin[GG_HISTOGRAM_HALF - LOW + i] / zero - exp(-x * x / 2);
   }
-  gg_curve_beside(c, "Gaussian", gg_level, &(double){0});
+  gg_measure_curve_beside(c, "Gaussian", gg_measure_curve_level, &(double){0});
 }
 
-void gg_velocity_curves_put(gg_curves *list, gg_velocity_component which, const double *bin, double samples)
+void gg_measure_velocity_curves_put(gg_curves *list, gg_velocity_component which, const double *bin, double samples)
 {
   naming n = name_of(which);
   put_distribution(list, &n, which.spin, bin, samples);

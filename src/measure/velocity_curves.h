@@ -12,6 +12,6 @@ typedef struct gg_velocity_component {
 
 /* P/P(0), and its deviation from a Gaussian at low velocity. `samples`: those that the bins are the mean over; 0: the
  * bins are probabilities, of which no tail is fitted. */
-void gg_velocity_curves_put(gg_curves *list, gg_velocity_component which, const double *bin, double samples);
+void gg_measure_velocity_curves_put(gg_curves *list, gg_velocity_component which, const double *bin, double samples);
 
 #endif

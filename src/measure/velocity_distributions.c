@@ -21,10 +21,10 @@ static void destroy(void *self)
 
 static void *create(const gg_model *m, gg_error *err)
 {
-  distributions *d = gg_new_array(1, sizeof *d, err);
+  distributions *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   *d = (distributions){m->n_species, m->rule == GG_SMOOTH ? 1 : 2, NULL};
-  if (m->n_species == 1 || (d->room = gg_new_array((size_t)m->n, sizeof(double), err))) return d;
+  if (m->n_species == 1 || (d->room = gg_base_array_new((size_t)m->n, sizeof(double), err))) return d;
   free(d);
   return NULL;
 }
@@ -54,8 +54,8 @@ static void count(const distributions *d, const gg_snapshot *s, const double *x,
 {
   const double *values;
   size_t n = values_of(d, s, x, species, &values);
-  gg_scale_of u = gg_scale_of_values(values, n);
-  gg_histogram_add_all(bin, values, n, u.mean, u.sigma);
+  gg_scale_of u = gg_measure_scale_of_values(values, n);
+  gg_measure_histogram_add_all(bin, values, n, u.mean, u.sigma);
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
@@ -72,15 +72,15 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   for (int species = 0; species < d->species; species++)
     for (int vector = 0; vector < d->vectors; vector++)
       for (int a = 0; a < 3; a++, bin += GG_HISTOGRAM)
-        gg_velocity_curves_put(list, (gg_velocity_component){d->species, species, vector, a}, bin,
-                               (double)list->samples);
+        gg_measure_velocity_curves_put(list, (gg_velocity_component){d->species, species, vector, a}, bin,
+                                       (double)list->samples);
 }
 
-const gg_observable gg_velocity_distributions = {
+const gg_observable gg_measure_velocity_distributions = {
     GG_OBSERVABLE(VELOCITY_DISTRIBUTIONS, velocity_distributions),
     .create = create,
     .destroy = destroy,
-    .refuses = gg_needs_homogeneity,
+    .refuses = gg_measure_needs_homogeneity,
     .bins = bins,
     .every = 2,
     .add_snapshot = add_snapshot,

@@ -120,14 +120,14 @@ INSTANCE(add_rough, false, true)
 INSTANCE(quick_smooth, true, false)
 INSTANCE(quick_rough, true, true)
 
-void gg_velocity_moments_add(gg_velocity_moments *m, bool quick, const gg_velocity_moment_view *v)
+void gg_measure_velocity_moments_add(gg_velocity_moments *m, bool quick, const gg_velocity_moment_view *v)
 {
   static void (*const instance[2][2])(gg_velocity_moments *, const gg_velocity_moment_view *) = {
       {add_smooth, add_rough}, {quick_smooth, quick_rough}};
   instance[quick][v->s[0] != NULL](m, v);
 }
 
-void gg_velocity_moments_centre(gg_velocity_moments *m)
+void gg_measure_velocity_moments_centre(gg_velocity_moments *m)
 {
   const gg_velocity_moment_sums *s = &m->sums;
   m->cxcy = sum_of(&s->cxcy), m->cccc = sum_of(&s->cccc), m->speed = sum_of(&s->speed);

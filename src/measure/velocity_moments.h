@@ -14,7 +14,7 @@ typedef struct gg_velocity_moment_sums {
   gg_velocity_moment_lanes w[3], ww[3], w3[3], w4[3], cos2;
 } gg_velocity_moment_sums;
 
-/* Sums over grains of one species; spins about `mean_spin`. After gg_velocity_moments_centre: */
+/* Sums over grains of one species; spins about `mean_spin`. After gg_measure_velocity_moments_centre: */
 typedef struct gg_velocity_moments {
   double n;
   double cc[3], cxcy;         /* C_a^2, C_x C_y */
@@ -37,8 +37,8 @@ typedef struct gg_velocity_moment_view {
 
 /* Add grains; spins are taken about m->mean_spin, any guess of their mean. `quick`: each |C| is rounded to single
  * precision, whose range C.C has to be in; otherwise roots would cost as much as all other sums together. */
-void gg_velocity_moments_add(gg_velocity_moments *m, bool quick, const gg_velocity_moment_view *v);
+void gg_measure_velocity_moments_add(gg_velocity_moments *m, bool quick, const gg_velocity_moment_view *v);
 /* All grains are in: mean_spin becomes their mean, and the powers of Omega are about it. */
-void gg_velocity_moments_centre(gg_velocity_moments *m);
+void gg_measure_velocity_moments_centre(gg_velocity_moments *m);
 
 #endif

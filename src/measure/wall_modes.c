@@ -33,18 +33,18 @@ static const struct {
     [SPECIES_MIDDLE] = {"species 1 in the middle", 2, false},
 };
 
-int gg_wall_modes(const gg_model *m)
+int gg_measure_wall_modes(const gg_model *m)
 {
   if (!m->walled || m->homogeneous) return 0;
   return m->n_species > 1 ? GG_MOST_WALL_MODES : SPECIES_SIDE;
 }
 
-const char *gg_wall_mode_name(int mode)
+const char *gg_measure_wall_mode_name(int mode)
 {
   return table[mode].name;
 }
 
-bool gg_wall_mode_is_odd(const gg_model *m, int mode)
+bool gg_measure_wall_mode_is_odd(const gg_model *m, int mode)
 {
   gg_wall_symmetry symmetry = gg_wall_symmetry_of(m);
   if (symmetry == GG_NO_SYMMETRY) return false;
@@ -52,10 +52,10 @@ bool gg_wall_mode_is_odd(const gg_model *m, int mode)
   return symmetry == GG_TURNED && table[mode].along_x ? !across : across;
 }
 
-void gg_wall_modes_take(const gg_model *m, const gg_local_frame *f, double *row)
+void gg_measure_wall_modes_take(const gg_model *m, const gg_local_frame *f, double *row)
 {
   double all = 0, first = 0, height = m->box[1];
-  int n = gg_wall_modes(m);
+  int n = gg_measure_wall_modes(m);
   for (int i = 0; i < n; i++) row[i] = 0;
   for (int k = 0; k < f->n_slabs; k++) {
     double y = (k + 0.5) / f->n_slabs, wave[3] = {1, cos(M_PI * y), cos(2 * M_PI * y)}, grains = f->count[k];

@@ -8,13 +8,13 @@
 enum { TICS = 6, MOST_DECADES = 7 };
 static const double few_decades = 2.2, no_decade = 0.7;
 
-void gg_extent_add(gg_extent *e, double value, bool log)
+void gg_plot_extent_add(gg_extent *e, double value, bool log)
 {
   if (!isfinite(value) || (log && value <= 0)) return;
   e->least = fmin(e->least, value), e->most = fmax(e->most, value);
 }
 
-gg_axis gg_axis_around(gg_extent e, bool log)
+gg_axis gg_plot_axis_around(gg_extent e, bool log)
 {
   if (!(e.least <= e.most)) return log ? (gg_axis){true, 0.1, 1} : (gg_axis){false, 0, 1};
   if (log) {
@@ -29,7 +29,7 @@ gg_axis gg_axis_around(gg_extent e, bool log)
   return a;
 }
 
-double gg_axis_share(gg_axis a, double x)
+double gg_plot_axis_share(gg_axis a, double x)
 {
   if (!a.log) return (x - a.from) / (a.to - a.from);
   return (log10(x) - log10(a.from)) / (log10(a.to) - log10(a.from));
@@ -144,7 +144,7 @@ static void place(tics *t, gg_axis a)
     linear(t, a);
 }
 
-void gg_axis_print(FILE *s, char which, gg_axis a)
+void gg_plot_axis_print(FILE *s, char which, gg_axis a)
 {
   tics t = {.script = s};
   fprintf(s, "set %crange [%.12g:%.12g]\n%s logscale %c\nset %ctics (", which, a.from, a.to, a.log ? "set" : "unset",
@@ -153,7 +153,7 @@ void gg_axis_print(FILE *s, char which, gg_axis a)
   fprintf(s, ")\n");
 }
 
-int gg_axis_width(gg_axis a)
+int gg_plot_axis_width(gg_axis a)
 {
   tics t = {.script = NULL};
   place(&t, a);

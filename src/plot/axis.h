@@ -15,16 +15,16 @@ typedef struct gg_extent {
   double least, most;
 } gg_extent;
 #define GG_NO_EXTENT ((gg_extent){INFINITY, -INFINITY})
-void gg_extent_add(gg_extent *extent, double value, bool log);
+void gg_plot_extent_add(gg_extent *extent, double value, bool log);
 
 /* An axis with some room around them, and from 0 where that is near; of nothing: from 0 to 1. */
-gg_axis gg_axis_around(gg_extent extent, bool log);
+gg_axis gg_plot_axis_around(gg_extent extent, bool log);
 
 /* Where x stands between its ends, 0 and 1. */
-double gg_axis_share(gg_axis axis, double x);
+double gg_plot_axis_share(gg_axis axis, double x);
 
 /* Range and tics of axis 'x' or 'y', and how many characters its longest label has. */
-void gg_axis_print(FILE *script, char which, gg_axis axis);
-int gg_axis_width(gg_axis axis);
+void gg_plot_axis_print(FILE *script, char which, gg_axis axis);
+int gg_plot_axis_width(gg_axis axis);
 
 #endif

@@ -45,9 +45,9 @@ static void find_extents(const gg_chart_panel *p, gg_extent *x, gg_extent *y)
     for (size_t i = 0; i < s->n; i++) {
       if (!is_there(p, s, i) || !is_inside(&p->x, s->x[i])) continue;
       double dx = error_of(s->x_error, i), dy = error_of(s->error, i);
-      gg_extent_add(x, s->x[i] - dx, p->x.log), gg_extent_add(x, s->x[i] + dx, p->x.log);
-      gg_extent_add(y, s->y[i], p->y.log), gg_extent_add(y, s->y[i] + dy, p->y.log);
-      if (!p->y.log || s->y[i] > 1.5 * dy) gg_extent_add(y, s->y[i] - dy, p->y.log);
+      gg_plot_extent_add(x, s->x[i] - dx, p->x.log), gg_plot_extent_add(x, s->x[i] + dx, p->x.log);
+      gg_plot_extent_add(y, s->y[i], p->y.log), gg_plot_extent_add(y, s->y[i] + dy, p->y.log);
+      if (!p->y.log || s->y[i] > 1.5 * dy) gg_plot_extent_add(y, s->y[i] - dy, p->y.log);
     }
   }
 }
@@ -55,7 +55,7 @@ static void find_extents(const gg_chart_panel *p, gg_extent *x, gg_extent *y)
 static gg_axis axis_of(const gg_chart_axis *a, gg_extent extent)
 {
   bool given = a->from != a->to && !(a->log && a->from <= 0);
-  return given ? (gg_axis){a->log, a->from, a->to} : gg_axis_around(extent, a->log);
+  return given ? (gg_axis){a->log, a->from, a->to} : gg_plot_axis_around(extent, a->log);
 }
 
 static void axes_of(const gg_chart_panel *p, gg_axis *x, gg_axis *y)
@@ -82,13 +82,13 @@ static layout lay_out(const gg_chart *c, const gg_chart_looks *looks)
   for (size_t p = 0; p < c->n; p++) {
     gg_axis x, y;
     axes_of(&c->panel[p], &x, &y);
-    int width = gg_axis_width(y);
+    int width = gg_plot_axis_width(y);
     if (width > widest) widest = width;
     if (c->panel[p].title && *c->panel[p].title) l.above = PANEL_TITLE;
   }
   l.left = Y_LABEL + letter * (widest + 1), l.above += ABOVE;
   l.page[0] = (int)(l.columns * (l.left + l.wide + RIGHT));
-  l.legend = gg_chart_legend_in(looks, l.page[0]);
+  l.legend = gg_plot_chart_legend_in(looks, l.page[0]);
   l.head = title_of(c) + l.legend.height;
   l.page[1] = (int)(l.head + l.rows * (l.above + l.tall + BELOW));
   return l;
@@ -138,12 +138,12 @@ static void print_series(FILE *s, const gg_chart_looks *looks, const gg_chart_se
 {
   if (c->style == GG_CHART_BAND)
     fprintf(s, ", $series%zu using 1:5:6 with filledcurves fc rgb '%s' fs transparent solid 0.25 noborder notitle", k,
-            gg_chart_colour(looks, c));
+            gg_plot_chart_colour(looks, c));
   fprintf(s, ", $series%zu using %s ", k,
           c->style != GG_CHART_POINTS ? "1:2 with lines"
           : c->x_error                ? "1:2:3:4:5:6 with xyerrorbars"
                                       : "1:2:5:6 with yerrorbars");
-  gg_chart_print_look(s, looks, c);
+  gg_plot_chart_print_look(s, looks, c);
   fprintf(s, " notitle");
 }
 
@@ -172,33 +172,33 @@ static void draw_panel(FILE *s, const gg_chart *c, int i, const gg_chart_looks *
   }
   print_label(s, 'x', &p->x);
   print_label(s, 'y', &p->y);
-  gg_axis_print(s, 'x', x);
-  gg_axis_print(s, 'y', y);
+  gg_plot_axis_print(s, 'x', x);
+  gg_plot_axis_print(s, 'y', y);
   fprintf(s, "unset key\nset pointintervalbox 0\n");
   fprintf(s, "plot NaN notitle");
   plot_series(s, looks, p);
   fprintf(s, "\n");
 }
 
-gg_status gg_chart_draw(const gg_chart *c, const char *picture, const char *format, gg_error *err)
+gg_status gg_plot_chart_draw(const gg_chart *c, const char *picture, const char *format, gg_error *err)
 {
   bool png;
   char *script = NULL;
   GG_TRY(gg_plot_format(picture, format, &png, err));
-  if (!c->n) return gg_fail(err, GG_BAD_INPUT, "%s: there is nothing to draw", picture);
-  FILE *s = gg_open_text(&script);
-  if (!s) return gg_out_of_memory(err);
-  locale_t before = gg_c_locale_enter();
+  if (!c->n) return gg_base_fail(err, GG_BAD_INPUT, "%s: there is nothing to draw", picture);
+  FILE *s = gg_base_memory_stream_open(&script);
+  if (!s) return gg_base_out_of_memory(err);
+  locale_t before = gg_base_c_locale_enter();
   gg_chart_looks looks;
-  gg_chart_looks_of(c, &looks);
+  gg_plot_chart_looks_of(c, &looks);
   layout l = lay_out(c, &looks);
   gg_plot_open_page(s, c->title, png, l.page[0], l.page[1]);
   for (size_t i = 0; i < c->n; i++) draw_panel(s, c, (int)i, &looks, &l);
-  gg_chart_print_legend(s, &looks, &l.legend, title_of(c), l.page);
+  gg_plot_chart_print_legend(s, &looks, &l.legend, title_of(c), l.page);
   fprintf(s, "unset multiplot\n");
-  gg_c_locale_leave(before);
-  gg_status status = gg_close_text(s, &script) ? GG_OK : gg_out_of_memory(err);
-  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
+  gg_base_c_locale_leave(before);
+  gg_status status = gg_base_memory_stream_close(s, &script) ? GG_OK : gg_base_out_of_memory(err);
+  if (status == GG_OK) status = gg_plot_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;
 }

@@ -49,10 +49,10 @@ typedef struct gg_chart {
 
 /* Draw to a picture, whole or not at all. format: "svg", "png", or NULL: by the picture's name. GG_BAD_INPUT if the
  * name is no picture's, GG_FAILED without gnuplot, GG_BAD_FILE if it cannot be written. */
-gg_status gg_chart_draw(const gg_chart *chart, const char *picture, const char *format, gg_error *err);
+gg_status gg_plot_chart_draw(const gg_chart *chart, const char *picture, const char *format, gg_error *err);
 
 /* What a scene's key is called on axes and in legends, as enhanced text: "collision.beta" is "β"; a key without a
  * symbol is named as it is. `unit` (may be NULL): that of its values, "1" if none. */
-void gg_chart_key(const char *key, char *text, size_t size, const char **unit);
+void gg_plot_chart_key(const char *key, char *text, size_t size, const char **unit);
 
 #endif

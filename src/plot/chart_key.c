@@ -63,7 +63,7 @@ static bool find_species(const char *key, char *text, size_t size)
   return false;
 }
 
-void gg_chart_key(const char *key, char *text, size_t size, const char **unit)
+void gg_plot_chart_key(const char *key, char *text, size_t size, const char **unit)
 {
   size_t stem = stem_of(key);
   if (unit) *unit = "1";

@@ -22,7 +22,7 @@ static int row_of(const gg_chart_legend *g, int i)
   return i < g->groups ? i / g->columns : before + (i - g->groups) / g->columns;
 }
 
-gg_chart_legend gg_chart_legend_in(const gg_chart_looks *l, int width)
+gg_chart_legend gg_plot_chart_legend_in(const gg_chart_looks *l, int width)
 {
   int longest = 0;
   for (int i = 0; i < l->group.n; i++) {
@@ -92,7 +92,7 @@ static void print_name(FILE *s, const gg_chart_looks *l, int i, place p)
 }
 
 /* A plot over the whole page, in pixels. */
-void gg_chart_print_legend(FILE *s, const gg_chart_looks *l, const gg_chart_legend *g, int top, const int page[2])
+void gg_plot_chart_print_legend(FILE *s, const gg_chart_looks *l, const gg_chart_legend *g, int top, const int page[2])
 {
   gg_plot_place(s, (gg_panel){0, 1, 0, 1});
   fprintf(s,
@@ -108,7 +108,7 @@ void gg_chart_print_legend(FILE *s, const gg_chart_looks *l, const gg_chart_lege
   for (int i = 0; i < g->entries; i++) {
     gg_chart_series sample = sample_of(l, i);
     fprintf(s, ", $legend%d using 1:2 with %s ", i, sample.style == GG_CHART_POINTS ? "points" : "lines");
-    gg_chart_print_look(s, l, &sample);
+    gg_plot_chart_print_look(s, l, &sample);
     fprintf(s, " notitle");
   }
   fprintf(s, "\n");

@@ -37,7 +37,7 @@ static void note(gg_chart_names *names, const gg_chart_series *s, bool method)
   names->bands |= s->style == GG_CHART_BAND;
 }
 
-void gg_chart_looks_of(const gg_chart *chart, gg_chart_looks *looks)
+void gg_plot_chart_looks_of(const gg_chart *chart, gg_chart_looks *looks)
 {
   *looks = (gg_chart_looks){.method = {.n = 0}};
   for (size_t p = 0; p < chart->n; p++)
@@ -63,7 +63,7 @@ static int place_of(const gg_chart_looks *l, const gg_chart_series *s)
   return place;
 }
 
-const char *gg_chart_colour(const gg_chart_looks *l, const gg_chart_series *s)
+const char *gg_plot_chart_colour(const gg_chart_looks *l, const gg_chart_series *s)
 {
   int group = s->group ? find(&l->group, s->group, false) : -1;
   if (group >= 0) return gg_plot_colours[group % GG_PLOT_COLOURS];
@@ -81,7 +81,7 @@ static void print_symbol(FILE *s, int symbol, int place, double size)
     fprintf(s, "pt %d ps %g", symbols[symbol % N_SYMBOLS][place], (place ? 1.0 : 0.7) * size);
 }
 
-void gg_chart_print_look(FILE *s, const gg_chart_looks *l, const gg_chart_series *series)
+void gg_plot_chart_print_look(FILE *s, const gg_chart_looks *l, const gg_chart_series *series)
 {
   int place = place_of(l, series), group = series->group ? find(&l->group, series->group, false) : -1;
   if (series->style == GG_CHART_BAND) fprintf(s, "lw 1.5 dt 1");
@@ -90,5 +90,5 @@ void gg_chart_print_look(FILE *s, const gg_chart_looks *l, const gg_chart_series
     print_symbol(s, group >= 0 ? group : place < 2 ? place : 0, place, series->n > CROWD ? 0.6 : 1);
     fprintf(s, " lw 1.2");
   }
-  fprintf(s, " lc rgb '%s'", gg_chart_colour(l, series));
+  fprintf(s, " lc rgb '%s'", gg_plot_chart_colour(l, series));
 }

@@ -20,19 +20,19 @@ typedef struct gg_chart_looks {
   gg_chart_names method, group;
 } gg_chart_looks;
 
-void gg_chart_looks_of(const gg_chart *chart, gg_chart_looks *looks);
+void gg_plot_chart_looks_of(const gg_chart *chart, gg_chart_looks *looks);
 
 /* The style of a series: "pt 7 ps 0.8 ..." or "dt 1 lw ...". */
-void gg_chart_print_look(FILE *script, const gg_chart_looks *looks, const gg_chart_series *series);
-const char *gg_chart_colour(const gg_chart_looks *looks, const gg_chart_series *series);
+void gg_plot_chart_print_look(FILE *script, const gg_chart_looks *looks, const gg_chart_series *series);
+const char *gg_plot_chart_colour(const gg_chart_looks *looks, const gg_chart_series *series);
 
 /* The legend: groups by colour and symbol, methods by filling or dash, in columns. Pixels. */
 typedef struct gg_chart_legend {
   int groups, entries, columns, column_width, height;
 } gg_chart_legend;
-gg_chart_legend gg_chart_legend_in(const gg_chart_looks *looks, int width);
+gg_chart_legend gg_plot_chart_legend_in(const gg_chart_looks *looks, int width);
 /* `top` pixels below the upper edge of a page of this size; after its panels. */
-void gg_chart_print_legend(FILE *script, const gg_chart_looks *looks, const gg_chart_legend *legend, int top,
-                           const int page[2]);
+void gg_plot_chart_print_legend(FILE *script, const gg_chart_looks *looks, const gg_chart_legend *legend, int top,
+                                const int page[2]);
 
 #endif

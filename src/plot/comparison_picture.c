@@ -22,7 +22,7 @@ typedef struct method {
 /* A quantity that the program that made the file brought with it. */
 static bool is_own(const char *quantity)
 {
-  return gg_quantity_find(quantity) == GG_N_QUANTITIES;
+  return gg_common_quantity_find(quantity) == GG_N_QUANTITIES;
 }
 
 /* Does it say anything about what is drawn? */
@@ -35,8 +35,9 @@ static bool has_entries(const json_t *results)
     if (is_own(name)) return true;
   }
   const unsigned drawn = GG_DRAWN | GG_DRAWN_AS_RATIO;
-  gg_quantity q = gg_quantity_next(-1, drawn);
-  while (q < GG_N_QUANTITIES && !json_object_get(results, gg_quantity_name(q))) q = gg_quantity_next(q, drawn);
+  gg_quantity q = gg_common_quantity_next(-1, drawn);
+  while (q < GG_N_QUANTITIES && !json_object_get(results, gg_common_quantity_name(q)))
+    q = gg_common_quantity_next(q, drawn);
   return q < GG_N_QUANTITIES;
 }
 
@@ -78,10 +79,10 @@ static int select_entries(const method *engine, bool ratio, entry *selected)
   const char *name;
   json_t *own;
   const unsigned drawn = ratio ? GG_DRAWN_AS_RATIO : GG_DRAWN;
-  for (gg_quantity q = gg_quantity_next(-1, drawn); q < GG_N_QUANTITIES; q = gg_quantity_next(q, drawn)) {
-    if (!is_told(engine, gg_quantity_name(q), &from_zero) || (ratio && !from_zero)) continue;
-    selected[n] = (entry){.name = gg_quantity_name(q), .word = gg_quantity_word(q)};
-    gg_quantity_symbol(q, selected[n].symbol, sizeof selected[n].symbol);
+  for (gg_quantity q = gg_common_quantity_next(-1, drawn); q < GG_N_QUANTITIES; q = gg_common_quantity_next(q, drawn)) {
+    if (!is_told(engine, gg_common_quantity_name(q), &from_zero) || (ratio && !from_zero)) continue;
+    selected[n] = (entry){.name = gg_common_quantity_name(q), .word = gg_common_quantity_word(q)};
+    gg_common_quantity_symbol(q, selected[n].symbol, sizeof selected[n].symbol);
     n++;
   }
   json_object_foreach((json_t *)(uintptr_t)engine->results, name, own)

@@ -24,7 +24,7 @@ static const char *text_of(const json_t *curve, const char *key)
   return text ? text : "";
 }
 
-int gg_curve_groups(const json_t *document, const char **names, int most)
+int gg_plot_curve_groups(const json_t *document, const char **names, int most)
 {
   int n = 0, k;
   const char *name;
@@ -81,8 +81,8 @@ static void find_extents(panel *p)
     find_ends(p->curve[k], &from, &to);
     for (size_t i = from; i < to; i++) {
       if (!read_point(p, p->curve[k], i, &q)) continue;
-      gg_extent_add(&p->x, q.x, false), gg_extent_add(&p->value, q.y, false);
-      gg_extent_add(&p->y, q.y - q.error, p->log_y), gg_extent_add(&p->y, q.y + q.error, p->log_y);
+      gg_plot_extent_add(&p->x, q.x, false), gg_plot_extent_add(&p->value, q.y, false);
+      gg_plot_extent_add(&p->y, q.y - q.error, p->log_y), gg_plot_extent_add(&p->y, q.y + q.error, p->log_y);
     }
   }
 }
@@ -296,7 +296,7 @@ static bool is_empty(const panel *p)
 
 static gg_axis y_axis_of(const panel *p)
 {
-  gg_axis a = gg_axis_around(p->y, p->log_y);
+  gg_axis a = gg_plot_axis_around(p->y, p->log_y);
   if (!p->log_y && p->value.least >= 0 && p->y.least < 0.3 * p->y.most) a.from = 0;
   return a;
 }
@@ -318,8 +318,8 @@ static void draw_panel(FILE *s, const panel *p, gg_panel place, int above)
     any |= law[k] = print_reference(s, p, k);
     if (p->theory[k]) print_line(s, "theory", k, p, p->theory[k], p->theory[k]);
   }
-  gg_axis_print(s, 'x', gg_axis_around(p->x, p->log_x));
-  gg_axis_print(s, 'y', y_axis_of(p));
+  gg_plot_axis_print(s, 'x', gg_plot_axis_around(p->x, p->log_x));
+  gg_plot_axis_print(s, 'y', y_axis_of(p));
   if (p->n > 1 || any)
     fprintf(s, "set key at graph 1.0,%g right top horizontal samplen 1\n", 1 + (above - 22.0) / PLOT);
   else
@@ -339,7 +339,7 @@ void gg_plot_curves(FILE *s, const json_t *document, const json_t *theories, con
   if (!n) return;
   int size[2], columns = columns_for(n), rows = (n + columns - 1) / columns;
   for (int i = 0; i < n; i++) {
-    int characters = is_empty(&panels[i]) ? 0 : gg_axis_width(y_axis_of(&panels[i]));
+    int characters = is_empty(&panels[i]) ? 0 : gg_plot_axis_width(y_axis_of(&panels[i]));
     if (characters > widest) widest = characters;
   }
   find_size(panels, n, size);

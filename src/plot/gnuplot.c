@@ -19,10 +19,10 @@ extern char **environ;
 
 static gg_status is_missing(gg_error *err)
 {
-  return gg_fail(err, GG_FAILED, "gnuplot is not installed (Debian: apt install gnuplot-nox)");
+  return gg_base_fail(err, GG_FAILED, "gnuplot is not installed (Debian: apt install gnuplot-nox)");
 }
 
-gg_status gg_gnuplot_is_there(gg_error *err)
+gg_status gg_plot_gnuplot_is_there(gg_error *err)
 {
   const char *at = getenv("PATH");
   while (at && *at) {
@@ -42,14 +42,14 @@ static gg_status spawn(int in, int out, int complaints, pid_t *child, gg_error *
   const int from[] = {in, out, complaints}; /* STDIN, STDOUT, STDERR */
   posix_spawn_file_actions_t actions;
   int failed = posix_spawn_file_actions_init(&actions);
-  if (failed) return gg_out_of_memory(err);
+  if (failed) return gg_base_out_of_memory(err);
   for (int to = STDIN_FILENO; to <= STDERR_FILENO && !failed; to++)
     failed = posix_spawn_file_actions_adddup2(&actions, from[to], to);
   if (!failed) failed = posix_spawnp(child, "gnuplot", &actions, NULL, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (failed == ENOMEM) return gg_out_of_memory(err);
+  if (failed == ENOMEM) return gg_base_out_of_memory(err);
   if (failed == ENOENT) return is_missing(err);
-  return failed ? gg_fail(err, GG_FAILED, "gnuplot cannot be started: %s", strerror(failed)) : GG_OK;
+  return failed ? gg_base_fail(err, GG_FAILED, "gnuplot cannot be started: %s", strerror(failed)) : GG_OK;
 }
 
 /* Its complaint is the last line that says something. Where nobody may wait for children the picture will tell. */
@@ -64,7 +64,7 @@ static gg_status outcome(pid_t child, FILE *complaints, gg_error *err)
     line[strcspn(line, "\n")] = '\0';
     if (line[strspn(line, " ^")]) memcpy(last, line, sizeof last);
   }
-  return gg_fail(err, GG_FAILED, "gnuplot failed: %s", last);
+  return gg_base_fail(err, GG_FAILED, "gnuplot failed: %s", last);
 }
 
 static gg_status draw(const char *script, int target, gg_error *err)
@@ -73,10 +73,10 @@ static gg_status draw(const char *script, int target, gg_error *err)
   FILE *in = tmpfile(), *complaints = tmpfile();
   gg_status result = GG_OK;
   if (!in || !complaints) {
-    result = gg_fail(err, GG_BAD_FILE, "no temporary file can be made: %s", strerror(errno));
+    result = gg_base_fail(err, GG_BAD_FILE, "no temporary file can be made: %s", strerror(errno));
   } else {
     bool whole = fprintf(in, "%s\nunset output\n", script) > 0 && fflush(in) == 0;
-    if (!whole) result = gg_fail(err, GG_BAD_FILE, "a temporary file cannot be written: %s", strerror(errno));
+    if (!whole) result = gg_base_fail(err, GG_BAD_FILE, "a temporary file cannot be written: %s", strerror(errno));
     rewind(in);
     if (result == GG_OK) result = spawn(fileno(in), target, fileno(complaints), &child, err);
     if (result == GG_OK) result = outcome(child, complaints, err);
@@ -101,23 +101,23 @@ static off_t end_of(int fd, const char *mark)
 static gg_status put_over(gg_atomic_file *file, const char *over, gg_error *err)
 {
   off_t end = end_of(file->fd, "</svg>");
-  if (end < 0) return gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", file->path);
+  if (end < 0) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", file->path);
   if (ftruncate(file->fd, end) != 0 || lseek(file->fd, 0, SEEK_END) != end)
-    return gg_cannot_write(file->path, strerror(errno), err);
-  GG_TRY(gg_atomic_write(file, over, strlen(over), err));
-  return gg_atomic_write(file, "</svg>\n", 7, err);
+    return gg_base_path_write_error(file->path, strerror(errno), err);
+  GG_TRY(gg_base_atomic_write(file, over, strlen(over), err));
+  return gg_base_atomic_write(file, "</svg>\n", 7, err);
 }
 
-gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err)
+gg_status gg_plot_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err)
 {
   gg_atomic_file file;
-  GG_TRY(gg_check_writable(picture, GG_PICTURES_ARE, err));
-  GG_TRY(gg_atomic_open(&file, picture, err));
+  GG_TRY(gg_base_atomic_check_writable(picture, GG_PICTURES_ARE, err));
+  GG_TRY(gg_base_atomic_open(&file, picture, err));
   gg_status status = draw(script, file.fd, err);
   if (status == GG_OK && over) status = put_over(&file, over, err);
   if (status == GG_OK && end_of(file.fd, "</svg>") < 0 && end_of(file.fd, "IEND") < 0)
-    status = gg_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
-  if (status == GG_OK) return gg_atomic_commit(&file, err);
-  gg_atomic_abandon(&file);
+    status = gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
+  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
   return status;
 }

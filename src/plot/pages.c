@@ -27,16 +27,16 @@ static gg_status draw_page(const gg_stored_result *stored, const page *p, const 
 {
   char *script = NULL;
   int size[2];
-  FILE *s = gg_open_text(&script);
-  if (!s) return gg_out_of_memory(err);
-  locale_t before = gg_c_locale_enter();
+  FILE *s = gg_base_memory_stream_open(&script);
+  if (!s) return gg_base_out_of_memory(err);
+  locale_t before = gg_base_c_locale_enter();
   gg_plot_curves_size(p->document, p->group, size);
   gg_plot_start_page(s, stored, png, size[0], size[1]);
   gg_plot_curves(s, p->document, theories, p->group);
   fprintf(s, "unset multiplot\n");
-  gg_c_locale_leave(before);
-  gg_status status = gg_close_text(s, &script) ? GG_OK : gg_out_of_memory(err);
-  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, p->path, err);
+  gg_base_c_locale_leave(before);
+  gg_status status = gg_base_memory_stream_close(s, &script) ? GG_OK : gg_base_out_of_memory(err);
+  if (status == GG_OK) status = gg_plot_gnuplot_run(script, NULL, p->path, err);
   free(script);
   return status;
 }
@@ -67,20 +67,20 @@ static gg_status list(page_list *pages, const gg_stored_result *stored, const ch
   for (int k = 0; k < 2; k++) {
     const gg_stored_engine *e = &stored->engine[k];
     const char *groups[MOST_GROUPS], *engine = stored->comparison ? e->name : "";
-    int n = e->name ? gg_curve_groups(e->document, groups, MOST_GROUPS) : 0;
+    int n = e->name ? gg_plot_curve_groups(e->document, groups, MOST_GROUPS) : 0;
     for (int i = 0; i < n; i++)
       pages->page[pages->n++] = (page){gg_plot_page_name(picture, engine, groups[i], png), groups[i], e->document};
   }
   for (int i = 0; i < pages->n; i++) whole &= pages->page[i].path != NULL;
-  return whole ? GG_OK : gg_out_of_memory(err);
+  return whole ? GG_OK : gg_base_out_of_memory(err);
 }
 
 static gg_status check_page(const char *path, const char *picture, const char *file, gg_error *err)
 {
-  if (gg_same_file(path, file))
-    return gg_fail(err, GG_BAD_INPUT, "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture",
-                   path, picture);
-  return gg_check_writable(path, GG_PICTURES_ARE, err);
+  if (gg_base_path_is_same_file(path, file))
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture", path, picture);
+  return gg_base_atomic_check_writable(path, GG_PICTURES_ARE, err);
 }
 
 gg_status gg_plot_check_pages(const gg_stored_result *stored, const char *file, const char *picture, const char *format,

@@ -12,14 +12,15 @@ gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_
 {
   const char *slash = strrchr(picture, '/'), *name = slash ? slash + 1 : picture, *dot = strrchr(name, '.');
   const char *ending = dot && dot > name ? dot + 1 : NULL;
-  if (!*name) return gg_fail(err, GG_BAD_INPUT, "'%s': a picture needs a name, .svg or .png", picture);
+  if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': a picture needs a name, .svg or .png", picture);
   if (format && strcmp(format, "svg") != 0 && strcmp(format, "png") != 0)
-    return gg_fail(err, GG_BAD_INPUT, "pictures are svg or png, not '%.20s'", format);
-  if (!ending && !format) return gg_fail(err, GG_BAD_INPUT, "%s: a picture's name ends with .svg or .png", picture);
+    return gg_base_fail(err, GG_BAD_INPUT, "pictures are svg or png, not '%.20s'", format);
+  if (!ending && !format)
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture's name ends with .svg or .png", picture);
   if (ending && strcmp(ending, "svg") != 0 && strcmp(ending, "png") != 0)
-    return gg_fail(err, GG_BAD_INPUT, "%s: pictures are .svg or .png, not .%.20s", picture, ending);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: pictures are .svg or .png, not .%.20s", picture, ending);
   if (ending && format && strcmp(ending, format) != 0)
-    return gg_fail(err, GG_BAD_INPUT, "%s: is to be %s, and its name says %s", picture, format, ending);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: is to be %s, and its name says %s", picture, format, ending);
   *png = strcmp(ending ? ending : format, "png") == 0;
   return GG_OK;
 }
@@ -27,8 +28,8 @@ gg_status gg_plot_format(const char *picture, const char *format, bool *png, gg_
 gg_status gg_plot_could(const char *picture, const char *format, bool *png, gg_error *err)
 {
   GG_TRY(gg_plot_format(picture, format, png, err));
-  GG_TRY(gg_check_writable(picture, GG_PICTURES_ARE, err));
-  return gg_gnuplot_is_there(err);
+  GG_TRY(gg_base_atomic_check_writable(picture, GG_PICTURES_ARE, err));
+  return gg_plot_gnuplot_is_there(err);
 }
 
 static void draw_run(FILE *s, const gg_stored_result *stored, const gg_stored_engine *e, bool png)
@@ -62,17 +63,17 @@ static void draw_comparison(FILE *s, const gg_stored_result *stored, bool png)
 static gg_status draw(const gg_stored_result *stored, const char *picture, bool png, gg_error *err)
 {
   char *script = NULL;
-  FILE *s = gg_open_text(&script);
-  if (!s) return gg_out_of_memory(err);
-  locale_t before = gg_c_locale_enter();
+  FILE *s = gg_base_memory_stream_open(&script);
+  if (!s) return gg_base_out_of_memory(err);
+  locale_t before = gg_base_c_locale_enter();
   if (stored->comparison)
     draw_comparison(s, stored, png);
   else
     draw_run(s, stored, &stored->engine[stored->engine[GG_MD].name ? GG_MD : GG_DSMC], png);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   gg_status status = GG_OK;
-  if (!gg_close_text(s, &script)) status = gg_out_of_memory(err);
-  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
+  if (!gg_base_memory_stream_close(s, &script)) status = gg_base_out_of_memory(err);
+  if (status == GG_OK) status = gg_plot_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;
 }

@@ -51,9 +51,9 @@ void gg_plot_text(FILE *script, const char *text);
 void gg_plot_plain_text(FILE *script, const char *text);
 
 /* Is there a gnuplot? */
-gg_status gg_gnuplot_is_there(gg_error *err);
+gg_status gg_plot_gnuplot_is_there(gg_error *err);
 /* Run a gnuplot script, and put what it drew in place; `over` (may be NULL) is SVG that is put over an SVG page. */
-gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err);
+gg_status gg_plot_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err);
 
 /* Where a panel stands on the page, in fractions of it. */
 typedef struct gg_panel {

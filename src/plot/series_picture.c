@@ -36,7 +36,7 @@ static gg_extent extent_of(const curve *curves, int n, bool log)
   gg_extent all = GG_NO_EXTENT;
   for (int k = 0; k < n; k++)
     for (size_t i = 0; i < curves[k].series.n; i++)
-      gg_extent_add(&all, curves[k].sign * curves[k].series.value[i], log);
+      gg_plot_extent_add(&all, curves[k].sign * curves[k].series.value[i], log);
   return all;
 }
 
@@ -48,7 +48,7 @@ static bool spans_decades(gg_extent all)
 /* Two of them are seen from 0. */
 static gg_axis axis_of(const curve *curves, int n, bool decades)
 {
-  gg_axis axis = gg_axis_around(extent_of(curves, n, decades), decades);
+  gg_axis axis = gg_plot_axis_around(extent_of(curves, n, decades), decades);
   if (n > 1 && !decades) axis.from = 0;
   return axis;
 }
@@ -118,7 +118,7 @@ static void print_names(FILE *s, const curve *curves, int n, gg_axis axis, doubl
 {
   const double apart = 0.055;
   double at[2] = {0, 0};
-  for (int k = 0; k < n; k++) at[k] = gg_axis_share(axis, level_at_end(&curves[k], axis.log));
+  for (int k = 0; k < n; k++) at[k] = gg_plot_axis_share(axis, level_at_end(&curves[k], axis.log));
   double lacking = apart - fabs(at[0] - at[1]), up = at[0] >= at[1] ? 0.5 : -0.5;
   if (n == 2 && lacking > 0) at[0] += up * lacking, at[1] -= up * lacking;
   for (int k = 0; k < n; k++)
@@ -133,7 +133,7 @@ static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const
   char unit[96];
   for (int k = 0; k < n; k++) {
     curves[found] = curves[k];
-    const gg_stored_series *stored = gg_stored_series_find(e, curves[k].name);
+    const gg_stored_series *stored = gg_files_stored_series_find(e, curves[k].name);
     if (stored) curves[found].series = until_nothing_is_left(stored);
     if (stored && curves[found].series.n > 1) found++;
   }
@@ -142,7 +142,7 @@ static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const
   for (int k = 0; k < found; k++) print_data(s, k, &curves[k]);
   bool decades = spans_decades(extent_of(curves, found, false));
   gg_axis axis = axis_of(curves, found, decades);
-  gg_axis_print(s, 'y', axis);
+  gg_plot_axis_print(s, 'y', axis);
   gg_plot_unit(unit_of(e, curves[0].name), unit, sizeof unit);
   bool means = false;
   double end = 0;
@@ -168,9 +168,9 @@ static void draw(FILE *s, const gg_stored_engine *e, curve *curves, int n, const
 /* The series of a quantity, to be drawn as `sign` times what it is. */
 static curve curve_of(gg_quantity q, double sign)
 {
-  curve c = {.name = gg_quantity_name(q), .sign = sign};
+  curve c = {.name = gg_common_quantity_name(q), .sign = sign};
   char symbol[sizeof c.label - 1];
-  snprintf(c.label, sizeof c.label, "%s%s", sign < 0 ? "-" : "", gg_quantity_symbol(q, symbol, sizeof symbol));
+  snprintf(c.label, sizeof c.label, "%s%s", sign < 0 ? "-" : "", gg_common_quantity_symbol(q, symbol, sizeof symbol));
   return c;
 }
 
@@ -185,7 +185,7 @@ bool gg_plot_has_stresses(const gg_stored_engine *e)
   const gg_quantity stresses[] = {GG_Q_PRESSURE, GG_Q_P_XY};
   bool any = false;
   for (int k = 0; k < 2; k++) {
-    const gg_stored_series *series = gg_stored_series_find(e, gg_quantity_name(stresses[k]));
+    const gg_stored_series *series = gg_files_stored_series_find(e, gg_common_quantity_name(stresses[k]));
     any |= series && series->n > 1;
   }
   return any;

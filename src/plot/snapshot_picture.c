@@ -21,7 +21,7 @@ enum { LEFT = 70, BETWEEN = 80, RIGHT = 25, ABOVE = 70, BELOW = 65 };
 
 static void read_radii(const gg_stored_result *stored, gg_plot_grains *s)
 {
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   for (int k = 0; k < GG_MAX_SPECIES; k++) s->radius[k] = 0.5;
   if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) != GG_OK) return;
   for (int k = 1; k < scene.n_species; k++) s->radius[k] = 0.5 * scene.species[k].diameter / scene.species[0].diameter;
@@ -143,16 +143,16 @@ static gg_status draw_page(const gg_stored_result *stored, const gg_plot_grains 
                            gg_error *err)
 {
   char *script = NULL, *over = NULL;
-  page p = {.script = gg_open_text(&script), .over = png ? NULL : gg_open_text(&over)};
+  page p = {.script = gg_base_memory_stream_open(&script), .over = png ? NULL : gg_base_memory_stream_open(&over)};
   bool drawn = p.script && (png || p.over);
   if (drawn) {
-    locale_t before = gg_c_locale_enter();
+    locale_t before = gg_base_c_locale_enter();
     drawn = draw(&p, stored, s);
-    gg_c_locale_leave(before);
+    gg_base_c_locale_leave(before);
   }
-  drawn &= gg_close_text(p.script, &script);
-  if (!png) drawn &= gg_close_text(p.over, &over);
-  gg_status status = drawn ? gg_gnuplot_run(script, over, picture, err) : gg_out_of_memory(err);
+  drawn &= gg_base_memory_stream_close(p.script, &script);
+  if (!png) drawn &= gg_base_memory_stream_close(p.over, &over);
+  gg_status status = drawn ? gg_plot_gnuplot_run(script, over, picture, err) : gg_base_out_of_memory(err);
   free(script);
   free(over);
   return status;

@@ -19,15 +19,15 @@ static bool has_law_of_its_own(const json_t *document)
 static json_t *from_scene(const char *yaml, gg_engine_kind engine)
 {
   gg_model model;
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   json_t *all = json_object();
   if (gg_scene_read(&scene, yaml, strlen(yaml), "scene", NULL) != GG_OK) return all;
-  if (gg_model_make(&scene, engine, &model, NULL) != GG_OK) return all;
-  for (const gg_theory *const *t = gg_theories; *t; t++) {
+  if (gg_common_model_make(&scene, engine, &model, NULL) != GG_OK) return all;
+  for (const gg_theory *const *t = gg_theory_theories; *t; t++) {
     gg_curves curves;
     if (gg_theory_curves(*t, &model, scene.measure, &curves, NULL) != GG_OK) continue;
-    if (curves.n) json_object_set_new(all, (*t)->name, gg_curves_json(&curves));
-    gg_curves_clear(&curves);
+    if (curves.n) json_object_set_new(all, (*t)->name, gg_files_curves_json(&curves));
+    gg_measure_curves_clear(&curves);
   }
   return all;
 }

@@ -127,8 +127,8 @@ typedef struct gg_figure_entry {
 } gg_figure_entry;
 
 /* GG_BAD_INPUT "FILE:LINE: key 'KEY': ..."; on failure nothing is left to be freed. */
-gg_status gg_entry_read(gg_figure_entry *entry, const char *file, const char *yaml, gg_error *err);
-void gg_entry_clear(gg_figure_entry *entry);
+gg_status gg_reproduce_entry_read(gg_figure_entry *entry, const char *file, const char *yaml, gg_error *err);
+void gg_reproduce_entry_clear(gg_figure_entry *entry);
 
 /* What there is, embedded when the program was built, in the order of papers and numbers; ends with a NULL file. */
 typedef struct gg_entry_file {

@@ -24,7 +24,7 @@ static gg_status sum(parser *p);
 
 static gg_status refuse(const parser *p, const char *what)
 {
-  return gg_fail(p->err, GG_BAD_INPUT, "'%s' at character %td: %s", p->text, p->at - p->text + 1, what);
+  return gg_base_fail(p->err, GG_BAD_INPUT, "'%s' at character %td: %s", p->text, p->at - p->text + 1, what);
 }
 
 static void skip(parser *p)
@@ -124,7 +124,7 @@ static gg_status sum(parser *p)
   return GG_OK;
 }
 
-gg_status gg_expression_parse(gg_expression *e, const char *text, gg_error *err)
+gg_status gg_reproduce_expression_parse(gg_expression *e, const char *text, gg_error *err)
 {
   parser p = {text, text, e, 0, err};
   e->n = 0;
@@ -143,7 +143,7 @@ static double combine(char code, double a, double b)
   }
 }
 
-double gg_expression_value(const gg_expression *e, gg_variables at)
+double gg_reproduce_expression_value(const gg_expression *e, gg_variables at)
 {
   double stack[GG_EXPRESSION_STEPS];
   int top = 0;
@@ -163,14 +163,14 @@ double gg_expression_value(const gg_expression *e, gg_variables at)
   return top ? stack[0] : NAN;
 }
 
-double gg_expression_slope(const gg_expression *e, gg_variables at, char variable)
+double gg_reproduce_expression_slope(const gg_expression *e, gg_variables at, char variable)
 {
   double *of = variable == 'r'   ? &at.r
                : variable == 'x' ? &at.x
                                  : &at.y,
          here = *of, step = 1e-5 * (here == 0 ? 1 : fabs(here));
   *of = here + step;
-  double above = gg_expression_value(e, at);
+  double above = gg_reproduce_expression_value(e, at);
   *of = here - step;
-  return (above - gg_expression_value(e, at)) / (2 * step);
+  return (above - gg_reproduce_expression_value(e, at)) / (2 * step);
 }

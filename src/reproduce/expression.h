@@ -23,9 +23,9 @@ typedef struct gg_variables {
 } gg_variables;
 
 /* GG_BAD_INPUT says what is wrong and at which character. */
-gg_status gg_expression_parse(gg_expression *e, const char *text, gg_error *err);
-double gg_expression_value(const gg_expression *e, gg_variables at);
+gg_status gg_reproduce_expression_parse(gg_expression *e, const char *text, gg_error *err);
+double gg_reproduce_expression_value(const gg_expression *e, gg_variables at);
 /* Its derivative with respect to y, and to r. */
-double gg_expression_slope(const gg_expression *e, gg_variables at, char variable);
+double gg_reproduce_expression_slope(const gg_expression *e, gg_variables at, char variable);
 
 #endif

@@ -82,16 +82,16 @@ static gg_status put_in_place(const char *path, const void *image, size_t size, 
 {
   gg_atomic_file file;
   unsigned char seal[GG_SEAL_SIZE];
-  gg_seal_of(image, size, seal);
-  GG_TRY(gg_atomic_open(&file, path, err));
-  gg_status status = gg_atomic_write(&file, image, size, err);
-  if (status == GG_OK) status = gg_atomic_write(&file, seal, sizeof seal, err);
-  if (status == GG_OK) return gg_atomic_commit(&file, err);
-  gg_atomic_abandon(&file);
+  gg_files_checksum_trailer_of(image, size, seal);
+  GG_TRY(gg_base_atomic_open(&file, path, err));
+  gg_status status = gg_base_atomic_write(&file, image, size, err);
+  if (status == GG_OK) status = gg_base_atomic_write(&file, seal, sizeof seal, err);
+  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
   return status;
 }
 
-gg_status gg_figure_write_h5(const gg_figure *f, const char *path, const char *command, gg_error *err)
+gg_status gg_reproduce_figure_write_h5(const gg_figure *f, const char *path, const char *command, gg_error *err)
 {
   gg_h5 h;
   size_t size = 0;

@@ -14,7 +14,7 @@ static double number_of(const json_t *value)
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-double gg_key_number(const gg_scene *scene, const char *key)
+double gg_reproduce_key_number(const gg_scene *scene, const char *key)
 {
   json_t *value = gg_scene_key_json(scene, key);
   double number = number_of(value);
@@ -22,11 +22,11 @@ double gg_key_number(const gg_scene *scene, const char *key)
   return number;
 }
 
-void gg_key_text(const gg_scene *scene, const char *key, char *text, size_t size)
+void gg_reproduce_key_text(const gg_scene *scene, const char *key, char *text, size_t size)
 {
   json_t *value = gg_scene_key_json(scene, key);
   text[0] = '\0';
-  if (value) gg_flow_style_text(value, text, size);
+  if (value) gg_scene_flow_style_text(value, text, size);
   json_decref(value);
 }
 
@@ -34,7 +34,7 @@ void gg_key_text(const gg_scene *scene, const char *key, char *text, size_t size
 static bool is(const gg_scene *scene, const char *key, const char *text)
 {
   char *end;
-  double here = gg_key_number(scene, key), asked = strtod(text, &end);
+  double here = gg_reproduce_key_number(scene, key), asked = strtod(text, &end);
   if (!isnan(here) && *text && !*end) return here == asked || fabs(here - asked) <= 1e-9 * fabs(asked);
   gg_scene other = *scene;
   if (gg_scene_override(&other, key, text, NULL) != GG_OK) return false;
@@ -45,7 +45,7 @@ static bool is(const gg_scene *scene, const char *key, const char *text)
   return same;
 }
 
-bool gg_scene_meets(const gg_scene *scene, const gg_conditions *conditions)
+bool gg_reproduce_scene_meets(const gg_scene *scene, const gg_conditions *conditions)
 {
   for (int i = 0; i < conditions->n; i++) {
     const gg_condition_of *one = &conditions->of[i];
@@ -56,7 +56,7 @@ bool gg_scene_meets(const gg_scene *scene, const gg_conditions *conditions)
   return true;
 }
 
-bool gg_figure_point_of(const gg_figure_point *point, const gg_texts *sweeps)
+bool gg_reproduce_figure_point_of(const gg_figure_point *point, const gg_texts *sweeps)
 {
   for (int i = 0; i < sweeps->n; i++)
     if (strcmp(sweeps->text[i], point->sweep) == 0) return true;

@@ -38,7 +38,7 @@ static void print_section(FILE *out, const gg_figure_entry *e)
 {
   char base[64], head[600];
   bool cannot = e->cannot;
-  gg_figure_base(e, base, sizeof base);
+  gg_reproduce_figure_base(e, base, sizeof base);
   fprintf(out, "\n## %s\n\n", e->figure);
   if (!cannot && strcmp(e->verdict, "open") != 0) {
     /* The picture that there is: a vector one, or pixels where those are smaller (many grains). */
@@ -59,10 +59,10 @@ static gg_status print_counts(FILE *out, gg_error *err)
   int count[VERDICTS] = {0}, cannot = 0, n = 0;
   gg_figure_entry e;
   for (; gg_entry_files[n].file; n++) {
-    GG_TRY(gg_figure_read((size_t)n, &e, err));
+    GG_TRY(gg_reproduce_figure_read((size_t)n, &e, err));
     for (int k = 0; k < VERDICTS && !e.cannot; k++) count[k] += strcmp(e.verdict, verdicts[k]) == 0;
     cannot += e.cannot != NULL;
-    gg_entry_clear(&e);
+    gg_reproduce_entry_clear(&e);
   }
   fprintf(out,
           "\n# %d figures\n\nagrees %d, differs %d, cannot be told %d, not judged yet %d, cannot be reproduced %d.\n",
@@ -70,20 +70,20 @@ static gg_status print_counts(FILE *out, gg_error *err)
   return GG_OK;
 }
 
-gg_status gg_figure_page(char **text, gg_error *err)
+gg_status gg_reproduce_figure_page(char **text, gg_error *err)
 {
   gg_figure_entry e;
-  FILE *out = gg_open_text(text);
-  if (!out) return gg_out_of_memory(err);
+  FILE *out = gg_base_memory_stream_open(text);
+  if (!out) return gg_base_out_of_memory(err);
   fputs(gg_reproduction_head, out);
   gg_status status = print_counts(out, err);
   for (size_t k = 0; gg_entry_files[k].file && status == GG_OK; k++) {
-    status = gg_figure_read(k, &e, err);
+    status = gg_reproduce_figure_read(k, &e, err);
     if (status != GG_OK) break;
     print_section(out, &e);
-    gg_entry_clear(&e);
+    gg_reproduce_entry_clear(&e);
   }
-  if (!gg_close_text(out, text)) status = gg_out_of_memory(err);
+  if (!gg_base_memory_stream_close(out, text)) status = gg_base_out_of_memory(err);
   if (status != GG_OK) free(*text);
   return status;
 }

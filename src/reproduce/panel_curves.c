@@ -31,15 +31,16 @@ static void plain(const char *name, char *text, size_t size)
   text[used] = '\0';
 }
 
-void gg_panel_curve_text(const gg_source *source, int k, const gg_figure_point *point, int engine, char *text,
-                         size_t size)
+void gg_reproduce_panel_curve_text(const gg_source *source, int k, const gg_figure_point *point, int engine, char *text,
+                                   size_t size)
 {
   static const char *const told[] = {"label", "x_name"};
   for (int t = 0; t < 2; t++) {
-    const char *mine = text_of(gg_figure_curve(point, engine, source->names.text[k]), told[t]);
+    const char *mine = text_of(gg_reproduce_figure_curve(point, engine, source->names.text[k]), told[t]);
     bool alone = *mine;
     for (int i = 0; i < source->names.n; i++)
-      if (i != k && strcmp(mine, text_of(gg_figure_curve(point, engine, source->names.text[i]), told[t])) == 0)
+      if (i != k &&
+          strcmp(mine, text_of(gg_reproduce_figure_curve(point, engine, source->names.text[i]), told[t])) == 0)
         alone = false;
     snprintf(text, size, "%s", mine);
     if (alone) return;
@@ -51,8 +52,8 @@ static gg_told transformed(const gg_figure_panel *of, double x, gg_told y)
 {
   if (!of->source.as.n) return y;
   gg_variables at = {x, y.mean, 0, NAN};
-  double slope = gg_expression_slope(&of->source.as, at, 'y');
-  return (gg_told){gg_expression_value(&of->source.as, at), fabs(slope) * y.error, NULL};
+  double slope = gg_reproduce_expression_slope(&of->source.as, at, 'y');
+  return (gg_told){gg_reproduce_expression_value(&of->source.as, at), fabs(slope) * y.error, NULL};
 }
 
 /* Logarithms of what was never counted say nothing; nor does a point on a logarithmic axis known only to its own size.
@@ -75,9 +76,9 @@ static gg_status put_curve(gg_drawn *d, const gg_figure_panel *of, const json_t 
       mean += item(curve, "value", k) / (double)each;
       variance += pow(item(curve, "stderr", k) / (double)each, 2);
     }
-    gg_told raw = {mean, sqrt(variance), NULL}, y = transformed(of, gg_panel_x(of, x), raw);
-    x = gg_panel_x(of, x);
-    if (is_shown(of, x, raw, y)) GG_TRY(gg_drawn_put(d, x, NAN, y.mean, y.error, err));
+    gg_told raw = {mean, sqrt(variance), NULL}, y = transformed(of, gg_reproduce_panel_x(of, x), raw);
+    x = gg_reproduce_panel_x(of, x);
+    if (is_shown(of, x, raw, y)) GG_TRY(gg_reproduce_drawn_put(d, x, NAN, y.mean, y.error, err));
   }
   return GG_OK;
 }
@@ -90,13 +91,13 @@ static gg_status put_law(gg_drawn_panel *p, const json_t *curve, gg_error *err)
   if (!law || !p->of->source.beside) return GG_OK;
   for (size_t i = 0; i < p->n; i++)
     if (strcmp(p->drawn[i].method, label) == 0) return GG_OK;
-  gg_drawn *d = gg_panel_add(p, label, "", GG_CHART_LINE);
+  gg_drawn *d = gg_reproduce_panel_add(p, label, "", GG_CHART_LINE);
   size_t n = json_array_size(json_object_get(curve, "x"));
   for (size_t i = 0; i < n; i++) {
-    double x = gg_panel_x(p->of, item(curve, "x", i));
+    double x = gg_reproduce_panel_x(p->of, item(curve, "x", i));
     gg_told y = transformed(p->of, x, (gg_told){item(law, "value", i), 0, NULL});
     bool in = !(p->of->y.from < p->of->y.to) || (y.mean >= p->of->y.from && y.mean <= p->of->y.to);
-    if (in && is_shown(p->of, x, (gg_told){1, 0, NULL}, y)) GG_TRY(gg_drawn_put(d, x, NAN, y.mean, NAN, err));
+    if (in && is_shown(p->of, x, (gg_told){1, 0, NULL}, y)) GG_TRY(gg_reproduce_drawn_put(d, x, NAN, y.mean, NAN, err));
   }
   return GG_OK;
 }
@@ -105,25 +106,25 @@ static gg_status curves_of(gg_drawn_panel *p, const gg_figure_point *point, int 
 {
   char group[128];
   for (int i = 0; i < p->of->source.names.n; i++) {
-    const json_t *curve = gg_figure_curve(point, engine, p->of->source.names.text[i]);
+    const json_t *curve = gg_reproduce_figure_curve(point, engine, p->of->source.names.text[i]);
     if (!curve) continue;
     const char *label = text_of(curve, "label");
-    gg_panel_group(p->of, point, *label ? label : p->of->source.names.text[i], group, sizeof group);
+    gg_reproduce_panel_group(p->of, point, *label ? label : p->of->source.names.text[i], group, sizeof group);
     snprintf(p->y_label, sizeof p->y_label, "%s", text_of(curve, "y_name"));
     if (!p->of->source.as.n) snprintf(p->y_unit, sizeof p->y_unit, "%s", text_of(curve, "unit"));
     snprintf(p->x_label, sizeof p->x_label, "%s", text_of(curve, "x_name"));
     if (!p->of->x.as.n) snprintf(p->x_unit, sizeof p->x_unit, "%s", text_of(curve, "x_unit"));
-    GG_TRY(put_curve(gg_panel_add(p, engines[engine], group, GG_CHART_BAND), p->of, curve, err));
+    GG_TRY(put_curve(gg_reproduce_panel_add(p, engines[engine], group, GG_CHART_BAND), p->of, curve, err));
     GG_TRY(put_law(p, curve, err));
   }
   return GG_OK;
 }
 
-gg_status gg_panel_curves(gg_drawn_panel *p, const gg_figure_points *all, gg_error *err)
+gg_status gg_reproduce_panel_curves(gg_drawn_panel *p, const gg_figure_points *all, gg_error *err)
 {
   for (int engine = 0; engine < 2; engine++)
     for (size_t i = 0; i < all->n; i++)
-      if (gg_panel_takes(p->of, &all->point[i]) && gg_panel_engine(p->of, &all->point[i], engine))
+      if (gg_reproduce_panel_takes(p->of, &all->point[i]) && gg_reproduce_panel_engine(p->of, &all->point[i], engine))
         GG_TRY(curves_of(p, &all->point[i], engine, err));
   return GG_OK;
 }
@@ -132,32 +133,34 @@ static gg_status put_series(gg_drawn_panel *p, const gg_figure_point *point, int
                             gg_error *err)
 {
   char group[128], symbol[64];
-  const gg_stored_series *s = gg_stored_series_find(&point->stored.engine[engine], name);
+  const gg_stored_series *s = gg_files_stored_series_find(&point->stored.engine[engine], name);
   if (!s || !s->n) return GG_OK;
-  gg_panel_group(p->of, point, gg_quantity_symbol(gg_quantity_find(name), symbol, sizeof symbol), group, sizeof group);
-  const char *unit = gg_figure_quantity(point, engine, name).unit; /* that of its mean */
+  gg_reproduce_panel_group(p->of, point,
+                           gg_common_quantity_symbol(gg_common_quantity_find(name), symbol, sizeof symbol), group,
+                           sizeof group);
+  const char *unit = gg_reproduce_figure_quantity(point, engine, name).unit; /* that of its mean */
   if (unit && !*p->y_unit && !p->of->source.as.n) snprintf(p->y_unit, sizeof p->y_unit, "%s", unit);
-  gg_drawn *d = gg_panel_add(p, engines[engine], group, GG_CHART_BAND);
+  gg_drawn *d = gg_reproduce_panel_add(p, engines[engine], group, GG_CHART_BAND);
   size_t first = 0, last = s->n, step;
   double to = p->of->x.to > p->of->x.from ? p->of->x.to : INFINITY, from = p->of->x.to > 0 ? p->of->x.from : -INFINITY;
-  while (first < last && gg_panel_x(p->of, s->time[first]) < from) first++;
-  while (last > first && gg_panel_x(p->of, s->time[last - 1]) > to) last--;
+  while (first < last && gg_reproduce_panel_x(p->of, s->time[first]) < from) first++;
+  while (last > first && gg_reproduce_panel_x(p->of, s->time[last - 1]) > to) last--;
   step = (last - first) / MOST_SERIES_POINTS + 1;
   for (size_t i = first; i < last; i += step) {
-    double x = gg_panel_x(p->of, s->time[i]);
+    double x = gg_reproduce_panel_x(p->of, s->time[i]);
     gg_told y = transformed(p->of, x, (gg_told){s->value[i], NAN, NULL});
-    if (isfinite(y.mean)) GG_TRY(gg_drawn_put(d, x, NAN, y.mean, NAN, err));
+    if (isfinite(y.mean)) GG_TRY(gg_reproduce_drawn_put(d, x, NAN, y.mean, NAN, err));
   }
   return GG_OK;
 }
 
-gg_status gg_panel_series(gg_drawn_panel *p, const gg_figure_points *all, gg_error *err)
+gg_status gg_reproduce_panel_series(gg_drawn_panel *p, const gg_figure_points *all, gg_error *err)
 {
   snprintf(p->x_label, sizeof p->x_label, "time");
   for (int engine = 0; engine < 2; engine++)
     for (size_t i = 0; i < all->n; i++)
       for (int k = 0; k < p->of->source.names.n; k++)
-        if (gg_panel_takes(p->of, &all->point[i]) && gg_panel_engine(p->of, &all->point[i], engine))
+        if (gg_reproduce_panel_takes(p->of, &all->point[i]) && gg_reproduce_panel_engine(p->of, &all->point[i], engine))
           GG_TRY(put_series(p, &all->point[i], engine, p->of->source.names.text[k], err));
   return GG_OK;
 }

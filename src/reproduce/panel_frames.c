@@ -68,20 +68,20 @@ static gg_status frames_of(gg_drawn_panel *p, const gg_figure_point *point, int 
   slabs s = {0};
   if (!(point->stored.edge[1] > 0)) return GG_OK;
   GG_TRY(read_frames(&s, point, err));
-  gg_panel_group(p->of, point, "", group, sizeof group);
-  gg_drawn *d = gg_panel_add(p, engines[engine], group, GG_CHART_POINTS);
+  gg_reproduce_panel_group(p->of, point, "", group, sizeof group);
+  gg_drawn *d = gg_reproduce_panel_add(p, engines[engine], group, GG_CHART_POINTS);
   for (int k = 0; k < SLABS; k++) {
     gg_told u = slab_mean(&s, k);
-    if (isfinite(u.mean)) GG_TRY(gg_drawn_put(d, (k + 0.5) / SLABS - 0.5, NAN, u.mean, u.error, err));
+    if (isfinite(u.mean)) GG_TRY(gg_reproduce_drawn_put(d, (k + 0.5) / SLABS - 0.5, NAN, u.mean, u.error, err));
   }
   return GG_OK;
 }
 
-gg_status gg_panel_frames(gg_drawn_panel *p, const gg_figure_points *all, gg_error *err)
+gg_status gg_reproduce_panel_frames(gg_drawn_panel *p, const gg_figure_points *all, gg_error *err)
 {
   for (int engine = 0; engine < 2; engine++)
     for (size_t i = 0; i < all->n; i++)
-      if (gg_panel_takes(p->of, &all->point[i]) && gg_panel_engine(p->of, &all->point[i], engine))
+      if (gg_reproduce_panel_takes(p->of, &all->point[i]) && gg_reproduce_panel_engine(p->of, &all->point[i], engine))
         GG_TRY(frames_of(p, &all->point[i], engine, err));
   return GG_OK;
 }

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "reproduce/figures.h"
 
-bool gg_figure_has(const gg_figure *f, bool snapshots)
+bool gg_reproduce_figure_has(const gg_figure *f, bool snapshots)
 {
   for (int i = 0; i < f->entry->n_panels; i++)
     if ((f->entry->panel[i].source.kind == GG_OF_SNAPSHOT) == snapshots) return true;
@@ -16,7 +16,7 @@ bool gg_figure_has(const gg_figure *f, bool snapshots)
 /* Lines without a point are left out. */
 static gg_status series_of(const gg_drawn_panel *p, gg_chart_panel *chart, gg_error *err)
 {
-  gg_chart_series *series = gg_new_array(p->n ? p->n : 1, sizeof *series, err);
+  gg_chart_series *series = gg_base_array_new(p->n ? p->n : 1, sizeof *series, err);
   if (!series) return GG_FAILED;
   for (size_t i = 0; i < p->n; i++) {
     const gg_drawn *d = &p->drawn[i];
@@ -43,19 +43,20 @@ static gg_status panel_of(const gg_drawn_panel *p, gg_chart_panel *chart, gg_err
   return series_of(p, chart, err);
 }
 
-gg_status gg_figure_draw(const gg_figure *f, const gg_figure_points *points, const char *picture, gg_error *err)
+gg_status gg_reproduce_figure_draw(const gg_figure *f, const gg_figure_points *points, const char *picture,
+                                   gg_error *err)
 {
   gg_chart_panel panels[GG_MOST_PANELS];
   char title[80];
   gg_chart chart = {.title = title, .panel = panels};
   gg_status status = GG_OK;
-  if (!gg_figure_has(f, false)) return gg_figure_draw_snapshots(f, points, picture, err);
+  if (!gg_reproduce_figure_has(f, false)) return gg_reproduce_figure_draw_snapshots(f, points, picture, err);
   snprintf(title, sizeof title, "%s%s", f->entry->figure, f->quick ? " (quick)" : "");
   for (int i = 0; i < f->entry->n_panels && status == GG_OK; i++) {
     if (f->entry->panel[i].source.kind == GG_OF_SNAPSHOT) continue;
     status = panel_of(&f->panel[i], &panels[chart.n++], err);
   }
-  if (status == GG_OK) status = gg_chart_draw(&chart, picture, NULL, err);
+  if (status == GG_OK) status = gg_plot_chart_draw(&chart, picture, NULL, err);
   for (size_t i = 0; i < chart.n; i++) free((void *)(uintptr_t)panels[i].series);
   return status;
 }

@@ -20,7 +20,7 @@ static void vary_no_more(gg_sweep *sweep, const char *key)
 {
   for (size_t f = 0; f < sweep->n_varied; f++) {
     if (sweep->varied[f].n_keys != 1 || strcmp(sweep->varied[f].key[0], key) != 0) continue;
-    gg_varied_clear(&sweep->varied[f]);
+    gg_sweep_varied_clear(&sweep->varied[f]);
     sweep->n_varied--;
     memmove(&sweep->varied[f], &sweep->varied[f + 1], (sweep->n_varied - f) * sizeof *sweep->varied);
     return;
@@ -34,7 +34,7 @@ static gg_status vary_anew(gg_sweep *sweep, const gg_set *set, gg_error *err)
   while (length && strchr(" \n]", set->value[length - 1])) length--;
   if (*set->value == '[') skip = 1;
   char *values = strndup(set->value + skip, length - skip);
-  if (!values) return gg_out_of_memory(err);
+  if (!values) return gg_base_out_of_memory(err);
   vary_no_more(sweep, set->key);
   gg_status status = gg_sweep_vary(sweep, set->key, values, err);
   free(values);
@@ -54,7 +54,7 @@ static gg_status parse(const gg_entry_sweep *of, const gg_figure_entry *owner, b
   *sweep = NULL;
   GG_TRY(gg_sweep_parse(of->yaml, owner->file, sweep, err));
   gg_status status = quick ? make_quick(*sweep, owner, err) : GG_OK;
-  if (status != GG_OK) status = gg_error_prefix(err, status, "%s: quick", owner->file);
+  if (status != GG_OK) status = gg_base_error_prefix(err, status, "%s: quick", owner->file);
   if (status == GG_OK) status = gg_sweep_check(*sweep, err);
   if (status == GG_OK) return GG_OK;
   gg_sweep_free(*sweep);
@@ -69,14 +69,15 @@ static gg_status make_sweep(const gg_figure_entry *entry, int i, bool quick, gg_
   gg_figure_entry other;
   size_t k;
   if (own->yaml) return parse(own, entry, quick, sweep, err);
-  gg_status status = gg_figure_find(own->figure, &k, err);
-  if (status == GG_OK) status = gg_figure_read(k, &other, err);
-  if (status != GG_OK) return gg_error_prefix(err, status, "%s: key 'sweep'", entry->file);
+  gg_status status = gg_reproduce_figure_find(own->figure, &k, err);
+  if (status == GG_OK) status = gg_reproduce_figure_read(k, &other, err);
+  if (status != GG_OK) return gg_base_error_prefix(err, status, "%s: key 'sweep'", entry->file);
   if (other.n_sweeps != 1 || !other.sweep[0].yaml)
-    status = gg_fail(err, GG_BAD_INPUT, "%s: key 'sweep': %s has not one sweep of its own", entry->file, other.figure);
+    status =
+        gg_base_fail(err, GG_BAD_INPUT, "%s: key 'sweep': %s has not one sweep of its own", entry->file, other.figure);
   else
     status = parse(&other.sweep[0], &other, quick, sweep, err);
-  gg_entry_clear(&other);
+  gg_reproduce_entry_clear(&other);
   return status;
 }
 
@@ -88,7 +89,8 @@ static void free_sweeps(gg_sweep *sweeps[GG_MOST_SWEEPS])
   }
 }
 
-gg_status gg_figure_sweeps(const gg_figure_entry *entry, bool quick, gg_sweep *sweeps[GG_MOST_SWEEPS], gg_error *err)
+gg_status gg_reproduce_figure_sweeps(const gg_figure_entry *entry, bool quick, gg_sweep *sweeps[GG_MOST_SWEEPS],
+                                     gg_error *err)
 {
   for (int i = 0; i < GG_MOST_SWEEPS; i++) sweeps[i] = NULL;
   for (int i = 0; i < entry->n_sweeps; i++) {
@@ -100,12 +102,12 @@ gg_status gg_figure_sweeps(const gg_figure_entry *entry, bool quick, gg_sweep *s
   return GG_OK;
 }
 
-void gg_figure_points_clear(gg_figure_points *all)
+void gg_reproduce_figure_points_clear(gg_figure_points *all)
 {
   for (size_t i = 0; i < all->n; i++) {
     for (size_t k = 0; k < all->point[i].n_varied; k++) free(all->point[i].varied[k]);
     free(all->point[i].path);
-    gg_stored_result_clear(&all->point[i].stored);
+    gg_files_stored_result_clear(&all->point[i].stored);
   }
   free(all->point);
   *all = (gg_figure_points){0};
@@ -120,7 +122,7 @@ static gg_status read_point(gg_sweep *sweep, const char *name, const char *folde
   GG_TRY(gg_sweep_find(sweep, folder, i, &state, &path, err));
   if (state == GG_POINT_MISSING) return free(path), GG_OK;
   gg_figure_point *more = realloc(all->point, (all->n + 1) * sizeof *more);
-  if (!more) return free(path), gg_out_of_memory(err);
+  if (!more) return free(path), gg_base_out_of_memory(err);
   all->point = more;
   gg_figure_point *p = &all->point[all->n++];
   *p = (gg_figure_point){.sweep = name, .path = path};
@@ -128,11 +130,11 @@ static gg_status read_point(gg_sweep *sweep, const char *name, const char *folde
   p->scene = *scene;
   gg_scene_free(scene);
   for (const char *key; p->n_varied < GG_MOST_VARIED_KEYS && (key = gg_sweep_key(sweep, p->n_varied));) {
-    if (!(p->varied[p->n_varied] = strdup(key))) return gg_out_of_memory(err);
+    if (!(p->varied[p->n_varied] = strdup(key))) return gg_base_out_of_memory(err);
     p->n_varied++;
   }
-  GG_TRY(gg_stored_result_read(&p->stored, path, err));
-  return gg_point_check(&p->scene, sweep->settings.does, json_object_get(p->stored.document, "scene"), path, err);
+  GG_TRY(gg_files_stored_result_read(&p->stored, path, err));
+  return gg_sweep_point_check(&p->scene, sweep->settings.does, json_object_get(p->stored.document, "scene"), path, err);
 }
 
 static gg_status read_points(const gg_figure_entry *entry, gg_sweep **sweeps, const char *folder, gg_figure_points *all,
@@ -141,7 +143,7 @@ static gg_status read_points(const gg_figure_entry *entry, gg_sweep **sweeps, co
   for (int s = 0; s < entry->n_sweeps; s++)
     for (size_t i = 0; i < gg_sweep_points(sweeps[s]); i++)
       GG_TRY(read_point(sweeps[s], entry->sweep[s].name, folder, i, all, err));
-  return all->n ? GG_OK : gg_fail(err, GG_FAILED, "%s: no point came to an end", entry->figure);
+  return all->n ? GG_OK : gg_base_fail(err, GG_FAILED, "%s: no point came to an end", entry->figure);
 }
 
 /* What one sweep's run tells, handed on. */
@@ -190,20 +192,20 @@ static gg_status run_all(const gg_figure_entry *entry, gg_sweep **sweeps, const 
   return worst;
 }
 
-gg_status gg_figure_run(const gg_figure_entry *entry, const gg_reproduce_options *options, gg_figure_points *all,
-                        gg_error *err)
+gg_status gg_reproduce_figure_run(const gg_figure_entry *entry, const gg_reproduce_options *options,
+                                  gg_figure_points *all, gg_error *err)
 {
   gg_sweep *sweeps[GG_MOST_SWEEPS];
   *all = (gg_figure_points){0};
-  GG_TRY(gg_figure_sweeps(entry, options->quick, sweeps, err));
+  GG_TRY(gg_reproduce_figure_sweeps(entry, options->quick, sweeps, err));
   char *folder = folder_of(options);
-  gg_status status = folder ? run_all(entry, sweeps, folder, options, err) : gg_out_of_memory(err);
+  gg_status status = folder ? run_all(entry, sweeps, folder, options, err) : gg_base_out_of_memory(err);
   if (status == GG_OK || (status == GG_FAILED && folder)) {
     gg_error reading;
     gg_status read = read_points(entry, sweeps, folder, all, &reading);
     if (read != GG_OK) {
-      gg_figure_points_clear(all); /* a part of them is no figure */
-      status = gg_fail(err, read, "%s", reading.message);
+      gg_reproduce_figure_points_clear(all); /* a part of them is no figure */
+      status = gg_base_fail(err, read, "%s", reading.message);
     }
   }
   free(folder);

@@ -23,7 +23,8 @@ static int collect(const gg_figure *f, const gg_figure_points *all, shown *list)
   for (int i = 0; i < f->entry->n_panels; i++)
     for (size_t k = 0; k < all->n && n < MOST_SHOWN; k++) {
       const gg_figure_panel *of = &f->entry->panel[i];
-      if (of->source.kind == GG_OF_SNAPSHOT && gg_panel_takes(of, &all->point[k]) && all->point[k].stored.n_frames)
+      if (of->source.kind == GG_OF_SNAPSHOT && gg_reproduce_panel_takes(of, &all->point[k]) &&
+          all->point[k].stored.n_frames)
         list[n++] = (shown){of, &all->point[k]};
     }
   return n;
@@ -59,7 +60,7 @@ static gg_status draw_one(FILE *s, const shown *one, int k, gg_panel place, gg_e
   int across = one->of->source.names.text[0][0] == 'z' ? 2 : 0;
   char group[128];
   if (!at) return GG_BAD_FILE;
-  gg_panel_group(one->of, one->point, "", group, sizeof group);
+  gg_reproduce_panel_group(one->of, one->point, "", group, sizeof group);
   fprintf(s, "$grains%d << EOD\n", k);
   for (size_t i = 0; i < one->point->stored.n_grains; i++)
     fprintf(s, "%.3g %.3g\n", fold(at[3 * i + (size_t)across], edge[across]), fold(at[3 * i + 1], edge[1]));
@@ -76,16 +77,17 @@ static gg_status draw_one(FILE *s, const shown *one, int k, gg_panel place, gg_e
   return GG_OK;
 }
 
-gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *all, const char *picture, gg_error *err)
+gg_status gg_reproduce_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *all, const char *picture,
+                                             gg_error *err)
 {
   shown list[MOST_SHOWN];
   int n = collect(f, all, list), columns = n < COLUMNS ? n : COLUMNS, rows = n ? (n + columns - 1) / columns : 1;
   bool png;
   char *script = NULL;
-  if (!n) return gg_fail(err, GG_FAILED, "%s: no grains with positions were stored", f->entry->figure);
+  if (!n) return gg_base_fail(err, GG_FAILED, "%s: no grains with positions were stored", f->entry->figure);
   GG_TRY(gg_plot_format(picture, NULL, &png, err));
-  FILE *s = gg_open_text(&script);
-  if (!s) return gg_out_of_memory(err);
+  FILE *s = gg_base_memory_stream_open(&script);
+  if (!s) return gg_base_out_of_memory(err);
   int width = columns * WIDTH, height = 50 + rows * HEIGHT;
   gg_plot_open_page(s, f->entry->figure, png, width, height);
   gg_status status = GG_OK;
@@ -96,8 +98,8 @@ gg_status gg_figure_draw_snapshots(const gg_figure *f, const gg_figure_points *a
     status = draw_one(s, &list[k], k, place, err);
   }
   fprintf(s, "unset multiplot\n");
-  if (!gg_close_text(s, &script) && status == GG_OK) status = gg_out_of_memory(err);
-  if (status == GG_OK) status = gg_gnuplot_run(script, NULL, picture, err);
+  if (!gg_base_memory_stream_close(s, &script) && status == GG_OK) status = gg_base_out_of_memory(err);
+  if (status == GG_OK) status = gg_plot_gnuplot_run(script, NULL, picture, err);
   free(script);
   return status;
 }

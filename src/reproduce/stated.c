@@ -8,7 +8,7 @@
 #include "reproduce/panel.h"
 #include "reproduce/straight.h"
 
-gg_told gg_find_zero(size_t n, const double *x, const double *y, const double *e)
+gg_told gg_reproduce_find_zero(size_t n, const double *x, const double *y, const double *e)
 {
   for (size_t i = 0; i + 1 < n; i++) {
     if (!(y[i] * y[i + 1] <= 0) || y[i] == y[i + 1]) continue;
@@ -25,7 +25,7 @@ static double top(const double x[3], const double y[3])
   return 0.5 * (x[0] + x[1]) - a / (2 * curve);
 }
 
-gg_told gg_find_extreme(size_t n, const double *x, const double *y, const double *e, bool least)
+gg_told gg_reproduce_find_extreme(size_t n, const double *x, const double *y, const double *e, bool least)
 {
   size_t at = 0;
   for (size_t i = 1; i < n; i++)
@@ -48,19 +48,19 @@ gg_told gg_find_extreme(size_t n, const double *x, const double *y, const double
   return (gg_told){value, sqrt(variance) * (log_x ? value : 1), NULL};
 }
 
-gg_told gg_find_power(size_t n, const double *x, const double *y, const double *e, bool exponent)
+gg_told gg_reproduce_find_power(size_t n, const double *x, const double *y, const double *e, bool exponent)
 {
   gg_straight line;
   double *all = malloc(3 * n * sizeof *all + 1);
   if (!all) {
-    gg_memory_lacked();
+    gg_base_memory_lacked();
     return GG_NO_VALUE;
   }
   for (size_t i = 0; i < n; i++) {
     bool told = x[i] > 0 && y[i] > 0;
     all[i] = told ? log(x[i]) : NAN, all[n + i] = told ? log(y[i]) : NAN, all[2 * n + i] = e[i] / y[i];
   }
-  bool fitted = gg_straight_fit(n, all, all + n, all + 2 * n, &line);
+  bool fitted = gg_reproduce_straight_fit(n, all, all + n, all + 2 * n, &line);
   free(all);
   if (!fitted) return GG_NO_VALUE;
   if (exponent) return (gg_told){line.b, line.b_error, NULL};
@@ -69,7 +69,7 @@ gg_told gg_find_power(size_t n, const double *x, const double *y, const double *
 
 static bool takes(const gg_stated *s, const gg_figure_point *p)
 {
-  return (!s->sweep || strcmp(s->sweep, p->sweep) == 0) && gg_scene_meets(&p->scene, &s->at);
+  return (!s->sweep || strcmp(s->sweep, p->sweep) == 0) && gg_reproduce_scene_meets(&p->scene, &s->at);
 }
 
 /* All points along the key, or the one there is. */
@@ -79,12 +79,12 @@ static gg_status gather(const gg_stated *s, const gg_figure_points *all, gg_aske
   for (size_t i = 0; i < all->n; i++) {
     const gg_figure_point *p = &all->point[i];
     if (!takes(s, p) || (asked->engine >= 0 && !p->stored.engine[asked->engine].document)) continue;
-    double x = s->over ? gg_key_number(&p->scene, s->over) : 0;
-    if (s->x.n) x = gg_expression_value(&s->x, (gg_variables){.x = x});
-    gg_told y = gg_figure_value(asked, p, x);
-    if (isfinite(x) && isfinite(y.mean)) GG_TRY(gg_drawn_put(d, x, NAN, y.mean, y.error, err));
+    double x = s->over ? gg_reproduce_key_number(&p->scene, s->over) : 0;
+    if (s->x.n) x = gg_reproduce_expression_value(&s->x, (gg_variables){.x = x});
+    gg_told y = gg_reproduce_figure_value(asked, p, x);
+    if (isfinite(x) && isfinite(y.mean)) GG_TRY(gg_reproduce_drawn_put(d, x, NAN, y.mean, y.error, err));
   }
-  gg_drawn_sort(d);
+  gg_reproduce_drawn_sort(d);
   return GG_OK;
 }
 
@@ -92,11 +92,11 @@ static gg_told found(const gg_stated *s, const gg_drawn *d)
 {
   switch (s->find) {
   case GG_FIND_VALUE: return d->n ? (gg_told){d->y[0], d->error[0], NULL} : GG_NO_VALUE;
-  case GG_FIND_ZERO: return gg_find_zero(d->n, d->x, d->y, d->error);
+  case GG_FIND_ZERO: return gg_reproduce_find_zero(d->n, d->x, d->y, d->error);
   case GG_FIND_MINIMUM:
-  case GG_FIND_MAXIMUM: return gg_find_extreme(d->n, d->x, d->y, d->error, s->find == GG_FIND_MINIMUM);
+  case GG_FIND_MAXIMUM: return gg_reproduce_find_extreme(d->n, d->x, d->y, d->error, s->find == GG_FIND_MINIMUM);
   case GG_FIND_PREFACTOR:
-  case GG_FIND_EXPONENT: return gg_find_power(d->n, d->x, d->y, d->error, s->find == GG_FIND_EXPONENT);
+  case GG_FIND_EXPONENT: return gg_reproduce_find_power(d->n, d->x, d->y, d->error, s->find == GG_FIND_EXPONENT);
   }
   return GG_NO_VALUE;
 }
@@ -106,14 +106,15 @@ static gg_status ask(const gg_stated *s, const gg_figure_points *all, int engine
 {
   gg_drawn_panel holder = {0};
   gg_asked asked = {.engine = engine, .theory = theory};
-  gg_drawn *d = gg_panel_add(&holder, "", "", GG_CHART_POINTS);
-  gg_status status = d ? gather(s, all, &asked, d, err) : gg_out_of_memory(err);
+  gg_drawn *d = gg_reproduce_panel_add(&holder, "", "", GG_CHART_POINTS);
+  gg_status status = d ? gather(s, all, &asked, d, err) : gg_base_out_of_memory(err);
   if (status == GG_OK) *value = found(s, d);
-  gg_panel_clear(&holder);
+  gg_reproduce_panel_clear(&holder);
   return status;
 }
 
-gg_status gg_stated_rows(const gg_figure_entry *entry, const gg_figure_points *all, gg_stated_row *rows, gg_error *err)
+gg_status gg_reproduce_stated_rows(const gg_figure_entry *entry, const gg_figure_points *all, gg_stated_row *rows,
+                                   gg_error *err)
 {
   for (int i = 0; i < entry->n_numbers; i++) {
     const gg_stated *s = &entry->number[i];

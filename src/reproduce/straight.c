@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-bool gg_straight_fit(size_t n, const double *x, const double *y, const double *error, gg_straight *line)
+bool gg_reproduce_straight_fit(size_t n, const double *x, const double *y, const double *error, gg_straight *line)
 {
   double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   size_t used = 0;

@@ -9,6 +9,6 @@
 typedef struct gg_straight {
   double a, b, a_error, b_error;
 } gg_straight;
-bool gg_straight_fit(size_t n, const double *x, const double *y, const double *error, gg_straight *line);
+bool gg_reproduce_straight_fit(size_t n, const double *x, const double *y, const double *error, gg_straight *line);
 
 #endif

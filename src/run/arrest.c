@@ -7,7 +7,7 @@
 /* Tested after so many collisions a grain. */
 enum { STRETCH = 2000 };
 
-void gg_replicas_check_standstill(gg_replicas *all)
+void gg_run_replicas_check_arrest(gg_replicas *all)
 {
   struct gg_replicas_state *s = &all->state;
   uint64_t collisions = 0, treated = 0;

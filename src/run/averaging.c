@@ -22,11 +22,11 @@ static void give_back(void)
 static gg_status store_checkpoint(gg_replicas *all, gg_error *err)
 {
   gg_archive archive = {0};
-  gg_status status = gg_replicas_save(all, &archive, err);
+  gg_status status = gg_run_replicas_save(all, &archive, err);
   if (status == GG_OK) status = all->hooks->checkpoint(all->hooks->context, &archive, err);
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
   give_back();
-  all->last_checkpoint = gg_wall_now();
+  all->last_checkpoint = gg_base_clock_wall();
   return status;
 }
 
@@ -35,10 +35,10 @@ static bool checkpoints(const gg_replicas *all)
   return all->hooks && all->hooks->checkpoint;
 }
 
-bool gg_replicas_checkpoint_is_due(const gg_replicas *all)
+bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
 {
   double every = all->scene.output.checkpoint_every;
-  return checkpoints(all) && every > 0 && gg_wall_now() - all->last_checkpoint > every;
+  return checkpoints(all) && every > 0 && gg_base_clock_wall() - all->last_checkpoint > every;
 }
 
 /* Sampling intervals follow the collision rate before averaging, and where the temperature never stands still. */
@@ -67,22 +67,22 @@ static uint64_t step(const gg_replicas *all, uint64_t way)
  * now, catch up in steps, too: the first ones wait. */
 static uint64_t next_of(const gg_replicas *all)
 {
-  uint64_t least = gg_replicas_least(all);
+  uint64_t least = gg_run_replicas_least(all);
   return all->share ? all->state.due : least + step(all, all->state.due - least);
 }
 
 /* Let every replica reach `due` samples, in short steps with progress and a checkpoint between them. */
 static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 {
-  while (all->state.due < due || !gg_replicas_are_level(all)) {
-    if (gg_replicas_are_level(all)) all->state.due += step(all, due - all->state.due);
-    gg_status status = gg_replicas_advance(all, next_of(all), adapts(all), err);
+  while (all->state.due < due || !gg_run_replicas_are_level(all)) {
+    if (gg_run_replicas_are_level(all)) all->state.due += step(all, due - all->state.due);
+    gg_status status = gg_run_replicas_advance(all, next_of(all), adapts(all), err);
     if (status == GG_INTERRUPTED && is_over(all)) return GG_OK;
     if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, err));
     if (status != GG_OK) return status;
-    if (gg_replicas_are_level(all)) gg_replicas_check_standstill(all);
-    gg_replicas_report_progress(all, false);
-    if (gg_replicas_checkpoint_is_due(all)) GG_TRY(store_checkpoint(all, err));
+    if (gg_run_replicas_are_level(all)) gg_run_replicas_check_arrest(all);
+    gg_run_replicas_report_progress(all, false);
+    if (gg_run_replicas_checkpoint_is_due(all)) GG_TRY(store_checkpoint(all, err));
     if (is_over(all)) return GG_OK;
   }
   return GG_OK;
@@ -90,15 +90,15 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 
 static gg_status open_window(gg_replicas *all, gg_error *err)
 {
-  for (int i = 0; i < all->n; i++) GG_TRY(gg_replica_open_window(&all->replica[i], err));
-  if (all->share) gg_share_changed(all->share);
-  if (!all->state.averaging) gg_outlook_new_phase(&all->outlook);
-  gg_outlook_open_window(&all->outlook);
+  for (int i = 0; i < all->n; i++) GG_TRY(gg_run_replica_open_window(&all->replica[i], err));
+  if (all->share) gg_run_share_changed(all->share);
+  if (!all->state.averaging) gg_run_progress_new_phase(&all->outlook);
+  gg_run_progress_open_window(&all->outlook);
   all->looked_at = 0;
   all->state.averaging = 1;
   all->state.exact = 0;
   all->state.window_at = all->state.due;
-  all->state.goal = all->state.due + gg_plan_next_test(&all->plan, all->state.restarts, NULL);
+  all->state.goal = all->state.due + gg_run_criteria_next_test(&all->plan, all->state.restarts, NULL);
   return GG_OK;
 }
 
@@ -114,16 +114,16 @@ static gg_test test_of(const gg_replicas *all, const gg_convergence *c, uint64_t
 /* Is the window long and exact enough? */
 static bool finished(gg_replicas *all, const gg_test *t)
 {
-  if (gg_plan_ends(&all->plan, all->state.restarts, t->window)) return true;
+  if (gg_run_criteria_end(&all->plan, all->state.restarts, t->window)) return true;
   bool before = all->state.exact;
   all->state.exact = t->exact;
-  return gg_plan_is_met(t, before);
+  return gg_run_criteria_are_met(t, before);
 }
 
 static const gg_replica *unsettled(const gg_replicas *all)
 {
   for (int i = 0; i < all->n; i++)
-    if (!gg_replica_settled(&all->replica[i])) return &all->replica[i];
+    if (!gg_run_replica_settled(&all->replica[i])) return &all->replica[i];
   return NULL;
 }
 
@@ -139,12 +139,12 @@ static gg_status warm_up(gg_replicas *all, gg_error *err)
     if (is_over(all)) return GG_OK;
     const gg_replica *one = unsettled(all);
     if (!one) return GG_OK;
-    if (due >= all->plan.warmup + MOST_MORE) return gg_replica_collapsed(one, err);
+    if (due >= all->plan.warmup + MOST_MORE) return gg_run_replica_collapsed(one, err);
   }
 }
 
 /* The next test belongs to the state, so that a resumed run tests where the uninterrupted one does. */
-gg_status gg_replicas_run(gg_replicas *all, gg_error *err)
+gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err)
 {
   if (!all->state.averaging) {
     GG_TRY(warm_up(all, err));
@@ -152,22 +152,22 @@ gg_status gg_replicas_run(gg_replicas *all, gg_error *err)
   }
   while (!is_over(all)) {
     GG_TRY(advance_to(all, all->state.goal, err));
-    if (all->state.due < all->state.goal || !gg_replicas_are_level(all)) break; /* over on the way */
+    if (all->state.due < all->state.goal || !gg_run_replicas_are_level(all)) break; /* over on the way */
     uint64_t window = all->state.due - all->state.window_at;
     gg_convergence c;
-    GG_TRY(gg_replicas_convergence(all, &c, err));
-    gg_outlook_note_errors(&all->outlook, (double)window, &c);
+    GG_TRY(gg_run_replicas_convergence(all, &c, err));
+    gg_run_progress_record_errors(&all->outlook, (double)window, &c);
     gg_test test = test_of(all, &c, window);
-    if (c.trending && gg_plan_restarts(&all->plan, all->state.restarts) && window >= all->plan.least) {
+    if (c.trending && gg_run_criteria_restart(&all->plan, all->state.restarts) && window >= all->plan.least) {
       all->state.restarts++;
       GG_TRY(open_window(all, err));
     } else if (finished(all, &test)) {
-      gg_replicas_report_progress(all, true); /* with the errors of the end */
+      gg_run_replicas_report_progress(all, true); /* with the errors of the end */
       return GG_OK;
     } else {
-      all->state.goal = all->state.window_at + gg_plan_next_test(&all->plan, all->state.restarts, &test);
+      all->state.goal = all->state.window_at + gg_run_criteria_next_test(&all->plan, all->state.restarts, &test);
     }
   }
-  gg_replicas_report_progress(all, true);
+  gg_run_replicas_report_progress(all, true);
   return checkpoints(all) ? store_checkpoint(all, err) : GG_OK; /* over before its time */
 }

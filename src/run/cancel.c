@@ -5,7 +5,7 @@
 
 static bool out_of_time(const gg_replicas *all)
 {
-  return all->plan.time_limit > 0 && all->state.wall + gg_wall_now() - all->started > all->plan.time_limit;
+  return all->plan.time_limit > 0 && all->state.wall + gg_base_clock_wall() - all->started > all->plan.time_limit;
 }
 
 static bool hook_asks(gg_replicas *all)
@@ -28,7 +28,7 @@ static bool asked(void *context)
   return why != GG_GOES_ON;
 }
 
-void gg_replicas_watch(gg_replicas *all)
+void gg_run_replicas_watch(gg_replicas *all)
 {
   pthread_mutex_init(&all->lock, NULL);
   atomic_init(&all->stopped, GG_GOES_ON);
@@ -37,7 +37,7 @@ void gg_replicas_watch(gg_replicas *all)
   all->model.stop = &all->stop;
 }
 
-void gg_replicas_unwatch(gg_replicas *all)
+void gg_run_replicas_unwatch(gg_replicas *all)
 {
   if (all->model.stop) pthread_mutex_destroy(&all->lock);
   all->model.stop = NULL;

@@ -8,7 +8,7 @@
 #include "run/run.h"
 #include "run/start_model.h"
 
-double gg_z_score(const gg_estimate *a, const gg_estimate *b)
+double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
 {
   double error = hypot(a->error, b->error);
   return error > 0 ? (a->mean - b->mean) / error : NAN;
@@ -21,25 +21,25 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
   gg_error why = {0};
   const gg_theory *theory = c->theory[i].theory;
   if (!c->theory[i].applies) return GG_OK;
-  bool before = gg_memory_begin();
+  bool before = gg_base_memory_begin();
   gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
-  if (gg_memory_end(before)) return gg_error_prefix(err, gg_out_of_memory(err), "%s", theory->name);
-  if (status == GG_FAILED) gg_text_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
+  if (gg_base_memory_end(before)) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+  if (status == GG_FAILED) gg_base_string_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
   return GG_OK;
 }
 
-gg_status gg_compare_theories(const gg_model *model, gg_comparison *c, gg_error *err)
+gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_error *err)
 {
   c->model = *model;
   c->n_theories = 0;
   gg_model start = *model; /* facts tell how engines start; theories of ours find their own temperature */
-  if (c->scene.temperature == GG_AUTO) GG_TRY(gg_start_near_steady(&start, err));
+  if (c->scene.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(&start, err));
   const gg_theory *theory;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error why = {0};
-    bool before = gg_memory_begin();
+    bool before = gg_base_memory_begin();
     gg_status status = gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &why);
-    if (gg_memory_end(before)) return gg_error_prefix(err, gg_out_of_memory(err), "%s", theory->name);
+    if (gg_base_memory_end(before)) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
     c->theory[i].theory = theory;
     c->theory[i].applies = status == GG_OK;
     snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", why.message);
@@ -87,11 +87,11 @@ static bool locked_interrupted(void *context)
 static gg_status store_both(part *p, const gg_archive *archive, gg_error *err)
 {
   gg_archive both = {0};
-  gg_archive_clear(&p->latest[p->kind]);
-  gg_status status = gg_archive_nest(&p->latest[p->kind], gg_engine_ops_of(p->kind)->name, archive, err);
-  for (int k = 0; k < 2 && status == GG_OK; k++) status = gg_archive_append(&both, &p->latest[k], err);
+  gg_base_archive_clear(&p->latest[p->kind]);
+  gg_status status = gg_base_archive_nest(&p->latest[p->kind], gg_run_engine_ops_of(p->kind)->name, archive, err);
+  for (int k = 0; k < 2 && status == GG_OK; k++) status = gg_base_archive_append(&both, &p->latest[k], err);
   if (status == GG_OK) status = p->hooks->checkpoint(p->hooks->context, &both, err);
-  gg_archive_clear(&both);
+  gg_base_archive_clear(&both);
   return status;
 }
 
@@ -150,14 +150,14 @@ static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
 {
   for (int k = 0; k < 2; k++) GG_TRY(close_part(&parts[k], err));
   if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC] && strcmp(c->refusal[GG_MD], c->refusal[GG_DSMC]) == 0)
-    return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: %s", c->refusal[GG_MD]);
+    return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: %s", c->refusal[GG_MD]);
   if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
-    return gg_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
-                   c->refusal[GG_DSMC]);
+    return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
+                        c->refusal[GG_DSMC]);
   const gg_status short_of[] = {GG_BAD_FILE, GG_INTERRUPTED, GG_FAILED};
   for (int i = 0; i < 3; i++)
     for (int k = 0; k < 2; k++)
-      if (parts[k].status == short_of[i]) return gg_fail(err, short_of[i], "%s", parts[k].err.message);
+      if (parts[k].status == short_of[i]) return gg_base_fail(err, short_of[i], "%s", parts[k].err.message);
   return GG_OK;
 }
 
@@ -165,18 +165,19 @@ static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
 static const char *next_of(const gg_scene *scene, gg_engine_kind kind)
 {
   gg_model model;
-  const gg_engine_ops *ops = gg_engine_ops_of(kind);
-  return gg_model_make(scene, kind, &model, NULL) == GG_OK && ops->accepts(&model, NULL) == GG_OK ? ops->name : NULL;
+  const gg_engine_ops *ops = gg_run_engine_ops_of(kind);
+  return gg_common_model_make(scene, kind, &model, NULL) == GG_OK && ops->accepts(&model, NULL) == GG_OK ? ops->name
+                                                                                                         : NULL;
 }
 
-gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
-                           gg_comparison *c, gg_error *err)
+gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
+                               gg_comparison *c, gg_error *err)
 {
   *c = (gg_comparison){.scene = *scene};
-  gg_extension_hold(c->scene.extension);
+  gg_common_extension_hold(c->scene.extension);
   gg_model model;
-  GG_TRY(gg_model_make(scene, GG_MD, &model, err));
-  GG_TRY(gg_compare_theories(&model, c, err));
+  GG_TRY(gg_common_model_make(scene, GG_MD, &model, err));
+  GG_TRY(gg_run_compare_theories(&model, c, err));
 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};
@@ -189,28 +190,28 @@ gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int 
     parts[k].latest = latest;
     parts[k].broken = &broken;
     if (k == GG_MD && !beside) parts[k].next = next_of(scene, GG_DSMC);
-    const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
-    if (resume && status == GG_OK) status = gg_archive_unnest(&parts[k].resume, name, resume, err);
-    if (resume && status == GG_OK) status = gg_archive_nest(&latest[k], name, &parts[k].resume, err);
+    const char *name = gg_run_engine_ops_of((gg_engine_kind)k)->name;
+    if (resume && status == GG_OK) status = gg_base_archive_unnest(&parts[k].resume, name, resume, err);
+    if (resume && status == GG_OK) status = gg_base_archive_nest(&latest[k], name, &parts[k].resume, err);
   }
   if (status == GG_OK && resume && !parts[0].resume.n_items && !parts[1].resume.n_items)
-    status = gg_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
+    status = gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
   if (status == GG_OK) {
     run_parts(parts, beside);
     status = close_parts(parts, c, err);
   }
-  for (int k = 0; k < 2; k++) gg_archive_clear(&parts[k].resume), gg_archive_clear(&latest[k]);
+  for (int k = 0; k < 2; k++) gg_base_archive_clear(&parts[k].resume), gg_base_archive_clear(&latest[k]);
   pthread_mutex_destroy(&lock);
   return status;
 }
 
-void gg_comparison_clear(gg_comparison *c)
+void gg_run_comparison_clear(gg_comparison *c)
 {
   for (int k = 0; k < 2; k++) gg_result_free(c->by_engine[k]);
-  for (int i = 0; i < c->n_theories; i++) gg_curves_clear(&c->theory[i].curves);
-  gg_extension_release(c->scene.extension);
-  gg_extension_release(c->own);
+  for (int i = 0; i < c->n_theories; i++) gg_measure_curves_clear(&c->theory[i].curves);
+  gg_common_extension_release(c->scene.extension);
+  gg_common_extension_release(c->own);
   free(c->document);
-  gg_text_list_clear(&c->warnings);
+  gg_base_string_list_clear(&c->warnings);
   memset(c, 0, sizeof *c);
 }

@@ -15,29 +15,30 @@
 /* The observable that has a quantity, and by what function; -1 if none. */
 static int find_function(const gg_replicas *all, gg_quantity q, gg_function *f)
 {
-  if (gg_quantity_missing(&all->model, q)) return -1;
+  if (gg_common_quantity_missing(&all->model, q)) return -1;
   for (int k = 0; k < all->replica[0].n_observables; k++) {
     const gg_observable *o = all->replica[0].observable[k];
-    if (o->width && gg_derived_find(o->derived, q, f)) return k;
+    if (o->width && gg_measure_derived_find(o->derived, q, f)) return k;
   }
   return -1;
 }
 
-gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err)
+gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err)
 {
   *mean = (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = 0.5};
   gg_function f;
   const int k = find_function(all, q, &f);
   if (k < 0) return GG_OK;
-  const gg_series **series = gg_new_array((size_t)all->n, sizeof *series, err);
+  const gg_series **series = gg_base_array_new((size_t)all->n, sizeof *series, err);
   if (!series) return GG_FAILED;
   for (int r = 0; r < all->n; r++) series[r] = &all->replica[r].series;
   const gg_replica *first = &all->replica[0];
-  gg_status status = gg_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
-                                      first->observable[k]->width(&all->model), f, &all->model, mean, err);
+  gg_status status =
+      gg_statistics_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
+                                  first->observable[k]->width(&all->model), f, &all->model, mean, err);
   free(series);
   double rows = (double)gg_series_window_rows(&first->series) * all->n;
-  mean->error *= gg_plan_margin(&all->plan, mean->correlation_rows, rows);
+  mean->error *= gg_run_criteria_margin(&all->plan, mean->correlation_rows, rows);
   return status;
 }
 
@@ -45,10 +46,11 @@ gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean,
 static int monitored(const gg_replicas *all, gg_quantity *list)
 {
   gg_function f;
-  int n = gg_headline(&all->model, list);
+  int n = gg_run_headline_quantities(&all->model, list);
   if (all->model.linear_response) return n; /* the shear rate goes up and down: nothing else is steady */
   int headline = n;
-  for (gg_quantity q = gg_quantity_next(-1, GG_MONITORED); q < GG_N_QUANTITIES; q = gg_quantity_next(q, GG_MONITORED)) {
+  for (gg_quantity q = gg_common_quantity_next(-1, GG_MONITORED); q < GG_N_QUANTITIES;
+       q = gg_common_quantity_next(q, GG_MONITORED)) {
     bool listed = false;
     for (int h = 0; h < headline; h++) listed |= list[h] == q;
     if (!listed && find_function(all, q, &f) >= 0) list[n++] = q;
@@ -63,7 +65,7 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
   *trend = (gg_trend){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
   size_t n = gg_series_window_rows(&all->replica[0].series);
   if (k < 0 || n < 24) return GG_OK;
-  double *y = gg_new_array(n * (size_t)all->n, sizeof *y, err);
+  double *y = gg_base_array_new(n * (size_t)all->n, sizeof *y, err);
   if (!y) return GG_FAILED;
   for (int r = 0; r < all->n; r++) {
     const gg_replica *p = &all->replica[r];
@@ -71,7 +73,7 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
       y[(size_t)r * n + i] =
           gg_function_value(f, gg_series_row(&p->series, p->series.window + i) + p->offset[k], &all->model);
   }
-  gg_status status = gg_trend_test(y, n, (size_t)all->n, trend, err);
+  gg_status status = gg_statistics_trend_test(y, n, (size_t)all->n, trend, err);
   free(y);
   return status;
 }
@@ -79,22 +81,22 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
 static gg_status test_wandering(const gg_replicas *all, gg_convergence *c, gg_error *err)
 {
   gg_wandering w;
-  GG_TRY(gg_replicas_wandering(all, &w, err));
+  GG_TRY(gg_run_replicas_slow_modes(all, &w, err));
   c->wanders = w.mode, c->wandering = w.time;
   double sampled = (double)(all->state.due - all->state.window_at) * all->n;
   if (w.mode >= 0 && sampled < GG_LEAST_CORRELATION_TIMES * w.time) c->trusted = false;
   return GG_OK;
 }
 
-gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error *err)
+gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error *err)
 {
   *c = (gg_convergence){.relative_error = 0, .trusted = true};
   gg_quantity list[GG_N_QUANTITIES];
-  int headline = gg_headline(&all->model, list), n = monitored(all, list);
+  int headline = gg_run_headline_quantities(&all->model, list), n = monitored(all, list);
   double per_row = (double)all->replica[0].series.per_row;
   for (int i = 0; i < n; i++) {
     gg_mean m;
-    GG_TRY(gg_replicas_mean(all, list[i], &m, err));
+    GG_TRY(gg_run_replicas_mean(all, list[i], &m, err));
     c->slowest = fmax(c->slowest, m.correlation_rows * per_row);
     if (i < headline) {
       double relative = m.error / fabs(m.mean);

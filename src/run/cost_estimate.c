@@ -53,7 +53,7 @@ static double crowding(const gg_model *m)
 {
   double cubes = 0;
   for (int i = 0; i < m->n_species; i++) cubes += pow(m->diameter[i], 3) * (double)m->n_of[i] / (double)m->n;
-  return pow(gg_model_widest(m), 3) / cubes;
+  return pow(gg_common_model_widest(m), 3) / cubes;
 }
 
 /* Nanoseconds a collision. The thinner the gas the more cells are crossed between two; out of cache beyond some
@@ -77,7 +77,7 @@ static double pace_of_dsmc(const gg_model *m)
 
 static double mesh_points(const gg_model *m)
 {
-  return pow(gg_mesh_points_along(m), 3);
+  return pow(gg_measure_mesh_points_along(m), 3);
 }
 
 /* Transforms of four fields, 24 ns a point, in every 32nd sample or less often. */
@@ -98,8 +98,8 @@ static double bytes_of(const gg_observable *o, const gg_model *m)
 static void add_observables(gg_forecast *f, const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
   double vectors = 0;
-  for (int i = 0; gg_observables[i]; i++) {
-    const gg_observable *o = gg_observables[i];
+  for (int i = 0; gg_measure_observables[i]; i++) {
+    const gg_observable *o = gg_measure_observables[i];
     if (!is_measured(o, scene, m)) continue;
     if (o->bins) vectors = fmax(vectors, (m->rule != GG_SMOOTH ? 2 : 1) + (o->positions && !m->homogeneous ? 1.5 : 0));
     f->observables += bytes_of(o, m);
@@ -117,7 +117,7 @@ static void add_observables(gg_forecast *f, const gg_scene *scene, const gg_mode
 static double for_stress(const gg_model *m)
 {
   if (m->linear_response) {
-    const gg_linear_response range = gg_linear_response_of(m);
+    const gg_linear_response range = gg_common_linear_response_of(m);
     return (range.cools ? 60 : 30) / (range.high * range.high);
   }
   if (m->thermostat == GG_WHITE_NOISE && m->shear_rate != 0) return 650; /* the stress is small beside the pressure */
@@ -130,13 +130,13 @@ static double for_stress(const gg_model *m)
 static double for_error(const gg_scene *scene, const gg_model *m, double error)
 {
   const double grains = (double)m->n * (double)scene->run.replicas;
-  const double stress = for_stress(m), slow = 2 * gg_model_relaxation(m) * 2 / 3.0;
+  const double stress = for_stress(m), slow = 2 * gg_common_model_relaxation(m) * 2 / 3.0;
   return fmax(stress, slow) / (grains * error * error);
 }
 
 static void plan_time(gg_forecast *f, const gg_scene *scene, const gg_model *m)
 {
-  const gg_plan p = gg_plan_of(scene, m);
+  const gg_plan p = gg_run_criteria_of(scene, m);
   double window = (double)p.most * GG_SAMPLING_INTERVAL;
   if (p.relative_error > 0) {
     double least = (double)p.least * GG_SAMPLING_INTERVAL, needed = for_error(scene, m, p.relative_error);
@@ -152,12 +152,12 @@ static void plan_time(gg_forecast *f, const gg_scene *scene, const gg_model *m)
 
 /* Enskog's equation solved without random numbers: quadratures over pairs of species, of which shear has the more; the
  * viscosity of mixtures up to six species. All others are formulas, or small equations. */
-double gg_forecast_theories(const gg_model *m)
+double gg_run_cost_of_theories(const gg_model *m)
 {
   enum { MOST_SHEARED = 8, MOST_VISCOUS = 6 };
   const double formulas = 0.02, n = m->n_species;
   const bool sheared = m->flow == GG_USF || m->flow == GG_HEATED_SHEAR;
-  if (!(gg_enskog_hermite.flows & GG_FLOW_BIT(m->flow)) || m->law.name) return formulas;
+  if (!(gg_theory_enskog_hermite.flows & GG_FLOW_BIT(m->flow)) || m->law.name) return formulas;
   if (m->rule == GG_ROUGH && n == 1) return 0.9;
   if (m->rule != GG_SMOOTH || (sheared && n > MOST_SHEARED)) return formulas;
   if (sheared) return 1.5 * pow(n, 1.5);
@@ -171,9 +171,9 @@ static double bytes_of_series(const gg_forecast *f, const gg_model *m)
   return rows * 8 * (m->rule == GG_SMOOTH ? 120 : 200);
 }
 
-gg_forecast gg_forecast_of(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
+gg_forecast gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
-  gg_forecast f = {.engine = gg_engine_bytes(engine, m), .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
+  gg_forecast f = {.engine = gg_run_engine_memory(engine, m), .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
   add_observables(&f, scene, m, engine);
   plan_time(&f, scene, m);
   f.series = bytes_of_series(&f, m);
@@ -193,19 +193,19 @@ static void put_bytes(double bytes, char text[24])
   snprintf(text, 24, "%.3g %s", bytes, units[unit]);
 }
 
-gg_status gg_forecast_check_memory(const gg_forecast *f, const char *engine, int64_t replicas, gg_error *err)
+gg_status gg_run_cost_check_memory(const gg_forecast *f, const char *engine, int64_t replicas, gg_error *err)
 {
   char needed[24], there[24], one[24];
-  const double available = gg_memory_available();
+  const double available = gg_base_memory_available();
   if (!(f->bytes > available)) return GG_OK;
   put_bytes(f->bytes, needed);
   put_bytes(available, there);
   put_bytes(f->engine + f->observables + f->series, one);
-  return gg_fail(err, GG_FAILED,
-                 "%s: the run would need about %s of memory (%s a replica, of which there are %lld), and there are %s; "
-                 "ask for fewer %s, replicas or observables",
-                 engine, needed, one, (long long)replicas, there,
-                 strcmp(engine, "dsmc") == 0 ? "dsmc.particles" : "particles");
+  return gg_base_fail(
+      err, GG_FAILED,
+      "%s: the run would need about %s of memory (%s a replica, of which there are %lld), and there are %s; "
+      "ask for fewer %s, replicas or observables",
+      engine, needed, one, (long long)replicas, there, strcmp(engine, "dsmc") == 0 ? "dsmc.particles" : "particles");
 }
 
 /* "3 s", "12 min", "4 h", "20 days" */
@@ -234,8 +234,8 @@ static void tell_costs(const gg_forecast *f, void (*line)(void *context, const c
   line(context, text);
 }
 
-void gg_forecast_tell(const gg_forecast *f, int64_t replicas, void (*line)(void *context, const char *text),
-                      void *context)
+void gg_run_cost_report(const gg_forecast *f, int64_t replicas, void (*line)(void *context, const char *text),
+                        void *context)
 {
   char all[24], engine[24], observables[24], text[300], series[24];
   put_bytes(f->bytes, all);

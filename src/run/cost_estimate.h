@@ -24,20 +24,20 @@ typedef struct gg_forecast {
 } gg_forecast;
 
 /* Of a finished scene, and the model of its engine. */
-gg_forecast gg_forecast_of(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
+gg_forecast gg_run_cost_estimate(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
 
 /* Seconds of processor time for all theories of a model, right within a factor of three; longest where
  * the program was built without the machine's own instructions. */
-double gg_forecast_theories(const gg_model *model);
+double gg_run_cost_of_theories(const gg_model *model);
 
 /* GG_FAILED, with what is needed and what is there, if this machine has not the memory. */
-gg_status gg_forecast_check_memory(const gg_forecast *forecast, const char *engine, int64_t replicas, gg_error *err);
+gg_status gg_run_cost_check_memory(const gg_forecast *forecast, const char *engine, int64_t replicas, gg_error *err);
 
 /* In words, a line a call. */
-void gg_forecast_tell(const gg_forecast *forecast, int64_t replicas, void (*line)(void *context, const char *text),
-                      void *context);
+void gg_run_cost_report(const gg_forecast *forecast, int64_t replicas, void (*line)(void *context, const char *text),
+                        void *context);
 
 /* memory_estimate.c */
-double gg_engine_bytes(gg_engine_kind kind, const gg_model *model);
+double gg_run_engine_memory(gg_engine_kind kind, const gg_model *model);
 
 #endif

@@ -25,21 +25,21 @@ static void fill(void *context, const gg_chunk *chunk)
   }
 }
 
-gg_status gg_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err)
+gg_status gg_run_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err)
 {
   size_t n = (size_t)model->n;
   gg_engine_state state;
   engine->ops->state(engine, &state);
   *frame = (gg_frame){.time = state.time, .step = state.collisions, .n = n};
   bool positions = !model->homogeneous, spins = model->rule != GG_SMOOTH, species = model->n_species > 1;
-  if (positions) frame->position = gg_new_array(3 * n, sizeof(double), err);
-  if (spins) frame->spin = gg_new_array(3 * n, sizeof(double), err);
-  if (species) frame->species = gg_new_array(n, 1, err);
-  frame->velocity = gg_new_array(3 * n, sizeof(double), err);
-  frame->id = gg_new_array(n, sizeof(int64_t), err);
+  if (positions) frame->position = gg_base_array_new(3 * n, sizeof(double), err);
+  if (spins) frame->spin = gg_base_array_new(3 * n, sizeof(double), err);
+  if (species) frame->species = gg_base_array_new(n, 1, err);
+  frame->velocity = gg_base_array_new(3 * n, sizeof(double), err);
+  frame->id = gg_base_array_new(n, sizeof(int64_t), err);
   if (!frame->velocity || !frame->id || (positions && !frame->position) || (spins && !frame->spin) ||
       (species && !frame->species)) {
-    gg_frame_free(frame);
+    gg_run_frame_free(frame);
     return GG_FAILED;
   }
   filling f = {.frame = frame};
@@ -48,7 +48,7 @@ gg_status gg_frame_take(gg_engine *engine, const gg_model *model, gg_frame *fram
   return GG_OK;
 }
 
-void gg_frame_free(gg_frame *frame)
+void gg_run_frame_free(gg_frame *frame)
 {
   free(frame->position);
   free(frame->velocity);
@@ -58,21 +58,21 @@ void gg_frame_free(gg_frame *frame)
   *frame = (gg_frame){0};
 }
 
-gg_status gg_frame_check(const gg_frame *frame, const gg_model *m, gg_error *err)
+gg_status gg_run_frame_check(const gg_frame *frame, const gg_model *m, gg_error *err)
 {
   bool fits = frame->n == (size_t)m->n && frame->velocity && !frame->position == m->homogeneous &&
               !frame->spin == (m->rule == GG_SMOOTH) && !frame->species == (m->n_species == 1);
   for (size_t i = 0; fits && frame->species && i < frame->n; i++) fits = frame->species[i] < m->n_species;
-  return fits ? GG_OK : gg_fail(err, GG_BAD_FILE, "a frame of the trajectory is not one of this scene");
+  return fits ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "a frame of the trajectory is not one of this scene");
 }
 
-size_t *gg_frame_order(const gg_frame *frame, gg_error *err)
+size_t *gg_run_frame_order(const gg_frame *frame, gg_error *err)
 {
-  size_t *order = gg_new_array(frame->n, sizeof *order, err);
+  size_t *order = gg_base_array_new(frame->n, sizeof *order, err);
   for (size_t i = 0; order && i < frame->n; i++) {
     int64_t id = frame->id ? frame->id[i] : (int64_t)i;
     if (id < 0 || (size_t)id >= frame->n) {
-      gg_fail(err, GG_FAILED, "the grains of a frame are not numbered from 0 to n-1");
+      gg_base_fail(err, GG_FAILED, "the grains of a frame are not numbered from 0 to n-1");
       free(order);
       return NULL;
     }

@@ -3,7 +3,7 @@
 #include "md/md_memory.h"
 #include "run/cost_estimate.h"
 
-double gg_engine_bytes(gg_engine_kind kind, const gg_model *model)
+double gg_run_engine_memory(gg_engine_kind kind, const gg_model *model)
 {
   return kind == GG_DSMC ? gg_dsmc_bytes(model) : gg_md_bytes(model);
 }

@@ -19,19 +19,20 @@ static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width
   if (o->width) *width += o->width(&r->model);
   if (o->parts > r->parts) r->parts = o->parts;
   r->every[k] = o->every_of ? o->every_of(r->self[k]) : o->every;
-  return o->bins ? gg_bins_init(&r->bins[k], o->bins(r->self[k]), err) : GG_OK;
+  return o->bins ? gg_statistics_bins_init(&r->bins[k], o->bins(r->self[k]), err) : GG_OK;
 }
 
-gg_status gg_replica_attach(gg_replica *r, const gg_scene *scene, gg_error *err)
+gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene, gg_error *err)
 {
   size_t width = 0;
   bool curves = false, positions = false;
   r->parts = 1;
-  const gg_observable *own = gg_own_observables(&r->model);
+  const gg_observable *own = gg_measure_user_observables(&r->model);
   if ((own || scene->measure & ~GG_MEASURE_RHEOLOGY) && !(scene->measure & GG_MEASURE_RHEOLOGY))
-    return gg_fail(err, GG_BAD_INPUT, "measure: add rheology: it tells when the gas is steady and the run is done");
-  for (int i = 0; gg_observables[i]; i++) {
-    const gg_observable *o = gg_observables[i];
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "measure: add rheology: it tells when the gas is steady and the run is done");
+  for (int i = 0; gg_measure_observables[i]; i++) {
+    const gg_observable *o = gg_measure_observables[i];
     if (!(scene->measure & o->flag) || (o->refuses && o->refuses(&r->model))) continue;
     GG_TRY(attach_one(r, o, &width, err));
     if (o->bins) curves = true;
@@ -39,50 +40,50 @@ gg_status gg_replica_attach(gg_replica *r, const gg_scene *scene, gg_error *err)
   }
   if (own) GG_TRY(attach_one(r, own, &width, err));
   r->wall_modes_at = width;
-  width += (size_t)gg_wall_modes(&r->model);
-  r->row = gg_new_array(width, sizeof *r->row, err);
+  width += (size_t)gg_measure_wall_modes(&r->model);
+  r->row = gg_base_array_new(width, sizeof *r->row, err);
   if (!r->row) return GG_FAILED;
-  if (curves) GG_TRY(gg_snapshot_init(&r->snapshot, &r->model, positions, err));
-  return gg_series_init(&r->series, width, err);
+  if (curves) GG_TRY(gg_measure_snapshot_init(&r->snapshot, &r->model, positions, err));
+  return gg_statistics_series_init(&r->series, width, err);
 }
 
-void gg_replica_detach(gg_replica *r)
+void gg_run_replica_clear_observables(gg_replica *r)
 {
   for (int k = 0; k < r->n_observables; k++) {
     r->observable[k]->destroy(r->self[k]);
-    gg_bins_clear(&r->bins[k]);
+    gg_statistics_bins_clear(&r->bins[k]);
   }
-  gg_snapshot_clear(&r->snapshot);
+  gg_measure_snapshot_clear(&r->snapshot);
 }
 
-gg_status gg_replica_save_observables(const gg_replica *r, gg_archive *a, gg_error *err)
+gg_status gg_run_replica_save_observables(const gg_replica *r, gg_archive *a, gg_error *err)
 {
   for (int k = 0; k < r->n_observables; k++) {
     const gg_observable *o = r->observable[k];
-    if (o->bins) GG_TRY(gg_bins_save(&r->bins[k], o->name, a, err));
+    if (o->bins) GG_TRY(gg_statistics_bins_save(&r->bins[k], o->name, a, err));
     if (!o->memory) continue;
     size_t bytes;
     const void *memory = o->memory(r->self[k], &bytes);
     char name[64];
     snprintf(name, sizeof name, "observable/%s", o->name);
-    GG_TRY(gg_archive_put(a, name, GG_ITEM_U8, memory, bytes, err));
+    GG_TRY(gg_base_archive_put(a, name, GG_ITEM_U8, memory, bytes, err));
   }
   return GG_OK;
 }
 
-gg_status gg_replica_restore_observables(gg_replica *r, const gg_archive *a, gg_error *err)
+gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *a, gg_error *err)
 {
   for (int k = 0; k < r->n_observables; k++) {
     const gg_observable *o = r->observable[k];
-    if (o->bins) GG_TRY(gg_bins_restore(&r->bins[k], o->name, a, err));
+    if (o->bins) GG_TRY(gg_statistics_bins_restore(&r->bins[k], o->name, a, err));
     if (!o->memory) continue;
     size_t bytes;
     void *memory = o->memory(r->self[k], &bytes);
     char name[64];
     snprintf(name, sizeof name, "observable/%s", o->name);
-    GG_TRY(gg_archive_get(a, name, GG_ITEM_U8, memory, bytes, err));
+    GG_TRY(gg_base_archive_get(a, name, GG_ITEM_U8, memory, bytes, err));
     if (o->is_memory && !o->is_memory(r->self[k]))
-      return gg_fail(err, GG_BAD_FILE, "the checkpoint is damaged: what '%s' remembers", o->name);
+      return gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: what '%s' remembers", o->name);
   }
   return GG_OK;
 }

@@ -10,11 +10,11 @@
 static void look(gg_replicas *all, double window)
 {
   gg_convergence c;
-  double before = gg_wall_now(), first = (double)(all->plan.least << all->state.restarts) / 4;
+  double before = gg_base_clock_wall(), first = (double)(all->plan.least << all->state.restarts) / 4;
   if (!all->state.averaging || window < fmax(first, 1.05 * all->looked_at) || before < all->next_look) return;
-  if (gg_replicas_convergence(all, &c, NULL) == GG_OK) gg_outlook_note_errors(&all->outlook, window, &c);
+  if (gg_run_replicas_convergence(all, &c, NULL) == GG_OK) gg_run_progress_record_errors(&all->outlook, window, &c);
   all->looked_at = window;
-  double now = gg_wall_now();
+  double now = gg_base_clock_wall();
   all->next_look = now + 100 * (now - before);
 }
 
@@ -22,17 +22,17 @@ static void look(gg_replicas *all, double window)
 static gg_replica_news news_of(const gg_replicas *all, int i)
 {
   const gg_replica *r = &all->replica[i];
-  if (all->share && gg_share_is_busy(all->share)) return gg_share_news(all->share, i);
-  return (gg_replica_news){r->clock.samples, gg_replica_collisions_per_grain(r), r->clock.cpu};
+  if (all->share && gg_run_share_is_busy(all->share)) return gg_run_share_news(all->share, i);
+  return (gg_replica_news){r->clock.samples, gg_run_replica_collisions_per_grain(r), r->clock.cpu};
 }
 
 /* That all replicas have, also while other processes are at them. */
 static double samples_so_far(const gg_replicas *all)
 {
   uint64_t least = all->state.due;
-  if (!all->share || !gg_share_is_busy(all->share)) return (double)gg_replicas_least(all);
+  if (!all->share || !gg_run_share_is_busy(all->share)) return (double)gg_run_replicas_least(all);
   for (int i = 0; i < all->n; i++) {
-    uint64_t has = gg_share_news(all->share, i).samples;
+    uint64_t has = gg_run_share_news(all->share, i).samples;
     least = has < least ? has : least;
   }
   return (double)least;
@@ -51,29 +51,29 @@ static double usual_end(const gg_replicas *all)
 /* NaN: not known. What a sample takes where curves are measured is known only after some of the averaging. */
 static double time_left(const gg_replicas *all, double due, gg_end end, double limit_in)
 {
-  double left = (end.at - due) * gg_outlook_pace(&all->outlook);
+  double left = (end.at - due) * gg_run_progress_pace(&all->outlook);
   bool alike = all->state.averaging || all->replica[0].n_observables <= 1;
   return isfinite(left) && end.known && alike ? fmin(left, limit_in) : NAN;
 }
 
-void gg_replicas_report_progress(gg_replicas *all, bool over)
+void gg_run_replicas_report_progress(gg_replicas *all, bool over)
 {
   if (!all->hooks || !all->hooks->progress) return;
   double due = samples_so_far(all);
   double window = all->state.averaging ? due - (double)all->state.window_at : 0;
-  if (!over && !(all->share && gg_share_is_busy(all->share)) && gg_replicas_are_level(all)) look(all, window);
-  double collisions = 0, cpu = 0, now = gg_wall_now();
+  if (!over && !(all->share && gg_run_share_is_busy(all->share)) && gg_run_replicas_are_level(all)) look(all, window);
+  double collisions = 0, cpu = 0, now = gg_base_clock_wall();
   for (int i = 0; i < all->n; i++) {
     gg_replica_news news = news_of(all, i);
     collisions += news.collisions_per_grain * (double)all->model.n / 2;
     cpu += news.cpu;
   }
-  gg_outlook_note_time(&all->outlook, now, due);
-  gg_end end = gg_outlook_end(&all->outlook, &all->plan, &all->state);
+  gg_run_progress_record_time(&all->outlook, now, due);
+  gg_end end = gg_run_progress_end(&all->outlook, &all->plan, &all->state);
   double limit = all->plan.time_limit;
   double used = all->state.wall + now - all->started;
-  double done = gg_outlook_fraction(&all->outlook, due, isfinite(end.at) ? end.at : usual_end(all),
-                                    limit > 0 ? used / limit : NAN);
+  double done = gg_run_progress_fraction(&all->outlook, due, isfinite(end.at) ? end.at : usual_end(all),
+                                         limit > 0 ? used / limit : NAN);
   gg_progress p = {
       .engine = all->replica[0].engine->ops->name,
       .phase = all->state.averaging ? "averaging" : "warm-up",

@@ -12,19 +12,19 @@
 static const double doubt = 0.2, off[] = {-1.4, -0.7, 0, 0.7, 1.4}, weight[] = {0.12, 0.22, 0.32, 0.22, 0.12};
 static const double vague = 0.5;
 
-void gg_outlook_open_window(gg_outlook *o)
+void gg_run_progress_open_window(gg_outlook *o)
 {
   o->n_errors = 0;
   o->trending = false;
   o->trusted_at = o->sure_at = 0;
 }
 
-void gg_outlook_new_phase(gg_outlook *o)
+void gg_run_progress_new_phase(gg_outlook *o)
 {
   o->n_marks = 0;
 }
 
-void gg_outlook_note_errors(gg_outlook *o, double window, const gg_convergence *c)
+void gg_run_progress_record_errors(gg_outlook *o, double window, const gg_convergence *c)
 {
   o->trending = c->trending;
   o->trusted_at = c->trusted ? 0 : fmax(5 * GG_MIN_BLOCKS * c->untrusted, 1.25 * window);
@@ -36,7 +36,7 @@ void gg_outlook_note_errors(gg_outlook *o, double window, const gg_convergence *
 }
 
 /* The last mark is the latest; between the others lies a share of the phase. */
-void gg_outlook_note_time(gg_outlook *o, double wall, double due)
+void gg_run_progress_record_time(gg_outlook *o, double wall, double due)
 {
   int n = o->n_marks;
   if (n && due <= o->marks[n - 1].due) return;
@@ -51,7 +51,7 @@ void gg_outlook_note_time(gg_outlook *o, double wall, double due)
 }
 
 /* Over the latter half of the phase. */
-double gg_outlook_pace(const gg_outlook *o)
+double gg_run_progress_pace(const gg_outlook *o)
 {
   int last = o->n_marks - 1, from = 0;
   if (last < 2) return NAN;
@@ -88,11 +88,11 @@ static gg_test test_at(const gg_outlook *o, const gg_plan *plan, uint64_t window
 static double last_test(const gg_outlook *o, const gg_plan *plan, uint64_t restarts, bool exact, uint64_t window,
                         double doubts)
 {
-  while (!gg_plan_ends(plan, restarts, window)) {
+  while (!gg_run_criteria_end(plan, restarts, window)) {
     gg_test t = test_at(o, plan, window, doubts);
-    if (gg_plan_is_met(&t, exact)) break;
+    if (gg_run_criteria_are_met(&t, exact)) break;
     exact = t.exact;
-    window = gg_plan_next_test(plan, restarts, &t);
+    window = gg_run_criteria_next_test(plan, restarts, &t);
   }
   return (double)window;
 }
@@ -111,21 +111,21 @@ static gg_end mean_last_test(const gg_outlook *o, const gg_plan *plan, uint64_t 
   return (gg_end){mean, square <= (1 + vague * vague) * mean * mean};
 }
 
-gg_end gg_outlook_end(const gg_outlook *o, const gg_plan *plan, const struct gg_replicas_state *s)
+gg_end gg_run_progress_end(const gg_outlook *o, const gg_plan *plan, const struct gg_replicas_state *s)
 {
   uint64_t restarts = s->restarts, window = s->goal - s->window_at;
-  bool anew = s->averaging && o->trending && gg_plan_restarts(plan, restarts);
+  bool anew = s->averaging && o->trending && gg_run_criteria_restart(plan, restarts);
   double begins = (double)(anew ? s->goal : plan->warmup);
   if (s->averaging && !anew) {
     gg_end end = mean_last_test(o, plan, restarts, s->exact, window, (double)(s->due - s->window_at));
     return (gg_end){(double)s->due + end.at, end.known};
   }
-  window = gg_plan_next_test(plan, restarts + anew, NULL);
+  window = gg_run_criteria_next_test(plan, restarts + anew, NULL);
   gg_end end = mean_last_test(o, plan, restarts + anew, false, window, 0);
   return (gg_end){begins + end.at, end.known && !anew};
 }
 
-double gg_outlook_fraction(gg_outlook *o, double due, double end, double share_of_time)
+double gg_run_progress_fraction(gg_outlook *o, double due, double end, double share_of_time)
 {
   double done = fmax(end > 0 ? due / end : 0, share_of_time > 0 ? share_of_time : 0);
   o->fraction = fmax(o->fraction, fmin(done, 0.99));

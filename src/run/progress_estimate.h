@@ -29,12 +29,12 @@ typedef struct gg_outlook {
 } gg_outlook;
 
 /* Averaging begins, or begins anew. */
-void gg_outlook_open_window(gg_outlook *o);
+void gg_run_progress_open_window(gg_outlook *o);
 /* Averaging begins: another pace. */
-void gg_outlook_new_phase(gg_outlook *o);
+void gg_run_progress_new_phase(gg_outlook *o);
 /* The window has this many samples, and this is known of its means. */
-void gg_outlook_note_errors(gg_outlook *o, double window, const struct gg_convergence *c);
-void gg_outlook_note_time(gg_outlook *o, double wall, double due);
+void gg_run_progress_record_errors(gg_outlook *o, double window, const struct gg_convergence *c);
+void gg_run_progress_record_time(gg_outlook *o, double wall, double due);
 
 /* When the run ends, in samples of each replica; a rough guess, or NaN, where that is not known yet: errors are not, or
  * the window may be given up for a trend. */
@@ -42,11 +42,11 @@ typedef struct gg_end {
   double at;
   bool known;
 } gg_end;
-gg_end gg_outlook_end(const gg_outlook *o, const struct gg_plan *plan, const struct gg_replicas_state *state);
+gg_end gg_run_progress_end(const gg_outlook *o, const struct gg_plan *plan, const struct gg_replicas_state *state);
 /* Seconds a sample, lately; NaN where that is not known yet. */
-double gg_outlook_pace(const gg_outlook *o);
+double gg_run_progress_pace(const gg_outlook *o);
 /* Share of the run that is done: `due` samples of `end`, or of the time that there is (NaN: no limit), whichever is
  * nearer its end. It never falls, and is 1 only of a run that is over. */
-double gg_outlook_fraction(gg_outlook *o, double due, double end, double share_of_time);
+double gg_run_progress_fraction(gg_outlook *o, double due, double end, double share_of_time);
 
 #endif

@@ -7,30 +7,30 @@
 #include "common/linear_response.h"
 #include "common/rng.h"
 
-gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
+gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
 {
   *r = (gg_replica){.model = *model, .clock.temperature = model->temperature0};
   r->trajectory_every = r->clock.frame_every = index == 0 ? scene->output.trajectory_every : 0;
   r->clock.velocity_factor = 1;
-  const gg_engine_ops *ops = gg_engine_ops_of(scene->engine);
+  const gg_engine_ops *ops = gg_run_engine_ops_of(scene->engine);
   uint64_t stream = (uint64_t)index * GG_STREAMS_PER_REPLICA;
-  gg_status status = gg_replica_attach(r, scene, err);
+  gg_status status = gg_run_replica_setup_observables(r, scene, err);
   if (status == GG_OK) status = ops->create(model, scene->run.seed, stream, &r->engine, err);
   if (status != GG_OK) {
-    gg_replica_clear(r);
+    gg_run_replica_clear(r);
     return status;
   }
   ops->keep_sums(r->engine, true);
-  r->clock.interval = GG_SAMPLING_INTERVAL / gg_model_collision_rate(model, model->temperature0);
-  gg_replica_sample_row(r, 0);
+  r->clock.interval = GG_SAMPLING_INTERVAL / gg_common_model_collision_rate(model, model->temperature0);
+  gg_run_replica_sample_row(r, 0);
   return GG_OK;
 }
 
-void gg_replica_clear(gg_replica *r)
+void gg_run_replica_clear(gg_replica *r)
 {
-  gg_replica_detach(r);
+  gg_run_replica_clear_observables(r);
   if (r->engine) r->engine->ops->destroy(r->engine);
-  gg_series_clear(&r->series);
+  gg_statistics_series_clear(&r->series);
   free(r->row);
   *r = (gg_replica){0};
 }
@@ -42,7 +42,7 @@ static uint64_t collisions(const gg_replica *r)
   return state.collisions;
 }
 
-double gg_replica_collisions_per_grain(const gg_replica *r)
+double gg_run_replica_collisions_per_grain(const gg_replica *r)
 {
   return 2 * (double)collisions(r) / (double)r->model.n;
 }
@@ -52,7 +52,7 @@ static double cpu_used(const gg_replica *r)
 {
   gg_engine_state state;
   r->engine->ops->state(r->engine, &state);
-  return gg_cpu_now() + state.others_cpu;
+  return gg_base_clock_cpu() + state.others_cpu;
 }
 
 /* Collisions after which an interval is over, whatever time has gone. While it adapts: where the rate has risen since
@@ -80,11 +80,11 @@ static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, ui
   struct gg_replica_clock *c = &r->clock;
   int parts = c->averaging ? r->parts : 1;
   if (!c->part) c->gone = 0, c->happened = collisions(r);
-  if (c->averaging) GG_TRY(gg_replica_show_collisions(r, err));
+  if (c->averaging) GG_TRY(gg_run_replica_observe_collisions(r, err));
   for (int part = c->part ? (int)c->part : 1; part <= parts; part++) {
     GG_TRY(advance_part(r, part, parts, adapt, err));
     c->gone += c->part_gone;
-    if (c->averaging) gg_replica_sample_curves(r, part, c->part_gone);
+    if (c->averaging) gg_run_replica_sample_curves(r, part, c->part_gone);
   }
   *elapsed = c->gone;
   *happened = collisions(r) - c->happened;
@@ -120,18 +120,18 @@ static gg_status rescale(gg_replica *r, int power, gg_error *err)
 static gg_status rescale_if_due(gg_replica *r, gg_error *err)
 {
   if (!gg_flow_cools(r->model.flow) && !r->model.linear_response) return GG_OK;
-  double T0 = r->model.temperature0, slowdown = r->clock.interval * gg_model_collision_rate(&r->model, T0);
+  double T0 = r->model.temperature0, slowdown = r->clock.interval * gg_common_model_collision_rate(&r->model, T0);
   slowdown /= GG_SAMPLING_INTERVAL;
   if (r->model.linear_response) {
-    bool over = gg_linear_response_ends(&r->model, T0 / (slowdown * slowdown));
-    return over ? rescale(r, gg_linear_response_of(&r->model).power, err) : GG_OK;
+    bool over = gg_common_linear_response_ends(&r->model, T0 / (slowdown * slowdown));
+    return over ? rescale(r, gg_common_linear_response_of(&r->model).power, err) : GG_OK;
   }
   if (slowdown < 4) return GG_OK;
   r->clock.power += 2;
   return rescale(r, 2, err);
 }
 
-void gg_replica_date_frame(const gg_replica *r, gg_frame *frame)
+void gg_run_replica_date_frame(const gg_replica *r, gg_frame *frame)
 {
   double unit = ldexp(1, -(int)r->clock.power), unit_time = ldexp(1, (int)r->clock.power);
   frame->time = r->clock.time + (r->clock.part ? unit_time * (r->clock.gone + r->clock.part_gone) : 0);
@@ -144,19 +144,19 @@ void gg_replica_date_frame(const gg_replica *r, gg_frame *frame)
 /* Frames are due at the multiples of trajectory_every, and at the first sample. */
 static double next_frame(const gg_replica *r)
 {
-  return r->trajectory_every * (floor(gg_replica_collisions_per_grain(r) / r->trajectory_every) + 1);
+  return r->trajectory_every * (floor(gg_run_replica_collisions_per_grain(r) / r->trajectory_every) + 1);
 }
 
 static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
 {
-  if (!(r->trajectory_every > 0) || gg_replica_collisions_per_grain(r) < r->clock.next_frame) return GG_OK;
+  if (!(r->trajectory_every > 0) || gg_run_replica_collisions_per_grain(r) < r->clock.next_frame) return GG_OK;
   r->clock.next_frame = next_frame(r);
   if (!hooks || !hooks->frame) return GG_OK;
   gg_frame frame;
-  GG_TRY(gg_frame_take(r->engine, &r->model, &frame, err));
-  gg_replica_date_frame(r, &frame);
+  GG_TRY(gg_run_frame_take(r->engine, &r->model, &frame, err));
+  gg_run_replica_date_frame(r, &frame);
   gg_status status = hooks->frame(hooks->context, &frame, err);
-  gg_frame_free(&frame);
+  gg_run_frame_free(&frame);
   return status;
 }
 
@@ -167,7 +167,7 @@ static double temperature_now(const gg_replica *r)
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
   const double *row = o ? r->row + r->offset[0] : NULL;
   gg_function f;
-  if (r->model.linear_response && o && gg_derived_find(o->derived, GG_Q_TEMPERATURE, &f))
+  if (r->model.linear_response && o && gg_measure_derived_find(o->derived, GG_Q_TEMPERATURE, &f))
     return gg_function_value(f, row, &r->model);
   if (!o || !o->log_temperature) return r->model.temperature0;
   return exp(o->log_temperature(row) + 2 * M_LN2 * (double)r->clock.power);
@@ -177,17 +177,17 @@ static double temperature_now(const gg_replica *r)
 static gg_status check_numbers(const gg_replica *r, gg_error *err)
 {
   if (isfinite(r->clock.temperature)) return GG_OK;
-  return gg_fail(err, GG_FAILED, "%s: the temperature is no number any more near time %g", r->engine->ops->name,
-                 r->clock.time);
+  return gg_base_fail(err, GG_FAILED, "%s: the temperature is no number any more near time %g", r->engine->ops->name,
+                      r->clock.time);
 }
 
-gg_status gg_replica_collapsed(const gg_replica *r, gg_error *err)
+gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err)
 {
-  const char *unit = gg_model_contact_unit(&r->model), *name = r->engine->ops->name;
-  return gg_fail(err, GG_FAILED,
-                 "%s: collisions accumulate without end (inelastic collapse) near time %g; "
-                 "give md.contact_time a larger value (it is %g %s)",
-                 name, r->clock.time, r->model.contact_time, unit);
+  const char *unit = gg_common_model_contact_unit(&r->model), *name = r->engine->ops->name;
+  return gg_base_fail(err, GG_FAILED,
+                      "%s: collisions accumulate without end (inelastic collapse) near time %g; "
+                      "give md.contact_time a larger value (it is %g %s)",
+                      name, r->clock.time, r->model.contact_time, unit);
 }
 
 /* An interval is over before its time where the rate has risen, as from a start in the cold: then grains are as fast as
@@ -200,13 +200,14 @@ static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint6
   r->clock.cut_short = cut_short ? r->clock.cut_short + 1 : 0;
   if (!cut_short) return GG_OK;
   double per_grain = 2 * (double)happened / (double)r->model.n;
-  bool runaway = !(per_grain < 1000 * elapsed * gg_model_collision_rate(&r->model, r->clock.temperature));
-  if (runaway || r->clock.cut_short >= MOST_CUT_SHORT) return gg_replica_collapsed(r, err);
+  bool runaway = !(per_grain < 1000 * elapsed * gg_common_model_collision_rate(&r->model, r->clock.temperature));
+  if (runaway || r->clock.cut_short >= MOST_CUT_SHORT) return gg_run_replica_collapsed(r, err);
   if (adapt) return GG_OK;
-  return gg_fail(err, GG_FAILED,
-                 "%s: collisions come a thousand times faster near time %g than when averaging began: the gas still "
-                 "heats up; give run.warmup a larger value",
-                 r->engine->ops->name, r->clock.time);
+  return gg_base_fail(
+      err, GG_FAILED,
+      "%s: collisions come a thousand times faster near time %g than when averaging began: the gas still "
+      "heats up; give run.warmup a larger value",
+      r->engine->ops->name, r->clock.time);
 }
 
 static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
@@ -215,12 +216,12 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   uint64_t happened;
   const double before = r->clock.temperature;
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
-  gg_replica_sample_row(r, elapsed);
+  gg_run_replica_sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
   r->clock.time += ldexp(elapsed, (int)r->clock.power);
   GG_TRY(check_numbers(r, err));
   GG_TRY(check_collapse(r, adapt, elapsed, happened, err));
-  gg_series_add(&r->series, r->clock.time, r->row);
+  gg_statistics_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened, before);
   return rescale_if_due(r, err);
@@ -234,38 +235,38 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   return status;
 }
 
-gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err)
+gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err)
 {
   while (r->clock.samples < samples) {
-    if (gg_stop_asked(r->model.stop)) return gg_fail(err, GG_INTERRUPTED, "interrupted");
+    if (gg_stop_asked(r->model.stop)) return gg_base_fail(err, GG_INTERRUPTED, "interrupted");
     GG_TRY(sample_once(r, adapt, err));
     GG_TRY(emit_frame(r, hooks, err));
   }
   return GG_OK;
 }
 
-bool gg_replica_settled(const gg_replica *r)
+bool gg_run_replica_settled(const gg_replica *r)
 {
   if (r->model.gravity[1] != 0) return true; /* grains that lie collide as often as they like: arrest.c */
-  double per_grain = r->clock.interval * gg_model_collision_rate(&r->model, r->clock.temperature);
+  double per_grain = r->clock.interval * gg_common_model_collision_rate(&r->model, r->clock.temperature);
   return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
 }
 
-gg_status gg_replica_open_window(gg_replica *r, gg_error *err)
+gg_status gg_run_replica_open_window(gg_replica *r, gg_error *err)
 {
-  gg_series_open_window(&r->series);
+  gg_statistics_series_open_window(&r->series);
   r->clock.window_collisions = collisions(r);
   r->clock.window_cpu = r->clock.cpu;
-  gg_replica_restart_curves(r);
-  return gg_replica_show_collisions(r, err);
+  gg_run_replica_restart_curves(r);
+  return gg_run_replica_observe_collisions(r, err);
 }
 
-gg_status gg_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
+gg_status gg_run_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
 {
   GG_TRY(r->engine->ops->save(r->engine, a, err));
-  GG_TRY(gg_series_save(&r->series, a, err));
-  GG_TRY(gg_archive_put(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err));
-  return gg_replica_save_observables(r, a, err);
+  GG_TRY(gg_statistics_series_save(&r->series, a, err));
+  GG_TRY(gg_base_archive_put(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err));
+  return gg_run_replica_save_observables(r, a, err);
 }
 
 /* Frames may be asked for at other times than before: only of what is still to come. */
@@ -285,20 +286,20 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
               c->part <= r->parts && c->power > -1000000000 && c->power < 1000000000 && !isnan(c->next_frame) &&
               !isnan(c->frame_every);
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
-  return good ? GG_OK : gg_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
+  return good ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
 }
 
-gg_status gg_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
-                             int index, gg_error *err)
+gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
+                                 int index, gg_error *err)
 {
   *r = (gg_replica){.model = *model, .trajectory_every = index == 0 ? scene->output.trajectory_every : 0};
-  gg_status status = gg_replica_attach(r, scene, err);
-  if (status == GG_OK) status = gg_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
-  if (status == GG_OK) status = gg_series_restore(&r->series, a, err);
-  if (status == GG_OK) status = gg_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
+  gg_status status = gg_run_replica_setup_observables(r, scene, err);
+  if (status == GG_OK) status = gg_run_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
+  if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);
+  if (status == GG_OK) status = gg_base_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
   if (status == GG_OK) status = check_clock(r, err);
-  if (status == GG_OK) status = gg_replica_restore_observables(r, a, err);
+  if (status == GG_OK) status = gg_run_replica_restore_observables(r, a, err);
   if (status == GG_OK) resume_frames(r);
-  if (status != GG_OK) gg_replica_clear(r);
+  if (status != GG_OK) gg_run_replica_clear(r);
   return status;
 }

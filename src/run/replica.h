@@ -46,33 +46,33 @@ typedef struct gg_replica {
 /* The sampling interval, collisions per grain: closer samples cost time and say little new. */
 #define GG_SAMPLING_INTERVAL 2.0
 
-gg_status gg_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err);
-void gg_replica_clear(gg_replica *r);
+gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err);
+void gg_run_replica_clear(gg_replica *r);
 
 /* Go on until `samples` have been taken in all; GG_INTERRUPTED where model.stop asks for it, within an interval as
  * well: what is saved there goes on bit for bit. With `adapt`, the interval follows the collision rate (warm-up,
  * cooling). */
-gg_status gg_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
+gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
 
 /* Is the interval between samples that of grains as fast as these are? Not while it still follows a burst of collisions
  * that only lasted for a while. */
-bool gg_replica_settled(const gg_replica *r);
+bool gg_run_replica_settled(const gg_replica *r);
 /* Collisions accumulate without end: GG_FAILED, with what to do. */
-gg_status gg_replica_collapsed(const gg_replica *r, gg_error *err);
+gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err);
 
 /* Averaging begins at the next sample. */
-gg_status gg_replica_open_window(gg_replica *r, gg_error *err);
+gg_status gg_run_replica_open_window(gg_replica *r, gg_error *err);
 
 /* observable_setup.c: the observables that the scene asks for, with their bins; and their part of a checkpoint. */
-gg_status gg_replica_attach(gg_replica *r, const gg_scene *scene, gg_error *err);
-void gg_replica_detach(gg_replica *r);
-gg_status gg_replica_save_observables(const gg_replica *r, gg_archive *archive, gg_error *err);
-gg_status gg_replica_restore_observables(gg_replica *r, const gg_archive *archive, gg_error *err);
+gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene, gg_error *err);
+void gg_run_replica_clear_observables(gg_replica *r);
+gg_status gg_run_replica_save_observables(const gg_replica *r, gg_archive *archive, gg_error *err);
+gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *archive, gg_error *err);
 
 /* sampling.c: a row of the series; after each part of an interval, `part` from 1 to r->parts, what curves need. */
-void gg_replica_sample_row(gg_replica *r, double elapsed);
-void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
-void gg_replica_restart_curves(gg_replica *r);
+void gg_run_replica_sample_row(gg_replica *r, double elapsed);
+void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
+void gg_run_replica_restart_curves(gg_replica *r);
 
 /* sampling_bursts.c: before an interval of the window: does the engine show its collisions to the observables that ask
  * for them? Always, but where that slows it down many times over, and they do with less: there for so many samples at
@@ -80,18 +80,18 @@ void gg_replica_restart_curves(gg_replica *r);
 typedef struct gg_episodes {
   uint64_t length, first, apart, settled; /* samples; first: how far apart the first ones begin */
 } gg_episodes;
-gg_episodes gg_episodes_of(const gg_model *model);
-gg_status gg_replica_show_collisions(gg_replica *r, gg_error *err);
+gg_episodes gg_run_sampling_bursts_of(const gg_model *model);
+gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);
 /* Has the present sample of observable k others of its episode to follow? All of one are a single sample of its bins,
  * so that errors know of what changes from one episode to the next alone. */
-bool gg_replica_in_episode(const gg_replica *r, int k);
+bool gg_run_replica_in_burst(const gg_replica *r, int k);
 
-double gg_replica_collisions_per_grain(const gg_replica *r);
+double gg_run_replica_collisions_per_grain(const gg_replica *r);
 /* A frame of the engine as results have it: at the time since the start, velocities in units of the start. */
-void gg_replica_date_frame(const gg_replica *r, gg_frame *frame);
+void gg_run_replica_date_frame(const gg_replica *r, gg_frame *frame);
 
-gg_status gg_replica_save(const gg_replica *r, gg_archive *archive, gg_error *err);
-gg_status gg_replica_restore(gg_replica *r, const gg_archive *archive, const gg_scene *scene, const gg_model *model,
-                             int index, gg_error *err);
+gg_status gg_run_replica_save(const gg_replica *r, gg_archive *archive, gg_error *err);
+gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *archive, const gg_scene *scene, const gg_model *model,
+                                 int index, gg_error *err);
 
 #endif

@@ -14,8 +14,8 @@
 
 static gg_status create_replicas(gg_replicas *all, gg_error *err)
 {
-  if (all->share) return gg_share_create(all->share, err);
-  for (int i = 0; i < all->n; i++) GG_TRY(gg_replica_create(&all->replica[i], &all->scene, &all->model, i, err));
+  if (all->share) return gg_run_share_create(all->share, err);
+  for (int i = 0; i < all->n; i++) GG_TRY(gg_run_replica_create(&all->replica[i], &all->scene, &all->model, i, err));
   return GG_OK;
 }
 
@@ -28,42 +28,42 @@ static void share_threads(gg_replicas *all)
   }
 }
 
-gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
-                             const gg_hooks *hooks, gg_error *err)
+gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
+                                 const gg_hooks *hooks, gg_error *err)
 {
   *all = (gg_replicas){.scene = *scene, .threads = threads, .n = (int)scene->run.replicas, .hooks = hooks};
-  all->started = all->last_checkpoint = gg_wall_now();
+  all->started = all->last_checkpoint = gg_base_clock_wall();
   all->last.relative_error = NAN; /* nothing is estimated yet */
-  if (resume) GG_TRY(gg_resumption_settle(&all->scene, resume, err));
+  if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
   scene = &all->scene;
-  GG_TRY(gg_start_make(scene, &all->model, err));
-  GG_TRY(gg_engine_ops_of(scene->engine)->accepts(&all->model, err));
-  all->plan = gg_plan_of(scene, &all->model);
-  const gg_forecast forecast = gg_forecast_of(scene, &all->model, scene->engine);
-  GG_TRY(gg_forecast_check_memory(&forecast, gg_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
-  all->replica = gg_new_array((size_t)all->n, sizeof *all->replica, err);
+  GG_TRY(gg_run_start_make(scene, &all->model, err));
+  GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
+  all->plan = gg_run_criteria_of(scene, &all->model);
+  const gg_forecast forecast = gg_run_cost_estimate(scene, &all->model, scene->engine);
+  GG_TRY(gg_run_cost_check_memory(&forecast, gg_run_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
+  all->replica = gg_base_array_new((size_t)all->n, sizeof *all->replica, err);
   if (!all->replica) return GG_FAILED;
-  gg_replicas_watch(all);
-  gg_status status = gg_share_open(all, &all->share, err);
-  if (status == GG_OK) status = resume ? gg_replicas_restore(all, resume, err) : create_replicas(all, err);
+  gg_run_replicas_watch(all);
+  gg_status status = gg_run_share_open(all, &all->share, err);
+  if (status == GG_OK) status = resume ? gg_run_replicas_restore(all, resume, err) : create_replicas(all, err);
   if (status == GG_INTERRUPTED && all->stopped == GG_OUT_OF_TIME)
-    status = gg_fail(err, GG_FAILED, "%s: the time limit struck before the start was done",
-                     gg_engine_ops_of(scene->engine)->name);
+    status = gg_base_fail(err, GG_FAILED, "%s: the time limit struck before the start was done",
+                          gg_run_engine_ops_of(scene->engine)->name);
   if (status != GG_OK)
-    gg_replicas_clear(all);
+    gg_run_replicas_clear(all);
   else if (!all->share)
     share_threads(all);
   return status;
 }
 
-void gg_replicas_clear(gg_replicas *all)
+void gg_run_replicas_clear(gg_replicas *all)
 {
-  gg_share_close(all->share);
+  gg_run_share_close(all->share);
   all->share = NULL;
-  for (int i = 0; all->replica && i < all->n; i++) gg_replica_clear(&all->replica[i]);
+  for (int i = 0; all->replica && i < all->n; i++) gg_run_replica_clear(&all->replica[i]);
   free(all->replica);
   all->replica = NULL;
-  gg_replicas_unwatch(all);
+  gg_run_replicas_unwatch(all);
 }
 
 static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *err)
@@ -91,17 +91,17 @@ static void *work(void *argument)
   worker *w = argument;
   gg_replicas *all = w->all;
   for (int i = w->first; i < all->n && w->status == GG_OK; i += w->stride)
-    w->status = gg_replica_advance(&all->replica[i], w->due, w->adapt, w->hooks, &w->err);
+    w->status = gg_run_replica_advance(&all->replica[i], w->due, w->adapt, w->hooks, &w->err);
   return NULL;
 }
 
-gg_status gg_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err)
+gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err)
 {
   enum { MOST_THREADS = 64 };
-  if (all->share) return gg_share_advance(all->share, due, adapt, err);
+  if (all->share) return gg_run_share_advance(all->share, due, adapt, err);
   gg_hooks hooks = {.context = all};
   if (all->hooks && all->hooks->frame) hooks.frame = locked_frame;
-  if (all->hooks && all->hooks->crew) return gg_crew_advance(all->hooks->crew, all, due, adapt, &hooks, err);
+  if (all->hooks && all->hooks->crew) return gg_run_crew_advance(all->hooks->crew, all, due, adapt, &hooks, err);
   int n = all->threads < all->n ? all->threads : all->n;
   n = n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : n;
   worker workers[MOST_THREADS];
@@ -124,7 +124,7 @@ gg_status gg_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_err
   return GG_OK;
 }
 
-uint64_t gg_replicas_least(const gg_replicas *all)
+uint64_t gg_run_replicas_least(const gg_replicas *all)
 {
   uint64_t least = all->state.due;
   for (int i = 0; i < all->n; i++)
@@ -132,9 +132,9 @@ uint64_t gg_replicas_least(const gg_replicas *all)
   return least;
 }
 
-bool gg_replicas_are_level(const gg_replicas *all)
+bool gg_run_replicas_are_level(const gg_replicas *all)
 {
-  return gg_replicas_least(all) == all->state.due;
+  return gg_run_replicas_least(all) == all->state.due;
 }
 
 static void level_bins(gg_replicas *all, int k)
@@ -143,10 +143,10 @@ static void level_bins(gg_replicas *all, int k)
   for (int i = 0; i < all->n; i++)
     if (all->replica[i].bins[k].per_block > per_block) per_block = all->replica[i].bins[k].per_block;
   for (int i = 0; i < all->n; i++)
-    if (all->replica[i].bins[k].sum) gg_bins_coarsen(&all->replica[i].bins[k], per_block);
+    if (all->replica[i].bins[k].sum) gg_statistics_bins_coarsen(&all->replica[i].bins[k], per_block);
 }
 
-void gg_replicas_level(gg_replicas *all)
+void gg_run_replicas_level(gg_replicas *all)
 {
   size_t per_row = 0, rows = SIZE_MAX;
   for (int i = 0; i < all->n; i++) {
@@ -155,7 +155,7 @@ void gg_replicas_level(gg_replicas *all)
     if (r->series.per_row > per_row) per_row = r->series.per_row;
   }
   for (int i = 0; i < all->n; i++) {
-    gg_series_coarsen(&all->replica[i].series, per_row);
+    gg_statistics_series_coarsen(&all->replica[i].series, per_row);
     if (all->replica[i].series.n < rows) rows = all->replica[i].series.n;
   }
   for (int i = 0; i < all->n; i++) all->replica[i].series.n = rows;

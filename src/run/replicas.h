@@ -66,11 +66,11 @@ typedef struct gg_replicas {
 
 enum { GG_GOES_ON, GG_OUT_OF_TIME, GG_STOP_ASKED }; /* why a run is stopped */
 
-gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model);
+gg_plan gg_run_criteria_of(const gg_scene *scene, const gg_model *model);
 /* Is a window with a trend given up, after so many that were? */
-bool gg_plan_restarts(const gg_plan *plan, uint64_t restarts);
+bool gg_run_criteria_restart(const gg_plan *plan, uint64_t restarts);
 /* Does a window of this length end the run, whatever its errors are? */
-bool gg_plan_ends(const gg_plan *plan, uint64_t restarts, uint64_t window);
+bool gg_run_criteria_end(const gg_plan *plan, uint64_t restarts, uint64_t window);
 
 /* What a test of the window found. A window with 64 long blocks knows its error to 9 %: it is sure. Shorter ones, with
  * 16 of them, do not know it to better than a fifth. */
@@ -85,45 +85,45 @@ typedef struct gg_test {
  * where the last expects the end, and the estimate scatters little. (Simulated with independent blocks, the error's own
  * doubt not allowed for: the mean square of deviations over claimed errors is 1.07 then, against 1.05 with the half
  * more, 1.03 of windows of fixed length; with 16 blocks 1.3, against 1.16 and 1.15.) */
-bool gg_plan_is_met(const gg_test *test, bool exact_before);
+bool gg_run_criteria_are_met(const gg_test *test, bool exact_before);
 /* Length at which the window is tested next, after that test; NULL: first. It grows by a quarter a time; of one that is
  * sure, to where its error should be a twentieth smaller than asked. */
-uint64_t gg_plan_next_test(const gg_plan *plan, uint64_t restarts, const gg_test *last);
+uint64_t gg_run_criteria_next_test(const gg_plan *plan, uint64_t restarts, const gg_test *last);
 
 /* By how much errors of a run that stops by them are enlarged, the others' by nothing: it stops where their estimate is
  * low. Of independent looks at autoregressive series (tests/run/test_stopping_rule.c) the mean square of deviations
  * over errors is 1.0 to 1.1 then, and 1.1 to 1.2 without; 1 % from 600 correlation times on. `correlation` and `window`
  * in one unit, over all replicas. */
-double gg_plan_margin(const gg_plan *plan, double correlation, double window);
+double gg_run_criteria_margin(const gg_plan *plan, double correlation, double window);
 
-gg_status gg_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
-                             const gg_hooks *hooks, gg_error *err);
-void gg_replicas_clear(gg_replicas *all);
+gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
+                                 const gg_hooks *hooks, gg_error *err);
+void gg_run_replicas_clear(gg_replicas *all);
 /* Every replica, on the threads or processes that there are, takes samples until it has `due` of them; the latter may
  * stop before, where a checkpoint is due. */
-gg_status gg_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err);
+gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err);
 
 /* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
-gg_status gg_replicas_run(gg_replicas *all, gg_error *err);
-bool gg_replicas_checkpoint_is_due(const gg_replicas *all);
+gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err);
+bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all);
 /* progress.c: tell the caller's hook, if there is one; `over`: the run is. */
-void gg_replicas_report_progress(gg_replicas *all, bool over);
+void gg_run_replicas_report_progress(gg_replicas *all, bool over);
 /* Has every replica all->state.due samples? Where a run was stopped, some may not. */
-bool gg_replicas_are_level(const gg_replicas *all);
+bool gg_run_replicas_are_level(const gg_replicas *all);
 /* Samples that every replica has, of those that it is to have. */
-uint64_t gg_replicas_least(const gg_replicas *all);
+uint64_t gg_run_replicas_least(const gg_replicas *all);
 /* Of a run that is over: forget the samples that not every replica has, so that what there is can be reported. */
-void gg_replicas_level(gg_replicas *all);
+void gg_run_replicas_level(gg_replicas *all);
 
 /* cancel.c: from now on whoever works for these replicas looks whether the caller's hook or the time limit ask to
  * stop; and the end of that. */
-void gg_replicas_watch(gg_replicas *all);
-void gg_replicas_unwatch(gg_replicas *all);
+void gg_run_replicas_watch(gg_replicas *all);
+void gg_run_replicas_unwatch(gg_replicas *all);
 
 /* convergence.c: how exact the means over the window are, and whether it is steady. */
-gg_status gg_replicas_convergence(gg_replicas *all, gg_convergence *convergence, gg_error *err);
+gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *convergence, gg_error *err);
 /* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
-gg_status gg_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
+gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
 
 /* slow_modes.c: what wanders slowly across the gap between walls, over the window. */
 typedef struct gg_wandering {
@@ -135,23 +135,23 @@ typedef struct gg_wandering {
    */
   double aside, aside_share;
 } gg_wandering;
-gg_status gg_replicas_wandering(const gg_replicas *all, gg_wandering *wandering, gg_error *err);
+gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_wandering *wandering, gg_error *err);
 
 /* arrest.c: under gravity, have the grains come to rest? Leaves the answer in all->state.standstill. */
-void gg_replicas_check_standstill(gg_replicas *all);
+void gg_run_replicas_check_arrest(gg_replicas *all);
 
 /* checkpoint.c */
-gg_status gg_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);
-gg_status gg_replicas_restore(gg_replicas *all, const gg_archive *archive, gg_error *err);
+gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);
+gg_status gg_run_replicas_restore(gg_replicas *all, const gg_archive *archive, gg_error *err);
 
 /* report.c: the result of where the replicas stand, whole if GG_OK; then, GG_FAILED if that is short of what was asked.
  */
-gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err);
-gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err);
+gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err);
+gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err);
 /* report_curves.c: the curves of all replicas together, and a warning for each observable that this model cannot have.
  */
-gg_status gg_replicas_report_curves(const gg_replicas *all, gg_result *result, gg_error *err);
+gg_status gg_run_replicas_report_curves(const gg_replicas *all, gg_result *result, gg_error *err);
 /* steady_state.c: is the mean over the window one of a steady state, and from what that is known. */
-void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *convergence, gg_result *result);
+void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *convergence, gg_result *result);
 
 #endif

@@ -14,9 +14,9 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
   if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned something that is no number";
   if (!all->state.averaging) return "nothing was averaged: the run ended in its warm-up";
   if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
-  if (all->model.linear_response && (gg_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE))
+  if (all->model.linear_response && (gg_common_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE))
     return "too short: the averaging has less than a sweep of the reduced shear rate";
-  const char *reason = gg_quantity_missing(&all->model, q);
+  const char *reason = gg_common_quantity_missing(&all->model, q);
   return reason ? reason : "not measured in this scene";
 }
 
@@ -24,7 +24,7 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
 static double row_length_of(const gg_replicas *all, const gg_series *s)
 {
   size_t rows = gg_series_window_rows(s);
-  if (gg_counts_in_collisions(&all->model)) return (double)s->per_row * GG_SAMPLING_INTERVAL;
+  if (gg_run_quantity_counts_in_collisions(&all->model)) return (double)s->per_row * GG_SAMPLING_INTERVAL;
   return rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
 }
 
@@ -33,18 +33,18 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
   double row_length = row_length_of(all, s);
-  for (int i = 0; i < gg_quantities_of(&all->model); i++) {
-    const gg_quantity q = gg_quantity_at(&all->model, i);
+  for (int i = 0; i < gg_common_quantity_set_of(&all->model); i++) {
+    const gg_quantity q = gg_common_quantity_at(&all->model, i);
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
-    if (!all->model.steady && !(gg_quantity_mask(q) & GG_KEPT_HEATING)) {
+    if (!all->model.steady && !(gg_common_quantity_mask(q) & GG_KEPT_HEATING)) {
       snprintf(e->reason, sizeof e->reason,
                all->model.linear_response ? "its temperature goes up and down"
                                           : "no steady state: the gas heats up; see the history");
       continue;
     }
     gg_mean m = {.mean = NAN};
-    if (all->state.averaging) GG_TRY(gg_replicas_mean(all, q, &m, err));
+    if (all->state.averaging) GG_TRY(gg_run_replicas_mean(all, q, &m, err));
     if (!isfinite(m.mean)) {
       snprintf(e->reason, sizeof e->reason, "%s", why_missing(all, q));
       continue;
@@ -61,9 +61,10 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
 static bool find_history(const gg_replicas *all, gg_quantity q, gg_function *f)
 {
   const gg_observable *o = all->replica[0].n_observables ? all->replica[0].observable[0] : NULL;
-  if (!o || !o->history || gg_model_lacks(&all->model, gg_quantity_mask(q) & ~(unsigned)GG_NEEDS_SCALE_SHOWN))
+  if (!o || !o->history ||
+      gg_common_model_missing(&all->model, gg_common_quantity_mask(q) & ~(unsigned)GG_NEEDS_SCALE_SHOWN))
     return false;
-  return gg_derived_find(o->history, q, f) || gg_derived_find(o->derived, q, f);
+  return gg_measure_derived_find(o->history, q, f) || gg_measure_derived_find(o->derived, q, f);
 }
 
 static gg_status report_history(const gg_replicas *all, gg_result *result, gg_error *err)
@@ -71,16 +72,16 @@ static gg_status report_history(const gg_replicas *all, gg_result *result, gg_er
   const gg_replica *r = &all->replica[0];
   gg_history *h = &result->history;
   h->n = r->series.n;
-  h->time = gg_new_array(h->n, sizeof *h->time, err);
+  h->time = gg_base_array_new(h->n, sizeof *h->time, err);
   if (!h->time) return GG_FAILED;
   for (size_t i = 0; i < h->n; i++) h->time[i] = r->series.end_time[i];
   h->window[0] = r->series.window > 0 ? h->time[r->series.window - 1] : 0;
   h->window[1] = h->n ? h->time[h->n - 1] : 0;
   for (int k = 0; k < GG_N_HISTORY; k++) {
-    h->value[k] = gg_new_array(h->n, sizeof *h->value[k], err);
+    h->value[k] = gg_base_array_new(h->n, sizeof *h->value[k], err);
     if (!h->value[k]) return GG_FAILED;
     gg_function f;
-    bool there = find_history(all, gg_history_quantity(k), &f);
+    bool there = find_history(all, gg_common_quantity_of_history(k), &f);
     for (size_t i = 0; i < h->n; i++)
       h->value[k][i] = there ? gg_function_value(f, gg_series_row(&r->series, i) + r->offset[0], &all->model) : NAN;
   }
@@ -107,7 +108,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     result->total.cpu_seconds += r->clock.cpu;
   }
   result->total.collisions = sum->collisions;
-  result->total.wall_seconds = all->state.wall + gg_wall_now() - all->started;
+  result->total.wall_seconds = all->state.wall + gg_base_clock_wall() - all->started;
   result->averaging.wall_seconds = NAN;
 }
 
@@ -116,15 +117,15 @@ static void report_effort(const gg_replicas *all, gg_result *result)
 static void warn_if_structured(gg_result *result)
 {
   if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow)) return;
-  for (gg_quantity q = gg_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
-       q = gg_quantity_next(q, GG_STRESS_DIFFERENCE)) {
+  for (gg_quantity q = gg_common_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
+       q = gg_common_quantity_next(q, GG_STRESS_DIFFERENCE)) {
     const gg_estimate *e = &result->value[q];
     if (!(fabs(e->mean) > 0.02 && fabs(e->mean) > 5 * e->error)) continue;
-    gg_result_warn(
+    gg_run_result_warn(
         result,
         "the gas is not homogeneous: %s = %.3g +- %.2g where it should vanish (vortices or clusters; a smaller "
         "box or shorter run stays homogeneous)",
-        gg_quantity_name(q), e->mean, e->error);
+        gg_common_quantity_name(q), e->mean, e->error);
     return;
   }
 }
@@ -135,59 +136,60 @@ static void warn_if_structured(gg_result *result)
 static void warn_if_narrow(gg_result *result)
 {
   const gg_model *m = &result->model;
-  double narrowest = fmin(m->box[0], fmin(m->box[1], m->box[2])), widest = gg_model_widest(m);
+  double narrowest = fmin(m->box[0], fmin(m->box[1], m->box[2])), widest = gg_common_model_widest(m);
   if (m->homogeneous || narrowest >= NARROW_BOX * widest) return;
-  gg_result_warn(result,
-                 "the box is %.3g diameters wide: its grains meet the same few again and again, and means are those of "
-                 "so small a box; give particles a larger value",
-                 narrowest / widest);
+  gg_run_result_warn(
+      result,
+      "the box is %.3g diameters wide: its grains meet the same few again and again, and means are those of "
+      "so small a box; give particles a larger value",
+      narrowest / widest);
 }
 
 static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   const gg_engine_state *s = &result->engine_state;
   if (all->model.law.e && gg_scene_is_given(&all->scene, "collision.e"))
-    gg_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
+    gg_run_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
   else if (all->model.law.e)
-    gg_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
-  if (result->steadiness != GG_STEADY) gg_result_warn(result, "not a steady mean: %s", result->steadiness_text);
+    gg_run_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
+  if (result->steadiness != GG_STEADY) gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (result->steadiness == GG_STEADY && !c->trusted)
-    gg_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
-                   GG_MIN_BLOCKS);
+    gg_run_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
+                       GG_MIN_BLOCKS);
   if ((double)s->treated > 1e-4 * (double)s->collisions)
-    gg_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
-                   100 * (double)s->treated / (double)s->collisions);
+    gg_run_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
+                       100 * (double)s->treated / (double)s->collisions);
   if (s->wall_treated > s->collisions / 100)
-    gg_result_warn(result, "%.3g contacts with walls fell under the contact-time rule: grains rest on a wall",
-                   (double)s->wall_treated);
+    gg_run_result_warn(result, "%.3g contacts with walls fell under the contact-time rule: grains rest on a wall",
+                       (double)s->wall_treated);
   warn_if_structured(result);
   warn_if_narrow(result);
   if (s->overflows > 1e-3 * (double)s->collisions)
-    gg_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
-                   100 * (double)s->overflows / (double)s->collisions);
+    gg_run_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
+                       100 * (double)s->overflows / (double)s->collisions);
   if (all->plan.relative_error > 0 && s->time_step_bias > all->plan.relative_error / 5)
-    gg_result_warn(result,
-                   "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the asked error",
-                   100 * s->time_step_bias);
+    gg_run_result_warn(result,
+                       "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the asked error",
+                       100 * s->time_step_bias);
 }
 
-gg_status gg_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)
+gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)
 {
   gg_convergence c;
   result->scene = all->scene;
-  gg_extension_hold(result->scene.extension);
+  gg_common_extension_hold(result->scene.extension);
   result->model = all->model;
   result->model.stop = NULL; /* it ends with the run */
   result->engine = all->replica[0].engine->ops->name;
-  GG_TRY(gg_replicas_convergence(all, &c, err));
+  GG_TRY(gg_run_replicas_convergence(all, &c, err));
   GG_TRY(report_means(all, result, err));
   GG_TRY(report_history(all, result, err));
   report_effort(all, result);
-  gg_replicas_report_steadiness(all, &c, result);
-  gg_result_tell_ensemble(result);
+  gg_run_replicas_report_steadiness(all, &c, result);
+  gg_run_result_report_ensemble(result);
   report_warnings(all, &c, result);
-  GG_TRY(gg_replicas_report_curves(all, result, err));
-  GG_TRY(gg_frame_take(all->replica[0].engine, &all->model, &result->final, err));
-  gg_replica_date_frame(&all->replica[0], &result->final);
+  GG_TRY(gg_run_replicas_report_curves(all, result, err));
+  GG_TRY(gg_run_frame_take(all->replica[0].engine, &all->model, &result->final, err));
+  gg_run_replica_date_frame(&all->replica[0], &result->final);
   return GG_OK;
 }

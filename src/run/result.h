@@ -10,15 +10,15 @@
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
 typedef struct gg_estimate {
   double mean, error;      /* error: standard error, correlation in time accounted for; NaN if unknown */
-  double correlation_time; /* integrated autocorrelation time, in gg_correlation_time_unit */
+  double correlation_time; /* integrated autocorrelation time, in gg_run_correlation_time_unit */
   uint64_t samples;        /* in the averaging window, all replicas */
   char reason[160];
 } gg_estimate;
 
 /* Of correlation times: that of time in a steady state; "collisions a grain" where the gas cools or heats up for ever,
  * so that times grow without end and a mean of them says nothing. */
-bool gg_counts_in_collisions(const gg_model *model);
-const char *gg_correlation_time_unit(const gg_model *model);
+bool gg_run_quantity_counts_in_collisions(const gg_model *model);
+const char *gg_run_correlation_time_unit(const gg_model *model);
 
 typedef enum gg_steadiness {
   GG_STEADY,
@@ -44,12 +44,12 @@ typedef struct gg_frame {
   uint8_t *species;                   /* NULL for one species */
   int64_t *id;
 } gg_frame;
-gg_status gg_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err);
-void gg_frame_free(gg_frame *frame);
+gg_status gg_run_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err);
+void gg_run_frame_free(gg_frame *frame);
 /* GG_BAD_FILE: it is of no run of this model, as one from a file that was made to be read astray. */
-gg_status gg_frame_check(const gg_frame *frame, const gg_model *model, gg_error *err);
+gg_status gg_run_frame_check(const gg_frame *frame, const gg_model *model, gg_error *err);
 /* Places of the grains in the order of their numbers, so that a row is the same grain in every frame; to be freed. */
-size_t *gg_frame_order(const gg_frame *frame, gg_error *err);
+size_t *gg_run_frame_order(const gg_frame *frame, gg_error *err);
 
 typedef struct gg_effort {
   uint64_t collisions;
@@ -63,7 +63,7 @@ struct gg_result {
   gg_steadiness steadiness;
   char steadiness_text[256];             /* which quantity decided, and how */
   char ensemble_text[200];               /* why so many grains, where the program chose; else "" */
-  gg_estimate value[GG_MOST_QUANTITIES]; /* those of gg_quantity_at(&model, ...) */
+  gg_estimate value[GG_MOST_QUANTITIES]; /* those of gg_common_quantity_at(&model, ...) */
   gg_history history;
   gg_curves curves;
   gg_frame final; /* the first replica's last state */
@@ -77,13 +77,13 @@ struct gg_result {
   gg_extension *own; /* names of what that file's program had brought; else NULL */
 };
 
-void gg_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);
+void gg_run_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);
 
 /* Fill ensemble_text. */
-void gg_result_tell_ensemble(gg_result *result);
+void gg_run_result_report_ensemble(gg_result *result);
 
 /* The headline quantities of a flow: what run.relative_error is asked of. Returns how many. */
-int gg_headline(const gg_model *model, gg_quantity headline[GG_N_QUANTITIES]);
+int gg_run_headline_quantities(const gg_model *model, gg_quantity headline[GG_N_QUANTITIES]);
 
 /* The warning of results whose restitution follows no scene says so in these words. */
 #define GG_OWN_LAW "the calling program's restitution law"

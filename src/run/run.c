@@ -6,16 +6,16 @@
 /* Where the replicas stand as a result; it may fall short of what was asked. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
 {
-  gg_result *result = gg_new_array(1, sizeof *result, err);
+  gg_result *result = gg_base_array_new(1, sizeof *result, err);
   if (!result) return GG_FAILED;
-  gg_replicas_level(all);
-  gg_status status = gg_replicas_report(all, result, err);
+  gg_run_replicas_level(all);
+  gg_status status = gg_run_replicas_report(all, result, err);
   if (status != GG_OK) { /* out of memory: half a result is none */
     gg_result_free(result);
     return status;
   }
   *out = result;
-  return gg_replicas_check_end(all, err);
+  return gg_run_replicas_check_end(all, err);
 }
 
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
@@ -23,17 +23,17 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
 {
   gg_replicas all;
   *out = NULL;
-  bool before = gg_memory_begin();
-  gg_status status = gg_replicas_create(&all, scene, resume, threads, hooks, err);
-  if (status != GG_OK) return gg_memory_check(before, status, err);
-  status = gg_replicas_run(&all, err);
+  bool before = gg_base_memory_begin();
+  gg_status status = gg_run_replicas_create(&all, scene, resume, threads, hooks, err);
+  if (status != GG_OK) return gg_base_memory_check(before, status, err);
+  status = gg_run_replicas_run(&all, err);
   if (status == GG_OK) status = report(&all, out, err);
   bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
   if (cut_short) report(&all, out, NULL);
-  if (status == GG_INTERRUPTED && *out) gg_result_warn(*out, "interrupted: these are the results so far");
-  gg_replicas_clear(&all);
-  if (!gg_memory_end(before) || status != GG_OK) return status;
+  if (status == GG_INTERRUPTED && *out) gg_run_result_warn(*out, "interrupted: these are the results so far");
+  gg_run_replicas_clear(&all);
+  if (!gg_base_memory_end(before) || status != GG_OK) return status;
   gg_result_free(*out); /* it lacks a warning, or worse */
   *out = NULL;
-  return gg_error_prefix(err, gg_out_of_memory(err), "%s", gg_engine_ops_of(scene->engine)->name);
+  return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", gg_run_engine_ops_of(scene->engine)->name);
 }

@@ -56,14 +56,14 @@ struct gg_comparison {
 
 /* `resume` (may be NULL): an archive that the checkpoint hook stored; each engine goes on from its part. Also after a
  * failure the comparison holds what there is, and is to be cleared. */
-gg_status gg_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
-                           gg_comparison *comparison, gg_error *err);
+gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
+                               gg_comparison *comparison, gg_error *err);
 /* (a - b) over their combined standard error; NaN where either is missing. */
-double gg_z_score(const gg_estimate *a, const gg_estimate *b);
-void gg_comparison_clear(gg_comparison *comparison);
+double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);
+void gg_run_comparison_clear(gg_comparison *comparison);
 
 /* Evaluate the theories for the comparison's scene: fills only model and theory[], which borrow from it, and warns of
  * curves that cannot be had. */
-gg_status gg_compare_theories(const gg_model *model, gg_comparison *comparison, gg_error *err);
+gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *comparison, gg_error *err);
 
 #endif

@@ -37,9 +37,9 @@ static void add_grains(gg_replica *r)
 {
   gg_local_frame frame;
   if (r->model.walled) {
-    gg_local_frame_take(&frame, &r->model, r->engine);
-    gg_local_frame_snapshot(&frame, r->engine, add_chunk, r);
-    gg_wall_modes_take(&r->model, &frame, r->row + r->wall_modes_at);
+    gg_measure_local_frame_take(&frame, &r->model, r->engine);
+    gg_measure_local_frame_snapshot(&frame, r->engine, add_chunk, r);
+    gg_measure_wall_modes_take(&r->model, &frame, r->row + r->wall_modes_at);
   } else if (reads_blocks(r)) {
     r->engine->ops->blocks(r->engine, add_blocks, r);
   } else {
@@ -47,7 +47,7 @@ static void add_grains(gg_replica *r)
   }
 }
 
-void gg_replica_sample_row(gg_replica *r, double elapsed)
+void gg_run_replica_sample_row(gg_replica *r, double elapsed)
 {
   for (int k = 0; k < r->n_observables; k++)
     if (r->observable[k]->width) r->observable[k]->begin(r->self[k]);
@@ -68,33 +68,33 @@ void gg_replica_sample_row(gg_replica *r, double elapsed)
 static bool is_due(const gg_replica *r, int k, int part)
 {
   const gg_observable *o = r->observable[k];
-  if (!o->bins || (gg_observable_wants_collisions(o, &r->model) && r->shown != GG_SHOWN)) return false;
+  if (!o->bins || (gg_measure_observable_wants_collisions(o, &r->model) && r->shown != GG_SHOWN)) return false;
   return o->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)r->every[k] == 0);
 }
 
-void gg_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
+void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
 {
   bool any = false, last = part == r->parts;
   for (int k = 0; k < r->n_observables; k++) any |= is_due(r, k, part);
   if (any) {
-    gg_snapshot_take(&r->snapshot, r->engine);
+    gg_measure_snapshot_take(&r->snapshot, r->engine);
     r->snapshot.elapsed = part_elapsed;
     r->snapshot.velocity_factor = part == 1 ? r->clock.velocity_factor : 1;
   }
   for (int k = 0; k < r->n_observables; k++) {
     if (!is_due(r, k, part)) continue;
-    r->observable[k]->add_snapshot(r->self[k], &r->snapshot, gg_bins_sample(&r->bins[k]));
-    if (last && !gg_replica_in_episode(r, k)) gg_bins_commit(&r->bins[k]);
+    r->observable[k]->add_snapshot(r->self[k], &r->snapshot, gg_statistics_bins_sample(&r->bins[k]));
+    if (last && !gg_run_replica_in_burst(r, k)) gg_statistics_bins_commit(&r->bins[k]);
   }
   if (last) r->clock.window_samples++;
 }
 
-void gg_replica_restart_curves(gg_replica *r)
+void gg_run_replica_restart_curves(gg_replica *r)
 {
   r->clock.averaging = 1;
   r->clock.window_samples = 0;
   for (int k = 0; k < r->n_observables; k++) {
-    gg_bins_restart(&r->bins[k]);
+    gg_statistics_bins_restart(&r->bins[k]);
     if (r->observable[k]->restart) r->observable[k]->restart(r->self[k]);
   }
 }

@@ -19,7 +19,7 @@ static bool are_asked_for(const gg_replica *r, bool *some_will_do)
   bool any = false;
   *some_will_do = r->engine->ops->callback_slows && r->engine->ops->callback_slows(r->engine);
   for (int k = 0; k < r->n_observables; k++) {
-    if (!gg_observable_wants_collisions(r->observable[k], &r->model)) continue;
+    if (!gg_measure_observable_wants_collisions(r->observable[k], &r->model)) continue;
     any = true;
     if (!r->observable[k]->begin_episode) *some_will_do = false;
   }
@@ -30,11 +30,11 @@ static bool are_asked_for(const gg_replica *r, bool *some_will_do)
  * episode, and where grains of one kind collide a few times in it, only their short flights are seen whole. Grains that
  * collide yet more seldom than MOST_LONGER allows for have no flights then, instead of short ones. */
 enum { EPISODE = 12, EPISODES_ALIKE = 16, APART_FIRST = 32, GROWTH = 32, MOST_LONGER = 32 };
-gg_episodes gg_episodes_of(const gg_model *m)
+gg_episodes gg_run_sampling_bursts_of(const gg_model *m)
 {
   double slowest = INFINITY;
-  for (int i = 0; i < m->n_species; i++) slowest = fmin(slowest, gg_model_species_rate(m, i, 1));
-  double longer = fmin(ceil(gg_model_collision_rate(m, 1) / slowest * (1 - 1e-9)), MOST_LONGER);
+  for (int i = 0; i < m->n_species; i++) slowest = fmin(slowest, gg_common_model_species_rate(m, i, 1));
+  double longer = fmin(ceil(gg_common_model_collision_rate(m, 1) / slowest * (1 - 1e-9)), MOST_LONGER);
   uint64_t length = EPISODE * (uint64_t)fmax(longer, 1), first = 2 * length > APART_FIRST ? 2 * length : APART_FIRST;
   return (gg_episodes){length, first, GROWTH * first, EPISODES_ALIKE * (GROWTH - 1) * first};
 }
@@ -48,11 +48,11 @@ static uint64_t since_episode(const gg_episodes *e, uint64_t sample)
   return sample % apart;
 }
 
-gg_status gg_replica_show_collisions(gg_replica *r, gg_error *err)
+gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err)
 {
   bool in_episodes;
   if (!are_asked_for(r, &in_episodes)) return GG_OK;
-  const gg_episodes episodes = gg_episodes_of(&r->model);
+  const gg_episodes episodes = gg_run_sampling_bursts_of(&r->model);
   const uint64_t at = since_episode(&episodes, r->clock.window_samples);
   const enum gg_shown wanted = !in_episodes || at < episodes.length ? GG_SHOWN : GG_HIDDEN;
   const bool begins = in_episodes && at == 0 && !r->clock.part; /* and not in an interval that was stopped */
@@ -63,10 +63,10 @@ gg_status gg_replica_show_collisions(gg_replica *r, gg_error *err)
   return r->engine->ops->set_callback(r->engine, wanted == GG_SHOWN ? add_collision : NULL, r, err);
 }
 
-bool gg_replica_in_episode(const gg_replica *r, int k)
+bool gg_run_replica_in_burst(const gg_replica *r, int k)
 {
   bool in_episodes;
-  const gg_episodes episodes = gg_episodes_of(&r->model);
+  const gg_episodes episodes = gg_run_sampling_bursts_of(&r->model);
   return r->observable[k]->begin_episode && are_asked_for(r, &in_episodes) && in_episodes &&
          since_episode(&episodes, r->clock.window_samples) < episodes.length - 1;
 }

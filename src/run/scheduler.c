@@ -67,7 +67,7 @@ static void work_on(gg_crew *c, piece *p)
   c->free--;
   if (c->free && c->pieces) pthread_cond_signal(&c->work);
   pthread_mutex_unlock(&c->lock);
-  p->status = gg_replica_advance(p->replica, e->due, e->adapt, e->hooks, &p->err);
+  p->status = gg_run_replica_advance(p->replica, e->due, e->adapt, e->hooks, &p->err);
   pthread_mutex_lock(&c->lock);
   if (--e->left == 0) pthread_cond_signal(&e->done);
   release(c);
@@ -86,26 +86,26 @@ static void *serve(void *crew)
   return NULL;
 }
 
-gg_status gg_crew_new(int threads, gg_crew **crew, gg_error *err)
+gg_status gg_run_crew_new(int threads, gg_crew **crew, gg_error *err)
 {
-  gg_crew *c = gg_new_array(1, sizeof *c, err);
+  gg_crew *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
   pthread_mutex_init(&c->lock, NULL);
   pthread_cond_init(&c->work, NULL);
   pthread_cond_init(&c->slot, NULL);
   c->free = threads;
-  c->thread = gg_new_array((size_t)threads, sizeof *c->thread, err);
+  c->thread = gg_base_array_new((size_t)threads, sizeof *c->thread, err);
   while (c->thread && c->n < threads && pthread_create(&c->thread[c->n], NULL, serve, c) == 0) c->n++;
   if (c->n == 0) {
-    if (c->thread) gg_fail(err, GG_FAILED, "no thread could be started");
-    gg_crew_free(c);
+    if (c->thread) gg_base_fail(err, GG_FAILED, "no thread could be started");
+    gg_run_crew_free(c);
     return GG_FAILED;
   }
   *crew = c;
   return GG_OK;
 }
 
-void gg_crew_free(gg_crew *c)
+void gg_run_crew_free(gg_crew *c)
 {
   if (!c) return;
   pthread_mutex_lock(&c->lock);
@@ -120,28 +120,28 @@ void gg_crew_free(gg_crew *c)
   free(c);
 }
 
-void gg_crew_enter(gg_crew *c)
+void gg_run_crew_enter(gg_crew *c)
 {
   pthread_mutex_lock(&c->lock);
   seize(c);
   pthread_mutex_unlock(&c->lock);
 }
 
-void gg_crew_leave(gg_crew *c)
+void gg_run_crew_leave(gg_crew *c)
 {
   pthread_mutex_lock(&c->lock);
   release(c);
   pthread_mutex_unlock(&c->lock);
 }
 
-void gg_crew_pause(gg_crew *c)
+void gg_run_crew_pause(gg_crew *c)
 {
-  if (c) gg_crew_leave(c);
+  if (c) gg_run_crew_leave(c);
 }
 
-void gg_crew_go_on(gg_crew *c)
+void gg_run_crew_go_on(gg_crew *c)
 {
-  if (c) gg_crew_enter(c);
+  if (c) gg_run_crew_enter(c);
 }
 
 static void hand_over(gg_crew *c, errand *e, piece *pieces)
@@ -160,10 +160,11 @@ static void hand_over(gg_crew *c, errand *e, piece *pieces)
   pthread_mutex_unlock(&c->lock);
 }
 
-gg_status gg_crew_advance(gg_crew *c, gg_replicas *all, uint64_t due, bool adapt, const gg_hooks *hooks, gg_error *err)
+gg_status gg_run_crew_advance(gg_crew *c, gg_replicas *all, uint64_t due, bool adapt, const gg_hooks *hooks,
+                              gg_error *err)
 {
   const double error = all->last.relative_error;
-  piece *pieces = gg_new_array((size_t)all->n, sizeof *pieces, err);
+  piece *pieces = gg_base_array_new((size_t)all->n, sizeof *pieces, err);
   if (!pieces) return GG_FAILED;
   errand e = {due, adapt, hooks, isnan(error) ? INFINITY : error, all->n, PTHREAD_COND_INITIALIZER};
   for (int i = 0; i < all->n; i++) pieces[i] = (piece){.errand = &e, .replica = &all->replica[i]};

@@ -37,21 +37,21 @@ static double mean_square(const double *y, size_t n)
   return sum;
 }
 
-gg_status gg_replicas_wandering(const gg_replicas *all, gg_wandering *w, gg_error *err)
+gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_wandering *w, gg_error *err)
 {
   *w = (gg_wandering){.mode = -1};
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s), per_part = (rows + PARTS - 1) / PARTS;
-  int modes = all->state.averaging ? gg_wall_modes(&all->model) : 0;
+  int modes = all->state.averaging ? gg_measure_wall_modes(&all->model) : 0;
   if (modes == 0 || rows < 4) return GG_OK;
   size_t parts = rows / per_part;
-  double *y = gg_new_array(parts * (size_t)all->n, sizeof *y, err);
+  double *y = gg_base_array_new(parts * (size_t)all->n, sizeof *y, err);
   if (!y) return GG_FAILED;
   int even = 0;
   for (int k = 0; k < modes; k++) {
     double mean = gather(all, k, parts, per_part, y);
-    if (!gg_wall_mode_is_odd(&all->model, k)) {
-      double time = gg_decay_time(y, parts, (size_t)all->n) * (double)per_part * (double)s->per_row;
+    if (!gg_measure_wall_mode_is_odd(&all->model, k)) {
+      double time = gg_statistics_decay_time(y, parts, (size_t)all->n) * (double)per_part * (double)s->per_row;
       if (time > w->time) w->mode = k, w->time = time;
       w->mean_time += (time - w->mean_time) / ++even;
     } else if (k == GG_WALL_CENTRE) {

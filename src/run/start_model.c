@@ -10,7 +10,7 @@
 /* Linear response: at the beginning of a sweep of the reduced shear rate. */
 static void start_of_sweep(gg_model *model)
 {
-  double speed = 1 / (gg_linear_response_of(model).start * gg_model_nu0(model, 1));
+  double speed = 1 / (gg_common_linear_response_of(model).start * gg_common_model_nu0(model, 1));
   model->temperature0 = speed * speed;
 }
 
@@ -24,9 +24,9 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
     gg_model constant = *model;
     constant.law = (gg_restitution_law){0};
     gg_error why;
-    bool before = gg_memory_begin();
+    bool before = gg_base_memory_begin();
     gg_status status = theory ? gg_theory_evaluate(theory, &constant, &answer, &why) : GG_BAD_INPUT;
-    if (gg_memory_end(before)) return gg_out_of_memory_for(err, "%s", best_first[i]);
+    if (gg_base_memory_end(before)) return gg_base_out_of_memory_for(err, "%s", best_first[i]);
     if (status != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
     if (!(T > 0)) continue;
@@ -38,19 +38,19 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
 }
 
 /* With a law, temperature and mean impact speed depend on each other: a few iterations. */
-gg_status gg_start_near_steady(gg_model *model, gg_error *err)
+gg_status gg_run_start_near_steady(gg_model *model, gg_error *err)
 {
   if (model->linear_response) start_of_sweep(model);
   if (!model->steady || model->shear_rate == 0) return GG_OK;
   for (int round = 0; round < (model->law.name ? 5 : 1); round++) {
     GG_TRY(start_at_theory(model, err));
-    gg_model_at(model, model->temperature0);
+    gg_common_model_at(model, model->temperature0);
   }
   return GG_OK;
 }
 
-gg_status gg_start_make(const gg_scene *scene, gg_model *model, gg_error *err)
+gg_status gg_run_start_make(const gg_scene *scene, gg_model *model, gg_error *err)
 {
-  GG_TRY(gg_model_make(scene, scene->engine, model, err));
-  return scene->temperature == GG_AUTO ? gg_start_near_steady(model, err) : GG_OK;
+  GG_TRY(gg_common_model_make(scene, scene->engine, model, err));
+  return scene->temperature == GG_AUTO ? gg_run_start_near_steady(model, err) : GG_OK;
 }

@@ -5,8 +5,8 @@
 
 #include "common/model.h"
 
-gg_status gg_start_near_steady(gg_model *model, gg_error *err);
+gg_status gg_run_start_near_steady(gg_model *model, gg_error *err);
 /* The model of a run of the scene's engine, with the temperature that it starts from. */
-gg_status gg_start_make(const gg_scene *scene, gg_model *model, gg_error *err);
+gg_status gg_run_start_make(const gg_scene *scene, gg_model *model, gg_error *err);
 
 #endif

@@ -8,7 +8,7 @@
 
 static void tell_trend(const gg_convergence *c, double window, char *text, size_t size)
 {
-  const char *name = gg_quantity_name(c->trending_quantity);
+  const char *name = gg_common_quantity_name(c->trending_quantity);
   if (c->trend_share < 0.3)
     snprintf(text, size,
              "%s has a trend: the first %.0f collisions a grain of the averaging are off what follows by %.1f errors, "
@@ -19,7 +19,7 @@ static void tell_trend(const gg_convergence *c, double window, char *text, size_
              name, 100 * c->trend_relative, fabs(c->trend_z));
 }
 
-void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *c, gg_result *result)
+void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   uint64_t window = all->state.due - all->state.window_at;
   char *text = result->steadiness_text;
@@ -44,7 +44,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
              happened, (double)all->plan.least * happened / (double)window);
   } else if (all->model.linear_response) {
     result->steadiness = GG_STEADY;
-    gg_linear_response s = gg_linear_response_of(&all->model);
+    gg_linear_response s = gg_common_linear_response_of(&all->model);
     snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",
              s.cools ? "linear response of the cooling gas" : "linear response of the heated gas",
              s.cools ? s.low : s.high, s.cools ? s.high : s.low);
@@ -56,7 +56,7 @@ void gg_replicas_report_steadiness(const gg_replicas *all, const gg_convergence 
     snprintf(text, size,
              "too short to tell: one mode dominates, %s, which wanders with a correlation time of %.2g collisions a "
              "grain; averaged over %.1f of these, %d are needed",
-             gg_wall_mode_name(c->wanders), c->wandering * GG_SAMPLING_INTERVAL, sampled / c->wandering,
+             gg_measure_wall_mode_name(c->wanders), c->wandering * GG_SAMPLING_INTERVAL, sampled / c->wandering,
              GG_LEAST_CORRELATION_TIMES);
   } else {
     result->steadiness = GG_STEADY;

@@ -26,15 +26,15 @@ static uint64_t samples_for(double collisions)
  * in which 1/a*^2 grows by (2/3) eta* a time 1/nu_0, five quarters of a collision; eta* taken as 1. */
 static double sweep_length(const gg_model *m)
 {
-  gg_linear_response s = gg_linear_response_of(m);
-  if (s.cools) return 2 * M_LN2 * s.power * gg_model_cooling(m);
+  gg_linear_response s = gg_common_linear_response_of(m);
+  if (s.cools) return 2 * M_LN2 * s.power * gg_common_model_cooling(m);
   return 1.25 * m->chi[0] * 1.5 * (1 / (s.low * s.low) - 1 / (s.high * s.high));
 }
 
 static void plan_linear_response(gg_plan *p, const gg_scene *scene, const gg_model *m)
 {
   double length = sweep_length(m);
-  if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_linear_response_of(m).cools ? 10 : 40);
+  if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_common_linear_response_of(m).cools ? 10 : 40);
   p->least = samples_for(LEAST_SWEEPS * length);
   p->longest = p->least * MOST_WINDOWS;
 }
@@ -55,19 +55,19 @@ static bool never_the_same(const gg_model *m)
 static bool has_headline(const gg_model *m)
 {
   gg_quantity list[GG_N_QUANTITIES];
-  return gg_headline(m, list) > 0;
+  return gg_run_headline_quantities(m, list) > 0;
 }
 
-gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
+gg_plan gg_run_criteria_of(const gg_scene *scene, const gg_model *model)
 {
   gg_plan p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
-  double slowest = gg_model_relaxation(model), gap = gg_model_gap_relaxation(model);
+  double slowest = gg_common_model_relaxation(model), gap = gg_common_model_gap_relaxation(model);
   double warmup = fmax(fmax(40, WARMUP_TIMES * slowest), WARMUP_GAP_TIMES * gap);
   p.warmup = samples_for(scene->run.warmup == GG_AUTO ? warmup : scene->run.warmup);
   p.least = samples_for(fmax(fmax(shortest_window(model), WINDOW_TIMES * slowest), WINDOW_GAP_TIMES * gap));
   p.longest = p.least * MOST_WINDOWS;
   if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
-  p.relative_error = gg_asked_error(scene);
+  p.relative_error = gg_common_ensemble_requested_error(scene);
   if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
   if (model->linear_response) {
     plan_linear_response(&p, scene, model);
@@ -84,17 +84,17 @@ gg_plan gg_plan_of(const gg_scene *scene, const gg_model *model)
 /* Windows that may be given up: averaging does not begin anew for ever. */
 enum { MOST_RESTARTS = 6 };
 
-bool gg_plan_restarts(const gg_plan *plan, uint64_t restarts)
+bool gg_run_criteria_restart(const gg_plan *plan, uint64_t restarts)
 {
   return plan->find_steady && restarts < MOST_RESTARTS;
 }
 
-bool gg_plan_ends(const gg_plan *plan, uint64_t restarts, uint64_t window)
+bool gg_run_criteria_end(const gg_plan *plan, uint64_t restarts, uint64_t window)
 {
   return (plan->most && window >= plan->most) || (plan->relative_error > 0 && window >= plan->longest << restarts);
 }
 
-bool gg_plan_is_met(const gg_test *test, bool exact_before)
+bool gg_run_criteria_are_met(const gg_test *test, bool exact_before)
 {
   return test->exact && (test->sure || exact_before);
 }
@@ -107,7 +107,7 @@ static uint64_t expected_end(const gg_test *t)
   return (uint64_t)ceil(factor * (double)t->window);
 }
 
-uint64_t gg_plan_next_test(const gg_plan *plan, uint64_t restarts, const gg_test *last)
+uint64_t gg_run_criteria_next_test(const gg_plan *plan, uint64_t restarts, const gg_test *last)
 {
   uint64_t next = plan->least << restarts;
   if (last && last->window >= next)
@@ -117,7 +117,7 @@ uint64_t gg_plan_next_test(const gg_plan *plan, uint64_t restarts, const gg_test
   return plan->most && next > plan->most ? plan->most : next;
 }
 
-double gg_plan_margin(const gg_plan *plan, double correlation, double window)
+double gg_run_criteria_margin(const gg_plan *plan, double correlation, double window)
 {
   return plan->relative_error > 0 && window > 0 ? 1 + 6 * correlation / window : 1;
 }

@@ -9,7 +9,7 @@ static double collisions_a_grain(const gg_replicas *all, bool averaging)
   double sum = 0;
   for (int i = 0; i < all->n; i++) {
     const gg_replica *r = &all->replica[i];
-    sum += gg_replica_collisions_per_grain(r);
+    sum += gg_run_replica_collisions_per_grain(r);
     if (averaging) sum -= 2 * (double)r->clock.window_collisions / (double)all->model.n;
   }
   return sum / all->n;
@@ -32,13 +32,13 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
   const gg_plan *plan = &all->plan;
   const uint64_t window = window_of(all);
   if (all->replica[0].n_observables == 0)
-    return gg_fail(err, GG_FAILED,
-                   "%s: nothing is measured: nobody can tell whether the asked relative error %g is "
-                   "reached",
-                   engine, plan->relative_error);
+    return gg_base_fail(err, GG_FAILED,
+                        "%s: nothing is measured: nobody can tell whether the asked relative error %g is "
+                        "reached",
+                        engine, plan->relative_error);
   const bool cut = out_of_time(all) || (plan->most && window >= plan->most);
   if (cut && (window < plan->least || !c->trusted))
-    return gg_fail(
+    return gg_base_fail(
         err, GG_FAILED,
         "%s: %s after %.0f collisions a grain of averaging, too few to know whether the asked relative error %g is "
         "reached",
@@ -47,10 +47,10 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
   if (c->relative_error <= plan->relative_error) return GG_OK;
   const char *why = out_of_time(all) ? "the time limit struck; " : "";
   if (isnan(c->relative_error))
-    return gg_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
-                   gg_quantity_name(c->worst));
-  return gg_fail(err, GG_FAILED, "%s: %sthe asked relative error %g was not reached: %s has %.3g", engine, why,
-                 plan->relative_error, gg_quantity_name(c->worst), c->relative_error);
+    return gg_base_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
+                        gg_common_quantity_name(c->worst));
+  return gg_base_fail(err, GG_FAILED, "%s: %sthe asked relative error %g was not reached: %s has %.3g", engine, why,
+                      plan->relative_error, gg_common_quantity_name(c->worst), c->relative_error);
 }
 
 /* An error that was asked for counts even where run.collisions ended the run first. */
@@ -59,24 +59,26 @@ static gg_status check_goal(const gg_replicas *all, const char *engine, gg_error
   const gg_plan *plan = &all->plan;
   const bool by_error = plan->relative_error > 0;
   if (!all->state.averaging || (!by_error && plan->most && window_of(all) < plan->most))
-    return gg_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
-                   collisions_a_grain(all, false),
-                   all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
+    return gg_base_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
+                        collisions_a_grain(all, false),
+                        all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
   return by_error ? check_error(all, engine, err) : GG_OK;
 }
 
-gg_status gg_replicas_check_end(const gg_replicas *all, gg_error *err)
+gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err)
 {
   const char *engine = all->replica[0].engine->ops->name;
   if (all->state.standstill > 0)
-    return gg_fail(err, GG_FAILED,
-                   "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
-                   "last, and fall under the contact-time rule; hard spheres need a flow",
-                   engine, 100 * all->state.standstill);
+    return gg_base_fail(
+        err, GG_FAILED,
+        "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
+        "last, and fall under the contact-time rule; hard spheres need a flow",
+        engine, 100 * all->state.standstill);
   gg_status status = check_goal(all, engine, err);
   if (status == GG_OK || !out_of_time(all) || !(all->state.wall > all->plan.time_limit)) return status;
-  return gg_fail(err, GG_FAILED,
-                 "%s: the time limit of %g s was over before: it counts from the run's first start; to go on, give "
-                 "run.time_limit a larger value",
-                 engine, all->plan.time_limit);
+  return gg_base_fail(
+      err, GG_FAILED,
+      "%s: the time limit of %g s was over before: it counts from the run's first start; to go on, give "
+      "run.time_limit a larger value",
+      engine, all->plan.time_limit);
 }

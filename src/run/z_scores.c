@@ -6,10 +6,10 @@
 
 static bool is_difference(gg_quantity q)
 {
-  return gg_quantity_mask(q) & GG_STRESS_DIFFERENCE;
+  return gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
 }
 
-double gg_expected_agreement(const gg_model *m, gg_quantity q)
+double gg_run_expected_deviation(const gg_model *m, gg_quantity q)
 {
   bool dissipative = false;
   for (int i = 0; i < m->n_species; i++)
@@ -19,17 +19,17 @@ double gg_expected_agreement(const gg_model *m, gg_quantity q)
   return m->phi <= 0.3 && !dissipative ? 0.03 : 0.10;
 }
 
-bool gg_disagree(const gg_comparison *c, gg_quantity q)
+bool gg_run_results_disagree(const gg_comparison *c, gg_quantity q)
 {
   gg_estimate enskog;
   if (!c->by_engine[GG_MD]) return false;
-  if (!gg_enskog_solution(c, q, &enskog)) {
+  if (!gg_run_enskog_solution(c, q, &enskog)) {
     if (!c->by_engine[GG_DSMC]) return false;
     enskog = c->by_engine[GG_DSMC]->value[q];
   }
   const gg_estimate *md = &c->by_engine[GG_MD]->value[q];
   double difference = fabs(md->mean - enskog.mean), scale = is_difference(q) ? 1 : fabs(enskog.mean);
-  return fabs(gg_z_score(md, &enskog)) > 4 && difference > gg_expected_agreement(&c->model, q) * scale;
+  return fabs(gg_run_z_score(md, &enskog)) > 4 && difference > gg_run_expected_deviation(&c->model, q) * scale;
 }
 
 static bool denser_than_enskog(const gg_model *m)
@@ -46,7 +46,7 @@ static bool moderate(const gg_model *m)
 }
 static bool clusters(const gg_model *m)
 {
-  double L = gg_clustering_length(m), edge = fmax(m->box[0], fmax(m->box[1], m->box[2]));
+  double L = gg_theory_clustering_length(m), edge = fmax(m->box[0], fmax(m->box[1], m->box[2]));
   return edge > (m->shear_rate != 0 ? 3 : 1) * L;
 }
 static bool unsteady_beyond_theory(const gg_model *m)
@@ -73,7 +73,7 @@ static const struct {
     {unsteady_beyond_theory, "none known at this density: look at the warnings, the warm-up and the errors"},
 };
 
-int gg_causes_of_disagreement(const gg_comparison *c, const char **found, int most)
+int gg_run_disagreement_causes(const gg_comparison *c, const char **found, int most)
 {
   int n = 0;
   for (size_t i = 0; i < sizeof causes / sizeof *causes; i++)

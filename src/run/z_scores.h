@@ -6,27 +6,27 @@
 
 /* Relative agreement expected of md and dsmc: 1 % where dilute (phi <= 0.05), 3 % up to phi = 0.3 with e >= 0.7, 10 %
  * beyond. For N1 and N2, differences: 0.02, 0.05 beyond. */
-double gg_expected_agreement(const gg_model *model, gg_quantity q);
+double gg_run_expected_deviation(const gg_model *model, gg_quantity q);
 
 /* What Enskog's equation says, solved without random numbers (enskog_hermite), with its numerical error; false where it
  * is not. */
-bool gg_enskog_solution(const gg_comparison *comparison, gg_quantity q, gg_estimate *solution);
+bool gg_run_enskog_solution(const gg_comparison *comparison, gg_quantity q, gg_estimate *solution);
 
 /* enskog_deviation.c: an engine against that solution; false where there is none, or no mean and error of the engine.
  */
-bool gg_depart_from_enskog(const gg_comparison *comparison, gg_engine_kind engine, gg_quantity q,
-                           gg_departure *departure);
+bool gg_run_enskog_deviation(const gg_comparison *comparison, gg_engine_kind engine, gg_quantity q,
+                             gg_departure *departure);
 
 /* Does md differ from Enskog's equation by more than four standard errors and more than expected? From its solution,
  * else from dsmc with the errors of both. */
-bool gg_disagree(const gg_comparison *comparison, gg_quantity q);
+bool gg_run_results_disagree(const gg_comparison *comparison, gg_quantity q);
 
 /* Causes that apply to this scene, one sentence each, at most `most`; returns how many. */
-int gg_causes_of_disagreement(const gg_comparison *comparison, const char **causes, int most);
+int gg_run_disagreement_causes(const gg_comparison *comparison, const char **causes, int most);
 
 /* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN where the simulation cannot be told from
  * zero (within three standard errors). */
-double gg_deviation(const gg_estimate *simulation, double theory);
+double gg_run_deviation(const gg_estimate *simulation, double theory);
 
 /* A theory that is off by more than the engines may be of one another, and by more than four standard errors: in which
  * headline quantity most, by how much of it, and why. Not enskog_hermite: where md is off from that, md is. */
@@ -38,6 +38,6 @@ typedef struct gg_theory_remark {
 } gg_theory_remark;
 /* theory_deviation.c: of all theories that apply, against md, or against dsmc where md was not run; returns how many.
  */
-int gg_theory_remarks(const gg_comparison *comparison, gg_theory_remark remarks[GG_MOST_THEORIES]);
+int gg_run_theory_remarks(const gg_comparison *comparison, gg_theory_remark remarks[GG_MOST_THEORIES]);
 
 #endif

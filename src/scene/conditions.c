@@ -5,15 +5,15 @@
 #include "common/collision.h"
 #include "scene/conditions.h"
 
-bool gg_condition_holds(const gg_condition *c, const gg_scene *s, unsigned uses)
+bool gg_scene_condition_holds(const gg_condition *c, const gg_scene *s, unsigned uses)
 {
   return c->flow ? c->flow(s->flow) : c->holds(s, uses);
 }
 
-void gg_condition_otherwise(const gg_condition *c, char *text, size_t size)
+void gg_scene_condition_otherwise(const gg_condition *c, char *text, size_t size)
 {
   char flows[160] = "";
-  if (c->flow) gg_flow_list(c->flow, flows, sizeof flows);
+  if (c->flow) gg_common_flow_list(c->flow, flows, sizeof flows);
   snprintf(text, size, "%s%s%s", c->otherwise, flows, c->after ? c->after : "");
 }
 
@@ -70,14 +70,14 @@ static bool any_pair(const gg_scene *s, pair_test *test)
 
 static bool loses_energy(double e, double beta, double mu)
 {
-  gg_rule rule = gg_rule_of(beta, mu);
+  gg_rule rule = gg_common_rule_select(beta, mu);
   return e < 1 || rule == GG_FRICTIONAL || (rule == GG_ROUGH && beta < 1);
 }
 
 static bool is_rough(double e, double beta, double mu)
 {
   (void)e;
-  return gg_rule_of(beta, mu) != GG_SMOOTH;
+  return gg_common_rule_select(beta, mu) != GG_SMOOTH;
 }
 
 static bool has_beta(double e, double beta, double mu)
@@ -101,7 +101,7 @@ bool gg_scene_loses_energy(const gg_scene *s)
 static bool is_lossy(const gg_scene *s, unsigned uses)
 {
   (void)uses;
-  return gg_extension_law(s->extension).e || gg_scene_loses_energy(s) ||
+  return gg_common_extension_law(s->extension).e || gg_scene_loses_energy(s) ||
          (gg_flow_is_walled(s->flow) && loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
 }
 
@@ -115,7 +115,7 @@ static bool has_law(const gg_scene *s, unsigned uses)
  * and is never the same again; and where nothing is lost there is no rate of loss. */
 static bool has_error(const gg_scene *s, unsigned uses)
 {
-  const bool own = gg_extension_law(s->extension).e != NULL, lossy = own || gg_scene_loses_energy(s);
+  const bool own = gg_common_extension_law(s->extension).e != NULL, lossy = own || gg_scene_loses_energy(s);
   if (uses == GG_USE_THEORY || lossy) return !(gg_flow_cools(s->flow) && (own || has_law(s, uses)));
   if (gg_flow_is_sheared(s->flow)) return gg_flow_of(s->flow)->linear_response;
   const bool shares = s->n_species > 1 || any_pair(s, is_rough); /* temperatures, whose ratio is known */
@@ -152,29 +152,34 @@ static bool wall_friction(const gg_scene *s, unsigned uses)
   return s->walls.mu != 0;
 }
 
-const gg_condition gg_if_sheared = {.flow = gg_flow_is_sheared, .otherwise = "but in flow: "};
-const gg_condition gg_if_moving_walls = {.flow = gg_flow_has_moving_walls, .otherwise = "but in flow: "};
-const gg_condition gg_if_openable = {.flow = may_be_open, .otherwise = "but in flow: "};
-const gg_condition gg_if_walled = {.flow = gg_flow_is_walled, .otherwise = "but between walls (flow: ", .after = ")"};
-const gg_condition gg_if_md = {.holds = uses_md, .otherwise = "with engine: dsmc"};
-const gg_condition gg_if_dsmc = {.holds = uses_dsmc, .otherwise = "with engine: md"};
-const gg_condition gg_if_counted = {.holds = counts_particles,
-                                    .otherwise =
-                                        "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)"};
-const gg_condition gg_if_boxed = {.holds = uses_md, .otherwise = "with engine: dsmc, which has no box"};
-const gg_condition gg_if_one_engine = {.holds = uses_one_engine,
-                                       .otherwise = "in a comparison; graingas run keeps a trajectory"};
-const gg_condition gg_if_contact_value = {
+const gg_condition gg_scene_if_sheared = {.flow = gg_flow_is_sheared, .otherwise = "but in flow: "};
+const gg_condition gg_scene_if_moving_walls = {.flow = gg_flow_has_moving_walls, .otherwise = "but in flow: "};
+const gg_condition gg_scene_if_openable = {.flow = may_be_open, .otherwise = "but in flow: "};
+const gg_condition gg_scene_if_walled = {
+    .flow = gg_flow_is_walled, .otherwise = "but between walls (flow: ", .after = ")"};
+const gg_condition gg_scene_if_md = {.holds = uses_md, .otherwise = "with engine: dsmc"};
+const gg_condition gg_scene_if_dsmc = {.holds = uses_dsmc, .otherwise = "with engine: md"};
+const gg_condition gg_scene_if_counted = {
+    .holds = counts_particles,
+    .otherwise = "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)"};
+const gg_condition gg_scene_if_boxed = {.holds = uses_md, .otherwise = "with engine: dsmc, which has no box"};
+const gg_condition gg_scene_if_one_engine = {.holds = uses_one_engine,
+                                             .otherwise = "in a comparison; graingas run keeps a trajectory"};
+const gg_condition gg_scene_if_contact_value = {
     .holds = uses_contact_value,
     .otherwise = "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0"};
-const gg_condition gg_if_lossy = {.holds = is_lossy, .otherwise = "where no collision loses energy"};
-const gg_condition gg_if_error = {
+const gg_condition gg_scene_if_lossy = {.holds = is_lossy, .otherwise = "where no collision loses energy"};
+const gg_condition gg_scene_if_error = {
     .holds = has_error,
     .otherwise = "but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, or "
                  "cooling by a law"};
-const gg_condition gg_if_rough = {.holds = some_rough, .otherwise = "on smooth grains, which do not spin"};
-const gg_condition gg_if_law = {.holds = has_law, .otherwise = "while collision.law is constant"};
-const gg_condition gg_if_sticking = {.holds = some_beta, .otherwise = "while collision.beta is -1: smooth grains"};
-const gg_condition gg_if_tangential = {.holds = some_friction, .otherwise = "while collision.mu is 0: smooth grains"};
-const gg_condition gg_if_wall_sticking = {.holds = wall_beta, .otherwise = "while walls.beta is -1: smooth walls"};
-const gg_condition gg_if_wall_tangential = {.holds = wall_friction, .otherwise = "while walls.mu is 0: smooth walls"};
+const gg_condition gg_scene_if_rough = {.holds = some_rough, .otherwise = "on smooth grains, which do not spin"};
+const gg_condition gg_scene_if_law = {.holds = has_law, .otherwise = "while collision.law is constant"};
+const gg_condition gg_scene_if_sticking = {.holds = some_beta,
+                                           .otherwise = "while collision.beta is -1: smooth grains"};
+const gg_condition gg_scene_if_tangential = {.holds = some_friction,
+                                             .otherwise = "while collision.mu is 0: smooth grains"};
+const gg_condition gg_scene_if_wall_sticking = {.holds = wall_beta,
+                                                .otherwise = "while walls.beta is -1: smooth walls"};
+const gg_condition gg_scene_if_wall_tangential = {.holds = wall_friction,
+                                                  .otherwise = "while walls.mu is 0: smooth walls"};

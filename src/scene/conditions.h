@@ -16,12 +16,13 @@ typedef struct gg_condition {
   const char *after;
 } gg_condition;
 
-bool gg_condition_holds(const gg_condition *condition, const gg_scene *scene, unsigned uses);
-void gg_condition_otherwise(const gg_condition *condition, char *text, size_t size);
+bool gg_scene_condition_holds(const gg_condition *condition, const gg_scene *scene, unsigned uses);
+void gg_scene_condition_otherwise(const gg_condition *condition, char *text, size_t size);
 
-extern const gg_condition gg_if_sheared, gg_if_moving_walls, gg_if_openable, gg_if_walled, gg_if_md, gg_if_dsmc,
-    gg_if_counted, gg_if_error, gg_if_boxed, gg_if_one_engine, gg_if_contact_value, gg_if_lossy, gg_if_law, gg_if_rough,
-    gg_if_sticking, gg_if_tangential, gg_if_wall_sticking, gg_if_wall_tangential;
+extern const gg_condition gg_scene_if_sheared, gg_scene_if_moving_walls, gg_scene_if_openable, gg_scene_if_walled,
+    gg_scene_if_md, gg_scene_if_dsmc, gg_scene_if_counted, gg_scene_if_error, gg_scene_if_boxed, gg_scene_if_one_engine,
+    gg_scene_if_contact_value, gg_scene_if_lossy, gg_scene_if_law, gg_scene_if_rough, gg_scene_if_sticking,
+    gg_scene_if_tangential, gg_scene_if_wall_sticking, gg_scene_if_wall_tangential;
 
 /* Does some collision between grains lose energy, by the coefficients that the scene has? */
 bool gg_scene_loses_energy(const gg_scene *scene);

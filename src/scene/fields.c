@@ -11,7 +11,7 @@
 
 static gg_word flow_word(int i)
 {
-  return i < GG_N_FLOWS ? (gg_word){gg_flows[i].word, i, gg_flows[i].doc} : (gg_word){0};
+  return i < GG_N_FLOWS ? (gg_word){gg_common_flows[i].word, i, gg_common_flows[i].doc} : (gg_word){0};
 }
 
 static const gg_word engines[] = {
@@ -53,54 +53,56 @@ const gg_field gg_scene_fields[] = {
     {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .words = thermostats, .doc = "what keeps the gas warm"},
     {"contact_value", GG_FIELD_CHOICE, AT(contact_value), .words = contact_values,
      .doc = "pair correlation at contact, in dsmc, the theories and the strength of white noise",
-     .when = {&gg_if_contact_value}},
+     .when = {&gg_scene_if_contact_value}},
     {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6,
      .doc = "solid fraction; must be given; 0 is the Boltzmann limit (dsmc only)",
      .also = "density volume_fraction solid_fraction packing_fraction nu"},
-    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box", .when = {&gg_if_counted},
+    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box", .when = {&gg_scene_if_counted},
      .also = "N grains number n_particles num_particles"},
     {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .unit = "1/time", .doc = "of sheared flows",
-     .when = {&gg_if_sheared}, .also = "gamma gamma_dot rate shear"},
+     .when = {&gg_scene_if_sheared}, .also = "gamma gamma_dot rate shear"},
     {"temperature", GG_FIELD_NUMBER, AT(temperature), 1e-100, 1e100, false, AUTO, .unit = "velocity^2",
-     .doc = "<C.C>/3 to start from; auto: near the steady state", .when = {&gg_if_sheared}, .also = "T T0"},
+     .doc = "<C.C>/3 to start from; auto: near the steady state", .when = {&gg_scene_if_sheared}, .also = "T T0"},
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges",
-     .when = {&gg_if_boxed}, .also = "box"},
+     .when = {&gg_scene_if_boxed}, .also = "box"},
     {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .doc = "normal restitution; 1 unless given in equilibrium",
      .also = "restitution alpha normal_restitution e_n en"},
     {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1,
      .doc = "tangential restitution: -1 smooth, 1 perfectly rough; with a finite mu, that of sticking contacts",
-     .when = {&gg_if_tangential}, .also = "tangential_restitution e_t et"},
+     .when = {&gg_scene_if_tangential}, .also = "tangential_restitution e_t et"},
     {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY,
-     .doc = "Coulomb friction coefficient; inf: constant beta; finite: with collision.beta", .when = {&gg_if_sticking},
-     .also = "friction"},
+     .doc = "Coulomb friction coefficient; inf: constant beta; finite: with collision.beta",
+     .when = {&gg_scene_if_sticking}, .also = "friction"},
     {"collision.law", GG_FIELD_CHOICE, AT(collision.law), .words = laws,
      .doc = "how e depends on the normal speed at contact, between grains", .also = "model"},
     {"collision.speed", GG_FIELD_NUMBER, AT(collision.speed), SMALL, LARGE, false, AUTO, .unit = "velocity",
      .doc = "with a law: the normal speed at which collision.e is e; auto: the unit of velocity of results, diameter x "
             "shear_rate (couette: x mean shear rate) or, of cooling and heated gases, in which it is counted, v_0",
-     .when = {&gg_if_law}},
+     .when = {&gg_scene_if_law}},
     {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "kinds of grains, up to 16"},
-    {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls", .when = {&gg_if_walled}},
+    {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls",
+     .when = {&gg_scene_if_walled}},
     {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1,
      .doc = "tangential restitution at the walls; of smooth grains, which do not spin, that of their centres",
-     .when = {&gg_if_walled, &gg_if_wall_tangential}},
+     .when = {&gg_scene_if_walled, &gg_scene_if_wall_tangential}},
     {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .doc = "friction coefficient at the walls",
-     .when = {&gg_if_walled, &gg_if_wall_sticking}},
+     .when = {&gg_scene_if_walled, &gg_scene_if_wall_sticking}},
     {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "the upper end of chutes",
-     .when = {&gg_if_walled, &gg_if_openable}},
+     .when = {&gg_scene_if_walled, &gg_scene_if_openable}},
     {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), SMALL, LARGE, .unit = "velocity",
-     .doc = "of walls that move: those at +-L_y/2 at +-speed", .when = {&gg_if_walled, &gg_if_moving_walls}},
+     .doc = "of walls that move: those at +-L_y/2 at +-speed",
+     .when = {&gg_scene_if_walled, &gg_scene_if_moving_walls}},
     {"walls.ridges", GG_FIELD_NUMBER, AT(walls.ridges), 0, LARGE, .unit = "length",
      .doc = "diameter of half cylinders side by side on walls at rest, across the flow, so that a whole number stands "
             "there; 0: flat walls",
-     .when = {&gg_if_walled}},
+     .when = {&gg_scene_if_walled}},
     {"gravity", GG_FIELD_VECTOR, AT(gravity), -1e12, 1e12, .unit = "acceleration",
-     .doc = "body force per mass; in flows between walls, some of which have another default", .when = {&gg_if_walled},
-     .also = "g"},
+     .doc = "body force per mass; in flows between walls, some of which have another default",
+     .when = {&gg_scene_if_walled}, .also = "g"},
     {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
      .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or not asked if "
             "run.collisions is given",
-     .when = {&gg_if_error}, .also = "error tolerance accuracy", .may_change = true},
+     .when = {&gg_scene_if_error}, .also = "error tolerance accuracy", .may_change = true},
     {"run.collisions", GG_FIELD_NUMBER, AT(run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
      .doc = "stop after so much averaging; of a gas that cools by a law of restitution 400 unless given",
      .also = "steps", .may_change = true},
@@ -119,38 +121,38 @@ const gg_field gg_scene_fields[] = {
             "0: off. With gravity along y in units of sqrt(d/g) instead, or of the shorter of both where gravity is "
             "too weak to hold grains down (lifts them across the box by less than T); auto: 1e-5, with gravity "
             "along y 1e-3",
-     .when = {&gg_if_md, &gg_if_lossy}},
+     .when = {&gg_scene_if_md, &gg_scene_if_lossy}},
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
-     .doc = "step of the Monte Carlo engine", .when = {&gg_if_dsmc}, .also = "dt"},
+     .doc = "step of the Monte Carlo engine", .when = {&gg_scene_if_dsmc}, .also = "dt"},
     {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
      .doc = "size of the Monte Carlo ensemble; auto: particles if these are more than 5000; else 5000, or as many as "
             "keep means within a quarter of run.relative_error of those of infinitely many",
-     .when = {&gg_if_dsmc}},
+     .when = {&gg_scene_if_dsmc}},
     {"dsmc.precision", GG_FIELD_CHOICE, AT(dsmc.precision), .words = precisions,
      .doc = "of the velocities and spins that the Monte Carlo engine keeps; sums are double in either; md is double",
-     .when = {&gg_if_dsmc}},
+     .when = {&gg_scene_if_dsmc}},
     {"measure", GG_FIELD_SET, AT(measure), .words = observables, .doc = "what is measured; only that is paid for",
      .also = "observables"},
     {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
      .doc = "time between checkpoints; 0: none", .may_change = true},
     {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
-     .doc = "between stored frames; 0: only the last state", .when = {&gg_if_one_engine}, .also = "dump",
+     .doc = "between stored frames; 0: only the last state", .when = {&gg_scene_if_one_engine}, .also = "dump",
      .may_change = true},
     {0},
 };
 
-const gg_field gg_species_fields[] = {
+const gg_field gg_scene_species_fields[] = {
     {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, 1, true, .doc = "mole fraction n_i/n",
      .also = "concentration"},
     {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), SMALL, LARGE, .unit = "length", .doc = "diameter",
      .also = "d size radius"},
     {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .unit = "mass", .doc = "mass", .also = "m"},
     {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 1e-6, 1, false,
-     .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = {&gg_if_rough}, .also = "K I"},
+     .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = {&gg_scene_if_rough}, .also = "K I"},
     {0},
 };
 
-const gg_word gg_former_keys[] = {
+const gg_word gg_scene_former_keys[] = {
     {"small_shear", 0, "is a flow of its own: write flow: small_shear instead of flow: usf, and leave this key out"},
     {"vary", 0, "is for a sweep: graingas sweep FILE"},
     {"sweep", 0, "is for a sweep: graingas sweep FILE"},
@@ -174,16 +176,16 @@ int gg_scene_field_of_pair(const char *key, int *pair)
   if (!dot || strlen(key) >= sizeof base) return -1;
   snprintf(base, sizeof base, "%.*s", (int)(dot - key), key);
   int id = gg_scene_field_find(base);
-  *pair = gg_pair_named(dot + 1);
+  *pair = gg_common_pair_find(dot + 1);
   return *pair >= 0 && id >= 0 && gg_scene_fields[id].type == GG_FIELD_PAIRS ? id : -1;
 }
 
-bool gg_is_scene_key(const char *key)
+bool gg_scene_key_exists(const char *key)
 {
   int pair, number, used = 0;
   if (gg_scene_field_find(key) >= 0 || gg_scene_field_of_pair(key, &pair) >= 0) return true;
   if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return false;
-  for (const gg_field *f = gg_species_fields; f->key; f++)
+  for (const gg_field *f = gg_scene_species_fields; f->key; f++)
     if (strcmp(f->key, key + used) == 0) return true;
   return false;
 }
@@ -203,24 +205,24 @@ bool gg_scene_is_section(const char *name)
   return false;
 }
 
-gg_word gg_field_word(const gg_field *f, int i)
+gg_word gg_scene_field_word(const gg_field *f, int i)
 {
   return f->word ? f->word(i) : f->words ? f->words[i] : (gg_word){0};
 }
 
-gg_word gg_field_find_word(const gg_field *f, const char *name)
+gg_word gg_scene_field_find_word(const gg_field *f, const char *name)
 {
   int i = 0;
-  gg_word word = gg_field_word(f, 0);
-  while (word.name && strcmp(word.name, name) != 0) word = gg_field_word(f, ++i);
+  gg_word word = gg_scene_field_word(f, 0);
+  while (word.name && strcmp(word.name, name) != 0) word = gg_scene_field_word(f, ++i);
   return word;
 }
 
-gg_word gg_field_word_for(const gg_field *f, int value)
+gg_word gg_scene_field_word_for(const gg_field *f, int value)
 {
   int i = 0;
-  gg_word word = gg_field_word(f, 0);
-  while (word.name && word.value != value) word = gg_field_word(f, ++i);
+  gg_word word = gg_scene_field_word(f, 0);
+  while (word.name && word.value != value) word = gg_scene_field_word(f, ++i);
   return word;
 }
 
@@ -228,11 +230,11 @@ static void list_words(const gg_field *f, char *text, size_t size)
 {
   gg_word word;
   size_t used = strlen(text);
-  for (int i = 0; (word = gg_field_word(f, i)).name && used < size; i++)
+  for (int i = 0; (word = gg_scene_field_word(f, i)).name && used < size; i++)
     used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", word.name);
 }
 
-void gg_format_number(double value, char *text, size_t size)
+void gg_scene_number_format(double value, char *text, size_t size)
 {
   for (int digits = 15; digits <= 17; digits++) {
     snprintf(text, size, "%.*g", digits, value);
@@ -246,7 +248,7 @@ static void format_limit(const gg_field *f, double value, char *text, size_t siz
   if (f->type == GG_FIELD_INTEGER && isfinite(value))
     snprintf(text, size, "%" PRId64, value >= 0x1p63 ? INT64_MAX : (int64_t)value);
   else
-    gg_format_number(value, text, size);
+    gg_scene_number_format(value, text, size);
 }
 
 static void number_allowed(const gg_field *f, const char *what, char *text, size_t size)
@@ -264,7 +266,7 @@ static void number_allowed(const gg_field *f, const char *what, char *text, size
   if (f->special && used < size) snprintf(text + used, size - used, ", or %s", f->special);
 }
 
-void gg_field_allowed(const gg_field *f, char *text, size_t size)
+void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
 {
   static const char *const pairs = ", or a map of them by pair of species: {11: , 12: , other: }";
   switch (f->type) {

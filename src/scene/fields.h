@@ -13,7 +13,7 @@ typedef enum gg_field_type {
   GG_FIELD_SET,     /* unsigned bits: a list of `words` */
   GG_FIELD_PAIRS,   /* double[GG_PAIRS]: a number, or a map by pair: {11: , 12: , other: } */
   GG_FIELD_VECTOR,  /* double[3] */
-  GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_species_fields */
+  GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_scene_species_fields */
 } gg_field_type;
 
 typedef struct gg_word {
@@ -41,11 +41,11 @@ typedef struct gg_field {
   bool may_change;  /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
 
-enum { GG_MAX_FIELDS = 48 };               /* as many bits of gg_scene.given are used */
-extern const gg_field gg_scene_fields[];   /* ends with a NULL key */
-extern const gg_field gg_species_fields[]; /* likewise */
+enum { GG_MAX_FIELDS = 48 };                     /* as many bits of gg_scene.given are used */
+extern const gg_field gg_scene_fields[];         /* ends with a NULL key */
+extern const gg_field gg_scene_species_fields[]; /* likewise */
 extern const gg_word
-    gg_former_keys[]; /* keys of earlier versions and of other files; what to do now; ends with a NULL name */
+    gg_scene_former_keys[]; /* keys of earlier versions and of other files; what to do now; ends with a NULL name */
 extern const char *const gg_scene_sections[]; /* first parts of dotted keys; ends with NULL */
 
 /* Index in gg_scene_fields, or -1. */
@@ -53,22 +53,22 @@ int gg_scene_field_find(const char *key);
 /* "collision.e.12": index of collision.e, and the pair; else -1. */
 int gg_scene_field_of_pair(const char *key, int *pair);
 /* Is there such a key: collision.e, species.2.mass, collision.e.12? */
-bool gg_is_scene_key(const char *key);
+bool gg_scene_key_exists(const char *key);
 /* Did the user give this key? */
 bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */
 bool gg_scene_is_section(const char *name);
 
 /* The i-th word that a choice or a set takes; beyond the last one its name is NULL. */
-gg_word gg_field_word(const gg_field *field, int i);
+gg_word gg_scene_field_word(const gg_field *field, int i);
 /* The word of that name; its name is NULL if there is none. */
-gg_word gg_field_find_word(const gg_field *field, const char *name);
+gg_word gg_scene_field_find_word(const gg_field *field, const char *name);
 /* The word that stands for that value; its name is NULL if there is none. */
-gg_word gg_field_word_for(const gg_field *field, int value);
+gg_word gg_scene_field_word_for(const gg_field *field, int value);
 
 /* A number in the fewest digits that read back as the same number. */
-void gg_format_number(double value, char *text, size_t size);
+void gg_scene_number_format(double value, char *text, size_t size);
 /* What a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
-void gg_field_allowed(const gg_field *field, char *text, size_t size);
+void gg_scene_field_allowed(const gg_field *field, char *text, size_t size);
 
 #endif

@@ -28,7 +28,7 @@ static void note(inert_keys *all, const char *otherwise, const char *key)
 static bool differs(const gg_field *f, const void *base, const gg_scene *scene, const void *default_base,
                     const gg_scene *defaults)
 {
-  json_t *value = gg_field_json(f, base, scene), *usual = gg_field_json(f, default_base, defaults);
+  json_t *value = gg_scene_field_json(f, base, scene), *usual = gg_scene_field_json(f, default_base, defaults);
   bool yes = !json_equal(value, usual);
   json_decref(value);
   json_decref(usual);
@@ -39,7 +39,8 @@ static bool differs(const gg_field *f, const void *base, const gg_scene *scene, 
 static bool is_inert(const gg_field *f, const gg_scene *scene, unsigned uses, char *text, size_t size)
 {
   for (int i = 0; i < GG_MOST_CONDITIONS && f->when[i]; i++)
-    if (!gg_condition_holds(f->when[i], scene, uses)) return gg_condition_otherwise(f->when[i], text, size), true;
+    if (!gg_scene_condition_holds(f->when[i], scene, uses))
+      return gg_scene_condition_otherwise(f->when[i], text, size), true;
   return false;
 }
 
@@ -51,16 +52,16 @@ static void note_pairs(inert_keys *all, const gg_field *f, const gg_scene *scene
   char name[GG_PAIR_NAME];
   for (int p = gg_pairs_of(scene->n_species); p < GG_PAIRS; p++) {
     if (value[p] == value[GG_11] || value[p] == value[GG_PAIRS - 1]) continue;
-    snprintf(key, sizeof key, "%s.%s", f->key, gg_pair_name(p, name));
+    snprintf(key, sizeof key, "%s.%s", f->key, gg_common_pair_name(p, name));
     note(all, scene->n_species == 1 ? "with one species" : "with so few species", key);
   }
 }
 
 static void note_species(inert_keys *all, const gg_scene *scene, unsigned uses)
 {
-  const gg_scene defaults = gg_scene_defaults();
+  const gg_scene defaults = gg_common_scene_defaults();
   for (int i = 0; i < scene->n_species; i++)
-    for (const gg_field *f = gg_species_fields; f->key; f++) {
+    for (const gg_field *f = gg_scene_species_fields; f->key; f++) {
       char why[160], key[48];
       bool inert = is_inert(f, scene, uses, why, sizeof why);
       snprintf(key, sizeof key, "species.%d.%s", i + 1, f->key);
@@ -70,7 +71,7 @@ static void note_species(inert_keys *all, const gg_scene *scene, unsigned uses)
 
 static void note_all(inert_keys *all, const gg_scene *scene, unsigned uses)
 {
-  const gg_scene defaults = gg_scene_defaults();
+  const gg_scene defaults = gg_common_scene_defaults();
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     if (!gg_scene_is_given(scene, f->key)) continue;
     char why[160];
@@ -97,6 +98,6 @@ void gg_scene_inert(const gg_scene *scene, unsigned uses, gg_text_list *lines)
       used += snprintf(keys + used, sizeof keys - (size_t)used, "%s%s", n++ ? ", " : "", all.of[k].key);
       *all.of[k].otherwise = '\0';
     }
-    if (n) gg_text_list_add(lines, "%s %s no effect %s", keys, n > 1 ? "have" : "has", why);
+    if (n) gg_base_string_list_add(lines, "%s %s no effect %s", keys, n > 1 ? "have" : "has", why);
   }
 }

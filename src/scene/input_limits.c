@@ -46,7 +46,8 @@ gg_status gg_scene_check_limits(const gg_scene_reader *r, const char *yaml, size
 {
   yaml_parser_t parser;
   if (length > GG_SCENE_MAX_BYTES) return gg_scene_refuse_text(r, 0, "is not a scene: larger than 1 MiB");
-  if (!yaml_parser_initialize(&parser)) return gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
+  if (!yaml_parser_initialize(&parser))
+    return gg_base_error_prefix(r->err, gg_base_out_of_memory(r->err), "%s", r->name);
   yaml_parser_set_input_string(&parser, (const unsigned char *)yaml, length);
   gg_status status = check_tokens(r, &parser);
   yaml_parser_delete(&parser);

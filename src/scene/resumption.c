@@ -32,19 +32,20 @@ static const char *item_of(const gg_field *f, char name[64])
   return name;
 }
 
-gg_status gg_resumption_put(const gg_scene *scene, gg_archive *a, gg_error *err)
+gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error *err)
 {
   char name[64], signature[SIGNATURE] = "";
   const int64_t n = scene->n_species;
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     const char *at = (const char *)scene + f->offset;
-    if (!f->may_change) GG_TRY(gg_archive_put(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
+    if (!f->may_change)
+      GG_TRY(gg_base_archive_put(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
   }
-  GG_TRY(gg_archive_put(a, number_of_species, GG_ITEM_I64, &n, 1, err));
-  const double chosen_for = gg_ensemble_error(scene);
-  GG_TRY(gg_archive_put(a, ensemble_item, GG_ITEM_F64, &chosen_for, 1, err));
-  gg_extension_signature(scene->extension, signature, sizeof signature);
-  return gg_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
+  GG_TRY(gg_base_archive_put(a, number_of_species, GG_ITEM_I64, &n, 1, err));
+  const double chosen_for = gg_common_ensemble_size_error(scene);
+  GG_TRY(gg_base_archive_put(a, ensemble_item, GG_ITEM_F64, &chosen_for, 1, err));
+  gg_common_extension_signature(scene->extension, signature, sizeof signature);
+  return gg_base_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
 }
 
 static GG_PRINTF(3, 4) void append(char *text, size_t size, const char *format, ...)
@@ -59,7 +60,7 @@ static GG_PRINTF(3, 4) void append(char *text, size_t size, const char *format, 
 static void append_number(const gg_field *f, double value, char *text, size_t size)
 {
   char number[40];
-  gg_format_number(value, number, sizeof number);
+  gg_scene_number_format(value, number, sizeof number);
   append(text, size, "%s", f->special && value == f->special_value ? f->special : number);
 }
 
@@ -81,7 +82,7 @@ static void show(const gg_field *f, const void *at, char *text, size_t size)
   case GG_FIELD_CHOICE:
   case GG_FIELD_SET:
     memcpy(&word, at, sizeof word);
-    for (int i = 0; (w = gg_field_word(f, i)).name; i++)
+    for (int i = 0; (w = gg_scene_field_word(f, i)).name; i++)
       if (f->type == GG_FIELD_SET ? (word & (unsigned)w.value) != 0 : word == (unsigned)w.value)
         append(text, size, "%s%s", *text ? ", " : "", w.name);
     return;
@@ -106,9 +107,9 @@ static gg_status refuse(const gg_field *f, const char *key, const void *there, c
   show(f, there, one, sizeof one);
   show(f, here, two, sizeof two);
   list_changeable(changeable, sizeof changeable);
-  return gg_fail(err, GG_BAD_INPUT,
-                 "the checkpoint is of another run: %s differs (there %s, here %s); only %s may change", key, one, two,
-                 changeable);
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "the checkpoint is of another run: %s differs (there %s, here %s); only %s may change", key, one,
+                      two, changeable);
 }
 
 static gg_status refuse_pair(const gg_field *f, const double *there, const double *here, bool mixture, gg_error *err)
@@ -117,7 +118,7 @@ static gg_status refuse_pair(const gg_field *f, const double *there, const doubl
   int p = 0;
   while (p < GG_PAIRS && memcmp(&there[p], &here[p], sizeof *there) == 0) p++;
   if (p == GG_PAIRS) return GG_OK;
-  gg_pair_name(p, pair);
+  gg_common_pair_name(p, pair);
   snprintf(key, sizeof key, "%s%s%s", f->key, mixture ? "." : "", mixture ? pair : "");
   return refuse(f, key, &there[p], &here[p], err);
 }
@@ -129,7 +130,7 @@ static gg_status refuse_species(const gg_scene *there, const gg_scene *here, gg_
   const double n[] = {there->n_species, here->n_species};
   if (n[0] != n[1]) return refuse(&number, "the number of species", &n[0], &n[1], err);
   for (int i = 0; i < GG_MAX_SPECIES; i++)
-    for (const gg_field *f = gg_species_fields; f->key; f++) {
+    for (const gg_field *f = gg_scene_species_fields; f->key; f++) {
       const char *one = (const char *)&there->species[i] + f->offset,
                  *two = (const char *)&here->species[i] + f->offset;
       snprintf(key, sizeof key, "species.%d.%s", i + 1, f->key);
@@ -143,7 +144,7 @@ static gg_status same_value(const gg_field *f, const gg_scene *there, const gg_s
   const void *one = (const char *)there + f->offset, *two = (const char *)here + f->offset;
   if (f->type == GG_FIELD_SPECIES) return refuse_species(there, here, err);
   if (f->type == GG_FIELD_PAIRS) return refuse_pair(f, one, two, here->n_species > 1, err);
-  bool same = memcmp(one, two, kept[f->type].count * gg_item_size(kept[f->type].type)) == 0;
+  bool same = memcmp(one, two, kept[f->type].count * gg_base_archive_item_size(kept[f->type].type)) == 0;
   return same ? GG_OK : refuse(f, f->key, one, two, err);
 }
 
@@ -151,34 +152,36 @@ static gg_status same_value(const gg_field *f, const gg_scene *there, const gg_s
 static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_error *err)
 {
   char here[SIGNATURE], there[SIGNATURE];
-  gg_extension_signature(scene->extension, here, sizeof here);
-  GG_TRY(gg_archive_get(a, extension_item, GG_ITEM_U8, there, sizeof there, err));
+  gg_common_extension_signature(scene->extension, here, sizeof here);
+  GG_TRY(gg_base_archive_get(a, extension_item, GG_ITEM_U8, there, sizeof there, err));
   there[SIGNATURE - 1] = 0;
   if (strcmp(here, there) == 0) return GG_OK;
-  return gg_fail(err, GG_BAD_INPUT,
-                 "the run was extended by a program (%s), and this scene has %s: register the same law and observables "
-                 "with the scene before it is resumed",
-                 *there ? there : "nothing of its own", *here ? here : "nothing of its own");
+  return gg_base_fail(
+      err, GG_BAD_INPUT,
+      "the run was extended by a program (%s), and this scene has %s: register the same law and observables "
+      "with the scene before it is resumed",
+      *there ? there : "nothing of its own", *here ? here : "nothing of its own");
 }
 
-gg_status gg_resumption_settle(gg_scene *scene, const gg_archive *a, gg_error *err)
+gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *a, gg_error *err)
 {
-  if (!gg_archive_find(a, ensemble_item)) return GG_OK; /* no archive of a run: gg_resumption_check says so */
-  return gg_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->dsmc.chosen_for, 1, err);
+  if (!gg_base_archive_find(a, ensemble_item))
+    return GG_OK; /* no archive of a run: gg_scene_resumption_check says so */
+  return gg_base_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->dsmc.chosen_for, 1, err);
 }
 
-gg_status gg_resumption_check(const gg_scene *scene, const gg_archive *a, gg_error *err)
+gg_status gg_scene_resumption_check(const gg_scene *scene, const gg_archive *a, gg_error *err)
 {
   char name[64];
   int64_t n;
   gg_scene there = *scene; /* what may change is left as it is here */
   GG_TRY(same_extension(scene, a, err));
-  GG_TRY(gg_archive_get(a, number_of_species, GG_ITEM_I64, &n, 1, err));
+  GG_TRY(gg_base_archive_get(a, number_of_species, GG_ITEM_I64, &n, 1, err));
   there.n_species = (int)n;
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     char *at = (char *)&there + f->offset;
     if (f->may_change) continue;
-    GG_TRY(gg_archive_get(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
+    GG_TRY(gg_base_archive_get(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
     GG_TRY(same_value(f, &there, scene, err));
   }
   return GG_OK;

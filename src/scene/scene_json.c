@@ -25,7 +25,7 @@ static json_t *choice_json(const gg_field *f, const void *at)
 {
   int value;
   memcpy(&value, at, sizeof value);
-  const gg_word word = gg_field_word_for(f, value);
+  const gg_word word = gg_scene_field_word_for(f, value);
   return word.name ? json_string(word.name) : json_null();
 }
 
@@ -33,7 +33,7 @@ static json_t *set_json(const gg_field *f, unsigned set)
 {
   json_t *list = json_array();
   gg_word w;
-  for (int i = 0; (w = gg_field_word(f, i)).name; i++)
+  for (int i = 0; (w = gg_scene_field_word(f, i)).name; i++)
     if (set & (unsigned)w.value) json_array_append_new(list, json_string(w.name));
   return list;
 }
@@ -54,7 +54,7 @@ static double commonest(const double *x)
 /* Up to two species: all three pairs. Of more: those unlike the rest. */
 static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *scene)
 {
-  const gg_scene defaults = gg_scene_defaults();
+  const gg_scene defaults = gg_common_scene_defaults();
   const double rest = commonest(x), usual = *(const double *)(const void *)((const char *)&defaults + f->offset);
   const int used = gg_pairs_of(scene->n_species > 2 ? scene->n_species : 2), shown = scene->n_species > 2 ? 0 : used;
   bool alike = true;
@@ -62,7 +62,7 @@ static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *sc
   for (int p = 0; p < GG_PAIRS; p++) {
     char name[GG_PAIR_NAME];
     alike = alike && (p >= used || x[p] == x[GG_11]);
-    if (p < shown || x[p] != rest) json_object_set_new(map, gg_pair_name(p, name), number_json(f, x[p]));
+    if (p < shown || x[p] != rest) json_object_set_new(map, gg_common_pair_name(p, name), number_json(f, x[p]));
   }
   if (rest != usual || json_object_size(map) < (size_t)used) json_object_set_new(map, "other", number_json(f, rest));
   if (!alike) return map;
@@ -80,8 +80,8 @@ static json_t *species_json(const gg_scene *scene)
   json_t *list = json_array();
   for (int i = 0; i < scene->n_species; i++) {
     json_t *one = json_object();
-    for (const gg_field *f = gg_species_fields; f->key; f++)
-      json_object_set_new(one, f->key, gg_field_json(f, &scene->species[i], scene));
+    for (const gg_field *f = gg_scene_species_fields; f->key; f++)
+      json_object_set_new(one, f->key, gg_scene_field_json(f, &scene->species[i], scene));
     json_array_append_new(list, one);
   }
   return list;
@@ -102,10 +102,10 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
   return json_null();
 }
 
-json_t *gg_field_json(const gg_field *f, const void *base, const gg_scene *scene)
+json_t *gg_scene_field_json(const gg_field *f, const void *base, const gg_scene *scene)
 {
-  bool before = gg_memory_begin();
-  return gg_json_end(before, value_json(f, base, scene));
+  bool before = gg_base_memory_begin();
+  return gg_base_json_end(before, value_json(f, base, scene));
 }
 
 /* One member of what a key holds: "collision.e.12", "species.2.mass". NULL if there is no such thing. */
@@ -113,20 +113,20 @@ static json_t *member_json(const gg_scene *scene, const char *key)
 {
   int number, used = 0;
   if (sscanf(key, "species.%d.%n", &number, &used) == 1 && used && number >= 1 && number <= scene->n_species)
-    for (const gg_field *f = gg_species_fields; f->key; f++)
-      if (strcmp(f->key, key + used) == 0) return gg_field_json(f, &scene->species[number - 1], scene);
+    for (const gg_field *f = gg_scene_species_fields; f->key; f++)
+      if (strcmp(f->key, key + used) == 0) return gg_scene_field_json(f, &scene->species[number - 1], scene);
   int pair, id = gg_scene_field_of_pair(key, &pair);
   if (id < 0) return NULL;
   gg_field one = gg_scene_fields[id];
   one.type = GG_FIELD_NUMBER;
   one.offset += (size_t)pair * sizeof(double);
-  return gg_field_json(&one, scene, scene);
+  return gg_scene_field_json(&one, scene, scene);
 }
 
 json_t *gg_scene_key_json(const gg_scene *scene, const char *key)
 {
   int id = gg_scene_field_find(key);
-  return id >= 0 ? gg_field_json(&gg_scene_fields[id], scene, scene) : member_json(scene, key);
+  return id >= 0 ? gg_scene_field_json(&gg_scene_fields[id], scene, scene) : member_json(scene, key);
 }
 
 static json_t *new_section(json_t *root, const char *name)
@@ -137,7 +137,7 @@ static json_t *new_section(json_t *root, const char *name)
 
 json_t *gg_scene_json(const gg_scene *scene)
 {
-  bool before = gg_memory_begin();
+  bool before = gg_base_memory_begin();
   json_t *root = json_object();
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     json_t *into = root;
@@ -148,12 +148,12 @@ json_t *gg_scene_json(const gg_scene *scene)
       into = json_object_get(root, section);
       if (!into) into = new_section(root, section);
     }
-    json_object_set_new(into, name, gg_field_json(f, scene, scene));
+    json_object_set_new(into, name, gg_scene_field_json(f, scene, scene));
   }
-  return gg_json_end(before, root);
+  return gg_base_json_end(before, root);
 }
 
-void gg_print_flow_style(FILE *out, const json_t *value)
+void gg_scene_print_flow_style(FILE *out, const json_t *value)
 {
   char text[40];
   const char *key;
@@ -161,7 +161,7 @@ void gg_print_flow_style(FILE *out, const json_t *value)
   size_t i;
   switch (json_typeof(value)) {
   case JSON_REAL:
-    gg_format_number(json_real_value(value), text, sizeof text);
+    gg_scene_number_format(json_real_value(value), text, sizeof text);
     fputs(text, out);
     return;
   case JSON_INTEGER: fprintf(out, "%" JSON_INTEGER_FORMAT, json_integer_value(value)); return;
@@ -171,7 +171,7 @@ void gg_print_flow_style(FILE *out, const json_t *value)
     json_array_foreach(value, i, member)
     {
       if (i) fputs(", ", out);
-      gg_print_flow_style(out, member);
+      gg_scene_print_flow_style(out, member);
     }
     fputc(']', out);
     return;
@@ -181,7 +181,7 @@ void gg_print_flow_style(FILE *out, const json_t *value)
     json_object_foreach((json_t *)(uintptr_t)value, key, member)
     {
       fprintf(out, "%s%s: ", i++ ? ", " : "", key);
-      gg_print_flow_style(out, member);
+      gg_scene_print_flow_style(out, member);
     }
     fputc('}', out);
     return;
@@ -189,19 +189,19 @@ void gg_print_flow_style(FILE *out, const json_t *value)
   }
 }
 
-void gg_flow_style_text(const json_t *value, char *text, size_t size)
+void gg_scene_flow_style_text(const json_t *value, char *text, size_t size)
 {
   char *whole = NULL;
-  FILE *out = gg_open_text(&whole);
-  if (out) gg_print_flow_style(out, value);
-  if (gg_close_text(out, &whole)) snprintf(text, size, "%s", whole);
+  FILE *out = gg_base_memory_stream_open(&whole);
+  if (out) gg_scene_print_flow_style(out, value);
+  if (gg_base_memory_stream_close(out, &whole)) snprintf(text, size, "%s", whole);
   free(whole);
 }
 
 static bool is_pairs(const json_t *value)
 {
   const char *key = json_object_iter_key(json_object_iter((json_t *)(uintptr_t)value));
-  return key && (gg_pair_named(key) >= 0 || strcmp(key, "other") == 0);
+  return key && (gg_common_pair_find(key) >= 0 || strcmp(key, "other") == 0);
 }
 
 static void print_yaml(FILE *out, const json_t *root)
@@ -212,7 +212,7 @@ static void print_yaml(FILE *out, const json_t *root)
   {
     if (!json_is_object(value) || is_pairs(value)) {
       fprintf(out, "%s: ", key);
-      gg_print_flow_style(out, value);
+      gg_scene_print_flow_style(out, value);
       fputc('\n', out);
       continue;
     }
@@ -220,7 +220,7 @@ static void print_yaml(FILE *out, const json_t *root)
     json_object_foreach(value, name, member)
     {
       fprintf(out, "  %s: ", name);
-      gg_print_flow_style(out, member);
+      gg_scene_print_flow_style(out, member);
       fputc('\n', out);
     }
   }
@@ -229,13 +229,13 @@ static void print_yaml(FILE *out, const json_t *root)
 char *gg_scene_yaml(const gg_scene *scene)
 {
   char *text = NULL;
-  FILE *out = gg_open_text(&text);
+  FILE *out = gg_base_memory_stream_open(&text);
   if (!out) return NULL;
   json_t *root = gg_scene_json(scene);
   if (root) print_yaml(out, root);
   bool whole = root && !ferror(out);
   json_decref(root);
-  if (gg_close_text(out, &text) && whole) return text;
+  if (gg_base_memory_stream_close(out, &text) && whole) return text;
   free(text);
   return NULL;
 }

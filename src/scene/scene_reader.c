@@ -53,7 +53,7 @@ static gg_status apply(gg_scene_reader *r, const char *key, const yaml_node_t *n
 static gg_status refuse_syntax(const gg_scene_reader *r, const yaml_parser_t *parser)
 {
   if (parser->error == YAML_MEMORY_ERROR || !parser->problem)
-    return gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
+    return gg_base_error_prefix(r->err, gg_base_out_of_memory(r->err), "%s", r->name);
   const char *problem = parser->problem;
   size_t line = parser->problem_mark.line + 1;
   if (parser->error == YAML_READER_ERROR)
@@ -70,7 +70,8 @@ gg_status gg_scene_with_document(gg_scene_reader *r, const char *yaml, size_t le
   yaml_parser_t parser;
   yaml_document_t document, next;
   GG_TRY(gg_scene_check_limits(r, yaml, length));
-  if (!yaml_parser_initialize(&parser)) return gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
+  if (!yaml_parser_initialize(&parser))
+    return gg_base_error_prefix(r->err, gg_base_out_of_memory(r->err), "%s", r->name);
   yaml_parser_set_input_string(&parser, (const unsigned char *)yaml, length);
   gg_status status;
   if (!yaml_parser_load(&parser, &document)) {
@@ -128,7 +129,7 @@ static gg_status set_species(gg_scene_reader *r, const char *key, const yaml_nod
   *done = true;
   if (number < 1 || number > scene->n_species)
     return gg_scene_refuse(r, root, key, "this scene has %d species", scene->n_species);
-  for (const gg_field *f = gg_species_fields; f->key; f++)
+  for (const gg_field *f = gg_scene_species_fields; f->key; f++)
     if (strcmp(f->key, key + used) == 0) {
       mark_given(scene, gg_scene_field_find("species"));
       return gg_scene_read_value(r, f, key, root, &scene->species[number - 1]);

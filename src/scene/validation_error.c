@@ -33,8 +33,8 @@ gg_status gg_scene_refuse(const gg_scene_reader *r, const yaml_node_t *node, con
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
   gg_scene_quote(key, word, sizeof word);
-  if (!r->lines) return gg_fail(r->err, GG_BAD_INPUT, "%s: %s", r->name, text);
-  return gg_fail(r->err, GG_BAD_INPUT, "%s:%zu: key '%s': %s", r->name, node->start_mark.line + 1, word, text);
+  if (!r->lines) return gg_base_fail(r->err, GG_BAD_INPUT, "%s: %s", r->name, text);
+  return gg_base_fail(r->err, GG_BAD_INPUT, "%s:%zu: key '%s': %s", r->name, node->start_mark.line + 1, word, text);
 }
 
 gg_status gg_scene_refuse_text(const gg_scene_reader *r, size_t line, const char *format, ...)
@@ -44,8 +44,8 @@ gg_status gg_scene_refuse_text(const gg_scene_reader *r, size_t line, const char
   va_start(args, format);
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
-  if (!r->lines || !line) return gg_fail(r->err, GG_BAD_INPUT, "%s: %s", r->name, text);
-  return gg_fail(r->err, GG_BAD_INPUT, "%s:%zu: %s", r->name, line, text);
+  if (!r->lines || !line) return gg_base_fail(r->err, GG_BAD_INPUT, "%s: %s", r->name, text);
+  return gg_base_fail(r->err, GG_BAD_INPUT, "%s:%zu: %s", r->name, line, text);
 }
 
 /* Is the word one of those, separated by blanks? */
@@ -70,7 +70,7 @@ static void try_section(gg_nearest *nearest, const gg_field *fields, const char 
     const char *part = last_part(f->key), *before = nearest->best;
     size_t its = part == f->key ? 0 : (size_t)(part - f->key) - 1;
     if (section && (its != length || strncmp(f->key, section, length) != 0)) continue;
-    gg_nearest_try(nearest, part);
+    gg_base_spelling_try(nearest, part);
     if (nearest->best != before) nearest->best = f->key;
   }
 }
@@ -86,14 +86,14 @@ static const char *meant(const gg_field *fields, const char *key)
   size_t length = word == key ? 0 : (size_t)(word - key) - 1;
   try_section(&nearest, fields, key, length);
   for (int i = 0; fields == gg_scene_fields && !length && gg_scene_sections[i]; i++)
-    gg_nearest_try(&nearest, gg_scene_sections[i]);
+    gg_base_spelling_try(&nearest, gg_scene_sections[i]);
   if (!nearest.best) try_section(&nearest, fields, NULL, 0);
   if (nearest.best) return nearest.best;
   gg_nearest full = {.word = key}; /* the section, too, may be mistyped */
   char section[32];
   snprintf(section, sizeof section, "%.*s", (int)length, key);
   for (const gg_field *f = fields; f->key && length && !gg_scene_is_section(section); f++)
-    gg_nearest_try(&full, f->key);
+    gg_base_spelling_try(&full, f->key);
   return full.best;
 }
 
@@ -109,10 +109,10 @@ static void list_section(const char *section, char *text, size_t size)
 gg_status gg_scene_refuse_key(const gg_scene_reader *r, const yaml_node_t *node, const char *key)
 {
   char section[32], members[256];
-  for (const gg_word *former = gg_former_keys; former->name; former++)
+  for (const gg_word *former = gg_scene_former_keys; former->name; former++)
     if (strcmp(former->name, key) == 0) return gg_scene_refuse(r, node, key, "%s", former->doc);
   bool species = strncmp(key, "species.", 8) == 0;
-  const char *best = meant(species ? gg_species_fields : gg_scene_fields, species ? last_part(key) : key);
+  const char *best = meant(species ? gg_scene_species_fields : gg_scene_fields, species ? last_part(key) : key);
   if (best) return gg_scene_refuse(r, node, key, "no such key; did you mean '%s'?", best);
   if (species) return gg_scene_refuse(r, node, key, "no such key; a species has fraction, diameter, mass and inertia");
   snprintf(section, sizeof section, "%.*s", (int)strcspn(key, "."), key);

@@ -35,8 +35,8 @@ static const char *likely_word(const gg_field *f, const char *typed)
   gg_nearest nearest = {.word = typed};
   gg_word w;
   if (!typed) return NULL;
-  for (int i = 0; (w = gg_field_word(f, i)).name; i++) gg_nearest_try(&nearest, w.name);
-  for (int i = 0; !nearest.best && strlen(typed) > 3 && (w = gg_field_word(f, i)).name; i++)
+  for (int i = 0; (w = gg_scene_field_word(f, i)).name; i++) gg_base_spelling_try(&nearest, w.name);
+  for (int i = 0; !nearest.best && strlen(typed) > 3 && (w = gg_scene_field_word(f, i)).name; i++)
     if (strcasestr(w.doc, typed)) nearest.best = w.name;
   return nearest.best;
 }
@@ -52,7 +52,7 @@ static gg_status refuse_value(const gg_scene_reader *r, const gg_field *field, c
   char shown[64], allowed[256], hint[64] = "";
   const char *likely = likely_word(field, scalar(node));
   show(node, shown, sizeof shown);
-  gg_field_allowed(field, allowed, sizeof allowed);
+  gg_scene_field_allowed(field, allowed, sizeof allowed);
   if (has_decimal_comma(scalar(node))) likely = "a decimal point";
   if (likely) snprintf(hint, sizeof hint, " (did you mean %s?)", likely);
   return gg_scene_refuse(r, node, key, "%s is not allowed%s; allowed: %s", shown, hint, allowed);
@@ -100,7 +100,7 @@ static gg_status read_integer(const gg_scene_reader *r, const gg_field *f, const
 static gg_word find_word(const gg_field *f, const yaml_node_t *node)
 {
   const char *text = scalar(node);
-  return text ? gg_field_find_word(f, text) : (gg_word){0};
+  return text ? gg_scene_field_find_word(f, text) : (gg_word){0};
 }
 
 static gg_status read_choice(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
@@ -163,7 +163,7 @@ static gg_status check_pairs(const gg_scene_reader *r, const char *key, const ya
   for (int p = 0; n <= GG_MAX_SPECIES && p < gg_pairs_of(n); p++)
     if (!given[p])
       return gg_scene_refuse(r, node, key, "lacks the pair %s: name every pair of the %d species, or give `other`",
-                             gg_pair_name(p, name), n);
+                             gg_common_pair_name(p, name), n);
   return GG_OK;
 }
 
@@ -181,7 +181,7 @@ static gg_status read_pairs(const gg_scene_reader *r, const gg_field *f, const c
   for (yaml_node_pair_t *i = node->data.mapping.pairs.start; i < node->data.mapping.pairs.top; i++) {
     const yaml_node_t *name = yaml_document_get_node(r->document, i->key);
     bool rest = scalar(name) && strcmp(scalar(name), "other") == 0;
-    int p = scalar(name) && !rest ? gg_pair_named(scalar(name)) : -1;
+    int p = scalar(name) && !rest ? gg_common_pair_find(scalar(name)) : -1;
     if ((!rest && p < 0) || (rest ? others : given[p]))
       return gg_scene_refuse(r, name, key,
                              "a map by pairs of species has keys like 11, 12 or 1-10, or other, each pair once");
@@ -204,13 +204,13 @@ static gg_status read_one_species(const gg_scene_reader *r, const char *key, con
     const yaml_node_t *value = yaml_document_get_node(r->document, i->value);
     const char *word = scalar(name) ? scalar(name) : "?";
     int k = 0;
-    while (gg_species_fields[k].key && strcmp(gg_species_fields[k].key, word) != 0) k++;
+    while (gg_scene_species_fields[k].key && strcmp(gg_scene_species_fields[k].key, word) != 0) k++;
     char full[96];
     snprintf(full, sizeof full, "%s.%.60s", key, word);
-    if (!gg_species_fields[k].key) return gg_scene_refuse_key(r, name, full);
+    if (!gg_scene_species_fields[k].key) return gg_scene_refuse_key(r, name, full);
     if (given & 1u << k) return gg_scene_refuse(r, name, full, "is given twice");
     given |= 1u << k;
-    GG_TRY(gg_scene_read_value(r, &gg_species_fields[k], full, value, one));
+    GG_TRY(gg_scene_read_value(r, &gg_scene_species_fields[k], full, value, one));
   }
   return GG_OK;
 }

@@ -15,11 +15,11 @@ typedef enum gg_instructions {
 } gg_instructions;
 
 /* Compiled into this build (meson option `instructions`), and known to this processor? */
-bool gg_instructions_run_here(gg_instructions set);
+bool gg_simd_instructions_run_here(gg_instructions set);
 /* The widest of those; GG_INSTRUCTION_SETS if there is none. */
-gg_instructions gg_instructions_best(void);
+gg_instructions gg_simd_instructions_best(void);
 /* GG_FAILED, with what to do, if there is none. */
-gg_status gg_instructions_check(gg_error *err);
-const char *gg_instructions_name(gg_instructions set); /* "AVX-512" */
+gg_status gg_simd_instructions_check(gg_error *err);
+const char *gg_simd_instructions_name(gg_instructions set); /* "AVX-512" */
 
 #endif

@@ -21,7 +21,7 @@ static gg_status transform_make(transform *f, size_t n, gg_error *err)
 {
   size_t length = 2;
   while (length < 2 * n) length *= 2;
-  *f = (transform){.length = length, .data = gg_new_array(length, sizeof(double), err)};
+  *f = (transform){.length = length, .data = gg_base_array_new(length, sizeof(double), err)};
   return f->data ? GG_OK : GG_FAILED;
 }
 
@@ -86,7 +86,7 @@ static void sum(const double *covariance, size_t n, size_t n_runs, size_t reach,
 static gg_status correlate(transform *f, const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c,
                            gg_error *err)
 {
-  double *power = gg_new_array(f->length / 2 + 1, sizeof *power, err);
+  double *power = gg_base_array_new(f->length / 2 + 1, sizeof *power, err);
   if (!power) return GG_FAILED;
   for (size_t r = 0; r < n_runs; r++) add_power(f, x + r * n, n, power);
   memset(f->data, 0, f->length * sizeof *f->data);
@@ -103,10 +103,11 @@ static gg_status correlate(transform *f, const double *x, size_t n, size_t n_run
   return GG_OK;
 }
 
-gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c, gg_error *err)
+gg_status gg_statistics_correlation_of(const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c,
+                                       gg_error *err)
 {
   *c = (gg_correlation){.time = 0.5, .slow = 0.5};
-  c->rho = gg_new_array(n ? n : 1, sizeof *c->rho, err);
+  c->rho = gg_base_array_new(n ? n : 1, sizeof *c->rho, err);
   if (!c->rho) return GG_FAILED;
   c->rho[0] = 1;
   if (n < 2 || n * n_runs < 4) return GG_OK;
@@ -116,17 +117,17 @@ gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, double mem
     status = correlate(&f, x, n, n_runs, memory, c, err);
     free(f.data);
   }
-  if (status != GG_OK) gg_correlation_clear(c);
+  if (status != GG_OK) gg_statistics_correlation_clear(c);
   return status;
 }
 
-void gg_correlation_clear(gg_correlation *c)
+void gg_statistics_correlation_clear(gg_correlation *c)
 {
   free(c->rho);
   c->rho = NULL;
 }
 
-double gg_correlation_inflation(const gg_correlation *c, size_t length)
+double gg_statistics_correlation_inflation(const gg_correlation *c, size_t length)
 {
   double sum = 1;
   for (size_t t = 1; t <= c->window && t < length; t++) sum += 2 * (1 - (double)t / (double)length) * c->rho[t];

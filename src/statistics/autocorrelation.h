@@ -19,10 +19,11 @@ typedef struct gg_correlation {
  * back (Wolff, Comput. Phys. Commun. 156 (2004) 143, eq. 49). Still, a series too short for its time gives too little:
  * ask for 50 times as many rows. `memory`: correlation time, in rows, of a slower series that this one is made of, and
  * may remember with the opposite sign; 0 if there is none. */
-gg_status gg_correlation_of(const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c, gg_error *err);
-void gg_correlation_clear(gg_correlation *c);
+gg_status gg_statistics_correlation_of(const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c,
+                                       gg_error *err);
+void gg_statistics_correlation_clear(gg_correlation *c);
 
 /* Variance of the mean of `length` successive rows, over that of as many independent ones. */
-double gg_correlation_inflation(const gg_correlation *c, size_t length);
+double gg_statistics_correlation_inflation(const gg_correlation *c, size_t length);
 
 #endif

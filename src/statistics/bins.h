@@ -15,24 +15,24 @@ typedef struct gg_bins {
   double *sum;      /* (GG_BINS_BLOCKS + 1) x width: the complete blocks, then the one being filled */
 } gg_bins;
 
-gg_status gg_bins_init(gg_bins *b, size_t width, gg_error *err);
-void gg_bins_clear(gg_bins *b);
+gg_status gg_statistics_bins_init(gg_bins *b, size_t width, gg_error *err);
+void gg_statistics_bins_clear(gg_bins *b);
 /* Forget everything: averaging begins anew. */
-void gg_bins_restart(gg_bins *b);
+void gg_statistics_bins_restart(gg_bins *b);
 
 /* Where the present sample is to be added; then count it. */
-double *gg_bins_sample(gg_bins *b);
-void gg_bins_commit(gg_bins *b);
+double *gg_statistics_bins_sample(gg_bins *b);
+void gg_statistics_bins_commit(gg_bins *b);
 
 /* Join neighbouring blocks until each is of `per_block` samples (a power of two); one that is left over is lost. */
-void gg_bins_coarsen(gg_bins *b, size_t per_block);
+void gg_statistics_bins_coarsen(gg_bins *b, size_t per_block);
 
 static inline const double *gg_bins_block(const gg_bins *b, size_t i)
 {
   return b->sum + i * b->width;
 }
 
-gg_status gg_bins_save(const gg_bins *b, const char *name, gg_archive *archive, gg_error *err);
-gg_status gg_bins_restore(gg_bins *b, const char *name, const gg_archive *archive, gg_error *err);
+gg_status gg_statistics_bins_save(const gg_bins *b, const char *name, gg_archive *archive, gg_error *err);
+gg_status gg_statistics_bins_restore(gg_bins *b, const char *name, const gg_archive *archive, gg_error *err);
 
 #endif

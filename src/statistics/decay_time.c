@@ -16,7 +16,7 @@ static double of_mean(double tau, double n)
   return 2 * tau / n * (1 - tau / n * (1 - exp(-n / tau)));
 }
 
-double gg_decay_time(const double *y, size_t n, size_t n_runs)
+double gg_statistics_decay_time(const double *y, size_t n, size_t n_runs)
 {
   double mean = 0, rows = (double)(n * n_runs);
   if (n < 4) return 0.5;

@@ -9,6 +9,6 @@
 /* In rows, of n_runs stretches of n rows end to end, each a mode with white noise on top: the lag over which the
  * correlation falls by a factor e from that at lag 1, allowing for the mean being that of the rows themselves. 1/2
  * where neighbours are not correlated; n where it never falls so far. */
-double gg_decay_time(const double *y, size_t n, size_t n_runs);
+double gg_statistics_decay_time(const double *y, size_t n, size_t n_runs);
 
 #endif

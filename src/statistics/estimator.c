@@ -36,7 +36,7 @@ static size_t block_length(size_t n, size_t n_runs, double tau)
  * function itself. */
 static double neighbours(const gg_correlation *c, size_t n, size_t length)
 {
-  double whole = gg_correlation_inflation(c, n), block = gg_correlation_inflation(c, length);
+  double whole = gg_statistics_correlation_inflation(c, n), block = gg_statistics_correlation_inflation(c, length);
   if (!(block > 0)) return 1;
   return sqrt(fmax(whole / block, c->memory > 0 ? LEAST_OF_VARIANCE : 1));
 }
@@ -50,7 +50,7 @@ static double small_sample(const gg_correlation *c, size_t blocks, size_t total)
   return 1 + fmax(1 / (double)(blocks - 1), 2.5 * c->slow / (double)total);
 }
 
-/* `memory`: as gg_correlation_of has it. */
+/* `memory`: as gg_statistics_correlation_of has it. */
 static gg_status estimate(const double *y, size_t n, size_t n_runs, double memory, gg_mean *out, gg_error *err)
 {
   *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
@@ -58,11 +58,11 @@ static gg_status estimate(const double *y, size_t n, size_t n_runs, double memor
   if (total == 0) return GG_OK;
   out->mean = gsl_stats_mean(y, 1, total);
   if (total < 4) return GG_OK;
-  double *work = gg_new_array(total, sizeof *work, err);
+  double *work = gg_base_array_new(total, sizeof *work, err);
   if (!work) return GG_FAILED;
   for (size_t i = 0; i < total; i++) work[i] = y[i] - out->mean;
   gg_correlation c;
-  gg_status status = gg_correlation_of(work, n, n_runs, memory, &c, err);
+  gg_status status = gg_statistics_correlation_of(work, n, n_runs, memory, &c, err);
   if (status == GG_OK) {
     size_t length = block_length(n, n_runs, fmax(c.time, c.memory));
     out->correlation_rows = c.time;
@@ -70,13 +70,13 @@ static gg_status estimate(const double *y, size_t n, size_t n_runs, double memor
     if (out->blocks >= 2) out->scatter = gsl_stats_sd(work, 1, out->blocks) / sqrt((double)out->blocks);
     if (out->blocks >= 2) out->error = out->scatter * neighbours(&c, n, length) * small_sample(&c, out->blocks, total);
     out->trusted = out->blocks >= GG_MIN_BLOCKS && (double)length >= 5 * c.time;
-    gg_correlation_clear(&c);
+    gg_statistics_correlation_clear(&c);
   }
   free(work);
   return status;
 }
 
-gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err)
+gg_status gg_statistics_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err)
 {
   return estimate(y, n, n_runs, 0, out, err);
 }
@@ -151,19 +151,20 @@ static gg_status memory_of_parts(const rows *a, const double *mean, const double
   memset(y, 0, total * sizeof *y);
   add_response(a, loudest, mean, df, y);
   gg_correlation c;
-  GG_TRY(gg_correlation_of(y, a->n, a->n_runs, 0, &c, err));
+  GG_TRY(gg_statistics_correlation_of(y, a->n, a->n_runs, 0, &c, err));
   *memory = c.time;
-  gg_correlation_clear(&c);
+  gg_statistics_correlation_clear(&c);
   return GG_OK;
 }
 
-gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
-                           size_t channels, gg_function f, const gg_model *model, gg_mean *out, gg_error *err)
+gg_status gg_statistics_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
+                                      size_t offset, size_t channels, gg_function f, const gg_model *model,
+                                      gg_mean *out, gg_error *err)
 {
   *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
   if (end <= begin) return GG_OK;
   size_t n = end - begin, total = n * n_runs;
-  double *work = gg_new_array(total + 2 * channels, sizeof *work, err);
+  double *work = gg_base_array_new(total + 2 * channels, sizeof *work, err);
   if (!work) return GG_FAILED;
   double *y = work, *mean = work + total, *df = mean + channels;
   channel_means(series, n_runs, begin, end, offset, channels, mean);

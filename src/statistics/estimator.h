@@ -40,10 +40,11 @@ enum { GG_MIN_BLOCKS = 16, GG_MAX_BLOCKS = 64 };
 
 /* Rows [begin, end) of each of n_runs series of equal length and width. `offset` is where the observable's channels
  * begin in a row, `channels` how many f depends on. */
-gg_status gg_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
-                           size_t channels, gg_function f, const gg_model *model, gg_mean *out, gg_error *err);
+gg_status gg_statistics_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
+                                      size_t offset, size_t channels, gg_function f, const gg_model *model,
+                                      gg_mean *out, gg_error *err);
 
 /* The same for a scalar series, n_runs stretches of n rows end to end. */
-gg_status gg_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err);
+gg_status gg_statistics_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err);
 
 #endif

@@ -13,33 +13,33 @@ enum { ARRAYS = 6, NEIGHBOURS = 4, BESIDE = 2 };
 #define LEAST_MEMORY 0.02    /* of a block: what is forgotten sooner makes no difference */
 #define MOST_OF_VARIANCE 0.9 /* of a block that the mean of all may have: beyond, nothing is known */
 
-gg_status gg_jackknife_init(gg_jackknife *j, size_t width, gg_error *err)
+gg_status gg_statistics_jackknife_init(gg_jackknife *j, size_t width, gg_error *err)
 {
   *j = (gg_jackknife){.width = width, .first = true};
-  double *all = gg_new_array(ARRAYS * width + 1, sizeof *all, err);
+  double *all = gg_base_array_new(ARRAYS * width + 1, sizeof *all, err);
   if (!all) return GG_FAILED;
   double **arrays[ARRAYS] = {&j->now, &j->before, &j->sum, &j->squares, &j->products, &j->ends};
   for (size_t k = 0; k < ARRAYS; k++) *arrays[k] = all + k * width;
   return GG_OK;
 }
 
-void gg_jackknife_clear(gg_jackknife *j)
+void gg_statistics_jackknife_clear(gg_jackknife *j)
 {
   free(j->now < j->before ? j->now : j->before); /* the two change places */
   *j = (gg_jackknife){0};
 }
 
-void gg_jackknife_cut(gg_jackknife *j)
+void gg_statistics_jackknife_cut(gg_jackknife *j)
 {
   j->first = true;
 }
 
-double *gg_jackknife_next(gg_jackknife *j)
+double *gg_statistics_jackknife_next(gg_jackknife *j)
 {
   return j->now;
 }
 
-void gg_jackknife_add(gg_jackknife *j)
+void gg_statistics_jackknife_add(gg_jackknife *j)
 {
   for (size_t i = 0; i < j->width; i++) {
     double d = j->now[i];
@@ -90,7 +90,8 @@ static double with_slow_mode(const gg_jackknife *j, double r, double memory)
   return (n - 1) * V / (1 - V);
 }
 
-double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double beside, double *error)
+double gg_statistics_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double beside,
+                                      double *error)
 {
   double blocks = (double)j->blocks, all = 0;
   size_t known = 0;

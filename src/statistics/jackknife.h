@@ -17,13 +17,13 @@ typedef struct gg_jackknife {
   double *sum, *squares, *products, *ends; /* of d, d^2, d d', d + d' over neighbours d, d' */
 } gg_jackknife;
 
-gg_status gg_jackknife_init(gg_jackknife *j, size_t width, gg_error *err);
-void gg_jackknife_clear(gg_jackknife *j);
+gg_status gg_statistics_jackknife_init(gg_jackknife *j, size_t width, gg_error *err);
+void gg_statistics_jackknife_clear(gg_jackknife *j);
 /* Another run begins: what comes is no neighbour of what came. */
-void gg_jackknife_cut(gg_jackknife *j);
+void gg_statistics_jackknife_cut(gg_jackknife *j);
 /* Where to put what leaving out the next block changes in each of `width` numbers; then count it. */
-double *gg_jackknife_next(gg_jackknife *j);
-void gg_jackknife_add(gg_jackknife *j);
+double *gg_statistics_jackknife_next(gg_jackknife *j);
+void gg_statistics_jackknife_add(gg_jackknife *j);
 
 /* Errors of n numbers from `from` on, points of one curve: correlations are averaged over nine neighbours, for each by
  * itself is uncertain by 1/sqrt(blocks). `memory` (0: not known): the decay time, in blocks, of a slow mode that the
@@ -31,6 +31,7 @@ void gg_jackknife_add(gg_jackknife *j);
  * longer: the correlation tells the share of the mode, its decay the rest. `beside`
  * (NaN: there is none): the mean correlation of the curve that a number was read off, which counts as two more. NaN
  * with fewer than two blocks. Returns the mean correlation. */
-double gg_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double beside, double *error);
+double gg_statistics_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double beside,
+                                      double *error);
 
 #endif

@@ -6,18 +6,18 @@
 #include "base/memory.h"
 #include "statistics/decimation.h"
 
-gg_status gg_series_init(gg_series *s, size_t width, gg_error *err)
+gg_status gg_statistics_series_init(gg_series *s, size_t width, gg_error *err)
 {
   *s = (gg_series){.width = width, .per_row = 1};
-  s->rows = gg_new_array(GG_SERIES_ROWS * width, sizeof(double), err);
-  s->end_time = gg_new_array(GG_SERIES_ROWS, sizeof(double), err);
-  s->partial = gg_new_array(width, sizeof(double), err);
+  s->rows = gg_base_array_new(GG_SERIES_ROWS * width, sizeof(double), err);
+  s->end_time = gg_base_array_new(GG_SERIES_ROWS, sizeof(double), err);
+  s->partial = gg_base_array_new(width, sizeof(double), err);
   if (s->rows && s->end_time && s->partial) return GG_OK;
-  gg_series_clear(s);
+  gg_statistics_series_clear(s);
   return GG_FAILED;
 }
 
-void gg_series_clear(gg_series *s)
+void gg_statistics_series_clear(gg_series *s)
 {
   free(s->rows);
   free(s->end_time);
@@ -40,7 +40,7 @@ static void halve(gg_series *s)
   s->per_row *= 2;
 }
 
-void gg_series_add(gg_series *s, double time, const double *sample)
+void gg_statistics_series_add(gg_series *s, double time, const double *sample)
 {
   for (size_t k = 0; k < s->width; k++) s->partial[k] += sample[k];
   if (++s->pending < s->per_row) return;
@@ -52,37 +52,37 @@ void gg_series_add(gg_series *s, double time, const double *sample)
   if (s->n == GG_SERIES_ROWS) halve(s);
 }
 
-void gg_series_coarsen(gg_series *s, size_t per_row)
+void gg_statistics_series_coarsen(gg_series *s, size_t per_row)
 {
   while (s->per_row < per_row) halve(s);
 }
 
-void gg_series_open_window(gg_series *s)
+void gg_statistics_series_open_window(gg_series *s)
 {
   s->pending = 0;
   memset(s->partial, 0, s->width * sizeof(double));
   s->window = s->n;
 }
 
-gg_status gg_series_save(const gg_series *s, gg_archive *a, gg_error *err)
+gg_status gg_statistics_series_save(const gg_series *s, gg_archive *a, gg_error *err)
 {
   uint64_t head[5] = {s->width, s->n, s->per_row, s->pending, s->window};
-  GG_TRY(gg_archive_put(a, "series/head", GG_ITEM_U64, head, 5, err));
-  GG_TRY(gg_archive_put(a, "series/rows", GG_ITEM_F64, s->rows, s->n * s->width, err));
-  GG_TRY(gg_archive_put(a, "series/end_time", GG_ITEM_F64, s->end_time, s->n, err));
-  return gg_archive_put(a, "series/partial", GG_ITEM_F64, s->partial, s->width, err);
+  GG_TRY(gg_base_archive_put(a, "series/head", GG_ITEM_U64, head, 5, err));
+  GG_TRY(gg_base_archive_put(a, "series/rows", GG_ITEM_F64, s->rows, s->n * s->width, err));
+  GG_TRY(gg_base_archive_put(a, "series/end_time", GG_ITEM_F64, s->end_time, s->n, err));
+  return gg_base_archive_put(a, "series/partial", GG_ITEM_F64, s->partial, s->width, err);
 }
 
-gg_status gg_series_restore(gg_series *s, const gg_archive *a, gg_error *err)
+gg_status gg_statistics_series_restore(gg_series *s, const gg_archive *a, gg_error *err)
 {
   uint64_t head[5];
-  GG_TRY(gg_archive_get(a, "series/head", GG_ITEM_U64, head, 5, err));
+  GG_TRY(gg_base_archive_get(a, "series/head", GG_ITEM_U64, head, 5, err));
   if (head[0] != s->width || head[1] >= GG_SERIES_ROWS)
-    return gg_fail(err, GG_BAD_FILE, "the checkpoint's series has another width than this scene's");
+    return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's series has another width than this scene's");
   if (!gg_is_doubling(head[2], head[3]) || head[4] > head[1] + 1)
-    return gg_fail(err, GG_BAD_FILE, "the checkpoint's series is damaged");
+    return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's series is damaged");
   s->n = head[1], s->per_row = head[2], s->pending = head[3], s->window = head[4];
-  GG_TRY(gg_archive_get(a, "series/rows", GG_ITEM_F64, s->rows, s->n * s->width, err));
-  GG_TRY(gg_archive_get(a, "series/end_time", GG_ITEM_F64, s->end_time, s->n, err));
-  return gg_archive_get(a, "series/partial", GG_ITEM_F64, s->partial, s->width, err);
+  GG_TRY(gg_base_archive_get(a, "series/rows", GG_ITEM_F64, s->rows, s->n * s->width, err));
+  GG_TRY(gg_base_archive_get(a, "series/end_time", GG_ITEM_F64, s->end_time, s->n, err));
+  return gg_base_archive_get(a, "series/partial", GG_ITEM_F64, s->partial, s->width, err);
 }

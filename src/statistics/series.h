@@ -18,17 +18,17 @@ typedef struct gg_series {
   double *partial;  /* the row being filled */
 } gg_series;
 
-gg_status gg_series_init(gg_series *s, size_t width, gg_error *err);
-void gg_series_clear(gg_series *s);
+gg_status gg_statistics_series_init(gg_series *s, size_t width, gg_error *err);
+void gg_statistics_series_clear(gg_series *s);
 
 /* Append one sample of `width` numbers. */
-void gg_series_add(gg_series *s, double time, const double *sample);
+void gg_statistics_series_add(gg_series *s, double time, const double *sample);
 
 /* Average neighbouring rows until each is made of `per_row` samples (a power of two); one that is left over is lost. */
-void gg_series_coarsen(gg_series *s, size_t per_row);
+void gg_statistics_series_coarsen(gg_series *s, size_t per_row);
 
 /* Start the averaging window at the next sample (drops a half-filled row) or at a row. */
-void gg_series_open_window(gg_series *s);
+void gg_statistics_series_open_window(gg_series *s);
 
 static inline const double *gg_series_row(const gg_series *s, size_t i)
 {
@@ -39,7 +39,7 @@ static inline size_t gg_series_window_rows(const gg_series *s)
   return s->n > s->window ? s->n - s->window : 0;
 }
 
-gg_status gg_series_save(const gg_series *s, gg_archive *archive, gg_error *err);
-gg_status gg_series_restore(gg_series *s, const gg_archive *archive, gg_error *err);
+gg_status gg_statistics_series_save(const gg_series *s, gg_archive *archive, gg_error *err);
+gg_status gg_statistics_series_restore(gg_series *s, const gg_archive *archive, gg_error *err);
 
 #endif

@@ -49,18 +49,18 @@ static void compare_beginning(const double *y, size_t n, size_t n_runs, size_t l
   out->relative = (mean - first) * out->share / fmax(fabs(mean), 1e-300);
 }
 
-gg_status gg_trend_test(const double *y, size_t n, size_t n_runs, gg_trend *out, gg_error *err)
+gg_status gg_statistics_trend_test(const double *y, size_t n, size_t n_runs, gg_trend *out, gg_error *err)
 {
   *out = (gg_trend){.z = NAN, .relative = NAN, .share = 1 / 3.0, .correlation_rows = 0.5};
   size_t third = n / 3;
   if (third < 8) return GG_OK;
-  double *part = gg_new_array(third * n_runs, sizeof *part, err);
+  double *part = gg_base_array_new(third * n_runs, sizeof *part, err);
   if (!part) return GG_FAILED;
   gg_mean first, last;
   cut(y, n, n_runs, 0, third, part);
-  gg_status status = gg_estimate_scalar(part, third, n_runs, &first, err);
+  gg_status status = gg_statistics_estimate_scalar(part, third, n_runs, &first, err);
   cut(y, n, n_runs, n - third, third, part);
-  if (status == GG_OK) status = gg_estimate_scalar(part, third, n_runs, &last, err);
+  if (status == GG_OK) status = gg_statistics_estimate_scalar(part, third, n_runs, &last, err);
   free(part);
   if (status != GG_OK) return status;
   double change = last.mean - first.mean, error = hypot(first.scatter, last.scatter);

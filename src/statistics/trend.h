@@ -16,6 +16,6 @@ typedef struct gg_trend {
 
 /* y: n_runs stretches of n rows end to end. Errors come from the scatter of blocks alone: a trend within a third would
  * pass for a long correlation, and hide itself. */
-gg_status gg_trend_test(const double *y, size_t n, size_t n_runs, gg_trend *out, gg_error *err);
+gg_status gg_statistics_trend_test(const double *y, size_t n, size_t n_runs, gg_trend *out, gg_error *err);
 
 #endif

@@ -29,7 +29,7 @@ static const char *value_of(const gg_sweep *sweep, size_t point, size_t varied, 
 static void put_number(gg_csv *csv, double x)
 {
   json_t *value = isfinite(x) ? json_real(x) : NULL;
-  gg_csv_json(csv, value);
+  gg_base_csv_json(csv, value);
   json_decref(value);
 }
 
@@ -37,57 +37,58 @@ static void put_count(gg_csv *csv, uint64_t n)
 {
   char text[24];
   snprintf(text, sizeof text, "%" PRIu64, n);
-  gg_csv_text(csv, text);
+  gg_base_csv_text(csv, text);
 }
 
 static void put_head(gg_csv *csv, const gg_sweep *sweep)
 {
   static const char *const rest[] = {"method", "quantity", "mean",  "error",   "unit",
                                      "seed",   "steady",   "short", "seconds", "file"};
-  gg_csv_text(csv, "point");
+  gg_base_csv_text(csv, "point");
   for (size_t f = 0; f < sweep->n_varied; f++)
-    for (size_t k = 0; k < sweep->varied[f].n_keys; k++) gg_csv_text(csv, key_of(sweep, f, k));
-  for (size_t i = 0; i < sizeof rest / sizeof *rest; i++) gg_csv_text(csv, rest[i]);
-  gg_csv_end_row(csv);
+    for (size_t k = 0; k < sweep->varied[f].n_keys; k++) gg_base_csv_text(csv, key_of(sweep, f, k));
+  for (size_t i = 0; i < sizeof rest / sizeof *rest; i++) gg_base_csv_text(csv, rest[i]);
+  gg_base_csv_end_row(csv);
 }
 
-static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_table_row *row)
+static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_cli_table_row *row)
 {
   char name[GG_POINT_NAME];
-  gg_point_name(sweep->point[row->point].id, name);
+  gg_sweep_point_name(sweep->point[row->point].id, name);
   put_count(csv, row->point + 1);
   for (size_t f = 0; f < sweep->n_varied; f++)
-    for (size_t k = 0; k < sweep->varied[f].n_keys; k++) gg_csv_text(csv, value_of(sweep, row->point, f, k));
-  gg_csv_text(csv, row->method);
-  gg_csv_text(csv, row->quantity);
+    for (size_t k = 0; k < sweep->varied[f].n_keys; k++) gg_base_csv_text(csv, value_of(sweep, row->point, f, k));
+  gg_base_csv_text(csv, row->method);
+  gg_base_csv_text(csv, row->quantity);
   put_number(csv, row->mean);
   put_number(csv, row->error);
-  gg_csv_text(csv, row->unit);
+  gg_base_csv_text(csv, row->unit);
   if (row->theory)
-    for (int i = 0; i < 3; i++) gg_csv_text(csv, NULL);
+    for (int i = 0; i < 3; i++) gg_base_csv_text(csv, NULL);
   else
-    put_count(csv, row->seed), gg_csv_text(csv, row->steady ? "true" : "false"),
-        gg_csv_text(csv, row->fell_short ? "true" : "false");
+    put_count(csv, row->seed), gg_base_csv_text(csv, row->steady ? "true" : "false"),
+        gg_base_csv_text(csv, row->fell_short ? "true" : "false");
   put_number(csv, row->seconds);
-  gg_csv_text(csv, name);
-  gg_csv_end_row(csv);
+  gg_base_csv_text(csv, name);
+  gg_base_csv_end_row(csv);
 }
 
-gg_status gg_point_table_write_csv(const gg_point_table *t, const gg_sweep *sweep, const char *path, gg_error *err)
+gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep *sweep, const char *path,
+                                         gg_error *err)
 {
   gg_atomic_file file;
-  GG_TRY(gg_atomic_open(&file, path, err));
-  gg_text_out *out = gg_new_array(1, sizeof *out, err);
-  if (!out) return gg_atomic_abandon(&file), GG_FAILED;
-  bool before = gg_memory_begin();
-  gg_text_begin(out, &file, err);
+  GG_TRY(gg_base_atomic_open(&file, path, err));
+  gg_text_out *out = gg_base_array_new(1, sizeof *out, err);
+  if (!out) return gg_base_atomic_abandon(&file), GG_FAILED;
+  bool before = gg_base_memory_begin();
+  gg_base_file_writer_begin(out, &file, err);
   gg_csv csv = {.out = out};
   put_head(&csv, sweep);
   for (size_t i = 0; i < t->n; i++) put_row(&csv, sweep, &t->row[i]);
-  gg_status status = gg_memory_check(before, gg_text_end(out), err);
+  gg_status status = gg_base_memory_check(before, gg_base_file_writer_end(out), err);
   free(out);
-  if (status == GG_OK) return gg_atomic_commit(&file, err);
-  gg_atomic_abandon(&file);
+  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
   return status;
 }
 
@@ -118,7 +119,7 @@ static void write_texts(column *c, const char *name)
 static void write_files(column *c, const gg_point_table *t, const gg_sweep *sweep, char (*name)[GG_POINT_NAME])
 {
   for (size_t i = 0; i < t->n; i++) {
-    gg_point_name(sweep->point[t->row[i].point].id, name[i]);
+    gg_sweep_point_name(sweep->point[t->row[i].point].id, name[i]);
     c->text[i] = name[i];
   }
   write_texts(c, "file");
@@ -143,7 +144,7 @@ static void write_key(column *c, const gg_point_table *t, const gg_sweep *sweep,
 #define NUMBERS(name, of_row)                                                                                          \
   do {                                                                                                                 \
     for (size_t i = 0; i < t->n; i++) {                                                                                \
-      const gg_table_row *row = &t->row[i];                                                                            \
+      const gg_cli_table_row *row = &t->row[i];                                                                        \
       c->number[i] = (double)(of_row);                                                                                 \
     }                                                                                                                  \
     write_numbers(c, name);                                                                                            \
@@ -179,23 +180,23 @@ static gg_status write_image(gg_h5 *h, const char *path, gg_error *err)
   void *image = gg_h5_image(h, &size);
   gg_h5_close(h);
   gg_status status = gg_h5_status(h, path, "written", err);
-  if (status == GG_OK) status = gg_atomic_open(&file, path, err);
+  if (status == GG_OK) status = gg_base_atomic_open(&file, path, err);
   if (status != GG_OK) return free(image), status;
-  gg_seal_of(image, size, seal);
-  status = gg_atomic_write(&file, image, size, err);
-  if (status == GG_OK) status = gg_atomic_write(&file, seal, sizeof seal, err);
+  gg_files_checksum_trailer_of(image, size, seal);
+  status = gg_base_atomic_write(&file, image, size, err);
+  if (status == GG_OK) status = gg_base_atomic_write(&file, seal, sizeof seal, err);
   free(image);
-  if (status == GG_OK) return gg_atomic_commit(&file, err);
-  gg_atomic_abandon(&file);
+  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
   return status;
 }
 
-gg_status gg_point_table_write_h5(const gg_point_table *t, const gg_sweep *sweep, const char *path, const char *command,
-                                  gg_error *err)
+gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep *sweep, const char *path,
+                                        const char *command, gg_error *err)
 {
   gg_h5 h;
-  column c = {&h, t->n, gg_new_array(t->n, sizeof(double), err), gg_new_array(t->n, sizeof(char *), err)};
-  char(*name)[GG_POINT_NAME] = gg_new_array(t->n, sizeof *name, err);
+  column c = {&h, t->n, gg_base_array_new(t->n, sizeof(double), err), gg_base_array_new(t->n, sizeof(char *), err)};
+  char(*name)[GG_POINT_NAME] = gg_base_array_new(t->n, sizeof *name, err);
   gg_status status = c.number && c.text && name ? GG_OK : GG_FAILED;
   if (status == GG_OK) {
     gg_h5_create_in_memory(&h);

@@ -14,12 +14,12 @@
 #include "base/memory.h"
 #include "base/output_path.h"
 
-void gg_point_name(uint64_t id, char name[GG_POINT_NAME])
+void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME])
 {
   snprintf(name, GG_POINT_NAME, "%016" PRIx64, id);
 }
 
-char *gg_point_path(const char *folder, uint64_t id, const char *ending)
+char *gg_sweep_point_path(const char *folder, uint64_t id, const char *ending)
 {
   char *path = NULL;
   return asprintf(&path, "%s/%016" PRIx64 "%s", folder, id, ending) < 0 ? NULL : path;
@@ -43,7 +43,7 @@ static bool is_there(const char *folder, uint64_t id, const char *ending)
   return yes;
 }
 
-gg_point_state gg_point_look(const char *folder, uint64_t id)
+gg_point_state gg_sweep_point_status(const char *folder, uint64_t id)
 {
   return is_there(folder, id, ".h5")         ? GG_POINT_DONE
          : is_there(folder, id, ".short.h5") ? GG_POINT_SHORT
@@ -53,27 +53,27 @@ gg_point_state gg_point_look(const char *folder, uint64_t id)
 gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err)
 {
   struct stat about;
-  if (!*folder) return gg_fail(err, GG_BAD_INPUT, "the folder's name is empty: %s", holds);
-  if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_cannot_write(folder, strerror(errno), err);
-  if (stat(folder, &about) != 0) return gg_cannot_write(folder, strerror(errno), err);
+  if (!*folder) return gg_base_fail(err, GG_BAD_INPUT, "the folder's name is empty: %s", holds);
+  if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_base_path_write_error(folder, strerror(errno), err);
+  if (stat(folder, &about) != 0) return gg_base_path_write_error(folder, strerror(errno), err);
   if (!S_ISDIR(about.st_mode)) {
     gg_error why;
-    gg_fail(&why, GG_BAD_INPUT, "it is no folder; %s", holds);
-    return gg_cannot_write(folder, why.message, err);
+    gg_base_fail(&why, GG_BAD_INPUT, "it is no folder; %s", holds);
+    return gg_base_path_write_error(folder, why.message, err);
   }
-  if (access(folder, W_OK | X_OK) != 0) return gg_cannot_write(folder, strerror(errno), err);
+  if (access(folder, W_OK | X_OK) != 0) return gg_base_path_write_error(folder, strerror(errno), err);
   return GG_OK;
 }
 
-gg_status gg_point_claim(const char *folder, uint64_t id, gg_file_lock *lock, gg_error *err)
+gg_status gg_sweep_point_claim(const char *folder, uint64_t id, gg_file_lock *lock, gg_error *err)
 {
   *lock = GG_FILE_LOCK_NONE;
-  char *path = gg_point_path(folder, id, ".h5");
-  if (!path) return gg_out_of_memory(err);
-  gg_status status = gg_file_lock_take(lock, path, path, err);
+  char *path = gg_sweep_point_path(folder, id, ".h5");
+  if (!path) return gg_base_out_of_memory(err);
+  gg_status status = gg_base_file_lock_take(lock, path, path, err);
   free(path);
   if (status != GG_OK && lock->busy) return GG_OK;
-  if (status == GG_OK && gg_point_look(folder, id) != GG_POINT_MISSING) gg_file_lock_release(lock);
+  if (status == GG_OK && gg_sweep_point_status(folder, id) != GG_POINT_MISSING) gg_base_file_lock_release(lock);
   return status;
 }
 
@@ -100,12 +100,12 @@ static uint64_t point_of_litter(const char *name)
 static void remove_litter(const char *folder, uint64_t id, const char *name)
 {
   gg_file_lock lock;
-  char *path = NULL, *result = gg_point_path(folder, id, ".h5");
-  if (result && gg_point_look(folder, id) != GG_POINT_MISSING &&
-      gg_file_lock_take(&lock, result, result, NULL) == GG_OK) {
+  char *path = NULL, *result = gg_sweep_point_path(folder, id, ".h5");
+  if (result && gg_sweep_point_status(folder, id) != GG_POINT_MISSING &&
+      gg_base_file_lock_take(&lock, result, result, NULL) == GG_OK) {
     if (asprintf(&path, "%s/%s", folder, name) >= 0) unlink(path);
     free(path);
-    gg_file_lock_release(&lock);
+    gg_base_file_lock_release(&lock);
   }
   free(result);
 }
@@ -122,13 +122,13 @@ void gg_sweep_folder_tidy(const char *folder)
 }
 
 /* Without memory of its own: a result that is written is not left under its working name for want of some bytes. */
-gg_status gg_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err)
+gg_status gg_sweep_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err)
 {
   char from[PATH_MAX], to[PATH_MAX];
   snprintf(from, sizeof from, "%s/%016" PRIx64 ".work.h5", folder, id);
   snprintf(to, sizeof to, "%s/%016" PRIx64 "%s", folder, id, fell_short ? ".short.h5" : ".h5");
   if (rename(from, to) == 0) return GG_OK;
-  gg_status status = gg_cannot_write(to, strerror(errno), err);
+  gg_status status = gg_base_path_write_error(to, strerror(errno), err);
   unlink(from); /* the point's checkpoint goes on from near its end */
   return status;
 }

@@ -6,13 +6,13 @@
 #include "sweep/sweep.h"
 
 enum { GG_POINT_NAME = 17 };
-void gg_point_name(uint64_t id, char name[GG_POINT_NAME]);
+void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME]);
 
 /* FOLDER/NAME and an ending: ".h5", ".short.h5", ".work.h5" (until it is known which of both), ".checkpoint.h5". To be
  * freed; NULL: out of memory. */
-char *gg_point_path(const char *folder, uint64_t id, const char *ending);
+char *gg_sweep_point_path(const char *folder, uint64_t id, const char *ending);
 /* What is there of a point. */
-gg_point_state gg_point_look(const char *folder, uint64_t id);
+gg_point_state gg_sweep_point_status(const char *folder, uint64_t id);
 
 /* Make it if it is not there (not what it stands in), and see that files can be made in it. `holds` ends the message
  * where something else has its name. */
@@ -21,8 +21,8 @@ gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_erro
 void gg_sweep_folder_tidy(const char *folder);
 /* Take the place of a point, so that no other process does it at the same time: GG_OK with lock->fd -1 says that one
  * does, or that it has just been done. */
-gg_status gg_point_claim(const char *folder, uint64_t id, gg_file_lock *lock, gg_error *err);
+gg_status gg_sweep_point_claim(const char *folder, uint64_t id, gg_file_lock *lock, gg_error *err);
 /* The file of the point is complete: give it its name. */
-gg_status gg_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err);
+gg_status gg_sweep_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err);
 
 #endif

@@ -8,7 +8,7 @@
 /* Letters, of which a picture has room for some 70; a value longer than this is told by what it differs in. */
 enum { LONG_VALUE = 20, LONGEST_PART = 32, LONGEST_NAME = 56 };
 
-size_t gg_combination_of(const gg_sweep *sweep, size_t i, size_t varied)
+size_t gg_sweep_line_group_of(const gg_sweep *sweep, size_t i, size_t varied)
 {
   size_t stride = 1;
   for (size_t f = sweep->n_varied - 1; f > varied; f--) stride *= sweep->varied[f].n;
@@ -106,14 +106,14 @@ static void add_value(line *l, const gg_varied *v, size_t row, size_t k)
   if (tail) add(l, "…");
 }
 
-void gg_combination_name(const gg_sweep *sweep, size_t combination, size_t varied, char text[GG_COMBINATION_NAME])
+void gg_sweep_line_group_name(const gg_sweep *sweep, size_t combination, size_t varied, char text[GG_COMBINATION_NAME])
 {
   char symbol[64], name[72];
   line l = {.text = text};
   for (size_t f = 0; f < sweep->n_varied; f++) {
     const gg_varied *v = &sweep->varied[f];
     for (size_t k = 0; f != varied && k < v->n_keys && !l.cut; k++) {
-      gg_chart_key(v->key[k], symbol, sizeof symbol, NULL);
+      gg_plot_chart_key(v->key[k], symbol, sizeof symbol, NULL);
       snprintf(name, sizeof name, "%s%s = ", l.used ? ", " : "", symbol);
       add(&l, name);
       add_value(&l, v, gg_sweep_row(sweep, combination, f), k);

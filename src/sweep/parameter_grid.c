@@ -12,13 +12,13 @@
 static gg_status new_varied(gg_varied *v, const gg_columns *c, size_t first, size_t n_keys, size_t n, gg_error *err)
 {
   *v = (gg_varied){.n_keys = n_keys, .n = n};
-  v->key = gg_new_array(n_keys, sizeof *v->key, err);
-  v->value = gg_new_array(n_keys * n, sizeof *v->value, err);
+  v->key = gg_base_array_new(n_keys, sizeof *v->key, err);
+  v->value = gg_base_array_new(n_keys * n, sizeof *v->value, err);
   bool good = v->key && v->value;
   for (size_t k = 0; good && k < n_keys; k++) good = (v->key[k] = strdup(c->key[first + k]));
   if (good) return GG_OK;
-  gg_varied_clear(v);
-  return gg_out_of_memory(err);
+  gg_sweep_varied_clear(v);
+  return gg_base_out_of_memory(err);
 }
 
 /* Keys of the map from `first` on, row by row. */
@@ -101,13 +101,14 @@ static gg_status add_random(gg_scene_reader *r, gg_sweep *sweep, gg_columns *c)
   if (!c->n) return gg_scene_refuse(r, c->random, "vary", "no key is drawn");
   GG_TRY(new_varied(&v, c, 0, c->n, (size_t)d.points, r->err));
   for (size_t k = 0; k < c->n; k++) {
-    gg_rng rng = gg_rng_seed((uint64_t)d.seed, gg_checksum(GG_CHECKSUM_START, c->key[k], strlen(c->key[k])));
+    gg_rng rng =
+        gg_common_rng_seed((uint64_t)d.seed, gg_base_checksum(GG_CHECKSUM_START, c->key[k], strlen(c->key[k])));
     for (size_t i = 0; i < v.n; i++)
-      if (!(v.value[i * c->n + k] = gg_values_draw(&c->values[k], c->key[k], &rng))) {
-        gg_varied_clear(&v);
-        return gg_out_of_memory(r->err);
+      if (!(v.value[i * c->n + k] = gg_sweep_values_draw(&c->values[k], c->key[k], &rng))) {
+        gg_sweep_varied_clear(&v);
+        return gg_base_out_of_memory(r->err);
       } else if ((characters += strlen(v.value[i * c->n + k])) > GG_MOST_DRAWN_CHARACTERS) {
-        gg_varied_clear(&v);
+        gg_sweep_varied_clear(&v);
         return gg_scene_refuse(r, c->random, "vary.random", "the values drawn have more than %d characters together",
                                GG_MOST_DRAWN_CHARACTERS);
       }
@@ -118,10 +119,10 @@ static gg_status add_random(gg_scene_reader *r, gg_sweep *sweep, gg_columns *c)
 static gg_status read_one(gg_scene_reader *r, gg_sweep *sweep, const yaml_node_t *map, bool zipped)
 {
   gg_columns c = {0};
-  gg_status status = gg_columns_read(r, map, &c);
+  gg_status status = gg_sweep_value_lists_read(r, map, &c);
   if (status == GG_OK)
     status = c.random ? add_random(r, sweep, &c) : zipped ? add_zipped(r, sweep, &c) : add_grid(r, sweep, &c);
-  gg_columns_clear(&c);
+  gg_sweep_value_lists_clear(&c);
   return status;
 }
 

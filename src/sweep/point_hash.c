@@ -29,13 +29,13 @@ static bool is_left_out(const char *key, gg_does does)
 
 static uint64_t add_text(uint64_t sum, const char *text)
 {
-  return gg_checksum(sum, text, strlen(text) + 1);
+  return gg_base_checksum(sum, text, strlen(text) + 1);
 }
 
 static uint64_t add_field(uint64_t sum, const gg_field *f, const gg_scene *scene)
 {
-  json_t *value = gg_field_json(f, scene, scene);
-  char *text = gg_json_text(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+  json_t *value = gg_scene_field_json(f, scene, scene);
+  char *text = gg_base_json_text(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
   sum = add_text(add_text(sum, f->key), text ? text : ""); /* without it: the name of another point, which is noted */
   free(text);
   json_decref(value);
@@ -47,7 +47,7 @@ static uint64_t add_extension(uint64_t sum, const gg_scene *scene)
 {
   char signature[2048] = "";
   if (!scene->extension) return sum;
-  gg_extension_signature(scene->extension, signature, sizeof signature);
+  gg_common_extension_signature(scene->extension, signature, sizeof signature);
   return add_text(sum, signature);
 }
 
@@ -59,7 +59,7 @@ static uint64_t mix(uint64_t x)
   return x ^ (x >> 33);
 }
 
-uint64_t gg_point_id(const gg_scene *scene, gg_does does)
+uint64_t gg_sweep_point_id(const gg_scene *scene, gg_does does)
 {
   const char *const words[] = {"run", "compare", "theory"};
   uint64_t sum = add_text(GG_CHECKSUM_START, words[does]);
@@ -81,24 +81,25 @@ static const json_t *value_in(const json_t *scene, const char *key)
 static void value_text(const json_t *value, char *text, size_t size)
 {
   snprintf(text, size, "no value");
-  if (value) gg_flow_style_text(value, text, size);
+  if (value) gg_scene_flow_style_text(value, text, size);
 }
 
-gg_status gg_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path, gg_error *err)
+gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path,
+                               gg_error *err)
 {
   char there[40], here[40];
   gg_status status = GG_OK;
   json_t *own = gg_scene_json(scene);
-  if (!own) return gg_out_of_memory(err);
+  if (!own) return gg_base_out_of_memory(err);
   for (const gg_field *f = gg_scene_fields; f->key && status == GG_OK; f++) {
     const json_t *value = value_in(stored, f->key), *wanted = value_in(own, f->key);
     if (is_left_out(f->key, does) || (value && json_equal(value, wanted))) continue;
     value_text(value, there, sizeof there);
     value_text(wanted, here, sizeof here);
-    status = gg_fail(err, GG_BAD_FILE,
-                     "%s: holds another point: %s is %s there, and %s at the point of this name; "
-                     "remove it, and the point is done again",
-                     path, f->key, there, here);
+    status = gg_base_fail(err, GG_BAD_FILE,
+                          "%s: holds another point: %s is %s there, and %s at the point of this name; "
+                          "remove it, and the point is done again",
+                          path, f->key, there, here);
   }
   json_decref(own);
   return status;
@@ -113,10 +114,10 @@ static bool is_of_seed(const gg_field *f, const gg_sweep *sweep)
 }
 
 /* 48 bits: a number of few digits, and whole in any reader's arithmetic. */
-uint64_t gg_point_seed(const gg_sweep *sweep, const gg_scene *scene)
+uint64_t gg_sweep_point_seed(const gg_sweep *sweep, const gg_scene *scene)
 {
   const uint64_t seed = scene->run.seed;
-  uint64_t sum = gg_checksum(GG_CHECKSUM_START, &seed, sizeof seed);
+  uint64_t sum = gg_base_checksum(GG_CHECKSUM_START, &seed, sizeof seed);
   for (const gg_field *f = gg_scene_fields; f->key; f++)
     if (is_of_seed(f, sweep)) sum = add_field(sum, f, scene);
   return mix(add_extension(sum, scene)) >> 16;

@@ -54,10 +54,10 @@ static gg_status forecast_of(const gg_scene *scene, gg_engine_kind engine, gg_fo
                              gg_error *err)
 {
   gg_model model;
-  GG_TRY(gg_model_make(scene, engine, &model, err));
-  GG_TRY(gg_engine_ops_of(engine)->accepts(&model, err));
-  *forecast = gg_forecast_of(scene, &model, engine);
-  *warmup = (double)gg_plan_of(scene, &model).warmup * GG_SAMPLING_INTERVAL;
+  GG_TRY(gg_common_model_make(scene, engine, &model, err));
+  GG_TRY(gg_run_engine_ops_of(engine)->accepts(&model, err));
+  *forecast = gg_run_cost_estimate(scene, &model, engine);
+  *warmup = (double)gg_run_criteria_of(scene, &model).warmup * GG_SAMPLING_INTERVAL;
   return GG_OK;
 }
 
@@ -74,8 +74,8 @@ static int64_t replicas_for(const gg_forecast *f, double warmup, double longest)
 static gg_status add_theories(const gg_scene *scene, double *seconds, gg_error *err)
 {
   gg_model model;
-  GG_TRY(gg_model_make(scene, GG_MD, &model, err));
-  *seconds += gg_forecast_theories(&model);
+  GG_TRY(gg_common_model_make(scene, GG_MD, &model, err));
+  *seconds += gg_run_cost_of_theories(&model);
   return GG_OK;
 }
 
@@ -110,7 +110,7 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, doubl
   GG_TRY(gg_scene_finish(scene, err));
   GG_TRY(forecast_point(sweep, scene, seconds, err));
   if (sweep->settings.seeds == GG_SEEDS_INDEPENDENT && !gg_sweep_sets(sweep, "run.seed"))
-    scene->run.seed = gg_point_seed(sweep, scene);
+    scene->run.seed = gg_sweep_point_seed(sweep, scene);
   return GG_OK;
 }
 
@@ -121,22 +121,24 @@ static gg_status resolve_named(const gg_sweep *sweep, size_t i, gg_scene *scene,
   gg_status status = resolve(sweep, i, scene, seconds, err);
   if (status == GG_OK || !sweep->n_varied) return status;
   gg_sweep_name_point(sweep, i, name, sizeof name);
-  return gg_error_prefix(err, status, "%s: point %zu of %zu (%s)", sweep->name, i + 1, gg_sweep_count(sweep), name);
+  return gg_base_error_prefix(err, status, "%s: point %zu of %zu (%s)", sweep->name, i + 1, gg_sweep_count(sweep),
+                              name);
 }
 
 gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
 {
   double seconds;
-  bool before = gg_memory_begin();
+  bool before = gg_base_memory_begin();
   gg_status status = resolve_named(sweep, i, scene, &seconds, err);
-  return gg_memory_end(before) ? gg_error_prefix(err, gg_out_of_memory(err), "%s", sweep->name) : status;
+  return gg_base_memory_end(before) ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", sweep->name) : status;
 }
 
 static void explain_number(const gg_sweep *sweep, gg_error *err)
 {
   double n = 1;
   for (size_t f = 0; f < sweep->n_varied; f++) n *= (double)sweep->varied[f].n;
-  gg_fail(err, GG_BAD_INPUT, "%s: the sweep would have %.0f points; allowed: up to %d", sweep->name, n, GG_MOST_POINTS);
+  gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep would have %.0f points; allowed: up to %d", sweep->name, n,
+               GG_MOST_POINTS);
 }
 
 gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err)
@@ -144,14 +146,14 @@ gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err)
   const size_t n = gg_sweep_count(sweep);
   if (sweep->n) return GG_OK;
   if (!n) return explain_number(sweep, err), GG_BAD_INPUT;
-  gg_point *point = gg_new_array(n, sizeof *point, err);
+  gg_point *point = gg_base_array_new(n, sizeof *point, err);
   if (!point) return GG_FAILED;
   for (size_t i = 0; i < n; i++) {
     gg_scene scene;
-    bool before = gg_memory_begin();
+    bool before = gg_base_memory_begin();
     gg_status status = resolve_named(sweep, i, &scene, &point[i].seconds, err);
-    if (status == GG_OK) point[i].id = gg_point_id(&scene, sweep->settings.does);
-    if (gg_memory_end(before)) status = gg_error_prefix(err, gg_out_of_memory(err), "%s", sweep->name);
+    if (status == GG_OK) point[i].id = gg_sweep_point_id(&scene, sweep->settings.does);
+    if (gg_base_memory_end(before)) status = gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", sweep->name);
     if (status != GG_OK) return free(point), status;
   }
   sweep->point = point;

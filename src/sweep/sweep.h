@@ -50,7 +50,7 @@ gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, co
 /* read.c */
 gg_status gg_sweep_read_text(gg_sweep *sweep, const char *yaml, size_t length, const char *name, gg_error *err);
 /* varied_keys.c */
-void gg_varied_clear(gg_varied *varied);
+void gg_sweep_varied_clear(gg_varied *varied);
 /* Take it over, unless a key of it is varied already: then it is cleared, too. */
 gg_status gg_sweep_add(gg_sweep *sweep, gg_varied *varied, gg_error *err);
 /* Is the key varied? */
@@ -70,12 +70,13 @@ gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
 
 /* point_hash.c: hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the
  * order of the field table, with its value in force. */
-uint64_t gg_point_id(const gg_scene *scene, gg_does does);
+uint64_t gg_sweep_point_id(const gg_scene *scene, gg_does does);
 /* Is the scene that a file at `path` holds, a JSON object, that of this point? GG_BAD_FILE names the first key that is
  * not. Keys that no number depends on may differ. */
-gg_status gg_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path, gg_error *err);
+gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path,
+                               gg_error *err);
 /* The seed of a point with independent seeds: from run.seed and from what is simulated there, but not from how long,
  * unless that is varied, or what is measured. */
-uint64_t gg_point_seed(const gg_sweep *sweep, const gg_scene *scene);
+uint64_t gg_sweep_point_seed(const gg_sweep *sweep, const gg_scene *scene);
 
 #endif

@@ -18,7 +18,7 @@ static bool is_whole(const char *text, long long *n)
   return end != text && !*end && errno == 0;
 }
 
-json_t *gg_point_value(const gg_sweep *sweep, size_t i, size_t varied, size_t k)
+json_t *gg_sweep_point_value(const gg_sweep *sweep, size_t i, size_t varied, size_t k)
 {
   const gg_varied *v = &sweep->varied[varied];
   const char *text = v->value[gg_sweep_row(sweep, i, varied) * v->n_keys + k];
@@ -37,17 +37,18 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
   char name[GG_POINT_NAME];
   gg_scene scene;
   json_t *keys = json_object();
-  gg_point_name(sweep->point[i].id, name);
+  gg_sweep_point_name(sweep->point[i].id, name);
   if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* it was checked: there is no memory */
     json_decref(keys);
-    return gg_json_made(NULL);
+    return gg_base_json_made(NULL);
   }
   for (size_t f = 0; f < sweep->n_varied; f++)
     for (size_t k = 0; k < sweep->varied[f].n_keys; k++)
-      json_object_set_new(keys, sweep->varied[f].key[k], gg_point_value(sweep, i, f, k));
+      json_object_set_new(keys, sweep->varied[f].key[k], gg_sweep_point_value(sweep, i, f, k));
   return json_pack("{s:I, s:o, s:s, s:s, s:f, s:I, s:I}", "point", (json_int_t)i + 1, "keys", keys, "name", name,
-                   "state", states[gg_point_look(folder, sweep->point[i].id)], "cpu_seconds", sweep->point[i].seconds,
-                   "replicas", (json_int_t)scene.run.replicas, "seed", (json_int_t)scene.run.seed);
+                   "state", states[gg_sweep_point_status(folder, sweep->point[i].id)], "cpu_seconds",
+                   sweep->point[i].seconds, "replicas", (json_int_t)scene.run.replicas, "seed",
+                   (json_int_t)scene.run.seed);
 }
 
 /* A name of bytes that are no text loses them; that it is none is no lack of memory, and not noted as such. */
@@ -58,7 +59,7 @@ static json_t *name_as_text(const char *name)
   char *plain = strdup(name);
   for (char *c = plain; c && *c; c++)
     if (*c & 0x80) *c = '?';
-  text = plain ? json_string(plain) : gg_json_made(NULL);
+  text = plain ? json_string(plain) : gg_base_json_made(NULL);
   free(plain);
   return text;
 }
@@ -66,9 +67,10 @@ static json_t *name_as_text(const char *name)
 json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
 {
   static const char *const words[] = {"run", "compare", "theory"};
-  bool before = gg_memory_begin();
+  bool before = gg_base_memory_begin();
   json_t *points = json_array();
   for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
-  return gg_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", GG_VERSION, "does",
-                                       words[sweep->settings.does], "folder", name_as_text(folder), "points", points));
+  return gg_base_json_end(before,
+                          json_pack("{s:s, s:s, s:o, s:o}", "graingas", GG_VERSION, "does", words[sweep->settings.does],
+                                    "folder", name_as_text(folder), "points", points));
 }

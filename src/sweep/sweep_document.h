@@ -7,7 +7,7 @@
 #include "sweep/sweep.h"
 
 /* The value that a varied key has at a point, as a number where it is one, else as its YAML. A new reference. */
-json_t *gg_point_value(const gg_sweep *sweep, size_t i, size_t varied, size_t k);
+json_t *gg_sweep_point_value(const gg_sweep *sweep, size_t i, size_t varied, size_t k);
 /* The sweep was checked. A new reference; NULL: out of memory. */
 json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder);
 

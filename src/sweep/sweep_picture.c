@@ -60,13 +60,14 @@ static gg_status choose_key(drawing *d, const char *over, gg_error *err)
       const axis_key a = {f, k};
       bool meant = over ? strcmp(over, s->varied[f].key[k]) == 0 : s->varied[f].n > most && has_numbers(s, a);
       if (meant && over && !has_numbers(s, a))
-        return gg_fail(err, GG_BAD_INPUT, "'%.60s' has values that are no numbers, and cannot be an axis", over);
+        return gg_base_fail(err, GG_BAD_INPUT, "'%.60s' has values that are no numbers, and cannot be an axis", over);
       if (meant) most = s->varied[f].n, d->over = a;
       if (meant && over) return GG_OK;
     }
-  if (over) return gg_fail(err, GG_BAD_INPUT, "'%.60s' is none of the keys that this sweep varies", over);
-  return most > 0 ? GG_OK
-                  : gg_fail(err, GG_FAILED,
+  if (over) return gg_base_fail(err, GG_BAD_INPUT, "'%.60s' is none of the keys that this sweep varies", over);
+  return most > 0
+             ? GG_OK
+             : gg_base_fail(err, GG_FAILED,
                             "no varied key has numbers, which a picture's axis needs (picture none: the tables alone)");
 }
 
@@ -87,18 +88,18 @@ static bool has_rows(const gg_point_table *t, const char *quantity)
   return false;
 }
 
-static const char *unit_of(const gg_table_row *row)
+static const char *unit_of(const gg_cli_table_row *row)
 {
   return row->unit ? row->unit : "";
 }
 
 /* Is this a row of panel p? */
-static bool belongs(const drawing *d, size_t p, const gg_table_row *row)
+static bool belongs(const drawing *d, size_t p, const gg_cli_table_row *row)
 {
   return strcmp(row->quantity, d->quantity[p]) == 0 && strcmp(unit_of(row), d->unit[p]) == 0;
 }
 
-static bool is_shown(const drawing *d, const gg_table_row *row)
+static bool is_shown(const drawing *d, const gg_cli_table_row *row)
 {
   for (size_t p = 0; p < d->n; p++)
     if (belongs(d, p, row)) return true;
@@ -108,12 +109,14 @@ static bool is_shown(const drawing *d, const gg_table_row *row)
 /* A panel for each unit that the quantity has at some point. */
 static gg_status add_panels(drawing *d, const char *quantity, gg_error *err)
 {
-  if (!has_rows(d->table, quantity)) return gg_fail(err, GG_BAD_INPUT, "no point has a quantity '%.60s'", quantity);
+  if (!has_rows(d->table, quantity))
+    return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%.60s'", quantity);
   for (size_t i = 0; i < d->table->n; i++) {
-    const gg_table_row *row = &d->table->row[i];
+    const gg_cli_table_row *row = &d->table->row[i];
     if (strcmp(row->quantity, quantity) != 0 || is_shown(d, row)) continue;
     if (d->n == MOST_PANELS)
-      return gg_fail(err, GG_BAD_INPUT, "a picture has at most %d panels, one for each quantity and unit", MOST_PANELS);
+      return gg_base_fail(err, GG_BAD_INPUT, "a picture has at most %d panels, one for each quantity and unit",
+                          MOST_PANELS);
     snprintf(d->quantity[d->n], sizeof d->quantity[0], "%s", quantity);
     d->unit[d->n++] = unit_of(row);
   }
@@ -139,25 +142,25 @@ static gg_status choose_quantities(drawing *d, gg_error *err)
   gg_model model;
   gg_quantity headline[GG_N_QUANTITIES];
   GG_TRY(gg_sweep_resolve(d->sweep, 0, &scene, err));
-  GG_TRY(gg_model_make(&scene, scene.engine, &model, err));
-  int n = gg_headline(&model, headline);
+  GG_TRY(gg_common_model_make(&scene, scene.engine, &model, err));
+  int n = gg_run_headline_quantities(&model, headline);
   for (int i = 0; i < n && d->n < 4; i++) {
-    const char *name = gg_quantity_name_in(&model, headline[i]);
+    const char *name = gg_common_quantity_name_in(&model, headline[i]);
     if (has_rows(d->table, name)) GG_TRY(add_panels(d, name, err));
   }
   return d->n || !d->table->n ? GG_OK : add_panels(d, d->table->row[0].quantity, err);
 }
 
-static gg_chart_series *series_for(drawing *d, size_t p, const gg_table_row *row)
+static gg_chart_series *series_for(drawing *d, size_t p, const gg_cli_table_row *row)
 {
-  const size_t n = d->panel[p].n, combination = gg_combination_of(d->sweep, row->point, d->over.varied);
+  const size_t n = d->panel[p].n, combination = gg_sweep_line_group_of(d->sweep, row->point, d->over.varied);
   for (size_t k = 0; k < n; k++)
     if (d->combination[p][k] == combination && strcmp(d->series[p][k].method, row->method) == 0)
       return &d->series[p][k];
   if (n == MOST_SERIES) return NULL;
   d->panel[p].n++;
   d->combination[p][n] = combination;
-  gg_combination_name(d->sweep, combination, d->over.varied, d->group[p][n]);
+  gg_sweep_line_group_name(d->sweep, combination, d->over.varied, d->group[p][n]);
   d->series[p][n] = (gg_chart_series){.method = row->method,
                                       .group = *d->group[p][n] ? d->group[p][n] : NULL,
                                       .style = row->theory && d->neighbours ? GG_CHART_LINE : GG_CHART_POINTS};
@@ -173,9 +176,9 @@ static gg_status fill_panel(drawing *d, size_t p, gg_error *err)
       if (!belongs(d, p, &t->row[i])) continue;
       gg_chart_series *s = series_for(d, p, &t->row[i]);
       if (!s)
-        return gg_fail(err, GG_FAILED,
-                       "the picture would have more than %d lines: another key over, fewer values, or none",
-                       MOST_SERIES);
+        return gg_base_fail(err, GG_FAILED,
+                            "the picture would have more than %d lines: another key over, fewer values, or none",
+                            MOST_SERIES);
       if (round) {
         size_t at = (size_t)(s->x - d->x) + s->n;
         d->x[at] = value_of(d->sweep, t->row[i].point, d->over);
@@ -218,11 +221,11 @@ static gg_status fill(drawing *d, gg_error *err)
   const gg_varied *v = &d->sweep->varied[d->over.varied];
   const char *x_unit;
   d->neighbours = are_neighbours(d);
-  gg_chart_key(v->key[d->over.k], d->x_label, sizeof d->x_label, &x_unit);
+  gg_plot_chart_key(v->key[d->over.k], d->x_label, sizeof d->x_label, &x_unit);
   for (size_t p = 0; p < d->n; p++) {
-    gg_quantity q = gg_quantity_find(d->quantity[p]);
+    gg_quantity q = gg_common_quantity_find(d->quantity[p]);
     if (q < GG_N_QUANTITIES)
-      gg_quantity_symbol(q, d->label[p], sizeof d->label[p]);
+      gg_common_quantity_symbol(q, d->label[p], sizeof d->label[p]);
     else
       snprintf(d->label[p], sizeof d->label[p], "%s", d->quantity[p]);
     d->panel[p] =
@@ -240,20 +243,20 @@ static gg_status draw(drawing *d, const gg_picture_choice *choice, const char *p
   GG_TRY(choice->show ? add_named(d, choice->show, err) : choose_quantities(d, err));
   GG_TRY(fill(d, err));
   const gg_chart chart = {.n = d->n, .panel = d->panel};
-  return gg_chart_draw(&chart, picture, NULL, err);
+  return gg_plot_chart_draw(&chart, picture, NULL, err);
 }
 
-gg_status gg_point_table_draw(const gg_point_table *t, const gg_sweep *sweep, const gg_picture_choice *choice,
-                              const char *picture, gg_error *err)
+gg_status gg_sweep_point_table_draw(const gg_point_table *t, const gg_sweep *sweep, const gg_picture_choice *choice,
+                                    const char *picture, gg_error *err)
 {
-  drawing *d = gg_new_array(1, sizeof *d, err);
+  drawing *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return GG_FAILED;
   size_t room = t->n * MOST_PANELS;
   d->table = t;
   d->sweep = sweep;
-  d->x = gg_new_array(room, sizeof *d->x, err);
-  d->y = gg_new_array(room, sizeof *d->y, err);
-  d->error = gg_new_array(room, sizeof *d->error, err);
+  d->x = gg_base_array_new(room, sizeof *d->x, err);
+  d->y = gg_base_array_new(room, sizeof *d->y, err);
+  d->error = gg_base_array_new(room, sizeof *d->error, err);
   gg_status status = d->x && d->y && d->error ? draw(d, choice, picture, err) : GG_FAILED;
   free(d->x);
   free(d->y);

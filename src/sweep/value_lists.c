@@ -7,9 +7,9 @@
 #include "base/memory.h"
 #include "base/memory_stream.h"
 
-void gg_columns_clear(gg_columns *c)
+void gg_sweep_value_lists_clear(gg_columns *c)
 {
-  for (size_t k = 0; k < c->n; k++) gg_values_clear(&c->values[k]);
+  for (size_t k = 0; k < c->n; k++) gg_sweep_values_clear(&c->values[k]);
 }
 
 /* Characters of a value: an alias may stand in what it stands for, and that has no end. */
@@ -48,13 +48,14 @@ static void print_node(gg_scene_reader *r, const yaml_node_t *node, FILE *out)
 static gg_status add_node(gg_scene_reader *r, const char *key, gg_values *values, const yaml_node_t *node)
 {
   char *text = NULL;
-  FILE *out = gg_open_text(&text);
+  FILE *out = gg_base_memory_stream_open(&text);
   if (out) print_node(r, node, out);
-  gg_status status =
-      gg_close_text(out, &text) ? GG_OK : gg_error_prefix(r->err, gg_out_of_memory(r->err), "%s", r->name);
+  gg_status status = gg_base_memory_stream_close(out, &text)
+                         ? GG_OK
+                         : gg_base_error_prefix(r->err, gg_base_out_of_memory(r->err), "%s", r->name);
   if (status == GG_OK && strlen(text) > LONGEST_VALUE)
     status = gg_scene_refuse(r, node, key, "a value is longer than %d characters", LONGEST_VALUE);
-  if (status == GG_OK) status = gg_values_add(values, text, r->err);
+  if (status == GG_OK) status = gg_sweep_values_add(values, text, r->err);
   free(text);
   return status;
 }
@@ -68,18 +69,19 @@ static bool is_plain(const yaml_node_t *node)
 gg_status gg_sweep_place(const gg_scene_reader *r, const yaml_node_t *node, gg_status status)
 {
   if (status == GG_OK || status == GG_FAILED) return status;
-  return gg_error_prefix(r->err, status, "%s:%zu", r->name, node->start_mark.line + 1);
+  return gg_base_error_prefix(r->err, status, "%s:%zu", r->name, node->start_mark.line + 1);
 }
 
 static gg_status read_values(gg_scene_reader *r, const char *key, const yaml_node_t *node, gg_values *values)
 {
   if (is_plain(node))
-    return gg_sweep_place(r, node, gg_values_parse(values, key, (const char *)node->data.scalar.value, r->err));
+    return gg_sweep_place(r, node, gg_sweep_values_parse(values, key, (const char *)node->data.scalar.value, r->err));
   if (node->type != YAML_SEQUENCE_NODE) return add_node(r, key, values, node);
   for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {
     const yaml_node_t *item = yaml_document_get_node(r->document, *i);
     if (is_plain(item))
-      GG_TRY(gg_sweep_place(r, item, gg_values_parse(values, key, (const char *)item->data.scalar.value, r->err)));
+      GG_TRY(
+          gg_sweep_place(r, item, gg_sweep_values_parse(values, key, (const char *)item->data.scalar.value, r->err)));
     else
       GG_TRY(add_node(r, key, values, item));
   }
@@ -115,7 +117,7 @@ static gg_status read_map(gg_scene_reader *r, const char *section, const yaml_no
   return GG_OK;
 }
 
-gg_status gg_columns_read(gg_scene_reader *r, const yaml_node_t *map, gg_columns *c)
+gg_status gg_sweep_value_lists_read(gg_scene_reader *r, const yaml_node_t *map, gg_columns *c)
 {
   if (map->type == YAML_MAPPING_NODE) return read_map(r, "", map, c);
   return gg_scene_refuse(r, map, "vary", "keys with their values are expected: vary: {phi: [0.1, 0.2]}");

@@ -15,8 +15,8 @@ typedef struct gg_columns {
 } gg_columns;
 
 /* Into columns that are {0}; to be cleared, also on failure. */
-gg_status gg_columns_read(gg_scene_reader *reader, const yaml_node_t *map, gg_columns *columns);
-void gg_columns_clear(gg_columns *columns);
+gg_status gg_sweep_value_lists_read(gg_scene_reader *reader, const yaml_node_t *map, gg_columns *columns);
+void gg_sweep_value_lists_clear(gg_columns *columns);
 /* A message of gg_values_..., with the file and the line before it. */
 gg_status gg_sweep_place(const gg_scene_reader *reader, const yaml_node_t *node, gg_status status);
 

@@ -9,7 +9,7 @@
 #include "scene/fields.h"
 #include "sweep/sweep.h"
 
-void gg_values_clear(gg_values *v)
+void gg_sweep_values_clear(gg_values *v)
 {
   for (size_t i = 0; i < v->n; i++) free(v->text[i]);
   free(v->text);
@@ -18,18 +18,18 @@ void gg_values_clear(gg_values *v)
 
 static gg_status out_of_memory(gg_error *err)
 {
-  return gg_out_of_memory(err);
+  return gg_base_out_of_memory(err);
 }
 
-gg_status gg_values_add(gg_values *v, const char *text, gg_error *err)
+gg_status gg_sweep_values_add(gg_values *v, const char *text, gg_error *err)
 {
   if (v->n == GG_MOST_POINTS)
-    return gg_fail(err, GG_BAD_INPUT, "a key has more than %d values; a sweep has at most as many points",
-                   GG_MOST_POINTS);
+    return gg_base_fail(err, GG_BAD_INPUT, "a key has more than %d values; a sweep has at most as many points",
+                        GG_MOST_POINTS);
   v->characters += strlen(text);
   if (v->characters > GG_MOST_VALUE_CHARACTERS)
-    return gg_fail(err, GG_BAD_INPUT, "the values of a key have more than %d characters together",
-                   GG_MOST_VALUE_CHARACTERS);
+    return gg_base_fail(err, GG_BAD_INPUT, "the values of a key have more than %d characters together",
+                        GG_MOST_VALUE_CHARACTERS);
   if (v->n == v->room) {
     size_t room = v->room ? 2 * v->room : 8;
     char **grown = realloc(v->text, room * sizeof *grown);
@@ -63,8 +63,8 @@ static gg_status add_steps(gg_values *v, double first, double step, size_t n, gg
     double x = first + (double)i * step;
     if (fabs(x) < 1e-12 * fabs(step)) x = 0;
     snprintf(text, sizeof text, "%.*g", whole ? 17 : 12, x);
-    gg_format_number(strtod(text, NULL), text, sizeof text);
-    GG_TRY(gg_values_add(v, text, err));
+    gg_scene_number_format(strtod(text, NULL), text, sizeof text);
+    GG_TRY(gg_sweep_values_add(v, text, err));
   }
   return GG_OK;
 }
@@ -80,21 +80,22 @@ static gg_status add_range(gg_values *v, const char *key, const char *text, bool
     if (!is_number(at, length, &x[k])) return GG_OK;
     at += length;
     if (*at != (k < 2 ? ':' : '\0'))
-      return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': a range is first:last:step", key, text);
+      return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': a range is first:last:step", key, text);
     at += k < 2;
   }
   *is = true;
   double steps = x[2] != 0 ? (x[1] - x[0]) / x[2] : -1;
   if (!(steps >= 0))
-    return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step does not lead from the first to the last", key,
-                   text);
+    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step does not lead from the first to the last",
+                        key, text);
   const bool whole = x[0] == floor(x[0]) && x[2] == floor(x[2]);
   const double largest = fmax(fabs(x[0]), fabs(x[1]));
   if (whole ? largest >= 0x1p53 : fabs(x[2]) < 1e-11 * largest)
-    return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step is lost in the digits of the numbers", key, text);
+    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step is lost in the digits of the numbers", key,
+                        text);
   if (steps >= GG_MOST_POINTS)
-    return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': these are %.0f values; a sweep has at most %d points", key,
-                   text, floor(steps) + 1, GG_MOST_POINTS);
+    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': these are %.0f values; a sweep has at most %d points",
+                        key, text, floor(steps) + 1, GG_MOST_POINTS);
   return add_steps(v, x[0], x[2], (size_t)(steps * (1 + 1e-12) + 1e-9) + 1, err);
 }
 
@@ -104,7 +105,7 @@ static gg_status take_span(gg_values *v, const char *key, const char *text, bool
   *is = dots && is_number(text, (size_t)(dots - text), &v->low) && is_number(dots + 2, strlen(dots + 2), &v->high);
   if (!*is) return GG_OK;
   if (!(v->low < v->high))
-    return gg_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the lower end has to come first", key, text);
+    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the lower end has to come first", key, text);
   v->range = true;
   return GG_OK;
 }
@@ -114,8 +115,8 @@ static gg_status add_word(gg_values *v, const char *key, const char *text, gg_er
   bool is;
   GG_TRY(add_range(v, key, text, &is, err));
   if (is) return GG_OK;
-  if (!*text) return gg_fail(err, GG_BAD_INPUT, "key '%.60s': a value is missing", key);
-  return gg_values_add(v, text, err);
+  if (!*text) return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': a value is missing", key);
+  return gg_sweep_values_add(v, text, err);
 }
 
 /* Up to the next comma that does not stand in brackets or quotes. */
@@ -135,7 +136,7 @@ static size_t word_length(const char *text)
   return n;
 }
 
-gg_status gg_values_parse(gg_values *v, const char *key, const char *text, gg_error *err)
+gg_status gg_sweep_values_parse(gg_values *v, const char *key, const char *text, gg_error *err)
 {
   bool is;
   GG_TRY(take_span(v, key, text, &is, err));
@@ -158,13 +159,13 @@ static bool is_whole(const char *key)
   return id >= 0 && gg_scene_fields[id].type == GG_FIELD_INTEGER;
 }
 
-char *gg_values_draw(const gg_values *v, const char *key, gg_rng *rng)
+char *gg_sweep_values_draw(const gg_values *v, const char *key, gg_rng *rng)
 {
   char text[40];
   double u = gg_rng_uniform(rng);
   if (!v->range) return strdup(v->text[(size_t)(u * (double)v->n)]);
   if (is_whole(key))
-    gg_format_number(floor(v->low + u * (v->high - v->low + 1)), text, sizeof text);
+    gg_scene_number_format(floor(v->low + u * (v->high - v->low + 1)), text, sizeof text);
   else
     snprintf(text, sizeof text, "%.6g", v->low + u * (v->high - v->low)); /* as many digits as people read */
   return strdup(text);

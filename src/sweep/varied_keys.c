@@ -4,7 +4,7 @@
 
 #include "sweep/sweep.h"
 
-void gg_varied_clear(gg_varied *v)
+void gg_sweep_varied_clear(gg_varied *v)
 {
   for (size_t k = 0; v->key && k < v->n_keys; k++) free(v->key[k]);
   for (size_t i = 0; v->value && i < v->n * v->n_keys; i++) free(v->value[i]);
@@ -46,12 +46,13 @@ bool gg_sweep_sets(const gg_sweep *sweep, const char *key)
 static gg_status check_new(const gg_sweep *sweep, const gg_varied *v, gg_error *err)
 {
   if (sweep->n_varied == GG_MOST_VARIED)
-    return gg_fail(err, GG_BAD_INPUT, "more than %d keys are varied", GG_MOST_VARIED);
+    return gg_base_fail(err, GG_BAD_INPUT, "more than %d keys are varied", GG_MOST_VARIED);
   for (size_t k = 0; k < v->n_keys; k++) {
-    if (gg_sweep_varies(sweep, v->key[k])) return gg_fail(err, GG_BAD_INPUT, "key '%.60s': is varied twice", v->key[k]);
+    if (gg_sweep_varies(sweep, v->key[k]))
+      return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied twice", v->key[k]);
     for (size_t j = 0; j < k; j++)
       if (strcmp(v->key[j], v->key[k]) == 0)
-        return gg_fail(err, GG_BAD_INPUT, "key '%.60s': is varied twice", v->key[k]);
+        return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied twice", v->key[k]);
   }
   return GG_OK;
 }
@@ -63,6 +64,6 @@ gg_status gg_sweep_add(gg_sweep *sweep, gg_varied *v, gg_error *err)
     sweep->varied[sweep->n_varied++] = *v;
     *v = (gg_varied){0};
   }
-  gg_varied_clear(v);
+  gg_sweep_varied_clear(v);
   return status;
 }

@@ -6,57 +6,58 @@
 
 #include "theory/collision_rate.h"
 
-gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...)
+gg_status gg_theory_reject(gg_error *err, const char *theory, const char *format, ...)
 {
   char reason[512];
   va_list args;
   va_start(args, format);
   vsnprintf(reason, sizeof reason, format, args);
   va_end(args);
-  return gg_fail(err, GG_BAD_INPUT, "%s %s", theory, reason);
+  return gg_base_fail(err, GG_BAD_INPUT, "%s %s", theory, reason);
 }
 
-gg_status gg_require_steady_shear(const gg_model *m, const char *theory, gg_error *err)
+gg_status gg_theory_require_steady_shear(const gg_model *m, const char *theory, gg_error *err)
 {
   if (m->elastic)
-    return gg_refuse(err, theory,
-                     "describes steady shear; collisions of this scene lose no energy, so that it heats up for ever");
+    return gg_theory_reject(
+        err, theory, "describes steady shear; collisions of this scene lose no energy, so that it heats up for ever");
   return GG_OK;
 }
 
-gg_status gg_require_one_species(const gg_model *m, const char *theory, gg_error *err)
+gg_status gg_theory_require_one_species(const gg_model *m, const char *theory, gg_error *err)
 {
   if (m->n_species == 1) return GG_OK;
-  return gg_refuse(err, theory, "describes grains of one species; this scene has %d", m->n_species);
+  return gg_theory_reject(err, theory, "describes grains of one species; this scene has %d", m->n_species);
 }
 
-gg_status gg_require_at_most_two_species(const gg_model *m, const char *theory, gg_error *err)
+gg_status gg_theory_require_at_most_two_species(const gg_model *m, const char *theory, gg_error *err)
 {
   if (m->n_species <= 2) return GG_OK;
-  return gg_refuse(err, theory, "describes grains of one or two species; this scene has %d", m->n_species);
+  return gg_theory_reject(err, theory, "describes grains of one or two species; this scene has %d", m->n_species);
 }
 
-gg_status gg_require_smooth(const gg_model *m, const char *theory, gg_error *err)
+gg_status gg_theory_require_smooth(const gg_model *m, const char *theory, gg_error *err)
 {
   if (m->rule == GG_SMOOTH) return GG_OK;
-  return gg_refuse(err, theory, "describes smooth grains; grains of this scene are %s",
-                   m->rule == GG_ROUGH ? "rough" : "frictional");
+  return gg_theory_reject(err, theory, "describes smooth grains; grains of this scene are %s",
+                          m->rule == GG_ROUGH ? "rough" : "frictional");
 }
 
-gg_status gg_require_constant_beta(const gg_model *m, const char *theory, gg_error *err)
+gg_status gg_theory_require_constant_beta(const gg_model *m, const char *theory, gg_error *err)
 {
   if (m->rule != GG_FRICTIONAL) return GG_OK;
-  return gg_refuse(err, theory, "describes grains of constant beta; with Coulomb friction it has no closed form");
+  return gg_theory_reject(err, theory,
+                          "describes grains of constant beta; with Coulomb friction it has no closed form");
 }
 
-gg_status gg_require_dilute(const gg_model *m, const char *theory, gg_error *err)
+gg_status gg_theory_require_dilute(const gg_model *m, const char *theory, gg_error *err)
 {
   if (m->phi <= GG_DILUTE_PHI) return GG_OK;
-  return gg_refuse(err, theory, "describes dilute gases (phi up to %g); this scene has phi = %g", GG_DILUTE_PHI,
-                   m->phi);
+  return gg_theory_reject(err, theory, "describes dilute gases (phi up to %g); this scene has phi = %g", GG_DILUTE_PHI,
+                          m->phi);
 }
 
-bool gg_hardly_loses(const gg_model *m)
+bool gg_theory_is_nearly_elastic(const gg_model *m)
 {
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
@@ -66,18 +67,18 @@ bool gg_hardly_loses(const gg_model *m)
   return true;
 }
 
-gg_grain gg_grain_of(const gg_model *m)
+gg_grain gg_theory_grain_of(const gg_model *m)
 {
   const gg_contact *c = &m->contact[0][0]; /* unit masses: m_r (1+e) = eta_1, m_t (1+beta) = eta_2 */
   return (gg_grain){.eta1 = c->jn, .eta2 = c->jt, .K = m->inertia[0]};
 }
 
-double gg_phi_chi(const gg_model *m)
+double gg_theory_phi_chi(const gg_model *m)
 {
   return m->phi * m->chi[0];
 }
 
-double gg_fraction(const gg_model *m, int species)
+double gg_theory_fraction(const gg_model *m, int species)
 {
   return (double)m->n_of[species] / (double)m->n;
 }
@@ -100,7 +101,7 @@ static void set_components(const gg_model *m, const gg_quantity part[5], gg_stre
   for (int i = 0; i < 5; i++) a->value[part[i]] = m->stress_unit * component[i];
 }
 
-void gg_answer_stress(const gg_model *m, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a)
+void gg_theory_answer_stress(const gg_model *m, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a)
 {
   bool transfer = !m->boltzmann && !isnan(collisional.xx);
   gg_stress total = transfer ? stress_sum(kinetic, collisional) : kinetic;
@@ -115,14 +116,14 @@ void gg_answer_stress(const gg_model *m, double T, gg_stress kinetic, gg_stress 
   if (m->shear_rate > 0) a->value[GG_Q_SHEAR_VISCOSITY] = m->stress_unit * fabs(total.xy) / m->shear_rate;
 }
 
-void gg_answer_pressure(const gg_model *m, double T, double kinetic, double collisional, gg_theory_answer *a)
+void gg_theory_answer_pressure(const gg_model *m, double T, double kinetic, double collisional, gg_theory_answer *a)
 {
   double p = m->boltzmann ? kinetic : kinetic + collisional;
   a->value[GG_Q_PRESSURE] = m->stress_unit * p;
   a->value[GG_Q_COMPRESSIBILITY] = p / (m->density * T);
 }
 
-void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_answer *a)
+void gg_theory_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_answer *a)
 {
   a->value[GG_Q_TEMPERATURE] = T;
   if (m->rule == GG_SMOOTH) return;
@@ -130,17 +131,17 @@ void gg_answer_temperature(const gg_model *m, double T, double ratio, gg_theory_
   a->value[GG_Q_ROTATIONAL_TEMPERATURE] = ratio * T;
 }
 
-void gg_answer_rolling(const gg_model *m, double spin, gg_theory_answer *a)
+void gg_theory_answer_rolling(const gg_model *m, double spin, gg_theory_answer *a)
 {
   if (m->rule != GG_SMOOTH && m->phi >= GG_ROLLING_PHI) a->value[GG_Q_SPIN_Z] = spin;
 }
 
-void gg_answer_collisions(const gg_model *m, const double T[], gg_theory_answer *a)
+void gg_theory_answer_collisions(const gg_model *m, const double T[], gg_theory_answer *a)
 {
   double rate = 0, speed = 0;
   for (int i = 0; i < m->n_species; i++) {
-    speed += gg_fraction(m, i) * gg_mean_speed(m, i, T);
-    for (int j = 0; j < m->n_species; j++) rate += gg_fraction(m, i) * gg_pair_collision_rate(m, i, j, T);
+    speed += gg_theory_fraction(m, i) * gg_theory_mean_speed(m, i, T);
+    for (int j = 0; j < m->n_species; j++) rate += gg_theory_fraction(m, i) * gg_theory_pair_collision_rate(m, i, j, T);
   }
   a->value[GG_Q_COLLISION_RATE] = rate;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / rate;
@@ -148,9 +149,9 @@ void gg_answer_collisions(const gg_model *m, const double T[], gg_theory_answer 
   if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / rate / cbrt(m->volume);
 }
 
-void gg_answer_collisions_one(const gg_model *m, double T, gg_theory_answer *a)
+void gg_theory_answer_collisions_one(const gg_model *m, double T, gg_theory_answer *a)
 {
   double each[GG_MAX_SPECIES];
   for (int i = 0; i < m->n_species; i++) each[i] = T;
-  gg_answer_collisions(m, each, a);
+  gg_theory_answer_collisions(m, each, a);
 }

@@ -16,15 +16,15 @@
 #define GG_ROLLING_PHI 0.01
 
 /* Guards: GG_OK, or GG_BAD_INPUT with "<theory> describes ...; this scene is ...". */
-gg_status gg_refuse(gg_error *err, const char *theory, const char *format, ...) GG_PRINTF(3, 4);
-gg_status gg_require_steady_shear(const gg_model *model, const char *theory, gg_error *err);
-gg_status gg_require_one_species(const gg_model *model, const char *theory, gg_error *err);
-gg_status gg_require_at_most_two_species(const gg_model *model, const char *theory, gg_error *err);
-gg_status gg_require_smooth(const gg_model *model, const char *theory, gg_error *err);
-gg_status gg_require_constant_beta(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_theory_reject(gg_error *err, const char *theory, const char *format, ...) GG_PRINTF(3, 4);
+gg_status gg_theory_require_steady_shear(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_theory_require_one_species(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_theory_require_at_most_two_species(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_theory_require_smooth(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_theory_require_constant_beta(const gg_model *model, const char *theory, gg_error *err);
 /* Does every collision lose so little of its energy (10^-6) that a steady state may be beyond what numbers resolve? */
-bool gg_hardly_loses(const gg_model *model);
-gg_status gg_require_dilute(const gg_model *model, const char *theory, gg_error *err);
+bool gg_theory_is_nearly_elastic(const gg_model *model);
+gg_status gg_theory_require_dilute(const gg_model *model, const char *theory, gg_error *err);
 
 /* The collision rule of one species of unit mass: J = 2 m eta_1 ... in the notation of Lun (1991). */
 typedef struct gg_grain {
@@ -32,10 +32,10 @@ typedef struct gg_grain {
   double eta2; /* (1+beta)K/(2(1+K)); 0 if smooth */
   double K;    /* 4I/(m d^2) */
 } gg_grain;
-gg_grain gg_grain_of(const gg_model *model);
+gg_grain gg_theory_grain_of(const gg_model *model);
 
 /* Enskog's small parameter phi chi, nothing in the Boltzmann limit. */
-double gg_phi_chi(const gg_model *model);
+double gg_theory_phi_chi(const gg_model *model);
 
 /* Stress per volume; a collisional part that a dilute theory neglects is NaN throughout. */
 typedef struct gg_stress {
@@ -44,22 +44,24 @@ typedef struct gg_stress {
 #define GG_STRESS_NEGLECTED ((gg_stress){NAN, NAN, NAN, NAN, NAN})
 
 /* Total, kinetic and collisional stress, pressure, Z, N1, N2, and under shear the viscosity. */
-void gg_answer_stress(const gg_model *model, double T, gg_stress kinetic, gg_stress collisional, gg_theory_answer *a);
+void gg_theory_answer_stress(const gg_model *model, double T, gg_stress kinetic, gg_stress collisional,
+                             gg_theory_answer *a);
 
 /* Pressure and Z of a homogeneous state, from the kinetic and the collisional part per volume. */
-void gg_answer_pressure(const gg_model *model, double T, double kinetic, double collisional, gg_theory_answer *a);
+void gg_theory_answer_pressure(const gg_model *model, double T, double kinetic, double collisional,
+                               gg_theory_answer *a);
 
 /* T, and for grains that spin theta = ratio T. */
-void gg_answer_temperature(const gg_model *model, double T, double ratio, gg_theory_answer *a);
+void gg_theory_answer_temperature(const gg_model *model, double T, double ratio, gg_theory_answer *a);
 
 /* The mean spin by a theory that has spins independent of velocities: of rough grains, from GG_ROLLING_PHI on. */
-void gg_answer_rolling(const gg_model *model, double spin, gg_theory_answer *a);
+void gg_theory_answer_rolling(const gg_model *model, double spin, gg_theory_answer *a);
 
 /* Collision rate, mean free path and Knudsen number of Maxwellians at T (partial temperatures T_i for a mixture). */
-void gg_answer_collisions(const gg_model *model, const double T[], gg_theory_answer *a);
-void gg_answer_collisions_one(const gg_model *model, double T, gg_theory_answer *a);
+void gg_theory_answer_collisions(const gg_model *model, const double T[], gg_theory_answer *a);
+void gg_theory_answer_collisions_one(const gg_model *model, double T, gg_theory_answer *a);
 
 /* Mole fraction x_i = n_i/n. */
-double gg_fraction(const gg_model *model, int species);
+double gg_theory_fraction(const gg_model *model, int species);
 
 #endif

@@ -5,20 +5,20 @@
 
 #include <math.h>
 
-double gg_pair_collision_rate(const gg_model *m, int i, int j, const double T[])
+double gg_theory_pair_collision_rate(const gg_model *m, int i, int j, const double T[])
 {
   double nj = m->density * (double)m->n_of[j] / (double)m->n, sigma = m->sigma[gg_pair(i, j)];
   return nj * sigma * sigma * m->chi[gg_pair(i, j)] * sqrt(8 * M_PI * (T[i] / m->mass[i] + T[j] / m->mass[j]));
 }
 
-double gg_mean_speed(const gg_model *m, int i, const double T[])
+double gg_theory_mean_speed(const gg_model *m, int i, const double T[])
 {
   return sqrt(8 * T[i] / (M_PI * m->mass[i]));
 }
 
-double gg_mean_free_path(const gg_model *m, int i, const double T[])
+double gg_theory_mean_free_path(const gg_model *m, int i, const double T[])
 {
   double rate = 0;
-  for (int j = 0; j < m->n_species; j++) rate += gg_pair_collision_rate(m, i, j, T);
-  return gg_mean_speed(m, i, T) / rate;
+  for (int j = 0; j < m->n_species; j++) rate += gg_theory_pair_collision_rate(m, i, j, T);
+  return gg_theory_mean_speed(m, i, T) / rate;
 }

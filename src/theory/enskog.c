@@ -18,7 +18,8 @@ static double excess(const gg_model *m)
   if (m->boltzmann) return 0;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++)
-      sum += gg_fraction(m, i) * gg_fraction(m, j) * pow(m->sigma[gg_pair(i, j)], 3) * m->chi[gg_pair(i, j)];
+      sum +=
+          gg_theory_fraction(m, i) * gg_theory_fraction(m, j) * pow(m->sigma[gg_pair(i, j)], 3) * m->chi[gg_pair(i, j)];
   return 2 * M_PI / 3 * m->density * sum;
 }
 
@@ -27,8 +28,8 @@ static double kurtosis(const gg_model *m)
 {
   double second = 0, fourth = 0;
   for (int i = 0; i < m->n_species; i++) {
-    second += gg_fraction(m, i) / m->mass[i];
-    fourth += 3 * gg_fraction(m, i) / (m->mass[i] * m->mass[i]);
+    second += gg_theory_fraction(m, i) / m->mass[i];
+    fourth += 3 * gg_theory_fraction(m, i) / (m->mass[i] * m->mass[i]);
   }
   return fourth / (second * second);
 }
@@ -36,33 +37,33 @@ static double kurtosis(const gg_model *m)
 static void answer_viscosity(const gg_model *m, double T, gg_theory_answer *a)
 {
   if (m->n_species == 1) {
-    double y = gg_phi_chi(m), kinetic = 1 + 1.6 * y;
+    double y = gg_theory_phi_chi(m), kinetic = 1 + 1.6 * y;
     a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = kinetic / m->chi[0];
     a->value[GG_Q_VISCOSITY_REDUCED] = kinetic * kinetic / m->chi[0] + 768 / (25 * M_PI) * m->phi * y;
     return;
   }
   if (m->n_species > 2) return;
   gg_mixture_state rest = {.a = {T / m->mass[0], T / m->mass[1]}};
-  gg_mixture_viscosity v = gg_mixture_viscosity_of(m, &rest, 0);
-  double unit = gg_model_nu0(m, T) / (m->density * T);
+  gg_mixture_viscosity v = gg_theory_mixture_viscosity_of(m, &rest, 0);
+  double unit = gg_common_model_nu0(m, T) / (m->density * T);
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * unit;
   a->value[GG_Q_VISCOSITY_REDUCED] = v.total * unit;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  if (!m->elastic) return gg_refuse(err, name, "describes elastic grains; collisions of this scene lose energy");
+  if (!m->elastic) return gg_theory_reject(err, name, "describes elastic grains; collisions of this scene lose energy");
   double T = m->temperature0, p = m->density * T, pc = p * excess(m);
-  gg_answer_temperature(m, T, 1, a);
-  gg_answer_pressure(m, T, p, pc, a);
-  gg_answer_collisions_one(m, T, a);
+  gg_theory_answer_temperature(m, T, 1, a);
+  gg_theory_answer_pressure(m, T, p, pc, a);
+  gg_theory_answer_collisions_one(m, T, a);
   if (m->rule == GG_SMOOTH) answer_viscosity(m, T, a);
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = kurtosis(m);
   a->value[GG_Q_A2] = 0;
   return GG_OK;
 }
 
-const gg_theory gg_enskog = {
+const gg_theory gg_theory_enskog = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Elastic hard spheres in equilibrium",

@@ -41,7 +41,7 @@ static double fourth(const double C[3])
 /* White noise is set to balance Maxwellians at temperature0 (thermostat.h). */
 static double temperature_of(const gg_model *m, double cooling, bool noise)
 {
-  double e = m->e[0], maxwellian = 5. / 12 * m->chi[0] * (1 - e * e) * gg_model_nu0(m, 1);
+  double e = m->e[0], maxwellian = 5. / 12 * m->chi[0] * (1 - e * e) * gg_common_model_nu0(m, 1);
   return m->temperature0 * (noise && cooling > 0 && !m->elastic ? pow(maxwellian / cooling, 2. / 3) : 1);
 }
 
@@ -52,18 +52,18 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, bool no
   double a2 = gg_hermite_mean(&h->op.basis, &h->state, fourth) / 15 - 1;
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
-  a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : h->cooling_rate / gg_model_nu0(m, 1);
+  a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : h->cooling_rate / gg_common_model_nu0(m, 1);
   if (m->linear_response) return; /* no temperature of its own: it grows */
   double T = temperature_of(m, h->cooling_rate, noise), p = m->density * T;
-  gg_answer_temperature(m, T, NAN, a);
-  gg_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* all along the one direction: the trace */
+  gg_theory_answer_temperature(m, T, NAN, a);
+  gg_theory_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* all along the one direction: the trace */
   answer_flights(m, sums.rate * sqrt(T), sums.speed * sqrt(T), a);
 }
 
 static gg_status answer_viscosity(const gg_model *m, gg_hermite_isotropic *h, gg_theory_answer *a, gg_error *err)
 {
   gg_hermite_viscosity v;
-  double fading = gg_thermostat_share(m) == 0.5 ? h->cooling_rate / 2 : 0, nu0 = gg_model_nu0(m, 1);
+  double fading = gg_theory_thermostat_share(m) == 0.5 ? h->cooling_rate / 2 : 0, nu0 = gg_common_model_nu0(m, 1);
   GG_TRY(gg_hermite_viscosity_of(&h->gas, &h->state, h->op.basis.degree, !m->boltzmann, fading, &v, err));
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = v.total * nu0;
@@ -75,35 +75,35 @@ static gg_status answer_viscosity(const gg_model *m, gg_hermite_isotropic *h, gg
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
-  bool noise = gg_thermostat_of(m) == GG_WHITE_NOISE;
+  bool noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE;
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_rungs_error(&rungs, GG_Q_COOLING_RATE) < good) break;
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_error(&rungs, GG_Q_COOLING_RATE) < good) break;
     gg_hermite_isotropic h;
     gg_error why;
     gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, noise, &why);
-    if (status != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
-    answer_isotropic(m, &h, noise, gg_rungs_next(&rungs));
-    if (degree <= VISCOSITY_DEGREE) status = answer_viscosity(m, &h, gg_rungs_next(&viscous), &why);
+    if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
+    answer_isotropic(m, &h, noise, gg_hermite_convergence_next(&rungs));
+    if (degree <= VISCOSITY_DEGREE) status = answer_viscosity(m, &h, gg_hermite_convergence_next(&viscous), &why);
     gg_hermite_isotropic_end(&h);
-    if (status != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
+    if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   }
-  GG_TRY(gg_rungs_finish(&rungs, name, GG_Q_COOLING_RATE, hardly, a, err));
-  gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED, a);
-  gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
+  GG_TRY(gg_hermite_convergence_finish(&rungs, name, GG_Q_COOLING_RATE, hardly, a, err));
+  gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a);
+  gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
   return GG_OK;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_constant_beta(m, name, err));
+  GG_TRY(gg_theory_require_constant_beta(m, name, err));
   if (m->rule == GG_ROUGH && m->n_species == 1) return gg_rough_answer(m, a, err);
-  GG_TRY(gg_require_smooth(m, name, err));
+  GG_TRY(gg_theory_require_smooth(m, name, err));
   if (m->flow == GG_USF || m->flow == GG_HEATED_SHEAR) return gg_hermite_shear_answer(m, a, err);
   return m->n_species > 1 ? gg_hermite_mixture_answer(m, a, err) : homogeneous(m, a, err);
 }
 
-const gg_theory gg_enskog_hermite = {
+const gg_theory gg_theory_enskog_hermite = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF) | GG_FLOW_BIT(GG_SMALL_SHEAR) |
              GG_FLOW_BIT(GG_HEATED_SHEAR),

@@ -25,14 +25,14 @@ static double kolafa(double phi)
 
 static double carnahan_starling(double phi)
 {
-  return gg_contact_value_of(GG_CARNAHAN_STARLING, phi);
+  return gg_common_contact_value_of(GG_CARNAHAN_STARLING, phi);
 }
 static double pieprzyk(double phi)
 {
-  return gg_contact_value_of(GG_KOLAFA, phi);
+  return gg_common_contact_value_of(GG_KOLAFA, phi);
 }
 
-double gg_compressibility_kolafa2004(double phi)
+double gg_theory_compressibility_kolafa2004(double phi)
 {
   return 1 + 4 * phi * kolafa(phi);
 }
@@ -41,15 +41,15 @@ double gg_compressibility_kolafa2004(double phi)
 static gg_status answer_with(double (*chi_of)(double), const char *name, const gg_model *m, gg_theory_answer *a,
                              gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, name, err));
-  if (!m->elastic) return gg_refuse(err, name, "describes elastic grains; collisions of this scene lose energy");
-  if (m->boltzmann) return gg_refuse(err, name, "describes dense fluids; this scene has phi = 0");
+  GG_TRY(gg_theory_require_one_species(m, name, err));
+  if (!m->elastic) return gg_theory_reject(err, name, "describes elastic grains; collisions of this scene lose energy");
+  if (m->boltzmann) return gg_theory_reject(err, name, "describes dense fluids; this scene has phi = 0");
   if (m->phi > GG_FREEZING_PHI)
-    return gg_refuse(err, name, "describes the fluid, stable up to phi = %g; this scene has %g", GG_FREEZING_PHI,
-                     m->phi);
+    return gg_theory_reject(err, name, "describes the fluid, stable up to phi = %g; this scene has %g", GG_FREEZING_PHI,
+                            m->phi);
   double T = m->temperature0, p = m->density * T, chi = chi_of(m->phi);
-  gg_answer_pressure(m, T, p, p * 4 * m->phi * chi, a);
-  gg_answer_collisions_one(m, T, a);
+  gg_theory_answer_pressure(m, T, p, p * 4 * m->phi * chi, a);
+  gg_theory_answer_collisions_one(m, T, a);
   a->value[GG_Q_COLLISION_RATE] *= chi / m->chi[0];
   a->value[GG_Q_MEAN_FREE_PATH] *= m->chi[0] / chi;
   a->value[GG_Q_KNUDSEN] *= m->chi[0] / chi;
@@ -58,20 +58,20 @@ static gg_status answer_with(double (*chi_of)(double), const char *name, const g
 
 static gg_status evaluate_carnahan_starling(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  return answer_with(carnahan_starling, gg_carnahan_starling1969.name, m, a, err);
+  return answer_with(carnahan_starling, gg_theory_carnahan_starling1969.name, m, a, err);
 }
 
 static gg_status evaluate_kolafa(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  return answer_with(kolafa, gg_kolafa2004.name, m, a, err);
+  return answer_with(kolafa, gg_theory_kolafa2004.name, m, a, err);
 }
 
 static gg_status evaluate_pieprzyk(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  return answer_with(pieprzyk, gg_pieprzyk2019.name, m, a, err);
+  return answer_with(pieprzyk, gg_theory_pieprzyk2019.name, m, a, err);
 }
 
-const gg_theory gg_carnahan_starling1969 = {
+const gg_theory gg_theory_carnahan_starling1969 = {
     .name = "carnahan_starling1969",
     .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Equation of state of elastic hard spheres",
@@ -82,7 +82,7 @@ const gg_theory gg_carnahan_starling1969 = {
     .evaluate = evaluate_carnahan_starling,
 };
 
-const gg_theory gg_kolafa2004 = {
+const gg_theory gg_theory_kolafa2004 = {
     .name = "kolafa2004",
     .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Accurate equation of state of elastic hard spheres",
@@ -91,7 +91,7 @@ const gg_theory gg_kolafa2004 = {
     .evaluate = evaluate_kolafa,
 };
 
-const gg_theory gg_pieprzyk2019 = {
+const gg_theory gg_theory_pieprzyk2019 = {
     .name = "pieprzyk2019",
     .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Accurate equation of state of elastic hard spheres, refitted",

@@ -20,43 +20,43 @@
 
 static const char name[] = "garzo_dufty1999";
 
-double gg_a2_van_noije_ernst(double e)
+double gg_theory_a2_van_noije_ernst(double e)
 {
   return 16 * (1 - e) * (1 - 2 * e * e) / (81 - 17 * e + 30 * e * e * (1 - e));
 }
 
-double gg_a2_montanero_santos(double e)
+double gg_theory_a2_montanero_santos(double e)
 {
   return 16 * (1 - e) * (1 - 2 * e * e) / (97 - 33 * e - 2 * e * e * (1 - e));
 }
 
-double gg_a2_white_noise(double e)
+double gg_theory_a2_white_noise(double e)
 {
   return 16 * (1 - e) * (1 - 2 * e * e) / (241 - 177 * e + 30 * e * e * (1 - e));
 }
 
-double gg_thermostat_share(const gg_model *m)
+double gg_theory_thermostat_share(const gg_model *m)
 {
   static const double share[] = {[GG_NO_THERMOSTAT] = 0.5, [GG_GAUSSIAN] = 1, [GG_WHITE_NOISE] = 0};
-  return share[gg_thermostat_of(m)];
+  return share[gg_common_thermostat_of(m)];
 }
 
 /* White noise is set to balance Maxwellians at temperature0 (thermostat.h), which lose less by 1 + 3c/32. */
 static double temperature_of(const gg_model *m, double a2)
 {
-  return m->temperature0 * (gg_thermostat_of(m) == GG_WHITE_NOISE ? pow(1 + 3. / 16 * a2, -2. / 3) : 1);
+  return m->temperature0 * (gg_common_thermostat_of(m) == GG_WHITE_NOISE ? pow(1 + 3. / 16 * a2, -2. / 3) : 1);
 }
 
 static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
 {
-  double e = m->e[0], T = temperature_of(m, a2), p = m->density * T, pc = p * 2 * (1 + e) * gg_phi_chi(m);
+  double e = m->e[0], T = temperature_of(m, a2), p = m->density * T, pc = p * 2 * (1 + e) * gg_theory_phi_chi(m);
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
   a->value[GG_Q_COOLING_RATE] = 5. / 12 * m->chi[0] * (1 - e * e) * (1 + 3. / 16 * a2);
   if (m->linear_response) return; /* no temperature of its own: it grows */
-  gg_answer_temperature(m, T, NAN, a);
-  gg_answer_pressure(m, T, p, pc, a);
-  gg_answer_collisions_one(m, T, a);
+  gg_theory_answer_temperature(m, T, NAN, a);
+  gg_theory_answer_pressure(m, T, p, pc, a);
+  gg_theory_answer_collisions_one(m, T, a);
   double rate = 1 - a2 / 16, speed = 1 - a2 / 8;
   a->value[GG_Q_COLLISION_RATE] *= rate;
   a->value[GG_Q_MEAN_FREE_PATH] *= speed / rate;
@@ -66,9 +66,10 @@ static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
 /* `weight`: nu_eta is Maxwellians' times 1 + weight a_2. */
 static void answer_viscosity(const gg_model *m, double a2, double weight, gg_theory_answer *a)
 {
-  double e = m->e[0], y = gg_phi_chi(m), c = 2 * a2;
+  double e = m->e[0], y = gg_theory_phi_chi(m), c = 2 * a2;
   double nu = m->chi[0] * (1 - (1 - e) * (1 - e) / 4) * (1 + weight * a2);
-  double eta_k = (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_thermostat_share(m) * a->value[GG_Q_COOLING_RATE]);
+  double eta_k =
+      (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_theory_thermostat_share(m) * a->value[GG_Q_COOLING_RATE]);
   double bulk = 128 / (5 * M_PI) * m->phi * y * (1 + e) * (1 - c / 32);
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = eta_k;
   a->value[GG_Q_VISCOSITY_REDUCED] = eta_k * (1 + 0.8 * (1 + e) * y) + 0.6 * bulk;
@@ -78,16 +79,16 @@ static const double standard = -1. / 32, modified = 7. / 16;
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, name, err));
-  GG_TRY(gg_require_smooth(m, name, err));
-  bool noisy = gg_thermostat_of(m) == GG_WHITE_NOISE;
-  double a2 = noisy ? gg_a2_white_noise(m->e[0]) : gg_a2_van_noije_ernst(m->e[0]);
+  GG_TRY(gg_theory_require_one_species(m, name, err));
+  GG_TRY(gg_theory_require_smooth(m, name, err));
+  bool noisy = gg_common_thermostat_of(m) == GG_WHITE_NOISE;
+  double a2 = noisy ? gg_theory_a2_white_noise(m->e[0]) : gg_theory_a2_van_noije_ernst(m->e[0]);
   answer_sonine(m, a2, a);
   answer_viscosity(m, a2, standard, a);
   return GG_OK;
 }
 
-const gg_theory gg_garzo_dufty1999 = {
+const gg_theory gg_theory_garzo_dufty1999 = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Cooling and viscosity of smooth inelastic spheres",
@@ -98,20 +99,20 @@ const gg_theory gg_garzo_dufty1999 = {
                    "spheres, any density with molecular chaos; first Sonine order, linear in a2 (van Noije and Ernst "
                    "1998). Viscosity of linear response, counted in eta_0 = n T/nu_0.",
     .evaluate = evaluate,
-    .beyond = gg_beyond_first_sonine,
+    .beyond = gg_theory_beyond_first_sonine,
 };
 
 static const char name_ms[] = "montanero_santos2000";
 
 static gg_status with_other_a2(const gg_model *m, const char *theory, double weight, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, theory, err));
-  GG_TRY(gg_require_smooth(m, theory, err));
-  if (gg_thermostat_of(m) == GG_WHITE_NOISE)
-    return gg_refuse(err, theory,
-                     "is given here for free cooling and the Gaussian thermostat; this scene is heated by "
-                     "white noise");
-  double a2 = gg_a2_montanero_santos(m->e[0]);
+  GG_TRY(gg_theory_require_one_species(m, theory, err));
+  GG_TRY(gg_theory_require_smooth(m, theory, err));
+  if (gg_common_thermostat_of(m) == GG_WHITE_NOISE)
+    return gg_theory_reject(err, theory,
+                            "is given here for free cooling and the Gaussian thermostat; this scene is heated by "
+                            "white noise");
+  double a2 = gg_theory_a2_montanero_santos(m->e[0]);
   answer_sonine(m, a2, a);
   answer_viscosity(m, a2, weight, a);
   return GG_OK;
@@ -129,7 +130,7 @@ static gg_status evaluate_modified(const gg_model *m, gg_theory_answer *a, gg_er
   return with_other_a2(m, name_modified, modified, a, err);
 }
 
-const gg_theory gg_montanero_santos2000 = {
+const gg_theory gg_theory_montanero_santos2000 = {
     .name = name_ms,
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Fourth cumulant, the other linearisation",
@@ -140,7 +141,7 @@ const gg_theory gg_montanero_santos2000 = {
     .evaluate = evaluate_ms,
 };
 
-const gg_theory gg_garzo_santos_montanero2007 = {
+const gg_theory gg_theory_garzo_santos_montanero2007 = {
     .name = name_modified,
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Viscosity about the cooling state's own distribution",

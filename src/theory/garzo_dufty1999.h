@@ -5,11 +5,11 @@
 #include "theory/answer.h"
 
 /* Fourth cumulant a_2 of free cooling in two linearisations, and of a gas heated by white noise. */
-double gg_a2_van_noije_ernst(double e);
-double gg_a2_montanero_santos(double e);
-double gg_a2_white_noise(double e);
+double gg_theory_a2_van_noije_ernst(double e);
+double gg_theory_a2_montanero_santos(double e);
+double gg_theory_a2_white_noise(double e);
 
 /* s in nu_eta - s zeta: 1/2 for cooling, 1 for a Gaussian thermostat, 0 for white noise. */
-double gg_thermostat_share(const gg_model *model);
+double gg_theory_thermostat_share(const gg_model *model);
 
 #endif

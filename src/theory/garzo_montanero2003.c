@@ -27,18 +27,18 @@ static void cumulants(const gg_model *m, gg_linearisation how, const double a[],
 {
   double A[GG_BINARY][GG_BINARY], b[GG_BINARY];
   for (int i = 0; i < 2; i++) {
-    gg_linear z = gg_zeta(m, i, a), r = gg_rate_v4(m, i, a);
+    gg_linear z = gg_theory_zeta(m, i, a), r = gg_theory_rate_v4(m, i, a);
     double v4 = 15 * a[i] * a[i];
     for (int j = 0; j < 2; j++) A[i][j] = r.slope[j] + 2 * v4 * z.slope[j];
     A[i][i] += how == GG_LINEAR ? v4 * z.at0 : -r.at0 / 2;
     b[i] = -(r.at0 + 2 * v4 * z.at0);
   }
-  gg_solve2(A, b, c);
+  gg_theory_solve2(A, b, c);
 }
 
 static double zeta_with(const gg_model *m, int i, const double a[], const double c[])
 {
-  gg_linear z = gg_zeta(m, i, a);
+  gg_linear z = gg_theory_zeta(m, i, a);
   return z.at0 + z.slope[0] * c[0] + z.slope[1] * c[1];
 }
 
@@ -51,17 +51,17 @@ static double difference(double ratio, void *params)
 {
   const equipartition *q = params;
   double a[GG_BINARY], c[GG_BINARY];
-  gg_partial_spreads(q->model, 1, ratio, a);
+  gg_theory_partial_spreads(q->model, 1, ratio, a);
   cumulants(q->model, q->how, a, c);
   return zeta_with(q->model, 0, a, c) - zeta_with(q->model, 1, a, c);
 }
 
-gg_mixture_state gg_mixture_cooling(const gg_model *m, gg_linearisation how, double T)
+gg_mixture_state gg_theory_mixture_cooling(const gg_model *m, gg_linearisation how, double T)
 {
   equipartition q = {m, how};
   gg_mixture_state s;
-  double ratio = gg_solve_ratio(difference, &q);
-  gg_partial_spreads(m, T, ratio, s.a);
+  double ratio = gg_theory_solve_ratio(difference, &q);
+  gg_theory_partial_spreads(m, T, ratio, s.a);
   cumulants(m, how, s.a, s.c);
   s.zeta = zeta_with(m, 0, s.a, s.c);
   return s;
@@ -76,24 +76,24 @@ static double sigma3(const gg_model *m, int o)
 static double kinetic_viscosity(const gg_model *m, const gg_mixture_state *s, double share, double eta[GG_BINARY])
 {
   double tau[GG_BINARY][GG_BINARY], source[GG_BINARY], rho[GG_BINARY];
-  for (int i = 0; i < 2; i++) rho[i] = m->density * gg_fraction(m, i) * m->mass[i];
-  gg_stress_relaxation(m, s->a, tau);
+  for (int i = 0; i < 2; i++) rho[i] = m->density * gg_theory_fraction(m, i) * m->mass[i];
+  gg_theory_stress_relaxation(m, s->a, tau);
   for (int i = 0; i < 2; i++) {
     source[i] = rho[i] * s->a[i];
     for (int j = 0; j < 2; j++) {
       int o = gg_pair(i, j);
       double B = (1 + m->e[o]) * m->mass[j] / (m->mass[i] + m->mass[j]), S2 = s->a[i] + s->a[j];
-      double F = 4 * M_PI * m->density * gg_fraction(m, j) * sigma3(m, o);
+      double F = 4 * M_PI * m->density * gg_theory_fraction(m, j) * sigma3(m, o);
       source[i] -= rho[i] / 2 * F * (4 * s->a[i] * B / 15 - B * B * S2 / 5);
       tau[i][j] *= rho[i] / rho[j];
     }
     tau[i][i] -= share * s->zeta;
   }
-  gg_solve2(tau, source, eta);
+  gg_theory_solve2(tau, source, eta);
   return eta[0] + eta[1];
 }
 
-gg_mixture_viscosity gg_mixture_viscosity_of(const gg_model *m, const gg_mixture_state *s, double share)
+gg_mixture_viscosity gg_theory_mixture_viscosity_of(const gg_model *m, const gg_mixture_state *s, double share)
 {
   double eta[GG_BINARY];
   gg_mixture_viscosity v;
@@ -101,7 +101,7 @@ gg_mixture_viscosity gg_mixture_viscosity_of(const gg_model *m, const gg_mixture
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) {
       int o = gg_pair(i, j);
-      double ni = m->density * gg_fraction(m, i), nj = m->density * gg_fraction(m, j);
+      double ni = m->density * gg_theory_fraction(m, i), nj = m->density * gg_theory_fraction(m, j);
       double reduced = m->mass[i] * m->mass[j] / (m->mass[i] + m->mass[j]), S = sqrt(s->a[i] + s->a[j]);
       double flow = 0.5 * (eta[i] / (ni * m->mass[i]) + eta[j] / (nj * m->mass[j]));
       v.total +=
@@ -118,7 +118,7 @@ static double collisional_pressure(const gg_model *m, const gg_mixture_state *s)
     for (int j = 0; j < 2; j++) {
       int o = gg_pair(i, j);
       double reduced = m->mass[i] * m->mass[j] / (m->mass[i] + m->mass[j]);
-      sum += gg_fraction(m, i) * gg_fraction(m, j) * sigma3(m, o) * (1 + m->e[o]) * reduced * s->a[i];
+      sum += gg_theory_fraction(m, i) * gg_theory_fraction(m, j) * sigma3(m, o) * (1 + m->e[o]) * reduced * s->a[i];
     }
   return 2 * M_PI / 3 * m->density * m->density * sum;
 }
@@ -127,25 +127,25 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
                            gg_error *err)
 {
   if (m->n_species != 2)
-    return gg_refuse(err, theory, "describes binary mixtures; this scene has %d species", m->n_species);
-  GG_TRY(gg_require_smooth(m, theory, err));
-  if (gg_thermostat_of(m) == GG_WHITE_NOISE)
-    return gg_refuse(err, theory,
-                     "describes free cooling and the Gaussian thermostat; this scene is heated by white "
-                     "noise");
+    return gg_theory_reject(err, theory, "describes binary mixtures; this scene has %d species", m->n_species);
+  GG_TRY(gg_theory_require_smooth(m, theory, err));
+  if (gg_common_thermostat_of(m) == GG_WHITE_NOISE)
+    return gg_theory_reject(err, theory,
+                            "describes free cooling and the Gaussian thermostat; this scene is heated by white "
+                            "noise");
   double T = m->linear_response ? 0.5 : m->temperature0;
-  gg_mixture_state s = gg_mixture_cooling(m, how, T);
-  if (isnan(s.zeta)) return gg_refuse(err, theory, "finds no common cooling rate for this mixture");
-  gg_mixture_viscosity v = gg_mixture_viscosity_of(m, &s, gg_thermostat_share(m));
-  double nu0 = gg_model_nu0(m, T), p = m->density * T, pc = collisional_pressure(m, &s);
+  gg_mixture_state s = gg_theory_mixture_cooling(m, how, T);
+  if (isnan(s.zeta)) return gg_theory_reject(err, theory, "finds no common cooling rate for this mixture");
+  gg_mixture_viscosity v = gg_theory_mixture_viscosity_of(m, &s, gg_theory_thermostat_share(m));
+  double nu0 = gg_common_model_nu0(m, T), p = m->density * T, pc = collisional_pressure(m, &s);
   for (int i = 0; i < 2; i++) a->value[GG_Q_CUMULANT + i] = s.c[i];
   a->value[GG_Q_COOLING_RATE] = s.zeta / nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = nu0 * v.total / p;
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = nu0 * v.kinetic / p;
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = m->mass[0] * s.a[0] / (m->mass[1] * s.a[1]);
   if (m->linear_response) return GG_OK; /* no temperature of its own: it grows */
-  gg_answer_partial_temperatures(m, s.a, a);
-  gg_answer_pressure(m, T, p, pc, a);
+  gg_theory_answer_partial_temperatures(m, s.a, a);
+  gg_theory_answer_pressure(m, T, p, pc, a);
   return GG_OK;
 }
 
@@ -154,7 +154,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   return answer_in(m, name, GG_LINEAR, a, err);
 }
 
-const gg_theory gg_garzo_montanero2003 = {
+const gg_theory gg_theory_garzo_montanero2003 = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Cooling and viscosity of smooth binary mixtures",
@@ -166,7 +166,7 @@ const gg_theory gg_garzo_montanero2003 = {
         "for all pairs, the viscosity within 1 % of Enskog's equation (5 % high at e = 0.6, 0.9, 0.99); c some 10 % "
         "high at e = 0.5.",
     .evaluate = evaluate,
-    .beyond = gg_beyond_first_sonine,
+    .beyond = gg_theory_beyond_first_sonine,
 };
 
 static const char name_ms[] = "garzo_montanero2003_ms";
@@ -176,7 +176,7 @@ static gg_status evaluate_ms(const gg_model *m, gg_theory_answer *a, gg_error *e
   return answer_in(m, name_ms, GG_DIVIDED, a, err);
 }
 
-const gg_theory gg_garzo_montanero2003_ms = {
+const gg_theory gg_theory_garzo_montanero2003_ms = {
     .name = name_ms,
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Binary mixtures, the other linearisation of c_1 and c_2",

@@ -11,12 +11,12 @@ typedef struct gg_mixture_state {
   double a[GG_BINARY], c[GG_BINARY]; /* T_i/m_i; fourth cumulants */
   double zeta;                       /* common cooling rate; NaN if there is none */
 } gg_mixture_state;
-gg_mixture_state gg_mixture_cooling(const gg_model *model, gg_linearisation how, double T);
+gg_mixture_state gg_theory_mixture_cooling(const gg_model *model, gg_linearisation how, double T);
 
 /* Shear viscosity; share: 1/2 cooling, 1 heated. */
 typedef struct gg_mixture_viscosity {
   double kinetic, total;
 } gg_mixture_viscosity;
-gg_mixture_viscosity gg_mixture_viscosity_of(const gg_model *model, const gg_mixture_state *state, double share);
+gg_mixture_viscosity gg_theory_mixture_viscosity_of(const gg_model *model, const gg_mixture_state *state, double share);
 
 #endif

@@ -25,14 +25,14 @@ static void report_temperatures(const gg_model *m, const gg_gaussian state[], gg
 {
   double T[GG_MAX_SPECIES], sum = 0, rotational = 0, spin = 0;
   for (int i = 0; i < m->n_species; i++) {
-    double x = gg_fraction(m, i);
-    T[i] = m->mass[i] * gg_trace(state[i].M) / 3;
+    double x = gg_theory_fraction(m, i);
+    T[i] = m->mass[i] * gg_theory_trace(state[i].M) / 3;
     sum += x * T[i];
-    rotational += x * m->inertia[i] * m->mass[i] * gg_trace(state[i].Theta) / 3;
+    rotational += x * m->inertia[i] * m->mass[i] * gg_theory_trace(state[i].Theta) / 3;
     spin += x * state[i].spin * 2 / m->diameter[i];
   }
-  gg_answer_temperature(m, sum, rotational / sum, a);
-  gg_answer_rolling(m, spin, a);
+  gg_theory_answer_temperature(m, sum, rotational / sum, a);
+  gg_theory_answer_rolling(m, spin, a);
   if (m->n_species == 1) return;
   for (int i = 0; i < m->n_species; i++) a->value[GG_Q_PARTIAL_TEMPERATURE + i] = T[i];
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = T[0] / T[1];
@@ -43,16 +43,16 @@ static void report(const gg_model *m, const gg_gaussian state[], gg_theory_answe
   gg_gaussian_rates r;
   gg_tensor Pk = {{{0}}};
   double frequency = 0, speed = 0;
-  gg_gaussian_rates_at(m, state, &r);
+  gg_theory_gaussian_rates_at(m, state, &r);
   for (int i = 0; i < m->n_species; i++) {
-    double x = gg_fraction(m, i);
+    double x = gg_theory_fraction(m, i);
     frequency += x * r.frequency[i];
     speed += x * r.speed[i];
     for (int j = 0; j < 3; j++)
       for (int k = 0; k < 3; k++) Pk.at[j][k] += x * m->density * m->mass[i] * state[i].M.at[j][k];
   }
   report_temperatures(m, state, a);
-  gg_answer_stress(m, a->value[GG_Q_TEMPERATURE], stress_of(Pk), stress_of(r.Pc), a);
+  gg_theory_answer_stress(m, a->value[GG_Q_TEMPERATURE], stress_of(Pk), stress_of(r.Pc), a);
   a->value[GG_Q_COLLISION_RATE] = frequency;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / frequency;
   if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / frequency / cbrt(m->volume);
@@ -61,16 +61,16 @@ static void report(const gg_model *m, const gg_gaussian state[], gg_theory_answe
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_constant_beta(m, name, err));
-  GG_TRY(gg_require_steady_shear(m, name, err));
+  GG_TRY(gg_theory_require_constant_beta(m, name, err));
+  GG_TRY(gg_theory_require_steady_shear(m, name, err));
   gg_gaussian state[GG_MAX_SPECIES];
-  double left = gg_gaussian_steady(m, state);
-  if (!(left < steady_residual)) return gg_refuse(err, name, "found no steady state (residual %.1e)", left);
+  double left = gg_theory_gaussian_steady(m, state);
+  if (!(left < steady_residual)) return gg_theory_reject(err, name, "found no steady state (residual %.1e)", left);
   report(m, state, a);
   return GG_OK;
 }
 
-const gg_theory gg_gaussian_closure = {
+const gg_theory gg_theory_gaussian_closure = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_USF),
     .title = "Anisotropic Gaussian closure of Enskog's equation",
@@ -83,5 +83,5 @@ const gg_theory gg_gaussian_closure = {
         "viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1; 4 % for dilute, half-rough grains); N2 within "
         "15 %.",
     .evaluate = evaluate,
-    .beyond = gg_beyond_gaussian,
+    .beyond = gg_theory_beyond_gaussian,
 };

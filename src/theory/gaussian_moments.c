@@ -91,7 +91,7 @@ static gg_tensor cross_tensor(gg_vec k)
   return (gg_tensor){{{0, -k.z, k.y}, {k.z, 0, -k.x}, {-k.y, k.x, 0}}};
 }
 
-double gg_trace(gg_tensor A)
+double gg_theory_trace(gg_tensor A)
 {
   return A.at[0][0] + A.at[1][1] + A.at[2][2];
 }
@@ -142,7 +142,7 @@ static impulse impulse_at(const pair *p, gg_vec k)
   f.JC = product(L, moment(I, v, g, C, p->one->M));
   f.JJ = product(product(L, ugg), L);
   if (jt == 0) return f;
-  f.loss += p->loss_t * (gg_trace(ugg) - normal);
+  f.loss += p->loss_t * (gg_theory_trace(ugg) - normal);
   gg_tensor Sgs = product(X, scaled(-1, p->one->Theta));
   f.kJ = gg_scale(jt, gg_cross(k, ug));
   f.kJs = scaled(jt, product(X, moment(I, v, g, s, Sgs)));
@@ -210,12 +210,12 @@ static void drop_odd(gg_tensor *A)
   A->at[0][2] = A->at[2][0] = A->at[1][2] = A->at[2][1] = 0;
 }
 
-void gg_gaussian_rates_at(const gg_model *m, const gg_gaussian *state, gg_gaussian_rates *r)
+void gg_theory_gaussian_rates_at(const gg_model *m, const gg_gaussian *state, gg_gaussian_rates *r)
 {
   memset(r, 0, sizeof *r);
   gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POLAR);
   if (!table) { /* whoever asked for the theory is told */
-    gg_memory_lacked();
+    gg_base_memory_lacked();
     return;
   }
   for (size_t a = 0; a < POLAR; a++) {
@@ -232,7 +232,7 @@ void gg_gaussian_rates_at(const gg_model *m, const gg_gaussian *state, gg_gaussi
   for (int i = 0; i < m->n_species; i++) drop_odd(&r->change[i].M), drop_odd(&r->change[i].Theta);
 }
 
-bool gg_species_spins(const gg_model *m, int species)
+bool gg_theory_species_spins(const gg_model *m, int species)
 {
   for (int j = 0; j < m->n_species; j++)
     if (m->contact[species][j].jt > 0) return true;

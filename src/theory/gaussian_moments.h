@@ -27,15 +27,15 @@ typedef struct gg_gaussian_rates {
 
 /* Smooth or rough, any number of species (not frictional); shear_rate and sizes from the model. One state a
  * species; the spins of one that never spins are ignored. */
-void gg_gaussian_rates_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates);
+void gg_theory_gaussian_rates_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates);
 
 /* The steady state of uniform shear: the largest residual left, of changes per mean free time, and of the balance of
  * energy and of shear stresses a thousandth of the relative ones, which small stresses do not hide (NaN: no memory). */
-double gg_gaussian_steady(const gg_model *model, gg_gaussian *state);
+double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state);
 
-double gg_trace(gg_tensor A);
+double gg_theory_trace(gg_tensor A);
 
 /* Whether any collision of this species changes its spin. */
-bool gg_species_spins(const gg_model *model, int species);
+bool gg_theory_species_spins(const gg_model *model, int species);
 
 #endif

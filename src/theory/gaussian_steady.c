@@ -74,7 +74,7 @@ static void unpack(const closure *c, const gsl_vector *x, gg_gaussian *state)
     double scale = c->T / c->model->mass[i];
     state[i] = (gg_gaussian){.M = unpack_tensor(c, x, at, scale)};
     at += PER_TENSOR;
-    if (!gg_species_spins(c->model, i)) continue;
+    if (!gg_theory_species_spins(c->model, i)) continue;
     state[i].Theta = unpack_tensor(c, x, at, scale);
     at += PER_TENSOR;
     if (!c->model->boltzmann) state[i].spin = rolling(c->model, i);
@@ -89,7 +89,7 @@ static void pack(const closure *c, const gg_gaussian *state, gsl_vector *x)
     double scale = c->T / c->model->mass[i];
     pack_tensor(c, state[i].M, scale, x, at);
     at += PER_TENSOR;
-    if (!gg_species_spins(c->model, i)) continue;
+    if (!gg_theory_species_spins(c->model, i)) continue;
     pack_tensor(c, state[i].Theta, scale, x, at);
     at += PER_TENSOR;
     if (c->turns) set_unknown(x, at++, (state[i].spin - rolling(c->model, i)) / c->spin_unit);
@@ -128,7 +128,7 @@ static void production(const gg_model *m, const gg_gaussian *state, gg_productio
 {
   gg_gaussian_rates r;
   gg_gaussian *change = p->change;
-  gg_gaussian_rates_at(m, state, &r);
+  gg_theory_gaussian_rates_at(m, state, &r);
   double stress = r.Pc.at[1][0];
   for (int i = 0; i < m->n_species; i++) {
     double xy = state[i].M.at[0][1], yy = state[i].M.at[1][1];
@@ -136,11 +136,11 @@ static void production(const gg_model *m, const gg_gaussian *state, gg_productio
     change[i].M.at[0][0] -= 2 * m->shear_rate * xy;
     change[i].M.at[0][1] -= m->shear_rate * yy;
     change[i].M.at[1][0] -= m->shear_rate * yy;
-    stress += m->density * gg_fraction(m, i) * m->mass[i] * xy;
+    stress += m->density * gg_theory_fraction(m, i) * m->mass[i] * xy;
     double time = time_of(m, &r, i);
     p->shear[i] = 3 * m->shear_rate * time;
     scale_tensor(&change[i].M, time);
-    if (!gg_species_spins(m, i)) continue;
+    if (!gg_theory_species_spins(m, i)) continue;
     time /= grip_of(m, i);
     scale_tensor(&change[i].Theta, time);
     change[i].spin *= time;
@@ -151,7 +151,7 @@ static void production(const gg_model *m, const gg_gaussian *state, gg_productio
 /* Trace and deviations apart: energy is the slow equation. `shear`: what drives the last. */
 static void put_tensor(gg_tensor A, double unit, double shear, gsl_vector *f, size_t at)
 {
-  gsl_vector_set(f, at, gg_trace(A) / unit);
+  gsl_vector_set(f, at, gg_theory_trace(A) / unit);
   gsl_vector_set(f, at + 1, (A.at[1][1] - A.at[0][0]) / unit);
   gsl_vector_set(f, at + 2, (A.at[2][2] - A.at[0][0]) / unit);
   gsl_vector_set(f, at + 3, relative * A.at[0][1] / (unit * shear));
@@ -169,11 +169,11 @@ static int residual(const gsl_vector *x, void *params, gsl_vector *f)
   const gg_gaussian *change = p.change;
   size_t at = 0;
   for (int i = 0; i < c->model->n_species; i++) {
-    put_tensor(change[i].M, gg_trace(state[i].M) / 3, p.shear[i], f, at);
+    put_tensor(change[i].M, gg_theory_trace(state[i].M) / 3, p.shear[i], f, at);
     if (i == c->most) gsl_vector_set(f, at, relative * p.excess);
     at += PER_TENSOR;
-    if (!gg_species_spins(c->model, i)) continue;
-    put_tensor(change[i].Theta, gg_trace(state[i].Theta) / 3, p.shear[i], f, at);
+    if (!gg_theory_species_spins(c->model, i)) continue;
+    put_tensor(change[i].Theta, gg_theory_trace(state[i].Theta) / 3, p.shear[i], f, at);
     at += PER_TENSOR;
     if (c->turns) gsl_vector_set(f, at++, relative * change[i].spin / rolling(c->model, i));
   }
@@ -186,11 +186,11 @@ static int residual(const gsl_vector *x, void *params, gsl_vector *f)
 static closure closure_of(const gg_model *m)
 {
   closure c = {.model = m};
-  gg_grain grain = gg_grain_of(m);
-  double ratio = gg_lun_ratio(grain), mass = 0;
-  gg_lun_functions lun = gg_lun_functions_at((gg_lun_state){m->density, m->phi, m->chi[0], grain, ratio});
+  gg_grain grain = gg_theory_grain_of(m);
+  double ratio = gg_theory_lun_ratio(grain), mass = 0;
+  gg_lun_functions lun = gg_theory_lun_functions_at((gg_lun_state){m->density, m->phi, m->chi[0], grain, ratio});
   for (int i = 0; i < m->n_species; i++) {
-    mass += gg_fraction(m, i) * m->mass[i];
+    mass += gg_theory_fraction(m, i) * m->mass[i];
     if (m->n_of[i] > m->n_of[c.most]) c.most = i;
   }
   c.T = mass * lun.f2 / lun.f5;
@@ -273,11 +273,11 @@ static size_t unknowns(const closure *c)
 {
   const gg_model *m = c->model;
   size_t n = 0, mean_spin = c->turns ? 1 : 0;
-  for (int i = 0; i < m->n_species; i++) n += PER_TENSOR + (gg_species_spins(m, i) ? PER_TENSOR + mean_spin : 0);
+  for (int i = 0; i < m->n_species; i++) n += PER_TENSOR + (gg_theory_species_spins(m, i) ? PER_TENSOR + mean_spin : 0);
   return n;
 }
 
-double gg_gaussian_steady(const gg_model *model, gg_gaussian *state)
+double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
 {
   closure c = closure_of(model);
   size_t size = unknowns(&c);

@@ -21,17 +21,17 @@ static double viscous_length2(gg_model m)
   m.linear_response = false;
   m.shear_rate = 0;
   m.temperature0 = 1;
-  double unit = 1 / gg_model_nu0(&m, 1); /* eta_0/(n m) over nu_0 is unit^2 */
+  double unit = 1 / gg_common_model_nu0(&m, 1); /* eta_0/(n m) over nu_0 is unit^2 */
   if (m.rule == GG_SMOOTH) {
-    if (gg_theory_evaluate(&gg_garzo_dufty1999, &m, &a, NULL) != GG_OK) return NAN;
+    if (gg_theory_evaluate(&gg_theory_garzo_dufty1999, &m, &a, NULL) != GG_OK) return NAN;
     return unit * unit * a.value[GG_Q_VISCOSITY_REDUCED] / a.value[GG_Q_COOLING_RATE];
   }
-  if (gg_theory_evaluate(&gg_huthmann_zippelius1997, &m, &a, NULL) != GG_OK) return NAN;
-  gg_lun_state state = {m.density, m.phi, m.chi[0], gg_grain_of(&m), a.value[GG_Q_TEMPERATURE_RATIO]};
-  return gg_lun_functions_at(state).f2 / m.density * unit / a.value[GG_Q_COOLING_RATE];
+  if (gg_theory_evaluate(&gg_theory_huthmann_zippelius1997, &m, &a, NULL) != GG_OK) return NAN;
+  gg_lun_state state = {m.density, m.phi, m.chi[0], gg_theory_grain_of(&m), a.value[GG_Q_TEMPERATURE_RATIO]};
+  return gg_theory_lun_functions_at(state).f2 / m.density * unit / a.value[GG_Q_COOLING_RATE];
 }
 
-double gg_clustering_length(const gg_model *m)
+double gg_theory_clustering_length(const gg_model *m)
 {
   if (m->elastic) return INFINITY;
   if (m->n_species > 1 || m->rule == GG_FRICTIONAL) return NAN;
@@ -40,16 +40,17 @@ double gg_clustering_length(const gg_model *m)
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, name, err));
-  GG_TRY(gg_require_constant_beta(m, name, err));
-  if (m->elastic) return gg_refuse(err, name, "describes gases that lose energy; collisions of this scene do not");
-  double length = gg_clustering_length(m);
-  if (!isfinite(length)) return gg_refuse(err, name, "finds no viscosity and cooling rate to make a length of");
+  GG_TRY(gg_theory_require_one_species(m, name, err));
+  GG_TRY(gg_theory_require_constant_beta(m, name, err));
+  if (m->elastic)
+    return gg_theory_reject(err, name, "describes gases that lose energy; collisions of this scene do not");
+  double length = gg_theory_clustering_length(m);
+  if (!isfinite(length)) return gg_theory_reject(err, name, "finds no viscosity and cooling rate to make a length of");
   a->value[GG_Q_CLUSTERING_LENGTH] = length;
   return GG_OK;
 }
 
-const gg_theory gg_goldhirsch_zanetti1993 = {
+const gg_theory gg_theory_goldhirsch_zanetti1993 = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_USF) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Size above which cooling gases form vortices and clusters",

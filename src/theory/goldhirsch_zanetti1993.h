@@ -7,6 +7,6 @@
 /* Box length above which free cooling at this density breaks up into vortices and clusters, in d of species 1 (in
  * 1/(n d^2) in the Boltzmann limit): INFINITY for elastic grains, NaN for mixtures and friction, where it is not known.
  */
-double gg_clustering_length(const gg_model *model);
+double gg_theory_clustering_length(const gg_model *model);
 
 #endif

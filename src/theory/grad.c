@@ -18,35 +18,36 @@ static const char name[] = "grad";
 
 static gg_status one_species(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  gg_grain g = gg_grain_of(m);
-  double ratio = gg_lun_ratio(g), h = g.eta1 + g.eta2;
-  double zeta = -5. / 12 * gg_exchange_at(g, INFINITY, ratio).translation;
+  gg_grain g = gg_theory_grain_of(m);
+  double ratio = gg_theory_lun_ratio(g), h = g.eta1 + g.eta2;
+  double zeta = -5. / 12 * gg_theory_exchange_at(g, INFINITY, ratio).translation;
   double nu = h * (2 - h) + g.eta2 * g.eta2 * ratio / (6 * g.K);
-  if (!(nu > zeta)) return gg_refuse(err, name, "finds no steady state: grains lose energy faster than stress relaxes");
+  if (!(nu > zeta))
+    return gg_theory_reject(err, name, "finds no steady state: grains lose energy faster than stress relaxes");
   double shear = sqrt(1.5 * zeta * nu * nu / (nu - zeta)); /* a* */
-  double sqrtT = m->shear_rate / (shear * gg_model_nu0(m, 1)), T = sqrtT * sqrtT, p = m->density * T;
+  double sqrtT = m->shear_rate / (shear * gg_common_model_nu0(m, 1)), T = sqrtT * sqrtT, p = m->density * T;
   double yy = p * (1 - zeta / nu), xy = -p * (nu - zeta) * shear / (nu * nu);
-  gg_answer_temperature(m, T, ratio, a);
-  gg_answer_stress(m, T, (gg_stress){3 * p - 2 * yy, yy, yy, xy, xy}, GG_STRESS_NEGLECTED, a);
-  gg_answer_collisions_one(m, T, a);
+  gg_theory_answer_temperature(m, T, ratio, a);
+  gg_theory_answer_stress(m, T, (gg_stress){3 * p - 2 * yy, yy, yy, xy, xy}, GG_STRESS_NEGLECTED, a);
+  gg_theory_answer_collisions_one(m, T, a);
   a->value[GG_Q_DISSIPATION] = -a->value[GG_Q_P_XY] * m->shear_rate;
   return GG_OK;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_at_most_two_species(m, name, err));
-  GG_TRY(gg_require_constant_beta(m, name, err));
-  GG_TRY(gg_require_steady_shear(m, name, err));
-  GG_TRY(gg_require_dilute(m, name, err));
+  GG_TRY(gg_theory_require_at_most_two_species(m, name, err));
+  GG_TRY(gg_theory_require_constant_beta(m, name, err));
+  GG_TRY(gg_theory_require_steady_shear(m, name, err));
+  GG_TRY(gg_theory_require_dilute(m, name, err));
   gg_model dilute = *m; /* Boltzmann's equation: chi = 1, in collision rates as well */
   for (int pair = 0; pair < GG_PAIRS; pair++) dilute.chi[pair] = 1;
   if (m->n_species == 1) return one_species(&dilute, a, err);
-  GG_TRY(gg_require_smooth(m, name, err));
-  return gg_grad_mixture(&dilute, name, a, err);
+  GG_TRY(gg_theory_require_smooth(m, name, err));
+  return gg_theory_grad_mixture(&dilute, name, a, err);
 }
 
-const gg_theory gg_grad = {
+const gg_theory gg_theory_grad = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_USF),
     .title = "Linear Grad theory of dilute shear",
@@ -57,5 +58,5 @@ const gg_theory gg_grad = {
         "constant beta, or a smooth binary mixture; N2 = 0. T is 3 % high at e = 0.9, 12 % at e = 0.75 in "
         "mixtures.",
     .evaluate = evaluate,
-    .beyond = gg_beyond_linear_anisotropy,
+    .beyond = gg_theory_beyond_linear_anisotropy,
 };

@@ -16,12 +16,12 @@ static grad_state state_at(const gg_model *m, double T, double ratio)
 {
   grad_state s;
   double A[GG_BINARY][GG_BINARY], loss[GG_BINARY], drive[GG_BINARY];
-  gg_partial_spreads(m, T, ratio, s.a);
-  gg_stress_relaxation(m, s.a, A);
-  for (int i = 0; i < 2; i++) loss[i] = -gg_zeta(m, i, s.a).at0 * s.a[i];
-  gg_solve2(A, loss, s.yy);
+  gg_theory_partial_spreads(m, T, ratio, s.a);
+  gg_theory_stress_relaxation(m, s.a, A);
+  for (int i = 0; i < 2; i++) loss[i] = -gg_theory_zeta(m, i, s.a).at0 * s.a[i];
+  gg_theory_solve2(A, loss, s.yy);
   for (int i = 0; i < 2; i++) drive[i] = -(s.a[i] + s.yy[i]);
-  gg_solve2(A, drive, s.xy);
+  gg_theory_solve2(A, drive, s.xy);
   for (int i = 0; i < 2; i++) s.rate2[i] = 1.5 * loss[i] / s.xy[i];
   return s;
 }
@@ -33,25 +33,25 @@ static double mismatch(double ratio, void *model)
   return s.xy[1] * s.rate2[0] * s.xy[0] - s.xy[0] * s.rate2[1] * s.xy[1];
 }
 
-gg_status gg_grad_mixture(const gg_model *m, const char *theory, gg_theory_answer *a, gg_error *err)
+gg_status gg_theory_grad_mixture(const gg_model *m, const char *theory, gg_theory_answer *a, gg_error *err)
 {
   gg_model copy = *m;
-  double ratio = gg_solve_ratio(mismatch, &copy);
+  double ratio = gg_theory_solve_ratio(mismatch, &copy);
   grad_state s = state_at(m, 1, ratio);
-  if (!(s.rate2[0] > 0)) return gg_refuse(err, theory, "finds no steady state for this mixture");
+  if (!(s.rate2[0] > 0)) return gg_theory_reject(err, theory, "finds no steady state for this mixture");
   double T = m->shear_rate * m->shear_rate / s.rate2[0]; /* rates go as sqrt(T) */
   s = state_at(m, T, ratio);
-  gg_answer_partial_temperatures(m, s.a, a);
+  gg_theory_answer_partial_temperatures(m, s.a, a);
   gg_stress P = {0, 0, 0, 0, 0};
   for (int i = 0; i < 2; i++) {
-    double rho = m->density * gg_fraction(m, i) * m->mass[i];
+    double rho = m->density * gg_theory_fraction(m, i) * m->mass[i];
     P.yy += rho * (s.a[i] + s.yy[i]);
     P.zz += rho * (s.a[i] + s.yy[i]);
     P.xx += rho * (s.a[i] - 2 * s.yy[i]);
     P.xy += rho * s.xy[i] * m->shear_rate;
   }
   P.yx = P.xy;
-  gg_answer_stress(m, T, P, GG_STRESS_NEGLECTED, a);
+  gg_theory_answer_stress(m, T, P, GG_STRESS_NEGLECTED, a);
   a->value[GG_Q_DISSIPATION] = -a->value[GG_Q_P_XY] * m->shear_rate;
   return GG_OK;
 }

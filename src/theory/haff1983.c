@@ -9,13 +9,13 @@
 
 static const char name[] = "haff1983";
 
-double gg_haff_temperature(double T0, double zeta0, double t)
+double gg_theory_haff_temperature(double T0, double zeta0, double t)
 {
   double slower = 1 + zeta0 * t / 2;
   return T0 / (slower * slower);
 }
 
-double gg_haff_collisions(double nu0, double zeta0, double t)
+double gg_theory_haff_collisions(double nu0, double zeta0, double t)
 {
   return zeta0 > 0 ? 2 * nu0 / zeta0 * log1p(zeta0 * t / 2) : nu0 * t;
 }
@@ -23,17 +23,17 @@ double gg_haff_collisions(double nu0, double zeta0, double t)
 /* zeta = (nu/3)(1-e^2) of a Maxwellian. */
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, name, err));
-  GG_TRY(gg_require_smooth(m, name, err));
+  GG_TRY(gg_theory_require_one_species(m, name, err));
+  GG_TRY(gg_theory_require_smooth(m, name, err));
   double T = m->temperature0;
-  gg_answer_temperature(m, T, NAN, a);
-  gg_answer_collisions_one(m, T, a);
+  gg_theory_answer_temperature(m, T, NAN, a);
+  gg_theory_answer_collisions_one(m, T, a);
   double zeta = a->value[GG_Q_COLLISION_RATE] / 3 * (1 - m->e[0] * m->e[0]);
-  a->value[GG_Q_COOLING_RATE] = zeta / gg_model_nu0(m, T);
+  a->value[GG_Q_COOLING_RATE] = zeta / gg_common_model_nu0(m, T);
   return GG_OK;
 }
 
-const gg_theory gg_haff1983 = {
+const gg_theory gg_theory_haff1983 = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_HCS),
     .title = "Haff's law of free cooling",

@@ -6,9 +6,9 @@
 
 /* Temperature of a gas that cools freely from T0 with the initial cooling rate zeta0 = -(dT/dt)/T: T0/(1 + zeta0
  * t/2)^2. */
-double gg_haff_temperature(double T0, double zeta0, double t);
+double gg_theory_haff_temperature(double T0, double zeta0, double t);
 
 /* Collisions per grain until then, the initial collision rate being nu0. */
-double gg_haff_collisions(double nu0, double zeta0, double t);
+double gg_theory_haff_collisions(double nu0, double zeta0, double t);
 
 #endif

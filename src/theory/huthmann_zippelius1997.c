@@ -13,21 +13,22 @@ static const char name[] = "huthmann_zippelius1997";
 
 static gg_status ratio_of(const gg_model *m, gg_grain grain, double mu, double *ratio, gg_error *err)
 {
-  *ratio = gg_flow_cools(m->flow) ? gg_ratio_cooling(grain, mu) : gg_ratio_driven(grain, mu);
+  *ratio = gg_flow_cools(m->flow) ? gg_theory_ratio_cooling(grain, mu) : gg_theory_ratio_driven(grain, mu);
   if (!isnan(*ratio)) return GG_OK;
   /* The limit r -> infinity, where all contacts slide: dE_tr = -4 eta_1 (1 - eta_1 - mu^2 eta_1), dE_rot/r -> 0. */
   if (mu * mu * grain.eta1 > 1 - grain.eta1)
-    return gg_refuse(err, name, "finds no steady theta/T that numbers can hold for such contacts");
-  return gg_refuse(err, name,
-                   "finds no steady theta/T: with so little friction rotation cools more slowly than translation "
-                   "for ever");
+    return gg_theory_reject(err, name, "finds no steady theta/T that numbers can hold for such contacts");
+  return gg_theory_reject(
+      err, name,
+      "finds no steady theta/T: with so little friction rotation cools more slowly than translation "
+      "for ever");
 }
 
 /* Energy of translation that a collision takes, over m T. */
 static double loss_of(const gg_model *m, gg_grain grain, double mu, double ratio)
 {
-  if (gg_flow_cools(m->flow)) return gg_cooling_at(grain, mu, ratio);
-  return -gg_exchange_at(grain, mu, ratio).translation;
+  if (gg_flow_cools(m->flow)) return gg_theory_cooling_at(grain, mu, ratio);
+  return -gg_theory_exchange_at(grain, mu, ratio).translation;
 }
 
 /* White noise is set to balance contacts of Maxwellians that all stick, at the ratio a run starts from (thermostat.h).
@@ -35,37 +36,39 @@ static double loss_of(const gg_model *m, gg_grain grain, double mu, double ratio
  * sqrt(T). */
 static double temperature_of(const gg_model *m, double lost)
 {
-  double T0 = m->temperature0, noise = gg_thermostat_of(m) == GG_WHITE_NOISE ? gg_thermostat_noise(m) : 0;
-  double loss = lost * gg_model_collision_rate(m, T0) / 3 * T0;
+  double T0 = m->temperature0, noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
+  double loss = lost * gg_common_model_collision_rate(m, T0) / 3 * T0;
   return noise > 0 && loss > 0 ? T0 * pow(noise / loss, 2. / 3) : T0;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, name, err));
-  if (m->shear_rate != 0) GG_TRY(gg_require_steady_shear(m, name, err));
-  if (m->rule == GG_SMOOTH) return gg_refuse(err, name, "describes rough grains; grains of this scene are smooth");
-  gg_grain grain = gg_grain_of(m);
+  GG_TRY(gg_theory_require_one_species(m, name, err));
+  if (m->shear_rate != 0) GG_TRY(gg_theory_require_steady_shear(m, name, err));
+  if (m->rule == GG_SMOOTH)
+    return gg_theory_reject(err, name, "describes rough grains; grains of this scene are smooth");
+  gg_grain grain = gg_theory_grain_of(m);
   double mu = m->rule == GG_FRICTIONAL ? m->mu[0] : INFINITY, ratio;
   GG_TRY(ratio_of(m, grain, mu, &ratio, err));
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   if (m->shear_rate != 0) return GG_OK; /* of sheared states it knows no more */
   double lost = loss_of(m, grain, mu, ratio), T = temperature_of(m, lost), p = m->density * T,
-         pc = p * 4 * grain.eta1 * gg_phi_chi(m);
-  gg_answer_temperature(m, T, ratio, a);
-  gg_answer_pressure(m, T, p, pc, a);
-  gg_answer_collisions_one(m, T, a);
+         pc = p * 4 * grain.eta1 * gg_theory_phi_chi(m);
+  gg_theory_answer_temperature(m, T, ratio, a);
+  gg_theory_answer_pressure(m, T, p, pc, a);
+  gg_theory_answer_collisions_one(m, T, a);
   double zeta = a->value[GG_Q_COLLISION_RATE] / 3 * lost;
-  a->value[GG_Q_COOLING_RATE] = zeta / gg_model_nu0(m, T);
+  a->value[GG_Q_COOLING_RATE] = zeta / gg_common_model_nu0(m, T);
   return GG_OK;
 }
 
 static const char *beyond(const gg_model *m)
 {
-  return m->shear_rate != 0 ? "made without shear, which its ratio of temperatures leaves out" : gg_beyond_gaussian(m);
+  return m->shear_rate != 0 ? "made without shear, which its ratio of temperatures leaves out"
+                            : gg_theory_beyond_gaussian(m);
 }
 
-const gg_theory gg_huthmann_zippelius1997 = {
+const gg_theory gg_theory_huthmann_zippelius1997 = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF),
     .title = "Rough grains with Maxwellian velocities and spins",

@@ -17,29 +17,31 @@ static const char name[] = "kremer_santos_garzo2014";
 
 static gg_status check(const gg_model *m, gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, name, err));
-  GG_TRY(gg_require_constant_beta(m, name, err));
-  GG_TRY(gg_require_dilute(m, name, err));
+  GG_TRY(gg_theory_require_one_species(m, name, err));
+  GG_TRY(gg_theory_require_constant_beta(m, name, err));
+  GG_TRY(gg_theory_require_dilute(m, name, err));
   if (m->thermostat != GG_NO_THERMOSTAT)
-    return gg_refuse(err, name, "describes gases that cool freely; this scene has a thermostat");
+    return gg_theory_reject(err, name, "describes gases that cool freely; this scene has a thermostat");
   if (m->rule == GG_SMOOTH)
-    return gg_refuse(err, name, "describes rough grains; for the smooth ones of this scene there is garzo_dufty1999");
+    return gg_theory_reject(err, name,
+                            "describes rough grains; for the smooth ones of this scene there is garzo_dufty1999");
   return GG_OK;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(check(m, err));
-  const gg_grain g = gg_grain_of(m);
-  double ratio = gg_ratio_cooling(g, INFINITY), h = g.eta1 + g.eta2, chi = m->chi[0];
-  double zeta = 5. / 12 * gg_cooling_at(g, INFINITY, ratio);
+  const gg_grain g = gg_theory_grain_of(m);
+  double ratio = gg_theory_ratio_cooling(g, INFINITY), h = g.eta1 + g.eta2, chi = m->chi[0];
+  double zeta = 5. / 12 * gg_theory_cooling_at(g, INFINITY, ratio);
   double nu = h * (2 - h) + g.eta2 * g.eta2 * ratio / (6 * g.K);
-  if (!(nu > zeta / 2)) return gg_refuse(err, name, "finds no viscosity: grains cool faster than stress relaxes");
+  if (!(nu > zeta / 2))
+    return gg_theory_reject(err, name, "finds no viscosity: grains cool faster than stress relaxes");
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   a->value[GG_Q_COOLING_RATE] = chi * zeta;
   a->value[GG_Q_VISCOSITY_REDUCED] = a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = 1 / (chi * (nu - zeta / 2));
   if (gg_flow_cools(m->flow))
-    gg_answer_temperature(m, m->temperature0, ratio, a); /* sheared, it has none to start from */
+    gg_theory_answer_temperature(m, m->temperature0, ratio, a); /* sheared, it has none to start from */
   return GG_OK;
 }
 
@@ -47,10 +49,10 @@ static const char *beyond(const gg_model *m)
 {
   if (m->beta[0] > 0.75)
     return "spins under shear go with velocities, which first Sonine order leaves out (6 % at beta = 1)";
-  return gg_beyond_gaussian(m);
+  return gg_theory_beyond_gaussian(m);
 }
 
-const gg_theory gg_kremer_santos_garzo2014 = {
+const gg_theory gg_theory_kremer_santos_garzo2014 = {
     .name = name,
     .title = "Cooling and viscosity of rough grains",
     .citation = "G.M. Kremer, A. Santos and V. Garzo, Phys. Rev. E 90 (2014) 022205",

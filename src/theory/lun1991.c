@@ -23,12 +23,12 @@
 /* Random close packing in the contact value of Lun & Savage. */
 #define GG_LUN_SAVAGE_PACKING 0.64
 
-double gg_lun_ratio(gg_grain g)
+double gg_theory_lun_ratio(gg_grain g)
 {
   return g.eta2 == 0 ? 0 : g.eta2 / (1 - g.eta2 / g.K);
 }
 
-gg_lun_functions gg_lun_functions_at(gg_lun_state s)
+gg_lun_functions gg_theory_lun_functions_at(gg_lun_state s)
 {
   double h1 = s.grain.eta1, h2 = s.grain.eta2, K = s.grain.K, y = s.phi * s.chi, r = s.ratio;
   double N = h1 * (3 * h1 - 2) + h2 * (6 * h1 - 1 - 2 * h2) / 2 - h2 * h2 * r / K;
@@ -49,34 +49,35 @@ gg_lun_functions gg_lun_functions_at(gg_lun_state s)
 }
 
 /* Viscous heating against dissipation: mu_s rate^2 = D, hence T = rate^2 f2/f5. */
-gg_status gg_lun_shear(const gg_model *m, double chi, const char *theory, gg_theory_answer *a, gg_error *err)
+gg_status gg_theory_lun_shear(const gg_model *m, double chi, const char *theory, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_require_one_species(m, theory, err));
-  GG_TRY(gg_require_constant_beta(m, theory, err));
-  GG_TRY(gg_require_steady_shear(m, theory, err));
-  gg_grain grain = gg_grain_of(m);
-  gg_lun_state state = {m->density, m->phi, chi, grain, gg_lun_ratio(grain)};
-  gg_lun_functions f = gg_lun_functions_at(state);
+  GG_TRY(gg_theory_require_one_species(m, theory, err));
+  GG_TRY(gg_theory_require_constant_beta(m, theory, err));
+  GG_TRY(gg_theory_require_steady_shear(m, theory, err));
+  gg_grain grain = gg_theory_grain_of(m);
+  gg_lun_state state = {m->density, m->phi, chi, grain, gg_theory_lun_ratio(grain)};
+  gg_lun_functions f = gg_theory_lun_functions_at(state);
   double rate = m->shear_rate, T = rate * rate * f.f2 / f.f5;
   double pk = T * f.f1_kinetic, pc = T * f.f1_transfer;
   double shear_k = -sqrt(T) * f.f2_kinetic * rate, shear_c = -sqrt(T) * f.f2_transfer * rate;
-  gg_answer_temperature(m, T, state.ratio, a);
-  gg_answer_stress(m, T, (gg_stress){pk, pk, pk, shear_k, shear_k}, (gg_stress){pc, pc, pc, shear_c, shear_c}, a);
-  gg_answer_collisions_one(m, T, a);
+  gg_theory_answer_temperature(m, T, state.ratio, a);
+  gg_theory_answer_stress(m, T, (gg_stress){pk, pk, pk, shear_k, shear_k}, (gg_stress){pc, pc, pc, shear_c, shear_c},
+                          a);
+  gg_theory_answer_collisions_one(m, T, a);
   a->value[GG_Q_COLLISION_RATE] *= chi / m->chi[0];
   a->value[GG_Q_MEAN_FREE_PATH] *= m->chi[0] / chi;
   a->value[GG_Q_KNUDSEN] *= m->chi[0] / chi;
   a->value[GG_Q_DISSIPATION] = m->stress_unit * pow(T, 1.5) * f.f5;
-  gg_answer_rolling(m, -0.5, a);
+  gg_theory_answer_rolling(m, -0.5, a);
   return GG_OK;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  return gg_lun_shear(m, m->chi[0], "lun1991", a, err);
+  return gg_theory_lun_shear(m, m->chi[0], "lun1991", a, err);
 }
 
-const gg_theory gg_lun1991 = {
+const gg_theory gg_theory_lun1991 = {
     .name = "lun1991",
     .flows = GG_FLOW_BIT(GG_USF),
     .title = "Kinetic theory of slightly inelastic, rough spheres",
@@ -86,7 +87,7 @@ const gg_theory gg_lun1991 = {
         "order in the shear rate (so N1 = N2 = 0) and first Sonine order. Good near e = 1 with beta = -1 or 1; "
         "T is tens of percent off for dissipative or half-rough grains.",
     .evaluate = evaluate,
-    .beyond = gg_beyond_quasi_elastic,
+    .beyond = gg_theory_beyond_quasi_elastic,
 };
 
 static const char name_ls[] = "lun1991_lun_savage";
@@ -94,13 +95,14 @@ static const char name_ls[] = "lun1991_lun_savage";
 static gg_status evaluate_lun_savage(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   if (m->boltzmann)
-    return gg_refuse(err, name_ls, "differs from lun1991 only at finite density; this scene has phi = 0");
+    return gg_theory_reject(err, name_ls, "differs from lun1991 only at finite density; this scene has phi = 0");
   if (m->phi >= GG_LUN_SAVAGE_PACKING)
-    return gg_refuse(err, name_ls, "describes grains below phi = %g; this scene has %g", GG_LUN_SAVAGE_PACKING, m->phi);
-  return gg_lun_shear(m, gg_contact_value_of(GG_LUN_SAVAGE, m->phi), name_ls, a, err);
+    return gg_theory_reject(err, name_ls, "describes grains below phi = %g; this scene has %g", GG_LUN_SAVAGE_PACKING,
+                            m->phi);
+  return gg_theory_lun_shear(m, gg_common_contact_value_of(GG_LUN_SAVAGE, m->phi), name_ls, a, err);
 }
 
-const gg_theory gg_lun1991_lun_savage = {
+const gg_theory gg_theory_lun1991_lun_savage = {
     .name = name_ls,
     .flows = GG_FLOW_BIT(GG_USF),
     .title = "Lun's theory with the contact value of Lun and Savage",
@@ -111,5 +113,5 @@ const gg_theory gg_lun1991_lun_savage = {
         "As lun1991, with chi = (1 - phi/0.64)^-1.6 whatever the scene chose: 11 % above Carnahan-Starling at "
         "phi = 0.3, 90 % at 0.5.",
     .evaluate = evaluate_lun_savage,
-    .beyond = gg_beyond_quasi_elastic,
+    .beyond = gg_theory_beyond_quasi_elastic,
 };

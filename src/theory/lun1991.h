@@ -19,12 +19,13 @@ typedef struct gg_lun_functions {
   double f2r, f3, f5, f5r;
 } gg_lun_functions;
 
-gg_lun_functions gg_lun_functions_at(gg_lun_state s);
+gg_lun_functions gg_theory_lun_functions_at(gg_lun_state s);
 
 /* theta/T at which the spins neither gain nor lose energy: eta_2/(1 - eta_2/K) = K(1+beta)/(1+2K-beta). */
-double gg_lun_ratio(gg_grain g);
+double gg_theory_lun_ratio(gg_grain g);
 
 /* Steady uniform shear with a contact value of the caller's choice. */
-gg_status gg_lun_shear(const gg_model *model, double chi, const char *theory, gg_theory_answer *answer, gg_error *err);
+gg_status gg_theory_lun_shear(const gg_model *model, double chi, const char *theory, gg_theory_answer *answer,
+                              gg_error *err);
 
 #endif

@@ -44,7 +44,7 @@ static void add_pair(const gg_model *m, int i, int j, const term *terms, size_t 
 {
   int o = gg_pair(i, j);
   double a = spread[i], b = spread[j], B = (1 + m->e[o]) * m->mass[j] / (m->mass[i] + m->mass[j]);
-  double nj = m->density * gg_fraction(m, j), sigma = m->sigma[o];
+  double nj = m->density * gg_theory_fraction(m, j), sigma = m->sigma[o];
   double F = 4 * M_PI * nj * sigma * sigma * m->chi[o] * sqrt(2 / M_PI);
   for (size_t t = 0; t < n; t++) {
     double ap[3], bq[3], h = 0.5 * terms[t].s, factor = F * terms[t].coefficient * pow(B, terms[t].power);
@@ -63,32 +63,32 @@ static gg_linear sum_pairs(const gg_model *m, int i, const term *terms, size_t n
   return rate;
 }
 
-gg_linear gg_rate_v2(const gg_model *m, int i, const double a[GG_BINARY])
+gg_linear gg_theory_rate_v2(const gg_model *m, int i, const double a[GG_BINARY])
 {
   return sum_pairs(m, i, v2_terms, sizeof v2_terms / sizeof *v2_terms, a);
 }
 
-gg_linear gg_rate_v4(const gg_model *m, int i, const double a[GG_BINARY])
+gg_linear gg_theory_rate_v4(const gg_model *m, int i, const double a[GG_BINARY])
 {
   return sum_pairs(m, i, v4_terms, sizeof v4_terms / sizeof *v4_terms, a);
 }
 
-gg_linear gg_zeta(const gg_model *m, int i, const double a[GG_BINARY])
+gg_linear gg_theory_zeta(const gg_model *m, int i, const double a[GG_BINARY])
 {
-  gg_linear z = gg_rate_v2(m, i, a);
+  gg_linear z = gg_theory_rate_v2(m, i, a);
   double scale = -1 / (3 * a[i]);
   return (gg_linear){scale * z.at0, {scale * z.slope[0], scale * z.slope[1]}};
 }
 
 /* Maxwellian weights: tau_ii, tau_ij of V. Garzo & J.M. Montanero, Phys. Rev. E 68 (2003) 041302, per grain. */
-void gg_stress_relaxation(const gg_model *m, const double a[GG_BINARY], double A[GG_BINARY][GG_BINARY])
+void gg_theory_stress_relaxation(const gg_model *m, const double a[GG_BINARY], double A[GG_BINARY][GG_BINARY])
 {
   for (int i = 0; i < m->n_species; i++) {
     A[i][0] = A[i][1] = 0;
     for (int j = 0; j < m->n_species; j++) {
       int o = gg_pair(i, j);
       double B = (1 + m->e[o]) * m->mass[j] / (m->mass[i] + m->mass[j]), S2 = a[i] + a[j];
-      double F = 4 * M_PI * m->density * gg_fraction(m, j) * m->chi[o] * m->sigma[o] * m->sigma[o];
+      double F = 4 * M_PI * m->density * gg_theory_fraction(m, j) * m->chi[o] * m->sigma[o] * m->sigma[o];
       double q = F * sqrt(2 / (M_PI * S2)), gain = 2 * B * a[i] / 15 - B * B * S2 / 5;
       A[i][i] += q * (gain + 2 * B * S2 / 3);
       A[i][j] += q * gain;
@@ -96,36 +96,36 @@ void gg_stress_relaxation(const gg_model *m, const double a[GG_BINARY], double A
   }
 }
 
-void gg_partial_spreads(const gg_model *m, double T, double ratio, double a[GG_BINARY])
+void gg_theory_partial_spreads(const gg_model *m, double T, double ratio, double a[GG_BINARY])
 {
-  double T2 = T / (gg_fraction(m, 0) * ratio + gg_fraction(m, 1));
+  double T2 = T / (gg_theory_fraction(m, 0) * ratio + gg_theory_fraction(m, 1));
   a[0] = ratio * T2 / m->mass[0];
   a[1] = T2 / m->mass[1];
 }
 
-void gg_solve2(double A[GG_BINARY][GG_BINARY], const double b[GG_BINARY], double x[GG_BINARY])
+void gg_theory_solve2(double A[GG_BINARY][GG_BINARY], const double b[GG_BINARY], double x[GG_BINARY])
 {
   double det = A[0][0] * A[1][1] - A[0][1] * A[1][0];
   x[0] = (b[0] * A[1][1] - b[1] * A[0][1]) / det;
   x[1] = (b[1] * A[0][0] - b[0] * A[1][0]) / det;
 }
 
-double gg_solve_ratio(double (*f)(double ratio, void *params), void *params)
+double gg_theory_solve_ratio(double (*f)(double ratio, void *params), void *params)
 {
   const double factor = 1.1;
   for (double far = 1; far < 1e6; far *= factor) {
-    if (f(far, params) * f(far * factor, params) <= 0) return gg_root_between(f, params, far, far * factor);
+    if (f(far, params) * f(far * factor, params) <= 0) return gg_theory_root_between(f, params, far, far * factor);
     if (f(1 / far, params) * f(1 / (far * factor), params) <= 0)
-      return gg_root_between(f, params, 1 / (far * factor), 1 / far);
+      return gg_theory_root_between(f, params, 1 / (far * factor), 1 / far);
   }
   return NAN;
 }
 
-void gg_answer_partial_temperatures(const gg_model *m, const double a[GG_BINARY], gg_theory_answer *answer)
+void gg_theory_answer_partial_temperatures(const gg_model *m, const double a[GG_BINARY], gg_theory_answer *answer)
 {
   double T[] = {m->mass[0] * a[0], m->mass[1] * a[1]};
-  answer->value[GG_Q_TEMPERATURE] = gg_fraction(m, 0) * T[0] + gg_fraction(m, 1) * T[1];
+  answer->value[GG_Q_TEMPERATURE] = gg_theory_fraction(m, 0) * T[0] + gg_theory_fraction(m, 1) * T[1];
   for (int i = 0; i < m->n_species; i++) answer->value[GG_Q_PARTIAL_TEMPERATURE + i] = T[i];
   answer->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = T[0] / T[1];
-  gg_answer_collisions(m, T, answer);
+  gg_theory_answer_collisions(m, T, answer);
 }

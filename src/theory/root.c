@@ -4,7 +4,7 @@
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
-double gg_root_between(double (*f)(double x, void *params), void *params, double low, double high)
+double gg_theory_root_between(double (*f)(double x, void *params), void *params, double low, double high)
 {
   gsl_function function = {f, params};
   gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);

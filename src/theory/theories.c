@@ -7,20 +7,20 @@
 #include "theory/answer.h"
 #include "theory/theory_list.h"
 
-#define ENTRY(name) &gg_##name,
-const gg_theory *const gg_theories[] = {GG_THEORIES(ENTRY) NULL};
+#define ENTRY(name) &gg_theory_##name,
+const gg_theory *const gg_theory_theories[] = {GG_THEORIES(ENTRY) NULL};
 
 const gg_theory *gg_theory_find(const char *name)
 {
-  for (const gg_theory *const *t = gg_theories; *t; t++)
+  for (const gg_theory *const *t = gg_theory_theories; *t; t++)
     if (strcmp((*t)->name, name) == 0) return *t;
   return NULL;
 }
 
 const gg_theory *gg_theory_of(const gg_model *model, int index)
 {
-  const int shared = (int)(sizeof gg_theories / sizeof *gg_theories) - 1;
-  return index < shared ? gg_theories[index] : gg_extension_face(model->extension, index - shared);
+  const int shared = (int)(sizeof gg_theory_theories / sizeof *gg_theory_theories) - 1;
+  return index < shared ? gg_theory_theories[index] : gg_common_extension_face(model->extension, index - shared);
 }
 
 const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model)
@@ -36,7 +36,7 @@ static void list_states(unsigned flows, char *text, size_t size)
     if (!(flows & GG_FLOW_BIT(f))) continue;
     flows &= ~GG_FLOW_BIT(f);
     const char *after = !flows ? "" : flows & (flows - 1) ? ", " : " or ";
-    used += (size_t)snprintf(text + used, size - used, "%s%s", gg_flows[f].state, after);
+    used += (size_t)snprintf(text + used, size - used, "%s%s", gg_common_flows[f].state, after);
   }
 }
 
@@ -45,14 +45,14 @@ static gg_status check_flow(const gg_theory *theory, const gg_model *m, gg_error
   char states[320];
   if (!theory->flows || (theory->flows & GG_FLOW_BIT(m->flow))) return GG_OK;
   list_states(theory->flows, states, sizeof states);
-  return gg_refuse(err, theory->name, "describes %s; this scene is %s", states, gg_flow_of(m->flow)->state);
+  return gg_theory_reject(err, theory->name, "describes %s; this scene is %s", states, gg_flow_of(m->flow)->state);
 }
 
 static gg_status check_law(const gg_theory *theory, const gg_model *model, gg_error *err)
 {
   if (!model->law.name || theory->own) return GG_OK;
-  return gg_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
-                 theory->name, model->law.name);
+  return gg_base_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
+                      theory->name, model->law.name);
 }
 
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
@@ -60,12 +60,12 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
-  bool before = gg_memory_begin();
-  gg_gsl_enter();
-  gg_status status =
-      theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err) : theory->evaluate(model, answer, err);
-  gg_gsl_leave();
-  if (gg_memory_end(before)) status = gg_out_of_memory(err);
+  bool before = gg_base_memory_begin();
+  gg_base_gsl_enter();
+  gg_status status = theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err)
+                                 : theory->evaluate(model, answer, err);
+  gg_base_gsl_leave();
+  if (gg_base_memory_end(before)) status = gg_base_out_of_memory(err);
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
   return status;
 }
@@ -77,12 +77,12 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   if (!theory->curves) return GG_OK;
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
-  bool before = gg_memory_begin();
-  gg_gsl_enter();
+  bool before = gg_base_memory_begin();
+  gg_base_gsl_enter();
   gg_status status = theory->curves(model, measure, list, err);
-  gg_gsl_leave();
-  if (gg_memory_end(before)) status = gg_out_of_memory(err);
+  gg_base_gsl_leave();
+  if (gg_base_memory_end(before)) status = gg_base_out_of_memory(err);
   list->group = NULL; /* every curve has its own copy */
-  if (status != GG_OK) gg_curves_clear(list);
+  if (status != GG_OK) gg_measure_curves_clear(list);
   return status;
 }

@@ -33,16 +33,16 @@ typedef struct gg_theory {
 } gg_theory;
 
 /* Every theory there is (theory_list.h), NULL-terminated, in the order they are shown. */
-extern const gg_theory *const gg_theories[];
+extern const gg_theory *const gg_theory_theories[];
 const gg_theory *gg_theory_find(const char *name);
 
 /* Those of a scene: the above, and after them its own. NULL beyond the last. */
 const gg_theory *gg_theory_of(const gg_model *model, int index);
 
 /* user_theory.c: put a theory that the user's program brings in front of what a scene has. */
-gg_status gg_own_theory_add(gg_extension **extension, const gg_theory_definition *definition, gg_error *err);
-gg_status gg_own_theory_evaluate(const gg_theory_definition *theory, const gg_model *model, gg_theory_answer *answer,
-                                 gg_error *err);
+gg_status gg_theory_user_theory_add(gg_extension **extension, const gg_theory_definition *definition, gg_error *err);
+gg_status gg_theory_user_theory_evaluate(const gg_theory_definition *theory, const gg_model *model,
+                                         gg_theory_answer *answer, gg_error *err);
 
 /* What of the above applies, NULL if nothing does. */
 const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model);

@@ -41,7 +41,7 @@ static double cut(gg_curve *c, double scale, size_t from, int direction)
   return last;
 }
 
-void gg_curves_converge(gg_curves *last, const gg_curves *before, const gg_curves *earlier)
+void gg_theory_curves_converge(gg_curves *last, const gg_curves *before, const gg_curves *earlier)
 {
   for (int k = 0; k < last->n; k++) {
     gg_curve *c = &last->curve[k];
@@ -56,7 +56,7 @@ void gg_curves_converge(gg_curves *last, const gg_curves *before, const gg_curve
     }
     size_t middle = middle_of(c);
     double scale = scale_of(c), to = cut(c, scale, middle, 1), from = middle ? cut(c, scale, middle, -1) : c->x[0];
-    gg_curve_put_setting(c, "known_from", from, c->x_unit);
-    gg_curve_put_setting(c, "known_to", to, c->x_unit);
+    gg_measure_curve_put_setting(c, "known_from", from, c->x_unit);
+    gg_measure_curve_put_setting(c, "known_to", to, c->x_unit);
   }
 }

@@ -9,6 +9,6 @@
  * (drawn over a logarithmic axis) is not above 0 or not within a quarter of itself, any other not within a quarter of
  * what it has reached. Beyond, its values are NaN; the number "known_from", "known_to" says where that is. `before` and
  * `earlier`: the approximations before, of the same shape; earlier may be NULL. */
-void gg_curves_converge(gg_curves *last, const gg_curves *before, const gg_curves *earlier);
+void gg_theory_curves_converge(gg_curves *last, const gg_curves *before, const gg_curves *earlier);
 
 #endif

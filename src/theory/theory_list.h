@@ -27,7 +27,7 @@
   X(kolafa2004)                                                                                                        \
   X(pieprzyk2019)
 
-#define GG_THEORY_CONSTANT(name) extern const gg_theory gg_##name;
+#define GG_THEORY_CONSTANT(name) extern const gg_theory gg_theory_##name;
 GG_THEORIES(GG_THEORY_CONSTANT)
 #undef GG_THEORY_CONSTANT
 

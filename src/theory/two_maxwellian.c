@@ -36,7 +36,7 @@ static double sliding_tangent(gg_grain g, double mu, double ratio)
   return g.eta2 / (mu * g.eta1) * sqrt(contact_spread(g, ratio) / 2);
 }
 
-double gg_sliding_share(gg_grain g, double mu, double ratio)
+double gg_theory_sliding_share(gg_grain g, double mu, double ratio)
 {
   if (isinf(mu)) return 0;
   double u = sliding_tangent(g, mu, ratio);
@@ -68,7 +68,7 @@ static double cubic_excess(double delta)
   return x * x2 / 24 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72 * (1 - x2 / 110))));
 }
 
-gg_exchange gg_exchange_at(gg_grain g, double mu, double r)
+gg_exchange gg_theory_exchange_at(gg_grain g, double mu, double r)
 {
   if (isinf(mu)) return constant_beta(g, r);
   double V = contact_spread(g, r), u = sliding_tangent(g, mu, r), delta = atan(u), c2 = 1 / (1 + u * u);
@@ -77,9 +77,9 @@ gg_exchange gg_exchange_at(gg_grain g, double mu, double r)
   return (gg_exchange){-4 * g.eta1 * (1 - g.eta1) - lost + JJ, -r / g.K * lost + JJ / g.K};
 }
 
-double gg_cooling_at(gg_grain g, double mu, double r)
+double gg_theory_cooling_at(gg_grain g, double mu, double r)
 {
-  gg_exchange x = gg_exchange_at(g, mu, r);
+  gg_exchange x = gg_theory_exchange_at(g, mu, r);
   return r > 1 ? -x.rotation / r : -x.translation;
 }
 
@@ -87,13 +87,13 @@ double gg_cooling_at(gg_grain g, double mu, double r)
 static double growth_driven(double ratio, void *law)
 {
   const contact_law *l = law;
-  return gg_exchange_at(l->grain, l->mu, ratio).rotation;
+  return gg_theory_exchange_at(l->grain, l->mu, ratio).rotation;
 }
 
 static double growth_cooling(double ratio, void *law)
 {
   const contact_law *l = law;
-  gg_exchange e = gg_exchange_at(l->grain, l->mu, ratio);
+  gg_exchange e = gg_theory_exchange_at(l->grain, l->mu, ratio);
   return e.rotation - ratio * e.translation;
 }
 
@@ -102,11 +102,12 @@ static double attractor(double (*growth)(double, void *), gg_grain grain, double
 {
   contact_law law = {grain, mu};
   for (double low = 1e-40; low < 1e40; low *= 1.5)
-    if (growth(low, &law) >= 0 && growth(1.5 * low, &law) < 0) return gg_root_between(growth, &law, low, 1.5 * low);
+    if (growth(low, &law) >= 0 && growth(1.5 * low, &law) < 0)
+      return gg_theory_root_between(growth, &law, low, 1.5 * low);
   return NAN;
 }
 
-double gg_ratio_driven(gg_grain grain, double mu)
+double gg_theory_ratio_driven(gg_grain grain, double mu)
 {
   rough_rates x = rates_of(grain);
   return isinf(mu) ? x.B / x.C : attractor(growth_driven, grain, mu);
@@ -119,7 +120,7 @@ static double positive_root(rough_rates x)
   return d > 0 ? (d + root) / (2 * x.B) : 2 * x.B / (root - d);
 }
 
-double gg_ratio_cooling(gg_grain grain, double mu)
+double gg_theory_ratio_cooling(gg_grain grain, double mu)
 {
   return isinf(mu) ? positive_root(rates_of(grain)) : attractor(growth_cooling, grain, mu);
 }

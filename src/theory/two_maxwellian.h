@@ -9,18 +9,18 @@
 typedef struct gg_exchange {
   double translation, rotation;
 } gg_exchange;
-gg_exchange gg_exchange_at(gg_grain grain, double mu, double ratio);
+gg_exchange gg_theory_exchange_at(gg_grain grain, double mu, double ratio);
 
 /* -dE_tr in free cooling, where it is -dE_rot/r as well, from whichever is the greater: spins that hardly cool feed
  * translation with nearly all it loses. */
-double gg_cooling_at(gg_grain grain, double mu, double ratio);
+double gg_theory_cooling_at(gg_grain grain, double mu, double ratio);
 
 /* Share of collisions that slide. */
-double gg_sliding_share(gg_grain grain, double mu, double ratio);
+double gg_theory_sliding_share(gg_grain grain, double mu, double ratio);
 
 /* theta/T where rotation neither gains nor loses (translation driven), or where both cool alike (free cooling); NaN if
  * there is none. */
-double gg_ratio_driven(gg_grain grain, double mu);
-double gg_ratio_cooling(gg_grain grain, double mu);
+double gg_theory_ratio_driven(gg_grain grain, double mu);
+double gg_theory_ratio_cooling(gg_grain grain, double mu);
 
 #endif

@@ -6,16 +6,16 @@
 #include "common/thermostat.h"
 #include "theory/theory.h"
 
-gg_status gg_own_theory_add(gg_extension **extension, const gg_theory_definition *t, gg_error *err)
+gg_status gg_theory_user_theory_add(gg_extension **extension, const gg_theory_definition *t, gg_error *err)
 {
-  gg_theory *face = gg_new_array(1, sizeof *face, err);
+  gg_theory *face = gg_base_array_new(1, sizeof *face, err);
   if (!face) return GG_FAILED;
-  gg_extension *x = gg_extension_with_theory(*extension, t, face, err);
+  gg_extension *x = gg_common_extension_with_theory(*extension, t, face, err);
   if (!x) {
     free(face);
     return GG_FAILED;
   }
-  const gg_theory_definition *kept = gg_extension_theory(x, gg_extension_theories(x) - 1);
+  const gg_theory_definition *kept = gg_common_extension_theory(x, gg_common_extension_theories(x) - 1);
   *face = (gg_theory){.name = kept->name,
                       .title = kept->title,
                       .citation = kept->citation,
@@ -43,13 +43,14 @@ static void describe_species(const gg_model *m, gg_species_facts *species, gg_pa
   }
 }
 
-gg_status gg_own_theory_evaluate(const gg_theory_definition *t, const gg_model *m, gg_theory_answer *a, gg_error *err)
+gg_status gg_theory_user_theory_evaluate(const gg_theory_definition *t, const gg_model *m, gg_theory_answer *a,
+                                         gg_error *err)
 {
   gg_species_facts species[GG_MAX_SPECIES];
   gg_pair_facts pairs[GG_MAX_SPECIES * GG_MAX_SPECIES];
   describe_species(m, species, pairs);
   const gg_facts facts = {.flow = gg_flow_of(m->flow)->word,
-                          .thermostat = word_of_thermostat(gg_thermostat_of(m)),
+                          .thermostat = word_of_thermostat(gg_common_thermostat_of(m)),
                           .restitution_law = m->law.name,
                           .phi = m->phi,
                           .density = m->density,
@@ -62,14 +63,14 @@ gg_status gg_own_theory_evaluate(const gg_theory_definition *t, const gg_model *
                           .species = species,
                           .pairs = pairs};
   size_t n = (size_t)t->n_quantities;
-  double *values = gg_new_array(n, sizeof *values, err);
+  double *values = gg_base_array_new(n, sizeof *values, err);
   if (!values) return GG_FAILED;
   for (size_t k = 0; k < n; k++) values[k] = NAN;
   const char *refusal = t->evaluate(t->context, &facts, values);
   for (size_t k = 0; k < n && !refusal; k++) {
-    gg_quantity q = gg_quantity_find_in(m, t->quantities[k]);
+    gg_quantity q = gg_common_quantity_find_in(m, t->quantities[k]);
     if (q < GG_MOST_QUANTITIES && isfinite(values[k])) a->value[q] = values[k];
   }
   free(values);
-  return refusal ? gg_fail(err, GG_BAD_INPUT, "%s %s", t->name, refusal) : GG_OK;
+  return refusal ? gg_base_fail(err, GG_BAD_INPUT, "%s %s", t->name, refusal) : GG_OK;
 }

@@ -19,17 +19,17 @@ static const char text[] =
 static void reading(void **state)
 {
   (void)state;
-  json_t *whole = gg_json_read(text, NULL);
+  json_t *whole = gg_base_json_read(text, NULL);
   uint64_t faults = 1;
   size_t lost = 0;
   assert_non_null(whole);
   for (uint64_t at = 1; faults; at++) {
     const char *why = NULL;
-    const bool before = gg_memory_begin();
+    const bool before = gg_base_memory_begin();
     failing_malloc_arm(at, 0, NULL);
-    json_t *document = gg_json_read(text, &why);
+    json_t *document = gg_base_json_read(text, &why);
     failing_malloc_disarm(&faults);
-    assert_int_equal(gg_memory_end(before), document == NULL);
+    assert_int_equal(gg_base_memory_end(before), document == NULL);
     assert_true(document ? json_equal(document, whole) : strcmp(why, "out of memory") == 0);
     lost += !document;
     json_decref(document);
@@ -41,15 +41,15 @@ static void reading(void **state)
 static void writing(void **state)
 {
   (void)state;
-  json_t *whole = gg_json_read(text, NULL);
+  json_t *whole = gg_base_json_read(text, NULL);
   uint64_t faults = 1;
   for (uint64_t at = 1; faults; at++) {
-    const bool before = gg_memory_begin();
+    const bool before = gg_base_memory_begin();
     failing_malloc_arm(at, 0, NULL);
-    char *written = gg_json_text(whole, 0);
+    char *written = gg_base_json_text(whole, 0);
     failing_malloc_disarm(&faults);
-    assert_int_equal(gg_memory_end(before), written == NULL);
-    json_t *again = written ? gg_json_read(written, NULL) : NULL;
+    assert_int_equal(gg_base_memory_end(before), written == NULL);
+    json_t *again = written ? gg_base_json_read(written, NULL) : NULL;
     assert_true(!written || json_equal(again, whole));
     json_decref(again);
     free(written);

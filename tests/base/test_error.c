@@ -42,10 +42,10 @@ static void long_names(void **state)
     for (size_t length = 1010; length < 4096; length += 301) {
       gg_error err;
       fill(name, length, letters[k]);
-      assert_int_equal(gg_fail(&err, GG_BAD_FILE, "%s: cannot be read: %s", name, "Is a directory"), GG_BAD_FILE);
+      assert_int_equal(gg_base_fail(&err, GG_BAD_FILE, "%s: cannot be read: %s", name, "Is a directory"), GG_BAD_FILE);
       assert_true(ends(err.message, ": cannot be read: Is a directory") && is_whole(err.message, letters[k]));
-      gg_fail(&err, GG_BAD_INPUT, "line 7: key 'phi': %s", "value '2' is not allowed");
-      assert_int_equal(gg_error_prefix(&err, GG_BAD_INPUT, "%s", name), GG_BAD_INPUT);
+      gg_base_fail(&err, GG_BAD_INPUT, "line 7: key 'phi': %s", "value '2' is not allowed");
+      assert_int_equal(gg_base_error_prefix(&err, GG_BAD_INPUT, "%s", name), GG_BAD_INPUT);
       assert_true(ends(err.message, ": line 7: key 'phi': value '2' is not allowed") &&
                   is_whole(err.message, letters[k]));
     }
@@ -56,13 +56,13 @@ static void usual(void **state)
   (void)state;
   gg_error err;
   char name[1024];
-  gg_fail(&err, GG_FAILED, "why");
-  gg_error_prefix(&err, GG_FAILED, "%s", "a.yaml");
+  gg_base_fail(&err, GG_FAILED, "why");
+  gg_base_error_prefix(&err, GG_FAILED, "%s", "a.yaml");
   assert_string_equal(err.message, "a.yaml: why");
   fill(name, sizeof name - 1, "b");
-  gg_fail(&err, GG_FAILED, "%s", name);
+  gg_base_fail(&err, GG_FAILED, "%s", name);
   assert_string_equal(err.message, name);
-  assert_int_equal(gg_fail(NULL, GG_FAILED, "why"), GG_FAILED);
+  assert_int_equal(gg_base_fail(NULL, GG_FAILED, "why"), GG_FAILED);
 }
 
 int main(void)

@@ -16,9 +16,9 @@ enum { PIECES = 3000, LENGTH = 12 }; /* of a piece */
 
 static bool write_all(char **text)
 {
-  FILE *out = gg_open_text(text);
+  FILE *out = gg_base_memory_stream_open(text);
   for (int i = 0; out && i < PIECES; i++) fprintf(out, "%.4e,\n", 1 + i / 7.0);
-  return gg_close_text(out, text);
+  return gg_base_memory_stream_close(out, text);
 }
 
 static void whole(void **state)
@@ -29,7 +29,7 @@ static void whole(void **state)
   assert_int_equal(strlen(text), PIECES * LENGTH);
   assert_string_equal(text + (PIECES - 1) * LENGTH, "4.2943e+02,\n");
   free(text);
-  assert_true(gg_close_text(gg_open_text(&text), &text));
+  assert_true(gg_base_memory_stream_close(gg_base_memory_stream_open(&text), &text));
   assert_string_equal(text, "");
   free(text);
 }
@@ -38,13 +38,13 @@ static void length_by_now(void **state)
 {
   (void)state;
   char *text;
-  FILE *out = gg_open_text(&text);
+  FILE *out = gg_base_memory_stream_open(&text);
   for (long i = 0; i < PIECES; i++) {
     assert_int_equal(ftell(out), i * LENGTH);
     fprintf(out, "%.*s", LENGTH, "123456789 123456789");
   }
   assert_true(fseek(out, 3, SEEK_SET) != 0);
-  assert_true(gg_close_text(out, &text));
+  assert_true(gg_base_memory_stream_close(out, &text));
   assert_int_equal(strlen(text), PIECES * LENGTH);
   free(text);
 }
@@ -56,11 +56,11 @@ static void allocations_that_fail(void **state)
   uint64_t faults = 1;
   assert_true(write_all(&expected));
   for (uint64_t k = 1; faults; k++) {
-    bool before = gg_memory_begin();
+    bool before = gg_base_memory_begin();
     failing_malloc_arm(k, 0, NULL);
     const bool done = write_all(&text);
     failing_malloc_disarm(&faults);
-    assert_int_equal(gg_memory_end(before), !done);
+    assert_int_equal(gg_base_memory_end(before), !done);
     if (!faults) assert_true(done && k > 6); /* the last of them: none failed */
     if (done)
       assert_string_equal(text, expected);

@@ -31,7 +31,7 @@ static void share(gg_thread_pool *pool, job *j, int parts, int times)
 {
   *j = (job){.pause = j->pause};
   for (int i = 0; i < times; i++) {
-    gg_thread_pool_for(pool, parts, part, j);
+    gg_base_thread_pool_for(pool, parts, part, j);
     for (int p = 0; p < PARTS; p++) assert_int_equal(j->done[p], p < parts ? i + 1 : 0);
   }
 }
@@ -41,7 +41,7 @@ static void every_part_once(void **state)
   (void)state;
   const int threads[] = {1, 2, 3, 8};
   for (int t = 0; t < 4; t++) {
-    gg_thread_pool *pool = gg_thread_pool_new(threads[t]);
+    gg_thread_pool *pool = gg_base_thread_pool_new(threads[t]);
     assert_true((pool != NULL) == (threads[t] > 1));
     job j = {.pause = 0};
     for (int parts = 0; parts <= PARTS; parts++) share(pool, &j, parts, 1000);
@@ -51,7 +51,7 @@ static void every_part_once(void **state)
     }
     j.pause = 1000000; /* longer than the caller's patience */
     share(pool, &j, 12, 3);
-    gg_thread_pool_free(pool);
+    gg_base_thread_pool_free(pool);
   }
 }
 
@@ -67,16 +67,16 @@ static void meet(void *context, int part)
 static void at_once(void **state)
 {
   (void)state;
-  gg_thread_pool *pool = gg_thread_pool_new(2);
+  gg_thread_pool *pool = gg_base_thread_pool_new(2);
   job j = {.pause = 0};
-  gg_thread_pool_for(pool, 2, meet, &j);
+  gg_base_thread_pool_for(pool, 2, meet, &j);
   assert_int_equal(j.together, 2);
-  double before = gg_thread_pool_cpu(pool);
-  for (int i = 0; i < 20000; i++) gg_thread_pool_for(pool, 2, part, &j);
-  assert_true(gg_thread_pool_cpu(pool) >= before);
-  assert_true(gg_thread_pool_cpu(NULL) == 0);
-  gg_thread_pool_free(pool);
-  gg_thread_pool_free(NULL);
+  double before = gg_base_thread_pool_cpu(pool);
+  for (int i = 0; i < 20000; i++) gg_base_thread_pool_for(pool, 2, part, &j);
+  assert_true(gg_base_thread_pool_cpu(pool) >= before);
+  assert_true(gg_base_thread_pool_cpu(NULL) == 0);
+  gg_base_thread_pool_free(pool);
+  gg_base_thread_pool_free(NULL);
 }
 
 /* Rounds of columns, in which each part needs its own column and the next of the round before. */
@@ -103,7 +103,7 @@ static void play_tour(gg_thread_pool *pool, int rounds, int columns, int slow)
     const int before = (p / columns - 1) * columns, column = p % columns;
     t.need[p] = UINT32_C(1) << (before + column) | UINT32_C(1) << (before + (column + 1) % columns);
   }
-  gg_thread_pool_rounds(pool, rounds, columns, t.need, part_of_tour, &t);
+  gg_base_thread_pool_rounds(pool, rounds, columns, t.need, part_of_tour, &t);
   assert_int_equal(t.done, (UINT64_C(1) << rounds * columns) - 1);
   assert_int_equal(t.early, 0);
 }
@@ -113,11 +113,11 @@ static void rounds_in_order(void **state)
   (void)state;
   const int threads[] = {1, 2, 3, 8};
   for (int t = 0; t < 4; t++) {
-    gg_thread_pool *pool = gg_thread_pool_new(threads[t]);
+    gg_thread_pool *pool = gg_base_thread_pool_new(threads[t]);
     for (int columns = 1; columns <= 8; columns++)
       for (int k = 0; k < 500; k++) play_tour(pool, 1 + k % (GG_MOST_PARTS / columns), columns, -1);
     for (int slow = 0; slow < 4; slow++) play_tour(pool, 8, 4, slow);
-    gg_thread_pool_free(pool);
+    gg_base_thread_pool_free(pool);
   }
 }
 

@@ -31,18 +31,18 @@ static void made_up_runs(void **state)
   gg_error_state *s = calloc(1, sizeof *s);
   double of_error;
   make_up(s);
-  assert_true(fabs(gg_course_noise(&s->course[WAY], 0) - 0.1) < 1e-12);
+  assert_true(fabs(gg_bench_error_course_noise(&s->course[WAY], 0) - 0.1) < 1e-12);
   s->noise[WAY][0] = 0.05, s->unit[0] = 2, s->truth[GG_DSMC][0] = 2;
-  assert_true(fabs(gg_error_at(s, WAY, 0, 3, &of_error) - 0.05 * sqrt(7.0 / 8) / sqrt(0.008)) < 1e-12);
-  assert_true(fabs(gg_seconds_to(s, WAY, 0, 0.01) - 25) < 1e-9);
+  assert_true(fabs(gg_bench_error_at(s, WAY, 0, 3, &of_error) - 0.05 * sqrt(7.0 / 8) / sqrt(0.008)) < 1e-12);
+  assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 0.01) - 25) < 1e-9);
   s->floor[WAY][0] = s->shift[WAY][0] = 0.006;
-  assert_true(fabs(gg_seconds_to(s, WAY, 0, 0.01) - 25 / (1 - 0.36)) < 1e-9);
-  assert_true(isinf(gg_seconds_to(s, WAY, 0, 0.0059)));
+  assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 0.01) - 25 / (1 - 0.36)) < 1e-9);
+  assert_true(isinf(gg_bench_seconds_to(s, WAY, 0, 0.0059)));
   s->shift_error[WAY][0] = 0.003; /* and so it may be 0 */
-  assert_true(isnan(gg_seconds_to(s, WAY, 0, 0.0059)));
+  assert_true(isnan(gg_bench_seconds_to(s, WAY, 0, 0.0059)));
   s->floor[WAY][0] = 0; /* or 0.002: which is not told of 0.001 */
-  assert_true(isnan(gg_seconds_to(s, WAY, 0, 0.001)) && gg_seconds_to(s, WAY, 0, 0.01) > 0);
-  assert_true(gg_seconds_to(s, WAY, 0, 100) == s->course[WAY].seconds[0]); /* not before it has warmed up */
+  assert_true(isnan(gg_bench_seconds_to(s, WAY, 0, 0.001)) && gg_bench_seconds_to(s, WAY, 0, 0.01) > 0);
+  assert_true(gg_bench_seconds_to(s, WAY, 0, 100) == s->course[WAY].seconds[0]); /* not before it has warmed up */
   free(s);
 }
 
@@ -56,11 +56,11 @@ static void warm_up(void **state)
   make_up(s);
   c->warmup = 0.05;
   for (int k = 0; k < MARKS; k++) c->seconds[k] += c->warmup;
-  assert_true(fabs(gg_course_noise(c, 0) - 0.1) < 1e-12);
+  assert_true(fabs(gg_bench_error_course_noise(c, 0) - 0.1) < 1e-12);
   s->noise[WAY][0] = 0.05, s->unit[0] = 2, s->truth[GG_DSMC][0] = 2;
-  assert_true(fabs(gg_seconds_to(s, WAY, 0, 0.01) - 25.05) < 1e-9);
-  assert_true(fabs(gg_seconds_to(s, WAY, 0, 1) - 0.0525) < 1e-9);
-  assert_true(gg_seconds_to(s, WAY, 0, 100) == c->seconds[0]);
+  assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 0.01) - 25.05) < 1e-9);
+  assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 1) - 0.0525) < 1e-9);
+  assert_true(gg_bench_seconds_to(s, WAY, 0, 100) == c->seconds[0]);
   free(s);
 }
 
@@ -72,7 +72,7 @@ static void measured_state(void **state)
   gg_error_state *s = calloc(1, sizeof *s);
   gg_error err;
   s->phi = 0.3, s->e = 0.9;
-  assert_int_equal(gg_error_state_measure(&b, s, 3, 0.01, &err), GG_OK);
+  assert_int_equal(gg_bench_error_state_measure(&b, s, 3, 0.01, &err), GG_OK);
   for (int i = 0; i < GG_WAYS; i++) {
     const gg_course *c = &s->course[i];
     assert_true(s->done[i] && c->marks > 0 && c->seeds == 3);
@@ -80,7 +80,7 @@ static void measured_state(void **state)
     for (int k = 1; k < c->marks; k++) assert_true(c->seconds[k] > c->seconds[k - 1]);
     for (int q = 0; q < 3; q++) {
       assert_true(s->noise[i][q] > 0 && s->floor[i][q] >= 0);
-      const double early = gg_seconds_to(s, i, q, 0.5), late = gg_seconds_to(s, i, q, 0.1);
+      const double early = gg_bench_seconds_to(s, i, q, 0.5), late = gg_bench_seconds_to(s, i, q, 0.1);
       assert_true(isnan(early) || isnan(late) || early <= late);
     }
     assert_true(isnan(s->noise[i][4])); /* smooth: no theta */

@@ -11,19 +11,19 @@ static void counts(void **state)
 {
   (void)state;
   char text[32];
-  gg_format_count(0, text, sizeof text);
+  gg_cli_format_count(0, text, sizeof text);
   assert_string_equal(text, "0");
-  gg_format_count(1234567, text, sizeof text);
+  gg_cli_format_count(1234567, text, sizeof text);
   assert_string_equal(text, "1.23 M");
-  gg_format_count(999600, text, sizeof text);
+  gg_cli_format_count(999600, text, sizeof text);
   assert_string_equal(text, "1 M");
-  gg_format_duration(3.14, text, sizeof text);
+  gg_cli_format_duration(3.14, text, sizeof text);
   assert_string_equal(text, "3.1 s");
-  gg_format_duration(0.0449, text, sizeof text);
+  gg_cli_format_duration(0.0449, text, sizeof text);
   assert_string_equal(text, "45 ms");
-  gg_format_duration(59.7, text, sizeof text);
+  gg_cli_format_duration(59.7, text, sizeof text);
   assert_string_equal(text, "1:00 min");
-  gg_format_duration(3725, text, sizeof text);
+  gg_cli_format_duration(3725, text, sizeof text);
   assert_string_equal(text, "1:02:05 h");
 }
 

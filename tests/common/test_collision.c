@@ -39,9 +39,9 @@ static pair random_pair(gg_rng *r, int i, bool wall)
   p.e = between(r, 0, 1), p.beta = between(r, -1, 1), p.mu = between(r, 0.01, 2);
   p.a1 = between(r, 0.2, 2), p.a2 = between(r, 0.2, 2);
   p.k = gg_rng_direction(r);
-  p.c1 = gg_rng_normal_vec(r);
-  p.c2 = wall ? (gg_vec){0, 0, 0} : gg_rng_normal_vec(r); /* in the wall's frame it does no work */
-  p.s1 = gg_rng_normal_vec(r), p.s2 = wall ? (gg_vec){0, 0, 0} : gg_rng_normal_vec(r);
+  p.c1 = gg_common_rng_normal_vec(r);
+  p.c2 = wall ? (gg_vec){0, 0, 0} : gg_common_rng_normal_vec(r); /* in the wall's frame it does no work */
+  p.s1 = gg_common_rng_normal_vec(r), p.s2 = wall ? (gg_vec){0, 0, 0} : gg_common_rng_normal_vec(r);
   gg_vec c12 = gg_sub(p.c1, p.c2);
   double gn = gg_dot(p.k, c12), wanted = i % 100 == 0 ? 1e-9 : fabs(gn);
   p.c1 = gg_axpy(wanted - gn, p.k, p.c1);
@@ -52,7 +52,8 @@ static pair random_pair(gg_rng *r, int i, bool wall)
 static void collide(pair *p, gg_rule rule)
 {
   bool frictional = rule == GG_FRICTIONAL;
-  p->contact = gg_contact_make(p->one, p->two, p->e, rule == GG_SMOOTH ? -1 : p->beta, frictional ? p->mu : INFINITY);
+  p->contact =
+      gg_common_contact_make(p->one, p->two, p->e, rule == GG_SMOOTH ? -1 : p->beta, frictional ? p->mu : INFINITY);
   gg_vec c12 = gg_sub(p->c1, p->c2);
   p->gn = gg_dot(p->k, c12);
   p->g = gg_contact_velocity(rule, p->k, c12, p->s1, p->s2);
@@ -119,7 +120,7 @@ static void check_pair(const pair *p, gg_rule rule)
 
 static void check_many(gg_rule rule, bool wall, uint64_t stream)
 {
-  gg_rng r = gg_rng_seed(1991, stream);
+  gg_rng r = gg_common_rng_seed(1991, stream);
   for (int i = 0; i < PAIRS; i++) {
     pair p = random_pair(&r, i, wall);
     collide(&p, rule);
@@ -159,7 +160,7 @@ static void frictional_wall(void **state)
 static void friction_cone(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(1991, 7);
+  gg_rng r = gg_common_rng_seed(1991, 7);
   int slid = 0;
   for (int i = 0; i < PAIRS; i++) {
     pair p = random_pair(&r, i, false);
@@ -182,7 +183,7 @@ static void friction_cone(void **state)
 static void critical_angle(void **state)
 {
   (void)state;
-  gg_contact c = gg_contact_make((gg_partner){1, 0.4}, (gg_partner){1, 0.4}, 0.9, 0.4, 0.123);
+  gg_contact c = gg_common_contact_make((gg_partner){1, 0.4}, (gg_partner){1, 0.4}, 0.9, 0.4, 0.123);
   gg_vec k = {1, 0, 0};
   double critical = c.mu * c.jn / c.jt;
   for (int side = -1; side <= 1; side += 2) {
@@ -204,7 +205,7 @@ static void same_bits(const pair *a, const pair *b, double tolerance)
 static void limits(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(1991, 8);
+  gg_rng r = gg_common_rng_seed(1991, 8);
   for (int i = 0; i < PAIRS / 10; i++) {
     pair rough = random_pair(&r, i, false), sliding = rough, smooth = rough, nearly = rough;
     sliding.mu = 1e300;
@@ -216,17 +217,17 @@ static void limits(void **state)
     collide(&nearly, GG_ROUGH);
     same_bits(&smooth, &nearly, 1e-11);
   }
-  assert_int_equal(gg_rule_of(-1, INFINITY), GG_SMOOTH);
-  assert_int_equal(gg_rule_of(0.5, 0), GG_SMOOTH);
-  assert_int_equal(gg_rule_of(0.5, INFINITY), GG_ROUGH);
-  assert_int_equal(gg_rule_of(-0.999, 0.1), GG_FRICTIONAL);
+  assert_int_equal(gg_common_rule_select(-1, INFINITY), GG_SMOOTH);
+  assert_int_equal(gg_common_rule_select(0.5, 0), GG_SMOOTH);
+  assert_int_equal(gg_common_rule_select(0.5, INFINITY), GG_ROUGH);
+  assert_int_equal(gg_common_rule_select(-0.999, 0.1), GG_FRICTIONAL);
 }
 
 /* e = 1 and beta = +-1: reversing all velocities and spins after the collision leads back. */
 static void time_reversal(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(1991, 9);
+  gg_rng r = gg_common_rng_seed(1991, 9);
   for (int i = 0; i < PAIRS; i++) {
     pair p = random_pair(&r, i, i & 1);
     gg_rule rule = i & 2 ? GG_ROUGH : GG_SMOOTH;
@@ -247,7 +248,7 @@ static void equal_spheres(void **state)
 {
   (void)state;
   double e = 0.8, beta = 0.3, K = 0.4, eta1 = (1 + e) / 2, eta2 = (1 + beta) * K / (2 * (1 + K));
-  gg_contact c = gg_contact_make((gg_partner){1, K}, (gg_partner){1, K}, e, beta, INFINITY);
+  gg_contact c = gg_common_contact_make((gg_partner){1, K}, (gg_partner){1, K}, e, beta, INFINITY);
   gg_vec k = {0.6, 0, 0.8}, g = {1, -2, 0.5};
   double gn = gg_dot(k, g);
   gg_vec J = gg_impulse(GG_ROUGH, &c, k, g, gn), expected = gg_axpy((eta1 - eta2) * gn, k, gg_scale(eta2, g));

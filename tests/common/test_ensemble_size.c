@@ -15,7 +15,7 @@
 
 static gg_scene scene_at(double relative_error)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.1, s.run.relative_error = relative_error;
   return s;
 }
@@ -24,20 +24,20 @@ static void by_the_asked_error(void **state)
 {
   (void)state;
   gg_scene s = scene_at(GG_AUTO);
-  assert_int_equal(gg_ensemble_size(&s), GG_LEAST_ENSEMBLE); /* 1 % */
+  assert_int_equal(gg_common_ensemble_size(&s), GG_LEAST_ENSEMBLE); /* 1 % */
   s.run.collisions = 100;
-  assert_int_equal(gg_ensemble_size(&s), GG_LEAST_ENSEMBLE);
+  assert_int_equal(gg_common_ensemble_size(&s), GG_LEAST_ENSEMBLE);
   for (double error = 1e-5; error < 1e-3; error *= 1.7) {
     s = scene_at(error);
-    double bias = 2.0 / (double)gg_ensemble_size(&s);
+    double bias = 2.0 / (double)gg_common_ensemble_size(&s);
     assert_true(bias <= 0.25 * error && bias > 0.249 * error);
   }
   s = scene_at(1e-9);
-  assert_int_equal(gg_ensemble_size(&s), 1000000);
+  assert_int_equal(gg_common_ensemble_size(&s), 1000000);
   s = scene_at(1e-4);
-  int64_t one = gg_ensemble_size(&s);
+  int64_t one = gg_common_ensemble_size(&s);
   s.n_species = 2, s.species[0].fraction = 0.9, s.species[1] = s.species[0], s.species[1].fraction = 0.1;
-  assert_true(gg_ensemble_size(&s) >= 10 * one - 10 && gg_ensemble_size(&s) <= 10 * one + 10);
+  assert_true(gg_common_ensemble_size(&s) >= 10 * one - 10 && gg_common_ensemble_size(&s) <= 10 * one + 10);
 }
 
 /* md has `particles`, whatever is asked. */
@@ -47,17 +47,17 @@ static void what_is_given(void **state)
   gg_model m;
   char text[200];
   gg_scene s = scene_at(1e-4);
-  gg_ensemble_reason(&s, text, sizeof text);
+  gg_common_ensemble_size_reason(&s, text, sizeof text);
   assert_non_null(strstr(text, "0.0025 % off (1/N), a quarter of the asked error 0.01 %"));
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
   assert_int_equal(m.n, s.particles);
-  assert_int_equal(gg_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
   assert_int_equal(m.n, 80000);
   s.particles = 20000;
-  assert_int_equal(gg_ensemble_size(&s), 20000);
+  assert_int_equal(gg_common_ensemble_size(&s), 20000);
   s.dsmc.particles = 300;
-  assert_int_equal(gg_ensemble_size(&s), 300);
-  gg_ensemble_reason(&s, text, sizeof text);
+  assert_int_equal(gg_common_ensemble_size(&s), 300);
+  gg_common_ensemble_size_reason(&s, text, sizeof text);
   assert_string_equal(text, "");
 }
 
@@ -66,14 +66,14 @@ static void of_a_resumed_run(void **state)
   (void)state;
   gg_archive a = {0}, b = {0};
   gg_scene first = scene_at(1e-3), then = scene_at(1e-5), last = scene_at(1e-4);
-  assert_int_equal(gg_resumption_put(&first, &a, NULL), GG_OK);
-  assert_int_equal(gg_resumption_settle(&then, &a, NULL), GG_OK);
-  assert_int_equal(gg_ensemble_size(&then), gg_ensemble_size(&first));
-  assert_int_equal(gg_resumption_put(&then, &b, NULL), GG_OK);
-  assert_int_equal(gg_resumption_settle(&last, &b, NULL), GG_OK);
-  assert_int_equal(gg_ensemble_size(&last), gg_ensemble_size(&first));
-  gg_archive_clear(&a);
-  gg_archive_clear(&b);
+  assert_int_equal(gg_scene_resumption_put(&first, &a, NULL), GG_OK);
+  assert_int_equal(gg_scene_resumption_settle(&then, &a, NULL), GG_OK);
+  assert_int_equal(gg_common_ensemble_size(&then), gg_common_ensemble_size(&first));
+  assert_int_equal(gg_scene_resumption_put(&then, &b, NULL), GG_OK);
+  assert_int_equal(gg_scene_resumption_settle(&last, &b, NULL), GG_OK);
+  assert_int_equal(gg_common_ensemble_size(&last), gg_common_ensemble_size(&first));
+  gg_base_archive_clear(&a);
+  gg_base_archive_clear(&b);
 }
 
 /* Steps between which a thermostat acts: a fifth of the asked error is what their bias may be. */
@@ -84,9 +84,9 @@ static void steps(void **state)
   for (double error = 1e-2; error > 1e-6; error /= 3) {
     gg_scene s = scene_at(error);
     s.flow = GG_HSS, s.thermostat = GG_WHITE_NOISE, s.collision.e[0] = 0.6;
-    assert_int_equal(gg_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
+    assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
     gg_dsmc_time_step step = gg_dsmc_time_step_choose(&m, 0.5);
-    double h = step.splitting * gg_model_collision_rate(&m, 0.5);
+    double h = step.splitting * gg_common_model_collision_rate(&m, 0.5);
     assert_true(step.bias > 0 && step.bias <= 0.2001 * error && h <= 0.2501);
     assert_true(step.bias > 0.1999 * error || h > 0.2499); /* no shorter than need be */
   }

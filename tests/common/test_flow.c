@@ -18,8 +18,8 @@ static gg_scene scene_of(int flow, const char *rest)
 {
   char text[400];
   gg_error err = {0};
-  gg_scene s = gg_scene_defaults();
-  snprintf(text, sizeof text, "{flow: %s, phi: 0.1, particles: 400%s}", gg_flows[flow].word, rest);
+  gg_scene s = gg_common_scene_defaults();
+  snprintf(text, sizeof text, "{flow: %s, phi: 0.1, particles: 400%s}", gg_common_flows[flow].word, rest);
   if (gg_scene_read(&s, text, strlen(text), "s", &err) != GG_OK) fail_msg("%s: %s", text, err.message);
   return s;
 }
@@ -28,14 +28,14 @@ static void rows_are_complete(void **state)
 {
   (void)state;
   for (int f = 0; f < GG_N_FLOWS; f++) {
-    const gg_flow_row *row = &gg_flows[f];
+    const gg_flow_row *row = &gg_common_flows[f];
     if (!row->word || !row->title || !row->doc || !row->state) fail_msg("row %d lacks words", f);
     print_message("# %s: %s\n", row->word, row->doc);
     assert_int_equal(strspn(row->word, "abcdefghijklmnopqrstuvwxyz_"), strlen(row->word));
     for (int g = 0; g < f; g++) {
-      assert_string_not_equal(row->word, gg_flows[g].word);
-      assert_string_not_equal(row->title, gg_flows[g].title);
-      assert_string_not_equal(row->state, gg_flows[g].state);
+      assert_string_not_equal(row->word, gg_common_flows[g].word);
+      assert_string_not_equal(row->title, gg_common_flows[g].title);
+      assert_string_not_equal(row->state, gg_common_flows[g].state);
     }
     assert_true(row->engines != 0 && row->engines >> 2 == 0);
     assert_true(row->thermostats != 0 && row->thermostats >> GG_N_THERMOSTATS == 0);
@@ -60,12 +60,12 @@ static void defaults_run(void **state)
       gg_model m;
       gg_error err = {0};
       if (gg_scene_finish(&s, &err) != GG_OK) fail_msg("%s", err.message);
-      assert_int_equal(gg_model_make(&s, (gg_engine_kind)engine, &m, &err), GG_OK);
-      gg_status status = gg_engine_ops_of((gg_engine_kind)engine)->accepts(&m, &err);
+      assert_int_equal(gg_common_model_make(&s, (gg_engine_kind)engine, &m, &err), GG_OK);
+      gg_status status = gg_run_engine_ops_of((gg_engine_kind)engine)->accepts(&m, &err);
       if (gg_flow_runs_in((gg_flow)f, engine) && status != GG_OK) fail_msg("%s", err.message);
       if (gg_flow_runs_in((gg_flow)f, engine)) continue;
       assert_int_equal(status, GG_BAD_INPUT);
-      assert_non_null(strstr(err.message, gg_flows[f].word));
+      assert_non_null(strstr(err.message, gg_common_flows[f].word));
     }
 }
 
@@ -83,7 +83,7 @@ static void thermostats(void **state)
       if (gg_flow_takes((gg_flow)f, (gg_thermostat)t) && status != GG_OK) fail_msg("%s", err.message);
       if (gg_flow_takes((gg_flow)f, (gg_thermostat)t)) continue;
       assert_int_equal(status, GG_BAD_INPUT);
-      if (!strstr(err.message, gg_flows[f].word)) fail_msg("'%s' names no flow", err.message);
+      if (!strstr(err.message, gg_common_flows[f].word)) fail_msg("'%s' names no flow", err.message);
     }
 }
 
@@ -97,14 +97,14 @@ static void run_briefly(int flow, gg_engine_kind engine, const char *rest)
   char title[256];
   s.engine = engine, s.dsmc.particles = 2000, s.run.collisions = 60, s.run.warmup = 20;
   if (gg_scene_finish(&s, &err) != GG_OK) fail_msg("%s", err.message);
-  if (gg_run_scene(&s, NULL, 1, NULL, &r, &err) != GG_OK) fail_msg("%s: %s", gg_flows[flow].word, err.message);
-  int n = gg_headline(&r->model, list);
+  if (gg_run_scene(&s, NULL, 1, NULL, &r, &err) != GG_OK) fail_msg("%s: %s", gg_common_flows[flow].word, err.message);
+  int n = gg_run_headline_quantities(&r->model, list);
   assert_true(n > 0);
   for (int i = 0; i < n; i++)
     if (!isfinite(r->value[list[i]].mean))
-      fail_msg("%s: no %s: %s", gg_flows[flow].word, gg_quantity_name(list[i]), r->value[list[i]].reason);
-  gg_title_of_scene(&s, title, sizeof title);
-  assert_int_equal(strncmp(title, gg_flows[flow].title, strlen(gg_flows[flow].title)), 0);
+      fail_msg("%s: no %s: %s", gg_common_flows[flow].word, gg_common_quantity_name(list[i]), r->value[list[i]].reason);
+  gg_files_scene_title(&s, title, sizeof title);
+  assert_int_equal(strncmp(title, gg_common_flows[flow].title, strlen(gg_common_flows[flow].title)), 0);
   gg_result_free(r);
 }
 
@@ -115,7 +115,7 @@ static void headline_quantities(void **state)
     for (int engine = GG_MD; engine <= GG_DSMC; engine++) {
       if (!gg_flow_runs_in((gg_flow)f, engine)) continue;
       run_briefly(f, (gg_engine_kind)engine, "");
-      if (!gg_flows[f].conserves) run_briefly(f, (gg_engine_kind)engine, ", collision: {beta: 0}");
+      if (!gg_common_flows[f].conserves) run_briefly(f, (gg_engine_kind)engine, ", collision: {beta: 0}");
     }
 }
 
@@ -140,13 +140,13 @@ static void lists(void **state)
 {
   (void)state;
   char text[160];
-  gg_flow_list(none, text, sizeof text);
+  gg_common_flow_list(none, text, sizeof text);
   assert_string_equal(text, "");
-  gg_flow_list(first, text, sizeof text);
+  gg_common_flow_list(first, text, sizeof text);
   assert_string_equal(text, "equilibrium");
-  gg_flow_list(first_two, text, sizeof text);
+  gg_common_flow_list(first_two, text, sizeof text);
   assert_string_equal(text, "equilibrium or usf");
-  gg_flow_list(first_three, text, sizeof text);
+  gg_common_flow_list(first_three, text, sizeof text);
   assert_string_equal(text, "equilibrium, usf or hcs");
 }
 

@@ -24,7 +24,7 @@ static gg_model make(const gg_scene *s)
 {
   gg_model m;
   gg_error err = {0};
-  gg_status status = gg_model_make(s, s->engine, &m, &err);
+  gg_status status = gg_common_model_make(s, s->engine, &m, &err);
   if (status != GG_OK) fail_msg("%s", err.message);
   return m;
 }
@@ -33,7 +33,7 @@ static gg_model make(const gg_scene *s)
 static void units_drop_out(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.3;
   gg_model a = make(&s);
   s.species[0].diameter = 0.002, s.species[0].mass = 1e-5, s.shear_rate = 40;
@@ -49,7 +49,7 @@ static void units_drop_out(void **state)
 static void mixture(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.2, s.n_species = 2, s.particles = 1001;
   s.species[0] = (gg_species){0.25, 2, 3, 0.4};
   s.species[1] = (gg_species){0.75, 1, 6, 0.4};
@@ -63,7 +63,7 @@ static void mixture(void **state)
   assert_true(m.chi[GG_11] > m.chi[GG_22]); /* large grains touch more */
   s.species[0].diameter = s.species[1].diameter = 1;
   m = make(&s);
-  near(m.chi[GG_12], gg_contact_value_of(GG_CARNAHAN_STARLING, 0.2), 1e-13);
+  near(m.chi[GG_12], gg_common_contact_value_of(GG_CARNAHAN_STARLING, 0.2), 1e-13);
 }
 
 /* Equations of state: published numbers, and Carnahan-Starling's known distance from them. */
@@ -72,12 +72,12 @@ static void equations_of_state(void **state)
   (void)state;
   const double phi[] = {0.1, 0.2, 0.3, 0.4, 0.45}, Z[] = {1.521647, 2.409403, 3.983983, 6.945460, 9.404114};
   for (int i = 0; i < 5; i++) {
-    near(gg_compressibility(GG_KOLAFA, phi[i]), Z[i], 3e-7);
-    double cs = gg_compressibility(GG_CARNAHAN_STARLING, phi[i]);
+    near(gg_common_compressibility(GG_KOLAFA, phi[i]), Z[i], 3e-7);
+    double cs = gg_common_compressibility(GG_CARNAHAN_STARLING, phi[i]);
     near(cs, (1 + phi[i] + pow(phi[i], 2) - pow(phi[i], 3)) / pow(1 - phi[i], 3), 1e-13);
     assert_true(cs < Z[i] && cs > Z[i] * 0.997);
   }
-  near(gg_contact_value_of(GG_LUN_SAVAGE, 0), 1, 0);
+  near(gg_common_contact_value_of(GG_LUN_SAVAGE, 0), 1, 0);
 }
 
 /* Elastic species of unlike masses share their energy slowly: equal grains, half of them called otherwise, in 3/2
@@ -85,34 +85,34 @@ static void equations_of_state(void **state)
 static void sharing_of_energy(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = GG_EQUILIBRIUM, s.phi = 0.1, s.n_species = 2, s.collision.e[0] = 1;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
   gg_model m = make(&s);
-  near(gg_model_relaxation(&m), 1.5, 1e-12);
+  near(gg_common_model_relaxation(&m), 1.5, 1e-12);
   s.species[1].mass = 1e8;
   m = make(&s);
-  near(gg_model_relaxation(&m) / 1e8, 3 / 16.0 * (1 + sqrt(0.5)), 1e-3);
-  const double two = gg_model_relaxation(&m);
+  near(gg_common_model_relaxation(&m) / 1e8, 3 / 16.0 * (1 + sqrt(0.5)), 1e-3);
+  const double two = gg_common_model_relaxation(&m);
   s.n_species = 4; /* the same grains; like ones share quickly, and the two kinds as slowly as before */
   for (int k = 0; k < 4; k++) s.species[k] = (gg_species){0.25, 1, 1, 0.4};
   s.species[2].mass = s.species[3].mass = 1e8;
   m = make(&s);
-  near(gg_model_relaxation(&m) / two, 1, 1e-6);
+  near(gg_common_model_relaxation(&m) / two, 1, 1e-6);
 }
 
 /* Like grains that lose nothing among themselves cool by what they lose to the others: half of the collisions. */
 static void loss_to_others(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = GG_USF, s.phi = 0.1, s.n_species = 2;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
   s.collision.e[gg_pair(0, 1)] = 0.8;
   gg_model m = make(&s);
-  near(gg_model_relaxation(&m), 2 * 0.75 / (0.9 * 0.1), 1e-12);
+  near(gg_common_model_relaxation(&m), 2 * 0.75 / (0.9 * 0.1), 1e-12);
 }
 
 /* Where T is scaled it does not relax: a smooth gas has nothing slow, and equal species share as elastic ones do, only
@@ -121,30 +121,30 @@ static void scaled_temperature(void **state)
 {
   (void)state;
   const double e = 0.9999, loss = 0.75 / ((1 - e * e) / 4);
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.1, s.collision.e[0] = e;
   s.flow = GG_HCS;
   gg_model m = make(&s);
-  near(gg_model_relaxation(&m), 1, 0);
-  near(gg_model_cooling(&m), loss, 1e-9);
+  near(gg_common_model_relaxation(&m), 1, 0);
+  near(gg_common_model_cooling(&m), loss, 1e-9);
   s.flow = GG_HSS, s.thermostat = GG_GAUSSIAN;
   m = make(&s);
-  near(gg_model_relaxation(&m), 1, 0);
+  near(gg_common_model_relaxation(&m), 1, 0);
   s.thermostat = GG_WHITE_NOISE; /* T is what the noise makes it */
   m = make(&s);
-  near(gg_model_relaxation(&m), loss, 1e-9);
+  near(gg_common_model_relaxation(&m), loss, 1e-9);
   s.flow = GG_HCS, s.thermostat = GG_NO_THERMOSTAT, s.n_species = 2;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = e;
   m = make(&s);
-  near(gg_model_relaxation(&m), 1 / (1 / 1.5 + 1 / loss), 1e-9);
+  near(gg_common_model_relaxation(&m), 1 / (1 / 1.5 + 1 / loss), 1e-9);
 }
 
 /* Elastic and steady are seen as such; relaxation slows down towards beta = -1 and e = 1. */
 static void kinds(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.1;
   assert_true(make(&s).steady && !make(&s).elastic);
   s.collision.e[0] = 1;
@@ -158,13 +158,13 @@ static void kinds(void **state)
   assert_true(!m.elastic && m.steady && m.rule == GG_FRICTIONAL);
   s.collision.mu[0] = INFINITY, s.collision.e[0] = 0.9, s.collision.beta[0] = -0.99;
   m = make(&s);
-  double slow = gg_model_relaxation(&m);
+  double slow = gg_common_model_relaxation(&m);
   s.collision.beta[0] = 0;
   m = make(&s);
-  assert_true(slow > 20 * gg_model_relaxation(&m));
+  assert_true(slow > 20 * gg_common_model_relaxation(&m));
   s.phi = -1;
   gg_error err;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   assert_non_null(strstr(err.message, "phi"));
 }
 
@@ -172,20 +172,20 @@ static void kinds(void **state)
 static void rates_and_units(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.3;
   gg_model m = make(&s);
-  near(gg_model_collision_rate(&m, 2), 24 * 0.3 * m.chi[0] * sqrt(2 / M_PI), 1e-13);
-  assert_string_equal(gg_quantity_unit(GG_Q_TEMPERATURE, &m), "d^2 gamma^2");
+  near(gg_common_model_collision_rate(&m, 2), 24 * 0.3 * m.chi[0] * sqrt(2 / M_PI), 1e-13);
+  assert_string_equal(gg_common_quantity_unit(GG_Q_TEMPERATURE, &m), "d^2 gamma^2");
   s.flow = GG_HCS;
   m = make(&s);
   near(m.temperature0, 0.5, 0);
-  assert_string_equal(gg_quantity_unit(GG_Q_PRESSURE, &m), "rho_p v_0^2");
+  assert_string_equal(gg_common_quantity_unit(GG_Q_PRESSURE, &m), "rho_p v_0^2");
   s.phi = 0, s.engine = GG_DSMC;
   m = make(&s);
-  near(gg_model_collision_rate(&m, 1), 4 * sqrt(M_PI), 1e-14);
-  assert_int_equal(gg_quantity_find("N1"), GG_Q_N1);
-  assert_int_equal(gg_quantity_find("N3"), GG_N_QUANTITIES);
+  near(gg_common_model_collision_rate(&m, 1), 4 * sqrt(M_PI), 1e-14);
+  assert_int_equal(gg_common_quantity_find("N1"), GG_Q_N1);
+  assert_int_equal(gg_common_quantity_find("N3"), GG_N_QUANTITIES);
 }
 
 /* White noise replaces what Maxwellians lose by collisions: of mixtures sum_i x_i (3/2) T zeta_i, whose zeta_i the
@@ -194,7 +194,7 @@ static void rates_and_units(void **state)
 static void noise_replaces_losses(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = GG_HSS, s.thermostat = GG_WHITE_NOISE, s.phi = 0.2, s.particles = 1000;
   s.n_species = 2;
   s.species[0] = (gg_species){0.3, 1, 1, 0.4}, s.species[1] = (gg_species){0.7, 1.5, 4, 0.4};
@@ -202,17 +202,17 @@ static void noise_replaces_losses(void **state)
   gg_model m = make(&s);
   double T = m.temperature0, a[2] = {T / m.mass[0], T / m.mass[1]}, loss = 0, mass = 0;
   for (int i = 0; i < 2; i++) {
-    loss += gg_fraction(&m, i) * 1.5 * T * gg_zeta(&m, i, a).at0;
-    mass += gg_fraction(&m, i) * m.mass[i];
+    loss += gg_theory_fraction(&m, i) * 1.5 * T * gg_theory_zeta(&m, i, a).at0;
+    mass += gg_theory_fraction(&m, i) * m.mass[i];
   }
-  near(gg_thermostat_noise(&m), loss / (1.5 * mass), 1e-13);
+  near(gg_common_thermostat_noise(&m), loss / (1.5 * mass), 1e-13);
   s.n_species = 1, s.collision.e[0] = 0.8, s.collision.beta[0] = 0.3;
   m = make(&s);
   double h1 = m.contact[0][0].jn, h2 = m.contact[0][0].jt, K = m.inertia[0], r = m.ratio0;
   double A = h1 * (1 - h1) + h2 * (1 - h2), B = h2 * h2 / K, C = h2 / K * (1 - h2 / K);
-  double G = 4. / 3 * gg_model_collision_rate(&m, m.temperature0);
+  double G = 4. / 3 * gg_common_model_collision_rate(&m, m.temperature0);
   assert_true(r > 0.1);
-  near(gg_thermostat_noise(&m), G * m.temperature0 * (A - B * r + C * r - B), 1e-13);
+  near(gg_common_thermostat_noise(&m), G * m.temperature0 * (A - B * r + C * r - B), 1e-13);
 }
 
 /* nu_0, in which cooling rates are counted: (16/5) sqrt(pi) n d^2 sqrt(T), and of two species sqrt(pi) n sigma_12^2 v_0
@@ -220,21 +220,21 @@ static void noise_replaces_losses(void **state)
 static void units_of_rates(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = GG_HCS, s.phi = 0.1, s.particles = 1000;
   gg_model m = make(&s);
-  near(gg_model_nu0(&m, 3), 16 * sqrt(M_PI) / 5 * m.density * sqrt(3), 1e-14);
+  near(gg_common_model_nu0(&m, 3), 16 * sqrt(M_PI) / 5 * m.density * sqrt(3), 1e-14);
   s.n_species = 2;
   s.species[0] = (gg_species){0.5, 1, 1, 0.4}, s.species[1] = (gg_species){0.5, 2, 4, 0.4};
   m = make(&s);
   const double unit = sqrt(M_PI);
-  near(gg_model_nu0(&m, 3), unit * m.density * 2.25 * sqrt(2 * 3 * 1.25), 1e-14);
+  near(gg_common_model_nu0(&m, 3), unit * m.density * 2.25 * sqrt(2 * 3 * 1.25), 1e-14);
   s.n_species = 3;
   s.species[0].fraction = 0.2, s.species[1].fraction = 0.3, s.species[2] = (gg_species){0.5, 3, 9, 0.4};
   m = make(&s);
   double pair[] = {2.25 * sqrt(6 * 1.25), 4 * sqrt(6 * 10. / 9), 6.25 * sqrt(6 * 13. / 36)};
   double mean = (0.06 * pair[0] + 0.1 * pair[1] + 0.15 * pair[2]) / 0.31;
-  near(gg_model_nu0(&m, 3), unit * m.density * mean, 1e-14);
+  near(gg_common_model_nu0(&m, 3), unit * m.density * mean, 1e-14);
 }
 
 /* What is put in comes out; missing, misshapen and double items are refused; nesting keeps names apart. */
@@ -244,24 +244,24 @@ static void archives(void **state)
   gg_archive a = {0}, b = {0}, c = {0};
   gg_error err;
   double x[3] = {1, 2, 3}, y[3] = {0};
-  assert_int_equal(gg_archive_put(&a, "x", GG_ITEM_F64, x, 3, &err), GG_OK);
-  assert_int_equal(gg_archive_put(&a, "x", GG_ITEM_F64, x, 3, &err), GG_FAILED);
-  assert_int_equal(gg_archive_get(&a, "x", GG_ITEM_F64, y, 2, &err), GG_BAD_FILE);
-  assert_int_equal(gg_archive_get(&a, "z", GG_ITEM_F64, y, 3, &err), GG_BAD_FILE);
-  assert_int_equal(gg_archive_nest(&b, "one", &a, &err), GG_OK);
-  assert_int_equal(gg_archive_nest(&b, "two", &a, &err), GG_OK);
+  assert_int_equal(gg_base_archive_put(&a, "x", GG_ITEM_F64, x, 3, &err), GG_OK);
+  assert_int_equal(gg_base_archive_put(&a, "x", GG_ITEM_F64, x, 3, &err), GG_FAILED);
+  assert_int_equal(gg_base_archive_get(&a, "x", GG_ITEM_F64, y, 2, &err), GG_BAD_FILE);
+  assert_int_equal(gg_base_archive_get(&a, "z", GG_ITEM_F64, y, 3, &err), GG_BAD_FILE);
+  assert_int_equal(gg_base_archive_nest(&b, "one", &a, &err), GG_OK);
+  assert_int_equal(gg_base_archive_nest(&b, "two", &a, &err), GG_OK);
   assert_int_equal(b.n_items, 2);
-  assert_int_equal(gg_archive_unnest(&c, "two", &b, &err), GG_OK);
-  assert_int_equal(gg_archive_get(&c, "x", GG_ITEM_F64, y, 3, &err), GG_OK);
+  assert_int_equal(gg_base_archive_unnest(&c, "two", &b, &err), GG_OK);
+  assert_int_equal(gg_base_archive_get(&c, "x", GG_ITEM_F64, y, 3, &err), GG_OK);
   assert_memory_equal(x, y, sizeof x);
-  gg_archive_clear(&a), gg_archive_clear(&b), gg_archive_clear(&c);
+  gg_base_archive_clear(&a), gg_base_archive_clear(&b), gg_base_archive_clear(&c);
 }
 
 static void refused(const gg_scene *s, const char *words)
 {
   gg_model m;
   gg_error err = {0};
-  assert_int_equal(gg_model_make(s, GG_DSMC, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_common_model_make(s, GG_DSMC, &m, &err), GG_BAD_INPUT);
   if (!strstr(err.message, words)) fail_msg("'%s' lacks '%s'", err.message, words);
 }
 
@@ -269,20 +269,20 @@ static void refused(const gg_scene *s, const char *words)
 static void scales(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_model m;
   gg_error err = {0};
   const double tiny[] = {9e-21, 1e-300, 1e-308, 5e-324};
   for (int k = 0; k < 4; k++) s.phi = tiny[k], refused(&s, "allowed: from 1e-20 to 0.6, or 0");
   s.phi = 1e-20;
-  assert_int_equal(gg_model_make(&s, GG_DSMC, &m, &err), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_OK);
   assert_true(isfinite(m.temperature0) && isfinite(m.volume) && m.density > 0);
   s.phi = 0.1, s.shear_rate = 1e-3, s.temperature = 1e-13;
   refused(&s, "here 1e-12 to 1e+24");
   s.temperature = 1e25;
   refused(&s, "here 1e-12 to 1e+24");
   s.temperature = 1.01e-12;
-  assert_int_equal(gg_model_make(&s, GG_DSMC, &m, &err), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_OK);
   s.temperature = GG_AUTO, s.n_species = 2;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
   s.species[1].mass = 2e12;

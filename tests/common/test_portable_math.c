@@ -23,7 +23,7 @@ static void roots(void **state)
 {
   (void)state;
   const int order[] = {3, 5, 10};
-  gg_rng rng = gg_rng_seed(1, 0);
+  gg_rng rng = gg_common_rng_seed(1, 0);
   for (int i = 0; i < 100000; i++) {
     const int n = order[i % 3];
     double x = ldexp(1 + gg_rng_uniform(&rng), i % 60 - 30), y = gg_root(x, n);
@@ -39,7 +39,7 @@ static void roots(void **state)
 static void powers(void **state)
 {
   (void)state;
-  gg_rng rng = gg_rng_seed(2, 0);
+  gg_rng rng = gg_common_rng_seed(2, 0);
   int plain_is_off = 0;
   for (int i = 0; i < 100000; i++) {
     const int n = i % 23;
@@ -58,7 +58,7 @@ static void powers(void **state)
 static void first_bits(void **state)
 {
   (void)state;
-  gg_rng rng = gg_rng_seed(3, 0);
+  gg_rng rng = gg_common_rng_seed(3, 0);
   int apart = 0;
   for (int i = 0; i < 100000; i++) {
     double x = ldexp(i % 2 ? 1 + gg_rng_uniform(&rng) : -1 - gg_rng_uniform(&rng), i % 80 - 40),

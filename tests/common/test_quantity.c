@@ -16,15 +16,15 @@ static void names(void **state)
   (void)state;
   char symbol[24];
   for (int q = 0; q < GG_N_QUANTITIES; q++) {
-    assert_int_equal(gg_quantity_find(gg_quantity_name((gg_quantity)q)), q);
-    assert_true(strlen(gg_quantity_doc((gg_quantity)q)) > 5);
-    assert_true(strlen(gg_quantity_symbol((gg_quantity)q, symbol, sizeof symbol)) > 0);
+    assert_int_equal(gg_common_quantity_find(gg_common_quantity_name((gg_quantity)q)), q);
+    assert_true(strlen(gg_common_quantity_doc((gg_quantity)q)) > 5);
+    assert_true(strlen(gg_common_quantity_symbol((gg_quantity)q, symbol, sizeof symbol)) > 0);
   }
-  assert_string_equal(gg_quantity_name(GG_Q_PARTIAL_TEMPERATURE), "temperature_1");
-  assert_string_equal(gg_quantity_name(GG_Q_CUMULANT + 1), "c_2");
-  assert_string_equal(gg_quantity_symbol(GG_Q_PARTIAL_TEMPERATURE + 1, symbol, sizeof symbol), "T_{2}");
-  assert_int_equal(gg_quantity_family(GG_Q_LAST_CUMULANT), GG_Q_CUMULANT);
-  assert_int_equal(gg_quantity_family(GG_Q_N1), GG_Q_N1);
+  assert_string_equal(gg_common_quantity_name(GG_Q_PARTIAL_TEMPERATURE), "temperature_1");
+  assert_string_equal(gg_common_quantity_name(GG_Q_CUMULANT + 1), "c_2");
+  assert_string_equal(gg_common_quantity_symbol(GG_Q_PARTIAL_TEMPERATURE + 1, symbol, sizeof symbol), "T_{2}");
+  assert_int_equal(gg_common_quantity_family(GG_Q_LAST_CUMULANT), GG_Q_CUMULANT);
+  assert_int_equal(gg_common_quantity_family(GG_Q_N1), GG_Q_N1);
 }
 
 /* Whatever the number of species: each quantity once, those of a family by the species. */
@@ -34,19 +34,19 @@ static void of_a_scene(void **state)
   int before = 0;
   for (int species = 1; species <= GG_MAX_SPECIES; species++) {
     gg_model m = {.n_species = species};
-    int n = gg_quantities_of(&m), partial = 0;
+    int n = gg_common_quantity_set_of(&m), partial = 0;
     for (int i = 0; i < n; i++) {
-      gg_quantity q = gg_quantity_at(&m, i);
-      assert_int_equal(gg_quantity_find_in(&m, gg_quantity_name_in(&m, q)), q);
-      if (i) assert_true(gg_quantity_at(&m, i - 1) < q);
-      partial += gg_quantity_family(q) == GG_Q_PARTIAL_TEMPERATURE;
+      gg_quantity q = gg_common_quantity_at(&m, i);
+      assert_int_equal(gg_common_quantity_find_in(&m, gg_common_quantity_name_in(&m, q)), q);
+      if (i) assert_true(gg_common_quantity_at(&m, i - 1) < q);
+      partial += gg_common_quantity_family(q) == GG_Q_PARTIAL_TEMPERATURE;
     }
     assert_int_equal(partial, species > 2 ? species : 2);
     if (species > 2) assert_int_equal(n, before + 2);
     before = n;
   }
   gg_model two = {.n_species = 2};
-  assert_int_equal(gg_quantity_find_in(&two, "temperature_3"), GG_MOST_QUANTITIES);
+  assert_int_equal(gg_common_quantity_find_in(&two, "temperature_3"), GG_MOST_QUANTITIES);
 }
 
 /* A scene that lacks one thing lacks the quantities whose mask asks for it, with its reason, and no others. */
@@ -82,10 +82,10 @@ static void needs(void **state)
   };
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     int lost = 0;
-    for (int i = 0; i < gg_quantities_of(&whole); i++) {
-      gg_quantity q = gg_quantity_at(&whole, i);
-      const char *here = gg_quantity_missing(&cases[k].model, q), *there = gg_quantity_missing(&whole, q);
-      bool asks = gg_quantity_mask(q) & cases[k].need;
+    for (int i = 0; i < gg_common_quantity_set_of(&whole); i++) {
+      gg_quantity q = gg_common_quantity_at(&whole, i);
+      const char *here = gg_common_quantity_missing(&cases[k].model, q), *there = gg_common_quantity_missing(&whole, q);
+      bool asks = gg_common_quantity_mask(q) & cases[k].need;
       if (there) continue; /* lost already */
       if (!asks) assert_null(here);
       if (asks) assert_string_equal(here, cases[k].reason);
@@ -100,20 +100,21 @@ static void decay(void **state)
 {
   (void)state;
   const gg_model cooling = {.flow = GG_HCS, .rule = GG_ROUGH, .n_species = 1};
-  unsigned mask = gg_quantity_mask(GG_Q_TEMPERATURE);
-  assert_string_equal(gg_quantity_missing(&cooling, GG_Q_TEMPERATURE), "decays in free cooling; see the history");
-  assert_string_equal(gg_quantity_missing(&cooling, GG_Q_PRESSURE), "decays in free cooling");
-  assert_null(gg_quantity_missing(&cooling, GG_Q_TEMPERATURE_RATIO));
-  assert_null(gg_model_lacks(&cooling, mask & ~(unsigned)GG_NEEDS_SCALE_SHOWN));
+  unsigned mask = gg_common_quantity_mask(GG_Q_TEMPERATURE);
+  assert_string_equal(gg_common_quantity_missing(&cooling, GG_Q_TEMPERATURE),
+                      "decays in free cooling; see the history");
+  assert_string_equal(gg_common_quantity_missing(&cooling, GG_Q_PRESSURE), "decays in free cooling");
+  assert_null(gg_common_quantity_missing(&cooling, GG_Q_TEMPERATURE_RATIO));
+  assert_null(gg_common_model_missing(&cooling, mask & ~(unsigned)GG_NEEDS_SCALE_SHOWN));
   bool followed = false;
   for (int k = 0; k < GG_N_HISTORY; k++) {
-    gg_quantity q = gg_history_quantity(k);
-    assert_true(gg_quantity_mask(q) & GG_FOLLOWED);
-    if (k) assert_true(q > gg_history_quantity(k - 1));
+    gg_quantity q = gg_common_quantity_of_history(k);
+    assert_true(gg_common_quantity_mask(q) & GG_FOLLOWED);
+    if (k) assert_true(q > gg_common_quantity_of_history(k - 1));
     followed |= q == GG_Q_TEMPERATURE;
   }
   assert_true(followed);
-  assert_int_equal(gg_history_quantity(GG_N_HISTORY), GG_N_QUANTITIES);
+  assert_int_equal(gg_common_quantity_of_history(GG_N_HISTORY), GG_N_QUANTITIES);
 }
 
 int main(void)

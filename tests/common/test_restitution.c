@@ -46,7 +46,7 @@ static void equation_of_motion(void **state)
     double x, within;
   } at[] = {{0.2, 2e-5}, {0.3, 5e-5}, {0.4, 2e-4}, {0.5, 4.5e-4}, {0.7, 2e-3}, {1, 5e-3}, {2, 9e-3}, {3, 6e-3}};
   for (size_t k = 0; k < sizeof at / sizeof *at; k++) {
-    double e = 1 - gg_loss_viscoelastic(pow(at[k].x, 10)), exact = integrated(at[k].x);
+    double e = 1 - gg_common_loss_viscoelastic(pow(at[k].x, 10)), exact = integrated(at[k].x);
     print_message("# x = %.1f: e = %.5f, equation of motion %.5f\n", at[k].x, e, exact);
     assert_true(fabs(e - exact) < at[k].within);
   }
@@ -58,7 +58,7 @@ static void series(void **state)
   (void)state;
   const double C1 = 1.15344, C2 = 0.6 * C1 * C1;
   for (double x = 0.005; x < 0.03; x *= 1.5) {
-    double loss = gg_loss_viscoelastic(pow(x, 10)), x2 = x * x;
+    double loss = gg_common_loss_viscoelastic(pow(x, 10)), x2 = x * x;
     assert_true(fabs(loss / x2 - C1) < 1e-5 + x2);
     assert_true(fabs((loss - 1.15345 * x2) / (x2 * x2) + C2 + 4. / 15 * x) < 3e-4 + x2);
   }
@@ -68,10 +68,10 @@ static void inverse(void **state)
 {
   (void)state;
   for (double loss = 0.001; loss <= 0.991; loss += 0.01) {
-    double u = gg_law_speed_of(GG_LAW_VISCOELASTIC, loss);
-    assert_true(fabs(gg_law_loss(GG_LAW_VISCOELASTIC, u) - loss) < 1e-12);
+    double u = gg_common_law_speed_of(GG_LAW_VISCOELASTIC, loss);
+    assert_true(fabs(gg_common_law_loss(GG_LAW_VISCOELASTIC, u) - loss) < 1e-12);
   }
-  assert_true(gg_law_speed_of(GG_LAW_VISCOELASTIC, 0) == 0 && gg_law_loss(GG_LAW_VISCOELASTIC, 0) == 0);
+  assert_true(gg_common_law_speed_of(GG_LAW_VISCOELASTIC, 0) == 0 && gg_common_law_loss(GG_LAW_VISCOELASTIC, 0) == 0);
 }
 
 /* A user's table: straight lines between its speeds, which need not be evenly spaced, and its ends beyond. */
@@ -82,32 +82,32 @@ static void straight_between_speeds(void **state)
   gg_law_table table = {3, speed, e};
   const double at[] = {0.5, 1, 1.25, 1.75, 2, 3, 5.9, 6, 60},
                value[] = {0.9, 0.9, 0.85, 0.75, 0.7, 0.6, 0.31, 0.3, 0.3};
-  for (int k = 0; k < 9; k++) assert_true(fabs(gg_law_from_table(&table, at[k], 0, 0) - value[k]) < 1e-15);
+  for (int k = 0; k < 9; k++) assert_true(fabs(gg_common_law_from_table(&table, at[k], 0, 0) - value[k]) < 1e-15);
 }
 
 /* Every law: from 0 towards 1, rising, and its table within 2e-7; beyond the table its ends. */
 static void tables(void **state)
 {
   (void)state;
-  gg_rng rng = gg_rng_seed(3, 0);
+  gg_rng rng = gg_common_rng_seed(3, 0);
   for (gg_law_kind kind = GG_LAW_CONSTANT + 1; kind < GG_N_LAWS; kind++) {
     gg_loss_table *t;
     gg_error err;
-    assert_int_equal(gg_loss_table_new(kind, &t, &err), GG_OK);
+    assert_int_equal(gg_common_loss_table_new(kind, &t, &err), GG_OK);
     for (int i = 0; i < 200000; i++) {
-      double u = exp2(-100 + 128 * gg_rng_uniform(&rng)), loss = gg_law_loss(kind, u);
-      assert_true(loss > 0 && loss < 1 && gg_law_loss(kind, 1.01 * u) > loss);
+      double u = exp2(-100 + 128 * gg_rng_uniform(&rng)), loss = gg_common_law_loss(kind, u);
+      assert_true(loss > 0 && loss < 1 && gg_common_law_loss(kind, 1.01 * u) > loss);
       assert_true(fabs(gg_loss_at(t->loss, u) - loss) < 2e-7);
     }
     assert_true(gg_loss_at(t->loss, 0) == t->loss[0] && gg_loss_at(t->loss, 1e-300) == t->loss[0]);
-    assert_true(gg_loss_at(t->loss, 1e300) == gg_law_loss(kind, GG_LOSS_HIGHEST));
+    assert_true(gg_loss_at(t->loss, 1e300) == gg_common_law_loss(kind, GG_LOSS_HIGHEST));
     free(t);
   }
 }
 
 static gg_scene viscoelastic(gg_flow flow)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = flow;
   s.phi = 0.1;
   s.collision.law = GG_LAW_VISCOELASTIC;
@@ -118,7 +118,7 @@ static gg_model model_of(const gg_scene *s)
 {
   gg_model m;
   gg_error err;
-  if (gg_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 
@@ -128,17 +128,18 @@ static void reference_speed(void **state)
   (void)state;
   gg_scene s = viscoelastic(GG_USF);
   gg_model m = model_of(&s);
-  assert_true(fabs(gg_law_at(&m.law, 1, 0, 0) - 0.9) < 1e-12);
+  assert_true(fabs(gg_common_law_at(&m.law, 1, 0, 0) - 0.9) < 1e-12);
   s.shear_rate = 4, s.species[0].diameter = 0.5, s.collision.speed = 6; /* 3 d gamma */
   s.species[0].fraction = s.species[1].fraction = 0.5;
   s.n_species = 2, s.collision.e[GG_12] = 0.8, s.collision.e[GG_22] = 1;
   m = model_of(&s);
-  assert_true(fabs(gg_law_at(&m.law, 3, 0, 0) - 0.9) < 1e-12 && fabs(gg_law_at(&m.law, 3, 1, 0) - 0.8) < 1e-12);
-  assert_true(gg_law_at(&m.law, 3, 1, 1) == 1 && gg_law_at(&m.law, 0.3, 0, 0) > 0.93 && !m.elastic);
+  assert_true(fabs(gg_common_law_at(&m.law, 3, 0, 0) - 0.9) < 1e-12 &&
+              fabs(gg_common_law_at(&m.law, 3, 1, 0) - 0.8) < 1e-12);
+  assert_true(gg_common_law_at(&m.law, 3, 1, 1) == 1 && gg_common_law_at(&m.law, 0.3, 0, 0) > 0.93 && !m.elastic);
   s = viscoelastic(GG_HCS);
   s.species[0].diameter = 7, s.collision.speed = 0.5; /* v_0 */
   m = model_of(&s);
-  assert_true(fabs(gg_law_at(&m.law, 0.5, 0, 0) - 0.9) < 1e-12);
+  assert_true(fabs(gg_common_law_at(&m.law, 0.5, 0, 0) - 0.9) < 1e-12);
 }
 
 /* Theories of a constant e say that they do not apply; so does the linear response; and e must be one that the law has.
@@ -149,16 +150,16 @@ static void refusals(void **state)
   gg_scene s = viscoelastic(GG_USF);
   gg_model m = model_of(&s);
   gg_error err;
-  for (int k = 0; gg_theories[k]; k++) {
+  for (int k = 0; gg_theory_theories[k]; k++) {
     gg_theory_answer answer;
-    assert_int_equal(gg_theory_evaluate(gg_theories[k], &m, &answer, &err), GG_BAD_INPUT);
+    assert_int_equal(gg_theory_evaluate(gg_theory_theories[k], &m, &answer, &err), GG_BAD_INPUT);
     assert_non_null(strstr(err.message, "'viscoelastic'"));
   }
   s = viscoelastic(GG_SMALL_SHEAR);
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   s = viscoelastic(GG_HCS);
   s.collision.e[0] = 0;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   assert_non_null(strstr(err.message, "collision.e"));
 }
 

@@ -20,7 +20,7 @@ static void within(double mean, double expected, double sd, double n)
 static void uniform_and_independent(void **state)
 {
   (void)state;
-  gg_rng a = gg_rng_seed(1, 0), b = gg_rng_seed(1, 1);
+  gg_rng a = gg_common_rng_seed(1, 0), b = gg_common_rng_seed(1, 1);
   double sum = 0, square = 0, cross = 0;
   for (int i = 0; i < DRAWS; i++) {
     double u = gg_rng_uniform(&a), v = gg_rng_uniform(&b);
@@ -36,7 +36,7 @@ static void uniform_and_independent(void **state)
 static void reproducible(void **state)
 {
   (void)state;
-  gg_rng a = gg_rng_seed(7, 3), b = gg_rng_seed(7, 3), c = gg_rng_seed(8, 3);
+  gg_rng a = gg_common_rng_seed(7, 3), b = gg_common_rng_seed(7, 3), c = gg_common_rng_seed(8, 3);
   int equal = 0;
   for (int i = 0; i < 1000; i++) {
     uint64_t x = gg_rng_next(&a);
@@ -50,7 +50,7 @@ static void reproducible(void **state)
 static void directions(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(2, 0);
+  gg_rng r = gg_common_rng_seed(2, 0);
   gg_vec sum = {0, 0, 0}, square = {0, 0, 0};
   for (int i = 0; i < DRAWS; i++) {
     gg_vec k = gg_rng_direction(&r);
@@ -67,10 +67,10 @@ static void directions(void **state)
 static void normals_and_integers(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(3, 0);
+  gg_rng r = gg_common_rng_seed(3, 0);
   double m1 = 0, m2 = 0, m4 = 0, counts[7] = {0};
   for (int i = 0; i < DRAWS; i++) {
-    double x = gg_rng_normal(&r);
+    double x = gg_common_rng_normal(&r);
     m1 += x, m2 += x * x, m4 += x * x * x * x;
     uint32_t k = gg_rng_below(&r, 7);
     assert_true(k < 7);

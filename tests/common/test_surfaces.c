@@ -79,8 +79,8 @@ static gg_region start(const gg_surface *s, gg_rng *r, gg_vec v[3], double radiu
       *gg_component(&v[0], a) = within(r, where.from[a], where.to[a]);
     }
   } while (gg_surface_clearance(s, &v[0], radius) < 1e-3);
-  v[1] = gg_rng_normal_vec(r);
-  v[2] = gg_scale(gg_rng_below(r, 2) ? 0.7 : 0, gg_rng_normal_vec(r));
+  v[1] = gg_common_rng_normal_vec(r);
+  v[2] = gg_scale(gg_rng_below(r, 2) ? 0.7 : 0, gg_common_rng_normal_vec(r));
   return where;
 }
 
@@ -90,7 +90,7 @@ static gg_region start(const gg_surface *s, gg_rng *r, gg_vec v[3], double radiu
 static void contacts(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(1, 2);
+  gg_rng r = gg_common_rng_seed(1, 2);
   for (int w = 0; w < SURFACES; w++) {
     const gg_surface *s = &surfaces[w];
     int met = 0, missed = 0;
@@ -117,7 +117,7 @@ static void contacts(void **state)
 static void normals(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(1, 3);
+  gg_rng r = gg_common_rng_seed(1, 3);
   for (int k = 0; k < FLIGHTS; k++) {
     const gg_surface *s = &surfaces[k % SURFACES];
     gg_vec p = {within(&r, 0, edge), within(&r, 0, edge), within(&r, 0, edge)};
@@ -141,12 +141,12 @@ static void normals(void **state)
 static void leaving(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(1, 4);
+  gg_rng r = gg_common_rng_seed(1, 4);
   for (int k = 0; k < FLIGHTS; k++) {
     const gg_surface *s = &surfaces[k % SURFACES];
     const gg_region everywhere = {{0, 0, 0}, {edge, edge, edge}};
     double radius = within(&r, 0.2, 0.5);
-    gg_vec p = {within(&r, 3, 6), within(&r, 3, 6), within(&r, 3, 6)}, v = gg_scale(0.2, gg_rng_normal_vec(&r));
+    gg_vec p = {within(&r, 3, 6), within(&r, 3, 6), within(&r, 3, 6)}, v = gg_scale(0.2, gg_common_rng_normal_vec(&r));
     *gg_component(&p, s->axis) = s->place;
     gg_surface_put_outside(s, radius, &p);
     gg_vec normal = gg_surface_normal(s, &p), g = gg_scale(0.5, normal);
@@ -167,13 +167,13 @@ static void images(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
-    gg_scene s = gg_scene_defaults();
+    gg_scene s = gg_common_scene_defaults();
     gg_model m;
     gg_error err;
     s.flow = GG_CHUTE, s.phi = 0.2, s.particles = 500;
     s.walls.top = k == 2 ? GG_OPEN_TOP : s.walls.top;
     s.walls.ridges = k == 1 ? 0.5 : 0;
-    assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_OK);
+    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
     assert_int_equal(m.n_surfaces, k == 2 ? 1 : 2);
     for (int w = 0; w < m.n_surfaces; w++) assert_int_equal(gg_surface_image(&m, w), k == 2 ? -1 : 1 - w);
   }
@@ -183,30 +183,30 @@ static void images(void **state)
 static void room(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_model m;
   gg_error err;
   s.flow = GG_CHUTE, s.phi = 0.2, s.particles = 200;
   const double least[] = {0.0999, 0.1};
   for (int k = 0; k < 2; k++) {
     s.walls.ridges = least[k];
-    assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), k ? GG_OK : GG_BAD_INPUT);
+    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), k ? GG_OK : GG_BAD_INPUT);
   }
   const double length = m.box[0], gap = m.box[1];
   int refused = 0;
   for (s.walls.ridges = 0.5; s.walls.ridges < length; s.walls.ridges += 0.05) {
     double height = 0.5 * length / round(length / s.walls.ridges);
     bool fits = gap - 2 * height >= 2;
-    assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), fits ? GG_OK : GG_BAD_INPUT);
+    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), fits ? GG_OK : GG_BAD_INPUT);
     refused += !fits;
   }
   assert_true(refused > 5);
   s.aspect[1] = 9, s.walls.ridges = 0; /* one ridge is as wide as the box, no less than half of what was asked for */
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
   s.walls.ridges = 1.99 * m.box[0];
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
   s.walls.ridges = 2.01 * m.box[0];
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
 }
 
 int main(void)

@@ -16,7 +16,7 @@
 
 static inline gg_scene lab_scene(gg_flow flow, double phi, double e, double beta, int64_t n)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = flow;
   s.engine = GG_DSMC;
   s.phi = phi;
@@ -29,7 +29,7 @@ static inline gg_model lab_model(const gg_scene *s)
 {
   gg_model m;
   gg_error err = {0};
-  if (gg_model_make(s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 

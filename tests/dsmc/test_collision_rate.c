@@ -23,7 +23,7 @@ static void rate(double phi, int64_t n)
     uint64_t target = 20000;
     gg_collision_sums t;
     gg_dsmc_ops.take_sums(g, &t);
-    time = lab_advance(g, target / (0.5 * (double)n * gg_model_collision_rate(&m, 0.5)), UINT64_MAX);
+    time = lab_advance(g, target / (0.5 * (double)n * gg_common_model_collision_rate(&m, 0.5)), UINT64_MAX);
     gg_dsmc_ops.take_sums(g, &t);
     lab_add(&rate, 2 * (double)t.collisions[GG_11] / ((double)n * time));
     gg_dsmc_ops.destroy(g);

@@ -26,7 +26,7 @@ static void cool(const gg_model *m, uint64_t seed, int blocks, cooling *c)
       a2 += (v.c4 / v.n / (15 * T * T) - 1) / samples;
       ratio += m->inertia[0] * v.ss / v.n / 3 / T / samples;
       /* dT/dt = -zeta T with zeta ~ sqrt(T): 1/sqrt(T) grows linearly. */
-      zeta += 2 * (sqrt(fell) - 1) / (time * gg_model_nu0(m, T0)) / samples;
+      zeta += 2 * (sqrt(fell) - 1) / (time * gg_common_model_nu0(m, T0)) / samples;
       if (T < 0x1p-20) assert_int_equal(gg_dsmc_ops.rescale(g, 10, &err), GG_OK);
     }
     if (b < 0) continue;

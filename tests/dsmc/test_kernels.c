@@ -27,12 +27,12 @@ static lane_pairs random_pairs(gg_rng *rng, gg_rule rule, bool same, bool elasti
   lane_pairs p = {.one = {0.1 + gg_rng_uniform(rng), 0.1 + 0.5 * gg_rng_uniform(rng)}};
   p.two = same ? p.one : (gg_partner){0.1 + gg_rng_uniform(rng), 0.1 + 0.5 * gg_rng_uniform(rng)};
   double beta = elastic ? 1 : 2 * gg_rng_uniform(rng) - 1, mu = gg_rng_uniform(rng);
-  p.contact = gg_contact_make(p.one, p.two, elastic ? 1 : gg_rng_uniform(rng), rule == GG_SMOOTH ? -1 : beta,
-                              rule == GG_FRICTIONAL ? mu : INFINITY);
+  p.contact = gg_common_contact_make(p.one, p.two, elastic ? 1 : gg_rng_uniform(rng), rule == GG_SMOOTH ? -1 : beta,
+                                     rule == GG_FRICTIONAL ? mu : INFINITY);
   for (int l = 0; l < GG_WIDTH; l++) {
     p.k[l] = gg_rng_direction(rng);
-    p.c1[l] = gg_rng_normal_vec(rng), p.c2[l] = gg_rng_normal_vec(rng);
-    p.s1[l] = gg_rng_normal_vec(rng), p.s2[l] = gg_rng_normal_vec(rng);
+    p.c1[l] = gg_common_rng_normal_vec(rng), p.c2[l] = gg_common_rng_normal_vec(rng);
+    p.s1[l] = gg_common_rng_normal_vec(rng), p.s2[l] = gg_common_rng_normal_vec(rng);
     if (gg_dot(p.k[l], gg_sub(p.c1[l], p.c2[l])) < 0) p.k[l] = gg_scale(-1, p.k[l]);
   }
   return p;
@@ -124,7 +124,7 @@ static void check_reversal(const lane_pairs *p, gg_rule rule, bool same)
 static void same_rule(void **state)
 {
   (void)state;
-  gg_rng rng = gg_rng_seed(5, 0);
+  gg_rng rng = gg_common_rng_seed(5, 0);
   for (int i = 0; i < 60000; i++) {
     gg_rule rule = (gg_rule)(i % 3);
     const bool same = i & 1, elastic = rule != GG_FRICTIONAL && i % 8 < 2;
@@ -141,8 +141,8 @@ static void same_law(void **state)
   (void)state;
   gg_loss_table *t;
   gg_error err;
-  gg_rng rng = gg_rng_seed(9, 0);
-  assert_int_equal(gg_loss_table_new(GG_LAW_VISCOELASTIC, &t, &err), GG_OK);
+  gg_rng rng = gg_common_rng_seed(9, 0);
+  assert_int_equal(gg_common_loss_table_new(GG_LAW_VISCOELASTIC, &t, &err), GG_OK);
   for (int i = 0; i < 100000; i++) {
     gg_vd u;
     for (int l = 0; l < GG_WIDTH; l++) u[l] = exp2(-110 + 150 * gg_rng_uniform(&rng));
@@ -157,7 +157,7 @@ static void same_bits_on(const gg_model *m)
 {
   gg_archive first = {0};
   for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
-    if (!gg_instructions_run_here(set)) continue;
+    if (!gg_simd_instructions_run_here(set)) continue;
     gg_engine *g = on_path(m, GG_DSMC_BLOCKS, 3);
     ((gg_dsmc *)g)->ensemble.kernels = gg_dsmc_kernels_for(set);
     gg_error err = {0};
@@ -171,10 +171,11 @@ static void same_bits_on(const gg_model *m)
       continue;
     }
     for (size_t i = 0; i < first.n_items; i++)
-      assert_memory_equal(first.items[i].data, a.items[i].data, a.items[i].count * gg_item_size(a.items[i].type));
-    gg_archive_clear(&a);
+      assert_memory_equal(first.items[i].data, a.items[i].data,
+                          a.items[i].count * gg_base_archive_item_size(a.items[i].type));
+    gg_base_archive_clear(&a);
   }
-  gg_archive_clear(&first);
+  gg_base_archive_clear(&first);
 }
 
 /* The same seed leaves the same ensemble, sums and counts with AVX-512, AVX2 and neither. */
@@ -209,14 +210,14 @@ static void same_bits(void **state)
 static void normal_numbers(void **state)
 {
   (void)state;
-  gg_rng rng = gg_rng_seed(6, 0);
+  gg_rng rng = gg_common_rng_seed(6, 0);
   for (int i = 0; i < 100000; i++) {
     double u = i < 50 ? ldexp(1, -i) : gg_rng_uniform(&rng) + 0x1p-53;
     assert_true(fabs(gg_dsmc_lane_log(gg_all(u))[0] - log(u)) <= 4e-16 * (1 + fabs(log(u))));
   }
   gg_dsmc_rng_lanes lanes;
   for (unsigned l = 0; l < GG_DSMC_LANES; l++)
-    for (int i = 0; i < 4; i++) lanes.s[i][l] = gg_rng_seed(6, l + 1).s[i];
+    for (int i = 0; i < 4; i++) lanes.s[i][l] = gg_common_rng_seed(6, l + 1).s[i];
   gg_dsmc_lane_rng r;
   gg_dsmc_lane_rng_load(&r, &lanes);
   const int n = 1000000;

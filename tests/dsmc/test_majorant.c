@@ -40,7 +40,7 @@ static void forced_overflows(void **state)
   (void)state;
   gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.2, 1, -1, 2000);
   gg_model m = lab_model(&s);
-  double rate = gg_model_collision_rate(&m, 0.5), pressure = 4 * m.phi * m.chi[0] * m.density * 0.5 * 3;
+  double rate = gg_common_model_collision_rate(&m, 0.5), pressure = 4 * m.phi * m.chi[0] * m.density * 0.5 * 3;
   const double forced[] = {0, 3, 1, 0.3};
   for (int i = 0; i < 4; i++) {
     lab_mean r = {0}, p = {0};

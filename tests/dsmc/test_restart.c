@@ -11,9 +11,10 @@ static void same_archive(gg_engine *a, gg_engine *b)
   assert_int_equal(gg_dsmc_ops.save(b, &two, &err), GG_OK);
   assert_int_equal(one.n_items, two.n_items);
   for (size_t i = 0; i < one.n_items; i++)
-    assert_memory_equal(one.items[i].data, two.items[i].data, one.items[i].count * gg_item_size(one.items[i].type));
-  gg_archive_clear(&one);
-  gg_archive_clear(&two);
+    assert_memory_equal(one.items[i].data, two.items[i].data,
+                        one.items[i].count * gg_base_archive_item_size(one.items[i].type));
+  gg_base_archive_clear(&one);
+  gg_base_archive_clear(&two);
 }
 
 static void restart(gg_flow flow, double phi, double beta, int64_t n, int species, gg_precision precision)
@@ -41,7 +42,7 @@ static void restart(gg_flow flow, double phi, double beta, int64_t n, int specie
   m = lab_model(&s);
   assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "dsmc/velocity_1"));
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
 }
 
 static void restarts_bit_for_bit(void **state)
@@ -72,7 +73,7 @@ static void restarts_while_it_warms(void **state)
     lab_advance(e, INFINITY, 10);
     assert_int_equal(gg_dsmc_ops.save(e, &archive, &err), GG_OK);
     assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_OK);
-    gg_archive_clear(&archive);
+    gg_base_archive_clear(&archive);
     gg_dsmc_ops.destroy(e);
     e = resumed;
   }
@@ -107,7 +108,7 @@ static void without_its_callback(void **state)
   lab_advance(resumed, INFINITY, 3000);
   same_archive(straight, resumed);
   assert_int_equal(told, then.collisions);
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
   gg_dsmc_ops.destroy(straight);
   gg_dsmc_ops.destroy(resumed);
 }
@@ -128,7 +129,7 @@ static void restarts_far_below(void **state)
   }
   assert_int_equal(gg_dsmc_ops.save(e, &archive, &err), GG_OK);
   assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_OK);
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
   gg_dsmc_ops.destroy(e);
   gg_dsmc_ops.destroy(resumed);
 }
@@ -182,7 +183,7 @@ static void precision_is_kept(void **state)
   assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &two, &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "dsmc/velocity_1"));
   assert_non_null(strstr(err.message, "type"));
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
   gg_dsmc_ops.destroy(one);
 }
 
@@ -205,10 +206,10 @@ static void stopped(void **state)
     s.dsmc.time_step = cases[k].time_step;
     s.thermostat = cases[k].flow == GG_HSS ? GG_GAUSSIAN : GG_NO_THERMOSTAT;
     gg_model m = lab_model(&s);
-    gg_rng rng = gg_rng_seed(1, 0);
+    gg_rng rng = gg_common_rng_seed(1, 0);
     gg_stop stop = {by_chance, &rng};
     gg_error err;
-    double dt = 20 / gg_model_collision_rate(&m, m.temperature0), gone;
+    double dt = 20 / gg_common_model_collision_rate(&m, m.temperature0), gone;
     gg_engine *straight = lab_engine(&m, 8);
     m.stop = &stop;
     gg_engine *cut = lab_engine(&m, 8);
@@ -222,7 +223,7 @@ static void stopped(void **state)
       assert_int_equal(gg_dsmc_ops.save(cut, &a, &err), GG_OK);
       gg_dsmc_ops.destroy(cut);
       assert_int_equal(gg_dsmc_ops.restore(&m, &a, &cut, &err), GG_OK);
-      gg_archive_clear(&a);
+      gg_base_archive_clear(&a);
       status = gg_dsmc_ops.go_on(cut, &gone, &err);
     }
     assert_true(stops > 0);

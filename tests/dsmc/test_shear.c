@@ -46,7 +46,7 @@ static void dense(void **state)
   lab_flow f;
   average(&m, 37, 50, 25, 20, &f);
   gg_theory_answer a;
-  assert_int_equal(gg_theory_evaluate(&gg_enskog_hermite, &m, &a, NULL), GG_OK);
+  assert_int_equal(gg_theory_evaluate(&gg_theory_enskog_hermite, &m, &a, NULL), GG_OK);
   lab_solution("temperature", &f.T, &a, GG_Q_TEMPERATURE, 1, 0.015);
   lab_solution("collision rate", &f.rate, &a, GG_Q_COLLISION_RATE, 1, 0.01);
   lab_solution("P_xy", &f.P[0][1], &a, GG_Q_P_XY, m.stress_unit, 0.015);

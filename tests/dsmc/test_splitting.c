@@ -61,7 +61,7 @@ static void as_often_as_the_step_asks(void **state)
   for (int sheared = 0; sheared < 2; sheared++) {
     gg_model m = mixture(sheared ? GG_USF : GG_HCS);
     gg_dsmc_time_step step = gg_dsmc_time_step_choose(&m, 1);
-    double free_time = 1 / gg_model_collision_rate(&m, 1);
+    double free_time = 1 / gg_common_model_collision_rate(&m, 1);
     assert_true(step.splitting <= 0.25 * free_time && step.length > 1.9 * step.splitting);
     for (double dt = step.length; dt > 0.01 * step.splitting; dt *= 0.7) {
       int sweeps = gg_dsmc_sweeps_of(&step, GG_DSMC_SYMMETRIC, dt);
@@ -104,7 +104,7 @@ static void collisions_come_in_their_time(void **state)
   (void)state;
   gg_model m = mixture(GG_HCS);
   gg_engine *g = lab_engine(&m, 5);
-  flights f = {.unit = 1 / gg_model_collision_rate(&m, m.temperature0)};
+  flights f = {.unit = 1 / gg_common_model_collision_rate(&m, m.temperature0)};
   gg_error err;
   assert_int_equal(gg_dsmc_ops.set_callback(g, note_flight, &f, &err), GG_OK);
   lab_advance(g, 6 * f.unit, UINT64_MAX);

@@ -22,7 +22,7 @@ static void gaussian(void **state)
   lab_average(g, &m, 20, 40, 20, &f);
   lab_expect("temperature", &f.T, 0.5, 1e-4, 0.002);
   lab_expect("a2", &f.a2, 0.0474, 3e-4, 0.05);
-  double zeta = lab_value(&f.loss) / (1.5 * m.density * 0.5) / gg_model_nu0(&m, 0.5);
+  double zeta = lab_value(&f.loss) / (1.5 * m.density * 0.5) / gg_common_model_nu0(&m, 0.5);
   assert_true(fabs(zeta / (5. / 12 * m.chi[0] * 0.75 * (1 + 3. / 16 * 0.0474)) - 1) < 0.003);
   gg_dsmc_ops.destroy(g);
 }
@@ -58,7 +58,7 @@ static void white_noise(void **state)
 static void viscosity(const gg_model *model, double reduced_rate, int ensembles, lab_mean *total, lab_mean *kinetic)
 {
   gg_model m = *model;
-  double nu_over_speed = gg_model_nu0(&m, 1);
+  double nu_over_speed = gg_common_model_nu0(&m, 1);
   m.temperature0 = 1 / (reduced_rate * reduced_rate * nu_over_speed * nu_over_speed);
   for (int i = 0; i < ensembles; i++) {
     gg_engine *g = lab_engine(&m, 100 + (uint64_t)i);
@@ -96,7 +96,7 @@ static void cooling_viscosity(void **state)
 {
   (void)state;
   gg_model m = heated(GG_USF, GG_NO_THERMOSTAT, 0, 0.7, -1, 100000);
-  double nu = gg_model_nu0(&m, 1);
+  double nu = gg_common_model_nu0(&m, 1);
   lab_mean eta = {0};
   m.temperature0 = pow(0.004 * nu, -2);
   for (uint64_t seed = 0; seed < 20; seed++) {

@@ -10,8 +10,8 @@ static void same(const gg_archive *a, const gg_archive *b)
 {
   assert_int_equal(a->n_items, b->n_items);
   for (size_t i = 0; i < a->n_items; i++) {
-    size_t bytes = a->items[i].count * gg_item_size(a->items[i].type);
-    assert_int_equal(bytes, b->items[i].count * gg_item_size(b->items[i].type));
+    size_t bytes = a->items[i].count * gg_base_archive_item_size(a->items[i].type);
+    assert_int_equal(bytes, b->items[i].count * gg_base_archive_item_size(b->items[i].type));
     if (memcmp(a->items[i].data, b->items[i].data, bytes) != 0) fail_msg("%s differs", a->items[i].name);
   }
 }
@@ -47,11 +47,11 @@ static void same_bits_on(const gg_model *m)
     gg_archive a = outcome(m, threads[i][0], threads[i][1]);
     if (i) same(&first, &a);
     if (i)
-      gg_archive_clear(&a);
+      gg_base_archive_clear(&a);
     else
       first = a;
   }
-  gg_archive_clear(&first);
+  gg_base_archive_clear(&first);
 }
 
 /* Rules, flows dilute and dense, thermostats, precisions, one species, two, and two of which one is too small for
@@ -100,7 +100,7 @@ static void same_bits_of(gg_precision precision)
   gg_model m = lab_model(&s);
   gg_archive first = {0};
   for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
-    if (!gg_instructions_run_here(set)) continue;
+    if (!gg_simd_instructions_run_here(set)) continue;
     gg_engine *g = lab_engine(&m, 3);
     gg_archive a = {0};
     ((gg_dsmc *)g)->ensemble.kernels = gg_dsmc_kernels_for(set);
@@ -110,12 +110,12 @@ static void same_bits_of(gg_precision precision)
     gg_dsmc_ops.destroy(g);
     if (first.n_items) {
       same(&first, &a);
-      gg_archive_clear(&a);
+      gg_base_archive_clear(&a);
     } else {
       first = a;
     }
   }
-  gg_archive_clear(&first);
+  gg_base_archive_clear(&first);
 }
 
 static void same_bits_with_any_instructions(void **state)
@@ -151,11 +151,11 @@ static void resumes_with_other_threads(void **state)
       lab_advance(resumed, INFINITY, (uint64_t)m.n);
       save(resumed, &a);
       same(&end, &a);
-      gg_archive_clear(&a);
+      gg_base_archive_clear(&a);
       gg_dsmc_ops.destroy(resumed);
     }
-    gg_archive_clear(&half);
-    gg_archive_clear(&end);
+    gg_base_archive_clear(&half);
+    gg_base_archive_clear(&end);
     gg_dsmc_ops.destroy(straight);
   }
 }
@@ -174,8 +174,8 @@ static void small_ones_do_not_pay(void **state)
   assert_null(d->ensemble.pool);
   assert_null(d->schedule);
   save(g, &a);
-  assert_null(gg_archive_find(&a, "dsmc/schedule"));
-  gg_archive_clear(&a);
+  assert_null(gg_base_archive_find(&a, "dsmc/schedule"));
+  gg_base_archive_clear(&a);
   gg_dsmc_ops.destroy(g);
 }
 

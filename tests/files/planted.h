@@ -31,10 +31,10 @@ static inline gg_frame planted_frame(uint64_t step, bool positions)
 static inline gg_result *planted_result(gg_engine_kind engine)
 {
   gg_result *r = calloc(1, sizeof *r);
-  r->scene = gg_scene_defaults();
+  r->scene = gg_common_scene_defaults();
   r->scene.phi = 0.3, r->scene.particles = PLANTED_GRAINS, r->scene.engine = engine;
   for (int p = 0; p < GG_PAIRS; p++) r->scene.collision.beta[p] = 0;
-  gg_model_make(&r->scene, engine, &r->model, NULL);
+  gg_common_model_make(&r->scene, engine, &r->model, NULL);
   r->model.n = PLANTED_GRAINS;
   r->engine = engine == GG_MD ? "md" : "dsmc";
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "no trend");
@@ -55,7 +55,7 @@ static inline gg_result *planted_result(gg_engine_kind engine)
   r->final = planted_frame(100, engine == GG_MD);
   r->averaging = (gg_effort){12000000, 7.9, NAN};
   r->total = (gg_effort){13000000, 8.9, 9.1};
-  gg_result_warn(r, "planted warning");
+  gg_run_result_warn(r, "planted warning");
   return r;
 }
 
@@ -66,13 +66,13 @@ static inline gg_comparison *planted_comparison(void)
   c->by_engine[GG_DSMC] = planted_result(GG_DSMC);
   c->by_engine[GG_DSMC]->value[GG_Q_TEMPERATURE].mean -= 0.01;
   c->scene = c->by_engine[GG_MD]->scene;
-  assert_int_equal(gg_compare_theories(&c->by_engine[GG_MD]->model, c, NULL), GG_OK);
+  assert_int_equal(gg_run_compare_theories(&c->by_engine[GG_MD]->model, c, NULL), GG_OK);
   return c;
 }
 
 static inline void planted_comparison_free(gg_comparison *c)
 {
-  gg_comparison_clear(c);
+  gg_run_comparison_clear(c);
   free(c);
 }
 

@@ -23,11 +23,11 @@ static gg_archive archive(double first)
   const double f64[3] = {first, -0.0, 1e-310};
   const int64_t i64 = INT64_MIN;
   const uint64_t u64[2] = {UINT64_MAX, 1};
-  gg_archive_put(&a, "z/last name first", GG_ITEM_F64, f64, 3, NULL);
-  gg_archive_put(&a, "replica0/md/grains", GG_ITEM_I64, &i64, 1, NULL);
-  gg_archive_put(&a, "u64", GG_ITEM_U64, u64, 2, NULL);
-  gg_archive_put(&a, "bytes", GG_ITEM_U8, "\0\1\377", 3, NULL);
-  gg_archive_put(&a, "empty", GG_ITEM_F64, NULL, 0, NULL);
+  gg_base_archive_put(&a, "z/last name first", GG_ITEM_F64, f64, 3, NULL);
+  gg_base_archive_put(&a, "replica0/md/grains", GG_ITEM_I64, &i64, 1, NULL);
+  gg_base_archive_put(&a, "u64", GG_ITEM_U64, u64, 2, NULL);
+  gg_base_archive_put(&a, "bytes", GG_ITEM_U8, "\0\1\377", 3, NULL);
+  gg_base_archive_put(&a, "empty", GG_ITEM_F64, NULL, 0, NULL);
   return a;
 }
 
@@ -38,7 +38,8 @@ static void assert_same(const gg_archive *a, const gg_archive *b)
     assert_string_equal(a->items[i].name, b->items[i].name);
     assert_int_equal(a->items[i].type, b->items[i].type);
     assert_int_equal(a->items[i].count, b->items[i].count);
-    assert_memory_equal(a->items[i].data, b->items[i].data, a->items[i].count * gg_item_size(a->items[i].type));
+    assert_memory_equal(a->items[i].data, b->items[i].data,
+                        a->items[i].count * gg_base_archive_item_size(a->items[i].type));
   }
 }
 
@@ -61,7 +62,7 @@ static void seal_anew(const char *path)
   unsigned char seal[GG_SEAL_SIZE];
   int fd = open(path, O_RDWR);
   assert_true(fstat(fd, &about) == 0 && ftruncate(fd, about.st_size - GG_SEAL_SIZE) == 0);
-  assert_int_equal(gg_seal_of_file(fd, seal), 0);
+  assert_int_equal(gg_files_checksum_trailer_of_file(fd, seal), 0);
   assert_int_equal(pwrite(fd, seal, sizeof seal, about.st_size - GG_SEAL_SIZE), GG_SEAL_SIZE);
   close(fd);
 }
@@ -72,31 +73,31 @@ static void checkpoint_generations(void **state)
   (void)state;
   gg_error err = {0};
   bool older;
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   gg_archive one = archive(1), two = archive(2), back = {0};
-  assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
-  assert_int_equal(gg_checkpoint_write("c.h5", false, &two, &scene, &err), GG_OK);
-  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &two, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
   assert_false(older);
   assert_same(&two, &back);
-  gg_archive_clear(&back);
+  gg_base_archive_clear(&back);
 
   /* One flipped bit in the data is found by the checksum. */
   double wanted = 2;
   flip_bit("c.h5", &wanted, sizeof wanted);
-  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
   assert_true(older);
   assert_same(&one, &back);
-  gg_archive_clear(&back);
+  gg_base_archive_clear(&back);
   unlink("c.h5");
-  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
   assert_true(older);
-  gg_archive_clear(&back);
+  gg_base_archive_clear(&back);
   unlink("c.h5.1");
-  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
+  assert_int_equal(gg_files_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
   assert_string_equal(err.message, "c.h5: cannot be read: No such file or directory");
-  gg_archive_clear(&one);
-  gg_archive_clear(&two);
+  gg_base_archive_clear(&one);
+  gg_base_archive_clear(&two);
   remove_all();
 }
 
@@ -106,21 +107,21 @@ static void checkpoint_of_another_version(void **state)
   (void)state;
   gg_error err = {0};
   bool older;
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   gg_archive one = archive(1), back = {0};
-  assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
   flip_bit("c.h5", GG_VERSION, sizeof GG_VERSION - 1);
   seal_anew("c.h5");
   char other[] = GG_VERSION, expected[240];
   other[0] ^= 1;
-  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
+  assert_int_equal(gg_files_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
   snprintf(
       expected, sizeof expected,
       "c.h5: cannot be read: graingas %s has written it (layout %d), and this is graingas %s (layout %d); only the "
       "same can go on",
       other, GG_CHECKPOINT_LAYOUT, GG_VERSION, GG_CHECKPOINT_LAYOUT);
   assert_string_equal(err.message, expected);
-  gg_archive_clear(&one);
+  gg_base_archive_clear(&one);
   remove_all();
 }
 
@@ -136,9 +137,9 @@ static void checkpoint_of_another_layout(void **state)
     gg_error err = {0};
     bool older;
     char expected[240];
-    gg_scene scene = gg_scene_defaults();
+    gg_scene scene = gg_common_scene_defaults();
     gg_archive one = archive(1), back = {0};
-    assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+    assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
     unsigned char seal[GG_SEAL_SIZE]; /* HDF5 cuts it off */
     hid_t file = H5Fopen("c.h5", H5F_ACC_RDWR, H5P_DEFAULT),
           version = H5Dopen(file, "/checkpoint/version", H5P_DEFAULT);
@@ -149,20 +150,20 @@ static void checkpoint_of_another_layout(void **state)
     H5Dclose(version);
     H5Fclose(file);
     int fd = open("c.h5", O_RDWR | O_APPEND);
-    assert_int_equal(gg_seal_of_file(fd, seal), 0);
+    assert_int_equal(gg_files_checksum_trailer_of_file(fd, seal), 0);
     assert_int_equal(write(fd, seal, sizeof seal), GG_SEAL_SIZE);
     close(fd);
-    assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
+    assert_int_equal(gg_files_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
     snprintf(expected, sizeof expected,
              "c.h5: cannot be read: graingas %s has written it (layout %d), and this is graingas %s (layout %d); only "
              "the same can go on",
              GG_VERSION, cases[k].layout, GG_VERSION, GG_CHECKPOINT_LAYOUT);
     assert_string_equal(err.message, expected);
     gg_stored_result result;
-    assert_int_equal(gg_stored_result_read(&result, "c.h5", &err),
+    assert_int_equal(gg_files_stored_result_read(&result, "c.h5", &err),
                      GG_BAD_FILE); /* nor is it advised to go on from it */
     assert_string_equal(err.message, expected);
-    gg_archive_clear(&one);
+    gg_base_archive_clear(&one);
     remove_all();
   }
 }
@@ -173,23 +174,23 @@ static void checkpoint_without_room(void **state)
   (void)state;
   gg_error err = {0};
   bool older;
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   gg_archive one = archive(1), back = {0};
-  assert_int_equal(gg_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
   struct rlimit whole, small;
   getrlimit(RLIMIT_FSIZE, &whole);
   small = whole;
   small.rlim_cur = 100;
   setrlimit(RLIMIT_FSIZE, &small);
-  gg_status status = gg_checkpoint_write("c.h5", false, &one, &scene, &err);
+  gg_status status = gg_files_checkpoint_write("c.h5", false, &one, &scene, &err);
   setrlimit(RLIMIT_FSIZE, &whole);
   assert_int_equal(status, GG_BAD_FILE);
-  assert_int_equal(gg_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_read("c.h5", &back, &older, &err), GG_OK);
   assert_false(older);
   assert_same(&one, &back);
   assert_int_equal(count_files(), 1);
-  gg_archive_clear(&one);
-  gg_archive_clear(&back);
+  gg_base_archive_clear(&one);
+  gg_base_archive_clear(&back);
   remove_all();
 }
 

@@ -36,14 +36,14 @@ static void run_round_trip(void **state)
   gg_result *r = planted_result(GG_MD);
   gg_stored_result s;
   assert_int_equal(gg_result_write(r, "r.h5", &err), GG_OK);
-  assert_int_equal(gg_stored_result_read(&s, "r.h5", &err), GG_OK);
+  assert_int_equal(gg_files_stored_result_read(&s, "r.h5", &err), GG_OK);
   assert_false(s.comparison);
   assert_string_equal(s.version, gg_version());
   assert_non_null(s.engine[GG_MD].name);
   assert_null(s.engine[GG_DSMC].name);
   assert_true(s.engine[GG_MD].window[0] == 3 && s.engine[GG_MD].window[1] == PLANTED_SAMPLES);
   assert_int_equal(s.engine[GG_MD].n_series, 6); /* those of NaN alone are not there */
-  const gg_stored_series *T = gg_stored_series_find(&s.engine[GG_MD], "temperature");
+  const gg_stored_series *T = gg_files_stored_series_find(&s.engine[GG_MD], "temperature");
   assert_int_equal(T->n, PLANTED_SAMPLES);
   assert_memory_equal(T->value, r->history.value[0], PLANTED_SAMPLES * sizeof(double));
   assert_memory_equal(T->time, r->history.time, PLANTED_SAMPLES * sizeof(double));
@@ -52,7 +52,7 @@ static void run_round_trip(void **state)
   r->scene.given = scene->given; /* the file gives every key */
   assert_memory_equal(scene, &r->scene, sizeof *scene);
   gg_scene_free(scene);
-  gg_stored_result_clear(&s);
+  gg_files_stored_result_clear(&s);
 
   gg_h5_in h;
   gg_h5_open(&h, "r.h5");
@@ -76,13 +76,13 @@ static void comparison_round_trip(void **state)
   gg_comparison *c = planted_comparison();
   gg_result_file f;
   gg_stored_result s;
-  assert_int_equal(gg_result_file_open(&f, "c.h5", "graingas compare x", &err), GG_OK);
-  assert_int_equal(gg_result_file_finish_comparison(&f, c, &err), GG_OK);
-  assert_int_equal(gg_stored_result_read(&s, "c.h5", &err), GG_OK);
+  assert_int_equal(gg_files_result_file_open(&f, "c.h5", "graingas compare x", &err), GG_OK);
+  assert_int_equal(gg_files_result_file_finish_comparison(&f, c, &err), GG_OK);
+  assert_int_equal(gg_files_stored_result_read(&s, "c.h5", &err), GG_OK);
   assert_true(s.comparison);
   assert_string_equal(s.command, "graingas compare x");
-  for (int k = 0; k < 2; k++) assert_non_null(gg_stored_series_find(&s.engine[k], "pressure"));
-  gg_stored_result_clear(&s);
+  for (int k = 0; k < 2; k++) assert_non_null(gg_files_stored_series_find(&s.engine[k], "pressure"));
+  gg_files_stored_result_clear(&s);
   gg_h5_in h;
   gg_h5_open(&h, "c.h5");
   assert_true(read_number(&h, "/graingas/dsmc/results/temperature/mean") == 1.0 / 3 - 0.01);
@@ -102,13 +102,14 @@ static void trajectory(void **state)
   gg_result *r = planted_result(GG_MD);
   gg_result_file f;
   size_t n;
-  assert_int_equal(gg_result_file_open(&f, "t.h5", "x", &err), GG_OK);
+  assert_int_equal(gg_files_result_file_open(&f, "t.h5", "x", &err), GG_OK);
   for (uint64_t step = 0; step <= 100; step += 50) {
     gg_frame frame = planted_frame(step, true);
-    assert_int_equal(gg_result_file_frame(&f, &r->model, &frame, &err), GG_OK);
-    gg_frame_free(&frame);
+    assert_int_equal(gg_files_result_file_frame(&f, &r->model, &frame, &err), GG_OK);
+    gg_run_frame_free(&frame);
   }
-  assert_int_equal(gg_result_file_finish_run(&f, r, &err), GG_OK); /* the last state is frame 100 again: not doubled */
+  assert_int_equal(gg_files_result_file_finish_run(&f, r, &err),
+                   GG_OK); /* the last state is frame 100 again: not doubled */
   gg_h5_in h;
   gg_h5_open(&h, "t.h5");
   double *x = gg_h5_read_array(&h, "/particles/grains/position/value", GG_ITEM_F64, &n);
@@ -171,16 +172,16 @@ static void failing_trajectory(void **state)
   getrlimit(RLIMIT_FSIZE, &whole);
   small = whole;
   small.rlim_cur = 30000;
-  assert_int_equal(gg_result_file_open(&f, "t.h5", "x", &err), GG_OK);
+  assert_int_equal(gg_files_result_file_open(&f, "t.h5", "x", &err), GG_OK);
   setrlimit(RLIMIT_FSIZE, &small);
   gg_status status = GG_OK;
   for (uint64_t step = 0; step < 300 && status == GG_OK; step++) {
     gg_frame frame = planted_frame(step, true);
-    status = gg_result_file_frame(&f, &r->model, &frame, &err);
-    gg_frame_free(&frame);
+    status = gg_files_result_file_frame(&f, &r->model, &frame, &err);
+    gg_run_frame_free(&frame);
   }
-  gg_status end = status == GG_OK ? gg_result_file_finish_run(&f, r, &err) : status;
-  gg_result_file_abandon(&f);
+  gg_status end = status == GG_OK ? gg_files_result_file_finish_run(&f, r, &err) : status;
+  gg_files_result_file_abandon(&f);
   setrlimit(RLIMIT_FSIZE, &whole);
   assert_int_equal(end, GG_BAD_FILE);
   assert_string_equal(err.message, "t.h5: cannot be written: File too large");
@@ -193,16 +194,16 @@ static void unreadable_results(void **state)
   (void)state;
   gg_error err = {0};
   gg_stored_result s;
-  assert_int_equal(gg_stored_result_read(&s, "none.h5", &err), GG_BAD_FILE);
+  assert_int_equal(gg_files_stored_result_read(&s, "none.h5", &err), GG_BAD_FILE);
   FILE *out = fopen("rubbish.h5", "w");
   fputs("rubbish", out);
   fclose(out);
-  assert_int_equal(gg_stored_result_read(&s, "rubbish.h5", &err), GG_BAD_FILE);
+  assert_int_equal(gg_files_stored_result_read(&s, "rubbish.h5", &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "rubbish.h5: cannot be read: it is not an HDF5 file"));
   gg_archive a = {0};
-  gg_scene scene = gg_scene_defaults();
-  assert_int_equal(gg_checkpoint_write("c.h5", false, &a, &scene, &err), GG_OK);
-  assert_int_equal(gg_stored_result_read(&s, "c.h5", &err), GG_BAD_FILE);
+  gg_scene scene = gg_common_scene_defaults();
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &a, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_stored_result_read(&s, "c.h5", &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "it is a checkpoint"));
   remove_all();
 }
@@ -217,9 +218,9 @@ static void *write_and_read(void *number)
   intptr_t wrong = 0;
   snprintf(own, sizeof own, "own%d.h5", *(int *)number);
   for (int i = 0; i < 20; i++) {
-    bool read = gg_result_write(r, own, &err) == GG_OK && gg_stored_result_read(&s, own, &err) == GG_OK;
-    wrong += !read || !gg_stored_series_find(&s.engine[GG_MD], "temperature");
-    if (read) gg_stored_result_clear(&s);
+    bool read = gg_result_write(r, own, &err) == GG_OK && gg_files_stored_result_read(&s, own, &err) == GG_OK;
+    wrong += !read || !gg_files_stored_series_find(&s.engine[GG_MD], "temperature");
+    if (read) gg_files_stored_result_clear(&s);
     gg_status status = gg_result_write(r, "one.h5", &err);
     wrong += status != GG_OK && !(status == GG_BAD_FILE && strstr(err.message, "another run is writing it"));
   }
@@ -242,8 +243,8 @@ static void threads_at_once(void **state)
     assert_int_equal(pthread_join(thread[i], &wrong), 0);
     assert_null(wrong);
   }
-  assert_int_equal(gg_stored_result_read(&s, "one.h5", &err), GG_OK);
-  gg_stored_result_clear(&s);
+  assert_int_equal(gg_files_stored_result_read(&s, "one.h5", &err), GG_OK);
+  gg_files_stored_result_clear(&s);
   assert_int_equal(count_files(), 5);
   remove_all();
 }
@@ -259,12 +260,12 @@ static void two_in_memory(void **state)
   int in = open("pipe", O_RDONLY | O_NONBLOCK);
   for (uint64_t step = 0; step <= 1; step++)
     for (int i = 0; i < 2; i++) {
-      if (step == 0) assert_int_equal(gg_result_file_open(&f[i], "pipe", "x", &err), GG_OK);
+      if (step == 0) assert_int_equal(gg_files_result_file_open(&f[i], "pipe", "x", &err), GG_OK);
       gg_frame frame = planted_frame(step, true);
-      if (gg_result_file_frame(&f[i], &r->model, &frame, &err) != GG_OK) fail_msg("%s", err.message);
-      gg_frame_free(&frame);
+      if (gg_files_result_file_frame(&f[i], &r->model, &frame, &err) != GG_OK) fail_msg("%s", err.message);
+      gg_run_frame_free(&frame);
     }
-  for (int i = 0; i < 2; i++) gg_result_file_abandon(&f[i]);
+  for (int i = 0; i < 2; i++) gg_files_result_file_abandon(&f[i]);
   close(in);
   assert_int_equal(count_files(), 1);
   gg_result_free(r);
@@ -280,7 +281,7 @@ static void hdf5_stays_as_it_was(void **state)
   gg_error err;
   gg_stored_result s;
   H5Eget_auto2(H5E_DEFAULT, &before, &data);
-  gg_stored_result_read(&s, "none.h5", &err);
+  gg_files_stored_result_read(&s, "none.h5", &err);
   H5Eget_auto2(H5E_DEFAULT, &after, &data);
   assert_true(before == after);
 }

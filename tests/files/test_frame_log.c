@@ -58,7 +58,7 @@ static gg_status expect(void *context, const gg_frame *f, gg_error *err)
 static void holds(const gg_frame_log *log, int frames)
 {
   int seen = 0;
-  assert_int_equal(gg_frame_log_replay(log, expect, &seen, NULL), GG_OK);
+  assert_int_equal(gg_files_frame_log_replay(log, expect, &seen, NULL), GG_OK);
   assert_int_equal(seen, frames);
 }
 
@@ -67,7 +67,7 @@ static void append(gg_frame_log *log, int from, int to)
   for (int k = from; k < to; k++) {
     planted p;
     gg_frame frame = frame_of(&p, k);
-    assert_int_equal(gg_frame_log_append(log, &frame, NULL), GG_OK);
+    assert_int_equal(gg_files_frame_log_append(log, &frame, NULL), GG_OK);
   }
 }
 
@@ -76,19 +76,19 @@ static void write_log(const char *at, gg_frame_mark mark[FRAMES + 1])
 {
   gg_frame_log log;
   unlink(at);
-  assert_int_equal(gg_frame_log_open(&log, at, NULL), GG_OK);
+  assert_int_equal(gg_files_frame_log_open(&log, at, NULL), GG_OK);
   assert_true(log.created);
   mark[0] = log.mark;
   for (int k = 0; k < FRAMES; k++) append(&log, k, k + 1), mark[k + 1] = log.mark;
   holds(&log, FRAMES);
-  assert_int_equal(gg_frame_log_sync(&log, NULL), GG_OK);
-  gg_frame_log_close(&log);
-  gg_frame_log_close(&log);
+  assert_int_equal(gg_files_frame_log_sync(&log, NULL), GG_OK);
+  gg_files_frame_log_close(&log);
+  gg_files_frame_log_close(&log);
 }
 
 static gg_status open_at(gg_frame_log *log, const gg_frame_mark *mark, gg_error *err)
 {
-  return gg_frame_log_open_at(log, path, mark, NULL, err);
+  return gg_files_frame_log_open_at(log, path, mark, NULL, err);
 }
 
 static void paths(void **state)
@@ -100,7 +100,7 @@ static void paths(void **state)
                                   {"v1.1", "v1.frames"},
                                   {".h5", ".h5.frames"}};
   for (int i = 0; i < 5; i++) {
-    char *made = gg_frame_log_path(pairs[i][0]);
+    char *made = gg_files_frame_log_path(pairs[i][0]);
     assert_string_equal(made, pairs[i][1]);
     free(made);
   }
@@ -115,7 +115,7 @@ static void any_mark(void **state)
   for (int k = 0; k <= FRAMES; k++) {
     assert_int_equal(open_at(&log, &mark[k], NULL), GG_OK);
     holds(&log, k);
-    gg_frame_log_close(&log);
+    gg_files_frame_log_close(&log);
   }
 }
 
@@ -126,19 +126,19 @@ static void written_over(void **state)
   gg_frame_mark mark[FRAMES + 1];
   gg_frame_log log, earlier;
   write_log(path, mark);
-  assert_int_equal(gg_frame_log_open(&log, path, NULL), GG_OK);
+  assert_int_equal(gg_files_frame_log_open(&log, path, NULL), GG_OK);
   assert_int_equal(open_at(&earlier, &mark[2], NULL), GG_OK);
-  assert_int_equal(gg_frame_log_take_over(&log, &earlier, NULL), GG_OK);
-  gg_frame_log_close(&earlier);
+  assert_int_equal(gg_files_frame_log_take_over(&log, &earlier, NULL), GG_OK);
+  gg_files_frame_log_close(&earlier);
   for (int k = 2; k < FRAMES; k++) {
     assert_int_equal(open_at(&earlier, &mark[FRAMES], NULL), GG_OK);
-    gg_frame_log_close(&earlier);
+    gg_files_frame_log_close(&earlier);
     append(&log, k, k + 1);
     assert_memory_equal(&log.mark, &mark[k + 1], sizeof log.mark);
   }
   holds(&log, FRAMES);
   assert_false(log.created);
-  gg_frame_log_close(&log);
+  gg_files_frame_log_close(&log);
 }
 
 static void taken_to_another_file(void **state)
@@ -148,14 +148,14 @@ static void taken_to_another_file(void **state)
   gg_frame_log log, earlier;
   write_log(path, mark);
   unlink(other);
-  assert_int_equal(gg_frame_log_open(&log, other, NULL), GG_OK);
+  assert_int_equal(gg_files_frame_log_open(&log, other, NULL), GG_OK);
   assert_int_equal(open_at(&earlier, &mark[3], NULL), GG_OK);
-  assert_int_equal(gg_frame_log_take_over(&log, &earlier, NULL), GG_OK);
-  gg_frame_log_close(&earlier);
+  assert_int_equal(gg_files_frame_log_take_over(&log, &earlier, NULL), GG_OK);
+  gg_files_frame_log_close(&earlier);
   append(&log, 3, FRAMES);
   holds(&log, FRAMES);
   assert_memory_equal(&log.mark, &mark[FRAMES], sizeof log.mark);
-  gg_frame_log_close(&log);
+  gg_files_frame_log_close(&log);
 }
 
 /* What stands there is as it was until the new one is put in its place. */
@@ -165,18 +165,18 @@ static void put_in_place(void **state)
   gg_frame_mark mark[FRAMES + 1];
   gg_frame_log log, earlier;
   write_log(path, mark);
-  assert_int_equal(gg_frame_log_open_new(&log, path, NULL), GG_OK);
+  assert_int_equal(gg_files_frame_log_open_new(&log, path, NULL), GG_OK);
   append(&log, 2, FRAMES);
-  assert_false(gg_frame_log_is_at(&log, path));
+  assert_false(gg_files_frame_log_is_at(&log, path));
   assert_int_equal(open_at(&earlier, &mark[FRAMES], NULL), GG_OK);
-  gg_frame_log_close(&earlier);
-  assert_int_equal(gg_frame_log_put_in_place(&log, NULL), GG_OK);
-  assert_int_equal(gg_frame_log_put_in_place(&log, NULL), GG_OK);
-  assert_true(gg_frame_log_is_at(&log, path));
+  gg_files_frame_log_close(&earlier);
+  assert_int_equal(gg_files_frame_log_put_in_place(&log, NULL), GG_OK);
+  assert_int_equal(gg_files_frame_log_put_in_place(&log, NULL), GG_OK);
+  assert_true(gg_files_frame_log_is_at(&log, path));
   assert_int_equal(open_at(&earlier, &mark[FRAMES], NULL), GG_BAD_FILE);
   assert_int_equal(open_at(&earlier, &log.mark, NULL), GG_OK);
-  gg_frame_log_close(&earlier);
-  gg_frame_log_close(&log);
+  gg_files_frame_log_close(&earlier);
+  gg_files_frame_log_close(&log);
 }
 
 static void refuse(const gg_frame_mark *mark, const char *what)
@@ -208,7 +208,7 @@ static void damage(void **state)
     snprintf(text, sizeof text, "frame %d of %d is damaged", k, FRAMES);
     refuse(&mark[FRAMES], text);
     assert_int_equal(open_at(&log, &mark[k - 1], NULL), GG_OK); /* the one before does not mind */
-    gg_frame_log_close(&log);
+    gg_files_frame_log_close(&log);
     f = fopen(path, "r+b");
     fseek(f, (long)at, SEEK_SET);
     fputc(byte, f);
@@ -253,7 +253,7 @@ static void made_to_harm(void **state)
       uint64_t checksum;
     } r = {.bytes = sizeof r + grains[k] * 24, .n = grains[k]};
     memcpy(r.word, "GGFRAME", 8);
-    r.checksum = gg_checksum(GG_CHECKSUM_START, &r, offsetof(__typeof__(r), checksum));
+    r.checksum = gg_base_checksum(GG_CHECKSUM_START, &r, offsetof(__typeof__(r), checksum));
     FILE *f = fopen(path, "wb");
     assert_int_equal(fwrite(&r, sizeof r, 1, f), 1);
     fclose(f);
@@ -273,7 +273,7 @@ static void stopped(void **state)
   gg_frame_mark mark[FRAMES + 1];
   gg_frame_log log;
   write_log(path, mark);
-  assert_int_equal(gg_frame_log_open_at(&log, path, &mark[FRAMES], &(gg_stop){at_the_third, &asked}, NULL),
+  assert_int_equal(gg_files_frame_log_open_at(&log, path, &mark[FRAMES], &(gg_stop){at_the_third, &asked}, NULL),
                    GG_INTERRUPTED);
   assert_true(asked == 3 && log.fd == -1);
 }
@@ -287,13 +287,13 @@ static void full(void **state)
   planted p;
   gg_frame frame = frame_of(&p, 0);
   if (access("/dev/full", W_OK) != 0) skip();
-  assert_int_equal(gg_frame_log_open(&log, "/dev/full", NULL), GG_OK);
+  assert_int_equal(gg_files_frame_log_open(&log, "/dev/full", NULL), GG_OK);
   gg_frame_mark before = log.mark;
-  assert_int_equal(gg_frame_log_append(&log, &frame, &err), GG_BAD_FILE);
+  assert_int_equal(gg_files_frame_log_append(&log, &frame, &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "/dev/full: cannot be written: No space left"));
   assert_memory_equal(&before, &log.mark, sizeof before);
-  gg_frame_log_close(&log);
-  assert_int_equal(gg_frame_log_open(&log, "nowhere/x.frames", &err), GG_BAD_FILE);
+  gg_files_frame_log_close(&log);
+  assert_int_equal(gg_files_frame_log_open(&log, "nowhere/x.frames", &err), GG_BAD_FILE);
 }
 
 int main(void)

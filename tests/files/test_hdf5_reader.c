@@ -44,7 +44,7 @@ static void seal(void)
 {
   unsigned char seal[GG_SEAL_SIZE];
   int fd = open("f.h5", O_RDWR | O_APPEND);
-  assert_int_equal(gg_seal_of_file(fd, seal), 0);
+  assert_int_equal(gg_files_checksum_trailer_of_file(fd, seal), 0);
   assert_int_equal(write(fd, seal, sizeof seal), GG_SEAL_SIZE);
   close(fd);
 }
@@ -304,10 +304,10 @@ static void words(void **state)
     gg_stored_result s;
     memcpy(was, all + at, 8);
     memcpy(all + at, &bad[k % (sizeof bad / sizeof *bad)], 8);
-    gg_seal_of(all, size, all + size);
+    gg_files_checksum_trailer_of(all, size, all + size);
     assert_int_equal(pwrite(fd, all, size + GG_SEAL_SIZE, 0), size + GG_SEAL_SIZE);
-    if (gg_stored_result_read(&s, "f.h5", &err) == GG_OK)
-      gg_stored_result_clear(&s);
+    if (gg_files_stored_result_read(&s, "f.h5", &err) == GG_OK)
+      gg_files_stored_result_clear(&s);
     else
       refused++;
     memcpy(all + at, was, 8);

@@ -21,7 +21,7 @@ static const char *warning_with(const json_t *document, const char *words)
 /* Through the text and back. */
 static json_t *reread(json_t *document)
 {
-  char *text = gg_document_text(document);
+  char *text = gg_files_document_text(document);
   assert_null(strstr(text, "NaN"));
   json_t *again = json_loads(text, 0, NULL);
   assert_non_null(again);
@@ -35,7 +35,7 @@ static void run(void **state)
 {
   (void)state;
   gg_result *r = planted_result(GG_MD);
-  json_t *d = reread(gg_run_document(r));
+  json_t *d = reread(gg_files_run_document(r));
   assert_string_equal(json_string_value(json_object_get(d, "graingas")), gg_version());
   assert_string_equal(json_string_value(json_object_get(d, "engine")), "md");
   assert_true(json_is_true(json_object_get(d, "steady")));
@@ -62,7 +62,7 @@ static void nulls_have_reasons(void **state)
 {
   (void)state;
   gg_result *r = planted_result(GG_MD);
-  json_t *d = reread(gg_run_document(r));
+  json_t *d = reread(gg_files_run_document(r));
   json_t *a2 = json_object_get(json_object_get(d, "results"), "a2");
   assert_true(json_is_null(json_object_get(a2, "mean")));
   assert_non_null(warning_with(d, "planted warning"));
@@ -76,7 +76,7 @@ static void comparison(void **state)
 {
   (void)state;
   gg_comparison *c = planted_comparison();
-  json_t *d = reread(gg_comparison_document(c)), *row, *T = NULL, *N2 = NULL;
+  json_t *d = reread(gg_files_comparison_document(c)), *row, *T = NULL, *N2 = NULL;
   assert_string_equal(json_string_value(json_object_get(json_object_get(d, "dsmc"), "engine")), "dsmc");
   json_t *lun = json_object_get(json_object_get(d, "theory"), "lun1991");
   double theory = json_number_value(json_object_get(json_object_get(lun, "temperature"), "mean"));
@@ -107,7 +107,7 @@ static void missing_engine(void **state)
   gg_result_free(c->by_engine[GG_MD]);
   c->by_engine[GG_MD] = NULL;
   strcpy(c->refusal[GG_MD], "phi = 0 is not for md");
-  json_t *d = reread(gg_comparison_document(c));
+  json_t *d = reread(gg_files_comparison_document(c));
   assert_true(json_is_null(json_object_get(d, "md")));
   assert_non_null(warning_with(d, "md is null: phi = 0 is not for md"));
   json_decref(d);
@@ -118,7 +118,7 @@ static void theory(void **state)
 {
   (void)state;
   gg_comparison *c = planted_comparison();
-  json_t *d = reread(gg_theory_document(&c->scene, c));
+  json_t *d = reread(gg_files_theory_document(&c->scene, c));
   json_t *lun = json_object_get(json_object_get(d, "theory"), "lun1991");
   assert_string_equal(json_string_value(json_object_get(json_object_get(lun, "pressure"), "unit")),
                       "rho_p d^2 gamma^2");

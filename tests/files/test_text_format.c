@@ -11,7 +11,7 @@
 static void assert_estimate(double mean, double error, const char *expected)
 {
   char text[64];
-  gg_estimate_text(mean, error, text, sizeof text);
+  gg_files_estimate_format(mean, error, text, sizeof text);
   assert_string_equal(text, expected);
 }
 

@@ -8,7 +8,7 @@
 
 gg_scene md_scene(md_case c)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = c.flow;
   s.particles = c.n;
   s.phi = c.phi;
@@ -26,7 +26,7 @@ gg_model md_model_of(const gg_scene *s)
 {
   gg_model m;
   gg_error err = {0};
-  if (gg_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 
@@ -274,7 +274,7 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
   }
   for (int a = 0; a < 3; a++) {
     double x = gg_along(&r, a), w = e->cells.width[a], lower = e->node[i].cell[a] * w;
-    bool above = gg_is_open_above(&e->model) && a == 1 && e->node[i].cell[a] == e->cells.n[a] - 1;
+    bool above = gg_common_surface_is_open_above(&e->model) && a == 1 && e->node[i].cell[a] == e->cells.n[a] - 1;
     if (x < lower - 1e-12 * e->box.edge[a] || (x > lower + w + 1e-12 * e->box.edge[a] && !above)) return false;
   }
   return true;

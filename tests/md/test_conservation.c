@@ -55,7 +55,7 @@ static void coefficients_are_right_in_the_mean(void **state)
   (void)state;
   for (int k = 0; k < 200; k++) {
     const double e = 0.005 * k + 0.0003, other = 1 + 0.01 * k;
-    const gg_contact c = gg_contact_make((gg_partner){1, 0.4}, (gg_partner){other, 0.4}, e, -1, INFINITY);
+    const gg_contact c = gg_common_contact_make((gg_partner){1, 0.4}, (gg_partner){other, 0.4}, e, -1, INFINITY);
     const long double exact = (1 + (long double)e) / ((long double)c.im1 + c.im2);
     long double mean = 0;
     for (int turn = 0; turn < GG_MD_DITHERS; turn++)

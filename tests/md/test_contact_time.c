@@ -92,7 +92,7 @@ static void no_restitution(void **state)
       if (s.flow == GG_CHUTE) s.gravity[1] = -1, s.walls.top = GG_OPEN_TOP;
       gg_model m = md_model_of(&s);
       gg_md *e = md_create(&m, k);
-      double time = 20 / gg_model_collision_rate(&m, m.temperature0), elapsed;
+      double time = 20 / gg_common_model_collision_rate(&m, m.temperature0), elapsed;
       assert_int_equal(gg_md_ops.advance(&e->base, time, 100 * 500 * 500, &elapsed, NULL), GG_OK);
       if (!(elapsed == time && e->k.treated < e->k.collisions && e->k.worst_overlap < 1e-11 && md_misplaced(e) == 0))
         fail_msg("case %zu, e %g: %g of %g, %g treated of %g, overlap %g", k, restitution[r], elapsed, time,

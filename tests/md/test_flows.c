@@ -412,7 +412,7 @@ static void restarts(void **state)
     if (md_hash(e) != md_hash(cut)) fail_msg("scene %d: cutting changes the run", k);
     assert_int_equal(gg_md_ops.save(&e->base, &a, &err), GG_OK);
     assert_int_equal(gg_md_ops.restore(&m, &a, &back, &err), GG_OK);
-    gg_archive_clear(&a);
+    gg_base_archive_clear(&a);
     md_collide(e, 10000);
     md_collide((gg_md *)back, 10000);
     if (md_hash(e) != md_hash((gg_md *)back)) fail_msg("scene %d: not the same after a restart", k);

@@ -128,7 +128,7 @@ static void check(md_case c, uint64_t seed, bool comoving)
   begin(copy);
   record(copy, &first);
   md_destroy(copy);
-  gg_rng rng = gg_rng_seed(seed, 9);
+  gg_rng rng = gg_common_rng_seed(seed, 9);
   for (int k = 0; k < (comoving ? 24 : 18); k++) {
     gg_error err;
     copy = copy_of(e);
@@ -212,7 +212,7 @@ static void long_averages(void **state)
   for (int k = 0; k < 4; k++) { /* as it is; the boundary elsewhere; one cell; lists */
     gg_md *copy = copy_of(e);
     gg_error err;
-    gg_rng rng = gg_rng_seed(1, 1);
+    gg_rng rng = gg_common_rng_seed(1, 1);
     if (k == 1) shift(copy, (gg_vec){1.3, 0.4 * m.box[1], 0.2});
     if (k == 2) set_random_grid(copy, &rng, true);
     if (k == 3) assert_int_equal(gg_md_make_lists(copy, 0.15, &err), GG_OK);

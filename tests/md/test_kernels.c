@@ -42,8 +42,8 @@ static void simd_is_plain(void **state)
       gg_scene s = scene_of(boundary, mixture);
       gg_model m = md_model_of(&s);
       const gg_md_kernel *simd =
-          gg_md_simd_kernel(gg_instructions_best(), boundary == GG_MD_SHEARED ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS,
-                            boundary, mixture > 0);
+          gg_md_simd_kernel(gg_simd_instructions_best(),
+                            boundary == GG_MD_SHEARED ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS, boundary, mixture > 0);
       if (run_with(&m, NULL) != run_with(&m, simd)) fail_msg("boundary %d, species %d", boundary, species[mixture]);
     }
 }
@@ -58,7 +58,7 @@ static void instruction_sets_agree(void **state)
   for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
     for (enum gg_md_search_way where = GG_MD_PLAIN_CELLS; where <= GG_MD_COMOVING_ROWS; where++)
       for (int mixture = 0; mixture < MIXTURES; mixture++) {
-        if (!gg_md_simd_kernel(gg_instructions_best(), where, boundary, mixture > 0)) continue;
+        if (!gg_md_simd_kernel(gg_simd_instructions_best(), where, boundary, mixture > 0)) continue;
         gg_scene s = scene_of(boundary, mixture);
         s.particles = 700, s.phi = phi[where], s.aspect[0] = 2;
         gg_model m = md_model_of(&s);
@@ -67,10 +67,10 @@ static void instruction_sets_agree(void **state)
         assert_int_equal(gg_md_choose_way(&m, &radius, n), where);
         uint64_t hash = 0;
         for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
-          if (!gg_instructions_run_here(set)) continue;
+          if (!gg_simd_instructions_run_here(set)) continue;
           uint64_t its = run_with(&m, gg_md_simd_kernel(set, where, boundary, mixture > 0));
           if (hash && its != hash)
-            fail_msg("%s, search %d, species %d", gg_instructions_name(set), (int)where, species[mixture]);
+            fail_msg("%s, search %d, species %d", gg_simd_instructions_name(set), (int)where, species[mixture]);
           hash = its;
         }
       }
@@ -96,8 +96,8 @@ static void every_way_has_its_kernels(void **state)
       const bool plain = boundary == GG_MD_SHEARED && where == GG_MD_PLAIN_CELLS;
       chosen[boundary] |= 1u << where;
       for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++)
-        if (gg_instructions_run_here(set) && !gg_md_simd_kernel(set, where, boundary, mixture > 0) != plain)
-          fail_msg("%s, search %d, boundary %d", gg_instructions_name(set), (int)where, boundary);
+        if (gg_simd_instructions_run_here(set) && !gg_md_simd_kernel(set, where, boundary, mixture > 0) != plain)
+          fail_msg("%s, search %d, boundary %d", gg_simd_instructions_name(set), (int)where, boundary);
       if (!plain || gg_md_ops.accepts(&m, NULL) != GG_OK) continue;
       gg_md *e = md_create(&m, 1);
       md_collide(e, 100);

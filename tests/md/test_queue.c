@@ -111,7 +111,7 @@ static void same_order_as_sorted_list(void **state)
   (void)state;
   both *b = calloc(1, sizeof *b);
   gg_error err;
-  b->rng = gg_rng_seed(1, 0);
+  b->rng = gg_common_rng_seed(1, 0);
   assert_int_equal(gg_md_queue_make(&b->queue, N, &err), GG_OK);
   gg_md_queue_reset(&b->queue, 0x1p-4);
   for (int k = 0; k < OPERATIONS; k++) {

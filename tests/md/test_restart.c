@@ -39,7 +39,7 @@ static void saved_and_restored(void **state)
     assert_int_equal(gg_md_ops.save(&e->base, &a, &err), GG_OK);
     assert_int_equal(before, md_hash(e));
     assert_int_equal(gg_md_ops.restore(&m, &a, &back, &err), GG_OK);
-    gg_archive_clear(&a);
+    gg_base_archive_clear(&a);
     md_collide(e, 20000);
     md_collide((gg_md *)back, 20000);
     gg_collision_sums one, two;
@@ -66,7 +66,7 @@ static void clock_far_off(void **state)
     e->k.now = k % 3 ? -1e34 : 1e34;
     assert_int_equal(gg_md_ops.save(&e->base, &a, &err), GG_OK);
     assert_int_equal(gg_md_ops.restore(&m, &a, &back, &err), GG_BAD_FILE);
-    gg_archive_clear(&a);
+    gg_base_archive_clear(&a);
     md_destroy(e);
   }
 }
@@ -77,7 +77,7 @@ static void cut_anywhere(void **state)
   for (int k = 0; k < CASES; k++) {
     gg_model m = md_model(cases[k]);
     gg_md *whole = md_create(&m, 2), *cut = md_create(&m, 2);
-    gg_rng rng = gg_rng_seed(4, 0);
+    gg_rng rng = gg_common_rng_seed(4, 0);
     gg_error err;
     double elapsed, total = 0, straight = md_collide(whole, 30000);
     while (cut->k.collisions < 30000) {
@@ -131,7 +131,7 @@ static bool by_chance(void *context)
 static void advance_stopped(const gg_model *model, double dt, uint64_t most, int *stops)
 {
   gg_model m = *model;
-  gg_rng rng = gg_rng_seed(9, 0);
+  gg_rng rng = gg_common_rng_seed(9, 0);
   gg_stop stop = {by_chance, &rng};
   gg_md *whole = md_create(&m, 5);
   double gone, straight;
@@ -148,7 +148,7 @@ static void advance_stopped(const gg_model *model, double dt, uint64_t most, int
       assert_int_equal(gg_md_ops.save(cut, &a, &err), GG_OK);
       gg_md_ops.destroy(cut);
       assert_int_equal(gg_md_ops.restore(&m, &a, &cut, &err), GG_OK);
-      gg_archive_clear(&a);
+      gg_base_archive_clear(&a);
       status = gg_md_ops.go_on(cut, &gone, &err);
     }
     assert_true(gone == straight);
@@ -169,7 +169,7 @@ static void stopped(void **state)
   (void)state;
   for (int k = 0; k < CASES; k++) {
     gg_model m = md_model(cases[k]);
-    double dt = 1000 / gg_model_collision_rate(&m, m.temperature0);
+    double dt = 1000 / gg_common_model_collision_rate(&m, m.temperature0);
     int stops = 0;
     advance_stopped(&m, dt, UINT64_MAX, &stops);
     advance_stopped(&m, INFINITY, 100000, &stops);
@@ -187,7 +187,7 @@ static void stopped_while_heated(void **state)
     s.thermostat = thermostats[k];
     gg_model m = md_model_of(&s);
     int stops = 0;
-    advance_stopped(&m, 400 / gg_model_collision_rate(&m, m.temperature0), UINT64_MAX, &stops);
+    advance_stopped(&m, 400 / gg_common_model_collision_rate(&m, m.temperature0), UINT64_MAX, &stops);
     assert_true(stops >= 4);
   }
 }
@@ -197,7 +197,7 @@ static void stopped_and_left(void **state)
 {
   (void)state;
   gg_model m = md_model(cases[0]);
-  gg_rng rng = gg_rng_seed(3, 0);
+  gg_rng rng = gg_common_rng_seed(3, 0);
   gg_stop stop = {by_chance, &rng};
   gg_md *whole = md_create(&m, 6);
   md_collide(whole, 60000);

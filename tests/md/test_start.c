@@ -171,7 +171,7 @@ static void check_lattice(const double edge[3], uint32_t n, double nearest)
   gg_vec r[500] = {{0, 0, 0}};
   gg_md_box box = {.edge = {edge[0], edge[1], edge[2]}};
   for (int a = 0; a < 3; a++) box.inverse[a] = 1 / edge[a];
-  gg_rng rng = gg_rng_seed(4, 0);
+  gg_rng rng = gg_common_rng_seed(4, 0);
   gg_md_place_lattice(&box, n, &rng, r);
   double least = INFINITY;
   for (uint32_t i = 0; i < n; i++)

@@ -27,7 +27,7 @@ static void pressure_at(double phi)
     sum += Z, squares += Z * Z;
   }
   double Z = sum / BLOCKS, error = sqrt((squares / BLOCKS - Z * Z) / (BLOCKS - 1));
-  double exact = gg_compressibility(GG_KOLAFA, phi);
+  double exact = gg_common_compressibility(GG_KOLAFA, phi);
   print_message("# phi %.2f: Z = %.5f +- %.5f, equation of state %.5f\n", phi, Z, error, exact);
   assert_true(error < 0.001 * exact);
   if (!(fabs(Z - exact) < 4 * error)) fail_msg("phi %g: Z = %.5f +- %.5f, not %.5f", phi, Z, error, exact);
@@ -44,7 +44,7 @@ static void equation_of_state(void **state)
 static void mean_free_time(void **state)
 {
   (void)state;
-  const double phi = 0.5 * M_PI / 6, chi = (gg_compressibility(GG_KOLAFA, phi) - 1) / (4 * phi);
+  const double phi = 0.5 * M_PI / 6, chi = (gg_common_compressibility(GG_KOLAFA, phi) - 1) / (4 * phi);
   const double exact = 1 / (4 * 0.5 * chi * sqrt(M_PI)) * sqrt((N - 1.0) / N); /* as hot as 3(N-1) degrees make it */
   gg_model m = md_model((md_case){GG_EQUILIBRIUM, N, phi, 1, -1, INFINITY, {0}});
   gg_md *e = md_create(&m, 19);

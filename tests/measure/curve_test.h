@@ -18,7 +18,7 @@
 
 static inline gg_model ct_model(gg_flow flow, double phi, double beta, int64_t n, int species)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = flow, s.phi = phi, s.particles = n, s.n_species = species;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = beta;
   if (flow == GG_EQUILIBRIUM)
@@ -28,7 +28,7 @@ static inline gg_model ct_model(gg_flow flow, double phi, double beta, int64_t n
     s.species[1] = (gg_species){0.4, 1.5, 3, 0.5};
   }
   gg_model m;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return m;
 }
 
@@ -38,27 +38,28 @@ static inline gg_curves ct_curves(const gg_observable *o, const gg_model *m, int
 {
   gg_snapshot s;
   gg_bins bins;
-  gg_rng r = gg_rng_seed(seed, 0);
+  gg_rng r = gg_common_rng_seed(seed, 0);
   void *self = o->create(m, NULL);
   assert_non_null(self);
-  assert_int_equal(gg_snapshot_init(&s, m, o->positions && !m->homogeneous, NULL), GG_OK);
+  assert_int_equal(gg_measure_snapshot_init(&s, m, o->positions && !m->homogeneous, NULL), GG_OK);
   for (size_t i = 0; i < s.n; i++) { /* species and numbers in no order; 7919 is prime, and no factor of any n here */
     if (s.species) s.species[i] = (int64_t)(i * 7919 % s.n) >= m->n_of[0];
     if (s.id) s.id[i] = (int64_t)((i * 7919 + 5) % s.n);
   }
-  assert_int_equal(gg_bins_init(&bins, o->bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, o->bins(self), NULL), GG_OK);
   if (o->restart) o->restart(self);
   for (int k = 0; k < samples; k++) {
     fill(&s, &r, k);
-    o->add_snapshot(self, &s, gg_bins_sample(&bins));
-    gg_bins_commit(&bins);
+    o->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
   gg_error err = {0};
-  if (gg_curves_estimate(list, 1, o->curves, self, o->name, 0, &curves, &err) != GG_OK) fail_msg("%s", err.message);
-  gg_bins_clear(&bins);
-  gg_snapshot_clear(&s);
+  if (gg_measure_curves_estimate(list, 1, o->curves, self, o->name, 0, &curves, &err) != GG_OK)
+    fail_msg("%s", err.message);
+  gg_statistics_bins_clear(&bins);
+  gg_measure_snapshot_clear(&s);
   o->destroy(self);
   return curves;
 }

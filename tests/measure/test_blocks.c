@@ -13,7 +13,7 @@
 
 static gg_model model_of(gg_flow flow, double beta, int species, gg_precision precision, int64_t n)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_DSMC, s.flow = flow, s.phi = 0.2, s.dsmc.particles = n, s.dsmc.precision = precision;
   s.n_species = species;
   s.species[0] = (gg_species){species == 2 ? 0.4 : 1, 1, 1, 0.4};
@@ -21,7 +21,7 @@ static gg_model model_of(gg_flow flow, double beta, int species, gg_precision pr
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = beta;
   gg_model m;
   gg_error err = {0};
-  if (gg_model_make(&s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(&s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 
@@ -29,12 +29,12 @@ static void take_row(gg_engine *g, const gg_model *m, void *self, bool blocks, d
 {
   const gg_collision_sums transfer = {.collisions = {100, 20, 30}, .loss = {7, 5, 3}};
   const gg_interval in = {m, &transfer, elapsed, 1};
-  gg_rheology.begin(self);
+  gg_measure_rheology.begin(self);
   if (blocks)
-    g->ops->blocks(g, gg_rheology.add_blocks, self);
+    g->ops->blocks(g, gg_measure_rheology.add_blocks, self);
   else
-    g->ops->snapshot(g, false, gg_rheology.add_chunk, self);
-  gg_rheology.finish(self, &in, row);
+    g->ops->snapshot(g, false, gg_measure_rheology.add_chunk, self);
+  gg_measure_rheology.finish(self, &in, row);
 }
 
 static void add_speed(void *context, const gg_chunk *chunk)
@@ -51,10 +51,10 @@ static void same_rows_in(const gg_model *m, uint64_t seed)
   gg_error err = {0};
   double row[2][128] = {{0}}, elapsed, speed = 0;
   if (gg_dsmc_ops.create(m, seed, 0, &g, &err) != GG_OK) fail_msg("%s", err.message);
-  void *self[2] = {gg_rheology.create(m, &err), gg_rheology.create(m, &err)};
+  void *self[2] = {gg_measure_rheology.create(m, &err), gg_measure_rheology.create(m, &err)};
   for (int sample = 0; sample < 4; sample++) {
     for (int k = 0; k < 2; k++) take_row(g, m, self[k], k, sample ? 0.5 : 0, row[k]);
-    assert_memory_equal(row[0], row[1], gg_rheology.width(m) * sizeof(double));
+    assert_memory_equal(row[0], row[1], gg_measure_rheology.width(m) * sizeof(double));
     if (sample == 3) break;
     assert_int_equal(g->ops->advance(g, INFINITY, (uint64_t)m->n, &elapsed, &err),
                      GG_OK); /* ends with shear strain not yet applied */
@@ -66,7 +66,7 @@ static void same_rows_in(const gg_model *m, uint64_t seed)
   if (m->flow == GG_HCS) T = exp(row[1][CH_LN_T]);
   assert_true(fabs(sampled * sqrt(T) / speed - 1) < 1e-8); /* each root to 9e-8, up or down */
   assert_true(fabs(sampled * sqrt(T) / speed - 1) > 0);
-  for (int k = 0; k < 2; k++) gg_rheology.destroy(self[k]);
+  for (int k = 0; k < 2; k++) gg_measure_rheology.destroy(self[k]);
   g->ops->destroy(g);
 }
 
@@ -91,18 +91,18 @@ static void far_units(void **state)
   gg_model m = model_of(GG_USF, 0.2, 1, GG_DOUBLE, 40);
   double c[6][40], row[3][64], speed = 0;
   for (int u = 0; u < 3; u++) {
-    void *self = gg_rheology.create(&m, NULL);
+    void *self = gg_measure_rheology.create(&m, NULL);
     for (int a = 0; a < 6; a++)
       for (int i = 0; i < 40; i++) c[a][i] = units[u] * sin(1 + i + 40 * a);
     const gg_chunk chunk = {.n = 40, .c = {c[0], c[1], c[2]}, .s = {c[3], c[4], c[5]}};
     for (int sample = 0; sample < 2; sample++) {
       const gg_collision_sums transfer = {0};
       const gg_interval in = {&m, &transfer, sample, 1};
-      gg_rheology.begin(self);
-      gg_rheology.add_chunk(self, &chunk);
-      gg_rheology.finish(self, &in, row[u]);
+      gg_measure_rheology.begin(self);
+      gg_measure_rheology.add_chunk(self, &chunk);
+      gg_measure_rheology.finish(self, &in, row[u]);
     }
-    gg_rheology.destroy(self);
+    gg_measure_rheology.destroy(self);
   }
   for (int i = 0; i < 40; i++) speed += sqrt(c[0][i] * c[0][i] + c[1][i] * c[1][i] + c[2][i] * c[2][i]) / 40;
   for (int u = 0; u < 3; u++)

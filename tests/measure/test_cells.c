@@ -13,8 +13,9 @@ static void thrown(gg_snapshot *s, gg_rng *r, int sample)
     int k = gg_snapshot_species(s, i);
     for (int a = 0; a < 3; a++) {
       s->r[a][i] = L[a] * gg_rng_uniform(r);
-      s->c[a][i] = gg_rng_normal(r) / sqrt(s->model->mass[k]);
-      if (s->s[a]) s->s[a][i] = 0.5 * gg_rng_normal(r) / sqrt(s->model->mass[k] * s->model->inertia[k]) - 1 * (a == 2);
+      s->c[a][i] = gg_common_rng_normal(r) / sqrt(s->model->mass[k]);
+      if (s->s[a])
+        s->s[a][i] = 0.5 * gg_common_rng_normal(r) / sqrt(s->model->mass[k] * s->model->inertia[k]) - 1 * (a == 2);
     }
     s->c[0][i] += EXTRA * (s->r[1][i] - L[1] / 2);
   }
@@ -42,7 +43,7 @@ static void planted(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.1, 0, 4000, 1);
-  gg_curves list = ct_curves(&gg_cells, &m, 96, thrown, 81);
+  gg_curves list = ct_curves(&gg_measure_cells, &m, 96, thrown, 81);
   const gg_curve *density = ct_find(&list, "cell_density"), *T = ct_find(&list, "cell_temperature");
   double cells = ct_number(density, "cells").value, n = 4000, slabs = round(cbrt(cells));
   assert_true(cells == 512);
@@ -63,7 +64,7 @@ static void planted(void **state)
   expect_number(W, "rotational_temperature_cells", 0.25 * (1 - occupied / n), 0.02);
   gg_curve_number p = ct_number(ct_find(&list, "cell_shear_rate"), "mean_shear_rate");
   ct_expect("mean local shear rate", p.value, p.error, 1 + EXTRA, 0.01);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Unequal masses: the 1/n_c share is that of grains, not of mass. */
@@ -71,13 +72,13 @@ static void mixture(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
-  gg_curves list = ct_curves(&gg_cells, &m, 96, thrown, 82);
+  gg_curves list = ct_curves(&gg_measure_cells, &m, 96, thrown, 82);
   const gg_curve *T = ct_find(&list, "cell_temperature");
   double raw = ct_number(T, "temperature_cells").value;
   assert_true(raw < 0.9);
   gg_curve_number p = ct_number(T, "temperature_cells_corrected");
   assert_true(fabs(p.value - 1) < 4 * p.error + 0.005 && p.error < 0.004); /* 0.005: the extra shear of heavy grains */
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Grains of two sizes that all turn at one mean rate, all components of I^(1/2) omega about it alike. */
@@ -87,7 +88,7 @@ static void turning(gg_snapshot *s, gg_rng *r, int sample)
   for (size_t i = 0; i < s->n; i++) {
     int k = gg_snapshot_species(s, i);
     double d = s->model->diameter[k], I = s->model->inertia[k] * s->model->mass[k] * d * d / 4;
-    for (int a = 0; a < 3; a++) s->s[a][i] = d / 2 * (0.5 * gg_rng_normal(r) / sqrt(I) - 4 * (a == 2));
+    for (int a = 0; a < 3; a++) s->s[a][i] = d / 2 * (0.5 * gg_common_rng_normal(r) / sqrt(I) - 4 * (a == 2));
   }
 }
 
@@ -96,7 +97,7 @@ static void two_sizes(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
-  gg_curves list = ct_curves(&gg_cells, &m, 96, turning, 83);
+  gg_curves list = ct_curves(&gg_measure_cells, &m, 96, turning, 83);
   const gg_curve *W = ct_find(&list, "cell_rotational_temperature"), *c = ct_find(&list, "cell_spin");
   expect_number(W, "rotational_temperature_box", 0.25, 0.01);
   expect_number(W, "rotational_temperature_cells_corrected", 0.25, 0.02);
@@ -106,7 +107,7 @@ static void two_sizes(void **state)
     squares += (k ? 0.4 : 0.6) * 0.25 / (m.inertia[k] * m.mass[k] * pow(m.diameter[k], 2) / 4);
   print_message("# mean local spin over rms %.4f, expected %.4f\n", mean, -4 / sqrt(squares));
   assert_true(fabs(mean * sqrt(squares) / -4 - 1) < 0.01);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Masses 1 and 3, the heavy grains five times as hot: what a cell's mean, which is mostly theirs, takes out of either
@@ -118,7 +119,7 @@ static void unlike(gg_snapshot *s, gg_rng *r, int sample)
     for (int a = 0; a < 3; a++) {
       int k = gg_snapshot_species(s, i);
       double d = s->model->diameter[k], mean = a == 2 ? -4 : 0;
-      s->c[a][i] = sqrt(k ? 5 : 1) * gg_rng_normal(r) / sqrt(s->model->mass[k]);
+      s->c[a][i] = sqrt(k ? 5 : 1) * gg_common_rng_normal(r) / sqrt(s->model->mass[k]);
       if (k) s->s[a][i] = d / 2 * (mean + sqrt(5) * (s->s[a][i] * 2 / d - mean));
     }
 }
@@ -127,7 +128,7 @@ static void two_temperatures(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
-  gg_curves list = ct_curves(&gg_cells, &m, 96, unlike, 84);
+  gg_curves list = ct_curves(&gg_measure_cells, &m, 96, unlike, 84);
   const gg_curve *T = ct_find(&list, "cell_temperature"), *W = ct_find(&list, "cell_rotational_temperature");
   double box[2], x[2] = {0.6, 0.4}, hot[2] = {1 / 2.6, 5 / 2.6}; /* a mean over the box, too, takes a share out */
   for (int spins = 0; spins < 2; spins++) {
@@ -142,14 +143,14 @@ static void two_temperatures(void **state)
   expect_number(T, "temperature_cells_over_box", box[0], 0.01);
   expect_number(W, "rotational_temperature_cells_over_box", box[1], 0.01);
   assert_null(ct_find(&list, "cell_density")->reference); /* sizes differ */
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Every distribution integrates to one, and an elastic engine's cells have the temperature of the box. */
 static void engine(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 0.1, s.particles = 1000;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1, s.collision.beta[q] = 1;
   s.run.collisions = 1500;

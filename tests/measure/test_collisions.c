@@ -30,7 +30,7 @@ static void add(void *context, const gg_collision_record *m)
 
 static gg_scene sheared(gg_engine_kind engine, int species, double phi)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = engine, s.phi = phi, s.n_species = species;
   s.particles = 500, s.dsmc.particles = 2000, s.md.contact_time = 0; /* which would make some elastic */
   if (species == 2) s.species[0] = (gg_species){0.6, 1, 1, 0.4}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.4};
@@ -55,9 +55,9 @@ static void adds_up(void **state)
     gg_engine *e[2];
     gg_collision_sums t;
     double gone, velocity[2] = {0, 0};
-    assert_int_equal(gg_model_make(&s, which, &m, NULL), GG_OK);
+    assert_int_equal(gg_common_model_make(&s, which, &m, NULL), GG_OK);
     sums shown = {.model = &m};
-    const gg_engine_ops *ops = gg_engine_ops_of(which);
+    const gg_engine_ops *ops = gg_run_engine_ops_of(which);
     for (int k = 0; k < 2; k++) {
       assert_int_equal(ops->create(&m, 5, 0, &e[k], NULL), GG_OK);
       ops->keep_sums(e[k], true);
@@ -89,23 +89,24 @@ static void adds_up(void **state)
 static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make)(gg_collision_record *m, gg_rng *r))
 {
   gg_bins bins;
-  gg_rng r = gg_rng_seed(32, 0);
-  void *self = gg_collisions.create(m, NULL);
-  assert_int_equal(gg_bins_init(&bins, gg_collisions.bins(self), NULL), GG_OK);
+  gg_rng r = gg_common_rng_seed(32, 0);
+  void *self = gg_measure_collisions.create(m, NULL);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_collisions.bins(self), NULL), GG_OK);
   for (int k = 0; k < samples; k++) {
     for (int i = 0; i < per_sample; i++) {
       gg_collision_record collision = {.height = {NAN, NAN}};
       make(&collision, &r);
-      gg_collisions.add_collision(self, &collision);
+      gg_measure_collisions.add_collision(self, &collision);
     }
-    gg_collisions.add_snapshot(self, NULL, gg_bins_sample(&bins));
-    gg_bins_commit(&bins);
+    gg_measure_collisions.add_snapshot(self, NULL, gg_statistics_bins_sample(&bins));
+    gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(gg_curves_estimate(list, 1, gg_collisions.curves, self, "collisions", 0, &curves, NULL), GG_OK);
-  gg_bins_clear(&bins);
-  gg_collisions.destroy(self);
+  assert_int_equal(
+      gg_measure_curves_estimate(list, 1, gg_measure_collisions.curves, self, "collisions", 0, &curves, NULL), GG_OK);
+  gg_statistics_bins_clear(&bins);
+  gg_measure_collisions.destroy(self);
   return curves;
 }
 
@@ -161,7 +162,7 @@ static void flights_and_angles(void **state)
   assert_true(ct_chi2(ct_find(&list, "free_path"), 40, 200, exponential, &path) < 1.5);
   assert_true(ct_chi2(ct_find(&list, "impact_cos"), 0, 50, twice, NULL) < 2.2);
   assert_true(ct_chi2(ct_find(&list, "collision_angle"), 0, 72, quadrants, NULL) < 1.6);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static void falling_behind(gg_collision_record *m, gg_rng *r)
@@ -183,7 +184,7 @@ static void sheared_paths(void **state)
   assert_true(fabs(found / path - 1) < 1e-5);
   found = ct_number(ct_find(&list, "free_path_laboratory"), "mean_free_path_laboratory").value;
   assert_true(fabs(found / (2 * hypot(1.5, 0.7 * 2)) - 1) < 1e-12);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Collision rate of a grain of speed x sqrt(2T) among Maxwellian ones (Chapman & Cowling, 5.4), over n d^2 sqrt(2 pi
@@ -220,10 +221,10 @@ static void laws_beside(void **state)
   double time = 1 / (2.5 * 2 * M_SQRT2), path = 0.7 / (2.5 * M_SQRT2 * sqrt(M_PI)), sum[2][2] = {{0}}, step = 0.001;
   gg_model like = ct_model(GG_EQUILIBRIUM, 0.1, -1, 1000, 1);
   double of_times[GG_FLIGHT_LAW], of_paths[GG_FLIGHT_LAW];
-  gg_free_flight_of(&like, 0, of_times), gg_free_flight_of(&like, 0, of_paths);
+  gg_measure_free_flight_of(&like, 0, of_times), gg_measure_free_flight_of(&like, 0, of_paths);
   for (double x = step / 2; x < 40; x += step) {
     of_times[GG_FLIGHT_MEAN] = time, of_paths[GG_FLIGHT_MEAN] = path;
-    double p[2] = {gg_free_time_law(x * time, of_times), gg_free_path_law(x * path, of_paths)};
+    double p[2] = {gg_measure_free_time_law(x * time, of_times), gg_measure_free_path_law(x * path, of_paths)};
     for (int k = 0; k < 2; k++)
       sum[k][0] += p[k] * (k ? path : time) * step, sum[k][1] += p[k] * x * (k ? path : time) * step;
     if (x > 0.3 && x < 0.3 + step) {
@@ -292,7 +293,7 @@ static void unlike_grains(void **state)
   for (int i = 0; i < 2; i++) {
     const gg_curve *time = ct_find(&r->curves, i ? "free_time_2" : "free_time_1");
     const gg_curve *path = ct_find(&r->curves, i ? "free_path_2" : "free_path_1");
-    double t = 1 / gg_model_species_rate(&r->model, i, 0.5), l = t * sqrt(4 / M_PI / r->model.mass[i]);
+    double t = 1 / gg_common_model_species_rate(&r->model, i, 0.5), l = t * sqrt(4 / M_PI / r->model.mass[i]);
     gg_curve_number p = ct_number(time, "mean_free_time");
     ct_expect("mean free time", p.value, hypot(p.error, 0.001 * t), t, 0.03 * t);
     p = ct_number(path, "mean_free_path");
@@ -332,7 +333,7 @@ static void swept(void **state)
   s.flow = GG_SMALL_SHEAR, s.collision.e[0] = 0.8, s.run.collisions = 4000, s.measure |= GG_MEASURE_COLLISIONS;
   gg_result *r = ct_run(s);
   gg_curve_number p = ct_number(ct_find(&r->curves, "free_path"), "mean_free_path");
-  double l = gg_model_collision_rate(&r->model, 0.5), maxwellian = sqrt(4 / M_PI) / l;
+  double l = gg_common_model_collision_rate(&r->model, 0.5), maxwellian = sqrt(4 / M_PI) / l;
   ct_expect("mean free path, swept", p.value, hypot(p.error, 0.003 * maxwellian), maxwellian, 0.03 * maxwellian);
   p = ct_number(ct_find(&r->curves, "free_path"), "second_moment_over_mean_squared");
   ct_expect("second moment", p.value, p.error, 2.15, 0.1); /* of the cooling gas, whose speeds spread more */

@@ -18,21 +18,21 @@ static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 {
   stop *s = context;
   gg_archive nested = {0};
-  gg_archive_clear(&s->saved);
-  GG_TRY(gg_archive_nest(&nested, "all", archive, err));
-  gg_status status = gg_archive_unnest(&s->saved, "all", &nested, err);
-  gg_archive_clear(&nested);
+  gg_base_archive_clear(&s->saved);
+  GG_TRY(gg_base_archive_nest(&nested, "all", archive, err));
+  gg_status status = gg_base_archive_unnest(&s->saved, "all", &nested, err);
+  gg_base_archive_clear(&nested);
   return status;
 }
 
 static void resume(gg_engine_kind engine, int curves)
 {
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   scene.engine = engine, scene.phi = 0.1, scene.particles = 200, scene.dsmc.particles = 900, scene.run.replicas = 2;
   for (int q = 0; q < GG_PAIRS; q++) scene.collision.beta[q] = 0;
   scene.run.collisions = 150, scene.run.warmup = 20;
   scene.output.checkpoint_every = 1e6;
-  for (int i = 0; gg_observables[i]; i++) scene.measure |= gg_observables[i]->flag;
+  for (int i = 0; gg_measure_observables[i]; i++) scene.measure |= gg_measure_observables[i]->flag;
   gg_result *whole = ct_run(scene), *resumed = NULL;
   stop s = {.left = 97};
   gg_hooks hooks = {.context = &s, .interrupted = interrupted, .checkpoint = keep};
@@ -54,7 +54,7 @@ static void resume(gg_engine_kind engine, int curves)
   }
   gg_result_free(whole);
   gg_result_free(resumed);
-  gg_archive_clear(&s.saved);
+  gg_base_archive_clear(&s.saved);
 }
 
 static void same_curves(void **state)
@@ -68,7 +68,7 @@ static void same_curves(void **state)
 static void rheology_needed(void **state)
 {
   (void)state;
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   scene.phi = 0.1;
   scene.measure = GG_MEASURE_CELLS;
   gg_result *r = NULL;

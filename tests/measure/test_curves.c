@@ -8,34 +8,34 @@ enum { WIDTH = 3 };
 static void plain(const void *self, const double *mean, gg_curves *list)
 {
   (void)self;
-  gg_curve *c = gg_curve_add(list, WIDTH, "mean", "p", "m");
+  gg_curve *c = gg_measure_curve_add(list, WIDTH, "mean", "p", "m");
   for (int i = 0; i < (int)c->n; i++) c->x[i] = i, c->value[i] = mean[i];
-  gg_curve_put_number(c, "ratio", mean[0] / mean[1], "1");
+  gg_measure_curve_put_number(c, "ratio", mean[0] / mean[1], "1");
 }
 
 static void plain_means(const void *self, const double *mean, gg_curves *list)
 {
   (void)self;
-  gg_curve *c = gg_curve_add(list, WIDTH, "mean", "p", "m");
+  gg_curve *c = gg_measure_curve_add(list, WIDTH, "mean", "p", "m");
   for (int i = 0; i < (int)c->n; i++) c->x[i] = i, c->value[i] = mean[i];
 }
 
 static void add(gg_bins *b, gg_rng *r)
 {
-  double *bin = gg_bins_sample(b), common = 0.3 * gg_rng_normal(r);
-  bin[0] += 6 * (1 + common) + 0.1 * gg_rng_normal(r);
+  double *bin = gg_statistics_bins_sample(b), common = 0.3 * gg_common_rng_normal(r);
+  bin[0] += 6 * (1 + common) + 0.1 * gg_common_rng_normal(r);
   bin[1] += 3 * (1 + common);
   bin[2] += 1;
-  gg_bins_commit(b);
+  gg_statistics_bins_commit(b);
 }
 
 /* Blocks that alternate: no neighbour is like the other, and nothing is to be allowed for. */
 static void add_alternating(gg_bins *b, gg_rng *r, int block)
 {
-  double *bin = gg_bins_sample(b), sign = block % 2 ? 1 : -1;
+  double *bin = gg_statistics_bins_sample(b), sign = block % 2 ? 1 : -1;
   for (int k = 0; k < WIDTH - 1; k++) bin[k] += 6 + sign * (1 + 0.1 * gg_rng_uniform(r));
   bin[2] += 1;
-  gg_bins_commit(b);
+  gg_statistics_bins_commit(b);
 }
 
 /* The jackknife of a mean is the scatter of its blocks over sqrt(n); two replicas pool. */
@@ -43,14 +43,14 @@ static void error_of_a_mean(void **state)
 {
   (void)state;
   gg_bins b[2];
-  gg_rng r = gg_rng_seed(5, 0);
+  gg_rng r = gg_common_rng_seed(5, 0);
   for (int k = 0; k < 2; k++) {
-    assert_int_equal(gg_bins_init(&b[k], WIDTH, NULL), GG_OK);
+    assert_int_equal(gg_statistics_bins_init(&b[k], WIDTH, NULL), GG_OK);
     for (int i = 0; i < 20 * 16; i++) add_alternating(&b[k], &r, i / 16);
   }
   const gg_bins *list[] = {&b[0], &b[1]};
   gg_curves curves = {0};
-  assert_int_equal(gg_curves_estimate(list, 2, plain, NULL, "test", 0, &curves, NULL), GG_OK);
+  assert_int_equal(gg_measure_curves_estimate(list, 2, plain, NULL, "test", 0, &curves, NULL), GG_OK);
   double sum = 0, squares = 0, n = (double)(2 * b[0].blocks);
   for (int k = 0; k < 2; k++)
     for (size_t i = 0; i < b[k].blocks; i++) {
@@ -62,8 +62,8 @@ static void error_of_a_mean(void **state)
   assert_true(fabs(c->value[0] - mean) < 1e-12 && fabs(c->error[0] / error - 1) < 1e-9);
   assert_true(c->value[2] == 1 && c->error[2] == 0);
   assert_int_equal(c->samples, (uint64_t)n * b[0].per_block);
-  gg_curves_clear(&curves);
-  for (int k = 0; k < 2; k++) gg_bins_clear(&b[k]);
+  gg_measure_curves_clear(&curves);
+  for (int k = 0; k < 2; k++) gg_statistics_bins_clear(&b[k]);
 }
 
 /* A ratio of two bins that fluctuate together: over 300 repeats its deviation in units of its error has the variance of
@@ -71,20 +71,20 @@ static void error_of_a_mean(void **state)
 static void honest_ratio(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(6, 0);
+  gg_rng r = gg_common_rng_seed(6, 0);
   double sum = 0;
   for (int k = 0; k < 300; k++) {
     gg_bins b;
-    assert_int_equal(gg_bins_init(&b, WIDTH, NULL), GG_OK);
+    assert_int_equal(gg_statistics_bins_init(&b, WIDTH, NULL), GG_OK);
     for (int i = 0; i < 20 * 8; i++) add(&b, &r);
     const gg_bins *list[] = {&b};
     gg_curves curves = {0};
-    assert_int_equal(gg_curves_estimate(list, 1, plain, NULL, "test", 0, &curves, NULL), GG_OK);
+    assert_int_equal(gg_measure_curves_estimate(list, 1, plain, NULL, "test", 0, &curves, NULL), GG_OK);
     gg_curve_number ratio = ct_number(&curves.curve[0], "ratio");
     assert_true(ratio.error < 0.006); /* 0.1/3/sqrt(160) = 0.0026; the common part alone: 0.05 */
     sum += pow((ratio.value - 2) / ratio.error, 2);
-    gg_curves_clear(&curves);
-    gg_bins_clear(&b);
+    gg_measure_curves_clear(&curves);
+    gg_statistics_bins_clear(&b);
   }
   print_message("# variance of the reduced deviation: %.3f\n", sum / 300);
   assert_true(sum / 300 > 0.7 && sum / 300 < 1.6);
@@ -99,24 +99,24 @@ static void honest_mean(void **state)
   (void)state;
   const double memory[] = {0.05, 2, 5, 10}, most[] = {1.25, 1.25, 1.4, 1.4};
   for (int m = 0; m < 4; m++) {
-    gg_rng r = gg_rng_seed(16, (uint64_t)m);
+    gg_rng r = gg_common_rng_seed(16, (uint64_t)m);
     double keep = exp(-1 / memory[m]), sum = 0, plain = 0, n = 0;
     for (int k = 0; k < 400; k++) {
       gg_bins b;
       double x[WIDTH];
-      assert_int_equal(gg_bins_init(&b, WIDTH, NULL), GG_OK);
-      for (int a = 0; a < WIDTH; a++) x[a] = gg_rng_normal(&r);
+      assert_int_equal(gg_statistics_bins_init(&b, WIDTH, NULL), GG_OK);
+      for (int a = 0; a < WIDTH; a++) x[a] = gg_common_rng_normal(&r);
       for (int i = 0; i < 24 * 16; i++) {
-        double *bin = gg_bins_sample(&b);
+        double *bin = gg_statistics_bins_sample(&b);
         for (int a = 0; a < WIDTH; a++) {
           bin[a] += 5 + x[a];
-          x[a] = keep * x[a] + sqrt(1 - keep * keep) * gg_rng_normal(&r);
+          x[a] = keep * x[a] + sqrt(1 - keep * keep) * gg_common_rng_normal(&r);
         }
-        gg_bins_commit(&b);
+        gg_statistics_bins_commit(&b);
       }
       const gg_bins *list[] = {&b};
       gg_curves curves = {0};
-      assert_int_equal(gg_curves_estimate(list, 1, plain_means, NULL, "test", 0, &curves, NULL), GG_OK);
+      assert_int_equal(gg_measure_curves_estimate(list, 1, plain_means, NULL, "test", 0, &curves, NULL), GG_OK);
       const gg_curve *c = &curves.curve[0];
       for (int a = 0; a < WIDTH; a++) {
         double squares = 0, blocks = (double)b.blocks;
@@ -125,8 +125,8 @@ static void honest_mean(void **state)
         sum += pow((c->value[a] - 5) / c->error[a], 2), n++;
         plain += pow(c->value[a] - 5, 2) / (squares / (blocks * (blocks - 1)));
       }
-      gg_curves_clear(&curves);
-      gg_bins_clear(&b);
+      gg_measure_curves_clear(&curves);
+      gg_statistics_bins_clear(&b);
     }
     print_message("# memory %4.2f: variance of the reduced deviation %.3f, of blocks alone %.3f\n", memory[m], sum / n,
                   plain / n);

@@ -20,7 +20,7 @@ static void walk(gg_snapshot *s, gg_rng *r, int sample)
   for (size_t i = 0; i < s->n; i++) {
     double share = keep[gg_snapshot_species(s, i)], step[3] = {0, 0, 0}, layers;
     for (int a = 0; a < 3; a++) {
-      if (sample == 0) s->r[a][i] = L[a] * gg_rng_uniform(r), s->c[a][i] = gg_rng_normal(r);
+      if (sample == 0) s->r[a][i] = L[a] * gg_rng_uniform(r), s->c[a][i] = gg_common_rng_normal(r);
       if (sample) step[a] = s->c[a][i] * STEP;
     }
     if (sample) step[0] += rate * (s->r[1][i] + step[1] / 2 - L[1] / 2) * STEP;
@@ -29,7 +29,7 @@ static void walk(gg_snapshot *s, gg_rng *r, int sample)
     s->r[0][i] -= layers * s->offset;
     for (int a = 0; a < 3; a++) {
       s->r[a][i] -= L[a] * floor(s->r[a][i] / L[a]);
-      if (sample) s->c[a][i] = share * s->c[a][i] + sqrt(1 - share * share) * gg_rng_normal(r);
+      if (sample) s->c[a][i] = share * s->c[a][i] + sqrt(1 - share * share) * gg_common_rng_normal(r);
     }
   }
 }
@@ -51,7 +51,7 @@ static void walkers(void **state)
   for (int species = 1; species <= 2; species++) {
     gg_model m = ct_model(GG_USF, 0.2, -1, 1000, species);
     m.shear_rate = 0.7;
-    gg_curves list = ct_curves(&gg_diffusion, &m, 4000, walk, 96);
+    gg_curves list = ct_curves(&gg_measure_diffusion, &m, 4000, walk, 96);
     for (int k = 0; k < species; k++)
       for (int a = 0; a < 3; a++) {
         char name[64], tail[8] = "";
@@ -71,7 +71,7 @@ static void walkers(void **state)
         p = ct_number(r, "diffusion_einstein");
         ct_expect("Einstein", p.value, p.error, D, 0.4 * D);
       }
-    gg_curves_clear(&list);
+    gg_measure_curves_clear(&list);
   }
 }
 
@@ -81,14 +81,14 @@ static void planted_tail(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
-    gg_scene s = gg_scene_defaults();
+    gg_scene s = gg_common_scene_defaults();
     s.flow = GG_EQUILIBRIUM, s.phi = 0.26, s.particles = 500, s.aspect[1] = k == 2 ? 2 : 1;
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
     gg_model m;
-    assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
-    gg_tail tail = k ? gg_tail_of(&m, 0.5) : gg_tail_driven(0.01, 3);
+    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+    gg_tail tail = k ? gg_measure_tail_of(&m, 0.5) : gg_measure_tail_driven(0.01, 3);
     gg_running at[10];
-    double sum = 0, beyond = gg_tail_beyond(&tail, 3);
+    double sum = 0, beyond = gg_measure_tail_beyond(&tail, 3);
     for (int x = -12; x <= 12 && k; x++)
       for (int y = -12; y <= 12; y++)
         for (int z = -12; z <= 12; z++) {
@@ -99,9 +99,9 @@ static void planted_tail(void **state)
     for (int noisy = 0; noisy < 2; noisy++) {
       for (int i = 0; i < 10; i++) {
         double t = 3 * pow(1.3, i);
-        at[i] = (gg_running){t, 0.2 - 1.7 * gg_tail_beyond(&tail, t), noisy ? 1e6 : 1e-12};
+        at[i] = (gg_running){t, 0.2 - 1.7 * gg_measure_tail_beyond(&tail, t), noisy ? 1e6 : 1e-12};
       }
-      gg_coefficient D = gg_coefficient_of(&tail, at, 10);
+      gg_coefficient D = gg_measure_tail_coefficient(&tail, at, 10);
       double expected = noisy ? at[0].D + tail.amplitude * beyond : 0.2;
       assert_true(fabs(D.D - expected) < 1e-6 && fabs(D.tail - (expected - at[0].D)) < 1e-6);
       assert_true(noisy ? fabs(D.unsure / (beyond * tail.tolerance) - 1) < 1e-3 : D.unsure < 1e-6);
@@ -111,7 +111,7 @@ static void planted_tail(void **state)
 
 static void diffuse(double phi, int64_t n, double collisions, double T_and_D[5])
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = phi, s.particles = n;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.run.collisions = collisions;
@@ -162,7 +162,7 @@ static void dense_gas(void **state)
 static void box_shorter_than_free_paths(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 1e-3, s.particles = 200;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.n_species = 2;
@@ -171,7 +171,7 @@ static void box_shorter_than_free_paths(void **state)
   s.run.collisions = 1500;
   s.measure |= GG_MEASURE_DIFFUSION;
   gg_model m;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
   gg_result *r = ct_run(s);
   double T = r->value[GG_Q_TEMPERATURE].mean;
   for (int i = 0; i < 2; i++) {

@@ -41,26 +41,28 @@ static gg_collision_record draw(const planted *p, const gg_model *m, double fact
 static gg_curves fed(const gg_model *m, double first, double second, double fall)
 {
   planted p = {.over_m = {first, second}};
-  gg_rng r = gg_rng_seed(7, 0);
+  gg_rng r = gg_common_rng_seed(7, 0);
   gg_bins bins;
-  void *self = gg_impact_speed.create(m, NULL);
-  assert_int_equal(gg_bins_init(&bins, gg_impact_speed.bins(self), NULL), GG_OK);
+  void *self = gg_measure_impact_speed.create(m, NULL);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_impact_speed.bins(self), NULL), GG_OK);
   for (int i = 0; i < GRAINS; i++) p.species[i] = i >= m->n_of[0];
   gg_snapshot s = {.model = m, .n = GRAINS, .c = {p.c[0], p.c[1], p.c[2]}, .species = p.species};
   for (int k = 0; k < SAMPLES; k++) {
     for (int i = 0; i < PER_SAMPLE && k; i++) {
       gg_collision_record c = draw(&p, m, exp(-fall * (k - 1 + (i + 0.5) / PER_SAMPLE)), &r);
-      gg_impact_speed.add_collision(self, &c);
+      gg_measure_impact_speed.add_collision(self, &c);
     }
     set_speeds(&p, exp(-fall * k));
-    gg_impact_speed.add_snapshot(self, &s, gg_bins_sample(&bins));
-    gg_bins_commit(&bins);
+    gg_measure_impact_speed.add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(gg_curves_estimate(list, 1, gg_impact_speed.curves, self, "impact_speed", 0, &curves, NULL), GG_OK);
-  gg_bins_clear(&bins);
-  gg_impact_speed.destroy(self);
+  assert_int_equal(
+      gg_measure_curves_estimate(list, 1, gg_measure_impact_speed.curves, self, "impact_speed", 0, &curves, NULL),
+      GG_OK);
+  gg_statistics_bins_clear(&bins);
+  gg_measure_impact_speed.destroy(self);
   return curves;
 }
 
@@ -84,22 +86,22 @@ static void planted_law(void **state)
   expect_maxwellian(&a, 60, 0.006);
   expect_maxwellian(&b, 60, 0.006);
   expect_maxwellian(&c, 60, 0.006);
-  gg_curves_clear(&a), gg_curves_clear(&b), gg_curves_clear(&c);
+  gg_measure_curves_clear(&a), gg_measure_curves_clear(&b), gg_measure_curves_clear(&c);
 }
 
 static void refusals(void **state)
 {
   (void)state;
   gg_model walled = ct_model(GG_COUETTE, 0.1, -1, GRAINS, 1), sheared = ct_model(GG_USF, 0.1, -1, GRAINS, 1);
-  assert_non_null(gg_impact_speed.refuses(&walled));
-  assert_null(gg_impact_speed.refuses(&sheared));
+  assert_non_null(gg_measure_impact_speed.refuses(&walled));
+  assert_null(gg_measure_impact_speed.refuses(&sheared));
   sheared.linear_response = true;
-  assert_non_null(gg_impact_speed.refuses(&sheared));
+  assert_non_null(gg_measure_impact_speed.refuses(&sheared));
 }
 
 static gg_scene scene_of(gg_flow flow, gg_engine_kind engine, double e, double phi)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = flow, s.engine = engine, s.phi = phi, s.particles = 1000, s.dsmc.particles = 4000;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = e;
   s.run.collisions = engine == GG_MD ? 1000 : 20000;
@@ -143,7 +145,7 @@ static void energy(void **state)
   r = ct_run(s);
   square = ct_number(ct_find(&r->curves, "impact_speed"), "mean_square_impact_speed");
   double zeta = r->value[GG_Q_COOLING_RATE].mean, a2 = r->value[GG_Q_A2].mean; /* over nu_0; the rate at T = 1 */
-  double rate = gg_model_collision_rate(&r->model, 1) * (1 - a2 / 16) / gg_model_nu0(&r->model, 1);
+  double rate = gg_common_model_collision_rate(&r->model, 1) * (1 - a2 / 16) / gg_common_model_nu0(&r->model, 1);
   ct_expect("cooling: <x^2> from zeta", 12 * zeta / (rate * (1 - e * e)), square.error + 0.004, square.value, 0.1);
   gg_result_free(r);
 }

@@ -12,8 +12,8 @@ static void scatter(gg_snapshot *s, gg_rng *r)
   for (size_t i = 0; i < s->n; i++)
     for (int a = 0; a < 3; a++) {
       s->r[a][i] = L[a] * gg_rng_uniform(r);
-      s->c[a][i] = gg_rng_normal(r) / sqrt(s->model->mass[gg_snapshot_species(s, i)]);
-      if (s->s[a]) s->s[a][i] = gg_rng_normal(r) - 5;
+      s->c[a][i] = gg_common_rng_normal(r) / sqrt(s->model->mass[gg_snapshot_species(s, i)]);
+      if (s->s[a]) s->s[a][i] = gg_common_rng_normal(r) - 5;
     }
 }
 
@@ -39,7 +39,8 @@ static void turning(gg_snapshot *s, gg_rng *r, int sample)
 {
   gaussian(s, r, sample);
   for (size_t i = 0; i < s->n; i++)
-    for (int a = 0; a < 3; a++) s->s[a][i] = s->model->diameter[gg_snapshot_species(s, i)] / 2 * (gg_rng_normal(r) - 4);
+    for (int a = 0; a < 3; a++)
+      s->s[a][i] = s->model->diameter[gg_snapshot_species(s, i)] / 2 * (gg_common_rng_normal(r) - 4);
 }
 
 /* Omega is about the mean omega of a cell, whoever is in it. */
@@ -47,7 +48,7 @@ static void two_sizes(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, 0, 4096, 2);
-  gg_curves list = ct_curves(&gg_local_distributions, &m, 128, turning, 75);
+  gg_curves list = ct_curves(&gg_measure_local_distributions, &m, 128, turning, 75);
   for (int k = 1; k <= 2; k++) {
     char name[64];
     double mean = 0, all = 0;
@@ -58,14 +59,14 @@ static void two_sizes(void **state)
     assert_true(fabs(mean / all) < 0.01);
     expect_number(&list, name, "skewness", 0, 0.05);
   }
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static void gaussian_cells(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, 0, 4096, 1);
-  gg_curves list = ct_curves(&gg_local_distributions, &m, 512, gaussian, 71);
+  gg_curves list = ct_curves(&gg_measure_local_distributions, &m, 512, gaussian, 71);
   for (int k = 0; k < 6; k++) {
     char name[64];
     snprintf(name, sizeof name, "local_distribution_Cx_%s", classes[k]);
@@ -76,7 +77,7 @@ static void gaussian_cells(void **state)
     expect_number(&list, name, "temperature_over_mean", 1, 0.03);
     if (k == 2) expect_number(&list, name, "alpha", 2, 0.15);
   }
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Two species of unlike mass and spin at one temperature: sigma is each one's own. */
@@ -84,14 +85,14 @@ static void mixed_cells(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 4096, 2);
-  gg_curves list = ct_curves(&gg_local_distributions, &m, 256, gaussian, 73);
+  gg_curves list = ct_curves(&gg_measure_local_distributions, &m, 256, gaussian, 73);
   for (int k = 0; k < 2; k++) {
     char name[64];
     snprintf(name, sizeof name, "local_distribution_Cx_%d_1", k + 1);
     expect_number(&list, name, "kurtosis", 3, 0.2);
     expect_number(&list, name, "temperature_over_mean", 1, 0.04);
   }
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* The left half of the box holds three of four grains, and those are +-1/2 along x instead of Gaussian. */
@@ -110,7 +111,7 @@ static void planted_halves(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 4096, 1);
-  gg_curves list = ct_curves(&gg_local_distributions, &m, 64, two_halves, 72);
+  gg_curves list = ct_curves(&gg_measure_local_distributions, &m, 64, two_halves, 72);
   const gg_curve *thin = ct_find(&list, "local_distribution_Cx_0.5"),
                  *dense = ct_find(&list, "local_distribution_Cx_1.5");
   gg_curve_number p = ct_number(thin, "kurtosis"), q = ct_number(dense, "kurtosis");
@@ -124,12 +125,12 @@ static void planted_halves(void **state)
   p = ct_number(thin, "temperature_over_mean"), q = ct_number(dense, "temperature_over_mean");
   print_message("# warmth, thin over dense %.3f\n", p.value / q.value);
   assert_true(fabs(p.value / q.value - 4) < 0.15); /* a few cells of the dense half are as thin as those */
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static gg_result *engine(double e, double phi)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.flow = e == 1 ? GG_EQUILIBRIUM : GG_USF, s.phi = phi, s.particles = 1000;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = e, s.collision.beta[p] = e == 1 ? 1 : -1;
   s.run.collisions = e == 1 ? 2500 : 6000;

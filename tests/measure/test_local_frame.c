@@ -54,17 +54,18 @@ static void planted_profile(void **state)
     gg_local_frame frame;
     sums s = {{0}, {0}};
     int samples = 200;
-    gg_rng rng = gg_rng_seed(21, (uint64_t)h);
+    gg_rng rng = gg_common_rng_seed(21, (uint64_t)h);
     for (int k = 0; k < samples; k++) {
       for (int i = 0; i < N; i++) {
         double y = heights[h] * gg_rng_uniform(&rng), slabs = floor(heights[h]);
         double u = 50 * sin(floor(y / heights[h] * slabs)); /* constant in each slab */
         r[0][i] = 0, r[1][i] = y, r[2][i] = 0;
-        c[0][i] = u + gg_rng_normal(&rng), c[1][i] = 3 + gg_rng_normal(&rng), c[2][i] = gg_rng_normal(&rng);
+        c[0][i] = u + gg_common_rng_normal(&rng), c[1][i] = 3 + gg_common_rng_normal(&rng),
+        c[2][i] = gg_common_rng_normal(&rng);
       }
-      gg_local_frame_take(&frame, &model, &planted);
+      gg_measure_local_frame_take(&frame, &model, &planted);
       assert_int_equal(frame.n_slabs, (int)floor(heights[h]));
-      gg_local_frame_snapshot(&frame, &planted, add, &s);
+      gg_measure_local_frame_snapshot(&frame, &planted, add, &s);
     }
     double n = (double)N * samples, error = sqrt(2 / n);
     for (int a = 0; a < 3; a++) {
@@ -97,17 +98,17 @@ static void planted_spins(void **state)
   gg_model model = {.n = N, .n_species = 2, .diameter = {1, 3}, .box = {10, 20, 10}, .walled = true};
   gg_local_frame frame;
   spins s = {.whole = true};
-  gg_rng rng = gg_rng_seed(22, 0);
+  gg_rng rng = gg_common_rng_seed(22, 0);
   rough = true;
   for (int k = 0; k < 200; k++) {
     for (int i = 0; i < N; i++) {
       species[i] = i % 2;
       r[1][i] = 20 * gg_rng_uniform(&rng);
       double radius = model.diameter[species[i]] / 2, rolling = 40 * cos(floor(r[1][i]));
-      for (int a = 0; a < 3; a++) w[a][i] = radius * ((a == 2) * rolling + gg_rng_normal(&rng));
+      for (int a = 0; a < 3; a++) w[a][i] = radius * ((a == 2) * rolling + gg_common_rng_normal(&rng));
     }
-    gg_local_frame_take(&frame, &model, &planted);
-    gg_local_frame_snapshot(&frame, &planted, add_spins, &s);
+    gg_measure_local_frame_take(&frame, &model, &planted);
+    gg_measure_local_frame_snapshot(&frame, &planted, add_spins, &s);
   }
   for (int k = 0; k < 2; k++) {
     double variance = model.diameter[k] * model.diameter[k] / 4;

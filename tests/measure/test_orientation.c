@@ -30,7 +30,7 @@ static void planted_angles(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.1, 0, 20000, 1);
-  gg_curves list = ct_curves(&gg_orientation, &m, 48, planted, 31);
+  gg_curves list = ct_curves(&gg_measure_orientation, &m, 48, planted, 31);
   const gg_curve *c = ct_find(&list, "orientation_cos"), *square = ct_find(&list, "orientation_cos2");
   gg_curve_number p = ct_number(c, "Lambda");
   ct_expect("Lambda", p.value, p.error, ALIGNED + (1 - ALIGNED) / 3, 0.005);
@@ -45,7 +45,7 @@ static void planted_angles(void **state)
   /* independent part: P(u) = (1 - ALIGNED)/(2 sqrt(u)), averaged over a bin */
   double u = square->x[10], half = 0.01, expected = (1 - ALIGNED) * (sqrt(u + half) - sqrt(u - half)) / (2 * half);
   ct_expect("P(cos^2)", square->value[10], square->error[10], expected, 0.1 * expected);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Instantaneous: the flow velocity and the mean spin stay in. With a very fast flow c is along x, and Lambda becomes
@@ -55,8 +55,8 @@ static void planted_flow(void **state)
   (void)state;
   gg_model m = ct_model(GG_USF, 0.1, 0, 5000, 1);
   m.shear_rate = 1e5;
-  gg_curves list = ct_curves(&gg_orientation, &m, 64, planted, 32);
-  gg_rng r = gg_rng_seed(33, 0);
+  gg_curves list = ct_curves(&gg_measure_orientation, &m, 64, planted, 32);
+  gg_rng r = gg_common_rng_seed(33, 0);
   double expected = 0;
   for (int i = 0; i < 1000000; i++) {
     gg_vec w = gg_scale(0.2 + gg_rng_uniform(&r), gg_rng_direction(&r));
@@ -67,7 +67,7 @@ static void planted_flow(void **state)
   ct_expect("Lambda of c and omega", p.value, hypot(p.error, 3e-5), expected, 0.04 * expected);
   p = ct_number(ct_find(&list, "orientation_cos"), "Lambda");
   ct_expect("Lambda", p.value, p.error, ALIGNED + (1 - ALIGNED) / 3, 0.02);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Sheared rough grains: the same mean as rheology's within their errors, and below 1/3; md's instantaneous Lambda has
@@ -76,7 +76,7 @@ static void engines(void **state)
 {
   (void)state;
   for (int k = 0; k < 2; k++) {
-    gg_scene s = gg_scene_defaults();
+    gg_scene s = gg_common_scene_defaults();
     s.engine = k ? GG_DSMC : GG_MD, s.phi = 0.05, s.particles = 1000;
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.8, s.collision.beta[q] = 0;
     s.run.collisions = 600;

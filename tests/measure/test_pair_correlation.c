@@ -15,7 +15,7 @@ static void thrown(gg_snapshot *s, gg_rng *r, int sample)
   for (size_t i = 0; i < s->n; i++)
     for (int a = 0; a < 3; a++) {
       s->r[a][i] = s->model->box[a] * gg_rng_uniform(r);
-      s->c[a][i] = gg_rng_normal(r);
+      s->c[a][i] = gg_common_rng_normal(r);
     }
 }
 
@@ -42,8 +42,8 @@ static void add(void *context, uint32_t one, uint32_t two, gg_vec d, double squa
 static tally searched(gg_pairs *p, const gg_snapshot *s)
 {
   tally t = {.p = p, .reach = p->reach};
-  gg_images box = gg_images_of(s);
-  gg_pairs_sort(p, s, &box);
+  gg_images box = gg_measure_pairs_images(s);
+  gg_measure_pairs_sort(p, s, &box);
   gg_pairs_each(p, s, &box, add, &t);
   return t;
 }
@@ -70,24 +70,24 @@ static tally plain(const gg_snapshot *s, double reach)
 static void pairs_of_images(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(50, 0);
+  gg_rng r = gg_common_rng_seed(50, 0);
   for (int k = 0; k < 40; k++) {
-    gg_scene scene = gg_scene_defaults();
+    gg_scene scene = gg_common_scene_defaults();
     scene.phi = 0.2, scene.particles = 300;
     if (k % 2) scene.aspect[k % 3] = 1.7;
     gg_model m;
-    assert_int_equal(gg_model_make(&scene, GG_MD, &m, NULL), GG_OK);
-    double reach = (k % 4 < 2 ? 0.35 : 1) * gg_pairs_longest_reach(&m);
+    assert_int_equal(gg_common_model_make(&scene, GG_MD, &m, NULL), GG_OK);
+    double reach = (k % 4 < 2 ? 0.35 : 1) * gg_measure_pairs_longest_reach(&m);
     gg_snapshot s;
     gg_pairs p;
-    assert_int_equal(gg_snapshot_init(&s, &m, true, NULL), GG_OK);
-    assert_int_equal(gg_pairs_init(&p, &m, reach, INFINITY, 2, NULL), GG_OK);
+    assert_int_equal(gg_measure_snapshot_init(&s, &m, true, NULL), GG_OK);
+    assert_int_equal(gg_measure_pairs_init(&p, &m, reach, INFINITY, 2, NULL), GG_OK);
     thrown(&s, &r, k);
     tally fast = searched(&p, &s), slow = plain(&s, reach);
     assert_true(slow.pairs > 100 && fast.pairs == slow.pairs);
     assert_true(fabs(fast.squares / slow.squares - 1) < 1e-9 && fabs(fast.checks / slow.checks - 1) < 1e-9);
-    gg_pairs_clear(&p);
-    gg_snapshot_clear(&s);
+    gg_measure_pairs_clear(&p);
+    gg_measure_snapshot_clear(&s);
   }
 }
 
@@ -106,18 +106,18 @@ static void sampled_pairs(void **state)
 {
   (void)state;
   enum { DRAWS = 200, BUDGET = 60 };
-  gg_rng r = gg_rng_seed(54, 0);
+  gg_rng r = gg_common_rng_seed(54, 0);
   for (int k = 0; k < 4; k++) {
-    gg_scene scene = gg_scene_defaults();
+    gg_scene scene = gg_common_scene_defaults();
     scene.phi = 0.2, scene.particles = 1500;
     if (k) scene.aspect[k - 1] = 1.7;
     gg_model m;
-    assert_int_equal(gg_model_make(&scene, GG_MD, &m, NULL), GG_OK);
-    double reach = gg_pairs_longest_reach(&m), sum[SHELLS + 1] = {0}, squares[SHELLS + 1] = {0};
+    assert_int_equal(gg_common_model_make(&scene, GG_MD, &m, NULL), GG_OK);
+    double reach = gg_measure_pairs_longest_reach(&m), sum[SHELLS + 1] = {0}, squares[SHELLS + 1] = {0};
     gg_snapshot s;
     gg_pairs p;
-    assert_int_equal(gg_snapshot_init(&s, &m, true, NULL), GG_OK);
-    assert_int_equal(gg_pairs_init(&p, &m, reach, BUDGET, 2 + k % 3, NULL), GG_OK);
+    assert_int_equal(gg_measure_snapshot_init(&s, &m, true, NULL), GG_OK);
+    assert_int_equal(gg_measure_pairs_init(&p, &m, reach, BUDGET, 2 + k % 3, NULL), GG_OK);
     thrown(&s, &r, k);
     tally all = plain(&s, reach), again = searched(&p, &s);
     assert_true(again.pairs == searched(&p, &s).pairs);
@@ -132,8 +132,8 @@ static void sampled_pairs(void **state)
     for (int j = 0; j < SHELLS; j++)
       expect_mean("shell", sum[j], squares[j], DRAWS, all.shell[j], 0.005 * all.shell[j]);
     expect_mean("direction", sum[SHELLS], squares[SHELLS], DRAWS, all.bent, 0.001 * all.pairs);
-    gg_pairs_clear(&p);
-    gg_snapshot_clear(&s);
+    gg_measure_pairs_clear(&p);
+    gg_measure_snapshot_clear(&s);
   }
 }
 
@@ -149,7 +149,7 @@ static void ideal_gas(void **state)
   (void)state;
   for (int species = 1; species <= 2; species++) {
     gg_model m = ct_model(GG_USF, 0.1, -1, 2000, species);
-    gg_curves list = ct_curves(&gg_pair_correlation, &m, 64, thrown, 51);
+    gg_curves list = ct_curves(&gg_measure_pair_correlation, &m, 64, thrown, 51);
     assert_int_equal(list.n, species == 1 ? 1 : 3);
     for (int k = 0; k < list.n; k++) {
       const gg_curve *c = &list.curve[k];
@@ -162,7 +162,7 @@ static void ideal_gas(void **state)
       p = ct_number(c, "contact_value_of_rate");
       ct_expect("contact value of the rate", p.value, p.error, 1.0 / (4 * m.density * sqrt(M_PI)), 0.01);
     }
-    gg_curves_clear(&list);
+    gg_measure_curves_clear(&list);
   }
 }
 
@@ -170,7 +170,7 @@ static void ideal_gas(void **state)
 static void hard_spheres(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 0.3, s.particles = 2000;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.run.collisions = 3000;
@@ -230,7 +230,7 @@ static void extrapolation(void **state)
   const double phis[] = {0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.45, 0.49};
   for (size_t i = 0; i < sizeof phis / sizeof *phis; i++) {
     gg_model m = ct_model(GG_EQUILIBRIUM, phis[i], -1, 4000, 1);
-    gg_near n = gg_near_of(&m, 1, gg_pairs_longest_reach(&m));
+    gg_near n = gg_measure_contact_setup(&m, 1, gg_measure_pairs_longest_reach(&m));
     double bin[GG_NEAR_WIDTH], expected = (1 + phis[i] / 2) / ((1 - phis[i]) * (1 - phis[i]));
     assert_true(fabs(percus_yevick(phis[i], 1) / expected - 1) < 1e-9);
     for (int k = 0; k < GG_NEAR_BINS; k++) {
@@ -238,7 +238,7 @@ static void extrapolation(void **state)
       bin[2 * GG_NEAR_BINS + k] = 0.9 * bin[k];
       bin[3 * GG_NEAR_BINS + k] = 0.5e4 * way(phis[i], &n, (k + 0.5) * n.way / GG_NEAR_BINS) * n.way / GG_NEAR_BINS;
     }
-    gg_contact_density g = gg_near_read(&n, bin, 1e4, 10);
+    gg_contact_density g = gg_measure_contact_estimate(&n, bin, 1e4, 10);
     print_message("# phi %.2f: all %+.1e, approaching %+.1e, parting %+.1e\n", phis[i], g.alike / expected - 1,
                   g.approaching / expected - 1, g.parting / expected - 1);
     assert_true(fabs(g.alike / expected - 1) < 4e-4 && fabs(g.approaching / expected - 1) < 4e-4);
@@ -252,7 +252,7 @@ static void inelastic(void **state)
 {
   (void)state;
   for (int rough = 0; rough < 2; rough++) {
-    gg_scene s = gg_scene_defaults();
+    gg_scene s = gg_common_scene_defaults();
     s.engine = GG_MD, s.flow = GG_USF, s.phi = rough ? 0.1 : 0.03, s.particles = 1000;
     double e = rough ? 0.8 : 0.6, value[5], error[5];
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = e, s.collision.beta[q] = rough ? 0 : -1;

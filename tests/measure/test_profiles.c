@@ -14,8 +14,8 @@ static void planted(gg_snapshot *s, gg_rng *r, int sample)
     for (int a = 0; a < 3; a++) s->r[a][i] = L[a] * gg_rng_uniform(r);
     double y = s->r[1][i] / L[1];
     for (int a = 0; a < 3; a++) {
-      s->c[a][i] = sqrt(1 + y) * gg_rng_normal(r);
-      s->s[a][i] = sqrt(0.5) * gg_rng_normal(r);
+      s->c[a][i] = sqrt(1 + y) * gg_common_rng_normal(r);
+      s->s[a][i] = sqrt(0.5) * gg_common_rng_normal(r);
     }
     s->c[0][i] += 3 * y - 1;
     s->s[2][i] += y;
@@ -45,7 +45,7 @@ static void planted_profiles(void **state)
   (void)state;
   gg_model m = ct_model(GG_COUETTE, 0.2, 0, 4000, 1);
   m.gravity[1] = -1; /* below is not as above: nothing is folded */
-  gg_curves list = ct_curves(&gg_profiles, &m, 64, planted, 91);
+  gg_curves list = ct_curves(&gg_measure_profiles, &m, 64, planted, 91);
   double L = m.box[1], theta = 0.4 * 0.5, phi = 0.2;
   const struct {
     const char *name;
@@ -66,7 +66,7 @@ static void planted_profiles(void **state)
   }
   gg_curve_number p = ct_number(ct_find(&list, "profile_velocity"), "slip_upper");
   ct_expect("slip", p.value, p.error, m.surface[1].velocity.x - (3 * (L - 0.5) / L - 1), 0.1);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static double centred(double y, const void *context)
@@ -86,7 +86,7 @@ static void folded_profiles(void **state)
   (void)state;
   for (int turned = 0; turned < 2; turned++) {
     gg_model m = ct_model(turned ? GG_COUETTE : GG_POISEUILLE, 0.2, 0, 4000, 1);
-    gg_curves list = ct_curves(&gg_profiles, &m, 64, planted, 91);
+    gg_curves list = ct_curves(&gg_measure_profiles, &m, 64, planted, 91);
     double L = m.box[1], half = 0.5, one = 1, T = 1.5 + 0.25 / 3, phi = 0.2;
     const struct {
       const char *name;
@@ -110,7 +110,7 @@ static void folded_profiles(void **state)
         assert_true(fabs(c->error[i] / c->error[c->n - 1 - i] - 1) < 1e-6);
       }
     }
-    gg_curves_clear(&list);
+    gg_measure_curves_clear(&list);
   }
 }
 
@@ -123,10 +123,10 @@ static void wandering(gg_snapshot *s, gg_rng *r, int sample)
 {
   enum { MEMORY = 40 };
   const double *L = s->model->box, rho = exp(-1.0 / MEMORY);
-  carried = sample == 0 ? gg_rng_normal(r) : rho * carried + sqrt(1 - rho * rho) * gg_rng_normal(r);
+  carried = sample == 0 ? gg_common_rng_normal(r) : rho * carried + sqrt(1 - rho * rho) * gg_common_rng_normal(r);
   for (size_t i = 0; i < s->n; i++) {
     for (int a = 0; a < 3; a++) s->r[a][i] = L[a] * gg_rng_uniform(r);
-    for (int a = 0; a < 3; a++) s->c[a][i] = gg_rng_normal(r);
+    for (int a = 0; a < 3; a++) s->c[a][i] = gg_common_rng_normal(r);
     s->c[0][i] += 3 * (s->r[1][i] / L[1] - 0.5) + carried;
   }
 }
@@ -140,11 +140,11 @@ static void errors_where_the_gas_wanders(void **state)
     for (uint64_t k = 0; k < REPEATS; k++) {
       gg_model m = ct_model(GG_COUETTE, 0.2, -1, 400, 1);
       if (!folded) m.gravity[1] = -1;
-      gg_curves list = ct_curves(&gg_profiles, &m, SAMPLES, wandering, 200 + k);
+      gg_curves list = ct_curves(&gg_measure_profiles, &m, SAMPLES, wandering, 200 + k);
       const gg_curve *c = ct_find(&list, "profile_velocity");
       for (size_t i = 0; i < c->n; i++)
         chi2[folded] += pow((c->value[i] - centred(c->x[i], &m.box[1])) / c->error[i], 2) / (REPEATS * (double)c->n);
-      gg_curves_clear(&list);
+      gg_measure_curves_clear(&list);
     }
   print_message("# chi^2/points: %.2f folded, %.2f unfolded\n", chi2[1], chi2[0]);
   assert_true(fabs(chi2[1] - 1.15) < 0.25 && chi2[0] > 2); /* 15 blocks make 15/13 */
@@ -156,31 +156,32 @@ static void errors_where_the_gas_wanders(void **state)
 static gg_curves pushed(const gg_model *m, int samples, double noise)
 {
   static const double P[2][3] = {{0.3, -0.7, 0.1}, {-0.3, 0.7, 0.2}}; /* force on each wall over its area */
-  gg_rng r = gg_rng_seed(92, 0);
+  gg_rng r = gg_common_rng_seed(92, 0);
   gg_snapshot s;
   gg_bins bins;
-  void *self = gg_profiles.create(m, NULL);
-  assert_int_equal(gg_snapshot_init(&s, m, true, NULL), GG_OK);
-  assert_int_equal(gg_bins_init(&bins, gg_profiles.bins(self), NULL), GG_OK);
+  void *self = gg_measure_profiles.create(m, NULL);
+  assert_int_equal(gg_measure_snapshot_init(&s, m, true, NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_profiles.bins(self), NULL), GG_OK);
   gg_collision_sums t = {.surface = {{.impulse = {1e6, 1e6, 1e6}}, {.impulse = {1e6, 1e6, 1e6}}}};
-  gg_profiles.add_interval(self, &(gg_interval){m, &t, 1e3, 1});
-  gg_profiles.restart(self);
+  gg_measure_profiles.add_interval(self, &(gg_interval){m, &t, 1e3, 1});
+  gg_measure_profiles.restart(self);
   for (int k = 0; k < 2 * samples; k++) {
     double time = 0.5 + 0.1 * (k % 7);
     for (int wall = 0; wall < 2; wall++)
       for (int a = 0; a < 3; a++)
-        t.surface[wall].impulse[a] = P[wall][a] * m->box[0] * m->box[2] * time * (1 + noise * gg_rng_normal(&r));
-    gg_profiles.add_interval(self, &(gg_interval){m, &t, time, 1});
+        t.surface[wall].impulse[a] = P[wall][a] * m->box[0] * m->box[2] * time * (1 + noise * gg_common_rng_normal(&r));
+    gg_measure_profiles.add_interval(self, &(gg_interval){m, &t, time, 1});
     if (k % 2 == 0) continue;
-    gg_profiles.add_snapshot(self, &s, gg_bins_sample(&bins));
-    gg_bins_commit(&bins);
+    gg_measure_profiles.add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(gg_curves_estimate(list, 1, gg_profiles.curves, self, "profiles", 0, &curves, NULL), GG_OK);
-  gg_bins_clear(&bins);
-  gg_snapshot_clear(&s);
-  gg_profiles.destroy(self);
+  assert_int_equal(gg_measure_curves_estimate(list, 1, gg_measure_profiles.curves, self, "profiles", 0, &curves, NULL),
+                   GG_OK);
+  gg_statistics_bins_clear(&bins);
+  gg_measure_snapshot_clear(&s);
+  gg_measure_profiles.destroy(self);
   return curves;
 }
 
@@ -204,14 +205,14 @@ static void wall_stress(void **state)
       double scatter = 0.5 * fabs(P) / sqrt(2 * 6400) * sqrt(1.06); /* of both walls; unequal intervals: <t^2>/<t>^2 */
       assert_true(fabs(n.error / scatter - 1) < 0.5); /* 16 to 32 blocks, and what they correlate by chance */
     }
-    gg_curves_clear(&list);
+    gg_measure_curves_clear(&list);
   }
 }
 
 static void couette(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.flow = GG_COUETTE, s.phi = 0.1, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.95, s.collision.beta[q] = 0;
   s.run.collisions = 8000, s.run.warmup = 1500; /* blocks longer than the momentum of the box remembers */

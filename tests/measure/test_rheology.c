@@ -23,17 +23,19 @@ static void near(double a, double b)
 
 static void plant(uint64_t seed)
 {
-  gg_rng r = gg_rng_seed(seed, 0);
+  gg_rng r = gg_common_rng_seed(seed, 0);
   for (int i = 0; i < N; i++) {
-    cx[i] = 2 * gg_rng_normal(&r), cy[i] = gg_rng_normal(&r) - 0.3 * cx[i], cz[i] = gg_rng_normal(&r);
-    sx[i] = gg_rng_normal(&r), sy[i] = 0.5 * gg_rng_normal(&r), sz[i] = gg_rng_normal(&r) - 0.25 + 0.2 * cz[i];
+    cx[i] = 2 * gg_common_rng_normal(&r), cy[i] = gg_common_rng_normal(&r) - 0.3 * cx[i],
+    cz[i] = gg_common_rng_normal(&r);
+    sx[i] = gg_common_rng_normal(&r), sy[i] = 0.5 * gg_common_rng_normal(&r),
+    sz[i] = gg_common_rng_normal(&r) - 0.25 + 0.2 * cz[i];
     kind[i] = i % 3 == 0;
   }
 }
 
 static gg_model model_of(gg_flow flow, double beta, int species)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = flow, s.phi = 0.2, s.particles = N, s.n_species = species;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = beta;
   if (species == 2) {
@@ -41,7 +43,7 @@ static gg_model model_of(gg_flow flow, double beta, int species)
     s.species[1] = (gg_species){167.0 / N, 1.5, 3, 0.5};
   }
   gg_model m;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return m;
 }
 
@@ -69,13 +71,13 @@ static void take_row_of(const gg_observable *o, void *self, const gg_model *m, c
 static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, double elapsed, double factor,
                      double *row)
 {
-  take_row_of(&gg_rheology, self, m, t, elapsed, factor, row);
+  take_row_of(&gg_measure_rheology, self, m, t, elapsed, factor, row);
 }
 
 static double value(gg_quantity q, const double *row, const gg_model *m)
 {
   gg_function f;
-  assert_true(gg_derived_find(gg_rheology.derived, q, &f));
+  assert_true(gg_measure_derived_find(gg_measure_rheology.derived, q, &f));
   return gg_function_value(f, row, m);
 }
 
@@ -101,7 +103,7 @@ static void sheared_rough(void **state)
   gg_model m = model_of(GG_USF, 0, 1);
   double row[64];
   gg_collision_sums t = planted_transfer(m.n_species);
-  void *self = gg_rheology.create(&m, NULL);
+  void *self = gg_measure_rheology.create(&m, NULL);
   take_row(self, &m, &t, 0, 1, row); /* the first sample, which makes no row */
   take_row(self, &m, &t, 0.5, 1, row);
   double T = 0, xx = 0, xy = 0, w = 0, mean[3] = {0}, cos2 = 0, w4 = 0, w2 = 0, w3 = 0, speed = 0;
@@ -141,7 +143,7 @@ static void sheared_rough(void **state)
   near(value(GG_Q_COS2_PSI, row, &m), cos2);
   near(value(GG_Q_KURTOSIS_WZ, row, &m), w4 / (w2 * w2));
   near(value(GG_Q_SKEWNESS_WZ, row, &m), w3 / pow(w2, 1.5));
-  gg_rheology.destroy(self);
+  gg_measure_rheology.destroy(self);
 }
 
 /* Two species, smooth: partial temperatures and mass-weighted totals. */
@@ -152,7 +154,7 @@ static void mixture(void **state)
   gg_model m = model_of(GG_HSS, -1, 2);
   double row[64], T[2] = {0}, c4[2] = {0};
   gg_collision_sums t = planted_transfer(m.n_species);
-  void *self = gg_rheology.create(&m, NULL);
+  void *self = gg_measure_rheology.create(&m, NULL);
   take_row(self, &m, &t, 0.5, 1, row);
   for (int i = 0; i < N; i++) {
     double c2 = cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i];
@@ -164,7 +166,7 @@ static void mixture(void **state)
   near(value(GG_Q_TEMPERATURE, row, &m), (333 * T[0] + 167 * 3 * T[1]) / N);
   double finite = 1 + 2 / (3.0 * (N - 1));
   near(value(GG_Q_CUMULANT + 1, row, &m), 2 * (c4[1] / (15 * T[1] * T[1]) * finite - 1));
-  gg_rheology.destroy(self);
+  gg_measure_rheology.destroy(self);
 }
 
 /* Two sizes, rough: moments of omega, not of surface velocities; about each species' own mean. */
@@ -175,7 +177,7 @@ static void two_sizes(void **state)
   gg_model m = model_of(GG_USF, 0, 2);
   double row[64], mean[2] = {0}, w2 = 0, w3 = 0, w4 = 0;
   gg_collision_sums t = planted_transfer(m.n_species);
-  void *self = gg_rheology.create(&m, NULL);
+  void *self = gg_measure_rheology.create(&m, NULL);
   take_row(self, &m, &t, 0, 1, row);
   take_row(self, &m, &t, 0.5, 1, row);
   for (int i = 0; i < N; i++) mean[kind[i]] += sz[i] / (kind[i] ? 167 : 333);
@@ -186,7 +188,7 @@ static void two_sizes(void **state)
   near(value(GG_Q_SPIN_Z, row, &m), 2 * (333 * mean[0] + 167 / 1.5 * mean[1]) / N);
   near(value(GG_Q_KURTOSIS_WZ, row, &m), w4 / (w2 * w2));
   near(value(GG_Q_SKEWNESS_WZ, row, &m), w3 / pow(w2, 1.5));
-  gg_rheology.destroy(self);
+  gg_measure_rheology.destroy(self);
 }
 
 /* The cumulants are those of every instant, however the temperature fluctuates between samples. */
@@ -199,12 +201,12 @@ static void fluctuating(void **state)
     gg_quantity q = species == 1 ? GG_Q_A2 : GG_Q_CUMULANT + 1;
     double row[2][64] = {{0}}, mean[64];
     gg_collision_sums t = planted_transfer(species);
-    void *self = gg_rheology.create(&m, NULL);
+    void *self = gg_measure_rheology.create(&m, NULL);
     take_row(self, &m, &t, 0.5, 1, row[0]);
     take_row(self, &m, &t, 0.5, 1.3, row[1]);
     for (size_t c = 0; c < 64; c++) mean[c] = 0.5 * (row[0][c] + row[1][c]);
     near(value(q, mean, &m), value(q, row[0], &m));
-    gg_rheology.destroy(self);
+    gg_measure_rheology.destroy(self);
   }
 }
 
@@ -217,17 +219,17 @@ static void cooling(void **state)
   gg_model m = model_of(GG_HCS, -1, 1);
   double row[64];
   gg_collision_sums none = {0}, t = planted_transfer(m.n_species);
-  void *self = gg_rheology.create(&m, NULL);
+  void *self = gg_measure_rheology.create(&m, NULL);
   take_row(self, &m, &none, 0, 1, row);
   double T0 = 0;
   for (int i = 0; i < N; i++) T0 += (cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i]) / (3.0 * N);
-  double zeta = 0.1, dt = 2, growth = zeta * gg_model_nu0(&m, 1) / 2, a1 = 1 / sqrt(T0) + growth * dt;
+  double zeta = 0.1, dt = 2, growth = zeta * gg_common_model_nu0(&m, 1) / 2, a1 = 1 / sqrt(T0) + growth * dt;
   take_row(self, &m, &t, dt, 1 / (a1 * sqrt(T0)), row);
   near(value(GG_Q_COOLING_RATE, row, &m), zeta);
   near(row[CH_RATE], 2 * 150.0 / (N * log(a1 * sqrt(T0)) / growth));
   near(exp(row[CH_LN_T]), 1 / (a1 * a1));
   near(row[CH_SPECIES + CH_C2X] + row[CH_SPECIES + CH_C2Y] + row[CH_SPECIES + CH_C2Z], 3);
-  gg_rheology.destroy(self);
+  gg_measure_rheology.destroy(self);
 }
 
 /* A gas that cools within an interval as fast as it is sheared slowly: the mean free path is the mean speed of the
@@ -239,13 +241,13 @@ static void path_of_interval(void **state)
   gg_model m = model_of(GG_SMALL_SHEAR, -1, 1);
   gg_collision_sums none = {0}, t = planted_transfer(1);
   double row[64], speed = 0, dt = 0.5, rate = 2 * 150.0 / (N * dt);
-  void *self = gg_rheology.create(&m, NULL);
+  void *self = gg_measure_rheology.create(&m, NULL);
   take_row(self, &m, &none, 0, 1, row);
   take_row(self, &m, &t, dt, 0.8, row); /* T^(-1/2) from 1 to 1/0.8 */
   for (int i = 0; i < N; i++) speed += (double)sqrtf((float)(cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i])) / N;
   double expected = speed * log(1 / 0.8) / (1 / 0.8 - 1) / rate;
   assert_true(fabs(value(GG_Q_MEAN_FREE_PATH, row, &m) / expected - 1) < 1e-7);
-  gg_rheology.destroy(self);
+  gg_measure_rheology.destroy(self);
 }
 
 /* Sums for least squares of y on a and a^3. */
@@ -276,26 +278,27 @@ static void viscosity_at_no_shear(void **state)
     double mass = m.mass[kind[i]];
     T0 += mass * (cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i]) / (3.0 * N), xy += mass * cx[i] * cy[i] / N;
   }
-  double impulse = (1.7 + 2.7 + 3.7) / (m.volume * m.density * elapsed), first = m.shear_rate / gg_model_nu0(&m, T0);
+  double impulse = (1.7 + 2.7 + 3.7) / (m.volume * m.density * elapsed),
+         first = m.shear_rate / gg_common_model_nu0(&m, T0);
   cubic moving = {0}, touching = {0};
-  void *self = gg_viscosity.create(&m, NULL);
+  void *self = gg_measure_viscosity.create(&m, NULL);
   for (int k = 0; k < 40; k++) {
     double a = 0.02 + 0.0025 * k, factor = first / a, T = T0 * factor * factor; /* a* goes as T^(-1/2) */
-    take_row_of(&gg_viscosity, self, &m, &t, k ? elapsed : 0, factor, row);
-    for (size_t c = 0; c < gg_viscosity.width(&m); c++) sum[c] += row[c];
+    take_row_of(&gg_measure_viscosity, self, &m, &t, k ? elapsed : 0, factor, row);
+    for (size_t c = 0; c < gg_measure_viscosity.width(&m); c++) sum[c] += row[c];
     if (k && a >= 0.03) {
       double b0 = 1 / sqrt(last), b1 = 1 / sqrt(T), root = log(b1 / b0) / (b1 - b0);
       add_point(&moving, a, -xy / T0);
-      add_point(&touching, m.shear_rate / gg_model_nu0(&m, root * root), -impulse / (root * root));
+      add_point(&touching, m.shear_rate / gg_common_model_nu0(&m, root * root), -impulse / (root * root));
     }
     last = T;
   }
   gg_function f;
-  assert_true(gg_derived_find(gg_viscosity.derived, GG_Q_VISCOSITY_REDUCED_KINETIC, &f));
+  assert_true(gg_measure_derived_find(gg_measure_viscosity.derived, GG_Q_VISCOSITY_REDUCED_KINETIC, &f));
   near(gg_function_value(f, sum, &m), slope(&moving));
-  assert_true(gg_derived_find(gg_viscosity.derived, GG_Q_VISCOSITY_REDUCED, &f));
+  assert_true(gg_measure_derived_find(gg_measure_viscosity.derived, GG_Q_VISCOSITY_REDUCED, &f));
   near(gg_function_value(f, sum, &m) / (slope(&moving) + slope(&touching)), 1);
-  gg_viscosity.destroy(self);
+  gg_measure_viscosity.destroy(self);
 }
 
 /* What a scene lacks is said, and only that. */
@@ -303,12 +306,13 @@ static void missing(void **state)
 {
   (void)state;
   gg_model smooth = model_of(GG_USF, -1, 1), rough = model_of(GG_USF, 0, 1);
-  assert_non_null(gg_quantity_missing(&smooth, GG_Q_TEMPERATURE_RATIO));
-  assert_null(gg_quantity_missing(&rough, GG_Q_TEMPERATURE_RATIO));
-  assert_null(gg_quantity_missing(&smooth, GG_Q_TEMPERATURE));
-  assert_null(gg_quantity_missing(&smooth, GG_Q_N1));
-  assert_non_null(gg_quantity_missing(&smooth, GG_Q_COOLING_RATE));
-  assert_int_equal(gg_rheology.width(&smooth) + CH_ROUGH_WIDTH - CH_SMOOTH_WIDTH, gg_rheology.width(&rough));
+  assert_non_null(gg_common_quantity_missing(&smooth, GG_Q_TEMPERATURE_RATIO));
+  assert_null(gg_common_quantity_missing(&rough, GG_Q_TEMPERATURE_RATIO));
+  assert_null(gg_common_quantity_missing(&smooth, GG_Q_TEMPERATURE));
+  assert_null(gg_common_quantity_missing(&smooth, GG_Q_N1));
+  assert_non_null(gg_common_quantity_missing(&smooth, GG_Q_COOLING_RATE));
+  assert_int_equal(gg_measure_rheology.width(&smooth) + CH_ROUGH_WIDTH - CH_SMOOTH_WIDTH,
+                   gg_measure_rheology.width(&rough));
 }
 
 int main(void)

@@ -24,10 +24,10 @@ static void planted(gg_snapshot *s, gg_rng *r, int sample)
     gg_vec v;
     double x2;
     do {
-      v = gg_rng_normal_vec(r);
+      v = gg_common_rng_normal_vec(r);
       x2 = gg_dot(v, v) / 2;
     } while (x2 > 16 || 8 * gg_rng_uniform(r) > 1 + C_PLANTED / 2 * polynomial(sqrt(x2), NULL));
-    if (gg_snapshot_species(s, i)) v = gg_scale(0.4, gg_rng_normal_vec(r));
+    if (gg_snapshot_species(s, i)) v = gg_scale(0.4, gg_common_rng_normal_vec(r));
     s->c[0][i] = v.x, s->c[1][i] = v.y, s->c[2][i] = v.z;
   }
 }
@@ -36,7 +36,7 @@ static void planted_form(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 20000, 1);
-  gg_curves list = ct_curves(&gg_sonine, &m, 48, planted, 41);
+  gg_curves list = ct_curves(&gg_measure_sonine, &m, 48, planted, 41);
   const gg_curve *c = ct_find(&list, "sonine_excess");
   gg_curve_number p = ct_number(c, "c");
   ct_expect("c", p.value, p.error, C_PLANTED, 0.01);
@@ -49,7 +49,7 @@ static void planted_form(void **state)
   c = ct_find(&list, "sonine_polynomial"); /* a line: to its last point */
   for (size_t i = 0; i < c->n; i++) assert_true(fabs(c->value[i] - polynomial(c->x[i], NULL)) < 1e-10);
   assert_true(c->n >= 50);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* A fifth of the grains at T = 2, the others at T = 3/4: <T^2> = 1.25, <T^3> = 1.9375, so c = 0.5, a_3 = -0.1875. */
@@ -57,7 +57,7 @@ static void hot_and_cold(gg_snapshot *s, gg_rng *r, int sample)
 {
   (void)sample;
   for (size_t i = 0; i < s->n; i++) {
-    gg_vec v = gg_scale(sqrt(i % 5 ? 0.75 : 2), gg_rng_normal_vec(r));
+    gg_vec v = gg_scale(sqrt(i % 5 ? 0.75 : 2), gg_common_rng_normal_vec(r));
     s->c[0][i] = v.x, s->c[1][i] = v.y, s->c[2][i] = v.z;
   }
 }
@@ -66,12 +66,12 @@ static void planted_moments(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 20000, 1);
-  gg_curves list = ct_curves(&gg_sonine, &m, 64, hot_and_cold, 43);
+  gg_curves list = ct_curves(&gg_measure_sonine, &m, 64, hot_and_cold, 43);
   gg_curve_number c = ct_number(ct_find(&list, "sonine_excess"), "c");
   gg_curve_number a3 = ct_number(ct_find(&list, "sonine_excess"), "a3");
   ct_expect("c", c.value, c.error, 0.5, 0.02);
   ct_expect("a3", a3.value, a3.error, -0.1875, 0.03);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Two species, the second Maxwellian: v* of each by its own lambda_i = T/(T_i mu_ji). */
@@ -79,7 +79,7 @@ static void mixture(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 20000, 2);
-  gg_curves list = ct_curves(&gg_sonine, &m, 48, planted, 42);
+  gg_curves list = ct_curves(&gg_measure_sonine, &m, 48, planted, 42);
   gg_curve_number p = ct_number(ct_find(&list, "sonine_excess_1"), "c");
   ct_expect("c_1", p.value, p.error, C_PLANTED, 0.02);
   p = ct_number(ct_find(&list, "sonine_excess_2"), "c");
@@ -88,14 +88,14 @@ static void mixture(void **state)
   const gg_curve *one = ct_find(&list, "sonine_excess_1"), *two = ct_find(&list, "sonine_excess_2");
   assert_true(fabs(one->x[20] / (1.025 * sqrt(1 / 0.792 * 0.75)) - 1) < 0.005);
   assert_true(fabs(two->x[20] / (1.025 * sqrt(0.48 / 0.792 * 0.25)) - 1) < 0.005);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static void gaussian(gg_snapshot *s, gg_rng *r, int sample)
 {
   (void)sample;
   for (size_t i = 0; i < s->n; i++) {
-    gg_vec v = gg_rng_normal_vec(r);
+    gg_vec v = gg_common_rng_normal_vec(r);
     s->c[0][i] = v.x, s->c[1][i] = v.y, s->c[2][i] = v.z;
   }
 }
@@ -106,12 +106,12 @@ static void few_of_a_species(void **state)
   (void)state;
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.01, -1, 15, 2);
   m.mass[1] = 1e6; /* takes up all momentum: grains of species 1 are free */
-  gg_curves list = ct_curves(&gg_sonine, &m, 200000, gaussian, 44);
+  gg_curves list = ct_curves(&gg_measure_sonine, &m, 200000, gaussian, 44);
   gg_curve_number c = ct_number(ct_find(&list, "sonine_excess_1"), "c");
   gg_curve_number a3 = ct_number(ct_find(&list, "sonine_excess_1"), "a3");
   ct_expect("c_1 of few", c.value, c.error, 0, 0.02);
   ct_expect("a3_1 of few", a3.value, a3.error, 0, 0.02);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Free cooling at e = 0.5: c = 2 a_2 = 0.0948(6) (Brey, Cubero & Ruiz-Montero 1996 and many since), and Delta follows
@@ -119,7 +119,7 @@ static void few_of_a_species(void **state)
 static void cooling(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_DSMC, s.flow = GG_HCS, s.phi = 0, s.dsmc.particles = 20000;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.5;
   s.run.collisions = 600;

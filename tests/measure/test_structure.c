@@ -12,7 +12,7 @@ static void thrown(gg_snapshot *s, gg_rng *r, int sample)
   for (size_t i = 0; i < s->n; i++)
     for (int a = 0; a < 3; a++) {
       s->r[a][i] = s->model->box[a] * gg_rng_uniform(r);
-      s->c[a][i] = gg_rng_normal(r);
+      s->c[a][i] = gg_common_rng_normal(r);
     }
   for (size_t i = 0; i < s->n; i++) s->c[0][i] += 0.5 * cos(s->r[2][i] * 4 * M_PI / s->model->box[2]);
 }
@@ -23,21 +23,21 @@ static void modes(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
-  gg_rng r = gg_rng_seed(71, 0);
+  gg_rng r = gg_common_rng_seed(71, 0);
   gg_snapshot s;
   gg_mesh mesh;
   enum { SIZE = 24 };
-  assert_int_equal(gg_snapshot_init(&s, &m, true, NULL), GG_OK);
-  assert_int_equal(gg_mesh_init(&mesh, SIZE, NULL), GG_OK);
+  assert_int_equal(gg_measure_snapshot_init(&s, &m, true, NULL), GG_OK);
+  assert_int_equal(gg_measure_mesh_init(&mesh, SIZE, NULL), GG_OK);
   for (int k = 0; k < 6; k++) {
     thrown(&s, &r, k);
-    gg_images box = gg_images_of(&s);
+    gg_images box = gg_measure_pairs_images(&s);
     const double *f = k % 2 ? s.c[0] : NULL;
-    gg_mesh_transform(&mesh, &s, &box, f);
+    gg_measure_mesh_transform(&mesh, &s, &box, f);
     for (int z = -SIZE / 4; z <= SIZE / 4; z += 2)
       for (int y = -SIZE / 4; y <= SIZE / 4; y++)
         for (int x = 0; x <= SIZE / 4; x++) {
-          gg_vec q = gg_mesh_wave_vector(&box, x, y, z);
+          gg_vec q = gg_measure_mesh_wave_vector(&box, x, y, z);
           /* one period of the sheared box is one of the wave */
           assert_true(fabs(remainder(q.x * s.offset + q.y * m.box[1], 2 * M_PI)) < 1e-9);
           double re = 0, im = 0;
@@ -45,14 +45,14 @@ static void modes(void **state)
             double phase = q.x * s.r[0][i] + q.y * s.r[1][i] + q.z * s.r[2][i], value = f ? f[i] : 1;
             re += value * cos(phase), im -= value * sin(phase);
           }
-          gg_mode mode = gg_mesh_mode(&mesh, x, y, z);
+          gg_mode mode = gg_measure_mesh_mode(&mesh, x, y, z);
           double off = hypot(mode.re - re, mode.im - im) / sqrt((double)s.n);
           bool inner = abs(x) <= SIZE / 8 && abs(y) <= SIZE / 8 && abs(z) <= SIZE / 8;
           assert_true(off < (x || y || z ? inner ? 4e-3 : 8e-2 : 1e-9));
         }
   }
-  gg_mesh_clear(&mesh);
-  gg_snapshot_clear(&s);
+  gg_measure_mesh_clear(&mesh);
+  gg_measure_snapshot_clear(&s);
 }
 
 /* Stripes across x of wave number 2 pi/L_x, wherever the image above stands: they are in the first mode along x alone.
@@ -69,7 +69,7 @@ static void striped(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
-  gg_curves list = ct_curves(&gg_structure, &m, 64, stripes, 74);
+  gg_curves list = ct_curves(&gg_measure_structure, &m, 64, stripes, 74);
   double found[3], error[3];
   for (int a = 0; a < 3; a++) {
     char name[] = "structure_factor_x";
@@ -80,7 +80,7 @@ static void striped(void **state)
   ct_expect("stripes along x", found[0], error[0], 1 + 0.7737 * 499 / 4, 20);
   ct_expect("along y", found[1], error[1], 1, 1);
   ct_expect("along z", found[2], error[2], 1, 1);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* A wave of velocity along (1, 1, 0), in that direction: all of it is longitudinal. One of the nine modes of its bin.
@@ -91,7 +91,7 @@ static void sound(gg_snapshot *s, gg_rng *r, int sample)
   s->offset = 0;
   for (size_t i = 0; i < s->n; i++) {
     double wave = 2 * cos(2 * M_PI * (s->r[0][i] / s->model->box[0] + s->r[1][i] / s->model->box[1]));
-    s->c[0][i] = gg_rng_normal(r) + wave, s->c[1][i] += wave;
+    s->c[0][i] = gg_common_rng_normal(r) + wave, s->c[1][i] += wave;
   }
 }
 
@@ -99,12 +99,12 @@ static void longitudinal(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
-  gg_curves list = ct_curves(&gg_structure, &m, 64, sound, 75);
+  gg_curves list = ct_curves(&gg_measure_structure, &m, 64, sound, 75);
   const double along = ct_find(&list, "velocity_spectrum_longitudinal")->value[0],
                across = ct_find(&list, "velocity_spectrum_transverse")->value[0], scale = 7. / 3;
   print_message("# longitudinal %.2f, transverse %.2f\n", along, across);
   assert_true(fabs(along / ((500 * 2 / scale + 9 / scale) / 9) - 1) < 0.1 && across < 2);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static double level(double x, const void *context)
@@ -119,7 +119,7 @@ static void ideal_gas(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.1, -1, 600, 1);
-  gg_curves list = ct_curves(&gg_structure, &m, 48, thrown, 72);
+  gg_curves list = ct_curves(&gg_measure_structure, &m, 48, thrown, 72);
   const char *flat[] = {"structure_factor", "structure_factor_x", "structure_factor_y", "structure_factor_z",
                         "velocity_spectrum_longitudinal"};
   double one = 1;
@@ -134,7 +134,7 @@ static void ideal_gas(void **state)
   print_message("# wave: %.3f +- %.3f\n", transverse->value[1], transverse->error[1]);
   /* N (0.5/2)^2 on 2 of the modes of its bin, half the transverse sum, over T = 1 + 0.5^2/6 */
   assert_true(transverse->value[1] > 1 + 6 * transverse->error[1]);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Percus and Yevick's S(k), d = 1 (Wertheim, Phys. Rev. Lett. 10 (1963) 321): c(r) = -(a + 6 phi b r + phi a r^3/2). */
@@ -151,7 +151,7 @@ static double percus_yevick(double k, double phi)
 
 static gg_result *fluid(double phi, double collisions)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = phi, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.run.collisions = collisions;

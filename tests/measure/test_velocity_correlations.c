@@ -16,8 +16,8 @@ static void wave(gg_snapshot *s, gg_rng *r, int sample)
   for (size_t i = 0; i < s->n; i++)
     for (int a = 0; a < 3; a++) {
       s->r[a][i] = s->model->box[a] * gg_rng_uniform(r);
-      s->c[a][i] = gg_rng_normal(r);
-      s->s[a][i] = 0.5 * gg_rng_normal(r) + 7;
+      s->c[a][i] = gg_common_rng_normal(r);
+      s->s[a][i] = 0.5 * gg_common_rng_normal(r) + 7;
     }
   for (size_t i = 0; i < s->n; i++) {
     double w = cos(k * s->r[2][i] + phase);
@@ -45,7 +45,7 @@ static void planted_wave(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.05, 0, 1500, 1);
-  gg_curves list = ct_curves(&gg_velocity_correlations, &m, 80, wave, 61);
+  gg_curves list = ct_curves(&gg_measure_velocity_correlations, &m, 80, wave, 61);
   double k = 2 * M_PI / m.box[2];
   /* <C_x^2> = 2 + 1, <Omega_z^2> = 1/2 + 1/4 */
   const struct {
@@ -69,7 +69,7 @@ static void planted_wave(void **state)
   }
   const gg_curve *c = ct_find(&list, "velocity_correlation_Cx");
   assert_true(c->error[20] < 0.02);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* The same grains at other times, so that nothing but the pairs that are drawn is different. */
@@ -87,13 +87,13 @@ typedef struct plain_sums {
 /* Take off the mean of a grain's cell, found by going over all grains again. */
 static void about_cells(gg_snapshot *s, double *value)
 {
-  gg_cell_grid grid = gg_cell_grid_of(s->model);
+  gg_cell_grid grid = gg_measure_cell_grid_of(s->model);
   double *before = malloc(s->n * sizeof *before);
   memcpy(before, value, s->n * sizeof *before);
   for (size_t i = 0; i < s->n; i++) {
     double sum = 0, n = 0;
     for (size_t j = 0; j < s->n; j++)
-      if (gg_cell_grid_cell(&grid, s, i) == gg_cell_grid_cell(&grid, s, j)) sum += before[j], n++;
+      if (gg_measure_cell_grid_cell(&grid, s, i) == gg_measure_cell_grid_cell(&grid, s, j)) sum += before[j], n++;
     value[i] -= sum / n;
   }
   free(before);
@@ -104,11 +104,11 @@ static plain_sums plain(const gg_model *m, uint64_t seed, bool local)
 {
   plain_sums p = {.square = {0, 0}};
   gg_snapshot s;
-  gg_rng r = gg_rng_seed(seed, 0);
-  assert_int_equal(gg_snapshot_init(&s, m, true, NULL), GG_OK);
+  gg_rng r = gg_common_rng_seed(seed, 0);
+  assert_int_equal(gg_measure_snapshot_init(&s, m, true, NULL), GG_OK);
   held_wave(&s, &r, 0);
   if (local) about_cells(&s, s.c[0]), about_cells(&s, s.s[2]);
-  gg_images b = gg_images_of(&s);
+  gg_images b = gg_measure_pairs_images(&s);
   double spin = 0, n = (double)s.n;
   for (size_t i = 0; i < s.n; i++) spin += s.s[2][i] / n;
   for (size_t i = 0; i < s.n; i++) {
@@ -123,7 +123,7 @@ static plain_sums plain(const gg_model *m, uint64_t seed, bool local)
       p.count[k]++, p.cc[k] += s.c[0][i] * s.c[0][j], p.cw[k] += 0.5 * (s.c[0][i] * wj + s.c[0][j] * wi);
     }
   }
-  gg_snapshot_clear(&s);
+  gg_measure_snapshot_clear(&s);
   return p;
 }
 
@@ -160,18 +160,18 @@ static void compare_pairs(const gg_observable *observable, bool local)
     assert_true(chi2 < 2.3 && worst < 5);
     assert_true(c->error[c->n - 1] > 1e-6 && c->error[c->n - 1] < 0.002); /* it is sampled, and says something */
   }
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static void sampled_pairs(void **state)
 {
   (void)state;
-  compare_pairs(&gg_velocity_correlations, false);
+  compare_pairs(&gg_measure_velocity_correlations, false);
 }
 static void sampled_pairs_about_cells(void **state)
 {
   (void)state;
-  compare_pairs(&gg_local_velocity_correlations, true);
+  compare_pairs(&gg_measure_local_velocity_correlations, true);
 }
 
 static double conserved(double x, const void *context)
@@ -183,7 +183,7 @@ static double conserved(double x, const void *context)
 static void equilibrium(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 0.2, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1, s.collision.beta[q] = 1;
   s.run.collisions = 2000;
@@ -213,21 +213,21 @@ static void level_of_a_mixture(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.2, 1, 500, 2);
-  gg_curves list = ct_curves(&gg_velocity_correlations, &m, 20, wave, 5);
+  gg_curves list = ct_curves(&gg_measure_velocity_correlations, &m, 20, wave, 5);
   double mass = 0, square = 0;
   for (int64_t i = 0; i < m.n; i++) mass += m.mass[i >= m.n_of[0]];
   for (int64_t i = 0; i < m.n; i++) square += (1 / m.mass[i >= m.n_of[0]] - 1 / mass) / (double)m.n;
   const gg_curve *c = ct_find(&list, "velocity_correlation_Cx");
   if (!(fabs(c->reference[0] / (-1 / mass / square) - 1) < 1e-12))
     fail_msg("%g, not %g", c->reference[0], -1 / mass / square);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Inelastic shear: neighbours move together. */
 static void sheared(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_MD, s.phi = 0.3, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.7;
   s.run.collisions = 600;

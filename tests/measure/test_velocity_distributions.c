@@ -19,7 +19,7 @@ static void exact_tail(void **state)
         counts[i] += 1e9 / 200 * exp(-gamma * pow(1.5 + (i + (j + 0.5) / 200) * 0.1, alpha));
     }
     gg_tail_data data = {counts, 30, 1.5, 0.1, 1e9};
-    gg_tail least = gg_tail_double_log(&data), likely = gg_tail_likelihood(&data);
+    gg_tail least = gg_measure_tail_double_log(&data), likely = gg_measure_tail_likelihood(&data);
     assert_true(fabs(likely.alpha - alpha) < 1e-5 && fabs(likely.gamma - gamma) < 1e-5);
     assert_true(fabs(least.alpha - alpha) < 2e-3 && fabs(least.gamma - gamma) < 2e-3);
   }
@@ -30,8 +30,8 @@ static void gaussian(gg_snapshot *s, gg_rng *r, int sample)
   (void)sample;
   for (size_t i = 0; i < s->n; i++)
     for (int a = 0; a < 3; a++) {
-      s->c[a][i] = (a + 1) * gg_rng_normal(r);
-      if (s->s[a]) s->s[a][i] = 0.4 * gg_rng_normal(r) - 3 * (a == 2);
+      s->c[a][i] = (a + 1) * gg_common_rng_normal(r);
+      if (s->s[a]) s->s[a][i] = 0.4 * gg_common_rng_normal(r) - 3 * (a == 2);
     }
 }
 
@@ -46,7 +46,7 @@ static void gaussian_grains(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, 0, 20000, 1);
-  gg_curves list = ct_curves(&gg_velocity_distributions, &m, 64, gaussian, 21);
+  gg_curves list = ct_curves(&gg_measure_velocity_distributions, &m, 64, gaussian, 21);
   const char *names[] = {"Cx", "Cz", "Wz"};
   for (int k = 0; k < 3; k++) {
     char name[64];
@@ -66,7 +66,7 @@ static void gaussian_grains(void **state)
     double chi2 = ct_chi2(ct_find(&list, name), 0, 100, none, NULL);
     assert_true(chi2 < 2.2 && chi2 > 0.3);
   }
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Two-sided exp(-|x|^2.5) by rejection; species 2 Gaussian. */
@@ -88,7 +88,7 @@ static void stretched_grains(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 20000, 2);
-  gg_curves list = ct_curves(&gg_velocity_distributions, &m, 128, stretched, 22);
+  gg_curves list = ct_curves(&gg_measure_velocity_distributions, &m, 128, stretched, 22);
   const gg_curve *y1 = ct_find(&list, "velocity_distribution_Cy_1"), *y2 = ct_find(&list, "velocity_distribution_Cy_2");
   gg_curve_number p = ct_number(y1, "alpha_likelihood");
   ct_expect("alpha of species 1", p.value, p.error, 2.5, 0.1);
@@ -96,12 +96,12 @@ static void stretched_grains(void **state)
   ct_expect("gamma of species 1", p.value, p.error, pow(tgamma(1.2) / tgamma(0.4), 1.25), 0.03);
   p = ct_number(y2, "alpha");
   ct_expect("alpha of species 2", p.value, p.error, 2, 0.08);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static gg_result *engine(double e)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_DSMC, s.flow = e == 1 ? GG_EQUILIBRIUM : GG_USF, s.phi = 0.01;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = e;
   s.run.collisions = 1200, s.dsmc.particles = 5000;

@@ -13,7 +13,7 @@
 
 static gg_scene scene_of(double e, double beta, double mu)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.01, s.particles = 1000;
   s.collision.e[0] = e, s.collision.beta[0] = beta, s.collision.mu[0] = mu;
   s.run.relative_error = 0.01;
@@ -38,8 +38,8 @@ static double worst_z(const gg_result *a, const gg_result *b, bool rough)
                              GG_Q_P_XY,        GG_Q_COLLISION_RATE, GG_Q_TEMPERATURE_RATIO};
   double worst = 0;
   for (int i = 0; i < (rough ? 7 : 6); i++) {
-    double z = gg_z_score(&a->value[all[i]], &b->value[all[i]]);
-    print_message("# %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f\n", gg_quantity_name(all[i]),
+    double z = gg_run_z_score(&a->value[all[i]], &b->value[all[i]]);
+    print_message("# %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f\n", gg_common_quantity_name(all[i]),
                   a->value[all[i]].mean, a->value[all[i]].error, b->value[all[i]].mean, b->value[all[i]].error, z);
     worst = fmax(worst, fabs(z));
   }
@@ -88,8 +88,8 @@ static void no_restitution(void **state)
   gg_result *md = run(s, GG_MD), *dsmc = run(s, GG_DSMC);
   const gg_quantity all[] = {GG_Q_COLLISION_RATE, GG_Q_PRESSURE, GG_Q_A2};
   for (int i = 0; i < 3; i++) {
-    double z = gg_z_score(&md->value[all[i]], &dsmc->value[all[i]]);
-    print_message("# %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f\n", gg_quantity_name(all[i]),
+    double z = gg_run_z_score(&md->value[all[i]], &dsmc->value[all[i]]);
+    print_message("# %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f\n", gg_common_quantity_name(all[i]),
                   md->value[all[i]].mean, md->value[all[i]].error, dsmc->value[all[i]].mean, dsmc->value[all[i]].error,
                   z);
     assert_true(fabs(z) < 4);
@@ -111,7 +111,7 @@ static void heated_spins(void **state)
     gg_result *md = run(s, GG_MD), *dsmc = run(s, GG_DSMC);
     const gg_estimate *a = &md->value[GG_Q_TEMPERATURE_RATIO], *b = &dsmc->value[GG_Q_TEMPERATURE_RATIO];
     const gg_estimate *T = &dsmc->value[GG_Q_TEMPERATURE];
-    double z = gg_z_score(a, b);
+    double z = gg_run_z_score(a, b);
     print_message("# theta/T: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f; T of dsmc: %.6g +- %.2g\n", a->mean,
                   a->error, b->mean, b->error, z, T->mean, T->error);
     assert_true(fabs(z) < 4 && a->error < 0.03 * a->mean);

@@ -21,7 +21,7 @@ enum { TEN = sizeof diameters / sizeof *diameters };
 static gg_scene scene_of(gg_flow flow, int species, double phi, int64_t particles)
 {
   static const gg_species three[] = {{0.5, 1, 1, 0.4}, {0.3, 1.4, 2, 0.4}, {0.2, 0.7, 0.5, 0.4}};
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = flow, s.phi = phi, s.particles = particles, s.n_species = species;
   for (int i = 0; i < species; i++) {
     const double d = diameters[i % TEN];
@@ -66,7 +66,7 @@ static double worst_rate(const gg_model *m, const rates *r, const char *engine)
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       const int q = gg_pair(i, j);
-      double expected = gg_pair_collision_rate(m, i, j, T) * (double)m->n_of[i];
+      double expected = gg_theory_pair_collision_rate(m, i, j, T) * (double)m->n_of[i];
       if (i == j) expected *= 0.5 * (1 - 1 / (double)m->n_of[i]);
       double z = rate_z(r, q, expected, 0.04);
       worst = fmax(worst, fabs(z)), chi2 += z * z, all += expected;
@@ -101,7 +101,7 @@ static void equilibrium_of(const gg_engine_ops *ops, gg_engine_kind kind, int sp
   gg_model m;
   gg_engine *e;
   gg_error err = {0};
-  if (gg_model_make(&s, kind, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(&s, kind, &m, &err) != GG_OK) fail_msg("%s", err.message);
   if (ops->create(&m, 5, 0, &e, &err) != GG_OK) fail_msg("%s", err.message);
   const uint64_t each = (uint64_t)m.n; /* two collisions a grain */
   double elapsed, T[GG_MAX_SPECIES] = {0}, TT[GG_MAX_SPECIES] = {0};
@@ -156,8 +156,8 @@ static double worst_z(const gg_result *a, const gg_result *b)
   double worst = 0;
   for (int k = 0; k < n + a->model.n_species; k++) {
     gg_quantity q = k < n ? shared[k] : (gg_quantity)(GG_Q_PARTIAL_TEMPERATURE + (k - n));
-    double z = gg_z_score(&a->value[q], &b->value[q]);
-    print_message("# %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f\n", gg_quantity_name(q), a->value[q].mean,
+    double z = gg_run_z_score(&a->value[q], &b->value[q]);
+    print_message("# %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.2f\n", gg_common_quantity_name(q), a->value[q].mean,
                   a->value[q].error, b->value[q].mean, b->value[q].error, z);
     assert_true(a->value[q].error > 0 && b->value[q].error > 0);
     worst = fmax(worst, fabs(z));
@@ -190,7 +190,7 @@ static void sheared(void **state)
 static void curves_of_sixteen(void **state)
 {
   (void)state;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = GG_USF, s.phi = 0.1, s.particles = 320, s.n_species = GG_MAX_SPECIES;
   for (int i = 0; i < GG_MAX_SPECIES; i++) s.species[i].fraction = 1.0 / GG_MAX_SPECIES;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = 0;

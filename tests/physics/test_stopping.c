@@ -32,7 +32,7 @@ static void errors_are_true(void **state)
   static const gg_quantity quantities[] = {GG_Q_TEMPERATURE, GG_Q_SHEAR_VISCOSITY, GG_Q_TEMPERATURE_RATIO};
   double x[3][SEEDS], error[3][SEEDS];
   for (int seed = 0; seed < SEEDS; seed++) {
-    gg_scene s = gg_scene_defaults();
+    gg_scene s = gg_common_scene_defaults();
     s.engine = GG_DSMC, s.phi = 0.05, s.run.relative_error = ASKED, s.run.seed = (uint64_t)seed + 1;
     s.collision.e[0] = 0.8, s.collision.beta[0] = 0;
     gg_result *r = NULL;
@@ -47,7 +47,7 @@ static void errors_are_true(void **state)
   for (int k = 0; k < 3; k++) {
     double of_z, relative;
     scatter(x[k], error[k], &of_z, &relative);
-    print_message("# %s: z scatters by %.2f, runs by %.4f\n", gg_quantity_name(quantities[k]), of_z, relative);
+    print_message("# %s: z scatters by %.2f, runs by %.4f\n", gg_common_quantity_name(quantities[k]), of_z, relative);
     const double four_errors = 4 / sqrt(2.0 * SEEDS);
     assert_true(fabs(of_z - 1) < four_errors);
     assert_true(relative < ASKED * (1 + four_errors));

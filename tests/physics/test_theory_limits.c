@@ -12,7 +12,7 @@
 
 static gg_result *run(double phi, double e, double beta)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.engine = GG_DSMC, s.phi = phi, s.run.relative_error = 0.004;
   s.collision.e[0] = e, s.collision.beta[0] = beta;
   gg_result *r = NULL;
@@ -31,7 +31,7 @@ static double deviation(const char *theory, const gg_model *model, const gg_resu
   gg_error err = {0};
   assert_int_equal(gg_theory_evaluate(gg_theory_find(theory), model, &answer, &err), GG_OK);
   double d = answer.value[q] / r->value[q].mean - 1;
-  print_message("# %s %s: %+.2f %% (error %.2f %%)\n", theory, gg_quantity_name(q), 100 * d,
+  print_message("# %s %s: %+.2f %% (error %.2f %%)\n", theory, gg_common_quantity_name(q), 100 * d,
                 100 * r->value[q].error / fabs(r->value[q].mean));
   return d;
 }

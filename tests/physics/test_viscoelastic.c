@@ -15,7 +15,7 @@
 
 static gg_scene scene_of(gg_flow flow, double phi, double e, int64_t n)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = flow;
   s.phi = phi;
   s.particles = n;
@@ -28,7 +28,7 @@ static gg_model model_of(const gg_scene *s, gg_engine_kind kind)
 {
   gg_model m;
   gg_error err;
-  if (gg_model_make(s, kind, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(s, kind, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 
@@ -36,7 +36,7 @@ static gg_engine *engine_of(const gg_model *m, gg_engine_kind kind, uint64_t see
 {
   gg_engine *g = NULL;
   gg_error err;
-  if (gg_engine_ops_of(kind)->create(m, seed, 0, &g, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_run_engine_ops_of(kind)->create(m, seed, 0, &g, &err) != GG_OK) fail_msg("%s", err.message);
   return g;
 }
 
@@ -67,10 +67,10 @@ static double cooling_rate(const gg_model *m, double T)
 {
   double lost = 0, all = 0;
   for (double y = 0.0025; y < 8; y += 0.005) { /* g/sqrt(4T) */
-    double g = y * sqrt(4 * T), e = gg_law_at(&m->law, g, 0, 0), weight = y * exp(-y * y);
+    double g = y * sqrt(4 * T), e = gg_common_law_at(&m->law, g, 0, 0), weight = y * exp(-y * y);
     lost += weight * 0.25 * (1 - e * e) * g * g, all += weight;
   }
-  return gg_model_collision_rate(m, T) / 2 * (lost / all) / (1.5 * T);
+  return gg_common_model_collision_rate(m, T) / 2 * (lost / all) / (1.5 * T);
 }
 
 /* T at `first` and after each factor 2 of time from there on: as cooling_rate has it, and of an engine. */
@@ -148,7 +148,7 @@ static gg_comparison compare(const gg_scene *s)
 {
   gg_comparison c;
   gg_error err;
-  if (gg_compare_scene(s, NULL, 1, NULL, &c, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_run_compare_scene(s, NULL, 1, NULL, &c, &err) != GG_OK) fail_msg("%s", err.message);
   return c;
 }
 
@@ -172,21 +172,21 @@ static void dilute_at(double beta, double mu)
   const gg_result *md = c.by_engine[GG_MD], *dsmc = c.by_engine[GG_DSMC];
   for (int k = 0; k < (md->model.rule == GG_SMOOTH ? 5 : 6); k++) {
     const gg_estimate *a = &md->value[compared[k]], *b = &dsmc->value[compared[k]];
-    print_message("# phi 0.01, %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.1f\n", gg_quantity_name(compared[k]),
-                  a->mean, a->error, b->mean, b->error, gg_z_score(a, b));
-    assert_true(fabs(gg_z_score(a, b)) < 4);
+    print_message("# phi 0.01, %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.1f\n",
+                  gg_common_quantity_name(compared[k]), a->mean, a->error, b->mean, b->error, gg_run_z_score(a, b));
+    assert_true(fabs(gg_run_z_score(a, b)) < 4);
   }
   check_balance(&c);
   for (int k = 0; k < c.n_theories; k++) assert_false(c.theory[k].applies);
-  gg_comparison_clear(&c);
+  gg_run_comparison_clear(&c);
 }
 
 /* ln(md/dsmc), and its error. */
 static double ratio(const gg_comparison *c, gg_quantity q, double *error)
 {
   const gg_estimate *a = &c->by_engine[GG_MD]->value[q], *b = &c->by_engine[GG_DSMC]->value[q];
-  print_message("# phi 0.30, %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.1f\n", gg_quantity_name(q), a->mean,
-                a->error, b->mean, b->error, gg_z_score(a, b));
+  print_message("# phi 0.30, %s: md %.5g +- %.2g, dsmc %.5g +- %.2g, z = %.1f\n", gg_common_quantity_name(q), a->mean,
+                a->error, b->mean, b->error, gg_run_z_score(a, b));
   *error = hypot(a->error / a->mean, b->error / b->mean);
   return log(a->mean / b->mean);
 }
@@ -199,7 +199,7 @@ static void dense(void)
   s.run.relative_error = 0.01;
   gg_comparison by_law = compare(&s);
   gg_model m = by_law.by_engine[GG_MD]->model;
-  gg_model_at(&m, by_law.by_engine[GG_MD]->value[GG_Q_TEMPERATURE].mean);
+  gg_common_model_at(&m, by_law.by_engine[GG_MD]->value[GG_Q_TEMPERATURE].mean);
   s.collision.law = GG_LAW_CONSTANT;
   s.collision.e[0] = m.e[0];
   print_message("# phi 0.30: then with a constant e of %.4f\n", m.e[0]);
@@ -209,7 +209,7 @@ static void dense(void)
     assert_true(fabs(apart) < 4 * hypot(error[0], error[1]));
   }
   check_balance(&by_law);
-  gg_comparison_clear(&by_law), gg_comparison_clear(&constant);
+  gg_run_comparison_clear(&by_law), gg_run_comparison_clear(&constant);
 }
 
 static void sheared(void **state)
@@ -239,7 +239,7 @@ static uint64_t crowded(gg_law_kind law)
   gg_model m = model_of(&s, GG_MD);
   gg_engine *g = engine_of(&m, GG_MD, 1);
   gg_error err;
-  crowd x = {.soon = 1e-6 / gg_model_collision_rate(&m, m.temperature0)};
+  crowd x = {.soon = 1e-6 / gg_common_model_collision_rate(&m, m.temperature0)};
   assert_int_equal(g->ops->set_callback(g, count_crowded, &x, &err), GG_OK);
   advance(g, INFINITY, 100000);
   g->ops->destroy(g);
@@ -288,7 +288,7 @@ static void restart(void **state)
       uint64_t hash[2] = {0};
       g->ops->snapshot(g, false, add_bits, &hash[0]), back->ops->snapshot(back, false, add_bits, &hash[1]);
       assert_true(hash[0] == hash[1]);
-      gg_archive_clear(&a);
+      gg_base_archive_clear(&a);
       g->ops->destroy(g), back->ops->destroy(back);
     }
 }

@@ -13,7 +13,7 @@
 
 static gg_scene slow(double e, double phi, gg_thermostat thermostat)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = GG_SMALL_SHEAR, s.engine = GG_DSMC, s.thermostat = thermostat;
   s.measure |= GG_MEASURE_VISCOSITY;
   s.phi = phi, s.collision.e[0] = s.collision.e[1] = s.collision.e[2] = e;
@@ -36,7 +36,7 @@ static gg_result *run(const gg_scene *s)
 static void expect(const gg_result *r, gg_quantity q, double value, double uncertainty)
 {
   const gg_estimate *e = &r->value[q];
-  print_message("# %s: %.4f +- %.4f, expected %.4f +- %.4f\n", gg_quantity_name(q), e->mean, e->error, value,
+  print_message("# %s: %.4f +- %.4f, expected %.4f +- %.4f\n", gg_common_quantity_name(q), e->mean, e->error, value,
                 uncertainty);
   assert_true(e->error > 0 && e->error < 0.02 * value);
   assert_true(fabs(e->mean - value) < 4 * e->error + uncertainty);
@@ -47,8 +47,8 @@ static void expect_ratio(const gg_result *r, gg_quantity over, gg_quantity under
 {
   const gg_estimate *a = &r->value[over], *b = &r->value[under];
   double ratio = a->mean / b->mean, error = ratio * hypot(a->error / a->mean, b->error / b->mean);
-  print_message("# %s/%s: %.4f +- %.4f, expected %.4f\n", gg_quantity_name(over), gg_quantity_name(under), ratio, error,
-                value);
+  print_message("# %s/%s: %.4f +- %.4f, expected %.4f\n", gg_common_quantity_name(over), gg_common_quantity_name(under),
+                ratio, error, value);
   assert_true(fabs(ratio - value) < 4 * error && error < 0.0035 * value);
 }
 

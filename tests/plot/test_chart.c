@@ -38,7 +38,7 @@ static int leave(void **state)
 static char *drawn(const gg_chart *chart)
 {
   gg_error err;
-  if (gg_chart_draw(chart, "c.svg", NULL, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_plot_chart_draw(chart, "c.svg", NULL, &err) != GG_OK) fail_msg("%s", err.message);
   FILE *f = fopen("c.svg", "r");
   char *text = calloc(1, 1 << 20);
   assert_non_null(f);
@@ -183,7 +183,7 @@ static void tics(void **state)
     char *text = NULL;
     size_t size;
     FILE *s = open_memstream(&text, &size);
-    gg_axis_print(s, 'x', cases[i].axis);
+    gg_plot_axis_print(s, 'x', cases[i].axis);
     fclose(s);
     if (!strstr(text, cases[i].has)) fail_msg("%s: no %s", text, cases[i].has);
     if (strstr(text, cases[i].has_not)) fail_msg("%s: has %s", text, cases[i].has_not);
@@ -195,20 +195,20 @@ static void axes_have_room(void **state)
 {
   (void)state;
   gg_extent e = GG_NO_EXTENT;
-  gg_extent_add(&e, 0.5, false), gg_extent_add(&e, 9, false), gg_extent_add(&e, NAN, false);
-  gg_axis a = gg_axis_around(e, false);
+  gg_plot_extent_add(&e, 0.5, false), gg_plot_extent_add(&e, 9, false), gg_plot_extent_add(&e, NAN, false);
+  gg_axis a = gg_plot_axis_around(e, false);
   assert_true(a.from <= 0 && a.to > 9); /* 0 is near */
   e = GG_NO_EXTENT;
-  gg_extent_add(&e, 8, false), gg_extent_add(&e, 9, false);
-  a = gg_axis_around(e, false);
+  gg_plot_extent_add(&e, 8, false), gg_plot_extent_add(&e, 9, false);
+  a = gg_plot_axis_around(e, false);
   assert_true(a.from > 7 && a.from < 8 && a.to > 9);
   e = GG_NO_EXTENT;
-  gg_extent_add(&e, 5, false);
-  a = gg_axis_around(e, false);
+  gg_plot_extent_add(&e, 5, false);
+  a = gg_plot_axis_around(e, false);
   assert_true(a.from < 5 && a.to > 5);
   e = GG_NO_EXTENT;
-  gg_extent_add(&e, -1, true), gg_extent_add(&e, 1e-3, true), gg_extent_add(&e, 1, true);
-  a = gg_axis_around(e, true);
+  gg_plot_extent_add(&e, -1, true), gg_plot_extent_add(&e, 1e-3, true), gg_plot_extent_add(&e, 1, true);
+  a = gg_plot_axis_around(e, true);
   assert_true(a.log && a.from > 0 && a.from < 1e-3 && a.to > 1);
 }
 
@@ -224,7 +224,7 @@ static void keys(void **state)
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     char text[64];
     const char *unit;
-    gg_chart_key(cases[i][0], text, sizeof text, &unit);
+    gg_plot_chart_key(cases[i][0], text, sizeof text, &unit);
     assert_string_equal(text, cases[i][1]);
     assert_string_equal(unit, cases[i][2]);
   }
@@ -236,11 +236,11 @@ static void refused(void **state)
   gg_error err;
   gg_chart_panel panel = {.n = 0};
   gg_chart chart = {.n = 1, .panel = &panel};
-  assert_int_equal(gg_chart_draw(&chart, "c.pdf", NULL, &err), GG_BAD_INPUT);
-  assert_int_equal(gg_chart_draw(&chart, "c.svg", "png", &err), GG_BAD_INPUT);
-  assert_int_equal(gg_chart_draw(&chart, "none/c.svg", NULL, &err), GG_BAD_FILE);
-  assert_int_equal(gg_chart_draw(&(gg_chart){.n = 0}, "c.svg", NULL, &err), GG_BAD_INPUT);
-  if (gg_chart_draw(&chart, "c.png", NULL, &err) != GG_OK) fail_msg("%s", err.message);
+  assert_int_equal(gg_plot_chart_draw(&chart, "c.pdf", NULL, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_plot_chart_draw(&chart, "c.svg", "png", &err), GG_BAD_INPUT);
+  assert_int_equal(gg_plot_chart_draw(&chart, "none/c.svg", NULL, &err), GG_BAD_FILE);
+  assert_int_equal(gg_plot_chart_draw(&(gg_chart){.n = 0}, "c.svg", NULL, &err), GG_BAD_INPUT);
+  if (gg_plot_chart_draw(&chart, "c.png", NULL, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
 /* By the name, by what is asked for, or by both if they agree. */

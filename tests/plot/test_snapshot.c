@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/rng.h"
 #include "../files/planted.h"
+#include "common/rng.h"
 #include "plot/plot.h"
 
 enum { GRAINS = 5, MOST = 64 };
@@ -124,7 +124,7 @@ static gg_result *result_with(gg_flow flow, const double place[GRAINS][3])
   s->aspect[0] = 1, s->aspect[1] = 2, s->aspect[2] = 1.5;
   if (flow == GG_CHUTE) s->walls.top = GG_OPEN_TOP, s->gravity[1] = -1;
   gg_error err = {0};
-  if (gg_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
   gg_frame *f = &r->final;
   f->n = GRAINS;
   f->species = calloc(GRAINS, 1);
@@ -142,9 +142,9 @@ static bool draw_as(gg_result *r, bool png)
   gg_stored_result stored;
   bool drawn = false;
   if (gg_result_write(r, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
-  if (gg_stored_result_read(&stored, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_files_stored_result_read(&stored, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
   if (gg_plot_snapshot(&stored, png ? "r.png" : "r.svg", png, &drawn, &err) != GG_OK) fail_msg("%s", err.message);
-  gg_stored_result_clear(&stored);
+  gg_files_stored_result_clear(&stored);
   return drawn;
 }
 
@@ -229,10 +229,10 @@ static gg_result *gas_of(size_t n, double phi, bool mixed)
   if (mixed)
     s->n_species = 2, s->species[0] = (gg_species){0.5, 1, 1, 0.4}, s->species[1] = (gg_species){0.5, 0.5, 1, 0.4};
   gg_error err = {0};
-  if (gg_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
   gg_frame *f = &r->final;
-  gg_rng rng = gg_rng_seed(1, 0);
-  gg_frame_free(f);
+  gg_rng rng = gg_common_rng_seed(1, 0);
+  gg_run_frame_free(f);
   *f = (gg_frame){.time = 1,
                   .step = 100,
                   .n = n,

@@ -18,10 +18,11 @@ static void every_entry_is_read(void **state)
   for (; gg_entry_files[n].file; n++) {
     gg_figure_entry e;
     gg_error err;
-    if (gg_entry_read(&e, gg_entry_files[n].file, gg_entry_files[n].yaml, &err) != GG_OK) fail_msg("%s", err.message);
+    if (gg_reproduce_entry_read(&e, gg_entry_files[n].file, gg_entry_files[n].yaml, &err) != GG_OK)
+      fail_msg("%s", err.message);
     if (!e.cannot && strcmp(e.verdict, "open") != 0 && !*e.because)
       fail_msg("%s: a verdict without its reason", e.file);
-    gg_entry_clear(&e);
+    gg_reproduce_entry_clear(&e);
   }
   assert_true(n >= 20);
 }
@@ -34,13 +35,13 @@ static void files_are_named_by_their_figures(void **state)
     gg_figure_entry e;
     char paper[16], chapter[8], expected[64];
     int number = 0;
-    assert_int_equal(gg_entry_read(&e, gg_entry_files[n].file, gg_entry_files[n].yaml, NULL), GG_OK);
+    assert_int_equal(gg_reproduce_entry_read(&e, gg_entry_files[n].file, gg_entry_files[n].yaml, NULL), GG_OK);
     if (sscanf(e.file, "%15[a-z]-%7[0-9IV].%d", paper, chapter, &number) == 3)
       snprintf(expected, sizeof expected, "%s %s.%d", paper, chapter, number);
     else if (sscanf(e.file, "%15[a-z]-%d", paper, &number) == 2)
       snprintf(expected, sizeof expected, "%s %d", paper, number);
     assert_string_equal(e.figure, expected);
-    gg_entry_clear(&e);
+    gg_reproduce_entry_clear(&e);
   }
 }
 
@@ -52,7 +53,7 @@ static void refused(const char *rest, const char *message)
   gg_figure_entry e;
   gg_error err;
   snprintf(yaml, sizeof yaml, "%s%s", BEGINNING, rest);
-  assert_int_equal(gg_entry_read(&e, "thesis-9.09.yaml", yaml, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_reproduce_entry_read(&e, "thesis-9.09.yaml", yaml, &err), GG_BAD_INPUT);
   if (!strstr(err.message, message)) fail_msg("'%s' is not in '%s'", message, err.message);
 }
 
@@ -188,7 +189,7 @@ static void formula_refused(const char *sign, int n, const char *said)
   gg_error err;
   for (int i = 0; i < n; i++) snprintf(text + strlen(text), sizeof text - strlen(text), "%s", sign);
   snprintf(text + strlen(text), sizeof text - strlen(text), "x");
-  assert_int_equal(gg_expression_parse(&e, text, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_reproduce_expression_parse(&e, text, &err), GG_BAD_INPUT);
   if (!strstr(err.message, said)) fail_msg("'%s' lacks '%s'", err.message, said);
 }
 
@@ -205,7 +206,7 @@ static void whole_entry_refused(const char *yaml, const char *said)
 {
   gg_figure_entry e;
   gg_error err;
-  assert_int_equal(gg_entry_read(&e, "x.yaml", yaml, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_reproduce_entry_read(&e, "x.yaml", yaml, &err), GG_BAD_INPUT);
   if (!strstr(err.message, said)) fail_msg("'%s' is not in '%s'", said, err.message);
 }
 
@@ -225,9 +226,9 @@ static void entries_are_refused(void **state)
   whole_entry_refused(many, "are more than 6");
   gg_figure_entry e;
   gg_error err;
-  assert_int_equal(gg_entry_read(&e, "x.yaml", "figure: a\nshows: b\ncannot: because\n", &err), GG_OK);
+  assert_int_equal(gg_reproduce_entry_read(&e, "x.yaml", "figure: a\nshows: b\ncannot: because\n", &err), GG_OK);
   assert_string_equal(e.cannot, "because");
-  gg_entry_clear(&e);
+  gg_reproduce_entry_clear(&e);
 }
 
 /* The sweep's own text keeps its lines, and characters of several bytes before it do not matter. */
@@ -237,19 +238,19 @@ static void a_sweep_is_cut_out_whole(void **state)
   gg_figure_entry e;
   const char *yaml = "figure: thesis 9.9\nshows: φ and θ\nsweep:\n  flow: usf\n  phi: 0.1\nquick: {phi: 0.25}\n"
                      "panels: [{x: {key: phi, label: φ}, y: {quantity: N1}}]\n";
-  assert_int_equal(gg_entry_read(&e, "thesis-9.09.yaml", yaml, NULL), GG_OK);
+  assert_int_equal(gg_reproduce_entry_read(&e, "thesis-9.09.yaml", yaml, NULL), GG_OK);
   assert_non_null(strstr(e.sweep[0].yaml, "\n\n\n  flow: usf\n  phi: 0.1\n"));
   assert_null(strstr(e.sweep[0].yaml, "quick"));
   assert_string_equal(e.quick[0].key, "phi");
   assert_int_equal(strncmp(e.quick[0].value, "0.25", 4), 0);
-  gg_entry_clear(&e);
+  gg_reproduce_entry_clear(&e);
 }
 
 static double value(const char *text, double x, double y)
 {
   gg_expression e;
-  assert_int_equal(gg_expression_parse(&e, text, NULL), GG_OK);
-  return gg_expression_value(&e, (gg_variables){.x = x, .y = y});
+  assert_int_equal(gg_reproduce_expression_parse(&e, text, NULL), GG_OK);
+  return gg_reproduce_expression_value(&e, (gg_variables){.x = x, .y = y});
 }
 
 static void formulas(void **state)
@@ -262,8 +263,8 @@ static void formulas(void **state)
   assert_true(value("+x + pi/pi + .5 * (1 / inf)", 3, 0) == 4);
   assert_true(fabs(value("-ln(-ln(y))", 0, exp(-exp(-1.5))) - 1.5) < 1e-12);
   gg_expression e;
-  assert_int_equal(gg_expression_parse(&e, "y/(1+y)", NULL), GG_OK);
-  assert_true(fabs(gg_expression_slope(&e, (gg_variables){.y = 0.5}, 'y') - 1 / 2.25) < 1e-8);
+  assert_int_equal(gg_reproduce_expression_parse(&e, "y/(1+y)", NULL), GG_OK);
+  assert_true(fabs(gg_reproduce_expression_slope(&e, (gg_variables){.y = 0.5}, 'y') - 1 / 2.25) < 1e-8);
 }
 
 int main(void)

@@ -106,7 +106,7 @@ static void warn(void *context, const char *figure, const char *message)
 static void read_entry(gg_figure_entry *e)
 {
   gg_error err;
-  if (gg_entry_read(e, "thesis-9.09.yaml", yaml, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_reproduce_entry_read(e, "thesis-9.09.yaml", yaml, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
 static gg_reproduce_options options(told *t)
@@ -146,7 +146,7 @@ static void every_kind(void **state)
   for (int again = 0; again < 2; again++) {
     told t = {0};
     const gg_reproduce_options o = options(&t);
-    if (gg_figure_reproduce(&e, &o, &err) != GG_OK) fail_msg("%s", err.message);
+    if (gg_reproduce_figure_reproduce(&e, &o, &err) != GG_OK) fail_msg("%s", err.message);
     assert_int_equal(t.files, 7);
     assert_int_equal(t.warned, 0);
     assert_int_equal(t.numbers, 8);
@@ -174,7 +174,7 @@ static void every_kind(void **state)
     assert_non_null(strstr(text_of("out/thesis-9.09_numbers.csv"), "zero of N1 - 0.3"));
     assert_non_null(strstr(text_of("out/thesis-9.09.svg"), "</svg>"));
   }
-  gg_entry_clear(&e);
+  gg_reproduce_entry_clear(&e);
 }
 
 /* Stopped at once; a folder where a file has to go, told before anything is run; a folder that cannot be made. */
@@ -188,19 +188,19 @@ static void not_to_the_end(void **state)
   gg_reproduce_options o = options(&t);
   o.folder = "other";
   o.threads = 2;
-  assert_int_equal(gg_figure_reproduce(&e, &o, &err), GG_INTERRUPTED);
+  assert_int_equal(gg_reproduce_figure_reproduce(&e, &o, &err), GG_INTERRUPTED);
   assert_int_equal(t.files, 0);
   assert_int_equal(access("other/thesis-9.09.csv", F_OK), -1);
   t.stops = false;
   assert_int_equal(mkdir("way", 0777) + mkdir("way/thesis-9.09.svg", 0777), 0);
   o.folder = "way";
-  assert_true(gg_figure_reproduce(&e, &o, &err) != GG_OK);
+  assert_true(gg_reproduce_figure_reproduce(&e, &o, &err) != GG_OK);
   assert_non_null(strstr(err.message, "way/thesis-9.09.svg"));
   assert_int_equal(access("way/figures.sweep", F_OK), -1);
   o.folder = "nowhere/out";
-  assert_true(gg_figure_reproduce(&e, &o, &err) != GG_OK);
+  assert_true(gg_reproduce_figure_reproduce(&e, &o, &err) != GG_OK);
   assert_non_null(strstr(err.message, "nowhere/out"));
-  gg_entry_clear(&e);
+  gg_reproduce_entry_clear(&e);
 }
 
 /* A point that fails is told of, and leaves the figure without it; where all fail there are no files. */
@@ -221,10 +221,10 @@ static void points_that_fail(void **state)
     gg_reproduce_options o = options(&t);
     snprintf(text, sizeof text, half, e_of[k]);
     if (k) memcpy(strstr(text, "20000"), "50   ", 5); /* it collapses at once */
-    assert_int_equal(gg_entry_read(&e, "thesis-9.08.yaml", text, &err), GG_OK);
+    assert_int_equal(gg_reproduce_entry_read(&e, "thesis-9.08.yaml", text, &err), GG_OK);
     folder[4] = (char)('0' + k);
     o.folder = folder, o.progress = NULL, o.stop = NULL, o.number = NULL;
-    gg_status status = gg_figure_reproduce(&e, &o, &err);
+    gg_status status = gg_reproduce_figure_reproduce(&e, &o, &err);
     if (k == 0) {
       assert_int_equal(status, GG_FAILED);
       assert_non_null(strstr(err.message, "no point came to an end"));
@@ -234,7 +234,7 @@ static void points_that_fail(void **state)
       assert_true(status == GG_OK || status == GG_FAILED);
       assert_int_equal(t.files, 4);
     }
-    gg_entry_clear(&e);
+    gg_reproduce_entry_clear(&e);
   }
 }
 

@@ -47,9 +47,9 @@ static gg_status reproduce(gg_error *err)
 {
   gg_figure_entry e;
   const gg_reproduce_options options = {.quick = 1, .folder = "out"};
-  GG_TRY(gg_entry_read(&e, "thesis-9.09.yaml", yaml, err));
-  gg_status status = gg_figure_reproduce(&e, &options, err);
-  gg_entry_clear(&e);
+  GG_TRY(gg_reproduce_entry_read(&e, "thesis-9.09.yaml", yaml, err));
+  gg_status status = gg_reproduce_figure_reproduce(&e, &options, err);
+  gg_reproduce_entry_clear(&e);
   return status;
 }
 

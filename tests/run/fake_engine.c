@@ -25,7 +25,7 @@ typedef struct fake_engine {
 
 static gg_status accepts(const gg_model *m, gg_error *err)
 {
-  return m->flow == GG_USF || m->flow == GG_EQUILIBRIUM ? GG_OK : gg_fail(err, GG_BAD_INPUT, "fake: flow");
+  return m->flow == GG_USF || m->flow == GG_EQUILIBRIUM ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "fake: flow");
 }
 
 static gg_status create(const gg_model *m, uint64_t seed, uint64_t stream, gg_engine **out, gg_error *err);
@@ -39,9 +39,9 @@ static gg_status advance(gg_engine *base, double dt, uint64_t most, double *elap
 {
   (void)most, (void)err;
   fake_engine *e = (fake_engine *)base;
-  double rate = gg_model_collision_rate(&e->model, fake.T), step = rate * dt, keep = exp(-step / 10);
+  double rate = gg_common_model_collision_rate(&e->model, fake.T), step = rate * dt, keep = exp(-step / 10);
   for (int k = 0; k < 3; k++)
-    e->now.noise[k] = keep * e->now.noise[k] + sqrt(1 - keep * keep) * gg_rng_normal(&e->now.rng);
+    e->now.noise[k] = keep * e->now.noise[k] + sqrt(1 - keep * keep) * gg_common_rng_normal(&e->now.rng);
   e->now.age += step, e->now.time += dt;
   uint64_t collisions = (uint64_t)llround(step * (double)e->model.n / 2);
   e->now.collisions += collisions;
@@ -99,19 +99,19 @@ static void snapshot(gg_engine *base, bool positions, gg_visit *visit, void *con
 static gg_status rescale(gg_engine *e, int power, gg_error *err)
 {
   (void)e, (void)power;
-  return gg_fail(err, GG_BAD_INPUT, "fake: no rescaling");
+  return gg_base_fail(err, GG_BAD_INPUT, "fake: no rescaling");
 }
 
 static gg_status save(const gg_engine *base, gg_archive *a, gg_error *err)
 {
   const fake_engine *e = (const fake_engine *)base;
-  return gg_archive_put(a, "fake", GG_ITEM_U8, &e->now, sizeof e->now, err);
+  return gg_base_archive_put(a, "fake", GG_ITEM_U8, &e->now, sizeof e->now, err);
 }
 
 static gg_status restore(const gg_model *m, const gg_archive *a, gg_engine **out, gg_error *err)
 {
   GG_TRY(create(m, 0, 0, out, err));
-  return gg_archive_get(a, "fake", GG_ITEM_U8, &((fake_engine *)*out)->now, sizeof(fake_state), err);
+  return gg_base_archive_get(a, "fake", GG_ITEM_U8, &((fake_engine *)*out)->now, sizeof(fake_state), err);
 }
 
 static void describe(const gg_model *m, void (*line)(void *, const char *), void *context)
@@ -138,17 +138,17 @@ static const gg_engine_ops ops = {
 
 static gg_status create(const gg_model *m, uint64_t seed, uint64_t stream, gg_engine **out, gg_error *err)
 {
-  fake_engine *e = gg_new_array(1, sizeof *e, err);
+  fake_engine *e = gg_base_array_new(1, sizeof *e, err);
   if (!e) return GG_FAILED;
   e->base.ops = &ops;
   e->model = *m;
-  e->now.rng = gg_rng_seed(seed, stream);
-  for (int k = 0; k < 3; k++) e->now.noise[k] = gg_rng_normal(&e->now.rng);
+  e->now.rng = gg_common_rng_seed(seed, stream);
+  for (int k = 0; k < 3; k++) e->now.noise[k] = gg_common_rng_normal(&e->now.rng);
   *out = &e->base;
   return GG_OK;
 }
 
-const gg_engine_ops *gg_engine_ops_of(gg_engine_kind kind)
+const gg_engine_ops *gg_run_engine_ops_of(gg_engine_kind kind)
 {
   (void)kind;
   return &ops;
@@ -157,7 +157,7 @@ const gg_engine_ops *gg_engine_ops_of(gg_engine_kind kind)
 gg_scene planted_scene(double beta)
 {
   fake = (fake_plan){.T = 2, .theta = 0.5, .relaxation = 10, .noise = 0.02};
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.2, s.particles = 512;
   s.collision.beta[0] = beta;
   return s;

@@ -24,8 +24,8 @@ static bool interrupted(void *context)
 static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 {
   stopping *s = context;
-  gg_archive_clear(&s->last);
-  return gg_archive_append(&s->last, archive, err);
+  gg_base_archive_clear(&s->last);
+  return gg_base_archive_append(&s->last, archive, err);
 }
 
 /* A run under a law and with an observable of its own goes on bit for bit, if both are registered again, and says so if
@@ -53,9 +53,9 @@ static void test_resume(void **state)
   assert_non_null(whole);
   assert_non_null(resumed);
   assert_memory_equal(whole->final.velocity, resumed->final.velocity, 3 * whole->final.n * sizeof(double));
-  int q = gg_quantity_find_in(&whole->model, "my_temperature");
+  int q = gg_common_quantity_find_in(&whole->model, "my_temperature");
   assert_true(whole->value[q].mean == resumed->value[q].mean);
-  gg_archive_clear(&s.last);
+  gg_base_archive_clear(&s.last);
   gg_result_free(whole), gg_result_free(resumed);
   gg_scene_free(scene), gg_scene_free(bare);
 }
@@ -84,7 +84,7 @@ static void test_two_threads(void **state)
     void *result;
     pthread_join(thread[k], &result);
     beside[k] = result;
-    int q = gg_quantity_find_in(&beside[k]->model, k ? "my_rate" : "my_temperature");
+    int q = gg_common_quantity_find_in(&beside[k]->model, k ? "my_rate" : "my_temperature");
     assert_true(q < GG_MOST_QUANTITIES);
     assert_true(alone[k]->value[q].mean == beside[k]->value[q].mean);
     gg_result_free(alone[k]), gg_result_free(beside[k]);

@@ -15,7 +15,7 @@
 
 static gg_scene scene_of(const char *yaml, gg_engine_kind engine)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_error err = {0};
   if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK)
     fail_msg("%s", err.message);
@@ -43,17 +43,17 @@ static void planted_in(const char *yaml, gg_engine_kind engine, int what)
   gg_model m;
   gg_replica r;
   gg_error err = {0};
-  if (gg_model_make(&s, engine, &m, &err) != GG_OK || gg_engine_ops_of(engine)->accepts(&m, NULL) != GG_OK ||
+  if (gg_common_model_make(&s, engine, &m, &err) != GG_OK || gg_run_engine_ops_of(engine)->accepts(&m, NULL) != GG_OK ||
       (what == WHAT_SPIN && m.rule == GG_SMOOTH))
     return;
-  if (gg_replica_create(&r, &s, &m, 0, &err) != GG_OK) fail_msg("%s: %s", yaml, err.message);
-  assert_int_equal(gg_replica_advance(&r, BEFORE, true, NULL, &err), GG_OK);
+  if (gg_run_replica_create(&r, &s, &m, 0, &err) != GG_OK) fail_msg("%s: %s", yaml, err.message);
+  assert_int_equal(gg_run_replica_advance(&r, BEFORE, true, NULL, &err), GG_OK);
   plant(&r, what);
-  assert_int_equal(gg_replica_advance(&r, BEFORE + 2, true, NULL, &err), GG_FAILED);
+  assert_int_equal(gg_run_replica_advance(&r, BEFORE + 2, true, NULL, &err), GG_FAILED);
   if (r.clock.samples > BEFORE) fail_msg("%s: %d samples later", yaml, (int)r.clock.samples - BEFORE);
   if (!strstr(err.message, "no number") && !strstr(err.message, "range of numbers"))
     fail_msg("%s: %s", yaml, err.message);
-  gg_replica_clear(&r);
+  gg_run_replica_clear(&r);
 }
 
 static void within_an_interval(void **state)
@@ -101,7 +101,7 @@ static void at_its_collision(void **state)
   gg_engine *engine;
   gg_error err = {0};
   double gone;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
   assert_int_equal(gg_md_ops.create(&m, 1, 0, &engine, &err), GG_OK);
   culprit c = {(gg_md *)engine, 1234};
   assert_int_equal(gg_md_ops.set_callback(engine, spoil, &c, &err), GG_OK);

@@ -30,12 +30,12 @@ static gg_test test_of(double scale, uint64_t window, double sure_at)
 static double true_end(double scale, double sure_at)
 {
   bool exact = false;
-  uint64_t window = gg_plan_next_test(&plan, 0, NULL);
+  uint64_t window = gg_run_criteria_next_test(&plan, 0, NULL);
   for (;;) {
     gg_test t = test_of(scale, window, sure_at);
-    if (gg_plan_is_met(&t, exact)) return (double)(plan.warmup + window);
+    if (gg_run_criteria_are_met(&t, exact)) return (double)(plan.warmup + window);
     exact = t.exact;
-    window = gg_plan_next_test(&plan, 0, &t);
+    window = gg_run_criteria_next_test(&plan, 0, &t);
   }
 }
 
@@ -45,19 +45,19 @@ static void follow(double scale, double sure_at, int *exactly)
   gg_outlook o = {0};
   struct gg_replicas_state s = {.averaging = 1, .due = plan.warmup, .window_at = plan.warmup};
   double end = true_end(scale, sure_at), window;
-  s.goal = s.window_at + gg_plan_next_test(&plan, 0, NULL);
-  assert_false(gg_outlook_end(&o, &plan, &s).known);
+  s.goal = s.window_at + gg_run_criteria_next_test(&plan, 0, NULL);
+  assert_false(gg_run_progress_end(&o, &plan, &s).known);
   for (; (double)s.due < end; s.due++) {
     window = (double)(s.due - s.window_at);
     if (s.due >= s.goal) {
       gg_test t = test_of(scale, (uint64_t)window, sure_at);
       s.exact = t.exact;
-      s.goal = s.window_at + gg_plan_next_test(&plan, 0, &t);
+      s.goal = s.window_at + gg_run_criteria_next_test(&plan, 0, &t);
     }
     if (window < 40) continue;
     gg_convergence c = errors_of(scale, window, sure_at);
-    gg_outlook_note_errors(&o, window, &c);
-    gg_end told = gg_outlook_end(&o, &plan, &s);
+    gg_run_progress_record_errors(&o, window, &c);
+    gg_end told = gg_run_progress_end(&o, &plan, &s);
     assert_true(told.at >= (double)s.due);
     if (window < (end - plan.warmup) / 4) continue;
     if (fabs(told.at / end - 1) > 0.3) fail_msg("%g: at %g of %g told %g", scale, (double)s.due, end, told.at);
@@ -97,14 +97,14 @@ static void so_many_collisions(void **state)
   gg_outlook o = {0};
   gg_plan p = {.warmup = 20, .least = 150, .longest = 75000, .most = 200000};
   struct gg_replicas_state s = {.due = 3};
-  gg_end end = gg_outlook_end(&o, &p, &s);
+  gg_end end = gg_run_progress_end(&o, &p, &s);
   assert_true(end.known && end.at == 200020);
   s = (struct gg_replicas_state){.averaging = 1, .due = 90020, .window_at = 20, .goal = 100020};
-  end = gg_outlook_end(&o, &p, &s);
+  end = gg_run_progress_end(&o, &p, &s);
   assert_true(end.known && end.at == 200020);
-  assert_false(gg_plan_ends(&p, 0, 199999));
+  assert_false(gg_run_criteria_end(&p, 0, 199999));
   p.relative_error = 1e-9;
-  assert_true(gg_plan_ends(&p, 0, 75000)); /* out of reach */
+  assert_true(gg_run_criteria_end(&p, 0, 75000)); /* out of reach */
 }
 
 /* A window that shows a trend will be given up; one that does not and cannot be trusted, go on. */
@@ -114,21 +114,21 @@ static void trends_and_trust(void **state)
   gg_outlook o = {0};
   struct gg_replicas_state s = {.averaging = 1, .due = 120, .window_at = 20, .goal = 170};
   gg_convergence c = errors_of(0.05, 100, INFINITY);
-  gg_outlook_note_errors(&o, 100, &c);
-  gg_end end = gg_outlook_end(&o, &plan, &s);
+  gg_run_progress_record_errors(&o, 100, &c);
+  gg_end end = gg_run_progress_end(&o, &plan, &s);
   assert_true(end.known && end.at == 20 + 225); /* the shortest test, and half as long again */
   c.trending = true;
-  gg_outlook_note_errors(&o, 100, &c);
-  end = gg_outlook_end(&o, &plan, &s);
+  gg_run_progress_record_errors(&o, 100, &c);
+  end = gg_run_progress_end(&o, &plan, &s);
   assert_true(!end.known && end.at == 170 + 450); /* twice as long after that */
   s.restarts = 6;
-  assert_true(gg_outlook_end(&o, &plan, &s).known);
+  assert_true(gg_run_progress_end(&o, &plan, &s).known);
   c.trending = false, c.trusted = false, c.untrusted = 5;
   s.restarts = 0;
-  gg_outlook_note_errors(&o, 100, &c);
-  assert_true(gg_outlook_end(&o, &plan, &s).at >= 20 + 1.5 * 400); /* 16 blocks of 5 times */
-  gg_outlook_open_window(&o);
-  assert_true(isnan(gg_outlook_end(&o, &plan, &s).at));
+  gg_run_progress_record_errors(&o, 100, &c);
+  assert_true(gg_run_progress_end(&o, &plan, &s).at >= 20 + 1.5 * 400); /* 16 blocks of 5 times */
+  gg_run_progress_open_window(&o);
+  assert_true(isnan(gg_run_progress_end(&o, &plan, &s).at));
 }
 
 /* Seconds a sample of late, not of the start; marks are thinned. */
@@ -137,9 +137,9 @@ static void pace(void **state)
   (void)state;
   gg_outlook o = {0};
   double wall = 5;
-  assert_true(isnan(gg_outlook_pace(&o)));
-  for (int i = 0; i < 1000; i++, wall += i < 300 ? 0.1 : 0.4) gg_outlook_note_time(&o, wall, 10.0 * i);
-  assert_true(fabs(gg_outlook_pace(&o) / 0.04 - 1) < 1e-9);
+  assert_true(isnan(gg_run_progress_pace(&o)));
+  for (int i = 0; i < 1000; i++, wall += i < 300 ? 0.1 : 0.4) gg_run_progress_record_time(&o, wall, 10.0 * i);
+  assert_true(fabs(gg_run_progress_pace(&o) / 0.04 - 1) < 1e-9);
   assert_true(o.n_marks <= GG_OUTLOOK_MARKS);
 }
 
@@ -166,7 +166,7 @@ static void every_run(void **state)
   enum { ERROR, COLLISIONS, BOTH, TIME, GIVEN_UP, REPLICAS, CASES };
   for (int k = 0; k < CASES; k++) {
     fake = (fake_plan){.T = 2, .theta = 0.5, .relaxation = 10, .noise = 0.02};
-    gg_scene s = gg_scene_defaults();
+    gg_scene s = gg_common_scene_defaults();
     s.phi = 0.2, s.particles = 512, s.collision.beta[0] = 0;
     if (k == ERROR || k == REPLICAS || k == BOTH) s.run.relative_error = 0.0005;
     if (k == COLLISIONS || k == BOTH) s.run.collisions = 20000;

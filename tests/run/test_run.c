@@ -198,8 +198,8 @@ static bool stop_after(void *context)
 static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 {
   keeper *k = context;
-  gg_archive_clear(&k->kept);
-  return gg_archive_nest(&k->kept, "x", archive, err);
+  gg_base_archive_clear(&k->kept);
+  return gg_base_archive_nest(&k->kept, "x", archive, err);
 }
 
 static gg_status count_frame(void *context, const gg_frame *frame, gg_error *err)
@@ -215,17 +215,17 @@ static gg_result *in_two_parts(const gg_scene *s, int stop, gg_archive *archive)
   keeper k = {.stop_at = stop};
   gg_hooks hooks = {.context = &k, .interrupted = stop_after, .frame = count_frame, .checkpoint = keep};
   gg_result *r = NULL;
-  gg_archive_clear(archive);
+  gg_base_archive_clear(archive);
   if (gg_run_scene(s, NULL, 1, &hooks, &r, NULL) == GG_INTERRUPTED) {
     assert_non_null(r); /* what there is so far */
     gg_result_free(r);
-    assert_int_equal(gg_archive_unnest(archive, "x", &k.kept, NULL), GG_OK);
+    assert_int_equal(gg_base_archive_unnest(archive, "x", &k.kept, NULL), GG_OK);
     assert_int_equal(gg_run_scene(s, archive, 1, NULL, &r, NULL), GG_OK);
   } else {
     gg_result_free(r);
     r = NULL; /* it was over before */
   }
-  gg_archive_clear(&k.kept);
+  gg_base_archive_clear(&k.kept);
   return r;
 }
 
@@ -254,7 +254,7 @@ static void resume(void **state)
       resumed++;
     }
     assert_true(resumed > 20);
-    gg_archive_clear(&archive), gg_result_free(whole);
+    gg_base_archive_clear(&archive), gg_result_free(whole);
   }
 }
 
@@ -281,7 +281,7 @@ static void other_scene(void **state)
   s.run.collisions = 800; /* a longer run of the same is welcome */
   gg_result *r = NULL;
   assert_int_equal(gg_run_scene(&s, &archive, 1, NULL, &r, NULL), GG_OK);
-  gg_result_free(r), gg_archive_clear(&archive);
+  gg_result_free(r), gg_base_archive_clear(&archive);
 }
 
 typedef struct frames {
@@ -292,7 +292,7 @@ typedef struct frames {
 static gg_status see_frame(void *context, const gg_frame *frame, gg_error *err)
 {
   frames *f = context;
-  if (!(frame->time > f->last)) return gg_fail(err, GG_FAILED, "frames out of order");
+  if (!(frame->time > f->last)) return gg_base_fail(err, GG_FAILED, "frames out of order");
   f->last = frame->time;
   f->n++;
   return GG_OK;
@@ -314,7 +314,7 @@ static void trajectory(void **state)
   hooks.context = &rest;
   assert_int_equal(gg_run_scene(&s, &archive, 3, &hooks, &r, NULL), GG_OK);
   assert_true(rest.n > 3 && rest.n < whole.n && rest.last == whole.last);
-  gg_result_free(r), gg_archive_clear(&archive);
+  gg_result_free(r), gg_base_archive_clear(&archive);
 }
 
 typedef struct crowd {
@@ -372,7 +372,7 @@ static void time_limit(void **state)
   assert_true(k.kept.n_items > 0);
   assert_true(isnan(r->value[GG_Q_TEMPERATURE].mean));
   assert_non_null(strstr(r->value[GG_Q_TEMPERATURE].reason, "warm-up"));
-  gg_result_free(r), gg_archive_clear(&k.kept);
+  gg_result_free(r), gg_base_archive_clear(&k.kept);
 }
 int main(void)
 {

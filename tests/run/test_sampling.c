@@ -15,13 +15,13 @@
 
 static void create(gg_replica *r, const char *yaml, gg_engine_kind engine)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_model m;
   gg_error err = {0};
   if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK)
     fail_msg("%s", err.message);
   s.engine = engine;
-  if (gg_model_make(&s, engine, &m, &err) != GG_OK || gg_replica_create(r, &s, &m, 0, &err) != GG_OK)
+  if (gg_common_model_make(&s, engine, &m, &err) != GG_OK || gg_run_replica_create(r, &s, &m, 0, &err) != GG_OK)
     fail_msg("%s: %s", yaml, err.message);
 }
 
@@ -38,8 +38,8 @@ static void settled_at_the_start(void **state)
     for (gg_engine_kind engine = 0; engine <= GG_DSMC; engine++) {
       gg_replica r;
       create(&r, scenes[k], engine);
-      if (!gg_replica_settled(&r)) fail_msg("%s: has to warm up", scenes[k]);
-      gg_replica_clear(&r);
+      if (!gg_run_replica_settled(&r)) fail_msg("%s: has to warm up", scenes[k]);
+      gg_run_replica_clear(&r);
     }
 }
 
@@ -56,12 +56,12 @@ static void sweeps_without_end(void **state)
     gg_replica r;
     gg_error err = {0};
     create(&r, scenes[k], GG_DSMC);
-    assert_int_equal(gg_replica_advance(&r, 1, true, NULL, &err), GG_OK);
+    assert_int_equal(gg_run_replica_advance(&r, 1, true, NULL, &err), GG_OK);
     const double first = r.clock.temperature;
-    assert_int_equal(gg_replica_advance(&r, 4000, true, NULL, &err), GG_OK);
+    assert_int_equal(gg_run_replica_advance(&r, 4000, true, NULL, &err), GG_OK);
     const double risen = r.clock.temperature / first;
     if (!(risen > 1e-3 && risen < 1e3)) fail_msg("%s: %g times that of the start", scenes[k], risen);
-    gg_replica_clear(&r);
+    gg_run_replica_clear(&r);
   }
 }
 
@@ -70,12 +70,12 @@ static void expect_two(const char *scene, int begin, int end)
   gg_replica r;
   gg_error err = {0};
   create(&r, scene, GG_DSMC);
-  assert_int_equal(gg_replica_advance(&r, (uint64_t)begin, true, NULL, &err), GG_OK);
-  const double before = gg_replica_collisions_per_grain(&r);
-  assert_int_equal(gg_replica_advance(&r, (uint64_t)end, true, NULL, &err), GG_OK);
-  const double apart = (gg_replica_collisions_per_grain(&r) - before) / (end - begin);
+  assert_int_equal(gg_run_replica_advance(&r, (uint64_t)begin, true, NULL, &err), GG_OK);
+  const double before = gg_run_replica_collisions_per_grain(&r);
+  assert_int_equal(gg_run_replica_advance(&r, (uint64_t)end, true, NULL, &err), GG_OK);
+  const double apart = (gg_run_replica_collisions_per_grain(&r) - before) / (end - begin);
   if (fabs(apart / GG_SAMPLING_INTERVAL - 1) > 0.03) fail_msg("%s: %g collisions a grain apart", scene, apart);
-  gg_replica_clear(&r);
+  gg_run_replica_clear(&r);
 }
 
 /* Where the temperature never stands still, the rate changes from one interval to the next by as much as it falls in
@@ -108,7 +108,7 @@ static void told_as_it_was(void **state)
   (void)state;
   static const char yaml[] =
       "{flow: equilibrium, engine: dsmc, phi: 0.2, dsmc: {particles: 50}, run: {collisions: 1200}}";
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_error err = {0};
   gg_result *result = NULL;
   double told = 0;

@@ -20,16 +20,16 @@ enum { ROWS = 4096, SPREAD = 1 };
 static gg_model couette(void)
 {
   gg_model m;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = GG_COUETTE, s.phi = 0.3;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return m;
 }
 
 static double autoregressive(gg_rng *r, double tau, double *at)
 {
   double rho = exp(-1 / tau);
-  return *at = rho * *at + sqrt(1 - rho * rho) * gg_rng_normal(r);
+  return *at = rho * *at + sqrt(1 - rho * rho) * gg_common_rng_normal(r);
 }
 
 /* Windows of 10 and of 40 decay times, noise of as much variance on top: on average within a quarter of what was
@@ -40,19 +40,19 @@ static void decay_times(void **state)
   (void)state;
   enum { REPEATS = 200 };
   static const int windows[] = {10, 40}, runs[] = {1, 4};
-  gg_rng r = gg_rng_seed(33, 0);
+  gg_rng r = gg_common_rng_seed(33, 0);
   double y[512];
   for (int w = 0; w < 2; w++)
     for (int k = 0; k < 2; k++) {
       size_t n = 512 / (size_t)runs[k];
       double tau = 512.0 / windows[w] / (k ? 2 : 1), sum = 0, squares = 0;
       for (int repeat = 0; repeat < REPEATS; repeat++) {
-        double at = gg_rng_normal(&r);
+        double at = gg_common_rng_normal(&r);
         for (size_t i = 0; i < 512; i++) {
-          if (i % n == 0) at = gg_rng_normal(&r);
-          y[i] = autoregressive(&r, tau, &at) + gg_rng_normal(&r);
+          if (i % n == 0) at = gg_common_rng_normal(&r);
+          y[i] = autoregressive(&r, tau, &at) + gg_common_rng_normal(&r);
         }
-        double time = gg_decay_time(y, n, (size_t)runs[k]) / tau;
+        double time = gg_statistics_decay_time(y, n, (size_t)runs[k]) / tau;
         sum += time / REPEATS, squares += time * time / REPEATS;
       }
       double four = 4 * sqrt((squares - sum * sum) / REPEATS);
@@ -60,28 +60,29 @@ static void decay_times(void **state)
       assert_true(fabs(sum - 1) < 0.25 + four);
     }
   for (size_t i = 0; i < 512; i++) y[i] = i < 256 ? 1 : -1;
-  assert_true(gg_decay_time(y, 512, 1) > 100);
-  for (size_t i = 0; i < 512; i++) y[i] = gg_rng_normal(&r);
-  assert_true(gg_decay_time(y, 512, 1) < 3);
+  assert_true(gg_statistics_decay_time(y, 512, 1) > 100);
+  for (size_t i = 0; i < 512; i++) y[i] = gg_common_rng_normal(&r);
+  assert_true(gg_statistics_decay_time(y, 512, 1) < 3);
 }
 
 static void begin(gg_replicas *all, gg_replica *replica)
 {
   *all = (gg_replicas){.n = 1, .model = couette(), .replica = replica, .state.averaging = 1, .state.due = ROWS};
   *replica = (gg_replica){.model = all->model};
-  assert_int_equal(gg_series_init(&replica->series, (size_t)gg_wall_modes(&all->model), NULL), GG_OK);
+  assert_int_equal(gg_statistics_series_init(&replica->series, (size_t)gg_measure_wall_modes(&all->model), NULL),
+                   GG_OK);
 }
 
 /* A window in which one mode is autoregressive over `tau` rows, the others are white, the centre of mass about `aside`.
  */
 static void plant(gg_rng *r, double tau, double aside, gg_replica *p)
 {
-  double at = gg_rng_normal(r), row[GG_MOST_WALL_MODES];
+  double at = gg_common_rng_normal(r), row[GG_MOST_WALL_MODES];
   for (int t = 0; t < ROWS; t++) {
-    for (int k = 0; k < gg_wall_modes(&p->model); k++) row[k] = gg_rng_normal(r);
+    for (int k = 0; k < gg_measure_wall_modes(&p->model); k++) row[k] = gg_common_rng_normal(r);
     row[SPREAD] += autoregressive(r, tau, &at);
     row[GG_WALL_CENTRE] += aside;
-    gg_series_add(&p->series, t, row);
+    gg_statistics_series_add(&p->series, t, row);
   }
 }
 
@@ -89,7 +90,7 @@ static void plant(gg_rng *r, double tau, double aside, gg_replica *p)
 static void short_window(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(32, 0);
+  gg_rng r = gg_common_rng_seed(32, 0);
   for (int slow = 0; slow < 2; slow++) {
     gg_replicas all;
     gg_replica replica;
@@ -98,20 +99,20 @@ static void short_window(void **state)
     double tau = slow ? ROWS / 5.0 : ROWS / 200.0;
     begin(&all, &replica);
     plant(&r, tau, slow ? 0 : 2, &replica);
-    assert_int_equal(gg_replicas_wandering(&all, &w, NULL), GG_OK);
+    assert_int_equal(gg_run_replicas_slow_modes(&all, &w, NULL), GG_OK);
     assert_int_equal(w.mode, SPREAD);
     print_message("# time %.2f of it\n", w.time / tau);
     assert_true(w.time > 0.25 * tau && w.time < 3 * tau);
     if (slow) assert_true(w.aside_share < 0.5);
     if (!slow) assert_true(w.aside_share > 0.9 && fabs(w.aside - 2) < 0.1);
-    assert_int_equal(gg_replicas_convergence(&all, &c, NULL), GG_OK);
+    assert_int_equal(gg_run_replicas_convergence(&all, &c, NULL), GG_OK);
     gg_result *result = calloc(1, sizeof *result);
-    gg_replicas_report_steadiness(&all, &c, result);
+    gg_run_replicas_report_steadiness(&all, &c, result);
     print_message("# %s\n", result->steadiness_text);
     assert_int_equal(result->steadiness, slow ? GG_NOT_STEADY : GG_STEADY);
-    if (slow) assert_non_null(strstr(result->steadiness_text, gg_wall_mode_name(SPREAD)));
+    if (slow) assert_non_null(strstr(result->steadiness_text, gg_measure_wall_mode_name(SPREAD)));
     free(result);
-    gg_series_clear(&replica.series);
+    gg_statistics_series_clear(&replica.series);
   }
 }
 
@@ -127,7 +128,7 @@ static void what_they_are(void **state)
                       .first = {1, 0, 3}};
   double row[GG_MOST_WALL_MODES], w1 = cos(M_PI / 6), w2 = 0.5, H = m.box[1]; /* cos(pi y), cos(2 pi y) of slab 1 */
   m.n_species = 2;
-  gg_wall_modes_take(&m, &f, row);
+  gg_measure_wall_modes_take(&m, &f, row);
   const double expected[] = {(5 - 1) * H / 3 / 8,        (6 * w2 - 2) / 8,   (-2 + 1 + 15) / 8.0,
                              (-2 - 15) * w1 / 8,         (13 * w2 - 1) / 8,  (4 - 10) * w1 / 8,
                              (4 * w2 - 2 + 10 * w2) / 8, (1 - 3) * w1 / 4.0, 4 * w2 / 4};
@@ -140,21 +141,21 @@ static void parities(void **state)
 {
   (void)state;
   gg_model m;
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.1;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
-  assert_int_equal(gg_wall_modes(&m), 0);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_measure_wall_modes(&m), 0);
   static const bool turned[] = {true, false, true, false, true, true, false, true, false};
   static const bool mirrored[] = {true, false, false, true, false, true, false, true, false};
   s.flow = GG_COUETTE;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
-  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_wall_mode_is_odd(&m, k), turned[k]);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_measure_wall_mode_is_odd(&m, k), turned[k]);
   m.gravity[0] = 1;
-  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_wall_mode_is_odd(&m, k));
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_measure_wall_mode_is_odd(&m, k));
   m.surface[0].velocity.x = m.surface[1].velocity.x = 0;
-  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_wall_mode_is_odd(&m, k), mirrored[k]);
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_measure_wall_mode_is_odd(&m, k), mirrored[k]);
   m.gravity[1] = -1;
-  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_wall_mode_is_odd(&m, k));
+  for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_measure_wall_mode_is_odd(&m, k));
 }
 
 int main(void)

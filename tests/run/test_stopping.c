@@ -34,13 +34,13 @@ static bool by_chance(void *context)
 static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 {
   caller *c = context;
-  gg_archive_clear(&c->kept);
-  return gg_archive_append(&c->kept, archive, err);
+  gg_base_archive_clear(&c->kept);
+  return gg_base_archive_append(&c->kept, archive, err);
 }
 
 static gg_scene scene_of(const char *yaml)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   gg_error err = {0};
   if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK)
     fail_msg("%s", err.message);
@@ -72,12 +72,12 @@ static gg_result *in_pieces(const gg_scene *s, int threads, caller *c)
     if (!r) continue; /* stopped while grains were placed */
     gg_result_free(r);
     r = NULL;
-    gg_archive_clear(&from);
-    assert_int_equal(gg_archive_append(&from, &c->kept, &err), GG_OK);
+    gg_base_archive_clear(&from);
+    assert_int_equal(gg_base_archive_append(&from, &c->kept, &err), GG_OK);
   }
   assert_non_null(r);
-  gg_archive_clear(&from);
-  gg_archive_clear(&c->kept);
+  gg_base_archive_clear(&from);
+  gg_base_archive_clear(&c->kept);
   return r;
 }
 
@@ -101,7 +101,7 @@ static void in_the_midst_of_an_interval(void **state)
     gg_run_scene(&s, NULL, 1, NULL, &whole, NULL);
     assert_non_null(whole);
     for (int threads = 1; threads < 3; threads++) {
-      caller c = {.rng = gg_rng_seed(k, 1), .chance = 0.3};
+      caller c = {.rng = gg_common_rng_seed(k, 1), .chance = 0.3};
       gg_result *pieces = in_pieces(&s, threads, &c);
       assert_true(c.stops >= 3);
       same(whole, pieces);
@@ -134,17 +134,17 @@ static void time_limit(void **state)
     double before = now(), reached = 0;
     for (int piece = 0; piece < 2; piece++) {
       gg_archive from = {0};
-      assert_int_equal(gg_archive_append(&from, &c.kept, NULL), GG_OK);
+      assert_int_equal(gg_base_archive_append(&from, &c.kept, NULL), GG_OK);
       s.run.time_limit = 0.2 * (piece + 1);
       assert_int_equal(gg_run_scene(&s, piece ? &from : NULL, 1, &hooks, &r, &err), GG_FAILED);
       assert_non_null(strstr(err.message, "time limit"));
       assert_true(r->final.time > reached);
       reached = r->final.time;
-      gg_archive_clear(&from);
+      gg_base_archive_clear(&from);
       gg_result_free(r);
     }
     assert_true(now() - before < 20); /* and not minutes */
-    gg_archive_clear(&c.kept);
+    gg_base_archive_clear(&c.kept);
   }
 }
 
@@ -160,7 +160,7 @@ static void cold_start(void **state)
     gg_error err = {0};
     if (gg_run_scene(&s, NULL, 1, NULL, &r[k], &err) != GG_OK) fail_msg("%s", err.message);
   }
-  double z = gg_z_score(&r[GG_MD]->value[GG_Q_COLLISION_RATE], &r[GG_DSMC]->value[GG_Q_COLLISION_RATE]);
+  double z = gg_run_z_score(&r[GG_MD]->value[GG_Q_COLLISION_RATE], &r[GG_DSMC]->value[GG_Q_COLLISION_RATE]);
   assert_true(fabs(z) < 4);
   gg_result_free(r[GG_MD]), gg_result_free(r[GG_DSMC]);
 }

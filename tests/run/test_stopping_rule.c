@@ -16,24 +16,24 @@ static double x[MOST];
 
 static void autoregressive(gg_rng *r)
 {
-  double rho = (2.0 * T - 1) / (2 * T + 1), at = gg_rng_normal(r);
-  for (size_t i = 0; i < MOST; i++) x[i] = at = rho * at + sqrt(1 - rho * rho) * gg_rng_normal(r);
+  double rho = (2.0 * T - 1) / (2 * T + 1), at = gg_common_rng_normal(r);
+  for (size_t i = 0; i < MOST; i++) x[i] = at = rho * at + sqrt(1 - rho * rho) * gg_common_rng_normal(r);
 }
 
 /* As averaging.c goes from test to test; returns the length of the window at the end. */
 static uint64_t stop(const gg_plan *plan, gg_mean *m)
 {
   bool before = false;
-  for (uint64_t window = gg_plan_next_test(plan, 0, NULL);;) {
+  for (uint64_t window = gg_run_criteria_next_test(plan, 0, NULL);;) {
     assert_true(window <= MOST);
-    assert_int_equal(gg_estimate_scalar(x, window, 1, m, NULL), GG_OK);
-    m->error *= gg_plan_margin(plan, m->correlation_rows, (double)window);
+    assert_int_equal(gg_statistics_estimate_scalar(x, window, 1, m, NULL), GG_OK);
+    m->error *= gg_run_criteria_margin(plan, m->correlation_rows, (double)window);
     gg_test t = {.window = window, .ratio = m->error / plan->relative_error};
     t.exact = m->trusted && t.ratio <= 1;
     t.sure = m->trusted && (double)window >= 10 * GG_MAX_BLOCKS * m->correlation_rows;
-    if (gg_plan_is_met(&t, before)) return window;
+    if (gg_run_criteria_are_met(&t, before)) return window;
     before = t.exact;
-    window = gg_plan_next_test(plan, 0, &t);
+    window = gg_run_criteria_next_test(plan, 0, &t);
   }
 }
 
@@ -43,7 +43,7 @@ static void errors_at_the_end(void **state)
   double all = 0;
   for (int need = 40; need <= LONGEST; need *= 2) {
     gg_plan plan = {.least = 150, .longest = 75000, .relative_error = sqrt(2.0 / need)};
-    gg_rng r = gg_rng_seed(21, (uint64_t)need);
+    gg_rng r = gg_common_rng_seed(21, (uint64_t)need);
     double z2 = 0, length = 0;
     for (int k = 0; k < RUNS; k++) {
       gg_mean m;

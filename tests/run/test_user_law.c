@@ -51,8 +51,8 @@ static void test_constant_law_dsmc(void **state)
   gg_result *one = run(plain, 1), *two = run(lawful, 1);
   const gg_quantity all[] = {GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_SHEAR_VISCOSITY, GG_Q_DISSIPATION};
   for (int k = 0; k < 4; k++) {
-    double z = gg_z_score(&one->value[all[k]], &two->value[all[k]]);
-    if (!(fabs(z) < 4.5)) fail_msg("%s: z = %.1f", gg_quantity_name(all[k]), z);
+    double z = gg_run_z_score(&one->value[all[k]], &two->value[all[k]]);
+    if (!(fabs(z) < 4.5)) fail_msg("%s: z = %.1f", gg_common_quantity_name(all[k]), z);
   }
   gg_result_free(one), gg_result_free(two);
   gg_scene_free(plain), gg_scene_free(lawful);
@@ -67,7 +67,7 @@ static void test_falling_law(void **state)
   gg_comparison c;
   gg_scene *scene = scene_of("{flow: usf, phi: 0.01, particles: 1000, run: {collisions: 400, warmup: 60}}");
   set_law(scene, "falling", falling, NULL);
-  if (gg_compare_scene(scene, NULL, 2, NULL, &c, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_run_compare_scene(scene, NULL, 2, NULL, &c, &err) != GG_OK) fail_msg("%s", err.message);
   for (int k = 0; k < 2; k++) {
     const gg_estimate *balance = &c.by_engine[k]->value[GG_Q_ENERGY_BALANCE];
     if (!(fabs(balance->mean - 1) < 4.5 * balance->error && balance->error < 0.02))
@@ -75,12 +75,13 @@ static void test_falling_law(void **state)
   }
   double md = c.by_engine[GG_MD]->value[GG_Q_TEMPERATURE].mean,
          dsmc = c.by_engine[GG_DSMC]->value[GG_Q_TEMPERATURE].mean;
-  double z = gg_z_score(&c.by_engine[GG_MD]->value[GG_Q_TEMPERATURE], &c.by_engine[GG_DSMC]->value[GG_Q_TEMPERATURE]);
+  double z =
+      gg_run_z_score(&c.by_engine[GG_MD]->value[GG_Q_TEMPERATURE], &c.by_engine[GG_DSMC]->value[GG_Q_TEMPERATURE]);
   print_message("# T: md %g, dsmc %g, z = %.1f\n", md, dsmc, z);
   assert_true(fabs(md / dsmc - 1) < 0.01 || fabs(z) < 3);
   for (int i = 0; i < c.n_theories; i++) assert_false(c.theory[i].applies);
   assert_non_null(strstr(c.theory[0].reason, "'falling'"));
-  gg_comparison_clear(&c);
+  gg_run_comparison_clear(&c);
   gg_scene_free(scene);
 }
 
@@ -100,7 +101,7 @@ static void test_limits_of_a_table(void **state)
   gg_scene *half =
       scene_of("{flow: hcs, engine: dsmc, phi: 0.1, collision: {e: 0.5}, run: {collisions: 40, warmup: 5}}");
   gg_result *expected = run(half, 1);
-  double z = gg_z_score(&r->value[GG_Q_COOLING_RATE], &expected->value[GG_Q_COOLING_RATE]);
+  double z = gg_run_z_score(&r->value[GG_Q_COOLING_RATE], &expected->value[GG_Q_COOLING_RATE]);
   if (!(fabs(z) < 4.5)) fail_msg("cooling rate: z = %.1f", z);
   gg_result_free(r), gg_result_free(expected);
   gg_scene_free(scene), gg_scene_free(half);
@@ -150,7 +151,7 @@ static void test_bad_laws(void **state)
   set_law(scene, "x", constant, &e);
   set_law(scene, NULL, NULL, NULL); /* back to a constant */
   gg_model m;
-  assert_int_equal(gg_model_make(scene, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_common_model_make(scene, GG_MD, &m, &err), GG_OK);
   assert_true(m.law.e == NULL);
   gg_scene_free(scene);
 }

@@ -14,7 +14,7 @@
 
 static void same_estimate(const gg_result *r, const char *name, gg_quantity q, double tolerance)
 {
-  const gg_estimate *mine = &r->value[gg_quantity_find_in(&r->model, name)], *ours = &r->value[q];
+  const gg_estimate *mine = &r->value[gg_common_quantity_find_in(&r->model, name)], *ours = &r->value[q];
   if (!(fabs(mine->mean / ours->mean - 1) < tolerance && fabs(mine->error / ours->error - 1) < 1e-2))
     fail_msg("%s = %.12g +- %g, ours %.12g +- %g", name, mine->mean, mine->error, ours->mean, ours->error);
   assert_int_equal(mine->samples, ours->samples);
@@ -35,10 +35,10 @@ static void test_observable(void **state)
     gg_scene_free(scene); /* a result keeps the names */
     same_estimate(r, "my_temperature", GG_Q_TEMPERATURE, 1e-9);
     same_estimate(r, "my_rate", GG_Q_COLLISION_RATE, 1e-9);
-    const gg_estimate *stress = &r->value[gg_quantity_find_in(&r->model, "my_stress")];
+    const gg_estimate *stress = &r->value[gg_common_quantity_find_in(&r->model, "my_stress")];
     assert_true(fabs(stress->mean / -r->value[GG_Q_P_XY_COLLISIONAL].mean - 1) < 1e-9);
-    assert_true(r->value[gg_quantity_find_in(&r->model, "my_samples")].mean > 20);
-    json_t *document = gg_run_document(r),
+    assert_true(r->value[gg_common_quantity_find_in(&r->model, "my_samples")].mean > 20);
+    json_t *document = gg_files_run_document(r),
            *mine = json_object_get(json_object_get(document, "results"), "my_temperature");
     assert_string_equal(json_string_value(json_object_get(mine, "unit")), "d^2 gamma^2");
     assert_true(json_is_real(json_object_get(mine, "stderr")));
@@ -110,7 +110,7 @@ static void test_bad_observables(void **state)
   gg_quantity_definition lines = {"x", "two\nlines", NULL};
   o.quantities = &lines, o.n_quantities = 1;
   refused(gg_scene_add_observable(scene, &o, &err), &err, "one line");
-  assert_int_equal(gg_extension_quantities(scene->extension), 3); /* as it was */
+  assert_int_equal(gg_common_extension_quantities(scene->extension), 3); /* as it was */
   gg_scene_free(scene);
 }
 

@@ -43,10 +43,10 @@ static void test_theory(void **state)
   refused(gg_scene_add_theory(scene, NULL, &err), &err, "definition");
 
   gg_comparison c;
-  if (gg_compare_scene(scene, NULL, 2, NULL, &c, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_run_compare_scene(scene, NULL, 2, NULL, &c, &err) != GG_OK) fail_msg("%s", err.message);
   gg_scene_free(scene);
   assert_int_equal(asked, 1);
-  json_t *document = gg_comparison_document(&c), *theory = json_object_get(document, "theory");
+  json_t *document = gg_files_comparison_document(&c), *theory = json_object_get(document, "theory");
   double own = json_number_value(json_object_get(json_object_get(json_object_get(theory, "mine"), "pressure"), "mean"));
   double ours =
       json_number_value(json_object_get(json_object_get(json_object_get(theory, "enskog"), "pressure"), "mean"));
@@ -64,7 +64,7 @@ static void test_theory(void **state)
   assert_non_null(found);
   assert_true(json_is_real(json_object_get(json_object_get(found, "md_theory_deviation"), "mine")));
   json_decref(document);
-  gg_comparison_clear(&c);
+  gg_run_comparison_clear(&c);
 }
 
 int main(void)

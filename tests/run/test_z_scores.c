@@ -19,12 +19,12 @@ static void comparison(void **state)
   s.dsmc.particles = 512; /* one chunk */
   gg_comparison c;
   gg_error err;
-  assert_int_equal(gg_compare_scene(&s, NULL, 2, NULL, &c, &err), GG_OK);
+  assert_int_equal(gg_run_compare_scene(&s, NULL, 2, NULL, &c, &err), GG_OK);
   assert_non_null(c.by_engine[GG_MD]);
   assert_non_null(c.by_engine[GG_DSMC]);
   gg_estimate a = {.mean = 1, .error = 0.03}, b = {.mean = 1.5, .error = 0.04};
-  assert_true(fabs(gg_z_score(&a, &b) + 10) < 1e-12);
-  gg_comparison_clear(&c);
+  assert_true(fabs(gg_run_z_score(&a, &b) + 10) < 1e-12);
+  gg_run_comparison_clear(&c);
 }
 
 /* Differences are marked only where they exceed four errors and what is expected at that density, and a cause is named.
@@ -35,7 +35,7 @@ static void agreement(void **state)
   gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
   gg_comparison c = {.by_engine = {&md, &dsmc}};
   gg_scene s = planted_scene(0);
-  assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
   const struct {
     double phi, md, error;
     bool marked;
@@ -46,8 +46,8 @@ static void agreement(void **state)
     c.model.phi = cases[i].phi;
     md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = cases[i].md, .error = cases[i].error};
     dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 1, .error = 0.001};
-    assert_int_equal(gg_disagree(&c, GG_Q_TEMPERATURE), cases[i].marked);
-    if (cases[i].marked) assert_true(gg_causes_of_disagreement(&c, cause, 8) >= 1);
+    assert_int_equal(gg_run_results_disagree(&c, GG_Q_TEMPERATURE), cases[i].marked);
+    if (cases[i].marked) assert_true(gg_run_disagreement_causes(&c, cause, 8) >= 1);
   }
 }
 
@@ -60,39 +60,39 @@ static void departures(void **state)
   gg_comparison c = {.by_engine = {&md, &dsmc}, .n_theories = 1};
   gg_scene s = planted_scene(0);
   gg_departure d;
-  assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
   c.model.phi = 0.2;
   md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 2.2, .error = 0.008};
   dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 2.1, .error = 0.1};
   md.value[GG_Q_N1] = (gg_estimate){.mean = 0.11, .error = 0.01};
   md.value[GG_Q_A2] = (gg_estimate){.mean = 0.11, .error = NAN};
-  assert_false(gg_depart_from_enskog(&c, GG_MD, GG_Q_TEMPERATURE, &d));
-  assert_false(gg_disagree(&c, GG_Q_TEMPERATURE)); /* dsmc's noise hides it */
+  assert_false(gg_run_enskog_deviation(&c, GG_MD, GG_Q_TEMPERATURE, &d));
+  assert_false(gg_run_results_disagree(&c, GG_Q_TEMPERATURE)); /* dsmc's noise hides it */
 
-  c.theory[0].theory = &gg_enskog_hermite;
+  c.theory[0].theory = &gg_theory_enskog_hermite;
   c.theory[0].applies = true;
   gg_theory_answer *a = &c.theory[0].answer;
   a->value[GG_Q_TEMPERATURE] = 2, a->error[GG_Q_TEMPERATURE] = 0.006;
   a->value[GG_Q_N1] = 0.1, a->error[GG_Q_N1] = NAN;
   a->value[GG_Q_A2] = 0.1, a->error[GG_Q_A2] = 0.001;
   a->value[GG_Q_N2] = NAN;
-  assert_true(gg_depart_from_enskog(&c, GG_MD, GG_Q_TEMPERATURE, &d));
+  assert_true(gg_run_enskog_deviation(&c, GG_MD, GG_Q_TEMPERATURE, &d));
   assert_true(fabs(d.difference - 0.2) < 1e-12 && fabs(d.error - 0.01) < 1e-12 && fabs(d.z - 20) < 1e-9);
   assert_true(fabs(d.deviation - 0.1) < 1e-12 && fabs(d.deviation_error - 0.005) < 1e-12 && d.headline);
-  assert_true(gg_disagree(&c, GG_Q_TEMPERATURE));
-  assert_true(gg_depart_from_enskog(&c, GG_DSMC, GG_Q_TEMPERATURE, &d));
+  assert_true(gg_run_results_disagree(&c, GG_Q_TEMPERATURE));
+  assert_true(gg_run_enskog_deviation(&c, GG_DSMC, GG_Q_TEMPERATURE, &d));
   assert_true(fabs(d.z - 0.1 / hypot(0.1, 0.006)) < 1e-9);
-  assert_true(gg_depart_from_enskog(&c, GG_MD, GG_Q_N1, &d));
+  assert_true(gg_run_enskog_deviation(&c, GG_MD, GG_Q_N1, &d));
   assert_true(fabs(d.difference - 0.01) < 1e-12 && fabs(d.z - 1) < 1e-9 && isnan(d.deviation));
-  assert_false(gg_depart_from_enskog(&c, GG_MD, GG_Q_A2, &d)); /* no error of md's */
-  assert_false(gg_depart_from_enskog(&c, GG_MD, GG_Q_N2, &d)); /* no solution */
+  assert_false(gg_run_enskog_deviation(&c, GG_MD, GG_Q_A2, &d)); /* no error of md's */
+  assert_false(gg_run_enskog_deviation(&c, GG_MD, GG_Q_N2, &d)); /* no solution */
 
   dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 2.2, .error = 0.001}; /* biased as md */
-  assert_true(gg_disagree(&c, GG_Q_TEMPERATURE));
+  assert_true(gg_run_results_disagree(&c, GG_Q_TEMPERATURE));
   c.by_engine[GG_DSMC] = NULL;
-  assert_true(gg_disagree(&c, GG_Q_TEMPERATURE));
+  assert_true(gg_run_results_disagree(&c, GG_Q_TEMPERATURE));
   c.theory[0].applies = false;
-  assert_false(gg_disagree(&c, GG_Q_TEMPERATURE));
+  assert_false(gg_run_results_disagree(&c, GG_Q_TEMPERATURE));
 }
 
 /* Theories are remarked on where they are off by more than four errors and more than expected: with the cause that
@@ -115,14 +115,14 @@ static void remarks(void **state)
   for (int i = 0; i < 5; i++) {
     gg_theory_remark r[GG_MOST_THEORIES];
     for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = cases[i].e;
-    assert_int_equal(gg_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
-    assert_int_equal(gg_compare_theories(&c.model, &c, NULL), GG_OK);
+    assert_int_equal(gg_common_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+    assert_int_equal(gg_run_compare_theories(&c.model, &c, NULL), GG_OK);
     for (int k = 0; k < c.n_theories; k++) c.theory[k].applies = strcmp(c.theory[k].theory->name, "lun1991") == 0;
     for (int q = 0; q < GG_N_QUANTITIES; q++) md.value[q].mean = dsmc.value[q].mean = NAN;
     md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = cases[i].md, .error = cases[i].error};
     dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = cases[i].dsmc, .error = cases[i].error};
     for (int k = 0; k < c.n_theories; k++) c.theory[k].answer.value[GG_Q_TEMPERATURE] = cases[i].lun;
-    int n = gg_theory_remarks(&c, r);
+    int n = gg_run_theory_remarks(&c, r);
     assert_int_equal(n, cases[i].cause ? 1 : 0);
     if (n == 0) continue;
     assert_int_equal(r[0].quantity, GG_Q_TEMPERATURE);

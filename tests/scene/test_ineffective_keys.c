@@ -19,7 +19,7 @@ static gg_text_list inert(const char *yaml, unsigned uses)
 {
   gg_error err = {0};
   gg_text_list lines = {0};
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   gg_status status = gg_scene_read(&scene, yaml, strlen(yaml), "s", &err);
   if (status == GG_OK) status = gg_scene_finish(&scene, &err);
   if (status != GG_OK) print_message("%s: %s\n", yaml, err.message);
@@ -35,14 +35,14 @@ static void assert_line(const char *yaml, unsigned uses, const char *expected)
   if (lines.n != (expected ? 1 : 0)) print_message("%s: %zu lines, %s\n", yaml, lines.n, lines.n ? lines.text[0] : "");
   assert_int_equal(lines.n, expected ? 1 : 0);
   if (expected) assert_string_equal(lines.text[0], expected);
-  gg_text_list_clear(&lines);
+  gg_base_string_list_clear(&lines);
 }
 
 static void flows(void **state)
 {
   (void)state;
   char words[160], expected[240];
-  gg_flow_list(gg_flow_is_sheared, words, sizeof words);
+  gg_common_flow_list(gg_flow_is_sheared, words, sizeof words);
   snprintf(expected, sizeof expected, "shear_rate, temperature have no effect but in flow: %s", words);
   assert_line("{flow: hcs, phi: 0.1, shear_rate: 2, temperature: 3}", BOTH, expected);
   assert_line("{flow: usf, phi: 0.1, shear_rate: 2, temperature: 3}", BOTH, NULL);
@@ -139,15 +139,15 @@ static void defaults_are_not_told(void **state)
                           "{flow: couette, phi: 0.2}", "{flow: hcs, phi: 0.1, shear_rate: 2}"};
   for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
     gg_error err;
-    gg_scene s = gg_scene_defaults();
+    gg_scene s = gg_common_scene_defaults();
     assert_int_equal(gg_scene_read(&s, scenes[i], strlen(scenes[i]), "s", &err), GG_OK);
     assert_int_equal(gg_scene_finish(&s, &err), GG_OK);
     char *yaml = gg_scene_yaml(&s);
     gg_text_list once = inert(scenes[i], BOTH), again = inert(yaml, BOTH);
     assert_int_equal(once.n, i == 4);
     assert_int_equal(again.n, once.n);
-    gg_text_list_clear(&once);
-    gg_text_list_clear(&again);
+    gg_base_string_list_clear(&once);
+    gg_base_string_list_clear(&again);
     free(yaml);
   }
 }

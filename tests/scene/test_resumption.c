@@ -14,7 +14,7 @@
 
 static gg_scene scene_of(void)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.phi = 0.1;
   return s;
 }
@@ -22,9 +22,9 @@ static gg_scene scene_of(void)
 static gg_status resume(const gg_scene *before, const gg_scene *now, gg_error *err)
 {
   gg_archive a = {0};
-  assert_int_equal(gg_resumption_put(before, &a, err), GG_OK);
-  gg_status status = gg_resumption_check(now, &a, err);
-  gg_archive_clear(&a);
+  assert_int_equal(gg_scene_resumption_put(before, &a, err), GG_OK);
+  gg_status status = gg_scene_resumption_check(now, &a, err);
+  gg_base_archive_clear(&a);
   return status;
 }
 
@@ -43,12 +43,12 @@ static void change(const gg_field *f, gg_scene *s)
     return;
   case GG_FIELD_CHOICE:
     memcpy(&word, at, sizeof word);
-    word = gg_field_word(f, gg_field_word(f, 0).value == word).value;
+    word = gg_scene_field_word(f, gg_scene_field_word(f, 0).value == word).value;
     memcpy(at, &word, sizeof word);
     return;
   case GG_FIELD_SET:
     memcpy(&word, at, sizeof word);
-    word ^= gg_field_word(f, 1).value;
+    word ^= gg_scene_field_word(f, 1).value;
     memcpy(at, &word, sizeof word);
     return;
   default: /* numbers: the last of three, of pairs the first; of a species its fraction */

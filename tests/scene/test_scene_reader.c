@@ -15,7 +15,7 @@
 static gg_scene parse(const char *yaml)
 {
   gg_error err = {0};
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   gg_status status = gg_scene_read(&scene, yaml, strlen(yaml), "s.yaml", &err);
   if (status == GG_OK) status = gg_scene_finish(&scene, &err);
   if (status != GG_OK) print_message("unexpected: %s\n", err.message);
@@ -62,7 +62,7 @@ static void reads_every_key(void **state)
 static void defaults(void **state)
 {
   (void)state;
-  gg_scene s = parse("flow: usf\nphi: 0.3\n"), d = gg_scene_defaults();
+  gg_scene s = parse("flow: usf\nphi: 0.3\n"), d = gg_common_scene_defaults();
   d.phi = 0.3;
   assert_true(gg_scene_is_given(&s, "flow") && gg_scene_is_given(&s, "phi") && !gg_scene_is_given(&s, "engine"));
   d.given = s.given;
@@ -193,11 +193,11 @@ static void older_words(void **state)
   (void)state;
   char off[] = "flow: hss\nphi: 0.1\nsmall_shear: off\nparticles: 123\n";
   char on[] = "flow: usf\nphi: 0.1\nsmall_shear: on\nparticles: 123\n", today[] = "flow: usf\nphi: 0.1\n";
-  gg_stored_scene_in_words_of_today(off);
+  gg_files_stored_scene_update_words(off);
   assert_string_equal(off, "flow: hss\nphi: 0.1\nparticles: 123\n");
-  gg_stored_scene_in_words_of_today(on);
+  gg_files_stored_scene_update_words(on);
   assert_string_equal(on, "flow: small_shear\nphi: 0.1\nparticles: 123\n");
-  gg_stored_scene_in_words_of_today(today);
+  gg_files_stored_scene_update_words(today);
   assert_string_equal(today, "flow: usf\nphi: 0.1\n");
 }
 

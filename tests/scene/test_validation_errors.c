@@ -13,7 +13,7 @@
 
 static gg_status read_and_finish(const char *yaml, gg_error *err)
 {
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   gg_status status = gg_scene_read(&scene, yaml, strlen(yaml), "s.yaml", err);
   return status == GG_OK ? gg_scene_finish(&scene, err) : status;
 }
@@ -242,12 +242,12 @@ static void rubbish(void **state)
 static void edit_distance(void **state)
 {
   (void)state;
-  assert_int_equal(gg_edit_distance("", "abc"), 3);
-  assert_int_equal(gg_edit_distance("kitten", "sitting"), 3);
-  assert_int_equal(gg_edit_distance("flaw", "lawn"), 2);
-  assert_int_equal(gg_edit_distance("output", "outptu"), 1);
-  assert_int_equal(gg_edit_distance("Phi", "phi"), 0);
-  assert_int_equal(gg_edit_distance("ca", "abc"), 3);
+  assert_int_equal(gg_base_spelling_distance("", "abc"), 3);
+  assert_int_equal(gg_base_spelling_distance("kitten", "sitting"), 3);
+  assert_int_equal(gg_base_spelling_distance("flaw", "lawn"), 2);
+  assert_int_equal(gg_base_spelling_distance("output", "outptu"), 1);
+  assert_int_equal(gg_base_spelling_distance("Phi", "phi"), 0);
+  assert_int_equal(gg_base_spelling_distance("ca", "abc"), 3);
 }
 
 int main(void)

@@ -9,21 +9,21 @@ static void correlation_time(void **state)
   (void)state;
   enum { N = 100000 };
   static double x[N];
-  gg_rng r = gg_rng_seed(11, 0);
+  gg_rng r = gg_common_rng_seed(11, 0);
   const double rho[] = {0, 0.5, 0.9, 0.98};
   for (int i = 0; i < 4; i++) {
     double p = rho[i], expected = (1 + p) / (2 * (1 - p));
     planted_autoregressive(&r, p, x, N);
     for (size_t runs = 1; runs <= 10; runs += 9) {
       gg_correlation c;
-      assert_int_equal(gg_correlation_of(x, N / runs, runs, 0, &c, NULL), GG_OK);
+      assert_int_equal(gg_statistics_correlation_of(x, N / runs, runs, 0, &c, NULL), GG_OK);
       assert_true(fabs(c.time / expected - 1) < (runs == 1 ? 0.1 : 0.15));
-      assert_true(fabs(gg_correlation_inflation(&c, N) / (2 * c.time) - 1) < 0.01);
+      assert_true(fabs(gg_statistics_correlation_inflation(&c, N) / (2 * c.time) - 1) < 0.01);
       for (size_t L = 1; L < 300; L *= 4) {
         double few = (1 + p) / (1 - p) - 2 * p * (1 - pow(p, (double)L)) / ((double)L * (1 - p) * (1 - p));
-        assert_true(fabs(gg_correlation_inflation(&c, L) / few - 1) < 0.15);
+        assert_true(fabs(gg_statistics_correlation_inflation(&c, L) / few - 1) < 0.15);
       }
-      gg_correlation_clear(&c);
+      gg_statistics_correlation_clear(&c);
     }
   }
 }

@@ -9,14 +9,14 @@ static void honest_errors(void **state)
   (void)state;
   enum { N = 4000, SERIES = 400 };
   static double x[N];
-  gg_rng r = gg_rng_seed(12, 0);
+  gg_rng r = gg_common_rng_seed(12, 0);
   const double rho[] = {0, 0.9, 0.97};
   for (int k = 0; k < 3; k++) {
     double sum = 0;
     for (int s = 0; s < SERIES; s++) {
       gg_mean m;
       planted_autoregressive(&r, rho[k], x, N);
-      assert_int_equal(gg_estimate_scalar(x, N, 1, &m, NULL), GG_OK);
+      assert_int_equal(gg_statistics_estimate_scalar(x, N, 1, &m, NULL), GG_OK);
       sum += m.mean * m.mean / (m.error * m.error);
     }
     double variance = sum / SERIES; /* of Student's t with ~ 16-60 degrees: 1.03-1.15; scatter sqrt(2/400) = 0.07 */
@@ -31,7 +31,7 @@ static void short_windows(void **state)
   (void)state;
   enum { SERIES = 4000, T = 20 };
   static double x[60 * T];
-  gg_rng r = gg_rng_seed(18, 0);
+  gg_rng r = gg_common_rng_seed(18, 0);
   double rho = exp(-1.0 / T);
   for (size_t runs = 1; runs <= 3; runs += 2) {
     double mean2 = 0, z2 = 0;
@@ -39,7 +39,7 @@ static void short_windows(void **state)
     for (int s = 0; s < SERIES; s++) {
       gg_mean m;
       for (size_t k = 0; k < runs; k++) planted_autoregressive(&r, rho, x + k * n, n);
-      assert_int_equal(gg_estimate_scalar(x, n, runs, &m, NULL), GG_OK);
+      assert_int_equal(gg_statistics_estimate_scalar(x, n, runs, &m, NULL), GG_OK);
       mean2 += m.mean * m.mean / SERIES;
       z2 += m.mean * m.mean / (m.error * m.error) / SERIES;
     }
@@ -60,14 +60,14 @@ static void coverage(void **state)
   enum { SERIES = 2000, T = 10 };
   static double x[200 * T];
   static const int lengths[] = {30, 60, 200};
-  gg_rng r = gg_rng_seed(19, 0);
+  gg_rng r = gg_common_rng_seed(19, 0);
   for (int k = 0; k < 3; k++) {
     size_t n = (size_t)lengths[k] * T;
     double in68 = 0, in95 = 0;
     for (int s = 0; s < SERIES; s++) {
       gg_mean m;
       planted_autoregressive(&r, (2.0 * T - 1) / (2 * T + 1), x, n);
-      assert_int_equal(gg_estimate_scalar(x, n, 1, &m, NULL), GG_OK);
+      assert_int_equal(gg_statistics_estimate_scalar(x, n, 1, &m, NULL), GG_OK);
       in68 += fabs(m.mean) <= m.error, in95 += fabs(m.mean) <= 1.96 * m.error;
     }
     in68 /= SERIES, in95 /= SERIES;
@@ -86,12 +86,12 @@ static double ratio(const double *mean, const gg_model *m)
 static gg_series planted_ratio(gg_rng *r, size_t n)
 {
   gg_series s;
-  assert_int_equal(gg_series_init(&s, 3, NULL), GG_OK);
+  assert_int_equal(gg_statistics_series_init(&s, 3, NULL), GG_OK);
   double slow = 0;
   for (size_t i = 0; i < n; i++) {
-    slow = 0.8 * slow + 0.1 * gg_rng_normal(r);
-    double row[3] = {0, 3 * (1 + slow) + 0.02 * gg_rng_normal(r), 2 * (1 + slow)};
-    gg_series_add(&s, (double)i, row);
+    slow = 0.8 * slow + 0.1 * gg_common_rng_normal(r);
+    double row[3] = {0, 3 * (1 + slow) + 0.02 * gg_common_rng_normal(r), 2 * (1 + slow)};
+    gg_statistics_series_add(&s, (double)i, row);
   }
   return s;
 }
@@ -101,17 +101,18 @@ static gg_series planted_ratio(gg_rng *r, size_t n)
 static void ratios(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(13, 0);
+  gg_rng r = gg_common_rng_seed(13, 0);
   gg_model model = {0};
   double sum = 0;
   for (int i = 0; i < 100; i++) {
     gg_series s = planted_ratio(&r, 2000);
     const gg_series *list[] = {&s};
     gg_mean m;
-    assert_int_equal(gg_estimate_mean(list, 1, 0, s.n, 1, 2, (gg_function){.of = ratio}, &model, &m, NULL), GG_OK);
+    assert_int_equal(gg_statistics_estimate_mean(list, 1, 0, s.n, 1, 2, (gg_function){.of = ratio}, &model, &m, NULL),
+                     GG_OK);
     assert_true(m.error < 0.0005); /* 0.02/2/sqrt(2000) = 0.00022; the common part alone would give 0.005 */
     sum += pow((m.mean - 1.5) / m.error, 2);
-    gg_series_clear(&s);
+    gg_statistics_series_clear(&s);
   }
   assert_true(sum / 100 > 0.5 && sum / 100 < 1.8);
 }
@@ -127,28 +128,28 @@ static double inverse(const double *a, const gg_model *m)
 static void small_channels(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(14, 0);
+  gg_rng r = gg_common_rng_seed(14, 0);
   gg_model model = {0};
   gg_series s = planted_ratio(&r, 2000), t;
   gg_mean m, n;
   for (double unit = 1; unit > 1e-30; unit *= 1e-4) {
-    assert_int_equal(gg_series_init(&t, 3, NULL), GG_OK);
+    assert_int_equal(gg_statistics_series_init(&t, 3, NULL), GG_OK);
     for (size_t i = 0; i < s.n; i++) {
       const double *x = gg_series_row(&s, i);
-      gg_series_add(&t, i, (double[]){x[0], unit * x[1], unit * x[2]});
+      gg_statistics_series_add(&t, i, (double[]){x[0], unit * x[1], unit * x[2]});
     }
     const gg_series *one[] = {&s}, *other[] = {&t};
     for (int k = 0; k < 2; k++) {
       const gg_function f = {.of = k ? inverse : ratio};
       const size_t offset = k ? 0 : 1;
-      assert_int_equal(gg_estimate_mean(one, 1, 0, s.n, offset, 2, f, &model, &m, NULL), GG_OK);
-      assert_int_equal(gg_estimate_mean(other, 1, 0, t.n, offset, 2, f, &model, &n, NULL), GG_OK);
+      assert_int_equal(gg_statistics_estimate_mean(one, 1, 0, s.n, offset, 2, f, &model, &m, NULL), GG_OK);
+      assert_int_equal(gg_statistics_estimate_mean(other, 1, 0, t.n, offset, 2, f, &model, &n, NULL), GG_OK);
       if (fabs(n.error / n.mean / (m.error / m.mean) - 1) > 1e-4)
         fail_msg("in units of %g: %g of %g, %g of %g", unit, n.error, n.mean, m.error, m.mean);
     }
-    gg_series_clear(&t);
+    gg_statistics_series_clear(&t);
   }
-  gg_series_clear(&s);
+  gg_statistics_series_clear(&s);
 }
 
 /* Two channels of which one follows the other, as spins follow T: both are slow, the ratio is fast and comes back with
@@ -158,23 +159,24 @@ static void followers(void **state)
 {
   (void)state;
   enum { SERIES = 3000, N = 400, BEFORE = 100 };
-  gg_rng r = gg_rng_seed(20, 0);
+  gg_rng r = gg_common_rng_seed(20, 0);
   gg_model model = {0};
   double z2 = 0;
   for (int k = 0; k < SERIES; k++) {
     double first = 0, second = 0;
     gg_series s;
-    assert_int_equal(gg_series_init(&s, 2, NULL), GG_OK);
+    assert_int_equal(gg_statistics_series_init(&s, 2, NULL), GG_OK);
     for (int i = 0; i < BEFORE + N; i++) {
-      second += 0.5 * (0.8 * first - second) + 0.008 * gg_rng_normal(&r);
-      first = 0.8 * first + 0.01 * gg_rng_normal(&r);
-      if (i >= BEFORE) gg_series_add(&s, i, (double[]){1 + second, 1 + first});
+      second += 0.5 * (0.8 * first - second) + 0.008 * gg_common_rng_normal(&r);
+      first = 0.8 * first + 0.01 * gg_common_rng_normal(&r);
+      if (i >= BEFORE) gg_statistics_series_add(&s, i, (double[]){1 + second, 1 + first});
     }
     const gg_series *list[] = {&s};
     gg_mean m;
-    assert_int_equal(gg_estimate_mean(list, 1, 0, N, 0, 2, (gg_function){.of = ratio}, &model, &m, NULL), GG_OK);
+    assert_int_equal(gg_statistics_estimate_mean(list, 1, 0, N, 0, 2, (gg_function){.of = ratio}, &model, &m, NULL),
+                     GG_OK);
     z2 += pow((m.mean - 1) / m.error, 2) / SERIES;
-    gg_series_clear(&s);
+    gg_statistics_series_clear(&s);
   }
   print_message("# followers: z^2 %.3f\n", z2);
   assert_true(fabs(z2 - 1) < 0.05 + 4 * sqrt(2.0 / SERIES));
@@ -184,16 +186,18 @@ static void followers(void **state)
 static void replicas(void **state)
 {
   (void)state;
-  gg_rng r = gg_rng_seed(14, 0);
+  gg_rng r = gg_common_rng_seed(14, 0);
   gg_model model = {0};
   gg_series s[4];
   const gg_series *list[4];
   for (int i = 0; i < 4; i++) s[i] = planted_ratio(&r, 1500), list[i] = &s[i];
   gg_mean one, four;
-  assert_int_equal(gg_estimate_mean(list, 1, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, &one, NULL), GG_OK);
-  assert_int_equal(gg_estimate_mean(list, 4, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, &four, NULL), GG_OK);
+  assert_int_equal(gg_statistics_estimate_mean(list, 1, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, &one, NULL),
+                   GG_OK);
+  assert_int_equal(gg_statistics_estimate_mean(list, 4, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, &four, NULL),
+                   GG_OK);
   assert_true(fabs(one.error / four.error - 2) < 0.8);
-  for (int i = 0; i < 4; i++) gg_series_clear(&s[i]);
+  for (int i = 0; i < 4; i++) gg_statistics_series_clear(&s[i]);
 }
 
 /* Runs of so few rows that they hang together: errors know of it (where two rows or three were taken as independent:
@@ -203,13 +207,13 @@ static void short_runs(void **state)
   (void)state;
   enum { SERIES = 2000, RUNS = 12 };
   double x[RUNS * 5];
-  gg_rng r = gg_rng_seed(20, 0);
+  gg_rng r = gg_common_rng_seed(20, 0);
   for (size_t n = 2; n <= 5; n++) {
     double z2 = 0;
     for (int s = 0; s < SERIES; s++) {
       gg_mean m;
       for (size_t k = 0; k < RUNS; k++) planted_autoregressive(&r, 0.9, x + k * n, n);
-      assert_int_equal(gg_estimate_scalar(x, n, RUNS, &m, NULL), GG_OK);
+      assert_int_equal(gg_statistics_estimate_scalar(x, n, RUNS, &m, NULL), GG_OK);
       z2 += m.mean * m.mean / (m.error * m.error) / SERIES;
     }
     print_message("# %zu rows a run: z^2 %.3f\n", n, z2);

@@ -9,13 +9,13 @@ static void long_series(void **state)
 {
   (void)state;
   gg_series s, t;
-  assert_int_equal(gg_series_init(&s, 2, NULL), GG_OK);
+  assert_int_equal(gg_statistics_series_init(&s, 2, NULL), GG_OK);
   double n = 3.7 * GG_SERIES_ROWS, in_window = 0, sum = 0;
-  gg_rng r = gg_rng_seed(16, 0);
+  gg_rng r = gg_common_rng_seed(16, 0);
   for (int i = 0; i < (int)n; i++) {
-    if (i == 5001) gg_series_open_window(&s);
-    double row[2] = {gg_rng_normal(&r), i};
-    gg_series_add(&s, i, row);
+    if (i == 5001) gg_statistics_series_open_window(&s);
+    double row[2] = {gg_common_rng_normal(&r), i};
+    gg_statistics_series_add(&s, i, row);
     if (i >= 5001) sum += row[0], in_window++;
   }
   assert_int_equal(s.per_row, 4);
@@ -26,16 +26,16 @@ static void long_series(void **state)
               5e-4); /* up to 3 samples where the window opens and 3 pending are left out */
   assert_true(gg_series_row(&s, s.window)[1] >= 5001); /* no row mixes warm-up into the window */
   gg_archive a = {0};
-  assert_int_equal(gg_series_save(&s, &a, NULL), GG_OK);
-  assert_int_equal(gg_series_init(&t, 2, NULL), GG_OK);
-  assert_int_equal(gg_series_restore(&t, &a, NULL), GG_OK);
+  assert_int_equal(gg_statistics_series_save(&s, &a, NULL), GG_OK);
+  assert_int_equal(gg_statistics_series_init(&t, 2, NULL), GG_OK);
+  assert_int_equal(gg_statistics_series_restore(&t, &a, NULL), GG_OK);
   for (int i = 0; i < 10; i++) {
     double row[2] = {i, i};
-    gg_series_add(&s, n + i, row), gg_series_add(&t, n + i, row);
+    gg_statistics_series_add(&s, n + i, row), gg_statistics_series_add(&t, n + i, row);
   }
   assert_int_equal(s.n, t.n);
   assert_memory_equal(s.rows, t.rows, s.n * 2 * sizeof(double));
-  gg_archive_clear(&a), gg_series_clear(&s), gg_series_clear(&t);
+  gg_base_archive_clear(&a), gg_statistics_series_clear(&s), gg_statistics_series_clear(&t);
 }
 
 /* Numbers that no series has are refused: they would lead out of its rows, or round and round. */
@@ -54,13 +54,13 @@ static void made_to_harm(void **state)
     gg_archive a = {0};
     const size_t n = heads[k][1];
     double *rows = calloc(2 * n, sizeof *rows), partial[2] = {0};
-    assert_int_equal(gg_series_init(&s, 2, NULL), GG_OK);
-    assert_int_equal(gg_archive_put(&a, "series/head", GG_ITEM_U64, heads[k], 5, NULL), GG_OK);
-    assert_int_equal(gg_archive_put(&a, "series/rows", GG_ITEM_F64, rows, 2 * n, NULL), GG_OK);
-    assert_int_equal(gg_archive_put(&a, "series/end_time", GG_ITEM_F64, rows, n, NULL), GG_OK);
-    assert_int_equal(gg_archive_put(&a, "series/partial", GG_ITEM_F64, partial, 2, NULL), GG_OK);
-    assert_int_equal(gg_series_restore(&s, &a, NULL), GG_BAD_FILE);
-    gg_archive_clear(&a), gg_series_clear(&s);
+    assert_int_equal(gg_statistics_series_init(&s, 2, NULL), GG_OK);
+    assert_int_equal(gg_base_archive_put(&a, "series/head", GG_ITEM_U64, heads[k], 5, NULL), GG_OK);
+    assert_int_equal(gg_base_archive_put(&a, "series/rows", GG_ITEM_F64, rows, 2 * n, NULL), GG_OK);
+    assert_int_equal(gg_base_archive_put(&a, "series/end_time", GG_ITEM_F64, rows, n, NULL), GG_OK);
+    assert_int_equal(gg_base_archive_put(&a, "series/partial", GG_ITEM_F64, partial, 2, NULL), GG_OK);
+    assert_int_equal(gg_statistics_series_restore(&s, &a, NULL), GG_BAD_FILE);
+    gg_base_archive_clear(&a), gg_statistics_series_clear(&s);
     free(rows);
   }
 }
@@ -70,16 +70,16 @@ static void coarsened(void **state)
 {
   (void)state;
   gg_series s;
-  assert_int_equal(gg_series_init(&s, 1, NULL), GG_OK);
+  assert_int_equal(gg_statistics_series_init(&s, 1, NULL), GG_OK);
   for (int i = 0; i < 11; i++) {
-    if (i == 3) gg_series_open_window(&s);
-    gg_series_add(&s, i + 1, &(double){i});
+    if (i == 3) gg_statistics_series_open_window(&s);
+    gg_statistics_series_add(&s, i + 1, &(double){i});
   }
-  gg_series_coarsen(&s, 2);
+  gg_statistics_series_coarsen(&s, 2);
   assert_true(s.n == 5 && s.per_row == 2 && s.window == 2);
   for (size_t i = 0; i < 5; i++)
     assert_true(gg_series_row(&s, i)[0] == 2 * (double)i + 0.5 && s.end_time[i] == 2 * (double)i + 2);
-  gg_series_clear(&s);
+  gg_statistics_series_clear(&s);
 }
 
 int main(void)

@@ -9,23 +9,23 @@ static void trends(void **state)
   (void)state;
   enum { N = 3000 };
   static double x[N];
-  gg_rng r = gg_rng_seed(15, 0);
+  gg_rng r = gg_common_rng_seed(15, 0);
   gg_trend d;
   for (int s = 0; s < 200; s++) {
     planted_autoregressive(&r, 0.8, x, N);
     for (int i = 0; i < N; i++) x[i] += 10;
-    assert_int_equal(gg_trend_test(x, N, 1, &d, NULL), GG_OK);
+    assert_int_equal(gg_statistics_trend_test(x, N, 1, &d, NULL), GG_OK);
     assert_true(fabs(d.z) < 4);
   }
   int found = 0;
   for (int s = 0; s < 50; s++) {
     planted_autoregressive(&r, 0.8, x, N);
     for (int i = 0; i < N; i++) x[i] += 10 - 2 * exp(-3.0 * i / N);
-    assert_int_equal(gg_trend_test(x, N, 1, &d, NULL), GG_OK);
+    assert_int_equal(gg_statistics_trend_test(x, N, 1, &d, NULL), GG_OK);
     found += d.z > 4;
   }
   assert_true(found >= 48);
-  assert_int_equal(gg_trend_test(x, 10, 1, &d, NULL), GG_OK);
+  assert_int_equal(gg_statistics_trend_test(x, 10, 1, &d, NULL), GG_OK);
   assert_true(isnan(d.z)); /* ten rows tell nothing */
 }
 
@@ -37,7 +37,7 @@ static void beginnings(void **state)
   (void)state;
   enum { N = 3000, T = 50, SERIES = 60 };
   static double x[N];
-  gg_rng r = gg_rng_seed(16, 0);
+  gg_rng r = gg_common_rng_seed(16, 0);
   gg_trend d;
   int found[2] = {0, 0}, silent = 0;
   for (int s = 0; s < SERIES; s++) {
@@ -45,12 +45,12 @@ static void beginnings(void **state)
       size_t n = N / runs;
       for (size_t k = 0; k < runs; k++) planted_autoregressive(&r, 0.8, x + k * n, n);
       for (size_t i = 0; i < N; i++) x[i] += 10 + 6 * exp(-(double)(i % n) / T);
-      assert_int_equal(gg_trend_test(x, n, runs, &d, NULL), GG_OK);
+      assert_int_equal(gg_statistics_trend_test(x, n, runs, &d, NULL), GG_OK);
       found[runs / 2] += d.z < -4 && d.share < 0.1 && d.relative < 0;
     }
     planted_autoregressive(&r, 0.8, x, N);
     for (int i = 0; i < N; i++) x[i] = exp(x[i] / 4);
-    assert_int_equal(gg_trend_test(x, N, 1, &d, NULL), GG_OK);
+    assert_int_equal(gg_statistics_trend_test(x, N, 1, &d, NULL), GG_OK);
     silent += fabs(d.z) < 4;
   }
   print_message("# found in %d and %d of %d, silent in %d\n", found[0], found[1], SERIES, silent);

@@ -185,8 +185,8 @@ static void check_combination(const char *yaml, size_t i, size_t first, const ch
 {
   char text[GG_COMBINATION_NAME];
   gg_sweep *sweep = sweep_of(yaml);
-  assert_int_equal(gg_combination_of(sweep, i, 1), first);
-  gg_combination_name(sweep, first, 1, text);
+  assert_int_equal(gg_sweep_line_group_of(sweep, i, 1), first);
+  gg_sweep_line_group_name(sweep, first, 1, text);
   assert_string_equal(text, name);
   gg_sweep_free(sweep);
 }

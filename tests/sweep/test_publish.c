@@ -46,7 +46,7 @@ static void without_memory(void **state)
     gg_error err;
     fill();
     failing_malloc_arm(1, 1, NULL);
-    gg_status status = gg_point_publish(".", POINT, fell_short, &err);
+    gg_status status = gg_sweep_point_publish(".", POINT, fell_short, &err);
     failing_malloc_disarm(NULL);
     assert_int_equal(status, GG_OK);
     assert_int_equal(access(work, F_OK), -1);
@@ -61,7 +61,7 @@ static void refused(void **state)
   gg_error err;
   fill();
   assert_int_equal(mkdir("0000000000000abc.h5", 0777), 0);
-  assert_int_equal(gg_point_publish(".", POINT, false, &err), GG_BAD_FILE);
+  assert_int_equal(gg_sweep_point_publish(".", POINT, false, &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "./0000000000000abc.h5: cannot be written: "));
   assert_int_equal(access(work, F_OK), -1);
   assert_int_equal(rmdir("0000000000000abc.h5"), 0);

@@ -28,7 +28,7 @@ static void check_as(const char *what, const tally *t, double scale, double expe
 /* A vector of covariance M (xy the only off-diagonal part). */
 static gg_vec draw(gg_rng *r, gg_tensor M)
 {
-  gg_vec n = gg_rng_normal_vec(r);
+  gg_vec n = gg_common_rng_normal_vec(r);
   double lx = sqrt(M.at[0][0]), off = M.at[0][1] / lx, ly = sqrt(M.at[1][1] - off * off);
   return (gg_vec){lx * n.x, off * n.x + ly * n.y, sqrt(M.at[2][2]) * n.z};
 }
@@ -43,9 +43,9 @@ static void check_pair(const gg_model *m, const gg_gaussian state[], int i, int 
                        uint64_t seed)
 {
   int o = gg_pair(i, j);
-  gg_rng rng = gg_rng_seed(seed, 0);
+  gg_rng rng = gg_common_rng_seed(seed, 0);
   tally M[9] = {{0}}, Theta[9] = {{0}}, P[9] = {{0}}, spin = {0}, flux = {0};
-  double sigma = m->sigma[o], weight = 4 * M_PI * m->density * gg_fraction(m, j) * m->chi[o] * sigma * sigma;
+  double sigma = m->sigma[o], weight = 4 * M_PI * m->density * gg_theory_fraction(m, j) * m->chi[o] * sigma * sigma;
   for (int n = 0; n < SAMPLES; n++) {
     gg_vec k = gg_rng_direction(&rng), c1 = draw(&rng, state[i].M), c2 = draw(&rng, state[j].M);
     gg_vec s1 = draw(&rng, state[i].Theta), s2 = draw(&rng, state[j].Theta);
@@ -72,7 +72,7 @@ static void check_pair(const gg_model *m, const gg_gaussian state[], int i, int 
   for (int a = 0; a < 9; a++) {
     check_as("M", &M[a], weight, expected->change[i].M.at[a / 3][a % 3]);
     check_as("Theta", &Theta[a], weight, expected->change[i].Theta.at[a / 3][a % 3]);
-    check_as("Pc", &P[a], (i == j ? 0.5 : 1) * weight * sigma * m->density * gg_fraction(m, i),
+    check_as("Pc", &P[a], (i == j ? 0.5 : 1) * weight * sigma * m->density * gg_theory_fraction(m, i),
              expected->Pc.at[a / 3][a % 3]);
   }
 }
@@ -99,7 +99,7 @@ static void gaussian_moments(void **state)
       for (int j = 0; j < 2; j++) {
         gg_model pair = only_pair(&m, i, j);
         gg_gaussian_rates r;
-        gg_gaussian_rates_at(&pair, gas, &r);
+        gg_theory_gaussian_rates_at(&pair, gas, &r);
         check_pair(&pair, gas, i, j, &r, (uint64_t)(100 + 10 * set + 2 * i + j));
       }
   }
@@ -120,12 +120,12 @@ static void sonine_rates(void **state)
     for (int j = 0; j < 2; j++) {
       gg_model m = mixture_for(GG_HCS, 0.2, e, -1, 3, 1.5, 0.5), pair = only_pair(&m, 0, j);
       double a[2] = {0.8, 1.9}, sigma = m.sigma[j];
-      double weight = 4 * M_PI * m.density * gg_fraction(&m, j) * m.chi[j] * sigma * sigma;
-      gg_rng rng = gg_rng_seed(7, (uint64_t)j);
+      double weight = 4 * M_PI * m.density * gg_theory_fraction(&m, j) * m.chi[j] * sigma * sigma;
+      gg_rng rng = gg_common_rng_seed(7, (uint64_t)j);
       tally moment[2][3] = {{{0}}};
       for (int n = 0; n < SAMPLES; n++) {
-        gg_vec k = gg_rng_direction(&rng), v1 = gg_scale(sqrt(a[0]), gg_rng_normal_vec(&rng));
-        gg_vec v2 = gg_scale(sqrt(a[j]), gg_rng_normal_vec(&rng)), c1 = v1, c2 = v2, none = {0, 0, 0},
+        gg_vec k = gg_rng_direction(&rng), v1 = gg_scale(sqrt(a[0]), gg_common_rng_normal_vec(&rng));
+        gg_vec v2 = gg_scale(sqrt(a[j]), gg_common_rng_normal_vec(&rng)), c1 = v1, c2 = v2, none = {0, 0, 0},
                g = gg_sub(v1, v2);
         double u = fmax(gg_dot(k, g), 0);
         gg_vec J = gg_impulse(GG_SMOOTH, &m.contact[0][j], k, g, u);
@@ -138,7 +138,7 @@ static void sonine_rates(void **state)
           add(&moment[1][w], u * weights[w] * (after * after - before * before));
         }
       }
-      gg_linear rate[2] = {gg_rate_v2(&pair, 0, a), gg_rate_v4(&pair, 0, a)};
+      gg_linear rate[2] = {gg_theory_rate_v2(&pair, 0, a), gg_theory_rate_v4(&pair, 0, a)};
       for (int p = 0; p < 2; p++) {
         check_as("rate", &moment[p][0], weight, rate[p].at0);
         check_as("slope in c_1", &moment[p][1], weight, rate[p].slope[0]);
@@ -156,13 +156,14 @@ static void friction(void **state)
     gg_scene s = scene_of(GG_HCS, 0.2, 0.85, 0.4);
     for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = mu[set / 3];
     gg_model m = model_of(&s);
-    gg_grain grain = gg_grain_of(&m);
+    gg_grain grain = gg_theory_grain_of(&m);
     double r = ratio[set % 3], K = grain.K;
-    gg_rng rng = gg_rng_seed(11, (uint64_t)set);
+    gg_rng rng = gg_common_rng_seed(11, (uint64_t)set);
     tally tr = {0}, rot = {0}, slides = {0};
     for (int n = 0; n < SAMPLES; n++) {
-      gg_vec k = gg_rng_direction(&rng), c1 = gg_rng_normal_vec(&rng), c2 = gg_rng_normal_vec(&rng);
-      gg_vec s1 = gg_scale(sqrt(r / K), gg_rng_normal_vec(&rng)), s2 = gg_scale(sqrt(r / K), gg_rng_normal_vec(&rng));
+      gg_vec k = gg_rng_direction(&rng), c1 = gg_common_rng_normal_vec(&rng), c2 = gg_common_rng_normal_vec(&rng);
+      gg_vec s1 = gg_scale(sqrt(r / K), gg_common_rng_normal_vec(&rng)),
+             s2 = gg_scale(sqrt(r / K), gg_common_rng_normal_vec(&rng));
       double before_tr = gg_dot(c1, c1) + gg_dot(c2, c2), before_rot = gg_dot(s1, s1) + gg_dot(s2, s2);
       gg_vec g = gg_contact_velocity(GG_FRICTIONAL, k, gg_sub(c1, c2), s1, s2);
       /* The normal velocity of a collision: its flux-weighted distribution is g exp(-g^2/4)/2. */
@@ -178,10 +179,10 @@ static void friction(void **state)
       gg_vec gt = gg_axpy(-flux, k, g);
       add(&slides, gg_dot(Jt, Jt) < 0.999999 * m.contact[0][0].jt * m.contact[0][0].jt * gg_dot(gt, gt));
     }
-    gg_exchange x = gg_exchange_at(grain, mu[set / 3], r);
+    gg_exchange x = gg_theory_exchange_at(grain, mu[set / 3], r);
     check_as("translation", &tr, 1, x.translation);
     check_as("rotation", &rot, 1, x.rotation);
-    check_as("sliding", &slides, 1, gg_sliding_share(grain, mu[set / 3], r));
+    check_as("sliding", &slides, 1, gg_theory_sliding_share(grain, mu[set / 3], r));
   }
 }
 

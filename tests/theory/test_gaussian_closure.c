@@ -6,7 +6,7 @@
 static gg_theory_answer closure(double phi, double e, double beta)
 {
   gg_model m = model_for(GG_USF, phi, e, beta);
-  return answer_of(&gg_gaussian_closure, &m);
+  return answer_of(&gg_theory_gaussian_closure, &m);
 }
 
 /* The steady state is steady to 1e-9 and found, wherever a scene may lie, in fifty milliseconds on average. */
@@ -19,7 +19,7 @@ static void is_steady_everywhere(void **state)
     double phi = phis[i % 4], e = es[i / 4 % 3], beta = betas[i / 12 % 4], mass = masses[i / 48];
     gg_model m = mass == 1 ? model_for(GG_USF, phi, e, beta) : mixture_for(GG_USF, phi, e, beta, mass, 1.5, 1);
     gg_gaussian s[2];
-    double left = gg_gaussian_steady(&m, s);
+    double left = gg_theory_gaussian_steady(&m, s);
     if (!(left < 1e-9)) fail_msg("phi %g e %g beta %g mass %g: residual %g", phi, e, beta, mass, left);
   }
 }
@@ -43,7 +43,7 @@ static void nearly_elastic(void **state)
     gg_model model[] = {unlike(0, e, 100, 2), unlike(0.1, e, 10, 1), model_for(GG_USF, 0, e, 1),
                         model_for(GG_USF, 0.3, e, -1)};
     for (int i = 0; i < 4; i++) {
-      gg_theory_answer a = answer_of(&gg_gaussian_closure, &model[i]);
+      gg_theory_answer a = answer_of(&gg_theory_gaussian_closure, &model[i]);
       double T = a.value[GG_Q_TEMPERATURE] * (1 - e), N1 = a.value[GG_Q_N1] / (1 - e);
       if (k == 0) first[i][0] = T, first[i][1] = N1;
       assert_close(T, first[i][0], 1e-5);
@@ -78,7 +78,7 @@ static void unlike_losses(void **state)
   s.collision.beta[gg_pair(0, 1)] = -0.6, s.collision.beta[gg_pair(1, 1)] = -1;
   gg_model m = model_of(&s);
   gg_gaussian g[2];
-  assert_true(gg_gaussian_steady(&m, g) < 1e-9);
+  assert_true(gg_theory_gaussian_steady(&m, g) < 1e-9);
 }
 
 /* Spins independent of velocities roll, which is all the mean spin there is but where dilute: nothing is told there. */
@@ -88,13 +88,14 @@ static void mean_spin(void **state)
   const double phi[] = {0, 1e-6, 0.009, 0.01, 0.3};
   for (int i = 0; i < 5; i++) {
     gg_model m = model_for(GG_USF, phi[i], 0.7, -0.5);
-    double spin = value_of(&gg_gaussian_closure, &m, GG_Q_SPIN_Z), lun = value_of(&gg_lun1991, &m, GG_Q_SPIN_Z);
+    double spin = value_of(&gg_theory_gaussian_closure, &m, GG_Q_SPIN_Z),
+           lun = value_of(&gg_theory_lun1991, &m, GG_Q_SPIN_Z);
     assert_int_equal(isnan(spin), phi[i] < 0.01);
     assert_int_equal(isnan(lun), phi[i] < 0.01);
     if (phi[i] == 0.01) assert_close(spin, -0.5495, 1e-3);
   }
   gg_model m = model_for(GG_USF, 0, 0.7, -0.5);
-  assert_non_null(strstr(gg_quantity_missing(&m, GG_Q_SPIN_Z), "infinite in units of the shear rate"));
+  assert_non_null(strstr(gg_common_quantity_missing(&m, GG_Q_SPIN_Z), "infinite in units of the shear rate"));
 }
 
 /* Angular momentum: the stress of a steady state is symmetric, spins or not; no net torque. */
@@ -117,7 +118,7 @@ static void quasi_elastic_is_navier_stokes(void **state)
     double error[2];
     for (int i = 0; i < 2; i++) {
       gg_model m = model_for(GG_USF, phi, 1 - (i ? 1e-5 : 1e-3), -1);
-      gg_theory_answer a = answer_of(&gg_gaussian_closure, &m), b = answer_of(&gg_lun1991, &m);
+      gg_theory_answer a = answer_of(&gg_theory_gaussian_closure, &m), b = answer_of(&gg_theory_lun1991, &m);
       double T = a.value[GG_Q_TEMPERATURE] / b.value[GG_Q_TEMPERATURE] - 1;
       double p = a.value[GG_Q_PRESSURE] / b.value[GG_Q_PRESSURE] - 1;
       double mu = a.value[GG_Q_SHEAR_VISCOSITY] / b.value[GG_Q_SHEAR_VISCOSITY] - 1;
@@ -179,7 +180,7 @@ static void dilute_mixture(void **state)
 {
   (void)state;
   gg_model m = mixture_for(GG_USF, 0, 0.75, -1, 4, 1, 1);
-  gg_theory_answer a = answer_of(&gg_gaussian_closure, &m);
+  gg_theory_answer a = answer_of(&gg_theory_gaussian_closure, &m);
   assert_close(a.value[GG_Q_TEMPERATURE] * 4 * 4, 0.853, 6e-4);
   assert_close(a.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1.601, 4e-4);
   assert_close(a.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1.625, 0.02);
@@ -191,7 +192,7 @@ static void equal_species(void **state)
   (void)state;
   gg_theory_answer one = closure(0.2, 0.8, 0.2);
   gg_model m = mixture_for(GG_USF, 0.2, 0.8, 0.2, 1, 1, 0.5);
-  gg_theory_answer two = answer_of(&gg_gaussian_closure, &m);
+  gg_theory_answer two = answer_of(&gg_theory_gaussian_closure, &m);
   const gg_quantity q[] = {GG_Q_TEMPERATURE, GG_Q_TEMPERATURE_RATIO, GG_Q_PRESSURE, GG_Q_P_XY, GG_Q_N1, GG_Q_SPIN_Z};
   for (size_t i = 0; i < sizeof q / sizeof *q; i++) assert_close(two.value[q[i]], one.value[q[i]], 1e-9);
   assert_close(two.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1, 1e-9);
@@ -201,11 +202,11 @@ static void refuses_politely(void **state)
 {
   (void)state;
   gg_model m = model_for(GG_HCS, 0.1, 0.9, -1);
-  assert_refused(&gg_gaussian_closure, &m, "this scene is free cooling");
+  assert_refused(&gg_theory_gaussian_closure, &m, "this scene is free cooling");
   gg_scene s = scene_of(GG_USF, 0.1, 0.9, 0.4);
   for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = 0.1;
   m = model_of(&s);
-  assert_refused(&gg_gaussian_closure, &m, "Coulomb");
+  assert_refused(&gg_theory_gaussian_closure, &m, "Coulomb");
 }
 
 int main(void)

@@ -15,7 +15,7 @@ static gg_tensor isotropic(double a)
 static gg_gaussian_rates rates(const gg_model *m, const gg_gaussian *state)
 {
   gg_gaussian_rates r;
-  gg_gaussian_rates_at(m, state, &r);
+  gg_theory_gaussian_rates_at(m, state, &r);
   return r;
 }
 
@@ -35,11 +35,11 @@ static void isotropic_gas(void **state)
       gg_gaussian s[2] = {{isotropic(T), isotropic(ratio * T / K), 0}};
       gg_gaussian_rates r = rates(&m, s);
       double nu = 24 * 0.2 * chi_cs(0.2) * sqrt(T / M_PI);
-      gg_exchange x = gg_exchange_at(gg_grain_of(&m), INFINITY, ratio);
+      gg_exchange x = gg_theory_exchange_at(gg_theory_grain_of(&m), INFINITY, ratio);
       assert_close(r.frequency[0], nu, 1e-12);
       assert_close(r.speed[0], sqrt(8 * T / M_PI), 1e-12);
-      assert_close(gg_trace(r.change[0].M) / 3, nu * x.translation * T / 3, 1e-11);
-      assert_close(1 + K * gg_trace(r.change[0].Theta) / 3, 1 + nu * x.rotation * T / 3, 1e-11);
+      assert_close(gg_theory_trace(r.change[0].M) / 3, nu * x.translation * T / 3, 1e-11);
+      assert_close(1 + K * gg_theory_trace(r.change[0].Theta) / 3, 1 + nu * x.rotation * T / 3, 1e-11);
       assert_close(r.Pc.at[1][1], m.density * T * 2 * (1 + e) * 0.2 * chi_cs(0.2), 1e-12);
       assert_true(fabs(r.Pc.at[0][1]) < 1e-12 && fabs(r.change[0].spin) < 1e-12);
     }
@@ -54,9 +54,9 @@ static void lun_functions(void **state)
     for (double beta = -1; beta <= 1; beta += 0.5) {
       double phi = 0.3, T = 1.3, K = 0.4, ratio = 0.6; /* any ratio: the functions hold for all */
       gg_model m = model_for(GG_USF, phi, e, beta);
-      gg_grain g = gg_grain_of(&m);
+      gg_grain g = gg_theory_grain_of(&m);
       double used = beta > -1 ? ratio : 0;
-      gg_lun_functions f = gg_lun_functions_at((gg_lun_state){m.density, phi, m.chi[0], g, used});
+      gg_lun_functions f = gg_theory_lun_functions_at((gg_lun_state){m.density, phi, m.chi[0], g, used});
       double xy[2], Pxy[2], Pyx[2], driven[2], sheared[2], twist[2];
       gg_gaussian rest = {isotropic(T), isotropic(used * T / K), 0};
       for (int i = 0; i < 2; i++) {
@@ -87,8 +87,8 @@ static void lun_functions(void **state)
       m.shear_rate = 0;
       gg_gaussian_rates r = rates(&m, &rest);
       assert_close(m.density * T + r.Pc.at[0][0], T * f.f1, 1e-11);
-      assert_close(-m.density / 2 * gg_trace(r.change[0].M) + 1, pow(T, 1.5) * f.f5 + 1, 1e-11);
-      assert_close(m.density * K / 2 * gg_trace(r.change[0].Theta), pow(T, 1.5) * f.f5r, 1e-10);
+      assert_close(-m.density / 2 * gg_theory_trace(r.change[0].M) + 1, pow(T, 1.5) * f.f5 + 1, 1e-11);
+      assert_close(m.density * K / 2 * gg_theory_trace(r.change[0].Theta), pow(T, 1.5) * f.f5r, 1e-10);
     }
 }
 
@@ -101,10 +101,10 @@ static void mixture_rates(void **state)
     gg_model m = mixture_for(GG_USF, 0.2, e, -1, 3, 1.5, 0.5);
     double a[2] = {0.6, 2.1}, A[2][2];
     gg_gaussian rest[2] = {{.M = isotropic(a[0])}, {.M = isotropic(a[1])}};
-    gg_stress_relaxation(&m, a, A);
+    gg_theory_stress_relaxation(&m, a, A);
     m.shear_rate = 0;
     gg_gaussian_rates r = rates(&m, rest);
-    for (int i = 0; i < 2; i++) assert_close(gg_trace(r.change[i].M), gg_rate_v2(&m, i, a).at0, 1e-11);
+    for (int i = 0; i < 2; i++) assert_close(gg_theory_trace(r.change[i].M), gg_theory_rate_v2(&m, i, a).at0, 1e-11);
     for (int j = 0; j < 2; j++) {
       gg_gaussian_rates side[2];
       for (int k = 0; k < 2; k++) {
@@ -125,7 +125,7 @@ static void mixture_rates(void **state)
       for (int j = 0; j < 2; j++) {
         int o = gg_pair(i, j);
         double B = (1 + e) * m.mass[j] / (m.mass[i] + m.mass[j]), S2 = a[i] + a[j];
-        double F = 4 * M_PI * m.density * gg_fraction(&m, j) * m.chi[o] * pow(m.sigma[o], 3);
+        double F = 4 * M_PI * m.density * gg_theory_fraction(&m, j) * m.chi[o] * pow(m.sigma[o], 3);
         source += 0.5 * F * (4 * a[i] * B / 15 - B * B * S2 / 5);
       }
       assert_close((side[1].change[i].M.at[0][1] - side[0].change[i].M.at[0][1]) / (2 * h), source, 1e-7);

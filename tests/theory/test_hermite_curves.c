@@ -90,7 +90,7 @@ static gg_curves curves_of(const gg_model *m, unsigned measure)
 {
   gg_curves list;
   gg_error err;
-  if (gg_theory_curves(&gg_enskog_hermite, m, measure, &list, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_theory_curves(&gg_theory_enskog_hermite, m, measure, &list, &err) != GG_OK) fail_msg("%s", err.message);
   return list;
 }
 
@@ -100,7 +100,7 @@ static void moments_are_the_numbers(void **state)
   gg_theory_answer a;
   gg_model m = model_for(GG_USF, 0.3, 0.7, -1);
   gg_curves list = curves_of(&m, GG_MEASURE_VELOCITY_DISTRIBUTIONS);
-  assert_int_equal(gg_theory_evaluate(&gg_enskog_hermite, &m, &a, NULL), GG_OK);
+  assert_int_equal(gg_theory_evaluate(&gg_theory_enskog_hermite, &m, &a, NULL), GG_OK);
   for (int axis = 0; axis < 3; axis++) {
     char name[48];
     double zero = 0, two = 0, four = 0, error = NAN;
@@ -115,12 +115,12 @@ static void moments_are_the_numbers(void **state)
     double w = GG_HISTOGRAM_WIDTH * GG_HISTOGRAM_WIDTH, square = two / zero - w / 12;
     assert_close((four / zero - w / 2 * square - w * w / 80) / (square * square), said, 1e-3);
   }
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
   m = model_for(GG_HCS, 0.1, 0.5, -1);
   list = curves_of(&m, GG_MEASURE_SONINE);
-  assert_int_equal(gg_theory_evaluate(&gg_enskog_hermite, &m, &a, NULL), GG_OK);
+  assert_int_equal(gg_theory_evaluate(&gg_theory_enskog_hermite, &m, &a, NULL), GG_OK);
   assert_close(number(find(&list, "sonine_excess"), "c", NULL), 2 * a.value[GG_Q_A2], 1e-6);
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 /* Where nothing is asked for, or it says nothing, there is none; a law of restitution is refused as by its numbers. */
@@ -131,10 +131,10 @@ static void no_curves(void **state)
   gg_model m = model_for(GG_USF, 0.3, 0.7, -1);
   list = curves_of(&m, GG_MEASURE_RHEOLOGY | GG_MEASURE_STRUCTURE);
   assert_int_equal(list.n, 0);
-  assert_int_equal(gg_theory_curves(&gg_lun1991, &m, ~0u, &list, NULL), GG_OK);
+  assert_int_equal(gg_theory_curves(&gg_theory_lun1991, &m, ~0u, &list, NULL), GG_OK);
   assert_int_equal(list.n, 0);
   m = model_for(GG_EQUILIBRIUM, 0.3, 1, -1);
-  assert_int_equal(gg_theory_curves(&gg_enskog_hermite, &m, ~0u, &list, NULL), GG_BAD_INPUT);
+  assert_int_equal(gg_theory_curves(&gg_theory_enskog_hermite, &m, ~0u, &list, NULL), GG_BAD_INPUT);
   assert_int_equal(list.n, 0);
 }
 
@@ -151,7 +151,7 @@ static void ends_where_the_series_does(void **state)
     bool inside = c->x[i] > from - 1e-9 && c->x[i] < to + 1e-9;
     assert_true(inside ? c->value[i] > 0 && c->error[i] <= 0.25 * c->value[i] : isnan(c->value[i]));
   }
-  gg_curves_clear(&list);
+  gg_measure_curves_clear(&list);
 }
 
 static gg_result *run(gg_scene s)
@@ -210,7 +210,7 @@ static void those_of_the_engine(void **state)
       if (!(chi2 > 0.3 && chi2 < 2.2 && worst < 5)) fail_msg("%s: mean z^2 %g, worst z %g", c->name, chi2, worst);
       if (!(gaussian > cases[i].gaussian)) fail_msg("%s: a Gaussian has mean z^2 %g", c->name, gaussian);
     }
-    gg_curves_clear(&theory);
+    gg_measure_curves_clear(&theory);
     gg_result_free(r);
   }
 }

@@ -10,31 +10,31 @@ static void resting_mixtures(void **state)
 {
   (void)state;
   gg_model one = model_for(GG_HCS, 0.2, 0.6, -1), two = mixture_for(GG_HCS, 0.2, 0.6, -1, 1, 1, 2);
-  gg_theory_answer a = answer_of(&gg_enskog_hermite, &one), b = answer_of(&gg_enskog_hermite, &two);
+  gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &one), b = answer_of(&gg_theory_enskog_hermite, &two);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1, 1e-9);
   assert_close(b.value[GG_Q_CUMULANT + 1], 2 * a.value[GG_Q_A2], 2e-3);
   assert_close(b.value[GG_Q_PRESSURE], a.value[GG_Q_PRESSURE], 1e-9);
   assert_close(b.value[GG_Q_COLLISION_RATE], a.value[GG_Q_COLLISION_RATE], 1e-6);
-  assert_close(b.value[GG_Q_COOLING_RATE] * gg_model_nu0(&two, 1), a.value[GG_Q_COOLING_RATE] * gg_model_nu0(&one, 1),
-               1e-5);
+  assert_close(b.value[GG_Q_COOLING_RATE] * gg_common_model_nu0(&two, 1),
+               a.value[GG_Q_COOLING_RATE] * gg_common_model_nu0(&one, 1), 1e-5);
   gg_model elastic = mixture_for(GG_HSS, 0.3, 1, -1, 10, 2, 1);
-  b = answer_of(&gg_enskog_hermite, &elastic);
+  b = answer_of(&gg_theory_enskog_hermite, &elastic);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1, 1e-9);
   assert_close(b.value[GG_Q_CUMULANT], 0, 1e-8);
   assert_close(b.value[GG_Q_COOLING_RATE], 0, 1e-10);
-  assert_close(b.value[GG_Q_PRESSURE], value_of(&gg_garzo_montanero2003, &elastic, GG_Q_PRESSURE), 1e-9);
+  assert_close(b.value[GG_Q_PRESSURE], value_of(&gg_theory_garzo_montanero2003, &elastic, GG_Q_PRESSURE), 1e-9);
   gg_model unlike = mixture_for(GG_HCS, 0, 0.5, -1, 10, 1, 2);
-  b = answer_of(&gg_enskog_hermite, &unlike);
+  b = answer_of(&gg_theory_enskog_hermite, &unlike);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 3.79752, 1e-5);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO],
-               value_of(&gg_garzo_montanero2003, &unlike, GG_Q_PARTIAL_TEMPERATURE_RATIO), 2e-3);
+               value_of(&gg_theory_garzo_montanero2003, &unlike, GG_Q_PARTIAL_TEMPERATURE_RATIO), 2e-3);
   assert_true(b.error[GG_Q_PARTIAL_TEMPERATURE_RATIO] < 1e-4);
   gg_scene s = scene_of(GG_HCS, 0.1, 0.8, -1);
   s.n_species = 3;
   for (int i = 0; i < 3; i++) s.species[i] = (gg_species){1. / 3, 1, i == 1 ? 4 : 1, 0.4};
   s.dsmc.particles = 300000;
   gg_model three = model_of(&s), pair = mixture_for(GG_HCS, 0.1, 0.8, -1, 0.25, 1, 2);
-  b = answer_of(&gg_enskog_hermite, &three), a = answer_of(&gg_enskog_hermite, &pair);
+  b = answer_of(&gg_theory_enskog_hermite, &three), a = answer_of(&gg_theory_enskog_hermite, &pair);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE + 2], b.value[GG_Q_PARTIAL_TEMPERATURE], 1e-9);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], a.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1e-6);
 }
@@ -49,7 +49,7 @@ static void sheared_mixtures(void **state)
 {
   (void)state;
   gg_model one = model_for(GG_USF, 0.2, 0.8, -1), two = mixture_for(GG_USF, 0.2, 0.8, -1, 1, 1, 2);
-  gg_theory_answer a = answer_of(&gg_enskog_hermite, &one), b = answer_of(&gg_enskog_hermite, &two);
+  gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &one), b = answer_of(&gg_theory_enskog_hermite, &two);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1, 1e-9);
   for (int q = 0; q < OF_SHEAR; q++) assert_close(b.value[flow_of_shear[q]], a.value[flow_of_shear[q]], 1e-8);
   gg_scene s = scene_of(GG_USF, 0.3, 0.9, -1);
@@ -57,7 +57,7 @@ static void sheared_mixtures(void **state)
   for (int i = 0; i < 3; i++) s.species[i] = (gg_species){1. / 3, 1, i == 1 ? 4 : 1, 0.4};
   s.dsmc.particles = 300000;
   gg_model three = model_of(&s), pair = mixture_for(GG_USF, 0.3, 0.9, -1, 0.25, 1, 2);
-  a = answer_of(&gg_enskog_hermite, &pair), b = answer_of(&gg_enskog_hermite, &three);
+  a = answer_of(&gg_theory_enskog_hermite, &pair), b = answer_of(&gg_theory_enskog_hermite, &three);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE + 2], b.value[GG_Q_PARTIAL_TEMPERATURE], 1e-9);
   for (int q = 0; q < OF_SHEAR; q++) assert_close(b.value[flow_of_shear[q]], a.value[flow_of_shear[q]], 1e-8);
   assert_close(b.value[GG_Q_DISSIPATION], -b.value[GG_Q_P_XY], 1e-7);
@@ -70,7 +70,7 @@ static void errors_of_mixtures_are_honest(void **state)
   const double phi[] = {0, 0.3}, e[] = {0.8, 0.8}, most[] = {2e-4, 2e-4};
   for (int i = 0; i < 2; i++) {
     gg_model m = mixture_for(GG_USF, phi[i], e[i], -1, 10, 1.5, 1);
-    gg_theory_answer a = answer_of(&gg_enskog_hermite, &m);
+    gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m);
     gg_hermite_shear h;
     gg_error err;
     double M[3][3], T[2];
@@ -86,7 +86,7 @@ static void errors_of_mixtures_are_honest(void **state)
     for (int k = 0; k < 2; k++) {
       double said = a.value[q[k]], error = a.error[q[k]];
       if (!(fabs(said - better[k]) <= error))
-        fail_msg("%d %s: %.8g +- %.1g, not %.8g", i, gg_quantity_name(q[k]), said, error, better[k]);
+        fail_msg("%d %s: %.8g +- %.1g, not %.8g", i, gg_common_quantity_name(q[k]), said, error, better[k]);
       assert_true(error <= most[i] * said);
     }
   }
@@ -100,21 +100,21 @@ static void viscosity_of_mixtures(void **state)
   const gg_flow flow[] = {GG_HCS, GG_HSS};
   for (int k = 0; k < 2; k++) {
     gg_model one = model_for(flow[k], 0.2, 0.7, -1), two = mixture_for(flow[k], 0.2, 0.7, -1, 1, 1, 1);
-    gg_theory_answer a = answer_of(&gg_enskog_hermite, &one), b = answer_of(&gg_enskog_hermite, &two);
-    double unit = gg_model_nu0(&one, 1) / gg_model_nu0(&two, 1);
+    gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &one), b = answer_of(&gg_theory_enskog_hermite, &two);
+    double unit = gg_common_model_nu0(&one, 1) / gg_common_model_nu0(&two, 1);
     assert_close(b.value[GG_Q_VISCOSITY_REDUCED] * unit, a.value[GG_Q_VISCOSITY_REDUCED], 1e-8);
     assert_close(b.value[GG_Q_VISCOSITY_REDUCED_KINETIC] * unit, a.value[GG_Q_VISCOSITY_REDUCED_KINETIC], 1e-8);
     if (k == 0) continue;
     gg_model unlike = mixture_for(flow[k], 0.2, 0.8, -1, 4, 2, 0.5);
-    b = answer_of(&gg_enskog_hermite, &unlike);
-    assert_close(b.value[GG_Q_VISCOSITY_REDUCED], value_of(&gg_garzo_montanero2003, &unlike, GG_Q_VISCOSITY_REDUCED),
-                 0.01);
+    b = answer_of(&gg_theory_enskog_hermite, &unlike);
+    assert_close(b.value[GG_Q_VISCOSITY_REDUCED],
+                 value_of(&gg_theory_garzo_montanero2003, &unlike, GG_Q_VISCOSITY_REDUCED), 0.01);
     assert_true(b.error[GG_Q_VISCOSITY_REDUCED] < 1e-3 * b.value[GG_Q_VISCOSITY_REDUCED]);
   }
   double density = M_SQRT2 / 3;
   gg_model elastic = mixture_for(GG_HSS, M_PI / 6 * density, 1, -1, 10, 1, 1);
-  double nu0 = gg_model_nu0(&elastic, 1);
-  assert_close(value_of(&gg_enskog_hermite, &elastic, GG_Q_VISCOSITY_REDUCED) * density / nu0, 0.29379, 1e-3);
+  double nu0 = gg_common_model_nu0(&elastic, 1);
+  assert_close(value_of(&gg_theory_enskog_hermite, &elastic, GG_Q_VISCOSITY_REDUCED) * density / nu0, 0.29379, 1e-3);
 }
 
 /* White noise on a mixture: equal species are one, and elastic ones keep one temperature. */
@@ -127,13 +127,13 @@ static void mixtures_in_white_noise(void **state)
   s.n_species = 2;
   for (int i = 0; i < 2; i++) s.species[i] = (gg_species){0.5, 1, 1, 0.4};
   gg_model two = model_of(&s);
-  gg_theory_answer a = answer_of(&gg_enskog_hermite, &one), b = answer_of(&gg_enskog_hermite, &two);
+  gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &one), b = answer_of(&gg_theory_enskog_hermite, &two);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1, 1e-9);
   assert_close(b.value[GG_Q_TEMPERATURE], a.value[GG_Q_TEMPERATURE], 1e-7);
   assert_close(b.value[GG_Q_CUMULANT + 1], 2 * a.value[GG_Q_A2], 1e-4);
   assert_close(b.value[GG_Q_PRESSURE], a.value[GG_Q_PRESSURE], 1e-7);
-  assert_close(b.value[GG_Q_COOLING_RATE] * gg_model_nu0(&two, 1), a.value[GG_Q_COOLING_RATE] * gg_model_nu0(&one, 1),
-               1e-6);
+  assert_close(b.value[GG_Q_COOLING_RATE] * gg_common_model_nu0(&two, 1),
+               a.value[GG_Q_COOLING_RATE] * gg_common_model_nu0(&one, 1), 1e-6);
 }
 
 int main(void)

@@ -216,7 +216,7 @@ static void brute_force(const gg_hermite_operator *op, const gg_hermite_impact *
   enum { U = 40, V = 14 };
   double u[U], wu[U], x[V], w[V], *k = op->direction[0], b[3][3] = {{k[0]}, {k[1]}, {k[2]}}, image[3][3];
   gg_error err;
-  assert_int_equal(gg_legendre_rule(U, u, wu, &err), GG_OK);
+  assert_int_equal(gg_hermite_legendre_rule(U, u, wu, &err), GG_OK);
   assert_int_equal(gg_hermite_rule(V, x, w, &err), GG_OK);
   gg_hermite_frame one = gg_hermite_frame_at(own->L, k), two = gg_hermite_frame_at(other->L, k);
   gg_hermite_left_divide(own->L, b, image);
@@ -271,7 +271,7 @@ static void degree_two_is_the_gaussian_closure(void **state)
   for (int i = 0; i < 4; i++) {
     gg_model m = i < 3 ? model_for(GG_USF, 0.2 * i, 0.6, -1) : mixture_for(GG_USF, 0.2, 0.8, -1, 4, 1.5, 2);
     gg_gaussian g[GG_MAX_SPECIES];
-    assert_true(gg_gaussian_steady(&m, g) < 1e-9);
+    assert_true(gg_theory_gaussian_steady(&m, g) < 1e-9);
     gg_hermite_operator op = make(2, 0);
     double a[10] = {1, 0, 0, 0, 0, 1}, M[3][3], wrong[3][3];
     gg_hermite_state s[2] = {{.width = 1, .a = a}, {.width = 1, .a = a + 5}};

@@ -10,7 +10,7 @@ static gg_grain grain(double e, double beta, double K)
 
 static gg_lun_functions functions(double phi, double chi, gg_grain g)
 {
-  return gg_lun_functions_at((gg_lun_state){6 * phi / M_PI, phi, chi, g, gg_lun_ratio(g)});
+  return gg_theory_lun_functions_at((gg_lun_state){6 * phi / M_PI, phi, chi, g, gg_theory_lun_ratio(g)});
 }
 
 static double chi_cs(double phi)
@@ -62,8 +62,8 @@ static void perfectly_rough_is_pidduck(void **state)
   (void)state;
   for (double K = 0.05; K < 0.67; K += 0.1) {
     gg_grain g = grain(1, 1, K);
-    assert_close(gg_lun_ratio(g), 1, 1e-14);
-    gg_lun_functions f = gg_lun_functions_at((gg_lun_state){1, 0, 1, g, 1});
+    assert_close(gg_theory_lun_ratio(g), 1, 1e-14);
+    gg_lun_functions f = gg_theory_lun_functions_at((gg_lun_state){1, 0, 1, g, 1});
     assert_close(f.f2, 15 / (8 * sqrt(M_PI)) * (1 + K) * (1 + K) / (6 + 13 * K), 1e-12);
     assert_close(f.f5, 0, 1e-14);
   }
@@ -76,7 +76,7 @@ static void ratio_makes_rotation_steady(void **state)
   for (double beta = -0.9; beta <= 1; beta += 0.1)
     for (double K = 0.1; K < 0.67; K += 0.1) {
       gg_grain g = grain(0.8, beta, K);
-      assert_close(gg_lun_ratio(g), K * (1 + beta) / (1 + 2 * K - beta), 1e-13);
+      assert_close(gg_theory_lun_ratio(g), K * (1 + beta) / (1 + 2 * K - beta), 1e-13);
       assert_close(functions(0.2, chi_cs(0.2), g).f5r, 0, 1e-13);
     }
 }
@@ -86,7 +86,7 @@ static void steady_state_balances(void **state)
 {
   (void)state;
   gg_model m = model_for(GG_USF, 0.3, 0.9, 0.2);
-  gg_theory_answer a = answer_of(&gg_lun1991, &m);
+  gg_theory_answer a = answer_of(&gg_theory_lun1991, &m);
   const double *v = a.value;
   assert_close(-v[GG_Q_P_XY], v[GG_Q_DISSIPATION], 1e-13);
   assert_close(v[GG_Q_SHEAR_VISCOSITY], -v[GG_Q_P_XY], 1e-15);
@@ -110,7 +110,7 @@ static void boltzmann_is_the_dilute_limit(void **state)
     for (int i = 0; i < 2; i++) {
       double phi = i ? 1e-7 : 1e-5, n = 6 * phi / M_PI;
       gg_model thin = model_for(GG_USF, phi, 0.9, beta);
-      gg_theory_answer a = answer_of(&gg_lun1991, &thin), b = answer_of(&gg_lun1991, &zero);
+      gg_theory_answer a = answer_of(&gg_theory_lun1991, &thin), b = answer_of(&gg_theory_lun1991, &zero);
       double T = a.value[GG_Q_TEMPERATURE] * n * n / b.value[GG_Q_TEMPERATURE] - 1;
       double p = a.value[GG_Q_PRESSURE] / phi * n * n / b.value[GG_Q_PRESSURE] - 1;
       double mu = a.value[GG_Q_SHEAR_VISCOSITY] / phi * n * n / b.value[GG_Q_SHEAR_VISCOSITY] - 1;
@@ -130,7 +130,7 @@ static void transfer_of_dilute_gases(void **state)
   double first = 0;
   for (double phi = 1e-6; phi > 1e-19; phi /= 10) {
     gg_model m = model_for(GG_USF, phi, 0.9, -1);
-    gg_theory_answer a = answer_of(&gg_lun1991, &m);
+    gg_theory_answer a = answer_of(&gg_theory_lun1991, &m);
     assert_close(a.value[GG_Q_P_XX_COLLISIONAL] / a.value[GG_Q_P_XX_KINETIC], 3.8 * phi, 1e-5);
     if (first == 0) first = a.value[GG_Q_P_XY_COLLISIONAL];
     assert_close(a.value[GG_Q_P_XY_COLLISIONAL], first, 1e-5);
@@ -144,8 +144,8 @@ static void boltzmann_by_hand(void **state)
   (void)state;
   gg_model m = model_for(GG_USF, 0, 0.8, -1);
   double eta = 0.9, T = 5 / (16 * sqrt(M_PI) * eta * (2 - eta)) / (8 * sqrt(M_PI) * eta * (1 - eta));
-  assert_close(value_of(&gg_lun1991, &m, GG_Q_TEMPERATURE), T, 1e-13);
-  assert_close(value_of(&gg_lun1991, &m, GG_Q_PRESSURE), T, 1e-13);
+  assert_close(value_of(&gg_theory_lun1991, &m, GG_Q_TEMPERATURE), T, 1e-13);
+  assert_close(value_of(&gg_theory_lun1991, &m, GG_Q_PRESSURE), T, 1e-13);
 }
 
 /* The pressure minimum at e = 0.99 lies at phi = 0.150 for either contact value (Gayen's thesis, sect. 5.3.1). */
@@ -158,7 +158,7 @@ static void pressure_minimum(void **state)
       gg_scene s = scene_of(GG_USF, phi, 0.99, -1);
       s.contact_value = (gg_contact_value)kind;
       gg_model m = model_of(&s);
-      double p = value_of(&gg_lun1991, &m, GG_Q_PRESSURE);
+      double p = value_of(&gg_theory_lun1991, &m, GG_Q_PRESSURE);
       if (p < lowest) lowest = p, best = phi;
     }
     assert_close(best, 0.150, 0.005 / 0.150);
@@ -170,21 +170,23 @@ static void contact_values(void **state)
 {
   (void)state;
   gg_model m = model_for(GG_USF, 0.3, 0.9, -1);
-  double cs = gg_contact_value_of(GG_CARNAHAN_STARLING, 0.3), ls = gg_contact_value_of(GG_LUN_SAVAGE, 0.3);
+  double cs = gg_common_contact_value_of(GG_CARNAHAN_STARLING, 0.3),
+         ls = gg_common_contact_value_of(GG_LUN_SAVAGE, 0.3);
   assert_close(ls / cs, 1.11, 0.005);
-  assert_close(gg_contact_value_of(GG_LUN_SAVAGE, 0.5) / gg_contact_value_of(GG_CARNAHAN_STARLING, 0.5), 1.9, 0.01);
-  double l = value_of(&gg_lun1991_lun_savage, &m, GG_Q_MEAN_FREE_PATH);
+  assert_close(gg_common_contact_value_of(GG_LUN_SAVAGE, 0.5) / gg_common_contact_value_of(GG_CARNAHAN_STARLING, 0.5),
+               1.9, 0.01);
+  double l = value_of(&gg_theory_lun1991_lun_savage, &m, GG_Q_MEAN_FREE_PATH);
   assert_close(l, 1 / (6 * sqrt(2) * 0.3 * ls), 1e-12);
-  assert_close(l * value_of(&gg_lun1991_lun_savage, &m, GG_Q_COLLISION_RATE),
-               sqrt(8 / M_PI * value_of(&gg_lun1991_lun_savage, &m, GG_Q_TEMPERATURE)), 1e-12);
+  assert_close(l * value_of(&gg_theory_lun1991_lun_savage, &m, GG_Q_COLLISION_RATE),
+               sqrt(8 / M_PI * value_of(&gg_theory_lun1991_lun_savage, &m, GG_Q_TEMPERATURE)), 1e-12);
   gg_scene s = scene_of(GG_USF, 0.3, 0.9, -1);
   s.contact_value = GG_LUN_SAVAGE;
   gg_model same = model_of(&s);
-  gg_theory_answer a = answer_of(&gg_lun1991, &same), b = answer_of(&gg_lun1991_lun_savage, &m);
+  gg_theory_answer a = answer_of(&gg_theory_lun1991, &same), b = answer_of(&gg_theory_lun1991_lun_savage, &m);
   for (int q = 0; q < GG_N_QUANTITIES; q++)
     if (!isnan(a.value[q])) assert_close(b.value[q], a.value[q], 1e-12);
   m = model_for(GG_USF, 0.65, 0.9, -1);
-  assert_refused(&gg_lun1991_lun_savage, &m, "below phi = 0.64");
+  assert_refused(&gg_theory_lun1991_lun_savage, &m, "below phi = 0.64");
 }
 
 /* What it does not describe it refuses, and says why. */
@@ -192,20 +194,20 @@ static void refuses_politely(void **state)
 {
   (void)state;
   gg_model m = model_for(GG_HCS, 0.1, 0.9, -1);
-  assert_refused(&gg_lun1991, &m, "lun1991 describes uniform shear; this scene is free cooling");
+  assert_refused(&gg_theory_lun1991, &m, "lun1991 describes uniform shear; this scene is free cooling");
   m = model_for(GG_USF, 0.1, 1, -1);
-  assert_refused(&gg_lun1991, &m, "lose no energy");
+  assert_refused(&gg_theory_lun1991, &m, "lose no energy");
   m = model_for(GG_USF, 0.1, 1, 1);
-  assert_refused(&gg_lun1991, &m, "lose no energy");
+  assert_refused(&gg_theory_lun1991, &m, "lose no energy");
   gg_scene s = scene_of(GG_USF, 0.1, 0.9, 0.4);
   for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = 0.1;
   m = model_of(&s);
-  assert_refused(&gg_lun1991, &m, "Coulomb");
+  assert_refused(&gg_theory_lun1991, &m, "Coulomb");
   s = scene_of(GG_USF, 0.1, 0.9, -1);
   s.n_species = 2;
   s.species[1] = s.species[0];
   m = model_of(&s);
-  assert_refused(&gg_lun1991, &m, "one species");
+  assert_refused(&gg_theory_lun1991, &m, "one species");
 }
 
 int main(void)

@@ -36,7 +36,7 @@ static void clear(fixture *x)
 
 static gg_rough_gas gas_of(double e, double beta, double shear)
 {
-  gg_contact c = gg_contact_make((gg_partner){1, inertia}, (gg_partner){1, inertia}, e, beta, INFINITY);
+  gg_contact c = gg_common_contact_make((gg_partner){1, inertia}, (gg_partner){1, inertia}, e, beta, INFINITY);
   return (gg_rough_gas){1, c.jn, c.jt, inertia, shear};
 }
 
@@ -141,7 +141,7 @@ static void degree_two_is_the_gaussian_closure(void **state)
         g[0].Theta.at[i][j] += skewed.S[i][k] * skewed.S[j][k];
       }
   gg_gaussian_rates r;
-  gg_gaussian_rates_at(&m, g, &r);
+  gg_theory_gaussian_rates_at(&m, g, &r);
   fixture x = make(&gas, &skewed, 2, false);
   double a[10] = {1}, R[10] = {0};
   assert_int_equal(x.form.n, 10);
@@ -177,12 +177,12 @@ static void degree_two_cools_like_two_maxwellians(void **state)
   (void)state;
   gg_rough_gas gas = gas_of(0.8, 0.2, 0);
   gg_grain grain = {gas.eta1, gas.eta2, gas.K};
-  double ratio = gg_ratio_cooling(grain, INFINITY), cooling;
+  double ratio = gg_theory_ratio_cooling(grain, INFINITY), cooling;
   gg_rough_steady s = {.choice = moments, .gas = gas, .weight = isotropic(ratio)};
   gg_error err;
   assert_int_equal(gg_rough_isotropic_solve(&s, 2, GG_ROUGH_COOLING, &cooling, &err), GG_OK);
   for (int q = 1; q < s.form.n; q++) assert_true(fabs(s.a[q]) < 1e-9);
-  assert_close(cooling, -4 * sqrt(M_PI) / 3 * gg_exchange_at(grain, INFINITY, ratio).translation, 1e-10);
+  assert_close(cooling, -4 * sqrt(M_PI) / 3 * gg_theory_exchange_at(grain, INFINITY, ratio).translation, 1e-10);
   gg_rough_steady_clear(&s);
 }
 
@@ -297,7 +297,7 @@ static void add_pair(const fixture *x, const gg_contact *contact, const double d
 static void brute_force(void **state)
 {
   (void)state;
-  gg_contact contact = gg_contact_make((gg_partner){1, inertia}, (gg_partner){1, inertia}, 0.7, 0.4, INFINITY);
+  gg_contact contact = gg_common_contact_make((gg_partner){1, inertia}, (gg_partner){1, inertia}, 0.7, 0.4, INFINITY);
   gg_rough_gas gas = gas_of(0.7, 0.4, 0);
   fixture x = make(&gas, &skewed, 3, true);
   double a[22], R[22] = {0}, plain[22] = {0};
@@ -307,7 +307,7 @@ static void brute_force(void **state)
   grid g;
   gg_error err;
   assert_int_equal(gg_hermite_rule(POINTS, g.x, g.w, &err), GG_OK);
-  assert_int_equal(gg_legendre_rule(APPROACH, g.u, g.wu, &err), GG_OK);
+  assert_int_equal(gg_hermite_legendre_rule(APPROACH, g.u, g.wu, &err), GG_OK);
   int many = 1;
   double largest = 0;
   for (int i = 0; i < AXES; i++) many *= POINTS;

@@ -13,8 +13,8 @@ static void list_is_complete(void **state)
   (void)state;
 #define NAME(name) #name,
   static const char *const names[] = {GG_THEORIES(NAME)};
-  for (size_t i = 0; gg_theories[i]; i++) {
-    const gg_theory *t = gg_theories[i];
+  for (size_t i = 0; gg_theory_theories[i]; i++) {
+    const gg_theory *t = gg_theory_theories[i];
     assert_string_equal(t->name, names[i]);
     assert_ptr_equal(gg_theory_find(t->name), t);
     if (!is_one_line(t->title) || !is_one_line(t->citation) || !is_one_line(t->assumptions))
@@ -43,11 +43,11 @@ static void no_number_leaks(void **state)
           if (flow == GG_COUETTE) s.walls.speed = 1;
           for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = mus[i / 75];
           gg_model m = model_of(&s);
-          for (const gg_theory *const *t = gg_theories; *t; t++) {
+          for (const gg_theory *const *t = gg_theory_theories; *t; t++) {
             gg_theory_answer a;
             gg_error err = {0};
             /* This one takes some tenths of a second: one scene in 31 of those it describes. */
-            if (*t == &gg_enskog_hermite && m.rule != GG_FRICTIONAL && described++ % 31) continue;
+            if (*t == &gg_theory_enskog_hermite && m.rule != GG_FRICTIONAL && described++ % 31) continue;
             gg_status status = gg_theory_evaluate(*t, &m, &a, &err);
             if (status != GG_OK) {
               assert_int_equal(status, GG_BAD_INPUT);
@@ -56,7 +56,8 @@ static void no_number_leaks(void **state)
             }
             int answers = 0;
             for (int q = 0; q < GG_N_QUANTITIES; q++) {
-              if (isinf(a.value[q])) fail_msg("%s: %s is infinite", (*t)->name, gg_quantity_name((gg_quantity)q));
+              if (isinf(a.value[q]))
+                fail_msg("%s: %s is infinite", (*t)->name, gg_common_quantity_name((gg_quantity)q));
               answers += !isnan(a.value[q]);
             }
             if (answers == 0) fail_msg("%s accepts a scene and says nothing", (*t)->name);
@@ -69,8 +70,8 @@ static void no_number_leaks(void **state)
 static void three_species(void **state)
 {
   (void)state;
-  static const gg_theory *const of_few[] = {&gg_lun1991, &gg_grad, &gg_garzo_montanero2003, &gg_garzo_montanero2003_ms,
-                                            &gg_enskog_hermite};
+  static const gg_theory *const of_few[] = {&gg_theory_lun1991, &gg_theory_grad, &gg_theory_garzo_montanero2003,
+                                            &gg_theory_garzo_montanero2003_ms, &gg_theory_enskog_hermite};
   for (int flow = GG_EQUILIBRIUM; flow <= GG_HCS; flow++) {
     gg_scene s = scene_of((gg_flow)flow, 0.04, flow == GG_EQUILIBRIUM ? 1 : 0.9, -1), three = s;
     three.n_species = 3;
@@ -79,11 +80,12 @@ static void three_species(void **state)
     for (size_t k = 0; k < sizeof of_few / sizeof *of_few; k++) {
       gg_theory_answer a;
       gg_error err = {0};
-      if (flow != GG_EQUILIBRIUM && of_few[k] == &gg_enskog_hermite) continue; /* of any number (hermite_mixtures) */
+      if (flow != GG_EQUILIBRIUM && of_few[k] == &gg_theory_enskog_hermite)
+        continue; /* of any number (hermite_mixtures) */
       assert_int_equal(gg_theory_evaluate(of_few[k], &m, &a, &err), GG_BAD_INPUT);
       assert_non_null(strstr(err.message, "describes"));
     }
-    const gg_theory *t = flow == GG_EQUILIBRIUM ? &gg_enskog : &gg_gaussian_closure;
+    const gg_theory *t = flow == GG_EQUILIBRIUM ? &gg_theory_enskog : &gg_theory_gaussian_closure;
     gg_theory_answer a, b;
     if (flow == GG_HCS) continue;
     assert_int_equal(gg_theory_evaluate(t, &one, &a, NULL), GG_OK);
@@ -103,13 +105,13 @@ static void range_looks_at_all_pairs(void **state)
   s.n_species = 2;
   s.species[0].fraction = 0.5, s.species[1] = s.species[0];
   gg_model m = model_of(&s);
-  assert_null(gg_theory_beyond(&gg_gaussian_closure, &m));
+  assert_null(gg_theory_beyond(&gg_theory_gaussian_closure, &m));
   s.collision.beta[gg_pair(0, 1)] = s.collision.beta[gg_pair(1, 1)] = 0;
   m = model_of(&s);
-  assert_non_null(gg_theory_beyond(&gg_gaussian_closure, &m));
+  assert_non_null(gg_theory_beyond(&gg_theory_gaussian_closure, &m));
   s.collision.beta[gg_pair(0, 1)] = s.collision.beta[gg_pair(1, 1)] = 1;
   m = model_of(&s);
-  assert_null(gg_theory_beyond(&gg_gaussian_closure, &m));
+  assert_null(gg_theory_beyond(&gg_theory_gaussian_closure, &m));
 }
 
 /* The example printed with the formulas: N1 = 0.24, N2 = -0.0203 at e = 0.9; leading coefficients are those of the
@@ -118,16 +120,16 @@ static void sela_goldhirsch(void **state)
 {
   (void)state;
   gg_model m = model_for(GG_USF, 0.01, 0.9, -1);
-  assert_close(value_of(&gg_sela_goldhirsch1998, &m, GG_Q_N1), 0.24007, 2e-5);
-  assert_close(value_of(&gg_sela_goldhirsch1998, &m, GG_Q_N2), -0.02036, 2.5e-4);
+  assert_close(value_of(&gg_theory_sela_goldhirsch1998, &m, GG_Q_N1), 0.24007, 2e-5);
+  assert_close(value_of(&gg_theory_sela_goldhirsch1998, &m, GG_Q_N2), -0.02036, 2.5e-4);
   m = model_for(GG_USF, 0, 1 - 5e-7, -1);
   double x = 0.625 * 1.016034 * 1e-6;
-  assert_close(value_of(&gg_sela_goldhirsch1998, &m, GG_Q_N1), 2.028 * x, 2e-4);
-  assert_close(value_of(&gg_sela_goldhirsch1998, &m, GG_Q_N2), (7.424 / 4 - 2.028) * x, 5e-4);
+  assert_close(value_of(&gg_theory_sela_goldhirsch1998, &m, GG_Q_N1), 2.028 * x, 2e-4);
+  assert_close(value_of(&gg_theory_sela_goldhirsch1998, &m, GG_Q_N2), (7.424 / 4 - 2.028) * x, 5e-4);
   m = model_for(GG_USF, 0.3, 0.9, -1);
-  assert_refused(&gg_sela_goldhirsch1998, &m, "dilute");
+  assert_refused(&gg_theory_sela_goldhirsch1998, &m, "dilute");
   m = model_for(GG_USF, 0.01, 0.9, 0);
-  assert_refused(&gg_sela_goldhirsch1998, &m, "smooth");
+  assert_refused(&gg_theory_sela_goldhirsch1998, &m, "smooth");
 }
 
 /* Carnahan & Starling: Z = (1 + phi + phi^2 - phi^3)/(1-phi)^3; equal species of a mixture are one species. */
@@ -138,13 +140,13 @@ static void enskog_equation_of_state(void **state)
     double Z = (1 + phi + phi * phi - phi * phi * phi) / pow(1 - phi, 3);
     gg_scene s = scene_of(GG_EQUILIBRIUM, phi, 1, -1);
     gg_model m = model_of(&s);
-    gg_theory_answer one = answer_of(&gg_enskog, &m);
+    gg_theory_answer one = answer_of(&gg_theory_enskog, &m);
     assert_close(one.value[GG_Q_COMPRESSIBILITY], Z, 1e-13);
     assert_close(one.value[GG_Q_PRESSURE], Z * 0.5 * (phi == 0 ? 1 : phi), 1e-13); /* T_0 = 1/2 */
     s.n_species = 2;
     s.species[1] = s.species[0];
     m = model_of(&s);
-    gg_theory_answer two = answer_of(&gg_enskog, &m);
+    gg_theory_answer two = answer_of(&gg_theory_enskog, &m);
     assert_close(two.value[GG_Q_COMPRESSIBILITY], Z, 1e-13);
     assert_close(two.value[GG_Q_COLLISION_RATE], one.value[GG_Q_COLLISION_RATE], 1e-13);
     assert_close(two.value[GG_Q_MEAN_FREE_PATH], one.value[GG_Q_MEAN_FREE_PATH], 1e-13);
@@ -156,7 +158,7 @@ static void enskog_mean_free_time(void **state)
 {
   (void)state;
   gg_model m = model_for(GG_EQUILIBRIUM, M_PI / 12, 1, -1);
-  double rate = value_of(&gg_enskog, &m, GG_Q_COLLISION_RATE) * sqrt(2); /* from T = 1/2 to T = 1 */
+  double rate = value_of(&gg_theory_enskog, &m, GG_Q_COLLISION_RATE) * sqrt(2); /* from T = 1/2 to T = 1 */
   assert_close(1 / rate, 0.1303, 0.005);
 }
 
@@ -167,19 +169,19 @@ static void enskog_knudsen(void **state)
   gg_scene s = scene_of(GG_EQUILIBRIUM, 0.01, 1, -1);
   s.particles = 8000;
   gg_model m;
-  assert_int_equal(gg_model_make(&s, GG_MD, &m, NULL), GG_OK);
-  assert_close(value_of(&gg_enskog, &m, GG_Q_MEAN_FREE_PATH), 11.49, 5e-4);
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_close(value_of(&gg_theory_enskog, &m, GG_Q_MEAN_FREE_PATH), 11.49, 5e-4);
   assert_close(cbrt(m.volume), 74.8, 1e-3);
-  assert_close(value_of(&gg_enskog, &m, GG_Q_KNUDSEN), 0.1536, 5e-4);
+  assert_close(value_of(&gg_theory_enskog, &m, GG_Q_KNUDSEN), 0.1536, 5e-4);
 }
 
 static void enskog_refuses(void **state)
 {
   (void)state;
   gg_model m = model_for(GG_EQUILIBRIUM, 0.2, 0.9, -1);
-  assert_refused(&gg_enskog, &m, "elastic");
+  assert_refused(&gg_theory_enskog, &m, "elastic");
   m = model_for(GG_USF, 0.2, 0.9, -1);
-  assert_refused(&gg_enskog, &m, "this scene is uniform shear");
+  assert_refused(&gg_theory_enskog, &m, "this scene is uniform shear");
 }
 
 int main(void)

@@ -25,7 +25,7 @@
 
 static inline gg_scene scene_of(gg_flow flow, double phi, double e, double beta)
 {
-  gg_scene s = gg_scene_defaults();
+  gg_scene s = gg_common_scene_defaults();
   s.flow = flow;
   s.phi = phi;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = e, s.collision.beta[p] = beta;
@@ -36,7 +36,7 @@ static inline gg_model model_of(const gg_scene *s)
 {
   gg_model m;
   gg_error err;
-  if (gg_model_make(s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_model_make(s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 

@@ -55,7 +55,7 @@ static bool judge(const stored *s, const char *name, double length)
   for (size_t w = 0; w < windows && w < MOST_WINDOWS; w++) {
     const double *y = s->y + w * n;
     gg_mean m;
-    if (gg_estimate_scalar(y, n, 1, &m, NULL) != GG_OK) return false;
+    if (gg_statistics_estimate_scalar(y, n, 1, &m, NULL) != GG_OK) return false;
     count(&ours, m.mean - s->truth, m.error, 1, 1.959964);
     if (n >= BATCHES) count(&batches, gsl_stats_mean(y, 1, n) - s->truth, of_batches(y, n), t68, t95);
   }

@@ -27,7 +27,8 @@ static const struct {
 static bool append(const gg_replica *r, gg_quantity q, double *y)
 {
   gg_function f;
-  if (gg_quantity_missing(&r->model, q) || !gg_derived_find(r->observable[0]->derived, q, &f)) return false;
+  if (gg_common_quantity_missing(&r->model, q) || !gg_measure_derived_find(r->observable[0]->derived, q, &f))
+    return false;
   for (size_t i = 0; i < r->series.n; i++)
     y[i] = gg_function_value(f, gg_series_row(&r->series, i) + r->offset[0], &r->model);
   return true;
@@ -41,9 +42,9 @@ static bool store(const char *folder, const char *prefix, const char *name, doub
   snprintf(whole, sizeof whole, "%.100s_%s", prefix, name);
   for (size_t i = 0; i < n; i++) mean += y[i] / (double)n;
   for (size_t i = 0; i < n; i++) y[i] -= mean;
-  if (gg_correlation_of(y, n, 1, 0, &c, NULL) != GG_OK) return false;
+  if (gg_statistics_correlation_of(y, n, 1, 0, &c, NULL) != GG_OK) return false;
   double time = c.time;
-  gg_correlation_clear(&c);
+  gg_statistics_correlation_clear(&c);
   printf("%-24s mean %.6g, correlation time %.2f rows\n", whole, mean, time);
   return stored_write(folder, whole, y, n, time, 0);
 }
@@ -52,22 +53,22 @@ static gg_status simulate(const gg_scene *scene, size_t n, double *y[SERIES], bo
 {
   gg_model model;
   gg_replica r;
-  GG_TRY(gg_start_make(scene, &model, err));
-  gg_plan plan = gg_plan_of(scene, &model);
-  GG_TRY(gg_replica_create(&r, scene, &model, 0, err));
-  gg_status status = gg_replica_advance(&r, plan.warmup, true, NULL, err);
+  GG_TRY(gg_run_start_make(scene, &model, err));
+  gg_plan plan = gg_run_criteria_of(scene, &model);
+  GG_TRY(gg_run_replica_create(&r, scene, &model, 0, err));
+  gg_status status = gg_run_replica_advance(&r, plan.warmup, true, NULL, err);
   for (size_t had = 0; status == GG_OK && had < n; had += STRETCH) {
     r.series.n = 0;
-    status = gg_replica_advance(&r, plan.warmup + had + STRETCH, false, NULL, err);
+    status = gg_run_replica_advance(&r, plan.warmup + had + STRETCH, false, NULL, err);
     for (int k = 0; k < SERIES; k++) there[k] = append(&r, wanted[k].quantity, y[k] + had);
   }
-  gg_replica_clear(&r);
+  gg_run_replica_clear(&r);
   return status;
 }
 
 int main(int argc, char **argv)
 {
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene = gg_common_scene_defaults();
   gg_error err = {0};
   size_t n = 100000;
   bool good = argc >= 4 && argc % 2 == 0 && gg_scene_read_file(&scene, argv[3], &err) == GG_OK;

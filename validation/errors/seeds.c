@@ -75,9 +75,9 @@ static void put(cursor *k, double value, double error)
 static void collect(campaign *c, int seed, const gg_result *r)
 {
   cursor k = {.c = c, .seed = seed};
-  for (int q = 0; q < gg_quantities_of(&r->model); q++) {
-    const gg_estimate *e = &r->value[gg_quantity_at(&r->model, q)];
-    begin_item(&k, gg_quantity_name_in(&r->model, gg_quantity_at(&r->model, q)), 1);
+  for (int q = 0; q < gg_common_quantity_set_of(&r->model); q++) {
+    const gg_estimate *e = &r->value[gg_common_quantity_at(&r->model, q)];
+    begin_item(&k, gg_common_quantity_name_in(&r->model, gg_common_quantity_at(&r->model, q)), 1);
     put(&k, e->mean, e->error);
     if (q == 0) c->samples += (double)e->samples / c->seeds;
   }
@@ -208,7 +208,7 @@ static int run_all(campaign *c)
 
 int main(int argc, char **argv)
 {
-  campaign c = {.seeds = 200, .scene = gg_scene_defaults()};
+  campaign c = {.seeds = 200, .scene = gg_common_scene_defaults()};
   gg_error err = {0};
   bool good = argc >= 2 && argc % 2 == 0 && gg_scene_read_file(&c.scene, argv[1], &err) == GG_OK;
   for (int i = 2; good && i < argc; i += 2) good = take(&c, argv[i], argv[i + 1], &err);

@@ -40,11 +40,11 @@ static double bent_time(double rho, double b)
 static void make(const kind *k, gg_rng *rng, double *y, size_t n)
 {
   double rho[2] = {memory(k->slow), memory(k->fast)}, share[2] = {k->slow_share, 1 - k->slow_share};
-  double at[2] = {gg_rng_normal(rng), gg_rng_normal(rng)};
+  double at[2] = {gg_common_rng_normal(rng), gg_common_rng_normal(rng)};
   for (size_t i = 0; i < n; i++) {
     double x = 0;
     for (int m = 0; m < 2; m++) {
-      at[m] = rho[m] * at[m] + sqrt(1 - rho[m] * rho[m]) * gg_rng_normal(rng);
+      at[m] = rho[m] * at[m] + sqrt(1 - rho[m] * rho[m]) * gg_common_rng_normal(rng);
       x += sqrt(share[m]) * at[m];
     }
     y[i] = k->bend > 0 ? exp(k->bend * x) : x;
@@ -63,7 +63,7 @@ int main(int argc, char **argv)
   bool good = y != NULL;
   for (size_t i = 0; good && i < sizeof kinds / sizeof *kinds; i++) {
     const kind *k = &kinds[i];
-    gg_rng rng = gg_rng_seed(i, 0);
+    gg_rng rng = gg_common_rng_seed(i, 0);
     make(k, &rng, y, n);
     double time = k->slow_share * k->slow + (1 - k->slow_share) * k->fast;
     if (k->bend > 0) time = bent_time(memory(k->slow), k->bend);

@@ -33,7 +33,7 @@ static void change(gg_archive *a, const uint8_t *data, size_t size)
 {
   for (int k = 0; k < FUZZ_MOST_RECORDS && size >= RECORD; k++, data += RECORD, size -= RECORD) {
     gg_item *item = item_of(a, data[0]);
-    fuzz_patch(item->data, item->count * gg_item_size(item->type), NULL, 0, data + 1, FUZZ_RECORD);
+    fuzz_patch(item->data, item->count * gg_base_archive_item_size(item->type), NULL, 0, data + 1, FUZZ_RECORD);
   }
 }
 
@@ -58,12 +58,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   gg_error err;
   int looks = 0;
   const gg_hooks hooks = {.context = &looks, .interrupted = enough, .checkpoint = save};
-  if (gg_archive_append(&a, &base->archive, NULL) == GG_OK) {
+  if (gg_base_archive_append(&a, &base->archive, NULL) == GG_OK) {
     bend(&a, data[1]);
     change(&a, data + 2, size - 2);
     gg_run_scene(&base->scene, &a, 1, &hooks, &result, &err);
   }
   gg_result_free(result);
-  gg_archive_clear(&a);
+  gg_base_archive_clear(&a);
   return 0;
 }

@@ -35,10 +35,10 @@ static fuzz_image make(size_t which)
   const fuzz_base *base = fuzz_base_of(which);
   gg_archive small = {0};
   snprintf(path, sizeof path, "/tmp/graingas-fuzz-%ld.h5", (long)getpid());
-  if (gg_archive_append(&small, &base->archive, NULL) != GG_OK) abort();
+  if (gg_base_archive_append(&small, &base->archive, NULL) != GG_OK) abort();
   cut(&small);
-  gg_checkpoint_write(path, false, &small, &base->scene, NULL);
-  gg_archive_clear(&small);
+  gg_files_checkpoint_write(path, false, &small, &base->scene, NULL);
+  gg_base_archive_clear(&small);
   return fuzz_image_of(path);
 }
 

@@ -49,8 +49,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   gg_stored_result s;
   gg_comparison *c = NULL;
   if (fuzz_stored(&s, data, size)) c = calloc(1, sizeof *c);
-  if (c && gg_comparison_restore(&s, c, NULL) == GG_OK) ask(c);
+  if (c && gg_files_comparison_restore(&s, c, NULL) == GG_OK) ask(c);
   gg_comparison_free(c);
-  gg_stored_result_clear(&s);
+  gg_files_stored_result_clear(&s);
   return 0;
 }

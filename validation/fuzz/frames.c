@@ -24,7 +24,7 @@ typedef struct place {
 static gg_status take(void *context, const gg_frame *frame, gg_error *err)
 {
   place *p = context;
-  GG_TRY(gg_frame_check(frame, p->model, err));
+  GG_TRY(gg_run_frame_check(frame, p->model, err));
   gg_h5_particles_append(&p->h, &p->particles, p->model, frame);
   return gg_h5_status(&p->h, "frames", "written", err);
 }
@@ -36,7 +36,7 @@ static uint64_t mend(uint8_t *log, size_t size)
   for (size_t at = 0; size - at >= HEADER; at += bytes) {
     memcpy(&bytes, log + at + BYTES, sizeof bytes);
     const uint64_t there = bytes < HEADER ? HEADER : bytes > size - at ? size - at : bytes;
-    sum = gg_checksum(gg_checksum(sum, log + at, CHECKSUM), log + at + HEADER, there - HEADER);
+    sum = gg_base_checksum(gg_base_checksum(sum, log + at, CHECKSUM), log + at + HEADER, there - HEADER);
     memcpy(log + at + CHECKSUM, &sum, sizeof sum);
     if (bytes < HEADER || bytes > size - at) break;
   }
@@ -45,7 +45,8 @@ static uint64_t mend(uint8_t *log, size_t size)
 
 static void make_model(gg_model *model, size_t which)
 {
-  if (gg_model_make(&fuzz_base_of(which)->scene, fuzz_base_of(which)->scene.engine, model, NULL) != GG_OK) abort();
+  if (gg_common_model_make(&fuzz_base_of(which)->scene, fuzz_base_of(which)->scene.engine, model, NULL) != GG_OK)
+    abort();
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -71,11 +72,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   free(log);
   gg_frame_log opened;
   place p = {.model = &models[data[0] % FUZZ_BASES]};
-  if (gg_frame_log_open_at(&opened, path, &mark, NULL, NULL) != GG_OK) return 0;
+  if (gg_files_frame_log_open_at(&opened, path, &mark, NULL, NULL) != GG_OK) return 0;
   gg_h5_create_in_memory(&p.h);
-  gg_frame_log_replay(&opened, take, &p, NULL);
+  gg_files_frame_log_replay(&opened, take, &p, NULL);
   gg_h5_particles_close(&p.h, &p.particles);
   gg_h5_close(&p.h);
-  gg_frame_log_close(&opened);
+  gg_files_frame_log_close(&opened);
   return 0;
 }

@@ -53,7 +53,7 @@ fuzz_image fuzz_image_of(const char *path)
 const char *fuzz_image_change(fuzz_image *image, const uint8_t *data, size_t size)
 {
   fuzz_patch(image->changed, image->size, image->listed, image->words, data, size);
-  gg_seal_of(image->changed, image->size, image->changed + image->size);
+  gg_files_checksum_trailer_of(image->changed, image->size, image->changed + image->size);
   return image->path;
 }
 

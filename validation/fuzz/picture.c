@@ -12,13 +12,13 @@
 #include "stored.h"
 
 /* In the place of the library's, of which nothing is linked then. */
-gg_status gg_gnuplot_is_there(gg_error *err)
+gg_status gg_plot_gnuplot_is_there(gg_error *err)
 {
   (void)err;
   return GG_OK;
 }
 
-gg_status gg_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err)
+gg_status gg_plot_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err)
 {
   (void)over, (void)picture, (void)err;
   fuzz_check_script(script);
@@ -41,7 +41,7 @@ static double *numbers_of(const json_t *list, size_t *n)
 static void add_series(gg_stored_engine *e, const json_t *all)
 {
   for (int q = 0; e->name && q < GG_N_QUANTITIES && e->n_series < GG_MAX_STORED_SERIES; q++) {
-    const char *name = gg_quantity_name((gg_quantity)q);
+    const char *name = gg_common_quantity_name((gg_quantity)q);
     const json_t *list = json_object_get(all, name);
     size_t n, n_times;
     if (!list) continue;
@@ -80,6 +80,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *name = names[data[0] / 3 % 2];
     if (gg_plot_result(&s, name, NULL, &err) == GG_OK) gg_plot_pages(&s, name, NULL, NULL, NULL, &err);
   }
-  gg_stored_result_clear(&s);
+  gg_files_stored_result_clear(&s);
   return 0;
 }

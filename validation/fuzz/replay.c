@@ -124,7 +124,7 @@ int main(int argc, char **argv)
   for (int i = 2; i < argc; i++) read_path(argv[i]);
   if (!n_kept) fail("holds no inputs", argv[2]);
   for (size_t i = 0; i < n_kept; i++) LLVMFuzzerTestOneInput(kept[i].data, kept[i].size);
-  gg_rng rng = gg_rng_seed(1, 0);
+  gg_rng rng = gg_common_rng_seed(1, 0);
   for (long i = 0; i < n; i++) replay_changed(&rng);
   printf("%zu inputs and %ld changes of them\n", n_kept, n);
   for (size_t i = 0; i < n_kept; i++) free(kept[i].data);

@@ -43,10 +43,10 @@ static void read_frames(const char *path)
   gg_stored_trajectory t;
   gg_frame frame;
   double edges[9];
-  if (gg_stored_trajectory_open(&t, path, NULL) == GG_OK)
+  if (gg_files_stored_trajectory_open(&t, path, NULL) == GG_OK)
     for (size_t k = 0; k < t.n_frames && k < 10; k++)
-      if (gg_stored_trajectory_frame(&t, k, &frame, edges, NULL) == GG_OK) gg_frame_free(&frame);
-  gg_stored_trajectory_close(&t);
+      if (gg_files_stored_trajectory_frame(&t, k, &frame, edges, NULL) == GG_OK) gg_run_frame_free(&frame);
+  gg_files_stored_trajectory_close(&t);
 }
 
 static void read_comparison(const char *path)
@@ -60,7 +60,7 @@ static void read_comparison(const char *path)
 static void read_stored(const char *path)
 {
   gg_stored_result stored;
-  if (gg_stored_result_read(&stored, path, NULL) == GG_OK) gg_stored_result_clear(&stored);
+  if (gg_files_stored_result_read(&stored, path, NULL) == GG_OK) gg_files_stored_result_clear(&stored);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

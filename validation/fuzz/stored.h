@@ -7,7 +7,7 @@
 #include "files/h5/result_reader.h"
 
 /* The first byte chooses the scene beside it, the rest is its text. False: it is no JSON; to be cleared all the same
- * (gg_stored_result_clear). */
+ * (gg_files_stored_result_clear). */
 bool fuzz_stored(gg_stored_result *stored, const uint8_t *data, size_t size);
 
 #endif

@@ -13,8 +13,8 @@ static void change_pair(gg_model *m, int i, int j, double e_off, double as_scann
 {
   int o = gg_pair(i, j);
   double e = m->e[o] >= e_off ? m->e[o] - e_off : m->e[o] + e_off, rolls = m->contact[i][j].jt;
-  m->contact[i][j] = gg_contact_make((gg_partner){m->mass[i], m->inertia[i]}, (gg_partner){m->mass[j], m->inertia[j]},
-                                     e, m->beta[o], m->mu[o]);
+  m->contact[i][j] = gg_common_contact_make((gg_partner){m->mass[i], m->inertia[i]},
+                                            (gg_partner){m->mass[j], m->inertia[j]}, e, m->beta[o], m->mu[o]);
   if (as_scanned > 0 && rolls > 0) m->contact[i][j].jt *= scanned(m->inertia[i]);
 }
 

@@ -14,12 +14,12 @@ HALF = "(GG_MUTANT(%d) ? 0.5 : 1)"
 
 TEXTS = [
     # the engines' own copies of the model
-    ("src/md/md_allocate.c", "  GG_TRY(gg_instructions_check(err));\n  gg_md *e = gg_new_array",
+    ("src/md/md_allocate.c", "  GG_TRY(gg_simd_instructions_check(err));\n  gg_md *e = gg_base_array_new",
      "  gg_model changed = *model;\n  gg_canary_model(&changed, 900);\n  model = &changed;\n"
-     "  GG_TRY(gg_instructions_check(err));\n  gg_md *e = gg_new_array"),
-    ("src/dsmc/dsmc_allocate.c", "  GG_TRY(gg_instructions_check(err));\n  gg_dsmc *made",
+     "  GG_TRY(gg_simd_instructions_check(err));\n  gg_md *e = gg_base_array_new"),
+    ("src/dsmc/dsmc_allocate.c", "  GG_TRY(gg_simd_instructions_check(err));\n  gg_dsmc *made",
      "  gg_model changed = *model;\n  gg_canary_model(&changed, 910);\n  model = &changed;\n"
-     "  GG_TRY(gg_instructions_check(err));\n  gg_dsmc *made"),
+     "  GG_TRY(gg_simd_instructions_check(err));\n  gg_dsmc *made"),
     # eta_2 of md, which rounds it anew
     ("src/md/contacts.c", "upper_turns((1 + (long double)beta) / mt,",
      "upper_turns((1 + (long double)beta) / mt * (rounded->jt > 0 && GG_MUTANT(903) ? "
@@ -38,9 +38,9 @@ TEXTS = [
     ("src/dsmc/kernel/collision_sums.h", "stress = p->sigma * mass;",
      "stress = p->sigma * mass * (f.sums == GG_DSMC_STRESS ? %s : 1);" % (HALF % 914)),
     # the theories
-    ("src/theory/theories.c", "      theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err) : "
+    ("src/theory/theories.c", "      theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err) : "
      "theory->evaluate(model, answer, err);",
-     "      theory->own ? gg_own_theory_evaluate(theory->own, model, answer, err) : "
+     "      theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err) : "
      "({ static _Thread_local int depth; gg_model changed = *model; if (!depth++) gg_canary_model(&changed, 920); "
      "gg_status done = theory->evaluate(&changed, answer, err); depth--; done; });"),
     ("src/theory/theories.c", "  gg_status status = theory->curves(model, measure, list, err);",

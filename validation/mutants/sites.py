@@ -24,7 +24,7 @@ REAL = (T.DOUBLE, T.FLOAT, T.VECTOR, T.LONGDOUBLE)
 CONSTANT = (K.CASE_STMT, K.ENUM_DECL, K.STATIC_ASSERT, K.CXX_UNARY_EXPR)
 VEC_SWAPS = [("_add", "_sub"), ("_sub", "_add")]
 # A wrong value where it only says how much memory there is, or when a search ends, is no slip of the physics.
-NOT_PHYSICS = re.compile(r"malloc|calloc|realloc|sizeof|memcpy|memset|prefetch|GG_TRY|gg_fail|assert|memory|__builtin_expect")
+NOT_PHYSICS = re.compile(r"malloc|calloc|realloc|sizeof|memcpy|memset|prefetch|GG_TRY|gg_base_fail|assert|memory|__builtin_expect")
 
 Site = collections.namedtuple("Site", "file start end kind new line old what")
 

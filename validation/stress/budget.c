@@ -58,13 +58,13 @@ static double uncertainty(const gg_simulation *g, const sample *before, const sa
 /* Monte Carlo's Gaussian thermostat returns in a step what collisions destroyed in the one before. */
 static double rounding(const gg_simulation *g, int steps)
 {
-  if (g->model.homogeneous && gg_thermostat_of(&g->model) == GG_GAUSSIAN) return 1 / sqrt((double)g->model.n);
+  if (g->model.homogeneous && gg_common_thermostat_of(&g->model) == GG_GAUSSIAN) return 1 / sqrt((double)g->model.n);
   return g->model.single ? 1e-4 : 1e-12 * (1 + steps);
 }
 
 gg_status budget_follow(gg_simulation *g, sample *before, sample *after, int steps, budget *b, gg_error *err)
 {
-  const gg_thermostat thermostat = gg_thermostat_of(&g->model);
+  const gg_thermostat thermostat = gg_common_thermostat_of(&g->model);
   gg_simulation_sums sums;
   rule_watch watch = {.model = &g->model};
   GG_TRY(gg_simulation_take_sums(g, &sums, err));

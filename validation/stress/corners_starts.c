@@ -26,7 +26,7 @@ static void pair_up(gg_md *e)
 {
   const uint32_t side = (uint32_t)ceil(cbrt(0.5 * e->n));
   const double apart = e->box.edge[0] / side;
-  gg_rng rng = gg_rng_seed(1, 0);
+  gg_rng rng = gg_common_rng_seed(1, 0);
   for (uint32_t i = 0; i < e->n; i++) {
     const uint32_t at = i / 2;
     const gg_vec site = {at % side * apart, at / side % side * apart, at / (side * side) * apart};

@@ -44,7 +44,7 @@ static double momentum_of(const gg_simulation *g, const sample *s, const double 
 /* Kicks of the Monte Carlo engine's white noise are taken off now and then alone. */
 static double allowed_momentum(const gg_simulation *g)
 {
-  const bool kicked = g->model.homogeneous && gg_thermostat_of(&g->model) == GG_WHITE_NOISE;
+  const bool kicked = g->model.homogeneous && gg_common_thermostat_of(&g->model) == GG_WHITE_NOISE;
   return kicked ? 2 / sqrt((double)g->model.n) : g->model.single ? 1e-6 : 1e-11;
 }
 
@@ -71,7 +71,7 @@ static double collisions_of(const corner *c, const gg_simulation *g)
 /* Does nothing but collisions change the energy, and these not either? */
 static bool keeps_energy(const gg_model *m)
 {
-  return m->elastic && m->shear_rate == 0 && !m->walled && gg_thermostat_of(m) == GG_NO_THERMOSTAT;
+  return m->elastic && m->shear_rate == 0 && !m->walled && gg_common_thermostat_of(m) == GG_NO_THERMOSTAT;
 }
 
 static void look_at(const gg_simulation *g, const sample *s, finding *f)
@@ -88,7 +88,7 @@ static gg_status save_and_restore(const gg_simulation *g, gg_error *err)
   gg_engine *restored = NULL;
   gg_status status = g->engine->ops->save(g->engine, &archive, err);
   if (status == GG_OK) status = g->engine->ops->restore(&g->model, &archive, &restored, err);
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
   if (restored) restored->ops->destroy(restored);
   return status;
 }
@@ -155,7 +155,8 @@ void corner_run(const corner *c, const char *engine, finding *f)
   if (status == GG_OK) status = gg_simulation_new(scene, 0, &g, &err);
   f->refused = status != GG_OK;
   if (status == GG_OK && c->start) c->start(g);
-  if (status == GG_OK && !(sample_new(&s, g) && sample_new(&other, g))) status = gg_fail(&err, GG_FAILED, "no memory");
+  if (status == GG_OK && !(sample_new(&s, g) && sample_new(&other, g)))
+    status = gg_base_fail(&err, GG_FAILED, "no memory");
   if (status == GG_OK) {
     until = begin + CRAWLS_AFTER + collisions_of(c, g) / CRAWLS_BELOW;
     status = gg_simulation_on_stop(g, is_crawling, &until, &err);

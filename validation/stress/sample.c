@@ -88,7 +88,7 @@ static size_t column_of(const columns *c, const sample *s, size_t i)
 
 static bool make_columns(columns *c, const sample *s, const gg_simulation *g)
 {
-  const double width = fmax(1.01 * gg_model_widest(&g->model), cbrt(g->model.volume / (double)s->n));
+  const double width = fmax(1.01 * gg_common_model_widest(&g->model), cbrt(g->model.volume / (double)s->n));
   c->ny = (size_t)fmax(1, fmin(floor(s->state.box[1] / width), 1000));
   c->nz = (size_t)fmax(1, fmin(floor(s->state.box[2] / width), 1000));
   if (c->ny < 3) c->ny = 1;

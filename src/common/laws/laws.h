@@ -15,7 +15,7 @@ typedef enum gg_law_kind { GG_LAW_CONSTANT, GG_LAWS(GG_LAW_VALUE) GG_N_LAWS } gg
 
 /* 1 - e at the speed u > 0: it rises with u, from 0 at 0 towards 1. */
 typedef double gg_loss(double u);
-#define GG_LAW_FUNCTION(NAME, name, description) gg_loss gg_loss_##name;
+#define GG_LAW_FUNCTION(NAME, name, description) gg_loss gg_common_loss_##name;
 GG_LAWS(GG_LAW_FUNCTION)
 #undef GG_LAW_FUNCTION
 

@@ -22,7 +22,7 @@ typedef struct gg_loss_table {
 } gg_loss_table;
 
 /* NULL for a constant e. From malloc. */
-gg_status gg_loss_table_new(gg_law_kind kind, gg_loss_table **table, gg_error *err);
+gg_status gg_common_loss_table_new(gg_law_kind kind, gg_loss_table **table, gg_error *err);
 
 GG_INLINE uint64_t gg_bits_of_double(double x)
 {

@@ -10,7 +10,7 @@
 #include "common/portable_math.h"
 
 /* The unit of speed is that at which x = 1. */
-double gg_loss_viscoelastic(double u)
+double gg_common_loss_viscoelastic(double u)
 {
   const double c1 = 0.501086, b2 = 1.15345, b3 = 0.577977, b4 = 0.532178, x = gg_root(u, 10);
   const double numerator = 1 + c1 * x, rest = x * x * (b2 + x * (b3 + x * b4));

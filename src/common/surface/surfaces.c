@@ -7,8 +7,8 @@ static void add(gg_model *m, const gg_scene *s, bool spins, gg_surface surface)
   const gg_partner wall = {INFINITY, 1};
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     gg_partner grain = {m->mass[i], spins ? m->inertia[i] : INFINITY};
-    surface.contact[i] = gg_contact_make(grain, wall, s->walls.e, s->walls.beta, s->walls.mu);
-    surface.treated[i] = gg_contact_make(grain, wall, 1, s->walls.beta, s->walls.mu);
+    surface.contact[i] = gg_common_contact_make(grain, wall, s->walls.e, s->walls.beta, s->walls.mu);
+    surface.treated[i] = gg_common_contact_make(grain, wall, 1, s->walls.beta, s->walls.mu);
   }
   m->surface[m->n_surfaces++] = surface;
 }
@@ -20,10 +20,11 @@ static gg_status check_room(const gg_model *m, gg_error *err)
   for (int i = 0; i < m->n_species; i++) widest = fmax(widest, m->diameter[i]);
   for (int w = 0; w < m->n_surfaces; w++) room -= m->surface[w].axis == 1 ? gg_surface_height(&m->surface[w]) : 0;
   if (room == m->box[1] || room >= 2 * widest) return GG_OK; /* of flat walls the box alone decides */
-  return gg_fail(err, GG_BAD_INPUT,
-                 "walls: what stands on them leaves %.3g of the %.3g diameters between them free; at least %.3g are "
-                 "needed",
-                 room, m->box[1], 2 * widest);
+  return gg_base_fail(
+      err, GG_BAD_INPUT,
+      "walls: what stands on them leaves %.3g of the %.3g diameters between them free; at least %.3g are "
+      "needed",
+      room, m->box[1], 2 * widest);
 }
 
 /* Flat, or with half cylinders of so great a diameter that a whole number of them stands along x. */
@@ -47,19 +48,19 @@ static gg_surface end_of_gap(const gg_model *m, double side, double speed)
                       .velocity = {side * speed, 0, 0}};
 }
 
-gg_status gg_surfaces_make(const gg_scene *s, bool spins, double time_unit, gg_model *m, gg_error *err)
+gg_status gg_common_surfaces_make(const gg_scene *s, bool spins, double time_unit, gg_model *m, gg_error *err)
 {
   double speed = gg_flow_has_moving_walls(s->flow) ? s->walls.speed * time_unit / s->species[0].diameter : 0;
   bool open = gg_flow_of(s->flow)->may_be_open && s->walls.top == GG_OPEN_TOP;
   m->n_surfaces = 0;
   if (!gg_flow_is_walled(s->flow)) return GG_OK;
   if (s->walls.ridges != 0 && (speed != 0 || s->walls.ridges < 0.1 * s->species[0].diameter))
-    return gg_fail(err, GG_BAD_INPUT,
-                   "walls.ridges: %g; allowed: 0 (flat), or on walls at rest at least a tenth of the diameter",
-                   s->walls.ridges);
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "walls.ridges: %g; allowed: 0 (flat), or on walls at rest at least a tenth of the diameter",
+                        s->walls.ridges);
   const double length = m->box[0] * s->species[0].diameter;
   if (s->walls.ridges > 2 * length)
-    return gg_fail(
+    return gg_base_fail(
         err, GG_BAD_INPUT,
         "walls.ridges: %g in a box that is %.4g long along x; allowed: up to %.4g, of which one is made that "
         "is as wide as the box",
@@ -79,12 +80,12 @@ const gg_surface *gg_surface_at(const gg_model *m, int axis, double side)
   return NULL;
 }
 
-bool gg_is_closed(const gg_model *m, int axis)
+bool gg_common_surface_is_closed(const gg_model *m, int axis)
 {
   return gg_surface_at(m, axis, 1) || gg_surface_at(m, axis, -1);
 }
 
-bool gg_is_open_above(const gg_model *m)
+bool gg_common_surface_is_open_above(const gg_model *m)
 {
   return m->walled && !gg_surface_at(m, 1, 1);
 }

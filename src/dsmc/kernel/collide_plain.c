@@ -48,7 +48,7 @@ static void sums(gg_dsmc_features f, gg_dsmc_pass *p, const gg_contact *contact,
 static gg_contact contact_at(const gg_dsmc_pass *p, double gn)
 {
   gg_contact c = p->contact;
-  double e = p->law ? gg_law_at(p->law, gn * p->law_unit, p->species[0], p->species[1])
+  double e = p->law ? gg_common_law_at(p->law, gn * p->law_unit, p->species[0], p->species[1])
                     : 1 - gg_loss_at(p->losses->loss, gn * p->loss_scale);
   c.jn = (1 + e) / gg_inverse_mr(&c);
   return c;

@@ -98,7 +98,7 @@ typedef struct gg_dsmc_rng_lanes {
 GG_INLINE void gg_dsmc_rng_lanes_seed(gg_dsmc_rng_lanes *lanes, uint64_t seed, uint64_t stream)
 {
   for (unsigned l = 0; l < GG_DSMC_LANES; l++) {
-    gg_rng lane = gg_rng_seed(seed, stream + l);
+    gg_rng lane = gg_common_rng_seed(seed, stream + l);
     for (int i = 0; i < 4; i++) lanes->s[i][l] = lane.s[i];
   }
 }

@@ -59,11 +59,11 @@ struct gg_dsmc_rounds_room {
 gg_dsmc_rounds_room *gg_dsmc_rounds_room_new(int n_species, int segments, gg_error *err)
 {
   const size_t pairs = (size_t)gg_pairs_of(n_species), sums = pairs * ((size_t)segments + 1);
-  gg_dsmc_rounds_room *room = gg_new_array(1, sizeof *room, err);
+  gg_dsmc_rounds_room *room = gg_base_array_new(1, sizeof *room, err);
   if (!room) return NULL;
   for (int k = 0; k < 2; k++) {
-    room->species[k] = gg_new_array(pairs, sizeof *room->species[k], err);
-    room->sum[k] = gg_new_array(sums, sizeof *room->sum[k], err);
+    room->species[k] = gg_base_array_new(pairs, sizeof *room->species[k], err);
+    room->sum[k] = gg_base_array_new(sums, sizeof *room->sum[k], err);
     if (room->species[k] && room->sum[k]) continue;
     gg_dsmc_rounds_room_free(room);
     return NULL;
@@ -199,7 +199,7 @@ static const gg_dsmc_pass *run(rounds *r, double expected)
     r->bounds[s] = (speed_bounds){e->bound_scale, e->bound_strain, e->bound_width};
     for (int q = 0; q < r->pairs; q++) sums_of(r, s)[q] = (gg_dsmc_pass){0};
   }
-  gg_thread_pool_rounds(expected < worth_waking * r->n ? NULL : e->pool, r->n, columns, need, run_part, r);
+  gg_base_thread_pool_rounds(expected < worth_waking * r->n ? NULL : e->pool, r->n, columns, need, run_part, r);
   gg_dsmc_pass *sum = sums_of(r, e->segments);
   for (int q = 0; q < r->pairs; q++) {
     sum[q] = r->species[q].common;
@@ -299,7 +299,7 @@ void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span,
   rounds r = {.d = d, .pairs = pairs, .substep = substep, .species = d->rounds->species[0], .sum = d->rounds->sum[0]};
   double expected = 0;
   for (int q = 0; q < pairs; q++) {
-    const gg_species_pair s = gg_species_of_pair(q);
+    const gg_species_pair s = gg_common_pair_species(q);
     r.species[q] = species_pair_of(d, s.i, s.j);
     expected += expected_of(d, &r.species[q], dt);
   }

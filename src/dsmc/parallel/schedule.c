@@ -44,9 +44,9 @@ int gg_dsmc_segment_in(int segments, int grouping, int part)
 void gg_dsmc_schedule_start(gg_dsmc_schedule *s, uint64_t seed, uint64_t stream)
 {
   uint64_t next = stream + GG_STREAM_SEGMENTS;
-  s->order_rng = gg_rng_seed(seed, next++);
+  s->order_rng = gg_common_rng_seed(seed, next++);
   for (int k = 0; k < GG_DSMC_MAX_SEGMENTS; k++) {
-    s->rng[k] = gg_rng_seed(seed, next++);
+    s->rng[k] = gg_common_rng_seed(seed, next++);
     gg_dsmc_rng_lanes_seed(&s->lanes[k], seed, next);
     next += GG_DSMC_LANES;
   }

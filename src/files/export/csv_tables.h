@@ -7,12 +7,12 @@
 
 /* Of a run: a line a quantity, with mean, standard error, unit, samples, correlation time, and whether the run was
  * steady. */
-void gg_csv_results(gg_text_out *out, const gg_stored_result *stored);
+void gg_files_csv_results(gg_text_out *out, const gg_stored_result *stored);
 /* Of a comparison: a line a quantity, with both engines, z, and what each theory says. */
-void gg_csv_comparison(gg_text_out *out, const gg_stored_result *stored);
+void gg_files_csv_comparison(gg_text_out *out, const gg_stored_result *stored);
 /* A curve: x, mean, standard error, and the law beside it if there is one. */
-void gg_csv_curve(gg_text_out *out, const json_t *curve);
+void gg_files_csv_curve(gg_text_out *out, const json_t *curve);
 /* Numbers read off all curves: exponents, coefficients; true if there are any (`out` may be NULL to ask). */
-bool gg_csv_numbers(gg_text_out *out, const gg_stored_result *stored);
+bool gg_files_csv_numbers(gg_text_out *out, const gg_stored_result *stored);
 
 #endif

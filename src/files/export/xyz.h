@@ -11,6 +11,6 @@
  *
  * Species are called by the chemical elements of their numbers (H is species 1, He 2 ...), since ASE reads no other
  * names. The C locale is in force. */
-void gg_xyz_frame(gg_text_out *out, const gg_stored_trajectory *t, const gg_frame *frame, const double edges[9]);
+void gg_files_xyz_frame(gg_text_out *out, const gg_stored_trajectory *t, const gg_frame *frame, const double edges[9]);
 
 #endif

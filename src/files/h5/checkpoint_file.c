@@ -74,22 +74,22 @@ static void *make_image(const char *path, const gg_archive *a, const gg_scene *s
 static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
 {
   char *before = NULL;
-  if (fsync(file->fd) != 0) return gg_cannot_write(file->path, strerror(errno), err);
-  if (asprintf(&before, "%s.1", file->place.target) < 0) return gg_out_of_memory(err);
+  if (fsync(file->fd) != 0) return gg_base_path_write_error(file->path, strerror(errno), err);
+  if (asprintf(&before, "%s.1", file->place.target) < 0) return gg_base_out_of_memory(err);
   bool kept = rename(file->place.target, before) == 0 || errno == ENOENT; /* the first time there is none */
   int number = errno;
   free(before);
-  return kept ? GG_OK : gg_cannot_write(file->path, strerror(number), err);
+  return kept ? GG_OK : gg_base_path_write_error(file->path, strerror(number), err);
 }
 
 static gg_status write_image(gg_atomic_file *file, const void *image, size_t size, gg_error *err)
 {
   unsigned char seal[GG_SEAL_SIZE];
   if (file->place.stream)
-    return gg_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, file->path);
-  gg_seal_of(image, size, seal);
-  GG_TRY(gg_atomic_write(file, image, size, err));
-  return gg_atomic_write(file, seal, sizeof seal, err);
+    return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, file->path);
+  gg_files_checksum_trailer_of(image, size, seal);
+  GG_TRY(gg_base_atomic_write(file, image, size, err));
+  return gg_base_atomic_write(file, seal, sizeof seal, err);
 }
 
 static gg_status write_it(const char *path, bool locked, bool keep, const gg_archive *a, const gg_scene *scene,
@@ -97,25 +97,26 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
 {
   gg_atomic_file file;
   size_t size = 0;
-  GG_TRY(locked ? gg_atomic_open_locked(&file, path, err) : gg_atomic_open(&file, path, err));
+  GG_TRY(locked ? gg_base_atomic_open_locked(&file, path, err) : gg_base_atomic_open(&file, path, err));
   void *image = make_image(path, a, scene, &size, err);
   gg_status status = image ? write_image(&file, image, size, err) : GG_BAD_FILE;
   free(image);
   if (status == GG_OK && keep) status = keep_before(&file, err);
-  if (status == GG_OK) return gg_atomic_commit(&file, err);
-  gg_atomic_abandon(&file);
+  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
   return status;
 }
 
-gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *a, const gg_scene *scene, gg_error *err)
+gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *a, const gg_scene *scene,
+                                    gg_error *err)
 {
   return write_it(path, locked, true, a, scene, err);
 }
 
-gg_status gg_checkpoint_replace(const char *path, const gg_archive *a, const gg_scene *scene, gg_error *err)
+gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *a, const gg_scene *scene, gg_error *err)
 {
   GG_TRY(write_it(path, true, false, a, scene, err));
-  return gg_checkpoint_remove_before(path, err);
+  return gg_files_checkpoint_remove_before(path, err);
 }
 
 static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
@@ -129,7 +130,7 @@ static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
   if (!h->failed && type < GG_ITEM_TYPES) {
     size_t count;
     void *data = gg_h5_read_array(h, path, (gg_item_type)type, &count);
-    if (data) status = gg_archive_put(a, name, (gg_item_type)type, data, count, err);
+    if (data) status = gg_base_archive_put(a, name, (gg_item_type)type, data, count, err);
     free(data);
   }
   free(name);
@@ -144,47 +145,47 @@ static gg_status read_file(const char *path, gg_archive *a, gg_error *err)
   gg_status status = GG_OK;
   gg_h5_open(&h, path);
   if (!h.failed && !gg_h5_exists(&h, "/checkpoint")) gg_h5_in_failed(&h, "it is not a checkpoint of graingas");
-  gg_checkpoint_check_version(&h);
+  gg_files_checkpoint_check_version(&h);
   gg_h5_read_attribute(&h, "/checkpoint", "items", GG_ITEM_U64, &n);
   for (uint64_t i = 0; i < n && status == GG_OK && !h.failed; i++) status = read_item(&h, i, a, err);
   gg_h5_in_close(&h);
   if (status == GG_OK) status = gg_h5_in_status(&h, path, err);
-  if (status != GG_OK) gg_archive_clear(a);
+  if (status != GG_OK) gg_base_archive_clear(a);
   return status;
 }
 
-gg_status gg_checkpoint_read(const char *path, gg_archive *a, bool *older, gg_error *err)
+gg_status gg_files_checkpoint_read(const char *path, gg_archive *a, bool *older, gg_error *err)
 {
   gg_status status = read_file(path, a, err);
   *older = false;
   if (status != GG_BAD_FILE) return status;
-  char *before = gg_checkpoint_before(path);
+  char *before = gg_files_checkpoint_before(path);
   if (before) *older = read_file(before, a, NULL) == GG_OK;
   free(before);
   return *older ? GG_OK : status;
 }
 
-char *gg_checkpoint_before(const char *path)
+char *gg_files_checkpoint_before(const char *path)
 {
-  char *target = gg_follow_links(path), *before = NULL;
+  char *target = gg_base_path_follow_links(path), *before = NULL;
   if (target && asprintf(&before, "%s.1", target) < 0) {
-    gg_memory_lacked();
+    gg_base_memory_lacked();
     before = NULL;
   }
   free(target);
   return before;
 }
 
-bool gg_is_checkpoint_of(const char *file, const char *path)
+bool gg_files_checkpoint_is_of(const char *file, const char *path)
 {
-  if (gg_same_file(file, path)) return true;
-  char *before = gg_checkpoint_before(path);
-  bool is = gg_same_file(file, before);
+  if (gg_base_path_is_same_file(file, path)) return true;
+  char *before = gg_files_checkpoint_before(path);
+  bool is = gg_base_path_is_same_file(file, before);
   free(before);
   return is;
 }
 
-char *gg_checkpoint_scene(const char *path, bool older)
+char *gg_files_checkpoint_scene(const char *path, bool older)
 {
   gg_h5_in h;
   char *before = NULL;
@@ -196,10 +197,10 @@ char *gg_checkpoint_scene(const char *path, bool older)
   return yaml;
 }
 
-gg_status gg_checkpoint_remove_before(const char *path, gg_error *err)
+gg_status gg_files_checkpoint_remove_before(const char *path, gg_error *err)
 {
-  char *before = gg_checkpoint_before(path);
-  if (!before) return gg_out_of_memory(err);
+  char *before = gg_files_checkpoint_before(path);
+  if (!before) return gg_base_out_of_memory(err);
   unlink(before);
   free(before);
   return GG_OK;

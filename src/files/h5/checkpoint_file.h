@@ -13,28 +13,29 @@ struct gg_h5_in;
 enum { GG_CHECKPOINT_LAYOUT = 3 };
 
 /* `locked`: the caller holds the lock of this path (base/file_lock.h). */
-gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
-                              gg_error *err);
+gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
+                                    gg_error *err);
 /* The first of a run that does not go on from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was
  * there is removed, since neither is a fall-back of this run. The caller holds the lock. */
-gg_status gg_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene, gg_error *err);
+gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene,
+                                      gg_error *err);
 /* What FILE.1 is called where links lead from FILE; to be freed. NULL: nowhere, or out of memory, which is noted. */
-char *gg_checkpoint_before(const char *path);
+char *gg_files_checkpoint_before(const char *path);
 /* Remove FILE.1. */
-gg_status gg_checkpoint_remove_before(const char *path, gg_error *err);
+gg_status gg_files_checkpoint_remove_before(const char *path, gg_error *err);
 
 /* Is it FILE or FILE.1 of this path? Not for want of memory, which is noted. */
-bool gg_is_checkpoint_of(const char *file, const char *path);
+bool gg_files_checkpoint_is_of(const char *file, const char *path);
 
 #define GG_CHECKPOINTS_ARE "checkpoints take each other's place, and are files"
 
 /* Fills an empty archive. *older: FILE.1 had to be taken. GG_BAD_FILE if neither can be read. */
-gg_status gg_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err);
+gg_status gg_files_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err);
 
 /* Fails the file, open, where another version or layout wrote its checkpoint. */
-void gg_checkpoint_check_version(struct gg_h5_in *h);
+void gg_files_checkpoint_check_version(struct gg_h5_in *h);
 
 /* The scene of a checkpoint that was read, as YAML, to be freed; NULL where it cannot be read. */
-char *gg_checkpoint_scene(const char *path, bool older);
+char *gg_files_checkpoint_scene(const char *path, bool older);
 
 #endif

@@ -8,7 +8,7 @@
 
 /* States are saved as they stand in memory, which another version may have laid out otherwise. The first layout did not
  * say its number. */
-void gg_checkpoint_check_version(struct gg_h5_in *h)
+void gg_files_checkpoint_check_version(struct gg_h5_in *h)
 {
   int64_t layout = 1;
   char *version = gg_h5_read_text(h, "/checkpoint/version"), why[200];

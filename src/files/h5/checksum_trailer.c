@@ -25,7 +25,7 @@ static void fill(unsigned char *seal, uint64_t size, uint64_t sum)
   put(seal + 16, sum, 4);
 }
 
-void gg_seal_of(const void *data, size_t size, unsigned char seal[GG_SEAL_SIZE])
+void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char seal[GG_SEAL_SIZE])
 {
   const unsigned char *at = data;
   uLong sum = crc32(0, NULL, 0);
@@ -57,7 +57,7 @@ static int sum_up(int fd, off_t size, unsigned char *seal, unsigned char **block
   return *block && at == size ? 0 : -1;
 }
 
-int gg_seal_of_file(int fd, unsigned char seal[GG_SEAL_SIZE])
+int gg_files_checksum_trailer_of_file(int fd, unsigned char seal[GG_SEAL_SIZE])
 {
   struct stat about;
   unsigned char *block = NULL;
@@ -83,7 +83,7 @@ static const char *broken(int fd, uint64_t *size_of, unsigned char **block)
   return memcmp(there, wanted, sizeof there) == 0 ? NULL : "its checksum does not match: it is damaged";
 }
 
-const char *gg_seal_open(const char *path, int *fd, uint64_t *size, unsigned char **whole)
+const char *gg_files_checksum_trailer_open(const char *path, int *fd, uint64_t *size, unsigned char **whole)
 {
   unsigned char *block = NULL;
   *whole = NULL;

@@ -76,8 +76,8 @@ static bool is_same(const gg_h5_type *from, gg_item_type type)
               [GG_ITEM_F32] = {GG_H5_REAL, false}};
   const uint16_t one = 1;
   const bool lowest_first = *(const unsigned char *)&one;
-  return (int)from->kind == ours[type].kind && from->size == gg_item_size(type) && from->backwards == !lowest_first &&
-         (from->kind != GG_H5_WHOLE || from->is_signed == ours[type].is_signed);
+  return (int)from->kind == ours[type].kind && from->size == gg_base_archive_item_size(type) &&
+         from->backwards == !lowest_first && (from->kind != GG_H5_WHOLE || from->is_signed == ours[type].is_signed);
 }
 
 bool gg_h5_convert(const gg_h5_type *from, const void *data, gg_item_type type, void *to, size_t n)
@@ -86,7 +86,7 @@ bool gg_h5_convert(const gg_h5_type *from, const void *data, gg_item_type type, 
   unsigned char *put_at = to;
   if (from->kind != GG_H5_REAL && from->kind != GG_H5_WHOLE) return false;
   if (is_same(from, type)) return n ? memcpy(to, data, n * from->size) : NULL, true;
-  for (size_t i = 0; i < n; i++, at += from->size, put_at += gg_item_size(type)) {
+  for (size_t i = 0; i < n; i++, at += from->size, put_at += gg_base_archive_item_size(type)) {
     const number x = number_of(from, at);
     put(&x, type, put_at);
   }

@@ -13,7 +13,7 @@ void gg_h5_in_failed(gg_h5_in *in, const char *why)
 {
   if (in->failed) return;
   in->failed = true;
-  if (errno == ENOMEM) gg_memory_lacked();
+  if (errno == ENOMEM) gg_base_memory_lacked();
   snprintf(in->why, sizeof in->why, "%s", errno == ENOMEM ? "out of memory" : why);
 }
 
@@ -27,7 +27,7 @@ bool gg_h5_refuse(gg_h5_in *in, const char *what, const char *why)
 
 gg_status gg_h5_in_status(const gg_h5_in *in, const char *path, gg_error *err)
 {
-  return in->failed ? gg_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, in->why) : GG_OK;
+  return in->failed ? gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, in->why) : GG_OK;
 }
 
 uint64_t gg_h5_word(const unsigned char *from, int bytes)
@@ -88,7 +88,7 @@ void gg_h5_open(gg_h5_in *in, const char *path)
   memset(in, 0, sizeof *in);
   in->fd = -1;
   errno = 0;
-  const char *broken = gg_seal_open(path, &in->fd, &in->size, &in->whole);
+  const char *broken = gg_files_checksum_trailer_open(path, &in->fd, &in->size, &in->whole);
   if (broken)
     gg_h5_in_failed(in, broken);
   else

@@ -38,7 +38,7 @@ static void write_kinds(gg_h5 *h, const gg_model *model, const gg_frame *frame, 
     gg_h5_array(h, GRAINS "/species", H5T_NATIVE_UINT8, 1, &n, species);
     write_number_of_each(h, GRAINS "/mass", model->mass, species, n, "m");
     write_number_of_each(h, GRAINS "/diameter", model->diameter, species, n,
-                         model->boltzmann ? "d" : gg_curve_unit(model, "length"));
+                         model->boltzmann ? "d" : gg_measure_curve_unit(model, "length"));
   }
   free(id);
   free(species);
@@ -48,9 +48,9 @@ static void write_kinds(gg_h5 *h, const gg_model *model, const gg_frame *frame, 
  * among which are all of ours: of position, velocity and time they stand at the groups. */
 static void write_units(gg_h5 *h, const gg_model *model, const gg_frame *frame)
 {
-  const char *velocity = gg_curve_unit(model, "velocity"), *length = gg_curve_unit(model, "length");
-  const char *spin = model->boltzmann ? velocity : gg_curve_unit(model, "spin");
-  gg_h5_text_attribute(h, GRAINS, "time_unit", gg_curve_unit(model, "time"));
+  const char *velocity = gg_measure_curve_unit(model, "velocity"), *length = gg_measure_curve_unit(model, "length");
+  const char *spin = model->boltzmann ? velocity : gg_measure_curve_unit(model, "spin");
+  gg_h5_text_attribute(h, GRAINS, "time_unit", gg_measure_curve_unit(model, "time"));
   gg_h5_text_attribute(h, GRAINS "/velocity", "unit", velocity);
   if (frame->position) gg_h5_text_attribute(h, GRAINS "/position", "unit", length);
   if (frame->position) gg_h5_text_attribute(h, GRAINS "/box/edges", "unit", length);

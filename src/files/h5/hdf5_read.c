@@ -21,7 +21,7 @@ static void *read_rows(gg_h5_in *in, const char *path, const gg_h5_array_in *a, 
                        gg_item_type type)
 {
   const uint64_t n = rows * gg_h5_row_size(&a->space);
-  void *raw = calloc(n + 1, a->type.size), *data = calloc(n + 1, gg_item_size(type));
+  void *raw = calloc(n + 1, a->type.size), *data = calloc(n + 1, gg_base_archive_item_size(type));
   bool good = raw && data;
   if (!good) gg_h5_in_failed(in, "out of memory");
   good = good && gg_h5_rows_of(in, path, a, from, rows, raw);

@@ -74,20 +74,20 @@ static void write_estimate(gg_h5 *h, const char *group, gg_quantity q, const gg_
     const char *unit; /* NULL: that of the quantity, beside it */
   } numbers[] = {{"mean", e->mean, NULL},
                  {"stderr", e->error, NULL},
-                 {"correlation_time", e->correlation_time, gg_correlation_time_unit(&r->model)}};
+                 {"correlation_time", e->correlation_time, gg_run_correlation_time_unit(&r->model)}};
   char path[160];
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
     if (isnan(numbers[i].value)) continue; /* what cannot be had is not there */
-    snprintf(path, sizeof path, "%s/results/%s/%s", group, gg_quantity_name_in(&r->model, q), numbers[i].name);
+    snprintf(path, sizeof path, "%s/results/%s/%s", group, gg_common_quantity_name_in(&r->model, q), numbers[i].name);
     gg_h5_number(h, path, numbers[i].value);
     if (numbers[i].unit) gg_h5_text_attribute(h, path, "unit", numbers[i].unit);
   }
-  snprintf(path, sizeof path, "%s/results/%s/samples", group, gg_quantity_name_in(&r->model, q));
+  snprintf(path, sizeof path, "%s/results/%s/samples", group, gg_common_quantity_name_in(&r->model, q));
   gg_h5_count(h, path, e->samples);
-  snprintf(path, sizeof path, "%s/results/%s/unit", group, gg_quantity_name_in(&r->model, q));
-  gg_h5_text(h, path, gg_quantity_unit(q, &r->model));
-  snprintf(path, sizeof path, "%s/results/%s", group, gg_quantity_name_in(&r->model, q));
-  gg_h5_text_attribute(h, path, "doc", gg_quantity_doc_in(&r->model, q));
+  snprintf(path, sizeof path, "%s/results/%s/unit", group, gg_common_quantity_name_in(&r->model, q));
+  gg_h5_text(h, path, gg_common_quantity_unit(q, &r->model));
+  snprintf(path, sizeof path, "%s/results/%s", group, gg_common_quantity_name_in(&r->model, q));
+  gg_h5_text_attribute(h, path, "doc", gg_common_quantity_doc_in(&r->model, q));
 }
 
 static void write_effort(gg_h5 *h, const char *group, const char *name, const gg_effort *effort)
@@ -103,14 +103,14 @@ static void write_effort(gg_h5 *h, const char *group, const char *name, const gg
 static void write_series(gg_h5 *h, const char *observables, const gg_result *r, int k, char *first, size_t size)
 {
   const gg_history *history = &r->history;
-  gg_quantity q = gg_history_quantity(k);
+  gg_quantity q = gg_common_quantity_of_history(k);
   hsize_t n = history->n;
   char group[120], path[160], target[160];
-  snprintf(group, sizeof group, "%s%s", observables, gg_quantity_name_in(&r->model, q));
+  snprintf(group, sizeof group, "%s%s", observables, gg_common_quantity_name_in(&r->model, q));
   snprintf(path, sizeof path, "%s/value", group);
   gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 1, &n, history->value[k]);
-  gg_h5_text_attribute(h, path, "unit", gg_quantity_unit(q, &r->model));
-  gg_h5_text_attribute(h, group, "doc", gg_quantity_doc(q));
+  gg_h5_text_attribute(h, path, "unit", gg_common_quantity_unit(q, &r->model));
+  gg_h5_text_attribute(h, group, "doc", gg_common_quantity_doc(q));
   if (*first) {
     snprintf(path, sizeof path, "%s/step", group);
     snprintf(target, sizeof target, "%s/step", first);
@@ -143,10 +143,10 @@ static bool has_values(const gg_history *history, int k)
 static void write_warnings(gg_h5 *h, const char *group, const gg_result *r)
 {
   char *text = NULL, path[160];
-  FILE *out = gg_open_text(&text);
+  FILE *out = gg_base_memory_stream_open(&text);
   for (size_t i = 0; out && i < r->warnings.n; i++) fprintf(out, "%s\n", r->warnings.text[i]);
   snprintf(path, sizeof path, "%s/warnings", group);
-  if (gg_close_text(out, &text))
+  if (gg_base_memory_stream_close(out, &text))
     gg_h5_text(h, path, text);
   else
     gg_h5_failed(h, "out of memory");
@@ -160,9 +160,9 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
   char path[160], first[120] = "";
   snprintf(path, sizeof path, "%s/results", group);
   gg_h5_group(h, path);
-  for (int i = 0; i < gg_quantities_of(&r->model); i++) {
-    gg_quantity q = gg_quantity_at(&r->model, i);
-    if (gg_is_measured(&r->value[q])) write_estimate(h, group, q, r);
+  for (int i = 0; i < gg_common_quantity_set_of(&r->model); i++) {
+    gg_quantity q = gg_common_quantity_at(&r->model, i);
+    if (gg_files_quantity_is_measured(&r->value[q])) write_estimate(h, group, q, r);
   }
   snprintf(path, sizeof path, "%s/engine", group);
   gg_h5_text(h, path, r->engine);
@@ -183,16 +183,16 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
 static void write_numbers(gg_h5 *h, const char *group, const gg_model *m, const gg_theory_answer *a)
 {
   char path[160];
-  for (int k = 0; k < gg_quantities_of(m); k++) {
-    const gg_quantity q = gg_quantity_at(m, k);
-    const char *quantity = gg_quantity_name_in(m, q);
+  for (int k = 0; k < gg_common_quantity_set_of(m); k++) {
+    const gg_quantity q = gg_common_quantity_at(m, k);
+    const char *quantity = gg_common_quantity_name_in(m, q);
     if (!isfinite(a->value[q])) continue;
     snprintf(path, sizeof path, "%s/%s/mean", group, quantity);
     gg_h5_number(h, path, a->value[q]);
     snprintf(path, sizeof path, "%s/%s/error", group, quantity);
     if (isfinite(a->error[q])) gg_h5_number(h, path, a->error[q]);
     snprintf(path, sizeof path, "%s/%s/unit", group, quantity);
-    gg_h5_text(h, path, gg_quantity_unit(q, m));
+    gg_h5_text(h, path, gg_common_quantity_unit(q, m));
   }
 }
 

@@ -37,10 +37,10 @@ static void read_kinds(gg_stored_trajectory *t)
   gg_h5_read_attribute(h, GRAINS "/velocity", "shear_rate", GG_ITEM_F64, &t->shear_rate);
 }
 
-gg_status gg_stored_trajectory_open(gg_stored_trajectory *t, const char *path, gg_error *err)
+gg_status gg_files_stored_trajectory_open(gg_stored_trajectory *t, const char *path, gg_error *err)
 {
   *t = (gg_stored_trajectory){.path = strdup(path)};
-  if (!t->path) return gg_out_of_memory(err);
+  if (!t->path) return gg_base_out_of_memory(err);
   gg_h5_open(&t->h, path);
   if (gg_h5_exists(&t->h, GRAINS "/position/value")) {
     t->n_frames = gg_h5_count_of(&t->h, GRAINS "/velocity/step");
@@ -59,11 +59,12 @@ static double *read_vectors(gg_stored_trajectory *t, const char *path, size_t k)
 static void read_into(gg_stored_trajectory *t, const char *path, size_t k, gg_item_type type, size_t items, void *place)
 {
   void *row = gg_h5_read_row(&t->h, path, k, type, items);
-  if (row) memcpy(place, row, items * gg_item_size(type));
+  if (row) memcpy(place, row, items * gg_base_archive_item_size(type));
   free(row);
 }
 
-gg_status gg_stored_trajectory_frame(gg_stored_trajectory *t, size_t k, gg_frame *frame, double edges[9], gg_error *err)
+gg_status gg_files_stored_trajectory_frame(gg_stored_trajectory *t, size_t k, gg_frame *frame, double edges[9],
+                                           gg_error *err)
 {
   *frame = (gg_frame){.n = t->n};
   read_into(t, GRAINS "/velocity/step", k, GG_ITEM_U64, 1, &frame->step);
@@ -73,11 +74,11 @@ gg_status gg_stored_trajectory_frame(gg_stored_trajectory *t, size_t k, gg_frame
   frame->velocity = read_vectors(t, GRAINS "/velocity/value", k);
   if (t->spin_unit) frame->spin = read_vectors(t, GRAINS "/spin/value", k);
   gg_status status = gg_h5_in_status(&t->h, t->path, err);
-  if (status != GG_OK) gg_frame_free(frame);
+  if (status != GG_OK) gg_run_frame_free(frame);
   return status;
 }
 
-void gg_stored_trajectory_close(gg_stored_trajectory *t)
+void gg_files_stored_trajectory_close(gg_stored_trajectory *t)
 {
   void *const all[] = {t->path,        t->species,       t->diameter,  t->mass,
                        t->length_unit, t->velocity_unit, t->spin_unit, t->time_unit};

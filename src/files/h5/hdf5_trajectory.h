@@ -20,10 +20,10 @@ typedef struct gg_stored_trajectory {
 } gg_stored_trajectory;
 
 /* To be closed also after a failure. */
-gg_status gg_stored_trajectory_open(gg_stored_trajectory *t, const char *path, gg_error *err);
+gg_status gg_files_stored_trajectory_open(gg_stored_trajectory *t, const char *path, gg_error *err);
 /* The k-th frame from 0, grains in the order of their numbers (to be freed), and the rows of its cell's edges. */
-gg_status gg_stored_trajectory_frame(gg_stored_trajectory *t, size_t k, gg_frame *frame, double edges[9],
-                                     gg_error *err);
-void gg_stored_trajectory_close(gg_stored_trajectory *t);
+gg_status gg_files_stored_trajectory_frame(gg_stored_trajectory *t, size_t k, gg_frame *frame, double edges[9],
+                                           gg_error *err);
+void gg_files_stored_trajectory_close(gg_stored_trajectory *t);
 
 #endif

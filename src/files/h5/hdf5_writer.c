@@ -44,7 +44,7 @@ static void start(gg_h5 *h)
 static void create(gg_h5 *h, const char *path, bool in_memory)
 {
   start(h);
-  if (!gg_memory_is_room()) {
+  if (!gg_base_memory_is_room()) {
     gg_h5_failed(h, "out of memory");
     return;
   }
@@ -95,7 +95,7 @@ void gg_h5_close(gg_h5 *h)
 
 gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_error *err)
 {
-  return h->failed ? gg_fail(err, GG_BAD_FILE, "%s: cannot be %s: %s", path, verb, h->why) : GG_OK;
+  return h->failed ? gg_base_fail(err, GG_BAD_FILE, "%s: cannot be %s: %s", path, verb, h->why) : GG_OK;
 }
 
 static bool exists(gg_h5 *h, const char *path)

@@ -26,7 +26,8 @@ static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
 {
   const int dimension = 3;
   const char *boundary[3];
-  for (int a = 0; a < dimension; a++) boundary[a] = !p->boxed || gg_is_closed(model, a) ? "none" : "periodic";
+  for (int a = 0; a < dimension; a++)
+    boundary[a] = !p->boxed || gg_common_surface_is_closed(model, a) ? "none" : "periodic";
   gg_h5_group(h, GRAINS "box");
   gg_h5_ints_attribute(h, GRAINS "box", "dimension", &dimension, 0);
   gg_h5_texts_attribute(h, GRAINS "box", "boundary", boundary, 3);
@@ -71,7 +72,7 @@ void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model,
 {
   if (h->failed) return;
   gg_error err = {.message = "out of memory for a frame"};
-  size_t *order = gg_frame_order(frame, &err);
+  size_t *order = gg_run_frame_order(frame, &err);
   double *sorted = malloc(3 * frame->n * sizeof *sorted);
   if (!order || !sorted) {
     gg_h5_failed(h, err.message);

@@ -18,10 +18,10 @@ typedef struct gg_result_writer {
   gg_h5_particles particles;
 } gg_result_writer;
 
-gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
+gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
 {
   *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command};
-  return gg_atomic_open(&f->file, path, err);
+  return gg_base_atomic_open(&f->file, path, err);
 }
 
 static void forget(gg_result_file *f)
@@ -34,19 +34,19 @@ static void forget(gg_result_file *f)
   free(w);
 }
 
-void gg_result_file_abandon(gg_result_file *f)
+void gg_files_result_file_abandon(gg_result_file *f)
 {
   forget(f);
-  gg_atomic_abandon(&f->file);
+  gg_base_atomic_abandon(&f->file);
 }
 
 /* On the disk under its temporary name, or in memory: what is small, and what goes to a device or pipe. */
 static gg_status create(gg_result_file *f, bool streaming, gg_error *err)
 {
   if (f->now) return GG_OK;
-  gg_result_writer *w = gg_new_array(1, sizeof *w, err);
+  gg_result_writer *w = gg_base_array_new(1, sizeof *w, err);
   if (!w) {
-    gg_result_file_abandon(f);
+    gg_files_result_file_abandon(f);
     return GG_FAILED;
   }
   w->streaming = streaming;
@@ -65,11 +65,11 @@ static gg_status check_room(const gg_result_file *f, const gg_frame *frame, gg_e
   double needed = 2.0 * (double)frame->n * 9 * sizeof(double) + (1 << 22);
   if (f->file.place.stream) return GG_OK;
   if (fstatvfs(f->file.fd, &disk) == 0 && (double)disk.f_bavail * (double)disk.f_frsize < needed)
-    return gg_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", f->file.path, strerror(ENOSPC));
+    return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", f->file.path, strerror(ENOSPC));
   return GG_OK;
 }
 
-gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err)
+gg_status gg_files_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err)
 {
   GG_TRY(check_room(f, frame, err));
   GG_TRY(create(f, !f->file.place.stream, err));
@@ -80,18 +80,18 @@ gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const g
 static gg_status write_image(gg_result_file *f, const void *image, size_t size, gg_error *err)
 {
   unsigned char seal[GG_SEAL_SIZE];
-  gg_seal_of(image, size, seal);
-  GG_TRY(gg_atomic_write(&f->file, image, size, err));
-  return gg_atomic_write(&f->file, seal, sizeof seal, err);
+  gg_files_checksum_trailer_of(image, size, seal);
+  GG_TRY(gg_base_atomic_write(&f->file, image, size, err));
+  return gg_base_atomic_write(&f->file, seal, sizeof seal, err);
 }
 
 /* HDF5 wrote it, in an order of its own: it is read once for its checksum. */
 static gg_status seal_streamed(gg_result_file *f, gg_error *err)
 {
   unsigned char seal[GG_SEAL_SIZE];
-  if (gg_seal_of_file(f->file.fd, seal) != 0 || lseek(f->file.fd, 0, SEEK_END) < 0)
-    return gg_cannot_write(f->file.path, strerror(errno), err);
-  return gg_atomic_write(&f->file, seal, sizeof seal, err);
+  if (gg_files_checksum_trailer_of_file(f->file.fd, seal) != 0 || lseek(f->file.fd, 0, SEEK_END) < 0)
+    return gg_base_path_write_error(f->file.path, strerror(errno), err);
+  return gg_base_atomic_write(&f->file, seal, sizeof seal, err);
 }
 
 /* Close what was streamed, or write what was made in memory; then put it in place. */
@@ -106,14 +106,14 @@ static gg_status finish(gg_result_file *f, gg_error *err)
   if (status == GG_OK) status = w->streaming ? seal_streamed(f, err) : write_image(f, image, size, err);
   free(image);
   forget(f);
-  if (status == GG_OK) return gg_atomic_commit(&f->file, err);
-  gg_atomic_abandon(&f->file);
+  if (status == GG_OK) return gg_base_atomic_commit(&f->file, err);
+  gg_base_atomic_abandon(&f->file);
   return status;
 }
 
 static void write_document(gg_result_file *f, const gg_scene *scene, json_t *document)
 {
-  char *text = document ? gg_document_text(document) : NULL;
+  char *text = document ? gg_files_document_text(document) : NULL;
   if (text)
     gg_h5_write_header(&f->now->h, f->command, scene, text);
   else
@@ -129,29 +129,29 @@ static void write_last_frame(gg_result_file *f, const gg_result *r)
   if (r->final.n && r->final.velocity && fresh) gg_h5_particles_append(&w->h, &w->particles, &r->model, &r->final);
 }
 
-gg_status gg_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err)
+gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err)
 {
   GG_TRY(create(f, false, err));
-  locale_t before = gg_c_locale_enter();
-  write_document(f, &result->scene, gg_run_document(result));
+  locale_t before = gg_base_c_locale_enter();
+  write_document(f, &result->scene, gg_files_run_document(result));
   gg_h5_text_attribute(&f->now->h, "/graingas", "kind", "run");
   gg_h5_write_engine(&f->now->h, "/graingas", "/observables/", result);
   write_last_frame(f, result);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return finish(f, err);
 }
 
-gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_comparison *c, gg_error *err)
+gg_status gg_files_result_file_finish_comparison(gg_result_file *f, const gg_comparison *c, gg_error *err)
 {
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
   GG_TRY(create(f, false, err));
-  locale_t before = gg_c_locale_enter();
-  write_document(f, &c->scene, gg_comparison_document(c));
+  locale_t before = gg_base_c_locale_enter();
+  write_document(f, &c->scene, gg_files_comparison_document(c));
   gg_h5_text_attribute(&f->now->h, "/graingas", "kind", "compare");
   if (md) gg_h5_write_engine(&f->now->h, "/graingas/md", "/observables/md_", md);
   if (dsmc) gg_h5_write_engine(&f->now->h, "/graingas/dsmc", "/observables/dsmc_", dsmc);
   gg_h5_write_theories(&f->now->h, c);
   if (md || dsmc) write_last_frame(f, md ? md : dsmc);
-  gg_c_locale_leave(before);
+  gg_base_c_locale_leave(before);
   return finish(f, err);
 }

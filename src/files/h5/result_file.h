@@ -26,14 +26,14 @@ typedef struct gg_result_file {
 } gg_result_file;
 
 /* `path` is checked to be writable and left untouched until the end; nobody else can open it in between. */
-gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err);
+gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err);
 /* Store a frame now. */
-gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err);
+gg_status gg_files_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err);
 /* Write all the rest, and put the file in place; on failure nothing is left. */
-gg_status gg_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err);
-gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_comparison *comparison, gg_error *err);
+gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err);
+gg_status gg_files_result_file_finish_comparison(gg_result_file *f, const gg_comparison *comparison, gg_error *err);
 /* Give up: nothing is left. Harmless after a finish. */
-void gg_result_file_abandon(gg_result_file *f);
+void gg_files_result_file_abandon(gg_result_file *f);
 
 /* The inner layouts, for the writers above. */
 void gg_h5_write_header(struct gg_h5 *h, const char *command, const gg_scene *scene, const char *document);

@@ -30,13 +30,13 @@ static void read_engine(gg_h5_in *h, gg_stored_engine *e, const char *group, con
   double *window = gg_h5_read_array(h, path, GG_ITEM_F64, &n);
   if (n == 2) memcpy(e->window, window, sizeof e->window);
   free(window);
-  for (int q = 0; q < GG_N_QUANTITIES; q++) read_series(h, e, observables, gg_quantity_name((gg_quantity)q));
+  for (int q = 0; q < GG_N_QUANTITIES; q++) read_series(h, e, observables, gg_common_quantity_name((gg_quantity)q));
 }
 
 static void read_engines(gg_h5_in *h, gg_stored_result *s)
 {
   for (int k = 0; k < 2; k++) {
-    const char *name = gg_engine_ops_of((gg_engine_kind)k)->name;
+    const char *name = gg_run_engine_ops_of((gg_engine_kind)k)->name;
     gg_stored_engine *e = &s->engine[k];
     char group[64] = "/graingas", observables[64] = "/observables/";
     json_t *document = s->document;
@@ -97,7 +97,7 @@ static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
   if (!h->failed && kinds != f->n) gg_h5_in_failed(h, "its grains are not all of a known species");
 }
 
-void gg_stored_scene_in_words_of_today(char *scene)
+void gg_files_stored_scene_update_words(char *scene)
 {
   static const char off[] = "\nsmall_shear: off\n", on[] = "\nsmall_shear: on\n", before[] = "flow: usf\n",
                     now[] = "flow: small_shear\n";
@@ -111,13 +111,13 @@ void gg_stored_scene_in_words_of_today(char *scene)
   memcpy(scene, now, sizeof now - 1);
 }
 
-gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
+gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
 {
   gg_h5_in h;
   *s = (gg_stored_result){0};
   gg_h5_open(&h, path);
   const bool checkpoint = !h.failed && gg_h5_exists(&h, "/checkpoint");
-  if (checkpoint) gg_checkpoint_check_version(&h);
+  if (checkpoint) gg_files_checkpoint_check_version(&h);
   if (checkpoint && !h.failed)
     gg_h5_in_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
   if (!h.failed && gg_h5_exists(&h, "/graingas/table"))
@@ -131,9 +131,9 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   s->machine = gg_h5_read_text(&h, "/graingas/machine");
   s->date = gg_h5_read_text(&h, "/graingas/date");
   s->scene = gg_h5_read_text(&h, "/graingas/scene");
-  gg_stored_scene_in_words_of_today(s->scene);
+  gg_files_stored_scene_update_words(s->scene);
   const char *why = "out of memory";
-  s->document = text ? gg_json_read(text, &why) : NULL;
+  s->document = text ? gg_base_json_read(text, &why) : NULL;
   free(text);
   if (!s->document) gg_h5_in_failed(&h, why);
   if (!h.failed) {
@@ -145,11 +145,11 @@ gg_status gg_stored_result_read(gg_stored_result *s, const char *path, gg_error 
   }
   gg_h5_in_close(&h);
   gg_status status = gg_h5_in_status(&h, path, err);
-  if (status != GG_OK) gg_stored_result_clear(s);
+  if (status != GG_OK) gg_files_stored_result_clear(s);
   return status;
 }
 
-void gg_stored_result_clear(gg_stored_result *s)
+void gg_files_stored_result_clear(gg_stored_result *s)
 {
   for (int k = 0; k < 2; k++)
     for (int i = 0; i < s->engine[k].n_series; i++) {
@@ -162,11 +162,11 @@ void gg_stored_result_clear(gg_stored_result *s)
   free(s->date);
   free(s->scene);
   json_decref(s->document);
-  gg_frame_free(&s->last);
+  gg_run_frame_free(&s->last);
   *s = (gg_stored_result){0};
 }
 
-const gg_stored_series *gg_stored_series_find(const gg_stored_engine *e, const char *name)
+const gg_stored_series *gg_files_stored_series_find(const gg_stored_engine *e, const char *name)
 {
   for (int i = 0; i < e->n_series; i++)
     if (strcmp(e->series[i].name, name) == 0) return &e->series[i];

@@ -35,11 +35,11 @@ typedef struct gg_stored_result {
 
 /* A scene as files hold it, of the time when the flow small_shear was a key beside flow: usf, in the words of today; in
  * place. One that is of today stays as it is. */
-void gg_stored_scene_in_words_of_today(char *yaml);
+void gg_files_stored_scene_update_words(char *yaml);
 
-gg_status gg_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);
-void gg_stored_result_clear(gg_stored_result *stored);
+gg_status gg_files_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);
+void gg_files_stored_result_clear(gg_stored_result *stored);
 /* The series of that name, or NULL. */
-const gg_stored_series *gg_stored_series_find(const gg_stored_engine *engine, const char *name);
+const gg_stored_series *gg_files_stored_series_find(const gg_stored_engine *engine, const char *name);
 
 #endif

@@ -33,7 +33,7 @@ static void restore_warnings(gg_result *r, const json_t *document)
   size_t i;
   json_t *line;
   json_array_foreach(json_object_get(document, "warnings"), i, line) if (json_is_string(line))
-      gg_result_warn(r, "%s", json_string_value(line));
+      gg_run_result_warn(r, "%s", json_string_value(line));
 }
 
 /* "a, b are null: reason": what such a line says of `name`. */
@@ -54,9 +54,9 @@ static void restore_reason(const gg_result *r, const char *name, char *reason, s
 static void restore_means(gg_result *r, const json_t *document)
 {
   const json_t *results = json_object_get(document, "results");
-  for (int i = 0; i < gg_quantities_of(&r->model); i++) {
-    const gg_quantity q = gg_quantity_at(&r->model, i);
-    const char *name = gg_quantity_name_in(&r->model, q);
+  for (int i = 0; i < gg_common_quantity_set_of(&r->model); i++) {
+    const gg_quantity q = gg_common_quantity_at(&r->model, i);
+    const char *name = gg_common_quantity_name_in(&r->model, q);
     gg_estimate *e = &r->value[q];
     const json_t *stored = json_object_get(results, name);
     *e = (gg_estimate){.mean = number(stored, "mean"),
@@ -73,7 +73,7 @@ static void restore_means(gg_result *r, const json_t *document)
 
 static double *copy_of(const double *from, size_t n, gg_error *err)
 {
-  double *to = gg_new_array(n, sizeof *to, err);
+  double *to = gg_base_array_new(n, sizeof *to, err);
   if (to) memcpy(to, from, n * sizeof *to);
   return to;
 }
@@ -86,8 +86,9 @@ static gg_status restore_history(gg_result *r, const gg_stored_engine *e, gg_err
   h->n = e->series[0].n;
   if (!(h->time = copy_of(e->series[0].time, h->n, err))) return GG_FAILED;
   for (int k = 0; k < GG_N_HISTORY; k++) {
-    const gg_stored_series *s = gg_stored_series_find(e, gg_quantity_name(gg_history_quantity(k)));
-    h->value[k] = s && s->n == h->n ? copy_of(s->value, h->n, err) : gg_new_array(h->n, sizeof(double), err);
+    const gg_stored_series *s =
+        gg_files_stored_series_find(e, gg_common_quantity_name(gg_common_quantity_of_history(k)));
+    h->value[k] = s && s->n == h->n ? copy_of(s->value, h->n, err) : gg_base_array_new(h->n, sizeof(double), err);
     if (!h->value[k]) return GG_FAILED;
     for (size_t i = 0; (!s || s->n != h->n) && i < h->n; i++) h->value[k][i] = NAN;
   }
@@ -105,7 +106,7 @@ static gg_status restore_frame(gg_result *r, const gg_stored_result *s, gg_error
   if (!(to->velocity = copy_of(from->velocity, 3 * to->n, err))) return GG_FAILED;
   if (from->position && !(to->position = copy_of(from->position, 3 * to->n, err))) return GG_FAILED;
   if (from->spin && !(to->spin = copy_of(from->spin, 3 * to->n, err))) return GG_FAILED;
-  if (from->species && !(to->species = gg_new_array(to->n, 1, err))) return GG_FAILED;
+  if (from->species && !(to->species = gg_base_array_new(to->n, 1, err))) return GG_FAILED;
   if (from->species) memcpy(to->species, from->species, to->n);
   return GG_OK;
 }
@@ -130,28 +131,28 @@ static gg_status restore_origin(gg_result *r, const gg_stored_result *s, const j
   char **const to[] = {&r->origin.version, &r->origin.command, &r->origin.machine, &r->origin.date};
   const char *const from[] = {s->version, s->command, s->machine, s->date};
   for (int i = 0; i < 4; i++)
-    if (!(*to[i] = strdup(from[i] ? from[i] : ""))) return gg_out_of_memory(err);
-  r->origin.document = gg_document_text(document);
+    if (!(*to[i] = strdup(from[i] ? from[i] : ""))) return gg_base_out_of_memory(err);
+  r->origin.document = gg_files_document_text(document);
   r->origin.frames = s->n_frames;
-  return r->origin.document ? GG_OK : gg_out_of_memory(err);
+  return r->origin.document ? GG_OK : gg_base_out_of_memory(err);
 }
 
-gg_status gg_stored_scene(const gg_stored_result *s, gg_engine_kind engine, gg_scene *scene, gg_model *model,
-                          gg_error *err)
+gg_status gg_files_stored_scene(const gg_stored_result *s, gg_engine_kind engine, gg_scene *scene, gg_model *model,
+                                gg_error *err)
 {
-  *scene = gg_scene_defaults();
+  *scene = gg_common_scene_defaults();
   GG_TRY(gg_scene_read(scene, s->scene, strlen(s->scene), "the stored scene", err));
-  return gg_model_make(scene, engine, model, err);
+  return gg_common_model_make(scene, engine, model, err);
 }
 
 static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_kind engine, gg_error *err)
 {
   const gg_stored_engine *e = &s->engine[engine];
-  GG_TRY(gg_stored_scene(s, engine, &r->scene, &r->model, err));
-  GG_TRY(gg_stored_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
+  GG_TRY(gg_files_stored_scene(s, engine, &r->scene, &r->model, err));
+  GG_TRY(gg_files_stored_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
   r->model.extension = r->own;
   r->scene.engine = engine;
-  r->engine = gg_engine_ops_of(engine)->name;
+  r->engine = gg_run_engine_ops_of(engine)->name;
   bool steady = json_is_true(json_object_get(e->document, "steady"));
   r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.linear_response ? GG_NOT_STEADY : GG_HEATING;
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", text(e->document, "verdict"));
@@ -162,17 +163,17 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   restore_effort(r, e->document);
   GG_TRY(restore_history(r, e, err));
   r->curves.model = &r->model;
-  GG_TRY(gg_curves_from_json(&r->curves, json_object_get(e->document, "curves"), err));
+  GG_TRY(gg_files_curves_from_json(&r->curves, json_object_get(e->document, "curves"), err));
   GG_TRY(restore_frame(r, s, err));
   return restore_origin(r, s, e->document, err);
 }
 
-gg_status gg_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg_result **result, gg_error *err)
+gg_status gg_files_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg_result **result, gg_error *err)
 {
-  gg_result *r = gg_new_array(1, sizeof *r, err);
+  gg_result *r = gg_base_array_new(1, sizeof *r, err);
   if (!r) return GG_FAILED;
-  bool before = gg_memory_begin(); /* for a warning that is lost */
-  gg_status status = gg_memory_check(before, restore_all(r, s, engine, err), err);
+  bool before = gg_base_memory_begin(); /* for a warning that is lost */
+  gg_status status = gg_base_memory_check(before, restore_all(r, s, engine, err), err);
   if (status == GG_OK)
     *result = r;
   else
@@ -195,7 +196,7 @@ static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_e
   const json_t *all = json_object_get(document, "theory");
   const gg_theory *theory;
   if (!json_is_object(all)) { /* a run's file: no theory was asked */
-    return gg_compare_theories(&c->model, c, err);
+    return gg_run_compare_theories(&c->model, c, err);
   }
   const json_t *curves = json_object_get(document, GG_THEORY_CURVES);
   c->n_theories = 0;
@@ -205,16 +206,16 @@ static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_e
     c->theory[i].applies = said != NULL;
     if (!said) restore_refusal(document, theory->name, c->theory[i].reason, sizeof c->theory[i].reason);
     for (int q = 0; q < GG_MOST_QUANTITIES; q++) c->theory[i].answer.value[q] = c->theory[i].answer.error[q] = NAN;
-    for (int k = 0; said && k < gg_quantities_of(&c->model); k++) {
-      const gg_quantity q = gg_quantity_at(&c->model, k);
-      const json_t *one = json_object_get(said, gg_quantity_name_in(&c->model, q));
+    for (int k = 0; said && k < gg_common_quantity_set_of(&c->model); k++) {
+      const gg_quantity q = gg_common_quantity_at(&c->model, k);
+      const json_t *one = json_object_get(said, gg_common_quantity_name_in(&c->model, q));
       c->theory[i].answer.value[q] = number(one, "mean");
       c->theory[i].answer.error[q] = number(one, "error");
     }
   }
   for (int i = 0; i < c->n_theories; i++) {
     c->theory[i].curves.model = &c->model;
-    GG_TRY(gg_curves_from_json(&c->theory[i].curves, json_object_get(curves, c->theory[i].theory->name), err));
+    GG_TRY(gg_files_curves_from_json(&c->theory[i].curves, json_object_get(curves, c->theory[i].theory->name), err));
   }
   return GG_OK;
 }
@@ -224,7 +225,8 @@ static gg_status restore_own(gg_comparison *c, const json_t *document, gg_error 
 {
   const json_t *md = json_object_get(document, "md"),
                *part = json_is_object(md) ? md : json_object_get(document, "dsmc");
-  GG_TRY(gg_stored_extension(json_object_get(part, "results"), json_object_get(document, "theories"), &c->own, err));
+  GG_TRY(
+      gg_files_stored_extension(json_object_get(part, "results"), json_object_get(document, "theories"), &c->own, err));
   c->model.extension = c->own;
   return GG_OK;
 }
@@ -237,7 +239,7 @@ static void restore_refusals(gg_comparison *c, const json_t *document)
   json_array_foreach(json_object_get(document, "warnings"), i, line) for (int k = 0; k < 2; k++)
   {
     char head[24];
-    int length = snprintf(head, sizeof head, "%s is null: ", gg_engine_ops_of((gg_engine_kind)k)->name);
+    int length = snprintf(head, sizeof head, "%s is null: ", gg_run_engine_ops_of((gg_engine_kind)k)->name);
     const char *said = json_string_value(line);
     if (said && strncmp(said, head, (size_t)length) == 0)
       snprintf(c->refusal[k], sizeof c->refusal[k], "%.250s", said + length);
@@ -246,10 +248,10 @@ static void restore_refusals(gg_comparison *c, const json_t *document)
 
 static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c, gg_error *err)
 {
-  GG_TRY(gg_stored_scene(s, GG_MD, &c->scene, &c->model, err));
+  GG_TRY(gg_files_stored_scene(s, GG_MD, &c->scene, &c->model, err));
   for (int k = 0; k < 2; k++)
     if (s->engine[k].name)
-      GG_TRY(gg_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));
+      GG_TRY(gg_files_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));
     else if (!s->comparison)
       snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
   if (s->comparison) {
@@ -262,13 +264,13 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
   restore_refusals(c, s->document);
   if (s->comparison) gg_scene_inert(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
   c->of_one = !s->comparison;
-  c->document = gg_document_text(s->document);
-  return c->document ? GG_OK : gg_out_of_memory(err);
+  c->document = gg_files_document_text(s->document);
+  return c->document ? GG_OK : gg_base_out_of_memory(err);
 }
 
-gg_status gg_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_error *err)
+gg_status gg_files_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_error *err)
 {
   *c = (gg_comparison){0};
-  bool before = gg_memory_begin();
-  return gg_memory_check(before, restore_comparison(s, c, err), err);
+  bool before = gg_base_memory_begin();
+  return gg_base_memory_check(before, restore_comparison(s, c, err), err);
 }

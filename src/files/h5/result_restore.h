@@ -6,11 +6,12 @@
 #include "files/h5/result_reader.h"
 
 /* The scene that was run, and its model. */
-gg_status gg_stored_scene(const gg_stored_result *stored, gg_engine_kind engine, gg_scene *scene, gg_model *model,
-                          gg_error *err);
+gg_status gg_files_stored_scene(const gg_stored_result *stored, gg_engine_kind engine, gg_scene *scene, gg_model *model,
+                                gg_error *err);
 /* One engine's part; the caller frees it with gg_result_free. */
-gg_status gg_result_restore(const gg_stored_result *stored, gg_engine_kind engine, gg_result **result, gg_error *err);
+gg_status gg_files_result_restore(const gg_stored_result *stored, gg_engine_kind engine, gg_result **result,
+                                  gg_error *err);
 /* The whole: of a run, a comparison of one. To be cleared also after a failure. */
-gg_status gg_comparison_restore(const gg_stored_result *stored, gg_comparison *comparison, gg_error *err);
+gg_status gg_files_comparison_restore(const gg_stored_result *stored, gg_comparison *comparison, gg_error *err);
 
 #endif

@@ -21,7 +21,7 @@ static gg_status add_quantities(const json_t *results, gg_extension **x, gg_erro
   json_t *stored;
   json_object_foreach((json_t *)(uintptr_t)results, name, stored)
   {
-    if (gg_quantity_find(name) != GG_N_QUANTITIES || n == GG_MOST_OWN_QUANTITIES) continue;
+    if (gg_common_quantity_find(name) != GG_N_QUANTITIES || n == GG_MOST_OWN_QUANTITIES) continue;
     own[n++] = (gg_quantity_definition){.name = name,
                                         .unit = json_string_value(json_object_get(stored, "unit")),
                                         .doc = json_string_value(json_object_get(stored, "doc"))};
@@ -29,7 +29,7 @@ static gg_status add_quantities(const json_t *results, gg_extension **x, gg_erro
   if (n == 0) return GG_OK;
   const gg_observable_definition all = {
       .name = "stored", .n_quantities = n, .quantities = own, .sample = sample_nothing};
-  gg_extension *with = gg_extension_with_observable(*x, &all, err);
+  gg_extension *with = gg_common_extension_with_observable(*x, &all, err);
   if (!with) return GG_FAILED;
   *x = with;
   return GG_OK;
@@ -45,10 +45,11 @@ static gg_status add_theory(const char *name, const json_t *about, gg_extension 
                                   .n_quantities = 1,
                                   .quantities = some,
                                   .evaluate = evaluate_nothing};
-  return gg_own_theory_add(x, &t, err);
+  return gg_theory_user_theory_add(x, &t, err);
 }
 
-gg_status gg_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension, gg_error *err)
+gg_status gg_files_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension,
+                                    gg_error *err)
 {
   gg_extension *x = NULL;
   gg_status status = add_quantities(results, &x, err);
@@ -56,12 +57,12 @@ gg_status gg_stored_extension(const json_t *results, const json_t *theories, gg_
   json_t *about;
   json_object_foreach((json_t *)(uintptr_t)theories, name, about)
   {
-    if (status != GG_OK || gg_theory_find(name) || gg_extension_theories(x) == GG_MOST_OWN_THEORIES) continue;
+    if (status != GG_OK || gg_theory_find(name) || gg_common_extension_theories(x) == GG_MOST_OWN_THEORIES) continue;
     status = add_theory(name, about, &x, err);
   }
   if (status == GG_OK)
     *extension = x;
   else
-    gg_extension_release(x);
+    gg_common_extension_release(x);
   return status;
 }

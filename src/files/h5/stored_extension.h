@@ -9,6 +9,7 @@
 
 /* Of the `results` of an engine's document that are no shared quantities, and the `theories` (NULL: none) of a
  * comparison's that are no shared theories. *extension is NULL if there is nothing; else to be released. */
-gg_status gg_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension, gg_error *err);
+gg_status gg_files_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension,
+                                    gg_error *err);
 
 #endif

@@ -8,64 +8,64 @@
 
 static gg_status refuse(const char *path, gg_error *err)
 {
-  return gg_fail(err, GG_BAD_FILE, "%s: this build of graingas writes no files", path);
+  return gg_base_fail(err, GG_BAD_FILE, "%s: this build of graingas writes no files", path);
 }
 
-gg_status gg_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
+gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
 {
   *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command};
   return refuse(path, err);
 }
-gg_status gg_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err)
+gg_status gg_files_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err)
 {
   (void)f, (void)model, (void)frame;
   return refuse("the trajectory", err);
 }
-gg_status gg_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err)
+gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err)
 {
   (void)f, (void)result;
   return refuse("the result", err);
 }
-gg_status gg_result_file_finish_comparison(gg_result_file *f, const gg_comparison *comparison, gg_error *err)
+gg_status gg_files_result_file_finish_comparison(gg_result_file *f, const gg_comparison *comparison, gg_error *err)
 {
   (void)f, (void)comparison;
   return refuse("the comparison", err);
 }
-void gg_result_file_abandon(gg_result_file *f)
+void gg_files_result_file_abandon(gg_result_file *f)
 {
   (void)f;
 }
 
-gg_status gg_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
-                              gg_error *err)
+gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
+                                    gg_error *err)
 {
   (void)locked, (void)archive, (void)scene;
   return refuse(path, err);
 }
-gg_status gg_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene, gg_error *err)
+gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene, gg_error *err)
 {
   (void)archive, (void)scene;
   return refuse(path, err);
 }
-char *gg_checkpoint_before(const char *path)
+char *gg_files_checkpoint_before(const char *path)
 {
   return strdup(path); /* a name without a file: it is the writing that is refused */
 }
-gg_status gg_checkpoint_remove_before(const char *path, gg_error *err)
+gg_status gg_files_checkpoint_remove_before(const char *path, gg_error *err)
 {
   return refuse(path, err);
 }
-bool gg_is_checkpoint_of(const char *file, const char *path)
+bool gg_files_checkpoint_is_of(const char *file, const char *path)
 {
   (void)file, (void)path;
   return false;
 }
-gg_status gg_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err)
+gg_status gg_files_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err)
 {
   (void)archive, (void)older;
   return refuse(path, err);
 }
-char *gg_checkpoint_scene(const char *path, bool older)
+char *gg_files_checkpoint_scene(const char *path, bool older)
 {
   (void)path, (void)older;
   return NULL;

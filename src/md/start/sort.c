@@ -62,7 +62,7 @@ static bool sort(keyed *a, keyed *b, uint32_t n, const gg_stop *stop, const keye
 
 gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, const gg_stop *stop, gg_error *err)
 {
-  keyed *room = gg_new_array(2 * (size_t)n, sizeof *room, err);
+  keyed *room = gg_base_array_new(2 * (size_t)n, sizeof *room, err);
   const keyed *sorted;
   if (!room) return GG_FAILED;
   double longest = fmax(box->edge[0], fmax(box->edge[1], box->edge[2])), scale = 0x1p21 / longest;
@@ -74,5 +74,5 @@ gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, const gg
   bool whole = sort(room, room + n, n, stop, &sorted);
   for (uint32_t i = 0; whole && i < n; i++) r[i] = sorted[i].r;
   free(room);
-  return whole ? GG_OK : gg_fail(err, GG_INTERRUPTED, "md: stopped while grains were placed");
+  return whole ? GG_OK : gg_base_fail(err, GG_INTERRUPTED, "md: stopped while grains were placed");
 }

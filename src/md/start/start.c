@@ -13,7 +13,7 @@ enum { SWEEPS = 3000 };
 
 static gg_status make_cells(const gg_md *e, gg_md_packing *p, gg_error *err)
 {
-  double widest = gg_model_widest(&e->model) * 1.05;
+  double widest = gg_common_model_widest(&e->model) * 1.05;
   int32_t n[3];
   gg_md_cells_count(&e->box, fmax(widest, gg_root(e->model.volume / e->n, 3)), n); /* not most of them empty */
   if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
@@ -33,10 +33,11 @@ static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *
   GG_TRY(gg_md_place_sort(&e->box, p->r, e->n, p->stop, err));
   GG_TRY(gg_md_place_relax(p, e->model.phi, SWEEPS, &free, err));
   if (free) return GG_OK;
-  return gg_fail(err, GG_FAILED,
-                 "phi: no start without overlaps was found at phi = %g with particles = %u; try a lower phi or another "
-                 "number of particles",
-                 e->model.phi, e->n);
+  return gg_base_fail(
+      err, GG_FAILED,
+      "phi: no start without overlaps was found at phi = %g with particles = %u; try a lower phi or another "
+      "number of particles",
+      e->model.phi, e->n);
 }
 
 /* Each species scattered at random over the places. */
@@ -84,7 +85,7 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   double mass = 0, energy = 0;
   for (uint32_t i = 0; i < e->n; i++) {
     double m = e->model.mass[gg_md_species_of(&e->grain[i])];
-    e->grain[i].v = gg_scale(sqrt(T / m), gg_rng_normal_vec(rng));
+    e->grain[i].v = gg_scale(sqrt(T / m), gg_common_rng_normal_vec(rng));
     momentum = gg_axpy(m, e->grain[i].v, momentum);
     mass += m;
   }
@@ -111,7 +112,7 @@ static void set_spins(gg_md *e, gg_rng *rng, double theta)
   for (uint32_t i = 0; i < e->n; i++) {
     int k = gg_md_species_of(&e->grain[i]);
     double inertia = e->model.inertia[k] * e->model.mass[k];
-    e->spin[i] = gg_scale(sqrt(theta / inertia), gg_rng_normal_vec(rng));
+    e->spin[i] = gg_scale(sqrt(theta / inertia), gg_common_rng_normal_vec(rng));
     energy += inertia * gg_dot(e->spin[i], e->spin[i]);
   }
   double scale = energy > 0 ? sqrt(3 * e->n * theta / energy) : 0;
@@ -123,10 +124,10 @@ static void set_spins(gg_md *e, gg_rng *rng, double theta)
 
 gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err)
 {
-  gg_rng rng = gg_rng_seed(seed, stream + GG_STREAM_START);
-  e->k.rng = gg_rng_seed(seed, stream + GG_STREAM_ENGINE);
-  gg_vec *r = gg_new_array(e->n, sizeof *r, err);
-  double *diameter = gg_new_array(e->n, sizeof *diameter, err);
+  gg_rng rng = gg_common_rng_seed(seed, stream + GG_STREAM_START);
+  e->k.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
+  gg_vec *r = gg_base_array_new(e->n, sizeof *r, err);
+  double *diameter = gg_base_array_new(e->n, sizeof *diameter, err);
   gg_status status = r && diameter ? place(e, &rng, r, diameter, err) : GG_FAILED;
   free(r);
   free(diameter);

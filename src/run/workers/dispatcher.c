@@ -39,22 +39,22 @@ static void own(gg_share *s, int i, int rank)
   s->workers->rank[rank].replicas++;
 }
 
-gg_status gg_share_open(gg_replicas *all, gg_share **share, gg_error *err)
+gg_status gg_run_share_open(gg_replicas *all, gg_share **share, gg_error *err)
 {
   gg_workers *w = all->hooks ? all->hooks->workers : NULL;
   *share = NULL;
   if (!w || all->scene.extension) return GG_OK;
-  gg_share *s = gg_new_array(1, sizeof *s, err);
+  gg_share *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
   *s = (gg_share){.workers = w, .all = all, .hooks = {.context = all}};
   if (all->hooks->frame) s->hooks.frame = locked_frame;
-  s->piece = gg_new_array((size_t)all->n, sizeof *s->piece, err);
-  s->told = gg_new_array((size_t)w->messages.size, sizeof *s->told, err);
+  s->piece = gg_base_array_new((size_t)all->n, sizeof *s->piece, err);
+  s->told = gg_base_array_new((size_t)w->messages.size, sizeof *s->told, err);
   if (!s->piece || !s->told) {
     free(s->piece), free(s->told), free(s);
     return GG_FAILED;
   }
-  gg_news_init(&s->news);
+  gg_base_condition_init(&s->news);
   pthread_mutex_lock(&w->lock);
   s->run = ++w->runs;
   for (int i = 0; i < all->n; i++) own(s, i, owner_of(s, i));
@@ -67,11 +67,11 @@ gg_status gg_share_open(gg_replicas *all, gg_share **share, gg_error *err)
 static void send_word(gg_share *s, int rank, gg_message_kind kind)
 {
   size_t size;
-  void *block = gg_message_pack(&(gg_message){.kind = kind, .run = s->run}, NULL, 0, &size);
+  void *block = gg_run_message_pack(&(gg_message){.kind = kind, .run = s->run}, NULL, 0, &size);
   gg_workers_send(s->workers, rank, block, size);
 }
 
-void gg_share_close(gg_share *s)
+void gg_run_share_close(gg_share *s)
 {
   if (!s) return;
   gg_workers *w = s->workers;
@@ -87,7 +87,7 @@ void gg_share_close(gg_share *s)
   free(s->piece), free(s->told), free(s);
 }
 
-void gg_share_lose(gg_share *s, int rank)
+void gg_run_share_lose(gg_share *s, int rank)
 {
   for (int i = 0; i < s->all->n; i++) {
     gg_piece *p = &s->piece[i];
@@ -131,7 +131,7 @@ static void start_here(gg_share *s, int i)
                     .urgency = urgency_of(s),
                     .ended = tell_ended,
                     .context = s};
-  gg_job_start(&p->job);
+  gg_run_job_start(&p->job);
 }
 
 static void *pack(const gg_share *s, int i, gg_message *m, size_t *size, gg_error *err)
@@ -140,9 +140,9 @@ static void *pack(const gg_share *s, int i, gg_message *m, size_t *size, gg_erro
   gg_archive archive = {0};
   void *block = NULL;
   m->origin = !r->engine ? GG_ANEW : s->piece[i].still_there ? GG_STILL_THERE : GG_BY_ARCHIVE;
-  if (m->origin != GG_BY_ARCHIVE || gg_replica_save(r, &archive, err) == GG_OK)
-    block = gg_message_pack_archive(m, &archive, size);
-  gg_archive_clear(&archive);
+  if (m->origin != GG_BY_ARCHIVE || gg_run_replica_save(r, &archive, err) == GG_OK)
+    block = gg_run_message_pack_archive(m, &archive, size);
+  gg_base_archive_clear(&archive);
   return block;
 }
 
@@ -150,7 +150,7 @@ static void tell_scene(gg_share *s, int rank)
 {
   size_t size;
   const gg_message m = {.kind = GG_SCENE, .run = s->run, .threads = s->workers->threads};
-  void *block = gg_message_pack(&m, &s->all->scene, sizeof s->all->scene, &size);
+  void *block = gg_run_message_pack(&m, &s->all->scene, sizeof s->all->scene, &size);
   gg_workers_send(s->workers, rank, block, size);
   s->told[rank] = block != NULL;
 }
@@ -172,12 +172,12 @@ static void start_there(gg_share *s, int i)
   void *block = s->told[p->owner] ? pack(s, i, &m, &size, &p->err) : NULL;
   if (!block) {
     p->state = GG_BACK;
-    p->status = gg_out_of_memory_for(&p->err, "a message of replica %d", i);
+    p->status = gg_base_out_of_memory_for(&p->err, "a message of replica %d", i);
     return;
   }
   p->state = GG_SENT;
   p->sent_to = p->owner;
-  if (rank->pieces++ == 0) rank->heard = gg_wall_now();
+  if (rank->pieces++ == 0) rank->heard = gg_base_clock_wall();
   gg_workers_send(s->workers, p->owner, block, size);
 }
 
@@ -186,7 +186,7 @@ static void start(gg_share *s, int i)
   gg_piece *p = &s->piece[i];
   const gg_replica *r = &s->all->replica[i];
   p->status = GG_OK;
-  p->news = (gg_replica_news){r->clock.samples, r->engine ? gg_replica_collisions_per_grain(r) : 0, r->clock.cpu};
+  p->news = (gg_replica_news){r->clock.samples, r->engine ? gg_run_replica_collisions_per_grain(r) : 0, r->clock.cpu};
   if (p->owner == 0)
     start_here(s, i);
   else
@@ -203,7 +203,7 @@ static void start_lost(gg_share *s)
       start(s, i);
     } else {
       p->state = GG_BACK;
-      p->status = gg_fail(&p->err, GG_INTERRUPTED, "interrupted");
+      p->status = gg_base_fail(&p->err, GG_INTERRUPTED, "interrupted");
     }
   }
 }
@@ -222,15 +222,15 @@ static gg_status unpack(gg_share *s, int i)
   gg_piece *p = &s->piece[i];
   gg_replicas *all = s->all;
   gg_archive archive = {0};
-  gg_status status = gg_message_archive(p->block, p->size, &archive, &p->err);
+  gg_status status = gg_run_message_archive(p->block, p->size, &archive, &p->err);
   if (status == GG_OK && archive.n_items) {
-    gg_replica_clear(&all->replica[i]);
-    status = gg_replica_restore(&all->replica[i], &archive, &all->scene, &all->model, i, &p->err);
+    gg_run_replica_clear(&all->replica[i]);
+    status = gg_run_replica_restore(&all->replica[i], &archive, &all->scene, &all->model, i, &p->err);
     pthread_mutex_lock(&s->workers->lock);
     p->still_there = status == GG_OK && p->owner == p->sent_to;
     pthread_mutex_unlock(&s->workers->lock);
   }
-  gg_archive_clear(&archive);
+  gg_base_archive_clear(&archive);
   return status;
 }
 
@@ -238,7 +238,7 @@ static void collect(gg_share *s, int i)
 {
   gg_piece *p = &s->piece[i];
   if (p->state == GG_HERE && atomic_load(&p->job.over)) {
-    gg_job_finish(&p->job);
+    gg_run_job_finish(&p->job);
     p->status = p->job.status, p->err = p->job.err;
     p->still_there = true;
     p->state = GG_IDLE;
@@ -309,7 +309,7 @@ static void read_post(gg_share *s, int *nap)
 static void wait_for_news(gg_share *s)
 {
   s->waits = true;
-  gg_news_wait(&s->news, &s->workers->lock, look_every);
+  gg_base_condition_wait(&s->news, &s->workers->lock, look_every);
   s->waits = false;
 }
 
@@ -318,7 +318,7 @@ static void await(gg_share *s, double until)
 {
   int nap = LEAST_NAP;
   pthread_mutex_lock(&s->workers->lock);
-  while (!is_back(s) && gg_wall_now() < until)
+  while (!is_back(s) && gg_base_clock_wall() < until)
     if (s->workers->reading)
       wait_for_news(s);
     else
@@ -333,23 +333,23 @@ static void attend(gg_share *s, double *looked)
 {
   await(s, *looked + look_every);
   for (int i = 0; i < s->all->n; i++) collect(s, i);
-  double now = gg_wall_now();
+  double now = gg_base_clock_wall();
   if (now < *looked + look_every) return;
   *looked = now;
   /* Before all replicas are there, there is nothing that a checkpoint could hold. */
-  bool pauses = s->due > 0 && gg_replicas_checkpoint_is_due(s->all);
+  bool pauses = s->due > 0 && gg_run_replicas_checkpoint_is_due(s->all);
   bool ends = pauses || gg_stop_asked(&s->all->stop);
   pthread_mutex_lock(&s->workers->lock);
   ends = ends || has_failed(s); /* another run's thread may just be taking in an answer */
   if (ends && !s->stopping) stop(s);
   pthread_mutex_unlock(&s->workers->lock);
-  if (s->due > 0 && !ends) gg_replicas_report_progress(s->all, false);
+  if (s->due > 0 && !ends) gg_run_replicas_report_progress(s->all, false);
 }
 
 static gg_status work_off(gg_share *s, uint64_t due, bool adapt, gg_error *err)
 {
   gg_replicas *all = s->all;
-  double looked = gg_wall_now();
+  double looked = gg_base_clock_wall();
   s->due = due, s->adapt = adapt, s->stopping = false;
   atomic_store(&all->pausing, false);
   pthread_mutex_lock(&s->workers->lock);
@@ -358,38 +358,38 @@ static gg_status work_off(gg_share *s, uint64_t due, bool adapt, gg_error *err)
     if (!all->replica[i].engine || all->replica[i].clock.samples < due) start(s, i);
   }
   pthread_mutex_unlock(&s->workers->lock);
-  while (gg_share_is_busy(s)) attend(s, &looked);
+  while (gg_run_share_is_busy(s)) attend(s, &looked);
   atomic_store(&all->pausing, false);
   return outcome(s, err);
 }
 
-gg_status gg_share_create(gg_share *s, gg_error *err)
+gg_status gg_run_share_create(gg_share *s, gg_error *err)
 {
   return work_off(s, 0, false, err);
 }
 
-gg_status gg_share_advance(gg_share *s, uint64_t due, bool adapt, gg_error *err)
+gg_status gg_run_share_advance(gg_share *s, uint64_t due, bool adapt, gg_error *err)
 {
   return work_off(s, due, adapt, err);
 }
 
-void gg_share_changed(gg_share *s)
+void gg_run_share_changed(gg_share *s)
 {
   for (int i = 0; i < s->all->n; i++)
     if (s->piece[i].owner != 0) s->piece[i].still_there = false;
 }
 
-gg_replica_news gg_share_news(const gg_share *s, int i)
+gg_replica_news gg_run_share_news(const gg_share *s, int i)
 {
   const gg_piece *p = &s->piece[i];
-  if (p->state == GG_HERE) return gg_job_news(&p->job);
+  if (p->state == GG_HERE) return gg_run_job_news(&p->job);
   pthread_mutex_lock(&s->workers->lock);
   gg_replica_news news = p->news;
   pthread_mutex_unlock(&s->workers->lock);
   return news;
 }
 
-bool gg_share_is_busy(const gg_share *s)
+bool gg_run_share_is_busy(const gg_share *s)
 {
   for (int i = 0; i < s->all->n; i++)
     if (s->piece[i].state != GG_IDLE) return true;

@@ -11,7 +11,7 @@ static size_t padded(size_t n)
   return (n + 7) & ~(size_t)7;
 }
 
-void *gg_message_pack(const gg_message *head, const void *bytes, size_t n, size_t *size)
+void *gg_run_message_pack(const gg_message *head, const void *bytes, size_t n, size_t *size)
 {
   *size = sizeof *head + n;
   char *block = malloc(*size);
@@ -23,11 +23,11 @@ void *gg_message_pack(const gg_message *head, const void *bytes, size_t n, size_
 
 static size_t bytes_of(const gg_item *item)
 {
-  return item->count * gg_item_size(item->type);
+  return item->count * gg_base_archive_item_size(item->type);
 }
 
 /* Item after item: the item's own struct (its pointer means nothing there), then its data. */
-void *gg_message_pack_archive(const gg_message *head, const gg_archive *a, size_t *size)
+void *gg_run_message_pack_archive(const gg_message *head, const gg_archive *a, size_t *size)
 {
   *size = sizeof *head;
   for (size_t i = 0; i < a->n_items; i++) *size += sizeof *a->items + padded(bytes_of(&a->items[i]));
@@ -42,7 +42,7 @@ void *gg_message_pack_archive(const gg_message *head, const gg_archive *a, size_
   return block;
 }
 
-bool gg_message_read(const void *block, size_t size, gg_message *head)
+bool gg_run_message_read(const void *block, size_t size, gg_message *head)
 {
   if (size < sizeof *head) return false;
   memcpy(head, block, sizeof *head);
@@ -51,10 +51,10 @@ bool gg_message_read(const void *block, size_t size, gg_message *head)
 
 static gg_status broken(gg_error *err)
 {
-  return gg_fail(err, GG_FAILED, "a message between processes arrived broken");
+  return gg_base_fail(err, GG_FAILED, "a message between processes arrived broken");
 }
 
-gg_status gg_message_archive(const void *block, size_t size, gg_archive *archive, gg_error *err)
+gg_status gg_run_message_archive(const void *block, size_t size, gg_archive *archive, gg_error *err)
 {
   const char *at = (const char *)block + sizeof(gg_message), *end = (const char *)block + size;
   while (at < end) {
@@ -64,13 +64,13 @@ gg_status gg_message_archive(const void *block, size_t size, gg_archive *archive
     item.name[sizeof item.name - 1] = 0;
     if ((unsigned)item.type >= GG_ITEM_TYPES || item.count > (size_t)(end - at)) return broken(err);
     if (padded(bytes_of(&item)) > (size_t)(end - at)) return broken(err);
-    GG_TRY(gg_archive_put(archive, item.name, item.type, at, item.count, err));
+    GG_TRY(gg_base_archive_put(archive, item.name, item.type, at, item.count, err));
     at += padded(bytes_of(&item));
   }
   return GG_OK;
 }
 
-gg_status gg_message_scene(const void *block, size_t size, gg_scene *scene, gg_error *err)
+gg_status gg_run_message_scene(const void *block, size_t size, gg_scene *scene, gg_error *err)
 {
   if (size != sizeof(gg_message) + sizeof *scene) return broken(err);
   memcpy(scene, (const char *)block + sizeof(gg_message), sizeof *scene);
@@ -78,7 +78,7 @@ gg_status gg_message_scene(const void *block, size_t size, gg_scene *scene, gg_e
   return GG_OK;
 }
 
-void gg_message_build(char *text, size_t size)
+void gg_run_message_build(char *text, size_t size)
 {
   snprintf(text, size, "%s, %zu %zu %zu", GG_VERSION, sizeof(gg_scene), sizeof(struct gg_replica_clock),
            sizeof(gg_message));

@@ -38,14 +38,14 @@ typedef struct gg_message {
 } gg_message;
 
 /* Message and bytes behind it in one block of memory, the caller's to free; NULL: out of memory. */
-void *gg_message_pack(const gg_message *head, const void *bytes, size_t n, size_t *size);
-void *gg_message_pack_archive(const gg_message *head, const gg_archive *archive, size_t *size);
+void *gg_run_message_pack(const gg_message *head, const void *bytes, size_t n, size_t *size);
+void *gg_run_message_pack_archive(const gg_message *head, const gg_archive *archive, size_t *size);
 /* False: it is none. */
-bool gg_message_read(const void *block, size_t size, gg_message *head);
-gg_status gg_message_archive(const void *block, size_t size, gg_archive *archive, gg_error *err);
-gg_status gg_message_scene(const void *block, size_t size, gg_scene *scene, gg_error *err);
+bool gg_run_message_read(const void *block, size_t size, gg_message *head);
+gg_status gg_run_message_archive(const void *block, size_t size, gg_archive *archive, gg_error *err);
+gg_status gg_run_message_scene(const void *block, size_t size, gg_scene *scene, gg_error *err);
 
 /* What this program was built from, as far as the other end has to agree. */
-void gg_message_build(char *text, size_t size);
+void gg_run_message_build(char *text, size_t size);
 
 #endif

@@ -62,6 +62,6 @@ bool gg_workers_attend(gg_workers *w);
 int gg_workers_least(const gg_workers *w);
 void gg_workers_send(gg_workers *w, int to, void *block, size_t size);
 /* dispatcher.c: a rank is lost; what it had of this run is given to others. */
-void gg_share_lose(gg_share *share, int rank);
+void gg_run_share_lose(gg_share *share, int rank);
 
 #endif

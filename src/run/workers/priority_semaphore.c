@@ -10,13 +10,13 @@ typedef struct gg_waiting {
   struct gg_waiting *next;
 } waiting;
 
-void gg_gate_init(gg_gate *g, int processors)
+void gg_run_gate_init(gg_gate *g, int processors)
 {
   *g = (gg_gate){.free = processors};
   pthread_mutex_init(&g->lock, NULL);
 }
 
-void gg_gate_clear(gg_gate *g)
+void gg_run_gate_clear(gg_gate *g)
 {
   pthread_mutex_destroy(&g->lock);
 }
@@ -29,7 +29,7 @@ static void queue_up(gg_gate *g, waiting *w)
   w->next = *at, *at = w;
 }
 
-void gg_gate_enter(gg_gate *g, double urgency)
+void gg_run_gate_enter(gg_gate *g, double urgency)
 {
   pthread_mutex_lock(&g->lock);
   if (g->free > 0) {
@@ -44,7 +44,7 @@ void gg_gate_enter(gg_gate *g, double urgency)
 }
 
 /* The processor passes to the next. */
-void gg_gate_leave(gg_gate *g)
+void gg_run_gate_leave(gg_gate *g)
 {
   pthread_mutex_lock(&g->lock);
   waiting *next = g->first;

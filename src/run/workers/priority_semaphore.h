@@ -10,9 +10,9 @@ typedef struct gg_gate {
   struct gg_waiting *first;
 } gg_gate;
 
-void gg_gate_init(gg_gate *gate, int processors);
-void gg_gate_clear(gg_gate *gate);
-void gg_gate_enter(gg_gate *gate, double urgency);
-void gg_gate_leave(gg_gate *gate);
+void gg_run_gate_init(gg_gate *gate, int processors);
+void gg_run_gate_clear(gg_gate *gate);
+void gg_run_gate_enter(gg_gate *gate, double urgency);
+void gg_run_gate_leave(gg_gate *gate);
 
 #endif

@@ -34,9 +34,9 @@ typedef struct gg_job {
 } gg_job;
 
 /* Where there is no thread to be had, it is done when this returns. */
-void gg_job_start(gg_job *job);
+void gg_run_job_start(gg_job *job);
 /* When it is over: wait for its thread to be gone. */
-void gg_job_finish(gg_job *job);
-gg_replica_news gg_job_news(const gg_job *job);
+void gg_run_job_finish(gg_job *job);
+gg_replica_news gg_run_job_news(const gg_job *job);
 
 #endif

@@ -30,13 +30,13 @@ static void lose(gg_workers *w, int rank, const char *why)
   snprintf(text, sizeof text, "process %d of %d %s; what it had is done again by the others", rank, w->messages.size,
            why);
   warn(w, text);
-  for (gg_share *s = w->shares; s; s = s->next) gg_share_lose(s, rank);
+  for (gg_share *s = w->shares; s; s = s->next) gg_run_share_lose(s, rank);
 }
 
 static void greet(gg_workers *w, int from, const gg_message *hello)
 {
   char mine[sizeof hello->error.message];
-  gg_message_build(mine, sizeof mine);
+  gg_run_message_build(mine, sizeof mine);
   if (strcmp(mine, hello->error.message) != 0) {
     lose(w, from, "is another build of graingas");
     return;
@@ -58,8 +58,8 @@ static gg_share *find(gg_workers *w, const gg_message *m, int from)
 static void *take(gg_workers *w, int from, void *block, size_t size)
 {
   gg_message m;
-  if (!gg_message_read(block, size, &m)) return block;
-  w->rank[from].heard = gg_wall_now();
+  if (!gg_run_message_read(block, size, &m)) return block;
+  w->rank[from].heard = gg_base_clock_wall();
   if (m.kind == GG_HELLO) greet(w, from, &m);
   gg_share *s = find(w, &m, from);
   if (!s || (m.kind != GG_NEWS && m.kind != GG_DONE)) return block;
@@ -76,7 +76,7 @@ static void *take(gg_workers *w, int from, void *block, size_t size)
 
 static void look_who_is_lost(gg_workers *w)
 {
-  double now = gg_wall_now();
+  double now = gg_base_clock_wall();
   if (now < w->looked + look_every) return;
   w->looked = now;
   for (int i = 1; i < w->messages.size; i++) {
@@ -117,8 +117,8 @@ int gg_workers_least(const gg_workers *w)
 /* Everybody comes at about the same time; who is late is given work when there is more. */
 static void wait_for_all(gg_workers *w)
 {
-  double until = gg_wall_now() + longest_wait;
-  for (int missing = 1; missing && gg_wall_now() < until;) {
+  double until = gg_base_clock_wall() + longest_wait;
+  for (int missing = 1; missing && gg_base_clock_wall() < until;) {
     gg_workers_attend(w);
     missing = 0;
     for (int i = 1; i < w->messages.size; i++) missing += !w->rank[i].there && !w->rank[i].lost;
@@ -136,19 +136,19 @@ int gg_workers_threads(const gg_workers *w)
 gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err)
 {
   if (!messages || !workers || !messages->send || !messages->receive || messages->rank != 0 || messages->size < 1)
-    return gg_fail(err, GG_BAD_INPUT, "gg_workers_new: messages of rank 0, with send and receive, are needed");
-  gg_workers *w = gg_new_array(1, sizeof *w, err);
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_workers_new: messages of rank 0, with send and receive, are needed");
+  gg_workers *w = gg_base_array_new(1, sizeof *w, err);
   if (!w) return GG_FAILED;
   w->messages = *messages;
   w->threads = threads > 1 ? threads : 1;
-  w->rank = gg_new_array((size_t)messages->size, sizeof *w->rank, err);
+  w->rank = gg_base_array_new((size_t)messages->size, sizeof *w->rank, err);
   if (!w->rank) {
     free(w);
     return GG_FAILED;
   }
   w->rank[0].there = true;
   pthread_mutex_init(&w->lock, NULL);
-  gg_gate_init(&w->gate, w->threads);
+  gg_run_gate_init(&w->gate, w->threads);
   wait_for_all(w);
   *workers = w;
   return GG_OK;
@@ -159,10 +159,10 @@ void gg_workers_free(gg_workers *w)
   if (!w) return;
   for (int i = 1; i < w->messages.size; i++) {
     size_t size;
-    void *block = gg_message_pack(&(gg_message){.kind = GG_LEAVE}, NULL, 0, &size);
+    void *block = gg_run_message_pack(&(gg_message){.kind = GG_LEAVE}, NULL, 0, &size);
     if (block) w->messages.send(w->messages.context, i, block, size);
   }
-  gg_gate_clear(&w->gate);
+  gg_run_gate_clear(&w->gate);
   pthread_mutex_destroy(&w->lock);
   free(w->rank);
   free(w);

@@ -46,7 +46,7 @@ gg_status gg_hermite_basis_make(gg_hermite_basis *b, int degree, gg_error *err)
   b->rotated_place = malloc(cells * sizeof *b->rotated_place);
   if (!b->function || !b->rotated || !b->place || !b->rotated_place) {
     gg_hermite_basis_clear(b);
-    return gg_out_of_memory(err);
+    return gg_base_out_of_memory(err);
   }
   for (size_t i = 0; i < cells; i++) b->place[i] = b->rotated_place[i] = -1;
   number_functions(b);

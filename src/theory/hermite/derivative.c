@@ -42,7 +42,7 @@ static void own_share(const gg_hermite_operator *op, const gg_hermite_view *own,
   for (int s = 0; s < r->wide; s += GG_PRODUCT_COLUMNS) {
     int last = s + GG_PRODUCT_COLUMNS > b->n ? b->n - 1 : s + GG_PRODUCT_COLUMNS - 1;
     int depth = upto[gg_hermite_degree(b->function[last])];
-    gg_add_product(tall, GG_PRODUCT_COLUMNS, depth, r->K, tall, r->E + s, r->wide, X + s, r->wide);
+    gg_hermite_product_add(tall, GG_PRODUCT_COLUMNS, depth, r->K, tall, r->E + s, r->wide, X + s, r->wide);
   }
 }
 
@@ -94,8 +94,8 @@ static void multiply(const gg_hermite_operator *op, int depth, const double *X)
     int rest = op->basis.degree - least_sum(op->basis.degree, row), from = gg_hermite_X_column(f, rest % 2);
     int columns = gg_padded((rest / 2 + 1) * f->halves, GG_PRODUCT_COLUMNS);
     if (rest >= 0)
-      gg_add_product(GG_PRODUCT_ROWS, columns, depth, r->V + row, r->pairs, X + from, f->width_X,
-                     r->VX + row * f->width_X + from, f->width_X);
+      gg_hermite_product_add(GG_PRODUCT_ROWS, columns, depth, r->V + row, r->pairs, X + from, f->width_X,
+                             r->VX + row * f->width_X + from, f->width_X);
   }
 }
 

@@ -44,9 +44,9 @@ gg_status gg_hermite_flux_make(gg_hermite_flux *f, int N, int tests, double deca
   f->width_X = f->odd_X + gg_padded(tests / 2 * f->halves, GG_PRODUCT_COLUMNS);
   f->width_along = gg_padded(tests * f->trials, GG_PRODUCT_ROWS);
   f->width_Y = gg_padded(tests * f->trials, GG_PRODUCT_COLUMNS);
-  gg_status status = lay_out(f) ? GG_OK : gg_out_of_memory(err);
+  gg_status status = lay_out(f) ? GG_OK : gg_base_out_of_memory(err);
   if (status == GG_OK) status = gg_hermite_overlap_make(&f->tangential, tests, N + 1, decay, err);
-  if (status == GG_OK) status = gg_legendre_rule(f->n_u, f->u, f->wu, err);
+  if (status == GG_OK) status = gg_hermite_legendre_rule(f->n_u, f->u, f->wu, err);
   if (status == GG_OK) status = gg_hermite_rule(f->n_v, f->v, f->wv, err);
   if (status != GG_OK)
     gg_hermite_flux_clear(f);
@@ -120,8 +120,8 @@ static void add_normal(const gg_hermite_flux *f, const gg_hermite_contact *c, do
       for (int l = 0; l < f->halves; l++) at[l] = factor * p.x2[k * STRIDE + 2 * l];
     }
   }
-  gg_add_product(gg_padded(f->trials, GG_PRODUCT_ROWS), f->width_X, f->n_v, p.x1, STRIDE, column, f->width_X, to,
-                 f->width_X);
+  gg_hermite_product_add(gg_padded(f->trials, GG_PRODUCT_ROWS), f->width_X, f->n_v, p.x1, STRIDE, column, f->width_X,
+                         to, f->width_X);
 }
 
 /* The same with the partner contracted, by (J,j). */
@@ -136,8 +136,8 @@ static void add_contracted(const gg_hermite_flux *f, const gg_hermite_contact *c
     for (int l = 0; l < f->halves; l++) density += marginal[l] * p.x2[k * STRIDE + 2 * l];
     for (int J = 0; J < f->tests; J++) p.test[k * STRIDE + J] *= p.w[k] * density;
   }
-  gg_add_product(gg_padded(f->tests, GG_PRODUCT_ROWS), gg_padded(f->trials, GG_PRODUCT_COLUMNS), f->n_v, p.test, STRIDE,
-                 p.x1, STRIDE, sum, STRIDE);
+  gg_hermite_product_add(gg_padded(f->tests, GG_PRODUCT_ROWS), gg_padded(f->trials, GG_PRODUCT_COLUMNS), f->n_v, p.test,
+                         STRIDE, p.x1, STRIDE, sum, STRIDE);
   for (int J = 0; J < f->tests; J++)
     for (int j = 0; j < f->trials; j++) to[J * f->trials + j] += sum[J * STRIDE + j];
 }
@@ -172,8 +172,8 @@ static void combine(gg_hermite_flux *f, const double *loss)
 {
   for (int row = 0; row < f->width_along; row += GG_PRODUCT_ROWS) {
     int P = f->tests - row / f->trials; /* J + P are up to N */
-    gg_add_product(GG_PRODUCT_ROWS, gg_padded(P * f->trials, GG_PRODUCT_COLUMNS), f->n_u, f->along + row,
-                   f->width_along, f->Y, f->width_Y, f->W + row * f->width_Y, f->width_Y);
+    gg_hermite_product_add(GG_PRODUCT_ROWS, gg_padded(P * f->trials, GG_PRODUCT_COLUMNS), f->n_u, f->along + row,
+                           f->width_along, f->Y, f->width_Y, f->W + row * f->width_Y, f->width_Y);
   }
   for (int row = 0; row < f->tests * f->trials; row++)
     for (int k = 0; k < f->width_Y; k++) f->W[row * f->width_Y + k] -= loss[row] * f->Z[k];

@@ -7,15 +7,16 @@ gg_hermite_gas gg_hermite_gas_of(const gg_model *m)
 {
   gg_hermite_gas gas = {.n_species = m->n_species};
   for (int i = 0; i < m->n_species; i++) {
-    gas.fraction[i] = gg_fraction(m, i), gas.mass[i] = m->mass[i];
+    gas.fraction[i] = gg_theory_fraction(m, i), gas.mass[i] = m->mass[i];
     for (int j = 0; j < m->n_species; j++) {
       int pair = gg_pair(i, j);
       double sigma = m->sigma[pair];
-      gas.impact[i][j] = (gg_hermite_impact){.frequency = m->density * gg_fraction(m, j) * m->chi[pair] * sigma * sigma,
-                                             .eta = m->contact[i][j].jn / m->mass[i],
-                                             .e = m->e[pair],
-                                             .sigma = sigma,
-                                             .shear = m->boltzmann ? 0 : sigma * m->shear_rate};
+      gas.impact[i][j] =
+          (gg_hermite_impact){.frequency = m->density * gg_theory_fraction(m, j) * m->chi[pair] * sigma * sigma,
+                              .eta = m->contact[i][j].jn / m->mass[i],
+                              .e = m->e[pair],
+                              .sigma = sigma,
+                              .shear = m->boltzmann ? 0 : sigma * m->shear_rate};
     }
   }
   gas.stream[0][1] = m->shear_rate;

@@ -62,7 +62,7 @@ static gg_status sheared(const gg_model *m, series *s, gg_error *err)
 {
   gg_hermite_shear h;
   int last = gg_hermite_shear_last_degree(m->n_species);
-  if (!last) return gg_fail(err, GG_BAD_INPUT, "these are too many species");
+  if (!last) return gg_base_fail(err, GG_BAD_INPUT, "these are too many species");
   GG_TRY(gg_hermite_shear_begin(&h, m, err));
   gg_status status = GG_OK;
   for (int degree = FIRST_DEGREE; degree <= last && status == GG_OK; degree += 2) {
@@ -80,7 +80,7 @@ static gg_status sheared(const gg_model *m, series *s, gg_error *err)
 static gg_status one_isotropic(const gg_model *m, series *s, gg_error *err)
 {
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
-  bool noise = gg_thermostat_of(m) == GG_WHITE_NOISE;
+  bool noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE;
   for (int degree = FIRST_DEGREE; degree <= ISOTROPIC_DEGREE; degree += 2) {
     gg_hermite_isotropic h;
     GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, noise, err));
@@ -94,18 +94,18 @@ static gg_status one_isotropic(const gg_model *m, series *s, gg_error *err)
 
 static gg_status mixed_isotropic(const gg_model *m, series *s, gg_error *err)
 {
-  gg_hermite_mixture h = {.noise = gg_thermostat_of(m) == GG_WHITE_NOISE};
+  gg_hermite_mixture h = {.noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE};
   for (int most = FIRST_DEGREE / 2; most <= MOST_SQUARES; most++) {
     double even[GG_RADIAL_MOST + 1], T = 0;
     GG_TRY(gg_hermite_mixture_solve(&h, m, most, err));
     solution *x = next(s);
     for (int i = 0; i < m->n_species; i++) {
       gg_hermite_component marginal = {.degree = 2 * most};
-      gg_radial_marginal(&h.radial, h.alpha[i], even);
+      gg_hermite_radial_marginal(&h.radial, h.alpha[i], even);
       for (int l = 0; l <= most; l++) marginal.t[2 * l] = even[l];
       for (int a = 0; a < 3; a++) x->marginal[i][a] = marginal;
       x->share[i] = m->mass[i] * h.scale[i] * h.scale[i] * gg_hermite_mixture_square(&h, i);
-      T += gg_fraction(m, i) * x->share[i];
+      T += gg_theory_fraction(m, i) * x->share[i];
     }
     for (int i = 0; i < m->n_species; i++) x->share[i] /= T;
   }
@@ -119,13 +119,13 @@ static void put(const gg_model *m, unsigned measure, const series *s, const solu
     for (int a = 0; a < 3; a++) {
       list->group = "velocity_distributions";
       gg_hermite_component_histogram(&x->marginal[i][a], bin);
-      gg_velocity_curves_put(list, (gg_velocity_component){m->n_species, i, false, a}, bin, 0);
+      gg_measure_velocity_curves_put(list, (gg_velocity_component){m->n_species, i, false, a}, bin, 0);
     }
   for (int i = 0; i < m->n_species && s->isotropic && measure & GG_MEASURE_SONINE; i++) {
     gg_sonine_sums sums = {.temperature_ratio = x->share[i]};
     list->group = "sonine";
     gg_hermite_component_speeds(&x->marginal[i][0], &sums);
-    gg_sonine_curves_put(list, m, i, &sums);
+    gg_measure_sonine_curves_put(list, m, i, &sums);
   }
 }
 
@@ -136,9 +136,9 @@ static gg_status write(const gg_model *m, unsigned measure, const series *s, gg_
   put(m, measure, s, &s->rung[1], &before[0]);
   put(m, measure, s, &s->rung[2], &before[1]);
   bool failed = list->failed || before[0].failed || before[1].failed;
-  if (!failed) gg_curves_converge(list, &before[0], &before[1]);
-  for (int k = 0; k < 2; k++) gg_curves_clear(&before[k]);
-  return failed ? gg_out_of_memory(err) : GG_OK;
+  if (!failed) gg_theory_curves_converge(list, &before[0], &before[1]);
+  for (int k = 0; k < 2; k++) gg_measure_curves_clear(&before[k]);
+  return failed ? gg_base_out_of_memory(err) : GG_OK;
 }
 
 gg_status gg_hermite_curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
@@ -146,10 +146,11 @@ gg_status gg_hermite_curves(const gg_model *m, unsigned measure, gg_curves *list
   series s = {.isotropic = m->flow != GG_USF && m->flow != GG_HEATED_SHEAR};
   gg_error why;
   if (!(measure & GG_MEASURE_VELOCITY_DISTRIBUTIONS) && !(s.isotropic && measure & GG_MEASURE_SONINE)) return GG_OK;
-  if (m->rule != GG_SMOOTH) return gg_refuse(err, name, "has no distributions of rough grains");
-  if (!s.isotropic) GG_TRY(gg_require_steady_shear(m, name, err));
+  if (m->rule != GG_SMOOTH) return gg_theory_reject(err, name, "has no distributions of rough grains");
+  if (!s.isotropic) GG_TRY(gg_theory_require_steady_shear(m, name, err));
   gg_status status = !s.isotropic        ? sheared(m, &s, &why)
                      : m->n_species == 1 ? one_isotropic(m, &s, &why)
                                          : mixed_isotropic(m, &s, &why);
-  return status == GG_OK ? write(m, measure, &s, list, err) : gg_refuse(err, name, "fails here: %s", why.message);
+  return status == GG_OK ? write(m, measure, &s, list, err)
+                         : gg_theory_reject(err, name, "fails here: %s", why.message);
 }

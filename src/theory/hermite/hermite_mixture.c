@@ -35,7 +35,7 @@ typedef struct gg_solver {
 static double share_of(const gg_model *m, int i, int j)
 {
   int pair = gg_pair(i, j);
-  return m->density * gg_fraction(m, j) * m->chi[pair] * m->sigma[pair] * m->sigma[pair];
+  return m->density * gg_theory_fraction(m, j) * m->chi[pair] * m->sigma[pair] * m->sigma[pair];
 }
 
 /* x1' = x1 - kick u, in the units of species i: both normal velocities follow from u along g, and v. */
@@ -65,7 +65,7 @@ static gg_status make_normal(gg_solver *s, int i, int j, gg_error *err)
   double kick = m->contact[i][j].jn / m->mass[i] * S / a;
   gg_normal *n = s->normal + i * s->species + j;
   memset(n, 0, sizeof *n);
-  GG_TRY(gg_legendre_rule(APPROACH, u, wu, err));
+  GG_TRY(gg_hermite_legendre_rule(APPROACH, u, wu, err));
   GG_TRY(gg_hermite_rule(CENTRE, v, wv, err));
   for (int p = 0; p < APPROACH * CENTRE; p++) {
     double x = farthest * u[p / CENTRE], y = v[p % CENTRE];
@@ -127,7 +127,7 @@ static void add_gauge(gg_solver *s)
   const gg_model *m = s->model;
   double sum = 0;
   for (int i = 0; i < s->species; i++) {
-    double T = gg_fraction(m, i) * m->mass[i] * s->mixture->scale[i] * s->mixture->scale[i];
+    double T = gg_theory_fraction(m, i) * m->mass[i] * s->mixture->scale[i] * s->mixture->scale[i];
     sum += T * gg_hermite_mixture_square(s->mixture, i);
     gsl_matrix_set(s->J, 0, column(s, i, 1), T * sqrt(6) / 3);
   }
@@ -194,7 +194,7 @@ static gg_status iterate(gg_solver *s, gg_error *err)
       return GG_OK;
     }
   }
-  return gg_fail(err, GG_FAILED, "no steady state was found");
+  return gg_base_fail(err, GG_FAILED, "no steady state was found");
 }
 
 gg_status gg_hermite_mixture_solve(gg_hermite_mixture *x, const gg_model *m, int most, gg_error *err)
@@ -206,23 +206,23 @@ gg_status gg_hermite_mixture_solve(gg_hermite_mixture *x, const gg_model *m, int
     x->alpha[i][0] = 1;
     if (x->alpha[i][1] == 0) x->alpha[i][1] = (1 / GG_HERMITE_WIDTH - 1) * 3 / sqrt(6);
   }
-  GG_TRY(gg_radial_make(&x->radial, most, GG_HERMITE_DECAY, err));
-  gg_gsl_enter();
+  GG_TRY(gg_hermite_radial_make(&x->radial, most, GG_HERMITE_DECAY, err));
+  gg_base_gsl_enter();
   s.normal = malloc((size_t)(m->n_species * m->n_species) * sizeof *s.normal);
   s.J = gsl_matrix_alloc(n, n), s.x = gsl_vector_alloc(n), s.order = gsl_permutation_alloc(n);
-  gg_status status = s.normal && s.J && s.x && s.order ? iterate(&s, err) : gg_out_of_memory(err);
+  gg_status status = s.normal && s.J && s.x && s.order ? iterate(&s, err) : gg_base_out_of_memory(err);
   free(s.normal);
   if (s.J) gsl_matrix_free(s.J);
   if (s.x) gsl_vector_free(s.x);
   gsl_permutation_free(s.order);
-  gg_gsl_leave();
+  gg_base_gsl_leave();
   return status;
 }
 
 double gg_hermite_mixture_cooling(const gg_hermite_mixture *x, const gg_model *m)
 {
   double mass = 0;
-  for (int i = 0; i < m->n_species; i++) mass += gg_fraction(m, i) * m->mass[i];
+  for (int i = 0; i < m->n_species; i++) mass += gg_theory_fraction(m, i) * m->mass[i];
   return 2 * x->heating * (x->noise ? mass : 1);
 }
 
@@ -240,7 +240,7 @@ double gg_hermite_mixture_fourth(const gg_hermite_mixture *x, int i)
 static double density_at(const gg_hermite_mixture *x, int i, double c)
 {
   double marginal[L1], value[2 * L1], sum = 0;
-  gg_radial_marginal(&x->radial, x->alpha[i], marginal);
+  gg_hermite_radial_marginal(&x->radial, x->alpha[i], marginal);
   gg_hermite_values(2 * x->radial.most, c, value);
   for (int l = 0; l <= x->radial.most; l++) sum += marginal[l] * value[2 * l];
   return sum;
@@ -251,7 +251,7 @@ double gg_hermite_mixture_flux(const gg_hermite_mixture *x, int i, int j, int po
   double u[APPROACH], wu[APPROACH], v[CENTRE], wv[CENTRE], sum = 0;
   double a = x->scale[i], b = x->scale[j], S = sqrt(a * a + b * b);
   gg_error ignored;
-  if (gg_legendre_rule(APPROACH, u, wu, &ignored) != GG_OK || gg_hermite_rule(CENTRE, v, wv, &ignored) != GG_OK)
+  if (gg_hermite_legendre_rule(APPROACH, u, wu, &ignored) != GG_OK || gg_hermite_rule(CENTRE, v, wv, &ignored) != GG_OK)
     return NAN;
   for (int p = 0; p < APPROACH * CENTRE; p++) {
     double y = farthest * u[p / CENTRE], z = v[p % CENTRE];

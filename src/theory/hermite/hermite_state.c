@@ -113,7 +113,7 @@ gg_status gg_hermite_expand_anew(const gg_hermite_basis *b, gg_hermite_state *s,
   double G[3][3], *a = calloc((size_t)b->n, sizeof *a);
   if (!a || !make_grid(&g, b->degree)) {
     free(a);
-    return gg_out_of_memory(err);
+    return gg_base_out_of_memory(err);
   }
   change_of_frame(L, s->L, G);
   for (int i = 0; i < g.n; i++)

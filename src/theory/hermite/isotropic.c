@@ -119,7 +119,7 @@ static gg_status iterate(gg_hermite_isotropic *h, gg_isotropic_work *w, bool noi
     left = newton_step(h, w, alpha, &rate, noise);
     if (left == INFINITY) break;
   }
-  if (left > converged) return gg_fail(err, GG_FAILED, "no steady state was found");
+  if (left > converged) return gg_base_fail(err, GG_FAILED, "no steady state was found");
   heat(&h->gas, rate, noise);
   gg_hermite_isotropic_expand(&h->op.basis, alpha, h->state.a);
   h->cooling_rate = 2 * rate; /* d T/dt = 2 rate T, or 2 D, at T = 1 */
@@ -134,10 +134,10 @@ gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double
   for (int i = 0; i < 3; i++) h->state.L[i][i] = sqrt(h->state.width);
   gg_status status = gg_hermite_operator_make(&h->op, degree, GG_HERMITE_DECAY, true, err);
   if (status == GG_OK) h->state.a = calloc((size_t)h->op.basis.n, sizeof *h->state.a);
-  gg_gsl_enter();
-  if (status == GG_OK && (!h->state.a || !make(&w, h->op.basis.n, degree / 2))) status = gg_out_of_memory(err);
+  gg_base_gsl_enter();
+  if (status == GG_OK && (!h->state.a || !make(&w, h->op.basis.n, degree / 2))) status = gg_base_out_of_memory(err);
   if (status == GG_OK) status = iterate(h, &w, noise, err);
-  gg_gsl_leave();
+  gg_base_gsl_leave();
   clear(&w);
   if (status != GG_OK) gg_hermite_isotropic_end(h);
   return status;

@@ -25,8 +25,8 @@ static double collision_rate(const gg_model *m, const gg_hermite_mixture *x)
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       int pair = gg_pair(i, j);
-      double frequency = m->density * gg_fraction(m, j) * m->chi[pair] * m->sigma[pair] * m->sigma[pair];
-      sum += gg_fraction(m, i) * 4 * M_PI * frequency * gg_hermite_mixture_flux(x, i, j, 1);
+      double frequency = m->density * gg_theory_fraction(m, j) * m->chi[pair] * m->sigma[pair] * m->sigma[pair];
+      sum += gg_theory_fraction(m, i) * 4 * M_PI * frequency * gg_hermite_mixture_flux(x, i, j, 1);
     }
   return sum;
 }
@@ -37,9 +37,9 @@ static double transfer(const gg_model *m, const gg_hermite_mixture *x)
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       int pair = gg_pair(i, j);
-      double volume = m->density * gg_fraction(m, j) * m->chi[pair] * pow(m->sigma[pair], 3);
+      double volume = m->density * gg_theory_fraction(m, j) * m->chi[pair] * pow(m->sigma[pair], 3);
       double impulse = m->contact[i][j].jn * gg_hermite_mixture_flux(x, i, j, 2);
-      sum += gg_fraction(m, i) * 2 * M_PI / 3 * volume * impulse;
+      sum += gg_theory_fraction(m, i) * 2 * M_PI / 3 * volume * impulse;
     }
   return sum;
 }
@@ -48,7 +48,7 @@ static double transfer(const gg_model *m, const gg_hermite_mixture *x)
 static double temperature_of(const gg_model *m, const gg_hermite_mixture *x)
 {
   if (m->elastic || !x->noise || !(x->heating > 0)) return m->temperature0;
-  return pow(gg_thermostat_noise(m) / 2 / x->heating, 2. / 3);
+  return pow(gg_common_thermostat_noise(m) / 2 / x->heating, 2. / 3);
 }
 
 static void answer_mixture(const gg_model *m, const gg_hermite_mixture *x, gg_theory_answer *a)
@@ -59,12 +59,12 @@ static void answer_mixture(const gg_model *m, const gg_hermite_mixture *x, gg_th
     partial[i] = T * m->mass[i] * x->scale[i] * x->scale[i] * square;
     a->value[GG_Q_CUMULANT + i] = 2 * (gg_hermite_mixture_fourth(x, i) / (15 * square * square) - 1);
   }
-  a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : gg_hermite_mixture_cooling(x, m) / gg_model_nu0(m, 1);
+  a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : gg_hermite_mixture_cooling(x, m) / gg_common_model_nu0(m, 1);
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = partial[0] / partial[1];
   if (m->linear_response) return; /* no temperature of its own: it grows */
-  gg_answer_temperature(m, T, NAN, a);
+  gg_theory_answer_temperature(m, T, NAN, a);
   for (int i = 0; i < m->n_species; i++) a->value[GG_Q_PARTIAL_TEMPERATURE + i] = partial[i];
-  gg_answer_pressure(m, T, p, p * transfer(m, x), a);
+  gg_theory_answer_pressure(m, T, p, p * transfer(m, x), a);
   a->value[GG_Q_COLLISION_RATE] = collision_rate(m, x) * sqrt(T);
 }
 
@@ -85,7 +85,7 @@ static gg_status expand(const gg_hermite_mixture *x, const gg_hermite_basis *b, 
 {
   for (int i = 0; i < n_species; i++) {
     state[i] = (gg_hermite_state){.a = malloc((size_t)b->n * sizeof(double)), .width = GG_HERMITE_WIDTH};
-    if (!state[i].a) return gg_out_of_memory(err);
+    if (!state[i].a) return gg_base_out_of_memory(err);
     for (int k = 0; k < 3; k++) state[i].L[k][k] = x->scale[i];
     gg_hermite_isotropic_expand(b, x->alpha[i], state[i].a);
   }
@@ -99,7 +99,8 @@ static gg_status answer_viscosity(const gg_model *m, const gg_hermite_mixture *x
   gg_hermite_gas gas = resting(m, x);
   gg_hermite_viscosity v;
   gg_hermite_basis b;
-  double fading = gg_thermostat_share(m) == 0.5 ? gg_hermite_mixture_cooling(x, m) / 2 : 0, nu0 = gg_model_nu0(m, 1);
+  double fading = gg_theory_thermostat_share(m) == 0.5 ? gg_hermite_mixture_cooling(x, m) / 2 : 0,
+         nu0 = gg_common_model_nu0(m, 1);
   GG_TRY(gg_hermite_basis_make(&b, degree, err));
   gg_status status = expand(x, &b, m->n_species, state, err);
   if (status == GG_OK) status = gg_hermite_viscosity_of(&gas, state, degree, !m->boltzmann, fading, &v, err);
@@ -114,18 +115,19 @@ static gg_status answer_viscosity(const gg_model *m, const gg_hermite_mixture *x
 gg_status gg_hermite_mixture_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
-  gg_hermite_mixture x = {.noise = gg_thermostat_of(m) == GG_WHITE_NOISE};
+  gg_hermite_mixture x = {.noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE};
   gg_error why;
   for (int l = FIRST; l <= LAST; l++) {
-    if (l > LAST_VISCOSITY && gg_rungs_error(&rungs, GG_Q_COOLING_RATE) < good) break;
+    if (l > LAST_VISCOSITY && gg_hermite_convergence_error(&rungs, GG_Q_COOLING_RATE) < good) break;
     gg_status status = gg_hermite_mixture_solve(&x, m, l, &why);
-    if (status == GG_OK) answer_mixture(m, &x, gg_rungs_next(&rungs));
+    if (status == GG_OK) answer_mixture(m, &x, gg_hermite_convergence_next(&rungs));
     if (status == GG_OK && l <= LAST_VISCOSITY && m->n_species <= MOST_VISCOUS)
-      status = answer_viscosity(m, &x, 2 * l, gg_rungs_next(&viscous), &why);
-    if (status != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
+      status = answer_viscosity(m, &x, 2 * l, gg_hermite_convergence_next(&viscous), &why);
+    if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   }
-  GG_TRY(gg_rungs_finish(&rungs, name, GG_Q_PARTIAL_TEMPERATURE_RATIO, 0, a, err));
+  GG_TRY(gg_hermite_convergence_finish(&rungs, name, GG_Q_PARTIAL_TEMPERATURE_RATIO, 0, a, err));
   if (viscous.n > 0)
-    gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED, a), gg_rungs_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
+    gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a),
+        gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
   return GG_OK;
 }

@@ -25,7 +25,7 @@ static gg_status make(gg_newton *w, int n_species, int functions, gg_error *err)
   size_t m = (size_t)w->n;
   w->jacobian = malloc((m * m + 2 * m) * sizeof *w->jacobian);
   w->order = gsl_permutation_alloc(m);
-  if (!w->jacobian || !w->order) return gg_out_of_memory(err);
+  if (!w->jacobian || !w->order) return gg_base_out_of_memory(err);
   w->R = w->jacobian + m * m, w->trial = w->R + m;
   return GG_OK;
 }
@@ -116,16 +116,16 @@ static gg_status iterate(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_
     anew = !(now < fast * last);
     last = anew ? INFINITY : now;
   }
-  return gg_fail(err, GG_FAILED, "no steady state was found");
+  return gg_base_fail(err, GG_FAILED, "no steady state was found");
 }
 
 gg_status gg_hermite_newton(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *s, gg_error *err)
 {
   gg_newton w;
-  gg_gsl_enter();
+  gg_base_gsl_enter();
   gg_status status = make(&w, gas->n_species, op->basis.n, err);
   if (status == GG_OK) status = iterate(op, gas, s, &w, err);
   clear(&w);
-  gg_gsl_leave();
+  gg_base_gsl_leave();
   return status;
 }

@@ -53,7 +53,7 @@ static bool make_view(const gg_hermite_operator *op, gg_hermite_view *v)
 gg_status gg_hermite_operator_hold(gg_hermite_operator *op, int n_species, gg_error *err)
 {
   for (; op->room->n_views < n_species; op->room->n_views++)
-    if (!make_view(op, &op->room->view[op->room->n_views])) return gg_out_of_memory(err);
+    if (!make_view(op, &op->room->view[op->room->n_views])) return gg_base_out_of_memory(err);
   return GG_OK;
 }
 
@@ -63,9 +63,9 @@ static gg_status make_directions(gg_hermite_operator *op, bool isotropic, gg_err
   op->n_directions = isotropic ? 1 : POLAR * AZIMUTH;
   op->direction = calloc((size_t)op->n_directions, sizeof *op->direction);
   op->weight = calloc((size_t)op->n_directions, sizeof *op->weight);
-  if (!op->direction || !op->weight) return gg_out_of_memory(err);
+  if (!op->direction || !op->weight) return gg_base_out_of_memory(err);
   op->direction[0][2] = 1, op->weight[0] = 4 * M_PI;
-  GG_TRY(gg_legendre_rule(2 * POLAR, z, w, err));
+  GG_TRY(gg_hermite_legendre_rule(2 * POLAR, z, w, err));
   for (int n = 0; n < op->n_directions && !isotropic; n++) {
     int i = POLAR + n / AZIMUTH;
     double angle = M_PI * (n % AZIMUTH + 0.5) / AZIMUTH, *k = op->direction[n];
@@ -81,7 +81,7 @@ static gg_status make_overlap(gg_hermite_operator *op, int degree, gg_error *err
 {
   gg_hermite_overlap overlap;
   op->overlap = malloc((size_t)((degree + 3) * (degree + 1)) * sizeof *op->overlap);
-  if (!op->overlap) return gg_out_of_memory(err);
+  if (!op->overlap) return gg_base_out_of_memory(err);
   GG_TRY(gg_hermite_overlap_make(&overlap, degree + 3, degree + 1, op->decay, err));
   gg_hermite_overlap_at(&overlap, 0, op->overlap);
   gg_hermite_overlap_clear(&overlap);
@@ -96,7 +96,7 @@ gg_status gg_hermite_operator_make(gg_hermite_operator *op, int degree, double d
   if (status == GG_OK) status = gg_hermite_flux_make(&op->low, degree, 3, 0, err);
   if (status == GG_OK) status = make_overlap(op, degree, err);
   if (status == GG_OK) status = make_directions(op, isotropic, err);
-  if (status == GG_OK && !(op->room = make_room(op))) status = gg_out_of_memory(err);
+  if (status == GG_OK && !(op->room = make_room(op))) status = gg_base_out_of_memory(err);
   if (status == GG_OK) status = gg_hermite_operator_hold(op, 1, err);
   if (status != GG_OK) gg_hermite_operator_clear(op);
   return status;

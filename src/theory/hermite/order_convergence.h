@@ -11,16 +11,16 @@ typedef struct gg_rungs {
 } gg_rungs;
 
 /* Room for the next answer, all of it NaN. */
-gg_theory_answer *gg_rungs_next(gg_rungs *rungs);
+gg_theory_answer *gg_hermite_convergence_next(gg_rungs *rungs);
 
-double gg_rungs_error_of(const gg_rungs *rungs, gg_quantity q);
-double gg_rungs_error(const gg_rungs *rungs, gg_quantity q); /* relative; INFINITY of the first */
+double gg_hermite_convergence_error_of(const gg_rungs *rungs, gg_quantity q);
+double gg_hermite_convergence_error(const gg_rungs *rungs, gg_quantity q); /* relative; INFINITY of the first */
 
 /* One quantity of the last answer, with its error. */
-void gg_rungs_take(const gg_rungs *rungs, gg_quantity q, gg_theory_answer *answer);
+void gg_hermite_convergence_take(const gg_rungs *rungs, gg_quantity q, gg_theory_answer *answer);
 
 /* The last answer with its errors; refused where that of `judge` is above 1 % of it, and of `least`: some vanish. */
-gg_status gg_rungs_finish(const gg_rungs *rungs, const char *theory, gg_quantity judge, double least,
-                          gg_theory_answer *answer, gg_error *err);
+gg_status gg_hermite_convergence_finish(const gg_rungs *rungs, const char *theory, gg_quantity judge, double least,
+                                        gg_theory_answer *answer, gg_error *err);
 
 #endif

@@ -12,7 +12,7 @@ static gg_status rule(const gsl_integration_fixed_type *type, int n, double scal
                       gg_error *err)
 {
   gsl_integration_fixed_workspace *r = gsl_integration_fixed_alloc(type, (size_t)n, 0, scale, 0, 0);
-  if (!r) return gg_out_of_memory(err);
+  if (!r) return gg_base_out_of_memory(err);
   memcpy(x, gsl_integration_fixed_nodes(r), (size_t)n * sizeof *x);
   for (int i = 0; i < n; i++) w[i] = gsl_integration_fixed_weights(r)[i] / norm;
   gsl_integration_fixed_free(r);
@@ -24,7 +24,7 @@ gg_status gg_hermite_rule(int n, double *x, double *w, gg_error *err)
   return rule(gsl_integration_fixed_hermite, n, 0.5, sqrt(2 * M_PI), x, w, err);
 }
 
-gg_status gg_legendre_rule(int n, double *x, double *w, gg_error *err)
+gg_status gg_hermite_legendre_rule(int n, double *x, double *w, gg_error *err)
 {
   return rule(gsl_integration_fixed_legendre, n, 1, 1, x, w, err);
 }
@@ -33,7 +33,7 @@ gg_status gg_hermite_overlap_make(gg_hermite_overlap *o, int tests, int trials, 
 {
   *o = (gg_hermite_overlap){.tests = tests, .trials = trials, .decay = decay, .n = (tests + trials) / 2};
   o->x = malloc(2 * (size_t)o->n * sizeof *o->x);
-  if (!o->x) return gg_out_of_memory(err);
+  if (!o->x) return gg_base_out_of_memory(err);
   o->w = o->x + o->n;
   gg_status status = gg_hermite_rule(o->n, o->x, o->w, err);
   if (status != GG_OK) gg_hermite_overlap_clear(o);

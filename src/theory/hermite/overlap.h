@@ -22,6 +22,6 @@ void gg_hermite_overlap_at(const gg_hermite_overlap *o, double shift, double *ma
 /* n nodes and weights of a Gauss-Hermite rule of the weight exp(-x^2/2)/sqrt(2 pi), or of a Gauss-Legendre rule on
  * (0, 1). */
 gg_status gg_hermite_rule(int n, double *x, double *w, gg_error *err);
-gg_status gg_legendre_rule(int n, double *x, double *w, gg_error *err);
+gg_status gg_hermite_legendre_rule(int n, double *x, double *w, gg_error *err);
 
 #endif

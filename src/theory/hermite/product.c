@@ -33,8 +33,8 @@ GG_CLONES static void add_tiles(int rows, int columns, int depth, const double *
       add_tile(depth, A + row, stride_A, B + column, stride_B, C + (long)row * stride_C + column, stride_C);
 }
 
-void gg_add_product(int rows, int columns, int depth, const double *A, int stride_A, const double *B, int stride_B,
-                    double *C, int stride_C)
+void gg_hermite_product_add(int rows, int columns, int depth, const double *A, int stride_A, const double *B,
+                            int stride_B, double *C, int stride_C)
 {
   add_tiles(rows, columns, depth, A, stride_A, B, stride_B, C, stride_C);
 }

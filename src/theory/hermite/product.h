@@ -11,7 +11,7 @@ static inline int gg_padded(int n, int unit)
 }
 
 /* A: depth x rows, B: depth x columns, C: rows x columns, each by rows of the given strides. */
-void gg_add_product(int rows, int columns, int depth, const double *A, int stride_A, const double *B, int stride_B,
-                    double *C, int stride_C);
+void gg_hermite_product_add(int rows, int columns, int depth, const double *A, int stride_A, const double *B,
+                            int stride_B, double *C, int stride_C);
 
 #endif

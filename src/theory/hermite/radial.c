@@ -77,18 +77,18 @@ static bool rule(double power, double rate, double *t, double *w)
   return true;
 }
 
-gg_status gg_radial_make(gg_radial *r, int most, double decay, gg_error *err)
+gg_status gg_hermite_radial_make(gg_radial *r, int most, double decay, gg_error *err)
 {
   double t[POINTS], w[POINTS];
   *r = (gg_radial){.most = most, .decay = decay};
   make_split(r);
   for (int k = 0; k < 2; k++) {
-    if (!rule(0, k ? 1 + decay : 1, t, w)) return gg_out_of_memory(err);
+    if (!rule(0, k ? 1 + decay : 1, t, w)) return gg_base_out_of_memory(err);
     for (int M = 0; M <= most; M++)
       for (int m = 0; m <= most; m++)
         for (int i = 0; i < POINTS; i++)
           r->across[k][M][m] += w[i] * sign(M + m) * gsl_sf_laguerre_n(M, 0, t[i]) * gsl_sf_laguerre_n(m, 0, t[i]);
-    if (!rule(0.5, k ? 1 + decay : 1, t, w)) return gg_out_of_memory(err);
+    if (!rule(0.5, k ? 1 + decay : 1, t, w)) return gg_base_out_of_memory(err);
     for (int l = k ? 2 : 0; l <= (k ? most : 1); l++)
       for (int m = 0; m <= most; m++)
         for (int i = 0; i < POINTS; i++) {
@@ -99,7 +99,7 @@ gg_status gg_radial_make(gg_radial *r, int most, double decay, gg_error *err)
   return GG_OK;
 }
 
-void gg_radial_marginal(const gg_radial *r, const double *alpha, double *marginal)
+void gg_hermite_radial_marginal(const gg_radial *r, const double *alpha, double *marginal)
 {
   for (int l = 0; l <= r->most; l++) marginal[l] = alpha[l] * r->split[l][l];
 }

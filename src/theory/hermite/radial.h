@@ -17,9 +17,9 @@ typedef struct gg_radial {
   double spread[GG_RADIAL_MOST + 1][GG_RADIAL_MOST + 1];    /* < laplacian psi_l Phi_m > */
 } gg_radial;
 
-gg_status gg_radial_make(gg_radial *radial, int most, double decay, gg_error *err);
+gg_status gg_hermite_radial_make(gg_radial *radial, int most, double decay, gg_error *err);
 
 /* The distribution of one component: sum_l marginal[l] Ho_2l. */
-void gg_radial_marginal(const gg_radial *radial, const double *alpha, double *marginal);
+void gg_hermite_radial_marginal(const gg_radial *radial, const double *alpha, double *marginal);
 
 #endif

@@ -22,8 +22,8 @@ static double warmer(double noise)
 static double factor_of(const gg_model *m, const gg_gaussian start[])
 {
   double T = 0;
-  if (gg_thermostat_of(m) != GG_WHITE_NOISE) return 1;
-  for (int i = 0; i < m->n_species; i++) T += gg_fraction(m, i) * m->mass[i] * gg_trace(start[i].M) / 3;
+  if (gg_common_thermostat_of(m) != GG_WHITE_NOISE) return 1;
+  for (int i = 0; i < m->n_species; i++) T += gg_theory_fraction(m, i) * m->mass[i] * gg_theory_trace(start[i].M) / 3;
   return warmer(m->temperature0 / T);
 }
 
@@ -31,23 +31,23 @@ gg_status gg_hermite_shear_begin(gg_hermite_shear *h, const gg_model *m, gg_erro
 {
   gg_gaussian start[GG_MAX_SPECIES];
   *h = (gg_hermite_shear){.model = m, .gas = gg_hermite_gas_of(m)};
-  bool fine = gg_gaussian_steady(m, start) < 1e-6;
+  bool fine = gg_theory_gaussian_steady(m, start) < 1e-6;
   double factor = fine ? factor_of(m, start) : 1;
-  if (gg_thermostat_of(m) == GG_WHITE_NOISE) h->gas.diffusion = gg_thermostat_noise(m) / 2;
+  if (gg_common_thermostat_of(m) == GG_WHITE_NOISE) h->gas.diffusion = gg_common_thermostat_noise(m) / 2;
   for (int i = 0; i < m->n_species && fine; i++) {
     gg_hermite_state *s = &h->state[i];
     s->width = 1;
     s->a = calloc((size_t)GG_HERMITE_MOST_FUNCTIONS, sizeof *s->a);
     if (!s->a) {
       gg_hermite_shear_end(h);
-      return gg_out_of_memory(err);
+      return gg_base_out_of_memory(err);
     }
     s->a[0] = 1;
     fine = gg_hermite_gaussian(factor, start[i].M.at, s->L);
   }
   if (fine) return GG_OK;
   gg_hermite_shear_end(h);
-  return gg_fail(err, GG_FAILED, "no steady state was found");
+  return gg_base_fail(err, GG_FAILED, "no steady state was found");
 }
 
 void gg_hermite_shear_end(gg_hermite_shear *h)
@@ -63,7 +63,7 @@ static gg_status follow(const gg_hermite_basis *b, gg_hermite_state *s, gg_error
   double M[3][3], L[3][3];
   gg_hermite_second_moments(b, s, M);
   s->width = GG_HERMITE_WIDTH;
-  if (!gg_hermite_gaussian(s->width, M, L)) return gg_fail(err, GG_FAILED, "no steady state was found");
+  if (!gg_hermite_gaussian(s->width, M, L)) return gg_base_fail(err, GG_FAILED, "no steady state was found");
   return gg_hermite_expand_anew(b, s, L, err);
 }
 

@@ -59,7 +59,7 @@ static void answer_temperatures(gg_hermite_shear *h, const double T[], gg_theory
 {
   double all = 0;
   for (int i = 0; i < h->gas.n_species; i++) all += h->gas.fraction[i] * T[i];
-  gg_answer_temperature(h->model, all, NAN, a);
+  gg_theory_answer_temperature(h->model, all, NAN, a);
   if (h->gas.n_species == 1) return;
   for (int i = 0; i < h->gas.n_species; i++) a->value[GG_Q_PARTIAL_TEMPERATURE + i] = T[i];
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = T[0] / T[1];
@@ -80,7 +80,8 @@ static void answer(gg_hermite_shear *h, gg_theory_answer *a)
   }
   gg_hermite_sums_at(&h->op, &h->gas, h->state, &sums);
   answer_temperatures(h, T, a);
-  gg_answer_stress(m, a->value[GG_Q_TEMPERATURE], stress_of(m->density, P), stress_of(m->density, sums.transfer), a);
+  gg_theory_answer_stress(m, a->value[GG_Q_TEMPERATURE], stress_of(m->density, P), stress_of(m->density, sums.transfer),
+                          a);
   a->value[GG_Q_COLLISION_RATE] = sums.rate;
   a->value[GG_Q_MEAN_FREE_PATH] = sums.speed / sums.rate;
   if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = sums.speed / sums.rate / cbrt(m->volume);
@@ -101,19 +102,20 @@ static void answer_relaxation(gg_hermite_shear *h, gg_theory_answer *a)
 /* Newton's method has the balance of energy as one equation among those of all that collisions exchange. */
 static gg_status refuse(const gg_model *m, const char *why, gg_error *err)
 {
-  if (gg_hardly_loses(m)) return gg_refuse(err, name, "fails here: the loss of energy is below numerical resolution");
-  return gg_refuse(err, name, "fails here: %s", why);
+  if (gg_theory_is_nearly_elastic(m))
+    return gg_theory_reject(err, name, "fails here: the loss of energy is below numerical resolution");
+  return gg_theory_reject(err, name, "fails here: %s", why);
 }
 
 /* `slow`: answers of its own, of the relaxation alone, which a low degree knows well. */
 static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_error *err)
 {
   for (int degree = FIRST_DEGREE; degree <= last_degree[h->gas.n_species]; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_rungs_error(rungs, GG_Q_TEMPERATURE) < good) break;
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_error(rungs, GG_Q_TEMPERATURE) < good) break;
     gg_error why;
     if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return refuse(h->model, why.message, err);
-    answer(h, gg_rungs_next(rungs));
-    if (degree <= SPECTRUM_DEGREE) answer_relaxation(h, gg_rungs_next(slow));
+    answer(h, gg_hermite_convergence_next(rungs));
+    if (degree <= SPECTRUM_DEGREE) answer_relaxation(h, gg_hermite_convergence_next(slow));
   }
   return GG_OK;
 }
@@ -122,15 +124,15 @@ gg_status gg_hermite_shear_answer(const gg_model *m, gg_theory_answer *a, gg_err
 {
   gg_hermite_shear h;
   gg_rungs rungs = {.n = 0}, slow = {.n = 0};
-  GG_TRY(gg_require_steady_shear(m, name, err));
+  GG_TRY(gg_theory_require_steady_shear(m, name, err));
   gg_error why;
   if (m->n_species > MOST_SPECIES)
-    return gg_refuse(err, name, "describes sheared grains of up to %d species; this scene has %d", MOST_SPECIES,
-                     m->n_species);
+    return gg_theory_reject(err, name, "describes sheared grains of up to %d species; this scene has %d", MOST_SPECIES,
+                            m->n_species);
   if (gg_hermite_shear_begin(&h, m, &why) != GG_OK) return refuse(m, why.message, err);
   gg_status status = climb(&h, &rungs, &slow, err);
   gg_hermite_shear_end(&h);
-  if (status == GG_OK) status = gg_rungs_finish(&rungs, name, GG_Q_TEMPERATURE, 0, a, err);
-  if (status == GG_OK) gg_rungs_take(&slow, GG_Q_RELAXATION_RATE, a);
+  if (status == GG_OK) status = gg_hermite_convergence_finish(&rungs, name, GG_Q_TEMPERATURE, 0, a, err);
+  if (status == GG_OK) gg_hermite_convergence_take(&slow, GG_Q_RELAXATION_RATE, a);
   return status;
 }

@@ -88,10 +88,11 @@ gg_status gg_hermite_spectrum(gg_hermite_operator *op, const gg_hermite_gas *gas
 {
   gg_spectrum s;
   int all = gas->n_species * op->basis.n;
-  gg_status status = make(&s, all - gas->n_species, all) ? GG_OK : gg_out_of_memory(err);
-  gg_gsl_enter();
-  if (status == GG_OK && !find(&s, op, gas, state, mode)) status = gg_fail(err, GG_FAILED, "no eigenvalues were found");
-  gg_gsl_leave();
+  gg_status status = make(&s, all - gas->n_species, all) ? GG_OK : gg_base_out_of_memory(err);
+  gg_base_gsl_enter();
+  if (status == GG_OK && !find(&s, op, gas, state, mode))
+    status = gg_base_fail(err, GG_FAILED, "no eigenvalues were found");
+  gg_base_gsl_leave();
   clear(&s);
   return status;
 }

@@ -31,7 +31,7 @@ static gg_status make(gg_response *r, int degree, gg_error *err)
   size_t n = (size_t)r->all;
   r->function = malloc(n * sizeof *r->function);
   r->R = calloc(n * n + 3 * n, sizeof *r->R);
-  if (!r->function || !r->R) return gg_out_of_memory(err);
+  if (!r->function || !r->R) return gg_base_out_of_memory(err);
   r->other = r->R + n, r->a = r->other + n, r->jacobian = r->a + n;
   for (int i = 0; i < r->gas->n_species; i++) {
     r->state[i] = r->base[i];
@@ -141,11 +141,11 @@ gg_status gg_hermite_viscosity_of(const gg_hermite_gas *gas, gg_hermite_state *s
   gg_response r = {.gas = gas, .base = state, .transfer = transfers};
   gg_status status = make(&r, degree, err);
   if (status == GG_OK) {
-    gg_gsl_enter();
+    gg_base_gsl_enter();
     gg_hermite_operator_at(&r.op, gas, state, r.other, r.jacobian);
     source(&r);
-    if (!solve(&r, fading)) status = gg_fail(err, GG_FAILED, "no linear response was found");
-    gg_gsl_leave();
+    if (!solve(&r, fading)) status = gg_base_fail(err, GG_FAILED, "no linear response was found");
+    gg_base_gsl_leave();
   }
   if (status == GG_OK) v->kinetic = kinetic(&r), v->total = v->kinetic - transfer(&r);
   clear(&r);

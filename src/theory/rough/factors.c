@@ -19,7 +19,7 @@ static void values(int degree, double x, double *value)
 static gg_status make_normal(gg_rough_factors *f, const gg_rough_collision *c, int degree, gg_error *err)
 {
   double u[APPROACH], w[APPROACH], before[GG_ROUGH_SIDE], after[GG_ROUGH_SIDE];
-  GG_TRY(gg_legendre_rule(APPROACH, u, w, err));
+  GG_TRY(gg_hermite_legendre_rule(APPROACH, u, w, err));
   for (int i = 0; i < APPROACH; i++) {
     double x = farthest * u[i], amount = 4 * M_PI * farthest * w[i] * c->s * x * exp(-x * x / 2) / sqrt(2 * M_PI);
     values(degree, c->normal[2] * x, before);

@@ -83,7 +83,7 @@ gg_status gg_rough_functions_make(gg_rough_functions *f, int degree, gg_error *e
   f->place3 = malloc(side * side * side * sizeof *f->place3);
   if (!f->function || !f->by_degree || !f->up || !f->down || !f->three || !f->from || !f->place3) {
     gg_rough_functions_clear(f);
-    return gg_out_of_memory(err);
+    return gg_base_out_of_memory(err);
   }
   number_three(f);
   number_all(f);

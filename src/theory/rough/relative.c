@@ -38,7 +38,7 @@ static gg_status make_work(gg_relative_work *w, const gg_rough_functions *f, boo
   w->wide = malloc((size_t)w->n_wide * sizeof *w->wide);
   w->place = malloc((size_t)(side * side * side) * sizeof *w->place);
   if (!w->E || !w->flux || !w->by_kind || !w->sorted || !w->ladder || !w->wide || !w->place)
-    return gg_out_of_memory(err);
+    return gg_base_out_of_memory(err);
   for (int k = 0, at = 0; k <= most; k++)
     for (int x = k; x >= 0; x--)
       for (int y = k - x; y >= 0; y--, at++) {
@@ -214,7 +214,7 @@ static gg_status add_all(gg_rough_relative *r, gg_relative_work *w, const gg_rou
     add_direction(r, w, gas, weight, k, 4 * M_PI);
     return GG_OK;
   }
-  GG_TRY(gg_legendre_rule(2 * POLAR, z, wz, err));
+  GG_TRY(gg_hermite_legendre_rule(2 * POLAR, z, wz, err));
   for (int n = 0; n < POLAR * AZIMUTH; n++) {
     int i = POLAR + n / AZIMUTH;
     double angle = M_PI * (n % AZIMUTH + 0.5) / AZIMUTH;
@@ -236,7 +236,7 @@ static gg_status make(gg_rough_relative *r, gg_relative_work *w, int degree, boo
     r->factors = malloc(sizeof *r->factors);
   else
     r->W = calloc(n * n, sizeof *r->W);
-  if (!r->rate || (!r->W && !r->factors)) return gg_out_of_memory(err);
+  if (!r->rate || (!r->W && !r->factors)) return gg_base_out_of_memory(err);
   for (size_t i = 0; i < 9; i++) r->J[i / 3][i % 3] = r->rate + (i + 1) * n;
   return make_work(w, &r->f, factored, err);
 }

@@ -91,9 +91,9 @@ static void answer_shear(const gg_model *m, const gg_rough_steady *s, gg_theory_
   gg_rough_covariance(&s->form, &s->relative.f, &s->weight, s->a, false, M);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) P[i][j] = (i == 2) == (j == 2) ? m->sigma[0] / 2 * mean(s, s->relative.J[i][j]) : 0;
-  gg_answer_temperature(m, T, m->inertia[0] * third_of_trace(s, true) / T, a);
-  gg_answer_stress(m, T, (gg_stress){n * M[0][0], n * M[1][1], n * M[2][2], n * M[0][1], n * M[1][0]},
-                   (gg_stress){n * P[0][0], n * P[1][1], n * P[2][2], n * P[0][1], n * P[1][0]}, a);
+  gg_theory_answer_temperature(m, T, m->inertia[0] * third_of_trace(s, true) / T, a);
+  gg_theory_answer_stress(m, T, (gg_stress){n * M[0][0], n * M[1][1], n * M[2][2], n * M[0][1], n * M[1][0]},
+                          (gg_stress){n * P[0][0], n * P[1][1], n * P[2][2], n * P[0][1], n * P[1][0]}, a);
   answer_flights(m, mean(s, s->relative.rate), speed(s), a);
   a->value[GG_Q_DISSIPATION] = -a->value[GG_Q_P_XY] * m->shear_rate;
   if (!m->boltzmann)
@@ -113,13 +113,13 @@ static gg_status refuse_poor(const gg_theory_answer *a, gg_quantity judge, doubl
 {
   double left = a->error[judge] / fabs(a->value[judge]);
   if (left < limit) return GG_OK;
-  return gg_refuse(err, name, "does not converge here: it is still %.1g %% off", 100 * left);
+  return gg_theory_reject(err, name, "does not converge here: it is still %.1g %% off", 100 * left);
 }
 
 static bool gaussian_start(const gg_model *m, gg_rough_weight *w)
 {
   gg_gaussian start[GG_MAX_SPECIES];
-  if (!(gg_gaussian_steady(m, start) < 1e-6)) return false;
+  if (!(gg_theory_gaussian_steady(m, start) < 1e-6)) return false;
   w->spin = start[0].spin;
   return gg_hermite_cholesky(start[0].M.at, w->L) && gg_hermite_cholesky(start[0].Theta.at, w->S);
 }
@@ -131,10 +131,11 @@ static gg_status climb(const gg_model *m, gg_rough_steady *s, gg_theory_answer r
     gg_theory_answer *a = &rung[degree - FIRST_DEGREE];
     *a = nothing();
     if (gg_rough_shear_solve(s, degree, &why) != GG_OK)
-      return gg_refuse(err, name, "fails here: %s",
-                       gg_hardly_loses(m) ? "the loss of energy is below numerical resolution" : why.message);
+      return gg_theory_reject(err, name, "fails here: %s",
+                              gg_theory_is_nearly_elastic(m) ? "the loss of energy is below numerical resolution"
+                                                             : why.message);
     answer_shear(m, s, a);
-    if (!gg_rough_follow(s)) return gg_refuse(err, name, "fails here: no second moments");
+    if (!gg_rough_follow(s)) return gg_theory_reject(err, name, "fails here: no second moments");
   }
   return GG_OK;
 }
@@ -143,9 +144,9 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_theory_answer rung[LAST_DEGREE - FIRST_DEGREE + 1];
   gg_rough_steady s = begin(m, &moments);
-  GG_TRY(gg_require_steady_shear(m, name, err));
+  GG_TRY(gg_theory_require_steady_shear(m, name, err));
   s.stream.velocity[0][1] = m->shear_rate;
-  if (!gaussian_start(m, &s.weight)) return gg_refuse(err, name, "fails here: no steady state was found");
+  if (!gaussian_start(m, &s.weight)) return gg_theory_reject(err, name, "fails here: no steady state was found");
   gg_status status = climb(m, &s, rung, err);
   gg_rough_steady_clear(&s);
   GG_TRY(status);
@@ -160,7 +161,7 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
 static gg_rough_heating heating_of(const gg_model *m)
 {
   if (m->flow == GG_HCS) return GG_ROUGH_COOLING;
-  return gg_thermostat_of(m) == GG_WHITE_NOISE ? GG_ROUGH_NOISE : GG_ROUGH_STRETCHED;
+  return gg_common_thermostat_of(m) == GG_WHITE_NOISE ? GG_ROUGH_NOISE : GG_ROUGH_STRETCHED;
 }
 
 /* At T = 1, in units of its own rates. */
@@ -170,10 +171,11 @@ static void answer_isotropic(const gg_model *m, const gg_rough_steady *s, double
   answer_cumulants(s, a);
   a->value[GG_Q_A2] = a->value[GG_Q_KURTOSIS_CX] / 3 - 1;
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
-  a->value[GG_Q_COOLING_RATE] = cooling / gg_model_nu0(m, 1);
+  a->value[GG_Q_COOLING_RATE] = cooling / gg_common_model_nu0(m, 1);
   if (heating_of(m) == GG_ROUGH_NOISE) return; /* of a temperature that it finds itself */
-  gg_answer_temperature(m, T, ratio, a);
-  gg_answer_pressure(m, T, p, p * m->sigma[0] / 6 * mean(s, s->relative.J[2][2]), a); /* one direction: the trace */
+  gg_theory_answer_temperature(m, T, ratio, a);
+  gg_theory_answer_pressure(m, T, p, p * m->sigma[0] / 6 * mean(s, s->relative.J[2][2]),
+                            a); /* one direction: the trace */
   answer_flights(m, mean(s, s->relative.rate) * sqrt(T), speed(s) * sqrt(T), a);
 }
 
@@ -184,12 +186,13 @@ static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg
   *a = nothing();
   GG_TRY(gg_rough_isotropic_solve(s, degree, heating_of(m), &cooling, err));
   answer_isotropic(m, s, cooling, a);
-  return gg_rough_follow(s) ? GG_OK : gg_fail(err, GG_FAILED, "no second moments");
+  return gg_rough_follow(s) ? GG_OK : gg_base_fail(err, GG_FAILED, "no second moments");
 }
 
 static double maxwellian_ratio(const gg_model *m)
 {
-  return m->flow == GG_HCS ? gg_ratio_cooling(gg_grain_of(m), INFINITY) : gg_ratio_driven(gg_grain_of(m), INFINITY);
+  return m->flow == GG_HCS ? gg_theory_ratio_cooling(gg_theory_grain_of(m), INFINITY)
+                           : gg_theory_ratio_driven(gg_theory_grain_of(m), INFINITY);
 }
 
 /* Degree after degree; the error is what the last has changed. */
@@ -206,7 +209,7 @@ static gg_status climb_isotropic(const gg_model *m, const gg_rough_choice *choic
     status = isotropic(m, &s, degree, &now, &why);
   }
   gg_rough_steady_clear(&s);
-  if (status != GG_OK) return gg_refuse(err, name, "fails here: %s", why.message);
+  if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   for (int q = 0; q < GG_N_QUANTITIES; q++) now.error[q] = fabs(now.value[q] - before.value[q]);
   GG_TRY(refuse_poor(&now, GG_Q_TEMPERATURE_RATIO, limit, err));
   *a = now;
@@ -216,7 +219,7 @@ static gg_status climb_isotropic(const gg_model *m, const gg_rough_choice *choic
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   double ratio = maxwellian_ratio(m);
-  if (isnan(ratio)) return gg_refuse(err, name, "finds no steady theta/T");
+  if (isnan(ratio)) return gg_theory_reject(err, name, "finds no steady theta/T");
   gg_status status = GG_FAILED;
   for (int i = 0; i < CHOICES && status != GG_OK; i++)
     status = climb_isotropic(m, &tails[i], ratio, i + 1 < CHOICES ? restless : poor, a, err);
@@ -225,7 +228,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
 
 gg_status gg_rough_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  if (m->linear_response) return gg_refuse(err, name, "has no linear response of rough grains");
-  if (m->flow == GG_HEATED_SHEAR) return gg_refuse(err, name, "has no heated shear of rough grains");
+  if (m->linear_response) return gg_theory_reject(err, name, "has no linear response of rough grains");
+  if (m->flow == GG_HEATED_SHEAR) return gg_theory_reject(err, name, "has no heated shear of rough grains");
   return m->flow == GG_USF ? sheared(m, a, err) : homogeneous(m, a, err);
 }

@@ -149,7 +149,7 @@ static gg_status list(gg_rough_form *form, const gg_rough_functions *f, int degr
   form->function = malloc((size_t)f->n * sizeof *form->function);
   form->unknown = malloc((size_t)f->n * sizeof *form->unknown);
   form->test = malloc((size_t)f->n * sizeof *form->test);
-  if (!form->function || !form->unknown || !form->test) return gg_out_of_memory(err);
+  if (!form->function || !form->unknown || !form->test) return gg_base_out_of_memory(err);
   for (int q = 0; q < f->n; q++) {
     bool test = belongs(f->function[q], isotropic), kept = test && gg_rough_degree(f->function[q]) <= degree;
     if (test) form->test[form->n_tests++] = q;
@@ -165,11 +165,11 @@ static gg_status list(gg_rough_form *form, const gg_rough_functions *f, int degr
         n++;
       }
     if (pass == 0) form->pair = malloc((size_t)n * sizeof *form->pair);
-    if (!form->pair) return gg_out_of_memory(err);
+    if (!form->pair) return gg_base_out_of_memory(err);
     form->n_pairs = n;
   }
   form->B = calloc((size_t)form->n_pairs * (size_t)form->n, sizeof *form->B);
-  return form->B ? GG_OK : gg_out_of_memory(err);
+  return form->B ? GG_OK : gg_base_out_of_memory(err);
 }
 
 /* <psi_m Ho_q> of one axis, for velocities and for spins. */
@@ -219,14 +219,14 @@ static gg_status make_tests(gg_rough_form *form, const gg_rough_functions *f, co
   int side = f->degree + 1;
   double *overlap = malloc((size_t)(2 * side * side) * sizeof *overlap);
   form->from = malloc((size_t)(form->n + 1) * sizeof *form->from);
-  gg_status status = form->from && overlap ? GG_OK : gg_out_of_memory(err);
+  gg_status status = form->from && overlap ? GG_OK : gg_base_out_of_memory(err);
   if (status == GG_OK) status = make_overlaps(side, choice, overlap, err);
   if (status == GG_OK) {
     form->part = malloc((size_t)find_parts(form, f, side, overlap, false) * sizeof *form->part);
     if (form->part)
       find_parts(form, f, side, overlap, true);
     else
-      status = gg_out_of_memory(err);
+      status = gg_base_out_of_memory(err);
   }
   free(overlap);
   return status;
@@ -255,7 +255,7 @@ static gg_status make_form(gg_rough_form *form, const gg_rough_relative *relativ
   free(s.row);
   free(covers.from);
   free(covers.cover);
-  return fine ? GG_OK : gg_out_of_memory(err);
+  return fine ? GG_OK : gg_base_out_of_memory(err);
 }
 
 gg_status gg_rough_form_make(gg_rough_form *form, const gg_rough_relative *relative, int degree, bool isotropic,

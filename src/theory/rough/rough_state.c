@@ -186,7 +186,7 @@ double gg_rough_mean_speed(const gg_rough_form *form, const gg_rough_functions *
   enum { POLAR = 12, AZIMUTH = 16 };
   double z[POLAR], wz[POLAR], sum = 0;
   gg_error ignored;
-  if (gg_legendre_rule(POLAR, z, wz, &ignored) != GG_OK) return NAN;
+  if (gg_hermite_legendre_rule(POLAR, z, wz, &ignored) != GG_OK) return NAN;
   for (int p = 0; p < POLAR * AZIMUTH; p++) {
     int i = p / AZIMUTH;
     double angle = M_PI * (p % AZIMUTH + 0.5) / AZIMUTH, r = sqrt(1 - z[i] * z[i]), n[3], h[N1], length = 0;

@@ -31,7 +31,7 @@ static gg_status make(gg_rough_steady *s, int degree, bool isotropic, gg_error *
     GG_TRY(gg_rough_relative_make(&s->relative, &s->gas, &s->weight, relative, false, err));
   GG_TRY(gg_rough_form_make(&s->form, &s->relative, degree, isotropic, &s->choice, err));
   s->a = calloc((size_t)s->form.n, sizeof *s->a);
-  if (!s->a) return gg_out_of_memory(err);
+  if (!s->a) return gg_base_out_of_memory(err);
   s->a[0] = 1;
   for (int x = 0; x < GG_ROUGH_AXES; x++) {
     double width = x < 3 ? s->choice.width : s->choice.spin_width;
@@ -76,7 +76,7 @@ static gg_status begin(gg_rough_newton *w, int n, int m, gg_error *err)
   w->A = gsl_matrix_alloc(unknowns, unknowns);
   w->x = gsl_vector_alloc(unknowns);
   w->order = gsl_permutation_alloc(unknowns);
-  if (!w->R || !w->A || !w->x || !w->order) return gg_out_of_memory(err);
+  if (!w->R || !w->A || !w->x || !w->order) return gg_base_out_of_memory(err);
   w->extra = w->R + n, w->J = w->extra + n;
   return GG_OK;
 }
@@ -126,18 +126,18 @@ static gg_status iterate_shear(gg_rough_steady *s, gg_rough_newton *w, gg_error 
     if (most < converged) return GG_OK;
     if (most > 1e3) break;
   }
-  return gg_fail(err, GG_FAILED, "no steady state was found");
+  return gg_base_fail(err, GG_FAILED, "no steady state was found");
 }
 
 gg_status gg_rough_shear_solve(gg_rough_steady *s, int degree, gg_error *err)
 {
   gg_rough_newton w = {0};
-  gg_gsl_enter();
+  gg_base_gsl_enter();
   gg_status status = make(s, degree, false, err);
   if (status == GG_OK) status = begin(&w, s->form.n, s->form.n - 1, err);
   if (status == GG_OK) status = iterate_shear(s, &w, err);
   end(&w);
-  gg_gsl_leave();
+  gg_base_gsl_leave();
   return status;
 }
 
@@ -235,7 +235,7 @@ static gg_status iterate_isotropic(gg_rough_steady *s, gg_rough_newton *w, gg_ro
     if (most < converged) return GG_OK;
     if (most > 1e3) break;
   }
-  return gg_fail(err, GG_FAILED, "no steady state was found");
+  return gg_base_fail(err, GG_FAILED, "no steady state was found");
 }
 
 gg_status gg_rough_isotropic_solve(gg_rough_steady *s, int degree, gg_rough_heating heating, double *cooling_rate,
@@ -245,17 +245,17 @@ gg_status gg_rough_isotropic_solve(gg_rough_steady *s, int degree, gg_rough_heat
   double rate = 0;
   memset(s->weight.L, 0, sizeof s->weight.L);
   for (int i = 0; i < 3; i++) s->weight.L[i][i] = sqrt(s->choice.width);
-  gg_gsl_enter();
+  gg_base_gsl_enter();
   gg_status status = make(s, degree, true, err);
   int m = status == GG_OK ? isotropic_functions(s, NULL) : 0;
   if (status == GG_OK) status = begin(&w, s->form.n, m, err);
   if (status == GG_OK) {
     w.direction = calloc((size_t)m * (size_t)w.n, sizeof *w.direction);
-    if (!w.direction || isotropic_functions(s, w.direction) != m) status = gg_out_of_memory(err);
+    if (!w.direction || isotropic_functions(s, w.direction) != m) status = gg_base_out_of_memory(err);
   }
   if (status == GG_OK) status = iterate_isotropic(s, &w, heating, &rate, err);
   *cooling_rate = 2 * rate;
   end(&w);
-  gg_gsl_leave();
+  gg_base_gsl_leave();
   return status;
 }
