@@ -28,7 +28,8 @@ int main(int argc, char **argv)
   gg_curve_data c;
   char text[40];
   const char *path = argc > 1 ? argv[1] : "read_example.h5";
-  if ((argc < 2 && make(path, &err)) || gg_result_read(path, &result, &err) || gg_result_about(result, &about, &err)) {
+  if ((argc < 2 && make(path, &err)) || gg_result_read(path, &result, &err) ||
+      gg_result_get_info(result, &about, &err)) {
     fprintf(stderr, "%s\n", err.message);
     return err.status;
   }

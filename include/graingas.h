@@ -298,7 +298,7 @@ GG_API void gg_session_free(gg_session *session);
 /* Go on for about so many seconds by the clock on the wall, within a few milliseconds for some thousand grains. *over
  * (may be NULL): all is done, and nothing will change any more. GG_FAILED, then and from then on: ended short of what
  * was asked, or for good. */
-GG_API gg_status gg_session_go_on(gg_session *session, double seconds, int *over, gg_error *err);
+GG_API gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_error *err);
 GG_API gg_status gg_session_get_progress(const gg_session *session, gg_progress *progress, gg_error *err);
 /* Means, errors, history, curves and the grains as of now, to be freed; what cannot be had yet says why. The session
  * goes on as if it had not been asked. */
@@ -356,7 +356,7 @@ typedef struct gg_result_info {
   const char *version, *command, *machine, *date; /* of the file that it was read from; NULL if it was not */
   size_t frames;                                  /* of the trajectory in that file */
 } gg_result_info;
-GG_API gg_status gg_result_about(const gg_result *result, gg_result_info *info, gg_error *err);
+GG_API gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_error *err);
 GG_API const gg_scene *gg_result_scene(const gg_result *result);         /* as it was run */
 GG_API const char *gg_result_warning(const gg_result *result, size_t i); /* NULL after the last */
 
@@ -427,7 +427,7 @@ GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options
                             gg_error *err);
 /* What theories say, at once, nothing simulated: all of them, or the one of that name. GG_OK also where they do not
  * apply: gg_comparison_theory says why. */
-GG_API gg_status gg_evaluate_theories(const gg_scene *scene, const char *theory, gg_comparison **comparison,
+GG_API gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_comparison **comparison,
                                       gg_error *err);
 GG_API void gg_comparison_free(gg_comparison *comparison);
 

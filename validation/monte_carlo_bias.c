@@ -78,7 +78,7 @@ static gg_status run(const scene *c, const gg_scene *s, answer *a, gg_result_inf
   gg_status status = gg_run(s, NULL, &r, err);
   for (int q = 0; q < QUANTITIES && status == GG_OK; q++)
     status = gg_result_get(r, c->quantity[q], &a->mean[q], &a->error[q], err);
-  if (status == GG_OK) status = gg_result_about(r, info, err);
+  if (status == GG_OK) status = gg_result_get_info(r, info, err);
   gg_result_free(r);
   return status;
 }

@@ -94,7 +94,7 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   return theory ? keep_one(c, theory, err) : GG_OK;
 }
 
-gg_status gg_evaluate_theories(const gg_scene *scene, const char *theory, gg_comparison **comparison, gg_error *err)
+gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(scene);
   GG_NEED(comparison);

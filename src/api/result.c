@@ -75,7 +75,7 @@ int gg_result_is_steady(const gg_result *result)
   return result && result->steadiness == GG_STEADY;
 }
 
-gg_status gg_result_about(const gg_result *result, gg_result_info *info, gg_error *err)
+gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_error *err)
 {
   GG_NEED(result);
   GG_NEED(info);

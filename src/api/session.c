@@ -72,11 +72,12 @@ void gg_session_free(gg_session *s)
   free(s);
 }
 
-gg_status gg_session_go_on(gg_session *session, double seconds, int *over, gg_error *err)
+gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_error *err)
 {
   GG_NEED(session);
   gg_session *s = session;
-  if (!(seconds > 0)) return gg_base_fail(err, GG_BAD_INPUT, "gg_session_go_on: cannot go on for %g seconds", seconds);
+  if (!(seconds > 0))
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_session_advance: cannot go on for %g seconds", seconds);
   if (!s->over) {
     s->until = gg_base_clock_wall() + seconds;
     int stopped = GG_STOP_ASKED;

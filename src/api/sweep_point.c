@@ -44,7 +44,7 @@ static ended evaluate(gg_point_task *t, const gg_scene *scene, const gg_run_opti
 {
   gg_comparison *c = NULL;
   gg_result_file file;
-  gg_status status = gg_evaluate_theories(scene, NULL, &c, err);
+  gg_status status = gg_theories_evaluate(scene, NULL, &c, err);
   for (int k = 0; c && k < 2; k++) snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
   if (status == GG_OK) status = gg_files_result_file_open(&file, options->output, options->command, err);
   if (status == GG_OK) status = gg_files_result_file_finish_comparison(&file, c, err);

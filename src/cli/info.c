@@ -111,7 +111,7 @@ static void print_verdict(const gg_result *r)
 {
   gg_result_info about;
   const char *warning;
-  if (gg_result_about(r, &about, NULL) != GG_OK) return;
+  if (gg_result_get_info(r, &about, NULL) != GG_OK) return;
   printf("\n");
   gg_cli_print_paragraph(stdout, 2, "%s: %s: %s", about.engine, about.steady ? "steady" : "not steady", about.verdict);
   for (size_t i = 0; (warning = gg_result_warning(r, i)); i++) print_line(NULL, warning);
@@ -139,7 +139,7 @@ static void print_series(const gg_result *r)
   char *text = NULL;
   size_t n, size;
   bool whole = true;
-  if (gg_result_about(r, &about, NULL) != GG_OK) return;
+  if (gg_result_get_info(r, &about, NULL) != GG_OK) return;
   FILE *out = open_memstream(&text, &size);
   for (size_t i = 0; out && gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
     if (gg_result_history(r, q.name, &n, NULL, &value, NULL) != GG_OK || !has_numbers(value, n)) continue;
@@ -176,7 +176,7 @@ static void print_file(const gg_options *o, const gg_comparison *c)
   gg_result_info about;
   char *scene = NULL;
   bool comparison = gg_comparison_theory(c, 0, &theory, NULL) == GG_OK;
-  if (gg_result_about(md ? md : dsmc, &about, NULL) != GG_OK) { /* a point of a sweep over theories */
+  if (gg_result_get_info(md ? md : dsmc, &about, NULL) != GG_OK) { /* a point of a sweep over theories */
     gg_cli_print_theories(c, true);
     return;
   }

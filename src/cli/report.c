@@ -34,7 +34,7 @@ void gg_cli_print_effort(const gg_result *r)
 {
   char collisions[24], rate[24], seconds[24], pace[40] = "";
   gg_result_info a;
-  if (gg_result_about(r, &a, NULL) != GG_OK) return;
+  if (gg_result_get_info(r, &a, NULL) != GG_OK) return;
   gg_cli_format_count((double)a.collisions, collisions, sizeof collisions);
   gg_cli_format_count((double)a.collisions / a.cpu_seconds, rate, sizeof rate);
   gg_cli_format_duration(a.cpu_seconds, seconds, sizeof seconds);
@@ -49,7 +49,7 @@ void gg_cli_print_warnings(const gg_result *r, const char *told)
 {
   gg_result_info about;
   const char *warning;
-  if (gg_result_about(r, &about, NULL) != GG_OK) return;
+  if (gg_result_get_info(r, &about, NULL) != GG_OK) return;
   fflush(stdout);
   for (size_t i = 0; (warning = gg_result_warning(r, i)); i++)
     if (!told || !strstr(told, warning)) fprintf(stderr, "warning: %s: %s\n", about.engine, warning);
@@ -60,7 +60,7 @@ static gg_table *tabulate(const gg_result *r, bool all)
   gg_result_info about;
   gg_measurement m;
   gg_table *t = gg_cli_table_new();
-  if (!t || gg_result_about(r, &about, NULL) != GG_OK) return t;
+  if (!t || gg_result_get_info(r, &about, NULL) != GG_OK) return t;
   gg_cli_table_column(t, "quantity", false);
   gg_cli_table_column(t, about.engine, true);
   gg_cli_table_column(t, "unit", false);

@@ -77,7 +77,7 @@ void gg_cli_print_numbers(const gg_result *one, const gg_result *two, bool all)
   gg_cli_table_column(l.table, "read off", false);
   gg_cli_table_column(l.table, "", false);
   for (int k = 0; k < 2; k++)
-    if (gg_result_about(l.result[k], &about, NULL) == GG_OK) gg_cli_table_column(l.table, about.engine, true);
+    if (gg_result_get_info(l.result[k], &about, NULL) == GG_OK) gg_cli_table_column(l.table, about.engine, true);
   if (one && two) gg_cli_table_column(l.table, "z", true);
   for (int k = 0; k < 2; k++) put_rows(&l, k, all);
   if (l.table->n_rows) {

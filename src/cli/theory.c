@@ -10,7 +10,7 @@ static int evaluate(const gg_options *o, const gg_scene *scene)
   char *text = NULL;
   const char *warning;
   gg_comparison *c = NULL;
-  gg_status status = gg_evaluate_theories(scene, NULL, &c, &err);
+  gg_status status = gg_theories_evaluate(scene, NULL, &c, &err);
   for (size_t i = 0; status == GG_OK && (warning = gg_comparison_warning(c, i)); i++)
     fprintf(stderr, "warning: %s\n", warning);
   if (status == GG_OK && o->json) status = gg_comparison_to_json(c, &text, &err);

@@ -47,7 +47,7 @@ static void say_result(const gg_result *r)
   for (size_t i = 0; gg_result_warning(r, i); i++) say("%s\n", gg_result_warning(r, i));
   if (gg_result_history(r, "temperature", &n, &time, &value, NULL) == GG_OK)
     for (size_t k = 0; k < n; k++) say(" %a %a", time[k], value[k]);
-  if (gg_result_about(r, &info, NULL) == GG_OK)
+  if (gg_result_get_info(r, &info, NULL) == GG_OK)
     say("%s %d %s %lld %llu %zu\n", info.engine, info.steady, info.verdict, (long long)info.grains,
         (unsigned long long)info.collisions, info.frames);
 }

@@ -104,8 +104,8 @@ static void results(void **state)
   assert_missing(gg_result_find(r, "N1", NULL, &err));
   assert_missing(gg_result_at(NULL, 0, &m, &err));
   assert_missing(gg_result_at(r, 0, NULL, &err));
-  assert_missing(gg_result_about(NULL, &info, &err));
-  assert_missing(gg_result_about(r, NULL, &err));
+  assert_missing(gg_result_get_info(NULL, &info, &err));
+  assert_missing(gg_result_get_info(r, NULL, &err));
   assert_missing(gg_result_history(NULL, "N1", &n, NULL, NULL, &err));
   assert_missing(gg_result_history(r, NULL, &n, NULL, NULL, &err));
   assert_missing(gg_result_history(r, "N1", NULL, NULL, NULL, &err));
@@ -143,9 +143,9 @@ static void comparisons(void **state)
   gg_remark remark;
   double x;
   char *text;
-  assert_ok(gg_evaluate_theories(s, NULL, &c, &err));
-  assert_missing(gg_evaluate_theories(NULL, NULL, &other, &err));
-  assert_missing(gg_evaluate_theories(s, NULL, NULL, &err));
+  assert_ok(gg_theories_evaluate(s, NULL, &c, &err));
+  assert_missing(gg_theories_evaluate(NULL, NULL, &other, &err));
+  assert_missing(gg_theories_evaluate(s, NULL, NULL, &err));
   assert_missing(gg_compare(NULL, NULL, &other, &err));
   assert_missing(gg_compare(s, NULL, NULL, &err));
   assert_null(gg_comparison_result(NULL, "md"));
@@ -281,15 +281,15 @@ static void unknown_names(void **state)
   gg_remark remark;
   double x;
   size_t n;
-  assert_refused(gg_evaluate_theories(s, "grade", &other, &err), "there is no theory called 'grade'");
+  assert_refused(gg_theories_evaluate(s, "grade", &other, &err), "there is no theory called 'grade'");
   assert_null(other);
-  assert_ok(gg_evaluate_theories(s, "lun1991", &other, &err)); /* that one alone */
+  assert_ok(gg_theories_evaluate(s, "lun1991", &other, &err)); /* that one alone */
   assert_ok(gg_comparison_theory(other, 0, &theory, &err));
   assert_string_equal(theory.name, "lun1991");
   assert_refused(gg_comparison_theory(other, 1, &theory, &err), "");
   assert_refused(gg_comparison_write(other, "none.h5", &err), "nothing was simulated");
   gg_comparison_free(other);
-  assert_ok(gg_evaluate_theories(s, NULL, &c, &err));
+  assert_ok(gg_theories_evaluate(s, NULL, &c, &err));
   assert_refused(gg_comparison_theory_value(c, "grade", "N1", &x, NULL, &err),
                  "there is no theory called 'grade' here");
   assert_refused(gg_comparison_theory_value(c, "grad", "N7", &x, NULL, &err), "there is no quantity called 'N7'");

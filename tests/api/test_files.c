@@ -224,7 +224,7 @@ static size_t frames_of(const char *path)
   gg_result *r = NULL;
   gg_result_info about;
   assert_ok(gg_result_read(path, &r, &err));
-  assert_ok(gg_result_about(r, &about, &err));
+  assert_ok(gg_result_get_info(r, &about, &err));
   gg_result_free(r);
   return about.frames;
 }
@@ -291,7 +291,7 @@ static void progress_counts_all_replicas(void **state)
   gg_result_info about;
   assert_ok(gg_scene_set(s, "run.replicas", "3", &err));
   gg_run(s, &(gg_run_options){.progress = note_count}, &r, &err);
-  assert_ok(gg_result_about(r, &about, &err));
+  assert_ok(gg_result_get_info(r, &about, &err));
   assert_true(last_count > 0 && fabs((double)last_count / (double)about.total_collisions - 1) < 1e-9);
   gg_result_free(r);
   gg_scene_free(s);

@@ -63,7 +63,7 @@ static void in_pieces(void **state)
   assert_ok(gg_run(s, NULL, &whole, &err));
   assert_ok(gg_session_new(s, &session, &err));
   for (; !over; pieces++) {
-    assert_ok(gg_session_go_on(session, 0.001, &over, &err));
+    assert_ok(gg_session_advance(session, 0.001, &over, &err));
     gg_result_free(now);
     assert_ok(gg_session_result(session, &now, &err));
   }
@@ -73,15 +73,15 @@ static void in_pieces(void **state)
   gg_progress progress;
   assert_ok(gg_session_get_progress(session, &progress, &err));
   assert_true(progress.fraction == 1);
-  assert_ok(gg_evaluate_theories(s, "enskog_hermite", &table, &err));
+  assert_ok(gg_theories_evaluate(s, "enskog_hermite", &table, &err));
   assert_ok(gg_comparison_take(table, now, &err));
   assert_true(gg_comparison_result(table, "dsmc") == now && !gg_comparison_result(table, "md"));
   gg_comparison *another = NULL;
-  assert_ok(gg_evaluate_theories(other, "lun1991", &another, &err));
+  assert_ok(gg_theories_evaluate(other, "lun1991", &another, &err));
   assert_refused(gg_comparison_take(another, whole, &err), "another scene");
   gg_session *refused = NULL;
   assert_refused(gg_session_new(other, &refused, &err), "run.replicas");
-  assert_refused(gg_session_go_on(session, 0, NULL, &err), "0 seconds");
+  assert_refused(gg_session_advance(session, 0, NULL, &err), "0 seconds");
   gg_comparison_free(table);
   gg_comparison_free(another);
   gg_session_free(session);
@@ -187,8 +187,8 @@ static void written_and_read(void **state)
   same_curves(r, back);
   same_text(r, back);
   gg_result_info a, b;
-  assert_ok(gg_result_about(r, &a, &err));
-  assert_ok(gg_result_about(back, &b, &err));
+  assert_ok(gg_result_get_info(r, &a, &err));
+  assert_ok(gg_result_get_info(back, &b, &err));
   assert_true(!a.version && strcmp(b.command, "a test") == 0 && strcmp(b.version, gg_version()) == 0);
   assert_true(a.steady == b.steady && a.grains == 100 && b.grains == 100 && a.collisions == b.collisions);
   assert_true(a.window[0] == b.window[0] && b.frames == 1 && strcmp(a.verdict, b.verdict) == 0);
@@ -337,15 +337,15 @@ static void theories(void **state)
   gg_comparison *all = NULL, *one = NULL;
   gg_theory_info info;
   double zeta[2], none;
-  assert_ok(gg_evaluate_theories(s, NULL, &all, &err));
-  assert_ok(gg_evaluate_theories(s, "garzo_dufty1999", &one, &err));
+  assert_ok(gg_theories_evaluate(s, NULL, &all, &err));
+  assert_ok(gg_theories_evaluate(s, "garzo_dufty1999", &one, &err));
   assert_ok(gg_comparison_theory_value(all, "garzo_dufty1999", "cooling_rate", &zeta[0], NULL, &err));
   assert_ok(gg_comparison_theory_value(one, "garzo_dufty1999", "cooling_rate", &zeta[1], &none, &err));
   assert_true(zeta[0] == zeta[1] && zeta[0] > 0 && isnan(none));
   assert_ok(gg_comparison_theory(one, 0, &info, &err));
   assert_true(!info.reason && strstr(info.citation, "1999") && info.title && info.assumptions);
   assert_int_equal(gg_comparison_theory(one, 1, &info, &err), GG_BAD_INPUT);
-  assert_refused(gg_evaluate_theories(s, "newton", &one, &err), "no theory called 'newton'");
+  assert_refused(gg_theories_evaluate(s, "newton", &one, &err), "no theory called 'newton'");
   assert_refused(gg_comparison_write(all, "t_theory.h5", &err), "nothing was simulated");
   char *text = NULL;
   assert_ok(gg_comparison_to_json(all, &text, &err));

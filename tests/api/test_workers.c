@@ -149,7 +149,7 @@ static void checkpoints_on_the_way(void **state)
   gg_result_info info;
   gg_result *read = NULL;
   assert_ok(gg_result_read("t_often_out.h5", &read, &err));
-  assert_ok(gg_result_about(read, &info, &err));
+  assert_ok(gg_result_get_info(read, &info, &err));
   assert_true(info.frames > 5 && times_stored > 0);
   gg_result_free(one);
   gg_result_free(several);

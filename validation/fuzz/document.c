@@ -16,7 +16,7 @@ static void ask_result(const gg_result *r)
   gg_curve_data curve;
   gg_result_info about;
   if (!r) return;
-  gg_result_about(r, &about, NULL);
+  gg_result_get_info(r, &about, NULL);
   for (size_t i = 0; gg_result_at(r, i, &m, NULL) == GG_OK; i++) gg_result_unit(r, m.name);
   for (size_t i = 0; gg_result_curve(r, i, &curve, NULL) == GG_OK; i++)
     for (size_t k = 0; gg_result_curve_number(r, i, k, &m, NULL) == GG_OK; k++)

@@ -18,7 +18,7 @@ PAGE void page_session_free(gg_session *session)
 PAGE int page_session_go_on(gg_session *session, double milliseconds)
 {
   int over = 0;
-  return gg_session_go_on(session, milliseconds / 1000, &over, &page_why) == GG_OK ? (over ? 1 : 2) : 0;
+  return gg_session_advance(session, milliseconds / 1000, &over, &page_why) == GG_OK ? (over ? 1 : 2) : 0;
 }
 /* Fraction, averaging (0 or 1), collisions, relative error, seconds left; NaN: not known. */
 PAGE const double *page_session_progress(const gg_session *session)
@@ -43,7 +43,7 @@ PAGE char *page_session_json(gg_session *session)
 PAGE gg_comparison *page_comparison(const gg_scene *scene)
 {
   gg_comparison *comparison = NULL;
-  return gg_evaluate_theories(scene, NULL, &comparison, &page_why) == GG_OK ? comparison : NULL;
+  return gg_theories_evaluate(scene, NULL, &comparison, &page_why) == GG_OK ? comparison : NULL;
 }
 PAGE void page_comparison_free(gg_comparison *comparison)
 {
@@ -88,7 +88,7 @@ PAGE double page_cooling(const gg_comparison *comparison, const char *theory, do
 /* One engine's beside the theories, which its file has not. */
 static gg_status beside_theories(gg_result *result, gg_comparison **comparison)
 {
-  gg_status status = gg_evaluate_theories(gg_result_scene(result), NULL, comparison, &page_why);
+  gg_status status = gg_theories_evaluate(gg_result_scene(result), NULL, comparison, &page_why);
   if (status == GG_OK) status = gg_comparison_take(*comparison, result, &page_why);
   return status;
 }
