@@ -1,12 +1,16 @@
-/* Results asked: quantities, what the run was like, how it went. */
+/* Results: quantities, curves and grains; to and from files and documents; pictures and tables of files. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "api/api.h"
+#include "base/c_locale.h"
+#include "base/memory.h"
+#include "files/export/export.h"
 #include "files/h5/result_file.h"
+#include "files/h5/result_restore.h"
 #include "files/result_document.h"
-#include "run/result.h"
+#include "plot/plot.h"
 
 static gg_status find(const gg_result *r, const char *name, gg_quantity *q, gg_error *err)
 {
@@ -205,4 +209,77 @@ gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_er
     }
   }
   return GG_OK;
+}
+
+gg_status gg_result_to_json(const gg_result *result, char **text, gg_error *err)
+{
+  GG_NEED(result);
+  GG_NEED(text);
+  return gg_api_text_copy(gg_files_run_document(result), text, err);
+}
+
+gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err)
+{
+  GG_NEED(result);
+  GG_NEED(path);
+  gg_result_file file;
+  const char *command = result->origin.command ? result->origin.command : "gg_result_write";
+  GG_TRY(gg_files_result_file_open(&file, path, command, err));
+  return gg_files_result_file_finish_run(&file, result, err);
+}
+
+static gg_status restore(const gg_stored_result *stored, const char *path, gg_result **result, gg_error *err)
+{
+  if (stored->comparison)
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
+  return gg_files_result_restore(stored, stored->engine[GG_MD].name ? GG_MD : GG_DSMC, result, err);
+}
+
+gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
+{
+  GG_NEED(path);
+  GG_NEED(result);
+  gg_stored_result stored;
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_files_stored_result_read(&stored, path, err);
+  if (status == GG_OK) status = restore(&stored, path, result, err);
+  gg_base_c_locale_leave(before);
+  gg_files_stored_result_clear(&stored);
+  return status;
+}
+
+gg_status gg_plot(const char *result_file, const char *picture, const char *format,
+                  void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
+{
+  GG_NEED(result_file);
+  GG_NEED(picture);
+  if (gg_base_path_is_same_file(result_file, picture))
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture",
+                        picture);
+  gg_stored_result stored;
+  GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
+  bool before = gg_base_memory_begin();
+  gg_status status = gg_plot_check_pages(&stored, result_file, picture, format, err);
+  if (status == GG_OK) status = gg_plot_result(&stored, picture, format, err);
+  if (status == GG_OK && drawn) drawn(context, picture);
+  if (status == GG_OK) status = gg_plot_pages(&stored, picture, format, drawn, context, err);
+  gg_files_stored_result_clear(&stored);
+  return gg_base_memory_check(before, status, err); /* a picture that lacks its title */
+}
+
+gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
+                    void (*written)(void *context, const char *file), void *context, gg_error *err)
+{
+  GG_NEED(result_file);
+  GG_NEED(prefix);
+  const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
+  if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': the files need a prefix to their names", prefix);
+  if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: %u is no set of parts to export; allowed: sums of GG_EXPORT_...",
+                        result_file, parts);
+  gg_stored_result stored;
+  GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
+  gg_status status = gg_export_result(&stored, result_file, prefix, parts, written, context, err);
+  gg_files_stored_result_clear(&stored);
+  return status;
 }

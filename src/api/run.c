@@ -1,4 +1,4 @@
-/* Runs and comparisons with options. */
+/* gg_run and gg_compare: one path, with one engine or both. */
 #include "api/run.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "run/scheduler.h"
 #include "scene/ineffective_keys.h"
 
-static void hear_progress(void *context, const gg_progress *progress)
+static void report_progress(void *context, const gg_progress *progress)
 {
   gg_door_run *r = context;
   if (r->options.progress && r->options.progress(r->options.context, progress)) atomic_store(&r->stopped, true);
@@ -92,21 +92,21 @@ static gg_status begin_checkpoints(gg_door_run *r, gg_error *err)
   return o->checkpoint ? name_passing(r, err) : GG_OK;
 }
 
-gg_status gg_api_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
-                           gg_hooks *hooks, gg_error *err)
+static gg_status begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
+                       gg_error *err)
 {
-  memset(r, 0, sizeof *r);
-  r->file = (gg_result_file){.file = GG_ATOMIC_NONE};
-  r->lock = GG_FILE_LOCK_NONE;
-  r->log.fd = -1;
+  *r = (gg_door_run){.file = {.file = GG_ATOMIC_NONE}, .lock = GG_FILE_LOCK_NONE, .log.fd = -1};
   r->comparison = comparison;
   if (options) r->options = *options;
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
   atomic_init(&r->stopped, false);
-  *hooks =
-      (gg_hooks){.context = r, .progress = hear_progress, .interrupted = is_stopped, .workers = r->options.workers};
-  if (r->options.checkpoint) hooks->checkpoint = store_checkpoint;
+  r->hooks = (gg_hooks){.context = r,
+                        .progress = report_progress,
+                        .interrupted = is_stopped,
+                        .checkpoint = r->options.checkpoint ? store_checkpoint : NULL,
+                        .workers = r->options.workers,
+                        .model = &r->model};
   GG_TRY(gg_api_scene_finish(scene, &r->scene, err));
   GG_TRY(gg_common_model_make(&r->scene, r->scene.engine, &r->model, err));
   GG_TRY(gg_api_files_check(r, err));
@@ -116,7 +116,7 @@ gg_status gg_api_run_begin(gg_door_run *r, const gg_scene *scene, const gg_run_o
   return gg_api_picture_check(r, err);
 }
 
-void gg_api_run_end(gg_door_run *r)
+static void end(gg_door_run *r)
 {
   gg_files_result_file_abandon(&r->file);
   gg_api_trajectory_end(r);
@@ -126,9 +126,39 @@ void gg_api_run_end(gg_door_run *r)
   gg_base_string_list_clear(&r->warnings);
 }
 
-const gg_archive *gg_api_run_resume(const gg_door_run *r)
+/* Keys without effect on what the scene is used for (scene/ineffective_keys.h). */
+static void warn_of_keys(gg_door_run *r)
 {
-  return r->resume.n_items ? &r->resume : NULL;
+  const gg_engine_kind engine = r->scene.engine;
+  if (r->comparison)
+    gg_scene_inert(&r->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &r->warnings);
+  else if (gg_run_engine_ops_of(engine)->accepts(&r->model, NULL) == GG_OK)
+    gg_scene_inert(&r->scene, 1u << engine, &r->warnings);
+  for (size_t i = 0; i < r->warnings.n && r->options.warn; i++)
+    r->options.warn(r->options.context, r->warnings.text[i]);
+}
+
+/* Of both engines, or of the scene's alone, which may store a trajectory; warnings about keys come first or last. */
+static gg_status run_engines(gg_door_run *r, gg_comparison *c, gg_error *err)
+{
+  const gg_archive *resume = r->resume.n_items ? &r->resume : NULL;
+  gg_result **result = &c->by_engine[r->scene.engine];
+  if (!r->comparison) GG_TRY(gg_api_trajectory_begin(r, err));
+  r->started = true;
+  gg_status status = r->comparison ? gg_run_compare_scene(&r->scene, resume, r->options.threads, &r->hooks, c, err)
+                                   : gg_run_scene(&r->scene, resume, r->options.threads, &r->hooks, result, err);
+  if (r->comparison) gg_base_string_list_move(&r->warnings, &c->warnings);
+  if (r->comparison || *result)
+    gg_base_string_list_move(r->comparison ? &c->warnings : &(*result)->warnings, &r->warnings);
+  return status;
+}
+
+static gg_status write_output(gg_door_run *r, const gg_comparison *c, gg_error *err)
+{
+  if (r->comparison) return gg_files_result_file_finish_comparison(&r->file, c, err);
+  gg_result *result = c->by_engine[r->scene.engine];
+  GG_TRY(gg_api_trajectory_finish(r, result, err));
+  return gg_files_result_file_finish_run(&r->file, result, err);
 }
 
 /* All is done and the result in place: the run's own checkpoints have had their day. */
@@ -140,19 +170,26 @@ static void remove_checkpoints(gg_door_run *r)
     if (stat(r->passing[i], &about) == 0 && S_ISREG(about.st_mode)) unlink(r->passing[i]);
 }
 
-gg_status gg_api_run_close(gg_door_run *r, gg_door_point *point, bool some, gg_status status, gg_status written,
-                           gg_error *err)
+/* Write what there is, give it its name, and remove the checkpoints of a run that is done: of a point of a sweep, also
+ * of one that ended short. */
+static gg_status finish(gg_door_run *r, gg_door_point *point, gg_status status, const gg_comparison *c, gg_error *err)
 {
-  if (point && point->publish && some && (status == GG_OK || status == GG_FAILED) && written == GG_OK)
-    written = point->publish(point->context, status, err);
-  bool short_point = point && point->publish && some && status == GG_FAILED; /* it counts as done */
-  if ((status == GG_OK || short_point) && written == GG_OK) remove_checkpoints(r);
-  bool refused = gg_api_run_resume(r) && !some && (status == GG_BAD_FILE || status == GG_BAD_INPUT) && r->ran;
-  if (point) point->resume_lost = r->resume_lost || refused;
+  const bool whole = c && (status == GG_OK || status == GG_FAILED), named = point && point->publish && whole;
+  gg_status written = GG_OK;
+  if (whole && r->options.output) {
+    gg_run_crew_pause(r->hooks.crew); /* disks take their time */
+    written = write_output(r, c, err);
+    gg_run_crew_go_on(r->hooks.crew);
+  }
+  if (named && written == GG_OK) written = point->publish(point->context, status, err);
+  if ((status == GG_OK || named) && written == GG_OK) remove_checkpoints(r);
+  bool rejected = r->resume.n_items && r->started && !c && (status == GG_BAD_FILE || status == GG_BAD_INPUT);
+  if (point) point->resume_lost = r->resume_lost || rejected;
   return written;
 }
 
-gg_status gg_api_run_status(gg_status run, gg_status written, const gg_error *why, gg_error *err)
+/* The worse of the two, with both messages. */
+static gg_status status_of(gg_status run, gg_status written, const gg_error *why, gg_error *err)
 {
   if (written == GG_OK) return run;
   if (run == GG_OK) return gg_base_fail(err, written, "%s", why->message);
@@ -161,11 +198,56 @@ gg_status gg_api_run_status(gg_status run, gg_status written, const gg_error *wh
   return gg_base_fail(err, written, "%.500s; and %.500s", message, err ? err->message : "");
 }
 
-void gg_api_run_estimate(gg_door_run *r, unsigned uses)
+/* *made: what there is; NULL where there is nothing. */
+static gg_status simulate(gg_door_point *point, const gg_scene *scene, const gg_run_options *options, bool comparison,
+                          gg_comparison **made, gg_error *err)
 {
-  gg_scene_inert(&r->scene, uses, &r->warnings);
-  for (size_t i = 0; i < r->warnings.n && r->options.warn; i++)
-    r->options.warn(r->options.context, r->warnings.text[i]);
+  gg_door_run r;
+  gg_error why = {0};
+  gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
+  *made = NULL;
+  if (!c) return GG_FAILED;
+  const bool before = gg_base_memory_begin();
+  gg_status status = begin(&r, scene, options, comparison, err);
+  r.hooks.crew = point ? point->crew : NULL;
+  if (status == GG_OK) {
+    warn_of_keys(&r);
+    status = run_engines(&r, c, err);
+  }
+  bool some = c->by_engine[GG_MD] || c->by_engine[GG_DSMC] || (comparison && status == GG_OK);
+  if (gg_base_memory_end(before) && status == GG_OK) { /* it lacks a warning, or worse */
+    status = gg_base_out_of_memory(err);
+    some = false;
+  }
+  gg_status written = finish(&r, point, status, some ? c : NULL, &why);
+  end(&r);
+  if (some)
+    *made = c;
+  else
+    gg_comparison_free(c);
+  return status_of(status, written, &why, err);
+}
+
+gg_status gg_api_compare_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
+                              gg_comparison **comparison, gg_error *err)
+{
+  gg_comparison *made;
+  gg_status status = simulate(point, scene, options, true, &made, err);
+  if (made) *comparison = made;
+  return status;
+}
+
+gg_status gg_api_run_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
+                          gg_result **result, gg_error *err)
+{
+  gg_comparison *made;
+  gg_status status = simulate(point, scene, options, false, &made, err);
+  for (int k = 0; made && k < 2; k++) {
+    if (made->by_engine[k]) *result = made->by_engine[k];
+    made->by_engine[k] = NULL;
+  }
+  gg_comparison_free(made);
+  return status;
 }
 
 gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err)
@@ -175,38 +257,9 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   return gg_api_run_with(NULL, scene, options, result, err);
 }
 
-gg_status gg_api_run_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
-                          gg_result **result, gg_error *err)
+gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison, gg_error *err)
 {
-  gg_crew *crew = point ? point->crew : NULL;
-  gg_door_run run;
-  gg_hooks hooks;
-  gg_error why = {0};
-  gg_result *made = NULL;
-  const bool before = gg_base_memory_begin();
-  gg_status status = gg_api_run_begin(&run, scene, options, false, &hooks, err), written = GG_OK;
-  gg_engine_kind engine = run.scene.engine;
-  hooks.crew = crew;
-  if (status == GG_OK && gg_run_engine_ops_of(engine)->accepts(&run.model, NULL) == GG_OK)
-    gg_api_run_estimate(&run, 1u << engine);
-  if (status == GG_OK) status = gg_api_trajectory_begin(&run, &hooks, err);
-  run.ran = status == GG_OK;
-  if (status == GG_OK)
-    status = gg_run_scene(&run.scene, gg_api_run_resume(&run), run.options.threads, &hooks, &made, err);
-  for (size_t i = 0; made && i < run.warnings.n; i++) gg_run_result_warn(made, "%s", run.warnings.text[i]);
-  if (gg_base_memory_end(before) && status == GG_OK) { /* it lacks a warning, or worse */
-    gg_result_free(made);
-    made = NULL;
-    status = gg_base_out_of_memory(err);
-  }
-  if (made && run.options.output && (status == GG_OK || status == GG_FAILED)) {
-    gg_run_crew_pause(crew); /* disks take their time */
-    written = gg_api_trajectory_finish(&run, made, &why);
-    if (written == GG_OK) written = gg_files_result_file_finish_run(&run.file, made, &why);
-    gg_run_crew_go_on(crew);
-  }
-  written = gg_api_run_close(&run, point, made != NULL, status, written, &why);
-  gg_api_run_end(&run);
-  if (made) *result = made;
-  return gg_api_run_status(status, written, &why, err);
+  GG_NEED(scene);
+  GG_NEED(comparison);
+  return gg_api_compare_with(NULL, scene, options, comparison, err);
 }

@@ -163,14 +163,14 @@ static gg_status settle_new(gg_door_run *r, gg_error *err)
   return status;
 }
 
-gg_status gg_api_trajectory_begin(gg_door_run *r, gg_hooks *hooks, gg_error *err)
+gg_status gg_api_trajectory_begin(gg_door_run *r, gg_error *err)
 {
   if (r->options.checkpoint) GG_TRY(settle_new(r, err));
   if (!r->options.output || !(r->scene.output.trajectory_every > 0)) return GG_OK;
   gg_frame_log earlier = {.fd = -1};
-  r->late = r->resume.n_items > 0 && !gg_base_archive_find(&r->resume, mark_item);
-  hooks->frame = r->options.checkpoint ? store_in_log : store_in_result;
-  gg_status status = r->resume.n_items > 0 && !r->late ? open_earlier(r, &earlier, err) : GG_OK;
+  r->frames_missing = r->resume.n_items > 0 && !gg_base_archive_find(&r->resume, mark_item);
+  r->hooks.frame = r->options.checkpoint ? store_in_log : store_in_result;
+  gg_status status = r->resume.n_items > 0 && !r->frames_missing ? open_earlier(r, &earlier, err) : GG_OK;
   if (status == GG_OK && r->options.checkpoint) status = open_log(r, &earlier, err);
   if (status == GG_OK && earlier.fd >= 0)
     status = r->log.fd >= 0 ? gg_files_frame_log_take_over(&r->log, &earlier, err)
@@ -209,7 +209,7 @@ static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *
 
 gg_status gg_api_trajectory_finish(gg_door_run *r, gg_result *result, gg_error *err)
 {
-  if (r->late)
+  if (r->frames_missing)
     gg_run_result_warn(result, "the trajectory begins where the run was resumed: it was not asked for before");
   return r->log.fd >= 0 ? gg_files_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
 }

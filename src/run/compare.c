@@ -52,6 +52,7 @@ gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_er
 typedef struct part {
   gg_scene scene;
   gg_engine_kind kind;
+  const gg_model *model; /* NULL: the scene has none of this engine */
   const gg_hooks *hooks;
   int threads;
   gg_comparison *comparison;
@@ -108,7 +109,7 @@ static gg_status locked_checkpoint(void *context, gg_archive *archive, gg_error 
 static void *run_part(void *argument)
 {
   part *p = argument;
-  gg_hooks hooks = {.context = p};
+  gg_hooks hooks = {.context = p, .model = p->model};
   if (p->hooks && p->hooks->progress) hooks.progress = locked_progress;
   if (p->hooks && (p->hooks->interrupted || p->hooks->checkpoint)) hooks.interrupted = locked_interrupted;
   if (p->hooks && p->hooks->checkpoint) hooks.checkpoint = locked_checkpoint;
@@ -161,13 +162,14 @@ static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
   return GG_OK;
 }
 
-/* The engine's name, if it runs the scene. */
-static const char *next_of(const gg_scene *scene, gg_engine_kind kind)
+/* The caller's, or made here. */
+static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg_hooks *hooks, gg_model *model,
+                            gg_error *err)
 {
-  gg_model model;
-  const gg_engine_ops *ops = gg_run_engine_ops_of(kind);
-  return gg_common_model_make(scene, kind, &model, NULL) == GG_OK && ops->accepts(&model, NULL) == GG_OK ? ops->name
-                                                                                                         : NULL;
+  const gg_model *made = hooks && scene->engine == kind ? hooks->model : NULL;
+  if (!made) return gg_common_model_make(scene, kind, model, err);
+  *model = *made;
+  return GG_OK;
 }
 
 gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
@@ -175,9 +177,10 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
 {
   *c = (gg_comparison){.scene = *scene};
   gg_common_extension_hold(c->scene.extension);
-  gg_model model;
-  GG_TRY(gg_common_model_make(scene, GG_MD, &model, err));
-  GG_TRY(gg_run_compare_theories(&model, c, err));
+  gg_model model[2];
+  GG_TRY(make_model(scene, GG_MD, hooks, &model[GG_MD], err));
+  const bool dsmc = make_model(scene, GG_DSMC, hooks, &model[GG_DSMC], NULL) == GG_OK;
+  GG_TRY(gg_run_compare_theories(&model[GG_MD], c, err));
 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};
@@ -189,8 +192,10 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
     parts[k].threads = beside ? (threads + 1) / 2 : 1;
     parts[k].latest = latest;
     parts[k].broken = &broken;
-    if (k == GG_MD && !beside) parts[k].next = next_of(scene, GG_DSMC);
-    const char *name = gg_run_engine_ops_of((gg_engine_kind)k)->name;
+    const gg_engine_ops *ops = gg_run_engine_ops_of((gg_engine_kind)k);
+    const char *name = ops->name;
+    if (k == GG_MD || dsmc) parts[k].model = &model[k];
+    if (k == GG_DSMC && !beside && dsmc && ops->accepts(&model[k], NULL) == GG_OK) parts[GG_MD].next = name;
     if (resume && status == GG_OK) status = gg_base_archive_unnest(&parts[k].resume, name, resume, err);
     if (resume && status == GG_OK) status = gg_base_archive_nest(&latest[k], name, &parts[k].resume, err);
   }

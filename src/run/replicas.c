@@ -36,7 +36,7 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
   all->last.relative_error = NAN; /* nothing is estimated yet */
   if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
   scene = &all->scene;
-  GG_TRY(gg_run_start_make(scene, &all->model, err));
+  GG_TRY(gg_run_start_make(scene, hooks && !resume ? hooks->model : NULL, &all->model, err));
   GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
   all->plan = gg_run_criteria_of(scene, &all->model);
   const gg_forecast forecast = gg_run_cost_estimate(scene, &all->model, scene->engine);

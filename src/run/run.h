@@ -20,6 +20,8 @@ typedef struct gg_hooks {
   gg_status (*checkpoint)(void *context, gg_archive *archive, gg_error *err);
   gg_crew *crew;       /* threads of several runs, of which this one is a course (scheduler.h); NULL: its own */
   gg_workers *workers; /* other processes that share the replicas, with threads of their own; borrowed */
+  const gg_model
+      *model; /* of the scene and its engine, where the caller has made it: a run that resumes makes its own */
 } gg_hooks;
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side

@@ -49,8 +49,11 @@ gg_status gg_run_start_near_steady(gg_model *model, gg_error *err)
   return GG_OK;
 }
 
-gg_status gg_run_start_make(const gg_scene *scene, gg_model *model, gg_error *err)
+gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, gg_model *model, gg_error *err)
 {
-  GG_TRY(gg_common_model_make(scene, scene->engine, model, err));
+  if (made)
+    *model = *made;
+  else
+    GG_TRY(gg_common_model_make(scene, scene->engine, model, err));
   return scene->temperature == GG_AUTO ? gg_run_start_near_steady(model, err) : GG_OK;
 }

@@ -6,7 +6,7 @@
 #include "common/model.h"
 
 gg_status gg_run_start_near_steady(gg_model *model, gg_error *err);
-/* The model of a run of the scene's engine, with the temperature that it starts from. */
-gg_status gg_run_start_make(const gg_scene *scene, gg_model *model, gg_error *err);
+/* The model of a run of the scene's engine, `made` or made here (NULL), with the temperature that it starts from. */
+gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, gg_model *model, gg_error *err);
 
 #endif

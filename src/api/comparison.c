@@ -1,68 +1,24 @@
-/* Comparisons and theories asked. */
+/* Comparisons: theories alone, rows and remarks, to and from files and documents. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/run.h"
+#include "api/api.h"
+#include "base/c_locale.h"
 #include "base/memory.h"
 #include "common/extension.h"
-#include "run/scheduler.h"
+#include "files/h5/result_file.h"
+#include "files/h5/result_restore.h"
+#include "files/result_document.h"
 #include "run/z_scores.h"
 #include "scene/ineffective_keys.h"
 #include "scene/resumption.h"
 #include "theory/haff1983.h"
 
-static gg_comparison *new_comparison(gg_error *err)
-{
-  return gg_base_array_new(1, sizeof(gg_comparison), err);
-}
-
 void gg_comparison_free(gg_comparison *c)
 {
   if (c) gg_run_comparison_clear(c);
   free(c);
-}
-
-gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison, gg_error *err)
-{
-  GG_NEED(scene);
-  GG_NEED(comparison);
-  return gg_api_compare_with(NULL, scene, options, comparison, err);
-}
-
-gg_status gg_api_compare_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
-                              gg_comparison **comparison, gg_error *err)
-{
-  gg_crew *crew = point ? point->crew : NULL;
-  gg_comparison *c = new_comparison(err);
-  if (!c) return GG_FAILED;
-  bool before = gg_base_memory_begin();
-  gg_door_run run;
-  gg_hooks hooks;
-  gg_error why = {0};
-  gg_status status = gg_api_run_begin(&run, scene, options, true, &hooks, err), written = GG_OK;
-  hooks.crew = crew;
-  if (status == GG_OK) gg_api_run_estimate(&run, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY);
-  run.ran = status == GG_OK;
-  if (status == GG_OK) /* without a trajectory */
-    status = gg_run_compare_scene(&run.scene, gg_api_run_resume(&run), run.options.threads, &hooks, c, err);
-  gg_base_string_list_move(&run.warnings, &c->warnings);
-  gg_base_string_list_move(&c->warnings, &run.warnings);
-  bool lacked = gg_base_memory_end(before) && status == GG_OK; /* a warning, or worse */
-  if (lacked) status = gg_base_out_of_memory(err);
-  bool some = !lacked && (status == GG_OK || c->by_engine[GG_MD] || c->by_engine[GG_DSMC]);
-  if (some && run.options.output && (status == GG_OK || status == GG_FAILED)) {
-    gg_run_crew_pause(crew);
-    written = gg_files_result_file_finish_comparison(&run.file, c, &why);
-    gg_run_crew_go_on(crew);
-  }
-  written = gg_api_run_close(&run, point, some, status, written, &why);
-  gg_api_run_end(&run);
-  if (some)
-    *comparison = c;
-  else
-    gg_comparison_free(c);
-  return gg_api_run_status(status, written, &why, err);
 }
 
 /* Leave only the theory of that name. */
@@ -98,7 +54,7 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_com
 {
   GG_NEED(scene);
   GG_NEED(comparison);
-  gg_comparison *c = new_comparison(err);
+  gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
   gg_status status = evaluate(c, scene, theory, err);
   if (status == GG_OK)
@@ -313,4 +269,46 @@ gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_rem
                           r->cause};
   }
   return GG_OK;
+}
+
+gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(text);
+  bool simulated = comparison->document || comparison->by_engine[GG_MD] || comparison->by_engine[GG_DSMC];
+  return gg_api_text_copy(simulated ? gg_files_comparison_document(comparison)
+                                    : gg_files_theory_document(&comparison->scene, comparison),
+                          text, err);
+}
+
+gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(path);
+  gg_result_file file;
+  const gg_result *md = comparison->by_engine[GG_MD], *one = md ? md : comparison->by_engine[GG_DSMC];
+  if (!one) return gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
+  if (comparison->of_one) return gg_result_write(one, path, err);
+  GG_TRY(
+      gg_files_result_file_open(&file, path, one->origin.command ? one->origin.command : "gg_comparison_write", err));
+  return gg_files_result_file_finish_comparison(&file, comparison, err);
+}
+
+gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err)
+{
+  GG_NEED(path);
+  GG_NEED(comparison);
+  gg_stored_result stored;
+  gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
+  if (!c) return GG_FAILED;
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_files_stored_result_read(&stored, path, err);
+  if (status == GG_OK) status = gg_files_comparison_restore(&stored, c, err);
+  gg_base_c_locale_leave(before);
+  gg_files_stored_result_clear(&stored);
+  if (status == GG_OK)
+    *comparison = c;
+  else
+    gg_comparison_free(c);
+  return status;
 }
