@@ -330,6 +330,7 @@ typedef struct gg_measurement {
   const char *unit;
   const char *reason;                /* why there is no mean; NULL if there is one; "" if it was not asked for */
   const char *correlation_time_unit; /* of time; "collisions a grain" where the gas cools or heats up for ever */
+  const char *symbol;                /* as pictures have it: "T", "P_{xy}"; NULL of a number derived from a curve */
 } gg_measurement;
 
 /* Mean and standard error of one quantity; either pointer may be NULL. GG_BAD_INPUT with the reason where there is
@@ -458,6 +459,16 @@ typedef struct gg_departure {
 /* Of "md" or "dsmc"; all NaN where there is no such solution, or no mean and error of the engine. */
 GG_API gg_status gg_comparison_departure(const gg_comparison *comparison, const char *engine, const char *quantity,
                                          gg_departure *departure, gg_error *err);
+
+typedef struct gg_comparison_row { /* one quantity; arrays: md, dsmc */
+  const char *name, *symbol, *unit;
+  double mean[2], error[2]; /* with their standard errors; NaN: there is none */
+  double z;                 /* and `beyond`, as of gg_comparison_agreement */
+  int beyond;
+  gg_departure departure[2];
+} gg_comparison_row;
+/* The i-th quantity, in the order of tables; GG_BAD_INPUT after the last. */
+GG_API gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_comparison_row *row, gg_error *err);
 
 typedef struct gg_theory_info {
   const char *name, *title, *citation, *assumptions;

@@ -116,9 +116,21 @@ const gg_scene *gg_comparison_scene(const gg_comparison *comparison)
 
 static gg_status find(const gg_comparison *c, const char *name, gg_quantity *q, gg_error *err)
 {
-  *q = gg_common_quantity_find_in(&c->model, name);
-  return *q == GG_MOST_QUANTITIES ? gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name)
-                                  : GG_OK;
+  const gg_quantity_row *row = gg_run_rows_find(&c->rows, name);
+  *q = row ? row->quantity : GG_MOST_QUANTITIES;
+  if (!row) return gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name);
+  return GG_OK;
+}
+
+gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_comparison_row *row, gg_error *err)
+{
+  GG_NEED(comparison);
+  GG_NEED(row);
+  const gg_quantity_rows *rows = &comparison->rows;
+  if (i >= (size_t)rows->n)
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_at: there are %d quantities", rows->n);
+  gg_run_comparison_row(comparison, &rows->row[i], row);
+  return GG_OK;
 }
 
 static bool has(const gg_result *r, gg_quantity q)
@@ -254,19 +266,15 @@ gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_rem
   enum { MOST_CAUSES = 8 };
   const char *cause[MOST_CAUSES];
   gg_theory_remark theories[GG_MOST_THEORIES];
-  bool marked = false;
-  const gg_model *m = &comparison->model;
-  for (int k = 0; k < gg_common_quantity_set_of(m); k++)
-    marked |= gg_run_results_disagree(comparison, gg_common_quantity_at(m, k));
-  size_t causes = marked ? (size_t)gg_run_disagreement_causes(comparison, cause, MOST_CAUSES) : 0;
-  size_t n = causes + (size_t)gg_run_theory_remarks(comparison, theories);
+  const size_t causes = (size_t)gg_run_disagreement_causes(comparison, cause, MOST_CAUSES);
+  const size_t n = causes + (size_t)gg_run_theory_remarks(comparison, theories);
   if (i >= n) return gg_base_fail(err, GG_BAD_INPUT, "there are %zu remarks on this comparison", n);
   if (i < causes) {
     *remark = (gg_remark){.deviation = NAN, .cause = cause[i]};
   } else {
     const gg_theory_remark *r = &theories[i - causes];
-    *remark = (gg_remark){r->theory->name, gg_common_quantity_name_in(&comparison->model, r->quantity), r->deviation,
-                          r->cause};
+    const gg_quantity_row *row = gg_run_rows_at(&comparison->rows, r->quantity);
+    *remark = (gg_remark){r->theory->name, row->name, r->deviation, r->cause};
   }
   return GG_OK;
 }

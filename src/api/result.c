@@ -12,37 +12,24 @@
 #include "files/result_document.h"
 #include "plot/plot.h"
 
-static gg_status find(const gg_result *r, const char *name, gg_quantity *q, gg_error *err)
+static gg_status find(const gg_result *r, const char *name, const gg_quantity_row **row, gg_error *err)
 {
-  *q = gg_common_quantity_find_in(&r->model, name);
-  return *q == GG_MOST_QUANTITIES ? gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name)
-                                  : GG_OK;
+  *row = gg_run_rows_find(&r->rows, name);
+  return *row ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name);
 }
 
-gg_status gg_result_get(const gg_result *result, const char *quantity, double *mean, double *error, gg_error *err)
+static gg_measurement measurement(const gg_result *r, const gg_quantity_row *row)
 {
-  GG_NEED(result);
-  GG_NEED(quantity);
-  gg_quantity q;
-  GG_TRY(find(result, quantity, &q, err));
-  const gg_estimate *e = &result->value[q];
-  if (isnan(e->mean)) return gg_base_fail(err, GG_BAD_INPUT, "'%s' cannot be had here: %s", quantity, e->reason);
-  if (mean) *mean = e->mean;
-  if (error) *error = e->error;
-  return GG_OK;
-}
-
-static void tell(const gg_result *r, gg_quantity q, gg_measurement *m)
-{
-  const gg_estimate *e = &r->value[q];
-  *m = (gg_measurement){.name = gg_common_quantity_name_in(&r->model, q),
-                        .mean = e->mean,
-                        .error = e->error,
-                        .correlation_time = e->correlation_time,
-                        .samples = e->samples,
-                        .unit = gg_common_quantity_unit(q, &r->model),
-                        .reason = isnan(e->mean) ? e->reason : NULL,
-                        .correlation_time_unit = gg_run_correlation_time_unit(&r->model)};
+  const gg_estimate *e = &r->value[row->quantity];
+  return (gg_measurement){.name = row->name,
+                          .mean = e->mean,
+                          .error = e->error,
+                          .correlation_time = e->correlation_time,
+                          .samples = e->samples,
+                          .unit = row->unit,
+                          .reason = isnan(e->mean) ? e->reason : NULL,
+                          .correlation_time_unit = r->correlation_time_unit,
+                          .symbol = row->symbol};
 }
 
 gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err)
@@ -50,9 +37,9 @@ gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measu
   GG_NEED(result);
   GG_NEED(quantity);
   GG_NEED(found);
-  gg_quantity q;
-  GG_TRY(find(result, quantity, &q, err));
-  tell(result, q, found);
+  const gg_quantity_row *row;
+  GG_TRY(find(result, quantity, &row, err));
+  *found = measurement(result, row);
   return GG_OK;
 }
 
@@ -60,18 +47,28 @@ gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found,
 {
   GG_NEED(result);
   GG_NEED(found);
-  int n = gg_common_quantity_set_of(&result->model);
-  if (i >= (size_t)n) return gg_base_fail(err, GG_BAD_INPUT, "gg_result_at: there are %d quantities", n);
-  tell(result, gg_common_quantity_at(&result->model, (int)i), found);
+  const gg_quantity_rows *rows = &result->rows;
+  if (i >= (size_t)rows->n) return gg_base_fail(err, GG_BAD_INPUT, "gg_result_at: there are %d quantities", rows->n);
+  *found = measurement(result, &rows->row[i]);
+  return GG_OK;
+}
+
+gg_status gg_result_get(const gg_result *result, const char *quantity, double *mean, double *error, gg_error *err)
+{
+  gg_measurement m;
+  GG_NEED(result);
+  GG_NEED(quantity);
+  GG_TRY(gg_result_find(result, quantity, &m, err));
+  if (isnan(m.mean)) return gg_base_fail(err, GG_BAD_INPUT, "'%s' cannot be had here: %s", quantity, m.reason);
+  if (mean) *mean = m.mean;
+  if (error) *error = m.error;
   return GG_OK;
 }
 
 const char *gg_result_unit(const gg_result *result, const char *quantity)
 {
-  if (!result || !quantity) return NULL;
-  gg_quantity q = gg_common_quantity_find_in(&result->model, quantity);
-  bool missing = q == GG_MOST_QUANTITIES || isnan(result->value[q].mean);
-  return missing ? NULL : gg_common_quantity_unit(q, &result->model);
+  gg_measurement m;
+  return gg_result_find(result, quantity, &m, NULL) == GG_OK && !isnan(m.mean) ? m.unit : NULL;
 }
 
 int gg_result_is_steady(const gg_result *result)
@@ -119,10 +116,10 @@ gg_status gg_result_history(const gg_result *result, const char *quantity, size_
   GG_NEED(result);
   GG_NEED(quantity);
   GG_NEED(n);
-  gg_quantity q;
-  GG_TRY(find(result, quantity, &q, err));
+  const gg_quantity_row *row;
+  GG_TRY(find(result, quantity, &row, err));
   for (int k = 0; k < GG_N_HISTORY; k++) {
-    if (gg_common_quantity_of_history(k) != q || !result->history.value[k]) continue;
+    if (gg_common_quantity_of_history(k) != row->quantity || !result->history.value[k]) continue;
     *n = result->history.n;
     if (time) *time = result->history.time;
     if (value) *value = result->history.value[k];
@@ -186,7 +183,7 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
                              .samples = c->samples,
                              .unit = p->unit,
                              .reason = isnan(p->value) ? "it cannot be read off this curve" : NULL,
-                             .correlation_time_unit = gg_run_correlation_time_unit(&result->model)};
+                             .correlation_time_unit = result->correlation_time_unit};
   return GG_OK;
 }
 

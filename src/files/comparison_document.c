@@ -1,3 +1,4 @@
+/* The documents of `compare` and `theory`. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,13 +8,6 @@
 #include "files/result_document.h"
 #include "run/z_scores.h"
 #include "scene/scene_json.h"
-
-static json_t *warnings_json(const gg_comparison *c)
-{
-  json_t *warnings = json_array();
-  for (size_t i = 0; i < c->warnings.n; i++) json_array_append_new(warnings, json_string(c->warnings.text[i]));
-  return warnings;
-}
 
 /* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}, with "error" where a theory
  * is solved numerically and tells it; those that do not apply are warnings. */
@@ -27,14 +21,13 @@ static json_t *theories_json(const gg_comparison *c, json_t *warnings)
       continue;
     }
     json_t *one = json_object();
-    for (int k = 0; k < gg_common_quantity_set_of(&c->model); k++) {
-      const gg_quantity q = gg_common_quantity_at(&c->model, k);
-      double value = c->theory[i].answer.value[q];
+    for (int k = 0; k < c->rows.n; k++) {
+      const gg_quantity_row *row = &c->rows.row[k];
+      double value = c->theory[i].answer.value[row->quantity], error = c->theory[i].answer.error[row->quantity];
       if (!isfinite(value)) continue;
-      double error = c->theory[i].answer.error[q];
-      json_t *said = json_pack("{s:f, s:s}", "mean", value, "unit", gg_common_quantity_unit(q, &c->model));
-      if (isfinite(error)) json_object_set_new(said, "error", json_real(error));
-      json_object_set_new(one, gg_common_quantity_name_in(&c->model, q), said);
+      json_t *answer = json_pack("{s:f, s:s}", "mean", value, "unit", row->unit);
+      if (isfinite(error)) json_object_set_new(answer, "error", json_real(error));
+      json_object_set_new(one, row->name, answer);
     }
     json_object_set_new(all, name, one);
   }
@@ -72,71 +65,66 @@ static void put_theory_curves(json_t *document, const gg_comparison *c)
 json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *c)
 {
   bool before = gg_base_memory_begin();
-  json_t *warnings = warnings_json(c), *theory = theories_json(c, warnings);
+  json_t *warnings = gg_files_warnings_json(&c->warnings), *theory = theories_json(c, warnings);
   json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene),
                                "theory", theory, "theories", about_json(c), "warnings", warnings);
   put_theory_curves(document, c);
   return gg_base_json_end(before, document);
 }
 
-static json_t *deviations_json(const gg_comparison *c, const gg_result *engine, gg_quantity q, json_t *warnings)
+/* theory/engine - 1 of every theory with an answer; left out where the engine has no mean. */
+static void put_deviations(json_t *json, const gg_comparison *c, int k, const gg_quantity_row *row, json_t *warnings)
 {
+  const gg_result *engine = c->by_engine[k];
   json_t *all = json_object();
+  char key[64];
   bool small = false;
   for (int i = 0; i < c->n_theories; i++) {
-    double value = c->theory[i].answer.value[q];
+    double value = c->theory[i].answer.value[row->quantity];
     if (!c->theory[i].applies || !isfinite(value)) continue;
-    double deviation = gg_run_deviation(&engine->value[q], value);
+    double deviation = gg_run_deviation(&engine->value[row->quantity], value);
     small |= isnan(deviation);
     json_object_set_new(all, c->theory[i].theory->name, isnan(deviation) ? json_null() : json_real(deviation));
   }
   if (small)
-    gg_files_reason_add(warnings, engine->engine, gg_common_quantity_name_in(&c->model, q),
+    gg_files_reason_add(warnings, engine->engine, row->name,
                         "the relative deviation of theories, since the mean is within three standard errors of zero");
-  return all;
-}
-
-static bool has(const gg_result *r, gg_quantity q)
-{
-  return r && isfinite(r->value[q].mean);
+  snprintf(key, sizeof key, "%s_theory_deviation", engine->engine);
+  json_object_set_new(json, key, all);
 }
 
 /* Of an engine against Enskog's equation solved without random numbers; keys are left out where there is none. */
-static void put_departure(json_t *row, const gg_comparison *c, gg_engine_kind kind, gg_quantity q)
+static void put_departure(json_t *json, gg_engine_kind kind, const gg_departure *d)
 {
-  gg_departure d;
   char key[64];
-  if (!gg_run_enskog_deviation(c, kind, q, &d)) return;
   const struct {
     const char *word;
     double value;
-  } told[] = {{"z", d.z},
-              {"difference", d.difference},
-              {"error", d.error},
-              {"deviation", d.deviation},
-              {"deviation_error", d.deviation_error}};
-  for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
-    snprintf(key, sizeof key, "%s_enskog_%s", gg_run_engine_ops_of(kind)->name, told[i].word);
-    if (isfinite(told[i].value)) json_object_set_new(row, key, json_real(told[i].value));
+  } numbers[] = {{"z", d->z},
+                 {"difference", d->difference},
+                 {"error", d->error},
+                 {"deviation", d->deviation},
+                 {"deviation_error", d->deviation_error}};
+  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+    snprintf(key, sizeof key, "%s_enskog_%s", gg_run_engine_ops_of(kind)->name, numbers[i].word);
+    if (isfinite(numbers[i].value)) json_object_set_new(json, key, json_real(numbers[i].value));
   }
 }
 
-static json_t *row_json(const gg_comparison *c, gg_quantity q, json_t *warnings)
+/* NULL: neither engine has a mean. */
+static json_t *row_json(const gg_comparison *c, const gg_quantity_row *named, json_t *warnings)
 {
-  const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
-  json_t *row = json_pack("{s:s, s:s}", "quantity", gg_common_quantity_name_in(&c->model, q), "unit",
-                          gg_common_quantity_unit(q, &c->model));
-  double z = md && dsmc ? gg_run_z_score(&md->value[q], &dsmc->value[q]) : NAN;
-  json_object_set_new(row, "md_dsmc_z", isfinite(z) ? json_real(z) : json_null());
-  if (!isfinite(z))
-    gg_files_reason_add(warnings, "md_dsmc_z", gg_common_quantity_name_in(&c->model, q),
-                        "the mean or error of an engine is not known");
-  json_object_set_new(row, "beyond_expected", json_boolean(gg_run_results_disagree(c, q)));
-  if (has(md, q)) json_object_set_new(row, "md_theory_deviation", deviations_json(c, md, q, warnings));
-  if (has(dsmc, q)) json_object_set_new(row, "dsmc_theory_deviation", deviations_json(c, dsmc, q, warnings));
-  put_departure(row, c, GG_MD, q);
-  put_departure(row, c, GG_DSMC, q);
-  return row;
+  gg_comparison_row row;
+  gg_run_comparison_row(c, named, &row);
+  if (!isfinite(row.mean[GG_MD]) && !isfinite(row.mean[GG_DSMC])) return NULL;
+  json_t *json = json_pack("{s:s, s:s, s:o, s:b}", "quantity", row.name, "unit", row.unit, "md_dsmc_z",
+                           gg_files_json_number(row.z), "beyond_expected", row.beyond);
+  if (!isfinite(row.z))
+    gg_files_reason_add(warnings, "md_dsmc_z", row.name, "the mean or error of an engine is not known");
+  for (int k = 0; k < 2; k++)
+    if (isfinite(row.mean[k])) put_deviations(json, c, k, named, warnings);
+  for (int k = 0; k < 2; k++) put_departure(json, (gg_engine_kind)k, &row.departure[k]);
+  return json;
 }
 
 static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *warnings)
@@ -147,42 +135,32 @@ static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *
   return json_null();
 }
 
-/* Where md differs beyond what is expected: which causes apply. */
-static void warn_causes(const gg_comparison *c, json_t *warnings)
+/* Where md differs beyond what is expected, the causes that apply; theories that are further off than expected. */
+static void warn_deviations(const gg_comparison *c, json_t *warnings)
 {
   const char *cause[8];
-  int marked = 0;
-  for (int i = 0; i < gg_common_quantity_set_of(&c->model); i++)
-    marked += gg_run_results_disagree(c, gg_common_quantity_at(&c->model, i));
-  int n = marked ? gg_run_disagreement_causes(c, cause, 8) : 0;
-  for (int i = 0; i < n; i++)
+  gg_theory_remark r[GG_MOST_THEORIES];
+  const int n_causes = gg_run_disagreement_causes(c, cause, 8), n = gg_run_theory_remarks(c, r);
+  for (int i = 0; i < n_causes; i++)
     json_array_append_new(warnings,
                           json_sprintf("md differs from Enskog's equation beyond what is expected: %s", cause[i]));
-}
-
-static void warn_remarks(const gg_comparison *c, json_t *warnings)
-{
-  gg_theory_remark r[GG_MOST_THEORIES];
-  int n = gg_run_theory_remarks(c, r);
   for (int i = 0; i < n; i++)
     json_array_append_new(warnings,
                           json_sprintf("%s is off by %+.1f %% in %s: %s", r[i].theory->name, 100 * r[i].deviation,
-                                       gg_common_quantity_name_in(&c->model, r[i].quantity), r[i].cause));
+                                       gg_run_rows_at(&c->rows, r[i].quantity)->name, r[i].cause));
 }
 
 static json_t *comparison_document(const gg_comparison *c)
 {
   if (c->document) return gg_base_json_read(c->document, NULL); /* as it was stored */
-  json_t *warnings = warnings_json(c), *rows = json_array();
+  json_t *warnings = gg_files_warnings_json(&c->warnings), *rows = json_array();
   json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
   json_t *theory = theories_json(c, warnings);
-  for (int i = 0; i < gg_common_quantity_set_of(&c->model); i++) {
-    gg_quantity q = gg_common_quantity_at(&c->model, i);
-    if (has(c->by_engine[GG_MD], q) || has(c->by_engine[GG_DSMC], q))
-      json_array_append_new(rows, row_json(c, q, warnings));
+  for (int i = 0; i < c->rows.n; i++) {
+    json_t *row = row_json(c, &c->rows.row[i], warnings);
+    if (row) json_array_append_new(rows, row);
   }
-  warn_causes(c, warnings);
-  warn_remarks(c, warnings);
+  warn_deviations(c, warnings);
   json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
                                gg_scene_json(&c->scene), "md", md, "dsmc", dsmc, "theory", theory, "theories",
                                about_json(c), "comparison", rows, "warnings", warnings);

@@ -8,12 +8,6 @@
 #include "run/run.h"
 #include "run/start_model.h"
 
-double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
-{
-  double error = hypot(a->error, b->error);
-  return error > 0 ? (a->mean - b->mean) / error : NAN;
-}
-
 /* Curves of what the scene measures, so that nobody pays for others. A theory that has none here, of rough grains for
  * instance, is no reason for a warning: most have none at all. */
 static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
@@ -31,6 +25,7 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
 gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_error *err)
 {
   c->model = *model;
+  gg_run_rows_make(&c->model, &c->rows);
   c->n_theories = 0;
   gg_model start = *model; /* facts tell how engines start; theories of ours find their own temperature */
   if (c->scene.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(&start, err));

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "common/ensemble_size.h"
 #include "common/linear_response.h"
 #include "run/replicas.h"
 #include "scene/fields.h"
@@ -33,8 +34,8 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
   double row_length = row_length_of(all, s);
-  for (int i = 0; i < gg_common_quantity_set_of(&all->model); i++) {
-    const gg_quantity q = gg_common_quantity_at(&all->model, i);
+  for (int i = 0; i < result->rows.n; i++) {
+    const gg_quantity q = result->rows.row[i].quantity;
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
     if (!all->model.steady && !(gg_common_quantity_mask(q) & GG_KEPT_HEATING)) {
@@ -181,12 +182,14 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
   result->model = all->model;
   result->model.stop = NULL; /* it ends with the run */
   result->engine = all->replica[0].engine->ops->name;
+  gg_run_result_label(result);
   GG_TRY(gg_run_replicas_convergence(all, &c, err));
   GG_TRY(report_means(all, result, err));
   GG_TRY(report_history(all, result, err));
   report_effort(all, result);
   gg_run_replicas_report_steadiness(all, &c, result);
-  gg_run_result_report_ensemble(result);
+  if (all->model.homogeneous)
+    gg_common_ensemble_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
   report_warnings(all, &c, result);
   GG_TRY(gg_run_replicas_report_curves(all, result, err));
   GG_TRY(gg_run_frame_take(all->replica[0].engine, &all->model, &result->final, err));

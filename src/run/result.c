@@ -3,8 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#include "common/ensemble_size.h"
+#include <string.h>
 
 void gg_run_result_warn(gg_result *result, const char *format, ...)
 {
@@ -16,19 +15,53 @@ void gg_run_result_warn(gg_result *result, const char *format, ...)
   gg_base_string_list_take(&result->warnings, text);
 }
 
-void gg_run_result_report_ensemble(gg_result *r)
-{
-  if (r->model.homogeneous) gg_common_ensemble_size_reason(&r->scene, r->ensemble_text, sizeof r->ensemble_text);
-}
-
 bool gg_run_quantity_counts_in_collisions(const gg_model *m)
 {
   return !gg_model_keeps_temperature(m);
 }
 
-const char *gg_run_correlation_time_unit(const gg_model *m)
+int gg_run_headline_quantities(const gg_model *m, gg_quantity list[GG_N_QUANTITIES])
 {
-  return gg_run_quantity_counts_in_collisions(m) ? "collisions a grain" : gg_measure_curve_unit(m, "time");
+  int n = 0;
+  for (const int *q = gg_flow_of(m->flow)->headline; *q != GG_N_QUANTITIES; q++)
+    if (!gg_common_quantity_missing(m, (gg_quantity)*q)) list[n++] = (gg_quantity)*q;
+  return n;
+}
+
+void gg_run_rows_make(const gg_model *m, gg_quantity_rows *rows)
+{
+  rows->n = gg_common_quantity_set_of(m);
+  for (int i = 0; i < rows->n; i++) {
+    const gg_quantity q = gg_common_quantity_at(m, i);
+    gg_quantity_row *r = &rows->row[i];
+    *r = (gg_quantity_row){q, gg_common_quantity_name_in(m, q), gg_common_quantity_unit(q, m),
+                           gg_common_quantity_doc_in(m, q), ""};
+    if (q < GG_N_QUANTITIES)
+      gg_common_quantity_symbol(q, r->symbol, sizeof r->symbol);
+    else
+      snprintf(r->symbol, sizeof r->symbol, "%s", r->name);
+  }
+}
+
+const gg_quantity_row *gg_run_rows_find(const gg_quantity_rows *rows, const char *name)
+{
+  for (int i = 0; i < rows->n; i++)
+    if (strcmp(rows->row[i].name, name) == 0) return &rows->row[i];
+  return NULL;
+}
+
+const gg_quantity_row *gg_run_rows_at(const gg_quantity_rows *rows, gg_quantity q)
+{
+  for (int i = 0; i < rows->n; i++)
+    if (rows->row[i].quantity == q) return &rows->row[i];
+  return NULL;
+}
+
+void gg_run_result_label(gg_result *r)
+{
+  gg_run_rows_make(&r->model, &r->rows);
+  r->correlation_time_unit =
+      gg_run_quantity_counts_in_collisions(&r->model) ? "collisions a grain" : gg_measure_curve_unit(&r->model, "time");
 }
 
 void gg_result_free(gg_result *result)

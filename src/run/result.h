@@ -1,4 +1,4 @@
-/* What a run leaves: plain data, made by src/run, written and drawn by src/io and src/cli. */
+/* The result of a run: plain data, made by src/run, written by src/files and printed by src/cli. */
 #ifndef GG_RESULT_H
 #define GG_RESULT_H
 
@@ -10,15 +10,31 @@
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
 typedef struct gg_estimate {
   double mean, error;      /* error: standard error, correlation in time accounted for; NaN if unknown */
-  double correlation_time; /* integrated autocorrelation time, in gg_run_correlation_time_unit */
+  double correlation_time; /* integrated autocorrelation time, in the result's unit of it */
   uint64_t samples;        /* in the averaging window, all replicas */
   char reason[160];
 } gg_estimate;
 
-/* Of correlation times: that of time in a steady state; "collisions a grain" where the gas cools or heats up for ever,
- * so that times grow without end and a mean of them says nothing. */
+/* Do correlation times count collisions a grain? Where the gas cools or heats up for ever, times grow without end. */
 bool gg_run_quantity_counts_in_collisions(const gg_model *model);
-const char *gg_run_correlation_time_unit(const gg_model *model);
+
+/* Names, symbol and unit of a quantity in a scene, made once for a result or a comparison: whoever writes or prints
+ * reads them here. */
+typedef struct gg_quantity_row {
+  gg_quantity quantity;
+  const char *name, *unit, *doc;
+  char symbol[48]; /* as pictures have it; of a user-defined quantity its name */
+} gg_quantity_row;
+
+typedef struct gg_quantity_rows { /* in the order in which they are shown */
+  int n;
+  gg_quantity_row row[GG_MOST_QUANTITIES];
+} gg_quantity_rows;
+/* They borrow names from the model's extension. */
+void gg_run_rows_make(const gg_model *model, gg_quantity_rows *rows);
+/* NULL if there is none. */
+const gg_quantity_row *gg_run_rows_find(const gg_quantity_rows *rows, const char *name);
+const gg_quantity_row *gg_run_rows_at(const gg_quantity_rows *rows, gg_quantity quantity);
 
 typedef enum gg_steadiness {
   GG_STEADY,
@@ -60,10 +76,12 @@ struct gg_result {
   gg_scene scene; /* as run: overrides and seed included; holds its extension */
   gg_model model;
   const char *engine; /* "md", "dsmc" */
+  gg_quantity_rows rows;
+  const char *correlation_time_unit; /* that of time, or "collisions a grain" */
   gg_steadiness steadiness;
   char steadiness_text[256];             /* which quantity decided, and how */
   char ensemble_text[200];               /* why so many grains, where the program chose; else "" */
-  gg_estimate value[GG_MOST_QUANTITIES]; /* those of gg_common_quantity_at(&model, ...) */
+  gg_estimate value[GG_MOST_QUANTITIES]; /* those of the rows */
   gg_history history;
   gg_curves curves;
   gg_frame final; /* the first replica's last state */
@@ -79,8 +97,8 @@ struct gg_result {
 
 void gg_run_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);
 
-/* Fill ensemble_text. */
-void gg_run_result_report_ensemble(gg_result *result);
+/* Fill rows and correlation_time_unit, by the model. */
+void gg_run_result_label(gg_result *result);
 
 /* The headline quantities of a flow: what run.relative_error is asked of. Returns how many. */
 int gg_run_headline_quantities(const gg_model *model, gg_quantity headline[GG_N_QUANTITIES]);

@@ -38,8 +38,9 @@ gg_status gg_run_how_far(const gg_archive *archive, gg_checkpoint_part *part, gg
 /* Both engines and every theory. */
 enum { GG_MOST_THEORIES = GG_N_THEORIES + GG_MOST_OWN_THEORIES };
 struct gg_comparison {
-  gg_scene scene;          /* holds its extension */
-  gg_model model;          /* md's */
+  gg_scene scene; /* holds its extension */
+  gg_model model; /* md's */
+  gg_quantity_rows rows;
   gg_result *by_engine[2]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
   char refusal[2][256];
   int n_theories;
@@ -60,8 +61,6 @@ struct gg_comparison {
  * failure the comparison holds what there is, and is to be cleared. */
 gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
                                gg_comparison *comparison, gg_error *err);
-/* (a - b) over their combined standard error; NaN where either is missing. */
-double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);
 void gg_run_comparison_clear(gg_comparison *comparison);
 
 /* Evaluate the theories for the comparison's scene: fills only model and theory[], which borrow from it, and warns of

@@ -1,8 +1,49 @@
+/* z-scores of the engines, and deviations from Enskog's equation and from theories. */
 #include "run/z_scores.h"
 
 #include <math.h>
 
 #include "theory/goldhirsch_zanetti1993.h"
+
+double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
+{
+  double error = hypot(a->error, b->error);
+  return error > 0 ? (a->mean - b->mean) / error : NAN;
+}
+
+/* Of enskog_hermite, with its numerical error; false where there is none. */
+static bool enskog_solution(const gg_comparison *c, gg_quantity q, gg_estimate *solution)
+{
+  for (int i = 0; i < c->n_theories; i++) {
+    if (c->theory[i].theory != &gg_theory_enskog_hermite || !c->theory[i].applies) continue;
+    double error = c->theory[i].answer.error[q];
+    *solution = (gg_estimate){.mean = c->theory[i].answer.value[q], .error = isfinite(error) ? error : 0};
+    return isfinite(solution->mean);
+  }
+  return false;
+}
+
+/* Numbers about zero, of which a ratio tells nothing. */
+static bool about_zero(gg_quantity q, const gg_estimate *solution)
+{
+  return gg_common_quantity_mask(q) & (GG_DRAWN | GG_STRESS_DIFFERENCE) || fabs(solution->mean) <= 3 * solution->error;
+}
+
+bool gg_run_enskog_deviation(const gg_comparison *c, gg_engine_kind kind, gg_quantity q, gg_departure *d)
+{
+  gg_estimate solution;
+  const gg_result *r = c->by_engine[kind];
+  if (!r || !isfinite(r->value[q].mean) || !enskog_solution(c, q, &solution)) return false;
+  double error = hypot(r->value[q].error, solution.error), scale = about_zero(q, &solution) ? NAN : solution.mean;
+  if (!(isfinite(error) && error > 0)) return false;
+  *d = (gg_departure){.difference = r->value[q].mean - solution.mean,
+                      .error = error,
+                      .headline = gg_common_quantity_mask(q) & (GG_DRAWN | GG_DRAWN_AS_RATIO) ? 1 : 0};
+  d->z = d->difference / error;
+  d->deviation = d->difference / scale;
+  d->deviation_error = error / fabs(scale);
+  return true;
+}
 
 static bool is_difference(gg_quantity q)
 {
@@ -23,7 +64,7 @@ bool gg_run_results_disagree(const gg_comparison *c, gg_quantity q)
 {
   gg_estimate enskog;
   if (!c->by_engine[GG_MD]) return false;
-  if (!gg_run_enskog_solution(c, q, &enskog)) {
+  if (!enskog_solution(c, q, &enskog)) {
     if (!c->by_engine[GG_DSMC]) return false;
     enskog = c->by_engine[GG_DSMC]->value[q];
   }
@@ -76,7 +117,80 @@ static const struct {
 int gg_run_disagreement_causes(const gg_comparison *c, const char **found, int most)
 {
   int n = 0;
-  for (size_t i = 0; i < sizeof causes / sizeof *causes; i++)
+  bool marked = false;
+  for (int i = 0; i < c->rows.n; i++) marked |= gg_run_results_disagree(c, c->rows.row[i].quantity);
+  for (size_t i = 0; marked && i < sizeof causes / sizeof *causes; i++)
     if (n < most && causes[i].applies(&c->model)) found[n++] = causes[i].text;
   return n;
+}
+
+double gg_run_deviation(const gg_estimate *simulation, double theory)
+{
+  bool told_from_zero = fabs(simulation->mean) > 3 * (isnan(simulation->error) ? 0 : simulation->error);
+  return told_from_zero ? theory / simulation->mean - 1 : NAN;
+}
+
+/* Off by more than is expected of solutions of the same problem? NaN if not, or not known. */
+static double unexpected(const gg_comparison *c, const gg_estimate *e, gg_quantity q, double theory)
+{
+  double off = gg_run_deviation(e, theory);
+  bool known = isfinite(off) && fabs(theory - e->mean) > 4 * (isnan(e->error) ? 0 : e->error);
+  return known && fabs(off) > gg_run_expected_deviation(&c->model, q) ? off : NAN;
+}
+
+/* Enskog's equation itself may be off: then a theory of it is as near to the Monte Carlo engine as may be. */
+static const char *cause_of(const gg_comparison *c, const gg_theory_remark *r, double value)
+{
+  const char *beyond = gg_theory_beyond(r->theory, &c->model);
+  const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
+  gg_estimate enskog;
+  if (beyond) return beyond;
+  if (md && enskog_solution(c, r->quantity, &enskog) && isnan(unexpected(c, &enskog, r->quantity, value)))
+    return "agrees with enskog_hermite: md differs from Enskog's equation (correlations, clustering or the number of "
+           "grains)";
+  const gg_estimate *e = dsmc ? &dsmc->value[r->quantity] : NULL;
+  if (md && e && isfinite(e->mean) && isnan(unexpected(c, e, r->quantity, value)))
+    return "agrees with dsmc: md differs from Enskog's equation (correlations, clustering or the number of grains)";
+  return "no cause known: within the range that the theory was made for";
+}
+
+int gg_run_theory_remarks(const gg_comparison *c, gg_theory_remark remarks[GG_MOST_THEORIES])
+{
+  gg_quantity headline[GG_N_QUANTITIES];
+  const gg_result *simulation = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
+  int n = 0, n_headline = gg_run_headline_quantities(&c->model, headline);
+  for (int i = 0; simulation && i < c->n_theories; i++) {
+    gg_theory_remark r = {.theory = c->theory[i].theory};
+    if (r.theory == &gg_theory_enskog_hermite) continue;
+    for (int k = 0; c->theory[i].applies && k < n_headline; k++) {
+      double off = unexpected(c, &simulation->value[headline[k]], headline[k], c->theory[i].answer.value[headline[k]]);
+      if (fabs(off) > fabs(r.deviation)) r.quantity = headline[k], r.deviation = off;
+    }
+    if (r.deviation == 0) continue;
+    r.cause = cause_of(c, &r, c->theory[i].answer.value[r.quantity]);
+    remarks[n++] = r;
+  }
+  return n;
+}
+
+/* A user-defined quantity may have another number in a result that was read from a file. */
+static const gg_estimate *estimate_of(const gg_result *r, const gg_quantity_row *row)
+{
+  const gg_quantity_row *own = r ? gg_run_rows_find(&r->rows, row->name) : NULL;
+  return own ? &r->value[own->quantity] : NULL;
+}
+
+void gg_run_comparison_row(const gg_comparison *c, const gg_quantity_row *named, gg_comparison_row *row)
+{
+  const gg_quantity q = named->quantity;
+  const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
+  *row = (gg_comparison_row){.name = named->name, .symbol = named->symbol, .unit = named->unit};
+  for (int k = 0; k < 2; k++) {
+    const gg_estimate *e = estimate_of(c->by_engine[k], named);
+    row->mean[k] = e ? e->mean : NAN, row->error[k] = e ? e->error : NAN;
+    if (!gg_run_enskog_deviation(c, (gg_engine_kind)k, q, &row->departure[k]))
+      row->departure[k] = (gg_departure){NAN, NAN, NAN, NAN, NAN, 0};
+  }
+  row->z = md && dsmc ? gg_run_z_score(&md->value[q], &dsmc->value[q]) : NAN;
+  row->beyond = gg_run_results_disagree(c, q);
 }

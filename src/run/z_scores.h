@@ -8,12 +8,11 @@
  * beyond. For N1 and N2, differences: 0.02, 0.05 beyond. */
 double gg_run_expected_deviation(const gg_model *model, gg_quantity q);
 
-/* What Enskog's equation says, solved without random numbers (enskog_hermite), with its numerical error; false where it
- * is not. */
-bool gg_run_enskog_solution(const gg_comparison *comparison, gg_quantity q, gg_estimate *solution);
+/* (a - b) over their combined standard error; NaN where either is missing. */
+double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);
 
-/* enskog_deviation.c: an engine against that solution; false where there is none, or no mean and error of the engine.
- */
+/* An engine against Enskog's equation solved without random numbers (enskog_hermite); false where there is no
+ * solution, or no mean and error of the engine. */
 bool gg_run_enskog_deviation(const gg_comparison *comparison, gg_engine_kind engine, gg_quantity q,
                              gg_departure *departure);
 
@@ -21,7 +20,7 @@ bool gg_run_enskog_deviation(const gg_comparison *comparison, gg_engine_kind eng
  * else from dsmc with the errors of both. */
 bool gg_run_results_disagree(const gg_comparison *comparison, gg_quantity q);
 
-/* Causes that apply to this scene, one sentence each, at most `most`; returns how many. */
+/* Where any quantity is marked so: causes that apply to this scene, a sentence each; returns how many. */
 int gg_run_disagreement_causes(const gg_comparison *comparison, const char **causes, int most);
 
 /* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN where the simulation cannot be told from
@@ -36,8 +35,10 @@ typedef struct gg_theory_remark {
   double deviation;
   const char *cause;
 } gg_theory_remark;
-/* theory_deviation.c: of all theories that apply, against md, or against dsmc where md was not run; returns how many.
- */
+/* Of all theories that apply, against md, or against dsmc where md was not run; returns how many. */
 int gg_run_theory_remarks(const gg_comparison *comparison, gg_theory_remark remarks[GG_MOST_THEORIES]);
+
+/* One quantity of a comparison: both engines, and how far they are off each other and Enskog's equation. */
+void gg_run_comparison_row(const gg_comparison *comparison, const gg_quantity_row *named, gg_comparison_row *row);
 
 #endif

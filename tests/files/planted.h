@@ -37,6 +37,7 @@ static inline gg_result *planted_result(gg_engine_kind engine)
   gg_common_model_make(&r->scene, engine, &r->model, NULL);
   r->model.n = PLANTED_GRAINS;
   r->engine = engine == GG_MD ? "md" : "dsmc";
+  gg_run_result_label(r);
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "no trend");
   for (int q = 0; q < GG_N_QUANTITIES; q++) r->value[q].mean = r->value[q].error = r->value[q].correlation_time = NAN;
   r->value[GG_Q_TEMPERATURE] = (gg_estimate){1.0 / 3, 0.001, 1.7, 400, ""};

@@ -65,29 +65,29 @@ void gg_h5_write_header(gg_h5 *h, const char *command, const gg_scene *scene, co
   gg_h5_text(h, "/graingas/document", document);
 }
 
-static void write_estimate(gg_h5 *h, const char *group, gg_quantity q, const gg_result *r)
+static void write_estimate(gg_h5 *h, const char *group, const gg_quantity_row *row, const gg_result *r)
 {
-  const gg_estimate *e = &r->value[q];
+  const gg_estimate *e = &r->value[row->quantity];
   const struct {
     const char *name;
     double value;
     const char *unit; /* NULL: that of the quantity, beside it */
   } numbers[] = {{"mean", e->mean, NULL},
                  {"stderr", e->error, NULL},
-                 {"correlation_time", e->correlation_time, gg_run_correlation_time_unit(&r->model)}};
+                 {"correlation_time", e->correlation_time, r->correlation_time_unit}};
   char path[160];
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
     if (isnan(numbers[i].value)) continue; /* what cannot be had is not there */
-    snprintf(path, sizeof path, "%s/results/%s/%s", group, gg_common_quantity_name_in(&r->model, q), numbers[i].name);
+    snprintf(path, sizeof path, "%s/results/%s/%s", group, row->name, numbers[i].name);
     gg_h5_number(h, path, numbers[i].value);
     if (numbers[i].unit) gg_h5_text_attribute(h, path, "unit", numbers[i].unit);
   }
-  snprintf(path, sizeof path, "%s/results/%s/samples", group, gg_common_quantity_name_in(&r->model, q));
+  snprintf(path, sizeof path, "%s/results/%s/samples", group, row->name);
   gg_h5_count(h, path, e->samples);
-  snprintf(path, sizeof path, "%s/results/%s/unit", group, gg_common_quantity_name_in(&r->model, q));
-  gg_h5_text(h, path, gg_common_quantity_unit(q, &r->model));
-  snprintf(path, sizeof path, "%s/results/%s", group, gg_common_quantity_name_in(&r->model, q));
-  gg_h5_text_attribute(h, path, "doc", gg_common_quantity_doc_in(&r->model, q));
+  snprintf(path, sizeof path, "%s/results/%s/unit", group, row->name);
+  gg_h5_text(h, path, row->unit);
+  snprintf(path, sizeof path, "%s/results/%s", group, row->name);
+  gg_h5_text_attribute(h, path, "doc", row->doc);
 }
 
 static void write_effort(gg_h5 *h, const char *group, const char *name, const gg_effort *effort)
@@ -103,14 +103,14 @@ static void write_effort(gg_h5 *h, const char *group, const char *name, const gg
 static void write_series(gg_h5 *h, const char *observables, const gg_result *r, int k, char *first, size_t size)
 {
   const gg_history *history = &r->history;
-  gg_quantity q = gg_common_quantity_of_history(k);
+  const gg_quantity_row *row = gg_run_rows_at(&r->rows, gg_common_quantity_of_history(k));
   hsize_t n = history->n;
   char group[120], path[160], target[160];
-  snprintf(group, sizeof group, "%s%s", observables, gg_common_quantity_name_in(&r->model, q));
+  snprintf(group, sizeof group, "%s%s", observables, row->name);
   snprintf(path, sizeof path, "%s/value", group);
   gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 1, &n, history->value[k]);
-  gg_h5_text_attribute(h, path, "unit", gg_common_quantity_unit(q, &r->model));
-  gg_h5_text_attribute(h, group, "doc", gg_common_quantity_doc(q));
+  gg_h5_text_attribute(h, path, "unit", row->unit);
+  gg_h5_text_attribute(h, group, "doc", row->doc);
   if (*first) {
     snprintf(path, sizeof path, "%s/step", group);
     snprintf(target, sizeof target, "%s/step", first);
@@ -160,10 +160,8 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
   char path[160], first[120] = "";
   snprintf(path, sizeof path, "%s/results", group);
   gg_h5_group(h, path);
-  for (int i = 0; i < gg_common_quantity_set_of(&r->model); i++) {
-    gg_quantity q = gg_common_quantity_at(&r->model, i);
-    if (gg_files_quantity_is_measured(&r->value[q])) write_estimate(h, group, q, r);
-  }
+  for (int i = 0; i < r->rows.n; i++)
+    if (gg_files_quantity_is_measured(&r->value[r->rows.row[i].quantity])) write_estimate(h, group, &r->rows.row[i], r);
   snprintf(path, sizeof path, "%s/engine", group);
   gg_h5_text(h, path, r->engine);
   snprintf(path, sizeof path, "%s/verdict", group);
@@ -180,19 +178,19 @@ void gg_h5_write_engine(gg_h5 *h, const char *group, const char *observables, co
   gg_h5_write_curves(h, group, &r->curves);
 }
 
-static void write_numbers(gg_h5 *h, const char *group, const gg_model *m, const gg_theory_answer *a)
+static void write_numbers(gg_h5 *h, const char *group, const gg_quantity_rows *rows, const gg_theory_answer *a)
 {
   char path[160];
-  for (int k = 0; k < gg_common_quantity_set_of(m); k++) {
-    const gg_quantity q = gg_common_quantity_at(m, k);
-    const char *quantity = gg_common_quantity_name_in(m, q);
-    if (!isfinite(a->value[q])) continue;
-    snprintf(path, sizeof path, "%s/%s/mean", group, quantity);
-    gg_h5_number(h, path, a->value[q]);
-    snprintf(path, sizeof path, "%s/%s/error", group, quantity);
-    if (isfinite(a->error[q])) gg_h5_number(h, path, a->error[q]);
-    snprintf(path, sizeof path, "%s/%s/unit", group, quantity);
-    gg_h5_text(h, path, gg_common_quantity_unit(q, m));
+  for (int k = 0; k < rows->n; k++) {
+    const gg_quantity_row *row = &rows->row[k];
+    const double value = a->value[row->quantity], error = a->error[row->quantity];
+    if (!isfinite(value)) continue;
+    snprintf(path, sizeof path, "%s/%s/mean", group, row->name);
+    gg_h5_number(h, path, value);
+    snprintf(path, sizeof path, "%s/%s/error", group, row->name);
+    if (isfinite(error)) gg_h5_number(h, path, error);
+    snprintf(path, sizeof path, "%s/%s/unit", group, row->name);
+    gg_h5_text(h, path, row->unit);
   }
 }
 
@@ -204,7 +202,7 @@ void gg_h5_write_theories(gg_h5 *h, const gg_comparison *c)
     snprintf(group, sizeof group, "/graingas/theory/%s", c->theory[i].theory->name);
     gg_h5_group(h, group);
     gg_h5_text_attribute(h, group, "citation", c->theory[i].theory->citation);
-    write_numbers(h, group, &c->model, &c->theory[i].answer);
+    write_numbers(h, group, &c->rows, &c->theory[i].answer);
     gg_h5_write_curves(h, group, &c->theory[i].curves);
   }
 }

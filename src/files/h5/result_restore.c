@@ -54,10 +54,9 @@ static void restore_reason(const gg_result *r, const char *name, char *reason, s
 static void restore_means(gg_result *r, const json_t *document)
 {
   const json_t *results = json_object_get(document, "results");
-  for (int i = 0; i < gg_common_quantity_set_of(&r->model); i++) {
-    const gg_quantity q = gg_common_quantity_at(&r->model, i);
-    const char *name = gg_common_quantity_name_in(&r->model, q);
-    gg_estimate *e = &r->value[q];
+  for (int i = 0; i < r->rows.n; i++) {
+    const char *name = r->rows.row[i].name;
+    gg_estimate *e = &r->value[r->rows.row[i].quantity];
     const json_t *stored = json_object_get(results, name);
     *e = (gg_estimate){.mean = number(stored, "mean"),
                        .error = number(stored, "stderr"),
@@ -151,6 +150,7 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   GG_TRY(gg_files_stored_scene(s, engine, &r->scene, &r->model, err));
   GG_TRY(gg_files_stored_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
   r->model.extension = r->own;
+  gg_run_result_label(r);
   r->scene.engine = engine;
   r->engine = gg_run_engine_ops_of(engine)->name;
   bool steady = json_is_true(json_object_get(e->document, "steady"));
@@ -206,11 +206,11 @@ static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_e
     c->theory[i].applies = said != NULL;
     if (!said) restore_refusal(document, theory->name, c->theory[i].reason, sizeof c->theory[i].reason);
     for (int q = 0; q < GG_MOST_QUANTITIES; q++) c->theory[i].answer.value[q] = c->theory[i].answer.error[q] = NAN;
-    for (int k = 0; said && k < gg_common_quantity_set_of(&c->model); k++) {
-      const gg_quantity q = gg_common_quantity_at(&c->model, k);
-      const json_t *one = json_object_get(said, gg_common_quantity_name_in(&c->model, q));
-      c->theory[i].answer.value[q] = number(one, "mean");
-      c->theory[i].answer.error[q] = number(one, "error");
+    for (int k = 0; said && k < c->rows.n; k++) {
+      const gg_quantity_row *row = &c->rows.row[k];
+      const json_t *one = json_object_get(said, row->name);
+      c->theory[i].answer.value[row->quantity] = number(one, "mean");
+      c->theory[i].answer.error[row->quantity] = number(one, "error");
     }
   }
   for (int i = 0; i < c->n_theories; i++) {
@@ -228,6 +228,7 @@ static gg_status restore_own(gg_comparison *c, const json_t *document, gg_error 
   GG_TRY(
       gg_files_stored_extension(json_object_get(part, "results"), json_object_get(document, "theories"), &c->own, err));
   c->model.extension = c->own;
+  gg_run_rows_make(&c->model, &c->rows);
   return GG_OK;
 }
 
@@ -260,6 +261,7 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
   } else {
     const gg_result *one = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
     c->model.extension = one ? one->model.extension : NULL;
+    gg_run_rows_make(&c->model, &c->rows);
   }
   restore_refusals(c, s->document);
   if (s->comparison) gg_scene_inert(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
