@@ -2,7 +2,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "cli/options.h"
+#include "cli/run_command.h"
 
 enum { COLLISIONS = 100000 };
 
@@ -51,17 +51,11 @@ int gg_cli_fingerprint_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
   gg_error err;
+  gg_scene *scene;
   fingerprint found = {0};
-  gg_scene *scene = NULL;
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && gg_cli_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
-  if (code == GG_CLI_GO_ON && fingerprint_of(scene, o.collisions ? o.collisions : COLLISIONS, &found, &err) != GG_OK)
-    code = err.status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(&o), &err) : gg_cli_report(&err);
-  if (code == GG_CLI_GO_ON) {
-    print(&found, o.json);
-    code = GG_OK;
-  }
-  gg_scene_free(scene);
-  gg_cli_options_clear(&o);
-  return code;
+  int code = gg_cli_scene_begin(command, argc, argv, &o, &scene);
+  if (code != GG_CLI_GO_ON) return code;
+  gg_status status = fingerprint_of(scene, o.collisions ? o.collisions : COLLISIONS, &found, &err);
+  if (status == GG_OK) print(&found, o.json);
+  return gg_cli_scene_end(&o, scene, status, &err);
 }

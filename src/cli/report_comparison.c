@@ -1,4 +1,4 @@
-/* Both engines and the theories in one table, and what stands behind their differences. */
+/* Both engines and the theories in one table, and the causes of their differences. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,12 +23,6 @@ static bool both_ran(const gg_comparison *c)
   return gg_comparison_result(c, "md") && gg_comparison_result(c, "dsmc");
 }
 
-static bool has(const gg_result *r, const char *quantity)
-{
-  gg_measurement m;
-  return gg_result_find(r, quantity, &m, NULL) == GG_OK && !isnan(m.mean);
-}
-
 static double value_of(const gg_comparison *c, const char *theory, const char *quantity, double *deviation)
 {
   double value = NAN;
@@ -36,22 +30,21 @@ static double value_of(const gg_comparison *c, const char *theory, const char *q
   return value;
 }
 
-static bool shown(const gg_comparison *c, const char *quantity, bool all)
+static bool is_shown(const gg_comparison *c, const gg_comparison_row *row, bool all)
 {
   gg_theory_info t;
-  if (gg_cli_quantity_is_minor(quantity) && !all) return false;
-  if (reference(c))
-    return has(gg_comparison_result(c, "md"), quantity) || has(gg_comparison_result(c, "dsmc"), quantity);
+  if (gg_cli_quantity_is_minor(row->name) && !all) return false;
+  if (reference(c)) return !isnan(row->mean[0]) || !isnan(row->mean[1]);
   for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK; i++)
-    if (!isnan(value_of(c, t.name, quantity, NULL))) return true;
+    if (!isnan(value_of(c, t.name, row->name, NULL))) return true;
   return false;
 }
 
-/* The i-th quantity that is shown; false after the last. */
-static bool next_shown(const gg_comparison *c, bool all, size_t *i, gg_entry *q)
+/* The next row that is shown; false after the last. */
+static bool next_shown(const gg_comparison *c, bool all, size_t *i, gg_comparison_row *row)
 {
-  while (gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, (*i)++, gg_comparison_scene(c), q, NULL) == GG_OK)
-    if (shown(c, q->name, all)) return true;
+  while (gg_comparison_at(c, (*i)++, row, NULL) == GG_OK)
+    if (is_shown(c, row, all)) return true;
   return false;
 }
 
@@ -69,41 +62,38 @@ static void put_theory(gg_table *t, int row, int column, const gg_comparison *c,
     snprintf(cell, GG_TABLE_CELL, "%.4g %+6.0fx", value, deviation + 1);
 }
 
-/* A theory with nothing to say on what is shown gets no column: -1. */
+/* A theory without any value that is shown gets no column: -1. */
 static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int column[MOST_THEORIES])
 {
   int n = 0;
   gg_theory_info theory;
   for (size_t i = 0; i < MOST_THEORIES; i++) {
-    gg_entry q;
+    gg_comparison_row row;
     column[i] = -1;
     if (gg_comparison_theory(c, i, &theory, NULL) != GG_OK) continue;
-    for (size_t k = 0; column[i] < 0 && next_shown(c, all, &k, &q);)
-      if (!isnan(value_of(c, theory.name, q.name, NULL))) column[i] = gg_cli_table_column(t, theory.name, true), n++;
+    for (size_t k = 0; column[i] < 0 && next_shown(c, all, &k, &row);)
+      if (!isnan(value_of(c, theory.name, row.name, NULL))) column[i] = gg_cli_table_column(t, theory.name, true), n++;
   }
   return n;
 }
 
-static void put_engines(gg_table *t, int row, const gg_comparison *c, const char *quantity)
+static void put_engines(gg_table *t, int at, const gg_comparison *c, const gg_comparison_row *row)
 {
-  int column = 2, beyond = 0;
-  double z = NAN;
-  gg_measurement m;
+  int column = 2;
   for (int k = 0; k < 2; k++) {
-    const gg_result *r = gg_comparison_result(c, engines[k]);
-    if (!r) continue;
-    if (gg_result_find(r, quantity, &m, NULL) == GG_OK && !isnan(m.mean))
-      gg_format_estimate(m.mean, m.error, gg_cli_table_cell(t, row, column), GG_TABLE_CELL);
+    if (!gg_comparison_result(c, engines[k])) continue;
+    if (!isnan(row->mean[k]))
+      gg_format_estimate(row->mean[k], row->error[k], gg_cli_table_cell(t, at, column), GG_TABLE_CELL);
     column++;
   }
-  gg_comparison_agreement(c, quantity, &z, &beyond, NULL);
-  if (isfinite(z)) snprintf(gg_cli_table_cell(t, row, column), GG_TABLE_CELL, "%+.1f%s", z, beyond ? "!" : " ");
+  if (isfinite(row->z))
+    snprintf(gg_cli_table_cell(t, at, column), GG_TABLE_CELL, "%+.1f%s", row->z, row->beyond ? "!" : " ");
 }
 
 static gg_table *tabulate(const gg_comparison *c, bool all, int *n_theories)
 {
   int column[MOST_THEORIES];
-  gg_entry q;
+  gg_comparison_row row;
   gg_theory_info theory;
   gg_table *t = gg_cli_table_new();
   if (!t) return NULL;
@@ -113,28 +103,83 @@ static gg_table *tabulate(const gg_comparison *c, bool all, int *n_theories)
     if (gg_comparison_result(c, engines[k])) gg_cli_table_column(t, engines[k], true);
   if (both_ran(c)) gg_cli_table_column(t, "z", true);
   *n_theories = theory_columns(t, c, all, column);
-  for (size_t i = 0; next_shown(c, all, &i, &q);) {
-    int row = gg_cli_table_row(t);
-    snprintf(gg_cli_table_cell(t, row, 0), GG_TABLE_CELL, "%s", q.name);
-    snprintf(gg_cli_table_cell(t, row, 1), GG_TABLE_CELL, "%s", q.unit);
-    if (reference(c)) put_engines(t, row, c, q.name);
+  for (size_t i = 0; next_shown(c, all, &i, &row);) {
+    int at = gg_cli_table_row(t);
+    snprintf(gg_cli_table_cell(t, at, 0), GG_TABLE_CELL, "%s", row.name);
+    snprintf(gg_cli_table_cell(t, at, 1), GG_TABLE_CELL, "%s", row.unit);
+    if (reference(c)) put_engines(t, at, c, &row);
     for (size_t k = 0; k < MOST_THEORIES && gg_comparison_theory(c, k, &theory, NULL) == GG_OK; k++)
-      if (column[k] >= 0) put_theory(t, row, column[k], c, theory.name, q.name);
+      if (column[k] >= 0) put_theory(t, at, column[k], c, theory.name, row.name);
   }
   return t;
 }
 
-/* What stands behind the marked z-scores. */
+enum { ONE = 160, MOST = 800 };
+static const double far = 3; /* standard errors */
+
+/* "temperature by +1.9(3) %", "N1 by -0.012(3)" */
+static void put_departure(const char *quantity, const gg_departure *d, char text[ONE])
+{
+  char number[64];
+  bool ratio = !isnan(d->deviation);
+  if (ratio)
+    gg_format_estimate(100 * d->deviation, 100 * d->deviation_error, number, sizeof number);
+  else
+    gg_format_estimate(d->difference, d->error, number, sizeof number);
+  snprintf(text, ONE, "%s by %s%s%s", quantity, number[0] == '-' ? "" : "+", number, ratio ? " %" : "");
+}
+
+/* The main quantities in which an engine is far off, in one line; how near the first of all is. */
+typedef struct verdict {
+  int compared, off;
+  char list[MOST], first[ONE];
+} verdict;
+
+static verdict weigh(const gg_comparison *c, int engine)
+{
+  gg_comparison_row row;
+  size_t used = 0;
+  verdict v = {0};
+  for (size_t i = 0; gg_comparison_at(c, i, &row, NULL) == GG_OK; i++) {
+    char text[ONE];
+    const gg_departure *d = &row.departure[engine];
+    if (isnan(d->z) || !d->headline) continue;
+    put_departure(row.name, d, text);
+    if (!v.compared++) snprintf(v.first, sizeof v.first, "%s", text);
+    if (fabs(d->z) > far) {
+      if (used < MOST) used += (size_t)snprintf(v.list + used, MOST - used, "%s%s", v.off ? ", " : "", text);
+      v.off++;
+    }
+  }
+  return v;
+}
+
+/* Each engine against Enskog's equation solved without random numbers; nothing where there is no solution. */
+static void print_verdicts(const gg_comparison *c)
+{
+  bool any = false;
+  for (int k = 0; k < 2; k++) {
+    verdict v = weigh(c, k);
+    if (!v.compared) continue;
+    if (!any) printf("\n");
+    any = true;
+    if (v.off)
+      gg_cli_print_paragraph(stdout, 2, "%s differs from Enskog's equation (enskog_hermite) in %s", engines[k], v.list);
+    else
+      gg_cli_print_paragraph(stdout, 2,
+                             "%s agrees with Enskog's equation (enskog_hermite) within %g standard errors in %d main "
+                             "quantities, %s",
+                             engines[k], far, v.compared, v.first);
+  }
+}
+
+/* Causes of the marked z-scores. */
 static void print_causes(const gg_comparison *c, bool all)
 {
-  int marked = 0;
-  gg_entry q;
+  bool marked = false;
+  gg_comparison_row row;
   gg_remark r;
-  for (size_t i = 0; next_shown(c, all, &i, &q);) {
-    int beyond = 0;
-    gg_comparison_agreement(c, q.name, NULL, &beyond, NULL);
-    marked += beyond;
-  }
+  for (size_t i = 0; !marked && next_shown(c, all, &i, &row);) marked = row.beyond;
   if (!marked) return;
   printf("\n");
   gg_cli_print_wrapped(
@@ -144,7 +189,7 @@ static void print_causes(const gg_comparison *c, bool all)
     if (!r.theory) gg_cli_print_wrapped(stdout, "  - ", r.cause);
 }
 
-/* What stands behind theories' deviations. */
+/* Causes of theories' deviations. */
 static void print_remarks(const gg_comparison *c)
 {
   bool any = false;
@@ -192,7 +237,7 @@ void gg_cli_print_comparison(const gg_comparison *c, bool all)
   gg_cli_table_print(t, stdout, 1);
   free(t);
   print_legend(c, n_theories);
-  gg_cli_print_verdicts(c);
+  print_verdicts(c);
   print_causes(c, all);
   print_remarks(c);
   gg_cli_print_numbers(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
@@ -211,15 +256,15 @@ void gg_cli_print_comparison(const gg_comparison *c, bool all)
 static void print_numerical_error(const gg_comparison *c, const char *theory)
 {
   double most = 0;
-  gg_entry q;
+  gg_comparison_row row;
   char text[200], worst[64] = "";
-  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, gg_comparison_scene(c), &q, NULL) == GG_OK; i++) {
+  for (size_t i = 0; gg_comparison_at(c, i, &row, NULL) == GG_OK; i++) {
     double error = NAN, relative;
-    gg_comparison_theory_error(c, theory, q.name, &error, NULL);
-    relative = error / fabs(value_of(c, theory, q.name, NULL));
+    gg_comparison_theory_error(c, theory, row.name, &error, NULL);
+    relative = error / fabs(value_of(c, theory, row.name, NULL));
     if (!(relative > most)) continue;
     most = relative;
-    snprintf(worst, sizeof worst, "%s", q.name);
+    snprintf(worst, sizeof worst, "%s", row.name);
   }
   if (!*worst) return;
   snprintf(text, sizeof text, "solved numerically, to %.1g %% of %s and better of all others.", 100 * most, worst);

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "run/run.h"
+#include "run/z_scores.h"
 
 static gg_scene scene_of(double e, double beta, double mu)
 {

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "run/run.h"
+#include "run/z_scores.h"
 #include "theory/collision_rate.h"
 
 /* Medians of the tenths of exp(0.25 x), x normal. */

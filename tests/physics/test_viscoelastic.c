@@ -12,6 +12,7 @@
 #include "common/engine.h"
 #include "common/laws/laws.h"
 #include "run/run.h"
+#include "run/z_scores.h"
 
 static gg_scene scene_of(gg_flow flow, double phi, double e, int64_t n)
 {

@@ -14,6 +14,7 @@
 
 #include "common/rng.h"
 #include "run/run.h"
+#include "run/z_scores.h"
 #include "scene/scene_reader.h"
 
 typedef struct caller {

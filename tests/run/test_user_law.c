@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "extended.h"
+#include "run/z_scores.h"
 
 static double above_one(void *context, double speed, int one, int two)
 {

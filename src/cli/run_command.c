@@ -1,0 +1,211 @@
+#include "cli/run_command.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/outputs.h"
+#include "cli/processes.h"
+
+int gg_cli_scene_begin(const gg_command *command, int argc, char **argv, gg_options *o, gg_scene **scene)
+{
+  gg_error err;
+  *scene = NULL;
+  int code = gg_cli_options_parse(command, argc, argv, o);
+  if (code == GG_CLI_GO_ON && gg_cli_options_scene(o, scene, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code != GG_CLI_GO_ON) gg_cli_scene_end(o, *scene, GG_OK, NULL);
+  return code;
+}
+
+int gg_cli_scene_end(gg_options *o, gg_scene *scene, gg_status status, const gg_error *err)
+{
+  int code = status == GG_OK          ? GG_OK
+             : status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(o), err)
+                                      : gg_cli_report(err);
+  gg_scene_free(scene);
+  gg_cli_options_clear(o);
+  return code;
+}
+
+/* usf.h5 -> usf.checkpoint.h5; beside a device there is no place for it: then by the scene's name, as without --output.
+ */
+static char *checkpoint_path(const gg_options *o, const char *output)
+{
+  char *path = NULL;
+  if (gg_cli_file_is_device(output)) return gg_cli_options_beside(o, ".checkpoint.h5");
+  size_t length = strlen(output);
+  if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
+  return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
+}
+
+/* Of a command that draws one: where. NULL: it does not, or there is no file to draw it from. */
+static char *picture_path(const gg_run_command *r, bool draws)
+{
+  const char *chosen = r->options.picture;
+  if (!draws || (chosen && strcmp(chosen, "none") == 0)) return NULL;
+  if (chosen) return strdup(chosen);
+  return gg_cli_file_is_device(r->output) ? NULL : gg_cli_path_with_suffix(r->output, ".svg");
+}
+
+static int show_progress(void *context, const gg_progress *progress)
+{
+  gg_cli_progress_show(&((gg_run_command *)context)->progress, progress);
+  return 0;
+}
+
+static int is_interrupted(void *context)
+{
+  (void)context;
+  return gg_cli_interrupted();
+}
+
+static void note_checkpoint(void *context, const char *checkpoint)
+{
+  (void)checkpoint;
+  ((gg_run_command *)context)->stored = true;
+}
+
+static void warn(void *context, const char *message)
+{
+  gg_run_command *r = context;
+  char *reported = NULL;
+  fprintf(stderr, "warning: %s\n", message);
+  if (asprintf(&reported, "%s%s\n", r->reported ? r->reported : "", message) < 0) return;
+  free(r->reported);
+  r->reported = reported;
+}
+
+static gg_status choose_files(gg_run_command *r, bool draws)
+{
+  char every[40] = "0";
+  gg_scene_get(r->scene, "output.checkpoint_every", every, sizeof every, NULL);
+  r->keeps_checkpoints = strtod(every, NULL) > 0;
+  r->output = gg_cli_options_output(&r->options, ".h5", &r->err);
+  if (!r->output) return r->err.status;
+  r->checkpoint = checkpoint_path(&r->options, r->output);
+  if (!r->checkpoint) return gg_cli_refuse(&r->err, GG_FAILED, "out of memory");
+  r->picture = picture_path(r, draws);
+  r->replaced = gg_cli_file_exists(r->output) && !gg_cli_file_is_device(r->output);
+  return GG_OK;
+}
+
+static void clear(gg_run_command *r)
+{
+  free(r->output);
+  free(r->checkpoint);
+  free(r->picture);
+  free(r->reported);
+  gg_cli_scene_end(&r->options, r->scene, GG_OK, NULL);
+}
+
+int gg_cli_run_begin(gg_run_command *r, const gg_command *command, int argc, char **argv)
+{
+  const gg_options *o = &r->options;
+  *r = (gg_run_command){.status = GG_OK};
+  int code = gg_cli_scene_begin(command, argc, argv, &r->options, &r->scene);
+  if (code != GG_CLI_GO_ON) return code;
+  if (choose_files(r, command->options & GG_OPT_PICTURE) != GG_OK) {
+    code = gg_cli_report(&r->err);
+    clear(r);
+    return code;
+  }
+  r->run = (gg_run_options){.threads = o->threads,
+                            .workers = gg_cli_workers(o->threads),
+                            .input = o->input,
+                            .picture = r->picture,
+                            .output = r->output,
+                            .checkpoint = r->keeps_checkpoints ? r->checkpoint : NULL,
+                            .resume = o->resume,
+                            .command = o->command_line,
+                            .context = r,
+                            .progress = show_progress,
+                            .stop = is_interrupted,
+                            .stored = note_checkpoint,
+                            .warn = warn};
+  gg_cli_progress_start(&r->progress, o->quiet);
+  gg_cli_catch_interrupts();
+  return GG_CLI_GO_ON;
+}
+
+/* Was anything averaged? */
+static bool has_means(const gg_result *result)
+{
+  gg_measurement m;
+  for (size_t i = 0; gg_result_at(result, i, &m, NULL) == GG_OK; i++)
+    if (isfinite(m.mean)) return true;
+  return false;
+}
+
+bool gg_cli_run_has_output(gg_run_command *r, const gg_result *md, const gg_result *dsmc)
+{
+  const bool interrupted = r->status == GG_INTERRUPTED;
+  gg_cli_progress_end(&r->progress);
+  r->has_output = interrupted ? has_means(md) || has_means(dsmc) : md || dsmc;
+  if (interrupted && r->has_output && !r->options.json) puts("\ninterrupted: the results so far");
+  return r->has_output;
+}
+
+/* How to resume: with a command that can be typed as it stands, if there is room for it. */
+static void report_checkpoint(gg_run_command *r)
+{
+  const size_t size = sizeof r->err.message;
+  char *file = gg_cli_shell_quote(r->checkpoint), *resume = NULL, *again = NULL;
+  if (file && asprintf(&resume, " --resume %s", file) < 0) resume = NULL;
+  if (resume && !r->options.resume) again = gg_cli_command_line_quote(&r->options.typed, resume);
+  if (!again || snprintf(r->err.message, size, "interrupted; go on with: %s", again) >= (int)size)
+    snprintf(r->err.message, size, "interrupted; go on with the same command and%s", resume ? resume : " --resume");
+  free(file);
+  free(resume);
+  free(again);
+}
+
+static void report_interruption(gg_run_command *r)
+{
+  const char *hint = r->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)";
+  if (r->stored)
+    report_checkpoint(r);
+  else
+    snprintf(r->err.message, sizeof r->err.message, "interrupted; nothing was stored%s", hint);
+}
+
+typedef struct drawing {
+  const gg_run_command *of;
+  bool replaced;
+} drawing;
+
+/* Pages of curves stand beside the picture that was asked for. */
+static void report_picture(void *context, const char *picture)
+{
+  const drawing *d = context;
+  gg_cli_report_written(&d->of->options, "picture", picture, d->replaced && strcmp(picture, d->of->picture) == 0);
+}
+
+/* A picture that nobody asked for may be missing, as where gnuplot is; a file that cannot be written is a failure. */
+static gg_status draw(const gg_run_command *r, gg_error *err)
+{
+  if (!r->picture) return GG_OK;
+  drawing d = {r, gg_cli_file_exists(r->picture)};
+  gg_status status = gg_plot(r->output, r->picture, NULL, report_picture, &d, err);
+  if (status != GG_FAILED || r->options.picture) return status;
+  fprintf(stderr, "warning: no picture: %s\n", err->message);
+  return GG_OK;
+}
+
+int gg_cli_run_end(gg_run_command *r)
+{
+  gg_error why;
+  gg_status drawn = GG_OK;
+  int code = GG_OK;
+  if (r->has_output && r->status != GG_BAD_FILE && r->status != GG_INTERRUPTED) {
+    gg_cli_report_written(&r->options, "results", r->output, r->replaced);
+    drawn = draw(r, &why);
+  }
+  if (r->status == GG_INTERRUPTED) report_interruption(r);
+  if (r->status != GG_OK)
+    code = r->status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(&r->options), &r->err)
+                                     : gg_cli_report(&r->err);
+  if (drawn != GG_OK) gg_cli_report(&why);
+  clear(r);
+  return code != GG_OK ? code : (int)drawn;
+}
