@@ -198,14 +198,12 @@ static gg_status status_of(gg_status run, gg_status written, const gg_error *why
   return gg_base_fail(err, written, "%.500s; and %.500s", message, err ? err->message : "");
 }
 
-/* *made: what there is; NULL where there is nothing. */
-static gg_status simulate(gg_door_point *point, const gg_scene *scene, const gg_run_options *options, bool comparison,
-                          gg_comparison **made, gg_error *err)
+gg_status gg_api_run_simulate(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
+                              bool comparison, gg_comparison **made, gg_error *err)
 {
   gg_door_run r;
   gg_error why = {0};
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
-  *made = NULL;
   if (!c) return GG_FAILED;
   const bool before = gg_base_memory_begin();
   gg_status status = begin(&r, scene, options, comparison, err);
@@ -228,20 +226,12 @@ static gg_status simulate(gg_door_point *point, const gg_scene *scene, const gg_
   return status_of(status, written, &why, err);
 }
 
-gg_status gg_api_compare_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
-                              gg_comparison **comparison, gg_error *err)
+gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err)
 {
-  gg_comparison *made;
-  gg_status status = simulate(point, scene, options, true, &made, err);
-  if (made) *comparison = made;
-  return status;
-}
-
-gg_status gg_api_run_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
-                          gg_result **result, gg_error *err)
-{
-  gg_comparison *made;
-  gg_status status = simulate(point, scene, options, false, &made, err);
+  GG_NEED(scene);
+  GG_NEED(result);
+  gg_comparison *made = NULL;
+  gg_status status = gg_api_run_simulate(NULL, scene, options, false, &made, err);
   for (int k = 0; made && k < 2; k++) {
     if (made->by_engine[k]) *result = made->by_engine[k];
     made->by_engine[k] = NULL;
@@ -250,16 +240,9 @@ gg_status gg_api_run_with(gg_door_point *point, const gg_scene *scene, const gg_
   return status;
 }
 
-gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err)
-{
-  GG_NEED(scene);
-  GG_NEED(result);
-  return gg_api_run_with(NULL, scene, options, result, err);
-}
-
 gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(scene);
   GG_NEED(comparison);
-  return gg_api_compare_with(NULL, scene, options, comparison, err);
+  return gg_api_run_simulate(NULL, scene, options, true, comparison, err);
 }

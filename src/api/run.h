@@ -40,11 +40,10 @@ typedef struct gg_door_point {
   void *context;
   bool resume_lost; /* set: what it was to go on from cannot be gone on from */
 } gg_door_point;
-/* gg_run and gg_compare for a point; NULL: they are none. */
-gg_status gg_api_run_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
-                          gg_result **result, gg_error *err);
-gg_status gg_api_compare_with(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
-                              gg_comparison **comparison, gg_error *err);
+/* gg_run and gg_compare, also for a point (NULL: it is none). *made, set where there is anything: both engines and the
+ * theories, or the result of the scene's engine alone. */
+gg_status gg_api_run_simulate(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
+                              bool comparison, gg_comparison **made, gg_error *err);
 
 /* output_files.c, before the run: no two of the files that are read and written are one, and a result is not called
  * like a picture; the picture and the pages beside it can be written. */

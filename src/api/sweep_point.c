@@ -15,24 +15,6 @@ typedef struct ended {
   bool resume_lost; /* its checkpoint cannot be gone on from */
 } ended;
 
-static ended run(const gg_scene *scene, const gg_run_options *options, gg_door_point *point, gg_error *err)
-{
-  gg_result *result = NULL;
-  gg_status status = gg_api_run_with(point, scene, options, &result, err);
-  ended e = {status, result != NULL, point->resume_lost};
-  gg_result_free(result);
-  return e;
-}
-
-static ended compare(const gg_scene *scene, const gg_run_options *options, gg_door_point *point, gg_error *err)
-{
-  gg_comparison *c = NULL;
-  gg_status status = gg_api_compare_with(point, scene, options, &c, err);
-  ended e = {status, c != NULL, point->resume_lost};
-  gg_comparison_free(c);
-  return e;
-}
-
 /* What it was written to is called work until it is known how it ended. */
 static gg_status publish(void *task, gg_status run, gg_error *err)
 {
@@ -57,11 +39,12 @@ static ended do_it(const gg_point_task *t, const gg_scene *scene, const gg_run_o
 {
   gg_point_task task = *t;
   gg_door_point point = {.crew = t->crew, .publish = publish, .context = &task};
-  switch (t->sweep->settings.does) {
-  case GG_DOES_COMPARE: return compare(scene, options, &point, err);
-  case GG_DOES_THEORY: return evaluate(&task, scene, options, err);
-  default: return run(scene, options, &point, err);
-  }
+  gg_comparison *c = NULL;
+  if (t->sweep->settings.does == GG_DOES_THEORY) return evaluate(&task, scene, options, err);
+  bool comparison = t->sweep->settings.does == GG_DOES_COMPARE;
+  gg_status status = gg_api_run_simulate(&point, scene, options, comparison, &c, err);
+  gg_comparison_free(c);
+  return (ended){status, c != NULL, point.resume_lost};
 }
 
 /* A checkpoint that cannot be gone on from is none: the point begins anew, and comes to the same bits. Not where the

@@ -18,9 +18,46 @@ static double now_seconds(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+void gg_cli_line_start(gg_cli_line *l, bool quiet)
+{
+  *l = (gg_cli_line){.quiet = quiet, .terminal = isatty(STDERR_FILENO) != 0, .shown = now_seconds()};
+}
+
+static bool is_due(const gg_cli_line *l)
+{
+  return now_seconds() - l->shown >= (l->terminal ? live_every : plain_every);
+}
+
+/* On a terminal, as much as there is room for. */
+static void put(gg_cli_line *l, const char *text)
+{
+  struct winsize window = {0};
+  int width = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col ? window.ws_col - 1 : 79;
+  l->shown = now_seconds();
+  l->live = l->terminal;
+  if (l->terminal)
+    fprintf(stderr, "\r%.*s\x1b[K", width, text);
+  else if (strcmp(text, l->last) != 0)
+    fprintf(stderr, "%s\n", text);
+  if (l->terminal) fflush(stderr);
+  snprintf(l->last, sizeof l->last, "%s", text);
+}
+
+void gg_cli_line_show(gg_cli_line *l, const char *text, bool now)
+{
+  if (!l->quiet && (now || is_due(l))) put(l, text);
+}
+
+void gg_cli_line_clear(gg_cli_line *l)
+{
+  if (l->live) fputs("\r\x1b[K", stderr);
+  l->live = false;
+}
+
 void gg_cli_progress_start(gg_cli_progress *p, bool quiet)
 {
-  *p = (gg_cli_progress){.quiet = quiet, .terminal = isatty(STDERR_FILENO) != 0, .shown = now_seconds()};
+  memset(p, 0, sizeof *p);
+  gg_cli_line_start(&p->line, quiet);
 }
 
 /* "md averaging 43 %, 1.2 M collisions, 0.9 M/s, error 1.2 %, 0:20 left" */
@@ -42,15 +79,7 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
   if (g->next) snprintf(text + used, size - (size_t)used, ", then %s", g->next);
 }
 
-/* As much as there is room for. */
-static void put_live(const char *line)
-{
-  struct winsize window = {0};
-  int width = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col ? window.ws_col - 1 : 79;
-  fprintf(stderr, "\r%.*s\x1b[K", width, line);
-  fflush(stderr);
-}
-
+/* Of the engines that run at present, one beside the other. */
 static void show_live(gg_cli_progress *p)
 {
   char line[400] = "", part[200];
@@ -61,79 +90,40 @@ static void show_live(gg_cli_progress *p)
     size_t used = strlen(line);
     snprintf(line + used, sizeof line - used, "%s%s", used ? "  |  " : "", part);
   }
-  put_live(line);
-  p->live = true;
+  put(&p->line, line);
 }
 
 static void show_plain(gg_cli_progress *p, int k)
 {
   char line[200];
   describe(&p->last[k], false, line, sizeof line);
-  fprintf(stderr, "%s\n", line);
-  p->untold[k] = false;
+  *p->line.last = '\0'; /* shown even if it is the same */
+  put(&p->line, line);
+  p->unreported[k] = false;
 }
 
 void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *g)
 {
-  if (p->quiet) return;
+  if (p->line.quiet) return;
   int k = strcmp(g->engine, "dsmc") == 0;
-  bool new_phase = strcmp(p->phase[k], g->phase) != 0;
+  bool new_phase = strcmp(p->phase[k], g->phase) != 0, due = is_due(&p->line);
   p->last[k] = *g;
-  double now = now_seconds();
-  if (p->terminal) {
-    if (now - p->shown < live_every) return;
-    show_live(p);
-  } else {
-    p->untold[k] = true;
-    if (!new_phase && now - p->shown < plain_every) return;
-    show_plain(p, k);
-    snprintf(p->phase[k], sizeof p->phase[k], "%s", g->phase);
+  if (p->line.terminal) {
+    if (due) show_live(p);
+    return;
   }
-  p->shown = now;
-}
-
-void gg_cli_progress_line(gg_cli_progress *p, const char *line)
-{
-  double now = now_seconds();
-  if (p->quiet || now - p->shown < (p->terminal ? live_every : plain_every)) return;
-  p->shown = now;
-  p->live = p->terminal;
-  if (p->terminal)
-    put_live(line);
-  else
-    fprintf(stderr, "%s\n", line);
+  p->unreported[k] = true;
+  if (!new_phase && !due) return;
+  show_plain(p, k);
+  snprintf(p->phase[k], sizeof p->phase[k], "%s", g->phase);
 }
 
 void gg_cli_progress_end(gg_cli_progress *p)
 {
-  if (p->live) fputs("\r\x1b[K", stderr);
-  p->live = false;
+  gg_cli_line_clear(&p->line);
   for (int k = 0; k < 2; k++) {
-    if (!p->untold[k]) continue;
+    if (!p->unreported[k]) continue;
     p->last[k].time_left = NAN; /* it is over */
     show_plain(p, k);
   }
-}
-
-void gg_cli_line_start(gg_cli_line *l, bool quiet)
-{
-  *l = (gg_cli_line){.quiet = quiet, .terminal = isatty(STDERR_FILENO) != 0, .shown = now_seconds()};
-}
-
-void gg_cli_line_show(gg_cli_line *l, const char *text, bool now)
-{
-  if (l->quiet || (!now && now_seconds() - l->shown < (l->terminal ? live_every : plain_every))) return;
-  l->shown = now_seconds();
-  l->live = l->terminal;
-  if (l->terminal)
-    put_live(text);
-  else if (strcmp(text, l->last) != 0)
-    fprintf(stderr, "%s\n", text);
-  snprintf(l->last, sizeof l->last, "%s", text);
-}
-
-void gg_cli_line_clear(gg_cli_line *l)
-{
-  if (l->live) fputs("\r\x1b[K", stderr);
-  l->live = false;
 }

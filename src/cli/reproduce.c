@@ -11,7 +11,7 @@
 
 typedef struct told {
   bool quiet, json;
-  gg_cli_progress progress;
+  gg_cli_line progress;
   int n_numbers;
 } told;
 
@@ -29,13 +29,13 @@ static void show(void *context, const char *figure, const gg_sweep_progress *now
   if (isfinite(now->time_left)) gg_cli_format_duration(now->time_left, left, sizeof left);
   snprintf(line, sizeof line, "%s: %zu of %zu points%s%s%s", figure, now->done, now->points, *left ? ", " : "", left,
            *left ? " left" : "");
-  gg_cli_progress_line(&t->progress, line);
+  gg_cli_line_show(&t->progress, line, false);
 }
 
 static void warn(void *context, const char *figure, const char *message)
 {
   told *t = context;
-  gg_cli_progress_end(&t->progress);
+  gg_cli_line_clear(&t->progress);
   fprintf(stderr, "warning: %s: %s\n", figure, message);
 }
 
@@ -43,7 +43,7 @@ static void warn(void *context, const char *figure, const char *message)
 static void tell_file(void *context, const char *file)
 {
   told *t = context;
-  gg_cli_progress_end(&t->progress);
+  gg_cli_line_clear(&t->progress);
   if (!t->quiet && !t->json) printf("%s\n", file);
 }
 
@@ -55,7 +55,7 @@ static void tell_engine(const char *name, double mean, double error, double z)
 static void tell_number(void *context, const gg_figure_number *n)
 {
   told *t = context;
-  gg_cli_progress_end(&t->progress);
+  gg_cli_line_clear(&t->progress);
   if (t->quiet || t->json) return;
   printf("%s%s%s%s: paper %.5g", n->what, n->where ? " (" : "", n->where ? n->where : "", n->where ? ")" : "",
          n->paper);
@@ -78,10 +78,10 @@ static int reproduce(const gg_options *o)
                                   .warn = warn,
                                   .written = tell_file,
                                   .number = tell_number};
-  gg_cli_progress_start(&t.progress, o->quiet);
+  gg_cli_line_start(&t.progress, o->quiet);
   gg_cli_catch_interrupts();
   gg_status status = gg_reproduce(o->input, &options, &err);
-  gg_cli_progress_end(&t.progress);
+  gg_cli_line_clear(&t.progress);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
