@@ -212,8 +212,8 @@ GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_
 
 /* ---- More than one process ----
  * The replicas of runs and comparisons can be shared by several processes, on one machine or many. One of them, rank 0,
- * calls gg_run or gg_compare with `workers` among its options; each of the others calls gg_work, and stays there. Bits
- * depend neither on how many they are nor on who does what. The library only knows that they can send each other
+ * calls gg_run or gg_compare with `workers` among its options; each of the others calls gg_worker_run, and stays there.
+ * Bits depend neither on how many they are nor on who does what. The library only knows that they can send each other
  * messages, and needs no MPI: `mpirun graingas` brings MPI's. All have to be the same build. Scenes with observables,
  * theories or laws of one's own, and the replica that writes a trajectory, stay with rank 0. */
 
@@ -232,14 +232,14 @@ typedef struct gg_messages { /* filled in by the caller; calls come one at a tim
 } gg_messages;
 
 typedef struct gg_workers gg_workers;
-/* Rank 0: meet the others. Each process, this one included, uses so many threads. `messages` is copied. Freed, it sends
- * the others home: gg_work returns there. Several runs, in threads of their own, may use it side by side. */
+/* Rank 0: meet the others. Each process, this one included, uses so many threads. `messages` is copied. Freeing it
+ * ends the others: gg_worker_run returns there. Several runs, in threads of their own, may use it side by side. */
 GG_API gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err);
 GG_API void gg_workers_free(gg_workers *workers);
 /* Of all of them together, now; 0 without workers. */
 GG_API int gg_workers_threads(const gg_workers *workers);
 /* The others: work until rank 0 has no more to do (GG_OK), or is gone (GG_FAILED). */
-GG_API gg_status gg_work(const gg_messages *messages, gg_error *err);
+GG_API gg_status gg_worker_run(const gg_messages *messages, gg_error *err);
 
 /* ---- Runs: to the end that the scene asks for, means with their errors ---- */
 

@@ -177,9 +177,9 @@ static gg_status finish(gg_door_run *r, gg_door_point *point, gg_status status, 
   const bool whole = c && (status == GG_OK || status == GG_FAILED), named = point && point->publish && whole;
   gg_status written = GG_OK;
   if (whole && r->options.output) {
-    gg_run_crew_pause(r->hooks.crew); /* disks take their time */
+    gg_run_scheduler_leave(r->hooks.scheduler); /* disks take their time */
     written = write_output(r, c, err);
-    gg_run_crew_go_on(r->hooks.crew);
+    gg_run_scheduler_enter(r->hooks.scheduler);
   }
   if (named && written == GG_OK) written = point->publish(point->context, status, err);
   if ((status == GG_OK || named) && written == GG_OK) remove_checkpoints(r);
@@ -207,7 +207,7 @@ gg_status gg_api_run_simulate(gg_door_point *point, const gg_scene *scene, const
   if (!c) return GG_FAILED;
   const bool before = gg_base_memory_begin();
   gg_status status = begin(&r, scene, options, comparison, err);
-  r.hooks.crew = point ? point->crew : NULL;
+  r.hooks.scheduler = point ? point->scheduler : NULL;
   if (status == GG_OK) {
     warn_of_keys(&r);
     status = run_engines(&r, c, err);

@@ -34,7 +34,7 @@ typedef struct gg_door_run {
 
 /* What is more about a run that is a point of a sweep. */
 typedef struct gg_door_point {
-  gg_crew *crew; /* that does it (run/scheduler.h), and the caller is one of; NULL: none */
+  gg_run_scheduler *scheduler; /* which the caller has entered; NULL: the run's own, or the workers' */
   /* Give the output, which is in place, the name that says how the run ended: before its checkpoints are removed. */
   gg_status (*publish)(void *context, gg_status run, gg_error *err);
   void *context;

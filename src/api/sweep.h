@@ -10,8 +10,8 @@ typedef struct gg_point_task {
   const gg_sweep *sweep;
   const char *folder;
   size_t i;
-  gg_crew *crew;          /* whose threads do the work, one of which the caller is; NULL: options.threads */
-  gg_run_options options; /* threads, command, input, and the callbacks progress, stop, warn with their context */
+  gg_run_scheduler *scheduler; /* which the caller has entered; NULL: one of its own, or the workers' */
+  gg_run_options options;      /* threads, command, input, and the callbacks progress, stop, warn with their context */
 } gg_point_task;
 
 /* Do point i, whose place the caller has claimed, from its checkpoint if there is one. GG_OK and GG_FAILED with

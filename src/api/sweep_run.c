@@ -1,14 +1,257 @@
-/* Sweeps done: what is still missing of a folder, side by side. */
+/* Sweeps: what is missing of a folder is done, point beside point. */
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "api/api.h"
-#include "api/sweep_runs.h"
+#include "api/sweep.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/string_list.h"
 #include "sweep/folder.h"
 
-static gg_status sum_up(const gg_courses *all, gg_error *err)
+typedef enum item_state { WAITS, RUNS, ELSEWHERE, ENDED, REPORTED } item_state;
+
+typedef struct item { /* a point to be done */
+  size_t i;           /* of the sweep */
+  item_state state;   /* ELSEWHERE: another process was at it when it was last checked */
+  gg_status status;
+  bool fell_short, here; /* here: by this process */
+  double checked;        /* when it was */
+  double fraction, relative_error;
+  char message[512];
+} item;
+
+typedef struct sweep_run {
+  gg_sweep *sweep;
+  const char *folder;
+  gg_sweep_options options;
+  int threads_each;            /* of a point */
+  gg_run_scheduler *scheduler; /* of all points; NULL: the workers' */
+  atomic_bool stopped;
+  pthread_mutex_t lock; /* for all below */
+  pthread_cond_t changed;
+  size_t n;
+  item *item;
+  size_t done_before, short_before; /* points of which there was a file, and of these those that ended short */
+  double started;                   /* clock reading */
+  size_t working;                   /* controllers */
+  gg_text_list warnings;
+  size_t warned; /* of them reported */
+} sweep_run;
+
+/* A thread that does one point after another. */
+typedef struct controller {
+  gg_run_controller thread;
+  sweep_run *all;
+  item *item;
+} controller;
+
+/* Points that other processes are at are checked as often, in seconds; less often where they are many, for the sake of
+ * file servers that many processes use. */
+static double check_every(size_t elsewhere)
+{
+  return elsewhere < 8 ? 0.5 : 0.0625 * (double)elsewhere;
+}
+
+static int note_progress(void *context, const gg_progress *progress)
+{
+  controller *c = context;
+  pthread_mutex_lock(&c->all->lock);
+  c->item->fraction = progress->fraction;
+  c->item->relative_error = progress->relative_error;
+  pthread_mutex_unlock(&c->all->lock);
+  return 0;
+}
+
+static int is_stopped(void *context)
+{
+  return atomic_load(&((controller *)context)->all->stopped);
+}
+
+static void note_warning(void *context, const char *message)
+{
+  sweep_run *all = ((controller *)context)->all;
+  bool known = false;
+  pthread_mutex_lock(&all->lock);
+  for (size_t i = 0; i < all->warnings.n && !known; i++) known = strcmp(all->warnings.text[i], message) == 0;
+  if (!known) gg_base_string_list_add(&all->warnings, "%s", message);
+  pthread_mutex_unlock(&all->lock);
+}
+
+static gg_status do_point(controller *c, bool *fell_short, gg_error *err)
+{
+  sweep_run *all = c->all;
+  gg_point_task task = {.sweep = all->sweep, .folder = all->folder, .i = c->item->i, .scheduler = all->scheduler};
+  task.options = (gg_run_options){.threads = all->threads_each,
+                                  .command = all->options.command,
+                                  .input = all->options.input,
+                                  .workers = all->options.workers,
+                                  .context = c,
+                                  .progress = note_progress,
+                                  .stop = is_stopped,
+                                  .warn = note_warning};
+  gg_run_scheduler_enter(all->scheduler);
+  gg_status status = gg_api_point_run(&task, fell_short, err);
+  gg_run_scheduler_leave(all->scheduler);
+  return status;
+}
+
+/* Without the lock: the point is this controller's for now. */
+static void do_item(controller *c)
+{
+  gg_error err = {0};
+  gg_file_lock lock;
+  bool fell_short = false, claimed;
+  sweep_run *all = c->all;
+  item *it = c->item;
+  const uint64_t id = all->sweep->point[it->i].id;
+  gg_point_state there = GG_POINT_MISSING;
+  gg_status status = gg_sweep_point_claim(all->folder, id, &lock, &err);
+  claimed = status == GG_OK && lock.fd >= 0;
+  if (claimed) status = do_point(c, &fell_short, &err);
+  if (status == GG_OK && !claimed) there = gg_sweep_point_status(all->folder, id);
+  gg_base_file_lock_release(&lock);
+  pthread_mutex_lock(&all->lock);
+  it->status = status;
+  it->here = claimed;
+  it->fell_short = fell_short || there == GG_POINT_SHORT;
+  it->fraction = 1;
+  it->checked = gg_base_clock_wall();
+  snprintf(it->message, sizeof it->message, "%.500s", err.message);
+  it->state = status == GG_OK && !claimed && there == GG_POINT_MISSING ? ELSEWHERE : ENDED;
+  pthread_cond_signal(&all->changed);
+  pthread_mutex_unlock(&all->lock);
+}
+
+/* The next one that waits; of those that others are at, the one that was not checked for longest, if that is long
+ * enough. *any: some are left. */
+static item *next_item(sweep_run *all, bool *any)
+{
+  item *old = NULL;
+  size_t elsewhere = 0;
+  for (size_t k = 0; k < all->n && !atomic_load(&all->stopped); k++) {
+    item *it = &all->item[k];
+    if (it->state == WAITS) return it;
+    if (it->state != ELSEWHERE) continue;
+    elsewhere++;
+    if (!old || it->checked < old->checked) old = it;
+  }
+  *any = elsewhere > 0;
+  return old && gg_base_clock_wall() - old->checked > check_every(elsewhere) ? old : NULL;
+}
+
+static void control(void *context)
+{
+  controller *c = context;
+  sweep_run *all = c->all;
+  bool any = true;
+  pthread_mutex_lock(&all->lock);
+  for (;;) {
+    c->item = next_item(all, &any);
+    if (!c->item && !any) break;
+    if (c->item) c->item->state = RUNS, c->item->relative_error = NAN, c->item->fraction = 0;
+    pthread_mutex_unlock(&all->lock);
+    if (c->item)
+      do_item(c);
+    else
+      nanosleep(&(struct timespec){0, 50 * 1000 * 1000}, NULL);
+    pthread_mutex_lock(&all->lock);
+  }
+  all->working--;
+  pthread_cond_signal(&all->changed);
+  pthread_mutex_unlock(&all->lock);
+}
+
+/* Time left: seconds of all points, by the cost estimate of each, and how far they are. */
+static void report_progress(sweep_run *all)
+{
+  const gg_sweep_options *o = &all->options;
+  gg_sweep_progress p = {.points = all->n + all->done_before,
+                         .done = all->done_before,
+                         .fell_short = all->short_before,
+                         .time_left = NAN,
+                         .relative_error = NAN};
+  double left = 0, gone = 0;
+  if (!o->progress) return;
+  pthread_mutex_lock(&all->lock);
+  for (size_t k = 0; k < all->n; k++) {
+    const item *it = &all->item[k];
+    const double seconds = all->sweep->point[it->i].seconds;
+    bool ended = it->state >= ENDED, good = it->status == GG_OK || it->fell_short;
+    p.done += ended && good;
+    p.failed += ended && !good && it->status != GG_INTERRUPTED;
+    p.fell_short += ended && it->fell_short;
+    p.running += it->state == RUNS;
+    p.elsewhere += it->state == ELSEWHERE;
+    if (it->state == RUNS) p.relative_error = fmax(p.relative_error, it->relative_error);
+    if (!ended && it->state != ELSEWHERE) left += seconds * (1 - it->fraction);
+    if (ended ? it->here : it->state == RUNS) gone += seconds * it->fraction;
+  }
+  pthread_mutex_unlock(&all->lock);
+  double elapsed = gg_base_clock_wall() - all->started;
+  if (gone > 0 && elapsed > 1) p.time_left = left * elapsed / gone;
+  o->progress(o->context, &p);
+}
+
+/* With the lock, but not during the callback. Another process reports what it did; but that a point could not even be
+ * claimed, nobody else reports. */
+static void report_end(sweep_run *all, item *it)
+{
+  char *file = NULL;
+  const gg_sweep_options *o = &all->options;
+  it->state = REPORTED;
+  bool ours = it->here || it->status != GG_OK;
+  if (!ours || !o->ended || it->status == GG_INTERRUPTED) return;
+  const char *ending = it->fell_short ? ".short.h5" : ".h5";
+  bool some = it->status == GG_OK || it->fell_short;
+  if (some) file = gg_sweep_point_path(all->folder, all->sweep->point[it->i].id, ending);
+  pthread_mutex_unlock(&all->lock);
+  o->ended(o->context, it->i, it->status, file, it->message);
+  free(file);
+  pthread_mutex_lock(&all->lock);
+}
+
+/* With the lock: warnings, and points that have ended. */
+static void report_news(sweep_run *all)
+{
+  const gg_sweep_options *o = &all->options;
+  for (; all->warned < all->warnings.n; all->warned++)
+    if (o->warn) o->warn(o->context, all->warnings.text[all->warned]);
+  for (size_t k = 0; k < all->n; k++)
+    if (all->item[k].state == ENDED) report_end(all, &all->item[k]);
+}
+
+/* Do all points, `at_once` at a time, and report meanwhile; GG_OK whatever became of each. */
+static gg_status do_all(sweep_run *all, size_t at_once, gg_error *err)
+{
+  const gg_sweep_options *o = &all->options;
+  controller *c = gg_base_array_new(at_once, sizeof *c, err);
+  if (!c) return GG_FAILED;
+  pthread_mutex_lock(&all->lock);
+  size_t n = 0;
+  for (; n < at_once; n++, all->working++) {
+    c[n].all = all;
+    if (!gg_run_controller_start(&c[n].thread, control, &c[n])) break;
+  }
+  while (all->working) {
+    gg_base_condition_wait(&all->changed, &all->lock, 0.1);
+    report_news(all);
+    pthread_mutex_unlock(&all->lock);
+    if (o->stop && o->stop(o->context)) atomic_store(&all->stopped, true);
+    report_progress(all);
+    pthread_mutex_lock(&all->lock);
+  }
+  report_news(all);
+  pthread_mutex_unlock(&all->lock);
+  for (size_t k = 0; k < n; k++) gg_run_controller_join(&c[k].thread);
+  free(c);
+  return n ? GG_OK : gg_base_fail(err, GG_FAILED, "no thread could be started");
+}
+
+static gg_status sum_up(const sweep_run *all, gg_error *err)
 {
   size_t failed = 0, fell_short = all->short_before;
   for (size_t k = 0; k < all->n; k++) {
@@ -26,8 +269,8 @@ static gg_status sum_up(const gg_courses *all, gg_error *err)
 /* Longest first, so that none is left over at the end; as they are listed where they take as long. */
 static int by_length(const void *a, const void *b)
 {
-  const gg_sweep_item *one = a, *two = b;
-  if (one->looked != two->looked) return one->looked > two->looked ? -1 : 1;
+  const item *one = a, *two = b;
+  if (one->checked != two->checked) return one->checked > two->checked ? -1 : 1;
   return one->i < two->i ? -1 : 1;
 }
 
@@ -44,7 +287,7 @@ static int by_id(const void *a, const void *b)
 }
 
 /* Points that are the same scene are one: the first of them. */
-static gg_status list_missing(gg_courses *all, size_t first, size_t end, gg_error *err)
+static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error *err)
 {
   const gg_sweep *sweep = all->sweep;
   known *ids = gg_base_array_new(end - first, sizeof *ids, err);
@@ -58,7 +301,7 @@ static gg_status list_missing(gg_courses *all, size_t first, size_t end, gg_erro
     all->done_before += state != GG_POINT_MISSING;
     all->short_before += state == GG_POINT_SHORT;
     if (state == GG_POINT_MISSING)
-      all->item[all->n++] = (gg_sweep_item){.i = ids[k].i, .looked = sweep->point[ids[k].i].seconds};
+      all->item[all->n++] = (item){.i = ids[k].i, .checked = sweep->point[ids[k].i].seconds};
   }
   free(ids);
   qsort(all->item, all->n, sizeof *all->item, by_length);
@@ -67,7 +310,7 @@ static gg_status list_missing(gg_courses *all, size_t first, size_t end, gg_erro
 
 /* Points in progress at a time: two a thread, of all processes, so that none has to wait for the end of a window, and
  * errors can be compared; but not more than one process can hold. */
-static size_t at_once(const gg_courses *all)
+static size_t points_at_once(const sweep_run *all)
 {
   enum { MOST_AT_ONCE = 512 };
   const gg_sweep_settings *s = &all->sweep->settings;
@@ -76,17 +319,14 @@ static size_t at_once(const gg_courses *all)
   return n < all->n ? n : all->n;
 }
 
-static gg_status work(gg_courses *all, gg_error *err)
+static gg_status do_missing(sweep_run *all, gg_error *err)
 {
-  size_t n = at_once(all);
-  all->threads_each = all->options.threads;
-  if (n > 1 && !all->options.workers) {
-    GG_TRY(gg_run_crew_new(all->options.threads, &all->crew, err));
-    all->threads_each = 1;
-  }
+  const size_t n = points_at_once(all);
+  all->threads_each = n > 1 && !all->options.workers ? 1 : all->options.threads;
+  if (!all->options.workers) GG_TRY(gg_run_scheduler_new(all->options.threads, false, &all->scheduler, err));
   all->started = gg_base_clock_wall();
-  gg_status status = n ? gg_api_sweep_runs_advance(all, n, err) : GG_OK;
-  gg_api_sweep_report_progress(all);
+  gg_status status = n ? do_all(all, n, err) : GG_OK;
+  report_progress(all);
   return status == GG_OK ? sum_up(all, err) : status;
 }
 
@@ -94,7 +334,7 @@ static gg_status work(gg_courses *all, gg_error *err)
 static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t end, const gg_sweep_options *options,
                      gg_error *err)
 {
-  gg_courses all = {.sweep = sweep, .folder = folder};
+  sweep_run all = {.sweep = sweep, .folder = folder};
   if (options) all.options = *options;
   if (all.options.threads < 1) all.options.threads = 1;
   if (sweep->settings.does == GG_DOES_THEORY) all.options.workers = NULL; /* who share replicas */
@@ -102,14 +342,14 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   GG_TRY(gg_sweep_folder_prepare(folder, "results of a sweep are a folder with a file a point", err));
   gg_sweep_folder_tidy(folder);
   pthread_mutex_init(&all.lock, NULL);
-  gg_base_condition_init(&all.news);
+  gg_base_condition_init(&all.changed);
   atomic_init(&all.stopped, false);
   gg_status status = list_missing(&all, first, end, err);
-  if (status == GG_OK) status = work(&all, err);
-  gg_run_crew_free(all.crew);
+  if (status == GG_OK) status = do_missing(&all, err);
+  gg_run_scheduler_free(all.scheduler);
   gg_base_string_list_clear(&all.warnings);
   pthread_mutex_destroy(&all.lock);
-  pthread_cond_destroy(&all.news);
+  pthread_cond_destroy(&all.changed);
   free(all.item);
   return status;
 }

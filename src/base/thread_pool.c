@@ -12,7 +12,7 @@
 #include <mach/mach.h>
 #endif
 
-enum { MOST_THREADS = 64 };
+enum { MOST_THREADS = GG_MOST_PARTS - 1 }; /* beside the caller: more would never have a part */
 /* How often a thread polls for work before it sleeps, a hundred microseconds or two in all: longer than others need to
  * finish what they are at, or than the caller needs between two jobs. Where processors are fewer than threads nobody
  * polls twice: the thread that is waited for may wait for this one's processor. */

@@ -17,7 +17,7 @@ enum { GG_MOST_PARTS = 32 };
 typedef void gg_part(void *context, int part);
 
 /* So many threads, the caller's included. NULL if that is one, or if the system has none to give: a job that is given
- * to nobody is done by the caller. */
+ * to nobody is done by the caller. Of more threads than GG_MOST_PARTS the others are not started. */
 gg_thread_pool *gg_base_thread_pool_new(int threads);
 void gg_base_thread_pool_free(gg_thread_pool *pool);
 

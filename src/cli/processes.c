@@ -29,7 +29,7 @@ static int work(void)
   signal(SIGINT, SIG_IGN);
   signal(SIGTERM, SIG_IGN);
   signal(SIGHUP, SIG_IGN);
-  return gg_work(&messages, &err) == GG_OK ? GG_OK : GG_FAILED;
+  return gg_worker_run(&messages, &err) == GG_OK ? GG_OK : GG_FAILED;
 }
 
 int gg_cli_as_one_of_several(int argc, char **argv, gg_cli_main *alone)

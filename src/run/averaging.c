@@ -35,12 +35,6 @@ static bool checkpoints(const gg_replicas *all)
   return all->hooks && all->hooks->checkpoint;
 }
 
-bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
-{
-  double every = all->scene.output.checkpoint_every;
-  return checkpoints(all) && every > 0 && gg_base_clock_wall() - all->last_checkpoint > every;
-}
-
 /* Sampling intervals follow the collision rate before averaging, and where the temperature never stands still. */
 static bool adapts(const gg_replicas *all)
 {
@@ -53,22 +47,21 @@ static bool is_over(const gg_replicas *all)
   return all->stopped == GG_OUT_OF_TIME || all->state.standstill > 0;
 }
 
-/* Samples between two looks at how it goes: some tens of milliseconds. Processes that share the work report by
- * themselves, and have to wait for each other after each step: they go all the way, but where a standstill is looked
- * for after each. */
+/* Samples from one report and checkpoint to the next: some tens of milliseconds. Where several processes work, these
+ * come in between, and waiting for each other costs more: they go all the way, but where grains may come to rest. */
 static uint64_t step(const gg_replicas *all, uint64_t way)
 {
-  if (all->share && all->model.gravity[1] == 0) return way;
+  if (all->tasks.remote && all->model.gravity[1] == 0) return way;
   uint64_t some = 1 + (uint64_t)(2e5 / (1000 + (double)all->model.n * all->n));
   return some < way ? some : way;
 }
 
-/* How far to go now. Replicas that were left on different ways by processes that shared them, and that nobody shares
- * now, catch up in steps, too: the first ones wait. */
+/* How far to go now. Replicas that several processes left at different samples, and that one process resumes, catch up
+ * in steps, too: the first ones wait. */
 static uint64_t next_of(const gg_replicas *all)
 {
   uint64_t least = gg_run_replicas_least(all);
-  return all->share ? all->state.due : least + step(all, all->state.due - least);
+  return all->tasks.remote ? all->state.due : least + step(all, all->state.due - least);
 }
 
 /* Let every replica reach `due` samples, in short steps with progress and a checkpoint between them. */
@@ -91,7 +84,7 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 static gg_status open_window(gg_replicas *all, gg_error *err)
 {
   for (int i = 0; i < all->n; i++) GG_TRY(gg_run_replica_open_window(&all->replica[i], err));
-  if (all->share) gg_run_share_changed(all->share);
+  gg_run_distribution_changed(&all->tasks);
   if (!all->state.averaging) gg_run_progress_new_phase(&all->outlook);
   gg_run_progress_open_window(&all->outlook);
   all->looked_at = 0;

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "run/run.h"
+#include "run/scheduler.h"
 #include "run/start_model.h"
 
 /* Curves of what the scene measures, so that nobody pays for others. A theory that has none here, of rough grains for
@@ -43,13 +44,14 @@ gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_er
   return GG_OK;
 }
 
-/* One engine's part, run beside or after the other's; hooks are called by one thread at a time. */
+/* One engine's part, run beside or after the other's; one thread at a time calls a hook. */
 typedef struct part {
   gg_scene scene;
   gg_engine_kind kind;
   const gg_model *model; /* NULL: the scene has none of this engine */
   const gg_hooks *hooks;
-  int threads;
+  gg_run_scheduler *scheduler; /* NULL: its own, or the workers' */
+  int threads;                 /* for this engine */
   gg_comparison *comparison;
   pthread_mutex_t *lock;
   gg_archive resume;  /* this engine's part of a checkpoint; empty: from the start */
@@ -101,18 +103,17 @@ static gg_status locked_checkpoint(void *context, gg_archive *archive, gg_error 
   return status;
 }
 
-static void *run_part(void *argument)
+static void run_part(part *p)
 {
-  part *p = argument;
   gg_hooks hooks = {.context = p, .model = p->model};
   if (p->hooks && p->hooks->progress) hooks.progress = locked_progress;
   if (p->hooks && (p->hooks->interrupted || p->hooks->checkpoint)) hooks.interrupted = locked_interrupted;
   if (p->hooks && p->hooks->checkpoint) hooks.checkpoint = locked_checkpoint;
-  if (p->hooks) hooks.workers = p->hooks->workers, hooks.crew = p->hooks->crew;
+  if (p->hooks) hooks.workers = p->hooks->workers;
+  hooks.scheduler = p->scheduler;
   p->scene.engine = p->kind;
   p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &hooks,
                            &p->comparison->by_engine[p->kind], &p->err);
-  return NULL;
 }
 
 /* A scene that an engine cannot run leaves that column empty with the reason; anything else ends the comparison. */
@@ -130,16 +131,35 @@ static gg_status close_part(part *p, gg_error *err)
   return p->status;
 }
 
-/* Run both parts, side by side or one after the other. */
-static void run_parts(part parts[2], bool beside)
+static void control_part(void *context)
 {
-  pthread_t thread;
-  bool running = beside && pthread_create(&thread, NULL, run_part, &parts[GG_DSMC]) == 0;
+  part *p = context;
+  gg_run_scheduler_enter(p->scheduler);
+  run_part(p);
+  gg_run_scheduler_leave(p->scheduler);
+}
+
+/* One after the other, or side by side: then the tasks of both engines wait in one queue, md's controller is this
+ * thread, and dsmc's one of its own, if there is one to be had. */
+static gg_status run_parts(part parts[2], bool beside, int threads, gg_error *err)
+{
+  gg_run_controller dsmc = {.started = false};
+  const gg_hooks *hooks = parts[GG_MD].hooks;
+  gg_run_scheduler *own = NULL, *scheduler = hooks ? hooks->scheduler : NULL;
+  bool distributed = hooks && hooks->workers && !parts[GG_MD].scene.extension; /* to be scheduled with the workers */
+  if (beside && !scheduler && !distributed) {
+    GG_TRY(gg_run_scheduler_new(threads, false, &own, err));
+    gg_run_scheduler_enter(scheduler = own);
+  }
+  for (int k = 0; k < 2; k++) parts[k].scheduler = scheduler;
+  const bool started = beside && gg_run_controller_start(&dsmc, control_part, &parts[GG_DSMC]);
   run_part(&parts[GG_MD]);
-  if (running)
-    pthread_join(thread, NULL);
-  else if (!*parts[GG_MD].broken)
-    run_part(&parts[GG_DSMC]);
+  if (!started && !*parts[GG_MD].broken) run_part(&parts[GG_DSMC]);
+  gg_run_scheduler_leave(scheduler);
+  gg_run_controller_join(&dsmc);
+  gg_run_scheduler_enter(scheduler);
+  gg_run_scheduler_free(own);
+  return GG_OK;
 }
 
 static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
@@ -196,10 +216,8 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
   }
   if (status == GG_OK && resume && !parts[0].resume.n_items && !parts[1].resume.n_items)
     status = gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
-  if (status == GG_OK) {
-    run_parts(parts, beside);
-    status = close_parts(parts, c, err);
-  }
+  if (status == GG_OK) status = run_parts(parts, beside, threads, err);
+  if (status == GG_OK) status = close_parts(parts, c, err);
   for (int k = 0; k < 2; k++) gg_base_archive_clear(&parts[k].resume), gg_base_archive_clear(&latest[k]);
   pthread_mutex_destroy(&lock);
   return status;

@@ -1,13 +1,19 @@
-/* What a run tells of itself while it goes on. */
+/* What a run reports while it goes on. */
 #include <math.h>
 
 #include "base/clock.h"
 #include "run/replicas.h"
-#include "run/workers/workers.h"
 
-/* Looks at the errors between two tests, for the outlook alone: of windows a quarter as long as is tested at least,
- * each longer by a twentieth than the last, and never more than a hundredth of the time. */
-static void look(gg_replicas *all, double window)
+bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
+{
+  double every = all->scene.output.checkpoint_every;
+  bool asked = all->hooks && all->hooks->checkpoint && every > 0;
+  return asked && gg_base_clock_wall() - all->last_checkpoint > every;
+}
+
+/* Estimates the errors between two tests, for the progress estimate alone: of windows a quarter as long as is tested at
+ * least, each longer by a twentieth than the last, and never more than a hundredth of the time. */
+static void estimate_errors(gg_replicas *all, double window)
 {
   gg_convergence c;
   double before = gg_base_clock_wall(), first = (double)(all->plan.least << all->state.restarts) / 4;
@@ -18,24 +24,23 @@ static void look(gg_replicas *all, double window)
   all->next_look = now + 100 * (now - before);
 }
 
-/* Of replica i, also while other processes have it. */
-static gg_replica_news news_of(const gg_replicas *all, int i)
-{
-  const gg_replica *r = &all->replica[i];
-  if (all->share && gg_run_share_is_busy(all->share)) return gg_run_share_news(all->share, i);
-  return (gg_replica_news){r->clock.samples, gg_run_replica_collisions_per_grain(r), r->clock.cpu};
-}
-
-/* That all replicas have, also while other processes are at them. */
+/* Samples that all replicas have, also while tasks are under way. */
 static double samples_so_far(const gg_replicas *all)
 {
   uint64_t least = all->state.due;
-  if (!all->share || !gg_run_share_is_busy(all->share)) return (double)gg_run_replicas_least(all);
   for (int i = 0; i < all->n; i++) {
-    uint64_t has = gg_run_share_news(all->share, i).samples;
+    uint64_t has = gg_run_task_get_status(&all->tasks.task[i]).samples;
     least = has < least ? has : least;
   }
   return (double)least;
+}
+
+/* Replicas that tasks work on are not to be read. */
+static bool is_busy(const gg_replicas *all)
+{
+  for (int i = 0; i < all->n; i++)
+    if (!atomic_load(&all->tasks.task[i].over)) return true;
+  return false;
 }
 
 /* When a run of usual noise, 3/sqrt(grains samples), ends: where nothing is known of the errors of this one. */
@@ -61,12 +66,12 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
   if (!all->hooks || !all->hooks->progress) return;
   double due = samples_so_far(all);
   double window = all->state.averaging ? due - (double)all->state.window_at : 0;
-  if (!over && !(all->share && gg_run_share_is_busy(all->share)) && gg_run_replicas_are_level(all)) look(all, window);
+  if (!over && !is_busy(all) && gg_run_replicas_are_level(all)) estimate_errors(all, window);
   double collisions = 0, cpu = 0, now = gg_base_clock_wall();
   for (int i = 0; i < all->n; i++) {
-    gg_replica_news news = news_of(all, i);
-    collisions += news.collisions_per_grain * (double)all->model.n / 2;
-    cpu += news.cpu;
+    gg_run_task_status reached = gg_run_task_get_status(&all->tasks.task[i]);
+    collisions += reached.collisions_per_grain * (double)all->model.n / 2;
+    cpu += reached.cpu;
   }
   gg_run_progress_record_time(&all->outlook, now, due);
   gg_end end = gg_run_progress_end(&all->outlook, &all->plan, &all->state);
@@ -84,7 +89,7 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
       .time_left = over ? 0 : time_left(all, due, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
       .replicas = all->n,
   };
-  pthread_mutex_lock(&all->lock); /* of those who share the work, some may ask just now whether to stop */
+  pthread_mutex_lock(&all->lock); /* tasks may just now call the hook that stops the run */
   all->hooks->progress(all->hooks->context, &p);
   pthread_mutex_unlock(&all->lock);
 }

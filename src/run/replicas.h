@@ -3,11 +3,8 @@
 #ifndef GG_REPLICAS_H
 #define GG_REPLICAS_H
 
-#include <pthread.h>
-#include <stdatomic.h>
-
 #include "run/progress_estimate.h"
-#include "run/replica.h"
+#include "run/scheduler.h"
 
 typedef struct gg_plan {        /* what is asked, settled before the run; in samples of each replica */
   uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; asked length, 0: until the error */
@@ -39,22 +36,23 @@ typedef struct gg_replicas {
   gg_scene scene;
   gg_model model;
   gg_plan plan;
-  int threads, n;
+  int n;
   gg_replica *replica; /* n of them */
   const gg_hooks *hooks;
-  struct gg_share *share;    /* of other processes' work (workers/workers.h); NULL: threads do it */
-  pthread_mutex_t lock;      /* one replica at a time calls a hook */
-  gg_stop stop;              /* what the model's points to (cancel.c) */
-  _Atomic int stopped;       /* GG_GOES_ON ... */
-  _Atomic bool pausing;      /* all stop where they are, to go on later */
-  struct gg_replicas_state { /* plain data: saved as bytes */
-    int64_t averaging;       /* 0: warm-up */
-    uint64_t due;            /* samples that every replica is to have taken */
-    uint64_t window_at;      /* samples when the window was opened */
-    uint64_t goal;           /* samples at which the window is tested next */
-    uint64_t restarts;       /* windows given up for a trend */
-    int64_t exact;           /* at the last test, errors were as small as asked */
-    double wall;             /* seconds used before this process */
+  gg_hooks task_hooks;                            /* those that tasks call */
+  gg_run_tasks tasks;                             /* one a replica */
+  gg_run_scheduler *own_scheduler;                /* NULL: the hooks have one */
+  pthread_mutex_t lock;                           /* one thread at a time calls a hook */
+  gg_stop stop;                                   /* what the model's points to */
+  _Atomic int stopped;                            /* GG_GOES_ON ... */
+  struct gg_replicas_state {                      /* plain data: saved as bytes */
+    int64_t averaging;                            /* 0: warm-up */
+    uint64_t due;                                 /* samples that every replica is to have taken */
+    uint64_t window_at;                           /* samples when the window was opened */
+    uint64_t goal;                                /* samples at which the window is tested next */
+    uint64_t restarts;                            /* windows given up for a trend */
+    int64_t exact;                                /* at the last test, errors were as small as asked */
+    double wall;                                  /* seconds used before this process */
     uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began (arrest.c) */
     double standstill; /* share of contacts that last, if there was little else; 0: the grains move */
   } state;
@@ -96,29 +94,26 @@ uint64_t gg_run_criteria_next_test(const gg_plan *plan, uint64_t restarts, const
  * in one unit, over all replicas. */
 double gg_run_criteria_margin(const gg_plan *plan, double correlation, double window);
 
+/* replicas_advance.c: create them, or restore them from `resume`, with the scheduler of the hooks, or else one of
+ * `threads`. They are the caller's to clear if this succeeds. */
 gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                                  const gg_hooks *hooks, gg_error *err);
 void gg_run_replicas_clear(gg_replicas *all);
-/* Every replica, on the threads or processes that there are, takes samples until it has `due` of them; the latter may
- * stop before, where a checkpoint is due. */
+/* Every replica takes samples until it has `due` of them; GG_OK before that where several processes pause for a
+ * checkpoint. */
 gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err);
 
 /* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
 gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err);
-bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all);
-/* progress.c: tell the caller's hook, if there is one; `over`: the run is. */
+/* progress.c: report to the caller's hook, if there is one; `over`: the run is. */
 void gg_run_replicas_report_progress(gg_replicas *all, bool over);
+bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all);
 /* Has every replica all->state.due samples? Where a run was stopped, some may not. */
 bool gg_run_replicas_are_level(const gg_replicas *all);
 /* Samples that every replica has, of those that it is to have. */
 uint64_t gg_run_replicas_least(const gg_replicas *all);
 /* Of a run that is over: forget the samples that not every replica has, so that what there is can be reported. */
 void gg_run_replicas_level(gg_replicas *all);
-
-/* cancel.c: from now on whoever works for these replicas looks whether the caller's hook or the time limit ask to
- * stop; and the end of that. */
-void gg_run_replicas_watch(gg_replicas *all);
-void gg_run_replicas_unwatch(gg_replicas *all);
 
 /* convergence.c: how exact the means over the window are, and whether it is steady. */
 gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *convergence, gg_error *err);

@@ -5,7 +5,7 @@
 #include "run/result.h"
 #include "theory/theory_list.h"
 
-typedef struct gg_crew gg_crew; /* run/scheduler.h */
+typedef struct gg_run_scheduler gg_run_scheduler; /* run/scheduler.h */
 
 /* What the caller wants to be told while it runs; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
@@ -18,10 +18,9 @@ typedef struct gg_hooks {
   /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole,
    * with all frames that came before. Items may be added. */
   gg_status (*checkpoint)(void *context, gg_archive *archive, gg_error *err);
-  gg_crew *crew;       /* threads of several runs, of which this one is a course (scheduler.h); NULL: its own */
-  gg_workers *workers; /* other processes that share the replicas, with threads of their own; borrowed */
-  const gg_model
-      *model; /* of the scene and its engine, where the caller has made it: a run that resumes makes its own */
+  gg_run_scheduler *scheduler; /* shared with other runs, borrowed; NULL: one of its own */
+  gg_workers *workers;         /* other processes that share the replicas, with a scheduler of their own; borrowed */
+  const gg_model *model;       /* made by the caller; NULL, or a run that resumes: made here */
 } gg_hooks;
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side

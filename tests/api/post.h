@@ -9,7 +9,7 @@
 
 #include "door_test.h"
 
-enum { MOST_RANKS = 4 };
+enum { MOST_RANKS = 70 };
 
 typedef struct letter {
   int from;
@@ -99,7 +99,7 @@ static inline void *post_work(void *argument)
 {
   struct desk *d = argument;
   gg_error err;
-  d->post->ended[d->rank] = gg_work(&d->post->end[d->rank], &err);
+  d->post->ended[d->rank] = gg_worker_run(&d->post->end[d->rank], &err);
   return NULL;
 }
 

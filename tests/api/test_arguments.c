@@ -378,15 +378,15 @@ static void messages(void **state)
   gg_error err;
   gg_workers *w = NULL;
   gg_messages m = {.rank = 0, .size = 2, .send = nothing_sent, .receive = nothing_comes};
-  assert_refused(gg_work(NULL, &err), "gg_work: messages of a rank above 0");
-  assert_refused(gg_work(&m, &err), "gg_work: messages of a rank above 0");
+  assert_refused(gg_worker_run(NULL, &err), "gg_worker_run: messages of a rank above 0");
+  assert_refused(gg_worker_run(&m, &err), "gg_worker_run: messages of a rank above 0");
   assert_refused(gg_workers_new(NULL, 1, &w, &err), "gg_workers_new: messages of rank 0");
   assert_refused(gg_workers_new(&m, 1, NULL, &err), "gg_workers_new: messages of rank 0");
   m.rank = 1;
   assert_refused(gg_workers_new(&m, 1, &w, &err), "gg_workers_new: messages of rank 0");
-  assert_int_equal(gg_work(&m, &err), GG_FAILED); /* rank 0 is gone */
+  assert_int_equal(gg_worker_run(&m, &err), GG_FAILED); /* rank 0 is gone */
   m.receive = NULL;
-  assert_refused(gg_work(&m, &err), "gg_work: messages of a rank above 0");
+  assert_refused(gg_worker_run(&m, &err), "gg_worker_run: messages of a rank above 0");
   m.rank = 0;
   assert_refused(gg_workers_new(&m, 1, &w, &err), "gg_workers_new: messages of rank 0");
   assert_null(w);

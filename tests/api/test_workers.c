@@ -1,5 +1,6 @@
 /* Replicas shared by several processes: the bits are those of one process, whoever works, whoever is lost on the way,
- * and wherever a run is stopped and resumed. Here the processes are threads with a post of their own. */
+ * wherever a run is stopped and resumed, and for any number of threads and ranks. Here the processes are threads with a
+ * post of their own. */
 #include "post.h"
 
 static const char *const scenes[] = {
@@ -62,7 +63,7 @@ static void same_bits(void **state)
   for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
     gg_scene *scene = scene_of(scenes[i]);
     gg_result *one = alone(scene);
-    for (int ranks = 2; ranks <= MOST_RANKS; ranks += 2) {
+    for (int ranks = 2; ranks <= 4; ranks += 2) {
       post p = {0};
       gg_result *several = NULL;
       gg_status status = run(&p, ranks, ranks == 2 ? 2 : 1, scene, (gg_run_options){0}, &several);
@@ -74,6 +75,31 @@ static void same_bits(void **state)
     gg_result_free(one);
     gg_scene_free(scene);
   }
+}
+
+/* 80 replicas, by so many threads or ranks. */
+static void any_number(void **state)
+{
+  (void)state;
+  gg_error err;
+  const int numbers[] = {2, 3, MOST_RANKS};
+  gg_scene *scene = scene_of("{flow: hcs, engine: dsmc, phi: 0.1, dsmc: {particles: 100}, "
+                             "run: {collisions: 60, replicas: 80}}");
+  gg_result *one = alone(scene);
+  for (int k = 0; k < 3; k++) {
+    post p = {0};
+    gg_result *threads = NULL, *ranks = NULL;
+    gg_status status = gg_run(scene, &(gg_run_options){.threads = numbers[k]}, &threads, &err);
+    assert_true(status == GG_OK || status == GG_FAILED);
+    assert_same(one, threads);
+    assert_int_equal(run(&p, numbers[k], 1, scene, (gg_run_options){0}, &ranks), status);
+    assert_same(one, ranks);
+    for (int i = 1; i < numbers[k]; i++) assert_true(p.sent[i] > 1); /* each had a replica */
+    gg_result_free(threads);
+    gg_result_free(ranks);
+  }
+  gg_result_free(one);
+  gg_scene_free(scene);
 }
 
 /* Rank 1 is lost as it says hello, as it hands over a replica that it made, at the end of the warm-up, and later. */
@@ -315,6 +341,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(same_bits),
+      cmocka_unit_test(any_number),
       cmocka_unit_test(lost),
       cmocka_unit_test(resumed),
       cmocka_unit_test(checkpoints_on_the_way),

@@ -1,6 +1,6 @@
-/* Messages between the processes that mpirun (or srun) started, for gg_workers_new and gg_work. Of the command alone:
- * the library knows no MPI. One file with it (over_mpi.c), one that stands in where the program was built without
- * (without_mpi.c). */
+/* Messages between the processes that mpirun (or srun) started, for gg_workers_new and gg_worker_run. Of the command
+ * alone: the library knows no MPI. One file with it (over_mpi.c), one that stands in where the program was built
+ * without (without_mpi.c). */
 #ifndef GG_MPI_H
 #define GG_MPI_H
 

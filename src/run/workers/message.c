@@ -4,14 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "run/replica.h"
-
 static size_t padded(size_t n)
 {
   return (n + 7) & ~(size_t)7;
 }
 
-void *gg_run_message_pack(const gg_message *head, const void *bytes, size_t n, size_t *size)
+void *gg_run_message_pack(const gg_run_message *head, const void *bytes, size_t n, size_t *size)
 {
   *size = sizeof *head + n;
   char *block = malloc(*size);
@@ -27,7 +25,7 @@ static size_t bytes_of(const gg_item *item)
 }
 
 /* Item after item: the item's own struct (its pointer means nothing there), then its data. */
-void *gg_run_message_pack_archive(const gg_message *head, const gg_archive *a, size_t *size)
+void *gg_run_message_pack_archive(const gg_run_message *head, const gg_archive *a, size_t *size)
 {
   *size = sizeof *head;
   for (size_t i = 0; i < a->n_items; i++) *size += sizeof *a->items + padded(bytes_of(&a->items[i]));
@@ -42,7 +40,7 @@ void *gg_run_message_pack_archive(const gg_message *head, const gg_archive *a, s
   return block;
 }
 
-bool gg_run_message_read(const void *block, size_t size, gg_message *head)
+bool gg_run_message_read(const void *block, size_t size, gg_run_message *head)
 {
   if (size < sizeof *head) return false;
   memcpy(head, block, sizeof *head);
@@ -56,7 +54,7 @@ static gg_status broken(gg_error *err)
 
 gg_status gg_run_message_archive(const void *block, size_t size, gg_archive *archive, gg_error *err)
 {
-  const char *at = (const char *)block + sizeof(gg_message), *end = (const char *)block + size;
+  const char *at = (const char *)block + sizeof(gg_run_message), *end = (const char *)block + size;
   while (at < end) {
     gg_item item;
     if ((size_t)(end - at) < sizeof item) return broken(err);
@@ -72,8 +70,8 @@ gg_status gg_run_message_archive(const void *block, size_t size, gg_archive *arc
 
 gg_status gg_run_message_scene(const void *block, size_t size, gg_scene *scene, gg_error *err)
 {
-  if (size != sizeof(gg_message) + sizeof *scene) return broken(err);
-  memcpy(scene, (const char *)block + sizeof(gg_message), sizeof *scene);
+  if (size != sizeof(gg_run_message) + sizeof *scene) return broken(err);
+  memcpy(scene, (const char *)block + sizeof(gg_run_message), sizeof *scene);
   scene->extension = NULL;
   return GG_OK;
 }
@@ -81,5 +79,11 @@ gg_status gg_run_message_scene(const void *block, size_t size, gg_scene *scene, 
 void gg_run_message_build(char *text, size_t size)
 {
   snprintf(text, size, "%s, %zu %zu %zu", GG_VERSION, sizeof(gg_scene), sizeof(struct gg_replica_clock),
-           sizeof(gg_message));
+           sizeof(gg_run_message));
+}
+
+int gg_run_message_nap(int last, bool any)
+{
+  enum { LEAST = 20, MOST = 1000 };
+  return any || last < LEAST ? LEAST : last < MOST ? last + last / 4 + 1 : MOST;
 }

@@ -1,51 +1,49 @@
-/* What processes that share the replicas of a run say to each other: a head, the same for all, and perhaps bytes behind
- * it. Both ends are the same program (hello), so that structs go as they are. */
-#ifndef GG_MESSAGE_H
-#define GG_MESSAGE_H
+/* Messages between processes that share the replicas of runs: a head, the same for all, and perhaps bytes after it.
+ * Both ends are the same program (GG_MESSAGE_REGISTER), so that structs go as they are. */
+#ifndef GG_RUN_WORKERS_MESSAGE_H
+#define GG_RUN_WORKERS_MESSAGE_H
 
 #include "base/archive.h"
-#include "common/scene.h"
+#include "run/scheduler.h"
 
-typedef enum gg_message_kind {
+typedef enum gg_run_message_kind {
   /* To rank 0. */
-  GG_HELLO, /* I am there; error.message: what I was built from */
-  GG_NEWS,  /* how far a piece of work is; also: I still live */
-  GG_DONE,  /* a piece of work is over, with what status; behind it the replica's archive, if there is a replica */
+  GG_MESSAGE_REGISTER, /* a worker is ready; error.message: what it was built from */
+  GG_MESSAGE_STATUS,   /* how far a task is; also: the worker is alive */
+  GG_MESSAGE_DONE,     /* a task is over, with its status; then the replica's archive, if there is a replica */
   /* To the others. */
-  GG_SCENE,  /* a new run; behind it the scene */
-  GG_WORK,   /* let a replica take samples until it has `due`; behind it its archive, if it comes from elsewhere */
-  GG_STOP,   /* end all pieces of a run where they are */
-  GG_FORGET, /* a run is over */
-  GG_LEAVE,  /* so is everything */
+  GG_MESSAGE_SCENE,    /* a new run; then its scene */
+  GG_MESSAGE_TASK,     /* a task; then the replica's archive, if it comes from elsewhere */
+  GG_MESSAGE_STOP,     /* tasks of a run end where they are */
+  GG_MESSAGE_END,      /* of a run */
+  GG_MESSAGE_SHUTDOWN, /* of all */
   GG_MESSAGE_KINDS
-} gg_message_kind;
+} gg_run_message_kind;
 
-/* Where a replica comes from: made anew, out of the archive behind the message, or who gets it still has it. */
-typedef enum gg_origin { GG_ANEW, GG_BY_ARCHIVE, GG_STILL_THERE } gg_origin;
+/* Where a replica comes from: it is created, it is in the archive after the message, or the rank still has it. */
+typedef enum gg_run_origin { GG_ORIGIN_NEW, GG_ORIGIN_ARCHIVE, GG_ORIGIN_THERE } gg_run_origin;
 
-typedef struct gg_replica_news {
-  uint64_t samples;
-  double collisions_per_grain, cpu;
-} gg_replica_news;
-
-typedef struct gg_message {
-  int64_t kind, run, replica, piece; /* piece: number of a piece of work; each is told apart from those before */
+typedef struct gg_run_message {
+  int64_t kind, run, replica, task; /* task: its number, which no other has */
   int64_t origin, adapt, threads, status;
-  double urgency; /* of the work: the relative error of its run */
+  double priority;
   uint64_t due;
-  gg_replica_news news;
+  gg_run_task_status reached;
   gg_error error;
-} gg_message;
+} gg_run_message;
 
-/* Message and bytes behind it in one block of memory, the caller's to free; NULL: out of memory. */
-void *gg_run_message_pack(const gg_message *head, const void *bytes, size_t n, size_t *size);
-void *gg_run_message_pack_archive(const gg_message *head, const gg_archive *archive, size_t *size);
-/* False: it is none. */
-bool gg_run_message_read(const void *block, size_t size, gg_message *head);
+/* Message and bytes after it in one block of memory, the caller's to free; NULL: out of memory. */
+void *gg_run_message_pack(const gg_run_message *head, const void *bytes, size_t n, size_t *size);
+void *gg_run_message_pack_archive(const gg_run_message *head, const gg_archive *archive, size_t *size);
+/* False: the block is no message. */
+bool gg_run_message_read(const void *block, size_t size, gg_run_message *head);
 gg_status gg_run_message_archive(const void *block, size_t size, gg_archive *archive, gg_error *err);
 gg_status gg_run_message_scene(const void *block, size_t size, gg_scene *scene, gg_error *err);
 
 /* What this program was built from, as far as the other end has to agree. */
 void gg_run_message_build(char *text, size_t size);
+
+/* A message travels by polling: microseconds of sleep until the next poll, short while messages come. */
+int gg_run_message_nap(int last, bool any);
 
 #endif

@@ -1,54 +1,52 @@
-/* The other end: a process that works for rank 0. It answers messages; pieces of work are done by threads. */
-#include <stdio.h>
+/* The worker loop: a process other than rank 0 takes tasks from its messages, gives them to its own scheduler, and
+ * answers. */
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
 #include "run/start_model.h"
-#include "run/workers/task.h"
+#include "run/workers/message.h"
 
-/* Seconds between news of what is at work, and looks at whether rank 0 lives; microseconds of sleep between looks at
- * the post. */
-static const double news_every = 0.5;
-enum { LEAST_NAP = 20, MOST_NAP = 1000 };
+/* Seconds between reports of what is under way, and checks whether rank 0 lives. */
+static const double status_every = 0.5;
 
-typedef struct task { /* one replica of a run */
-  gg_replica replica;
-  gg_job job;
-  gg_message work; /* what was asked */
-  bool busy;
-} task;
+typedef struct pending {  /* a replica of a run */
+  gg_run_message message; /* its latest task */
+  bool busy;              /* which is not answered */
+} pending;
 
 typedef struct served { /* a run */
   int64_t run;
   gg_scene scene;
   gg_model model;
   gg_stop stop;
-  atomic_bool stopped;
   gg_status status; /* of its model */
   gg_error err;
-  task *task; /* one a replica */
+  gg_replica *replica; /* n of them, as of the others */
+  pending *pending;
+  int n;
+  gg_run_tasks tasks;
   struct served *next;
 } served;
 
 typedef struct server {
   const gg_messages *messages;
+  gg_run_scheduler *scheduler;
   served *runs;
-  gg_gate gate;
-  bool has_gate, left;
-  double told;
+  bool over;
+  double reported;
 } server;
 
-static bool asked(void *context)
+static bool is_stopped(void *context)
 {
   served *r = context;
-  return atomic_load(&r->stopped);
+  return atomic_load(&r->tasks.stopping);
 }
 
 static void send(server *s, void *block, size_t size)
 {
-  if (block && s->messages->send(s->messages->context, 0, block, size) != 0) s->left = true;
+  if (block && s->messages->send(s->messages->context, 0, block, size) != 0) s->over = true;
 }
 
 static served *find(const server *s, int64_t run)
@@ -58,195 +56,193 @@ static served *find(const server *s, int64_t run)
   return r;
 }
 
-/* A process has as many processors as rank 0 says. */
-static void note_processors(server *s, int64_t threads)
+static gg_status make_model(served *r, const void *block, size_t size)
 {
-  if (!s->has_gate) gg_run_gate_init(&s->gate, threads > 1 ? (int)threads : 1);
-  s->has_gate = true;
+  GG_TRY(gg_run_message_scene(block, size, &r->scene, &r->err));
+  GG_TRY(gg_common_model_make(&r->scene, r->scene.engine, &r->model, &r->err));
+  r->stop = (gg_stop){is_stopped, r};
+  r->model.stop = &r->stop;
+  return r->scene.temperature == GG_AUTO ? gg_run_start_near_steady(&r->model, &r->err) : GG_OK;
 }
 
-static gg_status begin(server *s, const gg_message *m, const void *block, size_t size, gg_error *err)
+static gg_status begin(server *s, const gg_run_message *m, const void *block, size_t size, gg_error *err)
 {
+  if (!s->scheduler) GG_TRY(gg_run_scheduler_new((int)m->threads, true, &s->scheduler, err));
   served *r = gg_base_array_new(1, sizeof *r, err);
   if (!r) return GG_FAILED;
-  note_processors(s, m->threads);
   r->run = m->run;
   r->next = s->runs, s->runs = r;
-  atomic_init(&r->stopped, false);
-  r->status = gg_run_message_scene(block, size, &r->scene, &r->err);
-  if (r->status == GG_OK) r->status = gg_common_model_make(&r->scene, r->scene.engine, &r->model, &r->err);
-  if (r->status == GG_OK && r->scene.temperature == GG_AUTO) r->status = gg_run_start_near_steady(&r->model, &r->err);
-  r->stop = (gg_stop){asked, r};
-  r->model.stop = &r->stop;
-  r->task = gg_base_array_new((size_t)r->scene.run.replicas, sizeof *r->task, err);
-  return r->task ? GG_OK : GG_FAILED;
+  r->status = make_model(r, block, size);
+  r->n = (int)r->scene.run.replicas;
+  r->replica = gg_base_array_new((size_t)r->n, sizeof *r->replica, err);
+  r->pending = gg_base_array_new((size_t)r->n, sizeof *r->pending, err);
+  if (!r->replica || !r->pending) return GG_FAILED;
+  r->tasks = (gg_run_tasks){.scene = &r->scene, .model = &r->model};
+  return gg_run_tasks_open(&r->tasks, s->scheduler, r->replica, r->n, 0, err);
 }
 
-static void answer(server *s, task *t, gg_status status, const gg_error *why)
+static void answer(server *s, served *r, int i, gg_status status, const gg_error *why)
 {
-  gg_message m = t->work;
+  const gg_run_task *t = &r->tasks.task[i];
+  gg_run_message m = r->pending[i].message;
   gg_archive archive = {0};
   size_t size;
-  m.kind = GG_DONE;
+  m.kind = GG_MESSAGE_DONE;
   m.error = *why;
-  bool whole = status == GG_OK || status == GG_INTERRUPTED;
-  if (whole && t->replica.engine) {
-    gg_status saved = gg_run_replica_save(&t->replica, &archive, &m.error);
+  m.reached = gg_run_task_get_status(t);
+  if ((status == GG_OK || status == GG_INTERRUPTED) && t->replica->engine) {
+    gg_status saved = gg_run_replica_save(t->replica, &archive, &m.error);
     if (saved != GG_OK) status = saved;
-    m.news = gg_run_job_news(&t->job);
   }
   m.status = status;
+  r->pending[i].busy = false;
   void *block = gg_run_message_pack_archive(&m, &archive, &size);
   gg_base_archive_clear(&archive);
-  if (!block) s->left = true; /* who cannot answer goes, so that nobody waits for it: others do it again */
+  if (!block) s->over = true; /* it ends, so that nobody waits for the answer: others do the task again */
   send(s, block, size);
 }
 
-/* The replica as rank 0 wants it gone on with. */
-static gg_status get_ready(served *r, task *t, const void *block, size_t size, gg_error *err)
+/* The replica with which the task begins. */
+static gg_status get_ready(served *r, const gg_run_message *m, const void *block, size_t size, gg_error *err)
 {
-  if (t->work.origin == GG_STILL_THERE) return GG_OK;
+  gg_replica *replica = &r->replica[m->replica];
   gg_archive archive = {0};
-  gg_run_replica_clear(&t->replica);
-  if (t->work.origin == GG_ANEW) return GG_OK;
+  if (m->origin == GG_ORIGIN_THERE) return GG_OK;
+  gg_run_replica_clear(replica);
+  if (m->origin == GG_ORIGIN_NEW) return GG_OK;
   gg_status status = gg_run_message_archive(block, size, &archive, err);
-  if (status == GG_OK)
-    status = gg_run_replica_restore(&t->replica, &archive, &r->scene, &r->model, (int)t->work.replica, err);
+  if (status == GG_OK) status = gg_run_replica_restore(replica, &archive, &r->scene, &r->model, (int)m->replica, err);
   gg_base_archive_clear(&archive);
   return status;
 }
 
-static void work(server *s, const gg_message *m, const void *block, size_t size)
+static void start_task(server *s, const gg_run_message *m, const void *block, size_t size)
 {
   served *r = find(s, m->run);
-  if (!r || !r->task || m->replica < 0 || m->replica >= r->scene.run.replicas) return;
-  task *t = &r->task[m->replica];
-  gg_error err = {0};
-  t->work = *m;
-  atomic_store(&r->stopped, false);
-  gg_status status = r->status;
-  if (status == GG_OK)
-    status = get_ready(r, t, block, size, &err);
-  else
-    err = r->err;
+  if (!r || m->replica < 0 || m->replica >= r->n) return;
+  const int i = (int)m->replica;
+  gg_run_task *t = &r->tasks.task[i];
+  gg_error err = r->err;
+  r->pending[i] = (pending){*m, true};
+  atomic_store(&r->tasks.stopping, false);
+  gg_status status = r->status == GG_OK ? get_ready(r, m, block, size, &err) : r->status;
   if (status != GG_OK) {
-    answer(s, t, status, &err);
+    answer(s, r, i, status, &err);
     return;
   }
-  t->job = (gg_job){.replica = &t->replica,
-                    .scene = &r->scene,
-                    .model = &r->model,
-                    .index = (int)m->replica,
-                    .threads = m->origin == GG_STILL_THERE ? 0 : (int)m->threads,
-                    .due = m->due,
-                    .adapt = m->adapt,
-                    .gate = &s->gate,
-                    .urgency = m->urgency};
-  t->busy = true;
-  gg_run_job_start(&t->job);
+  t->threads = m->origin == GG_ORIGIN_THERE ? 0 : (int)m->threads;
+  t->due = m->due, t->adapt = m->adapt, t->priority = m->priority;
+  gg_run_task_update(t);
+  gg_run_task_submit(t);
 }
 
 static void end(server *s, served *r)
 {
-  atomic_store(&r->stopped, true);
-  for (int64_t i = 0; r->task && i < r->scene.run.replicas; i++) {
-    if (r->task[i].busy) gg_run_job_finish(&r->task[i].job);
-    gg_run_replica_clear(&r->task[i].replica);
+  if (r->tasks.task) {
+    gg_run_stop(&r->tasks);
+    while (!gg_run_wait(&r->tasks)) {
+    }
   }
+  gg_run_tasks_close(&r->tasks);
+  for (int i = 0; r->replica && i < r->n; i++) gg_run_replica_clear(&r->replica[i]);
   served **at = &s->runs;
   while (*at != r) at = &(*at)->next;
   *at = r->next;
-  free(r->task), free(r);
+  free(r->replica), free(r->pending), free(r);
 }
 
 static gg_status take(server *s, const void *block, size_t size, gg_error *err)
 {
-  gg_message m;
+  gg_run_message m;
   if (!gg_run_message_read(block, size, &m))
     return gg_base_fail(err, GG_FAILED, "a message from rank 0 arrived broken");
   served *r = find(s, m.run);
-  if (m.kind == GG_SCENE) return begin(s, &m, block, size, err);
-  if (m.kind == GG_WORK) work(s, &m, block, size);
-  if (m.kind == GG_STOP && r) atomic_store(&r->stopped, true);
-  if (m.kind == GG_FORGET && r) end(s, r);
-  if (m.kind == GG_LEAVE) s->left = true;
+  switch (m.kind) {
+  case GG_MESSAGE_SCENE: return begin(s, &m, block, size, err);
+  case GG_MESSAGE_TASK: start_task(s, &m, block, size); break;
+  case GG_MESSAGE_STOP:
+    if (r) gg_run_stop(&r->tasks);
+    break;
+  case GG_MESSAGE_END:
+    if (r) end(s, r);
+    break;
+  case GG_MESSAGE_SHUTDOWN: s->over = true; break;
+  default: break;
+  }
   return GG_OK;
 }
 
-static void tell_news(server *s, const task *t)
+static void report(server *s, const served *r, int i)
 {
-  gg_message m = t->work;
+  gg_run_message m = r->pending[i].message;
   size_t size;
-  m.kind = GG_NEWS;
-  m.news = gg_run_job_news(&t->job);
+  m.kind = GG_MESSAGE_STATUS;
+  m.reached = gg_run_task_get_status(&r->tasks.task[i]);
   void *block = gg_run_message_pack(&m, NULL, 0, &size);
   send(s, block, size);
 }
 
-/* What is over is answered; of the rest, news now and then. True if something was over. */
-static bool look_after(server *s)
+/* Answers tasks that are over; reports the others now and then. True: one was over. */
+static bool look_after(server *s, bool reports)
 {
-  double now = gg_base_clock_wall();
-  bool tells = now > s->told + news_every, any = false;
+  bool any = false;
   for (served *r = s->runs; r; r = r->next)
-    for (int64_t i = 0; i < r->scene.run.replicas; i++) {
-      task *t = &r->task[i];
-      if (t->busy && atomic_load(&t->job.over)) {
-        gg_run_job_finish(&t->job);
-        t->busy = false, any = true;
-        answer(s, t, t->job.status, &t->job.err);
-      } else if (t->busy && tells) {
-        tell_news(s, t);
-      }
+    for (int i = 0; i < r->n; i++) {
+      const gg_run_task *t = &r->tasks.task[i];
+      if (r->pending[i].busy && atomic_load(&t->over))
+        any = true, answer(s, r, i, t->status, &t->err);
+      else if (r->pending[i].busy && reports)
+        report(s, r, i);
     }
-  if (tells) s->told = now;
   return any;
 }
 
-/* True: there was something to do. */
+/* *any: there was something to do. */
 static gg_status once(server *s, bool *any, gg_error *err)
 {
   int from, got;
   void *block;
   size_t size;
   *any = false;
-  while (!s->left && (got = s->messages->receive(s->messages->context, &from, &block, &size)) != 0) {
+  while (!s->over && (got = s->messages->receive(s->messages->context, &from, &block, &size)) != 0) {
     *any = true;
     if (got < 0) return gg_base_fail(err, GG_FAILED, "rank 0 cannot be reached");
     gg_status status = take(s, block, size, err);
     free(block);
     GG_TRY(status);
   }
-  double told = s->told;
-  *any |= look_after(s);
-  bool alone = s->told != told && s->messages->lost && s->messages->lost(s->messages->context, 0);
+  const bool reports = gg_base_clock_wall() > s->reported + status_every;
+  *any |= look_after(s, reports);
+  if (!reports) return GG_OK;
+  s->reported = gg_base_clock_wall();
+  bool alone = s->messages->lost && s->messages->lost(s->messages->context, 0);
   return alone ? gg_base_fail(err, GG_FAILED, "rank 0 is gone") : GG_OK;
 }
 
-static void say_hello(server *s)
+static void say_ready(server *s)
 {
-  gg_message hello = {.kind = GG_HELLO};
+  gg_run_message m = {.kind = GG_MESSAGE_REGISTER};
   size_t size;
-  gg_run_message_build(hello.error.message, sizeof hello.error.message);
-  void *block = gg_run_message_pack(&hello, NULL, 0, &size);
+  gg_run_message_build(m.error.message, sizeof m.error.message);
+  void *block = gg_run_message_pack(&m, NULL, 0, &size);
   send(s, block, size);
 }
 
-gg_status gg_work(const gg_messages *messages, gg_error *err)
+gg_status gg_worker_run(const gg_messages *messages, gg_error *err)
 {
   if (!messages || !messages->send || !messages->receive || messages->rank < 1)
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_work: messages of a rank above 0, with send and receive, are needed");
-  server s = {.messages = messages, .told = gg_base_clock_wall()};
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "gg_worker_run: messages of a rank above 0, with send and receive, are needed");
+  server s = {.messages = messages, .reported = gg_base_clock_wall()};
   gg_status status = GG_OK;
-  int nap = LEAST_NAP;
-  say_hello(&s);
-  while (status == GG_OK && !s.left) {
-    bool any;
+  bool any = true;
+  say_ready(&s);
+  for (int nap = 0; status == GG_OK && !s.over;) {
     status = once(&s, &any, err);
-    nap = any ? LEAST_NAP : nap < MOST_NAP ? nap + nap / 4 + 1 : MOST_NAP;
+    nap = gg_run_message_nap(nap, any);
     if (!any) usleep((useconds_t)nap);
   }
   while (s.runs) end(&s, s.runs);
-  if (s.has_gate) gg_run_gate_clear(&s.gate);
+  gg_run_scheduler_free(s.scheduler);
   return status;
 }
