@@ -11,7 +11,7 @@
 #include "common/engine.h"
 #include "files/h5/checkpoint_file.h"
 #include "run/scheduler.h"
-#include "scene/ineffective_keys.h"
+#include "scene/fields.h"
 
 static void hear_progress(void *context, const gg_progress *progress)
 {
@@ -163,7 +163,7 @@ gg_status gg_api_run_status(gg_status run, gg_status written, const gg_error *wh
 
 void gg_api_run_estimate(gg_door_run *r, unsigned uses)
 {
-  gg_scene_inert(&r->scene, uses, &r->warnings);
+  gg_scene_ineffective_keys(&r->scene, uses, &r->warnings);
   for (size_t i = 0; i < r->warnings.n && r->options.warn; i++)
     r->options.warn(r->options.context, r->warnings.text[i]);
 }

@@ -6,7 +6,7 @@
 #include "files/curve_table.h"
 #include "files/result_document.h"
 #include "run/z_scores.h"
-#include "scene/scene_json.h"
+#include "scene/fields.h"
 
 static json_t *warnings_json(const gg_comparison *c)
 {

@@ -10,7 +10,7 @@
 #include "run/scheduler.h"
 #include "run/start_model.h"
 #include "run/workers/workers.h"
-#include "scene/resumption.h"
+#include "scene/fields.h"
 
 static gg_status create_replicas(gg_replicas *all, gg_error *err)
 {
