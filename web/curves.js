@@ -71,7 +71,7 @@ function temperatureChart(figure, history, means, values) {
   const line = (name, label, colour, dash) => ({ ...history.course(name), label, colour, dash });
   const drawn = [line("T", `${t("md")}: T`, MD), line("T2", `${t("dsmc")}: T`, DSMC)];
   if (rough) drawn.push(line("theta", `${t("md")}: θ`, MD, "4 3"), line("theta2", `${t("dsmc")}: θ`, DSMC, "4 3"));
-  const series = drawn.filter((one) => one.x.length || history instanceof Past),
+  const series = drawn.filter((one) => one.x.length || history instanceof TemperatureHistory),
     x = series.flatMap((one) => one.x).sort((a, b) => a - b);
   if (means && x.length) series.push(...(cooling ? coolingLines(means, x) : steadyLines(means, x, rough)));
   if (history.now > 0) series.push(nowLine(history.now, series));

@@ -1,10 +1,10 @@
-/* How the temperatures of the gas that is seen went. */
+/* The history of the temperatures of the live simulation. */
 
 /* Monte Carlo that has not come to md's time, or stopped before it: what it shows is of another time. */
 const isLate = (dsmc, md) => !!dsmc && !!md && dsmc.time < md.time * (1 - 1e-9);
 
-/* Points of the past, ever fewer of the older ones: a bounded memory. Cooling gases are seen on logarithmic axes. */
-class Past {
+/* Points of the history, ever fewer of the older ones: a bounded memory. Cooling gases have logarithmic axes. */
+class TemperatureHistory {
   constructor(logarithmic) {
     this.rows = [];
     this.gap = 0.02;
@@ -35,8 +35,8 @@ class Past {
   }
 }
 
-/* Of a result, which tells it by time; up to where it is played a line stands across. */
-class StoredPast {
+/* Of a stored result, over time; a line marks the frame that is played. */
+class StoredHistory {
   constructor(logarithmic, courses = {}) {
     this.logarithmic = logarithmic;
     this.courses = courses;

@@ -39,8 +39,8 @@ async function wasmBytes() {
 async function openWorkers() {
   const bytes = await wasmBytes(),
     source = URL.createObjectURL(new Blob([byId("worker").textContent], { type: "text/javascript" }));
-  page.live = new Helper(source);
-  page.measure = new Helper(source);
+  page.live = new WorkerClient(source);
+  page.measure = new WorkerClient(source);
   page.measure.onmeans = takeMeans;
   const answers = await Promise.all([
     page.live.ask("open", { wasm: bytes }),
@@ -55,7 +55,7 @@ function givenScene() {
 }
 
 async function begin() {
-  const link = readLink();
+  const link = readUrlState();
   language = LANGUAGES.includes(link.language) ? LANGUAGES.indexOf(link.language) : ownLanguage();
   page.view = new BoxView(byId("box"));
   page.controls = new Controls(byId("control-rows"), changeKey, wantedValues);
@@ -127,10 +127,10 @@ async function start(scene, sets, { keepMessage = false, lesson } = {}) {
     lost: 0,
     behind: 0,
   });
-  page.history = new Past(answer.about.values.flow === "hcs");
+  page.history = new TemperatureHistory(answer.about.values.flow === "hcs");
   if (lesson !== undefined) showLessonOf(lesson);
   showGas();
-  writeLink(page);
+  writeUrlState(page);
   page.wantFrame = true;
   byId("progress").textContent = t("waiting");
   askMeans();
@@ -147,7 +147,7 @@ function showGas() {
   byId("title").textContent = title;
   byId("event").textContent = "";
   document.title = `${title} – graingas`;
-  page.noticed = null;
+  page.shownWarnings = null;
   page.said = -Infinity; /* with its first frame */
   showPlaying();
   showCharts();
@@ -252,7 +252,7 @@ function listen() {
   on("copy-link", copyLink);
   listenForFiles();
   window.addEventListener("hashchange", () => {
-    const link = readLink();
+    const link = readUrlState();
     if (LANGUAGES.includes(link.language)) speak(link.language);
     follow(link);
   });
@@ -267,7 +267,7 @@ function speak(name) {
 }
 
 async function copyLink() {
-  const link = location.href.split("#")[0] + linkOf(page);
+  const link = location.href.split("#")[0] + urlState(page);
   try {
     await navigator.clipboard.writeText(link);
     byId("taken").textContent = t("copied");

@@ -1,4 +1,4 @@
-/* What controls change: each builds on what was asked for last, answered or not. */
+/* Pending edits: each builds on the one before, be it in force already or not. */
 
 /* What is asked of the gas by now: the keys set over its scene, those a control is about to change among them; a key as
  * text; and the values that controls build on. What is in force lags behind until the answer. */

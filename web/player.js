@@ -56,7 +56,7 @@ function beginPlaying(file, about) {
     drawnTheories: null,
     playing: about.frames > 1 && !matchMedia("(prefers-reduced-motion: reduce)").matches,
   });
-  page.history = new StoredPast(about.values.flow === "hcs");
+  page.history = new StoredHistory(about.values.flow === "hcs");
   if (byId("colour").value === "since") byId("colour").value = "speed";
   byId("scrub").max = about.frames - 1;
   showLesson();
@@ -67,7 +67,7 @@ function beginPlaying(file, about) {
 
 /* The result's means and courses. */
 function takeStored(means) {
-  page.history = new StoredPast(page.about.values.flow === "hcs", means.courses);
+  page.history = new StoredHistory(page.about.values.flow === "hcs", means.courses);
   if (page.frame) page.history.now = page.frame.md.time;
   showMeans(means);
 }
@@ -81,7 +81,7 @@ function endPlaying() {
   page.asked = { scene: page.scene, sets: page.sets };
   showLesson();
   showGas();
-  writeLink(page);
+  writeUrlState(page);
   if (page.means) showMeans(page.means);
   else askMeans();
 }

@@ -27,7 +27,7 @@ function showEvent(event) {
 
 function showCharts() {
   temperatureChart(byId("chart-temperature"), page.history, page.means, page.about.values);
-  showNotices();
+  showWarnings();
 }
 
 function showMeans(means) {
@@ -120,9 +120,9 @@ function showLanguage() {
   if (page.player) byId("frame-number").textContent = t("frameOf", whichFrame());
   if (page.about) {
     page.controls.show(page.about.values);
-    page.noticed = null;
+    page.shownWarnings = null;
     showCharts();
-    if (!page.player) writeLink(page); /* the address is of the gas that waits */
+    if (!page.player) writeUrlState(page); /* the address is of the gas that waits */
   }
   if (page.means) showMeans(page.means);
   if (page.frame) say();

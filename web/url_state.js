@@ -2,7 +2,7 @@
 const ownLanguage = () => Math.max(0, LANGUAGES.indexOf((navigator.language || "en").slice(0, 2)));
 
 /* The state of the page in its address: #scene=...&set=key=value&seed=7. Also read after a question mark. */
-function readLink() {
+function readUrlState() {
   const given = new URLSearchParams(location.hash.length > 1 ? location.hash.slice(1) : location.search.slice(1));
   const pairs = given.getAll("set").map((one) => {
     const at = one.indexOf("=");
@@ -13,7 +13,7 @@ function readLink() {
   return { scene: given.get("scene"), sets, lesson: given.get("lesson"), language: given.get("language") };
 }
 
-function linkOf(state) {
+function urlState(state) {
   const to = new URLSearchParams();
   to.set("scene", state.scene);
   for (const [key, value] of Object.entries(state.sets)) if (key !== "run.seed") to.append("set", `${key}=${value}`);
@@ -26,9 +26,9 @@ function linkOf(state) {
 }
 
 /* Without an entry in the history for each movement of a slider. */
-function writeLink(state) {
+function writeUrlState(state) {
   try {
-    history.replaceState(null, "", linkOf(state));
+    history.replaceState(null, "", urlState(state));
   } catch (e) {
     /* an address too long for this browser */
   }

@@ -1,6 +1,5 @@
-/* What the page says of itself: where the model stops being true, what the library warns of, a summary in words. */
-/* Where the model stops being true, and what the library warns of. */
-function notices() {
+/* Warnings: where the model stops being true, and what the library warns about. */
+function allWarnings() {
   const out = [],
     { means, about, frame } = page,
     add = (key, values) => out.push(t(key, values));
@@ -11,7 +10,7 @@ function notices() {
   if (page.behind > MOST_BEHIND) add("behind");
   if (page.player && page.player.frames === 1) add("oneFrame");
   if (!means) return out;
-  if (page.player) return [...new Set([...out, ...storedNotices(means)])].slice(0, 7);
+  if (page.player) return [...new Set([...out, ...storedWarnings(means)])].slice(0, 7);
   const length = mean(means.theory && means.theory.goldhirsch_zanetti1993, "clustering_length");
   if (about.values.flow === "hcs" && frame && frame.md && Math.max(...frame.md.box) > length)
     add("clusters", { l: number(length, 3) });
@@ -49,14 +48,14 @@ function warningsOf(means) {
   return out;
 }
 /* Of a result: whether its run was steady, too. */
-function storedNotices(means) {
+function storedWarnings(means) {
   const unsteady = ["md", "dsmc"].filter((engine) => means[engine] && means[engine].steady === false);
   return [...unsteady.map((engine) => t("steady_no", { engine, why: means[engine].verdict })), ...warningsOf(means)];
 }
-function showNotices() {
-  const now = notices(),
+function showWarnings() {
+  const now = allWarnings(),
     text = now.join("\n");
-  if (text === page.noticed) return;
-  page.noticed = text;
-  byId("notices").replaceChildren(...now.map((one) => cell("li", one)));
+  if (text === page.shownWarnings) return;
+  page.shownWarnings = text;
+  byId("warnings").replaceChildren(...now.map((one) => cell("li", one)));
 }

@@ -1,4 +1,4 @@
-/* Tables to ask: rows of the tables that the library itself uses. */
+/* The catalogue: rows of the tables that the library itself uses. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +7,6 @@
 #include "common/engine.h"
 #include "common/extension.h"
 #include "common/quantity.h"
-#include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
 
@@ -31,10 +30,9 @@ static const gg_field *field_at(const gg_field *fields, size_t i)
 /* What a key holds; without a scene its default, which flow and phi have not. */
 static void put_value(const gg_field *f, const void *base, const gg_scene *scene, gg_entry *entry)
 {
+  GG_C_LOCALE;
   json_t *value = gg_scene_field_json(f, base, scene);
-  locale_t before = gg_base_c_locale_enter();
   gg_scene_flow_style_text(value, entry->value, sizeof entry->value);
-  gg_base_c_locale_leave(before);
   json_decref(value);
 }
 
@@ -73,8 +71,9 @@ static gg_status word_entry(const char *key, size_t i, gg_entry *entry, gg_error
   int id = gg_scene_field_find(key);
   if (id < 0 || !gg_scene_field_word(&gg_scene_fields[id], 0).name)
     return gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s' that takes words", key);
-  gg_word word = gg_scene_field_word(&gg_scene_fields[id], 0);
-  for (int k = 0; word.name && (size_t)k < i;) word = gg_scene_field_word(&gg_scene_fields[id], ++k);
+  gg_word word;
+  size_t k = 0;
+  while ((word = gg_scene_field_word(&gg_scene_fields[id], (int)k)).name && k < i) k++;
   if (!word.name) return no_more(err);
   return *entry = (gg_entry){.name = word.name, .doc = word.doc}, GG_OK;
 }
@@ -103,30 +102,28 @@ static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry
   return GG_OK;
 }
 
-/* The shared ones, then the scene's own. */
+/* The shared ones, then those that the user defined. */
 static gg_status theory_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
-  const gg_extension *own = scene ? scene->extension : NULL;
+  const gg_extension *user_defined = scene ? scene->extension : NULL;
   size_t n = 0;
   while (gg_theory_theories[n] && n < i) n++;
   const gg_theory *t = gg_theory_theories[n];
-  if (!t && i - n < (size_t)gg_common_extension_theories(own)) t = gg_common_extension_face(own, (int)(i - n));
+  if (!t && i - n < (size_t)gg_common_extension_theories(user_defined))
+    t = gg_common_extension_face(user_defined, (int)(i - n));
   if (!t) return no_more(err);
   *entry = (gg_entry){.name = t->name, .doc = t->title, .citation = t->citation, .assumptions = t->assumptions};
   return GG_OK;
 }
 
-/* The words under `measure`, then the scene's own. */
+/* The words under `measure`, then those that the user defined. */
 static gg_status observable_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
-  const gg_extension *own = scene ? scene->extension : NULL;
-  const gg_field *measure = &gg_scene_fields[gg_scene_field_find("measure")];
-  size_t n = 0;
-  gg_word word = gg_scene_field_word(measure, 0);
-  while (word.name && n < i) word = gg_scene_field_word(measure, (int)++n);
-  if (word.name) return *entry = (gg_entry){.name = word.name, .doc = word.doc}, GG_OK;
-  if (i - n >= (size_t)gg_common_extension_observables(own)) return no_more(err);
-  const gg_observable_definition *o = gg_common_extension_observable(own, (int)(i - n));
+  const gg_extension *user_defined = scene ? scene->extension : NULL;
+  if (i < GG_N_OBSERVABLES) return word_entry("measure", i, entry, err);
+  i -= GG_N_OBSERVABLES;
+  if (i >= (size_t)gg_common_extension_observables(user_defined)) return no_more(err);
+  const gg_observable_definition *o = gg_common_extension_observable(user_defined, (int)i);
   *entry = (gg_entry){.name = o->name, .doc = o->doc};
   return GG_OK;
 }

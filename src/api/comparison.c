@@ -11,8 +11,7 @@
 #include "files/h5/result_restore.h"
 #include "files/result_document.h"
 #include "run/z_scores.h"
-#include "scene/ineffective_keys.h"
-#include "scene/resumption.h"
+#include "scene/fields.h"
 #include "theory/haff1983.h"
 
 void gg_comparison_free(gg_comparison *c)
@@ -45,7 +44,7 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   GG_TRY(gg_common_model_make(&c->scene, GG_MD, &model, err));
   GG_TRY(gg_run_compare_theories(&model, c, err));
   bool before = gg_base_memory_begin();
-  gg_scene_inert(&finished, GG_USE_THEORY, &c->warnings);
+  gg_scene_ineffective_keys(&finished, GG_USE_THEORY, &c->warnings);
   GG_TRY(gg_base_memory_check(before, GG_OK, err));
   return theory ? keep_one(c, theory, err) : GG_OK;
 }

@@ -10,7 +10,7 @@
 
 enum { MOST_LETTERS = 40, MOST_TEXT = 500 };
 
-/* Whatever the locale says. */
+/* In any locale. */
 static bool is_letter(char c)
 {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -59,7 +59,7 @@ static bool is_shared(const char *quantity)
   return gg_common_quantity_find(quantity) != GG_N_QUANTITIES;
 }
 
-static bool is_own(const gg_extension *x, const char *quantity)
+static bool is_user_defined(const gg_extension *x, const char *quantity)
 {
   for (int k = 0; k < gg_common_extension_quantities(x); k++)
     if (strcmp(gg_common_extension_quantity(x, k)->name, quantity) == 0) return true;
@@ -72,7 +72,7 @@ static gg_status check_quantity(const gg_extension *x, const gg_observable_defin
   GG_TRY(check_name("quantity", q->name, err));
   GG_TRY(check_text(q->name, q->unit, MOST_LETTERS, err));
   GG_TRY(check_text(q->name, q->doc, MOST_TEXT, err));
-  bool taken = is_shared(q->name) || is_own(x, q->name);
+  bool taken = is_shared(q->name) || is_user_defined(x, q->name);
   for (int k = 0; k < index; k++) taken |= strcmp(o->quantities[k].name, q->name) == 0;
   return taken ? gg_base_fail(err, GG_BAD_INPUT, "quantity: the name '%s' is taken", q->name) : GG_OK;
 }
@@ -102,14 +102,19 @@ static gg_status check_observable(const gg_extension *x, const gg_observable_def
   return GG_OK;
 }
 
+/* NULL: out of memory. */
+static gg_status replace(gg_scene *scene, gg_extension *x)
+{
+  if (!x) return GG_FAILED;
+  scene->extension = x;
+  return GG_OK;
+}
+
 gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definition *o, gg_error *err)
 {
   if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "observable: there is no scene");
   GG_TRY(check_observable(scene->extension, o, err));
-  gg_extension *x = gg_common_extension_with_observable(scene->extension, o, err);
-  if (!x) return GG_FAILED;
-  scene->extension = x;
-  return GG_OK;
+  return replace(scene, gg_common_extension_with_observable(scene->extension, o, err));
 }
 
 static gg_status check_theory(const gg_extension *x, const gg_theory_definition *t, gg_error *err)
@@ -130,7 +135,7 @@ static gg_status check_theory(const gg_extension *x, const gg_theory_definition 
     return gg_base_fail(err, GG_BAD_INPUT, "%s: a theory answers for at least one quantity", t->name);
   for (int k = 0; k < t->n_quantities; k++) {
     const char *q = t->quantities[k];
-    if (!q || !(is_shared(q) || is_own(x, q)))
+    if (!q || !(is_shared(q) || is_user_defined(x, q)))
       return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no quantity called '%.60s'", t->name, q ? q : "");
   }
   return GG_OK;
@@ -143,14 +148,6 @@ gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *t, gg
   return gg_theory_user_theory_add(&scene->extension, t, err);
 }
 
-static gg_status set_law(gg_scene *scene, const gg_restitution_law *law, const gg_law_table *table, gg_error *err)
-{
-  gg_extension *x = gg_common_extension_with_law(scene->extension, law, table, err);
-  if (!x) return GG_FAILED;
-  scene->extension = x;
-  return GG_OK;
-}
-
 gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *e, void *context, gg_error *err)
 {
   const gg_restitution_law law = {.name = e ? name : "", .e = e, .context = context};
@@ -159,7 +156,7 @@ gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitu
     GG_TRY(check_name("restitution law", name, err));
     GG_TRY(gg_common_law_check(&law, scene->n_species, err));
   }
-  return set_law(scene, &law, NULL, err);
+  return replace(scene, gg_common_extension_with_law(scene->extension, &law, NULL, err));
 }
 
 gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size_t n, const double *speed,
@@ -181,5 +178,5 @@ gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size
   }
   const gg_restitution_law law = {.name = name};
   const gg_law_table table = {n, speed, e};
-  return set_law(scene, &law, &table, err);
+  return replace(scene, gg_common_extension_with_law(scene->extension, &law, &table, err));
 }

@@ -11,7 +11,7 @@
 #include "common/engine.h"
 #include "files/h5/checkpoint_file.h"
 #include "run/scheduler.h"
-#include "scene/ineffective_keys.h"
+#include "scene/fields.h"
 
 static void report_progress(void *context, const gg_progress *progress)
 {

@@ -1,4 +1,4 @@
-/* Scenes: read, changed, asked and written back. */
+/* Scenes: read, changed, queried and written back. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,14 +12,19 @@
 #include "common/extension.h"
 #include "files/text_format.h"
 #include "run/cost_estimate.h"
-#include "scene/ineffective_keys.h"
-#include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err)
 {
   *copy = *scene;
   return gg_scene_finish(copy, err);
+}
+
+static gg_scene filled_in(const gg_scene *scene)
+{
+  gg_scene filled = *scene;
+  gg_scene_fill_in(&filled);
+  return filled;
 }
 
 static gg_status publish(const gg_scene *made, gg_scene **scene, gg_error *err)
@@ -37,10 +42,9 @@ gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
   GG_NEED(path);
   GG_NEED(scene);
   gg_scene made = gg_common_scene_defaults();
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = gg_scene_read_file(&made, path, err);
-  gg_base_c_locale_leave(before);
-  return status == GG_OK ? publish(&made, scene, err) : status;
+  GG_C_LOCALE;
+  GG_TRY(gg_scene_read_file(&made, path, err));
+  return publish(&made, scene, err);
 }
 
 gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err)
@@ -48,10 +52,9 @@ gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, g
   GG_NEED(yaml);
   GG_NEED(scene);
   gg_scene made = gg_common_scene_defaults();
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = gg_scene_read(&made, yaml, strlen(yaml), name ? name : "scene", err);
-  gg_base_c_locale_leave(before);
-  return status == GG_OK ? publish(&made, scene, err) : status;
+  GG_C_LOCALE;
+  GG_TRY(gg_scene_read(&made, yaml, strlen(yaml), name ? name : "scene", err));
+  return publish(&made, scene, err);
 }
 
 gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
@@ -72,10 +75,8 @@ gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_e
   GG_NEED(scene);
   GG_NEED(key);
   GG_NEED(value);
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = gg_scene_override(scene, key, value, err);
-  gg_base_c_locale_leave(before);
-  return status;
+  GG_C_LOCALE;
+  return gg_scene_override(scene, key, value, err);
 }
 
 gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err)
@@ -83,20 +84,14 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   GG_NEED(scene);
   GG_NEED(key);
   GG_NEED(text);
-  gg_scene filled = *scene;
-  gg_scene_fill_in(&filled);
+  const gg_scene filled = filled_in(scene);
+  GG_C_LOCALE;
   bool outer = gg_base_memory_begin();
   json_t *value = gg_scene_key_json(&filled, key);
-  locale_t before = gg_base_c_locale_enter();
   if (value) gg_scene_flow_style_text(value, text, size);
-  gg_base_c_locale_leave(before);
-  if (gg_base_memory_end(outer)) {
-    json_decref(value);
-    return gg_base_out_of_memory(err);
-  }
-  if (!value) return gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
+  gg_status status = value ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   json_decref(value);
-  return GG_OK;
+  return gg_base_memory_end(outer) ? gg_base_out_of_memory(err) : status;
 }
 
 gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
@@ -110,11 +105,9 @@ gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
 {
   GG_NEED(scene);
   GG_NEED(text);
-  gg_scene filled = *scene;
-  gg_scene_fill_in(&filled);
-  locale_t before = gg_base_c_locale_enter();
+  const gg_scene filled = filled_in(scene);
+  GG_C_LOCALE;
   char *yaml = gg_scene_yaml(&filled);
-  gg_base_c_locale_leave(before);
   if (!yaml) return gg_base_out_of_memory(err);
   *text = yaml;
   return GG_OK;
@@ -124,8 +117,7 @@ gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
 {
   GG_NEED(scene);
   GG_NEED(text);
-  gg_scene filled = *scene;
-  gg_scene_fill_in(&filled);
+  const gg_scene filled = filled_in(scene);
   return gg_api_text_copy(gg_scene_json(&filled), text, err);
 }
 
@@ -133,11 +125,9 @@ gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_erro
 {
   GG_NEED(scene);
   GG_NEED(text);
-  gg_scene filled = *scene;
-  gg_scene_fill_in(&filled);
-  locale_t before = gg_base_c_locale_enter();
+  const gg_scene filled = filled_in(scene);
+  GG_C_LOCALE;
   gg_files_scene_title(&filled, text, size);
-  gg_base_c_locale_leave(before);
   return GG_OK;
 }
 
@@ -206,7 +196,7 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
   }
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
   bool before = gg_base_memory_begin();
-  gg_scene_inert(&finished, uses, &lines);
+  gg_scene_ineffective_keys(&finished, uses, &lines);
   gg_status status = gg_base_memory_check(before, GG_OK, err);
   for (size_t i = 0; status == GG_OK && i < lines.n; i++) line(context, lines.text[i]);
   gg_base_string_list_clear(&lines);

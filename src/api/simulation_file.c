@@ -6,8 +6,6 @@
 #include "base/c_locale.h"
 #include "base/memory.h"
 #include "files/h5/checkpoint_file.h"
-#include "scene/resumption.h"
-#include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 
 static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)

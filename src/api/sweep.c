@@ -1,4 +1,4 @@
-/* Sweeps: read, changed, checked and asked. */
+/* Sweeps: read, changed, checked and queried. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,10 +8,7 @@
 #include "base/memory.h"
 #include "common/extension.h"
 #include "scene/scene_reader.h"
-#include "sweep/folder.h"
-#include "sweep/settings.h"
-#include "sweep/sweep_document.h"
-#include "sweep/values.h"
+#include "sweep/sweep_table.h"
 
 static gg_sweep *new_sweep(const char *name, gg_error *err)
 {
@@ -39,9 +36,8 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, gg
 {
   gg_sweep *made = new_sweep(name, err);
   if (!made) return GG_FAILED;
-  locale_t before = gg_base_c_locale_enter();
+  GG_C_LOCALE;
   gg_status status = gg_sweep_read_text(made, yaml, length, name, err);
-  gg_base_c_locale_leave(before);
   if (status == GG_OK)
     *sweep = made;
   else
@@ -83,24 +79,9 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
   GG_TRY(check_open(sweep, err));
   if (gg_sweep_varies(sweep, key))
     return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: every point has its own", key);
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
-                                                    : gg_scene_override(&sweep->base, key, value, err);
-  gg_base_c_locale_leave(before);
-  return status;
-}
-
-static gg_status add_key(gg_sweep *sweep, const char *key, gg_values *values, gg_error *err)
-{
-  gg_varied one = {
-      .n_keys = 1, .n = values->n, .key = gg_base_array_new(1, sizeof *one.key, err), .value = values->text};
-  if (one.key) one.key[0] = strdup(key);
-  if (!one.key || !one.key[0]) {
-    free(one.key);
-    return gg_base_out_of_memory(err);
-  }
-  *values = (gg_values){0};
-  return gg_sweep_add(sweep, &one, err);
+  GG_C_LOCALE;
+  return strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
+                                        : gg_scene_override(&sweep->base, key, value, err);
 }
 
 gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err)
@@ -109,28 +90,26 @@ gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg
   GG_NEED(key);
   GG_NEED(values);
   gg_values list = {0};
+  snprintf(list.key, sizeof list.key, "%s", key);
   GG_TRY(check_open(sweep, err));
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = gg_sweep_values_parse(&list, key, values, err);
+  GG_C_LOCALE;
+  gg_status status = gg_sweep_values_parse(&list, values, err);
   if (status == GG_OK && list.range)
     status =
         gg_base_fail(err, GG_BAD_INPUT,
                      "key '%.60s': LOW..HIGH is for random draws, which a sweep's file asks for; here first:last:step "
                      "or v1,v2,...",
                      key);
-  if (status == GG_OK) status = add_key(sweep, key, &list, err);
+  if (status == GG_OK) status = gg_sweep_add_rows(sweep, &list, 1, err);
   gg_sweep_values_clear(&list);
-  gg_base_c_locale_leave(before);
   return status;
 }
 
 gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err)
 {
   GG_NEED(sweep);
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = gg_sweep_check_points(sweep, err);
-  gg_base_c_locale_leave(before);
-  return status;
+  GG_C_LOCALE;
+  return gg_sweep_check_points(sweep, err);
 }
 
 size_t gg_sweep_points(const gg_sweep *sweep)
@@ -140,8 +119,7 @@ size_t gg_sweep_points(const gg_sweep *sweep)
 
 const char *gg_sweep_does(const gg_sweep *sweep)
 {
-  const char *const words[] = {"run", "compare", "theory"};
-  return sweep ? words[sweep->settings.does] : NULL;
+  return sweep ? gg_does_words[sweep->settings.does] : NULL;
 }
 
 static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)
@@ -157,10 +135,8 @@ static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)
 static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
 {
   GG_TRY(check_point(sweep, i, err));
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = gg_sweep_resolve(sweep, i, scene, err);
-  gg_base_c_locale_leave(before);
-  return status;
+  GG_C_LOCALE;
+  return gg_sweep_resolve(sweep, i, scene, err);
 }
 
 gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err)
@@ -184,31 +160,6 @@ gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_e
   return gg_scene_copy(&made, scene, err);
 }
 
-/* The k-th key of all, as place among the keys that change together. */
-static const gg_varied *varied_of(const gg_sweep *sweep, size_t *k, size_t *varied)
-{
-  for (*varied = 0; sweep && *varied < sweep->n_varied; ++*varied) {
-    const gg_varied *v = &sweep->varied[*varied];
-    if (*k < v->n_keys) return v;
-    *k -= v->n_keys;
-  }
-  return NULL;
-}
-
-const char *gg_sweep_key(const gg_sweep *sweep, size_t k)
-{
-  size_t f;
-  const gg_varied *v = varied_of(sweep, &k, &f);
-  return v ? v->key[k] : NULL;
-}
-
-const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k)
-{
-  size_t f;
-  const gg_varied *v = varied_of(sweep, &k, &f);
-  return v && i < sweep->n ? v->value[gg_sweep_row(sweep, i, f) * v->n_keys + k] : NULL;
-}
-
 gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_point_state *state, char **file,
                         gg_error *err)
 {
@@ -228,8 +179,6 @@ gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **tex
   GG_NEED(folder);
   GG_NEED(text);
   GG_TRY(check_point(sweep, 0, err));
-  locale_t before = gg_base_c_locale_enter();
-  json_t *document = gg_sweep_document(sweep, folder);
-  gg_base_c_locale_leave(before);
-  return gg_api_text_copy(document, text, err);
+  GG_C_LOCALE;
+  return gg_api_text_copy(gg_sweep_document(sweep, folder), text, err);
 }

@@ -7,7 +7,7 @@
 #include "base/atomic_file.h"
 #include "base/c_locale.h"
 #include "base/memory.h"
-#include "sweep/collect.h"
+#include "sweep/sweep_table.h"
 
 typedef struct collecting {
   const gg_sweep *sweep;
@@ -19,7 +19,7 @@ typedef struct collecting {
   void *context;
 } collecting;
 
-static void tell(const collecting *c, const char *file)
+static void report(const collecting *c, const char *file)
 {
   if (c->written) c->written(c->context, file);
 }
@@ -48,12 +48,12 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   GG_TRY(check_places(c, err));
   GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, err));
   GG_TRY(gg_sweep_point_table_write_csv(&c->table, c->sweep, c->csv, err));
-  tell(c, c->csv);
+  report(c, c->csv);
   GG_TRY(gg_sweep_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));
-  tell(c, c->h5);
+  report(c, c->h5);
   if (!c->picture) return GG_OK;
   gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, err);
-  if (status == GG_OK) tell(c, c->picture);
+  if (status == GG_OK) report(c, c->picture);
   return status == GG_OK || !may_lack_picture(c, status, err) ? status : GG_OK;
 }
 
@@ -75,9 +75,8 @@ gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *pref
   c.csv = with(prefix, ".csv"), c.h5 = with(prefix, ".h5"), c.svg = with(prefix, ".svg");
   c.picture = c.options.picture ? c.options.picture : c.svg;
   if (strcmp(c.picture ? c.picture : "", "none") == 0) c.picture = NULL;
-  locale_t before = gg_base_c_locale_enter();
+  GG_C_LOCALE;
   gg_status status = c.csv && c.h5 && c.svg ? write_all(&c, folder, err) : gg_base_out_of_memory(err);
-  gg_base_c_locale_leave(before);
   gg_sweep_point_table_clear(&c.table);
   free(c.csv), free(c.h5), free(c.svg);
   return status;

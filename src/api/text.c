@@ -24,9 +24,8 @@ gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *e
 
 gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err)
 {
-  locale_t before = gg_base_c_locale_enter();
+  GG_C_LOCALE;
   char *made = document ? gg_files_document_text(document) : NULL;
-  gg_base_c_locale_leave(before);
   json_decref(document);
   if (!made) return gg_base_out_of_memory(err);
   *text = made;
@@ -36,9 +35,8 @@ gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err)
 void gg_format_estimate(double mean, double error, char *text, size_t size)
 {
   if (!text || !size) return;
-  locale_t before = gg_base_c_locale_enter();
+  GG_C_LOCALE;
   gg_files_estimate_format(mean, error, text, size);
-  gg_base_c_locale_leave(before);
 }
 
 const char *gg_nearest_word(const char *word, const char *const *known)

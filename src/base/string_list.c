@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
@@ -45,4 +46,13 @@ void gg_base_string_list_clear(gg_text_list *list)
 const char *gg_base_string_list_at(const gg_text_list *list, size_t i)
 {
   return i < list->n ? list->text[i] : NULL;
+}
+
+void gg_base_text_append(char *text, size_t size, const char *format, ...)
+{
+  const size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text + used, size - used, format, args);
+  va_end(args);
 }

@@ -20,4 +20,7 @@ void gg_base_string_list_clear(gg_text_list *list);
 /* NULL after the last. */
 const char *gg_base_string_list_at(const gg_text_list *list, size_t i);
 
+/* Append to a text in a buffer of `size` bytes, cut to it. */
+void gg_base_text_append(char *text, size_t size, const char *format, ...) GG_PRINTF(3, 4);
+
 #endif

@@ -7,9 +7,9 @@
  * their relative variance, as its rate of change bends. Measured (validation/monte_carlo_bias.c): 0.5 to 1.5 in T, the
  * stresses and the viscosity. */
 static const double bias_times_n = 2;
-/* Kept below this share of the asked error. */
+/* Kept below this share of the requested error. */
 static const double share = 0.25;
-/* Beyond, memory and warm-up cost more than is asked for by any error that can be reached in days. */
+/* Beyond, memory and warm-up cost more than any error that can be reached in days requires. */
 enum { MOST_ENSEMBLE = 1000000 };
 
 double gg_common_ensemble_requested_error(const gg_scene *s)
@@ -35,8 +35,8 @@ static double scarcest(const gg_scene *s)
 
 static double needed(const gg_scene *s)
 {
-  const double asked = gg_common_ensemble_size_error(s);
-  return asked > 0 ? ceil(bias_times_n / (share * asked * scarcest(s))) : 0;
+  const double error = gg_common_ensemble_size_error(s);
+  return error > 0 ? ceil(bias_times_n / (share * error * scarcest(s))) : 0;
 }
 
 static bool is_given(const gg_scene *s)
@@ -53,16 +53,16 @@ int64_t gg_common_ensemble_size(const gg_scene *s)
 
 void gg_common_ensemble_size_reason(const gg_scene *s, char *text, size_t size)
 {
-  const double asked = gg_common_ensemble_size_error(s),
+  const double error = gg_common_ensemble_size_error(s),
                bias = bias_times_n / ((double)gg_common_ensemble_size(s) * scarcest(s));
   *text = 0;
   if (is_given(s)) return;
-  if (!(asked > 0))
+  if (!(error > 0))
     snprintf(text, size, "chosen: with so few means lie some %.2g %% off (1/N)", 100 * bias);
-  else if (bias <= 1.001 * share * asked)
+  else if (bias <= 1.001 * share * error)
     snprintf(text, size, "chosen: means lie at most %.2g %% off (1/N), a quarter of the asked error %.3g %% or less",
-             100 * bias, 100 * asked);
+             100 * bias, 100 * error);
   else
     snprintf(text, size, "chosen: the most there are; means lie up to %.2g %% off (1/N), asked is an error of %.3g %%",
-             100 * bias, 100 * asked);
+             100 * bias, 100 * error);
 }

@@ -1,4 +1,4 @@
-/* How many grains a Monte Carlo ensemble has, where the scene does not say: by the error that is asked for. */
+/* How many grains a Monte Carlo ensemble has, where the scene does not give it: by the requested error. */
 #ifndef GG_ENSEMBLE_H
 #define GG_ENSEMBLE_H
 
@@ -6,7 +6,7 @@
 
 #include "common/scene.h"
 
-/* The relative error that a run goes on for; 0 where only collisions are asked for. */
+/* The relative error that ends a run; 0 where only collisions do. */
 double gg_common_ensemble_requested_error(const gg_scene *scene);
 
 /* That by which the size is chosen. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/string_list.h"
 
 struct gg_extension {
   atomic_int holders;
@@ -188,12 +189,11 @@ gg_restitution_law gg_common_extension_law(const gg_extension *x)
 void gg_common_extension_signature(const gg_extension *x, char *text, size_t size)
 {
   gg_restitution_law law = gg_common_extension_law(x);
-  size_t used = 0;
-  text[0] = 0;
-  if (law.e) used += (size_t)snprintf(text, size, "law %s", law.name);
-  for (int k = 0; k < gg_common_extension_observables(x) && used < size; k++) {
+  *text = '\0';
+  if (law.e) gg_base_text_append(text, size, "law %s", law.name);
+  for (int k = 0; k < gg_common_extension_observables(x); k++) {
     const gg_observable_definition *o = gg_common_extension_observable(x, k);
-    used += (size_t)snprintf(text + used, size - used, "%sobservable %s/%d/%zu", used ? "; " : "", o->name,
-                             o->n_quantities, o->state_size);
+    gg_base_text_append(text, size, "%sobservable %s/%d/%zu", *text ? "; " : "", o->name, o->n_quantities,
+                        o->state_size);
   }
 }

@@ -1,4 +1,4 @@
-/* What the user's own program adds to a scene: observables, theories, a law of restitution (graingas.h, "Extension").
+/* What the user's program adds to a scene: observables, theories, a law of restitution (graingas.h, "Extension").
  *
  * A chain, the latest addition first. Links never change and are counted: a scene holds its head, and so does all that
  * outlives the scene (results); whoever runs from a scene in the meantime borrows it. */
@@ -13,7 +13,7 @@ typedef struct gg_extension gg_extension;
 struct gg_theory; /* of src/theory */
 
 /* A link in front of `before`, whose hold goes over to it (on failure it stays with the caller). Definitions are taken
- * to be right: src/door checks them. NULL: out of memory. */
+ * to be right: src/api checks them. NULL: out of memory. */
 gg_extension *gg_common_extension_with_observable(gg_extension *before, const gg_observable_definition *o,
                                                   gg_error *err);
 /* `face` (from malloc, and the link's from now on) is what src/theory makes of the definition. */
@@ -38,7 +38,7 @@ const struct gg_theory *gg_common_extension_face(const gg_extension *x, int inde
 /* The latest law; e NULL if there is none. */
 gg_restitution_law gg_common_extension_law(const gg_extension *x);
 
-/* A line that tells whether two scenes have the same law and observables: "law viscoelastic; observable heat/2" (as far
+/* A line to compare the law and observables of two scenes by: "law viscoelastic; observable heat/2" (as far
  * as names and numbers of quantities tell); empty without any. */
 void gg_common_extension_signature(const gg_extension *x, char *text, size_t size);
 

@@ -1,13 +1,12 @@
 #include "common/flow.h"
 
-#include <stdio.h>
-
+#include "base/string_list.h"
 #include "common/quantity.h"
 
 enum { IN_MD = 1u << GG_MD, IN_DSMC = 1u << GG_DSMC };
 enum { UNHEATED = 1u << GG_NO_THERMOSTAT, GAUSSIAN = 1u << GG_GAUSSIAN, WHITE_NOISE = 1u << GG_WHITE_NOISE };
 
-/* Those of them that a scene lacks (quantity_needs.c) are left out. */
+/* Those of them that a scene lacks (gg_common_quantity_missing) are left out. */
 #define KNOWN_BY(...) ((const int[]){__VA_ARGS__, GG_N_QUANTITIES})
 #define BY_SHEAR KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_SHEAR_VISCOSITY, GG_Q_TEMPERATURE_RATIO)
 #define BY_LOSS KNOWN_BY(GG_Q_COOLING_RATE, GG_Q_TEMPERATURE_RATIO, GG_Q_PARTIAL_TEMPERATURE_RATIO)
@@ -104,12 +103,9 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
 void gg_common_flow_list(bool (*test)(gg_flow flow), char *text, size_t size)
 {
   int left = 0;
-  size_t used = 0;
   for (int f = 0; f < GG_N_FLOWS; f++) left += test((gg_flow)f);
   *text = '\0';
-  for (int f = 0; f < GG_N_FLOWS && used < size; f++) {
-    if (!test((gg_flow)f)) continue;
-    const char *after = --left > 1 ? ", " : left ? " or " : "";
-    used += (size_t)snprintf(text + used, size - used, "%s%s", gg_common_flows[f].word, after);
-  }
+  for (int f = 0; f < GG_N_FLOWS; f++)
+    if (test((gg_flow)f))
+      gg_base_text_append(text, size, "%s%s", gg_common_flows[f].word, --left > 1 ? ", " : left ? " or " : "");
 }

@@ -1,4 +1,4 @@
-/* The flows there are, a row each, with everything that anybody asks about a flow: its words, its frame, what drives
+/* The flows there are, a row each, with everything that depends on the flow: its words, its frame, what drives
  * and what warms it, who can run it, what it is known by. A new flow is a name below and its row in flow.c: the scene's
  * words and page, defaults, checks, units, titles, engines' acceptance and headline quantities follow from the row. */
 #ifndef GG_FLOW_H
@@ -52,7 +52,7 @@ typedef struct gg_flow_row {
   /* Defaults of keys that depend on the flow (that of collision.e: 1 where energy is conserved). */
   gg_thermostat thermostat;
   double gravity[3];
-  /* Headline quantities, which it is known by and a run's errors are asked of: gg_quantity, ends with
+  /* Headline quantities, whose errors end a run: gg_quantity, ends with
    * GG_N_QUANTITIES. A scene has those that it does not lack (gg_common_quantity_missing). */
   const int *headline;
 } gg_flow_row;

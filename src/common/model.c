@@ -5,7 +5,6 @@
 #include "common/contact_value.h"
 #include "common/ensemble_size.h"
 #include "common/portable_math.h"
-#include "common/surface/surfaces.h"
 
 /* Whole numbers of grains: the largest remainders go up, of equal ones the first. */
 static void deal_grains(gg_model *m, const gg_scene *s)
@@ -226,7 +225,7 @@ static void set_reference_speed(gg_model *m, const gg_scene *s, double unit)
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) m->law.scale[p] /= s->collision.speed * unit;
 }
 
-/* The user's own law, or that of collision.law: its units of speed are such that e is collision.e at collision.speed.
+/* The user-defined law, or that of collision.law: its units of speed are such that e is collision.e at collision.speed.
  */
 static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
 {

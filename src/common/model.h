@@ -1,5 +1,5 @@
 /* The model: the scene in the engines' units, everything that both engines and the theories need settled once. It has
- * room for any number of species; engines copy what their kernels read into arrays as small as the scene's own.
+ * room for any number of species; engines copy what their kernels read into arrays as small as the scene needs.
  *
  * Units: length d of species 1, mass m of species 1; time 1/shear_rate in sheared and walled-shear flows, else d/v_0
  * with v_0 = sqrt(2 T_0/m), so that T_0 = <C.C>/3 = 1/2. These are the units of every result, too.
@@ -42,19 +42,19 @@ typedef struct gg_model {
   double chi[GG_PAIRS];   /* contact value; 1 in the Boltzmann limit */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   /* Of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed of
-   * some temperature (gg_common_model_at), for estimates, and engines ask the law at every collision. */
+   * some temperature (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */
   gg_restitution_law law;
 
   bool walled;       /* there are surfaces: the box is closed along y, and no flow is imposed */
   gg_rule wall_rule; /* of smooth grains, too, whose spins it leaves alone */
-  int n_surfaces;    /* common/surface/surfaces.h */
+  int n_surfaces;
   gg_surface surface[GG_MOST_SURFACES];
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */
   double contact_time; /* of the contact-time rule, in units of gg_common_model_contact_unit; 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
-  double asked_error;  /* relative, that the run goes on for; 0: not asked for. dsmc chooses its step by it */
+  double asked_error;  /* relative, that ends the run; 0: none does. dsmc chooses its step by it */
   bool single;         /* dsmc: velocities kept in single precision */
 
   const gg_extension *extension; /* borrowed from the scene */
@@ -113,5 +113,21 @@ double gg_common_model_species_rate(const gg_model *model, int i, double T);
  * one species; sqrt(pi) n sigma_12^2 v_0, v_0^2 = 2T(m1+m2)/(m1 m2) for two (Montanero & Garzo 2003); of more the mean
  * of that over all unlike pairs of grains. */
 double gg_common_model_nu0(const gg_model *model, double T);
+
+/* surface/surfaces.c: the surfaces of this scene; box, composition and gravity of the model are known. Grains without
+ * spins are acted on at their centres. `time_unit` of the model in the user's. GG_BAD_INPUT where they leave no room
+ * for the gas. */
+gg_status gg_common_surfaces_make(const gg_scene *scene, bool spins, double time_unit, gg_model *model, gg_error *err);
+
+/* The plain or other surface at the upper (1) or lower (-1) end of an axis; NULL: none. */
+const gg_surface *gg_surface_at(const gg_model *model, int axis, double side);
+
+/* Is the box closed along this axis: no period, and nobody beyond its ends? One without a lid is, too. */
+bool gg_common_surface_is_closed(const gg_model *model, int axis);
+/* Closed across y, and nothing at the upper end. */
+bool gg_common_surface_is_open_above(const gg_model *model);
+
+/* The surface that takes this one's place where y changes its sign; -1: none. */
+int gg_surface_image(const gg_model *model, int surface);
 
 #endif

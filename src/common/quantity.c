@@ -138,18 +138,18 @@ gg_quantity gg_common_quantity_at(const gg_model *m, int index)
   return (gg_quantity)(GG_N_QUANTITIES + index);
 }
 
-static const gg_quantity_definition *own(const gg_model *m, gg_quantity q)
+static const gg_quantity_definition *user_defined(const gg_model *m, gg_quantity q)
 {
   return gg_common_extension_quantity(m->extension, (int)q - GG_N_QUANTITIES);
 }
 
 const char *gg_common_quantity_name_in(const gg_model *m, gg_quantity q)
 {
-  return q < GG_N_QUANTITIES ? gg_common_quantity_name(q) : own(m, q)->name;
+  return q < GG_N_QUANTITIES ? gg_common_quantity_name(q) : user_defined(m, q)->name;
 }
 const char *gg_common_quantity_doc_in(const gg_model *m, gg_quantity q)
 {
-  return q < GG_N_QUANTITIES ? gg_common_quantity_doc(q) : own(m, q)->doc;
+  return q < GG_N_QUANTITIES ? gg_common_quantity_doc(q) : user_defined(m, q)->doc;
 }
 
 gg_quantity gg_common_quantity_find_in(const gg_model *m, const char *name)
@@ -163,9 +163,48 @@ gg_quantity gg_common_quantity_find_in(const gg_model *m, const char *name)
 
 const char *gg_common_quantity_unit(gg_quantity q, const gg_model *model)
 {
-  if (q >= GG_N_QUANTITIES) return own(model, q)->unit;
+  if (q >= GG_N_QUANTITIES) return user_defined(model, q)->unit;
   bool sheared = gg_flow_is_timed_by_shear(model->flow);
   int scale =
       sheared ? (model->boltzmann ? SHEARED_BOLTZMANN : SHEARED) : (model->boltzmann ? THERMAL_BOLTZMANN : THERMAL);
   return unit_names[scale][row_of(q)->unit];
+}
+
+/* What a need means, and the reason where it is not met; the first that applies is given. */
+const char *gg_common_model_missing(const gg_model *m, unsigned needs)
+{
+  const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);
+  const struct {
+    unsigned need;
+    bool unmet;
+    const char *reason;
+  } rules[] = {
+      {GG_NEEDS_SPINS, smooth, "smooth grains do not spin"},
+      {GG_NEEDS_MEAN_SPIN, m->walled, "between walls it goes with the height; see profile_spin_z"},
+      {GG_NEEDS_MEAN_SPIN, m->shear_rate == 0, "without shear there is no mean spin"},
+      {GG_NEEDS_MEAN_SPIN, m->boltzmann,
+       "in the Boltzmann limit the mean spin, a share of thermal ones, is infinite in units of the shear rate"},
+      {GG_NEEDS_TRANSFER, m->boltzmann, "no collisional transfer in the Boltzmann limit"},
+      {GG_NEEDS_VOLUME, m->boltzmann, "an ideal gas in the Boltzmann limit: Z = 1 by definition"},
+      {GG_NEEDS_SCALE_SHOWN, cools, "decays in free cooling; see the history"},
+      {GG_NEEDS_SCALE, cools, "decays in free cooling"},
+      {GG_NEEDS_SHEAR, m->shear_rate == 0, "there is no shear"},
+      {GG_NEEDS_LOSS, m->elastic, "collisions conserve energy"},
+      {GG_NEEDS_BOX, m->homogeneous, "the Monte Carlo ensemble has no box"},
+      {GG_NEEDS_COOLING, !cools && !heated, "only in cooling and heated flows"},
+      {GG_NEEDS_COOLING, heated && !smooth, "the loss of rough grains is not of one temperature"},
+      {GG_NEEDS_NO_SHEAR, m->shear_rate != 0, "see the kurtosis in sheared flows"},
+      {GG_NEEDS_ONE_SPECIES, m->n_species > 1, "see c_1 and c_2 for mixtures"},
+      {GG_NEEDS_LINEAR_RESPONSE, !m->linear_response, "needs the linear response: flow: small_shear"},
+      {GG_NEEDS_THEORY, true, "told by theories alone, not a mean; see graingas theory"},
+      {GG_NEEDS_MIXTURE, m->n_species == 1, "there is one species only"},
+  };
+  for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+    if ((needs & rules[i].need) && rules[i].unmet) return rules[i].reason;
+  return NULL;
+}
+
+const char *gg_common_quantity_missing(const gg_model *model, gg_quantity q)
+{
+  return gg_common_model_missing(model, gg_common_quantity_mask(q));
 }

@@ -5,8 +5,8 @@
 
 #include "common/model.h"
 
-/* What a scene must have for a quantity to have a mean (quantity_needs.c: when it has, and the reason when not), and
- * how the quantity is treated: a row's mask is a sum of these. */
+/* What a scene must have for a quantity to have a mean (gg_common_model_missing: when it has, and the reason when not),
+ * and how the quantity is treated: a row's mask is a sum of these. */
 enum {
   GG_NEEDS_SPINS = 1u << 0,
   GG_NEEDS_MEAN_SPIN = 1u << 1,
@@ -117,7 +117,7 @@ typedef enum gg_quantity {
 #undef GG_QUANTITY_EACH
 
 /* The quantities of a scene, in the order in which they are shown: the shared ones, of families the members that it
- * has; then its own (extension.h), numbered from GG_N_QUANTITIES on. */
+ * has; then user-defined ones (extension.h), numbered from GG_N_QUANTITIES on. */
 int gg_common_quantity_set_of(const gg_model *model); /* how many in all */
 gg_quantity gg_common_quantity_at(const gg_model *model, int index);
 const char *gg_common_quantity_name_in(const gg_model *model, gg_quantity q);
@@ -137,14 +137,14 @@ gg_quantity gg_common_quantity_find(const char *name);
  * families every member. */
 gg_quantity gg_common_quantity_next(int q, unsigned mask);
 
-/* The mask of the row; 0 of the scene's own. */
+/* The mask of the row; 0 of user-defined ones. */
 unsigned gg_common_quantity_mask(gg_quantity q);
-/* The first of the family that q belongs to: itself if it is none of a family. The scene's own are one family. */
+/* The first of the family that q belongs to: itself if it is none of a family. User-defined ones are one family. */
 gg_quantity gg_common_quantity_family(gg_quantity q);
 /* Unit of the quantity in this model's flow, as printed beside every number: "d^2 gamma^2", "1", "rho_p v_0^2" ... */
 const char *gg_common_quantity_unit(gg_quantity q, const gg_model *model);
 
-/* Why this model has none of what the GG_NEEDS_ bits of the mask ask for; NULL if it has it all. */
+/* Why this model lacks something that the GG_NEEDS_ bits of the mask stand for; NULL if it has it all. */
 const char *gg_common_model_missing(const gg_model *model, unsigned needs);
 /* The same of a quantity's mask: the reason why its mean cannot be had. */
 const char *gg_common_quantity_missing(const gg_model *model, gg_quantity q);

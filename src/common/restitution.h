@@ -16,7 +16,7 @@ typedef struct gg_restitution_law {
   double scale[GG_PAIRS]; /* the law's unit of speed over that of results, inverse: u = scale g; by gg_pair */
 } gg_restitution_law;
 
-/* e of two species at a speed in the units of results, within 0 and 1 whatever the law says. */
+/* e of two species at a speed in the units of results, clamped to 0 and 1. */
 double gg_common_law_at(const gg_restitution_law *law, double normal_speed, int species_1, int species_2);
 
 /* Of laws that are built in: the word; 1 - e at a speed in the law's units; the speed at which that is so much. */

@@ -1,5 +1,5 @@
-/* The scene: what the user asked for, in the user's own units. Plain data; the field table of src/scene/fields.c
- * reads, checks, prints and documents every member. */
+/* The scene: what the user asked for, in the user's units. Plain data; the field table of src/scene/fields.c holds the
+ * default of every member, reads, checks, prints and documents it. */
 #ifndef GG_SCENE_H
 #define GG_SCENE_H
 

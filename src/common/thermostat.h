@@ -4,7 +4,7 @@
 
 #include "common/model.h"
 
-/* The thermostat in force: that of the scene, or the flow's own where it cannot do without. */
+/* The thermostat in force: that of the scene, or the flow's default where it needs one. */
 gg_thermostat gg_common_thermostat_of(const gg_model *model);
 
 /* xi^2 at which white noise balances the collisions of Maxwellians at temperature0 and ratio0. */

@@ -7,7 +7,7 @@
 #include "files/curve_table.h"
 #include "files/result_document.h"
 #include "run/z_scores.h"
-#include "scene/scene_json.h"
+#include "scene/fields.h"
 
 /* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}, with "error" where a theory
  * is solved numerically and tells it; those that do not apply are warnings. */

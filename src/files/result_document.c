@@ -6,7 +6,7 @@
 
 #include "base/checked_json.h"
 #include "files/curve_table.h"
-#include "scene/scene_json.h"
+#include "scene/fields.h"
 
 json_t *gg_files_json_number(double x)
 {

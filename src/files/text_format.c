@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scene/scene_json.h"
+#include "scene/fields.h"
 
 /* With `decimals` after the point; the error in units of the last digit where it has no point in it. */
 static void put_estimate(double mean, double error, int decimals, char *text, size_t size)

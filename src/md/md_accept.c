@@ -1,7 +1,6 @@
 /* Which models the engine runs. */
 #include <math.h>
 
-#include "common/surface/surfaces.h"
 #include "md/md_accept.h"
 #include "md/md_state.h"
 

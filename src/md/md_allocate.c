@@ -2,7 +2,6 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "common/surface/surfaces.h"
 #include "common/thermostat.h"
 #include "md/aligned_memory.h"
 #include "md/md_state.h"

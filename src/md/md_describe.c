@@ -1,7 +1,6 @@
 /* What the engine makes of a model, in words. */
 #include <stdio.h>
 
-#include "common/surface/surfaces.h"
 #include "md/md_accept.h"
 #include "md/md_state.h"
 

@@ -2,7 +2,7 @@
 #ifndef GG_WALL_SYMMETRY_H
 #define GG_WALL_SYMMETRY_H
 
-#include "common/surface/surfaces.h"
+#include "common/model.h"
 
 typedef enum gg_wall_symmetry {
   GG_NO_SYMMETRY,

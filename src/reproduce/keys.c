@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "reproduce/points.h"
-#include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 
 static double number_of(const json_t *value)

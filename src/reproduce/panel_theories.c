@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "reproduce/panel.h"
-#include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 
 enum { FINE = 33 };

@@ -6,7 +6,6 @@
 
 #include "measure/tail.h"
 #include "reproduce/points.h"
-#include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
 

@@ -3,7 +3,7 @@
 
 #include "base/clock.h"
 #include "run/replicas.h"
-#include "scene/resumption.h"
+#include "scene/fields.h"
 
 gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *err)
 {

@@ -1,13 +1,14 @@
 #include "scene/fields.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/conditions.h"
+#include "base/string_list.h"
 
 static gg_word flow_word(int i)
 {
@@ -40,69 +41,69 @@ static const gg_word observables[] = {GG_OBSERVABLES(WORD){0}};
 #undef WORD
 
 #define AT(member) offsetof(gg_scene, member)
-#define AUTO .special = "auto", .special_value = GG_AUTO
+#define AUTO .special = "auto", .special_value = GG_AUTO, .by_default = GG_AUTO
 /* Of numbers with a unit: products and ratios of a few of them are numbers, too. */
 #define SMALL 1e-30
 #define LARGE 1e30
-#define NONE .special = "none", .special_value = GG_AUTO
+#define NONE .special = "none", .special_value = GG_AUTO, .by_default = GG_AUTO
 
 const gg_field gg_scene_fields[] = {
-    {"flow", GG_FIELD_CHOICE, AT(flow), .word = flow_word, .doc = "the flow; must be given", .also = "type"},
+    {"flow", GG_FIELD_CHOICE, AT(flow), .word = flow_word, .by_default = GG_USF, .doc = "the flow; must be given",
+     .also = "type"},
     {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines, .doc = "which engine `run` uses; `compare` uses both",
      .also = "method"},
     {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .words = thermostats, .doc = "what keeps the gas warm"},
     {"contact_value", GG_FIELD_CHOICE, AT(contact_value), .words = contact_values,
      .doc = "pair correlation at contact, in dsmc, the theories and the strength of white noise",
-     .when = {&gg_scene_if_contact_value}},
-    {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6,
+     .when = GG_IF_CONTACT_VALUE},
+    {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6, .by_default = GG_AUTO,
      .doc = "solid fraction; must be given; 0 is the Boltzmann limit (dsmc only)",
      .also = "density volume_fraction solid_fraction packing_fraction nu"},
-    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .doc = "grains in the box", .when = {&gg_scene_if_counted},
-     .also = "N grains number n_particles num_particles"},
-    {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .unit = "1/time", .doc = "of sheared flows",
-     .when = {&gg_scene_if_sheared}, .also = "gamma gamma_dot rate shear"},
+    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .by_default = 1000, .doc = "grains in the box",
+     .when = GG_IF_COUNTED, .also = "N grains number n_particles num_particles"},
+    {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .by_default = 1, .unit = "1/time",
+     .doc = "of sheared flows", .when = GG_IF_SHEARED, .also = "gamma gamma_dot rate shear"},
     {"temperature", GG_FIELD_NUMBER, AT(temperature), 1e-100, 1e100, false, AUTO, .unit = "velocity^2",
-     .doc = "<C.C>/3 to start from; auto: near the steady state", .when = {&gg_scene_if_sheared}, .also = "T T0"},
-    {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .doc = "shape of the box: relative lengths of its edges",
-     .when = {&gg_scene_if_boxed}, .also = "box"},
-    {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .doc = "normal restitution; 1 unless given in equilibrium",
-     .also = "restitution alpha normal_restitution e_n en"},
-    {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1,
+     .doc = "<C.C>/3 to start from; auto: near the steady state", .when = GG_IF_SHEARED, .also = "T T0"},
+    {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .by_default = 1,
+     .doc = "shape of the box: relative lengths of its edges", .when = GG_IF_BOXED, .also = "box"},
+    {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .by_default = 0.9,
+     .doc = "normal restitution; 1 unless given in equilibrium", .also = "restitution alpha normal_restitution e_n en"},
+    {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1, .by_default = -1,
      .doc = "tangential restitution: -1 smooth, 1 perfectly rough; with a finite mu, that of sticking contacts",
-     .when = {&gg_scene_if_tangential}, .also = "tangential_restitution e_t et"},
-    {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY,
-     .doc = "Coulomb friction coefficient; inf: constant beta; finite: with collision.beta",
-     .when = {&gg_scene_if_sticking}, .also = "friction"},
+     .when = GG_IF_FRICTION, .also = "tangential_restitution e_t et"},
+    {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY, .by_default = INFINITY,
+     .doc = "Coulomb friction coefficient; inf: constant beta; finite: with collision.beta", .when = GG_IF_BETA,
+     .also = "friction"},
     {"collision.law", GG_FIELD_CHOICE, AT(collision.law), .words = laws,
      .doc = "how e depends on the normal speed at contact, between grains", .also = "model"},
     {"collision.speed", GG_FIELD_NUMBER, AT(collision.speed), SMALL, LARGE, false, AUTO, .unit = "velocity",
      .doc = "with a law: the normal speed at which collision.e is e; auto: the unit of velocity of results, diameter x "
             "shear_rate (couette: x mean shear rate) or, of cooling and heated gases, in which it is counted, v_0",
-     .when = {&gg_scene_if_law}},
+     .when = GG_IF_LAW},
     {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "kinds of grains, up to 16"},
-    {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .doc = "normal restitution at the walls",
-     .when = {&gg_scene_if_walled}},
-    {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1,
+    {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .by_default = 0.9, .doc = "normal restitution at the walls",
+     .when = GG_IF_WALLED},
+    {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1, .by_default = 1,
      .doc = "tangential restitution at the walls; of smooth grains, which do not spin, that of their centres",
-     .when = {&gg_scene_if_walled, &gg_scene_if_wall_tangential}},
-    {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .doc = "friction coefficient at the walls",
-     .when = {&gg_scene_if_walled, &gg_scene_if_wall_sticking}},
+     .when = GG_IF_WALLED | GG_IF_WALL_FRICTION},
+    {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .by_default = INFINITY,
+     .doc = "friction coefficient at the walls", .when = GG_IF_WALLED | GG_IF_WALL_BETA},
     {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "the upper end of chutes",
-     .when = {&gg_scene_if_walled, &gg_scene_if_openable}},
-    {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), SMALL, LARGE, .unit = "velocity",
-     .doc = "of walls that move: those at +-L_y/2 at +-speed",
-     .when = {&gg_scene_if_walled, &gg_scene_if_moving_walls}},
+     .when = GG_IF_WALLED | GG_IF_OPENABLE},
+    {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), SMALL, LARGE, .by_default = 1, .unit = "velocity",
+     .doc = "of walls that move: those at +-L_y/2 at +-speed", .when = GG_IF_WALLED | GG_IF_MOVING_WALLS},
     {"walls.ridges", GG_FIELD_NUMBER, AT(walls.ridges), 0, LARGE, .unit = "length",
      .doc = "diameter of half cylinders side by side on walls at rest, across the flow, so that a whole number stands "
             "there; 0: flat walls",
-     .when = {&gg_scene_if_walled}},
+     .when = GG_IF_WALLED},
     {"gravity", GG_FIELD_VECTOR, AT(gravity), -1e12, 1e12, .unit = "acceleration",
-     .doc = "body force per mass; in flows between walls, some of which have another default",
-     .when = {&gg_scene_if_walled}, .also = "g"},
+     .doc = "body force per mass; in flows between walls, some of which have another default", .when = GG_IF_WALLED,
+     .also = "g"},
     {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
      .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or not asked if "
             "run.collisions is given",
-     .when = {&gg_scene_if_error}, .also = "error tolerance accuracy", .may_change = true},
+     .when = GG_IF_ERROR, .also = "error tolerance accuracy", .may_change = true},
     {"run.collisions", GG_FIELD_NUMBER, AT(run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
      .doc = "stop after so much averaging; of a gas that cools by a law of restitution 400 unless given",
      .also = "steps", .may_change = true},
@@ -111,9 +112,9 @@ const gg_field gg_scene_fields[] = {
      .also = "walltime wall_time max_time", .may_change = true},
     {"run.warmup", GG_FIELD_NUMBER, AT(run.warmup), 0, 1e15, false, AUTO, .unit = "collisions per grain",
      .doc = "before averaging; auto: until the slowest quantity is steady", .also = "equilibration burn_in"},
-    {"run.replicas", GG_FIELD_INTEGER, AT(run.replicas), 1, 10000, .doc = "independent copies, averaged over",
-     .also = "repeats copies"},
-    {"run.seed", GG_FIELD_INTEGER, AT(run.seed), 0, 9223372036854775807.0,
+    {"run.replicas", GG_FIELD_INTEGER, AT(run.replicas), 1, 10000, .by_default = 1,
+     .doc = "independent copies, averaged over", .also = "repeats copies"},
+    {"run.seed", GG_FIELD_INTEGER, AT(run.seed), 0, 9223372036854775807.0, .by_default = 1,
      .doc = "of the random streams: the same seed gives the same run"},
     {"md.contact_time", GG_FIELD_NUMBER, AT(md.contact_time), 0, 1, false, AUTO, .unit = "mean free times",
      .doc = "collisions closer in time than this have e = 1, of unlike grains no loss at all (against inelastic "
@@ -121,34 +122,35 @@ const gg_field gg_scene_fields[] = {
             "0: off. With gravity along y in units of sqrt(d/g) instead, or of the shorter of both where gravity is "
             "too weak to hold grains down (lifts them across the box by less than T); auto: 1e-5, with gravity "
             "along y 1e-3",
-     .when = {&gg_scene_if_md, &gg_scene_if_lossy}},
+     .when = GG_IF_MD | GG_IF_LOSSY},
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
-     .doc = "step of the Monte Carlo engine", .when = {&gg_scene_if_dsmc}, .also = "dt"},
+     .doc = "step of the Monte Carlo engine", .when = GG_IF_DSMC, .also = "dt"},
     {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
      .doc = "size of the Monte Carlo ensemble; auto: particles if these are more than 5000; else 5000, or as many as "
             "keep means within a quarter of run.relative_error of those of infinitely many",
-     .when = {&gg_scene_if_dsmc}},
+     .when = GG_IF_DSMC},
     {"dsmc.precision", GG_FIELD_CHOICE, AT(dsmc.precision), .words = precisions,
      .doc = "of the velocities and spins that the Monte Carlo engine keeps; sums are double in either; md is double",
-     .when = {&gg_scene_if_dsmc}},
-    {"measure", GG_FIELD_SET, AT(measure), .words = observables, .doc = "what is measured; only that is paid for",
-     .also = "observables"},
+     .when = GG_IF_DSMC},
+    {"measure", GG_FIELD_SET, AT(measure), .words = observables, .by_default = GG_MEASURE_RHEOLOGY,
+     .doc = "what is measured; only that is paid for", .also = "observables"},
     {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
      .doc = "time between checkpoints; 0: none", .may_change = true},
     {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
-     .doc = "between stored frames; 0: only the last state", .when = {&gg_scene_if_one_engine}, .also = "dump",
+     .doc = "between stored frames; 0: only the last state", .when = GG_IF_ONE_ENGINE, .also = "dump",
      .may_change = true},
     {0},
 };
 
 const gg_field gg_scene_species_fields[] = {
-    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, 1, true, .doc = "mole fraction n_i/n",
-     .also = "concentration"},
-    {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), SMALL, LARGE, .unit = "length", .doc = "diameter",
-     .also = "d size radius"},
-    {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .unit = "mass", .doc = "mass", .also = "m"},
-    {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 1e-6, 1, false,
-     .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = {&gg_scene_if_rough}, .also = "K I"},
+    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, 1, true, .by_default = 1,
+     .doc = "mole fraction n_i/n", .also = "concentration"},
+    {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), SMALL, LARGE, .by_default = 1, .unit = "length",
+     .doc = "diameter", .also = "d size radius"},
+    {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .by_default = 1, .unit = "mass", .doc = "mass",
+     .also = "m"},
+    {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 1e-6, 1, false, .by_default = 0.4,
+     .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = GG_IF_ROUGH, .also = "K I"},
     {0},
 };
 
@@ -162,32 +164,85 @@ const gg_word gg_scene_former_keys[] = {
 _Static_assert(sizeof gg_scene_fields / sizeof *gg_scene_fields <= GG_MAX_FIELDS + 1 && GG_MAX_FIELDS <= 64,
                "a bit for every key");
 
-int gg_scene_field_find(const char *key)
+static void set_default(const gg_field *f, void *base)
 {
-  for (int i = 0; gg_scene_fields[i].key; i++)
-    if (strcmp(gg_scene_fields[i].key, key) == 0) return i;
+  void *at = (char *)base + f->offset;
+  const int word = (int)f->by_default;
+  switch (f->type) {
+  case GG_FIELD_INTEGER: *(int64_t *)at = (int64_t)f->by_default; return;
+  case GG_FIELD_CHOICE:
+  case GG_FIELD_SET: memcpy(at, &word, sizeof word); return;
+  case GG_FIELD_SPECIES: return;
+  default:
+    for (size_t i = 0; i < gg_field_count(f); i++) ((double *)at)[i] = f->by_default;
+  }
+}
+
+gg_scene gg_common_scene_defaults(void)
+{
+  gg_scene scene = {.n_species = 1, .dsmc = {.chosen_for = GG_AUTO}};
+  for (const gg_field *f = gg_scene_fields; f->key; f++) set_default(f, &scene);
+  for (int i = 0; i < GG_MAX_SPECIES; i++) {
+    for (const gg_field *f = gg_scene_species_fields; f->key; f++) set_default(f, &scene.species[i]);
+    if (i > 0) scene.species[i].fraction = 0;
+  }
+  return scene;
+}
+
+size_t gg_field_count(const gg_field *f)
+{
+  return f->type == GG_FIELD_PAIRS ? GG_PAIRS : f->type == GG_FIELD_VECTOR ? 3 : 1;
+}
+
+static int find(const gg_field *fields, const char *key)
+{
+  for (int i = 0; fields[i].key; i++)
+    if (strcmp(fields[i].key, key) == 0) return i;
   return -1;
 }
 
-int gg_scene_field_of_pair(const char *key, int *pair)
+int gg_scene_field_find(const char *key)
+{
+  return find(gg_scene_fields, key);
+}
+
+static int find_of_species(const char *member_key, int number, gg_field *member)
+{
+  const int k = find(gg_scene_species_fields, member_key);
+  if (k < 0) return -1;
+  *member = gg_scene_species_fields[k];
+  member->offset += AT(species) + (size_t)(number - 1) * sizeof(gg_species);
+  return gg_scene_field_find("species");
+}
+
+static int find_of_pair(const char *key, gg_field *member)
 {
   char base[64];
   const char *dot = strrchr(key, '.');
-  if (!dot || strlen(key) >= sizeof base) return -1;
+  const int pair = dot ? gg_common_pair_find(dot + 1) : -1;
+  if (pair < 0 || strlen(key) >= sizeof base) return -1;
   snprintf(base, sizeof base, "%.*s", (int)(dot - key), key);
-  int id = gg_scene_field_find(base);
-  *pair = gg_common_pair_find(dot + 1);
-  return *pair >= 0 && id >= 0 && gg_scene_fields[id].type == GG_FIELD_PAIRS ? id : -1;
+  const int id = gg_scene_field_find(base);
+  if (id < 0 || gg_scene_fields[id].type != GG_FIELD_PAIRS) return -1;
+  *member = gg_scene_fields[id];
+  member->type = GG_FIELD_NUMBER;
+  member->offset += (size_t)pair * sizeof(double);
+  return id;
+}
+
+int gg_scene_key_find(const char *key, int n_species, gg_field *member)
+{
+  int number, used = 0;
+  const int id = gg_scene_field_find(key);
+  if (id >= 0) return *member = gg_scene_fields[id], id;
+  if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return find_of_pair(key, member);
+  return number >= 1 && number <= n_species ? find_of_species(key + used, number, member) : -1;
 }
 
 bool gg_scene_key_exists(const char *key)
 {
-  int pair, number, used = 0;
-  if (gg_scene_field_find(key) >= 0 || gg_scene_field_of_pair(key, &pair) >= 0) return true;
-  if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return false;
-  for (const gg_field *f = gg_scene_species_fields; f->key; f++)
-    if (strcmp(f->key, key + used) == 0) return true;
-  return false;
+  gg_field member;
+  return gg_scene_key_find(key, INT_MAX, &member) >= 0;
 }
 
 bool gg_scene_is_given(const gg_scene *scene, const char *key)
@@ -213,25 +268,15 @@ gg_word gg_scene_field_word(const gg_field *f, int i)
 gg_word gg_scene_field_find_word(const gg_field *f, const char *name)
 {
   int i = 0;
-  gg_word word = gg_scene_field_word(f, 0);
-  while (word.name && strcmp(word.name, name) != 0) word = gg_scene_field_word(f, ++i);
-  return word;
+  while (gg_scene_field_word(f, i).name && strcmp(gg_scene_field_word(f, i).name, name) != 0) i++;
+  return gg_scene_field_word(f, i);
 }
 
 gg_word gg_scene_field_word_for(const gg_field *f, int value)
 {
   int i = 0;
-  gg_word word = gg_scene_field_word(f, 0);
-  while (word.name && word.value != value) word = gg_scene_field_word(f, ++i);
-  return word;
-}
-
-static void list_words(const gg_field *f, char *text, size_t size)
-{
-  gg_word word;
-  size_t used = strlen(text);
-  for (int i = 0; (word = gg_scene_field_word(f, i)).name && used < size; i++)
-    used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", word.name);
+  while (gg_scene_field_word(f, i).name && gg_scene_field_word(f, i).value != value) i++;
+  return gg_scene_field_word(f, i);
 }
 
 void gg_scene_number_format(double value, char *text, size_t size)
@@ -262,28 +307,25 @@ static void number_allowed(const gg_field *f, const char *what, char *text, size
     snprintf(text, size, "%s above %s, at most %s", what, min, max);
   else
     snprintf(text, size, "%s from %s to %s", what, min, max);
-  size_t used = strlen(text);
-  if (f->special && used < size) snprintf(text + used, size - used, ", or %s", f->special);
+  if (f->special) gg_base_text_append(text, size, ", or %s", f->special);
 }
 
 void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
 {
-  static const char *const pairs = ", or a map of them by pair of species: {11: , 12: , other: }";
+  gg_word word;
   switch (f->type) {
   case GG_FIELD_NUMBER: number_allowed(f, "a number", text, size); return;
   case GG_FIELD_INTEGER: number_allowed(f, "a whole number", text, size); return;
   case GG_FIELD_VECTOR: number_allowed(f, "a list of three numbers", text, size); return;
   case GG_FIELD_PAIRS:
     number_allowed(f, "a number", text, size);
-    if (strlen(text) + strlen(pairs) < size) strcat(text, pairs);
+    gg_base_text_append(text, size, ", or a map of them by pair of species: {11: , 12: , other: }");
     return;
   case GG_FIELD_CHOICE:
-    snprintf(text, size, "one of ");
-    list_words(f, text, size);
-    return;
   case GG_FIELD_SET:
-    snprintf(text, size, "a list of ");
-    list_words(f, text, size);
+    snprintf(text, size, f->type == GG_FIELD_SET ? "a list of " : "one of ");
+    for (int i = 0; (word = gg_scene_field_word(f, i)).name; i++)
+      gg_base_text_append(text, size, "%s%s", i ? ", " : "", word.name);
     return;
   case GG_FIELD_SPECIES:
     snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass and inertia", GG_MAX_SPECIES);

@@ -1,9 +1,14 @@
-/* The one table of what a scene may say. It drives the reader, --set, range checks, `graingas info`, the scene echoed
- * in results, what a checkpoint is held against when a run is resumed, and the manual. A new key is a member of
- * gg_scene and a line of fields.c. */
+/* The one table of the keys of a scene, and what follows from it: defaults, the reader, --set, range checks, `graingas
+ * info`, the scene echoed in results, what a checkpoint is compared with when a run is resumed, and the manual. A new
+ * key is a member of gg_scene and a row of fields.c. */
 #ifndef GG_SCENE_FIELDS_H
 #define GG_SCENE_FIELDS_H
 
+#include <jansson.h>
+#include <stdio.h>
+
+#include "base/archive.h"
+#include "base/string_list.h"
 #include "common/scene.h"
 
 typedef enum gg_field_type {
@@ -22,7 +27,28 @@ typedef struct gg_word {
   const char *doc;
 } gg_word;
 
-enum { GG_MOST_CONDITIONS = 2 };
+/* When a key has an effect: what a row names under `when`, a sum of these. checks.c evaluates them, in this order, and
+ * has the reason why a key has none. */
+enum {
+  GG_IF_WALLED = 1u << 0,
+  GG_IF_SHEARED = 1u << 1,
+  GG_IF_MOVING_WALLS = 1u << 2,
+  GG_IF_OPENABLE = 1u << 3,
+  GG_IF_MD = 1u << 4,
+  GG_IF_DSMC = 1u << 5,
+  GG_IF_COUNTED = 1u << 6,
+  GG_IF_BOXED = 1u << 7,
+  GG_IF_ONE_ENGINE = 1u << 8,
+  GG_IF_CONTACT_VALUE = 1u << 9,
+  GG_IF_LOSSY = 1u << 10,
+  GG_IF_ERROR = 1u << 11,
+  GG_IF_ROUGH = 1u << 12,
+  GG_IF_LAW = 1u << 13,
+  GG_IF_BETA = 1u << 14,
+  GG_IF_FRICTION = 1u << 15,
+  GG_IF_WALL_BETA = 1u << 16,
+  GG_IF_WALL_FRICTION = 1u << 17
+};
 
 typedef struct gg_field {
   const char *key; /* dotted */
@@ -32,11 +58,12 @@ typedef struct gg_field {
   bool above_min;      /* min itself is not allowed */
   const char *special; /* a word that stands for special_value: "auto", "none" */
   double special_value;
-  /* Of choices and sets: a list that ends with a NULL name, or a table of another room, which is asked for its rows. */
+  double by_default; /* of words their value, of pairs and vectors every element; phi: GG_AUTO, must be given */
+  /* Of choices and sets: a list that ends with a NULL name, or a function that returns the i-th of another table. */
   const gg_word *words;
   gg_word (*word)(int i);
   const char *unit, *doc;
-  const struct gg_condition *when[GG_MOST_CONDITIONS]; /* all of them, or the key has no effect (scene/conditions.h) */
+  unsigned when;    /* GG_IF_...: unless all of them hold, the key has no effect; 0: it always has */
   const char *also; /* what others call it, for messages: words separated by blanks */
   bool may_change;  /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
@@ -50,8 +77,9 @@ extern const char *const gg_scene_sections[]; /* first parts of dotted keys; end
 
 /* Index in gg_scene_fields, or -1. */
 int gg_scene_field_find(const char *key);
-/* "collision.e.12": index of collision.e, and the pair; else -1. */
-int gg_scene_field_of_pair(const char *key, int *pair);
+/* The same of keys and of members of their values, "collision.e.12" and "species.2.mass" (1 to n_species): *member is
+ * the row, or a row for that member whose offset is in gg_scene. */
+int gg_scene_key_find(const char *key, int n_species, gg_field *member);
 /* Is there such a key: collision.e, species.2.mass, collision.e.12? */
 bool gg_scene_key_exists(const char *key);
 /* Did the user give this key? */
@@ -59,6 +87,8 @@ bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */
 bool gg_scene_is_section(const char *name);
 
+/* How many values the member holds; of species and words 1. */
+size_t gg_field_count(const gg_field *field);
 /* The i-th word that a choice or a set takes; beyond the last one its name is NULL. */
 gg_word gg_scene_field_word(const gg_field *field, int i);
 /* The word of that name; its name is NULL if there is none. */
@@ -70,5 +100,41 @@ gg_word gg_scene_field_word_for(const gg_field *field, int value);
 void gg_scene_number_format(double value, char *text, size_t size);
 /* What a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
 void gg_scene_field_allowed(const gg_field *field, char *text, size_t size);
+
+/* scene_json.c: scenes as JSON for results and as YAML for people; either can be read again as a scene. */
+
+/* Every key with its value; NULL only if out of memory. The caller owns the reference. */
+json_t *gg_scene_json(const gg_scene *scene);
+/* One value of it; the same. */
+json_t *gg_scene_field_json(const gg_field *field, const void *base, const gg_scene *scene);
+/* The value of one key: "collision.e", "collision.e.12", "species.2.mass". NULL: there is no such key,
+ * or out of memory. */
+json_t *gg_scene_key_json(const gg_scene *scene, const char *key);
+/* A JSON value on one line, as YAML flow style, cut to `size` bytes. */
+void gg_scene_flow_style_text(const json_t *value, char *text, size_t size);
+/* The scene as YAML text, to be freed; NULL if out of memory. */
+char *gg_scene_yaml(const gg_scene *scene);
+
+/* checks.c: what concerns several keys. */
+
+/* Fill in the defaults that depend on other keys. */
+void gg_scene_fill_in(gg_scene *scene);
+/* The same, and reject combinations that are invalid in any engine: call it before a scene is used. */
+gg_status gg_scene_finish(gg_scene *scene, gg_error *err);
+
+/* What a scene is used for: a sum of these. */
+enum { GG_USE_MD = 1u << GG_MD, GG_USE_DSMC = 1u << GG_DSMC, GG_USE_THEORY = 1u << 2 };
+/* Keys that the scene gives and that have no effect in it, a line for each reason: "walls.e, walls.beta have no effect
+ * ...". Keys with their default values are left out. `scene` is finished, `uses` a sum of GG_USE_... */
+void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_text_list *lines);
+
+/* resumption.c: a checkpoint keeps every key but those that `may_change`, and the name of what the program added to
+ * the scene: items "scene/KEY" and "scene/extension". */
+
+gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *archive, gg_error *err);
+/* Before the scene's model is made: an ensemble whose size followed from the error asked for at first keeps it. */
+gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *archive, gg_error *err);
+/* GG_BAD_INPUT names the first key that differs, with both values; numbers are compared to the last bit. */
+gg_status gg_scene_resumption_check(const gg_scene *scene, const gg_archive *archive, gg_error *err);
 
 #endif

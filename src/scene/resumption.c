@@ -1,7 +1,4 @@
-#include "scene/resumption.h"
-
-#include <inttypes.h>
-#include <stdarg.h>
+/* What a checkpoint keeps of a scene, to reject another scene when the run is resumed. */
 #include <stdio.h>
 #include <string.h>
 
@@ -48,107 +45,68 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
   return gg_base_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
 }
 
-static GG_PRINTF(3, 4) void append(char *text, size_t size, const char *format, ...)
+/* A value as it stands in scenes, lists without brackets: "md", "rheology, cells", "auto", 0.9, "1, 1, 2". */
+static void show(const gg_field *f, const gg_scene *scene, char *text, size_t size)
 {
-  size_t used = strlen(text);
-  va_list arguments;
-  va_start(arguments, format);
-  if (used < size) vsnprintf(text + used, size - used, format, arguments);
-  va_end(arguments);
-}
-
-static void append_number(const gg_field *f, double value, char *text, size_t size)
-{
-  char number[40];
-  gg_scene_number_format(value, number, sizeof number);
-  append(text, size, "%s", f->special && value == f->special_value ? f->special : number);
-}
-
-/* A value as it stands in scenes: "md", "rheology, cells", "auto", 0.9, "1, 1, 2". */
-static void show(const gg_field *f, const void *at, char *text, size_t size)
-{
-  int64_t whole;
-  unsigned word;
-  gg_word w;
-  *text = '\0';
-  switch (f->type) {
-  case GG_FIELD_INTEGER:
-    memcpy(&whole, at, sizeof whole);
-    if (f->special && (double)whole == f->special_value)
-      append(text, size, "%s", f->special);
-    else
-      append(text, size, "%" PRId64, whole);
-    return;
-  case GG_FIELD_CHOICE:
-  case GG_FIELD_SET:
-    memcpy(&word, at, sizeof word);
-    for (int i = 0; (w = gg_scene_field_word(f, i)).name; i++)
-      if (f->type == GG_FIELD_SET ? (word & (unsigned)w.value) != 0 : word == (unsigned)w.value)
-        append(text, size, "%s%s", *text ? ", " : "", w.name);
-    return;
-  default:
-    for (size_t i = 0; i < (f->type == GG_FIELD_VECTOR ? 3 : 1); i++) {
-      if (i) append(text, size, ", ");
-      append_number(f, ((const double *)at)[i], text, size);
-    }
+  json_t *value = gg_scene_field_json(f, scene, scene);
+  gg_scene_flow_style_text(value, text, size);
+  const size_t length = strlen(text);
+  if (json_is_array(value) && text[length - 1] == ']') {
+    memmove(text, text + 1, length);
+    text[length - 2] = '\0';
   }
+  json_decref(value);
 }
 
-static void list_changeable(char *text, size_t size)
+static gg_status reject(const char *key, const char *there, const char *here, gg_error *err)
 {
-  *text = '\0';
+  char changeable[256] = "";
   for (const gg_field *f = gg_scene_fields; f->key; f++)
-    if (f->may_change) append(text, size, "%s%s", *text ? ", " : "", f->key);
-}
-
-static gg_status refuse(const gg_field *f, const char *key, const void *there, const void *here, gg_error *err)
-{
-  char one[256], two[256], changeable[256];
-  show(f, there, one, sizeof one);
-  show(f, here, two, sizeof two);
-  list_changeable(changeable, sizeof changeable);
+    if (f->may_change) gg_base_text_append(changeable, sizeof changeable, "%s%s", *changeable ? ", " : "", f->key);
   return gg_base_fail(err, GG_BAD_INPUT,
-                      "the checkpoint is of another run: %s differs (there %s, here %s); only %s may change", key, one,
-                      two, changeable);
+                      "the checkpoint is of another run: %s differs (there %s, here %s); only %s may change", key,
+                      there, here, changeable);
 }
 
-static gg_status refuse_pair(const gg_field *f, const double *there, const double *here, bool mixture, gg_error *err)
+/* The value of one key, or one member of it; `name` is what a message calls it. */
+static gg_status same(const char *key, const char *name, const gg_scene *there, const gg_scene *here, gg_error *err)
 {
-  char key[48], pair[GG_PAIR_NAME];
-  int p = 0;
-  while (p < GG_PAIRS && memcmp(&there[p], &here[p], sizeof *there) == 0) p++;
-  if (p == GG_PAIRS) return GG_OK;
-  gg_common_pair_name(p, pair);
-  snprintf(key, sizeof key, "%s%s%s", f->key, mixture ? "." : "", mixture ? pair : "");
-  return refuse(f, key, &there[p], &here[p], err);
+  gg_field f;
+  char one[256] = "", two[256] = "";
+  if (gg_scene_key_find(key, GG_MAX_SPECIES, &f) < 0) return GG_OK;
+  const size_t bytes = kept[f.type].count * gg_base_archive_item_size(kept[f.type].type);
+  if (memcmp((const char *)there + f.offset, (const char *)here + f.offset, bytes) == 0) return GG_OK;
+  show(&f, there, one, sizeof one);
+  show(&f, here, two, sizeof two);
+  return reject(name, one, two, err);
 }
 
-static gg_status refuse_species(const gg_scene *there, const gg_scene *here, gg_error *err)
+static gg_status same_species(const gg_scene *there, const gg_scene *here, gg_error *err)
 {
-  char key[48];
-  const gg_field number = {.type = GG_FIELD_NUMBER};
-  const double n[] = {there->n_species, here->n_species};
-  if (n[0] != n[1]) return refuse(&number, "the number of species", &n[0], &n[1], err);
+  char key[48], n[2][16];
+  for (int k = 0; k < 2; k++) snprintf(n[k], sizeof n[k], "%d", (k ? here : there)->n_species);
+  if (there->n_species != here->n_species) return reject("the number of species", n[0], n[1], err);
   for (int i = 0; i < GG_MAX_SPECIES; i++)
     for (const gg_field *f = gg_scene_species_fields; f->key; f++) {
-      const char *one = (const char *)&there->species[i] + f->offset,
-                 *two = (const char *)&here->species[i] + f->offset;
       snprintf(key, sizeof key, "species.%d.%s", i + 1, f->key);
-      if (memcmp(one, two, sizeof(double)) != 0) return refuse(f, key, one, two, err);
+      GG_TRY(same(key, key, there, here, err));
     }
   return GG_OK;
 }
 
 static gg_status same_value(const gg_field *f, const gg_scene *there, const gg_scene *here, gg_error *err)
 {
-  const void *one = (const char *)there + f->offset, *two = (const char *)here + f->offset;
-  if (f->type == GG_FIELD_SPECIES) return refuse_species(there, here, err);
-  if (f->type == GG_FIELD_PAIRS) return refuse_pair(f, one, two, here->n_species > 1, err);
-  bool same = memcmp(one, two, kept[f->type].count * gg_base_archive_item_size(kept[f->type].type)) == 0;
-  return same ? GG_OK : refuse(f, f->key, one, two, err);
+  char key[48], pair[GG_PAIR_NAME];
+  if (f->type == GG_FIELD_SPECIES) return same_species(there, here, err);
+  if (f->type != GG_FIELD_PAIRS) return same(f->key, f->key, there, here, err);
+  for (int p = 0; p < GG_PAIRS; p++) {
+    snprintf(key, sizeof key, "%s.%s", f->key, gg_common_pair_name(p, pair));
+    GG_TRY(same(key, here->n_species > 1 ? key : f->key, there, here, err));
+  }
+  return GG_OK;
 }
 
-/* Callbacks cannot be kept: what a run was extended by has to be registered again before it goes on. */
+/* Callbacks cannot be kept: the program has to register its law and observables again before the run goes on. */
 static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_error *err)
 {
   char here[SIGNATURE], there[SIGNATURE];
@@ -166,7 +124,7 @@ static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_e
 gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *a, gg_error *err)
 {
   if (!gg_base_archive_find(a, ensemble_item))
-    return GG_OK; /* no archive of a run: gg_scene_resumption_check says so */
+    return GG_OK; /* no archive of a run: gg_scene_resumption_check rejects it */
   return gg_base_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->dsmc.chosen_for, 1, err);
 }
 

@@ -1,4 +1,4 @@
-#include "scene/scene_json.h"
+#include "scene/fields.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +10,9 @@
 
 static json_t *number_json(const gg_field *f, double value)
 {
+  char text[40];
   if (f->special && value == f->special_value) return json_string(f->special);
-  if (value == INFINITY) return json_string("inf");
+  if (!isfinite(value)) return gg_scene_number_format(value, text, sizeof text), json_string(text);
   if (value == floor(value) && fabs(value) < 1e15) return json_integer((json_int_t)value);
   return json_real(value);
 }
@@ -108,30 +109,17 @@ json_t *gg_scene_field_json(const gg_field *f, const void *base, const gg_scene 
   return gg_base_json_end(before, value_json(f, base, scene));
 }
 
-/* One member of what a key holds: "collision.e.12", "species.2.mass". NULL if there is no such thing. */
-static json_t *member_json(const gg_scene *scene, const char *key)
-{
-  int number, used = 0;
-  if (sscanf(key, "species.%d.%n", &number, &used) == 1 && used && number >= 1 && number <= scene->n_species)
-    for (const gg_field *f = gg_scene_species_fields; f->key; f++)
-      if (strcmp(f->key, key + used) == 0) return gg_scene_field_json(f, &scene->species[number - 1], scene);
-  int pair, id = gg_scene_field_of_pair(key, &pair);
-  if (id < 0) return NULL;
-  gg_field one = gg_scene_fields[id];
-  one.type = GG_FIELD_NUMBER;
-  one.offset += (size_t)pair * sizeof(double);
-  return gg_scene_field_json(&one, scene, scene);
-}
-
 json_t *gg_scene_key_json(const gg_scene *scene, const char *key)
 {
-  int id = gg_scene_field_find(key);
-  return id >= 0 ? gg_scene_field_json(&gg_scene_fields[id], scene, scene) : member_json(scene, key);
+  gg_field member;
+  return gg_scene_key_find(key, scene->n_species, &member) >= 0 ? gg_scene_field_json(&member, scene, scene) : NULL;
 }
 
-static json_t *new_section(json_t *root, const char *name)
+static json_t *section_of(json_t *root, const char *name)
 {
-  json_t *section = json_object();
+  json_t *section = json_object_get(root, name);
+  if (section) return section;
+  section = json_object();
   return json_object_set_new(root, name, section) == 0 ? section : NULL;
 }
 
@@ -145,43 +133,35 @@ json_t *gg_scene_json(const gg_scene *scene)
     if (dot) {
       char section[32];
       snprintf(section, sizeof section, "%.*s", (int)(dot - f->key), f->key);
-      into = json_object_get(root, section);
-      if (!into) into = new_section(root, section);
+      into = section_of(root, section);
     }
     json_object_set_new(into, name, gg_scene_field_json(f, scene, scene));
   }
   return gg_base_json_end(before, root);
 }
 
-void gg_scene_print_flow_style(FILE *out, const json_t *value)
+/* A JSON value on one line, as YAML flow style. */
+static void print_flow_style(FILE *out, const json_t *value)
 {
   char text[40];
   const char *key;
   json_t *member;
-  size_t i;
+  size_t i = 0;
   switch (json_typeof(value)) {
-  case JSON_REAL:
-    gg_scene_number_format(json_real_value(value), text, sizeof text);
-    fputs(text, out);
-    return;
+  case JSON_REAL: gg_scene_number_format(json_real_value(value), text, sizeof text), fputs(text, out); return;
   case JSON_INTEGER: fprintf(out, "%" JSON_INTEGER_FORMAT, json_integer_value(value)); return;
   case JSON_STRING: fputs(json_string_value(value), out); return;
   case JSON_ARRAY:
     fputc('[', out);
-    json_array_foreach(value, i, member)
-    {
-      if (i) fputs(", ", out);
-      gg_scene_print_flow_style(out, member);
-    }
+    json_array_foreach(value, i, member) fputs(i ? ", " : "", out), print_flow_style(out, member);
     fputc(']', out);
     return;
   case JSON_OBJECT:
     fputc('{', out);
-    i = 0;
     json_object_foreach((json_t *)(uintptr_t)value, key, member)
     {
       fprintf(out, "%s%s: ", i++ ? ", " : "", key);
-      gg_scene_print_flow_style(out, member);
+      print_flow_style(out, member);
     }
     fputc('}', out);
     return;
@@ -193,7 +173,7 @@ void gg_scene_flow_style_text(const json_t *value, char *text, size_t size)
 {
   char *whole = NULL;
   FILE *out = gg_base_memory_stream_open(&whole);
-  if (out) gg_scene_print_flow_style(out, value);
+  if (out && value) print_flow_style(out, value);
   if (gg_base_memory_stream_close(out, &whole)) snprintf(text, size, "%s", whole);
   free(whole);
 }
@@ -204,25 +184,26 @@ static bool is_pairs(const json_t *value)
   return key && (gg_common_pair_find(key) >= 0 || strcmp(key, "other") == 0);
 }
 
+static void print_line(FILE *out, const char *indent, const char *key, const json_t *value)
+{
+  fprintf(out, "%s%s: ", indent, key);
+  print_flow_style(out, value);
+  fputc('\n', out);
+}
+
 static void print_yaml(FILE *out, const json_t *root)
 {
-  const char *key, *name;
-  json_t *value, *member;
+  const char *key;
+  json_t *value;
   json_object_foreach((json_t *)(uintptr_t)root, key, value)
   {
-    if (!json_is_object(value) || is_pairs(value)) {
-      fprintf(out, "%s: ", key);
-      gg_scene_print_flow_style(out, value);
-      fputc('\n', out);
-      continue;
-    }
-    fprintf(out, "%s:\n", key);
-    json_object_foreach(value, name, member)
-    {
-      fprintf(out, "  %s: ", name);
-      gg_scene_print_flow_style(out, member);
-      fputc('\n', out);
-    }
+    const bool section = json_is_object(value) && !is_pairs(value);
+    if (section)
+      fprintf(out, "%s:\n", key);
+    else
+      print_line(out, "", key, value);
+    for (void *i = section ? json_object_iter(value) : NULL; i; i = json_object_iter_next(value, i))
+      print_line(out, "  ", json_object_iter_key(i), json_object_iter_value(i));
   }
 }
 

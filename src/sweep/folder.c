@@ -77,8 +77,8 @@ gg_status gg_sweep_point_claim(const char *folder, uint64_t id, gg_file_lock *lo
   return status;
 }
 
-/* Of "0123456789abcdef.checkpoint.h5" the number, where it is not the result itself; 0: it is something else. */
-static uint64_t point_of_litter(const char *name)
+/* The point of a temporary file, "0123456789abcdef.checkpoint.h5"; 0: it is something else, such as the result. */
+static uint64_t point_of_temporary(const char *name)
 {
   static const char *const endings[] = {".checkpoint.h5", ".checkpoint.h5.1", ".checkpoint.frames",
                                         ".checkpoint.frames.new", ".work.h5"};
@@ -87,17 +87,17 @@ static uint64_t point_of_litter(const char *name)
   uint64_t id = strtoull(name, &end, 16);
   size_t length = strlen(end), cut = 0;
   for (int i = 0; i < 2; i++) {
-    static const char *const own[] = {GG_TEMPORARY_SUFFIX, GG_LOCK_SUFFIX};
-    size_t n = strlen(own[i]);
-    if (length > n && strcmp(end + length - n, own[i]) == 0) cut = n;
+    static const char *const suffixes[] = {GG_TEMPORARY_SUFFIX, GG_LOCK_SUFFIX};
+    size_t n = strlen(suffixes[i]);
+    if (length > n && strcmp(end + length - n, suffixes[i]) == 0) cut = n;
   }
   for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
     if (strlen(endings[i]) == length - cut && strncmp(end, endings[i], length - cut) == 0) return id;
   return cut && length - cut == 3 && strncmp(end, ".h5", 3) == 0 ? id : 0;
 }
 
-/* Not where somebody is still at it. */
-static void remove_litter(const char *folder, uint64_t id, const char *name)
+/* Only where no process holds the point. */
+static void remove_temporary(const char *folder, uint64_t id, const char *name)
 {
   gg_file_lock lock;
   char *path = NULL, *result = gg_sweep_point_path(folder, id, ".h5");
@@ -115,13 +115,13 @@ void gg_sweep_folder_tidy(const char *folder)
   DIR *all = opendir(folder);
   if (!all) return;
   for (struct dirent *entry; (entry = readdir(all));) {
-    uint64_t id = point_of_litter(entry->d_name);
-    if (id) remove_litter(folder, id, entry->d_name);
+    uint64_t id = point_of_temporary(entry->d_name);
+    if (id) remove_temporary(folder, id, entry->d_name);
   }
   closedir(all);
 }
 
-/* Without memory of its own: a result that is written is not left under its working name for want of some bytes. */
+/* Allocates nothing: a lack of memory cannot leave a finished result under its working name. */
 gg_status gg_sweep_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err)
 {
   char from[PATH_MAX], to[PATH_MAX];

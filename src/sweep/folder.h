@@ -17,7 +17,7 @@ gg_point_state gg_sweep_point_status(const char *folder, uint64_t id);
 /* Make it if it is not there (not what it stands in), and see that files can be made in it. `holds` ends the message
  * where something else has its name. */
 gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err);
-/* Remove what a killed process left beside points that are done: checkpoints, locks, what was half written. */
+/* Remove the temporary files of a killed process beside points that are done: checkpoints, locks, partial results. */
 void gg_sweep_folder_tidy(const char *folder);
 /* Take the place of a point, so that no other process does it at the same time: GG_OK with lock->fd -1 says that one
  * does, or that it has just been done. */

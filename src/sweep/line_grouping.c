@@ -5,7 +5,7 @@
 
 #include "plot/chart.h"
 
-/* Letters, of which a picture has room for some 70; a value longer than this is told by what it differs in. */
+/* Letters, of which a picture has room for some 70; a longer value is cut to what it differs in. */
 enum { LONG_VALUE = 20, LONGEST_PART = 32, LONGEST_NAME = 56 };
 
 size_t gg_sweep_line_group_of(const gg_sweep *sweep, size_t i, size_t varied)

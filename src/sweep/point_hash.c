@@ -7,7 +7,7 @@
 #include "base/checksum.h"
 #include "base/memory.h"
 #include "common/extension.h"
-#include "scene/scene_json.h"
+#include "scene/fields.h"
 #include "sweep/sweep.h"
 
 static bool begins(const char *key, const char *const *with)
@@ -36,13 +36,14 @@ static uint64_t add_field(uint64_t sum, const gg_field *f, const gg_scene *scene
 {
   json_t *value = gg_scene_field_json(f, scene, scene);
   char *text = gg_base_json_text(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
-  sum = add_text(add_text(sum, f->key), text ? text : ""); /* without it: the name of another point, which is noted */
+  sum = add_text(add_text(sum, f->key),
+                 text ? text : ""); /* no memory: the name of another point; the lack is recorded */
   free(text);
   json_decref(value);
   return sum;
 }
 
-/* What the calling program added has no values: its names tell. */
+/* What the calling program added has no values: its names enter. */
 static uint64_t add_extension(uint64_t sum, const gg_scene *scene)
 {
   char signature[2048] = "";
@@ -59,10 +60,11 @@ static uint64_t mix(uint64_t x)
   return x ^ (x >> 33);
 }
 
+const char *const gg_does_words[] = {"run", "compare", "theory"};
+
 uint64_t gg_sweep_point_id(const gg_scene *scene, gg_does does)
 {
-  const char *const words[] = {"run", "compare", "theory"};
-  uint64_t sum = add_text(GG_CHECKSUM_START, words[does]);
+  uint64_t sum = add_text(GG_CHECKSUM_START, gg_does_words[does]);
   for (const gg_field *f = gg_scene_fields; f->key; f++)
     if (!is_left_out(f->key, does)) sum = add_field(sum, f, scene);
   return mix(add_extension(sum, scene));
@@ -89,10 +91,10 @@ gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t
 {
   char there[40], here[40];
   gg_status status = GG_OK;
-  json_t *own = gg_scene_json(scene);
-  if (!own) return gg_base_out_of_memory(err);
+  json_t *whole = gg_scene_json(scene);
+  if (!whole) return gg_base_out_of_memory(err);
   for (const gg_field *f = gg_scene_fields; f->key && status == GG_OK; f++) {
-    const json_t *value = value_in(stored, f->key), *wanted = value_in(own, f->key);
+    const json_t *value = value_in(stored, f->key), *wanted = value_in(whole, f->key);
     if (is_left_out(f->key, does) || (value && json_equal(value, wanted))) continue;
     value_text(value, there, sizeof there);
     value_text(wanted, here, sizeof here);
@@ -101,11 +103,11 @@ gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t
                           "remove it, and the point is done again",
                           path, f->key, there, here);
   }
-  json_decref(own);
+  json_decref(whole);
   return status;
 }
 
-/* A length that is varied tells points apart; one that is not, and the replicas that follow from forecasts, may be
+/* A length that is varied distinguishes points; one that is not, and the replicas that follow from estimates, may be
  * changed, and the same run is longer. */
 static bool is_of_seed(const gg_field *f, const gg_sweep *sweep)
 {

@@ -9,7 +9,6 @@
 #include "run/cost_estimate.h"
 #include "run/replicas.h"
 #include "scene/scene_reader.h"
-#include "scene/yaml_node.h"
 #include "sweep/sweep.h"
 
 size_t gg_sweep_count(const gg_sweep *sweep)
@@ -26,26 +25,49 @@ size_t gg_sweep_row(const gg_sweep *sweep, size_t i, size_t varied)
   return i % sweep->varied[varied].n;
 }
 
+/* The varied keys to which the k-th key of all belongs; *k is its place among them. */
+static const gg_varied *varied_of(const gg_sweep *sweep, size_t *k, size_t *varied)
+{
+  for (*varied = 0; sweep && *varied < sweep->n_varied; ++*varied) {
+    const gg_varied *v = &sweep->varied[*varied];
+    if (*k < v->n_keys) return v;
+    *k -= v->n_keys;
+  }
+  return NULL;
+}
+
+const char *gg_sweep_key(const gg_sweep *sweep, size_t k)
+{
+  size_t f;
+  const gg_varied *v = varied_of(sweep, &k, &f);
+  return v ? v->key[k] : NULL;
+}
+
+static const char *value_of(const gg_sweep *sweep, size_t i, size_t k)
+{
+  size_t f;
+  const gg_varied *v = varied_of(sweep, &k, &f);
+  return v ? v->value[gg_sweep_row(sweep, i, f) * v->n_keys + k] : NULL;
+}
+
+const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k)
+{
+  return sweep && i < sweep->n ? value_of(sweep, i, k) : NULL;
+}
+
 void gg_sweep_name_point(const gg_sweep *sweep, size_t i, char *text, size_t size)
 {
-  size_t used = 0;
   char whole[400] = "";
-  for (size_t f = 0; f < sweep->n_varied; f++) {
-    const gg_varied *v = &sweep->varied[f];
-    for (size_t k = 0; k < v->n_keys && used < sizeof whole; k++)
-      used += (size_t)snprintf(whole + used, sizeof whole - used, "%s%s %s", used ? ", " : "", v->key[k],
-                               v->value[gg_sweep_row(sweep, i, f) * v->n_keys + k]);
-  }
+  for (size_t k = 0; gg_sweep_key(sweep, k); k++)
+    gg_base_text_append(whole, sizeof whole, "%s%s %s", *whole ? ", " : "", gg_sweep_key(sweep, k),
+                        value_of(sweep, i, k));
   gg_scene_quote(whole, text, size);
 }
 
 static gg_status set_values(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
 {
-  for (size_t f = 0; f < sweep->n_varied; f++) {
-    const gg_varied *v = &sweep->varied[f];
-    char *const *value = &v->value[gg_sweep_row(sweep, i, f) * v->n_keys];
-    for (size_t k = 0; k < v->n_keys; k++) GG_TRY(gg_scene_override(scene, v->key[k], value[k], err));
-  }
+  for (size_t k = 0; gg_sweep_key(sweep, k); k++)
+    GG_TRY(gg_scene_override(scene, gg_sweep_key(sweep, k), value_of(sweep, i, k), err));
   return GG_OK;
 }
 

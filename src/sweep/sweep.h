@@ -3,15 +3,13 @@
 #ifndef GG_SWEEP_H
 #define GG_SWEEP_H
 
-#include <jansson.h>
-
-#include "base/error.h"
-#include "common/scene.h"
+#include "common/rng.h"
+#include "scene/fields.h"
 
 typedef enum gg_does { GG_DOES_RUN, GG_DOES_COMPARE, GG_DOES_THEORY } gg_does;
 typedef enum gg_seeds { GG_SEEDS_INDEPENDENT, GG_SEEDS_COMMON } gg_seeds;
 
-/* The map `sweep`; its rows are in settings.c. */
+/* The map `sweep`; its rows are in sweep_reader.c. */
 typedef struct gg_sweep_settings {
   gg_does does;
   gg_seeds seeds;
@@ -44,15 +42,36 @@ struct gg_sweep {
   gg_point *point; /* n of them */
 };
 
-/* settings.c: one key of the map, "sweep.does", from YAML. */
+/* sweep_reader.c */
+gg_sweep_settings gg_sweep_settings_defaults(void);
+/* One key of the map `sweep`, "sweep.does", from YAML. */
 gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, const char *value, gg_error *err);
-
-/* read.c */
 gg_status gg_sweep_read_text(gg_sweep *sweep, const char *yaml, size_t length, const char *name, gg_error *err);
-/* varied_keys.c */
+
+/* parameter_grid.c: the values that a varied key takes, as they are written: a list, "first:last:step", or for random
+ * draws "low..high". */
+typedef struct gg_values {
+  char key[96];
+  size_t n, room, characters; /* characters of all of them */
+  char **text;                /* YAML */
+  bool range;                 /* not listed, but anything from low to high */
+  double low, high;
+} gg_values;
+
+void gg_sweep_values_clear(gg_values *values);
+/* One value, copied; GG_BAD_INPUT where there are more than a sweep can have, or longer ones than anybody writes. */
+gg_status gg_sweep_values_add(gg_values *values, const char *text, gg_error *err);
+/* A plain word: "0.5", "0.1:0.5:0.1", "0.3..1", or several with commas, as on the command line. */
+gg_status gg_sweep_values_parse(gg_values *values, const char *text, gg_error *err);
+
 void gg_sweep_varied_clear(gg_varied *varied);
-/* Take it over, unless a key of it is varied already: then it is cleared, too. */
-gg_status gg_sweep_add(gg_sweep *sweep, gg_varied *varied, gg_error *err);
+/* Vary keys together: row i has the i-th value of each list, which the sweep takes over. GG_BAD_INPUT if one of them is
+ * varied already. */
+gg_status gg_sweep_add_rows(gg_sweep *sweep, gg_values *lists, size_t n_keys, gg_error *err);
+/* The same with n random draws from each list: an element, or a number of the range (whole, where the key takes whole
+ * numbers). Each key has its own stream: more points or more keys leave the other draws as they are. */
+gg_status gg_sweep_add_draws(gg_sweep *sweep, const gg_values *lists, size_t n_keys, size_t n, uint64_t seed,
+                             gg_error *err);
 /* Is the key varied? */
 bool gg_sweep_varies(const gg_sweep *sweep, const char *key);
 /* The same, also as a member of its section: vary: {run: [{seed: 1}, {seed: 2}]} sets run.seed. */
@@ -65,7 +84,7 @@ size_t gg_sweep_row(const gg_sweep *sweep, size_t i, size_t varied);
 void gg_sweep_name_point(const gg_sweep *sweep, size_t i, char *text, size_t size);
 /* The scene of point i, resolved: complete and checked, with its own seed and replicas. It borrows the extension. */
 gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err);
-/* Resolve every point, and note what is known of each. */
+/* Resolve every point, and keep what is known of each. */
 gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
 
 /* point_hash.c: hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the
@@ -78,5 +97,6 @@ gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t
 /* The seed of a point with independent seeds: from run.seed and from what is simulated there, but not from how long,
  * unless that is varied, or what is measured. */
 uint64_t gg_sweep_point_seed(const gg_sweep *sweep, const gg_scene *scene);
+extern const char *const gg_does_words[]; /* "run", "compare", "theory" */
 
 #endif

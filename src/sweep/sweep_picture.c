@@ -8,8 +8,8 @@
 #include "common/engine.h"
 #include "plot/chart.h"
 #include "run/result.h"
-#include "sweep/collect.h"
 #include "sweep/line_grouping.h"
+#include "sweep/sweep_table.h"
 
 enum { MOST_PANELS = 6, MOST_SERIES = 64 };
 

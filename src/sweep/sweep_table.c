@@ -1,13 +1,20 @@
 #include "sweep/sweep_table.h"
 
+#include <errno.h>
+#include <inttypes.h>
 #include <math.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/checked_json.h"
+#include "base/csv.h"
 #include "base/memory.h"
+#include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_reader.h"
-#include "sweep/folder.h"
+#include "files/h5/hdf5_writer.h"
+#include "files/h5/result_file.h"
 
 void gg_sweep_point_table_clear(gg_point_table *t)
 {
@@ -99,7 +106,8 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   const gg_point_state state = gg_sweep_point_status(folder, id);
   if (state == GG_POINT_MISSING) return GG_OK;
   GG_TRY(gg_sweep_resolve(sweep, i, &scene, err));
-  const gg_cli_table_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
+  gg_cli_table_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
+  gg_sweep_point_name(id, row.file);
   char *path = gg_sweep_point_path(folder, id, row.fell_short ? ".short.h5" : ".h5");
   json_t *document = NULL;
   gg_status status = path ? read_document(path, &document, err) : gg_base_out_of_memory(err);
@@ -108,7 +116,6 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   free(path);
   if (status != GG_OK) return json_decref(document), status;
   t->document[t->n_documents++] = document;
-  t->n_points++;
   return add_document(t, row, document, err);
 }
 
@@ -118,7 +125,258 @@ gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, co
   t->document = gg_base_array_new(sweep->n, sizeof *t->document, err);
   if (!t->document) return GG_FAILED;
   for (size_t i = 0; i < sweep->n; i++) GG_TRY(add_point(t, sweep, folder, i, err));
-  if (!t->n_points)
+  if (!t->n_documents)
     return gg_base_fail(err, GG_FAILED, "%s: none of the sweep's %zu points is there", folder, sweep->n);
   return GG_OK;
+}
+
+/* Columns behind those of the point and its keys. Of theories those of a run are empty. */
+typedef enum kind { NUMBER, WHOLE, TRUTH, TEXT, NAME } kind;
+static const struct {
+  const char *name;
+  kind kind;
+  size_t offset;
+  bool of_run;
+} columns[] = {
+    {"method", TEXT, offsetof(gg_cli_table_row, method), false},
+    {"quantity", TEXT, offsetof(gg_cli_table_row, quantity), false},
+    {"mean", NUMBER, offsetof(gg_cli_table_row, mean), false},
+    {"error", NUMBER, offsetof(gg_cli_table_row, error), false},
+    {"unit", TEXT, offsetof(gg_cli_table_row, unit), false},
+    {"seed", WHOLE, offsetof(gg_cli_table_row, seed), true},
+    {"steady", TRUTH, offsetof(gg_cli_table_row, steady), true},
+    {"short", TRUTH, offsetof(gg_cli_table_row, fell_short), true},
+    {"seconds", NUMBER, offsetof(gg_cli_table_row, seconds), false},
+    {"file", NAME, offsetof(gg_cli_table_row, file), false},
+};
+enum { COLUMNS = sizeof columns / sizeof *columns };
+
+static const void *cell(const gg_cli_table_row *row, size_t c)
+{
+  return row->theory && columns[c].of_run ? NULL : (const char *)row + columns[c].offset;
+}
+
+static const char *text_of(const gg_cli_table_row *row, size_t c)
+{
+  const void *at = cell(row, c);
+  return columns[c].kind == NAME ? at : *(const char *const *)at;
+}
+
+static double number_of(const gg_cli_table_row *row, size_t c)
+{
+  const void *at = cell(row, c);
+  if (!at) return NAN;
+  return columns[c].kind == NUMBER  ? *(const double *)at
+         : columns[c].kind == WHOLE ? (double)*(const uint64_t *)at
+                                    : *(const bool *)at;
+}
+
+static void put_count(gg_csv *csv, uint64_t n)
+{
+  char text[24];
+  snprintf(text, sizeof text, "%" PRIu64, n);
+  gg_base_csv_text(csv, text);
+}
+
+static void put_cell(gg_csv *csv, const gg_cli_table_row *row, size_t c)
+{
+  const void *at = cell(row, c);
+  json_t *value = NULL;
+  switch (columns[c].kind) {
+  case NUMBER:
+    value = isfinite(*(const double *)at) ? json_real(*(const double *)at) : NULL;
+    gg_base_csv_json(csv, value);
+    json_decref(value);
+    return;
+  case WHOLE: at ? put_count(csv, *(const uint64_t *)at) : gg_base_csv_text(csv, NULL); return;
+  case TRUTH: gg_base_csv_text(csv, at ? *(const bool *)at ? "true" : "false" : NULL); return;
+  default: gg_base_csv_text(csv, text_of(row, c));
+  }
+}
+
+static void put_head(gg_csv *csv, const gg_sweep *sweep)
+{
+  const char *key;
+  gg_base_csv_text(csv, "point");
+  for (size_t k = 0; (key = gg_sweep_key(sweep, k)); k++) gg_base_csv_text(csv, key);
+  for (size_t c = 0; c < COLUMNS; c++) gg_base_csv_text(csv, columns[c].name);
+  gg_base_csv_end_row(csv);
+}
+
+static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_cli_table_row *row)
+{
+  put_count(csv, row->point + 1);
+  for (size_t k = 0; gg_sweep_key(sweep, k); k++) gg_base_csv_text(csv, gg_sweep_value(sweep, row->point, k));
+  for (size_t c = 0; c < COLUMNS; c++) put_cell(csv, row, c);
+  gg_base_csv_end_row(csv);
+}
+
+gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep *sweep, const char *path,
+                                         gg_error *err)
+{
+  gg_atomic_file file;
+  GG_TRY(gg_base_atomic_open(&file, path, err));
+  gg_text_out *out = gg_base_array_new(1, sizeof *out, err);
+  if (!out) return gg_base_atomic_abandon(&file), GG_FAILED;
+  bool before = gg_base_memory_begin();
+  gg_base_file_writer_begin(out, &file, err);
+  gg_csv csv = {.out = out};
+  put_head(&csv, sweep);
+  for (size_t i = 0; i < t->n; i++) put_row(&csv, sweep, &t->row[i]);
+  gg_status status = gg_base_memory_check(before, gg_base_file_writer_end(out), err);
+  free(out);
+  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
+  return status;
+}
+
+/* Room for a column of numbers or texts. */
+typedef struct column {
+  gg_h5 *h;
+  size_t n;
+  double *number;
+  const char **text;
+} column;
+
+static void write_column(const column *c, const char *name, bool numbers)
+{
+  const hsize_t n = c->n;
+  char path[160];
+  snprintf(path, sizeof path, "/graingas/table/%s", name);
+  if (numbers)
+    gg_h5_array(c->h, path, H5T_NATIVE_DOUBLE, 1, &n, c->number);
+  else
+    gg_h5_texts(c->h, path, c->text, c->n);
+}
+
+/* Numbers, where every point has one. */
+static void write_key(const column *c, const gg_point_table *t, const gg_sweep *sweep, size_t k)
+{
+  bool numbers = true;
+  for (size_t i = 0; i < t->n; i++) {
+    char *end;
+    c->text[i] = gg_sweep_value(sweep, t->row[i].point, k);
+    c->number[i] = strtod(c->text[i], &end);
+    numbers = numbers && !*end && end != c->text[i];
+  }
+  write_column(c, gg_sweep_key(sweep, k), numbers);
+}
+
+static void write_columns(const column *out, const gg_point_table *t, const gg_sweep *sweep)
+{
+  for (size_t i = 0; i < t->n; i++) out->number[i] = (double)(t->row[i].point + 1);
+  write_column(out, "point", true);
+  for (size_t k = 0; gg_sweep_key(sweep, k); k++) write_key(out, t, sweep, k);
+  for (size_t c = 0; c < COLUMNS; c++) {
+    const bool numbers = columns[c].kind < TEXT;
+    for (size_t i = 0; i < t->n; i++) {
+      const char *text = numbers ? NULL : text_of(&t->row[i], c);
+      out->number[i] = numbers ? number_of(&t->row[i], c) : 0;
+      out->text[i] = text ? text : "";
+    }
+    write_column(out, columns[c].name, numbers);
+  }
+}
+
+static gg_status write_image(gg_h5 *h, const char *path, gg_error *err)
+{
+  size_t size = 0;
+  gg_atomic_file file;
+  unsigned char seal[GG_SEAL_SIZE];
+  void *image = gg_h5_image(h, &size);
+  gg_h5_close(h);
+  gg_status status = gg_h5_status(h, path, "written", err);
+  if (status == GG_OK) status = gg_base_atomic_open(&file, path, err);
+  if (status != GG_OK) return free(image), status;
+  gg_files_checksum_trailer_of(image, size, seal);
+  status = gg_base_atomic_write(&file, image, size, err);
+  if (status == GG_OK) status = gg_base_atomic_write(&file, seal, sizeof seal, err);
+  free(image);
+  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
+  return status;
+}
+
+gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep *sweep, const char *path,
+                                        const char *command, gg_error *err)
+{
+  gg_h5 h;
+  const column c = {&h, t->n, gg_base_array_new(t->n, sizeof(double), err),
+                    gg_base_array_new(t->n, sizeof(char *), err)};
+  gg_status status = c.number && c.text ? GG_OK : GG_FAILED;
+  if (status == GG_OK) {
+    gg_h5_create_in_memory(&h);
+    gg_h5_group(&h, "/graingas/table");
+    gg_h5_text(&h, "/graingas/version", GG_VERSION);
+    gg_h5_text(&h, "/graingas/command", command);
+    gg_h5_text_attribute(&h, "/graingas", "kind", "sweep");
+    write_columns(&c, t, sweep);
+    status = write_image(&h, path, err);
+  }
+  free(c.number);
+  free(c.text);
+  return status;
+}
+
+/* Digits alone, beyond the whole numbers that a double holds: seeds. */
+static bool is_whole(const char *text, long long *n)
+{
+  char *end;
+  errno = 0;
+  *n = strtoll(text, &end, 10);
+  return end != text && !*end && errno == 0;
+}
+
+/* A value as a number where it is one, else as its YAML. */
+static json_t *value_json(const char *text)
+{
+  long long n;
+  if (is_whole(text, &n)) return json_integer(n);
+  char *end;
+  double x = strtod(text, &end);
+  if (*end || end == text || !isfinite(x)) return json_string(text);
+  return x == floor(x) && fabs(x) < 1e15 ? json_integer((json_int_t)x) : json_real(x);
+}
+
+static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
+{
+  static const char *const states[] = {
+      [GG_POINT_MISSING] = "missing", [GG_POINT_DONE] = "done", [GG_POINT_SHORT] = "short"};
+  char name[GG_POINT_NAME];
+  gg_scene scene;
+  json_t *keys = json_object();
+  gg_sweep_point_name(sweep->point[i].id, name);
+  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* it was checked: there is no memory */
+    json_decref(keys);
+    return gg_base_json_made(NULL);
+  }
+  for (size_t k = 0; gg_sweep_key(sweep, k); k++)
+    json_object_set_new(keys, gg_sweep_key(sweep, k), value_json(gg_sweep_value(sweep, i, k)));
+  return json_pack("{s:I, s:o, s:s, s:s, s:f, s:I, s:I}", "point", (json_int_t)i + 1, "keys", keys, "name", name,
+                   "state", states[gg_sweep_point_status(folder, sweep->point[i].id)], "cpu_seconds",
+                   sweep->point[i].seconds, "replicas", (json_int_t)scene.run.replicas, "seed",
+                   (json_int_t)scene.run.seed);
+}
+
+/* A name whose bytes are no UTF-8 loses them. That is no lack of memory, and not recorded as such. */
+static json_t *name_as_text(const char *name)
+{
+  json_t *text = (json_string)(name);
+  if (text) return text;
+  char *plain = strdup(name);
+  for (char *c = plain; c && *c; c++)
+    if (*c & 0x80) *c = '?';
+  text = plain ? json_string(plain) : gg_base_json_made(NULL);
+  free(plain);
+  return text;
+}
+
+json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
+{
+  bool before = gg_base_memory_begin();
+  json_t *points = json_array();
+  for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
+  return gg_base_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", GG_VERSION, "does",
+                                            gg_does_words[sweep->settings.does], "folder", name_as_text(folder),
+                                            "points", points));
 }

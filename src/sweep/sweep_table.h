@@ -1,14 +1,14 @@
-/* What the points of a sweep came to, in one tidy table: a row a point, method and quantity. */
+/* What the points of a sweep came to: one tidy table, a row a point, method and quantity; in files for other programs
+ * and as a picture. And the points themselves as a JSON document. */
 #ifndef GG_SWEEP_TABLE_H
 #define GG_SWEEP_TABLE_H
 
-#include <jansson.h>
-
-#include "sweep/sweep.h"
+#include "sweep/folder.h"
 
 typedef struct gg_cli_table_row {
-  size_t point;       /* from 0 */
-  const char *method; /* "md", "dsmc", or a theory's name */
+  size_t point;             /* from 0 */
+  char file[GG_POINT_NAME]; /* of the point */
+  const char *method;       /* "md", "dsmc", or a theory's name */
   const char *quantity, *unit;
   double mean, error; /* NaN: cannot be had; of theories mostly none */
   bool theory;
@@ -20,13 +20,32 @@ typedef struct gg_cli_table_row {
 typedef struct gg_point_table {
   size_t n, room;
   gg_cli_table_row *row; /* in the order of points, methods, quantities */
-  size_t n_points;       /* of which there is a file */
-  size_t n_documents;
-  json_t **document; /* texts of the rows belong to them */
+  size_t n_documents;    /* one for each point that has a file */
+  json_t **document;     /* texts of the rows belong to them */
 } gg_point_table;
 
 /* From all files that there are; GG_FAILED if there is none. To be cleared, also on failure. */
 gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep, const char *folder, gg_error *err);
 void gg_sweep_point_table_clear(gg_point_table *table);
+
+/* Whole or not at all; columns: the point's number, a column a varied key, then method, quantity, mean, error, unit,
+ * seed, steady, short, seconds, file. In HDF5 each is an array under /graingas/table, texts without length. */
+gg_status gg_sweep_point_table_write_csv(const gg_point_table *table, const gg_sweep *sweep, const char *path,
+                                         gg_error *err);
+gg_status gg_sweep_point_table_write_h5(const gg_point_table *table, const gg_sweep *sweep, const char *path,
+                                        const char *command, gg_error *err);
+
+typedef struct gg_picture_choice { /* NULL: chosen */
+  const char *over;                /* key along x */
+  const char *show;                /* quantities, with commas: a panel each */
+} gg_picture_choice;
+/* sweep_picture.c: a panel a quantity; over one key, a line for each combination of the others; engines as points,
+ * theories as lines, unless keys go together with that one. GG_BAD_INPUT if no key has numbers, or one that is named is
+ * not there. */
+gg_status gg_sweep_point_table_draw(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
+                                    const char *picture, gg_error *err);
+
+/* The points of a checked sweep as JSON. A new reference; NULL: out of memory. */
+json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder);
 
 #endif

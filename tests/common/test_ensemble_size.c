@@ -11,7 +11,7 @@
 #include "common/ensemble_size.h"
 #include "common/model.h"
 #include "dsmc/time_step.h"
-#include "scene/resumption.h"
+#include "scene/fields.h"
 
 static gg_scene scene_at(double relative_error)
 {

@@ -12,7 +12,6 @@
 #include "common/model.h"
 #include "common/rng.h"
 #include "common/surface/shapes.h"
-#include "common/surface/surfaces.h"
 
 static const gg_surface surfaces[] = {
     {.shape = GG_SHAPE_plane, .axis = 1, .side = -1, .place = 0},

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/model.h"
 #include "common/surface/shapes.h"
-#include "common/surface/surfaces.h"
 
 gg_scene md_scene(md_case c)
 {

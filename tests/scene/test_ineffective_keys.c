@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/ineffective_keys.h"
-#include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 
 enum { BOTH = GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY };
@@ -24,7 +22,7 @@ static gg_text_list inert(const char *yaml, unsigned uses)
   if (status == GG_OK) status = gg_scene_finish(&scene, &err);
   if (status != GG_OK) print_message("%s: %s\n", yaml, err.message);
   assert_int_equal(status, GG_OK);
-  gg_scene_inert(&scene, uses, &lines);
+  gg_scene_ineffective_keys(&scene, uses, &lines);
   return lines;
 }
 

@@ -10,7 +10,6 @@
 #include <cmocka.h>
 
 #include "scene/fields.h"
-#include "scene/resumption.h"
 
 static gg_scene scene_of(void)
 {

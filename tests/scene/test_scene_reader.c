@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "files/h5/result_reader.h"
-#include "scene/scene_json.h"
 #include "scene/scene_reader.h"
 
 static gg_scene parse(const char *yaml)

@@ -274,7 +274,7 @@ static void refusals(void **state)
   check_refused(SCENE "vary: [{}]", NULL, NULL, "no key is varied");
   check_refused(SCENE "vary: {random: 3, phi: 0.1..0.2}", NULL, NULL, "say how many points");
   check_refused(SCENE "vary: {random: {seed: 3}, phi: 0.1..0.2}", NULL, NULL, "say how many points");
-  check_refused(SCENE "vary: {random: {[seed]: 3}, phi: 0.1..0.2}", NULL, NULL, "no such key");
+  check_refused(SCENE "vary: {random: {[seed]: 3}, phi: 0.1..0.2}", NULL, NULL, "a key must be a word");
   check_refused(SCENE "vary: {random: {points: 3}}", NULL, NULL, "no key is drawn");
   check_refused(SCENE "sweep: run", NULL, NULL, "is a section");
   check_refused(SCENE "sweep: {[does]: run}", NULL, NULL, "a key must be a word");

@@ -222,7 +222,7 @@ const tests = {
     assert.strictEqual(await tab.value("page.behind"), 0);
     /* what cannot be kept is said */
     await tab.value("page.slower = 2200; 0");
-    await tab.until("byId('notices').textContent.includes('cannot go faster')", 20);
+    await tab.until("byId('warnings').textContent.includes('cannot go faster')", 20);
     await silent(tab);
   },
 

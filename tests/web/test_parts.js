@@ -1,4 +1,4 @@
-/* Parts of the page that need no browser, in node: scales of diagrams, what is kept of the past, texts of numbers, links.
+/* Parts of the page that need no browser, in node: scales of diagrams, what is kept of the history, texts of numbers, links.
  */
 "use strict";
 const assert = require("assert"),
@@ -29,9 +29,9 @@ const tests = {
     assert.ok(ticks(1e17, 1e17 + 64, false).length < 13);
     assert.deepStrictEqual(ticks(0, 1, false), [0, 0.2, 0.4, 0.6000000000000001, 0.8, 1]);
   },
-  "the past of a gas that cools for ever": () => {
-    const { Past } = drawing(["Past"]),
-      past = new Past(true),
+  "the history of a gas that cools for ever": () => {
+    const { TemperatureHistory } = drawing(["TemperatureHistory"]),
+      history = new TemperatureHistory(true),
       at = (time, temperature) => ({ time, temperature, rotationalTemperature: 0, collisionsPerGrain: 1 });
     for (const [time, T] of [
       [0, 1],
@@ -41,8 +41,8 @@ const tests = {
       [1.7e308, 1e-299],
       [Infinity, 0],
     ])
-      past.add(at(time, T), null);
-    assert.deepStrictEqual(past.column("time"), [1, 1e100]);
+      history.add(at(time, T), null);
+    assert.deepStrictEqual(history.column("time"), [1, 1e100]);
   },
   "lines of theories go as far as the gas": () => {
     const { coolingLines } = drawing(["coolingLines"]),
@@ -55,14 +55,14 @@ const tests = {
     }
   },
   "Monte Carlo that is late is not drawn at the time of md": () => {
-    const { Past } = drawing(["Past"]),
-      past = new Past(false),
+    const { TemperatureHistory } = drawing(["TemperatureHistory"]),
+      history = new TemperatureHistory(false),
       at = (time, temperature) => ({ time, temperature, rotationalTemperature: 0, collisionsPerGrain: time });
-    past.add(at(1, 2), at(1.01, 3));
-    past.add(at(2, 2), at(1.5, 3));
-    past.add(null, at(3, 4));
-    assert.deepStrictEqual(past.column("T2"), [3, NaN, 4]);
-    assert.deepStrictEqual(past.column("T"), [2, 2, NaN]);
+    history.add(at(1, 2), at(1.01, 3));
+    history.add(at(2, 2), at(1.5, 3));
+    history.add(null, at(3, 4));
+    assert.deepStrictEqual(history.column("T2"), [3, NaN, 4]);
+    assert.deepStrictEqual(history.column("T"), [2, 2, NaN]);
   },
   "a gas whose Monte Carlo lags is behind": () => {
     const { LiveGas } = parts(["live.js"], ["LiveGas"]),
@@ -85,12 +85,12 @@ const tests = {
     class Worker {
       postMessage() {}
     }
-    const { Helper } = parts(["worker_rpc.js"], ["Helper"], { Worker }),
-      helper = new Helper("source"),
-      waiting = helper.ask("frame");
-    helper.worker.onerror({ message: "out of memory" });
+    const { WorkerClient } = parts(["worker_rpc.js"], ["WorkerClient"], { Worker }),
+      client = new WorkerClient("source"),
+      waiting = client.ask("frame");
+    client.worker.onerror({ message: "out of memory" });
     await assert.rejects(waiting, /out of memory/);
-    await assert.rejects(helper.ask("frame"), /out of memory/);
+    await assert.rejects(client.ask("frame"), /out of memory/);
   },
   "what fails while it is measured is told": () => {
     const said = [],
@@ -127,8 +127,8 @@ const tests = {
       const results = {},
         md = { collisions, total: { collisions: since }, engine_state: { contact_time_collisions: caught }, results },
         page = { about: { values: { flow: "usf" } }, means: { md, progress: {} } };
-      const { notices } = parts(["curves.js", "warnings.js"], ["notices"], { page, t: (key) => key, MOST_BEHIND: 1 });
-      return notices().includes("collapse");
+      const { allWarnings } = parts(["curves.js", "warnings.js"], ["allWarnings"], { page, t: (key) => key, MOST_BEHIND: 1 });
+      return allWarnings().includes("collapse");
     };
     assert.strictEqual(told(500, 1e3, 1e6), false);
     assert.strictEqual(told(2000, 1e6, 1e6), true);
@@ -143,12 +143,12 @@ const tests = {
   },
   "a link keeps the language": () => {
     const link = (own, language) => {
-      const { linkOf } = parts(["url_state.js"], ["linkOf"], {
+      const { urlState } = parts(["url_state.js"], ["urlState"], {
         navigator: { language: own },
         LANGUAGES: ["en", "de"],
         language,
       });
-      return new URLSearchParams(linkOf({ scene: "", sets: { "run.seed": "1" } }).slice(1)).get("language");
+      return new URLSearchParams(urlState({ scene: "", sets: { "run.seed": "1" } }).slice(1)).get("language");
     };
     assert.deepStrictEqual([link("en-GB", 0), link("en-GB", 1), link("de-AT", 0), link("de-AT", 1)], [null, "de", "en", "de"]);
   },

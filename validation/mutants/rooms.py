@@ -5,9 +5,9 @@ ROOMS = {
     "common": (40, """
         src/common/collision.c src/common/collision.h src/common/collision_of.h src/common/contact_value.c
         src/common/model.c src/common/model_rates.c src/common/restitution.c src/common/species.h src/common/thermostat.c
-        src/common/laws/loss_table.c src/common/laws/loss_table.h src/common/laws/loss_at_of.h
+        src/common/laws/loss_table.h src/common/laws/loss_at_of.h
         src/common/laws/viscoelastic.c src/common/vec.h src/common/vec_of.h src/common/rng.c src/common/rng.h
-        src/common/surface/fall.h src/common/surface/plane.h src/common/surface/ridges.h src/common/surface/shapes.h
+        src/common/surface/plane.h src/common/surface/ridges.h src/common/surface/shapes.h
         src/common/surface/surfaces.c"""),
     "md": (32, """
         src/md/box.h src/md/centre_of_mass.c src/md/contacts.c src/md/contacts.h src/md/epoch.c src/md/event_loop.h

@@ -1,5 +1,4 @@
-#include "common/surface/surfaces.h"
-
+#include "common/model.h"
 #include "common/surface/shapes.h"
 
 static void add(gg_model *m, const gg_scene *s, bool spins, gg_surface surface)

@@ -11,7 +11,7 @@
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_reader.h"
 #include "files/h5/hdf5_writer.h"
-#include "scene/scene_json.h"
+#include "scene/fields.h"
 
 static const struct {
   const char *name;

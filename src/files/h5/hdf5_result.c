@@ -13,7 +13,7 @@
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_file.h"
 #include "files/result_document.h"
-#include "scene/scene_json.h"
+#include "scene/fields.h"
 
 static void write_h5md(gg_h5 *h)
 {

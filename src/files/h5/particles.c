@@ -1,6 +1,6 @@
 #include "files/h5/particles.h"
 
-#include "common/surface/surfaces.h"
+#include "common/model.h"
 
 #include <math.h>
 #include <stdlib.h>

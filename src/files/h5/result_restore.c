@@ -8,7 +8,6 @@
 #include "files/curve_table.h"
 #include "files/h5/stored_extension.h"
 #include "files/result_document.h"
-#include "scene/ineffective_keys.h"
 #include "scene/scene_reader.h"
 
 static double number(const json_t *object, const char *key)
@@ -264,7 +263,7 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
     gg_run_rows_make(&c->model, &c->rows);
   }
   restore_refusals(c, s->document);
-  if (s->comparison) gg_scene_inert(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
+  if (s->comparison) gg_scene_ineffective_keys(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
   c->of_one = !s->comparison;
   c->document = gg_files_document_text(s->document);
   return c->document ? GG_OK : gg_base_out_of_memory(err);

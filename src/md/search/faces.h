@@ -2,7 +2,7 @@
 #ifndef GG_MD_SEARCH_FACES_H
 #define GG_MD_SEARCH_FACES_H
 
-#include "common/surface/fall.h"
+#include "common/surface/plane.h"
 #include "md/search/search.h"
 #include "simd/axes.h"
 

@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "common/portable_math.h"
-#include "common/surface/surfaces.h"
 #include "md/md_state.h"
 #include "md/start/place.h"
 

@@ -1,0 +1,305 @@
+/* What concerns several keys of a scene: defaults that follow the flow, combinations that are invalid anywhere, and
+ * keys that have no effect beside the others. Engines reject what they cannot run
+ * (gg_engine_ops.accepts). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "common/collision.h"
+#include "scene/fields.h"
+
+/* What the collisions of a scene do, which keys depend on. */
+typedef struct traits {
+  bool lossy, rough, beta, friction; /* some pair of its species loses energy; spins; has beta above -1; mu above 0 */
+} traits;
+
+static bool loses_energy(double e, double beta, double mu)
+{
+  gg_rule rule = gg_common_rule_select(beta, mu);
+  return e < 1 || rule == GG_FRICTIONAL || (rule == GG_ROUGH && beta < 1);
+}
+
+static traits traits_of(const gg_scene *s)
+{
+  traits t = {0};
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
+    const double e = s->collision.e[p], beta = s->collision.beta[p], mu = s->collision.mu[p];
+    t.lossy |= loses_energy(e, beta, mu);
+    t.rough |= gg_common_rule_select(beta, mu) != GG_SMOOTH;
+    t.beta |= beta != -1;
+    t.friction |= mu != 0;
+  }
+  return t;
+}
+
+/* Defaults that depend on the flow come from its row. */
+void gg_scene_fill_in(gg_scene *s)
+{
+  const gg_flow_row *flow = gg_flow_of(s->flow);
+  if (!gg_scene_is_given(s, "collision.e")) {
+    double e = flow->conserves ? 1 : gg_common_scene_defaults().collision.e[0];
+    for (int p = 0; p < GG_PAIRS; p++) s->collision.e[p] = e;
+  }
+  /* With a law a cooling gas has no steady cooling rate, whose error could end the run: its length is a number of
+   * collisions. */
+  if (s->collision.law != GG_LAW_CONSTANT && gg_flow_cools(s->flow) && s->run.collisions == GG_AUTO)
+    s->run.collisions = GG_COLLISIONS_FOLLOWED;
+  if (!gg_scene_is_given(s, "thermostat")) s->thermostat = flow->thermostat;
+  if (!gg_scene_is_given(s, "gravity")) memcpy(s->gravity, flow->gravity, sizeof s->gravity);
+  s->measure |= flow->measure;
+}
+
+static bool takes_gaussian(gg_flow flow)
+{
+  return gg_flow_takes(flow, GG_GAUSSIAN);
+}
+static bool takes_white_noise(gg_flow flow)
+{
+  return gg_flow_takes(flow, GG_WHITE_NOISE);
+}
+
+static gg_status check_thermostat(const gg_scene *s, gg_error *err)
+{
+  const gg_field *field = &gg_scene_fields[gg_scene_field_find("thermostat")];
+  const char *flow = gg_flow_of(s->flow)->word;
+  char text[160] = "";
+  if (gg_flow_takes(s->flow, s->thermostat)) return GG_OK;
+  if (s->thermostat != GG_NO_THERMOSTAT) {
+    gg_common_flow_list(s->thermostat == GG_GAUSSIAN ? takes_gaussian : takes_white_noise, text, sizeof text);
+    return gg_base_fail(err, GG_BAD_INPUT, "thermostat: %s does not go with flow: %s; use flow: %s",
+                        gg_scene_field_word_for(field, (int)s->thermostat).name, flow, text);
+  }
+  for (int t = GG_NO_THERMOSTAT + 1; t < GG_N_THERMOSTATS; t++)
+    if (gg_flow_takes(s->flow, (gg_thermostat)t))
+      gg_base_text_append(text, sizeof text, "%s%s", *text ? " or " : "", gg_scene_field_word_for(field, t).name);
+  return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a thermostat: %s", flow, text);
+}
+
+static gg_status check_gravity(const gg_scene *s, gg_error *err)
+{
+  const gg_flow_row *flow = gg_flow_of(s->flow);
+  bool falls = s->gravity[0] != 0 || s->gravity[1] != 0 || s->gravity[2] != 0;
+  char walled[160];
+  if (falls && flow->falling == GG_NEVER_FALLS) {
+    gg_common_flow_list(gg_flow_is_walled, walled, sizeof walled);
+    return gg_base_fail(err, GG_BAD_INPUT, "gravity needs a flow with walls: %s", walled);
+  }
+  if (!falls && flow->falling == GG_ALWAYS_FALLS)
+    return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs gravity, e.g. gravity: [%g, %g, %g]", flow->word,
+                        flow->gravity[0], flow->gravity[1], flow->gravity[2]);
+  return GG_OK;
+}
+
+static gg_status check_flow(const gg_scene *s, gg_error *err)
+{
+  const gg_flow_row *flow = gg_flow_of(s->flow);
+  char cooling[160];
+  if (flow->conserves && traits_of(s).lossy) {
+    gg_common_flow_list(gg_flow_cools, cooling, sizeof cooling);
+    return gg_base_fail(
+        err, GG_BAD_INPUT,
+        "flow: %s needs collisions that lose no energy: collision.e 1, and collision.beta -1 (or 1 with mu "
+        "inf); for a cooling gas use flow: %s",
+        flow->word, cooling);
+  }
+  GG_TRY(check_thermostat(s, err));
+  return check_gravity(s, err);
+}
+
+/* With beta -1, the default, there is no tangential impulse that friction could limit. */
+static gg_status check_friction(const gg_scene *s, gg_error *err)
+{
+  if (gg_scene_is_given(s, "collision.beta")) return GG_OK;
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++)
+    if (s->collision.mu[p] > 0 && s->collision.mu[p] < INFINITY)
+      return gg_base_fail(
+          err, GG_BAD_INPUT,
+          "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains; give "
+          "the beta of sticking contacts, e.g. collision: {beta: 0, mu: %g}",
+          s->collision.mu[p]);
+  return GG_OK;
+}
+
+gg_status gg_scene_finish(gg_scene *s, gg_error *err)
+{
+  if (!gg_scene_is_given(s, "flow")) return gg_base_fail(err, GG_BAD_INPUT, "flow is missing, e.g. flow: usf");
+  if (!gg_scene_is_given(s, "phi"))
+    return gg_base_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
+  double total = 0;
+  for (int i = 0; i < s->n_species; i++) total += s->species[i].fraction;
+  if (fabs(total - 1) > 1e-9)
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "key 'species': the fractions sum to %.10g; they must sum to 1 (within 1e-9)", total);
+  gg_scene_fill_in(s);
+  GG_TRY(check_friction(s, err));
+  return check_flow(s, err);
+}
+
+/* With theories alone the keys of both engines count as used: theories do not depend on engines. */
+static bool uses_md(const gg_scene *s, unsigned uses)
+{
+  return uses == GG_USE_THEORY || ((uses & GG_USE_MD) && s->phi > 0 && gg_flow_runs_in(s->flow, GG_MD));
+}
+
+/* In md, too, the strength of white noise goes with the key: it balances the losses at Enskog's collision rate. */
+static bool uses_contact_value(const gg_scene *s, unsigned uses)
+{
+  const gg_thermostat given = s->thermostat;
+  const gg_thermostat in_force = gg_flow_takes(s->flow, given) ? given : gg_flow_of(s->flow)->thermostat;
+  return s->n_species == 1 && s->phi > 0 && ((uses & (GG_USE_DSMC | GG_USE_THEORY)) || in_force == GG_WHITE_NOISE);
+}
+
+/* Is there a mean whose error can be reduced? Not in a gas that heats up for ever, nor in one that cools with a law of
+ * restitution and is never the same again; and without losses there is no rate of loss. */
+static bool has_error(const gg_scene *s, unsigned uses)
+{
+  const traits t = traits_of(s);
+  const bool user_defined = gg_common_extension_law(s->extension).e != NULL, lossy = user_defined || t.lossy;
+  if (uses == GG_USE_THEORY || lossy)
+    return !(gg_flow_cools(s->flow) && (user_defined || s->collision.law != GG_LAW_CONSTANT));
+  if (gg_flow_is_sheared(s->flow)) return gg_flow_of(s->flow)->linear_response;
+  const bool shares = s->n_species > 1 || t.rough; /* temperatures, whose ratio is known */
+  return shares || !(gg_flow_cools(s->flow) || gg_flow_is_heated(s->flow));
+}
+
+static bool may_be_open(gg_flow flow)
+{
+  return gg_flow_of(flow)->may_be_open;
+}
+
+/* "KEY has no effect ..."; of those that depend on the flow alone, the flows stand between `otherwise` and `after`. */
+static const struct {
+  unsigned condition;
+  const char *otherwise;
+  bool (*flow)(gg_flow flow);
+  const char *after;
+} conditions[] = {
+    {GG_IF_WALLED, "but between walls (flow: ", gg_flow_is_walled, ")"},
+    {GG_IF_SHEARED, "but in flow: ", gg_flow_is_sheared, ""},
+    {GG_IF_MOVING_WALLS, "but in flow: ", gg_flow_has_moving_walls, ""},
+    {GG_IF_OPENABLE, "but in flow: ", may_be_open, ""},
+    {GG_IF_MD, "with engine: dsmc", NULL, ""},
+    {GG_IF_DSMC, "with engine: md", NULL, ""},
+    {GG_IF_COUNTED, "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, ""},
+    {GG_IF_BOXED, "with engine: dsmc, which has no box", NULL, ""},
+    {GG_IF_ONE_ENGINE, "in a comparison; graingas run keeps a trajectory", NULL, ""},
+    {GG_IF_CONTACT_VALUE,
+     "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, ""},
+    {GG_IF_LOSSY, "where no collision loses energy", NULL, ""},
+    {GG_IF_ERROR,
+     "but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, or cooling by a "
+     "law",
+     NULL, ""},
+    {GG_IF_ROUGH, "on smooth grains, which do not spin", NULL, ""},
+    {GG_IF_LAW, "while collision.law is constant", NULL, ""},
+    {GG_IF_BETA, "while collision.beta is -1: smooth grains", NULL, ""},
+    {GG_IF_FRICTION, "while collision.mu is 0: smooth grains", NULL, ""},
+    {GG_IF_WALL_BETA, "while walls.beta is -1: smooth walls", NULL, ""},
+    {GG_IF_WALL_FRICTION, "while walls.mu is 0: smooth walls", NULL, ""},
+};
+enum { CONDITIONS = sizeof conditions / sizeof *conditions };
+
+/* Conditions that depend on more than the flow. */
+static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
+{
+  switch (condition) {
+  case GG_IF_MD:
+  case GG_IF_BOXED: return uses_md(s, uses);
+  case GG_IF_DSMC: return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && gg_flow_runs_in(s->flow, GG_DSMC));
+  case GG_IF_COUNTED: return uses_md(s, uses) || (s->dsmc.particles == 0 && s->particles > GG_LEAST_ENSEMBLE);
+  case GG_IF_ONE_ENGINE: return !(uses & GG_USE_MD) || !(uses & GG_USE_DSMC);
+  case GG_IF_CONTACT_VALUE: return uses_contact_value(s, uses);
+  case GG_IF_LOSSY:
+    return gg_common_extension_law(s->extension).e || traits_of(s).lossy ||
+           (gg_flow_is_walled(s->flow) && loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
+  case GG_IF_ERROR: return has_error(s, uses);
+  case GG_IF_ROUGH: return traits_of(s).rough;
+  case GG_IF_LAW: return s->collision.law != GG_LAW_CONSTANT;
+  case GG_IF_BETA: return traits_of(s).beta;
+  case GG_IF_FRICTION: return traits_of(s).friction;
+  case GG_IF_WALL_BETA: return s->walls.beta != -1;
+  case GG_IF_WALL_FRICTION: return s->walls.mu != 0;
+  default: return true;
+  }
+}
+
+/* Keys that have no effect, by the reason. The last group has no keys. */
+enum { REASONS = CONDITIONS + 1 };
+typedef struct group {
+  char reason[160], keys[600];
+  int n;
+} group;
+
+static void add_key(group *groups, const char *reason, const char *key)
+{
+  group *g = groups;
+  while (g->n && strcmp(g->reason, reason) != 0) g++;
+  if (!g->n++) snprintf(g->reason, sizeof g->reason, "%s", reason);
+  gg_base_text_append(g->keys, sizeof g->keys, "%s%s", *g->keys ? ", " : "", key);
+}
+
+/* Does the member have another value than by default? */
+static bool differs(const gg_field *f, const void *base, const gg_scene *scene, const void *default_base,
+                    const gg_scene *defaults)
+{
+  json_t *value = gg_scene_field_json(f, base, scene), *usual = gg_scene_field_json(f, default_base, defaults);
+  bool yes = !json_equal(value, usual);
+  json_decref(value);
+  json_decref(usual);
+  return yes;
+}
+
+/* The reason in `text`, if the key has no effect. */
+static bool is_ineffective(const gg_field *f, const gg_scene *scene, unsigned uses, char *text, size_t size)
+{
+  for (int i = 0; i < CONDITIONS; i++) {
+    char flows[160] = "";
+    if (!(f->when & conditions[i].condition)) continue;
+    if (conditions[i].flow ? conditions[i].flow(scene->flow) : holds(conditions[i].condition, scene, uses)) continue;
+    if (conditions[i].flow) gg_common_flow_list(conditions[i].flow, flows, sizeof flows);
+    return snprintf(text, size, "%s%s%s", conditions[i].otherwise, flows, conditions[i].after), true;
+  }
+  return false;
+}
+
+/* Pairs of species that there are not: values given to them alone, unlike those of the rest. */
+static void add_pairs(group *groups, const gg_field *f, const gg_scene *scene)
+{
+  const double *value = (const double *)(const void *)((const char *)scene + f->offset);
+  char key[48], name[GG_PAIR_NAME];
+  for (int p = gg_pairs_of(scene->n_species); p < GG_PAIRS; p++) {
+    if (value[p] == value[GG_11] || value[p] == value[GG_PAIRS - 1]) continue;
+    snprintf(key, sizeof key, "%s.%s", f->key, gg_common_pair_name(p, name));
+    add_key(groups, scene->n_species == 1 ? "with one species" : "with so few species", key);
+  }
+}
+
+static void add_species(group *groups, const gg_scene *scene, unsigned uses, const gg_scene *defaults)
+{
+  char reason[160], key[48];
+  for (int i = 0; i < scene->n_species; i++)
+    for (const gg_field *f = gg_scene_species_fields; f->key; f++) {
+      snprintf(key, sizeof key, "species.%d.%s", i + 1, f->key);
+      if (is_ineffective(f, scene, uses, reason, sizeof reason) &&
+          differs(f, &scene->species[i], scene, &defaults->species[0], defaults))
+        add_key(groups, reason, key);
+    }
+}
+
+void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_text_list *lines)
+{
+  const gg_scene defaults = gg_common_scene_defaults();
+  group groups[REASONS + 1] = {0};
+  char reason[160];
+  for (const gg_field *f = gg_scene_fields; f->key; f++) {
+    if (!gg_scene_is_given(scene, f->key)) continue;
+    if (f->type == GG_FIELD_SPECIES)
+      add_species(groups, scene, uses, &defaults);
+    else if (is_ineffective(f, scene, uses, reason, sizeof reason) && differs(f, scene, scene, &defaults, &defaults))
+      add_key(groups, reason, f->key);
+    else if (f->type == GG_FIELD_PAIRS)
+      add_pairs(groups, f, scene);
+  }
+  for (const group *g = groups; g->n; g++)
+    gg_base_string_list_add(lines, "%s %s no effect %s", g->keys, g->n > 1 ? "have" : "has", g->reason);
+}

@@ -1,0 +1,370 @@
+/* The value of one key from a YAML node, and validation errors: file, line, key, and what is allowed there. */
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/spelling.h"
+#include "scene/scene_reader.h"
+
+const char *gg_scene_scalar(const yaml_node_t *node)
+{
+  return node->type == YAML_SCALAR_NODE ? (const char *)node->data.scalar.value : NULL;
+}
+
+/* What a scene holds may hold line ends and the escape sequences of terminals, and be cut within a character. */
+void gg_scene_quote(const char *word, char *text, size_t size)
+{
+  snprintf(text, size, "%s", word);
+  size_t length = strlen(text), tail = 0;
+  while (tail < 3 && tail < length && ((unsigned char)text[length - 1 - tail] & 0xC0) == 0x80) tail++;
+  unsigned char lead = tail < length ? (unsigned char)text[length - 1 - tail] : 0;
+  size_t wanted = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC0 ? 1 : 0;
+  if (wanted > tail) text[length - 1 - tail] = '\0';
+  for (; *text; text++)
+    if ((unsigned char)*text < ' ' || *text == 0x7F) *text = '?';
+}
+
+gg_status gg_scene_reject(const gg_scene_reader *r, const yaml_node_t *node, const char *key, const char *format, ...)
+{
+  char text[900], word[61];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  gg_scene_quote(key, word, sizeof word);
+  if (!r->lines) return gg_base_fail(r->err, GG_BAD_INPUT, "%s: %s", r->name, text);
+  return gg_base_fail(r->err, GG_BAD_INPUT, "%s:%zu: key '%s': %s", r->name, node->start_mark.line + 1, word, text);
+}
+
+gg_status gg_scene_reject_text(const gg_scene_reader *r, size_t line, const char *format, ...)
+{
+  char text[400];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  if (!r->lines || !line) return gg_base_fail(r->err, GG_BAD_INPUT, "%s: %s", r->name, text);
+  return gg_base_fail(r->err, GG_BAD_INPUT, "%s:%zu: %s", r->name, line, text);
+}
+
+/* Is the word one of those, separated by blanks? */
+static bool is_among(const char *words, const char *word)
+{
+  size_t length = strlen(word);
+  for (const char *at = words; at && *at; at += strcspn(at, " "), at += strspn(at, " "))
+    if (strcspn(at, " ") == length && strncasecmp(at, word, length) == 0) return true;
+  return false;
+}
+
+static const char *last_part(const char *key)
+{
+  const char *dot = strrchr(key, '.');
+  return dot ? dot + 1 : key;
+}
+
+/* Keys of one section, or of none, by their last part. */
+static void try_section(gg_nearest *nearest, const gg_field *fields, const char *section, size_t length)
+{
+  for (const gg_field *f = fields; f->key; f++) {
+    const char *part = last_part(f->key), *before = nearest->best;
+    size_t its = part == f->key ? 0 : (size_t)(part - f->key) - 1;
+    if (section && (its != length || strncmp(f->key, section, length) != 0)) continue;
+    gg_base_spelling_try(nearest, part);
+    if (nearest->best != before) nearest->best = f->key;
+  }
+}
+
+/* The likely key: one that others call so, one that ends so ("e: 0.9"), or the nearest: in its own section, of the
+ * sections, anywhere. */
+static const char *likely_key(const gg_field *fields, const char *key)
+{
+  const char *word = last_part(key);
+  for (const gg_field *f = fields; f->key; f++)
+    if (strcasecmp(last_part(f->key), word) == 0 || is_among(f->also, word)) return f->key;
+  gg_nearest nearest = {.word = word};
+  size_t length = word == key ? 0 : (size_t)(word - key) - 1;
+  try_section(&nearest, fields, key, length);
+  for (int i = 0; fields == gg_scene_fields && !length && gg_scene_sections[i]; i++)
+    gg_base_spelling_try(&nearest, gg_scene_sections[i]);
+  if (!nearest.best) try_section(&nearest, fields, NULL, 0);
+  if (nearest.best) return nearest.best;
+  gg_nearest full = {.word = key}; /* the section, too, may be mistyped */
+  char section[32];
+  snprintf(section, sizeof section, "%.*s", (int)length, key);
+  for (const gg_field *f = fields; f->key && length && !gg_scene_is_section(section); f++)
+    gg_base_spelling_try(&full, f->key);
+  return full.best;
+}
+
+gg_status gg_scene_reject_key(const gg_scene_reader *r, const yaml_node_t *node, const char *key)
+{
+  char section[32], members[256] = "";
+  for (const gg_word *former = gg_scene_former_keys; former->name; former++)
+    if (strcmp(former->name, key) == 0) return gg_scene_reject(r, node, key, "%s", former->doc);
+  bool species = strncmp(key, "species.", 8) == 0;
+  const char *best = likely_key(species ? gg_scene_species_fields : gg_scene_fields, species ? last_part(key) : key);
+  if (best) return gg_scene_reject(r, node, key, "no such key; did you mean '%s'?", best);
+  if (species) return gg_scene_reject(r, node, key, "no such key; a species has fraction, diameter, mass and inertia");
+  snprintf(section, sizeof section, "%.*s", (int)strcspn(key, "."), key);
+  const size_t length = strlen(section);
+  for (const gg_field *f = gg_scene_fields; f->key; f++)
+    if (strncmp(f->key, section, length) == 0 && f->key[length] == '.')
+      gg_base_text_append(members, sizeof members, "%s%s", *members ? ", " : "", f->key + length + 1);
+  if (*members) return gg_scene_reject(r, node, key, "no such key; under %s there are %s", section, members);
+  return gg_scene_reject(r, node, key, "no such key; `graingas info` lists every key there is");
+}
+
+/* One value to read: its row, the key in messages, the node. */
+typedef struct input {
+  const gg_scene_reader *r;
+  const gg_field *f;
+  const char *key;
+  const yaml_node_t *node;
+} input;
+
+static input at(const input *in, const yaml_node_t *node)
+{
+  return (input){in->r, in->f, in->key, node};
+}
+
+static const yaml_node_t *item_of(const input *in, yaml_node_item_t item)
+{
+  return yaml_document_get_node(in->r->document, item);
+}
+
+/* Nodes of a list; 0 where it is none. */
+static ptrdiff_t length_of(const yaml_node_t *node)
+{
+  return node->type == YAML_SEQUENCE_NODE ? node->data.sequence.items.top - node->data.sequence.items.start : 0;
+}
+
+/* The node as a message shows it. */
+static void show(const yaml_node_t *node, char *text, size_t size)
+{
+  char word[41];
+  if (node->type != YAML_SCALAR_NODE || node->data.scalar.length == 0) {
+    snprintf(text, size, "%s",
+             node->type == YAML_SEQUENCE_NODE  ? "a list"
+             : node->type == YAML_MAPPING_NODE ? "a map"
+                                               : "nothing");
+    return;
+  }
+  gg_scene_quote(gg_scene_scalar(node), word, sizeof word);
+  snprintf(text, size, "%s '%s'", node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE ? "value" : "text", word);
+}
+
+/* The nearest of the words, or the first whose description holds the one that was typed ("cooling": hcs). */
+static const char *likely_word(const gg_field *f, const char *typed)
+{
+  gg_nearest nearest = {.word = typed};
+  gg_word w;
+  if (!typed) return NULL;
+  for (int i = 0; (w = gg_scene_field_word(f, i)).name; i++) gg_base_spelling_try(&nearest, w.name);
+  for (int i = 0; !nearest.best && strlen(typed) > 3 && (w = gg_scene_field_word(f, i)).name; i++)
+    if (strcasestr(w.doc, typed)) nearest.best = w.name;
+  return nearest.best;
+}
+
+static bool has_decimal_comma(const char *text)
+{
+  return text && *text && !text[strspn(text, "0123456789+-eE,")] && strchr(text, ',') == strrchr(text, ',') &&
+         strchr(text, ',');
+}
+
+static gg_status reject_value(const input *in)
+{
+  char shown[64], allowed[256], hint[64] = "";
+  const char *text = gg_scene_scalar(in->node), *likely = likely_word(in->f, text);
+  show(in->node, shown, sizeof shown);
+  gg_scene_field_allowed(in->f, allowed, sizeof allowed);
+  if (has_decimal_comma(text)) likely = "a decimal point";
+  if (likely) snprintf(hint, sizeof hint, " (did you mean %s?)", likely);
+  return gg_scene_reject(in->r, in->node, in->key, "%s is not allowed%s; allowed: %s", shown, hint, allowed);
+}
+
+static bool parse_number(const char *text, double *value)
+{
+  static const char *const infinities[] = {"inf", ".inf", "+.inf", "+inf", ".Inf", NULL};
+  for (int i = 0; infinities[i]; i++)
+    if (strcmp(text, infinities[i]) == 0) return *value = INFINITY, true;
+  char *end;
+  if (!*text || text[strspn(text, "0123456789+-.eE")]) return false;
+  *value = strtod(text, &end);
+  return *end == '\0' && isfinite(*value);
+}
+
+static gg_status read_number(const input *in, double *value)
+{
+  const gg_field *f = in->f;
+  const char *text = gg_scene_scalar(in->node);
+  if (text && f->special && strcmp(text, f->special) == 0) return *value = f->special_value, GG_OK;
+  bool quoted = text && in->node->data.scalar.style != YAML_PLAIN_SCALAR_STYLE && strcmp(text, "inf") != 0;
+  double x;
+  if (!text || quoted || !parse_number(text, &x)) return reject_value(in);
+  if (x < f->min || x > f->max || (f->above_min && x == f->min)) return reject_value(in);
+  return *value = x, GG_OK;
+}
+
+static gg_status read_integer(const input *in, int64_t *value)
+{
+  double x;
+  GG_TRY(read_number(in, &x));
+  if (x != floor(x)) return reject_value(in);
+  char *end;
+  errno = 0;
+  long long exact = strtoll(gg_scene_scalar(in->node), &end, 10); /* a seed has more digits than a double */
+  const bool whole = *end == '\0'; /* else written as 1e6 or 5.0; the largest that are allowed round up to 2^63 */
+  if (whole ? errno != 0 : x >= 0x1p63) return reject_value(in);
+  return *value = whole ? exact : (int64_t)x, GG_OK;
+}
+
+static gg_word find_word(const input *in)
+{
+  const char *text = gg_scene_scalar(in->node);
+  return text ? gg_scene_field_find_word(in->f, text) : (gg_word){0};
+}
+
+static gg_status read_choice(const input *in, void *value)
+{
+  const gg_word word = find_word(in);
+  if (!word.name) return reject_value(in);
+  return memcpy(value, &word.value, sizeof word.value), GG_OK;
+}
+
+static gg_status read_set(const input *in, unsigned *value)
+{
+  const gg_word alone = find_word(in);
+  if (alone.name)
+    return gg_scene_reject(in->r, in->node, in->key, "is a list, also of one: %s: [%s]", in->f->key, alone.name);
+  if (in->node->type != YAML_SEQUENCE_NODE) return reject_value(in);
+  unsigned set = 0;
+  for (ptrdiff_t i = 0; i < length_of(in->node); i++) {
+    const input item = at(in, item_of(in, in->node->data.sequence.items.start[i]));
+    const gg_word word = find_word(&item);
+    if (!word.name) return reject_value(&item);
+    set |= (unsigned)word.value;
+  }
+  return *value = set, GG_OK;
+}
+
+static gg_status read_vector(const input *in, double *value)
+{
+  if (length_of(in->node) != 3) return reject_value(in);
+  for (int a = 0; a < 3; a++) {
+    const input item = at(in, item_of(in, in->node->data.sequence.items.start[a]));
+    GG_TRY(read_number(&item, &value[a]));
+  }
+  return GG_OK;
+}
+
+/* How many species the document itself lists; 0: it lists none, as what overrides a single key. */
+static int listed_species(const gg_scene_reader *r)
+{
+  const yaml_node_t *root = yaml_document_get_root_node(r->document);
+  if (!root || root->type != YAML_MAPPING_NODE) return 0;
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(r, root, &e);)
+    if (e.word && strcmp(e.word, "species") == 0 && e.value->type == YAML_SEQUENCE_NODE) return (int)length_of(e.value);
+  return 0;
+}
+
+/* Without an error a forgotten pair would have the default. */
+static gg_status check_pairs(const input *in, const bool *given)
+{
+  int n = listed_species(in->r);
+  char name[GG_PAIR_NAME];
+  for (int p = 0; n <= GG_MAX_SPECIES && p < gg_pairs_of(n); p++)
+    if (!given[p])
+      return gg_scene_reject(in->r, in->node, in->key,
+                             "lacks the pair %s: name every pair of the %d species, or give `other`",
+                             gg_common_pair_name(p, name), n);
+  return GG_OK;
+}
+
+/* Pairs that a map leaves out take `other`; where a single key is overridden, they stay what they are. */
+static gg_status read_pairs(const input *in, double *value)
+{
+  double other;
+  if (in->node->type != YAML_MAPPING_NODE) {
+    GG_TRY(read_number(in, &other));
+    for (int p = 0; p < GG_PAIRS; p++) value[p] = other;
+    return GG_OK;
+  }
+  bool given[GG_PAIRS] = {false}, others = false;
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(in->r, in->node, &e);) {
+    bool rest = e.word && strcmp(e.word, "other") == 0;
+    int p = e.word && !rest ? gg_common_pair_find(e.word) : -1;
+    if ((!rest && p < 0) || (rest ? others : given[p]))
+      return gg_scene_reject(in->r, e.name, in->key,
+                             "a map by pairs of species has keys like 11, 12 or 1-10, or other, each pair once");
+    const input one = at(in, e.value);
+    *(rest ? &others : &given[p]) = true;
+    GG_TRY(read_number(&one, rest ? &other : &value[p]));
+  }
+  if (!others) return check_pairs(in, given);
+  for (int p = 0; p < GG_PAIRS; p++)
+    if (!given[p]) value[p] = other;
+  return GG_OK;
+}
+
+gg_status gg_scene_read_map(const gg_scene_reader *r, const char *section, const yaml_node_t *map,
+                            const gg_field *fields, const char *unknown, void *base)
+{
+  char key[GG_SCENE_KEY];
+  uint64_t given = 0;
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(r, map, &e);) {
+    int k = 0;
+    GG_TRY(gg_scene_entry_key(r, &e, section, section, key));
+    while (fields[k].key && strcmp(last_part(fields[k].key), e.word) != 0) k++;
+    if (!fields[k].key)
+      return unknown ? gg_scene_reject(r, e.name, key, "%s", unknown) : gg_scene_reject_key(r, e.name, key);
+    if (given & (uint64_t)1 << k) return gg_scene_reject(r, e.name, key, "is given twice");
+    given |= (uint64_t)1 << k;
+    GG_TRY(gg_scene_read_value(r, &fields[k], key, e.value, base));
+  }
+  return GG_OK;
+}
+
+static gg_status read_species(const input *in)
+{
+  if (in->node->type != YAML_SEQUENCE_NODE) return reject_value(in);
+  const ptrdiff_t n = length_of(in->node);
+  gg_scene *scene = in->r->scene;
+  double total = 0;
+  if (n < 1 || n > GG_MAX_SPECIES)
+    return gg_scene_reject(in->r, in->node, in->key, "%td species are given; allowed: 1 to %d", n, GG_MAX_SPECIES);
+  for (int i = 0; i < n; i++) {
+    const yaml_node_t *map = item_of(in, in->node->data.sequence.items.start[i]);
+    gg_species one = {1.0 / (double)n, 1, 1, 0.4};
+    if (map->type != YAML_MAPPING_NODE)
+      return gg_scene_reject(in->r, map, in->key, "a species is a map with fraction, diameter, mass and inertia");
+    GG_TRY(gg_scene_read_map(in->r, in->key, map, gg_scene_species_fields, NULL, &one));
+    scene->species[i] = one;
+    total += one.fraction;
+  }
+  if (fabs(total - 1) > 1e-9)
+    return gg_scene_reject(in->r, in->node, in->key, "the fractions sum to %.10g; they must sum to 1 (within 1e-9)",
+                           total);
+  scene->n_species = (int)n;
+  return GG_OK;
+}
+
+gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const char *key, const yaml_node_t *node,
+                              void *base)
+{
+  const input in = {r, f, key, node};
+  void *value = (char *)base + f->offset;
+  switch (f->type) {
+  case GG_FIELD_NUMBER: return read_number(&in, value);
+  case GG_FIELD_INTEGER: return read_integer(&in, value);
+  case GG_FIELD_CHOICE: return read_choice(&in, value);
+  case GG_FIELD_SET: return read_set(&in, value);
+  case GG_FIELD_PAIRS: return read_pairs(&in, value);
+  case GG_FIELD_VECTOR: return read_vector(&in, value);
+  case GG_FIELD_SPECIES: return read_species(&in);
+  }
+  return GG_OK;
+}
