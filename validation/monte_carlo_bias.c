@@ -38,7 +38,7 @@ typedef struct answer {
 
 static gg_status reference_of(const scene *c, answer *a, gg_error *err)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_model m;
   gg_theory_answer t;
   s.flow = c->flow, s.phi = c->phi, s.collision.e[0] = c->e;

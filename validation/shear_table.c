@@ -24,7 +24,7 @@ typedef struct table {
 
 static gg_model model_at(double phi, double e)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_model m;
   gg_error err;
   s.flow = GG_USF, s.phi = phi;

@@ -15,7 +15,7 @@ enum { REFERENCE_DEGREE = 16 };
 
 static bool model_at(double phi, double e, gg_model *m)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_error err;
   s.flow = GG_USF, s.phi = phi;
   s.collision.e[0] = e, s.collision.beta[0] = -1;

@@ -48,7 +48,7 @@ static gg_status key_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_
 {
   const gg_field *f = field_at(gg_scene_fields, i);
   GG_TRY(field_entry(f, entry, err));
-  gg_scene filled = scene ? *scene : gg_common_scene_defaults();
+  gg_scene filled = scene ? *scene : gg_scene_defaults();
   if (scene) gg_scene_fill_in(&filled);
   entry->given = gg_scene_is_given(&filled, f->key);
   bool required = strcmp(f->key, "flow") == 0 || strcmp(f->key, "phi") == 0;
@@ -58,7 +58,7 @@ static gg_status key_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_
 
 static gg_status species_key_entry(size_t i, gg_entry *entry, gg_error *err)
 {
-  const gg_scene defaults = gg_common_scene_defaults();
+  const gg_scene defaults = gg_scene_defaults();
   const gg_field *f = field_at(gg_scene_species_fields, i);
   GG_TRY(field_entry(f, entry, err));
   put_value(f, &defaults.species[0], &defaults, entry);
@@ -88,7 +88,7 @@ gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error
 /* The unit depends on the flow: without a scene it is that of uniform shear. */
 static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
-  gg_scene filled = scene ? *scene : gg_common_scene_defaults();
+  gg_scene filled = scene ? *scene : gg_scene_defaults();
   gg_model model;
   if (filled.phi < 0) filled.phi = 0.1;
   gg_scene_fill_in(&filled);

@@ -126,14 +126,14 @@ static void end(gg_door_run *r)
   gg_base_string_list_clear(&r->warnings);
 }
 
-/* Keys without effect on what the scene is used for (scene/ineffective_keys.h). */
+/* Keys without effect on what the scene is used for. */
 static void warn_of_keys(gg_door_run *r)
 {
   const gg_engine_kind engine = r->scene.engine;
   if (r->comparison)
-    gg_scene_inert(&r->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &r->warnings);
+    gg_scene_ineffective_keys(&r->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &r->warnings);
   else if (gg_run_engine_ops_of(engine)->accepts(&r->model, NULL) == GG_OK)
-    gg_scene_inert(&r->scene, 1u << engine, &r->warnings);
+    gg_scene_ineffective_keys(&r->scene, 1u << engine, &r->warnings);
   for (size_t i = 0; i < r->warnings.n && r->options.warn; i++)
     r->options.warn(r->options.context, r->warnings.text[i]);
 }

@@ -41,7 +41,7 @@ gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
 {
   GG_NEED(path);
   GG_NEED(scene);
-  gg_scene made = gg_common_scene_defaults();
+  gg_scene made = gg_scene_defaults();
   GG_C_LOCALE;
   GG_TRY(gg_scene_read_file(&made, path, err));
   return publish(&made, scene, err);
@@ -51,7 +51,7 @@ gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, g
 {
   GG_NEED(yaml);
   GG_NEED(scene);
-  gg_scene made = gg_common_scene_defaults();
+  gg_scene made = gg_scene_defaults();
   GG_C_LOCALE;
   GG_TRY(gg_scene_read(&made, yaml, strlen(yaml), name ? name : "scene", err));
   return publish(&made, scene, err);

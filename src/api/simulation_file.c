@@ -40,7 +40,7 @@ static gg_status stored_scene(const gg_archive *a, const char *path, gg_scene *s
                         "%s: is not a saved simulation (a run goes on from a checkpoint: "
                         "gg_run_options.resume)",
                         path);
-  *scene = gg_common_scene_defaults();
+  *scene = gg_scene_defaults();
   locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_scene_read(scene, yaml->data, yaml->count, path, err);
   gg_base_c_locale_leave(before);

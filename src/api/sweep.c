@@ -14,7 +14,7 @@ static gg_sweep *new_sweep(const char *name, gg_error *err)
 {
   gg_sweep *sweep = gg_base_array_new(1, sizeof *sweep, err);
   if (!sweep) return NULL;
-  sweep->base = gg_common_scene_defaults();
+  sweep->base = gg_scene_defaults();
   sweep->settings = gg_sweep_settings_defaults();
   sweep->name = strdup(name);
   if (sweep->name) return sweep;

@@ -52,7 +52,7 @@ double gg_bench_seconds(const gg_bench *b, double seconds)
 
 gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, int64_t n)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = engine;
   s.phi = phi;
   const int64_t fewer = (int64_t)((double)n / smaller(b));
@@ -64,7 +64,7 @@ gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, in
 /* The overrides that options stand for (--seed), checked as a scene's are. */
 static gg_status take_seed(gg_bench *b, gg_error *err)
 {
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   for (int i = 0; i < b->options->n_overrides; i++) {
     const char *equals = strchr(b->options->override[i], '=');
     char key[96];

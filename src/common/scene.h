@@ -78,6 +78,6 @@ struct gg_scene {
 };
 
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */
-gg_scene gg_common_scene_defaults(void);
+gg_scene gg_scene_defaults(void);
 
 #endif

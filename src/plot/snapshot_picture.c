@@ -21,7 +21,7 @@ enum { LEFT = 70, BETWEEN = 80, RIGHT = 25, ABOVE = 70, BELOW = 65 };
 
 static void read_radii(const gg_stored_result *stored, gg_plot_grains *s)
 {
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   for (int k = 0; k < GG_MAX_SPECIES; k++) s->radius[k] = 0.5;
   if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) != GG_OK) return;
   for (int k = 1; k < scene.n_species; k++) s->radius[k] = 0.5 * scene.species[k].diameter / scene.species[0].diameter;

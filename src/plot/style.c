@@ -70,7 +70,7 @@ void gg_plot_open_page(FILE *s, const char *title, bool png, int width, int heig
 
 void gg_plot_start_page(FILE *s, const gg_stored_result *stored, bool png, int width, int height)
 {
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   char title[240] = "";
   if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) == GG_OK)
     gg_files_scene_title(&scene, title, sizeof title);

@@ -19,7 +19,7 @@ static bool has_law_of_its_own(const json_t *document)
 static json_t *from_scene(const char *yaml, gg_engine_kind engine)
 {
   gg_model model;
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   json_t *all = json_object();
   if (gg_scene_read(&scene, yaml, strlen(yaml), "scene", NULL) != GG_OK) return all;
   if (gg_common_model_make(&scene, engine, &model, NULL) != GG_OK) return all;

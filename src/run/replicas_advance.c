@@ -9,7 +9,7 @@
 #include "run/replicas.h"
 #include "run/start_model.h"
 #include "run/workers/workers.h"
-#include "scene/resumption.h"
+#include "scene/fields.h"
 
 static bool out_of_time(const gg_replicas *all)
 {

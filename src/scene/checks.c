@@ -37,7 +37,7 @@ void gg_scene_fill_in(gg_scene *s)
 {
   const gg_flow_row *flow = gg_flow_of(s->flow);
   if (!gg_scene_is_given(s, "collision.e")) {
-    double e = flow->conserves ? 1 : gg_common_scene_defaults().collision.e[0];
+    double e = flow->conserves ? 1 : gg_scene_defaults().collision.e[0];
     for (int p = 0; p < GG_PAIRS; p++) s->collision.e[p] = e;
   }
   /* With a law a cooling gas has no steady cooling rate, whose error could end the run: its length is a number of
@@ -288,7 +288,7 @@ static void add_species(group *groups, const gg_scene *scene, unsigned uses, con
 
 void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_text_list *lines)
 {
-  const gg_scene defaults = gg_common_scene_defaults();
+  const gg_scene defaults = gg_scene_defaults();
   group groups[REASONS + 1] = {0};
   char reason[160];
   for (const gg_field *f = gg_scene_fields; f->key; f++) {

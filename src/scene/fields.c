@@ -178,7 +178,7 @@ static void set_default(const gg_field *f, void *base)
   }
 }
 
-gg_scene gg_common_scene_defaults(void)
+gg_scene gg_scene_defaults(void)
 {
   gg_scene scene = {.n_species = 1, .dsmc = {.chosen_for = GG_AUTO}};
   for (const gg_field *f = gg_scene_fields; f->key; f++) set_default(f, &scene);

@@ -55,7 +55,7 @@ static double commonest(const double *x)
 /* Up to two species: all three pairs. Of more: those unlike the rest. */
 static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *scene)
 {
-  const gg_scene defaults = gg_common_scene_defaults();
+  const gg_scene defaults = gg_scene_defaults();
   const double rest = commonest(x), usual = *(const double *)(const void *)((const char *)&defaults + f->offset);
   const int used = gg_pairs_of(scene->n_species > 2 ? scene->n_species : 2), shown = scene->n_species > 2 ? 0 : used;
   bool alike = true;

@@ -9,7 +9,7 @@
 
 enum { GG_SCENE_MAX_BYTES = 1 << 20 };
 
-/* Read YAML text into a scene, which begins as gg_common_scene_defaults; `name` stands for the file in messages. */
+/* Read YAML text into a scene, which begins as gg_scene_defaults; `name` stands for the file in messages. */
 gg_status gg_scene_read(gg_scene *scene, const char *yaml, size_t length, const char *name, gg_error *err);
 /* "-": standard input. */
 gg_status gg_scene_read_file(gg_scene *scene, const char *path, gg_error *err);

@@ -15,7 +15,7 @@
 
 static gg_scene scene_at(double relative_error)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.1, s.run.relative_error = relative_error;
   return s;
 }

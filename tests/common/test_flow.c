@@ -18,7 +18,7 @@ static gg_scene scene_of(int flow, const char *rest)
 {
   char text[400];
   gg_error err = {0};
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   snprintf(text, sizeof text, "{flow: %s, phi: 0.1, particles: 400%s}", gg_common_flows[flow].word, rest);
   if (gg_scene_read(&s, text, strlen(text), "s", &err) != GG_OK) fail_msg("%s: %s", text, err.message);
   return s;

@@ -33,7 +33,7 @@ static gg_model make(const gg_scene *s)
 static void units_drop_out(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.3;
   gg_model a = make(&s);
   s.species[0].diameter = 0.002, s.species[0].mass = 1e-5, s.shear_rate = 40;
@@ -49,7 +49,7 @@ static void units_drop_out(void **state)
 static void mixture(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.2, s.n_species = 2, s.particles = 1001;
   s.species[0] = (gg_species){0.25, 2, 3, 0.4};
   s.species[1] = (gg_species){0.75, 1, 6, 0.4};
@@ -85,7 +85,7 @@ static void equations_of_state(void **state)
 static void sharing_of_energy(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = GG_EQUILIBRIUM, s.phi = 0.1, s.n_species = 2, s.collision.e[0] = 1;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
@@ -106,7 +106,7 @@ static void sharing_of_energy(void **state)
 static void loss_to_others(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = GG_USF, s.phi = 0.1, s.n_species = 2;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
@@ -121,7 +121,7 @@ static void scaled_temperature(void **state)
 {
   (void)state;
   const double e = 0.9999, loss = 0.75 / ((1 - e * e) / 4);
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.1, s.collision.e[0] = e;
   s.flow = GG_HCS;
   gg_model m = make(&s);
@@ -144,7 +144,7 @@ static void scaled_temperature(void **state)
 static void kinds(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.1;
   assert_true(make(&s).steady && !make(&s).elastic);
   s.collision.e[0] = 1;
@@ -172,7 +172,7 @@ static void kinds(void **state)
 static void rates_and_units(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.3;
   gg_model m = make(&s);
   near(gg_common_model_collision_rate(&m, 2), 24 * 0.3 * m.chi[0] * sqrt(2 / M_PI), 1e-13);
@@ -194,7 +194,7 @@ static void rates_and_units(void **state)
 static void noise_replaces_losses(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = GG_HSS, s.thermostat = GG_WHITE_NOISE, s.phi = 0.2, s.particles = 1000;
   s.n_species = 2;
   s.species[0] = (gg_species){0.3, 1, 1, 0.4}, s.species[1] = (gg_species){0.7, 1.5, 4, 0.4};
@@ -220,7 +220,7 @@ static void noise_replaces_losses(void **state)
 static void units_of_rates(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = GG_HCS, s.phi = 0.1, s.particles = 1000;
   gg_model m = make(&s);
   near(gg_common_model_nu0(&m, 3), 16 * sqrt(M_PI) / 5 * m.density * sqrt(3), 1e-14);
@@ -269,7 +269,7 @@ static void refused(const gg_scene *s, const char *words)
 static void scales(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_model m;
   gg_error err = {0};
   const double tiny[] = {9e-21, 1e-300, 1e-308, 5e-324};

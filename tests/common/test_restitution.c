@@ -107,7 +107,7 @@ static void tables(void **state)
 
 static gg_scene viscoelastic(gg_flow flow)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = flow;
   s.phi = 0.1;
   s.collision.law = GG_LAW_VISCOELASTIC;

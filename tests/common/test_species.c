@@ -42,7 +42,7 @@ static void pairs_have_names(void **state)
 
 static gg_scene scene_of(int species, int64_t grains)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.3, s.n_species = species, s.particles = grains;
   for (int i = 0; i < species; i++) s.species[i].fraction = 1.0 / species;
   return s;

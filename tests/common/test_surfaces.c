@@ -166,7 +166,7 @@ static void images(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
-    gg_scene s = gg_common_scene_defaults();
+    gg_scene s = gg_scene_defaults();
     gg_model m;
     gg_error err;
     s.flow = GG_CHUTE, s.phi = 0.2, s.particles = 500;
@@ -182,7 +182,7 @@ static void images(void **state)
 static void room(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_model m;
   gg_error err;
   s.flow = GG_CHUTE, s.phi = 0.2, s.particles = 200;

@@ -16,7 +16,7 @@
 
 static inline gg_scene lab_scene(gg_flow flow, double phi, double e, double beta, int64_t n)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = flow;
   s.engine = GG_DSMC;
   s.phi = phi;

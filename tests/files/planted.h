@@ -31,7 +31,7 @@ static inline gg_frame planted_frame(uint64_t step, bool positions)
 static inline gg_result *planted_result(gg_engine_kind engine)
 {
   gg_result *r = calloc(1, sizeof *r);
-  r->scene = gg_common_scene_defaults();
+  r->scene = gg_scene_defaults();
   r->scene.phi = 0.3, r->scene.particles = PLANTED_GRAINS, r->scene.engine = engine;
   for (int p = 0; p < GG_PAIRS; p++) r->scene.collision.beta[p] = 0;
   gg_common_model_make(&r->scene, engine, &r->model, NULL);

@@ -73,7 +73,7 @@ static void checkpoint_generations(void **state)
   (void)state;
   gg_error err = {0};
   bool older;
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), two = archive(2), back = {0};
   assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
   assert_int_equal(gg_files_checkpoint_write("c.h5", false, &two, &scene, &err), GG_OK);
@@ -107,7 +107,7 @@ static void checkpoint_of_another_version(void **state)
   (void)state;
   gg_error err = {0};
   bool older;
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), back = {0};
   assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
   flip_bit("c.h5", GG_VERSION, sizeof GG_VERSION - 1);
@@ -137,7 +137,7 @@ static void checkpoint_of_another_layout(void **state)
     gg_error err = {0};
     bool older;
     char expected[240];
-    gg_scene scene = gg_common_scene_defaults();
+    gg_scene scene = gg_scene_defaults();
     gg_archive one = archive(1), back = {0};
     assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
     unsigned char seal[GG_SEAL_SIZE]; /* HDF5 cuts it off */
@@ -174,7 +174,7 @@ static void checkpoint_without_room(void **state)
   (void)state;
   gg_error err = {0};
   bool older;
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), back = {0};
   assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
   struct rlimit whole, small;

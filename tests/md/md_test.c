@@ -8,7 +8,7 @@
 
 gg_scene md_scene(md_case c)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = c.flow;
   s.particles = c.n;
   s.phi = c.phi;

@@ -99,7 +99,7 @@ static void random_contact(gg_scene *s, gg_rng *rng)
 /* Not every draw fits: the box may be too small for the number of grains. */
 static bool random_scene(gg_scene *s, gg_rng *rng, gg_flow flow, bool mixture)
 {
-  *s = gg_common_scene_defaults();
+  *s = gg_scene_defaults();
   s->flow = flow;
   s->md.contact_time = 1e-3; /* grains at rest on a floor bounce that often */
   s->phi = pow(10, -2 + (gg_flow_is_walled(flow) || mixture ? 1.4 : 1.74) * gg_rng_uniform(rng));

@@ -18,7 +18,7 @@
 
 static inline gg_model ct_model(gg_flow flow, double phi, double beta, int64_t n, int species)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = flow, s.phi = phi, s.particles = n, s.n_species = species;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = beta;
   if (flow == GG_EQUILIBRIUM)

@@ -13,7 +13,7 @@
 
 static gg_model model_of(gg_flow flow, double beta, int species, gg_precision precision, int64_t n)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_DSMC, s.flow = flow, s.phi = 0.2, s.dsmc.particles = n, s.dsmc.precision = precision;
   s.n_species = species;
   s.species[0] = (gg_species){species == 2 ? 0.4 : 1, 1, 1, 0.4};

@@ -150,7 +150,7 @@ static void two_temperatures(void **state)
 static void engine(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 0.1, s.particles = 1000;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1, s.collision.beta[q] = 1;
   s.run.collisions = 1500;

@@ -30,7 +30,7 @@ static void add(void *context, const gg_collision_record *m)
 
 static gg_scene sheared(gg_engine_kind engine, int species, double phi)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = engine, s.phi = phi, s.n_species = species;
   s.particles = 500, s.dsmc.particles = 2000, s.md.contact_time = 0; /* which would make some elastic */
   if (species == 2) s.species[0] = (gg_species){0.6, 1, 1, 0.4}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.4};

@@ -27,7 +27,7 @@ static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 
 static void resume(gg_engine_kind engine, int curves)
 {
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   scene.engine = engine, scene.phi = 0.1, scene.particles = 200, scene.dsmc.particles = 900, scene.run.replicas = 2;
   for (int q = 0; q < GG_PAIRS; q++) scene.collision.beta[q] = 0;
   scene.run.collisions = 150, scene.run.warmup = 20;
@@ -68,7 +68,7 @@ static void same_curves(void **state)
 static void rheology_needed(void **state)
 {
   (void)state;
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   scene.phi = 0.1;
   scene.measure = GG_MEASURE_CELLS;
   gg_result *r = NULL;

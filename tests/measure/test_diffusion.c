@@ -81,7 +81,7 @@ static void planted_tail(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
-    gg_scene s = gg_common_scene_defaults();
+    gg_scene s = gg_scene_defaults();
     s.flow = GG_EQUILIBRIUM, s.phi = 0.26, s.particles = 500, s.aspect[1] = k == 2 ? 2 : 1;
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
     gg_model m;
@@ -111,7 +111,7 @@ static void planted_tail(void **state)
 
 static void diffuse(double phi, int64_t n, double collisions, double T_and_D[5])
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = phi, s.particles = n;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.run.collisions = collisions;
@@ -162,7 +162,7 @@ static void dense_gas(void **state)
 static void box_shorter_than_free_paths(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 1e-3, s.particles = 200;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.n_species = 2;

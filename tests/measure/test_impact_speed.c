@@ -101,7 +101,7 @@ static void refusals(void **state)
 
 static gg_scene scene_of(gg_flow flow, gg_engine_kind engine, double e, double phi)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = flow, s.engine = engine, s.phi = phi, s.particles = 1000, s.dsmc.particles = 4000;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = e;
   s.run.collisions = engine == GG_MD ? 1000 : 20000;

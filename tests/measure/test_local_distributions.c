@@ -130,7 +130,7 @@ static void planted_halves(void **state)
 
 static gg_result *engine(double e, double phi)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = e == 1 ? GG_EQUILIBRIUM : GG_USF, s.phi = phi, s.particles = 1000;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = e, s.collision.beta[p] = e == 1 ? 1 : -1;
   s.run.collisions = e == 1 ? 2500 : 6000;

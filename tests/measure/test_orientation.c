@@ -76,7 +76,7 @@ static void engines(void **state)
 {
   (void)state;
   for (int k = 0; k < 2; k++) {
-    gg_scene s = gg_common_scene_defaults();
+    gg_scene s = gg_scene_defaults();
     s.engine = k ? GG_DSMC : GG_MD, s.phi = 0.05, s.particles = 1000;
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.8, s.collision.beta[q] = 0;
     s.run.collisions = 600;

@@ -72,7 +72,7 @@ static void pairs_of_images(void **state)
   (void)state;
   gg_rng r = gg_common_rng_seed(50, 0);
   for (int k = 0; k < 40; k++) {
-    gg_scene scene = gg_common_scene_defaults();
+    gg_scene scene = gg_scene_defaults();
     scene.phi = 0.2, scene.particles = 300;
     if (k % 2) scene.aspect[k % 3] = 1.7;
     gg_model m;
@@ -108,7 +108,7 @@ static void sampled_pairs(void **state)
   enum { DRAWS = 200, BUDGET = 60 };
   gg_rng r = gg_common_rng_seed(54, 0);
   for (int k = 0; k < 4; k++) {
-    gg_scene scene = gg_common_scene_defaults();
+    gg_scene scene = gg_scene_defaults();
     scene.phi = 0.2, scene.particles = 1500;
     if (k) scene.aspect[k - 1] = 1.7;
     gg_model m;
@@ -170,7 +170,7 @@ static void ideal_gas(void **state)
 static void hard_spheres(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 0.3, s.particles = 2000;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.run.collisions = 3000;
@@ -252,7 +252,7 @@ static void inelastic(void **state)
 {
   (void)state;
   for (int rough = 0; rough < 2; rough++) {
-    gg_scene s = gg_common_scene_defaults();
+    gg_scene s = gg_scene_defaults();
     s.engine = GG_MD, s.flow = GG_USF, s.phi = rough ? 0.1 : 0.03, s.particles = 1000;
     double e = rough ? 0.8 : 0.6, value[5], error[5];
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = e, s.collision.beta[q] = rough ? 0 : -1;

@@ -212,7 +212,7 @@ static void wall_stress(void **state)
 static void couette(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_COUETTE, s.phi = 0.1, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.95, s.collision.beta[q] = 0;
   s.run.collisions = 8000, s.run.warmup = 1500; /* blocks longer than the momentum of the box remembers */

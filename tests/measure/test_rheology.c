@@ -35,7 +35,7 @@ static void plant(uint64_t seed)
 
 static gg_model model_of(gg_flow flow, double beta, int species)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = flow, s.phi = 0.2, s.particles = N, s.n_species = species;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = beta;
   if (species == 2) {

@@ -119,7 +119,7 @@ static void few_of_a_species(void **state)
 static void cooling(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_DSMC, s.flow = GG_HCS, s.phi = 0, s.dsmc.particles = 20000;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.5;
   s.run.collisions = 600;

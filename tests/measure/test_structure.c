@@ -151,7 +151,7 @@ static double percus_yevick(double k, double phi)
 
 static gg_result *fluid(double phi, double collisions)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = phi, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.run.collisions = collisions;

@@ -183,7 +183,7 @@ static double conserved(double x, const void *context)
 static void equilibrium(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 0.2, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1, s.collision.beta[q] = 1;
   s.run.collisions = 2000;
@@ -227,7 +227,7 @@ static void level_of_a_mixture(void **state)
 static void sheared(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.phi = 0.3, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.7;
   s.run.collisions = 600;

@@ -101,7 +101,7 @@ static void stretched_grains(void **state)
 
 static gg_result *engine(double e)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_DSMC, s.flow = e == 1 ? GG_EQUILIBRIUM : GG_USF, s.phi = 0.01;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = e;
   s.run.collisions = 1200, s.dsmc.particles = 5000;

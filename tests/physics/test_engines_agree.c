@@ -14,7 +14,7 @@
 
 static gg_scene scene_of(double e, double beta, double mu)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.01, s.particles = 1000;
   s.collision.e[0] = e, s.collision.beta[0] = beta, s.collision.mu[0] = mu;
   s.run.relative_error = 0.01;

@@ -22,7 +22,7 @@ enum { TEN = sizeof diameters / sizeof *diameters };
 static gg_scene scene_of(gg_flow flow, int species, double phi, int64_t particles)
 {
   static const gg_species three[] = {{0.5, 1, 1, 0.4}, {0.3, 1.4, 2, 0.4}, {0.2, 0.7, 0.5, 0.4}};
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = flow, s.phi = phi, s.particles = particles, s.n_species = species;
   for (int i = 0; i < species; i++) {
     const double d = diameters[i % TEN];
@@ -191,7 +191,7 @@ static void sheared(void **state)
 static void curves_of_sixteen(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = GG_USF, s.phi = 0.1, s.particles = 320, s.n_species = GG_MAX_SPECIES;
   for (int i = 0; i < GG_MAX_SPECIES; i++) s.species[i].fraction = 1.0 / GG_MAX_SPECIES;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = 0;

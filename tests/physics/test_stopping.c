@@ -32,7 +32,7 @@ static void errors_are_true(void **state)
   static const gg_quantity quantities[] = {GG_Q_TEMPERATURE, GG_Q_SHEAR_VISCOSITY, GG_Q_TEMPERATURE_RATIO};
   double x[3][SEEDS], error[3][SEEDS];
   for (int seed = 0; seed < SEEDS; seed++) {
-    gg_scene s = gg_common_scene_defaults();
+    gg_scene s = gg_scene_defaults();
     s.engine = GG_DSMC, s.phi = 0.05, s.run.relative_error = ASKED, s.run.seed = (uint64_t)seed + 1;
     s.collision.e[0] = 0.8, s.collision.beta[0] = 0;
     gg_result *r = NULL;

@@ -12,7 +12,7 @@
 
 static gg_result *run(double phi, double e, double beta)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_DSMC, s.phi = phi, s.run.relative_error = 0.004;
   s.collision.e[0] = e, s.collision.beta[0] = beta;
   gg_result *r = NULL;

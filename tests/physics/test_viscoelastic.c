@@ -16,7 +16,7 @@
 
 static gg_scene scene_of(gg_flow flow, double phi, double e, int64_t n)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = flow;
   s.phi = phi;
   s.particles = n;

@@ -13,7 +13,7 @@
 
 static gg_scene slow(double e, double phi, gg_thermostat thermostat)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = GG_SMALL_SHEAR, s.engine = GG_DSMC, s.thermostat = thermostat;
   s.measure |= GG_MEASURE_VISCOSITY;
   s.phi = phi, s.collision.e[0] = s.collision.e[1] = s.collision.e[2] = e;

@@ -15,7 +15,7 @@ enum { SEEDS = 16, MOST = 80 };
 
 static gg_result *wide_gap(double collisions, uint64_t seed)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_COUETTE, s.phi = 0.3, s.particles = 300, s.aspect[1] = 3;
   s.collision.e[0] = 0.7, s.collision.beta[0] = -1;
   s.run.collisions = collisions, s.run.warmup = 600, s.run.seed = seed;

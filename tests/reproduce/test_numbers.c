@@ -106,7 +106,7 @@ static bool meets(const gg_scene *scene, const char *key, const char *one, const
 static void conditions(void **state)
 {
   (void)state;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   assert_int_equal(gg_scene_override(&s, "phi", "0.3", NULL), GG_OK);
   assert_int_equal(gg_scene_override(&s, "flow", "usf", NULL), GG_OK);
   assert_int_equal(gg_scene_override(&s, "measure", "[rheology, cells]", NULL), GG_OK);

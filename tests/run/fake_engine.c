@@ -157,7 +157,7 @@ const gg_engine_ops *gg_run_engine_ops_of(gg_engine_kind kind)
 gg_scene planted_scene(double beta)
 {
   fake = (fake_plan){.T = 2, .theta = 0.5, .relaxation = 10, .noise = 0.02};
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.2, s.particles = 512;
   s.collision.beta[0] = beta;
   return s;

@@ -166,7 +166,7 @@ static void every_run(void **state)
   enum { ERROR, COLLISIONS, BOTH, TIME, GIVEN_UP, REPLICAS, CASES };
   for (int k = 0; k < CASES; k++) {
     fake = (fake_plan){.T = 2, .theta = 0.5, .relaxation = 10, .noise = 0.02};
-    gg_scene s = gg_common_scene_defaults();
+    gg_scene s = gg_scene_defaults();
     s.phi = 0.2, s.particles = 512, s.collision.beta[0] = 0;
     if (k == ERROR || k == REPLICAS || k == BOTH) s.run.relative_error = 0.0005;
     if (k == COLLISIONS || k == BOTH) s.run.collisions = 20000;

@@ -15,7 +15,7 @@
 
 static void create(gg_replica *r, const char *yaml, gg_engine_kind engine)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_model m;
   gg_error err = {0};
   if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK)
@@ -108,7 +108,7 @@ static void told_as_it_was(void **state)
   (void)state;
   static const char yaml[] =
       "{flow: equilibrium, engine: dsmc, phi: 0.2, dsmc: {particles: 50}, run: {collisions: 1200}}";
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_error err = {0};
   gg_result *result = NULL;
   double told = 0;

@@ -58,7 +58,7 @@ static void open_run(run *r, gg_run_scheduler *scheduler, int n, char name, seen
 {
   const char *yaml = "{flow: hcs, engine: dsmc, phi: 0, dsmc: {particles: 64}}";
   gg_error err = {0};
-  *r = (run){.scene = gg_common_scene_defaults(), .seen = s, .name = name, .stop = {meet, r}};
+  *r = (run){.scene = gg_scene_defaults(), .seen = s, .name = name, .stop = {meet, r}};
   if (gg_scene_read(&r->scene, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&r->scene, &err) != GG_OK)
     fail_msg("%s", err.message);
   assert_int_equal(gg_common_model_make(&r->scene, GG_DSMC, &r->model, &err), GG_OK);

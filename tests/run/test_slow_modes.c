@@ -20,7 +20,7 @@ enum { ROWS = 4096, SPREAD = 1 };
 static gg_model couette(void)
 {
   gg_model m;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = GG_COUETTE, s.phi = 0.3;
   assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return m;
@@ -141,7 +141,7 @@ static void parities(void **state)
 {
   (void)state;
   gg_model m;
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.1;
   assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
   assert_int_equal(gg_measure_wall_modes(&m), 0);

@@ -41,7 +41,7 @@ static gg_status keep(void *context, gg_archive *archive, gg_error *err)
 
 static gg_scene scene_of(const char *yaml)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_error err = {0};
   if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK)
     fail_msg("%s", err.message);

@@ -12,7 +12,7 @@
 
 static gg_result *run(const char *yaml, gg_status expected, gg_error *err)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   gg_result *r = NULL;
   *err = (gg_error){0};
   if (gg_scene_read(&s, yaml, strlen(yaml), "test", err) != GG_OK || gg_scene_finish(&s, err) != GG_OK)

@@ -17,7 +17,7 @@ static gg_text_list inert(const char *yaml, unsigned uses)
 {
   gg_error err = {0};
   gg_text_list lines = {0};
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   gg_status status = gg_scene_read(&scene, yaml, strlen(yaml), "s", &err);
   if (status == GG_OK) status = gg_scene_finish(&scene, &err);
   if (status != GG_OK) print_message("%s: %s\n", yaml, err.message);
@@ -137,7 +137,7 @@ static void defaults_are_not_told(void **state)
                           "{flow: couette, phi: 0.2}", "{flow: hcs, phi: 0.1, shear_rate: 2}"};
   for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
     gg_error err;
-    gg_scene s = gg_common_scene_defaults();
+    gg_scene s = gg_scene_defaults();
     assert_int_equal(gg_scene_read(&s, scenes[i], strlen(scenes[i]), "s", &err), GG_OK);
     assert_int_equal(gg_scene_finish(&s, &err), GG_OK);
     char *yaml = gg_scene_yaml(&s);

@@ -13,7 +13,7 @@
 
 static gg_scene scene_of(void)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.phi = 0.1;
   return s;
 }

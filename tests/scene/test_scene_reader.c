@@ -14,7 +14,7 @@
 static gg_scene parse(const char *yaml)
 {
   gg_error err = {0};
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   gg_status status = gg_scene_read(&scene, yaml, strlen(yaml), "s.yaml", &err);
   if (status == GG_OK) status = gg_scene_finish(&scene, &err);
   if (status != GG_OK) print_message("unexpected: %s\n", err.message);
@@ -61,7 +61,7 @@ static void reads_every_key(void **state)
 static void defaults(void **state)
 {
   (void)state;
-  gg_scene s = parse("flow: usf\nphi: 0.3\n"), d = gg_common_scene_defaults();
+  gg_scene s = parse("flow: usf\nphi: 0.3\n"), d = gg_scene_defaults();
   d.phi = 0.3;
   assert_true(gg_scene_is_given(&s, "flow") && gg_scene_is_given(&s, "phi") && !gg_scene_is_given(&s, "engine"));
   d.given = s.given;

@@ -13,7 +13,7 @@
 
 static gg_status read_and_finish(const char *yaml, gg_error *err)
 {
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   gg_status status = gg_scene_read(&scene, yaml, strlen(yaml), "s.yaml", err);
   return status == GG_OK ? gg_scene_finish(&scene, err) : status;
 }

@@ -25,7 +25,7 @@
 
 static inline gg_scene scene_of(gg_flow flow, double phi, double e, double beta)
 {
-  gg_scene s = gg_common_scene_defaults();
+  gg_scene s = gg_scene_defaults();
   s.flow = flow;
   s.phi = phi;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = e, s.collision.beta[p] = beta;

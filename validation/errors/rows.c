@@ -68,7 +68,7 @@ static gg_status simulate(const gg_scene *scene, size_t n, double *y[SERIES], bo
 
 int main(int argc, char **argv)
 {
-  gg_scene scene = gg_common_scene_defaults();
+  gg_scene scene = gg_scene_defaults();
   gg_error err = {0};
   size_t n = 100000;
   bool good = argc >= 4 && argc % 2 == 0 && gg_scene_read_file(&scene, argv[3], &err) == GG_OK;

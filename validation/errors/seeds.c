@@ -208,7 +208,7 @@ static int run_all(campaign *c)
 
 int main(int argc, char **argv)
 {
-  campaign c = {.seeds = 200, .scene = gg_common_scene_defaults()};
+  campaign c = {.seeds = 200, .scene = gg_scene_defaults()};
   gg_error err = {0};
   bool good = argc >= 2 && argc % 2 == 0 && gg_scene_read_file(&c.scene, argv[1], &err) == GG_OK;
   for (int i = 2; good && i < argc; i += 2) good = take(&c, argv[i], argv[i + 1], &err);

@@ -50,7 +50,7 @@ static void make(fuzz_base *b, const char *text)
   gg_result *result = NULL;
   const gg_hooks hooks = {.context = &b->archive, .checkpoint = keep, .interrupted = enough};
   looks = 0;
-  b->scene = gg_common_scene_defaults();
+  b->scene = gg_scene_defaults();
   if (gg_scene_read(&b->scene, text, strlen(text), "base", &err) != GG_OK || gg_scene_finish(&b->scene, &err) != GG_OK)
     fail(text, &err);
   gg_run_scene(&b->scene, NULL, 1, &hooks, &result, &err);

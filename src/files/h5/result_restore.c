@@ -138,7 +138,7 @@ static gg_status restore_origin(gg_result *r, const gg_stored_result *s, const j
 gg_status gg_files_stored_scene(const gg_stored_result *s, gg_engine_kind engine, gg_scene *scene, gg_model *model,
                                 gg_error *err)
 {
-  *scene = gg_common_scene_defaults();
+  *scene = gg_scene_defaults();
   GG_TRY(gg_scene_read(scene, s->scene, strlen(s->scene), "the stored scene", err));
   return gg_common_model_make(scene, engine, model, err);
 }
