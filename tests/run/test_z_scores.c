@@ -36,6 +36,7 @@ static void agreement(void **state)
   gg_comparison c = {.by_engine = {&md, &dsmc}};
   gg_scene s = planted_scene(0);
   assert_int_equal(gg_common_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+  gg_run_rows_make(&c.model, &c.rows);
   const struct {
     double phi, md, error;
     bool marked;
