@@ -674,7 +674,7 @@ typedef struct gg_reproduce_options {
  * GG_FAILED: points fell short of what was asked (files are written from those there are), it cannot be reproduced, or
  * there is no gnuplot, which is looked for before anything is run. */
 GG_API gg_status gg_reproduce(const char *figure, const gg_reproduce_options *options, gg_error *err);
-/* docs/reproduction.md: every figure with its verdict, as Markdown; to be freed. */
+/* docs/appendix/reproduction.md: every figure with its verdict, as Markdown; to be freed. */
 GG_API gg_status gg_reproduction_page(char **text, gg_error *err);
 
 /* ---- Tables to ask ---- */

@@ -46,9 +46,9 @@ void gg_cli_print_text(char *text);
 
 /* The manual page, from the tables of commands, options, scene keys and quantities. */
 void gg_cli_print_manual(void);
-/* The page of scene keys, docs/scene.md. */
+/* The page of scene keys, docs/reference/scene.md. */
 void gg_cli_print_scene_page(void);
-/* The page of figures, docs/reproduction.md. */
+/* The page of figures, docs/appendix/reproduction.md. */
 void gg_cli_print_reproduction_page(void);
 
 #endif

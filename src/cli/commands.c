@@ -36,7 +36,7 @@ const gg_command gg_cli_commands[] = {
      "here, and the verdict.\n"
      "Results of the runs lie in figures.sweep, where figures that show the same find them: interrupted, the same "
      "command goes on. Twice at once, unlike a sweep, a figure wants two folders (--output): of two in one, one could "
-     "not write it in the end. docs/reproduction.md says what came out.",
+     "not write it in the end. docs/appendix/reproduction.md says what came out.",
      GG_OPT_QUICK | GG_OPT_FOLDER | GG_OPT_JSON | GG_OPT_THREADS | GG_OPT_QUIET, gg_cli_reproduce_main},
     {"plot", "RESULT.h5", "A picture of what a result file holds",
      "Relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the theories side "

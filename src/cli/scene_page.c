@@ -1,4 +1,4 @@
-/* docs/scene.md: the page of scene keys, in Markdown, from the one table of them. */
+/* docs/reference/scene.md: the page of scene keys, in Markdown, from the one table of them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* An entry: one figure of a paper, as validation/figures/NAME.yaml states it (docs/reproduction.md says how one is
- * written). Read whole, every key checked; texts are those of the YAML document, which the entry owns. */
+/* An entry: one figure of a paper, as validation/figures/NAME.yaml states it (docs/appendix/reproduction.md says how
+ * one is written). Read whole, every key checked; texts are those of the YAML document, which the entry owns. */
 #ifndef GG_ENTRY_H
 #define GG_ENTRY_H
 
@@ -135,6 +135,6 @@ typedef struct gg_entry_file {
   const char *file, *yaml;
 } gg_entry_file;
 extern const gg_entry_file gg_entry_files[];
-extern const char gg_reproduction_head[]; /* the beginning of docs/reproduction.md */
+extern const char gg_reproduction_head[]; /* the beginning of docs/appendix/reproduction.md */
 
 #endif

@@ -43,7 +43,7 @@ gg_status gg_reproduce_figure_draw_snapshots(const gg_figure *figure, const gg_f
 gg_status gg_reproduce_figure_reproduce(const gg_figure_entry *entry, const gg_reproduce_options *options,
                                         gg_error *err);
 
-/* page.c: docs/reproduction.md, to be freed. */
+/* page.c: docs/appendix/reproduction.md, to be freed. */
 gg_status gg_reproduce_figure_page(char **text, gg_error *err);
 
 #endif

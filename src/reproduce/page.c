@@ -1,4 +1,4 @@
-/* docs/reproduction.md: its beginning, and a section a figure from what the entries say. */
+/* docs/appendix/reproduction.md: its beginning, and a section a figure from what the entries say. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,7 +43,7 @@ static void print_section(FILE *out, const gg_figure_entry *e)
   if (!cannot && strcmp(e->verdict, "open") != 0) {
     /* The picture that there is: a vector one, or pixels where those are smaller (many grains). */
     const char *ending = e->panel[0].source.kind == GG_OF_SNAPSHOT ? "png" : "svg";
-    fprintf(out, "![%s](images/reproduction/%s.%s)\n\n", e->figure, base, ending);
+    fprintf(out, "![%s](../images/reproduction/%s.%s)\n\n", e->figure, base, ending);
   }
   snprintf(head, sizeof head, "%s. **%c%s.**", e->shows, toupper((unsigned char)verdict_of(e)[0]), verdict_of(e) + 1);
   size_t size = strlen(head) + strlen(cannot ? e->cannot : e->because) + 2;

@@ -13,7 +13,7 @@ ROOMS = "src|tests|docs|examples|include|validation|scripts|page|external"
 
 
 def documents():
-    found = glob.glob(os.path.join(SOURCE, "*.md")) + glob.glob(os.path.join(SOURCE, "docs", "*.md"))
+    found = glob.glob(os.path.join(SOURCE, "*.md")) + glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"), recursive=True)
     check(len(found) >= 6, found)
     return {os.path.relpath(path, SOURCE): open(path, encoding="utf-8").read() for path in found}
 
@@ -23,18 +23,18 @@ def none(missing):
 
 
 def test_scene_page():
-    """A new key is a new line there: graingas --scene-page > docs/scene.md"""
+    """A new key is a new line there: graingas --scene-page > docs/reference/scene.md"""
     page = run("--scene-page")
     check(page.code == 0 and not page.err and "collision.beta" in page.out)
-    check(page.out == documents()["docs/scene.md"], "docs/scene.md is not what `graingas --scene-page` prints: redirect "
+    check(page.out == documents()["docs/reference/scene.md"], "docs/reference/scene.md is not what `graingas --scene-page` prints: redirect "
           "it there")
 
 
 def test_reproduction_page():
-    """A figure's section is its entry's: graingas --reproduction-page > docs/reproduction.md; pictures are small."""
+    """A figure's section is its entry's: graingas --reproduction-page > docs/appendix/reproduction.md; pictures are small."""
     page = run("--reproduction-page")
     check(page.code == 0 and not page.err and "## thesis 2.16" in page.out)
-    check(page.out == documents()["docs/reproduction.md"], "docs/reproduction.md is not what `graingas "
+    check(page.out == documents()["docs/appendix/reproduction.md"], "docs/appendix/reproduction.md is not what `graingas "
           "--reproduction-page` prints: redirect it there")
     sizes = {path: os.path.getsize(path) for path in glob.glob(os.path.join(SOURCE, "docs", "images", "*", "*"))}
     check(max(sizes.values()) < 3e5 and sum(sizes.values()) < 1e7, "pictures are too large")
@@ -176,10 +176,10 @@ def test_observables():
     it."""
     names, described = names_of("observables")
     check(len(names) == described >= 13, names, described)
-    text, scenes = documents()["docs/observables.md"], ""
+    text, scenes = documents()["docs/reference/observables.md"], ""
     for path in glob.glob(os.path.join(SOURCE, "examples", "*.yaml")):
         scenes += "".join(re.findall(r"^measure:.*", open(path, encoding="utf-8").read(), re.MULTILINE))
-    none({f"docs/observables.md: a section on {name}" for name in names if name != "rheology"
+    none({f"docs/reference/observables.md: a section on {name}" for name in names if name != "rheology"
           and f"\n## `{name}`\n" not in text})
     none({f"examples: a scene that measures {name}" for name in names if not re.search(rf"\b{name}\b", scenes)})
 
@@ -188,10 +188,10 @@ def test_theories():
     """Every theory describes itself, stands in the table of theories, and is spoken of below it."""
     names, described = names_of("theories")
     check(len(names) == described >= 18, names, described)
-    lines = documents()["docs/theory.md"].splitlines()
+    lines = documents()["docs/reference/theories.md"].splitlines()
     table, text = "".join(l for l in lines if l.startswith("|")), "\n".join(l for l in lines if not l.startswith("|"))
-    none({f"docs/theory.md: a row of {name} in the table" for name in names if f"`{name}`" not in table})
-    none({f"docs/theory.md: a section on {name}" for name in names if not re.search(rf"\b{name}\b", text)})
+    none({f"docs/reference/theories.md: a row of {name} in the table" for name in names if f"`{name}`" not in table})
+    none({f"docs/reference/theories.md: a section on {name}" for name in names if not re.search(rf"\b{name}\b", text)})
 
 
 if __name__ == "__main__":
