@@ -39,7 +39,7 @@ static double earliest_event(const gg_md *e, double soon)
 static void move_skins(gg_md *e, double span)
 {
   for (uint32_t i = 0; i < e->n; i++) {
-    gg_vec *c = &e->skin[i].centre;
+    gg_vec *c = &e->search.lists.skin[i].centre;
     double x = c->x + e->model.shear_rate * (c->y - 0.5 * e->box.edge[1]) * span;
     c->x = gg_wrap(x, e->box.edge[0], e->box.inverse[0]);
   }
@@ -51,7 +51,7 @@ bool gg_md_next_epoch(gg_md *e)
 {
   double span = gg_md_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
   if (!(wait < INFINITY)) return false; /* all at rest, or each just as its row */
-  if (e->row && e->next_shift < wait) wait = e->next_shift;
+  if (gg_md_search_has_rows(e->search.kind) && e->search.rows.next_shift < wait) wait = e->search.rows.next_shift;
   while (span < 0.5 * wait) span *= 2; /* nothing happens for long: skip it */
   e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;
   measure_mean_free_time(e, span);
@@ -66,8 +66,8 @@ bool gg_md_next_epoch(gg_md *e)
     if (e->last) e->last[i] -= span;
     e->node[i].skin_time -= span;
   }
-  if (e->row) gg_md_move_rows(e, span);
-  if (e->skin && e->model.shear_rate != 0) move_skins(e, span);
+  if (gg_md_search_has_rows(e->search.kind)) gg_md_move_rows(e, span);
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && e->model.shear_rate != 0) move_skins(e, span);
   e->k.epoch_start += span;
   e->k.now -= span;
   e->k.mark -= span;

@@ -118,14 +118,15 @@ GG_INLINE uint32_t gg_md_next(gg_md *e)
     while (e->queue.n_due == 0)
       if (gg_md_queue_turn(&e->queue, e->node))
         gg_md_prefetch_bucket(e);
-      else if (ROWS_SHIFT && e->next_shift <= gg_md_queue_span(&e->queue) && e->next_shift <= e->k.stop)
+      else if (ROWS_SHIFT && e->search.rows.next_shift <= gg_md_queue_span(&e->queue) &&
+               e->search.rows.next_shift <= e->k.stop)
         gg_md_shift_all(e);
       else if (gg_md_queue_span(&e->queue) > e->k.stop)
         return GG_MD_NONE;
       else if (!gg_md_next_epoch(e))
         return GG_MD_NONE;
     gg_md_due due = e->queue.due[e->queue.n_due - 1];
-    if (ROWS_SHIFT && e->next_shift < due.time && e->next_shift <= e->k.stop)
+    if (ROWS_SHIFT && e->search.rows.next_shift < due.time && e->search.rows.next_shift <= e->k.stop)
       gg_md_shift_all(e);
     else
       return due.time <= e->k.stop ? due.grain : GG_MD_NONE;

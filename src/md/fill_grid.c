@@ -1,31 +1,44 @@
 /* The cells that grains lie in, and the cells filled with them. */
 #include "md/members_in_rows.h"
 
-void gg_md_enter_grid(gg_md *e)
+static void enter(gg_md *e, uint32_t i)
 {
-  for (uint32_t i = 0; i < e->n; i++)
-    if (e->overlapping && e->row)
-      gg_md_members_in_rows_place(e, e->grain[i].r, &e->node[i]);
-    else if (e->overlapping)
-      gg_md_members_place(e, e->grain[i].r, &e->node[i]);
-    else
-      gg_md_cell_of(&e->cells, e->skin ? e->skin[i].centre : e->grain[i].r, e->node[i].cell);
-  for (uint32_t i = 0; e->row && !e->overlapping && i < e->n; i++)
-    e->node[i].cell[0] = gg_md_cell_in_row(e, e->node[i].cell[1], e->grain[i].r.x);
+  const gg_vec r = e->grain[i].r;
+  gg_md_node *node = &e->node[i];
+  switch (e->search.kind) {
+  case GG_MD_OVERLAPPING_ROWS: gg_md_members_in_rows_place(e, r, node); break;
+  case GG_MD_OVERLAPPING_CELLS: gg_md_members_place(e, r, node); break;
+  case GG_MD_NEIGHBOUR_LISTS: gg_md_cell_of(&e->cells, e->search.lists.skin[i].centre, node->cell); break;
+  case GG_MD_COMOVING_ROWS:
+    gg_md_cell_of(&e->cells, r, node->cell);
+    node->cell[0] = gg_md_cell_in_row(e, node->cell[1], r.x);
+    break;
+  default: gg_md_cell_of(&e->cells, r, node->cell);
+  }
 }
 
-bool gg_md_fill_grid(gg_md *e)
+void gg_md_enter_grid(gg_md *e)
 {
-  gg_md_cells_clear(&e->cells);
-  for (uint32_t i = 0; e->overlapping && i < e->n; i++) {
+  for (uint32_t i = 0; i < e->n; i++) enter(e, i);
+}
+
+static bool fill_overlapping(gg_md *e)
+{
+  for (uint32_t i = 0; i < e->n; i++) {
     gg_md_members in;
-    if (e->row)
+    if (e->search.kind == GG_MD_OVERLAPPING_ROWS)
       gg_md_members_in_rows_of(e, &e->node[i], &in);
     else
       gg_md_members_of(e, &e->node[i], &in);
     if (!gg_md_members_enter(e, i, &in)) return false;
   }
-  if (e->overlapping) return true;
+  return true;
+}
+
+bool gg_md_fill_grid(gg_md *e)
+{
+  gg_md_cells_clear(&e->cells);
+  if (gg_md_search_overlaps(e->search.kind)) return fill_overlapping(e);
   for (uint32_t i = 0; i < e->n; i++)
     while (!gg_md_cell_add(&e->cells, e->node[i].cell, i))
       if (!gg_md_cells_grow(&e->cells)) return false;

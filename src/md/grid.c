@@ -1,4 +1,4 @@
-/* The grid of cells, and what goes with the way of searching. */
+/* The grid of cells, and what goes with the kind of search. */
 #include "base/memory.h"
 #include "md/md_state.h"
 
@@ -18,12 +18,12 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
 {
   double radius;
   int32_t n[3];
-  enum gg_md_search_way where = gg_md_choose_way(&e->model, &radius, n);
-  if (where == GG_MD_NEIGHBOUR_LISTS) return gg_md_make_lists(e, radius, err);
-  e->overlapping = where == GG_MD_OVERLAPPING_CELLS;
+  const gg_md_search_kind kind = gg_md_search_select(&e->model, &radius, n);
+  if (kind == GG_MD_NEIGHBOUR_LISTS) return gg_md_make_lists(e, radius, err);
+  e->search.kind = kind;
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err));
   GG_TRY(gg_md_note_surfaces(e, err));
-  if (e->box.image_velocity == 0 || where == GG_MD_PLAIN_CELLS) return GG_OK;
+  if (!gg_md_search_has_rows(kind)) return GG_OK;
   GG_TRY(gg_md_make_rows(e, err));
   gg_md_align_rows(e);
   return GG_OK;

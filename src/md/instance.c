@@ -1,5 +1,5 @@
 /* One instance of the event loop: compiled once for each row of the table in meson.build (search/features.h). */
-#include GG_WAY
+#include GG_SEARCH
 
 #include "md/event_loop.h"
 

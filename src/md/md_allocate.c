@@ -33,10 +33,11 @@ static gg_status allocate(gg_md *e, gg_error *err)
 
 gg_status gg_md_allocate_lists(gg_md *e, gg_error *err)
 {
-  e->skin = gg_md_new_lines((size_t)e->n + 1, sizeof *e->skin, err);
-  e->neighbour = gg_md_new_lines(e->n, GG_MD_LIST * sizeof *e->neighbour, err);
-  if (!e->skin || !e->neighbour) return GG_FAILED;
-  e->skin[e->n].centre = (gg_vec){NAN, NAN, NAN};
+  e->search.kind = GG_MD_NEIGHBOUR_LISTS;
+  e->search.lists.skin = gg_md_new_lines((size_t)e->n + 1, sizeof *e->search.lists.skin, err);
+  e->search.lists.neighbour = gg_md_new_lines(e->n, GG_MD_LIST * sizeof *e->search.lists.neighbour, err);
+  if (!e->search.lists.skin || !e->search.lists.neighbour) return GG_FAILED;
+  e->search.lists.skin[e->n].centre = (gg_vec){NAN, NAN, NAN};
   return GG_OK;
 }
 
@@ -68,22 +69,31 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   return GG_OK;
 }
 
+static void free_search(gg_md_search_state *search)
+{
+  if (search->kind == GG_MD_NEIGHBOUR_LISTS) {
+    free(search->lists.skin);
+    free(search->lists.neighbour);
+  } else if (gg_md_search_has_rows(search->kind)) {
+    if (search->rows.row) free(search->rows.row - 1);
+  } else {
+    for (int a = 0; a < 3; a++) free(search->near[a]);
+  }
+}
+
 void gg_md_free(gg_md *e)
 {
   if (!e) return;
   gg_md_contacts_free(&e->contacts);
   gg_md_queue_free(&e->queue);
   gg_md_cells_free(&e->cells);
+  free_search(&e->search);
   free(e->grain);
   free(e->node);
   free(e->spin);
   free(e->losses);
   free(e->last);
-  if (e->row) free(e->row - 1);
-  free(e->skin);
-  free(e->neighbour);
   free(e->id);
   free(e->candidates);
-  for (int a = 0; a < 3; a++) free(e->near[a]);
   free(e);
 }

@@ -22,6 +22,13 @@ static gg_status put(gg_archive *a, const char *name, const void *data, size_t b
   return gg_base_archive_put(a, name, GG_ITEM_U8, data, bytes, err);
 }
 
+static gg_status put_lists(const gg_md *e, gg_archive *a, gg_error *err)
+{
+  const gg_md_lists *lists = &e->search.lists;
+  GG_TRY(put(a, "md/skins", lists->skin, e->n * sizeof *lists->skin, err));
+  return put(a, "md/neighbours", lists->neighbour, e->n * GG_MD_LIST * sizeof *lists->neighbour, err);
+}
+
 gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
 {
   const gg_md *e = (const gg_md *)engine;
@@ -31,9 +38,9 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
   b.offset0 = e->box.offset0;
   b.bucket_width = e->queue.width;
   b.current_bucket = e->queue.current;
-  b.skin_radius = e->skin ? e->skin_radius : 0;
-  b.overlapping = e->overlapping;
-  b.comoving = e->row != NULL;
+  b.skin_radius = e->search.kind == GG_MD_NEIGHBOUR_LISTS ? e->search.lists.radius : 0;
+  b.overlapping = gg_md_search_overlaps(e->search.kind);
+  b.comoving = gg_md_search_has_rows(e->search.kind);
   memcpy(b.cells, e->cells.n, sizeof b.cells);
   GG_TRY(put(a, "md/state", &b, sizeof b, err));
   GG_TRY(put(a, "md/grains", e->grain, e->n * sizeof *e->grain, err));
@@ -41,8 +48,7 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
   GG_TRY(put(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(put(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
   if (e->last) GG_TRY(put(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
-  if (e->skin) GG_TRY(put(a, "md/skins", e->skin, e->n * sizeof *e->skin, err));
-  if (e->skin) GG_TRY(put(a, "md/neighbours", e->neighbour, e->n * GG_MD_LIST * sizeof *e->neighbour, err));
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) GG_TRY(put_lists(e, a, err));
   return GG_OK;
 }
 
@@ -59,12 +65,28 @@ static gg_status refuse(const char *what, gg_error *err)
 static gg_status get_block(const gg_md *e, const gg_archive *a, block *b, gg_error *err)
 {
   GG_TRY(get(a, "md/state", b, sizeof *b, err));
-  if (!gg_md_is_way_of(&e->model, b->cells, b->skin_radius, b->overlapping, b->comoving))
+  if (!gg_md_is_search_of(&e->model, b->cells, b->skin_radius, b->overlapping, b->comoving))
     return refuse("its cells are not those of this scene", err);
   const bool good = gg_md_are_counts(&b->counts, b->cells) && fabs(b->offset0) <= 2 * e->box.edge[0] &&
                     b->bucket_width > 1e-300 && b->bucket_width < 1e300 && b->current_bucket <= e->queue.n_buckets &&
                     b->overlapping <= 1 && b->comoving <= 1;
   return good ? GG_OK : refuse("its counts", err);
+}
+
+static gg_md_search_kind kind_of(const block *b)
+{
+  if (b->skin_radius > 0) return GG_MD_NEIGHBOUR_LISTS;
+  if (b->overlapping) return b->comoving ? GG_MD_OVERLAPPING_ROWS : GG_MD_OVERLAPPING_CELLS;
+  return b->comoving ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS;
+}
+
+static gg_status get_lists(gg_md *e, const gg_archive *a, double radius, gg_error *err)
+{
+  const gg_md_lists *lists = &e->search.lists;
+  GG_TRY(gg_md_allocate_lists(e, err));
+  gg_md_set_skins(e, radius);
+  GG_TRY(get(a, "md/skins", lists->skin, e->n * sizeof *lists->skin, err));
+  return get(a, "md/neighbours", lists->neighbour, e->n * GG_MD_LIST * sizeof *lists->neighbour, err);
 }
 
 static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
@@ -78,18 +100,13 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   if (!e->last && gg_base_archive_find(a, "md/last_collisions"))
     GG_TRY(gg_md_allocate_last(e, err)); /* it had a callback */
   if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
-  if (b.skin_radius > 0) {
-    GG_TRY(gg_md_allocate_lists(e, err));
-    gg_md_set_skins(e, b.skin_radius);
-    GG_TRY(get(a, "md/skins", e->skin, e->n * sizeof *e->skin, err));
-    GG_TRY(get(a, "md/neighbours", e->neighbour, e->n * GG_MD_LIST * sizeof *e->neighbour, err));
-  }
+  e->search.kind = kind_of(&b);
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) GG_TRY(get_lists(e, a, b.skin_radius, err));
   e->k = b.counts;
   e->box.offset0 = b.offset0;
-  e->overlapping = b.overlapping;
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.skin_radius, err));
   GG_TRY(gg_md_note_surfaces(e, err));
-  if (b.comoving) GG_TRY(gg_md_make_rows(e, err));
+  if (gg_md_search_has_rows(e->search.kind)) GG_TRY(gg_md_make_rows(e, err));
   gg_md_queue_reset(&e->queue, b.bucket_width);
   const bool before = gg_base_memory_begin();
   const char *wrong = gg_md_wrong_grains(e);

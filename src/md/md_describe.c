@@ -17,21 +17,23 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
   double radius;
   int32_t n[3];
   char text[160];
-  enum gg_md_search_way where = gg_md_choose_way(m, &radius, n);
+  const gg_md_search_kind kind = gg_md_search_select(m, &radius, n);
   const char *const why[] = {
       [GG_MD_PLAIN_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
       [GG_MD_NEIGHBOUR_LISTS] = "as dense: they are seldom updated",
       [GG_MD_OVERLAPPING_CELLS] = "as dilute: few crossings, each into one cell",
+      [GG_MD_OVERLAPPING_ROWS] = "as dilute: few crossings, each into one cell",
       [GG_MD_COMOVING_ROWS] = "as sheared: the flow carries nobody through them",
   };
   const char *const what[] = {[GG_MD_PLAIN_CELLS] = "cells",
                               [GG_MD_NEIGHBOUR_LISTS] = "neighbour lists",
                               [GG_MD_OVERLAPPING_CELLS] = "overlapping cells",
+                              [GG_MD_OVERLAPPING_ROWS] = "overlapping cells",
                               [GG_MD_COMOVING_ROWS] = "cells that move with the flow"};
-  int used = snprintf(text, sizeof text, "%s, %d x %d x %d cells, ", what[where], n[0], n[1], n[2]);
-  if (where == GG_MD_NEIGHBOUR_LISTS)
+  int used = snprintf(text, sizeof text, "%s, %d x %d x %d cells, ", what[kind], n[0], n[1], n[2]);
+  if (kind == GG_MD_NEIGHBOUR_LISTS)
     used += snprintf(text + used, sizeof text - (size_t)used, "skins of %.2g d, ", radius);
-  snprintf(text + used, sizeof text - (size_t)used, "%s", why[where]);
+  snprintf(text + used, sizeof text - (size_t)used, "%s", why[kind]);
   tell(line, context, "search", text);
   double crossings = gg_md_crossings_per_collision(m);
   if (crossings < 100) return;

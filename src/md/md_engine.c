@@ -39,7 +39,7 @@ static gg_status predict_all(gg_md *e, gg_error *err)
 gg_status gg_md_begin(gg_md *e, gg_error *err)
 {
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
-  if (e->skin) {
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) {
     gg_md_build_lists(e);
   } else {
     gg_md_enter_grid(e);

@@ -45,6 +45,39 @@ typedef struct gg_md_row {
 /* At the start: between looks at whether to stop, some milliseconds. */
 enum { GG_MD_GRAINS_BETWEEN_LOOKS = 1 << 13 };
 
+/* How neighbours are found: a header of search/ each. Rows, overlapping or not, move with the flow. */
+typedef enum gg_md_search_kind {
+  GG_MD_PLAIN_CELLS,
+  GG_MD_COMOVING_ROWS,
+  GG_MD_OVERLAPPING_CELLS,
+  GG_MD_OVERLAPPING_ROWS,
+  GG_MD_NEIGHBOUR_LISTS,
+  GG_MD_SEARCH_KINDS
+} gg_md_search_kind;
+
+/* What such a search keeps beside the cells. */
+typedef struct gg_md_rows {
+  gg_md_row *row;    /* one for each layer along y, and images: -1, n_y, n_y + 1 */
+  double next_shift; /* epoch time at which rows will have shifted by a cell; INFINITY: never */
+} gg_md_rows;
+typedef struct gg_md_lists {
+  gg_md_skin *skin;
+  uint32_t *neighbour;                           /* GG_MD_LIST a grain */
+  double radius;                                 /* s */
+  double shrinkage;                              /* kappa */
+  double reach[GG_MAX_SPECIES * GG_MAX_SPECIES]; /* sigma + 2 s by ordered pair of species (gg_md_pair) */
+} gg_md_lists;
+
+typedef struct gg_md_search_state {
+  gg_md_search_kind kind;
+  union {
+    uint8_t *near[3]; /* plain cells: by index of the cell along each axis, the surfaces whose reach it is in, a bit
+                         each; those whose bit is there along all three can be touched. NULL without surfaces */
+    gg_md_rows rows;
+    gg_md_lists lists;
+  };
+} gg_md_search_state;
+
 typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
@@ -94,28 +127,17 @@ struct gg_md {
   gg_loss_table *losses; /* of a built-in law of restitution; NULL: none */
   double *last;          /* time of the last collision, for the contact-time rule or a callback; NULL without either */
   uint32_t *id;          /* the grain's number to the outside; grains stand in memory along a space-filling curve */
-  /* Neighbour lists: NULL where the cells themselves are searched. */
-  gg_md_skin *skin;
-  uint32_t *neighbour;                                /* GG_MD_LIST a grain */
-  double skin_radius;                                 /* s */
-  double shrinkage;                                   /* kappa */
-  double pair_reach[GG_MAX_SPECIES * GG_MAX_SPECIES]; /* sigma + 2 s by ordered pair of species (gg_md_pair) */
   uint32_t n;
   gg_vec gravity;
   bool falls; /* gravity is not zero */
   gg_md_box box;
   gg_md_cells cells;
-  uint8_t *near[3]; /* by index of the cell along each axis, the surfaces whose reach it is in, a bit each; those whose
-                       bit is there along all three can be touched from the cell. NULL without surfaces */
+  gg_md_search_state search;
   uint32_t *candidates; /* of two searches at a time, GG_MD_CANDIDATES_APART: whom to try (search/candidates.h) */
   gg_md_queue queue;
   gg_md_counts k;
-  gg_md_row *row; /* of cells that move with the flow: one for each layer along y, and images: -1, n_y, n_y + 1; NULL:
-                     at rest */
-  double next_shift;  /* epoch time at which rows will have shifted by a cell; INFINITY: never */
   uint64_t look_at;   /* events after which the loop is left, to look whether to stop */
   bool plain;         /* one pair at a time, the reference for the tests */
-  bool overlapping;   /* the cells overlap (overlapping_members.h) */
   bool out_of_memory; /* a cell could not grow: the run is over */
   bool no_number;     /* nor does it go on with what is no number (finite_check.c) */
   bool stands_still;  /* nor where one grain's contacts never end */
@@ -144,10 +166,8 @@ gg_status gg_md_begin(gg_md *e, gg_error *err);
 
 /* select_search.c: the largest distance at which two grains touch. */
 double gg_md_reach(const gg_model *model);
-/* Where partners are best looked for: plain cells, neighbour lists (search/lists.h; *radius: of their skins) or cells
- * that overlap (overlapping_members.h) or move with the flow (search/comoving_rows.h); and how many cells. */
-enum gg_md_search_way { GG_MD_PLAIN_CELLS, GG_MD_NEIGHBOUR_LISTS, GG_MD_OVERLAPPING_CELLS, GG_MD_COMOVING_ROWS };
-enum gg_md_search_way gg_md_choose_way(const gg_model *model, double *radius, int32_t n[3]);
+/* The fastest search for a model: the radius of its skins, if it keeps lists, and how many cells. */
+gg_md_search_kind gg_md_search_select(const gg_model *model, double *radius, int32_t n[3]);
 /* Cells for the centres of lists: only in boxes of at least three cells, no nearest image in doubt. */
 bool gg_md_fit_lists(const gg_model *model, double radius, int32_t n[3]);
 /* Cells that are crossed in a collision's time, all grains together. */
@@ -161,7 +181,8 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e);
 
-/* surfaces.c: e->near for the cells that there are; and contacts with other shapes than planes, as seen from a cell. */
+/* wall_contacts.c: search.near for the cells that there are; and contacts with other shapes than planes, as seen from a
+ * cell. */
 gg_status gg_md_note_surfaces(gg_md *e, gg_error *err);
 double gg_md_shaped_delay(const gg_md *e, const gg_surface *surface, const gg_flight *flight, const int32_t *cell);
 
@@ -213,10 +234,19 @@ bool gg_md_needs_parting(const gg_model *model);
 void gg_md_select(gg_md *e);
 void gg_md_select_resolution(gg_md *e);
 
+GG_INLINE bool gg_md_search_has_rows(gg_md_search_kind kind)
+{
+  return kind == GG_MD_COMOVING_ROWS || kind == GG_MD_OVERLAPPING_ROWS;
+}
+GG_INLINE bool gg_md_search_overlaps(gg_md_search_kind kind)
+{
+  return kind == GG_MD_OVERLAPPING_CELLS || kind == GG_MD_OVERLAPPING_ROWS;
+}
+
 /* Where cell 0 of a co-moving row begins now. */
 GG_INLINE double gg_md_row_begins(const gg_md *e, int32_t y)
 {
-  return e->row[y].origin + e->row[y].speed * e->k.now;
+  return e->search.rows.row[y].origin + e->search.rows.row[y].speed * e->k.now;
 }
 
 GG_INLINE int gg_md_species_of(const gg_md_grain *g)

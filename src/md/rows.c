@@ -35,12 +35,12 @@ static void place_linked_rows(gg_md *e)
   for (int32_t j = 0; j < n[1]; j++) {
     int64_t place = j - n[1] / 2, whole = place * k->row_shift % n[0];
     double origin = k->common_shift + (double)place * k->fractional_shift + (double)whole * e->cells.width[0];
-    e->row[j] = (gg_md_row){.origin = gg_wrap(origin, e->box.edge[0], e->box.inverse[0]),
-                            .speed = shift_speed(e) * (j + 0.5 - 0.5 * n[1]),
-                            .above = j == n[1] - 1 ? k->image_shift : k->row_shift,
-                            .below = j == 0 ? k->image_shift : k->row_shift};
+    e->search.rows.row[j] = (gg_md_row){.origin = gg_wrap(origin, e->box.edge[0], e->box.inverse[0]),
+                                        .speed = shift_speed(e) * (j + 0.5 - 0.5 * n[1]),
+                                        .above = j == n[1] - 1 ? k->image_shift : k->row_shift,
+                                        .below = j == 0 ? k->image_shift : k->row_shift};
   }
-  e->next_shift = (e->cells.width[0] - k->fractional_shift) / shift_speed(e);
+  e->search.rows.next_shift = (e->cells.width[0] - k->fractional_shift) / shift_speed(e);
 }
 
 /* Rows of cells that overlap stand anywhere, those across the sheared boundary as its images do. */
@@ -49,18 +49,20 @@ static void place_free_rows(gg_md *e)
   int32_t n = e->cells.n[1];
   for (int32_t j = 0; j < n; j++) {
     double place = j + 0.5 - 0.5 * n;
-    e->row[j].origin = gg_wrap(place * e->k.fractional_shift, e->box.edge[0], e->box.inverse[0]);
-    e->row[j].speed = place * shift_speed(e);
+    e->search.rows.row[j].origin = gg_wrap(place * e->k.fractional_shift, e->box.edge[0], e->box.inverse[0]);
+    e->search.rows.row[j].speed = place * shift_speed(e);
   }
-  e->row[-1] = (gg_md_row){e->row[n - 1].origin - e->box.offset0, e->row[n - 1].speed - e->box.image_velocity, 0, 0};
+  e->search.rows.row[-1] = (gg_md_row){e->search.rows.row[n - 1].origin - e->box.offset0,
+                                       e->search.rows.row[n - 1].speed - e->box.image_velocity, 0, 0};
   for (int k = 0; k < 2; k++)
-    e->row[n + k] = (gg_md_row){e->row[k].origin + e->box.offset0, e->row[k].speed + e->box.image_velocity, 0, 0};
-  e->next_shift = INFINITY;
+    e->search.rows.row[n + k] = (gg_md_row){e->search.rows.row[k].origin + e->box.offset0,
+                                            e->search.rows.row[k].speed + e->box.image_velocity, 0, 0};
+  e->search.rows.next_shift = INFINITY;
 }
 
 static void place_rows(gg_md *e)
 {
-  if (e->overlapping)
+  if (e->search.kind == GG_MD_OVERLAPPING_ROWS)
     place_free_rows(e);
   else
     place_linked_rows(e);
@@ -70,7 +72,7 @@ gg_status gg_md_make_rows(gg_md *e, gg_error *err)
 {
   gg_md_row *row = gg_base_array_new((size_t)e->cells.n[1] + 3, sizeof *row, err);
   if (!row) return GG_FAILED;
-  e->row = row + 1;
+  e->search.rows.row = row + 1;
   place_rows(e);
   return GG_OK;
 }
@@ -88,7 +90,7 @@ void gg_md_align_rows(gg_md *e)
 {
   e->k.fractional_shift = e->k.common_shift = 0;
   e->k.row_shift = e->k.image_shift = 0;
-  if (!e->overlapping) link_to_images(e);
+  if (e->search.kind == GG_MD_COMOVING_ROWS) link_to_images(e);
   place_rows(e);
 }
 
@@ -106,7 +108,7 @@ static void move_linked_rows(gg_md *e, double span)
 void gg_md_move_rows(gg_md *e, double span)
 {
   double twice = 2 * e->box.edge[0]; /* of which half a row's share is a whole box */
-  if (e->overlapping)
+  if (e->search.kind == GG_MD_OVERLAPPING_ROWS)
     e->k.fractional_shift = gg_wrap(e->k.fractional_shift + shift_speed(e) * span, twice, 1 / twice);
   else
     move_linked_rows(e, span);

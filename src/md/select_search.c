@@ -1,4 +1,4 @@
-/* The way of searching, and the cells, that suit a model. */
+/* The search, and the cells, that suit a model. */
 #include <math.h>
 
 #include "common/portable_math.h"
@@ -73,12 +73,12 @@ static void fit_cells(const gg_model *m, int32_t n[3])
   count_cells(m, width, n);
 }
 
-enum gg_md_search_way gg_md_choose_way(const gg_model *m, double *radius, int32_t n[3])
+gg_md_search_kind gg_md_search_select(const gg_model *m, double *radius, int32_t n[3])
 {
   *radius = skin_radius(m);
   if (*radius > 0 && gg_md_fit_lists(m, *radius, n)) return GG_MD_NEIGHBOUR_LISTS;
   *radius = 0;
-  if (fit_overlapping(m, n)) return GG_MD_OVERLAPPING_CELLS;
+  if (fit_overlapping(m, n)) return m->shear_rate != 0 ? GG_MD_OVERLAPPING_ROWS : GG_MD_OVERLAPPING_CELLS;
   fit_cells(m, n);
   bool comoving = m->shear_rate != 0 && n[0] >= GG_MD_FEWEST_COMOVING && n[1] >= 4 && n[2] >= 4;
   return comoving ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS;
@@ -88,7 +88,7 @@ double gg_md_crossings_per_collision(const gg_model *m)
 {
   double radius, rate = 0, T = m->temperature0;
   int32_t n[3];
-  if (gg_md_choose_way(m, &radius, n) == GG_MD_NEIGHBOUR_LISTS) return 0;
+  if (gg_md_search_select(m, &radius, n) == GG_MD_NEIGHBOUR_LISTS) return 0;
   for (int i = 0; i < m->n_species; i++)
     for (int a = 0; a < 3; a++) /* <|v_a|> over the width */
       rate += (double)m->n_of[i] / (double)m->n * sqrt(2 * T / (M_PI * m->mass[i])) * n[a] / m->box[a];

@@ -10,13 +10,14 @@
 #define FAR 1000
 #define MOVED 1e15
 
-bool gg_md_is_way_of(const gg_model *m, const int32_t cells[3], double skin_radius, bool overlapping, bool comoving)
+bool gg_md_is_search_of(const gg_model *m, const int32_t cells[3], double skin_radius, bool overlapping, bool comoving)
 {
   double radius;
   int32_t n[3];
-  const enum gg_md_search_way way = gg_md_choose_way(m, &radius, n);
-  const bool lists = way == GG_MD_NEIGHBOUR_LISTS, rows = m->shear_rate != 0 && !lists && way != GG_MD_PLAIN_CELLS;
-  if (lists != (skin_radius > 0) || overlapping != (way == GG_MD_OVERLAPPING_CELLS) || comoving != rows) return false;
+  const gg_md_search_kind kind = gg_md_search_select(m, &radius, n);
+  const bool lists = kind == GG_MD_NEIGHBOUR_LISTS;
+  if (lists != (skin_radius > 0)) return false;
+  if (overlapping != gg_md_search_overlaps(kind) || comoving != gg_md_search_has_rows(kind)) return false;
   return (!lists || skin_radius <= radius) && cells[0] == n[0] && cells[1] == n[1] && cells[2] == n[2];
 }
 
@@ -87,10 +88,10 @@ static bool is_event(const gg_md *e, uint32_t i)
   const gg_md_node *n = &e->node[i];
   for (int a = 0; a < 3; a++)
     if (n->cell[a] < 0 || n->cell[a] >= e->cells.n[a]) return false;
-  const bool rows = e->overlapping && e->row;
+  const bool rows = e->search.kind == GG_MD_OVERLAPPING_ROWS;
   if (rows && (n->upper < 0 || n->upper >= e->cells.n[0])) return false;
-  if (e->overlapping && n->neighbours > (rows ? 15u : 7u)) return false;
-  if (e->overlapping && rows && !(n->neighbours & 2) && n->neighbours & 8) return false;
+  if (gg_md_search_overlaps(e->search.kind) && n->neighbours > (rows ? 15u : 7u)) return false;
+  if (rows && !(n->neighbours & 2) && n->neighbours & 8) return false;
   if (n->face != GG_MD_IMAGES_MOVED && (n->face < 0 || n->face > 7)) return false;
   if (isnan(n->time) || isnan(n->collision) || isnan(n->skin_time) || n->time < -0.5 * e->queue.width) return false;
   if (!is_partner(e, i, n->partner)) return false;
@@ -116,7 +117,7 @@ static bool are_all_there(const gg_md *e)
 
 static bool is_listed(const gg_md *e, uint32_t i, uint32_t j)
 {
-  const uint32_t *list = e->neighbour + (size_t)i * GG_MD_LIST;
+  const uint32_t *list = e->search.lists.neighbour + (size_t)i * GG_MD_LIST;
   for (uint32_t k = 0; k < e->node[i].neighbours; k++)
     if (list[k] == j) return true;
   return false;
@@ -128,8 +129,8 @@ static bool are_lists(const gg_md *e)
   for (uint32_t i = 0; i < e->n; i++)
     if (e->node[i].neighbours > GG_MD_LIST) return false;
   for (uint32_t i = 0; i < e->n; i++) {
-    const uint32_t *list = e->neighbour + (size_t)i * GG_MD_LIST;
-    if (!is_in_box(e, e->skin[i].centre, 1 + 1e-9)) return false;
+    const uint32_t *list = e->search.lists.neighbour + (size_t)i * GG_MD_LIST;
+    if (!is_in_box(e, e->search.lists.skin[i].centre, 1 + 1e-9)) return false;
     for (uint32_t k = 0; k < GG_MD_LIST; k++) {
       const bool used = k < e->node[i].neighbours;
       if (used ? list[k] >= e->n || list[k] == i || !is_listed(e, list[k], i) : list[k] != e->n) return false;
@@ -149,7 +150,7 @@ const char *gg_md_wrong_grains(const gg_md *e)
     if (e->last && isnan(e->last[i])) return "the time of a collision";
   }
   if (!are_all_there(e)) return "the grains' species or numbers";
-  if (e->skin && !are_lists(e)) return "a neighbour list";
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && !are_lists(e)) return "a neighbour list";
   for (uint32_t i = 0; i < e->n; i++)
     if (!is_event(e, i) || !is_contact(e, i, &e->node[i])) return "an event";
   return NULL;

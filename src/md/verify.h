@@ -7,9 +7,9 @@
 
 #include "md/md_state.h"
 
-/* How partners are looked for, as the model has it, and in how many cells. */
-bool gg_md_is_way_of(const gg_model *model, const int32_t cells[3], double skin_radius, bool overlapping,
-                     bool comoving);
+/* Is it the search that the model asks for, in as many cells? */
+bool gg_md_is_search_of(const gg_model *model, const int32_t cells[3], double skin_radius, bool overlapping,
+                        bool comoving);
 /* The counts, of a grid of so many cells. */
 bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3]);
 /* Grains, events, spins, numbers, lists; before they are put into cells and calendar. NULL, or what is wrong. */

@@ -15,7 +15,7 @@ static void note(gg_md *e, int w, double radius)
   for (int a = 0; a < 3; a++)
     for (int32_t k = 0; k < c->n[a]; k++) {
       bool beyond = a == s->axis && (from > (k + 1) * c->width[a] || to < k * c->width[a]);
-      if (!beyond) e->near[a][k] |= (uint8_t)(1 << w);
+      if (!beyond) e->search.near[a][k] |= (uint8_t)(1 << w);
     }
 }
 
@@ -26,7 +26,8 @@ gg_status gg_md_note_surfaces(gg_md *e, gg_error *err)
   if (m->n_surfaces == 0) return GG_OK;
   for (int i = 0; i < m->n_species; i++) widest = fmax(widest, m->diameter[i]);
   for (int a = 0; a < 3; a++)
-    if (!(e->near[a] = gg_base_array_new((size_t)e->cells.n[a], sizeof *e->near[a], err))) return GG_FAILED;
+    if (!(e->search.near[a] = gg_base_array_new((size_t)e->cells.n[a], sizeof *e->search.near[a], err)))
+      return GG_FAILED;
   for (int w = 0; w < m->n_surfaces; w++) note(e, w, 0.5 * widest);
   return GG_OK;
 }

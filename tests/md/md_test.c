@@ -266,9 +266,9 @@ long double md_closest(const gg_md *e)
 
 static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
 {
-  if (e->row) { /* which moves */
+  if (e->search.kind == GG_MD_COMOVING_ROWS) { /* which moves */
     double L = e->box.edge[0], middle = (e->node[i].cell[0] + 0.5) * e->cells.width[0];
-    const gg_md_row *row = &e->row[e->node[i].cell[1]];
+    const gg_md_row *row = &e->search.rows.row[e->node[i].cell[1]];
     r.x -= row->origin + row->speed * e->k.now;
     r.x -= L * rint((r.x - middle) / L);
   }
@@ -284,7 +284,8 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
 static double along_row(const gg_md *e, int32_t row, gg_vec r)
 {
   double layers = rint((r.y - (row + 0.5) * e->cells.width[1]) / e->box.edge[1]);
-  return r.x - layers * gg_md_offset(&e->box, e->k.now) - e->row[row].origin - e->row[row].speed * e->k.now;
+  return r.x - layers * gg_md_offset(&e->box, e->k.now) - e->search.rows.row[row].origin -
+         e->search.rows.row[row].speed * e->k.now;
 }
 
 /* Overlapping cells along one axis: in one or in two, and not yet in a third, whose region begins half a contact
@@ -302,9 +303,10 @@ static bool is_in_overlapping_cells(const gg_md *e, uint32_t i, gg_vec r)
   const gg_md_node *node = &e->node[i];
   uint32_t both = node->neighbours;
   int32_t lower = node->cell[1], upper = (lower + 1) % e->cells.n[1];
-  for (int a = e->row ? 1 : 0; a < 3; a++)
+  const bool rows = e->search.kind == GG_MD_OVERLAPPING_ROWS;
+  for (int a = rows ? 1 : 0; a < 3; a++)
     if (!is_between(e, a, gg_along(&r, a), node->cell[a], both >> a & 1)) return false;
-  if (!e->row) return true;
+  if (!rows) return true;
   if (!is_between(e, 0, along_row(e, lower, r), node->cell[0], both & 1)) return false;
   return !(both & 2) || is_between(e, 0, along_row(e, upper, r), node->upper, both >> 3 & 1);
 }
@@ -312,11 +314,12 @@ static bool is_in_overlapping_cells(const gg_md *e, uint32_t i, gg_vec r)
 /* Under shear skins shrink and move: their exits are tested by what they are for, contacts. */
 static bool is_in_skin(const gg_md *e, uint32_t i, gg_vec r)
 {
-  gg_vec dr = gg_sub(r, e->skin[i].centre);
-  if (e->model.shear_rate == 0 && gg_dot(dr, dr) > e->skin_radius * e->skin_radius * (1 + 1e-9)) return false;
-  const uint32_t *mine = e->neighbour + (size_t)i * GG_MD_LIST;
+  gg_vec dr = gg_sub(r, e->search.lists.skin[i].centre);
+  if (e->model.shear_rate == 0 && gg_dot(dr, dr) > e->search.lists.radius * e->search.lists.radius * (1 + 1e-9))
+    return false;
+  const uint32_t *mine = e->search.lists.neighbour + (size_t)i * GG_MD_LIST;
   for (uint32_t k = 0; k < e->node[i].neighbours; k++) {
-    const uint32_t *other = e->neighbour + (size_t)mine[k] * GG_MD_LIST;
+    const uint32_t *other = e->search.lists.neighbour + (size_t)mine[k] * GG_MD_LIST;
     bool back = false;
     for (uint32_t m = 0; m < e->node[mine[k]].neighbours; m++) back |= other[m] == i;
     if (!back) return false;
@@ -337,7 +340,9 @@ uint32_t md_misplaced(const gg_md *e)
   uint32_t count = 0;
   for (uint32_t i = 0; i < e->n; i++) {
     gg_vec r = gg_md_position(e, e->falls, &e->grain[i], e->k.now);
-    bool in = e->skin ? is_in_skin(e, i, r) : e->overlapping ? is_in_overlapping_cells(e, i, r) : is_in_cell(e, i, r);
+    bool in = e->search.kind == GG_MD_NEIGHBOUR_LISTS ? is_in_skin(e, i, r)
+              : gg_md_search_overlaps(e->search.kind) ? is_in_overlapping_cells(e, i, r)
+                                                      : is_in_cell(e, i, r);
     count += !in || !is_off_surfaces(e, i, r);
   }
   return count;

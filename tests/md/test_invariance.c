@@ -103,6 +103,7 @@ static void set_comoving_grid(gg_md *e, gg_rng *rng)
     n[a] = least[a] + (int32_t)gg_rng_below(rng, (uint32_t)(n[a] - least[a]) + 1);
   }
   assert_int_equal(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), &err), GG_OK);
+  e->search.kind = GG_MD_COMOVING_ROWS;
   assert_int_equal(gg_md_make_rows(e, &err), GG_OK);
   gg_md_align_rows(e);
 }

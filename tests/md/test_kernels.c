@@ -54,31 +54,32 @@ static void instruction_sets_agree(void **state)
   static const double phi[] = {[GG_MD_PLAIN_CELLS] = 0.1,
                                [GG_MD_NEIGHBOUR_LISTS] = 0.45,
                                [GG_MD_OVERLAPPING_CELLS] = 0.01,
+                               [GG_MD_OVERLAPPING_ROWS] = 0.01,
                                [GG_MD_COMOVING_ROWS] = 0.1};
   for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
-    for (enum gg_md_search_way where = GG_MD_PLAIN_CELLS; where <= GG_MD_COMOVING_ROWS; where++)
+    for (gg_md_search_kind kind = GG_MD_PLAIN_CELLS; kind < GG_MD_SEARCH_KINDS; kind++)
       for (int mixture = 0; mixture < MIXTURES; mixture++) {
-        if (!gg_md_simd_kernel(gg_simd_instructions_best(), where, boundary, mixture > 0)) continue;
+        if (!gg_md_simd_kernel(gg_simd_instructions_best(), kind, boundary, mixture > 0)) continue;
         gg_scene s = scene_of(boundary, mixture);
-        s.particles = 700, s.phi = phi[where], s.aspect[0] = 2;
+        s.particles = 700, s.phi = phi[kind], s.aspect[0] = 2;
         gg_model m = md_model_of(&s);
         double radius;
         int32_t n[3];
-        assert_int_equal(gg_md_choose_way(&m, &radius, n), where);
+        assert_int_equal(gg_md_search_select(&m, &radius, n), kind);
         uint64_t hash = 0;
         for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
           if (!gg_simd_instructions_run_here(set)) continue;
-          uint64_t its = run_with(&m, gg_md_simd_kernel(set, where, boundary, mixture > 0));
+          uint64_t its = run_with(&m, gg_md_simd_kernel(set, kind, boundary, mixture > 0));
           if (hash && its != hash)
-            fail_msg("%s, search %d, species %d", gg_simd_instructions_name(set), (int)where, species[mixture]);
+            fail_msg("%s, search %d, species %d", gg_simd_instructions_name(set), (int)kind, species[mixture]);
           hash = its;
         }
       }
 }
 
-/* Whatever way of searching is chosen, every compiled set has its kernels; only sheared boxes too small for co-moving
+/* Whatever search is chosen, every compiled set has its kernels; only sheared boxes too small for co-moving
  * rows have none, and go one pair at a time. */
-static void every_way_has_its_kernels(void **state)
+static void every_search_has_its_kernels(void **state)
 {
   (void)state;
   static const double phi[] = {0.001, 0.03, 0.06, 0.2, 0.3, 0.42, 0.55};
@@ -92,21 +93,22 @@ static void every_way_has_its_kernels(void **state)
       gg_model m = md_model_of(&s);
       double radius;
       int32_t n[3];
-      const enum gg_md_search_way where = gg_md_choose_way(&m, &radius, n);
-      const bool plain = boundary == GG_MD_SHEARED && where == GG_MD_PLAIN_CELLS;
-      chosen[boundary] |= 1u << where;
+      const gg_md_search_kind kind = gg_md_search_select(&m, &radius, n);
+      const bool plain = boundary == GG_MD_SHEARED && kind == GG_MD_PLAIN_CELLS;
+      chosen[boundary] |= 1u << kind;
       for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++)
-        if (gg_simd_instructions_run_here(set) && !gg_md_simd_kernel(set, where, boundary, mixture > 0) != plain)
-          fail_msg("%s, search %d, boundary %d", gg_simd_instructions_name(set), (int)where, boundary);
+        if (gg_simd_instructions_run_here(set) && !gg_md_simd_kernel(set, kind, boundary, mixture > 0) != plain)
+          fail_msg("%s, search %d, boundary %d", gg_simd_instructions_name(set), (int)kind, boundary);
       if (!plain || gg_md_ops.accepts(&m, NULL) != GG_OK) continue;
       gg_md *e = md_create(&m, 1);
       md_collide(e, 100);
       assert_int_equal(md_misplaced(e), 0);
       md_destroy(e);
     }
-  const unsigned cells = 1 << GG_MD_PLAIN_CELLS, others = 1 << GG_MD_NEIGHBOUR_LISTS | 1 << GG_MD_OVERLAPPING_CELLS;
-  assert_int_equal(chosen[GG_MD_PERIODIC], cells | others);
-  assert_int_equal(chosen[GG_MD_SHEARED], cells | others | 1 << GG_MD_COMOVING_ROWS);
+  const unsigned cells = 1 << GG_MD_PLAIN_CELLS, lists = 1 << GG_MD_NEIGHBOUR_LISTS,
+                 rows = 1 << GG_MD_COMOVING_ROWS | 1 << GG_MD_OVERLAPPING_ROWS;
+  assert_int_equal(chosen[GG_MD_PERIODIC], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
+  assert_int_equal(chosen[GG_MD_SHEARED], cells | lists | rows);
   assert_int_equal(chosen[GG_MD_WALLED], cells);
   assert_int_equal(chosen[GG_MD_FALLING], cells);
 }
@@ -116,13 +118,13 @@ static gg_md *create_huddle(const gg_model *m, int32_t n)
 {
   gg_md *e = md_create(m, 3);
   gg_error err;
-  assert_true(e->overlapping);
+  assert_true(gg_md_search_overlaps(e->search.kind));
   for (uint32_t i = 0; i < e->n; i++)
     e->grain[i].r = (gg_vec){1 + 1.2 * (i % 15), 1 + 1.2 * (i / 15 % 15), 1 + 1.2 * (i / 225)};
   gg_md_cells_free(&e->cells);
   assert_int_equal(gg_md_cells_make(&e->cells, &e->box, (int32_t[3]){n, n, n}, gg_md_reach(m), &err), GG_OK);
-  if (e->row) {
-    free(e->row - 1);
+  if (e->search.kind == GG_MD_OVERLAPPING_ROWS) {
+    free(e->search.rows.row - 1);
     assert_int_equal(gg_md_make_rows(e, &err), GG_OK);
     gg_md_align_rows(e);
   }
@@ -138,7 +140,7 @@ static void crowds_are_tried_in_parts(void **state)
   for (int sheared = 0; sheared < 2; sheared++) {
     gg_model m = md_model((md_case){sheared ? GG_USF : GG_HCS, 3000, 0.0009, 0.9, 0, INFINITY, {0}});
     gg_md *e = create_huddle(&m, 24), *crowded = create_huddle(&m, 6);
-    assert_int_equal(crowded->row != NULL, sheared);
+    assert_int_equal(crowded->search.kind == GG_MD_OVERLAPPING_ROWS, sheared);
     assert_true(crowded->cells.cell[0] > GG_MD_MOST_CANDIDATES);
     double time = md_collide(e, 2000);
     assert_true(fabs(md_collide(crowded, 2000) - time) < 1e-9 * time);
@@ -151,7 +153,7 @@ static void crowds_are_tried_in_parts(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(simd_is_plain), cmocka_unit_test(instruction_sets_agree),
-                                     cmocka_unit_test(every_way_has_its_kernels),
+                                     cmocka_unit_test(every_search_has_its_kernels),
                                      cmocka_unit_test(crowds_are_tried_in_parts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

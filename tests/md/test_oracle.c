@@ -208,7 +208,7 @@ static void comoving_rows(void **state)
   for (int k = 0; k < 4; k++) {
     gg_model m = md_model(all[k]);
     gg_md *e = md_create(&m, 1);
-    assert_non_null(e->row);
+    assert_int_equal(e->search.kind, GG_MD_COMOVING_ROWS);
     if (k == 2) assert_int_equal(e->cells.n[0], GG_MD_FEWEST_COMOVING);
     md_destroy(e);
     for (uint64_t seed = 1; seed <= 4; seed++) one(all[k], seed, 200, seed == 1 ? 1500 : 300);
@@ -230,7 +230,7 @@ static void overlapping_cells(void **state)
   for (int k = 0; k < 4; k++) {
     gg_model m = md_model(all[k]);
     gg_md *e = md_create(&m, 1);
-    assert_true(e->overlapping);
+    assert_true(gg_md_search_overlaps(e->search.kind));
     if (k == 3) assert_int_equal(e->cells.n[0], 6);
     md_destroy(e);
   }

@@ -89,7 +89,7 @@ GG_INLINE void gg_md_scan_window(const gg_md *e, gg_md_search *s, gg_md_window w
 {
   const gg_md_cells *c = &e->cells;
   const int32_t *at = e->node[s->grain].cell;
-  const gg_md_row *row = &e->row[at[1]];
+  const gg_md_row *row = &e->search.rows.row[at[1]];
   gg_md_rows_seen seen = {.own = c->part[0] + at[0],
                           .above = c->part[0] + gg_md_index_in_row(e, at[0] - row->above),
                           .below = c->part[0] + gg_md_index_in_row(e, at[0] + row->below),
@@ -139,7 +139,7 @@ GG_INLINE gg_md_window gg_md_change_row(gg_md *e, uint32_t i, int step)
 {
   gg_md_node *node = &e->node[i];
   gg_md_grain *g = &e->grain[i];
-  const gg_md_row *old = &e->row[node->cell[1]];
+  const gg_md_row *old = &e->search.rows.row[node->cell[1]];
   int32_t first = gg_md_index_in_row(e, node->cell[0] + (step > 0 ? -old->above - 1 : old->below));
   int32_t y = node->cell[1] + step, side = y < 0 ? -1 : y >= e->cells.n[1] ? 1 : 0;
   node->cell[1] = y - side * e->cells.n[1];
@@ -166,7 +166,7 @@ GG_INLINE void gg_md_seen_from_row(const gg_md *e, const int32_t *cell, gg_axes 
 {
   double x = (*r)[0] - gg_md_row_begins(e, cell[1]), depth = x - cell[0] * e->cells.width[0];
   (*r)[0] = x - e->box.edge[0] * gg_nearest(depth * e->box.inverse[0]);
-  (*v)[0] -= e->row[cell[1]].speed;
+  (*v)[0] -= e->search.rows.row[cell[1]].speed;
 }
 
 GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
@@ -204,7 +204,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
  * next event, and stay as they are. */
 static __attribute__((noinline)) void gg_md_search_shifted_rows(gg_md *e)
 {
-  e->k.now = e->next_shift;
+  e->k.now = e->search.rows.next_shift;
   gg_md_shift_rows_by_a_cell(e);
   for (uint32_t i = 0; i < e->n; i++) {
     const gg_md_node *node = &e->node[i];
@@ -229,7 +229,7 @@ GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
   if (e->n <= 40000) return;
   const int32_t *at = e->node[i].cell;
   const gg_md_cells *c = &e->cells;
-  const gg_md_row *own = &e->row[at[1]];
+  const gg_md_row *own = &e->search.rows.row[at[1]];
   const uint32_t *y = c->part[1] + at[1], *z = c->part[2] + at[2];
   const uint32_t *x[3] = {c->part[0] + gg_md_index_in_row(e, at[0] + own->below), c->part[0] + at[0],
                           c->part[0] + gg_md_index_in_row(e, at[0] - own->above)};

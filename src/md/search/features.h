@@ -1,5 +1,5 @@
 /* What this instance of the event loop is for. The loop and its searches are compiled once for every row of the table
- * in meson.build, each into an object of its own, which defines GG_WAY (the header of its way of searching),
+ * in meson.build, each into an object of its own, which defines GG_SEARCH (the header of its kind of search),
  * GG_BOUNDARY, GG_MIXTURE and GG_SIMD. So all of this is constant, and nothing in an instance asks what a scene has.
  *
  * The reference path is compiled once for all boundaries and mixtures, without those: there it is asked of the model.

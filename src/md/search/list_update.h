@@ -8,7 +8,7 @@
 
 GG_INLINE uint32_t *gg_md_list(const gg_md *e, uint32_t i)
 {
-  return e->neighbour + (size_t)i * GG_MD_LIST;
+  return e->search.lists.neighbour + (size_t)i * GG_MD_LIST;
 }
 
 /* Everybody in the cells that can hold centres within rho of list i's, under shear, as far as there is room. */
@@ -16,7 +16,7 @@ GG_INLINE void gg_md_collect_sheared(const gg_md *e, uint32_t i, gg_md_search *s
 {
   const gg_md_cells *c = &e->cells;
   const int32_t *at = e->node[i].cell;
-  gg_vec centre = e->skin[i].centre;
+  gg_vec centre = e->search.lists.skin[i].centre;
   double rho = c->reach, strain = e->model.shear_rate * e->k.now;
   s->n_candidates = 0;
   for (int32_t z = at[2] - 1; z <= at[2] + 1; z++) {
@@ -58,7 +58,7 @@ GG_INLINE void gg_md_cells_nearby(const gg_md *e, uint32_t i, gg_md_nearby *near
   words x = *(const words_there *)(c->part[0] + at[0] - 1);
   double below[3], above[3]; /* squared distances to the cells below and above along each axis */
   for (int a = 0; a < 3; a++) {
-    double depth = gg_along(&e->skin[i].centre, a) - at[a] * c->width[a], rest = c->width[a] - depth;
+    double depth = gg_along(&e->search.lists.skin[i].centre, a) - at[a] * c->width[a], rest = c->width[a] - depth;
     below[a] = depth * depth;
     above[a] = rest * rest;
   }
@@ -123,15 +123,15 @@ GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found
   else
     gg_md_collect_near(e, i, &s);
   uint32_t *candidates = s.candidates, n = s.n_candidates, count = 0;
-  const gg_vec centre = e->skin[i].centre;
+  const gg_vec centre = e->search.lists.skin[i].centre;
   const double *L = e->box.edge, *inverse = e->box.inverse;
   double strain = IS_SHEARED ? e->model.shear_rate * e->k.now : 0;
   const double *reaches =
-      e->pair_reach + (IS_MIXTURE ? gg_md_pair(&e->contacts, gg_md_species_of(&e->grain[i]), 0) : 0);
+      e->search.lists.reach + (IS_MIXTURE ? gg_md_pair(&e->contacts, gg_md_species_of(&e->grain[i]), 0) : 0);
   for (int l = 0; l < GG_BATCH; l++) candidates[n + (uint32_t)l] = e->n;
   for (uint32_t k = 0; k < n && count <= GG_MD_LIST; k += GG_BATCH) {
     gg_v8 x, y, z, reach = gg_all8(reaches[0]);
-    gg_md_gather_centres(e->skin, candidates + k, &x, &y, &z);
+    gg_md_gather_centres(e->search.lists.skin, candidates + k, &x, &y, &z);
     for (int l = 0; IS_MIXTURE && l < GG_BATCH; l++)
       reach[l] = reaches[gg_md_species_of(&e->grain[candidates[k + (uint32_t)l]])];
     x -= centre.x, y -= centre.y, z -= centre.z;
@@ -150,7 +150,7 @@ GG_INLINE void gg_md_new_skin(gg_md *e, uint32_t i)
 {
   gg_md_grain *g = gg_md_synchronise(e, i);
   gg_md_node *node = &e->node[i];
-  gg_md_skin *skin = &e->skin[i];
+  gg_md_skin *skin = &e->search.lists.skin[i];
   double layers = gg_floor(g->r.y * e->box.inverse[1]);
   g->r.y -= layers * e->box.edge[1];
   if (IS_SHEARED && layers != 0) {

@@ -30,7 +30,7 @@ enum {
 /* Where the centre of skin i is at the present time. */
 GG_INLINE gg_vec gg_md_centre(const gg_md *e, uint32_t i)
 {
-  gg_vec c = e->skin[i].centre;
+  gg_vec c = e->search.lists.skin[i].centre;
   if (IS_SHEARED) c.x += e->model.shear_rate * (c.y - 0.5 * e->box.edge[1]) * e->k.now;
   return c;
 }
@@ -39,7 +39,7 @@ GG_INLINE gg_vec gg_md_centre(const gg_md *e, uint32_t i)
 GG_INLINE double gg_md_skin_exit(const gg_md *e, uint32_t i, const gg_md_grain *g)
 {
   gg_vec centre = gg_md_centre(e, i), dr = gg_sub(g->r, centre), dv = g->v;
-  double radius = e->skin_radius, kappa = IS_SHEARED ? e->shrinkage : 0;
+  double radius = e->search.lists.radius, kappa = IS_SHEARED ? e->search.lists.shrinkage : 0;
   if (IS_SHEARED) {
     dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]); /* the centre is kept wrapped */
     dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);

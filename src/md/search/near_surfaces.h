@@ -10,13 +10,13 @@
 GG_INLINE void gg_md_try_surfaces(const gg_md *e, gg_md_search *s)
 {
   const int32_t *cell = e->node[s->grain].cell;
-  uint32_t near = e->near[1][cell[1]];
+  uint32_t near = e->search.near[1][cell[1]];
   if (near == 0) return;
   const gg_md_grain *g = s->self;
   const gg_vec none = {0, 0, 0};
   const gg_flight flight = {&g->r, &g->v, HAS_GRAVITY ? &e->gravity : &none,
                             0.5 * e->model.diameter[IS_MIXTURE ? gg_md_species_of(g) : 0]};
-  for (near &= e->near[0][cell[0]] & e->near[2][cell[2]]; near; near &= near - 1) {
+  for (near &= e->search.near[0][cell[0]] & e->search.near[2][cell[2]]; near; near &= near - 1) {
     int w = __builtin_ctz(near);
     const gg_surface *surface = &e->model.surface[w];
     double t = e->k.now + (surface->shape == GG_SHAPE_plane ? gg_plane_delay(surface, &flight, NULL)

@@ -1,4 +1,4 @@
-/* A way of searching for partners: plain cells, cells in rows that move with the flow, overlapping cells, overlapping
+/* A kind of neighbour search: plain cells, cells in rows that move with the flow, overlapping cells, overlapping
  * cells in rows, neighbour lists. One header each, of which an instance of the event loop includes one (features.h).
  * Each of them defines the functions declared here, and the constants
  *
@@ -8,8 +8,8 @@
  *   FEW_MEET       of those tried: worth a test whether anybody of a batch is in the way at all?
  *   CACHED         so many grains are in the cache anyway: nothing needs to be prefetched
  *   PREDICTS_IN_PLACE   is a stale event re-predicted within the loop, or by a call (1 to 3 % either way)? */
-#ifndef GG_MD_SEARCH_WAY_H
-#define GG_MD_SEARCH_WAY_H
+#ifndef GG_MD_NEIGHBOUR_SEARCH_H
+#define GG_MD_NEIGHBOUR_SEARCH_H
 
 #include "md/search/search.h"
 

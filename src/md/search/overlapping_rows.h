@@ -13,7 +13,7 @@ typedef struct gg_md_row_depths {
 GG_INLINE gg_md_row_depths gg_md_depths_in_rows(const gg_md *e, const gg_md_node *node, const gg_md_grain *g)
 {
   int32_t row = gg_md_lower_row(e, node, g->r.y);
-  const gg_md_row *lower = e->row + row, *upper = lower + 1;
+  const gg_md_row *lower = e->search.rows.row + row, *upper = lower + 1;
   const double *w = e->cells.width, *L = e->box.edge, *inverse = e->box.inverse;
   gg_md_row_depths f;
   f.width = (gg_axes){w[0], w[1], w[2], w[0]};
