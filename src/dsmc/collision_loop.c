@@ -2,20 +2,20 @@
 #include "dsmc/dsmc.h"
 
 /* Candidates per unit time and unit of the majorant. */
-static double candidate_rate(const gg_dsmc *d, gg_dsmc_features f, int i, int j)
+static double candidate_rate(const gg_dsmc *d, gg_dsmc_features features, int i, int j)
 {
   const gg_dsmc_population *one = &d->ensemble.of[i], *two = &d->ensemble.of[j];
-  return gg_dsmc_candidates_per_unit(d->path[gg_pair(i, j)], f, one, two) * gg_dsmc_cross_section(d, i, j);
+  return gg_dsmc_candidates_per_unit(d->path[gg_pair(i, j)], features, one, two) * gg_dsmc_cross_section(d, i, j);
 }
 
 /* These candidates, over `dt` from d->interval_begin, are to be told of. */
-static void call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *p)
+static void call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *pass)
 {
-  p->callback = &d->callback;
-  p->species[0] = i;
-  p->species[1] = j;
-  p->time_step = p->candidates ? dt / (double)p->candidates : 0;
-  p->time = d->interval_begin + 0.5 * p->time_step;
+  pass->callback = &d->callback;
+  pass->species[0] = i;
+  pass->species[1] = j;
+  pass->time_step = pass->candidates ? dt / (double)pass->candidates : 0;
+  pass->time = d->interval_begin + 0.5 * pass->time_step;
 }
 
 /* `hold`: strains from `strain` on at which the speed bounds are to hold, or 0: they follow. */
@@ -23,30 +23,30 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
 {
   gg_dsmc_majorant *learned = &d->now.majorant[gg_pair(i, j)];
   gg_dsmc_path path = d->path[gg_pair(i, j)];
-  gg_dsmc_features f = gg_dsmc_features_of(d, i, j);
-  double thermal = sqrt(d->now.temperature), rate = candidate_rate(d, f, i, j) * dt,
+  gg_dsmc_features features = gg_dsmc_features_of(d, i, j);
+  double thermal = sqrt(d->now.temperature), rate = candidate_rate(d, features, i, j) * dt,
          majorant = gg_dsmc_majorant_at(learned, thermal);
   /* After a majorant overflow: correction passes, each over the layer above. */
   for (double floor = 0; majorant > 0;) {
-    gg_dsmc_pass p = gg_dsmc_pass_of(d, i, j);
-    p.floor = floor;
-    p.majorant = majorant;
-    p.candidates = gg_dsmc_candidates(path == GG_DSMC_PLAIN || floor > 0, rate * majorant,
-                                      &d->now.remainder[gg_pair(i, j)], &d->now.rng);
-    if (d->callback.call) call_back(d, i, j, dt, &p);
-    p.strain_step = p.candidates ? span / (double)p.candidates : 0;
-    p.strain = strain + 0.5 * p.strain_step;
+    gg_dsmc_pass pass = gg_dsmc_pass_of(d, i, j);
+    pass.floor = floor;
+    pass.majorant = majorant;
+    pass.candidates = gg_dsmc_candidates(path == GG_DSMC_PLAIN || floor > 0, rate * majorant,
+                                         &d->now.remainder[gg_pair(i, j)], &d->now.rng);
+    if (d->callback.call) call_back(d, i, j, dt, &pass);
+    pass.strain_step = pass.candidates ? span / (double)pass.candidates : 0;
+    pass.strain = strain + 0.5 * pass.strain_step;
     gg_dsmc_ensemble_strain_bounds(&d->ensemble, strain, hold);
-    p.bound_scale = d->ensemble.bound_scale;
-    if (hold > 0) p.bound_margin = gg_dsmc_bound_growth(hold);
-    gg_dsmc_collide_pass(d->ensemble.kernels, path, f, &p, &d->now.lanes, &d->now.rng);
-    d->ensemble.bound_scale = p.bound_scale;
+    pass.bound_scale = d->ensemble.bound_scale;
+    if (hold > 0) pass.bound_margin = gg_dsmc_bound_growth(hold);
+    gg_dsmc_collide_pass(d->ensemble.kernels, path, features, &pass, &d->now.lanes, &d->now.rng);
+    d->ensemble.bound_scale = pass.bound_scale;
     if (!(hold > 0)) d->ensemble.bound_strain = strain + span;
-    gg_dsmc_add_pass(d, gg_pair(i, j), &p);
-    gg_dsmc_majorant_learn(learned, p.largest, thermal, p.tried, gg_dsmc_window(d, i, j));
+    gg_dsmc_add_pass(d, gg_pair(i, j), &pass);
+    gg_dsmc_majorant_learn(learned, pass.largest, thermal, pass.tried, gg_dsmc_window(d, i, j));
     floor += majorant;
-    if (p.largest <= floor) break;
-    majorant = fmax(1.1 * p.largest, gg_dsmc_sure_majorant(path, f, 2 * d->now.fastest, p.shift)) - floor;
+    if (pass.largest <= floor) break;
+    majorant = fmax(1.1 * pass.largest, gg_dsmc_sure_majorant(path, features, 2 * d->now.fastest, pass.shift)) - floor;
   }
 }
 

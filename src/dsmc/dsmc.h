@@ -64,7 +64,7 @@ double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j);
 /* Candidates after which their majorant forgets. */
 uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
 /* Add to the sums what the collisions of a pair of species came to. */
-void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *p);
+void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *pass);
 
 /* candidates.c: majorants that hold for sure, to start from. */
 void gg_dsmc_start_majorants(gg_dsmc *d);

@@ -4,14 +4,15 @@
 gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
-  gg_dsmc_features f = {.rule = gg_common_rule_select(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]), .same = i == j};
+  gg_dsmc_features features = {.rule = gg_common_rule_select(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]),
+                               .same = i == j};
   /* Grains that have spins keep them with their velocities, whichever pair of species is smooth. */
-  if (m->rule != GG_SMOOTH && f.rule == GG_SMOOTH) f.rule = GG_ROUGH;
-  if (m->shear_rate != 0) f.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
-  if (d->thermostat == GG_GAUSSIAN) f.sums = GG_DSMC_LOSS;
-  if (d->now.sums) f.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
-  if (d->losses) f = gg_dsmc_features_by_law(f, m->boltzmann);
-  return f;
+  if (m->rule != GG_SMOOTH && features.rule == GG_SMOOTH) features.rule = GG_ROUGH;
+  if (m->shear_rate != 0) features.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
+  if (d->thermostat == GG_GAUSSIAN) features.sums = GG_DSMC_LOSS;
+  if (d->now.sums) features.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
+  if (d->losses) features = gg_dsmc_features_by_law(features, m->boltzmann);
+  return features;
 }
 
 gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
@@ -45,16 +46,16 @@ uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j)
   return 20000 + (uint64_t)(d->model.n_of[i] + d->model.n_of[j]) * 3;
 }
 
-void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *p)
+void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *pass)
 {
   gg_dsmc_state *s = &d->now;
-  s->collisions += p->collisions;
-  s->candidates += p->tried;
-  s->overflows += p->overflows;
-  s->transfer.collisions[pair] += p->collisions;
-  s->lost += p->loss;
+  s->collisions += pass->collisions;
+  s->candidates += pass->tried;
+  s->overflows += pass->overflows;
+  s->transfer.collisions[pair] += pass->collisions;
+  s->lost += pass->loss;
   if (!s->sums) return;
-  s->transfer.loss[pair] += p->loss;
+  s->transfer.loss[pair] += pass->loss;
   for (int a = 0; a < 3; a++)
-    for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += p->stress[a][b];
+    for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += pass->stress[a][b];
 }

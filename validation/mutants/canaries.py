@@ -33,10 +33,10 @@ TEXTS = [
     # the collisional stress
     ("src/md/resolve.h", "gg_add_stress(t->stress[pair], sigma, k, J);",
      "gg_add_stress(t->stress[pair], sigma * %s, k, J);" % (HALF % 904)),
-    ("src/dsmc/kernel/collide_plain.c", "gg_add_stress(p->stress, p->sigma, k, J);",
-     "gg_add_stress(p->stress, p->sigma * %s, k, J);" % (HALF % 914)),
-    ("src/dsmc/kernel/collision_sums.h", "stress = p->sigma * mass;",
-     "stress = p->sigma * mass * (f.sums == GG_DSMC_STRESS ? %s : 1);" % (HALF % 914)),
+    ("src/dsmc/kernel/collide_plain.c", "gg_add_stress(pass->stress, pass->sigma, k, J);",
+     "gg_add_stress(pass->stress, pass->sigma * %s, k, J);" % (HALF % 914)),
+    ("src/dsmc/kernel/collision_sums.h", "stress = pass->sigma * mass;",
+     "stress = pass->sigma * mass * (features.sums == GG_DSMC_STRESS ? %s : 1);" % (HALF % 914)),
     # the theories
     ("src/theory/theories.c", "      theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err) : "
      "theory->evaluate(model, answer, err);",

@@ -20,9 +20,9 @@ enum {
 /* The block pairs to come, in order of time. Lists as gg_pack leaves them: each a number's worth of bits. Before the
  * next one there is always room for another. */
 typedef struct gg_dsmc_block_pairs {
-  unsigned at, n; /* next, and how many there are */
-  uint64_t left;  /* draws to be made */
-  bool layer;     /* the next one is a correction, over the layer above its majorant: from `lowest` on */
+  unsigned at, n;  /* next, and how many there are */
+  uint64_t left;   /* draws to be made */
+  bool correction; /* the next one is a correction, over the layer above its majorant: from `lowest` on */
   gg_real lowest;
   double strain; /* of the next draw */
   gg_real one[GG_DSMC_BLOCK_PAIRS_ROOM], two[GG_DSMC_BLOCK_PAIRS_ROOM], order[GG_DSMC_BLOCK_PAIRS_ROOM],
@@ -51,94 +51,96 @@ GG_INLINE gg_vu gg_dsmc_lane_numbers(unsigned first)
 
 /* One draw a lane: which blocks, and under which majorant of |C12|; another random word gives the order of lanes,
  * and whether the block pair is accepted. `number`: of the lane's draw, of which there are n. */
-GG_INLINE void gg_dsmc_draw_part(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc_samples *c, gg_dsmc_block_pairs *d,
-                                 int part, gg_real root, gg_real step, unsigned n)
+GG_INLINE void gg_dsmc_draw_part(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_samples *samples,
+                                 gg_dsmc_block_pairs *pairs, int part, gg_real root, gg_real step, unsigned n)
 {
   gg_vu a, b, more, spare, number = gg_dsmc_lane_numbers((unsigned)part * GG_WIDTH);
-  gg_dsmc_lane_two_below(&c->rng, part, w->n_one, w->n_two, &a, &b);
+  gg_dsmc_lane_two_below(&samples->rng, part, state->n_one, state->n_two, &a, &b);
   const gg_mask backwards = gg_below_word(b, a); /* by their places in their ranges: each range is sorted by speed */
-  a += w->first_one;
-  b += w->first_two;
-  gg_dsmc_lane_two(&c->rng, part, &more, &spare);
-  gg_vd majorant = w->most;
-  if (!w->layer)
-    majorant = gg_smaller((gg_dsmc_roots_at(w->bound_one, a) + gg_dsmc_roots_at(w->bound_two, b)) * root, majorant);
+  a += state->first_one;
+  b += state->first_two;
+  gg_dsmc_lane_two(&samples->rng, part, &more, &spare);
+  gg_vd majorant = state->most;
+  if (!state->correction_pass)
+    majorant =
+        gg_smaller((gg_dsmc_roots_at(state->bound_one, a) + gg_dsmc_roots_at(state->bound_two, b)) * root, majorant);
   gg_vd u = gg_dsmc_lane_one_to_two(more) - 1;
-  gg_mask odd = f.same ? gg_same_word(a, b) : gg_less(majorant, majorant); /* none */
-  if (w->any_odd) odd = gg_or(odd, gg_or(gg_same_word(a, w->odd_one), gg_same_word(b, w->odd_two)));
+  gg_mask odd = features.same ? gg_same_word(a, b) : gg_less(majorant, majorant); /* none */
+  if (state->any_odd) odd = gg_or(odd, gg_or(gg_same_word(a, state->odd_one), gg_same_word(b, state->odd_two)));
   gg_vu one = a, two = b;
-  if (f.same) {
+  if (features.same) {
     one = gg_select_words(backwards, b, a);
     two = gg_select_words(backwards, a, b);
   }
   two |= (gg_vu)gg_where(odd, (gg_vd)gg_all_words(GG_DSMC_ODD));
-  gg_mask keep = gg_or(gg_less(u * w->most_rate, majorant + w->s0), odd);
+  gg_mask keep = gg_or(gg_less(u * state->most_rate, majorant + state->s0), odd);
   if (n < GG_DSMC_LANES) keep = gg_and(keep, gg_below_word(number, gg_all_words(n)));
-  gg_pack(d->one + d->n, keep, (gg_vd)one);
-  gg_pack(d->two + d->n, keep, (gg_vd)two);
-  gg_pack(d->order + d->n, keep, (gg_vd)more);
-  gg_pack(d->majorant + d->n, keep, majorant);
-  if (f.shear != GG_DSMC_UNSHEARED) {
+  gg_pack(pairs->one + pairs->n, keep, (gg_vd)one);
+  gg_pack(pairs->two + pairs->n, keep, (gg_vd)two);
+  gg_pack(pairs->order + pairs->n, keep, (gg_vd)more);
+  gg_pack(pairs->majorant + pairs->n, keep, majorant);
+  if (features.shear != GG_DSMC_UNSHEARED) {
     gg_vd numbers = __builtin_convertvector((gg_vi)number, gg_vd);
-    gg_pack(d->strains + d->n, keep, (gg_real)d->strain + numbers * step);
-    gg_pack(d->per_scale + d->n, keep, gg_all(w->per_scale));
+    gg_pack(pairs->strains + pairs->n, keep, (gg_real)pairs->strain + numbers * step);
+    gg_pack(pairs->per_scale + pairs->n, keep, gg_all(state->per_scale));
   }
-  d->n += (unsigned)__builtin_popcount(gg_bits(keep));
+  pairs->n += (unsigned)__builtin_popcount(gg_bits(keep));
 }
 
 /* Make room at the end of the lists. */
-GG_INLINE void gg_dsmc_block_pairs_move_up(gg_dsmc_features f, gg_dsmc_block_pairs *d)
+GG_INLINE void gg_dsmc_block_pairs_move_up(gg_dsmc_features features, gg_dsmc_block_pairs *pairs)
 {
-  gg_real *const lists[] = {d->one, d->two, d->order, d->majorant, d->strains, d->per_scale};
-  for (unsigned k = 0; k < (f.shear != GG_DSMC_UNSHEARED ? 6u : 4u); k++)
-    for (unsigned i = 0; i < d->n - d->at; i++) lists[k][1 + i] = lists[k][d->at + i];
-  d->n -= d->at - 1;
-  d->at = 1;
+  gg_real *const lists[] = {pairs->one, pairs->two, pairs->order, pairs->majorant, pairs->strains, pairs->per_scale};
+  for (unsigned k = 0; k < (features.shear != GG_DSMC_UNSHEARED ? 6u : 4u); k++)
+    for (unsigned i = 0; i < pairs->n - pairs->at; i++) lists[k][1 + i] = lists[k][pairs->at + i];
+  pairs->n -= pairs->at - 1;
+  pairs->at = 1;
 }
 
 /* Eight draws, of which the accepted ones are kept. */
-GG_INLINE void gg_dsmc_draw(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc_samples *c, gg_dsmc_block_pairs *d,
-                            double strain_step)
+GG_INLINE void gg_dsmc_draw(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_samples *samples,
+                            gg_dsmc_block_pairs *pairs, double strain_step)
 {
-  const unsigned n = d->left < GG_DSMC_LANES ? (unsigned)d->left : GG_DSMC_LANES;
-  if (__builtin_expect(d->n + GG_DSMC_LANES > GG_DSMC_BLOCK_PAIRS, 0)) gg_dsmc_block_pairs_move_up(f, d);
-  if (f.shear != GG_DSMC_UNSHEARED) {
+  const unsigned n = pairs->left < GG_DSMC_LANES ? (unsigned)pairs->left : GG_DSMC_LANES;
+  if (__builtin_expect(pairs->n + GG_DSMC_LANES > GG_DSMC_BLOCK_PAIRS, 0)) gg_dsmc_block_pairs_move_up(features, pairs);
+  if (features.shear != GG_DSMC_UNSHEARED) {
     const double delta = n * strain_step;
     /* As the strain only grows, an earlier scale holds. */
-    w->per_scale = (gg_real)(gg_dsmc_per_bound(w->scale) * w->margin);
-    if (!(w->margin > 1)) w->scale *= gg_dsmc_bound_growth(delta);
-    w->root = (gg_real)(sqrt(w->scale) * (1 + 1e-6));
+    state->per_scale = (gg_real)(gg_dsmc_per_bound(state->scale) * state->margin);
+    if (!(state->margin > 1)) state->scale *= gg_dsmc_bound_growth(delta);
+    state->root = (gg_real)(sqrt(state->scale) * (1 + 1e-6));
   }
-  for (int part = 0; part < GG_PARTS; part++) gg_dsmc_draw_part(f, w, c, d, part, w->root, (gg_real)strain_step, n);
-  d->strain += n * strain_step;
-  d->left -= n;
+  for (int part = 0; part < GG_PARTS; part++)
+    gg_dsmc_draw_part(features, state, samples, pairs, part, state->root, (gg_real)strain_step, n);
+  pairs->strain += n * strain_step;
+  pairs->left -= n;
 }
 
 /* Draw ahead if few block pairs are left. */
-GG_INLINE void gg_dsmc_draw_ahead(gg_dsmc_features f, gg_dsmc_pass_state *w, gg_dsmc_samples *c, gg_dsmc_block_pairs *d,
-                                  double strain_step)
+GG_INLINE void gg_dsmc_draw_ahead(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_samples *samples,
+                                  gg_dsmc_block_pairs *pairs, double strain_step)
 {
-  if (d->n - d->at >= (w->sorts ? GG_DSMC_PREFETCH_FROM : GG_DSMC_PREFETCH_SMALL)) return;
-  while (d->left && d->n - d->at < (w->sorts ? GG_DSMC_PREFETCH_TO : GG_DSMC_PREFETCH_SMALL))
-    gg_dsmc_draw(f, w, c, d, strain_step);
+  if (pairs->n - pairs->at >= (state->sorts ? GG_DSMC_PREFETCH_FROM : GG_DSMC_PREFETCH_SMALL)) return;
+  while (pairs->left && pairs->n - pairs->at < (state->sorts ? GG_DSMC_PREFETCH_TO : GG_DSMC_PREFETCH_SMALL))
+    gg_dsmc_draw(features, state, samples, pairs, strain_step);
 }
 
 /* A correction for majorant overflow: this block pair comes once more, as the next one, over the layer from `lowest` to
  * `majorant`. It has no block in common with those that have begun since. */
-GG_INLINE void gg_dsmc_draw_correction(gg_dsmc_features f, gg_dsmc_block_pairs *d, uint32_t one, uint32_t two,
-                                       gg_word order, gg_real lowest, gg_real majorant, gg_real strain,
+GG_INLINE void gg_dsmc_draw_correction(gg_dsmc_features features, gg_dsmc_block_pairs *pairs, uint32_t one,
+                                       uint32_t two, gg_word order, gg_real lowest, gg_real majorant, gg_real strain,
                                        gg_real per_scale)
 {
-  const unsigned i = --d->at;
-  d->layer = true;
-  d->lowest = lowest;
-  gg_dsmc_list(d->one, i, one);
-  gg_dsmc_list(d->two, i, two);
-  gg_dsmc_list(d->order, i, order);
-  d->majorant[i] = majorant;
-  if (f.shear == GG_DSMC_UNSHEARED) return;
-  d->strains[i] = strain;
-  d->per_scale[i] = per_scale;
+  const unsigned i = --pairs->at;
+  pairs->correction = true;
+  pairs->lowest = lowest;
+  gg_dsmc_list(pairs->one, i, one);
+  gg_dsmc_list(pairs->two, i, two);
+  gg_dsmc_list(pairs->order, i, order);
+  pairs->majorant[i] = majorant;
+  if (features.shear == GG_DSMC_UNSHEARED) return;
+  pairs->strains[i] = strain;
+  pairs->per_scale[i] = per_scale;
 }
 
 #endif

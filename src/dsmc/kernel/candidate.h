@@ -31,7 +31,7 @@ typedef struct gg_dsmc_pass_state {
   gg_real lowest;          /* t: floor - s0 */
   bool from_zero;          /* that is so */
   gg_vd to_a, to_b;        /* from J, or 2 g_n k, to velocities */
-  bool layer;              /* a correction pass: all block pairs under one majorant */
+  bool correction_pass;    /* a correction pass: all block pairs under one majorant */
   gg_vd most, most_rate;   /* majorant; majorant + s0 */
   double scale;            /* of the speed bounds, at the next draw */
   double margin;           /* of new speed bounds; above 1: the scale stays */
@@ -57,15 +57,16 @@ typedef struct gg_dsmc_candidate {
   gg_vd gn;
 } gg_dsmc_candidate;
 
-GG_INLINE bool gg_dsmc_needs_k(gg_dsmc_features f)
+GG_INLINE bool gg_dsmc_needs_k(gg_dsmc_features features)
 {
-  return f.rule != GG_SMOOTH || f.shear == GG_DSMC_SHEARED_DENSE || f.sums == GG_DSMC_STRESS || f.law;
+  return features.rule != GG_SMOOTH || features.shear == GG_DSMC_SHEARED_DENSE || features.sums == GG_DSMC_STRESS ||
+         features.law;
 }
 
 /* Shear between the centres makes the second stage longer than the first: the scale moves to the first. */
-GG_INLINE bool gg_dsmc_scales_early(gg_dsmc_features f)
+GG_INLINE bool gg_dsmc_scales_early(gg_dsmc_features features)
 {
-  return f.shear == GG_DSMC_SHEARED_DENSE;
+  return features.shear == GG_DSMC_SHEARED_DENSE;
 }
 
 /* z component of the Householder vector v +- |v| z that mirrors the z axis to the direction of v, or against it. */
@@ -90,54 +91,58 @@ GG_INLINE gg_vd3 gg_dsmc_mirror(gg_vd3 v, gg_vd speed, gg_vd scale, gg_vd3 q)
   return gg_vd3_sub(m, gg_vd3_scale(gg_vd3_dot(h, m) * scale, h));
 }
 
-/* Acceptance of candidates of e->speed by the random word r, t from `lowest` (0 if from_zero) to `majorant`: who
+/* Acceptance of candidates by a random word, t from `lowest` (0 if from_zero) to `majorant`: who
  * collides by the first law, who may by the second. */
-GG_INLINE void gg_dsmc_candidate_accept(gg_dsmc_features f, bool from_zero, gg_real lowest, gg_real majorant, gg_vu r,
-                                        gg_dsmc_candidate *e)
+GG_INLINE void gg_dsmc_candidate_accept(gg_dsmc_features features, bool from_zero, gg_real lowest, gg_real majorant,
+                                        gg_vu word, gg_dsmc_candidate *candidate)
 {
   gg_vd range = gg_all(majorant);
   if (!from_zero) range -= gg_all(lowest);
-  e->t = gg_dsmc_lane_one_to_two(r) * range - range;
-  if (!from_zero) e->t += gg_all(lowest);
-  e->hit = gg_less(e->t, e->speed);
-  if (f.shear != GG_DSMC_SHEARED_DENSE) return;
-  e->special = gg_less(e->t, gg_all(0));
-  e->hit = gg_and_not(e->hit, e->special);
+  candidate->t = gg_dsmc_lane_one_to_two(word) * range - range;
+  if (!from_zero) candidate->t += gg_all(lowest);
+  candidate->hit = gg_less(candidate->t, candidate->speed);
+  if (features.shear != GG_DSMC_SHEARED_DENSE) return;
+  candidate->special = gg_less(candidate->t, gg_all(0));
+  candidate->hit = gg_and_not(candidate->hit, candidate->special);
 }
 
-/* What is left of t is to be uniform from 0 to the speed. */
-GG_INLINE void gg_dsmc_candidate_in_layer(gg_real lowest, gg_dsmc_candidate *e)
+/* In a correction: what is left of t is to be uniform from 0 to the speed. */
+GG_INLINE void gg_dsmc_candidate_correct(gg_real lowest, gg_dsmc_candidate *candidate)
 {
-  e->t = (e->t - lowest) * e->speed / (e->speed - lowest);
+  candidate->t = (candidate->t - lowest) * candidate->speed / (candidate->speed - lowest);
 }
 
 /* Shear between the centres: lanes in `special` take the second law; then the last acceptance. */
-GG_INLINE void gg_dsmc_candidate_accept_sheared(const gg_dsmc_pass_state *w, gg_dsmc_samples *c, gg_vd3 v,
-                                                gg_dsmc_candidate *e)
+GG_INLINE void gg_dsmc_candidate_accept_sheared(const gg_dsmc_pass_state *state, gg_dsmc_samples *samples, gg_vd3 v,
+                                                gg_dsmc_candidate *candidate)
 {
-  gg_vd3 k = e->k, other = gg_dsmc_directions_take(&c->sheared, e->special);
-  k = (gg_vd3){gg_select(e->special, other.x, k.x), gg_select(e->special, other.y, k.y),
-               gg_select(e->special, other.z, k.z)};
-  gg_vd gn = gg_vd3_dot(k, v), shear = w->shift * k.x * k.y, most = gg_larger(gn, gg_all(0)) + gg_dsmc_abs(shear);
-  gg_vd left = gg_dsmc_abs(e->t), range = gg_select(e->special, gg_all(w->s0), e->speed); /* special: t < 0 */
-  e->k = k;
-  e->gn = gn - shear;
-  e->g.x -= w->shift * k.y;
-  e->hit = gg_and(gg_or(e->hit, e->special), gg_less(left * most, range * e->gn));
+  gg_vd3 k = candidate->k, other = gg_dsmc_directions_take(&samples->sheared, candidate->special);
+  k = (gg_vd3){gg_select(candidate->special, other.x, k.x), gg_select(candidate->special, other.y, k.y),
+               gg_select(candidate->special, other.z, k.z)};
+  gg_vd gn = gg_vd3_dot(k, v), shear = state->shift * k.x * k.y, most = gg_larger(gn, gg_all(0)) + gg_dsmc_abs(shear);
+  gg_vd left = gg_dsmc_abs(candidate->t),
+        range = gg_select(candidate->special, gg_all(state->s0), candidate->speed); /* special: t < 0 */
+  candidate->k = k;
+  candidate->gn = gn - shear;
+  candidate->g.x -= state->shift * k.y;
+  candidate->hit = gg_and(gg_or(candidate->hit, candidate->special), gg_less(left * most, range * candidate->gn));
 }
 
 /* Along which k do they collide, with relative velocity v, whose gg_dsmc_mirror_scale is known? */
-GG_INLINE void gg_dsmc_candidate_direction(gg_dsmc_features f, const gg_dsmc_pass_state *w, gg_dsmc_samples *c,
-                                           gg_vd3 v, gg_vd scale, gg_dsmc_candidate *e)
+GG_INLINE void gg_dsmc_candidate_direction(gg_dsmc_features features, const gg_dsmc_pass_state *state,
+                                           gg_dsmc_samples *samples, gg_vd3 v, gg_vd scale,
+                                           gg_dsmc_candidate *candidate)
 {
-  e->g = v;
-  if (!gg_dsmc_needs_k(f)) {
-    e->gn_k = gg_vd3_sub(v, gg_vd3_scale(e->speed, e->q));
+  candidate->g = v;
+  if (!gg_dsmc_needs_k(features)) {
+    candidate->gn_k = gg_vd3_sub(v, gg_vd3_scale(candidate->speed, candidate->q));
     return;
   }
-  e->k = gg_dsmc_mirror(v, e->speed, gg_dsmc_scales_early(f) ? scale : gg_dsmc_mirror_scale(v, e->speed), e->q);
-  e->gn = e->speed * e->q.z;
-  if (f.shear == GG_DSMC_SHEARED_DENSE) gg_dsmc_candidate_accept_sheared(w, c, v, e);
+  candidate->k =
+      gg_dsmc_mirror(v, candidate->speed,
+                     gg_dsmc_scales_early(features) ? scale : gg_dsmc_mirror_scale(v, candidate->speed), candidate->q);
+  candidate->gn = candidate->speed * candidate->q.z;
+  if (features.shear == GG_DSMC_SHEARED_DENSE) gg_dsmc_candidate_accept_sheared(state, samples, v, candidate);
 }
 
 #endif

@@ -8,7 +8,7 @@
 /* s0 = (8/3 pi) sigma rate: integral of |k_x k_y| over the sphere, over pi. */
 #define GG_DSMC_SHEAR_SHARE (8 / (3 * M_PI))
 
-typedef void gg_dsmc_collide_blocks(gg_dsmc_pass *p, gg_dsmc_rng_lanes *lanes, gg_rng *rng);
+typedef void gg_dsmc_collide_blocks(gg_dsmc_pass *pass, gg_dsmc_rng_lanes *lanes, gg_rng *rng);
 
 /* The instances of one collision rule, by shear, sums and whether both grains are of one species; NULL where there is
  * no such thing. */

@@ -26,23 +26,23 @@ typedef struct gg_dsmc_sums {
 
 /* Constant coefficients make terms of the loss follow from others (gg_dsmc_all_terms): of smooth grains all from one,
  * of rough ones the third. With a law of restitution all are summed. */
-GG_INLINE bool gg_dsmc_sums_one(gg_dsmc_features f)
+GG_INLINE bool gg_dsmc_sums_one(gg_dsmc_features features)
 {
-  return f.rule == GG_SMOOTH && !f.law;
+  return features.rule == GG_SMOOTH && !features.law;
 }
-GG_INLINE bool gg_dsmc_sums_all(gg_dsmc_features f)
+GG_INLINE bool gg_dsmc_sums_all(gg_dsmc_features features)
 {
-  return f.rule == GG_FRICTIONAL || f.law;
+  return features.rule == GG_FRICTIONAL || features.law;
 }
 
 /* The terms of the loss that k and J do not tell later. */
-GG_INLINE void gg_dsmc_note_loss(gg_dsmc_features f, gg_dsmc_note *note, gg_vd3 g, gg_vd3 J, gg_vd Jn)
+GG_INLINE void gg_dsmc_note_loss(gg_dsmc_features features, gg_dsmc_note *note, gg_vd3 g, gg_vd3 J, gg_vd Jn)
 {
-  if (f.sums == GG_DSMC_NO_SUMS) return;
-  const bool stress = f.sums == GG_DSMC_STRESS, one = gg_dsmc_sums_one(f);
+  if (features.sums == GG_DSMC_NO_SUMS) return;
+  const bool stress = features.sums == GG_DSMC_STRESS, one = gg_dsmc_sums_one(features);
   if (!stress || !one) note->Jg = gg_vd3_dot(J, g);
   if (!stress && !one) note->Jn = Jn;
-  if (!stress && gg_dsmc_sums_all(f)) note->J2 = gg_vd3_dot(J, J);
+  if (!stress && gg_dsmc_sums_all(features)) note->J2 = gg_vd3_dot(J, J);
 }
 
 GG_INLINE void gg_dsmc_sums_add(double *sum, int part, gg_vd v)
@@ -55,28 +55,28 @@ GG_INLINE void gg_dsmc_sums_add(double *sum, int part, gg_vd v)
 }
 
 /* The loss alone. */
-GG_INLINE void gg_dsmc_sums_collect_loss(gg_dsmc_features f, gg_dsmc_sums *t, int p)
+GG_INLINE void gg_dsmc_sums_collect_loss(gg_dsmc_features features, gg_dsmc_sums *sums, int part)
 {
   gg_vd Jg = gg_all(0), Jn2 = Jg, J2 = Jg;
-  for (unsigned i = 0; i < t->n; i++) {
-    const gg_dsmc_note *note = &t->note[i][p];
+  for (unsigned i = 0; i < sums->n; i++) {
+    const gg_dsmc_note *note = &sums->note[i][part];
     Jg += note->Jg;
-    if (!gg_dsmc_sums_one(f)) Jn2 += note->Jn * note->Jn;
-    if (gg_dsmc_sums_all(f)) J2 += note->J2;
+    if (!gg_dsmc_sums_one(features)) Jn2 += note->Jn * note->Jn;
+    if (gg_dsmc_sums_all(features)) J2 += note->J2;
   }
-  gg_dsmc_sums_add(t->Jg, p, Jg);
-  if (!gg_dsmc_sums_one(f)) gg_dsmc_sums_add(t->Jn2, p, Jn2);
-  if (gg_dsmc_sums_all(f)) gg_dsmc_sums_add(t->J2, p, J2);
+  gg_dsmc_sums_add(sums->Jg, part, Jg);
+  if (!gg_dsmc_sums_one(features)) gg_dsmc_sums_add(sums->Jn2, part, Jn2);
+  if (gg_dsmc_sums_all(features)) gg_dsmc_sums_add(sums->J2, part, J2);
 }
 
 /* Stress and loss; what is not kept need not be computed. */
-GG_INLINE void gg_dsmc_sums_collect_stress(gg_dsmc_features f, gg_dsmc_sums *t, int p)
+GG_INLINE void gg_dsmc_sums_collect_stress(gg_dsmc_features features, gg_dsmc_sums *sums, int part)
 {
-  const bool one = gg_dsmc_sums_one(f);
+  const bool one = gg_dsmc_sums_one(features);
   const gg_vd none = gg_all(0);
   gg_vd xx = none, yy = none, zz = none, xy = none, yx = none, Jg = none, Jn2 = none, J2 = none;
-  for (unsigned i = 0; i < t->n; i++) {
-    const gg_dsmc_note *note = &t->note[i][p];
+  for (unsigned i = 0; i < sums->n; i++) {
+    const gg_dsmc_note *note = &sums->note[i][part];
     gg_vd3 k = note->k, J = note->J;
     gg_vd x = k.x * J.x, y = k.y * J.y, z = k.z * J.z, Jn = x + y + z;
     xx += x;
@@ -88,31 +88,31 @@ GG_INLINE void gg_dsmc_sums_collect_stress(gg_dsmc_features f, gg_dsmc_sums *t, 
     J2 += gg_vd3_dot(J, J);
     if (!one) Jg += note->Jg;
   }
-  gg_dsmc_sums_add(t->xx, p, xx);
-  gg_dsmc_sums_add(t->yy, p, yy);
-  gg_dsmc_sums_add(t->zz, p, zz);
-  gg_dsmc_sums_add(t->xy, p, xy);
-  gg_dsmc_sums_add(t->Jn2, p, Jn2);
+  gg_dsmc_sums_add(sums->xx, part, xx);
+  gg_dsmc_sums_add(sums->yy, part, yy);
+  gg_dsmc_sums_add(sums->zz, part, zz);
+  gg_dsmc_sums_add(sums->xy, part, xy);
+  gg_dsmc_sums_add(sums->Jn2, part, Jn2);
   if (one) return;
-  gg_dsmc_sums_add(t->yx, p, yx);
-  gg_dsmc_sums_add(t->Jg, p, Jg);
-  if (gg_dsmc_sums_all(f)) gg_dsmc_sums_add(t->J2, p, J2);
+  gg_dsmc_sums_add(sums->yx, part, yx);
+  gg_dsmc_sums_add(sums->Jg, part, Jg);
+  if (gg_dsmc_sums_all(features)) gg_dsmc_sums_add(sums->J2, part, J2);
 }
 
-GG_INLINE void gg_dsmc_sums_collect(gg_dsmc_features f, gg_dsmc_sums *t)
+GG_INLINE void gg_dsmc_sums_collect(gg_dsmc_features features, gg_dsmc_sums *sums)
 {
-  for (int p = 0; p < GG_PARTS; p++)
-    if (f.sums == GG_DSMC_STRESS)
-      gg_dsmc_sums_collect_stress(f, t, p);
+  for (int part = 0; part < GG_PARTS; part++)
+    if (features.sums == GG_DSMC_STRESS)
+      gg_dsmc_sums_collect_stress(features, sums, part);
     else
-      gg_dsmc_sums_collect_loss(f, t, p);
-  t->n = 0;
+      gg_dsmc_sums_collect_loss(features, sums, part);
+  sums->n = 0;
 }
 
 /* A block pair has its impulses; the note stays as it is until the next but one has its own. */
-GG_INLINE void gg_dsmc_sums_next(gg_dsmc_features f, gg_dsmc_sums *t)
+GG_INLINE void gg_dsmc_sums_next(gg_dsmc_features features, gg_dsmc_sums *sums)
 {
-  if (f.sums != GG_DSMC_NO_SUMS && ++t->n == GG_DSMC_NOTES) gg_dsmc_sums_collect(f, t);
+  if (features.sums != GG_DSMC_NO_SUMS && ++sums->n == GG_DSMC_NOTES) gg_dsmc_sums_collect(features, sums);
 }
 
 GG_INLINE double gg_dsmc_sum_of_lanes(const double v[GG_DSMC_LANES])
@@ -122,24 +122,24 @@ GG_INLINE double gg_dsmc_sum_of_lanes(const double v[GG_DSMC_LANES])
   return sum;
 }
 
-GG_INLINE void gg_dsmc_sums_finish(gg_dsmc_features f, gg_dsmc_sums *t, gg_dsmc_pass *p)
+GG_INLINE void gg_dsmc_sums_finish(gg_dsmc_features features, gg_dsmc_sums *sums, gg_dsmc_pass *pass)
 {
-  if (f.sums == GG_DSMC_NO_SUMS) return;
-  gg_dsmc_sums_collect(f, t);
+  if (features.sums == GG_DSMC_NO_SUMS) return;
+  gg_dsmc_sums_collect(features, sums);
   /* The kernel's impulses are in units of a mass, and so are their sums. */
-  const double mass = gg_dsmc_impulse_unit(f.same, &p->contact), stress = p->sigma * mass;
-  gg_loss_terms terms = {.Jg = mass * gg_dsmc_sum_of_lanes(t->Jg),
-                         .Jn2 = mass * mass * gg_dsmc_sum_of_lanes(t->Jn2),
-                         .J2 = mass * mass * gg_dsmc_sum_of_lanes(t->J2)};
-  if (f.sums == GG_DSMC_STRESS && gg_dsmc_sums_one(f)) terms.Jg = terms.Jn2 / p->contact.jn;
-  if (!gg_dsmc_sums_all(f)) terms = gg_dsmc_all_terms(f.rule, &p->contact, terms);
-  p->loss += gg_loss_of_terms(&p->contact, terms);
-  if (f.sums == GG_DSMC_LOSS) return;
-  p->stress[0][0] += stress * gg_dsmc_sum_of_lanes(t->xx);
-  p->stress[1][1] += stress * gg_dsmc_sum_of_lanes(t->yy);
-  p->stress[2][2] += stress * gg_dsmc_sum_of_lanes(t->zz);
-  p->stress[0][1] += stress * gg_dsmc_sum_of_lanes(t->xy);
-  p->stress[1][0] += stress * gg_dsmc_sum_of_lanes(gg_dsmc_sums_one(f) ? t->xy : t->yx);
+  const double mass = gg_dsmc_impulse_unit(features.same, &pass->contact), stress = pass->sigma * mass;
+  gg_loss_terms terms = {.Jg = mass * gg_dsmc_sum_of_lanes(sums->Jg),
+                         .Jn2 = mass * mass * gg_dsmc_sum_of_lanes(sums->Jn2),
+                         .J2 = mass * mass * gg_dsmc_sum_of_lanes(sums->J2)};
+  if (features.sums == GG_DSMC_STRESS && gg_dsmc_sums_one(features)) terms.Jg = terms.Jn2 / pass->contact.jn;
+  if (!gg_dsmc_sums_all(features)) terms = gg_dsmc_all_terms(features.rule, &pass->contact, terms);
+  pass->loss += gg_loss_of_terms(&pass->contact, terms);
+  if (features.sums == GG_DSMC_LOSS) return;
+  pass->stress[0][0] += stress * gg_dsmc_sum_of_lanes(sums->xx);
+  pass->stress[1][1] += stress * gg_dsmc_sum_of_lanes(sums->yy);
+  pass->stress[2][2] += stress * gg_dsmc_sum_of_lanes(sums->zz);
+  pass->stress[0][1] += stress * gg_dsmc_sum_of_lanes(sums->xy);
+  pass->stress[1][0] += stress * gg_dsmc_sum_of_lanes(gg_dsmc_sums_one(features) ? sums->xy : sums->yx);
 }
 
 #endif

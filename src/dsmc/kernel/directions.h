@@ -19,10 +19,10 @@ typedef struct gg_dsmc_directions {
 
 /* A point (u, v) uniform in the unit disc, s = u^2 + v^2, in the lanes of the mask: each coordinate from a word
  * of its own. Directions follow without trigonometry (Marsaglia, Ann. Math. Stat. 43 (1972) 645). */
-GG_INLINE gg_mask gg_dsmc_lane_disc(gg_dsmc_lane_rng *r, int p, gg_vd *u, gg_vd *v, gg_vd *s)
+GG_INLINE gg_mask gg_dsmc_lane_disc(gg_dsmc_lane_rng *rng, int part, gg_vd *u, gg_vd *v, gg_vd *s)
 {
   gg_vu first, second;
-  gg_dsmc_lane_two(r, p, &first, &second);
+  gg_dsmc_lane_two(rng, part, &first, &second);
   *u = gg_dsmc_lane_two_to_four(first) - 3;
   *v = gg_dsmc_lane_two_to_four(second) - 3;
   *s = *u * *u + *v * *v;
@@ -30,31 +30,31 @@ GG_INLINE gg_mask gg_dsmc_lane_disc(gg_dsmc_lane_rng *r, int p, gg_vd *u, gg_vd 
 }
 
 /* Uniform on the sphere. */
-GG_INLINE gg_mask gg_dsmc_lane_uniform(gg_dsmc_lane_rng *r, int p, gg_vd3 *w)
+GG_INLINE gg_mask gg_dsmc_lane_uniform(gg_dsmc_lane_rng *rng, int part, gg_vd3 *w)
 {
   gg_vd u, v, s;
-  gg_mask in = gg_dsmc_lane_disc(r, p, &u, &v, &s);
-  gg_vd f = 2 * gg_sqrt(gg_where(in, 1 - s));
-  *w = (gg_vd3){u * f, v * f, 1 - 2 * s};
+  gg_mask in = gg_dsmc_lane_disc(rng, part, &u, &v, &s);
+  gg_vd factor = 2 * gg_sqrt(gg_where(in, 1 - s));
+  *w = (gg_vd3){u * factor, v * factor, 1 - 2 * s};
   return in;
 }
 
 /* Cosine law about the z axis: its projection on the plane is uniform in the disc. */
-GG_INLINE gg_mask gg_dsmc_lane_cosine(gg_dsmc_lane_rng *r, int p, gg_vd3 *w)
+GG_INLINE gg_mask gg_dsmc_lane_cosine(gg_dsmc_lane_rng *rng, int part, gg_vd3 *w)
 {
   gg_vd s;
-  gg_mask in = gg_dsmc_lane_disc(r, p, &w->x, &w->y, &s);
+  gg_mask in = gg_dsmc_lane_disc(rng, part, &w->x, &w->y, &s);
   w->z = gg_sqrt(gg_where(in, 1 - s));
   return in;
 }
 
 /* Density |k_x k_y| on the sphere: z is the median of three uniform numbers on (-1, 1), density 3/4 (1 - z^2), and the
  * squared sine of the azimuth is uniform. */
-GG_INLINE gg_mask gg_dsmc_lane_sheared(gg_dsmc_lane_rng *r, int p, gg_vd3 *k)
+GG_INLINE gg_mask gg_dsmc_lane_sheared(gg_dsmc_lane_rng *rng, int part, gg_vd3 *k)
 {
   gg_vu word[4];
-  gg_dsmc_lane_two(r, p, &word[0], &word[1]);
-  gg_dsmc_lane_two(r, p, &word[2], &word[3]);
+  gg_dsmc_lane_two(rng, part, &word[0], &word[1]);
+  gg_dsmc_lane_two(rng, part, &word[2], &word[3]);
   gg_vd a = gg_dsmc_lane_one_to_two(word[0]), b = gg_dsmc_lane_one_to_two(word[1]);
   gg_vd c = gg_dsmc_lane_one_to_two(word[2]), q = gg_dsmc_lane_one_to_two(word[3]) - 1;
   gg_vd median = gg_larger(gg_smaller(a, b), gg_smaller(gg_larger(a, b), c));
@@ -67,65 +67,65 @@ GG_INLINE gg_mask gg_dsmc_lane_sheared(gg_dsmc_lane_rng *r, int p, gg_vd3 *k)
 
 typedef enum gg_dsmc_law { GG_DSMC_UNIFORM, GG_DSMC_COSINE, GG_DSMC_SHEAR_LAW } gg_dsmc_law;
 
-GG_INLINE gg_mask gg_dsmc_lane_direction(gg_dsmc_law law, gg_dsmc_lane_rng *r, int p, gg_vd3 *w)
+GG_INLINE gg_mask gg_dsmc_lane_direction(gg_dsmc_law law, gg_dsmc_lane_rng *rng, int part, gg_vd3 *w)
 {
   switch (law) {
-  case GG_DSMC_UNIFORM: return gg_dsmc_lane_uniform(r, p, w);
-  case GG_DSMC_COSINE: return gg_dsmc_lane_cosine(r, p, w);
-  default: return gg_dsmc_lane_sheared(r, p, w);
+  case GG_DSMC_UNIFORM: return gg_dsmc_lane_uniform(rng, part, w);
+  case GG_DSMC_COSINE: return gg_dsmc_lane_cosine(rng, part, w);
+  default: return gg_dsmc_lane_sheared(rng, part, w);
   }
 }
 
 /* Those that are left come to the front, whole registers at a time. */
-GG_INLINE void gg_dsmc_directions_move_up(gg_dsmc_directions *d)
+GG_INLINE void gg_dsmc_directions_move_up(gg_dsmc_directions *directions)
 {
-  for (unsigned i = 0; i < d->n - d->at; i += GG_WIDTH)
+  for (unsigned i = 0; i < directions->n - directions->at; i += GG_WIDTH)
     for (int k = 0; k < 3; k++) {
-      gg_real *list = d->x + k * GG_DSMC_DIRECTIONS_ROOM;
+      gg_real *list = directions->x + k * GG_DSMC_DIRECTIONS_ROOM;
       gg_vd some;
-      __builtin_memcpy(&some, list + d->at + i, sizeof some);
+      __builtin_memcpy(&some, list + directions->at + i, sizeof some);
       __builtin_memcpy(list + i, &some, sizeof some);
     }
-  d->n -= d->at;
-  d->at = 0;
+  directions->n -= directions->at;
+  directions->at = 0;
 }
 
 /* Sixteen block pairs begin. Should more directions be made in their midst? */
-GG_INLINE bool gg_dsmc_directions_begin(gg_dsmc_directions *d)
+GG_INLINE bool gg_dsmc_directions_begin(gg_dsmc_directions *directions)
 {
-  if (__builtin_expect(d->n > GG_DSMC_DIRECTIONS, 0)) gg_dsmc_directions_move_up(d);
-  return d->n - d->at < GG_DSMC_DIRECTIONS_FROM;
+  if (__builtin_expect(directions->n > GG_DSMC_DIRECTIONS, 0)) gg_dsmc_directions_move_up(directions);
+  return directions->n - directions->at < GG_DSMC_DIRECTIONS_FROM;
 }
 
 /* Up to eight more; `law` is constant. */
-GG_INLINE void gg_dsmc_directions_make(gg_dsmc_directions *d, gg_dsmc_lane_rng *r, gg_dsmc_law law)
+GG_INLINE void gg_dsmc_directions_make(gg_dsmc_directions *directions, gg_dsmc_lane_rng *rng, gg_dsmc_law law)
 {
-  for (int p = 0; p < GG_PARTS; p++) {
+  for (int part = 0; part < GG_PARTS; part++) {
     gg_vd3 w;
-    gg_mask made = gg_dsmc_lane_direction(law, r, p, &w);
-    gg_real *to = d->x + d->n;
+    gg_mask made = gg_dsmc_lane_direction(law, rng, part, &w);
+    gg_real *to = directions->x + directions->n;
     gg_pack(to, made, w.x);
     gg_pack(to + GG_DSMC_DIRECTIONS_ROOM, made, w.y);
     gg_pack(to + 2 * GG_DSMC_DIRECTIONS_ROOM, made, w.z);
-    d->n += (unsigned)__builtin_popcount(gg_bits(made));
+    directions->n += (unsigned)__builtin_popcount(gg_bits(made));
   }
 }
 
 /* At least eight are ready. */
-GG_INLINE void gg_dsmc_directions_ensure(gg_dsmc_directions *d, gg_dsmc_lane_rng *r, gg_dsmc_law law)
+GG_INLINE void gg_dsmc_directions_ensure(gg_dsmc_directions *directions, gg_dsmc_lane_rng *rng, gg_dsmc_law law)
 {
-  if (__builtin_expect(d->n - d->at >= GG_DSMC_LANES, 1)) return;
-  gg_dsmc_directions_move_up(d);
-  while (d->n < GG_DSMC_DIRECTIONS_FROM) gg_dsmc_directions_make(d, r, law);
+  if (__builtin_expect(directions->n - directions->at >= GG_DSMC_LANES, 1)) return;
+  gg_dsmc_directions_move_up(directions);
+  while (directions->n < GG_DSMC_DIRECTIONS_FROM) gg_dsmc_directions_make(directions, rng, law);
 }
 
 /* One for each lane of the mask; the others hold anything finite. */
-GG_INLINE gg_vd3 gg_dsmc_directions_take(gg_dsmc_directions *d, gg_mask m)
+GG_INLINE gg_vd3 gg_dsmc_directions_take(gg_dsmc_directions *directions, gg_mask mask)
 {
-  const gg_real *from = d->x + d->at;
-  gg_vd3 w = {gg_spread(m, from), gg_spread(m, from + GG_DSMC_DIRECTIONS_ROOM),
-              gg_spread(m, from + 2 * GG_DSMC_DIRECTIONS_ROOM)};
-  d->at += (unsigned)__builtin_popcount(gg_bits(m));
+  const gg_real *from = directions->x + directions->at;
+  gg_vd3 w = {gg_spread(mask, from), gg_spread(mask, from + GG_DSMC_DIRECTIONS_ROOM),
+              gg_spread(mask, from + 2 * GG_DSMC_DIRECTIONS_ROOM)};
+  directions->at += (unsigned)__builtin_popcount(gg_bits(mask));
   return w;
 }
 

@@ -84,14 +84,14 @@ GG_INLINE void gg_dsmc_note_speed_bound(float *speed_bound, int at, gg_vd c2, gg
 #ifndef GG_SINGLE_LANES
 /* Numbers kept in single precision: read, and rounded; what is there then. */
 typedef float gg_vf __attribute__((vector_size(4 * GG_WIDTH), aligned(4 * GG_WIDTH)));
-GG_INLINE gg_vd gg_dsmc_load_single(const float *p)
+GG_INLINE gg_vd gg_dsmc_load_single(const float *from)
 {
-  return __builtin_convertvector(*(const gg_vf *)p, gg_vd);
+  return __builtin_convertvector(*(const gg_vf *)from, gg_vd);
 }
-GG_INLINE gg_vd gg_dsmc_store_single(float *p, gg_vd v)
+GG_INLINE gg_vd gg_dsmc_store_single(float *to, gg_vd v)
 {
   gg_vf rounded = __builtin_convertvector(v, gg_vf);
-  *(gg_vf *)p = rounded;
+  *(gg_vf *)to = rounded;
   return __builtin_convertvector(rounded, gg_vd);
 }
 #endif

@@ -33,14 +33,14 @@ gg_dsmc_path gg_dsmc_choose_path(const gg_dsmc_population *one, const gg_dsmc_po
   return one->n_blocks < 100 || two->n_blocks < 100 ? GG_DSMC_PLAIN : GG_DSMC_BLOCKS;
 }
 
-double gg_dsmc_candidates_per_unit(gg_dsmc_path path, gg_dsmc_features f, const gg_dsmc_population *one,
+double gg_dsmc_candidates_per_unit(gg_dsmc_path path, gg_dsmc_features features, const gg_dsmc_population *one,
                                    const gg_dsmc_population *two)
 {
   if (path == GG_DSMC_PLAIN) {
-    double n = (double)one->n, pairs = f.same ? 0.5 * n * (n - 1) : n * (double)two->n;
+    double n = (double)one->n, pairs = features.same ? 0.5 * n * (n - 1) : n * (double)two->n;
     return 4 * M_PI * pairs;
   }
-  return gg_dsmc_block_pairs_per_unit(gg_dsmc_all_blocks(one), gg_dsmc_all_blocks(two), f.same);
+  return gg_dsmc_block_pairs_per_unit(gg_dsmc_all_blocks(one), gg_dsmc_all_blocks(two), features.same);
 }
 
 /* A draw of two blocks gives each of the pairs between them 1/8; among themselves they come in either order. */
@@ -49,17 +49,18 @@ double gg_dsmc_block_pairs_per_unit(gg_dsmc_range one, gg_dsmc_range two, bool t
   return M_PI * 8 * (themselves ? 0.5 : 1) * ((double)one.n * (double)two.n);
 }
 
-double gg_dsmc_sure_majorant(gg_dsmc_path path, gg_dsmc_features f, double speed, double shift)
+double gg_dsmc_sure_majorant(gg_dsmc_path path, gg_dsmc_features features, double speed, double shift)
 {
-  if (f.shear != GG_DSMC_SHEARED_DENSE) return speed;
+  if (features.shear != GG_DSMC_SHEARED_DENSE) return speed;
   return speed + (path == GG_DSMC_PLAIN ? 0.5 : GG_DSMC_SHEAR_SHARE) * shift; /* |k_x k_y| <= 1/2 */
 }
 
-void gg_dsmc_collide_pass(const gg_dsmc_kernels *kernels, gg_dsmc_path path, gg_dsmc_features f, gg_dsmc_pass *p,
-                          gg_dsmc_rng_lanes *lanes, gg_rng *rng)
+void gg_dsmc_collide_pass(const gg_dsmc_kernels *kernels, gg_dsmc_path path, gg_dsmc_features features,
+                          gg_dsmc_pass *pass, gg_dsmc_rng_lanes *lanes, gg_rng *rng)
 {
   if (path == GG_DSMC_PLAIN)
-    gg_dsmc_collide_plain(f, p, rng);
+    gg_dsmc_collide_plain(features, pass, rng);
   else
-    kernels->collide[p->one->single][f.law][f.rule]->of[f.shear][f.sums][f.same](p, lanes, rng);
+    kernels->collide[pass->one->single][features.law][features.rule]->of[features.shear][features.sums][features.same](
+        pass, lanes, rng);
 }

@@ -25,14 +25,14 @@ const gg_dsmc_kernels *gg_dsmc_kernels_for(gg_instructions set);
 gg_dsmc_path gg_dsmc_choose_path(const gg_dsmc_population *one, const gg_dsmc_population *two);
 
 /* Candidates (plain) or pairs of blocks (else) for every unit of majorant x (chi sigma^2/V) x time. */
-double gg_dsmc_candidates_per_unit(gg_dsmc_path path, gg_dsmc_features f, const gg_dsmc_population *one,
+double gg_dsmc_candidates_per_unit(gg_dsmc_path path, gg_dsmc_features features, const gg_dsmc_population *one,
                                    const gg_dsmc_population *two);
 /* The same for two ranges of blocks, or a range with itself. */
 double gg_dsmc_block_pairs_per_unit(gg_dsmc_range one, gg_dsmc_range two, bool themselves);
 /* A majorant that holds for sure: the largest rate, in the path's measure, at this relative speed. */
-double gg_dsmc_sure_majorant(gg_dsmc_path path, gg_dsmc_features f, double speed, double shift);
+double gg_dsmc_sure_majorant(gg_dsmc_path path, gg_dsmc_features features, double speed, double shift);
 
-void gg_dsmc_collide_pass(const gg_dsmc_kernels *kernels, gg_dsmc_path path, gg_dsmc_features f, gg_dsmc_pass *p,
-                          gg_dsmc_rng_lanes *lanes, gg_rng *rng);
+void gg_dsmc_collide_pass(const gg_dsmc_kernels *kernels, gg_dsmc_path path, gg_dsmc_features features,
+                          gg_dsmc_pass *pass, gg_dsmc_rng_lanes *lanes, gg_rng *rng);
 
 #endif

@@ -10,25 +10,26 @@
 GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
 {
   if (single) {
-    const gg_dsmc_block_single *c = (const gg_dsmc_block_single *)blocks + b;
-    return (gg_vd3){gg_dsmc_load_single(c->x + at), gg_dsmc_load_single(c->y + at), gg_dsmc_load_single(c->z + at)};
+    const gg_dsmc_block_single *block = (const gg_dsmc_block_single *)blocks + b;
+    return (gg_vd3){gg_dsmc_load_single(block->x + at), gg_dsmc_load_single(block->y + at),
+                    gg_dsmc_load_single(block->z + at)};
   }
-  const gg_dsmc_block *c = (const gg_dsmc_block *)blocks + b;
-  return (gg_vd3){gg_load(c->x + at), gg_load(c->y + at), gg_load(c->z + at)};
+  const gg_dsmc_block *block = (const gg_dsmc_block *)blocks + b;
+  return (gg_vd3){gg_load(block->x + at), gg_load(block->y + at), gg_load(block->z + at)};
 }
 
 /* Returns what is there now. */
 GG_INLINE gg_vd3 store(void *blocks, bool single, size_t b, int at, gg_vd3 v)
 {
   if (single) {
-    gg_dsmc_block_single *c = (gg_dsmc_block_single *)blocks + b;
-    return (gg_vd3){gg_dsmc_store_single(c->x + at, v.x), gg_dsmc_store_single(c->y + at, v.y),
-                    gg_dsmc_store_single(c->z + at, v.z)};
+    gg_dsmc_block_single *block = (gg_dsmc_block_single *)blocks + b;
+    return (gg_vd3){gg_dsmc_store_single(block->x + at, v.x), gg_dsmc_store_single(block->y + at, v.y),
+                    gg_dsmc_store_single(block->z + at, v.z)};
   }
-  gg_dsmc_block *c = (gg_dsmc_block *)blocks + b;
-  gg_store(c->x + at, v.x);
-  gg_store(c->y + at, v.y);
-  gg_store(c->z + at, v.z);
+  gg_dsmc_block *block = (gg_dsmc_block *)blocks + b;
+  gg_store(block->x + at, v.x);
+  gg_store(block->y + at, v.y);
+  gg_store(block->z + at, v.z);
   return v;
 }
 

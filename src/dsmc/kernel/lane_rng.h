@@ -40,9 +40,9 @@ GG_INLINE gg_vq gg_xor3(gg_vq a, gg_vq b, gg_vq c)
 }
 
 /* The next number of each of a part's lanes. */
-GG_INLINE gg_vq gg_dsmc_lane_next(gg_dsmc_lane_rng *r, int part)
+GG_INLINE gg_vq gg_dsmc_lane_next(gg_dsmc_lane_rng *rng, int part)
 {
-  gg_vq *s0 = &r->s[0][part], *s1 = &r->s[1][part], *s2 = &r->s[2][part], *s3 = &r->s[3][part];
+  gg_vq *s0 = &rng->s[0][part], *s1 = &rng->s[1][part], *s2 = &rng->s[2][part], *s3 = &rng->s[3][part];
   const gg_vq a = *s0, b = *s1, c = *s2, d = *s3;
   *s0 = gg_xor3(a, d, b);
   *s1 = gg_xor3(b, c, a);
@@ -51,18 +51,18 @@ GG_INLINE gg_vq gg_dsmc_lane_next(gg_dsmc_lane_rng *r, int part)
   return gg_dsmc_lane_rotl(a + d, 23) + a;
 }
 
-GG_INLINE void gg_dsmc_lane_rng_load(gg_dsmc_lane_rng *r, const gg_dsmc_rng_lanes *from)
+GG_INLINE void gg_dsmc_lane_rng_load(gg_dsmc_lane_rng *rng, const gg_dsmc_rng_lanes *from)
 {
   for (int i = 0; i < 4; i++)
-    for (int p = 0; p < GG_DSMC_LANES / GG_QUADS; p++)
-      __builtin_memcpy(&r->s[i][p], &from->s[i][p * GG_QUADS], sizeof(gg_vq));
+    for (int part = 0; part < GG_DSMC_LANES / GG_QUADS; part++)
+      __builtin_memcpy(&rng->s[i][part], &from->s[i][part * GG_QUADS], sizeof(gg_vq));
 }
 
-GG_INLINE void gg_dsmc_lane_rng_save(const gg_dsmc_lane_rng *r, gg_dsmc_rng_lanes *to)
+GG_INLINE void gg_dsmc_lane_rng_save(const gg_dsmc_lane_rng *rng, gg_dsmc_rng_lanes *to)
 {
   for (int i = 0; i < 4; i++)
-    for (int p = 0; p < GG_DSMC_LANES / GG_QUADS; p++)
-      __builtin_memcpy(&to->s[i][p * GG_QUADS], &r->s[i][p], sizeof(gg_vq));
+    for (int part = 0; part < GG_DSMC_LANES / GG_QUADS; part++)
+      __builtin_memcpy(&to->s[i][part * GG_QUADS], &rng->s[i][part], sizeof(gg_vq));
 }
 
 #endif

@@ -25,12 +25,12 @@ GG_INLINE void gg_dsmc_lane_sincos(gg_vd a, gg_vd *sine, gg_vd *cosine)
 }
 
 /* A unit vector in the plane, any angle: an eighth turn either way, turned on by the quarter that two bits choose. */
-GG_INLINE void gg_dsmc_lane_circle(gg_vu r, gg_vd *x, gg_vd *y)
+GG_INLINE void gg_dsmc_lane_circle(gg_vu word, gg_vd *x, gg_vd *y)
 {
   gg_vd s, c;
-  gg_dsmc_lane_sincos((gg_dsmc_lane_one_to_two(r) - 1.5) * M_PI_2, &s, &c);
-  c = (gg_vd)((gg_vu)c ^ (r << 63)); /* and s has either sign by itself */
-  gg_mask other = gg_low_bit(r >> 1);
+  gg_dsmc_lane_sincos((gg_dsmc_lane_one_to_two(word) - 1.5) * M_PI_2, &s, &c);
+  c = (gg_vd)((gg_vu)c ^ (word << 63)); /* and s has either sign by itself */
+  gg_mask other = gg_low_bit(word >> 1);
   *x = gg_select(other, s, c);
   *y = gg_select(other, c, s);
 }
@@ -48,10 +48,10 @@ GG_INLINE gg_vd gg_dsmc_lane_log(gg_vd u)
 }
 
 /* Two independent normal numbers a lane. */
-GG_INLINE void gg_dsmc_lane_normal(gg_dsmc_lane_rng *r, int part, gg_vd *a, gg_vd *b)
+GG_INLINE void gg_dsmc_lane_normal(gg_dsmc_lane_rng *rng, int part, gg_vd *a, gg_vd *b)
 {
-  gg_vd radius = gg_sqrt(-2 * gg_dsmc_lane_log(2 - gg_dsmc_lane_one_to_two(gg_dsmc_lane_next(r, part))));
-  gg_dsmc_lane_circle(gg_dsmc_lane_next(r, part), a, b);
+  gg_vd radius = gg_sqrt(-2 * gg_dsmc_lane_log(2 - gg_dsmc_lane_one_to_two(gg_dsmc_lane_next(rng, part))));
+  gg_dsmc_lane_circle(gg_dsmc_lane_next(rng, part), a, b);
   *a *= radius;
   *b *= radius;
 }

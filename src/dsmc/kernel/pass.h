@@ -40,12 +40,12 @@ typedef struct gg_dsmc_features {
 } gg_dsmc_features;
 
 /* With a law there are fewer instances: rough grains go with frictional ones, and the sums there can be are kept. */
-GG_INLINE gg_dsmc_features gg_dsmc_features_by_law(gg_dsmc_features f, bool boltzmann)
+GG_INLINE gg_dsmc_features gg_dsmc_features_by_law(gg_dsmc_features features, bool boltzmann)
 {
-  if (f.rule == GG_ROUGH) f.rule = GG_FRICTIONAL;
-  f.sums = boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
-  f.law = true;
-  return f;
+  if (features.rule == GG_ROUGH) features.rule = GG_FRICTIONAL;
+  features.sums = boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
+  features.law = true;
+  return features;
 }
 
 /* Whom the plain path tells of each collision. */
@@ -104,12 +104,12 @@ GG_INLINE void gg_dsmc_rng_lanes_seed(gg_dsmc_rng_lanes *lanes, uint64_t seed, u
 }
 
 /* The plain path, one candidate after another: what every other kernel is measured against. */
-void gg_dsmc_collide_plain(gg_dsmc_features f, gg_dsmc_pass *p, gg_rng *rng);
+void gg_dsmc_collide_plain(gg_dsmc_features features, gg_dsmc_pass *pass, gg_rng *rng);
 
 /* What the block kernels leave to it: blocks a and b are the same one, or one of them is not full. Every pair of grains
  * has the rate that it would have in a pair of full blocks: lane l of a against lane l ^ order of b, each as one
  * candidate whose rate, integrated over directions, is bounded by pi `majorant`. */
-void gg_dsmc_collide_odd_blocks(gg_dsmc_features f, gg_dsmc_pass *p, uint32_t a, uint32_t b, unsigned order,
+void gg_dsmc_collide_odd_blocks(gg_dsmc_features features, gg_dsmc_pass *pass, uint32_t a, uint32_t b, unsigned order,
                                 gg_rng *rng);
 
 #endif

@@ -17,14 +17,14 @@ typedef struct affine_map {
 } affine_map;
 
 /* Lanes from `at` on of n blocks. */
-GG_INLINE void synchronise(gg_dsmc_real_block *c, float *speed_bound, size_t n, int at, affine_map m,
+GG_INLINE void synchronise(gg_dsmc_real_block *c, float *speed_bound, size_t n, int at, affine_map map,
                            gg_dsmc_block_sums *sums)
 {
   gg_vd sx = gg_all(0), sy = sx, sz = sx, s2 = sx, fastest = sx;
   for (gg_dsmc_real_block *b = c; b < c + n; b++) {
-    gg_vd y = gg_load(b->y + at), x = m.scale * (gg_load(b->x + at) - m.strain * y) - m.x;
-    gg_vd z = m.scale * gg_load(b->z + at) - m.z;
-    y = m.scale * y - m.y;
+    gg_vd y = gg_load(b->y + at), x = map.scale * (gg_load(b->x + at) - map.strain * y) - map.x;
+    gg_vd z = map.scale * gg_load(b->z + at) - map.z;
+    y = map.scale * y - map.y;
     gg_vd c2 = x * x + y * y + z * z;
     gg_store(b->x + at, x);
     gg_store(b->y + at, y);
@@ -34,7 +34,7 @@ GG_INLINE void synchronise(gg_dsmc_real_block *c, float *speed_bound, size_t n, 
     sz += z;
     s2 += c2;
     fastest = gg_larger(fastest, c2);
-    gg_dsmc_note_speed_bound(&speed_bound[b - c], at, c2, m.per_scale);
+    gg_dsmc_note_speed_bound(&speed_bound[b - c], at, c2, map.per_scale);
   }
   for (int l = 0; l < GG_WIDTH; l++) {
     sums->c.x[at + l] += sx[l];
@@ -49,11 +49,11 @@ void NAME(GG_INSTRUCTIONS)(void *blocks, float *speed_bound, size_t n, double st
                            double bound_scale, gg_dsmc_block_sums *sums)
 {
   gg_dsmc_real_block *c = blocks;
-  const affine_map m = {(gg_real)strain,   (gg_real)scale,    (gg_real)centre.x,
-                        (gg_real)centre.y, (gg_real)centre.z, (gg_real)gg_dsmc_per_bound(bound_scale)};
+  const affine_map map = {(gg_real)strain,   (gg_real)scale,    (gg_real)centre.x,
+                          (gg_real)centre.y, (gg_real)centre.z, (gg_real)gg_dsmc_per_bound(bound_scale)};
   for (int at = 0; at < GG_DSMC_LANES; at += GG_WIDTH)
     for (size_t first = 0; first < n; first += RUN) {
-      synchronise(c + first, speed_bound + first, n - first < RUN ? n - first : RUN, at, m, sums);
+      synchronise(c + first, speed_bound + first, n - first < RUN ? n - first : RUN, at, map, sums);
       if (n - first <= RUN) break;
     }
 }

@@ -25,7 +25,7 @@ static const double worth_waking = 400;
 typedef struct species_pair {
   int i, j;
   gg_dsmc_path path;
-  gg_dsmc_features f;
+  gg_dsmc_features features;
   double rate; /* candidates per unit of gg_dsmc_block_pairs_per_unit, in a sweep */
   gg_dsmc_pass common;
 } species_pair;
@@ -86,16 +86,16 @@ static gg_dsmc_pass *sums_of(const rounds *r, int segment)
   return r->sum + (size_t)segment * (size_t)r->pairs;
 }
 
-/* Add what `p` hands back. */
-static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *p)
+/* Add what a pass hands back. */
+static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *pass)
 {
-  sum->tried += p->tried;
-  sum->collisions += p->collisions;
-  sum->overflows += p->overflows;
-  sum->largest = fmax(sum->largest, p->largest);
-  sum->loss += p->loss;
+  sum->tried += pass->tried;
+  sum->collisions += pass->collisions;
+  sum->overflows += pass->overflows;
+  sum->largest = fmax(sum->largest, pass->largest);
+  sum->loss += pass->loss;
   for (int a = 0; a < 3; a++)
-    for (int b = 0; b < 3; b++) sum->stress[a][b] += p->stress[a][b];
+    for (int b = 0; b < 3; b++) sum->stress[a][b] += pass->stress[a][b];
 }
 
 /* Two segments whose blocks collide. */
@@ -113,23 +113,23 @@ static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, in
   const double span = substep->length * r->span;
   gg_dsmc_schedule *schedule = r->d->schedule;
   const int segments = r->d->ensemble.segments, pair = gg_pair(s->i, s->j);
-  gg_dsmc_pass p = s->common;
-  p.blocks[0] = gg_dsmc_segment(p.one, segments, one);
-  p.blocks[1] = gg_dsmc_segment(p.two, segments, two);
-  double mean =
-      substep->length * s->rate * gg_dsmc_block_pairs_per_unit(p.blocks[0], p.blocks[1], s->f.same && one == two);
-  p.candidates = gg_dsmc_candidates(s->common.floor > 0, mean, &schedule->remainder[pair][one][two], &at->rng);
-  p.strain_step = p.candidates ? span / (double)p.candidates : 0;
-  p.strain = strain + 0.5 * p.strain_step;
+  gg_dsmc_pass pass = s->common;
+  pass.blocks[0] = gg_dsmc_segment(pass.one, segments, one);
+  pass.blocks[1] = gg_dsmc_segment(pass.two, segments, two);
+  double mean = substep->length * s->rate *
+                gg_dsmc_block_pairs_per_unit(pass.blocks[0], pass.blocks[1], s->features.same && one == two);
+  pass.candidates = gg_dsmc_candidates(s->common.floor > 0, mean, &schedule->remainder[pair][one][two], &at->rng);
+  pass.strain_step = pass.candidates ? span / (double)pass.candidates : 0;
+  pass.strain = strain + 0.5 * pass.strain_step;
   gg_dsmc_ensemble_strain_bounds(&at->bounds, strain, r->hold);
-  p.bound_scale = at->bounds.bound_scale;
-  if (r->hold > 0) p.bound_margin = gg_dsmc_bound_growth(r->hold);
-  gg_dsmc_collide_pass(r->d->ensemble.kernels, s->path, s->f, &p, &schedule->lanes[at->first], &at->rng);
+  pass.bound_scale = at->bounds.bound_scale;
+  if (r->hold > 0) pass.bound_margin = gg_dsmc_bound_growth(r->hold);
+  gg_dsmc_collide_pass(r->d->ensemble.kernels, s->path, s->features, &pass, &schedule->lanes[at->first], &at->rng);
   if (!(r->hold > 0)) {
-    at->bounds.bound_scale = fmax(p.bound_scale, at->bounds.bound_scale * gg_dsmc_bound_growth(span));
+    at->bounds.bound_scale = fmax(pass.bound_scale, at->bounds.bound_scale * gg_dsmc_bound_growth(span));
     at->bounds.bound_strain = strain + span;
   }
-  add(&sums_of(r, at->first)[pair], &p);
+  add(&sums_of(r, at->first)[pair], &pass);
 }
 
 /* All substeps of a pair of segments. Speed bounds of some scale hold at a larger one, too. */
@@ -143,7 +143,7 @@ static void collide_segments(rounds *r, double strain, int one, int two)
     const gg_dsmc_substep *substep = &r->substep[k];
     const double begin = strain + substep->begin * r->span;
     collide(r, substep, begin, one, two, &at);
-    if (one != two && !r->species[substep->pair].f.same) collide(r, substep, begin, two, one, &at);
+    if (one != two && !r->species[substep->pair].features.same) collide(r, substep, begin, two, one, &at);
   }
   r->bounds[one] = r->bounds[two] =
       (speed_bounds){at.bounds.bound_scale, at.bounds.bound_strain, at.bounds.bound_width};
@@ -229,7 +229,7 @@ static void correct_overflows(rounds *r, int pair, double majorant, double large
     if (r->substep[k].pair == pair) substep[correction.n_substeps++] = r->substep[k];
   for (double floor = majorant; largest > floor;) {
     double layer =
-        fmax(1.1 * largest, gg_dsmc_sure_majorant(s->path, s->f, 2 * d->now.fastest, s->common.shift)) - floor;
+        fmax(1.1 * largest, gg_dsmc_sure_majorant(s->path, s->features, 2 * d->now.fastest, s->common.shift)) - floor;
     species_pair *layer_pair = &correction.species[pair];
     layer_pair->common.floor = floor;
     layer_pair->common.majorant = layer;
@@ -246,7 +246,7 @@ static void correct_overflows(rounds *r, int pair, double majorant, double large
 static species_pair species_pair_of(gg_dsmc *d, int i, int j)
 {
   const int pair = gg_pair(i, j);
-  species_pair s = {.i = i, .j = j, .path = d->path[pair], .f = gg_dsmc_features_of(d, i, j)};
+  species_pair s = {.i = i, .j = j, .path = d->path[pair], .features = gg_dsmc_features_of(d, i, j)};
   s.common = gg_dsmc_pass_of(d, i, j);
   return s;
 }
@@ -288,7 +288,7 @@ static double expected_of(const gg_dsmc *d, const species_pair *s, double time)
 {
   double majorant = gg_dsmc_majorant_at(&d->now.majorant[gg_pair(s->i, s->j)], sqrt(d->now.temperature));
   return gg_dsmc_cross_section(d, s->i, s->j) * time * majorant *
-         gg_dsmc_candidates_per_unit(s->path, s->f, s->common.one, s->common.two);
+         gg_dsmc_candidates_per_unit(s->path, s->features, s->common.one, s->common.two);
 }
 
 void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting)
