@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "measure/cell_grid.h"
+#include "measure/local_frame.h"
 #include "measure/needs.h"
 #include "measure/observable.h"
 
@@ -35,8 +36,9 @@ enum {
   WIDTH = W_BOX + 5
 };
 
-typedef struct cell {                  /* sums over its grains */
+typedef struct cell {                  /* sums over its grains; between walls C and omega are about the flow */
   double n, mass, momentum[3], energy; /* m, m C, m C^2 */
+  double flow;                         /* m u_x of the flow that C is about */
   double inertia, spin[3], rotation;   /* I, I omega, I omega^2 */
   double omega, omega_squared, volume; /* omega_z, omega.omega, pi/6 d^3 */
   double heat, heat_mass;              /* T_i/T of the grain's species in the box, times 1 and m */
@@ -96,18 +98,27 @@ static void divide(const gg_model *m, const double sum[GG_MAX_SPECIES], double *
   if (m->n_species == 1) share[0] = 1;
 }
 
+/* Of grain i, with its spin; between walls about the flow at its height. */
+static gg_vec velocity_of(const gg_snapshot *s, size_t i, gg_vec *omega)
+{
+  gg_vec c = {s->c[0][i], s->c[1][i], s->c[2][i]}, spin = {0, 0, 0};
+  int species = gg_snapshot_species(s, i);
+  if (s->s[0]) spin = (gg_vec){s->s[0][i], s->s[1][i], s->s[2][i]};
+  if (s->frame && s->s[0]) spin = gg_measure_local_frame_spin(s->frame, s->r[1][i], spin, species);
+  *omega = gg_scale(2 / s->model->diameter[species], spin);
+  return s->frame ? gg_measure_local_frame_velocity(s->frame, s->r[1][i], c) : c;
+}
+
 static shares shares_of(const gg_model *m, const gg_snapshot *s)
 {
   shares of;
   double energy[GG_MAX_SPECIES] = {0}, rotation[GG_MAX_SPECIES] = {0}, spin[GG_MAX_SPECIES][3] = {{0}};
   for (size_t i = 0; i < s->n && m->n_species > 1; i++) {
     int k = gg_snapshot_species(s, i);
-    for (int a = 0; a < 3; a++) {
-      double omega = s->s[0] ? gg_snapshot_omega(s, a, i) : 0;
-      energy[k] += m->mass[k] * s->c[a][i] * s->c[a][i];
-      rotation[k] += gg_moment_of_inertia(m, k) * omega * omega;
-      spin[k][a] += omega;
-    }
+    gg_vec omega, c = velocity_of(s, i, &omega);
+    energy[k] += m->mass[k] * gg_dot(c, c);
+    rotation[k] += gg_moment_of_inertia(m, k) * gg_dot(omega, omega);
+    spin[k][0] += omega.x, spin[k][1] += omega.y, spin[k][2] += omega.z;
   }
   for (int k = 0; k < m->n_species; k++) /* about the species' mean spin */
     for (int a = 0; a < 3; a++)
@@ -125,15 +136,16 @@ static void add_grain(const gg_model *m, const gg_snapshot *s, const shares *of,
   c->mass += mass;
   c->heat += of->heat[k], c->heat_mass += of->heat[k] * mass;
   c->volume += M_PI / 6 * diameter * diameter * diameter;
-  for (int a = 0; a < 3; a++) c->momentum[a] += mass * s->c[a][i], c->energy += mass * s->c[a][i] * s->c[a][i];
+  gg_vec omega, C = velocity_of(s, i, &omega);
+  c->momentum[0] += mass * C.x, c->momentum[1] += mass * C.y, c->momentum[2] += mass * C.z;
+  c->energy += mass * gg_dot(C, C);
+  if (s->frame) c->flow += mass * gg_measure_local_frame_flow(s->frame, s->r[1][i]).x;
   if (!s->s[0]) return;
   c->inertia += I;
   c->turning += of->turning[k], c->turning_inertia += of->turning[k] * I;
-  for (int a = 0; a < 3; a++) {
-    double omega = gg_snapshot_omega(s, a, i);
-    c->spin[a] += I * omega, c->rotation += I * omega * omega;
-    c->omega_squared += omega * omega;
-  }
+  c->spin[0] += I * omega.x, c->spin[1] += I * omega.y, c->spin[2] += I * omega.z;
+  c->rotation += I * gg_dot(omega, omega);
+  for (int a = 0; a < 3; a++) c->omega_squared += pow(gg_snapshot_omega(s, a, i), 2);
   c->omega += gg_snapshot_omega(s, 2, i);
 }
 
@@ -212,7 +224,7 @@ static void drop(double x, double width, int n, double *bin, double *count)
 
 static double mean_x(const cell *c)
 {
-  return c->mass > 0 ? c->momentum[0] / c->mass : NAN;
+  return c->mass > 0 ? (c->momentum[0] + c->flow) / c->mass : NAN;
 }
 
 /* Of inner rows only where the rows beyond the boundary are walls or slide. */

@@ -5,8 +5,11 @@
 
 #include "common/engine.h"
 
+struct gg_local_frame;
+
 typedef struct gg_snapshot {
   const gg_model *model;
+  const struct gg_local_frame *frame; /* between walls: of the flow (local_frame.h); else NULL */
   size_t n;
   double *r[3], *c[3],
       *s[3];           /* positions in the box (NULL where not asked for), peculiar velocities, spins (or NULL) */

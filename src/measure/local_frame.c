@@ -3,7 +3,7 @@
 #include <math.h>
 
 /* A slab holds at least so many grains on average, and is at least a diameter thick. */
-enum { GRAINS_PER_SLAB = 30 };
+enum { GRAINS_PER_SLAB = 10 };
 
 static int slabs_of(const gg_model *model)
 {
@@ -11,44 +11,39 @@ static int slabs_of(const gg_model *model)
   return n < 1 ? 1 : n > GG_MAX_SLABS ? GG_MAX_SLABS : (int)n;
 }
 
-static int slab_of(const gg_local_frame *f, double y)
+/* The slab at height y, and the height in it: from its middle, in its thickness. */
+static int slab_at(double inverse_thickness, int n, double y, double *height)
 {
-  int k = (int)((y - f->bottom) * f->inverse_width);
-  return k < 0 ? 0 : k >= f->n_slabs ? f->n_slabs - 1 : k;
+  int k = (int)(y * inverse_thickness);
+  k = k < 0 ? 0 : k >= n ? n - 1 : k;
+  *height = y * inverse_thickness - k - 0.5;
+  return k;
 }
 
-static void start(gg_local_frame *f, const gg_model *model)
+void gg_measure_slabs_init(gg_slabs *slabs, const gg_model *model)
 {
-  *f = (gg_local_frame){.n_slabs = slabs_of(model)};
-  f->inverse_width = f->n_slabs / model->box[1];
-  for (int i = 0; i < model->n_species; i++) f->radius[i] = model->diameter[i] / 2;
+  *slabs = (gg_slabs){.n = slabs_of(model)};
+  slabs->inverse_thickness = (double)slabs->n / model->box[1];
+  for (int i = 0; i < model->n_species; i++) slabs->radius[i] = model->diameter[i] / 2;
 }
 
-static void add_spin(gg_local_frame *f, double y, gg_vec s, int species)
+static void add_vector(double sum[3], double weight, gg_vec v)
 {
-  double *sum = f->spin[slab_of(f, y)], radius = f->radius[species];
-  sum[0] += s.x / radius, sum[1] += s.y / radius, sum[2] += s.z / radius;
+  sum[0] += weight * v.x, sum[1] += weight * v.y, sum[2] += weight * v.z;
 }
 
-static void add(gg_local_frame *f, double y, gg_vec c, int species)
+static void add_grain(gg_slabs *slabs, double y, gg_vec c, const gg_vec *spin, int species)
 {
-  int k = slab_of(f, y);
-  f->count[k]++;
-  f->first[k] += species == 0;
-  f->mean[k][0] += c.x, f->mean[k][1] += c.y, f->mean[k][2] += c.z;
-  f->temperature[k] += gg_dot(c, c);
-}
-
-static void finish(gg_local_frame *f)
-{
-  for (int k = 0; k < f->n_slabs; k++) {
-    double n = f->count[k], of_mean = 0;
-    for (int a = 0; a < 3; a++) f->mean[k][a] = n > 0 ? f->mean[k][a] / n : 0;
-    for (int a = 0; a < 3; a++) f->spin[k][a] = n > 0 ? f->spin[k][a] / n : 0;
-    for (int a = 0; a < 3; a++) of_mean += n * f->mean[k][a] * f->mean[k][a];
-    f->stretch[k] = n > 1 ? sqrt(n / (n - 1)) : 1;
-    f->temperature[k] = n > 1 ? (f->temperature[k] - of_mean) / (3 * (n - 1)) : 0;
-  }
+  double height;
+  gg_slab *slab = &slabs->slab[slab_at(slabs->inverse_thickness, slabs->n, y, &height)];
+  slab->grains++, slab->first += species == 0;
+  slab->height += height, slab->height_square += height * height;
+  add_vector(slab->velocity, 1, c);
+  add_vector(slab->moment, height, c);
+  slab->square += gg_dot(c, c);
+  if (!spin) return;
+  add_vector(slab->spin, 1 / slabs->radius[species], *spin);
+  add_vector(slab->spin_moment, height / slabs->radius[species], *spin);
 }
 
 static gg_vec at(const double *const x[3], size_t i)
@@ -64,41 +59,112 @@ static int species_of(const gg_chunk *chunk, size_t i)
 static void add_chunk(void *context, const gg_chunk *chunk)
 {
   for (size_t i = 0; i < chunk->n; i++) {
-    add(context, chunk->r[1][i], at(chunk->c, i), species_of(chunk, i));
-    if (chunk->s[0]) add_spin(context, chunk->r[1][i], at(chunk->s, i), species_of(chunk, i));
+    gg_vec spin = chunk->s[0] ? at(chunk->s, i) : (gg_vec){0, 0, 0};
+    add_grain(context, chunk->r[1][i], at(chunk->c, i), chunk->s[0] ? &spin : NULL, species_of(chunk, i));
   }
 }
 
-void gg_measure_local_frame_take(gg_local_frame *f, const gg_model *model, gg_engine *engine)
+void gg_measure_slabs_take(gg_slabs *slabs, const gg_model *model, gg_engine *engine)
 {
-  start(f, model);
-  engine->ops->snapshot(engine, true, add_chunk, f);
-  finish(f);
+  gg_measure_slabs_init(slabs, model);
+  engine->ops->snapshot(engine, true, add_chunk, slabs);
 }
 
-void gg_measure_local_frame_of_snapshot(gg_local_frame *f, const gg_snapshot *s)
+void gg_measure_slabs_of_snapshot(gg_slabs *slabs, const gg_snapshot *s)
 {
-  start(f, s->model);
-  for (size_t i = 0; i < s->n; i++) {
-    int species = gg_snapshot_species(s, i);
-    add(f, s->r[1][i], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]}, species);
-    if (s->s[0]) add_spin(f, s->r[1][i], (gg_vec){s->s[0][i], s->s[1][i], s->s[2][i]}, species);
+  gg_chunk all = {.n = s->n, .species = s->species};
+  for (int a = 0; a < 3; a++) all.r[a] = s->r[a], all.c[a] = s->c[a], all.s[a] = s->s[a];
+  gg_measure_slabs_init(slabs, s->model);
+  add_chunk(slabs, &all);
+}
+
+bool gg_measure_slabs_are_empty(const gg_slabs *slabs)
+{
+  double grains = 0;
+  for (int k = 0; k < slabs->n; k++) grains += slabs->slab[k].grains;
+  return grains == 0;
+}
+
+void gg_measure_slabs_add(gg_slabs *slabs, const gg_slabs *more)
+{
+  double *to = (double *)slabs->slab;
+  const double *from = (const double *)more->slab;
+  for (size_t i = 0; i < (size_t)slabs->n * sizeof(gg_slab) / sizeof(double); i++) to[i] += from[i];
+}
+
+/* Sum of squares of heights about their mean; 0 where grains are too few for a line, which then is their mean alone. */
+static double spread_of(const gg_slab *slab)
+{
+  double spread = slab->grains > 0 ? slab->height_square - slab->height * slab->height / slab->grains : 0;
+  return slab->grains < 3 || spread < 1e-6 * slab->grains ? 0 : spread;
+}
+
+static gg_line fit_line(const gg_slab *slab, const double sum[3], const double moment[3])
+{
+  gg_line line = {{0}, {0}};
+  double spread = spread_of(slab);
+  for (int a = 0; a < 3 && slab->grains > 0; a++) {
+    line.mean[a] = sum[a] / slab->grains;
+    if (spread > 0) line.slope[a] = (moment[a] - slab->height * line.mean[a]) / spread;
   }
-  finish(f);
+  return line;
+}
+
+/* Grains less the parameters of the fit. */
+static double left_of(const gg_slab *slab)
+{
+  return slab->grains - (spread_of(slab) > 0 ? 2 : 1);
+}
+
+double gg_measure_slab_temperature(const gg_slab *slab)
+{
+  gg_line line = fit_line(slab, slab->velocity, slab->moment);
+  double squares = slab->square, spread = spread_of(slab), left = left_of(slab);
+  for (int a = 0; a < 3; a++)
+    squares -= slab->grains * line.mean[a] * line.mean[a] + spread * line.slope[a] * line.slope[a];
+  return left > 0 ? squares / (3 * left) : 0;
+}
+
+void gg_measure_local_frame_make(gg_local_frame *f, const gg_slabs *slabs)
+{
+  f->n = slabs->n, f->inverse_thickness = slabs->inverse_thickness;
+  for (int i = 0; i < GG_MAX_SPECIES; i++) f->radius[i] = slabs->radius[i];
+  for (int k = 0; k < f->n; k++) {
+    const gg_slab *slab = &slabs->slab[k];
+    double left = left_of(slab);
+    f->centre[k] = slab->grains > 0 ? slab->height / slab->grains : 0;
+    f->stretch[k] = left > 0 ? sqrt(slab->grains / left) : 1;
+    f->flow[k] = fit_line(slab, slab->velocity, slab->moment);
+    f->rolling[k] = fit_line(slab, slab->spin, slab->spin_moment);
+  }
+}
+
+static gg_vec on_line(const gg_line *line, double height)
+{
+  return (gg_vec){line->mean[0] + line->slope[0] * height, line->mean[1] + line->slope[1] * height,
+                  line->mean[2] + line->slope[2] * height};
+}
+
+gg_vec gg_measure_local_frame_flow(const gg_local_frame *f, double y)
+{
+  double height;
+  int k = slab_at(f->inverse_thickness, f->n, y, &height);
+  return on_line(&f->flow[k], height - f->centre[k]);
 }
 
 gg_vec gg_measure_local_frame_velocity(const gg_local_frame *f, double y, gg_vec c)
 {
-  int k = slab_of(f, y);
-  gg_vec mean = {f->mean[k][0], f->mean[k][1], f->mean[k][2]};
-  return gg_scale(f->stretch[k], gg_sub(c, mean));
+  double height;
+  int k = slab_at(f->inverse_thickness, f->n, y, &height);
+  return gg_scale(f->stretch[k], gg_sub(c, on_line(&f->flow[k], height - f->centre[k])));
 }
 
 gg_vec gg_measure_local_frame_spin(const gg_local_frame *f, double y, gg_vec s, int species)
 {
-  int k = slab_of(f, y);
-  gg_vec mean = {f->spin[k][0], f->spin[k][1], f->spin[k][2]};
-  return gg_scale(f->stretch[k], gg_sub(s, gg_scale(f->radius[species], mean)));
+  double height;
+  int k = slab_at(f->inverse_thickness, f->n, y, &height);
+  gg_vec rolling = on_line(&f->rolling[k], height - f->centre[k]);
+  return gg_scale(f->stretch[k], gg_sub(s, gg_scale(f->radius[species], rolling)));
 }
 
 typedef struct shifting {

@@ -1,7 +1,9 @@
-/* Peculiar velocities in walled flows, where no profile is imposed: the flow velocity is the mean over slabs across y
- * of this very instant, and what observables are given is c - u(y). Subtracting a slab's own mean takes 1/n_c of the
- * variance of its n_c grains away; velocities are scaled by sqrt(n_c/(n_c - 1)) to give it back. Spins likewise: grains
- * roll with the flow, at another rate in each slab (one for all species), and that is no heat. */
+/* Peculiar velocities in walled flows, where no profile is imposed. The flow velocity u(y) is a straight line in each
+ * slab across y, fitted to the velocities of all samples of the averaging window so far: a mean alone would leave the
+ * shear within a slab in the temperature, and a fit to one instant takes more out of it than the noise of the slab's
+ * few grains, since neighbours move together. Observables are given c - u(y). A line takes 2/n of the variance of its n
+ * velocities away; residuals are scaled by sqrt(n/(n - 2)) to give it back. Spins likewise: grains roll with the flow,
+ * at another rate at each height (one for all species), and that is no heat. */
 #ifndef GG_LOCAL_FRAME_H
 #define GG_LOCAL_FRAME_H
 
@@ -9,22 +11,47 @@
 
 enum { GG_MAX_SLABS = 128 };
 
+/* Sums over the grains in a slab; heights are from its middle, in its thickness; spins are angular velocities. */
+typedef struct gg_slab {
+  double grains, first; /* of all species, of the first */
+  double height, height_square;
+  double velocity[3], moment[3], square; /* c, height times c, c.c */
+  double spin[3], spin_moment[3];
+} gg_slab;
+
+typedef struct gg_slabs {
+  int n;
+  double inverse_thickness, radius[GG_MAX_SPECIES]; /* a spin is that of the surface: radius times angular velocity */
+  gg_slab slab[GG_MAX_SLABS];
+} gg_slabs;
+
+typedef struct gg_line {
+  double mean[3], slope[3]; /* at the mean height; per thickness */
+} gg_line;
+
 typedef struct gg_local_frame {
-  int n_slabs;
-  double bottom, inverse_width;
-  double count[GG_MAX_SLABS], mean[GG_MAX_SLABS][3], stretch[GG_MAX_SLABS];
-  double spin[GG_MAX_SLABS][3];     /* mean angular velocity */
-  double radius[GG_MAX_SPECIES];    /* a spin is that of the surface: radius times angular velocity */
-  double first[GG_MAX_SLABS];       /* grains of species 1 */
-  double temperature[GG_MAX_SLABS]; /* <C.C>/3 about that mean, what it takes away given back */
+  int n;
+  double inverse_thickness, radius[GG_MAX_SPECIES];
+  double centre[GG_MAX_SLABS], stretch[GG_MAX_SLABS]; /* mean height; what gives the fit's share back */
+  gg_line flow[GG_MAX_SLABS], rolling[GG_MAX_SLABS];
 } gg_local_frame;
 
-/* Measure the mean velocity and spin of every slab now. */
-void gg_measure_local_frame_take(gg_local_frame *frame, const gg_model *model, gg_engine *engine);
+/* No grains yet. */
+void gg_measure_slabs_init(gg_slabs *slabs, const gg_model *model);
+bool gg_measure_slabs_are_empty(const gg_slabs *slabs);
+/* The sums of this instant. */
+void gg_measure_slabs_take(gg_slabs *slabs, const gg_model *model, gg_engine *engine);
+void gg_measure_slabs_of_snapshot(gg_slabs *slabs, const gg_snapshot *snapshot);
+/* Add those of another instant. */
+void gg_measure_slabs_add(gg_slabs *slabs, const gg_slabs *more);
+/* <C.C>/3 about the slab's own line. */
+double gg_measure_slab_temperature(const gg_slab *slab);
 
-void gg_measure_local_frame_of_snapshot(gg_local_frame *frame, const gg_snapshot *snapshot);
+void gg_measure_local_frame_make(gg_local_frame *frame, const gg_slabs *slabs);
 gg_vec gg_measure_local_frame_velocity(const gg_local_frame *frame, double y, gg_vec c);
 gg_vec gg_measure_local_frame_spin(const gg_local_frame *frame, double y, gg_vec s, int species);
+/* The flow velocity u(y). */
+gg_vec gg_measure_local_frame_flow(const gg_local_frame *frame, double y);
 
 /* Show every grain with its velocity and spin in the local frame. */
 void gg_measure_local_frame_snapshot(const gg_local_frame *frame, gg_engine *engine, gg_visit *visit, void *context);

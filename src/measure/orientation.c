@@ -74,30 +74,30 @@ static gg_vec at(double *const x[3], size_t i)
   return (gg_vec){x[0][i], x[1][i], x[2][i]};
 }
 
-static gg_vec spin_of(const gg_snapshot *s, const gg_local_frame *frame, size_t i)
+static gg_vec spin_of(const gg_snapshot *s, size_t i)
 {
-  if (!s->model->walled) return at(s->s, i);
-  return gg_measure_local_frame_spin(frame, s->r[1][i], at(s->s, i), gg_snapshot_species(s, i));
+  if (!s->frame) return at(s->s, i);
+  return gg_measure_local_frame_spin(s->frame, s->r[1][i], at(s->s, i), gg_snapshot_species(s, i));
 }
 
 /* By species: grains of two sizes spin at different mean rates. */
-static gg_vec mean_spin(const gg_snapshot *s, const gg_local_frame *frame, int species)
+static gg_vec mean_spin(const gg_snapshot *s, int species)
 {
   gg_vec sum = {0, 0, 0};
   double n = 0;
   for (size_t i = 0; i < s->n; i++)
-    if (gg_snapshot_species(s, i) == species) sum = gg_add(sum, spin_of(s, frame, i)), n++;
+    if (gg_snapshot_species(s, i) == species) sum = gg_add(sum, spin_of(s, i)), n++;
   return gg_scale(n > 0 ? 1 / n : 0, sum);
 }
 
 /* Velocity and spin, both peculiar; between walls about flow and spin of the slab, elsewhere what a snapshot holds. */
-static void take_peculiar(const gg_snapshot *s, size_t from, size_t n, const gg_local_frame *frame,
-                          const gg_vec mean[GG_MAX_SPECIES], vectors *c, vectors *w)
+static void take_peculiar(const gg_snapshot *s, size_t from, size_t n, const gg_vec mean[GG_MAX_SPECIES], vectors *c,
+                          vectors *w)
 {
   for (size_t k = 0; k < n; k++) {
     size_t i = from + k;
-    gg_vec C = at(s->c, i), W = gg_sub(spin_of(s, frame, i), mean[gg_snapshot_species(s, i)]);
-    if (s->model->walled) C = gg_measure_local_frame_velocity(frame, s->r[1][i], C);
+    gg_vec C = at(s->c, i), W = gg_sub(spin_of(s, i), mean[gg_snapshot_species(s, i)]);
+    if (s->frame) C = gg_measure_local_frame_velocity(s->frame, s->r[1][i], C);
     c->x[0][k] = C.x, c->x[1][k] = C.y, c->x[2][k] = C.z;
     w->x[0][k] = W.x, w->x[1][k] = W.y, w->x[2][k] = W.z;
   }
@@ -122,13 +122,11 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   (void)self;
   const gg_model *m = s->model;
   gg_vec mean[GG_MAX_SPECIES];
-  gg_local_frame frame;
   vectors c = {{{0}}}, w = {{{0}}};
-  if (m->walled) gg_measure_local_frame_of_snapshot(&frame, s);
-  for (int k = 0; k < m->n_species; k++) mean[k] = mean_spin(s, &frame, k);
+  for (int k = 0; k < m->n_species; k++) mean[k] = mean_spin(s, k);
   for (size_t from = 0; from < s->n; from += GRAINS) {
     size_t n = s->n - from < GRAINS ? s->n - from : GRAINS;
-    take_peculiar(s, from, n, &frame, mean, &c, &w);
+    take_peculiar(s, from, n, mean, &c, &w);
     count(&c, &w, n, bin);
     if (!has_both(m)) continue;
     take_instantaneous(s, from, n, &c, &w);

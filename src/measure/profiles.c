@@ -1,7 +1,8 @@
 /* Profiles across the gap between walls: solid fraction (each grain where its centre is), flow velocity, temperatures
- * about the local mean, mean spin. Means are over the window, so a slab's temperature is about its mean velocity of the
- * whole window: nothing has to be put back for the few grains of one instant. Where the walls are alike the profiles
- * are those of the flow and its image together: what wanders to and fro about the middle is not in them. */
+ * about the local flow, mean spin. Means are over the window, so a slab's temperature is about its flow of the whole
+ * window, a straight line in each slab: nothing has to be put back for the few grains of one instant. Where the walls
+ * are alike the profiles are those of the flow and its image together: what wanders to and fro about the middle is not
+ * in them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,8 +15,10 @@
 
 enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
 #define THICKNESS 0.5
-/* Sums over a slab: pi/6 d^3, mass, m C, m C^2, I, I omega, I omega^2, grains, omega_z */
-enum { VOLUME, MASS, MOMENTUM, ENERGY = MOMENTUM + 3, INERTIA, SPIN, ROTATION = SPIN + 3, GRAINS, OMEGA, SLAB };
+/* Sums over a slab: pi/6 d^3, grains, omega_z; then with the weight w = m of v = C and with w = I of v = omega: w, w v,
+ * w v^2, and with the height h above the slab's middle, in its thickness: w h, w h^2, w h v. */
+enum { WEIGHT, FIRST, SQUARE = FIRST + 3, HEIGHT, HEIGHT_SQUARE, MOMENT, MOTION = MOMENT + 3 };
+enum { VOLUME, GRAINS, OMEGA, FLOW, ROLLING = FLOW + MOTION, SLAB = ROLLING + MOTION };
 
 /* Behind the slabs: time, and the impulses on the surfaces of the model. */
 enum { TIME, IMPULSE, WALLS = IMPULSE + 3 * GG_MOST_SURFACES, MOST_BINS = MOST_SLABS * SLAB + WALLS };
@@ -64,6 +67,15 @@ static void add_interval(void *self, const gg_interval *in)
     for (int a = 0; a < 3; a++) d->walls[IMPULSE + 3 * w + a] += in->transfer->surface[w].impulse[a];
 }
 
+static void add_motion(double *sum, double weight, double height, const double v[3])
+{
+  sum[WEIGHT] += weight, sum[HEIGHT] += weight * height, sum[HEIGHT_SQUARE] += weight * height * height;
+  for (int a = 0; a < 3; a++) {
+    sum[FIRST + a] += weight * v[a], sum[MOMENT + a] += weight * height * v[a];
+    sum[SQUARE] += weight * v[a] * v[a];
+  }
+}
+
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   profiles *d = self;
@@ -71,23 +83,18 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   for (int k = 0; k < WALLS; k++) bin[d->slabs * SLAB + k] += d->walls[k];
   restart(d);
   for (size_t i = 0; i < s->n; i++) {
-    int slab = (int)floor(s->r[1][i] / m->box[1] * d->slabs), k = gg_snapshot_species(s, i);
+    double y = s->r[1][i] / m->box[1] * d->slabs;
+    int slab = (int)floor(y), k = gg_snapshot_species(s, i);
     if (slab < 0 || slab >= d->slabs) continue; /* above an open top */
-    double *at = bin + slab * SLAB, mass = m->mass[k], I = gg_moment_of_inertia(m, k), diameter = m->diameter[k];
+    double *at = bin + slab * SLAB, height = y - slab - 0.5, diameter = m->diameter[k];
     at[VOLUME] += M_PI / 6 * diameter * diameter * diameter;
-    at[MASS] += mass;
     at[GRAINS]++;
-    for (int a = 0; a < 3; a++) {
-      double c = s->c[a][i];
-      at[MOMENTUM + a] += mass * c, at[ENERGY] += mass * c * c;
-    }
+    add_motion(at + FLOW, m->mass[k], height, (const double[]){s->c[0][i], s->c[1][i], s->c[2][i]});
     if (!s->s[0]) continue;
-    at[INERTIA] += I;
-    at[OMEGA] += gg_snapshot_omega(s, 2, i);
-    for (int a = 0; a < 3; a++) {
-      double omega = gg_snapshot_omega(s, a, i);
-      at[SPIN + a] += I * omega, at[ROTATION] += I * omega * omega;
-    }
+    double omega[3];
+    for (int a = 0; a < 3; a++) omega[a] = gg_snapshot_omega(s, a, i);
+    at[OMEGA] += omega[2];
+    add_motion(at + ROLLING, gg_moment_of_inertia(m, k), height, omega);
   }
 }
 
@@ -102,9 +109,13 @@ static double image_of(gg_wall_symmetry symmetry, bool axial, int a)
 static void slab_image(gg_wall_symmetry symmetry, const double *at, double *to)
 {
   for (int k = 0; k < SLAB; k++) to[k] = at[k];
-  for (int a = 0; a < 3; a++) {
-    to[MOMENTUM + a] *= image_of(symmetry, false, a);
-    to[SPIN + a] *= image_of(symmetry, true, a);
+  for (int spin = 0; spin < 2; spin++) {
+    double *motion = to + (spin ? ROLLING : FLOW);
+    motion[HEIGHT] *= -1;
+    for (int a = 0; a < 3; a++) {
+      double sign = image_of(symmetry, spin, a);
+      motion[FIRST + a] *= sign, motion[MOMENT + a] *= -sign;
+    }
   }
   to[OMEGA] *= image_of(symmetry, true, 2);
 }
@@ -137,21 +148,29 @@ static double solid_fraction(const double *at, double volume)
 static double velocity(const double *at, double volume)
 {
   (void)volume;
-  return at[MOMENTUM] / at[MASS];
+  return at[FLOW + FIRST] / at[FLOW + WEIGHT];
 }
-static double about_mean(const double *sum, const double *first, double weight, double grains)
+/* <w v^2>/3 about the straight line through the velocities of the slab. */
+static double about_line(const double *sum, double grains)
 {
-  return (sum[0] - (first[0] * first[0] + first[1] * first[1] + first[2] * first[2]) / weight) / (3 * grains);
+  double left = sum[SQUARE], centre = sum[HEIGHT] / sum[WEIGHT];
+  double spread = sum[HEIGHT_SQUARE] - centre * sum[HEIGHT];
+  for (int a = 0; a < 3; a++) {
+    double moment = sum[MOMENT + a] - centre * sum[FIRST + a];
+    left -= sum[FIRST + a] * sum[FIRST + a] / sum[WEIGHT];
+    if (spread > 1e-9 * sum[WEIGHT]) left -= moment * moment / spread;
+  }
+  return left / (3 * grains);
 }
 static double temperature(const double *at, double volume)
 {
   (void)volume;
-  return about_mean(at + ENERGY, at + MOMENTUM, at[MASS], at[GRAINS]);
+  return about_line(at + FLOW, at[GRAINS]);
 }
 static double rotational_temperature(const double *at, double volume)
 {
   (void)volume;
-  return about_mean(at + ROTATION, at + SPIN, at[INERTIA], at[GRAINS]);
+  return about_line(at + ROLLING, at[GRAINS]);
 }
 static double temperature_ratio(const double *at, double volume)
 {

@@ -52,19 +52,20 @@ bool gg_measure_wall_mode_is_odd(const gg_model *m, int mode)
   return symmetry == GG_TURNED && table[mode].along_x ? !across : across;
 }
 
-void gg_measure_wall_modes_take(const gg_model *m, const gg_local_frame *f, double *row)
+void gg_measure_wall_modes_take(const gg_model *m, const gg_slabs *slabs, double *row)
 {
   double all = 0, first = 0, height = m->box[1];
   int n = gg_measure_wall_modes(m);
   for (int i = 0; i < n; i++) row[i] = 0;
-  for (int k = 0; k < f->n_slabs; k++) {
-    double y = (k + 0.5) / f->n_slabs, wave[3] = {1, cos(M_PI * y), cos(2 * M_PI * y)}, grains = f->count[k];
-    all += grains, first += f->first[k];
+  for (int k = 0; k < slabs->n; k++) {
+    const gg_slab *slab = &slabs->slab[k];
+    double y = (k + 0.5) / slabs->n, wave[3] = {1, cos(M_PI * y), cos(2 * M_PI * y)}, grains = slab->grains;
+    all += grains, first += slab->first;
     row[GG_WALL_CENTRE] += grains * (y - 0.5) * height;
     row[SPREAD] += grains * wave[2];
-    for (int w = 0; w < 3; w++) row[MOMENTUM + w] += grains * f->mean[k][0] * wave[w];
-    for (int w = 1; w < 3; w++) row[WARM_SIDE + w - 1] += grains * f->temperature[k] * wave[w];
-    for (int w = 1; w < 3 && n > SPECIES_SIDE; w++) row[SPECIES_SIDE + w - 1] += f->first[k] * wave[w];
+    for (int w = 0; w < 3; w++) row[MOMENTUM + w] += slab->velocity[0] * wave[w];
+    for (int w = 1; w < 3; w++) row[WARM_SIDE + w - 1] += grains * gg_measure_slab_temperature(slab) * wave[w];
+    for (int w = 1; w < 3 && n > SPECIES_SIDE; w++) row[SPECIES_SIDE + w - 1] += slab->first * wave[w];
   }
   for (int i = 0; i < n; i++) row[i] /= i < SPECIES_SIDE ? all : first;
 }

@@ -11,7 +11,7 @@ enum { GG_WALL_CENTRE, GG_MOST_WALL_MODES = 9 }; /* the first: the centre of mas
 /* How many this model has; 0 without walls. */
 int gg_measure_wall_modes(const gg_model *model);
 /* Their values of this instant. */
-void gg_measure_wall_modes_take(const gg_model *model, const gg_local_frame *frame, double *row);
+void gg_measure_wall_modes_take(const gg_model *model, const gg_slabs *slabs, double *row);
 /* "the centre of mass across the gap" */
 const char *gg_measure_wall_mode_name(int mode);
 /* Does it change its sign under the symmetry of the flow, so that its true mean is 0? */

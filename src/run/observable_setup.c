@@ -44,6 +44,8 @@ gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene,
   r->row = gg_base_array_new(width, sizeof *r->row, err);
   if (!r->row) return GG_FAILED;
   if (curves) GG_TRY(gg_measure_snapshot_init(&r->snapshot, &r->model, positions, err));
+  if (r->model.walled && !(r->flow = gg_base_array_new(1, sizeof *r->flow, err))) return GG_FAILED;
+  if (r->flow) gg_measure_slabs_init(&r->flow->window, &r->model);
   return gg_statistics_series_init(&r->series, width, err);
 }
 
@@ -54,6 +56,14 @@ void gg_run_replica_clear_observables(gg_replica *r)
     gg_statistics_bins_clear(&r->bins[k]);
   }
   gg_measure_snapshot_clear(&r->snapshot);
+  free(r->flow);
+  r->flow = NULL;
+}
+
+/* The sums of the flow between walls, of every slab. */
+static size_t flow_bytes(const gg_replica *r)
+{
+  return (size_t)r->flow->window.n * sizeof *r->flow->window.slab;
 }
 
 gg_status gg_run_replica_save_observables(const gg_replica *r, gg_archive *a, gg_error *err)
@@ -68,7 +78,8 @@ gg_status gg_run_replica_save_observables(const gg_replica *r, gg_archive *a, gg
     snprintf(name, sizeof name, "observable/%s", o->name);
     GG_TRY(gg_base_archive_put(a, name, GG_ITEM_U8, memory, bytes, err));
   }
-  return GG_OK;
+  if (!r->flow) return GG_OK;
+  return gg_base_archive_put(a, "replica/flow", GG_ITEM_U8, r->flow->window.slab, flow_bytes(r), err);
 }
 
 gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *a, gg_error *err)
@@ -85,5 +96,8 @@ gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *a,
     if (o->is_memory && !o->is_memory(r->self[k]))
       return gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: what '%s' remembers", o->name);
   }
+  if (!r->flow) return GG_OK;
+  GG_TRY(gg_base_archive_get(a, "replica/flow", GG_ITEM_U8, r->flow->window.slab, flow_bytes(r), err));
+  gg_measure_local_frame_make(&r->flow->frame, &r->flow->window);
   return GG_OK;
 }

@@ -2,6 +2,7 @@
 #ifndef GG_REPLICA_H
 #define GG_REPLICA_H
 
+#include "measure/local_frame.h"
 #include "measure/observable.h"
 #include "run/run.h"
 
@@ -19,7 +20,11 @@ typedef struct gg_replica {
   int every[GG_MAX_OBSERVABLES];                            /* samples between snapshots for them */
   enum gg_shown { GG_NOT_SAID, GG_HIDDEN, GG_SHOWN } shown; /* collisions, to the observables that ask for them */
   gg_snapshot snapshot;                                     /* what they sample; gathered only if one of them is due */
-  int parts; /* of a sampling interval, each ending with a snapshot, while averaging */
+  int parts;               /* of a sampling interval, each ending with a snapshot, while averaging */
+  struct gg_replica_flow { /* between walls; else NULL */
+    gg_slabs window;       /* of all rows since averaging began */
+    gg_local_frame frame;  /* of them; before, of the last row */
+  } * flow;
   gg_series series;
   double *row;
   double trajectory_every;  /* collisions per grain between frames; 0: none */

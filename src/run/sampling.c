@@ -33,13 +33,21 @@ static bool reads_positions(const gg_replica *r)
   return false;
 }
 
+/* Between walls: velocities about the flow of all samples of the window, this one included. */
+static void add_grains_between_walls(gg_replica *r)
+{
+  gg_slabs now;
+  gg_measure_slabs_take(&now, &r->model, r->engine);
+  if (r->clock.averaging) gg_measure_slabs_add(&r->flow->window, &now);
+  gg_measure_local_frame_make(&r->flow->frame, r->clock.averaging ? &r->flow->window : &now);
+  gg_measure_local_frame_snapshot(&r->flow->frame, r->engine, add_chunk, r);
+  gg_measure_wall_modes_take(&r->model, &now, r->row + r->wall_modes_at);
+}
+
 static void add_grains(gg_replica *r)
 {
-  gg_local_frame frame;
-  if (r->model.walled) {
-    gg_measure_local_frame_take(&frame, &r->model, r->engine);
-    gg_measure_local_frame_snapshot(&frame, r->engine, add_chunk, r);
-    gg_measure_wall_modes_take(&r->model, &frame, r->row + r->wall_modes_at);
+  if (r->flow) {
+    add_grains_between_walls(r);
   } else if (reads_blocks(r)) {
     r->engine->ops->blocks(r->engine, add_blocks, r);
   } else {
@@ -72,15 +80,25 @@ static bool is_due(const gg_replica *r, int k, int part)
   return o->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)r->every[k] == 0);
 }
 
+static void take_snapshot(gg_replica *r, int part, double part_elapsed)
+{
+  gg_snapshot *s = &r->snapshot;
+  gg_measure_snapshot_take(s, r->engine);
+  s->elapsed = part_elapsed;
+  s->velocity_factor = part == 1 ? r->clock.velocity_factor : 1;
+  if (!r->flow || !s->r[0]) return;
+  s->frame = &r->flow->frame;
+  if (!gg_measure_slabs_are_empty(&r->flow->window)) return;
+  gg_slabs now; /* before the first row of the window */
+  gg_measure_slabs_of_snapshot(&now, s);
+  gg_measure_local_frame_make(&r->flow->frame, &now);
+}
+
 void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
 {
   bool any = false, last = part == r->parts;
   for (int k = 0; k < r->n_observables; k++) any |= is_due(r, k, part);
-  if (any) {
-    gg_measure_snapshot_take(&r->snapshot, r->engine);
-    r->snapshot.elapsed = part_elapsed;
-    r->snapshot.velocity_factor = part == 1 ? r->clock.velocity_factor : 1;
-  }
+  if (any) take_snapshot(r, part, part_elapsed);
   for (int k = 0; k < r->n_observables; k++) {
     if (!is_due(r, k, part)) continue;
     r->observable[k]->add_snapshot(r->self[k], &r->snapshot, gg_statistics_bins_sample(&r->bins[k]));
@@ -93,6 +111,7 @@ void gg_run_replica_restart_curves(gg_replica *r)
 {
   r->clock.averaging = 1;
   r->clock.window_samples = 0;
+  if (r->flow) gg_measure_slabs_init(&r->flow->window, &r->model);
   for (int k = 0; k < r->n_observables; k++) {
     gg_statistics_bins_restart(&r->bins[k]);
     if (r->observable[k]->restart) r->observable[k]->restart(r->self[k]);

@@ -116,22 +116,24 @@ static void short_window(void **state)
   }
 }
 
-/* A frame of three slabs of known grains. */
+/* Three slabs of known grains. */
 static void what_they_are(void **state)
 {
   (void)state;
   gg_model m = couette();
-  gg_local_frame f = {.n_slabs = 3,
-                      .count = {1, 2, 5},
-                      .mean = {{-2, 9, 9}, {0.5, 9, 9}, {3, 9, 9}},
-                      .temperature = {4, 1, 2},
-                      .first = {1, 0, 3}};
+  const double grains[] = {3, 2, 5}, u[] = {-2, 0.5, 3}, T[] = {4, 1, 2}, first[] = {1, 0, 3};
+  gg_slabs slabs = {.n = 3};
+  for (int k = 0; k < 3; k++)
+    slabs.slab[k] = (gg_slab){.grains = grains[k],
+                              .first = first[k],
+                              .velocity = {grains[k] * u[k], 0, 0},
+                              .square = grains[k] * u[k] * u[k] + 3 * (grains[k] - 1) * T[k]};
   double row[GG_MOST_WALL_MODES], w1 = cos(M_PI / 6), w2 = 0.5, H = m.box[1]; /* cos(pi y), cos(2 pi y) of slab 1 */
   m.n_species = 2;
-  gg_measure_wall_modes_take(&m, &f, row);
-  const double expected[] = {(5 - 1) * H / 3 / 8,        (6 * w2 - 2) / 8,   (-2 + 1 + 15) / 8.0,
-                             (-2 - 15) * w1 / 8,         (13 * w2 - 1) / 8,  (4 - 10) * w1 / 8,
-                             (4 * w2 - 2 + 10 * w2) / 8, (1 - 3) * w1 / 4.0, 4 * w2 / 4};
+  gg_measure_wall_modes_take(&m, &slabs, row);
+  const double expected[] = {(5 - 3) * H / 3 / 10,         (8 * w2 - 2) / 10,  (-6 + 1 + 15) / 10.0,
+                             (-6 - 15) * w1 / 10,          (9 * w2 - 1) / 10,  (12 - 10) * w1 / 10,
+                             (12 * w2 - 2 + 10 * w2) / 10, (1 - 3) * w1 / 4.0, 4 * w2 / 4};
   for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_true(fabs(row[k] - expected[k]) < 1e-12);
 }
 
