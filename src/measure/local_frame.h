@@ -15,7 +15,7 @@ enum { GG_MAX_SLABS = 128 };
 typedef struct gg_slab {
   double grains, first; /* of all species, of the first */
   double height, height_square;
-  double velocity[3], moment[3], square; /* c, height times c, c.c */
+  double velocity[3], moment[3], square; /* c, height times c, c squared */
   double spin[3], spin_moment[3];
 } gg_slab;
 
