@@ -120,6 +120,56 @@ static void lost(void **state)
   gg_scene_free(scene);
 }
 
+typedef struct loss { /* rank 1 is lost as the time is up */
+  post *post;
+  double from;
+  uint64_t collisions; /* as the run reported them at its end */
+} loss;
+
+static double seconds_now(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int lose_at_the_end(void *context)
+{
+  loss *l = context;
+  if (l->from == 0) l->from = seconds_now();
+  if (seconds_now() < l->from + 2) return 0;
+  pthread_mutex_lock(&l->post->lock);
+  l->post->lost[1] = true;
+  pthread_mutex_unlock(&l->post->lock);
+  return 0;
+}
+
+static int note_collisions(void *context, const gg_progress *now)
+{
+  ((loss *)context)->collisions = now->collisions;
+  return 0;
+}
+
+/* What counts of a rank lost after the stop are the replicas that it had handed over. */
+static void lost_after_the_stop(void **state)
+{
+  (void)state;
+  gg_error err;
+  post p = {0};
+  loss l = {.post = &p};
+  gg_result *result = NULL;
+  gg_result_info info;
+  gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 100, warmup: 1.0e9, replicas: 2, "
+                             "time_limit: 2}}");
+  gg_run_options options = {.context = &l, .progress = note_collisions, .stop = lose_at_the_end};
+  assert_int_equal(run(&p, 2, 1, scene, options, &result), GG_FAILED);
+  assert_true(p.lost[1] && p.warned == 1 && p.sent[1] > 2); /* one of which says how far it is */
+  assert_ok(gg_result_get_info(result, &info, &err));
+  assert_true(llabs((long long)(info.total_collisions - l.collisions)) < 2);
+  gg_result_free(result);
+  gg_scene_free(scene);
+}
+
 static int beyond(void *context, const gg_progress *now)
 {
   return now->phase[0] == 'a' && now->fraction > *(double *)context;
@@ -343,6 +393,7 @@ int main(void)
       cmocka_unit_test(same_bits),
       cmocka_unit_test(any_number),
       cmocka_unit_test(lost),
+      cmocka_unit_test(lost_after_the_stop),
       cmocka_unit_test(resumed),
       cmocka_unit_test(checkpoints_on_the_way),
       cmocka_unit_test(checkpoint_due_at_the_start),

@@ -265,6 +265,7 @@ static void replace(distribution *d, int lost)
     assign(d, i);
     if (!p->sent) continue;
     p->sent = false;
+    gg_run_task_update(t); /* samples that the lost rank alone had do not count */
     if (!atomic_load(&d->tasks->stopping)) {
       place_task(d, t);
     } else {
