@@ -8,7 +8,7 @@
                                    only tests of its room, of at most so long, and the quickest of the others (then
                                    `try` again, for those that are left, against all)
   mutants.py FOLDER canaries [TESTS]  every validation against every canary (canaries.py)
-  mutants.py FOLDER tables         the tables of docs/appendix/reliability.md, and validation/mutants/survivors.md's rows
+  mutants.py FOLDER tables         the tables of docs/appendix/mutants.md, and validation/mutants/survivors.md's rows
 
 FOLDER is outside of the repository and holds everything. `try` and `canaries` go on where they stopped."""
 import json

@@ -1,4 +1,4 @@
-"""What came of it: the two pages beside this file and the short tables of docs/appendix/reliability.md."""
+"""What came of it: the two pages beside this file and the short tables of docs/appendix/mutants.md."""
 import collections
 import json
 import os
