@@ -7,7 +7,7 @@
 #include "api/moments.h"
 #include "base/c_locale.h"
 #include "base/memory.h"
-#include "files/h5/hdf5_trajectory.h"
+#include "files/h5/result_reader.h"
 #include "files/h5/result_restore.h"
 
 struct gg_trajectory {

@@ -7,8 +7,6 @@
 
 #include "measure/curve.h"
 
-struct gg_h5;
-
 /* {"name": {"group", "panel", "label", "x_name", "x_unit", "y_name", "unit", "log_x", "log_y", "samples", "x": [],
  * "value": [], "stderr": [], "numbers": {"alpha": {"mean", "stderr", "unit"}}, "reference": {"label", "value": []}}}:
  * the last only where there is a law to see the curve beside. */
@@ -17,10 +15,6 @@ json_t *gg_files_curves_json(const gg_curves *curves);
 gg_status gg_files_curves_from_json(gg_curves *list, const json_t *curves, gg_error *err);
 /* The key of documents that has those of theories, by their names. */
 #define GG_THEORY_CURVES "theory_curves"
-
-/* GROUP/curves/<name>/ x, value, stderr, reference if there is one; numbers/<name>: mean, stderr; units and the
- * reference's label are attributes. */
-void gg_h5_write_curves(struct gg_h5 *h, const char *group, const gg_curves *curves);
 
 /* How many groups of curves an engine's document holds, and the k-th one's name. */
 int gg_plot_curve_groups(const json_t *document, const char **names, int most);

@@ -81,11 +81,8 @@ static void put_figure(gg_h5 *h, const gg_figure *f, const char *command)
 static gg_status put_in_place(const char *path, const void *image, size_t size, gg_error *err)
 {
   gg_atomic_file file;
-  unsigned char seal[GG_SEAL_SIZE];
-  gg_files_checksum_trailer_of(image, size, seal);
   GG_TRY(gg_base_atomic_open(&file, path, err));
-  gg_status status = gg_base_atomic_write(&file, image, size, err);
-  if (status == GG_OK) status = gg_base_atomic_write(&file, seal, sizeof seal, err);
+  gg_status status = gg_files_checksum_trailer_write(&file, image, size, err);
   if (status == GG_OK) return gg_base_atomic_commit(&file, err);
   gg_base_atomic_abandon(&file);
   return status;

@@ -282,15 +282,12 @@ static gg_status write_image(gg_h5 *h, const char *path, gg_error *err)
 {
   size_t size = 0;
   gg_atomic_file file;
-  unsigned char seal[GG_SEAL_SIZE];
   void *image = gg_h5_image(h, &size);
   gg_h5_close(h);
   gg_status status = gg_h5_status(h, path, "written", err);
   if (status == GG_OK) status = gg_base_atomic_open(&file, path, err);
   if (status != GG_OK) return free(image), status;
-  gg_files_checksum_trailer_of(image, size, seal);
-  status = gg_base_atomic_write(&file, image, size, err);
-  if (status == GG_OK) status = gg_base_atomic_write(&file, seal, sizeof seal, err);
+  status = gg_files_checksum_trailer_write(&file, image, size, err);
   free(image);
   if (status == GG_OK) return gg_base_atomic_commit(&file, err);
   gg_base_atomic_abandon(&file);

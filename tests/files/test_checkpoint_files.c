@@ -59,11 +59,11 @@ static void flip_bit(const char *path, const void *bytes, size_t size)
 static void seal_anew(const char *path)
 {
   struct stat about;
-  unsigned char seal[GG_SEAL_SIZE];
+  unsigned char seal[GG_TRAILER_SIZE];
   int fd = open(path, O_RDWR);
-  assert_true(fstat(fd, &about) == 0 && ftruncate(fd, about.st_size - GG_SEAL_SIZE) == 0);
+  assert_true(fstat(fd, &about) == 0 && ftruncate(fd, about.st_size - GG_TRAILER_SIZE) == 0);
   assert_int_equal(gg_files_checksum_trailer_of_file(fd, seal), 0);
-  assert_int_equal(pwrite(fd, seal, sizeof seal, about.st_size - GG_SEAL_SIZE), GG_SEAL_SIZE);
+  assert_int_equal(pwrite(fd, seal, sizeof seal, about.st_size - GG_TRAILER_SIZE), GG_TRAILER_SIZE);
   close(fd);
 }
 
@@ -140,7 +140,7 @@ static void checkpoint_of_another_layout(void **state)
     gg_scene scene = gg_scene_defaults();
     gg_archive one = archive(1), back = {0};
     assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
-    unsigned char seal[GG_SEAL_SIZE]; /* HDF5 cuts it off */
+    unsigned char seal[GG_TRAILER_SIZE]; /* HDF5 cuts it off */
     hid_t file = H5Fopen("c.h5", H5F_ACC_RDWR, H5P_DEFAULT),
           version = H5Dopen(file, "/checkpoint/version", H5P_DEFAULT);
     hid_t layout = H5Aopen(version, "layout", H5P_DEFAULT);
@@ -151,7 +151,7 @@ static void checkpoint_of_another_layout(void **state)
     H5Fclose(file);
     int fd = open("c.h5", O_RDWR | O_APPEND);
     assert_int_equal(gg_files_checksum_trailer_of_file(fd, seal), 0);
-    assert_int_equal(write(fd, seal, sizeof seal), GG_SEAL_SIZE);
+    assert_int_equal(write(fd, seal, sizeof seal), GG_TRAILER_SIZE);
     close(fd);
     assert_int_equal(gg_files_checkpoint_read("c.h5", &back, &older, &err), GG_BAD_FILE);
     snprintf(expected, sizeof expected,

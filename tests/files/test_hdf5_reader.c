@@ -42,10 +42,10 @@ static hid_t create(void)
 
 static void seal(void)
 {
-  unsigned char seal[GG_SEAL_SIZE];
+  unsigned char seal[GG_TRAILER_SIZE];
   int fd = open("f.h5", O_RDWR | O_APPEND);
   assert_int_equal(gg_files_checksum_trailer_of_file(fd, seal), 0);
-  assert_int_equal(write(fd, seal, sizeof seal), GG_SEAL_SIZE);
+  assert_int_equal(write(fd, seal, sizeof seal), GG_TRAILER_SIZE);
   close(fd);
 }
 
@@ -296,8 +296,8 @@ static void words(void **state)
   struct stat about;
   int fd = open("f.h5", O_RDWR), refused = 0;
   assert_int_equal(fstat(fd, &about), 0);
-  const size_t size = (size_t)about.st_size - GG_SEAL_SIZE;
-  unsigned char *all = malloc(size + GG_SEAL_SIZE);
+  const size_t size = (size_t)about.st_size - GG_TRAILER_SIZE;
+  unsigned char *all = malloc(size + GG_TRAILER_SIZE);
   assert_int_equal(pread(fd, all, size, 0), size);
   for (size_t at = 8, k = 0; at + 8 <= size; at += 13 * 8, k++) {
     unsigned char was[8];
@@ -305,7 +305,7 @@ static void words(void **state)
     memcpy(was, all + at, 8);
     memcpy(all + at, &bad[k % (sizeof bad / sizeof *bad)], 8);
     gg_files_checksum_trailer_of(all, size, all + size);
-    assert_int_equal(pwrite(fd, all, size + GG_SEAL_SIZE, 0), size + GG_SEAL_SIZE);
+    assert_int_equal(pwrite(fd, all, size + GG_TRAILER_SIZE, 0), size + GG_TRAILER_SIZE);
     if (gg_files_stored_result_read(&s, "f.h5", &err) == GG_OK)
       gg_files_stored_result_clear(&s);
     else

@@ -19,7 +19,7 @@ static void fail(const char *what, const char *path)
 /* A file in memory, to be read by its path and changed in place: what is copied for an input is what it changes. */
 static void view(fuzz_image *image)
 {
-  const size_t whole = image->size + GG_SEAL_SIZE;
+  const size_t whole = image->size + GG_TRAILER_SIZE;
   const int fd = memfd_create("graingas-fuzz", MFD_CLOEXEC);
   snprintf(image->path, sizeof image->path, "/proc/self/fd/%d", fd);
   if (fd < 0 || ftruncate(fd, (off_t)whole) != 0) fail("cannot be made", image->path);
@@ -41,8 +41,8 @@ fuzz_image fuzz_image_of(const char *path)
 {
   struct stat about;
   FILE *in = fopen(path, "rb");
-  if (!in || fstat(fileno(in), &about) != 0 || about.st_size <= GG_SEAL_SIZE) fail("cannot be read", path);
-  const size_t size = (size_t)about.st_size - GG_SEAL_SIZE;
+  if (!in || fstat(fileno(in), &about) != 0 || about.st_size <= GG_TRAILER_SIZE) fail("cannot be read", path);
+  const size_t size = (size_t)about.st_size - GG_TRAILER_SIZE;
   void *data = malloc(size);
   if (!data || fread(data, 1, size, in) != size) fail("cannot be read", path);
   fclose(in);

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "files/h5/hdf5_trajectory.h"
 #include "files/h5/result_reader.h"
 #include "fuzz.h"
 #include "graingas.h"

@@ -3,7 +3,7 @@
 #define GG_EXPORT_XYZ_H
 
 #include "base/file_writer.h"
-#include "files/h5/hdf5_trajectory.h"
+#include "files/h5/result_reader.h"
 
 /* One frame: how many grains, a line on cell, columns, time and units, a line a grain. Each frame has the cell of its
  * instant. Under shear its second edge leans, and the images of the grains that lie inside of it are shown, so that all

@@ -82,16 +82,6 @@ static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
   return kept ? GG_OK : gg_base_path_write_error(file->path, strerror(number), err);
 }
 
-static gg_status write_image(gg_atomic_file *file, const void *image, size_t size, gg_error *err)
-{
-  unsigned char seal[GG_SEAL_SIZE];
-  if (file->place.stream)
-    return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, file->path);
-  gg_files_checksum_trailer_of(image, size, seal);
-  GG_TRY(gg_base_atomic_write(file, image, size, err));
-  return gg_base_atomic_write(file, seal, sizeof seal, err);
-}
-
 static gg_status write_it(const char *path, bool locked, bool keep, const gg_archive *a, const gg_scene *scene,
                           gg_error *err)
 {
@@ -99,7 +89,10 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   size_t size = 0;
   GG_TRY(locked ? gg_base_atomic_open_locked(&file, path, err) : gg_base_atomic_open(&file, path, err));
   void *image = make_image(path, a, scene, &size, err);
-  gg_status status = image ? write_image(&file, image, size, err) : GG_BAD_FILE;
+  gg_status status = image ? GG_OK : GG_BAD_FILE;
+  if (image && file.place.stream)
+    status = gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path);
+  if (status == GG_OK) status = gg_files_checksum_trailer_write(&file, image, size, err);
   free(image);
   if (status == GG_OK && keep) status = keep_before(&file, err);
   if (status == GG_OK) return gg_base_atomic_commit(&file, err);

@@ -10,7 +10,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-enum { BLOCK = GG_SEAL_SMALL };
+enum { BLOCK = GG_TRAILER_SMALL };
 static const char hdf5[8] = "\x89HDF\r\n\x1a\n", mark[8] = {'g', 'g', '-', 'c', 'r', 'c', '3', '2'};
 
 static void put(unsigned char *to, uint64_t value, int bytes)
@@ -18,14 +18,14 @@ static void put(unsigned char *to, uint64_t value, int bytes)
   for (int i = 0; i < bytes; i++) to[i] = (unsigned char)(value >> 8 * i);
 }
 
-static void fill(unsigned char *seal, uint64_t size, uint64_t sum)
+static void fill(unsigned char *trailer, uint64_t size, uint64_t sum)
 {
-  memcpy(seal, mark, sizeof mark);
-  put(seal + 8, size, 8);
-  put(seal + 16, sum, 4);
+  memcpy(trailer, mark, sizeof mark);
+  put(trailer + 8, size, 8);
+  put(trailer + 16, sum, 4);
 }
 
-void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char seal[GG_SEAL_SIZE])
+void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char trailer[GG_TRAILER_SIZE])
 {
   const unsigned char *at = data;
   uLong sum = crc32(0, NULL, 0);
@@ -33,11 +33,19 @@ void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char s
     now = left < BLOCK ? left : BLOCK;
     sum = crc32(sum, at, (uInt)now);
   }
-  fill(seal, size, sum);
+  fill(trailer, size, sum);
+}
+
+gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err)
+{
+  unsigned char trailer[GG_TRAILER_SIZE];
+  gg_files_checksum_trailer_of(data, size, trailer);
+  GG_TRY(gg_base_atomic_write(file, data, size, err));
+  return gg_base_atomic_write(file, trailer, sizeof trailer, err);
 }
 
 /* Of the first `size` bytes. The block that they were read into, of as many if they are few, is left to be freed. */
-static int sum_up(int fd, off_t size, unsigned char *seal, unsigned char **block)
+static int sum_up(int fd, off_t size, unsigned char *trailer, unsigned char **block)
 {
   uLong sum = crc32(0, NULL, 0);
   off_t at = 0;
@@ -53,15 +61,15 @@ static int sum_up(int fd, off_t size, unsigned char *seal, unsigned char **block
       break;
     }
   }
-  fill(seal, (uint64_t)size, sum);
+  fill(trailer, (uint64_t)size, sum);
   return *block && at == size ? 0 : -1;
 }
 
-int gg_files_checksum_trailer_of_file(int fd, unsigned char seal[GG_SEAL_SIZE])
+int gg_files_checksum_trailer_of_file(int fd, unsigned char trailer[GG_TRAILER_SIZE])
 {
   struct stat about;
   unsigned char *block = NULL;
-  const int failed = fstat(fd, &about) == 0 ? sum_up(fd, about.st_size, seal, &block) : -1;
+  const int failed = fstat(fd, &about) == 0 ? sum_up(fd, about.st_size, trailer, &block) : -1;
   free(block);
   return failed;
 }
@@ -69,12 +77,12 @@ int gg_files_checksum_trailer_of_file(int fd, unsigned char seal[GG_SEAL_SIZE])
 static const char *broken(int fd, uint64_t *size_of, unsigned char **block)
 {
   struct stat about;
-  unsigned char there[GG_SEAL_SIZE], wanted[GG_SEAL_SIZE], start[sizeof hdf5];
+  unsigned char there[GG_TRAILER_SIZE], wanted[GG_TRAILER_SIZE], start[sizeof hdf5];
   if (fstat(fd, &about) != 0) return strerror(errno);
   if (!S_ISREG(about.st_mode)) return "it is not a regular file";
   if (pread(fd, start, sizeof start, 0) != sizeof start || memcmp(start, hdf5, sizeof start) != 0)
     return "it is not an HDF5 file, or a damaged one";
-  off_t size = about.st_size - GG_SEAL_SIZE;
+  off_t size = about.st_size - GG_TRAILER_SIZE;
   if (size < 0 || pread(fd, there, sizeof there, size) != sizeof there || memcmp(there, mark, sizeof mark) != 0)
     return "it does not end with its checksum: it is cut off or damaged, or another program has changed it (the manual "
            "page says how to vouch for a changed one)";
@@ -95,7 +103,7 @@ const char *gg_files_checksum_trailer_open(const char *path, int *fd, uint64_t *
     close(opened);
   else
     *fd = opened;
-  if (!why && *size <= GG_SEAL_SMALL)
+  if (!why && *size <= GG_TRAILER_SMALL)
     *whole = block;
   else
     free(block);

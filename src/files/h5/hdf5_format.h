@@ -14,10 +14,10 @@ uint64_t gg_h5_word(const unsigned char *from, int bytes);
 /* A failure, with what was being read. Always false. */
 bool gg_h5_refuse(gg_h5_in *in, const char *what, const char *why);
 
-/* hdf5_group.c: where the header of an object is; 0: there is none of that path. */
+/* hdf5_objects.c: where the header of an object is; 0: there is none of that path. */
 uint64_t gg_h5_find(gg_h5_in *in, const char *path);
 
-/* object_header.c: the messages of an object's header. */
+/* hdf5_objects.c: the messages of an object's header. */
 typedef enum gg_h5_kind {
   GG_H5_SPACE = 1,
   GG_H5_TYPE = 3,
@@ -36,7 +36,7 @@ typedef struct gg_h5_message {
 typedef bool gg_h5_look(gg_h5_in *in, const gg_h5_message *message, void *context);
 bool gg_h5_messages(gg_h5_in *in, uint64_t header, gg_h5_look *look, void *context);
 
-/* datatype_message.c: what an array's elements are, and how many. */
+/* hdf5_read.c: what an array's elements are, and how many. */
 typedef struct gg_h5_type {
   enum { GG_H5_OTHER, GG_H5_WHOLE, GG_H5_REAL, GG_H5_TEXT } kind;
   bool is_signed, backwards; /* highest byte first */
@@ -49,7 +49,7 @@ typedef struct gg_h5_space {
 bool gg_h5_type_of(const unsigned char *data, size_t size, gg_h5_type *type);
 bool gg_h5_space_of(const unsigned char *data, size_t size, gg_h5_space *space);
 
-/* storage.c: an array, and elements of it. */
+/* An array, and elements of it. */
 typedef struct gg_h5_array_in {
   gg_h5_type type;
   gg_h5_space space;
@@ -63,7 +63,7 @@ bool gg_h5_rows_of(gg_h5_in *in, const char *path, const gg_h5_array_in *array, 
 /* Elements of a row; 0 where there is none. */
 uint64_t gg_h5_row_size(const gg_h5_space *space);
 
-/* convert.c: n numbers of a file in another type. False: these are no numbers. */
+/* n numbers of a file in another type. False: these are no numbers. */
 bool gg_h5_convert(const gg_h5_type *from, const void *data, gg_item_type type, void *to, size_t n);
 
 #endif

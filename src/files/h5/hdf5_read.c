@@ -69,3 +69,335 @@ void *gg_h5_read_last_row(gg_h5_in *in, const char *path, gg_item_type type, siz
 {
   return read_row(in, path, NULL, type, items);
 }
+
+/* What the elements of an array or attribute are, and how many. */
+
+/* Numbers that fill their bytes, as processors have them, and texts of fixed length. */
+bool gg_h5_type_of(const unsigned char *data, size_t size, gg_h5_type *type)
+{
+  *type = (gg_h5_type){.kind = GG_H5_OTHER};
+  if (size < 8) return false;
+  const unsigned class = data[0] & 15, bits = data[1];
+  type->size = gg_h5_word(data + 4, 4);
+  type->backwards = bits & 1;
+  if (class == 0 && size >= 12) {
+    const bool whole = gg_h5_word(data + 8, 2) == 0 && gg_h5_word(data + 10, 2) == 8 * type->size;
+    const bool sized = type->size == 1 || type->size == 2 || type->size == 4 || type->size == 8;
+    if (whole && sized) type->kind = GG_H5_WHOLE;
+    type->is_signed = bits & 8;
+  } else if (class == 1 && size >= 20) { /* binary32 and binary64: where sign, exponent and fraction stand */
+    const bool four = type->size == 4 && data[2] == 31 && data[12] == 23 && data[13] == 8 && data[15] == 23;
+    const bool eight = type->size == 8 && data[2] == 63 && data[12] == 52 && data[13] == 11 && data[15] == 52;
+    if ((four || eight) && !(bits & 64)) type->kind = GG_H5_REAL;
+  } else if (class == 3) {
+    type->backwards = false;
+    type->kind = GG_H5_TEXT;
+  }
+  return type->size > 0;
+}
+
+bool gg_h5_space_of(const unsigned char *data, size_t size, gg_h5_space *space)
+{
+  *space = (gg_h5_space){.n = 1};
+  if (size < 4 || (data[0] != 1 && data[0] != 2)) return false;
+  const size_t head = data[0] == 1 ? 8 : 4;
+  const int rank = data[1];
+  if (data[0] == 2 && data[3] == 2) return space->n = 0, true; /* nothing at all */
+  if (rank > GG_H5_MOST_RANK || size < head + 8 * (size_t)rank) return false;
+  space->rank = rank;
+  for (int a = 0; a < rank; a++) {
+    space->dims[a] = gg_h5_word(data + head + 8 * a, 8);
+    if (__builtin_mul_overflow(space->n, space->dims[a], &space->n)) return false;
+  }
+  return space->n <= INT64_MAX;
+}
+
+/* Numbers as files hold them into those that are asked for. Whole numbers beyond the range of the other type take its
+ * nearest end, as HDF5 has it. */
+
+typedef struct number {
+  bool real, negative; /* negative: a whole one below zero, whose bits are in `whole` */
+  double x;
+  uint64_t whole;
+} number;
+
+static number number_of(const gg_h5_type *t, const unsigned char *at)
+{
+  unsigned char bytes[8];
+  uint64_t word;
+  for (size_t i = 0; i < t->size; i++) bytes[i] = at[t->backwards ? t->size - 1 - i : i];
+  word = gg_h5_word(bytes, (int)t->size);
+  if (t->kind == GG_H5_REAL && t->size == 8) {
+    double x;
+    memcpy(&x, &word, sizeof x);
+    return (number){.real = true, .x = x};
+  }
+  if (t->kind == GG_H5_REAL) {
+    const uint32_t half = (uint32_t)word;
+    float x;
+    memcpy(&x, &half, sizeof x);
+    return (number){.real = true, .x = (double)x};
+  }
+  const int bits = 8 * (int)t->size;
+  const bool negative = t->is_signed && word >> (bits - 1);
+  if (negative && bits < 64) word |= UINT64_MAX << bits;
+  return (number){.negative = negative, .whole = word};
+}
+
+static double as_real(const number *n)
+{
+  return n->real ? n->x : n->negative ? (double)(int64_t)n->whole : (double)n->whole;
+}
+
+static uint64_t as_count(const number *n, uint64_t most)
+{
+  if (n->real) return !(n->x > 0) ? 0 : n->x >= (double)most ? most : (uint64_t)n->x;
+  return n->negative ? 0 : n->whole > most ? most : n->whole;
+}
+
+static int64_t as_whole(const number *n)
+{
+  if (n->real) return n->x != n->x ? 0 : n->x >= 0x1p63 ? INT64_MAX : n->x < -0x1p63 ? INT64_MIN : (int64_t)n->x;
+  return n->negative ? (int64_t)n->whole : n->whole > INT64_MAX ? INT64_MAX : (int64_t)n->whole;
+}
+
+static void put(const number *n, gg_item_type type, unsigned char *to)
+{
+  const double x = as_real(n);
+  switch (type) {
+  case GG_ITEM_F64: memcpy(to, &x, sizeof x); return;
+  case GG_ITEM_F32: memcpy(to, &(float){(float)x}, sizeof(float)); return;
+  case GG_ITEM_I64: memcpy(to, &(int64_t){as_whole(n)}, sizeof(int64_t)); return;
+  case GG_ITEM_U64: memcpy(to, &(uint64_t){as_count(n, UINT64_MAX)}, sizeof(uint64_t)); return;
+  case GG_ITEM_U8: *to = (unsigned char)as_count(n, UINT8_MAX); return;
+  case GG_ITEM_TYPES: return;
+  }
+}
+
+/* Are they the same bits? */
+static bool is_same(const gg_h5_type *from, gg_item_type type)
+{
+  static const struct {
+    int kind;
+    bool is_signed;
+  } ours[] = {[GG_ITEM_F64] = {GG_H5_REAL, false},
+              [GG_ITEM_I64] = {GG_H5_WHOLE, true},
+              [GG_ITEM_U64] = {GG_H5_WHOLE, false},
+              [GG_ITEM_U8] = {GG_H5_WHOLE, false},
+              [GG_ITEM_F32] = {GG_H5_REAL, false}};
+  const uint16_t one = 1;
+  const bool lowest_first = *(const unsigned char *)&one;
+  return (int)from->kind == ours[type].kind && from->size == gg_base_archive_item_size(type) &&
+         from->backwards == !lowest_first && (from->kind != GG_H5_WHOLE || from->is_signed == ours[type].is_signed);
+}
+
+bool gg_h5_convert(const gg_h5_type *from, const void *data, gg_item_type type, void *to, size_t n)
+{
+  const unsigned char *at = data;
+  unsigned char *put_at = to;
+  if (from->kind != GG_H5_REAL && from->kind != GG_H5_WHOLE) return false;
+  if (is_same(from, type)) return n ? memcpy(to, data, n * from->size) : NULL, true;
+  for (size_t i = 0; i < n; i++, at += from->size, put_at += gg_base_archive_item_size(type)) {
+    const number x = number_of(from, at);
+    put(&x, type, put_at);
+  }
+  return true;
+}
+
+/* The elements of arrays: in one piece, or in chunks that a tree finds. */
+
+enum { TREE = 24, MOST_CHILDREN = 1 << 12 };
+
+typedef struct parts {
+  gg_h5_array_in *array;
+  bool type, space, layout;
+  const char *wrong;
+} parts;
+
+static void read_layout(gg_h5_array_in *a, const unsigned char *d, unsigned size, parts *p)
+{
+  p->layout = true;
+  if (size < 3 || d[0] != 3 || d[1] < 1 || d[1] > 2) {
+    p->wrong = "is stored in a way that graingas does not write";
+  } else if (d[1] == 1 && size >= 18) {
+    a->at = gg_h5_word(d + 2, 8);
+    a->bytes = gg_h5_word(d + 10, 8);
+  } else if (d[1] == 2 && d[2] >= 2 && d[2] <= GG_H5_MOST_RANK + 1 && size >= 11 + 4u * d[2]) {
+    a->chunked = true;
+    a->at = gg_h5_word(d + 3, 8);
+    for (int i = 0; i < d[2] - 1; i++) a->chunk[i] = gg_h5_word(d + 11 + 4 * i, 4);
+    for (int i = d[2] - 1; i < GG_H5_MOST_RANK; i++) a->chunk[i] = 0;
+    a->bytes = gg_h5_word(d + 11 + 4 * (d[2] - 1), 4); /* of an element */
+  } else {
+    p->wrong = "is damaged";
+  }
+}
+
+static bool look(gg_h5_in *in, const gg_h5_message *m, void *context)
+{
+  parts *p = context;
+  const bool shared = m->flags & 2;
+  (void)in;
+  switch (m->kind) {
+  case GG_H5_TYPE: p->type = !shared && gg_h5_type_of(m->data, m->size, &p->array->type); break;
+  case GG_H5_SPACE: p->space = !shared && gg_h5_space_of(m->data, m->size, &p->array->space); break;
+  case GG_H5_LAYOUT: read_layout(p->array, m->data, m->size, p); break;
+  case GG_H5_FILTER: p->wrong = "is compressed, which graingas does not read (h5repack -f NONE undoes it)"; break;
+  case GG_H5_EXTERNAL: p->wrong = "is stored in another file"; break;
+  default: break;
+  }
+  return false;
+}
+
+/* Nothing that a file claims to hold is larger than the file. */
+static const char *check(const gg_h5_in *in, const gg_h5_array_in *a)
+{
+  uint64_t bytes;
+  if (__builtin_mul_overflow(a->space.n, a->type.size, &bytes) || bytes > in->size) return "is larger than its file";
+  if (!a->chunked) return bytes == 0 || a->bytes >= bytes ? NULL : "is damaged";
+  if (a->bytes != a->type.size || a->space.rank == 0) return "is damaged";
+  uint64_t chunk = a->type.size;
+  for (int i = 0; i < GG_H5_MOST_RANK; i++) { /* wider than the array: many large ones would hold next to nothing */
+    const bool used = i<a->space.rank, wide = i> 0 && a->chunk[i] > a->space.dims[i];
+    if (used != (a->chunk[i] > 0) || (used && (wide || __builtin_mul_overflow(chunk, a->chunk[i], &chunk))))
+      return "is damaged";
+  }
+  return chunk <= in->size || bytes == 0 ? NULL : "is larger than its file";
+}
+
+bool gg_h5_array_at(gg_h5_in *in, const char *path, gg_h5_array_in *array)
+{
+  *array = (gg_h5_array_in){0};
+  parts p = {.array = array};
+  const uint64_t header = in->failed ? 0 : gg_h5_find(in, path);
+  if (!header) return gg_h5_refuse(in, path, "is not there");
+  if (!gg_h5_messages(in, header, look, &p)) return false;
+  if (!p.layout && !p.type) return gg_h5_refuse(in, path, "is not an array");
+  if (!p.type || !p.space || !p.layout) return gg_h5_refuse(in, path, p.wrong ? p.wrong : "is damaged");
+  const char *wrong = p.wrong ? p.wrong : check(in, array);
+  return wrong ? gg_h5_refuse(in, path, wrong) : true;
+}
+
+uint64_t gg_h5_row_size(const gg_h5_space *s)
+{
+  uint64_t size = 1;
+  if (s->n == 0) return 0;
+  for (int a = 1; a < s->rank; a++) size *= s->dims[a];
+  return size;
+}
+
+/* Is the place before the chunk that the key names? */
+static bool is_before(const gg_h5_array_in *a, const uint64_t *place, const unsigned char *key)
+{
+  for (int i = 0; i < a->space.rank; i++) {
+    const uint64_t first = gg_h5_word(key + 8 + 8 * i, 8);
+    if (place[i] != first) return place[i] < first;
+  }
+  return false;
+}
+
+static bool is_at(const gg_h5_array_in *a, const uint64_t *place, const unsigned char *key)
+{
+  for (int i = 0; i < a->space.rank; i++)
+    if (place[i] != gg_h5_word(key + 8 + 8 * i, 8)) return false;
+  return true;
+}
+
+/* The last child of a node whose key is not beyond the place: its key, and after it where it is. */
+static bool choose_child(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *place, uint64_t keys, unsigned n,
+                         unsigned char *key)
+{
+  const uint64_t each = 8 + 8 * (uint64_t)(a->space.rank + 1) + 8;
+  unsigned low = 0, high = n;
+  while (high - low > 1) {
+    const unsigned middle = low + (high - low) / 2;
+    if (!gg_h5_bytes(in, keys + each * middle, key, each)) return false;
+    if (is_before(a, place, key))
+      high = middle;
+    else
+      low = middle;
+  }
+  return gg_h5_bytes(in, keys + each * low, key, each);
+}
+
+/* Where the chunk that begins at this place is, of `bytes` bytes. */
+static bool find_chunk(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *place, uint64_t bytes, uint64_t *found)
+{
+  uint64_t at = a->at;
+  for (int level = -1;;) {
+    unsigned char node[TREE], key[8 + 8 * (GG_H5_MOST_RANK + 1) + 8];
+    if (!gg_h5_bytes(in, at, node, sizeof node)) return false;
+    const unsigned n = (unsigned)gg_h5_word(node + 6, 2);
+    if (memcmp(node, "TREE", 4) != 0 || node[4] != 1 || (level > 0 && node[5] != level - 1) || n == 0 ||
+        n > MOST_CHILDREN)
+      return false;
+    level = node[5];
+    if (!choose_child(in, a, place, at + TREE, n, key)) return false;
+    at = gg_h5_word(key + 8 + 8 * (a->space.rank + 1), 8);
+    if (level > 0) continue;
+    *found = at;
+    return is_at(a, place, key) && gg_h5_word(key, 4) == bytes && gg_h5_word(key + 4, 4) == 0;
+  }
+}
+
+/* What of a chunk lies within rows from .. from + n - 1: line by line of its last dimension. */
+static void copy_chunk(const gg_h5_array_in *a, const uint64_t *place, const unsigned char *chunk, uint64_t from,
+                       uint64_t n, unsigned char *to)
+{
+  const gg_h5_space *s = &a->space;
+  const int last = s->rank - 1;
+  uint64_t within[GG_H5_MOST_RANK] = {0}, lines = 1;
+  for (int i = 0; i < last; i++) lines *= a->chunk[i];
+  for (uint64_t line = 0; line < lines; line++) {
+    uint64_t rest = line, index = 0;
+    bool inside = true;
+    for (int i = last - 1; i >= 0; i--) within[i] = rest % a->chunk[i], rest /= a->chunk[i];
+    for (int i = 0; i <= last; i++) {
+      const uint64_t x = place[i] + (i < last ? within[i] : 0);
+      inside = inside && (i == 0 && last > 0 ? x >= from && x < from + n : x < s->dims[i]);
+      index = index * s->dims[i] + (i == 0 ? x - from : x);
+    }
+    if (!inside) continue;
+    uint64_t skip = last == 0 && place[0] < from ? from - place[0] : 0; /* of rows that are single numbers */
+    const uint64_t end = last == 0 ? from + n : s->dims[last];
+    const uint64_t left = end - place[last] < a->chunk[last] ? end - place[last] : a->chunk[last];
+    if (skip >= left) continue;
+    memcpy(to + (index + skip) * a->type.size, chunk + (line * a->chunk[last] + skip) * a->type.size,
+           (left - skip) * a->type.size);
+  }
+}
+
+/* The next chunk's place; false after the last that touches rows up to `end` - 1. */
+static bool next_place(const gg_h5_array_in *a, uint64_t end, uint64_t *place)
+{
+  for (int i = a->space.rank - 1; i >= 0; i--) {
+    place[i] += a->chunk[i];
+    if (place[i] < (i == 0 ? end : a->space.dims[i])) return true;
+    if (i > 0) place[i] = 0;
+  }
+  return false;
+}
+
+static bool read_chunks(gg_h5_in *in, const gg_h5_array_in *a, uint64_t from, uint64_t n, unsigned char *to)
+{
+  uint64_t place[GG_H5_MOST_RANK] = {from / a->chunk[0] * a->chunk[0]}, bytes = a->type.size, at;
+  for (int i = 0; i < a->space.rank; i++) bytes *= a->chunk[i];
+  unsigned char *chunk = malloc(bytes);
+  bool good = chunk != NULL;
+  do {
+    good = good && find_chunk(in, a, place, bytes, &at) && gg_h5_bytes(in, at, chunk, bytes);
+    if (good) copy_chunk(a, place, chunk, from, n, to);
+  } while (good && next_place(a, from + n, place));
+  free(chunk);
+  return good;
+}
+
+bool gg_h5_rows_of(gg_h5_in *in, const char *path, const gg_h5_array_in *a, uint64_t from, uint64_t n, void *to)
+{
+  const uint64_t row = gg_h5_row_size(&a->space) * a->type.size, rows = a->space.rank ? a->space.dims[0] : 1;
+  if (n == 0 || row == 0) return !in->failed;
+  if (from > rows || n > rows - from) return gg_h5_refuse(in, path, "has fewer rows than are needed");
+  if (a->chunked) return read_chunks(in, a, from, n, to) ? true : gg_h5_refuse(in, path, "is damaged");
+  if (a->at > in->size) return gg_h5_refuse(in, path, "is damaged");
+  return gg_h5_bytes(in, a->at + from * row, to, n * row);
+}

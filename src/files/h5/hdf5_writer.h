@@ -13,6 +13,8 @@ typedef struct gg_h5 {
   hid_t file;
   bool failed;
   char why[256];
+  char path[2][256]; /* of gg_h5_path */
+  int last;
   H5E_auto2_t print; /* how HDF5 printed its errors before: it does not here */
   void *print_data;
 } gg_h5;
@@ -26,6 +28,8 @@ void gg_h5_close(gg_h5 *h);
 /* GG_BAD_FILE "path: cannot be `verb`: why" if anything failed. */
 gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_error *err);
 
+/* A path in the file; the last two stay. */
+const char *gg_h5_path(gg_h5 *h, const char *format, ...) GG_PRINTF(2, 3);
 void gg_h5_group(gg_h5 *h, const char *path);
 void gg_h5_text(gg_h5 *h, const char *path, const char *text);
 /* n texts as an array of the longest one's size. */
@@ -34,6 +38,9 @@ void gg_h5_number(gg_h5 *h, const char *path, double value);
 void gg_h5_count(gg_h5 *h, const char *path, uint64_t value);
 /* An array; `type` of the numbers in memory, and in the file. */
 void gg_h5_array(gg_h5 *h, const char *path, hid_t type, int rank, const hsize_t *dims, const void *data);
+/* A number, or an array of them, with its unit as an attribute; NULL: none. */
+void gg_h5_number_of_unit(gg_h5 *h, const char *path, double value, const char *unit);
+void gg_h5_numbers(gg_h5 *h, const char *path, const double *values, size_t n, const char *unit);
 /* A second name for the same thing. */
 void gg_h5_link(gg_h5 *h, const char *target, const char *path);
 void gg_h5_text_attribute(gg_h5 *h, const char *object, const char *name, const char *text);

@@ -1,25 +1,93 @@
 #include "files/h5/particles.h"
 
-#include "common/model.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define GRAINS "/particles/grains/"
+#include "common/model.h"
+#include "measure/curve.h"
 
-static void start_vectors(gg_h5 *h, gg_h5_particles *p, gg_h5_rows *rows, const char *path, const double *data)
+#define GRAINS "/particles/grains"
+
+static void write_number_of_each(gg_h5 *h, const char *path, const double *of_species, const uint8_t *species, size_t n,
+                                 const char *unit)
+{
+  double *each = calloc(n, sizeof *each);
+  for (size_t i = 0; each && i < n; i++) each[i] = of_species[species[i]];
+  if (each)
+    gg_h5_numbers(h, path, each, n, unit);
+  else
+    gg_h5_failed(h, "out of memory");
+  free(each);
+}
+
+/* In the order of their numbers. */
+static void write_kinds(gg_h5 *h, const gg_model *model, const gg_frame *frame, const size_t *order)
+{
+  hsize_t n = frame->n;
+  int64_t *id = calloc(frame->n, sizeof *id);
+  uint8_t *species = calloc(frame->n, 1);
+  for (size_t i = 0; id && species && i < frame->n; i++) {
+    id[i] = (int64_t)i;
+    species[i] = frame->species ? frame->species[order[i]] : 0;
+  }
+  if (!id || !species) {
+    gg_h5_failed(h, "out of memory");
+  } else {
+    gg_h5_array(h, GRAINS "/id", H5T_NATIVE_INT64, 1, &n, id);
+    gg_h5_array(h, GRAINS "/species", H5T_NATIVE_UINT8, 1, &n, species);
+    write_number_of_each(h, GRAINS "/mass", model->mass, species, n, "m");
+    write_number_of_each(h, GRAINS "/diameter", model->diameter, species, n,
+                         model->boltzmann ? "d" : gg_measure_curve_unit(model, "length"));
+  }
+  free(id);
+  free(species);
+}
+
+/* Readers look for units at the arrays, and MDAnalysis refuses a file if it finds one there that it does not know,
+ * among which are all of ours: of position, velocity and time they stand at the groups. */
+static void write_units(gg_h5 *h, const gg_model *model, const gg_frame *frame)
+{
+  const char *velocity = gg_measure_curve_unit(model, "velocity"), *length = gg_measure_curve_unit(model, "length");
+  const char *spin = model->boltzmann ? velocity : gg_measure_curve_unit(model, "spin");
+  gg_h5_text_attribute(h, GRAINS, "time_unit", gg_measure_curve_unit(model, "time"));
+  gg_h5_text_attribute(h, GRAINS "/velocity", "unit", velocity);
+  if (frame->position) gg_h5_text_attribute(h, GRAINS "/position", "unit", length);
+  if (frame->position) gg_h5_text_attribute(h, GRAINS "/box/edges", "unit", length);
+  if (!frame->spin) return;
+  gg_h5_text_attribute(h, GRAINS "/spin", "unit", spin);
+  gg_h5_text_attribute(h, GRAINS "/spin/value", "unit", spin);
+  gg_h5_text_attribute(h, GRAINS "/spin", "doc", model->boltzmann ? "surface velocity (d/2) omega" : "omega");
+}
+
+static void write_frame_of_reference(gg_h5 *h, const gg_model *model, const gg_frame *frame)
+{
+  const char *text =
+      model->shear_rate == 0 ? "laboratory: no flow is imposed"
+      : frame->position
+          ? "peculiar: relative to the imposed flow; in the laboratory x has shear_rate (y - L_y/2) more, "
+            "y the position and L_y = box/edges/value[1][1]"
+          : "peculiar: relative to the flow at the one point that the ensemble stands for";
+  gg_h5_text_attribute(h, GRAINS "/velocity", "frame", text);
+  gg_h5_attribute(h, GRAINS "/velocity", "shear_rate", H5T_NATIVE_DOUBLE, &model->shear_rate, 0);
+}
+
+/* What does not change in time, and what the numbers mean: units, frame of reference. */
+static void write_grains(gg_h5 *h, const gg_model *model, const gg_frame *frame, const size_t *order)
+{
+  write_kinds(h, model, frame, order);
+  write_units(h, model, frame);
+  write_frame_of_reference(h, model, frame);
+}
+
+static void start_vectors(gg_h5 *h, gg_h5_particles *p, gg_h5_rows *rows, const char *name, const double *data)
 {
   rows->dataset = -1;
   if (!data) return;
-  char name[80];
-  hsize_t row[2] = {p->n, 3};
-  snprintf(name, sizeof name, GRAINS "%s/value", path);
-  gg_h5_rows_create(h, rows, name, H5T_NATIVE_DOUBLE, 2, row);
-  snprintf(name, sizeof name, GRAINS "%s/step", path);
-  gg_h5_link(h, GRAINS "velocity/step", name);
-  snprintf(name, sizeof name, GRAINS "%s/time", path);
-  gg_h5_link(h, GRAINS "velocity/time", name);
+  const hsize_t row[2] = {p->n, 3};
+  gg_h5_rows_create(h, rows, gg_h5_path(h, GRAINS "/%s/value", name), H5T_NATIVE_DOUBLE, 2, row);
+  gg_h5_link(h, GRAINS "/velocity/step", gg_h5_path(h, GRAINS "/%s/step", name));
+  gg_h5_link(h, GRAINS "/velocity/time", gg_h5_path(h, GRAINS "/%s/time", name));
 }
 
 static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
@@ -28,28 +96,28 @@ static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
   const char *boundary[3];
   for (int a = 0; a < dimension; a++)
     boundary[a] = !p->boxed || gg_common_surface_is_closed(model, a) ? "none" : "periodic";
-  gg_h5_group(h, GRAINS "box");
-  gg_h5_ints_attribute(h, GRAINS "box", "dimension", &dimension, 0);
-  gg_h5_texts_attribute(h, GRAINS "box", "boundary", boundary, 3);
+  gg_h5_group(h, GRAINS "/box");
+  gg_h5_ints_attribute(h, GRAINS "/box", "dimension", &dimension, 0);
+  gg_h5_texts_attribute(h, GRAINS "/box", "boundary", boundary, 3);
   if (!p->boxed) return;
   const hsize_t row[2] = {3, 3};
-  gg_h5_rows_create(h, &p->edges, GRAINS "box/edges/value", H5T_NATIVE_DOUBLE, 2, row);
-  gg_h5_link(h, GRAINS "velocity/step", GRAINS "box/edges/step");
-  gg_h5_link(h, GRAINS "velocity/time", GRAINS "box/edges/time");
+  gg_h5_rows_create(h, &p->edges, GRAINS "/box/edges/value", H5T_NATIVE_DOUBLE, 2, row);
+  gg_h5_link(h, GRAINS "/velocity/step", GRAINS "/box/edges/step");
+  gg_h5_link(h, GRAINS "/velocity/time", GRAINS "/box/edges/time");
 }
 
 static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame, const size_t *order)
 {
   *p = (gg_h5_particles){.started = true, .boxed = frame->position != NULL, .n = frame->n};
   p->edges.dataset = -1;
-  gg_h5_rows_create(h, &p->step, GRAINS "velocity/step", H5T_NATIVE_UINT64, 0, NULL);
-  gg_h5_rows_create(h, &p->time, GRAINS "velocity/time", H5T_NATIVE_DOUBLE, 0, NULL);
+  gg_h5_rows_create(h, &p->step, GRAINS "/velocity/step", H5T_NATIVE_UINT64, 0, NULL);
+  gg_h5_rows_create(h, &p->time, GRAINS "/velocity/time", H5T_NATIVE_DOUBLE, 0, NULL);
   const hsize_t row[2] = {p->n, 3};
-  gg_h5_rows_create(h, &p->velocity, GRAINS "velocity/value", H5T_NATIVE_DOUBLE, 2, row);
+  gg_h5_rows_create(h, &p->velocity, GRAINS "/velocity/value", H5T_NATIVE_DOUBLE, 2, row);
   start_vectors(h, p, &p->position, "position", frame->position);
   start_vectors(h, p, &p->spin, "spin", frame->spin);
   start_box(h, p, model);
-  gg_h5_write_grains(h, model, frame, order);
+  write_grains(h, model, frame, order);
 }
 
 /* Under shear the image above has slid by rate L_y t (Lees & Edwards 1972): the second edge leans by as much, counted

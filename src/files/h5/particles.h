@@ -14,8 +14,6 @@ typedef struct gg_h5_particles {
 
 /* Store one frame more; the first one lays out the groups. */
 void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame);
-/* grains.c: what does not change in time, and what the numbers mean: units, frame of reference. */
-void gg_h5_write_grains(gg_h5 *h, const gg_model *model, const gg_frame *frame, const size_t *order);
 void gg_h5_particles_close(gg_h5 *h, gg_h5_particles *p);
 
 #endif

@@ -16,8 +16,6 @@
 #include "base/atomic_file.h"
 #include "run/run.h"
 
-struct gg_h5;
-
 /* Nothing that includes this needs HDF5: the page of a browser is built without (without_hdf5.c). */
 typedef struct gg_result_file {
   gg_atomic_file file;
@@ -34,11 +32,5 @@ gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *re
 gg_status gg_files_result_file_finish_comparison(gg_result_file *f, const gg_comparison *comparison, gg_error *err);
 /* Give up: nothing is left. Harmless after a finish. */
 void gg_files_result_file_abandon(gg_result_file *f);
-
-/* The inner layouts, for the writers above. */
-void gg_h5_write_header(struct gg_h5 *h, const char *command, const gg_scene *scene, const char *document);
-/* `observables` is what the names of its series begin with: "/observables/md_". */
-void gg_h5_write_engine(struct gg_h5 *h, const char *group, const char *observables, const gg_result *result);
-void gg_h5_write_theories(struct gg_h5 *h, const gg_comparison *comparison);
 
 #endif

@@ -3,6 +3,9 @@
 #ifndef GG_RESULT_RESTORE_H
 #define GG_RESULT_RESTORE_H
 
+#include <jansson.h>
+
+#include "common/extension.h"
 #include "files/h5/result_reader.h"
 
 /* The scene that was run, and its model. */
@@ -13,5 +16,13 @@ gg_status gg_files_result_restore(const gg_stored_result *stored, gg_engine_kind
                                   gg_error *err);
 /* The whole: of a run, a comparison of one. To be cleared also after a failure. */
 gg_status gg_files_comparison_restore(const gg_stored_result *stored, gg_comparison *comparison, gg_error *err);
+
+/* Quantities and theories that the program which wrote a file had brought (graingas.h, "Extension"): their names and
+ * units, so that what was stored of them is found again. The callbacks stayed with that program. */
+
+/* Of the `results` of an engine's document that are no shared quantities, and the `theories` (NULL: none) of a
+ * comparison's that are no shared theories. *extension is NULL if there is nothing; else to be released. */
+gg_status gg_files_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension,
+                                    gg_error *err);
 
 #endif
