@@ -97,6 +97,8 @@ typedef struct gg_engine_ops {
   const char *doc;  /* one line */
   /* Can it run this model? GG_BAD_INPUT with a message naming the scene key otherwise. */
   gg_status (*accepts)(const gg_model *model, gg_error *err);
+  /* Bytes that an engine of this model will take. */
+  double (*bytes)(const gg_model *model);
   /* A new engine at a fresh initial state; it keeps its own copy of the model. */
   gg_status (*create)(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err);
   void (*destroy)(gg_engine *engine);

@@ -66,7 +66,7 @@ uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
 /* Add to the sums what the collisions of a pair of species came to. */
 void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *pass);
 
-/* candidates.c: majorants that hold for sure, to start from. */
+/* species_pair.c: majorants that hold for sure, to start from. */
 void gg_dsmc_start_majorants(gg_dsmc *d);
 /* How many candidates, `mean` on average, whatever the step: a Poisson number where they come one by one, or as a
  * correction. Eight at a time that would vary too much; there the fractional remainder is carried over instead. */
@@ -82,6 +82,7 @@ void gg_dsmc_rounds_room_free(gg_dsmc_rounds_room *room);
 void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting);
 
 gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);
+double gg_dsmc_bytes(const gg_model *model);
 void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err);
 void gg_dsmc_destroy(gg_engine *engine);

@@ -52,3 +52,11 @@ void gg_dsmc_destroy(gg_engine *engine)
   for (int i = 0; i < GG_MAX_SPECIES; i++) free(d->callback.last[i]);
   free(d);
 }
+
+/* How much memory that will be: the blocks. */
+double gg_dsmc_bytes(const gg_model *m)
+{
+  const double block = m->single ? sizeof(gg_dsmc_block_single) : sizeof(gg_dsmc_block);
+  const double vectors = m->rule != GG_SMOOTH ? 2 : 1;
+  return (double)m->n / GG_DSMC_LANES * (vectors * block + sizeof(float));
+}

@@ -206,6 +206,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .name = "dsmc",
     .doc = "Enskog Monte Carlo (direct simulation of the Enskog or Boltzmann equation)",
     .accepts = gg_dsmc_accepts,
+    .bytes = gg_dsmc_bytes,
     .create = create,
     .destroy = gg_dsmc_destroy,
     .advance = advance,

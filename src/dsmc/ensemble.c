@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/thread_pool.h"
+#include "dsmc/block.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/schedule.h"
 
@@ -177,4 +178,14 @@ void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain, double w
   e->bound_scale *= part;
   e->bound_strain = strain;
   e->bound_width = width;
+}
+
+const gg_dsmc_block *gg_dsmc_blocks_in_double(const gg_dsmc_population *p, const void *blocks, size_t first, size_t n,
+                                              gg_dsmc_block *room)
+{
+  if (!p->single) return (const gg_dsmc_block *)blocks + first;
+  const float *from = (const float *)((const gg_dsmc_block_single *)blocks + first);
+  double *to = (double *)room;
+  for (size_t i = 0; i < n * GG_DSMC_COMPONENTS; i++) to[i] = from[i];
+  return room;
 }

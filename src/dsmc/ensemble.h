@@ -17,7 +17,7 @@ typedef struct gg_dsmc_ensemble {
   int n_species;
   gg_dsmc_population of[GG_MAX_SPECIES];
   double bound_scale, bound_strain, bound_width; /* it holds at strains from bound_strain on, over bound_width */
-  int segments;                /* that each species is divided into (parallel/partition.h): by size alone, 1 if small */
+  int segments;                /* that each species is divided into (parallel/schedule.h): by size alone, 1 if small */
   int grouping;                /* paired last, and maybe in caches: the quarter that went with the first */
   struct gg_thread_pool *pool; /* threads that share them; NULL: one thread does all */
   const struct gg_dsmc_kernels *kernels; /* for the instructions of this processor */

@@ -1,6 +1,7 @@
 /* The grid of cells, and what goes with the kind of search. */
 #include "base/memory.h"
 #include "md/md_state.h"
+#include "md/overlapping_members.h"
 
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {
@@ -27,4 +28,49 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   GG_TRY(gg_md_make_rows(e, err));
   gg_md_align_rows(e);
   return GG_OK;
+}
+
+/* The cells that grains lie in, and the cells filled with them. */
+static void enter(gg_md *e, uint32_t i)
+{
+  const gg_vec r = e->grain[i].r;
+  gg_md_node *node = &e->node[i];
+  switch (e->search.kind) {
+  case GG_MD_OVERLAPPING_ROWS: gg_md_members_in_rows_place(e, r, node); break;
+  case GG_MD_OVERLAPPING_CELLS: gg_md_members_place(e, r, node); break;
+  case GG_MD_NEIGHBOUR_LISTS: gg_md_cell_of(&e->cells, e->search.lists.skin[i].centre, node->cell); break;
+  case GG_MD_COMOVING_ROWS:
+    gg_md_cell_of(&e->cells, r, node->cell);
+    node->cell[0] = gg_md_cell_in_row(e, node->cell[1], r.x);
+    break;
+  default: gg_md_cell_of(&e->cells, r, node->cell);
+  }
+}
+
+void gg_md_enter_grid(gg_md *e)
+{
+  for (uint32_t i = 0; i < e->n; i++) enter(e, i);
+}
+
+static bool fill_overlapping(gg_md *e)
+{
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_md_members in;
+    if (e->search.kind == GG_MD_OVERLAPPING_ROWS)
+      gg_md_members_in_rows_of(e, &e->node[i], &in);
+    else
+      gg_md_members_of(e, &e->node[i], &in);
+    if (!gg_md_members_enter(e, i, &in)) return false;
+  }
+  return true;
+}
+
+bool gg_md_fill_grid(gg_md *e)
+{
+  gg_md_cells_clear(&e->cells);
+  if (gg_md_search_overlaps(e->search.kind)) return fill_overlapping(e);
+  for (uint32_t i = 0; i < e->n; i++)
+    while (!gg_md_cell_add(&e->cells, e->node[i].cell, i))
+      if (!gg_md_cells_grow(&e->cells)) return false;
+  return true;
 }

@@ -1,7 +1,7 @@
 /* Which models the engine runs. */
 #include <math.h>
 
-#include "md/md_accept.h"
+#include "md/md_engine.h"
 #include "md/md_state.h"
 
 static gg_status check_box(const gg_model *m, gg_error *err)

@@ -1,6 +1,6 @@
 /* Everything needed to go on bit for bit: the records as they are. What cells and calendar hold is put there anew:
  * its order never matters. */
-#include "md/md_checkpoint.h"
+#include "md/md_engine.h"
 
 #include <math.h>
 #include <string.h>

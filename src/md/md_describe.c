@@ -1,7 +1,7 @@
 /* What the engine makes of a model, in words. */
 #include <stdio.h>
 
-#include "md/md_accept.h"
+#include "md/md_engine.h"
 #include "md/md_state.h"
 
 static void tell(void (*line)(void *, const char *), void *context, const char *what, const char *how)

@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "md/md_accept.h"
-#include "md/md_checkpoint.h"
+#include "md/md_engine.h"
 #include "md/md_thermostat.h"
 
 /* A fall gives its grains a temperature of its own, whatever they start from: m g times some of the height, where that
@@ -222,6 +221,7 @@ const gg_engine_ops gg_md_ops = {
     .name = "md",
     .doc = "event-driven molecular dynamics of hard spheres",
     .accepts = gg_md_accepts,
+    .bytes = gg_md_bytes,
     .create = create,
     .destroy = destroy,
     .advance = advance,

@@ -1,5 +1,5 @@
 /* The grains shown to the outside: at the present time, peculiar velocities, a few hundred at a time. */
-#include "md/md_checkpoint.h"
+#include "md/md_engine.h"
 
 enum { SHOWN = 256 }; /* at a time: so few stay in the first cache until they have been sampled */
 

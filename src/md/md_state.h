@@ -110,7 +110,7 @@ typedef struct gg_md_counts {
   double asked, stop;       /* its length, outside; its end, or that of its present leg, in epoch time */
   double beyond_kick;       /* white noise: what is left of it after the next kick; -INFINITY: that comes too late */
   uint64_t collisions_left; /* to it */
-  double fractional_shift, common_shift; /* of co-moving rows (rows.c), at the epoch's start */
+  double fractional_shift, common_shift; /* of co-moving rows (row_motion.c), at the epoch's start */
   int32_t row_shift, image_shift;
   uint32_t keeps_sums;
   int32_t power;              /* velocities are 2^power times those of the start (rescale) */
@@ -139,7 +139,7 @@ struct gg_md {
   uint64_t look_at;   /* events after which the loop is left, to look whether to stop */
   bool plain;         /* one pair at a time, the reference for the tests */
   bool out_of_memory; /* a cell could not grow: the run is over */
-  bool no_number;     /* nor does it go on with what is no number (finite_check.c) */
+  bool no_number;     /* nor does it go on with what is no number (verify.c) */
   bool stands_still;  /* nor where one grain's contacts never end */
   uint64_t check_at;  /* events after which all grains are looked at again */
   const gg_md_kernel *kernel;
@@ -177,7 +177,7 @@ double gg_md_crossings_per_collision(const gg_model *model);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 /* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
-/* fill_grid.c: the cells that the grains' positions lie in; the cells filled with them (false: out of memory). */
+/* grid.c: the cells that the grains' positions lie in; the cells filled with them (false: out of memory). */
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e);
 
@@ -186,8 +186,8 @@ bool gg_md_fill_grid(gg_md *e);
 gg_status gg_md_note_surfaces(gg_md *e, gg_error *err);
 double gg_md_shaped_delay(const gg_md *e, const gg_surface *surface, const gg_flight *flight, const int32_t *cell);
 
-/* rows.c: rows of cells that move with the flow, placed as e->k tells; as the images above stand at the epoch's start;
- * at the start of the next epoch; and after they have shifted by a cell. */
+/* row_motion.c: rows of cells that move with the flow, placed as e->k tells; as the images above stand at the epoch's
+ * start; at the start of the next epoch; and after they have shifted by a cell. */
 gg_status gg_md_make_rows(gg_md *e, gg_error *err);
 void gg_md_align_rows(gg_md *e);
 void gg_md_move_rows(gg_md *e, double span);
@@ -202,10 +202,10 @@ void gg_md_set_skins(gg_md *e, double radius);
 /* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
  * False if nothing will ever happen again. */
 bool gg_md_next_epoch(gg_md *e);
-/* finite_check.c: look at all grains, if that is due; false: a place, velocity or spin is no number, and e->no_number.
+/* verify.c: look at all grains, if that is due; false: a place, velocity or spin is no number, and e->no_number.
  */
 bool gg_md_check_numbers(gg_md *e);
-/* centre_of_mass.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
+/* epoch.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
  * time. */
 void gg_md_follow_centre_of_mass(gg_md *e);
 /* contact_time.c: a sheared gas that begins in the cold does not stay there; the contact time at the start, and

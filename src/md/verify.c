@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "md/md_state.h"
 
 /* Boxes that a grain may lie or come from its own; far less than an index holds. Boxes that those above may have moved
  * within an epoch, which a whole number holds. */
@@ -154,4 +155,22 @@ const char *gg_md_wrong_grains(const gg_md *e)
   for (uint32_t i = 0; i < e->n; i++)
     if (!is_event(e, i) || !is_contact(e, i, &e->node[i])) return "an event";
   return NULL;
+}
+
+/* What is no number any more. Collisions look at what they leave behind (event_loop.h); here all grains are looked at,
+ * once in as many events as there are grains: whatever it came from, no run goes on with it. */
+static bool is_number(gg_vec a, gg_vec b)
+{
+  return fabs((a.x + a.y + a.z) + (b.x + b.y + b.z)) < INFINITY;
+}
+
+bool gg_md_check_numbers(gg_md *e)
+{
+  if (e->no_number || e->k.events < e->check_at) return !e->no_number;
+  e->check_at = e->k.events + e->n;
+  const gg_vec none = {0, 0, 0};
+  for (uint32_t i = 0; i < e->n; i++)
+    if (!is_number(e->grain[i].r, e->grain[i].v) || !is_number(e->spin ? e->spin[i] : none, none)) e->no_number = true;
+  if (e->no_number) e->k.collisions_left = 0;
+  return !e->no_number;
 }

@@ -173,7 +173,8 @@ static double bytes_of_series(const gg_forecast *f, const gg_model *m)
 
 gg_forecast gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
-  gg_forecast f = {.engine = gg_run_engine_memory(engine, m), .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
+  gg_forecast f = {.engine = gg_run_engine_ops_of(engine)->bytes(m),
+                   .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
   add_observables(&f, scene, m, engine);
   plan_time(&f, scene, m);
   f.series = bytes_of_series(&f, m);

@@ -37,7 +37,4 @@ gg_status gg_run_cost_check_memory(const gg_forecast *forecast, const char *engi
 void gg_run_cost_report(const gg_forecast *forecast, int64_t replicas, void (*line)(void *context, const char *text),
                         void *context);
 
-/* memory_estimate.c */
-double gg_run_engine_memory(gg_engine_kind kind, const gg_model *model);
-
 #endif

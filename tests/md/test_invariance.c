@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "md/rows.h"
+#include "md/row_motion.h"
 #include "md_test.h"
 
 enum { EVENTS = 100, MAX_N = 200 };

@@ -7,7 +7,7 @@
 
 #include "md_test.h"
 
-#include "md/rows.h"
+#include "md/row_motion.h"
 
 enum { MOST = 160 };
 

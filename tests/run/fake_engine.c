@@ -23,6 +23,11 @@ typedef struct fake_engine {
   gg_collision_sums sums;
 } fake_engine;
 
+static double bytes(const gg_model *model)
+{
+  return 100 * (double)model->n;
+}
+
 static gg_status accepts(const gg_model *m, gg_error *err)
 {
   return m->flow == GG_USF || m->flow == GG_EQUILIBRIUM ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "fake: flow");
@@ -123,6 +128,7 @@ static const gg_engine_ops ops = {
     .name = "fake",
     .doc = "planted answers",
     .accepts = accepts,
+    .bytes = bytes,
     .create = create,
     .destroy = destroy,
     .advance = advance,

@@ -10,15 +10,15 @@ ROOMS = {
         src/common/surface/plane.h src/common/surface/ridges.h src/common/surface/shapes.h
         src/common/surface/surfaces.c"""),
     "md": (32, """
-        src/md/box.h src/md/centre_of_mass.c src/md/contacts.c src/md/contacts.h src/md/epoch.c src/md/event_loop.h
-        src/md/separating_pairs.c src/md/predict.h src/md/predict8.h src/md/resolve.c src/md/resolve.h src/md/rows.c
-        src/md/rows.h src/md/md_snapshot.c src/md/start/lattice.c src/md/start/place.c src/md/start/start.c
+        src/md/box.h src/md/epoch.c src/md/contacts.c src/md/contacts.h src/md/event_loop.h
+        src/md/separating_pairs.c src/md/predict.h src/md/resolve.c src/md/resolve.h src/md/row_motion.c
+        src/md/row_motion.h src/md/md_snapshot.c src/md/start/place.c src/md/start/start.c
         src/md/wall_contacts.c src/md/md_thermostat.c src/md/cell_grid.c src/md/cell_grid.h"""),
     "md/search": (26, """
         src/md/search/candidates.h src/md/search/comoving_rows.h src/md/search/faces.h src/md/search/list_update.h
         src/md/search/lists.h src/md/search/overlapping.h src/md/search/overlapping_cells.h
         src/md/search/overlapping_rows.h src/md/search/pair.h src/md/search/plain_cells.h src/md/search/search.h
-        src/md/search/simd_pairs.h src/md/search/near_surfaces.h src/md/overlapping_members.h src/md/members_in_rows.h"""),
+        src/md/search/simd_pairs.h src/md/search/near_surfaces.h src/md/overlapping_members.h"""),
     "dsmc": (38, """
         src/dsmc/ensemble.c src/dsmc/majorant.c src/dsmc/collision_loop.c src/dsmc/species_pair.c src/dsmc/splitting.c
         src/dsmc/step.c src/dsmc/dsmc_thermostat.c src/dsmc/time_step.c src/dsmc/kernel/block_pairs.h

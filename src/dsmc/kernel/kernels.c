@@ -1,6 +1,6 @@
 #include "dsmc/kernel/kernels.h"
 
-#include "dsmc/parallel/partition.h"
+#include "dsmc/parallel/schedule.h"
 
 #define PRECISION(precision, name)                                                                                     \
   {                                                                                                                    \

@@ -1,4 +1,4 @@
-/* The round-robin schedule by which the segments of an ensemble (partition.h) collide with each other.
+/* The round-robin schedule by which the segments of an ensemble collide with each other.
  *
  * In each round every segment is paired with one other (or with itself), so that the pairs of a round have no grain in
  * common and may run at once. A pair may begin as soon as both of its segments are done with theirs of the round
@@ -19,7 +19,17 @@
 #ifndef GG_DSMC_SCHEDULE_H
 #define GG_DSMC_SCHEDULE_H
 
-#include "dsmc/parallel/partition.h"
+#include "dsmc/kernel/pass.h"
+
+/* The partition of a large ensemble into segments of blocks, so that threads can share it. */
+enum { GG_DSMC_MAX_SEGMENTS = 16 };
+
+/* How many segments for so many blocks: 1 below 8000, else 8 or 16. */
+int gg_dsmc_segments_of(size_t blocks);
+
+gg_dsmc_range gg_dsmc_all_blocks(const gg_dsmc_population *p);
+/* Blocks of a segment; segments begin on cache lines of the speed bounds. */
+gg_dsmc_range gg_dsmc_segment(const gg_dsmc_population *p, int segments, int segment);
 
 /* Pairs of segments in a round, 0 to segments - 1; in round 0 each is paired with itself. */
 int gg_dsmc_segment_pairs(int segments, int round);

@@ -1,9 +1,9 @@
 /* Cells under shear: a grid in which each row of cells along x moves with the mean flow at its middle, so that the flow
  * carries nobody through cells, however large the box, and the sheared boundary is a boundary of rows like any other.
  *
- * The row above a row moves on by the fractional shift f (rows.c), from 0 to a cell's width w, then begins again one
- * cell further: the rows shift. In between, a cell with contact distances of at most w sees what it can touch in four
- * cells of the row above and in four of the row below:
+ * The row above a row moves on by the fractional shift f (row_motion.c), from 0 to a cell's width w, then begins again
+ * one cell further: the rows shift. In between, a cell with contact distances of at most w sees what it can touch in
+ * four cells of the row above and in four of the row below:
  *
  *   above:  -2 -1  0 +1     ahead by f
  *   own:       -1  0 +1
@@ -26,7 +26,7 @@ enum {
   PREDICTS_IN_PLACE = false
 };
 
-#include "md/rows.h"
+#include "md/row_motion.h"
 #include "md/search/candidates.h"
 #include "md/search/faces.h"
 #include "md/search/neighbour_search.h"

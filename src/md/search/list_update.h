@@ -2,7 +2,7 @@
 #ifndef GG_MD_SEARCH_LIST_UPDATE_H
 #define GG_MD_SEARCH_LIST_UPDATE_H
 
-#include "md/predict8.h"
+#include "md/predict.h"
 #include "md/search/candidates.h"
 #include "simd/axes.h"
 

@@ -1,8 +1,8 @@
-/* Searching cells that overlap, in rows that move with the flow (members_in_rows.h). */
+/* Searching cells that overlap, in rows that move with the flow (overlapping_members.h). */
 #ifndef GG_MD_SEARCH_OVERLAPPING_ROWS_H
 #define GG_MD_SEARCH_OVERLAPPING_ROWS_H
 
-#include "md/members_in_rows.h"
+#include "md/overlapping_members.h"
 #include "md/search/overlapping.h"
 
 /* From the lower edges of its lower cells to where a grain is, and how fast that grows, in each lane. */

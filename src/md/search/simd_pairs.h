@@ -1,8 +1,8 @@
-/* Eight candidates at a time (predict8.h): which of them does the grain meet first? */
+/* Eight candidates at a time (predict.h): which of them does the grain meet first? */
 #ifndef GG_MD_SEARCH_SIMD_PAIRS_H
 #define GG_MD_SEARCH_SIMD_PAIRS_H
 
-#include "md/predict8.h"
+#include "md/predict.h"
 #include "md/search/search.h"
 
 /* What the minimum-image convention takes for those to try: constant in each copy of the search. */

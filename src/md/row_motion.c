@@ -8,13 +8,13 @@
  * so f is the same for all of them, and all whole numbers grow by one at the same time. With the image above at offset
  * D, D = n_y f + m w.
  *
- * Rows of cells that overlap (members_in_rows.h) need not know of each other: row j begins at (j + 1/2 - n_y/2) f,
+ * Rows of cells that overlap (overlapping_members.h) need not know of each other: row j begins at (j + 1/2 - n_y/2) f,
  * where f, in [0, 2 L_x), is how far rows have moved past each other. e->k.fractional_shift is what it was, or would
  * have been, at the epoch's start. */
 #include <math.h>
 
 #include "base/memory.h"
-#include "md/rows.h"
+#include "md/row_motion.h"
 
 static double shift_speed(const gg_md *e)
 {

@@ -1,4 +1,4 @@
-/* Co-moving rows of cells (rows.c, search/comoving_rows.h): how few cells they may have, and their numbers. */
+/* Co-moving rows of cells (row_motion.c, search/comoving_rows.h): how few cells they may have, and their numbers. */
 #ifndef GG_MD_ROWS_H
 #define GG_MD_ROWS_H
 
