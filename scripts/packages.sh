@@ -1,5 +1,15 @@
-# What a step needs is there, or is installed, or is named: `need build unit`. Sourced by quickstart and check.
+# What a step needs is there, or is installed, or is named: `need build unit`. Sourced by quickstart, check and others.
 needs_table=scripts/needs.txt
+
+# setup_tests FOLDER OPTIONS: a build folder with tests. One that was set up without them is set up again.
+setup_tests() {
+  again=""
+  if [ -f "$1/build.ninja" ]; then
+    grep -q '^build tests/' "$1/build.ninja" && return
+    again=--reconfigure
+  fi
+  meson setup $again "$@" -Dtests=true >/dev/null
+}
 
 need() {
   if command -v apt-get >/dev/null && command -v dpkg-query >/dev/null; then

@@ -161,7 +161,7 @@ def compile_tree(folder, mutants, wanted, more=()):
         write(folder, mutants, without)
         if not os.path.exists(os.path.join(build, "build.ninja")):
             env = dict(os.environ, CFLAGS=f"-w -include {tree}/src/common/mutants.h")
-            subprocess.run(["meson", "setup", build, tree, "-Doptimization=2"], env=env, check=True, stdout=subprocess.DEVNULL)
+            subprocess.run(["meson", "setup", build, tree, "-Dtests=true", "-Doptimization=2"], env=env, check=True, stdout=subprocess.DEVNULL)
         exes = [os.path.relpath(c[0], build) for c in targets(build, wanted).values() if c[0].startswith(build)]
         done = subprocess.run(["ninja", "-j", "2", "-C", build, "-k", "0", *exes, *more], capture_output=True, text=True)
         if done.returncode == 0:
