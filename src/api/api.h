@@ -1,7 +1,7 @@
 /* What the files of the public interface have in common. Each of them is one section of graingas.h: it checks
  * arguments, finishes scenes, and hands on to the rooms that do the work. */
-#ifndef GG_DOOR_H
-#define GG_DOOR_H
+#ifndef GG_API_H
+#define GG_API_H
 
 #include <jansson.h>
 

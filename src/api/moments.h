@@ -1,6 +1,6 @@
 /* What a state of the grains tells of itself, whether an engine has them or a file. */
-#ifndef GG_DOOR_MOMENTS_H
-#define GG_DOOR_MOMENTS_H
+#ifndef GG_API_MOMENTS_H
+#define GG_API_MOMENTS_H
 
 #include "api/api.h"
 #include "common/engine.h"

@@ -18,7 +18,7 @@ typedef struct file {
 typedef gg_status page_check(const char *page, const char *picture, const void *context, gg_error *err);
 
 /* A checkpoint may take the place of the one that the run goes on from. */
-static bool may_be_one(const file *a, const file *b)
+static bool may_be_same(const file *a, const file *b)
 {
   return !a->path || !b->path || (!a->option && !b->option) || (a->role[4] == 'c' && b->role[4] == 'c');
 }
@@ -27,7 +27,7 @@ static gg_status check_pairs(const file *all, int n, gg_error *err)
 {
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++)
-      if (!may_be_one(&all[i], &all[j]) && gg_base_path_is_same_file(all[i].path, all[j].path))
+      if (!may_be_same(&all[i], &all[j]) && gg_base_path_is_same_file(all[i].path, all[j].path))
         return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and %s; choose another %s", all[i].path,
                             all[i].role, all[j].role, all[i].option);
   return GG_OK;
@@ -50,7 +50,7 @@ static gg_status ask(const char *picture, const char *engine, const char *group,
 }
 
 /* Of all pages that the run may come to; an engine may refuse an observable, and leave its page out. */
-static gg_status for_pages(const gg_door_run *r, page_check *check, const void *context, gg_error *err)
+static gg_status for_pages(const gg_run_call *r, page_check *check, const void *context, gg_error *err)
 {
   bool png;
   const char *picture = r->options.picture;
@@ -98,7 +98,7 @@ static gg_status check_ending(const char *output, gg_error *err)
 }
 
 /* It is drawn from the result when that is in place. */
-gg_status gg_api_picture_check(const gg_door_run *r, gg_error *err)
+gg_status gg_api_picture_check(const gg_run_call *r, gg_error *err)
 {
   bool png;
   const gg_run_options *o = &r->options;
@@ -117,7 +117,7 @@ gg_status gg_api_picture_check(const gg_door_run *r, gg_error *err)
   return for_pages(r, check_page_writable, NULL, err);
 }
 
-gg_status gg_api_files_check(const gg_door_run *r, gg_error *err)
+gg_status gg_api_files_check(const gg_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
   char *second = before(o->checkpoint), *third = before(o->resume);

@@ -15,21 +15,21 @@
 
 static void report_progress(void *context, const gg_progress *progress)
 {
-  gg_door_run *r = context;
+  gg_run_call *r = context;
   if (r->options.progress && r->options.progress(r->options.context, progress)) atomic_store(&r->stopped, true);
 }
 
 /* Does the caller want the run to end? */
 static bool is_stopped(void *context)
 {
-  gg_door_run *r = context;
+  gg_run_call *r = context;
   if (r->options.stop && r->options.stop(r->options.context)) atomic_store(&r->stopped, true);
   return atomic_load(&r->stopped);
 }
 
 static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *err)
 {
-  gg_door_run *r = context;
+  gg_run_call *r = context;
   locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_api_trajectory_mark(r, archive, err);
   if (status == GG_OK)
@@ -43,7 +43,7 @@ static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *
   return GG_OK;
 }
 
-static gg_status read_resume(gg_door_run *r, gg_error *err)
+static gg_status read_resume(gg_run_call *r, gg_error *err)
 {
   bool older;
   char text[1024];
@@ -57,7 +57,7 @@ static gg_status read_resume(gg_door_run *r, gg_error *err)
 }
 
 /* From here to the end of the run nobody else writes it. */
-static gg_status lock_checkpoint(gg_door_run *r, gg_error *err)
+static gg_status lock_checkpoint(gg_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
   gg_output_path place;
@@ -70,43 +70,43 @@ static gg_status lock_checkpoint(gg_door_run *r, gg_error *err)
 }
 
 /* Before the run: at its end, with the results in place, there may be no memory for a name. */
-static gg_status name_passing(gg_door_run *r, gg_error *err)
+static gg_status name_temporaries(gg_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
   char *frames = gg_files_frame_log_path(path);
-  r->passing[GG_PASSING_CHECKPOINT] = gg_base_path_follow_links(path);
-  r->passing[GG_PASSING_BEFORE] = gg_files_checkpoint_before(path);
-  r->passing[GG_PASSING_FRAMES] = frames ? gg_base_path_follow_links(frames) : NULL;
+  r->temporary[GG_TEMPORARY_CHECKPOINT] = gg_base_path_follow_links(path);
+  r->temporary[GG_TEMPORARY_BEFORE] = gg_files_checkpoint_before(path);
+  r->temporary[GG_TEMPORARY_FRAMES] = frames ? gg_base_path_follow_links(frames) : NULL;
   free(frames);
-  for (int i = 0; i < GG_PASSINGS; i++)
-    if (!r->passing[i]) return gg_base_out_of_memory(err);
+  for (int i = 0; i < GG_TEMPORARIES; i++)
+    if (!r->temporary[i]) return gg_base_out_of_memory(err);
   return GG_OK;
 }
 
-static gg_status begin_checkpoints(gg_door_run *r, gg_error *err)
+static gg_status begin_checkpoints(gg_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
   if (o->checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (o->resume) GG_TRY(read_resume(r, err));
-  r->goes_on_there = o->checkpoint && r->resume.n_items > 0 && gg_files_checkpoint_is_of(o->resume, o->checkpoint);
-  return o->checkpoint ? name_passing(r, err) : GG_OK;
+  r->resumes_in_place = o->checkpoint && r->resume.n_items > 0 && gg_files_checkpoint_is_of(o->resume, o->checkpoint);
+  return o->checkpoint ? name_temporaries(r, err) : GG_OK;
 }
 
-static gg_status begin(gg_door_run *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
+static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
                        gg_error *err)
 {
-  *r = (gg_door_run){.file = {.file = GG_ATOMIC_NONE}, .lock = GG_FILE_LOCK_NONE, .log.fd = -1};
+  *r = (gg_run_call){.file = {.file = GG_ATOMIC_NONE}, .lock = GG_FILE_LOCK_NONE, .log.fd = -1};
   r->comparison = comparison;
   if (options) r->options = *options;
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
   atomic_init(&r->stopped, false);
-  r->hooks = (gg_hooks){.context = r,
-                        .progress = report_progress,
-                        .interrupted = is_stopped,
-                        .checkpoint = r->options.checkpoint ? store_checkpoint : NULL,
-                        .workers = r->options.workers,
-                        .model = &r->model};
+  r->callbacks = (gg_run_callbacks){.context = r,
+                                    .progress = report_progress,
+                                    .interrupted = is_stopped,
+                                    .checkpoint = r->options.checkpoint ? store_checkpoint : NULL,
+                                    .workers = r->options.workers,
+                                    .model = &r->model};
   GG_TRY(gg_api_scene_finish(scene, &r->scene, err));
   GG_TRY(gg_common_model_make(&r->scene, r->scene.engine, &r->model, err));
   GG_TRY(gg_api_files_check(r, err));
@@ -116,18 +116,18 @@ static gg_status begin(gg_door_run *r, const gg_scene *scene, const gg_run_optio
   return gg_api_picture_check(r, err);
 }
 
-static void end(gg_door_run *r)
+static void end(gg_run_call *r)
 {
   gg_files_result_file_abandon(&r->file);
   gg_api_trajectory_end(r);
   gg_base_file_lock_release(&r->lock);
   gg_base_archive_clear(&r->resume);
-  for (int i = 0; i < GG_PASSINGS; i++) free(r->passing[i]);
+  for (int i = 0; i < GG_TEMPORARIES; i++) free(r->temporary[i]);
   gg_base_string_list_clear(&r->warnings);
 }
 
 /* Keys without effect on what the scene is used for. */
-static void warn_of_keys(gg_door_run *r)
+static void warn_of_keys(gg_run_call *r)
 {
   const gg_engine_kind engine = r->scene.engine;
   if (r->comparison)
@@ -139,21 +139,21 @@ static void warn_of_keys(gg_door_run *r)
 }
 
 /* Of both engines, or of the scene's alone, which may store a trajectory; warnings about keys come first or last. */
-static gg_status run_engines(gg_door_run *r, gg_comparison *c, gg_error *err)
+static gg_status run_engines(gg_run_call *r, gg_comparison *c, gg_error *err)
 {
   const gg_archive *resume = r->resume.n_items ? &r->resume : NULL;
   gg_result **result = &c->by_engine[r->scene.engine];
   if (!r->comparison) GG_TRY(gg_api_trajectory_begin(r, err));
   r->started = true;
-  gg_status status = r->comparison ? gg_run_compare_scene(&r->scene, resume, r->options.threads, &r->hooks, c, err)
-                                   : gg_run_scene(&r->scene, resume, r->options.threads, &r->hooks, result, err);
+  gg_status status = r->comparison ? gg_run_compare_scene(&r->scene, resume, r->options.threads, &r->callbacks, c, err)
+                                   : gg_run_scene(&r->scene, resume, r->options.threads, &r->callbacks, result, err);
   if (r->comparison) gg_base_string_list_move(&r->warnings, &c->warnings);
   if (r->comparison || *result)
     gg_base_string_list_move(r->comparison ? &c->warnings : &(*result)->warnings, &r->warnings);
   return status;
 }
 
-static gg_status write_output(gg_door_run *r, const gg_comparison *c, gg_error *err)
+static gg_status write_output(gg_run_call *r, const gg_comparison *c, gg_error *err)
 {
   if (r->comparison) return gg_files_result_file_finish_comparison(&r->file, c, err);
   gg_result *result = c->by_engine[r->scene.engine];
@@ -162,24 +162,24 @@ static gg_status write_output(gg_door_run *r, const gg_comparison *c, gg_error *
 }
 
 /* All is done and the result in place: the run's own checkpoints have had their day. */
-static void remove_checkpoints(gg_door_run *r)
+static void remove_checkpoints(gg_run_call *r)
 {
   struct stat about;
-  if (!r->options.output || !r->options.checkpoint || !(r->stored || r->goes_on_there)) return;
-  for (int i = 0; i < GG_PASSINGS; i++)
-    if (stat(r->passing[i], &about) == 0 && S_ISREG(about.st_mode)) unlink(r->passing[i]);
+  if (!r->options.output || !r->options.checkpoint || !(r->stored || r->resumes_in_place)) return;
+  for (int i = 0; i < GG_TEMPORARIES; i++)
+    if (stat(r->temporary[i], &about) == 0 && S_ISREG(about.st_mode)) unlink(r->temporary[i]);
 }
 
 /* Write what there is, give it its name, and remove the checkpoints of a run that is done: of a point of a sweep, also
  * of one that ended short. */
-static gg_status finish(gg_door_run *r, gg_door_point *point, gg_status status, const gg_comparison *c, gg_error *err)
+static gg_status finish(gg_run_call *r, gg_point_call *point, gg_status status, const gg_comparison *c, gg_error *err)
 {
   const bool whole = c && (status == GG_OK || status == GG_FAILED), named = point && point->publish && whole;
   gg_status written = GG_OK;
   if (whole && r->options.output) {
-    gg_run_scheduler_leave(r->hooks.scheduler); /* disks take their time */
+    gg_run_scheduler_leave(r->callbacks.scheduler); /* disks take their time */
     written = write_output(r, c, err);
-    gg_run_scheduler_enter(r->hooks.scheduler);
+    gg_run_scheduler_enter(r->callbacks.scheduler);
   }
   if (named && written == GG_OK) written = point->publish(point->context, status, err);
   if ((status == GG_OK || named) && written == GG_OK) remove_checkpoints(r);
@@ -198,16 +198,16 @@ static gg_status status_of(gg_status run, gg_status written, const gg_error *why
   return gg_base_fail(err, written, "%.500s; and %.500s", message, err ? err->message : "");
 }
 
-gg_status gg_api_run_simulate(gg_door_point *point, const gg_scene *scene, const gg_run_options *options,
+gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
                               bool comparison, gg_comparison **made, gg_error *err)
 {
-  gg_door_run r;
+  gg_run_call r;
   gg_error why = {0};
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
   const bool before = gg_base_memory_begin();
   gg_status status = begin(&r, scene, options, comparison, err);
-  r.hooks.scheduler = point ? point->scheduler : NULL;
+  r.callbacks.scheduler = point ? point->scheduler : NULL;
   if (status == GG_OK) {
     warn_of_keys(&r);
     status = run_engines(&r, c, err);

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "files/h5/checkpoint_file.h"
 
-static gg_status tell_comparison(const gg_archive *a, gg_checkpoint_info *info, gg_error *err)
+static gg_status describe_comparison(const gg_archive *a, gg_checkpoint_info *info, gg_error *err)
 {
   info->kind = "comparison";
   for (int k = 0; k < 2; k++) {
@@ -24,7 +24,7 @@ static gg_status tell_comparison(const gg_archive *a, gg_checkpoint_info *info, 
   return GG_OK;
 }
 
-static void tell_simulation(gg_simulation *s, gg_checkpoint_info *info)
+static void describe_simulation(gg_simulation *s, gg_checkpoint_info *info)
 {
   gg_simulation_state now;
   info->kind = "simulation";
@@ -38,14 +38,14 @@ static gg_status tell(const gg_archive *a, const char *path, const gg_scene *sce
 {
   gg_simulation *simulation;
   if (gg_base_archive_find(a, "md/campaign/state") || gg_base_archive_find(a, "dsmc/campaign/state"))
-    return tell_comparison(a, info, err);
+    return describe_comparison(a, info, err);
   if (!gg_base_archive_find(a, "simulation/scene")) {
     info->kind = "run";
     info->part[0].engine = gg_run_engine_ops_of(scene->engine)->name;
     return gg_run_how_far(a, &info->part[0], err);
   }
   GG_TRY(gg_simulation_load(path, NULL, &simulation, err));
-  tell_simulation(simulation, info);
+  describe_simulation(simulation, info);
   return GG_OK;
 }
 

@@ -8,7 +8,7 @@
  * X.h5.1 is removed     the new X.h5 with X.frames.new; X.frames of the other run is litter
  * X.frames is replaced  X.h5 and X.frames of the new run
  * The next run to keep checkpoints there tells the litter from what is needed by the mark in the checkpoint
- * (settle_new). */
+ * (resolve_new). */
 #include <errno.h>
 #include <libgen.h>
 #include <stdio.h>
@@ -25,25 +25,25 @@ enum { NAME = 256 };
 
 static gg_status store_in_result(void *context, const gg_frame *frame, gg_error *err)
 {
-  gg_door_run *r = context;
+  gg_run_call *r = context;
   return gg_files_result_file_frame(&r->file, &r->model, frame, err);
 }
 
 static gg_status store_in_log(void *context, const gg_frame *frame, gg_error *err)
 {
-  return gg_files_frame_log_append(&((gg_door_run *)context)->log, frame, err);
+  return gg_files_frame_log_append(&((gg_run_call *)context)->log, frame, err);
 }
 
 /* From a log, which may be anybody's. */
 static gg_status store_from_log(void *context, const gg_frame *frame, gg_error *err)
 {
-  GG_TRY(gg_run_frame_check(frame, &((gg_door_run *)context)->model, err));
+  GG_TRY(gg_run_frame_check(frame, &((gg_run_call *)context)->model, err));
   return store_in_result(context, frame, err);
 }
 
 /* The log that belongs to the checkpoint resumed from: beside it, under its name, or under the name that it was written
  * by, where the checkpoint alone was copied. To be freed. */
-static char *log_of_resume(const gg_door_run *r)
+static char *log_of_resume(const gg_run_call *r)
 {
   char *path = gg_files_frame_log_path(r->options.resume), *copy = NULL, *other = NULL, name[NAME];
   bool there = path && access(path, F_OK) == 0;
@@ -61,7 +61,7 @@ static char *log_of_resume(const gg_door_run *r)
 }
 
 /* The log up to the mark; or the new one beside it, where its run was killed before it was put in place. */
-static gg_status open_one_of_two(gg_door_run *r, gg_frame_log *log, const char *path, const gg_frame_mark *mark,
+static gg_status open_one_of_two(gg_run_call *r, gg_frame_log *log, const char *path, const gg_frame_mark *mark,
                                  gg_error *err)
 {
   gg_status status = gg_files_frame_log_open_at(log, path, mark, &r->file.file.stop, err);
@@ -76,7 +76,7 @@ static gg_status open_one_of_two(gg_door_run *r, gg_frame_log *log, const char *
 }
 
 /* The frames before the checkpoint, every one looked at. */
-static gg_status open_earlier(gg_door_run *r, gg_frame_log *earlier, gg_error *err)
+static gg_status open_earlier(gg_run_call *r, gg_frame_log *earlier, gg_error *err)
 {
   gg_frame_mark mark;
   gg_error why;
@@ -112,13 +112,13 @@ static gg_status check_place(const char *path, gg_error *err)
   return stream ? gg_base_path_write_error(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
 }
 
-static gg_status open_log(gg_door_run *r, const gg_frame_log *earlier, gg_error *err)
+static gg_status open_log(gg_run_call *r, const gg_frame_log *earlier, gg_error *err)
 {
-  const char *target = r->passing[GG_PASSING_FRAMES];
+  const char *target = r->temporary[GG_TEMPORARY_FRAMES];
   char *path = gg_files_frame_log_path(r->options.checkpoint);
   gg_status status = path ? check_place(path, err) : gg_base_out_of_memory(err);
   if (status == GG_OK) {
-    bool there = earlier->fd >= 0 ? gg_files_frame_log_is_at(earlier, target) : r->goes_on_there;
+    bool there = earlier->fd >= 0 ? gg_files_frame_log_is_at(earlier, target) : r->resumes_in_place;
     status = there ? gg_files_frame_log_open(&r->log, target, err) : gg_files_frame_log_open_new(&r->log, target, err);
   }
   free(path);
@@ -126,11 +126,11 @@ static gg_status open_log(gg_door_run *r, const gg_frame_log *earlier, gg_error 
 }
 
 /* The mark of the checkpoint that stays, or goes on, at the run's own place: no frames where there is none. */
-static gg_frame_mark mark_there(const gg_door_run *r)
+static gg_frame_mark mark_there(const gg_run_call *r)
 {
   gg_frame_mark mark = {0};
   gg_archive there = {0};
-  bool older, on = r->goes_on_there;
+  bool older, on = r->resumes_in_place;
   if (!on && gg_files_checkpoint_read(r->options.checkpoint, &there, &older, NULL) != GG_OK) return mark;
   if (gg_base_archive_get(on ? &r->resume : &there, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) != GG_OK)
     mark = (gg_frame_mark){0};
@@ -140,7 +140,7 @@ static gg_frame_mark mark_there(const gg_door_run *r)
 
 /* A dead run left a new log: it is put in place if the checkpoint needs it, and removed if not, as where the log in its
  * place is good. */
-static gg_status settle(gg_door_run *r, const char *path, const char *fresh, gg_error *err)
+static gg_status settle(gg_run_call *r, const char *path, const char *fresh, gg_error *err)
 {
   gg_frame_log log = {.fd = -1};
   gg_frame_mark mark = mark_there(r);
@@ -153,9 +153,9 @@ static gg_status settle(gg_door_run *r, const char *path, const char *fresh, gg_
   return GG_OK;
 }
 
-static gg_status settle_new(gg_door_run *r, gg_error *err)
+static gg_status resolve_new(gg_run_call *r, gg_error *err)
 {
-  const char *path = r->passing[GG_PASSING_FRAMES];
+  const char *path = r->temporary[GG_TEMPORARY_FRAMES];
   char *fresh = gg_files_frame_log_new_path(path);
   gg_status status = fresh ? GG_OK : gg_base_out_of_memory(err);
   if (fresh && access(fresh, F_OK) == 0) status = settle(r, path, fresh, err);
@@ -163,13 +163,13 @@ static gg_status settle_new(gg_door_run *r, gg_error *err)
   return status;
 }
 
-gg_status gg_api_trajectory_begin(gg_door_run *r, gg_error *err)
+gg_status gg_api_trajectory_begin(gg_run_call *r, gg_error *err)
 {
-  if (r->options.checkpoint) GG_TRY(settle_new(r, err));
+  if (r->options.checkpoint) GG_TRY(resolve_new(r, err));
   if (!r->options.output || !(r->scene.output.trajectory_every > 0)) return GG_OK;
   gg_frame_log earlier = {.fd = -1};
   r->frames_missing = r->resume.n_items > 0 && !gg_base_archive_find(&r->resume, mark_item);
-  r->hooks.frame = r->options.checkpoint ? store_in_log : store_in_result;
+  r->callbacks.frame = r->options.checkpoint ? store_in_log : store_in_result;
   gg_status status = r->resume.n_items > 0 && !r->frames_missing ? open_earlier(r, &earlier, err) : GG_OK;
   if (status == GG_OK && r->options.checkpoint) status = open_log(r, &earlier, err);
   if (status == GG_OK && earlier.fd >= 0)
@@ -185,7 +185,7 @@ uint64_t gg_api_trajectory_frames(const gg_archive *a)
   return gg_base_archive_get(a, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) == GG_OK ? mark.frames : 0;
 }
 
-gg_status gg_api_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_error *err)
+gg_status gg_api_trajectory_mark(const gg_run_call *r, gg_archive *archive, gg_error *err)
 {
   char name[NAME] = "";
   if (r->log.fd < 0) return GG_OK;
@@ -201,20 +201,20 @@ gg_status gg_api_trajectory_mark(const gg_door_run *r, gg_archive *archive, gg_e
 /* Gigabytes take seconds: a run that can be gone on from is stopped here, too. */
 static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *err)
 {
-  gg_door_run *r = context;
+  gg_run_call *r = context;
   if (r->stored && gg_stop_asked(&r->file.file.stop))
     return gg_base_fail(err, GG_INTERRUPTED, "interrupted while the trajectory was put into %s", r->options.output);
   return store_from_log(context, frame, err);
 }
 
-gg_status gg_api_trajectory_finish(gg_door_run *r, gg_result *result, gg_error *err)
+gg_status gg_api_trajectory_finish(gg_run_call *r, gg_result *result, gg_error *err)
 {
   if (r->frames_missing)
     gg_run_result_warn(result, "the trajectory begins where the run was resumed: it was not asked for before");
   return r->log.fd >= 0 ? gg_files_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
 }
 
-void gg_api_trajectory_end(gg_door_run *r)
+void gg_api_trajectory_end(gg_run_call *r)
 {
   if (r->log.fd >= 0 && r->log.created && !r->stored) unlink(r->log.path);
   gg_files_frame_log_close(&r->log);

@@ -149,7 +149,7 @@ gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene
   gg_model model;
   gg_engine_kind kind;
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
-  const gg_forecast f = gg_run_cost_estimate(&finished, &model, kind);
+  const gg_cost_estimate f = gg_run_cost_estimate(&finished, &model, kind);
   *needs = (gg_scene_needs){f.bytes, gg_base_memory_available(), f.collisions, f.seconds, 0};
   for (int i = 0; i < f.n_costs; i++) needs->observables += f.cost[i].percent / 100;
   return GG_OK;
@@ -173,8 +173,8 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
     snprintf(text, sizeof text, "so many velocities are %s", chosen);
     line(context, text);
   }
-  gg_forecast forecast = gg_run_cost_estimate(&finished, &model, kind);
-  gg_run_cost_report(&forecast, finished.run.replicas, line, context);
+  gg_cost_estimate cost = gg_run_cost_estimate(&finished, &model, kind);
+  gg_run_cost_report(&cost, finished.run.replicas, line, context);
   return GG_OK;
 }
 

@@ -12,7 +12,7 @@
 struct gg_session {
   gg_scene scene; /* finished */
   gg_replicas all;
-  gg_hooks hooks;
+  gg_run_callbacks callbacks;
   double until;  /* by the clock on the wall; INFINITY while it is made */
   bool over;     /* nothing is left to do ... */
   gg_status end; /* ... as it ended */
@@ -38,14 +38,14 @@ static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
   if (s->scene.run.replicas != 1)
     return gg_base_fail(err, GG_BAD_INPUT, "run.replicas: %lld; a session has 1, gg_run takes more",
                         (long long)s->scene.run.replicas);
-  s->hooks = (gg_hooks){.context = s, .progress = note_progress, .interrupted = time_is_up};
+  s->callbacks = (gg_run_callbacks){.context = s, .progress = note_progress, .interrupted = time_is_up};
   s->progress = (gg_progress){.engine = gg_run_engine_ops_of(s->scene.engine)->name,
                               .phase = "warm-up",
                               .relative_error = NAN,
                               .time_left = NAN,
                               .replicas = 1};
   s->until = INFINITY;
-  return gg_run_replicas_create(&s->all, &s->scene, NULL, 1, &s->hooks, err);
+  return gg_run_replicas_create(&s->all, &s->scene, NULL, 1, &s->callbacks, err);
 }
 
 gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err)
@@ -80,8 +80,8 @@ gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_
     return gg_base_fail(err, GG_BAD_INPUT, "gg_session_advance: cannot go on for %g seconds", seconds);
   if (!s->over) {
     s->until = gg_base_clock_wall() + seconds;
-    int stopped = GG_STOP_ASKED;
-    atomic_compare_exchange_strong(&s->all.stopped, &stopped, GG_GOES_ON);
+    int stopped = GG_STOP_REQUESTED;
+    atomic_compare_exchange_strong(&s->all.stopped, &stopped, GG_NOT_STOPPED);
     s->end = gg_run_replicas_run(&s->all, &s->why);
     s->over = s->end != GG_INTERRUPTED;
     if (s->end == GG_OK) s->end = gg_run_replicas_check_end(&s->all, &s->why);

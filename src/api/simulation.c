@@ -9,7 +9,7 @@
 #include "common/rng.h"
 #include "run/start_model.h"
 
-static bool asked_to_stop(void *context)
+static bool is_stopped(void *context)
 {
   const gg_simulation *s = context;
   return s->asks && s->asks(s->asks_context);
@@ -27,7 +27,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simul
     return status;
   }
   gg_common_extension_hold(s->scene.extension);
-  s->stop = (gg_stop){asked_to_stop, s};
+  s->stop = (gg_stop){is_stopped, s};
   s->model.stop = &s->stop;
   if (s->scene.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
   if (status == GG_OK)

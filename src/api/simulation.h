@@ -1,6 +1,6 @@
 /* A simulation step by step: an engine, and what its clock and units need outside of it. */
-#ifndef GG_DOOR_SIMULATION_H
-#define GG_DOOR_SIMULATION_H
+#ifndef GG_API_SIMULATION_H
+#define GG_API_SIMULATION_H
 
 #include "api/api.h"
 #include "common/engine.h"

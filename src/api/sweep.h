@@ -1,6 +1,6 @@
 /* How a point of a sweep is done: by the public run, comparison or theories, into a file with the point's name. */
-#ifndef GG_DOOR_SWEEP_H
-#define GG_DOOR_SWEEP_H
+#ifndef GG_API_SWEEP_H
+#define GG_API_SWEEP_H
 
 #include "run/scheduler.h"
 #include "sweep/sweep.h"

@@ -38,7 +38,7 @@ static ended evaluate(gg_point_task *t, const gg_scene *scene, const gg_run_opti
 static ended do_it(const gg_point_task *t, const gg_scene *scene, const gg_run_options *options, gg_error *err)
 {
   gg_point_task task = *t;
-  gg_door_point point = {.scheduler = t->scheduler, .publish = publish, .context = &task};
+  gg_point_call point = {.scheduler = t->scheduler, .publish = publish, .context = &task};
   gg_comparison *c = NULL;
   if (t->sweep->settings.does == GG_DOES_THEORY) return evaluate(&task, scene, options, err);
   bool comparison = t->sweep->settings.does == GG_DOES_COMPARE;

@@ -22,7 +22,7 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, bool adapt, gg_error
 
 static gg_status warm_up(gg_replicas *all, gg_error *err)
 {
-  GG_TRY(advance_to(all, all->plan.warmup, true, err));
+  GG_TRY(advance_to(all, all->criteria.warmup, true, err));
   for (int i = 0; i < all->n; i++) GG_TRY(gg_run_replica_open_window(&all->replica[i], err));
   all->state.averaging = 1;
   all->state.window_at = all->state.due;

@@ -38,7 +38,7 @@ static int is_interrupted(void *context)
 }
 
 /* What became of a point that did not come to its end. */
-static void tell_point(void *context, size_t i, gg_status status, const char *file, const char *message)
+static void print_point_end(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
   gg_sweep_command *c = context;
   if (status == GG_OK) return;
@@ -78,7 +78,7 @@ static int work(gg_sweep_command *c)
                                     .context = c,
                                     .progress = gg_cli_sweep_show_progress,
                                     .stop = is_interrupted,
-                                    .ended = tell_point,
+                                    .ended = print_point_end,
                                     .warn = warn};
   int code = o->point ? take_point(c, &i) : GG_CLI_GO_ON;
   if (code != GG_CLI_GO_ON) return code;
@@ -93,7 +93,7 @@ static int work(gg_sweep_command *c)
 }
 
 /* The files go to standard output, for scripts. */
-static void tell_file(void *context, const char *file)
+static void print_file(void *context, const char *file)
 {
   const gg_options *o = ((const gg_sweep_command *)context)->options;
   if (!o->quiet && !o->json) printf("%s\n", file);
@@ -114,7 +114,7 @@ static int collect(gg_sweep_command *c)
       .command = o->command_line, .picture = o->picture, .over = o->over, .show = o->show, .warn = warn};
   char *prefix = tables_of(c->folder);
   if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
-  gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, tell_file, c, &err);
+  gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, print_file, c, &err);
   free(prefix);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }

@@ -20,6 +20,6 @@ void gg_run_replicas_check_arrest(gg_replicas *all)
   uint64_t stretch = collisions - s->stretch_collisions;
   if ((double)stretch < 0.5 * STRETCH * (double)all->model.n * all->n) return;
   double share = (double)(treated - s->stretch_treated) / (double)stretch;
-  s->standstill = share > LASTING_SHARE ? share : 0;
+  s->arrest_share = share > LASTING_SHARE ? share : 0;
   s->stretch_collisions = collisions, s->stretch_treated = treated;
 }

@@ -23,7 +23,7 @@ static gg_status store_checkpoint(gg_replicas *all, gg_error *err)
 {
   gg_archive archive = {0};
   gg_status status = gg_run_replicas_save(all, &archive, err);
-  if (status == GG_OK) status = all->hooks->checkpoint(all->hooks->context, &archive, err);
+  if (status == GG_OK) status = all->callbacks->checkpoint(all->callbacks->context, &archive, err);
   gg_base_archive_clear(&archive);
   give_back();
   all->last_checkpoint = gg_base_clock_wall();
@@ -32,7 +32,7 @@ static gg_status store_checkpoint(gg_replicas *all, gg_error *err)
 
 static bool checkpoints(const gg_replicas *all)
 {
-  return all->hooks && all->hooks->checkpoint;
+  return all->callbacks && all->callbacks->checkpoint;
 }
 
 /* Sampling intervals follow the collision rate before averaging, and where the temperature never stands still. */
@@ -44,7 +44,7 @@ static bool adapts(const gg_replicas *all)
 /* Is there no point in going on, whatever was asked? */
 static bool is_over(const gg_replicas *all)
 {
-  return all->stopped == GG_OUT_OF_TIME || all->state.standstill > 0;
+  return all->stopped == GG_OUT_OF_TIME || all->state.arrest_share > 0;
 }
 
 /* Samples from one report and checkpoint to the next: some tens of milliseconds. Where several processes work, these
@@ -85,35 +85,35 @@ static gg_status open_window(gg_replicas *all, gg_error *err)
 {
   for (int i = 0; i < all->n; i++) GG_TRY(gg_run_replica_open_window(&all->replica[i], err));
   gg_run_distribution_changed(&all->tasks);
-  if (!all->state.averaging) gg_run_progress_new_phase(&all->outlook);
-  gg_run_progress_open_window(&all->outlook);
-  all->looked_at = 0;
+  if (!all->state.averaging) gg_run_progress_new_phase(&all->progress);
+  gg_run_progress_open_window(&all->progress);
+  all->estimated_at = 0;
   all->state.averaging = 1;
   all->state.exact = 0;
   all->state.window_at = all->state.due;
-  all->state.goal = all->state.due + gg_run_criteria_next_test(&all->plan, all->state.restarts, NULL);
+  all->state.goal = all->state.due + gg_run_criteria_next_test(&all->criteria, all->state.restarts, NULL);
   return GG_OK;
 }
 
-static gg_test test_of(const gg_replicas *all, const gg_convergence *c, uint64_t window)
+static gg_window_test test_of(const gg_replicas *all, const gg_convergence *c, uint64_t window)
 {
-  double asked = all->plan.relative_error;
-  gg_test t = {.window = window, .ratio = asked > 0 ? c->relative_error / asked : NAN};
-  t.exact = window >= all->plan.least && c->trusted && t.ratio <= 1;
+  double asked = all->criteria.relative_error;
+  gg_window_test t = {.window = window, .ratio = asked > 0 ? c->relative_error / asked : NAN};
+  t.exact = window >= all->criteria.least && c->trusted && t.ratio <= 1;
   t.sure = c->trusted && (double)window >= c->sure_at;
   return t;
 }
 
 /* Is the window long and exact enough? */
-static bool finished(gg_replicas *all, const gg_test *t)
+static bool finished(gg_replicas *all, const gg_window_test *t)
 {
-  if (gg_run_criteria_end(&all->plan, all->state.restarts, t->window)) return true;
+  if (gg_run_criteria_end(&all->criteria, all->state.restarts, t->window)) return true;
   bool before = all->state.exact;
   all->state.exact = t->exact;
   return gg_run_criteria_are_met(t, before);
 }
 
-static const gg_replica *unsettled(const gg_replicas *all)
+static const gg_replica *not_settled(const gg_replicas *all)
 {
   for (int i = 0; i < all->n; i++)
     if (!gg_run_replica_settled(&all->replica[i])) return &all->replica[i];
@@ -125,14 +125,14 @@ static const gg_replica *unsettled(const gg_replicas *all)
 static gg_status warm_up(gg_replicas *all, gg_error *err)
 {
   enum { LOOK_EVERY = 4, MOST_MORE = 300 };
-  uint64_t due = all->plan.warmup;
+  uint64_t due = all->criteria.warmup;
   while (due < all->state.due) due += LOOK_EVERY;
   for (;; due += LOOK_EVERY) {
     GG_TRY(advance_to(all, due, err));
     if (is_over(all)) return GG_OK;
-    const gg_replica *one = unsettled(all);
+    const gg_replica *one = not_settled(all);
     if (!one) return GG_OK;
-    if (due >= all->plan.warmup + MOST_MORE) return gg_run_replica_collapsed(one, err);
+    if (due >= all->criteria.warmup + MOST_MORE) return gg_run_replica_collapsed(one, err);
   }
 }
 
@@ -149,16 +149,16 @@ gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err)
     uint64_t window = all->state.due - all->state.window_at;
     gg_convergence c;
     GG_TRY(gg_run_replicas_convergence(all, &c, err));
-    gg_run_progress_record_errors(&all->outlook, (double)window, &c);
-    gg_test test = test_of(all, &c, window);
-    if (c.trending && gg_run_criteria_restart(&all->plan, all->state.restarts) && window >= all->plan.least) {
+    gg_run_progress_record_errors(&all->progress, (double)window, &c);
+    gg_window_test test = test_of(all, &c, window);
+    if (c.trending && gg_run_criteria_restart(&all->criteria, all->state.restarts) && window >= all->criteria.least) {
       all->state.restarts++;
       GG_TRY(open_window(all, err));
     } else if (finished(all, &test)) {
       gg_run_replicas_report_progress(all, true); /* with the errors of the end */
       return GG_OK;
     } else {
-      all->state.goal = all->state.window_at + gg_run_criteria_next_test(&all->plan, all->state.restarts, &test);
+      all->state.goal = all->state.window_at + gg_run_criteria_next_test(&all->criteria, all->state.restarts, &test);
     }
   }
   gg_run_replicas_report_progress(all, true);

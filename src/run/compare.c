@@ -44,12 +44,12 @@ gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_er
   return GG_OK;
 }
 
-/* One engine's part, run beside or after the other's; one thread at a time calls a hook. */
+/* One engine's part, run beside or after the other's; one thread at a time calls a callback. */
 typedef struct part {
   gg_scene scene;
   gg_engine_kind kind;
   const gg_model *model; /* NULL: the scene has none of this engine */
-  const gg_hooks *hooks;
+  const gg_run_callbacks *callbacks;
   gg_run_scheduler *scheduler; /* NULL: its own, or the workers' */
   int threads;                 /* for this engine */
   gg_comparison *comparison;
@@ -68,7 +68,7 @@ static void locked_progress(void *context, const gg_progress *progress)
   gg_progress now = *progress;
   now.next = p->next;
   pthread_mutex_lock(p->lock);
-  p->hooks->progress(p->hooks->context, &now);
+  p->callbacks->progress(p->callbacks->context, &now);
   pthread_mutex_unlock(p->lock);
 }
 
@@ -76,7 +76,7 @@ static bool locked_interrupted(void *context)
 {
   part *p = context;
   pthread_mutex_lock(p->lock);
-  bool yes = *p->broken || (p->hooks->interrupted && p->hooks->interrupted(p->hooks->context));
+  bool yes = *p->broken || (p->callbacks->interrupted && p->callbacks->interrupted(p->callbacks->context));
   pthread_mutex_unlock(p->lock);
   return yes;
 }
@@ -88,7 +88,7 @@ static gg_status store_both(part *p, const gg_archive *archive, gg_error *err)
   gg_base_archive_clear(&p->latest[p->kind]);
   gg_status status = gg_base_archive_nest(&p->latest[p->kind], gg_run_engine_ops_of(p->kind)->name, archive, err);
   for (int k = 0; k < 2 && status == GG_OK; k++) status = gg_base_archive_append(&both, &p->latest[k], err);
-  if (status == GG_OK) status = p->hooks->checkpoint(p->hooks->context, &both, err);
+  if (status == GG_OK) status = p->callbacks->checkpoint(p->callbacks->context, &both, err);
   gg_base_archive_clear(&both);
   return status;
 }
@@ -105,14 +105,15 @@ static gg_status locked_checkpoint(void *context, gg_archive *archive, gg_error 
 
 static void run_part(part *p)
 {
-  gg_hooks hooks = {.context = p, .model = p->model};
-  if (p->hooks && p->hooks->progress) hooks.progress = locked_progress;
-  if (p->hooks && (p->hooks->interrupted || p->hooks->checkpoint)) hooks.interrupted = locked_interrupted;
-  if (p->hooks && p->hooks->checkpoint) hooks.checkpoint = locked_checkpoint;
-  if (p->hooks) hooks.workers = p->hooks->workers;
-  hooks.scheduler = p->scheduler;
+  gg_run_callbacks callbacks = {.context = p, .model = p->model};
+  if (p->callbacks && p->callbacks->progress) callbacks.progress = locked_progress;
+  if (p->callbacks && (p->callbacks->interrupted || p->callbacks->checkpoint))
+    callbacks.interrupted = locked_interrupted;
+  if (p->callbacks && p->callbacks->checkpoint) callbacks.checkpoint = locked_checkpoint;
+  if (p->callbacks) callbacks.workers = p->callbacks->workers;
+  callbacks.scheduler = p->scheduler;
   p->scene.engine = p->kind;
-  p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &hooks,
+  p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &callbacks,
                            &p->comparison->by_engine[p->kind], &p->err);
 }
 
@@ -144,9 +145,10 @@ static void control_part(void *context)
 static gg_status run_parts(part parts[2], bool beside, int threads, gg_error *err)
 {
   gg_run_controller dsmc = {.started = false};
-  const gg_hooks *hooks = parts[GG_MD].hooks;
-  gg_run_scheduler *own = NULL, *scheduler = hooks ? hooks->scheduler : NULL;
-  bool distributed = hooks && hooks->workers && !parts[GG_MD].scene.extension; /* to be scheduled with the workers */
+  const gg_run_callbacks *callbacks = parts[GG_MD].callbacks;
+  gg_run_scheduler *own = NULL, *scheduler = callbacks ? callbacks->scheduler : NULL;
+  bool distributed =
+      callbacks && callbacks->workers && !parts[GG_MD].scene.extension; /* to be scheduled with the workers */
   if (beside && !scheduler && !distributed) {
     GG_TRY(gg_run_scheduler_new(threads, false, &own, err));
     gg_run_scheduler_enter(scheduler = own);
@@ -178,32 +180,33 @@ static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
 }
 
 /* The caller's, or made here. */
-static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg_hooks *hooks, gg_model *model,
-                            gg_error *err)
+static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg_run_callbacks *callbacks,
+                            gg_model *model, gg_error *err)
 {
-  const gg_model *made = hooks && scene->engine == kind ? hooks->model : NULL;
+  const gg_model *made = callbacks && scene->engine == kind ? callbacks->model : NULL;
   if (!made) return gg_common_model_make(scene, kind, model, err);
   *model = *made;
   return GG_OK;
 }
 
-gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
-                               gg_comparison *c, gg_error *err)
+gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
+                               const gg_run_callbacks *callbacks, gg_comparison *c, gg_error *err)
 {
   *c = (gg_comparison){.scene = *scene};
   gg_common_extension_hold(c->scene.extension);
   gg_model model[2];
-  GG_TRY(make_model(scene, GG_MD, hooks, &model[GG_MD], err));
-  const bool dsmc = make_model(scene, GG_DSMC, hooks, &model[GG_DSMC], NULL) == GG_OK;
+  GG_TRY(make_model(scene, GG_MD, callbacks, &model[GG_MD], err));
+  const bool dsmc = make_model(scene, GG_DSMC, callbacks, &model[GG_DSMC], NULL) == GG_OK;
   GG_TRY(gg_run_compare_theories(&model[GG_MD], c, err));
 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};
   part parts[2];
-  bool beside = threads > 1 || (hooks && hooks->workers), broken = false;
+  bool beside = threads > 1 || (callbacks && callbacks->workers), broken = false;
   gg_status status = GG_OK;
   for (int k = 0; k < 2; k++) {
-    parts[k] = (part){.scene = *scene, .kind = (gg_engine_kind)k, .hooks = hooks, .comparison = c, .lock = &lock};
+    parts[k] =
+        (part){.scene = *scene, .kind = (gg_engine_kind)k, .callbacks = callbacks, .comparison = c, .lock = &lock};
     parts[k].threads = beside ? (threads + 1) / 2 : 1;
     parts[k].latest = latest;
     parts[k].broken = &broken;

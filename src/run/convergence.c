@@ -38,7 +38,7 @@ gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *m
                                   first->observable[k]->width(&all->model), f, &all->model, mean, err);
   free(series);
   double rows = (double)gg_series_window_rows(&first->series) * all->n;
-  mean->error *= gg_run_criteria_margin(&all->plan, mean->correlation_rows, rows);
+  mean->error *= gg_run_criteria_margin(&all->criteria, mean->correlation_rows, rows);
   return status;
 }
 
@@ -80,9 +80,9 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
 
 static gg_status test_wandering(const gg_replicas *all, gg_convergence *c, gg_error *err)
 {
-  gg_wandering w;
+  gg_slow_modes w;
   GG_TRY(gg_run_replicas_slow_modes(all, &w, err));
-  c->wanders = w.mode, c->wandering = w.time;
+  c->slow_mode = w.mode, c->slow_mode_time = w.time;
   double sampled = (double)(all->state.due - all->state.window_at) * all->n;
   if (w.mode >= 0 && sampled < GG_LEAST_CORRELATION_TIMES * w.time) c->trusted = false;
   return GG_OK;

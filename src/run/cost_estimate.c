@@ -95,7 +95,7 @@ static double bytes_of(const gg_observable *o, const gg_model *m)
 }
 
 /* What snapshots are gathered into, and observables keep. */
-static void add_observables(gg_forecast *f, const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
+static void add_observables(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
   double vectors = 0;
   for (int i = 0; gg_measure_observables[i]; i++) {
@@ -134,9 +134,9 @@ static double for_error(const gg_scene *scene, const gg_model *m, double error)
   return fmax(stress, slow) / (grains * error * error);
 }
 
-static void plan_time(gg_forecast *f, const gg_scene *scene, const gg_model *m)
+static void plan_time(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m)
 {
-  const gg_plan p = gg_run_criteria_of(scene, m);
+  const gg_stopping_criteria p = gg_run_criteria_of(scene, m);
   double window = (double)p.most * GG_SAMPLING_INTERVAL;
   if (p.relative_error > 0) {
     double least = (double)p.least * GG_SAMPLING_INTERVAL, needed = for_error(scene, m, p.relative_error);
@@ -165,16 +165,16 @@ double gg_run_cost_of_theories(const gg_model *m)
 }
 
 /* Rows of the series that a run fills. */
-static double bytes_of_series(const gg_forecast *f, const gg_model *m)
+static double bytes_of_series(const gg_cost_estimate *f, const gg_model *m)
 {
   double rows = fmin(f->collisions / GG_SAMPLING_INTERVAL, GG_SERIES_ROWS);
   return rows * 8 * (m->rule == GG_SMOOTH ? 120 : 200);
 }
 
-gg_forecast gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
+gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
-  gg_forecast f = {.engine = gg_run_engine_ops_of(engine)->bytes(m),
-                   .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
+  gg_cost_estimate f = {.engine = gg_run_engine_ops_of(engine)->bytes(m),
+                        .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
   add_observables(&f, scene, m, engine);
   plan_time(&f, scene, m);
   f.series = bytes_of_series(&f, m);
@@ -194,7 +194,7 @@ static void put_bytes(double bytes, char text[24])
   snprintf(text, 24, "%.3g %s", bytes, units[unit]);
 }
 
-gg_status gg_run_cost_check_memory(const gg_forecast *f, const char *engine, int64_t replicas, gg_error *err)
+gg_status gg_run_cost_check_memory(const gg_cost_estimate *f, const char *engine, int64_t replicas, gg_error *err)
 {
   char needed[24], there[24], one[24];
   const double available = gg_base_memory_available();
@@ -223,7 +223,7 @@ static void put_time(double seconds, char text[24])
   if (seconds / one[k] >= 99.5) snprintf(text, 24, "%.0f %s", seconds / one[k], units[k].name);
 }
 
-static void tell_costs(const gg_forecast *f, void (*line)(void *context, const char *text), void *context)
+static void describe_costs(const gg_cost_estimate *f, void (*line)(void *context, const char *text), void *context)
 {
   char text[600] = "observables, in per cent of the run without them:";
   if (!f->n_costs) return;
@@ -235,7 +235,7 @@ static void tell_costs(const gg_forecast *f, void (*line)(void *context, const c
   line(context, text);
 }
 
-void gg_run_cost_report(const gg_forecast *f, int64_t replicas, void (*line)(void *context, const char *text),
+void gg_run_cost_report(const gg_cost_estimate *f, int64_t replicas, void (*line)(void *context, const char *text),
                         void *context)
 {
   char all[24], engine[24], observables[24], text[300], series[24];
@@ -251,5 +251,5 @@ void gg_run_cost_report(const gg_forecast *f, int64_t replicas, void (*line)(voi
            all, f->to_an_error ? "three" : "two", f->collisions, replicas > 1 ? " and replica" : "",
            f->to_an_error ? " (until the error asked for)" : "");
   line(context, text);
-  tell_costs(f, line, context);
+  describe_costs(f, line, context);
 }

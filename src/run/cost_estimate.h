@@ -1,14 +1,14 @@
 /* What a run will take, told before it begins: memory, processor time, and the shares of its observables. Times are
  * those of one processor of 2020 or so, right within a factor of two (three where an error is asked for); memory within
  * a fifth. */
-#ifndef GG_FORECAST_H
-#define GG_FORECAST_H
+#ifndef GG_COST_ESTIMATE_H
+#define GG_COST_ESTIMATE_H
 
 #include "common/engine.h"
 #include "common/observables.h"
 #include "common/scene.h"
 
-typedef struct gg_forecast {
+typedef struct gg_cost_estimate {
   double engine, observables, series; /* bytes of one replica */
   double writing;                     /* bytes for the grains at the end, and the file made of them */
   double bytes;                       /* at most at a time, all replicas and the program included */
@@ -21,20 +21,20 @@ typedef struct gg_forecast {
     const char *name;
     double percent; /* of the run without it */
   } cost[GG_N_OBSERVABLES];
-} gg_forecast;
+} gg_cost_estimate;
 
 /* Of a finished scene, and the model of its engine. */
-gg_forecast gg_run_cost_estimate(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
+gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
 
 /* Seconds of processor time for all theories of a model, right within a factor of three; longest where
  * the program was built without the machine's own instructions. */
 double gg_run_cost_of_theories(const gg_model *model);
 
 /* GG_FAILED, with what is needed and what is there, if this machine has not the memory. */
-gg_status gg_run_cost_check_memory(const gg_forecast *forecast, const char *engine, int64_t replicas, gg_error *err);
+gg_status gg_run_cost_check_memory(const gg_cost_estimate *cost, const char *engine, int64_t replicas, gg_error *err);
 
 /* In words, a line a call. */
-void gg_run_cost_report(const gg_forecast *forecast, int64_t replicas, void (*line)(void *context, const char *text),
+void gg_run_cost_report(const gg_cost_estimate *cost, int64_t replicas, void (*line)(void *context, const char *text),
                         void *context);
 
 #endif

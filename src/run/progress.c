@@ -7,7 +7,7 @@
 bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
 {
   double every = all->scene.output.checkpoint_every;
-  bool asked = all->hooks && all->hooks->checkpoint && every > 0;
+  bool asked = all->callbacks && all->callbacks->checkpoint && every > 0;
   return asked && gg_base_clock_wall() - all->last_checkpoint > every;
 }
 
@@ -16,12 +16,12 @@ bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
 static void estimate_errors(gg_replicas *all, double window)
 {
   gg_convergence c;
-  double before = gg_base_clock_wall(), first = (double)(all->plan.least << all->state.restarts) / 4;
-  if (!all->state.averaging || window < fmax(first, 1.05 * all->looked_at) || before < all->next_look) return;
-  if (gg_run_replicas_convergence(all, &c, NULL) == GG_OK) gg_run_progress_record_errors(&all->outlook, window, &c);
-  all->looked_at = window;
+  double before = gg_base_clock_wall(), first = (double)(all->criteria.least << all->state.restarts) / 4;
+  if (!all->state.averaging || window < fmax(first, 1.05 * all->estimated_at) || before < all->next_estimate) return;
+  if (gg_run_replicas_convergence(all, &c, NULL) == GG_OK) gg_run_progress_record_errors(&all->progress, window, &c);
+  all->estimated_at = window;
   double now = gg_base_clock_wall();
-  all->next_look = now + 100 * (now - before);
+  all->next_estimate = now + 100 * (now - before);
 }
 
 /* Samples that all replicas have, also while tasks are under way. */
@@ -46,24 +46,24 @@ static bool is_busy(const gg_replicas *all)
 /* When a run of usual noise, 3/sqrt(grains samples), ends: where nothing is known of the errors of this one. */
 static double usual_end(const gg_replicas *all)
 {
-  double noise = 3 / all->plan.relative_error, grains = (double)all->model.n * all->n;
-  double window = fmax(1.5 * (double)(all->plan.least << all->state.restarts), 1.15 * noise * noise / grains);
-  if (all->plan.most) window = fmin(window, (double)all->plan.most);
-  double begins = (double)(all->state.averaging ? all->state.window_at : all->plan.warmup);
+  double noise = 3 / all->criteria.relative_error, grains = (double)all->model.n * all->n;
+  double window = fmax(1.5 * (double)(all->criteria.least << all->state.restarts), 1.15 * noise * noise / grains);
+  if (all->criteria.most) window = fmin(window, (double)all->criteria.most);
+  double begins = (double)(all->state.averaging ? all->state.window_at : all->criteria.warmup);
   return fmax(begins + window, 1.25 * (double)all->state.goal);
 }
 
 /* NaN: not known. What a sample takes where curves are measured is known only after some of the averaging. */
-static double time_left(const gg_replicas *all, double due, gg_end end, double limit_in)
+static double time_left(const gg_replicas *all, double due, gg_expected_end end, double limit_in)
 {
-  double left = (end.at - due) * gg_run_progress_pace(&all->outlook);
+  double left = (end.at - due) * gg_run_progress_pace(&all->progress);
   bool alike = all->state.averaging || all->replica[0].n_observables <= 1;
   return isfinite(left) && end.known && alike ? fmin(left, limit_in) : NAN;
 }
 
 void gg_run_replicas_report_progress(gg_replicas *all, bool over)
 {
-  if (!all->hooks || !all->hooks->progress) return;
+  if (!all->callbacks || !all->callbacks->progress) return;
   double due = samples_so_far(all);
   double window = all->state.averaging ? due - (double)all->state.window_at : 0;
   if (!over && !is_busy(all) && gg_run_replicas_are_level(all)) estimate_errors(all, window);
@@ -73,11 +73,11 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
     collisions += reached.collisions_per_grain * (double)all->model.n / 2;
     cpu += reached.cpu;
   }
-  gg_run_progress_record_time(&all->outlook, now, due);
-  gg_end end = gg_run_progress_end(&all->outlook, &all->plan, &all->state);
-  double limit = all->plan.time_limit;
+  gg_run_progress_record_time(&all->progress, now, due);
+  gg_expected_end end = gg_run_progress_end(&all->progress, &all->criteria, &all->state);
+  double limit = all->criteria.time_limit;
   double used = all->state.wall + now - all->started;
-  double done = gg_run_progress_fraction(&all->outlook, due, isfinite(end.at) ? end.at : usual_end(all),
+  double done = gg_run_progress_fraction(&all->progress, due, isfinite(end.at) ? end.at : usual_end(all),
                                          limit > 0 ? used / limit : NAN);
   gg_progress p = {
       .engine = all->replica[0].engine->ops->name,
@@ -85,11 +85,11 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
       .fraction = over ? 1 : done,
       .collisions = (uint64_t)collisions,
       .rate = cpu > 0 ? collisions / cpu : 0,
-      .relative_error = window >= (double)all->plan.least ? all->last.relative_error : NAN,
+      .relative_error = window >= (double)all->criteria.least ? all->last.relative_error : NAN,
       .time_left = over ? 0 : time_left(all, due, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
       .replicas = all->n,
   };
-  pthread_mutex_lock(&all->lock); /* tasks may just now call the hook that stops the run */
-  all->hooks->progress(all->hooks->context, &p);
+  pthread_mutex_lock(&all->lock); /* tasks may just now call the callback that stops the run */
+  all->callbacks->progress(all->callbacks->context, &p);
   pthread_mutex_unlock(&all->lock);
 }

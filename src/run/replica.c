@@ -147,15 +147,15 @@ static double next_frame(const gg_replica *r)
   return r->trajectory_every * (floor(gg_run_replica_collisions_per_grain(r) / r->trajectory_every) + 1);
 }
 
-static gg_status emit_frame(gg_replica *r, const gg_hooks *hooks, gg_error *err)
+static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg_error *err)
 {
   if (!(r->trajectory_every > 0) || gg_run_replica_collisions_per_grain(r) < r->clock.next_frame) return GG_OK;
   r->clock.next_frame = next_frame(r);
-  if (!hooks || !hooks->frame) return GG_OK;
+  if (!callbacks || !callbacks->frame) return GG_OK;
   gg_frame frame;
   GG_TRY(gg_run_frame_take(r->engine, &r->model, &frame, err));
   gg_run_replica_date_frame(r, &frame);
-  gg_status status = hooks->frame(hooks->context, &frame, err);
+  gg_status status = callbacks->frame(callbacks->context, &frame, err);
   gg_run_frame_free(&frame);
   return status;
 }
@@ -235,12 +235,13 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
   return status;
 }
 
-gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err)
+gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_run_callbacks *callbacks,
+                                 gg_error *err)
 {
   while (r->clock.samples < samples) {
     if (gg_stop_asked(r->model.stop)) return gg_base_fail(err, GG_INTERRUPTED, "interrupted");
     GG_TRY(sample_once(r, adapt, err));
-    GG_TRY(emit_frame(r, hooks, err));
+    GG_TRY(emit_frame(r, callbacks, err));
   }
   return GG_OK;
 }

@@ -14,12 +14,16 @@ typedef struct gg_replica {
   int n_observables;
   const gg_observable *observable[GG_MAX_OBSERVABLES];
   void *self[GG_MAX_OBSERVABLES];
-  size_t offset[GG_MAX_OBSERVABLES];                        /* where its channels begin in a row */
-  size_t wall_modes_at;                                     /* where those between walls begin (wall_modes.h) */
-  gg_bins bins[GG_MAX_OBSERVABLES];                         /* of those that leave curves */
-  int every[GG_MAX_OBSERVABLES];                            /* samples between snapshots for them */
-  enum gg_shown { GG_NOT_SAID, GG_HIDDEN, GG_SHOWN } shown; /* collisions, to the observables that ask for them */
-  gg_snapshot snapshot;                                     /* what they sample; gathered only if one of them is due */
+  size_t offset[GG_MAX_OBSERVABLES]; /* where its channels begin in a row */
+  size_t wall_modes_at;              /* where those between walls begin (wall_modes.h) */
+  gg_bins bins[GG_MAX_OBSERVABLES];  /* of those that leave curves */
+  int every[GG_MAX_OBSERVABLES];     /* samples between snapshots for them */
+  enum gg_observed {
+    GG_OBSERVED_UNSET,
+    GG_NOT_OBSERVED,
+    GG_OBSERVED
+  } shown;                 /* collisions, to the observables that ask for them */
+  gg_snapshot snapshot;    /* what they sample; gathered only if one of them is due */
   int parts;               /* of a sampling interval, each ending with a snapshot, while averaging */
   struct gg_replica_flow { /* between walls; else NULL */
     gg_slabs window;       /* of all rows since averaging began */
@@ -57,7 +61,8 @@ void gg_run_replica_clear(gg_replica *r);
 /* Go on until `samples` have been taken in all; GG_INTERRUPTED where model.stop asks for it, within an interval as
  * well: what is saved there goes on bit for bit. With `adapt`, the interval follows the collision rate (warm-up,
  * cooling). */
-gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_hooks *hooks, gg_error *err);
+gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_run_callbacks *callbacks,
+                                 gg_error *err);
 
 /* Is the interval between samples that of grains as fast as these are? Not while it still follows a burst of collisions
  * that only lasted for a while. */
@@ -82,10 +87,10 @@ void gg_run_replica_restart_curves(gg_replica *r);
 /* sampling_bursts.c: before an interval of the window: does the engine show its collisions to the observables that ask
  * for them? Always, but where that slows it down many times over, and they do with less: there for so many samples at
  * the beginning of every `apart`, but closer together before the window is `settled` samples long. */
-typedef struct gg_episodes {
+typedef struct gg_sampling_bursts {
   uint64_t length, first, apart, settled; /* samples; first: how far apart the first ones begin */
-} gg_episodes;
-gg_episodes gg_run_sampling_bursts_of(const gg_model *model);
+} gg_sampling_bursts;
+gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *model);
 gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);
 /* Has the present sample of observable k others of its episode to follow? All of one are a single sample of its bins,
  * so that errors know of what changes from one episode to the next alone. */

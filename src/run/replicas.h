@@ -6,13 +6,13 @@
 #include "run/progress_estimate.h"
 #include "run/scheduler.h"
 
-typedef struct gg_plan {        /* what is asked, settled before the run; in samples of each replica */
+typedef struct gg_stopping_criteria { /* what is asked, settled before the run; in samples of each replica */
   uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; asked length, 0: until the error */
   uint64_t longest;             /* window after which the asked error counts as out of reach */
   double relative_error;        /* 0: not asked */
   double time_limit;            /* seconds, 0: none */
   bool find_steady;             /* give up windows that show a trend */
-} gg_plan;
+} gg_stopping_criteria;
 
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
 enum { GG_LEAST_CORRELATION_TIMES = 20 };
@@ -28,23 +28,23 @@ typedef struct gg_convergence { /* of the present averaging window */
   gg_quantity trending_quantity;
   double trend_z, trend_relative; /* ... by so many errors, and by this share of its mean */
   double trend_share;             /* of the window: the part that differs from later; its first third or less */
-  int wanders;                    /* between walls: the slowest mode across the gap that shifts results; -1 without */
-  double wandering;               /* over what time it forgets, in samples */
+  int slow_mode;                  /* between walls: the slowest mode across the gap that shifts results; -1 without */
+  double slow_mode_time;          /* over what time it forgets, in samples */
 } gg_convergence;
 
 typedef struct gg_replicas {
   gg_scene scene;
   gg_model model;
-  gg_plan plan;
+  gg_stopping_criteria criteria;
   int n;
   gg_replica *replica; /* n of them */
-  const gg_hooks *hooks;
-  gg_hooks task_hooks;                            /* those that tasks call */
+  const gg_run_callbacks *callbacks;
+  gg_run_callbacks task_callbacks;                /* those that tasks call */
   gg_run_tasks tasks;                             /* one a replica */
-  gg_run_scheduler *own_scheduler;                /* NULL: the hooks have one */
-  pthread_mutex_t lock;                           /* one thread at a time calls a hook */
+  gg_run_scheduler *own_scheduler;                /* NULL: the callbacks have one */
+  pthread_mutex_t lock;                           /* one thread at a time calls a callback */
   gg_stop stop;                                   /* what the model's points to */
-  _Atomic int stopped;                            /* GG_GOES_ON ... */
+  _Atomic int stopped;                            /* GG_NOT_STOPPED ... */
   struct gg_replicas_state {                      /* plain data: saved as bytes */
     int64_t averaging;                            /* 0: warm-up */
     uint64_t due;                                 /* samples that every replica is to have taken */
@@ -54,58 +54,59 @@ typedef struct gg_replicas {
     int64_t exact;                                /* at the last test, errors were as small as asked */
     double wall;                                  /* seconds used before this process */
     uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began (arrest.c) */
-    double standstill; /* share of contacts that last, if there was little else; 0: the grains move */
+    double arrest_share; /* share of contacts that last, if there was little else; 0: the grains move */
   } state;
   gg_convergence last;
   double started, last_checkpoint; /* clock readings */
-  gg_outlook outlook;
-  double looked_at, next_look; /* samples in the window when errors were last estimated for it; not before this time */
+  gg_progress_estimate progress;
+  double estimated_at,
+      next_estimate; /* samples in the window when errors were last estimated for it; not before this time */
 } gg_replicas;
 
-enum { GG_GOES_ON, GG_OUT_OF_TIME, GG_STOP_ASKED }; /* why a run is stopped */
+enum { GG_NOT_STOPPED, GG_OUT_OF_TIME, GG_STOP_REQUESTED }; /* why a run is stopped */
 
-gg_plan gg_run_criteria_of(const gg_scene *scene, const gg_model *model);
+gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model);
 /* Is a window with a trend given up, after so many that were? */
-bool gg_run_criteria_restart(const gg_plan *plan, uint64_t restarts);
+bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts);
 /* Does a window of this length end the run, whatever its errors are? */
-bool gg_run_criteria_end(const gg_plan *plan, uint64_t restarts, uint64_t window);
+bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window);
 
 /* What a test of the window found. A window with 64 long blocks knows its error to 9 %: it is sure. Shorter ones, with
  * 16 of them, do not know it to better than a fifth. */
-typedef struct gg_test {
+typedef struct gg_window_test {
   uint64_t window;
   double ratio;     /* error over the asked one; NaN: not known */
   bool exact, sure; /* as small as asked, and to be trusted */
-} gg_test;
+} gg_window_test;
 /* Does it end the run? A run that tests again and again, and stops as soon as its estimate of the error is small, stops
  * where the estimate is too small. So a window that is not sure goes on for half its length after the first test that
  * it passes, and the estimate there is the one that counts. One that is sure need not: looks are few, as each goes
  * where the last expects the end, and the estimate scatters little. (Simulated with independent blocks, the error's own
  * doubt not allowed for: the mean square of deviations over claimed errors is 1.07 then, against 1.05 with the half
  * more, 1.03 of windows of fixed length; with 16 blocks 1.3, against 1.16 and 1.15.) */
-bool gg_run_criteria_are_met(const gg_test *test, bool exact_before);
+bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before);
 /* Length at which the window is tested next, after that test; NULL: first. It grows by a quarter a time; of one that is
  * sure, to where its error should be a twentieth smaller than asked. */
-uint64_t gg_run_criteria_next_test(const gg_plan *plan, uint64_t restarts, const gg_test *last);
+uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last);
 
 /* By how much errors of a run that stops by them are enlarged, the others' by nothing: it stops where their estimate is
  * low. Of independent looks at autoregressive series (tests/run/test_stopping_rule.c) the mean square of deviations
  * over errors is 1.0 to 1.1 then, and 1.1 to 1.2 without; 1 % from 600 correlation times on. `correlation` and `window`
  * in one unit, over all replicas. */
-double gg_run_criteria_margin(const gg_plan *plan, double correlation, double window);
+double gg_run_criteria_margin(const gg_stopping_criteria *criteria, double correlation, double window);
 
-/* replicas_advance.c: create them, or restore them from `resume`, with the scheduler of the hooks, or else one of
+/* replicas_advance.c: create them, or restore them from `resume`, with the scheduler of the callbacks, or else one of
  * `threads`. They are the caller's to clear if this succeeds. */
 gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
-                                 const gg_hooks *hooks, gg_error *err);
+                                 const gg_run_callbacks *callbacks, gg_error *err);
 void gg_run_replicas_clear(gg_replicas *all);
 /* Every replica takes samples until it has `due` of them; GG_OK before that where several processes pause for a
  * checkpoint. */
 gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err);
 
-/* averaging.c: warm-up and averaging, to the end that the plan asks for or until time is up. */
+/* averaging.c: warm-up and averaging, to the end that the criteria asks for or until time is up. */
 gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err);
-/* progress.c: report to the caller's hook, if there is one; `over`: the run is. */
+/* progress.c: report to the caller's callback, if there is one; `over`: the run is. */
 void gg_run_replicas_report_progress(gg_replicas *all, bool over);
 bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all);
 /* Has every replica all->state.due samples? Where a run was stopped, some may not. */
@@ -120,8 +121,8 @@ gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *converge
 /* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
 gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
 
-/* slow_modes.c: what wanders slowly across the gap between walls, over the window. */
-typedef struct gg_wandering {
+/* slow_modes.c: what slow_mode slowly across the gap between walls, over the window. */
+typedef struct gg_slow_modes {
   int mode;    /* the slowest that shifts results (measure/wall_modes.h); -1 without walls */
   double time; /* over which it forgets, in samples */
   double
@@ -129,10 +130,10 @@ typedef struct gg_wandering {
   /* Walls alike: how far from the middle the centre of mass was on average, and that mean's share in the mean square.
    */
   double aside, aside_share;
-} gg_wandering;
-gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_wandering *wandering, gg_error *err);
+} gg_slow_modes;
+gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *slow, gg_error *err);
 
-/* arrest.c: under gravity, have the grains come to rest? Leaves the answer in all->state.standstill. */
+/* arrest.c: under gravity, have the grains come to rest? Leaves the answer in all->state.arrest_share. */
 void gg_run_replicas_check_arrest(gg_replicas *all);
 
 /* checkpoint.c */

@@ -13,14 +13,15 @@
 
 static bool out_of_time(const gg_replicas *all)
 {
-  return all->plan.time_limit > 0 && all->state.wall + gg_base_clock_wall() - all->started > all->plan.time_limit;
+  return all->criteria.time_limit > 0 &&
+         all->state.wall + gg_base_clock_wall() - all->started > all->criteria.time_limit;
 }
 
 static bool is_interrupted(gg_replicas *all)
 {
-  if (!all->hooks || !all->hooks->interrupted) return false;
+  if (!all->callbacks || !all->callbacks->interrupted) return false;
   pthread_mutex_lock(&all->lock);
-  bool yes = all->hooks->interrupted(all->hooks->context);
+  bool yes = all->callbacks->interrupted(all->callbacks->context);
   pthread_mutex_unlock(&all->lock);
   return yes;
 }
@@ -29,17 +30,20 @@ static bool is_interrupted(gg_replicas *all)
 static bool is_stopped(void *context)
 {
   gg_replicas *all = context;
-  if (atomic_load(&all->stopped) != GG_GOES_ON || atomic_load(&all->tasks.stopping)) return true;
-  int why = is_interrupted(all) ? GG_STOP_ASKED : out_of_time(all) ? GG_OUT_OF_TIME : GG_GOES_ON, before = GG_GOES_ON;
-  if (why != GG_GOES_ON) atomic_compare_exchange_strong(&all->stopped, &before, why);
-  return why != GG_GOES_ON;
+  if (atomic_load(&all->stopped) != GG_NOT_STOPPED || atomic_load(&all->tasks.stopping)) return true;
+  int why = is_interrupted(all) ? GG_STOP_REQUESTED
+            : out_of_time(all)  ? GG_OUT_OF_TIME
+                                : GG_NOT_STOPPED,
+      before = GG_NOT_STOPPED;
+  if (why != GG_NOT_STOPPED) atomic_compare_exchange_strong(&all->stopped, &before, why);
+  return why != GG_NOT_STOPPED;
 }
 
 static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *err)
 {
   gg_replicas *all = context;
   pthread_mutex_lock(&all->lock);
-  gg_status status = all->hooks->frame(all->hooks->context, frame, err);
+  gg_status status = all->callbacks->frame(all->callbacks->context, frame, err);
   pthread_mutex_unlock(&all->lock);
   return status;
 }
@@ -52,7 +56,7 @@ static int threads_each(int threads, int replicas)
 
 static gg_status find_scheduler(gg_replicas *all, int threads, gg_run_scheduler **scheduler, gg_error *err)
 {
-  *scheduler = all->hooks ? all->hooks->scheduler : NULL;
+  *scheduler = all->callbacks ? all->callbacks->scheduler : NULL;
   if (*scheduler) return GG_OK;
   GG_TRY(gg_run_scheduler_new(threads, false, &all->own_scheduler, err));
   gg_run_scheduler_enter(all->own_scheduler);
@@ -62,9 +66,10 @@ static gg_status find_scheduler(gg_replicas *all, int threads, gg_run_scheduler 
 
 static gg_status open_tasks(gg_replicas *all, int threads, gg_error *err)
 {
-  all->task_hooks = (gg_hooks){.context = all, .frame = all->hooks && all->hooks->frame ? locked_frame : NULL};
-  all->tasks = (gg_run_tasks){.scene = &all->scene, .model = &all->model, .hooks = &all->task_hooks};
-  gg_workers *workers = all->hooks && !all->scene.extension ? all->hooks->workers : NULL;
+  all->task_callbacks =
+      (gg_run_callbacks){.context = all, .frame = all->callbacks && all->callbacks->frame ? locked_frame : NULL};
+  all->tasks = (gg_run_tasks){.scene = &all->scene, .model = &all->model, .callbacks = &all->task_callbacks};
+  gg_workers *workers = all->callbacks && !all->scene.extension ? all->callbacks->workers : NULL;
   gg_run_scheduler *scheduler = workers ? gg_run_workers_scheduler(workers) : NULL;
   if (!workers) GG_TRY(find_scheduler(all, threads, &scheduler, err));
   GG_TRY(gg_run_tasks_open(&all->tasks, scheduler, all->replica, all->n, threads_each(threads, all->n), err));
@@ -88,7 +93,7 @@ static gg_status outcome(gg_replicas *all, gg_error *err)
     const gg_run_task *t = &all->tasks.task[i];
     if (t->status != GG_OK && (!worst || (worst->status == GG_INTERRUPTED && t->status != GG_INTERRUPTED))) worst = t;
   }
-  if (!worst || (worst->status == GG_INTERRUPTED && atomic_load(&all->stopped) == GG_GOES_ON)) return GG_OK;
+  if (!worst || (worst->status == GG_INTERRUPTED && atomic_load(&all->stopped) == GG_NOT_STOPPED)) return GG_OK;
   if (err) *err = worst->err;
   return worst->status;
 }
@@ -112,18 +117,18 @@ static gg_status create_or_restore(gg_replicas *all, const gg_archive *resume, g
 }
 
 gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
-                                 const gg_hooks *hooks, gg_error *err)
+                                 const gg_run_callbacks *callbacks, gg_error *err)
 {
-  *all = (gg_replicas){.scene = *scene, .n = (int)scene->run.replicas, .hooks = hooks};
+  *all = (gg_replicas){.scene = *scene, .n = (int)scene->run.replicas, .callbacks = callbacks};
   all->started = all->last_checkpoint = gg_base_clock_wall();
   all->last.relative_error = NAN; /* nothing is estimated yet */
   if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
   scene = &all->scene;
-  GG_TRY(gg_run_start_make(scene, hooks && !resume ? hooks->model : NULL, &all->model, err));
+  GG_TRY(gg_run_start_make(scene, callbacks && !resume ? callbacks->model : NULL, &all->model, err));
   GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
-  all->plan = gg_run_criteria_of(scene, &all->model);
-  const gg_forecast forecast = gg_run_cost_estimate(scene, &all->model, scene->engine);
-  GG_TRY(gg_run_cost_check_memory(&forecast, gg_run_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
+  all->criteria = gg_run_criteria_of(scene, &all->model);
+  const gg_cost_estimate cost = gg_run_cost_estimate(scene, &all->model, scene->engine);
+  GG_TRY(gg_run_cost_check_memory(&cost, gg_run_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
   all->replica = gg_base_array_new((size_t)all->n, sizeof *all->replica, err);
   if (!all->replica) return GG_FAILED;
   pthread_mutex_init(&all->lock, NULL);

@@ -168,7 +168,7 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
   if (s->overflows > 1e-3 * (double)s->collisions)
     gg_run_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
                        100 * (double)s->overflows / (double)s->collisions);
-  if (all->plan.relative_error > 0 && s->time_step_bias > all->plan.relative_error / 5)
+  if (all->criteria.relative_error > 0 && s->time_step_bias > all->criteria.relative_error / 5)
     gg_run_result_warn(result,
                        "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the asked error",
                        100 * s->time_step_bias);

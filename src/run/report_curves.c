@@ -27,7 +27,7 @@ static void warn_of_short_blocks(gg_result *result, int from, const char *name)
 #define ASIDE_OF_GAP 0.01
 #define ASIDE_SHARE 0.5
 
-static void warn_of_one_side(const gg_wandering *w, gg_result *result)
+static void warn_of_one_side(const gg_slow_modes *w, gg_result *result)
 {
   if (!(w->aside_share > ASIDE_SHARE && fabs(w->aside) > ASIDE_OF_GAP * result->model.box[1])) return;
   for (int i = 0; i < result->curves.n; i++) {
@@ -67,10 +67,10 @@ gg_status gg_run_replicas_report_curves(const gg_replicas *all, gg_result *resul
     const char *why = all->scene.measure & o->flag && o->refuses ? o->refuses(&all->model) : NULL;
     if (why) gg_run_result_warn(result, "%s is not measured: %s", o->name, why);
   }
-  gg_wandering wandering;
-  GG_TRY(gg_run_replicas_slow_modes(all, &wandering, err));
+  gg_slow_modes slow;
+  GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   for (int k = 0; k < all->replica[0].n_observables; k++)
-    if (all->replica[0].observable[k]->bins) GG_TRY(report_one(all, k, wandering.mean_time, result, err));
-  warn_of_one_side(&wandering, result);
+    if (all->replica[0].observable[k]->bins) GG_TRY(report_one(all, k, slow.mean_time, result, err));
+  warn_of_one_side(&slow, result);
   return GG_OK;
 }

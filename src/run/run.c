@@ -18,13 +18,13 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
   return gg_run_replicas_check_end(all, err);
 }
 
-gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
+gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_run_callbacks *callbacks,
                        gg_result **out, gg_error *err)
 {
   gg_replicas all;
   *out = NULL;
   bool before = gg_base_memory_begin();
-  gg_status status = gg_run_replicas_create(&all, scene, resume, threads, hooks, err);
+  gg_status status = gg_run_replicas_create(&all, scene, resume, threads, callbacks, err);
   if (status != GG_OK) return gg_base_memory_check(before, status, err);
   status = gg_run_replicas_run(&all, err);
   if (status == GG_OK) status = report(&all, out, err);

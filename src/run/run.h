@@ -9,7 +9,7 @@ typedef struct gg_run_scheduler gg_run_scheduler; /* run/scheduler.h */
 
 /* What the caller wants to be told while it runs; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
-typedef struct gg_hooks {
+typedef struct gg_run_callbacks {
   void *context;
   void (*progress)(void *context, const gg_progress *progress);
   /* Asked several times a second, from the start on; true ends the run with GG_INTERRUPTED. */
@@ -21,14 +21,14 @@ typedef struct gg_hooks {
   gg_run_scheduler *scheduler; /* shared with other runs, borrowed; NULL: one of its own */
   gg_workers *workers;         /* other processes that share the replicas, with a scheduler of their own; borrowed */
   const gg_model *model;       /* made by the caller; NULL, or a run that resumes: made here */
-} gg_hooks;
+} gg_run_callbacks;
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side
  * by side, and shares out a large ensemble of engine dsmc where there are more threads than that needs; the result does
  * not depend on it. GG_FAILED with *result set: ended short of what was asked; GG_INTERRUPTED, and GG_BAD_FILE from a
- * hook, with *result set: so far. Stopped while many grains were placed, no *result. The caller frees *result with
+ * callback, with *result set: so far. Stopped while many grains were placed, no *result. The caller frees *result with
  * gg_result_free. */
-gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
+gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_run_callbacks *callbacks,
                        gg_result **result, gg_error *err);
 
 /* How far a run's archive is; GG_BAD_FILE of any other. */
@@ -56,10 +56,10 @@ struct gg_comparison {
   gg_extension *own;     /* names of what that file's program had brought; else NULL */
 };
 
-/* `resume` (may be NULL): an archive that the checkpoint hook stored; each engine goes on from its part. Also after a
- * failure the comparison holds what there is, and is to be cleared. */
-gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_hooks *hooks,
-                               gg_comparison *comparison, gg_error *err);
+/* `resume` (may be NULL): an archive that the checkpoint callback stored; each engine goes on from its part. Also after
+ * a failure the comparison holds what there is, and is to be cleared. */
+gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
+                               const gg_run_callbacks *callbacks, gg_comparison *comparison, gg_error *err);
 void gg_run_comparison_clear(gg_comparison *comparison);
 
 /* Evaluate the theories for the comparison's scene: fills only model and theory[], which borrow from it, and warns of

@@ -76,7 +76,7 @@ void gg_run_replica_sample_row(gg_replica *r, double elapsed)
 static bool is_due(const gg_replica *r, int k, int part)
 {
   const gg_observable *o = r->observable[k];
-  if (!o->bins || (gg_measure_observable_wants_collisions(o, &r->model) && r->shown != GG_SHOWN)) return false;
+  if (!o->bins || (gg_measure_observable_wants_collisions(o, &r->model) && r->shown != GG_OBSERVED)) return false;
   return o->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)r->every[k] == 0);
 }
 

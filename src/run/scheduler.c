@@ -62,7 +62,7 @@ static gg_status advance(gg_run_task *t)
   const uint64_t step = 1 + (uint64_t)(2e5 / (1000 + (double)r->model.n));
   while (r->clock.samples < t->due) {
     const uint64_t to = r->clock.samples + step;
-    gg_status status = gg_run_replica_advance(r, to < t->due ? to : t->due, t->adapt, t->run->hooks, &t->err);
+    gg_status status = gg_run_replica_advance(r, to < t->due ? to : t->due, t->adapt, t->run->callbacks, &t->err);
     gg_run_task_update(t);
     if (status != GG_OK) return status;
   }

@@ -45,7 +45,7 @@ struct gg_run_tasks { /* the tasks of one run, one a replica */
   gg_run_scheduler *scheduler;
   const gg_scene *scene;
   const gg_model *model; /* its `stop` ends the tasks, and looks at `stopping` */
-  const gg_hooks *hooks;
+  const gg_run_callbacks *callbacks;
   int n;
   gg_run_task *task;
   atomic_bool stopping;        /* from a stop, or a failure, to the next submission */

@@ -1,7 +1,7 @@
-/* Between walls a dense core wanders to and fro, grows and shrinks, for longer than any mean over all grains remembers.
- * The long waves across the gap (measure/wall_modes.h) show for how long. Where the walls are alike, what is reported
- * is even under the symmetry of the flow: modes that are odd do not shift it, but a core that keeps to one side is to
- * be seen. */
+/* Between walls a dense core slow_mode to and fro, grows and shrinks, for longer than any mean over all grains
+ * remembers. The long waves across the gap (measure/wall_modes.h) show for how long. Where the walls are alike, what is
+ * reported is even under the symmetry of the flow: modes that are odd do not shift it, but a core that keeps to one
+ * side is to be seen. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,9 +37,9 @@ static double mean_square(const double *y, size_t n)
   return sum;
 }
 
-gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_wandering *w, gg_error *err)
+gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *w, gg_error *err)
 {
-  *w = (gg_wandering){.mode = -1};
+  *w = (gg_slow_modes){.mode = -1};
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s), per_part = (rows + PARTS - 1) / PARTS;
   int modes = all->state.averaging ? gg_measure_wall_modes(&all->model) : 0;

@@ -1,7 +1,7 @@
 /* Where a run starts: close to the steady state that theory expects, so that the warm-up is short. Only the start
  * depends on it; the warm-up forgets it. */
-#ifndef GG_START_H
-#define GG_START_H
+#ifndef GG_START_MODEL_H
+#define GG_START_MODEL_H
 
 #include "common/model.h"
 

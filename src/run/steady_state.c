@@ -6,7 +6,7 @@
 #include "measure/wall_modes.h"
 #include "run/replicas.h"
 
-static void tell_trend(const gg_convergence *c, double window, char *text, size_t size)
+static void describe_trend(const gg_convergence *c, double window, char *text, size_t size)
 {
   const char *name = gg_common_quantity_name(c->trending_quantity);
   if (c->trend_share < 0.3)
@@ -30,18 +30,18 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
   if (!all->model.steady && !all->model.linear_response) {
     result->steadiness = GG_HEATING;
     snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
-  } else if (all->state.standstill > 0) {
+  } else if (all->state.arrest_share > 0) {
     snprintf(text, size, "the grains have come to rest or nearly so: %.0f %% of collisions are contacts that last",
-             100 * all->state.standstill);
+             100 * all->state.arrest_share);
   } else if (!all->state.averaging) {
     snprintf(text, size, "the run ended in its warm-up");
   } else if (all->replica[0].series.width == 0) { /* not even modes of the gap */
     snprintf(text, size, "nobody can tell: nothing is measured, rheology would say");
   } else if (c->trending) {
-    tell_trend(c, happened, text, size);
-  } else if (window < all->plan.least) {
+    describe_trend(c, happened, text, size);
+  } else if (window < all->criteria.least) {
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
-             happened, (double)all->plan.least * happened / (double)window);
+             happened, (double)all->criteria.least * happened / (double)window);
   } else if (all->model.linear_response) {
     result->steadiness = GG_STEADY;
     gg_linear_response s = gg_common_linear_response_of(&all->model);
@@ -52,12 +52,12 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
     snprintf(text, size,
              "too short to tell: averaged over %.1f correlation times of the slowest quantity, %d are needed",
              (double)window / c->slowest, GG_LEAST_CORRELATION_TIMES);
-  } else if (c->wanders >= 0 && sampled < GG_LEAST_CORRELATION_TIMES * c->wandering) {
+  } else if (c->slow_mode >= 0 && sampled < GG_LEAST_CORRELATION_TIMES * c->slow_mode_time) {
     snprintf(text, size,
              "too short to tell: one mode dominates, %s, which wanders with a correlation time of %.2g collisions a "
              "grain; averaged over %.1f of these, %d are needed",
-             gg_measure_wall_mode_name(c->wanders), c->wandering * GG_SAMPLING_INTERVAL, sampled / c->wandering,
-             GG_LEAST_CORRELATION_TIMES);
+             gg_measure_wall_mode_name(c->slow_mode), c->slow_mode_time * GG_SAMPLING_INTERVAL,
+             sampled / c->slow_mode_time, GG_LEAST_CORRELATION_TIMES);
   } else {
     result->steadiness = GG_STEADY;
     snprintf(text, size, "no trend over %.0f collisions a grain, %.0f correlation times of the slowest quantity",

@@ -31,7 +31,7 @@ static double sweep_length(const gg_model *m)
   return 1.25 * m->chi[0] * 1.5 * (1 / (s.low * s.low) - 1 / (s.high * s.high));
 }
 
-static void plan_linear_response(gg_plan *p, const gg_scene *scene, const gg_model *m)
+static void plan_linear_response(gg_stopping_criteria *p, const gg_scene *scene, const gg_model *m)
 {
   double length = sweep_length(m);
   if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_common_linear_response_of(m).cools ? 10 : 40);
@@ -58,9 +58,9 @@ static bool has_headline(const gg_model *m)
   return gg_run_headline_quantities(m, list) > 0;
 }
 
-gg_plan gg_run_criteria_of(const gg_scene *scene, const gg_model *model)
+gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model)
 {
-  gg_plan p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
+  gg_stopping_criteria p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
   double slowest = gg_common_model_relaxation(model), gap = gg_common_model_gap_relaxation(model);
   double warmup = fmax(fmax(40, WARMUP_TIMES * slowest), WARMUP_GAP_TIMES * gap);
   p.warmup = samples_for(scene->run.warmup == GG_AUTO ? warmup : scene->run.warmup);
@@ -84,40 +84,41 @@ gg_plan gg_run_criteria_of(const gg_scene *scene, const gg_model *model)
 /* Windows that may be given up: averaging does not begin anew for ever. */
 enum { MOST_RESTARTS = 6 };
 
-bool gg_run_criteria_restart(const gg_plan *plan, uint64_t restarts)
+bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts)
 {
-  return plan->find_steady && restarts < MOST_RESTARTS;
+  return criteria->find_steady && restarts < MOST_RESTARTS;
 }
 
-bool gg_run_criteria_end(const gg_plan *plan, uint64_t restarts, uint64_t window)
+bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window)
 {
-  return (plan->most && window >= plan->most) || (plan->relative_error > 0 && window >= plan->longest << restarts);
+  return (criteria->most && window >= criteria->most) ||
+         (criteria->relative_error > 0 && window >= criteria->longest << restarts);
 }
 
-bool gg_run_criteria_are_met(const gg_test *test, bool exact_before)
+bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before)
 {
   return test->exact && (test->sure || exact_before);
 }
 
 /* Where the error, which falls as 1/sqrt(window), should be exact enough: at most twice as long, as it is an estimate.
  */
-static uint64_t expected_end(const gg_test *t)
+static uint64_t expected_end(const gg_window_test *t)
 {
   double factor = fmin(fmax(1.1 * t->ratio * t->ratio, 1.1), 2);
   return (uint64_t)ceil(factor * (double)t->window);
 }
 
-uint64_t gg_run_criteria_next_test(const gg_plan *plan, uint64_t restarts, const gg_test *last)
+uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last)
 {
-  uint64_t next = plan->least << restarts;
+  uint64_t next = criteria->least << restarts;
   if (last && last->window >= next)
     next = last->exact                     ? last->window + last->window / 2
            : last->sure && last->ratio > 0 ? expected_end(last)
                                            : last->window + last->window / 4;
-  return plan->most && next > plan->most ? plan->most : next;
+  return criteria->most && next > criteria->most ? criteria->most : next;
 }
 
-double gg_run_criteria_margin(const gg_plan *plan, double correlation, double window)
+double gg_run_criteria_margin(const gg_stopping_criteria *criteria, double correlation, double window)
 {
-  return plan->relative_error > 0 && window > 0 ? 1 + 6 * correlation / window : 1;
+  return criteria->relative_error > 0 && window > 0 ? 1 + 6 * correlation / window : 1;
 }

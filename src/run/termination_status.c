@@ -29,36 +29,36 @@ static bool out_of_time(const gg_replicas *all)
 static gg_status check_error(const gg_replicas *all, const char *engine, gg_error *err)
 {
   const gg_convergence *c = &all->last;
-  const gg_plan *plan = &all->plan;
+  const gg_stopping_criteria *criteria = &all->criteria;
   const uint64_t window = window_of(all);
   if (all->replica[0].n_observables == 0)
     return gg_base_fail(err, GG_FAILED,
                         "%s: nothing is measured: nobody can tell whether the asked relative error %g is "
                         "reached",
-                        engine, plan->relative_error);
-  const bool cut = out_of_time(all) || (plan->most && window >= plan->most);
-  if (cut && (window < plan->least || !c->trusted))
+                        engine, criteria->relative_error);
+  const bool cut = out_of_time(all) || (criteria->most && window >= criteria->most);
+  if (cut && (window < criteria->least || !c->trusted))
     return gg_base_fail(
         err, GG_FAILED,
         "%s: %s after %.0f collisions a grain of averaging, too few to know whether the asked relative error %g is "
         "reached",
         engine, out_of_time(all) ? "the time limit struck" : "run.collisions ended the run",
-        collisions_a_grain(all, true), plan->relative_error);
-  if (c->relative_error <= plan->relative_error) return GG_OK;
+        collisions_a_grain(all, true), criteria->relative_error);
+  if (c->relative_error <= criteria->relative_error) return GG_OK;
   const char *why = out_of_time(all) ? "the time limit struck; " : "";
   if (isnan(c->relative_error))
     return gg_base_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
                         gg_common_quantity_name(c->worst));
   return gg_base_fail(err, GG_FAILED, "%s: %sthe asked relative error %g was not reached: %s has %.3g", engine, why,
-                      plan->relative_error, gg_common_quantity_name(c->worst), c->relative_error);
+                      criteria->relative_error, gg_common_quantity_name(c->worst), c->relative_error);
 }
 
 /* An error that was asked for counts even where run.collisions ended the run first. */
 static gg_status check_goal(const gg_replicas *all, const char *engine, gg_error *err)
 {
-  const gg_plan *plan = &all->plan;
-  const bool by_error = plan->relative_error > 0;
-  if (!all->state.averaging || (!by_error && plan->most && window_of(all) < plan->most))
+  const gg_stopping_criteria *criteria = &all->criteria;
+  const bool by_error = criteria->relative_error > 0;
+  if (!all->state.averaging || (!by_error && criteria->most && window_of(all) < criteria->most))
     return gg_base_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
                         collisions_a_grain(all, false),
                         all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
@@ -68,17 +68,17 @@ static gg_status check_goal(const gg_replicas *all, const char *engine, gg_error
 gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err)
 {
   const char *engine = all->replica[0].engine->ops->name;
-  if (all->state.standstill > 0)
+  if (all->state.arrest_share > 0)
     return gg_base_fail(
         err, GG_FAILED,
         "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
         "last, and fall under the contact-time rule; hard spheres need a flow",
-        engine, 100 * all->state.standstill);
+        engine, 100 * all->state.arrest_share);
   gg_status status = check_goal(all, engine, err);
-  if (status == GG_OK || !out_of_time(all) || !(all->state.wall > all->plan.time_limit)) return status;
+  if (status == GG_OK || !out_of_time(all) || !(all->state.wall > all->criteria.time_limit)) return status;
   return gg_base_fail(
       err, GG_FAILED,
       "%s: the time limit of %g s was over before: it counts from the run's first start; to go on, give "
       "run.time_limit a larger value",
-      engine, all->plan.time_limit);
+      engine, all->criteria.time_limit);
 }

@@ -1,6 +1,6 @@
 /* Where molecular dynamics, the Enskog equation and theories may differ, and why: what a comparison is to remark on. */
-#ifndef GG_AGREEMENT_H
-#define GG_AGREEMENT_H
+#ifndef GG_Z_SCORES_H
+#define GG_Z_SCORES_H
 
 #include "run/run.h"
 

@@ -72,20 +72,20 @@ static gg_status set_values(const gg_sweep *sweep, size_t i, gg_scene *scene, gg
 }
 
 /* What one engine needs for a scene; GG_BAD_INPUT where it cannot run it. */
-static gg_status forecast_of(const gg_scene *scene, gg_engine_kind engine, gg_forecast *forecast, double *warmup,
-                             gg_error *err)
+static gg_status cost_of(const gg_scene *scene, gg_engine_kind engine, gg_cost_estimate *cost, double *warmup,
+                         gg_error *err)
 {
   gg_model model;
   GG_TRY(gg_common_model_make(scene, engine, &model, err));
   GG_TRY(gg_run_engine_ops_of(engine)->accepts(&model, err));
-  *forecast = gg_run_cost_estimate(scene, &model, engine);
+  *cost = gg_run_cost_estimate(scene, &model, engine);
   *warmup = (double)gg_run_criteria_of(scene, &model).warmup * GG_SAMPLING_INTERVAL;
   return GG_OK;
 }
 
 /* A run that goes on until an error is shared among replicas: as many as keep each below `longest`, and warm-ups, which
  * each of them has, below a fifth of the whole. By the scene alone: the same on every machine. */
-static int64_t replicas_for(const gg_forecast *f, double warmup, double longest)
+static int64_t replicas_for(const gg_cost_estimate *f, double warmup, double longest)
 {
   enum { MOST = 1000 };
   if (!f->to_an_error || !(f->seconds > longest)) return 1;
@@ -102,7 +102,7 @@ static gg_status add_theories(const gg_scene *scene, double *seconds, gg_error *
 }
 
 /* Seconds of all engines and theories that take part, and the replicas that it is shared among. */
-static gg_status forecast_point(const gg_sweep *sweep, gg_scene *scene, double *seconds, gg_error *err)
+static gg_status estimate_point(const gg_sweep *sweep, gg_scene *scene, double *seconds, gg_error *err)
 {
   const gg_does does = sweep->settings.does;
   *seconds = 0;
@@ -111,10 +111,10 @@ static gg_status forecast_point(const gg_sweep *sweep, gg_scene *scene, double *
   gg_status some = GG_BAD_INPUT;
   const bool chosen = gg_scene_is_given(scene, "run.replicas");
   for (int k = 0; k < 2; k++) {
-    gg_forecast f;
+    gg_cost_estimate f;
     double warmup;
     if (does == GG_DOES_RUN && scene->engine != (gg_engine_kind)k) continue;
-    if (forecast_of(scene, (gg_engine_kind)k, &f, &warmup, some == GG_OK ? NULL : err) != GG_OK) continue;
+    if (cost_of(scene, (gg_engine_kind)k, &f, &warmup, some == GG_OK ? NULL : err) != GG_OK) continue;
     some = GG_OK;
     *seconds += f.seconds;
     int64_t n = replicas_for(&f, warmup, sweep->settings.longest);
@@ -130,7 +130,7 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, doubl
   *scene = sweep->base;
   GG_TRY(set_values(sweep, i, scene, err));
   GG_TRY(gg_scene_finish(scene, err));
-  GG_TRY(forecast_point(sweep, scene, seconds, err));
+  GG_TRY(estimate_point(sweep, scene, seconds, err));
   if (sweep->settings.seeds == GG_SEEDS_INDEPENDENT && !gg_sweep_sets(sweep, "run.seed"))
     scene->run.seed = gg_sweep_point_seed(sweep, scene);
   return GG_OK;

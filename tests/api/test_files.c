@@ -3,7 +3,7 @@
 #include <locale.h>
 #include <sys/stat.h>
 
-#include "door_test.h"
+#include "api_test.h"
 
 #define SHEAR "{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 200}, run: {collisions: 6000}}"
 

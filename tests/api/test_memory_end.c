@@ -1,6 +1,6 @@
 /* No memory at all from the moment on at which the result is in place: what is left to do is done without any. */
 #include "../faults/failing_malloc.h"
-#include "door_test.h"
+#include "api_test.h"
 
 #define SHEAR "{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 200}, run: {collisions: 6000}}"
 

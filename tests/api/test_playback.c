@@ -1,5 +1,5 @@
 /* Trajectories read back, a frame at a time; what theories say of gases that cool. */
-#include "door_test.h"
+#include "api_test.h"
 
 #define PI 3.14159265358979323846
 #define MIXTURE                                                                                                        \

@@ -1,5 +1,5 @@
 /* Runs with options, comparisons, and results: asked, written, read back. */
-#include "door_test.h"
+#include "api_test.h"
 
 #define SHORT "{flow: usf, engine: dsmc, phi: 0.1, particles: 200, dsmc: {particles: 500}, run: {collisions: 6000}}"
 

@@ -1,5 +1,5 @@
 /* Scenes and tables as the public interface has them. */
-#include "door_test.h"
+#include "api_test.h"
 
 static const char *get(const gg_scene *s, const char *key)
 {

@@ -1,6 +1,6 @@
 /* Simulations step by step: what they show agrees with itself and with the conservation laws; cut, saved and loaded
  * they go on bit for bit. */
-#include "door_test.h"
+#include "api_test.h"
 
 #define ROUGH "{flow: usf, phi: 0.2, particles: 200, collision: {e: 0.9, beta: 0}}"
 

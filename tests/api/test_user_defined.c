@@ -2,7 +2,7 @@
  * where it would spoil files. */
 #include <stdbool.h>
 
-#include "door_test.h"
+#include "api_test.h"
 
 static void sample_T(void *context, void *state, const gg_sample *s, double *values)
 {

@@ -1,7 +1,7 @@
 /* Replicas shared by several processes: the bits are those of one process, whoever works, whoever is lost on the way,
  * wherever a run is stopped and resumed, and for any number of threads and ranks. Here the processes are threads with a
- * post of their own. */
-#include "post.h"
+ * mailbox of their own. */
+#include "mailbox.h"
 
 static const char *const scenes[] = {
     ("{flow: usf, phi: 0.1, particles: 100, measure: [rheology, velocity_distributions, diffusion], "
@@ -11,14 +11,15 @@ static const char *const scenes[] = {
     "{flow: usf, engine: dsmc, phi: 0, dsmc: {particles: 300}, run: {relative_error: 0.03, replicas: 5}}",
 };
 
-static gg_status run(post *p, int ranks, int threads, const gg_scene *scene, gg_run_options options, gg_result **result)
+static gg_status run(mailbox *p, int ranks, int threads, const gg_scene *scene, gg_run_options options,
+                     gg_result **result)
 {
   gg_error err = {0};
-  post_open(p, ranks);
+  mailbox_open(p, ranks);
   assert_ok(gg_workers_new(&p->end[0], threads, &options.workers, &err));
   gg_status status = gg_run(scene, &options, result, &err);
   gg_workers_free(options.workers);
-  post_close(p, ranks);
+  mailbox_close(p, ranks);
   return status;
 }
 
@@ -64,7 +65,7 @@ static void same_bits(void **state)
     gg_scene *scene = scene_of(scenes[i]);
     gg_result *one = alone(scene);
     for (int ranks = 2; ranks <= 4; ranks += 2) {
-      post p = {0};
+      mailbox p = {0};
       gg_result *several = NULL;
       gg_status status = run(&p, ranks, ranks == 2 ? 2 : 1, scene, (gg_run_options){0}, &several);
       assert_true(status == GG_OK || status == GG_FAILED);
@@ -87,7 +88,7 @@ static void any_number(void **state)
                              "run: {collisions: 60, replicas: 80}}");
   gg_result *one = alone(scene);
   for (int k = 0; k < 3; k++) {
-    post p = {0};
+    mailbox p = {0};
     gg_result *threads = NULL, *ranks = NULL;
     gg_status status = gg_run(scene, &(gg_run_options){.threads = numbers[k]}, &threads, &err);
     assert_true(status == GG_OK || status == GG_FAILED);
@@ -109,7 +110,7 @@ static void lost(void **state)
   gg_scene *scene = scene_of(scenes[0]);
   gg_result *one = alone(scene);
   for (int die_at = 1; die_at < 5; die_at++) {
-    post p = {.die_at = die_at};
+    mailbox p = {.die_at = die_at};
     gg_result *several = NULL;
     assert_int_equal(run(&p, 3, 1, scene, (gg_run_options){0}, &several), GG_OK);
     assert_same(one, several);
@@ -121,7 +122,7 @@ static void lost(void **state)
 }
 
 typedef struct loss { /* rank 1 is lost as the time is up */
-  post *post;
+  mailbox *mailbox;
   double from;
   uint64_t collisions; /* as the run reported them at its end */
 } loss;
@@ -138,9 +139,9 @@ static int lose_at_the_end(void *context)
   loss *l = context;
   if (l->from == 0) l->from = seconds_now();
   if (seconds_now() < l->from + 2) return 0;
-  pthread_mutex_lock(&l->post->lock);
-  l->post->lost[1] = true;
-  pthread_mutex_unlock(&l->post->lock);
+  pthread_mutex_lock(&l->mailbox->lock);
+  l->mailbox->lost[1] = true;
+  pthread_mutex_unlock(&l->mailbox->lock);
   return 0;
 }
 
@@ -155,8 +156,8 @@ static void lost_after_the_stop(void **state)
 {
   (void)state;
   gg_error err;
-  post p = {0};
-  loss l = {.post = &p};
+  mailbox p = {0};
+  loss l = {.mailbox = &p};
   gg_result *result = NULL;
   gg_result_info info;
   gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 100, warmup: 1.0e9, replicas: 2, "
@@ -186,7 +187,7 @@ static void resumed(void **state)
   one = alone(scene);
   const int ranks[] = {3, 2};
   for (int k = 0; k < 2; k++) {
-    post p = {0};
+    mailbox p = {0};
     double until[] = {0.2, 0.5};
     gg_run_options options = {.checkpoint = "t_workers.h5", .resume = k ? "t_workers.h5" : NULL};
     options.progress = beyond, options.context = &until[k];
@@ -212,7 +213,7 @@ static void checkpoints_on_the_way(void **state)
 {
   (void)state;
   gg_error err;
-  post p = {0};
+  mailbox p = {0};
   gg_scene *scene = scene_of(scenes[0]);
   gg_result *one, *several = NULL;
   assert_ok(gg_scene_set(scene, "run.collisions", "6000", &err));
@@ -237,7 +238,7 @@ static void checkpoints_on_the_way(void **state)
 static void checkpoint_due_at_the_start(void **state)
 {
   (void)state;
-  post p = {0};
+  mailbox p = {0};
   gg_scene *scene = scene_of("{flow: usf, phi: 0.5, particles: 20000, run: {collisions: 1, warmup: 1, replicas: 2}, "
                              "output: {checkpoint_every: 1.0e-3}}");
   gg_result *several = NULL;
@@ -288,7 +289,7 @@ static void goes_on_alone(void **state)
   gg_scene *scene =
       scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 300, warmup: 12000, replicas: 4}, "
                "output: {checkpoint_every: 0.15}}");
-  post p = {0};
+  mailbox p = {0};
   watcher shared = {.stop_at = 3}, alone = {0};
   gg_result *part = NULL, *rest = NULL;
   gg_run_options options = {.checkpoint = "t_alone.h5", .progress = watch, .stop = ask, .stored = note_stored};
@@ -308,17 +309,17 @@ static void comparison(void **state)
 {
   (void)state;
   gg_error err;
-  post p = {0};
+  mailbox p = {0};
   gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 500}, "
                              "run: {collisions: 60, replicas: 2}}");
   gg_comparison *one = NULL, *several = NULL;
   gg_run_options options = {0};
   assert_ok(gg_compare(scene, NULL, &one, &err));
-  post_open(&p, 3);
+  mailbox_open(&p, 3);
   assert_ok(gg_workers_new(&p.end[0], 1, &options.workers, &err));
   assert_ok(gg_compare(scene, &options, &several, &err));
   gg_workers_free(options.workers);
-  post_close(&p, 3);
+  mailbox_close(&p, 3);
   assert_same(gg_comparison_result(one, "md"), gg_comparison_result(several, "md"));
   assert_same(gg_comparison_result(one, "dsmc"), gg_comparison_result(several, "dsmc"));
   gg_comparison_free(one);
@@ -329,7 +330,7 @@ static void comparison(void **state)
 static void other_builds_do_not_work(void **state)
 {
   (void)state;
-  post p = {.forges = true};
+  mailbox p = {.forges = true};
   gg_scene *scene = scene_of(scenes[1]);
   gg_result *one = alone(scene), *several = NULL;
   assert_int_equal(run(&p, 3, 1, scene, (gg_run_options){0}, &several), GG_OK);
@@ -344,7 +345,7 @@ static void other_builds_do_not_work(void **state)
 static void failures_come_home(void **state)
 {
   (void)state;
-  post p = {0};
+  mailbox p = {0};
   gg_error err, other;
   gg_result *r = NULL;
   gg_scene *scene = scene_of("{flow: hcs, phi: 0.3, particles: 60, collision: {e: 0.1}, md: {contact_time: 0}, "
@@ -352,11 +353,11 @@ static void failures_come_home(void **state)
   gg_status status = gg_run(scene, NULL, &r, &err);
   gg_result_free(r), r = NULL;
   gg_run_options options = {0};
-  post_open(&p, 2);
+  mailbox_open(&p, 2);
   assert_ok(gg_workers_new(&p.end[0], 1, &options.workers, &other));
   assert_int_equal(gg_run(scene, &options, &r, &other), status);
   gg_workers_free(options.workers);
-  post_close(&p, 2);
+  mailbox_close(&p, 2);
   assert_int_equal(status, GG_FAILED);
   assert_non_null(strstr(other.message, "collapse"));
   gg_result_free(r);
@@ -373,7 +374,7 @@ static double always(void *context, double speed, int one, int two)
 static void own_laws_stay(void **state)
 {
   (void)state;
-  post p = {0};
+  mailbox p = {0};
   gg_error err;
   gg_scene *scene = scene_of("{flow: usf, engine: dsmc, phi: 0, dsmc: {particles: 300}, "
                              "run: {collisions: 100, replicas: 2}}");

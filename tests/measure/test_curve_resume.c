@@ -35,7 +35,7 @@ static void resume(gg_engine_kind engine, int curves)
   for (int i = 0; gg_measure_observables[i]; i++) scene.measure |= gg_measure_observables[i]->flag;
   gg_result *whole = ct_run(scene), *resumed = NULL;
   stop s = {.left = 97};
-  gg_hooks hooks = {.context = &s, .interrupted = interrupted, .checkpoint = keep};
+  gg_run_callbacks hooks = {.context = &s, .interrupted = interrupted, .checkpoint = keep};
   gg_error err = {0};
   assert_int_equal(gg_run_scene(&scene, NULL, 1, &hooks, &resumed, &err), GG_INTERRUPTED);
   assert_non_null(resumed); /* the results so far */

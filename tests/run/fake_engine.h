@@ -18,7 +18,8 @@ typedef struct fake_plan {
 
 extern fake_plan fake;
 
-/* A scene of 512 grains, and a plan for it: T = 2, theta = 0.5, relaxed after 10 collisions a grain, noise of 2 %. */
+/* A scene of 512 grains, and a criteria for it: T = 2, theta = 0.5, relaxed after 10 collisions a grain, noise of 2 %.
+ */
 gg_scene planted_scene(double beta);
 
 #endif

@@ -42,9 +42,9 @@ static void test_resume(void **state)
   gg_result *whole = NULL, *resumed = NULL;
   gg_run_scene(scene, NULL, 1, NULL, &whole, &err); /* its state is not steady: e rises as it cools */
   stopping s = {.left = 40};
-  gg_hooks hooks = {.context = &s, .interrupted = interrupted, .checkpoint = keep};
+  gg_run_callbacks callbacks = {.context = &s, .interrupted = interrupted, .checkpoint = keep};
   gg_result *cut = NULL;
-  assert_int_equal(gg_run_scene(scene, NULL, 1, &hooks, &cut, &err), GG_INTERRUPTED);
+  assert_int_equal(gg_run_scene(scene, NULL, 1, &callbacks, &cut, &err), GG_INTERRUPTED);
   gg_result_free(cut);
   cut = NULL;
   refused(gg_run_scene(bare, &s.last, 1, NULL, &cut, &err), &err, "law falling; observable thermometer");

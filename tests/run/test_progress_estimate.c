@@ -12,7 +12,8 @@
 #include "fake_engine.h"
 #include "run/replicas.h"
 
-static const gg_plan plan = {.warmup = 20, .least = 150, .longest = 75000, .relative_error = 0.01, .find_steady = true};
+static const gg_stopping_criteria criteria = {
+    .warmup = 20, .least = 150, .longest = 75000, .relative_error = 0.01, .find_steady = true};
 
 /* Of windows that are sure of their errors from `sure_at` samples on. */
 static gg_convergence errors_of(double scale, double window, double sure_at)
@@ -20,46 +21,46 @@ static gg_convergence errors_of(double scale, double window, double sure_at)
   return (gg_convergence){.relative_error = scale / sqrt(window), .trusted = true, .sure_at = sure_at};
 }
 
-static gg_test test_of(double scale, uint64_t window, double sure_at)
+static gg_window_test test_of(double scale, uint64_t window, double sure_at)
 {
-  double ratio = scale / sqrt((double)window) / plan.relative_error;
-  return (gg_test){window, ratio, ratio <= 1, (double)window >= sure_at};
+  double ratio = scale / sqrt((double)window) / criteria.relative_error;
+  return (gg_window_test){window, ratio, ratio <= 1, (double)window >= sure_at};
 }
 
 /* Where such a run ends: by the rules of averaging.c, test after test. */
 static double true_end(double scale, double sure_at)
 {
   bool exact = false;
-  uint64_t window = gg_run_criteria_next_test(&plan, 0, NULL);
+  uint64_t window = gg_run_criteria_next_test(&criteria, 0, NULL);
   for (;;) {
-    gg_test t = test_of(scale, window, sure_at);
-    if (gg_run_criteria_are_met(&t, exact)) return (double)(plan.warmup + window);
+    gg_window_test t = test_of(scale, window, sure_at);
+    if (gg_run_criteria_are_met(&t, exact)) return (double)(criteria.warmup + window);
     exact = t.exact;
-    window = gg_run_criteria_next_test(&plan, 0, &t);
+    window = gg_run_criteria_next_test(&criteria, 0, &t);
   }
 }
 
 /* Follow it; from a quarter on the end is told to within three tenths, once errors are as small as asked, exactly. */
 static void follow(double scale, double sure_at, int *exactly)
 {
-  gg_outlook o = {0};
-  struct gg_replicas_state s = {.averaging = 1, .due = plan.warmup, .window_at = plan.warmup};
+  gg_progress_estimate o = {0};
+  struct gg_replicas_state s = {.averaging = 1, .due = criteria.warmup, .window_at = criteria.warmup};
   double end = true_end(scale, sure_at), window;
-  s.goal = s.window_at + gg_run_criteria_next_test(&plan, 0, NULL);
-  assert_false(gg_run_progress_end(&o, &plan, &s).known);
+  s.goal = s.window_at + gg_run_criteria_next_test(&criteria, 0, NULL);
+  assert_false(gg_run_progress_end(&o, &criteria, &s).known);
   for (; (double)s.due < end; s.due++) {
     window = (double)(s.due - s.window_at);
     if (s.due >= s.goal) {
-      gg_test t = test_of(scale, (uint64_t)window, sure_at);
+      gg_window_test t = test_of(scale, (uint64_t)window, sure_at);
       s.exact = t.exact;
-      s.goal = s.window_at + gg_run_criteria_next_test(&plan, 0, &t);
+      s.goal = s.window_at + gg_run_criteria_next_test(&criteria, 0, &t);
     }
     if (window < 40) continue;
     gg_convergence c = errors_of(scale, window, sure_at);
     gg_run_progress_record_errors(&o, window, &c);
-    gg_end told = gg_run_progress_end(&o, &plan, &s);
+    gg_expected_end told = gg_run_progress_end(&o, &criteria, &s);
     assert_true(told.at >= (double)s.due);
-    if (window < (end - plan.warmup) / 4) continue;
+    if (window < (end - criteria.warmup) / 4) continue;
     if (fabs(told.at / end - 1) > 0.3) fail_msg("%g: at %g of %g told %g", scale, (double)s.due, end, told.at);
     if (s.exact) {
       assert_true(told.known && fabs(told.at - end) < 1e-9 * end);
@@ -83,8 +84,8 @@ static void to_where_it_should_end(void **state)
   int exactly = 0;
   for (double scale = 0.15; scale < 1; scale *= 1.07) {
     follow(scale, 150, &exactly);
-    double needed = scale * scale / (plan.relative_error * plan.relative_error);
-    double window = true_end(scale, 150) - (double)plan.warmup;
+    double needed = scale * scale / (criteria.relative_error * criteria.relative_error);
+    double window = true_end(scale, 150) - (double)criteria.warmup;
     assert_true(window >= needed && window < 1.35 * needed);
   }
   assert_int_equal(exactly, 0); /* it ends at the first test that it passes */
@@ -94,10 +95,10 @@ static void to_where_it_should_end(void **state)
 static void so_many_collisions(void **state)
 {
   (void)state;
-  gg_outlook o = {0};
-  gg_plan p = {.warmup = 20, .least = 150, .longest = 75000, .most = 200000};
+  gg_progress_estimate o = {0};
+  gg_stopping_criteria p = {.warmup = 20, .least = 150, .longest = 75000, .most = 200000};
   struct gg_replicas_state s = {.due = 3};
-  gg_end end = gg_run_progress_end(&o, &p, &s);
+  gg_expected_end end = gg_run_progress_end(&o, &p, &s);
   assert_true(end.known && end.at == 200020);
   s = (struct gg_replicas_state){.averaging = 1, .due = 90020, .window_at = 20, .goal = 100020};
   end = gg_run_progress_end(&o, &p, &s);
@@ -111,36 +112,36 @@ static void so_many_collisions(void **state)
 static void trends_and_trust(void **state)
 {
   (void)state;
-  gg_outlook o = {0};
+  gg_progress_estimate o = {0};
   struct gg_replicas_state s = {.averaging = 1, .due = 120, .window_at = 20, .goal = 170};
   gg_convergence c = errors_of(0.05, 100, INFINITY);
   gg_run_progress_record_errors(&o, 100, &c);
-  gg_end end = gg_run_progress_end(&o, &plan, &s);
+  gg_expected_end end = gg_run_progress_end(&o, &criteria, &s);
   assert_true(end.known && end.at == 20 + 225); /* the shortest test, and half as long again */
   c.trending = true;
   gg_run_progress_record_errors(&o, 100, &c);
-  end = gg_run_progress_end(&o, &plan, &s);
+  end = gg_run_progress_end(&o, &criteria, &s);
   assert_true(!end.known && end.at == 170 + 450); /* twice as long after that */
   s.restarts = 6;
-  assert_true(gg_run_progress_end(&o, &plan, &s).known);
+  assert_true(gg_run_progress_end(&o, &criteria, &s).known);
   c.trending = false, c.trusted = false, c.untrusted = 5;
   s.restarts = 0;
   gg_run_progress_record_errors(&o, 100, &c);
-  assert_true(gg_run_progress_end(&o, &plan, &s).at >= 20 + 1.5 * 400); /* 16 blocks of 5 times */
+  assert_true(gg_run_progress_end(&o, &criteria, &s).at >= 20 + 1.5 * 400); /* 16 blocks of 5 times */
   gg_run_progress_open_window(&o);
-  assert_true(isnan(gg_run_progress_end(&o, &plan, &s).at));
+  assert_true(isnan(gg_run_progress_end(&o, &criteria, &s).at));
 }
 
 /* Seconds a sample of late, not of the start; marks are thinned. */
 static void pace(void **state)
 {
   (void)state;
-  gg_outlook o = {0};
+  gg_progress_estimate o = {0};
   double wall = 5;
   assert_true(isnan(gg_run_progress_pace(&o)));
   for (int i = 0; i < 1000; i++, wall += i < 300 ? 0.1 : 0.4) gg_run_progress_record_time(&o, wall, 10.0 * i);
   assert_true(fabs(gg_run_progress_pace(&o) / 0.04 - 1) < 1e-9);
-  assert_true(o.n_marks <= GG_OUTLOOK_MARKS);
+  assert_true(o.n_marks <= GG_PROGRESS_MARKS);
 }
 
 typedef struct watcher {
@@ -174,9 +175,9 @@ static void every_run(void **state)
     if (k == GIVEN_UP) s.run.relative_error = 0.004, fake.start = -0.9, fake.relaxation = 400;
     if (k == REPLICAS) s.run.replicas = 3;
     watcher w = {0};
-    gg_hooks hooks = {.context = &w, .progress = watch};
+    gg_run_callbacks callbacks = {.context = &w, .progress = watch};
     gg_result *r = NULL;
-    gg_status status = gg_run_scene(&s, NULL, 2, &hooks, &r, NULL);
+    gg_status status = gg_run_scene(&s, NULL, 2, &callbacks, &r, NULL);
     assert_int_equal(status, k == TIME || k == BOTH ? GG_FAILED : GG_OK); /* fell short of the error */
     /* How often a run that the clock ends is told of depends on the machine. */
     if (w.falls || w.early || w.fraction != 1 || w.left != 0 || w.calls < 5 || w.known < (k == TIME ? 1 : 3))

@@ -63,7 +63,7 @@ static void nothing_measured(void **state)
 
 /* Under gravity a run ends, and says why, when nearly all collisions are contacts that last; in the flow before, and
  * without gravity, it goes on. */
-static void standstill(void **state)
+static void arrest_share(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(0);
@@ -209,14 +209,14 @@ static gg_status count_frame(void *context, const gg_frame *frame, gg_error *err
   return GG_OK;
 }
 
-/* A run interrupted when the hook is asked for the `stop`th time, and resumed from its checkpoint. */
+/* A run interrupted when the callback is asked for the `stop`th time, and resumed from its checkpoint. */
 static gg_result *in_two_parts(const gg_scene *s, int stop, gg_archive *archive)
 {
   keeper k = {.stop_at = stop};
-  gg_hooks hooks = {.context = &k, .interrupted = stop_after, .frame = count_frame, .checkpoint = keep};
+  gg_run_callbacks callbacks = {.context = &k, .interrupted = stop_after, .frame = count_frame, .checkpoint = keep};
   gg_result *r = NULL;
   gg_base_archive_clear(archive);
-  if (gg_run_scene(s, NULL, 1, &hooks, &r, NULL) == GG_INTERRUPTED) {
+  if (gg_run_scene(s, NULL, 1, &callbacks, &r, NULL) == GG_INTERRUPTED) {
     assert_non_null(r); /* what there is so far */
     gg_result_free(r);
     assert_int_equal(gg_base_archive_unnest(archive, "x", &k.kept, NULL), GG_OK);
@@ -306,13 +306,13 @@ static void trajectory(void **state)
   s.run.collisions = 400, s.run.replicas = 3, s.output.trajectory_every = 20, s.output.checkpoint_every = 1e6;
   gg_archive archive = {0};
   frames whole = {0, -1}, rest = {0, -1};
-  gg_hooks hooks = {.context = &whole, .frame = see_frame};
+  gg_run_callbacks callbacks = {.context = &whole, .frame = see_frame};
   gg_result *r = NULL;
-  assert_int_equal(gg_run_scene(&s, NULL, 3, &hooks, &r, NULL), GG_OK);
+  assert_int_equal(gg_run_scene(&s, NULL, 3, &callbacks, &r, NULL), GG_OK);
   gg_result_free(r);
   gg_result_free(in_two_parts(&s, 200, &archive));
-  hooks.context = &rest;
-  assert_int_equal(gg_run_scene(&s, &archive, 3, &hooks, &r, NULL), GG_OK);
+  callbacks.context = &rest;
+  assert_int_equal(gg_run_scene(&s, &archive, 3, &callbacks, &r, NULL), GG_OK);
   assert_true(rest.n > 3 && rest.n < whole.n && rest.last == whole.last);
   gg_result_free(r), gg_base_archive_clear(&archive);
 }
@@ -343,16 +343,16 @@ static gg_status show(void *context, const gg_frame *frame, gg_error *err)
   return GG_OK;
 }
 
-/* Replicas on several threads call the hooks one at a time. */
+/* Replicas on several threads call the callbacks one at a time. */
 static void hooks_one_at_a_time(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(-1);
   s.run.collisions = 200, s.run.replicas = 4, s.output.trajectory_every = 10;
   crowd c = {0};
-  gg_hooks hooks = {.context = &c, .interrupted = ask, .frame = show};
+  gg_run_callbacks callbacks = {.context = &c, .interrupted = ask, .frame = show};
   gg_result *r = NULL;
-  assert_int_equal(gg_run_scene(&s, NULL, 4, &hooks, &r, NULL), GG_OK);
+  assert_int_equal(gg_run_scene(&s, NULL, 4, &callbacks, &r, NULL), GG_OK);
   assert_true(c.calls > 400);
   assert_int_equal(c.most, 1);
   gg_result_free(r);
@@ -366,9 +366,9 @@ static void time_limit(void **state)
   fake.seconds = 2e-3;
   s.run.collisions = 1e5, s.run.warmup = 1e5, s.run.time_limit = 0.1, s.output.checkpoint_every = 1e6;
   keeper k = {.stop_at = 1 << 30};
-  gg_hooks hooks = {.context = &k, .checkpoint = keep};
+  gg_run_callbacks callbacks = {.context = &k, .checkpoint = keep};
   gg_result *r = NULL;
-  assert_int_equal(gg_run_scene(&s, NULL, 1, &hooks, &r, NULL), GG_FAILED);
+  assert_int_equal(gg_run_scene(&s, NULL, 1, &callbacks, &r, NULL), GG_FAILED);
   assert_true(k.kept.n_items > 0);
   assert_true(isnan(r->value[GG_Q_TEMPERATURE].mean));
   assert_non_null(strstr(r->value[GG_Q_TEMPERATURE].reason, "warm-up"));
@@ -390,7 +390,7 @@ int main(void)
       cmocka_unit_test(trajectory),
       cmocka_unit_test(time_limit),
       cmocka_unit_test(hooks_one_at_a_time),
-      cmocka_unit_test(standstill),
+      cmocka_unit_test(arrest_share),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

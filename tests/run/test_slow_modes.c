@@ -1,4 +1,4 @@
-/* Proves: the modes across a gap are what they are called; a planted mode that wanders slowly is found, with how long
+/* Proves: the modes across a gap are what they are called; a planted mode that slow_mode slowly is found, with how long
  * it remembers, also in windows of a few such times; a window that is too short for it is not called steady, nor is one
  * whose dense core keeps to one side overlooked. */
 #include <setjmp.h>
@@ -95,7 +95,7 @@ static void short_window(void **state)
     gg_replicas all;
     gg_replica replica;
     gg_convergence c;
-    gg_wandering w;
+    gg_slow_modes w;
     double tau = slow ? ROWS / 5.0 : ROWS / 200.0;
     begin(&all, &replica);
     plant(&r, tau, slow ? 0 : 2, &replica);

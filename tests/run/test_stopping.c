@@ -65,11 +65,11 @@ static void same(const gg_result *a, const gg_result *b)
 /* Go on from checkpoint to checkpoint until the run is over. */
 static gg_result *in_pieces(const gg_scene *s, int threads, caller *c)
 {
-  gg_hooks hooks = {.context = c, .interrupted = by_chance, .checkpoint = keep};
+  gg_run_callbacks callbacks = {.context = c, .interrupted = by_chance, .checkpoint = keep};
   gg_result *r = NULL;
   gg_archive from = {0};
   gg_error err;
-  while (gg_run_scene(s, from.n_items ? &from : NULL, threads, &hooks, &r, &err) == GG_INTERRUPTED) {
+  while (gg_run_scene(s, from.n_items ? &from : NULL, threads, &callbacks, &r, &err) == GG_INTERRUPTED) {
     if (!r) continue; /* stopped while grains were placed */
     gg_result_free(r);
     r = NULL;
@@ -129,7 +129,7 @@ static void time_limit(void **state)
   for (int k = 0; k < 2; k++) {
     gg_scene s = scene_of(long_intervals[k]);
     caller c = {.chance = 0};
-    gg_hooks hooks = {.context = &c, .checkpoint = keep};
+    gg_run_callbacks callbacks = {.context = &c, .checkpoint = keep};
     gg_result *r = NULL;
     gg_error err = {0};
     double before = now(), reached = 0;
@@ -137,7 +137,7 @@ static void time_limit(void **state)
       gg_archive from = {0};
       assert_int_equal(gg_base_archive_append(&from, &c.kept, NULL), GG_OK);
       s.run.time_limit = 0.2 * (piece + 1);
-      assert_int_equal(gg_run_scene(&s, piece ? &from : NULL, 1, &hooks, &r, &err), GG_FAILED);
+      assert_int_equal(gg_run_scene(&s, piece ? &from : NULL, 1, &callbacks, &r, &err), GG_FAILED);
       assert_non_null(strstr(err.message, "time limit"));
       assert_true(r->final.time > reached);
       reached = r->final.time;

@@ -21,19 +21,19 @@ static void autoregressive(gg_rng *r)
 }
 
 /* As averaging.c goes from test to test; returns the length of the window at the end. */
-static uint64_t stop(const gg_plan *plan, gg_mean *m)
+static uint64_t stop(const gg_stopping_criteria *criteria, gg_mean *m)
 {
   bool before = false;
-  for (uint64_t window = gg_run_criteria_next_test(plan, 0, NULL);;) {
+  for (uint64_t window = gg_run_criteria_next_test(criteria, 0, NULL);;) {
     assert_true(window <= MOST);
     assert_int_equal(gg_statistics_estimate_scalar(x, window, 1, m, NULL), GG_OK);
-    m->error *= gg_run_criteria_margin(plan, m->correlation_rows, (double)window);
-    gg_test t = {.window = window, .ratio = m->error / plan->relative_error};
+    m->error *= gg_run_criteria_margin(criteria, m->correlation_rows, (double)window);
+    gg_window_test t = {.window = window, .ratio = m->error / criteria->relative_error};
     t.exact = m->trusted && t.ratio <= 1;
     t.sure = m->trusted && (double)window >= 10 * GG_MAX_BLOCKS * m->correlation_rows;
     if (gg_run_criteria_are_met(&t, before)) return window;
     before = t.exact;
-    window = gg_run_criteria_next_test(plan, 0, &t);
+    window = gg_run_criteria_next_test(criteria, 0, &t);
   }
 }
 
@@ -42,13 +42,13 @@ static void errors_at_the_end(void **state)
   (void)state;
   double all = 0;
   for (int need = 40; need <= LONGEST; need *= 2) {
-    gg_plan plan = {.least = 150, .longest = 75000, .relative_error = sqrt(2.0 / need)};
+    gg_stopping_criteria criteria = {.least = 150, .longest = 75000, .relative_error = sqrt(2.0 / need)};
     gg_rng r = gg_common_rng_seed(21, (uint64_t)need);
     double z2 = 0, length = 0;
     for (int k = 0; k < RUNS; k++) {
       gg_mean m;
       autoregressive(&r);
-      length += (double)stop(&plan, &m) / (need * T * RUNS);
+      length += (double)stop(&criteria, &m) / (need * T * RUNS);
       z2 += m.mean * m.mean / (m.error * m.error) / RUNS;
     }
     print_message("# %d correlation times needed: z^2 %.3f, %.2f times as long\n", need, z2, length);

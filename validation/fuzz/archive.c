@@ -57,7 +57,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   gg_result *result = NULL;
   gg_error err;
   int looks = 0;
-  const gg_hooks hooks = {.context = &looks, .interrupted = enough, .checkpoint = save};
+  const gg_run_callbacks hooks = {.context = &looks, .interrupted = enough, .checkpoint = save};
   if (gg_base_archive_append(&a, &base->archive, NULL) == GG_OK) {
     bend(&a, data[1]);
     change(&a, data + 2, size - 2);

@@ -48,7 +48,7 @@ static void make(fuzz_base *b, const char *text)
 {
   gg_error err = {.message = ""};
   gg_result *result = NULL;
-  const gg_hooks hooks = {.context = &b->archive, .checkpoint = keep, .interrupted = enough};
+  const gg_run_callbacks hooks = {.context = &b->archive, .checkpoint = keep, .interrupted = enough};
   looks = 0;
   b->scene = gg_scene_defaults();
   if (gg_scene_read(&b->scene, text, strlen(text), "base", &err) != GG_OK || gg_scene_finish(&b->scene, &err) != GG_OK)

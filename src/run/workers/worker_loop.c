@@ -16,7 +16,7 @@ typedef struct pending {  /* a replica of a run */
   bool busy;              /* which is not answered */
 } pending;
 
-typedef struct served { /* a run */
+typedef struct remote_run { /* a run */
   int64_t run;
   gg_scene scene;
   gg_model model;
@@ -27,36 +27,36 @@ typedef struct served { /* a run */
   pending *pending;
   int n;
   gg_run_tasks tasks;
-  struct served *next;
-} served;
+  struct remote_run *next;
+} remote_run;
 
-typedef struct server {
+typedef struct worker_process {
   const gg_messages *messages;
   gg_run_scheduler *scheduler;
-  served *runs;
+  remote_run *runs;
   bool over;
   double reported;
-} server;
+} worker_process;
 
 static bool is_stopped(void *context)
 {
-  served *r = context;
+  remote_run *r = context;
   return atomic_load(&r->tasks.stopping);
 }
 
-static void send(server *s, void *block, size_t size)
+static void send(worker_process *s, void *block, size_t size)
 {
   if (block && s->messages->send(s->messages->context, 0, block, size) != 0) s->over = true;
 }
 
-static served *find(const server *s, int64_t run)
+static remote_run *find(const worker_process *s, int64_t run)
 {
-  served *r = s->runs;
+  remote_run *r = s->runs;
   while (r && r->run != run) r = r->next;
   return r;
 }
 
-static gg_status make_model(served *r, const void *block, size_t size)
+static gg_status make_model(remote_run *r, const void *block, size_t size)
 {
   GG_TRY(gg_run_message_scene(block, size, &r->scene, &r->err));
   GG_TRY(gg_common_model_make(&r->scene, r->scene.engine, &r->model, &r->err));
@@ -65,10 +65,10 @@ static gg_status make_model(served *r, const void *block, size_t size)
   return r->scene.temperature == GG_AUTO ? gg_run_start_near_steady(&r->model, &r->err) : GG_OK;
 }
 
-static gg_status begin(server *s, const gg_run_message *m, const void *block, size_t size, gg_error *err)
+static gg_status begin(worker_process *s, const gg_run_message *m, const void *block, size_t size, gg_error *err)
 {
   if (!s->scheduler) GG_TRY(gg_run_scheduler_new((int)m->threads, true, &s->scheduler, err));
-  served *r = gg_base_array_new(1, sizeof *r, err);
+  remote_run *r = gg_base_array_new(1, sizeof *r, err);
   if (!r) return GG_FAILED;
   r->run = m->run;
   r->next = s->runs, s->runs = r;
@@ -81,7 +81,7 @@ static gg_status begin(server *s, const gg_run_message *m, const void *block, si
   return gg_run_tasks_open(&r->tasks, s->scheduler, r->replica, r->n, 0, err);
 }
 
-static void answer(server *s, served *r, int i, gg_status status, const gg_error *why)
+static void answer(worker_process *s, remote_run *r, int i, gg_status status, const gg_error *why)
 {
   const gg_run_task *t = &r->tasks.task[i];
   gg_run_message m = r->pending[i].message;
@@ -103,7 +103,7 @@ static void answer(server *s, served *r, int i, gg_status status, const gg_error
 }
 
 /* The replica with which the task begins. */
-static gg_status get_ready(served *r, const gg_run_message *m, const void *block, size_t size, gg_error *err)
+static gg_status get_ready(remote_run *r, const gg_run_message *m, const void *block, size_t size, gg_error *err)
 {
   gg_replica *replica = &r->replica[m->replica];
   gg_archive archive = {0};
@@ -116,9 +116,9 @@ static gg_status get_ready(served *r, const gg_run_message *m, const void *block
   return status;
 }
 
-static void start_task(server *s, const gg_run_message *m, const void *block, size_t size)
+static void start_task(worker_process *s, const gg_run_message *m, const void *block, size_t size)
 {
-  served *r = find(s, m->run);
+  remote_run *r = find(s, m->run);
   if (!r || m->replica < 0 || m->replica >= r->n) return;
   const int i = (int)m->replica;
   gg_run_task *t = &r->tasks.task[i];
@@ -136,7 +136,7 @@ static void start_task(server *s, const gg_run_message *m, const void *block, si
   gg_run_task_submit(t);
 }
 
-static void end(server *s, served *r)
+static void end(worker_process *s, remote_run *r)
 {
   if (r->tasks.task) {
     gg_run_stop(&r->tasks);
@@ -145,18 +145,18 @@ static void end(server *s, served *r)
   }
   gg_run_tasks_close(&r->tasks);
   for (int i = 0; r->replica && i < r->n; i++) gg_run_replica_clear(&r->replica[i]);
-  served **at = &s->runs;
+  remote_run **at = &s->runs;
   while (*at != r) at = &(*at)->next;
   *at = r->next;
   free(r->replica), free(r->pending), free(r);
 }
 
-static gg_status take(server *s, const void *block, size_t size, gg_error *err)
+static gg_status take(worker_process *s, const void *block, size_t size, gg_error *err)
 {
   gg_run_message m;
   if (!gg_run_message_read(block, size, &m))
     return gg_base_fail(err, GG_FAILED, "a message from rank 0 arrived broken");
-  served *r = find(s, m.run);
+  remote_run *r = find(s, m.run);
   switch (m.kind) {
   case GG_MESSAGE_SCENE: return begin(s, &m, block, size, err);
   case GG_MESSAGE_TASK: start_task(s, &m, block, size); break;
@@ -172,7 +172,7 @@ static gg_status take(server *s, const void *block, size_t size, gg_error *err)
   return GG_OK;
 }
 
-static void report(server *s, const served *r, int i)
+static void report(worker_process *s, const remote_run *r, int i)
 {
   gg_run_message m = r->pending[i].message;
   size_t size;
@@ -183,10 +183,10 @@ static void report(server *s, const served *r, int i)
 }
 
 /* Answers tasks that are over; reports the others now and then. True: one was over. */
-static bool look_after(server *s, bool reports)
+static bool look_after(worker_process *s, bool reports)
 {
   bool any = false;
-  for (served *r = s->runs; r; r = r->next)
+  for (remote_run *r = s->runs; r; r = r->next)
     for (int i = 0; i < r->n; i++) {
       const gg_run_task *t = &r->tasks.task[i];
       if (r->pending[i].busy && atomic_load(&t->over))
@@ -198,7 +198,7 @@ static bool look_after(server *s, bool reports)
 }
 
 /* *any: there was something to do. */
-static gg_status once(server *s, bool *any, gg_error *err)
+static gg_status once(worker_process *s, bool *any, gg_error *err)
 {
   int from, got;
   void *block;
@@ -219,7 +219,7 @@ static gg_status once(server *s, bool *any, gg_error *err)
   return alone ? gg_base_fail(err, GG_FAILED, "rank 0 is gone") : GG_OK;
 }
 
-static void say_ready(server *s)
+static void register_worker(worker_process *s)
 {
   gg_run_message m = {.kind = GG_MESSAGE_REGISTER};
   size_t size;
@@ -233,10 +233,10 @@ gg_status gg_worker_run(const gg_messages *messages, gg_error *err)
   if (!messages || !messages->send || !messages->receive || messages->rank < 1)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "gg_worker_run: messages of a rank above 0, with send and receive, are needed");
-  server s = {.messages = messages, .reported = gg_base_clock_wall()};
+  worker_process s = {.messages = messages, .reported = gg_base_clock_wall()};
   gg_status status = GG_OK;
   bool any = true;
-  say_ready(&s);
+  register_worker(&s);
   for (int nap = 0; status == GG_OK && !s.over;) {
     status = once(&s, &any, err);
     nap = gg_run_message_nap(nap, any);

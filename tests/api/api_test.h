@@ -1,6 +1,6 @@
 /* Small scenes for tests of the public interface, which include nothing else of the library. */
-#ifndef DOOR_TEST_H
-#define DOOR_TEST_H
+#ifndef API_TEST_H
+#define API_TEST_H
 
 #include <setjmp.h>
 #include <stdarg.h>

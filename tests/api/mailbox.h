@@ -1,13 +1,13 @@
 /* Messages between threads that stand for processes: what MPI is to the command. Any of them can be lost, as a process
  * that is killed: nobody hears of it any more. */
-#ifndef POST_H
-#define POST_H
+#ifndef MAILBOX_H
+#define MAILBOX_H
 
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#include "door_test.h"
+#include "api_test.h"
 
 enum { MOST_RANKS = 70 };
 
@@ -18,7 +18,7 @@ typedef struct letter {
   struct letter *next;
 } letter;
 
-typedef struct post {
+typedef struct mailbox {
   pthread_mutex_t lock;
   letter *first[MOST_RANKS]; /* what waits for each */
   bool lost[MOST_RANKS];
@@ -30,24 +30,24 @@ typedef struct post {
   char warning[300];
   gg_messages end[MOST_RANKS];
   struct desk {
-    struct post *post;
+    struct mailbox *mailbox;
     int rank;
   } desk[MOST_RANKS];
   pthread_t thread[MOST_RANKS];
   gg_status ended[MOST_RANKS];
-} post;
+} mailbox;
 
-static inline void put(post *p, int to, letter *new)
+static inline void put(mailbox *p, int to, letter *new)
 {
   letter **at = &p->first[to];
   while (*at) at = &(*at)->next;
   *at = new;
 }
 
-static inline int post_send(void *context, int to, void *block, size_t size)
+static inline int mailbox_send(void *context, int to, void *block, size_t size)
 {
   struct desk *d = context;
-  post *p = d->post;
+  mailbox *p = d->mailbox;
   letter *new = calloc(1, sizeof *new);
   *new = (letter){d->rank, block, size, NULL};
   pthread_mutex_lock(&p->lock);
@@ -63,10 +63,10 @@ static inline int post_send(void *context, int to, void *block, size_t size)
   return 0; /* as MPI: the sender does not know */
 }
 
-static inline int post_receive(void *context, int *from, void **block, size_t *size)
+static inline int mailbox_receive(void *context, int *from, void **block, size_t *size)
 {
   struct desk *d = context;
-  post *p = d->post;
+  mailbox *p = d->mailbox;
   pthread_mutex_lock(&p->lock);
   bool lost = p->lost[d->rank];
   letter *l = p->first[d->rank];
@@ -79,43 +79,43 @@ static inline int post_receive(void *context, int *from, void **block, size_t *s
   return 1;
 }
 
-static inline int post_lost(void *context, int rank)
+static inline int mailbox_lost(void *context, int rank)
 {
   struct desk *d = context;
-  pthread_mutex_lock(&d->post->lock);
-  bool lost = d->post->lost[rank] && !d->post->silent;
-  pthread_mutex_unlock(&d->post->lock);
+  pthread_mutex_lock(&d->mailbox->lock);
+  bool lost = d->mailbox->lost[rank] && !d->mailbox->silent;
+  pthread_mutex_unlock(&d->mailbox->lock);
   return lost;
 }
 
-static inline void post_warn(void *context, const char *message)
+static inline void mailbox_warn(void *context, const char *message)
 {
   struct desk *d = context;
-  snprintf(d->post->warning, sizeof d->post->warning, "%s", message);
-  atomic_fetch_add(&d->post->warned, 1);
+  snprintf(d->mailbox->warning, sizeof d->mailbox->warning, "%s", message);
+  atomic_fetch_add(&d->mailbox->warned, 1);
 }
 
-static inline void *post_work(void *argument)
+static inline void *mailbox_work(void *argument)
 {
   struct desk *d = argument;
   gg_error err;
-  d->post->ended[d->rank] = gg_worker_run(&d->post->end[d->rank], &err);
+  d->mailbox->ended[d->rank] = gg_worker_run(&d->mailbox->end[d->rank], &err);
   return NULL;
 }
 
 /* So many processes, of which this thread is rank 0. */
-static inline void post_open(post *p, int ranks)
+static inline void mailbox_open(mailbox *p, int ranks)
 {
   pthread_mutex_init(&p->lock, NULL);
   for (int i = 0; i < ranks; i++) {
     p->desk[i] = (struct desk){p, i};
-    p->end[i] = (gg_messages){i, ranks, &p->desk[i], post_send, post_receive, post_lost, post_warn};
+    p->end[i] = (gg_messages){i, ranks, &p->desk[i], mailbox_send, mailbox_receive, mailbox_lost, mailbox_warn};
   }
-  for (int i = 1; i < ranks; i++) assert_int_equal(pthread_create(&p->thread[i], NULL, post_work, &p->desk[i]), 0);
+  for (int i = 1; i < ranks; i++) assert_int_equal(pthread_create(&p->thread[i], NULL, mailbox_work, &p->desk[i]), 0);
 }
 
 /* After the workers were freed: everybody has gone home. */
-static inline void post_close(post *p, int ranks)
+static inline void mailbox_close(mailbox *p, int ranks)
 {
   for (int i = 1; i < ranks; i++) {
     assert_int_equal(pthread_join(p->thread[i], NULL), 0);
