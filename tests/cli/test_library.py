@@ -1,5 +1,5 @@
-"""The library as it is installed: header, pkg-config file, manual page, command; examples/*.c and the program of the
-README build and run against it; every exported name carries the prefix."""
+"""The library as it is installed: header, pkg-config file, manual page, command; examples/*.c and the program of
+docs/tutorial/first_program.md build and run against it; every exported name carries the prefix."""
 import glob
 import json
 import os
@@ -50,9 +50,9 @@ def test_examples_build_against_it():
     flags = sh("pkg-config", "--cflags", "--libs", "graingas", env=env).split()
     examples = sorted(glob.glob(os.path.join(SOURCE, "examples", "*.c")))
     check(examples, "no examples")
-    with open("readme.c", "w") as program:
-        program.write(re.search(r"```c\n(.*?)```", open(os.path.join(SOURCE, "README.md")).read(), re.DOTALL)[1])
-    examples.append("readme.c")
+    with open("gas.c", "w") as program:
+        program.write(re.search(r"```c\n(.*?)```", open(os.path.join(SOURCE, "docs", "tutorial", "first_program.md")).read(), re.DOTALL)[1])
+    examples.append("gas.c")
     env["LD_LIBRARY_PATH"] = os.path.dirname(found("libgraingas.so"))
     strict = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread"]
     if SANITIZERS != "none":
