@@ -10,11 +10,14 @@
 #include "measure/curve.h"
 
 /* A missing argument is an answer, not a crash. */
-#define GG_NEED(argument)                                                                                              \
-  do {                                                                                                                 \
-    if (!(argument))                                                                                                   \
-      return gg_base_fail(err, GG_BAD_INPUT, "%s: argument '%s' is missing (NULL)", __func__, #argument);              \
-  } while (0)
+#define GG_NEED(...) GG_CHECK_ARGUMENTS(#__VA_ARGS__, __VA_ARGS__)
+#define GG_NEED_CALLBACK(argument) GG_CHECK_ARGUMENTS(#argument, (argument) ? "" : NULL)
+#define GG_CHECK_ARGUMENTS(names, ...)                                                                                 \
+  GG_TRY(gg_api_arguments_check(__func__, names, (const void *const[]){__VA_ARGS__},                                   \
+                                sizeof((const void *const[]){__VA_ARGS__}) / sizeof(void *), err))
+/* text.c: the arguments of a function, by their names ("scene, result"): GG_BAD_INPUT for the first that is NULL. */
+gg_status gg_api_arguments_check(const char *function, const char *names, const void *const *argument, size_t n,
+                                 gg_error *err);
 
 /* scene.c: a copy of the scene, complete and checked: what every use of a scene begins with. */
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err);

@@ -80,8 +80,7 @@ static gg_status word_entry(const char *key, size_t i, gg_entry *entry, gg_error
 
 gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error *err)
 {
-  GG_NEED(key);
-  GG_NEED(entry);
+  GG_NEED(key, entry);
   return word_entry(key, i, entry, err);
 }
 

@@ -51,8 +51,7 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
 
 gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_comparison **comparison, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(comparison);
+  GG_NEED(scene, comparison);
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
   gg_status status = evaluate(c, scene, theory, err);
@@ -76,8 +75,7 @@ static bool same_scene(const gg_scene *one, gg_scene other)
 
 gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(result);
+  GG_NEED(comparison, result);
   gg_engine_kind kind;
   GG_TRY(gg_api_engine_find(result->engine, &kind, err));
   if (comparison->document)
@@ -123,8 +121,7 @@ static gg_status find(const gg_comparison *c, const char *name, gg_quantity *q, 
 
 gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_comparison_row *row, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(row);
+  GG_NEED(comparison, row);
   const gg_quantity_rows *rows = &comparison->rows;
   if (i >= (size_t)rows->n)
     return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_at: there are %d quantities", rows->n);
@@ -140,8 +137,7 @@ static bool has(const gg_result *r, gg_quantity q)
 gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,
                                   gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(quantity);
+  GG_NEED(comparison, quantity);
   gg_quantity q;
   GG_TRY(find(comparison, quantity, &q, err));
   const gg_result *md = comparison->by_engine[GG_MD], *dsmc = comparison->by_engine[GG_DSMC];
@@ -153,10 +149,7 @@ gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *q
 gg_status gg_comparison_departure(const gg_comparison *comparison, const char *engine, const char *quantity,
                                   gg_departure *departure, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(engine);
-  GG_NEED(quantity);
-  GG_NEED(departure);
+  GG_NEED(comparison, engine, quantity, departure);
   gg_quantity q;
   gg_engine_kind kind;
   GG_TRY(gg_api_engine_find(engine, &kind, err));
@@ -167,8 +160,7 @@ gg_status gg_comparison_departure(const gg_comparison *comparison, const char *e
 
 gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(theory);
+  GG_NEED(comparison, theory);
   const gg_comparison *c = comparison;
   if (i >= (size_t)c->n_theories)
     return gg_base_fail(err, GG_BAD_INPUT, "this comparison has %d theories", c->n_theories);
@@ -193,9 +185,7 @@ static gg_status find_theory(const gg_comparison *c, const char *theory, int *i,
 gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
                                      double *value, double *deviation, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(theory);
-  GG_NEED(quantity);
+  GG_NEED(comparison, theory, quantity);
   const gg_comparison *c = comparison;
   gg_quantity q;
   int i;
@@ -212,9 +202,7 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
 gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const char *theory, double time,
                                        double *temperature, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(theory);
-  GG_NEED(temperature);
+  GG_NEED(comparison, theory, temperature);
   const gg_model *m = &comparison->model;
   int i;
   GG_TRY(find_theory(comparison, theory, &i, err));
@@ -232,10 +220,7 @@ gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const ch
 gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char *theory, const char *quantity,
                                      double *error, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(theory);
-  GG_NEED(quantity);
-  GG_NEED(error);
+  GG_NEED(comparison, theory, quantity, error);
   gg_quantity q;
   int i;
   GG_TRY(find(comparison, quantity, &q, err));
@@ -247,9 +232,7 @@ gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char
 gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
                                      gg_curve_data *curve, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(theory);
-  GG_NEED(curve);
+  GG_NEED(comparison, theory, curve);
   int k;
   GG_TRY(find_theory(comparison, theory, &k, err));
   const gg_curves *curves = &comparison->theory[k].curves;
@@ -260,8 +243,7 @@ gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char
 
 gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(remark);
+  GG_NEED(comparison, remark);
   enum { MOST_CAUSES = 8 };
   const char *cause[MOST_CAUSES];
   gg_theory_remark theories[GG_MOST_THEORIES];
@@ -280,8 +262,7 @@ gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_rem
 
 gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(text);
+  GG_NEED(comparison, text);
   bool simulated = comparison->document || comparison->by_engine[GG_MD] || comparison->by_engine[GG_DSMC];
   return gg_api_text_copy(simulated ? gg_files_comparison_document(comparison)
                                     : gg_files_theory_document(&comparison->scene, comparison),
@@ -290,8 +271,7 @@ gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg
 
 gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err)
 {
-  GG_NEED(comparison);
-  GG_NEED(path);
+  GG_NEED(comparison, path);
   gg_result_file file;
   const gg_result *md = comparison->by_engine[GG_MD], *one = md ? md : comparison->by_engine[GG_DSMC];
   if (!one) return gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
@@ -303,8 +283,7 @@ gg_status gg_comparison_write(const gg_comparison *comparison, const char *path,
 
 gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err)
 {
-  GG_NEED(path);
-  GG_NEED(comparison);
+  GG_NEED(path, comparison);
   gg_stored_result stored;
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;

@@ -40,8 +40,7 @@ static gg_status open_file(gg_trajectory *t, const char *path, gg_error *err)
 
 gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_error *err)
 {
-  GG_NEED(path);
-  GG_NEED(trajectory);
+  GG_NEED(path, trajectory);
   gg_trajectory *t = gg_base_array_new(1, sizeof *t, err);
   if (!t) return GG_FAILED;
   gg_status status = open_file(t, path, err);
@@ -137,8 +136,7 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
 gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species, gg_species_state *state,
                                     gg_error *err)
 {
-  GG_NEED(trajectory);
-  GG_NEED(state);
+  GG_NEED(trajectory, state);
   if (!trajectory->last.model) return gg_base_fail(err, GG_BAD_INPUT, "no frame of the trajectory was read yet");
   return gg_api_moments_species(&trajectory->last, species, 1, state, err);
 }

@@ -34,9 +34,7 @@ static gg_measurement measurement(const gg_result *r, const gg_quantity_row *row
 
 gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(quantity);
-  GG_NEED(found);
+  GG_NEED(result, quantity, found);
   const gg_quantity_row *row;
   GG_TRY(find(result, quantity, &row, err));
   *found = measurement(result, row);
@@ -45,8 +43,7 @@ gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measu
 
 gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(found);
+  GG_NEED(result, found);
   const gg_quantity_rows *rows = &result->rows;
   if (i >= (size_t)rows->n) return gg_base_fail(err, GG_BAD_INPUT, "gg_result_at: there are %d quantities", rows->n);
   *found = measurement(result, &rows->row[i]);
@@ -56,8 +53,7 @@ gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found,
 gg_status gg_result_get(const gg_result *result, const char *quantity, double *mean, double *error, gg_error *err)
 {
   gg_measurement m;
-  GG_NEED(result);
-  GG_NEED(quantity);
+  GG_NEED(result, quantity);
   GG_TRY(gg_result_find(result, quantity, &m, err));
   if (isnan(m.mean)) return gg_base_fail(err, GG_BAD_INPUT, "'%s' cannot be had here: %s", quantity, m.reason);
   if (mean) *mean = m.mean;
@@ -78,8 +74,7 @@ int gg_result_is_steady(const gg_result *result)
 
 gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(info);
+  GG_NEED(result, info);
   const gg_result *r = result;
   *info = (gg_result_info){.engine = r->engine,
                            .steady = gg_result_is_steady(r),
@@ -113,9 +108,7 @@ const char *gg_result_warning(const gg_result *result, size_t i)
 gg_status gg_result_history(const gg_result *result, const char *quantity, size_t *n, const double **time,
                             const double **value, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(quantity);
-  GG_NEED(n);
+  GG_NEED(result, quantity, n);
   const gg_quantity_row *row;
   GG_TRY(find(result, quantity, &row, err));
   for (int k = 0; k < GG_N_HISTORY; k++) {
@@ -159,8 +152,7 @@ gg_curve_data gg_api_curve_view(const gg_curve *c)
 
 gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curve, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(curve);
+  GG_NEED(result, curve);
   const gg_curve *c = curve_at(result, i, err);
   if (!c) return GG_BAD_INPUT;
   *curve = gg_api_curve_view(c);
@@ -169,8 +161,7 @@ gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curv
 
 gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg_measurement *number, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(number);
+  GG_NEED(result, number);
   const gg_curve *c = curve_at(result, i, err);
   if (!c) return GG_BAD_INPUT;
   if (k >= (size_t)c->n_numbers)
@@ -189,8 +180,7 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
 
 gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(into);
+  GG_NEED(result, into);
   const gg_frame *f = &result->final;
   if (!f->velocity) return gg_base_fail(err, GG_BAD_INPUT, "this result holds no grains");
   if (into->position && !f->position)
@@ -210,15 +200,13 @@ gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_er
 
 gg_status gg_result_to_json(const gg_result *result, char **text, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(text);
+  GG_NEED(result, text);
   return gg_api_text_copy(gg_files_run_document(result), text, err);
 }
 
 gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err)
 {
-  GG_NEED(result);
-  GG_NEED(path);
+  GG_NEED(result, path);
   gg_result_file file;
   const char *command = result->origin.command ? result->origin.command : "gg_result_write";
   GG_TRY(gg_files_result_file_open(&file, path, command, err));
@@ -234,8 +222,7 @@ static gg_status restore(const gg_stored_result *stored, const char *path, gg_re
 
 gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
 {
-  GG_NEED(path);
-  GG_NEED(result);
+  GG_NEED(path, result);
   gg_stored_result stored;
   locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_read(&stored, path, err);
@@ -248,8 +235,7 @@ gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
 gg_status gg_plot(const char *result_file, const char *picture, const char *format,
                   void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
 {
-  GG_NEED(result_file);
-  GG_NEED(picture);
+  GG_NEED(result_file, picture);
   if (gg_base_path_is_same_file(result_file, picture))
     return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture",
                         picture);
@@ -267,8 +253,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
 gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                     void (*written)(void *context, const char *file), void *context, gg_error *err)
 {
-  GG_NEED(result_file);
-  GG_NEED(prefix);
+  GG_NEED(result_file, prefix);
   const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
   if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': the files need a prefix to their names", prefix);
   if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)

@@ -228,8 +228,7 @@ gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const
 
 gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(result);
+  GG_NEED(scene, result);
   gg_comparison *made = NULL;
   gg_status status = gg_api_run_simulate(NULL, scene, options, false, &made, err);
   for (int k = 0; made && k < 2; k++) {
@@ -242,7 +241,6 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
 
 gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(comparison);
+  GG_NEED(scene, comparison);
   return gg_api_run_simulate(NULL, scene, options, true, comparison, err);
 }

@@ -70,8 +70,7 @@ static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info
 
 gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)
 {
-  GG_NEED(path);
-  GG_NEED(info);
+  GG_NEED(path, info);
   bool older = false;
   gg_archive archive = {0};
   gg_checkpoint_info found = {0};

@@ -39,8 +39,7 @@ static gg_status publish(const gg_scene *made, gg_scene **scene, gg_error *err)
 
 gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
 {
-  GG_NEED(path);
-  GG_NEED(scene);
+  GG_NEED(path, scene);
   gg_scene made = gg_scene_defaults();
   GG_C_LOCALE;
   GG_TRY(gg_scene_read_file(&made, path, err));
@@ -49,8 +48,7 @@ gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
 
 gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err)
 {
-  GG_NEED(yaml);
-  GG_NEED(scene);
+  GG_NEED(yaml, scene);
   gg_scene made = gg_scene_defaults();
   GG_C_LOCALE;
   GG_TRY(gg_scene_read(&made, yaml, strlen(yaml), name ? name : "scene", err));
@@ -59,8 +57,7 @@ gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, g
 
 gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(copy);
+  GG_NEED(scene, copy);
   return publish(scene, copy, err);
 }
 
@@ -72,18 +69,14 @@ void gg_scene_free(gg_scene *scene)
 
 gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(key);
-  GG_NEED(value);
+  GG_NEED(scene, key, value);
   GG_C_LOCALE;
   return gg_scene_override(scene, key, value, err);
 }
 
 gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(key);
-  GG_NEED(text);
+  GG_NEED(scene, key, text);
   const gg_scene filled = filled_in(scene);
   GG_C_LOCALE;
   bool outer = gg_base_memory_begin();
@@ -103,8 +96,7 @@ gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
 
 gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(text);
+  GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
   GG_C_LOCALE;
   char *yaml = gg_scene_yaml(&filled);
@@ -115,16 +107,14 @@ gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
 
 gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(text);
+  GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
   return gg_api_text_copy(gg_scene_json(&filled), text, err);
 }
 
 gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(text);
+  GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
   GG_C_LOCALE;
   gg_files_scene_title(&filled, text, size);
@@ -142,9 +132,7 @@ static gg_status make_model(const gg_scene *scene, const char *engine, gg_scene 
 
 gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene_needs *needs, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(engine);
-  GG_NEED(needs);
+  GG_NEED(scene, engine, needs);
   gg_scene finished;
   gg_model model;
   gg_engine_kind kind;
@@ -158,9 +146,8 @@ gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene
 gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*line)(void *context, const char *text),
                             void *context, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(engine);
-  GG_NEED(line);
+  GG_NEED(scene, engine);
+  GG_NEED_CALLBACK(line);
   gg_scene finished;
   gg_model model;
   gg_engine_kind kind;
@@ -181,9 +168,8 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
 gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)(void *context, const char *text),
                             void *context, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(use);
-  GG_NEED(line);
+  GG_NEED(scene, use);
+  GG_NEED_CALLBACK(line);
   gg_scene finished;
   gg_engine_kind kind;
   gg_text_list lines = {0};

@@ -50,8 +50,7 @@ static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
 
 gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(session);
+  GG_NEED(scene, session);
   gg_session *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
   gg_status status = make(s, scene, err);
@@ -94,16 +93,14 @@ gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_
 
 gg_status gg_session_get_progress(const gg_session *session, gg_progress *progress, gg_error *err)
 {
-  GG_NEED(session);
-  GG_NEED(progress);
+  GG_NEED(session, progress);
   *progress = session->progress;
   return GG_OK;
 }
 
 gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *err)
 {
-  GG_NEED(session);
-  GG_NEED(result);
+  GG_NEED(session, result);
   gg_result *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
   if (session->over) gg_run_replicas_level(&session->all);

@@ -39,8 +39,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simul
 
 gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err)
 {
-  GG_NEED(scene);
-  GG_NEED(simulation);
+  GG_NEED(scene, simulation);
   gg_simulation *s;
   GG_TRY(gg_api_simulation_prepare(scene, &s, err));
   const gg_engine_ops *ops = gg_run_engine_ops_of(s->scene.engine);

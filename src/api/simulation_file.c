@@ -21,8 +21,7 @@ static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 
 gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, gg_error *err)
 {
-  GG_NEED(simulation);
-  GG_NEED(path);
+  GG_NEED(simulation, path);
   gg_archive archive = {0};
   locale_t before = gg_base_c_locale_enter();
   gg_status status = put_all(simulation, &archive, err);
@@ -73,8 +72,7 @@ static gg_status load(const gg_archive *a, const char *path, const gg_scene *sce
 
 gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulation **simulation, gg_error *err)
 {
-  GG_NEED(path);
-  GG_NEED(simulation);
+  GG_NEED(path, simulation);
   gg_archive archive = {0};
   bool older = false;
   gg_status status = gg_files_checkpoint_read(path, &archive, &older, err);

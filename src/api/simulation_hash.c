@@ -38,8 +38,7 @@ static uint64_t hash_of(const gg_simulation_state *state, const gg_grains *grain
 
 gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg_error *err)
 {
-  GG_NEED(simulation);
-  GG_NEED(hash);
+  GG_NEED(simulation, hash);
   gg_simulation_state state;
   GG_TRY(gg_simulation_get_state(simulation, &state, err));
   double *numbers = gg_base_array_new(9 * state.grains, sizeof *numbers, err);

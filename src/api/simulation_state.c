@@ -31,16 +31,14 @@ int gg_simulation_species(const gg_simulation *simulation)
 gg_status gg_simulation_get_species(const gg_simulation *simulation, int species, gg_species_state *state,
                                     gg_error *err)
 {
-  GG_NEED(simulation);
-  GG_NEED(state);
+  GG_NEED(simulation, state);
   const gg_moments m = sum_up(simulation);
   return gg_api_moments_species(&m, species, gg_api_simulation_unit(simulation), state, err);
 }
 
 gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err)
 {
-  GG_NEED(simulation);
-  GG_NEED(state);
+  GG_NEED(simulation, state);
   const gg_model *model = &simulation->model;
   const gg_moments m = sum_up(simulation);
   gg_engine_state engine;
@@ -77,8 +75,7 @@ static void copy(void *context, const gg_chunk *chunk)
 
 gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err)
 {
-  GG_NEED(simulation);
-  GG_NEED(into);
+  GG_NEED(simulation, into);
   const gg_model *model = &simulation->model;
   if (into->position && model->homogeneous)
     return gg_base_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
@@ -118,8 +115,7 @@ void gg_api_simulation_collect(gg_simulation *s)
 
 gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err)
 {
-  GG_NEED(simulation);
-  GG_NEED(sums);
+  GG_NEED(simulation, sums);
   gg_api_simulation_collect(simulation);
   struct gg_simulation_clock *clock = &simulation->clock;
   *sums = clock->sums;

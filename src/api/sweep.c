@@ -47,8 +47,7 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, gg
 
 gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err)
 {
-  GG_NEED(path);
-  GG_NEED(sweep);
+  GG_NEED(path, sweep);
   char *text;
   size_t length;
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
@@ -59,8 +58,7 @@ gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err)
 
 gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, gg_error *err)
 {
-  GG_NEED(yaml);
-  GG_NEED(sweep);
+  GG_NEED(yaml, sweep);
   return read_text(yaml, strlen(yaml), name ? name : "sweep", sweep, err);
 }
 
@@ -73,9 +71,7 @@ static gg_status check_open(const gg_sweep *sweep, gg_error *err)
 
 gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(key);
-  GG_NEED(value);
+  GG_NEED(sweep, key, value);
   GG_TRY(check_open(sweep, err));
   if (gg_sweep_varies(sweep, key))
     return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: every point has its own", key);
@@ -86,9 +82,7 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
 
 gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(key);
-  GG_NEED(values);
+  GG_NEED(sweep, key, values);
   gg_values list = {0};
   snprintf(list.key, sizeof list.key, "%s", key);
   GG_TRY(check_open(sweep, err));
@@ -141,8 +135,7 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_er
 
 gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(point);
+  GG_NEED(sweep, point);
   gg_scene scene;
   GG_TRY(resolve(sweep, i, &scene, err));
   *point =
@@ -153,8 +146,7 @@ gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg
 
 gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(scene);
+  GG_NEED(sweep, scene);
   gg_scene made;
   GG_TRY(resolve(sweep, i, &made, err));
   return gg_scene_copy(&made, scene, err);
@@ -163,9 +155,7 @@ gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_e
 gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_point_state *state, char **file,
                         gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(folder);
-  GG_NEED(state);
+  GG_NEED(sweep, folder, state);
   GG_TRY(check_point(sweep, i, err));
   *state = gg_sweep_point_status(folder, sweep->point[i].id);
   if (!file) return GG_OK;
@@ -175,9 +165,7 @@ gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_
 
 gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(folder);
-  GG_NEED(text);
+  GG_NEED(sweep, folder, text);
   GG_TRY(check_point(sweep, 0, err));
   GG_C_LOCALE;
   return gg_api_text_copy(gg_sweep_document(sweep, folder), text, err);

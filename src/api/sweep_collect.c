@@ -66,9 +66,7 @@ static char *with(const char *prefix, const char *ending)
 gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
                            void (*written)(void *context, const char *file), void *context, gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(folder);
-  GG_NEED(prefix);
+  GG_NEED(sweep, folder, prefix);
   GG_TRY(gg_sweep_check(sweep, err));
   collecting c = {.sweep = sweep, .written = written, .context = context};
   if (options) c.options = *options;

@@ -356,8 +356,7 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
 
 gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(folder);
+  GG_NEED(sweep, folder);
   GG_TRY(gg_sweep_check(sweep, err));
   return run(sweep, folder, 0, sweep->n, options, err);
 }
@@ -365,8 +364,7 @@ gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_optio
 gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
                              gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_NEED(folder);
+  GG_NEED(sweep, folder);
   GG_TRY(gg_sweep_check(sweep, err));
   if (i >= sweep->n)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,

@@ -15,6 +15,16 @@ const char *gg_version(void)
   return GG_VERSION;
 }
 
+gg_status gg_api_arguments_check(const char *function, const char *names, const void *const *argument, size_t n,
+                                 gg_error *err)
+{
+  for (size_t i = 0; i < n; i++, names += strcspn(names, ",") + 2)
+    if (!argument[i])
+      return gg_base_fail(err, GG_BAD_INPUT, "%s: argument '%.*s' is missing (NULL)", function,
+                          (int)strcspn(names, ","), names);
+  return GG_OK;
+}
+
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err)
 {
   for (int k = 0; k < 2; k++)
