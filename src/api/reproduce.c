@@ -98,7 +98,7 @@ static gg_status describe(const gg_figure_entry *e, gg_on_figure *figure, void *
 
 gg_status gg_list_figures(gg_on_figure *figure, void *context, gg_error *err)
 {
-  GG_NEED(figure);
+  GG_NEED_CALLBACK(figure);
   gg_status status = GG_OK;
   seen points[2] = {{0}};
   locale_t before = gg_base_c_locale_enter();

@@ -1,9 +1,12 @@
 /* Sweeps: read, changed, checked and queried. */
+#include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "api/api.h"
+#include "base/atomic_file.h"
 #include "base/c_locale.h"
 #include "base/memory.h"
 #include "common/extension.h"
@@ -159,7 +162,8 @@ gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_
   GG_TRY(check_point(sweep, i, err));
   *state = gg_sweep_point_status(folder, sweep->point[i].id);
   if (!file) return GG_OK;
-  *file = gg_sweep_point_path(folder, sweep->point[i].id, *state == GG_POINT_SHORT ? ".short.h5" : ".h5");
+  char path[PATH_MAX];
+  *file = strdup(gg_sweep_point_path(folder, sweep->point[i].id, *state == GG_POINT_SHORT ? ".short.h5" : ".h5", path));
   return *file ? GG_OK : gg_base_out_of_memory(err);
 }
 
@@ -169,4 +173,79 @@ gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **tex
   GG_TRY(check_point(sweep, 0, err));
   GG_C_LOCALE;
   return gg_api_text_copy(gg_sweep_document(sweep, folder), text, err);
+}
+
+/* What a sweep came to, as tables and a picture. */
+
+typedef struct collecting {
+  const gg_sweep *sweep;
+  gg_collecting options;
+  gg_point_table table;
+  char csv[PATH_MAX], h5[PATH_MAX], svg[PATH_MAX];
+  const char *picture; /* NULL: none */
+  void (*written)(void *context, const char *file);
+  void *context;
+} collecting;
+
+static void report_file(const collecting *c, const char *file)
+{
+  if (c->written) c->written(c->context, file);
+}
+
+/* Better known before than after. */
+static gg_status check_places(const collecting *c, gg_error *err)
+{
+  GG_TRY(gg_base_atomic_check_writable(c->csv, "tables are files", err));
+  GG_TRY(gg_base_atomic_check_writable(c->h5, "tables are files", err));
+  return c->picture ? gg_base_atomic_check_writable(c->picture, "pictures are files", err) : GG_OK;
+}
+
+/* Values that are words have no axis, for instance: the tables are what there is to have. */
+static bool may_lack_picture(const collecting *c, gg_status status, const gg_error *err)
+{
+  const gg_collecting *o = &c->options;
+  if (!o->warn || o->picture || o->over || o->show || status == GG_BAD_FILE) return false;
+  o->warn(c->context, err ? err->message : "there is no picture");
+  return true;
+}
+
+static gg_status write_all(collecting *c, const char *folder, gg_error *err)
+{
+  const gg_picture_choice choice = {c->options.over, c->options.show};
+  const char *command = c->options.command ? c->options.command : "the graingas library";
+  GG_TRY(check_places(c, err));
+  GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, err));
+  GG_TRY(gg_sweep_point_table_write_csv(&c->table, c->sweep, c->csv, err));
+  report_file(c, c->csv);
+  GG_TRY(gg_sweep_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));
+  report_file(c, c->h5);
+  if (!c->picture) return GG_OK;
+  gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, err);
+  if (status == GG_OK) report_file(c, c->picture);
+  return status == GG_OK || !may_lack_picture(c, status, err) ? status : GG_OK;
+}
+
+static gg_status name_tables(collecting *c, const char *prefix, gg_error *err)
+{
+  snprintf(c->csv, PATH_MAX, "%s.csv", prefix);
+  snprintf(c->svg, PATH_MAX, "%s.svg", prefix);
+  return snprintf(c->h5, PATH_MAX, "%s.h5", prefix) < PATH_MAX - 1
+             ? GG_OK
+             : gg_base_path_write_error(prefix, strerror(ENAMETOOLONG), err);
+}
+
+gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
+                           void (*written)(void *context, const char *file), void *context, gg_error *err)
+{
+  GG_NEED(sweep, folder, prefix);
+  GG_TRY(gg_sweep_check(sweep, err));
+  collecting c = {.sweep = sweep, .written = written, .context = context};
+  if (options) c.options = *options;
+  GG_TRY(name_tables(&c, prefix, err));
+  c.picture = c.options.picture ? c.options.picture : c.svg;
+  if (strcmp(c.picture, "none") == 0) c.picture = NULL;
+  GG_C_LOCALE;
+  gg_status status = write_all(&c, folder, err);
+  gg_sweep_point_table_clear(&c.table);
+  return status;
 }

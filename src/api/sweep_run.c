@@ -1,15 +1,19 @@
 /* Sweeps: what is missing of a folder is done, point beside point. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "api/api.h"
-#include "api/sweep.h"
+#include "api/run.h"
+#include "base/c_locale.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/string_list.h"
+#include "run/scheduler.h"
 #include "sweep/folder.h"
 
 typedef enum item_state { WAITS, RUNS, ELSEWHERE, ENDED, REPORTED } item_state;
@@ -47,7 +51,13 @@ typedef struct controller {
   gg_run_controller thread;
   sweep_run *all;
   item *item;
+  bool fell_short; /* its point */
 } controller;
+
+static uint64_t id_of(const controller *c)
+{
+  return c->all->sweep->point[c->item->i].id;
+}
 
 /* Points that other processes are at are checked as often, in seconds; less often where they are many, for the sake of
  * file servers that many processes use. */
@@ -81,22 +91,89 @@ static void note_warning(void *context, const char *message)
   pthread_mutex_unlock(&all->lock);
 }
 
-static gg_status do_point(controller *c, bool *fell_short, gg_error *err)
+/* What it was written to is called work until it is known how it ended. */
+static gg_status publish(void *context, gg_status run, gg_error *err)
 {
-  sweep_run *all = c->all;
-  gg_point_task task = {.sweep = all->sweep, .folder = all->folder, .i = c->item->i, .scheduler = all->scheduler};
-  task.options = (gg_run_options){.threads = all->threads_each,
-                                  .command = all->options.command,
-                                  .input = all->options.input,
-                                  .workers = all->options.workers,
-                                  .context = c,
-                                  .progress = note_progress,
-                                  .stop = is_stopped,
-                                  .warn = note_warning};
-  gg_run_scheduler_enter(all->scheduler);
-  gg_status status = gg_api_point_run(&task, fell_short, err);
-  gg_run_scheduler_leave(all->scheduler);
+  const controller *c = context;
+  return gg_sweep_point_publish(c->all->folder, id_of(c), run == GG_FAILED, err);
+}
+
+static gg_status evaluate(controller *c, const gg_scene *scene, const gg_run_options *options, gg_error *err)
+{
+  gg_comparison *made = NULL;
+  gg_result_file file;
+  gg_status status = gg_theories_evaluate(scene, NULL, &made, err);
+  for (int k = 0; made && k < 2; k++) snprintf(made->refusal[k], sizeof made->refusal[k], "it was not asked to");
+  if (status == GG_OK) status = gg_files_result_file_open(&file, options->output, options->command, err);
+  if (status == GG_OK) status = gg_files_result_file_finish_comparison(&file, made, err);
+  if (status == GG_OK) status = publish(c, GG_OK, err);
+  gg_comparison_free(made);
   return status;
+}
+
+/* *resume_lost: the checkpoint cannot be resumed from. */
+static gg_status simulate(controller *c, const gg_scene *scene, const gg_run_options *options, bool *resume_lost,
+                          gg_error *err)
+{
+  gg_comparison *made = NULL;
+  gg_point_call point = {.scheduler = c->all->scheduler, .publish = publish, .context = c};
+  const bool both = c->all->sweep->settings.does == GG_DOES_COMPARE;
+  gg_status status = gg_api_run_simulate(&point, scene, options, both, &made, err);
+  c->fell_short = status == GG_FAILED && made;
+  *resume_lost = point.resume_lost;
+  gg_comparison_free(made);
+  return status;
+}
+
+/* A checkpoint that cannot be resumed from is none: the point begins anew, and comes to the same bits. Not where the
+ * disk cannot be written to: then the checkpoint waits for better times. */
+static gg_status resume(controller *c, const gg_scene *scene, gg_run_options *options, gg_error *err)
+{
+  char text[600];
+  bool lost = true;
+  gg_status status = gg_checkpoint_about(options->checkpoint, &(gg_checkpoint_info){0}, NULL, err);
+  options->resume = options->checkpoint;
+  if (status == GG_OK) status = simulate(c, scene, options, &lost, err);
+  if (!lost) return status;
+  snprintf(text, sizeof text, "the point begins anew: %.500s", err->message);
+  note_warning(c, text);
+  options->resume = NULL;
+  return simulate(c, scene, options, &lost, err);
+}
+
+/* Between two checkpoints there is a moment with the one before alone. */
+static bool is_begun(const controller *c)
+{
+  char path[2][PATH_MAX];
+  gg_sweep_point_path(c->all->folder, id_of(c), ".checkpoint.h5", path[0]);
+  gg_sweep_point_path(c->all->folder, id_of(c), ".checkpoint.h5.1", path[1]);
+  return access(path[0], F_OK) == 0 || access(path[1], F_OK) == 0;
+}
+
+/* From its checkpoint, if there is one; the point's place is claimed, and the scheduler entered. */
+static gg_status do_point(controller *c, gg_error *err)
+{
+  bool lost;
+  gg_scene scene;
+  const sweep_run *all = c->all;
+  char work[PATH_MAX], checkpoint[PATH_MAX];
+  gg_run_options options = {.threads = all->threads_each,
+                            .command = all->options.command,
+                            .input = all->options.input,
+                            .workers = all->options.workers,
+                            .context = c,
+                            .progress = note_progress,
+                            .stop = is_stopped,
+                            .warn = note_warning};
+  options.output = gg_sweep_point_path(all->folder, id_of(c), ".work.h5", work);
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_sweep_resolve(all->sweep, c->item->i, &scene, err);
+  gg_base_c_locale_leave(before);
+  if (status != GG_OK) return status;
+  if (all->sweep->settings.does == GG_DOES_THEORY) return evaluate(c, &scene, &options, err);
+  if (!(scene.output.checkpoint_every > 0)) return simulate(c, &scene, &options, &lost, err);
+  options.checkpoint = gg_sweep_point_path(all->folder, id_of(c), ".checkpoint.h5", checkpoint);
+  return is_begun(c) ? resume(c, &scene, &options, err) : simulate(c, &scene, &options, &lost, err);
 }
 
 /* Without the lock: the point is this controller's for now. */
@@ -104,20 +181,24 @@ static void do_item(controller *c)
 {
   gg_error err = {0};
   gg_file_lock lock;
-  bool fell_short = false, claimed;
   sweep_run *all = c->all;
   item *it = c->item;
-  const uint64_t id = all->sweep->point[it->i].id;
   gg_point_state there = GG_POINT_MISSING;
-  gg_status status = gg_sweep_point_claim(all->folder, id, &lock, &err);
-  claimed = status == GG_OK && lock.fd >= 0;
-  if (claimed) status = do_point(c, &fell_short, &err);
-  if (status == GG_OK && !claimed) there = gg_sweep_point_status(all->folder, id);
+  c->fell_short = false;
+  gg_status status = gg_sweep_point_claim(all->folder, id_of(c), &lock, &err);
+  const bool claimed = status == GG_OK && lock.fd >= 0;
+  if (claimed) {
+    gg_run_scheduler_enter(all->scheduler);
+    status = do_point(c, &err);
+    gg_run_scheduler_leave(all->scheduler);
+  } else if (status == GG_OK) {
+    there = gg_sweep_point_status(all->folder, id_of(c));
+  }
   gg_base_file_lock_release(&lock);
   pthread_mutex_lock(&all->lock);
   it->status = status;
   it->here = claimed;
-  it->fell_short = fell_short || there == GG_POINT_SHORT;
+  it->fell_short = c->fell_short || there == GG_POINT_SHORT;
   it->fraction = 1;
   it->checked = gg_base_clock_wall();
   snprintf(it->message, sizeof it->message, "%.500s", err.message);
@@ -200,22 +281,21 @@ static void report_progress(sweep_run *all)
  * claimed, nobody else reports. */
 static void report_end(sweep_run *all, item *it)
 {
-  char *file = NULL;
+  char file[PATH_MAX];
   const gg_sweep_options *o = &all->options;
   it->state = REPORTED;
   bool ours = it->here || it->status != GG_OK;
   if (!ours || !o->ended || it->status == GG_INTERRUPTED) return;
   const char *ending = it->fell_short ? ".short.h5" : ".h5";
   bool some = it->status == GG_OK || it->fell_short;
-  if (some) file = gg_sweep_point_path(all->folder, all->sweep->point[it->i].id, ending);
+  gg_sweep_point_path(all->folder, all->sweep->point[it->i].id, ending, file);
   pthread_mutex_unlock(&all->lock);
-  o->ended(o->context, it->i, it->status, file, it->message);
-  free(file);
+  o->ended(o->context, it->i, it->status, some ? file : NULL, it->message);
   pthread_mutex_lock(&all->lock);
 }
 
 /* With the lock: warnings, and points that have ended. */
-static void report_news(sweep_run *all)
+static void report_ended_points(sweep_run *all)
 {
   const gg_sweep_options *o = &all->options;
   for (; all->warned < all->warnings.n; all->warned++)
@@ -238,13 +318,13 @@ static gg_status do_all(sweep_run *all, size_t at_once, gg_error *err)
   }
   while (all->working) {
     gg_base_condition_wait(&all->changed, &all->lock, 0.1);
-    report_news(all);
+    report_ended_points(all);
     pthread_mutex_unlock(&all->lock);
     if (o->stop && o->stop(o->context)) atomic_store(&all->stopped, true);
     report_progress(all);
     pthread_mutex_lock(&all->lock);
   }
-  report_news(all);
+  report_ended_points(all);
   pthread_mutex_unlock(&all->lock);
   for (size_t k = 0; k < n; k++) gg_run_controller_join(&c[k].thread);
   free(c);

@@ -1,8 +1,11 @@
 /* What a run reports while it goes on. */
 #include <math.h>
+#include <string.h>
 
 #include "base/clock.h"
+#include "run/progress_estimate.h"
 #include "run/replicas.h"
+#include "statistics/estimator.h"
 
 bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
 {
@@ -92,4 +95,133 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
   pthread_mutex_lock(&all->lock); /* tasks may just now call the callback that stops the run */
   all->callbacks->progress(all->callbacks->context, &p);
   pthread_mutex_unlock(&all->lock);
+}
+
+/* The shortest window that is tested tells an error to a fifth, a longer one better as 1/sqrt(window). The end is the
+ * mean over errors that turn out so many of these smaller or larger by then; if it may well be half as far or twice, it
+ * is not known. */
+static const double doubt = 0.2, off[] = {-1.4, -0.7, 0, 0.7, 1.4}, weight[] = {0.12, 0.22, 0.32, 0.22, 0.12};
+static const double vague = 0.5;
+
+void gg_run_progress_open_window(gg_progress_estimate *o)
+{
+  o->n_errors = 0;
+  o->trending = false;
+  o->trusted_at = o->sure_at = 0;
+}
+
+void gg_run_progress_new_phase(gg_progress_estimate *o)
+{
+  o->n_marks = 0;
+}
+
+void gg_run_progress_record_errors(gg_progress_estimate *o, double window, const gg_convergence *c)
+{
+  o->trending = c->trending;
+  o->trusted_at = c->trusted ? 0 : fmax(5 * GG_MIN_BLOCKS * c->untrusted, 1.25 * window);
+  o->sure_at = c->sure_at;
+  if (!(c->relative_error > 0 && isfinite(c->relative_error))) return;
+  if (o->n_errors == GG_PROGRESS_ERRORS) memmove(o->errors, o->errors + 1, --o->n_errors * sizeof *o->errors);
+  o->errors[o->n_errors].window = window;
+  o->errors[o->n_errors++].log_scale = log(c->relative_error * sqrt(window));
+}
+
+/* The last mark is the latest; between the others lies a share of the phase. */
+void gg_run_progress_record_time(gg_progress_estimate *o, double wall, double due)
+{
+  int n = o->n_marks;
+  if (n && due <= o->marks[n - 1].due) return;
+  if (n >= 2 && o->marks[n - 1].due - o->marks[n - 2].due < (due - o->marks[0].due) / (GG_PROGRESS_MARKS / 2)) n--;
+  if (n == GG_PROGRESS_MARKS) {
+    n /= 2;
+    for (int i = 1; i < n; i++) o->marks[i] = o->marks[2 * i];
+  }
+  o->marks[n].wall = wall;
+  o->marks[n++].due = due;
+  o->n_marks = n;
+}
+
+/* Over the latter half of the phase. */
+double gg_run_progress_pace(const gg_progress_estimate *o)
+{
+  int last = o->n_marks - 1, from = 0;
+  if (last < 2) return NAN;
+  double middle = (o->marks[0].wall + o->marks[last].wall) / 2;
+  while (from < last - 1 && o->marks[from + 1].wall <= middle) from++;
+  return (o->marks[last].wall - o->marks[from].wall) / (o->marks[last].due - o->marks[from].due);
+}
+
+/* The latest few: an error jumps as the blocks that it is taken from shift. */
+static double log_scale(const gg_progress_estimate *o)
+{
+  double sum = 0, weights = 0, now = o->errors[o->n_errors - 1].window;
+  for (int i = o->n_errors - 1; i >= 0 && o->errors[i].window >= 0.8 * now; i--)
+    sum += o->errors[i].window * o->errors[i].log_scale, weights += o->errors[i].window;
+  return sum / weights;
+}
+
+/* What a test will find, if the error goes on as 1/sqrt(window), but for some doubts. */
+static gg_window_test test_at(const gg_progress_estimate *o, const gg_stopping_criteria *criteria, uint64_t window,
+                              double doubts)
+{
+  const double length = (double)window;
+  gg_window_test t = {.window = window, .ratio = NAN};
+  if (!o->n_errors || !(criteria->relative_error > 0)) return t;
+  double ahead = fmax(1 / o->errors[o->n_errors - 1].window - 1 / length, 0);
+  double change = doubts * doubt * sqrt((double)criteria->least * ahead);
+  t.ratio = exp(log_scale(o) + change) / (criteria->relative_error * sqrt(length));
+  bool trusted = length >= o->trusted_at;
+  t.exact = trusted && length >= (double)criteria->least && t.ratio <= 1;
+  t.sure = trusted && length >= o->sure_at;
+  return t;
+}
+
+/* Length at which a window ends whose next test is at `window`. */
+static double last_test(const gg_progress_estimate *o, const gg_stopping_criteria *criteria, uint64_t restarts,
+                        bool exact, uint64_t window, double doubts)
+{
+  while (!gg_run_criteria_end(criteria, restarts, window)) {
+    gg_window_test t = test_at(o, criteria, window, doubts);
+    if (gg_run_criteria_are_met(&t, exact)) break;
+    exact = t.exact;
+    window = gg_run_criteria_next_test(criteria, restarts, &t);
+  }
+  return (double)window;
+}
+
+/* Samples until then, of a window that has `had`. */
+static gg_expected_end mean_last_test(const gg_progress_estimate *o, const gg_stopping_criteria *criteria,
+                                      uint64_t restarts, bool exact, uint64_t window, double had)
+{
+  double mean = 0, square = 0;
+  if (!(criteria->relative_error > 0))
+    return (gg_expected_end){last_test(o, criteria, restarts, exact, window, 0) - had, true};
+  if (!o->n_errors) return (gg_expected_end){NAN, false};
+  for (int i = 0; i < 5; i++) {
+    double left = last_test(o, criteria, restarts, exact, window, off[i]) - had;
+    mean += weight[i] * left, square += weight[i] * left * left;
+  }
+  return (gg_expected_end){mean, square <= (1 + vague * vague) * mean * mean};
+}
+
+gg_expected_end gg_run_progress_end(const gg_progress_estimate *o, const gg_stopping_criteria *criteria,
+                                    const struct gg_replicas_state *s)
+{
+  uint64_t restarts = s->restarts, window = s->goal - s->window_at;
+  bool anew = s->averaging && o->trending && gg_run_criteria_restart(criteria, restarts);
+  double begins = (double)(anew ? s->goal : criteria->warmup);
+  if (s->averaging && !anew) {
+    gg_expected_end end = mean_last_test(o, criteria, restarts, s->exact, window, (double)(s->due - s->window_at));
+    return (gg_expected_end){(double)s->due + end.at, end.known};
+  }
+  window = gg_run_criteria_next_test(criteria, restarts + anew, NULL);
+  gg_expected_end end = mean_last_test(o, criteria, restarts + anew, false, window, 0);
+  return (gg_expected_end){begins + end.at, end.known && !anew};
+}
+
+double gg_run_progress_fraction(gg_progress_estimate *o, double due, double end, double share_of_time)
+{
+  double done = fmax(end > 0 ? due / end : 0, share_of_time > 0 ? share_of_time : 0);
+  o->fraction = fmax(o->fraction, fmin(done, 0.99));
+  return o->fraction;
 }

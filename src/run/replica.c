@@ -248,7 +248,7 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
 
 bool gg_run_replica_settled(const gg_replica *r)
 {
-  if (r->model.gravity[1] != 0) return true; /* grains that lie collide as often as they like: arrest.c */
+  if (r->model.gravity[1] != 0) return true; /* grains that lie collide as often as they like */
   double per_grain = r->clock.interval * gg_common_model_collision_rate(&r->model, r->clock.temperature);
   return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
 }

@@ -84,7 +84,7 @@ void gg_run_replica_sample_row(gg_replica *r, double elapsed);
 void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
 void gg_run_replica_restart_curves(gg_replica *r);
 
-/* sampling_bursts.c: before an interval of the window: does the engine show its collisions to the observables that ask
+/* sampling.c, before an interval of the window: does the engine show its collisions to the observables that ask
  * for them? Always, but where that slows it down many times over, and they do with less: there for so many samples at
  * the beginning of every `apart`, but closer together before the window is `settled` samples long. */
 typedef struct gg_sampling_bursts {

@@ -1,4 +1,162 @@
+/* Replicas are created and take samples, as tasks of the scheduler, until the run's callback or the time limit stops
+ * them. */
 #include "run/replicas.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "run/cost_estimate.h"
+#include "run/start_model.h"
+#include "run/workers/workers.h"
+#include "scene/fields.h"
+
+static bool out_of_time(const gg_replicas *all)
+{
+  return all->criteria.time_limit > 0 &&
+         all->state.wall + gg_base_clock_wall() - all->started > all->criteria.time_limit;
+}
+
+static bool is_interrupted(gg_replicas *all)
+{
+  if (!all->callbacks || !all->callbacks->interrupted) return false;
+  pthread_mutex_lock(&all->lock);
+  bool yes = all->callbacks->interrupted(all->callbacks->context);
+  pthread_mutex_unlock(&all->lock);
+  return yes;
+}
+
+/* For whoever works on a replica, engines in the midst of an interval included. Once a run is stopped, it stays so. */
+static bool is_stopped(void *context)
+{
+  gg_replicas *all = context;
+  if (atomic_load(&all->stopped) != GG_NOT_STOPPED || atomic_load(&all->tasks.stopping)) return true;
+  int why = is_interrupted(all) ? GG_STOP_REQUESTED
+            : out_of_time(all)  ? GG_OUT_OF_TIME
+                                : GG_NOT_STOPPED,
+      before = GG_NOT_STOPPED;
+  if (why != GG_NOT_STOPPED) atomic_compare_exchange_strong(&all->stopped, &before, why);
+  return why != GG_NOT_STOPPED;
+}
+
+static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *err)
+{
+  gg_replicas *all = context;
+  pthread_mutex_lock(&all->lock);
+  gg_status status = all->callbacks->frame(all->callbacks->context, frame, err);
+  pthread_mutex_unlock(&all->lock);
+  return status;
+}
+
+/* Replicas come first; threads that are left over go to their engines, in equal parts. */
+static int threads_each(int threads, int replicas)
+{
+  return threads >= 2 * replicas ? threads / replicas : 1;
+}
+
+static gg_status find_scheduler(gg_replicas *all, int threads, gg_run_scheduler **scheduler, gg_error *err)
+{
+  *scheduler = all->callbacks ? all->callbacks->scheduler : NULL;
+  if (*scheduler) return GG_OK;
+  GG_TRY(gg_run_scheduler_new(threads, false, &all->own_scheduler, err));
+  gg_run_scheduler_enter(all->own_scheduler);
+  *scheduler = all->own_scheduler;
+  return GG_OK;
+}
+
+static gg_status open_tasks(gg_replicas *all, int threads, gg_error *err)
+{
+  all->task_callbacks =
+      (gg_run_callbacks){.context = all, .frame = all->callbacks && all->callbacks->frame ? locked_frame : NULL};
+  all->tasks = (gg_run_tasks){.scene = &all->scene, .model = &all->model, .callbacks = &all->task_callbacks};
+  gg_workers *workers = all->callbacks && !all->scene.extension ? all->callbacks->workers : NULL;
+  gg_run_scheduler *scheduler = workers ? gg_run_workers_scheduler(workers) : NULL;
+  if (!workers) GG_TRY(find_scheduler(all, threads, &scheduler, err));
+  GG_TRY(gg_run_tasks_open(&all->tasks, scheduler, all->replica, all->n, threads_each(threads, all->n), err));
+  return workers ? gg_run_distribution_open(workers, &all->tasks, err) : GG_OK;
+}
+
+static void report_while_waiting(gg_replicas *all, uint64_t due)
+{
+  bool pauses = due > 0 && gg_run_replicas_checkpoint_is_due(all);
+  if (pauses || is_stopped(all))
+    gg_run_stop(&all->tasks);
+  else if (due > 0)
+    gg_run_replicas_report_progress(all, false);
+}
+
+/* The first failure, or else the first that was stopped, unless that was for a checkpoint. */
+static gg_status outcome(gg_replicas *all, gg_error *err)
+{
+  const gg_run_task *worst = NULL;
+  for (int i = 0; i < all->n; i++) {
+    const gg_run_task *t = &all->tasks.task[i];
+    if (t->status != GG_OK && (!worst || (worst->status == GG_INTERRUPTED && t->status != GG_INTERRUPTED))) worst = t;
+  }
+  if (!worst || (worst->status == GG_INTERRUPTED && atomic_load(&all->stopped) == GG_NOT_STOPPED)) return GG_OK;
+  if (err) *err = worst->err;
+  return worst->status;
+}
+
+/* Nothing is due: replicas are created. */
+gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err)
+{
+  const double error = all->last.relative_error;
+  gg_run_submit(&all->tasks, due, adapt, isnan(error) ? INFINITY : error);
+  while (!gg_run_wait(&all->tasks)) report_while_waiting(all, due);
+  atomic_store(&all->tasks.stopping, false);
+  return outcome(all, err);
+}
+
+static gg_status create_or_restore(gg_replicas *all, const gg_archive *resume, gg_error *err)
+{
+  if (!resume) return gg_run_replicas_advance(all, 0, false, err);
+  GG_TRY(gg_run_replicas_restore(all, resume, err));
+  for (int i = 0; i < all->n; i++) gg_run_task_update(&all->tasks.task[i]);
+  return GG_OK;
+}
+
+gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
+                                 const gg_run_callbacks *callbacks, gg_error *err)
+{
+  *all = (gg_replicas){.scene = *scene, .n = (int)scene->run.replicas, .callbacks = callbacks};
+  all->started = all->last_checkpoint = gg_base_clock_wall();
+  all->last.relative_error = NAN; /* nothing is estimated yet */
+  if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
+  scene = &all->scene;
+  GG_TRY(gg_run_start_make(scene, callbacks && !resume ? callbacks->model : NULL, &all->model, err));
+  GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
+  all->criteria = gg_run_criteria_of(scene, &all->model);
+  const gg_cost_estimate cost = gg_run_cost_estimate(scene, &all->model, scene->engine);
+  GG_TRY(gg_run_cost_check_memory(&cost, gg_run_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
+  all->replica = gg_base_array_new((size_t)all->n, sizeof *all->replica, err);
+  if (!all->replica) return GG_FAILED;
+  pthread_mutex_init(&all->lock, NULL);
+  all->stop = (gg_stop){is_stopped, all};
+  all->model.stop = &all->stop;
+  gg_status status = open_tasks(all, threads, err);
+  if (status == GG_OK) status = create_or_restore(all, resume, err);
+  if (status == GG_INTERRUPTED && all->stopped == GG_OUT_OF_TIME)
+    status = gg_base_fail(err, GG_FAILED, "%s: the time limit struck before the start was done",
+                          gg_run_engine_ops_of(scene->engine)->name);
+  if (status != GG_OK) gg_run_replicas_clear(all);
+  return status;
+}
+
+void gg_run_replicas_clear(gg_replicas *all)
+{
+  gg_run_distribution_close(&all->tasks);
+  gg_run_tasks_close(&all->tasks);
+  gg_run_scheduler_free(all->own_scheduler);
+  all->own_scheduler = NULL;
+  for (int i = 0; all->replica && i < all->n; i++) gg_run_replica_clear(&all->replica[i]);
+  free(all->replica);
+  all->replica = NULL;
+  if (all->model.stop) pthread_mutex_destroy(&all->lock);
+  all->model.stop = NULL;
+}
 
 uint64_t gg_run_replicas_least(const gg_replicas *all)
 {
@@ -36,4 +194,76 @@ void gg_run_replicas_level(gg_replicas *all)
   }
   for (int i = 0; i < all->n; i++) all->replica[i].series.n = rows;
   for (int k = 0; k < all->replica[0].n_observables; k++) level_bins(all, k);
+}
+
+/* The replicas in an archive: everything needed to go on bit for bit. */
+
+gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *err)
+{
+  struct gg_replicas_state state = all->state;
+  state.wall += gg_base_clock_wall() - all->started;
+  GG_TRY(gg_scene_resumption_put(&all->scene, a, err));
+  GG_TRY(gg_base_archive_put(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
+  for (int i = 0; i < all->n; i++) {
+    gg_archive one = {0};
+    char prefix[24];
+    snprintf(prefix, sizeof prefix, "replica%d", i);
+    gg_status status = gg_run_replica_save(&all->replica[i], &one, err);
+    if (status == GG_OK) status = gg_base_archive_nest(a, prefix, &one, err);
+    gg_base_archive_clear(&one);
+    if (status != GG_OK) return status;
+  }
+  return GG_OK;
+}
+
+static gg_status check_kind(const gg_archive *a, gg_error *err)
+{
+  if (gg_base_archive_find(a, "md/campaign/state") || gg_base_archive_find(a, "dsmc/campaign/state"))
+    return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is one of a comparison, which alone can go on from it");
+  if (gg_base_archive_find(a, "simulation/scene"))
+    return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is a saved simulation, not one of a run");
+  return GG_OK;
+}
+
+gg_status gg_run_replicas_restore(gg_replicas *all, const gg_archive *a, gg_error *err)
+{
+  GG_TRY(check_kind(a, err));
+  GG_TRY(gg_scene_resumption_check(&all->scene, a, err));
+  GG_TRY(gg_base_archive_get(a, "campaign/state", GG_ITEM_U8, &all->state, sizeof all->state, err));
+  for (int i = 0; i < all->n; i++) {
+    gg_archive one = {0};
+    char prefix[24];
+    snprintf(prefix, sizeof prefix, "replica%d", i);
+    gg_status status = gg_base_archive_unnest(&one, prefix, a, err);
+    if (status == GG_OK) status = gg_run_replica_restore(&all->replica[i], &one, &all->scene, &all->model, i, err);
+    gg_base_archive_clear(&one);
+    if (status != GG_OK) return status;
+  }
+  return GG_OK;
+}
+
+/* Samples that every replica has taken, at most `due`: they are not level where a run was stopped within a stretch. */
+static uint64_t least_samples(const gg_archive *a, uint64_t due)
+{
+  uint64_t least = due;
+  for (int i = 0;; i++) {
+    char name[48];
+    struct gg_replica_clock clock;
+    snprintf(name, sizeof name, "replica%d/replica/clock", i);
+    if (gg_base_archive_get(a, name, GG_ITEM_U8, &clock, sizeof clock, NULL) != GG_OK) return least;
+    if (clock.samples < least) least = clock.samples;
+  }
+}
+
+gg_status gg_run_how_far(const gg_archive *a, gg_checkpoint_part *part, gg_error *err)
+{
+  struct gg_replicas_state state;
+  GG_TRY(gg_base_archive_get(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
+  const uint64_t taken = least_samples(a, state.due);
+  double window = state.averaging && taken > state.window_at ? (double)(taken - state.window_at) : 0;
+  part->phase = state.averaging ? "averaging" : "warm-up";
+  part->collisions_per_grain = (double)taken * GG_SAMPLING_INTERVAL;
+  part->averaged = window * GG_SAMPLING_INTERVAL;
+  part->seconds = state.wall;
+  return GG_OK;
 }

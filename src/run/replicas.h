@@ -53,7 +53,7 @@ typedef struct gg_replicas {
     uint64_t restarts;                            /* windows given up for a trend */
     int64_t exact;                                /* at the last test, errors were as small as asked */
     double wall;                                  /* seconds used before this process */
-    uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began (arrest.c) */
+    uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began */
     double arrest_share; /* share of contacts that last, if there was little else; 0: the grains move */
   } state;
   gg_convergence last;
@@ -95,7 +95,7 @@ uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_
  * in one unit, over all replicas. */
 double gg_run_criteria_margin(const gg_stopping_criteria *criteria, double correlation, double window);
 
-/* replicas_advance.c: create them, or restore them from `resume`, with the scheduler of the callbacks, or else one of
+/* create them, or restore them from `resume`, with the scheduler of the callbacks, or else one of
  * `threads`. They are the caller's to clear if this succeeds. */
 gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                                  const gg_run_callbacks *callbacks, gg_error *err);
@@ -133,9 +133,6 @@ typedef struct gg_slow_modes {
 } gg_slow_modes;
 gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *slow, gg_error *err);
 
-/* arrest.c: under gravity, have the grains come to rest? Leaves the answer in all->state.arrest_share. */
-void gg_run_replicas_check_arrest(gg_replicas *all);
-
 /* checkpoint.c */
 gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);
 gg_status gg_run_replicas_restore(gg_replicas *all, const gg_archive *archive, gg_error *err);
@@ -144,9 +141,6 @@ gg_status gg_run_replicas_restore(gg_replicas *all, const gg_archive *archive, g
  */
 gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err);
 gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err);
-/* report_curves.c: the curves of all replicas together, and a warning for each observable that this model cannot have.
- */
-gg_status gg_run_replicas_report_curves(const gg_replicas *all, gg_result *result, gg_error *err);
 /* steady_state.c: is the mean over the window one of a steady state, and from what that is known. */
 void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *convergence, gg_result *result);
 

@@ -1,7 +1,15 @@
 #include "run/run.h"
 
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/memory.h"
 #include "run/replicas.h"
+#include "run/scheduler.h"
+#include "run/start_model.h"
 
 /* Where the replicas stand as a result; it may fall short of what was asked. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
@@ -36,4 +44,232 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   gg_result_free(*out); /* it lacks a warning, or worse */
   *out = NULL;
   return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", gg_run_engine_ops_of(scene->engine)->name);
+}
+
+/* Curves of what the scene measures, so that nobody pays for others. A theory that has none here, of rough grains for
+ * instance, is no reason for a warning: most have none at all. */
+static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
+{
+  gg_error why = {0};
+  const gg_theory *theory = c->theory[i].theory;
+  if (!c->theory[i].applies) return GG_OK;
+  bool before = gg_base_memory_begin();
+  gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
+  if (gg_base_memory_end(before)) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+  if (status == GG_FAILED) gg_base_string_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
+  return GG_OK;
+}
+
+gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_error *err)
+{
+  c->model = *model;
+  gg_run_rows_make(&c->model, &c->rows);
+  c->n_theories = 0;
+  gg_model start = *model; /* facts tell how engines start; theories of ours find their own temperature */
+  if (c->scene.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(&start, err));
+  const gg_theory *theory;
+  for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
+    gg_error why = {0};
+    bool before = gg_base_memory_begin();
+    gg_status status = gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &why);
+    if (gg_base_memory_end(before)) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+    c->theory[i].theory = theory;
+    c->theory[i].applies = status == GG_OK;
+    snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", why.message);
+    GG_TRY(draw_curves(c, c->n_theories++, err));
+  }
+  return GG_OK;
+}
+
+/* One engine's part, run beside or after the other's; one thread at a time calls a callback. */
+typedef struct part {
+  gg_scene scene;
+  gg_engine_kind kind;
+  const gg_model *model; /* NULL: the scene has none of this engine */
+  const gg_run_callbacks *callbacks;
+  gg_run_scheduler *scheduler; /* NULL: its own, or the workers' */
+  int threads;                 /* for this engine */
+  gg_comparison *comparison;
+  pthread_mutex_t *lock;
+  gg_archive resume;  /* this engine's part of a checkpoint; empty: from the start */
+  gg_archive *latest; /* both engines' last checkpoints, by kind */
+  bool *broken;       /* a checkpoint could not be stored: the comparison is over, for both engines */
+  const char *next;   /* the engine that has to wait for this one; NULL: none */
+  gg_status status;
+  gg_error err;
+} part;
+
+static void locked_progress(void *context, const gg_progress *progress)
+{
+  part *p = context;
+  gg_progress now = *progress;
+  now.next = p->next;
+  pthread_mutex_lock(p->lock);
+  p->callbacks->progress(p->callbacks->context, &now);
+  pthread_mutex_unlock(p->lock);
+}
+
+static bool locked_interrupted(void *context)
+{
+  part *p = context;
+  pthread_mutex_lock(p->lock);
+  bool yes = *p->broken || (p->callbacks->interrupted && p->callbacks->interrupted(p->callbacks->context));
+  pthread_mutex_unlock(p->lock);
+  return yes;
+}
+
+/* A comparison's checkpoint is both engines' latest ones. */
+static gg_status store_both(part *p, const gg_archive *archive, gg_error *err)
+{
+  gg_archive both = {0};
+  gg_base_archive_clear(&p->latest[p->kind]);
+  gg_status status = gg_base_archive_nest(&p->latest[p->kind], gg_run_engine_ops_of(p->kind)->name, archive, err);
+  for (int k = 0; k < 2 && status == GG_OK; k++) status = gg_base_archive_append(&both, &p->latest[k], err);
+  if (status == GG_OK) status = p->callbacks->checkpoint(p->callbacks->context, &both, err);
+  gg_base_archive_clear(&both);
+  return status;
+}
+
+static gg_status locked_checkpoint(void *context, gg_archive *archive, gg_error *err)
+{
+  part *p = context;
+  pthread_mutex_lock(p->lock);
+  gg_status status = store_both(p, archive, err);
+  *p->broken |= status != GG_OK;
+  pthread_mutex_unlock(p->lock);
+  return status;
+}
+
+static void run_part(part *p)
+{
+  gg_run_callbacks callbacks = {.context = p, .model = p->model};
+  if (p->callbacks && p->callbacks->progress) callbacks.progress = locked_progress;
+  if (p->callbacks && (p->callbacks->interrupted || p->callbacks->checkpoint))
+    callbacks.interrupted = locked_interrupted;
+  if (p->callbacks && p->callbacks->checkpoint) callbacks.checkpoint = locked_checkpoint;
+  if (p->callbacks) callbacks.workers = p->callbacks->workers;
+  callbacks.scheduler = p->scheduler;
+  p->scene.engine = p->kind;
+  p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &callbacks,
+                           &p->comparison->by_engine[p->kind], &p->err);
+}
+
+/* A scene that an engine cannot run leaves that column empty with the reason; anything else ends the comparison. */
+static gg_status close_part(part *p, gg_error *err)
+{
+  gg_comparison *c = p->comparison;
+  gg_result *result = c->by_engine[p->kind];
+  bool refused = p->status == GG_BAD_INPUT && p->resume.n_items == 0;
+  bool so_far = p->status == GG_FAILED || p->status == GG_INTERRUPTED || p->status == GG_BAD_FILE;
+  if (p->status == GG_OK || refused || (result && so_far)) {
+    if (refused) snprintf(c->refusal[p->kind], sizeof c->refusal[0], "%.250s", p->err.message);
+    return GG_OK;
+  }
+  if (err) *err = p->err;
+  return p->status;
+}
+
+static void control_part(void *context)
+{
+  part *p = context;
+  gg_run_scheduler_enter(p->scheduler);
+  run_part(p);
+  gg_run_scheduler_leave(p->scheduler);
+}
+
+/* One after the other, or side by side: then the tasks of both engines wait in one queue, md's controller is this
+ * thread, and dsmc's one of its own, if there is one to be had. */
+static gg_status run_parts(part parts[2], bool beside, int threads, gg_error *err)
+{
+  gg_run_controller dsmc = {.started = false};
+  const gg_run_callbacks *callbacks = parts[GG_MD].callbacks;
+  gg_run_scheduler *own = NULL, *scheduler = callbacks ? callbacks->scheduler : NULL;
+  bool distributed =
+      callbacks && callbacks->workers && !parts[GG_MD].scene.extension; /* to be scheduled with the workers */
+  if (beside && !scheduler && !distributed) {
+    GG_TRY(gg_run_scheduler_new(threads, false, &own, err));
+    gg_run_scheduler_enter(scheduler = own);
+  }
+  for (int k = 0; k < 2; k++) parts[k].scheduler = scheduler;
+  const bool started = beside && gg_run_controller_start(&dsmc, control_part, &parts[GG_DSMC]);
+  run_part(&parts[GG_MD]);
+  if (!started && !*parts[GG_MD].broken) run_part(&parts[GG_DSMC]);
+  gg_run_scheduler_leave(scheduler);
+  gg_run_controller_join(&dsmc);
+  gg_run_scheduler_enter(scheduler);
+  gg_run_scheduler_free(own);
+  return GG_OK;
+}
+
+static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
+{
+  for (int k = 0; k < 2; k++) GG_TRY(close_part(&parts[k], err));
+  if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC] && strcmp(c->refusal[GG_MD], c->refusal[GG_DSMC]) == 0)
+    return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: %s", c->refusal[GG_MD]);
+  if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
+    return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
+                        c->refusal[GG_DSMC]);
+  const gg_status short_of[] = {GG_BAD_FILE, GG_INTERRUPTED, GG_FAILED};
+  for (int i = 0; i < 3; i++)
+    for (int k = 0; k < 2; k++)
+      if (parts[k].status == short_of[i]) return gg_base_fail(err, short_of[i], "%s", parts[k].err.message);
+  return GG_OK;
+}
+
+/* The caller's, or made here. */
+static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg_run_callbacks *callbacks,
+                            gg_model *model, gg_error *err)
+{
+  const gg_model *made = callbacks && scene->engine == kind ? callbacks->model : NULL;
+  if (!made) return gg_common_model_make(scene, kind, model, err);
+  *model = *made;
+  return GG_OK;
+}
+
+gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
+                               const gg_run_callbacks *callbacks, gg_comparison *c, gg_error *err)
+{
+  *c = (gg_comparison){.scene = *scene};
+  gg_common_extension_hold(c->scene.extension);
+  gg_model model[2];
+  GG_TRY(make_model(scene, GG_MD, callbacks, &model[GG_MD], err));
+  const bool dsmc = make_model(scene, GG_DSMC, callbacks, &model[GG_DSMC], NULL) == GG_OK;
+  GG_TRY(gg_run_compare_theories(&model[GG_MD], c, err));
+
+  pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+  gg_archive latest[2] = {{0}, {0}};
+  part parts[2];
+  bool beside = threads > 1 || (callbacks && callbacks->workers), broken = false;
+  gg_status status = GG_OK;
+  for (int k = 0; k < 2; k++) {
+    parts[k] =
+        (part){.scene = *scene, .kind = (gg_engine_kind)k, .callbacks = callbacks, .comparison = c, .lock = &lock};
+    parts[k].threads = beside ? (threads + 1) / 2 : 1;
+    parts[k].latest = latest;
+    parts[k].broken = &broken;
+    const gg_engine_ops *ops = gg_run_engine_ops_of((gg_engine_kind)k);
+    const char *name = ops->name;
+    if (k == GG_MD || dsmc) parts[k].model = &model[k];
+    if (k == GG_DSMC && !beside && dsmc && ops->accepts(&model[k], NULL) == GG_OK) parts[GG_MD].next = name;
+    if (resume && status == GG_OK) status = gg_base_archive_unnest(&parts[k].resume, name, resume, err);
+    if (resume && status == GG_OK) status = gg_base_archive_nest(&latest[k], name, &parts[k].resume, err);
+  }
+  if (status == GG_OK && resume && !parts[0].resume.n_items && !parts[1].resume.n_items)
+    status = gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
+  if (status == GG_OK) status = run_parts(parts, beside, threads, err);
+  if (status == GG_OK) status = close_parts(parts, c, err);
+  for (int k = 0; k < 2; k++) gg_base_archive_clear(&parts[k].resume), gg_base_archive_clear(&latest[k]);
+  pthread_mutex_destroy(&lock);
+  return status;
+}
+
+void gg_run_comparison_clear(gg_comparison *c)
+{
+  for (int k = 0; k < 2; k++) gg_result_free(c->by_engine[k]);
+  for (int i = 0; i < c->n_theories; i++) gg_measure_curves_clear(&c->theory[i].curves);
+  gg_common_extension_release(c->scene.extension);
+  gg_common_extension_release(c->own);
+  free(c->document);
+  gg_base_string_list_clear(&c->warnings);
+  memset(c, 0, sizeof *c);
 }

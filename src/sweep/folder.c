@@ -19,10 +19,10 @@ void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME])
   snprintf(name, GG_POINT_NAME, "%016" PRIx64, id);
 }
 
-char *gg_sweep_point_path(const char *folder, uint64_t id, const char *ending)
+char *gg_sweep_point_path(const char *folder, uint64_t id, const char *ending, char *path)
 {
-  char *path = NULL;
-  return asprintf(&path, "%s/%016" PRIx64 "%s", folder, id, ending) < 0 ? NULL : path;
+  if (snprintf(path, PATH_MAX, "%s/%016" PRIx64 "%s", folder, id, ending) >= PATH_MAX) *path = '\0';
+  return path;
 }
 
 /* Files appear whole, under their name; something else that has the name (a full disk's, an editor's) is none. Without
@@ -53,7 +53,9 @@ gg_point_state gg_sweep_point_status(const char *folder, uint64_t id)
 gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err)
 {
   struct stat about;
+  enum { LONGEST_NAME = 64 }; /* of a file in it */
   if (!*folder) return gg_base_fail(err, GG_BAD_INPUT, "the folder's name is empty: %s", holds);
+  if (strlen(folder) + LONGEST_NAME > PATH_MAX) return gg_base_path_write_error(folder, strerror(ENAMETOOLONG), err);
   if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_base_path_write_error(folder, strerror(errno), err);
   if (stat(folder, &about) != 0) return gg_base_path_write_error(folder, strerror(errno), err);
   if (!S_ISDIR(about.st_mode)) {
@@ -67,11 +69,10 @@ gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_erro
 
 gg_status gg_sweep_point_claim(const char *folder, uint64_t id, gg_file_lock *lock, gg_error *err)
 {
+  char path[PATH_MAX];
   *lock = GG_FILE_LOCK_NONE;
-  char *path = gg_sweep_point_path(folder, id, ".h5");
-  if (!path) return gg_base_out_of_memory(err);
+  gg_sweep_point_path(folder, id, ".h5", path);
   gg_status status = gg_base_file_lock_take(lock, path, path, err);
-  free(path);
   if (status != GG_OK && lock->busy) return GG_OK;
   if (status == GG_OK && gg_sweep_point_status(folder, id) != GG_POINT_MISSING) gg_base_file_lock_release(lock);
   return status;
@@ -100,14 +101,12 @@ static uint64_t point_of_temporary(const char *name)
 static void remove_temporary(const char *folder, uint64_t id, const char *name)
 {
   gg_file_lock lock;
-  char *path = NULL, *result = gg_sweep_point_path(folder, id, ".h5");
-  if (result && gg_sweep_point_status(folder, id) != GG_POINT_MISSING &&
-      gg_base_file_lock_take(&lock, result, result, NULL) == GG_OK) {
-    if (asprintf(&path, "%s/%s", folder, name) >= 0) unlink(path);
-    free(path);
-    gg_base_file_lock_release(&lock);
-  }
-  free(result);
+  char path[PATH_MAX], result[PATH_MAX];
+  gg_sweep_point_path(folder, id, ".h5", result);
+  if (gg_sweep_point_status(folder, id) == GG_POINT_MISSING) return;
+  if (gg_base_file_lock_take(&lock, result, result, NULL) != GG_OK) return;
+  if (snprintf(path, PATH_MAX, "%s/%s", folder, name) < PATH_MAX) unlink(path);
+  gg_base_file_lock_release(&lock);
 }
 
 void gg_sweep_folder_tidy(const char *folder)
@@ -125,8 +124,8 @@ void gg_sweep_folder_tidy(const char *folder)
 gg_status gg_sweep_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err)
 {
   char from[PATH_MAX], to[PATH_MAX];
-  snprintf(from, sizeof from, "%s/%016" PRIx64 ".work.h5", folder, id);
-  snprintf(to, sizeof to, "%s/%016" PRIx64 "%s", folder, id, fell_short ? ".short.h5" : ".h5");
+  gg_sweep_point_path(folder, id, ".work.h5", from);
+  gg_sweep_point_path(folder, id, fell_short ? ".short.h5" : ".h5", to);
   if (rename(from, to) == 0) return GG_OK;
   gg_status status = gg_base_path_write_error(to, strerror(errno), err);
   unlink(from); /* the point's checkpoint goes on from near its end */

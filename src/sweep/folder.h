@@ -8,9 +8,9 @@
 enum { GG_POINT_NAME = 17 };
 void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME]);
 
-/* FOLDER/NAME and an ending: ".h5", ".short.h5", ".work.h5" (until it is known which of both), ".checkpoint.h5". To be
- * freed; NULL: out of memory. */
-char *gg_sweep_point_path(const char *folder, uint64_t id, const char *ending);
+/* FOLDER/NAME and an ending: ".h5", ".short.h5", ".work.h5" (until it is known which of both), ".checkpoint.h5". In a
+ * buffer of PATH_MAX bytes, which it returns; empty where the folder's name is too long. */
+char *gg_sweep_point_path(const char *folder, uint64_t id, const char *ending, char *path);
 /* What is there of a point. */
 gg_point_state gg_sweep_point_status(const char *folder, uint64_t id);
 

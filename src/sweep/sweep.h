@@ -87,7 +87,7 @@ gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_
 /* Resolve every point, and keep what is known of each. */
 gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
 
-/* point_hash.c: hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the
+/* Hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the
  * order of the field table, with its value in force. */
 uint64_t gg_sweep_point_id(const gg_scene *scene, gg_does does);
 /* Is the scene that a file at `path` holds, a JSON object, that of this point? GG_BAD_FILE names the first key that is

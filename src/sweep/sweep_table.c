@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -108,12 +109,12 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   GG_TRY(gg_sweep_resolve(sweep, i, &scene, err));
   gg_cli_table_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
   gg_sweep_point_name(id, row.file);
-  char *path = gg_sweep_point_path(folder, id, row.fell_short ? ".short.h5" : ".h5");
+  char path[PATH_MAX];
   json_t *document = NULL;
-  gg_status status = path ? read_document(path, &document, err) : gg_base_out_of_memory(err);
+  gg_sweep_point_path(folder, id, row.fell_short ? ".short.h5" : ".h5", path);
+  gg_status status = read_document(path, &document, err);
   if (status == GG_OK)
     status = gg_sweep_point_check(&scene, sweep->settings.does, json_object_get(document, "scene"), path, err);
-  free(path);
   if (status != GG_OK) return json_decref(document), status;
   t->document[t->n_documents++] = document;
   return add_document(t, row, document, err);

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "graingas.h"
-#include "sweep/line_grouping.h"
+#include "sweep/sweep_table.h"
 
 #define SCENE "flow: usf\nphi: 0.1\nparticles: 100\n"
 
