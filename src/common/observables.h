@@ -1,5 +1,5 @@
 /* The observables there are, a line each: the one place where they are named and described. The flags of a scene's
- * `measure`, the words that a scene may give it, and the table of plug-ins (measure/observable_list.c) are made from
+ * `measure`, the words that a scene may give it, and the table of plug-ins (measure/observable.c) are made from
  * it. */
 #ifndef GG_OBSERVABLES_H
 #define GG_OBSERVABLES_H

@@ -19,7 +19,7 @@ typedef struct gg_md_cells {
   uint32_t stride;   /* a multiple of 8 */
   uint32_t *part[3]; /* an index -2 .. n + 1 along an axis: its share of the cell's number, wrapped */
   uint32_t
-      *cell; /* stride words a cell, x fastest: how many grains, then who; readable beyond the last (cell_grid.c) */
+      *cell; /* stride words a cell, x fastest: how many grains, then who; readable beyond the last (cell_frame.c) */
 } gg_md_cells;
 
 /* A grid of n[] cells on the box, empty. */

@@ -1,9 +1,20 @@
-/* Velocities and spins about the means of cells of about eight grains (cell_grid.h), as they are: what a mean over few
+/* Velocities and spins about the means of cells of about eight grains (gg_cell_grid), as they are: what a mean over few
  * grains takes out of a variance is not put back. */
 #ifndef GG_CELL_FRAME_H
 #define GG_CELL_FRAME_H
 
-#include "measure/cell_grid.h"
+#include "measure/grain_snapshot.h"
+
+/* The box cut into equal cells of about eight grains each, at least three along an edge: for local means. */
+typedef struct gg_cell_grid {
+  int n[3];
+  double box[3];
+} gg_cell_grid;
+
+gg_cell_grid gg_measure_cell_grid_of(const gg_model *model);
+size_t gg_measure_cell_grid_cells(const gg_cell_grid *grid);
+/* The cell of grain i; x runs fastest. */
+size_t gg_measure_cell_grid_cell(const gg_cell_grid *grid, const gg_snapshot *s, size_t i);
 
 typedef struct gg_cell_frame {
   gg_cell_grid grid;

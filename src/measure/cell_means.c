@@ -8,9 +8,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "measure/cell_grid.h"
+#include "measure/cell_frame.h"
 #include "measure/local_frame.h"
-#include "measure/needs.h"
 #include "measure/observable.h"
 
 enum { DENSITY_BINS = 64, RATIO_BINS = 50, SIGNED_BINS = 80 };

@@ -14,7 +14,6 @@
 
 #include "base/memory.h"
 #include "measure/diffusion_lags.h"
-#include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
 

@@ -41,7 +41,8 @@ static int nodes_of(const double *bin, double least, node *list)
 }
 
 /* C(0) r(t) scatters by T 2Dt, and velocities at both ends are two. */
-static gg_coefficient green_kubo(const gg_tail *tail, const double *bin, int a, const node *list, int n, double samples)
+static gg_coefficient green_kubo(const gg_long_time_tail *tail, const double *bin, int a, const node *list, int n,
+                                 double samples)
 {
   gg_running at[NODES];
   double T = gg_lag_mean(bin, 0, GG_LAG_CC + a);
@@ -50,12 +51,13 @@ static gg_coefficient green_kubo(const gg_tail *tail, const double *bin, int a, 
     at[k] = (gg_running){.t = gg_lag_mean(bin, lag, GG_LAG_TIME), .D = gg_lag_mean(bin, lag, GG_LAG_CR + a)};
     at[k].noise = T * fabs(at[0].D) / (bin[lag * GG_LAG_WIDTH + GG_LAG_COUNT] * samples);
   }
-  return gg_measure_tail_coefficient(tail, at, n);
+  return gg_measure_long_time_tail_coefficient(tail, at, n);
 }
 
 /* Half the slope between two nodes stands for the middle. Displacements of many origins share their way: the slope
  * scatters by 4 D^2 t over the whole time, that of all origins and grains. */
-static gg_coefficient einstein(const gg_tail *tail, const double *bin, int a, const node *list, int n, double samples)
+static gg_coefficient einstein(const gg_long_time_tail *tail, const double *bin, int a, const node *list, int n,
+                               double samples)
 {
   gg_running at[NODES];
   for (int k = 0; k + 1 < n; k++) {
@@ -65,7 +67,7 @@ static gg_coefficient einstein(const gg_tail *tail, const double *bin, int a, co
     at[k].D = 0.5 * (gg_lag_mean(bin, two, GG_LAG_RR + a) - gg_lag_mean(bin, one, GG_LAG_RR + a)) / (to - from);
     at[k].noise = 4 * at[0].D * at[0].D / (bin[one * GG_LAG_WIDTH + GG_LAG_COUNT] * samples * list[k].spacing);
   }
-  return gg_measure_tail_coefficient(tail, at, n - 1);
+  return gg_measure_long_time_tail_coefficient(tail, at, n - 1);
 }
 
 /* In a driven gas the correlation fades otherwise than in equilibrium. Under shear (phi = 0.3, e = 0.9) a tenth of D_xx
@@ -82,10 +84,10 @@ gg_diffusion_coefficients gg_measure_diffusion_read(const gg_model *m, int speci
   bool driven = !gg_flow_of(m->flow)->conserves;
   node list[NODES];
   int n = nodes_of(bin, kinetic_collisions(m, species) * (driven ? DRIVEN : 1), list);
-  gg_tail tail = gg_measure_tail_of(m, T);
+  gg_long_time_tail tail = gg_measure_long_time_tail_of(m, T);
   if (driven && n > 0)
-    tail = gg_measure_tail_driven(LEFT * m->phi * fabs(gg_lag_mean(bin, list[0].lag, GG_LAG_CR + a)),
-                                  gg_lag_mean(bin, list[0].lag, GG_LAG_TIME));
+    tail = gg_measure_long_time_tail_driven(LEFT * m->phi * fabs(gg_lag_mean(bin, list[0].lag, GG_LAG_CR + a)),
+                                            gg_lag_mean(bin, list[0].lag, GG_LAG_TIME));
   return (gg_diffusion_coefficients){green_kubo(&tail, bin, a, list, n, samples),
                                      einstein(&tail, bin, a, list, n, samples)};
 }

@@ -43,4 +43,17 @@ static inline double gg_moment_of_inertia(const gg_model *m, int species)
   return m->inertia[species] * m->mass[species] * m->diameter[species] * m->diameter[species] / 4;
 }
 
+/* Sort the grains of a chunk by species into scratch, so that observables are written for one species only. */
+typedef struct gg_species_scratch {
+  double c[3][GG_CHUNK], s[3][GG_CHUNK];
+} gg_species_scratch;
+
+/* The grains of one species in the chunk: pointers into the chunk itself (one species) or into scratch. */
+typedef struct gg_species_view {
+  size_t n;
+  const double *c[3], *s[3]; /* s[0] NULL without spins */
+} gg_species_view;
+
+gg_species_view gg_measure_species_chunk(const gg_chunk *chunk, int species, gg_species_scratch *scratch);
+
 #endif

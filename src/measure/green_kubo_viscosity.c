@@ -10,7 +10,7 @@
 
 #include "base/memory.h"
 #include "common/linear_response.h"
-#include "measure/by_species.h"
+#include "measure/grain_snapshot.h"
 #include "measure/observable.h"
 
 /* Sums of one regression: a*^2, a*^4, a*^6, and the stress times a*, a*^3. */

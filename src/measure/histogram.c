@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "measure/tail.h"
+#include "measure/stretched_tail.h"
 #include "simd/clones.h"
 
 enum { HALF = GG_HISTOGRAM_HALF };
@@ -82,7 +82,8 @@ double gg_measure_histogram_height(const double *bin, double sigma)
 
 /* The bins of |x| from the one that `from` lies in to that of `to`, or to the last one before the first of few counts.
  */
-static gg_tail_data tail_of(const double *bin, double sigma, double samples, const double range[2], double folded[HALF])
+static gg_stretched_tail_data tail_of(const double *bin, double sigma, double samples, const double range[2],
+                                      double folded[HALF])
 {
   const double width = WIDTH / sigma;
   int from = (int)fmin(round(range[0] / width), HALF), n = 0;
@@ -90,8 +91,8 @@ static gg_tail_data tail_of(const double *bin, double sigma, double samples, con
     folded[n] = (bin[HALF - from - n] + bin[HALF + from + n]) * samples;
     if (folded[n] < LEAST_COUNT) break;
   }
-  return (gg_tail_data){folded, (size_t)n, (from - 0.5) * width, width,
-                        2 * gg_measure_histogram_height(bin, sigma) * samples};
+  return (gg_stretched_tail_data){folded, (size_t)n, (from - 0.5) * width, width,
+                                  2 * gg_measure_histogram_height(bin, sigma) * samples};
 }
 
 /* Over the thesis's ranges. The bins have sigma, P(0) and what is slow in common: as numbers of the curve the fits have
@@ -101,11 +102,11 @@ static void put_ranges(gg_curve *c, const double *bin, double sigma, double samp
   double folded[HALF];
   for (int k = 0; k < GG_TAIL_RANGES; k++) {
     char name[sizeof c->number[0].name];
-    const gg_tail_data data = tail_of(bin, sigma, samples, gg_measure_tail_range[k], folded);
-    const gg_tail fit = gg_measure_tail_double_log(&data);
-    gg_measure_tail_name(name, sizeof name, "alpha", gg_measure_tail_range[k]);
+    const gg_stretched_tail_data data = tail_of(bin, sigma, samples, gg_measure_stretched_tail_range[k], folded);
+    const gg_stretched_tail fit = gg_measure_stretched_tail_double_log(&data);
+    gg_measure_stretched_tail_name(name, sizeof name, "alpha", gg_measure_stretched_tail_range[k]);
     gg_measure_curve_put_number(c, name, fit.alpha, "1");
-    gg_measure_tail_name(name, sizeof name, "gamma", gg_measure_tail_range[k]);
+    gg_measure_stretched_tail_name(name, sizeof name, "gamma", gg_measure_stretched_tail_range[k]);
     gg_measure_curve_put_number(c, name, fit.gamma, "1");
   }
 }
@@ -114,8 +115,9 @@ static void put_tail(gg_curve *c, const double *bin, double sigma, double sample
 {
   static const double whole[2] = {TAIL_FROM, INFINITY};
   double folded[HALF];
-  const gg_tail_data data = tail_of(bin, sigma, samples, whole, folded);
-  gg_tail least = gg_measure_tail_double_log(&data), likely = gg_measure_tail_likelihood(&data);
+  const gg_stretched_tail_data data = tail_of(bin, sigma, samples, whole, folded);
+  gg_stretched_tail least = gg_measure_stretched_tail_double_log(&data),
+                    likely = gg_measure_stretched_tail_likelihood(&data);
   gg_measure_curve_put_number(c, "alpha", least.alpha, "1");
   gg_measure_curve_put_number(c, "gamma", least.gamma, "1");
   gg_measure_curve_put_number(c, "alpha_likelihood", likely.alpha, "1");

@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "measure/needs.h"
 #include "measure/observable.h"
 
 enum { BINS = 80, COUNT = BINS, SUM, SQUARES, WIDTH_OF_ALL };

@@ -8,9 +8,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "measure/cell_grid.h"
+#include "measure/cell_frame.h"
 #include "measure/histogram.h"
-#include "measure/needs.h"
 #include "measure/observable.h"
 
 enum { DENSITIES = 5, ALL = DENSITIES, CLASSES, VECTORS = 2 };

@@ -21,19 +21,19 @@ static double vorticity_diffusion(const gg_model *m, double T, double mass)
   return D + nu0 * ((1 + 1.6 * x) * (1 + 1.6 * x) / chi + 768 / (25 * M_PI) * x * m->phi);
 }
 
-gg_tail gg_measure_tail_of(const gg_model *m, double T)
+gg_long_time_tail gg_measure_long_time_tail_of(const gg_model *m, double T)
 {
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i];
-  gg_tail tail = {.strength = 2.0 / 3 * T / mass, .amplitude = 1, .tolerance = 0.3};
+  gg_long_time_tail tail = {.strength = 2.0 / 3 * T / mass, .amplitude = 1, .tolerance = 0.3};
   double kappa = vorticity_diffusion(m, T, mass / (double)m->n);
   for (int a = 0; a < 3; a++) tail.rate[a] = kappa * pow(2 * M_PI / m->box[a], 2);
   return tail;
 }
 
-gg_tail gg_measure_tail_driven(double left, double t)
+gg_long_time_tail gg_measure_long_time_tail_driven(double left, double t)
 {
-  return (gg_tail){.driven = true, .strength = left * pow(t, 1.5), .amplitude = 1, .tolerance = 1};
+  return (gg_long_time_tail){.driven = true, .strength = left * pow(t, 1.5), .amplitude = 1, .tolerance = 1};
 }
 
 /* sum_n exp(-u n^2) - 1 over all integers, from the side where it converges faster. */
@@ -46,7 +46,7 @@ static double theta_less_one(double u)
 }
 
 /* Modes other than k = 0 that are left. */
-static double modes(const gg_tail *tail, double t)
+static double modes(const gg_long_time_tail *tail, double t)
 {
   double x = theta_less_one(tail->rate[0] * t), y = theta_less_one(tail->rate[1] * t);
   double z = theta_less_one(tail->rate[2] * t);
@@ -54,7 +54,7 @@ static double modes(const gg_tail *tail, double t)
 }
 
 /* In ln t by Simpson's rule, to where the slowest mode has gone. */
-double gg_measure_tail_beyond(const gg_tail *tail, double t)
+double gg_measure_long_time_tail_beyond(const gg_long_time_tail *tail, double t)
 {
   enum { STEPS = 64 };
   if (tail->driven) return tail->strength * pow(t, -1.5);
@@ -67,13 +67,13 @@ double gg_measure_tail_beyond(const gg_tail *tail, double t)
   return tail->strength * sum * step / 3;
 }
 
-gg_coefficient gg_measure_tail_coefficient(const gg_tail *tail, const gg_running *at, int n)
+gg_coefficient gg_measure_long_time_tail_coefficient(const gg_long_time_tail *tail, const gg_running *at, int n)
 {
   if (n < 1) return (gg_coefficient){NAN, NAN, NAN};
-  double first = gg_measure_tail_beyond(tail, at[0].t), before = first;
+  double first = gg_measure_long_time_tail_beyond(tail, at[0].t), before = first;
   double expected = 1 / (tail->tolerance * tail->tolerance), weights = expected, sum = expected * tail->amplitude;
   for (int j = 1; j < n; j++) {
-    double now = gg_measure_tail_beyond(tail, at[j].t), fall = before - now;
+    double now = gg_measure_long_time_tail_beyond(tail, at[j].t), fall = before - now;
     double variance = at[j].noise * (at[j].t - at[j - 1].t);
     sum += fall * (at[j].D - at[j - 1].D) / variance;
     weights += fall * fall / variance;

@@ -12,23 +12,23 @@
 
 #include "common/model.h"
 
-typedef struct gg_tail {
+typedef struct gg_long_time_tail {
   bool driven;                 /* no modes, but strength t^(-3/2) beyond t */
   double strength;             /* (2/3) T/M */
   double rate[3];              /* (D + nu) (2 pi/L)^2 of each edge */
   double amplitude, tolerance; /* what to expect of the tail over this, and how surely */
-} gg_tail;
+} gg_long_time_tail;
 
 /* In equilibrium. T: of a grain's velocity component, times its mass. D and nu from Enskog's equation; mixtures as one
  * fluid. Theory gives the amplitude within some tens of per cent. */
-gg_tail gg_measure_tail_of(const gg_model *model, double T);
+gg_long_time_tail gg_measure_long_time_tail_of(const gg_model *model, double T);
 
 /* In a driven gas, where momentum is not conserved or is sheared away, nobody knows: at the time t so much is left,
  * give or take as much, and it ends faster. */
-gg_tail gg_measure_tail_driven(double left, double t);
+gg_long_time_tail gg_measure_long_time_tail_driven(double left, double t);
 
 /* The integral of the tail from t to infinity. */
-double gg_measure_tail_beyond(const gg_tail *tail, double t);
+double gg_measure_long_time_tail_beyond(const gg_long_time_tail *tail, double t);
 
 /* A coefficient as an integral up to the time t, with the noise that a time more adds: that of D(t) - D(t') has the
  * variance noise (t - t'). */
@@ -41,6 +41,6 @@ typedef struct gg_running {
 typedef struct gg_coefficient {
   double D, tail, unsure;
 } gg_coefficient;
-gg_coefficient gg_measure_tail_coefficient(const gg_tail *tail, const gg_running *at, int n);
+gg_coefficient gg_measure_long_time_tail_coefficient(const gg_long_time_tail *tail, const gg_running *at, int n);
 
 #endif

@@ -5,6 +5,7 @@
 #define GG_OBSERVABLE_H
 
 #include "common/engine.h"
+#include "common/model.h"
 #include "common/quantity.h"
 #include "measure/curve.h"
 #include "measure/grain_snapshot.h"
@@ -98,5 +99,16 @@ extern const gg_observable *const gg_measure_observables[];
 #define GG_OBSERVABLE_PLUG_IN(FLAG, word, description) extern const gg_observable gg_measure_##word;
 GG_OBSERVABLES(GG_OBSERVABLE_PLUG_IN)
 #undef GG_OBSERVABLE_PLUG_IN
+
+/* What observables ask of a model; each is the reason to refuse it, or NULL where the model has it. */
+const char *gg_measure_needs_positions(const gg_model *model);
+/* The same gas everywhere: no walls. */
+const char *gg_measure_needs_homogeneity(const gg_model *model);
+/* Both. */
+const char *gg_measure_needs_bulk(const gg_model *model);
+
+/* Observables that the user's program brings (graingas.h, "Extension"): one plug-in for all that the model has; NULL
+ * without any. */
+const gg_observable *gg_measure_user_observables(const gg_model *model);
 
 #endif

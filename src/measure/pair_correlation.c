@@ -8,7 +8,6 @@
 
 #include "base/memory.h"
 #include "measure/contact_statistics.h"
-#include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
 

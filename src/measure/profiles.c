@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "common/surface/shapes.h"
 #include "measure/observable.h"
-#include "measure/wall_symmetry.h"
+#include "measure/wall_modes.h"
 
 enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
 #define THICKNESS 0.5

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "measure/by_species.h"
+#include "measure/grain_snapshot.h"
 #include "measure/velocity_moments.h"
 
 /* What one sample leaves for the next. */

@@ -8,7 +8,6 @@
 
 #include "base/memory.h"
 #include "measure/mesh.h"
-#include "measure/needs.h"
 #include "measure/observable.h"
 
 enum { COUNT, WAVE, DENSITY, LONGITUDINAL, TRANSVERSE, RADIAL }; /* a radial bin */

@@ -1,6 +1,6 @@
 /* Every quantity of the user's own is a channel, and its mean the channel's. Grains are laid out as whole arrays, in
  * the units of results, whatever the engine's velocities were multiplied by. */
-#include "measure/user_observable.h"
+#include "measure/observable.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,7 +9,6 @@
 
 #include "base/memory.h"
 #include "measure/cell_frame.h"
-#include "measure/needs.h"
 #include "measure/observable.h"
 #include "measure/pairs.h"
 

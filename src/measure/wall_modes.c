@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "measure/wall_symmetry.h"
-
 /* With w = cos(k pi y/H), y from 0 to H: density <w>, momentum <u_x w>, temperature <C.C w>/3, species <w> of the first
  * alone; <> over grains. Of the density the first is the centre of mass, <y> - H/2, itself. */
 enum {

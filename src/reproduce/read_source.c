@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "common/quantity.h"
-#include "measure/tail.h"
+#include "measure/stretched_tail.h"
 #include "reproduce/node.h"
 #include "theory/theory.h"
 
@@ -50,7 +50,8 @@ static gg_status read_tail(const gg_entry_reader *r, const yaml_node_t *map, gg_
     return gg_reproduce_entry_refuse(r, node, "tail", "is a range [from, to] of x/sigma above 0");
   bool measured = false;
   for (int k = 0; k < GG_TAIL_RANGES; k++)
-    measured |= s->tail[0] == gg_measure_tail_range[k][0] && s->tail[1] == gg_measure_tail_range[k][1];
+    measured |=
+        s->tail[0] == gg_measure_stretched_tail_range[k][0] && s->tail[1] == gg_measure_stretched_tail_range[k][1];
   if (!measured)
     return gg_reproduce_entry_refuse(r, node, "tail", "is no range that fits are made over: [2, 4.5] or [3.3, 5.5]");
   if (s->number && (strcmp(s->number, "alpha") == 0 || strcmp(s->number, "gamma") == 0)) return GG_OK;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure/tail.h"
+#include "measure/stretched_tail.h"
 #include "reproduce/points.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
@@ -36,7 +36,8 @@ gg_told gg_reproduce_figure_curve_number(const gg_figure_point *point, int engin
 {
   const json_t *of = gg_reproduce_figure_curve(point, engine, curve);
   char over_range[40];
-  if (tail[0] < tail[1]) gg_measure_tail_name(over_range, sizeof over_range, number, tail), number = over_range;
+  if (tail[0] < tail[1])
+    gg_measure_stretched_tail_name(over_range, sizeof over_range, number, tail), number = over_range;
   return value_of(json_object_get(json_object_get(of, "numbers"), number));
 }
 

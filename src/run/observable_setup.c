@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "measure/user_observable.h"
+#include "measure/observable.h"
 #include "measure/wall_modes.h"
 #include "run/replica.h"
 

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "measure/wall_modes.h"
 #include "run/replicas.h"
-#include "statistics/decay_time.h"
+#include "statistics/autocorrelation.h"
 
 /* Sound makes fast noise of most modes. Means over this many parts of the window have little of it left, and all that
  * is slow enough to matter. */

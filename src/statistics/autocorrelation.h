@@ -4,6 +4,8 @@
 
 #include "base/error.h"
 
+#include <stddef.h>
+
 /* Of `n_runs` independent stretches of `n` rows each, laid end to end, about their common mean 0. */
 typedef struct gg_correlation {
   double time;   /* integrated: 1/2 + sum_{t>=1} rho(t), in rows (1/2: uncorrelated); variance of the mean: 2 time
@@ -25,5 +27,14 @@ void gg_statistics_correlation_clear(gg_correlation *c);
 
 /* Variance of the mean of `length` successive rows, over that of as many independent ones. */
 double gg_statistics_correlation_inflation(const gg_correlation *c, size_t length);
+
+/* How long a slow mode remembers, from windows that are not much longer than that. An integral of its correlation
+ * function needs a window of 50 correlation times, comes out half as long from ten, and calls short windows long
+ * enough; when the function has fallen by a factor e is known better.
+ *
+ * In rows, of n_runs stretches of n rows end to end, each a mode with white noise on top: the lag over which the
+ * correlation falls by a factor e from that at lag 1, allowing for the mean being that of the rows themselves. 1/2
+ * where neighbours are not correlated; n where it never falls so far. */
+double gg_statistics_decay_time(const double *y, size_t n, size_t n_runs);
 
 #endif

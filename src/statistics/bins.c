@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "statistics/decimation.h"
+#include "statistics/series.h"
 
 gg_status gg_statistics_bins_init(gg_bins *b, size_t width, gg_error *err)
 {
@@ -76,7 +76,7 @@ gg_status gg_statistics_bins_restore(gg_bins *b, const char *name, const gg_arch
   GG_TRY(gg_base_archive_get(a, item, GG_ITEM_U64, head, 4, err));
   if (head[0] != b->width || head[1] >= GG_BINS_BLOCKS)
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's %s has other bins than this scene's", name);
-  if (!gg_is_doubling(head[2], head[3]))
+  if (!gg_is_decimation_factor(head[2], head[3]))
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's bins of %s are damaged", name);
   b->blocks = head[1], b->per_block = head[2], b->pending = head[3];
   snprintf(item, sizeof item, "bins/%s", name);

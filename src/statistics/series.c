@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "statistics/decimation.h"
 
 gg_status gg_statistics_series_init(gg_series *s, size_t width, gg_error *err)
 {
@@ -79,7 +78,7 @@ gg_status gg_statistics_series_restore(gg_series *s, const gg_archive *a, gg_err
   GG_TRY(gg_base_archive_get(a, "series/head", GG_ITEM_U64, head, 5, err));
   if (head[0] != s->width || head[1] >= GG_SERIES_ROWS)
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's series has another width than this scene's");
-  if (!gg_is_doubling(head[2], head[3]) || head[4] > head[1] + 1)
+  if (!gg_is_decimation_factor(head[2], head[3]) || head[4] > head[1] + 1)
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's series is damaged");
   s->n = head[1], s->per_row = head[2], s->pending = head[3], s->window = head[4];
   GG_TRY(gg_base_archive_get(a, "series/rows", GG_ITEM_F64, s->rows, s->n * s->width, err));

@@ -5,6 +5,9 @@
 
 #include "base/archive.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 enum { GG_SERIES_ROWS = 1 << 14 };
 
 typedef struct gg_series {
@@ -41,5 +44,13 @@ static inline size_t gg_series_window_rows(const gg_series *s)
 
 gg_status gg_statistics_series_save(const gg_series *s, gg_archive *archive, gg_error *err);
 gg_status gg_statistics_series_restore(gg_series *s, const gg_archive *archive, gg_error *err);
+
+/* What doubles from 1 when a store of fixed size is full. */
+
+/* Can a number from a file be one, with so many samples of the next entry pending? Far from running over, too. */
+static inline bool gg_is_decimation_factor(uint64_t per, uint64_t pending)
+{
+  return per > 0 && per < UINT64_C(1) << 48 && (per & (per - 1)) == 0 && pending < per;
+}
 
 #endif

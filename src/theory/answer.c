@@ -1,10 +1,10 @@
 #include "theory/answer.h"
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-
-#include "theory/collision_rate.h"
 
 gg_status gg_theory_reject(gg_error *err, const char *theory, const char *format, ...)
 {
@@ -154,4 +154,42 @@ void gg_theory_answer_collisions_one(const gg_model *m, double T, gg_theory_answ
   double each[GG_MAX_SPECIES];
   for (int i = 0; i < m->n_species; i++) each[i] = T;
   gg_theory_answer_collisions(m, each, a);
+}
+
+/* S. Chapman & T.G. Cowling, The Mathematical Theory of Non-Uniform Gases, sects 5.21 and 16.2:
+ *   nu_ij = n_j sigma_ij^2 chi_ij sqrt(8 pi (T_i/m_i + T_j/m_j)),   l_i = sqrt(8 T_i/(pi m_i))/sum_j nu_ij
+ * One species: nu = 4 n d^2 chi sqrt(pi T), l = d/(6 sqrt(2) phi chi). */
+double gg_theory_pair_collision_rate(const gg_model *m, int i, int j, const double T[])
+{
+  double nj = m->density * (double)m->n_of[j] / (double)m->n, sigma = m->sigma[gg_pair(i, j)];
+  return nj * sigma * sigma * m->chi[gg_pair(i, j)] * sqrt(8 * M_PI * (T[i] / m->mass[i] + T[j] / m->mass[j]));
+}
+
+double gg_theory_mean_speed(const gg_model *m, int i, const double T[])
+{
+  return sqrt(8 * T[i] / (M_PI * m->mass[i]));
+}
+
+double gg_theory_mean_free_path(const gg_model *m, int i, const double T[])
+{
+  double rate = 0;
+  for (int j = 0; j < m->n_species; j++) rate += gg_theory_pair_collision_rate(m, i, j, T);
+  return gg_theory_mean_speed(m, i, T) / rate;
+}
+
+double gg_theory_root_between(double (*f)(double x, void *params), void *params, double low, double high)
+{
+  gsl_function function = {f, params};
+  gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+  double root = NAN;
+  if (!solver) return root;
+  int status = gsl_root_fsolver_set(solver, &function, low, high);
+  for (int i = 0; i < 200 && status == GSL_SUCCESS; i++) {
+    status = gsl_root_fsolver_iterate(solver);
+    root = gsl_root_fsolver_root(solver);
+    double a = gsl_root_fsolver_x_lower(solver), b = gsl_root_fsolver_x_upper(solver);
+    if (gsl_root_test_interval(a, b, 0, 1e-14) == GSL_SUCCESS) break;
+  }
+  gsl_root_fsolver_free(solver);
+  return root;
 }

@@ -64,4 +64,16 @@ void gg_theory_answer_collisions_one(const gg_model *model, double T, gg_theory_
 /* Mole fraction x_i = n_i/n. */
 double gg_theory_fraction(const gg_model *model, int species);
 
+/* Collision rates and free paths of Maxwellian gases, by pairs of species. */
+
+/* Collisions with grains of species j that one grain of species i has per unit time, at partial temperatures T. */
+double gg_theory_pair_collision_rate(const gg_model *model, int i, int j, const double T[]);
+
+/* Mean peculiar speed of species i, and its mean free path. */
+double gg_theory_mean_speed(const gg_model *model, int i, const double T[]);
+double gg_theory_mean_free_path(const gg_model *model, int i, const double T[]);
+
+/* Root of f between low and high, where f changes sign, to rounding; NaN if it cannot be had. */
+double gg_theory_root_between(double (*f)(double x, void *params), void *params, double low, double high);
+
 #endif

@@ -5,14 +5,11 @@
 
 #include "common/thermostat.h"
 #include "theory/answer.h"
+#include "theory/enskog_hermite.h"
 #include "theory/garzo_dufty1999.h"
-#include "theory/hermite/hermite_curves.h"
 #include "theory/hermite/isotropic.h"
-#include "theory/hermite/mixture_answer.h"
 #include "theory/hermite/order_convergence.h"
-#include "theory/hermite/shear_answer.h"
 #include "theory/hermite/viscosity.h"
-#include "theory/rough/rough_answer.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "enskog_hermite";

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "theory/root.h"
+#include "theory/answer.h"
 
 /* coefficient B^power a^p b^q S^s */
 typedef struct term {

@@ -18,7 +18,7 @@
 
 #include <math.h>
 
-#include "theory/root.h"
+#include "theory/answer.h"
 
 typedef struct contact_law {
   gg_grain grain;

@@ -86,9 +86,9 @@ static void planted_tail(void **state)
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
     gg_model m;
     assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
-    gg_tail tail = k ? gg_measure_tail_of(&m, 0.5) : gg_measure_tail_driven(0.01, 3);
+    gg_long_time_tail tail = k ? gg_measure_long_time_tail_of(&m, 0.5) : gg_measure_long_time_tail_driven(0.01, 3);
     gg_running at[10];
-    double sum = 0, beyond = gg_measure_tail_beyond(&tail, 3);
+    double sum = 0, beyond = gg_measure_long_time_tail_beyond(&tail, 3);
     for (int x = -12; x <= 12 && k; x++)
       for (int y = -12; y <= 12; y++)
         for (int z = -12; z <= 12; z++) {
@@ -99,9 +99,9 @@ static void planted_tail(void **state)
     for (int noisy = 0; noisy < 2; noisy++) {
       for (int i = 0; i < 10; i++) {
         double t = 3 * pow(1.3, i);
-        at[i] = (gg_running){t, 0.2 - 1.7 * gg_measure_tail_beyond(&tail, t), noisy ? 1e6 : 1e-12};
+        at[i] = (gg_running){t, 0.2 - 1.7 * gg_measure_long_time_tail_beyond(&tail, t), noisy ? 1e6 : 1e-12};
       }
-      gg_coefficient D = gg_measure_tail_coefficient(&tail, at, 10);
+      gg_coefficient D = gg_measure_long_time_tail_coefficient(&tail, at, 10);
       double expected = noisy ? at[0].D + tail.amplitude * beyond : 0.2;
       assert_true(fabs(D.D - expected) < 1e-6 && fabs(D.tail - (expected - at[0].D)) < 1e-6);
       assert_true(noisy ? fabs(D.unsure / (beyond * tail.tolerance) - 1) < 1e-3 : D.unsure < 1e-6);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "curve_test.h"
-#include "measure/cell_grid.h"
+#include "measure/cell_frame.h"
 #include "measure/pairs.h"
 
 /* C_x = 2 cos(kz + phase) + noise, Omega_z = -cos(kz + phase) + noise/2, everything else noise. */

@@ -1,7 +1,7 @@
 /* Distributions and tails: fits on exact counts and on drawn samples give the planted exponents back; a Gaussian gas
  * has no deviation; an elastic engine has alpha = 2, and a sheared inelastic one has not. */
 #include "curve_test.h"
-#include "measure/tail.h"
+#include "measure/stretched_tail.h"
 
 #include <stdio.h>
 
@@ -18,8 +18,9 @@ static void exact_tail(void **state)
       for (int j = 0; j < 200; j++)
         counts[i] += 1e9 / 200 * exp(-gamma * pow(1.5 + (i + (j + 0.5) / 200) * 0.1, alpha));
     }
-    gg_tail_data data = {counts, 30, 1.5, 0.1, 1e9};
-    gg_tail least = gg_measure_tail_double_log(&data), likely = gg_measure_tail_likelihood(&data);
+    gg_stretched_tail_data data = {counts, 30, 1.5, 0.1, 1e9};
+    gg_stretched_tail least = gg_measure_stretched_tail_double_log(&data),
+                      likely = gg_measure_stretched_tail_likelihood(&data);
     assert_true(fabs(likely.alpha - alpha) < 1e-5 && fabs(likely.gamma - gamma) < 1e-5);
     assert_true(fabs(least.alpha - alpha) < 2e-3 && fabs(least.gamma - gamma) < 2e-3);
   }

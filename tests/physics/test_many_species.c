@@ -13,7 +13,7 @@
 
 #include "run/run.h"
 #include "run/z_scores.h"
-#include "theory/collision_rate.h"
+#include "theory/answer.h"
 
 /* Medians of the tenths of exp(0.25 x), x normal. */
 static const double diameters[] = {0.663, 0.772, 0.845, 0.908, 0.969, 1.032, 1.101, 1.184, 1.296, 1.509};

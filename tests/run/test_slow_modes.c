@@ -13,7 +13,7 @@
 #include "common/rng.h"
 #include "measure/wall_modes.h"
 #include "run/replicas.h"
-#include "statistics/decay_time.h"
+#include "statistics/autocorrelation.h"
 
 enum { ROWS = 4096, SPREAD = 1 };
 

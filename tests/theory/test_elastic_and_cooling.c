@@ -2,7 +2,7 @@
 #include "theory_test.h"
 
 #include "common/contact_value.h"
-#include "theory/collision_rate.h"
+#include "theory/answer.h"
 #include "theory/equation_of_state.h"
 #include "theory/goldhirsch_zanetti1993.h"
 #include "theory/haff1983.h"

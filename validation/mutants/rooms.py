@@ -27,20 +27,20 @@ ROOMS = {
         src/dsmc/kernel/lanes_collision.h src/dsmc/kernel/normal.h src/dsmc/kernel/pass.h src/dsmc/kernel/stages.h
         src/dsmc/kernel/synchronise.c src/dsmc/parallel/round_robin.c"""),
     "measure": (36, """
-        src/measure/by_species.c src/measure/cell_frame.c src/measure/cell_grid.c src/measure/cell_means.c
+        src/measure/grain_snapshot.c src/measure/cell_frame.c src/measure/cell_frame.c src/measure/cell_means.c
         src/measure/collisions.c src/measure/contact_statistics.c src/measure/curve.c src/measure/diffusion.c
         src/measure/diffusion_coefficient.c src/measure/free_flight.c src/measure/histogram.c
         src/measure/impact_speed.c src/measure/local_distributions.c src/measure/local_frame.c
         src/measure/long_time_tail.c src/measure/mesh.c src/measure/orientation.c src/measure/pair_correlation.c
         src/measure/pairs.c src/measure/pairs.h src/measure/profiles.c src/measure/rheology.c
-        src/measure/rheology_quantities.c src/measure/sonine.c src/measure/sonine_curves.c src/measure/structure.c
-        src/measure/tail.c src/measure/velocity_correlations.c src/measure/velocity_curves.c
+        src/measure/rheology_quantities.c src/measure/sonine.c src/measure/sonine.c src/measure/structure.c
+        src/measure/stretched_tail.c src/measure/velocity_correlations.c src/measure/velocity_distributions.c
         src/measure/velocity_distributions.c src/measure/velocity_moments.c src/measure/green_kubo_viscosity.c"""),
     "theory": (22, """
-        src/theory/answer.c src/theory/collision_rate.c src/theory/theory_curves.c src/theory/enskog.c
+        src/theory/answer.c src/theory/answer.c src/theory/hermite/hermite_curves.c src/theory/enskog.c
         src/theory/enskog_hermite.c src/theory/equation_of_state.c src/theory/garzo_dufty1999.c
         src/theory/garzo_montanero2003.c src/theory/gaussian_closure.c src/theory/gaussian_moments.c
-        src/theory/gaussian_steady.c src/theory/goldhirsch_zanetti1993.c src/theory/grad.c src/theory/grad_mixture.c
+        src/theory/gaussian_steady.c src/theory/goldhirsch_zanetti1993.c src/theory/grad.c src/theory/grad.c
         src/theory/haff1983.c src/theory/huthmann_zippelius1997.c src/theory/kremer_santos_garzo2014.c
         src/theory/lun1991.c src/theory/mixture.c src/theory/sela_goldhirsch1998.c src/theory/two_maxwellian.c"""),
     "theory/hermite": (14, """

@@ -2,7 +2,7 @@
 #ifndef GG_HERMITE_COMPONENT_H
 #define GG_HERMITE_COMPONENT_H
 
-#include "measure/sonine_curves.h"
+#include "measure/sonine.h"
 #include "theory/hermite/hermite_state.h"
 
 typedef struct gg_hermite_component {

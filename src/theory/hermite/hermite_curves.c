@@ -1,17 +1,15 @@
-#include "theory/hermite/hermite_curves.h"
+#include "theory/enskog_hermite.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 #include "common/thermostat.h"
-#include "measure/velocity_curves.h"
+#include "measure/velocity_distributions.h"
 #include "theory/answer.h"
 #include "theory/hermite/component.h"
 #include "theory/hermite/hermite_mixture.h"
 #include "theory/hermite/isotropic.h"
 #include "theory/hermite/shear.h"
-#include "theory/hermite/shear_answer.h"
-#include "theory/theory_curves.h"
 
 static const char name[] = "enskog_hermite";
 
@@ -129,6 +127,70 @@ static void put(const gg_model *m, unsigned measure, const series *s, const solu
   }
 }
 
+static const double share = 0.25;
+
+static double step(const gg_curve *a, const gg_curve *b, size_t i)
+{
+  return fabs(a->value[i] - b->value[i]);
+}
+
+static size_t middle_of(const gg_curve *c)
+{
+  size_t at = 0;
+  for (size_t i = 0; i < c->n; i++)
+    if (fabs(c->x[i]) < fabs(c->x[at])) at = i;
+  return at;
+}
+
+/* What an error is held against: a distribution's own value; of others the largest value that is known. */
+static double scale_of(const gg_curve *c)
+{
+  double most = 0;
+  for (size_t i = 0; i < c->n && !c->log_y; i++)
+    if (c->error[i] <= share * fabs(c->value[i])) most = fmax(most, fabs(c->value[i]));
+  return most;
+}
+
+/* How far it is known to one side of the middle; what lies beyond is taken away. The last x that is. */
+static double cut(gg_curve *c, double scale, size_t from, int direction)
+{
+  double last = c->x[from];
+  bool known = true;
+  for (size_t i = from; i < c->n; i += (size_t)direction) { /* below 0 it wraps round, and ends */
+    known = known && c->error[i] <= share * (c->log_y ? c->value[i] : scale) && (!c->log_y || c->value[i] > 0);
+    if (known)
+      last = c->x[i];
+    else
+      c->value[i] = c->error[i] = NAN;
+  }
+  return last;
+}
+
+/* The last approximation, with how far each point may be from the limit as its error: the last step, or a tenth of the
+ * last two, whichever is more. From x = 0 outwards, a curve ends where it is no longer known: where a distribution
+ * (drawn over a logarithmic axis) is not above 0 or not within a quarter of itself, any other not within a quarter of
+ * what it has reached. Beyond, its values are NaN; the number "known_from", "known_to" says where that is. `before` and
+ * `earlier`: the approximations before, of the same shape; earlier may be NULL. */
+static void converge(gg_curves *last, const gg_curves *before, const gg_curves *earlier)
+{
+  for (int k = 0; k < last->n; k++) {
+    gg_curve *c = &last->curve[k];
+    for (size_t i = 0; i < c->n; i++) {
+      c->error[i] = step(c, &before->curve[k], i);
+      if (earlier) c->error[i] = fmax(c->error[i], step(c, &earlier->curve[k], i) / 10);
+    }
+    for (int i = 0; i < c->n_numbers; i++) {
+      double value = c->number[i].value, error = fabs(value - before->curve[k].number[i].value);
+      if (earlier) error = fmax(error, fabs(value - earlier->curve[k].number[i].value) / 10);
+      c->number[i].error = error;
+    }
+    size_t middle = middle_of(c);
+    double scale = scale_of(c), to = cut(c, scale, middle, 1), from = middle ? cut(c, scale, middle, -1) : c->x[0];
+    gg_measure_curve_put_setting(c, "known_from", from, c->x_unit);
+    gg_measure_curve_put_setting(c, "known_to", to, c->x_unit);
+  }
+}
+
 static gg_status write(const gg_model *m, unsigned measure, const series *s, gg_curves *list, gg_error *err)
 {
   gg_curves before[2] = {{.model = m}, {.model = m}};
@@ -136,7 +198,7 @@ static gg_status write(const gg_model *m, unsigned measure, const series *s, gg_
   put(m, measure, s, &s->rung[1], &before[0]);
   put(m, measure, s, &s->rung[2], &before[1]);
   bool failed = list->failed || before[0].failed || before[1].failed;
-  if (!failed) gg_theory_curves_converge(list, &before[0], &before[1]);
+  if (!failed) converge(list, &before[0], &before[1]);
   for (int k = 0; k < 2; k++) gg_measure_curves_clear(&before[k]);
   return failed ? gg_base_out_of_memory(err) : GG_OK;
 }

@@ -1,4 +1,4 @@
-#include "theory/hermite/mixture_answer.h"
+#include "theory/enskog_hermite.h"
 
 #include <math.h>
 #include <stdlib.h>

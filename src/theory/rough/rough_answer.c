@@ -1,4 +1,4 @@
-#include "theory/rough/rough_answer.h"
+#include "theory/enskog_hermite.h"
 
 #include <math.h>
 

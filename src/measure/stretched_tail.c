@@ -1,11 +1,11 @@
-#include "measure/tail.h"
+#include "measure/stretched_tail.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const gg_tail nothing = {NAN, NAN};
+static const gg_stretched_tail nothing = {NAN, NAN};
 
-gg_tail gg_measure_tail_double_log(const gg_tail_data *d)
+gg_stretched_tail gg_measure_stretched_tail_double_log(const gg_stretched_tail_data *d)
 {
   double w = 0, x = 0, y = 0, xx = 0, xy = 0;
   int used = 0;
@@ -19,7 +19,7 @@ gg_tail gg_measure_tail_double_log(const gg_tail_data *d)
   }
   if (used < 4) return nothing;
   double slope = (w * xy - x * y) / (w * xx - x * x);
-  return (gg_tail){slope, exp((y - slope * x) / w)};
+  return (gg_stretched_tail){slope, exp((y - slope * x) / w)};
 }
 
 /* The expected count of a bin by Simpson's rule, and its derivatives in a = ln gamma and in alpha. */
@@ -27,7 +27,7 @@ typedef struct expected {
   double value, by_a, by_alpha;
 } expected;
 
-static expected expect(const gg_tail_data *d, double a, double alpha, size_t i)
+static expected expect(const gg_stretched_tail_data *d, double a, double alpha, size_t i)
 {
   static const double weight[] = {1.0 / 6, 4.0 / 6, 1.0 / 6};
   expected e = {0, 0, 0};
@@ -41,7 +41,7 @@ static expected expect(const gg_tail_data *d, double a, double alpha, size_t i)
   return e;
 }
 
-static double log_likelihood(const gg_tail_data *d, double a, double alpha)
+static double log_likelihood(const gg_stretched_tail_data *d, double a, double alpha)
 {
   double sum = 0;
   for (size_t i = 0; i < d->n; i++) {
@@ -52,9 +52,9 @@ static double log_likelihood(const gg_tail_data *d, double a, double alpha)
 }
 
 /* Fisher scoring from the least-squares line: Newton's step with the expected curvature, halved until it climbs. */
-gg_tail gg_measure_tail_likelihood(const gg_tail_data *d)
+gg_stretched_tail gg_measure_stretched_tail_likelihood(const gg_stretched_tail_data *d)
 {
-  gg_tail start = gg_measure_tail_double_log(d);
+  gg_stretched_tail start = gg_measure_stretched_tail_double_log(d);
   double a = log(start.gamma), alpha = start.alpha;
   if (!isfinite(a) || !isfinite(alpha)) return nothing;
   for (int round = 0; round < 100; round++) {
@@ -73,13 +73,14 @@ gg_tail gg_measure_tail_likelihood(const gg_tail_data *d)
     a += share * da, alpha += share * db;
     if (fabs(share * da) + fabs(share * db) < 1e-11) break;
   }
-  return (gg_tail){alpha, exp(a)};
+  return (gg_stretched_tail){alpha, exp(a)};
 }
 
-const double gg_measure_tail_range[GG_TAIL_RANGES][2] = {{2, 4.5}, {3.3, 5.5}};
+const double gg_measure_stretched_tail_range[GG_TAIL_RANGES][2] = {{2, 4.5}, {3.3, 5.5}};
 
-void gg_measure_tail_name(char *name, size_t size, const char *number, const double range[2])
+void gg_measure_stretched_tail_name(char *name, size_t size, const char *number, const double range[2])
 {
-  const char *of = range[0] == gg_measure_tail_range[0][0] ? "2_4.5" : "3.3_5.5"; /* whatever the locale's point */
+  const char *of =
+      range[0] == gg_measure_stretched_tail_range[0][0] ? "2_4.5" : "3.3_5.5"; /* whatever the locale's point */
   snprintf(name, size, "%s_%s", number, of);
 }
