@@ -1,0 +1,87 @@
+"""The recipes of docs/howto/read_results_in_python.md are run as they stand: its shell block with graingas first, then each
+python block in a process of its own. A recipe whose modules are not installed is skipped."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+from tap import GRAINGAS, PATIENCE, Skip, check, main
+
+SOURCE = os.environ["SOURCE"]
+PAGE = open(os.path.join(SOURCE, "docs", "howto", "read_results_in_python.md"), encoding="utf-8").read()
+FOLDER = tempfile.TemporaryDirectory()
+
+
+def blocks(language):
+    """Code by the title of its section."""
+    titled = re.split(r"^## (\w+).*$", "## before\n" + PAGE, flags=re.MULTILINE)[1:]
+    return {title: code for title, text in zip(titled[::2], titled[1::2])
+            for code in re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)}
+
+
+def files():
+    """What the recipes read, made once."""
+    if os.path.exists(os.path.join(FOLDER.name, "usf.sweep.csv")):
+        return
+    os.symlink(os.path.join(SOURCE, "examples"), os.path.join(FOLDER.name, "examples"))
+    os.symlink(GRAINGAS, os.path.join(FOLDER.name, "graingas"))
+    done = subprocess.run(["sh", "-ec", blocks("sh")["before"]], cwd=FOLDER.name, capture_output=True, text=True,
+                          timeout=100 * PATIENCE, env=dict(os.environ, PATH=FOLDER.name + ":" + os.environ["PATH"]))
+    check(done.returncode == 0, done.stdout[-1000:], done.stderr[-1000:])
+
+
+def recipe(title):
+    """The temperature that the recipe prints, if any, and all else."""
+    code = blocks("python")[title]
+    names = re.findall(r"^import (\w+)", code, re.MULTILINE)
+    for name in names:
+        probe = subprocess.run([sys.executable, "-W", "ignore", "-c", f"import {name}"], capture_output=True)
+        if probe.returncode:
+            raise Skip(f"{name} is not installed")
+    files()
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", code], cwd=FOLDER.name, capture_output=True, text=True,
+                          timeout=100 * PATIENCE)
+    check(done.returncode == 0, title, done.stderr)
+    last = re.findall(r"\bT(?: of the last frame:| =) ([\d.]+)", done.stdout)
+    return done.stdout, float(last[-1]) if last else None
+
+
+def test_h5py():
+    out, T = recipe("h5py")
+    check("samples until" in out and 0.2 < T < 0.6, out)
+
+
+def test_pandas():
+    out, _ = recipe("pandas")
+    check("stderr" in out and "enskog_hermite" in out, out)
+
+
+def test_xarray():
+    if subprocess.run([sys.executable, "-c", "import xarray"], capture_output=True).returncode:
+        raise Skip("xarray is not installed")
+    out, _ = recipe("xarray")
+    check("nan" not in out and len(re.findall(r"\d+\.\d", out)) >= 3, out)
+
+
+def same_temperature(title):
+    """Of the last frame, as from h5py."""
+    out, T = recipe(title)
+    expected = recipe("h5py")[1]
+    check(abs(T / expected - 1) < 1e-4, out, expected)
+
+
+def test_ase():
+    same_temperature("ASE")
+
+
+def test_mdanalysis():
+    same_temperature("MDAnalysis")
+
+
+def test_every_recipe_is_tried():
+    check(sorted(blocks("python")) == sorted(["h5py", "pandas", "xarray", "ASE", "MDAnalysis"]), list(blocks("python")))
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])
