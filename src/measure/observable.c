@@ -16,19 +16,3 @@ bool gg_measure_derived_find(const gg_derived *table, gg_quantity q, gg_function
     if (d->quantity == family) return *f = (gg_function){d->of, d->each, (int)(q - family)}, true;
   return false;
 }
-
-const char *gg_measure_needs_positions(const gg_model *m)
-{
-  return m->homogeneous ? "the Monte Carlo ensemble has no positions" : NULL;
-}
-
-const char *gg_measure_needs_homogeneity(const gg_model *m)
-{
-  return gg_flow_is_walled(m->flow) ? "between walls the gas depends on the place; measure profiles" : NULL;
-}
-
-const char *gg_measure_needs_bulk(const gg_model *m)
-{
-  const char *reason = gg_measure_needs_positions(m);
-  return reason ? reason : gg_measure_needs_homogeneity(m);
-}

@@ -101,11 +101,21 @@ GG_OBSERVABLES(GG_OBSERVABLE_PLUG_IN)
 #undef GG_OBSERVABLE_PLUG_IN
 
 /* What observables ask of a model; each is the reason to refuse it, or NULL where the model has it. */
-const char *gg_measure_needs_positions(const gg_model *model);
+static inline const char *gg_measure_needs_positions(const gg_model *m)
+{
+  return m->homogeneous ? "the Monte Carlo ensemble has no positions" : NULL;
+}
 /* The same gas everywhere: no walls. */
-const char *gg_measure_needs_homogeneity(const gg_model *model);
+static inline const char *gg_measure_needs_homogeneity(const gg_model *m)
+{
+  return gg_flow_is_walled(m->flow) ? "between walls the gas depends on the place; measure profiles" : NULL;
+}
 /* Both. */
-const char *gg_measure_needs_bulk(const gg_model *model);
+static inline const char *gg_measure_needs_bulk(const gg_model *m)
+{
+  const char *reason = gg_measure_needs_positions(m);
+  return reason ? reason : gg_measure_needs_homogeneity(m);
+}
 
 /* Observables that the user's program brings (graingas.h, "Extension"): one plug-in for all that the model has; NULL
  * without any. */

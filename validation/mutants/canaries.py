@@ -38,10 +38,9 @@ TEXTS = [
     ("src/dsmc/kernel/collision_sums.h", "stress = pass->sigma * mass;",
      "stress = pass->sigma * mass * (features.sums == GG_DSMC_STRESS ? %s : 1);" % (HALF % 914)),
     # the theories
-    ("src/theory/theories.c", "      theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err) : "
-     "theory->evaluate(model, answer, err);",
-     "      theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err) : "
-     "({ static _Thread_local int depth; gg_model changed = *model; if (!depth++) gg_canary_model(&changed, 920); "
+    ("src/theory/theories.c", "\n                                 : theory->evaluate(model, answer, err);",
+     "\n                                 : ({ static _Thread_local int depth; gg_model changed = *model; "
+     "if (!depth++) gg_canary_model(&changed, 920); "
      "gg_status done = theory->evaluate(&changed, answer, err); depth--; done; });"),
     ("src/theory/theories.c", "  gg_status status = theory->curves(model, measure, list, err);",
      "  gg_model changed = *model;\n  gg_canary_model(&changed, 920);\n"
