@@ -55,7 +55,7 @@ typedef struct gg_error {
   char message[1024]; /* for people: what is wrong, where, what is allowed */
 } gg_error;
 
-GG_API const char *gg_version(void); /* "0.1.0" */
+GG_API const char *gg_version(void); /* "0.1.0" of a release; else with the commit, "0.1.0+g156f34b3", and .dirty */
 GG_API int gg_processors(void);      /* that this process may use: as many threads are of use */
 
 /* ---- Scenes: what to simulate ----
@@ -275,6 +275,7 @@ typedef struct gg_run_options {
   const char *input;   /* the scene's file, which nothing written may replace; NULL: not known */
   const char *picture; /* that gg_plot is to draw of the output afterwards: looked at before the run, like the others */
   gg_workers *workers; /* other processes that take part, with as many threads as was said there; NULL: none */
+  int accept_version;  /* not 0: resume a checkpoint of a build with other sources, whose numbers may differ */
 } gg_run_options;
 
 typedef struct gg_result gg_result; /* what came out of one engine's run */

@@ -48,7 +48,7 @@ static gg_status read_resume(gg_run_call *r, gg_error *err)
   bool older;
   char text[1024];
   const char *path = r->options.resume;
-  gg_status status = gg_files_checkpoint_read(path, &r->resume, &older, err);
+  gg_status status = gg_files_checkpoint_read(path, r->options.accept_version, &r->resume, &older, err);
   r->resume_lost = status != GG_OK;
   if (status != GG_OK) return status;
   snprintf(text, sizeof text, "%s cannot be read; going on from the one before, %s.1", path, path);

@@ -74,7 +74,7 @@ gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_sce
   bool older = false;
   gg_archive archive = {0};
   gg_checkpoint_info found = {0};
-  gg_status status = gg_files_checkpoint_read(path, &archive, &older, err);
+  gg_status status = gg_files_checkpoint_read(path, true, &archive, &older, err);
   found.older = older;
   if (status == GG_OK) status = about(&archive, path, &found, scene, err);
   if (status == GG_OK) *info = found;

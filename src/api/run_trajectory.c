@@ -131,7 +131,7 @@ static gg_frame_mark mark_there(const gg_run_call *r)
   gg_frame_mark mark = {0};
   gg_archive there = {0};
   bool older, on = r->resumes_in_place;
-  if (!on && gg_files_checkpoint_read(r->options.checkpoint, &there, &older, NULL) != GG_OK) return mark;
+  if (!on && gg_files_checkpoint_read(r->options.checkpoint, true, &there, &older, NULL) != GG_OK) return mark;
   if (gg_base_archive_get(on ? &r->resume : &there, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) != GG_OK)
     mark = (gg_frame_mark){0};
   gg_base_archive_clear(&there);

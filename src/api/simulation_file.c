@@ -75,7 +75,7 @@ gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulat
   GG_NEED(path, simulation);
   gg_archive archive = {0};
   bool older = false;
-  gg_status status = gg_files_checkpoint_read(path, &archive, &older, err);
+  gg_status status = gg_files_checkpoint_read(path, false, &archive, &older, err);
   if (status == GG_OK && older)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the one before it is whole: %s.1", path, path);
   if (status == GG_OK) status = load(&archive, path, scene, simulation, err);

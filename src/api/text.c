@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "api/api.h"
+#include "base/build.h"
 #include "base/c_locale.h"
 #include "base/memory.h"
 #include "base/spelling.h"
@@ -12,7 +13,7 @@
 
 const char *gg_version(void)
 {
-  return GG_VERSION;
+  return gg_base_build_version;
 }
 
 gg_status gg_api_arguments_check(const char *function, const char *names, const void *const *argument, size_t n,

@@ -39,6 +39,7 @@ const gg_option gg_cli_options_table[] = {
      "picture to draw, .svg or .png, or none (default: beside the output, .svg; of bench: none)"},
     {GG_OPT_FORMAT, "format", "svg|png", "kind of picture (default: by the output's name, else svg)"},
     {GG_OPT_RESUME, "resume", "FILE", "go on from this checkpoint"},
+    {GG_OPT_RESUME, "accept-version", NULL, "resume a checkpoint of another build, whose numbers may differ"},
     {GG_OPT_ALL, "all", NULL, "show every quantity, not just the main ones"},
     {GG_OPT_JSON, "json", NULL, "results as one JSON document on standard output, and nothing else there"},
     {GG_OPT_QUICK, "quick", NULL, "shorter: fewer sizes, fewer repeats"},
@@ -173,7 +174,10 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_ONLY: o->only = value; break;
   case GG_OPT_PICTURE: o->picture = value; break;
   case GG_OPT_FORMAT: o->format = value; break;
-  case GG_OPT_RESUME: o->resume = value; break;
+  case GG_OPT_RESUME:
+    if (value) o->resume = value;
+    o->accept_version |= !value;
+    break;
   case GG_OPT_ALL: o->all = true; break;
   case GG_OPT_JSON: o->json = true; break;
   case GG_OPT_QUICK: o->quick = true; break;

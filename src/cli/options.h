@@ -40,7 +40,7 @@ typedef struct gg_options {
   const char *does;        /* what a sweep does at its points; NULL: what its file says */
   const char *over, *show; /* of the picture of a sweep: key along x, quantities; NULL: chosen */
   const char *point;       /* the one of a sweep to do; NULL: all */
-  bool json, quiet, all, quick;
+  bool json, quiet, all, quick, accept_version;
   bool list, collect, slurm; /* what else to do with a sweep */
   uint64_t collisions;       /* 0: not said */
   int threads;

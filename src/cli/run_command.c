@@ -117,6 +117,7 @@ int gg_cli_run_begin(gg_run_command *r, const gg_command *command, int argc, cha
                             .output = r->output,
                             .checkpoint = r->keeps_checkpoints ? r->checkpoint : NULL,
                             .resume = o->resume,
+                            .accept_version = o->accept_version,
                             .command = o->command_line,
                             .context = r,
                             .progress = show_progress,

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/build.h"
 #include "base/checked_json.h"
 #include "files/curve_table.h"
 #include "files/result_document.h"
@@ -66,8 +67,9 @@ json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *c)
 {
   bool before = gg_base_memory_begin();
   json_t *warnings = gg_files_warnings_json(&c->warnings), *theory = theories_json(c, warnings);
-  json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene", gg_scene_json(scene),
-                               "theory", theory, "theories", about_json(c), "warnings", warnings);
+  json_t *document =
+      json_pack("{s:s, s:s, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build", gg_base_build_identity,
+                "scene", gg_scene_json(scene), "theory", theory, "theories", about_json(c), "warnings", warnings);
   put_theory_curves(document, c);
   return gg_base_json_end(before, document);
 }
@@ -161,9 +163,10 @@ static json_t *comparison_document(const gg_comparison *c)
     if (row) json_array_append_new(rows, row);
   }
   warn_deviations(c, warnings);
-  json_t *document = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION, "scene",
-                               gg_scene_json(&c->scene), "md", md, "dsmc", dsmc, "theory", theory, "theories",
-                               about_json(c), "comparison", rows, "warnings", warnings);
+  json_t *document =
+      json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build",
+                gg_base_build_identity, "scene", gg_scene_json(&c->scene), "md", md, "dsmc", dsmc, "theory", theory,
+                "theories", about_json(c), "comparison", rows, "warnings", warnings);
   put_theory_curves(document, c);
   return document;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/build.h"
 #include "base/checked_json.h"
 #include "files/curve_table.h"
 #include "scene/fields.h"
@@ -99,12 +100,12 @@ static json_t *run_document(const gg_result *r)
     if (gg_files_quantity_is_measured(&r->value[row->quantity]))
       json_object_set_new(results, row->name, estimate_json(r, row, warnings));
   }
-  json_t *document = json_pack("{s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", GG_VERSION,
-                               "scene", gg_scene_json(&r->scene), "engine", r->engine, "steady",
-                               r->steadiness == GG_STEADY, "verdict", r->steadiness_text, "particles",
-                               (json_int_t)r->model.n, "collisions", (json_int_t)r->averaging.collisions, "cpu_seconds",
-                               gg_files_json_number(r->averaging.cpu_seconds), "total", effort_json(&r->total),
-                               "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
+  json_t *document = json_pack(
+      "{s:s, s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build",
+      gg_base_build_identity, "scene", gg_scene_json(&r->scene), "engine", r->engine, "steady",
+      r->steadiness == GG_STEADY, "verdict", r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions",
+      (json_int_t)r->averaging.collisions, "cpu_seconds", gg_files_json_number(r->averaging.cpu_seconds), "total",
+      effort_json(&r->total), "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
   if (*r->ensemble_text) json_object_set_new(document, "particles_chosen", json_string(r->ensemble_text));
   if (r->curves.n) json_object_set_new(document, "curves", gg_files_curves_json(&r->curves));
   return document;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/atomic_file.h"
+#include "base/build.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_writer.h"
 #include "reproduce/figures.h"
@@ -72,7 +73,7 @@ static void put_figure(gg_h5 *h, const gg_figure *f, const char *command)
   gg_h5_text(h, "/shows", f->entry->shows);
   gg_h5_text(h, "/precision", f->quick ? "quick" : "full");
   gg_h5_text(h, "/entry", yaml);
-  gg_h5_text(h, "/version", GG_VERSION);
+  gg_h5_text(h, "/version", gg_base_build_version);
   gg_h5_text(h, "/command", command ? command : "the graingas library");
   for (int i = 0; i < f->entry->n_panels; i++) put_panel(h, &f->panel[i], i + 1);
   for (int i = 0; i < f->entry->n_numbers; i++) put_stated(h, &f->row[i], i + 1);

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/build.h"
 #include "base/checked_json.h"
 #include "base/csv.h"
 #include "base/memory.h"
@@ -305,7 +306,7 @@ gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep 
   if (status == GG_OK) {
     gg_h5_create_in_memory(&h);
     gg_h5_group(&h, "/graingas/table");
-    gg_h5_text(&h, "/graingas/version", GG_VERSION);
+    gg_h5_text(&h, "/graingas/version", gg_base_build_version);
     gg_h5_text(&h, "/graingas/command", command);
     gg_h5_text_attribute(&h, "/graingas", "kind", "sweep");
     write_columns(&c, t, sweep);
@@ -374,7 +375,7 @@ json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
   bool before = gg_base_memory_begin();
   json_t *points = json_array();
   for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
-  return gg_base_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", GG_VERSION, "does",
+  return gg_base_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", gg_base_build_version, "does",
                                             gg_does_words[sweep->settings.does], "folder", name_as_text(folder),
                                             "points", points));
 }

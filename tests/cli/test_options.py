@@ -12,7 +12,7 @@ SCENE = ("flow: usf\nphi: 0.1\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsm
 COMMANDS = "compare", "run", "theory", "plot", "info", "bench"
 TAKEN = {"set": "compare run theory info", "output": "compare run plot", "json": "compare run theory info bench",
          "seed": "compare run bench", "threads": "compare run bench", "quiet": " ".join(COMMANDS),
-         "resume": "compare run", "all": "compare run theory", "engine": "run", "format": "plot", "picture": "compare bench",
+         "resume": "compare run", "accept-version": "compare run", "all": "compare run theory", "engine": "run", "format": "plot", "picture": "compare bench",
          "quick": "bench", "help": " ".join(COMMANDS)}
 
 
@@ -20,7 +20,7 @@ def test_options_of_commands():
     """The table of the interface, as --help has it; an option of others is said to be theirs."""
     for command in COMMANDS:
         text = run(command, "--help").out
-        has = set(re.findall(r"^  --(\w+)", text, re.M))
+        has = set(re.findall(r"^  --([\w-]+)", text, re.M))
         check(has == {name for name, takers in TAKEN.items() if command in takers.split()}, command, has)
         for name in set(TAKEN) - has:
             done = run(command, "x", f"--{name}")

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/build.h"
 #include "base/memory.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_reader.h"
@@ -57,7 +58,8 @@ static void *make_image(const char *path, const gg_archive *a, const gg_scene *s
   gg_h5_create_in_memory(&h);
   if (!yaml) gg_h5_failed(&h, "out of memory");
   gg_h5_text(&h, "/checkpoint/scene", yaml ? yaml : "");
-  gg_h5_text(&h, "/checkpoint/version", GG_VERSION);
+  gg_h5_text(&h, "/checkpoint/version", gg_base_build_version);
+  gg_h5_text_attribute(&h, "/checkpoint/version", "identity", gg_base_build_identity);
   gg_h5_attribute(&h, "/checkpoint/version", "layout", H5T_NATIVE_INT, &layout, 0);
   gg_h5_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n, 0);
   write_items(&h, a);
@@ -131,14 +133,14 @@ static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
   return status;
 }
 
-static gg_status read_file(const char *path, gg_archive *a, gg_error *err)
+static gg_status read_file(const char *path, bool any_build, gg_archive *a, gg_error *err)
 {
   gg_h5_in h;
   uint64_t n = 0;
   gg_status status = GG_OK;
   gg_h5_open(&h, path);
   if (!h.failed && !gg_h5_exists(&h, "/checkpoint")) gg_h5_in_failed(&h, "it is not a checkpoint of graingas");
-  gg_files_checkpoint_check_version(&h);
+  gg_files_checkpoint_check_version(&h, any_build);
   gg_h5_read_attribute(&h, "/checkpoint", "items", GG_ITEM_U64, &n);
   for (uint64_t i = 0; i < n && status == GG_OK && !h.failed; i++) status = read_item(&h, i, a, err);
   gg_h5_in_close(&h);
@@ -147,13 +149,13 @@ static gg_status read_file(const char *path, gg_archive *a, gg_error *err)
   return status;
 }
 
-gg_status gg_files_checkpoint_read(const char *path, gg_archive *a, bool *older, gg_error *err)
+gg_status gg_files_checkpoint_read(const char *path, bool any_build, gg_archive *a, bool *older, gg_error *err)
 {
-  gg_status status = read_file(path, a, err);
+  gg_status status = read_file(path, any_build, a, err);
   *older = false;
   if (status != GG_BAD_FILE) return status;
   char *before = gg_files_checkpoint_before(path);
-  if (before) *older = read_file(before, a, NULL) == GG_OK;
+  if (before) *older = read_file(before, any_build, a, NULL) == GG_OK;
   free(before);
   return *older ? GG_OK : status;
 }

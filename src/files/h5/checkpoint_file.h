@@ -29,11 +29,14 @@ bool gg_files_checkpoint_is_of(const char *file, const char *path);
 
 #define GG_CHECKPOINTS_ARE "checkpoints take each other's place, and are files"
 
-/* Fills an empty archive. *older: FILE.1 had to be taken. GG_BAD_FILE if neither can be read. */
-gg_status gg_files_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err);
+/* Fills an empty archive. *older: FILE.1 had to be taken. GG_BAD_FILE if neither can be read, and where a build of
+ * another identity wrote them, unless any_build: of this layout they are readable, and their numbers may be others. */
+gg_status gg_files_checkpoint_read(const char *path, bool any_build, gg_archive *archive, bool *older, gg_error *err);
 
-/* Fails the file, open, where another version or layout wrote its checkpoint. */
-void gg_files_checkpoint_check_version(struct gg_h5_in *h);
+/* Fails the file, open, where a build of another layout wrote its checkpoint, or (unless any_build) of another
+ * identity.
+ */
+void gg_files_checkpoint_check_version(struct gg_h5_in *h, bool any_build);
 
 /* The scene of a checkpoint that was read, as YAML, to be freed; NULL where it cannot be read. */
 char *gg_files_checkpoint_scene(const char *path, bool older);

@@ -11,6 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/build.h"
 #include "base/c_locale.h"
 #include "base/memory.h"
 #include "base/memory_stream.h"
@@ -32,7 +33,7 @@ static void write_h5md(gg_h5 *h)
   gg_h5_ints_attribute(h, "/h5md", "version", version, 2);
   gg_h5_text_attribute(h, "/h5md/author", "name", found ? found->pw_name : "unknown");
   gg_h5_text_attribute(h, "/h5md/creator", "name", "graingas");
-  gg_h5_text_attribute(h, "/h5md/creator", "version", GG_VERSION);
+  gg_h5_text_attribute(h, "/h5md/creator", "version", gg_base_build_version);
 }
 
 /* "Linux 6.1.0 x86_64, Intel(R) Xeon(R) ..., 16 processors" */
@@ -57,7 +58,8 @@ static void write_header(gg_h5 *h, const char *command, const gg_scene *scene, c
   strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
   describe_machine(machine, sizeof machine);
   write_h5md(h);
-  gg_h5_text(h, "/graingas/version", GG_VERSION);
+  gg_h5_text(h, "/graingas/version", gg_base_build_version);
+  gg_h5_text(h, "/graingas/build", gg_base_build_identity);
   gg_h5_text(h, "/graingas/command", command);
   gg_h5_text(h, "/graingas/machine", machine);
   gg_h5_text(h, "/graingas/date", date);

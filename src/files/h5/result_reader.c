@@ -5,26 +5,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/build.h"
 #include "base/checked_json.h"
 #include "base/memory.h"
 #include "files/h5/checkpoint_file.h"
 #include "files/h5/hdf5_reader.h"
 
-/* States are saved as they stand in memory, which another version may have laid out otherwise. The first layout did not
- * say its number. */
-void gg_files_checkpoint_check_version(struct gg_h5_in *h)
+/* States are saved as they stand in memory: those of another layout cannot be read. Those of another identity can, but
+ * the run would go on with other physics, or have another trajectory. */
+void gg_files_checkpoint_check_version(struct gg_h5_in *h, bool any_build)
 {
-  int64_t layout = 1;
-  char *version = gg_h5_read_text(h, "/checkpoint/version"), why[200];
-  if (version && gg_h5_has_attribute(h, "/checkpoint/version", "layout"))
+  int64_t layout = 1; /* the first layout has no number */
+  char *version = gg_h5_read_text(h, "/checkpoint/version"), *identity = NULL, why[300];
+  if (!version) return;
+  if (gg_h5_has_attribute(h, "/checkpoint/version", "layout"))
     gg_h5_read_attribute(h, "/checkpoint/version", "layout", GG_ITEM_I64, &layout);
-  if (version && (strcmp(version, GG_VERSION) != 0 || layout != GG_CHECKPOINT_LAYOUT)) {
-    snprintf(
-        why, sizeof why,
-        "graingas %.20s has written it (layout %lld), and this is graingas %s (layout %d); only the same can go on",
-        version, (long long)layout, GG_VERSION, GG_CHECKPOINT_LAYOUT);
-    gg_h5_in_failed(h, why);
-  }
+  if (gg_h5_has_attribute(h, "/checkpoint/version", "identity"))
+    identity = gg_h5_read_text_attribute(h, "/checkpoint/version", "identity");
+  bool same = identity && strcmp(identity, gg_base_build_identity) == 0;
+  snprintf(why, sizeof why,
+           "graingas %.40s (build %.20s, layout %lld) wrote it, and this is graingas %s (build %s, layout %d): %s",
+           version, identity ? identity : "unknown", (long long)layout, gg_base_build_version, gg_base_build_identity,
+           GG_CHECKPOINT_LAYOUT,
+           layout != GG_CHECKPOINT_LAYOUT ? "only the same layout can be resumed"
+                                          : "numbers may differ; --accept-version resumes it all the same");
+  if (layout != GG_CHECKPOINT_LAYOUT || (!same && !any_build)) gg_h5_in_failed(h, why);
+  free(identity);
   free(version);
 }
 
@@ -138,7 +144,7 @@ gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_
   *s = (gg_stored_result){0};
   gg_h5_open(&h, path);
   const bool checkpoint = !h.failed && gg_h5_exists(&h, "/checkpoint");
-  if (checkpoint) gg_files_checkpoint_check_version(&h);
+  if (checkpoint) gg_files_checkpoint_check_version(&h, true);
   if (checkpoint && !h.failed)
     gg_h5_in_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
   if (!h.failed && gg_h5_exists(&h, "/graingas/table"))

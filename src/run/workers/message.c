@@ -1,4 +1,5 @@
 #include "run/workers/message.h"
+#include "base/build.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -78,8 +79,8 @@ gg_status gg_run_message_scene(const void *block, size_t size, gg_scene *scene, 
 
 void gg_run_message_build(char *text, size_t size)
 {
-  snprintf(text, size, "%s, %zu %zu %zu", GG_VERSION, sizeof(gg_scene), sizeof(struct gg_replica_clock),
-           sizeof(gg_run_message));
+  snprintf(text, size, "%s %s, %zu %zu %zu", gg_base_build_version, gg_base_build_identity, sizeof(gg_scene),
+           sizeof(struct gg_replica_clock), sizeof(gg_run_message));
 }
 
 int gg_run_message_nap(int last, bool any)
