@@ -276,6 +276,7 @@ typedef struct gg_run_options {
   const char *picture; /* that gg_plot is to draw of the output afterwards: looked at before the run, like the others */
   gg_workers *workers; /* other processes that take part, with as many threads as was said there; NULL: none */
   int accept_version;  /* not 0: resume a checkpoint of a build with other sources, whose numbers may differ */
+  const char *picture_width; /* that gg_plot is to draw it with; NULL: free */
 } gg_run_options;
 
 typedef struct gg_result gg_result; /* what came out of one engine's run */
@@ -600,14 +601,17 @@ typedef struct gg_collecting {
   const char *show;    /* quantities, with commas, a panel each; NULL: the main ones */
   /* Told why there is no picture, where none of these three asked for one; NULL: that is a failure, too. */
   void (*warn)(void *context, const char *message);
+  const char *width; /* of the picture, as for gg_plot; NULL: free */
 } gg_collecting;
 GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
                                   void (*written)(void *context, const char *file), void *context, gg_error *err);
 
 /* Pictures of a result file, by gnuplot: PICTURE, PICTURE_snapshot and one for each observable that left curves.
- * `format` is "svg", "png" or NULL: by PICTURE's name. `drawn` (may be NULL) is called with the name of each. Nothing
+ * `format` is "svg", "png", "pdf" or NULL: by PICTURE's name. `width` is that of each on paper, with letters of 8
+ * points: a number and mm, cm, in or pt, from "40mm" to "1000mm", e.g. "86mm" for a column; NULL: as on a screen.
+ * GG_BAD_INPUT names what is allowed. `drawn` (may be NULL) is called with the name of each. Nothing
  * is drawn if one of them could not be written (GG_BAD_FILE) or is the result file (GG_BAD_INPUT). */
-GG_API gg_status gg_plot(const char *result_file, const char *picture, const char *format,
+GG_API gg_status gg_plot(const char *result_file, const char *picture, const char *format, const char *width,
                          void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 
 enum {                        /* what gg_export writes */

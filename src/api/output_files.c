@@ -40,10 +40,10 @@ static char *before(const char *path)
   return path && asprintf(&name, "%s.1", path) >= 0 ? name : NULL;
 }
 
-static gg_status ask(const char *picture, const char *engine, const char *group, bool png, page_check *check,
-                     const void *context, gg_error *err)
+static gg_status ask(const char *picture, const char *engine, const char *group, const gg_plot_paper *paper,
+                     page_check *check, const void *context, gg_error *err)
 {
-  char *page = gg_plot_page_name(picture, engine, group, png);
+  char *page = gg_plot_page_name(picture, engine, group, paper);
   gg_status status = page ? check(page, picture, context, err) : gg_base_out_of_memory(err);
   free(page);
   return status;
@@ -52,16 +52,16 @@ static gg_status ask(const char *picture, const char *engine, const char *group,
 /* Of all pages that the run may come to; an engine may refuse an observable, and leave its page out. */
 static gg_status for_pages(const gg_run_call *r, page_check *check, const void *context, gg_error *err)
 {
-  bool png;
+  gg_plot_paper paper;
   const char *picture = r->options.picture;
   if (!picture) return GG_OK;
-  GG_TRY(gg_plot_format(picture, NULL, &png, err));
-  GG_TRY(ask(picture, "", GG_SNAPSHOT_PAGE, png, check, context, err));
+  GG_TRY(gg_plot_paper_choose(&paper, picture, NULL, r->options.picture_width, err));
+  GG_TRY(ask(picture, "", GG_SNAPSHOT_PAGE, &paper, check, context, err));
   for (int k = 0; k < (r->comparison ? 2 : 1); k++)
     for (int i = 0; gg_measure_observables[i]; i++) {
       const gg_observable *o = gg_measure_observables[i];
       const char *engine = r->comparison ? gg_run_engine_ops_of((gg_engine_kind)k)->name : "";
-      if (o->bins && r->scene.measure & o->flag) GG_TRY(ask(picture, engine, o->name, png, check, context, err));
+      if (o->bins && r->scene.measure & o->flag) GG_TRY(ask(picture, engine, o->name, &paper, check, context, err));
     }
   return GG_OK;
 }
@@ -100,11 +100,11 @@ static gg_status check_ending(const char *output, gg_error *err)
 /* It is drawn from the result when that is in place. */
 gg_status gg_api_picture_check(const gg_run_call *r, gg_error *err)
 {
-  bool png;
+  gg_plot_paper paper;
   const gg_run_options *o = &r->options;
   if (!o->picture) return GG_OK;
   gg_output_path place;
-  GG_TRY(gg_plot_format(o->picture, NULL, &png, err));
+  GG_TRY(gg_plot_paper_choose(&paper, o->picture, NULL, o->picture_width, err));
   if (!o->output)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: name one", o->picture);
   GG_TRY(gg_base_output_path_find(&place, o->output, err));

@@ -232,20 +232,22 @@ gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
   return status;
 }
 
-gg_status gg_plot(const char *result_file, const char *picture, const char *format,
+gg_status gg_plot(const char *result_file, const char *picture, const char *format, const char *width,
                   void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
 {
   GG_NEED(result_file, picture);
   if (gg_base_path_is_same_file(result_file, picture))
     return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture",
                         picture);
+  gg_plot_paper paper;
   gg_stored_result stored;
+  GG_TRY(gg_plot_paper_choose(&paper, picture, format, width, err));
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   bool before = gg_base_memory_begin();
-  gg_status status = gg_plot_check_pages(&stored, result_file, picture, format, err);
-  if (status == GG_OK) status = gg_plot_result(&stored, picture, format, err);
+  gg_status status = gg_plot_pages_check(&stored, &paper, result_file, picture, err);
+  if (status == GG_OK) status = gg_plot_result_draw(&stored, &paper, picture, err);
   if (status == GG_OK && drawn) drawn(context, picture);
-  if (status == GG_OK) status = gg_plot_pages(&stored, picture, format, drawn, context, err);
+  if (status == GG_OK) status = gg_plot_pages_draw(&stored, &paper, picture, drawn, context, err);
   gg_files_stored_result_clear(&stored);
   return gg_base_memory_check(before, status, err); /* a picture that lacks its title */
 }

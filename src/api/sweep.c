@@ -204,7 +204,7 @@ static gg_status check_places(const collecting *c, gg_error *err)
 static bool may_lack_picture(const collecting *c, gg_status status, const gg_error *err)
 {
   const gg_collecting *o = &c->options;
-  if (!o->warn || o->picture || o->over || o->show || status == GG_BAD_FILE) return false;
+  if (!o->warn || o->picture || o->width || o->over || o->show || status == GG_BAD_FILE) return false;
   o->warn(c->context, err ? err->message : "there is no picture");
   return true;
 }
@@ -220,7 +220,7 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   GG_TRY(gg_sweep_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));
   report_file(c, c->h5);
   if (!c->picture) return GG_OK;
-  gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, err);
+  gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, c->options.width, err);
   if (status == GG_OK) report_file(c, c->picture);
   return status == GG_OK || !may_lack_picture(c, status, err) ? status : GG_OK;
 }

@@ -8,7 +8,8 @@
 
 typedef struct gg_bench_options {
   bool quick;          /* fewer sizes, shorter stretches */
-  const char *picture; /* of "error": file to draw, .svg or .png; NULL: none */
+  const char *picture; /* of "error": file to draw, .svg, .png or .pdf; NULL: none */
+  const char *width;   /* of the picture, "86mm"; NULL: free */
   int threads;         /* that one engine may use where threads are measured */
   double smaller; /* so many times fewer grains and shorter stretches: what is measured says little; 0: as they are */
   int n_overrides;

@@ -209,9 +209,8 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
 {
   const bool quick = b->options->quick;
   const int n = list_states(s, quick);
-  bool png;
   if (b->options->picture)
-    GG_TRY(gg_plot_could(b->options->picture, NULL, &png, err)); /* before it has taken an hour */
+    GG_TRY(gg_plot_paper_check(b->options->picture, b->options->width, err)); /* before it has taken an hour */
   gg_bench_sheet *sheet[2];
   GG_TRY(new_sheets(b, sheet, err));
   for (int i = 0; i < n; i++) {
@@ -220,7 +219,7 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
     gg_bench_tell(b, "phi %g e %g %s done", s[i].phi, s[i].e, s[i].rough ? "rough" : "smooth");
   }
   b->measured = true;
-  return b->options->picture ? gg_bench_error_chart_draw(s, n, b->options->picture, err) : GG_OK;
+  return b->options->picture ? gg_bench_error_chart_draw(s, n, b->options->picture, b->options->width, err) : GG_OK;
 }
 
 gg_status gg_bench_error(gg_bench *b, gg_error *err)

@@ -72,11 +72,15 @@ static void fill(const gg_error_state *s, int q, int i, page *p)
   char symbol[32];
   gg_common_quantity_symbol(gg_bench_error_course_quantity[q], symbol, sizeof symbol);
   snprintf(p->title[i], sizeof p->title[i], "%s, φ = %g", symbol, s->phi);
-  p->panel[i] = (gg_chart_panel){
-      p->title[i], {"processor time", "s", true, 0, 0}, {"relative error", NULL, true, 0, 0}, n, p->series[i]};
+  p->panel[i] = (gg_chart_panel){.title = p->title[i],
+                                 .x = {"processor time", "s", true, 0, 0},
+                                 .y = {"relative error", NULL, true, 0, 0},
+                                 .n = n,
+                                 .series = p->series[i]};
 }
 
-gg_status gg_bench_error_chart_draw(const gg_error_state *states, int n, const char *picture, gg_error *err)
+gg_status gg_bench_error_chart_draw(const gg_error_state *states, int n, const char *picture, const char *width,
+                                    gg_error *err)
 {
   page *p = gg_base_array_new(1, sizeof *p, err);
   if (!p) return GG_FAILED;
@@ -85,8 +89,11 @@ gg_status gg_bench_error_chart_draw(const gg_error_state *states, int n, const c
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++)
     for (int i = 0; i < n; i++)
       if (states[i].rough && states[i].e == 0.9 && panels < MOST_PANELS) fill(&states[i], q, panels++, p);
-  gg_chart chart = {"Uniform shear of rough grains, e = 0.9, β = 0", (size_t)panels, p->panel, columns};
-  gg_status status = gg_plot_chart_draw(&chart, picture, NULL, err);
+  gg_chart chart = {.title = "Uniform shear of rough grains, e = 0.9, β = 0",
+                    .n = (size_t)panels,
+                    .panel = p->panel,
+                    .columns = columns};
+  gg_status status = gg_plot_chart_draw(&chart, picture, width, err);
   free(p);
   return status;
 }

@@ -57,7 +57,7 @@ int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
   if (code == GG_CLI_GO_ON) {
     const char *picture = o.picture && strcmp(o.picture, "none") != 0 ? o.picture : NULL;
     gg_bench_options asked = {
-        .quick = o.quick, .picture = picture, .threads = o.threads, .tell = o.quiet ? NULL : tell};
+        .quick = o.quick, .picture = picture, .width = o.width, .threads = o.threads, .tell = o.quiet ? NULL : tell};
     asked.n_overrides = o.n_overrides, asked.override = o.override;
     gg_bench b;
     gg_error err;

@@ -36,8 +36,10 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_FOLDER, "output", "FOLDER", "folder to write to, made if need be (default: the current one)"},
     {GG_OPT_ONLY, "only", "PARTS", "write these parts alone: results, curves, trajectory; several with commas"},
     {GG_OPT_PICTURE, "picture", "FILE",
-     "picture to draw, .svg or .png, or none (default: beside the output, .svg; of bench: none)"},
-    {GG_OPT_FORMAT, "format", "svg|png", "kind of picture (default: by the output's name, else svg)"},
+     "picture to draw, .svg, .png or .pdf, or none (default: beside the output, .svg; of bench: none)"},
+    {GG_OPT_PICTURE | GG_OPT_FORMAT, "width", "WIDTH",
+     "width of the picture on paper, e.g. 86mm: mm, cm, in or pt (default: as for a screen)"},
+    {GG_OPT_FORMAT, "format", "svg|png|pdf", "kind of picture (default: by the output's name, else svg)"},
     {GG_OPT_RESUME, "resume", "FILE", "go on from this checkpoint"},
     {GG_OPT_RESUME, "accept-version", NULL, "resume a checkpoint of another build, whose numbers may differ"},
     {GG_OPT_ALL, "all", NULL, "show every quantity, not just the main ones"},
@@ -172,6 +174,7 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_FOLDER:
   case GG_OPT_PREFIX: o->output = value; break;
   case GG_OPT_ONLY: o->only = value; break;
+  case GG_OPT_PICTURE | GG_OPT_FORMAT: o->width = value; break;
   case GG_OPT_PICTURE: o->picture = value; break;
   case GG_OPT_FORMAT: o->format = value; break;
   case GG_OPT_RESUME:

@@ -36,7 +36,7 @@ enum { GG_MAX_OVERRIDES = 64 };
 typedef struct gg_options {
   const char *input;   /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
   const char *surplus; /* a second one */
-  const char *output, *resume, *format, *picture, *only;
+  const char *output, *resume, *format, *picture, *width, *only;
   const char *does;        /* what a sweep does at its points; NULL: what its file says */
   const char *over, *show; /* of the picture of a sweep: key along x, quantities; NULL: chosen */
   const char *point;       /* the one of a sweep to do; NULL: all */

@@ -20,7 +20,7 @@ static int draw(const gg_options *o)
   snprintf(suffix, sizeof suffix, ".%s", o->format ? o->format : "svg");
   char *picture = gg_cli_options_output(o, suffix, &err);
   if (!picture) return gg_cli_report(&err);
-  int code = gg_plot(o->input, picture, o->format, tell, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
+  int code = gg_plot(o->input, picture, o->format, o->width, tell, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
   free(picture);
   return code;
 }
@@ -29,8 +29,9 @@ int gg_cli_plot_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
   int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && o.format && strcmp(o.format, "svg") != 0 && strcmp(o.format, "png") != 0)
-    code = gg_cli_fail(GG_BAD_INPUT, "option '--format': value '%s' is not allowed; allowed: svg, png", o.format);
+  if (code == GG_CLI_GO_ON && o.format && strcmp(o.format, "svg") != 0 && strcmp(o.format, "png") != 0 &&
+      strcmp(o.format, "pdf") != 0)
+    code = gg_cli_fail(GG_BAD_INPUT, "option '--format': value '%s' is not allowed; allowed: svg, png, pdf", o.format);
   if (code == GG_CLI_GO_ON) code = draw(&o);
   gg_cli_options_clear(&o);
   return code;

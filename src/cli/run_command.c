@@ -114,6 +114,7 @@ int gg_cli_run_begin(gg_run_command *r, const gg_command *command, int argc, cha
                             .workers = gg_cli_workers(o->threads),
                             .input = o->input,
                             .picture = r->picture,
+                            .picture_width = r->options.width,
                             .output = r->output,
                             .checkpoint = r->keeps_checkpoints ? r->checkpoint : NULL,
                             .resume = o->resume,
@@ -187,7 +188,7 @@ static gg_status draw(const gg_run_command *r, gg_error *err)
 {
   if (!r->picture) return GG_OK;
   drawing d = {r, gg_cli_file_exists(r->picture)};
-  gg_status status = gg_plot(r->output, r->picture, NULL, report_picture, &d, err);
+  gg_status status = gg_plot(r->output, r->picture, NULL, r->options.width, report_picture, &d, err);
   if (status != GG_FAILED || r->options.picture) return status;
   fprintf(stderr, "warning: no picture: %s\n", err->message);
   return GG_OK;

@@ -110,8 +110,12 @@ static int collect(gg_sweep_command *c)
 {
   gg_error err;
   const gg_options *o = c->options;
-  const gg_collecting options = {
-      .command = o->command_line, .picture = o->picture, .over = o->over, .show = o->show, .warn = warn};
+  const gg_collecting options = {.command = o->command_line,
+                                 .picture = o->picture,
+                                 .width = o->width,
+                                 .over = o->over,
+                                 .show = o->show,
+                                 .warn = warn};
   char *prefix = tables_of(c->folder);
   if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
   gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, print_file, c, &err);
@@ -142,7 +146,11 @@ static int check_together(const gg_options *o)
 {
   const char *does[] = {o->list ? "--list" : NULL, o->collect ? "--collect" : NULL, o->slurm ? "--slurm" : NULL,
                         o->point ? "--point" : NULL};
-  const char *first = NULL, *drawing = o->over ? "--over" : o->show ? "--show" : o->picture ? "--picture" : NULL;
+  const char *first = NULL, *drawing = o->over      ? "--over"
+                                       : o->show    ? "--show"
+                                       : o->picture ? "--picture"
+                                       : o->width   ? "--width"
+                                                    : NULL;
   for (size_t k = 0; k < sizeof does / sizeof *does; k++) {
     if (does[k] && first) return gg_cli_fail(GG_BAD_INPUT, "options '%s' and '%s' do not go together", first, does[k]);
     if (does[k]) first = does[k];

@@ -19,9 +19,4 @@ gg_status gg_files_curves_from_json(gg_curves *list, const json_t *curves, gg_er
 /* How many groups of curves an engine's document holds, and the k-th one's name. */
 int gg_plot_curve_groups(const json_t *document, const char **names, int most);
 
-/* One group of curves (one observable) as a page of panels; `size` is the page's, in pixels. `theories`: their curves,
- * as under GG_THEORY_CURVES, drawn as lines through those of the same names; may be NULL. */
-void gg_plot_curves_size(const json_t *document, const char *group, int size[2]);
-void gg_plot_curves(FILE *script, const json_t *document, const json_t *theories, const char *group);
-
 #endif

@@ -4,10 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Below no_decade a logarithmic axis has the tics of a linear axis. */
-enum { TICS = 6, MOST_DECADES = 7 };
-static const double few_decades = 2.2, no_decade = 0.7;
-
 void gg_plot_extent_add(gg_extent *e, double value, bool log)
 {
   if (!isfinite(value) || (log && value <= 0)) return;
@@ -22,82 +18,52 @@ gg_axis gg_plot_axis_around(gg_extent e, bool log)
     return (gg_axis){true, fmax(e.least / room, DBL_MIN), fmin(e.most * room, DBL_MAX)};
   }
   double size = fmax(fabs(e.least), fabs(e.most)), room = fmax(0.05 * (e.most - e.least), 1e-3 * size);
-  if (room < 1e-290) room = 1; /* beside numbers that small there are none to make tics of */
+  if (room < 1e-290) room = 1; /* gnuplot makes no tics of numbers that small */
   gg_axis a = {false, e.least - room, e.most + room};
-  if (e.least > 0 && e.least < 0.3 * e.most) a.from = fmin(0, a.from);
-  if (e.most < 0 && e.most > 0.3 * e.least) a.to = fmax(0, a.to);
+  if (e.least >= 0 && e.least < 0.3 * e.most) a.from = 0;
+  if (e.most <= 0 && e.most > 0.3 * e.least) a.to = 0;
   return a;
 }
 
-double gg_plot_axis_share(gg_axis a, double x)
+bool gg_plot_axis_takes(const gg_chart_panel *p, const gg_chart_series *s, size_t i)
 {
-  if (!a.log) return (x - a.from) / (a.to - a.from);
-  return (log10(x) - log10(a.from)) / (log10(a.to) - log10(a.from));
+  return isfinite(s->x[i]) && isfinite(s->y[i]) && !(p->x.log && s->x[i] <= 0) && !(p->y.log && s->y[i] <= 0);
 }
 
-/* Width of what gnuplot makes of enhanced text: braces and marks take no room. */
-static int width_of(const char *text)
+static bool is_inside(const gg_chart_axis *a, double x)
 {
-  int n = 0;
-  for (const char *c = text; *c; c++) n += !strchr("{}^_", *c) && (*c & 0xc0) != 0x80;
-  return n;
+  return a->from == a->to || (x >= a->from && x <= a->to);
 }
 
-/* To the digits that a step asks for: "0.25", or "2.5·10^{6}" where that is long. */
-static void write_number(double x, double step, char *text, size_t size)
+static double error_of(const double *error, size_t i)
 {
-  int last = (int)floor(log10(step) + 1e-9), first = x == 0 ? last : (int)floor(log10(fabs(x)) + 1e-9);
-  if (fabs(x) < 1e-9 * step) {
-    snprintf(text, size, "0");
-  } else if (first < 5 && last >= -4) {
-    snprintf(text, size, "%.*f", last < 0 ? -last : 0, x);
-  } else if (fabs(x / pow(10, first) - 1) < 1e-9) {
-    snprintf(text, size, "10^{%d}", first);
-  } else {
-    snprintf(text, size, "%.*f·10^{%d}", first > last ? first - last : 0, x / pow(10, first), first);
-  }
+  return error && isfinite(error[i]) ? fabs(error[i]) : 0;
 }
 
-/* Of one digit: "10^{-4}", "2·10^{-4}". */
-static void write_power(double x, char *text, size_t size)
+/* With error bars; on a logarithmic axis only those that end above 0. A bar alone does not reach below 0. */
+static void add_point(const gg_chart_panel *p, const gg_chart_series *s, size_t i, gg_extent *x, gg_extent *y)
 {
-  int power = (int)floor(log10(x) + 1e-9), digit = (int)lround(x / pow(10, power));
-  if (digit == 1)
-    snprintf(text, size, "10^{%d}", power);
-  else
-    snprintf(text, size, "%d·10^{%d}", digit, power);
+  double dx = error_of(s->x_error, i), dy = error_of(s->error, i), low = s->y[i] - dy;
+  if (!gg_plot_axis_takes(p, s, i) || !is_inside(&p->x, s->x[i])) return;
+  gg_plot_extent_add(x, s->x[i] - dx, p->x.log), gg_plot_extent_add(x, s->x[i] + dx, p->x.log);
+  gg_plot_extent_add(y, s->y[i], p->y.log), gg_plot_extent_add(y, s->y[i] + dy, p->y.log);
+  if (p->y.log ? s->y[i] > 1.5 * dy : low > 0 || s->y[i] < 0) gg_plot_extent_add(y, low, p->y.log);
 }
 
-typedef struct tics {
-  FILE *script; /* NULL: only measured */
-  int n, widest;
-} tics;
-
-static void put(tics *t, double at, double step, bool powers)
+static gg_axis axis_of(const gg_chart_axis *a, gg_extent extent)
 {
-  char text[48];
-  if (powers)
-    write_power(at, text, sizeof text);
-  else
-    write_number(at, step, text, sizeof text);
-  if (t->script) fprintf(t->script, "%s'%s' %.12g", t->n++ ? ", " : "", text, at);
-  int width = width_of(text);
-  if (width > t->widest) t->widest = width;
+  bool given = a->from != a->to && !(a->log && a->from <= 0);
+  return given ? (gg_axis){a->log, a->from, a->to} : gg_plot_axis_around(extent, a->log);
 }
 
-/* Steps of 1, 2 or 5. */
-static double round_step(double span)
+void gg_plot_axis_of_panel(const gg_chart_panel *p, gg_axis *x, gg_axis *y)
 {
-  double raw = span / TICS, decade = pow(10, floor(log10(raw))), r = raw / decade;
-  return decade * (r <= 1.4 ? 1 : r <= 3 ? 2 : r <= 7 ? 5 : 10);
-}
-
-static void linear(tics *t, gg_axis a)
-{
-  double step = round_step(a.to - a.from);
-  double first = ceil(a.from / step - 1e-6), last = floor(a.to / step + 1e-6);
-  if (!(step > 0 && last - first < 10 * TICS)) return;
-  for (double k = first; k <= last; k++) put(t, k * step, step, false);
+  gg_extent of_x = GG_NO_EXTENT, of_y = GG_NO_EXTENT;
+  for (int lines = 0; lines < 2 && !(of_x.least <= of_x.most); lines++)
+    for (size_t k = 0; k < p->n; k++)
+      for (size_t i = 0; i < p->series[k].n && (!p->own_legend || lines || p->series[k].style != GG_CHART_LINE); i++)
+        add_point(p, &p->series[k], i, &of_x, &of_y);
+  *x = axis_of(&p->x, of_x), *y = axis_of(&p->y, of_y);
 }
 
 /* The quotient of its ends may be more than a number holds. */
@@ -106,56 +72,55 @@ static double decades_of(gg_axis a)
   return log10(a.to) - log10(a.from);
 }
 
-static bool is_within(gg_axis a, double x)
+double gg_plot_axis_share(gg_axis a, double x)
 {
-  return x >= a.from * (1 - 1e-9) && x <= a.to * (1 + 1e-9);
+  if (!a.log) return (x - a.from) / (a.to - a.from);
+  return (log10(x) - log10(a.from)) / decades_of(a);
 }
 
-/* From one named decade to the next: every second or third, or in round steps where there are hundreds. */
-static int decades_apart(double decades)
+static bool has_powers(gg_axis a)
 {
-  int every = 1 + (int)(decades / MOST_DECADES);
-  return every < 10 ? every : (int)round_step(decades);
+  return a.log && decades_of(a) > 2.2 && (a.from < 0.9e-3 || a.to > 1.1e4);
 }
 
-/* Whole decades; where there are few of them also their double and fivefold; else small tics between them. */
-static void logarithmic(tics *t, gg_axis a)
+/* Steps of 1, 2 or 5. */
+static double round_step(double span)
 {
-  double decades = decades_of(a);
-  bool powers = a.from < 0.9e-3 || a.to > 1.1e4;
-  int every = decades_apart(decades);
-  for (int k = (int)floor(log10(a.from)); k <= (int)ceil(log10(a.to)); k++)
-    for (int i = 1; i < 10; i++) {
-      double unit = pow(10, k), x = i * unit;
-      bool named = i == 1 ? k % every == 0 : (i == 2 || i == 5) && decades < few_decades;
-      if (!is_within(a, x)) continue;
-      if (named)
-        put(t, x, unit, powers);
-      else if (t->script && (every == 1 || (i == 1 && every < 10)))
-        fprintf(t->script, "%s'' %.12g 1", t->n++ ? ", " : "", x);
-    }
+  double raw = span / 6, decade = pow(10, floor(log10(raw))), r = raw / decade;
+  return decade * (r <= 1.4 ? 1 : r <= 3 ? 2 : r <= 7 ? 5 : 10);
 }
 
-static void place(tics *t, gg_axis a)
+/* gnuplot names whole decades alone: of few also their double and fivefold, below one those of a linear axis. */
+static void add_tics(FILE *s, char which, gg_axis a)
 {
-  if (a.log && decades_of(a) > no_decade)
-    logarithmic(t, a);
-  else
-    linear(t, a);
+  double step = round_step(a.to - a.from);
+  if (decades_of(a) > 2.2) return;
+  for (double x = step * ceil(a.from / step); decades_of(a) < 0.7 && x <= a.to; x += step)
+    fprintf(s, "set %ctics add (%.9g)\n", which, x);
+  if (decades_of(a) < 0.7) return;
+  for (int k = (int)floor(log10(a.from)); k <= (int)log10(a.to); k++)
+    fprintf(s, "set %ctics add (%.12g, %.12g)\n", which, 2 * pow(10, k), 5 * pow(10, k));
 }
 
 void gg_plot_axis_print(FILE *s, char which, gg_axis a)
 {
-  tics t = {.script = s};
-  fprintf(s, "set %crange [%.12g:%.12g]\n%s logscale %c\nset %ctics (", which, a.from, a.to, a.log ? "set" : "unset",
-          which, which);
-  place(&t, a);
-  fprintf(s, ")\n");
+  fprintf(s, "set %crange [%.12g:%.12g]\n%s logscale %c\nset format %c '%s'\n", which, a.from, a.to,
+          a.log ? "set" : "unset", which, which, has_powers(a) ? "10^{%T}" : "%h");
+  if (a.log) add_tics(s, which, a);
 }
 
+static int width_of(double x)
+{
+  char text[32];
+  return fabs(x) < DBL_MIN ? 1 : snprintf(text, sizeof text, "%.10g", x);
+}
+
+/* Tics are at some fifth of the axis, in round steps. */
 int gg_plot_axis_width(gg_axis a)
 {
-  tics t = {.script = NULL};
-  place(&t, a);
-  return t.widest;
+  if (has_powers(a)) return 5;
+  double step = pow(10, floor(log10((a.to - a.from) / 5)));
+  if (a.log) return (int)fmax(width_of(pow(10, round(log10(a.from)))), width_of(pow(10, round(log10(a.to)))));
+  double first = step * ceil(a.from / step), last = step * floor(a.to / step);
+  return (int)fmin(10, fmax(width_of(first), width_of(last)));
 }

@@ -37,6 +37,13 @@ typedef struct gg_chart_panel {
   gg_chart_axis x, y;
   size_t n;
   const gg_chart_series *series;
+  double share;            /* of the page's width; 0: one column */
+  bool own_legend;         /* its names and looks are its own; lines of theories do not widen its axes */
+  double shade[2];         /* of x; equal: none */
+  double level;            /* of a line across it, where there are categories */
+  const char *const *name; /* categories at x = 1, 2, ...: their labels; methods stand beside each other, what lies
+                            * outside of y is named at the edge. NULL: numbers */
+  size_t n_names;
 } gg_chart_panel;
 
 /* Methods and groups look the same in all panels, and one legend over them names each once. */
@@ -47,12 +54,18 @@ typedef struct gg_chart {
   int columns; /* of panels; 0: chosen by their number */
 } gg_chart;
 
-/* Draw to a picture, whole or not at all. format: "svg", "png", or NULL: by the picture's name. GG_BAD_INPUT if the
- * name is no picture's, GG_FAILED without gnuplot, GG_BAD_FILE if it cannot be written. */
-gg_status gg_plot_chart_draw(const gg_chart *chart, const char *picture, const char *format, gg_error *err);
+/* Draw to a picture, whole or not at all. width: "86mm", or NULL. Theories that coincide to the eye are drawn once.
+ * GG_BAD_INPUT if the name is no picture's, GG_FAILED without gnuplot, GG_BAD_FILE if it cannot be written. */
+gg_status gg_plot_chart_draw(const gg_chart *chart, const char *picture, const char *width, gg_error *err);
+struct gg_plot_paper;
+gg_status gg_plot_chart_draw_on(const gg_chart *chart, const struct gg_plot_paper *paper, const char *picture,
+                                gg_error *err);
 
 /* What a scene's key is called on axes and in legends, as enhanced text: "collision.beta" is "β"; a key without a
  * symbol is named as it is. `unit` (may be NULL): that of its values, "1" if none. */
 void gg_plot_chart_key(const char *key, char *text, size_t size, const char **unit);
+
+/* A method as people write it: "lun1991" is "Lun 1991", "md" stays. Plain text. */
+void gg_plot_method_name(const char *method, char *text, size_t size);
 
 #endif

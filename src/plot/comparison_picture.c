@@ -4,15 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "plot/plot.h"
+#include "plot/sheet.h"
 
-/* A quantity of the picture. */
-typedef struct entry {
-  const char *name, *word;
-  char symbol[24]; /* as gnuplot writes it; empty: the name as it is */
-} entry;
-enum { MOST_OWN = 6, MOST_SELECTED = GG_N_QUANTITIES + MOST_OWN };
-enum { MOST_METHODS = 16, MOST_WORDY = 9 };
+enum { MOST_OWN = 6, MOST_METHODS = 24 };
 
 typedef struct method {
   const char *name;
@@ -25,22 +19,6 @@ static bool is_own(const char *quantity)
   return gg_common_quantity_find(quantity) == GG_N_QUANTITIES;
 }
 
-/* Does it say anything about what is drawn? */
-static bool has_entries(const json_t *results)
-{
-  const char *name;
-  json_t *own;
-  json_object_foreach((json_t *)(uintptr_t)results, name, own)
-  {
-    if (is_own(name)) return true;
-  }
-  const unsigned drawn = GG_DRAWN | GG_DRAWN_AS_RATIO;
-  gg_quantity q = gg_common_quantity_next(-1, drawn);
-  while (q < GG_N_QUANTITIES && !json_object_get(results, gg_common_quantity_name(q)))
-    q = gg_common_quantity_next(q, drawn);
-  return q < GG_N_QUANTITIES;
-}
-
 static int methods_of(const gg_stored_result *stored, method *methods)
 {
   int n = 0;
@@ -51,7 +29,7 @@ static int methods_of(const gg_stored_result *stored, method *methods)
       methods[n++] = (method){stored->engine[k].name, json_object_get(stored->engine[k].document, "results")};
   json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
   {
-    if (n < MOST_METHODS && has_entries(theory)) methods[n++] = (method){name, theory};
+    if (n < MOST_METHODS) methods[n++] = (method){name, theory};
   }
   return n;
 }
@@ -62,17 +40,17 @@ static double number(const method *m, const char *quantity, const char *member)
   return json_is_number(x) ? json_number_value(x) : NAN;
 }
 
-/* Is it measured, and told from zero? */
-static bool is_told(const method *engine, const char *name, bool *from_zero)
+/* Measured, and different from zero? */
+static bool is_measured(const method *engine, const char *name, bool *from_zero)
 {
   double mean = number(engine, name, "mean"), error = number(engine, name, "stderr");
   *from_zero = fabs(mean) > 3 * (isfinite(error) ? error : 0);
   return isfinite(mean);
 }
 
-/* The entries of one kind that an engine has measured, and told from zero if they are to be divided by; and some of the
+/* The names of what an engine has measured, and told from zero if it is to be divided by; and of some quantities of the
  * program's own, as ratios where they can be. */
-static int select_entries(const method *engine, bool ratio, entry *selected)
+static int select_quantities(const method *engine, bool ratio, const char **selected)
 {
   int n = 0, n_own = 0;
   bool from_zero;
@@ -80,165 +58,103 @@ static int select_entries(const method *engine, bool ratio, entry *selected)
   json_t *own;
   const unsigned drawn = ratio ? GG_DRAWN_AS_RATIO : GG_DRAWN;
   for (gg_quantity q = gg_common_quantity_next(-1, drawn); q < GG_N_QUANTITIES; q = gg_common_quantity_next(q, drawn)) {
-    if (!is_told(engine, gg_common_quantity_name(q), &from_zero) || (ratio && !from_zero)) continue;
-    selected[n] = (entry){.name = gg_common_quantity_name(q), .word = gg_common_quantity_word(q)};
-    gg_common_quantity_symbol(q, selected[n].symbol, sizeof selected[n].symbol);
-    n++;
+    name = gg_common_quantity_name(q);
+    if (is_measured(engine, name, &from_zero) && (from_zero || !ratio)) selected[n++] = name;
   }
   json_object_foreach((json_t *)(uintptr_t)engine->results, name, own)
   {
-    if (n_own == MOST_OWN || !is_own(name) || !is_told(engine, name, &from_zero) || from_zero != ratio) continue;
-    selected[n++] = (entry){.name = name, .word = ""};
-    n_own++;
+    if (n_own == MOST_OWN || !is_own(name) || !is_measured(engine, name, &from_zero) || from_zero != ratio) continue;
+    selected[n++] = name, n_own++;
   }
   return n;
 }
 
-static int colour_of(const method *m, int index)
+/* "word\nsymbol", for double quotes; a name of one's own stands as it is: no subscripts in it, and nothing that gnuplot
+ * would do. Of many quantities (species have one each) the symbols alone: words would run into each other. */
+static const char *label_of(gg_plot_sheet *s, const char *name, bool wordy)
 {
-  if (strcmp(m->name, "md") == 0) return 0;
-  if (strcmp(m->name, "dsmc") == 0) return 1;
-  return 2 + index % (GG_PLOT_COLOURS - 2);
-}
-
-static void print_points(FILE *s, int k, const method *m, const method *reference, bool ratio, const entry *selected,
-                         int n, double offset)
-{
-  fprintf(s, "$method%d << EOD\n", k);
-  for (int i = 0; i < n; i++) {
-    const char *name = selected[i].name;
-    double scale = ratio ? number(reference, name, "mean") : 1;
-    double mean = number(m, name, "mean") / scale, error = fabs(number(m, name, "stderr") / scale);
-    if (isfinite(mean)) fprintf(s, "%.4f %.9g %.9g\n", i + 1 + offset, mean, isfinite(error) ? error : 0);
+  char text[112];
+  size_t used = 0;
+  gg_quantity q = gg_common_quantity_find(name);
+  if (q < GG_N_QUANTITIES) {
+    const char *word = gg_common_quantity_word(q);
+    gg_common_quantity_symbol(q, text, sizeof text);
+    return gg_plot_sheet_add_text(s, "%s%s%s", wordy ? word : "", wordy && *word ? "\\n" : "", text);
   }
-  fprintf(s, "EOD\n");
+  for (const char *c = name; *c && used + 4 < sizeof text; c++)
+    if (*c == '_')
+      used += (size_t)snprintf(text + used, sizeof text - used, "\\\\_");
+    else
+      text[used++] = isalnum((unsigned char)*c) || strchr(" .-+/()", *c) || (*c & 0x80) ? *c : '?';
+  text[used] = '\0';
+  return gg_plot_sheet_add_text(s, "%s", text);
 }
 
 /* How far the axis reaches below and above 1: all that is there, but not to the ends of the world. */
-static void find_reach(const method *methods, int n_methods, const entry *selected, int n, double reach[2])
+static void set_reach(gg_chart_panel *p)
 {
-  const double most[2] = {0.75, 0.75};
-  reach[0] = reach[1] = 0.003;
-  for (int k = 0; k < n_methods; k++)
-    for (int i = 0; i < n; i++) {
-      const char *name = selected[i].name;
-      double reference = number(&methods[0], name, "mean"), off = number(&methods[k], name, "mean") / reference - 1;
-      double error = number(&methods[k], name, "stderr") / fabs(reference);
-      if (!isfinite(off)) continue;
-      if (!isfinite(error)) error = 0;
+  const double most = 0.75;
+  double reach[2] = {0.003, 0.003};
+  for (size_t k = 0; k < p->n; k++)
+    for (size_t i = 0; i < p->series[k].n; i++) {
+      double off = p->series[k].y[i] - 1, error = p->series[k].error[i];
       reach[0] = fmax(reach[0], error - off), reach[1] = fmax(reach[1], error + off);
     }
-  for (int side = 0; side < 2; side++) reach[side] = fmin(reach[side], most[side]);
+  for (int side = 0; side < 2; side++) reach[side] = fmin(reach[side], most);
   double margin = 0.08 * (reach[0] + reach[1]);
-  for (int side = 0; side < 2; side++) reach[side] = fmin(reach[side] + margin, most[side]);
+  p->y.from = 1 - fmin(reach[0] + margin, most), p->y.to = 1 + fmin(reach[1] + margin, most);
 }
 
-/* What lies outside the axis is named at its edge. */
-static void label_outliers(FILE *s, const method *m, const method *reference, const entry *selected, int n,
-                           double offset, const double *reach, const char *colour)
+/* Of ratios the reference is a band of its error about 1. */
+static void add_method(gg_plot_sheet *s, const method *m, const method *reference, bool ratio, const char *const *names,
+                       int n)
 {
+  gg_chart_series like = {.method = m->name, .style = ratio && m == reference ? GG_CHART_BAND : GG_CHART_POINTS};
+  gg_chart_series *series = gg_plot_sheet_add_series(s, like, (size_t)n);
+  for (int i = 0; series && i < n; i++) {
+    double scale = ratio ? number(reference, names[i], "mean") : 1, mean = number(m, names[i], "mean") / scale;
+    double error = fabs(number(m, names[i], "stderr") / scale);
+    if (isfinite(mean)) gg_plot_sheet_add_point(series, i + 1, mean, isfinite(error) ? error : 0);
+  }
+  if (series && !series->n) gg_plot_sheet_drop_series(s);
+}
+
+/* Words of quantities side by side, in layout pixels. */
+static bool has_room(const gg_plot_sheet *s, const char *const *names, int n, double share)
+{
+  const double letter = 6, margins = 90, screen = 1100, width = s->width > 0 ? s->width : screen;
+  size_t longest = 0;
   for (int i = 0; i < n; i++) {
-    double ratio = number(m, selected[i].name, "mean") / number(reference, selected[i].name, "mean");
-    bool above = ratio > 1;
-    if (!isfinite(ratio) || fabs(ratio - 1) <= reach[above]) continue;
-    fprintf(s, "set label '%s %.3g' at first %.4f, graph %g rotate by 90 %s tc rgb '%s' font ',9'\n", above ? "→" : "←",
-            ratio, i + 1 + offset, above ? 0.99 : 0.01, above ? "right" : "left", colour);
+    gg_quantity q = gg_common_quantity_find(names[i]);
+    size_t length = strlen(q < GG_N_QUANTITIES ? gg_common_quantity_word(q) : names[i]);
+    if (length > longest) longest = length;
   }
+  return letter * (double)longest * n < width * (s->width > 0 && s->width < screen * 0.65 ? 1 : share) - margins;
 }
 
-/* "word\nsymbol", in double quotes; a name of one's own stands as it is: no subscripts in it, and nothing that gnuplot
- * would do. Of many entries (species have one each) the symbols alone: words would run into each other. */
-static void print_label(FILE *s, const entry *e, bool wordy)
+static void add_panel(gg_plot_sheet *s, const method *methods, int n_methods, bool ratio, double share)
 {
-  if (*e->word && (wordy || !*e->symbol)) fprintf(s, "%s\\n", e->word);
-  fputs(e->symbol, s);
-  for (const char *c = e->name; !*e->symbol && *c; c++)
-    if (*c == '_')
-      fputs("\\\\_", s);
-    else
-      fputc(isalnum((unsigned char)*c) || strchr(" .-+/()", *c) || (*c & 0x80) ? *c : '?', s);
+  const char *selected[GG_SHEET_NAMES];
+  int n = select_quantities(&methods[0], ratio, selected);
+  bool wordy = has_room(s, selected, n, share);
+  gg_chart_panel *p = gg_plot_sheet_add_panel(s);
+  for (int k = 0; k < n_methods; k++) add_method(s, &methods[k], &methods[0], ratio, selected, n);
+  for (int i = 0; i < n; i++) s->name[ratio][i] = label_of(s, selected[i], wordy);
+  p->name = s->name[ratio], p->n_names = (size_t)n, p->share = share, p->level = ratio;
+  p->y.label = "value";
+  if (!ratio) return;
+  p->y.label = gg_plot_sheet_add_text(s, "value / %s", methods[0].name);
+  p->title = gg_plot_sheet_add_text(s, "shaded: standard error of %s", methods[0].name);
+  set_reach(p);
 }
 
-static void print_categories(FILE *s, const entry *selected, int n)
-{
-  fprintf(s, "set xtics (");
-  for (int i = 0; i < n; i++) {
-    fprintf(s, "%s\"", i ? ", " : "");
-    print_label(s, &selected[i], n <= MOST_WORDY);
-    fprintf(s, "\" %d", i + 1);
-  }
-  fprintf(s, ") scale 0\nset xrange [0.45:%g]\n", n + 0.55);
-  for (int i = 1; i < n; i++)
-    fprintf(s, "set arrow from %g,graph 0 to %g,graph 1 nohead back lc rgb '#eeeeee' lw 0.8\n", i + 0.5, i + 0.5);
-}
-
-/* The legend names every method, also one that has nothing in this panel. */
-static void plot_methods(FILE *s, const method *methods, int n, bool legend)
-{
-  static const int shapes[] = {7, 5, 8, 10, 12, 4, 6, 14, 2, 1}; /* md and dsmc filled, theories open */
-  enum { N_SHAPES = sizeof shapes / sizeof *shapes };
-  int theories = 2;
-  fprintf(s, "plot ");
-  for (int k = 0; k < n; k++) {
-    int colour = colour_of(&methods[k], k);
-    bool engine = colour < 2;
-    char style[80];
-    snprintf(style, sizeof style, "pt %d ps %g lw 1.3 lc rgb '%s'",
-             engine ? shapes[colour] : shapes[theories++ % N_SHAPES], engine ? 0.6 : 0.9, gg_plot_colours[colour]);
-    fprintf(s, "%s$method%d using 1:2%s %s notitle", k ? ", " : "", k, engine ? ":3 with yerrorbars" : " with points",
-            style);
-    if (!legend) continue;
-    fprintf(s, ", keyentry with points %s title '", style);
-    gg_plot_text(s, methods[k].name);
-    fputc('\'', s);
-  }
-  fprintf(s, "\n");
-}
-
-static void draw(FILE *s, const gg_stored_result *stored, bool ratio, gg_panel panel)
+void gg_plot_sheet_add_comparison(gg_plot_sheet *s, const gg_stored_result *stored)
 {
   method methods[MOST_METHODS];
-  entry selected[MOST_SELECTED];
-  int n_methods = methods_of(stored, methods);
-  int n = n_methods ? select_entries(&methods[0], ratio, selected) : 0;
-  if (n == 0) return;
-  gg_plot_place(s, panel);
-  double step = fmin(0.8 / n_methods, 0.13), first = -step * (n_methods - 1) / 2, reach[2];
-  if (ratio) find_reach(methods, n_methods, selected, n, reach);
-  for (int k = 0; k < n_methods; k++) {
-    print_points(s, k, &methods[k], &methods[0], ratio, selected, n, first + k * step);
-    if (ratio)
-      label_outliers(s, &methods[k], &methods[0], selected, n, first + k * step, reach,
-                     gg_plot_colours[colour_of(&methods[k], k)]);
-  }
-  print_categories(s, selected, n);
-  fprintf(s, "set xlabel ''\n");
-  fprintf(s, "set key at screen 0.5,0.935 center top vertical maxrows 2 noenhanced samplen 0.6 width 1.5\n");
-  if (ratio) {
-    fprintf(s, "set ylabel 'value / ");
-    gg_plot_text(s, methods[0].name);
-    fprintf(s, "' offset 0.5,0\nset yrange [%g:%g]\n", 1 - reach[0], 1 + reach[1]);
-    fprintf(s, "set arrow from graph 0,first 1 to graph 1,first 1 nohead back lc rgb '#888888' lw 1\n");
-  } else {
-    fprintf(s, "set ylabel 'value' offset 0.5,0\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n");
-    fprintf(s, "set arrow from graph 0,first 0 to graph 1,first 0 nohead back lc rgb '#888888' lw 1\n");
-  }
-  plot_methods(s, methods, n_methods, ratio || !gg_plot_has(stored, true));
-}
-
-void gg_plot_ratios(FILE *s, const gg_stored_result *stored, gg_panel panel)
-{
-  draw(s, stored, true, panel);
-}
-
-void gg_plot_differences(FILE *s, const gg_stored_result *stored, gg_panel panel)
-{
-  draw(s, stored, false, panel);
-}
-
-bool gg_plot_has(const gg_stored_result *stored, bool ratios)
-{
-  method methods[MOST_METHODS];
-  entry selected[MOST_SELECTED];
-  return methods_of(stored, methods) > 0 && select_entries(&methods[0], ratios, selected) > 0;
+  const char *selected[GG_SHEET_NAMES];
+  int n = methods_of(stored, methods);
+  int ratios = n ? select_quantities(&methods[0], true, selected) : 0;
+  int others = n ? select_quantities(&methods[0], false, selected) : 0;
+  if (ratios) add_panel(s, methods, n, true, others ? 0.64 : 1);
+  if (others) add_panel(s, methods, n, false, ratios ? 0.36 : 1);
 }

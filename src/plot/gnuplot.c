@@ -115,7 +115,7 @@ gg_status gg_plot_gnuplot_run(const char *script, const char *over, const char *
   GG_TRY(gg_base_atomic_open(&file, picture, err));
   gg_status status = draw(script, file.fd, err);
   if (status == GG_OK && over) status = put_over(&file, over, err);
-  if (status == GG_OK && end_of(file.fd, "</svg>") < 0 && end_of(file.fd, "IEND") < 0)
+  if (status == GG_OK && end_of(file.fd, "</svg>") < 0 && end_of(file.fd, "IEND") < 0 && end_of(file.fd, "%%EOF") < 0)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
   if (status == GG_OK) return gg_base_atomic_commit(&file, err);
   gg_base_atomic_abandon(&file);

@@ -16,7 +16,7 @@ typedef struct gg_plot_grains {
   const double *position;
   const uint8_t *species;
   int n_species;
-  double edge[3], top, radius[GG_MAX_SPECIES];
+  double edge[3], top, radius[GG_MAX_SPECIES], mass[GG_MAX_SPECIES];
 } gg_plot_grains;
 
 typedef struct gg_plot_disc {

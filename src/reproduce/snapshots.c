@@ -66,7 +66,7 @@ static gg_status draw_one(FILE *s, const shown *one, int k, gg_panel place, gg_e
     fprintf(s, "%.3g %.3g\n", fold(at[3 * i + (size_t)across], edge[across]), fold(at[3 * i + 1], edge[1]));
   fprintf(s, "EOD\n");
   free(at);
-  gg_plot_place(s, place);
+  gg_plot_page_place(s, place);
   fprintf(s, "set label '%s%s%s%.0f collisions per grain' at graph 0,1.05 left font ',10'\n",
           one->of->title ? one->of->title : "", one->of->title || *group ? ", " : "", *group ? group : "", collisions);
   fprintf(
@@ -82,14 +82,14 @@ gg_status gg_reproduce_figure_draw_snapshots(const gg_figure *f, const gg_figure
 {
   shown list[MOST_SHOWN];
   int n = collect(f, all, list), columns = n < COLUMNS ? n : COLUMNS, rows = n ? (n + columns - 1) / columns : 1;
-  bool png;
+  gg_plot_paper paper;
   char *script = NULL;
   if (!n) return gg_base_fail(err, GG_FAILED, "%s: no grains with positions were stored", f->entry->figure);
-  GG_TRY(gg_plot_format(picture, NULL, &png, err));
+  GG_TRY(gg_plot_paper_choose(&paper, picture, NULL, NULL, err));
   FILE *s = gg_base_memory_stream_open(&script);
   if (!s) return gg_base_out_of_memory(err);
   int width = columns * WIDTH, height = 50 + rows * HEIGHT;
-  gg_plot_open_page(s, f->entry->figure, png, width, height);
+  gg_plot_page_open(s, f->entry->figure, &paper, width, height);
   gg_status status = GG_OK;
   for (int k = 0; k < n && status == GG_OK; k++) {
     double left = (double)(k % columns) / columns, w = 1.0 / columns, h = (double)HEIGHT / height;

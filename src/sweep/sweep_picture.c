@@ -357,17 +357,18 @@ static gg_status fill(drawing *d, gg_error *err)
   return GG_OK;
 }
 
-static gg_status draw(drawing *d, const gg_picture_choice *choice, const char *picture, gg_error *err)
+static gg_status draw(drawing *d, const gg_picture_choice *choice, const char *picture, const char *width,
+                      gg_error *err)
 {
   GG_TRY(choose_key(d, choice->over, err));
   GG_TRY(choice->show ? add_named(d, choice->show, err) : choose_quantities(d, err));
   GG_TRY(fill(d, err));
   const gg_chart chart = {.n = d->n, .panel = d->panel};
-  return gg_plot_chart_draw(&chart, picture, NULL, err);
+  return gg_plot_chart_draw(&chart, picture, width, err);
 }
 
 gg_status gg_sweep_point_table_draw(const gg_point_table *t, const gg_sweep *sweep, const gg_picture_choice *choice,
-                                    const char *picture, gg_error *err)
+                                    const char *picture, const char *width, gg_error *err)
 {
   drawing *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return GG_FAILED;
@@ -377,7 +378,7 @@ gg_status gg_sweep_point_table_draw(const gg_point_table *t, const gg_sweep *swe
   d->x = gg_base_array_new(room, sizeof *d->x, err);
   d->y = gg_base_array_new(room, sizeof *d->y, err);
   d->error = gg_base_array_new(room, sizeof *d->error, err);
-  gg_status status = d->x && d->y && d->error ? draw(d, choice, picture, err) : GG_FAILED;
+  gg_status status = d->x && d->y && d->error ? draw(d, choice, picture, width, err) : GG_FAILED;
   free(d->x);
   free(d->y);
   free(d->error);

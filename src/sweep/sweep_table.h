@@ -43,7 +43,7 @@ typedef struct gg_picture_choice { /* NULL: chosen */
  * theories as lines, unless keys go together with that one. GG_BAD_INPUT if no key has numbers, or one that is named is
  * not there. */
 gg_status gg_sweep_point_table_draw(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
-                                    const char *picture, gg_error *err);
+                                    const char *picture, const char *width, gg_error *err);
 
 /* Points that differ in the rows of one varied group alone, that of a picture's axis, are one line of it. */
 /* Bytes of a name as enhanced text; what it shows has at most some 70 letters, the width of a picture. */

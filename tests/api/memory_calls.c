@@ -187,7 +187,7 @@ static gg_status export(things *t, gg_error *err)
 static gg_status plot(things *t, gg_error *err)
 {
   t->written = true; /* a page that fails keeps none of the others from being drawn */
-  return gg_plot("there.h5", "new.svg", NULL, tell_file, t, err);
+  return gg_plot("there.h5", "new.svg", NULL, NULL, tell_file, t, err);
 }
 
 static gg_status extend(things *t, gg_error *err)

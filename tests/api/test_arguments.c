@@ -174,8 +174,8 @@ static void comparisons(void **state)
   assert_missing(gg_comparison_write(c, NULL, &err));
   assert_missing(gg_comparison_read(NULL, &other, &err));
   assert_missing(gg_comparison_read("x", NULL, &err));
-  assert_missing(gg_plot(NULL, "x.svg", NULL, NULL, NULL, &err));
-  assert_missing(gg_plot("x", NULL, NULL, NULL, NULL, &err));
+  assert_missing(gg_plot(NULL, "x.svg", NULL, NULL, NULL, NULL, &err));
+  assert_missing(gg_plot("x", NULL, NULL, NULL, NULL, NULL, &err));
   assert_missing(gg_export(NULL, "x", GG_EXPORT_ALL, NULL, NULL, &err));
   assert_missing(gg_export("x", NULL, GG_EXPORT_ALL, NULL, NULL, &err));
   assert_null(other);
@@ -325,7 +325,8 @@ static void unknown_names(void **state)
   assert_refused(gg_result_curve_number(r, 0, 0, &m, &err), "");
   assert_null(gg_result_unit(r, "N7"));
   gg_result_free(r);
-  assert_refused(gg_plot("same.svg", "same.svg", NULL, NULL, NULL, &err), "would be both the result and its picture");
+  assert_refused(gg_plot("same.svg", "same.svg", NULL, NULL, NULL, NULL, &err),
+                 "would be both the result and its picture");
   assert_refused(gg_export("x.h5", "x", 0, NULL, NULL, &err), "0 is no set of parts to export");
   assert_refused(gg_export("x.h5", "x", ~0u, NULL, NULL, &err), "is no set of parts to export");
   assert_refused(gg_export("x.h5", "folder/", GG_EXPORT_ALL, NULL, NULL, &err), "need a prefix to their names");

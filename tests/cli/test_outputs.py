@@ -189,17 +189,35 @@ def test_pictures():
     os.mkdir("folder.svg")
     os.mkfifo("pipe")
     for picture, code, words in (("none/x.svg", 3, "No such file or directory"), ("folder.svg", 3, "Is a directory"),
-                                 ("q.pdf", 2, "pictures are .svg or .png, not .pdf"), ("q", 2, "ends with .svg or .png"),
-                                 ("pipe", 2, "ends with .svg or .png")):
+                                 ("q.eps", 2, "pictures are .svg, .png or .pdf, not .eps"),
+                                 ("q", 2, "ends with .svg, .png or .pdf"),
+                                 ("pipe", 2, "ends with .svg, .png or .pdf")):
         refused(words, code, "--picture", picture, command="compare")
     os.mkfifo("pipe.svg")
     refused("pictures are files", 3, "--picture", "pipe.svg", command="compare")
     written("--output", "z.h5")
     whole = open("z.h5", "rb").read()
-    for picture in ("q.pdf", "z.h5", "q.svg", "pipe.svg"):
+    for picture in ("q.eps", "z.h5", "q.svg", "pipe.svg"):
         done = run("plot", "z.h5", "--output", picture, *(("--format", "png") if picture == "q.svg" else ()))
         check(done.code in (2, 3) and not done.new, picture, done.code, done.err)
     check(open("z.h5", "rb").read() == whole)
+
+
+def test_pictures_for_paper():
+    """PDF, as wide as asked for, of whatever a result has; a width that is none is refused before the run."""
+    scenes()
+    written("--output", "w.h5", "--set", "measure=[rheology, velocity_distributions]")
+    done = run("plot", "w.h5", "--output", "w.pdf", "--width", "86mm")
+    check(done.new == ["w.pdf", "w_snapshot.pdf", "w_velocity_distributions.pdf"], done.new, done.err)
+    for name in done.new:
+        with open(name, "rb") as f:
+            data = f.read()
+        box = re.search(rb"/MediaBox \[ *0 0 ([0-9.]+) ([0-9.]+)", data)
+        check(data[:5] == b"%PDF-" and abs(float(box[1]) - 86 * 72 / 25.4) < 0.5, name, box)
+    for width in "86", "8.6 km", "0mm", "nanmm":
+        refused("mm, cm, in or pt, from 40mm to 1000mm", 2, "--picture", "q.pdf", "--width", width, command="compare")
+    done = run("plot", "w.h5", "--format", "pdf", "--output", "v", "--quiet")
+    check(done.code == 0 and "v.pdf" in done.new, done.new, done.err)
 
 
 def contents():

@@ -32,6 +32,7 @@ static int leave(void **state)
   (void)state;
   unlink("c.svg");
   unlink("c.png");
+  unlink("c.pdf");
   return chdir("/") == 0 ? rmdir(folder) : -1;
 }
 
@@ -75,7 +76,7 @@ static double bar_at(const char *svg, double x)
   return 0;
 }
 
-static const double x3[] = {1.5, 15, 150}, y3[] = {2, 3, 4}, e3[] = {0.5, 0.25, NAN};
+static const double x3[] = {1.5, 15, 150}, y3[] = {2, 3, 4}, e3[] = {0.5, 0.25, NAN}, e4[] = {2, 2.5, 3};
 
 static void points_stand_where_they_are(void **state)
 {
@@ -133,7 +134,7 @@ static void looks_follow_from_names(void **state)
       {.method = "md", .group = "two", .n = 3, .x = x3, .y = y3, .error = e3},
       {.method = "dsmc", .group = "two", .n = 3, .x = x3, .y = y3, .error = e3},
       {.method = "lun1991", .group = "one", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = y3},
-      {.method = "enskog_hermite", .group = "one", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = y3}};
+      {.method = "enskog_hermite", .group = "one", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = e4}};
   const gg_chart_panel panels[] = {{.title = "a", .n = 5, .series = series}, {.title = "b", .n = 3, .series = series}};
   const gg_chart chart = {.title = "'it's a title'", .n = 2, .panel = panels};
   mark m[MOST];
@@ -142,7 +143,9 @@ static void looks_follow_from_names(void **state)
   assert_int_equal(marks_of(svg, FILLED_SQUARE, m), 3 + 3 + 1);
   assert_int_equal(marks_of(svg, OPEN_SQUARE, m), 3 + 3 + 1);
   assert_int_equal(count(svg, "stroke-dasharray"), 1 + 1);
-  assert_int_equal(count(svg, ">enskog_hermite<") + count(svg, ">one<") + count(svg, ">two<"), 3);
+  assert_int_equal(count(svg, ">Enskog (Hermite)</tspan>") + count(svg, ">Lun 1991</tspan>") +
+                       count(svg, ">one</tspan>") + count(svg, ">two</tspan>"),
+                   4);
   assert_int_equal(count(svg, "’it’s a title’"), 1);
   free(svg);
 }
@@ -161,6 +164,20 @@ static void laws_beside_bands(void **state)
   free(svg);
 }
 
+/* The page's texts without their marks, a line each: "2·10^6" is a text of three pieces. */
+static char *texts_of(const char *svg)
+{
+  char *texts = calloc(1, strlen(svg) + 1), *to = texts;
+  for (const char *at = svg; (at = strstr(at, "<text>")); *to++ = '\n')
+    for (const char *end = strstr(at, "</text>"); at < end; at++) {
+      if (*at == '<')
+        at = strchr(at, '>');
+      else if (*at != ' ')
+        *to++ = *at;
+    }
+  return texts;
+}
+
 /* Labels of tics stay short, and round; those of a logarithmic axis are powers where it is long. */
 static void tics(void **state)
 {
@@ -168,26 +185,25 @@ static void tics(void **state)
   static const struct {
     gg_axis axis;
     const char *has, *has_not;
-  } cases[] = {{{false, 0, 1}, "'0.2' 0.2", "'0.25'"},
-               {{false, 2.3e6, 3.6e6}, "'2.4·10^{6}' 2400000", "'2400000'"},
-               {{false, -1.6e-5, -0.9e-5}, "'-1.1·10^{-5}' -1.1e-05", "0.00001"},
-               {{false, -0.1, 0.1}, "'0' ", "'-0'"},
-               {{false, 1e7, 4e7}, "'10^{7}' 10000000", "'10000000'"},
-               {{true, 1, 1000}, "'10' 10", "'20'"},
-               {{true, 1, 100}, "'20' 20", "'30'"},
-               {{true, 1e-8, 1}, "'10^{-4}' 0.0001", "'0.0001'"},
-               {{true, 2, 3}, "'2.2' 2.2", "'10'"},
-               {{true, 1e-300, 1}, "'10^{-50}' 1e-50", "'10^{-47}'"},
-               {{false, 1e-322, 9e-322}, "x", "inf"}}; /* and comes to an end */
+  } cases[] = {{{false, 0, 1}, "\n0.2\n", "\n0.25\n"},
+               {{false, 2.3e6, 3.6e6}, "\n2.4×106\n", "2400000"},
+               {{false, -1.6e-5, -0.9e-5}, "1.1×10-5\n", "0.00001"},
+               {{false, -0.1, 0.1}, "\n0\n", "-0\n"},
+               {{false, 1e7, 4e7}, "\n1×107\n", "10000000"},
+               {{true, 1, 1000}, "\n10\n", "\n20\n"},
+               {{true, 1, 100}, "\n20\n", "\n30\n"},
+               {{true, 1e-8, 1}, "\n10-4\n", "0.0001"},
+               {{true, 2, 3}, "\n2.2\n", "\n10\n"},
+               {{true, 1e-300, 1}, "\n10-50\n", "\n10-47\n"},
+               {{false, 1e-322, 9e-322}, "label", "inf"}}; /* and comes to an end */
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    char *text = NULL;
-    size_t size;
-    FILE *s = open_memstream(&text, &size);
-    gg_plot_axis_print(s, 'x', cases[i].axis);
-    fclose(s);
+    gg_axis a = cases[i].axis;
+    gg_chart_panel panel = {.x = {"label", NULL, a.log, a.from, a.to}, .n = 0};
+    gg_chart chart = {.n = 1, .panel = &panel};
+    char *svg = drawn(&chart), *text = texts_of(svg);
     if (!strstr(text, cases[i].has)) fail_msg("%s: no %s", text, cases[i].has);
     if (strstr(text, cases[i].has_not)) fail_msg("%s: has %s", text, cases[i].has_not);
-    free(text);
+    free(text), free(svg);
   }
 }
 
@@ -236,8 +252,8 @@ static void refused(void **state)
   gg_error err;
   gg_chart_panel panel = {.n = 0};
   gg_chart chart = {.n = 1, .panel = &panel};
-  assert_int_equal(gg_plot_chart_draw(&chart, "c.pdf", NULL, &err), GG_BAD_INPUT);
-  assert_int_equal(gg_plot_chart_draw(&chart, "c.svg", "png", &err), GG_BAD_INPUT);
+  assert_int_equal(gg_plot_chart_draw(&chart, "c.gif", NULL, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_plot_chart_draw(&chart, "c.svg", "86", &err), GG_BAD_INPUT);
   assert_int_equal(gg_plot_chart_draw(&chart, "none/c.svg", NULL, &err), GG_BAD_FILE);
   assert_int_equal(gg_plot_chart_draw(&(gg_chart){.n = 0}, "c.svg", NULL, &err), GG_BAD_INPUT);
   if (gg_plot_chart_draw(&chart, "c.png", NULL, &err) != GG_OK) fail_msg("%s", err.message);
@@ -249,30 +265,141 @@ static void kinds_of_pictures(void **state)
   (void)state;
   static const struct {
     const char *picture, *format, *said;
-  } bad[] = {{"a.svg", "gif", "not 'gif'"},     {"a", NULL, "ends with .svg or .png"},
-             {"a/.svg", NULL, "ends with"},     {"b.d/a", NULL, "ends with"},
-             {"a.pdf", NULL, "not .pdf"},       {"a.svg", "png", "its name says svg"},
-             {"folder/", "svg", "needs a name"}};
+  } bad[] = {{"a.svg", "gif", "not 'gif'"},         {"a", NULL, "ends with .svg, .png or .pdf"},
+             {"a/.svg", NULL, "ends with"},         {"b.d/a", NULL, "ends with"},
+             {"a.eps", NULL, "not .eps"},           {"a.svg", "png", "its name says svg"},
+             {"a.svg", "pdf", "its name says svg"}, {"folder/", "svg", "needs a name"}};
+  static const struct {
+    const char *picture, *format;
+    gg_plot_format is;
+  } good[] = {{"b.d/a", "svg", GG_PLOT_SVG}, {"a.png", NULL, GG_PLOT_PNG},   {"a.png", "png", GG_PLOT_PNG},
+              {"a", "png", GG_PLOT_PNG},     {"a.b.pdf", NULL, GG_PLOT_PDF}, {"a", "pdf", GG_PLOT_PDF}};
   gg_error err;
-  bool png = true;
+  gg_plot_paper paper;
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-    assert_int_equal(gg_plot_format(bad[i].picture, bad[i].format, &png, &err), GG_BAD_INPUT);
+    assert_int_equal(gg_plot_paper_choose(&paper, bad[i].picture, bad[i].format, NULL, &err), GG_BAD_INPUT);
     if (!strstr(err.message, bad[i].said)) fail_msg("'%s' is not in '%s'", bad[i].said, err.message);
   }
-  assert_true(gg_plot_format("b.d/a", "svg", &png, &err) == GG_OK && !png);
-  assert_true(gg_plot_format("a.png", NULL, &png, &err) == GG_OK && png);
-  assert_true(gg_plot_format("a.png", "png", &png, &err) == GG_OK && png);
-  assert_true(gg_plot_format("a", "png", &png, &err) == GG_OK && png);
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    assert_int_equal(gg_plot_paper_choose(&paper, good[i].picture, good[i].format, NULL, &err), GG_OK);
+    assert_true(paper.format == good[i].is && paper.width == 0);
+  }
+}
+
+static void widths(void **state)
+{
+  (void)state;
+  static const char *const bad[] = {"", "86", "mm", "86 km", "-86mm", "nanmm", "infmm", "1mm", "2000mm", "86mm "};
+  static const char *const same[] = {"86mm", "8.6cm", "3.38583in", "243.78pt", "86.0mm"};
+  gg_error err;
+  gg_plot_paper paper;
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    assert_int_equal(gg_plot_paper_choose(&paper, "a.svg", NULL, bad[i], &err), GG_BAD_INPUT);
+    assert_non_null(strstr(err.message, "mm, cm, in or pt, from 40mm to 1000mm"));
+  }
+  for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+    assert_int_equal(gg_plot_paper_choose(&paper, "a.svg", NULL, same[i], &err), GG_OK);
+    assert_true(fabs(paper.width - 1.5 * 86 * 72 / 25.4) < 0.01); /* 8 points for 12 pixels */
+  }
+}
+
+static size_t read_file(const char *name, char *text, size_t size)
+{
+  FILE *f = fopen(name, "r");
+  assert_non_null(f);
+  size_t n = fread(text, 1, size - 1, f);
+  text[n] = '\0';
+  fclose(f);
+  return n;
+}
+
+/* A PDF has the width asked for in points, and so has an SVG in pixels of 1/96 inch. */
+static void width_on_paper(void **state)
+{
+  (void)state;
+  static char text[1 << 20];
+  double box[4], wide = 0;
+  gg_error err;
+  gg_chart_series md = {.method = "md", .n = 3, .x = x3, .y = y3, .error = e3};
+  gg_chart_panel panels[] = {{.n = 1, .series = &md}, {.n = 1, .series = &md}};
+  const gg_chart chart = {.n = 2, .panel = panels};
+  if (gg_plot_chart_draw(&chart, "c.pdf", "86mm", &err) != GG_OK) fail_msg("%s", err.message);
+  size_t n = read_file("c.pdf", text, sizeof text);
+  assert_memory_equal(text, "%PDF-", 5);
+  const char *media = memmem(text, n, "/MediaBox", 9);
+  assert_non_null(media);
+  assert_int_equal(sscanf(media, "/MediaBox [ %lf %lf %lf %lf", &box[0], &box[1], &box[2], &box[3]), 4);
+  assert_true(fabs(box[2] - box[0] - 86 * 72 / 25.4) < 0.5);
+  assert_true(box[3] - box[1] > box[2] - box[0]); /* two panels below each other */
+  if (gg_plot_chart_draw(&chart, "c.svg", "86mm", &err) != GG_OK) fail_msg("%s", err.message);
+  read_file("c.svg", text, sizeof text);
+  assert_int_equal(sscanf(strstr(text, "width="), "width=\"%lf\"", &wide), 1);
+  assert_true(fabs(wide - 86 * 96 / 25.4) < 1);
+}
+
+/* Theories are called as people call them; those that coincide are drawn once, under both names. */
+static void theories(void **state)
+{
+  (void)state;
+  static const char *const names[][2] = {{"garzo_dufty1999", "Garzó & Dufty 1999"},
+                                         {"kremer_santos_garzo2014", "Kremer, Santos & Garzó 2014"},
+                                         {"montanero_santos2000", "Montanero & Santos 2000"},
+                                         {"haff1983", "Haff 1983"},
+                                         {"grad", "Grad"},
+                                         {"md", "md"},
+                                         {"my_theory2020", "my_theory2020"}};
+  char name[64];
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    gg_plot_method_name(names[i][0], name, sizeof name);
+    assert_string_equal(name, names[i][1]);
+  }
+  const double near[] = {2.0001, 3, 4}, far[] = {2.2, 3, 4};
+  gg_chart_series series[] = {{.method = "md", .n = 3, .x = x3, .y = y3, .error = e3},
+                              {.method = "lun1991", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = y3},
+                              {.method = "grad", .style = GG_CHART_LINE, .n = 3, .x = x3, .y = near}};
+  gg_chart_panel panel = {.n = 3, .series = series};
+  gg_chart chart = {.n = 1, .panel = &panel};
+  char *svg = drawn(&chart);
+  assert_int_equal(count(svg, ">Lun 1991; Grad</tspan>"), 1);
+  assert_int_equal(count(svg, "stroke-dasharray"), 0);
+  free(svg);
+  series[2].y = far;
+  svg = drawn(&chart);
+  assert_int_equal(count(svg, ">Lun 1991</tspan>") + count(svg, ">Grad</tspan>"), 2);
+  assert_int_equal(count(svg, "stroke-dasharray"), 1 + 1);
+  free(svg);
+}
+
+/* SVG drops a space at the end of a piece of text, but not one that does not break. */
+static void units_keep_their_space(void **state)
+{
+  (void)state;
+  char text[64];
+  gg_plot_text_unit("rho_p d^2 gamma^2", text, sizeof text);
+  assert_string_equal(text, "ρ_p\u00a0d^2\u00a0γ^2");
+  gg_chart_panel panel = {.x = {"x", "d^2 gamma^2", false, 0, 1}, .n = 0};
+  gg_chart chart = {.n = 1, .panel = &panel};
+  char *svg = drawn(&chart), *texts = texts_of(svg);
+  assert_non_null(strstr(texts, "[d2\u00a0γ2]"));
+  free(texts), free(svg);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(kinds_of_pictures), cmocka_unit_test(points_stand_where_they_are),
-      cmocka_unit_test(what_is_not_there), cmocka_unit_test(looks_follow_from_names),
-      cmocka_unit_test(laws_beside_bands), cmocka_unit_test(tics),
-      cmocka_unit_test(axes_have_room),    cmocka_unit_test(keys),
+      cmocka_unit_test(kinds_of_pictures),
+      cmocka_unit_test(points_stand_where_they_are),
+      cmocka_unit_test(what_is_not_there),
+      cmocka_unit_test(looks_follow_from_names),
+      cmocka_unit_test(laws_beside_bands),
+      cmocka_unit_test(tics),
+      cmocka_unit_test(axes_have_room),
+      cmocka_unit_test(keys),
       cmocka_unit_test(refused),
+      cmocka_unit_test(widths),
+      cmocka_unit_test(width_on_paper),
+      cmocka_unit_test(theories),
+      cmocka_unit_test(units_keep_their_space),
   };
   return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -31,6 +31,7 @@ static int leave(void **state)
   unlink("r.h5");
   unlink("r.svg");
   unlink("r.png");
+  unlink("r.pdf");
   return chdir("/") == 0 ? rmdir(folder) : -1;
 }
 
@@ -136,21 +137,23 @@ static gg_result *result_with(gg_flow flow, const double place[GRAINS][3])
   return r;
 }
 
-static bool draw_as(gg_result *r, bool png)
+static bool draw_as(gg_result *r, gg_plot_format format)
 {
   gg_error err = {0};
   gg_stored_result stored;
   bool drawn = false;
   if (gg_result_write(r, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
   if (gg_files_stored_result_read(&stored, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
-  if (gg_plot_snapshot(&stored, png ? "r.png" : "r.svg", png, &drawn, &err) != GG_OK) fail_msg("%s", err.message);
+  const char *picture = format == GG_PLOT_PNG ? "r.png" : format == GG_PLOT_PDF ? "r.pdf" : "r.svg";
+  const gg_plot_paper paper = {.format = format};
+  if (gg_plot_snapshot_draw(&stored, &paper, picture, &drawn, &err) != GG_OK) fail_msg("%s", err.message);
   gg_files_stored_result_clear(&stored);
   return drawn;
 }
 
 static bool draw(gg_result *r)
 {
-  return draw_as(r, false);
+  return draw_as(r, GG_PLOT_SVG);
 }
 
 /* Every grain's disc in the panel whose frame is `f` and whose horizontal axis is `along`. */
@@ -199,6 +202,9 @@ static void grains_where_they_are(void **state)
   assert_int_equal(p.discs, 2 * GRAINS);
   expect_grains(&p, left, place, 0, L[0], L[1]);
   expect_grains(&p, right, place, 2, L[2], L[1]);
+  const char *text = read_text("r.svg"); /* the legend of the mixture */
+  assert_non_null(strstr(text, "species 1: σ = 1, m = 1"));
+  assert_non_null(strstr(text, "species 2: σ = 1.5, m = 2"));
   gg_result_free(r);
 }
 
@@ -267,9 +273,10 @@ static void pictures_are_small(void **state)
   } gas[] = {{1000, 0.01, false}, {1000, 0.5, false}, {1000, 0.3, true}, {100000, 0.01, false}, {100000, 0.5, true}};
   for (size_t k = 0; k < sizeof gas / sizeof *gas; k++) {
     gg_result *r = gas_of(gas[k].n, gas[k].phi, gas[k].mixed);
-    assert_true(draw_as(r, false) && draw_as(r, true));
-    if (size_of("r.svg") >= 500000 || size_of("r.png") >= 500000)
-      fail_msg("%zu grains at %g: %ld and %ld bytes", gas[k].n, gas[k].phi, size_of("r.svg"), size_of("r.png"));
+    assert_true(draw_as(r, GG_PLOT_SVG) && draw_as(r, GG_PLOT_PNG) && draw_as(r, GG_PLOT_PDF));
+    if (size_of("r.svg") >= 500000 || size_of("r.png") >= 500000 || size_of("r.pdf") >= 500000)
+      fail_msg("%zu grains at %g: %ld, %ld and %ld bytes", gas[k].n, gas[k].phi, size_of("r.svg"), size_of("r.png"),
+               size_of("r.pdf"));
     const char *text = read_text("r.svg");
     size_t discs = 0;
     for (const char *at = text; (at = strstr(at, "<use xlink:href='#g")); at++) discs++;

@@ -71,14 +71,18 @@ static void add_frame(gg_stored_result *s, const json_t *frame)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-  static const char *const names[] = {"x.svg", "x.png"};
+  static const char *const names[] = {"x.svg", "x.png", "x.pdf"};
+  static const char *const widths[] = {NULL, "86mm"};
   gg_stored_result s;
   gg_error err;
   if (fuzz_stored(&s, data, size)) {
     for (int k = 0; k < 2; k++) add_series(&s.engine[k], json_object_get(s.document, "series"));
     add_frame(&s, json_object_get(s.document, "frame"));
-    const char *name = names[data[0] / 3 % 2];
-    if (gg_plot_result(&s, name, NULL, &err) == GG_OK) gg_plot_pages(&s, name, NULL, NULL, NULL, &err);
+    const char *name = names[data[0] / 3 % 3];
+    gg_plot_paper paper;
+    if (gg_plot_paper_choose(&paper, name, NULL, widths[data[0] / 9 % 2], &err) == GG_OK &&
+        gg_plot_result_draw(&s, &paper, name, &err) == GG_OK)
+      gg_plot_pages_draw(&s, &paper, name, NULL, NULL, &err);
   }
   gg_files_stored_result_clear(&s);
   return 0;

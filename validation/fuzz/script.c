@@ -81,9 +81,9 @@ static void check_number(const char *line, size_t length)
 static void check_size(const char *line, size_t length)
 {
   const char *size = strstr(line, " size ");
-  int wide = 0, tall = 0;
+  double wide = 0, tall = 0; /* of PDF in inches */
   if (!begins(line, "set terminal ")) return;
-  if (!size || size > line + length || sscanf(size, " size %d,%d", &wide, &tall) != 2 || wide < 1 || tall < 1 ||
+  if (!size || size > line + length || sscanf(size, " size %lf,%lf", &wide, &tall) != 2 || wide < 1 || tall < 1 ||
       wide > MOST_PIXELS || tall > MOST_PIXELS)
     refuse("a page that nobody can draw", line, length);
 }

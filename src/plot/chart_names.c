@@ -1,9 +1,11 @@
-/* Keys of scenes as axes and legends name them. */
+/* Names on axes and in legends: of scene keys and of methods. */
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "plot/chart.h"
 #include "scene/fields.h"
+#include "theory/theory.h"
 
 static const struct {
   const char *key, *symbol;
@@ -79,4 +81,40 @@ void gg_plot_chart_key(const char *key, char *text, size_t size, const char **un
       return;
     }
   escape(key, text, size);
+}
+
+static const char *const special[][2] = {{"enskog_hermite", "Enskog (Hermite)"},
+                                         {"gaussian_closure", "Gaussian closure"},
+                                         {"lun1991_lun_savage", "Lun 1991 (Lun–Savage)"},
+                                         {"garzo_montanero2003_ms", "Garzó & Montanero 2003 (MS)"}};
+
+/* "garzo_dufty1999": authors with capitals, and the year. */
+static void name_authors(const char *key, char *text, size_t size)
+{
+  size_t used = 0;
+  for (const char *c = key; *c && used + 8 < size; c++) {
+    bool first = c == key || c[-1] == '_',
+         year = isdigit((unsigned char)*c) && c > key && isalpha((unsigned char)c[-1]);
+    const char *between = *c != '_' ? year ? " " : "" : strchr(c + 1, '_') ? ", " : " & ";
+    used += (size_t)snprintf(text + used, size - used, "%s", between);
+    if (*c == '_') continue;
+    bool accent = *c == 'o' && c - key >= 4 && strncmp(c - 4, "garz", 4) == 0;
+    if (accent)
+      used += (size_t)snprintf(text + used, size - used, "ó");
+    else
+      text[used++] = (char)(first ? toupper((unsigned char)*c) : *c);
+  }
+  text[used] = '\0';
+}
+
+void gg_plot_method_name(const char *method, char *text, size_t size)
+{
+  size_t i = 0;
+  while (i < sizeof special / sizeof *special && strcmp(special[i][0], method) != 0) i++;
+  if (i < sizeof special / sizeof *special)
+    snprintf(text, size, "%s", special[i][1]);
+  else if (gg_theory_find(method))
+    name_authors(method, text, size);
+  else
+    snprintf(text, size, "%s", method);
 }

@@ -1,0 +1,112 @@
+/* The picture of a result, and those beside it: a snapshot, and one for each observable that left curves. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "base/memory.h"
+#include "files/curve_table.h"
+#include "plot/sheet.h"
+
+enum { MOST_GROUPS = 16 };
+
+gg_status gg_plot_result_draw(const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
+                              gg_error *err)
+{
+  const gg_stored_engine *md = &stored->engine[GG_MD], *dsmc = &stored->engine[GG_DSMC];
+  gg_plot_sheet *s = gg_plot_sheet_new(stored, paper);
+  if (!s) return gg_base_out_of_memory(err);
+  s->chart.columns = 2;
+  if (stored->comparison) gg_plot_sheet_add_comparison(s, stored);
+  double share = stored->comparison && md->name && dsmc->name ? 0.5 : 0;
+  for (int k = 0; k < 2; k++)
+    if (stored->engine[k].name)
+      gg_plot_sheet_add_relaxation(s, &stored->engine[k],
+                                   !stored->comparison && gg_plot_has_stresses(&stored->engine[k]), share);
+  return gg_plot_sheet_finish(s, paper, picture, err);
+}
+
+typedef struct page {
+  char *path;
+  const char *group; /* of curves; NULL: the snapshot */
+  const gg_stored_engine *engine;
+} page;
+
+typedef struct page_list {
+  int n;
+  page page[1 + 2 * MOST_GROUPS];
+} page_list;
+
+static gg_status draw_curves(const gg_stored_result *stored, const page *p, const json_t *theories,
+                             const gg_plot_paper *paper, gg_error *err)
+{
+  gg_plot_sheet *s = gg_plot_sheet_new(stored, paper);
+  if (!s) return gg_base_out_of_memory(err);
+  gg_plot_sheet_add_curves(s, p->engine->name, p->engine->document, theories, p->group);
+  return gg_plot_sheet_finish(s, paper, p->path, err);
+}
+
+static void clear(page_list *pages)
+{
+  for (int i = 0; i < pages->n; i++) free(pages->page[i].path);
+  pages->n = 0;
+}
+
+/* To be cleared, also on failure. */
+static gg_status list(page_list *pages, const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
+                      gg_error *err)
+{
+  bool whole = true;
+  pages->n = 0;
+  if (gg_plot_snapshot_has(stored))
+    pages->page[pages->n++] = (page){.path = gg_plot_page_name(picture, "", GG_SNAPSHOT_PAGE, paper)};
+  for (int k = 0; k < 2; k++) {
+    const gg_stored_engine *e = &stored->engine[k];
+    const char *groups[MOST_GROUPS], *engine = stored->comparison ? e->name : "";
+    int n = e->name ? gg_plot_curve_groups(e->document, groups, MOST_GROUPS) : 0;
+    for (int i = 0; i < n; i++)
+      pages->page[pages->n++] = (page){gg_plot_page_name(picture, engine, groups[i], paper), groups[i], e};
+  }
+  for (int i = 0; i < pages->n; i++) whole &= pages->page[i].path != NULL;
+  return whole ? GG_OK : gg_base_out_of_memory(err);
+}
+
+static gg_status check_page(const char *path, const char *picture, const char *file, gg_error *err)
+{
+  if (gg_base_path_is_same_file(path, file))
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture", path, picture);
+  return gg_base_atomic_check_writable(path, GG_PICTURES_ARE, err);
+}
+
+gg_status gg_plot_pages_check(const gg_stored_result *stored, const gg_plot_paper *paper, const char *file,
+                              const char *picture, gg_error *err)
+{
+  page_list pages;
+  gg_status status = list(&pages, stored, paper, picture, err);
+  for (int i = 0; status == GG_OK && i < pages.n; i++) status = check_page(pages.page[i].path, picture, file, err);
+  clear(&pages);
+  return status;
+}
+
+gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
+                             void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
+{
+  bool there;
+  page_list pages;
+  gg_status status = list(&pages, stored, paper, picture, err);
+  if (status != GG_OK) clear(&pages);
+  json_t *theories = NULL;
+  /* A page that fails keeps none of the others from being drawn; the first failure is reported. */
+  for (int i = 0; i < pages.n; i++) {
+    const page *p = &pages.page[i];
+    gg_error later, *reported = status == GG_OK ? err : &later;
+    if (p->group && !theories) theories = gg_plot_theory_curves(stored);
+    gg_status done = p->group ? draw_curves(stored, p, theories, paper, reported)
+                              : gg_plot_snapshot_draw(stored, paper, p->path, &there, reported);
+    if (done == GG_OK && drawn) drawn(context, p->path);
+    if (status == GG_OK) status = done;
+  }
+  json_decref(theories);
+  clear(&pages);
+  return status;
+}
