@@ -48,10 +48,19 @@ static bool is_measured(const method *engine, const char *name, bool *from_zero)
   return isfinite(mean);
 }
 
-/* The names of what an engine has measured, and told from zero if it is to be divided by; and of some quantities of the
- * program's own, as ratios where they can be. */
-static int select_quantities(const method *engine, bool ratio, const char **selected)
+/* Has another method than the first a number to be divided by its? */
+static bool is_compared(const method *methods, int n, const char *name)
 {
+  int k = 1;
+  while (k < n && !isfinite(number(&methods[k], name, "mean"))) k++;
+  return k < n;
+}
+
+/* The names of what the first method, an engine, has measured, as ratios what is compared and told from zero; and of
+ * some quantities of the program's own. */
+static int select_quantities(const method *methods, int n_methods, bool ratio, const char **selected)
+{
+  const method *engine = methods;
   int n = 0, n_own = 0;
   bool from_zero;
   const char *name;
@@ -59,11 +68,14 @@ static int select_quantities(const method *engine, bool ratio, const char **sele
   const unsigned drawn = ratio ? GG_DRAWN_AS_RATIO : GG_DRAWN;
   for (gg_quantity q = gg_common_quantity_next(-1, drawn); q < GG_N_QUANTITIES; q = gg_common_quantity_next(q, drawn)) {
     name = gg_common_quantity_name(q);
-    if (is_measured(engine, name, &from_zero) && (from_zero || !ratio)) selected[n++] = name;
+    if (!is_measured(engine, name, &from_zero) || (ratio && !(from_zero && is_compared(methods, n_methods, name))))
+      continue;
+    selected[n++] = name;
   }
   json_object_foreach((json_t *)(uintptr_t)engine->results, name, own)
   {
-    if (n_own == MOST_OWN || !is_own(name) || !is_measured(engine, name, &from_zero) || from_zero != ratio) continue;
+    if (n_own == MOST_OWN || !is_own(name) || !is_measured(engine, name, &from_zero)) continue;
+    if ((from_zero && is_compared(methods, n_methods, name)) != ratio) continue;
     selected[n++] = name, n_own++;
   }
   return n;
@@ -135,7 +147,7 @@ static bool has_room(const gg_plot_sheet *s, const char *const *names, int n, do
 static void add_panel(gg_plot_sheet *s, const method *methods, int n_methods, bool ratio, double share)
 {
   const char *selected[GG_SHEET_NAMES];
-  int n = select_quantities(&methods[0], ratio, selected);
+  int n = select_quantities(methods, n_methods, ratio, selected);
   bool wordy = has_room(s, selected, n, share);
   gg_chart_panel *p = gg_plot_sheet_add_panel(s);
   for (int k = 0; k < n_methods; k++) add_method(s, &methods[k], &methods[0], ratio, selected, n);
@@ -153,8 +165,8 @@ void gg_plot_sheet_add_comparison(gg_plot_sheet *s, const gg_stored_result *stor
   method methods[MOST_METHODS];
   const char *selected[GG_SHEET_NAMES];
   int n = methods_of(stored, methods);
-  int ratios = n ? select_quantities(&methods[0], true, selected) : 0;
-  int others = n ? select_quantities(&methods[0], false, selected) : 0;
+  int ratios = n ? select_quantities(methods, n, true, selected) : 0;
+  int others = n ? select_quantities(methods, n, false, selected) : 0;
   if (ratios) add_panel(s, methods, n, true, others ? 0.64 : 1);
   if (others) add_panel(s, methods, n, false, ratios ? 0.36 : 1);
 }
