@@ -685,21 +685,27 @@ GG_API gg_status gg_reproduction_page(char **text, gg_error *err);
 /* ---- Tables to ask ---- */
 
 typedef enum gg_catalogue {
-  GG_CATALOGUE_KEYS,         /* of scenes: name, type, unit, doc, allowed, value, given */
+  GG_CATALOGUE_KEYS,         /* of scenes: name, type, unit, doc, allowed, value, given, when */
   GG_CATALOGUE_SPECIES_KEYS, /* of one species: the same */
   GG_CATALOGUE_FLOWS,        /* name, doc */
   GG_CATALOGUE_ENGINES,      /* name, doc */
   GG_CATALOGUE_OBSERVABLES,  /* words under `measure`: name, doc */
-  GG_CATALOGUE_QUANTITIES,   /* name, unit, doc */
-  GG_CATALOGUE_THEORIES      /* name, doc, citation, assumptions */
+  GG_CATALOGUE_QUANTITIES,   /* name, unit, doc, symbol, formula, missing, headline, when */
+  GG_CATALOGUE_THEORIES      /* name, doc, citation, assumptions, answers, when */
 } gg_catalogue;
 
 typedef struct gg_entry { /* NULL or "" where the list has no such thing */
   const char *name, *doc, *unit, *citation, *assumptions;
-  const char *type;  /* "number", "integer", "choice", "set", "pairs", "vector", "species" */
-  char allowed[256]; /* "a number from 0 to 1" */
-  char value[4096];  /* in force in the scene; without a scene, the default, "" if there is none */
-  int given;         /* in the scene */
+  const char *type;    /* "number", "integer", "choice", "set", "pairs", "vector", "species" */
+  char allowed[256];   /* "a number from 0 to 1" */
+  char value[4096];    /* in force in the scene; without a scene, the default, "" if there is none */
+  int given;           /* in the scene */
+  const char *formula; /* of a quantity: its definition, as LaTeX has it */
+  const char *missing; /* of a quantity: why the scene has no mean of it; NULL: it has, or there is no scene */
+  const char *answers; /* of a theory: names of quantities, separated by blanks */
+  char symbol[48];     /* of a quantity, as pictures have it: "T", "P_{xy}" */
+  int headline;        /* of a quantity: run.relative_error applies to it in the scene */
+  char when[256];      /* when a key has an effect, a quantity has a mean, which flows a theory describes */
 } gg_entry;
 /* The i-th entry, GG_BAD_INPUT after the last. `scene` (may be NULL) decides units and values. */
 GG_API gg_status gg_catalogue_entry(gg_catalogue list, size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err);

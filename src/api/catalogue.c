@@ -4,9 +4,12 @@
 
 #include "api/api.h"
 #include "base/c_locale.h"
+#include "base/string_list.h"
 #include "common/engine.h"
 #include "common/extension.h"
+#include "common/flow.h"
 #include "common/quantity.h"
+#include "run/result.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
 
@@ -41,6 +44,7 @@ static gg_status field_entry(const gg_field *f, gg_entry *entry, gg_error *err)
   if (!f) return no_more(err);
   *entry = (gg_entry){.name = f->key, .doc = f->doc, .unit = f->unit, .type = type_names[f->type]};
   gg_scene_field_allowed(f, entry->allowed, sizeof entry->allowed);
+  gg_scene_field_when(f, entry->when, sizeof entry->when);
   return GG_OK;
 }
 
@@ -84,6 +88,15 @@ gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error
   return word_entry(key, i, entry, err);
 }
 
+static bool is_headline(const gg_model *model, gg_quantity q)
+{
+  gg_quantity headline[GG_N_QUANTITIES];
+  const int n = gg_run_headline_quantities(model, headline);
+  for (int i = 0; i < n; i++)
+    if (headline[i] == q) return true;
+  return false;
+}
+
 /* The unit depends on the flow: without a scene it is that of uniform shear. */
 static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
@@ -97,8 +110,21 @@ static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry
   *entry = (gg_entry){.name = gg_common_quantity_name_in(&model, q),
                       .doc = gg_common_quantity_doc_in(&model, q),
                       .unit = gg_common_quantity_unit(q, &model),
+                      .missing = scene ? gg_common_quantity_missing(&model, q) : NULL,
+                      .headline = scene && is_headline(&model, q),
                       .type = "number"};
+  if (q >= GG_N_QUANTITIES) return GG_OK;
+  entry->formula = gg_common_quantity_formula(q);
+  gg_common_quantity_symbol(q, entry->symbol, sizeof entry->symbol);
+  gg_common_quantity_when(q, entry->when, sizeof entry->when);
   return GG_OK;
+}
+
+static void put_flows(unsigned flows, gg_entry *entry)
+{
+  for (int f = 0; f < GG_N_FLOWS; f++)
+    if (flows & GG_FLOW_BIT(f))
+      gg_base_text_append(entry->when, sizeof entry->when, "%s%s", *entry->when ? ", " : "", gg_common_flows[f].word);
 }
 
 /* The shared ones, then those that the user defined. */
@@ -111,7 +137,9 @@ static gg_status theory_entry(size_t i, const gg_scene *scene, gg_entry *entry, 
   if (!t && i - n < (size_t)gg_common_extension_theories(user_defined))
     t = gg_common_extension_face(user_defined, (int)(i - n));
   if (!t) return no_more(err);
-  *entry = (gg_entry){.name = t->name, .doc = t->title, .citation = t->citation, .assumptions = t->assumptions};
+  *entry = (gg_entry){
+      .name = t->name, .doc = t->title, .citation = t->citation, .assumptions = t->assumptions, .answers = t->answers};
+  put_flows(t->flows, entry);
   return GG_OK;
 }
 

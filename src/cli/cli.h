@@ -48,6 +48,9 @@ void gg_cli_print_text(char *text);
 void gg_cli_print_manual(void);
 /* The page of scene keys, docs/reference/scene.md. */
 void gg_cli_print_scene_page(void);
+/* The pages of quantities and of commands, docs/reference/quantities.md and commands.md. */
+void gg_cli_print_quantities_page(void);
+void gg_cli_print_commands_page(void);
 /* The page of figures, docs/appendix/reproduction.md. */
 void gg_cli_print_reproduction_page(void);
 

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/definition.h"
 #include "cli/options.h"
 #include "cli/report.h"
 #include "cli/table.h"
@@ -72,6 +73,8 @@ static int inform_scene(const gg_options *o)
     gg_cli_print_text(text);
   } else if (code == GG_OK) {
     print_fields(scene);
+    printf("\n");
+    gg_cli_print_headline(scene);
     print_engines(scene);
   }
   gg_scene_free(scene);
@@ -249,6 +252,11 @@ static int inform(const gg_options *o)
   if (o->input && is_hdf5(o->input)) {
     if (!o->n_overrides) return inform_result(o);
     return gg_cli_fail(GG_BAD_INPUT, "%s: is a result, which --set does not change", o->input);
+  }
+  struct stat about;
+  if (o->input && gg_cli_is_word(o->input) && stat(o->input, &about) != 0) {
+    if (!o->json && !o->n_overrides) return gg_cli_define(o->input);
+    return gg_cli_fail(GG_BAD_INPUT, "info WORD takes neither --set nor --json; '%s' is no file", o->input);
   }
   if (o->input) return inform_scene(o);
   if (o->json || o->n_overrides) return gg_cli_fail(GG_BAD_INPUT, "info needs a FILE with --set and --json");

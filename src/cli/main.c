@@ -108,6 +108,8 @@ static int dispatch(int argc, char **argv)
   if (strcmp(word, "--version") == 0) return printf("graingas %s\n", gg_version()), GG_OK;
   if (strcmp(word, "--manual") == 0) return gg_cli_print_manual(), GG_OK;
   if (strcmp(word, "--reproduction-page") == 0) return gg_cli_print_reproduction_page(), GG_OK;
+  if (strcmp(word, "--quantities-page") == 0) return gg_cli_print_quantities_page(), GG_OK;
+  if (strcmp(word, "--commands-page") == 0) return gg_cli_print_commands_page(), GG_OK;
   if (strcmp(word, "--scene-page") == 0) return gg_cli_print_scene_page(), GG_OK;
   return unknown(word);
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/definition.h"
 #include "cli/number_format.h"
 #include "cli/table.h"
 #include "cli/wrap.h"
@@ -163,6 +164,7 @@ void gg_cli_print_run(const gg_result *r, const char *reported, bool all)
   gg_cli_print_head(gg_result_scene(r));
   gg_cli_table_print(t, stdout, 1);
   free(t);
+  gg_cli_print_headline(gg_result_scene(r));
   gg_cli_print_numbers(r, NULL, all);
   printf("\n");
   gg_cli_print_effort(r);

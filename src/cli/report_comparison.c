@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/definition.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "cli/wrap.h"
@@ -226,6 +227,7 @@ static void print_legend(const gg_comparison *c, int n_theories)
   printf("\n");
   gg_cli_print_paragraph(stdout, 0, "(..): standard error of the last digits%s%s",
                          both_ran(c) ? "; z: (md - dsmc) over their combined standard error" : "", deviation);
+  if (reference(c)) gg_cli_print_headline(gg_comparison_scene(c));
 }
 
 void gg_cli_print_comparison(const gg_comparison *c, bool all)

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/string_list.h"
+
 enum unit {
   UNIT_NONE,
   UNIT_TEMPERATURE,
@@ -44,13 +46,13 @@ typedef struct row {
   const char *symbol, *word;
   enum unit unit;
   unsigned mask;
-  const char *doc;
+  const char *doc, *formula;
 } row;
 
-#define ROW_OF_ONE(id, name, symbol, word, unit, mask, doc)                                                            \
-  {GG_Q_##id, 1, names_##id, symbol, word, UNIT_##unit, mask, doc},
-#define ROW_OF_EACH(id, name, symbol, word, unit, mask, doc)                                                           \
-  {GG_Q_##id, GG_MAX_SPECIES, names_##id, symbol, word, UNIT_##unit, mask, doc},
+#define ROW_OF_ONE(id, name, symbol, word, unit, mask, doc, formula)                                                   \
+  {GG_Q_##id, 1, names_##id, symbol, word, UNIT_##unit, mask, doc, formula},
+#define ROW_OF_EACH(id, name, symbol, word, unit, mask, doc, formula)                                                  \
+  {GG_Q_##id, GG_MAX_SPECIES, names_##id, symbol, word, UNIT_##unit, mask, doc, formula},
 static const row table[] = {GG_QUANTITIES(ROW_OF_ONE, ROW_OF_EACH)};
 enum { ROWS = sizeof table / sizeof *table };
 
@@ -69,6 +71,10 @@ const char *gg_common_quantity_name(gg_quantity q)
 const char *gg_common_quantity_doc(gg_quantity q)
 {
   return row_of(q)->doc;
+}
+const char *gg_common_quantity_formula(gg_quantity q)
+{
+  return row_of(q)->formula;
 }
 const char *gg_common_quantity_word(gg_quantity q)
 {
@@ -196,7 +202,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_NO_SHEAR, m->shear_rate != 0, "see the kurtosis in sheared flows"},
       {GG_NEEDS_ONE_SPECIES, m->n_species > 1, "see c_1 and c_2 for mixtures"},
       {GG_NEEDS_LINEAR_RESPONSE, !m->linear_response, "needs the linear response: flow: small_shear"},
-      {GG_NEEDS_THEORY, true, "told by theories alone, not a mean; see graingas theory"},
+      {GG_NEEDS_THEORY, true, "given by theories only; see graingas theory"},
       {GG_NEEDS_MIXTURE, m->n_species == 1, "there is one species only"},
   };
   for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
@@ -207,4 +213,32 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
 const char *gg_common_quantity_missing(const gg_model *model, gg_quantity q)
 {
   return gg_common_model_missing(model, gg_common_quantity_mask(q));
+}
+
+const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size)
+{
+  static const struct {
+    unsigned need;
+    const char *words;
+  } words[] = {
+      {GG_NEEDS_THEORY, "theories only"},
+      {GG_NEEDS_LINEAR_RESPONSE, "flow: small_shear"},
+      {GG_NEEDS_SPINS, "rough grains"},
+      {GG_NEEDS_MEAN_SPIN, "shear without walls, phi above 0"},
+      {GG_NEEDS_SHEAR, "shear"},
+      {GG_NEEDS_NO_SHEAR, "no shear"},
+      {GG_NEEDS_ONE_SPECIES, "one species"},
+      {GG_NEEDS_MIXTURE, "mixtures"},
+      {GG_NEEDS_LOSS, "collisions that lose energy"},
+      {GG_NEEDS_COOLING, "free cooling, or heated smooth grains"},
+      {GG_NEEDS_TRANSFER | GG_NEEDS_VOLUME, "phi above 0"},
+      {GG_NEEDS_BOX, "md"},
+      {GG_NEEDS_SCALE | GG_NEEDS_SCALE_SHOWN, "no free cooling"},
+  };
+  const unsigned mask = gg_common_quantity_mask(q);
+  *text = '\0';
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (mask & words[i].need) gg_base_text_append(text, size, "%s%s", *text ? "; " : "", words[i].words);
+  if (!*text) snprintf(text, size, "always");
+  return text;
 }

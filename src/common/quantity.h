@@ -37,75 +37,134 @@ enum {
 #define GG_CUMULANT (GG_NEEDS_NO_SHEAR)
 #define GG_REDUCED_VISCOSITY (GG_NEEDS_LINEAR_RESPONSE | GG_KEPT_HEATING)
 
-/* ONE(identifier, name, symbol as pictures have it, short word or "", unit, mask, one-line meaning): a quantity.
+/* ONE(identifier, name, symbol as pictures have it, short word or "", unit, mask, meaning in one line, "plain formula:
+ * words", and the definition in LaTeX): a quantity.
  * EACH(...): a family with a member a species, GG_Q_<identifier> + i for species i, called <name>_1 and on. A scene has
  * those of the species that it has (and always the first two). */
 #define GG_QUANTITIES(ONE, EACH)                                                                                       \
   ONE(TEMPERATURE, "temperature", "T", "temperature", TEMPERATURE,                                                     \
-      GG_NEEDS_SCALE_SHOWN | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO, "T = <C.C>/3")                            \
+      GG_NEEDS_SCALE_SHOWN | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO,                                           \
+      "<C.C>/3: granular temperature, a third of the mean square peculiar velocity",                                   \
+      "T = \\frac{1}{3}\\langle C^2\\rangle")                                                                          \
   ONE(ROTATIONAL_TEMPERATURE, "rotational_temperature", "θ", "rotational", TEMPERATURE,                                \
-      GG_NEEDS_SPINS | GG_NEEDS_SCALE_SHOWN | GG_FOLLOWED | GG_DRAWN_AS_RATIO, "theta = I<Omega.Omega>/(3m)")          \
+      GG_NEEDS_SPINS | GG_NEEDS_SCALE_SHOWN | GG_FOLLOWED | GG_DRAWN_AS_RATIO,                                         \
+      "I<Omega.Omega>/(3m): temperature of the spins about their mean",                                                \
+      "\\theta = \\frac{I}{3m}\\langle\\Omega^2\\rangle")                                                              \
   ONE(TEMPERATURE_RATIO, "temperature_ratio", "θ/T", "ratio", NONE,                                                    \
-      GG_NEEDS_SPINS | GG_KEPT_HEATING | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO, "theta/T")                    \
+      GG_NEEDS_SPINS | GG_KEPT_HEATING | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO,                               \
+      "theta/T: rotational over translational temperature; 1 with equipartition", "\\theta/T")                         \
   ONE(SPIN_Z, "spin_z", "<ω_z>", "spin", SPIN,                                                                         \
-      GG_NEEDS_SPINS | GG_NEEDS_MEAN_SPIN | GG_MONITORED | GG_FOLLOWED | GG_DRAWN, "mean spin about z")                \
+      GG_NEEDS_SPINS | GG_NEEDS_MEAN_SPIN | GG_MONITORED | GG_FOLLOWED | GG_DRAWN,                                     \
+      "<omega_z>: mean angular velocity about z, normal to the plane of shear", "\\langle\\omega_z\\rangle")           \
   ONE(PRESSURE, "pressure", "p", "pressure", STRESS, GG_NEEDS_SCALE | GG_FOLLOWED | GG_DRAWN_AS_RATIO,                 \
-      "third of the trace of the total stress")                                                                        \
+      "(P_xx + P_yy + P_zz)/3: a third of the trace of the total stress",                                              \
+      "p = \\frac{1}{3}(P_{xx} + P_{yy} + P_{zz})")                                                                    \
   ONE(COMPRESSIBILITY, "compressibility_factor", "p/(nT)", "", NONE, GG_NEEDS_VOLUME | GG_DRAWN_AS_RATIO,              \
-      "Z = p/(n T)")                                                                                                   \
+      "p/(n T): pressure over that of an ideal gas", "Z = \\frac{p}{nT}")                                              \
   ONE(SHEAR_VISCOSITY, "shear_viscosity", "η", "viscosity", VISCOSITY, GG_NEEDS_SHEAR | GG_DRAWN_AS_RATIO,             \
-      "|P_xy|/shear rate")                                                                                             \
-  ONE(N1, "N1", "N_1", "", NONE, GG_STRESS_DIFFERENCE | GG_DRAWN, "(P_xx - P_yy)/p")                                   \
-  ONE(N2, "N2", "N_2", "", NONE, GG_STRESS_DIFFERENCE | GG_DRAWN, "(P_yy - P_zz)/p")                                   \
-  ONE(P_XX, "P_xx", "P_{xx}", "", STRESS, GG_P_TOTAL, "stress")                                                        \
-  ONE(P_YY, "P_yy", "P_{yy}", "", STRESS, GG_P_TOTAL, "stress")                                                        \
-  ONE(P_ZZ, "P_zz", "P_{zz}", "", STRESS, GG_P_TOTAL, "stress")                                                        \
-  ONE(P_XY, "P_xy", "P_{xy}", "", STRESS, GG_P_TOTAL | GG_FOLLOWED, "stress")                                          \
-  ONE(P_YX, "P_yx", "P_{yx}", "", STRESS, GG_P_TOTAL, "stress")                                                        \
-  ONE(P_XX_KINETIC, "P_xx_kinetic", "P@_{xx}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_xx")                       \
-  ONE(P_YY_KINETIC, "P_yy_kinetic", "P@_{yy}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_yy")                       \
-  ONE(P_ZZ_KINETIC, "P_zz_kinetic", "P@_{zz}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_zz")                       \
-  ONE(P_XY_KINETIC, "P_xy_kinetic", "P@_{xy}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_xy")                       \
-  ONE(P_YX_KINETIC, "P_yx_kinetic", "P@_{yx}^k", "", STRESS, GG_P_TOTAL, "kinetic part of P_yx")                       \
-  ONE(P_XX_COLLISIONAL, "P_xx_collisional", "P@_{xx}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_xx")     \
-  ONE(P_YY_COLLISIONAL, "P_yy_collisional", "P@_{yy}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_yy")     \
-  ONE(P_ZZ_COLLISIONAL, "P_zz_collisional", "P@_{zz}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_zz")     \
-  ONE(P_XY_COLLISIONAL, "P_xy_collisional", "P@_{xy}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_xy")     \
-  ONE(P_YX_COLLISIONAL, "P_yx_collisional", "P@_{yx}^c", "", STRESS, GG_P_COLLISIONAL, "collisional part of P_yx")     \
+      "|P_xy|/gamma: shear stress over shear rate", "\\eta = \\lvert P_{xy}\\rvert/\\dot\\gamma")                      \
+  ONE(N1, "N1", "N_1", "", NONE, GG_STRESS_DIFFERENCE | GG_DRAWN,                                                      \
+      "(P_xx - P_yy)/p: first normal stress difference over the pressure", "N_1 = \\frac{P_{xx} - P_{yy}}{p}")         \
+  ONE(N2, "N2", "N_2", "", NONE, GG_STRESS_DIFFERENCE | GG_DRAWN,                                                      \
+      "(P_yy - P_zz)/p: second normal stress difference over the pressure", "N_2 = \\frac{P_{yy} - P_{zz}}{p}")        \
+  ONE(P_XX, "P_xx", "P_{xx}", "", STRESS, GG_P_TOTAL, "total normal stress along x (kinetic and collisional part)",    \
+      "P_{xx} = P^k_{xx} + P^c_{xx}")                                                                                  \
+  ONE(P_YY, "P_yy", "P_{yy}", "", STRESS, GG_P_TOTAL, "total normal stress along y (kinetic and collisional part)",    \
+      "P_{yy} = P^k_{yy} + P^c_{yy}")                                                                                  \
+  ONE(P_ZZ, "P_zz", "P_{zz}", "", STRESS, GG_P_TOTAL, "total normal stress along z (kinetic and collisional part)",    \
+      "P_{zz} = P^k_{zz} + P^c_{zz}")                                                                                  \
+  ONE(P_XY, "P_xy", "P_{xy}", "", STRESS, GG_P_TOTAL | GG_FOLLOWED,                                                    \
+      "total stress, flux along x of momentum along y (kinetic and collisional part)", "P_{xy} = P^k_{xy} + P^c_{xy}") \
+  ONE(P_YX, "P_yx", "P_{yx}", "", STRESS, GG_P_TOTAL,                                                                  \
+      "total stress, flux along y of momentum along x (kinetic and collisional part)", "P_{yx} = P^k_{yx} + P^c_{yx}") \
+  ONE(P_XX_KINETIC, "P_xx_kinetic", "P@_{xx}^k", "", STRESS, GG_P_TOTAL,                                               \
+      "n<m C_x^2>: kinetic part of P_xx, momentum that grains carry", "P^k_{xx} = n\\langle m\\,C_x^2\\rangle")        \
+  ONE(P_YY_KINETIC, "P_yy_kinetic", "P@_{yy}^k", "", STRESS, GG_P_TOTAL,                                               \
+      "n<m C_y^2>: kinetic part of P_yy, momentum that grains carry", "P^k_{yy} = n\\langle m\\,C_y^2\\rangle")        \
+  ONE(P_ZZ_KINETIC, "P_zz_kinetic", "P@_{zz}^k", "", STRESS, GG_P_TOTAL,                                               \
+      "n<m C_z^2>: kinetic part of P_zz, momentum that grains carry", "P^k_{zz} = n\\langle m\\,C_z^2\\rangle")        \
+  ONE(P_XY_KINETIC, "P_xy_kinetic", "P@_{xy}^k", "", STRESS, GG_P_TOTAL,                                               \
+      "n<m C_x C_y>: kinetic part of P_xy, momentum that grains carry", "P^k_{xy} = n\\langle m\\,C_x C_y\\rangle")    \
+  ONE(P_YX_KINETIC, "P_yx_kinetic", "P@_{yx}^k", "", STRESS, GG_P_TOTAL,                                               \
+      "n<m C_y C_x>: kinetic part of P_yx, momentum that grains carry", "P^k_{yx} = n\\langle m\\,C_y C_x\\rangle")    \
+  ONE(P_XX_COLLISIONAL, "P_xx_collisional", "P@_{xx}^c", "", STRESS, GG_P_COLLISIONAL,                                 \
+      "sum of sigma k_x J_x/(V t): collisional part of P_xx, momentum passed on at contact",                           \
+      "P^c_{xx} = \\frac{1}{V t}\\sum_{\\mathrm{coll}}\\sigma\\,k_x J_x")                                              \
+  ONE(P_YY_COLLISIONAL, "P_yy_collisional", "P@_{yy}^c", "", STRESS, GG_P_COLLISIONAL,                                 \
+      "sum of sigma k_y J_y/(V t): collisional part of P_yy, momentum passed on at contact",                           \
+      "P^c_{yy} = \\frac{1}{V t}\\sum_{\\mathrm{coll}}\\sigma\\,k_y J_y")                                              \
+  ONE(P_ZZ_COLLISIONAL, "P_zz_collisional", "P@_{zz}^c", "", STRESS, GG_P_COLLISIONAL,                                 \
+      "sum of sigma k_z J_z/(V t): collisional part of P_zz, momentum passed on at contact",                           \
+      "P^c_{zz} = \\frac{1}{V t}\\sum_{\\mathrm{coll}}\\sigma\\,k_z J_z")                                              \
+  ONE(P_XY_COLLISIONAL, "P_xy_collisional", "P@_{xy}^c", "", STRESS, GG_P_COLLISIONAL,                                 \
+      "sum of sigma k_x J_y/(V t): collisional part of P_xy, momentum passed on at contact",                           \
+      "P^c_{xy} = \\frac{1}{V t}\\sum_{\\mathrm{coll}}\\sigma\\,k_x J_y")                                              \
+  ONE(P_YX_COLLISIONAL, "P_yx_collisional", "P@_{yx}^c", "", STRESS, GG_P_COLLISIONAL,                                 \
+      "sum of sigma k_y J_x/(V t): collisional part of P_yx, momentum passed on at contact",                           \
+      "P^c_{yx} = \\frac{1}{V t}\\sum_{\\mathrm{coll}}\\sigma\\,k_y J_x")                                              \
   ONE(COLLISION_RATE, "collision_rate", "ν", "collisions", RATE,                                                       \
-      GG_NEEDS_SCALE | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO, "collisions per grain and unit time")           \
-  ONE(MEAN_FREE_PATH, "mean_free_path", "l", "", LENGTH, GG_KEPT_HEATING, "mean peculiar speed over collision rate")   \
-  ONE(KNUDSEN, "knudsen", "Kn", "", NONE, GG_NEEDS_BOX | GG_KEPT_HEATING, "mean free path over box length")            \
+      GG_NEEDS_SCALE | GG_MONITORED | GG_FOLLOWED | GG_DRAWN_AS_RATIO,                                                 \
+      "2 collisions/(N t): collisions per grain and unit of time; a collision counts for both partners",               \
+      "\\nu = \\frac{2\\,N_{\\mathrm{coll}}}{N t}")                                                                    \
+  ONE(MEAN_FREE_PATH, "mean_free_path", "l", "", LENGTH, GG_KEPT_HEATING,                                              \
+      "<C>/nu: mean peculiar speed over collision rate", "l = \\langle C\\rangle/\\nu")                                \
+  ONE(KNUDSEN, "knudsen", "Kn", "", NONE, GG_NEEDS_BOX | GG_KEPT_HEATING,                                              \
+      "l/V^(1/3): mean free path over the cube root of the box volume", "\\mathrm{Kn} = l/V^{1/3}")                    \
   ONE(COS2_PSI, "cos2_psi", "<cos^2 Ψ>", "", NONE, GG_NEEDS_SPINS | GG_KEPT_HEATING | GG_FOLLOWED,                     \
-      "<(C.Omega)^2/(C^2 Omega^2)>; 1/3 without correlation")                                                          \
-  ONE(KURTOSIS_CX, "kurtosis_Cx", "κ(C_x)", "", NONE, 0, "<C_x^4>/<C_x^2>^2; 3 for a Gaussian")                        \
-  ONE(KURTOSIS_CY, "kurtosis_Cy", "κ(C_y)", "", NONE, 0, "<C_y^4>/<C_y^2>^2")                                          \
-  ONE(KURTOSIS_CZ, "kurtosis_Cz", "κ(C_z)", "", NONE, 0, "<C_z^4>/<C_z^2>^2")                                          \
-  ONE(KURTOSIS_WX, "kurtosis_Wx", "κ(Ω_x)", "", NONE, GG_SPIN_MOMENT, "<Omega_x^4>/<Omega_x^2>^2")                     \
-  ONE(KURTOSIS_WY, "kurtosis_Wy", "κ(Ω_y)", "", NONE, GG_SPIN_MOMENT, "<Omega_y^4>/<Omega_y^2>^2")                     \
-  ONE(KURTOSIS_WZ, "kurtosis_Wz", "κ(Ω_z)", "", NONE, GG_SPIN_MOMENT, "<Omega_z^4>/<Omega_z^2>^2")                     \
-  ONE(SKEWNESS_WZ, "skewness_Wz", "γ(Ω_z)", "", NONE, GG_SPIN_MOMENT, "<Omega_z^3>/<Omega_z^2>^(3/2)")                 \
+      "<(C.Omega)^2/(C^2 Omega^2)>: mean square cosine of the angle between velocity and spin; 1/3 without "           \
+      "correlation",                                                                                                   \
+      "\\left\\langle\\frac{(\\mathbf{C}\\cdot\\mathbf{\\Omega})^2}{C^2\\,\\Omega^2}\\right\\rangle")                  \
+  ONE(KURTOSIS_CX, "kurtosis_Cx", "κ(C_x)", "", NONE, 0,                                                               \
+      "<C_x^4>/<C_x^2>^2: kurtosis of the velocity along x; 3 for a Gaussian",                                         \
+      "\\frac{\\langle C_x^4\\rangle}{\\langle C_x^2\\rangle^2}")                                                      \
+  ONE(KURTOSIS_CY, "kurtosis_Cy", "κ(C_y)", "", NONE, 0,                                                               \
+      "<C_y^4>/<C_y^2>^2: kurtosis of the velocity along y; 3 for a Gaussian",                                         \
+      "\\frac{\\langle C_y^4\\rangle}{\\langle C_y^2\\rangle^2}")                                                      \
+  ONE(KURTOSIS_CZ, "kurtosis_Cz", "κ(C_z)", "", NONE, 0,                                                               \
+      "<C_z^4>/<C_z^2>^2: kurtosis of the velocity along z; 3 for a Gaussian",                                         \
+      "\\frac{\\langle C_z^4\\rangle}{\\langle C_z^2\\rangle^2}")                                                      \
+  ONE(KURTOSIS_WX, "kurtosis_Wx", "κ(Ω_x)", "", NONE, GG_SPIN_MOMENT,                                                  \
+      "<Omega_x^4>/<Omega_x^2>^2: kurtosis of the spin along x; 3 for a Gaussian",                                     \
+      "\\frac{\\langle \\Omega_x^4\\rangle}{\\langle \\Omega_x^2\\rangle^2}")                                          \
+  ONE(KURTOSIS_WY, "kurtosis_Wy", "κ(Ω_y)", "", NONE, GG_SPIN_MOMENT,                                                  \
+      "<Omega_y^4>/<Omega_y^2>^2: kurtosis of the spin along y; 3 for a Gaussian",                                     \
+      "\\frac{\\langle \\Omega_y^4\\rangle}{\\langle \\Omega_y^2\\rangle^2}")                                          \
+  ONE(KURTOSIS_WZ, "kurtosis_Wz", "κ(Ω_z)", "", NONE, GG_SPIN_MOMENT,                                                  \
+      "<Omega_z^4>/<Omega_z^2>^2: kurtosis of the spin along z; 3 for a Gaussian",                                     \
+      "\\frac{\\langle \\Omega_z^4\\rangle}{\\langle \\Omega_z^2\\rangle^2}")                                          \
+  ONE(SKEWNESS_WZ, "skewness_Wz", "γ(Ω_z)", "", NONE, GG_SPIN_MOMENT,                                                  \
+      "<Omega_z^3>/<Omega_z^2>^(3/2): skewness of the spin about z; 0 for a Gaussian",                                 \
+      "\\frac{\\langle\\Omega_z^3\\rangle}{\\langle\\Omega_z^2\\rangle^{3/2}}")                                        \
   ONE(DISSIPATION, "dissipation", "D", "", POWER, GG_NEEDS_LOSS | GG_NEEDS_SCALE,                                      \
-      "energy lost in collisions per volume and time")                                                                 \
+      "sum of -Delta E/(V t): energy lost in collisions, per volume and time",                                         \
+      "D = \\frac{1}{V t}\\sum_{\\mathrm{coll}}(-\\Delta E)")                                                          \
   ONE(ENERGY_BALANCE, "energy_balance", "-P_{xy}γ/D", "", NONE, GG_NEEDS_SHEAR | GG_NEEDS_LOSS,                        \
-      "shear work -P_xy*rate over dissipation; 1 in a steady state but for heating")                                   \
+      "-P_xy gamma/D: work of shear over dissipation; 1 in a steady state without heating", "-P_{xy}\\dot\\gamma/D")   \
   ONE(COOLING_RATE, "cooling_rate", "ζ*", "cooling", NONE, GG_NEEDS_LOSS | GG_NEEDS_COOLING | GG_DRAWN_AS_RATIO,       \
-      "zeta* = zeta/nu_0")                                                                                             \
+      "zeta/nu_0: rate of energy loss over the reference collision rate nu_0", "\\zeta^* = \\zeta/\\nu_0")             \
   ONE(A2, "a2", "a_2", "", NONE, GG_CUMULANT | GG_NEEDS_ONE_SPECIES | GG_MONITORED | GG_FOLLOWED | GG_DRAWN,           \
-      "<c^4>/(15 T^2) - 1, fourth cumulant")                                                                           \
-  EACH(CUMULANT, "c", "c", "", NONE, GG_CUMULANT | GG_NEEDS_MIXTURE, "fourth cumulant of the species (twice a2)")      \
+      "<C^4>/(15 T^2) - 1: fourth cumulant of the velocity distribution; 0 for a Gaussian",                            \
+      "a_2 = \\frac{\\langle C^4\\rangle}{15\\,T^2} - 1")                                                              \
+  EACH(CUMULANT, "c", "c", "", NONE, GG_CUMULANT | GG_NEEDS_MIXTURE,                                                   \
+       "2 (<C^4>/(15 (T_i/m_i)^2) - 1): fourth cumulant of the species, twice its a2",                                 \
+       "c_i = 2\\left(\\frac{\\langle C^4\\rangle_i}{15\\,(T_i/m_i)^2} - 1\\right)")                                   \
   EACH(PARTIAL_TEMPERATURE, "temperature", "T", "", TEMPERATURE,                                                       \
-       GG_NEEDS_SCALE | GG_NEEDS_MIXTURE | GG_DRAWN_AS_RATIO, "partial temperature m_i<C.C>_i/3 of the species")       \
+       GG_NEEDS_SCALE | GG_NEEDS_MIXTURE | GG_DRAWN_AS_RATIO, "m_i<C.C>_i/3: partial temperature of the species",      \
+       "T_i = \\frac{m_i}{3}\\langle C^2\\rangle_i")                                                                   \
   ONE(PARTIAL_TEMPERATURE_RATIO, "partial_temperature_ratio", "T_1/T_2", "", NONE,                                     \
-      GG_NEEDS_MIXTURE | GG_DRAWN_AS_RATIO, "T_1/T_2")                                                                 \
+      GG_NEEDS_MIXTURE | GG_DRAWN_AS_RATIO, "T_1/T_2: partial temperature of species 1 over that of species 2",        \
+      "T_1/T_2")                                                                                                       \
   ONE(VISCOSITY_REDUCED, "viscosity_reduced", "η*", "viscosity", NONE, GG_REDUCED_VISCOSITY | GG_DRAWN_AS_RATIO,       \
-      "eta* = nu eta/(n T)")                                                                                           \
+      "nu_0 eta/(n T): viscosity of linear response, with the reference collision rate nu_0",                          \
+      "\\eta^* = \\frac{\\nu_0\\,\\eta}{nT}")                                                                          \
   ONE(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", "η*^k", "", NONE, GG_REDUCED_VISCOSITY,                  \
-      "kinetic part of eta*")                                                                                          \
+      "nu_0 eta_k/(n T): kinetic part of viscosity_reduced", "\\eta^{*k} = \\frac{\\nu_0\\,\\eta^k}{nT}")              \
   ONE(CLUSTERING_LENGTH, "clustering_length", "L_c", "", LENGTH, GG_NEEDS_THEORY,                                      \
-      "box length above which a cooling gas forms vortices and clusters")                                              \
+      "2 pi sqrt(2 eta/(n m zeta)): box length above which a cooling gas forms vortices and clusters",                 \
+      "L_c = 2\\pi\\sqrt{\\frac{2\\eta}{n m \\zeta}}")                                                                 \
   ONE(RELAXATION_RATE, "relaxation_rate", "λ", "", RATE, GG_NEEDS_THEORY,                                              \
-      "rate at which the slowest disturbance of a homogeneous steady state dies out")
+      "decay rate of the slowest disturbance of a homogeneous steady state",                                           \
+      "\\lambda = -\\max\\operatorname{Re}\\,\\mathrm{spec}")
 
 #define GG_QUANTITY_ONE(id, ...) GG_Q_##id,
 #define GG_QUANTITY_EACH(id, ...) GG_Q_##id, GG_Q_LAST_##id = GG_Q_##id + GG_MAX_SPECIES - 1,
@@ -128,6 +187,9 @@ gg_quantity gg_common_quantity_find_in(const gg_model *model, const char *name);
 /* Shared quantities alone. */
 const char *gg_common_quantity_name(gg_quantity q);
 const char *gg_common_quantity_doc(gg_quantity q);
+const char *gg_common_quantity_formula(gg_quantity q); /* as LaTeX has it */
+/* In which scenes it has a mean: "rough grains; not in free cooling"; returns text. */
+const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size);
 const char *gg_common_quantity_symbol(gg_quantity q, char *text,
                                       size_t size); /* "T", "T_2" of a family; returns text */
 const char *gg_common_quantity_word(gg_quantity q); /* for pictures: "temperature"; or "" */
@@ -149,7 +211,7 @@ const char *gg_common_model_missing(const gg_model *model, unsigned needs);
 /* The same of a quantity's mask: the reason why its mean cannot be had. */
 const char *gg_common_quantity_missing(const gg_model *model, gg_quantity q);
 
-#define GG_COUNT_FOLLOWED(id, name, symbol, word, unit, mask, doc) +(((mask)&GG_FOLLOWED) ? 1 : 0)
+#define GG_COUNT_FOLLOWED(id, name, symbol, word, unit, mask, doc, formula) +(((mask)&GG_FOLLOWED) ? 1 : 0)
 enum { GG_N_HISTORY = 0 GG_QUANTITIES(GG_COUNT_FOLLOWED, GG_COUNT_FOLLOWED) };
 #undef GG_COUNT_FOLLOWED
 /* The quantities followed from start to end of a run: those of GG_FOLLOWED, k from 0 to GG_N_HISTORY - 1. */

@@ -173,31 +173,49 @@ static const struct {
   const char *otherwise;
   bool (*flow)(gg_flow flow);
   const char *after;
+  const char *when; /* the same as a condition; NULL: the flows say it */
 } conditions[] = {
-    {GG_IF_WALLED, "but between walls (flow: ", gg_flow_is_walled, ")"},
-    {GG_IF_SHEARED, "but in flow: ", gg_flow_is_sheared, ""},
-    {GG_IF_MOVING_WALLS, "but in flow: ", gg_flow_has_moving_walls, ""},
-    {GG_IF_OPENABLE, "but in flow: ", may_be_open, ""},
-    {GG_IF_MD, "with engine: dsmc", NULL, ""},
-    {GG_IF_DSMC, "with engine: md", NULL, ""},
-    {GG_IF_COUNTED, "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, ""},
-    {GG_IF_BOXED, "with engine: dsmc, which has no box", NULL, ""},
-    {GG_IF_ONE_ENGINE, "in a comparison; graingas run keeps a trajectory", NULL, ""},
+    {GG_IF_WALLED, "but between walls (flow: ", gg_flow_is_walled, ")", NULL},
+    {GG_IF_SHEARED, "but in flow: ", gg_flow_is_sheared, "", NULL},
+    {GG_IF_MOVING_WALLS, "but in flow: ", gg_flow_has_moving_walls, "", NULL},
+    {GG_IF_OPENABLE, "but in flow: ", may_be_open, "", NULL},
+    {GG_IF_MD, "with engine: dsmc", NULL, "", "engine md"},
+    {GG_IF_DSMC, "with engine: md", NULL, "", "engine dsmc"},
+    {GG_IF_COUNTED, "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, "",
+     "engine md; dsmc above 5000"},
+    {GG_IF_BOXED, "with engine: dsmc, which has no box", NULL, "", "engine md"},
+    {GG_IF_ONE_ENGINE, "in a comparison; graingas run keeps a trajectory", NULL, "", "graingas run"},
     {GG_IF_CONTACT_VALUE,
-     "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, ""},
-    {GG_IF_LOSSY, "where no collision loses energy", NULL, ""},
+     "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, "",
+     "one species and phi above 0, in theories, dsmc and white noise"},
+    {GG_IF_LOSSY, "where no collision loses energy", NULL, "", "collisions lose energy"},
     {GG_IF_ERROR,
      "but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, or cooling by a "
      "law",
-     NULL, ""},
-    {GG_IF_ROUGH, "on smooth grains, which do not spin", NULL, ""},
-    {GG_IF_LAW, "while collision.law is constant", NULL, ""},
-    {GG_IF_BETA, "while collision.beta is -1: smooth grains", NULL, ""},
-    {GG_IF_FRICTION, "while collision.mu is 0: smooth grains", NULL, ""},
-    {GG_IF_WALL_BETA, "while walls.beta is -1: smooth walls", NULL, ""},
-    {GG_IF_WALL_FRICTION, "while walls.mu is 0: smooth walls", NULL, ""},
+     NULL, "", "the flow has headline quantities"},
+    {GG_IF_ROUGH, "on smooth grains, which do not spin", NULL, "", "rough grains"},
+    {GG_IF_LAW, "while collision.law is constant", NULL, "", "collision.law is not constant"},
+    {GG_IF_BETA, "while collision.beta is -1: smooth grains", NULL, "", "collision.beta is not -1"},
+    {GG_IF_FRICTION, "while collision.mu is 0: smooth grains", NULL, "", "collision.mu is not 0"},
+    {GG_IF_WALL_BETA, "while walls.beta is -1: smooth walls", NULL, "", "walls.beta is not -1"},
+    {GG_IF_WALL_FRICTION, "while walls.mu is 0: smooth walls", NULL, "", "walls.mu is not 0"},
 };
 enum { CONDITIONS = sizeof conditions / sizeof *conditions };
+
+void gg_scene_field_when(const gg_field *f, char *text, size_t size)
+{
+  *text = '\0';
+  unsigned when = f->when;
+  if (when & (GG_IF_MOVING_WALLS | GG_IF_OPENABLE)) when &= ~(unsigned)GG_IF_WALLED; /* follows from the flow */
+  for (int i = 0; i < CONDITIONS; i++) {
+    char flows[160];
+    if (!(when & conditions[i].condition)) continue;
+    gg_base_text_append(text, size, "%s", *text ? "; " : "");
+    if (conditions[i].flow) gg_common_flow_list(conditions[i].flow, flows, sizeof flows);
+    gg_base_text_append(text, size, "%s%s", conditions[i].flow ? "flow " : "",
+                        conditions[i].flow ? flows : conditions[i].when);
+  }
+}
 
 /* Conditions that depend on more than the flow. */
 static bool holds(unsigned condition, const gg_scene *s, unsigned uses)

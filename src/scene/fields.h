@@ -98,6 +98,8 @@ gg_word gg_scene_field_word_for(const gg_field *field, int value);
 
 /* A number in the fewest digits that read back as the same number. */
 void gg_scene_number_format(double value, char *text, size_t size);
+/* When the key has an effect: "flow couette; walls.beta is not -1"; "" if it always has. */
+void gg_scene_field_when(const gg_field *field, char *text, size_t size);
 /* What a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
 void gg_scene_field_allowed(const gg_field *field, char *text, size_t size);
 

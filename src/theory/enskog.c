@@ -70,6 +70,8 @@ const gg_theory gg_theory_enskog = {
     .citation =
         "D. Enskog, K. Svenska Vetensk. Akad. Handl. 63 (1922) no. 4; N.F. Carnahan and K.E. Starling, J. Chem. "
         "Phys. 51 (1969) 635",
+    .answers = "temperature rotational_temperature temperature_ratio pressure compressibility_factor " GG_ANSWERS_RATES
+        GG_ANSWERS_KURTOSES "a2 " GG_ANSWERS_VISCOSITY,
     .assumptions =
         "Equilibrium of any number of species of elastic spheres, at the contact value of the scene (within 0.3 % "
         "of simulations up to phi = 0.49 for Carnahan-Starling); viscosity of one or two at first Sonine order.",

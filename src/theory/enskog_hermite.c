@@ -106,6 +106,10 @@ const gg_theory gg_theory_enskog_hermite = {
              GG_FLOW_BIT(GG_HEATED_SHEAR),
     .title = "Enskog's equation, solved by expansion without random numbers",
     .citation = "J.J. Brey, J.W. Dufty and A. Santos, J. Stat. Phys. 87 (1997) 1051, for the equation",
+    .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
+               "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
+               "kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz dissipation cooling_rate a2 c_1 c_2 " GG_ANSWERS_MIXTURE
+                   GG_ANSWERS_VISCOSITY "relaxation_rate",
     .assumptions =
         "Any density; one species, smooth or of constant beta, or a smooth mixture: steady uniform shear (of up to 8 "
         "species), free cooling, heated states, and of smooth grains their viscosity (of up to 6). Molecular chaos, "

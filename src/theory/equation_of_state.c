@@ -76,6 +76,7 @@ const gg_theory gg_theory_carnahan_starling1969 = {
     .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Equation of state of elastic hard spheres",
     .citation = "N.F. Carnahan and K.E. Starling, J. Chem. Phys. 51 (1969) 635",
+    .answers = "pressure compressibility_factor " GG_ANSWERS_RATES,
     .assumptions =
         "Equilibrium fluid of one species, phi up to 0.494; 0.03 % low at phi = 0.1, 0.25 % at 0.3, 0.21 % at "
         "0.45.",
@@ -87,6 +88,7 @@ const gg_theory gg_theory_kolafa2004 = {
     .flows = GG_FLOW_BIT(GG_EQUILIBRIUM),
     .title = "Accurate equation of state of elastic hard spheres",
     .citation = "J. Kolafa, S. Labik and A. Malijevsky, Phys. Chem. Chem. Phys. 6 (2004) 2335",
+    .answers = "pressure compressibility_factor " GG_ANSWERS_RATES,
     .assumptions = "Equilibrium fluid of one species, phi up to 0.494.",
     .evaluate = evaluate_kolafa,
 };
@@ -97,6 +99,7 @@ const gg_theory gg_theory_pieprzyk2019 = {
     .title = "Accurate equation of state of elastic hard spheres, refitted",
     .citation = "S. Pieprzyk, M.N. Bannerman, A.C. Branka, M. Chudak and D.M. Heyes, Phys. Chem. Chem. Phys. 21 (2019) "
                 "6886",
+    .answers = "pressure compressibility_factor " GG_ANSWERS_RATES,
     .assumptions = "Equilibrium fluid of one species, phi up to 0.494.",
     .evaluate = evaluate_pieprzyk,
 };

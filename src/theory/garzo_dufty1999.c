@@ -95,6 +95,8 @@ const gg_theory gg_theory_garzo_dufty1999 = {
     .citation =
         "V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895; V. Garzo and J.M. Montanero, Physica A 313 (2002) "
         "336",
+    .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY,
     .assumptions = "Homogeneous cooling or heated state (Gaussian thermostat or white noise) of one species of smooth "
                    "spheres, any density with molecular chaos; first Sonine order, linear in a2 (van Noije and Ernst "
                    "1998). Viscosity of linear response, counted in eta_0 = n T/nu_0.",
@@ -135,6 +137,8 @@ const gg_theory gg_theory_montanero_santos2000 = {
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Fourth cumulant, the other linearisation",
     .citation = "J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
+    .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY,
     .assumptions =
         "As garzo_dufty1999 for the cooling state, its fourth-moment equation divided by 1 + a2 before it is "
         "linearised: closer to simulations for e below 0.7.",
@@ -146,6 +150,8 @@ const gg_theory gg_theory_garzo_santos_montanero2007 = {
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Viscosity about the cooling state's own distribution",
     .citation = "V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94",
+    .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY,
     .assumptions =
         "As montanero_santos2000, but the first Sonine term multiplies the distribution of the cooling state "
         "instead of a Maxwellian: closer to simulations below e = 0.7. That of one species, carried over to "

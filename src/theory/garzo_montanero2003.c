@@ -160,6 +160,8 @@ const gg_theory gg_theory_garzo_montanero2003 = {
     .title = "Cooling and viscosity of smooth binary mixtures",
     .citation = "V. Garzo and J.M. Montanero, Phys. Rev. E 68 (2003) 041302; V. Garzo and J.W. Dufty, Phys. Rev. E 60 "
                 "(1999) 5706",
+    .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES
+               "cooling_rate c_1 c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY,
     .assumptions =
         "Homogeneous cooling or Gaussian-heated state of a smooth binary mixture, any density with molecular "
         "chaos; first Sonine order, linear in c_1 and c_2. T_1/T_2 within 0.5 % and, at one e "
@@ -181,6 +183,8 @@ const gg_theory gg_theory_garzo_montanero2003_ms = {
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Binary mixtures, the other linearisation of c_1 and c_2",
     .citation = "As garzo_montanero2003, linearised as in J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
+    .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES
+               "cooling_rate c_1 c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY,
     .assumptions =
         "As garzo_montanero2003, the fourth-moment equations divided by 1 + c_i/2 before they are linearised: c "
         "closer to simulations.",

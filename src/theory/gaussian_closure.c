@@ -76,6 +76,9 @@ const gg_theory gg_theory_gaussian_closure = {
     .title = "Anisotropic Gaussian closure of Enskog's equation",
     .citation = "J.T. Jenkins and M.W. Richman, J. Fluid Mech. 192 (1988) 313; S. Saha and M. Alam, J. Fluid Mech. 795 "
                 "(2016) 549",
+    .answers =
+        "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor shear_viscosity "
+        "N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES "dissipation " GG_ANSWERS_MIXTURE,
     .assumptions =
         "Steady uniform shear at any density, any number of species, smooth or of constant beta; molecular chaos "
         "with velocities and spins Gaussian and independent, which leaves out a part of the mean spin that grows as "

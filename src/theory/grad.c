@@ -105,6 +105,8 @@ const gg_theory gg_theory_grad = {
     .title = "Linear Grad theory of dilute shear",
     .citation = "J.J. Brey, M.J. Ruiz-Montero and F. Moreno, Phys. Rev. E 55 (1997) 2846; J.M. Montanero and V. Garzo, "
                 "Physica A 310 (2002) 17",
+    .answers = "temperature rotational_temperature temperature_ratio pressure compressibility_factor shear_viscosity "
+               "N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_RATES "dissipation " GG_ANSWERS_MIXTURE,
     .assumptions =
         "Steady uniform shear of a dilute gas (Boltzmann's equation, phi up to 0.05): one species, smooth or of "
         "constant beta, or a smooth binary mixture; N2 = 0. T is 3 % high at e = 0.9, 12 % at e = 0.75 in "

@@ -75,6 +75,8 @@ const gg_theory gg_theory_huthmann_zippelius1997 = {
     .citation =
         "M. Huthmann and A. Zippelius, Phys. Rev. E 56 (1997) R6275; with friction O. Herbst, M. Huthmann and A. "
         "Zippelius, Granular Matter 2 (2000) 211",
+    .answers = "temperature rotational_temperature temperature_ratio pressure compressibility_factor " GG_ANSWERS_RATES
+               "cooling_rate",
     .assumptions =
         "Free cooling and driven translation of one species, constant beta or Coulomb friction; velocities and "
         "spins Maxwellian and independent, any density with molecular chaos. theta/T is 2-5 % high in free "

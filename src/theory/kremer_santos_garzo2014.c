@@ -56,6 +56,7 @@ const gg_theory gg_theory_kremer_santos_garzo2014 = {
     .name = name,
     .title = "Cooling and viscosity of rough grains",
     .citation = "G.M. Kremer, A. Santos and V. Garzo, Phys. Rev. E 90 (2014) 022205",
+    .answers = "temperature rotational_temperature temperature_ratio cooling_rate " GG_ANSWERS_VISCOSITY,
     .assumptions =
         "Homogeneous free cooling of a dilute gas (Boltzmann's equation, phi up to 0.05) of one species of "
         "rough grains, constant beta; first Sonine order, spins Maxwellian and independent of velocities. "

@@ -82,6 +82,8 @@ const gg_theory gg_theory_lun1991 = {
     .flows = GG_FLOW_BIT(GG_USF),
     .title = "Kinetic theory of slightly inelastic, rough spheres",
     .citation = "C.K.K. Lun, J. Fluid Mech. 233 (1991) 539",
+    .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
+               "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES "dissipation",
     .assumptions =
         "Steady uniform shear of one species with constant e and beta, at the contact value of the scene; first "
         "order in the shear rate (so N1 = N2 = 0) and first Sonine order. Good near e = 1 with beta = -1 or 1; "
@@ -109,6 +111,8 @@ const gg_theory gg_theory_lun1991_lun_savage = {
     .citation =
         "C.K.K. Lun, J. Fluid Mech. 233 (1991) 539; contact value C.K.K. Lun and S.B. Savage, J. Appl. Mech. 54 "
         "(1987) 47",
+    .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
+               "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES "dissipation",
     .assumptions =
         "As lun1991, with chi = (1 - phi/0.64)^-1.6 whatever the scene chose: 11 % above Carnahan-Starling at "
         "phi = 0.3, 90 % at 0.5.",

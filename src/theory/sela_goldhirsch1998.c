@@ -25,6 +25,7 @@ const gg_theory gg_theory_sela_goldhirsch1998 = {
     .flows = GG_FLOW_BIT(GG_USF),
     .title = "Normal stress differences at Burnett order",
     .citation = "N. Sela and I. Goldhirsch, J. Fluid Mech. 361 (1998) 41",
+    .answers = "N1 N2",
     .assumptions =
         "Steady uniform shear of a dilute gas (phi up to 0.05) of smooth spheres of one species; second order "
         "in the shear rate and expanded in 1 - e^2, so for e near 1.",

@@ -12,6 +12,14 @@ typedef struct gg_theory_answer {
   double error[GG_MOST_QUANTITIES];
 } gg_theory_answer;
 
+/* Names of quantities, separated by blanks, for `answers`. */
+#define GG_ANSWERS_STRESS "P_xx P_yy P_zz P_xy P_yx P_xx_kinetic P_yy_kinetic P_zz_kinetic P_xy_kinetic P_yx_kinetic "
+#define GG_ANSWERS_TRANSFER "P_xx_collisional P_yy_collisional P_zz_collisional P_xy_collisional P_yx_collisional "
+#define GG_ANSWERS_RATES "collision_rate mean_free_path knudsen "
+#define GG_ANSWERS_KURTOSES "kurtosis_Cx kurtosis_Cy kurtosis_Cz "
+#define GG_ANSWERS_VISCOSITY "viscosity_reduced viscosity_reduced_kinetic "
+#define GG_ANSWERS_MIXTURE "temperature_1 temperature_2 partial_temperature_ratio "
+
 typedef struct gg_theory {
   const char *name;        /* "lun1991": the JSON key */
   const char *title;       /* one line for people */
@@ -30,6 +38,7 @@ typedef struct gg_theory {
   gg_status (*curves)(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
   /* A theory that the user's program brings (user_theory.c): this instead of the two above; else NULL. */
   const gg_theory_definition *own;
+  const char *answers; /* names of the quantities that it may answer, separated by blanks; of families two */
 } gg_theory;
 
 /* Every theory there is (theory_list.h), NULL-terminated, in the order they are shown. */

@@ -30,6 +30,15 @@ def test_scene_page():
           "it there")
 
 
+def test_reference_pages():
+    """Quantities and commands, from the program's tables: graingas --quantities-page > docs/reference/quantities.md"""
+    for name in "quantities", "commands":
+        page = run(f"--{name}-page")
+        check(page.code == 0 and not page.err and len(page.out) > 5000, page.err)
+        check(page.out == documents()[f"docs/reference/{name}.md"], f"docs/reference/{name}.md is not what `graingas "
+              f"--{name}-page` prints: redirect it there")
+
+
 def test_reproduction_page():
     """A figure's section is its entry's: graingas --reproduction-page > docs/appendix/reproduction.md; pictures are small."""
     page = run("--reproduction-page")
@@ -192,6 +201,24 @@ def test_theories():
     table, text = "".join(l for l in lines if l.startswith("|")), "\n".join(l for l in lines if not l.startswith("|"))
     none({f"docs/reference/theories.md: a row of {name} in the table" for name in names if f"`{name}`" not in table})
     none({f"docs/reference/theories.md: a section on {name}" for name in names if not re.search(rf"\b{name}\b", text)})
+
+
+def test_answers_of_theories():
+    """The page of quantities names a theory wherever it answers in a scene of examples."""
+    rows = dict(re.findall(r"^\| `(\w+)` \|.*\| ([^|]*) \|$", documents()["docs/reference/quantities.md"], re.MULTILINE))
+    rows = {name: theories.replace("\\", "").split(", ") for name, theories in rows.items()}
+    missing, n = set(), 0
+    for flow, more in (("usf", ""), ("usf", "collision: {beta: 0}"), ("hcs", ""), ("hcs", "collision: {beta: 0.5}"), ("equilibrium", ""),
+                       ("hss", "species: [{fraction: 0.5}, {fraction: 0.5, mass: 2}]"), ("small_shear", "engine: dsmc")):
+        done = run("theory", "-", "--json", typed=f"flow: {flow}\nphi: 0.03\n{more}\n")
+        check(done.code == 0, flow, done.err)
+        for theory, quantities in json.loads(done.out)["theory"].items():
+            for name, value in quantities.items():
+                n += 1
+                if value["mean"] is not None and theory not in rows[name]:
+                    missing.add(f"{name}: {theory}")
+    check(n > 100)
+    none(missing)
 
 
 if __name__ == "__main__":

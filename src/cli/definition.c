@@ -1,0 +1,187 @@
+/* graingas info WORD: what a scene key, a quantity, a theory or an observable is, in five lines. */
+#include "cli/definition.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/report.h"
+#include "cli/wrap.h"
+
+/* The order in which a word is looked up; the last two are keys of `measure` and `flow`. */
+static const gg_catalogue lists[] = {GG_CATALOGUE_QUANTITIES, GG_CATALOGUE_KEYS,  GG_CATALOGUE_SPECIES_KEYS,
+                                     GG_CATALOGUE_THEORIES,   GG_CATALOGUE_FLOWS, GG_CATALOGUE_ENGINES,
+                                     GG_CATALOGUE_OBSERVABLES};
+enum { LISTS = sizeof lists / sizeof *lists };
+
+static void line(const char *head, const char *text)
+{
+  char lead[24];
+  snprintf(lead, sizeof lead, "  %-12s ", head);
+  if (text && *text) gg_cli_print_wrapped(stdout, lead, text);
+}
+
+bool gg_cli_theory_answers(const gg_entry *theory, const char *quantity)
+{
+  const size_t length = strlen(quantity);
+  for (const char *at = theory->answers; at && (at = strstr(at, quantity)); at += length)
+    if ((at == theory->answers || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return true;
+  return false;
+}
+
+size_t gg_cli_theories_of(const char *quantity, char *text, size_t size)
+{
+  gg_entry theory;
+  size_t used = 0, n = 0;
+  *text = '\0';
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_THEORIES, i, NULL, &theory, NULL) == GG_OK; i++)
+    if (used < size && gg_cli_theory_answers(&theory, quantity))
+      used += (size_t)snprintf(text + used, size - used, "%s%s", n++ ? ", " : "", theory.name);
+  return n;
+}
+
+/* The quantities of a theory, without those that only --all shows. */
+static void list_answers(const gg_entry *theory, char *text, size_t size)
+{
+  gg_entry q;
+  size_t used = 0;
+  *text = '\0';
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++)
+    if (used < size && !gg_cli_quantity_is_minor(q.name) && gg_cli_theory_answers(theory, q.name))
+      used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", q.name);
+}
+
+static void define_quantity(const gg_entry *q)
+{
+  char text[1000], unit[160];
+  snprintf(unit, sizeof unit, "%s%s", q->unit, strcmp(q->unit, "1") == 0 ? " (a pure number)" : " under shear");
+  printf("%s, symbol %s: a quantity\n", q->name, q->symbol);
+  line("definition", q->doc);
+  line("unit", unit);
+  line("measured in", q->when);
+  if (!gg_cli_theories_of(q->name, text, sizeof text)) snprintf(text, sizeof text, "none");
+  line("theories", text);
+}
+
+static void define_key(const gg_entry *f, bool of_species)
+{
+  char text[1000];
+  printf("%s: a key of %s\n", f->name, of_species ? "a species" : "a scene");
+  snprintf(text, sizeof text, "%s%s%s%s", f->doc, f->unit ? " (unit: " : "", f->unit ? f->unit : "",
+           f->unit ? ")" : "");
+  line("meaning", text);
+  line("takes", f->allowed);
+  line("default", f->value[0] ? f->value : "none: required");
+  line("effect if", f->when[0] ? f->when : "always");
+}
+
+static void define_theory(const gg_entry *t)
+{
+  char text[1000];
+  printf("%s: a theory, %s\n", t->name, t->doc);
+  line("source", t->citation);
+  list_answers(t, text, sizeof text);
+  line("answers", text);
+  line("flows", t->when);
+  line("range", t->assumptions);
+}
+
+static void define_word(const gg_entry *w, const char *of)
+{
+  printf("%s: %s\n", w->name, of);
+  line("meaning", w->doc);
+}
+
+static void define(gg_catalogue list, const gg_entry *entry)
+{
+  switch (list) {
+  case GG_CATALOGUE_QUANTITIES: define_quantity(entry); return;
+  case GG_CATALOGUE_KEYS: define_key(entry, false); return;
+  case GG_CATALOGUE_SPECIES_KEYS: define_key(entry, true); return;
+  case GG_CATALOGUE_THEORIES: define_theory(entry); return;
+  case GG_CATALOGUE_FLOWS: define_word(entry, "a flow (flow: ...)"); return;
+  case GG_CATALOGUE_ENGINES: define_word(entry, "an engine (engine: ...)"); return;
+  case GG_CATALOGUE_OBSERVABLES:
+    define_word(entry, "an observable (measure: [...])");
+    line("more", "docs/reference/observables.md");
+    return;
+  }
+}
+
+static bool find(const char *word, gg_catalogue *list, gg_entry *entry)
+{
+  for (int k = 0; k < LISTS; k++)
+    for (size_t i = 0; gg_catalogue_entry(lists[k], i, NULL, entry, NULL) == GG_OK; i++)
+      if (strcmp(entry->name, word) == 0) return *list = lists[k], true;
+  return false;
+}
+
+/* A scene key by its last part: "relative_error". */
+static bool find_member(const char *word, gg_entry *key)
+{
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_KEYS, i, NULL, key, NULL) == GG_OK; i++) {
+    const char *dot = strrchr(key->name, '.');
+    if (dot && strcmp(dot + 1, word) == 0) return true;
+  }
+  return false;
+}
+
+/* Names last as long as the library. Of a dotted key also its last part. */
+static const char *nearest_to(const char *word)
+{
+  enum { MOST = 400 };
+  const char *known[MOST + 1] = {NULL};
+  gg_entry entry;
+  int n = 0;
+  for (int k = 0; k < LISTS; k++)
+    for (size_t i = 0; n < MOST && gg_catalogue_entry(lists[k], i, NULL, &entry, NULL) == GG_OK; i++) {
+      const char *dot = strrchr(entry.name, '.');
+      known[n++] = entry.name;
+      if (dot && n < MOST) known[n++] = dot + 1;
+    }
+  return gg_nearest_word(word, known);
+}
+
+static bool has_ending(const char *word, const char *ending)
+{
+  const size_t length = strlen(word), tail = strlen(ending);
+  return length > tail && strcmp(word + length - tail, ending) == 0;
+}
+
+bool gg_cli_is_word(const char *input)
+{
+  static const char *const endings[] = {".yaml", ".yml", ".h5", ".json", ".1"};
+  if (!*input || strspn(input, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.") < strlen(input))
+    return false;
+  for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+    if (has_ending(input, endings[i])) return false;
+  return true;
+}
+
+int gg_cli_define(const char *word)
+{
+  gg_catalogue list;
+  gg_entry entry;
+  if (find(word, &list, &entry)) return define(list, &entry), GG_OK;
+  if (find_member(word, &entry)) return define(GG_CATALOGUE_KEYS, &entry), GG_OK;
+  const char *nearest = nearest_to(word);
+  if (nearest)
+    return gg_cli_fail(GG_BAD_INPUT, "'%s' is no file, scene key, quantity, theory or observable; did you mean '%s'?",
+                       word, nearest);
+  return gg_cli_fail(GG_BAD_INPUT, "'%s' is no file, scene key, quantity, theory or observable; see graingas info",
+                     word);
+}
+
+void gg_cli_print_headline(const gg_scene *scene)
+{
+  gg_entry q;
+  char names[400] = "";
+  size_t used = 0;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, scene, &q, NULL) == GG_OK; i++)
+    if (q.headline && used < sizeof names)
+      used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", q.name);
+  if (used)
+    gg_cli_print_paragraph(stdout, 2, "headline quantities (run.relative_error applies to these): %s", names);
+  else
+    gg_cli_print_paragraph(stdout, 2, "headline quantities (run.relative_error applies to these): none in this scene");
+}

@@ -1,0 +1,200 @@
+/* Pages of docs/reference in Markdown, from the program's own tables: scene keys, quantities, commands. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/definition.h"
+#include "cli/options.h"
+
+/* Text with what Markdown would read as its own escaped. */
+static void put(const char *text)
+{
+  for (; *text; text++) {
+    if (strchr("<|*_", *text)) putchar('\\');
+    putchar(*text);
+  }
+}
+
+static bool takes_words(const gg_entry *f)
+{
+  return strcmp(f->type, "choice") == 0 || strcmp(f->type, "set") == 0;
+}
+
+/* A heading's name in links leaves out its dots. */
+static void put_anchor(const char *key)
+{
+  for (; *key; key++)
+    if (*key != '.') putchar(*key);
+}
+
+static void put_range(const gg_entry *f)
+{
+  if (takes_words(f)) {
+    printf("%s [below](#", strcmp(f->type, "set") == 0 ? "a list of words" : "a word");
+    put_anchor(f->name);
+    putchar(')');
+    return;
+  }
+  put(f->allowed);
+}
+
+/* Of all keys with their defaults and conditions; of species' members without. */
+static void print_keys(gg_catalogue catalogue, bool whole)
+{
+  gg_entry f;
+  printf("| key | meaning | unit | takes |%s\n| --- | --- | --- | --- |%s\n", whole ? " default | has effect if |" : "",
+         whole ? " --- | --- |" : "");
+  for (size_t i = 0; gg_catalogue_entry(catalogue, i, NULL, &f, NULL) == GG_OK; i++) {
+    printf("| `%s` | ", f.name);
+    put(f.doc);
+    printf(" | ");
+    put(f.unit ? f.unit : "");
+    printf(" | ");
+    put_range(&f);
+    printf(" |");
+    if (whole) printf(f.value[0] ? " `%s` | " : "%s | ", f.value);
+    if (whole) put(f.when);
+    printf(whole ? " |\n" : "\n");
+  }
+}
+
+static void print_words(const char *key)
+{
+  gg_entry w;
+  printf("\n### `%s`\n\n", key);
+  for (size_t i = 0; gg_catalogue_word(key, i, &w, NULL) == GG_OK; i++) {
+    printf("- `%s`%s", w.name, *w.doc ? ": " : "");
+    put(w.doc);
+    printf("\n");
+  }
+}
+
+void gg_cli_print_scene_page(void)
+{
+  printf(
+      "# Scene keys\n\n"
+      "`graingas --scene-page` prints this page from the table that reads scenes; a test keeps both equal.\n\n"
+      "A scene is a YAML file. Only `flow` and `phi` are required. A dot separates section and key: `collision.e` is "
+      "`e` under `collision:` in the file and `--set collision.e=0.8` on the command line. Lengths, masses and times "
+      "are in any consistent units; a key without a unit is a pure number. `graingas info SCENE.yaml` prints every "
+      "key "
+      "with its value; `graingas info KEY` prints one row of this page.\n\n");
+  print_keys(GG_CATALOGUE_KEYS, true);
+  printf(
+      "\nWith gravity along y, `md.contact_time` counts in units of sqrt(d/g). Where gravity lifts a grain across the "
+      "box by less than T, the shorter of both units applies. Collisions of unlike grains within the contact time "
+      "lose no energy at all.\n\n"
+      "`collision.speed: auto` is the diameter times the shear rate (couette: times the mean shear rate), or the "
+      "initial thermal speed v\\_0 in cooling and heated gases.\n\n"
+      "The **headline quantities** of a flow are those whose errors end a run (`run.relative_error`). `graingas info "
+      "SCENE.yaml` lists them.\n");
+  printf("\n## Members of a species\n\n`species` is a list of maps. Results count lengths and masses in those of the "
+         "first species. A pair of species has both numbers as its name: `12`; with two digits `1-10`. A map by pair "
+         "names every pair, or gives `other` for the rest; with `--set` the rest keeps its value.\n\n");
+  print_keys(GG_CATALOGUE_SPECIES_KEYS, false);
+  printf("\n## Words\n");
+  gg_entry f;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_KEYS, i, NULL, &f, NULL) == GG_OK; i++)
+    if (takes_words(&f)) print_words(f.name);
+}
+
+/* What follows the plain formula: "(P_xx - P_yy)/p: first normal stress difference ..." */
+static const char *words_of(const char *doc)
+{
+  const char *colon = strstr(doc, ": ");
+  return colon ? colon + 2 : doc;
+}
+
+/* The unit in each of the scales that results have. */
+static const char *unit_of(size_t i, const gg_scene *scene)
+{
+  gg_entry q;
+  return gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, scene, &q, NULL) == GG_OK ? q.unit : "";
+}
+
+void gg_cli_print_quantities_page(void)
+{
+  static const char *const scales[] = {"{flow: usf, phi: 0.1}", "{flow: hss, phi: 0.1}"};
+  gg_scene *scene[2] = {NULL, NULL};
+  gg_entry q;
+  printf(
+      "# Quantities\n\n"
+      "`graingas --quantities-page` prints this page from the program's table of quantities; a test keeps both "
+      "equal. `graingas info NAME` prints one row.\n\n"
+      "A result has a mean and a standard error of each quantity that its scene has. The others are `null`, with the "
+      "reason. $\\langle\\cdot\\rangle$ is the mean over grains and samples.\n\n"
+      "| symbol | meaning |\n| --- | --- |\n"
+      "| $\\mathbf C$ | velocity relative to the imposed flow; between walls, relative to the local mean |\n"
+      "| $\\mathbf\\Omega$ | spin relative to the mean spin |\n"
+      "| $m$, $I$ | mass and moment of inertia; the mass of species 1 is 1 |\n"
+      "| $\\sigma$ | distance of two centres at contact |\n"
+      "| $\\mathbf k$ | unit vector from the first grain to the second |\n"
+      "| $\\mathbf J$ | impulse on the second grain |\n"
+      "| $N$, $V$, $n$, $t$ | grains, volume, number density, time |\n"
+      "| $\\dot\\gamma$ | shear rate, gamma in units |\n"
+      "| $\\nu_0$ | reference collision rate ([theories](theories.md)) |\n"
+      "| d, v\\_0, rho\\_p in units | diameter of species 1, initial thermal speed, 6m/(pi d^3) |\n\n");
+  for (int k = 0; k < 2; k++) gg_scene_parse(scales[k], NULL, &scene[k], NULL);
+  printf("| name | meaning | definition | unit with shear | unit without | measured in | theories |\n"
+         "| --- | --- | --- | --- | --- | --- | --- |\n");
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
+    char theories[1000];
+    gg_cli_theories_of(q.name, theories, sizeof theories);
+    printf("| `%s` | ", q.name);
+    put(words_of(q.doc));
+    printf(" | $%s$ | ", q.formula);
+    put(unit_of(i, scene[0]));
+    printf(" | ");
+    put(unit_of(i, scene[1]));
+    printf(" | ");
+    put(q.when);
+    printf(" | ");
+    put(theories);
+    printf(" |\n");
+  }
+  printf("\n`c_i` and `temperature_i` exist for each species of a mixture.\n\n"
+         "In the Boltzmann limit (phi = 0) lengths are in 1/(n d^2), stresses in n m times a velocity squared; there "
+         "is no "
+         "collisional transfer.\n");
+  for (int k = 0; k < 2; k++) gg_scene_free(scene[k]);
+}
+
+static void print_options(const gg_command *c)
+{
+  printf("\n| option | what it does |\n| --- | --- |\n");
+  for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
+    if (!(c->options & o->flag)) continue;
+    printf("| <code>--%s%s", o->name, o->argument ? " " : "");
+    put(o->argument ? o->argument : ""); /* "md|dsmc": a bar in a span of code would end the cell */
+    printf("</code> | ");
+    put(o->doc);
+    printf(" |\n");
+  }
+}
+
+void gg_cli_print_commands_page(void)
+{
+  printf(
+      "# Commands\n\n"
+      "`graingas --commands-page` prints this page from the table behind `--help`; a test keeps both equal.\n\n"
+      "`graingas COMMAND [OPTION...]`. Options may stand anywhere after the command. `-` reads a scene from standard "
+      "input. `--help` works with every command; `graingas --version` prints the version.\n\n"
+      "| exit code | meaning |\n| --- | --- |\n"
+      "| %d | done |\n| %d | the run failed or did not reach its stopping criteria |\n"
+      "| %d | the command line or the scene is invalid |\n| %d | a file could not be read or written |\n"
+      "| %d | interrupted |\n",
+      GG_OK, GG_FAILED, GG_BAD_INPUT, GG_BAD_FILE, GG_INTERRUPTED);
+  for (const gg_command *c = gg_cli_commands; c->name; c++) {
+    printf("\n## graingas %s\n `graingas %s %s`\n\n", c->name, c->name, c->arguments);
+    put(c->summary);
+    printf(".\n");
+    for (const char *s = c->help; s && *s; s += strcspn(s, "\n"), s += *s == '\n') {
+      char paragraph[1200];
+      snprintf(paragraph, sizeof paragraph, "%.*s", (int)strcspn(s, "\n"), s);
+      printf("\n");
+      put(paragraph);
+      printf("\n");
+    }
+    print_options(c);
+  }
+}
