@@ -55,8 +55,18 @@ typedef struct gg_error {
   char message[1024]; /* for people: what is wrong, where, what is allowed */
 } gg_error;
 
-GG_API const char *gg_version(void); /* "0.1.0" of a release; else with the commit, "0.1.0+g156f34b3", and .dirty */
-GG_API int gg_processors(void);      /* that this process may use: as many threads are of use */
+/**
+ * Version of the library: "0.1.0" of a release, otherwise with the commit ("0.1.0+g156f34b3") and ".dirty" for changed
+ * sources.
+ * @return the version; never NULL
+ */
+GG_API const char *gg_version(void);
+
+/**
+ * Number of processors that this process may use. More threads than this are of no use.
+ * @return at least 1
+ */
+GG_API int gg_processors(void);
 
 /* ---- Scenes: what to simulate ----
  * A scene holds the keys that were given; all others have their defaults, of which some follow the given ones. Each key
@@ -65,30 +75,106 @@ GG_API int gg_processors(void);      /* that this process may use: as many threa
 
 typedef struct gg_scene gg_scene;
 
-/* From a YAML file ("-": standard input), or from YAML text, for which `name` (may be NULL) stands as the file's name
- * in messages. */
+/**
+ * Read a scene from a YAML file.
+ * @param path file name; "-" is standard input
+ * @param scene receives the scene, to be freed by gg_scene_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT with line, key and allowed values; GG_BAD_FILE
+ */
 GG_API gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err);
+
+/**
+ * Read a scene from YAML text.
+ * @param yaml the text
+ * @param name stands for the file name in messages; may be NULL
+ * @param scene receives the scene, to be freed by gg_scene_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT with line, key and allowed values
+ */
 GG_API gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err);
+
+/**
+ * Copy a scene with the observables, theories and law registered with it.
+ * @param scene the scene
+ * @param copy receives the copy, to be freed by gg_scene_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err);
+
+/**
+ * Free a scene.
+ * @param scene may be NULL
+ */
 GG_API void gg_scene_free(gg_scene *scene);
 
-/* Set one key from YAML: ("collision.e", "0.9"), ("collision.e.12", "0.8"), ("species.2.mass", "4"), ("gravity",
- * "[0.01, 0, 0]"). The scene is unchanged on failure. The other way round: the value in force, as YAML on one line, cut
- * to `size` bytes. */
+/**
+ * Set one key from YAML. The scene is unchanged on failure.
+ * @param scene the scene
+ * @param key "collision.e", "collision.e.12", "species.2.mass", "gravity"
+ * @param value YAML in units of the scene: "0.9", "[0.01, 0, 0]"
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT with the allowed values
+ */
 GG_API gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err);
+
+/**
+ * Value of a key in force, as YAML on one line.
+ * @param scene the scene
+ * @param key as for gg_scene_set()
+ * @param text receives the text, cut to size bytes
+ * @param size size of the buffer in bytes
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT for an unknown key
+ */
 GG_API gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err);
 
-/* Do the keys go together? GG_BAD_INPUT says what is missing or contradicts. */
+/**
+ * Check that the keys of a scene go together.
+ * @param scene the scene
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT names what is missing or contradicts
+ */
 GG_API gg_status gg_scene_check(const gg_scene *scene, gg_error *err);
 
-/* Every key with the value in force, as a text that gg_scene_parse reads back (YAML; JSON is YAML, too). */
+/**
+ * Every key with the value in force, as YAML that gg_scene_parse() reads back.
+ * @param scene the scene
+ * @param text receives the text, to be freed with free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err);
+
+/**
+ * Every key with the value in force, as JSON that gg_scene_parse() reads back.
+ * @param scene the scene
+ * @param text receives the text, to be freed with free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err);
-/* "Uniform shear flow, phi 0.3, e 0.9, smooth", cut to `size` bytes. */
+
+/**
+ * One line about a scene: "Uniform shear flow, phi 0.3, e 0.9, smooth".
+ * @param scene the scene
+ * @param text receives the text, cut to size bytes
+ * @param size size of the buffer in bytes
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err);
-/* What an engine ("md", "dsmc") switches on and off for this scene, and what memory and time a run will take, a line of
- * text a call; or GG_BAD_INPUT with the
- * reason why it cannot run it. */
+
+/**
+ * What an engine switches on and off for a scene, and the memory and time of a run.
+ * @param scene the scene
+ * @param engine "md" or "dsmc"
+ * @param line called with each line of text
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT with the reason why the engine cannot run the scene
+ */
 GG_API gg_status gg_scene_describe(const gg_scene *scene, const char *engine,
                                    void (*line)(void *context, const char *text), void *context, gg_error *err);
 
@@ -101,9 +187,26 @@ typedef struct gg_scene_needs {
   double cpu_seconds;
   double observables; /* share of the run's time that its observables add, over the run without them */
 } gg_scene_needs;
+
+/**
+ * Estimate memory and time of a run.
+ * @param scene the scene
+ * @param engine "md" or "dsmc"
+ * @param needs receives the estimate: bytes, collisions per grain, seconds
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT if the engine cannot run the scene
+ */
 GG_API gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene_needs *needs, gg_error *err);
-/* Keys that the scene gives and that have no effect there, a line of text a reason; none of it is a mistake. `use`: run
- * by "md" or "dsmc", "compare", or "theory" for what is so whichever engine runs it. */
+
+/**
+ * Keys that the scene gives and that have no effect. None of them is an error.
+ * @param scene the scene
+ * @param use "md", "dsmc", "compare", or "theory" for what holds with either engine
+ * @param line called with each reason
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,
                                    void (*line)(void *context, const char *text), void *context, gg_error *err);
 
@@ -114,17 +217,48 @@ GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,
 
 typedef struct gg_simulation gg_simulation;
 
-/* Of the scene's engine and run.seed. Streams are independent copies of one seed. */
+/**
+ * Start a simulation with the scene's engine and run.seed. Different streams of one seed are independent copies.
+ * @param scene the scene
+ * @param stream number of the random stream; 0 is that of gg_run()
+ * @param simulation receives the simulation, to be freed by gg_simulation_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT; GG_FAILED if memory is insufficient
+ */
 GG_API gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err);
+
+/**
+ * Free a simulation.
+ * @param simulation may be NULL
+ */
 GG_API void gg_simulation_free(gg_simulation *simulation);
 
-/* Go on for so much time, or until so many collisions between grains more have happened. Monte Carlo ends at the first
- * end of a step beyond. GG_FAILED: collisions pile up without end (inelastic collapse), or grains do not meet any more.
- * Where `stop` of gg_simulation_on_stop says so: GG_INTERRUPTED. */
+/**
+ * Advance by a time. Monte Carlo ends at the first end of a step beyond.
+ * @param simulation the simulation
+ * @param time duration in units of results
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED: inelastic collapse, or grains no longer collide; GG_INTERRUPTED by gg_simulation_on_stop()
+ */
 GG_API gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err);
+
+/**
+ * Advance by a number of collisions between grains. Monte Carlo ends at the first end of a step beyond.
+ * @param simulation the simulation
+ * @param collisions number of collisions; each counts once
+ * @param err receives the message on failure; may be NULL
+ * @return as gg_simulation_advance()
+ */
 GG_API gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions, gg_error *err);
-/* Ask `stop` (NULL: nobody) several times a second while these two are at work. Not 0 ends them: the gas stands where
- * it has come to, Monte Carlo at the end of a step, and can go on from there; gg_simulation_get_state tells the time.
+
+/**
+ * Set a function that is polled several times a second during gg_simulation_advance() and gg_simulation_collide(). A
+ * non-zero return interrupts the call; the simulation stays valid and can be advanced again.
+ * @param simulation the simulation
+ * @param stop returns non-zero to interrupt; NULL: none
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_on_stop(gg_simulation *simulation, int (*stop)(void *context), void *context,
                                        gg_error *err);
@@ -143,15 +277,38 @@ typedef struct gg_simulation_state {
   double image_offset;           /* md, sheared: the box above is displaced so far along x, from 0 to box[0] */
   double box[3];                 /* edges; 0 where the engine has no positions (dsmc) */
 } gg_simulation_state;
+
+/**
+ * Time, collisions, temperatures, stress and box of a simulation.
+ * @param simulation the simulation
+ * @param state receives the state, in units of results
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err);
 
-/* How many species there are; 0 without a simulation. And what is known of each, from 0 on, in the units of results. */
+/* One species of a simulation, in units of results. */
 typedef struct gg_species_state {
   size_t grains;
   double diameter, mass, inertia;             /* inertia: 4I/(m d^2) */
   double temperature, rotational_temperature; /* its own: m<C.C>/3, I<omega^2>/3 about its mean spin */
 } gg_species_state;
+
+/**
+ * Number of species.
+ * @param simulation the simulation
+ * @return number of species; 0 without a simulation
+ */
 GG_API int gg_simulation_species(const gg_simulation *simulation);
+
+/**
+ * Grains, size, mass and temperatures of one species.
+ * @param simulation the simulation
+ * @param species number from 0
+ * @param state receives the values, in units of results
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT if there is no such species
+ */
 GG_API gg_status gg_simulation_get_species(const gg_simulation *simulation, int species, gg_species_state *state,
                                            gg_error *err);
 
@@ -163,17 +320,35 @@ typedef struct gg_grains {
   double *spin;     /* 3 a grain: angular velocity omega ((d/2) omega where phi = 0); 0 for smooth grains */
   int *species;     /* from 0 */
 } gg_grains;
-/* Copy the grains out. GG_BAD_INPUT where positions are asked of dsmc, which has none. */
+
+/**
+ * Copy positions, velocities, spins and species of all grains.
+ * @param simulation the simulation
+ * @param into the caller's arrays for `grains` grains, 3 numbers a grain for vectors; NULL members are left out
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT if positions are requested from dsmc, which has none
+ */
 GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err);
 
-/* The state as one number: two simulations have the same if the count of their collisions and all that
- * gg_simulation_get_grains tells are the same to the last bit, and else but by one chance in 2^64. It is the same on
- * every processor, and in a browser, after as many collisions of the same scene and seed. */
+/**
+ * Hash of the state: the number of collisions and everything that gg_simulation_get_grains() copies, to the last bit.
+ * Scene, seed and number of collisions give the same hash on every processor and in a browser.
+ * @param simulation the simulation
+ * @param hash receives the hash
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg_error *err);
 
-/* Walls come in the order of their list: the lower one, the upper one, others. Its name, as in wall_P_yy_lower; NULL:
- * there are not so many. */
+/* The largest number of walls. */
 enum { GG_WALLS = 6 };
+
+/**
+ * Name of a wall, as in wall_P_yy_lower. Walls are numbered lower, upper, others.
+ * @param simulation the simulation
+ * @param wall number from 0
+ * @return the name; NULL if there are not so many. Borrowed; do not free.
+ */
 GG_API const char *gg_simulation_wall(const gg_simulation *simulation, int wall);
 
 typedef struct gg_simulation_sums { /* over the collisions since they were last asked for, or since the start */
@@ -186,6 +361,14 @@ typedef struct gg_simulation_sums { /* over the collisions since they were last 
   double wall_impulse[GG_WALLS][3]; /* on each wall: m times velocity */
   double wall_loss;                 /* energy that collisions with walls destroyed */
 } gg_simulation_sums;
+
+/**
+ * Collision sums since the last call or the start; resets them.
+ * @param simulation the simulation
+ * @param sums receives stress, dissipation and impulses, in units of results
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err);
 
 typedef struct gg_collision_event {
@@ -198,16 +381,37 @@ typedef struct gg_collision_event {
   double time;         /* since the start; of Monte Carlo, that of the step which it is in */
 } gg_collision_event;
 typedef void gg_on_collision(void *context, const gg_collision_event *event);
-/* Show every collision between grains to `callback` from now on (NULL: no longer), as it happens, during advances. It
- * costs time; Monte Carlo leaves its fast path, and with it the trajectory that it had without. */
+
+/**
+ * Set a function that is called at every collision between grains during advances. It costs time; Monte Carlo leaves
+ * its fast path and has another trajectory.
+ * @param simulation the simulation
+ * @param callback called with each collision; NULL: none
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context,
                                             gg_error *err);
 
-/* Everything needed to go on bit for bit, to a file that is whole or not there; the one that was there before is kept
- * as `path`.1 (which is read by that name only). And back: `scene` NULL: the stored one; otherwise it must be the scene
- * that was saved (stop rules and output may differ), or GG_BAD_INPUT names the difference. A callback has to be set
- * again. */
+/**
+ * Write everything needed to continue with bit-identical results. The file appears whole or not at all; the file
+ * before is kept as path.1.
+ * @param simulation the simulation
+ * @param path file name
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE
+ */
 GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, gg_error *err);
+
+/**
+ * Read a saved simulation. Callbacks have to be set again.
+ * @param path file name
+ * @param scene the scene that was saved (stopping criteria and output may differ); NULL: the stored one
+ * @param simulation receives the simulation, to be freed by gg_simulation_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT names a difference of the scene
+ */
 GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulation **simulation, gg_error *err);
 
 /* ---- More than one process ----
@@ -232,13 +436,36 @@ typedef struct gg_messages { /* filled in by the caller; calls come one at a tim
 } gg_messages;
 
 typedef struct gg_workers gg_workers;
-/* Rank 0: meet the others. Each process, this one included, uses so many threads. `messages` is copied. Freeing it
- * ends the others: gg_worker_run returns there. Several runs, in threads of their own, may use it side by side. */
+
+/**
+ * Rank 0: connect to the other processes. Several runs in different threads may share the workers.
+ * @param messages message functions; copied
+ * @param threads threads of each process, this one included
+ * @param workers receives the workers, to be freed by gg_workers_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err);
+
+/**
+ * Shut the workers down: gg_worker_run() returns in the other processes.
+ * @param workers may be NULL
+ */
 GG_API void gg_workers_free(gg_workers *workers);
-/* Of all of them together, now; 0 without workers. */
+
+/**
+ * Number of threads of all processes together.
+ * @param workers the workers
+ * @return number of threads; 0 without workers
+ */
 GG_API int gg_workers_threads(const gg_workers *workers);
-/* The others: work until rank 0 has no more to do (GG_OK), or is gone (GG_FAILED). */
+
+/**
+ * Other ranks: work until rank 0 has no more tasks.
+ * @param messages message functions
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED if rank 0 is lost
+ */
 GG_API gg_status gg_worker_run(const gg_messages *messages, gg_error *err);
 
 /* ---- Runs: to the end that the scene asks for, means with their errors ---- */
@@ -281,11 +508,17 @@ typedef struct gg_run_options {
 
 typedef struct gg_result gg_result; /* what came out of one engine's run */
 
-/* Run the scene's engine; options NULL: the default ones. With a result as well as a status that is not GG_OK:
- * GG_FAILED, the run ended short of what was asked, and the result says how far it came; GG_INTERRUPTED, a callback
- * stopped it, within half a second, wherever it was: results so far, but none where large systems were being placed (no
- * output is written; the checkpoint goes on from there, bit for bit); GG_BAD_FILE, a checkpoint could not be written,
- * results so far, or the output could not be at the end. */
+/**
+ * Run the scene's engine until its stopping criteria are met. There may be a result with a status other than GG_OK.
+ * @param scene the scene
+ * @param options NULL: default options
+ * @param result receives the result, to be freed by gg_result_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED: ended before the criteria, the result has what there is; GG_INTERRUPTED: a callback
+ *   stopped it within half a second, results so far (none while a large system is placed), no
+ *   output is written, the checkpoint can be resumed; GG_BAD_FILE: a checkpoint or
+ *   the output could not be written
+ */
 GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
 
 /* ---- Runs in pieces ----
@@ -294,16 +527,48 @@ GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg
  * the bits of gg_run's. */
 
 typedef struct gg_session gg_session;
-/* GG_BAD_INPUT where the scene asks for replicas. */
+
+/**
+ * Start a run of one replica in pieces.
+ * @param scene the scene
+ * @param session receives the session, to be freed by gg_session_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT if the scene has replicas
+ */
 GG_API gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err);
+
+/**
+ * Free a session.
+ * @param session may be NULL
+ */
 GG_API void gg_session_free(gg_session *session);
-/* Go on for about so many seconds by the clock on the wall, within a few milliseconds for some thousand grains. *over
- * (may be NULL): all is done, and nothing will change any more. GG_FAILED, then and from then on: ended short of what
- * was asked, or for good. */
+
+/**
+ * Continue the run for a wall-clock time. The final result has the bits of gg_run().
+ * @param session the session
+ * @param seconds wall-clock time, kept within a few milliseconds for some thousand grains
+ * @param over receives whether the run has ended; may be NULL
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED, also in later calls: ended before the stopping criteria, or failed
+ */
 GG_API gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_error *err);
+
+/**
+ * Progress of a session.
+ * @param session the session
+ * @param progress receives the progress
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_session_get_progress(const gg_session *session, gg_progress *progress, gg_error *err);
-/* Means, errors, history, curves and the grains as of now, to be freed; what cannot be had yet says why. The session
- * goes on as if it had not been asked. */
+
+/**
+ * Means, errors, history, curves and grains as of now. The session is not affected.
+ * @param session the session
+ * @param result receives the result, to be freed by gg_result_free(); missing means have a reason
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *err);
 
 typedef struct gg_checkpoint_part { /* one engine's */
@@ -319,7 +584,15 @@ typedef struct gg_checkpoint_info {
   uint64_t frames; /* of the trajectory, in the file beside it */
   int older;       /* FILE is missing or damaged: this is of FILE.1 */
 } gg_checkpoint_info;
-/* What a checkpoint or a saved simulation holds, and the scene (may be NULL) that it belongs to. */
+
+/**
+ * Content of a checkpoint or of a saved simulation.
+ * @param path file name
+ * @param info receives the content
+ * @param scene receives its scene, to be freed by gg_scene_free(); may be NULL
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE
+ */
 GG_API gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err);
 
 /* ---- Results ---- */
@@ -335,14 +608,51 @@ typedef struct gg_measurement {
   const char *symbol;                /* as pictures have it: "T", "P_{xy}"; NULL of a number derived from a curve */
 } gg_measurement;
 
-/* Mean and standard error of one quantity; either pointer may be NULL. GG_BAD_INPUT with the reason where there is
- * none. All there is to know of it, also where there is no mean; by name, and one after the other, GG_BAD_INPUT after
- * the last: for (i = 0; gg_result_at(result, i, &m, NULL) == GG_OK; i++). */
+/**
+ * Mean and standard error of a quantity.
+ * @param result the result
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @param mean receives the mean in units of results; may be NULL
+ * @param error receives the standard error; NaN if the run is too short; may be NULL
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT with the reason if there is none
+ */
 GG_API gg_status gg_result_get(const gg_result *result, const char *quantity, double *mean, double *error,
                                gg_error *err);
+
+/**
+ * Everything known about a quantity, also if it has no mean.
+ * @param result the result
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @param found receives mean, error, unit, samples, reason
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT for an unknown name
+ */
 GG_API gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err);
+
+/**
+ * The i-th quantity of a result: for (i = 0; gg_result_at(result, i, &m, NULL) == GG_OK; i++).
+ * @param result the result
+ * @param i index from 0
+ * @param found as for gg_result_find()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one.
+ */
 GG_API gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found, gg_error *err);
-GG_API const char *gg_result_unit(const gg_result *result, const char *quantity); /* NULL if it was not measured */
+
+/**
+ * Unit of a quantity.
+ * @param result the result
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @return the unit; NULL if it was not measured. Borrowed; do not free.
+ */
+GG_API const char *gg_result_unit(const gg_result *result, const char *quantity);
+
+/**
+ * Whether the steady state was reached.
+ * @param result the result
+ * @return 1 or 0
+ */
 GG_API int gg_result_is_steady(const gg_result *result);
 
 typedef struct gg_result_info {
@@ -359,13 +669,42 @@ typedef struct gg_result_info {
   const char *version, *command, *machine, *date; /* of the file that it was read from; NULL if it was not */
   size_t frames;                                  /* of the trajectory in that file */
 } gg_result_info;
-GG_API gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_error *err);
-GG_API const gg_scene *gg_result_scene(const gg_result *result);         /* as it was run */
-GG_API const char *gg_result_warning(const gg_result *result, size_t i); /* NULL after the last */
 
-/* One quantity from the start of the run, the first replica: n values, NaN where there is none, and their times. These
- * have a history: temperature, rotational_temperature, temperature_ratio, pressure, P_xy, spin_z, collision_rate, a2,
- * cos2_psi; of others GG_BAD_INPUT. */
+/**
+ * Verdict, window, effort and origin of a result.
+ * @param result the result
+ * @param info receives the information; times in units of results, effort in seconds
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
+GG_API gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_error *err);
+
+/**
+ * The scene of a result, as it was run.
+ * @param result the result
+ * @return the scene. Borrowed; do not free.
+ */
+GG_API const gg_scene *gg_result_scene(const gg_result *result);
+
+/**
+ * The i-th warning of a result.
+ * @param result the result
+ * @param i index from 0
+ * @return the text; NULL after the last. Borrowed; do not free.
+ */
+GG_API const char *gg_result_warning(const gg_result *result, size_t i);
+
+/**
+ * Time series of a quantity from the start of the run, first replica. It exists for temperature,
+ * rotational_temperature, temperature_ratio, pressure, P_xy, spin_z, collision_rate, a2, cos2_psi.
+ * @param result the result
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @param n receives the number of values
+ * @param time receives n times; borrowed; may be NULL
+ * @param value receives n values, NaN where there is none; borrowed
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT for other quantities
+ */
 GG_API gg_status gg_result_history(const gg_result *result, const char *quantity, size_t *n, const double **time,
                                    const double **value, gg_error *err);
 
@@ -381,18 +720,69 @@ typedef struct gg_curve_data { /* a distribution, profile, correlation function,
   const char *law_label;
   uint64_t samples;
 } gg_curve_data;
-/* The i-th curve, GG_BAD_INPUT after the last; the k-th number read off it (an exponent, a coefficient). */
+
+/**
+ * The i-th curve of a result.
+ * @param result the result
+ * @param i index from 0
+ * @param curve receives the curve; its arrays are borrowed
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curve, gg_error *err);
+
+/**
+ * The k-th number derived from a curve (an exponent, a coefficient).
+ * @param result the result
+ * @param i index from 0
+ * @param k number from 0
+ * @param number receives value, error and unit
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg_measurement *number,
                                         gg_error *err);
-/* The last state of the grains (of the first replica), as gg_simulation_get_grains. */
+
+/**
+ * Last state of the grains of the first replica.
+ * @param result the result
+ * @param into as for gg_simulation_get_grains()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT if there are no positions
+ */
 GG_API gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_error *err);
 
-/* The JSON document of `graingas run --json`; the HDF5 (H5MD) result file, complete or not at all; one read back, with
- * the names of what its program had added, but not the callbacks. */
+/**
+ * The JSON document of `graingas run --json`.
+ * @param result the result
+ * @param text receives the text, to be freed with free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_result_to_json(const gg_result *result, char **text, gg_error *err);
+
+/**
+ * Write the HDF5 (H5MD) result file; it appears whole or not at all.
+ * @param result the result
+ * @param path file name
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE
+ */
 GG_API gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err);
+
+/**
+ * Read a result file. User-defined quantities keep their names, not their callbacks.
+ * @param path file name
+ * @param result receives the result, to be freed by gg_result_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE
+ */
 GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *err);
+
+/**
+ * Free a result.
+ * @param result may be NULL
+ */
 GG_API void gg_result_free(gg_result *result);
 
 /* ---- Trajectories ----
@@ -400,23 +790,65 @@ GG_API void gg_result_free(gg_result *result);
  * is in memory, however many there are. In the units of results. Of a comparison's file they are md's. */
 
 typedef struct gg_trajectory gg_trajectory;
-/* GG_BAD_FILE: it cannot be read, or is no result. GG_FAILED: it holds no positions of grains, as of Monte Carlo. */
+
+/**
+ * Open the trajectory of a result file; of a comparison, that of md.
+ * @param path file name
+ * @param trajectory receives the trajectory, to be freed by gg_trajectory_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE; GG_FAILED if it has no positions
+ */
 GG_API gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_error *err);
+
+/**
+ * Close a trajectory.
+ * @param trajectory may be NULL
+ */
 GG_API void gg_trajectory_free(gg_trajectory *trajectory);
-/* As it was run; it belongs to the trajectory. NULL and 0 without one. */
+
+/**
+ * Scene of a trajectory, as it was run.
+ * @param trajectory the trajectory
+ * @return the scene; NULL without a trajectory. Borrowed; do not free.
+ */
 GG_API const gg_scene *gg_trajectory_scene(const gg_trajectory *trajectory);
+
+/**
+ * Number of frames.
+ * @param trajectory the trajectory
+ * @return number of frames; 0 without a trajectory
+ */
 GG_API size_t gg_trajectory_frames(const gg_trajectory *trajectory);
-/* The k-th frame from 0, GG_BAD_INPUT after the last, GG_BAD_FILE where it is damaged: its state, and its grains in the
- * order of their numbers, copied into arrays of as many as its `grains` (as for gg_simulation_get_grains), the same in
- * every frame; `state` and `into` may be NULL. And what is known of a species, from 0, in the frame that was read last;
- * GG_BAD_INPUT before the first, and after the last species. */
+
+/**
+ * Read one frame: state and grains, in the order of their numbers.
+ * @param trajectory the trajectory
+ * @param k frame from 0
+ * @param state receives the state; may be NULL
+ * @param into the caller's arrays, as for gg_simulation_get_grains(); may be NULL
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last frame; GG_BAD_FILE if it is damaged
+ */
 GG_API gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation_state *state,
                                      const gg_grains *into, gg_error *err);
+
+/**
+ * One species in the frame that was read last.
+ * @param trajectory the trajectory
+ * @param species number from 0
+ * @param state receives the values, in units of results
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT before the first frame and after the last species
+ */
 GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species, gg_species_state *state,
                                            gg_error *err);
 
-/* The teaching page that was built with the library's sources (./check-page), one HTML file for a browser, written to
- * `path`: it begins with the scene, or with its own (NULL). GG_BAD_FILE where no page was built: the message says how.
+/**
+ * Write the teaching page, one HTML file. It has to be built once with the sources (./check-page).
+ * @param scene scene that the page starts with; NULL: its own
+ * @param path file name
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE if no page was built
  */
 GG_API gg_status gg_page_write(const gg_scene *scene, const char *path, gg_error *err);
 
@@ -425,28 +857,84 @@ GG_API gg_status gg_page_write(const gg_scene *scene, const char *path, gg_error
 
 typedef struct gg_comparison gg_comparison;
 
-/* As gg_run. An engine that cannot run the scene is left out, with its reason. */
+/**
+ * Run both engines and evaluate every theory. An engine that cannot run the scene is left out with its reason.
+ * @param scene the scene
+ * @param options NULL: default options
+ * @param comparison receives the comparison, to be freed by gg_comparison_free()
+ * @param err receives the message on failure; may be NULL
+ * @return as gg_run()
+ */
 GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison,
                             gg_error *err);
-/* What theories say, at once, nothing simulated: all of them, or the one of that name. GG_OK also where they do not
- * apply: gg_comparison_theory says why. */
+
+/**
+ * Evaluate theories without simulation. Theories that do not apply have a reason in gg_comparison_theory().
+ * @param scene the scene
+ * @param theory name of one theory; NULL: all
+ * @param comparison receives the answers, to be freed by gg_comparison_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, also if none applies; GG_BAD_INPUT
+ */
 GG_API gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_comparison **comparison,
                                       gg_error *err);
+
+/**
+ * Free a comparison.
+ * @param comparison may be NULL
+ */
 GG_API void gg_comparison_free(gg_comparison *comparison);
 
-/* Put a result of the same scene beside the theories, in place of the one that the comparison has of its engine: so a
- * table is filled from two sessions, and theories are evaluated once. Taken over on success. */
+/**
+ * Put a result of the same scene beside the theories, in place of the one of its engine.
+ * @param comparison the comparison
+ * @param result the result; owned by the comparison on success
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT if the scene is another
+ */
 GG_API gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_error *err);
 
-/* The part of "md" or "dsmc", which belongs to the comparison; NULL if there is none, for this reason. */
+/**
+ * An engine's result in a comparison.
+ * @param comparison the comparison
+ * @param engine "md" or "dsmc"
+ * @return the result; NULL if there is none. Borrowed; do not free.
+ */
 GG_API const gg_result *gg_comparison_result(const gg_comparison *comparison, const char *engine);
+
+/**
+ * Why a comparison has no result of an engine.
+ * @param comparison the comparison
+ * @param engine "md" or "dsmc"
+ * @return the reason; NULL if there is a result. Borrowed; do not free.
+ */
 GG_API const char *gg_comparison_refusal(const gg_comparison *comparison, const char *engine);
+
+/**
+ * Scene of a comparison.
+ * @param comparison the comparison
+ * @return the scene. Borrowed; do not free.
+ */
 GG_API const gg_scene *gg_comparison_scene(const gg_comparison *comparison);
-/* Keys that the scene gives and that have no effect on any part of it; NULL after the last. */
+
+/**
+ * The i-th key that has no effect on any part of a comparison.
+ * @param comparison the comparison
+ * @param i index from 0
+ * @return the text; NULL after the last. Borrowed; do not free.
+ */
 GG_API const char *gg_comparison_warning(const gg_comparison *comparison, size_t i);
-/* *z: (md - dsmc) over their combined standard error, NaN if either is not known. *beyond: does md differ from Enskog's
- * equation by more than is expected at this density and dissipation? From its solution without random numbers where
- * there is one (below), else from dsmc. Either may be NULL. */
+
+/**
+ * Difference of both engines. Enskog's equation stands for its noise-free solution if there is one, otherwise for
+ * dsmc.
+ * @param comparison the comparison
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @param z receives (md - dsmc) over the combined standard error, NaN if unknown; may be NULL
+ * @param beyond receives whether md differs from Enskog's equation by more than expected; may be NULL
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT for an unknown quantity
+ */
 GG_API gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,
                                          gg_error *err);
 
@@ -458,7 +946,16 @@ typedef struct gg_departure {
   double deviation, deviation_error; /* both over the solution; NaN of numbers about zero: N1, N2, a2 */
   int headline;                      /* one of the main quantities, those of a comparison's picture */
 } gg_departure;
-/* Of "md" or "dsmc"; all NaN where there is no such solution, or no mean and error of the engine. */
+
+/**
+ * An engine's mean against Enskog's equation solved without random numbers (enskog_hermite).
+ * @param comparison the comparison
+ * @param engine "md" or "dsmc"
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @param departure receives the differences; all NaN without a solution or a mean
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT for an unknown quantity
+ */
 GG_API gg_status gg_comparison_departure(const gg_comparison *comparison, const char *engine, const char *quantity,
                                          gg_departure *departure, gg_error *err);
 
@@ -469,7 +966,15 @@ typedef struct gg_comparison_row { /* one quantity; arrays: md, dsmc */
   int beyond;
   gg_departure departure[2];
 } gg_comparison_row;
-/* The i-th quantity, in the order of tables; GG_BAD_INPUT after the last. */
+
+/**
+ * The i-th quantity of a comparison, in the order of tables.
+ * @param comparison the comparison
+ * @param i index from 0
+ * @param row receives means, errors and differences
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_comparison_row *row, gg_error *err);
 
 typedef struct gg_theory_info {
@@ -477,23 +982,64 @@ typedef struct gg_theory_info {
   const char *reason; /* why it does not apply to this scene; NULL if it does */
   const char *beyond; /* why this scene is beyond what it was made for, though it answers; NULL within */
 } gg_theory_info;
-/* The i-th theory, GG_BAD_INPUT after the last; what it says of a quantity, in the unit of results (NaN: nothing), and
- * how far that is from md (or dsmc, if that is all there is): theory/simulation - 1, NaN where the simulation cannot be
- * told from 0. */
+
+/**
+ * The i-th theory of a comparison.
+ * @param comparison the comparison
+ * @param i index from 0
+ * @param theory receives name, source and reason
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err);
+
+/**
+ * Answer of a theory to a quantity.
+ * @param comparison the comparison
+ * @param theory name of a theory
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @param value receives the answer in units of results; NaN: none
+ * @param deviation receives theory/simulation - 1 against md, or dsmc without md; NaN if the simulation is 0 within
+ *   its error; may be NULL
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT for unknown names
+ */
 GG_API gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
                                             double *value, double *deviation, gg_error *err);
-/* T at a time since the start, both in the units of results, of a gas of equal smooth grains with a constant e that
- * cools freely: by Haff's law with the theory's own rate of cooling. GG_BAD_INPUT where it says none, the gas is
- * another, or the time is before the start. */
+
+/**
+ * T(t) of freely cooling smooth grains of one species and constant e, by Haff's law with the theory's cooling rate.
+ * @param comparison the comparison
+ * @param theory name of a theory
+ * @param time time since the start, in units of results
+ * @param temperature receives T, in units of results
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT without a rate, for another gas, or before the start
+ */
 GG_API gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const char *theory, double time,
                                               double *temperature, gg_error *err);
-/* How far that may be from the solution of the theory's own equations, where these are solved numerically; NaN: it is
- * exact, or nothing is said. */
+
+/**
+ * Numerical error of an answer.
+ * @param comparison the comparison
+ * @param theory name of a theory
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @param error receives the error; NaN: the answer is exact, or there is none
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT for unknown names
+ */
 GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char *theory, const char *quantity,
                                             double *error, gg_error *err);
-/* The i-th curve that a theory has of what the scene measures, under the name and at the abscissae of the measured one;
- * its errors are numerical ones, and where they are too large the values are NaN. GG_BAD_INPUT after the last. */
+
+/**
+ * The i-th curve of a theory, with name and abscissae of the measured curve.
+ * @param comparison the comparison
+ * @param theory name of a theory
+ * @param i index from 0
+ * @param curve receives the curve; errors are numerical, values with too large errors NaN
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
                                             gg_curve_data *curve, gg_error *err);
 
@@ -503,11 +1049,42 @@ typedef struct gg_remark { /* on what differs by more than is expected */
   double deviation;
   const char *cause;
 } gg_remark;
+
+/**
+ * The i-th remark on a difference larger than expected.
+ * @param comparison the comparison
+ * @param i index from 0
+ * @param remark receives theory, quantity, deviation and cause
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err);
 
-/* As of results. gg_comparison_read also reads the file of a run: a comparison of one. */
+/**
+ * The JSON document of `graingas compare --json`.
+ * @param comparison the comparison
+ * @param text receives the text, to be freed with free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg_error *err);
+
+/**
+ * Write the HDF5 file of a comparison; it appears whole or not at all.
+ * @param comparison the comparison
+ * @param path file name
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE
+ */
 GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err);
+
+/**
+ * Read the file of a comparison, or of a run as a comparison of one.
+ * @param path file name
+ * @param comparison receives the comparison, to be freed by gg_comparison_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE
+ */
 GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err);
 
 /* ---- Sweeps: a scene, and keys of it that take other values from point to point ----
@@ -517,21 +1094,72 @@ GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison
 
 typedef struct gg_sweep gg_sweep;
 
-/* From a YAML file ("-": standard input) or YAML text: a scene that may also have `vary` and `sweep`; without them, a
- * sweep of one point, to be varied. */
+/**
+ * Read a sweep: a scene that may have the maps `vary` and `sweep`.
+ * @param path file name; "-" is standard input
+ * @param sweep receives the sweep, to be freed by gg_sweep_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT; GG_BAD_FILE
+ */
 GG_API gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err);
+
+/**
+ * Read a sweep from YAML text.
+ * @param yaml the text
+ * @param name stands for the file name in messages; may be NULL
+ * @param sweep receives the sweep, to be freed by gg_sweep_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT
+ */
 GG_API gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, gg_error *err);
+
+/**
+ * Free a sweep.
+ * @param sweep may be NULL
+ */
 GG_API void gg_sweep_free(gg_sweep *sweep);
-/* A key of the scene for all points, which must not be varied, or one of the map `sweep`: ("sweep.does", "compare"). */
+
+/**
+ * Set a key of the scene for all points, or a key of the map `sweep` ("sweep.does").
+ * @param sweep the sweep
+ * @param key key of a scene
+ * @param value YAML
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT, also for a varied key or after gg_sweep_check()
+ */
 GG_API gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err);
-/* One key more that is varied, multiplied with the others: ("phi", "0.1:0.5:0.1"), ("engine", "md,dsmc"). */
+
+/**
+ * Vary one more key, multiplied with the others.
+ * @param sweep the sweep
+ * @param key key of a scene
+ * @param values "0.1:0.5:0.1" (first, last, step) or "md,dsmc"
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT, also after gg_sweep_check()
+ */
 GG_API gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err);
 
-/* Can every point be simulated? GG_BAD_INPUT names the first one that cannot, and why. Whatever stands below asks that
- * first; afterwards the sweep does not change any more (GG_BAD_INPUT). */
+/**
+ * Check that every point can be simulated. Other calls below do so first; afterwards the sweep is fixed.
+ * @param sweep the sweep
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT names the first point that cannot be simulated
+ */
 GG_API gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err);
-GG_API size_t gg_sweep_points(const gg_sweep *sweep);    /* how many; 0 of one that was not checked */
-GG_API const char *gg_sweep_does(const gg_sweep *sweep); /* "run", "compare", "theory" */
+
+/**
+ * Number of points.
+ * @param sweep the sweep
+ * @return number of points; 0 before gg_sweep_check()
+ */
+GG_API size_t gg_sweep_points(const gg_sweep *sweep);
+
+/**
+ * Command of the points.
+ * @param sweep the sweep
+ * @return "run", "compare" or "theory". Borrowed; do not free.
+ */
+GG_API const char *gg_sweep_does(const gg_sweep *sweep);
 
 typedef struct gg_sweep_point {
   char name[17];      /* of its file, without folder and ending */
@@ -539,11 +1167,42 @@ typedef struct gg_sweep_point {
   int64_t replicas;   /* the scene's, or chosen where it has none (sweep.longest) */
   uint64_t seed;      /* its own, or the scene's (sweep.seeds) */
 } gg_sweep_point;
-/* The i-th point, from 0; GG_BAD_INPUT after the last. And its scene, complete, to be freed. */
+
+/**
+ * Name, cost, replicas and seed of a point.
+ * @param sweep the sweep
+ * @param i index from 0
+ * @param point receives the values
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err);
+
+/**
+ * Complete scene of a point.
+ * @param sweep the sweep
+ * @param i index from 0
+ * @param scene receives the scene, to be freed by gg_scene_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_error *err);
-/* The k-th varied key, and its value at point i, as YAML; NULL after the last. */
+
+/**
+ * The k-th varied key.
+ * @param sweep the sweep
+ * @param k number from 0
+ * @return the key; NULL after the last. Borrowed; do not free.
+ */
 GG_API const char *gg_sweep_key(const gg_sweep *sweep, size_t k);
+
+/**
+ * Value of the k-th varied key at a point, as YAML.
+ * @param sweep the sweep
+ * @param i index from 0
+ * @param k number from 0
+ * @return the value; NULL after the last. Borrowed; do not free.
+ */
 GG_API const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k);
 
 typedef enum gg_point_state {
@@ -551,11 +1210,27 @@ typedef enum gg_point_state {
   GG_POINT_DONE,
   GG_POINT_SHORT /* done, but short of what was asked */
 } gg_point_state;
-/* What a folder has of point i, and in which file (may be NULL), to be freed. */
+
+/**
+ * State of a point in a folder.
+ * @param sweep the sweep
+ * @param folder folder of the results
+ * @param i index from 0
+ * @param state receives the state
+ * @param file receives the file name, to be freed; may be NULL
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_point_state *state, char **file,
                                gg_error *err);
 
-/* Every point with its values, name, seed and what the folder has of it, as `graingas sweep --list --json` prints it.
+/**
+ * Every point with values, name, seed and state, as `graingas sweep --list --json` prints it.
+ * @param sweep the sweep
+ * @param folder folder of the results
+ * @param text receives the text, to be freed with free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
  */
 GG_API gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err);
 
@@ -582,12 +1257,26 @@ typedef struct gg_sweep_options {
   gg_workers *workers; /* other processes that take part in the points done here; NULL: none */
 } gg_sweep_options;
 
-/* Do all points that are not done yet; the folder is made if it is not there. Several processes may work in one folder:
- * none does what another is at, and all return when all is done. A point in progress keeps checkpoints if the scene has
- * output.checkpoint_every, and goes on from them. GG_FAILED: some points failed or ended short, and `ended` told of
- * them, or did so in an earlier call; GG_INTERRUPTED: `stop` said so. */
+/**
+ * Run all unfinished points; the folder is created if missing. Several processes may share a folder; all return when
+ * everything is done. Unfinished points resume from checkpoints if the scene has output.checkpoint_every.
+ * @param sweep the sweep
+ * @param folder folder of the results
+ * @param options NULL: default options
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED if points failed or ended before their criteria, also in an earlier call; GG_INTERRUPTED
+ */
 GG_API gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err);
-/* The same of one point alone. */
+
+/**
+ * Run one point.
+ * @param sweep the sweep
+ * @param folder folder of the results
+ * @param i index from 0
+ * @param options NULL: default options
+ * @param err receives the message on failure; may be NULL
+ * @return as gg_sweep_run()
+ */
 GG_API gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
                                     gg_error *err);
 
@@ -603,14 +1292,34 @@ typedef struct gg_collecting {
   void (*warn)(void *context, const char *message);
   const char *width; /* of the picture, as for gg_plot; NULL: free */
 } gg_collecting;
+
+/**
+ * Write the results of all finished points: PREFIX.csv and PREFIX.h5 (a row for each point, method and quantity) and
+ * the picture PREFIX.svg. The tables are written even if the picture fails.
+ * @param sweep the sweep
+ * @param folder folder of the results
+ * @param prefix beginning of the file names
+ * @param options NULL: default options
+ * @param written called with each file name; may be NULL
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED if no point is finished or the picture fails
+ */
 GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
                                   void (*written)(void *context, const char *file), void *context, gg_error *err);
 
-/* Pictures of a result file, by gnuplot: PICTURE, PICTURE_snapshot and one for each observable that left curves.
- * `format` is "svg", "png", "pdf" or NULL: by PICTURE's name. `width` is that of each on paper, with letters of 8
- * points: a number and mm, cm, in or pt, from "40mm" to "1000mm", e.g. "86mm" for a column; NULL: as on a screen.
- * GG_BAD_INPUT names what is allowed. `drawn` (may be NULL) is called with the name of each. Nothing
- * is drawn if one of them could not be written (GG_BAD_FILE) or is the result file (GG_BAD_INPUT). */
+/**
+ * Draw pictures of a result file with gnuplot: PICTURE, PICTURE_snapshot and one for each observable with curves.
+ * Nothing is drawn if one of them cannot be written.
+ * @param result_file file name of a result
+ * @param picture file name of the first picture
+ * @param format "svg", "png" or "pdf"; NULL: from the file name
+ * @param width width on paper, "86mm" (mm, cm, in, pt); NULL: for a screen
+ * @param drawn called with each file name; may be NULL
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a picture is the result file
+ */
 GG_API gg_status gg_plot(const char *result_file, const char *picture, const char *format, const char *width,
                          void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 
@@ -623,10 +1332,18 @@ enum {                        /* what gg_export writes */
            4, /* PREFIX.xyz: grains as extended XYZ, one frame after another, where they have positions */
        GG_EXPORT_ALL = 7
 };
-/* A result file as tables and a trajectory for other programs; the command's documents tell of the columns. All files
- * are written whole before the first appears, and none does if one could not be written (GG_BAD_FILE), is the result
- * file, if the prefix itself is a device or a pipe (both GG_BAD_INPUT), or if the result has nothing of what `parts`
- * asks for (GG_FAILED). `written` (may be NULL) is called with the name of each. */
+
+/**
+ * Write tables (CSV) and trajectories (extended XYZ) of a result file. All files are written before the first appears.
+ * @param result_file file name of a result
+ * @param prefix beginning of the file names
+ * @param parts a sum of GG_EXPORT_...
+ * @param written called with each file name; may be NULL
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a file is the result, or the prefix is a device or pipe; GG_FAILED if
+ *   the result has none of the parts
+ */
 GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                            void (*written)(void *context, const char *file), void *context, gg_error *err);
 
@@ -650,7 +1367,14 @@ typedef struct gg_figure_info { /* texts last for the call */
   gg_figure_needs quick, full;
 } gg_figure_info;
 typedef void gg_on_figure(void *context, const gg_figure_info *figure);
-/* All of them, in the order of papers and numbers. */
+
+/**
+ * List the figures of the two papers, in the order of papers and numbers.
+ * @param figure called with each figure
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_list_figures(gg_on_figure *figure, void *context, gg_error *err);
 
 typedef struct gg_figure_number { /* that the paper states, beside ours; NaN: there is none */
@@ -674,12 +1398,24 @@ typedef struct gg_reproduce_options {
   void (*written)(void *context, const char *file);
   void (*number)(void *context, const gg_figure_number *number);
 } gg_reproduce_options;
-/* One figure, "thesis 3.5" ("3.5" where one paper alone has it), or "all": NAME.h5, NAME.csv, NAME.svg and NAME.png,
- * each whole or not there; NAME_numbers.csv where the paper states numbers. Points that are done are not run again.
- * GG_FAILED: points fell short of what was asked (files are written from those there are), it cannot be reproduced, or
- * there is no gnuplot, which is looked for before anything is run. */
+
+/**
+ * Simulate and draw a figure: NAME.h5, NAME.csv, NAME.svg, NAME.png, and NAME_numbers.csv if the paper publishes
+ * numbers. Each file appears whole or not at all; finished points are not run again.
+ * @param figure "thesis 3.5", "3.5" if one paper alone has it, or "all"
+ * @param options NULL: default options
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED: points ended before their criteria (files hold what there is), the figure cannot be
+ *   reproduced, or gnuplot is missing
+ */
 GG_API gg_status gg_reproduce(const char *figure, const gg_reproduce_options *options, gg_error *err);
-/* docs/appendix/reproduction.md: every figure with its verdict, as Markdown; to be freed. */
+
+/**
+ * docs/appendix/reproduction.md: every figure with its verdict, as Markdown.
+ * @param text receives the text, to be freed with free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
 GG_API gg_status gg_reproduction_page(char **text, gg_error *err);
 
 /* ---- Tables to ask ---- */
@@ -707,16 +1443,45 @@ typedef struct gg_entry { /* NULL or "" where the list has no such thing */
   int headline;        /* of a quantity: run.relative_error applies to it in the scene */
   char when[256];      /* when a key has an effect, a quantity has a mean, which flows a theory describes */
 } gg_entry;
-/* The i-th entry, GG_BAD_INPUT after the last. `scene` (may be NULL) decides units and values. */
+
+/**
+ * The i-th entry of a table of names.
+ * @param list which table
+ * @param i index from 0
+ * @param scene determines units, values and availability; NULL: defaults, and units of uniform shear
+ * @param entry receives the entry; texts are borrowed
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_catalogue_entry(gg_catalogue list, size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err);
-/* The i-th word that a key of type choice or set takes: name and doc. */
+
+/**
+ * The i-th word that a key of type choice or set takes.
+ * @param key key of a scene, "flow"
+ * @param i index from 0
+ * @param entry receives name and doc
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
 GG_API gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error *err);
 
 /* ---- Words for people ---- */
 
-/* "1.2340(41)": standard error in the last digits; "1.23(?)" where it is not known. Cut to `size` bytes. */
+/**
+ * Format a mean and its error: "1.2340(41)" has the standard error in the last digits, "1.23(?)" an unknown one.
+ * @param mean the mean
+ * @param error its standard error; NaN: unknown
+ * @param text receives the text, cut to size bytes
+ * @param size size of the buffer in bytes
+ */
 GG_API void gg_format_estimate(double mean, double error, char *text, size_t size);
-/* The known word nearest to a mistyped one, for "did you mean"; NULL if none is near. `known` ends with NULL. */
+
+/**
+ * The known word nearest to a mistyped one, for "did you mean".
+ * @param word the mistyped word
+ * @param known known words; NULL after the last
+ * @return the word; NULL if none is near
+ */
 GG_API const char *gg_nearest_word(const char *word, const char *const *known);
 
 /* ---- Extension ----
@@ -781,6 +1546,14 @@ typedef struct gg_observable_definition {
   void (*collision)(void *context, void *state, const gg_collision_view *collision);
   void *context;
 } gg_observable_definition;
+
+/**
+ * Register a user-defined observable with a scene; its quantities appear in results, files and pictures.
+ * @param scene the scene
+ * @param definition copied, except for context
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
+ */
 GG_API gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definition *definition, gg_error *err);
 
 typedef struct gg_species_facts {
@@ -813,6 +1586,14 @@ typedef struct gg_theory_definition {
   const char *(*evaluate)(void *context, const gg_facts *facts, double *values);
   void *context;
 } gg_theory_definition;
+
+/**
+ * Register a user-defined theory with a scene.
+ * @param scene the scene
+ * @param definition copied, except for context
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
+ */
 GG_API gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *definition, gg_error *err);
 
 /* Coefficient of normal restitution, 0 to 1, of two grains (species from 0) that meet with this relative speed along
@@ -821,9 +1602,31 @@ GG_API gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition
  * what it returns out of range during a run is taken as the nearer end. dsmc leaves its fast kernels for it; theories
  * of constant e do not apply. A run that is resumed needs the same law; its name tells. NULL: back to collision.e. */
 typedef double gg_restitution(void *context, double normal_speed, int species_1, int species_2);
+
+/**
+ * Set a restitution law for collisions between grains, in place of collision.e and collision.law. It is tested at
+ * speeds from 1e-9 to 1e9. Values out of range during a run are clamped. dsmc leaves its fast kernels; theories of
+ * constant e do not apply. A resumed run needs the same law, by name.
+ * @param scene the scene
+ * @param name name of the law
+ * @param law the law; NULL: back to collision.e
+ * @param context passed to the callback
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
+ */
 GG_API gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *law, void *context,
                                           gg_error *err);
-/* The same from a table of n >= 1 ascending speeds: linear between them, constant beyond the ends. */
+
+/**
+ * Set a restitution law from a table: linear between speeds, constant beyond the ends.
+ * @param scene the scene
+ * @param name name of the law
+ * @param n number of speeds, at least 1
+ * @param speed n ascending speeds, in units of results
+ * @param e n coefficients, 0 to 1
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
+ */
 GG_API gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size_t n, const double *speed,
                                                 const double *e, gg_error *err);
 

@@ -39,6 +39,22 @@ def test_reference_pages():
               f"--{name}-page` prints: redirect it there")
 
 
+def test_header():
+    """Every function of the public header has a comment of its own in Doxygen form, which names its parameters."""
+    with open(os.path.join(SOURCE, "include", "graingas.h"), encoding="utf-8") as header:
+        text = header.read()
+    wrong, n = set(), 0
+    for found in re.finditer(r"(/\*\*(?:(?!\*/).)*\*/\n)?GG_API ([^;]*?)(gg_\w+)\(([^;]*)\);", text, re.DOTALL):
+        comment, returns, name, arguments = found.groups()
+        n += 1
+        arguments = re.sub(r"\(\*(\w+)\)\([^()]*\)", r"\1", arguments)  # of functions their names alone
+        names = [] if arguments == "void" else [re.findall(r"\w+", a)[-1] for a in arguments.split(",")]
+        named = re.findall(r"@param (\w+)", comment or "")
+        if not comment or named != names or (returns.strip() != "void") != ("@return" in comment):
+            wrong.add(f"{name}: @param of {names}, @return unless void")
+    check(n > 90 and not wrong, n, "in include/graingas.h, without such a comment:\n" + "\n".join(sorted(wrong)))
+
+
 def test_reproduction_page():
     """A figure's section is its entry's: graingas --reproduction-page > docs/appendix/reproduction.md; pictures are small."""
     page = run("--reproduction-page")
