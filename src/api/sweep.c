@@ -116,7 +116,7 @@ size_t gg_sweep_points(const gg_sweep *sweep)
 
 const char *gg_sweep_does(const gg_sweep *sweep)
 {
-  return sweep ? gg_does_words[sweep->settings.does] : NULL;
+  return sweep ? gg_sweep_does_words[sweep->settings.does] : NULL;
 }
 
 static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)

@@ -166,7 +166,7 @@ static void set_default(const gg_field *f, void *base)
   case GG_FIELD_SET: memcpy(at, &word, sizeof word); return;
   case GG_FIELD_SPECIES: return;
   default:
-    for (size_t i = 0; i < gg_field_count(f); i++) ((double *)at)[i] = f->by_default;
+    for (size_t i = 0; i < gg_scene_field_count(f); i++) ((double *)at)[i] = f->by_default;
   }
 }
 
@@ -181,7 +181,7 @@ gg_scene gg_scene_defaults(void)
   return scene;
 }
 
-size_t gg_field_count(const gg_field *f)
+size_t gg_scene_field_count(const gg_field *f)
 {
   return f->type == GG_FIELD_PAIRS ? GG_PAIRS : f->type == GG_FIELD_VECTOR ? 3 : 1;
 }

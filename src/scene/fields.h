@@ -88,7 +88,7 @@ bool gg_scene_is_given(const gg_scene *scene, const char *key);
 bool gg_scene_is_section(const char *name);
 
 /* How many values the member holds; of species and words 1. */
-size_t gg_field_count(const gg_field *field);
+size_t gg_scene_field_count(const gg_field *field);
 /* The i-th word that a choice or a set takes; beyond the last one its name is NULL. */
 gg_word gg_scene_field_word(const gg_field *field, int i);
 /* The word of that name; its name is NULL if there is none. */

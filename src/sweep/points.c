@@ -239,11 +239,11 @@ static uint64_t mix(uint64_t x)
   return x ^ (x >> 33);
 }
 
-const char *const gg_does_words[] = {"run", "compare", "theory"};
+const char *const gg_sweep_does_words[] = {"run", "compare", "theory"};
 
 uint64_t gg_sweep_point_id(const gg_scene *scene, gg_does does)
 {
-  uint64_t sum = add_text(GG_CHECKSUM_START, gg_does_words[does]);
+  uint64_t sum = add_text(GG_CHECKSUM_START, gg_sweep_does_words[does]);
   for (const gg_field *f = gg_scene_fields; f->key; f++)
     if (!is_left_out(f->key, does)) sum = add_field(sum, f, scene);
   return mix(add_extension(sum, scene));

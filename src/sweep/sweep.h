@@ -97,6 +97,6 @@ gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t
 /* The seed of a point with independent seeds: from run.seed and from what is simulated there, but not from how long,
  * unless that is varied, or what is measured. */
 uint64_t gg_sweep_point_seed(const gg_sweep *sweep, const gg_scene *scene);
-extern const char *const gg_does_words[]; /* "run", "compare", "theory" */
+extern const char *const gg_sweep_does_words[]; /* "run", "compare", "theory" */
 
 #endif

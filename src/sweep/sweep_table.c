@@ -376,6 +376,6 @@ json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
   json_t *points = json_array();
   for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
   return gg_base_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", gg_base_build_version, "does",
-                                            gg_does_words[sweep->settings.does], "folder", name_as_text(folder),
+                                            gg_sweep_does_words[sweep->settings.does], "folder", name_as_text(folder),
                                             "points", points));
 }

@@ -1,5 +1,5 @@
 """The library as it is installed: header, pkg-config file, manual page, command; examples/*.c and the program of
-docs/tutorial/first_program.md build and run against it; every exported name carries the prefix."""
+docs/tutorial/first_program.md build and run against it; what names it exports, and how names inside are made."""
 import glob
 import json
 import os
@@ -112,20 +112,52 @@ def test_command_uses_the_public_header():
         check(not inside, source, "includes", inside)
 
 
+def public_functions():
+    header = open(os.path.join(SOURCE, "include", "graingas.h")).read()
+    return set(re.findall(r"GG_API [^;]*?(gg_\w+)\(", header))
+
+
+def objects():
+    """Pairs of a source, from src on, and the object that the library or the command has of it."""
+    for one in json.load(open(os.path.join(BUILD, "compile_commands.json"))):
+        source = os.path.relpath(os.path.join(one["directory"], one["file"]), SOURCE)
+        found = os.path.join(BUILD, one["output"])
+        if source.startswith("src/") and not one["output"].startswith(("tests/", "validation/")):
+            check(os.path.exists(found), found, "is not built")
+            yield source, found
+
+
 def test_exported_names():
-    """The shared library shows the public header's functions and nothing else; inside, everything global is gg_."""
+    """The shared library exports the functions of the public header and nothing else."""
     if SANITIZERS != "none":
         raise Skip("sanitizers add names of their own")
     shared = glob.glob(os.path.join(BUILD, "libgraingas.so"))[0]
     seen = {line.split()[-1] for line in sh("nm", "-D", "--defined-only", shared).splitlines()}
-    header = open(os.path.join(SOURCE, "include", "graingas.h")).read()
-    public = set(re.findall(r"GG_API [^;]*?(gg_\w+)\(", header))
-    check(seen == public, "differ:", seen ^ public)
-    inside = sh("nm", "-g", "--defined-only", "--quiet", os.path.join(BUILD, "libgraingas-core.a"))
-    for line in inside.splitlines():
-        parts = line.split()
-        if len(parts) == 3:
-            check(parts[2].startswith("gg_"), parts[2], "lacks the prefix")
+    check(seen == public_functions(), "differ:", seen ^ public_functions())
+
+
+def test_external_names_carry_their_room():
+    """An external name begins with gg_ and a folder of its source: gg_<room>_<object>_<verb>. Public names have no room."""
+    if SANITIZERS != "none":
+        raise Skip("sanitizers add names of their own")
+    public, wrong, seen = public_functions(), [], set()
+    for source, built in objects():
+        rooms = source.split("/")[1:-1]
+        for line in sh("nm", "-g", "--defined-only", "--format=posix", built).splitlines():
+            name = line.split()[0]
+            seen.add(name)
+            if name not in public and name != "main" and not name.startswith(tuple(f"gg_{room}_" for room in rooms)):
+                wrong.append(f"{source}: {name}")
+    check(len(seen) > 500 and not wrong, "without their room:", *wrong)
+
+
+def test_structs_have_one_name_each():
+    places = {}
+    for source in glob.glob(os.path.join(SOURCE, "src", "**", "*.[ch]"), recursive=True):
+        for name in re.findall(r"^\s*(?:typedef )?struct (gg_\w+) \{", open(source).read(), re.MULTILINE):
+            places.setdefault(name, []).append(os.path.relpath(source, SOURCE))
+    twice = {name: files for name, files in places.items() if len(files) > 1}
+    check(len(places) > 100 and not twice, "defined twice:", twice)
 
 
 if __name__ == "__main__":
