@@ -1,4 +1,4 @@
-#include "api/moments.h"
+#include "api/simulation.h"
 
 void gg_api_moments_add(void *moments, const gg_chunk *chunk)
 {

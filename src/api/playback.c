@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "api/moments.h"
+#include "api/simulation.h"
 #include "base/c_locale.h"
 #include "base/memory.h"
 #include "files/h5/result_reader.h"

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "common/extension.h"
 #include "common/rng.h"
-#include "run/start_model.h"
+#include "run/run.h"
 
 static bool is_stopped(void *context)
 {

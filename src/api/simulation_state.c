@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/moments.h"
 #include "api/simulation.h"
 #include "base/memory.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "run/replica.h"
-#include "run/start_model.h"
+#include "run/run.h"
 
 enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 

@@ -6,7 +6,7 @@
 #include <gsl/gsl_statistics_double.h>
 
 #include "base/clock.h"
-#include "run/start_model.h"
+#include "run/run.h"
 
 enum { MOST_REPEATS = 32 };
 

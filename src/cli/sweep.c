@@ -1,14 +1,157 @@
 /* graingas sweep: a run, a comparison or the theories at every point of a grid of scenes. */
-#include "cli/sweep.h"
-
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/number_format.h"
+#include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/processes.h"
 #include "cli/progress.h"
+
+typedef struct sweep_command {
+  const gg_options *options;
+  gg_sweep *sweep; /* checked */
+  char *folder;
+  gg_cli_line line;
+  bool over; /* the last line was shown */
+} sweep_command;
+
+enum { MOST_KEYS = 256 };
+
+typedef struct widths {
+  size_t n;
+  int of[MOST_KEYS];
+} widths;
+
+static int longer(int width, const char *text)
+{
+  int length = (int)strlen(text);
+  return length > width ? length : width;
+}
+
+/* Of the columns of the varied keys. */
+static widths measure(const gg_sweep *sweep)
+{
+  widths w = {0};
+  for (const char *key; w.n < MOST_KEYS && (key = gg_sweep_key(sweep, w.n)); w.n++) {
+    w.of[w.n] = longer(0, key);
+    for (size_t i = 0; i < gg_sweep_points(sweep); i++) w.of[w.n] = longer(w.of[w.n], gg_sweep_value(sweep, i, w.n));
+  }
+  return w;
+}
+
+static void print_head(const gg_sweep *sweep, const widths *w)
+{
+  printf("%5s  ", "point");
+  for (size_t k = 0; k < w->n; k++) printf("%-*s  ", w->of[k], gg_sweep_key(sweep, k));
+  printf("%-16s  %-7s  %8s  %s\n", "file", "state", "replicas", "time");
+}
+
+/* Whoever takes part in its time: the missing ones. */
+static double print_point(const sweep_command *c, const widths *w, size_t i, gg_point_state state)
+{
+  static const char *const states[] = {"", "done", "short"};
+  char time[24];
+  gg_sweep_point p;
+  if (gg_sweep_at(c->sweep, i, &p, NULL) != GG_OK) return 0;
+  gg_cli_format_duration(p.cpu_seconds, time, sizeof time);
+  printf("%5zu  ", i + 1);
+  for (size_t k = 0; k < w->n; k++) printf("%-*s  ", w->of[k], gg_sweep_value(c->sweep, i, k));
+  printf("%-16s  %-7s  %8ld  %s\n", p.name, states[state], (long)p.replicas, time);
+  return state == GG_POINT_MISSING ? p.cpu_seconds : 0;
+}
+
+/* --list: a line a point, and the time that those which are missing will take. */
+static int list_points(const sweep_command *c)
+{
+  size_t done = 0, n = gg_sweep_points(c->sweep);
+  double seconds = 0;
+  const widths w = measure(c->sweep);
+  print_head(c->sweep, &w);
+  for (size_t i = 0; i < n; i++) {
+    gg_point_state state = GG_POINT_MISSING;
+    gg_sweep_find(c->sweep, c->folder, i, &state, NULL, NULL);
+    done += state != GG_POINT_MISSING;
+    seconds += print_point(c, &w, i, state);
+  }
+  char time[24];
+  int threads = c->options->threads;
+  gg_cli_format_duration(seconds / threads, time, sizeof time);
+  printf("\n%s at %zu point%s, of which %zu %s done; about %s on %d thread%s for the others\n", gg_sweep_does(c->sweep),
+         n, n == 1 ? "" : "s", done, done == 1 ? "is" : "are", time, threads, threads == 1 ? "" : "s");
+  return GG_OK;
+}
+
+/* Clusters allow about a thousand tasks an array (MaxArraySize). */
+enum { MOST_TASKS = 1000 };
+
+/* The longest task, at a quarter of the speed that is expected; whole hours. */
+static long hours(const sweep_command *c, size_t tasks)
+{
+  double longest = 0;
+  size_t n = gg_sweep_points(c->sweep);
+  gg_sweep_point p;
+  for (size_t first = 0; first < tasks; first++) {
+    double seconds = 0;
+    for (size_t i = first; i < n; i += tasks)
+      if (gg_sweep_at(c->sweep, i, &p, NULL) == GG_OK) seconds += p.cpu_seconds;
+    longest = fmax(longest, seconds);
+  }
+  return (long)ceil(4 * longest / 3600 + 1e-9);
+}
+
+/* --slurm: an array script in which every task does points of its own. */
+static int print_slurm(const sweep_command *c)
+{
+  size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
+  long h = hours(c, tasks);
+  char *command = gg_cli_command_line_quote(&c->options->typed,
+                                            " --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet");
+  if (!command) return gg_cli_fail(GG_FAILED, "out of memory");
+  printf("#!/bin/bash\n"
+         "# %zu points; those that are done already cost a task a moment.\n"
+         "#SBATCH --job-name=graingas-sweep\n"
+         "#SBATCH --array=1-%zu\n"
+         "#SBATCH --cpus-per-task=1\n"
+         "#SBATCH --time=%ld:00:00\n"
+         "status=0\n"
+         "for ((point = ${SLURM_ARRAY_TASK_ID:-1}; point <= %zu; point += %zu)); do\n"
+         "  %s || status=$?\n"
+         "done\n"
+         "exit \"$status\"\n",
+         n, tasks, h > 0 ? h : 1, n, tasks, command);
+  free(command);
+  return GG_OK;
+}
+
+static void describe(const gg_sweep_progress *p, char *text, size_t size)
+{
+  char left[24];
+  size_t used = (size_t)snprintf(text, size, "%zu of %zu points done, %zu running", p->done, p->points, p->running);
+  if (p->elsewhere && used < size)
+    used += (size_t)snprintf(text + used, size - used, ", %zu in other processes", p->elsewhere);
+  if (p->fell_short && used < size) used += (size_t)snprintf(text + used, size - used, ", %zu short", p->fell_short);
+  if (p->failed && used < size) used += (size_t)snprintf(text + used, size - used, ", %zu failed", p->failed);
+  if (p->relative_error > 0 && isfinite(p->relative_error) && used < size)
+    used += (size_t)snprintf(text + used, size - used, ", error up to %.2g %%", 100 * p->relative_error);
+  if (!isfinite(p->time_left) || p->done + p->failed == p->points || used >= size) return;
+  gg_cli_format_duration(p->time_left, left, sizeof left);
+  snprintf(text + used, size - used, ", %s left", left);
+}
+
+/* A live line on a terminal, and a plain one now and then otherwise. */
+static void show_progress(void *context, const gg_sweep_progress *p)
+{
+  char line[240];
+  sweep_command *c = context;
+  describe(p, line, sizeof line);
+  bool over = p->done + p->failed == p->points;
+  gg_cli_line_show(&c->line, line, over && !c->over);
+  c->over |= over;
+}
 
 static gg_status set(void *sweep, const char *key, const char *value, gg_error *err)
 {
@@ -40,7 +183,7 @@ static int is_interrupted(void *context)
 /* What became of a point that did not come to its end. */
 static void print_point_end(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
-  gg_sweep_command *c = context;
+  sweep_command *c = context;
   if (status == GG_OK) return;
   gg_cli_line_clear(&c->line);
   fprintf(stderr, "point %zu", i + 1);
@@ -51,11 +194,11 @@ static void print_point_end(void *context, size_t i, gg_status status, const cha
 
 static void warn(void *context, const char *message)
 {
-  gg_cli_line_clear(&((gg_sweep_command *)context)->line);
+  gg_cli_line_clear(&((sweep_command *)context)->line);
   fprintf(stderr, "warning: %s\n", message);
 }
 
-static int take_point(const gg_sweep_command *c, size_t *i)
+static int take_point(const sweep_command *c, size_t *i)
 {
   char *end;
   size_t n = gg_sweep_points(c->sweep);
@@ -66,7 +209,7 @@ static int take_point(const gg_sweep_command *c, size_t *i)
                      c->options->point, n);
 }
 
-static int work(gg_sweep_command *c)
+static int work(sweep_command *c)
 {
   gg_error err;
   size_t i = 0;
@@ -76,7 +219,7 @@ static int work(gg_sweep_command *c)
                                     .command = o->command_line,
                                     .input = o->input,
                                     .context = c,
-                                    .progress = gg_cli_sweep_show_progress,
+                                    .progress = show_progress,
                                     .stop = is_interrupted,
                                     .ended = print_point_end,
                                     .warn = warn};
@@ -95,7 +238,7 @@ static int work(gg_sweep_command *c)
 /* The files go to standard output, for scripts. */
 static void print_file(void *context, const char *file)
 {
-  const gg_options *o = ((const gg_sweep_command *)context)->options;
+  const gg_options *o = ((const sweep_command *)context)->options;
   if (!o->quiet && !o->json) printf("%s\n", file);
 }
 
@@ -106,7 +249,7 @@ static char *tables_of(const char *folder)
   return strcmp(name, ".") == 0 || strcmp(name, "..") == 0 ? realpath(folder, NULL) : strdup(folder);
 }
 
-static int collect(gg_sweep_command *c)
+static int collect(sweep_command *c)
 {
   gg_error err;
   const gg_options *o = c->options;
@@ -123,7 +266,7 @@ static int collect(gg_sweep_command *c)
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
-static int print_json(const gg_sweep_command *c)
+static int print_json(const sweep_command *c)
 {
   gg_error err;
   char *text = NULL;
@@ -133,7 +276,7 @@ static int print_json(const gg_sweep_command *c)
 }
 
 /* A scene alone has nothing to vary: most likely an oversight. */
-static int check_varied(const gg_sweep_command *c)
+static int check_varied(const sweep_command *c)
 {
   if (gg_sweep_key(c->sweep, 0)) return GG_CLI_GO_ON;
   return gg_cli_fail(GG_BAD_INPUT,
@@ -162,7 +305,7 @@ static int check_together(const gg_options *o)
   return GG_CLI_GO_ON;
 }
 
-static int sweep_points(gg_sweep_command *c)
+static int sweep_points(sweep_command *c)
 {
   gg_error err;
   const gg_options *o = c->options;
@@ -172,8 +315,8 @@ static int sweep_points(gg_sweep_command *c)
   if (!c->folder) return gg_cli_report(&err);
   for (size_t n = strlen(c->folder); n > 1 && c->folder[n - 1] == '/'; n--)
     c->folder[n - 1] = '\0'; /* shells add it when they complete a name */
-  if (o->slurm) return gg_cli_sweep_print_slurm(c);
-  if (o->list && !o->json) return gg_cli_sweep_list(c);
+  if (o->slurm) return print_slurm(c);
+  if (o->list && !o->json) return list_points(c);
   code = o->list ? GG_OK : o->collect ? collect(c) : work(c);
   return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;
 }
@@ -182,7 +325,7 @@ int gg_cli_sweep_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
   gg_error err;
-  gg_sweep_command c = {.options = &o};
+  sweep_command c = {.options = &o};
   int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) code = check_together(&o);
   if (code == GG_CLI_GO_ON && read_sweep(&o, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);

@@ -7,96 +7,6 @@
 #include "run/replicas.h"
 #include "statistics/estimator.h"
 
-bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
-{
-  double every = all->scene.output.checkpoint_every;
-  bool asked = all->callbacks && all->callbacks->checkpoint && every > 0;
-  return asked && gg_base_clock_wall() - all->last_checkpoint > every;
-}
-
-/* Estimates the errors between two tests, for the progress estimate alone: of windows a quarter as long as is tested at
- * least, each longer by a twentieth than the last, and never more than a hundredth of the time. */
-static void estimate_errors(gg_replicas *all, double window)
-{
-  gg_convergence c;
-  double before = gg_base_clock_wall(), first = (double)(all->criteria.least << all->state.restarts) / 4;
-  if (!all->state.averaging || window < fmax(first, 1.05 * all->estimated_at) || before < all->next_estimate) return;
-  if (gg_run_replicas_convergence(all, &c, NULL) == GG_OK) gg_run_progress_record_errors(&all->progress, window, &c);
-  all->estimated_at = window;
-  double now = gg_base_clock_wall();
-  all->next_estimate = now + 100 * (now - before);
-}
-
-/* Samples that all replicas have, also while tasks are under way. */
-static double samples_so_far(const gg_replicas *all)
-{
-  uint64_t least = all->state.due;
-  for (int i = 0; i < all->n; i++) {
-    uint64_t has = gg_run_task_get_status(&all->tasks.task[i]).samples;
-    least = has < least ? has : least;
-  }
-  return (double)least;
-}
-
-/* Replicas that tasks work on are not to be read. */
-static bool is_busy(const gg_replicas *all)
-{
-  for (int i = 0; i < all->n; i++)
-    if (!atomic_load(&all->tasks.task[i].over)) return true;
-  return false;
-}
-
-/* When a run of usual noise, 3/sqrt(grains samples), ends: where nothing is known of the errors of this one. */
-static double usual_end(const gg_replicas *all)
-{
-  double noise = 3 / all->criteria.relative_error, grains = (double)all->model.n * all->n;
-  double window = fmax(1.5 * (double)(all->criteria.least << all->state.restarts), 1.15 * noise * noise / grains);
-  if (all->criteria.most) window = fmin(window, (double)all->criteria.most);
-  double begins = (double)(all->state.averaging ? all->state.window_at : all->criteria.warmup);
-  return fmax(begins + window, 1.25 * (double)all->state.goal);
-}
-
-/* NaN: not known. What a sample takes where curves are measured is known only after some of the averaging. */
-static double time_left(const gg_replicas *all, double due, gg_expected_end end, double limit_in)
-{
-  double left = (end.at - due) * gg_run_progress_pace(&all->progress);
-  bool alike = all->state.averaging || all->replica[0].n_observables <= 1;
-  return isfinite(left) && end.known && alike ? fmin(left, limit_in) : NAN;
-}
-
-void gg_run_replicas_report_progress(gg_replicas *all, bool over)
-{
-  if (!all->callbacks || !all->callbacks->progress) return;
-  double due = samples_so_far(all);
-  double window = all->state.averaging ? due - (double)all->state.window_at : 0;
-  if (!over && !is_busy(all) && gg_run_replicas_are_level(all)) estimate_errors(all, window);
-  double collisions = 0, cpu = 0, now = gg_base_clock_wall();
-  for (int i = 0; i < all->n; i++) {
-    gg_run_task_status reached = gg_run_task_get_status(&all->tasks.task[i]);
-    collisions += reached.collisions_per_grain * (double)all->model.n / 2;
-    cpu += reached.cpu;
-  }
-  gg_run_progress_record_time(&all->progress, now, due);
-  gg_expected_end end = gg_run_progress_end(&all->progress, &all->criteria, &all->state);
-  double limit = all->criteria.time_limit;
-  double used = all->state.wall + now - all->started;
-  double done = gg_run_progress_fraction(&all->progress, due, isfinite(end.at) ? end.at : usual_end(all),
-                                         limit > 0 ? used / limit : NAN);
-  gg_progress p = {
-      .engine = all->replica[0].engine->ops->name,
-      .phase = all->state.averaging ? "averaging" : "warm-up",
-      .fraction = over ? 1 : done,
-      .collisions = (uint64_t)collisions,
-      .rate = cpu > 0 ? collisions / cpu : 0,
-      .relative_error = window >= (double)all->criteria.least ? all->last.relative_error : NAN,
-      .time_left = over ? 0 : time_left(all, due, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
-      .replicas = all->n,
-  };
-  pthread_mutex_lock(&all->lock); /* tasks may just now call the callback that stops the run */
-  all->callbacks->progress(all->callbacks->context, &p);
-  pthread_mutex_unlock(&all->lock);
-}
-
 /* The shortest window that is tested tells an error to a fifth, a longer one better as 1/sqrt(window). The end is the
  * mean over errors that turn out so many of these smaller or larger by then; if it may well be half as far or twice, it
  * is not known. */
@@ -219,9 +129,101 @@ gg_expected_end gg_run_progress_end(const gg_progress_estimate *o, const gg_stop
   return (gg_expected_end){begins + end.at, end.known && !anew};
 }
 
-double gg_run_progress_fraction(gg_progress_estimate *o, double due, double end, double share_of_time)
+/* Share of the run that is done: `due` samples of `end`, or of the time that there is (NaN: no limit), whichever is
+ * nearer its end. It never falls, and is 1 only of a run that is over. */
+static double fraction_of(gg_progress_estimate *o, double due, double end, double share_of_time)
 {
   double done = fmax(end > 0 ? due / end : 0, share_of_time > 0 ? share_of_time : 0);
   o->fraction = fmax(o->fraction, fmin(done, 0.99));
   return o->fraction;
+}
+
+bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
+{
+  double every = all->scene.output.checkpoint_every;
+  bool asked = all->callbacks && all->callbacks->checkpoint && every > 0;
+  return asked && gg_base_clock_wall() - all->last_checkpoint > every;
+}
+
+/* Estimates the errors between two tests, for the progress estimate alone: of windows a quarter as long as is tested at
+ * least, each longer by a twentieth than the last, and never more than a hundredth of the time. */
+static void estimate_errors(gg_replicas *all, double window)
+{
+  gg_convergence c;
+  double before = gg_base_clock_wall(), first = (double)(all->criteria.least << all->state.restarts) / 4;
+  if (!all->state.averaging || window < fmax(first, 1.05 * all->estimated_at) || before < all->next_estimate) return;
+  if (gg_run_replicas_convergence(all, &c, NULL) == GG_OK) gg_run_progress_record_errors(&all->progress, window, &c);
+  all->estimated_at = window;
+  double now = gg_base_clock_wall();
+  all->next_estimate = now + 100 * (now - before);
+}
+
+/* Samples that all replicas have, also while tasks are under way. */
+static double samples_so_far(const gg_replicas *all)
+{
+  uint64_t least = all->state.due;
+  for (int i = 0; i < all->n; i++) {
+    uint64_t has = gg_run_task_get_status(&all->tasks.task[i]).samples;
+    least = has < least ? has : least;
+  }
+  return (double)least;
+}
+
+/* Replicas that tasks work on are not to be read. */
+static bool is_busy(const gg_replicas *all)
+{
+  for (int i = 0; i < all->n; i++)
+    if (!atomic_load(&all->tasks.task[i].over)) return true;
+  return false;
+}
+
+/* When a run of usual noise, 3/sqrt(grains samples), ends: where nothing is known of the errors of this one. */
+static double usual_end(const gg_replicas *all)
+{
+  double noise = 3 / all->criteria.relative_error, grains = (double)all->model.n * all->n;
+  double window = fmax(1.5 * (double)(all->criteria.least << all->state.restarts), 1.15 * noise * noise / grains);
+  if (all->criteria.most) window = fmin(window, (double)all->criteria.most);
+  double begins = (double)(all->state.averaging ? all->state.window_at : all->criteria.warmup);
+  return fmax(begins + window, 1.25 * (double)all->state.goal);
+}
+
+/* NaN: not known. What a sample takes where curves are measured is known only after some of the averaging. */
+static double time_left(const gg_replicas *all, double due, gg_expected_end end, double limit_in)
+{
+  double left = (end.at - due) * gg_run_progress_pace(&all->progress);
+  bool alike = all->state.averaging || all->replica[0].n_observables <= 1;
+  return isfinite(left) && end.known && alike ? fmin(left, limit_in) : NAN;
+}
+
+void gg_run_replicas_report_progress(gg_replicas *all, bool over)
+{
+  if (!all->callbacks || !all->callbacks->progress) return;
+  double due = samples_so_far(all);
+  double window = all->state.averaging ? due - (double)all->state.window_at : 0;
+  if (!over && !is_busy(all) && gg_run_replicas_are_level(all)) estimate_errors(all, window);
+  double collisions = 0, cpu = 0, now = gg_base_clock_wall();
+  for (int i = 0; i < all->n; i++) {
+    gg_run_task_status reached = gg_run_task_get_status(&all->tasks.task[i]);
+    collisions += reached.collisions_per_grain * (double)all->model.n / 2;
+    cpu += reached.cpu;
+  }
+  gg_run_progress_record_time(&all->progress, now, due);
+  gg_expected_end end = gg_run_progress_end(&all->progress, &all->criteria, &all->state);
+  double limit = all->criteria.time_limit;
+  double used = all->state.wall + now - all->started;
+  double done =
+      fraction_of(&all->progress, due, isfinite(end.at) ? end.at : usual_end(all), limit > 0 ? used / limit : NAN);
+  gg_progress p = {
+      .engine = all->replica[0].engine->ops->name,
+      .phase = all->state.averaging ? "averaging" : "warm-up",
+      .fraction = over ? 1 : done,
+      .collisions = (uint64_t)collisions,
+      .rate = cpu > 0 ? collisions / cpu : 0,
+      .relative_error = window >= (double)all->criteria.least ? all->last.relative_error : NAN,
+      .time_left = over ? 0 : time_left(all, due, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
+      .replicas = all->n,
+  };
+  pthread_mutex_lock(&all->lock); /* tasks may just now call the callback that stops the run */
+  all->callbacks->progress(all->callbacks->context, &p);
+  pthread_mutex_unlock(&all->lock);
 }

@@ -46,8 +46,5 @@ gg_expected_end gg_run_progress_end(const gg_progress_estimate *o, const struct 
                                     const struct gg_replicas_state *state);
 /* Seconds a sample, lately; NaN where that is not known yet. */
 double gg_run_progress_pace(const gg_progress_estimate *o);
-/* Share of the run that is done: `due` samples of `end`, or of the time that there is (NaN: no limit), whichever is
- * nearer its end. It never falls, and is 1 only of a run that is over. */
-double gg_run_progress_fraction(gg_progress_estimate *o, double due, double end, double share_of_time);
 
 #endif

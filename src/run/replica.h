@@ -92,9 +92,6 @@ typedef struct gg_sampling_bursts {
 } gg_sampling_bursts;
 gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *model);
 gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);
-/* Has the present sample of observable k others of its episode to follow? All of one are a single sample of its bins,
- * so that errors know of what changes from one episode to the next alone. */
-bool gg_run_replica_in_burst(const gg_replica *r, int k);
 
 double gg_run_replica_collisions_per_grain(const gg_replica *r);
 /* A frame of the engine as results have it: at the time since the start, velocities in units of the start. */

@@ -133,9 +133,8 @@ typedef struct gg_slow_modes {
 } gg_slow_modes;
 gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *slow, gg_error *err);
 
-/* checkpoint.c */
+/* Everything needed to continue bit for bit. */
 gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);
-gg_status gg_run_replicas_restore(gg_replicas *all, const gg_archive *archive, gg_error *err);
 
 /* report.c: the result of where the replicas stand, whole if GG_OK; then, GG_FAILED if that is short of what was asked.
  */

@@ -9,7 +9,6 @@
 #include "base/memory.h"
 #include "run/replicas.h"
 #include "run/scheduler.h"
-#include "run/start_model.h"
 
 /* Where the replicas stand as a result; it may fall short of what was asked. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)

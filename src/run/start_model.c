@@ -1,4 +1,4 @@
-#include "run/start_model.h"
+#include "run/run.h"
 
 #include <math.h>
 

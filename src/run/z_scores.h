@@ -4,10 +4,6 @@
 
 #include "run/run.h"
 
-/* Relative agreement expected of md and dsmc: 1 % where dilute (phi <= 0.05), 3 % up to phi = 0.3 with e >= 0.7, 10 %
- * beyond. For N1 and N2, differences: 0.02, 0.05 beyond. */
-double gg_run_expected_deviation(const gg_model *model, gg_quantity q);
-
 /* (a - b) over their combined standard error; NaN where either is missing. */
 double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);
 

@@ -80,23 +80,15 @@ bool gg_sweep_sets(const gg_sweep *sweep, const char *key);
 /* points.c: how many there are, 0: more than GG_MOST_POINTS; the row of one of the varied at point i. */
 size_t gg_sweep_count(const gg_sweep *sweep);
 size_t gg_sweep_row(const gg_sweep *sweep, size_t i, size_t varied);
-/* "collision.e 0.5, phi 0.3" of point i. */
-void gg_sweep_name_point(const gg_sweep *sweep, size_t i, char *text, size_t size);
 /* The scene of point i, resolved: complete and checked, with its own seed and replicas. It borrows the extension. */
 gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err);
 /* Resolve every point, and keep what is known of each. */
 gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
 
-/* Hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the
- * order of the field table, with its value in force. */
-uint64_t gg_sweep_point_id(const gg_scene *scene, gg_does does);
 /* Is the scene that a file at `path` holds, a JSON object, that of this point? GG_BAD_FILE names the first key that is
  * not. Keys that no number depends on may differ. */
 gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path,
                                gg_error *err);
-/* The seed of a point with independent seeds: from run.seed and from what is simulated there, but not from how long,
- * unless that is varied, or what is measured. */
-uint64_t gg_sweep_point_seed(const gg_sweep *sweep, const gg_scene *scene);
 extern const char *const gg_sweep_does_words[]; /* "run", "compare", "theory" */
 
 #endif

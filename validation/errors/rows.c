@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "run/replicas.h"
-#include "run/start_model.h"
+#include "run/run.h"
 #include "scene/scene_reader.h"
 #include "statistics/autocorrelation.h"
 #include "stored.h"

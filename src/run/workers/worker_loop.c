@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "run/start_model.h"
+#include "run/run.h"
 #include "run/workers/message.h"
 
 /* Seconds between reports of what is under way, and checks whether rank 0 lives. */
