@@ -43,7 +43,7 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   gg_common_extension_hold(c->scene.extension);
   GG_TRY(gg_common_model_make(&c->scene, GG_MD, &model, err));
   GG_TRY(gg_run_compare_theories(&model, c, err));
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_scene_ineffective_keys(&finished, GG_USE_THEORY, &c->warnings);
   GG_TRY(gg_base_memory_check(before, GG_OK, err));
   return theory ? keep_one(c, theory, err) : GG_OK;

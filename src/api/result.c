@@ -243,7 +243,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   gg_stored_result stored;
   GG_TRY(gg_plot_paper_choose(&paper, picture, format, width, err));
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_status status = gg_plot_pages_check(&stored, &paper, result_file, picture, err);
   if (status == GG_OK) status = gg_plot_result_draw(&stored, &paper, picture, err);
   if (status == GG_OK && drawn) drawn(context, picture);

@@ -205,7 +205,7 @@ gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const
   gg_error why = {0};
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
-  const bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_status status = begin(&r, scene, options, comparison, err);
   r.callbacks.scheduler = point ? point->scheduler : NULL;
   if (status == GG_OK) {
@@ -213,7 +213,7 @@ gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const
     status = run_engines(&r, c, err);
   }
   bool some = c->by_engine[GG_MD] || c->by_engine[GG_DSMC] || (comparison && status == GG_OK);
-  if (gg_base_memory_end(before) && status == GG_OK) { /* it lacks a warning, or worse */
+  if (gg_base_memory_failures() != before && status == GG_OK) { /* it lacks a warning, or worse */
     status = gg_base_out_of_memory(err);
     some = false;
   }

@@ -52,9 +52,9 @@ static gg_status tell(const gg_archive *a, const char *path, const gg_scene *sce
 static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)
 {
   gg_scene *stored = NULL;
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   char *yaml = gg_files_checkpoint_scene(path, info->older);
-  bool lacked = gg_base_memory_end(before);
+  bool lacked = gg_base_memory_failures() != before;
   gg_status status = yaml     ? gg_scene_parse(yaml, path, &stored, err)
                      : lacked ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", path)
                               : gg_base_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);

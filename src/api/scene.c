@@ -79,12 +79,12 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   GG_NEED(scene, key, text);
   const gg_scene filled = filled_in(scene);
   GG_C_LOCALE;
-  bool outer = gg_base_memory_begin();
+  const unsigned outer = gg_base_memory_failures();
   json_t *value = gg_scene_key_json(&filled, key);
   if (value) gg_scene_flow_style_text(value, text, size);
   gg_status status = value ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   json_decref(value);
-  return gg_base_memory_end(outer) ? gg_base_out_of_memory(err) : status;
+  return gg_base_memory_failures() != outer ? gg_base_out_of_memory(err) : status;
 }
 
 gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
@@ -181,7 +181,7 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
     uses = 1u << kind;
   }
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_scene_ineffective_keys(&finished, uses, &lines);
   gg_status status = gg_base_memory_check(before, GG_OK, err);
   for (size_t i = 0; status == GG_OK && i < lines.n; i++) line(context, lines.text[i]);

@@ -1,15 +1,15 @@
 /* JSON that is whole or not there. jansson's makers return NULL where there is no memory, and its containers leave out
  * what is NULL: nobody would tell a document that lacks a number from a whole one. In files that include this every
- * maker that gets nothing is noted (base/memory.h); who makes a document begins, and ends with gg_base_json_end. */
-#ifndef GG_WHOLE_JSON_H
-#define GG_WHOLE_JSON_H
+ * maker that gets nothing is counted (base/memory.h); who makes a document ends with gg_base_json_end. */
+#ifndef GG_CHECKED_JSON_H
+#define GG_CHECKED_JSON_H
 
 #include <jansson.h>
 
 #include "base/memory.h"
 
-/* The document, or NULL if anything was lost since gg_base_memory_begin, which returned `before`. */
-json_t *gg_base_json_end(bool before, json_t *document);
+/* The document, or NULL if anything was lost since gg_base_memory_failures returned `before`. */
+json_t *gg_base_json_end(unsigned before, json_t *document);
 
 json_t *gg_base_json_made(json_t *value);
 int gg_base_json_put(int failed);
@@ -30,6 +30,8 @@ char *gg_base_json_text(const json_t *value, size_t flags);
 #define json_object_set(...) gg_base_json_put(json_object_set(__VA_ARGS__))
 #define json_object_set_new(...) gg_base_json_put(json_object_set_new(__VA_ARGS__))
 #define json_array_append_new(...) gg_base_json_put(json_array_append_new(__VA_ARGS__))
+#define json_object_update_new(...) gg_base_json_put(json_object_update_new(__VA_ARGS__))
+#define json_vpack_ex(...) gg_base_json_made(json_vpack_ex(__VA_ARGS__))
 #define json_string_set(...) gg_base_json_put(json_string_set(__VA_ARGS__))
 
 #endif

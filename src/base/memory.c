@@ -4,30 +4,21 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static _Thread_local bool lacked; /* between a begin and its end; never read without */
+static _Thread_local unsigned failures;
 
-bool gg_base_memory_begin(void)
+unsigned gg_base_memory_failures(void)
 {
-  bool before = lacked;
-  lacked = false;
-  return before;
-}
-
-bool gg_base_memory_end(bool before)
-{
-  bool now = lacked;
-  lacked = before || now;
-  return now;
+  return failures;
 }
 
 void gg_base_memory_lacked(void)
 {
-  lacked = true;
+  failures++;
 }
 
-gg_status gg_base_memory_check(bool before, gg_status status, gg_error *err)
+gg_status gg_base_memory_check(unsigned before, gg_status status, gg_error *err)
 {
-  return gg_base_memory_end(before) && status == GG_OK ? gg_base_out_of_memory(err) : status;
+  return failures != before && status == GG_OK ? gg_base_out_of_memory(err) : status;
 }
 
 gg_status gg_base_out_of_memory(gg_error *err)

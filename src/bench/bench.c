@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "files/result_document.h"
 #include "graingas.h"
 #include "scene/scene_reader.h"
@@ -18,15 +19,53 @@ static const struct {
 };
 enum { N_SUBJECTS = sizeof subjects / sizeof *subjects, LEAST_GRAINS = 500 };
 
-gg_bench_sheet *gg_bench_new_sheet(gg_bench *b, const char *key, const char *caption, int keep, gg_error *err)
+gg_bench_table *gg_bench_table_new(gg_bench *b, const char *key, const char *caption, int keep, gg_error *err)
 {
-  if (b->n_sheets == GG_BENCH_SHEETS) {
-    gg_base_fail(err, GG_FAILED, "too many sheets");
-    return NULL;
-  }
-  gg_bench_sheet *s = gg_bench_sheet_new(key, caption, keep, err);
-  if (s) b->sheet[b->n_sheets++] = s;
-  return s;
+  gg_bench_table *s = gg_base_array_new(1, sizeof *s, err);
+  if (!s) return NULL;
+  *s = (gg_bench_table){.key = key, .caption = caption, .keep = keep, .rows = json_array()};
+  if (s->rows && b->n_tables < GG_BENCH_TABLES) return b->table[b->n_tables++] = s;
+  gg_base_out_of_memory(err);
+  json_decref(s->rows);
+  free(s);
+  return NULL;
+}
+
+int gg_bench_table_column(gg_bench_table *s, bool right, const char *format, ...)
+{
+  const int column = s->n_columns < GG_BENCH_COLUMNS ? s->n_columns++ : GG_BENCH_COLUMNS - 1;
+  va_list list;
+  va_start(list, format);
+  vsnprintf(s->head[column], GG_BENCH_CELL, format, list);
+  va_end(list);
+  s->right[column] = right;
+  return column;
+}
+
+int gg_bench_table_row(gg_bench_table *s, const char *format, ...)
+{
+  const int row = s->n_rows < GG_BENCH_ROWS ? s->n_rows++ : GG_BENCH_ROWS - 1;
+  va_list list;
+  va_start(list, format);
+  vsnprintf(s->cell[row][0], GG_BENCH_CELL, format, list);
+  va_end(list);
+  return row;
+}
+
+void gg_bench_table_put(gg_bench_table *s, int row, int column, const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  vsnprintf(s->cell[row][column], GG_BENCH_CELL, format, list);
+  va_end(list);
+}
+
+void gg_bench_table_add(gg_bench_table *s, const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  json_array_append_new(s->rows, json_vpack_ex(NULL, 0, format, list));
+  va_end(list);
 }
 
 void gg_bench_tell(const gg_bench *b, const char *format, ...)
@@ -102,14 +141,17 @@ gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options 
 
 void gg_bench_clear(gg_bench *b)
 {
-  for (int i = 0; i < b->n_sheets; i++) gg_bench_sheet_free(b->sheet[i]);
+  for (int i = 0; i < b->n_tables; i++) {
+    json_decref(b->table[i]->rows);
+    free(b->table[i]);
+  }
   *b = (gg_bench){0};
 }
 
 char *gg_bench_document(const gg_bench *b)
 {
   json_t *document = json_pack("{s:s}", "graingas", gg_version());
-  for (int i = 0; i < b->n_sheets; i++) json_object_set(document, b->sheet[i]->key, b->sheet[i]->rows);
+  for (int i = 0; i < b->n_tables; i++) json_object_set(document, b->table[i]->key, b->table[i]->rows);
   char *text = document ? gg_files_document_text(document) : NULL;
   json_decref(document);
   return text;

@@ -1,10 +1,24 @@
-/* graingas bench: how fast things are. A subject measures and fills sheets; it is a file of its own and a line in
+/* graingas bench: how fast things are. A subject measures and fills tables; it is a file of its own and a line in
  * bench.c's table. */
 #ifndef GG_BENCH_H
 #define GG_BENCH_H
 
-#include "bench/bench_table.h"
+#include "base/checked_json.h"
 #include "common/scene.h"
+
+/* A table of text, and the same rows as JSON. Subjects fill it, the command prints it. */
+enum { GG_BENCH_COLUMNS = 16, GG_BENCH_ROWS = 64, GG_BENCH_CELL = 64 };
+
+typedef struct gg_bench_table {
+  const char *key;     /* of the rows in the JSON document; a literal, as the caption is */
+  const char *caption; /* above the table: what was measured, and how */
+  int keep;            /* columns that are repeated where the table is too wide */
+  json_t *rows;        /* an array of objects */
+  int n_columns, n_rows;
+  bool right[GG_BENCH_COLUMNS]; /* numbers stand right */
+  char head[GG_BENCH_COLUMNS][GG_BENCH_CELL];
+  char cell[GG_BENCH_ROWS][GG_BENCH_COLUMNS][GG_BENCH_CELL];
+} gg_bench_table;
 
 typedef struct gg_bench_options {
   bool quick;          /* fewer sizes, shorter stretches */
@@ -18,13 +32,13 @@ typedef struct gg_bench_options {
   void (*tell)(void *context, const char *line); /* progress; NULL: not wanted */
 } gg_bench_options;
 
-enum { GG_BENCH_SHEETS = 8 };
+enum { GG_BENCH_TABLES = 8 };
 typedef struct gg_bench {
   const gg_bench_options *options;
   uint64_t seed;
-  bool measured; /* the sheets are whole, whatever became of the picture */
-  int n_sheets;
-  gg_bench_sheet *sheet[GG_BENCH_SHEETS];
+  bool measured; /* the tables are whole, whatever became of the picture */
+  int n_tables;
+  gg_bench_table *table[GG_BENCH_TABLES];
 } gg_bench;
 
 /* Measure a subject: "md", "dsmc", "observables", "error"; NULL for the overview. Clear *bench whatever comes of it. */
@@ -37,8 +51,14 @@ char *gg_bench_document(const gg_bench *bench);
 typedef gg_status gg_bench_subject(gg_bench *bench, gg_error *err);
 gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc, gg_bench_observables, gg_bench_error;
 
-/* A new, empty sheet, owned by the bench; NULL with the message if out of memory. Strings must be literals. */
-gg_bench_sheet *gg_bench_new_sheet(gg_bench *bench, const char *key, const char *caption, int keep, gg_error *err);
+/* A new, empty table, owned by the bench; NULL with the message if out of memory. Strings must be literals. */
+gg_bench_table *gg_bench_table_new(gg_bench *bench, const char *key, const char *caption, int keep, gg_error *err);
+/* A new column with its head, a new row with its first cell; return their number. */
+int gg_bench_table_column(gg_bench_table *table, bool right, const char *format, ...) GG_PRINTF(3, 4);
+int gg_bench_table_row(gg_bench_table *table, const char *format, ...) GG_PRINTF(2, 3);
+void gg_bench_table_put(gg_bench_table *table, int row, int column, const char *format, ...) GG_PRINTF(4, 5);
+/* A row of the JSON document; the format is json_pack's. */
+void gg_bench_table_add(gg_bench_table *table, const char *format, ...);
 void gg_bench_tell(const gg_bench *bench, const char *format, ...) GG_PRINTF(2, 3);
 /* The defaults with this bench's seed; and seconds of a stretch: less where the options say so. */
 gg_scene gg_bench_scene(const gg_bench *bench, gg_engine_kind engine, double phi, int64_t n);

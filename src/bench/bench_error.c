@@ -4,9 +4,100 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "bench/error_chart.h"
 #include "bench/error_state.h"
+#include "plot/chart.h"
 #include "plot/plot.h"
+
+/* What is drawn, so that curves can be told apart; each as points, and its floor as a line. */
+static const struct {
+  int way;
+  const char *group;
+} drawn[] = {{0, "N 250"},   {2, "N 4000"}, {3, "N 100"},  {5, "N 2000"},
+             {7, "N 80000"}, {8, "single"}, {9, "step 1"}, {11, "5 replicas"}};
+enum { DRAWN = sizeof drawn / sizeof *drawn, SERIES = 2 * DRAWN + 1, MOST_COLUMNS = 3 };
+enum { MOST_PANELS = MOST_COLUMNS * GG_COURSE_QUANTITIES };
+
+typedef struct curve {
+  double x[GG_COURSE_MARKS], y[GG_COURSE_MARKS], error[GG_COURSE_MARKS];
+} curve;
+
+typedef struct page {
+  char title[MOST_PANELS][64];
+  gg_chart_panel panel[MOST_PANELS];
+  gg_chart_series series[MOST_PANELS][SERIES];
+  curve curve[MOST_PANELS][SERIES];
+} page;
+
+/* Marks at least twice as far as the last one drawn. */
+static void add_points(const gg_error_state *s, int q, int k, curve *c, gg_chart_series *series)
+{
+  const gg_course *course = &s->course[drawn[k].way];
+  size_t n = 0;
+  for (int i = 0; i < course->marks; i++) {
+    if (n && course->seconds[i] < 2 * c->x[n - 1]) continue;
+    c->x[n] = course->seconds[i];
+    c->y[n] = gg_bench_error_at(s, drawn[k].way, q, i, &c->error[n]);
+    n++;
+  }
+  const char *method = gg_bench_error_methods[drawn[k].way].engine == GG_MD ? "md" : "dsmc";
+  *series = (gg_chart_series){method, drawn[k].group, GG_CHART_POINTS, n, c->x, c->y, c->error, NULL};
+}
+
+static void add_line(const char *method, const char *group, double from, double to, double y_from, double y_to,
+                     curve *c, gg_chart_series *series)
+{
+  c->x[0] = from, c->x[1] = to, c->y[0] = y_from, c->y[1] = y_to;
+  *series = (gg_chart_series){method, group, GG_CHART_LINE, 2, c->x, c->y, NULL, NULL};
+}
+
+static void fill(const gg_error_state *s, int q, int i, page *p)
+{
+  size_t n = 0;
+  double from = INFINITY, to = 0;
+  for (int k = 0; k < DRAWN; k++) {
+    const gg_course *c = &s->course[drawn[k].way];
+    if (!s->done[drawn[k].way]) continue;
+    from = fmin(from, c->seconds[0]), to = fmax(to, c->seconds[c->marks - 1]);
+    add_points(s, q, k, &p->curve[i][n], &p->series[i][n]);
+    n++;
+  }
+  const double noise = s->noise[7][q];
+  add_line("1/√time", NULL, from, to, noise / sqrt(from), noise / sqrt(to), &p->curve[i][n], &p->series[i][n]);
+  n++;
+  for (int k = 0; k < DRAWN; k++) {
+    const double floor = s->floor[drawn[k].way][q];
+    if (!s->done[drawn[k].way] || !(floor > noise / sqrt(to))) continue;
+    add_line("floor", drawn[k].group, from, to, floor, floor, &p->curve[i][n], &p->series[i][n]);
+    n++;
+  }
+  char symbol[32];
+  gg_common_quantity_symbol(gg_bench_error_course_quantity[q], symbol, sizeof symbol);
+  snprintf(p->title[i], sizeof p->title[i], "%s, φ = %g", symbol, s->phi);
+  p->panel[i] = (gg_chart_panel){.title = p->title[i],
+                                 .x = {"processor time", "s", true, 0, 0},
+                                 .y = {"relative error", NULL, true, 0, 0},
+                                 .n = n,
+                                 .series = p->series[i]};
+}
+
+/* Of the rough states at e = 0.9: a row a quantity, a column a density. */
+static gg_status draw(const gg_error_state *states, int n, const char *picture, const char *width, gg_error *err)
+{
+  page *p = gg_base_array_new(1, sizeof *p, err);
+  if (!p) return GG_FAILED;
+  int panels = 0, columns = 0;
+  for (int i = 0; i < n; i++) columns += states[i].rough && states[i].e == 0.9;
+  for (int q = 0; q < GG_COURSE_QUANTITIES; q++)
+    for (int i = 0; i < n; i++)
+      if (states[i].rough && states[i].e == 0.9 && panels < MOST_PANELS) fill(&states[i], q, panels++, p);
+  gg_chart chart = {.title = "Uniform shear of rough grains, e = 0.9, β = 0",
+                    .n = (size_t)panels,
+                    .panel = p->panel,
+                    .columns = columns};
+  gg_status status = gg_plot_chart_draw(&chart, picture, width, err);
+  free(p);
+  return status;
+}
 
 static const char seconds_caption[] =
     "Uniform shear: seconds of processor time, one core, warm-up included, until the true error (root of the mean "
@@ -54,20 +145,20 @@ static bool is_run(const gg_error_state *s, int engine)
   return engine == GG_DSMC || s->done[0];
 }
 
-static void put_first(gg_bench_sheet *sheet, int row, int column, const double first[2])
+static void put_first(gg_bench_table *table, int row, int column, const double first[2])
 {
   const int one = first[GG_MD] < first[GG_DSMC] ? GG_MD : GG_DSMC;
   const char *name = one == GG_MD ? "md" : "dsmc";
   if (isfinite(first[0]) && isfinite(first[1]))
-    gg_bench_sheet_put(sheet, row, column, "%s, %.2g x", name, first[1 - one] / first[one]);
+    gg_bench_table_put(table, row, column, "%s, %.2g x", name, first[1 - one] / first[one]);
   else
-    gg_bench_sheet_put(sheet, row, column, "%s",
+    gg_bench_table_put(table, row, column, "%s",
                        isnan(first[0]) || isnan(first[1]) ? "?"
                        : isfinite(first[one])             ? name
                                                           : "-");
 }
 
-static void put_seconds(gg_bench_sheet *sheet, int row, const gg_error_state *s, int q)
+static void put_seconds(gg_bench_table *table, int row, const gg_error_state *s, int q)
 {
   double first[2] = {INFINITY, INFINITY};
   for (int engine = 0; engine < 2; engine++)
@@ -77,20 +168,25 @@ static void put_seconds(gg_bench_sheet *sheet, int row, const gg_error_state *s,
       const int column = 2 + engine * N_TARGETS + k;
       if (k == 0) first[engine] = t;
       if (way < 0)
-        gg_bench_sheet_put(sheet, row, column, "%s", isnan(t) ? "?" : is_run(s, engine) ? "never" : "-");
+        gg_bench_table_put(table, row, column, "%s", isnan(t) ? "?" : is_run(s, engine) ? "never" : "-");
       else
-        gg_bench_sheet_put(sheet, row, column, "%.2g s, N %lld%s%s", t, (long long)gg_bench_error_methods[way].n,
+        gg_bench_table_put(table, row, column, "%.2g s, N %lld%s%s", t, (long long)gg_bench_error_methods[way].n,
                            gg_bench_error_methods[way].single     ? ", single"
                            : gg_bench_error_methods[way].step > 0 ? ", split"
                                                                   : "",
                            gg_bench_error_methods[way].replicas > 1 ? ", replicas" : "");
     }
-  put_first(sheet, row, 2 + 2 * N_TARGETS, first);
+  put_first(table, row, 2 + 2 * N_TARGETS, first);
 }
 
 static json_t *number(double x)
 {
   return isfinite(x) ? json_real(x) : json_null();
+}
+
+static json_t *two(double x, double y)
+{
+  return json_pack("[o, o]", number(x), number(y));
 }
 
 static json_t *state_json(const gg_error_state *s, int q)
@@ -110,59 +206,49 @@ static void add_course(json_t *rows, const gg_error_state *s, int q, int i)
   }
   json_t *until = json_array();
   for (int k = 0; k < N_TARGETS; k++) json_array_append_new(until, number(gg_bench_seconds_to(s, i, q, targets[k])));
-  json_object_set_new(row, "way", json_string(gg_bench_error_methods[i].name));
-  json_object_set_new(row, "engine", json_string(gg_bench_error_methods[i].engine == GG_MD ? "md" : "dsmc"));
-  json_object_set_new(row, "particles", json_integer((json_int_t)gg_bench_error_methods[i].n));
-  json_object_set_new(row, "seeds", json_integer(c->seeds));
-  json_object_set_new(row, "warmup_seconds", number(c->warmup));
-  json_object_set_new(row, "error_of_a_second", number(s->noise[i][q]));
-  json_object_set_new(row, "floor", number(s->floor[i][q]));
-  json_object_set_new(row, "floor_stderr", number(s->shift_error[i][q]));
-  json_object_set_new(row, "seconds", t);
-  json_object_set_new(row, "relative_error", error);
-  json_object_set_new(row, "stderr", uncertain);
-  json_object_set_new(row, "seconds_to_0.01_0.001_0.0001", until);
+  const gg_way *way = &gg_bench_error_methods[i];
+  json_object_update_new(row, json_pack("{s:s, s:s, s:I, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "way",
+                                        way->name, "engine", way->engine == GG_MD ? "md" : "dsmc", "particles",
+                                        (json_int_t)way->n, "seeds", c->seeds, "warmup_seconds", number(c->warmup),
+                                        "error_of_a_second", number(s->noise[i][q]), "floor", number(s->floor[i][q]),
+                                        "floor_stderr", number(s->shift_error[i][q]), "seconds", t, "relative_error",
+                                        error, "stderr", uncertain, "seconds_to_0.01_0.001_0.0001", until));
   json_array_append_new(rows, row);
 }
 
-static void put_floors(gg_bench_sheet *sheet, int row, const gg_error_state *s, int q)
+static void put_floors(gg_bench_table *table, int row, const gg_error_state *s, int q)
 {
   const gg_by_size *md = &s->size[GG_MD][q], *dsmc = &s->size[GG_DSMC][q];
   const gg_course_end one = gg_bench_error_course_last(&s->course[DOUBLE], q),
-                      two = gg_bench_error_course_last(&s->course[SINGLE], q);
-  const double unit = s->unit[q], single = (two.mean - one.mean) / unit, e = hypot(one.error, two.error) / unit;
-  gg_bench_sheet_put(sheet, row, 2, "%.6g", s->truth[GG_DSMC][q]);
-  gg_bench_sheet_put(sheet, row, 3, "%.1e", s->truth_error[GG_DSMC][q] / unit);
-  gg_bench_sheet_put(sheet, row, 4, "%s", s->source[GG_DSMC][q]);
-  gg_bench_sheet_put(sheet, row, 5, "%+.2f +- %.2f", dsmc->per_grain / unit, dsmc->per_grain_error / unit);
-  if (s->done[0]) gg_bench_sheet_put(sheet, row, 6, "%+.1f +- %.1f", md->per_grain / unit, md->per_grain_error / unit);
-  gg_bench_sheet_put(sheet, row, 7, "%+.4f +- %.4f", s->step_coefficient[q], s->step_coefficient_error[q]);
-  if (isfinite(s->step_order[q])) gg_bench_sheet_put(sheet, row, 8, "%.1f", s->step_order[q]);
-  gg_bench_sheet_put(sheet, row, 9, "%+.1e +- %.0e", single, e);
+                      other = gg_bench_error_course_last(&s->course[SINGLE], q);
+  const double unit = s->unit[q], single = (other.mean - one.mean) / unit, e = hypot(one.error, other.error) / unit;
+  gg_bench_table_put(table, row, 2, "%.6g", s->truth[GG_DSMC][q]);
+  gg_bench_table_put(table, row, 3, "%.1e", s->truth_error[GG_DSMC][q] / unit);
+  gg_bench_table_put(table, row, 4, "%s", s->source[GG_DSMC][q]);
+  gg_bench_table_put(table, row, 5, "%+.2f +- %.2f", dsmc->per_grain / unit, dsmc->per_grain_error / unit);
+  if (s->done[0]) gg_bench_table_put(table, row, 6, "%+.1f +- %.1f", md->per_grain / unit, md->per_grain_error / unit);
+  gg_bench_table_put(table, row, 7, "%+.4f +- %.4f", s->step_coefficient[q], s->step_coefficient_error[q]);
+  if (isfinite(s->step_order[q])) gg_bench_table_put(table, row, 8, "%.1f", s->step_order[q]);
+  gg_bench_table_put(table, row, 9, "%+.1e +- %.0e", single, e);
   json_t *json = state_json(s, q);
-  json_object_set_new(json, "truth", number(s->truth[GG_DSMC][q]));
-  json_object_set_new(json, "truth_error", number(s->truth_error[GG_DSMC][q]));
-  json_object_set_new(json, "source", json_string(s->source[GG_DSMC][q]));
-  json_object_set_new(json, "dsmc_times_N",
-                      json_pack("[o, o]", number(dsmc->per_grain / unit), number(dsmc->per_grain_error / unit)));
-  json_object_set_new(json, "md_times_N",
-                      json_pack("[o, o]", number(md->per_grain / unit), number(md->per_grain_error / unit)));
-  json_object_set_new(json, "step",
-                      json_pack("[o, o]", number(s->step_coefficient[q]), number(s->step_coefficient_error[q])));
-  json_object_set_new(json, "step_order", number(s->step_order[q]));
-  json_object_set_new(json, "single", json_pack("[o, o]", number(single), number(e)));
-  json_array_append_new(sheet->rows, json);
+  const double coefficient = s->step_coefficient[q], uncertain = s->step_coefficient_error[q];
+  json_object_update_new(
+      json, json_pack("{s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o}", "truth", number(s->truth[GG_DSMC][q]), "truth_error",
+                      number(s->truth_error[GG_DSMC][q]), "source", s->source[GG_DSMC][q], "dsmc_times_N",
+                      two(dsmc->per_grain / unit, dsmc->per_grain_error / unit), "md_times_N",
+                      two(md->per_grain / unit, md->per_grain_error / unit), "step", two(coefficient, uncertain),
+                      "step_order", number(s->step_order[q]), "single", two(single, e)));
+  json_array_append_new(table->rows, json);
 }
 
-static int row_of(gg_bench_sheet *sheet, const gg_error_state *s, int q)
+static int row_of(gg_bench_table *table, const gg_error_state *s, int q)
 {
-  const int row = gg_bench_sheet_row(sheet);
-  gg_bench_sheet_put(sheet, row, 0, "phi %g e %g %s", s->phi, s->e, s->rough ? "rough" : "smooth");
-  gg_bench_sheet_put(sheet, row, 1, "%s", name_of(q));
+  const int row = gg_bench_table_row(table, "phi %g e %g %s", s->phi, s->e, s->rough ? "rough" : "smooth");
+  gg_bench_table_put(table, row, 1, "%s", name_of(q));
   return row;
 }
 
-static void note(gg_bench_sheet *seconds, gg_bench_sheet *floors, const gg_error_state *s)
+static void note(gg_bench_table *seconds, gg_bench_table *floors, const gg_error_state *s)
 {
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     if (!has(s, q)) continue;
@@ -173,21 +259,21 @@ static void note(gg_bench_sheet *seconds, gg_bench_sheet *floors, const gg_error
   }
 }
 
-static gg_status new_sheets(gg_bench *b, gg_bench_sheet *sheet[2], gg_error *err)
+static gg_status new_tables(gg_bench *b, gg_bench_table *table[2], gg_error *err)
 {
   static const char *const head[] = {"truth", "its error", "from", "1/N dsmc", "1/N md", "step h^2", "order", "single"};
-  sheet[0] = gg_bench_new_sheet(b, "seconds", seconds_caption, 2, err);
-  sheet[1] = gg_bench_new_sheet(b, "floors", floors_caption, 2, err);
-  if (!sheet[0] || !sheet[1]) return GG_FAILED;
+  table[0] = gg_bench_table_new(b, "seconds", seconds_caption, 2, err);
+  table[1] = gg_bench_table_new(b, "floors", floors_caption, 2, err);
+  if (!table[0] || !table[1]) return GG_FAILED;
   for (int k = 0; k < 2; k++) {
-    gg_bench_sheet_column(sheet[k], false, "shear");
-    gg_bench_sheet_column(sheet[k], false, "quantity");
+    gg_bench_table_column(table[k], false, "shear");
+    gg_bench_table_column(table[k], false, "quantity");
   }
   for (int engine = 0; engine < 2; engine++)
     for (int k = 0; k < N_TARGETS; k++)
-      gg_bench_sheet_column(sheet[0], true, "%s %g %%", engine == GG_MD ? "md" : "dsmc", 100 * targets[k]);
-  gg_bench_sheet_column(sheet[0], false, "first");
-  for (int k = 0; k < 8; k++) gg_bench_sheet_column(sheet[1], k != 2, "%s", head[k]);
+      gg_bench_table_column(table[0], true, "%s %g %%", engine == GG_MD ? "md" : "dsmc", 100 * targets[k]);
+  gg_bench_table_column(table[0], false, "first");
+  for (int k = 0; k < 8; k++) gg_bench_table_column(table[1], k != 2, "%s", head[k]);
   return GG_OK;
 }
 
@@ -211,15 +297,15 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
   const int n = list_states(s, quick);
   if (b->options->picture)
     GG_TRY(gg_plot_paper_check(b->options->picture, b->options->width, err)); /* before it has taken an hour */
-  gg_bench_sheet *sheet[2];
-  GG_TRY(new_sheets(b, sheet, err));
+  gg_bench_table *table[2];
+  GG_TRY(new_tables(b, table, err));
   for (int i = 0; i < n; i++) {
     GG_TRY(gg_bench_error_state_measure(b, &s[i], quick ? 4 : 6, gg_bench_seconds(b, quick ? 0.3 : 1.5), err));
-    note(sheet[0], sheet[1], &s[i]);
+    note(table[0], table[1], &s[i]);
     gg_bench_tell(b, "phi %g e %g %s done", s[i].phi, s[i].e, s[i].rough ? "rough" : "smooth");
   }
   b->measured = true;
-  return b->options->picture ? gg_bench_error_chart_draw(s, n, b->options->picture, b->options->width, err) : GG_OK;
+  return b->options->picture ? draw(s, n, b->options->picture, b->options->width, err) : GG_OK;
 }
 
 gg_status gg_bench_error(gg_bench *b, gg_error *err)

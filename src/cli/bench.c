@@ -15,7 +15,7 @@ static void tell(void *context, const char *line)
   fprintf(stderr, "%s\n", line);
 }
 
-static int print_sheet(const gg_bench_sheet *s)
+static int print_table(const gg_bench_table *s)
 {
   gg_table *t = gg_cli_table_new();
   if (!t) return gg_cli_fail(GG_FAILED, "out of memory");
@@ -43,9 +43,9 @@ static int print_document(const gg_bench *b)
 static int print(const gg_bench *b, bool json)
 {
   int code = json ? print_document(b) : GG_OK;
-  for (int i = 0; i < b->n_sheets && !json && code == GG_OK; i++) {
+  for (int i = 0; i < b->n_tables && !json && code == GG_OK; i++) {
     if (i) putchar('\n');
-    code = print_sheet(b->sheet[i]);
+    code = print_table(b->table[i]);
   }
   return code;
 }

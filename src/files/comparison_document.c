@@ -65,7 +65,7 @@ static void put_theory_curves(json_t *document, const gg_comparison *c)
 
 json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *c)
 {
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   json_t *warnings = gg_files_warnings_json(&c->warnings), *theory = theories_json(c, warnings);
   json_t *document =
       json_pack("{s:s, s:s, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build", gg_base_build_identity,
@@ -173,6 +173,6 @@ static json_t *comparison_document(const gg_comparison *c)
 
 json_t *gg_files_comparison_document(const gg_comparison *c)
 {
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   return gg_base_json_end(before, comparison_document(c));
 }

@@ -46,10 +46,9 @@ static json_t *curve_json(const gg_curve *c)
 
 json_t *gg_files_curves_json(const gg_curves *curves)
 {
-  bool before = gg_base_memory_begin();
   json_t *all = json_object();
   for (int k = 0; k < curves->n; k++) json_object_set_new(all, curves->curve[k].name, curve_json(&curves->curve[k]));
-  return gg_base_json_end(before, all);
+  return all;
 }
 
 static double number(const json_t *object, const char *key)

@@ -113,7 +113,7 @@ static json_t *run_document(const gg_result *r)
 
 json_t *gg_files_run_document(const gg_result *r)
 {
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   return gg_base_json_end(before, run_document(r));
 }
 

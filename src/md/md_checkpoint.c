@@ -108,9 +108,9 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(gg_md_note_surfaces(e, err));
   if (gg_md_search_has_rows(e->search.kind)) GG_TRY(gg_md_make_rows(e, err));
   gg_md_queue_reset(&e->queue, b.bucket_width);
-  const bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   const char *wrong = gg_md_wrong_grains(e);
-  if (gg_base_memory_end(before)) return gg_base_out_of_memory_for(err, "a look at the checkpoint of md");
+  if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "a look at the checkpoint of md");
   if (wrong) return refuse(wrong, err);
   if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   e->queue.current = b.current_bucket;

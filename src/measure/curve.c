@@ -212,7 +212,7 @@ gg_status gg_measure_curves_estimate(const gg_bins *const *bins, size_t n_runs, 
   if (!p.total) return GG_FAILED;
   p.mean = p.total + p.width;
   gg_curves full = {.model = list->model, .group = group};
-  bool before = gg_base_memory_begin(); /* fits have no other way to say so */
+  const unsigned before = gg_base_memory_failures(); /* fits have no other way to say so */
   gg_base_gsl_enter();
   sum_up(&p);
   evaluate(&p, NULL, of, self, &full);
@@ -222,7 +222,7 @@ gg_status gg_measure_curves_estimate(const gg_bins *const *bins, size_t n_runs, 
   for (int k = 0; k < full.n; k++) whole = whole && !full.curve[k].law_lost;
   if (whole) put_errors(&full, &j, memory / (double)p.per_block);
   gg_base_gsl_leave();
-  if (gg_base_memory_end(before)) whole = false;
+  if (gg_base_memory_failures() != before) whole = false;
   whole = whole && (full.n == 0 || append(list, &full));
   gg_statistics_jackknife_clear(&j);
   gg_measure_curves_clear(&full);

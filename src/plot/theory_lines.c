@@ -2,6 +2,7 @@
  * no theory, follow from its scene. */
 #include <string.h>
 
+#include "base/checked_json.h"
 #include "files/curve_table.h"
 #include "plot/plot.h"
 #include "scene/scene_reader.h"

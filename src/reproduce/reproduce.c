@@ -91,7 +91,7 @@ static gg_status fill(gg_figure *f, const gg_figure_points *points, gg_error *er
 
 static gg_status finish(const outputs *o, gg_figure *f, const gg_figure_points *points, gg_error *err)
 {
-  bool before = gg_base_memory_begin(); /* a value that lacks memory is like one that is not there */
+  const unsigned before = gg_base_memory_failures(); /* a value that lacks memory is like one that is not there */
   GG_TRY(gg_base_memory_check(before, fill(f, points, err), err));
   GG_TRY(each_file(o, f, points, err));
   tell_numbers(o->options, f);

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/c_locale.h"
+#include "base/checked_json.h"
 #include "base/csv.h"
 #include "base/memory.h"
 #include "reproduce/figures.h"
@@ -76,7 +77,7 @@ static gg_status write(const gg_figure *f, const char *path, void (*rows)(gg_csv
   gg_atomic_file file;
   gg_text_out out;
   GG_TRY(gg_base_atomic_open(&file, path, err));
-  const bool lacked = gg_base_memory_begin(); /* a number that JSON had no room for would be an empty cell */
+  const unsigned lacked = gg_base_memory_failures(); /* a number that JSON had no room for would be an empty cell */
   locale_t before = gg_base_c_locale_enter();
   gg_base_file_writer_begin(&out, &file, err);
   gg_csv csv = {.out = &out};

@@ -30,7 +30,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
 {
   gg_replicas all;
   *out = NULL;
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_status status = gg_run_replicas_create(&all, scene, resume, threads, callbacks, err);
   if (status != GG_OK) return gg_base_memory_check(before, status, err);
   status = gg_run_replicas_run(&all, err);
@@ -39,7 +39,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   if (cut_short) report(&all, out, NULL);
   if (status == GG_INTERRUPTED && *out) gg_run_result_warn(*out, "interrupted: these are the results so far");
   gg_run_replicas_clear(&all);
-  if (!gg_base_memory_end(before) || status != GG_OK) return status;
+  if (gg_base_memory_failures() == before || status != GG_OK) return status;
   gg_result_free(*out); /* it lacks a warning, or worse */
   *out = NULL;
   return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", gg_run_engine_ops_of(scene->engine)->name);
@@ -52,9 +52,9 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
   gg_error why = {0};
   const gg_theory *theory = c->theory[i].theory;
   if (!c->theory[i].applies) return GG_OK;
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
-  if (gg_base_memory_end(before)) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+  if (gg_base_memory_failures() != before) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
   if (status == GG_FAILED) gg_base_string_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
   return GG_OK;
 }
@@ -69,9 +69,9 @@ gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_er
   const gg_theory *theory;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error why = {0};
-    bool before = gg_base_memory_begin();
+    const unsigned before = gg_base_memory_failures();
     gg_status status = gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &why);
-    if (gg_base_memory_end(before)) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+    if (gg_base_memory_failures() != before) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
     c->theory[i].theory = theory;
     c->theory[i].applies = status == GG_OK;
     snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", why.message);

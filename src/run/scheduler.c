@@ -122,7 +122,7 @@ static void work(gg_run_scheduler *s)
   s->busy++;
   wake(s);
   pthread_mutex_unlock(&s->lock);
-  const bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_status status = create_replica(t);
   if (status == GG_OK) status = advance(t);
   t->status = gg_base_memory_check(before, status, &t->err);

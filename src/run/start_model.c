@@ -24,9 +24,9 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
     gg_model constant = *model;
     constant.law = (gg_restitution_law){0};
     gg_error why;
-    bool before = gg_base_memory_begin();
+    const unsigned before = gg_base_memory_failures();
     gg_status status = theory ? gg_theory_evaluate(theory, &constant, &answer, &why) : GG_BAD_INPUT;
-    if (gg_base_memory_end(before)) return gg_base_out_of_memory_for(err, "%s", best_first[i]);
+    if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "%s", best_first[i]);
     if (status != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
     if (!(T > 0)) continue;

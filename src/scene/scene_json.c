@@ -105,7 +105,7 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
 
 json_t *gg_scene_field_json(const gg_field *f, const void *base, const gg_scene *scene)
 {
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   return gg_base_json_end(before, value_json(f, base, scene));
 }
 
@@ -125,7 +125,7 @@ static json_t *section_of(json_t *root, const char *name)
 
 json_t *gg_scene_json(const gg_scene *scene)
 {
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   json_t *root = json_object();
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     json_t *into = root;

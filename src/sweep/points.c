@@ -274,9 +274,10 @@ static gg_status resolve_named(const gg_sweep *sweep, size_t i, gg_scene *scene,
 gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
 {
   double seconds;
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_status status = resolve_named(sweep, i, scene, &seconds, err);
-  return gg_base_memory_end(before) ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", sweep->name) : status;
+  return gg_base_memory_failures() != before ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", sweep->name)
+                                             : status;
 }
 
 static void explain_number(const gg_sweep *sweep, gg_error *err)
@@ -296,10 +297,11 @@ gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err)
   if (!point) return GG_FAILED;
   for (size_t i = 0; i < n; i++) {
     gg_scene scene;
-    bool before = gg_base_memory_begin();
+    const unsigned before = gg_base_memory_failures();
     gg_status status = resolve_named(sweep, i, &scene, &point[i].seconds, err);
     if (status == GG_OK) point[i].id = point_id(&scene, sweep->settings.does);
-    if (gg_base_memory_end(before)) status = gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", sweep->name);
+    if (gg_base_memory_failures() != before)
+      status = gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", sweep->name);
     if (status != GG_OK) return free(point), status;
   }
   sweep->point = point;

@@ -220,7 +220,7 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep
   GG_TRY(gg_base_atomic_open(&file, path, err));
   gg_text_out *out = gg_base_array_new(1, sizeof *out, err);
   if (!out) return gg_base_atomic_abandon(&file), GG_FAILED;
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_base_file_writer_begin(out, &file, err);
   gg_csv csv = {.out = out};
   put_head(&csv, sweep);
@@ -372,7 +372,7 @@ static json_t *name_as_text(const char *name)
 
 json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
 {
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   json_t *points = json_array();
   for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
   return gg_base_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", gg_base_build_version, "does",

@@ -60,12 +60,12 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_base_gsl_enter();
   gg_status status = theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err)
                                  : theory->evaluate(model, answer, err);
   gg_base_gsl_leave();
-  if (gg_base_memory_end(before)) status = gg_base_out_of_memory(err);
+  if (gg_base_memory_failures() != before) status = gg_base_out_of_memory(err);
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
   return status;
 }
@@ -77,11 +77,11 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   if (!theory->curves) return GG_OK;
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   gg_base_gsl_enter();
   gg_status status = theory->curves(model, measure, list, err);
   gg_base_gsl_leave();
-  if (gg_base_memory_end(before)) status = gg_base_out_of_memory(err);
+  if (gg_base_memory_failures() != before) status = gg_base_out_of_memory(err);
   list->group = NULL; /* every curve has its own copy */
   if (status != GG_OK) gg_measure_curves_clear(list);
   return status;

@@ -30,7 +30,7 @@ static double of(const json_t *row, const char *key)
 }
 
 /* Each cell of the table is filled, and each row of the document has what was measured between its bounds. */
-static void assert_whole(const gg_bench_sheet *s, const char *middle, const char *least, const char *largest)
+static void assert_whole(const gg_bench_table *s, const char *middle, const char *least, const char *largest)
 {
   size_t i;
   json_t *row;
@@ -55,7 +55,7 @@ static bool is_word(const json_t *row, const char *key, const char *word)
 }
 
 /* Ratios: every scene once at each density, the one that it is set beside among them; one beside itself is 1. */
-static void assert_beside(const gg_bench_sheet *s, const char *unit)
+static void assert_beside(const gg_bench_table *s, const char *unit)
 {
   size_t i, k;
   json_t *row, *other;
@@ -77,11 +77,11 @@ static void assert_beside(const gg_bench_sheet *s, const char *unit)
   }
 }
 
-static const gg_bench_sheet *sheet_of(const gg_bench *b, const char *key)
+static const gg_bench_table *table_of(const gg_bench *b, const char *key)
 {
-  for (int i = 0; i < b->n_sheets; i++)
-    if (strcmp(b->sheet[i]->key, key) == 0) return b->sheet[i];
-  fail_msg("there is no sheet '%s'", key);
+  for (int i = 0; i < b->n_tables; i++)
+    if (strcmp(b->table[i]->key, key) == 0) return b->table[i];
+  fail_msg("there is no table '%s'", key);
   return NULL;
 }
 
@@ -92,18 +92,18 @@ static void begin(gg_bench *b, gg_bench_options *o, const char *subject)
   if (gg_bench_run(b, subject, o, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
-/* As JSON it has the same sheets under the same names. */
+/* As JSON it has the same tables under the same names. */
 static void end(gg_bench *b)
 {
   char *text = gg_bench_document(b);
   json_t *document = json_loads(text, 0, NULL);
   assert_non_null(json_object_get(document, "graingas"));
-  for (int i = 0; i < b->n_sheets; i++)
-    assert_true(json_equal(json_object_get(document, b->sheet[i]->key), b->sheet[i]->rows));
+  for (int i = 0; i < b->n_tables; i++)
+    assert_true(json_equal(json_object_get(document, b->table[i]->key), b->table[i]->rows));
   json_decref(document);
   free(text);
   gg_bench_clear(b);
-  assert_int_equal(b->n_sheets, 0);
+  assert_int_equal(b->n_tables, 0);
 }
 
 static void overview(void **state)
@@ -113,7 +113,7 @@ static void overview(void **state)
   for (int quick = 0; quick < 2; quick++) {
     gg_bench_options o = {.quick = quick, .smaller = 200, .tell = tell};
     begin(&b, &o, NULL);
-    const gg_bench_sheet *s = sheet_of(&b, "throughput");
+    const gg_bench_table *s = table_of(&b, "throughput");
     assert_whole(s, "mean", "slowest", "fastest");
     assert_int_equal(s->n_rows, 2 * 2 * (quick ? 2 : 3)); /* engines, densities, sizes */
     assert_int_equal(told, s->n_rows);
@@ -129,9 +129,9 @@ static void md(void **state)
   for (int quick = 0; quick < 2; quick++) {
     gg_bench_options o = {.quick = quick, .smaller = 1000};
     begin(&b, &o, "md");
-    assert_whole(sheet_of(&b, "collisions"), "mean", "slowest", "fastest");
-    assert_int_equal(sheet_of(&b, "collisions")->n_rows, quick ? 2 : 4);
-    assert_beside(sheet_of(&b, "ratios"), "collisions per CPU-second");
+    assert_whole(table_of(&b, "collisions"), "mean", "slowest", "fastest");
+    assert_int_equal(table_of(&b, "collisions")->n_rows, quick ? 2 : 4);
+    assert_beside(table_of(&b, "ratios"), "collisions per CPU-second");
     end(&b);
   }
 }
@@ -144,12 +144,12 @@ static void dsmc(void **state)
     for (int threads = 1; threads <= (quick ? 2 : 1); threads++) {
       gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = threads, .tell = tell};
       begin(&b, &o, "dsmc");
-      assert_whole(sheet_of(&b, "times"), "mean", "least", "largest");
-      assert_beside(sheet_of(&b, "ratios"), "ns per collision");
-      assert_whole(sheet_of(&b, "precision"), "ratio", "least", "largest");
-      assert_whole(sheet_of(&b, "paths"), "ratio", "least", "largest");
-      assert_int_equal(b.n_sheets, threads > 1 ? 5 : 4);
-      if (threads > 1) assert_whole(sheet_of(&b, "threads"), "ratio", "least", "largest");
+      assert_whole(table_of(&b, "times"), "mean", "least", "largest");
+      assert_beside(table_of(&b, "ratios"), "ns per collision");
+      assert_whole(table_of(&b, "precision"), "ratio", "least", "largest");
+      assert_whole(table_of(&b, "paths"), "ratio", "least", "largest");
+      assert_int_equal(b.n_tables, threads > 1 ? 5 : 4);
+      if (threads > 1) assert_whole(table_of(&b, "threads"), "ratio", "least", "largest");
       end(&b);
     }
 }
@@ -164,7 +164,7 @@ static void observables(void **state)
   gg_bench b;
   gg_bench_options o = {.quick = true, .smaller = 20, .tell = tell};
   begin(&b, &o, "observables");
-  const gg_bench_sheet *s = sheet_of(&b, "observables");
+  const gg_bench_table *s = table_of(&b, "observables");
   assert_whole(s, "overhead", "least", "largest");
   assert_int_equal(told, s->n_rows);
   assert_int_equal(s->n_columns, 1 + 2 * 2 * 3); /* engines, densities, sizes */
@@ -200,7 +200,7 @@ static void error(void **state)
   gg_bench_options o = {.quick = true, .smaller = 100, .tell = tell, .picture = picture};
   begin(&b, &o, "error");
   assert_int_equal(told, 3);
-  const gg_bench_sheet *seconds = sheet_of(&b, "seconds"), *floors = sheet_of(&b, "floors");
+  const gg_bench_table *seconds = table_of(&b, "seconds"), *floors = table_of(&b, "floors");
   assert_int_equal(seconds->n_rows, 14); /* smooth grains have no theta */
   assert_int_equal(floors->n_rows, 14);
   size_t i;
@@ -235,7 +235,7 @@ static void refuse(const char *subject, gg_bench_options o, const char *said)
   gg_error err = {0};
   assert_int_equal(gg_bench_run(&b, subject, &o, &err), GG_BAD_INPUT);
   if (!strstr(err.message, said)) fail_msg("'%s' lacks '%s'", err.message, said);
-  assert_int_equal(b.n_sheets, 0);
+  assert_int_equal(b.n_tables, 0);
   gg_bench_clear(&b);
 }
 

@@ -236,7 +236,7 @@ gg_status gg_files_result_restore(const gg_stored_result *s, gg_engine_kind engi
 {
   gg_result *r = gg_base_array_new(1, sizeof *r, err);
   if (!r) return GG_FAILED;
-  bool before = gg_base_memory_begin(); /* for a warning that is lost */
+  const unsigned before = gg_base_memory_failures(); /* for a warning that is lost */
   gg_status status = gg_base_memory_check(before, restore_all(r, s, engine, err), err);
   if (status == GG_OK)
     *result = r;
@@ -337,6 +337,6 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
 gg_status gg_files_comparison_restore(const gg_stored_result *s, gg_comparison *c, gg_error *err)
 {
   *c = (gg_comparison){0};
-  bool before = gg_base_memory_begin();
+  const unsigned before = gg_base_memory_failures();
   return gg_base_memory_check(before, restore_comparison(s, c, err), err);
 }

@@ -1,0 +1,431 @@
+/* graingas bench, bench md, bench dsmc: both engines by size and density, and what each feature of a scene costs. */
+#include <math.h>
+#include <string.h>
+
+#include "bench/bench.h"
+#include "bench/throughput.h"
+#include "dsmc/dsmc.h"
+
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+enum { ROUGH = 1, FRICTIONAL = 2, MIXTURE = 4, SUMS = 8, SHEARED = 16, WALLS = 32, GRAVITY = 64, COUETTE = 128 };
+
+/* A scene that has a feature, and the one that lacks it; the first is set against itself. */
+typedef struct feature {
+  const char *name, *against;
+  unsigned has;
+} feature;
+
+static const feature md_features[] = {
+    {"smooth", "smooth", 0},
+    {"rough", "smooth", ROUGH},
+    {"two species", "smooth", MIXTURE},
+    {"stress measured", "smooth", SUMS},
+    {"walls", "smooth", WALLS},
+    {"walls, gravity", "walls", WALLS | GRAVITY},
+    {"sheared smooth", "smooth", SHEARED},
+    {"sheared rough", "smooth", SHEARED | ROUGH},
+    {"sheared frictional", "sheared rough", SHEARED | FRICTIONAL},
+    {"sheared rough, stress measured", "sheared rough", SHEARED | ROUGH | SUMS},
+    {"moving walls, rough", "sheared rough", SHEARED | ROUGH | COUETTE},
+};
+static const feature dsmc_features[] = {
+    {"smooth", "smooth", 0},
+    {"rough", "smooth", ROUGH},
+    {"frictional", "rough", FRICTIONAL},
+    {"two species", "smooth", MIXTURE},
+    {"two species, rough", "rough", MIXTURE | ROUGH},
+    {"smooth, stress measured", "smooth", SUMS},
+    {"sheared smooth", "smooth", SHEARED},
+    {"sheared smooth, stress measured", "sheared smooth", SHEARED | SUMS},
+    {"sheared rough, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | ROUGH},
+    {"sheared frictional, stress measured", "sheared rough, stress measured", SHEARED | SUMS | FRICTIONAL},
+    {"sheared, two species, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | MIXTURE},
+};
+
+/* What differs between the benches of both engines. Quick: the first sizes alone. */
+typedef struct engine_bench {
+  gg_engine_kind engine;
+  const char *rates, *rates_caption, *ratios_caption, *unit;
+  const feature *features;
+  int n_features, n_densities, n_sizes, quick_sizes;
+  double densities[3];
+  int64_t sizes[4], ratio_size, quick_ratio_size;
+  double ratio_seconds;
+} engine_bench;
+
+static const engine_bench md = {
+    GG_MD,
+    "collisions",
+    "Elastic smooth spheres in a periodic box, no stress measured: millions of collisions per CPU-second on one core, "
+    "median (slowest - fastest) of repeats, time per collision",
+    "What a scene's features cost: collisions between grains per CPU-second over that of the scene beside it, timed in "
+    "turn; median (least - largest) of repeats. Elastic, smooth and periodic unless said otherwise; sheared and moving "
+    "walls: e = 0.9, rough there: beta = 0, frictional: mu = 0.123",
+    "collisions per CPU-second",
+    md_features,
+    COUNT(md_features),
+    3,
+    4,
+    2,
+    {0.01, 0.3, 0.5},
+    {1000, 10000, 100000, 1000000},
+    10000,
+    2000,
+    0.5};
+static const engine_bench dsmc = {
+    GG_DSMC,
+    "times",
+    "Elastic smooth spheres (the kernel of free cooling), nothing measured: nanoseconds per accepted collision, CPU "
+    "time of one core, median (least - largest) of repeats",
+    "What a scene's features cost: nanoseconds per accepted collision over those of the scene beside it, timed in "
+    "turn; median (least - largest) of repeats. Elastic unless sheared: e = 0.9; rough: beta = 0, frictional: mu = "
+    "0.123; two species: alike but for their mass",
+    "ns per collision",
+    dsmc_features,
+    COUNT(dsmc_features),
+    2,
+    3,
+    2,
+    {0, 0.3},
+    {10000, 100000, 1000000},
+    100000,
+    10000,
+    0.4};
+
+static int find(const engine_bench *e, const char *name)
+{
+  int k = 0;
+  while (strcmp(e->features[k].name, name) != 0) k++;
+  return k;
+}
+
+static void add_walls(gg_scene *s, bool gravity)
+{
+  s->flow = GG_POISEUILLE;
+  s->walls.e = 1;
+  s->walls.beta = -1;
+  /* Weight times height below the temperature 1/2: the gas hardly settles. */
+  if (gravity) s->gravity[1] = -0.1 / cbrt((double)s->particles * M_PI / (6 * s->phi));
+}
+
+static gg_timed_scene timed_scene(const gg_bench *b, const engine_bench *e, int kind, double phi, int64_t n)
+{
+  const unsigned has = e->features[kind].has;
+  gg_timed_scene c = {.scene = gg_bench_scene(b, e->engine, phi, n), .sums = has & SUMS};
+  gg_scene *s = &c.scene;
+  c.against = find(e, e->features[kind].against);
+  s->flow = has & COUETTE ? GG_COUETTE : has & SHEARED ? GG_USF : GG_EQUILIBRIUM;
+  for (int p = 0; p < GG_PAIRS; p++) {
+    s->collision.e[p] = has & SHEARED ? 0.9 : 1;
+    s->collision.beta[p] = has & FRICTIONAL ? 0.4 : !(has & ROUGH) ? -1 : has & SHEARED ? 0 : 1;
+    s->collision.mu[p] = has & FRICTIONAL ? 0.123 : INFINITY;
+  }
+  if (has & WALLS) add_walls(s, has & GRAVITY);
+  if (!(has & MIXTURE)) return c;
+  s->n_species = 2;
+  s->species[0].fraction = 0.5;
+  s->species[1] = (gg_species){0.5, 1, 4, 0.4};
+  return c;
+}
+
+/* Collisions a grain. Large systems of md start near equilibrium, and a few collisions a grain cost seconds. */
+static double warmup_of(const engine_bench *e, int64_t n, bool quick)
+{
+  return e->engine == GG_MD && n >= 1000000 ? 5 : quick ? 10 : e->engine == GG_MD ? 30 : 20;
+}
+
+static void put_rate(gg_bench_table *t, const engine_bench *e, int row, int column, double phi, int64_t n,
+                     const gg_throughput *r)
+{
+  const bool is_md = e->engine == GG_MD;
+  const double mean = is_md ? r->rate : 1e9 / r->rate, least = is_md ? r->slowest : 1e9 / r->fastest,
+               largest = is_md ? r->fastest : 1e9 / r->slowest;
+  if (is_md)
+    gg_bench_table_put(t, row, column, "%.3g (%.3g - %.3g) %.0f ns", mean * 1e-6, least * 1e-6, largest * 1e-6,
+                       1e9 / mean);
+  else
+    gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f)", mean, least, largest);
+  gg_bench_table_add(t, "{s:f, s:I, s:f, s:f, s:f, s:s}", "phi", phi, "particles", (json_int_t)n, "mean", mean,
+                     is_md ? "slowest" : "least", least, is_md ? "fastest" : "largest", largest, "unit", e->unit);
+}
+
+/* The plain scene by size, a column a density. */
+static gg_status measure_rates(gg_bench *b, const engine_bench *e, gg_error *err)
+{
+  const bool quick = b->options->quick;
+  gg_bench_table *t = gg_bench_table_new(b, e->rates, e->rates_caption, 1, err);
+  if (!t) return GG_FAILED;
+  gg_bench_table_column(t, true, "N");
+  for (int d = 0; d < e->n_densities; d++) gg_bench_table_column(t, true, "phi %.4g", e->densities[d]);
+  for (int i = 0; i < (quick ? e->quick_sizes : e->n_sizes); i++) {
+    const int row = gg_bench_table_row(t, "%lld", (long long)e->sizes[i]);
+    for (int d = 0; d < e->n_densities; d++) {
+      gg_throughput r;
+      const gg_scene s = timed_scene(b, e, 0, e->densities[d], e->sizes[i]).scene;
+      GG_TRY(gg_bench_throughput_measure(&s, false, warmup_of(e, e->sizes[i], quick), quick ? 3 : 7,
+                                         gg_bench_seconds(b, quick ? 0.3 : 1), &r, err));
+      put_rate(t, e, row, 1 + d, e->densities[d], e->sizes[i], &r);
+      gg_bench_tell(b, "phi %g N %lld: %.3g M/s", e->densities[d], (long long)e->sizes[i], r.rate * 1e-6);
+    }
+  }
+  return GG_OK;
+}
+
+/* What is measured are rates; times, of dsmc, are their inverse. */
+static void put_ratio(gg_bench_table *t, const engine_bench *e, int column, double phi, int64_t n, int kind,
+                      const gg_timing *r)
+{
+  const bool is_md = e->engine == GG_MD;
+  const feature *f = &e->features[kind];
+  const double mean = is_md ? r->own.rate : 1e9 / r->own.rate, ratio = is_md ? r->ratio : 1 / r->ratio,
+               least = is_md ? r->lowest : 1 / r->highest, largest = is_md ? r->highest : 1 / r->lowest;
+  if (strcmp(f->against, f->name) == 0)
+    gg_bench_table_put(t, kind, column, is_md ? "%.3g M/s" : "%.2f ns", is_md ? mean * 1e-6 : mean);
+  else if (is_md)
+    gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f)", ratio, least, largest);
+  else
+    gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f) %.1f ns", ratio, least, largest, mean);
+  gg_bench_table_add(t, "{s:f, s:I, s:s, s:s, s:f, s:f, s:f, s:f, s:s}", "phi", phi, "particles", (json_int_t)n,
+                     "scene", f->name, "against", f->against, "ratio", ratio, "least", least, "largest", largest,
+                     "mean", mean, "unit", e->unit);
+}
+
+/* Scenes with a feature against those without, at one size; a row each. */
+static gg_status measure_ratios(gg_bench *b, const engine_bench *e, gg_error *err)
+{
+  const bool quick = b->options->quick;
+  const int64_t n = quick ? e->quick_ratio_size : e->ratio_size;
+  gg_bench_table *t = gg_bench_table_new(b, "ratios", e->ratios_caption, 2, err);
+  if (!t) return GG_FAILED;
+  gg_bench_table_column(t, false, "scene");
+  gg_bench_table_column(t, false, "against");
+  for (int k = 0; k < e->n_features; k++) {
+    const int row = gg_bench_table_row(t, "%s", e->features[k].name);
+    if (k) gg_bench_table_put(t, row, 1, "%s", e->features[k].against);
+  }
+  for (int d = 0; d < e->n_densities; d++) {
+    const double phi = e->densities[d];
+    const int column = gg_bench_table_column(t, true, "phi %.4g", phi);
+    gg_timed_scene c[GG_MOST_TIMED];
+    gg_timing r[GG_MOST_TIMED];
+    for (int k = 0; k < e->n_features; k++) c[k] = timed_scene(b, e, k, phi, n);
+    GG_TRY(gg_bench_throughput_compare(c, e->n_features, warmup_of(e, n, quick), quick ? 5 : 9,
+                                       gg_bench_seconds(b, quick ? 0.1 : e->ratio_seconds), r, err));
+    for (int k = 0; k < e->n_features; k++) put_ratio(t, e, column, phi, n, k, &r[k]);
+    gg_bench_tell(b, "ratios at phi %g N %lld done", phi, (long long)n);
+  }
+  return GG_OK;
+}
+
+gg_status gg_bench_md(gg_bench *b, gg_error *err)
+{
+  GG_TRY(measure_rates(b, &md, err));
+  return measure_ratios(b, &md, err);
+}
+
+/* A scene of dsmc at phi = 0.3 in two ways, by kind and size. */
+typedef struct two_ways {
+  const char *key, *caption, *done;
+  const char *kinds[11]; /* ends with NULL */
+  int first_size, warmup[2], repeats[2];
+  double seconds[2]; /* of a stretch; in full and quick, as those before */
+  void (*differ)(gg_timed_scene way[2], int threads);
+  void (*put)(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads);
+} two_ways;
+
+static const double dense = 0.3;
+
+static void in_single_precision(gg_timed_scene way[2], int threads)
+{
+  (void)threads;
+  way[1].scene.dsmc.precision = GG_SINGLE;
+}
+
+static void take_plain_path(gg_engine *engine)
+{
+  gg_dsmc *d = (gg_dsmc *)engine;
+  for (int p = 0; p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
+  gg_dsmc_start_majorants(d);
+}
+
+static void in_blocks(gg_timed_scene way[2], int threads)
+{
+  (void)threads;
+  way[0].prepare = take_plain_path;
+}
+
+static void on_threads(gg_timed_scene way[2], int threads)
+{
+  way[0].by_the_clock = way[1].by_the_clock = true;
+  way[1].threads = threads;
+}
+
+static void put_precision(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads)
+{
+  (void)threads;
+  gg_bench_table_put(t, row, column, "%.1f/%.1f ns %.2f (%.2f - %.2f)", 1e9 / r[0].own.rate, 1e9 / r[1].own.rate,
+                     r[1].ratio, r[1].lowest, r[1].highest);
+}
+
+static void put_paths(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads)
+{
+  (void)threads;
+  gg_bench_table_put(t, row, column, "%.1f (%.1f - %.1f) %.0f/%.1f ns", r[1].ratio, r[1].lowest, r[1].highest,
+                     1e9 / r[0].own.rate, 1e9 / r[1].own.rate);
+}
+
+static void put_threads(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads)
+{
+  gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f) %.2f of %d", r[1].ratio, r[1].lowest, r[1].highest,
+                     r[1].own.processors, threads);
+}
+
+static const two_ways precision = {
+    "precision",
+    "Single precision: nanoseconds per accepted collision in double/in single precision, and the ratio of the rates, "
+    "timed in turn; CPU time, one thread, phi 0.3; median (least - largest) of repeats",
+    "single precision",
+    /* Not what cools: with nothing to scale it back it would leave the range of single precision. */
+    {"smooth", "rough", "two species", "two species, rough", "smooth, stress measured", "sheared smooth",
+     "sheared smooth, stress measured", "sheared rough, stress measured", "sheared frictional, stress measured",
+     "sheared, two species, stress measured"},
+    0,
+    {10, 3},
+    {5, 3},
+    {0.3, 0.05},
+    in_single_precision,
+    put_precision};
+static const two_ways paths = {
+    "paths",
+    "What blocks gain: the rate of collisions over that of the plain loop (one random pair after another, under one "
+    "majorant), one thread, CPU time, timed in turn; median (least - largest) of repeats, and nanoseconds per "
+    "collision of both",
+    "blocks against the plain loop",
+    {"smooth", "rough", "two species", "sheared smooth, stress measured"},
+    0,
+    {5, 3},
+    {5, 3},
+    {0.5, 0.1},
+    in_blocks,
+    put_paths};
+static const two_ways threads = {
+    "threads",
+    "What threads gain within one ensemble: the rate of collisions over that of one thread, by the clock, timed in "
+    "turn; median (least - largest) of repeats, and processors busy on average",
+    "threads against one",
+    {"smooth", "rough", "two species", "sheared smooth, stress measured", "sheared, two species, stress measured"},
+    1,
+    {5, 5},
+    {9, 5},
+    {0.4, 0.1},
+    on_threads,
+    put_threads};
+
+static void add_two(gg_bench_table *t, const two_ways *w, int k, int64_t n, const gg_timing r[2], int used)
+{
+  const double one = 1e9 / r[0].own.rate, two = 1e9 / r[1].own.rate;
+  if (w == &precision)
+    gg_bench_table_add(t, "{s:s, s:f, s:I, s:f, s:f, s:f, s:f, s:f, s:s}", "scene", w->kinds[k], "phi", dense,
+                       "particles", (json_int_t)n, "double", one, "single", two, "ratio", r[1].ratio, "least",
+                       r[1].lowest, "largest", r[1].highest, "unit", dsmc.unit);
+  else
+    gg_bench_table_add(t, "{s:s, s:f, s:I, s:i, s:f, s:f, s:f, s:f, s:f, s:f, s:s}", "scene", w->kinds[k], "phi", dense,
+                       "particles", (json_int_t)n, "threads", used, "ratio", r[1].ratio, "least", r[1].lowest,
+                       "largest", r[1].highest, "processors", r[1].own.processors, "mean_of_one", one, "mean", two,
+                       "unit", dsmc.unit);
+}
+
+static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error *err)
+{
+  const bool quick = b->options->quick;
+  gg_bench_table *t = gg_bench_table_new(b, w->key, w->caption, 1, err);
+  if (!t) return GG_FAILED;
+  gg_bench_table_column(t, false, "scene, phi 0.3");
+  for (int k = 0; w->kinds[k]; k++) gg_bench_table_row(t, "%s", w->kinds[k]);
+  for (int i = w->first_size; i < (quick ? w->first_size + 1 : dsmc.n_sizes); i++) {
+    const int64_t n = dsmc.sizes[i];
+    const int column = gg_bench_table_column(t, true, "N %lld", (long long)n);
+    for (int k = 0; w->kinds[k]; k++) {
+      gg_timed_scene way[2] = {timed_scene(b, &dsmc, find(&dsmc, w->kinds[k]), dense, n)};
+      gg_timing r[2];
+      way[0].against = 0;
+      way[1] = way[0];
+      w->differ(way, used);
+      GG_TRY(gg_bench_throughput_compare(way, 2, w->warmup[quick], w->repeats[quick],
+                                         gg_bench_seconds(b, w->seconds[quick]), r, err));
+      w->put(t, k, column, r, used);
+      add_two(t, w, k, n, r, used);
+    }
+    if (used > 1)
+      gg_bench_tell(b, "%d %s, N %lld done", used, w->done, (long long)n);
+    else
+      gg_bench_tell(b, "%s, N %lld done", w->done, (long long)n);
+  }
+  return GG_OK;
+}
+
+gg_status gg_bench_dsmc(gg_bench *b, gg_error *err)
+{
+  GG_TRY(measure_rates(b, &dsmc, err));
+  GG_TRY(measure_ratios(b, &dsmc, err));
+  GG_TRY(measure_two(b, &precision, 1, err));
+  GG_TRY(measure_two(b, &paths, 1, err));
+  if (b->options->threads > 1) return measure_two(b, &threads, b->options->threads, err);
+  gg_bench_tell(b, "one processor: threads are left out");
+  return GG_OK;
+}
+
+/* The overview times both engines sheared at e = 0.9, their stress measured as in a run. */
+static const struct {
+  const char *name;
+  double beta, mu;
+} kernels[] = {{"smooth", -1, INFINITY}, {"rough", 0, INFINITY}, {"frictional", 0.4, 0.123}};
+
+static void put_overview(gg_bench_table *t, const char *engine, double phi, int64_t n, const gg_throughput *r)
+{
+  const int row = gg_bench_table_row(t, "%s", engine);
+  gg_bench_table_put(t, row, 1, "%g", phi);
+  gg_bench_table_put(t, row, 2, "%lld", (long long)n);
+  for (int k = 0; k < COUNT(kernels); k++) {
+    gg_bench_table_put(t, row, 3 + k, "%.3g M/s (%.0f ns)", r[k].rate * 1e-6, 1e9 / r[k].rate);
+    gg_bench_table_add(t, "{s:s, s:f, s:I, s:s, s:f, s:f, s:f, s:s}", "engine", engine, "phi", phi, "particles",
+                       (json_int_t)n, "kernel", kernels[k].name, "mean", r[k].rate, "slowest", r[k].slowest, "fastest",
+                       r[k].fastest, "unit", md.unit);
+  }
+}
+
+static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind engine, double phi, int64_t n,
+                                  gg_error *err)
+{
+  const bool quick = b->options->quick;
+  const char *name = gg_run_engine_ops_of(engine)->name;
+  gg_throughput r[COUNT(kernels)];
+  for (int k = 0; k < COUNT(kernels); k++) {
+    gg_scene s = gg_bench_scene(b, engine, phi, n);
+    s.collision.beta[0] = kernels[k].beta;
+    s.collision.mu[0] = kernels[k].mu;
+    GG_TRY(
+        gg_bench_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r[k], err));
+  }
+  put_overview(t, name, phi, n, r);
+  gg_bench_tell(b, "%s phi %g N %lld done", name, phi, (long long)n);
+  return GG_OK;
+}
+
+gg_status gg_bench_overview(gg_bench *b, gg_error *err)
+{
+  static const char caption[] =
+      "Collisions per CPU-second, one core; uniform shear, e = 0.9, stress measured; median of repeats";
+  const int n_sizes = b->options->quick ? 2 : 3;
+  gg_bench_table *t = gg_bench_table_new(b, "throughput", caption, 3, err);
+  if (!t) return GG_FAILED;
+  gg_bench_table_column(t, false, "engine");
+  gg_bench_table_column(t, true, "phi");
+  gg_bench_table_column(t, true, "N");
+  for (int k = 0; k < COUNT(kernels); k++) gg_bench_table_column(t, true, "%s", kernels[k].name);
+  for (int i = 0; i < 2 * 2 * n_sizes; i++)
+    GG_TRY(measure_overview(b, t, (gg_engine_kind)(i / (2 * n_sizes)), md.densities[i / n_sizes % 2],
+                            md.sizes[i % n_sizes], err));
+  return GG_OK;
+}
