@@ -3,8 +3,7 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "base/c_locale.h"
-#include "base/string_list.h"
+#include "base/text.h"
 #include "common/engine.h"
 #include "common/extension.h"
 #include "common/flow.h"

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "common/extension.h"
 #include "files/h5/result_file.h"
 #include "files/h5/result_restore.h"

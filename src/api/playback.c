@@ -5,8 +5,8 @@
 
 #include "api/api.h"
 #include "api/simulation.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "files/h5/result_reader.h"
 #include "files/h5/result_restore.h"
 

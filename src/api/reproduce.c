@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "common/engine.h"
 #include "reproduce/figures.h"
 

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
-#include "files/export/export.h"
+#include "base/text.h"
+#include "files/export.h"
 #include "files/h5/result_file.h"
 #include "files/h5/result_restore.h"
 #include "files/result_document.h"

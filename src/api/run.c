@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/c_locale.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "common/engine.h"
 #include "files/h5/checkpoint_file.h"
 #include "run/scheduler.h"

@@ -27,7 +27,7 @@ typedef struct gg_run_call {
   bool resume_lost;                /* the checkpoint to resume from, or its frames, are damaged */
   bool resumes_in_place;           /* from what is beside its own checkpoint */
   char *temporary[GG_TEMPORARIES]; /* of a run that keeps checkpoints */
-  gg_text_list warnings;           /* keys without effect */
+  gg_string_list warnings;         /* keys without effect */
   atomic_bool stopped;
   gg_file_lock lock; /* of options.checkpoint */
 } gg_run_call;

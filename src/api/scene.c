@@ -4,9 +4,8 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "base/available_memory.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "common/engine.h"
 #include "common/ensemble_size.h"
 #include "common/extension.h"
@@ -172,7 +171,7 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
   GG_NEED_CALLBACK(line);
   gg_scene finished;
   gg_engine_kind kind;
-  gg_text_list lines = {0};
+  gg_string_list lines = {0};
   unsigned uses = GG_USE_THEORY;
   if (strcmp(use, "compare") == 0) {
     uses |= GG_USE_MD | GG_USE_DSMC;

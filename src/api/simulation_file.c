@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "api/simulation.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "files/h5/checkpoint_file.h"
 #include "scene/scene_reader.h"
 

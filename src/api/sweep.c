@@ -7,8 +7,8 @@
 
 #include "api/api.h"
 #include "base/atomic_file.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "common/extension.h"
 #include "scene/scene_reader.h"
 #include "sweep/sweep_table.h"

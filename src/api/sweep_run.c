@@ -9,10 +9,9 @@
 
 #include "api/api.h"
 #include "api/run.h"
-#include "base/c_locale.h"
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/string_list.h"
+#include "base/text.h"
 #include "run/scheduler.h"
 #include "sweep/folder.h"
 
@@ -42,7 +41,7 @@ typedef struct sweep_run {
   size_t done_before, short_before; /* points of which there was a file, and of these those that ended short */
   double started;                   /* clock reading */
   size_t working;                   /* controllers */
-  gg_text_list warnings;
+  gg_string_list warnings;
   size_t warned; /* of them reported */
 } sweep_run;
 

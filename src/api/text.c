@@ -4,9 +4,9 @@
 
 #include "api/api.h"
 #include "base/build.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
 #include "base/spelling.h"
+#include "base/text.h"
 #include "common/engine.h"
 #include "files/result_document.h"
 #include "files/text_format.h"

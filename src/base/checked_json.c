@@ -1,9 +1,10 @@
 #include "base/checked_json.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 
-#include "base/memory_stream.h"
+#include "base/text.h"
 
 json_t *gg_base_json_end(unsigned before, json_t *document)
 {
@@ -23,6 +24,18 @@ int gg_base_json_put(int failed)
 {
   if (failed) gg_base_memory_lacked();
   return failed;
+}
+
+const char *gg_base_json_string(const json_t *object, const char *key)
+{
+  const char *text = json_string_value(json_object_get(object, key));
+  return text ? text : "";
+}
+
+double gg_base_json_number(const json_t *object, const char *key)
+{
+  const json_t *value = json_object_get(object, key);
+  return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
 typedef struct source {

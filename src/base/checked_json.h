@@ -17,6 +17,10 @@ int gg_base_json_put(int failed);
 /* A text read; NULL with the reason in *why (which may be NULL). */
 json_t *gg_base_json_read(const char *text, const char **why);
 
+/* Of a member of an object: "" and NaN where it is none, or there is no object. */
+const char *gg_base_json_string(const json_t *object, const char *key);
+double gg_base_json_number(const json_t *object, const char *key);
+
 /* json_dumps, which cuts the text off where it has no room for it; to be freed, NULL: out of memory. */
 char *gg_base_json_text(const json_t *value, size_t flags);
 

@@ -1,21 +1,22 @@
 #include "base/file_writer.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-void gg_base_file_writer_begin(gg_text_out *out, gg_atomic_file *file, gg_error *err)
+void gg_base_file_writer_begin(gg_file_writer *out, gg_atomic_file *file, gg_error *err)
 {
   out->file = file, out->err = err, out->status = GG_OK, out->used = 0;
 }
 
-static void flush(gg_text_out *out)
+static void flush(gg_file_writer *out)
 {
   if (out->status == GG_OK) out->status = gg_base_atomic_write(out->file, out->buffer, out->used, out->err);
   out->used = 0;
 }
 
-void gg_base_file_writer_put(gg_text_out *out, const char *text)
+void gg_base_file_writer_put(gg_file_writer *out, const char *text)
 {
   for (size_t left = strlen(text); left > 0;) {
     size_t room = sizeof out->buffer - out->used, now = left < room ? left : room;
@@ -33,15 +34,72 @@ void gg_base_number_format(double value, char text[GG_NUMBER_TEXT])
   }
 }
 
-void gg_base_file_writer_put_number(gg_text_out *out, double value)
+void gg_base_file_writer_put_number(gg_file_writer *out, double value)
 {
   char text[GG_NUMBER_TEXT];
   gg_base_number_format(value, text);
   gg_base_file_writer_put(out, text);
 }
 
-gg_status gg_base_file_writer_end(gg_text_out *out)
+gg_status gg_base_file_writer_end(gg_file_writer *out)
 {
   flush(out);
   return out->status;
+}
+
+static void begin_cell(gg_csv *csv)
+{
+  if (csv->column++) gg_base_file_writer_put(csv->out, ",");
+}
+
+void gg_base_csv_text(gg_csv *csv, const char *text)
+{
+  begin_cell(csv);
+  if (!text) return;
+  if (!strpbrk(text, ",\"\r\n")) {
+    gg_base_file_writer_put(csv->out, text);
+    return;
+  }
+  gg_base_file_writer_put(csv->out, "\"");
+  for (; *text; text++) gg_base_file_writer_put(csv->out, *text == '"' ? "\"\"" : (char[]){*text, '\0'});
+  gg_base_file_writer_put(csv->out, "\"");
+}
+
+void gg_base_csv_head(gg_csv *csv, const char *name, const char *unit)
+{
+  char text[160];
+  bool plain = !unit || !*unit || strcmp(unit, "1") == 0;
+  snprintf(text, sizeof text, plain ? "%s" : "%s [%s]", name, unit);
+  gg_base_csv_text(csv, text);
+}
+
+static void put_real(gg_csv *csv, double value)
+{
+  begin_cell(csv);
+  if (isfinite(value)) gg_base_file_writer_put_number(csv->out, value);
+}
+
+static void put_integer(gg_csv *csv, json_int_t value)
+{
+  char text[32];
+  snprintf(text, sizeof text, "%" JSON_INTEGER_FORMAT, value);
+  gg_base_csv_text(csv, text);
+}
+
+void gg_base_csv_json(gg_csv *csv, const json_t *value)
+{
+  if (json_is_integer(value))
+    put_integer(csv, json_integer_value(value));
+  else if (json_is_real(value))
+    put_real(csv, json_real_value(value));
+  else if (json_is_boolean(value))
+    gg_base_csv_text(csv, json_is_true(value) ? "true" : "false");
+  else
+    gg_base_csv_text(csv, json_string_value(value));
+}
+
+void gg_base_csv_end_row(gg_csv *csv)
+{
+  gg_base_file_writer_put(csv->out, "\r\n");
+  csv->column = 0;
 }

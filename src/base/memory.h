@@ -4,8 +4,8 @@
  * leaves out what it has no room for), or where somebody makes do without what failed, a theory or its curves. Such
  * failures are counted for the thread. The outermost frames compare the count: what was made in between is not the
  * answer if it grew, since answers must not depend on how much memory there was. */
-#ifndef GG_COMMON_MEMORY_H
-#define GG_COMMON_MEMORY_H
+#ifndef GG_BASE_MEMORY_H
+#define GG_BASE_MEMORY_H
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -30,5 +30,18 @@ gg_status gg_base_memory_check(unsigned before, gg_status status, gg_error *err)
 /* Could some megabytes be had? Asked before libraries are called that do not look at what they get: FFTW ends the
  * program where its planner gets no memory, HDF5 where it lacks it in the midst of a file. */
 bool gg_base_memory_is_room(void);
+
+/* How much memory is there for a run. */
+
+/* Bytes that this process can still have: what the system has, what its control groups and its own limits leave.
+ * INFINITY where nothing tells. */
+double gg_base_memory_available(void);
+
+/* GSL ends the program on errors, out of memory among them, unless its handler says otherwise. From the first thread
+ * that enters until the last one leaves errors are returned, and lack of memory is noted (memory.h); then the
+ * handler is again what the calling program has set. */
+
+void gg_base_gsl_enter(void);
+void gg_base_gsl_leave(void);
 
 #endif

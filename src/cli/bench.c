@@ -6,8 +6,7 @@
 #include <string.h>
 
 #include "cli/options.h"
-#include "cli/table.h"
-#include "cli/wrap.h"
+#include "cli/print.h"
 
 static void tell(void *context, const char *line)
 {

@@ -31,7 +31,7 @@ int gg_cli_fingerprint_main(const gg_command *command, int argc, char **argv);
 int gg_cli_page_main(const gg_command *command, int argc, char **argv);
 int gg_cli_bench_main(const gg_command *command, int argc, char **argv);
 
-/* messages.c: "graingas: MESSAGE" on standard error; returns the exit code that goes with the error. */
+/* print.c: "graingas: MESSAGE" on standard error; returns the exit code that goes with the error. */
 int gg_cli_report(const gg_error *err);
 /* The same with "PREFIX: " before the message. */
 int gg_cli_report_of(const char *prefix, const gg_error *err);

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/print.h"
 #include "cli/report.h"
-#include "cli/wrap.h"
 
 /* The order in which a word is looked up; the last two are keys of `measure` and `flow`. */
 static const gg_catalogue lists[] = {GG_CATALOGUE_QUANTITIES, GG_CATALOGUE_KEYS,  GG_CATALOGUE_SPECIES_KEYS,

@@ -7,9 +7,8 @@
 
 #include "cli/definition.h"
 #include "cli/options.h"
+#include "cli/print.h"
 #include "cli/report.h"
-#include "cli/table.h"
-#include "cli/wrap.h"
 
 static void print_line(void *context, const char *text)
 {

@@ -1,12 +1,29 @@
 #include <assert.h>
+#include <errno.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdatomic.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "cli/progress.h"
 
 /* A signal handler has nowhere else to leave its word; threads read it. */
 static atomic_int caught;
 static_assert(ATOMIC_INT_LOCK_FREE == 2, "a handler may not wait for a lock");
+static atomic_bool lost; /* output of either stream; from then on no write waits */
+
+bool gg_cli_interrupted(void)
+{
+  return atomic_load(&caught) != 0;
+}
+
+bool gg_cli_output_lost(void)
+{
+  return atomic_load(&lost);
+}
 
 static void on_signal(int number)
 {
@@ -14,17 +31,49 @@ static void on_signal(int number)
   signal(number, SIG_DFL);
 }
 
+#ifdef __GLIBC__ /* elsewhere a signal waits for the reader, and the second one ends the program */
+enum { TIMEOUT = 1000 /* ms */, AT_ONCE = 4096 /* bytes that a pipe takes which poll says has room */ };
+
+static ssize_t write_to_reader(void *fd, const char *text, size_t size)
+{
+  struct pollfd out = {.fd = (int)(intptr_t)fd, .events = POLLOUT};
+  size_t done = 0;
+  while (done < size) {
+    const int ready = poll(&out, 1, gg_cli_output_lost() ? 0 : TIMEOUT);
+    if (ready == 0 && gg_cli_interrupted()) {
+      atomic_store(&lost, true);
+      errno = EINTR;
+      break;
+    }
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    const ssize_t n = write(out.fd, text + done, size - done < AT_ONCE ? size - done : AT_ONCE);
+    if (n < 0 && errno != EINTR && errno != EAGAIN) break;
+    if (n > 0) done += (size_t)n;
+  }
+  return (ssize_t)done;
+}
+
+/* A stream whose writes time out; files never wait, and stay as they are. */
+static FILE *with_timeout(FILE *stream, int fd, int buffering)
+{
+  struct stat about;
+  if (fstat(fd, &about) != 0 || S_ISREG(about.st_mode)) return stream;
+  FILE *out = fopencookie((void *)(intptr_t)fd, "w", (cookie_io_functions_t){.write = write_to_reader});
+  if (out) setvbuf(out, NULL, buffering, BUFSIZ);
+  return out ? out : stream;
+}
+#endif
+
 void gg_cli_catch_interrupts(void)
 {
-  gg_cli_be_patient(gg_cli_interrupted);
+#ifdef __GLIBC__
+  fflush(NULL);
+  stdout = with_timeout(stdout, STDOUT_FILENO, isatty(STDOUT_FILENO) ? _IOLBF : _IOFBF);
+  stderr = with_timeout(stderr, STDERR_FILENO, _IONBF);
+#endif
   struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART}, before;
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
   if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* else: nohup */
     sigaction(SIGHUP, &action, NULL);
-}
-
-bool gg_cli_interrupted(void)
-{
-  return atomic_load(&caught) != 0;
 }

@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "cli/options.h"
+#include "cli/print.h"
 #include "cli/processes.h"
 #include "cli/progress.h"
-#include "cli/wrap.h"
 
 static void print_help(void)
 {
@@ -74,7 +74,7 @@ static bool reader_has_gone(void)
 static int check_output(int code)
 {
   bool lost = fflush(stdout) != 0 || ferror(stdout);
-  if (lost && gg_cli_lost_patience()) return code == GG_OK ? GG_INTERRUPTED : code;
+  if (lost && gg_cli_output_lost()) return code == GG_OK ? GG_INTERRUPTED : code;
   if (lost && reader_has_gone()) return code;
   return lost && code == GG_OK ? gg_cli_fail(GG_BAD_FILE, "standard output cannot be written") : code;
 }

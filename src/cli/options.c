@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "cli/outputs.h"
+#include "cli/print.h"
 #include "cli/processes.h"
-#include "cli/wrap.h"
 
 const gg_option gg_cli_options_table[] = {
     {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run instead of the scene's"},
@@ -213,8 +213,8 @@ static void take_input(gg_options *o, const char *word)
 static int take_words(const gg_command *c, const struct option *known, gg_options *o)
 {
   const char *value = NULL, *last;
-  int code = GG_CLI_GO_ON, argc = o->typed.n;
-  char **argv = o->typed.word;
+  int code = GG_CLI_GO_ON, argc = o->words.n;
+  char **argv = o->words.word;
   opterr = 0, optind = 0;
   for (int got, at = 1; code == GG_CLI_GO_ON && (got = getopt_long(argc, argv, "-h", known, NULL)) != -1; at = optind) {
     if (got == 'h') return gg_cli_command_print_help(c), GG_OK;
@@ -229,7 +229,7 @@ static int take_words(const gg_command *c, const struct option *known, gg_option
     }
   }
   last = argv[optind - 1];
-  if (last && last != value && strcmp(last, "--") == 0) o->typed.options_end = optind - 1;
+  if (last && last != value && strcmp(last, "--") == 0) o->words.options_end = optind - 1;
   for (; optind < argc; optind++) take_input(o, argv[optind]);
   return code;
 }
@@ -250,8 +250,8 @@ static int check_words(const gg_command *c, const gg_options *o)
 int gg_cli_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
 {
   struct option known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {{0}};
-  *o = (gg_options){.threads = gg_cli_default_threads(), .typed = {argc, argv, argc}};
-  o->command_line = gg_cli_command_line_quote(&o->typed, "");
+  *o = (gg_options){.threads = gg_cli_default_threads(), .words = {argc, argv, argc}};
+  o->command_line = gg_cli_command_line_quote(&o->words, "");
   list_known(c, known);
   int code = take_words(c, known, o);
   if (code == GG_CLI_GO_ON) code = check_words(c, o);

@@ -3,7 +3,6 @@
 #define GG_CLI_OPTIONS_H
 
 #include "cli/cli.h"
-#include "cli/shell_quote.h"
 
 enum {
   GG_OPT_SET = 1u << 0,
@@ -31,6 +30,13 @@ typedef struct gg_option {
 } gg_option;
 extern const gg_option gg_cli_options_table[]; /* ends with flag 0 */
 
+/* The command line as it was given, to be recorded, and to be given again with something else in it. */
+typedef struct gg_command_line {
+  int n;
+  char **word;     /* the subcommand first; borrowed from main; NULL: one that is not to be typed again */
+  int options_end; /* the word "--"; n where there is none */
+} gg_command_line;
+
 enum { GG_MAX_OVERRIDES = 64 };
 
 typedef struct gg_options {
@@ -50,7 +56,7 @@ typedef struct gg_options {
   int n_vary;
   const char *vary[GG_MAX_OVERRIDES]; /* "key=values" */
   char *command_line;                 /* for the record */
-  gg_typed typed;
+  gg_command_line words;
 } gg_options;
 
 enum { GG_CLI_GO_ON = -1 };

@@ -1,6 +1,7 @@
 #include "cli/outputs.h"
 
 #include <ctype.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,4 +54,53 @@ void gg_cli_report_written(const gg_options *o, const char *what, const char *pa
 {
   fflush(stdout);
   if (!o->quiet) fprintf(stderr, "%s: %s%s\n", what, path, replaced ? " (in place of an older one)" : "");
+}
+
+/* False: there was no room. (A text in memory leaves out what it has no room for, and its closing does not tell.) */
+static bool put(FILE *out, const char *text)
+{
+  return fputs(text, out) >= 0;
+}
+
+static bool put_quoted(FILE *out, const char *text)
+{
+  static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%";
+  if (*text && text[strspn(text, plain)] == '\0') return put(out, text);
+  bool whole = put(out, "'");
+  for (; *text; text++) whole &= put(out, *text == '\'' ? "'\\''" : (char[]){*text, '\0'});
+  return put(out, "'") && whole;
+}
+
+/* The text if it is whole; else NULL. */
+static char *taken(FILE *out, bool whole, char **text)
+{
+  whole &= fclose(out) == 0;
+  if (whole) return *text;
+  free(*text);
+  return NULL;
+}
+
+char *gg_cli_shell_quote(const char *text)
+{
+  char *quoted = NULL;
+  size_t size;
+  FILE *out = open_memstream(&quoted, &size);
+  if (!out) return NULL;
+  const bool whole = put_quoted(out, text);
+  return taken(out, whole, &quoted);
+}
+
+char *gg_cli_command_line_quote(const gg_command_line *line, const char *added)
+{
+  char *text = NULL;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return NULL;
+  bool whole = put(out, "graingas");
+  for (int i = 0; i < line->n; i++) {
+    if (i == line->options_end) whole &= put(out, added);
+    if (line->word[i]) whole &= put(out, " ") && put_quoted(out, line->word[i]);
+  }
+  if (line->options_end == line->n) whole &= put(out, added);
+  return taken(out, whole, &text);
 }

@@ -2,9 +2,23 @@
 
 #include <signal.h>
 #include <stddef.h>
+#include <stdlib.h>
 
 #include "cli/cli.h"
 #include "cli/mpi/mpi.h"
+
+static bool is_above_one(const char *name)
+{
+  const char *value = getenv(name);
+  return value && strtol(value, NULL, 10) > 1;
+}
+
+/* The environment says it, before anything of MPI is touched. */
+static bool is_one_of_several(void)
+{
+  if (is_above_one("OMPI_COMM_WORLD_SIZE") || is_above_one("PMI_SIZE")) return true; /* mpirun of Open MPI, of MPICH */
+  return getenv("PMIX_RANK") && is_above_one("SLURM_STEP_NUM_TASKS");                /* srun --mpi=pmix */
+}
 
 /* One to a program, as its processes are. */
 static gg_messages messages;
@@ -35,7 +49,7 @@ static int work(void)
 int gg_cli_as_one_of_several(int argc, char **argv, gg_cli_main *alone)
 {
   gg_error err;
-  if (!gg_mpi_is_one_of_several()) return alone(argc, argv);
+  if (!is_one_of_several()) return alone(argc, argv);
   if (gg_mpi_begin(&messages, &err) != GG_OK) return gg_cli_report(&err);
   int code = messages.rank > 0 ? work() : alone(argc, argv);
   if (messages.rank == 0) gg_cli_workers(1); /* of a command that needs nobody: they have to be sent home */

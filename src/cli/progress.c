@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "cli/number_format.h"
+#include "cli/print.h"
 
 static const double live_every = 0.1, plain_every = 20;
 

@@ -29,14 +29,12 @@ void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *now);
 /* Remove the live line, or print how it ended in a plain line; harmless again. */
 void gg_cli_progress_end(gg_cli_progress *p);
 
-/* SIGINT, SIGTERM and SIGHUP end a run within half a second, with a checkpoint if one was asked for; a second one ends
- * it at once. */
+/* interrupt.c: SIGINT, SIGTERM and SIGHUP end a run within half a second, with a checkpoint if one was asked for; a
+ * second one ends it at once. From this call on, standard output and error wait for a reader who takes nothing (a
+ * pager, a terminal that was halted); once interrupted, only a second: the rest is lost, and the run comes to its end.
+ */
 void gg_cli_catch_interrupts(void);
 bool gg_cli_interrupted(void);
-/* Standard output and error wait for a reader who takes nothing (a pager, a terminal that was halted), but once
- * `stopped()` only a second: what is told then is lost, and the run comes to its end. */
-void gg_cli_be_patient(bool (*stopped)(void));
-/* Was something lost so? */
-bool gg_cli_lost_patience(void);
+bool gg_cli_output_lost(void);
 
 #endif

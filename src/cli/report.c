@@ -7,9 +7,7 @@
 #include <string.h>
 
 #include "cli/definition.h"
-#include "cli/number_format.h"
-#include "cli/table.h"
-#include "cli/wrap.h"
+#include "cli/print.h"
 
 static bool has_part(const char *name, const char *const *parts)
 {

@@ -6,8 +6,6 @@
 
 #include "cli/definition.h"
 #include "cli/report.h"
-#include "cli/table.h"
-#include "cli/wrap.h"
 
 static const char *const engines[] = {"md", "dsmc"};
 enum { MOST_THEORIES = 32 };

@@ -154,7 +154,7 @@ static void report_checkpoint(gg_run_command *r)
   const size_t size = sizeof r->err.message;
   char *file = gg_cli_shell_quote(r->checkpoint), *resume = NULL, *again = NULL;
   if (file && asprintf(&resume, " --resume %s", file) < 0) resume = NULL;
-  if (resume && !r->options.resume) again = gg_cli_command_line_quote(&r->options.typed, resume);
+  if (resume && !r->options.resume) again = gg_cli_command_line_quote(&r->options.words, resume);
   if (!again || snprintf(r->err.message, size, "interrupted; go on with: %s", again) >= (int)size)
     snprintf(r->err.message, size, "interrupted; go on with the same command and%s", resume ? resume : " --resume");
   free(file);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/string_list.h"
+#include "base/text.h"
 
 struct gg_extension {
   atomic_int holders;

@@ -1,6 +1,6 @@
 #include "common/flow.h"
 
-#include "base/string_list.h"
+#include "base/text.h"
 #include "common/quantity.h"
 
 enum { IN_MD = 1u << GG_MD, IN_DSMC = 1u << GG_DSMC };

@@ -2,7 +2,6 @@
 #include <gsl/gsl_eigen.h>
 #include <math.h>
 
-#include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "common/model.h"
 #include "common/portable_math.h"

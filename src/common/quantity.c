@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/string_list.h"
+#include "base/text.h"
 
 enum unit {
   UNIT_NONE,

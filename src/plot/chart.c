@@ -4,9 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/c_locale.h"
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "base/text.h"
 #include "plot/axis.h"
 #include "plot/chart_styles.h"
 #include "plot/plot.h"

@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/c_locale.h"
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "base/text.h"
 #include "plot/chart_styles.h"
 #include "plot/plot.h"
 #include "plot/snapshot_slice.h"

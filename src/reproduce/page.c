@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "base/text.h"
 #include "reproduce/figures.h"
 
 static const char *const verdicts[] = {"agrees", "differs", "cannot be told", "open"};

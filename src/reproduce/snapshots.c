@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "base/text.h"
 #include "files/h5/hdf5_reader.h"
 #include "plot/plot.h"
 #include "reproduce/figures.h"

@@ -1,10 +1,10 @@
 /* A figure as tables. */
 #include <math.h>
 
-#include "base/c_locale.h"
 #include "base/checked_json.h"
-#include "base/csv.h"
+#include "base/file_writer.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "reproduce/figures.h"
 
 static const char *const engines[] = {"md", "dsmc"};
@@ -75,7 +75,7 @@ static void put_numbers(gg_csv *csv, const gg_figure *f)
 static gg_status write(const gg_figure *f, const char *path, void (*rows)(gg_csv *, const gg_figure *), gg_error *err)
 {
   gg_atomic_file file;
-  gg_text_out out;
+  gg_file_writer out;
   GG_TRY(gg_base_atomic_open(&file, path, err));
   const unsigned lacked = gg_base_memory_failures(); /* a number that JSON had no room for would be an empty cell */
   locale_t before = gg_base_c_locale_enter();

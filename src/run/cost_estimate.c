@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/available_memory.h"
+#include "base/memory.h"
 #include "common/linear_response.h"
 #include "measure/mesh.h"
 #include "measure/observable.h"

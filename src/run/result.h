@@ -2,7 +2,7 @@
 #ifndef GG_RESULT_H
 #define GG_RESULT_H
 
-#include "base/string_list.h"
+#include "base/text.h"
 #include "common/engine.h"
 #include "common/quantity.h"
 #include "measure/observable.h"
@@ -87,7 +87,7 @@ struct gg_result {
   gg_frame final; /* the first replica's last state */
   gg_effort averaging, total;
   gg_engine_state engine_state; /* counts summed over replicas */
-  gg_text_list warnings;
+  gg_string_list warnings;
   struct {
     char *version, *command, *machine, *date, *document; /* document: JSON as it was stored */
     size_t frames;

@@ -56,10 +56,10 @@ struct gg_comparison {
     gg_theory_answer answer;
     gg_curves curves; /* of what the scene measures; owned */
   } theory[GG_MOST_THEORIES];
-  gg_text_list warnings; /* of the scene */
-  char *document;        /* JSON as it was stored; NULL of a comparison that was not read from a file */
-  bool of_one;           /* that file is one of a run */
-  gg_extension *own;     /* names of what that file's program had brought; else NULL */
+  gg_string_list warnings; /* of the scene */
+  char *document;          /* JSON as it was stored; NULL of a comparison that was not read from a file */
+  bool of_one;             /* that file is one of a run */
+  gg_extension *own;       /* names of what that file's program had brought; else NULL */
 };
 
 /* `resume` (may be NULL): an archive that the checkpoint callback stored; each engine goes on from its part. Also after

@@ -304,7 +304,7 @@ static void add_species(group *groups, const gg_scene *scene, unsigned uses, con
     }
 }
 
-void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_text_list *lines)
+void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_list *lines)
 {
   const gg_scene defaults = gg_scene_defaults();
   group groups[REASONS + 1] = {0};

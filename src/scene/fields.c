@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/string_list.h"
+#include "base/text.h"
 
 static gg_word flow_word(int i)
 {

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #include "base/archive.h"
-#include "base/string_list.h"
+#include "base/text.h"
 #include "common/scene.h"
 
 typedef enum gg_field_type {
@@ -128,7 +128,7 @@ gg_status gg_scene_finish(gg_scene *scene, gg_error *err);
 enum { GG_USE_MD = 1u << GG_MD, GG_USE_DSMC = 1u << GG_DSMC, GG_USE_THEORY = 1u << 2 };
 /* Keys that the scene gives and that have no effect in it, a line for each reason: "walls.e, walls.beta have no effect
  * ...". Keys with their default values are left out. `scene` is finished, `uses` a sum of GG_USE_... */
-void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_text_list *lines);
+void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_list *lines);
 
 /* resumption.c: a checkpoint keeps every key but those that `may_change`, and the name of what the program added to
  * the scene: items "scene/KEY" and "scene/extension". */

@@ -6,7 +6,7 @@
 
 #include "base/checked_json.h"
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "base/text.h"
 
 static json_t *number_json(const gg_field *f, double value)
 {

@@ -2,7 +2,7 @@
 #ifndef GG_SWEEP_FOLDER_H
 #define GG_SWEEP_FOLDER_H
 
-#include "base/file_lock.h"
+#include "base/atomic_file.h"
 #include "sweep/sweep.h"
 
 enum { GG_POINT_NAME = 17 };

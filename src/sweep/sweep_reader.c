@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "base/text.h"
 #include "scene/scene_reader.h"
 #include "sweep/sweep.h"
 

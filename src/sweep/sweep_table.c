@@ -11,7 +11,7 @@
 
 #include "base/build.h"
 #include "base/checked_json.h"
-#include "base/csv.h"
+#include "base/file_writer.h"
 #include "base/memory.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_reader.h"
@@ -218,7 +218,7 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep
 {
   gg_atomic_file file;
   GG_TRY(gg_base_atomic_open(&file, path, err));
-  gg_text_out *out = gg_base_array_new(1, sizeof *out, err);
+  gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
   if (!out) return gg_base_atomic_abandon(&file), GG_FAILED;
   const unsigned before = gg_base_memory_failures();
   gg_base_file_writer_begin(out, &file, err);

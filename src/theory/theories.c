@@ -2,7 +2,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "theory/answer.h"
 #include "theory/theory_list.h"

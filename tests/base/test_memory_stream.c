@@ -10,7 +10,7 @@
 
 #include "../faults/failing_malloc.h"
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "base/text.h"
 
 enum { PIECES = 3000, LENGTH = 12 }; /* of a piece */
 

@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "cli/number_format.h"
+#include "cli/print.h"
 
 static void counts(void **state)
 {

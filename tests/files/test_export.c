@@ -12,12 +12,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/csv.h"
-#include "files/export/xyz.h"
+#include "base/file_writer.h"
+#include "files/export.h"
 
 typedef struct paper {
   gg_atomic_file file;
-  gg_text_out out;
+  gg_file_writer out;
   char text[1 << 18];
 } paper;
 

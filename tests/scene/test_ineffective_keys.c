@@ -13,10 +13,10 @@
 
 enum { BOTH = GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY };
 
-static gg_text_list inert(const char *yaml, unsigned uses)
+static gg_string_list inert(const char *yaml, unsigned uses)
 {
   gg_error err = {0};
-  gg_text_list lines = {0};
+  gg_string_list lines = {0};
   gg_scene scene = gg_scene_defaults();
   gg_status status = gg_scene_read(&scene, yaml, strlen(yaml), "s", &err);
   if (status == GG_OK) status = gg_scene_finish(&scene, &err);
@@ -29,7 +29,7 @@ static gg_text_list inert(const char *yaml, unsigned uses)
 /* NULL: none at all. */
 static void assert_line(const char *yaml, unsigned uses, const char *expected)
 {
-  gg_text_list lines = inert(yaml, uses);
+  gg_string_list lines = inert(yaml, uses);
   if (lines.n != (expected ? 1 : 0)) print_message("%s: %zu lines, %s\n", yaml, lines.n, lines.n ? lines.text[0] : "");
   assert_int_equal(lines.n, expected ? 1 : 0);
   if (expected) assert_string_equal(lines.text[0], expected);
@@ -141,7 +141,7 @@ static void defaults_are_not_told(void **state)
     assert_int_equal(gg_scene_read(&s, scenes[i], strlen(scenes[i]), "s", &err), GG_OK);
     assert_int_equal(gg_scene_finish(&s, &err), GG_OK);
     char *yaml = gg_scene_yaml(&s);
-    gg_text_list once = inert(scenes[i], BOTH), again = inert(yaml, BOTH);
+    gg_string_list once = inert(scenes[i], BOTH), again = inert(yaml, BOTH);
     assert_int_equal(once.n, i == 4);
     assert_int_equal(again.n, once.n);
     gg_base_string_list_clear(&once);

@@ -5,10 +5,6 @@
 #define GG_MPI_H
 
 #include <graingas.h>
-#include <stdbool.h>
-
-/* Was this process started as one of several? Told by the environment, before anything of MPI is touched. */
-bool gg_mpi_is_one_of_several(void);
 
 /* MPI_Init. `messages` holds until gg_mpi_end. GG_FAILED where it cannot be had, with what to do. */
 gg_status gg_mpi_begin(gg_messages *messages, gg_error *err);

@@ -12,9 +12,8 @@
 #include <unistd.h>
 
 #include "base/build.h"
-#include "base/c_locale.h"
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "base/text.h"
 #include "files/curve_table.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_writer.h"

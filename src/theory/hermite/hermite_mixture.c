@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "theory/answer.h"
 #include "theory/hermite/basis.h"

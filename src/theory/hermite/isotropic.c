@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/gsl_errors.h"
 #include "base/memory.h"
 #include "theory/hermite/direction_workspace.h"
 

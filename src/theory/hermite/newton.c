@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/gsl_errors.h"
 #include "base/memory.h"
 
 /* A Jacobian costs as much as ten residuals: it is kept as long as steps with it shrink fast. */

@@ -5,7 +5,6 @@
 #include <gsl/gsl_linalg.h>
 #include <stdlib.h>
 
-#include "base/gsl_errors.h"
 #include "base/memory.h"
 
 typedef struct gg_spectrum {

@@ -1,5 +1,7 @@
-#include "base/memory_stream.h"
+#include "base/text.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
@@ -84,4 +86,70 @@ bool gg_base_memory_stream_close(FILE *out, char *const *text)
   const bool whole = out && fclose(out) == 0 && *text;
   if (!whole) gg_base_memory_lacked();
   return whole;
+}
+
+void gg_base_string_list_take(gg_string_list *list, char *text)
+{
+  char **more = text ? realloc(list->text, (list->n + 1) * sizeof *more) : NULL;
+  if (!more) {
+    gg_base_memory_lacked();
+    free(text);
+    return;
+  }
+  list->text = more;
+  list->text[list->n++] = text;
+}
+
+void gg_base_string_list_add(gg_string_list *list, const char *format, ...)
+{
+  char *text = NULL;
+  va_list args;
+  va_start(args, format);
+  if (vasprintf(&text, format, args) < 0) text = NULL;
+  va_end(args);
+  gg_base_string_list_take(list, text);
+}
+
+void gg_base_string_list_move(gg_string_list *to, gg_string_list *from)
+{
+  for (size_t i = 0; i < from->n; i++) gg_base_string_list_take(to, from->text[i]);
+  free(from->text);
+  *from = (gg_string_list){0};
+}
+
+void gg_base_string_list_clear(gg_string_list *list)
+{
+  for (size_t i = 0; i < list->n; i++) free(list->text[i]);
+  free(list->text);
+  *list = (gg_string_list){0};
+}
+
+const char *gg_base_string_list_at(const gg_string_list *list, size_t i)
+{
+  return i < list->n ? list->text[i] : NULL;
+}
+
+void gg_base_text_append(char *text, size_t size, const char *format, ...)
+{
+  const size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text + used, size - used, format, args);
+  va_end(args);
+}
+
+locale_t gg_base_c_locale_enter(void)
+{
+  locale_t copy = duplocale(uselocale((locale_t)0));
+  locale_t c = copy ? newlocale(LC_NUMERIC_MASK, "C", copy) : (locale_t)0; /* which becomes the copy */
+  if (!c && copy) freelocale(copy);
+  if (!c) c = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* takes no memory */
+  return c ? uselocale(c) : (locale_t)0;
+}
+
+void gg_base_c_locale_leave(locale_t before)
+{
+  if (!before) return;
+  locale_t c = uselocale(before);
+  if (c != LC_GLOBAL_LOCALE) freelocale(c);
 }

@@ -1,0 +1,52 @@
+/* Texts in memory: streams that are written piece by piece, lists, and the locale in which numbers are read and
+ * written. */
+#ifndef GG_BASE_TEXT_H
+#define GG_BASE_TEXT_H
+
+#include <locale.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
+
+#include "base/error.h"
+
+/* As open_memstream, which leaves out what it finds no room for and does not say so (glibc 2.36). *text is there when
+ * it is closed; to be freed. NULL: no memory. ftell says how long it is by now. */
+FILE *gg_base_memory_stream_open(char **text);
+/* False, and noted (gg_base_memory_lacked): it is not whole, and *text is NULL. `out` may be NULL. */
+bool gg_base_memory_stream_close(FILE *out, char *const *text);
+
+/* A list of texts, as of warnings; {0} is an empty one. */
+typedef struct gg_string_list {
+  char **text;
+  size_t n;
+} gg_string_list;
+
+/* Out of memory: the list stays as it is. */
+void gg_base_string_list_add(gg_string_list *list, const char *format, ...) GG_PRINTF(2, 3);
+void gg_base_string_list_take(gg_string_list *list,
+                              char *text); /* from malloc, and the list's from now on; NULL: nothing */
+void gg_base_string_list_move(gg_string_list *to, gg_string_list *from); /* behind the others; nothing stays there */
+void gg_base_string_list_clear(gg_string_list *list);
+/* NULL after the last. */
+const char *gg_base_string_list_at(const gg_string_list *list, size_t i);
+
+/* Append to a text in a buffer of `size` bytes, cut to it. */
+void gg_base_text_append(char *text, size_t size, const char *format, ...) GG_PRINTF(3, 4);
+
+/* Numbers have a decimal point whatever locale the calling program has chosen.
+ * Switch this thread to the C locale; hand the returned value to gg_base_c_locale_leave. */
+locale_t gg_base_c_locale_enter(void);
+void gg_base_c_locale_leave(locale_t before);
+
+/* A declaration: the rest of the block runs in the C locale. */
+#define GG_C_LOCALE __attribute__((cleanup(gg_base_locale_leave))) locale_t locale_before = gg_base_c_locale_enter()
+static inline void gg_base_locale_leave(locale_t *before)
+{
+  gg_base_c_locale_leave(*before);
+}
+
+#endif
