@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/definition.h"
+#include "cli/print.h"
 #include "cli/report.h"
 
 static const char *const engines[] = {"md", "dsmc"};
