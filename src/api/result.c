@@ -263,7 +263,7 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                         result_file, parts);
   gg_stored_result stored;
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
-  gg_status status = gg_export_result(&stored, result_file, prefix, parts, written, context, err);
+  gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, context, err);
   gg_files_stored_result_clear(&stored);
   return status;
 }

@@ -435,7 +435,7 @@ static void clear(job *j)
   free(j);
 }
 
-gg_status gg_export_result(const gg_stored_result *stored, const char *path, const char *prefix, unsigned parts,
+gg_status gg_files_export_result(const gg_stored_result *stored, const char *path, const char *prefix, unsigned parts,
                            void (*written)(void *context, const char *file), void *context, gg_error *err)
 {
   job *j = gg_base_array_new(1, sizeof *j, err);

@@ -18,6 +18,7 @@ gg_axis gg_plot_axis_around(gg_extent e, bool log)
     return (gg_axis){true, fmax(e.least / room, DBL_MIN), fmin(e.most * room, DBL_MAX)};
   }
   double size = fmax(fabs(e.least), fabs(e.most)), room = fmax(0.05 * (e.most - e.least), 1e-3 * size);
+  if (e.most == e.least) room = 0.05 * size; /* one value: tics as far apart as those of others */
   if (room < 1e-290) room = 1; /* gnuplot makes no tics of numbers that small */
   gg_axis a = {false, e.least - room, e.most + room};
   if (e.least >= 0 && e.least < 0.3 * e.most) a.from = 0;

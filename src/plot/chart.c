@@ -12,7 +12,7 @@
 
 /* Layout pixels. */
 enum { ONE_WIDE = 600, WIDE = 430, SHARED_WIDE = 550, LEAST_WIDE = 260, TALL = 370, LEAST_TALL = 170 };
-enum { TITLE = 34, NO_TITLE = 10, PANEL_TITLE = 22, ROW = 16, ABOVE = 12, BELOW = 54, RIGHT = 22, Y_LABEL = 30 };
+enum { TITLE = 34, NO_TITLE = 10, PANEL_TITLE = 22, ROW = 16, ABOVE = 12, BELOW = 66, RIGHT = 22, Y_LABEL = 30 };
 static const double letter = 7.4;
 
 enum { MOST_PANELS = 64 };

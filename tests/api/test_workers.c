@@ -164,6 +164,7 @@ static void lost_after_the_stop(void **state)
                              "time_limit: 2}}");
   gg_run_options options = {.context = &l, .progress = note_collisions, .stop = lose_at_the_end};
   assert_int_equal(run(&p, 2, 1, scene, options, &result), GG_FAILED);
+  print_message("# %d %d %d\n", p.lost[1], (int)p.warned, (int)p.sent[1]);
   assert_true(p.lost[1] && p.warned == 1 && p.sent[1] > 2); /* one of which says how far it is */
   assert_ok(gg_result_get_info(result, &info, &err));
   assert_true(llabs((long long)(info.total_collisions - l.collisions)) < 2);

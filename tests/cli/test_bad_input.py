@@ -88,7 +88,7 @@ def test_disk_full_in_picture():
     """A disk that fills while the picture is drawn: gnuplot does not notice, graingas does."""
     run("run", "scene.yaml", "--quiet", "--output", "r.h5",
         scene="flow: usf\nphi: 0.1\nparticles: 200\nrun: {collisions: 100}\n")
-    done = run("plot", "r.h5", "--output", "r.svg", limit=10000)
+    done = run("plot", "r.h5", "--output", "r.svg", limit=30000)
     check(done.code == 3 and "whole" in done.err, done.code, done.err)
     check(not done.new, "left behind:", done.new)
 

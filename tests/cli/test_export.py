@@ -216,11 +216,11 @@ def test_curves_of_theory():
     done = run("plot", "r.h5")
     check(done.code == 0, done.err)
     with open("r_dsmc_velocity_distributions.svg", encoding="utf-8") as f:
-        check("enskog_hermite" in re.sub(r"<[^>]*>", "", f.read()))
+        check("Enskog (Hermite)" in re.sub(r"<[^>]*>", "", f.read()))
     simulated(SMOOTH, "--engine", "dsmc", output="one.h5")  # has asked no theory: its picture does
     check(run("plot", "one.h5").code == 0)
     with open("one_velocity_distributions.svg", encoding="utf-8") as f:
-        check("enskog_hermite" in re.sub(r"<[^>]*>", "", f.read()))
+        check("Enskog (Hermite)" in re.sub(r"<[^>]*>", "", f.read()))
     if not h5py:
         return
     with h5py.File("r.h5") as f:

@@ -217,7 +217,8 @@ def test_pictures_for_paper():
     for width in "86", "8.6 km", "0mm", "nanmm":
         refused("mm, cm, in or pt, from 40mm to 1000mm", 2, "--picture", "q.pdf", "--width", width, command="compare")
     done = run("plot", "w.h5", "--format", "pdf", "--output", "v", "--quiet")
-    check(done.code == 0 and "v.pdf" in done.new, done.new, done.err)
+    check(done.code == 0 and "v" in done.new and "v_snapshot.pdf" in done.new, done.new, done.err)
+    check(open("v", "rb").read(4) == b"%PDF")
 
 
 def contents():
