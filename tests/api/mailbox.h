@@ -6,6 +6,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <time.h>
 
 #include "api_test.h"
 
@@ -23,9 +24,10 @@ typedef struct mailbox {
   letter *first[MOST_RANKS]; /* what waits for each */
   bool lost[MOST_RANKS];
   int sent[MOST_RANKS];
-  int die_at;  /* rank 1 is lost when it sends its so-many-th message; 0: it is not */
-  bool silent; /* and nobody can see that it is gone */
-  bool forges; /* rank 1 says hello from another build */
+  int die_at;      /* rank 1 is lost when it sends its so-many-th message; 0: it is not */
+  double die_when; /* ... its first message from this time on */
+  bool silent;     /* and nobody can see that it is gone */
+  bool forges;     /* rank 1 says hello from another build */
   _Atomic int warned;
   char warning[300];
   gg_messages end[MOST_RANKS];
@@ -36,6 +38,13 @@ typedef struct mailbox {
   pthread_t thread[MOST_RANKS];
   gg_status ended[MOST_RANKS];
 } mailbox;
+
+static inline double mailbox_seconds(void)
+{
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
 
 static inline void put(mailbox *p, int to, letter *new)
 {
@@ -56,6 +65,7 @@ static inline int mailbox_send(void *context, int to, void *block, size_t size)
     for (size_t i = 0; i + strlen(gg_version()) <= size; i++)
       if (memcmp((char *)block + i, gg_version(), strlen(gg_version())) == 0) ((char *)block)[i] = '?';
   if (d->rank == 1 && p->die_at && p->sent[1] >= p->die_at) p->lost[1] = true;
+  if (d->rank == 1 && p->die_when > 0 && mailbox_seconds() >= p->die_when) p->lost[1] = true;
   bool gone = p->lost[to] || p->lost[d->rank];
   if (!gone) put(p, to, new);
   pthread_mutex_unlock(&p->lock);
