@@ -43,7 +43,8 @@ locale_t gg_base_c_locale_enter(void);
 void gg_base_c_locale_leave(locale_t before);
 
 /* A declaration: the rest of the block runs in the C locale. */
-#define GG_C_LOCALE __attribute__((cleanup(gg_base_locale_leave))) locale_t locale_before = gg_base_c_locale_enter()
+#define GG_C_LOCALE \
+  __attribute__((cleanup(gg_base_locale_leave), unused)) locale_t locale_before = gg_base_c_locale_enter()
 static inline void gg_base_locale_leave(locale_t *before)
 {
   gg_base_c_locale_leave(*before);
